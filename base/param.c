@@ -1,0 +1,61 @@
+#include "base/param.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+static void set_default(const param *p, char *member)
+{
+    const double number = isinf(p->fallback) ? NAN : p->fallback;
+    switch (p->kind) {
+    case PARAM_NUMBER: *(double *)(void *)member = number; break;
+    case PARAM_VECTOR:
+        for (int k = 0; k < 3; k++) ((double *)(void *)member)[k] = number;
+        break;
+    case PARAM_INTEGER:
+    case PARAM_CHOICE: *(int *)(void *)member = (int)p->fallback; break;
+    case PARAM_FLAG: *(bool *)(void *)member = p->fallback != 0; break;
+    case PARAM_TEXT:
+        strncpy(member, p->fallback_text ? p->fallback_text : "", PARAM_TEXT_SIZE - 1);
+        member[PARAM_TEXT_SIZE - 1] = '\0';
+        break;
+    }
+}
+
+void params_default(const param *table, void *object)
+{
+    for (const param *p = table; p->key; p++) set_default(p, (char *)object + p->offset);
+}
+
+static status check_number(const param *p, double value, const char *section)
+{
+    if (isnan(value)) {
+        CHECK(!isinf(p->fallback), STATUS_BAD_INPUT, "%s.%s is required [%s]: %s", section, p->key, p->unit, p->doc);
+        return status_ok();
+    }
+    CHECK(value >= p->min && value <= p->max, STATUS_BAD_INPUT, "%s.%s = %g %s: must be %g .. %g %s", section, p->key,
+          value, p->unit, p->min, p->max, p->unit);
+    return status_ok();
+}
+
+static status check_one(const param *p, const char *member, const char *section)
+{
+    switch (p->kind) {
+    case PARAM_NUMBER: return check_number(p, *(const double *)(const void *)member, section);
+    case PARAM_VECTOR:
+        for (int k = 0; k < 3; k++) TRY(check_number(p, ((const double *)(const void *)member)[k], section));
+        return status_ok();
+    case PARAM_INTEGER:
+    case PARAM_CHOICE: return check_number(p, *(const int *)(const void *)member, section);
+    case PARAM_FLAG: return status_ok();
+    case PARAM_TEXT:
+        CHECK(p->fallback_text || member[0], STATUS_BAD_INPUT, "%s.%s is required: %s", section, p->key, p->doc);
+        return status_ok();
+    }
+    return status_ok();
+}
+
+status params_check(const param *table, const void *object, const char *section)
+{
+    for (const param *p = table; p->key; p++) TRY(check_one(p, (const char *)object + p->offset, section));
+    return status_ok();
+}

@@ -1,0 +1,66 @@
+/* Parameters: one table a struct says every key once: unit, default, range, text.
+ *
+ * The case reader, `breech check`, used.yaml and the manual's key list are all made from these tables, and so is any
+ * validation of a struct that was filled in by hand (params_check).
+ * To add a parameter: a member in the struct, one line in its table.  Nothing else.
+ * A double that has no value and needs none holds NAN (`OPTIONAL`).  Units are udunits2 expressions of the SI value held. */
+#ifndef BREECH_BASE_PARAM_H
+#define BREECH_BASE_PARAM_H
+
+#include "base/status.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#define PARAM_TEXT_SIZE 64 /* a PARAM_TEXT member is char[PARAM_TEXT_SIZE] */
+
+typedef enum {
+    PARAM_NUMBER,  /* double, in `unit` */
+    PARAM_INTEGER, /* int */
+    PARAM_FLAG,    /* bool: true/false, yes/no */
+    PARAM_CHOICE,  /* int: index into `choices` */
+    PARAM_TEXT,    /* char[PARAM_TEXT_SIZE] */
+    PARAM_VECTOR   /* double[3], in `unit`, written [a, b, c] */
+} param_kind;
+
+#define REQUIRED INFINITY /* fallback of a number that must be given */
+#define OPTIONAL NAN      /* fallback of a number that may stay unset (the member then holds NAN) */
+
+typedef struct {
+    const char *key, *unit, *doc;
+    size_t offset;
+    double fallback, min, max;  /* in `unit`; min and max are inclusive */
+    param_kind kind;
+    const char *const *choices; /* PARAM_CHOICE: names, NULL at the end */
+    const char *fallback_text;  /* PARAM_TEXT: default, NULL = required */
+} param;
+
+/* A table ends with a row whose key is NULL. */
+#define PARAMS_END { .key = NULL }
+#define PARAM_DOUBLE(type, member, unit_, fallback_, min_, max_, doc_)                                             \
+    { .key = #member, .unit = (unit_), .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_), \
+      .min = (min_), .max = (max_), .kind = PARAM_NUMBER }
+#define PARAM_INT(type, member, fallback_, min_, max_, doc_)                                                       \
+    { .key = #member, .unit = "1", .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_),     \
+      .min = (min_), .max = (max_), .kind = PARAM_INTEGER }
+#define PARAM_BOOL(type, member, fallback_, doc_)                                                                  \
+    { .key = #member, .unit = "1", .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_),     \
+      .min = 0, .max = 1, .kind = PARAM_FLAG }
+#define PARAM_ENUM(type, member, choices_, fallback_, doc_)                                                        \
+    { .key = #member, .unit = "1", .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_),     \
+      .min = 0, .max = 1e9, .kind = PARAM_CHOICE, .choices = (choices_) }
+#define PARAM_STRING(type, member, fallback_text_, doc_)                                                           \
+    { .key = #member, .unit = "1", .doc = (doc_), .offset = offsetof(type, member), .kind = PARAM_TEXT,          \
+      .fallback_text = (fallback_text_) }
+#define PARAM_VEC3(type, member, unit_, fallback_, min_, max_, doc_)                                               \
+    { .key = #member, .unit = (unit_), .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_), \
+      .min = (min_), .max = (max_), .kind = PARAM_VECTOR }
+
+/* Fills every member of the table with its default; REQUIRED numbers become NAN, required texts "". */
+void params_default(const param *table, void *object);
+
+/* Error STATUS_BAD_INPUT naming "<section>.<key>", value, unit and range for the first member that is out of range or
+ * required and unset. */
+status params_check(const param *table, const void *object, const char *section);
+
+#endif

@@ -1,0 +1,19 @@
+#include "base/status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+status status_ok(void)
+{
+    return (status){ .code = STATUS_OK };
+}
+
+status status_error(status_code code, const char *format, ...)
+{
+    status s = { .code = code };
+    va_list args;
+    va_start(args, format);
+    vsnprintf(s.text, sizeof s.text, format, args);
+    va_end(args);
+    return s;
+}

@@ -1,0 +1,48 @@
+/* One material's constants, as read from cases/materials/<name>.yaml.  NAN = not known: a feature that needs the
+ * constant refuses the material by name (material_check), it never assumes zero.
+ * To add a constant: a member here, one line in material.c's table. */
+#ifndef BREECH_MPM_MATERIAL_H
+#define BREECH_MPM_MATERIAL_H
+
+#include "base/param.h"
+
+typedef struct {
+    char name[PARAM_TEXT_SIZE];
+    double density;               /* rho0 [kg/m3] at the reference temperature */
+    double youngs_modulus;        /* E [Pa] */
+    double poisson;               /* nu [1] */
+    double specific_heat;         /* c [J/(kg K)] */
+    double conductivity;          /* k [W/(m K)] */
+    double reference_temperature; /* T_r [K] */
+    double melting_temperature;   /* T_m, solidus [K] */
+    double latent_heat;           /* of fusion [J/kg] */
+    double yield_A, hardening_B, hardening_n, rate_C, softening_m, rate_0; /* Johnson-Cook (M-1) [Pa, Pa, 1, 1, 1, 1/s] */
+    double taylor_quinney;        /* chi [1], option `plastic` of (M-4) only */
+    double damage_D1, damage_D2, damage_D3, damage_D4, damage_D5;          /* Johnson-Cook failure (M-2) [1] */
+    double spall_strength;        /* tension at which it fails [Pa] */
+    double sound_speed;           /* c0, bulk, at zero pressure [m/s] */
+    double hugoniot_slope;        /* s of us = c0 + s up [1] */
+    double gruneisen;             /* g0 [1] */
+    double hardness;              /* Vickers hardness as pressure [Pa] */
+    double resistivity;           /* [ohm m] at the reference temperature */
+    double resistivity_slope;     /* its temperature coefficient [1/K] */
+} material;
+
+extern const param material_params[];
+
+typedef enum {
+    MATERIAL_FOR_SCENE = 1,    /* density, elastic, equation of state, strength, specific heat */
+    MATERIAL_FOR_DAMAGE = 2,   /* D1..D5 */
+    MATERIAL_FOR_SCREEN = 4,   /* hardness, equation of state */
+    MATERIAL_FOR_MELTING = 8,  /* latent heat, melting temperature */
+    MATERIAL_FOR_CIRCUIT = 16  /* resistivity */
+} material_need;
+
+/* STATUS_BAD_INPUT naming the material and every missing constant, unless it has all that `needs` (a sum) asks for. */
+status material_check(const material *m, unsigned needs);
+
+/* Hydrodynamic impedance match of a planar impact at `velocity` [m/s]; p [Pa], u_target = the target's particle
+ * velocity [m/s].  Hugoniot p = rho0 (c0 + s u) u of each. */
+status impedance_match(const material *flyer, const material *target, double velocity, double *p, double *u_target);
+
+#endif

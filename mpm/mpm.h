@@ -1,0 +1,105 @@
+/* The material-point solver: a scene in, its state at a later time out.
+ *
+ * mpm_create copies the scene; mpm_advance steps until a time; everything else reads.  No files, no printing.
+ * One binary and one instruction set give the same bits on any number of threads and across save and restore. */
+#ifndef BREECH_MPM_MPM_H
+#define BREECH_MPM_MPM_H
+
+#include "mpm/scene.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct mpm mpm; /* owns all its memory */
+
+/* Every joule and newton second.  Model as computed (a half model is a half). */
+typedef struct {
+    double mass;                  /* now in the window [kg] */
+    double momentum[3];           /* now [kg m/s] */
+    double kinetic, internal;     /* now [J]; internal = work of stress + heat */
+    double heat_friction, heat_transfer, heat_viscous; /* booked so far; all three are part of `internal` [J] */
+    double work_boundary, work_external; /* done on the model so far: boundaries; tractions and body forces [J] */
+    double impulse_boundary[3], impulse_external[3];   /* [N s] */
+    double ejected_mass, ejected_momentum[3], ejected_energy; /* left the window so far */
+    double energy_start, momentum_start[3], kinetic_start, mass_start;
+    double energy_error;   /* (energy now + ejected - work - energy at start) / kinetic energy at start [1] */
+    double momentum_error; /* norm of the momentum left over / (mass x largest initial speed) [1] */
+} mpm_ledger;
+
+typedef struct {
+    double time, dt;              /* [s] */
+    uint64_t steps, particle_steps, particle_steps_dense;
+    size_t particles;
+    uint64_t clamps_pressure, clamps_compression, clamps_velocity; /* counted, never silent */
+    uint64_t splits, ejected;
+    double peak_pressure, peak_temperature;             /* any particle, any time so far [Pa, K] */
+    double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES]; /* so far [Pa] */
+    double peak_mises_999[MPM_MAX_BODIES], peak_pressure_999[MPM_MAX_BODIES]; /* peak over time of the 99.9th percentile by mass */
+    double peak_plastic_strain[MPM_MAX_BODIES];
+    double failed_volume[MPM_MAX_BODIES];               /* now [m3] */
+    double contact_force[MPM_MAX_FIELDS][3];            /* on each field from all others, mean of the last step [N] */
+    double peak_contact_force[3];                       /* on field 0 (the rail), largest |component|, smoothed over 0.2 us [N] */
+} mpm_report;
+
+/* What mpm_read can fill; one double or three or six a particle, in a fixed order that any restart keeps. */
+#define PARTICLE_FIELDS(FIELD)                                                       \
+    FIELD(position, 3, "m", "position")                                              \
+    FIELD(velocity, 3, "m/s", "velocity")                                            \
+    FIELD(stress, 6, "Pa", "Cauchy stress xx yy zz xy yz xz, tension positive")      \
+    FIELD(pressure, 1, "Pa", "pressure with viscosity")                              \
+    FIELD(mises, 1, "Pa", "von Mises stress")                                        \
+    FIELD(plastic_strain, 1, "1", "equivalent plastic strain")                       \
+    FIELD(damage, 1, "1", "Johnson-Cook damage, failed at 1")                        \
+    FIELD(temperature, 1, "K", "temperature")                                        \
+    FIELD(density, 1, "kg/m^3", "density")                                           \
+    FIELD(energy, 1, "J/kg", "specific internal energy")                             \
+    FIELD(mass, 1, "kg", "mass")                                                     \
+    FIELD(size, 3, "m", "half lengths of the particle's domain")                     \
+    FIELD(body, 1, "1", "index of the body")                                         \
+    FIELD(start, 3, "m", "position at the start")
+
+typedef enum {
+#define MPM_FIELD_ENUM(name, width, unit, doc) MPM_##name,
+    PARTICLE_FIELDS(MPM_FIELD_ENUM)
+#undef MPM_FIELD_ENUM
+        MPM_FIELD_COUNT
+} mpm_field;
+
+typedef struct {
+    const char *name;
+    int width;
+    const char *unit, *doc;
+} mpm_field_info;
+extern const mpm_field_info mpm_field_table[MPM_FIELD_COUNT];
+
+/* Called after every step; return false to stop (mpm_advance then returns STATUS_STOPPED after a whole step). */
+typedef struct {
+    bool (*step)(void *user, const mpm *m);
+    void *user; /* borrowed */
+} mpm_sink;
+
+status mpm_create(const mpm_scene *scene, int threads, mpm **out);
+void mpm_free(mpm *m); /* NULL allowed */
+
+/* Steps until time >= until [s].  STATUS_NUMERICAL names the particle, the time and what to try. */
+status mpm_advance(mpm *m, double until, const mpm_sink *sink);
+
+mpm_ledger mpm_balance(const mpm *m);
+mpm_report mpm_state(const mpm *m);
+const mpm_scene *mpm_scene_of(const mpm *m); /* borrowed */
+
+size_t mpm_particles(const mpm *m);
+/* out: mpm_particles() x width doubles, owned by the caller. */
+void mpm_read(const mpm *m, mpm_field field, double *out);
+
+/* Checkpoint: a flat image of everything, order included.  *image is malloc'ed, the caller frees it. */
+status mpm_save(const mpm *m, void **image, size_t *bytes);
+/* Into a solver made by mpm_create from the same scene; refuses an image of another scene, version or instruction set. */
+status mpm_restore(mpm *m, const void *image, size_t bytes);
+
+/* Cell boundaries count for memory estimates: particles and bytes the scene will take, without building it. */
+status mpm_estimate(const mpm_scene *scene, size_t *particles, size_t *bytes, double *first_dt);
+
+const char *mpm_instruction_set(void); /* "x86-64-v4", "x86-64-v3", "portable" */
+
+#endif

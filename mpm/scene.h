@@ -1,0 +1,99 @@
+/* A scene: what the material-point solver is given.  Bodies with shapes and materials, a graded grid, boundaries,
+ * contact laws.  SI units.  x = launch direction, y = normal to the contact face (rail below, armature above), z = across.
+ *
+ * The scene borrows its materials; mpm_create copies all it needs. */
+#ifndef BREECH_MPM_SCENE_H
+#define BREECH_MPM_SCENE_H
+
+#include "base/status.h"
+#include "mpm/material.h"
+
+#include <stdbool.h>
+
+enum { MPM_MAX_BODIES = 8, MPM_MAX_FIELDS = 4 };
+
+/* ---- shapes: one function table a shape, one line in shape.def ---- */
+
+typedef struct {
+    double value[12]; /* meaning by the shape's own enum; lengths in m, angles in rad */
+} shape_values;
+
+typedef struct shape_kind {
+    const char *name, *doc;
+    const char *const *value_names;                              /* NULL at the end */
+    double (*inside)(const shape_values *s, const double x[3]);  /* > 0 inside, < 0 outside; a signed distance near the surface [m] */
+    void (*bounds)(const shape_values *s, double lo[3], double hi[3]); /* box that holds the shape [m] */
+} shape_kind;
+
+/* Shape by name, NULL if there is none.  shape_at(i) walks the table, NULL at its end. */
+const shape_kind *shape_find(const char *name);
+const shape_kind *shape_at(int i);
+
+/* ---- bodies ---- */
+
+typedef struct {
+    char name[PARAM_TEXT_SIZE];
+    const material *material;
+    const shape_kind *shape;
+    shape_values shape_value;
+    int field;               /* velocity field: bodies of one field are welded together, different fields touch by contact.
+                                When several bodies of one field claim a point, the later body gets it. */
+    double velocity[3];      /* at the start [m/s] */
+    double temperature;      /* at the start [K] */
+    double body_force[3];    /* acceleration on the whole body (J x B, pressing) [m/s2] */
+    double traction[3];      /* on the face `traction_face` of its bounding box [Pa]; zero = none */
+    int traction_face;       /* 0..5 = -x +x -y +y -z +z */
+    double yield_scale;      /* factor on the yield stress (hardened skin), 1 = none */
+    bool damage;             /* Johnson-Cook damage on */
+} mpm_body;
+
+/* ---- grid: rectilinear, each axis graded on its own ---- */
+
+typedef enum {
+    BOUNDARY_FREE,      /* nothing; particles that leave are booked as ejected */
+    BOUNDARY_SYMMETRY,  /* mirror plane, ghost nodes folded; also a roller */
+    BOUNDARY_FIXED,     /* no motion */
+    BOUNDARY_ABSORBING, /* viscous, both wave speeds */
+    BOUNDARY_PRESCRIBED /* mpm_axis.boundary_velocity */
+} boundary_kind;
+
+typedef struct {
+    double lo, hi;           /* window [m]; a boundary condition acts at lo and at hi */
+    double fine_lo, fine_hi; /* zone of cells of size `fine` [m] */
+    double fine, coarse;     /* cell size in the zone, largest cell size outside [m] */
+    double growth;           /* ratio of neighbouring cells outside the zone, 1.0 .. 1.3 */
+    boundary_kind boundary[2];        /* at lo, at hi */
+    double boundary_velocity[2][3];   /* BOUNDARY_PRESCRIBED [m/s] */
+    unsigned boundary_fields[2];      /* bit f set: the boundary acts on field f; 0 = on all */
+} mpm_axis;
+
+/* ---- contact between two fields ---- */
+
+typedef struct {
+    double friction;       /* Coulomb coefficient [1] */
+    double shear_limit;    /* upper limit of the friction stress [Pa], INFINITY = none */
+    double bond_strength;  /* welded until the traction exceeds it [Pa], 0 = never bonded */
+} contact_law;
+
+typedef enum { TRANSFER_TPIC, TRANSFER_FLIP, TRANSFER_PIC } transfer_kind;
+typedef enum { BASIS_GIMP, BASIS_BSPLINE } basis_kind; /* GIMP whose domains follow the stretch; quadratic B-spline */
+
+typedef struct {
+    int bodies;
+    mpm_body body[MPM_MAX_BODIES];
+    mpm_axis axis[3];
+    contact_law contact[MPM_MAX_FIELDS][MPM_MAX_FIELDS]; /* symmetric */
+    int particles_per_axis;       /* material points a cell and axis, 2 or 3 */
+    double courant;               /* of c + |v| */
+    double end_time;              /* [s] */
+    double viscosity_linear, viscosity_quadratic; /* (M-5) [1] */
+    transfer_kind transfer;
+    basis_kind basis;
+    bool heat_by_plastic_work;    /* option `plastic` of (M-4); default false: by energy */
+    bool volume_averaging;        /* F-bar: volume change averaged over the cell */
+} mpm_scene;
+
+/* All members at their defaults, no bodies. */
+void mpm_scene_default(mpm_scene *s);
+
+#endif
