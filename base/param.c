@@ -26,14 +26,25 @@ void params_default(const param *table, void *object)
     for (const param *p = table; p->key; p++) set_default(p, (char *)object + p->offset);
 }
 
+/* A NaN is "not given": allowed for OPTIONAL alone. */
 static status check_number(const param *p, double value, const char *section)
 {
-    if (isnan(value)) {
-        CHECK(!isinf(p->fallback), STATUS_BAD_INPUT, "%s.%s is required [%s]: %s", section, p->key, p->unit, p->doc);
-        return status_ok();
-    }
-    CHECK(value >= p->min && value <= p->max, STATUS_BAD_INPUT, "%s.%s = %g %s: must be %g .. %g %s", section, p->key,
-          value, p->unit, p->min, p->max, p->unit);
+    const bool plain = strcmp(p->unit, "1") == 0;
+    const char *gap = plain ? "" : " ", *unit = plain ? "" : p->unit;
+    if (isnan(value) && isnan(p->fallback)) return status_ok();
+    CHECK(!isnan(value) || !isinf(p->fallback), STATUS_BAD_INPUT, "%s.%s is required [%s]: %s", section, p->key,
+          p->unit, p->doc);
+    CHECK(value >= p->min && value <= p->max, STATUS_BAD_INPUT, "%s.%s = %g%s%s: must be %g .. %g%s%s", section, p->key,
+          value, gap, unit, p->min, p->max, gap, unit);
+    return status_ok();
+}
+
+static status check_choice(const param *p, int value, const char *section)
+{
+    int n = 0;
+    while (p->choices[n]) n++;
+    CHECK(value >= 0 && value < n, STATUS_BAD_INPUT, "%s.%s = choice %d: must be one of the %d from %s to %s", section,
+          p->key, value, n, p->choices[0], p->choices[n - 1]);
     return status_ok();
 }
 
@@ -44,8 +55,8 @@ static status check_one(const param *p, const char *member, const char *section)
     case PARAM_VECTOR:
         for (int k = 0; k < 3; k++) TRY(check_number(p, ((const double *)(const void *)member)[k], section));
         return status_ok();
-    case PARAM_INTEGER:
-    case PARAM_CHOICE: return check_number(p, *(const int *)(const void *)member, section);
+    case PARAM_INTEGER: return check_number(p, *(const int *)(const void *)member, section);
+    case PARAM_CHOICE: return check_choice(p, *(const int *)(const void *)member, section);
     case PARAM_FLAG: return status_ok();
     case PARAM_TEXT:
         CHECK(p->fallback_text || member[0], STATUS_BAD_INPUT, "%s.%s is required: %s", section, p->key, p->doc);

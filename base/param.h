@@ -29,13 +29,14 @@ typedef enum {
 typedef struct {
     const char *key, *unit, *doc;
     size_t offset;
-    double fallback, min, max;  /* in `unit`; min and max are inclusive */
+    double fallback, min, max; /* in `unit`; min and max are inclusive */
     param_kind kind;
     const char *const *choices; /* PARAM_CHOICE: names, NULL at the end */
     const char *fallback_text;  /* PARAM_TEXT: default, NULL = required */
 } param;
 
 /* A table ends with a row whose key is NULL. */
+/* clang-format off */
 #define PARAMS_END { .key = NULL }
 #define PARAM_DOUBLE(type, member, unit_, fallback_, min_, max_, doc_)                                             \
     { .key = #member, .unit = (unit_), .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_), \
@@ -55,6 +56,7 @@ typedef struct {
 #define PARAM_VEC3(type, member, unit_, fallback_, min_, max_, doc_)                                               \
     { .key = #member, .unit = (unit_), .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_), \
       .min = (min_), .max = (max_), .kind = PARAM_VECTOR }
+/* clang-format on */
 
 /* Fills every member of the table with its default; REQUIRED numbers become NAN, required texts "". */
 void params_default(const param *table, void *object);

@@ -23,15 +23,15 @@ status status_ok(void);
 status status_error(status_code code, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* CHECK(cond, code, "format", ...): returns an error from the calling function unless cond holds. */
-#define CHECK(cond, code, ...)                              \
-    do {                                                    \
+#define CHECK(cond, code, ...)                                 \
+    do {                                                       \
         if (!(cond)) return status_error((code), __VA_ARGS__); \
     } while (0)
 
 /* TRY(call): returns the error of `call` from the calling function, if it has one. */
-#define TRY(call)                                     \
-    do {                                              \
-        const status try_status_ = (call);            \
+#define TRY(call)                                              \
+    do {                                                       \
+        const status try_status_ = (call);                     \
         if (try_status_.code != STATUS_OK) return try_status_; \
     } while (0)
 

@@ -1,0 +1,13 @@
+# cmake --install: program, libraries, headers (use -I<prefix>/include/breech), cases with their materials.
+foreach(target breech breech_base breech_circuit breech_mpm breech_coupling)
+    if(TARGET ${target})
+        install(TARGETS ${target}
+                RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+                ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    endif()
+endforeach()
+install(DIRECTORY base circuit mpm coupling
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/breech
+        FILES_MATCHING PATTERN "*.h" PATTERN "*.def")
+install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/breech)
+install(FILES LICENSE README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
