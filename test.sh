@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# All tests.    ./test.sh          gcc, gcc with sanitizers, clang                            (minutes)
+#               ./test.sh --full   the long parts too, clang sanitizers, the portable build, the reader fuzzed with 10^6
+#                                  inputs, deliberate faults                                  (hours)
+# Installs missing Debian packages.  The last lines repeat the closing line of every ctest run.
+set -euo pipefail
+cd "$(dirname "$0")"
+source cmake/debian-packages.sh
+
+full=0
+case "${1:-}" in
+'') ;;
+--full) full=1 ;;
+*) printf 'usage: %s [--full]\n' "$0" >&2 && exit 2 ;;
+esac
+
+packages=("${packages_build[@]}" "${packages_test[@]}")
+if [ $full = 1 ]; then packages+=("${packages_full[@]}"); fi
+packages_install "${packages[@]}"
+
+export BREECH_FULL=$full
+export OMP_WAIT_POLICY=passive # tests share the machine
+export UBSAN_OPTIONS=print_stacktrace=1
+limit=$([ $full = 1 ] && echo 14400 || echo 600) # seconds a test may take
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+closing='' failed=0
+
+finish() # name, 0 or 1, text
+{
+    closing+=$(printf '%-14s %s' "$1" "$3")$'\n'
+    if [ "$2" != 0 ]; then failed=1; fi
+}
+
+# Configure, build, test one preset; further arguments go to ctest.
+stage()
+{
+    local preset=$1 bad=0
+    shift
+    printf '\n==== %s ====\n' "$preset"
+    if ! { cmake --preset "$preset" >"$log" 2>&1 || { cat "$log" && false; }; } ||
+        ! cmake --build --preset "$preset" --parallel "$(nproc)"; then
+        finish "$preset" 1 'does not build'
+        return 0
+    fi
+    ctest --test-dir "build/$preset" --output-on-failure --no-tests=error --timeout "$limit" --parallel "$(nproc)" "$@" |
+        tee "$log" || bad=1
+    finish "$preset" $bad "$(grep -E 'tests passed|No tests' "$log" || echo 'ctest did not finish')"
+}
+
+# Name and command of a check that is no ctest run.
+check()
+{
+    local name=$1
+    shift
+    printf '\n==== %s ====\n' "$name"
+    if "$@"; then finish "$name" 0 passed; else finish "$name" 1 FAILED; fi
+}
+
+stage release
+if [ $full = 1 ]; then
+    stage debug
+    stage clang-release
+    stage clang-debug
+    stage portable
+    check fuzz tests/fuzz.sh 1000000
+    check mutants tests/mutants/run.sh
+else
+    stage debug --label-exclude slow
+    stage clang-release
+fi
+
+printf '\n==== closing lines, after %d s ====\n%s' $SECONDS "$closing"
+exit $failed

@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# The arrows of the design hold:  tests -> coupling -> {circuit, mpm} -> base, and nothing else is included;
+# circuit and mpm print nothing, open nothing and never exit; each outside library sits behind one file.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source tests/files.sh
+
+bad=0
+complain()
+{
+    printf '%s\n' "$@"
+    bad=1
+}
+
+# folder, what it may include with quotes
+arrow()
+{
+    local hits
+    hits=$(sources "^$1/.*\.(c|h|def)$" | xargs -r grep -nE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' /dev/null |
+        grep -vE "include[[:space:]]*\"($2)/" || true)
+    if [ -n "$hits" ]; then complain "$1/ may include only $2 (written from the root):" "$hits"; fi
+}
+
+# folder, regex of functions that must not be called; comments are taken out first, lines kept
+silent()
+{
+    local file hits
+    while read -r file; do
+        hits=$(cc -fpreprocessed -dD -E -w -P -x c "$file" 2>/dev/null | sed -E 's/"([^"\\]|\\.)*"/""/g' |
+            grep -E "(^|[^A-Za-z0-9_])($2)[[:space:]]*\(" || true)
+        if [ -n "$hits" ]; then complain "$file: a library neither prints, opens files nor exits:" "$hits"; fi
+    done < <(sources "^$1/.*\.[ch]$")
+}
+
+# library, regex of its headers, folder in which one file may include them
+behind()
+{
+    local files
+    files=$(sources '\.[ch]$' | grep -v '^tests/' | xargs -r grep -lE "#[[:space:]]*include[[:space:]]*<($2)" /dev/null || true)
+    if [ "$(printf '%s' "$files" | grep -c .)" -gt 1 ]; then complain "$1 must sit behind one file, it is included in:" "$files"; fi
+    if printf '%s' "$files" | grep -qv "^$3/"; then complain "$1 belongs to $3/:" "$files"; fi
+}
+
+# library, regex of its headers, folders in which it may be used
+only_in()
+{
+    local files
+    files=$(sources '\.[ch]$' | grep -vE "^(tests|$3)/" | xargs -r grep -lE "#[[:space:]]*include[[:space:]]*<($2)" /dev/null || true)
+    if [ -n "$files" ]; then complain "$1 may be used in $3 alone:" "$files"; fi
+}
+
+arrow base base
+arrow circuit 'circuit|base'
+arrow mpm 'mpm|base'
+arrow coupling 'coupling|circuit|mpm|base'
+
+calls='v?f?printf|puts|fputs|putchar|putc|fputc|fwrite|perror|fopen|freopen|open|exit|_exit|quick_exit|abort|system|popen'
+silent circuit "$calls"
+silent mpm "$calls"
+
+behind SUNDIALS '(sundials|ida|idas|cvode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/' circuit
+behind HDF5 'hdf5' coupling
+behind libyaml 'yaml\.h' coupling
+behind udunits2 'udunits2' coupling
+only_in GSL 'gsl/' 'circuit|coupling'
+only_in OpenMP 'omp\.h' 'mpm|coupling'
+only_in MPI 'mpi\.h' coupling
+
+[ $bad = 0 ] && echo 'the arrows hold'
+exit $bad

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Every .c and .h is formatted by the repository's .clang-format.    tests/format.sh --fix [FILE...]   formats them.
+# Versions of clang-format differ in their results: 14 is the one that counts.  Exit 77 = skipped.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source tests/files.sh
+
+tool=$(command -v clang-format-14 || command -v clang-format || true)
+if [ -z "$tool" ] || ! "$tool" --version | grep -q 'version 14\.'; then
+    echo 'skipped: clang-format 14 is not installed (Debian 12: clang-format)'
+    exit 77
+fi
+if [ "${1:-}" = --fix ]; then
+    shift
+    if [ $# -gt 0 ]; then exec "$tool" -i "$@"; fi
+    sources '\.[ch]$' | xargs "$tool" -i
+    exit 0
+fi
+bad=0
+while read -r file; do
+    if ! "$tool" --dry-run -Werror "$file" >/dev/null 2>&1; then
+        echo "$file: not formatted; tests/format.sh --fix $file"
+        bad=1
+    fi
+done < <(sources '\.[ch]$')
+exit $bad

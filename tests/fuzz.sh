@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Fuzzes every target of tests/fuzz with N inputs each (1 000 000 unless told), starting from the seeds in
+# tests/fuzz/seeds/<target>.  A crash leaves its input in build/fuzz/.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+inputs=${1:-1000000}
+
+cmake --preset fuzz
+cmake --build --preset fuzz --parallel "$(nproc)"
+shopt -s nullglob
+targets=(build/fuzz/bin/fuzz_*)
+if [ ${#targets[@]} = 0 ]; then echo 'no fuzz target was built' && exit 1; fi
+for target in "${targets[@]}"; do
+    name=$(basename "$target")
+    corpus=build/fuzz/corpus/$name
+    mkdir -p "$corpus"
+    seeds=(tests/fuzz/seeds/"$name")
+    "$target" -runs="$inputs" -max_len=8192 -print_final_stats=1 -artifact_prefix=build/fuzz/ "$corpus" "${seeds[@]}"
+done

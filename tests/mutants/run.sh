@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# Tries the deliberate faults of list.txt in a scratch copy: each must build, and its test must fail.
+#   tests/mutants/run.sh [PATTERN]   all, or those whose line matches the pattern
+#   tests/mutants/run.sh --check     only that every line applies and names a test (seconds; part of ctest)
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+source tests/files.sh
+
+pattern=. dry=0
+case "${1:-}" in
+--check) dry=1 ;;
+?*) pattern=$1 ;;
+esac
+
+list=$(grep -vE '^[[:space:]]*(#|$)' tests/mutants/list.txt | grep -E -- "$pattern") ||
+    { echo "no fault matches $pattern" && exit 1; }
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+split() # one line of the list -> file, test, fault
+{
+    file=${1%% :: *}
+    local rest=${1#* :: }
+    test=${rest%% :: *}
+    fault=${rest#* :: }
+}
+
+check_list()
+{
+    local line bad=0
+    while read -r line; do
+        split "$line"
+        if [ ! -f "$file" ]; then
+            echo "no such file: $line" && bad=1
+        elif ! sed -E "$fault" "$file" >"$scratch/faulty" || cmp -s "$file" "$scratch/faulty"; then
+            echo "changes nothing: $line" && bad=1
+        fi
+        if [ ! -f "tests/$test.c" ] && [ ! -f "tests/$test.sh" ]; then echo "no such test: $line" && bad=1; fi
+    done <<<"$list"
+    return $bad
+}
+
+# Builds what a test needs and runs it; output in $scratch/log.
+build_test()
+{
+    if [ -f "$copy/tests/$1.c" ]; then cmake --build "$copy/build" --target "$1" --parallel "$(nproc)" >"$scratch/log" 2>&1; fi
+}
+run_test()
+{
+    ctest --test-dir "$copy/build" --no-tests=error --timeout 600 -R "^$1\$" >"$scratch/log" 2>&1
+}
+
+check_list
+if [ $dry = 1 ]; then echo "$(wc -l <<<"$list") faults, all apply" && exit 0; fi
+
+copy=$scratch/copy
+mkdir "$copy"
+sources . | tr '\n' '\0' | xargs -0 cp --parents -t "$copy"
+cmake -S "$copy" -B "$copy/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE=-O1 -DBREECH_WERROR=OFF \
+    >"$scratch/log" || { cat "$scratch/log" && exit 1; }
+
+# Without a fault every named test must pass, else its failing proves nothing.
+while read -r test; do
+    if ! build_test "$test" || ! run_test "$test"; then
+        cat "$scratch/log"
+        echo "$test fails without any fault" && exit 1
+    fi
+done < <(while read -r line; do split "$line" && echo "$test"; done <<<"$list" | sort -u)
+
+survived=0 tried=0
+while read -r line; do
+    split "$line"
+    tried=$((tried + 1))
+    cp "$copy/$file" "$scratch/faultless"
+    sed -E -i "$fault" "$copy/$file"
+    if ! build_test "$test"; then
+        cat "$scratch/log"
+        echo "DOES NOT BUILD  $line" && survived=$((survived + 1))
+    elif run_test "$test"; then
+        echo "NOT NOTICED     $line" && survived=$((survived + 1))
+    else
+        echo "noticed         $line"
+    fi
+    cp "$scratch/faultless" "$copy/$file" # a new time stamp, so that the next build sees it
+done <<<"$list"
+echo "$tried faults tried, $survived not noticed by their test"
+[ $survived = 0 ]
