@@ -1,0 +1,53 @@
+/* history.h5: time series and maps of a run, every dataset with `units` and `description`.
+ *
+ *   /shot/<column>                  the shot, a row a sample
+ *   /scene/<name>/<column>          one scene, a row a sample
+ *   /scene/<name>/crater/depth      the crater's map [m], with x, z, and the crater's numbers as attributes
+ * The file on disk is always complete: rows gather in memory, history_flush puts the whole file there at once. */
+#ifndef BREECH_COUPLING_HISTORY_H
+#define BREECH_COUPLING_HISTORY_H
+
+#include "base/status.h"
+#include "circuit/shot.h"
+#include "mpm/crater.h"
+#include "mpm/mpm.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct history history; /* owns its file in memory */
+
+typedef struct {
+    const char *name, *unit, *description;
+} history_column;
+
+/* resume: take up the file that is there (a new one when there is none); else an older file is replaced at the first flush. */
+status history_open(const char *path, bool resume, history **out);
+
+/* A group of columns ("/shot", "/scene/a"); appended to when it is there.  columns: n, borrowed until close.  The first
+ * column is the time.  At most 32 series are open at once; opening the same group again gives the same series. */
+status history_series(history *h, const char *group, const history_column *columns, int n, int *series);
+status history_append(history *h, int series, const double *row);
+/* Drops the rows later than `time`: for a run that goes on from a checkpoint. */
+status history_rewind(history *h, int series, double time);
+/* No more rows for this series: its place is free for another. */
+status history_end(history *h, int series);
+
+status history_flush(history *h);
+/* Flushes when the last one was five seconds ago and less than a twentieth of the time goes into flushing. */
+status history_tick(history *h);
+/* Flushes and frees; NULL allowed. */
+status history_close(history *h);
+
+/* The crater of scene `name`; a former one is replaced. */
+status history_crater(history *h, const char *scene, const crater *c);
+
+/* ---- the rows of Breech's own series ---- */
+
+enum { HISTORY_MAX_COLUMNS = 40 };
+extern const history_column history_shot_columns[], history_scene_columns[];
+extern const int history_shot_width, history_scene_width;
+void history_shot_row(const shot_state *s, double *row);
+void history_scene_row(const mpm_report *r, const mpm_ledger *l, double *row);
+
+#endif

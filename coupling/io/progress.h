@@ -1,0 +1,59 @@
+/* Progress for the one who waits: a live line on a terminal, a plain line every ten seconds elsewhere, nothing if quiet.
+ * And where the time went: seconds by phase. */
+#ifndef BREECH_COUPLING_PROGRESS_H
+#define BREECH_COUPLING_PROGRESS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* Seconds on a clock that only goes forward [s]. */
+double wall_clock(void);
+
+typedef struct {
+    FILE *stream; /* borrowed; where lines go (stderr) */
+    bool terminal, quiet, shown;
+    char task[160];             /* "scene 3 of 8, 1480 m/s" */
+    double started, last_shown; /* wall clock [s] */
+    double fraction_started;    /* of the task, where this process took it up (resumed runs) */
+    uint64_t steps_started;
+} progress;
+
+void progress_open(progress *p, FILE *stream, bool quiet);
+/* A new task; `fraction` and `particle_steps` where it is taken up, 0 unless resumed. */
+void progress_task(progress *p, const char *task, double fraction, uint64_t particle_steps);
+/* As often as you like: it looks at the clock and mostly returns.  fraction of the task done, 0..1. */
+void progress_update(progress *p, double fraction, uint64_t particle_steps);
+/* A line that stays (an event, a result), above the live line. */
+void progress_say(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Clears the live line. */
+void progress_close(progress *p);
+
+/* The text of a line: "scene 3 of 8  42 %  1 min 20 s left  31.2 M particle-steps/s".
+ * elapsed, the time spent on the `gained` fraction [s]. */
+void progress_text(const progress *p, double fraction, double elapsed, uint64_t particle_steps, char *text,
+                   size_t size);
+/* "45 s", "1 min 20 s", "2 h 05 min", "3 d 04 h" */
+void duration_text(double seconds, char *text, size_t size);
+
+/* ---- where the time went ---- */
+
+enum { TIMING_MAX_PHASES = 24 };
+typedef struct {
+    int phases;
+    struct {
+        char name[40];
+        double seconds;
+        uint64_t calls;
+    } phase[TIMING_MAX_PHASES];
+    double started;
+} timing;
+
+void timing_open(timing *t);
+/* seconds = wall_clock() - what it was at the phase's start; phases are made on first use. */
+void timing_add(timing *t, const char *phase, double seconds);
+/* A table: phase, calls, seconds, share of the whole; the rest as `other`. */
+void timing_print(const timing *t, FILE *out);
+
+#endif

@@ -1,0 +1,185 @@
+/* summary.json: the machine's face of every run, written at its end whatever the end was.
+ *
+ * One table a kind of run says every key once (name, unit, where it stands): writing, the closing table, the manual's key
+ * list and the tests use it.  SI units; NaN and what a run did not reach become null, so every key is always there.
+ * The keys of the run's own kind stand at the top level beside those of `all`; the shot of an onset or a comparison stands
+ * under "shot".  To add a key: a member in the struct, one line in its table.  Keys are only ever added. */
+#ifndef BREECH_COUPLING_SUMMARY_H
+#define BREECH_COUPLING_SUMMARY_H
+
+#include "base/status.h"
+#include "circuit/shot.h"
+#include "mpm/crater.h"
+#include "mpm/mpm.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+enum { SUMMARY_NAME_SIZE = 96 };
+
+typedef struct {
+    double peak_current;      /* in the armature [A] */
+    double muzzle_velocity;   /* [m/s]; NaN: it did not leave */
+    double muzzle_time;       /* [s] */
+    double muzzle_energy;     /* kinetic [J] */
+    double efficiency;        /* muzzle energy over the energy stored at start [1] */
+    double action;            /* integral of I^2 [A2 s] */
+    double peak_acceleration; /* [m/s2] */
+    double exit_current;      /* [A] */
+    double energy_error;      /* over the energy stored at start [1] */
+    uint64_t steps;
+    double wall_seconds; /* [s] */
+} shot_result;
+
+/* One scene, full model: forces and volumes with the mirror half. */
+typedef struct {
+    damage_class class;
+    char reason[200];
+    double severity, widening;                                    /* [1] */
+    double crater_length, crater_width, crater_depth, rim_height; /* [m] */
+    double crater_volume;                                         /* [m3] */
+    double peak_pressure;                                         /* of any particle [Pa] */
+    double peak_force[3];                                         /* on the rail [N] */
+    double peak_temperature;                                      /* [K] */
+    double peak_mises_armature, peak_mises_rail;                  /* [Pa] */
+    double peak_mises_armature_999, peak_mises_rail_999;          /* 99.9th percentiles by mass [Pa] */
+    double peak_pressure_armature_999, peak_pressure_rail_999;    /* [Pa] */
+    double momentum_error, energy_error;                          /* [1] */
+    int bodies;
+    char body[MPM_MAX_BODIES][PARAM_TEXT_SIZE];
+    double failed_volume[MPM_MAX_BODIES]; /* [m3] */
+    double end_time;                      /* [s] */
+    uint64_t particles, steps, particle_steps, particle_steps_dense;
+    uint64_t clamps_pressure, clamps_compression, clamps_velocity;
+    double wall_seconds; /* [s] */
+    int threads;
+} scene_result;
+
+/* One scene of a study. */
+typedef struct {
+    char name[SUMMARY_NAME_SIZE]; /* its folder under scenes/ and its group under /scene */
+    double velocity;              /* [m/s] */
+    double radius, height;        /* of the grain [m] */
+    char shape[PARAM_TEXT_SIZE], material[PARAM_TEXT_SIZE], surface[SUMMARY_NAME_SIZE];
+    double contact_pressure; /* [Pa] */
+    double temperature;      /* of the rail [K] */
+    double cells_per_radius; /* [1] */
+    bool reused;             /* taken from the store, not computed by this run */
+    scene_result result;
+} onset_scene;
+
+typedef enum {
+    SITE_NOT_REACHED, /* the armature never came there */
+    SITE_SKIPPED,     /* the screen says it cannot gouge */
+    SITE_NONE,        /* as damage_class: from a scene of its own or from the threshold */
+    SITE_SCRATCH,
+    SITE_GOUGE,
+    SITE_UNDECIDED
+} site_outcome;
+extern const char *const site_outcome_names[]; /* "not_reached", "skipped", "none", ..., NULL */
+
+typedef struct {
+    double position;                                  /* along the barrel [m] */
+    double radius;                                    /* [m] */
+    double time, velocity, current;                   /* at arrival [s, m/s, A]; NaN: not reached */
+    double contact_pressure;                          /* [Pa] */
+    double impact_pressure;                           /* impedance match [Pa] */
+    double screen;                                    /* impact pressure over the hardness of the harder partner [1] */
+    double threshold_velocity, threshold_interval[2]; /* for its grain [m/s]; NaN: not looked for */
+    double gouged_volume;                             /* [m3]; NaN: unknown */
+    site_outcome outcome;
+    char scene[SUMMARY_NAME_SIZE]; /* the scene that decided, "" if none */
+} onset_site;
+
+typedef enum { VERDICT_GOUGES, VERDICT_NO_GOUGING, VERDICT_UNDECIDED } onset_verdict;
+extern const char *const onset_verdict_names[]; /* "gouges", "no_gouging", "undecided", NULL */
+
+typedef struct {
+    onset_verdict verdict;
+    char reason[300];             /* of the verdict, in words */
+    double probability_gouge;     /* [1] */
+    double threshold_velocity;    /* at the median size for a population [m/s] */
+    double threshold_interval[2]; /* [m/s] */
+    double onset_position;        /* along the barrel [m] */
+    double onset_interval[2];     /* [m] */
+    int scenes_run, scenes_skipped;
+    int n_sites, n_scenes;
+    const onset_site *site;   /* n_sites, borrowed */
+    const onset_scene *scene; /* n_scenes, borrowed */
+    double wall_seconds;      /* [s] */
+} onset_result;
+
+typedef struct {
+    char surface[SUMMARY_NAME_SIZE];
+    double threshold_velocity, threshold_interval[2]; /* [m/s] */
+    double onset_position;                            /* [m] */
+    double gouged_volume;                             /* [m3] */
+} compare_entry;
+
+typedef struct {
+    int n;
+    const compare_entry *ranking; /* n, best first, borrowed */
+} compare_result;
+
+typedef struct {
+    int n;
+    const double *frequency;          /* n [Hz], borrowed */
+    const double *L_gradient;         /* n [H/m], borrowed */
+    const double *R_gradient;         /* n [ohm/m], borrowed */
+    double L_gradient_high_frequency; /* [H/m] */
+} inductance_result;
+
+typedef enum { RUN_SHOT, RUN_SCENE, RUN_ONSET, RUN_COMPARE, RUN_INDUCTANCE, RUN_KINDS } run_kind;
+extern const char *const run_kind_names[]; /* "shot", ..., NULL */
+
+typedef enum { RUN_DONE, RUN_STOPPED, RUN_FAILED } run_status;
+extern const char *const run_status_names[]; /* "done", "stopped", "failed", NULL */
+
+/* Everything a summary says; members that are NULL were not reached.  All borrowed. */
+typedef struct {
+    run_kind kind;
+    const char *case_name;
+    const char *instruction_set;
+    run_status status;
+    const char *error;    /* NULL when there is none */
+    const char *warnings; /* a line each, NULL or "" when there are none */
+    const shot_result *shot;
+    const scene_result *scene;
+    const onset_result *onset;
+    const compare_result *compare;
+    const inductance_result *inductance;
+} run_summary;
+
+/* DIR/summary.json, at once or not at all. */
+status summary_write(const char *dir, const run_summary *s);
+/* Its text, malloc'ed, the caller frees it; NULL when out of memory. */
+char *summary_text(const run_summary *s);
+/* "done", "stopped", "failed" of the summary.json in dir; "" when there is none or it cannot be read. */
+void summary_status(const char *dir, char *out, size_t size);
+
+/* The closing table for people. */
+void summary_print(const run_summary *s, FILE *out);
+/* The manual's key list, in markdown. */
+void summary_print_keys(FILE *out);
+
+/* ---- from what the libraries say ---- */
+
+shot_result shot_result_of(const shot_summary *s, double wall_seconds);
+
+typedef struct {
+    const mpm_scene *scene;
+    const mpm_report *report;
+    const mpm_ledger *ledger;
+    const crater *crater; /* NULL: not measured; the class is then undecided */
+    double wall_seconds;  /* [s] */
+    int threads;
+    bool mirrored; /* the scene is half of the model */
+} scene_outcome;
+/* The bodies named "rail" and "armature" give the peaks by body; NaN where there is none of that name. */
+scene_result scene_result_of(const scene_outcome *o);
+
+const char *breech_version(void); /* BREECH_VERSION, "unknown" where the build does not say */
+
+#endif
