@@ -41,6 +41,14 @@ typedef enum {
 /* STATUS_BAD_INPUT naming the material and every missing constant, unless it has all that `needs` (a sum) asks for. */
 status material_check(const material *m, unsigned needs);
 
+/* Elastic constants of the solid.  Bulk modulus K = rho0 c0^2 from the equation of state (what the pressure law (M-3)
+ * uses), shear modulus G = E / (2 (1 + nu)) from E and nu; so E / (3 (1 - 2 nu)) is not used anywhere and differs from K by
+ * some per cent.  Speeds: longitudinal sqrt((K + 4/3 G) / rho0), shear sqrt(G / rho0).  NAN where a constant is. */
+double material_bulk_modulus(const material *m);       /* [Pa] */
+double material_shear_modulus(const material *m);      /* [Pa] */
+double material_longitudinal_speed(const material *m); /* [m/s] */
+double material_shear_speed(const material *m);        /* [m/s] */
+
 /* Hydrodynamic impedance match of a planar impact at `velocity` [m/s]; p [Pa], u_target = the target's particle
  * velocity [m/s].  Hugoniot p = rho0 (c0 + s u) u of each. */
 status impedance_match(const material *flyer, const material *target, double velocity, double *p, double *u_target);
