@@ -1,0 +1,219 @@
+/* The shot: from the charged bank to the armature leaving the muzzle, as one circuit with a moving part.
+ *
+ * shot_create copies the configuration; shot_advance integrates until a time and calls the sinks; everything else reads.
+ * SI units throughout.  No files, no printing.  Equations and their tags: docs/shot.md.
+ * To add a parameter: a member in its struct and one line in its table (circuit/shot_params.c); reader, manual and checks
+ * follow.  Laws that tests/test_circuit_shot.c checks for every shot it makes:
+ *   all energy now + all heat and work so far = energy at the start           (ledger.energy_error, default < 1e-6)
+ *   every switching and every site is a located instant, none is stepped over; the number of switchings is bounded. */
+#ifndef BREECH_CIRCUIT_SHOT_H
+#define BREECH_CIRCUIT_SHOT_H
+
+#include "base/param.h"
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* A group of identical modules that fire at the same instant (solved once, scaled by `count`).
+ * Capacitor, crowbar diode across it, thyristor, pulse-forming coil, cable to the breech, all in series but the diode.
+ * The gate is held from fire_at until the thyristor has conducted; once its current has come back to zero it stays off. */
+typedef struct {
+    int count;                 /* modules in the group */
+    double capacitance;        /* of one module [F] */
+    double charge;             /* voltage at t = 0 [V] */
+    double inductance;         /* pulse-forming coil [H] */
+    double resistance;         /* coil, capacitor and switch in series [ohm] */
+    double cable_inductance;   /* [H] */
+    double cable_resistance;   /* [ohm] */
+    double crowbar_drop;       /* diode's forward drop [V] */
+    double crowbar_resistance; /* diode's slope [ohm] */
+    double fire_at;            /* [s]; NAN or infinity = never */
+} shot_module;
+
+typedef enum { SHOT_RAILS_CONSTANT, SHOT_RAILS_SKIN } shot_rail_level;
+extern const char *const shot_rail_level_names[]; /* "constant", "skin", NULL */
+
+/* Two equal rectangular rails.  constant: the gradients are given; skin: those of the section at one frequency. */
+typedef struct {
+    int level;                      /* shot_rail_level */
+    double height;                  /* across the bore, along the contact line of the armature [m] */
+    double thickness;               /* [m] */
+    double separation;              /* between the facing surfaces [m] */
+    double resistivity;             /* at 293.15 K [ohm m] */
+    double resistivity_coefficient; /* [1/K] */
+    double temperature;             /* before the shot [K] */
+    double inductance_gradient;     /* level constant [H/m] */
+    double resistance_gradient;     /* level constant, both rails together [ohm/m] */
+    double frequency;               /* level skin [Hz]; NAN = from the pulse, equation (C-6) */
+} shot_rails;
+
+typedef struct {
+    double length;            /* breech (x = 0) to muzzle [m] */
+    double start;             /* current path's position at t = 0 [m] */
+    double muzzle_resistance; /* of the shunt or arc that takes the current after exit [ohm] */
+    double muzzle_voltage;    /* arc's constant part, 0 for a shunt [V] */
+} shot_barrel;
+
+typedef struct {
+    double mass;                 /* [kg] */
+    double velocity;             /* at t = 0 [m/s] */
+    double resistance;           /* [ohm] */
+    double contact_voltage;      /* both contacts together [V] */
+    double friction_dry;         /* mu0 [1] */
+    double friction_melted;      /* mu1 [1] */
+    double friction_speed;       /* speed over which mu falls from mu0 to mu1, equation (C-4) [m/s] */
+    double preload;              /* contact force per rail face at I = 0 [N] */
+    double spreading;            /* k in N = preload + k I^2, per rail face [N/A^2] */
+    double bore_area;            /* drag; NAN = separation x height [m^2] */
+    double gas_pressure;         /* ahead of the armature; 0 with density 0 is vacuum [Pa] */
+    double gas_density;          /* [kg/m^3] */
+    double gas_gamma;            /* ratio of specific heats [1] */
+    double wear_fraction;        /* share of the contact's heat that melts metal off, 0 = no wear [1] */
+    double specific_heat;        /* [J/kg/K] */
+    double melting_temperature;  /* [K] */
+    double latent_heat;          /* [J/kg] */
+    double temperature;          /* before the shot [K] */
+    double density;              /* [kg/m^3] */
+    double thermal_conductivity; /* [W/m/K] */
+    double contact_length;       /* along the rail, one face [m] */
+    double contact_width;        /* across the rail, one face; NAN = the rail's height [m] */
+    double heat_share;           /* of the contact's heat that enters the armature [1] */
+} shot_armature;
+
+typedef struct {
+    double rtol;     /* relative tolerance of the integration [1] */
+    double atol;     /* absolute tolerance, as a share of each quantity's scale [1] */
+    double max_time; /* shot_advance never goes further [s] */
+} shot_options;
+
+/* Keys, units, defaults, ranges and texts; the case reader is made from them. */
+extern const param shot_module_params[];
+extern const param shot_rails_params[];
+extern const param shot_barrel_params[];
+extern const param shot_armature_params[];
+extern const param shot_options_params[];
+
+typedef struct {
+    const shot_module *modules; /* borrowed until shot_create returns */
+    int n_modules;              /* groups */
+    shot_rails rails;
+    shot_barrel barrel;
+    shot_armature armature;
+    shot_options options;
+    const double *sites; /* positions, any order, each in (start, length) [m]; borrowed until shot_create returns */
+    int n_sites;
+} shot_config;
+
+/* Where the energy is and went [J]. */
+typedef struct {
+    double start;                                         /* capacitors and motion at t = 0 */
+    double capacitors, coils, cables, rails_field;        /* stored now */
+    double kinetic;                                       /* armature now (at exit once it has left) */
+    double coil_heat, cable_heat, crowbar_heat;           /* so far, as all below */
+    double rails_heat, armature_heat, contact_heat;       /* contact_heat = contact voltage x current */
+    double friction, drag, muzzle;                        /* muzzle: shunt or arc after exit */
+    double wear;                                          /* motion of the metal worn off */
+    double jumps;                                         /* taken by shot_jump */
+    double momentum_jumps;                                /* impulse taken by shot_jump [N s] */
+    double mass_jumps;                                    /* mass taken by shot_jump [kg] */
+    double energy_error;                                  /* (sum now + so far - start)/start; 0 if start is 0 [1] */
+} shot_ledger;
+
+typedef enum { SHOT_HELD, SHOT_MOVING, SHOT_LEFT } shot_phase;
+
+/* Everything at one instant. */
+typedef struct {
+    double t, x, v, a;        /* [s, m, m/s, m/s^2]; x and v stay at their exit values after the muzzle */
+    double current;           /* of the rails [A] */
+    double breech_voltage;    /* [V] */
+    double muzzle_voltage;    /* between the rails ahead of the armature, then across the shunt [V] */
+    double force;             /* electromagnetic, 1/2 L' I^2 [N] */
+    double friction;          /* both faces [N] */
+    double drag;              /* gas [N] */
+    double friction_coefficient; /* mu(v) [1] */
+    double contact_force;     /* per rail face [N] */
+    double contact_pressure;  /* contact_force over contact_length x contact_width [Pa] */
+    double action;            /* integral of I^2 dt [A^2 s] */
+    double mass;              /* of the armature now [kg] */
+    double rail_temperature;  /* just ahead of the armature: as before the shot [K] */
+    double armature_temperature; /* of the contact face, estimate (C-7), at most melting [K] */
+    double inductance_gradient, resistance_gradient; /* in use [H/m, ohm/m] */
+    shot_phase phase;
+    shot_ledger ledger;
+} shot_state;
+
+typedef enum {
+    SHOT_FIRED,     /* group `index` conducts (index 0 .. n_modules - 1) */
+    SHOT_WAITING,   /* group `index` was fired but its voltage is below the breech's: conducts once it is not */
+    SHOT_CROWBAR,   /* diode of group `index` conducts */
+    SHOT_BLOCKED,   /* thyristor of group `index` blocks for good */
+    SHOT_RELEASED,  /* the armature starts to move */
+    SHOT_STOPPED,   /* the armature came to rest inside the barrel */
+    SHOT_SITE,      /* site `index` (in the order given) is passed */
+    SHOT_MUZZLE,    /* the armature leaves */
+    SHOT_EVENT_COUNT
+} shot_event_kind;
+extern const char *const shot_event_names[]; /* "fired", "waiting", ..., NULL */
+
+typedef struct {
+    shot_event_kind kind;
+    int index;        /* of the group or site, else -1 */
+    shot_state state; /* just after the event */
+} shot_event;
+
+typedef struct shot shot; /* owns all its memory */
+
+/* Sinks; both may be NULL.  Return false to stop: shot_advance then returns STATUS_STOPPED and may be called again.
+ * From `event` at a SHOT_SITE, shot_jump may be called; anything else that changes the shot may not. */
+typedef struct {
+    bool (*event)(void *user, shot *s, const shot_event *e);
+    bool (*sample)(void *user, const shot *s, const shot_state *state); /* first call, every accepted step */
+    void *user;                                                        /* borrowed */
+} shot_sink;
+
+/* The keys of summary.json (ARCHITECTURE.md).  NAN where the armature has not left. */
+typedef struct {
+    double peak_current;      /* [A] */
+    double muzzle_velocity;   /* [m/s] */
+    double muzzle_time;       /* [s] */
+    double muzzle_energy;     /* kinetic, at exit [J] */
+    double efficiency;        /* muzzle_energy over the energy at the start [1] */
+    double action;            /* until exit, or so far [A^2 s] */
+    double peak_acceleration; /* [m/s^2] */
+    double exit_current;      /* [A] */
+    double energy_error;      /* over the energy at the start [1] */
+    uint64_t steps;
+} shot_summary;
+
+/* STATUS_BAD_INPUT names the parameter, its value, unit and range.  Caller frees *out with shot_free. */
+status shot_create(const shot_config *config, shot **out);
+void shot_free(shot *s); /* NULL allowed */
+
+/* Integrates until t = until, or max_time, or until nothing can happen any more (shot_done), whichever comes first.
+ * sink may be NULL.  STATUS_NUMERICAL says at which time and what to try. */
+status shot_advance(shot *s, double until, const shot_sink *sink);
+
+/* Rest or exit, no current, nothing left to fire. */
+bool shot_done(const shot *s);
+
+shot_state shot_now(const shot *s);
+shot_summary shot_result(const shot *s);
+double shot_module_current(const shot *s, int group); /* one module of the group [A] */
+double shot_module_voltage(const shot *s, int group); /* its capacitor [V] */
+int shot_module_count(const shot *s);                 /* groups */
+
+/* A gouge: takes `impulse` [N s] (against the motion) and `mass_loss` [kg] (leaving at the armature's speed) at the
+ * present instant; booked in the ledger.  An impulse larger than the momentum stops the armature.  STATUS_BAD_INPUT for
+ * negative values or more mass than there is. */
+status shot_jump(shot *s, double impulse, double mass_loss);
+
+/* L' [H/m] and R' [ohm/m] of the pair at frequency f [Hz], by the level: constant returns what was given; skin solves the
+ * section (circuit/inductance.h).  f = 0 is direct current, INFINITY the perfect conductor (R' is then INFINITY). */
+status rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance);
+
+/* The frequency that level skin takes for this bank when none is given, equation (C-6) [Hz]; NAN if nothing fires. */
+double shot_effective_frequency(const shot_module *modules, int n_modules);
+
+#endif
