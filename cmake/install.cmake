@@ -3,7 +3,7 @@ foreach(target breech breech_base breech_circuit breech_mpm breech_coupling)
     if(TARGET ${target})
         install(TARGETS ${target}
                 RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
-                ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+                ARCHIVE DESTINATION lib)
     endif()
 endforeach()
 install(DIRECTORY base circuit mpm coupling
