@@ -1,7 +1,6 @@
 #include "mpm/material.h"
 
 #include <stdio.h>
-#include <string.h>
 
 /* Everything is OPTIONAL but the name: a file may leave out what its author does not know, and material_check refuses
  * the study that needs it.  The ranges are those of metals with room to spare: they catch a wrong unit or a slip of the
@@ -27,7 +26,8 @@ const param material_params[] = {
     NUMBER(taylor_quinney, "1", 0.0, 1.0, "share of plastic work that becomes heat (heat by plastic work only)"),
     NUMBER(damage_D1, "1", -10.0, 100.0, "Johnson-Cook failure D1"),
     NUMBER(damage_D2, "1", -10.0, 100.0, "Johnson-Cook failure D2"),
-    NUMBER(damage_D3, "1", -20.0, 20.0, "Johnson-Cook failure D3, times mean stress / von Mises stress, tension positive"),
+    NUMBER(damage_D3, "1", -20.0, 20.0,
+           "Johnson-Cook failure D3, times mean stress / von Mises stress, tension positive"),
     NUMBER(damage_D4, "1", -1.0, 10.0, "Johnson-Cook failure D4: strain rate"),
     NUMBER(damage_D5, "1", -10.0, 100.0, "Johnson-Cook failure D5: temperature"),
     NUMBER(spall_strength, "Pa", 0.0, 1e11, "tension at which it fails"),
@@ -47,7 +47,10 @@ typedef struct {
     size_t offset;
 } needed;
 
-#define NEED(member, needs_) { (needs_), offsetof(material, member) }
+#define NEED(member, needs_)                 \
+    {                                        \
+        (needs_), offsetof(material, member) \
+    }
 
 /* (M-1) and (M-2) divide by melting - reference temperature, so these come with strength as with failure. */
 static const needed needed_constants[] = {
@@ -91,7 +94,8 @@ status material_check(const material *m, unsigned needs)
         const needed *c = &needed_constants[i];
         const double value = *(const double *)(const void *)((const char *)m + c->offset);
         if (!(c->needs & needs) || !isnan(value) || length >= sizeof missing) continue;
-        length += (size_t)snprintf(missing + length, sizeof missing - length, "%s%s", length ? ", " : "", key_of(c->offset));
+        length +=
+            (size_t)snprintf(missing + length, sizeof missing - length, "%s%s", length ? ", " : "", key_of(c->offset));
     }
     CHECK(length == 0, STATUS_BAD_INPUT, "material %.40s lacks what this study needs: %s", m->name, missing);
     TRY(params_check(material_params, m, m->name));
@@ -130,7 +134,8 @@ double material_shear_speed(const material *m)
  * between; the form below finds it without cancellation for either sign of a. */
 status impedance_match(const material *flyer, const material *target, double velocity, double *p, double *u_target)
 {
-    CHECK(velocity >= 0.0 && velocity <= 1e5, STATUS_BAD_INPUT, "impact velocity = %g m/s: must be 0 .. 1e5 m/s", velocity);
+    CHECK(velocity >= 0.0 && velocity <= 1e5, STATUS_BAD_INPUT, "impact velocity = %g m/s: must be 0 .. 1e5 m/s",
+          velocity);
     const material *pair[2] = { flyer, target };
     for (int i = 0; i < 2; i++)
         CHECK(pair[i]->density > 0.0 && pair[i]->sound_speed > 0.0 && pair[i]->hugoniot_slope >= 0.0, STATUS_BAD_INPUT,
