@@ -24,7 +24,7 @@ packages_refuse() # reason, packages
 # Installs what is missing of the packages named; nothing is touched when all are there.
 packages_install()
 {
-    local missing as_root=()
+    local missing log as_root=()
     if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
         printf '%s: this is not a Debian system; going on with what is installed. Breech is built on Debian 12 with:\n' "$0"
         printf '    %s\n' "$*"
@@ -38,9 +38,14 @@ packages_install()
         fi
         as_root=(sudo -n)
     fi
-    printf '%s: installing %s\n' "$0" "$missing"
-    "${as_root[@]}" apt-get update -qq || printf '%s: the package lists could not be refreshed; trying without\n' "$0" >&2
+    printf '%s: installing %s(a minute or two)\n' "$0" "$missing"
+    log=$(mktemp)
+    "${as_root[@]}" apt-get update -qq >"$log" 2>&1 ||
+        printf '%s: the package lists could not be refreshed; trying with the old ones\n' "$0" >&2
     # shellcheck disable=SC2086 # a list of words
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing ||
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >"$log" 2>&1 || {
+        tail -n 5 "$log" >&2
         packages_refuse 'apt-get failed (no network, or a package source without them?)' "$missing"
+    }
+    rm -f "$log"
 }
