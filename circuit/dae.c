@@ -1,0 +1,168 @@
+#include "circuit/dae.h"
+
+#include "circuit/sundials_compat.h"
+
+#include <ida/ida.h>
+#include <nvector/nvector_serial.h>
+#include <stdlib.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+struct dae {
+    dae_problem problem;
+    SUNContext context;
+    N_Vector y, yp, atol, differential;
+    SUNMatrix matrix;
+    SUNLinearSolver solver;
+    void *ida;
+    int *direction, *found;
+    double t;
+};
+
+static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user)
+{
+    const dae *d = user;
+    (void)t;
+    d->problem.residual(d->problem.model, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), N_VGetArrayPointer(r));
+    return 0;
+}
+
+static int roots(sunrealtype t, N_Vector y, N_Vector yp, sunrealtype *g, void *user)
+{
+    const dae *d = user;
+    (void)t;
+    (void)yp;
+    d->problem.roots(d->problem.model, N_VGetArrayPointer(y), g);
+    return 0;
+}
+
+static status failure(int flag, double t)
+{
+    char *name      = IDAGetReturnFlagName(flag);
+    const status st = status_error(STATUS_NUMERICAL,
+                                   "the circuit's integration failed at t = %.9g s (%s): try a larger options.rtol, and "
+                                   "check for zero inductances or extreme values",
+                                   t, name ? name : "unknown");
+    free(name);
+    return st;
+}
+
+static status vectors_create(dae *d)
+{
+    const int n = d->problem.n, n_roots = d->problem.n_roots;
+    CHECK(SUNContext_Create(COMPAT_NO_COMM, &d->context) == 0, STATUS_MEMORY, "out of memory for the circuit's solver");
+    d->y            = N_VNew_Serial(n, d->context);
+    d->yp           = N_VNew_Serial(n, d->context);
+    d->atol         = N_VNew_Serial(n, d->context);
+    d->differential = N_VNew_Serial(n, d->context);
+    d->matrix       = SUNDenseMatrix(n, n, d->context);
+    d->direction    = calloc((size_t)n_roots + 1, sizeof *d->direction);
+    d->found        = calloc((size_t)n_roots + 1, sizeof *d->found);
+    d->ida          = IDACreate(d->context);
+    CHECK(d->y && d->yp && d->atol && d->differential && d->matrix && d->direction && d->found && d->ida, STATUS_MEMORY,
+          "out of memory for a circuit of %d unknowns", n);
+    d->solver = SUNLinSol_Dense(d->y, d->matrix, d->context);
+    CHECK(d->solver, STATUS_MEMORY, "out of memory for a circuit of %d unknowns", n);
+    return status_ok();
+}
+
+static status solver_create(dae *d)
+{
+    N_VConst(0.0, d->y);
+    N_VConst(0.0, d->yp);
+    N_VConst(1.0, d->atol);
+    N_VConst(1.0, d->differential);
+    (void)COMPAT_SILENCE(d->context, d->ida);
+    int bad = IDAInit(d->ida, residual, 0.0, d->y, d->yp);
+    if (!bad) bad = IDASetUserData(d->ida, d);
+    if (!bad) bad = IDASVtolerances(d->ida, 1e-6, d->atol);
+    if (!bad) bad = IDASetLinearSolver(d->ida, d->solver, d->matrix);
+    if (!bad) bad = IDASetSuppressAlg(d->ida, 1);
+    if (!bad) bad = IDARootInit(d->ida, d->problem.n_roots, roots);
+    if (!bad) bad = IDASetNoInactiveRootWarn(d->ida);
+    CHECK(!bad, STATUS_MEMORY, "the circuit's solver could not be set up (code %d)", bad);
+    return status_ok();
+}
+
+status dae_create(const dae_problem *problem, dae **out)
+{
+    *out   = NULL;
+    dae *d = calloc(1, sizeof *d);
+    CHECK(d, STATUS_MEMORY, "out of memory for the circuit's solver");
+    d->problem = *problem;
+    status st  = vectors_create(d);
+    if (st.code == STATUS_OK) st = solver_create(d);
+    if (st.code != STATUS_OK) {
+        dae_free(d);
+        return st;
+    }
+    *out = d;
+    return st;
+}
+
+void dae_free(dae *d)
+{
+    if (!d) return;
+    if (d->ida) IDAFree(&d->ida);
+    if (d->solver) SUNLinSolFree(d->solver);
+    if (d->matrix) SUNMatDestroy(d->matrix);
+    if (d->y) N_VDestroy(d->y);
+    if (d->yp) N_VDestroy(d->yp);
+    if (d->atol) N_VDestroy(d->atol);
+    if (d->differential) N_VDestroy(d->differential);
+    if (d->context) SUNContext_Free(&d->context);
+    free(d->direction);
+    free(d->found);
+    free(d);
+}
+
+double *dae_y(const dae *d)
+{
+    return N_VGetArrayPointer(d->y);
+}
+
+double *dae_yp(const dae *d)
+{
+    return N_VGetArrayPointer(d->yp);
+}
+
+double *dae_atol(const dae *d)
+{
+    return N_VGetArrayPointer(d->atol);
+}
+
+double *dae_differential(const dae *d)
+{
+    return N_VGetArrayPointer(d->differential);
+}
+
+int *dae_direction(const dae *d)
+{
+    return d->direction;
+}
+
+const int *dae_found(const dae *d)
+{
+    return d->found;
+}
+
+status dae_restart(dae *d, double t, double rtol)
+{
+    d->t     = t;
+    int flag = IDAReInit(d->ida, t, d->y, d->yp);
+    if (flag >= 0) flag = IDASVtolerances(d->ida, rtol, d->atol);
+    if (flag >= 0) flag = IDASetId(d->ida, d->differential);
+    if (flag >= 0) flag = IDASetRootDirection(d->ida, d->direction);
+    return flag >= 0 ? status_ok() : failure(flag, t);
+}
+
+status dae_step(dae *d, double stop, double *t, dae_outcome *outcome)
+{
+    int flag = IDASetStopTime(d->ida, stop);
+    if (flag >= 0) flag = IDASolve(d->ida, stop, &d->t, d->y, d->yp, IDA_ONE_STEP);
+    if (flag == IDA_ROOT_RETURN && IDAGetRootInfo(d->ida, d->found) < 0) flag = IDA_RTFUNC_FAIL;
+    *t = d->t;
+    if (flag < 0) return failure(flag, d->t);
+    *outcome = flag == IDA_ROOT_RETURN ? DAE_ROOT : flag == IDA_TSTOP_RETURN ? DAE_STOP : DAE_STEP;
+    return status_ok();
+}

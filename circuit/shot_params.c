@@ -1,0 +1,84 @@
+/* Parameter tables of the shot: every key, unit, default, range and text stands here once. */
+#include "circuit/shot.h"
+
+const char *const shot_rail_level_names[] = { "constant", "skin", NULL };
+const char *const shot_event_names[] = { "fired",    "waiting", "crowbar", "blocked", "released",
+                                         "stopped", "site",    "muzzle",  NULL };
+
+#define MODULE(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_module, member, unit, fallback, min, max, doc)
+#define RAILS(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_rails, member, unit, fallback, min, max, doc)
+#define BARREL(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_barrel, member, unit, fallback, min, max, doc)
+#define ARMATURE(member, unit, fallback, min, max, doc) \
+    PARAM_DOUBLE(shot_armature, member, unit, fallback, min, max, doc)
+#define OPTIONS(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_options, member, unit, fallback, min, max, doc)
+
+const param shot_module_params[] = {
+    PARAM_INT(shot_module, count, 1, 1, 1e6, "identical modules in this group"),
+    MODULE(capacitance, "F", REQUIRED, 1e-12, 1e3, "capacitance of one module"),
+    MODULE(charge, "V", REQUIRED, 0.0, 1e6, "charging voltage at t = 0"),
+    MODULE(inductance, "H", REQUIRED, 0.0, 1.0, "inductance of the pulse-forming coil"),
+    MODULE(resistance, "ohm", 0.0, 0.0, 1e3, "resistance of coil, capacitor and switch in series"),
+    MODULE(cable_inductance, "H", 0.0, 0.0, 1.0, "inductance of the cable to the breech"),
+    MODULE(cable_resistance, "ohm", 0.0, 0.0, 1e3, "resistance of the cable to the breech"),
+    MODULE(crowbar_drop, "V", 0.0, 0.0, 1e3, "forward drop of the crowbar diode"),
+    MODULE(crowbar_resistance, "ohm", 0.0, 0.0, 1e3, "slope resistance of the crowbar diode"),
+    MODULE(fire_at, "s", 0.0, 0.0, INFINITY, "instant at which the thyristor is fired; beyond options.max_time = never"),
+    PARAMS_END
+};
+
+const param shot_rails_params[] = {
+    PARAM_ENUM(shot_rails, level, shot_rail_level_names, SHOT_RAILS_SKIN,
+               "constant: gradients as given; skin: gradients of the cross-section at one frequency"),
+    RAILS(height, "m", REQUIRED, 1e-4, 10.0, "height of a rail, across the bore"),
+    RAILS(thickness, "m", REQUIRED, 1e-4, 10.0, "thickness of a rail"),
+    RAILS(separation, "m", REQUIRED, 1e-4, 10.0, "separation of the facing rail surfaces"),
+    RAILS(resistivity, "ohm m", 1.72e-8, 1e-10, 1e-3, "resistivity at 293.15 K"),
+    RAILS(resistivity_coefficient, "1/K", 3.93e-3, 0.0, 0.1, "relative rise of the resistivity"),
+    RAILS(temperature, "K", 293.15, 200.0, 3000.0, "temperature before the shot"),
+    RAILS(inductance_gradient, "H/m", OPTIONAL, 0.0, 1e-4, "inductance gradient of the pair (level constant)"),
+    RAILS(resistance_gradient, "ohm/m", OPTIONAL, 0.0, 10.0, "resistance gradient of the pair (level constant)"),
+    RAILS(frequency, "Hz", OPTIONAL, 1e-3, 1e9, "frequency of the gradients (level skin); from the pulse if not given"),
+    PARAMS_END
+};
+
+const param shot_barrel_params[] = {
+    BARREL(length, "m", REQUIRED, 1e-3, 1e3, "breech to muzzle"),
+    BARREL(start, "m", 0.05, 0.0, 1e3, "position of the armature's current path at t = 0"),
+    BARREL(muzzle_resistance, "ohm", 1e-3, 0.0, 1e3, "resistance of the shunt or arc that takes the current after exit"),
+    BARREL(muzzle_voltage, "V", 0.0, 0.0, 1e5, "constant voltage of the muzzle arc; 0 for a shunt"),
+    PARAMS_END
+};
+
+const param shot_armature_params[] = {
+    ARMATURE(mass, "kg", REQUIRED, 1e-6, 1e4, "mass, payload included"),
+    ARMATURE(velocity, "m/s", 0.0, 0.0, 2e4, "velocity at t = 0"),
+    ARMATURE(resistance, "ohm", 0.0, 0.0, 1.0, "resistance between the rails, without the contacts"),
+    ARMATURE(contact_voltage, "V", 0.0, 0.0, 1e3, "voltage of both contacts together"),
+    ARMATURE(friction_dry, "1", 0.0, 0.0, 10.0, "friction coefficient at rest"),
+    ARMATURE(friction_melted, "1", 0.0, 0.0, 10.0, "friction coefficient on a melted film"),
+    ARMATURE(friction_speed, "m/s", 100.0, 1e-3, 1e5, "speed over which the coefficient falls to the melted one"),
+    ARMATURE(preload, "N", 0.0, 0.0, 1e9, "contact force per rail face without current"),
+    ARMATURE(spreading, "N/A^2", 0.0, 0.0, 1e-3, "spreading force of the legs per current squared, per rail face"),
+    ARMATURE(bore_area, "m^2", OPTIONAL, 0.0, 100.0, "area the gas acts on; rail separation x height if not given"),
+    ARMATURE(gas_pressure, "Pa", 101325.0, 0.0, 1e8, "gas pressure in the barrel"),
+    ARMATURE(gas_density, "kg/m^3", 1.204, 0.0, 1e3, "gas density in the barrel; 0 = evacuated"),
+    ARMATURE(gas_gamma, "1", 1.4, 1.001, 2.0, "ratio of specific heats of the gas"),
+    ARMATURE(wear_fraction, "1", 0.0, 0.0, 1.0, "share of the contact's heat that melts metal off"),
+    ARMATURE(specific_heat, "J/kg/K", 848.0, 1.0, 1e5, "specific heat"),
+    ARMATURE(melting_temperature, "K", 750.0, 200.0, 5000.0, "melting temperature (solidus)"),
+    ARMATURE(latent_heat, "J/kg", 390e3, 0.0, 1e8, "latent heat of fusion"),
+    ARMATURE(temperature, "K", 293.15, 200.0, 3000.0, "temperature before the shot"),
+    ARMATURE(density, "kg/m^3", 2804.0, 100.0, 3e4, "density, for the temperature of the contact face"),
+    ARMATURE(thermal_conductivity, "W/m/K", 130.0, 0.1, 1e4, "thermal conductivity"),
+    ARMATURE(contact_length, "m", 0.02, 1e-4, 10.0, "length of one contact face along the rail"),
+    ARMATURE(contact_width, "m", OPTIONAL, 1e-4, 10.0, "width of one contact face; the rail's height if not given"),
+    ARMATURE(heat_share, "1", 0.5, 0.0, 1.0, "share of the contact's heat that enters the armature"),
+    PARAMS_END
+};
+
+const param shot_options_params[] = {
+    OPTIONS(rtol, "1", 1e-8, 1e-13, 1e-2, "relative tolerance of the integration"),
+    OPTIONS(atol, "1", 1e-10, 1e-16, 1e-3, "absolute tolerance as a share of each quantity's scale"),
+    OPTIONS(max_time, "s", 0.1, 1e-9, 1e3, "the shot is not followed beyond this time"),
+    PARAMS_END
+};
