@@ -1,0 +1,201 @@
+/* Materials: the impedance match against tabulated and closed answers, what a study needs, derived constants. */
+#include "mpm/material.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#ifndef BREECH_TESTS
+#define BREECH_TESTS "tests"
+#endif
+
+/* cmocka's own comparison is in single precision. */
+#define assert_near(value, want, tolerance)                                                                    \
+    do {                                                                                                       \
+        const double value_ = (value), want_ = (want);                                                         \
+        if (!(fabs(value_ - want_) <= (tolerance))) fail_msg("%s = %.15g, want %.15g", #value, value_, want_); \
+    } while (0)
+
+static material blank(const char *name)
+{
+    material m;
+    params_default(material_params, &m);
+    snprintf(m.name, sizeof m.name, "%s", name);
+    return m;
+}
+
+static material with_hugoniot(const char *name, double density, double sound_speed, double slope)
+{
+    material m = blank(name);
+    m.density = density;
+    m.sound_speed = sound_speed;
+    m.hugoniot_slope = slope;
+    return m;
+}
+
+/* The equations of state that the table names: Steinberg, UCRL-MA-106439. */
+static material by_name(const char *name)
+{
+    if (strcmp(name, "al7075_t651") == 0) return with_hugoniot(name, 2804.0, 5200.0, 1.36);
+    assert_string_equal(name, "ofhc_copper");
+    return with_hugoniot(name, 8930.0, 3940.0, 1.489);
+}
+
+/* Tolerance: half a unit of the table's last digit, 0.005 GPa and 0.5 m/s. */
+static void test_table(void **state)
+{
+    (void)state;
+    FILE *f = fopen(BREECH_TESTS "/data/impedance_match.csv", "r");
+    assert_non_null(f);
+    char line[300];
+    int rows = 0;
+    while (fgets(line, sizeof line, f)) {
+        char flyer_name[40], target_name[40];
+        double v, p_table, u_table, p, u;
+        if (sscanf(line, "%39[^,],%39[^,],%lf,%lf,%lf", flyer_name, target_name, &v, &p_table, &u_table) != 5) continue;
+        const material flyer = by_name(flyer_name), target = by_name(target_name);
+        assert_int_equal(impedance_match(&flyer, &target, v, &p, &u).code, STATUS_OK);
+        if (fabs(p / 1e9 - p_table) > 0.005 + 1e-9 || fabs(u - u_table) > 0.5 + 1e-9)
+            fail_msg("%s on %s at %g m/s: %.4f GPa, %.2f m/s; table %.2f, %.0f", flyer_name, target_name, v, p / 1e9, u,
+                     p_table, u_table);
+        rows++;
+    }
+    fclose(f);
+    assert_int_equal(rows, 7);
+}
+
+/* Both Hugoniots give the same p at the same interface velocity, for any pair; a material on itself takes half the
+ * speed; swapping the pair swaps the velocities.  Tolerance: rounding of a few operations. */
+static void test_laws(void **state)
+{
+    (void)state;
+    const material list[] = {
+        with_hugoniot("light", 1850.0, 8000.0, 1.12),   with_hugoniot("aluminium", 2804.0, 5200.0, 1.36),
+        with_hugoniot("copper", 8930.0, 3940.0, 1.489), with_hugoniot("tungsten", 19220.0, 4030.0, 1.237),
+        with_hugoniot("linear", 5000.0, 3000.0, 0.0),
+    };
+    const int n = sizeof list / sizeof list[0];
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            for (double v = 0.0; v <= 5000.0; v += 250.0) {
+                double p, u, p_back, u_back;
+                assert_int_equal(impedance_match(&list[i], &list[j], v, &p, &u).code, STATUS_OK);
+                assert_int_equal(impedance_match(&list[j], &list[i], v, &p_back, &u_back).code, STATUS_OK);
+                const double w = v - u;
+                const double p_flyer = list[i].density * (list[i].sound_speed + list[i].hugoniot_slope * w) * w;
+                assert_near(p, p_flyer, 1e-11 * p + 1e-9);
+                assert_near(p, p_back, 1e-11 * p + 1e-9);
+                assert_near(u + u_back, v, 1e-11 * v);
+                if (i == j) assert_near(u, 0.5 * v, 1e-12 * v);
+            }
+}
+
+static void test_match_refuses(void **state)
+{
+    (void)state;
+    const material good = by_name("ofhc_copper");
+    material bad = good;
+    snprintf(bad.name, sizeof bad.name, "unobtainium");
+    bad.hugoniot_slope = NAN;
+    double p, u;
+    const status missing = impedance_match(&good, &bad, 1000.0, &p, &u);
+    assert_int_equal(missing.code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(missing.text, "unobtainium"));
+    assert_int_equal(impedance_match(&good, &good, -1.0, &p, &u).code, STATUS_BAD_INPUT);
+    assert_int_equal(impedance_match(&good, &good, NAN, &p, &u).code, STATUS_BAD_INPUT);
+}
+
+/* OFHC copper with everything a scene needs. */
+static material copper(void)
+{
+    material m = by_name("ofhc_copper");
+    m.density = 8960.0, m.youngs_modulus = 124e9, m.poisson = 0.34, m.specific_heat = 383.0;
+    m.reference_temperature = 293.0, m.melting_temperature = 1356.0;
+    m.yield_A = 90e6, m.hardening_B = 292e6, m.hardening_n = 0.31, m.rate_C = 0.025, m.softening_m = 1.09,
+    m.rate_0 = 1.0;
+    m.gruneisen = 2.02;
+    return m;
+}
+
+static void test_needs(void **state)
+{
+    (void)state;
+    material m = copper();
+    assert_int_equal(material_check(&m, MATERIAL_FOR_SCENE).code, STATUS_OK);
+    assert_int_equal(material_check(&m, 0).code, STATUS_OK);
+    const status damage = material_check(&m, MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE);
+    assert_int_equal(damage.code, STATUS_BAD_INPUT);
+    const char *const all[] = { "ofhc_copper", "damage_D1", "damage_D2", "damage_D3", "damage_D4", "damage_D5" };
+    for (int i = 0; i < 6; i++) assert_non_null(strstr(damage.text, all[i]));
+    assert_null(strstr(damage.text, "yield_A"));
+    assert_non_null(strstr(material_check(&m, MATERIAL_FOR_SCREEN).text, "hardness"));
+    assert_non_null(strstr(material_check(&m, MATERIAL_FOR_MELTING).text, "latent_heat"));
+    assert_non_null(strstr(material_check(&m, MATERIAL_FOR_CIRCUIT).text, "resistivity"));
+    m.poisson = 0.7;
+    assert_non_null(strstr(material_check(&m, MATERIAL_FOR_SCENE).text, "poisson"));
+    m = copper();
+    m.melting_temperature = 290.0;
+    assert_non_null(strstr(material_check(&m, MATERIAL_FOR_SCENE).text, "melting_temperature"));
+}
+
+/* Each constant alone, taken away from a complete material, is refused by name by some study; those that no study needs
+ * are listed here.  The whole list fits the message. */
+static void test_every_constant(void **state)
+{
+    (void)state;
+    const char *const free_of_need[] = { "conductivity", "taylor_quinney", "spall_strength", "resistivity_slope" };
+    const unsigned every =
+        MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE | MATERIAL_FOR_SCREEN | MATERIAL_FOR_MELTING | MATERIAL_FOR_CIRCUIT;
+    const material none = blank("empty");
+    const status bad = material_check(&none, every);
+    assert_int_equal(bad.code, STATUS_BAD_INPUT);
+    for (const param *p = material_params; p->key; p++) {
+        if (p->kind != PARAM_NUMBER) continue;
+        bool needed = true;
+        for (int i = 0; i < 4; i++) needed = needed && strcmp(free_of_need[i], p->key) != 0;
+        if ((strstr(bad.text, p->key) != NULL) != needed) fail_msg("%s: in the message or not? %s", p->key, bad.text);
+    }
+}
+
+/* OFHC copper by hand: K = 8960 x 3940^2 = 139.09 GPa, G = 124 / 2.68 = 46.269 GPa; 1e-4: the digits written here. */
+static void test_derived(void **state)
+{
+    (void)state;
+    const material m = copper();
+    assert_near(material_bulk_modulus(&m), 139.0915e9, 1e-4 * 139e9);
+    assert_near(material_shear_modulus(&m), 46.2687e9, 1e-4 * 46e9);
+    assert_near(material_longitudinal_speed(&m), 4733.5, 1e-4 * 4733.5);
+    assert_near(material_shear_speed(&m), 2272.4, 1e-4 * 2272.4);
+    const material none = blank("empty");
+    assert_true(isnan(material_shear_modulus(&none)) && isnan(material_bulk_modulus(&none)));
+}
+
+/* Every row of the table is well formed: a range, a text, a unit, and a member of its own. */
+static void test_param_table(void **state)
+{
+    (void)state;
+    size_t rows = 0;
+    for (const param *p = material_params; p->key; p++, rows++) {
+        assert_true(p->doc && p->unit && p->key[0]);
+        if (p->kind == PARAM_NUMBER) assert_true(p->min < p->max);
+        for (const param *q = material_params; q != p; q++)
+            assert_true(q->offset != p->offset && strcmp(q->key, p->key) != 0);
+    }
+    assert_int_equal(rows, 1 + (sizeof(material) - PARAM_TEXT_SIZE) / sizeof(double));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_table),       cmocka_unit_test(test_laws),    cmocka_unit_test(test_match_refuses),
+        cmocka_unit_test(test_needs),       cmocka_unit_test(test_derived), cmocka_unit_test(test_every_constant),
+        cmocka_unit_test(test_param_table),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
