@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # All tests.    ./test.sh          gcc, gcc with sanitizers, clang                            (minutes)
-#               ./test.sh --full   the long parts too, clang sanitizers, the portable build, the reader fuzzed with 10^6
-#                                  inputs, deliberate faults                                  (hours)
+#               ./test.sh --full   the long parts too with gcc and clang; all short parts with both sanitizer builds and
+#                                  the portable one; the reader fuzzed with 10^6 inputs; deliberate faults      (hours)
 # Installs missing Debian packages.  The last lines repeat the closing line of every ctest run.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -18,7 +18,6 @@ packages=("${packages_build[@]}" "${packages_test[@]}")
 if [ $full = 1 ]; then packages+=("${packages_full[@]}"); fi
 packages_install "${packages[@]}"
 
-export BREECH_FULL=$full
 export OMP_WAIT_POLICY=passive # tests share the machine
 export UBSAN_OPTIONS=print_stacktrace=1
 limit=$([ $full = 1 ] && echo 14400 || echo 600) # seconds a test may take
@@ -32,11 +31,12 @@ finish() # name, 0 or 1, text
     if [ "$2" != 0 ]; then failed=1; fi
 }
 
-# Configure, build, test one preset; further arguments go to ctest.
+# Configure, build, test one preset, long parts 0 or 1; further arguments go to ctest.
 stage()
 {
     local preset=$1 bad=0
-    shift
+    export BREECH_FULL=$2
+    shift 2
     printf '\n==== %s ====\n' "$preset"
     if ! { cmake --preset "$preset" >"$log" 2>&1 || { cat "$log" && false; }; } ||
         ! cmake --build --preset "$preset" --parallel "$(nproc)"; then
@@ -57,17 +57,16 @@ check()
     if "$@"; then finish "$name" 0 passed; else finish "$name" 1 FAILED; fi
 }
 
-stage release
+stage release $full
+stage clang-release $full
 if [ $full = 1 ]; then
-    stage debug
-    stage clang-release
-    stage clang-debug
-    stage portable
+    stage debug 0
+    stage clang-debug 0
+    stage portable 0
     check fuzz tests/fuzz.sh 1000000
     check mutants tests/mutants/run.sh
 else
-    stage debug --label-exclude slow
-    stage clang-release
+    stage debug 0 --label-exclude slow
 fi
 
 printf '\n==== closing lines, after %d s ====\n%s' $SECONDS "$closing"
