@@ -15,5 +15,5 @@ for target in "${targets[@]}"; do
     corpus=build/fuzz/corpus/$name
     mkdir -p "$corpus"
     seeds=(tests/fuzz/seeds/"$name")
-    "$target" -runs="$inputs" -max_len=8192 -print_final_stats=1 -artifact_prefix=build/fuzz/ "$corpus" "${seeds[@]}"
+    "$target" -runs="$inputs" -max_len=8192 -timeout=10 -print_final_stats=1 -artifact_prefix=build/fuzz/ "$corpus" "${seeds[@]}"
 done
