@@ -1,6 +1,8 @@
 /* history.h5: time series and maps of a run, every dataset with `units` and `description`.
  *
  *   /shot/<column>                  the shot, a row a sample
+ *   /shot/modules/<column>          currents and voltages of the bank's groups
+ *   /shot/events/<column>           what happened when
  *   /scene/<name>/<column>          one scene, a row a sample
  *   /scene/<name>/crater/depth      the crater's map [m], with x, z, and the crater's numbers as attributes
  * The file on disk is always complete: rows gather in memory, history_flush puts the whole file there at once. */
@@ -24,8 +26,8 @@ typedef struct {
 /* resume: take up the file that is there (a new one when there is none); else an older file is replaced at the first flush. */
 status history_open(const char *path, bool resume, history **out);
 
-/* A group of columns ("/shot", "/scene/a"); appended to when it is there.  columns: n, borrowed until close.  The first
- * column is the time.  At most 32 series are open at once; opening the same group again gives the same series. */
+/* A group of columns ("/shot", "/scene/a"); appended to when it is there.  columns: n, copied.  The first column is the
+ * time.  At most HISTORY_MAX_SERIES are open at once; opening the same group again gives the same series. */
 status history_series(history *h, const char *group, const history_column *columns, int n, int *series);
 status history_append(history *h, int series, const double *row);
 /* Drops the rows later than `time`: for a run that goes on from a checkpoint. */
@@ -44,10 +46,15 @@ status history_crater(history *h, const char *scene, const crater *c);
 
 /* ---- the rows of Breech's own series ---- */
 
-enum { HISTORY_MAX_COLUMNS = 40 };
-extern const history_column history_shot_columns[], history_scene_columns[];
-extern const int history_shot_width, history_scene_width;
+enum { HISTORY_MAX_COLUMNS = 256, HISTORY_MAX_SERIES = 32 };
+
+status history_shot(history *h, int *series); /* /shot */
 void history_shot_row(const shot_state *s, double *row);
+status history_events(history *h, int *series); /* /shot/events */
+void history_event_row(const shot_event *e, double *row);
+status history_modules(history *h, const shot *s, int *series); /* /shot/modules: as many groups as fit */
+void history_modules_row(const shot *s, double *row);
+status history_scene(history *h, const char *scene, int *series); /* /scene/<name> */
 void history_scene_row(const mpm_report *r, const mpm_ledger *l, double *row);
 
 #endif

@@ -19,19 +19,11 @@
 
 enum { SUMMARY_NAME_SIZE = 96 };
 
+/* The shot, and what it took. */
 typedef struct {
-    double peak_current;      /* in the armature [A] */
-    double muzzle_velocity;   /* [m/s]; NaN: it did not leave */
-    double muzzle_time;       /* [s] */
-    double muzzle_energy;     /* kinetic [J] */
-    double efficiency;        /* muzzle energy over the energy stored at start [1] */
-    double action;            /* integral of I^2 [A2 s] */
-    double peak_acceleration; /* [m/s2] */
-    double exit_current;      /* [A] */
-    double energy_error;      /* over the energy stored at start [1] */
-    uint64_t steps;
+    shot_summary is;
     double wall_seconds; /* [s] */
-} shot_result;
+} shot_record;
 
 /* One scene, full model: forces and volumes with the mirror half. */
 typedef struct {
@@ -145,7 +137,7 @@ typedef struct {
     run_status status;
     const char *error;    /* NULL when there is none */
     const char *warnings; /* a line each, NULL or "" when there are none */
-    const shot_result *shot;
+    const shot_record *shot;
     const scene_result *scene;
     const onset_result *onset;
     const compare_result *compare;
@@ -165,8 +157,6 @@ void summary_print(const run_summary *s, FILE *out);
 void summary_print_keys(FILE *out);
 
 /* ---- from what the libraries say ---- */
-
-shot_result shot_result_of(const shot_summary *s, double wall_seconds);
 
 typedef struct {
     const mpm_scene *scene;
