@@ -20,10 +20,11 @@ enum { CASE_PATH_SIZE = 512 };
 
 /* What a command does with the case (a sum): sections and material constants it needs must be there. */
 enum {
-    CASE_FOR_SHOT = 1,       /* bank, rails, barrel, armature */
-    CASE_FOR_SCENE = 2,      /* rail, projectile, particle, scene; scene.velocity, particle.radius; the materials for a scene */
-    CASE_FOR_ONSET = 4,      /* the shot, the scene but for its velocity, sites; the materials for screen and scene */
-    CASE_FOR_INDUCTANCE = 8  /* rails */
+    CASE_FOR_SHOT = 1, /* bank, rails, barrel, armature */
+    CASE_FOR_SCENE =
+        2, /* rail, projectile, particle, scene; scene.velocity, particle.radius; the materials for a scene */
+    CASE_FOR_ONSET = 4,     /* the shot, the scene but for its velocity, sites; the materials for screen and scene */
+    CASE_FOR_INDUCTANCE = 8 /* rails */
 };
 
 /* A layer of the rail's surface, the first in the list at the bottom. */
@@ -62,11 +63,11 @@ typedef struct {
 
 /* What a site does not say itself; the grain of `breech scene`. */
 typedef struct {
-    double radius;        /* [m], NAN: not given */
-    double height;        /* [m], resolved to the radius when not given */
+    double radius; /* [m], NAN: not given */
+    double height; /* [m], resolved to the radius when not given */
     char shape[PARAM_TEXT_SIZE];
     char material[PARAM_TEXT_SIZE]; /* resolved to the rail's when not given */
-    double bond_strength; /* to the rail [Pa]; NAN: welded for good */
+    double bond_strength;           /* to the rail [Pa]; NAN: welded for good */
 } case_particle;
 
 /* A grain on the rail; all but the position resolved from `particle` where not given. */
@@ -86,43 +87,44 @@ typedef struct {
 
 /* How a scene is built and run.  Extents that are NAN are chosen by the hand-off from the grain's radius. */
 typedef struct {
-    double velocity;         /* of `breech scene`; onset takes the shot's [m/s] */
-    double contact_pressure; /* NAN: the shot's, or zero in `breech scene` [Pa] */
-    double friction;         /* Coulomb coefficient between armature, grain and rail [1] */
-    double shear_limit;      /* upper limit of the friction stress [Pa], NAN: none */
-    double cells_per_radius; /* fine cell = radius / this [1] */
-    double coarse_cell;      /* largest cell [m] */
-    double growth;           /* ratio of neighbouring cells outside the fine zone [1] */
-    double fine_ahead, fine_behind;  /* ends of the fine zone, from the grain's middle along x [m] */
-    double fine_depth, fine_above;   /* below and above the rail's surface [m] */
-    double fine_width;       /* of the full fine zone across the rail [m] */
-    double rail_ahead, rail_behind;  /* ends of the rail modelled, from the grain's middle [m] */
-    double rail_depth;       /* [m] */
-    double rail_width;       /* full; NAN: the projectile's [m] */
-    double end_time;         /* NAN: from the lengths and the velocity [s] */
-    bool stop_when_settled;  /* stop once the crater no longer changes */
-    double courant;          /* of c + |v| [1] */
+    double velocity;                /* of `breech scene`; onset takes the shot's [m/s] */
+    double contact_pressure;        /* NAN: the shot's, or zero in `breech scene` [Pa] */
+    double friction;                /* Coulomb coefficient between armature, grain and rail [1] */
+    double shear_limit;             /* upper limit of the friction stress [Pa], NAN: none */
+    double contact_gap;             /* bodies touch when nearer than this, NAN: the solver's own [cells] */
+    double cells_per_radius;        /* fine cell = radius / this [1] */
+    double coarse_cell;             /* largest cell [m] */
+    double growth;                  /* ratio of neighbouring cells outside the fine zone [1] */
+    double fine_ahead, fine_behind; /* ends of the fine zone, from the grain's middle along x [m] */
+    double fine_depth, fine_above;  /* below and above the rail's surface [m] */
+    double fine_width;              /* of the full fine zone across the rail [m] */
+    double rail_ahead, rail_behind; /* ends of the rail modelled, from the grain's middle [m] */
+    double rail_depth;              /* [m] */
+    double rail_width;              /* full; NAN: the projectile's [m] */
+    double end_time;                /* NAN: from the lengths and the velocity [s] */
+    bool stop_when_settled;         /* stop once the crater no longer changes */
+    double courant;                 /* of c + |v| [1] */
     double viscosity_linear, viscosity_quadratic; /* (M-5) [1] */
-    int transfer;            /* transfer_kind of mpm/scene.h */
-    int basis;               /* basis_kind of mpm/scene.h */
+    int transfer;                                 /* transfer_kind of mpm/scene.h */
+    int basis;                                    /* basis_kind of mpm/scene.h */
     int particles_per_axis;
-    bool volume_averaging;   /* F-bar */
+    bool volume_averaging;     /* F-bar */
     bool heat_by_plastic_work; /* (M-4) option `plastic` */
-    bool damage;             /* Johnson-Cook damage in all bodies */
-    bool half_model;         /* only z >= 0, mirrored */
-    double limit_widening;   /* of the class gouge [1] */
-    double limit_severity;   /* of the class gouge [1] */
+    bool damage;               /* Johnson-Cook damage in all bodies */
+    bool half_model;           /* only z >= 0, mirrored */
+    double limit_widening;     /* of the class gouge [1] */
+    double limit_severity;     /* of the class gouge [1] */
 } case_scene;
 
 /* The search for where gouging begins. */
 typedef struct {
-    double velocity_interval;          /* wanted width of the threshold's interval over its middle [1] */
-    double position_interval;          /* wanted width of the onset's interval over the barrel's length [1] */
+    double velocity_interval;           /* wanted width of the threshold's interval over its middle [1] */
+    double position_interval;           /* wanted width of the onset's interval over the barrel's length [1] */
     double velocity_low, velocity_high; /* where the search may look [m/s] */
     int max_scenes;
-    double screen_low, screen_high;    /* band of impact pressure over hardness: below no scene is needed [1] */
+    double screen_low, screen_high; /* band of impact pressure over hardness: below no scene is needed [1] */
     double coarse_cells_per_radius, fine_cells_per_radius; /* [1] */
-    bool feedback;                     /* a gouge's impulse and mass loss go back into the shot */
+    bool feedback;                                         /* a gouge's impulse and mass loss go back into the shot */
 } case_study;
 
 typedef struct {
@@ -169,7 +171,8 @@ typedef struct {
 } breech_case;
 
 typedef struct {
-    const char *const *material_dirs; /* looked through in order, after the case's own `materials` and its folder; borrowed */
+    const char *const
+        *material_dirs; /* looked through in order, after the case's own `materials` and its folder; borrowed */
     int n_material_dirs;
     unsigned needs; /* sum of CASE_FOR_... */
 } case_options;

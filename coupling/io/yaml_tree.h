@@ -1,0 +1,50 @@
+/* A YAML text as a small tree of nodes that know where they stand; the only file that knows libyaml.
+ *
+ * Robust to any bytes: size, depth, number of nodes and keys are limited.  Anchors, aliases, tags, several documents,
+ * duplicate keys, keys that are not plain words and control characters are errors with a position.
+ * tree_set puts a value from the command line into the tree, so that it is checked like the rest. */
+#ifndef BREECH_COUPLING_YAML_TREE_H
+#define BREECH_COUPLING_YAML_TREE_H
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum {
+    TREE_MAX_BYTES = 1 << 20,
+    TREE_MAX_DEPTH = 10,
+    TREE_MAX_NODES = 200000,
+    TREE_MAX_KEYS = 256, /* of one mapping */
+    TREE_MAX_TEXT = 1000 /* bytes of one value */
+};
+
+typedef enum { TREE_TEXT, TREE_MAP, TREE_LIST } tree_kind;
+
+typedef struct tree_node {
+    tree_kind kind;
+    int line, column;        /* from 1 */
+    int set;                 /* the --set it comes from, -1: the file */
+    bool quoted;             /* TREE_TEXT */
+    char *text;              /* TREE_TEXT: owned, no NUL inside */
+    int n;                   /* entries of a map or a list */
+    struct tree_node **key;  /* TREE_MAP: n TREE_TEXT nodes, owned */
+    struct tree_node **item; /* n values, owned */
+} tree_node;
+
+/* On STATUS_BAD_INPUT the text has no position: *line and *column hold it. */
+status tree_parse(const char *bytes, size_t length, tree_node **out, int *line, int *column);
+
+/* "path.to.key=value": path through lists as bank[1].charge (from 0), bank.charge = all entries.  A value that begins
+ * with [ { or a quote is YAML, any other is taken as it stands.  Sections that are missing on the way are made. */
+status tree_set(tree_node **root, const char *assignment, int set);
+
+void tree_free(tree_node *node); /* NULL allowed */
+
+/* Value of `key` in a map; NULL if it is not there or `map` is NULL or no map. */
+const tree_node *tree_find(const tree_node *map, const char *key);
+
+/* A plain text with nothing in it: `key:` or ~. */
+bool tree_is_empty(const tree_node *node);
+
+#endif
