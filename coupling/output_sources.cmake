@@ -1,3 +1,4 @@
 # Output: summary, history, snapshots, checkpoints, progress, report (included by coupling/CMakeLists.txt)
-set(COUPLING_OUTPUT_SOURCES io/checkpoint.c io/hdf5_file.c io/history.c io/outdir.c io/progress.c 
-                            io/snapshot.c io/snapshot_mpm.c io/stop.c io/summary.c io/table.c)
+set(COUPLING_OUTPUT_SOURCES io/checkpoint.c io/hdf5_file.c io/history.c io/outdir.c io/progress.c io/report.c
+                            io/report_map.c io/report_plots.c io/snapshot.c io/snapshot_mpm.c io/stop.c io/summary.c
+                            io/table.c)

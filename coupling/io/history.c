@@ -197,9 +197,11 @@ static status crater_numbers(history *h, const char *group, const crater *c)
         const char *name;
         double value;
     } numbers[] = {
-        { "severity", c->severity }, { "widening", c->widening },       { "length_m", c->length },
-        { "width_m", c->width },     { "depth_m", c->depth },           { "volume_m3", c->volume },
-        { "rim_x_m", c->rim_x },     { "rim_height_m", c->rim_height }, { "deepest_x_m", c->deepest_x },
+        { "severity", c->severity },     { "widening", c->widening },
+        { "length_m", c->length },       { "width_m", c->width },
+        { "depth_m", c->depth },         { "volume_m3", c->volume },
+        { "rim_x_m", c->rim_x },         { "rim_height_m", c->rim_height },
+        { "deepest_x_m", c->deepest_x }, { "measuring_depth_m", c->measuring_depth },
     };
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         TRY(h5_attribute_double(h->file, group, numbers[i].name, numbers[i].value));
@@ -210,6 +212,8 @@ static status crater_numbers(history *h, const char *group, const crater *c)
 status history_crater(history *h, const char *scene, const crater *c)
 {
     char group[GROUP_SIZE], path[PATH_SIZE];
+    CHECK(name_is_plain(scene) && strlen(scene) < 150, STATUS_BAD_INPUT, "scene `%.100s`: letters, digits, - _ . only",
+          scene);
     snprintf(group, sizeof group, "/scene/%.150s/crater", scene);
     TRY(h5_group(h->file, group));
     snprintf(path, sizeof path, "%s/x", group);
@@ -327,7 +331,8 @@ status history_scene(history *h, const char *scene, int *series)
 {
     char group[GROUP_SIZE];
     const int n = snprintf(group, sizeof group, "/scene/%s", scene);
-    CHECK(n > 0 && n < GROUP_SIZE - 20 && !strchr(scene, '/'), STATUS_BAD_INPUT, "%.100s: no name for a scene", scene);
+    CHECK(n > 0 && n < GROUP_SIZE - 20 && name_is_plain(scene), STATUS_BAD_INPUT,
+          "scene `%.100s`: letters, digits, - _ . only, at most 170", scene);
     return history_series(h, group, scene_columns, WIDTH(scene_columns), series);
 }
 

@@ -240,9 +240,18 @@ status outdir_file(const outdir *d, const char *name, char *path, size_t size)
     return path_join(d->path, name, path, size);
 }
 
+bool name_is_plain(const char *name)
+{
+    if (name[0] == '\0' || name[0] == '.') return false;
+    for (; *name; name++)
+        if (!isalnum((unsigned char)*name) && !strchr("-_.", *name)) return false;
+    return true;
+}
+
 status outdir_scene(const outdir *d, const char *scene, char *path, size_t size)
 {
     char scenes[OUTDIR_PATH_SIZE];
+    CHECK(name_is_plain(scene), STATUS_BAD_INPUT, "scene `%.100s`: letters, digits, - _ . only", scene);
     TRY(path_join(d->path, "scenes", scenes, sizeof scenes));
     TRY(path_join(scenes, scene, path, size));
     return make_directories(path);

@@ -48,7 +48,9 @@ void outdir_close(outdir *d);
 
 /* DIR/name into path. */
 status outdir_file(const outdir *d, const char *name, char *path, size_t size);
-/* DIR/scenes/<scene>, made when missing. */
+/* A name that files, HDF5 groups and scripts take as it is: letters, digits, - _ . and no leading dot. */
+bool name_is_plain(const char *name);
+/* DIR/scenes/<scene>, made when missing; scene must be a plain name. */
 status outdir_scene(const outdir *d, const char *scene, char *path, size_t size);
 
 /* ---- a file appears at once or not at all ---- */

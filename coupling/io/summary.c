@@ -105,6 +105,7 @@ static const summary_key scene_keys[] = {
     NUMBER(scene_result, "crater_volume", crater_volume, "m3", "below the surface"),
     NUMBER(scene_result, "rim_height", rim_height, "m", "highest above the surface"),
     NUMBER(scene_result, "widening", widening, "1", "width of the downstream third over the upstream third"),
+    VALUE(scene_result, KEY_FLAG, "crater_truncated", crater_truncated, "", "reaches the map's edge: length, volume are lower bounds"),
     NUMBER(scene_result, "peak_pressure", peak_pressure, "Pa", "of any particle at any time"),
     VECTOR(scene_result, "peak_force", peak_force, 3, "N", "on the rail, full model"),
     NUMBER(scene_result, "peak_temperature", peak_temperature, "K", "of any particle at any time"),
@@ -531,7 +532,7 @@ static void take_crater(scene_result *r, const crater *c)
     snprintf(r->reason, sizeof r->reason, "the crater was not measured");
     if (!c) return;
     r->class = c->class;
-    memcpy(r->reason, c->reason, sizeof r->reason);
+    snprintf(r->reason, sizeof r->reason, "%s", c->reason);
     r->severity = c->severity;
     r->widening = c->widening;
     r->crater_length = c->length;
@@ -539,6 +540,7 @@ static void take_crater(scene_result *r, const crater *c)
     r->crater_depth = c->depth;
     r->crater_volume = c->volume;
     r->rim_height = c->rim_height;
+    r->crater_truncated = c->truncated;
 }
 
 /* The mirror half of a half model doubles what acts in its plane and cancels what acts across it. */

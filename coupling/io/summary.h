@@ -38,7 +38,8 @@ typedef struct {
     double peak_mises_armature, peak_mises_rail;                  /* [Pa] */
     double peak_mises_armature_999, peak_mises_rail_999;          /* 99.9th percentiles by mass [Pa] */
     double peak_pressure_armature_999, peak_pressure_rail_999;    /* [Pa] */
-    double momentum_error, energy_error;                          /* [1] */
+    bool crater_truncated; /* the crater reaches the edge of its map: length and volume are lower bounds */
+    double momentum_error, energy_error; /* [1] */
     int bodies;
     char body[MPM_MAX_BODIES][PARAM_TEXT_SIZE];
     double failed_volume[MPM_MAX_BODIES]; /* [m3] */
