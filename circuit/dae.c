@@ -38,11 +38,12 @@ static int roots(sunrealtype t, N_Vector y, N_Vector yp, sunrealtype *g, void *u
 
 static status failure(int flag, double t)
 {
-    char *name      = IDAGetReturnFlagName(flag);
-    const status st = status_error(STATUS_NUMERICAL,
-                                   "the circuit's integration failed at t = %.9g s (%s): try a larger options.rtol, and "
-                                   "check for zero inductances or extreme values",
-                                   t, name ? name : "unknown");
+    char *name = IDAGetReturnFlagName(flag);
+    const status st =
+        status_error(STATUS_NUMERICAL,
+                     "the circuit's integration failed at t = %.9g s (%s): try a larger options.rtol, and "
+                     "check for zero inductances or extreme values",
+                     t, name ? name : "unknown");
     free(name);
     return st;
 }
@@ -51,14 +52,14 @@ static status vectors_create(dae *d)
 {
     const int n = d->problem.n, n_roots = d->problem.n_roots;
     CHECK(SUNContext_Create(COMPAT_NO_COMM, &d->context) == 0, STATUS_MEMORY, "out of memory for the circuit's solver");
-    d->y            = N_VNew_Serial(n, d->context);
-    d->yp           = N_VNew_Serial(n, d->context);
-    d->atol         = N_VNew_Serial(n, d->context);
+    d->y = N_VNew_Serial(n, d->context);
+    d->yp = N_VNew_Serial(n, d->context);
+    d->atol = N_VNew_Serial(n, d->context);
     d->differential = N_VNew_Serial(n, d->context);
-    d->matrix       = SUNDenseMatrix(n, n, d->context);
-    d->direction    = calloc((size_t)n_roots + 1, sizeof *d->direction);
-    d->found        = calloc((size_t)n_roots + 1, sizeof *d->found);
-    d->ida          = IDACreate(d->context);
+    d->matrix = SUNDenseMatrix(n, n, d->context);
+    d->direction = calloc((size_t)n_roots + 1, sizeof *d->direction);
+    d->found = calloc((size_t)n_roots + 1, sizeof *d->found);
+    d->ida = IDACreate(d->context);
     CHECK(d->y && d->yp && d->atol && d->differential && d->matrix && d->direction && d->found && d->ida, STATUS_MEMORY,
           "out of memory for a circuit of %d unknowns", n);
     d->solver = SUNLinSol_Dense(d->y, d->matrix, d->context);
@@ -86,11 +87,11 @@ static status solver_create(dae *d)
 
 status dae_create(const dae_problem *problem, dae **out)
 {
-    *out   = NULL;
+    *out = NULL;
     dae *d = calloc(1, sizeof *d);
     CHECK(d, STATUS_MEMORY, "out of memory for the circuit's solver");
     d->problem = *problem;
-    status st  = vectors_create(d);
+    status st = vectors_create(d);
     if (st.code == STATUS_OK) st = solver_create(d);
     if (st.code != STATUS_OK) {
         dae_free(d);
@@ -148,7 +149,7 @@ const int *dae_found(const dae *d)
 
 status dae_restart(dae *d, double t, double rtol)
 {
-    d->t     = t;
+    d->t = t;
     int flag = IDAReInit(d->ida, t, d->y, d->yp);
     if (flag >= 0) flag = IDASVtolerances(d->ida, rtol, d->atol);
     if (flag >= 0) flag = IDASetId(d->ida, d->differential);

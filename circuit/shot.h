@@ -108,36 +108,36 @@ typedef struct {
 
 /* Where the energy is and went [J]. */
 typedef struct {
-    double start;                                         /* capacitors and motion at t = 0 */
-    double capacitors, coils, cables, rails_field;        /* stored now */
-    double kinetic;                                       /* armature now (at exit once it has left) */
-    double coil_heat, cable_heat, crowbar_heat;           /* so far, as all below */
-    double rails_heat, armature_heat, contact_heat;       /* contact_heat = contact voltage x current */
-    double friction, drag, muzzle;                        /* muzzle: shunt or arc after exit */
-    double wear;                                          /* motion of the metal worn off */
-    double jumps;                                         /* taken by shot_jump */
-    double momentum_jumps;                                /* impulse taken by shot_jump [N s] */
-    double mass_jumps;                                    /* mass taken by shot_jump [kg] */
-    double energy_error;                                  /* (sum now + so far - start)/start; 0 if start is 0 [1] */
+    double start;                                   /* capacitors and motion at t = 0 */
+    double capacitors, coils, cables, rails_field;  /* stored now */
+    double kinetic;                                 /* armature now (at exit once it has left) */
+    double coil_heat, cable_heat, crowbar_heat;     /* so far, as all below */
+    double rails_heat, armature_heat, contact_heat; /* contact_heat = contact voltage x current */
+    double friction, drag, muzzle;                  /* muzzle: shunt or arc after exit */
+    double wear;                                    /* motion of the metal worn off */
+    double jumps;                                   /* taken by shot_jump */
+    double momentum_jumps;                          /* impulse taken by shot_jump [N s] */
+    double mass_jumps;                              /* mass taken by shot_jump [kg] */
+    double energy_error;                            /* (sum now + so far - start)/start; 0 if start is 0 [1] */
 } shot_ledger;
 
 typedef enum { SHOT_HELD, SHOT_MOVING, SHOT_LEFT } shot_phase;
 
 /* Everything at one instant. */
 typedef struct {
-    double t, x, v, a;        /* [s, m, m/s, m/s^2]; x and v stay at their exit values after the muzzle */
-    double current;           /* of the rails [A] */
-    double breech_voltage;    /* [V] */
-    double muzzle_voltage;    /* between the rails ahead of the armature, then across the shunt [V] */
-    double force;             /* electromagnetic, 1/2 L' I^2 [N] */
-    double friction;          /* both faces [N] */
-    double drag;              /* gas [N] */
+    double t, x, v, a;           /* [s, m, m/s, m/s^2]; x and v stay at their exit values after the muzzle */
+    double current;              /* of the rails [A] */
+    double breech_voltage;       /* [V] */
+    double muzzle_voltage;       /* between the rails ahead of the armature, then across the shunt [V] */
+    double force;                /* electromagnetic, 1/2 L' I^2 [N] */
+    double friction;             /* both faces [N] */
+    double drag;                 /* gas [N] */
     double friction_coefficient; /* mu(v) [1] */
-    double contact_force;     /* per rail face [N] */
-    double contact_pressure;  /* contact_force over contact_length x contact_width [Pa] */
-    double action;            /* integral of I^2 dt [A^2 s] */
-    double mass;              /* of the armature now [kg] */
-    double rail_temperature;  /* just ahead of the armature: as before the shot [K] */
+    double contact_force;        /* per rail face [N] */
+    double contact_pressure;     /* contact_force over contact_length x contact_width [Pa] */
+    double action;               /* integral of I^2 dt [A^2 s] */
+    double mass;                 /* of the armature now [kg] */
+    double rail_temperature;     /* just ahead of the armature: as before the shot [K] */
     double armature_temperature; /* of the contact face, estimate (C-7), at most melting [K] */
     double inductance_gradient, resistance_gradient; /* in use [H/m, ohm/m] */
     shot_phase phase;
@@ -145,14 +145,14 @@ typedef struct {
 } shot_state;
 
 typedef enum {
-    SHOT_FIRED,     /* group `index` conducts (index 0 .. n_modules - 1) */
-    SHOT_WAITING,   /* group `index` was fired but its voltage is below the breech's: conducts once it is not */
-    SHOT_CROWBAR,   /* diode of group `index` conducts */
-    SHOT_BLOCKED,   /* thyristor of group `index` blocks for good */
-    SHOT_RELEASED,  /* the armature starts to move */
-    SHOT_STOPPED,   /* the armature came to rest inside the barrel */
-    SHOT_SITE,      /* site `index` (in the order given) is passed */
-    SHOT_MUZZLE,    /* the armature leaves */
+    SHOT_FIRED,    /* group `index` conducts (index 0 .. n_modules - 1) */
+    SHOT_WAITING,  /* group `index` was fired but its voltage is below the breech's: conducts once it is not */
+    SHOT_CROWBAR,  /* diode of group `index` conducts */
+    SHOT_BLOCKED,  /* thyristor of group `index` blocks for good */
+    SHOT_RELEASED, /* the armature starts to move */
+    SHOT_STOPPED,  /* the armature came to rest inside the barrel */
+    SHOT_SITE,     /* site `index` (in the order given) is passed */
+    SHOT_MUZZLE,   /* the armature leaves */
     SHOT_EVENT_COUNT
 } shot_event_kind;
 extern const char *const shot_event_names[]; /* "fired", "waiting", ..., NULL */
@@ -170,7 +170,7 @@ typedef struct shot shot; /* owns all its memory */
 typedef struct {
     bool (*event)(void *user, shot *s, const shot_event *e);
     bool (*sample)(void *user, const shot *s, const shot_state *state); /* first call, every accepted step */
-    void *user;                                                        /* borrowed */
+    void *user;                                                         /* borrowed */
 } shot_sink;
 
 /* The keys of summary.json (ARCHITECTURE.md).  NAN where the armature has not left. */
@@ -184,7 +184,7 @@ typedef struct {
     double peak_acceleration; /* [m/s^2] */
     double exit_current;      /* [A] */
     double energy_error;      /* over the energy at the start [1] */
-    uint64_t steps;
+    uint64_t steps;           /* accepted steps and located instants */
 } shot_summary;
 
 /* STATUS_BAD_INPUT names the parameter, its value, unit and range.  Caller frees *out with shot_free. */

@@ -2,7 +2,7 @@
 #include "circuit/shot.h"
 
 const char *const shot_rail_level_names[] = { "constant", "skin", NULL };
-const char *const shot_event_names[] = { "fired",    "waiting", "crowbar", "blocked", "released",
+const char *const shot_event_names[] = { "fired",   "waiting", "crowbar", "blocked", "released",
                                          "stopped", "site",    "muzzle",  NULL };
 
 #define MODULE(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_module, member, unit, fallback, min, max, doc)
@@ -22,7 +22,8 @@ const param shot_module_params[] = {
     MODULE(cable_resistance, "ohm", 0.0, 0.0, 1e3, "resistance of the cable to the breech"),
     MODULE(crowbar_drop, "V", 0.0, 0.0, 1e3, "forward drop of the crowbar diode"),
     MODULE(crowbar_resistance, "ohm", 0.0, 0.0, 1e3, "slope resistance of the crowbar diode"),
-    MODULE(fire_at, "s", 0.0, 0.0, INFINITY, "instant at which the thyristor is fired; beyond options.max_time = never"),
+    MODULE(fire_at, "s", 0.0, 0.0, INFINITY,
+           "instant at which the thyristor is fired; beyond options.max_time = never"),
     PARAMS_END
 };
 
@@ -44,9 +45,9 @@ const param shot_rails_params[] = {
 const param shot_barrel_params[] = {
     BARREL(length, "m", REQUIRED, 1e-3, 1e3, "breech to muzzle"),
     BARREL(start, "m", 0.05, 0.0, 1e3, "position of the armature's current path at t = 0"),
-    BARREL(muzzle_resistance, "ohm", 1e-3, 0.0, 1e3, "resistance of the shunt or arc that takes the current after exit"),
-    BARREL(muzzle_voltage, "V", 0.0, 0.0, 1e5, "constant voltage of the muzzle arc; 0 for a shunt"),
-    PARAMS_END
+    BARREL(muzzle_resistance, "ohm", 1e-3, 0.0, 1e3,
+           "resistance of the shunt or arc that takes the current after exit"),
+    BARREL(muzzle_voltage, "V", 0.0, 0.0, 1e5, "constant voltage of the muzzle arc; 0 for a shunt"), PARAMS_END
 };
 
 const param shot_armature_params[] = {
@@ -79,6 +80,5 @@ const param shot_armature_params[] = {
 const param shot_options_params[] = {
     OPTIONS(rtol, "1", 1e-8, 1e-13, 1e-2, "relative tolerance of the integration"),
     OPTIONS(atol, "1", 1e-10, 1e-16, 1e-3, "absolute tolerance as a share of each quantity's scale"),
-    OPTIONS(max_time, "s", 0.1, 1e-9, 1e3, "the shot is not followed beyond this time"),
-    PARAMS_END
+    OPTIONS(max_time, "s", 0.1, 1e-9, 1e3, "the shot is not followed beyond this time"), PARAMS_END
 };
