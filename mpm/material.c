@@ -129,7 +129,7 @@ double material_shear_speed(const material *m)
 }
 
 /* With the flyer's rho_f, c_f, s_f, the target's rho_t, c_t, s_t and the target's particle velocity u,
- *   p = rho_t (c_t + s_t u) u = rho_f (c_f + s_f (v - u)) (v - u)                         (M-7) [Pa]
+ *   p = rho_t (c_t + s_t u) u = rho_f (c_f + s_f (v - u)) (v - u)                         (M-22) [Pa]
  * is a u^2 + b u - d = 0; at u = 0 its left side is -d < 0 and at u = v it is the target's p > 0, so one root lies
  * between; the form below finds it without cancellation for either sign of a. */
 status impedance_match(const material *flyer, const material *target, double velocity, double *p, double *u_target)

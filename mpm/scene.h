@@ -75,7 +75,7 @@ typedef struct {
     double bond_strength;  /* welded until the traction exceeds it [Pa], 0 = never bonded */
 } contact_law;
 
-typedef enum { TRANSFER_TPIC, TRANSFER_FLIP, TRANSFER_PIC } transfer_kind;
+typedef enum { TRANSFER_TPIC, TRANSFER_PIC } transfer_kind; /* with and without the velocity gradient */
 typedef enum { BASIS_GIMP, BASIS_BSPLINE } basis_kind; /* GIMP whose domains follow the stretch; quadratic B-spline */
 
 typedef struct {
@@ -83,6 +83,7 @@ typedef struct {
     mpm_body body[MPM_MAX_BODIES];
     mpm_axis axis[3];
     contact_law contact[MPM_MAX_FIELDS][MPM_MAX_FIELDS]; /* symmetric */
+    double contact_gap;           /* fields touch when the distance of their points' means at a node is below this [cells] */
     int particles_per_axis;       /* material points a cell and axis, 2 or 3 */
     double courant;               /* of c + |v| */
     double end_time;              /* [s] */
@@ -91,6 +92,7 @@ typedef struct {
     basis_kind basis;
     bool heat_by_plastic_work;    /* option `plastic` of (M-4); default false: by energy */
     bool volume_averaging;        /* F-bar: volume change averaged over the cell */
+    char instruction_set[PARAM_TEXT_SIZE]; /* "" = the best this machine has */
 } mpm_scene;
 
 /* All members at their defaults, no bodies. */

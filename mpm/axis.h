@@ -1,0 +1,37 @@
+/* One axis of the rectilinear grid: node positions, graded outside a fine zone.
+ *
+ * Node 1 lies on the window's lower end, node `last` on its upper end; nodes 0 and last + 1 are ghosts beyond them.
+ * The cell of a node reaches half-way to its neighbours: a particle in the cell of node i sees nodes i-1, i, i+1. */
+#ifndef BREECH_MPM_AXIS_H
+#define BREECH_MPM_AXIS_H
+
+#include "mpm/scene.h"
+
+typedef struct {
+    int last;      /* index of the node on the upper end */
+    int bricks;    /* bricks of 4 nodes that hold nodes 0 .. last + 1 */
+    double *node;  /* [4 bricks] positions [m], owned */
+    double *edge;  /* [4 bricks + 1] edge[i] .. edge[i+1] is the cell of node i [m], owned */
+    double smallest; /* smallest spacing [m] */
+} axis;
+
+status axis_make(const mpm_axis *spec, char letter, axis *out);
+void axis_free(axis *a);
+
+/* The node whose cell holds x (1 .. last), or 0 below and last + 1 above the window's cells. */
+int axis_locate(const axis *a, double x);
+
+/* Element sizes beside node i. */
+static inline double axis_left(const axis *a, int i)
+{
+    return a->node[i] - a->node[i - 1];
+}
+static inline double axis_right(const axis *a, int i)
+{
+    return a->node[i + 1] - a->node[i];
+}
+
+/* Grid spacing at x [m]. */
+double axis_spacing(const axis *a, double x);
+
+#endif

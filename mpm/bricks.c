@@ -1,0 +1,275 @@
+/* Bricks and blocks: making, finding, linking.  Nothing here runs in the middle of a step but store_insert. */
+#include "mpm/store.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void *aligned(size_t bytes)
+{
+    return aligned_alloc(64, (bytes + 63) / 64 * 64);
+}
+
+/* A bigger, 64-byte aligned array with the old content; NULL and the old one untouched when memory is short. */
+static void *enlarge(void *old, size_t old_bytes, size_t bytes)
+{
+    void *fresh = aligned(bytes);
+    if (!fresh) return NULL;
+    if (old) memcpy(fresh, old, old_bytes);
+    free(old);
+    return fresh;
+}
+
+static void chain_free_blocks(mpm *m, int first)
+{
+    for (int i = m->blocks_capacity - 1; i >= first; i--) {
+        m->links[i] = (block_link){ .next = m->free_head };
+        m->free_head = i;
+        m->blocks_free++;
+    }
+}
+
+static status grow_blocks(mpm *m, int capacity)
+{
+    const size_t old = (size_t)m->blocks_capacity;
+    block *b         = enlarge(m->blocks, old * sizeof(block), (size_t)capacity * sizeof(block));
+    CHECK(b, STATUS_MEMORY, "no memory for %d particle blocks (%.1f GB): use larger cells", capacity,
+          1e-9 * capacity * (double)sizeof(block));
+    m->blocks     = b;
+    block_link *l = enlarge(m->links, old * sizeof(block_link), (size_t)capacity * sizeof(block_link));
+    CHECK(l, STATUS_MEMORY, "no memory for %d particle blocks", capacity);
+    m->links           = l;
+    m->blocks_capacity = capacity;
+    chain_free_blocks(m, (int)old);
+    return status_ok();
+}
+
+status store_make(mpm *m, int blocks)
+{
+    m->free_head = -1;
+    m->sites     = m->axes[0].bricks * m->axes[1].bricks * m->axes[2].bricks;
+    m->directory = malloc((size_t)m->fields * (size_t)m->sites * sizeof(int));
+    m->site_list = malloc((size_t)m->sites * sizeof(int));
+    m->site_sum  = malloc((size_t)m->sites * sizeof(tally));
+    CHECK(m->directory && m->site_list && m->site_sum, STATUS_MEMORY, "no memory for a window of %d bricks", m->sites);
+    for (int i = 0; i < m->fields * m->sites; i++) m->directory[i] = -1;
+    return grow_blocks(m, blocks);
+}
+
+static void free_brick(brick *b)
+{
+    free(b->out);
+    free(b->out_contact);
+    free(b->node);
+}
+
+void store_free(mpm *m)
+{
+    for (int i = 0; i < m->bricks_used; i++) free_brick(&m->bricks[i]);
+    for (int t = 0; t < MPM_MAX_THREADS; t++) {
+        free(m->movers[t].head);
+        free(m->movers[t].data);
+    }
+    free(m->bricks);
+    free(m->directory);
+    free(m->site_list);
+    free(m->site_sum);
+    free(m->blocks);
+    free(m->links);
+}
+
+static status grow_bricks(mpm *m)
+{
+    if (m->bricks_used < m->bricks_capacity) return status_ok();
+    const int capacity = m->bricks_capacity ? 2 * m->bricks_capacity : 256;
+    brick *b = enlarge(m->bricks, (size_t)m->bricks_used * sizeof(brick), (size_t)capacity * sizeof(brick));
+    CHECK(b, STATUS_MEMORY, "no memory for %d bricks", capacity);
+    m->bricks          = b;
+    m->bricks_capacity = capacity;
+    return status_ok();
+}
+
+status store_brick(mpm *m, int field, const int at[3], int *out)
+{
+    const int site = site_index(m, at[0], at[1], at[2]);
+    int *slot      = &m->directory[field * m->sites + site];
+    if (*slot < 0) {
+        TRY(grow_bricks(m));
+        brick *b = &m->bricks[m->bricks_used];
+        memset(b, 0, sizeof *b);
+        b->field = field;
+        b->site  = site;
+        memcpy(b->at, at, sizeof b->at);
+        for (int c = 0; c < BRICK_CELLS; c++) b->head[c] = -1;
+        b->node = aligned(BRICK_CELLS * sizeof *b->node);
+        CHECK(b->node, STATUS_MEMORY, "no memory for a brick");
+        memset(b->node, 0, BRICK_CELLS * sizeof *b->node);
+        *slot = m->bricks_used++;
+    }
+    *out = *slot;
+    return status_ok();
+}
+
+static bool step_inside(const mpm *m, const int at[3], int step, int to[3])
+{
+    const int d[3] = { step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1 };
+    for (int k = 0; k < 3; k++) {
+        to[k] = at[k] + d[k];
+        if (to[k] < 0 || to[k] >= m->axes[k].bricks) return false;
+    }
+    return true;
+}
+
+status store_surround(mpm *m, int brick_index)
+{
+    for (int step = 0; step < NEIGHBOURS; step++) {
+        int to[3], found;
+        const brick *b = &m->bricks[brick_index];
+        if (step_inside(m, b->at, step, to)) TRY(store_brick(m, b->field, to, &found));
+    }
+    brick *b = &m->bricks[brick_index];
+    if (!b->out) b->out = aligned(HALO_NODES * sizeof *b->out);
+    CHECK(b->out, STATUS_MEMORY, "no memory for a brick");
+    memset(b->out, 0, HALO_NODES * sizeof *b->out);
+    return status_ok();
+}
+
+/* Does another field have particles at this place or next door? */
+static bool meets_other(const mpm *m, const brick *b)
+{
+    for (int step = 0; step < NEIGHBOURS; step++) {
+        int to[3];
+        if (!step_inside(m, b->at, step, to)) continue;
+        for (int f = 0; f < m->fields; f++) {
+            const int other = m->directory[f * m->sites + site_index(m, to[0], to[1], to[2])];
+            if (f != b->field && other >= 0 && m->bricks[other].particles > 0) return true;
+        }
+    }
+    return false;
+}
+
+static void link_brick(mpm *m, brick *b)
+{
+    for (int step = 0; step < NEIGHBOURS; step++) {
+        int to[3];
+        b->neighbour[step] = step_inside(m, b->at, step, to)
+                                 ? m->directory[b->field * m->sites + site_index(m, to[0], to[1], to[2])]
+                                 : -1;
+    }
+    b->contact = meets_other(m, b);
+    if (b->contact && b->out && !b->out_contact) b->out_contact = aligned(HALO_NODES * sizeof *b->out_contact);
+}
+
+void store_relink(mpm *m)
+{
+    for (int i = 0; i < m->bricks_used; i++) link_brick(m, &m->bricks[i]);
+    m->site_count = 0;
+    for (int s = 0; s < m->sites; s++)
+        for (int f = 0; f < m->fields; f++)
+            if (m->directory[f * m->sites + s] >= 0) {
+                m->site_list[m->site_count++] = s;
+                break;
+            }
+}
+
+status store_reserve(mpm *m)
+{
+    const int wanted = 64 + m->blocks_capacity / 16;
+    if (m->blocks_free >= wanted) return status_ok();
+    return grow_blocks(m, m->blocks_capacity + m->blocks_capacity / 4 + wanted);
+}
+
+/* Values that let the kernels run over a hole without a trap. */
+static void block_clear(mpm *m, block *q, int body, const double *particle)
+{
+    double(*to)[LANES] = (double(*)[LANES])(void *)q;
+    for (int i = 0; i < BLOCK_DOUBLES; i++)
+        for (int l = 0; l < LANES; l++) to[i][l] = particle[i];
+    const law *k = &m->laws[body];
+    for (int l = 0; l < LANES; l++) {
+        q->mass[0][l] = q->p[0][l] = q->ep[0][l] = q->damage[0][l] = q->area[0][l] = q->ka[0][l] = 0;
+        q->e[0][l]   = k->e_start;
+        q->rho[0][l] = k->rho_start;
+        q->T[0][l]   = k->T_r;
+        for (int i = 0; i < 6; i++) q->s[i][l] = 0;
+        for (int i = 0; i < 9; i++) q->L[i][l] = 0;
+        for (int i = 0; i < 3; i++) q->v[i][l] = 0;
+    }
+}
+
+static int take_free_block(mpm *m)
+{
+    int i;
+#pragma omp critical(breech_blocks)
+    {
+        i = m->free_head;
+        if (i >= 0) {
+            m->free_head = m->links[i].next;
+            m->blocks_free--;
+        }
+    }
+    return i;
+}
+
+/* Follows one cycle of the permutation: the block at `first` goes to to[first], and so on round. */
+static void permute_cycle(mpm *m, int *to, int first)
+{
+    block held      = m->blocks[first];
+    block_link link = m->links[first];
+    int at          = first;
+    while (to[at] >= 0) {
+        const int next     = to[at];
+        const block b      = m->blocks[next];
+        const block_link l = m->links[next];
+        m->blocks[next] = held, m->links[next] = link;
+        held = b, link = l;
+        to[at] = -1;
+        at     = next;
+    }
+}
+
+status store_compact(mpm *m)
+{
+    int *to = malloc((size_t)m->blocks_capacity * sizeof *to), used = 0;
+    CHECK(to, STATUS_MEMORY, "no memory to sort %d blocks", m->blocks_capacity);
+    for (int i = 0; i < m->blocks_capacity; i++) to[i] = -1;
+    for (int s = 0; s < m->site_count; s++)
+        for (int f = 0; f < m->fields; f++) {
+            const int i = m->directory[f * m->sites + m->site_list[s]];
+            for (int c = 0; i >= 0 && c < BRICK_CELLS; c++)
+                for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) to[q] = used++;
+        }
+    int spare = used;
+    for (int i = 0; i < m->blocks_capacity; i++)
+        if (to[i] < 0) to[i] = spare++;
+    for (int i = 0; i < m->bricks_used; i++)
+        for (int c = 0; c < BRICK_CELLS; c++)
+            if (m->bricks[i].head[c] >= 0) m->bricks[i].head[c] = to[m->bricks[i].head[c]];
+    for (int i = 0; i < m->blocks_capacity; i++)
+        if (m->links[i].next >= 0) m->links[i].next = to[m->links[i].next];
+    for (int i = 0; i < m->blocks_capacity; i++)
+        if (to[i] >= 0) permute_cycle(m, to, i);
+    free(to);
+    m->free_head = -1, m->blocks_free = 0;
+    chain_free_blocks(m, used);
+    return status_ok();
+}
+
+int store_insert(mpm *m, brick *b, int cell, int body, const double *particle)
+{
+    int *link = &b->head[cell];
+    while (*link >= 0 && (m->links[*link].body != body || m->links[*link].mask == 0xff)) link = &m->links[*link].next;
+    if (*link < 0) {
+        const int fresh = take_free_block(m);
+        if (fresh < 0) return -1;
+        m->links[fresh] = (block_link){ .next = -1, .body = (uint8_t)body };
+        block_clear(m, &m->blocks[fresh], body, particle);
+        *link = fresh;
+        b->blocks++;
+    }
+    const int lane = __builtin_ctz(~(unsigned)m->links[*link].mask);
+    m->links[*link].mask |= (uint8_t)(1u << lane);
+    double(*to)[LANES] = (double(*)[LANES])(void *)&m->blocks[*link];
+    for (int i = 0; i < BLOCK_DOUBLES; i++) to[i][lane] = particle[i];
+    b->particles++;
+    return *link;
+}

@@ -1,0 +1,21 @@
+/* From bodies to material points. */
+#ifndef BREECH_MPM_BUILD_H
+#define BREECH_MPM_BUILD_H
+
+#include "mpm/axis.h"
+#include "mpm/law.h"
+
+typedef struct {
+    double x[3], v[3], half[3]; /* [m, m/s, m] */
+    double mass, area;          /* [kg]; face under the body's traction [m2] */
+} build_point;
+
+typedef struct {
+    status (*point)(void *user, int body, const build_point *p);
+    void *user; /* borrowed */
+} build_sink;
+
+/* Calls the sink for every material point of one body, in a fixed order. */
+status build_body(const mpm_scene *s, int body, const law *k, const axis axes[3], const build_sink *sink);
+
+#endif

@@ -1,0 +1,158 @@
+/* Shared by the files that are compiled once an instruction set: ISA(name) gives each its own symbol. */
+#ifndef BREECH_MPM_KERNELS_H
+#define BREECH_MPM_KERNELS_H
+
+#include "mpm/store.h"
+
+#ifndef BREECH_ISA
+#define BREECH_ISA portable
+#endif
+#define ISA_JOIN2(name, isa) name##_##isa
+#define ISA_JOIN(name, isa) ISA_JOIN2(name, isa)
+#define ISA(name) ISA_JOIN(name, BREECH_ISA)
+
+void ISA(p2g)(mpm *m, brick *b);
+void ISA(nodes)(mpm *m, int site);
+void ISA(g2p)(mpm *m, brick *b, int thread);
+
+/* The two elements beside the node of a cell along each axis. */
+typedef struct {
+    double x[3];       /* of the nodes before, at and after [m] */
+    double inv_left, inv_right; /* one over the element sizes [1/m] */
+    double widest;     /* largest half length of a domain [m] */
+    double cell;       /* size of the cell [m] */
+} cell_axis;
+
+LANE_INLINE cell_axis cell_axis_at(const axis *a, int i)
+{
+    const double left = axis_left(a, i), right = axis_right(a, i);
+    return (cell_axis){ .x         = { a->node[i - 1], a->node[i], a->node[i + 1] },
+                        .inv_left  = 1 / left,
+                        .inv_right = 1 / right,
+                        .widest    = 0.5 * (left < right ? left : right),
+                        .cell      = 0.5 * (left + right) };
+}
+
+typedef struct {
+    v8 w[3], g[3], d[3]; /* weights, their derivatives with the particle's position [1/m], node minus particle [m] */
+} weights;
+
+/* Generalized interpolation over the domain x - l .. x + l (Bardenhagen and Kober 2004), on unequal elements:
+ *   w = 1/(2 l) int N dx,   g = [N(x + l) - N(x - l)]/(2 l),   N the hat functions of the three nodes            */
+LANE_INLINE weights weights_gimp(const cell_axis *c, v8 x, v8 half)
+{
+    const v8 zero = v8_set(0), l = v8_max(v8_min(half, v8_set(c->widest)), v8_set(0.05 * c->widest));
+    const v8 t = x - c->x[1], a = t - l, b = t + l;
+    const v8 aL = v8_min(a, zero), bL = v8_min(b, zero), aR = v8_max(a, zero), bR = v8_max(b, zero);
+    const v8 scale = v8_set(0.5) / l, sL = scale * c->inv_left, sR = scale * c->inv_right;
+    weights r;
+    r.w[0] = v8_set(0.5) * sL * (aL * aL - bL * bL);
+    r.w[2] = v8_set(0.5) * sR * (bR * bR - aR * aR);
+    r.w[1] = v8_set(1) - r.w[0] - r.w[2];
+    r.g[0] = sL * (aL - bL);
+    r.g[2] = sR * (bR - aR);
+    r.g[1] = zero - r.g[0] - r.g[2];
+    for (int k = 0; k < 3; k++) r.d[k] = c->x[k] - x;
+    return r;
+}
+
+/* Quadratic B-spline whose knots are the cell's edges, on unequal cells: the three functions that do not vanish
+ * between the knots e0 < e1 (de Boor).  Partition of unity exact; linear fields exact where the grading is uniform. */
+typedef struct {
+    double e[4]; /* knots around the cell: two below, two above [m] */
+} knots;
+
+LANE_INLINE knots knots_at(const axis *a, int i)
+{
+    return (knots){ { a->edge[i - 1], a->edge[i], a->edge[i + 1], a->edge[i + 2] } };
+}
+
+LANE_INLINE weights weights_bspline(const cell_axis *c, const knots *q, v8 x)
+{
+    const double h = q->e[2] - q->e[1], below = q->e[2] - q->e[0], above = q->e[3] - q->e[1];
+    const v8 from = x - q->e[1], to = q->e[2] - x;
+    weights r;
+    r.w[0] = to * to * (1 / (h * below));
+    r.w[2] = from * from * (1 / (h * above));
+    r.w[1] = v8_set(1) - r.w[0] - r.w[2];
+    r.g[0] = to * (-2 / (h * below));
+    r.g[2] = from * (2 / (h * above));
+    r.g[1] = v8_set(0) - r.g[0] - r.g[2];
+    for (int k = 0; k < 3; k++) r.d[k] = c->x[k] - x;
+    return r;
+}
+
+/* Everything a cell's particles need to know of the grid. */
+typedef struct {
+    cell_axis axis[3];
+    knots knots[3];
+    bool bspline;
+} cell_grid;
+
+LANE_INLINE cell_grid cell_grid_at(const mpm *m, const brick *b, int cell)
+{
+    const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
+    cell_grid g     = { .bspline = m->scene.basis == BASIS_BSPLINE };
+    for (int k = 0; k < 3; k++) {
+        g.axis[k]  = cell_axis_at(&m->axes[k], BRICK * b->at[k] + at[k]);
+        g.knots[k] = knots_at(&m->axes[k], BRICK * b->at[k] + at[k]);
+    }
+    return g;
+}
+
+LANE_INLINE weights cell_weights(const cell_grid *g, int k, const block *q)
+{
+    return g->bspline ? weights_bspline(&g->axis[k], &g->knots[k], v8_load(q->x[k]))
+                      : weights_gimp(&g->axis[k], v8_load(q->x[k]), v8_load(q->half[k]));
+}
+
+/* First of the 27 nodes of a cell in its brick's 6 x 6 x 6. */
+LANE_INLINE int halo_index(int cell)
+{
+    return (cell / (BRICK * BRICK) * HALO + cell / BRICK % BRICK) * HALO + cell % BRICK;
+}
+
+/* ---- mirror planes: the ghost nodes beyond them, in a brick's 6 x 6 x 6 ---- */
+
+typedef struct {
+    int axis, ghost, mirror; /* halo indices along the axis */
+} mirror_plane;
+
+static inline int halo_at(const int at[3])
+{
+    return (at[2] * HALO + at[1]) * HALO + at[0];
+}
+
+/* Point n (0 .. 35) of a plane across axis k. */
+static inline void plane_point(int k, int plane, int n, int at[3])
+{
+    at[k]           = plane;
+    at[(k + 1) % 3] = n % HALO;
+    at[(k + 2) % 3] = n / HALO;
+}
+
+/* Mirror planes that the brick's particles reach over; their number, by axis. */
+static inline int mirror_planes(const mpm *m, const brick *b, mirror_plane p[6])
+{
+    int n = 0;
+    for (int k = 0; k < 3; k++)
+        for (int side = 0; side < 2; side++) {
+            const mpm_axis *s = &m->scene.axis[k];
+            if (s->boundary[side] != BOUNDARY_SYMMETRY) continue;
+            if (s->boundary_fields[side] && !(s->boundary_fields[side] >> b->field & 1)) continue;
+            const int at = (side ? m->axes[k].last : 1) - BRICK * b->at[k] + 1;
+            if (at < 1 || at > BRICK) continue;
+            p[n++] = (mirror_plane){ k, side ? at + 1 : at - 1, side ? at - 1 : at + 1 };
+        }
+    return n;
+}
+
+/* Is this ghost of plane i a ghost of another plane too?  `earlier`: of one that is folded before it. */
+static inline bool mirror_shared(const mirror_plane *p, int planes, int i, bool earlier, const int at[3])
+{
+    for (int j = 0; j < planes; j++)
+        if (p[j].axis != p[i].axis && (!earlier || j < i) && at[p[j].axis] == p[j].ghost) return true;
+    return false;
+}
+
+#endif

@@ -1,0 +1,29 @@
+/* The material law of one body, constants derived once (law_make) for the kernels: Johnson-Cook strength (M-1) and
+ * damage (M-2), Mie-Grueneisen pressure (M-3), temperature from energy (M-4), viscosity (M-5).  See docs/scene-solver.md. */
+#ifndef BREECH_MPM_LAW_H
+#define BREECH_MPM_LAW_H
+
+#include "mpm/scene.h"
+
+typedef struct {
+    double rho0, c0;                 /* [kg/m3, m/s] */
+    double K0, K_slope;              /* rho0 c0^2 [Pa]; dK/dp = 4 s - 1 [1] */
+    double g, s1;                    /* Grueneisen, s - 1 [1] */
+    double G;                        /* shear modulus [Pa] */
+    double rho_min, rho_max;         /* guards of the density [kg/m3] */
+    double A, B, n, C, m, inv_rate0; /* Johnson-Cook */
+    double T_r, T_m, inv_T_range;    /* [K, K, 1/K] */
+    double D1, D2, D3, D4, D5;       /* failure strain; D1 < 0: no damage */
+    double inv_c, c_v;               /* specific heat [kg K/J, J/(kg K)] */
+    double latent;                   /* [J/kg] */
+    double cold[5];                  /* e_cold = mu^2 (cold0 + cold1 mu + ..) [J/kg] */
+    double chi;                      /* heat_by_plastic_work: share of plastic work, else 0 */
+    double q1, q2;                   /* viscosity, linear and quadratic */
+    bool plastic_heat;
+    double e_start, rho_start;       /* of a body at rest at its temperature and zero pressure */
+} law;
+
+/* Refuses a material that lacks a constant the scene needs. */
+status law_make(const mpm_body *body, const mpm_scene *scene, law *out);
+
+#endif

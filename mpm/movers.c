@@ -1,0 +1,236 @@
+/* Particles that change cells: out of their block after G2P, into the new cell before the next P2G.
+ *
+ * Each brick's movers lie together in the list of the thread that worked on it; a brick takes its arrivals from its 27
+ * neighbours in a fixed order, so the order in the cells depends on no thread. */
+#include "mpm/store.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ratio of a domain to its cell above which a particle is split along that axis */
+static const double SPLIT_RATIO = 0.8;
+
+bool movers_reserve(mover_list *list, int more)
+{
+    if (list->count + more <= list->capacity) return true;
+    const int capacity = 2 * list->capacity + more + 1024;
+    mover_head *head   = realloc(list->head, (size_t)capacity * sizeof *head);
+    if (head) list->head = head;
+    double(*data)[BLOCK_DOUBLES] = realloc(list->data, (size_t)capacity * sizeof *data);
+    if (data) list->data = data;
+    if (!head || !data) return false;
+    list->capacity = capacity;
+    return true;
+}
+
+/* New cell of a particle near (ci, cj, ck); false when it has left the window. */
+static bool find_cell(const mpm *m, const brick *b, const int cell[3], const double *x, mover_head *h)
+{
+    int step = 0, place[3];
+    for (int k = 0, scale = 1; k < 3; k++, scale *= 3) {
+        const axis *a = &m->axes[k];
+        int i         = BRICK * b->at[k] + cell[k];
+        while (i >= 1 && x[k] < a->edge[i]) i--;
+        while (i <= a->last && x[k] >= a->edge[i + 1]) i++;
+        if (i < 1 || i > a->last) return false;
+        int d = i / BRICK - b->at[k];
+        step += scale * (d + 1);
+        place[k] = i % BRICK;
+    }
+    h->brick_step = step;
+    h->cell       = cell_index(place[0], place[1], place[2]);
+    return true;
+}
+
+static void eject(tally *sum, const double *q)
+{
+    const double m = q[FIRST_mass], *v = q + FIRST_v;
+    sum->ejected++;
+    sum->ejected_mass += m;
+    for (int k = 0; k < 3; k++) sum->ejected_momentum[k] += m * v[k];
+    sum->ejected_energy += m * (0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + q[FIRST_ka] + q[FIRST_e]);
+}
+
+static void send(mpm *m, brick *b, const int cell[3], int body, const double *q, int thread)
+{
+    mover_list *list = &m->movers[thread];
+    mover_head h     = { .body = body };
+    if (!find_cell(m, b, cell, q + FIRST_x, &h)) {
+        eject(&b->sum, q);
+        return;
+    }
+    list->head[list->count] = h;
+    memcpy(list->data[list->count], q, sizeof list->data[0]);
+    list->count++;
+    b->movers++;
+    b->mover_steps |= 1u << h.brick_step;
+}
+
+/* Two halves along axis k: mass, momentum and energy as before (what the gradient part lacks comes out of e). */
+static void halve(double *q, double *other, int k)
+{
+    const double d = 0.5 * q[FIRST_half + k];
+    double square  = 0;
+    q[FIRST_half + k] = d;
+    q[FIRST_mass] *= 0.5;
+    q[FIRST_area] *= 0.5;
+    memcpy(other, q, BLOCK_DOUBLES * sizeof *q);
+    q[FIRST_x + k] -= d, other[FIRST_x + k] += d;
+    q[FIRST_start + k] -= d, other[FIRST_start + k] += d;
+    for (int i = 0; i < 3; i++) {
+        const double dv = d * q[FIRST_L + 3 * i + k];
+        square += dv * dv;
+        q[FIRST_v + i] -= dv, other[FIRST_v + i] += dv;
+    }
+    const double ka = q[FIRST_ka], left = fmax(ka - 0.5 * square, 0);
+    q[FIRST_ka] = other[FIRST_ka] = left;
+    q[FIRST_e] += ka - 0.5 * square - left;
+    other[FIRST_e] = q[FIRST_e];
+}
+
+static int axis_to_split(const mpm *m, const brick *b, const int cell[3], const double *q)
+{
+    if (q[FIRST_damage] >= 1) return -1;
+    for (int k = 0; k < 3; k++) {
+        const axis *a = &m->axes[k];
+        const int i   = BRICK * b->at[k] + cell[k];
+        if (2 * q[FIRST_half + k] > SPLIT_RATIO * (a->edge[i + 1] - a->edge[i])) return k;
+    }
+    return -1;
+}
+
+void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving, int thread)
+{
+    const int at[3]    = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
+    block *q           = &m->blocks[block_index];
+    block_link *link   = &m->links[block_index];
+    double(*from)[LANES] = (double(*)[LANES])(void *)q;
+    for (int lane = 0; lane < LANES; lane++) {
+        if (!(leaving >> lane & 1)) continue;
+        double one[BLOCK_DOUBLES], other[BLOCK_DOUBLES];
+        for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][lane];
+        const int k = axis_to_split(m, b, at, one);
+        if (k >= 0) {
+            halve(one, other, k);
+            send(m, b, at, link->body, other, thread);
+            b->sum.splits++;
+        }
+        send(m, b, at, link->body, one, thread);
+        link->mask &= (uint8_t)~(1u << lane);
+        q->mass[0][lane] = q->area[0][lane] = 0;
+        b->particles--;
+    }
+}
+
+static void release_block(mpm *m, int i)
+{
+#pragma omp critical(breech_blocks)
+    {
+        m->links[i].next = m->free_head;
+        m->free_head     = i;
+        m->blocks_free++;
+    }
+}
+
+/* Cells give back empty blocks, and close ranks when their last block fits into the holes of the others. */
+static void tidy_cell(mpm *m, brick *b, int cell)
+{
+    for (int *link = &b->head[cell]; *link >= 0;) {
+        const int i = *link;
+        if (m->links[i].mask == 0) {
+            *link = m->links[i].next;
+            release_block(m, i);
+            b->blocks--;
+        } else {
+            link = &m->links[i].next;
+        }
+    }
+}
+
+static void merge_cell(mpm *m, brick *b, int cell)
+{
+    int holes = 0, last = -1, *last_link = NULL;
+    for (int *link = &b->head[cell]; *link >= 0; link = &m->links[*link].next) {
+        if (last >= 0) holes += LANES - __builtin_popcount(m->links[last].mask);
+        last      = *link;
+        last_link = link;
+    }
+    if (last < 0 || holes < __builtin_popcount(m->links[last].mask)) return;
+    for (int i = b->head[cell]; i != last; i = m->links[i].next)
+        if (m->links[i].body != m->links[last].body) return;
+    const uint8_t mask = m->links[last].mask;
+    *last_link         = -1;
+    b->blocks--;
+    double(*from)[LANES] = (double(*)[LANES])(void *)&m->blocks[last];
+    for (int lane = 0; lane < LANES; lane++) {
+        if (!(mask >> lane & 1)) continue;
+        double one[BLOCK_DOUBLES];
+        for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][lane];
+        b->particles--;
+        store_insert(m, b, cell, m->links[last].body, one);
+    }
+    release_block(m, last);
+}
+
+/* Takes this brick's arrivals from its neighbours; false when the blocks ran out. */
+static bool arrive(mpm *m, brick *b)
+{
+    uint64_t dirty = 0;
+    bool enough    = true;
+    for (int step = 0; step < NEIGHBOURS; step++) {
+        if (b->neighbour[step] < 0) continue;
+        const brick *from = &m->bricks[b->neighbour[step]];
+        const int towards = NEIGHBOURS - 1 - step; /* me, seen from there */
+        if (!(from->mover_steps >> towards & 1)) continue;
+        const mover_list *list = &m->movers[from->movers_thread];
+        for (int i = from->movers_first; i < from->movers_first + from->movers; i++) {
+            const mover_head *h = &list->head[i];
+            if (h->brick_step != towards) continue;
+            if (store_insert(m, b, h->cell, h->body, list->data[i]) < 0) enough = false;
+            dirty |= 1ull << h->cell;
+        }
+    }
+    for (int c = 0; c < BRICK_CELLS; c++)
+        if (dirty >> c & 1) merge_cell(m, b, c);
+    return enough;
+}
+
+/* Bricks that receive their first particle get memory and neighbours. */
+static status open_bricks(mpm *m, bool *changed)
+{
+    const int before = m->bricks_used;
+    for (int i = 0; i < before; i++) {
+        if (!m->bricks[i].mover_steps) continue;
+        for (int step = 0; step < NEIGHBOURS; step++) {
+            if (!(m->bricks[i].mover_steps >> step & 1)) continue;
+            const int to = m->bricks[i].neighbour[step];
+            if (m->bricks[to].out) continue;
+            TRY(store_surround(m, to));
+            *changed = true;
+        }
+    }
+    return status_ok();
+}
+
+status movers_exchange(mpm *m)
+{
+    bool changed = false, enough = true, occupied = false;
+    TRY(open_bricks(m, &changed));
+    if (changed) store_relink(m);
+    TRY(store_reserve(m));
+#pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads) reduction(&& : enough) reduction(|| : occupied)
+    for (int i = 0; i < m->bricks_used; i++) {
+        brick *b = &m->bricks[i];
+        if (!b->out) continue;
+        if (b->mover_steps)
+            for (int c = 0; c < BRICK_CELLS; c++) tidy_cell(m, b, c);
+        const bool empty = b->particles == 0;
+        enough           = arrive(m, b) && enough;
+        occupied         = occupied || (empty && b->particles > 0);
+    }
+    if (occupied) store_relink(m);
+    CHECK(enough, STATUS_MEMORY, "the particle blocks ran out within one step at t = %g s; this is a limit of the solver: use larger cells",
+          m->time);
+    return status_ok();
+}

@@ -1,0 +1,316 @@
+/* The grid phase at one site: sums of all bricks that reach its nodes, momentum update, boundaries, contact (M-6).
+ *
+ *   m dv/dt = f;   what the mixing of particle velocities and the contacts take from the kinetic energy stays at the
+ *   node as heat and goes to the particles in G2P:  E_i = v_i^2/2 + Q_i/m_i                                            */
+#include "mpm/kernels.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct {
+    const brick *brick;
+    double line[BRICK_CELLS][LINE] __attribute__((aligned(64)));  /* m, p, f, K */
+    double extra[BRICK_CELLS][LINE] __attribute__((aligned(64))); /* V grad S, m (x_p - x_i) */
+} field_nodes;
+
+/* One node of one field while it is worked on. */
+typedef struct {
+    double m, v[3], f[3], heat;
+    const double *extra;
+} node_state;
+
+/* Rows of the 6^3 of a neighbour that lie on this brick's 4^3: first row here, first row there, number. */
+static void overlap(int d, int *here, int *there, int *count)
+{
+    *here  = d > 0 ? BRICK - 1 : 0;
+    *there = d < 0 ? HALO - 1 : d > 0 ? 0 : 1;
+    *count = d == 0 ? BRICK : 1;
+}
+
+static void add_lines(double (*to)[LINE], double (*const from)[LINE], int step)
+{
+    int h[3], t[3], n[3];
+    overlap(step % 3 - 1, &h[0], &t[0], &n[0]);
+    overlap(step / 3 % 3 - 1, &h[1], &t[1], &n[1]);
+    overlap(step / 9 - 1, &h[2], &t[2], &n[2]);
+    for (int k = 0; k < n[2]; k++)
+        for (int j = 0; j < n[1]; j++)
+            for (int i = 0; i < n[0]; i++) {
+                double *a       = to[cell_index(h[0] + i, h[1] + j, h[2] + k)];
+                const double *b = from[((t[2] + k) * HALO + t[1] + j) * HALO + t[0] + i];
+                v8_store(a, v8_load(a) + v8_load(b));
+            }
+}
+
+static bool gather_field(const mpm *m, const brick *b, bool with_contact, field_nodes *n)
+{
+    bool any = false;
+    n->brick = b;
+    memset(n->line, 0, sizeof n->line);
+    if (with_contact) memset(n->extra, 0, sizeof n->extra);
+    for (int step = 0; step < NEIGHBOURS; step++) {
+        if (b->neighbour[step] < 0) continue;
+        const brick *from = &m->bricks[b->neighbour[step]];
+        if (from->particles == 0) continue;
+        any = true;
+        /* neighbour k lies at step k; seen from it, we lie on the other side */
+        add_lines(n->line, from->out, step);
+        if (with_contact && from->contact) add_lines(n->extra, from->out_contact, step);
+    }
+    return any;
+}
+
+/* ---- boundaries ---- */
+
+typedef struct {
+    boundary_kind kind;
+    int axis;
+    double size;           /* of the element beside the boundary [m] */
+    const double *velocity;
+} wall;
+
+static int walls_at(const mpm *m, const int index[3], int field, wall w[3])
+{
+    int n = 0;
+    for (int k = 0; k < 3; k++) {
+        const axis *a = &m->axes[k];
+        const int hi  = index[k] >= a->last;
+        if (index[k] > 1 && !hi) continue;
+        const mpm_axis *s = &m->scene.axis[k];
+        if (s->boundary_fields[hi] && !(s->boundary_fields[hi] >> field & 1)) continue;
+        if (s->boundary[hi] == BOUNDARY_FREE) continue;
+        w[n++] = (wall){ s->boundary[hi], k, hi ? axis_left(a, a->last) : axis_right(a, 1), s->boundary_velocity[hi] };
+    }
+    return n;
+}
+
+/* The wall's velocity in component k; what the mixing with it takes is heat, its reaction's work is booked. */
+static void hold(node_state *n, int k, double velocity, double dt, tally *sum)
+{
+    const double change = velocity - n->v[k], J = n->m * change - dt * n->f[k];
+    sum->impulse_boundary[k] += J;
+    sum->work_boundary += J * velocity;
+    n->heat += 0.5 * n->m * change * change;
+    n->v[k] = velocity;
+    n->f[k] = 0;
+}
+
+/* Viscous boundary of Lysmer and Kuhlemeyer (1969), implicit in v: the node's mass is rho A h/2, so rho c A = 2 c m/h. */
+static void absorb(node_state *n, const wall *w, const law *k, double dt, tally *sum)
+{
+    const double cp = sqrt((k->K0 + 4.0 / 3.0 * k->G) / k->rho0), cs = sqrt(k->G / k->rho0);
+    for (int q = 0; q < 3; q++) {
+        const double rate = 2 * (q == w->axis ? cp : cs) / w->size;
+        const double v    = (n->v[q] + dt * n->f[q] / n->m) / (1 + dt * rate);
+        const double J    = -n->m * dt * rate * v;
+        sum->impulse_boundary[q] += J;
+        sum->work_boundary += J * v;
+        n->f[q] += J / dt;
+    }
+}
+
+static void apply_walls(const wall *w, int walls, const law *k, double dt, node_state *n, tally *sum)
+{
+    static const double rest[3] = { 0, 0, 0 };
+    for (int i = 0; i < walls; i++) {
+        const double *velocity = w[i].kind == BOUNDARY_PRESCRIBED ? w[i].velocity : rest;
+        if (w[i].kind == BOUNDARY_SYMMETRY) hold(n, w[i].axis, 0, dt, sum);
+        else if (w[i].kind == BOUNDARY_ABSORBING) absorb(n, &w[i], k, dt, sum);
+        else
+            for (int q = 0; q < 3; q++) hold(n, q, velocity[q], dt, sum);
+    }
+}
+
+/* ---- contact of two fields at a node ---- */
+
+typedef struct {
+    double n[3];  /* unit normal from a to b */
+    double area;  /* of the surface of a that belongs to this node [m2] */
+    bool touch;
+} contact_geometry;
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The normal is the volume gradient of the lower field alone (the rail's, the particle's): behind the edge of the lead
+ * face a difference of gradients tilts and reads sliding as approach.  Where that field has no surface at the node (deep
+ * overlap) the difference must serve. */
+static contact_geometry geometry(const mpm *m, const node_state *a, const node_state *b, const wall *w, int walls,
+                                 const double h[3])
+{
+    contact_geometry g = { .touch = false };
+    double d[3];
+    for (int k = 0; k < 3; k++) d[k] = a->extra[k];
+    const double smallest = fmin(h[0], fmin(h[1], h[2]));
+    if (sqrt(dot(d, d)) * smallest < 0.05 * h[0] * h[1] * h[2] * fmin(1, a->m / (a->m + b->m)))
+        for (int k = 0; k < 3; k++) d[k] = a->extra[k] - b->extra[k];
+    for (int i = 0; i < walls; i++)
+        if (w[i].kind == BOUNDARY_SYMMETRY) d[w[i].axis] = 0;
+    const double length = sqrt(dot(d, d));
+    if (!(length > 0)) return g;
+    double gap = 0, span = 0;
+    for (int k = 0; k < 3; k++) {
+        g.n[k] = d[k] / length;
+        gap += g.n[k] * (b->extra[3 + k] / b->m - a->extra[3 + k] / a->m);
+        span += g.n[k] * h[k] * g.n[k] * h[k];
+    }
+    g.area  = length;
+    g.touch = gap < m->scene.contact_gap * sqrt(span);
+    return g;
+}
+
+/* Impulse on b (minus it on a) that ends the approach, with friction; zero where they part. */
+static bool contact_impulse(const contact_law *c, const contact_geometry *g, double reduced, const double rel[3], double dt,
+                            double J[3])
+{
+    const double vn = dot(rel, g->n), stick2 = dot(rel, rel);
+    if (c->bond_strength > 0 && reduced * sqrt(stick2) <= c->bond_strength * g->area * dt) {
+        for (int k = 0; k < 3; k++) J[k] = -reduced * rel[k];
+        return true;
+    }
+    if (!(vn < 0)) return false;
+    double vt[3], Jn = -reduced * vn;
+    for (int k = 0; k < 3; k++) vt[k] = rel[k] - vn * g->n[k];
+    const double slip  = sqrt(dot(vt, vt));
+    const double limit = fmin(c->friction * Jn, c->shear_limit * g->area * dt);
+    const double Jt    = fmin(limit, reduced * slip);
+    for (int k = 0; k < 3; k++) J[k] = Jn * g->n[k] - (slip > 0 ? Jt * vt[k] / slip : 0);
+    return true;
+}
+
+static double kinetic(const node_state *n)
+{
+    return 0.5 * n->m * dot(n->v, n->v);
+}
+
+/* Share of the contact heat that goes to a: by effusivity sqrt(k rho c) where both are known, else half. */
+static double heat_share(const mpm *m, int a, int b)
+{
+    double e[2];
+    const int field[2] = { a, b };
+    for (int s = 0; s < 2; s++) {
+        e[s] = NAN;
+        for (int i = m->scene.bodies - 1; i >= 0; i--)
+            if (m->scene.body[i].field == field[s])
+                e[s] = sqrt(m->materials[i].conductivity * m->materials[i].density * m->materials[i].specific_heat);
+    }
+    return isfinite(e[0] + e[1]) ? e[0] / (e[0] + e[1]) : 0.5;
+}
+
+typedef struct {
+    const double *h;
+    const wall *walls;
+    int wall_count;
+} node_place;
+
+static void contact_pair(const mpm *m, int fa, int fb, node_state *a, node_state *b, const node_place *at, tally *sum)
+{
+    static const double MASS_SCREEN = 1e-6;
+    if (a->m < MASS_SCREEN * b->m || b->m < MASS_SCREEN * a->m) return;
+    const contact_geometry g = geometry(m, a, b, at->walls, at->wall_count, at->h);
+    if (!g.touch) return;
+    double rel[3], J[3];
+    for (int k = 0; k < 3; k++) rel[k] = b->v[k] - a->v[k];
+    if (!contact_impulse(&m->scene.contact[fa][fb], &g, a->m * b->m / (a->m + b->m), rel, m->dt, J)) return;
+    const double before = kinetic(a) + kinetic(b);
+    for (int k = 0; k < 3; k++) {
+        a->v[k] -= J[k] / a->m;
+        b->v[k] += J[k] / b->m;
+        sum->contact[fa][k] -= J[k];
+        sum->contact[fb][k] += J[k];
+    }
+    const double lost = before - kinetic(a) - kinetic(b), share = heat_share(m, fa, fb);
+    a->heat += share * lost;
+    b->heat += (1 - share) * lost;
+    sum->heat_friction += lost;
+}
+
+/* ---- one node ---- */
+
+static const law *field_law(const mpm *m, int field)
+{
+    for (int i = 0; i < m->scene.bodies; i++)
+        if (m->scene.body[i].field == field) return &m->laws[i];
+    return &m->laws[0];
+}
+
+static void finish_node(const node_state *n, double node[NODE])
+{
+    for (int k = 0; k < 3; k++) node[k] = n->v[k];
+    node[3] = 0.5 * dot(n->v, n->v) + n->heat / n->m;
+}
+
+static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int index[3], const double h[3], tally *sum)
+{
+    node_state state[MPM_MAX_FIELDS];
+    wall walls[MPM_MAX_FIELDS][3];
+    int n_walls[MPM_MAX_FIELDS];
+    for (int s = 0; s < count; s++) {
+        const double *line = fields[s].line[cell];
+        const int field    = fields[s].brick->field;
+        node_state *n      = &state[s];
+        *n                 = (node_state){ .m = line[0], .extra = fields[s].extra[cell] };
+        if (!(n->m > 0)) continue;
+        for (int k = 0; k < 3; k++) n->v[k] = line[1 + k] / n->m, n->f[k] = line[4 + k];
+        n->heat    = line[7] - kinetic(n);
+        n_walls[s] = walls_at(m, index, field, walls[s]);
+        apply_walls(walls[s], n_walls[s], field_law(m, field), m->dt, n, sum);
+        for (int k = 0; k < 3; k++) n->v[k] += m->dt * n->f[k] / n->m, n->f[k] = 0;
+    }
+    for (int a = 0; a < count; a++)
+        for (int b = a + 1; b < count; b++)
+            if (state[a].m > 0 && state[b].m > 0) {
+                const node_place at = { h, walls[a], n_walls[a] };
+                contact_pair(m, fields[a].brick->field, fields[b].brick->field, &state[a], &state[b], &at, sum);
+            }
+    for (int s = 0; s < count; s++) {
+        double *node = fields[s].brick->node[cell];
+        memset(node, 0, NODE * sizeof *node);
+        if (!(state[s].m > 0)) continue;
+        if (count > 1 && n_walls[s] > 0)
+            for (int i = 0; i < n_walls[s]; i++)
+                if (walls[s][i].kind == BOUNDARY_SYMMETRY) hold(&state[s], walls[s][i].axis, 0, m->dt, sum);
+        finish_node(&state[s], node);
+    }
+}
+
+/* Ghost nodes of a mirror plane are filled in G2P from the nodes they mirror. */
+static bool is_ghost(const mpm *m, const int index[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const mpm_axis *s = &m->scene.axis[k];
+        if (index[k] == 0 && s->boundary[0] == BOUNDARY_SYMMETRY) return true;
+        if (index[k] > m->axes[k].last && (index[k] > m->axes[k].last + 1 || s->boundary[1] == BOUNDARY_SYMMETRY)) return true;
+    }
+    return false;
+}
+
+void ISA(nodes)(mpm *m, int site)
+{
+    field_nodes fields[MPM_MAX_FIELDS];
+    int count = 0, present = 0, at[3] = { 0, 0, 0 };
+    for (int f = 0; f < m->fields; f++) present += m->directory[f * m->sites + site] >= 0;
+    for (int f = 0; f < m->fields; f++) {
+        const int i = m->directory[f * m->sites + site];
+        if (i < 0) continue;
+        memcpy(at, m->bricks[i].at, sizeof at);
+        if (gather_field(m, &m->bricks[i], present > 1, &fields[count])) count++;
+        else memset(m->bricks[i].node, 0, BRICK_CELLS * sizeof *m->bricks[i].node);
+    }
+    tally *sum = &m->site_sum[site];
+    memset(sum, 0, sizeof *sum);
+    if (count == 0) return;
+    for (int cell = 0; cell < BRICK_CELLS; cell++) {
+        const int index[3] = { BRICK * at[0] + cell % BRICK, BRICK * at[1] + cell / BRICK % BRICK,
+                               BRICK * at[2] + cell / (BRICK * BRICK) };
+        if (is_ghost(m, index)) {
+            for (int s = 0; s < count; s++) memset(fields[s].brick->node[cell], 0, NODE * sizeof(double));
+            continue;
+        }
+        double h[3];
+        for (int k = 0; k < 3; k++) h[k] = m->axes[k].edge[index[k] + 1] - m->axes[k].edge[index[k]];
+        one_node(m, fields, count, cell, index, h, sum);
+    }
+}

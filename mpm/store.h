@@ -1,0 +1,184 @@
+/* The solver's memory: particles in blocks of eight, blocks chained by cell, cells in bricks of 4 x 4 x 4.
+ *
+ *   block   8 particles of one body and one cell, array of structures of arrays; holes have mass 0
+ *   brick   64 cells of one velocity field; `out` are the node sums of its own particles on its 6 x 6 x 6 nodes (own nodes
+ *           and one layer around), `node` the velocities of its own 4 x 4 x 4 nodes
+ *   site    the bricks of all fields at one place
+ * A step (mpm.c): P2G over bricks -> sums over sites, contact, boundaries -> G2P over bricks -> movers change cells.
+ * Every phase reads what the last one wrote and writes only its own brick, in an order that no thread changes: the
+ * same bits on any number of threads. */
+#ifndef BREECH_MPM_STORE_H
+#define BREECH_MPM_STORE_H
+
+#include "mpm/axis.h"
+#include "mpm/lanes.h"
+#include "mpm/law.h"
+#include "mpm/mpm.h"
+
+enum {
+    BRICK          = 4,                          /* cells a brick and axis */
+    BRICK_CELLS    = BRICK * BRICK * BRICK,      /* 64 */
+    HALO           = BRICK + 2,                  /* nodes a brick's particles see, an axis */
+    HALO_NODES     = HALO * HALO * HALO,         /* 216 */
+    LINE           = 8,                          /* doubles of a node line */
+    NODE           = 4,                          /* vx vy vz E of a finished node */
+    NEIGHBOURS     = 27,
+    SELF           = 13,                         /* index of the brick itself among them */
+    MPM_MAX_THREADS = 256
+};
+
+/* One list makes the block, the copies of single particles and the checkpoint. */
+#define BLOCK_FIELDS(FIELD)                                                           \
+    FIELD(x, 3)      /* position [m] */                                               \
+    FIELD(v, 3)      /* velocity [m/s] */                                             \
+    FIELD(L, 9)      /* velocity gradient, L[3 i + k] = dv_i/dx_k [1/s] */            \
+    FIELD(s, 6)      /* stress deviator xx yy zz xy yz xz [Pa] */                     \
+    FIELD(p, 1)      /* pressure with viscosity [Pa] */                               \
+    FIELD(rho, 1)    /* density [kg/m3] */                                            \
+    FIELD(mass, 1)   /* [kg], 0 in a hole */                                          \
+    FIELD(half, 3)   /* half lengths of the domain [m] */                             \
+    FIELD(e, 1)      /* specific internal energy [J/kg] */                            \
+    FIELD(ka, 1)     /* specific kinetic energy of the gradient part [J/kg] */        \
+    FIELD(ep, 1)     /* equivalent plastic strain [1] */                              \
+    FIELD(damage, 1) /* failed at 1 */                                                \
+    FIELD(T, 1)      /* temperature [K] */                                            \
+    FIELD(area, 1)   /* face area that the body's traction acts on [m2] */            \
+    FIELD(start, 3)  /* position at the start [m] */
+
+typedef struct {
+#define BLOCK_MEMBER(name, n) double name[n][LANES];
+    BLOCK_FIELDS(BLOCK_MEMBER)
+#undef BLOCK_MEMBER
+} block __attribute__((aligned(64)));
+
+enum { BLOCK_DOUBLES = sizeof(block) / (sizeof(double) * LANES) };
+
+/* Places of the fields in a single particle's BLOCK_DOUBLES. */
+enum {
+#define BLOCK_FIRST(name, n) FIRST_##name, LAST_##name = FIRST_##name + (n) - 1,
+    BLOCK_FIELDS(BLOCK_FIRST)
+#undef BLOCK_FIRST
+};
+
+/* A particle on its way between cells. */
+typedef struct {
+    int brick_step; /* which of the 27 neighbours it goes to */
+    int cell;       /* cell in that brick */
+    int body;
+} mover_head;
+
+typedef struct {
+    int count, capacity;
+    mover_head *head;
+    double (*data)[BLOCK_DOUBLES];
+} mover_list;
+
+/* What one brick, or one site, books in a step. */
+typedef struct {
+    double heat_friction, heat_transfer, heat_viscous;
+    double work_boundary, work_external;
+    double impulse_boundary[3], impulse_external[3];
+    double contact[MPM_MAX_FIELDS][3];
+    double ejected_mass, ejected_momentum[3], ejected_energy;
+    double rate;       /* largest (c + |v|) / h [1/s] */
+    double peak_pressure, peak_temperature;
+    double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES], peak_strain[MPM_MAX_BODIES];
+    uint64_t clamps_pressure, clamps_compression, clamps_velocity, splits, ejected, particles;
+    int bad_lane, bad_block; /* first particle that is not finite, bad_block = -1: none */
+} tally;
+
+typedef struct {
+    int field;
+    int at[3];                 /* brick coordinates */
+    int site;
+    int head[BRICK_CELLS];     /* first block of each cell, -1 = none */
+    int particles, blocks;
+    bool contact;              /* another field has particles here or next door */
+    int neighbour[NEIGHBOURS]; /* bricks of the same field around, -1 = none */
+    double (*out)[LINE];       /* [216] m, px, py, pz, fx, fy, fz, kinetic energy */
+    double (*out_contact)[LINE]; /* [216] V grad S (3), -m (x_i - x_p) (3), 0, 0 */
+    double (*node)[NODE];      /* [64] vx, vy, vz, specific energy that is left to the particles */
+    int movers, movers_first, movers_thread; /* its part of the thread's mover list */
+    uint32_t mover_steps;      /* bit k: a mover goes to neighbour k */
+    tally sum;
+} brick;
+
+typedef struct {
+    int next;     /* block of the same cell, -1 = none; also chains the free blocks */
+    uint8_t body;
+    uint8_t mask; /* lanes in use */
+} block_link;
+
+typedef struct kernels kernels;
+
+struct mpm {
+    mpm_scene scene;
+    material materials[MPM_MAX_BODIES];
+    law laws[MPM_MAX_BODIES];
+    axis axes[3];
+    int fields;
+    int sites;               /* brick places of the window */
+    int *directory;          /* [fields][sites] brick or -1 */
+    tally *site_sum;         /* [sites] */
+
+    brick *bricks;
+    int bricks_used, bricks_capacity;
+    int *site_list, site_count; /* sites that have a brick */
+
+    block *blocks;
+    block_link *links;
+    int blocks_capacity, blocks_free, free_head;
+
+    mover_list movers[MPM_MAX_THREADS];
+    int threads;
+    const kernels *kernel;
+
+    double time, dt;
+    uint64_t steps;
+    double dense, dense_steps; /* particles, and particle-steps so far, of the finest cells everywhere */
+    void *histogram;           /* of percentiles (read.c) */
+    mpm_report report;
+    mpm_ledger ledger;
+    double force_sum[3]; /* smoothing of the contact force on field 0 */
+};
+
+struct kernels {
+    const char *name;
+    void (*p2g)(mpm *m, brick *b);
+    void (*nodes)(mpm *m, int site);
+    void (*g2p)(mpm *m, brick *b, int thread);
+};
+
+/* The kernels for this machine, or those named (NULL = best); NULL if it cannot run them. */
+const kernels *kernels_choose(const char *name);
+
+/* bricks.c */
+status store_make(mpm *m, int blocks);
+void store_free(mpm *m);
+status store_brick(mpm *m, int field, const int at[3], int *out); /* finds or makes it */
+status store_surround(mpm *m, int brick_index);                   /* makes its 26 neighbours inside the window */
+void store_relink(mpm *m);                                        /* neighbours, contact flags, site list */
+status store_reserve(mpm *m);                                     /* free blocks for the next step */
+status store_compact(mpm *m);                                     /* blocks into the order of bricks and cells */
+int store_insert(mpm *m, brick *b, int cell, int body, const double *particle); /* block, or -1 when none is free */
+
+/* read.c */
+void mpm_sample_percentiles(mpm *m);
+size_t mpm_histogram_bytes(void);
+
+/* movers.c */
+status movers_exchange(mpm *m); /* all movers into their new cells; makes bricks as needed */
+void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving, int thread);
+bool movers_reserve(mover_list *list, int more);
+
+static inline int site_index(const mpm *m, int bx, int by, int bz)
+{
+    return (bz * m->axes[1].bricks + by) * m->axes[0].bricks + bx;
+}
+
+static inline int cell_index(int i, int j, int k)
+{
+    return (k * BRICK + j) * BRICK + i;
+}
+
+#endif
