@@ -207,6 +207,26 @@ static void test_distance(void **state)
     free(surface);
 }
 
+/* Off an edge or a corner the distance is that to it: 3, 4 -> 5 and 2, 3, 6 -> 7. */
+static void test_corners(void **state)
+{
+    (void)state;
+    const struct {
+        int example;
+        double x[3], want;
+    } probes[] = {
+        { 0, { 2.3, 2.15, 3.0 }, -0.5 },           { 0, { -1.2, 0.2, 5.1 }, -0.7 },
+        { 2, { 1.8e-3, 1.6e-3, -1e-3 }, -0.5e-3 }, { 5, { 0.7, 0.7, 2.6 }, -0.7 },
+        { 8, { 6.81e-3, -4e-3, 0.0 }, -5e-3 },     { 9, { 0.0, -3e-3, 13e-3 }, -5e-3 },
+    };
+    for (size_t i = 0; i < sizeof probes / sizeof probes[0]; i++) {
+        const example *e = &examples[probes[i].example];
+        const double f = shape_find(e->name)->inside(&e->s, probes[i].x);
+        if (!(fabs(f / probes[i].want - 1.0) < 1e-12))
+            fail_msg("%s, probe %zu: %g, want %g", e->name, i, f, probes[i].want);
+    }
+}
+
 /* The armature's features where they belong: nose in front, legs behind, contact face and lead face. */
 static void test_armature(void **state)
 {
@@ -275,6 +295,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_table),    cmocka_unit_test(test_bounds),   cmocka_unit_test(test_volume),
         cmocka_unit_test(test_distance), cmocka_unit_test(test_armature), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_corners),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
