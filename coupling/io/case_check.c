@@ -135,7 +135,8 @@ static void check_site(case_reader *r, const case_site *site, const tree_node *n
         errors_add(r->errors, position,
                    "sites[%d].position = %.*s: must lie between barrel.start = %g m and barrel.length = %g m", k,
                    CASE_SHOWN, text, r->out->barrel.start, r->out->barrel.length);
-    if (node && !has_value(node, "radius") && !has_value(tree_find(r->root, "particle"), "radius"))
+    if (node && node->kind == TREE_MAP && !has_value(node, "radius") &&
+        !has_value(tree_find(r->root, "particle"), "radius"))
         errors_add(r->errors, node, "sites[%d].radius is missing [m]: give it here, or once for all as particle.radius",
                    k);
     if (site->height > r->out->projectile.half_bore)

@@ -247,6 +247,18 @@ static const case_section *child_of(const case_section *section, const char *key
     return NULL;
 }
 
+/* Was the key given, but mistyped?  Then that is the error, not its absence. */
+static bool is_mistyped(const case_section *section, const tree_node *map, const char *key)
+{
+    for (int k = 0; map->kind == TREE_MAP && k < map->n; k++) {
+        const char *given = map->key[k]->text;
+        if (param_of(section, given) || child_of(section, given)) continue;
+        const char *near = nearest_name(given, known_key, section);
+        if (near && strcmp(near, key) == 0) return true;
+    }
+    return false;
+}
+
 /* ---- sections ---- */
 
 /* One mapping (NULL: nothing given) into one struct. */
@@ -274,7 +286,8 @@ static void read_map(case_reader *r, const case_section *section, const tree_nod
         value_read(r, p, map->item[k], (char *)object + p->offset, inner);
     }
     for (const param *p = section->table; p->key; p++)
-        if (is_required(p) && !tree_find(map, p->key)) missing_key(r, p, map, path);
+        if (is_required(p) && !tree_find(map, p->key) && !is_mistyped(section, map, p->key))
+            missing_key(r, p, map, path);
 }
 
 static void read_list(case_reader *r, const case_section *section, const tree_node *node, void *parent,

@@ -8,7 +8,7 @@
 #include "coupling/io/units.h"
 #include "coupling/io/yaml_tree.h"
 
-enum { CASE_MAX_ENTRIES = 10000, CASE_KEY_SIZE = 160, CASE_SHOWN = 60 };
+enum { CASE_MAX_ENTRIES = 5000, CASE_KEY_SIZE = 160, CASE_SHOWN = 60 };
 
 /* A place where the case names a material. */
 typedef struct {

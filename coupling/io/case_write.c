@@ -153,11 +153,11 @@ static void print_range(FILE *file, const param *p)
     }
 }
 
-/* Markdown takes | for the end of a cell. */
+/* Markdown takes | for the end of a cell and < for a tag. */
 static void print_cell(FILE *file, const char *text)
 {
     for (; *text; text++) {
-        if (*text == '|') fputc('\\', file);
+        if (*text == '|' || *text == '<') fputc('\\', file);
         fputc(*text, file);
     }
 }

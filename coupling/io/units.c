@@ -152,11 +152,13 @@ status quantity_read(const units *u, const char *text, const char *unit, double 
 {
     const size_t length = number_length(text);
     const bool pure = same(unit, "1");
+    const char *example = same(unit, "rad") ? "deg" : unit;
     user_unit[0] = '\0';
     if (pure) CHECK(length > 0, STATUS_BAD_INPUT, "must be a number");
-    CHECK(length > 0, STATUS_BAD_INPUT, "must be a number with a unit, such as `1 %s`", unit);
+    CHECK(length > 0, STATUS_BAD_INPUT, "must be a number with a unit, such as `1 %s`", example);
     CHECK(length < NUMBER_SIZE, STATUS_BAD_INPUT, "the number is longer than %d characters", NUMBER_SIZE - 1);
     const double number = number_value(text, length);
+    CHECK(isfinite(number) || text[length - 1] == 'f', STATUS_BAD_INPUT, "is too large to be held in %s", unit);
 
     const char *rest = text + length + strspn(text + length, " \t");
     size_t end = strlen(rest);
@@ -169,7 +171,7 @@ status quantity_read(const units *u, const char *text, const char *unit, double 
         *value = number;
         return status_ok();
     }
-    CHECK(end > 0, STATUS_BAD_INPUT, "needs a unit, such as `%.*s %s`", (int)length, text, unit);
+    CHECK(end > 0, STATUS_BAD_INPUT, "needs a unit, such as `%.*s %s`", (int)length, text, example);
     if (pure)
         CHECK(is_pure(user_unit), STATUS_BAD_INPUT, "is a pure number: no unit `%s` (or give it in %%)", user_unit);
     if (same(unit, "rad"))

@@ -1,0 +1,180 @@
+/* Every file of cases/materials: it reads, each constant has a source and lies in its range; and what the reader refuses. */
+#include <cmocka.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "coupling/io/material_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MATERIALS BREECH_TESTS "/../cases/materials"
+
+static const char *const dirs[] = { MATERIALS };
+
+typedef struct {
+    units *u;
+    char **names;
+    int n;
+} shelf;
+
+static int open_shelf(void **state)
+{
+    static shelf s;
+    assert_int_equal(units_open(&s.u).code, STATUS_OK);
+    assert_int_equal(material_names(MATERIALS, &s.names, &s.n).code, STATUS_OK);
+    *state = &s;
+    return 0;
+}
+
+static int close_shelf(void **state)
+{
+    shelf *s = *state;
+    units_close(s->u);
+    material_names_free(s->names, s->n);
+    return 0;
+}
+
+static void check_sheet(const material_sheet *sheet)
+{
+    int given = 0;
+    assert_int_equal(params_check(material_params, &sheet->material, sheet->material.name).code, STATUS_OK);
+    for (int k = 0; k < sheet->n; k++) {
+        const material_constant *c = &sheet->constant[k];
+        const double value = *(const double *)(const void *)((const char *)&sheet->material + c->constant->offset);
+        assert_true(isfinite(value));
+        assert_non_null(c->source);
+        assert_true(strlen(c->source) >= 20); /* a citation, not a short name */
+    }
+    for (const param *p = material_params; p->key; p++) {
+        const double *value = (const double *)(const void *)((const char *)&sheet->material + p->offset);
+        given += p->kind == PARAM_NUMBER && !isnan(*value);
+    }
+    assert_int_equal(given, sheet->n); /* nothing comes from anywhere but the file */
+}
+
+static void every_file_reads_and_has_sources(void **state)
+{
+    shelf *s = *state;
+    assert_true(s->n >= 16); /* the rows of the reference tables */
+    for (int k = 0; k < s->n; k++) {
+        material_sheet sheet;
+        char *errors = NULL;
+        const status result = material_sheet_find(s->u, s->names[k], dirs, 1, &sheet, &errors);
+        if (result.code != STATUS_OK) print_error("%s: %s\n%s", s->names[k], result.text, errors ? errors : "");
+        assert_int_equal(result.code, STATUS_OK);
+        assert_string_equal(sheet.material.name, s->names[k]);
+        check_sheet(&sheet);
+        material_sheet_free(&sheet);
+    }
+}
+
+static bool mentions(const char *text, const char *const *words)
+{
+    for (int k = 0; words[k]; k++)
+        if (strstr(text, words[k])) return true;
+    return false;
+}
+
+/* A source that says of itself that it is unchecked makes the constant weak, and the warning names it. */
+static void unchecked_constants_are_weak(void **state)
+{
+    static const char *const words[] = { "not yet checked", "uncited", "not verified", "secondary", NULL };
+    shelf *s = *state;
+    for (int k = 0; k < s->n; k++) {
+        material_sheet sheet;
+        char *errors = NULL, warning[MATERIAL_WARNING_SIZE];
+        int weak = 0;
+        assert_int_equal(material_sheet_find(s->u, s->names[k], dirs, 1, &sheet, &errors).code, STATUS_OK);
+        material_sheet_warning(&sheet, warning);
+        for (int i = 0; i < sheet.n; i++) {
+            const material_constant *c = &sheet.constant[i];
+            if (mentions(c->source, words) && !c->weak) print_error("%s.%s\n", s->names[k], c->constant->key);
+            assert_false(mentions(c->source, words) && !c->weak);
+            if (c->weak) assert_non_null(strstr(warning, c->constant->key));
+            weak += c->weak;
+        }
+        assert_true((weak > 0) == (warning[0] != '\0'));
+        material_sheet_free(&sheet);
+    }
+}
+
+/* The set of the paper that is to be repeated, digit for digit (table 1 of Wu et al. 2017). */
+static void the_papers_sets_are_kept(void **state)
+{
+    shelf *s = *state;
+    material_sheet sheet;
+    char *errors = NULL;
+    assert_int_equal(material_sheet_find(s->u, "w17_al7075", dirs, 1, &sheet, &errors).code, STATUS_OK);
+    const material *m = &sheet.material;
+    assert_true(m->density == 2810.0 && m->youngs_modulus == 71e9 && m->poisson == 0.33 && m->specific_heat == 960.0);
+    assert_true(m->yield_A == 369e6 && m->hardening_B == 684e6 && m->hardening_n == 0.73);
+    assert_true(m->rate_C == 0.0083 && m->softening_m == 1.7 && m->melting_temperature == 933.0);
+    assert_true(m->damage_D1 == 0.13 && m->damage_D2 == 0.13 && m->damage_D3 == -1.5 && m->damage_D4 == 0.011);
+    assert_true(m->damage_D5 == 0.0 && m->sound_speed == 5350.0 && m->hugoniot_slope == 1.34 && m->gruneisen == 2.0);
+    assert_true(isnan(m->hardness) && isnan(m->conductivity)); /* blank in the table */
+    material_sheet_free(&sheet);
+}
+
+typedef struct {
+    const char *text, *error;
+} bad_file;
+
+#define HEAD "name: x\nsources: {A: a book of constants}\n"
+
+static void bad_files_say_where(void **state)
+{
+    shelf *s = *state;
+    static const bad_file bad[] = {
+        { HEAD, "x.yaml:1:1: `constants` is missing" },
+        { "name: y\nsources: {A: a book}\nconstants: {}\n", "x.yaml:1:7: name = y: must be the file's name, x" },
+        { HEAD "constants:\n  density: 5 kg/m^3\n",
+          "x.yaml:4:12: constants.density: must be {value: ..., source: ...}" },
+        { HEAD "constants:\n  density: {value: 5 kg}\n", "x.yaml:4:12: constants.density.source is missing" },
+        { HEAD "constants:\n  density: {value: 5 kg/m^3, source: A}\n",
+          "x.yaml:4:20: constants.density.value = 5 kg/m^3: must lie within the range (100 kg/m^3 .. 30000 kg/m^3)" },
+        { HEAD "constants:\n  density: {value: 8 g/cm^3, source: B}\n",
+          "x.yaml:4:38: constants.density.source = B: not in `sources` of this file" },
+        { HEAD "constants:\n  densty: {value: 8 g/cm^3, source: A}\n",
+          "x.yaml:4:3: unknown constant `densty`; did you mean `density`?" },
+        { HEAD "constants:\n  poisson: {value: 0.3, source: A, waek: yes}\n",
+          "x.yaml:4:36: unknown key `waek` in constants.poisson; did you mean `weak`?" },
+        { HEAD "constants:\n  poisson: {value: 0.3 Pa, source: A}\n",
+          "x.yaml:4:20: constants.poisson.value = 0.3 Pa: is a pure number" },
+        { "- a\n", "x.yaml:1:1: a material's file has the keys" },
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
+        material_sheet sheet;
+        char *errors = NULL;
+        const status r = material_sheet_parse(s->u, bad[k].text, strlen(bad[k].text), "x.yaml", &sheet, &errors);
+        assert_int_equal(r.code, STATUS_BAD_INPUT);
+        assert_non_null(errors);
+        if (!strstr(errors, bad[k].error)) print_error("wanted %s\nin %s", bad[k].error, errors);
+        assert_non_null(strstr(errors, bad[k].error));
+        free(errors);
+    }
+}
+
+static void names_cannot_leave_the_folder(void **state)
+{
+    shelf *s = *state;
+    static const char *const bad[] = { "../materials/ofhc_copper", "/etc/passwd", ".hidden", "", "a b" };
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
+        material_sheet sheet;
+        char *errors = NULL;
+        assert_int_equal(material_sheet_find(s->u, bad[k], dirs, 1, &sheet, &errors).code, STATUS_BAD_INPUT);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_file_reads_and_has_sources), cmocka_unit_test(unchecked_constants_are_weak),
+        cmocka_unit_test(the_papers_sets_are_kept),         cmocka_unit_test(bad_files_say_where),
+        cmocka_unit_test(names_cannot_leave_the_folder),
+    };
+    return cmocka_run_group_tests(tests, open_shelf, close_shelf);
+}
