@@ -16,26 +16,27 @@ typedef struct {
     double reference_temperature; /* T_r [K] */
     double melting_temperature;   /* T_m, solidus [K] */
     double latent_heat;           /* of fusion [J/kg] */
-    double yield_A, hardening_B, hardening_n, rate_C, softening_m, rate_0; /* Johnson-Cook (M-1) [Pa, Pa, 1, 1, 1, 1/s] */
-    double taylor_quinney;        /* chi [1], option `plastic` of (M-4) only */
-    double damage_D1, damage_D2, damage_D3, damage_D4, damage_D5;          /* Johnson-Cook failure (M-2) [1] */
-    double spall_strength;        /* tension at which it fails [Pa] */
-    double sound_speed;           /* c0, bulk, at zero pressure [m/s] */
-    double hugoniot_slope;        /* s of us = c0 + s up [1] */
-    double gruneisen;             /* g0 [1] */
-    double hardness;              /* Vickers hardness as pressure [Pa] */
-    double resistivity;           /* [ohm m] at the reference temperature */
-    double resistivity_slope;     /* its temperature coefficient [1/K] */
+    double yield_A, hardening_B, hardening_n, rate_C, softening_m,
+        rate_0;                                                   /* Johnson-Cook (M-1) [Pa, Pa, 1, 1, 1, 1/s] */
+    double taylor_quinney;                                        /* chi [1], option `plastic` of (M-4) only */
+    double damage_D1, damage_D2, damage_D3, damage_D4, damage_D5; /* Johnson-Cook failure (M-2) [1] */
+    double spall_strength;                                        /* tension at which it fails [Pa] */
+    double sound_speed;                                           /* c0, bulk, at zero pressure [m/s] */
+    double hugoniot_slope;                                        /* s of us = c0 + s up [1] */
+    double gruneisen;                                             /* g0 [1] */
+    double hardness;                                              /* Vickers hardness as pressure [Pa] */
+    double resistivity;                                           /* [ohm m] at the reference temperature */
+    double resistivity_slope;                                     /* its temperature coefficient [1/K] */
 } material;
 
 extern const param material_params[];
 
 typedef enum {
-    MATERIAL_FOR_SCENE = 1,    /* density, elastic, equation of state, strength, specific heat */
-    MATERIAL_FOR_DAMAGE = 2,   /* D1..D5 */
-    MATERIAL_FOR_SCREEN = 4,   /* hardness, equation of state */
-    MATERIAL_FOR_MELTING = 8,  /* latent heat, melting temperature */
-    MATERIAL_FOR_CIRCUIT = 16  /* resistivity */
+    MATERIAL_FOR_SCENE = 1,   /* density, elastic, equation of state, strength, specific heat */
+    MATERIAL_FOR_DAMAGE = 2,  /* D1..D5 */
+    MATERIAL_FOR_SCREEN = 4,  /* hardness, equation of state */
+    MATERIAL_FOR_MELTING = 8, /* latent heat, melting temperature */
+    MATERIAL_FOR_CIRCUIT = 16 /* resistivity */
 } material_need;
 
 /* STATUS_BAD_INPUT naming the material and every missing constant, unless it has all that `needs` (a sum) asks for. */
