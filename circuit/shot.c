@@ -7,6 +7,7 @@
 
 #include <assert.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 /* Times closer than this are one instant [s]. */
@@ -539,7 +540,10 @@ static status config_check(const shot_config *c)
     CHECK(c->n_modules >= 1 && c->modules, STATUS_BAD_INPUT, "the bank has no modules: give at least one group");
     for (int k = 0; k < c->n_modules; k++) {
         shot_module p = c->modules[k];
-        TRY(params_check(shot_module_params, &p, "bank"));
+        if (isnan(p.fire_at)) p.fire_at = 0.0; /* never is a value too */
+        char section[32];
+        snprintf(section, sizeof section, "bank[%d]", k);
+        TRY(params_check(shot_module_params, &p, section));
         CHECK(p.inductance + p.cable_inductance > 0.0, STATUS_BAD_INPUT,
               "bank[%d]: inductance + cable_inductance = 0 H: must be positive", k);
     }

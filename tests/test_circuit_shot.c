@@ -1,0 +1,680 @@
+/* The shot: closed forms, a measured-like pulse, an independent integration, and everything a bank can be asked to do. */
+#include "circuit/shot.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { MAX_EVENTS = 4096 };
+
+typedef struct {
+    shot_event events[MAX_EVENTS];
+    int n, samples;
+    int count[SHOT_EVENT_COUNT];
+    double worst_energy;
+    int stop_at;               /* stop when this many events have come; 0 = never */
+    double impulse, mass_loss; /* handed back at every site */
+} record;
+
+static record rec; /* the tests' own notebook */
+
+static void assert_ok(status st)
+{
+    if (st.code != STATUS_OK) fail_msg("%s", st.text);
+}
+
+static void assert_near(double got, double want, double tolerance)
+{
+    if (!(fabs(got - want) <= tolerance)) fail_msg("got %.12g, want %.12g, allowed %.3g", got, want, tolerance);
+}
+
+static bool on_event(void *user, shot *s, const shot_event *e)
+{
+    record *r = user;
+    assert_true(r->n < MAX_EVENTS);
+    r->events[r->n++] = *e;
+    r->count[e->kind]++;
+    if (e->kind == SHOT_SITE && r->impulse > 0.0) assert_ok(shot_jump(s, r->impulse, r->mass_loss));
+    return r->n != r->stop_at;
+}
+
+static bool on_sample(void *user, const shot *s, const shot_state *state)
+{
+    record *r = user;
+    (void)s;
+    r->samples++;
+    r->worst_energy = fmax(r->worst_energy, fabs(state->ledger.energy_error));
+    return true;
+}
+
+static shot_sink notebook(void)
+{
+    memset(&rec, 0, sizeof rec);
+    return (shot_sink){ on_event, on_sample, &rec };
+}
+
+static shot_module unit(int count, double fire_at)
+{
+    shot_module m;
+    params_default(shot_module_params, &m);
+    m.count = count;
+    m.capacitance = 3.594e-3;
+    m.charge = 10.55e3;
+    m.inductance = 12.56e-6;
+    m.resistance = 4.10e-3;
+    m.crowbar_drop = 1.48;
+    m.crowbar_resistance = 0.43e-3;
+    m.fire_at = fire_at;
+    return m;
+}
+
+/* 25 x 20 x 25 mm rails at level constant, a 0.25 kg armature, 5 m. */
+static shot_config plain(const shot_module *modules, int n)
+{
+    shot_config c = { .modules = modules, .n_modules = n };
+    params_default(shot_rails_params, &c.rails);
+    params_default(shot_barrel_params, &c.barrel);
+    params_default(shot_armature_params, &c.armature);
+    params_default(shot_options_params, &c.options);
+    c.rails.level = SHOT_RAILS_CONSTANT;
+    c.rails.height = 0.025;
+    c.rails.thickness = 0.020;
+    c.rails.separation = 0.025;
+    c.rails.inductance_gradient = 0.5e-6;
+    c.rails.resistance_gradient = 1e-4;
+    c.barrel.length = 5.0;
+    c.barrel.start = 0.1;
+    c.armature.mass = 0.25;
+    c.armature.resistance = 20e-6;
+    c.armature.contact_voltage = 30.0;
+    c.armature.friction_dry = 0.3;
+    c.armature.friction_melted = 0.05;
+    c.armature.preload = 5e3;
+    c.armature.spreading = 3e-8;
+    return c;
+}
+
+/* Rails of no length and an armature that nothing moves: a short circuit. */
+static shot_config shorted(const shot_module *modules, int n)
+{
+    shot_config c = plain(modules, n);
+    c.barrel.start = 0.0;
+    c.armature.preload = 1e9;
+    c.armature.resistance = 0.0;
+    c.armature.contact_voltage = 0.0;
+    return c;
+}
+
+/* Runs to the end and checks the laws that hold for every shot. */
+static shot *run(const shot_config *c)
+{
+    shot *s = NULL;
+    const shot_sink sink = notebook();
+    assert_ok(shot_create(c, &s));
+    assert_ok(shot_advance(s, INFINITY, &sink));
+    assert_true(rec.worst_energy < 1e-6);                     /* ARCHITECTURE's bound at the default tolerances */
+    assert_true(rec.n <= 4 * c->n_modules + c->n_sites + 16); /* no chatter */
+    for (int k = 1; k < rec.n; k++) assert_true(rec.events[k].state.t >= rec.events[k - 1].state.t);
+    return s;
+}
+
+/* ---- closed forms ---- */
+
+/* u = V0 e^(-at) (cos wt + a/w sin wt), i = V0/(wL) e^(-at) sin wt until u = -V_d; then, R_d = 0, L i' = -R i - V_d. */
+typedef struct {
+    double V0, L, R, C, drop, a, w, crowbar, i_crowbar;
+} rlc;
+
+static rlc rlc_of(const shot_module *p, double L_load, double R_load)
+{
+    rlc c = { .V0 = p->charge, .L = p->inductance + L_load, .R = p->resistance + R_load, .C = p->capacitance };
+    c.drop = p->crowbar_drop;
+    c.a = 0.5 * c.R / c.L;
+    c.w = sqrt(1.0 / (c.L * c.C) - c.a * c.a);
+    double lo = 0.0, hi = 3.14159265358979 / c.w;
+    for (int k = 0; k < 200; k++) {
+        const double t = 0.5 * (lo + hi), u = c.V0 * exp(-c.a * t) * (cos(c.w * t) + c.a / c.w * sin(c.w * t));
+        if (u > -c.drop) {
+            lo = t;
+        } else {
+            hi = t;
+        }
+    }
+    c.crowbar = 0.5 * (lo + hi);
+    c.i_crowbar = c.V0 / (c.w * c.L) * exp(-c.a * c.crowbar) * sin(c.w * c.crowbar);
+    return c;
+}
+
+static double rlc_current(const rlc *c, double t)
+{
+    if (t <= c->crowbar) return c->V0 / (c->w * c->L) * exp(-c->a * t) * sin(c->w * t);
+    return (c->i_crowbar + c->drop / c->R) * exp(-(t - c->crowbar) * c->R / c->L) - c->drop / c->R;
+}
+
+/* 1e-8 of the peak: the issue's figure; at rtol 1e-11 the integration's own error is below it (docs/shot.md). */
+static void closed_form(double drop)
+{
+    shot_module m = unit(1, 0.0);
+    m.crowbar_drop = drop;
+    m.crowbar_resistance = 0.0;
+    shot_config c = shorted(&m, 1);
+    c.barrel.start = 2.0; /* the rails' 1 uH and 0.2 mohm and the armature's 0.3 mohm belong to the loop */
+    c.armature.resistance = 3e-4;
+    c.options.rtol = 1e-11;
+    c.options.atol = 1e-13;
+    const rlc exact = rlc_of(&m, 1e-6, 5e-4);
+    const double peak = rlc_current(&exact, atan(exact.w / exact.a) / exact.w);
+    shot *s = NULL;
+    const shot_sink sink = notebook();
+    assert_ok(shot_create(&c, &s));
+    double worst = 0.0;
+    for (int k = 1; k <= 200; k++) {
+        const double t = k * 2e-5;
+        assert_ok(shot_advance(s, t, &sink));
+        worst = fmax(worst, fabs(shot_now(s).current - rlc_current(&exact, t)) / peak);
+    }
+    print_message("worst current error %.2e of peak, peak %.2e\n", worst, shot_result(s).peak_current / peak - 1.0);
+    assert_true(worst < 1e-8);
+    assert_near(shot_result(s).peak_current, peak, 1e-8 * peak);
+    assert_int_equal(rec.count[SHOT_CROWBAR], 1);
+    assert_near(rec.events[1].state.t, exact.crowbar, 1e-11); /* NUMERICS: right to 1e-12 s at rtol 1e-8 for one loop */
+    if (drop > 0.0) {                                         /* zero current at t_c + L/R ln(1 + R i_c/V_d) */
+        const double end = exact.crowbar + exact.L / exact.R * log1p(exact.R * exact.i_crowbar / drop);
+        assert_ok(shot_advance(s, INFINITY, &sink));
+        assert_true(shot_done(s));
+        assert_int_equal(rec.count[SHOT_BLOCKED], 1);
+        assert_near(rec.events[rec.n - 1].state.t, end, 1e-8 * end);
+    }
+    shot_free(s);
+}
+
+static void rlc_with_ideal_crowbar(void **state)
+{
+    (void)state;
+    closed_form(0.0);
+    closed_form(25.0);
+}
+
+/* ---- the published pulse ---- */
+
+/* 0.6 % of peak everywhere: the issue's figure; the fitted values' own distance is 0.55 %. */
+static void published_pulse(void **state)
+{
+    (void)state;
+    const shot_module m = unit(1, 0.0);
+    const shot_config c = shorted(&m, 1);
+    shot *s = NULL;
+    assert_ok(shot_create(&c, &s));
+    FILE *file = fopen(BREECH_TESTS "/../cases/pulse_unit_200kJ/pulse_unit_200kJ.csv", "r");
+    assert_non_null(file);
+    char line[200];
+    double t = 0.0, i = 0.0, worst = 0.0, peak = 0.0;
+    int rows = 0;
+    while (fgets(line, sizeof line, file)) {
+        if (sscanf(line, "%lf,%lf", &t, &i) != 2) continue;
+        assert_ok(shot_advance(s, t, NULL));
+        worst = fmax(worst, fabs(shot_now(s).current - i));
+        peak = fmax(peak, i);
+        rows++;
+    }
+    fclose(file);
+    print_message("worst difference %.3f %% of peak over %d rows\n", 100.0 * worst / peak, rows);
+    assert_int_equal(rows, 54);
+    assert_true(worst < 0.006 * peak);
+    shot_free(s);
+}
+
+/* ---- an integration of its own ---- */
+
+/* y = u, i, x, v, m: one module, held by nothing, all of (C-1), (C-3), (C-4), (C-5), written from PHYSICS and not from the
+ * code; classical Runge-Kutta. */
+static void slope(const shot_config *c, bool crowbar, const double *y, double *d)
+{
+    const shot_module *p = c->modules;
+    const shot_armature *a = &c->armature;
+    const double Lr = c->rails.inductance_gradient, i = y[1], I = p->count * i, x = y[2], v = y[3];
+    const double u = crowbar ? -p->crowbar_drop : y[0];
+    const double L = p->inductance + p->cable_inductance, R = p->resistance + p->cable_resistance;
+    const double rails = (c->rails.resistance_gradient * x + Lr * v + a->resistance) * I + a->contact_voltage;
+    const double N = a->preload + a->spreading * I * I;
+    const double mu = a->friction_melted + (a->friction_dry - a->friction_melted) * exp(-v / a->friction_speed);
+    const double q = 0.25 * (a->gas_gamma + 1.0) * v;
+    const double p_gas = a->gas_density * v * (q + sqrt(q * q + a->gas_gamma * a->gas_pressure / a->gas_density));
+    d[0] = crowbar ? 0.0 : -i / p->capacitance;
+    d[1] = (u - R * i - rails) / (L + p->count * Lr * x);
+    d[2] = v;
+    d[3] = (0.5 * Lr * I * I - 2.0 * mu * N - p_gas * c->rails.height * c->rails.separation) / y[4];
+    d[4] = -a->wear_fraction * (2.0 * mu * N * v + a->contact_voltage * I) /
+           (a->specific_heat * (a->melting_temperature - a->temperature) + a->latent_heat);
+}
+
+static void runge_kutta(const shot_config *c, bool crowbar, double h, double *y)
+{
+    double k[4][5], z[5];
+    static const double at[4] = { 0.0, 0.5, 0.5, 1.0 };
+    for (int stage = 0; stage < 4; stage++) {
+        for (int j = 0; j < 5; j++) z[j] = y[j] + (stage ? at[stage] * h * k[stage - 1][j] : 0.0);
+        slope(c, crowbar, z, k[stage]);
+    }
+    for (int j = 0; j < 5; j++) y[j] += h / 6.0 * (k[0][j] + 2.0 * k[1][j] + 2.0 * k[2][j] + k[3][j]);
+}
+
+/* Halves the step until `done` of the state is met to 1e-15 s; returns the time. */
+static double integrate(const shot_config *c, bool crowbar, double t, double *y)
+{
+    double h = 2e-7;
+    while (h > 1e-16) {
+        double z[5];
+        memcpy(z, y, sizeof z);
+        runge_kutta(c, crowbar, h, z);
+        const bool over = z[2] > c->barrel.length || (!crowbar && z[0] < -c->modules->crowbar_drop);
+        if (over) {
+            h *= 0.5;
+        } else {
+            memcpy(y, z, sizeof z);
+            t += h;
+        }
+    }
+    return t;
+}
+
+/* The Runge-Kutta error at 0.2 us is below 1e-10 (halving the step moves it less); rtol 1e-10 leaves some 1e-9. */
+static void independent_integration(void **state)
+{
+    (void)state;
+    shot_module m = unit(8, 0.0);
+    m.cable_inductance = 1e-6;
+    m.cable_resistance = 1e-3;
+    m.crowbar_resistance = 0.0;
+    shot_config c = plain(&m, 1);
+    c.armature.velocity = 10.0; /* moving from the start: no release to model twice */
+    c.armature.wear_fraction = 0.3;
+    c.barrel.length = 2.0;
+    c.options.rtol = 1e-10;
+    c.options.atol = 1e-12;
+    double y[5] = { m.charge, 0.0, c.barrel.start, 10.0, c.armature.mass };
+    const double crowbar = integrate(&c, false, 0.0, y), t = integrate(&c, true, crowbar, y);
+    assert_near(y[2], c.barrel.length, 1e-9);
+    shot *s = run(&c);
+    const shot_summary r = shot_result(s);
+    print_message("muzzle velocity %.6f m/s, differs by %.1e; time by %.1e; wear %.3f g\n", r.muzzle_velocity,
+                  r.muzzle_velocity / y[3] - 1.0, r.muzzle_time / t - 1.0, 1e3 * (c.armature.mass - shot_now(s).mass));
+    assert_near(r.muzzle_velocity, y[3], 1e-8 * y[3]);
+    assert_near(r.muzzle_time, t, 1e-8 * t);
+    assert_near(r.exit_current, m.count * y[1], 1e-8 * r.peak_current);
+    assert_near(shot_now(s).mass, y[4], 1e-8 * y[4]);
+    assert_true(c.armature.mass - y[4] > 1e-4); /* the wear is there to be compared */
+    shot_free(s);
+}
+
+/* 13 groups, 15 units: the bank of the default shot. */
+static int default_bank(shot_module *modules)
+{
+    for (int k = 0; k < 13; k++) {
+        modules[k] = unit(k ? 1 : 3, k * 2.2e-4);
+        modules[k].cable_inductance = 1e-6;
+        modules[k].cable_resistance = 1e-3;
+    }
+    return 13;
+}
+
+static double muzzle_velocity_at(double rtol)
+{
+    shot_module modules[13];
+    shot_config c = plain(modules, default_bank(modules));
+    c.options.rtol = rtol;
+    c.options.atol = 0.01 * rtol;
+    shot *s = NULL;
+    assert_ok(shot_create(&c, &s));
+    assert_ok(shot_advance(s, INFINITY, NULL));
+    const double v = shot_result(s).muzzle_velocity;
+    shot_free(s);
+    return v;
+}
+
+/* A variable-order method promises errors proportional to rtol: within 100 rtol here (39 switchings add up), and each
+ * hundredth of rtol gains at least a factor 10. */
+static void tolerance_converges(void **state)
+{
+    (void)state;
+    const double exact = muzzle_velocity_at(1e-12);
+    double error[7];
+    for (int k = 0; k < 7; k++) {
+        const double rtol = pow(10.0, -4 - k);
+        error[k] = fabs(muzzle_velocity_at(rtol) / exact - 1.0);
+        print_message("rtol %.0e: %.1e\n", rtol, error[k]);
+        assert_true(error[k] < 100.0 * rtol);
+    }
+    for (int k = 0; k + 2 < 7; k++) assert_true(error[k + 2] < fmax(0.1 * error[k], 100.0 * 1e-12));
+}
+
+/* ---- banks of all kinds ---- */
+
+static void many_at_once(void **state)
+{
+    (void)state;
+    shot_module together = unit(48, 1e-4), apart[48];
+    together.charge = 4e3;
+    for (int k = 0; k < 48; k++) {
+        apart[k] = together;
+        apart[k].count = 1;
+    }
+    shot_config c = plain(&together, 1);
+    shot *one = run(&c);
+    c = plain(apart, 48);
+    shot *all = run(&c);
+    assert_int_equal(rec.count[SHOT_FIRED], 48);
+    assert_int_equal(rec.count[SHOT_CROWBAR], 48);
+    assert_int_equal(rec.count[SHOT_BLOCKED], 48);
+    assert_int_equal(rec.count[SHOT_WAITING], 0);
+    assert_int_equal(rec.count[SHOT_MUZZLE], 1);
+    /* the same circuit, integrated with other error norms: both within 100 rtol of the truth (see above) */
+    const double v = shot_result(one).muzzle_velocity;
+    assert_near(shot_result(all).muzzle_velocity, v, 2e-6 * v);
+    shot_free(one);
+    shot_free(all);
+}
+
+static void modules_that_never_fire(void **state)
+{
+    (void)state;
+    shot_module modules[3] = { unit(4, 0.0), unit(2, NAN), unit(3, INFINITY) };
+    modules[0].fire_at = 1e3;
+    shot_config c = plain(modules, 3);
+    shot *s = run(&c);
+    assert_true(shot_done(s));
+    assert_int_equal(rec.n, 0);
+    assert_true(shot_now(s).v == 0.0 && shot_result(s).peak_current == 0.0);
+    shot_free(s);
+
+    modules[0].fire_at = 0.0; /* beside one that does, they keep their charge */
+    c = plain(modules, 3);
+    s = run(&c);
+    assert_int_equal(rec.count[SHOT_FIRED], 1);
+    assert_int_equal(rec.count[SHOT_MUZZLE], 1);
+    assert_true(shot_module_voltage(s, 1) == modules[1].charge && shot_module_current(s, 2) == 0.0);
+    shot_free(s);
+}
+
+static void zero_charge(void **state)
+{
+    (void)state;
+    shot_module modules[2] = { unit(4, 1e-4), unit(4, 1e-4) };
+    modules[0].charge = 0.0;
+    shot_config c = plain(modules, 1);
+    shot *s = run(&c);
+    assert_true(shot_done(s) && shot_now(s).v == 0.0 && shot_result(s).energy_error == 0.0);
+    assert_int_equal(rec.count[SHOT_FIRED], 0);
+    shot_free(s);
+    c = plain(modules, 1); /* nothing that would hold the armature: still no motion, and an end */
+    c.armature.preload = 0.0;
+    s = run(&c);
+    assert_true(shot_done(s) && shot_now(s).v == 0.0);
+    shot_free(s);
+    c = plain(modules, 2); /* beside a charged group it waits for a breech voltage below zero, which never comes */
+    s = run(&c);
+    assert_int_equal(rec.count[SHOT_WAITING], 1);
+    assert_int_equal(rec.count[SHOT_FIRED], 1);
+    assert_int_equal(rec.count[SHOT_MUZZLE], 1);
+    shot_free(s);
+}
+
+/* Fired into a breech above its own voltage, a weak group waits, and conducts when the breech has fallen to it. */
+static void weak_group_waits(void **state)
+{
+    (void)state;
+    shot_module modules[2] = { unit(10, 0.0), unit(1, 6e-4) };
+    modules[1].charge = 500.0;
+    const shot_config c = plain(modules, 2);
+    shot *s = run(&c);
+    const shot_event *waits = NULL, *fires = NULL;
+    for (int k = 0; k < rec.n; k++) {
+        if (rec.events[k].index != 1) continue;
+        if (rec.events[k].kind == SHOT_WAITING) waits = &rec.events[k];
+        if (rec.events[k].kind == SHOT_FIRED) fires = &rec.events[k];
+    }
+    assert_non_null(waits);
+    assert_non_null(fires);
+    assert_near(waits->state.t, 6e-4, 1e-12);
+    assert_true(waits->state.breech_voltage > 500.0 && fires->state.t > waits->state.t);
+    shot_free(s);
+}
+
+static void stuck_armature(void **state)
+{
+    (void)state;
+    const shot_module m = unit(10, 0.0);
+    shot_config c = plain(&m, 1);
+    c.armature.preload = 1e7;
+    shot *s = run(&c);
+    assert_true(shot_done(s));
+    assert_true(shot_now(s).x == c.barrel.start && shot_now(s).phase == SHOT_HELD);
+    assert_true(isnan(shot_result(s).muzzle_velocity) && shot_result(s).peak_current > 1e6);
+    assert_int_equal(rec.count[SHOT_RELEASED] + rec.count[SHOT_MUZZLE], 0);
+    shot_free(s);
+    c = plain(&m, 1); /* spreading alone can hold it at any current: 2 mu k > L'/2 */
+    c.armature.preload = 0.0;
+    c.armature.spreading = 1e-6;
+    s = run(&c);
+    assert_true(shot_done(s) && shot_now(s).phase == SHOT_HELD);
+    shot_free(s);
+}
+
+/* Friction that the force exceeds only around the peak: released once, stopped once, at the right instants. */
+static void armature_that_stops_again(void **state)
+{
+    (void)state;
+    const shot_module m = unit(10, 0.0);
+    shot_config c = plain(&m, 1);
+    c.armature.friction_dry = 0.5;
+    c.armature.friction_melted = 0.5;
+    c.armature.spreading = 0.0;
+    c.armature.preload = 3e5;
+    c.armature.mass = 5.0;
+    shot *s = run(&c);
+    assert_true(shot_done(s));
+    assert_int_equal(rec.count[SHOT_RELEASED], 1);
+    assert_int_equal(rec.count[SHOT_STOPPED], 1);
+    for (int k = 0; k < rec.n; k++) { /* (C-3): 1/2 L' I^2 = 2 mu N, to the release margin of 1e-3 N and round-off */
+        const shot_state *e = &rec.events[k].state;
+        if (rec.events[k].kind == SHOT_RELEASED) assert_near(0.25e-6 * e->current * e->current, 3e5, 0.01);
+        if (rec.events[k].kind == SHOT_STOPPED) assert_true(e->v == 0.0 && e->x > 0.1 && e->x < 5.0);
+    }
+    shot_free(s);
+}
+
+static void leaves_before_the_last_firing(void **state)
+{
+    (void)state;
+    shot_module modules[2] = { unit(10, 0.0), unit(10, 5e-3) };
+    shot_config c = plain(modules, 2);
+    c.barrel.length = 0.5;
+    c.barrel.muzzle_voltage = 200.0;
+    shot *s = run(&c);
+    const shot_summary result = shot_result(s);
+    assert_true(shot_done(s) && result.muzzle_time < 5e-3);
+    assert_int_equal(rec.count[SHOT_FIRED], 2);
+    assert_int_equal(rec.count[SHOT_BLOCKED], 2);
+    assert_near(shot_now(s).ledger.kinetic, result.muzzle_energy, 0.0);
+    assert_true(shot_now(s).ledger.muzzle > 0.5 * 0.5 * shot_now(s).ledger.start); /* the late half goes mostly there */
+    shot_free(s);
+}
+
+/* ---- sites and jumps ---- */
+
+static void sites_are_located(void **state)
+{
+    (void)state;
+    static const double sites[] = { 4.2, 0.5, 0.5, 0.500001, 1.7, 2.9999999, 3.0, 4.9999 };
+    static const int order[] = { 1, 2, 3, 4, 5, 6, 0, 7 };
+    shot_module modules[13];
+    shot_config c = plain(modules, default_bank(modules));
+    shot *bare = run(&c);
+    c.sites = sites;
+    c.n_sites = 8;
+    shot *s = run(&c);
+    int n = 0;
+    for (int k = 0; k < rec.n; k++) {
+        if (rec.events[k].kind != SHOT_SITE) continue;
+        const shot_state *e = &rec.events[k].state;
+        assert_int_equal(rec.events[k].index, order[n]);
+        assert_near(e->x, sites[order[n]], 1e-9); /* IDA locates roots to about 100 roundings of t: 1e-15 s x 2 km/s */
+        assert_true(e->contact_pressure > 1e7 && e->rail_temperature == c.rails.temperature);
+        assert_true(e->armature_temperature > e->rail_temperature &&
+                    e->armature_temperature <= c.armature.melting_temperature);
+        n++;
+    }
+    assert_int_equal(n, 8);
+    assert_near(shot_result(s).muzzle_velocity, shot_result(bare).muzzle_velocity,
+                1e-9 * 2e3); /* looking changes nothing */
+    shot_free(s);
+    shot_free(bare);
+}
+
+static void gouges_hand_back(void **state)
+{
+    (void)state;
+    static const double sites[] = { 1.0, 2.0 };
+    shot_module modules[13];
+    shot_config c = plain(modules, default_bank(modules));
+    c.sites = sites;
+    c.n_sites = 2;
+    shot *free_run = run(&c);
+    shot *s = NULL;
+    const shot_sink sink = notebook();
+    rec.impulse = 5.0;
+    rec.mass_loss = 1e-4;
+    assert_ok(shot_create(&c, &s));
+    assert_ok(shot_advance(s, INFINITY, &sink));
+    const shot_ledger l = shot_now(s).ledger;
+    assert_true(rec.worst_energy < 1e-6);
+    assert_near(l.momentum_jumps, 10.0, 1e-12);
+    assert_near(l.mass_jumps, 2e-4, 1e-16);
+    assert_true(l.jumps > 0.0 && shot_now(s).mass < c.armature.mass);
+    const double loss = shot_result(free_run).muzzle_velocity - shot_result(s).muzzle_velocity;
+    assert_true(loss > 5.0 && loss < 10.0 / 0.249); /* less than both jumps: a slower armature gains more afterwards */
+    shot_free(s);
+    shot_free(free_run);
+
+    const shot_sink again =
+        notebook(); /* more than the momentum: it stops there, and the current starts it again or not */
+    rec.impulse = 1e6;
+    assert_ok(shot_create(&c, &s));
+    assert_int_equal(shot_jump(s, 1.0, 0.0).code, STATUS_BAD_INPUT); /* held: no motion to take from */
+    assert_ok(shot_advance(s, INFINITY, &again));
+    assert_true(rec.worst_energy < 1e-6 && shot_done(s));
+    assert_int_equal(shot_jump(s, -1.0, 0.0).code, STATUS_BAD_INPUT);
+    assert_int_equal(shot_jump(s, 0.0, 1.0).code, STATUS_BAD_INPUT);
+    shot_free(s);
+}
+
+/* Stopped at any event and taken up again, the shot gives the same bits and the same events. */
+static void stop_and_go_on(void **state)
+{
+    (void)state;
+    shot_module modules[13];
+    const shot_config c = plain(modules, default_bank(modules));
+    shot *whole = run(&c);
+    const int n = rec.n;
+    for (int stop = 1; stop <= n; stop += 5) {
+        shot *s = NULL;
+        const shot_sink sink = notebook();
+        rec.stop_at = stop;
+        assert_ok(shot_create(&c, &s));
+        assert_int_equal(shot_advance(s, INFINITY, &sink).code, STATUS_STOPPED);
+        assert_ok(shot_advance(s, INFINITY, &sink));
+        assert_int_equal(rec.n, n);
+        assert_true(shot_result(s).muzzle_velocity == shot_result(whole).muzzle_velocity);
+        shot_free(s);
+    }
+    shot_free(whole);
+}
+
+static status creation(const shot_config *c)
+{
+    shot *s = NULL;
+    const status st = shot_create(c, &s);
+    if (st.code != STATUS_OK) assert_null(s);
+    shot_free(s);
+    return st;
+}
+
+static void bad_input_is_named(void **state)
+{
+    (void)state;
+    shot_module m = unit(1, 0.0);
+    const double outside[1] = { 7.0 };
+    shot_config c = plain(&m, 1);
+    m.capacitance = -5e-3;
+    status st = creation(&c);
+    assert_int_equal(st.code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(st.text, "bank[0].capacitance"));
+    m = unit(1, 0.0);
+    m.inductance = 0.0;
+    assert_non_null(strstr(creation(&c).text, "inductance"));
+    m = unit(1, 0.0);
+    c.barrel.start = 6.0;
+    assert_non_null(strstr(creation(&c).text, "barrel.start"));
+    c = plain(&m, 1);
+    c.sites = outside;
+    c.n_sites = 1;
+    assert_non_null(strstr(creation(&c).text, "sites[0]"));
+    c = plain(&m, 0);
+    c.n_modules = 0;
+    assert_int_equal(creation(&c).code, STATUS_BAD_INPUT);
+}
+
+/* The default bank at level skin; the figures of docs/shot.md come from here. */
+static void default_shot(void **state)
+{
+    (void)state;
+    shot_module modules[13];
+    shot_config c = plain(modules, default_bank(modules));
+    c.rails.level = SHOT_RAILS_SKIN;
+    shot *s = run(&c);
+    const shot_summary r = shot_result(s);
+    const shot_state now = shot_now(s);
+    const double frequency = shot_effective_frequency(modules, 13);
+    print_message("f %.1f Hz, L' %.4f uH/m, R' %.1f uohm/m\n", frequency, 1e6 * now.inductance_gradient,
+                  1e6 * now.resistance_gradient);
+    print_message(
+        "peak %.1f kA, muzzle %.1f m/s at %.3f ms, efficiency %.3f, energy error %.1e, worst %.1e, %llu steps\n",
+        1e-3 * r.peak_current, r.muzzle_velocity, 1e3 * r.muzzle_time, r.efficiency, r.energy_error, rec.worst_energy,
+        (unsigned long long)r.steps);
+    assert_true(r.muzzle_velocity > 2000.0 &&
+                r.muzzle_velocity < 3000.0); /* the issue: passes through 1.0 to 2.0 km/s */
+    assert_near(r.muzzle_energy, 0.5 * c.armature.mass * r.muzzle_velocity * r.muzzle_velocity, 1e-9 * r.muzzle_energy);
+    assert_near(r.efficiency, r.muzzle_energy / now.ledger.start, 1e-12);
+    assert_true(r.action > 0.0 && r.action < r.peak_current * r.peak_current * r.muzzle_time);
+    shot_free(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rlc_with_ideal_crowbar),
+        cmocka_unit_test(published_pulse),
+        cmocka_unit_test(independent_integration),
+        cmocka_unit_test(tolerance_converges),
+        cmocka_unit_test(many_at_once),
+        cmocka_unit_test(modules_that_never_fire),
+        cmocka_unit_test(zero_charge),
+        cmocka_unit_test(weak_group_waits),
+        cmocka_unit_test(stuck_armature),
+        cmocka_unit_test(armature_that_stops_again),
+        cmocka_unit_test(leaves_before_the_last_firing),
+        cmocka_unit_test(sites_are_located),
+        cmocka_unit_test(gouges_hand_back),
+        cmocka_unit_test(stop_and_go_on),
+        cmocka_unit_test(bad_input_is_named),
+        cmocka_unit_test(default_shot),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
