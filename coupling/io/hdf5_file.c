@@ -28,26 +28,15 @@ static hid_t memory_access(void)
     return access;
 }
 
-static status wrap(hid_t id, const char *name, h5_file **out)
+/* Never reaches the disk under this name (no backing store), but HDF5 tells files in memory apart by it: the address is
+ * the file's own as long as it is open. */
+static status allocate(const char *path, h5_file **out, char *name, size_t size)
 {
     h5_file *f = malloc(sizeof *f);
-    if (!f) {
-        H5Fclose(id);
-        return status_error(STATUS_MEMORY, "%.200s: no memory", name);
-    }
-    f->id = id;
-    snprintf(f->name, sizeof f->name, "%s", name);
+    CHECK(f, STATUS_MEMORY, "%.200s: no memory", path);
+    snprintf(f->name, sizeof f->name, "%s", path);
+    snprintf(name, size, "breech-memory-%p.h5", (void *)f);
     *out = f;
-    return status_ok();
-}
-
-/* Never reaches the disk under this name (no backing store), but HDF5 tells files in memory apart by it. */
-static status unused_name(char *name, size_t size)
-{
-    void *place = malloc(1);
-    CHECK(place, STATUS_MEMORY, "no memory");
-    snprintf(name, size, "breech-memory-%p.h5", place);
-    free(place);
     return status_ok();
 }
 
@@ -55,33 +44,49 @@ status h5_create(h5_file **out)
 {
     *out = NULL;
     be_quiet();
+    h5_file *f;
     char name[64];
-    TRY(unused_name(name, sizeof name));
+    TRY(allocate("new HDF5 file", &f, name, sizeof name));
     const hid_t access = memory_access();
-    const hid_t id = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    f->id = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, access);
     H5Pclose(access);
-    CHECK(id >= 0, STATUS_MEMORY, "an HDF5 file cannot be made in memory");
-    return wrap(id, "new HDF5 file", out);
+    if (f->id < 0) {
+        free(f);
+        return status_error(STATUS_MEMORY, "an HDF5 file cannot be made in memory");
+    }
+    *out = f;
+    return status_ok();
+}
+
+static hid_t open_image(const char *name, void *image, size_t bytes)
+{
+    if (bytes == 0) return -1;
+    const hid_t access = memory_access();
+    H5Pset_file_image(access, image, bytes);
+    const hid_t id = H5Fopen(name, H5F_ACC_RDWR, access);
+    H5Pclose(access);
+    return id;
 }
 
 status h5_open(const char *path, h5_file **out)
 {
     *out = NULL;
     be_quiet();
-    char *image;
+    char *image, name[64];
     size_t bytes;
+    h5_file *f = NULL;
     TRY(file_read(path, &image, &bytes));
-    char name[64];
-    status s = unused_name(name, sizeof name);
+    status s = allocate(path, &f, name, sizeof name);
     if (s.code == STATUS_OK) {
-        const hid_t access = memory_access();
-        if (bytes > 0) H5Pset_file_image(access, image, bytes);
-        const hid_t id = bytes > 0 ? H5Fopen(name, H5F_ACC_RDWR, access) : -1;
-        H5Pclose(access);
-        s = id >= 0 ? wrap(id, path, out)
-                    : status_error(STATUS_IO, "%.300s: is not an HDF5 file, or a damaged one (%zu bytes)", path, bytes);
+        f->id = open_image(name, image, bytes);
+        if (f->id < 0)
+            s = status_error(STATUS_IO, "%.300s: is not an HDF5 file, or a damaged one (%zu bytes)", path, bytes);
     }
     free(image);
+    if (s.code == STATUS_OK)
+        *out = f;
+    else
+        free(f);
     return s;
 }
 

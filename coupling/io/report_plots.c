@@ -2,6 +2,7 @@
 
 #include "coupling/io/outdir.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -87,9 +88,13 @@ static status plot_begin(plot *p, const report_source *r, const char *name, int 
     snprintf(p->script_path, sizeof p->script_path, "%.1000s.gp.part", p->svg);
     p->script = fopen(p->script_path, "w");
     CHECK(p->script, STATUS_IO, "%.300s: cannot be written: %s", p->script_path, strerror(errno));
+    char id[100]; /* gnuplot wants an identifier */
+    snprintf(id, sizeof id, "plot_%s", name);
+    for (char *c = id; *c; c++)
+        if (!isalnum((unsigned char)*c)) *c = '_';
     fprintf(p->script,
-            "set encoding utf8\nset terminal svg size %d,%d dynamic noenhanced font 'sans-serif,13' name 'plot_%s'\n",
-            width, height, name);
+            "set encoding utf8\nset terminal svg size %d,%d dynamic noenhanced font 'sans-serif,13' name '%s'\n", width,
+            height, name);
     fputs("set border 3 lc rgb '#666666'\nset tics nomirror textcolor rgb '#333333'\nset grid lc rgb '#e4e4e4' lw 1\n"
           "set key outside top center horizontal samplen 1.5 spacing 1.1\nset datafile missing 'nan'\n",
           p->script);

@@ -1,0 +1,189 @@
+/* What the tests of the output share: example results, folders, Python. */
+#ifndef BREECH_TESTS_OUTPUT_COMMON_H
+#define BREECH_TESTS_OUTPUT_COMMON_H
+
+#include "coupling/io/summary.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#define OK(call)                                                        \
+    do {                                                                \
+        const status ok_ = (call);                                      \
+        if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
+    } while (0)
+
+/* An empty folder of that name under the test's own. */
+static inline const char *fresh_folder(const char *name)
+{
+    char command[300];
+    snprintf(command, sizeof command, "rm -rf '%s' && mkdir -p '%s'", name, name);
+    assert_int_equal(system(command), 0);
+    return name;
+}
+
+static inline int files_in(const char *dir, const char *suffix)
+{
+    int n = 0;
+    DIR *d = opendir(dir);
+    assert_non_null(d);
+    for (const struct dirent *e; (e = readdir(d));) {
+        const size_t length = strlen(e->d_name), tail = strlen(suffix);
+        if (strcmp(e->d_name, ".") == 0 || strcmp(e->d_name, "..") == 0) continue;
+        n += length >= tail && strcmp(e->d_name + length - tail, suffix) == 0;
+    }
+    closedir(d);
+    return n;
+}
+
+static inline bool full_tests(void)
+{
+    const char *full = getenv("BREECH_FULL");
+    return full && strcmp(full, "1") == 0;
+}
+
+/* A Python that has h5py, NULL when there is none. */
+static inline const char *python_with_h5py(void)
+{
+    static const char *const candidates[] = { "python3", "/usr/bin/python3" };
+    for (size_t i = 0; i < sizeof candidates / sizeof *candidates; i++) {
+        char command[100];
+        snprintf(command, sizeof command, "%s -c 'import h5py' 2>/dev/null", candidates[i]);
+        if (system(command) == 0) return candidates[i];
+    }
+    print_message("python3-h5py is not installed\n");
+    return NULL;
+}
+
+/* Runs BREECH_TESTS/script with the arguments; skips the test where there is no h5py. */
+static inline void run_script(const char *script, const char *arguments)
+{
+    const char *python = python_with_h5py();
+    if (!python) skip();
+    char command[1200];
+    snprintf(command, sizeof command, "%s '%s/%s' %s", python, BREECH_TESTS, script, arguments);
+    assert_int_equal(system(command), 0);
+}
+
+/* ---- one result of each kind, every number different ---- */
+
+static inline shot_record example_shot(void)
+{
+    return (shot_record){ .is = { .peak_current = 1.25e6,
+                                  .muzzle_velocity = 2105.0,
+                                  .muzzle_time = 4.1e-3,
+                                  .muzzle_energy = 443e3,
+                                  .efficiency = 0.083,
+                                  .action = 2.7e9,
+                                  .peak_acceleration = 1.1e6,
+                                  .exit_current = 4.4e5,
+                                  .energy_error = 3e-9,
+                                  .steps = 1234 },
+                          .wall_seconds = 0.25 };
+}
+
+static inline scene_result example_scene(double severity)
+{
+    scene_result r;
+    memset(&r, 0, sizeof r);
+    r.class = severity > 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
+    snprintf(r.reason, sizeof r.reason, "severity %.2f, widening %.2f <&> \"limits\"", severity, 1.5 + severity);
+    r.severity = severity;
+    r.widening = 1.5 + severity;
+    r.crater_length = 8e-3;
+    r.crater_width = 3e-3;
+    r.crater_depth = 0.45e-3;
+    r.rim_height = 0.2e-3;
+    r.crater_volume = 4e-9;
+    r.peak_pressure = 21e9;
+    r.peak_force[0] = 3e3;
+    r.peak_force[1] = -9e3;
+    r.peak_temperature = 900.0;
+    r.peak_mises_armature = 0.6e9;
+    r.peak_mises_rail = 0.5e9;
+    r.peak_mises_armature_999 = 0.55e9;
+    r.peak_mises_rail_999 = 0.45e9;
+    r.peak_pressure_armature_999 = 12e9;
+    r.peak_pressure_rail_999 = 11e9;
+    r.momentum_error = 1e-14;
+    r.energy_error = -2e-3;
+    r.bodies = 2;
+    strcpy(r.body[0], "rail");
+    strcpy(r.body[1], "armature");
+    r.failed_volume[0] = 1e-9;
+    r.failed_volume[1] = 2e-9;
+    r.end_time = 8e-6;
+    r.particles = 100000;
+    r.steps = 2000;
+    r.particle_steps = 150000000;
+    r.particle_steps_dense = 200000000;
+    r.wall_seconds = 12.0;
+    r.threads = 2;
+    return r;
+}
+
+enum { EXAMPLE_SITES = 6, EXAMPLE_SCENES = 4 };
+
+typedef struct {
+    onset_site site[EXAMPLE_SITES];
+    onset_scene scene[EXAMPLE_SCENES];
+    onset_result result;
+} example_study;
+
+static inline void example_onset(example_study *e)
+{
+    memset(e, 0, sizeof *e);
+    for (int i = 0; i < EXAMPLE_SITES; i++)
+        e->site[i] = (onset_site){ .position = 0.5 + 0.7 * i,
+                                   .radius = 0.5e-3,
+                                   .time = 1e-3 * (i + 1),
+                                   .velocity = 600.0 + 300.0 * i,
+                                   .current = 1e6,
+                                   .contact_pressure = 5e7,
+                                   .impact_pressure = 1e10 + 2e9 * i,
+                                   .screen = 5.0 + i,
+                                   .threshold_velocity = 1480.0,
+                                   .threshold_interval = { 1450.0, 1510.0 },
+                                   .gouged_volume = NAN,
+                                   .outcome = (site_outcome)(i % 6) };
+    e->site[0].velocity = e->site[0].time = e->site[0].current = NAN; /* not reached */
+    for (int i = 0; i < EXAMPLE_SCENES; i++) {
+        onset_scene *s = &e->scene[i];
+        s->velocity = 1200.0 + 150.0 * i;
+        s->radius = s->height = 0.5e-3;
+        s->temperature = 300.0;
+        s->contact_pressure = 5e7;
+        s->cells_per_radius = i < 2 ? 3.0 : 6.0;
+        snprintf(s->name, sizeof s->name, "v%.0f", s->velocity);
+        strcpy(s->shape, "hemisphere");
+        strcpy(s->material, "copper");
+        strcpy(s->surface, "bare");
+        s->result = example_scene(-0.3 + 0.2 * i);
+    }
+    e->result = (onset_result){ .verdict = VERDICT_GOUGES,
+                                .reason = "bracketed",
+                                .probability_gouge = 1.0,
+                                .threshold_velocity = 1480.0,
+                                .threshold_interval = { 1450.0, 1510.0 },
+                                .onset_position = 2.5,
+                                .onset_interval = { 2.4, 2.7 },
+                                .scenes_run = 4,
+                                .scenes_skipped = 2,
+                                .n_sites = EXAMPLE_SITES,
+                                .n_scenes = EXAMPLE_SCENES,
+                                .site = e->site,
+                                .scene = e->scene,
+                                .wall_seconds = 200.0 };
+}
+
+#endif

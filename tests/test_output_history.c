@@ -1,0 +1,284 @@
+/* history.h5: what was appended comes back, with units; a run that goes on leaves no gap; nothing that ends the writer
+ * leaves a file that cannot be read. */
+#include "output_common.h"
+
+#include "coupling/io/hdf5_file.h"
+#include "coupling/io/history.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <time.h>
+
+static const history_column two[] = { { "time", "s", "time" }, { "x", "m", "position" } };
+
+static void append_many(history *h, int series, int from, int to)
+{
+    for (int i = from; i < to; i++) OK(history_append(h, series, (const double[]){ 1e-6 * i, 2.0 * i }));
+}
+
+static double *read_series(const char *path, const char *name, size_t *n)
+{
+    h5_file *f;
+    double *data;
+    size_t dims[H5_MAX_RANK];
+    OK(h5_open(path, &f));
+    OK(h5_read(f, name, &data, dims));
+    h5_close(f);
+    *n = dims[0];
+    return data;
+}
+
+/* 1000 rows: more than one buffer, less than a whole number of them. */
+static void rows_come_back(void **state)
+{
+    (void)state;
+    fresh_folder("history");
+    history *h;
+    int series, again;
+    OK(history_open("history/a.h5", false, &h));
+    OK(history_series(h, "/scene/a", two, 2, &series));
+    append_many(h, series, 0, 1000);
+    OK(history_series(h, "/scene/a", two, 2, &again));
+    assert_int_equal(series, again);
+    OK(history_close(h));
+    size_t n;
+    double *x = read_series("history/a.h5", "/scene/a/x", &n);
+    assert_int_equal(n, 1000);
+    for (int i = 0; i < 1000; i++) assert_true(x[i] == 2.0 * i);
+    free(x);
+    assert_int_equal(files_in("history", ""), 1);
+}
+
+static void every_column_has_units_and_description(void **state)
+{
+    (void)state;
+    fresh_folder("history");
+    history *h;
+    int series;
+    OK(history_open("history/a.h5", false, &h));
+    OK(history_shot(h, &series));
+    double row[HISTORY_MAX_COLUMNS];
+    shot_state s;
+    memset(&s, 0, sizeof s);
+    s.t = 1e-3;
+    s.v = 1234.5;
+    s.ledger.energy_error = 7e-9;
+    history_shot_row(&s, row);
+    OK(history_append(h, series, row));
+    OK(history_events(h, &series));
+    const shot_event e = { SHOT_SITE, 3, s };
+    history_event_row(&e, row);
+    OK(history_append(h, series, row));
+    OK(history_scene(h, "v1500", &series));
+    mpm_report report;
+    mpm_ledger ledger;
+    memset(&report, 0, sizeof report);
+    memset(&ledger, 0, sizeof ledger);
+    report.failed_volume[2] = 5.0;
+    history_scene_row(&report, &ledger, row);
+    OK(history_append(h, series, row));
+    double map[12];
+    for (int i = 0; i < 12; i++) map[i] = 1e-4 * i;
+    const crater c = { .class = DAMAGE_GOUGE,
+                       .reason = "why",
+                       .severity = 0.5,
+                       .nx = 4,
+                       .nz = 3,
+                       .x0 = 1e-3,
+                       .dx = 1e-4,
+                       .z0 = -1e-4,
+                       .dz = 1e-4,
+                       .depth_map = map };
+    OK(history_crater(h, "v1500", &c));
+    OK(history_crater(h, "v1500", &c)); /* a former one is replaced */
+    OK(history_close(h));
+
+    size_t n;
+    double *v = read_series("history/a.h5", "/shot/velocity", &n);
+    assert_true(n == 1 && v[0] == 1234.5);
+    free(v);
+    v = read_series("history/a.h5", "/shot/events/index", &n);
+    assert_true(n == 1 && v[0] == 3.0);
+    free(v);
+    v = read_series("history/a.h5", "/scene/v1500/failed_volume", &n);
+    assert_true(n == 1 && v[0] == 5.0);
+    free(v);
+    v = read_series("history/a.h5", "/scene/v1500/crater/depth", &n);
+    assert_true(n == 4 && v[11] == map[11]);
+    free(v);
+    run_script("read_history.py", "history/a.h5");
+}
+
+static void names_that_are_no_names(void **state)
+{
+    (void)state;
+    fresh_folder("history");
+    history *h;
+    int series;
+    OK(history_open("history/a.h5", false, &h));
+    assert_int_equal(history_scene(h, "a/b", &series).code, STATUS_BAD_INPUT);
+    assert_int_equal(history_series(h, "/a", two, 0, &series).code, STATUS_BAD_INPUT);
+    assert_int_equal(history_series(h, "a", two, 2, &series).code, STATUS_BAD_INPUT);
+    char name[16];
+    for (int i = 0; i < HISTORY_MAX_SERIES; i++) {
+        snprintf(name, sizeof name, "/s%d", i);
+        OK(history_series(h, name, two, 2, &series));
+    }
+    assert_int_equal(history_series(h, "/more", two, 2, &series).code, STATUS_BAD_INPUT);
+    OK(history_end(h, 5)); /* frees a place */
+    OK(history_series(h, "/more", two, 2, &series));
+    OK(history_close(h));
+}
+
+/* A run stopped at row 500 with rows flushed up to 700 goes on from its checkpoint: each time once, in order. */
+static void resumed_run_has_no_gap_and_no_double(void **state)
+{
+    (void)state;
+    fresh_folder("history");
+    history *h;
+    int series;
+    OK(history_open("history/a.h5", false, &h));
+    OK(history_series(h, "/scene/a", two, 2, &series));
+    append_many(h, series, 0, 700);
+    OK(history_close(h));
+    OK(history_open("history/a.h5", true, &h));
+    OK(history_series(h, "/scene/a", two, 2, &series));
+    OK(history_rewind(h, series, 1e-6 * 499));
+    append_many(h, series, 500, 1200);
+    OK(history_close(h));
+    size_t n;
+    double *t = read_series("history/a.h5", "/scene/a/time", &n), *x = read_series("history/a.h5", "/scene/a/x", &n);
+    assert_int_equal(n, 1200);
+    for (int i = 0; i < 1200; i++) assert_true(t[i] == 1e-6 * i && x[i] == 2.0 * i);
+    free(t);
+    free(x);
+    OK(history_open("history/a.h5", false, &h)); /* without --resume: replaced */
+    OK(history_close(h));
+    h5_file *f;
+    OK(h5_open("history/a.h5", &f));
+    assert_false(h5_exists(f, "/scene"));
+    h5_close(f);
+}
+
+static void write_for_ever(void)
+{
+    history *h;
+    int series;
+    if (history_open("history/a.h5", false, &h).code != STATUS_OK) _exit(3);
+    if (history_series(h, "/scene/a", two, 2, &series).code != STATUS_OK) _exit(4);
+    for (int i = 0;; i++) {
+        if (history_append(h, series, (const double[]){ 1e-6 * i, 2.0 * i }).code != STATUS_OK) _exit(5);
+        if (i % 40 == 0 && history_flush(h).code != STATUS_OK) _exit(6);
+    }
+}
+
+/* kill -9 at any instant, the middle of a flush included: what is there is a whole file with the rows of some flush. */
+static void killed_writer_leaves_a_readable_file(void **state)
+{
+    (void)state;
+    const int kills = full_tests() ? 300 : 25;
+    size_t longest = 0;
+    for (int k = 0; k < kills; k++) {
+        fresh_folder("history");
+        const pid_t child = fork();
+        if (child == 0) write_for_ever();
+        while (access("history/a.h5", R_OK) != 0) usleep(200);
+        usleep((useconds_t)(1000 + (k * 7919) % 40000));
+        kill(child, SIGKILL);
+        int result;
+        waitpid(child, &result, 0);
+        assert_true(WIFSIGNALED(result));
+        size_t nt, nx;
+        double *t = read_series("history/a.h5", "/scene/a/time", &nt),
+               *x = read_series("history/a.h5", "/scene/a/x", &nx);
+        assert_int_equal(nt, nx);
+        assert_int_equal(nt % 40, 1); /* as flushed */
+        for (size_t i = 0; i < nt; i++) assert_true(t[i] == 1e-6 * (double)i && x[i] == 2.0 * (double)i);
+        if (nt > longest) longest = nt;
+        free(t);
+        free(x);
+    }
+    assert_true(longest > 41); /* some were killed well into their work */
+}
+
+static void full_disk_is_an_error_and_keeps_the_file(void **state)
+{
+    (void)state;
+    fresh_folder("history");
+    history *h;
+    int series;
+    OK(history_open("history/a.h5", false, &h));
+    OK(history_series(h, "/scene/a", two, 2, &series));
+    append_many(h, series, 0, 10);
+    OK(history_flush(h));
+    append_many(h, series, 10, 20);
+    assert_int_equal(symlink("/dev/full", "history/a.h5.part"), 0);
+    const status s = history_flush(h);
+    assert_int_equal(s.code, STATUS_IO);
+    assert_non_null(strstr(s.text, "history/a.h5"));
+    size_t n;
+    free(read_series("history/a.h5", "/scene/a/time", &n));
+    assert_int_equal(n, 10);
+    OK(history_close(h)); /* there is room again: nothing is lost */
+    free(read_series("history/a.h5", "/scene/a/time", &n));
+    assert_int_equal(n, 20);
+}
+
+static void foreign_files_are_refused(void **state)
+{
+    (void)state;
+    fresh_folder("history");
+    FILE *out = fopen("history/a.h5", "w");
+    fputs("no HDF5", out);
+    fclose(out);
+    history *h;
+    const status s = history_open("history/a.h5", true, &h);
+    assert_int_equal(s.code, STATUS_IO);
+    assert_non_null(strstr(s.text, "history/a.h5"));
+    assert_null(h);
+    h5_file *f;
+    assert_int_equal(h5_open("history/none.h5", &f).code, STATUS_IO);
+    OK(h5_create(&f));
+    double *data;
+    size_t dims[H5_MAX_RANK];
+    assert_int_equal(h5_read(f, "/nothing/here", &data, dims).code, STATUS_IO);
+    assert_null(data);
+    assert_int_equal(h5_truncate(f, "/nothing", 3).code, STATUS_IO);
+    h5_close(f);
+}
+
+/* Two files open at once do not see each other. */
+static void files_in_memory_are_apart(void **state)
+{
+    (void)state;
+    h5_file *a, *b;
+    const double one = 1.0;
+    OK(h5_create(&a));
+    OK(h5_create(&b));
+    OK(h5_write(a, &(h5_name){ "/x", "m", "one" }, &(h5_array){ H5_DOUBLE, 1, { 1 }, &one }));
+    assert_true(h5_exists(a, "/x"));
+    assert_false(h5_exists(b, "/x"));
+    char *names, unit[8];
+    OK(h5_list(a, "/", &names));
+    assert_string_equal(names, "x\n");
+    free(names);
+    OK(h5_read_attribute_text(a, "/x", "units", unit, sizeof unit));
+    assert_string_equal(unit, "m");
+    h5_close(a);
+    h5_close(b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows_come_back),
+        cmocka_unit_test(every_column_has_units_and_description),
+        cmocka_unit_test(names_that_are_no_names),
+        cmocka_unit_test(resumed_run_has_no_gap_and_no_double),
+        cmocka_unit_test(killed_writer_leaves_a_readable_file),
+        cmocka_unit_test(full_disk_is_an_error_and_keeps_the_file),
+        cmocka_unit_test(foreign_files_are_refused),
+        cmocka_unit_test(files_in_memory_are_apart),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,133 @@
+/* Snapshots: the structure that VTKHDF 1.0 asks for, the values that the particles have, the index, what a resumed run
+ * keeps.  ParaView itself reads them when BREECH_FULL is 1. */
+#include "output_common.h"
+
+#include "coupling/io/outdir.h"
+#include "coupling/io/snapshot.h"
+
+/* Particle i, field f, component k: a value that says which it is, exact in float32. */
+typedef struct {
+    size_t n;
+} fake_particles;
+
+static void read_fake(const void *source, mpm_field field, double *out)
+{
+#define FIELD_WIDTH(name, width, unit, doc) width,
+    static const int widths[] = { PARTICLE_FIELDS(FIELD_WIDTH) };
+#undef FIELD_WIDTH
+    const fake_particles *p = source;
+    for (size_t i = 0; i < p->n; i++)
+        for (int k = 0; k < widths[field]; k++)
+            out[i * (size_t)widths[field] + (size_t)k] = (double)(i * 128 + (size_t)field * 8) + k;
+}
+
+static status write_one(snapshots *s, size_t n, double time)
+{
+    const fake_particles p = { n };
+    return snapshots_write_source(s, &(snapshot_source){ time, n, read_fake, &p });
+}
+
+static void write_three(void)
+{
+    fresh_folder("snap");
+    snapshots *s;
+    OK(snapshots_open("snap", -1.0, &s));
+    OK(write_one(s, 1000, 0.0));
+    OK(write_one(s, 1500, 1e-6));
+    OK(write_one(s, 3000, 2e-6));
+    assert_int_equal(snapshots_count(s), 3);
+    snapshots_close(s);
+}
+
+static void structure_is_vtkhdf(void **state)
+{
+    (void)state;
+    write_three();
+    assert_int_equal(files_in("snap", ".part"), 0);
+    assert_int_equal(files_in("snap", ".hdf"), 3);
+    run_script("read_snapshot.py", "snap/scene-000001.hdf 1500 1e-6");
+    run_script("read_snapshot.py", "snap/scene.hdf.series");
+}
+
+static void field_list_is_complete(void **state)
+{
+    (void)state;
+    fresh_folder("snap");
+    snapshots *s;
+    OK(snapshots_open("snap", -1.0, &s));
+    OK(write_one(s, 1, 0.0)); /* the smallest scene there is */
+    snapshots_close(s);
+    char names[1000] = "snap/scene-000000.hdf 1 0.0";
+#define FIELD_NAME(name, width, unit, doc) " " #name
+    strcat(names, PARTICLE_FIELDS(FIELD_NAME));
+#undef FIELD_NAME
+    run_script("read_snapshot.py", names);
+}
+
+/* Stopped after 1.5 us: the first two stay and go on being counted, the third goes; parts of a killed writer go too. */
+static void resumed_scene_goes_on(void **state)
+{
+    (void)state;
+    write_three();
+    FILE *part = fopen("snap/scene-000003.hdf.part", "w");
+    fclose(part);
+    snapshots *s;
+    OK(snapshots_open("snap", 1.5e-6, &s));
+    assert_int_equal(snapshots_count(s), 2);
+    assert_int_equal(files_in("snap", ".hdf"), 2);
+    assert_int_equal(files_in("snap", ".part"), 0);
+    OK(write_one(s, 2000, 3e-6));
+    assert_int_equal(snapshots_count(s), 3);
+    snapshots_close(s);
+    char *index;
+    OK(file_read("snap/scene.hdf.series", &index, NULL));
+    assert_non_null(strstr(index, "scene-000002.hdf"));
+    assert_null(strstr(index, "scene-000003.hdf"));
+    free(index);
+    OK(snapshots_open("snap", -1.0, &s)); /* anew: all gone */
+    assert_int_equal(files_in("snap", ".hdf"), 0);
+    snapshots_close(s);
+}
+
+static void full_disk_leaves_no_half_snapshot(void **state)
+{
+    (void)state;
+    fresh_folder("snap");
+    snapshots *s;
+    OK(snapshots_open("snap", -1.0, &s));
+    assert_int_equal(symlink("/dev/full", "snap/scene-000000.hdf.part"), 0);
+    const status full = write_one(s, 1000, 0.0);
+    assert_int_equal(full.code, STATUS_IO);
+    assert_non_null(strstr(full.text, "scene-000000.hdf"));
+    assert_int_equal(files_in("snap", ".hdf"), 0);
+    assert_int_equal(snapshots_count(s), 0);
+    OK(write_one(s, 1000, 0.0)); /* room again */
+    assert_int_equal(snapshots_count(s), 1);
+    snapshots_close(s);
+    assert_int_equal(snapshots_open("snap/nowhere", -1.0, &s).code, STATUS_IO);
+    assert_null(s);
+}
+
+static void paraview_reads_it(void **state)
+{
+    (void)state;
+    if (!full_tests()) skip();
+    if (system("command -v pvbatch xvfb-run > /dev/null") != 0) {
+        print_message("paraview or xvfb is not installed\n");
+        skip();
+    }
+    write_three();
+    assert_int_equal(
+        system("xvfb-run -a pvbatch '" BREECH_TESTS "/paraview/check.py' snap/scene.hdf.series snap/picture.png"), 0);
+    assert_true(file_exists("snap/picture.png"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(structure_is_vtkhdf),   cmocka_unit_test(field_list_is_complete),
+        cmocka_unit_test(resumed_scene_goes_on), cmocka_unit_test(full_disk_leaves_no_half_snapshot),
+        cmocka_unit_test(paraview_reads_it),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

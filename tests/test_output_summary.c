@@ -1,0 +1,276 @@
+/* summary.json: every key of the design is there for every kind of run and every end of it, and says what it was given. */
+#include "output_common.h"
+
+#include "coupling/io/outdir.h"
+
+#include <cJSON.h>
+
+/* The design's list, typed here once more on purpose: a key renamed in the table must make this test fail. */
+static const char *const all_keys[] = { "case", "version", "instruction_set", "status", "error", "warnings", NULL };
+static const char *const kind_keys[RUN_KINDS][32] = {
+    { "peak_current", "muzzle_velocity", "muzzle_time", "muzzle_energy", "efficiency", "action", "peak_acceleration",
+      "exit_current", "energy_error", "steps", "wall_seconds" },
+    { "class",           "severity",       "crater_length",    "crater_width",
+      "crater_depth",    "crater_volume",  "rim_height",       "widening",
+      "peak_pressure",   "peak_force",     "peak_temperature", "peak_mises_armature",
+      "peak_mises_rail", "momentum_error", "energy_error",     "failed_volume",
+      "particles",       "steps",          "particle_steps",   "particle_steps_dense",
+      "wall_seconds",    "threads" },
+    { "verdict", "probability_gouge", "threshold_velocity", "threshold_interval", "onset_position", "onset_interval",
+      "scenes_run", "scenes_skipped", "sites", "wall_seconds" },
+    { "ranking" },
+    { "L_gradient", "R_gradient", "frequency", "L_gradient_high_frequency" },
+};
+
+static const double frequency[] = { 10.0, 1e3, 1e5 }, gradient[] = { 0.6e-6, 0.55e-6, 0.5e-6 };
+static const compare_entry ranking[] = { { "hardened", 1700.0, { 1650.0, 1750.0 }, NAN, 0.0 },
+                                         { "bare", 1480.0, { 1450.0, 1510.0 }, 2.5, 3e-9 } };
+
+/* Everything that a run of the kind may have. */
+typedef struct {
+    shot_record shot;
+    scene_result scene;
+    example_study study;
+    compare_result compare;
+    inductance_result inductance;
+    run_summary summary;
+} example;
+
+static void fill(example *e, run_kind kind)
+{
+    e->shot = example_shot();
+    e->scene = example_scene(0.4);
+    example_onset(&e->study);
+    e->compare = (compare_result){ 2, ranking };
+    e->inductance = (inductance_result){ 3, frequency, gradient, gradient, 0.49e-6 };
+    e->summary = (run_summary){ .kind = kind,
+                                .case_name = "a \"case\"",
+                                .instruction_set = "x86-64-v3",
+                                .status = RUN_DONE,
+                                .warnings = "first\nsecond\n",
+                                .shot = &e->shot,
+                                .scene = &e->scene,
+                                .onset = &e->study.result,
+                                .compare = &e->compare,
+                                .inductance = &e->inductance };
+}
+
+static cJSON *parsed(const run_summary *s)
+{
+    char *text = summary_text(s);
+    assert_non_null(text);
+    cJSON *root = cJSON_Parse(text);
+    assert_non_null(root);
+    free(text);
+    return root;
+}
+
+static void has_keys(const cJSON *object, const char *const *keys)
+{
+    for (; *keys; keys++)
+        if (!cJSON_HasObjectItem(object, *keys)) fail_msg("key %s is missing", *keys);
+}
+
+static double number_of(const cJSON *object, const char *key)
+{
+    const cJSON *value = cJSON_GetObjectItemCaseSensitive(object, key);
+    assert_true(cJSON_IsNumber(value));
+    return value->valuedouble;
+}
+
+static void every_key_for_every_kind(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < RUN_KINDS; kind++) {
+        example e;
+        fill(&e, (run_kind)kind);
+        cJSON *root = parsed(&e.summary);
+        has_keys(root, all_keys);
+        has_keys(root, kind_keys[kind]);
+        assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(root, "status")), "done");
+        assert_true(cJSON_IsNull(cJSON_GetObjectItem(root, "error")));
+        assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItem(root, "warnings")), 2);
+        cJSON_Delete(root);
+    }
+}
+
+static void every_key_on_failure_too(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < RUN_KINDS; kind++) {
+        const run_summary s = { .kind = (run_kind)kind, .status = RUN_FAILED, .error = "it \"broke\"\nat 1 us" };
+        cJSON *root = parsed(&s);
+        has_keys(root, all_keys);
+        has_keys(root, kind_keys[kind]);
+        assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(root, "error")), s.error);
+        for (const char *const *key = kind_keys[kind]; *key; key++)
+            assert_true(cJSON_IsNull(cJSON_GetObjectItem(root, *key)));
+        cJSON_Delete(root);
+    }
+}
+
+/* JSON texts hold 17 digits: what is read back is the same double. */
+static void numbers_come_back_exactly(void **state)
+{
+    (void)state;
+    example e;
+    fill(&e, RUN_SHOT);
+    e.shot.is.peak_current = 1.0 / 3.0 * 1e6;
+    cJSON *root = parsed(&e.summary);
+    assert_true(number_of(root, "peak_current") == e.shot.is.peak_current);
+    assert_true(number_of(root, "steps") == 1234.0);
+    assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(root, "case")), "a \"case\"");
+    cJSON_Delete(root);
+
+    fill(&e, RUN_SCENE);
+    root = parsed(&e.summary);
+    assert_true(number_of(root, "severity") == 0.4);
+    assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(root, "class")), "gouge");
+    assert_true(number_of(cJSON_GetObjectItem(root, "failed_volume"), "armature") == 2e-9);
+    assert_true(cJSON_GetArrayItem(cJSON_GetObjectItem(root, "peak_force"), 1)->valuedouble == -9e3);
+    cJSON_Delete(root);
+}
+
+static void what_is_not_there_is_null(void **state)
+{
+    (void)state;
+    example e;
+    fill(&e, RUN_ONSET);
+    e.study.result.verdict = VERDICT_NO_GOUGING;
+    e.study.result.onset_position = NAN;
+    e.study.result.onset_interval[0] = e.study.result.onset_interval[1] = NAN;
+    e.study.result.threshold_interval[1] = INFINITY;
+    cJSON *root = parsed(&e.summary);
+    assert_true(cJSON_IsNull(cJSON_GetObjectItem(root, "onset_position")));
+    assert_true(cJSON_IsNull(cJSON_GetObjectItem(root, "onset_interval")));
+    const cJSON *interval = cJSON_GetObjectItem(root, "threshold_interval");
+    assert_int_equal(cJSON_GetArraySize(interval), 2);
+    assert_true(cJSON_IsNull(cJSON_GetArrayItem(interval, 1)));
+    assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(root, "verdict")), "no_gouging");
+    cJSON_Delete(root);
+}
+
+static void onset_carries_shot_sites_and_scenes(void **state)
+{
+    (void)state;
+    example e;
+    fill(&e, RUN_ONSET);
+    cJSON *root = parsed(&e.summary);
+    has_keys(cJSON_GetObjectItem(root, "shot"), kind_keys[RUN_SHOT]);
+    const cJSON *sites = cJSON_GetObjectItem(root, "sites"), *scenes = cJSON_GetObjectItem(root, "scenes");
+    assert_int_equal(cJSON_GetArraySize(sites), EXAMPLE_SITES);
+    assert_int_equal(cJSON_GetArraySize(scenes), EXAMPLE_SCENES);
+    for (int i = 0; i < EXAMPLE_SITES; i++)
+        assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(cJSON_GetArrayItem(sites, i), "outcome")),
+                            site_outcome_names[i]);
+    assert_true(cJSON_IsNull(cJSON_GetObjectItem(cJSON_GetArrayItem(sites, 0), "velocity")));
+    has_keys(cJSON_GetArrayItem(scenes, 2), kind_keys[RUN_SCENE]);
+    assert_true(number_of(cJSON_GetArrayItem(scenes, 2), "velocity") == 1500.0);
+    cJSON_Delete(root);
+}
+
+/* The keys that a run prints for people and the manual's list come from the same table. */
+static void manual_lists_every_key(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t bytes;
+    FILE *out = open_memstream(&text, &bytes);
+    summary_print_keys(out);
+    fclose(out);
+    for (int kind = 0; kind < RUN_KINDS; kind++)
+        for (const char *const *key = kind_keys[kind]; *key; key++) {
+            char quoted[64];
+            snprintf(quoted, sizeof quoted, "`%s`", *key);
+            assert_non_null(strstr(text, quoted));
+        }
+    free(text);
+}
+
+static void closing_table_shows_the_result(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t bytes;
+    example e;
+    fill(&e, RUN_ONSET);
+    FILE *out = open_memstream(&text, &bytes);
+    summary_print(&e.summary, out);
+    fclose(out);
+    assert_non_null(strstr(text, "threshold_velocity"));
+    assert_non_null(strstr(text, "1480"));
+    assert_non_null(strstr(text, "v1650"));
+    assert_non_null(strstr(text, "not_reached"));
+    free(text);
+}
+
+static void file_and_its_status(void **state)
+{
+    (void)state;
+    char word[16];
+    const char *dir = fresh_folder("summary");
+    summary_status(dir, word, sizeof word);
+    assert_string_equal(word, "");
+    for (int status_of = 0; status_of < 3; status_of++) {
+        example e;
+        fill(&e, RUN_SCENE);
+        e.summary.status = (run_status)status_of;
+        OK(summary_write(dir, &e.summary));
+        summary_status(dir, word, sizeof word);
+        assert_string_equal(word, run_status_names[status_of]);
+        assert_int_equal(files_in(dir, ""), 1);
+    }
+    OK(file_write("summary/summary.json", "{ \"status\": ", 12));
+    summary_status(dir, word, sizeof word);
+    assert_string_equal(word, "");
+}
+
+/* Forces and volumes are the full model's: the mirror doubles what lies in its plane and cancels what lies across. */
+static void half_model_is_doubled(void **state)
+{
+    (void)state;
+    mpm_scene scene;
+    memset(&scene, 0, sizeof scene);
+    scene.bodies = 2;
+    strcpy(scene.body[0].name, "armature");
+    strcpy(scene.body[1].name, "rail");
+    mpm_report report;
+    memset(&report, 0, sizeof report);
+    report.peak_contact_force[0] = 1.0;
+    report.peak_contact_force[1] = 2.0;
+    report.peak_contact_force[2] = 3.0;
+    report.peak_mises[0] = 5.0;
+    report.peak_mises[1] = 7.0;
+    report.failed_volume[1] = 11.0;
+    const mpm_ledger ledger = { .energy_error = 0.5, .momentum_error = 0.25 };
+    scene_outcome o = { .scene = &scene, .report = &report, .ledger = &ledger, .wall_seconds = 3.0, .threads = 2 };
+    for (int mirrored = 0; mirrored < 2; mirrored++) {
+        o.mirrored = mirrored;
+        const scene_result r = scene_result_of(&o);
+        assert_true(r.peak_force[0] == 1.0 + mirrored && r.peak_force[1] == 2.0 + 2.0 * mirrored);
+        assert_true(r.peak_force[2] == (mirrored ? 0.0 : 3.0));
+        assert_true(r.failed_volume[1] == 11.0 + 11.0 * mirrored);
+        assert_true(r.peak_mises_armature == 5.0 && r.peak_mises_rail == 7.0);
+        assert_true(r.energy_error == 0.5 && r.momentum_error == 0.25);
+        assert_int_equal(r.class, DAMAGE_UNDECIDED); /* no crater was measured */
+        assert_true(isnan(r.severity));
+    }
+    strcpy(scene.body[0].name, "flyer");
+    assert_true(isnan(scene_result_of(&o).peak_mises_armature));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_key_for_every_kind),
+        cmocka_unit_test(every_key_on_failure_too),
+        cmocka_unit_test(numbers_come_back_exactly),
+        cmocka_unit_test(what_is_not_there_is_null),
+        cmocka_unit_test(onset_carries_shot_sites_and_scenes),
+        cmocka_unit_test(manual_lists_every_key),
+        cmocka_unit_test(closing_table_shows_the_result),
+        cmocka_unit_test(file_and_its_status),
+        cmocka_unit_test(half_model_is_doubled),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
