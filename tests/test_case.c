@@ -1,9 +1,9 @@
 /* Case files: what is read, with which units; all errors at once and where; --set; used.yaml; the manual's key list. */
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <cmocka.h>
 
 #include "coupling/io/case.h"
 #include "coupling/io/case_errors.h"

@@ -1,9 +1,9 @@
 /* The fuzzer's seeds, and every cut and some broken bytes of them, through the fuzzer's own function: its laws abort. */
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <cmocka.h>
 
 #include "tests/fuzz/fuzz_case.c"
 

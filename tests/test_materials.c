@@ -1,9 +1,9 @@
 /* Every file of cases/materials: it reads, each constant has a source and lies in its range; and what the reader refuses. */
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <cmocka.h>
 
 #include "coupling/io/material_file.h"
 
