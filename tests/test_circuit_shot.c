@@ -631,6 +631,68 @@ static void bad_input_is_named(void **state)
     assert_int_equal(creation(&c).code, STATUS_BAD_INPUT);
 }
 
+/* ---- any bank at all ---- */
+
+static double dice(uint64_t *seed) /* 0 .. 1 */
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) / 9007199254740992.0;
+}
+
+static double dice_between(uint64_t *seed, double lo, double hi) /* evenly in the logarithm */
+{
+    return lo * pow(hi / lo, dice(seed));
+}
+
+static shot_module dice_module(uint64_t *seed)
+{
+    shot_module m = unit(1 + (int)(5.0 * dice(seed)), floor(6.0 * dice(seed)) * 3e-4);
+    m.capacitance = dice_between(seed, 1e-4, 1e-2);
+    m.charge = dice(seed) < 0.1 ? 0.0 : dice_between(seed, 1e2, 2e4);
+    m.inductance = dice_between(seed, 1e-6, 1e-4);
+    m.resistance = dice(seed) < 0.1 ? 0.0 : dice_between(seed, 1e-4, 1e-1);
+    m.cable_inductance = dice(seed) < 0.5 ? 0.0 : 1e-6;
+    m.crowbar_drop = dice(seed) < 0.3 ? 0.0 : dice_between(seed, 0.1, 50.0);
+    m.crowbar_resistance = dice(seed) < 0.3 ? 0.0 : dice_between(seed, 1e-9, 1e-2);
+    if (dice(seed) < 0.1) m.fire_at = NAN;
+    return m;
+}
+
+/* Laws of run() over banks, armatures and barrels drawn at random, the same ones each time. */
+static void random_banks(void **state)
+{
+    (void)state;
+    const char *full = getenv("BREECH_FULL");
+    const int n_shots = full && strcmp(full, "1") == 0 ? 1000 : 60;
+    uint64_t seed = 20170707;
+    double worst = 0.0;
+    uint64_t most = 0;
+    int left = 0, stopped = 0;
+    for (int k = 0; k < n_shots; k++) {
+        shot_module modules[12];
+        const int n = 1 + (int)(12.0 * dice(&seed));
+        for (int j = 0; j < n; j++) modules[j] = dice_module(&seed);
+        shot_config c = plain(modules, n);
+        c.armature.mass = dice_between(&seed, 0.01, 10.0);
+        c.armature.preload = dice(&seed) < 0.2 ? 0.0 : dice_between(&seed, 1.0, 1e6);
+        c.armature.spreading = dice(&seed) < 0.3 ? 0.0 : dice_between(&seed, 1e-9, 1e-6);
+        c.armature.friction_melted = 0.3 * dice(&seed);
+        c.armature.contact_voltage = dice(&seed) < 0.3 ? 0.0 : 40.0;
+        c.armature.wear_fraction = dice(&seed) < 0.5 ? 0.0 : 0.02;
+        c.barrel.length = dice_between(&seed, 0.2, 20.0);
+        c.barrel.muzzle_voltage = dice(&seed) < 0.5 ? 0.0 : 300.0;
+        shot *s = run(&c);
+        worst = fmax(worst, rec.worst_energy);
+        most = shot_result(s).steps > most ? shot_result(s).steps : most;
+        left += rec.count[SHOT_MUZZLE];
+        stopped += rec.count[SHOT_STOPPED];
+        shot_free(s);
+    }
+    print_message("%d shots: %d leave, %d stop, worst energy error %.1e, at most %llu steps\n", n_shots, left, stopped,
+                  worst, (unsigned long long)most);
+    assert_true(left > n_shots / 4 && stopped > 0); /* the draw covers both ends */
+}
+
 /* The default bank at level skin; the figures of docs/shot.md come from here. */
 static void default_shot(void **state)
 {
@@ -674,6 +736,7 @@ int main(void)
         cmocka_unit_test(gouges_hand_back),
         cmocka_unit_test(stop_and_go_on),
         cmocka_unit_test(bad_input_is_named),
+        cmocka_unit_test(random_banks),
         cmocka_unit_test(default_shot),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
