@@ -94,7 +94,7 @@ static status plot_begin(plot *p, const report_source *r, const char *name, int 
         if (!isalnum((unsigned char)*c)) *c = '_';
     fprintf(p->script,
             "set encoding utf8\nset terminal svg size %d,%d dynamic noenhanced font 'sans-serif,13' name '%s'\n", width,
-            height, name);
+            height, id);
     fputs("set border 3 lc rgb '#666666'\nset tics nomirror textcolor rgb '#333333'\nset grid lc rgb '#e4e4e4' lw 1\n"
           "set key outside top center horizontal samplen 1.5 spacing 1.1\nset datafile missing 'nan'\n",
           p->script);
