@@ -193,8 +193,9 @@ static const char *home_of(const char *key, const case_section *not_this)
 
 static void unknown_key(case_reader *r, const case_section *section, const tree_node *key, const char *path)
 {
-    const char *near = nearest_name(key->text, known_key, section);
-    const char *home = near ? NULL : home_of(key->text, section);
+    const bool listed = r->errors->n < CASE_MAX_ERRORS; /* beyond the list there is no need to look for names */
+    const char *near = listed ? nearest_name(key->text, known_key, section) : NULL;
+    const char *home = near || !listed ? NULL : home_of(key->text, section);
     const char *in = path[0] ? " in " : "";
     if (near) {
         errors_add(r->errors, key, "unknown key `%.*s`%s%s; did you mean `%s`?", CASE_SHOWN, key->text, in, path, near);
@@ -248,8 +249,9 @@ static const case_section *child_of(const case_section *section, const char *key
 }
 
 /* Was the key given, but mistyped?  Then that is the error, not its absence. */
-static bool is_mistyped(const case_section *section, const tree_node *map, const char *key)
+static bool is_mistyped(const case_reader *r, const case_section *section, const tree_node *map, const char *key)
 {
+    if (r->errors->n >= CASE_MAX_ERRORS) return true;
     for (int k = 0; map->kind == TREE_MAP && k < map->n; k++) {
         const char *given = map->key[k]->text;
         if (param_of(section, given) || child_of(section, given)) continue;
@@ -286,7 +288,7 @@ static void read_map(case_reader *r, const case_section *section, const tree_nod
         value_read(r, p, map->item[k], (char *)object + p->offset, inner);
     }
     for (const param *p = section->table; p->key; p++)
-        if (is_required(p) && !tree_find(map, p->key) && !is_mistyped(section, map, p->key))
+        if (is_required(p) && !tree_find(map, p->key) && !is_mistyped(r, section, map, p->key))
             missing_key(r, p, map, path);
 }
 
