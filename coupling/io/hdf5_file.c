@@ -44,7 +44,7 @@ status h5_create(h5_file **out)
 {
     *out = NULL;
     be_quiet();
-    h5_file *f;
+    h5_file *f = NULL;
     char name[64];
     TRY(allocate("new HDF5 file", &f, name, sizeof name));
     const hid_t access = memory_access();
