@@ -35,7 +35,7 @@ static void write_crater(history *h, const char *scene, double growth)
             const double along = (double)i / MAP_X, z = (k - 0.5 * (MAP_Z - 1)) / (0.5 * MAP_Z);
             const double half = 0.25 + growth * along,
                          inside = along > 0.15 && along < 0.8 ? 1.0 - z * z / (half * half) : -1.0;
-            map[i * MAP_Z + k] = inside > 0.0 ? 0.4e-3 * inside : -0.05e-3 * exp(8.0 * inside + 7.0);
+            map[i * MAP_Z + k] = inside > 0.0 ? 0.4e-3 * inside : -0.2e-3 * exp(6.0 * inside);
         }
     const crater c = { .class = DAMAGE_GOUGE,
                        .reason = "widening <1.5> & so on",

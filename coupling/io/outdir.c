@@ -100,12 +100,6 @@ status file_read(const char *path, char **data, size_t *bytes)
     return s;
 }
 
-bool file_exists(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISREG(info.st_mode);
-}
-
 /* ---- the directory ---- */
 
 status outdir_default(const char *case_name, char *path, size_t size)

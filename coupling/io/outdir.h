@@ -8,6 +8,7 @@
 #define BREECH_COUPLING_OUTDIR_H
 
 #include "base/status.h"
+#include "coupling/io/file_text.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -66,6 +67,5 @@ status file_begin(file_writer *w, const char *path);
 status file_end(file_writer *w, bool keep);
 /* The whole file, a 0 byte after it; *data is malloc'ed.  bytes may be NULL. */
 status file_read(const char *path, char **data, size_t *bytes);
-bool file_exists(const char *path);
 
 #endif

@@ -155,7 +155,7 @@ static const shown onset_cards[] = { { "threshold_velocity", "threshold velocity
 static const shown shot_cards[] = {
     { "peak_current", "peak current", 1e3, "kA" }, { "muzzle_velocity", "muzzle velocity", 1.0, "m/s" },
     { "muzzle_time", "muzzle time", 1e-3, "ms" },  { "muzzle_energy", "muzzle energy", 1e3, "kJ" },
-    { "efficiency", "efficiency", 0.01, "%" },     { "peak_acceleration", "peak acceleration", 9806.65, "1000 g" },
+    { "efficiency", "efficiency", 0.01, "%" },     { "peak_acceleration", "peak acceleration", 9806.65, "&times; 1000 g" },
     { "exit_current", "exit current", 1e3, "kA" }, { "energy_error", "energy error", 1.0, "" }
 };
 static const shown scene_cards[] = { { "severity", "severity", 1.0, "" },
