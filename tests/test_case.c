@@ -369,7 +369,9 @@ static void same_objects(const case_section *section, const void *a, const void 
 static void used_reads_back(void **state)
 {
     (void)state;
-    breech_case *c = small_case(NULL, 0), *again = NULL;
+    const char *sets[] = { "scene.friction=0.12345678901234567",
+                           "scene.velocity=1234.5678901234567 m/s" }; /* 17 digits */
+    breech_case *c = small_case(sets, 2), *again = NULL;
     char *used = used_text(c), *errors = NULL;
     const case_options o = { .needs = CASE_FOR_SHOT | CASE_FOR_SCENE | CASE_FOR_ONSET }; /* no folder: it is whole */
     assert_int_equal(case_read_memory(used, strlen(used), "used.yaml", NULL, 0, &o, &again, &errors).code, STATUS_OK);
@@ -501,6 +503,7 @@ static void quantities(void **state)
         { "5 lg(re 1 m)", "m", NAN },
         { "1e999 km", "m", NAN },
         { "5 m^999", "m", NAN },
+        { "1 m^100/m^99", "m", NAN },
         { "5 @", "m", NAN },
         { "1e308 km", "m", NAN },
     };

@@ -165,6 +165,7 @@ static void names_cannot_leave_the_folder(void **state)
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
         material_sheet sheet;
         char *errors = NULL;
+        assert_false(material_name_valid(bad[k]));
         assert_int_equal(material_sheet_find(s->u, bad[k], dirs, 1, &sheet, &errors).code, STATUS_BAD_INPUT);
     }
 }
