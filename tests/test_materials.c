@@ -170,12 +170,26 @@ static void names_cannot_leave_the_folder(void **state)
     }
 }
 
+/* The environment's folder comes first; what is not there is left out. */
+static void folders_are_found(void **state)
+{
+    (void)state;
+    const char *found[MATERIAL_MAX_DIRS];
+    setenv("BREECH_MATERIALS", MATERIALS, 1);
+    const int n = material_dirs(found);
+    assert_true(n >= 1 && n <= MATERIAL_MAX_DIRS);
+    assert_string_equal(found[0], MATERIALS);
+    setenv("BREECH_MATERIALS", MATERIALS "/nowhere", 1);
+    assert_int_equal(material_dirs(found), n - 1);
+    unsetenv("BREECH_MATERIALS");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_file_reads_and_has_sources), cmocka_unit_test(unchecked_constants_are_weak),
         cmocka_unit_test(the_papers_sets_are_kept),         cmocka_unit_test(bad_files_say_where),
-        cmocka_unit_test(names_cannot_leave_the_folder),
+        cmocka_unit_test(names_cannot_leave_the_folder),    cmocka_unit_test(folders_are_found),
     };
     return cmocka_run_group_tests(tests, open_shelf, close_shelf);
 }

@@ -213,6 +213,24 @@ status material_sheet_parse(const units *u, const char *bytes, size_t length, co
 
 /* ---- folders ---- */
 
+/* The build says where the cases are; without it there is only the environment. */
+#ifndef BREECH_SOURCE_CASES
+#define BREECH_SOURCE_CASES "cases"
+#endif
+#ifndef BREECH_INSTALL_CASES
+#define BREECH_INSTALL_CASES "/usr/local/share/breech/cases"
+#endif
+
+int material_dirs(const char *dirs[MATERIAL_MAX_DIRS])
+{
+    const char *const all[] = { getenv("BREECH_MATERIALS"), BREECH_SOURCE_CASES "/materials",
+                                BREECH_INSTALL_CASES "/materials" };
+    int n = 0;
+    for (int k = 0; k < MATERIAL_MAX_DIRS; k++)
+        if (all[k] && folder_exists(all[k])) dirs[n++] = all[k];
+    return n;
+}
+
 static int by_name(const void *a, const void *b)
 {
     return strcmp(*(char *const *)a, *(char *const *)b);
