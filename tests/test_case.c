@@ -52,7 +52,7 @@ static char *errors_of(const char *text, const char *const *sets, int n, unsigne
     breech_case *c = NULL;
     char *errors = NULL;
     const case_options o = options_for(needs);
-    const status s = case_read_memory(text, strlen(text), "case.yaml", sets, n, &o, &c, &errors);
+    const status s = case_read_memory(&(case_text){ text, strlen(text), "case.yaml", sets, n }, &o, &c, &errors);
     assert_int_equal(s.code, STATUS_BAD_INPUT);
     assert_null(c);
     assert_non_null(errors);
@@ -142,7 +142,8 @@ static void missing_sections_hold_defaults(void **state)
     char *errors = NULL;
     const char text[] = "name: bare\n";
     const case_options o = options_for(0);
-    assert_int_equal(case_read_memory(text, strlen(text), "case.yaml", NULL, 0, &o, &c, &errors).code, STATUS_OK);
+    assert_int_equal(case_read_memory(&(case_text){ text, strlen(text), "case.yaml", NULL, 0 }, &o, &c, &errors).code,
+                     STATUS_OK);
     assert_int_equal(c->bank.n, 0);
     assert_true(c->scene.courant == 0.4);
     assert_true(isnan(c->rails.height));
@@ -374,7 +375,9 @@ static void used_reads_back(void **state)
     breech_case *c = small_case(sets, 2), *again = NULL;
     char *used = used_text(c), *errors = NULL;
     const case_options o = { .needs = CASE_FOR_SHOT | CASE_FOR_SCENE | CASE_FOR_ONSET }; /* no folder: it is whole */
-    assert_int_equal(case_read_memory(used, strlen(used), "used.yaml", NULL, 0, &o, &again, &errors).code, STATUS_OK);
+    assert_int_equal(
+        case_read_memory(&(case_text){ used, strlen(used), "used.yaml", NULL, 0 }, &o, &again, &errors).code,
+        STATUS_OK);
     same_objects(&case_root, c, again);
     assert_memory_equal(&c->given, &again->given, sizeof c->given);
     char *twice = used_text(again);
@@ -393,7 +396,9 @@ static void texts_survive_quoting(void **state)
     char *used = used_text(c), *errors = NULL;
     const case_options o = options_for(0);
     assert_string_equal(c->title, "a \"b\" \\ c: #d");
-    assert_int_equal(case_read_memory(used, strlen(used), "used.yaml", NULL, 0, &o, &again, &errors).code, STATUS_OK);
+    assert_int_equal(
+        case_read_memory(&(case_text){ used, strlen(used), "used.yaml", NULL, 0 }, &o, &again, &errors).code,
+        STATUS_OK);
     assert_string_equal(c->title, again->title);
     free(used);
     case_free(c);

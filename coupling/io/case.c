@@ -152,43 +152,41 @@ static status read_tree(case_reader *r)
     return status_ok();
 }
 
-static status build(case_reader *r, const char *bytes, size_t length, tree_node **root)
+static status build(case_reader *r, const case_text *text, tree_node **root)
 {
     int line, column;
-    const char *file = r->out->path;
-    const status s = tree_parse(bytes, length, root, &line, &column);
+    const status s = tree_parse(text->bytes, text->length, root, &line, &column);
     CHECK(s.code != STATUS_MEMORY, s.code, "%s", s.text);
     if (s.code != STATUS_OK) {
         errors_add_at(r->errors, line, column, "%s", s.text);
         return status_ok();
     }
     if ((*root)->kind != TREE_MAP) {
-        errors_add(r->errors, *root, "%s is no case: it must hold sections, such as `bank:` and `rails:`", file);
+        errors_add(r->errors, *root, "%s is no case: it must hold sections, such as `bank:` and `rails:`", text->path);
         return status_ok();
     }
-    TRY(set_all(r->errors, root, r->errors->sets, r->n_sets));
+    TRY(set_all(r->errors, root, text->sets, text->n_sets));
     r->root = *root;
     return read_tree(r);
 }
 
-status case_build(const units *u, const char *bytes, size_t length, const char *path, const char *const *sets,
-                  int n_sets, const case_options *options, breech_case **out, char **errors)
+status case_build(const units *u, const case_text *text, const case_options *options, breech_case **out, char **errors)
 {
     tree_node *root = NULL;
     *out = NULL;
     *errors = NULL;
-    CHECK(strlen(path) < CASE_PATH_SIZE, STATUS_BAD_INPUT, "the case's path is longer than %d bytes",
+    CHECK(strlen(text->path) < CASE_PATH_SIZE, STATUS_BAD_INPUT, "the case's path is longer than %d bytes",
           CASE_PATH_SIZE - 1);
     breech_case *c = calloc(1, sizeof *c);
     case_errors *found = calloc(1, sizeof *found);
-    case_reader r = { .u = u, .options = options, .errors = found, .out = c, .n_sets = n_sets };
-    status s = status_error(STATUS_MEMORY, "out of memory while reading %.200s", path);
+    case_reader r = { .u = u, .options = options, .errors = found, .out = c };
+    status s = status_error(STATUS_MEMORY, "out of memory while reading %.200s", text->path);
     if (c && found) {
         c->warnings = strdup("");
-        snprintf(c->path, sizeof c->path, "%s", path);
+        snprintf(c->path, sizeof c->path, "%s", text->path);
         found->file = c->path;
-        found->sets = sets;
-        if (c->warnings) s = build(&r, bytes, length, &root);
+        found->sets = text->sets;
+        if (c->warnings) s = build(&r, text, &root);
         if (s.code == STATUS_OK) s = errors_finish(found, errors);
         errors_free(found);
     }
@@ -202,14 +200,13 @@ status case_build(const units *u, const char *bytes, size_t length, const char *
     return s;
 }
 
-status case_read_memory(const char *bytes, size_t length, const char *path, const char *const *sets, int n_sets,
-                        const case_options *options, breech_case **out, char **errors)
+status case_read_memory(const case_text *text, const case_options *options, breech_case **out, char **errors)
 {
     units *u = NULL;
     *out = NULL;
     *errors = NULL;
     TRY(units_open(&u));
-    const status s = case_build(u, bytes, length, path, sets, n_sets, options, out, errors);
+    const status s = case_build(u, text, options, out, errors);
     units_close(u);
     return s;
 }
@@ -228,7 +225,8 @@ status case_read(const char *path, const char *const *sets, int n_sets, const ca
                                          : snprintf(file, sizeof file, "%s", path);
     CHECK(used < (int)sizeof file, STATUS_BAD_INPUT, "the case's path is longer than %d bytes", CASE_PATH_SIZE - 1);
     TRY(file_text(file, TREE_MAX_BYTES, &bytes, &length));
-    const status s = case_read_memory(bytes, length, file, sets, n_sets, options, out, errors);
+    const case_text text = { bytes, length, file, sets, n_sets };
+    const status s = case_read_memory(&text, options, out, errors);
     free(bytes);
     return s;
 }

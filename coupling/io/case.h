@@ -183,9 +183,16 @@ typedef struct {
 status case_read(const char *path, const char *const *sets, int n_sets, const case_options *options, breech_case **out,
                  char **errors);
 
-/* The same from memory.  `path` names it in the messages; materials are looked for in the folder of `path`. */
-status case_read_memory(const char *bytes, size_t length, const char *path, const char *const *sets, int n_sets,
-                        const case_options *options, breech_case **out, char **errors);
+/* A case file in memory; all borrowed. */
+typedef struct {
+    const char *bytes;
+    size_t length;
+    const char *path;        /* names it in the messages; materials are looked for in its folder */
+    const char *const *sets; /* as in case_read */
+    int n_sets;
+} case_text;
+
+status case_read_memory(const case_text *text, const case_options *options, breech_case **out, char **errors);
 
 void case_free(breech_case *c); /* NULL allowed */
 

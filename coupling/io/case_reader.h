@@ -23,7 +23,7 @@ typedef struct {
     const tree_node *root;
     breech_case *out;
     material_use *use; /* owned */
-    int n_use, n_sets;
+    int n_use;
     bool out_of_memory;
 } case_reader;
 
@@ -44,7 +44,6 @@ void case_resolve(breech_case *c, const tree_node *root);
 void case_check_whole(case_reader *r);
 
 /* case_read_memory with the unit system given; the one way in for all of them. */
-status case_build(const units *u, const char *bytes, size_t length, const char *path, const char *const *sets,
-                  int n_sets, const case_options *options, breech_case **out, char **errors);
+status case_build(const units *u, const case_text *text, const case_options *options, breech_case **out, char **errors);
 
 #endif

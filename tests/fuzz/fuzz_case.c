@@ -37,7 +37,7 @@ static void check_round_trip(const units *u, const breech_case *c, const case_op
     breech_case *again = NULL;
     const size_t length = strlen(used);
     if (length <= TREE_MAX_BYTES) {
-        const status s = case_build(u, used, length, "used.yaml", NULL, 0, options, &again, &errors);
+        const status s = case_build(u, &(case_text){ used, length, "used.yaml", NULL, 0 }, options, &again, &errors);
         fail_unless(s.code == STATUS_OK && errors == NULL);
         char *twice = written(again);
         fail_unless(strcmp(used, twice) == 0);
@@ -64,7 +64,8 @@ static void read_case(const units *u, const uint8_t *data, size_t size, char *se
     const case_options options = { .needs = needs };
     breech_case *c = NULL;
     char *errors = NULL;
-    const status s = case_build(u, (const char *)data, size, "nowhere/case.yaml", sets, n_sets, &options, &c, &errors);
+    const case_text text = { (const char *)data, size, "nowhere/case.yaml", sets, n_sets };
+    const status s = case_build(u, &text, &options, &c, &errors);
     fail_unless((s.code == STATUS_OK) == (c != NULL));
     fail_unless(s.code == STATUS_OK || (s.text[0] != '\0' && errors != NULL && errors[0] != '\0'));
     if (c) check_round_trip(u, c, &options);
