@@ -109,6 +109,90 @@ static void every_column_has_units_and_description(void **state)
     run_script("read_history.py", "history/a.h5");
 }
 
+/* A real shot of two groups: what the file holds is what the shot says. */
+typedef struct {
+    history *h;
+    int series, modules;
+    double current, voltage; /* of the last sample, group 1 */
+    size_t n;
+} shot_writer;
+
+static bool write_sample(void *user, const shot *s, const shot_state *state)
+{
+    shot_writer *w = user;
+    double row[HISTORY_MAX_COLUMNS];
+    history_shot_row(state, row);
+    OK(history_append(w->h, w->series, row));
+    history_modules_row(s, row);
+    OK(history_append(w->h, w->modules, row));
+    w->current = shot_module_current(s, 1);
+    w->voltage = shot_module_voltage(s, 1);
+    w->n++;
+    return true;
+}
+
+static shot *two_groups(void)
+{
+    shot_module module[2];
+    for (int g = 0; g < 2; g++) {
+        params_default(shot_module_params, &module[g]);
+        module[g].count = g + 1;
+        module[g].capacitance = 3.594e-3;
+        module[g].charge = 10e3;
+        module[g].inductance = 12.56e-6;
+        module[g].resistance = 4.1e-3;
+        module[g].fire_at = 1e-4 * g;
+    }
+    shot_config c = { .modules = module, .n_modules = 2 };
+    params_default(shot_rails_params, &c.rails);
+    params_default(shot_barrel_params, &c.barrel);
+    params_default(shot_armature_params, &c.armature);
+    params_default(shot_options_params, &c.options);
+    c.rails.level = SHOT_RAILS_CONSTANT;
+    c.rails.height = c.rails.separation = 0.025;
+    c.rails.thickness = 0.02;
+    c.rails.inductance_gradient = 0.5e-6;
+    c.rails.resistance_gradient = 1e-4;
+    c.barrel.length = 1.0;
+    c.barrel.start = 0.1;
+    c.armature.mass = 0.1;
+    shot *s;
+    OK(shot_create(&c, &s));
+    return s;
+}
+
+static void real_shot_comes_back(void **state)
+{
+    (void)state;
+    fresh_folder("history");
+    shot *s = two_groups();
+    shot_writer w = { .n = 0 };
+    OK(history_open("history/a.h5", false, &w.h));
+    OK(history_shot(w.h, &w.series));
+    OK(history_modules(w.h, s, &w.modules));
+    OK(shot_advance(s, 1e-3, &(shot_sink){ .sample = write_sample, .user = &w }));
+    OK(history_close(w.h));
+    const shot_state now = shot_now(s);
+    shot_free(s);
+    assert_true(w.n > 20);
+    const struct {
+        const char *name;
+        double last;
+    } columns[] = { { "/shot/time", now.t },
+                    { "/shot/current", now.current },
+                    { "/shot/heat_rails", now.ledger.rails_heat },
+                    { "/shot/modules/time", now.t },
+                    { "/shot/modules/current_001", w.current },
+                    { "/shot/modules/voltage_001", w.voltage } };
+    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
+        size_t n;
+        double *data = read_series("history/a.h5", columns[i].name, &n);
+        assert_int_equal(n, w.n);
+        assert_true(data[n - 1] == columns[i].last); /* doubles, copied */
+        free(data);
+    }
+}
+
 static void names_that_are_no_names(void **state)
 {
     (void)state;
@@ -273,6 +357,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_come_back),
         cmocka_unit_test(every_column_has_units_and_description),
+        cmocka_unit_test(real_shot_comes_back),
         cmocka_unit_test(names_that_are_no_names),
         cmocka_unit_test(resumed_run_has_no_gap_and_no_double),
         cmocka_unit_test(killed_writer_leaves_a_readable_file),

@@ -1,6 +1,7 @@
 /* summary.json: every key of the design is there for every kind of run and every end of it, and says what it was given. */
 #include "output_common.h"
 
+#include "coupling/io/history.h"
 #include "coupling/io/outdir.h"
 
 #include <cJSON.h>
@@ -187,6 +188,26 @@ static void manual_lists_every_key(void **state)
     free(text);
 }
 
+/* docs/output.md holds what the tables print: a key added or renamed must be seen there. */
+static void manual_is_up_to_date(void **state)
+{
+    (void)state;
+    char *text = NULL, *columns = NULL, *page;
+    size_t bytes;
+    FILE *out = open_memstream(&text, &bytes);
+    summary_print_keys(out);
+    fclose(out);
+    out = open_memstream(&columns, &bytes);
+    history_print_columns(out);
+    fclose(out);
+    OK(file_read(BREECH_TESTS "/../docs/output.md", &page, NULL));
+    assert_non_null(strstr(page, text));
+    assert_non_null(strstr(page, columns));
+    free(page);
+    free(columns);
+    free(text);
+}
+
 static void closing_table_shows_the_result(void **state)
 {
     (void)state;
@@ -268,6 +289,7 @@ int main(void)
         cmocka_unit_test(what_is_not_there_is_null),
         cmocka_unit_test(onset_carries_shot_sites_and_scenes),
         cmocka_unit_test(manual_lists_every_key),
+        cmocka_unit_test(manual_is_up_to_date),
         cmocka_unit_test(closing_table_shows_the_result),
         cmocka_unit_test(file_and_its_status),
         cmocka_unit_test(half_model_is_doubled),

@@ -391,3 +391,17 @@ void history_modules_row(const shot *s, double *row)
         *row++ = shot_module_voltage(s, g);
     }
 }
+
+static void print_columns(const char *group, const history_column *columns, int n, FILE *out)
+{
+    fprintf(out, "\n### %s\n\n| dataset | units | what |\n|---|---|---|\n", group);
+    for (int c = 0; c < n; c++)
+        fprintf(out, "| `%s` | %s | %s |\n", columns[c].name, columns[c].unit, columns[c].description);
+}
+
+void history_print_columns(FILE *out)
+{
+    print_columns("/shot", shot_columns, WIDTH(shot_columns), out);
+    print_columns("/shot/events", event_columns, WIDTH(event_columns), out);
+    print_columns("/scene/<name>", scene_columns, WIDTH(scene_columns), out);
+}

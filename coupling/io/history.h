@@ -16,6 +16,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 typedef struct history history; /* owns its file in memory */
 
@@ -56,5 +57,8 @@ status history_modules(history *h, const shot *s, int *series); /* /shot/modules
 void history_modules_row(const shot *s, double *row);
 status history_scene(history *h, const char *scene, int *series); /* /scene/<name> */
 void history_scene_row(const mpm_report *r, const mpm_ledger *l, double *row);
+
+/* The manual's list of columns, in markdown. */
+void history_print_columns(FILE *out);
 
 #endif

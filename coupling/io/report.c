@@ -146,18 +146,21 @@ static void scene_sentence(const page *p, const cJSON *s)
     if (report_text(s, "reason")[0]) paragraph(p, "reason", report_text(s, "reason"));
 }
 
+/* clang-format off */
 static const shown onset_cards[] = { { "threshold_velocity", "threshold velocity", 1.0, "m/s" },
                                      { "onset_position", "onset position", 1.0, "m" },
                                      { "probability_gouge", "probability of a gouge", 1.0, "" },
                                      { "scenes_run", "scenes run", 1.0, "" },
                                      { "scenes_skipped", "scenes skipped", 1.0, "" },
                                      { "wall_seconds", "wall time", 1.0, "s" } };
-static const shown shot_cards[] = {
-    { "peak_current", "peak current", 1e3, "kA" }, { "muzzle_velocity", "muzzle velocity", 1.0, "m/s" },
-    { "muzzle_time", "muzzle time", 1e-3, "ms" },  { "muzzle_energy", "muzzle energy", 1e3, "kJ" },
-    { "efficiency", "efficiency", 0.01, "%" },     { "peak_acceleration", "peak acceleration", 9806.65, "&times; 1000 g" },
-    { "exit_current", "exit current", 1e3, "kA" }, { "energy_error", "energy error", 1.0, "" }
-};
+static const shown shot_cards[] = { { "peak_current", "peak current", 1e3, "kA" },
+                                    { "muzzle_velocity", "muzzle velocity", 1.0, "m/s" },
+                                    { "muzzle_time", "muzzle time", 1e-3, "ms" },
+                                    { "muzzle_energy", "muzzle energy", 1e3, "kJ" },
+                                    { "efficiency", "efficiency", 0.01, "%" },
+                                    { "peak_acceleration", "peak acceleration", 9806.65, "&times; 1000 g" },
+                                    { "exit_current", "exit current", 1e3, "kA" },
+                                    { "energy_error", "energy error", 1.0, "" } };
 static const shown scene_cards[] = { { "severity", "severity", 1.0, "" },
                                      { "widening", "widening", 1.0, "" },
                                      { "crater_length", "length", 1e-3, "mm" },
@@ -170,6 +173,7 @@ static const shown scene_cards[] = { { "severity", "severity", 1.0, "" },
                                      { "energy_error", "energy error", 1.0, "" },
                                      { "momentum_error", "momentum error", 1.0, "" },
                                      { "wall_seconds", "wall time", 1.0, "s" } };
+/* clang-format on */
 
 static void section_verdict(const page *p)
 {
@@ -243,6 +247,7 @@ static void one_plot(const page *p, status (*draw)(const report_source *, bool *
         paragraph(p, "missing", s.text);
 }
 
+/* clang-format off */
 static const shown site_columns[] = { { "position", "x", 1.0, "m" },
                                       { "velocity", "v", 1.0, "m/s" },
                                       { "radius", "radius", 1e-3, "mm" },
@@ -269,6 +274,7 @@ static const shown ranking_columns[] = { { "surface", "surface", 1.0, "" },
                                          { "threshold_velocity", "threshold", 1.0, "m/s" },
                                          { "onset_position", "onset", 1.0, "m" },
                                          { "gouged_volume", "gouged volume", 1e-9, "mm&sup3;" } };
+/* clang-format on */
 
 static void section_onset(const page *p)
 {
