@@ -119,6 +119,24 @@ static bool step_inside(const mpm *m, const int at[3], int step, int to[3])
     return true;
 }
 
+status store_open(brick *b)
+{
+    if (!b->out) b->out = aligned(HALO_NODES * sizeof *b->out);
+    CHECK(b->out, STATUS_MEMORY, "no memory for a brick");
+    memset(b->out, 0, HALO_NODES * sizeof *b->out);
+    return status_ok();
+}
+
+status store_empty(mpm *m, int blocks)
+{
+    for (int i = 0; i < m->bricks_used; i++) free_brick(&m->bricks[i]);
+    m->bricks_used = 0;
+    for (int i = 0; i < m->fields * m->sites; i++) m->directory[i] = -1;
+    m->free_head = -1, m->blocks_free = 0;
+    chain_free_blocks(m, 0);
+    return blocks > m->blocks_capacity ? grow_blocks(m, blocks + blocks / 8) : status_ok();
+}
+
 status store_surround(mpm *m, int brick_index)
 {
     for (int step = 0; step < NEIGHBOURS; step++) {
@@ -126,11 +144,7 @@ status store_surround(mpm *m, int brick_index)
         const brick *b = &m->bricks[brick_index];
         if (step_inside(m, b->at, step, to)) TRY(store_brick(m, b->field, to, &found));
     }
-    brick *b = &m->bricks[brick_index];
-    if (!b->out) b->out = aligned(HALO_NODES * sizeof *b->out);
-    CHECK(b->out, STATUS_MEMORY, "no memory for a brick");
-    memset(b->out, 0, HALO_NODES * sizeof *b->out);
-    return status_ok();
+    return store_open(&m->bricks[brick_index]);
 }
 
 /* Does another field have particles at this place or next door? */

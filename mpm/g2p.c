@@ -127,7 +127,7 @@ LANE_INLINE v8 clamp01(v8 x)
 LANE_INLINE v8 power(v8 x, double n)
 {
     const v8 tiny = v8_set(1e-14), y = v8_exp(n * v8_log(v8_max(x, tiny)));
-    return v8_select(x > tiny, y, v8_set(0));
+    return v8_select(v8_less(tiny, x), y, v8_set(0));
 }
 
 /*   sigma_y = (A + B e^n) (1 + C ln max(edot/edot0, 1)) (1 - T*^m)                  (M-1) [Pa]; zero when molten */
@@ -149,7 +149,7 @@ LANE_INLINE v8 temperature(const law *k, v8 e, v8 mu, v8 stored)
 {
     const v8 zero = v8_set(0), x = v8_max(mu, zero);
     const v8 squeezed = x * x * (k->cold[0] + x * (k->cold[1] + x * (k->cold[2] + x * (k->cold[3] + x * k->cold[4]))));
-    const v8 cold     = v8_select(mu > zero, squeezed, 0.5 * k->c0 * k->c0 * mu * mu);
+    const v8 cold     = v8_select(v8_less(zero, mu), squeezed, 0.5 * k->c0 * k->c0 * mu * mu);
     const double melt = k->c_v * (k->T_m - k->T_r);
     const v8 thermal  = e - cold - stored;
     const v8 beyond   = v8_max(thermal - melt - k->latent, zero);
@@ -161,7 +161,7 @@ LANE_INLINE v8 hugoniot_pressure(const law *k, v8 mu)
 {
     const v8 d = 1 - k->s1 * mu, zero = v8_set(0);
     const v8 compressed = mu * (1 + (1 - 0.5 * k->g) * mu) / (d * d);
-    return k->K0 * v8_select(mu > zero, compressed, mu);
+    return k->K0 * v8_select(v8_less(zero, mu), compressed, mu);
 }
 
 /* Elastic predictor with the Jaumann rate:  s' = W s - s W + 2 G dev D  */
@@ -213,7 +213,7 @@ LANE_INLINE void law_step(const law *k, const step_of *step, const v8 L[9], v8 t
     const v8 zero = v8_set(0), one = v8_set(1);
     const double dt = step->dt;
     const v8 rho0 = v8_load(q->rho[0]), p0 = v8_load(q->p[0]), ep0 = v8_load(q->ep[0]), damage0 = v8_load(q->damage[0]);
-    const m8 failed = damage0 >= one;
+    const m8 failed = v8_at_least(damage0, one);
     const v8 wanted = rho0 / (1 + dt * tr), rho = v8_min(v8_max(wanted, v8_set(k->rho_min)), v8_set(k->rho_max));
     v8 s[6];
     for (int i = 0; i < 6; i++) s[i] = v8_load(q->s[i]);
@@ -237,7 +237,7 @@ LANE_INLINE void law_step(const law *k, const step_of *step, const v8 L[9], v8 t
     const double slope = k->g * k->rho0;
     v8 e = v8_load(q->e[0]) + sum->heat + 0.5 * dt * (power_before + stress_power(s, L) / rho) - half * q_v;
     const v8 p_free = (hugoniot_pressure(k, mu) + slope * e) / (1 + slope * half);
-    const m8 torn   = failed & (m8)(p_free < zero);
+    const m8 torn   = m8_and(failed, v8_less(p_free, zero));
     const v8 p      = v8_select(torn, zero, p_free);
     e -= half * p;
 
@@ -261,7 +261,7 @@ LANE_INLINE void law_step(const law *k, const step_of *step, const v8 L[9], v8 t
     sum->mises        = mises;
     sum->heat_viscous = -dt * tr / rho * q_v;
     sum->clamp_p      = v8_select(torn, one, zero);
-    sum->clamp_rho    = v8_select((m8)(wanted != rho), one, zero);
+    sum->clamp_rho    = v8_select(m8_or(v8_less(wanted, rho), v8_less(rho, wanted)), one, zero);
 }
 
 /* ---- a block ---- */
@@ -285,12 +285,13 @@ LANE_INLINE v8 block_move(block *q, const gathered *r, const step_of *step)
 static int leaving_lanes(const mpm *m, const brick *b, int cell, const block *q, int mask, const cell_grid *g)
 {
     const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
+    const m8 whole  = v8_less(v8_load(q->damage[0]), v8_set(1));
     m8 leave        = { 0 };
     for (int k = 0; k < 3; k++) {
         const double *edge = &m->axes[k].edge[BRICK * b->at[k] + at[k]];
         const v8 x = v8_load(q->x[k]), half = v8_load(q->half[k]);
-        leave |= (m8)(x < v8_set(edge[0])) | (m8)(x >= v8_set(edge[1]));
-        leave |= (m8)(half > v8_set(0.4 * g->axis[k].cell)) & (m8)(v8_load(q->damage[0]) < v8_set(1));
+        leave = m8_or(leave, m8_or(v8_less(x, v8_set(edge[0])), v8_at_least(x, v8_set(edge[1]))));
+        leave = m8_or(leave, m8_and(v8_less(v8_set(0.4 * g->axis[k].cell), half), whole));
     }
     int lanes = 0;
     for (int l = 0; l < LANES; l++) lanes |= leave[l] ? 1 << l : 0;
@@ -301,7 +302,7 @@ static void book(brick *b, const block *q, const lane_sums *w, const step_of *st
 {
     tally *t   = &b->sum;
     const v8 m = v8_load(q->mass[0]), zero = v8_set(0), area = v8_load(q->area[0]);
-    const m8 here = m > zero;
+    const m8 here = v8_less(zero, m);
     t->heat_transfer += v8_sum(m * w->heat);
     t->heat_viscous += v8_sum(m * w->heat_viscous);
     t->work_external += v8_sum(w->work_external);
@@ -336,7 +337,7 @@ static void one_block(mpm *m, brick *b, int index, const cell_grid *g, double (*
     const weights w[3] = { cell_weights(g, 0, q), cell_weights(g, 1, q), cell_weights(g, 2, q) };
     gathered r;
     gather(w, node, &r);
-    const m8 here = v8_load(q->mass[0]) > v8_set(0); /* holes stay at rest */
+    const m8 here = v8_less(v8_set(0), v8_load(q->mass[0])); /* holes stay at rest */
     for (int i = 0; i < 3; i++) r.v[i] = v8_select(here, r.v[i], v8_set(0));
     for (int i = 0; i < 9; i++) r.L[i] = v8_select(here, r.L[i], v8_set(0));
     r.E  = v8_select(here, r.E, v8_set(0));

@@ -26,19 +26,77 @@ LANE_INLINE void v8_store(double *p, v8 a)
     *(v8 *)(void *)p = a;
 }
 
+/* gcc splits the arithmetic of v8 into the vectors a machine has, but takes comparisons and masks apart into single
+ * numbers: where vectors are narrower those work on the parts. */
+#if defined(__AVX512F__)
+enum { LANES_PART = 8 };
+#elif defined(__AVX__)
+enum { LANES_PART = 4 };
+#else
+enum { LANES_PART = 2 };
+#endif
+typedef double part_v __attribute__((vector_size(8 * LANES_PART)));
+typedef int64_t part_m __attribute__((vector_size(8 * LANES_PART)));
+typedef union {
+    v8 v;
+    m8 m;
+    part_v pv[LANES / LANES_PART];
+    part_m pm[LANES / LANES_PART];
+} lane_parts;
+
+LANE_INLINE m8 v8_less(v8 a, v8 b)
+{
+    lane_parts x = { .v = a }, y = { .v = b };
+    for (int i = 0; i < LANES / LANES_PART; i++) x.pm[i] = x.pv[i] < y.pv[i];
+    return x.m;
+}
+
+LANE_INLINE m8 v8_at_least(v8 a, v8 b) /* a >= b */
+{
+    lane_parts x = { .v = a }, y = { .v = b };
+    for (int i = 0; i < LANES / LANES_PART; i++) x.pm[i] = x.pv[i] >= y.pv[i];
+    return x.m;
+}
+
+LANE_INLINE m8 m8_and(m8 a, m8 b)
+{
+    lane_parts x = { .m = a }, y = { .m = b };
+    for (int i = 0; i < LANES / LANES_PART; i++) x.pm[i] &= y.pm[i];
+    return x.m;
+}
+
+LANE_INLINE m8 m8_or(m8 a, m8 b)
+{
+    lane_parts x = { .m = a }, y = { .m = b };
+    for (int i = 0; i < LANES / LANES_PART; i++) x.pm[i] |= y.pm[i];
+    return x.m;
+}
+
 LANE_INLINE v8 v8_select(m8 mask, v8 yes, v8 no)
 {
-    return (v8)(((m8)yes & mask) | ((m8)no & ~mask));
+    lane_parts m = { .m = mask }, y = { .v = yes }, n = { .v = no };
+    for (int i = 0; i < LANES / LANES_PART; i++) m.pm[i] = (y.pm[i] & m.pm[i]) | (n.pm[i] & ~m.pm[i]);
+    return m.v;
 }
 
 LANE_INLINE v8 v8_min(v8 a, v8 b)
 {
-    return v8_select(a < b, a, b);
+    lane_parts x = { .v = a }, y = { .v = b };
+    for (int i = 0; i < LANES / LANES_PART; i++) {
+        const part_m less = x.pv[i] < y.pv[i];
+        x.pm[i]           = (x.pm[i] & less) | (y.pm[i] & ~less);
+    }
+    return x.v;
 }
 
 LANE_INLINE v8 v8_max(v8 a, v8 b)
 {
-    return v8_select(a > b, a, b);
+    lane_parts x = { .v = a }, y = { .v = b };
+    for (int i = 0; i < LANES / LANES_PART; i++) {
+        const part_m more = x.pv[i] > y.pv[i];
+        x.pm[i]           = (x.pm[i] & more) | (y.pm[i] & ~more);
+    }
+    return x.v;
 }
 
 LANE_INLINE double v8_largest(v8 a)

@@ -156,6 +156,8 @@ const kernels *kernels_choose(const char *name);
 status store_make(mpm *m, int blocks);
 void store_free(mpm *m);
 status store_brick(mpm *m, int field, const int at[3], int *out); /* finds or makes it */
+status store_open(brick *b);                                      /* memory for the sums of its particles */
+status store_empty(mpm *m, int blocks);                           /* no bricks, room for so many blocks */
 status store_surround(mpm *m, int brick_index);                   /* makes its 26 neighbours inside the window */
 void store_relink(mpm *m);                                        /* neighbours, contact flags, site list */
 status store_reserve(mpm *m);                                     /* free blocks for the next step */
