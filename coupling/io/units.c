@@ -72,10 +72,10 @@ static double number_value(const char *text, size_t length)
     return strtod(copy, NULL);
 }
 
-/* Words udunits2 would take for a shift of the origin or a logarithm. */
+/* Words udunits2 would take for a shift of the origin, a logarithm or a sign. */
 static bool has_forbidden_word(const char *unit)
 {
-    static const char *const words[] = { "since", "after", "from", "ref", "re", "lg", "ln", "lb", "log", NULL };
+    static const char *const words[] = { "since", "after", "from", "ref", "re", "lg", "ln", "lb", "log", "per", NULL };
     for (const char *s = unit; *s;) {
         const size_t length = strspn(s, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
         for (int k = 0; words[k]; k++)
@@ -85,19 +85,92 @@ static bool has_forbidden_word(const char *unit)
     return false;
 }
 
-/* Does it look like a unit?  Letters, small exponents, the operators; so that udunits2 only sees what it is good at. */
+/* ---- what a unit may look like ----
+ *
+ *   unit    = [1/] product               "1/s", "kg m^-3", "W/(m K)"
+ *   product = factor { [* . / or nothing] factor }
+ *   factor  = name [power] | ( product ) [power]
+ *   power   = [^ or **] [sign] one or two digits, or a superscript 2 or 3
+ *
+ * udunits2 knows more, and loses memory on some of what it does not know: so it only sees what has this form.
+ * Each function returns where its part ends, NULL where it is none. */
+
+enum { UNIT_MAX_DEPTH = 3 };
+
+static const char *skip_any(const char *s, const char *const *words)
+{
+    for (int k = 0; words[k]; k++)
+        if (strncmp(s, words[k], strlen(words[k])) == 0) return s + strlen(words[k]);
+    return s;
+}
+
+static const char *skip_name(const char *s)
+{
+    static const char *const letters[] = {
+        "\xc2\xb5", "\xce\xbc", "\xc2\xb0", "\xce\xa9", "\xe2\x84\xa6", NULL
+    }; /* micro, micro, degree, ohm, ohm */
+    const char *start = s;
+    for (;;) {
+        const char *next = skip_any(s, letters);
+        if (next == s && (isalpha((unsigned char)*s) || *s == '_' || *s == '%')) next++;
+        if (next == s) return s > start ? s : NULL;
+        s = next;
+    }
+}
+
+static const char *skip_power(const char *s)
+{
+    static const char *const superscripts[] = { "\xc2\xb2", "\xc2\xb3", NULL }, *const marks[] = { "^", "**", NULL };
+    const char *end = skip_any(s, superscripts);
+    if (end != s) return end;
+    end = skip_any(s, marks);
+    if (*end == '-' || *end == '+') end++;
+    const size_t digits = strspn(end, "0123456789");
+    if (digits == 0) return end == s ? s : NULL; /* no power; a mark or a sign without a number */
+    return digits <= 2 ? end + digits : NULL;
+}
+
+static const char *skip_blanks(const char *s)
+{
+    return s + strspn(s, " \t");
+}
+
+static const char *skip_product(const char *s, int depth);
+
+static const char *skip_factor(const char *s, int depth)
+{
+    const char *end = NULL;
+    if (*s == '(') {
+        end = skip_product(s + 1, depth + 1);
+        if (!end || *end != ')') return NULL;
+        end++;
+    } else {
+        end = skip_name(s);
+    }
+    return end ? skip_power(end) : NULL;
+}
+
+/* Ends at the text's end or at a closing bracket. */
+static const char *skip_product(const char *s, int depth)
+{
+    static const char *const signs[] = { "*", "/", ".", "\xc2\xb7", NULL };
+    if (depth > UNIT_MAX_DEPTH) return NULL;
+    s = skip_factor(skip_blanks(s), depth);
+    while (s) {
+        const char *next = skip_blanks(s);
+        if (*next == '\0' || *next == ')') return next;
+        const char *after = skip_any(next, signs);
+        if (after == s) return NULL; /* neither a blank nor a sign between two factors */
+        s = skip_factor(skip_blanks(after), depth);
+    }
+    return NULL;
+}
+
 static bool is_plausible(const char *unit)
 {
-    size_t digits = 0, open = 0;
-    if (isdigit((unsigned char)unit[0]) && strncmp(unit, "1/", 2) != 0 && !same(unit, "1")) return false;
-    for (const char *s = unit; *s; s++) {
-        const unsigned char c = (unsigned char)*s;
-        digits = isdigit(c) ? digits + 1 : 0;
-        open += c == '(';
-        if (digits > 2 || open > 3) return false;
-        if (c < 128 && !isalnum(c) && !strchr(" */^.()%-_'\"", c)) return false;
-    }
-    return !has_forbidden_word(unit);
+    if (same(unit, "1")) return true;
+    const char *end = skip_product(strncmp(unit, "1/", 2) == 0 ? unit + 2 : unit, 0);
+    return end && *end == '\0' && !has_forbidden_word(unit);
 }
 
 static ut_unit *unit_parse(const units *u, const char *unit)
