@@ -13,7 +13,7 @@ static int grade(const mpm_axis *s, double length, double *spacing)
     double sum = 0, h = s->fine;
     int n = 0;
     while (sum < length * (1 - 1e-9) && n < MAX_NODES) {
-        h            = fmin(h * s->growth, fmax(s->coarse, s->fine));
+        h = fmin(h * s->growth, fmax(s->coarse, s->fine));
         spacing[n++] = h;
         sum += h;
     }
@@ -31,16 +31,16 @@ static status check(const mpm_axis *s, char letter)
           s->hi);
     CHECK(s->growth >= 1 && s->growth <= 1.5, STATUS_BAD_INPUT, "growth along %c = %g: must be 1 .. 1.5", letter,
           s->growth);
-    CHECK((s->hi - s->lo) / s->fine < MAX_NODES, STATUS_BAD_INPUT, "cells along %c: %g m is too fine for %g m of window",
-          letter, s->fine, s->hi - s->lo);
+    CHECK((s->hi - s->lo) / s->fine < MAX_NODES, STATUS_BAD_INPUT,
+          "cells along %c: %g m is too fine for %g m of window", letter, s->fine, s->hi - s->lo);
     return status_ok();
 }
 
 static status allocate(axis *a)
 {
     a->bricks = (a->last + 2 + 3) / 4;
-    a->node   = calloc((size_t)(4 * a->bricks), sizeof(double));
-    a->edge   = calloc((size_t)(4 * a->bricks + 1), sizeof(double));
+    a->node = calloc((size_t)(4 * a->bricks), sizeof(double));
+    a->edge = calloc((size_t)(4 * a->bricks + 1), sizeof(double));
     CHECK(a->node && a->edge, STATUS_MEMORY, "no memory for a grid axis of %d nodes", a->last);
     return status_ok();
 }
@@ -56,14 +56,14 @@ static void place_nodes(axis *a, const mpm_axis *s, const double *below, int n_b
 static void finish(axis *a, const mpm_axis *s)
 {
     a->node[a->last] = s->hi;
-    a->node[0]       = 2 * a->node[1] - a->node[2];
+    a->node[0] = 2 * a->node[1] - a->node[2];
     for (int i = a->last + 1; i < 4 * a->bricks; i++) a->node[i] = 2 * a->node[i - 1] - a->node[i - 2];
     a->smallest = HUGE_VAL;
     for (int i = 1; i < 4 * a->bricks; i++) {
-        a->edge[i]  = 0.5 * (a->node[i - 1] + a->node[i]);
+        a->edge[i] = 0.5 * (a->node[i - 1] + a->node[i]);
         a->smallest = fmin(a->smallest, a->node[i] - a->node[i - 1]);
     }
-    a->edge[0]             = 2 * a->node[0] - a->edge[1];
+    a->edge[0] = 2 * a->node[0] - a->edge[1];
     a->edge[4 * a->bricks] = 2 * a->node[4 * a->bricks - 1] - a->edge[4 * a->bricks - 1];
 }
 
@@ -75,13 +75,13 @@ status axis_make(const mpm_axis *spec, char letter, axis *out)
     CHECK(below, STATUS_MEMORY, "no memory for a grid axis");
     const int n_below = grade(spec, spec->fine_lo - spec->lo, below);
     const int n_above = grade(spec, spec->hi - spec->fine_hi, above);
-    const int n_fine  = (int)fmax(1, round((spec->fine_hi - spec->fine_lo) / spec->fine));
-    out->last         = 1 + n_below + n_fine + n_above;
-    const status s    = allocate(out);
+    const int n_fine = (int)fmax(1, round((spec->fine_hi - spec->fine_lo) / spec->fine));
+    out->last = 1 + n_below + n_fine + n_above;
+    const status s = allocate(out);
     if (s.code == STATUS_OK) {
         place_nodes(out, spec, below, n_below, n_fine);
         for (int i = 0; i < n_above; i++) {
-            const int k      = 1 + n_below + n_fine + i;
+            const int k = 1 + n_below + n_fine + i;
             out->node[k + 1] = out->node[k] + above[i];
         }
         finish(out, spec);
@@ -106,8 +106,10 @@ int axis_locate(const axis *a, double x)
     int lo = 1, hi = a->last + 1; /* edge[lo] <= x < edge[hi] */
     while (hi - lo > 1) {
         const int mid = (lo + hi) / 2;
-        if (x >= a->edge[mid]) lo = mid;
-        else hi = mid;
+        if (x >= a->edge[mid])
+            lo = mid;
+        else
+            hi = mid;
     }
     return lo;
 }

@@ -8,10 +8,10 @@
 #include "mpm/scene.h"
 
 typedef struct {
-    int last;      /* index of the node on the upper end */
-    int bricks;    /* bricks of 4 nodes that hold nodes 0 .. last + 1 */
-    double *node;  /* [4 bricks] positions [m], owned */
-    double *edge;  /* [4 bricks + 1] edge[i] .. edge[i+1] is the cell of node i [m], owned */
+    int last;        /* index of the node on the upper end */
+    int bricks;      /* bricks of 4 nodes that hold nodes 0 .. last + 1 */
+    double *node;    /* [4 bricks] positions [m], owned */
+    double *edge;    /* [4 bricks + 1] edge[i] .. edge[i+1] is the cell of node i [m], owned */
     double smallest; /* smallest spacing [m] */
 } axis;
 

@@ -31,13 +31,13 @@ static void chain_free_blocks(mpm *m, int first)
 static status grow_blocks(mpm *m, int capacity)
 {
     const size_t old = (size_t)m->blocks_capacity;
-    block *b         = enlarge(m->blocks, old * sizeof(block), (size_t)capacity * sizeof(block));
+    block *b = enlarge(m->blocks, old * sizeof(block), (size_t)capacity * sizeof(block));
     CHECK(b, STATUS_MEMORY, "no memory for %d particle blocks (%.1f GB): use larger cells", capacity,
           1e-9 * capacity * (double)sizeof(block));
-    m->blocks     = b;
+    m->blocks = b;
     block_link *l = enlarge(m->links, old * sizeof(block_link), (size_t)capacity * sizeof(block_link));
     CHECK(l, STATUS_MEMORY, "no memory for %d particle blocks", capacity);
-    m->links           = l;
+    m->links = l;
     m->blocks_capacity = capacity;
     chain_free_blocks(m, (int)old);
     return status_ok();
@@ -46,10 +46,10 @@ static status grow_blocks(mpm *m, int capacity)
 status store_make(mpm *m, int blocks)
 {
     m->free_head = -1;
-    m->sites     = m->axes[0].bricks * m->axes[1].bricks * m->axes[2].bricks;
+    m->sites = m->axes[0].bricks * m->axes[1].bricks * m->axes[2].bricks;
     m->directory = malloc((size_t)m->fields * (size_t)m->sites * sizeof(int));
     m->site_list = malloc((size_t)m->sites * sizeof(int));
-    m->site_sum  = malloc((size_t)m->sites * sizeof(tally));
+    m->site_sum = malloc((size_t)m->sites * sizeof(tally));
     CHECK(m->directory && m->site_list && m->site_sum, STATUS_MEMORY, "no memory for a window of %d bricks", m->sites);
     for (int i = 0; i < m->fields * m->sites; i++) m->directory[i] = -1;
     return grow_blocks(m, blocks);
@@ -83,7 +83,7 @@ static status grow_bricks(mpm *m)
     const int capacity = m->bricks_capacity ? 2 * m->bricks_capacity : 256;
     brick *b = enlarge(m->bricks, (size_t)m->bricks_used * sizeof(brick), (size_t)capacity * sizeof(brick));
     CHECK(b, STATUS_MEMORY, "no memory for %d bricks", capacity);
-    m->bricks          = b;
+    m->bricks = b;
     m->bricks_capacity = capacity;
     return status_ok();
 }
@@ -91,13 +91,13 @@ static status grow_bricks(mpm *m)
 status store_brick(mpm *m, int field, const int at[3], int *out)
 {
     const int site = site_index(m, at[0], at[1], at[2]);
-    int *slot      = &m->directory[field * m->sites + site];
+    int *slot = &m->directory[field * m->sites + site];
     if (*slot < 0) {
         TRY(grow_bricks(m));
         brick *b = &m->bricks[m->bricks_used];
         memset(b, 0, sizeof *b);
         b->field = field;
-        b->site  = site;
+        b->site = site;
         memcpy(b->at, at, sizeof b->at);
         for (int c = 0; c < BRICK_CELLS; c++) b->head[c] = -1;
         b->node = aligned(BRICK_CELLS * sizeof *b->node);
@@ -201,9 +201,9 @@ static void block_clear(mpm *m, block *q, int body, const double *particle)
     const law *k = &m->laws[body];
     for (int l = 0; l < LANES; l++) {
         q->mass[0][l] = q->p[0][l] = q->ep[0][l] = q->damage[0][l] = q->area[0][l] = q->ka[0][l] = 0;
-        q->e[0][l]   = k->e_start;
+        q->e[0][l] = k->e_start;
         q->rho[0][l] = k->rho_start;
-        q->T[0][l]   = k->T_r;
+        q->T[0][l] = k->T_r;
         for (int i = 0; i < 6; i++) q->s[i][l] = 0;
         for (int i = 0; i < 9; i++) q->L[i][l] = 0;
         for (int i = 0; i < 3; i++) q->v[i][l] = 0;
@@ -227,17 +227,17 @@ static int take_free_block(mpm *m)
 /* Follows one cycle of the permutation: the block at `first` goes to to[first], and so on round. */
 static void permute_cycle(mpm *m, int *to, int first)
 {
-    block held      = m->blocks[first];
+    block held = m->blocks[first];
     block_link link = m->links[first];
-    int at          = first;
+    int at = first;
     while (to[at] >= 0) {
-        const int next     = to[at];
-        const block b      = m->blocks[next];
+        const int next = to[at];
+        const block b = m->blocks[next];
         const block_link l = m->links[next];
         m->blocks[next] = held, m->links[next] = link;
         held = b, link = l;
         to[at] = -1;
-        at     = next;
+        at = next;
     }
 }
 

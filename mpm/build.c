@@ -15,11 +15,12 @@ typedef struct {
 static status ladder_make(const axis *a, double lo, double hi, int per_cell, ladder *out)
 {
     int n = 0;
-    for (double x = lo; x < hi * (1 + 1e-12) - 1e-12 && n < 1000000; n++) x += axis_spacing(a, x + 1e-9 * (hi - lo)) / per_cell;
+    for (double x = lo; x < hi * (1 + 1e-12) - 1e-12 && n < 1000000; n++)
+        x += axis_spacing(a, x + 1e-9 * (hi - lo)) / per_cell;
     out->edge = malloc(((size_t)n + 2) * sizeof(double));
     CHECK(out->edge, STATUS_MEMORY, "no memory for a lattice of %d planes", n);
     double x = lo;
-    int k    = 0;
+    int k = 0;
     out->edge[0] = lo;
     while (x < hi - 1e-6 * axis_spacing(a, x)) {
         x += axis_spacing(a, x + 1e-9 * (hi - lo)) / per_cell;
@@ -50,7 +51,7 @@ static bool claimed_later(const mpm_scene *s, int body, const double x[3])
 static double loaded_area(const mpm_body *b, const double x[3], const double size[3])
 {
     if (b->traction[0] == 0 && b->traction[1] == 0 && b->traction[2] == 0) return 0;
-    const int k    = b->traction_face / 2;
+    const int k = b->traction_face / 2;
     double next[3] = { x[0], x[1], x[2] };
     next[k] += b->traction_face % 2 ? size[k] : -size[k];
     return inside(b, next) ? 0 : size[(k + 1) % 3] * size[(k + 2) % 3];
@@ -60,9 +61,9 @@ static void fill_point(const mpm_body *b, const law *k, const double x[3], const
 {
     memset(p, 0, sizeof *p);
     for (int i = 0; i < 3; i++) {
-        p->x[i]    = x[i];
+        p->x[i] = x[i];
         p->half[i] = 0.5 * size[i];
-        p->v[i]    = b->velocity[i];
+        p->v[i] = b->velocity[i];
     }
     p->mass = k->rho_start * size[0] * size[1] * size[2];
     p->area = loaded_area(b, x, size);
@@ -78,7 +79,7 @@ static status walk(const mpm_scene *s, int body, const law *k, const ladder l[3]
                 double x[3], size[3];
                 for (int q = 0; q < 3; q++) {
                     size[q] = l[q].edge[at[q] + 1] - l[q].edge[at[q]];
-                    x[q]    = l[q].edge[at[q]] + 0.5 * size[q];
+                    x[q] = l[q].edge[at[q]] + 0.5 * size[q];
                 }
                 if (!inside(b, x) || claimed_later(s, body, x)) continue;
                 build_point p;
@@ -94,12 +95,14 @@ status build_body(const mpm_scene *s, int body, const law *k, const axis axes[3]
     double lo[3], hi[3];
     b->shape->bounds(&b->shape_value, lo, hi);
     ladder l[3] = { { 0 } };
-    status r    = status_ok();
+    status r = status_ok();
     for (int q = 0; q < 3 && r.code == STATUS_OK; q++) {
         lo[q] = fmax(lo[q], axes[q].node[1]);
         hi[q] = fmin(hi[q], axes[q].node[axes[q].last]);
-        if (hi[q] <= lo[q]) r = status_error(STATUS_BAD_INPUT, "body `%s` lies outside the window along axis %d", b->name, q);
-        else r = ladder_make(&axes[q], lo[q], hi[q], s->particles_per_axis, &l[q]);
+        if (hi[q] <= lo[q])
+            r = status_error(STATUS_BAD_INPUT, "body `%s` lies outside the window along axis %d", b->name, q);
+        else
+            r = ladder_make(&axes[q], lo[q], hi[q], s->particles_per_axis, &l[q]);
     }
     if (r.code == STATUS_OK) r = walk(s, body, k, l, sink);
     for (int q = 0; q < 3; q++) free(l[q].edge);

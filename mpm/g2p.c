@@ -11,7 +11,7 @@ typedef double halo_nodes[HALO_NODES][NODE] __attribute__((aligned(64)));
 
 static void rows(int d, int *there, int *here, int *count)
 {
-    *here  = d < 0 ? 0 : d > 0 ? HALO - 1 : 1;
+    *here = d < 0 ? 0 : d > 0 ? HALO - 1 : 1;
     *there = d < 0 ? BRICK - 1 : 0;
     *count = d == 0 ? BRICK : 1;
 }
@@ -27,8 +27,10 @@ static void gather_halo(const mpm *m, const brick *b, halo_nodes halo)
         for (int k = 0; k < n[2]; k++)
             for (int j = 0; j < n[1]; j++) {
                 double(*to)[NODE] = &halo[((h[2] + k) * HALO + h[1] + j) * HALO + h[0]];
-                if (from) memcpy(to, from->node[cell_index(t[0], t[1] + j, t[2] + k)], (size_t)n[0] * sizeof *to);
-                else memset(to, 0, (size_t)n[0] * sizeof *to);
+                if (from)
+                    memcpy(to, from->node[cell_index(t[0], t[1] + j, t[2] + k)], (size_t)n[0] * sizeof *to);
+                else
+                    memset(to, 0, (size_t)n[0] * sizeof *to);
             }
     }
 }
@@ -65,7 +67,8 @@ LANE_INLINE v8 spread(const weights *w)
 LANE_INLINE void gather(const weights w[3], double (*const node)[NODE], gathered *r)
 {
     const v8 zero = v8_set(0);
-    v8 v[3] = { zero, zero, zero }, Lx[3] = { zero, zero, zero }, Ly[3] = { zero, zero, zero }, Lz[3] = { zero, zero, zero };
+    v8 v[3] = { zero, zero, zero }, Lx[3] = { zero, zero, zero }, Ly[3] = { zero, zero, zero },
+       Lz[3] = { zero, zero, zero };
     v8 E = zero;
 #pragma GCC unroll 3
     for (int c = 0; c < 3; c++) {
@@ -93,23 +96,23 @@ LANE_INLINE void gather(const weights w[3], double (*const node)[NODE], gathered
         E += w[2].w[c] * tE;
     }
     const v8 D[3] = { spread(&w[0]), spread(&w[1]), spread(&w[2]) };
-    v8 ka         = zero;
+    v8 ka = zero;
     for (int q = 0; q < 3; q++) {
-        r->v[q]         = v[q];
-        r->L[3 * q]     = Lx[q];
+        r->v[q] = v[q];
+        r->L[3 * q] = Lx[q];
         r->L[3 * q + 1] = Ly[q];
         r->L[3 * q + 2] = Lz[q];
         ka += D[0] * Lx[q] * Lx[q] + D[1] * Ly[q] * Ly[q] + D[2] * Lz[q] * Lz[q];
     }
-    r->E  = E;
+    r->E = E;
     r->ka = v8_set(0.5) * ka;
 }
 
 /* ---- the material law, eight lanes ---- */
 
 typedef struct {
-    double dt, h[3];  /* cell [m] */
-    double force[3];  /* body force [m/s2] */
+    double dt, h[3]; /* cell [m] */
+    double force[3]; /* body force [m/s2] */
     double traction[3];
 } step_of;
 
@@ -149,19 +152,29 @@ LANE_INLINE v8 temperature(const law *k, v8 e, v8 mu, v8 stored)
 {
     const v8 zero = v8_set(0), x = v8_max(mu, zero);
     const v8 squeezed = x * x * (k->cold[0] + x * (k->cold[1] + x * (k->cold[2] + x * (k->cold[3] + x * k->cold[4]))));
-    const v8 cold     = v8_select(v8_less(zero, mu), squeezed, 0.5 * k->c0 * k->c0 * mu * mu);
+    const v8 cold = v8_select(v8_less(zero, mu), squeezed, 0.5 * k->c0 * k->c0 * mu * mu);
     const double melt = k->c_v * (k->T_m - k->T_r);
-    const v8 thermal  = e - cold - stored;
-    const v8 beyond   = v8_max(thermal - melt - k->latent, zero);
+    const v8 thermal = e - cold - stored;
+    const v8 beyond = v8_max(thermal - melt - k->latent, zero);
     return v8_max(k->T_r + (v8_min(thermal, v8_set(melt)) + beyond) * k->inv_c, v8_set(1));
 }
 
-/*   p_H = rho0 c0^2 mu [1 + (1 - g0/2) mu] / [1 - (s-1) mu]^2, mu >= 0;   rho0 c0^2 mu below;   p = p_H + g0 rho0 e   (M-3) */
+/*   p_H = rho0 c0^2 mu [1 + (1 - g0/2) mu] / [1 - (s-1) mu]^2, mu >= 0;   rho0 c0^2 mu below;   p = p_H + g0 rho_e e   (M-3)
+ * rho_e = rho0 in compression, rho in expansion: with rho0 there too, hot debris would keep its full thermal pressure
+ * however thin it has become, and burst. */
 LANE_INLINE v8 hugoniot_pressure(const law *k, v8 mu)
 {
     const v8 d = 1 - k->s1 * mu, zero = v8_set(0);
     const v8 compressed = mu * (1 + (1 - 0.5 * k->g) * mu) / (d * d);
     return k->K0 * v8_select(v8_less(zero, mu), compressed, mu);
+}
+
+/* Longitudinal wave speed: K = K0 + K' p in compression, c0 in expansion; a failed point has no shear stiffness [m/s] */
+LANE_INLINE v8 sound_speed(const law *k, v8 rho, v8 p, m8 failed)
+{
+    const v8 zero = v8_set(0);
+    const v8 bulk = (k->K0 + k->K_slope * v8_max(p, zero)) / v8_max(rho, v8_set(k->rho0));
+    return v8_sqrt(bulk + v8_select(failed, zero, 4.0 / 3.0 * k->G / rho));
 }
 
 /* Elastic predictor with the Jaumann rate:  s' = W s - s W + 2 G dev D  */
@@ -201,7 +214,7 @@ LANE_INLINE v8 viscosity(const law *k, const step_of *step, const v8 L[9], v8 tr
 {
     const v8 xx = L[0] * L[0], yy = L[4] * L[4], zz = L[8] * L[8];
     const double *h = step->h;
-    const v8 size    = v8_sqrt((xx * (h[0] * h[0]) + yy * (h[1] * h[1]) + zz * (h[2] * h[2])) / (xx + yy + zz + 1e-300));
+    const v8 size = v8_sqrt((xx * (h[0] * h[0]) + yy * (h[1] * h[1]) + zz * (h[2] * h[2])) / (xx + yy + zz + 1e-300));
     const v8 squeeze = v8_max(-tr, v8_set(0)) * size;
     return rho * squeeze * (k->q1 * sound + k->q2 * squeeze);
 }
@@ -220,25 +233,25 @@ LANE_INLINE void law_step(const law *k, const step_of *step, const v8 L[9], v8 t
 
     const v8 power_before = (stress_power(s, L) - p0 * tr) / rho0;
     predict(k, dt, L, tr, s);
-    const v8 trial    = v8_sqrt(1.5 * square_norm(s));
-    const v8 T_star   = clamp01((v8_load(q->T[0]) - k->T_r) * k->inv_T_range);
+    const v8 trial = v8_sqrt(1.5 * square_norm(s));
+    const v8 T_star = clamp01((v8_load(q->T[0]) - k->T_r) * k->inv_T_range);
     const v8 log_rate = v8_log(v8_max(shear_rate(L, tr) * k->inv_rate0, one));
-    const v8 yield    = v8_select(failed, zero, flow_stress(k, ep0, log_rate, T_star));
-    const v8 mises    = v8_min(trial, yield), scale = mises / v8_max(trial, v8_set(1e-30));
-    const v8 plastic  = v8_select(failed, zero, (trial - mises) * (1 / (3 * k->G)));
+    const v8 yield = v8_select(failed, zero, flow_stress(k, ep0, log_rate, T_star));
+    const v8 mises = v8_min(trial, yield), scale = mises / v8_max(trial, v8_set(1e-30));
+    const v8 plastic = v8_select(failed, zero, (trial - mises) * (1 / (3 * k->G)));
     for (int i = 0; i < 6; i++) {
         s[i] *= scale;
         v8_store(q->s[i], s[i]);
     }
-    const v8 mu    = rho * (1 / k->rho0) - 1;
-    const v8 sound = v8_sqrt((k->K0 + k->K_slope * v8_max(p0, zero) + 4.0 / 3.0 * k->G) / rho);
-    const v8 q_v   = viscosity(k, step, L, tr, rho, sound);
-    const v8 half  = 0.5 * dt * tr / rho;
-    const double slope = k->g * k->rho0;
+    const v8 mu = rho * (1 / k->rho0) - 1;
+    const v8 sound = sound_speed(k, rho, p0, failed);
+    const v8 q_v = viscosity(k, step, L, tr, rho, sound);
+    const v8 half = 0.5 * dt * tr / rho;
+    const v8 slope = k->g * v8_min(rho, v8_set(k->rho0));
     v8 e = v8_load(q->e[0]) + sum->heat + 0.5 * dt * (power_before + stress_power(s, L) / rho) - half * q_v;
     const v8 p_free = (hugoniot_pressure(k, mu) + slope * e) / (1 + slope * half);
-    const m8 torn   = m8_and(failed, v8_less(p_free, zero));
-    const v8 p      = v8_select(torn, zero, p_free);
+    const m8 torn = m8_and(failed, v8_less(p_free, zero));
+    const v8 p = v8_select(torn, zero, p_free);
     e -= half * p;
 
     if (k->D1 >= 0) {
@@ -246,22 +259,24 @@ LANE_INLINE void law_step(const law *k, const step_of *step, const v8 L[9], v8 t
         v8_store(q->damage[0], v8_min(damage0 + plastic / e_f, one));
     }
     const v8 stored = square_norm(s) / (4 * k->G * rho);
-    const v8 T      = k->plastic_heat ? v8_load(q->T[0]) + k->chi * mises * plastic / rho * k->inv_c : temperature(k, e, mu, stored);
+    const v8 T =
+        k->plastic_heat ? v8_load(q->T[0]) + k->chi * mises * plastic / rho * k->inv_c : temperature(k, e, mu, stored);
     v8_store(q->T[0], T);
     v8_store(q->ep[0], ep0 + plastic);
+    v8_store(q->flow[0], yield);
     v8_store(q->e[0], e);
     v8_store(q->rho[0], rho);
     v8_store(q->p[0], p + q_v);
     v8 rate = zero;
     for (int i = 0; i < 3; i++) {
         const v8 v = v8_load(q->v[i]);
-        rate       = v8_max(rate, (sound + v8_max(v, -v)) * (1 / step->h[i]));
+        rate = v8_max(rate, (sound + v8_max(v, -v)) * (1 / step->h[i]));
     }
-    sum->rate         = rate;
-    sum->mises        = mises;
+    sum->rate = rate;
+    sum->mises = mises;
     sum->heat_viscous = -dt * tr / rho * q_v;
-    sum->clamp_p      = v8_select(torn, one, zero);
-    sum->clamp_rho    = v8_select(m8_or(v8_less(wanted, rho), v8_less(rho, wanted)), one, zero);
+    sum->clamp_p = v8_select(torn, one, zero);
+    sum->clamp_rho = v8_select(m8_or(v8_less(wanted, rho), v8_less(rho, wanted)), one, zero);
 }
 
 /* ---- a block ---- */
@@ -269,7 +284,7 @@ LANE_INLINE void law_step(const law *k, const step_of *step, const v8 L[9], v8 t
 LANE_INLINE v8 block_move(block *q, const gathered *r, const step_of *step)
 {
     const v8 dt = v8_set(step->dt);
-    v8 work     = v8_set(0);
+    v8 work = v8_set(0);
     const v8 area = v8_load(q->area[0]), m = v8_load(q->mass[0]);
     for (int k = 0; k < 3; k++) {
         work += (m * step->force[k] + area * step->traction[k]) * dt * v8_set(0.5) * (r->v[k] + v8_load(q->v[k]));
@@ -285,8 +300,8 @@ LANE_INLINE v8 block_move(block *q, const gathered *r, const step_of *step)
 static int leaving_lanes(const mpm *m, const brick *b, int cell, const block *q, int mask, const cell_grid *g)
 {
     const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
-    const m8 whole  = v8_less(v8_load(q->damage[0]), v8_set(1));
-    m8 leave        = { 0 };
+    const m8 whole = v8_less(v8_load(q->damage[0]), v8_set(1));
+    m8 leave = { 0 };
     for (int k = 0; k < 3; k++) {
         const double *edge = &m->axes[k].edge[BRICK * b->at[k] + at[k]];
         const v8 x = v8_load(q->x[k]), half = v8_load(q->half[k]);
@@ -300,23 +315,25 @@ static int leaving_lanes(const mpm *m, const brick *b, int cell, const block *q,
 
 static void book(brick *b, const block *q, const lane_sums *w, const step_of *step, int body, int index)
 {
-    tally *t   = &b->sum;
+    tally *t = &b->sum;
     const v8 m = v8_load(q->mass[0]), zero = v8_set(0), area = v8_load(q->area[0]);
     const m8 here = v8_less(zero, m);
     t->heat_transfer += v8_sum(m * w->heat);
     t->heat_viscous += v8_sum(m * w->heat_viscous);
     t->work_external += v8_sum(w->work_external);
-    for (int k = 0; k < 3; k++) t->impulse_external[k] += step->dt * v8_sum(m * step->force[k] + area * step->traction[k]);
-    t->rate                     = fmax(t->rate, v8_largest(v8_select(here, w->rate, zero)));
-    t->peak_pressure_body[body] = fmax(t->peak_pressure_body[body], v8_largest(v8_select(here, v8_load(q->p[0]), zero)));
-    t->peak_mises[body]         = fmax(t->peak_mises[body], v8_largest(v8_select(here, w->mises, zero)));
-    t->peak_strain[body]        = fmax(t->peak_strain[body], v8_largest(v8_select(here, v8_load(q->ep[0]), zero)));
-    t->peak_temperature         = fmax(t->peak_temperature, v8_largest(v8_select(here, v8_load(q->T[0]), zero)));
+    for (int k = 0; k < 3; k++)
+        t->impulse_external[k] += step->dt * v8_sum(m * step->force[k] + area * step->traction[k]);
+    t->rate = fmax(t->rate, v8_largest(v8_select(here, w->rate, zero)));
+    t->peak_pressure_body[body] =
+        fmax(t->peak_pressure_body[body], v8_largest(v8_select(here, v8_load(q->p[0]), zero)));
+    t->peak_mises[body] = fmax(t->peak_mises[body], v8_largest(v8_select(here, w->mises, zero)));
+    t->peak_strain[body] = fmax(t->peak_strain[body], v8_largest(v8_select(here, v8_load(q->ep[0]), zero)));
+    t->peak_temperature = fmax(t->peak_temperature, v8_largest(v8_select(here, v8_load(q->T[0]), zero)));
     t->clamps_pressure += (uint64_t)v8_sum(v8_select(here, w->clamp_p, zero));
     t->clamps_compression += (uint64_t)v8_sum(v8_select(here, w->clamp_rho, zero));
     /* x - x is 0, or NaN where x is not finite */
     v8 bad = v8_load(q->x[0]) + v8_load(q->x[1]) + v8_load(q->x[2]) + v8_load(q->e[0]) + v8_load(q->p[0]) + w->rate;
-    bad    = v8_select(here, bad - bad, zero);
+    bad = v8_select(here, bad - bad, zero);
     if (t->bad_block < 0 && !(v8_sum(bad) == 0)) {
         t->bad_block = index;
         while (bad[t->bad_lane] == 0) t->bad_lane++;
@@ -325,13 +342,13 @@ static void book(brick *b, const block *q, const lane_sums *w, const step_of *st
 
 static void one_block(mpm *m, brick *b, int index, const cell_grid *g, double (*const node)[NODE])
 {
-    block *q            = &m->blocks[index];
-    const int body      = m->links[index].body;
+    block *q = &m->blocks[index];
+    const int body = m->links[index].body;
     const double affine = m->scene.transfer == TRANSFER_TPIC ? 1 : 0;
-    step_of step        = { .dt = m->dt };
+    step_of step = { .dt = m->dt };
     for (int i = 0; i < 3; i++) {
-        step.h[i]        = g->axis[i].cell;
-        step.force[i]    = m->scene.body[body].body_force[i];
+        step.h[i] = g->axis[i].cell;
+        step.force[i] = m->scene.body[body].body_force[i];
         step.traction[i] = m->scene.body[body].traction[i];
     }
     const weights w[3] = { cell_weights(g, 0, q), cell_weights(g, 1, q), cell_weights(g, 2, q) };
@@ -340,7 +357,7 @@ static void one_block(mpm *m, brick *b, int index, const cell_grid *g, double (*
     const m8 here = v8_less(v8_set(0), v8_load(q->mass[0])); /* holes stay at rest */
     for (int i = 0; i < 3; i++) r.v[i] = v8_select(here, r.v[i], v8_set(0));
     for (int i = 0; i < 9; i++) r.L[i] = v8_select(here, r.L[i], v8_set(0));
-    r.E  = v8_select(here, r.E, v8_set(0));
+    r.E = v8_select(here, r.E, v8_set(0));
     r.ka = v8_select(here, r.ka * affine, v8_set(0));
     lane_sums sum;
     sum.heat = r.E - 0.5 * (r.v[0] * r.v[0] + r.v[1] * r.v[1] + r.v[2] * r.v[2]) - r.ka;
@@ -359,11 +376,10 @@ void ISA(g2p)(mpm *m, brick *b, int thread)
     b->movers = 0, b->mover_steps = 0, b->movers_thread = thread, b->movers_first = m->movers[thread].count;
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
         if (b->head[cell] < 0) continue;
-        const cell_grid g   = cell_grid_at(m, b, cell);
+        const cell_grid g = cell_grid_at(m, b, cell);
         double(*node)[NODE] = &halo[halo_index(cell)];
         for (int i = b->head[cell]; i >= 0; i = m->links[i].next) {
-            const int next = m->links[i].next;
-            if (next >= 0) __builtin_prefetch(&m->blocks[next]);
+            prefetch_ahead(m, i);
             b->sum.particles += (uint64_t)__builtin_popcount(m->links[i].mask);
             one_block(m, b, i, &g, node);
             const int leaving = leaving_lanes(m, b, cell, &m->blocks[i], m->links[i].mask, &g);

@@ -57,13 +57,14 @@ static uint64_t hash_axis(uint64_t h, const mpm_axis *s, const axis *a)
 static uint64_t scene_hash(const mpm *m)
 {
     const mpm_scene *s = &m->scene;
-    uint64_t h         = 14695981039346656037ull;
+    uint64_t h = 14695981039346656037ull;
     for (int i = 0; i < s->bodies; i++) h = hash_body(h, &s->body[i], &m->materials[i]);
     for (int k = 0; k < 3; k++) h = hash_axis(h, &s->axis[k], &m->axes[k]);
     for (int a = 0; a < m->fields; a++)
         for (int b = 0; b < m->fields; b++) h = hash(h, &s->contact[a][b], sizeof s->contact[a][b]);
-    const double numbers[] = { s->contact_gap, s->particles_per_axis, s->courant, s->viscosity_linear,
-                               s->viscosity_quadratic, s->transfer, s->basis, s->heat_by_plastic_work, s->volume_averaging };
+    const double numbers[] = { s->contact_gap,         s->particles_per_axis, s->courant, s->viscosity_linear,
+                               s->viscosity_quadratic, s->transfer,           s->basis,   s->heat_by_plastic_work,
+                               s->volume_averaging };
     return hash(h, numbers, sizeof numbers);
 }
 
@@ -102,9 +103,9 @@ status mpm_save(const mpm *m, void **image, size_t *bytes)
 {
     int blocks = 0;
     for (int i = 0; i < m->bricks_used; i++) blocks += m->bricks[i].blocks;
-    *bytes   = image_bytes(m, blocks);
+    *bytes = image_bytes(m, blocks);
     char *to = malloc(*bytes);
-    *image   = to;
+    *image = to;
     CHECK(to, STATUS_MEMORY, "no memory for a checkpoint of %.1f MB", 1e-6 * (double)*bytes);
     image_head head;
     memset(&head, 0, sizeof head);
@@ -148,11 +149,12 @@ static status get_cell(mpm *m, brick *b, int cell, int blocks, reader *r)
         CHECK(q >= 0, STATUS_IO, "the checkpoint holds more particles than it says");
         m->free_head = m->links[q].next;
         m->blocks_free--;
-        if (!get(r, &m->links[q], sizeof m->links[q]) || !get(r, &m->blocks[q], sizeof m->blocks[q])) return cut_short();
+        if (!get(r, &m->links[q], sizeof m->links[q]) || !get(r, &m->blocks[q], sizeof m->blocks[q]))
+            return cut_short();
         CHECK(m->links[q].body < m->scene.bodies, STATUS_IO, "the checkpoint names a body that the scene lacks");
         m->links[q].next = -1;
-        *link            = q;
-        link             = &m->links[q].next;
+        *link = q;
+        link = &m->links[q].next;
         b->blocks++;
     }
     return status_ok();
@@ -164,10 +166,11 @@ static status get_brick(mpm *m, reader *r)
     int index;
     if (!get(r, &head, sizeof head)) return cut_short();
     for (int k = 0; k < 3; k++)
-        CHECK(head.at[k] >= 0 && head.at[k] < m->axes[k].bricks, STATUS_IO, "the checkpoint holds a place outside the window");
+        CHECK(head.at[k] >= 0 && head.at[k] < m->axes[k].bricks, STATUS_IO,
+              "the checkpoint holds a place outside the window");
     CHECK(head.field >= 0 && head.field < m->fields, STATUS_IO, "the checkpoint holds a field that the scene lacks");
     TRY(store_brick(m, head.field, head.at, &index));
-    brick *b     = &m->bricks[index];
+    brick *b = &m->bricks[index];
     b->particles = head.particles;
     if (head.has_out) TRY(store_open(b));
     for (int c = 0; c < BRICK_CELLS; c++) TRY(get_cell(m, b, c, head.blocks[c], r));
@@ -178,7 +181,8 @@ static status check_head(const mpm *m, const image_head *h, size_t bytes)
 {
     CHECK(memcmp(h->magic, MAGIC, sizeof MAGIC) == 0, STATUS_IO, "this is no checkpoint of this version");
     CHECK(strncmp(h->instruction_set, m->kernel->name, sizeof h->instruction_set) == 0, STATUS_IO,
-          "the checkpoint was written with instruction set %.16s, this run uses %s: results would differ in last bits; pin the set or start anew",
+          "the checkpoint was written with instruction set %.16s, this run uses %s: results would differ in last bits; "
+          "pin the set or start anew",
           h->instruction_set, m->kernel->name);
     CHECK(h->scene == scene_hash(m), STATUS_IO, "the checkpoint belongs to another scene");
     CHECK(h->bytes == bytes, STATUS_IO, "the checkpoint has %zu bytes, it says %llu: cut short", bytes,
@@ -229,10 +233,11 @@ static status estimate(const mpm_scene *s, axis axes[3], size_t *particles, doub
 status mpm_estimate(const mpm_scene *scene, size_t *particles, size_t *bytes, double *first_dt)
 {
     axis axes[3] = { { 0 } };
-    *particles   = 0;
+    *particles = 0;
     const status r = estimate(scene, axes, particles, first_dt);
     for (int k = 0; k < 3; k++) axis_free(&axes[k]);
     /* blocks three quarters full, a quarter in reserve; two bricks' sums for every 512 particles */
-    *bytes = (size_t)((double)*particles * (sizeof(block) / 8.0 / 0.75 * 1.25 + 2.0 * (HALO_NODES * LINE + BRICK_CELLS * NODE) * 8.0 / 512));
+    *bytes = (size_t)((double)*particles *
+                      (sizeof(block) / 8.0 / 0.75 * 1.25 + 2.0 * (HALO_NODES * LINE + BRICK_CELLS * NODE) * 8.0 / 512));
     return r;
 }

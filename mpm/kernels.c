@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-#define KERNELS_OF(isa)                     \
-    void p2g_##isa(mpm *m, brick *b);       \
-    void nodes_##isa(mpm *m, int site);     \
+#define KERNELS_OF(isa)                 \
+    void p2g_##isa(mpm *m, brick *b);   \
+    void nodes_##isa(mpm *m, int site); \
     void g2p_##isa(mpm *m, brick *b, int thread);
 
 #ifdef BREECH_ISA_V4
@@ -31,8 +31,9 @@ static bool runs_here(const char *name)
 #if defined(__x86_64__)
     __builtin_cpu_init();
     if (strcmp(name, "x86-64-v4") == 0)
-        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
-               __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+               __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+               __builtin_cpu_supports("avx512vl");
     if (strcmp(name, "x86-64-v3") == 0)
         return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
 #endif

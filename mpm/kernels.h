@@ -17,20 +17,20 @@ void ISA(g2p)(mpm *m, brick *b, int thread);
 
 /* The two elements beside the node of a cell along each axis. */
 typedef struct {
-    double x[3];       /* of the nodes before, at and after [m] */
+    double x[3];                /* of the nodes before, at and after [m] */
     double inv_left, inv_right; /* one over the element sizes [1/m] */
-    double widest;     /* largest half length of a domain [m] */
-    double cell;       /* size of the cell [m] */
+    double widest;              /* largest half length of a domain [m] */
+    double cell;                /* size of the cell [m] */
 } cell_axis;
 
 LANE_INLINE cell_axis cell_axis_at(const axis *a, int i)
 {
     const double left = axis_left(a, i), right = axis_right(a, i);
-    return (cell_axis){ .x         = { a->node[i - 1], a->node[i], a->node[i + 1] },
-                        .inv_left  = 1 / left,
+    return (cell_axis){ .x = { a->node[i - 1], a->node[i], a->node[i + 1] },
+                        .inv_left = 1 / left,
                         .inv_right = 1 / right,
-                        .widest    = 0.5 * (left < right ? left : right),
-                        .cell      = 0.5 * (left + right) };
+                        .widest = 0.5 * (left < right ? left : right),
+                        .cell = 0.5 * (left + right) };
 }
 
 typedef struct {
@@ -82,6 +82,13 @@ LANE_INLINE weights weights_bspline(const cell_axis *c, const knots *q, v8 x)
     return r;
 }
 
+/* Blocks lie in the order of cells (store_compact), so the one after next is most likely needed after next. */
+LANE_INLINE void prefetch_ahead(const mpm *m, int index)
+{
+    const char *p = (const char *)&m->blocks[index] + 2 * sizeof(block);
+    for (size_t i = 0; i < sizeof(block); i += 64) __builtin_prefetch(p + i);
+}
+
 /* Everything a cell's particles need to know of the grid. */
 typedef struct {
     cell_axis axis[3];
@@ -92,9 +99,9 @@ typedef struct {
 LANE_INLINE cell_grid cell_grid_at(const mpm *m, const brick *b, int cell)
 {
     const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
-    cell_grid g     = { .bspline = m->scene.basis == BASIS_BSPLINE };
+    cell_grid g = { .bspline = m->scene.basis == BASIS_BSPLINE };
     for (int k = 0; k < 3; k++) {
-        g.axis[k]  = cell_axis_at(&m->axes[k], BRICK * b->at[k] + at[k]);
+        g.axis[k] = cell_axis_at(&m->axes[k], BRICK * b->at[k] + at[k]);
         g.knots[k] = knots_at(&m->axes[k], BRICK * b->at[k] + at[k]);
     }
     return g;
@@ -126,7 +133,7 @@ static inline int halo_at(const int at[3])
 /* Point n (0 .. 35) of a plane across axis k. */
 static inline void plane_point(int k, int plane, int n, int at[3])
 {
-    at[k]           = plane;
+    at[k] = plane;
     at[(k + 1) % 3] = n % HALO;
     at[(k + 2) % 3] = n / HALO;
 }

@@ -84,7 +84,7 @@ LANE_INLINE v8 v8_min(v8 a, v8 b)
     lane_parts x = { .v = a }, y = { .v = b };
     for (int i = 0; i < LANES / LANES_PART; i++) {
         const part_m less = x.pv[i] < y.pv[i];
-        x.pm[i]           = (x.pm[i] & less) | (y.pm[i] & ~less);
+        x.pm[i] = (x.pm[i] & less) | (y.pm[i] & ~less);
     }
     return x.v;
 }
@@ -94,7 +94,7 @@ LANE_INLINE v8 v8_max(v8 a, v8 b)
     lane_parts x = { .v = a }, y = { .v = b };
     for (int i = 0; i < LANES / LANES_PART; i++) {
         const part_m more = x.pv[i] > y.pv[i];
-        x.pm[i]           = (x.pm[i] & more) | (y.pm[i] & ~more);
+        x.pm[i] = (x.pm[i] & more) | (y.pm[i] & ~more);
     }
     return x.v;
 }
@@ -116,16 +116,16 @@ LANE_INLINE void v8_transpose(v8 r[8])
 {
     v8 a[8], b[8];
     for (int k = 0; k < 4; k++) {
-        a[2 * k]     = __builtin_shufflevector(r[2 * k], r[2 * k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+        a[2 * k] = __builtin_shufflevector(r[2 * k], r[2 * k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
         a[2 * k + 1] = __builtin_shufflevector(r[2 * k], r[2 * k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
     }
     for (int k = 0; k < 2; k++)
         for (int q = 0; q < 2; q++) {
-            b[4 * k + q]     = __builtin_shufflevector(a[4 * k + q], a[4 * k + q + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+            b[4 * k + q] = __builtin_shufflevector(a[4 * k + q], a[4 * k + q + 2], 0, 1, 8, 9, 4, 5, 12, 13);
             b[4 * k + q + 2] = __builtin_shufflevector(a[4 * k + q], a[4 * k + q + 2], 2, 3, 10, 11, 6, 7, 14, 15);
         }
     for (int k = 0; k < 4; k++) {
-        r[k]     = __builtin_shufflevector(b[k], b[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+        r[k] = __builtin_shufflevector(b[k], b[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
         r[k + 4] = __builtin_shufflevector(b[k], b[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
     }
 }

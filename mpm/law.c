@@ -35,8 +35,8 @@ static void solve5(double a[5][6], double x[5])
             if (fabs(a[r][c]) > fabs(a[pivot][c])) pivot = r;
         for (int q = 0; q < 6; q++) {
             const double t = a[c][q];
-            a[c][q]        = a[pivot][q];
-            a[pivot][q]    = t;
+            a[c][q] = a[pivot][q];
+            a[pivot][q] = t;
         }
         for (int r = c + 1; r < 5; r++) {
             const double f = a[r][c] / a[c][c];
@@ -60,7 +60,7 @@ static void fit_cold(law *k)
     memset(a, 0, sizeof a);
     double e = 0;
     for (int i = 1; i <= STEPS; i++) {
-        e               = cold_step(k, (i - 1) * d, e, d);
+        e = cold_step(k, (i - 1) * d, e, d);
         const double mu = i * d, y = e / (mu * mu);
         double basis[5] = { 1, mu, mu * mu, mu * mu * mu, mu * mu * mu * mu };
         for (int r = 0; r < 5; r++) {
@@ -78,27 +78,28 @@ static double or_zero(double value)
 
 static void thermal(law *k, const material *m, const mpm_body *body)
 {
-    k->c_v         = m->specific_heat;
-    k->inv_c       = 1 / m->specific_heat;
-    k->latent      = or_zero(m->latent_heat);
-    k->T_r         = isnan(m->reference_temperature) ? 293 : m->reference_temperature;
+    k->c_v = m->specific_heat;
+    k->inv_c = 1 / m->specific_heat;
+    k->latent = or_zero(m->latent_heat);
+    k->T_r = isnan(m->reference_temperature) ? 293 : m->reference_temperature;
     const bool cold_metal = isnan(m->melting_temperature);
-    k->T_m         = cold_metal ? 1e9 : m->melting_temperature;
+    k->T_m = cold_metal ? 1e9 : m->melting_temperature;
     k->inv_T_range = 1 / (k->T_m - k->T_r);
-    k->e_start     = k->c_v * (body->temperature - k->T_r);
-    k->rho_start   = k->rho0 * (1 - k->g * k->rho0 * k->e_start / k->K0);
+    k->e_start = k->c_v * (body->temperature - k->T_r);
+    k->rho_start = k->rho0 * (1 - k->g * k->rho0 * k->e_start / k->K0);
 }
 
 static void strength(law *k, const material *m, const mpm_body *body)
 {
     const double scale = body->yield_scale > 0 ? body->yield_scale : 1;
-    k->A         = scale * m->yield_A;
-    k->B         = scale * or_zero(m->hardening_B);
-    k->n         = isnan(m->hardening_n) ? 1 : m->hardening_n;
-    k->C         = or_zero(m->rate_C);
-    k->m         = isnan(m->softening_m) ? 1 : m->softening_m;
+    k->A = scale * m->yield_A;
+    k->B = scale * or_zero(m->hardening_B);
+    k->n = isnan(m->hardening_n) ? 1 : m->hardening_n;
+    k->C = or_zero(m->rate_C);
+    k->m = isnan(m->softening_m) ? 1 : m->softening_m;
     k->inv_rate0 = 1 / (isnan(m->rate_0) ? 1 : m->rate_0);
-    k->D1        = -1;
+    k->flow_start = k->A;
+    k->D1 = -1;
     if (body->damage) {
         k->D1 = m->damage_D1, k->D2 = m->damage_D2, k->D3 = m->damage_D3;
         k->D4 = m->damage_D4, k->D5 = m->damage_D5;
@@ -111,14 +112,14 @@ status law_make(const mpm_body *body, const mpm_scene *scene, law *out)
     CHECK(m, STATUS_BAD_INPUT, "body `%s` has no material", body->name);
     TRY(material_check(m, MATERIAL_FOR_SCENE | (body->damage ? MATERIAL_FOR_DAMAGE : 0u)));
     law k = { .rho0 = m->density, .c0 = m->sound_speed, .g = m->gruneisen, .s1 = m->hugoniot_slope - 1 };
-    k.K0      = k.rho0 * k.c0 * k.c0;
+    k.K0 = k.rho0 * k.c0 * k.c0;
     k.K_slope = 4 * m->hugoniot_slope - 1;
-    k.G       = m->youngs_modulus / (2 * (1 + m->poisson));
+    k.G = m->youngs_modulus / (2 * (1 + m->poisson));
     k.rho_min = 0.05 * k.rho0;
     k.rho_max = k.rho0 * (1 + fmin(1.5, 0.8 / fmax(k.s1, 0.01)));
     k.q1 = scene->viscosity_linear, k.q2 = scene->viscosity_quadratic;
     k.plastic_heat = scene->heat_by_plastic_work;
-    k.chi          = isnan(m->taylor_quinney) ? 0.9 : m->taylor_quinney;
+    k.chi = isnan(m->taylor_quinney) ? 0.9 : m->taylor_quinney;
     thermal(&k, m, body);
     strength(&k, m, body);
     fit_cold(&k);

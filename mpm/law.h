@@ -20,7 +20,8 @@ typedef struct {
     double chi;                      /* heat_by_plastic_work: share of plastic work, else 0 */
     double q1, q2;                   /* viscosity, linear and quadratic */
     bool plastic_heat;
-    double e_start, rho_start;       /* of a body at rest at its temperature and zero pressure */
+    double flow_start;         /* first flow stress [Pa] */
+    double e_start, rho_start; /* of a body at rest at its temperature and zero pressure */
 } law;
 
 /* Refuses a material that lacks a constant the scene needs. */

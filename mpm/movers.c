@@ -15,7 +15,7 @@ bool movers_reserve(mover_list *list, int more)
 {
     if (list->count + more <= list->capacity) return true;
     const int capacity = 2 * list->capacity + more + 1024;
-    mover_head *head   = realloc(list->head, (size_t)capacity * sizeof *head);
+    mover_head *head = realloc(list->head, (size_t)capacity * sizeof *head);
     if (head) list->head = head;
     double(*data)[BLOCK_DOUBLES] = realloc(list->data, (size_t)capacity * sizeof *data);
     if (data) list->data = data;
@@ -30,7 +30,7 @@ static bool find_cell(const mpm *m, const brick *b, const int cell[3], const dou
     int step = 0, place[3];
     for (int k = 0, scale = 1; k < 3; k++, scale *= 3) {
         const axis *a = &m->axes[k];
-        int i         = BRICK * b->at[k] + cell[k];
+        int i = BRICK * b->at[k] + cell[k];
         while (i >= 1 && x[k] < a->edge[i]) i--;
         while (i <= a->last && x[k] >= a->edge[i + 1]) i++;
         if (i < 1 || i > a->last) return false;
@@ -39,7 +39,7 @@ static bool find_cell(const mpm *m, const brick *b, const int cell[3], const dou
         place[k] = i % BRICK;
     }
     h->brick_step = step;
-    h->cell       = cell_index(place[0], place[1], place[2]);
+    h->cell = cell_index(place[0], place[1], place[2]);
     return true;
 }
 
@@ -55,7 +55,7 @@ static void eject(tally *sum, const double *q)
 static void send(mpm *m, brick *b, const int cell[3], int body, const double *q, int thread)
 {
     mover_list *list = &m->movers[thread];
-    mover_head h     = { .body = body };
+    mover_head h = { .body = body };
     if (!find_cell(m, b, cell, q + FIRST_x, &h)) {
         eject(&b->sum, q);
         return;
@@ -71,7 +71,7 @@ static void send(mpm *m, brick *b, const int cell[3], int body, const double *q,
 static void halve(double *q, double *other, int k)
 {
     const double d = 0.5 * q[FIRST_half + k];
-    double square  = 0;
+    double square = 0;
     q[FIRST_half + k] = d;
     q[FIRST_mass] *= 0.5;
     q[FIRST_area] *= 0.5;
@@ -94,7 +94,7 @@ static int axis_to_split(const mpm *m, const brick *b, const int cell[3], const 
     if (q[FIRST_damage] >= 1) return -1;
     for (int k = 0; k < 3; k++) {
         const axis *a = &m->axes[k];
-        const int i   = BRICK * b->at[k] + cell[k];
+        const int i = BRICK * b->at[k] + cell[k];
         if (2 * q[FIRST_half + k] > SPLIT_RATIO * (a->edge[i + 1] - a->edge[i])) return k;
     }
     return -1;
@@ -102,9 +102,9 @@ static int axis_to_split(const mpm *m, const brick *b, const int cell[3], const 
 
 void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving, int thread)
 {
-    const int at[3]    = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
-    block *q           = &m->blocks[block_index];
-    block_link *link   = &m->links[block_index];
+    const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
+    block *q = &m->blocks[block_index];
+    block_link *link = &m->links[block_index];
     double(*from)[LANES] = (double(*)[LANES])(void *)q;
     for (int lane = 0; lane < LANES; lane++) {
         if (!(leaving >> lane & 1)) continue;
@@ -117,7 +117,7 @@ void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving, int t
             b->sum.splits++;
         }
         send(m, b, at, link->body, one, thread);
-        link->mask &= (uint8_t)~(1u << lane);
+        link->mask &= (uint8_t) ~(1u << lane);
         q->mass[0][lane] = q->area[0][lane] = 0;
         b->particles--;
     }
@@ -128,7 +128,7 @@ static void release_block(mpm *m, int i)
 #pragma omp critical(breech_blocks)
     {
         m->links[i].next = m->free_head;
-        m->free_head     = i;
+        m->free_head = i;
         m->blocks_free++;
     }
 }
@@ -153,14 +153,14 @@ static void merge_cell(mpm *m, brick *b, int cell)
     int holes = 0, last = -1, *last_link = NULL;
     for (int *link = &b->head[cell]; *link >= 0; link = &m->links[*link].next) {
         if (last >= 0) holes += LANES - __builtin_popcount(m->links[last].mask);
-        last      = *link;
+        last = *link;
         last_link = link;
     }
     if (last < 0 || holes < __builtin_popcount(m->links[last].mask)) return;
     for (int i = b->head[cell]; i != last; i = m->links[i].next)
         if (m->links[i].body != m->links[last].body) return;
     const uint8_t mask = m->links[last].mask;
-    *last_link         = -1;
+    *last_link = -1;
     b->blocks--;
     double(*from)[LANES] = (double(*)[LANES])(void *)&m->blocks[last];
     for (int lane = 0; lane < LANES; lane++) {
@@ -177,7 +177,7 @@ static void merge_cell(mpm *m, brick *b, int cell)
 static bool arrive(mpm *m, brick *b)
 {
     uint64_t dirty = 0;
-    bool enough    = true;
+    bool enough = true;
     for (int step = 0; step < NEIGHBOURS; step++) {
         if (b->neighbour[step] < 0) continue;
         const brick *from = &m->bricks[b->neighbour[step]];
@@ -226,11 +226,12 @@ status movers_exchange(mpm *m)
         if (b->mover_steps)
             for (int c = 0; c < BRICK_CELLS; c++) tidy_cell(m, b, c);
         const bool empty = b->particles == 0;
-        enough           = arrive(m, b) && enough;
-        occupied         = occupied || (empty && b->particles > 0);
+        enough = arrive(m, b) && enough;
+        occupied = occupied || (empty && b->particles > 0);
     }
     if (occupied) store_relink(m);
-    CHECK(enough, STATUS_MEMORY, "the particle blocks ran out within one step at t = %g s; this is a limit of the solver: use larger cells",
+    CHECK(enough, STATUS_MEMORY,
+          "the particle blocks ran out within one step at t = %g s; this is a limit of the solver: use larger cells",
           m->time);
     return status_ok();
 }

@@ -7,19 +7,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const int COMPACT_EVERY    = 200; /* steps between restorings of the blocks' order in memory */
-static const int SAMPLE_EVERY     = 20;  /* steps between percentile samples */
-static const double DT_GROWTH     = 1.05;
+static const int COMPACT_EVERY = 200; /* steps between restorings of the blocks' order in memory */
+static const int SAMPLE_EVERY = 20;   /* steps between percentile samples */
+static const double DT_GROWTH = 1.05;
 static const double FORCE_SMOOTHING = 0.2e-6; /* [s] */
 
 void mpm_scene_default(mpm_scene *s)
 {
     memset(s, 0, sizeof *s);
-    s->particles_per_axis  = 2;
-    s->courant             = 0.4;
-    s->viscosity_linear    = 0.2;
+    s->particles_per_axis = 2;
+    s->courant = 0.4;
+    s->viscosity_linear = 0.2;
     s->viscosity_quadratic = 2.0;
-    s->contact_gap         = 0.9;
+    s->contact_gap = 0.9;
     for (int a = 0; a < MPM_MAX_FIELDS; a++)
         for (int b = 0; b < MPM_MAX_FIELDS; b++) s->contact[a][b].shear_limit = INFINITY;
 }
@@ -31,13 +31,13 @@ static status check_scene(const mpm_scene *s)
     CHECK(s->bodies >= 1 && s->bodies <= MPM_MAX_BODIES, STATUS_BAD_INPUT, "%d bodies: must be 1 .. %d", s->bodies,
           MPM_MAX_BODIES);
     CHECK(s->courant > 0 && s->courant <= 1, STATUS_BAD_INPUT, "courant = %g: must be in (0, 1]", s->courant);
-    CHECK(s->particles_per_axis >= 1 && s->particles_per_axis <= 4, STATUS_BAD_INPUT, "particles_per_axis = %d: must be 1 .. 4",
-          s->particles_per_axis);
+    CHECK(s->particles_per_axis >= 1 && s->particles_per_axis <= 4, STATUS_BAD_INPUT,
+          "particles_per_axis = %d: must be 1 .. 4", s->particles_per_axis);
     for (int i = 0; i < s->bodies; i++) {
         const mpm_body *b = &s->body[i];
         CHECK(b->shape && b->material, STATUS_BAD_INPUT, "body `%s` lacks a shape or a material", b->name);
-        CHECK(b->field >= 0 && b->field < MPM_MAX_FIELDS, STATUS_BAD_INPUT, "body `%s`: field %d must be 0 .. %d", b->name,
-              b->field, MPM_MAX_FIELDS - 1);
+        CHECK(b->field >= 0 && b->field < MPM_MAX_FIELDS, STATUS_BAD_INPUT, "body `%s`: field %d must be 0 .. %d",
+              b->name, b->field, MPM_MAX_FIELDS - 1);
     }
     return status_ok();
 }
@@ -46,12 +46,13 @@ static void particle_make(double *q, const build_point *p, const law *k, double 
 {
     for (int i = 0; i < 3; i++) {
         q[FIRST_x + i] = q[FIRST_start + i] = p->x[i];
-        q[FIRST_v + i]    = p->v[i];
+        q[FIRST_v + i] = p->v[i];
         q[FIRST_half + i] = p->half[i];
     }
-    q[FIRST_rho]  = k->rho_start;
-    q[FIRST_e]    = k->e_start;
-    q[FIRST_T]    = temperature;
+    q[FIRST_rho] = k->rho_start;
+    q[FIRST_e] = k->e_start;
+    q[FIRST_flow] = k->flow_start;
+    q[FIRST_T] = temperature;
     q[FIRST_mass] = p->mass;
     q[FIRST_area] = p->area;
 }
@@ -61,8 +62,8 @@ static status insert_point(void *user, int body, const build_point *p)
     mpm *m = user;
     int node[3], at[3], place[3], index;
     for (int k = 0; k < 3; k++) {
-        node[k]  = axis_locate(&m->axes[k], p->x[k]);
-        at[k]    = node[k] / BRICK;
+        node[k] = axis_locate(&m->axes[k], p->x[k]);
+        at[k] = node[k] / BRICK;
         place[k] = node[k] % BRICK;
     }
     TRY(store_brick(m, m->scene.body[body].field, at, &index));
@@ -79,7 +80,7 @@ static status make_laws(mpm *m)
 {
     mpm_scene *s = &m->scene;
     for (int i = 0; i < s->bodies; i++) {
-        m->materials[i]     = *s->body[i].material;
+        m->materials[i] = *s->body[i].material;
         s->body[i].material = &m->materials[i];
         TRY(law_make(&s->body[i], s, &m->laws[i]));
         if (s->body[i].field + 1 > m->fields) m->fields = s->body[i].field + 1;
@@ -109,7 +110,7 @@ static double first_rate(const mpm *m)
 {
     double fastest = 0;
     for (int i = 0; i < m->scene.bodies; i++) {
-        const law *k       = &m->laws[i];
+        const law *k = &m->laws[i];
         const double sound = sqrt((k->K0 + 4.0 / 3.0 * k->G) / k->rho0);
         for (int q = 0; q < 3; q++)
             fastest = fmax(fastest, (sound + fabs(m->scene.body[i].velocity[q])) / m->axes[q].smallest);
@@ -120,11 +121,11 @@ static double first_rate(const mpm *m)
 static void start_books(mpm *m)
 {
     const mpm_ledger now = mpm_balance(m);
-    m->ledger.energy_start  = now.kinetic + now.internal;
+    m->ledger.energy_start = now.kinetic + now.internal;
     m->ledger.kinetic_start = now.kinetic;
-    m->ledger.mass_start    = now.mass;
+    m->ledger.mass_start = now.mass;
     memcpy(m->ledger.momentum_start, now.momentum, sizeof now.momentum);
-    m->dt               = m->scene.courant / first_rate(m);
+    m->dt = m->scene.courant / first_rate(m);
     m->report.particles = mpm_particles(m);
     for (int i = 0; i < m->scene.bodies; i++)
         m->report.peak_temperature = fmax(m->report.peak_temperature, m->scene.body[i].temperature);
@@ -135,7 +136,7 @@ static double dense_particles(const mpm *m)
 {
     const double n = m->scene.particles_per_axis;
     const double v = m->axes[0].smallest * m->axes[1].smallest * m->axes[2].smallest / (n * n * n);
-    double volume  = 0;
+    double volume = 0;
     for (int i = 0; i < m->bricks_used; i++)
         for (int c = 0; c < BRICK_CELLS; c++)
             for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next)
@@ -150,20 +151,24 @@ status mpm_create(const mpm_scene *scene, int threads, mpm **out)
     mpm *m = aligned_alloc(64, (sizeof *m + 63) / 64 * 64);
     CHECK(m, STATUS_MEMORY, "no memory for the solver");
     memset(m, 0, sizeof *m);
-    m->scene   = *scene;
+    m->scene = *scene;
     m->threads = threads > 0 ? threads : omp_get_max_threads();
     if (m->threads > MPM_MAX_THREADS) m->threads = MPM_MAX_THREADS;
-    m->kernel      = kernels_choose(scene->instruction_set);
-    status s       = m->kernel ? fill(m)
-                               : status_error(STATUS_BAD_INPUT, "instruction set `%s` is unknown or this machine lacks it: use x86-64-v4, x86-64-v3 or portable",
-                                              scene->instruction_set);
+    m->kernel = kernels_choose(scene->instruction_set);
+    status s =
+        m->kernel
+            ? fill(m)
+            : status_error(
+                  STATUS_BAD_INPUT,
+                  "instruction set `%s` is unknown or this machine lacks it: use x86-64-v4, x86-64-v3 or portable",
+                  scene->instruction_set);
     if (s.code != STATUS_OK) {
         mpm_free(m);
         return s;
     }
     start_books(m);
     m->dense = dense_particles(m);
-    *out     = m;
+    *out = m;
     return s;
 }
 
@@ -196,10 +201,12 @@ static void phase_g2p(mpm *m)
     for (int t = 0; t < m->threads; t++) m->movers[t].count = 0;
 #pragma omp parallel for schedule(dynamic, 4) num_threads(m->threads)
     for (int i = 0; i < m->bricks_used; i++) {
-        brick *b  = &m->bricks[i];
+        brick *b = &m->bricks[i];
         b->movers = 0, b->mover_steps = 0;
-        if (b->particles > 0) m->kernel->g2p(m, b, omp_get_thread_num());
-        else memset(&b->sum, 0, sizeof b->sum), b->sum.bad_block = -1;
+        if (b->particles > 0)
+            m->kernel->g2p(m, b, omp_get_thread_num());
+        else
+            memset(&b->sum, 0, sizeof b->sum), b->sum.bad_block = -1;
     }
 }
 
@@ -214,13 +221,13 @@ static void add_tally(tally *a, const tally *b)
         a->ejected_momentum[k] += b->ejected_momentum[k];
         for (int f = 0; f < MPM_MAX_FIELDS; f++) a->contact[f][k] += b->contact[f][k];
     }
-    a->rate             = fmax(a->rate, b->rate);
-    a->peak_pressure    = fmax(a->peak_pressure, b->peak_pressure);
+    a->rate = fmax(a->rate, b->rate);
+    a->peak_pressure = fmax(a->peak_pressure, b->peak_pressure);
     a->peak_temperature = fmax(a->peak_temperature, b->peak_temperature);
     for (int i = 0; i < MPM_MAX_BODIES; i++) {
-        a->peak_mises[i]         = fmax(a->peak_mises[i], b->peak_mises[i]);
+        a->peak_mises[i] = fmax(a->peak_mises[i], b->peak_mises[i]);
         a->peak_pressure_body[i] = fmax(a->peak_pressure_body[i], b->peak_pressure_body[i]);
-        a->peak_strain[i]        = fmax(a->peak_strain[i], b->peak_strain[i]);
+        a->peak_strain[i] = fmax(a->peak_strain[i], b->peak_strain[i]);
     }
     a->clamps_pressure += b->clamps_pressure, a->clamps_compression += b->clamps_compression;
     a->splits += b->splits, a->ejected += b->ejected, a->particles += b->particles;
@@ -234,9 +241,10 @@ static status collect(mpm *m, tally *sum)
         const tally *t = &m->bricks[i].sum;
         if (t->bad_block >= 0) {
             const block *q = &m->blocks[t->bad_block];
-            const int l    = t->bad_lane;
+            const int l = t->bad_lane;
             return status_error(STATUS_NUMERICAL,
-                                "t = %g s, step %llu: the particle of `%s` that started at (%g, %g, %g) m is not finite; try a smaller courant (now %g) or larger viscosity",
+                                "t = %g s, step %llu: the particle of `%s` that started at (%g, %g, %g) m is not "
+                                "finite; try a smaller courant (now %g) or larger viscosity",
                                 m->time, (unsigned long long)m->steps, m->scene.body[m->links[t->bad_block].body].name,
                                 q->start[0][l], q->start[1][l], q->start[2][l], m->scene.courant);
         }
@@ -262,10 +270,10 @@ static void book(mpm *m, const tally *t)
         for (int f = 0; f < m->fields; f++) r->contact_force[f][k] = t->contact[f][k] / m->dt;
     }
     for (int i = 0; i < m->scene.bodies; i++) {
-        r->peak_mises[i]          = fmax(r->peak_mises[i], t->peak_mises[i]);
-        r->peak_pressure_body[i]  = fmax(r->peak_pressure_body[i], t->peak_pressure_body[i]);
+        r->peak_mises[i] = fmax(r->peak_mises[i], t->peak_mises[i]);
+        r->peak_pressure_body[i] = fmax(r->peak_pressure_body[i], t->peak_pressure_body[i]);
         r->peak_plastic_strain[i] = fmax(r->peak_plastic_strain[i], t->peak_strain[i]);
-        r->peak_pressure          = fmax(r->peak_pressure, t->peak_pressure_body[i]);
+        r->peak_pressure = fmax(r->peak_pressure, t->peak_pressure_body[i]);
     }
     r->peak_temperature = fmax(r->peak_temperature, t->peak_temperature);
     r->clamps_pressure += t->clamps_pressure, r->clamps_compression += t->clamps_compression;
@@ -300,8 +308,8 @@ static status one_step(mpm *m, double until)
     m->steps++;
     m->dense_steps += m->dense;
     m->dt = fmin(sum.rate > 0 ? m->scene.courant / sum.rate : wanted, DT_GROWTH * wanted);
-    CHECK(isfinite(m->dt) && m->dt > 0, STATUS_NUMERICAL, "t = %g s: the time step became %g s; try a smaller courant", m->time,
-          m->dt);
+    CHECK(isfinite(m->dt) && m->dt > 0, STATUS_NUMERICAL, "t = %g s: the time step became %g s; try a smaller courant",
+          m->time, m->dt);
     if (m->steps % (uint64_t)SAMPLE_EVERY == 0) mpm_sample_percentiles(m);
     if (m->steps % (uint64_t)COMPACT_EVERY == 0) TRY(store_compact(m));
     return status_ok();

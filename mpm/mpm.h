@@ -14,12 +14,12 @@ typedef struct mpm mpm; /* owns all its memory */
 
 /* Every joule and newton second.  Model as computed (a half model is a half). */
 typedef struct {
-    double mass;                  /* now in the window [kg] */
-    double momentum[3];           /* now [kg m/s] */
-    double kinetic, internal;     /* now [J]; internal = work of stress + heat */
+    double mass;                                       /* now in the window [kg] */
+    double momentum[3];                                /* now [kg m/s] */
+    double kinetic, internal;                          /* now [J]; internal = work of stress + heat */
     double heat_friction, heat_transfer, heat_viscous; /* booked so far; all three are part of `internal` [J] */
     double work_boundary, work_external; /* done on the model so far: boundaries; tractions and body forces [J] */
-    double impulse_boundary[3], impulse_external[3];   /* [N s] */
+    double impulse_boundary[3], impulse_external[3];          /* [N s] */
     double ejected_mass, ejected_momentum[3], ejected_energy; /* left the window so far */
     double energy_start, momentum_start[3], kinetic_start, mass_start;
     double energy_error;   /* (energy now + ejected - work - energy at start) / kinetic energy at start [1] */
@@ -27,35 +27,36 @@ typedef struct {
 } mpm_ledger;
 
 typedef struct {
-    double time, dt;              /* [s] */
+    double time, dt; /* [s] */
     uint64_t steps, particle_steps, particle_steps_dense;
     size_t particles;
     uint64_t clamps_pressure, clamps_compression, clamps_velocity; /* counted, never silent */
     uint64_t splits, ejected;
-    double peak_pressure, peak_temperature;             /* any particle, any time so far [Pa, K] */
+    double peak_pressure, peak_temperature;                                /* any particle, any time so far [Pa, K] */
     double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES]; /* so far [Pa] */
-    double peak_mises_999[MPM_MAX_BODIES], peak_pressure_999[MPM_MAX_BODIES]; /* peak over time of the 99.9th percentile by mass */
+    double peak_mises_999[MPM_MAX_BODIES],
+        peak_pressure_999[MPM_MAX_BODIES]; /* peak over time of the 99.9th percentile by mass */
     double peak_plastic_strain[MPM_MAX_BODIES];
-    double failed_volume[MPM_MAX_BODIES];               /* now [m3] */
-    double contact_force[MPM_MAX_FIELDS][3];            /* on each field from all others, mean of the last step [N] */
-    double peak_contact_force[3];                       /* on field 0 (the rail), largest |component|, smoothed over 0.2 us [N] */
+    double failed_volume[MPM_MAX_BODIES];    /* now [m3] */
+    double contact_force[MPM_MAX_FIELDS][3]; /* on each field from all others, mean of the last step [N] */
+    double peak_contact_force[3];            /* on field 0 (the rail), largest |component|, smoothed over 0.2 us [N] */
 } mpm_report;
 
 /* What mpm_read can fill; one double or three or six a particle, in a fixed order that any restart keeps. */
-#define PARTICLE_FIELDS(FIELD)                                                       \
-    FIELD(position, 3, "m", "position")                                              \
-    FIELD(velocity, 3, "m/s", "velocity")                                            \
-    FIELD(stress, 6, "Pa", "Cauchy stress xx yy zz xy yz xz, tension positive")      \
-    FIELD(pressure, 1, "Pa", "pressure with viscosity")                              \
-    FIELD(mises, 1, "Pa", "von Mises stress")                                        \
-    FIELD(plastic_strain, 1, "1", "equivalent plastic strain")                       \
-    FIELD(damage, 1, "1", "Johnson-Cook damage, failed at 1")                        \
-    FIELD(temperature, 1, "K", "temperature")                                        \
-    FIELD(density, 1, "kg/m^3", "density")                                           \
-    FIELD(energy, 1, "J/kg", "specific internal energy")                             \
-    FIELD(mass, 1, "kg", "mass")                                                     \
-    FIELD(size, 3, "m", "half lengths of the particle's domain")                     \
-    FIELD(body, 1, "1", "index of the body")                                         \
+#define PARTICLE_FIELDS(FIELD)                                                  \
+    FIELD(position, 3, "m", "position")                                         \
+    FIELD(velocity, 3, "m/s", "velocity")                                       \
+    FIELD(stress, 6, "Pa", "Cauchy stress xx yy zz xy yz xz, tension positive") \
+    FIELD(pressure, 1, "Pa", "pressure with viscosity")                         \
+    FIELD(mises, 1, "Pa", "von Mises stress")                                   \
+    FIELD(plastic_strain, 1, "1", "equivalent plastic strain")                  \
+    FIELD(damage, 1, "1", "Johnson-Cook damage, failed at 1")                   \
+    FIELD(temperature, 1, "K", "temperature")                                   \
+    FIELD(density, 1, "kg/m^3", "density")                                      \
+    FIELD(energy, 1, "J/kg", "specific internal energy")                        \
+    FIELD(mass, 1, "kg", "mass")                                                \
+    FIELD(size, 3, "m", "half lengths of the particle's domain")                \
+    FIELD(body, 1, "1", "index of the body")                                    \
     FIELD(start, 3, "m", "position at the start")
 
 typedef enum {

@@ -10,7 +10,7 @@
 typedef struct {
     const brick *brick;
     double line[BRICK_CELLS][LINE] __attribute__((aligned(64)));  /* m, p, f, K */
-    double extra[BRICK_CELLS][LINE] __attribute__((aligned(64))); /* V grad S, m (x_p - x_i) */
+    double extra[BRICK_CELLS][LINE] __attribute__((aligned(64))); /* V grad S, m (x_p - x_i), m flow stress */
 } field_nodes;
 
 /* One node of one field while it is worked on. */
@@ -22,7 +22,7 @@ typedef struct {
 /* Rows of the 6^3 of a neighbour that lie on this brick's 4^3: first row here, first row there, number. */
 static void overlap(int d, int *here, int *there, int *count)
 {
-    *here  = d > 0 ? BRICK - 1 : 0;
+    *here = d > 0 ? BRICK - 1 : 0;
     *there = d < 0 ? HALO - 1 : d > 0 ? 0 : 1;
     *count = d == 0 ? BRICK : 1;
 }
@@ -36,7 +36,7 @@ static void add_lines(double (*to)[LINE], double (*const from)[LINE], int step)
     for (int k = 0; k < n[2]; k++)
         for (int j = 0; j < n[1]; j++)
             for (int i = 0; i < n[0]; i++) {
-                double *a       = to[cell_index(h[0] + i, h[1] + j, h[2] + k)];
+                double *a = to[cell_index(h[0] + i, h[1] + j, h[2] + k)];
                 const double *b = from[((t[2] + k) * HALO + t[1] + j) * HALO + t[0] + i];
                 v8_store(a, v8_load(a) + v8_load(b));
             }
@@ -65,7 +65,7 @@ static bool gather_field(const mpm *m, const brick *b, bool with_contact, field_
 typedef struct {
     boundary_kind kind;
     int axis;
-    double size;           /* of the element beside the boundary [m] */
+    double size; /* of the element beside the boundary [m] */
     const double *velocity;
 } wall;
 
@@ -74,7 +74,7 @@ static int walls_at(const mpm *m, const int index[3], int field, wall w[3])
     int n = 0;
     for (int k = 0; k < 3; k++) {
         const axis *a = &m->axes[k];
-        const int hi  = index[k] >= a->last;
+        const int hi = index[k] >= a->last;
         if (index[k] > 1 && !hi) continue;
         const mpm_axis *s = &m->scene.axis[k];
         if (s->boundary_fields[hi] && !(s->boundary_fields[hi] >> field & 1)) continue;
@@ -101,8 +101,8 @@ static void absorb(node_state *n, const wall *w, const law *k, double dt, tally 
     const double cp = sqrt((k->K0 + 4.0 / 3.0 * k->G) / k->rho0), cs = sqrt(k->G / k->rho0);
     for (int q = 0; q < 3; q++) {
         const double rate = 2 * (q == w->axis ? cp : cs) / w->size;
-        const double v    = (n->v[q] + dt * n->f[q] / n->m) / (1 + dt * rate);
-        const double J    = -n->m * dt * rate * v;
+        const double v = (n->v[q] + dt * n->f[q] / n->m) / (1 + dt * rate);
+        const double J = -n->m * dt * rate * v;
         sum->impulse_boundary[q] += J;
         sum->work_boundary += J * v;
         n->f[q] += J / dt;
@@ -114,8 +114,10 @@ static void apply_walls(const wall *w, int walls, const law *k, double dt, node_
     static const double rest[3] = { 0, 0, 0 };
     for (int i = 0; i < walls; i++) {
         const double *velocity = w[i].kind == BOUNDARY_PRESCRIBED ? w[i].velocity : rest;
-        if (w[i].kind == BOUNDARY_SYMMETRY) hold(n, w[i].axis, 0, dt, sum);
-        else if (w[i].kind == BOUNDARY_ABSORBING) absorb(n, &w[i], k, dt, sum);
+        if (w[i].kind == BOUNDARY_SYMMETRY)
+            hold(n, w[i].axis, 0, dt, sum);
+        else if (w[i].kind == BOUNDARY_ABSORBING)
+            absorb(n, &w[i], k, dt, sum);
         else
             for (int q = 0; q < 3; q++) hold(n, q, velocity[q], dt, sum);
     }
@@ -126,6 +128,7 @@ static void apply_walls(const wall *w, int walls, const law *k, double dt, node_
 typedef struct {
     double n[3];  /* unit normal from a to b */
     double area;  /* of the surface of a that belongs to this node [m2] */
+    double shear; /* strength in shear of the weaker side there [Pa] */
     bool touch;
 } contact_geometry;
 
@@ -156,14 +159,16 @@ static contact_geometry geometry(const mpm *m, const node_state *a, const node_s
         gap += g.n[k] * (b->extra[3 + k] / b->m - a->extra[3 + k] / a->m);
         span += g.n[k] * h[k] * g.n[k] * h[k];
     }
-    g.area  = length;
+    g.area = length;
+    g.shear = fmin(a->extra[6] / a->m, b->extra[6] / b->m) / sqrt(3);
     g.touch = gap < m->scene.contact_gap * sqrt(span);
     return g;
 }
 
-/* Impulse on b (minus it on a) that ends the approach, with friction; zero where they part. */
-static bool contact_impulse(const contact_law *c, const contact_geometry *g, double reduced, const double rel[3], double dt,
-                            double J[3])
+/* Impulse on b (minus it on a) that ends the approach; friction by Coulomb, but never more than the weaker side bears in
+ * shear: a molten or failed layer slides freely.  Zero where they part. */
+static bool contact_impulse(const contact_law *c, const contact_geometry *g, double reduced, const double rel[3],
+                            double dt, double J[3])
 {
     const double vn = dot(rel, g->n), stick2 = dot(rel, rel);
     if (c->bond_strength > 0 && reduced * sqrt(stick2) <= c->bond_strength * g->area * dt) {
@@ -173,9 +178,9 @@ static bool contact_impulse(const contact_law *c, const contact_geometry *g, dou
     if (!(vn < 0)) return false;
     double vt[3], Jn = -reduced * vn;
     for (int k = 0; k < 3; k++) vt[k] = rel[k] - vn * g->n[k];
-    const double slip  = sqrt(dot(vt, vt));
-    const double limit = fmin(c->friction * Jn, c->shear_limit * g->area * dt);
-    const double Jt    = fmin(limit, reduced * slip);
+    const double slip = sqrt(dot(vt, vt));
+    const double limit = fmin(c->friction * Jn, fmin(c->shear_limit, g->shear) * g->area * dt);
+    const double Jt = fmin(limit, reduced * slip);
     for (int k = 0; k < 3; k++) J[k] = Jn * g->n[k] - (slip > 0 ? Jt * vt[k] / slip : 0);
     return true;
 }
@@ -242,19 +247,20 @@ static void finish_node(const node_state *n, double node[NODE])
     node[3] = 0.5 * dot(n->v, n->v) + n->heat / n->m;
 }
 
-static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int index[3], const double h[3], tally *sum)
+static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int index[3], const double h[3],
+                     tally *sum)
 {
     node_state state[MPM_MAX_FIELDS];
     wall walls[MPM_MAX_FIELDS][3];
     int n_walls[MPM_MAX_FIELDS];
     for (int s = 0; s < count; s++) {
         const double *line = fields[s].line[cell];
-        const int field    = fields[s].brick->field;
-        node_state *n      = &state[s];
-        *n                 = (node_state){ .m = line[0], .extra = fields[s].extra[cell] };
+        const int field = fields[s].brick->field;
+        node_state *n = &state[s];
+        *n = (node_state){ .m = line[0], .extra = fields[s].extra[cell] };
         if (!(n->m > 0)) continue;
         for (int k = 0; k < 3; k++) n->v[k] = line[1 + k] / n->m, n->f[k] = line[4 + k];
-        n->heat    = line[7] - kinetic(n);
+        n->heat = line[7] - kinetic(n);
         n_walls[s] = walls_at(m, index, field, walls[s]);
         apply_walls(walls[s], n_walls[s], field_law(m, field), m->dt, n, sum);
         for (int k = 0; k < 3; k++) n->v[k] += m->dt * n->f[k] / n->m, n->f[k] = 0;
@@ -282,7 +288,8 @@ static bool is_ghost(const mpm *m, const int index[3])
     for (int k = 0; k < 3; k++) {
         const mpm_axis *s = &m->scene.axis[k];
         if (index[k] == 0 && s->boundary[0] == BOUNDARY_SYMMETRY) return true;
-        if (index[k] > m->axes[k].last && (index[k] > m->axes[k].last + 1 || s->boundary[1] == BOUNDARY_SYMMETRY)) return true;
+        if (index[k] > m->axes[k].last && (index[k] > m->axes[k].last + 1 || s->boundary[1] == BOUNDARY_SYMMETRY))
+            return true;
     }
     return false;
 }
@@ -296,8 +303,10 @@ void ISA(nodes)(mpm *m, int site)
         const int i = m->directory[f * m->sites + site];
         if (i < 0) continue;
         memcpy(at, m->bricks[i].at, sizeof at);
-        if (gather_field(m, &m->bricks[i], present > 1, &fields[count])) count++;
-        else memset(m->bricks[i].node, 0, BRICK_CELLS * sizeof *m->bricks[i].node);
+        if (gather_field(m, &m->bricks[i], present > 1, &fields[count]))
+            count++;
+        else
+            memset(m->bricks[i].node, 0, BRICK_CELLS * sizeof *m->bricks[i].node);
     }
     tally *sum = &m->site_sum[site];
     memset(sum, 0, sizeof *sum);

@@ -22,10 +22,10 @@ static void visit(const mpm *m, block_visitor *each, void *user)
 
 static void balance_block(void *user, const mpm *m, int index)
 {
-    mpm_ledger *l  = user;
+    mpm_ledger *l = user;
     const block *q = &m->blocks[index];
-    const v8 mass  = v8_load(q->mass[0]);
-    v8 square      = v8_set(0);
+    const v8 mass = v8_load(q->mass[0]);
+    v8 square = v8_set(0);
     for (int k = 0; k < 3; k++) {
         const v8 v = v8_load(q->v[k]);
         square += v * v;
@@ -56,9 +56,10 @@ mpm_ledger mpm_balance(const mpm *m)
     visit(m, balance_block, &l);
     double left[3];
     for (int k = 0; k < 3; k++)
-        left[k] = l.momentum[k] + l.ejected_momentum[k] - l.momentum_start[k] - l.impulse_boundary[k] - l.impulse_external[k];
+        left[k] =
+            l.momentum[k] + l.ejected_momentum[k] - l.momentum_start[k] - l.impulse_boundary[k] - l.impulse_external[k];
     const double scale = l.mass_start * start_speed(m);
-    l.momentum_error   = norm(left) / (scale > 0 ? scale : 1);
+    l.momentum_error = norm(left) / (scale > 0 ? scale : 1);
     l.energy_error = (l.kinetic + l.internal + l.ejected_energy - l.work_boundary - l.work_external - l.energy_start) /
                      (l.kinetic_start > 0 ? l.kinetic_start : 1);
     return l;
@@ -66,18 +67,19 @@ mpm_ledger mpm_balance(const mpm *m)
 
 static void failed_block(void *user, const mpm *m, int index)
 {
-    mpm_report *r  = user;
+    mpm_report *r = user;
     const block *q = &m->blocks[index];
     for (int l = 0; l < LANES; l++)
-        if (q->mass[0][l] > 0 && q->damage[0][l] >= 1) r->failed_volume[m->links[index].body] += q->mass[0][l] / q->rho[0][l];
+        if (q->mass[0][l] > 0 && q->damage[0][l] >= 1)
+            r->failed_volume[m->links[index].body] += q->mass[0][l] / q->rho[0][l];
 }
 
 mpm_report mpm_state(const mpm *m)
 {
-    mpm_report r           = m->report;
-    r.time                 = m->time;
-    r.dt                   = m->dt;
-    r.steps                = m->steps;
+    mpm_report r = m->report;
+    r.time = m->time;
+    r.dt = m->dt;
+    r.steps = m->steps;
     r.particle_steps_dense = (uint64_t)m->dense_steps;
     memset(r.failed_volume, 0, sizeof r.failed_volume);
     visit(m, failed_block, &r);
@@ -124,7 +126,7 @@ static double lane_mises(const block *q, int l)
 
 static void histogram_block(void *user, const mpm *m, int index)
 {
-    histogram *h   = user;
+    histogram *h = user;
     const block *q = &m->blocks[index];
     const int body = m->links[index].body;
     for (int l = 0; l < LANES; l++) {
@@ -139,7 +141,7 @@ static void histogram_block(void *user, const mpm *m, int index)
 static double percentile_999(const double *bins, double mass)
 {
     double above = 0;
-    int i        = BINS - 1;
+    int i = BINS - 1;
     for (; i > 0; i--) {
         above += bins[i];
         if (above >= 1e-3 * mass) break;
@@ -153,8 +155,9 @@ void mpm_sample_percentiles(mpm *m)
     memset(h, 0, sizeof *h);
     visit(m, histogram_block, h);
     for (int i = 0; i < m->scene.bodies; i++) {
-        m->report.peak_mises_999[i]    = fmax(m->report.peak_mises_999[i], percentile_999(h->mises[i], h->mass[i]));
-        m->report.peak_pressure_999[i] = fmax(m->report.peak_pressure_999[i], percentile_999(h->pressure[i], h->mass[i]));
+        m->report.peak_mises_999[i] = fmax(m->report.peak_mises_999[i], percentile_999(h->mises[i], h->mass[i]));
+        m->report.peak_pressure_999[i] =
+            fmax(m->report.peak_pressure_999[i], percentile_999(h->pressure[i], h->mass[i]));
     }
 }
 
@@ -174,8 +177,12 @@ static void get_lane(const mpm *m, int index, int l, mpm_field field, double *ou
 {
     const block *q = &m->blocks[index];
     switch (field) {
-    case MPM_position: for (int k = 0; k < 3; k++) out[k] = q->x[k][l]; break;
-    case MPM_velocity: for (int k = 0; k < 3; k++) out[k] = q->v[k][l]; break;
+    case MPM_position:
+        for (int k = 0; k < 3; k++) out[k] = q->x[k][l];
+        break;
+    case MPM_velocity:
+        for (int k = 0; k < 3; k++) out[k] = q->v[k][l];
+        break;
     case MPM_stress: get_stress(q, l, out); break;
     case MPM_pressure: out[0] = q->p[0][l]; break;
     case MPM_mises: out[0] = lane_mises(q, l); break;
@@ -185,9 +192,13 @@ static void get_lane(const mpm *m, int index, int l, mpm_field field, double *ou
     case MPM_density: out[0] = q->rho[0][l]; break;
     case MPM_energy: out[0] = q->e[0][l]; break;
     case MPM_mass: out[0] = q->mass[0][l]; break;
-    case MPM_size: for (int k = 0; k < 3; k++) out[k] = q->half[k][l]; break;
+    case MPM_size:
+        for (int k = 0; k < 3; k++) out[k] = q->half[k][l];
+        break;
     case MPM_body: out[0] = m->links[index].body; break;
-    case MPM_start: for (int k = 0; k < 3; k++) out[k] = q->start[k][l]; break;
+    case MPM_start:
+        for (int k = 0; k < 3; k++) out[k] = q->start[k][l];
+        break;
     case MPM_FIELD_COUNT: break;
     }
 }

@@ -20,8 +20,9 @@ typedef struct {
 
 typedef struct shape_kind {
     const char *name, *doc;
-    const char *const *value_names;                              /* NULL at the end */
-    double (*inside)(const shape_values *s, const double x[3]);  /* > 0 inside, < 0 outside; a signed distance near the surface [m] */
+    const char *const *value_names; /* NULL at the end */
+    double (*inside)(const shape_values *s,
+                     const double x[3]); /* > 0 inside, < 0 outside; a signed distance near the surface [m] */
     void (*bounds)(const shape_values *s, double lo[3], double hi[3]); /* box that holds the shape [m] */
 } shape_kind;
 
@@ -36,15 +37,15 @@ typedef struct {
     const material *material;
     const shape_kind *shape;
     shape_values shape_value;
-    int field;               /* velocity field: bodies of one field are welded together, different fields touch by contact.
+    int field;            /* velocity field: bodies of one field are welded together, different fields touch by contact.
                                 When several bodies of one field claim a point, the later body gets it. */
-    double velocity[3];      /* at the start [m/s] */
-    double temperature;      /* at the start [K] */
-    double body_force[3];    /* acceleration on the whole body (J x B, pressing) [m/s2] */
-    double traction[3];      /* on the face `traction_face` of its bounding box [Pa]; zero = none */
-    int traction_face;       /* 0..5 = -x +x -y +y -z +z */
-    double yield_scale;      /* factor on the yield stress (hardened skin), 1 = none */
-    bool damage;             /* Johnson-Cook damage on */
+    double velocity[3];   /* at the start [m/s] */
+    double temperature;   /* at the start [K] */
+    double body_force[3]; /* acceleration on the whole body (J x B, pressing) [m/s2] */
+    double traction[3];   /* on the face `traction_face` of its bounding box [Pa]; zero = none */
+    int traction_face;    /* 0..5 = -x +x -y +y -z +z */
+    double yield_scale;   /* factor on the yield stress (hardened skin), 1 = none */
+    bool damage;          /* Johnson-Cook damage on */
 } mpm_body;
 
 /* ---- grid: rectilinear, each axis graded on its own ---- */
@@ -58,21 +59,21 @@ typedef enum {
 } boundary_kind;
 
 typedef struct {
-    double lo, hi;           /* window [m]; a boundary condition acts at lo and at hi */
-    double fine_lo, fine_hi; /* zone of cells of size `fine` [m] */
-    double fine, coarse;     /* cell size in the zone, largest cell size outside [m] */
-    double growth;           /* ratio of neighbouring cells outside the zone, 1.0 .. 1.3 */
-    boundary_kind boundary[2];        /* at lo, at hi */
-    double boundary_velocity[2][3];   /* BOUNDARY_PRESCRIBED [m/s] */
-    unsigned boundary_fields[2];      /* bit f set: the boundary acts on field f; 0 = on all */
+    double lo, hi;                  /* window [m]; a boundary condition acts at lo and at hi */
+    double fine_lo, fine_hi;        /* zone of cells of size `fine` [m] */
+    double fine, coarse;            /* cell size in the zone, largest cell size outside [m] */
+    double growth;                  /* ratio of neighbouring cells outside the zone, 1.0 .. 1.3 */
+    boundary_kind boundary[2];      /* at lo, at hi */
+    double boundary_velocity[2][3]; /* BOUNDARY_PRESCRIBED [m/s] */
+    unsigned boundary_fields[2];    /* bit f set: the boundary acts on field f; 0 = on all */
 } mpm_axis;
 
 /* ---- contact between two fields ---- */
 
 typedef struct {
-    double friction;       /* Coulomb coefficient [1] */
-    double shear_limit;    /* upper limit of the friction stress [Pa], INFINITY = none */
-    double bond_strength;  /* welded until the traction exceeds it [Pa], 0 = never bonded */
+    double friction;      /* Coulomb coefficient [1] */
+    double shear_limit;   /* upper limit of the friction stress [Pa], INFINITY = none */
+    double bond_strength; /* welded until the traction exceeds it [Pa], 0 = never bonded */
 } contact_law;
 
 typedef enum { TRANSFER_TPIC, TRANSFER_PIC } transfer_kind; /* with and without the velocity gradient */
@@ -83,15 +84,15 @@ typedef struct {
     mpm_body body[MPM_MAX_BODIES];
     mpm_axis axis[3];
     contact_law contact[MPM_MAX_FIELDS][MPM_MAX_FIELDS]; /* symmetric */
-    double contact_gap;           /* fields touch when the distance of their points' means at a node is below this [cells] */
-    int particles_per_axis;       /* material points a cell and axis, 2 or 3 */
-    double courant;               /* of c + |v| */
-    double end_time;              /* [s] */
+    double contact_gap;     /* fields touch when the distance of their points' means at a node is below this [cells] */
+    int particles_per_axis; /* material points a cell and axis, 2 or 3 */
+    double courant;         /* of c + |v| */
+    double end_time;        /* [s] */
     double viscosity_linear, viscosity_quadratic; /* (M-5) [1] */
     transfer_kind transfer;
     basis_kind basis;
-    bool heat_by_plastic_work;    /* option `plastic` of (M-4); default false: by energy */
-    bool volume_averaging;        /* F-bar: volume change averaged over the cell */
+    bool heat_by_plastic_work;             /* option `plastic` of (M-4); default false: by energy */
+    bool volume_averaging;                 /* F-bar: volume change averaged over the cell */
     char instruction_set[PARAM_TEXT_SIZE]; /* "" = the best this machine has */
 } mpm_scene;
 

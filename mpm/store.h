@@ -16,33 +16,34 @@
 #include "mpm/mpm.h"
 
 enum {
-    BRICK          = 4,                          /* cells a brick and axis */
-    BRICK_CELLS    = BRICK * BRICK * BRICK,      /* 64 */
-    HALO           = BRICK + 2,                  /* nodes a brick's particles see, an axis */
-    HALO_NODES     = HALO * HALO * HALO,         /* 216 */
-    LINE           = 8,                          /* doubles of a node line */
-    NODE           = 4,                          /* vx vy vz E of a finished node */
-    NEIGHBOURS     = 27,
-    SELF           = 13,                         /* index of the brick itself among them */
+    BRICK = 4,                           /* cells a brick and axis */
+    BRICK_CELLS = BRICK * BRICK * BRICK, /* 64 */
+    HALO = BRICK + 2,                    /* nodes a brick's particles see, an axis */
+    HALO_NODES = HALO * HALO * HALO,     /* 216 */
+    LINE = 8,                            /* doubles of a node line */
+    NODE = 4,                            /* vx vy vz E of a finished node */
+    NEIGHBOURS = 27,
+    SELF = 13, /* index of the brick itself among them */
     MPM_MAX_THREADS = 256
 };
 
 /* One list makes the block, the copies of single particles and the checkpoint. */
-#define BLOCK_FIELDS(FIELD)                                                           \
-    FIELD(x, 3)      /* position [m] */                                               \
-    FIELD(v, 3)      /* velocity [m/s] */                                             \
-    FIELD(L, 9)      /* velocity gradient, L[3 i + k] = dv_i/dx_k [1/s] */            \
-    FIELD(s, 6)      /* stress deviator xx yy zz xy yz xz [Pa] */                     \
-    FIELD(p, 1)      /* pressure with viscosity [Pa] */                               \
-    FIELD(rho, 1)    /* density [kg/m3] */                                            \
-    FIELD(mass, 1)   /* [kg], 0 in a hole */                                          \
-    FIELD(half, 3)   /* half lengths of the domain [m] */                             \
-    FIELD(e, 1)      /* specific internal energy [J/kg] */                            \
-    FIELD(ka, 1)     /* specific kinetic energy of the gradient part [J/kg] */        \
-    FIELD(ep, 1)     /* equivalent plastic strain [1] */                              \
-    FIELD(damage, 1) /* failed at 1 */                                                \
-    FIELD(T, 1)      /* temperature [K] */                                            \
-    FIELD(area, 1)   /* face area that the body's traction acts on [m2] */            \
+#define BLOCK_FIELDS(FIELD)                                                    \
+    FIELD(x, 3)      /* position [m] */                                        \
+    FIELD(v, 3)      /* velocity [m/s] */                                      \
+    FIELD(L, 9)      /* velocity gradient, L[3 i + k] = dv_i/dx_k [1/s] */     \
+    FIELD(s, 6)      /* stress deviator xx yy zz xy yz xz [Pa] */              \
+    FIELD(p, 1)      /* pressure with viscosity [Pa] */                        \
+    FIELD(rho, 1)    /* density [kg/m3] */                                     \
+    FIELD(mass, 1)   /* [kg], 0 in a hole */                                   \
+    FIELD(half, 3)   /* half lengths of the domain [m] */                      \
+    FIELD(e, 1)      /* specific internal energy [J/kg] */                     \
+    FIELD(ka, 1)     /* specific kinetic energy of the gradient part [J/kg] */ \
+    FIELD(ep, 1)     /* equivalent plastic strain [1] */                       \
+    FIELD(damage, 1) /* failed at 1 */                                         \
+    FIELD(T, 1)      /* temperature [K] */                                     \
+    FIELD(flow, 1)   /* flow stress of the last step [Pa] */                   \
+    FIELD(area, 1)   /* face area that the body's traction acts on [m2] */     \
     FIELD(start, 3)  /* position at the start [m] */
 
 typedef struct {
@@ -55,7 +56,7 @@ enum { BLOCK_DOUBLES = sizeof(block) / (sizeof(double) * LANES) };
 
 /* Places of the fields in a single particle's BLOCK_DOUBLES. */
 enum {
-#define BLOCK_FIRST(name, n) FIRST_##name, LAST_##name = FIRST_##name + (n) - 1,
+#define BLOCK_FIRST(name, n) FIRST_##name, LAST_##name = FIRST_##name + (n)-1,
     BLOCK_FIELDS(BLOCK_FIRST)
 #undef BLOCK_FIRST
 };
@@ -80,7 +81,7 @@ typedef struct {
     double impulse_boundary[3], impulse_external[3];
     double contact[MPM_MAX_FIELDS][3];
     double ejected_mass, ejected_momentum[3], ejected_energy;
-    double rate;       /* largest (c + |v|) / h [1/s] */
+    double rate; /* largest (c + |v|) / h [1/s] */
     double peak_pressure, peak_temperature;
     double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES], peak_strain[MPM_MAX_BODIES];
     uint64_t clamps_pressure, clamps_compression, clamps_velocity, splits, ejected, particles;
@@ -89,22 +90,22 @@ typedef struct {
 
 typedef struct {
     int field;
-    int at[3];                 /* brick coordinates */
+    int at[3]; /* brick coordinates */
     int site;
-    int head[BRICK_CELLS];     /* first block of each cell, -1 = none */
+    int head[BRICK_CELLS]; /* first block of each cell, -1 = none */
     int particles, blocks;
-    bool contact;              /* another field has particles here or next door */
-    int neighbour[NEIGHBOURS]; /* bricks of the same field around, -1 = none */
-    double (*out)[LINE];       /* [216] m, px, py, pz, fx, fy, fz, kinetic energy */
-    double (*out_contact)[LINE]; /* [216] V grad S (3), -m (x_i - x_p) (3), 0, 0 */
-    double (*node)[NODE];      /* [64] vx, vy, vz, specific energy that is left to the particles */
+    bool contact;                            /* another field has particles here or next door */
+    int neighbour[NEIGHBOURS];               /* bricks of the same field around, -1 = none */
+    double (*out)[LINE];                     /* [216] m, px, py, pz, fx, fy, fz, kinetic energy */
+    double (*out_contact)[LINE];             /* [216] V grad S (3), -m (x_i - x_p) (3), 0, 0 */
+    double (*node)[NODE];                    /* [64] vx, vy, vz, specific energy that is left to the particles */
     int movers, movers_first, movers_thread; /* its part of the thread's mover list */
-    uint32_t mover_steps;      /* bit k: a mover goes to neighbour k */
+    uint32_t mover_steps;                    /* bit k: a mover goes to neighbour k */
     tally sum;
 } brick;
 
 typedef struct {
-    int next;     /* block of the same cell, -1 = none; also chains the free blocks */
+    int next; /* block of the same cell, -1 = none; also chains the free blocks */
     uint8_t body;
     uint8_t mask; /* lanes in use */
 } block_link;
@@ -117,9 +118,9 @@ struct mpm {
     law laws[MPM_MAX_BODIES];
     axis axes[3];
     int fields;
-    int sites;               /* brick places of the window */
-    int *directory;          /* [fields][sites] brick or -1 */
-    tally *site_sum;         /* [sites] */
+    int sites;       /* brick places of the window */
+    int *directory;  /* [fields][sites] brick or -1 */
+    tally *site_sum; /* [sites] */
 
     brick *bricks;
     int bricks_used, bricks_capacity;
