@@ -1,0 +1,345 @@
+#include "coupling/handoff/scene_from_state.h"
+
+#include "mpm/shape.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char ARMATURE[] = "armature", GRAIN[] = "particle";
+
+int body_of_armature(const mpm_scene *scene)
+{
+    return scene->bodies - 1;
+}
+
+bool body_is_rail(const mpm_scene *scene, int body)
+{
+    return strcmp(scene->body[body].name, ARMATURE) != 0 && strcmp(scene->body[body].name, GRAIN) != 0;
+}
+
+site_state state_of_case(const breech_case *c)
+{
+    const case_particle *p = &c->particle;
+    site_state s = { .reached = true, .time = 0.0, .velocity = c->scene.velocity, .current = NAN };
+    s.grain =
+        (case_site){ .position = NAN, .radius = p->radius, .height = p->height, .bond_strength = p->bond_strength };
+    memcpy(s.grain.shape, p->shape, sizeof s.grain.shape);
+    memcpy(s.grain.material, p->material, sizeof s.grain.material);
+    s.contact_pressure = isnan(c->scene.contact_pressure) ? 0.0 : c->scene.contact_pressure;
+    s.rail_temperature = c->rail.temperature;
+    s.armature_temperature = c->projectile.temperature;
+    return s;
+}
+
+/* ---- lengths ---- */
+
+/* Everything along x, y, z that more than one part of the scene needs [m]. */
+typedef struct {
+    double fine, coarse;
+    double x_front;                 /* front end of the armature's contact face at the start */
+    double run;                     /* length of the lead face along x */
+    double fine_behind, fine_ahead; /* ends of the fine zone, both positive */
+    double fine_depth, fine_above, fine_half_width;
+    double behind, ahead;               /* ends of the window, both positive */
+    double rail_half_width, half_width; /* of the rail, of the window */
+    double layers;                      /* thickness of all layers */
+} layout;
+
+static double given_or(double value, double fallback)
+{
+    return isnan(value) ? fallback : value;
+}
+
+/* A whole number of cells that covers `length`. */
+static double cells_over(double length, double cell)
+{
+    return cell * ceil(length / cell * (1.0 - 1e-9));
+}
+
+static double top_of_zone(const breech_case *c, const case_site *g)
+{
+    return given_or(c->scene.fine_above, fmax(2.5 * g->radius, g->height + g->radius));
+}
+
+static layout lay_out(const breech_case *c, const case_site *g, double cells_per_radius)
+{
+    const case_scene *s = &c->scene;
+    const case_projectile *p = &c->projectile;
+    layout l = { .fine = g->radius / cells_per_radius };
+    l.coarse = fmax(s->coarse_cell, l.fine);
+    l.run = p->chamfer_height / tan(p->lead_angle);
+    l.x_front = -g->radius - g->height / tan(p->lead_angle) - l.fine;
+    l.behind = fmax(s->rail_behind, p->length - l.run - l.x_front + 2.0 * l.coarse);
+    l.ahead = s->rail_ahead;
+    const double room = 3.0 * l.coarse;
+    l.fine_behind = cells_over(fmin(given_or(s->fine_behind, 4.0 * g->radius), l.behind - room), l.fine);
+    l.fine_ahead = cells_over(fmin(given_or(s->fine_ahead, 26.0 * g->radius), l.ahead - room), l.fine);
+    l.fine_depth = cells_over(fmin(given_or(s->fine_depth, 3.0 * g->radius), s->rail_depth - room), l.fine);
+    l.fine_above = cells_over(fmin(top_of_zone(c, g), p->half_bore - room), l.fine);
+    l.rail_half_width = 0.5 * given_or(s->rail_width, p->width);
+    l.half_width = fmax(l.rail_half_width, 0.5 * p->width) + room;
+    l.fine_half_width = cells_over(fmin(given_or(0.5 * s->fine_width, 8.0 * g->radius), l.half_width - room), l.fine);
+    for (int i = 0; i < c->rail.layers.n; i++) l.layers += c->rail.layers.item[i].thickness;
+    return l;
+}
+
+static status check_layout(const breech_case *c, const case_site *g, const layout *l)
+{
+    CHECK(l->fine_ahead > g->radius && l->fine_behind > g->radius, STATUS_BAD_INPUT,
+          "scene: the fine zone, %g m behind to %g m ahead of the grain, must hold the grain of radius %g m: lengthen "
+          "scene.rail_ahead, rail_behind or fine_ahead, fine_behind",
+          l->fine_behind, l->fine_ahead, g->radius);
+    CHECK(l->fine_above > 0.0 && l->fine_depth > 0.0 && l->fine_half_width > g->radius, STATUS_BAD_INPUT,
+          "scene: no room for a fine zone of %g m above, %g m below and %g m beside the grain: smaller "
+          "scene.coarse_cell, or larger rail_depth, rail_width, projectile.half_bore",
+          l->fine_above, l->fine_depth, l->fine_half_width);
+    CHECK(l->layers < c->scene.rail_depth - l->coarse, STATUS_BAD_INPUT,
+          "scene.rail_depth = %g m: must exceed the layers' thickness of %g m by more than a coarse cell",
+          c->scene.rail_depth, l->layers);
+    CHECK(-l->x_front < l->behind, STATUS_BAD_INPUT, "scene: the armature would start outside the window");
+    return status_ok();
+}
+
+/* ---- bodies ---- */
+
+static mpm_body *add_body(mpm_scene *s, const char *name, const material *m, int field)
+{
+    mpm_body *b = &s->body[s->bodies++];
+    memset(b, 0, sizeof *b);
+    snprintf(b->name, sizeof b->name, "%s", name);
+    b->material = m;
+    b->field = field;
+    b->yield_scale = 1.0;
+    return b;
+}
+
+static void make_box(mpm_body *b, const layout *l, double bottom, double top)
+{
+    const double lo[3] = { -l->behind, bottom, -l->rail_half_width }, hi[3] = { l->ahead, top, l->rail_half_width };
+    b->shape = shape_find("box");
+    for (int k = 0; k < 3; k++) {
+        b->shape_value.value[BOX_LO + k] = lo[k];
+        b->shape_value.value[BOX_HI + k] = hi[k];
+    }
+}
+
+/* Bonded to the field below, or welded into it.  Returns the field. */
+static int next_field(mpm_scene *s, int below, double bond_strength)
+{
+    if (isnan(bond_strength)) return below;
+    const int field = below + 1;
+    if (field < MPM_MAX_FIELDS)
+        s->contact[below][field].bond_strength = s->contact[field][below].bond_strength = bond_strength;
+    return field;
+}
+
+static int add_rail(const breech_case *c, const layout *l, mpm_scene *s)
+{
+    mpm_body *rail = add_body(s, "rail", case_material(c, c->rail.material), 0);
+    make_box(rail, l, -c->scene.rail_depth, -l->layers);
+    rail->yield_scale = c->rail.yield_scale;
+    double bottom = -l->layers;
+    int field = 0;
+    for (int i = 0; i < c->rail.layers.n; i++) {
+        const case_layer *layer = &c->rail.layers.item[i];
+        char name[PARAM_TEXT_SIZE];
+        snprintf(name, sizeof name, "layer_%d", i + 1);
+        field = next_field(s, field, layer->bond_strength);
+        mpm_body *b = add_body(s, name, case_material(c, layer->material), field);
+        const bool last = i == c->rail.layers.n - 1;
+        make_box(b, l, bottom, last ? 0.0 : bottom + layer->thickness);
+        b->yield_scale = layer->yield_scale;
+        bottom += layer->thickness;
+    }
+    return field;
+}
+
+/* Length across the rail of shapes that have one. */
+#define RIDGE_LENGTH 4.0 /* half of it, in radii */
+
+static double grain_value(const case_site *g, const char *name)
+{
+    if (strcmp(name, "radius") == 0) return g->radius;
+    if (strcmp(name, "height") == 0) return g->height;
+    if (strcmp(name, "half_length") == 0) return RIDGE_LENGTH * g->radius;
+    if (strcmp(name, "y") == 0 && strcmp(g->shape, "sphere") == 0)
+        return g->height - g->radius; /* the rest of it lies in the rail */
+    return 0.0;                       /* x, y, z */
+}
+
+static int add_grain(const breech_case *c, const case_site *g, int below, mpm_scene *s)
+{
+    const int field = next_field(s, below, g->bond_strength);
+    mpm_body *b = add_body(s, GRAIN, case_material(c, g->material), field);
+    b->shape = shape_find(g->shape);
+    for (int i = 0; b->shape && b->shape->value_names[i]; i++)
+        b->shape_value.value[i] = grain_value(g, b->shape->value_names[i]);
+    return field;
+}
+
+/* Mass of the armature's half U, mpm/shape_armature.c [kg]. */
+static double armature_mass(const case_projectile *p, const material *m)
+{
+    const double section = p->length * p->leg_thickness + p->head_thickness * (p->half_bore - p->leg_thickness) -
+                           0.5 * p->chamfer_height * p->chamfer_height / tan(p->lead_angle);
+    return m->density * section * p->width;
+}
+
+static void add_armature(const breech_case *c, const site_state *state, const layout *l, int field, mpm_scene *s)
+{
+    const case_projectile *p = &c->projectile;
+    mpm_body *b = add_body(s, ARMATURE, case_material(c, p->material), field);
+    double *v = b->shape_value.value;
+    b->shape = shape_find("armature");
+    v[ARMATURE_X_FRONT] = l->x_front;
+    v[ARMATURE_LENGTH] = p->length;
+    v[ARMATURE_LEG_THICKNESS] = p->leg_thickness;
+    v[ARMATURE_HEAD_THICKNESS] = p->head_thickness;
+    v[ARMATURE_HALF_BORE] = p->half_bore;
+    v[ARMATURE_CHAMFER_HEIGHT] = p->chamfer_height;
+    v[ARMATURE_LEAD_ANGLE] = p->lead_angle;
+    v[ARMATURE_HALF_WIDTH] = 0.5 * p->width;
+    b->velocity[0] = state->velocity;
+    b->body_force[1] = -state->contact_pressure * projectile_face_area(p) / armature_mass(p, b->material);
+}
+
+static status add_bodies(const breech_case *c, const site_state *state, const layout *l, mpm_scene *s)
+{
+    const int wanted = c->rail.layers.n + 3;
+    CHECK(wanted <= MPM_MAX_BODIES, STATUS_BAD_INPUT, "rail.layers: %d layers, a scene takes at most %d",
+          c->rail.layers.n, MPM_MAX_BODIES - 3);
+    const int top = add_rail(c, l, s);
+    const int grain = add_grain(c, &state->grain, top, s);
+    CHECK(grain + 1 < MPM_MAX_FIELDS, STATUS_BAD_INPUT,
+          "rail.layers, particle: %d bonds that can break, a scene takes at most %d; weld some (bond_strength: none)",
+          grain, MPM_MAX_FIELDS - 2);
+    add_armature(c, state, l, grain + 1, s);
+    for (int i = 0; i < s->bodies; i++) {
+        mpm_body *b = &s->body[i];
+        CHECK(b->shape && b->material, STATUS_BAD_INPUT, "scene: body `%s` has no shape or no material", b->name);
+        TRY(shape_check(b->shape, &b->shape_value));
+        b->temperature = i == body_of_armature(s) ? c->projectile.temperature : c->rail.temperature;
+        b->damage = c->scene.damage;
+    }
+    return status_ok();
+}
+
+static void set_contacts(const breech_case *c, mpm_scene *s)
+{
+    const double limit = given_or(c->scene.shear_limit, INFINITY);
+    for (int a = 0; a < MPM_MAX_FIELDS; a++)
+        for (int b = 0; b < MPM_MAX_FIELDS; b++) {
+            s->contact[a][b].friction = c->scene.friction;
+            s->contact[a][b].shear_limit = limit;
+        }
+    if (!isnan(c->scene.contact_gap)) s->contact_gap = c->scene.contact_gap;
+}
+
+/* ---- grid ---- */
+
+static void set_axes(const breech_case *c, const layout *l, mpm_scene *s)
+{
+    const bool half = c->scene.half_model;
+    const double lo[3] = { -l->behind, -c->scene.rail_depth, half ? 0.0 : -l->half_width };
+    const double hi[3] = { l->ahead, c->projectile.half_bore, l->half_width };
+    const double fine_lo[3] = { -l->fine_behind, -l->fine_depth, half ? 0.0 : -l->fine_half_width };
+    const double fine_hi[3] = { l->fine_ahead, l->fine_above, l->fine_half_width };
+    const boundary_kind kind[3][2] = { { BOUNDARY_ABSORBING, BOUNDARY_ABSORBING },
+                                       { BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY },
+                                       { half ? BOUNDARY_SYMMETRY : BOUNDARY_FREE, BOUNDARY_FREE } };
+    unsigned rail_fields = 0;
+    for (int i = 0; i < s->bodies; i++)
+        if (body_is_rail(s, i)) rail_fields |= 1u << s->body[i].field;
+    for (int k = 0; k < 3; k++) {
+        mpm_axis *a = &s->axis[k];
+        a->lo = lo[k], a->hi = hi[k];
+        a->fine_lo = fine_lo[k], a->fine_hi = fine_hi[k];
+        a->fine = l->fine, a->coarse = l->coarse;
+        a->growth = c->scene.growth;
+        for (int e = 0; e < 2; e++) {
+            a->boundary[e] = kind[k][e];
+            a->boundary_fields[e] = k == 0 ? rail_fields : 0;
+        }
+    }
+}
+
+double scene_crossing_time(const mpm_scene *scene)
+{
+    const mpm_body *b = &scene->body[body_of_armature(scene)];
+    return (scene->axis[0].fine_hi - b->shape_value.value[ARMATURE_X_FRONT]) / b->velocity[0];
+}
+
+static void set_method(const breech_case *c, mpm_scene *s)
+{
+    const case_scene *from = &c->scene;
+    s->particles_per_axis = from->particles_per_axis;
+    s->courant = from->courant;
+    s->viscosity_linear = from->viscosity_linear;
+    s->viscosity_quadratic = from->viscosity_quadratic;
+    s->transfer = (transfer_kind)from->transfer;
+    s->basis = (basis_kind)from->basis;
+    s->heat_by_plastic_work = from->heat_by_plastic_work;
+    s->volume_averaging = from->volume_averaging;
+    const double passage = scene_crossing_time(s) + c->projectile.length / s->body[body_of_armature(s)].velocity[0];
+    s->end_time = given_or(from->end_time, fmin(1.1 * scene_crossing_time(s), passage));
+}
+
+/* ---- the crater ---- */
+
+/* Plan area and volume of the part above y = 0 by columns; cells across the surface count by their signed distance. */
+static void measure_grain(const mpm_body *b, double *area, double *volume)
+{
+    enum { N = 64 };
+    double lo[3], hi[3], h[3];
+    b->shape->bounds(&b->shape_value, lo, hi);
+    lo[1] = fmax(lo[1], 0.0);
+    for (int k = 0; k < 3; k++) h[k] = (hi[k] - lo[k]) / N;
+    const double cell = cbrt(h[0] * h[1] * h[2]), plan = sqrt(h[0] * h[2]);
+    *area = *volume = 0.0;
+    for (int ix = 0; ix < N; ix++)
+        for (int iz = 0; iz < N; iz++) {
+            double deepest = -INFINITY;
+            for (int iy = 0; iy < N; iy++) {
+                const double x[3] = { lo[0] + (ix + 0.5) * h[0], lo[1] + (iy + 0.5) * h[1], lo[2] + (iz + 0.5) * h[2] };
+                const double d = b->shape->inside(&b->shape_value, x);
+                *volume += fmin(fmax(0.5 + d / cell, 0.0), 1.0);
+                deepest = fmax(deepest, d);
+            }
+            *area += fmin(fmax(0.5 + deepest / plan, 0.0), 1.0);
+        }
+    *area *= h[0] * h[2];
+    *volume *= h[0] * h[1] * h[2];
+}
+
+static crater_spec spec_of(const breech_case *c, const case_site *g, const mpm_scene *s)
+{
+    crater_spec spec = { .surface = 0.0,
+                         .x_lo = s->axis[0].fine_lo,
+                         .x_hi = s->axis[0].fine_hi,
+                         .z_hi = s->axis[2].fine_hi,
+                         .mirrored = c->scene.half_model,
+                         .cell = s->axis[0].fine,
+                         .particle_radius = g->radius,
+                         .particle_height = g->height,
+                         .particle_x = 0.0,
+                         .limit_widening = c->scene.limit_widening,
+                         .limit_severity = c->scene.limit_severity };
+    measure_grain(&s->body[s->bodies - 2], &spec.particle_area, &spec.particle_volume);
+    return spec;
+}
+
+status scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out,
+                        crater_spec *spec)
+{
+    CHECK(state->velocity > 0.0 && isfinite(state->velocity), STATUS_BAD_INPUT,
+          "scene: the armature's velocity is %g m/s: must be positive", state->velocity);
+    const layout l = lay_out(c, &state->grain, cells_per_radius);
+    TRY(check_layout(c, &state->grain, &l));
+    mpm_scene_default(out);
+    TRY(add_bodies(c, state, &l, out));
+    set_contacts(c, out);
+    set_axes(c, &l, out);
+    set_method(c, out);
+    *spec = spec_of(c, &state->grain, out);
+    return status_ok();
+}

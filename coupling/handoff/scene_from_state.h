@@ -1,0 +1,39 @@
+/* From a site's state to the scene: bodies, contact laws, grid, end time, and what the crater is measured by.
+ *
+ * x = 0, y = 0, z = 0 is the middle of the grain's foot on the undamaged surface; the armature comes from -x.
+ * Bodies, in this order, later ones winning points: rail (box), layers (boxes, the last one's top is y = 0), grain,
+ * armature.  Rail, layers and grain share a velocity field where they are welded for good; a layer or a grain with a bond
+ * strength begins a field of its own, bonded to what lies below it; the armature has the last field.
+ * Window: along x the rail fills it and absorbs waves at both ends (a roller or a free end for the armature, which leaves
+ * ahead); below the rail a roller; above the middle of the bore, the mirror plane of the launcher; across, z = 0 the mirror
+ * of a half model, a free side beyond the edges.
+ * A node lies on the rail's surface, whatever the case: every fine zone starts a whole number of cells from it.
+ * Extents a case leaves out, in grain radii r: fine zone x -4 .. 26, y -3 .. 2.5 (at least a radius above the grain),
+ * z -8 .. 8; kept inside the rail.
+ * The armature starts with its lead face a fine cell short of the grain's upper upstream edge.  It is pressed on by a body
+ * force: contact pressure x contact face / mass.  Laws that tests/test_handoff.c checks: no two bodies overlap, the
+ * grain's foot is on the surface, masses and the pressing force are those of the case, whatever the case. */
+#ifndef BREECH_COUPLING_SCENE_FROM_STATE_H
+#define BREECH_COUPLING_SCENE_FROM_STATE_H
+
+#include "coupling/handoff/site_state.h"
+#include "coupling/io/case.h"
+#include "mpm/crater.h"
+#include "mpm/scene.h"
+
+/* state: grain, velocity and contact pressure are used.  The scene borrows its materials from the case.
+ * STATUS_BAD_INPUT names what cannot be built and which key to change. */
+status scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out,
+                        crater_spec *spec);
+
+/* `breech scene`: the case's own particle, velocity and contact pressure (none where it gives none). */
+site_state state_of_case(const breech_case *c);
+
+/* How long the armature's contact face takes to cross the fine zone, from the scene's start [s]. */
+double scene_crossing_time(const mpm_scene *scene);
+
+/* Does the crater count this body's points (rail and layers; not the grain, not the armature)? */
+bool body_is_rail(const mpm_scene *scene, int body);
+int body_of_armature(const mpm_scene *scene); /* its index */
+
+#endif

@@ -1,0 +1,339 @@
+#include "coupling/handoff/scene_run.h"
+
+#include "coupling/io/snapshot.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PIECES = 60 };                     /* of a scene, at least */
+static const double LIVE_INTERVAL = 0.25; /* between two looks at the solver for the progress line [s] */
+static const double SETTLED_SHARE = 0.1;  /* of the measuring depth */
+
+status scene_job_make(const breech_case *c, const site_state *state, double cells_per_radius, scene_job *job)
+{
+    memset(job, 0, sizeof *job);
+    job->c = c;
+    return scene_from_state(c, state, cells_per_radius, &job->scene, &job->spec);
+}
+
+/* ---- the material points, read once for all who look at them ---- */
+
+typedef struct {
+    size_t n;
+    double *position, *velocity, *size, *damage, *mass, *body; /* one block of memory, owned by position */
+} points;
+
+static status points_read(const mpm *m, points *p)
+{
+    p->n = mpm_particles(m);
+    double *all = malloc((p->n ? p->n : 1) * 12 * sizeof *all);
+    CHECK(all, STATUS_MEMORY, "no memory to read %zu material points", p->n);
+    p->position = all, p->velocity = all + 3 * p->n, p->size = all + 6 * p->n;
+    p->damage = all + 9 * p->n, p->mass = all + 10 * p->n, p->body = all + 11 * p->n;
+    mpm_read(m, MPM_position, p->position);
+    mpm_read(m, MPM_velocity, p->velocity);
+    mpm_read(m, MPM_size, p->size);
+    mpm_read(m, MPM_damage, p->damage);
+    mpm_read(m, MPM_mass, p->mass);
+    mpm_read(m, MPM_body, p->body);
+    return status_ok();
+}
+
+static void points_free(points *p)
+{
+    free(p->position);
+}
+
+/* Keeps the rail's points over the crater's map, in their order. */
+static void keep_rail(const scene_job *job, points *p)
+{
+    const crater_spec *s = &job->spec;
+    size_t kept = 0;
+    for (size_t i = 0; i < p->n; i++) {
+        const double *x = p->position + 3 * i, *half = p->size + 3 * i;
+        if (!body_is_rail(&job->scene, (int)p->body[i]) || x[0] + half[0] < s->x_lo || x[0] - half[0] > s->x_hi ||
+            fabs(x[2]) - half[2] > s->z_hi)
+            continue;
+        memmove(p->position + 3 * kept, x, 3 * sizeof *x);
+        memmove(p->velocity + 3 * kept, p->velocity + 3 * i, 3 * sizeof *x);
+        memmove(p->size + 3 * kept, half, 3 * sizeof *x);
+        p->damage[kept] = p->damage[i];
+        p->mass[kept] = p->mass[i];
+        kept++;
+    }
+    p->n = kept;
+}
+
+/* ---- one run ---- */
+
+typedef struct {
+    const scene_job *job;
+    const scene_host *host;
+    mpm *m;
+    snapshots *shots;
+    int series;                    /* of the history, -1: none */
+    int pieces, per_snapshot;      /* pieces; pieces from one snapshot to the next, 0: no snapshots */
+    double started, saved, looked; /* wall clock [s] */
+    status error;                  /* of the sink */
+} run;
+
+static void book(const scene_host *h, const char *phase, double since)
+{
+    if (h->timing) timing_add(h->timing, phase, wall_clock() - since);
+}
+
+static double wall_spent(const run *r)
+{
+    return r->job->resume.wall + wall_clock() - r->started;
+}
+
+static status save(run *r)
+{
+    const scene_host *h = r->host;
+    r->saved = wall_clock();
+    if (!h->save) return status_ok();
+    const double since = wall_clock();
+    TRY(h->save(h->user, r->job->name, r->m, wall_spent(r)));
+    if (h->history) TRY(history_flush(h->history));
+    book(h, "checkpoints", since);
+    return status_ok();
+}
+
+/* After every step: cheap unless something is due. */
+static bool on_step(void *user, const mpm *m)
+{
+    run *r = user;
+    const double now = wall_clock();
+    if (r->host->progress && now - r->looked >= LIVE_INTERVAL) {
+        const mpm_report state = mpm_state(m);
+        r->looked = now;
+        progress_update(r->host->progress, state.time / r->job->scene.end_time, state.particle_steps);
+    }
+    if (now - r->saved >= r->job->c->output.checkpoint_interval) r->error = save(r);
+    return r->error.code == STATUS_OK && !(r->host->stop && r->host->stop());
+}
+
+static status write_row(run *r)
+{
+    double row[HISTORY_MAX_COLUMNS];
+    if (r->series < 0) return status_ok();
+    const double since = wall_clock();
+    const mpm_report state = mpm_state(r->m);
+    const mpm_ledger balance = mpm_balance(r->m);
+    history_scene_row(&state, &balance, row);
+    TRY(history_append(r->host->history, r->series, row));
+    TRY(history_tick(r->host->history));
+    book(r->host, "history", since);
+    return status_ok();
+}
+
+static status write_snapshot(run *r)
+{
+    if (!r->shots) return status_ok();
+    const double since = wall_clock();
+    TRY(snapshots_write(r->shots, r->m));
+    book(r->host, "snapshots", since);
+    return status_ok();
+}
+
+/* Largest distance that a sound rail point of the map would still go until the end [m]. */
+static status distance_left(const run *r, double *distance)
+{
+    points p;
+    TRY(points_read(r->m, &p));
+    keep_rail(r->job, &p);
+    double fastest2 = 0.0;
+    for (size_t i = 0; i < p.n; i++) {
+        const double *v = p.velocity + 3 * i;
+        if (p.damage[i] < 1.0) fastest2 = fmax(fastest2, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    }
+    points_free(&p);
+    *distance = sqrt(fastest2) * (r->job->scene.end_time - mpm_state(r->m).time);
+    return status_ok();
+}
+
+static status is_settled(const run *r, double time, bool *settled)
+{
+    *settled = false;
+    if (!r->job->c->scene.stop_when_settled || time < scene_crossing_time(&r->job->scene)) return status_ok();
+    const crater_spec *s = &r->job->spec;
+    double distance;
+    TRY(distance_left(r, &distance));
+    *settled = distance < SETTLED_SHARE * fmax(0.1 * s->particle_radius, 0.5 * s->cell);
+    return status_ok();
+}
+
+static double piece_end(const run *r, int piece)
+{
+    const double end = r->job->scene.end_time;
+    return piece + 1 == r->pieces ? end : end * (piece + 1) / r->pieces;
+}
+
+/* The piece whose end is still to be dealt with: a checkpoint is made by a step, before the end of its piece. */
+static int piece_at(const run *r, double time)
+{
+    int piece = 0;
+    while (piece + 1 < r->pieces && piece_end(r, piece) < time * (1.0 - 1e-12)) piece++;
+    return piece;
+}
+
+static status advance_piece(run *r, int piece)
+{
+    const mpm_sink sink = { on_step, r };
+    const double since = wall_clock();
+    const status s = mpm_advance(r->m, piece_end(r, piece), &sink);
+    book(r->host, "scene steps", since);
+    if (r->error.code != STATUS_OK) return r->error;
+    if (s.code == STATUS_STOPPED) TRY(save(r));
+    return s;
+}
+
+static status advance(run *r)
+{
+    bool settled = false;
+    const double reached = r->job->resume.image ? mpm_state(r->m).time : -1.0;
+    if (reached < 0.0) {
+        TRY(write_row(r));
+        TRY(write_snapshot(r));
+    }
+    for (int piece = reached < 0.0 ? 0 : piece_at(r, reached); piece < r->pieces && !settled; piece++) {
+        TRY(advance_piece(r, piece));
+        TRY(is_settled(r, mpm_state(r->m).time, &settled));
+        TRY(write_row(r));
+        const bool due = r->per_snapshot && (piece + 1) % r->per_snapshot == 0;
+        if (due || (settled && r->per_snapshot)) TRY(write_snapshot(r));
+    }
+    return status_ok();
+}
+
+/* ---- what came out ---- */
+
+static status measure_crater(const run *r, crater *out)
+{
+    points p;
+    TRY(points_read(r->m, &p));
+    keep_rail(r->job, &p);
+    const crater_points rail = { .n = p.n, .position = p.position, .size = p.size, .damage = p.damage };
+    const status s = crater_measure(&rail, &r->job->spec, out);
+    points_free(&p);
+    return s;
+}
+
+typedef struct {
+    double mass, momentum; /* of the armature's sound metal, along x [kg, kg m/s] */
+} armature_metal;
+
+static status armature_now(const run *r, armature_metal *out)
+{
+    const int armature = body_of_armature(&r->job->scene);
+    const double slow = 0.5 * r->job->scene.body[armature].velocity[0];
+    points p;
+    *out = (armature_metal){ 0.0, 0.0 };
+    TRY(points_read(r->m, &p));
+    for (size_t i = 0; i < p.n; i++) {
+        const double vx = p.velocity[3 * i];
+        if ((int)p.body[i] != armature || !(p.damage[i] < 1.0) || vx < slow) continue;
+        out->mass += p.mass[i];
+        out->momentum += p.mass[i] * vx;
+    }
+    points_free(&p);
+    return status_ok();
+}
+
+/* The lost metal keeps its own speed's worth of impulse out of the sum: shot_jump books it with the mass (docs/onset.md). */
+static void book_losses(const run *r, const armature_metal *before, const armature_metal *after, impact *out)
+{
+    const breech_case *c = r->job->c;
+    const mpm_body *b = &r->job->scene.body[body_of_armature(&r->job->scene)];
+    const double halves = c->scene.half_model ? 2.0 : 1.0, time = mpm_state(r->m).time;
+    const double pressing = -b->body_force[1] * before->mass;
+    out->mass_loss = halves * fmax(before->mass - after->mass, 0.0);
+    const double kept = after->mass * b->velocity[0] - after->momentum;
+    out->impulse = fmax(halves * (kept - c->scene.friction * pressing * time), 0.0);
+}
+
+static status finish(run *r, const armature_metal *before, impact *out)
+{
+    const scene_host *h = r->host;
+    const double since = wall_clock();
+    armature_metal after;
+    crater found;
+    TRY(armature_now(r, &after));
+    TRY(measure_crater(r, &found));
+    const mpm_report report = mpm_state(r->m);
+    const mpm_ledger ledger = mpm_balance(r->m);
+    const scene_outcome o = { .scene = &r->job->scene,
+                              .report = &report,
+                              .ledger = &ledger,
+                              .crater = &found,
+                              .wall_seconds = wall_spent(r),
+                              .threads = h->threads,
+                              .mirrored = r->job->c->scene.half_model };
+    out->result = scene_result_of(&o);
+    book_losses(r, before, &after, out);
+    status s = status_ok();
+    if (h->history) s = history_crater(h->history, r->job->name, &found);
+    crater_free(&found);
+    if (s.code == STATUS_OK && r->series >= 0) s = history_end(h->history, r->series);
+    book(h, "crater", since);
+    return s;
+}
+
+/* ---- setting up ---- */
+
+/* Snapshots stand at piece ends, the first at the start, the last at the end. */
+static void plan_pieces(run *r)
+{
+    const int n = r->host->dir ? r->job->c->output.snapshots : 0;
+    r->pieces = PIECES;
+    if (n == 0) return;
+    const int gaps = n > 1 ? n - 1 : 1;
+    r->per_snapshot = (PIECES + gaps - 1) / gaps;
+    r->pieces = gaps * r->per_snapshot;
+}
+
+static status open_output(run *r)
+{
+    const scene_host *h = r->host;
+    const scene_resume *from = &r->job->resume;
+    const double reached = from->image ? from->time * (1.0 - 1e-9) : -1.0; /* what stands at that instant is redone */
+    if (h->history) {
+        TRY(history_scene(h->history, r->job->name, &r->series));
+        TRY(history_rewind(h->history, r->series, reached));
+    }
+    if (r->per_snapshot) {
+        char dir[OUTDIR_PATH_SIZE];
+        TRY(outdir_scene(h->dir, r->job->name, dir, sizeof dir));
+        TRY(snapshots_open(dir, reached, &r->shots));
+    }
+    return status_ok();
+}
+
+static status run_made(run *r, impact *out)
+{
+    const scene_resume *from = &r->job->resume;
+    armature_metal before;
+    TRY(armature_now(r, &before));
+    if (from->image) TRY(mpm_restore(r->m, from->image, from->bytes));
+    const mpm_report state = mpm_state(r->m);
+    if (r->host->progress)
+        progress_task(r->host->progress, r->job->task, state.time / r->job->scene.end_time, state.particle_steps);
+    TRY(open_output(r));
+    TRY(advance(r));
+    return finish(r, &before, out);
+}
+
+status scene_run(const scene_job *job, const scene_host *host, impact *out)
+{
+    run r = { .job = job, .host = host, .series = -1, .error = status_ok() };
+    memset(out, 0, sizeof *out);
+    r.started = r.saved = r.looked = wall_clock();
+    plan_pieces(&r);
+    status s = mpm_create(&job->scene, host->threads, &r.m);
+    book(host, "scene making", r.started);
+    if (s.code == STATUS_OK) s = run_made(&r, out);
+    snapshots_close(r.shots);
+    mpm_free(r.m);
+    return s;
+}

@@ -1,0 +1,489 @@
+/* breech: the program.  Options in, exit code out; the only place that prints and exits.
+ *
+ * To add a command: a line in `commands`, its function here or in study/commands.c, its text in the line. */
+#include "coupling/io/material_file.h"
+#include "coupling/io/report.h"
+#include "coupling/io/stop.h"
+#include "coupling/io/table.h"
+#include "coupling/study/commands.h"
+
+#include <errno.h>
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_STOPPED = 75, MAX_SETS = 200 };
+
+typedef struct command command;
+
+typedef struct {
+    const command *command;
+    const char *subject; /* CASE, NAME or DIR; NULL */
+    const char *dir;     /* -o */
+    const char *sets[MAX_SETS];
+    int n_sets, threads;
+    outdir_options how;
+    double max_walltime; /* [s], INFINITY: none */
+    bool quiet;
+} options;
+
+struct command {
+    const char *name, *subject, *doc, *more;
+    int (*run)(const options *o);
+    bool subject_required;
+    unsigned needs;                                     /* of the case */
+    run_kind kind;                                      /* of its summary */
+    status (*work)(session *s, command_result *result); /* NULL: not a run */
+};
+
+static int run_case(const options *o);
+static int run_check(const options *o);
+static int run_compare(const options *o);
+static int run_materials(const options *o);
+static int run_report(const options *o);
+
+static const command commands[] = {
+    { "shot", "CASE", "the electromechanical shot alone",
+      "Needs the sections bank, rails, barrel and armature.  Writes the shot's history.", run_case, true, CASE_FOR_SHOT,
+      RUN_SHOT, command_shot },
+    { "scene", "CASE", "one embedded impact at a given velocity",
+      "Needs rail, projectile, particle and scene, with scene.velocity and particle.radius.", run_case, true,
+      CASE_FOR_SCENE, RUN_SCENE, command_scene },
+    { "onset", "CASE", "the main job: shot and sites, where gouging begins",
+      "Runs the shot, then as many impact scenes as the threshold velocity needs (study.max_scenes at most).", run_case,
+      true, CASE_FOR_ONSET, RUN_ONSET, command_onset },
+    { "compare", "CASE", "the same for several rail surfaces, ranked", "Not in this version.", run_compare, true, 0,
+      RUN_COMPARE, NULL },
+    { "inductance", "CASE", "L', R' of a rail cross-section, over frequency",
+      "Needs the section rails.  1 Hz to 100 kHz and the perfect conductor.", run_case, true, CASE_FOR_INDUCTANCE,
+      RUN_INDUCTANCE, command_inductance },
+    { "check", "CASE", "read and validate only; memory and time estimate",
+      "Writes nothing.  Checks the case for every command whose sections it has.", run_check, true, 0, RUN_KINDS,
+      NULL },
+    { "materials", "[NAME]", "materials at hand; the constants of one, with their sources", "", run_materials, false, 0,
+      RUN_KINDS, NULL },
+    { "report", "DIR", "make report.html of an output directory anew", "", run_report, true, 0, RUN_KINDS, NULL },
+};
+enum { COMMANDS = sizeof commands / sizeof commands[0] };
+
+/* ---- words ---- */
+
+static void print_help(FILE *out)
+{
+    fputs("usage: breech COMMAND CASE [options]        CASE: a case.yaml, or a folder that holds one\n\n", out);
+    for (int i = 0; i < COMMANDS; i++)
+        fprintf(out, "  breech %-10s %-7s %s\n", commands[i].name, commands[i].subject, commands[i].doc);
+    fputs("\n"
+          "  -o DIR            output directory, default out/<case>\n"
+          "  --set KEY=VALUE   change a value of the case, --set bank.charge=\"9 kV\"; repeatable\n"
+          "  --threads N       default: all of the machine\n"
+          "  --resume          go on with a stopped run; starts anew where there is none\n"
+          "  --force           overwrite what a former run left\n"
+          "  --max-walltime T  stop with a checkpoint after T (90, 30m, 2h, 1:30:00)\n"
+          "  --quiet           no progress, no closing table\n"
+          "  --keys            list every key of a case file\n"
+          "  --version, --help [COMMAND]\n\n"
+          "exit codes: 0 done, 1 failed while running, 2 bad input or usage, 75 stopped early with a checkpoint\n",
+          out);
+}
+
+static const command *command_find(const char *name)
+{
+    for (int i = 0; i < COMMANDS; i++)
+        if (strcmp(commands[i].name, name) == 0) return &commands[i];
+    return NULL;
+}
+
+static int help(const char *name)
+{
+    const command *c = name ? command_find(name) : NULL;
+    if (name && !c) {
+        fprintf(stderr, "breech: no command `%s`; breech --help lists them\n", name);
+        return EXIT_USAGE;
+    }
+    if (!c)
+        print_help(stdout);
+    else
+        printf("breech %s %s: %s\n%s%sOptions: breech --help\n", c->name, c->subject, c->doc, c->more,
+               c->more[0] ? "\n" : "");
+    return EXIT_DONE;
+}
+
+static int exit_code(status s)
+{
+    switch (s.code) {
+    case STATUS_OK: return EXIT_DONE;
+    case STATUS_BAD_INPUT: return EXIT_USAGE;
+    case STATUS_STOPPED: return EXIT_STOPPED;
+    default: return EXIT_FAILED;
+    }
+}
+
+static int complain(status s)
+{
+    if (s.code != STATUS_OK) fprintf(stderr, "breech: %s\n", s.text);
+    return exit_code(s);
+}
+
+/* ---- the case ---- */
+
+static status read_case(const options *o, unsigned needs, breech_case **c)
+{
+    const char *dirs[MATERIAL_MAX_DIRS];
+    const case_options how = { .material_dirs = dirs, .n_material_dirs = material_dirs(dirs), .needs = needs };
+    char *errors = NULL;
+    const status s = case_read(o->subject, o->sets, o->n_sets, &how, c, &errors);
+    if (errors)
+        fputs(errors, stderr);
+    else
+        complain(s);
+    free(errors);
+    return s;
+}
+
+/* ---- runs ---- */
+
+static run_status status_of(status s)
+{
+    return s.code == STATUS_OK ? RUN_DONE : s.code == STATUS_STOPPED ? RUN_STOPPED : RUN_FAILED;
+}
+
+static status write_results(const options *o, session *s, command_result *r, status work)
+{
+    char error[600];
+    run_summary *summary = &r->summary;
+    summary->kind = o->command->kind;
+    summary->case_name = s->c->name;
+    summary->instruction_set = mpm_instruction_set();
+    summary->status = status_of(work);
+    if (work.code == STATUS_STOPPED)
+        snprintf(error, sizeof error, "%s: %s", stop_reason(), work.text);
+    else
+        snprintf(error, sizeof error, "%s", work.text);
+    summary->error = work.code == STATUS_OK ? NULL : error;
+    summary->warnings = s->warnings;
+    TRY(history_flush(s->history));
+    const status written = summary_write(s->dir.path, summary);
+    progress_close(&s->progress);
+    if (!o->quiet) {
+        fputc('\n', stdout);
+        summary_print(summary, stdout);
+        fputc('\n', stdout);
+        timing_print(&s->timing, stdout);
+    }
+    return written;
+}
+
+static void say_where(const options *o, const session *s, status work)
+{
+    if (work.code == STATUS_STOPPED)
+        fprintf(stderr, "breech: stopped (%s); --resume goes on: breech %s %s -o %s --resume\n", stop_reason(),
+                o->command->name, o->subject, s->dir.path);
+    else if (!o->quiet)
+        printf("\nresults: %s\n", s->dir.path);
+}
+
+static int carry_out(const options *o, session *s)
+{
+    command_result result;
+    memset(&result, 0, sizeof result);
+    stop_install(o->max_walltime);
+    status work = o->command->work(s, &result);
+    const status written = write_results(o, s, &result, work);
+    char path[OUTDIR_PATH_SIZE];
+    snprintf(path, sizeof path, "%s", s->dir.path);
+    const bool report = s->c->output.report && written.code == STATUS_OK && work.code == STATUS_OK;
+    say_where(o, s, work);
+    command_free(&result);
+    const status closed = session_close(s, work.code == STATUS_OK && written.code == STATUS_OK);
+    if (report) {
+        const status drawn = report_write(path);
+        if (drawn.code != STATUS_OK) fprintf(stderr, "breech: no report: %s\n", drawn.text);
+    }
+    if (work.code != STATUS_OK) return work.code == STATUS_STOPPED ? EXIT_STOPPED : complain(work);
+    return complain(written.code != STATUS_OK ? written : closed);
+}
+
+static int run_case(const options *o)
+{
+    breech_case *c = NULL;
+    session s;
+    const status got = read_case(o, o->command->needs, &c);
+    if (got.code != STATUS_OK) return exit_code(got);
+    const session_options how = { .dir = o->dir,
+                                  .how = o->how,
+                                  .threads = o->threads,
+                                  .progress_to = stderr,
+                                  .quiet = o->quiet,
+                                  .stop = stop_requested };
+    const status opened = session_open(c, &how, &s);
+    int code;
+    if (opened.code == STATUS_OK && s.dir.state != OUTDIR_FINISHED) {
+        if (!o->quiet && c->warnings[0]) fputs(c->warnings, stderr);
+        code = carry_out(o, &s);
+    } else {
+        if (opened.code == STATUS_OK && !o->quiet) printf("%s: finished already\n", s.dir.path);
+        code = complain(opened);
+        session_close(&s, false);
+    }
+    case_free(c);
+    return code;
+}
+
+/* ---- check ---- */
+
+/* The commands whose sections the case has. */
+static unsigned needs_of(const breech_case *c)
+{
+    const case_given *g = &c->given;
+    unsigned needs = 0;
+    if (g->bank) needs |= CASE_FOR_SHOT;
+    if (g->sites) needs |= CASE_FOR_ONSET;
+    if (g->projectile && g->scene && (!isnan(c->scene.velocity) || !g->sites)) needs |= CASE_FOR_SCENE;
+    if (g->rails) needs |= CASE_FOR_INDUCTANCE;
+    return needs;
+}
+
+static status print_check(const breech_case *c, int threads)
+{
+    scene_estimate e[CHECK_MAX_ESTIMATES];
+    int n = 0;
+    table *t;
+    TRY(command_check(c, threads, e, &n));
+    printf("%s: %s\n", c->path, c->title[0] ? c->title : c->name);
+    fputs(c->warnings, stdout);
+    TRY(table_create("scene|points|memory [GB]|steps|time, estimated", &t));
+    for (int i = 0; i < n; i++) {
+        char time[40];
+        duration_text(e[i].seconds, time, sizeof time);
+        table_row(t, "%s|%zu|%.2f|%.0f|%s", e[i].what, e[i].particles, 1e-9 * (double)e[i].bytes, e[i].steps, time);
+    }
+    if (n > 0) table_print(t, stdout);
+    table_free(t);
+    if (c->sites.n > 0) printf("onset: %d sites, at most %d scenes\n", c->sites.n, c->study.max_scenes);
+    return status_ok();
+}
+
+static int run_check(const options *o)
+{
+    breech_case *c = NULL;
+    status s = read_case(o, 0, &c);
+    if (s.code != STATUS_OK) return exit_code(s);
+    const unsigned needs = needs_of(c);
+    case_free(c);
+    s = read_case(o, needs, &c);
+    if (s.code != STATUS_OK) return exit_code(s);
+    s = print_check(c, o->threads);
+    case_free(c);
+    return complain(s);
+}
+
+/* ---- materials ---- */
+
+static void print_sheet(const material_sheet *sheet)
+{
+    printf("%s: %s\n%s\n", sheet->material.name, sheet->title, sheet->path);
+    for (int i = 0; i < sheet->n; i++) {
+        const material_constant *k = &sheet->constant[i];
+        const double value = *(const double *)(const void *)((const char *)&sheet->material + k->constant->offset);
+        char text[60];
+        quantity_text(value, k->constant->unit, text, sizeof text);
+        printf("  %-22s %-16s %s%s\n", k->constant->key, text, k->weak ? "[weak] " : "", k->source);
+        if (k->note) printf("  %-22s %-16s (%s)\n", "", "", k->note);
+    }
+}
+
+static int print_names(const char *const *dirs, int n_dirs)
+{
+    for (int d = 0; d < n_dirs; d++) {
+        char **names;
+        int n;
+        const status s = material_names(dirs[d], &names, &n);
+        if (s.code != STATUS_OK) return complain(s);
+        for (int i = 0; i < n; i++) printf("%-20s %s\n", names[i], dirs[d]);
+        material_names_free(names, n);
+    }
+    return EXIT_DONE;
+}
+
+static int run_materials(const options *o)
+{
+    const char *dirs[MATERIAL_MAX_DIRS];
+    const int n = material_dirs(dirs);
+    material_sheet sheet;
+    char *errors = NULL;
+    if (!o->subject) return print_names(dirs, n);
+    const status s = material_sheet_open(o->subject, dirs, n, &sheet, &errors);
+    if (errors) fputs(errors, stderr);
+    free(errors);
+    if (s.code != STATUS_OK) return complain(s);
+    print_sheet(&sheet);
+    material_sheet_free(&sheet);
+    return EXIT_DONE;
+}
+
+/* ---- the rest ---- */
+
+static int run_report(const options *o)
+{
+    const status s = report_write(o->subject);
+    if (s.code == STATUS_OK && !o->quiet) printf("%s/%s\n", o->subject, OUTDIR_REPORT);
+    return complain(s);
+}
+
+static int run_compare(const options *o)
+{
+    (void)o;
+    fputs(
+        "breech: compare is not in this version; run `breech onset` once a surface and compare threshold_velocity and "
+        "onset_position of their summaries\n",
+        stderr);
+    return EXIT_USAGE;
+}
+
+/* ---- options ---- */
+
+/* "90", "45s", "30m", "2h", "1:30", "1:30:00" in seconds; NAN if it is none of these. */
+static double wall_time(const char *text)
+{
+    double total = 0.0;
+    for (;;) {
+        char *end;
+        const double part = strtod(text, &end);
+        if (end == text || !(part >= 0.0) || !isfinite(part)) return NAN;
+        total = 60.0 * total + part;
+        if (*end == '\0') return total;
+        if (*end != ':') {
+            const char *unit = strchr("s m h ", *end);
+            if (!unit || end[1] != '\0' || *end == ' ') return NAN;
+            return total * (*end == 's' ? 1.0 : *end == 'm' ? 60.0 : 3600.0);
+        }
+        text = end + 1;
+    }
+}
+
+static bool whole_number(const char *text, int low, int high, int *out)
+{
+    char *end;
+    errno = 0;
+    const long n = strtol(text, &end, 10);
+    if (end == text || *end != '\0' || errno || n < low || n > high) return false;
+    *out = (int)n;
+    return true;
+}
+
+/* An option with a value.  STATUS_BAD_INPUT says what is wrong with it. */
+static status take_value(options *o, const char *name, const char *value)
+{
+    CHECK(value, STATUS_BAD_INPUT, "%s needs a value", name);
+    if (strcmp(name, "-o") == 0) {
+        CHECK(value[0], STATUS_BAD_INPUT, "-o: the directory's name is empty");
+        o->dir = value;
+    } else if (strcmp(name, "--set") == 0) {
+        CHECK(o->n_sets < MAX_SETS, STATUS_BAD_INPUT, "--set: more than %d", MAX_SETS);
+        o->sets[o->n_sets++] = value;
+    } else if (strcmp(name, "--threads") == 0) {
+        CHECK(whole_number(value, 1, 4096, &o->threads), STATUS_BAD_INPUT, "--threads %.40s: must be 1 .. 4096", value);
+    } else {
+        o->max_walltime = wall_time(value);
+        CHECK(o->max_walltime > 0.0, STATUS_BAD_INPUT,
+              "--max-walltime %.40s: must be a time such as 90, 45s, 30m, 2h or 1:30:00", value);
+    }
+    return status_ok();
+}
+
+static bool takes_value(const char *name)
+{
+    static const char *const names[] = { "-o", "--set", "--threads", "--max-walltime", NULL };
+    for (int i = 0; names[i]; i++)
+        if (strcmp(names[i], name) == 0) return true;
+    return false;
+}
+
+static bool take_flag(options *o, const char *name)
+{
+    if (strcmp(name, "--resume") == 0)
+        o->how.resume = true;
+    else if (strcmp(name, "--force") == 0)
+        o->how.force = true;
+    else if (strcmp(name, "--quiet") == 0)
+        o->quiet = true;
+    else
+        return false;
+    return true;
+}
+
+/* One word of the command line; *i moves on where the next one is its value.  --name=value is understood too. */
+static status take_word(options *o, int argc, char **argv, int *i)
+{
+    char *word = argv[*i], *equals = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL;
+    if (equals) *equals = '\0';
+    if (takes_value(word)) {
+        const char *value = equals ? equals + 1 : *i + 1 < argc ? argv[++*i] : NULL;
+        return take_value(o, word, value);
+    }
+    CHECK(!equals, STATUS_BAD_INPUT, "%.80s takes no value, or is no option; breech --help lists them", word);
+    if (take_flag(o, word)) return status_ok();
+    CHECK(word[0] != '-' || word[1] == '\0', STATUS_BAD_INPUT, "no option %.80s; breech --help lists them", word);
+    if (!o->command) {
+        o->command = command_find(word);
+        CHECK(o->command, STATUS_BAD_INPUT, "no command `%.80s`; breech --help lists them", word);
+        return status_ok();
+    }
+    CHECK(!o->subject, STATUS_BAD_INPUT, "%s takes one %s: `%.80s` is one too many", o->command->name,
+          o->command->subject, word);
+    o->subject = word;
+    return status_ok();
+}
+
+static status parse(int argc, char **argv, options *o)
+{
+    for (int i = 1; i < argc; i++) TRY(take_word(o, argc, argv, &i));
+    CHECK(o->command, STATUS_BAD_INPUT, "no command given; breech --help lists them");
+    CHECK(o->subject || !o->command->subject_required, STATUS_BAD_INPUT, "%s needs a %s: breech %s %s",
+          o->command->name, o->command->subject, o->command->name, o->command->subject);
+    return status_ok();
+}
+
+/* --help, --version and --keys, wherever they stand; -1: none of them. */
+static int answer(int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++) {
+        const char *name = i + 1 < argc ? argv[i + 1] : i > 1 ? argv[1] : NULL;
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) return help(name);
+        if (strcmp(argv[i], "--version") == 0) {
+            printf("breech %s, instruction set %s\n", breech_version(), mpm_instruction_set());
+            return EXIT_DONE;
+        }
+        if (strcmp(argv[i], "--keys") == 0) {
+            case_print_keys(stdout);
+            return EXIT_DONE;
+        }
+    }
+    return -1;
+}
+
+/* Threads that spin while they wait cost a busy machine several times its speed; OpenMP reads its settings before main,
+ * so the program starts itself once more.  A setting of the user's stays. */
+static void wait_passively(char **argv)
+{
+    if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT")) return;
+    if (setenv("OMP_WAIT_POLICY", "passive", 1) == 0) execv("/proc/self/exe", argv);
+}
+
+int main(int argc, char **argv)
+{
+    wait_passively(argv);
+    const int answered = argc > 1 ? answer(argc, argv) : -1;
+    if (answered >= 0) return answered;
+    if (argc == 1) {
+        print_help(stderr);
+        return EXIT_USAGE;
+    }
+    options o = { .threads = omp_get_max_threads(), .max_walltime = INFINITY };
+    const status s = parse(argc, argv, &o);
+    if (s.code != STATUS_OK) return complain(s);
+    return o.command->run(&o);
+}

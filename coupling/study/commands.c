@@ -1,0 +1,113 @@
+#include "coupling/study/commands.h"
+
+#include "circuit/inductance.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void command_free(command_result *r)
+{
+    onset_answer_free(&r->onset);
+    free(r->gradients);
+    r->gradients = NULL;
+}
+
+status command_shot(session *s, command_result *out)
+{
+    shot_outcome o;
+    const status done = session_shot(s, NULL, true, &o, &out->shot);
+    shot_outcome_free(&o);
+    if (done.code == STATUS_OK) out->summary.shot = &out->shot;
+    return done;
+}
+
+status command_scene(session *s, command_result *out)
+{
+    const breech_case *c = s->c;
+    const site_state state = state_of_case(c);
+    onset_scene about;
+    scene_job job;
+    const stored_scene *done;
+    char task[80];
+    memset(&about, 0, sizeof about);
+    snprintf(about.name, sizeof about.name, "scene");
+    about.velocity = state.velocity;
+    about.cells_per_radius = c->scene.cells_per_radius;
+    snprintf(task, sizeof task, "scene, %g m/s", state.velocity);
+    TRY(scene_job_make(c, &state, c->scene.cells_per_radius, &job));
+    job.task = task;
+    TRY(session_scene(s, &job, &about, &done));
+    out->scene = done->entry.result;
+    out->summary.scene = &out->scene;
+    return status_ok();
+}
+
+status command_onset(session *s, command_result *out)
+{
+    const status done = onset_run(s, &out->onset);
+    out->summary.onset = &out->onset.result;
+    if (out->onset.shot.is.steps > 0) out->summary.shot = &out->onset.shot;
+    return done;
+}
+
+/* ---- inductance ---- */
+
+static const double frequencies[] = { 1, 2, 5, 10, 20, 50, 100, 200, 500, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5 };
+enum { FREQUENCIES = sizeof frequencies / sizeof frequencies[0] };
+
+status command_inductance(session *s, command_result *out)
+{
+    const shot_rails *rails = &s->c->rails;
+    const double since = wall_clock();
+    double no_resistance;
+    out->gradients = malloc(2 * FREQUENCIES * sizeof *out->gradients);
+    CHECK(out->gradients, STATUS_MEMORY, "no memory for %d frequencies", FREQUENCIES);
+    double *L = out->gradients, *R = L + FREQUENCIES;
+    progress_task(&s->progress, "inductance gradients", 0.0, 0);
+    for (int i = 0; i < FREQUENCIES; i++) {
+        if (s->stop && s->stop()) return status_error(STATUS_STOPPED, "stopped at %g Hz", frequencies[i]);
+        TRY(rails_impedance(rails, frequencies[i], &L[i], &R[i]));
+        progress_update(&s->progress, (i + 1.0) / FREQUENCIES, 0);
+    }
+    out->inductance = (inductance_result){ FREQUENCIES, frequencies, L, R, NAN };
+    TRY(rails_impedance(rails, INFINITY, &out->inductance.L_gradient_high_frequency, &no_resistance));
+    out->summary.inductance = &out->inductance;
+    timing_add(&s->timing, "inductance", wall_clock() - since);
+    return status_ok();
+}
+
+/* ---- check ---- */
+
+/* Two levels of thread: memory bandwidth and the serial rest are left out, so this is a lower bound on many threads. */
+static status estimate(const breech_case *c, const site_state *state, double cells, int threads, scene_estimate *out)
+{
+    scene_job job;
+    double dt;
+    TRY(scene_job_make(c, state, cells, &job));
+    TRY(mpm_estimate(&job.scene, &out->particles, &out->bytes, &dt));
+    out->steps = job.scene.end_time / dt;
+    out->seconds = out->steps * (double)out->particles * CHECK_SECONDS_A_STEP / threads;
+    return status_ok();
+}
+
+status command_check(const breech_case *c, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n)
+{
+    *n = 0;
+    if (c->given.projectile && !isnan(c->scene.velocity) && !isnan(c->particle.radius)) {
+        const site_state state = state_of_case(c);
+        snprintf(out[*n].what, sizeof out->what, "scene, %g m/s, %g cells a radius", state.velocity,
+                 c->scene.cells_per_radius);
+        TRY(estimate(c, &state, c->scene.cells_per_radius, threads, &out[(*n)++]));
+    }
+    if (!c->given.projectile || c->sites.n == 0) return status_ok();
+    const double cells[] = { c->study.coarse_cells_per_radius, c->study.fine_cells_per_radius };
+    for (int k = 0; k < 2; k++) {
+        site_state state = state_of_case(c);
+        state.grain = c->sites.item[0];
+        state.velocity = c->study.velocity_low;
+        snprintf(out[*n].what, sizeof out->what, "onset, %g m/s, %g cells a radius", state.velocity, cells[k]);
+        TRY(estimate(c, &state, cells[k], threads, &out[(*n)++]));
+    }
+    return status_ok();
+}

@@ -1,0 +1,36 @@
+/* What the commands of the program do, one function a command; main.c says which, with what, and prints.
+ *
+ * A command fills its part of the summary; what it borrows stays valid until command_free. */
+#ifndef BREECH_COUPLING_COMMANDS_H
+#define BREECH_COUPLING_COMMANDS_H
+
+#include "coupling/study/onset.h"
+
+typedef struct {
+    run_summary summary; /* borrows what follows */
+    shot_record shot;
+    scene_result scene;
+    onset_answer onset;
+    inductance_result inductance;
+    double *gradients; /* of the inductance result, owned */
+} command_result;
+
+status command_shot(session *s, command_result *out);
+status command_scene(session *s, command_result *out);
+status command_onset(session *s, command_result *out);
+status command_inductance(session *s, command_result *out);
+void command_free(command_result *r);
+
+/* `breech check`: what each scene the case leads to would take. */
+typedef struct {
+    char what[80];
+    size_t particles, bytes;
+    double steps, seconds; /* at CHECK_SECONDS_A_STEP a particle-step on this machine's threads [1, s] */
+} scene_estimate;
+enum { CHECK_MAX_ESTIMATES = 3 };
+#define CHECK_SECONDS_A_STEP 150e-9 /* one thread */
+
+/* The scene of the case, and of its first site the slowest and finest of the search; *n of them. */
+status command_check(const breech_case *c, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n);
+
+#endif

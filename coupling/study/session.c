@@ -1,0 +1,241 @@
+#include "coupling/study/session.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const double ENERGY_ERROR_LIMIT = 0.01; /* above it a scene is warned about (issue's bound of the base case) */
+
+double session_wall(const session *s)
+{
+    return s->wall_before + wall_clock() - s->started;
+}
+
+void session_warn(session *s, const char *format, ...)
+{
+    char line[600];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(line, sizeof line, format, args);
+    va_end(args);
+    const size_t old = s->warnings ? strlen(s->warnings) : 0, more = strlen(line);
+    char *all = realloc(s->warnings, old + more + 2);
+    if (!all) return;
+    snprintf(all + old, more + 2, "%s\n", line);
+    s->warnings = all;
+    progress_say(&s->progress, "warning: %s", line);
+}
+
+/* ---- checkpoints: the store as it lies, after a head that says how long it is ---- */
+
+typedef struct {
+    uint64_t scenes, scene_bytes;
+    double scene_wall; /* spent in the scene under way [s] */
+} store_head;
+
+static status checkpoint_path(const session *s, char path[OUTDIR_PATH_SIZE])
+{
+    return outdir_file(&s->dir, OUTDIR_CHECKPOINT, path, OUTDIR_PATH_SIZE);
+}
+
+static status write_checkpoint(const session *s, checkpoint *c, double scene_wall)
+{
+    char path[OUTDIR_PATH_SIZE];
+    const store_head head = { (uint64_t)s->n_store, sizeof(stored_scene), scene_wall };
+    const size_t bytes = (size_t)s->n_store * sizeof(stored_scene);
+    TRY(checkpoint_path(s, path));
+    char *study = malloc(sizeof head + bytes);
+    CHECK(study, STATUS_MEMORY, "no memory for a checkpoint of %d scenes", s->n_store);
+    memcpy(study, &head, sizeof head);
+    if (bytes) memcpy(study + sizeof head, s->store, bytes);
+    c->study = study;
+    c->study_bytes = sizeof head + bytes;
+    c->wall_seconds = session_wall(s);
+    const status done = checkpoint_write(path, &s->key, c);
+    free(study);
+    return done;
+}
+
+static status take_up(session *s)
+{
+    char path[OUTDIR_PATH_SIZE];
+    store_head head;
+    TRY(checkpoint_path(s, path));
+    TRY(checkpoint_read(path, &s->key, &s->resumed));
+    CHECK(s->resumed.study_bytes >= sizeof head, STATUS_IO, "%.300s: holds no study; start over with --force", path);
+    memcpy(&head, s->resumed.study, sizeof head);
+    CHECK(head.scene_bytes == sizeof(stored_scene) &&
+              s->resumed.study_bytes == sizeof head + head.scenes * sizeof(stored_scene),
+          STATUS_IO, "%.300s: its store of scenes is of another build; start over with --force", path);
+    s->store = malloc((head.scenes + 1) * sizeof *s->store);
+    CHECK(s->store, STATUS_MEMORY, "no memory for %llu scenes", (unsigned long long)head.scenes);
+    memcpy(s->store, (const char *)s->resumed.study + sizeof head, head.scenes * sizeof *s->store);
+    s->n_store = (int)head.scenes;
+    s->wall_before = s->resumed.wall_seconds;
+    return status_ok();
+}
+
+static double resumed_scene_wall(const session *s)
+{
+    store_head head;
+    memcpy(&head, s->resumed.study, sizeof head);
+    return head.scene_wall;
+}
+
+/* ---- opening and closing ---- */
+
+/* used.yaml into the directory, its hash into the key. */
+static status write_used(session *s)
+{
+    char *text = NULL, path[OUTDIR_PATH_SIZE];
+    size_t bytes = 0;
+    FILE *f = open_memstream(&text, &bytes);
+    CHECK(f, STATUS_MEMORY, "no memory for used.yaml");
+    status done = case_write_used(s->c, f);
+    if (fclose(f) != 0 && done.code == STATUS_OK) done = status_error(STATUS_MEMORY, "no memory for used.yaml");
+    s->key = checkpoint_key_of(mpm_instruction_set(), hash_bytes(0, text, bytes));
+    if (done.code == STATUS_OK) done = outdir_file(&s->dir, OUTDIR_USED, path, sizeof path);
+    if (done.code == STATUS_OK && s->dir.state == OUTDIR_NEW) done = file_write(path, text, bytes);
+    free(text);
+    return done;
+}
+
+status session_open(const breech_case *c, const session_options *o, session *s)
+{
+    char dir[OUTDIR_PATH_SIZE];
+    memset(s, 0, sizeof *s);
+    s->c = c;
+    s->dir.lock = -1;
+    s->threads = o->threads;
+    s->stop = o->stop;
+    s->run_scene = scene_run;
+    s->started = wall_clock();
+    s->warnings = strdup(c->warnings);
+    CHECK(s->warnings, STATUS_MEMORY, "no memory for the warnings");
+    progress_open(&s->progress, o->progress_to, o->quiet);
+    timing_open(&s->timing);
+    if (o->dir)
+        CHECK(snprintf(dir, sizeof dir, "%s", o->dir) < (int)sizeof dir, STATUS_BAD_INPUT, "-o: the path is too long");
+    else
+        TRY(outdir_default(c->name, dir, sizeof dir));
+    TRY(outdir_open(dir, o->how, &s->dir));
+    if (s->dir.state == OUTDIR_FINISHED) return status_ok();
+    TRY(write_used(s));
+    if (s->dir.state == OUTDIR_RESUMED) TRY(take_up(s));
+    TRY(outdir_file(&s->dir, OUTDIR_HISTORY, dir, sizeof dir));
+    return history_open(dir, s->dir.state == OUTDIR_RESUMED, &s->history);
+}
+
+status session_close(session *s, bool finished)
+{
+    char path[OUTDIR_PATH_SIZE];
+    progress_close(&s->progress);
+    const status done = history_close(s->history);
+    if (finished && s->dir.lock >= 0 && checkpoint_path(s, path).code == STATUS_OK) unlink(path);
+    outdir_close(&s->dir);
+    checkpoint_free(&s->resumed);
+    free(s->store);
+    free(s->warnings);
+    s->history = NULL;
+    s->store = NULL;
+    s->warnings = NULL;
+    return done;
+}
+
+/* ---- the shot ---- */
+
+status session_shot(session *s, const site_jump *jump, bool with_history, shot_outcome *out, shot_record *record)
+{
+    const double since = wall_clock();
+    progress_task(&s->progress, jump ? "shot with gouges" : "shot", 0.0, 0);
+    const shot_plan plan = {
+        .history = with_history ? s->history : NULL, .progress = &s->progress, .jump = jump, .stop = s->stop
+    };
+    const status done = shot_run(s->c, &plan, out);
+    if (s->history && done.code == STATUS_OK) TRY(history_tick(s->history));
+    timing_add(&s->timing, "shot", wall_clock() - since);
+    *record = (shot_record){ out->summary, wall_clock() - since };
+    return done;
+}
+
+/* ---- scenes ---- */
+
+static const stored_scene *find_scene(const session *s, const char *name)
+{
+    for (int i = 0; i < s->n_store; i++)
+        if (strcmp(s->store[i].entry.name, name) == 0) return &s->store[i];
+    return NULL;
+}
+
+static status save_inside(void *user, const char *scene, const mpm *m, double wall)
+{
+    const session *s = user;
+    checkpoint c = { .scene_hash = hash_bytes(0, scene, strlen(scene)), .scene_time = mpm_state(m).time };
+    void *image = NULL;
+    snprintf(c.scene, sizeof c.scene, "%s", scene);
+    TRY(mpm_save(m, &image, &c.image_bytes));
+    c.image = image;
+    const status done = write_checkpoint(s, &c, wall);
+    free(image);
+    return done;
+}
+
+static status keep_scene(session *s, const stored_scene *scene)
+{
+    stored_scene *more = realloc(s->store, ((size_t)s->n_store + 1) * sizeof *more);
+    CHECK(more, STATUS_MEMORY, "no memory for %d scenes", s->n_store + 1);
+    s->store = more;
+    s->store[s->n_store++] = *scene;
+    checkpoint between = { .scene = "" };
+    TRY(history_flush(s->history));
+    return write_checkpoint(s, &between, 0.0);
+}
+
+static void warn_of(session *s, const onset_scene *e)
+{
+    const scene_result *r = &e->result;
+    if (fabs(r->energy_error) > ENERGY_ERROR_LIMIT)
+        session_warn(s, "scene %s: energy error %.2f %%, above %.0f %%: lower scene.courant or raise the resolution",
+                     e->name, 100.0 * r->energy_error, 100.0 * ENERGY_ERROR_LIMIT);
+    if (r->crater_truncated)
+        session_warn(s,
+                     "scene %s: the crater reaches the edge of the fine zone: enlarge scene.fine_ahead or fine_width",
+                     e->name);
+}
+
+static void set_resume(const session *s, scene_job *job)
+{
+    if (s->resumed.image && strcmp(s->resumed.scene, job->name) == 0)
+        job->resume =
+            (scene_resume){ s->resumed.image, s->resumed.image_bytes, s->resumed.scene_time, resumed_scene_wall(s) };
+}
+
+status session_scene(session *s, scene_job *job, const onset_scene *about, const stored_scene **out)
+{
+    *out = find_scene(s, about->name);
+    if (*out) return status_ok();
+    stored_scene fresh;
+    impact hit;
+    memset(&fresh, 0, sizeof fresh);
+    memcpy(&fresh.entry, about, sizeof *about);
+    job->name = about->name;
+    set_resume(s, job);
+    const scene_host host = { .dir = &s->dir,
+                              .history = s->history,
+                              .progress = &s->progress,
+                              .timing = &s->timing,
+                              .threads = s->threads,
+                              .stop = s->stop,
+                              .save = save_inside,
+                              .user = s };
+    TRY(s->run_scene(job, &host, &hit));
+    fresh.entry.result = hit.result;
+    fresh.impulse = hit.impulse;
+    fresh.mass_loss = hit.mass_loss;
+    TRY(keep_scene(s, &fresh));
+    *out = &s->store[s->n_store - 1];
+    warn_of(s, &(*out)->entry);
+    return status_ok();
+}

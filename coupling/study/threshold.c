@@ -1,0 +1,267 @@
+#include "coupling/study/threshold.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double TYPICAL = 1500.0;   /* of thresholds [m/s] */
+static const double COARSE_WIDTH = 0.2; /* of the coarse bracket over its middle [1] */
+static const double INNER_EDGE = 0.2;   /* of a bracket, kept free on both sides by the secant [1] */
+
+double threshold_step(double interval)
+{
+    static const double nice[] = { 5.0, 2.5, 1.0 };
+    const double wanted = 0.5 * interval * TYPICAL, decade = pow(10.0, floor(log10(wanted)));
+    for (int i = 0; i < 2; i++)
+        if (nice[i] * decade <= wanted * (1.0 + 1e-12)) return nice[i] * decade;
+    return nice[2] * decade;
+}
+
+/* ---- asking ---- */
+
+typedef struct {
+    const threshold_plan *plan;
+    const threshold_source *source;
+    threshold_result *out;
+    double cells; /* of the stage */
+} search;
+
+/* Two ends of a bracket: lo on the lower side, hi on the upper one. */
+typedef struct {
+    threshold_sample lo, hi;
+    bool has_lo, has_hi;
+} bracket;
+
+static bool is_upper(const threshold_sample *s)
+{
+    return s->class == DAMAGE_GOUGE || (s->class == DAMAGE_UNDECIDED && s->excess >= 0.0);
+}
+
+static double on_grid(const search *s, double v)
+{
+    const threshold_plan *p = s->plan;
+    const double lowest = ceil(p->low / p->step - 1e-9), highest = floor(p->high / p->step + 1e-9);
+    return p->step * fmin(fmax(round(v / p->step), lowest), highest);
+}
+
+static bool budget_left(const search *s)
+{
+    return s->out->samples < s->plan->max_scenes && s->out->samples < THRESHOLD_MAX_SAMPLES;
+}
+
+static status ask(search *s, double v, threshold_sample *out)
+{
+    threshold_result *r = s->out;
+    for (int i = 0; i < r->samples; i++)
+        if (r->sample[i].velocity == v && r->sample[i].cells_per_radius == s->cells) {
+            *out = r->sample[i];
+            return status_ok();
+        }
+    TRY(s->source->run(s->source->user, v, s->cells, out));
+    out->velocity = v;
+    out->cells_per_radius = s->cells;
+    CHECK(isfinite(out->excess), STATUS_NUMERICAL, "the impact at %g m/s has no severity: its crater was not measured",
+          v);
+    r->sample[r->samples++] = *out;
+    return status_ok();
+}
+
+/* One more value; the bracket takes it where it narrows or moves it. */
+static status probe(search *s, double v, bracket *b)
+{
+    threshold_sample a;
+    TRY(ask(s, on_grid(s, v), &a));
+    if (is_upper(&a)) {
+        b->hi = a;
+        b->has_hi = true;
+    } else {
+        b->lo = a;
+        b->has_lo = true;
+    }
+    return status_ok();
+}
+
+/* ---- within a bracket ---- */
+
+static double width(const bracket *b)
+{
+    return b->hi.velocity - b->lo.velocity;
+}
+
+static double middle(const bracket *b)
+{
+    return 0.5 * (b->lo.velocity + b->hi.velocity);
+}
+
+/* Where the severity crosses its limit, by the two ends; the middle where a class contradicts the severity's sign. */
+static double root(const bracket *b)
+{
+    const double below = -b->lo.excess, above = b->hi.excess;
+    if (below <= 0.0 || above < 0.0) return middle(b);
+    return b->lo.velocity + width(b) * below / (below + above);
+}
+
+static status narrow(search *s, double wanted, bracket *b)
+{
+    while (width(b) > wanted * middle(b) && width(b) > 1.5 * s->plan->step && budget_left(s)) {
+        const double edge = INNER_EDGE * width(b);
+        double v = on_grid(s, fmin(fmax(root(b), b->lo.velocity + edge), b->hi.velocity - edge));
+        if (v <= b->lo.velocity || v >= b->hi.velocity) v = on_grid(s, middle(b));
+        if (v <= b->lo.velocity || v >= b->hi.velocity) return status_ok();
+        TRY(probe(s, v, b));
+    }
+    return status_ok();
+}
+
+/* ---- the stages ---- */
+
+static bool complete(const bracket *b)
+{
+    return b->has_lo && b->has_hi;
+}
+
+/* From `at` away from the side it lies on, in doubling steps, to a change of side or the end of the range. */
+static status widen(search *s, double step, bracket *b)
+{
+    while (!complete(b) && budget_left(s)) {
+        const double from = b->has_hi ? b->hi.velocity : b->lo.velocity;
+        const double v = on_grid(s, b->has_hi ? from - step : from + step);
+        if (v == from) return status_ok();
+        TRY(probe(s, v, b));
+        step *= 2.0;
+    }
+    return status_ok();
+}
+
+static status coarse_stage(search *s, bracket *b)
+{
+    const threshold_plan *p = s->plan;
+    s->cells = p->coarse;
+    TRY(probe(s, 0.5 * (p->low + p->high), b));
+    TRY(widen(s, 0.25 * (p->high - p->low), b));
+    return complete(b) ? narrow(s, fmax(COARSE_WIDTH, p->interval), b) : status_ok();
+}
+
+static status fine_stage(search *s, double expected, bracket *b)
+{
+    const threshold_plan *p = s->plan;
+    const double half = fmax(p->step, 0.5 * p->interval * expected);
+    s->cells = p->fine;
+    TRY(probe(s, expected - half, b));
+    if (!budget_left(s)) return status_ok();
+    if (b->has_lo) /* else the next one down is a better guess than the one above */
+        TRY(probe(s, fmax(expected + half, b->lo.velocity + p->step), b));
+    TRY(widen(s, 2.0 * half, b));
+    return complete(b) ? narrow(s, p->interval, b) : status_ok();
+}
+
+/* ---- the answer ---- */
+
+/* Decided scenes of a stage around the crossing: the highest surely lower one below every surely upper one above. */
+static void decided_interval(const threshold_result *r, double cells, const bracket *b, double interval[2])
+{
+    double lo = NAN, hi = NAN;
+    for (int i = 0; i < r->samples; i++) {
+        const threshold_sample *a = &r->sample[i];
+        if (a->cells_per_radius != cells || a->class == DAMAGE_UNDECIDED) continue;
+        if (!is_upper(a) && a->velocity <= b->lo.velocity) lo = fmax(isnan(lo) ? a->velocity : lo, a->velocity);
+        if (is_upper(a) && a->velocity >= b->hi.velocity) hi = fmin(isnan(hi) ? a->velocity : hi, a->velocity);
+    }
+    interval[0] = isnan(lo) ? b->lo.velocity : lo;
+    interval[1] = isnan(hi) ? b->hi.velocity : hi;
+}
+
+static void check_monotone(threshold_result *r, double cells)
+{
+    double highest_lower = -INFINITY, lowest_upper = INFINITY;
+    for (int i = 0; i < r->samples; i++) {
+        const threshold_sample *a = &r->sample[i];
+        if (a->cells_per_radius != cells) continue;
+        if (is_upper(a))
+            lowest_upper = fmin(lowest_upper, a->velocity);
+        else
+            highest_lower = fmax(highest_lower, a->velocity);
+    }
+    r->monotone = r->monotone && highest_lower < lowest_upper;
+    if (highest_lower < lowest_upper) return;
+    snprintf(
+        r->warning, sizeof r->warning,
+        "severity does not rise with the velocity (%g cells a radius): above its limit at %g m/s, below it at %g m/s; "
+        "the interval spans both",
+        cells, lowest_upper, highest_lower);
+    r->interval[0] = fmin(r->interval[0], lowest_upper);
+    r->interval[1] = fmax(r->interval[1], highest_lower);
+}
+
+static void one_sided(const search *s, const bracket *b, threshold_result *r)
+{
+    const double grid_low = on_grid(s, s->plan->low), grid_high = on_grid(s, s->plan->high);
+    r->outcome = THRESHOLD_UNKNOWN;
+    if (b->has_hi) r->interval[1] = r->bracket[1] = b->hi.velocity;
+    if (b->has_lo) r->interval[0] = r->bracket[0] = b->lo.velocity;
+    if (b->has_hi && b->hi.velocity == grid_low) r->outcome = THRESHOLD_BELOW;
+    if (b->has_lo && b->lo.velocity == grid_high) r->outcome = THRESHOLD_ABOVE;
+}
+
+static void conclude(const search *s, const bracket *b, threshold_result *r)
+{
+    if (!complete(b)) {
+        one_sided(s, b, r);
+        return;
+    }
+    r->outcome = THRESHOLD_FOUND;
+    r->velocity = root(b);
+    r->bracket[0] = b->lo.velocity;
+    r->bracket[1] = b->hi.velocity;
+    decided_interval(r, s->cells, b, r->interval);
+    check_monotone(r, s->plan->coarse);
+    if (s->cells != s->plan->coarse) check_monotone(r, s->cells);
+    if (isnan(r->shift)) return;
+    r->interval[0] -= fabs(r->shift);
+    r->interval[1] += fabs(r->shift);
+}
+
+static status check_plan(const threshold_plan *p)
+{
+    CHECK(p->low > 0.0 && p->high > p->low && p->step > 0.0 && p->interval > 0.0, STATUS_BAD_INPUT,
+          "threshold: the range %g .. %g m/s in steps of %g m/s to an interval of %g is empty", p->low, p->high,
+          p->step, p->interval);
+    CHECK(floor(p->high / p->step + 1e-9) > ceil(p->low / p->step - 1e-9), STATUS_BAD_INPUT,
+          "threshold: study.velocity_low = %g m/s and velocity_high = %g m/s hold fewer than two velocities %g m/s "
+          "apart: "
+          "widen them or lower study.velocity_interval",
+          p->low, p->high, p->step);
+    CHECK(p->max_scenes >= 1, STATUS_BAD_INPUT, "study.max_scenes = %d: at least 1", p->max_scenes);
+    return status_ok();
+}
+
+status threshold_search(const threshold_plan *plan, const threshold_source *source, threshold_result *out)
+{
+    memset(out, 0, sizeof *out);
+    out->velocity = out->shift = NAN;
+    out->interval[0] = out->interval[1] = out->bracket[0] = out->bracket[1] = NAN;
+    out->monotone = true;
+    TRY(check_plan(plan));
+    search s = { .plan = plan, .source = source, .out = out };
+    bracket coarse = { .has_lo = false }, fine = { .has_lo = false };
+    TRY(coarse_stage(&s, &coarse));
+    const bool refine = plan->fine != plan->coarse && complete(&coarse) && budget_left(&s);
+    if (!refine) {
+        if (complete(&coarse)) TRY(narrow(&s, plan->interval, &coarse));
+        conclude(&s, &coarse, out);
+        return status_ok();
+    }
+    TRY(fine_stage(&s, root(&coarse), &fine));
+    if (complete(&fine)) out->shift = root(&fine) - root(&coarse);
+    if (!complete(&fine) && !budget_left(&s)) {
+        s.cells = plan->coarse;
+        conclude(&s, &coarse, out);
+        snprintf(
+            out->warning, sizeof out->warning,
+            "study.max_scenes = %d spent before %g cells a radius had a bracket: the threshold is that of %g cells",
+            plan->max_scenes, plan->fine, plan->coarse);
+        return status_ok();
+    }
+    conclude(&s, &fine, out);
+    return status_ok();
+}

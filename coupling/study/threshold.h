@@ -1,0 +1,68 @@
+/* The search for a threshold velocity: where the severity of an impact crosses its limit.
+ *
+ * What is known of the function: nothing but values at velocities we pay for, each at a resolution, each with a class.
+ *   1. Coarse: from the middle of the range outwards to a change of side, then in between by the secant kept within the
+ *      bracket's inner 60 %, until the bracket is a fifth of its middle or the wanted interval, whichever is more.
+ *   2. Fine: beside the coarse root, one wanted half interval below and above; where both lie on one side the bracket
+ *      moves there in doubling steps; then halving to the wanted interval or the grid's step.
+ *   3. Interval: the fine bracket, by decided scenes (an `undecided` one takes the side of its severity, but does not end
+ *      the interval), widened by the shift of the root from coarse to fine.
+ * Monotonicity is checked: a higher velocity on the lower side of a lower one widens the interval over both and warns.
+ * Velocities lie on the grid k * step, so that scenes are shared, and none is asked for twice. */
+#ifndef BREECH_COUPLING_THRESHOLD_H
+#define BREECH_COUPLING_THRESHOLD_H
+
+#include "base/status.h"
+#include "mpm/crater.h"
+
+#include <stdbool.h>
+
+enum { THRESHOLD_MAX_SAMPLES = 256, THRESHOLD_WARNING_SIZE = 300 };
+
+/* One scene's answer. */
+typedef struct {
+    double velocity;         /* [m/s] */
+    double cells_per_radius; /* [1] */
+    double excess;           /* severity less its limit [1] */
+    damage_class class;
+} threshold_sample;
+
+/* Gives the answer at a velocity of the grid.  STATUS_STOPPED or an error ends the search. */
+typedef struct {
+    status (*run)(void *user, double velocity, double cells_per_radius, threshold_sample *out);
+    void *user; /* borrowed */
+} threshold_source;
+
+typedef struct {
+    double low, high;    /* where to look [m/s] */
+    double step;         /* of the grid of velocities [m/s] */
+    double interval;     /* wanted width of the bracket over its middle [1] */
+    double coarse, fine; /* cells a radius; equal: one stage [1] */
+    int max_scenes;
+} threshold_plan;
+
+typedef enum {
+    THRESHOLD_FOUND,
+    THRESHOLD_BELOW,  /* gouges at the low end already */
+    THRESHOLD_ABOVE,  /* does not at the high end */
+    THRESHOLD_UNKNOWN /* max_scenes did not suffice for a change of side */
+} threshold_outcome;
+
+typedef struct {
+    threshold_outcome outcome;
+    double velocity;    /* of the crossing, between the bracket's ends by severity; NaN unless found [m/s] */
+    double interval[2]; /* where it lies; an end that is not known is NaN [m/s] */
+    double bracket[2];  /* of the last stage alone [m/s] */
+    double shift;       /* of the root from coarse to fine, NaN if there is only one [m/s] */
+    bool monotone;
+    char warning[THRESHOLD_WARNING_SIZE]; /* "" if none */
+    int samples;
+    threshold_sample sample[THRESHOLD_MAX_SAMPLES]; /* in the order they were asked for */
+} threshold_result;
+
+status threshold_search(const threshold_plan *plan, const threshold_source *source, threshold_result *out);
+
+/* Grid step for a wanted interval around 1.5 km/s: half of it, rounded down to 1, 2.5 or 5 times a power of ten [m/s]. */
+double threshold_step(double interval);
+
+#endif
