@@ -410,13 +410,27 @@ static void measure_outline(const crater_spec *spec, const outline *o, crater *c
     c->rim_height = highest(c, o, fmax(c->width, 4.0 * spec->particle_radius), -INFINITY, &c->rim_x);
 }
 
+/* How far V leans downstream: 6 <x - x_middle>/length over d w(d), 0 for a constant section, 1 for a wedge that begins at
+ * a point, negative for one that dies out. */
+static double lean_of(const outline *o, const crater *c)
+{
+    double moment = 0.0, sum = 0.0;
+    for (int i = o->first; i <= o->last; i++)
+        for (int j = 0; j < c->nz; j++) {
+            const double d = c->depth_map[(size_t)i * (size_t)c->nz + (size_t)j];
+            sum += d * weight(d, c->measuring_depth);
+            moment += d * weight(d, c->measuring_depth) * (c->x0 + c->dx * i - 0.5 * (o->x_lo + o->x_hi));
+        }
+    return sum > 0.0 ? 6.0 * moment / (sum * c->length) : 0.0;
+}
+
 /* ---- the class ---- */
 
 static void classify(const crater_spec *spec, double rim_downstream, crater *c)
 {
     const bool wide = c->widening >= spec->limit_widening, severe = c->severity >= spec->limit_severity;
     const bool rim = rim_downstream > c->measuring_depth;
-    if (!wide && !severe)
+    if (!severe && !(wide && rim))
         c->class = DAMAGE_SCRATCH;
     else
         c->class = wide && severe && rim ? DAMAGE_GOUGE : DAMAGE_UNDECIDED;
@@ -431,7 +445,7 @@ static void measure(const crater_spec *spec, const bool *mask, outline *o, crate
 {
     c->volume = volume_of(c, 0.0);
     c->volume_beside = volume_of(c, spec->particle_radius);
-    c->severity = (c->volume - spec->particle_area * spec->particle_height) / spec->particle_volume; /* (M-21) */
+    c->severity = -spec->particle_area * spec->particle_height / spec->particle_volume; /* (M-21) of no crater */
     if (!trace(c, mask, o)) {
         c->class = DAMAGE_NONE;
         snprintf(c->reason, sizeof c->reason, "no depth above the measuring depth of %.3f mm",
@@ -439,6 +453,8 @@ static void measure(const crater_spec *spec, const bool *mask, outline *o, crate
         return;
     }
     measure_outline(spec, o, c);
+    c->lean = lean_of(o, c);
+    c->severity += c->lean * c->volume / spec->particle_volume; /* (M-21) */
     const double margin = fmax(c->width, 4.0 * spec->particle_radius);
     double x;
     classify(spec, highest(c, o, margin, 0.5 * (o->x_lo + o->x_hi), &x), c);

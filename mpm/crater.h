@@ -17,17 +17,19 @@
  *   depth, deepest_x  largest d and where
  *   volume     V = sum of d w(d) over all cells, w rising smoothly from 0 at d_m to 1 at 1.5 d_m              (M-20) [m3]
  *   volume_beside  the part of V beside the particle's own track, |z| > particle_radius
- *   severity   (V - A h) / V_p, A, h, V_p plan area, height and volume of the particle                        (M-21) [1]
+ *   lean       6 <x - x_middle> / length, the mean over V: 0 for a groove of constant section, 1 for a wedge that begins at
+ *              a point, negative for a groove that dies out
+ *   severity   (lean V - A h) / V_p, A, h, V_p plan area, height and volume of the particle                   (M-21) [1]
  *   widening   mean width of the downstream third of the length over that of the upstream third
  *   rim_height largest height above the surface within max(width, 4 particle_radius) of the crater, rim_x where
  * Because w is smooth, V and severity are continuous in the surface: a shallow scratch does not jump in as a whole when it
  * passes d_m, and springback or noise below d_m counts nothing.  Severity is - A h / V_p (-1.5 for a hemisphere) without
- * a crater, and 0 when the crater holds as much as the particle's cylinder A h.  It knows the volume alone: a narrow
- * scratch that is long enough passes 0 too, and then only `widening` tells it from a gouge; that makes `undecided`
- * (volume_beside does not grow with a scratch's length).
+ * a crater; below that where the groove dies out, however long it is; it passes 0 where what grows downstream exceeds the
+ * particle's cylinder A h.  V alone would not do: at 1.0 km/s the groove of a 0.5 mm grain holds 2.1 mm3, five times A h,
+ * and dies out after 6 mm; at 1.5 km/s it grows until the armature has passed (docs/scene-solver.md).
  *
- * Class.  none: no cell above d_m.  scratch: widening < limit_widening and severity < limit_severity.  gouge: both at or
- * above their limits and a rim higher than d_m downstream of the crater's middle.  Else undecided. */
+ * Class.  none: no cell above d_m.  gouge: severity and widening at or above their limits and a rim higher than d_m
+ * downstream of the crater's middle.  scratch: severity below its limit, and not both widening and rim.  Else undecided. */
 #ifndef BREECH_MPM_CRATER_H
 #define BREECH_MPM_CRATER_H
 
@@ -64,7 +66,7 @@ typedef struct {
 typedef struct {
     damage_class class;
     char reason[200];                                               /* the numbers behind the class, in words */
-    double severity, widening;                                      /* [1]; without a crater all but severity is 0 */
+    double severity, widening, lean;                                /* [1]; without a crater all but severity is 0 */
     double length, width, depth, volume, volume_beside, rim_height; /* [m, m3] */
     double rim_x, deepest_x;                                        /* [m] */
     double measuring_depth;                                         /* d_m [m] */
