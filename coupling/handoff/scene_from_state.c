@@ -68,7 +68,7 @@ static layout lay_out(const breech_case *c, const case_site *g, double cells_per
     layout l = { .fine = g->radius / cells_per_radius };
     l.coarse = fmax(s->coarse_cell, l.fine);
     l.run = p->chamfer_height / tan(p->lead_angle);
-    l.x_front = -g->radius - g->height / tan(p->lead_angle) - l.fine;
+    l.x_front = -g->radius - fmin(g->height, p->chamfer_height) / tan(p->lead_angle) - l.fine;
     l.behind = fmax(s->rail_behind, p->length - l.run - l.x_front + 2.0 * l.coarse);
     l.ahead = s->rail_ahead;
     const double room = 3.0 * l.coarse;
@@ -286,29 +286,28 @@ static void set_method(const breech_case *c, mpm_scene *s)
 
 /* ---- the crater ---- */
 
-/* Plan area and volume of the part above y = 0 by columns; cells across the surface count by their signed distance. */
+/* Plan area and volume of the part above y = 0, by the middles of N_PLAN x N_UP x N_PLAN cells of its box. */
 static void measure_grain(const mpm_body *b, double *area, double *volume)
 {
-    enum { N = 64 };
+    enum { N_PLAN = 128, N_UP = 48 };
     double lo[3], hi[3], h[3];
+    int columns = 0, cells = 0;
     b->shape->bounds(&b->shape_value, lo, hi);
     lo[1] = fmax(lo[1], 0.0);
-    for (int k = 0; k < 3; k++) h[k] = (hi[k] - lo[k]) / N;
-    const double cell = cbrt(h[0] * h[1] * h[2]), plan = sqrt(h[0] * h[2]);
-    *area = *volume = 0.0;
-    for (int ix = 0; ix < N; ix++)
-        for (int iz = 0; iz < N; iz++) {
-            double deepest = -INFINITY;
-            for (int iy = 0; iy < N; iy++) {
-                const double x[3] = { lo[0] + (ix + 0.5) * h[0], lo[1] + (iy + 0.5) * h[1], lo[2] + (iz + 0.5) * h[2] };
-                const double d = b->shape->inside(&b->shape_value, x);
-                *volume += fmin(fmax(0.5 + d / cell, 0.0), 1.0);
-                deepest = fmax(deepest, d);
+    for (int k = 0; k < 3; k++) h[k] = (hi[k] - lo[k]) / (k == 1 ? N_UP : N_PLAN);
+    for (int ix = 0; ix < N_PLAN; ix++)
+        for (int iz = 0; iz < N_PLAN; iz++) {
+            const double foot[3] = { lo[0] + (ix + 0.5) * h[0], lo[1] + 1e-6 * h[1], lo[2] + (iz + 0.5) * h[2] };
+            int within = 0;
+            for (int iy = 0; iy < N_UP; iy++) {
+                const double x[3] = { foot[0], lo[1] + (iy + 0.5) * h[1], foot[2] };
+                within += b->shape->inside(&b->shape_value, x) > 0.0;
             }
-            *area += fmin(fmax(0.5 + deepest / plan, 0.0), 1.0);
+            cells += within;
+            columns += within > 0 || b->shape->inside(&b->shape_value, foot) > 0.0;
         }
-    *area *= h[0] * h[2];
-    *volume *= h[0] * h[1] * h[2];
+    *area = columns * h[0] * h[2];
+    *volume = cells * h[0] * h[1] * h[2];
 }
 
 static crater_spec spec_of(const breech_case *c, const case_site *g, const mpm_scene *s)
