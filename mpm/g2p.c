@@ -259,8 +259,9 @@ LANE_INLINE void law_step(const law *k, const step_of *step, const v8 L[9], v8 t
         v8_store(q->damage[0], v8_min(damage0 + plastic / e_f, one));
     }
     const v8 stored = square_norm(s) / (4 * k->G * rho);
-    const v8 T =
-        k->plastic_heat ? v8_load(q->T[0]) + k->chi * mises * plastic / rho * k->inv_c : temperature(k, e, mu, stored);
+    const v8 T = k->plastic_heat ? v8_load(q->T[0]) + k->chi * mises * plastic / rho * k->inv_c
+                                 : temperature(k, e, v8_select(failed, v8_max(mu, zero), mu),
+                                               stored); /* dust was stretched at no cost */
     v8_store(q->T[0], T);
     v8_store(q->ep[0], ep0 + plastic);
     v8_store(q->flow[0], yield);
@@ -291,15 +292,18 @@ LANE_INLINE v8 block_move(block *q, const gathered *r, const step_of *step)
         v8_store(q->v[k], r->v[k]);
         v8_store(q->x[k], v8_load(q->x[k]) + dt * r->v[k]);
         const v8 grown = v8_load(q->half[k]) * (v8_set(1) + dt * r->L[4 * k]);
-        v8_store(q->half[k], grown);
+        v8_store(q->half[k], v8_min(v8_max(grown, v8_set(0.02 * step->h[k])), v8_set(step->h[k])));
     }
     return work;
 }
 
-/* Domains that outgrow their cell are split (movers.c) unless failed; lanes to take out of the block. */
-static int leaving_lanes(const mpm *m, const brick *b, int cell, const block *q, int mask, const cell_grid *g)
+/* Lanes to take out of the block: those that left the cell, that outgrew it (to be split, unless failed), that may be
+ * eroded; movers.c looks at each. */
+static int leaving_lanes(const mpm *m, const brick *b, int cell, int index, const cell_grid *g)
 {
     const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
+    const block *q = &m->blocks[index];
+    const law *law_of = &m->laws[m->links[index].body];
     const m8 whole = v8_less(v8_load(q->damage[0]), v8_set(1));
     m8 leave = { 0 };
     for (int k = 0; k < 3; k++) {
@@ -308,9 +312,11 @@ static int leaving_lanes(const mpm *m, const brick *b, int cell, const block *q,
         leave = m8_or(leave, m8_or(v8_less(x, v8_set(edge[0])), v8_at_least(x, v8_set(edge[1]))));
         leave = m8_or(leave, m8_and(v8_less(v8_set(0.4 * g->axis[k].cell), half), whole));
     }
+    leave = m8_or(leave, v8_less(v8_set(law_of->e_vapour), v8_load(q->e[0])));
+    leave = m8_or(leave, v8_less(v8_load(q->rho[0]), v8_set(law_of->rho_dust)));
     int lanes = 0;
     for (int l = 0; l < LANES; l++) lanes |= leave[l] ? 1 << l : 0;
-    return lanes & mask;
+    return lanes & m->links[index].mask;
 }
 
 static void book(brick *b, const block *q, const lane_sums *w, const step_of *step, int body, int index)
@@ -382,7 +388,7 @@ void ISA(g2p)(mpm *m, brick *b, int thread)
             prefetch_ahead(m, i);
             b->sum.particles += (uint64_t)__builtin_popcount(m->links[i].mask);
             one_block(m, b, i, &g, node);
-            const int leaving = leaving_lanes(m, b, cell, &m->blocks[i], m->links[i].mask, &g);
+            const int leaving = leaving_lanes(m, b, cell, i, &g);
             if (leaving && movers_reserve(&m->movers[thread], 2 * LANES)) movers_take(m, b, cell, i, leaving, thread);
         }
     }

@@ -85,6 +85,10 @@ static void thermal(law *k, const material *m, const mpm_body *body)
     const bool cold_metal = isnan(m->melting_temperature);
     k->T_m = cold_metal ? 1e9 : m->melting_temperature;
     k->inv_T_range = 1 / (k->T_m - k->T_r);
+    /* vapour: beyond five times the melting temperature the law is void (copper and aluminium boil at two to three
+     * times); dust: failed or molten and four times as thin as the solid */
+    k->e_vapour = cold_metal ? HUGE_VAL : k->c_v * (5 * k->T_m - k->T_r) + k->latent;
+    k->rho_dust = 0.25 * k->rho0;
     k->e_start = k->c_v * (body->temperature - k->T_r);
     k->rho_start = k->rho0 * (1 - k->g * k->rho0 * k->e_start / k->K0);
 }

@@ -21,6 +21,7 @@ typedef struct {
     double q1, q2;                   /* viscosity, linear and quadratic */
     bool plastic_heat;
     double flow_start;         /* first flow stress [Pa] */
+    double e_vapour, rho_dust; /* a point with more energy, or a failed or molten one that is thinner, is eroded */
     double e_start, rho_start; /* of a body at rest at its temperature and zero pressure */
 } law;
 

@@ -52,6 +52,13 @@ static void eject(tally *sum, const double *q)
     sum->ejected_energy += m * (0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + q[FIRST_ka] + q[FIRST_e]);
 }
 
+/* Vapour and dust: what no law here describes is taken out and booked, not kept as a hot, thin film between the bodies. */
+static bool erodes(const law *k, const double *q)
+{
+    const bool loose = q[FIRST_damage] >= 1 || q[FIRST_T] >= k->T_m;
+    return q[FIRST_e] > k->e_vapour || (loose && q[FIRST_rho] < k->rho_dust);
+}
+
 static void send(mpm *m, brick *b, const int cell[3], int body, const double *q, int thread)
 {
     mover_list *list = &m->movers[thread];
@@ -100,6 +107,13 @@ static int axis_to_split(const mpm *m, const brick *b, const int cell[3], const 
     return -1;
 }
 
+static void drop_lane(block *q, block_link *link, brick *b, int lane)
+{
+    link->mask &= (uint8_t) ~(1u << lane);
+    q->mass[0][lane] = q->area[0][lane] = 0;
+    b->particles--;
+}
+
 void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving, int thread)
 {
     const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
@@ -111,15 +125,20 @@ void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving, int t
         double one[BLOCK_DOUBLES], other[BLOCK_DOUBLES];
         for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][lane];
         const int k = axis_to_split(m, b, at, one);
+        if (erodes(&m->laws[link->body], one)) {
+            eject(&b->sum, one);
+            b->sum.eroded++;
+            b->sum.eroded_mass += one[FIRST_mass];
+            drop_lane(q, link, b, lane);
+            continue;
+        }
         if (k >= 0) {
             halve(one, other, k);
             send(m, b, at, link->body, other, thread);
             b->sum.splits++;
         }
         send(m, b, at, link->body, one, thread);
-        link->mask &= (uint8_t) ~(1u << lane);
-        q->mass[0][lane] = q->area[0][lane] = 0;
-        b->particles--;
+        drop_lane(q, link, b, lane);
     }
 }
 
@@ -223,7 +242,7 @@ status movers_exchange(mpm *m)
     for (int i = 0; i < m->bricks_used; i++) {
         brick *b = &m->bricks[i];
         if (!b->out) continue;
-        if (b->mover_steps)
+        if (b->mover_steps || b->sum.ejected)
             for (int c = 0; c < BRICK_CELLS; c++) tidy_cell(m, b, c);
         const bool empty = b->particles == 0;
         enough = arrive(m, b) && enough;

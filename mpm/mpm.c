@@ -230,7 +230,8 @@ static void add_tally(tally *a, const tally *b)
         a->peak_strain[i] = fmax(a->peak_strain[i], b->peak_strain[i]);
     }
     a->clamps_pressure += b->clamps_pressure, a->clamps_compression += b->clamps_compression;
-    a->splits += b->splits, a->ejected += b->ejected, a->particles += b->particles;
+    a->splits += b->splits, a->ejected += b->ejected, a->eroded += b->eroded, a->eroded_mass += b->eroded_mass;
+    a->particles += b->particles;
 }
 
 /* Sums in the order of bricks and sites, whatever the threads did. */
@@ -277,7 +278,7 @@ static void book(mpm *m, const tally *t)
     }
     r->peak_temperature = fmax(r->peak_temperature, t->peak_temperature);
     r->clamps_pressure += t->clamps_pressure, r->clamps_compression += t->clamps_compression;
-    r->splits += t->splits, r->ejected += t->ejected;
+    r->splits += t->splits, r->ejected += t->ejected, r->eroded += t->eroded, r->eroded_mass += t->eroded_mass;
     r->particle_steps += t->particles;
     r->particles = (size_t)(t->particles + t->splits - t->ejected);
 }

@@ -20,7 +20,7 @@ typedef struct {
     double heat_friction, heat_transfer, heat_viscous; /* booked so far; all three are part of `internal` [J] */
     double work_boundary, work_external; /* done on the model so far: boundaries; tractions and body forces [J] */
     double impulse_boundary[3], impulse_external[3];          /* [N s] */
-    double ejected_mass, ejected_momentum[3], ejected_energy; /* left the window so far */
+    double ejected_mass, ejected_momentum[3], ejected_energy; /* left the window or was eroded so far */
     double energy_start, momentum_start[3], kinetic_start, mass_start;
     double energy_error;   /* (energy now + ejected - work - energy at start) / kinetic energy at start [1] */
     double momentum_error; /* norm of the momentum left over / (mass x largest initial speed) [1] */
@@ -30,8 +30,9 @@ typedef struct {
     double time, dt; /* [s] */
     uint64_t steps, particle_steps, particle_steps_dense;
     size_t particles;
-    uint64_t clamps_pressure, clamps_compression, clamps_velocity; /* counted, never silent */
-    uint64_t splits, ejected;
+    uint64_t clamps_pressure, clamps_compression, clamps_velocity;         /* counted, never silent */
+    uint64_t splits, ejected, eroded;                                      /* ejected holds the eroded points too */
+    double eroded_mass;                                                    /* vapour and dust taken out so far [kg] */
     double peak_pressure, peak_temperature;                                /* any particle, any time so far [Pa, K] */
     double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES]; /* so far [Pa] */
     double peak_mises_999[MPM_MAX_BODIES],
