@@ -1,0 +1,236 @@
+/* Scenes for the tests of the solver, small enough to run in seconds.  Lengths in m.
+ *
+ * Materials are rows of the reference table, or the same metal made simple: `hydro` without strength, `elastic` with a
+ * yield stress out of reach, `dust` with as little stress as the solver takes. */
+#ifndef BREECH_TESTS_MPM_SCENES_H
+#define BREECH_TESTS_MPM_SCENES_H
+
+#include "mpm/mpm.h"
+#include "mpm/shape.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define SCENE_PI 3.14159265358979323846
+
+/* cmocka's own comparison is in single precision. */
+#define assert_near(value, want, tolerance)                                                    \
+    do {                                                                                       \
+        const double value_ = (value), want_ = (want), tolerance_ = (tolerance);               \
+        if (!(fabs(value_ - want_) <= tolerance_))                                             \
+            fail_msg("%s = %.12g, want %.12g within %.3g", #value, value_, want_, tolerance_); \
+    } while (0)
+
+#define assert_below(value, limit)                                                                 \
+    do {                                                                                           \
+        const double value_ = (value), limit_ = (limit);                                           \
+        if (!(value_ < limit_)) fail_msg("%s = %.6g, must be below %.6g", #value, value_, limit_); \
+    } while (0)
+
+#define assert_ok(call)                                                         \
+    do {                                                                        \
+        const status status_ = (call);                                          \
+        if (status_.code != STATUS_OK) fail_msg("%s: %s", #call, status_.text); \
+    } while (0)
+
+static inline bool scene_full(void)
+{
+    const char *full = getenv("BREECH_FULL");
+    return full && strcmp(full, "1") == 0;
+}
+
+/* ---- materials ---- */
+
+static inline material scene_copper(void) /* row ofhc_copper */
+{
+    material m;
+    params_default(material_params, &m);
+    strcpy(m.name, "ofhc_copper");
+    m.density = 8960, m.youngs_modulus = 124e9, m.poisson = 0.34;
+    m.specific_heat = 383, m.conductivity = 386;
+    m.reference_temperature = 293, m.melting_temperature = 1356;
+    m.yield_A = 90e6, m.hardening_B = 292e6, m.hardening_n = 0.31, m.rate_C = 0.025, m.softening_m = 1.09, m.rate_0 = 1;
+    m.taylor_quinney = 0.9;
+    m.damage_D1 = 0.54, m.damage_D2 = 4.89, m.damage_D3 = -3.03, m.damage_D4 = 0.014, m.damage_D5 = 1.12;
+    m.sound_speed = 3940, m.hugoniot_slope = 1.489, m.gruneisen = 2.02;
+    return m;
+}
+
+static inline material scene_aluminium(void) /* row w17_al7075 */
+{
+    material m;
+    params_default(material_params, &m);
+    strcpy(m.name, "w17_al7075");
+    m.density = 2810, m.youngs_modulus = 71e9, m.poisson = 0.33;
+    m.specific_heat = 960;
+    m.reference_temperature = 293, m.melting_temperature = 933;
+    m.yield_A = 369e6, m.hardening_B = 684e6, m.hardening_n = 0.73, m.rate_C = 0.0083, m.softening_m = 1.7,
+    m.rate_0 = 1;
+    m.taylor_quinney = 0.9;
+    m.damage_D1 = 0.13, m.damage_D2 = 0.13, m.damage_D3 = -1.5, m.damage_D4 = 0.011, m.damage_D5 = 0;
+    m.sound_speed = 5350, m.hugoniot_slope = 1.34, m.gruneisen = 2;
+    return m;
+}
+
+static inline material scene_hydro(void) /* copper of NUMERICS V3, without strength */
+{
+    material m = scene_copper();
+    strcpy(m.name, "hydro");
+    m.density = 8930, m.yield_A = 0, m.hardening_B = 0;
+    return m;
+}
+
+static inline material scene_elastic(void)
+{
+    material m = scene_copper();
+    strcpy(m.name, "elastic");
+    m.yield_A = 1e10, m.hardening_B = 0, m.rate_C = 0;
+    return m;
+}
+
+static inline material scene_dust(void)
+{
+    material m = scene_hydro();
+    strcpy(m.name, "dust");
+    m.sound_speed = 100, m.youngs_modulus = 1e6, m.gruneisen = 0;
+    return m;
+}
+
+/* ---- parts of a scene ---- */
+
+static inline mpm_axis scene_axis(double lo, double hi, double h, boundary_kind at_lo, boundary_kind at_hi)
+{
+    return (mpm_axis){ .lo = lo,
+                       .hi = hi,
+                       .fine_lo = lo,
+                       .fine_hi = hi,
+                       .fine = h,
+                       .coarse = h,
+                       .growth = 1.2,
+                       .boundary = { at_lo, at_hi } };
+}
+
+static inline mpm_axis scene_graded(mpm_axis a, double fine_lo, double fine_hi, double coarse, double growth)
+{
+    a.fine_lo = fine_lo, a.fine_hi = fine_hi, a.coarse = coarse, a.growth = growth;
+    return a;
+}
+
+static inline mpm_body *scene_body(mpm_scene *s, const char *shape, const double *values, int n, const material *m)
+{
+    mpm_body *b = &s->body[s->bodies++];
+    memset(b, 0, sizeof *b);
+    snprintf(b->name, sizeof b->name, "body%d", s->bodies - 1);
+    b->material = m;
+    b->shape = shape_find(shape);
+    assert_non_null(b->shape);
+    for (int i = 0; i < n; i++) b->shape_value.value[i] = values[i];
+    b->temperature = 293;
+    b->yield_scale = 1;
+    return b;
+}
+
+static inline mpm_body *scene_box(mpm_scene *s, double x0, double y0, double z0, double x1, double y1, double z1,
+                                  const material *m)
+{
+    const double v[] = { x0, y0, z0, x1, y1, z1 };
+    return scene_body(s, "box", v, 6, m);
+}
+
+static inline void scene_friction(mpm_scene *s, double mu)
+{
+    for (int a = 0; a < MPM_MAX_FIELDS; a++)
+        for (int b = 0; b < MPM_MAX_FIELDS; b++) s->contact[a][b].friction = mu;
+}
+
+/* A bar along x, `cells` of size h across, mirrors on its four sides: one-dimensional. */
+static inline void scene_bar(mpm_scene *s, double x0, double x1, double h, int cells)
+{
+    mpm_scene_default(s);
+    s->axis[0] = scene_axis(x0, x1, h, BOUNDARY_FREE, BOUNDARY_FREE);
+    s->axis[1] = scene_axis(0, cells * h, h, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    s->axis[2] = s->axis[1];
+}
+
+/* A small gouge: a rail, a hemispherical grain welded to it, and a slab with a lead face that runs over it. */
+typedef struct {
+    material copper, aluminium;
+    mpm_scene scene;
+} gouge_scene;
+
+static inline void scene_gouge(gouge_scene *g, double h, double speed)
+{
+    g->copper = scene_copper(), g->aluminium = scene_aluminium();
+    mpm_scene *s = &g->scene;
+    mpm_scene_default(s);
+    s->axis[0] = scene_axis(-8e-3, 8e-3, h, BOUNDARY_ABSORBING, BOUNDARY_ABSORBING);
+    s->axis[0] = scene_graded(s->axis[0], -1e-3, 4e-3, 3 * h, 1.25);
+    s->axis[0].boundary_fields[0] = s->axis[0].boundary_fields[1] = 1;
+    s->axis[1] = scene_axis(-2e-3, 2.5e-3, h, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    s->axis[1] = scene_graded(s->axis[1], -0.8e-3, 0.8e-3, 3 * h, 1.25);
+    s->axis[2] = scene_axis(0, 2.5e-3, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
+    s->axis[2] = scene_graded(s->axis[2], 0, 1e-3, 3 * h, 1.25);
+    mpm_body *rail = scene_box(s, -8e-3, -2e-3, -1, 8e-3, 0, 1, &g->copper);
+    const double grain[] = { 0, 0, 0, 0.5e-3, 0.5e-3 };
+    mpm_body *particle = scene_body(s, "hemisphere", grain, 5, &g->copper);
+    const double u[] = { -1e-3, 6e-3, 1.5e-3, 2e-3, 2.5e-3, 1e-3, SCENE_PI / 6, 2e-3, 0 };
+    mpm_body *armature = scene_body(s, "armature", u, 9, &g->aluminium);
+    armature->field = 1;
+    armature->velocity[0] = speed;
+    rail->damage = particle->damage = armature->damage = true;
+    scene_friction(s, 0.2);
+}
+
+/* ---- running and reading ---- */
+
+static inline mpm *scene_make(const mpm_scene *s, int threads)
+{
+    mpm *m = NULL;
+    assert_ok(mpm_create(s, threads, &m));
+    return m;
+}
+
+static inline void scene_steps(mpm *m, int steps)
+{
+    for (int i = 0; i < steps; i++) {
+        const mpm_report r = mpm_state(m);
+        assert_ok(mpm_advance(m, r.time + r.dt, NULL));
+    }
+}
+
+static inline double *scene_read(const mpm *m, mpm_field field) /* the caller frees it */
+{
+    double *out = malloc((mpm_particles(m) * (size_t)mpm_field_table[field].width + 1) * sizeof *out);
+    assert_non_null(out);
+    mpm_read(m, field, out);
+    return out;
+}
+
+static inline double scene_largest(const mpm *m, mpm_field field) /* largest magnitude of any component */
+{
+    double *a = scene_read(m, field), largest = 0;
+    const size_t n = mpm_particles(m) * (size_t)mpm_field_table[field].width;
+    for (size_t i = 0; i < n; i++) largest = fmax(largest, fabs(a[i]));
+    free(a);
+    return largest;
+}
+
+static inline double scene_mean(const mpm *m, mpm_field field, int component, int body) /* by mass; body -1: all */
+{
+    double *a = scene_read(m, field), *mass = scene_read(m, MPM_mass), *of = scene_read(m, MPM_body), sum = 0,
+           total = 0;
+    const size_t width = (size_t)mpm_field_table[field].width;
+    for (size_t i = 0; i < mpm_particles(m); i++)
+        if (body < 0 || of[i] == body) sum += mass[i] * a[width * i + (size_t)component], total += mass[i];
+    free(a), free(mass), free(of);
+    return sum / total;
+}
+
+#endif
