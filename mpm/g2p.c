@@ -36,7 +36,8 @@ static void gather_halo(const mpm *m, const brick *b, halo_nodes halo)
 }
 
 /* Ghost velocities.  A ghost gives its particles the mirror of what its node holds: the difference is the mirror's
- * impulse, with the ghost's own mass from P2G (ghosts of two mirrors were folded into one of them). */
+ * impulse, with the ghost's own mass from P2G.  A ghost of several mirrors counts in the first; the others find its mass
+ * where fold() has put it. */
 static void mirror_ghosts(const mpm *m, brick *b, halo_nodes halo)
 {
     mirror_plane plane[6];
@@ -50,8 +51,14 @@ static void mirror_ghosts(const mpm *m, brick *b, halo_nodes halo)
             double *to = halo[halo_at(ghost)];
             memcpy(to, halo[halo_at(mirror)], NODE * sizeof *to);
             to[k] = -to[k];
-            if (!mirror_shared(plane, planes, i, false, ghost))
-                b->sum.impulse_boundary[k] += 2 * b->out[halo_at(ghost)][0] * to[k];
+        }
+    for (int i = 0; i < planes; i++)
+        for (int n = 0; n < HALO * HALO; n++) {
+            const int k = plane[i].axis;
+            int ghost[3];
+            plane_point(k, plane[i].ghost, n, ghost);
+            if (mirror_shared(plane, planes, i, true, ghost)) continue;
+            b->sum.impulse_boundary[k] += 2 * b->out[halo_at(ghost)][0] * halo[halo_at(ghost)][k];
         }
 }
 
@@ -323,7 +330,7 @@ static void book(brick *b, const block *q, const lane_sums *w, const step_of *st
 {
     tally *t = &b->sum;
     const v8 m = v8_load(q->mass[0]), zero = v8_set(0), area = v8_load(q->area[0]);
-    const m8 here = v8_less(zero, m);
+    const m8 here = v8_less(zero, m), intact = m8_and(here, v8_less(v8_load(q->damage[0]), v8_set(1)));
     t->heat_transfer += v8_sum(m * w->heat);
     t->heat_viscous += v8_sum(m * w->heat_viscous);
     t->work_external += v8_sum(w->work_external);
@@ -331,10 +338,10 @@ static void book(brick *b, const block *q, const lane_sums *w, const step_of *st
         t->impulse_external[k] += step->dt * v8_sum(m * step->force[k] + area * step->traction[k]);
     t->rate = fmax(t->rate, v8_largest(v8_select(here, w->rate, zero)));
     t->peak_pressure_body[body] =
-        fmax(t->peak_pressure_body[body], v8_largest(v8_select(here, v8_load(q->p[0]), zero)));
+        fmax(t->peak_pressure_body[body], v8_largest(v8_select(intact, v8_load(q->p[0]), zero)));
     t->peak_mises[body] = fmax(t->peak_mises[body], v8_largest(v8_select(here, w->mises, zero)));
     t->peak_strain[body] = fmax(t->peak_strain[body], v8_largest(v8_select(here, v8_load(q->ep[0]), zero)));
-    t->peak_temperature = fmax(t->peak_temperature, v8_largest(v8_select(here, v8_load(q->T[0]), zero)));
+    t->peak_temperature = fmax(t->peak_temperature, v8_largest(v8_select(intact, v8_load(q->T[0]), zero)));
     t->clamps_pressure += (uint64_t)v8_sum(v8_select(here, w->clamp_p, zero));
     t->clamps_compression += (uint64_t)v8_sum(v8_select(here, w->clamp_rho, zero));
     /* x - x is 0, or NaN where x is not finite */

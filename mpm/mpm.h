@@ -33,7 +33,7 @@ typedef struct {
     uint64_t clamps_pressure, clamps_compression, clamps_velocity;         /* counted, never silent */
     uint64_t splits, ejected, eroded;                                      /* ejected holds the eroded points too */
     double eroded_mass;                                                    /* vapour and dust taken out so far [kg] */
-    double peak_pressure, peak_temperature;                                /* any particle, any time so far [Pa, K] */
+    double peak_pressure, peak_temperature;                                /* any intact particle, any time so far [Pa, K] */
     double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES]; /* so far [Pa] */
     double peak_mises_999[MPM_MAX_BODIES],
         peak_pressure_999[MPM_MAX_BODIES]; /* peak over time of the 99.9th percentile by mass */
