@@ -1,12 +1,16 @@
 #include "coupling/study/threshold.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 static const double TYPICAL = 1500.0;   /* of thresholds [m/s] */
 static const double COARSE_WIDTH = 0.2; /* of the coarse bracket over its middle [1] */
-static const double INNER_EDGE = 0.2;   /* of a bracket, kept free on both sides by the secant [1] */
+static const double BEYOND_GAP =
+    0.15;                             /* of the threshold: a narrower stretch beside the bracket is not looked at [1] */
+enum { BEYOND_RESERVE = 6 };          /* scenes left for the fine stage, this one included */
+static const double INNER_EDGE = 0.2; /* of a bracket, kept free on both sides by the secant [1] */
 
 double threshold_step(double interval)
 {
@@ -142,6 +146,22 @@ static status coarse_stage(search *s, bracket *b)
     return complete(b) ? narrow(s, fmax(COARSE_WIDTH, p->interval), b) : status_ok();
 }
 
+/* The search itself never looks beyond its bracket, so it cannot see a function that turns back: one coarse scene on each
+ * side, half way to the end of the range, looks there. */
+static status look_beyond(search *s, const bracket *b)
+{
+    const threshold_plan *p = s->plan;
+    const double far[2] = { 0.5 * (b->lo.velocity + p->low), 0.5 * (b->hi.velocity + p->high) };
+    const double gap[2] = { b->lo.velocity - p->low, p->high - b->hi.velocity };
+    s->cells = p->coarse;
+    for (int k = 0; k < 2; k++) {
+        threshold_sample seen;
+        if (gap[k] < BEYOND_GAP * middle(b) || s->out->samples + BEYOND_RESERVE > p->max_scenes) continue;
+        TRY(ask(s, on_grid(s, far[k]), &seen));
+    }
+    return status_ok();
+}
+
 static status fine_stage(search *s, double expected, bracket *b)
 {
     const threshold_plan *p = s->plan;
@@ -171,6 +191,18 @@ static void decided_interval(const threshold_result *r, double cells, const brac
     interval[1] = isnan(hi) ? b->hi.velocity : hi;
 }
 
+static void warn(threshold_result *r, const char *format, ...)
+{
+    const size_t used = strlen(r->warning);
+    va_list args;
+    va_start(args, format);
+    if (used + 2 < sizeof r->warning) {
+        if (used) strcat(r->warning, "; ");
+        vsnprintf(r->warning + strlen(r->warning), sizeof r->warning - strlen(r->warning), format, args);
+    }
+    va_end(args);
+}
+
 static void check_monotone(threshold_result *r, double cells)
 {
     double highest_lower = -INFINITY, lowest_upper = INFINITY;
@@ -184,11 +216,10 @@ static void check_monotone(threshold_result *r, double cells)
     }
     r->monotone = r->monotone && highest_lower < lowest_upper;
     if (highest_lower < lowest_upper) return;
-    snprintf(
-        r->warning, sizeof r->warning,
-        "severity does not rise with the velocity (%g cells a radius): above its limit at %g m/s, below it at %g m/s; "
-        "the interval spans both",
-        cells, lowest_upper, highest_lower);
+    warn(r,
+         "severity turns back (%g cells a radius): above its limit at %g m/s, below it at %g m/s; the interval spans "
+         "both",
+         cells, lowest_upper, highest_lower);
     r->interval[0] = fmin(r->interval[0], lowest_upper);
     r->interval[1] = fmax(r->interval[1], highest_lower);
 }
@@ -245,23 +276,17 @@ status threshold_search(const threshold_plan *plan, const threshold_source *sour
     search s = { .plan = plan, .source = source, .out = out };
     bracket coarse = { .has_lo = false }, fine = { .has_lo = false };
     TRY(coarse_stage(&s, &coarse));
-    const bool refine = plan->fine != plan->coarse && complete(&coarse) && budget_left(&s);
-    if (!refine) {
-        if (complete(&coarse)) TRY(narrow(&s, plan->interval, &coarse));
-        conclude(&s, &coarse, out);
-        return status_ok();
-    }
-    TRY(fine_stage(&s, root(&coarse), &fine));
+    const bool two_stages = plan->fine != plan->coarse && complete(&coarse);
+    if (complete(&coarse) && !two_stages) TRY(narrow(&s, plan->interval, &coarse));
+    if (complete(&coarse)) TRY(look_beyond(&s, &coarse));
+    if (two_stages && budget_left(&s)) TRY(fine_stage(&s, root(&coarse), &fine));
+    const bool short_of_scenes = two_stages && !complete(&fine) && !budget_left(&s);
     if (complete(&fine)) out->shift = root(&fine) - root(&coarse);
-    if (!complete(&fine) && !budget_left(&s)) {
-        s.cells = plan->coarse;
-        conclude(&s, &coarse, out);
-        snprintf(
-            out->warning, sizeof out->warning,
-            "study.max_scenes = %d spent before %g cells a radius had a bracket: the threshold is that of %g cells",
-            plan->max_scenes, plan->fine, plan->coarse);
-        return status_ok();
-    }
-    conclude(&s, &fine, out);
+    s.cells = two_stages && !short_of_scenes ? plan->fine : plan->coarse;
+    conclude(&s, two_stages && !short_of_scenes ? &fine : &coarse, out);
+    if (short_of_scenes)
+        warn(out,
+             "study.max_scenes = %d spent before %g cells a radius had a bracket: the threshold is that of %g cells",
+             plan->max_scenes, plan->fine, plan->coarse);
     return status_ok();
 }

@@ -3,6 +3,7 @@
  * What is known of the function: nothing but values at velocities we pay for, each at a resolution, each with a class.
  *   1. Coarse: from the middle of the range outwards to a change of side, then in between by the secant kept within the
  *      bracket's inner 60 %, until the bracket is a fifth of its middle or the wanted interval, whichever is more.
+ *      Then one coarse scene half way to each end of the range, where that is far: does the function turn back there?
  *   2. Fine: beside the coarse root, one wanted half interval below and above; where both lie on one side the bracket
  *      moves there in doubling steps; then halving to the wanted interval or the grid's step.
  *   3. Interval: the fine bracket, by decided scenes (an `undecided` one takes the side of its severity, but does not end

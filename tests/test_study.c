@@ -1,0 +1,540 @@
+/* The search for a threshold on functions that are known, and the whole study on scenes that cost nothing. */
+#include "coupling/study/onset.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define OK(call)                                                        \
+    do {                                                                \
+        const status ok_ = (call);                                      \
+        if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
+    } while (0)
+
+static double uniform(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) * 0x1p-53;
+}
+
+/* ---- functions to search ---- */
+
+typedef struct {
+    double (*f)(double u); /* rises through 0 at u = 0 */
+    double zero, scale;    /* u = (v - zero) / scale [m/s] */
+    double shift;          /* of the zero at the coarse resolution, 2 cells a radius [m/s] */
+    double noise;          /* amplitude */
+    double doubt;          /* |excess| below which the class is undecided */
+    double dip_at;         /* a stretch of 60 m/s that does not gouge, NaN: none [m/s] */
+    int calls, fail_at;    /* 0: never fails */
+    double asked[THRESHOLD_MAX_SAMPLES][2];
+} function;
+
+static status value_of(void *user, double v, double cells, threshold_sample *out)
+{
+    function *f = user;
+    for (int i = 0; i < f->calls; i++)
+        if (f->asked[i][0] == v && f->asked[i][1] == cells) fail_msg("%g m/s at %g cells asked for twice", v, cells);
+    f->asked[f->calls][0] = v;
+    f->asked[f->calls++][1] = cells;
+    CHECK(f->calls != f->fail_at, STATUS_STOPPED, "stopped");
+    uint64_t seed = (uint64_t)(1000.0 * v) + (uint64_t)cells;
+    uniform(&seed);
+    const double zero = f->zero + (cells < 2.5 ? f->shift : 0.0);
+    double excess = f->f((v - zero) / f->scale) + f->noise * (2.0 * uniform(&seed) - 1.0);
+    if (fabs(v - f->dip_at) < 30.0) excess = -1.0;
+    const damage_class side = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
+    *out = (threshold_sample){ .excess = excess, .class = fabs(excess) < f->doubt ? DAMAGE_UNDECIDED : side };
+    return status_ok();
+}
+
+static double line(double u)
+{
+    return u;
+}
+
+static double step(double u)
+{
+    return u < 0.0 ? -1.5 : 20.0;
+}
+
+static double knee(double u) /* a floor below, as the severity without a crater */
+{
+    return fmax(-1.5, u > 0.0 ? 8.0 * u : 3.0 * u);
+}
+
+static double cube(double u)
+{
+    return u * u * u;
+}
+
+static double saturated(double u)
+{
+    return tanh(5.0 * u);
+}
+
+static double (*const functions[])(double) = { line, step, knee, cube, saturated };
+enum { FUNCTIONS = sizeof functions / sizeof functions[0] };
+
+static threshold_plan usual(void)
+{
+    return (threshold_plan){ .low = 1000.0,
+                             .high = 2000.0,
+                             .step = threshold_step(0.05),
+                             .interval = 0.05,
+                             .coarse = 2.0,
+                             .fine = 3.0,
+                             .max_scenes = 30 };
+}
+
+static function plain(double (*f)(double), double zero)
+{
+    return (function){ .f = f, .zero = zero, .scale = 200.0, .dip_at = NAN };
+}
+
+static threshold_result search(function *f, const threshold_plan *plan)
+{
+    threshold_result r;
+    OK(threshold_search(plan, &(threshold_source){ value_of, f }, &r));
+    for (int i = 0; i < r.samples; i++) {
+        const double k = r.sample[i].velocity / plan->step;
+        assert_true(fabs(k - round(k)) < 1e-9);
+        assert_true(r.sample[i].velocity >= plan->low && r.sample[i].velocity <= plan->high);
+    }
+    assert_int_equal(r.samples, f->calls);
+    assert_true(r.samples <= plan->max_scenes);
+    return r;
+}
+
+/* ---- what holds for any function with one change of side ---- */
+
+static void test_found(void **state)
+{
+    (void)state;
+    uint64_t seed = 7;
+    const threshold_plan plan = usual();
+    double most = 0, sum = 0;
+    int n = 0;
+    for (int k = 0; k < FUNCTIONS; k++)
+        for (int i = 0; i < 400; i++) {
+            function f = plain(functions[k], 1030.0 + 940.0 * uniform(&seed));
+            f.shift = 120.0 * (2.0 * uniform(&seed) - 1.0);
+            if (f.zero + f.shift < 1030.0 || f.zero + f.shift > 1970.0) f.shift = 0.0;
+            const threshold_result r = search(&f, &plan);
+            assert_int_equal(r.outcome, THRESHOLD_FOUND);
+            assert_true(r.bracket[0] <= f.zero && f.zero <= r.bracket[1]);
+            assert_true(r.interval[0] <= r.bracket[0] && r.bracket[1] <= r.interval[1]);
+            assert_true(r.bracket[0] <= r.velocity && r.velocity <= r.bracket[1]);
+            assert_true(r.monotone);
+            /* as narrow as asked for, or two steps of the grid */
+            assert_true(r.bracket[1] - r.bracket[0] <= fmax(0.05 * f.zero * 1.05, 2.0 * plan.step));
+            assert_true(fabs((r.interval[1] - r.bracket[1]) - fabs(r.shift)) < 1e-9);
+            most = fmax(most, r.samples);
+            sum += r.samples;
+            n++;
+        }
+    print_message("scenes: %.2f on average, %.0f at most, of %d searches\n", sum / n, most, n);
+    assert_true(most <= 16.0);   /* 5 steps of halving coarse, 4 doublings and 4 halvings fine, and the first three */
+    assert_true(sum / n <= 9.0); /* the brief of the default case: 6 to 9 scenes */
+}
+
+/* The root: a line is met exactly by the secant. */
+static void test_line_exact(void **state)
+{
+    (void)state;
+    const threshold_plan plan = usual();
+    for (double zero = 1040.0; zero < 1960.0; zero += 7.3) {
+        function f = plain(line, zero);
+        const threshold_result r = search(&f, &plan);
+        assert_true(fabs(r.velocity - zero) < 1e-9); /* rounding */
+        assert_true(fabs(r.shift) < 1e-9);
+    }
+}
+
+static void test_shift_shown(void **state)
+{
+    (void)state;
+    const threshold_plan plan = usual();
+    for (double shift = -150.0; shift <= 150.0; shift += 10.0) {
+        function f = plain(line, 1507.0);
+        f.shift = shift;
+        const threshold_result r = search(&f, &plan);
+        assert_true(fabs(r.shift + shift) < 1e-9); /* from coarse to fine; the secant of a line is exact */
+    }
+}
+
+static void test_one_stage(void **state)
+{
+    (void)state;
+    threshold_plan plan = usual();
+    plan.coarse = plan.fine = 3.0;
+    for (int k = 0; k < FUNCTIONS; k++) {
+        function f = plain(functions[k], 1411.0);
+        const threshold_result r = search(&f, &plan);
+        assert_int_equal(r.outcome, THRESHOLD_FOUND);
+        assert_true(isnan(r.shift) && r.interval[0] == r.bracket[0] && r.interval[1] == r.bracket[1]);
+        assert_true(r.bracket[0] <= f.zero && f.zero <= r.bracket[1]);
+        assert_true(r.bracket[1] - r.bracket[0] <= 0.05 * 1411.0 * 1.05);
+    }
+}
+
+static void test_ends(void **state)
+{
+    (void)state;
+    const threshold_plan plan = usual();
+    for (int k = 0; k < FUNCTIONS; k++) {
+        function low = plain(functions[k], 700.0), high = plain(functions[k], 2600.0);
+        threshold_result r = search(&low, &plan);
+        assert_int_equal(r.outcome, THRESHOLD_BELOW);
+        assert_true(isnan(r.velocity) && isnan(r.interval[0]) && r.interval[1] == 1000.0);
+        r = search(&high, &plan);
+        assert_int_equal(r.outcome, THRESHOLD_ABOVE);
+        assert_true(isnan(r.velocity) && isnan(r.interval[1]) && r.interval[0] == 2000.0);
+        assert_true(low.calls <= 4 && high.calls <= 4); /* the middle and doubling steps of a quarter */
+    }
+}
+
+/* ---- functions that are not so kind ---- */
+
+/* Whatever the noise makes of the samples, the interval holds every velocity where their side is in doubt. */
+static void test_noise(void **state)
+{
+    (void)state;
+    uint64_t seed = 3;
+    const threshold_plan plan = usual();
+    int warned = 0;
+    for (int i = 0; i < 2000; i++) {
+        function f = plain(line, 1200.0 + 600.0 * uniform(&seed));
+        f.scale = 400.0;
+        f.noise = 0.9; /* 360 m/s on the slope below */
+        const threshold_result r = search(&f, &plan);
+        warned += !r.monotone;
+        for (int a = 0; a < r.samples; a++) {
+            const threshold_sample *s = &r.sample[a];
+            if (r.outcome != THRESHOLD_FOUND || s->cells_per_radius != plan.fine) continue;
+            if (s->excess >= 0.0) assert_true(s->velocity >= r.interval[0]);
+            if (s->excess < 0.0) assert_true(s->velocity <= r.interval[1]);
+        }
+        if (r.outcome == THRESHOLD_FOUND) /* 0.9 of noise on a slope of 1/400 moves the sign by 360 m/s at most */
+            assert_true(r.interval[0] <= f.zero + 360.0 && r.interval[1] >= f.zero - 360.0);
+        assert_true(r.monotone == (r.warning[0] == '\0'));
+    }
+    print_message("%d of 2000 noisy searches met a violation\n", warned);
+    assert_true(warned > 0); /* or the check was never tried */
+}
+
+/* A dip above the threshold: where the search meets it, it must say so. */
+static void test_dip(void **state)
+{
+    (void)state;
+    const threshold_plan plan = usual();
+    int met = 0;
+    for (double at = 1300.0; at < 1950.0; at += 11.0) {
+        function f = plain(line, 1210.0);
+        f.dip_at = at;
+        const threshold_result r = search(&f, &plan);
+        double upper = INFINITY, lower = -INFINITY;
+        for (int stage = 0; stage < 2; stage++, upper = INFINITY, lower = -INFINITY) {
+            for (int a = 0; a < r.samples; a++) {
+                const threshold_sample *s = &r.sample[a];
+                if (s->cells_per_radius != (stage ? plan.fine : plan.coarse)) continue;
+                if (s->excess >= 0.0) upper = fmin(upper, s->velocity);
+                if (s->excess < 0.0) lower = fmax(lower, s->velocity);
+            }
+            if (lower < upper || r.outcome != THRESHOLD_FOUND) continue;
+            met++;
+            assert_false(r.monotone);
+            assert_true(r.warning[0] != '\0');
+            assert_true(r.interval[0] <= upper && r.interval[1] >= lower);
+        }
+    }
+    print_message("the dip was met %d times\n", met);
+    assert_true(met > 0);
+}
+
+/* Undecided scenes beside the crossing do not end the interval. */
+static void test_undecided(void **state)
+{
+    (void)state;
+    const threshold_plan plan = usual();
+    for (double zero = 1250.0; zero < 1750.0; zero += 13.0) {
+        function f = plain(line, zero);
+        f.doubt = 0.2; /* 40 m/s either side */
+        const threshold_result r = search(&f, &plan);
+        assert_int_equal(r.outcome, THRESHOLD_FOUND);
+        for (int a = 0; a < r.samples; a++) {
+            const threshold_sample *s = &r.sample[a];
+            if (s->cells_per_radius != plan.fine || s->class != DAMAGE_UNDECIDED) continue;
+            for (int b = 0; b < r.samples; b++) { /* a decided one beyond it: then the interval reaches that one */
+                const threshold_sample *d = &r.sample[b];
+                if (d->cells_per_radius != plan.fine || d->class == DAMAGE_UNDECIDED) continue;
+                if (d->velocity > s->velocity && s->velocity == r.bracket[1]) assert_true(r.interval[1] > r.bracket[1]);
+                if (d->velocity < s->velocity && s->velocity == r.bracket[0]) assert_true(r.interval[0] < r.bracket[0]);
+            }
+        }
+    }
+}
+
+static void test_budget(void **state)
+{
+    (void)state;
+    for (int scenes = 1; scenes <= 12; scenes++)
+        for (double zero = 1030.0; zero < 1970.0; zero += 17.0) {
+            threshold_plan plan = usual();
+            plan.max_scenes = scenes;
+            function f = plain(cube, zero);
+            f.shift = 60.0;
+            const threshold_result r = search(&f, &plan);
+            /* what it claims holds at the resolution it claims it for */
+            const double truth = r.warning[0] ? zero + f.shift : zero;
+            if (r.outcome == THRESHOLD_FOUND) assert_true(r.bracket[0] <= truth && truth <= r.bracket[1]);
+            if (scenes == 1) assert_int_equal(r.outcome, THRESHOLD_UNKNOWN);
+        }
+}
+
+static void test_errors(void **state)
+{
+    (void)state;
+    threshold_result r;
+    threshold_plan plan = usual();
+    for (int at = 1; at <= 4; at++) {
+        function f = plain(line, 1400.0);
+        f.fail_at = at;
+        assert_int_equal(threshold_search(&plan, &(threshold_source){ value_of, &f }, &r).code, STATUS_STOPPED);
+        assert_int_equal(r.samples, at - 1); /* what was reached is there */
+    }
+    function f = plain(line, NAN);
+    assert_int_equal(threshold_search(&plan, &(threshold_source){ value_of, &f }, &r).code, STATUS_NUMERICAL);
+    plan.high = plan.low + 1.0;
+    assert_int_equal(threshold_search(&plan, &(threshold_source){ value_of, &f }, &r).code, STATUS_BAD_INPUT);
+    assert_true(threshold_step(0.05) == 25.0 && threshold_step(0.03) == 10.0 && threshold_step(0.1) == 50.0);
+}
+
+/* ---- the study: the real shot, scenes that cost nothing ---- */
+
+/* Severity of a made-up scene: rises with the velocity, earlier for larger grains; the coarse cells see it 40 m/s later. */
+typedef struct {
+    int scenes, stop_after; /* of this process; 0: never */
+} fake;
+static fake counter; /* the runner has no place for it */
+
+static double made_up_threshold(double radius)
+{
+    return 1430.0 - 4e5 * (radius - 0.5e-3);
+}
+
+static status fake_scene(const scene_job *job, const scene_host *host, impact *out)
+{
+    memset(out, 0, sizeof *out);
+    CHECK(counter.stop_after == 0 || counter.scenes < counter.stop_after, STATUS_STOPPED, "stopped");
+    assert_non_null(host->dir);
+    counter.scenes++;
+    const double v = job->scene.body[body_of_armature(&job->scene)].velocity[0];
+    const double r = job->spec.particle_radius, cells = r / job->scene.axis[0].fine;
+    const double excess = (v - made_up_threshold(r) - (cells < 2.5 ? 40.0 : 0.0)) / 150.0;
+    out->result.severity = excess + job->spec.limit_severity;
+    out->result.widening = 2.0;
+    out->result.class = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
+    out->result.crater_volume = 1e-9 * v;
+    out->impulse = 0.02;
+    out->mass_loss = 1e-6;
+    return status_ok();
+}
+
+static breech_case *changed_case(const char *const *sets)
+{
+    const char *const dirs[] = { BREECH_TESTS "/../cases/materials" };
+    const case_options how = { dirs, 1, CASE_FOR_ONSET };
+    breech_case *c = NULL;
+    char *errors = NULL;
+    int n = 0;
+    while (sets && sets[n]) n++;
+    const status s = case_read(BREECH_TESTS "/../cases/default_shot", sets, n, &how, &c, &errors);
+    if (s.code != STATUS_OK) fail_msg("%s", errors ? errors : s.text);
+    return c;
+}
+
+static status study(const breech_case *c, const char *dir, outdir_options how, onset_answer *out)
+{
+    session s;
+    const session_options options = { .dir = dir, .how = how, .threads = 1, .progress_to = stderr, .quiet = true };
+    OK(session_open(c, &options, &s));
+    s.run_scene = fake_scene;
+    counter.scenes = 0;
+    const status done = onset_run(&s, out);
+    OK(session_close(&s, done.code == STATUS_OK));
+    return done;
+}
+
+#define FORCE         \
+    (outdir_options)  \
+    {                 \
+        .force = true \
+    }
+
+static double first_position_at(const onset_answer *a, double v)
+{
+    for (int i = 0; i < a->result.n_sites; i++)
+        if (a->site[i].velocity >= v) return a->site[i].position;
+    return NAN;
+}
+
+static void test_onset(void **state)
+{
+    (void)state;
+    breech_case *c = changed_case(NULL);
+    onset_answer a;
+    OK(study(c, "onset", FORCE, &a));
+    const onset_result *r = &a.result;
+    assert_int_equal(r->verdict, VERDICT_GOUGES);
+    assert_int_equal(a.kinds, 1);
+    assert_int_equal(r->scenes_run, counter.scenes);
+    assert_int_equal(r->scenes_skipped, c->sites.n - 1);
+    assert_true(r->threshold_interval[0] <= 1430.0 && 1430.0 <= r->threshold_interval[1]);
+    assert_true(fabs(r->threshold_velocity - 1430.0) < 1e-6); /* the made-up severity is a line */
+    assert_true(r->onset_position == first_position_at(&a, r->threshold_velocity));
+    assert_true(r->onset_interval[0] == first_position_at(&a, r->threshold_interval[0]));
+    assert_true(r->onset_interval[1] == first_position_at(&a, r->threshold_interval[1]));
+    assert_true(r->probability_gouge == 1.0);
+    for (int i = 0; i < r->n_sites; i++) {
+        const onset_site *s = &a.site[i];
+        const site_outcome want = s->velocity >= r->threshold_interval[1]  ? SITE_GOUGE
+                                  : s->velocity > r->threshold_interval[0] ? SITE_UNDECIDED
+                                                                           : SITE_SCRATCH;
+        assert_int_equal(s->outcome, want);
+        assert_true(isnan(s->gouged_volume) == (want != SITE_GOUGE));
+        assert_true(s->scene[0] != '\0');
+    }
+    /* x(v) falls between the sites around it */
+    assert_true(a.threshold_position[0] <= r->onset_position && a.threshold_position[0] > r->onset_position - 0.3);
+    /* feedback: every gouge takes 0.02 N s of 0.25 kg, 0.08 m/s at once, of which the later pushing keeps v_site/v_muzzle */
+    const double loss = a.shot.is.muzzle_velocity - a.muzzle_velocity_fed;
+    assert_true(a.gouges > 0 && loss > 0.5 * 0.08 * a.gouges && loss < 0.08 * a.gouges);
+    onset_answer_free(&a);
+    case_free(c);
+}
+
+/* Moves of the case move the answer the right way (wu2017.md, W7 to W11). */
+static void test_moves(void **state)
+{
+    (void)state;
+    const char *const small[] = { "particle.radius=0.2 mm", NULL };
+    const char *const weak[] = { "bank[0].charge=4 kV", "bank[0].count=1", "armature.mass=1 kg", NULL };
+    onset_answer base, a;
+    breech_case *c = changed_case(NULL);
+    OK(study(c, "moves", FORCE, &base));
+    case_free(c);
+    c = changed_case(small);
+    OK(study(c, "moves", FORCE, &a));
+    assert_true(a.result.threshold_velocity > base.result.threshold_velocity);
+    assert_true(a.result.onset_position > base.result.onset_position);
+    onset_answer_free(&a);
+    case_free(c);
+    c = changed_case(weak);
+    OK(study(c, "moves", FORCE, &a));
+    assert_int_equal(a.result.verdict, VERDICT_NO_GOUGING);
+    assert_true(isnan(a.result.onset_position) && isnan(a.result.onset_interval[1]));
+    assert_true(a.result.probability_gouge == 0.0);
+    assert_int_equal(a.gouges, 0);
+    assert_true(isnan(a.muzzle_velocity_fed));
+    onset_answer_free(&a);
+    onset_answer_free(&base);
+    case_free(c);
+}
+
+static void test_screened(void **state)
+{
+    (void)state;
+    const char *const sets[] = { "study.screen_low=100", "study.screen_high=200", NULL };
+    breech_case *c = changed_case(sets);
+    onset_answer a;
+    OK(study(c, "screened", FORCE, &a));
+    assert_int_equal(counter.scenes, 0);
+    assert_int_equal(a.result.verdict, VERDICT_NO_GOUGING);
+    assert_int_equal(a.result.scenes_skipped, c->sites.n);
+    for (int i = 0; i < a.result.n_sites; i++) assert_int_equal(a.site[i].outcome, SITE_SKIPPED);
+    onset_answer_free(&a);
+    case_free(c);
+}
+
+static void test_two_kinds(void **state)
+{
+    (void)state;
+    const char *const sets[] = { "sites[3].radius=0.7 mm", "study.max_scenes=30", NULL };
+    breech_case *c = changed_case(sets);
+    onset_answer a;
+    OK(study(c, "kinds", FORCE, &a));
+    assert_int_equal(a.kinds, 2);
+    assert_true(fabs(a.site[3].threshold_velocity - made_up_threshold(0.7e-3)) < 1e-6);
+    assert_true(fabs(a.site[0].threshold_velocity - made_up_threshold(0.5e-3)) < 1e-6);
+    assert_true(strncmp(a.site[3].scene, a.site[0].scene, 3) != 0);
+    onset_answer_free(&a);
+    case_free(c);
+}
+
+/* Stopped after any number of scenes and resumed, the study gives the same and computes no scene twice. */
+static void test_resume(void **state)
+{
+    (void)state;
+    breech_case *c = changed_case(NULL);
+    onset_answer whole, part;
+    OK(study(c, "whole", FORCE, &whole));
+    const int scenes = counter.scenes;
+    for (int k = 1; k < scenes; k += 2) {
+        counter.stop_after = k;
+        assert_int_equal(study(c, "part", FORCE, &part).code, STATUS_STOPPED);
+        assert_int_equal(part.result.n_scenes, k);
+        onset_answer_free(&part);
+        counter.stop_after = 0;
+        OK(study(c, "part", (outdir_options){ .resume = true }, &part));
+        assert_int_equal(counter.scenes, scenes - k);
+        assert_int_equal(part.result.n_scenes, scenes);
+        assert_true(memcmp(&part.result.threshold_velocity, &whole.result.threshold_velocity, sizeof(double)) == 0);
+        assert_true(memcmp(part.scene, whole.scene, (size_t)scenes * sizeof *part.scene) == 0);
+        assert_true(part.muzzle_velocity_fed == whole.muzzle_velocity_fed);
+        assert_string_equal(part.result.reason, whole.result.reason);
+        onset_answer_free(&part);
+    }
+    onset_answer_free(&whole);
+    case_free(c);
+}
+
+/* A checkpoint of another case is refused. */
+static void test_other_case(void **state)
+{
+    (void)state;
+    const char *const sets[] = { "scene.friction=0.21", NULL };
+    breech_case *c = changed_case(NULL), *other = changed_case(sets);
+    onset_answer a;
+    session s;
+    counter.stop_after = 2;
+    assert_int_equal(study(c, "other", FORCE, &a).code, STATUS_STOPPED);
+    counter.stop_after = 0;
+    onset_answer_free(&a);
+    const session_options options = {
+        .dir = "other", .how = { .resume = true }, .threads = 1, .progress_to = stderr, .quiet = true
+    };
+    assert_int_not_equal(session_open(other, &options, &s).code, STATUS_OK);
+    session_close(&s, false);
+    case_free(c);
+    case_free(other);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_found),      cmocka_unit_test(test_line_exact), cmocka_unit_test(test_shift_shown),
+        cmocka_unit_test(test_one_stage),  cmocka_unit_test(test_ends),       cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_dip),        cmocka_unit_test(test_undecided),  cmocka_unit_test(test_budget),
+        cmocka_unit_test(test_errors),     cmocka_unit_test(test_onset),      cmocka_unit_test(test_moves),
+        cmocka_unit_test(test_screened),   cmocka_unit_test(test_two_kinds),  cmocka_unit_test(test_resume),
+        cmocka_unit_test(test_other_case),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
