@@ -57,7 +57,7 @@ static void mirror_ghosts(const mpm *m, brick *b, halo_nodes halo)
             const int k = plane[i].axis;
             int ghost[3];
             plane_point(k, plane[i].ghost, n, ghost);
-            if (mirror_shared(plane, planes, i, true, ghost)) continue;
+            if (mirror_shared(plane, i, ghost)) continue;
             b->sum.impulse_boundary[k] += 2 * b->out[halo_at(ghost)][0] * halo[halo_at(ghost)][k];
         }
 }

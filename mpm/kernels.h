@@ -154,11 +154,11 @@ static inline int mirror_planes(const mpm *m, const brick *b, mirror_plane p[6])
     return n;
 }
 
-/* Is this ghost of plane i a ghost of another plane too?  `earlier`: of one that is folded before it. */
-static inline bool mirror_shared(const mirror_plane *p, int planes, int i, bool earlier, const int at[3])
+/* Is this ghost of plane i a ghost of an earlier plane too, which it is folded over first? */
+static inline bool mirror_shared(const mirror_plane *p, int i, const int at[3])
 {
-    for (int j = 0; j < planes; j++)
-        if (p[j].axis != p[i].axis && (!earlier || j < i) && at[p[j].axis] == p[j].ghost) return true;
+    for (int j = 0; j < i; j++)
+        if (p[j].axis != p[i].axis && at[p[j].axis] == p[j].ghost) return true;
     return false;
 }
 

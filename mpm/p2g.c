@@ -185,7 +185,7 @@ static void fold(const mpm *m, brick *b)
             int ghost[3], mirror[3];
             plane_point(plane[i].axis, plane[i].ghost, n, ghost);
             plane_point(plane[i].axis, plane[i].mirror, n, mirror);
-            if (!mirror_shared(plane, planes, i, true, ghost)) fold_line(b, plane[i].axis, ghost, mirror, m->dt);
+            if (!mirror_shared(plane, i, ghost)) fold_line(b, plane[i].axis, ghost, mirror, m->dt);
         }
 }
 
