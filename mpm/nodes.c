@@ -16,6 +16,7 @@ typedef struct {
 /* One node of one field while it is worked on. */
 typedef struct {
     double m, v[3], f[3], heat;
+    double v_start[3]; /* before the forces, after the walls [m/s] */
     const double *extra;
 } node_state;
 
@@ -210,26 +211,49 @@ typedef struct {
     int wall_count;
 } node_place;
 
-static void contact_pair(const mpm *m, int fa, int fb, node_state *a, node_state *b, const node_place *at, tally *sum)
+/* Two fields that touch at a node: J is the impulse on b, minus it that on a. */
+typedef struct {
+    int field[2];
+    node_state *a, *b;
+    double J[3]; /* [N s] */
+} touching;
+
+/* Sets the pair's velocities and its J; false where the two do not touch. */
+static bool contact_pair(const mpm *m, touching *t, const node_place *at, tally *sum)
 {
     static const double MASS_SCREEN = 1e-6;
-    if (a->m < MASS_SCREEN * b->m || b->m < MASS_SCREEN * a->m) return;
+    node_state *a = t->a, *b = t->b;
+    if (a->m < MASS_SCREEN * b->m || b->m < MASS_SCREEN * a->m) return false;
     const contact_geometry g = geometry(m, a, b, at->walls, at->wall_count, at->h);
-    if (!g.touch) return;
-    double rel[3], J[3];
+    if (!g.touch) return false;
+    const contact_law *c = &m->scene.contact[t->field[0]][t->field[1]];
+    double rel[3];
     for (int k = 0; k < 3; k++) rel[k] = b->v[k] - a->v[k];
-    if (!contact_impulse(&m->scene.contact[fa][fb], &g, a->m * b->m / (a->m + b->m), rel, m->dt, J)) return;
-    const double before = kinetic(a) + kinetic(b);
+    if (!contact_impulse(c, &g, a->m * b->m / (a->m + b->m), rel, m->dt, t->J)) return false;
     for (int k = 0; k < 3; k++) {
-        a->v[k] -= J[k] / a->m;
-        b->v[k] += J[k] / b->m;
-        sum->contact[fa][k] -= J[k];
-        sum->contact[fb][k] += J[k];
+        a->v[k] -= t->J[k] / a->m;
+        b->v[k] += t->J[k] / b->m;
+        sum->contact[t->field[0]][k] -= t->J[k];
+        sum->contact[t->field[1]][k] += t->J[k];
     }
-    const double lost = before - kinetic(a) - kinetic(b), share = heat_share(m, fa, fb);
-    a->heat += share * lost;
-    b->heat += (1 - share) * lost;
-    sum->heat_friction += lost;
+    return true;
+}
+
+/* What a contact takes from the kinetic energy over the step, forces included, is
+ *   Q = -J . (v_b - v_a), the mean of that difference before the forces and at the end of the step.
+ * The drop of kinetic energy across the contact alone would count the approach that the forces have just made and the
+ * contact takes back: heat from bodies that only press on each other. */
+static void contact_heat(const mpm *m, const touching *t, tally *sum)
+{
+    double Q = 0;
+    for (int k = 0; k < 3; k++) {
+        const double slip = t->b->v[k] - t->a->v[k], slip_start = t->b->v_start[k] - t->a->v_start[k];
+        Q -= t->J[k] * 0.5 * (slip + slip_start);
+    }
+    const double share = heat_share(m, t->field[0], t->field[1]);
+    t->a->heat += share * Q;
+    t->b->heat += (1 - share) * Q;
+    sum->heat_friction += Q;
 }
 
 /* ---- one node ---- */
@@ -252,7 +276,8 @@ static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int
 {
     node_state state[MPM_MAX_FIELDS];
     wall walls[MPM_MAX_FIELDS][3];
-    int n_walls[MPM_MAX_FIELDS];
+    int n_walls[MPM_MAX_FIELDS], pairs = 0;
+    touching pair[MPM_MAX_FIELDS * (MPM_MAX_FIELDS - 1) / 2];
     for (int s = 0; s < count; s++) {
         const double *line = fields[s].line[cell];
         const int field = fields[s].brick->field;
@@ -263,14 +288,18 @@ static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int
         n->heat = line[7] - kinetic(n);
         n_walls[s] = walls_at(m, index, field, walls[s]);
         apply_walls(walls[s], n_walls[s], field_law(m, field), m->dt, n, sum);
+        memcpy(n->v_start, n->v, sizeof n->v_start);
         for (int k = 0; k < 3; k++) n->v[k] += m->dt * n->f[k] / n->m, n->f[k] = 0;
     }
     for (int a = 0; a < count; a++)
         for (int b = a + 1; b < count; b++)
             if (state[a].m > 0 && state[b].m > 0) {
                 const node_place at = { h, walls[a], n_walls[a] };
-                contact_pair(m, fields[a].brick->field, fields[b].brick->field, &state[a], &state[b], &at, sum);
+                touching *t = &pair[pairs];
+                *t = (touching){ { fields[a].brick->field, fields[b].brick->field }, &state[a], &state[b], { 0 } };
+                if (contact_pair(m, t, &at, sum)) pairs++;
             }
+    for (int i = 0; i < pairs; i++) contact_heat(m, &pair[i], sum);
     for (int s = 0; s < count; s++) {
         double *node = fields[s].brick->node[cell];
         memset(node, 0, NODE * sizeof *node);
