@@ -134,7 +134,11 @@ static status read_case(const options *o, unsigned needs, breech_case **c)
     const char *dirs[MATERIAL_MAX_DIRS];
     const case_options how = { .material_dirs = dirs, .n_material_dirs = material_dirs(dirs), .needs = needs };
     char *errors = NULL;
-    const status s = case_read(o->subject, o->sets, o->n_sets, &how, c, &errors);
+    status s = case_read(o->subject, o->sets, o->n_sets, &how, c, &errors);
+    if (s.code == STATUS_OK) {
+        s = command_possible(*c, needs);
+        if (s.code != STATUS_OK) case_free(*c);
+    }
     if (errors)
         fputs(errors, stderr);
     else

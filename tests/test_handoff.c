@@ -420,8 +420,8 @@ static void test_masses(void **state)
     const mpm_ledger l = mpm_balance(solver);
     const mpm_body *armature = named(&m.scene, "armature"), *rail = named(&m.scene, "rail");
     const double width = m.scene.axis[0].hi - m.scene.axis[0].lo;
-    const double rail_mass = rail->material->density * width * 10e-3 * 12.5e-3; /* half of 25 mm */
-    const double armature_mass = armature->material->density * section_area(armature) * 12.5e-3;
+    const double rail_mass = rail->material->density * width * m.c->scene.rail_depth * 0.5 * m.c->projectile.width;
+    const double armature_mass = armature->material->density * section_area(armature) * 0.5 * m.c->projectile.width;
     /* 2 %: the slanted lead face and the ends of the U on a lattice of 1 mm points */
     assert_true(fabs(l.mass / (rail_mass + armature_mass) - 1.0) < 0.02);
     assert_true(fabs(l.momentum[0] / (armature_mass * m.c->scene.velocity) - 1.0) < 0.04);

@@ -327,8 +327,7 @@ static crater_spec spec_of(const breech_case *c, const case_site *g, const mpm_s
     return spec;
 }
 
-status scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out,
-                        crater_spec *spec)
+status scene_bodies(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out)
 {
     CHECK(state->velocity > 0.0 && isfinite(state->velocity), STATUS_BAD_INPUT,
           "scene: the armature's velocity is %g m/s: must be positive", state->velocity);
@@ -339,6 +338,13 @@ status scene_from_state(const breech_case *c, const site_state *state, double ce
     set_contacts(c, out);
     set_axes(c, &l, out);
     set_method(c, out);
+    return status_ok();
+}
+
+status scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out,
+                        crater_spec *spec)
+{
+    TRY(scene_bodies(c, state, cells_per_radius, out));
     *spec = spec_of(c, &state->grain, out);
     return status_ok();
 }

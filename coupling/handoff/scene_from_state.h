@@ -26,6 +26,9 @@
 status scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out,
                         crater_spec *spec);
 
+/* The same without the spec, which takes some 20 ms: does this case make a scene? */
+status scene_bodies(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out);
+
 /* `breech scene`: the case's own particle, velocity and contact pressure (none where it gives none). */
 site_state state_of_case(const breech_case *c);
 

@@ -79,6 +79,21 @@ status command_inductance(session *s, command_result *out)
 
 /* ---- check ---- */
 
+status command_possible(const breech_case *c, unsigned needs)
+{
+    mpm_scene scene;
+    site_state state = state_of_case(c);
+    if (needs & CASE_FOR_SCENE) TRY(scene_bodies(c, &state, c->scene.cells_per_radius, &scene));
+    if (!(needs & CASE_FOR_ONSET)) return status_ok();
+    state.velocity = c->study.velocity_low;
+    for (int i = 0; i < c->sites.n; i++) {
+        state.grain = c->sites.item[i];
+        TRY(scene_bodies(c, &state, c->study.coarse_cells_per_radius, &scene));
+        TRY(scene_bodies(c, &state, c->study.fine_cells_per_radius, &scene));
+    }
+    return status_ok();
+}
+
 /* Two levels of thread: memory bandwidth and the serial rest are left out, so this is a lower bound on many threads. */
 static status estimate(const breech_case *c, const site_state *state, double cells, int threads, scene_estimate *out)
 {

@@ -21,6 +21,9 @@ status command_onset(session *s, command_result *out);
 status command_inductance(session *s, command_result *out);
 void command_free(command_result *r);
 
+/* What only making the scenes can tell: STATUS_BAD_INPUT before anything is written.  needs: sum of CASE_FOR_... */
+status command_possible(const breech_case *c, unsigned needs);
+
 /* `breech check`: what each scene the case leads to would take. */
 typedef struct {
     char what[80];
