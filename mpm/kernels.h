@@ -57,7 +57,8 @@ LANE_INLINE weights weights_gimp(const cell_axis *c, v8 x, v8 half)
 }
 
 /* Quadratic B-spline whose knots are the cell's edges, on unequal cells: the three functions that do not vanish
- * between the knots e0 < e1 (de Boor).  Partition of unity exact; linear fields exact where the grading is uniform. */
+ * between the knots e1 < e2 (de Boor).  A function's place is the middle of its cell, not the node: then linear fields are
+ * exact on any grading, sum w d = 0, and the affine part adds no momentum. */
 typedef struct {
     double e[4]; /* knots around the cell: two below, two above [m] */
 } knots;
@@ -67,7 +68,7 @@ LANE_INLINE knots knots_at(const axis *a, int i)
     return (knots){ { a->edge[i - 1], a->edge[i], a->edge[i + 1], a->edge[i + 2] } };
 }
 
-LANE_INLINE weights weights_bspline(const cell_axis *c, const knots *q, v8 x)
+LANE_INLINE weights weights_bspline(const knots *q, v8 x)
 {
     const double h = q->e[2] - q->e[1], below = q->e[2] - q->e[0], above = q->e[3] - q->e[1];
     const v8 from = x - q->e[1], to = q->e[2] - x;
@@ -78,7 +79,7 @@ LANE_INLINE weights weights_bspline(const cell_axis *c, const knots *q, v8 x)
     r.g[0] = to * (-2 / (h * below));
     r.g[2] = from * (2 / (h * above));
     r.g[1] = v8_set(0) - r.g[0] - r.g[2];
-    for (int k = 0; k < 3; k++) r.d[k] = c->x[k] - x;
+    for (int k = 0; k < 3; k++) r.d[k] = 0.5 * (q->e[k] + q->e[k + 1]) - x;
     return r;
 }
 
@@ -109,7 +110,7 @@ LANE_INLINE cell_grid cell_grid_at(const mpm *m, const brick *b, int cell)
 
 LANE_INLINE weights cell_weights(const cell_grid *g, int k, const block *q)
 {
-    return g->bspline ? weights_bspline(&g->axis[k], &g->knots[k], v8_load(q->x[k]))
+    return g->bspline ? weights_bspline(&g->knots[k], v8_load(q->x[k]))
                       : weights_gimp(&g->axis[k], v8_load(q->x[k]), v8_load(q->half[k]));
 }
 
