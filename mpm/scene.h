@@ -42,7 +42,7 @@ typedef struct {
     double velocity[3];   /* at the start [m/s] */
     double temperature;   /* at the start [K] */
     double body_force[3]; /* acceleration on the whole body (J x B, pressing) [m/s2] */
-    double traction[3];   /* on the face `traction_face` of its bounding box [Pa]; zero = none */
+    double traction[3];   /* on all of its surface that looks towards `traction_face` [Pa]; zero = none */
     int traction_face;    /* 0..5 = -x +x -y +y -z +z */
     double yield_scale;   /* factor on the yield stress (hardened skin), 1 = none */
     bool damage;          /* Johnson-Cook damage on */
