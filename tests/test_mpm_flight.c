@@ -3,7 +3,6 @@
  * some 1e-14 at random and 2e-13 at worst, unless said. */
 #include "mpm_scenes.h"
 
-#pragma GCC diagnostic ignored "-Wpsabi"
 #include "mpm/movers.c" /* for `halve`, which splits one particle */
 
 static const double ROUNDING = 1e-12;
