@@ -63,8 +63,7 @@ static uint64_t scene_hash(const mpm *m)
     for (int a = 0; a < m->fields; a++)
         for (int b = 0; b < m->fields; b++) h = hash(h, &s->contact[a][b], sizeof s->contact[a][b]);
     const double numbers[] = { s->contact_gap,         s->particles_per_axis, s->courant, s->viscosity_linear,
-                               s->viscosity_quadratic, s->transfer,           s->basis,   s->heat_by_plastic_work,
-                               s->volume_averaging };
+                               s->viscosity_quadratic, s->transfer,           s->basis,   s->heat_by_plastic_work };
     return hash(h, numbers, sizeof numbers);
 }
 

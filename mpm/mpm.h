@@ -30,10 +30,10 @@ typedef struct {
     double time, dt; /* [s] */
     uint64_t steps, particle_steps, particle_steps_dense;
     size_t particles;
-    uint64_t clamps_pressure, clamps_compression, clamps_velocity;         /* counted, never silent */
-    uint64_t splits, ejected, eroded;                                      /* ejected holds the eroded points too */
-    double eroded_mass;                                                    /* vapour and dust taken out so far [kg] */
-    double peak_pressure, peak_temperature;                                /* any intact particle, any time so far [Pa, K] */
+    uint64_t clamps_pressure, clamps_compression; /* counted, never silent */
+    uint64_t splits, ejected, eroded;             /* ejected holds the eroded points too */
+    double eroded_mass;                           /* vapour and dust taken out so far [kg] */
+    double peak_pressure, peak_temperature;       /* any intact particle, any time so far [Pa, K] */
     double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES]; /* so far [Pa] */
     double peak_mises_999[MPM_MAX_BODIES],
         peak_pressure_999[MPM_MAX_BODIES]; /* peak over time of the 99.9th percentile by mass */

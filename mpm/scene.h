@@ -92,7 +92,6 @@ typedef struct {
     transfer_kind transfer;
     basis_kind basis;
     bool heat_by_plastic_work;             /* option `plastic` of (M-4); default false: by energy */
-    bool volume_averaging;                 /* F-bar: volume change averaged over the cell */
     char instruction_set[PARAM_TEXT_SIZE]; /* "" = the best this machine has */
 } mpm_scene;
 

@@ -84,7 +84,7 @@ typedef struct {
     double rate; /* largest (c + |v|) / h [1/s] */
     double peak_pressure, peak_temperature;
     double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES], peak_strain[MPM_MAX_BODIES];
-    uint64_t clamps_pressure, clamps_compression, clamps_velocity, splits, ejected, eroded, particles;
+    uint64_t clamps_pressure, clamps_compression, splits, ejected, eroded, particles;
     double eroded_mass;
     int bad_lane, bad_block; /* first particle that is not finite, bad_block = -1: none */
 } tally;

@@ -279,7 +279,6 @@ static void set_method(const breech_case *c, mpm_scene *s)
     s->transfer = (transfer_kind)from->transfer;
     s->basis = (basis_kind)from->basis;
     s->heat_by_plastic_work = from->heat_by_plastic_work;
-    s->volume_averaging = from->volume_averaging;
     const double passage = scene_crossing_time(s) + c->projectile.length / s->body[body_of_armature(s)].velocity[0];
     s->end_time = given_or(from->end_time, fmin(1.1 * scene_crossing_time(s), passage));
 }

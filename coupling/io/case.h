@@ -108,7 +108,6 @@ typedef struct {
     int transfer;                                 /* transfer_kind of mpm/scene.h */
     int basis;                                    /* basis_kind of mpm/scene.h */
     int particles_per_axis;
-    bool volume_averaging;     /* F-bar */
     bool heat_by_plastic_work; /* (M-4) option `plastic` */
     bool damage;               /* Johnson-Cook damage in all bodies */
     bool half_model;           /* only z >= 0, mirrored */

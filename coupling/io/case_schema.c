@@ -103,7 +103,6 @@ static const param scene_params[] = {
     PARAM_ENUM(case_scene, transfer, transfer_names, TRANSFER_TPIC, "how velocity goes between points and grid"),
     PARAM_ENUM(case_scene, basis, basis_names, BASIS_GIMP, "shape functions"),
     PARAM_INT(case_scene, particles_per_axis, 2, 2, 3, "material points a cell and axis"),
-    PARAM_BOOL(case_scene, volume_averaging, 0, "average the volume change over the cell (F-bar)"),
     PARAM_BOOL(case_scene, heat_by_plastic_work, 0, "(M-4) temperature by plastic work; no: by energy"),
     PARAM_BOOL(case_scene, damage, 1, "(M-2) Johnson-Cook damage in all bodies"),
     PARAM_BOOL(case_scene, half_model, 1, "compute z >= 0 and mirror it"),

@@ -293,7 +293,6 @@ status history_crater(history *h, const char *scene, const crater *c)
     COLUMN(failed_volume, "m^3", "of all bodies now, as computed", failed_volume(r))                    \
     COLUMN(clamps_pressure, "1", "so far", (double)r->clamps_pressure)                                  \
     COLUMN(clamps_compression, "1", "so far", (double)r->clamps_compression)                            \
-    COLUMN(clamps_velocity, "1", "so far", (double)r->clamps_velocity)                                  \
     COLUMN(splits, "1", "particles split so far", (double)r->splits)
 
 #define EVENT_COLUMNS(COLUMN)                                                                           \

@@ -98,7 +98,7 @@ static const summary_key shot_keys[] = {
 static const summary_key scene_keys[] = {
     NAME(scene_result, "class", class, damage_class_names, "none, scratch, gouge, undecided"),
     VALUE(scene_result, KEY_TEXT, "reason", reason, "", "the numbers behind the class"),
-    NUMBER(scene_result, "severity", severity, "1", "volume beyond the grain's own footprint over the grain's volume"),
+    NUMBER(scene_result, "severity", severity, "1", "(lean x volume - plan area x height of the grain) / its volume; gouging grows above 0"),
     NUMBER(scene_result, "crater_length", crater_length, "m", "along the rail"),
     NUMBER(scene_result, "crater_width", crater_width, "m", "full width"),
     NUMBER(scene_result, "crater_depth", crater_depth, "m", "deepest"),
@@ -106,9 +106,9 @@ static const summary_key scene_keys[] = {
     NUMBER(scene_result, "rim_height", rim_height, "m", "highest above the surface"),
     NUMBER(scene_result, "widening", widening, "1", "width of the downstream third over the upstream third"),
     VALUE(scene_result, KEY_FLAG, "crater_truncated", crater_truncated, "", "reaches the map's edge: length, volume are lower bounds"),
-    NUMBER(scene_result, "peak_pressure", peak_pressure, "Pa", "of any particle at any time"),
+    NUMBER(scene_result, "peak_pressure", peak_pressure, "Pa", "of any intact point at any time"),
     VECTOR(scene_result, "peak_force", peak_force, 3, "N", "on the rail, full model"),
-    NUMBER(scene_result, "peak_temperature", peak_temperature, "K", "of any particle at any time"),
+    NUMBER(scene_result, "peak_temperature", peak_temperature, "K", "of any intact point at any time"),
     NUMBER(scene_result, "peak_mises_armature", peak_mises_armature, "Pa", "von Mises stress of any of its particles"),
     NUMBER(scene_result, "peak_mises_rail", peak_mises_rail, "Pa", "von Mises stress of any of its particles"),
     NUMBER(scene_result, "peak_mises_armature_999", peak_mises_armature_999, "Pa", "99.9th percentile by mass"),
@@ -125,7 +125,7 @@ static const summary_key scene_keys[] = {
     VALUE(scene_result, KEY_COUNT, "particle_steps_dense", particle_steps_dense, "1", "if nothing had been skipped"),
     VALUE(scene_result, KEY_COUNT, "clamps_pressure", clamps_pressure, "1", "pressures held at a limit"),
     VALUE(scene_result, KEY_COUNT, "clamps_compression", clamps_compression, "1", "compressions held at a limit"),
-    VALUE(scene_result, KEY_COUNT, "clamps_velocity", clamps_velocity, "1", "velocities held at a limit"),
+    NUMBER(scene_result, "eroded_mass", eroded_mass, "kg", "vapour and dust taken out, full model"),
     NUMBER(scene_result, "wall_seconds", wall_seconds, "s", "time it took"),
     VALUE(scene_result, KEY_INTEGER, "threads", threads, "1", "used"),
     KEYS_END
@@ -551,6 +551,7 @@ static void take_bodies(scene_result *r, const scene_outcome *o)
     r->peak_force[0] = halves * m->peak_contact_force[0];
     r->peak_force[1] = halves * m->peak_contact_force[1];
     r->peak_force[2] = o->mirrored ? 0.0 : m->peak_contact_force[2];
+    r->eroded_mass = halves * m->eroded_mass;
     r->bodies = o->scene->bodies;
     for (int b = 0; b < r->bodies; b++) {
         memcpy(r->body[b], o->scene->body[b].name, sizeof r->body[b]);
@@ -583,7 +584,6 @@ scene_result scene_result_of(const scene_outcome *o)
     r.particle_steps_dense = m->particle_steps_dense;
     r.clamps_pressure = m->clamps_pressure;
     r.clamps_compression = m->clamps_compression;
-    r.clamps_velocity = m->clamps_velocity;
     r.wall_seconds = o->wall_seconds;
     r.threads = o->threads;
     return r;

@@ -45,7 +45,8 @@ typedef struct {
     double failed_volume[MPM_MAX_BODIES]; /* [m3] */
     double end_time;                      /* [s] */
     uint64_t particles, steps, particle_steps, particle_steps_dense;
-    uint64_t clamps_pressure, clamps_compression, clamps_velocity;
+    uint64_t clamps_pressure, clamps_compression;
+    double eroded_mass;  /* [kg] */
     double wall_seconds; /* [s] */
     int threads;
 } scene_result;
