@@ -63,6 +63,27 @@ static void test_states(void **state)
     case_free(c);
 }
 
+/* Between two steps: position, time and velocity divide the step alike. */
+static void test_trace(void **state)
+{
+    (void)state;
+    breech_case *c = changed_case(NULL);
+    shot_outcome o;
+    OK(shot_run(c, &(shot_plan){ .history = NULL }, &o));
+    trace_point at;
+    for (int i = 1; i < o.n_trace; i += 7) {
+        const trace_point *a = &o.trace[i - 1], *b = &o.trace[i];
+        if (!(b->v > a->v)) continue;
+        assert_true(trace_at_velocity(&o, 0.75 * a->v + 0.25 * b->v, &at));
+        assert_true(fabs(at.x - (0.75 * a->x + 0.25 * b->x)) < 1e-9); /* rounding: a velocity over a small difference */
+        assert_true(fabs(at.t - (0.75 * a->t + 0.25 * b->t)) < 1e-9);
+    }
+    assert_false(trace_at_velocity(&o, 1e5, &at));
+    assert_true(trace_at_velocity(&o, 0.0, &at) && at.x == c->barrel.start);
+    shot_outcome_free(&o);
+    case_free(c);
+}
+
 static void test_not_reached(void **state)
 {
     (void)state;
@@ -446,11 +467,11 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_states),     cmocka_unit_test(test_not_reached),    cmocka_unit_test(test_jumps),
-        cmocka_unit_test(test_stopped),    cmocka_unit_test(test_screen_table),   cmocka_unit_test(test_screen_band),
-        cmocka_unit_test(test_no_overlap), cmocka_unit_test(test_places),         cmocka_unit_test(test_grid),
-        cmocka_unit_test(test_pressing),   cmocka_unit_test(test_grain_measures), cmocka_unit_test(test_fields),
-        cmocka_unit_test(test_masses),     cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_states),      cmocka_unit_test(test_trace),      cmocka_unit_test(test_not_reached),
+        cmocka_unit_test(test_jumps),       cmocka_unit_test(test_stopped),    cmocka_unit_test(test_screen_table),
+        cmocka_unit_test(test_screen_band), cmocka_unit_test(test_no_overlap), cmocka_unit_test(test_places),
+        cmocka_unit_test(test_grid),        cmocka_unit_test(test_pressing),   cmocka_unit_test(test_grain_measures),
+        cmocka_unit_test(test_fields),      cmocka_unit_test(test_masses),     cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
