@@ -1,0 +1,171 @@
+/* Speed of the solver: ns of wall time a particle and step.
+ *
+ *   breech_bench_scene [--tiny] [steps [repetitions]]
+ *
+ * `contact` is the paper's base case (an armature ploughing over a grain on a rail, friction, graded grid); `single` is a
+ * block of the same number of points, one body and one field, sheared so that it yields.  Each line: median, least and
+ * largest of the repetitions, each a run of so many steps of one solver that goes on.  Nothing is judged here: what is
+ * printed holds for this machine and whatever else ran on it. */
+#include "mpm/mpm.h"
+#include "mpm/shape.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_REPETITIONS = 25 };
+
+typedef struct {
+    bool tiny;
+    int steps, repetitions;
+} options;
+
+typedef struct {
+    material copper, aluminium;
+    mpm_scene scene;
+} bench_scene;
+
+static void die(status s)
+{
+    if (s.code == STATUS_OK) return;
+    fprintf(stderr, "bench_scene: %s\n", s.text);
+    exit(1);
+}
+
+/* Rows ofhc_copper and w17_al7075 of the reference table. */
+static void set_materials(bench_scene *b)
+{
+    material *c = &b->copper, *a = &b->aluminium;
+    params_default(material_params, c);
+    params_default(material_params, a);
+    strcpy(c->name, "ofhc_copper"), strcpy(a->name, "w17_al7075");
+    c->density = 8960, c->youngs_modulus = 124e9, c->poisson = 0.34, c->specific_heat = 383, c->conductivity = 386;
+    c->yield_A = 90e6, c->hardening_B = 292e6, c->hardening_n = 0.31, c->rate_C = 0.025, c->softening_m = 1.09;
+    c->damage_D1 = 0.54, c->damage_D2 = 4.89, c->damage_D3 = -3.03, c->damage_D4 = 0.014, c->damage_D5 = 1.12;
+    c->sound_speed = 3940, c->hugoniot_slope = 1.489, c->gruneisen = 2.02, c->melting_temperature = 1356;
+    a->density = 2810, a->youngs_modulus = 71e9, a->poisson = 0.33, a->specific_heat = 960;
+    a->yield_A = 369e6, a->hardening_B = 684e6, a->hardening_n = 0.73, a->rate_C = 0.0083, a->softening_m = 1.7;
+    a->damage_D1 = 0.13, a->damage_D2 = 0.13, a->damage_D3 = -1.5, a->damage_D4 = 0.011, a->damage_D5 = 0;
+    a->sound_speed = 5350, a->hugoniot_slope = 1.34, a->gruneisen = 2, a->melting_temperature = 933;
+    c->reference_temperature = a->reference_temperature = 293, c->rate_0 = a->rate_0 = 1;
+    c->taylor_quinney = a->taylor_quinney = 0.9;
+}
+
+static mpm_body *add_body(mpm_scene *s, const char *shape, const double *values, int n, const material *m)
+{
+    mpm_body *b = &s->body[s->bodies++];
+    snprintf(b->name, sizeof b->name, "%s", shape);
+    b->shape = shape_find(shape), b->material = m;
+    for (int i = 0; i < n; i++) b->shape_value.value[i] = values[i];
+    b->temperature = 293, b->yield_scale = 1, b->damage = true;
+    return b;
+}
+
+static mpm_axis graded(double lo, double hi, double fine_lo, double fine_hi, double h)
+{
+    return (mpm_axis){
+        .lo = lo, .hi = hi, .fine_lo = fine_lo, .fine_hi = fine_hi, .fine = h, .coarse = 5 * h, .growth = 1.25
+    };
+}
+
+static void contact_scene(bench_scene *b, bool tiny)
+{
+    const double h = tiny ? 0.5e-3 : 0.18e-3;
+    mpm_scene *s = &b->scene;
+    mpm_scene_default(s);
+    set_materials(b);
+    s->axis[0] = graded(-33e-3, 20e-3, -2e-3, 8e-3, h);
+    s->axis[1] = graded(-10e-3, 12.5e-3, -1.5e-3, 1.5e-3, h);
+    s->axis[2] = graded(0, 15e-3, 0, 3e-3, h);
+    s->axis[0].boundary[0] = s->axis[0].boundary[1] = BOUNDARY_ABSORBING;
+    s->axis[0].boundary_fields[0] = s->axis[0].boundary_fields[1] = 1;
+    s->axis[1].boundary[0] = s->axis[1].boundary[1] = s->axis[2].boundary[0] = BOUNDARY_SYMMETRY;
+    const double rail[] = { -33e-3, -10e-3, -1, 20e-3, 0, 1 }, grain[] = { 0, 0, 0, 0.5e-3, 0.5e-3 };
+    const double u[] = { -1e-3, 30e-3, 5e-3, 10e-3, 12.5e-3, 2e-3, 0.5236, 10e-3, 0 };
+    add_body(s, "box", rail, 6, &b->copper);
+    add_body(s, "hemisphere", grain, 5, &b->copper);
+    mpm_body *armature = add_body(s, "armature", u, 9, &b->aluminium);
+    armature->field = 1, armature->velocity[0] = 1500;
+    for (int i = 0; i < MPM_MAX_FIELDS; i++)
+        for (int j = 0; j < MPM_MAX_FIELDS; j++) s->contact[i][j].friction = 0.2;
+}
+
+static void single_scene(bench_scene *b, bool tiny)
+{
+    const double h = 1e-3;
+    const int n = tiny ? 6 : 36;
+    mpm_scene *s = &b->scene;
+    mpm_scene_default(s);
+    set_materials(b);
+    for (int k = 0; k < 3; k++) s->axis[k] = graded(0, (n + 8) * h, 0, (n + 8) * h, h);
+    const double middle = (n / 2 + 4) * h, lower[] = { 4 * h, 4 * h, 4 * h, (n + 4) * h, middle, (n + 4) * h };
+    const double upper[] = { 4 * h, middle, 4 * h, (n + 4) * h, (n + 4) * h, (n + 4) * h };
+    add_body(s, "box", lower, 6, &b->copper);
+    add_body(s, "box", upper, 6, &b->copper)->velocity[0] = 300;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Runs and prints one line; returns the median [ns], or 0 when this machine lacks the instruction set. */
+static double measure(const char *name, const mpm_scene *base, const char *set, int threads, const options *o)
+{
+    mpm_scene s = *base;
+    snprintf(s.instruction_set, sizeof s.instruction_set, "%s", set);
+    mpm *m;
+    if (mpm_create(&s, threads, &m).code != STATUS_OK) return 0;
+    double ns[MAX_REPETITIONS];
+    mpm_report before = mpm_state(m);
+    for (int r = -1; r < o->repetitions; r++) { /* the first warms up */
+        const double start = omp_get_wtime();
+        const uint64_t until = before.steps + (uint64_t)o->steps;
+        mpm_report now = before;
+        while (now.steps < until) {
+            die(mpm_advance(m, now.time + (double)(until - now.steps) * now.dt * 0.999, NULL));
+            now = mpm_state(m);
+        }
+        if (r >= 0) ns[r] = 1e9 * (omp_get_wtime() - start) / (double)(now.particle_steps - before.particle_steps);
+        before = now;
+    }
+    qsort(ns, (size_t)o->repetitions, sizeof *ns, ascending);
+    const double median = ns[o->repetitions / 2];
+    printf("%-8s  %-10s  %7d  %9zu  %8.1f  %8.1f  %8.1f\n", name, set, threads, mpm_particles(m), median, ns[0],
+           ns[o->repetitions - 1]);
+    fflush(stdout);
+    mpm_free(m);
+    return median;
+}
+
+int main(int argc, char **argv)
+{
+    options o = { .tiny = argc > 1 && strcmp(argv[1], "--tiny") == 0, .steps = 40, .repetitions = 7 };
+    const int first = o.tiny ? 2 : 1;
+    if (o.tiny) o.steps = 3, o.repetitions = 2;
+    if (argc > first) o.steps = atoi(argv[first]);
+    if (argc > first + 1) o.repetitions = atoi(argv[first + 1]);
+    if (o.steps < 1 || o.repetitions < 1 || o.repetitions > MAX_REPETITIONS) {
+        fprintf(stderr, "usage: breech_bench_scene [--tiny] [steps [repetitions, at most %d]]\n", MAX_REPETITIONS);
+        return 2;
+    }
+    static const char *const sets[] = { "x86-64-v4", "x86-64-v3", "portable" };
+    bench_scene contact = { .scene = { 0 } }, single = { .scene = { 0 } };
+    contact_scene(&contact, o.tiny);
+    single_scene(&single, o.tiny);
+    printf("scene     set         threads  particles    median     least   largest   (ns a particle and step, wall)\n");
+    for (int i = 0; i < 3; i++) {
+        double ns[2][2];
+        for (int threads = 1; threads <= 2; threads++) {
+            ns[0][threads - 1] = measure("single", &single.scene, sets[i], threads, &o);
+            ns[1][threads - 1] = measure("contact", &contact.scene, sets[i], threads, &o);
+        }
+        if (ns[0][0] > 0)
+            printf("%-8s  %-10s  two threads over one: single %.2f, contact %.2f; contact over single: %.2f\n", "ratio",
+                   sets[i], ns[0][0] / ns[0][1], ns[1][0] / ns[1][1], ns[1][0] / ns[0][0]);
+    }
+    return 0;
+}
