@@ -1,6 +1,7 @@
 /* The program from outside: exit codes, refusals that write nothing, --set, summaries, stop and resume. */
 #include "output_common.h"
 
+#include "coupling/io/hdf5_file.h"
 #include "coupling/io/outdir.h"
 
 #include <cJSON.h>
@@ -235,13 +236,32 @@ static int signalled(const char *arguments, int number_of_signal, double after)
     return WIFEXITED(result) ? WEXITSTATUS(result) : 1000;
 }
 
+/* Every row once, to the bit. */
+static void assert_same_history(const char *dataset)
+{
+    static const char *const files[2] = { "stop/whole/history.h5", "stop/part/history.h5" };
+    double *data[2];
+    size_t dims[2][H5_MAX_RANK];
+    for (int k = 0; k < 2; k++) {
+        h5_file *f = NULL;
+        OK(h5_open(files[k], &f));
+        OK(h5_read(f, dataset, &data[k], dims[k]));
+        h5_close(f);
+    }
+    const size_t n = dims[0][0] * (strstr(dataset, "depth") ? dims[0][1] : 1);
+    assert_int_equal(dims[0][0], dims[1][0]);
+    assert_memory_equal(data[0], data[1], n * sizeof *data[0]);
+    free(data[0]);
+    free(data[1]);
+}
+
 /* SIGTERM, SIGINT and --max-walltime: checkpoint, 75; resumed as often as it takes, the same bits as in one go. */
 static void test_stop_and_resume(void **state)
 {
     (void)state;
     fresh_folder("stop");
-    assert_int_equal(run("scene " TINY " -o stop/whole --quiet --set output.snapshots=2"), 0);
-    const char *const arguments = "scene " TINY " -o stop/part --quiet --resume --set output.snapshots=2";
+    assert_int_equal(run("scene " TINY " -o stop/whole --quiet --set output.snapshots=6"), 0);
+    const char *const arguments = "scene " TINY " -o stop/part --quiet --resume --set output.snapshots=6";
     int code = 75, stops = 0;
     while (code == 75 && stops < 200) {
         /* longer each time, so that a slow machine gets on too */
@@ -252,7 +272,7 @@ static void test_stop_and_resume(void **state)
         cJSON *s = summary_of("stop/part");
         assert_text(s, "status", "stopped");
         cJSON_Delete(s);
-        assert_int_equal(run("scene " TINY " -o stop/part --set output.snapshots=2"),
+        assert_int_equal(run("scene " TINY " -o stop/part --set output.snapshots=6"),
                          2); /* neither resumed nor forced */
     }
     assert_int_equal(code, 0);
@@ -262,6 +282,9 @@ static void test_stop_and_resume(void **state)
     assert_text(part, "status", "done");
     assert_same(whole, part);
     assert_int_equal(files_in("stop/part/scenes/scene", ".hdf"), files_in("stop/whole/scenes/scene", ".hdf"));
+    assert_same_history("/scene/scene/time");
+    assert_same_history("/scene/scene/internal");
+    assert_same_history("/scene/scene/crater/depth");
     cJSON_Delete(whole);
     cJSON_Delete(part);
 }
