@@ -17,7 +17,8 @@ static void slide_scene(mpm_scene *s, const material *copper, const material *al
     const double x0 = -LENGTH - 4e-3, x1 = travel + 6e-3, off = 0.37 * H;
     s->axis[0] = scene_axis(x0, x1, H, BOUNDARY_ABSORBING, BOUNDARY_ABSORBING);
     s->axis[0].boundary_fields[0] = s->axis[0].boundary_fields[1] = 1;
-    s->axis[1] = scene_axis(-3e-3, HALF_BORE, H, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    /* free above: a mirror there would hold the head up and bear part of the load */
+    s->axis[1] = scene_axis(-3e-3, HALF_BORE + 1e-3, H, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
     s->axis[1] = scene_graded(s->axis[1], -3 * H + off, 3 * H + off, 2 * H, 1.2);
     s->axis[2] = scene_axis(0, 4.5e-3, H, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
     s->axis[2] = scene_graded(s->axis[2], 0, 1.5e-3, 2 * H, 1.2);
@@ -33,13 +34,29 @@ static void slide_scene(mpm_scene *s, const material *copper, const material *al
     b->body_force[1] = -50e6 * area / (aluminium->density * section);
 }
 
+/* Sums the rail's load over the second half of the run; the first is the sudden pressing's. */
+typedef struct {
+    double from, last, impulse;
+} load;
+
+static bool watch_step(void *user, const mpm *m)
+{
+    load *w = user;
+    const mpm_report r = mpm_state(m);
+    if (r.time > w->from) w->impulse -= (r.time - fmax(w->last, w->from)) * r.contact_force[0][1];
+    w->last = r.time;
+    return true;
+}
+
 static slide_result slide(double speed, double travel)
 {
     const material copper = scene_copper(), aluminium = scene_aluminium();
     mpm_scene s;
     slide_scene(&s, &copper, &aluminium, speed, travel);
     mpm *m = scene_make(&s, 1);
-    assert_ok(mpm_advance(m, travel / speed, NULL));
+    const double end = travel / speed, pressed = 50e6 * (LENGTH - CHAMFER / tan(LEAD)) * HALF_WIDTH;
+    load w = { .from = end / 2 };
+    assert_ok(mpm_advance(m, end, &(mpm_sink){ watch_step, &w }));
     const mpm_ledger l = mpm_balance(m);
     const mpm_report r = mpm_state(m);
     slide_result out = { .energy = l.energy_error, .momentum = l.momentum_error, .failed = 0 };
@@ -50,12 +67,11 @@ static slide_result slide(double speed, double travel)
     for (int i = 0; i < s.bodies; i++) out.failed += r.failed_volume[i];
     out.pressure = r.peak_pressure;
     print_message("%.1f km/s over %.0f mm, %zu points, %llu steps: plastic strain %.2e, failed %.2g mm3, energy %+.1e, "
-                  "momentum %.1e, force %.0f N of %.0f, peak pressure %.0f MPa\n",
+                  "momentum %.1e, load %.0f N of %.0f, peak pressure %.0f MPa\n",
                   1e-3 * speed, 1e3 * travel, mpm_particles(m), (unsigned long long)r.steps, out.strain,
-                  1e9 * out.failed, out.energy, out.momentum, -r.contact_force[0][1],
-                  50e6 * (LENGTH - CHAMFER / tan(LEAD)) * HALF_WIDTH, 1e-6 * out.pressure);
-    /* it was pressed on: the rail bears the load, which rings by its own size at first */
-    assert_near(-r.contact_force[0][1] / (50e6 * (LENGTH - CHAMFER / tan(LEAD)) * HALF_WIDTH), 1, 0.9);
+                  1e9 * out.failed, out.energy, out.momentum, w.impulse / (end / 2), pressed, 1e-6 * out.pressure);
+    /* it was pressed on: the rail bears the load, which still rings: a third is allowed for over a few microseconds */
+    assert_near(w.impulse / (end / 2) / pressed, 1, 0.33);
     assert_near(scene_mean(m, MPM_velocity, 0, 1) / speed, 1, 1e-3);
     mpm_free(m);
     return out;
