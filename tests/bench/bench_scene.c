@@ -72,7 +72,7 @@ static mpm_axis graded(double lo, double hi, double fine_lo, double fine_hi, dou
 
 static void contact_scene(bench_scene *b, bool tiny)
 {
-    const double h = tiny ? 0.5e-3 : 0.18e-3;
+    const double h = tiny ? 0.6e-3 : 0.27e-3;
     mpm_scene *s = &b->scene;
     mpm_scene_default(s);
     set_materials(b);
