@@ -179,6 +179,11 @@ static void test_refusals(void **state)
         assert_true(mpm_restore(m, part, cut).code != STATUS_OK);
         free(part);
     }
+    char *longer = calloc(1, bytes + 64);
+    assert_non_null(longer);
+    memcpy(longer, image, bytes);
+    refused(m, longer, bytes + 64, "an image with something behind it", "bytes");
+    free(longer);
     ((char *)image)[0] ^= 1;
     refused(m, image, bytes, "an image of something else", "");
     mpm_free(m);
