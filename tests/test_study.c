@@ -321,12 +321,13 @@ static void test_errors(void **state)
 /* Severity of a made-up scene: rises with the velocity, earlier for larger grains; the coarse cells see it 40 m/s later. */
 typedef struct {
     int scenes, stop_after; /* of this process; 0: never */
+    double base;            /* threshold of a 0.5 mm grain [m/s] */
 } fake;
-static fake counter; /* the runner has no place for it */
+static fake counter = { 0, 0, 1430.0 }; /* the runner has no place for it */
 
 static double made_up_threshold(double radius)
 {
-    return 1430.0 - 4e5 * (radius - 0.5e-3);
+    return counter.base - 4e5 * (radius - 0.5e-3);
 }
 
 static status fake_scene(const scene_job *job, const scene_host *host, impact *out)
@@ -385,19 +386,20 @@ static double first_position_at(const onset_answer *a, double v)
     return NAN;
 }
 
-static void test_onset(void **state)
+static void check_onset(double threshold, bool site_inside)
 {
-    (void)state;
     breech_case *c = changed_case(NULL);
     onset_answer a;
+    int undecided = 0;
+    counter.base = threshold;
     OK(study(c, "onset", FORCE, &a));
     const onset_result *r = &a.result;
     assert_int_equal(r->verdict, VERDICT_GOUGES);
     assert_int_equal(a.kinds, 1);
     assert_int_equal(r->scenes_run, counter.scenes);
     assert_int_equal(r->scenes_skipped, c->sites.n - 1);
-    assert_true(r->threshold_interval[0] <= 1430.0 && 1430.0 <= r->threshold_interval[1]);
-    assert_true(fabs(r->threshold_velocity - 1430.0) < 1e-6); /* the made-up severity is a line */
+    assert_true(r->threshold_interval[0] <= threshold && threshold <= r->threshold_interval[1]);
+    assert_true(fabs(r->threshold_velocity - threshold) < 1e-6); /* the made-up severity is a line */
     assert_true(r->onset_position == first_position_at(&a, r->threshold_velocity));
     assert_true(r->onset_interval[0] == first_position_at(&a, r->threshold_interval[0]));
     assert_true(r->onset_interval[1] == first_position_at(&a, r->threshold_interval[1]));
@@ -408,9 +410,11 @@ static void test_onset(void **state)
                                   : s->velocity > r->threshold_interval[0] ? SITE_UNDECIDED
                                                                            : SITE_SCRATCH;
         assert_int_equal(s->outcome, want);
+        undecided += want == SITE_UNDECIDED && s->velocity > r->threshold_velocity;
         assert_true(isnan(s->gouged_volume) == (want != SITE_GOUGE));
         assert_true(s->scene[0] != '\0');
     }
+    assert_true((undecided > 0) == site_inside);
     /* x(v) falls between the sites around it */
     assert_true(a.threshold_position[0] <= r->onset_position && a.threshold_position[0] > r->onset_position - 0.3);
     /* feedback: every gouge takes 0.02 N s of 0.25 kg, 0.08 m/s at once, of which the later pushing keeps v_site/v_muzzle */
@@ -418,6 +422,14 @@ static void test_onset(void **state)
     assert_true(a.gouges > 0 && loss > 0.5 * 0.08 * a.gouges && loss < 0.08 * a.gouges);
     onset_answer_free(&a);
     case_free(c);
+    counter.base = 1430.0;
+}
+
+static void test_onset(void **state)
+{
+    (void)state;
+    check_onset(1430.0, false);
+    check_onset(1405.0, true); /* a site at 1416 m/s lies between the threshold and the interval's upper end */
 }
 
 /* Moves of the case move the answer the right way (wu2017.md, W7 to W11). */
@@ -466,7 +478,7 @@ static void test_screened(void **state)
 static void test_two_kinds(void **state)
 {
     (void)state;
-    const char *const sets[] = { "sites[3].radius=0.7 mm", "study.max_scenes=30", NULL };
+    const char *const sets[] = { "sites[3].radius=0.7 mm", "sites[3].height=0.5 mm", "study.max_scenes=30", NULL };
     breech_case *c = changed_case(sets);
     onset_answer a;
     OK(study(c, "kinds", FORCE, &a));
