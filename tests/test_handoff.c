@@ -416,7 +416,7 @@ static void test_fields(void **state)
     assert_true(m.scene.contact[0][1].bond_strength == 80e6 && m.scene.contact[1][0].bond_strength == 80e6);
     assert_true(m.scene.contact[1][2].bond_strength == 0.0 && m.scene.contact[2][3].bond_strength == 0.0);
     for (int a = 0; a < MPM_MAX_FIELDS; a++)
-        for (int b = 0; b < MPM_MAX_FIELDS; b++) assert_true(m.scene.contact[a][b].friction == 0.2);
+        for (int b = 0; b < MPM_MAX_FIELDS; b++) assert_true(m.scene.contact[a][b].friction == m.c->scene.friction);
     case_free(m.c);
     m = make(variants[0]); /* all welded */
     assert_int_equal(named(&m.scene, "particle")->field, 0);
