@@ -337,9 +337,10 @@ static void explain(onset_answer *a)
     else if (isfinite(r->threshold_velocity))
         snprintf(text, sizeof text, "threshold %.0f m/s (%.0f .. %.0f) is passed at x = %.3f m (%.3f .. %.3f)",
                  r->threshold_velocity, r->threshold_interval[0], r->threshold_interval[1], x[0], x[1], x[2]);
+    else if (isnan(r->threshold_interval[0]))
+        snprintf(text, sizeof text, "threshold at or below %.0f m/s, where the search began", r->threshold_interval[1]);
     else
-        snprintf(text, sizeof text, "no threshold between %.0f and %.0f m/s", r->threshold_interval[0],
-                 r->threshold_interval[1]);
+        snprintf(text, sizeof text, "threshold above %.0f m/s, where the search ended", r->threshold_interval[0]);
     int n = snprintf(r->reason, sizeof r->reason, "%s; fastest site %.0f m/s", text, fastest_site(a));
     if (isfinite(a->muzzle_velocity_fed) && n > 0 && (size_t)n < sizeof r->reason)
         snprintf(r->reason + n, sizeof r->reason - (size_t)n, "; muzzle velocity %.1f m/s, with %d gouges %.1f m/s",
