@@ -1,6 +1,7 @@
 #include "coupling/study/commands.h"
 
 #include "circuit/inductance.h"
+#include "coupling/study/scenes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,19 +26,11 @@ status command_shot(session *s, command_result *out)
 status command_scene(session *s, command_result *out)
 {
     const breech_case *c = s->c;
-    const site_state state = state_of_case(c);
-    onset_scene about;
-    scene_job job;
-    const stored_scene *done;
-    char task[80];
-    memset(&about, 0, sizeof about);
-    snprintf(about.name, sizeof about.name, "scene");
-    about.velocity = state.velocity;
-    about.cells_per_radius = c->scene.cells_per_radius;
-    snprintf(task, sizeof task, "scene, %g m/s", state.velocity);
-    TRY(scene_job_make(c, &state, c->scene.cells_per_radius, &job));
-    job.task = task;
-    TRY(session_scene(s, &job, &about, &done));
+    const scene_query query = {
+        .c = c, .state = state_of_case(c), .cells_per_radius = c->scene.cells_per_radius, .name = "scene"
+    };
+    const scene_record *done;
+    TRY(scenes_all(s, &query, 1, &done));
     out->scene = done->entry.result;
     out->summary.scene = &out->scene;
     return status_ok();

@@ -1,6 +1,7 @@
 #include "coupling/study/onset.h"
 
 #include "coupling/handoff/screen.h"
+#include "coupling/study/scenes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -98,54 +99,23 @@ static double contact_pressure_at(const scene_source *from, double v)
     return PRESSURE_STEP * round(at.contact_pressure / PRESSURE_STEP);
 }
 
-static void surface_text(const breech_case *c, char *out, size_t size)
-{
-    const case_layers *layers = &c->rail.layers;
-    int n = snprintf(out, size, "%s", c->rail.material);
-    for (int i = 0; i < layers->n && n > 0 && (size_t)n < size; i++)
-        n += snprintf(out + n, size - (size_t)n, " + %s", layers->item[i].material);
-}
-
-static onset_scene describe(const scene_source *from, const site_state *state, double cells_per_radius)
-{
-    const breech_case *c = from->session->c;
-    onset_scene e;
-    memset(&e, 0, sizeof e);
-    snprintf(e.name, sizeof e.name, "g%d-v%g-c%g", from->number, state->velocity, cells_per_radius);
-    e.velocity = state->velocity;
-    e.radius = state->grain.radius;
-    e.height = state->grain.height;
-    memcpy(e.shape, state->grain.shape, sizeof e.shape);
-    memcpy(e.material, state->grain.material, sizeof e.material);
-    surface_text(c, e.surface, sizeof e.surface);
-    e.contact_pressure = state->contact_pressure;
-    e.temperature = c->rail.temperature;
-    e.cells_per_radius = cells_per_radius;
-    return e;
-}
-
 static status run_at(void *user, double velocity, double cells_per_radius, threshold_sample *out)
 {
     scene_source *from = user;
-    session *s = from->session;
-    const site_state state = { .grain = from->kind->grain,
-                               .reached = true,
-                               .velocity = velocity,
-                               .contact_pressure = contact_pressure_at(from, velocity),
-                               .rail_temperature = s->c->rail.temperature,
-                               .armature_temperature = s->c->projectile.temperature };
-    const onset_scene about = describe(from, &state, cells_per_radius);
-    const stored_scene *done;
-    scene_job job;
-    char task[120];
-    TRY(scene_job_make(s->c, &state, cells_per_radius, &job));
-    snprintf(task, sizeof task, "scene %d, %g m/s, %g cells a radius", s->n_store + 1, velocity, cells_per_radius);
-    job.task = task;
-    TRY(session_scene(s, &job, &about, &done));
+    const breech_case *c = from->session->c;
+    const scene_record *done;
+    scene_query query = { .c = c,
+                          .cells_per_radius = cells_per_radius,
+                          .state = { .grain = from->kind->grain,
+                                     .reached = true,
+                                     .velocity = velocity,
+                                     .contact_pressure = contact_pressure_at(from, velocity),
+                                     .rail_temperature = c->rail.temperature,
+                                     .armature_temperature = c->projectile.temperature } };
+    snprintf(query.name, sizeof query.name, "g%d-v%g-c%g", from->number, velocity, cells_per_radius);
+    TRY(scenes_all(from->session, &query, 1, &done));
     const scene_result *r = &done->entry.result;
-    *out = (threshold_sample){ .excess = r->severity - s->c->scene.limit_severity, .class = r->class };
-    progress_say(&s->progress, "%-22s %s, severity %.2f, widening %.2f (%.0f s)", about.name,
-                 damage_class_names[r->class], r->severity, r->widening, r->wall_seconds);
+    *out = (threshold_sample){ .excess = r->severity - c->scene.limit_severity, .class = r->class };
     return status_ok();
 }
 
@@ -193,13 +163,13 @@ static status search_all(session *s, const shot_outcome *flown, onset_answer *a)
 /* ---- judging the sites ---- */
 
 /* The scene of the kind that is nearest in velocity, among those of its best resolution. */
-static const stored_scene *nearest_scene(const session *s, int kind, double velocity)
+static const scene_record *nearest_scene(const session *s, int kind, double velocity)
 {
     char prefix[24];
-    const stored_scene *best = NULL;
+    const scene_record *best = NULL;
     snprintf(prefix, sizeof prefix, "g%d-", kind + 1);
-    for (int i = 0; i < s->n_store; i++) {
-        const stored_scene *a = &s->store[i];
+    for (int i = 0; i < s->n_records; i++) {
+        const scene_record *a = s->record[i];
         if (strncmp(a->entry.name, prefix, strlen(prefix)) != 0) continue;
         const bool finer = best && a->entry.cells_per_radius > best->entry.cells_per_radius;
         const bool coarser = best && a->entry.cells_per_radius < best->entry.cells_per_radius;
@@ -209,7 +179,7 @@ static const stored_scene *nearest_scene(const session *s, int kind, double velo
     return best;
 }
 
-static site_outcome outcome_at(const threshold_result *t, double v, const stored_scene *near)
+static site_outcome outcome_at(const threshold_result *t, double v, const scene_record *near)
 {
     if (!isnan(t->interval[1]) && v >= t->interval[1]) return SITE_GOUGE;
     if (isnan(t->interval[0]) || v > t->interval[0]) return SITE_UNDECIDED;
@@ -231,7 +201,7 @@ static void judge_sites(const session *s, onset_answer *a)
         onset_site *site = &a->site[i];
         if (a->kind_of[i] < 0) continue;
         const threshold_result *t = &a->kind[a->kind_of[i]].threshold;
-        const stored_scene *near = nearest_scene(s, a->kind_of[i], site->velocity);
+        const scene_record *near = nearest_scene(s, a->kind_of[i], site->velocity);
         site->threshold_velocity = t->velocity;
         site->threshold_interval[0] = t->interval[0];
         site->threshold_interval[1] = t->interval[1];
@@ -357,7 +327,7 @@ static status feed_back(session *s, onset_answer *a)
     site_jump *jump = calloc((size_t)a->result.n_sites, sizeof *jump);
     CHECK(jump, STATUS_MEMORY, "no memory for %d sites", a->result.n_sites);
     for (int i = 0; i < a->result.n_sites; i++) {
-        const stored_scene *near = a->kind_of[i] < 0 ? NULL : nearest_scene(s, a->kind_of[i], a->site[i].velocity);
+        const scene_record *near = a->kind_of[i] < 0 ? NULL : nearest_scene(s, a->kind_of[i], a->site[i].velocity);
         if (near && a->site[i].outcome == SITE_GOUGE) jump[i] = (site_jump){ near->impulse, near->mass_loss };
     }
     shot_outcome again;
@@ -373,11 +343,11 @@ static status feed_back(session *s, onset_answer *a)
 
 static status list_scenes(const session *s, onset_answer *a)
 {
-    a->scene = calloc((size_t)s->n_store + 1, sizeof *a->scene);
-    CHECK(a->scene, STATUS_MEMORY, "no memory for %d scenes", s->n_store);
-    for (int i = 0; i < s->n_store; i++) a->scene[i] = s->store[i].entry;
+    a->scene = calloc((size_t)s->n_records + 1, sizeof *a->scene);
+    CHECK(a->scene, STATUS_MEMORY, "no memory for %d scenes", s->n_records);
+    for (int i = 0; i < s->n_records; i++) a->scene[i] = s->record[i]->entry;
     a->result.scene = a->scene;
-    a->result.n_scenes = a->result.scenes_run = s->n_store;
+    a->result.n_scenes = a->result.scenes_run = s->n_records;
     for (int i = 0; i < a->result.n_sites; i++) a->result.scenes_skipped += a->site[i].outcome == SITE_SKIPPED;
     for (int k = 0; k < a->kinds; k++) a->result.scenes_skipped += a->kind[k].sites - 1; /* share their kind's */
     return status_ok();

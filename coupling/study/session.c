@@ -6,8 +6,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static const double ENERGY_ERROR_LIMIT = 0.01; /* above it a scene is warned about (issue's bound of the base case) */
-
 double session_wall(const session *s)
 {
     return s->wall_before + wall_clock() - s->started;
@@ -28,7 +26,7 @@ void session_warn(session *s, const char *format, ...)
     progress_say(&s->progress, "warning: %s", line);
 }
 
-/* ---- checkpoints: the store as it lies, after a head that says how long it is ---- */
+/* ---- checkpoints: the records one after the other, after a head that says how many ---- */
 
 typedef struct {
     uint64_t scenes, scene_bytes;
@@ -43,19 +41,34 @@ static status checkpoint_path(const session *s, char path[OUTDIR_PATH_SIZE])
 static status write_checkpoint(const session *s, checkpoint *c, double scene_wall)
 {
     char path[OUTDIR_PATH_SIZE];
-    const store_head head = { (uint64_t)s->n_store, sizeof(stored_scene), scene_wall };
-    const size_t bytes = (size_t)s->n_store * sizeof(stored_scene);
+    const store_head head = { (uint64_t)s->n_records, sizeof(scene_record), scene_wall };
+    const size_t bytes = (size_t)s->n_records * sizeof(scene_record);
     TRY(checkpoint_path(s, path));
     char *study = malloc(sizeof head + bytes);
-    CHECK(study, STATUS_MEMORY, "no memory for a checkpoint of %d scenes", s->n_store);
+    CHECK(study, STATUS_MEMORY, "no memory for a checkpoint of %d scenes", s->n_records);
     memcpy(study, &head, sizeof head);
-    if (bytes) memcpy(study + sizeof head, s->store, bytes);
+    for (int i = 0; i < s->n_records; i++)
+        memcpy(study + sizeof head + (size_t)i * sizeof(scene_record), s->record[i], sizeof(scene_record));
     c->study = study;
     c->study_bytes = sizeof head + bytes;
     c->wall_seconds = session_wall(s);
     const status done = checkpoint_write(path, &s->key, c);
     free(study);
     return done;
+}
+
+static status add_record(session *s, const scene_record *from)
+{
+    scene_record *copy = malloc(sizeof *copy);
+    scene_record **more = realloc(s->record, ((size_t)s->n_records + 1) * sizeof *more);
+    if (more) s->record = more;
+    if (!copy || !more) {
+        free(copy);
+        return status_error(STATUS_MEMORY, "no memory for %d scenes", s->n_records + 1);
+    }
+    memcpy(copy, from, sizeof *copy);
+    s->record[s->n_records++] = copy;
+    return status_ok();
 }
 
 static status take_up(session *s)
@@ -66,13 +79,14 @@ static status take_up(session *s)
     TRY(checkpoint_read(path, &s->key, &s->resumed));
     CHECK(s->resumed.study_bytes >= sizeof head, STATUS_IO, "%.300s: holds no study; start over with --force", path);
     memcpy(&head, s->resumed.study, sizeof head);
-    CHECK(head.scene_bytes == sizeof(stored_scene) &&
-              s->resumed.study_bytes == sizeof head + head.scenes * sizeof(stored_scene),
-          STATUS_IO, "%.300s: its store of scenes is of another build; start over with --force", path);
-    s->store = malloc((head.scenes + 1) * sizeof *s->store);
-    CHECK(s->store, STATUS_MEMORY, "no memory for %llu scenes", (unsigned long long)head.scenes);
-    memcpy(s->store, (const char *)s->resumed.study + sizeof head, head.scenes * sizeof *s->store);
-    s->n_store = (int)head.scenes;
+    CHECK(head.scene_bytes == sizeof(scene_record) &&
+              s->resumed.study_bytes == sizeof head + head.scenes * sizeof(scene_record),
+          STATUS_IO, "%.300s: its scenes are of another build; start over with --force", path);
+    for (size_t i = 0; i < head.scenes; i++) {
+        scene_record one;
+        memcpy(&one, (const char *)s->resumed.study + sizeof head + i * sizeof one, sizeof one);
+        TRY(add_record(s, &one));
+    }
     s->wall_before = s->resumed.wall_seconds;
     return status_ok();
 }
@@ -136,10 +150,12 @@ status session_close(session *s, bool finished)
     if (finished && s->dir.lock >= 0 && checkpoint_path(s, path).code == STATUS_OK) unlink(path);
     outdir_close(&s->dir);
     checkpoint_free(&s->resumed);
-    free(s->store);
+    for (int i = 0; i < s->n_records; i++) free(s->record[i]);
+    free(s->record);
     free(s->warnings);
     s->history = NULL;
-    s->store = NULL;
+    s->record = NULL;
+    s->n_records = 0;
     s->warnings = NULL;
     return done;
 }
@@ -162,14 +178,7 @@ status session_shot(session *s, const site_jump *jump, bool with_history, shot_o
 
 /* ---- scenes ---- */
 
-static const stored_scene *find_scene(const session *s, const char *name)
-{
-    for (int i = 0; i < s->n_store; i++)
-        if (strcmp(s->store[i].entry.name, name) == 0) return &s->store[i];
-    return NULL;
-}
-
-static status save_inside(void *user, const char *scene, const mpm *m, double wall)
+status session_save_inside(void *user, const char *scene, const mpm *m, double wall)
 {
     const session *s = user;
     checkpoint c = { .scene_hash = hash_bytes(0, scene, strlen(scene)), .scene_time = mpm_state(m).time };
@@ -182,60 +191,16 @@ static status save_inside(void *user, const char *scene, const mpm *m, double wa
     return done;
 }
 
-static status keep_scene(session *s, const stored_scene *scene)
+scene_resume session_resume_of(const session *s, const char *scene)
 {
-    stored_scene *more = realloc(s->store, ((size_t)s->n_store + 1) * sizeof *more);
-    CHECK(more, STATUS_MEMORY, "no memory for %d scenes", s->n_store + 1);
-    s->store = more;
-    s->store[s->n_store++] = *scene;
+    if (!s->resumed.image || strcmp(s->resumed.scene, scene) != 0) return (scene_resume){ .image = NULL };
+    return (scene_resume){ s->resumed.image, s->resumed.image_bytes, s->resumed.scene_time, resumed_scene_wall(s) };
+}
+
+status session_keep(session *s, const scene_record *fresh)
+{
     checkpoint between = { .scene = "" };
+    TRY(add_record(s, fresh));
     TRY(history_flush(s->history));
     return write_checkpoint(s, &between, 0.0);
-}
-
-static void warn_of(session *s, const onset_scene *e)
-{
-    const scene_result *r = &e->result;
-    if (fabs(r->energy_error) > ENERGY_ERROR_LIMIT)
-        session_warn(s, "scene %s: energy error %.2f %%, above %.0f %%: lower scene.courant or raise the resolution",
-                     e->name, 100.0 * r->energy_error, 100.0 * ENERGY_ERROR_LIMIT);
-    if (r->crater_truncated)
-        session_warn(s,
-                     "scene %s: the crater reaches the edge of the fine zone: enlarge scene.fine_ahead or fine_width",
-                     e->name);
-}
-
-static void set_resume(const session *s, scene_job *job)
-{
-    if (s->resumed.image && strcmp(s->resumed.scene, job->name) == 0)
-        job->resume =
-            (scene_resume){ s->resumed.image, s->resumed.image_bytes, s->resumed.scene_time, resumed_scene_wall(s) };
-}
-
-status session_scene(session *s, scene_job *job, const onset_scene *about, const stored_scene **out)
-{
-    *out = find_scene(s, about->name);
-    if (*out) return status_ok();
-    stored_scene fresh;
-    impact hit;
-    memset(&fresh, 0, sizeof fresh);
-    memcpy(&fresh.entry, about, sizeof *about);
-    job->name = about->name;
-    set_resume(s, job);
-    const scene_host host = { .dir = &s->dir,
-                              .history = s->history,
-                              .progress = &s->progress,
-                              .timing = &s->timing,
-                              .threads = s->threads,
-                              .stop = s->stop,
-                              .save = save_inside,
-                              .user = s };
-    TRY(s->run_scene(job, &host, &hit));
-    fresh.entry.result = hit.result;
-    fresh.impulse = hit.impulse;
-    fresh.mass_loss = hit.mass_loss;
-    TRY(keep_scene(s, &fresh));
-    *out = &s->store[s->n_store - 1];
-    warn_of(s, &(*out)->entry);
-    return status_ok();
 }

@@ -1,7 +1,7 @@
 /* A session: one run of the program on one case, and what it carries along - output directory, history, progress, timing,
  * checkpoints, the scenes computed so far.
  *
- * Scenes are kept by name in a store; the store is part of every checkpoint, so that a resumed run computes no scene twice
+ * The scenes of the run (scenes.h asks for them) are part of every checkpoint, so that a resumed run computes none twice
  * and goes on inside the one it was stopped in, bit for bit. */
 #ifndef BREECH_COUPLING_SESSION_H
 #define BREECH_COUPLING_SESSION_H
@@ -10,10 +10,12 @@
 #include "coupling/io/checkpoint.h"
 #include "coupling/io/outdir.h"
 
+/* A scene that was computed. */
 typedef struct {
     onset_scene entry;
     double impulse, mass_loss; /* as impact */
-} stored_scene;
+    uint64_t key;              /* hash of all that decides it, scene_key.h */
+} scene_record;
 
 typedef struct {
     const breech_case *c; /* borrowed */
@@ -27,9 +29,9 @@ typedef struct {
     checkpoint_key key;
     checkpoint resumed;          /* empty unless the run goes on */
     double started, wall_before; /* wall clock; spent before this process [s] */
-    int n_store;
-    stored_scene *store; /* owned */
-    char *warnings;      /* a line each, owned */
+    int n_records;
+    scene_record **record; /* in the order they came; owned, one by one */
+    char *warnings;        /* a line each, owned */
 } session;
 
 typedef struct {
@@ -50,9 +52,12 @@ status session_close(session *s, bool finished);
 double session_wall(const session *s); /* spent by the run, the stopped parts too [s] */
 void session_warn(session *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The scene of that name: from the store, or run, from its checkpoint where there is one.  `about` gives the entry all but
- * its result.  *out is borrowed, valid until the next call. */
-status session_scene(session *s, scene_job *job, const onset_scene *about, const stored_scene **out);
+/* Takes a copy of the record, flushes the history, writes the checkpoint. */
+status session_keep(session *s, const scene_record *fresh);
+/* A checkpoint inside a scene: the scene_host's save, the session its user. */
+status session_save_inside(void *session, const char *scene, const mpm *m, double wall);
+/* Where the scene of this name is to be taken up; from the start unless the run was stopped inside it. */
+scene_resume session_resume_of(const session *s, const char *scene);
 
 /* The shot of the case, with what is asked for in jumps (NULL: none); only the first one of a run writes history. */
 status session_shot(session *s, const site_jump *jump, bool with_history, shot_outcome *out, shot_record *record);
