@@ -22,6 +22,7 @@ typedef struct {
     const command *command;
     const char *subject; /* CASE, NAME or DIR; NULL */
     const char *dir;     /* -o */
+    const char *store;   /* --store; NULL: in the output directory, "": none */
     const char *sets[MAX_SETS];
     int n_sets, threads;
     outdir_options how;
@@ -81,6 +82,8 @@ static void print_help(FILE *out)
           "  --threads N       default: all of the machine\n"
           "  --resume          go on with a stopped run; starts anew where there is none\n"
           "  --force           overwrite what a former run left\n"
+          "  --store DIR       scenes computed before are taken from there and left there; default: store/ in the\n"
+          "                    output directory; --no-store: none\n"
           "  --max-walltime T  stop with a checkpoint after T (90, 30m, 2h, 1:30:00)\n"
           "  --quiet           no progress, no closing table\n"
           "  --keys            list every key of a case file\n"
@@ -217,6 +220,7 @@ static int run_case(const options *o)
     const status got = read_case(o, o->command->needs, &c);
     if (got.code != STATUS_OK) return exit_code(got);
     const session_options how = { .dir = o->dir,
+                                  .store = o->store,
                                   .how = o->how,
                                   .threads = o->threads,
                                   .progress_to = stderr,
@@ -385,6 +389,9 @@ static status take_value(options *o, const char *name, const char *value)
     if (strcmp(name, "-o") == 0) {
         CHECK(value[0], STATUS_BAD_INPUT, "-o: the directory's name is empty");
         o->dir = value;
+    } else if (strcmp(name, "--store") == 0) {
+        CHECK(value[0], STATUS_BAD_INPUT, "--store: the directory's name is empty; --no-store uses none");
+        o->store = value;
     } else if (strcmp(name, "--set") == 0) {
         CHECK(o->n_sets < MAX_SETS, STATUS_BAD_INPUT, "--set: more than %d", MAX_SETS);
         o->sets[o->n_sets++] = value;
@@ -400,7 +407,7 @@ static status take_value(options *o, const char *name, const char *value)
 
 static bool takes_value(const char *name)
 {
-    static const char *const names[] = { "-o", "--set", "--threads", "--max-walltime", NULL };
+    static const char *const names[] = { "-o", "--store", "--set", "--threads", "--max-walltime", NULL };
     for (int i = 0; names[i]; i++)
         if (strcmp(names[i], name) == 0) return true;
     return false;
@@ -414,6 +421,8 @@ static bool take_flag(options *o, const char *name)
         o->how.force = true;
     else if (strcmp(name, "--quiet") == 0)
         o->quiet = true;
+    else if (strcmp(name, "--no-store") == 0)
+        o->store = "";
     else
         return false;
     return true;

@@ -369,7 +369,9 @@ static breech_case *changed_case(const char *const *sets)
 static status study(const breech_case *c, const char *dir, outdir_options how, onset_answer *out)
 {
     session s;
-    const session_options options = { .dir = dir, .how = how, .threads = 1, .progress_to = stderr, .quiet = true };
+    const session_options options = {
+        .dir = dir, .store = "", .how = how, .threads = 1, .progress_to = stderr, .quiet = true
+    };
     OK(session_open(c, &options, &s));
     s.run_scene = fake_scene;
     counter.scenes = 0;

@@ -58,47 +58,67 @@ status h5_create(h5_file **out)
     return status_ok();
 }
 
-static hid_t open_image(const char *name, void *image, size_t bytes)
+static hid_t open_memory(const char *name, const void *image, size_t bytes)
 {
     if (bytes == 0) return -1;
     const hid_t access = memory_access();
-    H5Pset_file_image(access, image, bytes);
+    H5Pset_file_image(access, (void *)image, bytes); /* copied */
     const hid_t id = H5Fopen(name, H5F_ACC_RDWR, access);
     H5Pclose(access);
     return id;
 }
 
-status h5_open(const char *path, h5_file **out)
+status h5_open_image(const char *what, const void *image, size_t bytes, h5_file **out)
 {
+    char name[64];
     *out = NULL;
     be_quiet();
-    char *image, name[64];
-    size_t bytes;
     h5_file *f = NULL;
-    TRY(file_read(path, &image, &bytes));
-    status s = allocate(path, &f, name, sizeof name);
-    if (s.code == STATUS_OK) {
-        f->id = open_image(name, image, bytes);
-        if (f->id < 0)
-            s = status_error(STATUS_IO, "%.300s: is not an HDF5 file, or a damaged one (%zu bytes)", path, bytes);
-    }
-    free(image);
-    if (s.code == STATUS_OK)
-        *out = f;
-    else
+    TRY(allocate(what, &f, name, sizeof name));
+    f->id = open_memory(name, image, bytes);
+    if (f->id < 0) {
         free(f);
+        return status_error(STATUS_IO, "%.300s: is not an HDF5 file, or a damaged one (%zu bytes)", what, bytes);
+    }
+    *out = f;
+    return status_ok();
+}
+
+status h5_open(const char *path, h5_file **out)
+{
+    char *image;
+    size_t bytes;
+    *out = NULL;
+    TRY(file_read(path, &image, &bytes));
+    const status s = h5_open_image(path, image, bytes, out);
+    free(image);
     return s;
+}
+
+status h5_image(h5_file *f, void **image, size_t *bytes)
+{
+    *image = NULL;
+    *bytes = 0;
+    CHECK(H5Fflush(f->id, H5F_SCOPE_GLOBAL) >= 0, STATUS_IO, "%.300s: HDF5 cannot complete it", f->name);
+    const ssize_t size = H5Fget_file_image(f->id, NULL, 0);
+    CHECK(size > 0, STATUS_IO, "%.300s: HDF5 cannot tell its size", f->name);
+    void *all = malloc((size_t)size);
+    CHECK(all, STATUS_MEMORY, "%.300s: no memory for %zd bytes", f->name, size);
+    if (H5Fget_file_image(f->id, all, (size_t)size) != size) {
+        free(all);
+        return status_error(STATUS_IO, "%.300s: HDF5 cannot complete it", f->name);
+    }
+    *image = all;
+    *bytes = (size_t)size;
+    return status_ok();
 }
 
 status h5_save(h5_file *f, const char *path)
 {
-    CHECK(H5Fflush(f->id, H5F_SCOPE_GLOBAL) >= 0, STATUS_IO, "%.300s: HDF5 cannot complete it", path);
-    const ssize_t bytes = H5Fget_file_image(f->id, NULL, 0);
-    CHECK(bytes > 0, STATUS_IO, "%.300s: HDF5 cannot tell its size", path);
-    char *image = malloc((size_t)bytes);
-    CHECK(image, STATUS_MEMORY, "%.300s: no memory for %zd bytes", path, bytes);
-    status s = status_error(STATUS_IO, "%.300s: HDF5 cannot complete it", path);
-    if (H5Fget_file_image(f->id, image, (size_t)bytes) == bytes) s = file_write(path, image, (size_t)bytes);
+    void *image;
+    size_t bytes = 0;
+    TRY(h5_image(f, &image, &bytes));
+    const status s = file_write(path, image, bytes);
     free(image);
     return s;
 }
@@ -142,6 +162,22 @@ status h5_group(h5_file *f, const char *path)
     H5Pclose(links);
     CHECK(group >= 0, STATUS_IO, "%.150s: the group %.150s cannot be made", f->name, path);
     H5Gclose(group);
+    return status_ok();
+}
+
+void h5_remove(h5_file *f, const char *path)
+{
+    if (h5_exists(f, path)) H5Ldelete(f->id, path, H5P_DEFAULT);
+}
+
+status h5_copy(const h5_file *from, const char *path, h5_file *to, const char *to_path)
+{
+    CHECK(h5_exists(from, path), STATUS_IO, "%.150s: holds no %.150s", from->name, path);
+    h5_remove(to, to_path);
+    const hid_t links = link_with_parents();
+    const herr_t done = H5Ocopy(from->id, path, to->id, to_path, H5P_DEFAULT, links);
+    H5Pclose(links);
+    CHECK(done >= 0, STATUS_IO, "%.150s: %.150s cannot be copied into %.150s", from->name, path, to->name);
     return status_ok();
 }
 
@@ -216,6 +252,14 @@ status h5_attribute_ints(h5_file *f, const char *path, const char *name, const i
     return s;
 }
 
+static hid_t open_attribute(const h5_file *f, const char *path, const char *name)
+{
+    const hid_t object = h5_exists(f, path) || strcmp(path, "/") == 0 ? H5Oopen(f->id, path, H5P_DEFAULT) : -1;
+    const hid_t attribute = object >= 0 && H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1;
+    if (object >= 0) H5Oclose(object);
+    return attribute;
+}
+
 static bool read_text(hid_t attribute, char *out, size_t size)
 {
     const hid_t type = H5Aget_type(attribute);
@@ -230,15 +274,19 @@ static bool read_text(hid_t attribute, char *out, size_t size)
 status h5_read_attribute_text(const h5_file *f, const char *path, const char *name, char *out, size_t size)
 {
     out[0] = '\0';
-    bool done = false;
-    const hid_t object = h5_exists(f, path) || strcmp(path, "/") == 0 ? H5Oopen(f->id, path, H5P_DEFAULT) : -1;
-    if (object >= 0 && H5Aexists(object, name) > 0) {
-        const hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
-        done = attribute >= 0 && read_text(attribute, out, size);
-        if (attribute >= 0) H5Aclose(attribute);
-    }
-    if (object >= 0) H5Oclose(object);
+    const hid_t attribute = open_attribute(f, path, name);
+    const bool done = attribute >= 0 && read_text(attribute, out, size);
+    if (attribute >= 0) H5Aclose(attribute);
     CHECK(done, STATUS_IO, "%.150s: %.150s has no text attribute %.60s", f->name, path, name);
+    return status_ok();
+}
+
+status h5_read_attribute_double(const h5_file *f, const char *path, const char *name, double *out)
+{
+    const hid_t attribute = open_attribute(f, path, name);
+    const bool done = attribute >= 0 && H5Aread(attribute, H5T_NATIVE_DOUBLE, out) >= 0;
+    if (attribute >= 0) H5Aclose(attribute);
+    CHECK(done, STATUS_IO, "%.150s: %.150s has no number %.60s", f->name, path, name);
     return status_ok();
 }
 
@@ -287,7 +335,7 @@ static hid_t creation_for(const h5_array *a, const hsize_t *dims)
 
 status h5_write(h5_file *f, const h5_name *name, const h5_array *a)
 {
-    if (h5_exists(f, name->path)) H5Ldelete(f->id, name->path, H5P_DEFAULT);
+    h5_remove(f, name->path);
     const hsize_t dims[H5_MAX_RANK] = { a->dims[0], a->rank > 1 ? a->dims[1] : 1 };
     const hid_t space = H5Screate_simple(a->rank, dims, NULL), links = link_with_parents(),
                 kind = creation_for(a, dims);

@@ -35,10 +35,18 @@ typedef struct {
 status h5_create(h5_file **out);
 status h5_open(const char *path, h5_file **out); /* a copy in memory; the file itself is not kept open */
 status h5_save(h5_file *f, const char *path);
+/* The file as bytes, and back; *image is malloc'ed, the caller frees it.  what: names it in messages. */
+status h5_image(h5_file *f, void **image, size_t *bytes);
+status h5_open_image(const char *what, const void *image, size_t bytes, h5_file **out);
 void h5_close(h5_file *f); /* NULL allowed; saves nothing */
 
 bool h5_exists(const h5_file *f, const char *path);
 status h5_group(h5_file *f, const char *path);
+
+/* Copies a group or dataset with all below it into another file; what was there under the new path goes. */
+status h5_copy(const h5_file *from, const char *path, h5_file *to, const char *to_path);
+/* Removes a group or dataset; nothing when it is not there.  Its room in the file is not given back. */
+void h5_remove(h5_file *f, const char *path);
 
 /* Writes a whole dataset (an older one of that name goes); deflate 1 + shuffle from 1 KiB on. */
 status h5_write(h5_file *f, const h5_name *name, const h5_array *array);
@@ -57,6 +65,7 @@ status h5_list(const h5_file *f, const char *group, char **names);
 status h5_attribute_text(h5_file *f, const char *path, const char *name, const char *text); /* fixed length, ASCII */
 status h5_attribute_double(h5_file *f, const char *path, const char *name, double value);
 status h5_attribute_ints(h5_file *f, const char *path, const char *name, const int64_t *values, size_t n);
+status h5_read_attribute_double(const h5_file *f, const char *path, const char *name, double *out);
 /* STATUS_IO when it is missing or longer than size - 1. */
 status h5_read_attribute_text(const h5_file *f, const char *path, const char *name, char *out, size_t size);
 

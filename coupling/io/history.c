@@ -34,10 +34,9 @@ status history_open(const char *path, bool resume, history **out)
     *out = NULL;
     history *h = calloc(1, sizeof *h);
     CHECK(h, STATUS_MEMORY, "no memory for the history");
-    const int n = snprintf(h->path, sizeof h->path, "%s", path);
-    status s =
-        n > 0 && (size_t)n < sizeof h->path ? status_ok() : status_error(STATUS_IO, "%.200s...: path too long", path);
-    if (s.code == STATUS_OK) s = resume && file_exists(path) ? h5_open(path, &h->file) : h5_create(&h->file);
+    const int n = snprintf(h->path, sizeof h->path, "%s", path ? path : "");
+    status s = (size_t)n < sizeof h->path ? status_ok() : status_error(STATUS_IO, "%.200s...: path too long", path);
+    if (s.code == STATUS_OK) s = resume && path && file_exists(path) ? h5_open(path, &h->file) : h5_create(&h->file);
     if (s.code != STATUS_OK) {
         free(h);
         return s;
@@ -151,7 +150,7 @@ status history_end(history *h, int series)
 
 status history_flush(history *h)
 {
-    if (!h->changed) return status_ok();
+    if (!h->changed || !h->path[0]) return status_ok();
     const double start = wall_clock();
     for (int i = 0; i < HISTORY_MAX_SERIES; i++)
         if (h->series[i].rows > 0) TRY(gather(h, &h->series[i]));
@@ -176,6 +175,39 @@ status history_close(history *h)
     h5_close(h->file);
     free(h);
     return s;
+}
+
+/* ---- a scene from one file to another ---- */
+
+#define STORED_GROUP "/scene"
+
+static status scene_group(const char *scene, char group[GROUP_SIZE])
+{
+    const int n = snprintf(group, GROUP_SIZE, "/scene/%s", scene);
+    CHECK(n > 0 && n < GROUP_SIZE - 20 && name_is_plain(scene), STATUS_BAD_INPUT,
+          "scene `%.100s`: letters, digits, - _ . only, at most 170", scene);
+    return status_ok();
+}
+
+bool history_has(const history *h, const char *scene)
+{
+    char group[GROUP_SIZE];
+    return scene_group(scene, group).code == STATUS_OK && h5_exists(h->file, group);
+}
+
+status history_export(history *h, const char *scene, h5_file *to)
+{
+    char group[GROUP_SIZE];
+    TRY(scene_group(scene, group));
+    return h5_copy(h->file, group, to, STORED_GROUP);
+}
+
+status history_import(history *h, const char *scene, const h5_file *from)
+{
+    char group[GROUP_SIZE];
+    TRY(scene_group(scene, group));
+    h->changed = true;
+    return h5_copy(from, STORED_GROUP, h->file, group);
 }
 
 /* ---- the crater ---- */
@@ -212,9 +244,8 @@ static status crater_numbers(history *h, const char *group, const crater *c)
 status history_crater(history *h, const char *scene, const crater *c)
 {
     char group[GROUP_SIZE], path[PATH_SIZE];
-    CHECK(name_is_plain(scene) && strlen(scene) < 150, STATUS_BAD_INPUT, "scene `%.100s`: letters, digits, - _ . only",
-          scene);
-    snprintf(group, sizeof group, "/scene/%.150s/crater", scene);
+    TRY(scene_group(scene, group));
+    strcat(group, "/crater");
     TRY(h5_group(h->file, group));
     snprintf(path, sizeof path, "%s/x", group);
     TRY(crater_axis(h, path, (const double[2]){ c->x0, c->dx }, c->nx, "along the rail, middle of a map cell"));
@@ -329,9 +360,7 @@ void history_event_row(const shot_event *e, double *row){ EVENT_COLUMNS(COLUMN_V
 status history_scene(history *h, const char *scene, int *series)
 {
     char group[GROUP_SIZE];
-    const int n = snprintf(group, sizeof group, "/scene/%s", scene);
-    CHECK(n > 0 && n < GROUP_SIZE - 20 && name_is_plain(scene), STATUS_BAD_INPUT,
-          "scene `%.100s`: letters, digits, - _ . only, at most 170", scene);
+    TRY(scene_group(scene, group));
     return history_series(h, group, scene_columns, WIDTH(scene_columns), series);
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/status.h"
 #include "circuit/shot.h"
+#include "coupling/io/hdf5_file.h"
 #include "mpm/crater.h"
 #include "mpm/mpm.h"
 
@@ -24,7 +25,8 @@ typedef struct {
     const char *name, *unit, *description;
 } history_column;
 
-/* resume: take up the file that is there (a new one when there is none); else an older file is replaced at the first flush. */
+/* resume: take up the file that is there (a new one when there is none); else an older file is replaced at the first flush.
+ * path NULL: in memory only, never flushed. */
 status history_open(const char *path, bool resume, history **out);
 
 /* A group of columns ("/shot", "/scene/a"); appended to when it is there.  columns: n, copied.  The first column is the
@@ -41,6 +43,11 @@ status history_flush(history *h);
 status history_tick(history *h);
 /* Flushes and frees; NULL allowed. */
 status history_close(history *h);
+
+/* /scene/<scene> as the group /scene of another file, and back; no series of it may be open. */
+status history_export(history *h, const char *scene, h5_file *to);
+status history_import(history *h, const char *scene, const h5_file *from);
+bool history_has(const history *h, const char *scene);
 
 /* The crater of scene `name`; a former one is replaced. */
 status history_crater(history *h, const char *scene, const crater *c);

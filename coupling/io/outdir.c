@@ -113,7 +113,7 @@ status outdir_default(const char *case_name, char *path, size_t size)
     return path_join("out", name, path, size);
 }
 
-static status make_directories(const char *path)
+status directory_make(const char *path)
 {
     char part[OUTDIR_PATH_SIZE];
     const int n = snprintf(part, sizeof part, "%s", path);
@@ -210,7 +210,7 @@ status outdir_open(const char *path, outdir_options options, outdir *out)
 {
     CHECK(!(options.force && options.resume), STATUS_BAD_INPUT, "--force and --resume exclude each other");
     outdir d = { .lock = -1 };
-    TRY(make_directories(path));
+    TRY(directory_make(path));
     snprintf(d.path, sizeof d.path, "%s", path);
     TRY(probe_writable(path));
     TRY(lock_directory(path, &d.lock));
@@ -248,5 +248,5 @@ status outdir_scene(const outdir *d, const char *scene, char *path, size_t size)
     CHECK(name_is_plain(scene), STATUS_BAD_INPUT, "scene `%.100s`: letters, digits, - _ . only", scene);
     TRY(path_join(d->path, "scenes", scenes, sizeof scenes));
     TRY(path_join(scenes, scene, path, size));
-    return make_directories(path);
+    return directory_make(path);
 }

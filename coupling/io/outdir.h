@@ -19,6 +19,7 @@
 #define OUTDIR_USED "used.yaml"
 #define OUTDIR_CHECKPOINT "checkpoint.bin"
 #define OUTDIR_REPORT "report.html"
+#define OUTDIR_STORE "store" /* scenes by key (study/store.h); stays when a run is overwritten */
 
 enum { OUTDIR_PATH_SIZE = 1024 };
 
@@ -47,6 +48,8 @@ status outdir_default(const char *case_name, char *path, size_t size);
 status outdir_open(const char *path, outdir_options options, outdir *out);
 void outdir_close(outdir *d);
 
+/* With its parents; fine when it is there. */
+status directory_make(const char *path);
 /* DIR/name into path. */
 status outdir_file(const outdir *d, const char *name, char *path, size_t size);
 /* A name that files, HDF5 groups and scripts take as it is: letters, digits, - _ . and no leading dot. */

@@ -244,6 +244,11 @@ static cJSON *by_body_json(const scene_result *r)
 
 static void add_keys(cJSON *object, const summary_key *keys, const void *from);
 
+static const scene_result *result_of(const void *scene)
+{
+    return &((const onset_scene *)scene)->result;
+}
+
 static cJSON *list_json(const summary_key *k, const char *base)
 {
     const int n = *(const int *)(base + k->n_offset);
@@ -253,8 +258,7 @@ static cJSON *list_json(const summary_key *k, const char *base)
         const char *item = items + (size_t)i * k->item_size;
         cJSON *object = cJSON_CreateObject();
         add_keys(object, k->item, item);
-        if (k->item == study_scene_keys)
-            add_keys(object, scene_keys, &((const onset_scene *)(const void *)item)->result);
+        if (k->item == study_scene_keys) add_keys(object, scene_keys, result_of(item));
         cJSON_AddItemToArray(list, object);
     }
     return list;
@@ -357,6 +361,78 @@ void summary_status(const char *dir, char *out, size_t size)
     if (word) snprintf(out, size, "%s", word);
     cJSON_Delete(root);
     free(text);
+}
+
+/* ---- one scene as text, and back ---- */
+
+char *summary_scene_text(const onset_scene *s)
+{
+    cJSON *object = cJSON_CreateObject();
+    add_keys(object, study_scene_keys, s);
+    add_keys(object, scene_keys, result_of(s));
+    char *text = cJSON_PrintUnformatted(object);
+    cJSON_Delete(object);
+    return text;
+}
+
+static int name_index(const char *const *names, const char *name)
+{
+    for (int i = 0; name && names[i]; i++)
+        if (strcmp(names[i], name) == 0) return i;
+    return -1;
+}
+
+static double number_of(const cJSON *value)
+{
+    return cJSON_IsNumber(value) ? value->valuedouble : NAN;
+}
+
+static bool read_by_body(const cJSON *object, scene_result *r)
+{
+    const cJSON *value;
+    r->bodies = 0;
+    cJSON_ArrayForEach(value, object)
+    {
+        if (r->bodies == MPM_MAX_BODIES) return false;
+        snprintf(r->body[r->bodies], sizeof r->body[0], "%s", value->string);
+        r->failed_volume[r->bodies++] = number_of(value);
+    }
+    return cJSON_IsObject(object);
+}
+
+/* The kinds a scene's result has; value_json the other way round. */
+static bool read_value(const summary_key *k, const cJSON *value, scene_result *r)
+{
+    void *member = (char *)r + k->offset;
+    double *number = member;
+    switch (k->kind) {
+    case KEY_NUMBER:
+        for (int i = 0; i < k->n; i++) number[i] = number_of(k->n == 1 ? value : cJSON_GetArrayItem(value, i));
+        return value != NULL;
+    case KEY_COUNT: *(uint64_t *)member = (uint64_t)cJSON_GetNumberValue(value); return cJSON_IsNumber(value);
+    case KEY_INTEGER: *(int *)member = (int)cJSON_GetNumberValue(value); return cJSON_IsNumber(value);
+    case KEY_FLAG: *(bool *)member = cJSON_IsTrue(value); return cJSON_IsBool(value);
+    case KEY_TEXT: /* the only one of a result is its reason */
+        snprintf(member, sizeof r->reason, "%s", cJSON_IsString(value) ? value->valuestring : "");
+        return cJSON_IsString(value);
+    case KEY_NAME: *(int *)member = name_index(k->names, cJSON_GetStringValue(value)); return *(int *)member >= 0;
+    case KEY_BY_BODY: return read_by_body(value, r);
+    case KEY_LIST:
+    case KEY_ARRAY: break;
+    }
+    return false;
+}
+
+status summary_scene_result(const char *text, scene_result *out)
+{
+    memset(out, 0, sizeof *out);
+    cJSON *root = cJSON_Parse(text);
+    const char *missing = NULL;
+    for (const summary_key *k = scene_keys; k->name && !missing; k++)
+        if (!read_value(k, cJSON_GetObjectItemCaseSensitive(root, k->name), out)) missing = k->name;
+    cJSON_Delete(root);
+    CHECK(!missing, STATUS_IO, "the result of a scene has no `%s`", missing);
+    return status_ok();
 }
 
 /* ---- for people ---- */

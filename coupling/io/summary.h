@@ -150,6 +150,10 @@ typedef struct {
 status summary_write(const char *dir, const run_summary *s);
 /* Its text, malloc'ed, the caller frees it; NULL when out of memory. */
 char *summary_text(const run_summary *s);
+/* One scene as a line of JSON, the keys of an entry of `scenes`, and its result back from it; numbers survive exactly.
+ * The text is malloc'ed, the caller frees it; NULL when out of memory.  STATUS_IO: not such a text, or keys are missing. */
+char *summary_scene_text(const onset_scene *s);
+status summary_scene_result(const char *text, scene_result *out);
 /* "done", "stopped", "failed" of the summary.json in dir; "" when there is none or it cannot be read. */
 void summary_status(const char *dir, char *out, size_t size);
 

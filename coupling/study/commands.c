@@ -27,7 +27,7 @@ status command_scene(session *s, command_result *out)
 {
     const breech_case *c = s->c;
     const scene_query query = {
-        .c = c, .state = state_of_case(c), .cells_per_radius = c->scene.cells_per_radius, .name = "scene"
+        .c = c, .state = state_of_case(c), .cells_per_radius = c->scene.cells_per_radius, .name = "scene", .anew = true
     };
     const scene_record *done;
     TRY(scenes_all(s, &query, 1, &done));

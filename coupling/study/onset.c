@@ -347,7 +347,8 @@ static status list_scenes(const session *s, onset_answer *a)
     CHECK(a->scene, STATUS_MEMORY, "no memory for %d scenes", s->n_records);
     for (int i = 0; i < s->n_records; i++) a->scene[i] = s->record[i]->entry;
     a->result.scene = a->scene;
-    a->result.n_scenes = a->result.scenes_run = s->n_records;
+    a->result.n_scenes = s->n_records;
+    for (int i = 0; i < s->n_records; i++) a->result.scenes_run += !s->record[i]->entry.reused;
     for (int i = 0; i < a->result.n_sites; i++) a->result.scenes_skipped += a->site[i].outcome == SITE_SKIPPED;
     for (int k = 0; k < a->kinds; k++) a->result.scenes_skipped += a->kind[k].sites - 1; /* share their kind's */
     return status_ok();

@@ -2,6 +2,7 @@
 
 #include "coupling/io/checkpoint.h"
 #include "coupling/io/summary.h"
+#include "coupling/solver_id.h" /* made by cmake/solver_id.cmake */
 
 #include <math.h>
 #include <stdlib.h>
@@ -54,7 +55,8 @@ static status case_of_scene(const breech_case *c, const site_state *state, doubl
 
 static uint64_t hash_of(const char *text, size_t bytes)
 {
-    const checkpoint_key who = checkpoint_key_of(mpm_instruction_set(), hash_bytes(0, text, bytes));
+    const uint64_t inputs = hash_bytes(hash_bytes(0, BREECH_SOLVER_ID, strlen(BREECH_SOLVER_ID)), text, bytes);
+    const checkpoint_key who = checkpoint_key_of(mpm_instruction_set(), inputs);
     return hash_bytes(0, &who, sizeof who);
 }
 
@@ -79,4 +81,9 @@ void scene_key_free(scene_key *k)
 {
     free(k->text);
     *k = (scene_key){ .text = NULL };
+}
+
+const char *scene_solver_id(void)
+{
+    return BREECH_SOLVER_ID;
 }

@@ -1,6 +1,6 @@
 #include "coupling/study/scenes.h"
 
-#include "coupling/study/scene_key.h"
+#include "coupling/study/store.h"
 
 #include <math.h>
 #include <string.h>
@@ -34,13 +34,6 @@ static onset_scene describe(const scene_query *q)
     e.temperature = q->c->rail.temperature;
     e.cells_per_radius = q->cells_per_radius;
     return e;
-}
-
-static const scene_record *record_of(const session *s, uint64_t key)
-{
-    for (int i = 0; i < s->n_records; i++)
-        if (s->record[i]->key == key) return s->record[i];
-    return NULL;
 }
 
 /* ---- computing ---- */
@@ -85,7 +78,26 @@ static status run_here(session *s, const scene_query *q, impact *hit)
     return s->run_scene(&job, &host, hit);
 }
 
-static status compute(session *s, const scene_query *q, uint64_t key)
+static status into_store(session *s, const scene_record *r, const scene_key *key)
+{
+    h5_file *file;
+    if (!s->store[0]) return status_ok();
+    TRY(scene_store_open(s->store));
+    TRY(scene_file_make(r, key, s->history, &file));
+    const status done = scene_store_put(s->store, key, file);
+    h5_close(file);
+    return done;
+}
+
+static status keep(session *s, const scene_record *fresh)
+{
+    TRY(session_keep(s, fresh));
+    warn_of(s, &fresh->entry);
+    say_outcome(s, &fresh->entry);
+    return status_ok();
+}
+
+static status compute(session *s, const scene_query *q, const scene_key *key)
 {
     scene_record fresh;
     impact hit;
@@ -95,44 +107,92 @@ static status compute(session *s, const scene_query *q, uint64_t key)
     fresh.entry.result = hit.result;
     fresh.impulse = hit.impulse;
     fresh.mass_loss = hit.mass_loss;
-    fresh.key = key;
-    TRY(session_keep(s, &fresh));
-    warn_of(s, &fresh.entry);
-    say_outcome(s, &fresh.entry);
-    return status_ok();
+    fresh.key = key->hash;
+    TRY(into_store(s, &fresh, key));
+    return keep(s, &fresh);
+}
+
+/* ---- taking up what is there ---- */
+
+/* The scene's series and crater come along where its file has them. */
+static status take_file(session *s, const scene_query *q, const scene_key *key, const h5_file *file)
+{
+    scene_record old;
+    memset(&old, 0, sizeof old);
+    old.entry = describe(q);
+    old.entry.reused = true;
+    TRY(scene_file_read(file, key, &old));
+    if (h5_exists(file, "/scene")) TRY(history_import(s->history, q->name, file));
+    return keep(s, &old);
+}
+
+/* A file that cannot be used is none: its scene is computed and replaces it. */
+static status take_stored(session *s, const scene_query *q, const scene_key *key)
+{
+    h5_file *file = NULL;
+    if (!s->store[0] || q->anew) return status_ok();
+    TRY(scene_store_get(s->store, key, &file));
+    if (!file) return status_ok();
+    const status taken = take_file(s, q, key, file);
+    h5_close(file);
+    if (taken.code == STATUS_IO) session_warn(s, "%s; computed anew", taken.text);
+    return taken.code == STATUS_IO ? status_ok() : taken;
+}
+
+static const scene_record *record_of(const session *s, uint64_t key)
+{
+    for (int i = 0; i < s->n_records; i++)
+        if (s->record[i]->key == key) return s->record[i];
+    return NULL;
 }
 
 /* ---- asking ---- */
 
-static status key_of(const scene_query *q, uint64_t *hash)
+/* Known by now, or NULL in *out; the key is the caller's to free. */
+static status look_up(session *s, const scene_query *q, scene_key *key, const scene_record **out)
 {
-    scene_key key;
-    const status done = scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
-    *hash = key.hash;
+    *out = NULL;
+    TRY(scene_key_of(q->c, &q->state, q->cells_per_radius, key));
+    *out = record_of(s, key->hash);
+    if (*out) return status_ok();
+    TRY(take_stored(s, q, key));
+    *out = record_of(s, key->hash);
+    return status_ok();
+}
+
+status scenes_find(session *s, const scene_query *query, const scene_record **out)
+{
+    scene_key key = { .text = NULL };
+    const status done = look_up(s, query, &key, out);
     scene_key_free(&key);
     return done;
 }
 
-const scene_record *scenes_find(session *s, const scene_query *query)
+static status find_or_compute(session *s, const scene_query *q, const scene_record **out)
 {
-    uint64_t key;
-    return key_of(query, &key).code == STATUS_OK ? record_of(s, key) : NULL;
-}
-
-status scenes_some(session *s, const scene_query *query, int n)
-{
-    for (int i = 0; i < n; i++) {
-        uint64_t key;
-        TRY(key_of(&query[i], &key));
-        if (!record_of(s, key)) return compute(s, &query[i], key);
+    scene_key key = { .text = NULL };
+    status done = look_up(s, q, &key, out);
+    if (done.code == STATUS_OK && !*out) {
+        done = compute(s, q, &key);
+        *out = record_of(s, key.hash);
     }
-    return status_ok();
+    scene_key_free(&key);
+    return done;
 }
 
 status scenes_all(session *s, const scene_query *query, int n, const scene_record **out)
 {
-    for (int i = 0; i < n; i++) TRY(scenes_some(s, &query[i], 1));
-    for (int i = 0; i < n; i++) out[i] = scenes_find(s, &query[i]);
+    for (int i = 0; i < n; i++) TRY(find_or_compute(s, &query[i], &out[i]));
+    return status_ok();
+}
+
+status scenes_some(session *s, const scene_query *query, int n)
+{
+    const scene_record *known;
+    for (int i = 0; i < n; i++) {
+        TRY(scenes_find(s, &query[i], &known));
+        if (!known) return find_or_compute(s, &query[i], &known);
+    }
     return status_ok();
 }
 

@@ -21,11 +21,12 @@ typedef struct {
     const breech_case *c;         /* rail, projectile, scene, materials, snapshots; borrowed for the call */
     site_state state;             /* its grain, velocity and contact pressure count; the temperatures are the case's */
     double cells_per_radius;      /* [1] */
-    char name[SUMMARY_NAME_SIZE]; /* plain (outdir.h); a scene that is there keeps the name it has */
+    char name[SUMMARY_NAME_SIZE]; /* plain (outdir.h); a scene of this run keeps the name it has */
+    bool anew;                    /* for its snapshots and live history: do not take it from the store */
 } scene_query;
 
-/* NULL: not computed yet.  Borrowed from the session, stays where it is until session_close. */
-const scene_record *scenes_find(session *s, const scene_query *query);
+/* *out is NULL: not computed yet; else borrowed from the session, stays where it is until session_close. */
+status scenes_find(session *s, const scene_query *query, const scene_record **out);
 
 /* Computes what is missing of the n; out[i], borrowed as above, answers query[i].  n = 0 is fine.
  * STATUS_STOPPED: checkpointed, what was reached is kept.  STATUS_BAD_INPUT: a scene that cannot be built. */

@@ -116,6 +116,16 @@ static status write_used(session *s)
     return done;
 }
 
+static status find_store(session *s, const char *wanted)
+{
+    if (!wanted)
+        TRY(outdir_file(&s->dir, OUTDIR_STORE, s->store, sizeof s->store));
+    else
+        CHECK(snprintf(s->store, sizeof s->store, "%s", wanted) < (int)sizeof s->store, STATUS_BAD_INPUT,
+              "--store: the path is too long");
+    return status_ok();
+}
+
 status session_open(const breech_case *c, const session_options *o, session *s)
 {
     char dir[OUTDIR_PATH_SIZE];
@@ -136,6 +146,7 @@ status session_open(const breech_case *c, const session_options *o, session *s)
         TRY(outdir_default(c->name, dir, sizeof dir));
     TRY(outdir_open(dir, o->how, &s->dir));
     if (s->dir.state == OUTDIR_FINISHED) return status_ok();
+    TRY(find_store(s, o->store));
     TRY(write_used(s));
     if (s->dir.state == OUTDIR_RESUMED) TRY(take_up(s));
     TRY(outdir_file(&s->dir, OUTDIR_HISTORY, dir, sizeof dir));

@@ -27,8 +27,9 @@ typedef struct {
     bool (*stop)(void);
     status (*run_scene)(const scene_job *, const scene_host *, impact *); /* scene_run; tests put another in */
     checkpoint_key key;
-    checkpoint resumed;          /* empty unless the run goes on */
-    double started, wall_before; /* wall clock; spent before this process [s] */
+    checkpoint resumed;           /* empty unless the run goes on */
+    double started, wall_before;  /* wall clock; spent before this process [s] */
+    char store[OUTDIR_PATH_SIZE]; /* folder of the scene store, "": none */
     int n_records;
     scene_record **record; /* in the order they came; owned, one by one */
     char *warnings;        /* a line each, owned */
@@ -36,6 +37,7 @@ typedef struct {
 
 typedef struct {
     const char *dir;    /* NULL: out/<case> */
+    const char *store;  /* NULL: <dir>/store; "": none */
     outdir_options how; /* --force, --resume */
     int threads;
     FILE *progress_to;

@@ -1,0 +1,426 @@
+/* The scene store: what decides a scene, its file, and that no scene is computed twice, whoever else is at it. */
+#include "coupling/study/scenes.h"
+#include "coupling/study/store.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#define OK(call)                                                        \
+    do {                                                                \
+        const status ok_ = (call);                                      \
+        if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
+    } while (0)
+
+#define CASES BREECH_TESTS "/../cases"
+
+static breech_case *read_case(const char *const *sets)
+{
+    const char *const dirs[] = { CASES "/materials" };
+    const case_options how = { dirs, 1, CASE_FOR_ONSET };
+    breech_case *c = NULL;
+    char *errors = NULL;
+    int n = 0;
+    while (sets && sets[n]) n++;
+    const status s = case_read(CASES "/default_shot", sets, n, &how, &c, &errors);
+    if (s.code != STATUS_OK) fail_msg("%s", errors ? errors : s.text);
+    return c;
+}
+
+static site_state state_at(const breech_case *c, double velocity)
+{
+    return (site_state){ .grain = c->sites.item[0], .reached = true, .velocity = velocity, .contact_pressure = 75e6 };
+}
+
+static uint64_t key_at(const breech_case *c, double velocity, double cells)
+{
+    const site_state state = state_at(c, velocity);
+    scene_key key;
+    OK(scene_key_of(c, &state, cells, &key));
+    const uint64_t hash = key.hash;
+    scene_key_free(&key);
+    return hash;
+}
+
+/* ---- the key ---- */
+
+/* Whatever decides the scene changes the key; what does not, does not. */
+static void test_key_parts(void **state)
+{
+    (void)state;
+    breech_case *c = read_case(NULL);
+    const uint64_t base = key_at(c, 1500.0, 3.0);
+    assert_true(key_at(c, 1500.0, 3.0) == base);
+    assert_true(key_at(c, 1510.0, 3.0) != base);
+    assert_true(key_at(c, 1500.0, 3.5) != base);
+    const char *const decides[] = { "scene.friction=0.19",
+                                    "scene.courant=0.3",
+                                    "rail.yield_scale=1.01",
+                                    "rail.temperature=294 K",
+                                    "projectile.length=0.03 m",
+                                    "scene.limit_severity=0.1",
+                                    "output.snapshots=7",
+                                    "sites[0].radius=0.6 mm",
+                                    "scene.damage=no",
+                                    "sites[0].shape=cone",
+                                    "projectile.lead_angle=0.5 rad" };
+    for (size_t i = 0; i < sizeof decides / sizeof *decides; i++) {
+        breech_case *other = read_case((const char *const[]){ decides[i], NULL });
+        if (key_at(other, 1500.0, 3.0) == base) fail_msg("%s does not change the key", decides[i]);
+        case_free(other);
+    }
+    const char *const idle[] = { "bank[0].charge=8 kV", "study.max_scenes=30",       "scene.velocity=1700 m/s",
+                                 "title=another",       "scene.cells_per_radius=9",  "output.checkpoint_interval=2 s",
+                                 "name=other",          "sites[1].position=0.123 m", "scene.contact_pressure=1 MPa" };
+    for (size_t i = 0; i < sizeof idle / sizeof *idle; i++) {
+        breech_case *other = read_case((const char *const[]){ idle[i], NULL });
+        if (key_at(other, 1500.0, 3.0) != base) fail_msg("%s changes the key", idle[i]);
+        case_free(other);
+    }
+    material *copper = (material *)case_material(c, c->rail.material);
+    copper->damage_D1 = nextafter(copper->damage_D1, INFINITY); /* the last bit of one constant */
+    assert_true(key_at(c, 1500.0, 3.0) != base);
+    case_free(c);
+}
+
+/* The key's text is a case file of this scene alone: read back it is the same scene. */
+static void test_key_is_a_case(void **state)
+{
+    (void)state;
+    const char *const sets[] = { "rail.temperature=311.3 K", "sites[0].bond_strength=123.4 MPa", NULL };
+    breech_case *c = read_case(sets), *back = NULL;
+    const site_state at = state_at(c, 1480.0 / 3.0 * 3.1);
+    scene_key key, again;
+    char *errors = NULL;
+    OK(scene_key_of(c, &at, 3.7, &key));
+    const case_text text = { .bytes = key.text, .length = key.bytes, .path = "key" };
+    const status read = case_read_memory(&text, &(case_options){ .needs = CASE_FOR_SCENE }, &back, &errors);
+    if (read.code != STATUS_OK) fail_msg("%s", errors ? errors : read.text);
+    const site_state state_back = state_of_case(back);
+    OK(scene_key_of(back, &state_back, back->scene.cells_per_radius, &again));
+    assert_string_equal(key.text, again.text);
+    assert_true(key.hash == again.hash);
+
+    mpm_scene a, b;
+    crater_spec of_a, of_b;
+    OK(scene_from_state(c, &at, 3.7, &a, &of_a));
+    OK(scene_from_state(back, &state_back, back->scene.cells_per_radius, &b, &of_b));
+    assert_int_equal(a.bodies, b.bodies);
+    for (int i = 0; i < a.bodies; i++) {
+        assert_string_equal(a.body[i].name, b.body[i].name);
+        assert_memory_equal(&a.body[i].shape_value, &b.body[i].shape_value, sizeof a.body[i].shape_value);
+        assert_true(a.body[i].body_force[1] == b.body[i].body_force[1]);
+        assert_true(a.body[i].temperature == b.body[i].temperature);
+    }
+    assert_true(a.end_time == b.end_time && a.axis[0].fine_hi == b.axis[0].fine_hi);
+    assert_true(of_a.particle_volume == of_b.particle_volume);
+    scene_key_free(&key);
+    scene_key_free(&again);
+    case_free(back);
+    case_free(c);
+}
+
+/* ---- the file ---- */
+
+static scene_record some_record(void)
+{
+    scene_record r;
+    memset(&r, 0, sizeof r);
+    snprintf(r.entry.name, sizeof r.entry.name, "g1-v1500-c3");
+    r.entry.velocity = 1500.0;
+    scene_result *e = &r.entry.result;
+    e->class = DAMAGE_SCRATCH;
+    snprintf(e->reason, sizeof e->reason, "a \"quoted\" reason, 3 \\ 4");
+    e->severity = -1.0 / 3.0;
+    e->widening = NAN;
+    e->peak_force[1] = -1e5 / 7.0;
+    e->crater_truncated = true;
+    e->bodies = 2;
+    snprintf(e->body[0], sizeof e->body[0], "rail");
+    snprintf(e->body[1], sizeof e->body[1], "armature");
+    e->failed_volume[1] = 1e-10 / 3.0;
+    e->particle_steps = 123456789012345u;
+    e->wall_seconds = 0.1;
+    e->threads = 2;
+    r.impulse = 0.1 / 3.0;
+    r.mass_loss = 1e-6 / 3.0;
+    return r;
+}
+
+static void test_file(void **state)
+{
+    (void)state;
+    breech_case *c = read_case(NULL);
+    const site_state at = state_at(c, 1500.0);
+    scene_record r = some_record(), back;
+    scene_key key, other;
+    OK(scene_key_of(c, &at, 3.0, &key));
+    OK(scene_key_of(c, &at, 4.0, &other));
+    r.key = key.hash;
+    h5_file *f;
+    void *image;
+    size_t bytes;
+    OK(scene_file_make(&r, &key, NULL, &f));
+    OK(h5_image(f, &image, &bytes));
+    h5_close(f);
+    OK(h5_open_image("sent", image, bytes, &f)); /* as it goes from process to process */
+    free(image);
+    memset(&back, 0, sizeof back);
+    OK(scene_file_read(f, &key, &back));
+    assert_true(isnan(back.entry.result.widening));
+    back.entry.result.widening = r.entry.result.widening; /* one NaN need not have the other's bits */
+    assert_memory_equal(&back.entry.result, &r.entry.result, sizeof r.entry.result);
+    assert_true(back.impulse == r.impulse && back.mass_loss == r.mass_loss && back.key == r.key);
+    assert_int_equal(scene_file_read(f, &other, &back).code, STATUS_IO); /* not the file of that scene */
+    h5_close(f);
+    scene_key_free(&key);
+    scene_key_free(&other);
+    case_free(c);
+}
+
+/* ---- sessions that share a store; scenes that cost nothing ---- */
+
+static struct {
+    int scenes;
+} ran; /* the runner has no place for it */
+
+static status fake_scene(const scene_job *job, const scene_host *host, impact *out)
+{
+    memset(out, 0, sizeof *out);
+    ran.scenes++;
+    const double v = job->scene.body[body_of_armature(&job->scene)].velocity[0];
+    double row[HISTORY_MAX_COLUMNS] = { 0.0, v };
+    int series;
+    OK(history_scene(host->history, job->name, &series));
+    OK(history_append(host->history, series, row));
+    OK(history_end(host->history, series));
+    out->result.severity = v - 1500.0;
+    out->result.class = v >= 1500.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
+    out->impulse = 1e-5 * v;
+    return status_ok();
+}
+
+static session opened(const breech_case *c, const char *dir, const char *store)
+{
+    session s;
+    const session_options options = {
+        .dir = dir, .store = store, .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
+    };
+    OK(session_open(c, &options, &s));
+    s.run_scene = fake_scene;
+    ran.scenes = 0;
+    return s;
+}
+
+static scene_query query_at(const breech_case *c, double velocity, const char *name)
+{
+    scene_query q = { .c = c, .state = state_at(c, velocity), .cells_per_radius = 3.0 };
+    snprintf(q.name, sizeof q.name, "%s", name);
+    return q;
+}
+
+static void fresh_folder(const char *name)
+{
+    char command[200];
+    snprintf(command, sizeof command, "rm -rf '%s'", name);
+    assert_int_equal(system(command), 0);
+}
+
+static void test_shared(void **state)
+{
+    (void)state;
+    fresh_folder("shared");
+    breech_case *c = read_case(NULL);
+    const scene_query q[] = { query_at(c, 1400.0, "a"), query_at(c, 1600.0, "b"), query_at(c, 1400.0, "c") };
+    const scene_record *out[3];
+    session s = opened(c, "shared/one", "shared/store");
+    OK(scenes_all(&s, q, 3, out));
+    assert_int_equal(ran.scenes, 2);
+    assert_ptr_equal(out[0], out[2]); /* the same inputs are one scene, whatever its name */
+    assert_true(out[0]->impulse == 1e-5 * 1400.0 && out[1]->entry.result.severity == 100.0);
+    assert_false(out[0]->entry.reused);
+    const scene_record first = *out[0];
+    OK(session_close(&s, true));
+
+    s = opened(c, "shared/two", "shared/store");
+    const scene_query more[] = { query_at(c, 1600.0, "x"), query_at(c, 1500.0, "y"), query_at(c, 1400.0, "z") };
+    OK(scenes_find(&s, &more[1], &out[1]));
+    assert_null(out[1]);
+    OK(scenes_some(&s, more, 3)); /* two of them are there already: it computes the third */
+    assert_int_equal(ran.scenes, 1);
+    OK(scenes_all(&s, more, 3, out));
+    assert_int_equal(ran.scenes, 1);
+    assert_true(out[2]->entry.reused && !out[1]->entry.reused);
+    assert_string_equal(out[2]->entry.name, "z");
+    assert_true(out[2]->impulse == first.impulse && out[2]->entry.result.severity == first.entry.result.severity);
+    assert_true(history_has(s.history, "z")); /* its series came along */
+    scene_query anew = more[2];
+    anew.anew = true;
+    OK(session_close(&s, true));
+
+    s = opened(c, "shared/three", ""); /* no store */
+    OK(scenes_all(&s, more, 3, out));
+    assert_int_equal(ran.scenes, 3);
+    OK(session_close(&s, true));
+    assert_int_not_equal(access("shared/three/store", F_OK), 0);
+
+    s = opened(c, "shared/four", "shared/store");
+    OK(scenes_all(&s, &anew, 1, out));
+    assert_int_equal(ran.scenes, 1);
+    OK(session_close(&s, true));
+    case_free(c);
+}
+
+/* A run that is overwritten keeps its store. */
+static void test_force_keeps_it(void **state)
+{
+    (void)state;
+    fresh_folder("force");
+    breech_case *c = read_case(NULL);
+    const scene_record *out;
+    const scene_query q = query_at(c, 1400.0, "a");
+    for (int k = 0; k < 2; k++) {
+        session s = opened(c, "force", NULL);
+        OK(scenes_all(&s, &q, 1, &out));
+        assert_int_equal(ran.scenes, k == 0);
+        OK(session_close(&s, true));
+    }
+    case_free(c);
+}
+
+static void path_in(const char *dir, uint64_t key, char path[300])
+{
+    snprintf(path, 300, "%s/%016llx.h5", dir, (unsigned long long)key);
+}
+
+/* A damaged file, and one of another scene under this one's name: computed anew, and mended. */
+static void test_damaged(void **state)
+{
+    (void)state;
+    breech_case *c = read_case(NULL);
+    const scene_record *out;
+    const scene_query q[] = { query_at(c, 1400.0, "a"), query_at(c, 1600.0, "b") };
+    char path[2][300];
+    for (int k = 0; k < 2; k++) path_in("damaged/store", key_at(c, q[k].state.velocity, 3.0), path[k]);
+    for (int kind = 0; kind < 3; kind++) {
+        fresh_folder("damaged");
+        session s = opened(c, "damaged/one", "damaged/store");
+        for (int k = 0; k < 2; k++) OK(scenes_all(&s, &q[k], 1, &out));
+        OK(session_close(&s, true));
+        if (kind == 0) assert_int_equal(truncate(path[0], 1000), 0);
+        if (kind == 1) assert_int_equal(truncate(path[0], 0), 0);
+        if (kind == 2) assert_int_equal(rename(path[1], path[0]), 0);
+        for (int again = 0; again < 2; again++) {
+            s = opened(c, "damaged/two", "damaged/store");
+            OK(scenes_all(&s, &q[0], 1, &out));
+            assert_int_equal(ran.scenes, again == 0);
+            assert_true(out->entry.result.severity == -100.0);
+            OK(session_close(&s, true));
+        }
+    }
+    case_free(c);
+}
+
+/* ---- others at it ---- */
+
+static void write_again_and_again(const char *dir, const scene_record *r, const scene_key *key)
+{
+    for (;;) {
+        h5_file *f;
+        if (scene_file_make(r, key, NULL, &f).code != STATUS_OK || scene_store_put(dir, key, f).code != STATUS_OK)
+            _exit(1);
+        h5_close(f);
+    }
+}
+
+/* Two programs write one scene all the time and are killed at any moment: whoever reads finds it whole. */
+static void test_killed_writers(void **state)
+{
+    (void)state;
+    fresh_folder("killed");
+    OK(scene_store_open("killed"));
+    breech_case *c = read_case(NULL);
+    const site_state at = state_at(c, 1500.0);
+    scene_record r = some_record(), back;
+    scene_key key;
+    OK(scene_key_of(c, &at, 3.0, &key));
+    int reads = 0;
+    for (int round = 0; round < 12; round++) {
+        pid_t child[2];
+        for (int k = 0; k < 2; k++) {
+            child[k] = fork();
+            if (child[k] == 0) write_again_and_again("killed", &r, &key);
+            assert_true(child[k] > 0);
+        }
+        for (int i = 0; i < 40 + round || (reads == 0 && i < 5000); i++) { /* the first file takes its time */
+            h5_file *f;
+            OK(scene_store_get("killed", &key, &f));
+            if (f) {
+                OK(scene_file_read(f, &key, &back));
+                reads++;
+            }
+            h5_close(f);
+            usleep(1000);
+        }
+        for (int k = 0; k < 2; k++) {
+            int end;
+            kill(child[k], SIGKILL);
+            assert_int_equal(waitpid(child[k], &end, 0), child[k]);
+            assert_true(WIFSIGNALED(end)); /* it did not give up by itself */
+        }
+    }
+    print_message("read %d times\n", reads);
+    assert_true(reads > 100);
+    scene_key_free(&key);
+    case_free(c);
+}
+
+/* A full disk: the run fails with words, what was stored before is whole, and a later run takes it up. */
+static void test_full_disk(void **state)
+{
+    (void)state;
+    fresh_folder("full");
+    breech_case *c = read_case(NULL);
+    const scene_record *out;
+    const scene_query q[] = { query_at(c, 1400.0, "a"), query_at(c, 1600.0, "b") };
+    struct rlimit before, small;
+    session s = opened(c, "full/one", "full/store");
+    OK(scenes_all(&s, &q[0], 1, &out));
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+    small = before;
+    small.rlim_cur = 4000; /* a file that would grow beyond fails like one on a full disk */
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const status full = scenes_all(&s, &q[1], 1, &out);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+    assert_int_equal(full.code, STATUS_IO);
+    assert_non_null(strstr(full.text, "cannot be written"));
+    session_close(&s, false);
+    s = opened(c, "full/two", "full/store");
+    OK(scenes_all(&s, &q[0], 1, &out));
+    assert_int_equal(ran.scenes, 0);
+    OK(scenes_all(&s, &q[1], 1, &out));
+    assert_int_equal(ran.scenes, 1);
+    OK(session_close(&s, true));
+    case_free(c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_key_parts),      cmocka_unit_test(test_key_is_a_case),  cmocka_unit_test(test_file),
+        cmocka_unit_test(test_shared),         cmocka_unit_test(test_force_keeps_it), cmocka_unit_test(test_damaged),
+        cmocka_unit_test(test_killed_writers), cmocka_unit_test(test_full_disk),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
