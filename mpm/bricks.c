@@ -43,19 +43,30 @@ static status grow_blocks(mpm *m, int capacity)
     return status_ok();
 }
 
-status store_make(mpm *m, int blocks)
+status store_new_grid(mpm *m)
 {
-    m->free_head = -1;
+    free(m->directory);
+    free(m->site_list);
+    free(m->site_sum);
+    m->bricks = NULL;
+    m->bricks_used = m->bricks_capacity = 0;
     m->sites = m->axes[0].bricks * m->axes[1].bricks * m->axes[2].bricks;
     m->directory = malloc((size_t)m->fields * (size_t)m->sites * sizeof(int));
     m->site_list = malloc((size_t)m->sites * sizeof(int));
     m->site_sum = malloc((size_t)m->sites * sizeof(tally));
     CHECK(m->directory && m->site_list && m->site_sum, STATUS_MEMORY, "no memory for a window of %d bricks", m->sites);
     for (int i = 0; i < m->fields * m->sites; i++) m->directory[i] = -1;
+    return status_ok();
+}
+
+status store_make(mpm *m, int blocks)
+{
+    m->free_head = -1;
+    TRY(store_new_grid(m));
     return grow_blocks(m, blocks);
 }
 
-static void free_brick(brick *b)
+void store_free_brick(brick *b)
 {
     free(b->out);
     free(b->out_contact);
@@ -64,7 +75,7 @@ static void free_brick(brick *b)
 
 void store_free(mpm *m)
 {
-    for (int i = 0; i < m->bricks_used; i++) free_brick(&m->bricks[i]);
+    for (int i = 0; i < m->bricks_used; i++) store_free_brick(&m->bricks[i]);
     for (int t = 0; t < MPM_MAX_THREADS; t++) {
         free(m->movers[t].head);
         free(m->movers[t].data);
@@ -129,7 +140,7 @@ status store_open(brick *b)
 
 status store_empty(mpm *m, int blocks)
 {
-    for (int i = 0; i < m->bricks_used; i++) free_brick(&m->bricks[i]);
+    for (int i = 0; i < m->bricks_used; i++) store_free_brick(&m->bricks[i]);
     m->bricks_used = 0;
     for (int i = 0; i < m->fields * m->sites; i++) m->directory[i] = -1;
     m->free_head = -1, m->blocks_free = 0;
@@ -224,6 +235,26 @@ static int take_free_block(mpm *m)
     return i;
 }
 
+void store_release(mpm *m, int i)
+{
+#pragma omp critical(breech_blocks)
+    {
+        m->links[i].next = m->free_head;
+        m->free_head = i;
+        m->blocks_free++;
+    }
+}
+
+void store_release_cell(mpm *m, brick *b, int cell)
+{
+    while (b->head[cell] >= 0) {
+        const int i = b->head[cell];
+        b->head[cell] = m->links[i].next;
+        b->blocks--;
+        store_release(m, i);
+    }
+}
+
 /* Follows one cycle of the permutation: the block at `first` goes to to[first], and so on round. */
 static void permute_cycle(mpm *m, int *to, int first)
 {
@@ -286,4 +317,28 @@ int store_insert(mpm *m, brick *b, int cell, int body, const double *particle)
     for (int i = 0; i < BLOCK_DOUBLES; i++) to[i][lane] = particle[i];
     b->particles++;
     return *link;
+}
+
+status store_place(mpm *m, int body, const double *particle)
+{
+    int at[3], place[3], index;
+    for (int k = 0; k < 3; k++) {
+        const int node = axis_locate(&m->axes[k], particle[FIRST_x + k]);
+        at[k] = node / BRICK;
+        place[k] = node % BRICK;
+    }
+    TRY(store_brick(m, m->scene.body[body].field, at, &index));
+    if (m->blocks_free == 0) TRY(store_reserve(m));
+    CHECK(store_insert(m, &m->bricks[index], cell_index(place[0], place[1], place[2]), body, particle) >= 0,
+          STATUS_MEMORY, "no memory for the particles");
+    return status_ok();
+}
+
+status store_settle(mpm *m)
+{
+    const int filled = m->bricks_used;
+    for (int i = 0; i < filled; i++) TRY(store_surround(m, i));
+    store_relink(m);
+    TRY(store_reserve(m));
+    return store_compact(m);
 }

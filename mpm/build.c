@@ -89,11 +89,15 @@ static status walk(const mpm_scene *s, int body, const law *k, const ladder l[3]
     return status_ok();
 }
 
-status build_body(const mpm_scene *s, int body, const law *k, const axis axes[3], const build_sink *sink)
+const double build_everywhere[2] = { -INFINITY, INFINITY };
+
+status build_body(const mpm_scene *s, int body, const law *k, const axis axes[3], const double x[2],
+                  const build_sink *sink)
 {
     const mpm_body *b = &s->body[body];
     double lo[3], hi[3];
     b->shape->bounds(&b->shape_value, lo, hi);
+    lo[0] = fmax(lo[0], x[0]), hi[0] = fmin(hi[0], x[1]);
     ladder l[3] = { { 0 } };
     status r = status_ok();
     for (int q = 0; q < 3 && r.code == STATUS_OK; q++) {

@@ -15,7 +15,14 @@ typedef struct {
     void *user; /* borrowed */
 } build_sink;
 
-/* Calls the sink for every material point of one body, in a fixed order. */
-status build_body(const mpm_scene *s, int body, const law *k, const axis axes[3], const build_sink *sink);
+/* Calls the sink for every material point of one body between two places along x (-INFINITY, INFINITY: all that lies in
+ * the window), in a fixed order. */
+status build_body(const mpm_scene *s, int body, const law *k, const axis axes[3], const double x[2],
+                  const build_sink *sink);
+
+extern const double build_everywhere[2];
+
+/* A sink (mpm.c): user is the solver. */
+status mpm_insert_point(void *user, int body, const build_point *p);
 
 #endif

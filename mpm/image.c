@@ -9,15 +9,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char MAGIC[8] = "BREECH1";
+static const char MAGIC[8] = "BREECH2";
 
 typedef struct {
     char magic[8];
     char instruction_set[16];
     uint64_t scene, bytes;
-    double time, dt, dense_steps, force_sum[3];
+    double time, dt, dense_steps, force_sum[3], zone[3];
     uint64_t steps;
     int bricks, blocks;
+    uint64_t wake;
+    double wake_until;
 } image_head;
 
 typedef struct {
@@ -54,7 +56,7 @@ static uint64_t hash_axis(uint64_t h, const mpm_axis *s, const axis *a)
     return hash(h, numbers, sizeof numbers);
 }
 
-static uint64_t scene_hash(const mpm *m)
+uint64_t image_scene_key(const mpm *m)
 {
     const mpm_scene *s = &m->scene;
     uint64_t h = 14695981039346656037ull;
@@ -62,8 +64,9 @@ static uint64_t scene_hash(const mpm *m)
     for (int k = 0; k < 3; k++) h = hash_axis(h, &s->axis[k], &m->axes[k]);
     for (int a = 0; a < m->fields; a++)
         for (int b = 0; b < m->fields; b++) h = hash(h, &s->contact[a][b], sizeof s->contact[a][b]);
-    const double numbers[] = { s->contact_gap,         s->particles_per_axis, s->courant, s->viscosity_linear,
-                               s->viscosity_quadratic, s->transfer,           s->basis,   s->heat_by_plastic_work };
+    const double numbers[] = { s->contact_gap,         s->particles_per_axis, s->courant,     s->viscosity_linear,
+                               s->viscosity_quadratic, s->transfer,           s->basis,       s->heat_by_plastic_work,
+                               s->follow_bodies,       s->follow_lead,        s->follow_speed };
     return hash(h, numbers, sizeof numbers);
 }
 
@@ -72,7 +75,7 @@ static uint64_t scene_hash(const mpm *m)
 static size_t image_bytes(const mpm *m, int blocks)
 {
     return sizeof(image_head) + sizeof(mpm_ledger) + sizeof(mpm_report) + (size_t)m->bricks_used * sizeof(image_brick) +
-           (size_t)blocks * (sizeof(block) + sizeof(block_link));
+           (size_t)blocks * (sizeof(block) + sizeof(block_link)) + m->wake.n * sizeof *m->wake.point;
 }
 
 static char *put(char *to, const void *from, size_t bytes)
@@ -110,13 +113,16 @@ status mpm_save(const mpm *m, void **image, size_t *bytes)
     memset(&head, 0, sizeof head);
     memcpy(head.magic, MAGIC, sizeof head.magic);
     strncpy(head.instruction_set, m->kernel->name, sizeof head.instruction_set - 1);
-    head.scene = scene_hash(m), head.bytes = *bytes;
+    head.scene = m->scene_key, head.bytes = *bytes;
     head.time = m->time, head.dt = m->dt, head.dense_steps = m->dense_steps, head.steps = m->steps;
     memcpy(head.force_sum, m->force_sum, sizeof head.force_sum);
+    head.wake = m->wake.n, head.wake_until = m->wake.until;
+    memcpy(head.zone, zone_of(m).at, sizeof head.zone);
     head.bricks = m->bricks_used, head.blocks = blocks;
     to = put(to, &head, sizeof head);
     to = put(to, &m->ledger, sizeof m->ledger);
     to = put(to, &m->report, sizeof m->report);
+    if (m->wake.n) to = put(to, m->wake.point, m->wake.n * sizeof *m->wake.point);
     for (int i = 0; i < m->bricks_used; i++) to = put_brick(to, m, &m->bricks[i]);
     return status_ok();
 }
@@ -176,6 +182,17 @@ static status get_brick(mpm *m, reader *r)
     return status_ok();
 }
 
+static status get_wake(mpm *m, const image_head *h, reader *r)
+{
+    const size_t bytes = h->wake * sizeof *m->wake.point;
+    if (h->wake > (size_t)(r->end - r->at) / sizeof *m->wake.point) return cut_short();
+    mpm_wake_point *p = realloc(m->wake.point, bytes ? bytes : 1);
+    CHECK(p, STATUS_MEMORY, "no memory for a wake of %llu points", (unsigned long long)h->wake);
+    m->wake = (mpm_wake){ h->wake, p, h->wake_until };
+    m->wake_capacity = h->wake;
+    return get(r, p, bytes) ? status_ok() : cut_short();
+}
+
 static status check_head(const mpm *m, const image_head *h, size_t bytes)
 {
     CHECK(memcmp(h->magic, MAGIC, sizeof MAGIC) == 0, STATUS_IO, "this is no checkpoint of this version");
@@ -183,7 +200,7 @@ static status check_head(const mpm *m, const image_head *h, size_t bytes)
           "the checkpoint was written with instruction set %.16s, this run uses %s: results would differ in last bits; "
           "pin the set or start anew",
           h->instruction_set, m->kernel->name);
-    CHECK(h->scene == scene_hash(m), STATUS_IO, "the checkpoint belongs to another scene");
+    CHECK(h->scene == m->scene_key, STATUS_IO, "the checkpoint belongs to another scene");
     CHECK(h->bytes == bytes, STATUS_IO, "the checkpoint has %zu bytes, it says %llu: cut short", bytes,
           (unsigned long long)h->bytes);
     return status_ok();
@@ -196,7 +213,11 @@ status mpm_restore(mpm *m, const void *image, size_t bytes)
     if (!get(&r, &head, sizeof head)) return cut_short();
     TRY(check_head(m, &head, bytes));
     TRY(store_empty(m, head.blocks));
+    zone z;
+    memcpy(z.at, head.zone, sizeof z.at);
+    TRY(zone_regrid(m, z));
     if (!get(&r, &m->ledger, sizeof m->ledger) || !get(&r, &m->report, sizeof m->report)) return cut_short();
+    TRY(get_wake(m, &head, &r));
     for (int i = 0; i < head.bricks; i++) TRY(get_brick(m, &r));
     m->time = head.time, m->dt = head.dt, m->dense_steps = head.dense_steps, m->steps = head.steps;
     memcpy(m->force_sum, head.force_sum, sizeof head.force_sum);
@@ -221,7 +242,7 @@ static status estimate(const mpm_scene *s, axis axes[3], size_t *particles, doub
     for (int i = 0; i < s->bodies; i++) {
         law k;
         TRY(law_make(&s->body[i], s, &k));
-        TRY(build_body(s, i, &k, axes, &sink));
+        TRY(build_body(s, i, &k, axes, build_everywhere, &sink));
         const double sound = sqrt((k.K0 + 4.0 / 3.0 * k.G) / k.rho0);
         for (int q = 0; q < 3; q++) fastest = fmax(fastest, (sound + fabs(s->body[i].velocity[q])) / axes[q].smallest);
     }

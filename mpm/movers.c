@@ -8,9 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ratio of a domain to its cell above which a particle is split along that axis */
-static const double SPLIT_RATIO = 0.8;
-
 bool movers_reserve(mover_list *list, int more)
 {
     if (list->count + more <= list->capacity) return true;
@@ -74,28 +71,6 @@ static void send(mpm *m, brick *b, const int cell[3], int body, const double *q,
     b->mover_steps |= 1u << h.brick_step;
 }
 
-/* Two halves along axis k: mass, momentum and energy as before (what the gradient part lacks comes out of e). */
-static void halve(double *q, double *other, int k)
-{
-    const double d = 0.5 * q[FIRST_half + k];
-    double square = 0;
-    q[FIRST_half + k] = d;
-    q[FIRST_mass] *= 0.5;
-    q[FIRST_area] *= 0.5;
-    memcpy(other, q, BLOCK_DOUBLES * sizeof *q);
-    q[FIRST_x + k] -= d, other[FIRST_x + k] += d;
-    q[FIRST_start + k] -= d, other[FIRST_start + k] += d;
-    for (int i = 0; i < 3; i++) {
-        const double dv = d * q[FIRST_L + 3 * i + k];
-        square += dv * dv;
-        q[FIRST_v + i] -= dv, other[FIRST_v + i] += dv;
-    }
-    const double ka = q[FIRST_ka], left = fmax(ka - 0.5 * square, 0);
-    q[FIRST_ka] = other[FIRST_ka] = left;
-    q[FIRST_e] += ka - 0.5 * square - left;
-    other[FIRST_e] = q[FIRST_e];
-}
-
 static int axis_to_split(const mpm *m, const brick *b, const int cell[3], const double *q)
 {
     if (q[FIRST_damage] >= 1) return -1;
@@ -133,22 +108,12 @@ void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving, int t
             continue;
         }
         if (k >= 0) {
-            halve(one, other, k);
+            particle_halve(one, other, k);
             send(m, b, at, link->body, other, thread);
             b->sum.splits++;
         }
         send(m, b, at, link->body, one, thread);
         drop_lane(q, link, b, lane);
-    }
-}
-
-static void release_block(mpm *m, int i)
-{
-#pragma omp critical(breech_blocks)
-    {
-        m->links[i].next = m->free_head;
-        m->free_head = i;
-        m->blocks_free++;
     }
 }
 
@@ -159,7 +124,7 @@ static void tidy_cell(mpm *m, brick *b, int cell)
         const int i = *link;
         if (m->links[i].mask == 0) {
             *link = m->links[i].next;
-            release_block(m, i);
+            store_release(m, i);
             b->blocks--;
         } else {
             link = &m->links[i].next;
@@ -189,7 +154,7 @@ static void merge_cell(mpm *m, brick *b, int cell)
         b->particles--;
         store_insert(m, b, cell, m->links[last].body, one);
     }
-    release_block(m, last);
+    store_release(m, last);
 }
 
 /* Takes this brick's arrivals from its neighbours; false when the blocks ran out. */

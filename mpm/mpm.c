@@ -9,6 +9,7 @@
 
 static const int COMPACT_EVERY = 200; /* steps between restorings of the blocks' order in memory */
 static const int SAMPLE_EVERY = 20;   /* steps between percentile samples */
+static const int FOLLOW_EVERY = 20;   /* steps between looks at the plastic front */
 static const double DT_GROWTH = 1.05;
 static const double FORCE_SMOOTHING = 0.2e-6; /* [s] */
 
@@ -57,23 +58,13 @@ static void particle_make(double *q, const build_point *p, const law *k, double 
     q[FIRST_area] = p->area;
 }
 
-static status insert_point(void *user, int body, const build_point *p)
+status mpm_insert_point(void *user, int body, const build_point *p)
 {
     mpm *m = user;
-    int node[3], at[3], place[3], index;
-    for (int k = 0; k < 3; k++) {
-        node[k] = axis_locate(&m->axes[k], p->x[k]);
-        at[k] = node[k] / BRICK;
-        place[k] = node[k] % BRICK;
-    }
-    TRY(store_brick(m, m->scene.body[body].field, at, &index));
-    if (m->blocks_free == 0) TRY(store_reserve(m));
     double one[BLOCK_DOUBLES];
     memset(one, 0, sizeof one);
     particle_make(one, p, &m->laws[body], m->scene.body[body].temperature);
-    CHECK(store_insert(m, &m->bricks[index], cell_index(place[0], place[1], place[2]), body, one) >= 0, STATUS_MEMORY,
-          "no memory for the particles");
-    return status_ok();
+    return store_place(m, body, one);
 }
 
 static status make_laws(mpm *m)
@@ -96,13 +87,10 @@ static status fill(mpm *m)
     TRY(store_make(m, 1024));
     m->histogram = malloc(mpm_histogram_bytes());
     CHECK(m->histogram, STATUS_MEMORY, "no memory for the percentiles");
-    const build_sink sink = { insert_point, m };
-    for (int i = 0; i < m->scene.bodies; i++) TRY(build_body(&m->scene, i, &m->laws[i], m->axes, &sink));
-    const int filled = m->bricks_used;
-    for (int i = 0; i < filled; i++) TRY(store_surround(m, i));
-    store_relink(m);
-    TRY(store_reserve(m));
-    return store_compact(m);
+    const build_sink sink = { mpm_insert_point, m };
+    for (int i = 0; i < m->scene.bodies; i++)
+        TRY(build_body(&m->scene, i, &m->laws[i], m->axes, build_everywhere, &sink));
+    return store_settle(m);
 }
 
 /* Fastest crossing of a cell at the start [1/s] */
@@ -167,6 +155,10 @@ status mpm_create(const mpm_scene *scene, int threads, mpm **out)
         return s;
     }
     start_books(m);
+    m->scene_key = image_scene_key(m);
+    m->zone_start = zone_of(m);
+    m->zone_length = m->scene.axis[0].fine_hi - m->scene.axis[0].fine_lo;
+    m->wake.until = m->scene.axis[0].lo;
     m->dense = dense_particles(m);
     *out = m;
     return s;
@@ -177,6 +169,7 @@ void mpm_free(mpm *m)
     if (!m) return;
     store_free(m);
     free(m->histogram);
+    free(m->wake.point);
     for (int k = 0; k < 3; k++) axis_free(&m->axes[k]);
     free(m);
 }
@@ -296,8 +289,8 @@ static void smooth_force(mpm *m)
 static status one_step(mpm *m, double until)
 {
     tally sum;
-    const double wanted = m->dt;
-    if (m->time + m->dt > until) m->dt = fmax(until - m->time, 1e-3 * wanted);
+    const double wanted = m->dt, left = until - m->time;
+    if (left < 2 * wanted) m->dt = left <= wanted * (1 + 1e-9) ? left : 0.5 * left; /* no tiny last step */
     phase_p2g(m);
     phase_nodes(m);
     phase_g2p(m);
@@ -313,6 +306,7 @@ static status one_step(mpm *m, double until)
           m->time, m->dt);
     if (m->steps % (uint64_t)SAMPLE_EVERY == 0) mpm_sample_percentiles(m);
     if (m->steps % (uint64_t)COMPACT_EVERY == 0) TRY(store_compact(m));
+    if (m->steps % (uint64_t)FOLLOW_EVERY == 0) TRY(zone_follow(m));
     return status_ok();
 }
 

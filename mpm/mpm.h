@@ -31,9 +31,12 @@ typedef struct {
     uint64_t steps, particle_steps, particle_steps_dense;
     size_t particles;
     uint64_t clamps_pressure, clamps_compression; /* counted, never silent */
-    uint64_t splits, ejected, eroded;             /* ejected holds the eroded points too */
-    double eroded_mass;                           /* vapour and dust taken out so far [kg] */
-    double peak_pressure, peak_temperature;       /* any intact particle, any time so far [Pa, K] */
+    uint64_t splits, merges, ejected, eroded;     /* ejected holds the eroded points too */
+    double plastic_front, plastic_power,
+        peak_plastic_power;                 /* of the bodies followed (mpm_scene.follow_bodies): all but
+                                                                a twentieth of the power lies behind the front [m, W, W] */
+    double eroded_mass;                     /* vapour and dust taken out so far [kg] */
+    double peak_pressure, peak_temperature; /* any intact particle, any time so far [Pa, K] */
     double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES]; /* so far [Pa] */
     double peak_mises_999[MPM_MAX_BODIES],
         peak_pressure_999[MPM_MAX_BODIES]; /* peak over time of the 99.9th percentile by mass */
@@ -42,6 +45,19 @@ typedef struct {
     double contact_force[MPM_MAX_FIELDS][3]; /* on each field from all others, mean of the last step [N] */
     double peak_contact_force[3];            /* on field 0 (the rail), largest |component|, smoothed over 0.2 us [N] */
 } mpm_report;
+
+/* Points of the followed bodies (mpm_scene.follow_bodies) as they were when the fine zone left them, all with x < until:
+ * behind it the points are merged, and a crater is read from these. */
+typedef struct {
+    double position[3], size[3], velocity[3]; /* [m]; half lengths [m]; [m/s] */
+    double damage, mass;                      /* [1, kg] */
+    int body;
+} mpm_wake_point;
+typedef struct {
+    size_t n;
+    mpm_wake_point *point;
+    double until; /* [m] */
+} mpm_wake;
 
 /* What mpm_read can fill; one double or three or six a particle, in a fixed order that any restart keeps. */
 #define PARTICLE_FIELDS(FIELD)                                                  \
@@ -88,7 +104,8 @@ status mpm_advance(mpm *m, double until, const mpm_sink *sink);
 
 mpm_ledger mpm_balance(const mpm *m);
 mpm_report mpm_state(const mpm *m);
-const mpm_scene *mpm_scene_of(const mpm *m); /* borrowed */
+const mpm_scene *mpm_scene_of(const mpm *m); /* borrowed; its fine zone along x is where it is now */
+const mpm_wake *mpm_wake_of(const mpm *m);   /* borrowed, until the next mpm_advance */
 
 size_t mpm_particles(const mpm *m);
 /* out: mpm_particles() x width doubles, owned by the caller. */

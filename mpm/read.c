@@ -91,6 +91,11 @@ const mpm_scene *mpm_scene_of(const mpm *m)
     return &m->scene;
 }
 
+const mpm_wake *mpm_wake_of(const mpm *m)
+{
+    return &m->wake;
+}
+
 const char *mpm_instruction_set(void)
 {
     return kernels_choose(NULL)->name;

@@ -83,6 +83,11 @@ typedef struct {
     int bodies;
     mpm_body body[MPM_MAX_BODIES];
     mpm_axis axis[3];
+    unsigned follow_bodies; /* bit i: the fine zone along x goes with the plastic front of body i; 0: it stays */
+    double follow_lead;     /* from that front to the zone's upper end [m] */
+    double
+        follow_speed; /* of the window along x while it follows: the bodies followed grow in at its upper end, as they
+                               were at the start, and what falls behind is booked as ejected [m/s] */
     contact_law contact[MPM_MAX_FIELDS][MPM_MAX_FIELDS]; /* symmetric */
     double contact_gap;     /* fields touch when the distance of their points' means at a node is below this [cells] */
     int particles_per_axis; /* material points a cell and axis, 2 or 3 */

@@ -111,6 +111,11 @@ typedef struct {
     uint8_t mask; /* lanes in use */
 } block_link;
 
+/* The window and its fine zone along x. */
+typedef struct {
+    double at[3]; /* lower end of the fine zone, ends of the window [m] */
+} zone;
+
 typedef struct kernels kernels;
 
 struct mpm {
@@ -141,6 +146,11 @@ struct mpm {
     void *histogram;           /* of percentiles (read.c) */
     mpm_report report;
     mpm_ledger ledger;
+    uint64_t scene_key; /* of everything that determines a scene */
+    mpm_wake wake;
+    size_t wake_capacity;
+    zone zone_start;
+    double zone_length;  /* of the fine zone along x [m] */
     double force_sum[3]; /* smoothing of the contact force on field 0 */
 };
 
@@ -156,6 +166,12 @@ const kernels *kernels_choose(const char *name);
 
 /* bricks.c */
 status store_make(mpm *m, int blocks);
+status
+store_new_grid(mpm *m);      /* an empty directory for the axes as they are now; forgets the bricks, keeps the blocks */
+status store_settle(mpm *m); /* after filling: neighbours, order in memory, room for the next step */
+void store_free_brick(brick *b);
+void store_release(mpm *m, int block_index);         /* back to the free blocks */
+void store_release_cell(mpm *m, brick *b, int cell); /* all blocks of a cell */
 void store_free(mpm *m);
 status store_brick(mpm *m, int field, const int at[3], int *out); /* finds or makes it */
 status store_open(brick *b);                                      /* memory for the sums of its particles */
@@ -165,6 +181,21 @@ void store_relink(mpm *m);                                        /* neighbours,
 status store_reserve(mpm *m);                                     /* free blocks for the next step */
 status store_compact(mpm *m);                                     /* blocks into the order of bricks and cells */
 int store_insert(mpm *m, brick *b, int cell, int body, const double *particle); /* block, or -1 when none is free */
+
+status store_place(mpm *m, int body, const double *particle); /* makes its brick if need be; outside any step */
+
+/* image.c */
+uint64_t image_scene_key(const mpm *m); /* before the fine zone has moved */
+
+/* particle.c: one particle's BLOCK_DOUBLES */
+#define SPLIT_RATIO 0.8 /* of a domain to its cell above which a particle is split along that axis */
+void particle_halve(double *q, double *other, int k);
+void particle_merge(double *q, const double *other, int k); /* the inverse: q takes other in */
+
+/* zone.c */
+zone zone_of(const mpm *m);
+status zone_follow(mpm *m);         /* goes after the plastic front, if it has come near the fine zone's end */
+status zone_regrid(mpm *m, zone z); /* a new axis; all particles into its bricks, split and merged to fit */
 
 /* read.c */
 void mpm_sample_percentiles(mpm *m);

@@ -3,7 +3,7 @@
  * some 1e-14 at random and 2e-13 at worst, unless said. */
 #include "mpm_scenes.h"
 
-#include "mpm/movers.c" /* for `halve`, which splits one particle */
+#include "mpm/store.h"
 
 static const double ROUNDING = 1e-12;
 
@@ -104,7 +104,7 @@ static void test_halves(void **state)
         if (trial % 3 == 0) whole[FIRST_ka] = 0; /* then the energy of the parted halves must come out of e */
         memcpy(a, whole, sizeof a);
         const int k = trial % 3;
-        halve(a, b, k);
+        particle_halve(a, b, k);
         assert_near(a[FIRST_mass] + b[FIRST_mass], whole[FIRST_mass], 1e-15);
         assert_near(a[FIRST_area] + b[FIRST_area], whole[FIRST_area], 1e-15);
         double before = whole[FIRST_ka] + whole[FIRST_e],

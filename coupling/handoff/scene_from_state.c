@@ -9,6 +9,9 @@
  * speed, so a groove that would die out late is still growing then: what that changes is in docs/onset.md. */
 static const double END_FACTOR = 1.1;
 
+/* Speed of a groove's front over the armature's.  A zone that follows it ends when the contact face has passed it. */
+static const double FRONT_SPEED = 0.7;
+
 static const char ARMATURE[] = "armature", GRAIN[] = "particle";
 
 int body_of_armature(const mpm_scene *scene)
@@ -44,7 +47,8 @@ typedef struct {
     double run;                     /* length of the lead face along x */
     double fine_behind, fine_ahead; /* ends of the fine zone, both positive */
     double fine_depth, fine_above, fine_half_width;
-    double behind, ahead;               /* ends of the window, both positive */
+    double behind, ahead;               /* ends of the window, both positive; at the start, if it follows */
+    double travel;                      /* of the window, at most */
     double rail_half_width, half_width; /* of the rail, of the window */
     double layers;                      /* thickness of all layers */
 } layout;
@@ -77,13 +81,15 @@ static layout lay_out(const breech_case *c, const case_site *g, double cells_per
     l.ahead = s->rail_ahead;
     const double room = 3.0 * l.coarse;
     l.fine_behind = cells_over(fmin(given_or(s->fine_behind, 4.0 * g->radius), l.behind - room), l.fine);
-    l.fine_ahead = cells_over(fmin(given_or(s->fine_ahead, 26.0 * g->radius), l.ahead - room), l.fine);
+    const double ahead = (s->follow ? 12.0 : 26.0) * g->radius;
+    l.fine_ahead = cells_over(fmin(given_or(s->fine_ahead, ahead), l.ahead - room), l.fine);
     l.fine_depth = cells_over(fmin(given_or(s->fine_depth, 3.0 * g->radius), s->rail_depth - room), l.fine);
     l.fine_above = cells_over(fmin(top_of_zone(c, g), p->half_bore - room), l.fine);
     l.rail_half_width = 0.5 * given_or(s->rail_width, p->width);
     l.half_width = fmax(l.rail_half_width, 0.5 * p->width) + room;
     l.fine_half_width = cells_over(fmin(given_or(0.5 * s->fine_width, 8.0 * g->radius), l.half_width - room), l.fine);
     for (int i = 0; i < c->rail.layers.n; i++) l.layers += c->rail.layers.item[i].thickness;
+    l.travel = s->follow ? (p->length - l.run) / (1.0 - FRONT_SPEED) : 0.0;
     return l;
 }
 
@@ -119,7 +125,8 @@ static mpm_body *add_body(mpm_scene *s, const char *name, const material *m, int
 
 static void make_box(mpm_body *b, const layout *l, double bottom, double top)
 {
-    const double lo[3] = { -l->behind, bottom, -l->rail_half_width }, hi[3] = { l->ahead, top, l->rail_half_width };
+    const double lo[3] = { -l->behind, bottom, -l->rail_half_width },
+                 hi[3] = { l->ahead + l->travel, top, l->rail_half_width };
     b->shape = shape_find("box");
     for (int k = 0; k < 3; k++) {
         b->shape_value.value[BOX_LO + k] = lo[k];
@@ -273,7 +280,33 @@ double scene_crossing_time(const mpm_scene *scene)
     return (scene->axis[0].fine_hi - b->shape_value.value[ARMATURE_X_FRONT]) / b->velocity[0];
 }
 
-static void set_method(const breech_case *c, mpm_scene *s)
+double scene_grain_passed(const mpm_scene *scene)
+{
+    const mpm_body *b = &scene->body[body_of_armature(scene)], *grain = b - 1;
+    double lo[3], hi[3];
+    grain->shape->bounds(&grain->shape_value, lo, hi);
+    return (hi[0] - b->shape_value.value[ARMATURE_X_FRONT]) / b->velocity[0];
+}
+
+double scene_face_tail(const mpm_scene *scene, double time)
+{
+    const mpm_body *b = &scene->body[body_of_armature(scene)];
+    const double *v = b->shape_value.value;
+    const double lead = v[ARMATURE_CHAMFER_HEIGHT] / tan(v[ARMATURE_LEAD_ANGLE]);
+    return v[ARMATURE_X_FRONT] + lead - v[ARMATURE_LENGTH] + b->velocity[0] * time;
+}
+
+/* The fine zone goes with the rail's plastic front. */
+static void set_follow(const breech_case *c, const case_site *g, mpm_scene *s)
+{
+    if (!c->scene.follow) return;
+    s->follow_speed = s->body[body_of_armature(s)].velocity[0];
+    s->follow_lead = given_or(c->scene.follow_lead, 4.0 * g->radius);
+    for (int i = 0; i < s->bodies; i++)
+        if (body_is_rail(s, i)) s->follow_bodies |= 1u << i;
+}
+
+static void set_method(const breech_case *c, const layout *l, mpm_scene *s)
 {
     const case_scene *from = &c->scene;
     s->particles_per_axis = from->particles_per_axis;
@@ -283,8 +316,10 @@ static void set_method(const breech_case *c, mpm_scene *s)
     s->transfer = (transfer_kind)from->transfer;
     s->basis = (basis_kind)from->basis;
     s->heat_by_plastic_work = from->heat_by_plastic_work;
-    const double passage = scene_crossing_time(s) + c->projectile.length / s->body[body_of_armature(s)].velocity[0];
-    s->end_time = given_or(from->end_time, fmin(END_FACTOR * scene_crossing_time(s), passage));
+    const double speed = s->body[body_of_armature(s)].velocity[0];
+    const double passage = scene_crossing_time(s) + c->projectile.length / speed;
+    s->end_time =
+        given_or(from->end_time, from->follow ? l->travel / speed : fmin(END_FACTOR * scene_crossing_time(s), passage));
 }
 
 /* ---- the crater ---- */
@@ -317,7 +352,7 @@ static crater_spec spec_of(const breech_case *c, const case_site *g, const mpm_s
 {
     crater_spec spec = { .surface = 0.0,
                          .x_lo = s->axis[0].fine_lo,
-                         .x_hi = s->axis[0].fine_hi,
+                         .x_hi = s->axis[0].fine_hi + FRONT_SPEED * s->follow_speed * s->end_time,
                          .z_hi = s->axis[2].fine_hi,
                          .mirrored = c->scene.half_model,
                          .cell = s->axis[0].fine,
@@ -340,7 +375,8 @@ status scene_bodies(const breech_case *c, const site_state *state, double cells_
     TRY(add_bodies(c, state, &l, out));
     set_contacts(c, out);
     set_axes(c, &l, out);
-    set_method(c, out);
+    set_method(c, &l, out);
+    set_follow(c, &state->grain, out);
     return status_ok();
 }
 

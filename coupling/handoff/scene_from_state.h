@@ -35,6 +35,10 @@ site_state state_of_case(const breech_case *c);
 /* How long the armature's contact face takes to cross the fine zone, from the scene's start [s]. */
 double scene_crossing_time(const mpm_scene *scene);
 
+/* When the grain lies behind the front end of the contact face, and upstream end of that face at a time [s, m]. */
+double scene_grain_passed(const mpm_scene *scene);
+double scene_face_tail(const mpm_scene *scene, double time);
+
 /* Does the crater count this body's points (rail and layers; not the grain, not the armature)? */
 bool body_is_rail(const mpm_scene *scene, int body);
 int body_of_armature(const mpm_scene *scene); /* its index */

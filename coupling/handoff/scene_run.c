@@ -9,60 +9,13 @@
 enum { PIECES = 60 };                     /* of a scene, at least */
 static const double LIVE_INTERVAL = 0.25; /* between two looks at the solver for the progress line [s] */
 static const double SETTLED_SHARE = 0.1;  /* of the measuring depth */
+static const double DEAD_SHARE = 0.1;     /* of its largest plastic power, below which a groove is dead */
 
 status scene_job_make(const breech_case *c, const site_state *state, double cells_per_radius, scene_job *job)
 {
     memset(job, 0, sizeof *job);
     job->c = c;
     return scene_from_state(c, state, cells_per_radius, &job->scene, &job->spec);
-}
-
-/* ---- the material points, read once for all who look at them ---- */
-
-typedef struct {
-    size_t n;
-    double *position, *velocity, *size, *damage, *mass, *body; /* one block of memory, owned by position */
-} points;
-
-static status points_read(const mpm *m, points *p)
-{
-    p->n = mpm_particles(m);
-    double *all = malloc((p->n ? p->n : 1) * 12 * sizeof *all);
-    CHECK(all, STATUS_MEMORY, "no memory to read %zu material points", p->n);
-    p->position = all, p->velocity = all + 3 * p->n, p->size = all + 6 * p->n;
-    p->damage = all + 9 * p->n, p->mass = all + 10 * p->n, p->body = all + 11 * p->n;
-    mpm_read(m, MPM_position, p->position);
-    mpm_read(m, MPM_velocity, p->velocity);
-    mpm_read(m, MPM_size, p->size);
-    mpm_read(m, MPM_damage, p->damage);
-    mpm_read(m, MPM_mass, p->mass);
-    mpm_read(m, MPM_body, p->body);
-    return status_ok();
-}
-
-static void points_free(points *p)
-{
-    free(p->position);
-}
-
-/* Keeps the rail's points over the crater's map, in their order. */
-static void keep_rail(const scene_job *job, points *p)
-{
-    const crater_spec *s = &job->spec;
-    size_t kept = 0;
-    for (size_t i = 0; i < p->n; i++) {
-        const double *x = p->position + 3 * i, *half = p->size + 3 * i;
-        if (!body_is_rail(&job->scene, (int)p->body[i]) || x[0] + half[0] < s->x_lo || x[0] - half[0] > s->x_hi ||
-            fabs(x[2]) - half[2] > s->z_hi)
-            continue;
-        memmove(p->position + 3 * kept, x, 3 * sizeof *x);
-        memmove(p->velocity + 3 * kept, p->velocity + 3 * i, 3 * sizeof *x);
-        memmove(p->size + 3 * kept, half, 3 * sizeof *x);
-        p->damage[kept] = p->damage[i];
-        p->mass[kept] = p->mass[i];
-        kept++;
-    }
-    p->n = kept;
 }
 
 /* ---- one run ---- */
@@ -77,6 +30,75 @@ typedef struct {
     double started, saved, looked; /* wall clock [s] */
     status error;                  /* of the sink */
 } run;
+
+/* ---- the material points, read once for all who look at them ---- */
+
+typedef struct {
+    size_t n;
+    double *position, *velocity, *size, *damage, *mass, *body; /* one block of memory, owned by position */
+} points;
+
+/* Behind the fine zone the rail's points are those of the wake, as fine as they were there. */
+static status points_read(const mpm *m, points *p)
+{
+    const size_t live = mpm_particles(m), room = live + mpm_wake_of(m)->n;
+    double *all = malloc((room ? room : 1) * 12 * sizeof *all);
+    CHECK(all, STATUS_MEMORY, "no memory to read %zu material points", room);
+    *p = (points){ .n = live,
+                   .position = all,
+                   .velocity = all + 3 * room,
+                   .size = all + 6 * room,
+                   .damage = all + 9 * room,
+                   .mass = all + 10 * room,
+                   .body = all + 11 * room };
+    mpm_read(m, MPM_position, p->position);
+    mpm_read(m, MPM_velocity, p->velocity);
+    mpm_read(m, MPM_size, p->size);
+    mpm_read(m, MPM_damage, p->damage);
+    mpm_read(m, MPM_mass, p->mass);
+    mpm_read(m, MPM_body, p->body);
+    return status_ok();
+}
+
+static void append_wake(const mpm_wake *w, points *p)
+{
+    for (size_t i = 0; i < w->n; i++, p->n++) {
+        const mpm_wake_point *q = &w->point[i];
+        memcpy(p->position + 3 * p->n, q->position, sizeof q->position);
+        memcpy(p->velocity + 3 * p->n, q->velocity, sizeof q->velocity);
+        memcpy(p->size + 3 * p->n, q->size, sizeof q->size);
+        p->damage[p->n] = q->damage, p->mass[p->n] = q->mass, p->body[p->n] = q->body;
+    }
+}
+
+static void points_free(points *p)
+{
+    free(p->position);
+}
+
+/* Keeps the rail's points over the crater's map, in their order: those of the wake behind the fine zone, where the
+ * solver's own are merged. */
+static void keep_rail(const run *r, points *p)
+{
+    const scene_job *job = r->job;
+    const crater_spec *s = &job->spec;
+    const mpm_wake *wake = mpm_wake_of(r->m);
+    size_t kept = 0;
+    for (size_t i = 0; i < p->n; i++) {
+        const double *x = p->position + 3 * i, *half = p->size + 3 * i;
+        if (!body_is_rail(&job->scene, (int)p->body[i]) || x[0] < wake->until || x[0] + half[0] < s->x_lo ||
+            x[0] - half[0] > s->x_hi || fabs(x[2]) - half[2] > s->z_hi)
+            continue;
+        memmove(p->position + 3 * kept, x, 3 * sizeof *x);
+        memmove(p->velocity + 3 * kept, p->velocity + 3 * i, 3 * sizeof *x);
+        memmove(p->size + 3 * kept, half, 3 * sizeof *x);
+        p->damage[kept] = p->damage[i];
+        p->mass[kept] = p->mass[i];
+        kept++;
+    }
+    p->n = kept;
+    append_wake(wake, p);
+}
 
 static void book(const scene_host *h, const char *phase, double since)
 {
@@ -142,7 +164,7 @@ static status distance_left(const run *r, double *distance)
 {
     points p;
     TRY(points_read(r->m, &p));
-    keep_rail(r->job, &p);
+    keep_rail(r, &p);
     double fastest2 = 0.0;
     for (size_t i = 0; i < p.n; i++) {
         const double *v = p.velocity + 3 * i;
@@ -153,10 +175,24 @@ static status distance_left(const run *r, double *distance)
     return status_ok();
 }
 
-static status is_settled(const run *r, double time, bool *settled)
+/* A groove that is followed: dead, or the armature's contact face has gone over its front. */
+static bool groove_over(const run *r, const mpm_report *now)
 {
+    const mpm_scene *s = &r->job->scene;
+    return now->time > scene_grain_passed(s) && (now->plastic_power < DEAD_SHARE * now->peak_plastic_power ||
+                                                 scene_face_tail(s, now->time) > now->plastic_front);
+}
+
+static status is_settled(const run *r, bool *settled)
+{
+    const mpm_report now = mpm_state(r->m);
     *settled = false;
-    if (!r->job->c->scene.stop_when_settled || time < scene_crossing_time(&r->job->scene)) return status_ok();
+    if (!r->job->c->scene.stop_when_settled) return status_ok();
+    if (r->job->scene.follow_bodies) {
+        *settled = groove_over(r, &now);
+        return status_ok();
+    }
+    if (now.time < scene_crossing_time(&r->job->scene)) return status_ok();
     const crater_spec *s = &r->job->spec;
     double distance;
     TRY(distance_left(r, &distance));
@@ -199,7 +235,7 @@ static status advance(run *r)
     }
     for (int piece = reached < 0.0 ? 0 : piece_at(r, reached); piece < r->pieces && !settled; piece++) {
         TRY(advance_piece(r, piece));
-        TRY(is_settled(r, mpm_state(r->m).time, &settled));
+        TRY(is_settled(r, &settled));
         TRY(write_row(r));
         const bool due = r->per_snapshot && (piece + 1) % r->per_snapshot == 0;
         if (due || (settled && r->per_snapshot)) TRY(write_snapshot(r));
@@ -213,7 +249,7 @@ static status measure_crater(const run *r, crater *out)
 {
     points p;
     TRY(points_read(r->m, &p));
-    keep_rail(r->job, &p);
+    keep_rail(r, &p);
     const crater_points rail = { .n = p.n, .position = p.position, .size = p.size, .damage = p.damage };
     const status s = crater_measure(&rail, &r->job->spec, out);
     points_free(&p);

@@ -96,6 +96,8 @@ typedef struct {
     double coarse_cell;             /* largest cell [m] */
     double growth;                  /* ratio of neighbouring cells outside the fine zone [1] */
     double fine_ahead, fine_behind; /* ends of the fine zone, from the grain's middle along x [m] */
+    bool follow;                    /* the fine zone goes with the ploughing; else it stays */
+    double follow_lead;             /* from the front of the ploughing to the zone's end [m] */
     double fine_depth, fine_above;  /* below and above the rail's surface [m] */
     double fine_width;              /* of the full fine zone across the rail [m] */
     double rail_ahead, rail_behind; /* ends of the rail modelled, from the grain's middle [m] */

@@ -324,7 +324,10 @@ status history_crater(history *h, const char *scene, const crater *c)
     COLUMN(failed_volume, "m^3", "of all bodies now, as computed", failed_volume(r))                    \
     COLUMN(clamps_pressure, "1", "so far", (double)r->clamps_pressure)                                  \
     COLUMN(clamps_compression, "1", "so far", (double)r->clamps_compression)                            \
-    COLUMN(splits, "1", "particles split so far", (double)r->splits)
+    COLUMN(splits, "1", "particles split so far", (double)r->splits)                                    \
+    COLUMN(merges, "1", "particles merged so far", (double)r->merges)                                   \
+    COLUMN(plastic_front, "m", "rail deforms plastically behind it", r->plastic_front)                  \
+    COLUMN(plastic_power, "W", "of the rail, as computed", r->plastic_power)
 
 #define EVENT_COLUMNS(COLUMN)                                                                           \
     COLUMN(time, "s", "time", e->state.t)                                                               \

@@ -1,0 +1,343 @@
+/* The fine zone along x follows the ploughing: a new axis now and then, between two steps.
+ *
+ * Nodes of the old and the new fine zone lie on one lattice, so what stays in it keeps its cells.  Particles that come
+ * into finer cells are halved along x until they fit; neighbours along x that are left in coarser cells are merged. */
+#include "mpm/build.h"
+#include "mpm/store.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double POWER_AHEAD = 0.05; /* of the plastic power lies ahead of the front */
+static const double MERGE_RATIO = 0.55; /* of a merged domain to its cell, at most */
+static const int QUANTUM = 8;           /* fine cells the zone moves at a time, at least */
+
+/* ---- the front ---- */
+
+typedef struct {
+    double lo, width;
+    int n;
+    double *power; /* [W] a bin */
+} profile;
+
+static void add_block(const mpm *m, int index, profile *p)
+{
+    const block *q = &m->blocks[index];
+    for (int l = 0; l < LANES; l++) {
+        if (!(q->mass[0][l] > 0) || q->damage[0][l] >= 1) continue;
+        double square = 0, power = 0;
+        for (int i = 0; i < 6; i++) square += (i < 3 ? 1 : 2) * q->s[i][l] * q->s[i][l];
+        if (1.5 * square < 0.81 * q->flow[0][l] * q->flow[0][l]) continue;
+        for (int i = 0; i < 3; i++) power += q->s[i][l] * q->L[4 * i][l];
+        power += q->s[3][l] * (q->L[1][l] + q->L[3][l]) + q->s[4][l] * (q->L[5][l] + q->L[7][l]) +
+                 q->s[5][l] * (q->L[2][l] + q->L[6][l]);
+        const int bin = (int)((q->x[0][l] - p->lo) / p->width);
+        if (bin >= 0 && bin < p->n) p->power[bin] += fmax(power, 0) * q->mass[0][l] / q->rho[0][l];
+    }
+}
+
+static double front_in(const profile *p, double total)
+{
+    double ahead = 0;
+    int i = p->n - 1;
+    while (i > 0 && ahead + p->power[i] < POWER_AHEAD * total) ahead += p->power[i--];
+    return p->lo + p->width * (i + 1);
+}
+
+/* Where the followed bodies deform plastically: all but a twentieth of their plastic power lies behind it [m, W]. */
+static double plastic_front(const mpm *m, double *power)
+{
+    const mpm_axis *s = &m->scene.axis[0];
+    profile p = { .lo = s->lo, .width = s->fine, .n = (int)((s->hi - s->lo) / s->fine) + 1 };
+    p.power = calloc((size_t)p.n, sizeof *p.power);
+    *power = 0;
+    if (!p.power) return s->lo;
+    for (int i = 0; i < m->bricks_used; i++)
+        for (int c = 0; c < BRICK_CELLS; c++)
+            for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next)
+                if (m->scene.follow_bodies >> m->links[q].body & 1) add_block(m, q, &p);
+    for (int i = 0; i < p.n; i++) *power += p.power[i];
+    const double front = front_in(&p, *power);
+    free(p.power);
+    return front;
+}
+
+/* ---- merging ---- */
+
+typedef struct {
+    int n, capacity, merged;
+    int *body;
+    double (*data)[BLOCK_DOUBLES];
+} gathering;
+
+static status take_lane(gathering *g, const block *q, int lane, int body)
+{
+    if (g->n == g->capacity) {
+        const int capacity = 2 * g->capacity + 64;
+        int *b = realloc(g->body, (size_t)capacity * sizeof *b);
+        if (b) g->body = b;
+        double(*d)[BLOCK_DOUBLES] = realloc(g->data, (size_t)capacity * sizeof *d);
+        if (d) g->data = d;
+        CHECK(b && d, STATUS_MEMORY, "no memory to merge %d particles", capacity);
+        g->capacity = capacity;
+    }
+    const double(*from)[LANES] = (const double(*)[LANES])(const void *)q;
+    for (int i = 0; i < BLOCK_DOUBLES; i++) g->data[g->n][i] = from[i][lane];
+    g->body[g->n++] = body;
+    return status_ok();
+}
+
+/* Side by side along x, of one size across, sound, and together no longer than the cell bears? */
+static bool mergeable(const double *a, const double *b, double longest)
+{
+    if (a[FIRST_damage] >= 1 || b[FIRST_damage] >= 1) return false;
+    const double length = a[FIRST_half] + b[FIRST_half], apart = fabs(a[FIRST_x] - b[FIRST_x]);
+    if (2 * length > longest || fabs(apart - length) > 0.5 * length) return false;
+    for (int k = 1; k < 3; k++) {
+        const double small = fmin(a[FIRST_half + k], b[FIRST_half + k]),
+                     large = fmax(a[FIRST_half + k], b[FIRST_half + k]);
+        if (small < 0.7 * large || fabs(a[FIRST_x + k] - b[FIRST_x + k]) > 0.5 * small) return false;
+    }
+    return true;
+}
+
+static int partner(const gathering *g, int i, double longest)
+{
+    int best = -1;
+    double nearest = HUGE_VAL;
+    for (int j = i + 1; j < g->n; j++) {
+        const double d = fabs(g->data[i][FIRST_x] - g->data[j][FIRST_x]);
+        if (g->body[j] == g->body[i] && d < nearest && mergeable(g->data[i], g->data[j], longest))
+            best = j, nearest = d;
+    }
+    return best;
+}
+
+static void merge_all(gathering *g, double longest)
+{
+    for (bool again = true; again;) {
+        again = false;
+        for (int i = 0; i < g->n; i++) {
+            const int j = partner(g, i, longest);
+            if (j < 0) continue;
+            particle_merge(g->data[i], g->data[j], 0);
+            g->n--;
+            g->body[j] = g->body[g->n];
+            memcpy(g->data[j], g->data[g->n], sizeof g->data[j]);
+            g->merged++;
+            again = true;
+        }
+    }
+}
+
+static status merge_cell(mpm *m, brick *b, int cell, double longest, gathering *g)
+{
+    g->n = g->merged = 0;
+    for (int q = b->head[cell]; q >= 0; q = m->links[q].next)
+        for (int l = 0; l < LANES; l++)
+            if (m->links[q].mask >> l & 1) TRY(take_lane(g, &m->blocks[q], l, m->links[q].body));
+    merge_all(g, longest);
+    if (g->merged == 0) return status_ok();
+    b->particles -= g->n + g->merged;
+    store_release_cell(m, b, cell);
+    for (int i = 0; i < g->n; i++) store_insert(m, b, cell, g->body[i], g->data[i]);
+    m->report.merges += (uint64_t)g->merged;
+    return status_ok();
+}
+
+static status merge_coarse(mpm *m)
+{
+    gathering g = { 0 };
+    status s = status_ok();
+    const axis *a = &m->axes[0];
+    for (int i = 0; i < m->bricks_used && s.code == STATUS_OK; i++)
+        for (int c = 0; c < BRICK_CELLS && s.code == STATUS_OK; c++) {
+            brick *b = &m->bricks[i];
+            const int node = BRICK * b->at[0] + c % BRICK;
+            const double size = a->edge[node + 1] - a->edge[node];
+            if (b->head[c] >= 0 && size > 1.2 * m->scene.axis[0].fine) s = merge_cell(m, b, c, MERGE_RATIO * size, &g);
+        }
+    free(g.body);
+    free(g.data);
+    return s;
+}
+
+/* ---- the wake ---- */
+
+static status wake_point(mpm *m, const block *q, int lane, int body)
+{
+    mpm_wake *w = &m->wake;
+    if (w->n == m->wake_capacity) {
+        const size_t capacity = 2 * m->wake_capacity + 4096;
+        mpm_wake_point *p = realloc(w->point, capacity * sizeof *p);
+        CHECK(p, STATUS_MEMORY, "no memory for a wake of %zu points", capacity);
+        w->point = p;
+        m->wake_capacity = capacity;
+    }
+    mpm_wake_point *p = &w->point[w->n++];
+    memset(p, 0, sizeof *p); /* images hold the padding too */
+    for (int k = 0; k < 3; k++) {
+        p->position[k] = q->x[k][lane], p->size[k] = q->half[k][lane], p->velocity[k] = q->v[k][lane];
+    }
+    p->damage = q->damage[0][lane], p->mass = q->mass[0][lane], p->body = body;
+    return status_ok();
+}
+
+/* Keeps what the followed bodies look like upstream of x before it is merged. */
+static status leave_wake(mpm *m, double x)
+{
+    for (int i = 0; i < m->bricks_used; i++)
+        for (int c = 0; c < BRICK_CELLS; c++)
+            for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next)
+                for (int l = 0; l < LANES && m->scene.follow_bodies >> m->links[q].body & 1; l++) {
+                    const block *b = &m->blocks[q];
+                    if (m->links[q].mask >> l & 1 && b->x[0][l] >= m->wake.until && b->x[0][l] < x)
+                        TRY(wake_point(m, b, l, m->links[q].body));
+                }
+    m->wake.until = x;
+    return status_ok();
+}
+
+/* ---- moving ---- */
+
+static bool too_long(const mpm *m, const double *q)
+{
+    const axis *a = &m->axes[0];
+    const int i = axis_locate(a, q[FIRST_x]);
+    return q[FIRST_damage] < 1 && 2 * q[FIRST_half] > SPLIT_RATIO * (a->edge[i + 1] - a->edge[i]);
+}
+
+/* What the new window leaves out is gone. */
+static bool outside(const mpm *m, const double *q)
+{
+    const axis *a = &m->axes[0];
+    return q[FIRST_x] < a->edge[1] || q[FIRST_x] >= a->edge[a->last + 1];
+}
+
+static void leave_behind(mpm *m, const double *q)
+{
+    const double mass = q[FIRST_mass], *v = q + FIRST_v;
+    mpm_ledger *l = &m->ledger;
+    m->report.ejected++;
+    l->ejected_mass += mass;
+    for (int k = 0; k < 3; k++) l->ejected_momentum[k] += mass * v[k];
+    l->ejected_energy += mass * (0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + q[FIRST_ka] + q[FIRST_e]);
+}
+
+static status place_split(mpm *m, int body, double *q)
+{
+    if (outside(m, q)) {
+        leave_behind(m, q);
+        return status_ok();
+    }
+    while (too_long(m, q)) {
+        double other[BLOCK_DOUBLES];
+        particle_halve(q, other, 0);
+        m->report.splits++;
+        TRY(place_split(m, body, other));
+    }
+    return store_place(m, body, q);
+}
+
+/* Empties one brick of the old grid into the new one; its blocks go back as soon as they are read. */
+static status empty_brick(mpm *m, brick *old)
+{
+    for (int c = 0; c < BRICK_CELLS; c++)
+        while (old->head[c] >= 0) {
+            const int q = old->head[c];
+            const block held = m->blocks[q];
+            const block_link link = m->links[q];
+            old->head[c] = link.next;
+            store_release(m, q);
+            const double(*from)[LANES] = (const double(*)[LANES])(const void *)&held;
+            for (int l = 0; l < LANES; l++) {
+                double one[BLOCK_DOUBLES];
+                if (!(link.mask >> l & 1)) continue;
+                for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][l];
+                TRY(place_split(m, link.body, one));
+            }
+        }
+    return status_ok();
+}
+
+/* Fresh metal of the followed bodies, from the old window's upper end on. */
+static status grow_in(mpm *m, double from)
+{
+    const double x[2] = { from, INFINITY };
+    if (!(m->scene.axis[0].hi > from)) return status_ok();
+    const mpm_ledger before = mpm_balance(m);
+    const build_sink sink = { mpm_insert_point, m };
+    for (int i = 0; i < m->scene.bodies; i++)
+        if (m->scene.follow_bodies >> i & 1) TRY(build_body(&m->scene, i, &m->laws[i], m->axes, x, &sink));
+    const mpm_ledger after = mpm_balance(m);
+    m->ledger.mass_start += after.mass - before.mass;
+    m->ledger.energy_start += after.kinetic + after.internal - before.kinetic - before.internal;
+    for (int k = 0; k < 3; k++) m->ledger.momentum_start[k] += after.momentum[k] - before.momentum[k];
+    return status_ok();
+}
+
+static status refill(mpm *m)
+{
+    brick *old = m->bricks;
+    const int n = m->bricks_used;
+    status s = store_new_grid(m);
+    for (int i = 0; i < n; i++) {
+        if (s.code == STATUS_OK) s = empty_brick(m, &old[i]);
+        store_free_brick(&old[i]);
+    }
+    free(old);
+    return s;
+}
+
+zone zone_of(const mpm *m)
+{
+    const mpm_axis *s = &m->scene.axis[0];
+    return (zone){ { s->fine_lo, s->lo, s->hi } };
+}
+
+status zone_regrid(mpm *m, zone z)
+{
+    mpm_axis *s = &m->scene.axis[0];
+    axis made;
+    s->fine_lo = z.at[0], s->fine_hi = z.at[0] + m->zone_length;
+    s->lo = z.at[1], s->hi = z.at[2];
+    TRY(axis_make(s, 'x', &made));
+    axis_free(&m->axes[0]);
+    m->axes[0] = made;
+    TRY(refill(m));
+    TRY(merge_coarse(m));
+    return store_settle(m);
+}
+
+/* Where the window ought to be now; the fine zone stays inside it. */
+static zone zone_wanted(const mpm *m, double front)
+{
+    const mpm_axis *s = &m->scene.axis[0];
+    const double room = 2 * s->coarse, way = m->scene.follow_speed * m->time;
+    const double hi = m->zone_start.at[2] + way;
+    const double fine_hi = fmin(front + m->scene.follow_lead, hi - room);
+    const double cells = fmax(floor((fine_hi - s->fine_hi) / s->fine), 0);
+    zone z = { { s->fine_lo + cells * s->fine, m->zone_start.at[1] + way, hi } };
+    z.at[1] = fmin(z.at[1], z.at[0] - room);
+    return z;
+}
+
+status zone_follow(mpm *m)
+{
+    const zone now = zone_of(m);
+    double power;
+    if (!m->scene.follow_bodies) return status_ok();
+    const double front = plastic_front(m, &power);
+    m->report.plastic_front = front, m->report.plastic_power = power;
+    m->report.peak_plastic_power = fmax(m->report.peak_plastic_power, power);
+    const zone next = zone_wanted(m, power > 0 ? front : m->scene.axis[0].lo);
+    const double step = QUANTUM * m->scene.axis[0].fine;
+    if (next.at[0] - now.at[0] < 0.999 * step && next.at[2] - now.at[2] < 4 * step) return status_ok();
+    TRY(leave_wake(m, next.at[0]));
+    TRY(zone_regrid(m, next));
+    TRY(grow_in(m, now.at[2]));
+    TRY(store_settle(m));
+    m->report.particles = mpm_particles(m);
+    return status_ok();
+}

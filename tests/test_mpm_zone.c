@@ -1,0 +1,162 @@
+/* The fine zone that follows the ploughing (mpm/zone.c): nothing is lost, nothing depends on threads or restarts, and the
+ * groove is the one of a long zone that stays. */
+#include "mpm_scenes.h"
+
+#include "mpm/store.h"
+
+static const double H = 0.25e-3, SPEED = 1500, TIME = 4e-6;
+
+static void followed(gouge_scene *g)
+{
+    scene_gouge(g, H, SPEED);
+    g->scene.body[0].shape_value.value[3] = 40e-3; /* the rail goes on */
+    g->scene.axis[0] = scene_graded(g->scene.axis[0], -1e-3, 1.5e-3, 3 * H, 1.25);
+    g->scene.follow_bodies = 1;
+    g->scene.follow_lead = 1.25e-3;
+    g->scene.follow_speed = SPEED;
+}
+
+/* Any two neighbours in one: mass, volume, momentum and energy stay. */
+static void test_merge(void **state)
+{
+    (void)state;
+    srand(11);
+    for (int trial = 0; trial < 300; trial++) {
+        double q[2][BLOCK_DOUBLES], sum[6] = { 0 }, got[6];
+        for (int p = 0; p < 2; p++) {
+            for (int i = 0; i < BLOCK_DOUBLES; i++) q[p][i] = 0.1 + (double)rand() / RAND_MAX;
+            const double m = q[p][FIRST_mass], *v = q[p] + FIRST_v;
+            sum[0] += m, sum[1] += m / q[p][FIRST_rho];
+            for (int k = 0; k < 3; k++) sum[2 + k] += m * v[k];
+            sum[5] += m * (0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + q[p][FIRST_ka] + q[p][FIRST_e]);
+        }
+        const int k = trial % 3;
+        const double length = q[0][FIRST_half + k] + q[1][FIRST_half + k];
+        particle_merge(q[0], q[1], k);
+        const double m = q[0][FIRST_mass], *v = q[0] + FIRST_v;
+        got[0] = m, got[1] = m / q[0][FIRST_rho];
+        for (int i = 0; i < 3; i++) got[2 + i] = m * v[i];
+        got[5] = m * (0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + q[0][FIRST_ka] + q[0][FIRST_e]);
+        for (int i = 0; i < 6; i++) assert_near(got[i] / sum[i], 1, 1e-14);
+        assert_near(q[0][FIRST_half + k], length, 1e-15);
+    }
+}
+
+/* Halves of one particle give it back. */
+static void test_merge_undoes_halve(void **state)
+{
+    (void)state;
+    srand(12);
+    for (int trial = 0; trial < 300; trial++) {
+        double whole[BLOCK_DOUBLES], a[BLOCK_DOUBLES], b[BLOCK_DOUBLES];
+        for (int i = 0; i < BLOCK_DOUBLES; i++) whole[i] = 0.1 + (double)rand() / RAND_MAX;
+        whole[FIRST_ka] += 10; /* else the halves' motion comes out of e */
+        memcpy(a, whole, sizeof a);
+        particle_halve(a, b, trial % 3);
+        particle_merge(a, b, trial % 3);
+        for (int i = 0; i < BLOCK_DOUBLES; i++) assert_near(a[i] / whole[i], 1, 1e-14);
+    }
+}
+
+static void test_books(void **state)
+{
+    (void)state;
+    gouge_scene g;
+    followed(&g);
+    mpm *m = scene_make(&g.scene, 2);
+    const double mass = mpm_balance(m).mass, fine_lo = mpm_scene_of(m)->axis[0].fine_lo;
+    assert_ok(mpm_advance(m, TIME, NULL));
+    const mpm_ledger l = mpm_balance(m);
+    const mpm_report r = mpm_state(m);
+    print_message("zone from %.2f to %.2f mm, %llu splits, %llu merges, wake %zu, energy %.1e, momentum %.1e\n",
+                  1e3 * fine_lo, 1e3 * mpm_scene_of(m)->axis[0].fine_lo, (unsigned long long)r.splits,
+                  (unsigned long long)r.merges, mpm_wake_of(m)->n, l.energy_error, l.momentum_error);
+    assert_true(mpm_scene_of(m)->axis[0].fine_lo > fine_lo + 1.9e-3);
+    assert_true(r.splits > 1000 && r.merges > 300 && mpm_wake_of(m)->n > 1000);
+    assert_true(l.mass_start > 1.05 * mass && l.ejected_mass > 0.02 * mass); /* grown in ahead, left behind */
+    assert_near((l.mass + l.ejected_mass) / l.mass_start, 1, 1e-12);
+    assert_below(l.momentum_error, 1e-12);
+    assert_below(fabs(l.energy_error), 1e-3);
+    assert_int_equal(r.particles, mpm_particles(m));
+    const mpm_wake *w = mpm_wake_of(m);
+    for (size_t i = 0; i < w->n; i++) assert_true(w->point[i].position[0] < w->until);
+    mpm_free(m);
+}
+
+static void test_bits(void **state)
+{
+    (void)state;
+    gouge_scene g;
+    followed(&g);
+    void *image = NULL;
+    size_t bytes = 0;
+    mpm *m[3];
+    for (int i = 0; i < 3; i++) {
+        m[i] = scene_make(&g.scene, 1 + i);
+        if (i == 2) assert_ok(mpm_restore(m[i], image, bytes));
+        if (i < 2) scene_steps(m[i], 230);
+        if (i == 0) {
+            assert_true(mpm_wake_of(m[0])->n > 0); /* the zone has moved */
+            assert_ok(mpm_save(m[0], &image, &bytes));
+        }
+        scene_steps(m[i], 90);
+    }
+    free(image);
+    double *want = scene_read(m[0], MPM_position);
+    for (int i = 1; i < 3; i++) {
+        assert_int_equal(mpm_particles(m[i]), mpm_particles(m[0]));
+        assert_int_equal(mpm_wake_of(m[i])->n, mpm_wake_of(m[0])->n);
+        double *got = scene_read(m[i], MPM_position);
+        assert_memory_equal(got, want, mpm_particles(m[0]) * 3 * sizeof *want);
+        assert_memory_equal(mpm_wake_of(m[i])->point, mpm_wake_of(m[0])->point,
+                            mpm_wake_of(m[0])->n * sizeof *mpm_wake_of(m[0])->point);
+        const mpm_ledger a = mpm_balance(m[0]), b = mpm_balance(m[i]);
+        assert_memory_equal(&a, &b, sizeof a);
+        free(got);
+    }
+    free(want);
+    for (int i = 0; i < 3; i++) mpm_free(m[i]);
+}
+
+/* What the armature has lost, and the power the rail takes, with a zone that follows and with a long one that stays. */
+static void test_same_groove(void **state)
+{
+    (void)state;
+    double lost[2], power[2], front[2];
+    for (int i = 0; i < 2; i++) {
+        gouge_scene g;
+        followed(&g);
+        if (i == 1) {
+            g.scene.axis[0].hi = 14e-3;
+            g.scene.axis[0].fine_hi = 9e-3;
+            g.scene.follow_lead = -20e-3; /* looks at the front and stays */
+            g.scene.follow_speed = 0;
+        }
+        mpm *m = scene_make(&g.scene, 2);
+        assert_ok(mpm_advance(m, TIME, NULL));
+        const double *v = NULL, *mass = NULL, *body = NULL;
+        double *fields[3] = { scene_read(m, MPM_velocity), scene_read(m, MPM_mass), scene_read(m, MPM_body) };
+        v = fields[0], mass = fields[1], body = fields[2];
+        double moving = 0, all = 0;
+        for (size_t k = 0; k < mpm_particles(m); k++)
+            if (body[k] == 2) moving += mass[k] * v[3 * k], all += mass[k] * SPEED;
+        lost[i] = (all - moving) / all;
+        power[i] = mpm_state(m).plastic_power, front[i] = mpm_state(m).plastic_front;
+        for (int k = 0; k < 3; k++) free(fields[k]);
+        mpm_free(m);
+    }
+    print_message("momentum lost %.4f, %.4f; plastic power %.4g, %.4g W; front %.2f, %.2f mm\n", lost[0], lost[1],
+                  power[0], power[1], 1e3 * front[0], 1e3 * front[1]);
+    assert_near(lost[0] / lost[1], 1, 0.05);
+    assert_near(power[0] / power[1], 1, 0.1);
+    assert_near(front[0], front[1], 2 * H);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_merge), cmocka_unit_test(test_merge_undoes_halve), cmocka_unit_test(test_books),
+        cmocka_unit_test(test_bits),  cmocka_unit_test(test_same_groove),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
