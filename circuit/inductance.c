@@ -1,29 +1,24 @@
-/* 2-D current distribution in a pair of rails carrying +I and -I.
- *
- * The plane is cut in filaments.  The vector potential of filament j at i, averaged over both sections (Galerkin), is
- *   A_i = - mu0/(2 pi) sum_j I_j <ln r_ij>,                                                (C-8)
- * and each filament of a rail sees the same voltage gradient e = rho I_i/a_i + i omega A_i.  One quarter is solved: y = 0
- * mirrors the current, x = 0 mirrors and reverses it.  Z' = 2 e/I. */
+/* Rail section: perfect conductor by panels on the outline, conductor by filaments (circuit/filaments.h). */
 #include "circuit/inductance.h"
 
-#include <gsl/gsl_complex_math.h>
+#include "circuit/filaments.h"
+
+#include <complex.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 
+#undef I /* the current, here */
+
 static const double PI = 3.14159265358979323846;
 static const double MU0 = 1.25663706212e-6; /* [H/m] CODATA 2018 */
 
-enum { MAX_CELLS = 64, MAX_FILAMENTS = MAX_CELLS * MAX_CELLS / 2, MAX_PANELS = 320 };
+enum { MAX_PANELS = 320 };
 
 /* Thinner skins than the section's largest side over this are taken as a surface impedance on the perfect conductor. */
 static const double THIN_SKIN = 150.0;
-
-typedef struct {
-    double x, y, a, b; /* centre and full sizes along x and y [m] */
-} filament;
 
 /* L' = [A + B ln F1] ln F2 uH/m */
 double inductance_kerrisk(double h, double w, double s)
@@ -31,121 +26,6 @@ double inductance_kerrisk(double h, double w, double s)
     const double F1 = 1.0 + 3.397143 * (w / h) - 0.06603002 * (w / h) * (s / h);
     const double F2 = 1.007719 + 2.743651 * (s / h) + 0.02209308 * (w / h) + 0.2637392 * (s / h) * (w / h);
     return 1e-6 * (0.4406411 - 0.07771617 * log(F1)) * log(F2);
-}
-
-/* d^4 G/dX^2 dY^2 = 1/2 ln(X^2 + Y^2) + 25/12 */
-static double antiderivative(double X, double Y)
-{
-    const double x = fabs(X), y = fabs(Y), r2 = x * x + y * y;
-    if (r2 == 0.0) return 0.0;
-    const double x2 = x * x, y2 = y * y;
-    const double log_part = (6.0 * x2 * y2 - x2 * x2 - y2 * y2) / 24.0 * log(r2);
-    const double atan_part = (x2 * x * y * atan2(y, x) + x * y * y2 * atan2(x, y)) / 3.0;
-    return 0.5 * (log_part + atan_part);
-}
-
-/* Mean of ln r between two rectangles whose centres lie dx, dy apart; exact when near, to (size/r)^4 when far. */
-static double mean_log(const filament *p, const filament *q, double dx, double dy)
-{
-    const double r2 = dx * dx + dy * dy, size = fmax(fmax(p->a, p->b), fmax(q->a, q->b));
-    if (r2 > 144.0 * size * size) {
-        const double spread = p->a * p->a + q->a * q->a - p->b * p->b - q->b * q->b;
-        return 0.5 * log(r2) + spread * (dy * dy - dx * dx) / (24.0 * r2 * r2);
-    }
-    const double X[4] = { 0.5 * (p->a + q->a), 0.5 * (p->a - q->a), -0.5 * (p->a - q->a), -0.5 * (p->a + q->a) };
-    const double Y[4] = { 0.5 * (p->b + q->b), 0.5 * (p->b - q->b), -0.5 * (p->b - q->b), -0.5 * (p->b + q->b) };
-    const double sign[4] = { 1.0, -1.0, -1.0, 1.0 };
-    double sum = 0.0;
-    for (int i = 0; i < 4; i++) {
-        for (int j = 0; j < 4; j++) sum += sign[i] * sign[j] * antiderivative((dx + X[i]) / size, (dy + Y[j]) / size);
-    }
-    const double size4 = size * size * size * size;
-    return sum * size4 / (p->a * p->b * q->a * q->b) - 25.0 / 12.0 + log(size);
-}
-
-/* Cell sizes over `length`, growing from `first` by `growth` at most away from one end, or from both.  Returns their number. */
-static int graded(double length, double first, double growth, int ends, double *size)
-{
-    const double span = length / ends;
-    int n = 0;
-    double sum = 0.0, d = first;
-    while (sum < span) {
-        size[n++] = d;
-        sum += d;
-        d *= growth;
-    }
-    for (int k = 0; k < n; k++) size[k] *= span / sum;
-    if (ends == 2) {
-        for (int k = 0; k < n; k++) size[2 * n - 1 - k] = size[k];
-    }
-    return ends * n;
-}
-
-static int section_mesh(const double section[3], double depth, filament *cells)
-{
-    const double h = section[0], w = section[1], s = section[2], growth = 1.25;
-    double dx[MAX_CELLS], dy[MAX_CELLS];
-    const int nx = graded(w, fmin(depth / 6.0, w / 40.0), growth, 2, dx);
-    const int ny = graded(0.5 * h, fmin(depth / 6.0, h / 40.0), growth, 1, dy);
-    int n = 0;
-    double x = 0.5 * s;
-    for (int i = 0; i < nx; i++, x += dx[i - 1]) {
-        double y = 0.5 * h; /* finest at the edge, coarse at y = 0 */
-        for (int j = 0; j < ny; j++) {
-            cells[n++] = (filament){ x + 0.5 * dx[i], y - 0.5 * dy[j], dx[i], dy[j] };
-            y -= dy[j];
-        }
-    }
-    return n;
-}
-
-static double potential(const filament *p, const filament *q)
-{
-    return -MU0 / (2.0 * PI) *
-           (mean_log(p, q, p->x - q->x, p->y - q->y) + mean_log(p, q, p->x - q->x, p->y + q->y) -
-            mean_log(p, q, p->x + q->x, p->y - q->y) - mean_log(p, q, p->x + q->x, p->y + q->y));
-}
-
-typedef struct {
-    gsl_matrix_complex *matrix;
-    gsl_vector_complex *right, *current;
-    gsl_permutation *order;
-} filament_system;
-
-static void system_free(filament_system *s)
-{
-    if (s->matrix) gsl_matrix_complex_free(s->matrix);
-    if (s->right) gsl_vector_complex_free(s->right);
-    if (s->current) gsl_vector_complex_free(s->current);
-    if (s->order) gsl_permutation_free(s->order);
-}
-
-static status system_solve(const filament *cells, int n, double resistivity, double omega, gsl_complex *total)
-{
-    const size_t size = (size_t)n;
-    filament_system s = { gsl_matrix_complex_alloc(size, size), gsl_vector_complex_alloc(size),
-                          gsl_vector_complex_alloc(size), gsl_permutation_alloc(size) };
-    if (!s.matrix || !s.right || !s.current || !s.order) {
-        system_free(&s);
-        return status_error(STATUS_MEMORY, "out of memory for %d rail filaments", n);
-    }
-    for (size_t i = 0; i < size; i++) {
-        for (size_t j = i; j < size; j++) {
-            const double R = i == j ? resistivity / (cells[i].a * cells[i].b) : 0.0;
-            const gsl_complex z = gsl_complex_rect(R, omega * potential(&cells[i], &cells[j]));
-            gsl_matrix_complex_set(s.matrix, i, j, z);
-            gsl_matrix_complex_set(s.matrix, j, i, z);
-        }
-    }
-    gsl_vector_complex_set_all(s.right, gsl_complex_rect(1.0, 0.0));
-    int sign = 0;
-    int bad = gsl_linalg_complex_LU_decomp(s.matrix, s.order, &sign);
-    if (!bad) bad = gsl_linalg_complex_LU_solve(s.matrix, s.order, s.right, s.current);
-    *total = gsl_complex_rect(0.0, 0.0);
-    for (size_t i = 0; i < size; i++) *total = gsl_complex_add(*total, gsl_vector_complex_get(s.current, i));
-    system_free(&s);
-    CHECK(!bad, STATUS_NUMERICAL, "the rail section's filament system is singular (%s)", gsl_strerror(bad));
-    return status_ok();
 }
 
 static status section_check(double h, double w, double s)
@@ -168,11 +48,11 @@ static int outline(double h, double w, double s, panel *panels)
     int n = 0;
     for (int face = 0; face < 2; face++) { /* inner and outer face, from the edge to y = 0 */
         const double x = 0.5 * s + face * w;
-        const int k = graded(0.5 * h, 1e-5 * h, growth, 1, d);
+        const int k = filaments_graded(0.5 * h, 1e-5 * h, growth, 1, d);
         double y = 0.5 * h;
         for (int j = 0; j < k; y -= d[j++]) panels[n++] = (panel){ x, y - 0.5 * d[j], d[j], true };
     }
-    const int k = graded(w, 1e-5 * w, growth, 2, d);
+    const int k = filaments_graded(w, 1e-5 * w, growth, 2, d);
     double x = 0.5 * s;
     for (int j = 0; j < k; x += d[j++]) panels[n++] = (panel){ x + 0.5 * d[j], 0.5 * h, d[j], false };
     return n;
@@ -267,19 +147,35 @@ static status thin_skin(const double section[3], double resistivity, double omeg
     return status_ok();
 }
 
+status inductance_response(const double section[3], double resistivity, double f_top, impedance *out)
+{
+    *out = (impedance){ 0 };
+    TRY(section_check(section[0], section[1], section[2]));
+    CHECK(resistivity > 0.0 && isfinite(resistivity), STATUS_BAD_INPUT,
+          "rails.resistivity = %g ohm m: must be positive and finite", resistivity);
+    CHECK(f_top > 0.0 && isfinite(f_top), STATUS_BAD_INPUT, "frequency %g Hz: must be positive and finite", f_top);
+    filaments cells;
+    double *L = NULL;
+    const double omega = 2.0 * PI * f_top;
+    status st = filaments_of_rectangle(section, resistivity, sqrt(2.0 * resistivity / (omega * MU0)), &cells);
+    if (st.code == STATUS_OK) st = filaments_inductance(&cells, &L);
+    if (st.code == STATUS_OK) st = impedance_create(cells.n, L, cells.R, omega, out);
+    free(L);
+    filaments_free(&cells);
+    return st;
+}
+
 static status thick_skin(const double section[3], double resistivity, double omega, double *L, double *R)
 {
-    filament *cells = malloc(MAX_FILAMENTS * sizeof *cells);
-    CHECK(cells, STATUS_MEMORY, "out of memory for the rail filaments");
-    const int n = section_mesh(section, sqrt(2.0 * resistivity / (omega * MU0)), cells);
-    gsl_complex total = { { 1.0, 0.0 } };
-    const status st = system_solve(cells, n, resistivity, omega, &total);
-    free(cells);
-    TRY(st);
-    const gsl_complex Z = gsl_complex_inverse(total); /* 2 e/(2 total), e = 1 */
-    *L = GSL_IMAG(Z) / omega;
-    *R = GSL_REAL(Z);
-    return status_ok();
+    impedance z;
+    const status st = inductance_response(section, resistivity, omega / (2.0 * PI), &z);
+    if (st.code == STATUS_OK) {
+        const double complex Z = impedance_at(&z, _Complex_I * omega);
+        *L = cimag(Z) / omega;
+        *R = creal(Z);
+    }
+    impedance_free(&z);
+    return st;
 }
 
 status inductance_at(const double section[3], double resistivity, double f, double *L, double *R)

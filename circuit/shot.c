@@ -2,7 +2,6 @@
 #include "circuit/shot.h"
 
 #include "circuit/dae.h"
-#include "circuit/inductance.h"
 #include "circuit/shot_model.h"
 
 #include <assert.h>
@@ -65,8 +64,7 @@ static shot_ledger ledger_of(const shot *s)
         l.coils += 0.5 * g->n * g->p.inductance * i * i;
         l.cables += 0.5 * g->n * g->p.cable_inductance * i * i;
     }
-    const shot_forces f = shot_forces_at(m, y);
-    l.rails_field = 0.5 * f.L * f.I * f.I;
+    l.rails_field = shot_rails_flow(m, y).field;
     l.kinetic = m->phase == SHOT_LEFT ? s->exit_kinetic : 0.5 * z[Y_MASS] * z[Y_V] * z[Y_V];
     l.coil_heat = z[Y_COIL];
     l.cable_heat = z[Y_CABLE];
@@ -101,6 +99,13 @@ static double face_temperature(const shot *s, const shot_state *st)
     return fmin(s->armature_temperature + rise, fmax(a->melting_temperature, s->armature_temperature));
 }
 
+/* The rails' heat over x I^2, direct current's where there is none to see. */
+static double resistance_gradient(const shot *s, double I)
+{
+    const double loss = tail_of(s)[Y_X] * I * I, direct = s->model.rails.ladder.R_dc;
+    return loss > 0.0 ? shot_rails_flow(&s->model, unknowns(s)).heat / loss : direct;
+}
+
 shot_state shot_now(const shot *s)
 {
     const double *z = tail_of(s);
@@ -122,8 +127,8 @@ shot_state shot_now(const shot *s)
     } else {
         st.muzzle_voltage = f.I > 0.0 ? m->armature.contact_voltage + m->armature.resistance * f.I : 0.0;
     }
-    st.inductance_gradient = m->L_gradient;
-    st.resistance_gradient = m->R_gradient;
+    st.inductance_gradient = rails_force_gradient(&m->rails, st.phase == SHOT_HELD ? 0.0 : st.v);
+    st.resistance_gradient = resistance_gradient(s, f.I);
     st.rail_temperature = s->rail_temperature;
     st.ledger = ledger_of(s);
     st.armature_temperature = face_temperature(s, &st);
@@ -312,7 +317,7 @@ static void armature_settle(shot *s, const int *found)
     const double I = shot_forces_at(m, unknowns(s)).I;
     s->restart = true;
     s->switchings++;
-    if (0.5 * m->L_gradient * I * I > shot_hold_force(m, I)) return;
+    if (shot_push(m, 0.0, I) > shot_hold_force(m, I)) return;
     m->phase = SHOT_HELD;
     switched(s, SHOT_STOPPED, -1);
 }
@@ -341,7 +346,7 @@ static double current_slope(const shot *s)
 static status restart(shot *s)
 {
     const shot_model *m = &s->model;
-    const int n = 2 * m->n + Y_COUNT;
+    const int n = shot_unknowns(m);
     double *y = unknowns(s), *yp = dae_yp(s->solver);
     CHECK(s->switchings <= s->switchings_limit, STATUS_NUMERICAL,
           "the circuit switched %d times by t = %.9g s: switches chatter; check preload, spreading and firing times",
@@ -487,7 +492,7 @@ status shot_jump(shot *s, double impulse, double mass_loss)
     z[Y_V] = v;
     if (v == 0.0) {
         const double I = shot_forces_at(&s->model, unknowns(s)).I;
-        if (0.5 * s->model.L_gradient * I * I <= shot_hold_force(&s->model, I)) {
+        if (shot_push(&s->model, 0.0, I) <= shot_hold_force(&s->model, I)) {
             s->model.phase = SHOT_HELD;
             switched(s, SHOT_STOPPED, -1);
         }
@@ -497,43 +502,6 @@ status shot_jump(shot *s, double impulse, double mass_loss)
 }
 
 /* ---- creation ---- */
-
-/* f = 1/(4 t_r), t_r = spread of the firing times + mean quarter period of the modules that fire           (C-6) */
-double shot_effective_frequency(const shot_module *modules, int n_modules)
-{
-    double first = INFINITY, last = -INFINITY, quarter = 0.0, count = 0.0;
-    for (int k = 0; k < n_modules; k++) {
-        const shot_module *p = &modules[k];
-        if (!isfinite(p->fire_at)) continue;
-        first = fmin(first, p->fire_at);
-        last = fmax(last, p->fire_at);
-        quarter += p->count * 1.5707963267948966 * sqrt((p->inductance + p->cable_inductance) * p->capacitance);
-        count += p->count;
-    }
-    return count > 0.0 ? 0.25 / (last - first + quarter / count) : NAN;
-}
-
-status rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance)
-{
-    CHECK(f >= 0.0, STATUS_BAD_INPUT, "frequency %g Hz: must be 0 or more", f);
-    TRY(params_check(shot_rails_params, rails, "rails"));
-    if (rails->level == SHOT_RAILS_CONSTANT) {
-        CHECK(!isnan(rails->inductance_gradient) && !isnan(rails->resistance_gradient), STATUS_BAD_INPUT,
-              "rails.level constant needs rails.inductance_gradient [H/m] and rails.resistance_gradient [ohm/m]");
-        *inductance = rails->inductance_gradient;
-        *resistance = rails->resistance_gradient;
-        return status_ok();
-    }
-    if (isinf(f)) {
-        *resistance = INFINITY;
-        return inductance_limit(rails->height, rails->thickness, rails->separation, inductance);
-    }
-    const double warm = 1.0 + rails->resistivity_coefficient * (rails->temperature - 293.15);
-    const double section[3] = { rails->height, rails->thickness, rails->separation };
-    CHECK(warm > 0.0, STATUS_BAD_INPUT, "rails.temperature = %g K makes rails.resistivity negative",
-          rails->temperature);
-    return inductance_at(section, rails->resistivity * warm, f, inductance, resistance);
-}
 
 static status config_check(const shot_config *c)
 {
@@ -566,7 +534,7 @@ static status config_check(const shot_config *c)
     return status_ok();
 }
 
-static status model_fill(shot *s, const shot_config *c)
+static void model_fill(shot *s, const shot_config *c)
 {
     shot_model *m = &s->model;
     m->barrel = c->barrel;
@@ -586,9 +554,6 @@ static status model_fill(shot *s, const shot_config *c)
         m->groups[k] = (shot_group){ *p, p->inductance + p->cable_inductance, p->resistance + p->cable_resistance,
                                      p->count, GROUP_UNFIRED };
     }
-    double f = c->rails.frequency;
-    if (isnan(f)) f = shot_effective_frequency(c->modules, c->n_modules);
-    return rails_impedance(&c->rails, isnan(f) ? 1000.0 : f, &m->L_gradient, &m->R_gradient);
 }
 
 /* Scales for the absolute tolerances: what each quantity could reach. */
@@ -614,6 +579,10 @@ static void scales_fill(shot *s)
     z[Y_V] = fmax(fmax(1.0, v0), 0.1 * sqrt(2.0 * E / m->armature.mass));
     z[Y_MASS] = m->armature.mass;
     z[Y_ACTION] = 1e-3 * I * I;
+    for (int k = 0; k < m->rails.ladder.n; k++) {
+        z[Y_COUNT + 2 * k] = m->barrel.length * I;
+        z[Y_COUNT + 2 * k + 1] = m->barrel.length * I * I;
+    }
 }
 
 static int by_position(const void *a, const void *b)
@@ -633,13 +602,13 @@ static status memory_take(shot *s, const shot_config *c)
     s->model.groups = calloc(n, sizeof *s->model.groups);
     s->sites = calloc(sites + 1, sizeof *s->sites);
     s->queue = calloc((size_t)s->capacity, sizeof *s->queue);
-    s->scale = calloc(2 * n + Y_COUNT, sizeof *s->scale);
+    s->scale = calloc((size_t)shot_unknowns(&s->model), sizeof *s->scale);
     s->forced = calloc(3 * n, sizeof *s->forced);
     CHECK(s->model.groups && s->sites && s->queue && s->scale && s->forced, STATUS_MEMORY,
           "out of memory for a shot of %d groups", c->n_modules);
     for (int k = 0; k < s->n_sites; k++) s->sites[k] = (shot_place){ c->sites[k], k };
     qsort(s->sites, sites, sizeof *s->sites, by_position);
-    const dae_problem problem = { .n = 2 * s->model.n + Y_COUNT,
+    const dae_problem problem = { .n = shot_unknowns(&s->model),
                                   .n_roots = ROOT_GROUPS + 2 * s->model.n,
                                   .residual = shot_residual,
                                   .roots = shot_roots,
@@ -659,7 +628,7 @@ static void state_fill(shot *s, const shot_config *c)
     s->armature_temperature = c->armature.temperature;
     /* Free at once where nothing holds it: friction then starts at zero with the current, below the force. */
     const bool loose = c->armature.friction_dry * c->armature.preload == 0.0 &&
-                       0.5 * m->L_gradient > 2.0 * c->armature.friction_dry * c->armature.spreading;
+                       shot_push(m, 0.0, 1.0) > 2.0 * c->armature.friction_dry * c->armature.spreading;
     if (z[Y_V] > 0.0 || loose) m->phase = SHOT_MOVING;
     m->next_site = s->n_sites > 0 ? s->sites[0].position : INFINITY;
     s->result = (shot_summary){
@@ -674,12 +643,13 @@ status shot_create(const shot_config *config, shot **out)
     shot *s = calloc(1, sizeof *s);
     CHECK(s, STATUS_MEMORY, "out of memory for the shot");
     s->options = config->options;
-    status st = memory_take(s, config);
-    if (st.code == STATUS_OK) st = model_fill(s, config);
+    status st = shot_rails_fit(config, &s->model.rails);
+    if (st.code == STATUS_OK) st = memory_take(s, config);
     if (st.code != STATUS_OK) {
         shot_free(s);
         return st;
     }
+    model_fill(s, config);
     scales_fill(s);
     state_fill(s, config);
     *out = s;

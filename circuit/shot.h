@@ -11,6 +11,7 @@
 
 #include "base/param.h"
 #include "base/status.h"
+#include "circuit/ladder.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -32,10 +33,11 @@ typedef struct {
     double fire_at;            /* [s]; NAN or infinity = never */
 } shot_module;
 
-typedef enum { SHOT_RAILS_CONSTANT, SHOT_RAILS_SKIN } shot_rail_level;
-extern const char *const shot_rail_level_names[]; /* "constant", "skin", NULL */
+typedef enum { SHOT_RAILS_CONSTANT, SHOT_RAILS_SKIN, SHOT_RAILS_DIFFUSING } shot_rail_level;
+extern const char *const shot_rail_level_names[]; /* "constant", "skin", "diffusing", NULL */
 
-/* Two equal rectangular rails.  constant: the gradients are given; skin: those of the section at one frequency. */
+/* Two equal rectangular rails.  constant: the gradients are given; skin: those of the section at one frequency; diffusing:
+ * every slice of rail has its own history since the armature exposed it (circuit/rails.h). */
 typedef struct {
     int level;                      /* shot_rail_level */
     double height;                  /* across the bore, along the contact line of the armature [m] */
@@ -47,6 +49,8 @@ typedef struct {
     double inductance_gradient;     /* level constant [H/m] */
     double resistance_gradient;     /* level constant, both rails together [ohm/m] */
     double frequency;               /* level skin [Hz]; NAN = from the pulse, equation (C-6) */
+    double ladder_error;            /* level diffusing: largest error of the ladder over its band [1] */
+    double ladder_frequency;        /* level diffusing: top of that band [Hz]; NAN = equation (C-13) */
 } shot_rails;
 
 typedef struct {
@@ -99,6 +103,9 @@ typedef struct {
     const shot_module *modules; /* borrowed until shot_create returns */
     int n_modules;              /* groups */
     shot_rails rails;
+    const ladder
+        *fitted; /* of these rails, from rails_ladder: for many shots with one section; NULL = fitted by shot_create,
+                             about 0.1 s; borrowed until it returns */
     shot_barrel barrel;
     shot_armature armature;
     shot_options options;
@@ -129,7 +136,7 @@ typedef struct {
     double current;              /* of the rails [A] */
     double breech_voltage;       /* [V] */
     double muzzle_voltage;       /* between the rails ahead of the armature, then across the shunt [V] */
-    double force;                /* electromagnetic, 1/2 L' I^2 [N] */
+    double force;                /* electromagnetic, equation (C-2) [N] */
     double friction;             /* both faces [N] */
     double drag;                 /* gas [N] */
     double friction_coefficient; /* mu(v) [1] */
@@ -139,7 +146,7 @@ typedef struct {
     double mass;                 /* of the armature now [kg] */
     double rail_temperature;     /* just ahead of the armature: as before the shot [K] */
     double armature_temperature; /* of the contact face, estimate (C-7), at most melting [K] */
-    double inductance_gradient, resistance_gradient; /* in use [H/m, ohm/m] */
+    double inductance_gradient, resistance_gradient; /* 2 F/I^2 and the rails' heat over x I^2 [H/m, ohm/m] */
     shot_phase phase;
     shot_ledger ledger;
 } shot_state;
@@ -209,9 +216,12 @@ int shot_module_count(const shot *s);                 /* groups */
  * negative values or more mass than there is. */
 status shot_jump(shot *s, double impulse, double mass_loss);
 
-/* L' [H/m] and R' [ohm/m] of the pair at frequency f [Hz], by the level: constant returns what was given; skin solves the
- * section (circuit/inductance.h).  f = 0 is direct current, INFINITY the perfect conductor (R' is then INFINITY). */
+/* L' [H/m] and R' [ohm/m] of the pair at frequency f [Hz], by the level: constant returns what was given; skin and
+ * diffusing solve the section (circuit/inductance.h).  f = 0 is direct current, INFINITY the perfect conductor (R' is then INFINITY). */
 status rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance);
+
+/* The ladder that stands for the rails: at level diffusing fitted up to f_top [Hz], else L', R' at f_top and no rungs. */
+status rails_ladder(const shot_rails *rails, double f_top, ladder *out);
 
 /* The frequency that level skin takes for this bank when none is given, equation (C-6) [Hz]; NAN if nothing fires. */
 double shot_effective_frequency(const shot_module *modules, int n_modules);

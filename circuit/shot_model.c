@@ -39,27 +39,53 @@ double shot_hold_force(const shot_model *m, double I)
     return 2.0 * m->armature.friction_dry * (m->armature.preload + m->armature.spreading * I * I);
 }
 
-/* The loop the bank looks into: rails to the armature, or to the muzzle's shunt once it has left. */
-static void rails_loop(const shot_model *m, double x, shot_forces *f)
+int shot_unknowns(const shot_model *m)
 {
-    const bool left = m->phase == SHOT_LEFT;
-    const double len = left ? m->barrel.length : x;
-    f->L = m->L_gradient * len;
-    f->R = m->R_gradient * len + (left ? m->barrel.muzzle_resistance : m->armature.resistance);
-    f->drop = left ? m->barrel.muzzle_voltage : m->armature.contact_voltage;
+    return 2 * m->n + Y_COUNT + 2 * m->rails.ladder.n;
 }
 
-/* m dv/dt = 1/2 L' I^2 - 2 mu(v) N - drag,  N = preload + k I^2                            (C-3) */
+static double rails_current(const shot_model *m, const double *y)
+{
+    double I = 0.0;
+    for (int k = 0; k < m->n; k++) {
+        if (shot_group_conducts(&m->groups[k])) I += m->groups[k].n * y[2 * k + 1];
+    }
+    return I;
+}
+
+/* The loop the bank looks into ends at the armature, or at the muzzle's shunt once it has left. */
+static double loop_length(const shot_model *m, const double *z)
+{
+    return m->phase == SHOT_LEFT ? m->barrel.length : z[Y_X];
+}
+
+static double loop_speed(const shot_model *m, const double *z)
+{
+    return m->phase == SHOT_MOVING ? fmax(z[Y_V], 0.0) : 0.0;
+}
+
+rails_flow shot_rails_flow(const shot_model *m, const double *y)
+{
+    const double *z = tail(m, y);
+    return rails_flow_at(&m->rails, loop_length(m, z), loop_speed(m, z), rails_current(m, y), z + Y_COUNT);
+}
+
+double shot_push(const shot_model *m, double v, double I)
+{
+    return 0.5 * rails_force_gradient(&m->rails, fmax(v, 0.0)) * I * I;
+}
+
+/* m dv/dt = F - 2 mu(v) N - drag,  N = preload + k I^2                                     (C-3) */
 shot_forces shot_forces_at(const shot_model *m, const double *y)
 {
     shot_forces f = { 0 };
-    const double *z = tail(m, y), v = z[Y_V];
-    for (int k = 0; k < m->n; k++) {
-        if (shot_group_conducts(&m->groups[k])) f.I += m->groups[k].n * y[2 * k + 1];
-    }
-    rails_loop(m, z[Y_X], &f);
-    if (m->phase == SHOT_LEFT) return f;
-    f.force = 0.5 * m->L_gradient * f.I * f.I;
+    const double v = tail(m, y)[Y_V];
+    const bool left = m->phase == SHOT_LEFT;
+    f.I = rails_current(m, y);
+    f.R = left ? m->barrel.muzzle_resistance : m->armature.resistance;
+    f.drop = left ? m->barrel.muzzle_voltage : m->armature.contact_voltage;
+    if (left) return f;
+    f.force = shot_push(m, v, f.I);
     f.contact = m->armature.preload + m->armature.spreading * f.I * f.I;
     f.mu = friction_coefficient(&m->armature, v);
     if (m->phase == SHOT_HELD) {
@@ -72,8 +98,8 @@ shot_forces shot_forces_at(const shot_model *m, const double *y)
     return f;
 }
 
-/* All branches in parallel, V = L_r dI/dt + L' v I + R I + V_c with dI/dt = sum n (u - R_k i - V)/L_k:
- * V (1 + L_r sum n/L_k) = L_r sum n (u - R_k i)/L_k + (L' v + R) I + V_c                   (C-1) */
+/* All branches in parallel, V = L_r dI/dt + V_r + R I + V_c with dI/dt = sum n (u - R_k i - V)/L_k:
+ * V (1 + L_r sum n/L_k) = L_r sum n (u - R_k i)/L_k + V_r + R I + V_c                      (C-1) */
 double shot_breech_voltage(const shot_model *m, const double *y)
 {
     const shot_forces f = shot_forces_at(m, y);
@@ -85,8 +111,8 @@ double shot_breech_voltage(const shot_model *m, const double *y)
         share += g->n / g->L;
     }
     if (share == 0.0) return 0.0;
-    const double motion = m->phase == SHOT_MOVING ? m->L_gradient * tail(m, y)[Y_V] : 0.0;
-    return (f.L * push + (motion + f.R) * f.I + f.drop) / (1.0 + f.L * share);
+    const rails_flow rails = shot_rails_flow(m, y);
+    return (rails.inductance * push + rails.voltage + f.R * f.I + f.drop) / (1.0 + rails.inductance * share);
 }
 
 static void group_rates(const shot_group *g, const double *y, double V, double *d)
@@ -141,7 +167,8 @@ void shot_rates(const shot_model *m, const double *y, double *d)
     heat_rates(m, y, q);
     q[Y_BREECH] = shot_breech_voltage(m, y);
     q[Y_ACTION] = f.I * f.I;
-    q[Y_RAILS] = m->R_gradient * (m->phase == SHOT_LEFT ? m->barrel.length : z[Y_X]) * f.I * f.I;
+    q[Y_RAILS] = shot_rails_flow(m, y).heat;
+    rails_memory_rates(&m->rails, loop_length(m, z), loop_speed(m, z), f.I, z + Y_COUNT, q + Y_COUNT);
     if (m->phase == SHOT_LEFT) {
         q[Y_MUZZLE] = (m->barrel.muzzle_resistance * f.I + m->barrel.muzzle_voltage) * f.I;
     } else {
@@ -152,7 +179,7 @@ void shot_rates(const shot_model *m, const double *y, double *d)
 bool shot_is_algebraic(const shot_model *m, int j)
 {
     if (j == 2 * m->n + Y_BREECH) return true;
-    if (j > 2 * m->n || j % 2) return false;
+    if (j >= 2 * m->n || j % 2) return false;
     const shot_group *g = &m->groups[j / 2];
     return g->mode == GROUP_CROWBAR && g->p.crowbar_resistance == 0.0;
 }
@@ -160,7 +187,7 @@ bool shot_is_algebraic(const shot_model *m, int j)
 void shot_residual(const void *model, const double *y, const double *yp, double *r)
 {
     const shot_model *m = model;
-    const int n = 2 * m->n + Y_COUNT;
+    const int n = shot_unknowns(m);
     shot_rates(m, y, r);
     for (int j = 0; j < n; j++) r[j] = (shot_is_algebraic(m, j) ? y[j] : yp[j]) - r[j];
     for (int k = 0; k < m->n; k++) { /* a stiff diode's row is scaled back by its time constant */

@@ -3,10 +3,12 @@
  * Unknowns, in this order: two a group, then those of shot_unknown.
  *   y[2k]      capacitor voltage u [V]; once the crowbar conducts, its current i_D [A] instead, u = -V_d - R_d i_D
  *   y[2k + 1]  module current i [A]
+ *   and after shot_unknown's the rails' memory, two a rung (circuit/rails.h)
  * A switching changes `mode` or `phase`, never the list of unknowns. */
 #ifndef BREECH_CIRCUIT_SHOT_MODEL_H
 #define BREECH_CIRCUIT_SHOT_MODEL_H
 
+#include "circuit/rails.h"
 #include "circuit/shot.h"
 
 typedef enum { GROUP_UNFIRED, GROUP_WAITING, GROUP_ON, GROUP_CROWBAR, GROUP_BLOCKED } group_mode;
@@ -43,7 +45,7 @@ typedef struct {
     int n;
     shot_barrel barrel;
     shot_armature armature;
-    double L_gradient, R_gradient;               /* [H/m, ohm/m] */
+    rails_load rails;
     double bore_area, contact_area, sound_speed; /* of one contact face; of the gas [m^2, m^2, m/s] */
     double wear_heat;                            /* heat that melts off one kilogram [J/kg] */
     shot_phase phase;
@@ -51,13 +53,17 @@ typedef struct {
 } shot_model;
 
 typedef struct {
-    double I, L, R, drop; /* rails as the bank sees them: current, L' x, series resistance, constant voltage */
+    double I, R, drop; /* rails' current; resistance and constant voltage of armature or muzzle */
     double force, contact, mu, friction, drag, net; /* [N], mu [1] */
 } shot_forces;
 
 bool shot_group_conducts(const shot_group *g);
-double shot_group_voltage(const shot_group *g, double w); /* capacitor voltage from the unknown w = y[2k] [V] */
-double shot_hold_force(const shot_model *m, double I);    /* static friction of both faces [N] */
+double shot_group_voltage(const shot_group *g, double w);     /* capacitor voltage from the unknown w = y[2k] [V] */
+double shot_hold_force(const shot_model *m, double I);        /* static friction of both faces [N] */
+status shot_rails_fit(const shot_config *c, rails_load *out); /* circuit/shot_rails.c */
+int shot_unknowns(const shot_model *m);
+double shot_push(const shot_model *m, double v, double I); /* electromagnetic force at the speed v [N] */
+rails_flow shot_rails_flow(const shot_model *m, const double *y);
 shot_forces shot_forces_at(const shot_model *m, const double *y);
 double shot_breech_voltage(const shot_model *m, const double *y); /* from currents and capacitors [V] */
 

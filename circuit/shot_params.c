@@ -1,12 +1,10 @@
 /* Parameter tables of the shot: every key, unit, default, range and text stands here once. */
 #include "circuit/shot.h"
 
-const char *const shot_rail_level_names[] = { "constant", "skin", NULL };
 const char *const shot_event_names[] = { "fired",   "waiting", "crowbar", "blocked", "released",
                                          "stopped", "site",    "muzzle",  NULL };
 
 #define MODULE(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_module, member, unit, fallback, min, max, doc)
-#define RAILS(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_rails, member, unit, fallback, min, max, doc)
 #define BARREL(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_barrel, member, unit, fallback, min, max, doc)
 #define ARMATURE(member, unit, fallback, min, max, doc) \
     PARAM_DOUBLE(shot_armature, member, unit, fallback, min, max, doc)
@@ -24,21 +22,6 @@ const param shot_module_params[] = {
     MODULE(crowbar_resistance, "ohm", 0.0, 0.0, 1e3, "slope resistance of the crowbar diode"),
     MODULE(fire_at, "s", 0.0, 0.0, INFINITY,
            "instant at which the thyristor is fired; beyond options.max_time = never"),
-    PARAMS_END
-};
-
-const param shot_rails_params[] = {
-    PARAM_ENUM(shot_rails, level, shot_rail_level_names, SHOT_RAILS_SKIN,
-               "constant: gradients as given; skin: gradients of the cross-section at one frequency"),
-    RAILS(height, "m", REQUIRED, 1e-4, 10.0, "height of a rail, across the bore"),
-    RAILS(thickness, "m", REQUIRED, 1e-4, 10.0, "thickness of a rail"),
-    RAILS(separation, "m", REQUIRED, 1e-4, 10.0, "separation of the facing rail surfaces"),
-    RAILS(resistivity, "ohm m", 1.72e-8, 1e-10, 1e-3, "resistivity at 293.15 K"),
-    RAILS(resistivity_coefficient, "1/K", 3.93e-3, 0.0, 0.1, "relative rise of the resistivity"),
-    RAILS(temperature, "K", 293.15, 200.0, 3000.0, "temperature before the shot"),
-    RAILS(inductance_gradient, "H/m", OPTIONAL, 0.0, 1e-4, "inductance gradient of the pair (level constant)"),
-    RAILS(resistance_gradient, "ohm/m", OPTIONAL, 0.0, 10.0, "resistance gradient of the pair (level constant)"),
-    RAILS(frequency, "Hz", OPTIONAL, 1e-3, 1e9, "frequency of the gradients (level skin); from the pulse if not given"),
     PARAMS_END
 };
 

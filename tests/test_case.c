@@ -173,7 +173,7 @@ static void all_errors_at_once(void **state)
     has_line(e, "case.yaml:5:3: unknown key `inductence` in bank; did you mean `inductance`?\n");
     has_line(e, "case.yaml:6:35: rails.thickness = 20 kV: `kV` is not a unit of m\n");
     has_line(e, "case.yaml:6:54: rails.separation = 25 mmm: `mmm` is not a known unit");
-    has_line(e, "case.yaml:6:69: rails.level = skim: must be one of constant, skin; did you mean `skin`?\n");
+    has_line(e, "case.yaml:6:69: rails.level = skim: must be one of constant, skin, diffusing; did you mean `skin`?\n");
     has_line(e, "case.yaml:7:14: unknown key `leadangle` in projectile; did you mean `lead_angle`?\n");
     has_line(e, "case.yaml:7:13: projectile.half_bore is missing [m]");
     has_line(e, "case.yaml:8:19: scene.friction = 0.2 mm: is a pure number");

@@ -354,12 +354,18 @@ static breech_case *changed_case(const char *const *sets)
     const case_options how = { dirs, 1, CASE_FOR_ONSET };
     /* what the made-up scenes and the numbers below count on, whatever the case says */
     const char *all[20] = {
-        "study.coarse_cells_per_radius=2", "study.fine_cells_per_radius=3", "study.max_scenes=14",
-        "study.velocity_interval=5 %",     "study.velocity_low=1 km/s",     "study.velocity_high=2 km/s"
+        "study.coarse_cells_per_radius=2",
+        "study.fine_cells_per_radius=3",
+        "study.max_scenes=14",
+        "study.velocity_interval=5 %",
+        "study.velocity_low=1 km/s",
+        "study.velocity_high=2 km/s",
+        "rails.level=skin",
     };
     breech_case *c = NULL;
     char *errors = NULL;
-    int n = 6;
+    int n = 0;
+    while (all[n]) n++;
     for (int k = 0; sets && sets[k]; k++) all[n++] = sets[k];
     const status s = case_read(BREECH_TESTS "/../cases/default_shot", all, n, &how, &c, &errors);
     if (s.code != STATUS_OK) fail_msg("%s", errors ? errors : s.text);

@@ -1,0 +1,59 @@
+#include "circuit/rails.h"
+
+#include <math.h>
+
+/* Below, 1 - exp(-1/theta) is cancelled by its own leading terms: their series is used. */
+static const double LONG = 30.0;
+
+double rails_share_at_birth(double theta)
+{
+    const double u = theta > 0.0 ? 1.0 / theta : INFINITY;
+    if (theta > LONG) return u * (1.0 / 2.0 - u * (1.0 / 6.0 - u * (1.0 / 24.0 - u / 120.0)));
+    return 1.0 + theta * expm1(-u);
+}
+
+double rails_share_of_force(double theta)
+{
+    const double u = theta > 0.0 ? 1.0 / theta : INFINITY;
+    if (theta > LONG) return 2.0 * u * (1.0 / 6.0 - u * (1.0 / 24.0 - u * (1.0 / 120.0 - u / 720.0)));
+    return 1.0 - 2.0 * theta * (1.0 + theta * expm1(-u));
+}
+
+static double theta_of(const rails_load *r, int k, double v)
+{
+    return v * r->ladder.L[k] / (r->ladder.R[k] * r->contact_length);
+}
+
+double rails_force_gradient(const rails_load *r, double v)
+{
+    double L = r->ladder.L_inf;
+    for (int k = 0; k < r->ladder.n; k++) L += r->ladder.L[k] * rails_share_of_force(theta_of(r, k, v));
+    return L;
+}
+
+rails_flow rails_flow_at(const rails_load *r, double x, double v, double I, const double *memory)
+{
+    const ladder *l = &r->ladder;
+    rails_flow f = { .inductance = l->L_inf * x,
+                     .voltage = (l->L_inf * v + l->R_dc * x) * I,
+                     .heat = l->R_dc * x * I * I,
+                     .field = 0.5 * l->L_inf * x * I * I };
+    for (int k = 0; k < l->n; k++) {
+        const double Q = memory[2 * k], W = memory[2 * k + 1], theta = theta_of(r, k, v);
+        const double a = rails_share_at_birth(theta), under = a * (2.0 - a) - rails_share_of_force(theta);
+        f.voltage += l->R[k] * (x * I - Q) + l->L[k] * v * a * I;
+        f.heat += l->R[k] * (x * I * I - 2.0 * I * Q + W) + 0.5 * l->L[k] * v * under * I * I;
+        f.field += 0.5 * l->L[k] * W;
+    }
+    return f;
+}
+
+void rails_memory_rates(const rails_load *r, double x, double v, double I, const double *memory, double *rates)
+{
+    for (int k = 0; k < r->ladder.n; k++) {
+        const double Q = memory[2 * k], W = memory[2 * k + 1], frequency = r->ladder.R[k] / r->ladder.L[k];
+        const double born = rails_share_at_birth(theta_of(r, k, v)) * I;
+        rates[2 * k] = frequency * (x * I - Q) + v * born;
+        rates[2 * k + 1] = 2.0 * frequency * (I * Q - W) + v * born * born;
+    }
+}

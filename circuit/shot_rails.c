@@ -1,0 +1,116 @@
+/* The shot's rails: their keys, and the ladder that stands for them at each level. */
+#include "circuit/inductance.h"
+#include "circuit/shot_model.h"
+
+static const double TURN = 6.28318530717958648;
+
+const char *const shot_rail_level_names[] = { "constant", "skin", "diffusing", NULL };
+
+#define RAILS(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_rails, member, unit, fallback, min, max, doc)
+
+const param shot_rails_params[] = {
+    PARAM_ENUM(
+        shot_rails, level, shot_rail_level_names, SHOT_RAILS_DIFFUSING,
+        "constant: gradients as given; skin: of the cross-section at one frequency; diffusing: of every slice by its "
+        "own history"),
+    RAILS(height, "m", REQUIRED, 1e-4, 10.0, "height of a rail, across the bore"),
+    RAILS(thickness, "m", REQUIRED, 1e-4, 10.0, "thickness of a rail"),
+    RAILS(separation, "m", REQUIRED, 1e-4, 10.0, "separation of the facing rail surfaces"),
+    RAILS(resistivity, "ohm m", 1.72e-8, 1e-10, 1e-3, "resistivity at 293.15 K"),
+    RAILS(resistivity_coefficient, "1/K", 3.93e-3, 0.0, 0.1, "relative rise of the resistivity"),
+    RAILS(temperature, "K", 293.15, 200.0, 3000.0, "temperature before the shot"),
+    RAILS(inductance_gradient, "H/m", OPTIONAL, 0.0, 1e-4, "inductance gradient of the pair (level constant)"),
+    RAILS(resistance_gradient, "ohm/m", OPTIONAL, 0.0, 10.0, "resistance gradient of the pair (level constant)"),
+    RAILS(frequency, "Hz", OPTIONAL, 1e-3, 1e9, "frequency of the gradients (level skin); from the pulse if not given"),
+    RAILS(ladder_error, "1", 1e-2, 1e-6, 0.3,
+          "largest error of the ladder that stands for the diffusing rails, over its band"),
+    RAILS(ladder_frequency, "Hz", OPTIONAL, 1.0, 1e9,
+          "top of the ladder's band; from bank energy, armature and contact length if not given"),
+    PARAMS_END
+};
+
+/* f = 1/(4 t_r), t_r = spread of the firing times + mean quarter period of the modules that fire           (C-6) */
+double shot_effective_frequency(const shot_module *modules, int n_modules)
+{
+    double first = INFINITY, last = -INFINITY, quarter = 0.0, count = 0.0;
+    for (int k = 0; k < n_modules; k++) {
+        const shot_module *p = &modules[k];
+        if (!isfinite(p->fire_at)) continue;
+        first = fmin(first, p->fire_at);
+        last = fmax(last, p->fire_at);
+        quarter += p->count * 1.5707963267948966 * sqrt((p->inductance + p->cable_inductance) * p->capacitance);
+        count += p->count;
+    }
+    return count > 0.0 ? 0.25 / (last - first + quarter / count) : NAN;
+}
+
+static status resistivity_now(const shot_rails *rails, double *resistivity)
+{
+    *resistivity = rails->resistivity * (1.0 + rails->resistivity_coefficient * (rails->temperature - 293.15));
+    CHECK(*resistivity > 0.0, STATUS_BAD_INPUT, "rails.temperature = %g K makes rails.resistivity negative",
+          rails->temperature);
+    return status_ok();
+}
+
+status rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance)
+{
+    CHECK(f >= 0.0, STATUS_BAD_INPUT, "frequency %g Hz: must be 0 or more", f);
+    TRY(params_check(shot_rails_params, rails, "rails"));
+    if (rails->level == SHOT_RAILS_CONSTANT) {
+        CHECK(!isnan(rails->inductance_gradient) && !isnan(rails->resistance_gradient), STATUS_BAD_INPUT,
+              "rails.level constant needs rails.inductance_gradient [H/m] and rails.resistance_gradient [ohm/m]");
+        *inductance = rails->inductance_gradient;
+        *resistance = rails->resistance_gradient;
+        return status_ok();
+    }
+    if (isinf(f)) {
+        *resistance = INFINITY;
+        return inductance_limit(rails->height, rails->thickness, rails->separation, inductance);
+    }
+    double resistivity;
+    TRY(resistivity_now(rails, &resistivity));
+    const double section[3] = { rails->height, rails->thickness, rails->separation };
+    return inductance_at(section, resistivity, f, inductance, resistance);
+}
+
+status rails_ladder(const shot_rails *rails, double f_top, ladder *out)
+{
+    *out = (ladder){ 0 };
+    if (rails->level != SHOT_RAILS_DIFFUSING) return rails_impedance(rails, f_top, &out->L_inf, &out->R_dc);
+    TRY(params_check(shot_rails_params, rails, "rails"));
+    double resistivity;
+    TRY(resistivity_now(rails, &resistivity));
+    const double section[3] = { rails->height, rails->thickness, rails->separation };
+    impedance z;
+    status st = inductance_response(section, resistivity, f_top, &z);
+    if (st.code == STATUS_OK) st = ladder_fit(&z, TURN * f_top, rails->ladder_error, out);
+    impedance_free(&z);
+    return st;
+}
+
+/* No armature gets faster than sqrt(2 E/m + v0^2), so no slice of rail gets its current in less than the contact's length
+ * over that; nor does the bank change its current faster than a quarter of a sine (C-6) does.             (C-13) */
+static double band_top(const shot_config *c)
+{
+    const double f_pulse = shot_effective_frequency(c->modules, c->n_modules);
+    double v2 = c->armature.velocity * c->armature.velocity;
+    for (int k = 0; k < c->n_modules; k++) {
+        const shot_module *p = &c->modules[k];
+        v2 += p->count * p->capacitance * p->charge * p->charge / c->armature.mass;
+    }
+    const double f_contact = sqrt(v2) / (TURN * c->armature.contact_length);
+    return fmax(f_contact, 10.0 * (isnan(f_pulse) ? 100.0 : f_pulse));
+}
+
+status shot_rails_fit(const shot_config *c, rails_load *out)
+{
+    out->contact_length = c->armature.contact_length;
+    if (c->fitted) {
+        out->ladder = *c->fitted;
+        return status_ok();
+    }
+    const bool diffusing = c->rails.level == SHOT_RAILS_DIFFUSING;
+    double f = diffusing ? c->rails.ladder_frequency : c->rails.frequency;
+    if (isnan(f)) f = diffusing ? band_top(c) : shot_effective_frequency(c->modules, c->n_modules);
+    return rails_ladder(&c->rails, isnan(f) ? 1000.0 : f, &out->ladder);
+}

@@ -1,0 +1,139 @@
+/* Rail levels on the default shot: what each makes of muzzle velocity, time, peak current and of the place where the
+ * armature passes a speed.  The circuit of cases/default_shot. */
+#include "circuit/shot.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { GROUPS = 13, SPEEDS = 9 };
+static const double speeds[SPEEDS] = { 800, 1000, 1200, 1231, 1402, 1569, 1600, 1800, 1900 };
+
+typedef struct {
+    double x[SPEEDS], I[SPEEDS], p[SPEEDS];
+    shot_state last;
+} passage;
+
+static void must(status s)
+{
+    if (s.code == STATUS_OK) return;
+    fprintf(stderr, "%s\n", s.text);
+    exit(1);
+}
+
+static shot_config default_shot(shot_module modules[GROUPS])
+{
+    shot_config c = { .modules = modules, .n_modules = GROUPS };
+    for (int k = 0; k < GROUPS; k++) {
+        params_default(shot_module_params, &modules[k]);
+        modules[k].count = k == 0 ? 3 : 1;
+        modules[k].capacitance = 3.594e-3;
+        modules[k].charge = 10.55e3;
+        modules[k].inductance = 12.56e-6;
+        modules[k].resistance = 4.1e-3;
+        modules[k].crowbar_drop = 1.48;
+        modules[k].crowbar_resistance = 0.43e-3;
+        modules[k].cable_inductance = 1e-6;
+        modules[k].cable_resistance = 1e-3;
+        modules[k].fire_at = 0.22e-3 * k;
+    }
+    params_default(shot_rails_params, &c.rails);
+    params_default(shot_barrel_params, &c.barrel);
+    params_default(shot_armature_params, &c.armature);
+    params_default(shot_options_params, &c.options);
+    c.rails.height = c.rails.separation = 0.025;
+    c.rails.thickness = 0.020;
+    c.barrel.length = 3.0;
+    c.barrel.start = 0.1;
+    c.armature.mass = 0.25;
+    c.armature.resistance = 20e-6;
+    c.armature.contact_voltage = 30.0;
+    c.armature.friction_dry = 0.3;
+    c.armature.friction_melted = 0.05;
+    c.armature.preload = 5e3;
+    c.armature.spreading = 3e-8;
+    c.armature.contact_length = 16.5e-3;
+    c.armature.contact_width = 25e-3;
+    return c;
+}
+
+static bool note(void *user, const shot *s, const shot_state *now)
+{
+    passage *p = user;
+    (void)s;
+    for (int k = 0; k < SPEEDS; k++) {
+        if (!(p->last.v < speeds[k] && now->v >= speeds[k])) continue;
+        const double f = (speeds[k] - p->last.v) / (now->v - p->last.v);
+        p->x[k] = p->last.x + f * (now->x - p->last.x);
+        p->I[k] = p->last.current + f * (now->current - p->last.current);
+        p->p[k] = p->last.contact_pressure + f * (now->contact_pressure - p->last.contact_pressure);
+    }
+    p->last = *now;
+    return true;
+}
+
+static void row(const char *name, const shot_config *c)
+{
+    passage p;
+    memset(&p, 0, sizeof p);
+    const shot_sink sink = { NULL, note, &p };
+    shot *s = NULL;
+    must(shot_create(c, &s));
+    must(shot_advance(s, INFINITY, &sink));
+    const shot_summary r = shot_result(s);
+    const shot_ledger l = shot_now(s).ledger;
+    printf("%-28s %8.1f %8.2f %7.3f %7.1f %6.4f %9.1f", name, 1e-3 * r.peak_current, r.muzzle_velocity,
+           1e3 * r.muzzle_time, 1e-3 * r.exit_current, r.efficiency, 1e-3 * l.rails_heat);
+    for (int k = 0; k < SPEEDS; k++) printf(" %6.3f", p.x[k]);
+    printf("  %llu steps\n", (unsigned long long)r.steps);
+    if (strcmp(name, "diffusing") == 0) {
+        for (int k = 0; k < SPEEDS; k++)
+            printf("   %.0f m/s: x %.3f m, %.0f kA, %.1f MPa\n", speeds[k], p.x[k], 1e-3 * p.I[k], 1e-6 * p.p[k]);
+    }
+    shot_free(s);
+}
+
+int main(int argc, char **argv)
+{
+    const bool tiny = argc > 1 && strcmp(argv[1], "--tiny") == 0;
+    shot_module modules[GROUPS];
+    shot_config c = default_shot(modules);
+    if (tiny) c.options.rtol = 1e-4;
+    printf("%-28s peak[kA] exit[m/s] t[ms] I[kA]  effic. heat[kJ], then x [m] at", "rails");
+    for (int k = 0; k < SPEEDS; k++) printf(" %.0f", speeds[k]);
+    printf(" m/s\n");
+    row("diffusing", &c);
+    c.rails.level = SHOT_RAILS_SKIN;
+    row("skin, pulse's frequency", &c);
+    for (double f = 300; !tiny && f < 2e4; f *= 3.0) {
+        char name[40];
+        snprintf(name, sizeof name, "skin, %.0f Hz", f);
+        c.rails.frequency = f;
+        row(name, &c);
+    }
+    c.rails.level = SHOT_RAILS_CONSTANT;
+    ladder l;
+    shot_rails rails = c.rails;
+    rails.level = SHOT_RAILS_DIFFUSING;
+    must(rails_ladder(&rails, 5e4, &l));
+    c.rails.inductance_gradient = l.L_inf;
+    c.rails.resistance_gradient = l.R_dc;
+    row("constant, L_inf and R_dc", &c);
+    c.rails.level = SHOT_RAILS_DIFFUSING;
+    for (double error = 0.1; !tiny && error > 5e-5; error *= 0.1) {
+        char name[40];
+        snprintf(name, sizeof name, "diffusing, ladder %g", error);
+        c.rails.ladder_error = error;
+        row(name, &c);
+    }
+    c.rails.ladder_error = 1e-2;
+    c.rails.ladder_frequency = 5e4;
+    for (double length = 1e-4; !tiny && length < 2.0; length *= 10.0) {
+        char name[40];
+        snprintf(name, sizeof name, "diffusing, contact %g m", length);
+        c.armature.contact_length = length;
+        row(name, &c);
+    }
+    return 0;
+}
