@@ -19,7 +19,7 @@ void ISA(g2p)(mpm *m, brick *b, int thread);
 typedef struct {
     double x[3];                /* of the nodes before, at and after [m] */
     double inv_left, inv_right; /* one over the element sizes [1/m] */
-    double widest;              /* largest half length of a domain [m] */
+    double narrowest, widest;   /* least and largest half length of a domain in the weights [m] */
     double cell;                /* size of the cell [m] */
 } cell_axis;
 
@@ -29,6 +29,7 @@ LANE_INLINE cell_axis cell_axis_at(const axis *a, int i)
     return (cell_axis){ .x = { a->node[i - 1], a->node[i], a->node[i + 1] },
                         .inv_left = 1 / left,
                         .inv_right = 1 / right,
+                        .narrowest = 0.025 * (left < right ? left : right),
                         .widest = 0.5 * (left < right ? left : right),
                         .cell = 0.5 * (left + right) };
 }
@@ -41,7 +42,7 @@ typedef struct {
  *   w = 1/(2 l) int N dx,   g = [N(x + l) - N(x - l)]/(2 l),   N the hat functions of the three nodes            */
 LANE_INLINE weights weights_gimp(const cell_axis *c, v8 x, v8 half)
 {
-    const v8 zero = v8_set(0), l = v8_max(v8_min(half, v8_set(c->widest)), v8_set(0.05 * c->widest));
+    const v8 zero = v8_set(0), l = v8_max(v8_min(half, v8_set(c->widest)), v8_set(c->narrowest));
     const v8 t = x - c->x[1], a = t - l, b = t + l;
     const v8 aL = v8_min(a, zero), bL = v8_min(b, zero), aR = v8_max(a, zero), bR = v8_max(b, zero);
     const v8 scale = v8_set(0.5) / l, sL = scale * c->inv_left, sR = scale * c->inv_right;
@@ -97,6 +98,16 @@ typedef struct {
     bool bspline;
 } cell_grid;
 
+/* Least half length in cells that keeps a point stable which shares its nodes with no other.  Its forces change its own
+ * velocity gradient by dt sigma/rho sum_i |grad S_i|^2 / S_i, and that sum is up to 2/(l h) an axis where the domain just
+ * reaches over a node: with one axis strained it is stable for C^2 2 h/l <= 4, with three about a third of that.  l = C^2 h
+ * lies between, and docs/scene-solver.md has the scenes that blew up with less.  Without the affine part the last step's
+ * gradient is forgotten, which halves the limit. */
+LANE_INLINE double stable_half_length(const mpm_scene *s)
+{
+    return (s->transfer == TRANSFER_TPIC ? 1 : 2) * s->courant * s->courant;
+}
+
 LANE_INLINE cell_grid cell_grid_at(const mpm *m, const brick *b, int cell)
 {
     const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
@@ -104,6 +115,8 @@ LANE_INLINE cell_grid cell_grid_at(const mpm *m, const brick *b, int cell)
     for (int k = 0; k < 3; k++) {
         g.axis[k] = cell_axis_at(&m->axes[k], BRICK * b->at[k] + at[k]);
         g.knots[k] = knots_at(&m->axes[k], BRICK * b->at[k] + at[k]);
+        const double stable = 2 * g.axis[k].widest * stable_half_length(&m->scene);
+        if (stable > g.axis[k].narrowest) g.axis[k].narrowest = stable < g.axis[k].widest ? stable : g.axis[k].widest;
     }
     return g;
 }

@@ -1,0 +1,431 @@
+/* Random scenes through the whole hand-off: case text -> case -> scene -> solver -> crater -> class.
+ *
+ *   breech-stress [--scenes N] [--first K] [--seed S] [--verbose]
+ *
+ * Scene i of a seed is always the same, so `--first i --scenes 1` repeats a single one.  Every scene must end with a class
+ * or be refused with a text; a scene that ends is judged by what no physics may break, at every tenth step: nothing that is
+ * not finite, energy to ENERGY_LIMIT of the kinetic energy it starts with, momentum and mass to rounding.  The worst ten
+ * are printed; exit 1 when one fails.
+ *
+ * Materials are those of cases/materials; speeds 0.1 .. 5 km/s, grain radii 0.05 .. 2 mm, lead angles 5 .. 90 degrees, Courant
+ * numbers 0.1 .. 0.8, 1 .. 1.5 cells a radius, temperatures up to melting; with layers as thin as a twentieth of a cell, loose,
+ * bonded and welded grains, fragments that fly through the scene, and armature, grains and fragments that leave the window. */
+#include "coupling/handoff/scene_run.h"
+#include "coupling/io/case.h"
+#include "coupling/io/material_file.h"
+#include "mpm/mpm.h"
+#include "mpm/shape.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { TEXT_SIZE = 6000, WORST = 10, MAX_STEPS = 700, LOOK_EVERY = 10 };
+
+static const double ENERGY_LIMIT = 0.02; /* of the kinetic energy at the start */
+/* PIC forgets the velocity gradient each step, so the stress work of a step's two halves does not telescope: first order in
+ * the step, a few per cent here. */
+static const double ENERGY_LIMIT_PIC = 0.1;
+static const double MOMENTUM_LIMIT = 1e-10; /* of mass times the fastest body's speed: what the product promises */
+static const double MASS_LIMIT = 1e-12;     /* rounding */
+
+/* ---- chance: splitmix64 ---- */
+
+typedef struct {
+    uint64_t state;
+} chance;
+
+static uint64_t chance_bits(chance *c)
+{
+    uint64_t z = c->state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+static double uniform(chance *c, double lo, double hi)
+{
+    return lo + (hi - lo) * ((double)(chance_bits(c) >> 11) * 0x1p-53);
+}
+
+static double log_uniform(chance *c, double lo, double hi)
+{
+    return exp(uniform(c, log(lo), log(hi)));
+}
+
+static bool one_in(chance *c, int n)
+{
+    return chance_bits(c) % (uint64_t)n == 0;
+}
+
+static int below(chance *c, int n)
+{
+    return (int)(chance_bits(c) % (uint64_t)n);
+}
+
+/* ---- one random scene ---- */
+
+/* Groups of the materials: those whose constants are enough for a scene with damage, without, and all. */
+typedef enum { WITH_DAMAGE, WITHOUT_DAMAGE, ANY, GROUPS } group;
+
+typedef struct {
+    char **names;
+    int n, *group[GROUPS], count[GROUPS];
+    double *melting; /* [K] */
+    const char *dirs[MATERIAL_MAX_DIRS];
+    int n_dirs;
+} stock;
+
+typedef struct {
+    char text[TEXT_SIZE];
+    size_t length;
+    double radius, velocity, courant; /* [m, m/s, 1] */
+    group group;
+    char summary[200];
+} recipe;
+
+static void add(recipe *r, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    r->length += (size_t)vsnprintf(r->text + r->length, sizeof r->text - r->length, format, args);
+    va_end(args);
+    if (r->length >= sizeof r->text) {
+        fprintf(stderr, "stress: a case longer than %d\n", (int)sizeof r->text);
+        exit(1);
+    }
+}
+
+static int any_material(const recipe *r, chance *c, const stock *s)
+{
+    return s->group[r->group][below(c, s->count[r->group])];
+}
+
+static double temperature(chance *c, double melting)
+{
+    return one_in(c, 2) ? 293 : uniform(c, 77, fmin(melting, 2000));
+}
+
+static int add_rail(recipe *r, chance *c, const stock *s)
+{
+    const int rail = any_material(r, c, s);
+    add(r, "rail:\n  material: %s\n  temperature: %.6g K\n  yield_scale: %.6g\n", s->names[rail],
+        temperature(c, s->melting[rail]), log_uniform(c, 0.5, 3));
+    const int layers = one_in(c, 2) ? 0 : 1 + below(c, 2);
+    if (layers > 0) add(r, "  layers:\n");
+    for (int i = 0; i < layers; i++) {
+        add(r, "    - {material: %s, thickness: %.6g m, yield_scale: %.6g", s->names[any_material(r, c, s)],
+            r->radius * log_uniform(c, 0.05, 1.5), log_uniform(c, 0.5, 3));
+        if (one_in(c, 4)) add(r, ", bond_strength: %.6g Pa", log_uniform(c, 1e6, 1e10));
+        add(r, "}\n");
+    }
+    return rail;
+}
+
+static int add_projectile(recipe *r, chance *c, const stock *s)
+{
+    const int armature = any_material(r, c, s);
+    const double a = r->radius;
+    const double leg = a * uniform(c, 1.5, 3), lead = uniform(c, 5, 90), chamfer = leg * uniform(c, 0, 0.9);
+    add(r,
+        "projectile:\n  material: %s\n  lead_angle: %.6g deg\n  length: %.6g m\n  leg_thickness: %.6g m\n"
+        "  head_thickness: %.6g m\n  half_bore: %.6g m\n  width: %.6g m\n  chamfer_height: %.6g m\n  temperature: %.6g "
+        "K\n",
+        s->names[armature], lead, a * uniform(c, 4, 9) + chamfer / tan(lead * 3.14159265358979 / 180), leg,
+        a * uniform(c, 1.5, 3), a * uniform(c, 9, 11), a * uniform(c, 4, 9), chamfer,
+        temperature(c, s->melting[armature]));
+    return armature;
+}
+
+static void add_particle(recipe *r, chance *c, const stock *s)
+{
+    static const char *const shapes[] = { "hemisphere", "cone", "ridge", "sphere", "cylinder", "wedge" };
+    add(r, "particle:\n  shape: %s\n  radius: %.6g m\n  height: %.6g m\n", shapes[below(c, 6)], r->radius,
+        r->radius * uniform(c, 0.3, 1.5));
+    if (one_in(c, 2)) add(r, "  material: %s\n", s->names[any_material(r, c, s)]);
+    if (one_in(c, 3)) add(r, "  bond_strength: %.6g Pa\n", one_in(c, 3) ? 0 : log_uniform(c, 1e7, 1e10));
+}
+
+static void add_scene(recipe *r, chance *c)
+{
+    const double a = r->radius, cells = uniform(c, 1, 1.5), coarse = a * (one_in(c, 20) ? 0.5 : uniform(c, 1.02, 2.5));
+    add(r, "scene:\n  velocity: %.8g m/s\n  courant: %.4g\n  cells_per_radius: %.4g\n  coarse_cell: %.6g m\n",
+        r->velocity, r->courant, cells, coarse);
+    add(r, "  friction: %.4g\n  growth: %.4g\n  contact_pressure: %.6g Pa\n", one_in(c, 4) ? 0 : uniform(c, 0, 1),
+        uniform(c, 1.05, 1.3), one_in(c, 2) ? 0 : log_uniform(c, 1e6, 1e9));
+    add(r, "  rail_ahead: %.6g m\n  rail_behind: %.6g m\n  rail_depth: %.6g m\n  fine_ahead: %.6g m\n",
+        a * uniform(c, 7, 12), a * uniform(c, 6, 9), a * uniform(c, 7, 9), a * uniform(c, 2, 5));
+    add(r, "  fine_behind: %.6g m\n  fine_depth: %.6g m\n  fine_width: %.6g m\n", 1.5 * a, 1.3 * a, 4 * a);
+    /* no longer than MAX_STEPS of a metal whose waves run at 6 km/s */
+    const double crossing = 12 * a / r->velocity;
+    add(r, "  end_time: %.6g s\n", fmin(crossing, MAX_STEPS * r->courant * a / cells / (6000 + r->velocity)));
+    if (one_in(c, 5)) add(r, "  basis: bspline\n");
+    if (one_in(c, 8)) add(r, "  transfer: pic\n");
+    if (one_in(c, 6)) add(r, "  heat_by_plastic_work: yes\n");
+    if (r->group == WITHOUT_DAMAGE) add(r, "  damage: no\n");
+    if (one_in(c, 6)) add(r, "  half_model: no\n");
+    if (one_in(c, 6)) add(r, "  particles_per_axis: 3\n");
+    if (one_in(c, 6)) add(r, "  shear_limit: %.6g Pa\n", log_uniform(c, 1e6, 1e9));
+    add(r, "output:\n  snapshots: 0\n");
+}
+
+static void write_recipe(recipe *r, chance *c, const stock *s)
+{
+    r->length = 0;
+    r->radius = log_uniform(c, 0.05e-3, 2e-3);
+    r->velocity = log_uniform(c, 100, 5000);
+    r->courant = uniform(c, 0.1, 0.8);
+    r->group = one_in(c, 25) ? ANY : one_in(c, 3) ? WITHOUT_DAMAGE : WITH_DAMAGE;
+    add(r, "name: stress\n");
+    const int rail = add_rail(r, c, s), armature = add_projectile(r, c, s);
+    add_particle(r, c, s);
+    add_scene(r, c);
+    snprintf(r->summary, sizeof r->summary, "%.0f m/s, r %.3f mm, C %.2f, %s on %s", r->velocity, 1e3 * r->radius,
+             r->courant, s->names[armature], s->names[rail]);
+}
+
+/* Spheres that fly about: they hit the armature, or leave by the free side and the ends.  The armature stays the last body, so
+ * that it keeps the points they share. */
+static void add_fragments(mpm_scene *s, chance *c, const recipe *r)
+{
+    const int wanted = one_in(c, 3) ? 1 + below(c, 2) : 0;
+    for (int i = 0; i < wanted && s->bodies >= 1 && s->bodies < MPM_MAX_BODIES; i++) {
+        mpm_body *b = &s->body[s->bodies - 1];
+        const int field = b->field + 1 < MPM_MAX_FIELDS ? b->field + 1 : b->field;
+        s->body[s->bodies++] = *b;
+        memset(&b->shape_value, 0, sizeof b->shape_value);
+        b->shape = shape_find("sphere");
+        snprintf(b->name, sizeof b->name, "particle");
+        b->field = field;
+        double *v = b->shape_value.value, a = r->radius;
+        v[SPHERE_RADIUS] = a * uniform(c, 0.5, 1);
+        v[SPHERE_X] = uniform(c, 2 * a, 5 * a);
+        v[SPHERE_Y] = uniform(c, 1.2 * a, 4 * a);
+        v[SPHERE_Z] = uniform(c, 0, 3 * a);
+        for (int k = 0; k < 3; k++) b->velocity[k] = uniform(c, -1, 1) * r->velocity, b->body_force[k] = 0;
+    }
+}
+
+/* ---- running and judging ---- */
+
+typedef enum { ENDED, REFUSED, FAILED } verdict;
+
+typedef struct {
+    int index;
+    verdict verdict;
+    status why;                    /* refused or failed */
+    double energy, momentum, mass; /* largest errors seen */
+    double seconds;
+    double energy_limit;
+    uint64_t looks, steps;
+    char summary[200], class[16];
+} outcome;
+
+static void look(outcome *o, const mpm *m)
+{
+    const mpm_ledger l = mpm_balance(m);
+    const double energy = fabs(l.energy_error), mass = fabs((l.mass + l.ejected_mass) / l.mass_start - 1);
+    /* NaN must win */
+    if (!(energy <= o->energy)) o->energy = energy;
+    if (!(l.momentum_error <= o->momentum)) o->momentum = l.momentum_error;
+    if (!(mass <= o->mass)) o->mass = mass;
+    o->steps = mpm_state(m).steps;
+}
+
+/* The checkpoint's hook, called after every step because the case asks for no time between two. */
+static status on_save(void *user, const char *scene, const mpm *m, double wall)
+{
+    (void)scene, (void)wall;
+    outcome *o = user;
+    if (o->looks++ % LOOK_EVERY == 0) look(o, m);
+    return status_ok();
+}
+
+static void judge(outcome *o)
+{
+    o->verdict = ENDED;
+    if (!(o->energy < o->energy_limit) || !(o->momentum < MOMENTUM_LIMIT) || !(o->mass < MASS_LIMIT)) {
+        o->verdict = FAILED;
+        o->why = status_error(STATUS_NUMERICAL, "books do not close");
+    }
+}
+
+static void take_status(outcome *o, const status *s)
+{
+    const bool input = s->code == STATUS_BAD_INPUT && s->text[0];
+    o->verdict = input ? REFUSED : FAILED;
+    o->why = *s;
+}
+
+static void run_case(breech_case *c, const recipe *r, chance *luck, outcome *o)
+{
+    scene_job job;
+    impact hit;
+    const site_state state = state_of_case(c);
+    c->output.checkpoint_interval = 0;
+    o->energy_limit = c->scene.transfer == TRANSFER_PIC ? ENERGY_LIMIT_PIC : ENERGY_LIMIT;
+    status s = scene_job_make(c, &state, c->scene.cells_per_radius, &job);
+    if (s.code == STATUS_OK) {
+        job.name = job.task = "stress";
+        add_fragments(&job.scene, luck, r);
+        const scene_host host = { .threads = 1, .save = on_save, .user = o };
+        s = scene_run(&job, &host, &hit);
+    }
+    if (s.code != STATUS_OK) {
+        take_status(o, &s);
+        return;
+    }
+    const scene_result *e = &hit.result;
+    if (!(fabs(e->energy_error) <= o->energy)) o->energy = fabs(e->energy_error);
+    if (!(e->momentum_error <= o->momentum)) o->momentum = e->momentum_error;
+    snprintf(o->class, sizeof o->class, "%s", damage_class_names[e->class]);
+    judge(o);
+}
+
+static outcome run_one(const stock *s, uint64_t seed, int index, bool verbose)
+{
+    chance luck = { seed ^ ((uint64_t)index << 20) };
+    recipe r;
+    outcome o = { .index = index, .energy = 0 };
+    write_recipe(&r, &luck, s);
+    if (verbose) printf("---- scene %d\n%s", index, r.text);
+    snprintf(o.summary, sizeof o.summary, "%s", r.summary);
+    const case_options how = { s->dirs, s->n_dirs, CASE_FOR_SCENE };
+    const case_text text = { .bytes = r.text, .length = r.length, .path = "stress.yaml" };
+    breech_case *c = NULL;
+    char *errors = NULL;
+    struct timespec from, to;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &from);
+    const status read = case_read_memory(&text, &how, &c, &errors);
+    if (read.code == STATUS_OK)
+        run_case(c, &r, &luck, &o);
+    else
+        take_status(&o, &read);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &to);
+    o.seconds = (double)(to.tv_sec - from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec);
+    case_free(c);
+    free(errors);
+    return o;
+}
+
+/* ---- the whole ---- */
+
+/* Worst first: failed ones, then by energy. */
+static int worse(const void *a, const void *b)
+{
+    const outcome *x = a, *y = b;
+    const double ex = isfinite(x->energy) ? x->energy : HUGE_VAL, ey = isfinite(y->energy) ? y->energy : HUGE_VAL;
+    if ((x->verdict == FAILED) != (y->verdict == FAILED)) return x->verdict == FAILED ? -1 : 1;
+    return (ex < ey) - (ex > ey);
+}
+
+static void print_outcome(const outcome *o)
+{
+    static const char *const names[] = { "ended", "refused", "FAILED" };
+    printf("%5d  %-7s %-9s energy %8.1e, momentum %7.1e, mass %7.1e, %4llu steps, %5.1f s: %s%s%s\n", o->index,
+           names[o->verdict], o->class, o->energy, o->momentum, o->mass, (unsigned long long)o->steps, o->seconds,
+           o->summary, o->why.text[0] ? ": " : "", o->why.text);
+    fflush(stdout);
+}
+
+static int report(outcome *all, int n)
+{
+    int count[3] = { 0, 0, 0 };
+    double seconds = 0;
+    for (int i = 0; i < n; i++) count[all[i].verdict]++, seconds += all[i].seconds;
+    qsort(all, (size_t)n, sizeof *all, worse);
+    printf("\n%d scenes: %d ended with a class, %d refused, %d failed; %.0f s of processor time.  The worst:\n", n,
+           count[ENDED], count[REFUSED], count[FAILED], seconds);
+    for (int i = 0; i < n && (i < WORST || all[i].verdict == FAILED); i++) print_outcome(&all[i]);
+    return count[FAILED] > 0;
+}
+
+/* Into which groups a material goes; its melting temperature, 900 K where that is not known and the scene is refused anyway. */
+static void take_material(stock *s, int i)
+{
+    material_sheet sheet;
+    char *errors = NULL;
+    s->melting[i] = 900;
+    s->group[ANY][s->count[ANY]++] = i;
+    if (material_sheet_open(s->names[i], s->dirs, s->n_dirs, &sheet, &errors).code == STATUS_OK) {
+        const material *m = &sheet.material;
+        if (m->melting_temperature > 0) s->melting[i] = m->melting_temperature;
+        const bool scene = material_check(m, MATERIAL_FOR_SCENE).code == STATUS_OK;
+        if (scene) s->group[WITHOUT_DAMAGE][s->count[WITHOUT_DAMAGE]++] = i;
+        if (scene && material_check(m, MATERIAL_FOR_DAMAGE).code == STATUS_OK)
+            s->group[WITH_DAMAGE][s->count[WITH_DAMAGE]++] = i;
+        material_sheet_free(&sheet);
+    }
+    free(errors);
+}
+
+static bool open_stock(stock *s)
+{
+    memset(s, 0, sizeof *s);
+    s->n_dirs = material_dirs(s->dirs);
+    if (s->n_dirs == 0 || material_names(s->dirs[0], &s->names, &s->n).code != STATUS_OK || s->n == 0) return false;
+    s->melting = calloc((size_t)s->n, sizeof *s->melting);
+    for (int g = 0; g < GROUPS; g++) s->group[g] = calloc((size_t)s->n, sizeof *s->group[g]);
+    if (!s->melting || !s->group[0] || !s->group[1] || !s->group[2]) return false;
+    for (int i = 0; i < s->n; i++) take_material(s, i);
+    return s->count[WITH_DAMAGE] > 0 && s->count[WITHOUT_DAMAGE] > 0;
+}
+
+static void close_stock(stock *s)
+{
+    free(s->melting);
+    for (int g = 0; g < GROUPS; g++) free(s->group[g]);
+    material_names_free(s->names, s->n);
+}
+
+typedef struct {
+    int scenes, first;
+    uint64_t seed;
+    bool verbose;
+} options;
+
+static options read_options(int argc, char **argv)
+{
+    options o = { .scenes = 500, .first = 0, .seed = 20170, .verbose = false };
+    for (int i = 1; i < argc; i++) {
+        const bool more = i + 1 < argc;
+        if (strcmp(argv[i], "--scenes") == 0 && more)
+            o.scenes = atoi(argv[++i]);
+        else if (strcmp(argv[i], "--first") == 0 && more)
+            o.first = atoi(argv[++i]);
+        else if (strcmp(argv[i], "--seed") == 0 && more)
+            o.seed = strtoull(argv[++i], NULL, 10);
+        else if (strcmp(argv[i], "--verbose") == 0)
+            o.verbose = true;
+        else
+            o.scenes = 0;
+    }
+    if (o.scenes < 1) {
+        fprintf(stderr, "usage: breech-stress [--scenes N] [--first K] [--seed S] [--verbose]\n");
+        exit(2);
+    }
+    return o;
+}
+
+int main(int argc, char **argv)
+{
+    const options o = read_options(argc, argv);
+    stock s;
+    outcome *all = calloc((size_t)o.scenes, sizeof *all);
+    if (!open_stock(&s) || !all) {
+        fprintf(stderr, "stress: no memory, or no materials found; set BREECH_MATERIALS\n");
+        return 1;
+    }
+    for (int i = 0; i < o.scenes; i++) {
+        all[i] = run_one(&s, o.seed, o.first + i, o.verbose);
+        print_outcome(&all[i]);
+    }
+    const int failed = report(all, o.scenes);
+    free(all);
+    close_stock(&s);
+    return failed;
+}
