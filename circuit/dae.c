@@ -5,8 +5,8 @@
 #include <ida/ida.h>
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
 
 struct dae {
     dae_problem problem;
@@ -22,18 +22,78 @@ struct dae {
 static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user)
 {
     const dae *d = user;
-    (void)t;
-    d->problem.residual(d->problem.model, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), N_VGetArrayPointer(r));
+    d->problem.residual(d->problem.model, t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), N_VGetArrayPointer(r));
     return 0;
 }
 
 static int roots(sunrealtype t, N_Vector y, N_Vector yp, sunrealtype *g, void *user)
 {
     const dae *d = user;
-    (void)t;
     (void)yp;
-    d->problem.roots(d->problem.model, N_VGetArrayPointer(y), g);
+    d->problem.roots(d->problem.model, t, N_VGetArrayPointer(y), g);
     return 0;
+}
+
+/* ---- the matrix and its solver, as SUNDIALS wants them: both hold the problem's arrow ---- */
+
+static SUNMatrix_ID matrix_id(SUNMatrix A)
+{
+    (void)A;
+    return SUNMATRIX_CUSTOM;
+}
+
+static int matrix_zero(SUNMatrix A)
+{
+    arrow_clear(A->content);
+    return 0;
+}
+
+static SUNLinearSolver_Type solver_type(SUNLinearSolver S)
+{
+    (void)S;
+    return SUNLINEARSOLVER_DIRECT;
+}
+
+static int solver_setup(SUNLinearSolver S, SUNMatrix A)
+{
+    (void)S;
+    return arrow_factor(A->content);
+}
+
+static int solver_solve(SUNLinearSolver S, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tolerance)
+{
+    (void)S;
+    (void)tolerance;
+    if (x != b) N_VScale(1.0, b, x);
+    arrow_solve(A->content, N_VGetArrayPointer(x));
+    return 0;
+}
+
+static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix J, void *user,
+                    N_Vector tmp1, N_Vector tmp2, N_Vector tmp3)
+{
+    const dae *d = user;
+    (void)yp;
+    (void)r;
+    (void)tmp1;
+    (void)tmp2;
+    (void)tmp3;
+    d->problem.jacobian(d->problem.model, t, cj, N_VGetArrayPointer(y), J->content);
+    return 0;
+}
+
+static bool algebra_create(dae *d)
+{
+    d->matrix = SUNMatNewEmpty(d->context);
+    d->solver = SUNLinSolNewEmpty(d->context);
+    if (!d->matrix || !d->solver) return false;
+    d->matrix->content = d->problem.matrix;
+    d->matrix->ops->getid = matrix_id;
+    d->matrix->ops->zero = matrix_zero;
+    d->solver->ops->gettype = solver_type;
+    d->solver->ops->setup = solver_setup;
+    d->solver->ops->solve = solver_solve;
+    return true;
 }
 
 static status failure(int flag, double t)
@@ -56,14 +116,11 @@ static status vectors_create(dae *d)
     d->yp = N_VNew_Serial(n, d->context);
     d->atol = N_VNew_Serial(n, d->context);
     d->differential = N_VNew_Serial(n, d->context);
-    d->matrix = SUNDenseMatrix(n, n, d->context);
     d->direction = calloc((size_t)n_roots + 1, sizeof *d->direction);
     d->found = calloc((size_t)n_roots + 1, sizeof *d->found);
     d->ida = IDACreate(d->context);
-    CHECK(d->y && d->yp && d->atol && d->differential && d->matrix && d->direction && d->found && d->ida, STATUS_MEMORY,
-          "out of memory for a circuit of %d unknowns", n);
-    d->solver = SUNLinSol_Dense(d->y, d->matrix, d->context);
-    CHECK(d->solver, STATUS_MEMORY, "out of memory for a circuit of %d unknowns", n);
+    CHECK(d->y && d->yp && d->atol && d->differential && d->direction && d->found && d->ida && algebra_create(d),
+          STATUS_MEMORY, "out of memory for a circuit of %d unknowns", n);
     return status_ok();
 }
 
@@ -78,6 +135,7 @@ static status solver_create(dae *d)
     if (!bad) bad = IDASetUserData(d->ida, d);
     if (!bad) bad = IDASVtolerances(d->ida, 1e-6, d->atol);
     if (!bad) bad = IDASetLinearSolver(d->ida, d->solver, d->matrix);
+    if (!bad) bad = IDASetJacFn(d->ida, jacobian);
     if (!bad) bad = IDASetSuppressAlg(d->ida, 1);
     if (!bad) bad = IDARootInit(d->ida, d->problem.n_roots, roots);
     if (!bad) bad = IDASetNoInactiveRootWarn(d->ida);
@@ -105,8 +163,8 @@ void dae_free(dae *d)
 {
     if (!d) return;
     if (d->ida) IDAFree(&d->ida);
-    if (d->solver) SUNLinSolFree(d->solver);
-    if (d->matrix) SUNMatDestroy(d->matrix);
+    if (d->solver) SUNLinSolFreeEmpty(d->solver);
+    if (d->matrix) SUNMatFreeEmpty(d->matrix);
     if (d->y) N_VDestroy(d->y);
     if (d->yp) N_VDestroy(d->yp);
     if (d->atol) N_VDestroy(d->atol);

@@ -1,4 +1,5 @@
-/* Index-1 differential-algebraic system  F(t, y, y') = 0  with located roots.  The only door to SUNDIALS (IDA).
+/* Index-1 differential-algebraic system  F(t, y, y') = 0  with located roots, whose Newton matrix has the shape of
+ * circuit/arrow.h.  The only door to SUNDIALS (IDA).
  *
  * The owner fills dae_y, dae_yp (consistent: F = 0), dae_atol, dae_differential and dae_direction, then dae_restart; then
  * dae_step as often as wanted.  After a discontinuity: fill again, restart.  Roots are found in value and direction inside
@@ -7,14 +8,18 @@
 #define BREECH_CIRCUIT_DAE_H
 
 #include "base/status.h"
+#include "circuit/arrow.h"
 
 typedef struct dae dae;
 
 typedef struct {
     int n, n_roots;
-    void (*residual)(const void *model, const double *y, const double *yp, double *r);
-    void (*roots)(const void *model, const double *y, double *g);
-    const void *model; /* borrowed */
+    void (*residual)(const void *model, double t, const double *y, const double *yp, double *r);
+    void (*roots)(const void *model, double t, const double *y, double *g);
+    void (*jacobian)(const void *model, double t, double cj, const double *y,
+                     arrow *J); /* dF/dy + cj dF/dy', J comes zeroed */
+    const void *model;          /* borrowed */
+    arrow *matrix;              /* its blocks' sizes filled; borrowed until dae_free */
 } dae_problem;
 
 typedef enum { DAE_STEP, DAE_STOP, DAE_ROOT } dae_outcome;

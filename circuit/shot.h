@@ -12,26 +12,11 @@
 #include "base/param.h"
 #include "base/status.h"
 #include "circuit/ladder.h"
+#include "circuit/supply.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-
-/* A group of identical modules that fire at the same instant (solved once, scaled by `count`).
- * Capacitor, crowbar diode across it, thyristor, pulse-forming coil, cable to the breech, all in series but the diode.
- * The gate is held from fire_at until the thyristor has conducted; once its current has come back to zero it stays off. */
-typedef struct {
-    int count;                 /* modules in the group */
-    double capacitance;        /* of one module [F] */
-    double charge;             /* voltage at t = 0 [V] */
-    double inductance;         /* pulse-forming coil [H] */
-    double resistance;         /* coil, capacitor and switch in series [ohm] */
-    double cable_inductance;   /* [H] */
-    double cable_resistance;   /* [ohm] */
-    double crowbar_drop;       /* diode's forward drop [V] */
-    double crowbar_resistance; /* diode's slope [ohm] */
-    double fire_at;            /* [s]; NAN or infinity = never */
-} shot_module;
 
 typedef enum { SHOT_RAILS_CONSTANT, SHOT_RAILS_SKIN, SHOT_RAILS_DIFFUSING } shot_rail_level;
 extern const char *const shot_rail_level_names[]; /* "constant", "skin", "diffusing", NULL */
@@ -58,6 +43,8 @@ typedef struct {
     double start;             /* current path's position at t = 0 [m] */
     double muzzle_resistance; /* of the shunt or arc that takes the current after exit [ohm] */
     double muzzle_voltage;    /* arc's constant part, 0 for a shunt [V] */
+    double shunt_resistance;  /* of a shunt across the muzzle from the start [ohm]; NAN = none */
+    double shunt_inductance;  /* its own [H] */
 } shot_barrel;
 
 typedef struct {
@@ -93,15 +80,13 @@ typedef struct {
 } shot_options;
 
 /* Keys, units, defaults, ranges and texts; the case reader is made from them. */
-extern const param shot_module_params[];
 extern const param shot_rails_params[];
 extern const param shot_barrel_params[];
 extern const param shot_armature_params[];
 extern const param shot_options_params[];
 
 typedef struct {
-    const shot_module *modules; /* borrowed until shot_create returns */
-    int n_modules;              /* groups */
+    supply_list supplies[SUPPLY_KINDS]; /* by kind: groups are numbered in this order */
     shot_rails rails;
     const ladder
         *fitted; /* of these rails, from rails_ladder: for many shots with one section; NULL = fitted by shot_create,
@@ -115,17 +100,20 @@ typedef struct {
 
 /* Where the energy is and went [J]. */
 typedef struct {
-    double start;                                   /* capacitors and motion at t = 0 */
-    double capacitors, coils, cables, rails_field;  /* stored now */
+    double start;                                   /* supplies and motion at t = 0 */
+    double supplied;                                /* by batteries and given currents, so far */
+    double capacitors, coils, cables, rotors;       /* stored now */
+    double rails_field;                             /* stored now, the shunt's loop included */
     double kinetic;                                 /* armature now (at exit once it has left) */
     double coil_heat, cable_heat, crowbar_heat;     /* so far, as all below */
+    double switch_heat, machine_heat;               /* opening switches; windage */
     double rails_heat, armature_heat, contact_heat; /* contact_heat = contact voltage x current */
     double friction, drag, muzzle;                  /* muzzle: shunt or arc after exit */
     double wear;                                    /* motion of the metal worn off */
     double jumps;                                   /* taken by shot_jump */
     double momentum_jumps;                          /* impulse taken by shot_jump [N s] */
     double mass_jumps;                              /* mass taken by shot_jump [kg] */
-    double energy_error;                            /* (sum now + so far - start)/start; 0 if start is 0 [1] */
+    double energy_error; /* (sum now + so far - start - supplied)/(start + supplied); 0 where those are 0 [1] */
 } shot_ledger;
 
 typedef enum { SHOT_HELD, SHOT_MOVING, SHOT_LEFT } shot_phase;
@@ -133,7 +121,8 @@ typedef enum { SHOT_HELD, SHOT_MOVING, SHOT_LEFT } shot_phase;
 /* Everything at one instant. */
 typedef struct {
     double t, x, v, a;           /* [s, m, m/s, m/s^2]; x and v stay at their exit values after the muzzle */
-    double current;              /* of the rails [A] */
+    double current;              /* of the rails behind the armature [A] */
+    double shunt_current;        /* of the muzzle shunt: the armature carries the rest [A] */
     double breech_voltage;       /* [V] */
     double muzzle_voltage;       /* between the rails ahead of the armature, then across the shunt [V] */
     double force;                /* electromagnetic, equation (C-2) [N] */
@@ -152,14 +141,16 @@ typedef struct {
 } shot_state;
 
 typedef enum {
-    SHOT_FIRED,    /* group `index` conducts (index 0 .. n_modules - 1) */
-    SHOT_WAITING,  /* group `index` was fired but its voltage is below the breech's: conducts once it is not */
-    SHOT_CROWBAR,  /* diode of group `index` conducts */
-    SHOT_BLOCKED,  /* thyristor of group `index` blocks for good */
-    SHOT_RELEASED, /* the armature starts to move */
-    SHOT_STOPPED,  /* the armature came to rest inside the barrel */
-    SHOT_SITE,     /* site `index` (in the order given) is passed */
-    SHOT_MUZZLE,   /* the armature leaves */
+    SHOT_FIRED,      /* group `index` conducts (numbered from 0 in the order of the kinds) */
+    SHOT_WAITING,    /* group `index` was fired but its voltage is below the breech's: conducts once it is not */
+    SHOT_CROWBAR,    /* diode of group `index` conducts */
+    SHOT_BLOCKED,    /* thyristor of group `index` blocks for good */
+    SHOT_RELEASED,   /* the armature starts to move */
+    SHOT_STOPPED,    /* the armature came to rest inside the barrel */
+    SHOT_SITE,       /* site `index` (in the order given) is passed */
+    SHOT_MUZZLE,     /* the armature leaves */
+    SHOT_COMMUTATED, /* opening switch of group `index`: its current has gone over into the rails */
+    SHOT_RECHARGED,  /* diode of group `index` blocks again, its current having reversed */
     SHOT_EVENT_COUNT
 } shot_event_kind;
 extern const char *const shot_event_names[]; /* "fired", "waiting", ..., NULL */
@@ -186,7 +177,7 @@ typedef struct {
     double muzzle_velocity;   /* [m/s] */
     double muzzle_time;       /* [s] */
     double muzzle_energy;     /* kinetic, at exit [J] */
-    double efficiency;        /* muzzle_energy over the energy at the start [1] */
+    double efficiency;        /* muzzle_energy over the energy at the start and supplied since [1] */
     double action;            /* until exit, or so far [A^2 s] */
     double peak_acceleration; /* [m/s^2] */
     double exit_current;      /* [A] */
@@ -207,8 +198,8 @@ bool shot_done(const shot *s);
 
 shot_state shot_now(const shot *s);
 shot_summary shot_result(const shot *s);
-double shot_module_current(const shot *s, int group); /* one module of the group [A] */
-double shot_module_voltage(const shot *s, int group); /* its capacitor [V] */
+double shot_module_current(const shot *s, int group); /* one unit of the group [A] */
+double shot_module_voltage(const shot *s, int group); /* of its capacitor, switch or machine [V] */
 int shot_module_count(const shot *s);                 /* groups */
 
 /* A gouge: takes `impulse` [N s] (against the motion) and `mass_loss` [kg] (leaving at the armature's speed) at the
@@ -223,7 +214,7 @@ status rails_impedance(const shot_rails *rails, double f, double *inductance, do
 /* The ladder that stands for the rails: at level diffusing fitted up to f_top [Hz], else L', R' at f_top and no rungs. */
 status rails_ladder(const shot_rails *rails, double f_top, ladder *out);
 
-/* The frequency that level skin takes for this bank when none is given, equation (C-6) [Hz]; NAN if nothing fires. */
-double shot_effective_frequency(const shot_module *modules, int n_modules);
+/* The frequency that level skin takes for these supplies when none is given, equation (C-6) [Hz]; NAN if nothing fires. */
+double shot_effective_frequency(const supply_list supplies[SUPPLY_KINDS]);
 
 #endif

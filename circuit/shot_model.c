@@ -1,24 +1,101 @@
 #include "circuit/shot_model.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Held armatures are released once the force exceeds static friction by this [N]: a located root needs a sign change. */
 static const double RELEASE_MARGIN = 1e-3;
 
-static const double *tail(const shot_model *m, const double *y)
+enum { TAIL_MAX = Y_COUNT + SHOT_MAX_FEEDS * (1 + 2 * LADDER_MAX_RUNGS) };
+
+static int tail_size(const shot_model *m)
 {
-    return y + 2 * m->n;
+    return Y_COUNT + m->feeds - 1 + 2 * m->feeds * m->rails.ladder.n;
 }
 
-bool shot_group_conducts(const shot_group *g)
+int shot_unknowns(const shot_model *m)
 {
-    return g->mode == GROUP_ON || g->mode == GROUP_CROWBAR;
+    return m->start + tail_size(m);
 }
 
-double shot_group_voltage(const shot_group *g, double w)
+int shot_feed_unknown(int feed)
 {
-    return g->mode == GROUP_CROWBAR ? -g->p.crowbar_drop - g->p.crowbar_resistance * w : w;
+    return feed == 0 ? Y_BREECH : Y_COUNT + feed - 1;
 }
+
+static int memory_unknown(const shot_model *m, int segment)
+{
+    return Y_COUNT + m->feeds - 1 + 2 * segment * m->rails.ladder.n;
+}
+
+/* ---- the groups, summed ---- */
+
+static void drive_add(shot_drive *d, const supply_group *g, const supply_flow *f, double i)
+{
+    for (int h = 0; h < HEAT_PLACES; h++) d->heat[h] += g->n * f->heat[h];
+    d->supplied += g->n * f->supplied;
+    if (!supply_conducts(g)) return;
+    d->any = true;
+    d->I[g->feed] += g->n * i;
+    d->push[g->feed] += g->n * f->push;
+    d->pull[g->feed] += g->n * f->pull;
+    if (g->kind->source) d->source[g->feed] += g->n * i;
+}
+
+static void drive_clear(shot_drive *d, int feeds)
+{
+    const size_t bytes = (size_t)feeds * sizeof(double);
+    d->any = false;
+    d->supplied = 0.0;
+    memset(d->heat, 0, sizeof d->heat);
+    memset(d->I, 0, bytes);
+    memset(d->push, 0, bytes);
+    memset(d->pull, 0, bytes);
+    memset(d->source, 0, bytes);
+}
+
+/* The groups' rates into `rates` at the voltages of the tail, their sums into d. */
+static void groups_rates(const shot_model *m, double t, const double *y, double *rates, shot_drive *d)
+{
+    const double *z = y + m->start;
+    drive_clear(d, m->feeds);
+    for (int k = 0; k < m->n; k++) {
+        const supply_group *g = &m->groups[k];
+        supply_flow f;
+        supply_rates(g, t, y + g->first, z[shot_feed_unknown(g->feed)], rates + g->first, &f);
+        drive_add(d, g, &f, y[g->first]);
+    }
+}
+
+shot_drive shot_drive_at(const shot_model *m, double t, const double *y)
+{
+    shot_drive d;
+    double rates[SUPPLY_UNKNOWNS];
+    drive_clear(&d, m->feeds);
+    for (int k = 0; k < m->n; k++) {
+        const supply_group *g = &m->groups[k];
+        supply_flow f;
+        supply_rates(g, t, y + g->first, 0.0, rates, &f);
+        drive_add(&d, g, &f, y[g->first]);
+    }
+    return d;
+}
+
+double shot_total_current(const shot_drive *d, const shot_model *m)
+{
+    double I = 0.0;
+    for (int f = 0; f < m->reached; f++) I += d->I[f];
+    return I;
+}
+
+double shot_current_slope(const shot_model *m, const shot_drive *d, const double *z)
+{
+    double slope = 0.0;
+    for (int f = 0; f < m->reached; f++) slope += d->push[f] - d->pull[f] * z[shot_feed_unknown(f)];
+    return slope;
+}
+
+/* ---- the armature ---- */
 
 /* mu(v) = mu1 + (mu0 - mu1) exp(-v/v_f)                                                   (C-4) */
 static double friction_coefficient(const shot_armature *a, double v)
@@ -39,57 +116,34 @@ double shot_hold_force(const shot_model *m, double I)
     return 2.0 * m->armature.friction_dry * (m->armature.preload + m->armature.spreading * I * I);
 }
 
-int shot_unknowns(const shot_model *m)
-{
-    return 2 * m->n + Y_COUNT + 2 * m->rails.ladder.n;
-}
-
-static double rails_current(const shot_model *m, const double *y)
-{
-    double I = 0.0;
-    for (int k = 0; k < m->n; k++) {
-        if (shot_group_conducts(&m->groups[k])) I += m->groups[k].n * y[2 * k + 1];
-    }
-    return I;
-}
-
-/* The loop the bank looks into ends at the armature, or at the muzzle's shunt once it has left. */
-static double loop_length(const shot_model *m, const double *z)
-{
-    return m->phase == SHOT_LEFT ? m->barrel.length : z[Y_X];
-}
-
-static double loop_speed(const shot_model *m, const double *z)
-{
-    return m->phase == SHOT_MOVING ? fmax(z[Y_V], 0.0) : 0.0;
-}
-
-rails_flow shot_rails_flow(const shot_model *m, const double *y)
-{
-    const double *z = tail(m, y);
-    return rails_flow_at(&m->rails, loop_length(m, z), loop_speed(m, z), rails_current(m, y), z + Y_COUNT);
-}
-
 double shot_push(const shot_model *m, double v, double I)
 {
     return 0.5 * rails_force_gradient(&m->rails, fmax(v, 0.0)) * I * I;
 }
 
-/* m dv/dt = F - 2 mu(v) N - drag,  N = preload + k I^2                                     (C-3) */
-shot_forces shot_forces_at(const shot_model *m, const double *y)
+/* Contact voltage U I/sqrt(I^2 + knee^2): its sign follows the current where that can reverse. */
+static double contact_voltage(const shot_model *m, double U, double I)
 {
-    shot_forces f = { 0 };
-    const double v = tail(m, y)[Y_V];
+    return m->knee > 0.0 ? U * I / sqrt(I * I + m->knee * m->knee) : U;
+}
+
+/* m dv/dt = F - 2 mu(v) N - drag,  N = preload + k I^2                                     (C-3)
+ * with a shunt F = F(I) - 1/2 L_inf i_m^2: its current i_m flows ahead of the armature, which carries I - i_m     (C-15) */
+shot_forces shot_forces_at(const shot_model *m, const shot_drive *d, const double *z)
+{
     const bool left = m->phase == SHOT_LEFT;
-    f.I = rails_current(m, y);
+    shot_forces f = { .I = shot_total_current(d, m), .shunt = z[Y_SHUNT] };
+    const double v = z[Y_V], I = f.I - f.shunt;
     f.R = left ? m->barrel.muzzle_resistance : m->armature.resistance;
-    f.drop = left ? m->barrel.muzzle_voltage : m->armature.contact_voltage;
+    f.drop = contact_voltage(m, left ? m->barrel.muzzle_voltage : m->armature.contact_voltage, I);
+    if (!d->any && !m->shunt) f.drop = 0.0;
+    f.voltage = f.R * I + f.drop;
     if (left) return f;
-    f.force = shot_push(m, v, f.I);
-    f.contact = m->armature.preload + m->armature.spreading * f.I * f.I;
+    f.force = shot_push(m, v, f.I) - 0.5 * m->rails.ladder.L_inf * f.shunt * f.shunt;
+    f.contact = m->armature.preload + m->armature.spreading * I * I;
     f.mu = friction_coefficient(&m->armature, v);
     if (m->phase == SHOT_HELD) {
-        f.friction = fmin(f.force, shot_hold_force(m, f.I));
+        f.friction = fmin(fmax(f.force, 0.0), shot_hold_force(m, I));
         return f;
     }
     f.friction = 2.0 * f.mu * f.contact;
@@ -98,55 +152,11 @@ shot_forces shot_forces_at(const shot_model *m, const double *y)
     return f;
 }
 
-/* All branches in parallel, V = L_r dI/dt + V_r + R I + V_c with dI/dt = sum n (u - R_k i - V)/L_k:
- * V (1 + L_r sum n/L_k) = L_r sum n (u - R_k i)/L_k + V_r + R I + V_c                      (C-1) */
-double shot_breech_voltage(const shot_model *m, const double *y)
-{
-    const shot_forces f = shot_forces_at(m, y);
-    double push = 0.0, share = 0.0;
-    for (int k = 0; k < m->n; k++) {
-        const shot_group *g = &m->groups[k];
-        if (!shot_group_conducts(g)) continue;
-        push += g->n * (shot_group_voltage(g, y[2 * k]) - g->R * y[2 * k + 1]) / g->L;
-        share += g->n / g->L;
-    }
-    if (share == 0.0) return 0.0;
-    const rails_flow rails = shot_rails_flow(m, y);
-    return (rails.inductance * push + rails.voltage + f.R * f.I + f.drop) / (1.0 + rails.inductance * share);
-}
-
-static void group_rates(const shot_group *g, const double *y, double V, double *d)
-{
-    const double u = shot_group_voltage(g, y[0]), i = y[1];
-    d[0] = d[1] = 0.0;
-    if (!shot_group_conducts(g)) return;
-    d[1] = (u - g->R * i - V) / g->L;
-    if (g->mode == GROUP_ON) {
-        d[0] = -i / g->p.capacitance;
-    } else { /* R_d C di_D/dt = i - i_D; algebraic, i_D = i, for an ideal diode */
-        const double tau = g->p.crowbar_resistance * g->p.capacitance;
-        d[0] = tau > 0.0 ? (i - y[0]) / tau : i;
-    }
-}
-
-static void heat_rates(const shot_model *m, const double *y, double *q)
-{
-    for (int k = 0; k < m->n; k++) {
-        const shot_group *g = &m->groups[k];
-        if (!shot_group_conducts(g)) continue;
-        const double i2 = g->n * y[2 * k + 1] * y[2 * k + 1];
-        q[Y_COIL] += g->p.resistance * i2;
-        q[Y_CABLE] += g->p.cable_resistance * i2;
-        if (g->mode == GROUP_CROWBAR)
-            q[Y_CROWBAR] += g->n * y[2 * k] * (g->p.crowbar_drop + g->p.crowbar_resistance * y[2 * k]);
-    }
-}
-
 static void armature_rates(const shot_model *m, const double *z, const shot_forces *f, double *q)
 {
-    const double I = f->I, v = m->phase == SHOT_MOVING ? z[Y_V] : 0.0;
-    q[Y_ARMATURE] = m->armature.resistance * I * I;
-    q[Y_CONTACT] = m->armature.contact_voltage * I;
+    const double I = f->I - f->shunt, v = m->phase == SHOT_MOVING ? z[Y_V] : 0.0;
+    q[Y_ARMATURE] = f->R * I * I;
+    q[Y_CONTACT] = f->drop * I;
     if (m->phase != SHOT_MOVING) return;
     q[Y_X] = v;
     q[Y_V] = f->net / z[Y_MASS];
@@ -157,65 +167,303 @@ static void armature_rates(const shot_model *m, const double *z, const shot_forc
     q[Y_WEAR] = 0.5 * wear * v * v; /* melt leaves at the armature's speed and takes its motion along */
 }
 
-void shot_rates(const shot_model *m, const double *y, double *d)
+/* ---- the rails ---- */
+
+/* Where the loop ends: at the armature, or at the muzzle once it has left. */
+static double loop_end(const shot_model *m, const double *z)
 {
-    const double *z = tail(m, y);
-    double *q = d + 2 * m->n;
-    const shot_forces f = shot_forces_at(m, y);
-    for (int j = 0; j < Y_COUNT; j++) q[j] = 0.0;
-    for (int k = 0; k < m->n; k++) group_rates(&m->groups[k], y + 2 * k, z[Y_BREECH], d + 2 * k);
-    heat_rates(m, y, q);
-    q[Y_BREECH] = shot_breech_voltage(m, y);
-    q[Y_ACTION] = f.I * f.I;
-    q[Y_RAILS] = shot_rails_flow(m, y).heat;
-    rails_memory_rates(&m->rails, loop_length(m, z), loop_speed(m, z), f.I, z + Y_COUNT, q + Y_COUNT);
+    return m->phase == SHOT_LEFT ? m->barrel.length : z[Y_X];
+}
+
+/* Segment f behind the armature: its length, and the speed at which it grows. */
+static rails_flow segment_flow(const shot_model *m, int f, double I, const double *z, double *len, double *v)
+{
+    const bool last = f == m->reached - 1;
+    *len = (last ? loop_end(m, z) : m->feed[f + 1]) - m->feed[f];
+    *v = last && m->phase == SHOT_MOVING ? fmax(z[Y_V], 0.0) : 0.0;
+    return rails_flow_at(&m->rails, *len, *v, I, z + memory_unknown(m, f));
+}
+
+double shot_rails_heat(const shot_model *m, const shot_drive *d, const double *z)
+{
+    double heat = 0.0, I = 0.0, len, v;
+    for (int f = 0; f < m->reached; f++) heat += segment_flow(m, f, I += d->I[f], z, &len, &v).heat;
+    return heat;
+}
+
+/* Loop ahead of the armature, through the shunt: its inductance. */
+static double shunt_inductance(const shot_model *m, const double *z)
+{
+    return m->barrel.shunt_inductance + m->rails.ladder.L_inf * (m->barrel.length - loop_end(m, z));
+}
+
+double shot_rails_field(const shot_model *m, const shot_drive *d, const double *z)
+{
+    double field = m->shunt ? 0.5 * shunt_inductance(m, z) * z[Y_SHUNT] * z[Y_SHUNT] : 0.0, I = 0.0, len, v;
+    for (int f = 0; f < m->reached; f++) field += segment_flow(m, f, I += d->I[f], z, &len, &v).field;
+    return field;
+}
+
+/* Shunt L_s, R_s at the muzzle, U across the armature, L_m = L_s + L_inf (length - x), R_m alike:
+ * L_m di_m/dt = U - R_m i_m + L_inf v i_m                                                 (C-15) */
+static void shunt_rates(const shot_model *m, const double *z, const shot_forces *f, double *q)
+{
+    if (!m->shunt) return;
+    const double i = z[Y_SHUNT], R = m->rails.ladder.R_dc * (m->barrel.length - loop_end(m, z));
+    const double v = m->phase == SHOT_MOVING ? z[Y_V] : 0.0;
+    q[Y_SHUNT] =
+        (f->voltage - (R + m->barrel.shunt_resistance - m->rails.ladder.L_inf * v) * i) / shunt_inductance(m, z);
+    q[Y_RAILS] += R * i * i;
+    q[Y_MUZZLE] += m->barrel.shunt_resistance * i * i;
+}
+
+/* Currents add up from the breech on, I_f = sum over feeds g <= f; every segment but the last ends at the next feed, the last
+ * at the armature (voltage U), with S_g - G_g V_g the slope of the current that joins at feed g:
+ *   V_f = V_f+1 (or U) + L_f sum_g<=f (S_g - G_g V_g) + (the rest of segment f's voltage)           (C-1)
+ * value[f]: what V_f must be at these V; z's voltages are not touched. */
+typedef struct {
+    double inductance[SHOT_MAX_FEEDS], rest[SHOT_MAX_FEEDS];
+} shot_line;
+
+static void line_voltages(const shot_model *m, const shot_drive *d, const shot_line *line, double U, const double *V,
+                          double *value)
+{
+    double slope = 0.0;
+    for (int f = 0; f < m->reached; f++) {
+        slope += d->push[f] - d->pull[f] * V[f];
+        value[f] = (f + 1 < m->reached ? V[f + 1] : U) + line->inductance[f] * slope + line->rest[f];
+    }
+    for (int f = m->reached; f < m->feeds; f++) value[f] = 0.0;
+}
+
+/* The segments' part of the rates; the line for the voltages. */
+static void line_rates(const shot_model *m, const shot_drive *d, const double *z, double *q, shot_line *line)
+{
+    double I = 0.0;
+    for (int f = 0; f < m->reached; f++) {
+        double len, v;
+        I += d->I[f];
+        const rails_flow flow = segment_flow(m, f, I, z, &len, &v);
+        const int memory = memory_unknown(m, f);
+        rails_memory_rates(&m->rails, len, v, I, z + memory, q + memory);
+        q[Y_RAILS] += flow.heat;
+        line->inductance[f] = flow.inductance;
+        line->rest[f] = flow.voltage;
+    }
+}
+
+static void feed_voltages(const shot_model *m, const double *z, double *V)
+{
+    for (int f = 0; f < m->feeds; f++) V[f] = z[shot_feed_unknown(f)];
+}
+
+/* All the tail's rates, from the sums over the groups. */
+static void tail_rates(const shot_model *m, const shot_drive *d, const double *z, double *q)
+{
+    const shot_forces f = shot_forces_at(m, d, z);
+    double V[SHOT_MAX_FEEDS], value[SHOT_MAX_FEEDS];
+    shot_line line;
+    memset(q, 0, (size_t)tail_size(m) * sizeof *q);
+    line_rates(m, d, z, q, &line);
+    feed_voltages(m, z, V);
+    line_voltages(m, d, &line, f.voltage, V, value);
+    for (int k = 0; k < m->feeds; k++) q[shot_feed_unknown(k)] = value[k];
+    for (int h = 0; h < HEAT_PLACES; h++) q[Y_COIL + h] = d->heat[h];
+    q[Y_SUPPLIED] = d->supplied;
+    for (int k = 0; k < m->reached; k++) q[Y_SUPPLIED] += d->source[k] * V[k];
+    q[Y_ACTION] = (f.I - f.shunt) * (f.I - f.shunt);
     if (m->phase == SHOT_LEFT) {
-        q[Y_MUZZLE] = (m->barrel.muzzle_resistance * f.I + m->barrel.muzzle_voltage) * f.I;
+        q[Y_MUZZLE] = f.voltage * (f.I - f.shunt);
     } else {
         armature_rates(m, z, &f, q);
     }
+    shunt_rates(m, z, &f, q);
+}
+
+void shot_voltages(const shot_model *m, const shot_drive *d, double *z)
+{
+    const shot_forces f = shot_forces_at(m, d, z);
+    double q[TAIL_MAX] = { 0.0 }, A[SHOT_MAX_FEEDS * SHOT_MAX_FEEDS], V[SHOT_MAX_FEEDS] = { 0.0 };
+    double at_zero[SHOT_MAX_FEEDS], value[SHOT_MAX_FEEDS];
+    int pivot[SHOT_MAX_FEEDS];
+    const int n = m->reached;
+    shot_line line;
+    line_rates(m, d, z, q, &line);
+    line_voltages(m, d, &line, f.voltage, V, at_zero);
+    for (int j = 0; j < n; j++) { /* V - value(V) is linear: a column from each unit vector */
+        V[j] = 1.0;
+        line_voltages(m, d, &line, f.voltage, V, value);
+        for (int i = 0; i < n; i++) A[i * n + j] = V[i] - (value[i] - at_zero[i]);
+        V[j] = 0.0;
+    }
+    (void)lu_factor(A, n, n, pivot); /* diagonally dominant: inductances and pulls are positive */
+    lu_solve(A, n, n, pivot, at_zero);
+    for (int k = 0; k < m->feeds; k++) z[shot_feed_unknown(k)] = k < n ? at_zero[k] : 0.0;
+}
+
+/* ---- for the solver ---- */
+
+void shot_rates(const shot_model *m, double t, const double *y, double *d)
+{
+    shot_drive drive;
+    groups_rates(m, t, y, d, &drive);
+    tail_rates(m, &drive, y + m->start, d + m->start);
+}
+
+static bool tail_is_algebraic(const shot_model *m, int j)
+{
+    return j == Y_BREECH || (j >= Y_COUNT && j < Y_COUNT + m->feeds - 1);
 }
 
 bool shot_is_algebraic(const shot_model *m, int j)
 {
-    if (j == 2 * m->n + Y_BREECH) return true;
-    if (j >= 2 * m->n || j % 2) return false;
-    const shot_group *g = &m->groups[j / 2];
-    return g->mode == GROUP_CROWBAR && g->p.crowbar_resistance == 0.0;
+    if (j >= m->start) return tail_is_algebraic(m, j - m->start);
+    int k = m->n - 1;
+    while (m->groups[k].first > j) k--;
+    return supply_algebraic(&m->groups[k], j - m->groups[k].first);
 }
 
-void shot_residual(const void *model, const double *y, const double *yp, double *r)
+void shot_residual(const void *model, double t, const double *y, const double *yp, double *r)
 {
     const shot_model *m = model;
-    const int n = shot_unknowns(m);
-    shot_rates(m, y, r);
-    for (int j = 0; j < n; j++) r[j] = (shot_is_algebraic(m, j) ? y[j] : yp[j]) - r[j];
-    for (int k = 0; k < m->n; k++) { /* a stiff diode's row is scaled back by its time constant */
-        const shot_group *g = &m->groups[k];
-        if (g->mode == GROUP_CROWBAR && g->p.crowbar_resistance > 0.0)
-            r[2 * k] *= g->p.crowbar_resistance * g->p.capacitance;
+    shot_rates(m, t, y, r);
+    for (int k = 0; k < m->n; k++) {
+        const supply_group *g = &m->groups[k];
+        for (int j = 0; j < g->unknowns; j++) {
+            const int i = g->first + j;
+            r[i] = (supply_algebraic(g, j) ? y[i] : yp[i]) - r[i];
+        }
+    }
+    for (int j = 0, n = tail_size(m); j < n; j++) {
+        const int i = m->start + j;
+        r[i] = (tail_is_algebraic(m, j) ? y[i] : yp[i]) - r[i];
     }
 }
 
-static void group_roots(const shot_group *g, const double *y, double V, double *root)
+static double difference(double y, double scale)
 {
-    root[0] = root[1] = 1.0;
-    if (g->mode == GROUP_WAITING) root[0] = y[0] - V;
-    if (g->mode == GROUP_ON) root[0] = y[0] + g->p.crowbar_drop;
-    if (shot_group_conducts(g)) root[1] = y[1];
+    return 1.5e-8 * fmax(fabs(y), 1e-3 * scale);
 }
 
-void shot_roots(const void *model, const double *y, double *g)
+/* What of the tail's rates depends on the currents that join at a feed, and on the push there. */
+typedef struct {
+    double I[TAIL_MAX], push[TAIL_MAX];
+} feed_columns;
+
+static void feed_columns_at(const shot_model *m, const shot_drive *d, int feed, const double *z, const double *base,
+                            feed_columns *c)
+{
+    const int n = tail_size(m);
+    shot_drive moved = *d;
+    const double hI = 1e-6 * fmax(fabs(shot_total_current(d, m)), 1e3), hp = fmax(fabs(d->push[feed]), 1e6);
+    moved.I[feed] += hI;
+    tail_rates(m, &moved, z, c->I);
+    moved.I[feed] = d->I[feed];
+    moved.push[feed] += hp; /* linear: any step will do */
+    tail_rates(m, &moved, z, c->push);
+    for (int r = 0; r < n; r++) {
+        c->I[r] = (c->I[r] - base[r]) / hI;
+        c->push[r] = (c->push[r] - base[r]) / hp;
+    }
+}
+
+/* Block k and its border column and rows, by differences of the group's own flow. */
+static void group_jacobian(const shot_model *m, int k, double t, double cj, const double *y, const feed_columns *c,
+                           arrow *J)
+{
+    const supply_group *g = &m->groups[k];
+    const double *own = y + g->first, V = y[m->start + J->column[k]];
+    double base[SUPPLY_UNKNOWNS], moved[SUPPLY_UNKNOWNS], at[SUPPLY_UNKNOWNS], *D = arrow_block(J, k);
+    supply_flow f0, f1;
+    for (int j = 0; j < g->unknowns; j++) D[j * ARROW_BLOCK + j] = supply_algebraic(g, j) ? 1.0 : cj;
+    J->idle[k] = g->gate == GATE_BLOCKED;
+    if (J->idle[k]) return;
+    supply_rates(g, t, own, V, base, &f0);
+    memcpy(at, own, (size_t)g->unknowns * sizeof *at);
+    for (int j = 0; j < g->unknowns; j++) {
+        const double h = difference(own[j], m->scale[g->first + j]);
+        double *C = arrow_column(J, k, j);
+        at[j] = own[j] + h;
+        supply_rates(g, t, at, V, moved, &f1);
+        at[j] = own[j];
+        for (int i = 0; i < g->unknowns; i++) D[i * ARROW_BLOCK + j] -= (moved[i] - base[i]) / h;
+        for (int p = 0; p < HEAT_PLACES; p++) C[Y_COIL + p] -= g->n * (f1.heat[p] - f0.heat[p]) / h;
+        C[Y_SUPPLIED] -= g->n * (f1.supplied - f0.supplied) / h;
+        if (!supply_conducts(g)) continue;
+        const double dI = j == 0 ? g->n : 0.0, dpush = g->n * (f1.push - f0.push) / h;
+        for (int r = 0; r < J->border; r++) C[r] -= c->I[r] * dI + c->push[r] * dpush;
+        if (g->kind->source) C[Y_SUPPLIED] -= dI * V;
+    }
+    J->b[k * ARROW_BLOCK] = supply_conducts(g) && !supply_algebraic(g, 0) ? f0.pull : 0.0;
+}
+
+/* Columns of the tail itself.  What is only summed up has none but the diagonal's; the rails' memory enters linearly. */
+static void tail_jacobian(const shot_model *m, double cj, const shot_drive *d, const double *z, const double *base,
+                          arrow *J)
+{
+    const int n = J->border;
+    double at[TAIL_MAX], moved[TAIL_MAX];
+    memcpy(at, z, (size_t)n * sizeof *at);
+    for (int j = 0; j < n; j++) {
+        J->E[j * n + j] = tail_is_algebraic(m, j) ? 1.0 : cj;
+        if (j >= Y_ACTION && j < Y_COUNT) continue;
+        const double h = difference(z[j], m->scale[m->start + j]);
+        at[j] = z[j] + h;
+        tail_rates(m, d, at, moved);
+        at[j] = z[j];
+        for (int i = 0; i < n; i++) J->E[i * n + j] -= (moved[i] - base[i]) / h;
+    }
+}
+
+void shot_jacobian(const void *model, double t, double cj, const double *y, arrow *J)
 {
     const shot_model *m = model;
-    const double *z = tail(m, y);
+    const shot_drive d = shot_drive_at(m, t, y);
+    const double *z = y + m->start;
+    double base[TAIL_MAX];
+    feed_columns c;
+    tail_rates(m, &d, z, base);
+    for (int f = 0; f < m->feeds; f++) {
+        bool filled = false;
+        for (int k = 0; k < m->n; k++) {
+            if (m->groups[k].feed != f) continue;
+            if (!filled) feed_columns_at(m, &d, f, z, base, &c);
+            filled = true;
+            J->column[k] = shot_feed_unknown(f);
+            group_jacobian(m, k, t, cj, y, &c, J);
+        }
+    }
+    tail_jacobian(m, cj, &d, z, base, J);
+}
+
+static void group_roots(const supply_group *g, double t, const double *y, double V, double *root)
+{
+    supply_flow f = { .push = 0.0 };
+    root[0] = supply_stage_root(g, t, y);
+    root[1] = 1.0;
+    if (g->gate == GATE_WAITING) {
+        g->kind->flow(g, t, y, &f);
+        root[1] = f.push - f.pull * V;
+    }
+    if (supply_conducts(g) && !g->reverses) root[1] = y[0];
+}
+
+void shot_roots(const void *model, double t, const double *y, double *g)
+{
+    const shot_model *m = model;
+    const double *z = y + m->start;
     const bool moving = m->phase == SHOT_MOVING;
     g[ROOT_MOTION] = moving ? z[Y_V] : 1.0;
     g[ROOT_SITE] = moving && isfinite(m->next_site) ? z[Y_X] - m->next_site : 1.0;
     g[ROOT_MUZZLE] = moving ? z[Y_X] - m->barrel.length : 1.0;
+    g[ROOT_FEED] = moving && m->reached < m->feeds ? z[Y_X] - m->feed[m->reached] : 1.0;
     if (m->phase == SHOT_HELD) {
-        const shot_forces f = shot_forces_at(m, y);
-        g[ROOT_MOTION] = f.force - shot_hold_force(m, f.I) - RELEASE_MARGIN;
+        const shot_drive d = shot_drive_at(m, t, y);
+        const shot_forces f = shot_forces_at(m, &d, z);
+        g[ROOT_MOTION] = f.force - shot_hold_force(m, f.I - f.shunt) - RELEASE_MARGIN;
     }
-    for (int k = 0; k < m->n; k++) group_roots(&m->groups[k], y + 2 * k, z[Y_BREECH], g + ROOT_GROUPS + 2 * k);
+    for (int k = 0; k < m->n; k++) {
+        const supply_group *s = &m->groups[k];
+        group_roots(s, t, y + s->first, z[shot_feed_unknown(s->feed)], g + ROOT_GROUPS + 2 * k);
+    }
 }

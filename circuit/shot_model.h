@@ -1,33 +1,32 @@
 /* The equations of a shot between two switchings (internal to circuit/; docs/shot.md has them with their tags).
  *
- * Unknowns, in this order: two a group, then those of shot_unknown.
- *   y[2k]      capacitor voltage u [V]; once the crowbar conducts, its current i_D [A] instead, u = -V_d - R_d i_D
- *   y[2k + 1]  module current i [A]
- *   and after shot_unknown's the rails' memory, two a rung (circuit/rails.h)
- * A switching changes `mode` or `phase`, never the list of unknowns. */
+ * Unknowns, in this order: those of every group (circuit/supply_kind.h), then the tail z: those of shot_unknown, the voltages
+ * of the feeds after the breech, and the rails' memory, two a rung (circuit/rails.h) of every segment.
+ * Feed f is a position at which groups join the rails, feed 0 the breech; segment f runs from there to the next feed, or as
+ * far as the armature has come.  A group does not conduct before the armature has passed its feed.
+ * A switching changes gate, stage, phase or `reached`, never the list of unknowns. */
 #ifndef BREECH_CIRCUIT_SHOT_MODEL_H
 #define BREECH_CIRCUIT_SHOT_MODEL_H
 
 #include "circuit/rails.h"
 #include "circuit/shot.h"
+#include "circuit/supply_kind.h"
 
-typedef enum { GROUP_UNFIRED, GROUP_WAITING, GROUP_ON, GROUP_CROWBAR, GROUP_BLOCKED } group_mode;
-
-typedef struct {
-    shot_module p;
-    double L, R, n; /* coil + cable [H, ohm]; count as a number */
-    group_mode mode;
-} shot_group;
+enum { SHOT_MAX_FEEDS = 64 };
 
 typedef enum {
-    Y_BREECH, /* voltage [V], the algebraic unknown */
+    Y_BREECH, /* voltage [V], algebraic, as those of the other feeds */
     Y_X,      /* [m] */
     Y_V,      /* [m/s] */
     Y_MASS,   /* [kg] */
-    Y_ACTION, /* [A^2 s] */
+    Y_SHUNT,  /* current of the muzzle shunt [A] */
+    Y_ACTION, /* of the armature's current [A^2 s]; what follows changes nothing, it is only summed up */
     Y_COIL,   /* this and all below: heat or work so far [J] */
     Y_CABLE,
     Y_CROWBAR,
+    Y_SWITCH,
+    Y_MACHINE,
+    Y_SUPPLIED,
     Y_RAILS,
     Y_ARMATURE,
     Y_CONTACT,
@@ -38,39 +37,60 @@ typedef enum {
     Y_COUNT
 } shot_unknown;
 
-enum { ROOT_MOTION, ROOT_SITE, ROOT_MUZZLE, ROOT_GROUPS }; /* then two a group: voltage, current */
+enum { ROOT_MOTION, ROOT_SITE, ROOT_MUZZLE, ROOT_FEED, ROOT_GROUPS }; /* then two a group: stage or waiting, current */
 
 typedef struct {
-    shot_group *groups; /* owned by the shot */
-    int n;
+    supply_group *groups; /* owned by the shot */
+    int n, start;         /* groups; first unknown of the tail */
+    double feed[SHOT_MAX_FEEDS];
+    int feeds, reached; /* all; those the armature has passed, always at least the breech */
     shot_barrel barrel;
     shot_armature armature;
     rails_load rails;
     double bore_area, contact_area, sound_speed; /* of one contact face; of the gas [m^2, m^2, m/s] */
     double wear_heat;                            /* heat that melts off one kilogram [J/kg] */
+    double knee;                                 /* of the contact voltage, where currents can reverse; else 0 [A] */
+    bool shunt;                                  /* there is one at the muzzle */
     shot_phase phase;
-    double next_site; /* [m]; infinite when none is left */
+    double next_site;    /* [m]; infinite when none is left */
+    const double *scale; /* of every unknown, for the Jacobian's differences */
 } shot_model;
 
+/* What the groups do to the rest: sums over all of them. */
 typedef struct {
-    double I, R, drop; /* rails' current; resistance and constant voltage of armature or muzzle */
+    bool any;                                                             /* one conducts */
+    double I[SHOT_MAX_FEEDS], push[SHOT_MAX_FEEDS], pull[SHOT_MAX_FEEDS]; /* by feed */
+    double heat[HEAT_PLACES], supplied, source[SHOT_MAX_FEEDS];           /* source: current of given profiles [A] */
+} shot_drive;
+
+typedef struct {
+    double I, shunt;                                /* rails' current behind the armature, shunt's ahead of it [A] */
+    double R, drop;                                 /* resistance and constant voltage of armature or muzzle arc */
+    double voltage;                                 /* across it [V] */
     double force, contact, mu, friction, drag, net; /* [N], mu [1] */
 } shot_forces;
 
-bool shot_group_conducts(const shot_group *g);
-double shot_group_voltage(const shot_group *g, double w);     /* capacitor voltage from the unknown w = y[2k] [V] */
+int shot_unknowns(const shot_model *m);
+shot_drive shot_drive_at(const shot_model *m, double t, const double *y);
+double shot_total_current(const shot_drive *d, const shot_model *m);                  /* [A] */
+double shot_current_slope(const shot_model *m, const shot_drive *d, const double *z); /* of the total [A/s] */
+int shot_feed_unknown(int feed);                                                      /* of its voltage, in the tail */
 double shot_hold_force(const shot_model *m, double I);        /* static friction of both faces [N] */
 status shot_rails_fit(const shot_config *c, rails_load *out); /* circuit/shot_rails.c */
-int shot_unknowns(const shot_model *m);
-double shot_push(const shot_model *m, double v, double I); /* electromagnetic force at the speed v [N] */
-rails_flow shot_rails_flow(const shot_model *m, const double *y);
-shot_forces shot_forces_at(const shot_model *m, const double *y);
-double shot_breech_voltage(const shot_model *m, const double *y); /* from currents and capacitors [V] */
+double shot_push(const shot_model *m, double v, double I);    /* electromagnetic force at the speed v [N] */
+double shot_rails_field(const shot_model *m, const shot_drive *d, const double *z); /* [J] */
+double shot_rails_heat(const shot_model *m, const shot_drive *d, const double *z);  /* [W] */
+shot_forces shot_forces_at(const shot_model *m, const shot_drive *d, const double *z);
+/* The feeds' voltages that the currents and the groups' push and pull ask for, into z. */
+void shot_voltages(const shot_model *m, const shot_drive *d, double *z);
 
 /* d[j] = dy_j/dt where y_j is differential, = the value y_j must have where it is algebraic. */
-void shot_rates(const shot_model *m, const double *y, double *d);
-void shot_residual(const void *model, const double *y, const double *yp, double *r);
-void shot_roots(const void *model, const double *y, double *g);
+void shot_rates(const shot_model *m, double t, const double *y, double *d);
 bool shot_is_algebraic(const shot_model *m, int j);
+
+/* For circuit/dae.h. */
+void shot_residual(const void *model, double t, const double *y, const double *yp, double *r);
+void shot_roots(const void *model, double t, const double *y, double *g);
+void shot_jacobian(const void *model, double t, double cj, const double *y, arrow *J);
 
 #endif

@@ -1,36 +1,24 @@
 /* Parameter tables of the shot: every key, unit, default, range and text stands here once. */
 #include "circuit/shot.h"
 
-const char *const shot_event_names[] = { "fired",   "waiting", "crowbar", "blocked", "released",
-                                         "stopped", "site",    "muzzle",  NULL };
+const char *const shot_event_names[] = { "fired", "waiting", "crowbar",    "blocked",   "released", "stopped",
+                                         "site",  "muzzle",  "commutated", "recharged", NULL };
 
-#define MODULE(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_module, member, unit, fallback, min, max, doc)
 #define BARREL(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_barrel, member, unit, fallback, min, max, doc)
 #define ARMATURE(member, unit, fallback, min, max, doc) \
     PARAM_DOUBLE(shot_armature, member, unit, fallback, min, max, doc)
 #define OPTIONS(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_options, member, unit, fallback, min, max, doc)
-
-const param shot_module_params[] = {
-    PARAM_INT(shot_module, count, 1, 1, 1e6, "identical modules in this group"),
-    MODULE(capacitance, "F", REQUIRED, 1e-12, 1e3, "capacitance of one module"),
-    MODULE(charge, "V", REQUIRED, 0.0, 1e6, "charging voltage at t = 0"),
-    MODULE(inductance, "H", REQUIRED, 0.0, 1.0, "inductance of the pulse-forming coil"),
-    MODULE(resistance, "ohm", 0.0, 0.0, 1e3, "resistance of coil, capacitor and switch in series"),
-    MODULE(cable_inductance, "H", 0.0, 0.0, 1.0, "inductance of the cable to the breech"),
-    MODULE(cable_resistance, "ohm", 0.0, 0.0, 1e3, "resistance of the cable to the breech"),
-    MODULE(crowbar_drop, "V", 0.0, 0.0, 1e3, "forward drop of the crowbar diode"),
-    MODULE(crowbar_resistance, "ohm", 0.0, 0.0, 1e3, "slope resistance of the crowbar diode"),
-    MODULE(fire_at, "s", 0.0, 0.0, INFINITY,
-           "instant at which the thyristor is fired; beyond options.max_time = never"),
-    PARAMS_END
-};
 
 const param shot_barrel_params[] = {
     BARREL(length, "m", REQUIRED, 1e-3, 1e3, "breech to muzzle"),
     BARREL(start, "m", 0.05, 0.0, 1e3, "position of the armature's current path at t = 0"),
     BARREL(muzzle_resistance, "ohm", 1e-3, 0.0, 1e3,
            "resistance of the shunt or arc that takes the current after exit"),
-    BARREL(muzzle_voltage, "V", 0.0, 0.0, 1e5, "constant voltage of the muzzle arc; 0 for a shunt"), PARAMS_END
+    BARREL(muzzle_voltage, "V", 0.0, 0.0, 1e5, "constant voltage of the muzzle arc; 0 for a shunt"),
+    BARREL(shunt_resistance, "ohm", OPTIONAL, 0.0, 1e3,
+           "of a shunt across the muzzle from the start; none if not given"),
+    BARREL(shunt_inductance, "H", 1e-7, 1e-12, 1.0, "of that shunt"),
+    PARAMS_END
 };
 
 const param shot_armature_params[] = {

@@ -29,19 +29,39 @@ const param shot_rails_params[] = {
     PARAMS_END
 };
 
-/* f = 1/(4 t_r), t_r = spread of the firing times + mean quarter period of the modules that fire           (C-6) */
-double shot_effective_frequency(const shot_module *modules, int n_modules)
+/* f = 1/(4 t_r), t_r = spread of the firing times + mean rise time of the units that fire                 (C-6) */
+double shot_effective_frequency(const supply_list supplies[SUPPLY_KINDS])
 {
-    double first = INFINITY, last = -INFINITY, quarter = 0.0, count = 0.0;
-    for (int k = 0; k < n_modules; k++) {
-        const shot_module *p = &modules[k];
-        if (!isfinite(p->fire_at)) continue;
-        first = fmin(first, p->fire_at);
-        last = fmax(last, p->fire_at);
-        quarter += p->count * 1.5707963267948966 * sqrt((p->inductance + p->cable_inductance) * p->capacitance);
-        count += p->count;
+    double first = INFINITY, last = -INFINITY, rise = 0.0, count = 0.0;
+    for (int s = 0; s < SUPPLY_KINDS; s++) {
+        const supply_kind *kind = supply_kinds[s];
+        for (int k = 0; k < supplies[s].n; k++) {
+            const void *p = (const char *)supplies[s].item + (size_t)k * kind->size;
+            const supply_common at = supply_common_of(p);
+            if (!isfinite(at.fire_at)) continue;
+            first = fmin(first, at.fire_at);
+            last = fmax(last, at.fire_at);
+            rise += at.count * kind->rise(p);
+            count += at.count;
+        }
     }
-    return count > 0.0 ? 0.25 / (last - first + quarter / count) : NAN;
+    return count > 0.0 ? 0.25 / (last - first + rise / count) : NAN;
+}
+
+/* What the supplies hold at t = 0, or will have been charged with [J]. */
+static double supplies_energy(const shot_config *c)
+{
+    double E = 0.0;
+    for (int s = 0; s < SUPPLY_KINDS; s++) {
+        for (int k = 0; k < c->supplies[s].n; k++) {
+            const void *p = (const char *)c->supplies[s].item + (size_t)k * supply_kinds[s]->size;
+            double y[SUPPLY_UNKNOWNS];
+            supply_scale scale;
+            supply_kinds[s]->start(p, y, &scale);
+            E += supply_common_of(p).count * scale.energy;
+        }
+    }
+    return E;
 }
 
 static status resistivity_now(const shot_rails *rails, double *resistivity)
@@ -92,12 +112,8 @@ status rails_ladder(const shot_rails *rails, double f_top, ladder *out)
  * over that; nor does the bank change its current faster than a quarter of a sine (C-6) does.             (C-13) */
 static double band_top(const shot_config *c)
 {
-    const double f_pulse = shot_effective_frequency(c->modules, c->n_modules);
-    double v2 = c->armature.velocity * c->armature.velocity;
-    for (int k = 0; k < c->n_modules; k++) {
-        const shot_module *p = &c->modules[k];
-        v2 += p->count * p->capacitance * p->charge * p->charge / c->armature.mass;
-    }
+    const double f_pulse = shot_effective_frequency(c->supplies);
+    const double v0 = c->armature.velocity, v2 = v0 * v0 + 2.0 * supplies_energy(c) / c->armature.mass;
     const double f_contact = sqrt(v2) / (TURN * c->armature.contact_length);
     return fmax(f_contact, 10.0 * (isnan(f_pulse) ? 100.0 : f_pulse));
 }
@@ -111,6 +127,6 @@ status shot_rails_fit(const shot_config *c, rails_load *out)
     }
     const bool diffusing = c->rails.level == SHOT_RAILS_DIFFUSING;
     double f = diffusing ? c->rails.ladder_frequency : c->rails.frequency;
-    if (isnan(f)) f = diffusing ? band_top(c) : shot_effective_frequency(c->modules, c->n_modules);
+    if (isnan(f)) f = diffusing ? band_top(c) : shot_effective_frequency(c->supplies);
     return rails_ladder(&c->rails, isnan(f) ? 1000.0 : f, &out->ladder);
 }

@@ -47,8 +47,8 @@ static int run_report(const options *o);
 
 static const command commands[] = {
     { "shot", "CASE", "the electromechanical shot alone",
-      "Needs the sections bank, rails, barrel and armature.  Writes the shot's history.", run_case, true, CASE_FOR_SHOT,
-      RUN_SHOT, command_shot },
+      "Needs the sections bank (or another supply), rails, barrel and armature.  Writes the shot's history.", run_case,
+      true, CASE_FOR_SHOT, RUN_SHOT, command_shot },
     { "scene", "CASE", "one embedded impact at a given velocity",
       "Needs rail, projectile, particle and scene, with scene.velocity and particle.radius.", run_case, true,
       CASE_FOR_SCENE, RUN_SCENE, command_scene },
@@ -247,7 +247,8 @@ static unsigned needs_of(const breech_case *c)
 {
     const case_given *g = &c->given;
     unsigned needs = 0;
-    if (g->bank) needs |= CASE_FOR_SHOT;
+    for (int k = 0; k < SUPPLY_KINDS; k++)
+        if (g->supplies[k]) needs |= CASE_FOR_SHOT;
     if (g->sites) needs |= CASE_FOR_ONSET;
     if (g->projectile && g->scene && (!isnan(c->scene.velocity) || !g->sites)) needs |= CASE_FOR_SCENE;
     if (g->rails) needs |= CASE_FOR_INDUCTANCE;

@@ -59,6 +59,11 @@ static char *errors_of(const char *text, const char *const *sets, int n, unsigne
     return errors;
 }
 
+static const shot_module *bank_of(const breech_case *c)
+{
+    return c->supplies[SUPPLY_capacitor].item;
+}
+
 static void has_line(const char *errors, const char *line)
 {
     const char *at = strstr(errors, line);
@@ -82,11 +87,11 @@ static void values_are_si(void **state)
     (void)state;
     breech_case *c = small_case(NULL, 0);
     assert_string_equal(c->name, "small");
-    assert_int_equal(c->bank.n, 2);
-    assert_int_equal(c->bank.item[0].count, 4);
-    assert_true(c->bank.item[0].capacitance == 3.594e-3);
-    assert_true(c->bank.item[0].inductance == 12.56e-6);
-    assert_true(c->bank.item[1].fire_at == 0.4e-3);
+    assert_int_equal(c->supplies[SUPPLY_capacitor].n, 2);
+    assert_int_equal(bank_of(c)[0].count, 4);
+    assert_true(bank_of(c)[0].capacitance == 3.594e-3);
+    assert_true(bank_of(c)[0].inductance == 12.56e-6);
+    assert_true(bank_of(c)[1].fire_at == 0.4e-3);
     assert_true(c->rails.temperature == 293.15);
     assert_int_equal(c->rails.level, SHOT_RAILS_CONSTANT);
     assert_true(c->armature.friction_melted == 0.05);
@@ -144,7 +149,7 @@ static void missing_sections_hold_defaults(void **state)
     const case_options o = options_for(0);
     assert_int_equal(case_read_memory(&(case_text){ text, strlen(text), "case.yaml", NULL, 0 }, &o, &c, &errors).code,
                      STATUS_OK);
-    assert_int_equal(c->bank.n, 0);
+    assert_int_equal(c->supplies[SUPPLY_capacitor].n, 0);
     assert_true(c->scene.courant == 0.4);
     assert_true(isnan(c->rails.height));
     assert_false(c->given.scene);
@@ -247,7 +252,7 @@ static void commands_say_what_they_need(void **state)
 {
     (void)state;
     char *e = errors_of("name: a\n", NULL, 0, CASE_FOR_ONSET);
-    has_line(e, "case.yaml:1:1: section `bank` is missing: `breech onset` needs it\n");
+    has_line(e, "case.yaml:1:1: section `bank` is missing: `breech onset` needs it, or another supply\n");
     has_line(e, "case.yaml:1:1: section `sites` is missing: `breech onset` needs it\n");
     assert_null(strstr(e, "study")); /* all of it has defaults */
     free(e);
@@ -285,7 +290,7 @@ static void set_reaches_every_place(void **state)
                            "options.max_time=20 ms", "rail.layers.thickness=0.1 mm", "title= a: b # c ",
                            "study.feedback=no" };
     breech_case *c = small_case(sets, 10);
-    assert_true(c->bank.item[0].charge == 8000.0 && c->bank.item[1].charge == 7000.0);
+    assert_true(bank_of(c)[0].charge == 8000.0 && bank_of(c)[1].charge == 7000.0);
     assert_true(c->scene.friction == 0.3);
     assert_true(c->sites.item[2].radius == 0.1e-3 && c->sites.item[0].radius == 0.5e-3);
     assert_true(c->rail.temperature == 400.0);

@@ -296,9 +296,9 @@ static void power_balance(void **state)
 /* Fifteen 200 kJ units, three at the start, then one every 0.22 ms; the rails and armature of cases/default_shot. */
 static shot_config diffusing(shot_module modules[13])
 {
-    shot_config c = { .modules = modules, .n_modules = 13 };
+    shot_config c = { .supplies = { [SUPPLY_capacitor] = { 13, modules } } };
     for (int k = 0; k < 13; k++) {
-        params_default(shot_module_params, &modules[k]);
+        params_default(supply_capacitor_params, &modules[k]);
         modules[k].count = k == 0 ? 3 : 1;
         modules[k].capacitance = 3.594e-3;
         modules[k].charge = 10.55e3;

@@ -137,7 +137,7 @@ static void table_laws(const param *table)
 {
     for (const param *p = table; p->key; p++) {
         assert_true(p->unit[0] && p->doc[0]);
-        assert_true(p->kind == PARAM_CHOICE || p->min < p->max);
+        assert_true(p->kind == PARAM_CHOICE || p->kind == PARAM_TEXT || p->min < p->max);
         if (p->kind != PARAM_TEXT && isfinite(p->fallback)) assert_true(p->fallback >= p->min && p->fallback <= p->max);
         for (const param *q = table; q < p; q++) assert_string_not_equal(p->key, q->key);
     }
@@ -146,7 +146,9 @@ static void table_laws(const param *table)
 static void parameter_tables(void **state)
 {
     (void)state;
-    table_laws(shot_module_params);
+#define SUPPLY(kind, type, section, lists, text) table_laws(supply_##kind##_params);
+#include "circuit/supply.def"
+#undef SUPPLY
     table_laws(shot_rails_params);
     table_laws(shot_barrel_params);
     table_laws(shot_armature_params);

@@ -63,7 +63,7 @@ static shot_sink notebook(void)
 static shot_module unit(int count, double fire_at)
 {
     shot_module m;
-    params_default(shot_module_params, &m);
+    params_default(supply_capacitor_params, &m);
     m.count = count;
     m.capacitance = 3.594e-3;
     m.charge = 10.55e3;
@@ -78,7 +78,7 @@ static shot_module unit(int count, double fire_at)
 /* 25 x 20 x 25 mm rails at level constant, a 0.25 kg armature, 5 m. */
 static shot_config plain(const shot_module *modules, int n)
 {
-    shot_config c = { .modules = modules, .n_modules = n };
+    shot_config c = { .supplies = { [SUPPLY_capacitor] = { n, modules } } };
     params_default(shot_rails_params, &c.rails);
     params_default(shot_barrel_params, &c.barrel);
     params_default(shot_armature_params, &c.armature);
@@ -119,8 +119,8 @@ static shot *run(const shot_config *c)
     const shot_sink sink = notebook();
     assert_ok(shot_create(c, &s));
     assert_ok(shot_advance(s, INFINITY, &sink));
-    assert_true(rec.worst_energy < 1e-6);                     /* ARCHITECTURE's bound at the default tolerances */
-    assert_true(rec.n <= 4 * c->n_modules + c->n_sites + 16); /* no chatter */
+    assert_true(rec.worst_energy < 1e-6); /* ARCHITECTURE's bound at the default tolerances */
+    assert_true(rec.n <= 4 * c->supplies[SUPPLY_capacitor].n + c->n_sites + 16); /* no chatter */
     for (int k = 1; k < rec.n; k++) assert_true(rec.events[k].state.t >= rec.events[k - 1].state.t);
     return s;
 }
@@ -237,7 +237,7 @@ static void published_pulse(void **state)
  * code; classical Runge-Kutta. */
 static void slope(const shot_config *c, bool crowbar, const double *y, double *d)
 {
-    const shot_module *p = c->modules;
+    const shot_module *p = c->supplies[SUPPLY_capacitor].item;
     const shot_armature *a = &c->armature;
     const double Lr = c->rails.inductance_gradient, i = y[1], I = p->count * i, x = y[2], v = y[3];
     const double u = crowbar ? -p->crowbar_drop : y[0];
@@ -274,7 +274,8 @@ static double integrate(const shot_config *c, bool crowbar, double t, double *y)
         double z[5];
         memcpy(z, y, sizeof z);
         runge_kutta(c, crowbar, h, z);
-        const bool over = z[2] > c->barrel.length || (!crowbar && z[0] < -c->modules->crowbar_drop);
+        const bool over = z[2] > c->barrel.length ||
+                          (!crowbar && z[0] < -((const shot_module *)c->supplies[SUPPLY_capacitor].item)->crowbar_drop);
         if (over) {
             h *= 0.5;
         } else {
@@ -628,7 +629,7 @@ static void bad_input_is_named(void **state)
     c.n_sites = 1;
     assert_non_null(strstr(creation(&c).text, "sites[0]"));
     c = plain(&m, 0);
-    c.n_modules = 0;
+    c.supplies[SUPPLY_capacitor].n = 0;
     assert_int_equal(creation(&c).code, STATUS_BAD_INPUT);
 }
 
@@ -704,7 +705,7 @@ static void default_shot(void **state)
     shot *s = run(&c);
     const shot_summary r = shot_result(s);
     const shot_state now = shot_now(s);
-    const double frequency = shot_effective_frequency(modules, 13);
+    const double frequency = shot_effective_frequency(c.supplies);
     print_message("f %.1f Hz, L' %.4f uH/m, R' %.1f uohm/m\n", frequency, 1e6 * now.inductance_gradient,
                   1e6 * now.resistance_gradient);
     print_message(

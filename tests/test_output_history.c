@@ -135,7 +135,7 @@ static shot *two_groups(void)
 {
     shot_module module[2];
     for (int g = 0; g < 2; g++) {
-        params_default(shot_module_params, &module[g]);
+        params_default(supply_capacitor_params, &module[g]);
         module[g].count = g + 1;
         module[g].capacitance = 3.594e-3;
         module[g].charge = 10e3;
@@ -143,7 +143,7 @@ static shot *two_groups(void)
         module[g].resistance = 4.1e-3;
         module[g].fire_at = 1e-4 * g;
     }
-    shot_config c = { .modules = module, .n_modules = 2 };
+    shot_config c = { .supplies = { [SUPPLY_capacitor] = { 2, module } } };
     params_default(shot_rails_params, &c.rails);
     params_default(shot_barrel_params, &c.barrel);
     params_default(shot_armature_params, &c.armature);

@@ -162,6 +162,18 @@ static status prepare(const breech_case *c, shot_outcome *out, double **position
     return status_ok();
 }
 
+shot_config shot_of_case(const breech_case *c, const double *sites)
+{
+    shot_config config = { .rails = c->rails,
+                           .barrel = c->barrel,
+                           .armature = c->armature,
+                           .options = c->options,
+                           .sites = sites,
+                           .n_sites = sites ? c->sites.n : 0 };
+    for (int k = 0; k < SUPPLY_KINDS; k++) config.supplies[k] = (supply_list){ c->supplies[k].n, c->supplies[k].item };
+    return config;
+}
+
 status shot_run(const breech_case *c, const shot_plan *plan, shot_outcome *out)
 {
     memset(out, 0, sizeof *out);
@@ -173,14 +185,7 @@ status shot_run(const breech_case *c, const shot_plan *plan, shot_outcome *out)
     r.face_area = c->given.projectile ? projectile_face_area(&c->projectile) : nominal;
     status done = prepare(c, out, &positions);
     if (done.code == STATUS_OK) {
-        const shot_config config = { .modules = c->bank.item,
-                                     .n_modules = c->bank.n,
-                                     .rails = c->rails,
-                                     .barrel = c->barrel,
-                                     .armature = c->armature,
-                                     .options = c->options,
-                                     .sites = positions,
-                                     .n_sites = c->sites.n };
+        const shot_config config = shot_of_case(c, positions);
         done = shot_create(&config, &s);
     }
     if (done.code == STATUS_OK) done = run(&r, s);

@@ -51,6 +51,9 @@ typedef struct {
     bool (*stop)(void);    /* true: stop after the step, STATUS_STOPPED */
 } shot_plan;
 
+/* What circuit/ is given; sites: positions of the case's sites, NULL for none; all borrowed. */
+shot_config shot_of_case(const breech_case *c, const double *sites);
+
 /* The case's bank, rails, barrel and armature; its sites too when there are any.  *out needs shot_outcome_free even on
  * error.  STATUS_NUMERICAL, STATUS_BAD_INPUT as shot_create and shot_advance. */
 status shot_run(const breech_case *c, const shot_plan *plan, shot_outcome *out);

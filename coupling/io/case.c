@@ -3,6 +3,7 @@
 #include "coupling/io/case_reader.h"
 #include "coupling/io/file_text.h"
 #include "coupling/io/material_file.h"
+#include "coupling/io/profile_file.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -106,18 +107,24 @@ static bool seen(const case_reader *r, int k)
     return false;
 }
 
+/* Where the case lies, without the slash at the end. */
+static void case_folder(const case_reader *r, char folder[CASE_PATH_SIZE])
+{
+    snprintf(folder, CASE_PATH_SIZE, "%s", r->out->path);
+    char *slash = strrchr(folder, '/');
+    if (slash)
+        *slash = '\0';
+    else
+        snprintf(folder, CASE_PATH_SIZE, ".");
+}
+
 void materials_load(case_reader *r)
 {
     enum { MAX_DIRS = 16 };
     const char *dirs[MAX_DIRS];
     char folder[CASE_PATH_SIZE];
     int n_dirs = 0;
-    snprintf(folder, sizeof folder, "%s", r->out->path);
-    char *slash = strrchr(folder, '/');
-    if (slash)
-        *slash = '\0';
-    else
-        snprintf(folder, sizeof folder, ".");
+    case_folder(r, folder);
     dirs[n_dirs++] = folder[0] ? folder : "/";
     for (int k = 0; k < r->options->n_material_dirs && n_dirs < MAX_DIRS; k++)
         dirs[n_dirs++] = r->options->material_dirs[k];
@@ -125,6 +132,30 @@ void materials_load(case_reader *r)
     check_own(r);
     for (int k = 0; k < r->n_use; k++)
         if (!case_material(r->out, r->use[k].name) && !seen(r, k)) load_one(r, &r->use[k], dirs, n_dirs);
+}
+
+/* ---- current profiles ---- */
+
+static void profile_load(case_reader *r, supply_profile *p, const tree_node *where)
+{
+    char path[CASE_PATH_SIZE + PARAM_TEXT_SIZE + 2], folder[CASE_PATH_SIZE];
+    if (p->file[0] == '\0') return;
+    if (p->points.n > 0) {
+        errors_add(r->errors, where, "a current profile with both file and points: give one of them");
+        return;
+    }
+    case_folder(r, folder);
+    snprintf(path, sizeof path, "%s%s%s", p->file[0] == '/' ? "" : folder, p->file[0] == '/' ? "" : "/", p->file);
+    const status s = profile_file_read(path, &p->points.item, &p->points.n);
+    if (s.code != STATUS_OK) errors_add(r->errors, where, "%.400s", s.text);
+    p->file[0] = '\0'; /* used.yaml then has the points themselves */
+}
+
+void profiles_load(case_reader *r)
+{
+    case_supplies *list = &r->out->supplies[SUPPLY_profile];
+    for (int k = 0; k < list->n; k++)
+        profile_load(r, (supply_profile *)list->item + k, tree_find(r->root, supply_sections[SUPPLY_profile]));
 }
 
 /* ---- the whole way ---- */
@@ -146,6 +177,7 @@ static status read_tree(case_reader *r)
     root.offset = 0;
     section_read(r, &root, r->root, c, "");
     materials_load(r);
+    profiles_load(r);
     case_resolve(c, r->root);
     case_check_whole(r);
     CHECK(!r->out_of_memory, STATUS_MEMORY, "out of memory while reading %.200s", c->path);

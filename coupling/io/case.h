@@ -20,7 +20,7 @@ enum { CASE_PATH_SIZE = 512 };
 
 /* What a command does with the case (a sum): sections and material constants it needs must be there. */
 enum {
-    CASE_FOR_SHOT = 1, /* bank, rails, barrel, armature */
+    CASE_FOR_SHOT = 1, /* a supply, rails, barrel, armature */
     CASE_FOR_SCENE =
         2, /* rail, projectile, particle, scene; scene.velocity, particle.radius; the materials for a scene */
     CASE_FOR_ONSET = 4,     /* the shot, the scene but for its velocity, sites; the materials for screen and scene */
@@ -135,10 +135,11 @@ typedef struct {
     bool report;                /* write report.html */
 } case_output;
 
+/* The groups of one kind of supply (circuit/supply.h). */
 typedef struct {
     int n;
-    shot_module *item; /* n, owned by the case */
-} case_bank;
+    void *item; /* n structs of the kind, owned by the case */
+} case_supplies;
 
 typedef struct {
     int n;
@@ -147,13 +148,14 @@ typedef struct {
 
 /* Sections given in the file (or by --set). */
 typedef struct {
-    bool bank, rails, barrel, armature, options, rail, projectile, particle, sites, scene, study, output;
+    bool supplies[SUPPLY_KINDS];
+    bool rails, barrel, armature, options, rail, projectile, particle, sites, scene, study, output;
 } case_given;
 
 typedef struct {
     char name[PARAM_TEXT_SIZE];
     char title[PARAM_TEXT_SIZE];
-    case_bank bank;
+    case_supplies supplies[SUPPLY_KINDS]; /* by kind: sections `bank`, ... of circuit/supply.def */
     shot_rails rails;
     shot_barrel barrel;
     shot_armature armature;

@@ -84,6 +84,19 @@ static void check_sections(case_reader *r)
     }
 }
 
+/* Something must drive a shot. */
+static void check_supplies(case_reader *r)
+{
+    const unsigned needs = r->options->needs & (CASE_FOR_SHOT | CASE_FOR_ONSET);
+    bool given = !needs;
+    for (int k = 0; k < SUPPLY_KINDS; k++) given = given || r->out->supplies[k].n > 0;
+    for (int k = 0; k < SUPPLY_KINDS && !given; k++)
+        if (tree_find(r->root, supply_sections[k])) given = r->errors->n > 0; /* its own errors say it */
+    if (!given)
+        errors_add(r->errors, r->root, "section `%s` is missing: `%s` needs it, or another supply", supply_sections[0],
+                   command_of(needs));
+}
+
 static void need_key(case_reader *r, const char *section, const char *key, const char *unit)
 {
     const tree_node *map = tree_find(r->root, section);
@@ -206,6 +219,7 @@ void case_check_whole(case_reader *r)
 {
     const tree_node *sites = tree_find(r->root, "sites");
     check_sections(r);
+    check_supplies(r);
     if (r->options->needs & CASE_FOR_SCENE) {
         need_key(r, "scene", "velocity", "m/s");
         need_key(r, "particle", "radius", "m");

@@ -37,6 +37,9 @@ void value_read(case_reader *r, const param *p, const tree_node *node, void *mem
 /* Loads what the case names, in the order of the naming, after the case's own materials. */
 void materials_load(case_reader *r);
 
+/* Current profiles given as files, beside the case. */
+void profiles_load(case_reader *r);
+
 /* What sites leave out, from `particle`; what `particle` leaves out. */
 void case_resolve(breech_case *c, const tree_node *root);
 

@@ -163,9 +163,30 @@ static const case_section rail_children[] = {
 
 enum { NEED_SHOT = CASE_FOR_SHOT | CASE_FOR_ONSET, NEED_SCENE = CASE_FOR_SCENE | CASE_FOR_ONSET };
 
-static const case_section sections[] = {
-    { SECTION(bank, shot_module_params, NEED_SHOT, "Groups of pulse modules, a list."), .size = sizeof(shot_module),
+static const case_section profile_children[] = {
+    { .key = "points",
+      .doc = "The table itself where there is no file, a list.",
+      .table = supply_point_params,
+      .offset = offsetof(supply_profile, points),
+      .size = sizeof(supply_point),
+      .given = NO_FLAG,
       .list = true },
+    END_OF_SECTIONS,
+};
+
+#define SUPPLY(kind, type, section, lists, text)                     \
+    { .key = #section,                                               \
+      .doc = (text),                                                 \
+      .table = supply_##kind##_params,                               \
+      .children = (lists),                                           \
+      .offset = offsetof(breech_case, supplies[SUPPLY_##kind]),      \
+      .size = sizeof(type),                                          \
+      .given = offsetof(breech_case, given.supplies[SUPPLY_##kind]), \
+      .list = true },
+
+static const case_section sections[] = {
+#include "circuit/supply.def"
+#undef SUPPLY
     { SECTION(rails, shot_rails_params, NEED_SHOT | CASE_FOR_INDUCTANCE, "The pair of rails as the circuit sees it."),
       .size = sizeof(shot_rails) },
     { SECTION(barrel, shot_barrel_params, NEED_SHOT, "The barrel."), .size = sizeof(shot_barrel) },

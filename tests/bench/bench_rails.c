@@ -24,9 +24,9 @@ static void must(status s)
 
 static shot_config default_shot(shot_module modules[GROUPS])
 {
-    shot_config c = { .modules = modules, .n_modules = GROUPS };
+    shot_config c = { .supplies = { [SUPPLY_capacitor] = { GROUPS, modules } } };
     for (int k = 0; k < GROUPS; k++) {
-        params_default(shot_module_params, &modules[k]);
+        params_default(supply_capacitor_params, &modules[k]);
         modules[k].count = k == 0 ? 3 : 1;
         modules[k].capacitance = 3.594e-3;
         modules[k].charge = 10.55e3;

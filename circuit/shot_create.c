@@ -1,0 +1,284 @@
+/* Making a shot from its configuration. */
+#include "circuit/shot_internal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const void *supply_item(const supply_list *list, const supply_kind *kind, int k)
+{
+    return (const char *)list->item + (size_t)k * kind->size;
+}
+
+/* ---- checks ---- */
+
+static status supply_check(const shot_config *c, const supply_kind *kind, const void *p, const char *where)
+{
+    char copy[SUPPLY_BYTES];
+    memcpy(copy, p, kind->size);
+    supply_common at = supply_common_of(p);
+    if (isnan(at.fire_at)) at.fire_at = 0.0; /* never is a value too */
+    memcpy(copy, &at, sizeof at);
+    TRY(params_check(kind->params, copy, where));
+    CHECK(at.position < c->barrel.length, STATUS_BAD_INPUT,
+          "%s.position = %g m: must be less than barrel.length = %g m", where, at.position, c->barrel.length);
+    return kind->check ? kind->check(p, where) : status_ok();
+}
+
+static status supplies_check(const shot_config *c)
+{
+    int groups = 0;
+    for (int s = 0; s < SUPPLY_KINDS; s++) {
+        const supply_list *list = &c->supplies[s];
+        for (int k = 0; k < list->n; k++, groups++) {
+            char where[48];
+            snprintf(where, sizeof where, "%s[%d]", supply_sections[s], k);
+            TRY(supply_check(c, supply_kinds[s], supply_item(list, supply_kinds[s], k), where));
+        }
+    }
+    CHECK(groups > 0, STATUS_BAD_INPUT, "nothing drives the shot: give at least one group, such as a bank of modules");
+    return status_ok();
+}
+
+static status config_check(const shot_config *c)
+{
+    TRY(params_check(shot_barrel_params, &c->barrel, "barrel"));
+    TRY(params_check(shot_armature_params, &c->armature, "armature"));
+    TRY(params_check(shot_options_params, &c->options, "options"));
+    CHECK(c->barrel.start < c->barrel.length, STATUS_BAD_INPUT,
+          "barrel.start = %g m: must be less than barrel.length = %g m", c->barrel.start, c->barrel.length);
+    CHECK(c->armature.gas_density == 0.0 || c->armature.gas_pressure > 0.0, STATUS_BAD_INPUT,
+          "armature.gas_pressure = 0 Pa with armature.gas_density = %g kg/m^3: give both or none",
+          c->armature.gas_density);
+    CHECK(c->armature.wear_fraction == 0.0 || c->armature.melting_temperature > c->armature.temperature,
+          STATUS_BAD_INPUT, "armature.temperature = %g K: must be below melting_temperature = %g K",
+          c->armature.temperature, c->armature.melting_temperature);
+    TRY(supplies_check(c));
+    for (int k = 0; k < c->n_sites; k++) {
+        CHECK(c->sites[k] > c->barrel.start && c->sites[k] < c->barrel.length, STATUS_BAD_INPUT,
+              "sites[%d].position = %g m: must lie between barrel.start = %g m and barrel.length = %g m", k,
+              c->sites[k], c->barrel.start, c->barrel.length);
+    }
+    return status_ok();
+}
+
+/* ---- groups and feeds ---- */
+
+/* The feed at a position, made where there is none; feeds ascend. */
+static status feed_at(shot_model *m, double position)
+{
+    int f = 0;
+    while (f < m->feeds && m->feed[f] < position) f++;
+    if (f < m->feeds && m->feed[f] == position) return status_ok();
+    CHECK(m->feeds < SHOT_MAX_FEEDS, STATUS_BAD_INPUT, "supplies join the rails at more than %d positions",
+          SHOT_MAX_FEEDS);
+    memmove(m->feed + f + 1, m->feed + f, (size_t)(m->feeds - f) * sizeof *m->feed);
+    m->feed[f] = position;
+    m->feeds++;
+    return status_ok();
+}
+
+static status group_fill(supply_group *g, const supply_kind *kind, const void *p, void *memory)
+{
+    memcpy(memory, p, kind->size);
+    *g = (supply_group){ .kind = kind, .p = memory, .at = supply_common_of(p), .gate = GATE_UNFIRED };
+    g->n = g->at.count;
+    g->unknowns = kind->unknowns(p);
+    g->reverses = kind->reverses && kind->reverses(p);
+    g->pulses = kind->pulses ? kind->pulses(p) - 1 : 0;
+    return kind->prepare ? kind->prepare(g) : status_ok();
+}
+
+static status groups_fill(shot *s, const shot_config *c)
+{
+    shot_model *m = &s->model;
+    m->feeds = 1; /* the breech, at 0 */
+    for (int kind = 0, k = 0; kind < SUPPLY_KINDS; kind++) {
+        for (int j = 0; j < c->supplies[kind].n; j++, k++) {
+            supply_group *g = &m->groups[k];
+            char *memory = (char *)s->supplies + (size_t)k * SUPPLY_BYTES;
+            TRY(group_fill(g, supply_kinds[kind], supply_item(&c->supplies[kind], supply_kinds[kind], j), memory));
+            g->first = m->start;
+            m->start += g->unknowns;
+            TRY(feed_at(m, g->at.position));
+        }
+    }
+    for (int k = 0; k < m->n; k++) {
+        while (m->feed[m->groups[k].feed] != m->groups[k].at.position) m->groups[k].feed++;
+    }
+    while (m->reached < m->feeds && m->feed[m->reached] <= c->barrel.start) m->reached++;
+    return status_ok();
+}
+
+/* ---- the rest of the model ---- */
+
+static void model_fill(shot *s, const shot_config *c)
+{
+    shot_model *m = &s->model;
+    const shot_armature *a = &c->armature;
+    m->barrel = c->barrel;
+    m->armature = c->armature;
+    m->phase = SHOT_HELD;
+    m->next_site = INFINITY;
+    m->scale = s->scale;
+    m->shunt = !isnan(c->barrel.shunt_resistance);
+    m->contact_area = a->contact_length * (isnan(a->contact_width) ? c->rails.height : a->contact_width);
+    m->bore_area = isnan(a->bore_area) ? c->rails.separation * c->rails.height : a->bore_area;
+    m->sound_speed = a->gas_density > 0.0 ? sqrt(a->gas_gamma * a->gas_pressure / a->gas_density) : 0.0;
+    m->wear_heat = a->specific_heat * (a->melting_temperature - a->temperature) + a->latent_heat;
+}
+
+/* Scales for the absolute tolerances: what each quantity could reach. */
+static void scales_fill(shot *s)
+{
+    shot_model *m = &s->model;
+    double E = 0.0, I = 0.0, V = 1.0;
+    bool reverses = m->shunt;
+    for (int k = 0; k < m->n; k++) {
+        const supply_group *g = &m->groups[k];
+        supply_scale scale;
+        g->kind->start(g->p, shot_y(s) + g->first, &scale);
+        memcpy(s->scale + g->first, scale.y, (size_t)g->unknowns * sizeof(double));
+        E += g->n * scale.energy;
+        I += g->n * scale.y[0];
+        V = fmax(V, scale.voltage);
+        reverses = reverses || g->reverses;
+    }
+    m->knee = reverses ? 1e-5 * I : 0.0;
+    double *z = s->scale + m->start;
+    const double v0 = m->armature.velocity;
+    for (int j = 0; j < m->feeds; j++) z[shot_feed_unknown(j)] = V;
+    for (int j = Y_ACTION + 1; j < Y_COUNT; j++) z[j] = fmax(E + 0.5 * m->armature.mass * v0 * v0, 1.0);
+    z[Y_X] = m->barrel.length;
+    z[Y_V] = fmax(fmax(1.0, v0), 0.1 * sqrt(2.0 * E / m->armature.mass));
+    z[Y_MASS] = m->armature.mass;
+    z[Y_SHUNT] = I;
+    z[Y_ACTION] = 1e-3 * I * I;
+    double *memory = z + Y_COUNT + m->feeds - 1;
+    for (int k = 0; k < m->feeds * m->rails.ladder.n; k++) {
+        memory[2 * k] = m->barrel.length * I;
+        memory[2 * k + 1] = m->barrel.length * I * I;
+    }
+}
+
+static int by_position(const void *a, const void *b)
+{
+    const shot_place *p = a, *q = b;
+    if (p->position != q->position) return p->position < q->position ? -1 : 1;
+    return p->index - q->index;
+}
+
+static int groups_of(const shot_config *c)
+{
+    int n = 0;
+    for (int s = 0; s < SUPPLY_KINDS; s++) n += c->supplies[s].n;
+    return n;
+}
+
+static status memory_take(shot *s, const shot_config *c)
+{
+    const size_t n = (size_t)groups_of(c), sites = (size_t)(c->n_sites > 0 ? c->n_sites : 0);
+    s->model.n = (int)n;
+    s->n_sites = (int)sites;
+    s->capacity = (int)(4 * n + sites + 8);
+    s->model.groups = calloc(n, sizeof *s->model.groups);
+    s->supplies = calloc(n, SUPPLY_BYTES);
+    s->sites = calloc(sites + 1, sizeof *s->sites);
+    s->queue = calloc((size_t)s->capacity, sizeof *s->queue);
+    s->forced = calloc(3 * n, sizeof *s->forced);
+    CHECK(s->model.groups && s->supplies && s->sites && s->queue && s->forced, STATUS_MEMORY,
+          "out of memory for a shot of %zu groups", n);
+    for (int k = 0; k < s->n_sites; k++) s->sites[k] = (shot_place){ c->sites[k], k };
+    qsort(s->sites, sites, sizeof *s->sites, by_position);
+    return status_ok();
+}
+
+static status solver_take(shot *s)
+{
+    shot_model *m = &s->model;
+    const int n = shot_unknowns(m);
+    s->scale = calloc((size_t)n, sizeof *s->scale);
+    CHECK(s->scale, STATUS_MEMORY, "out of memory for a circuit of %d unknowns", n);
+    TRY(arrow_create(m->n, n - m->start, &s->matrix));
+    s->switchings_limit = 8 * m->n + 1000;
+    for (int k = 0; k < m->n; k++) {
+        s->matrix->size[k] = m->groups[k].unknowns;
+        s->switchings_limit += 4 * m->groups[k].pulses;
+    }
+    const dae_problem problem = { .n = n,
+                                  .n_roots = ROOT_GROUPS + 2 * m->n,
+                                  .residual = shot_residual,
+                                  .roots = shot_roots,
+                                  .jacobian = shot_jacobian,
+                                  .model = m,
+                                  .matrix = s->matrix };
+    return dae_create(&problem, &s->solver);
+}
+
+static void state_fill(shot *s, const shot_config *c)
+{
+    shot_model *m = &s->model;
+    double *z = shot_z(s);
+    z[Y_X] = c->barrel.start;
+    z[Y_V] = c->armature.velocity;
+    z[Y_MASS] = c->armature.mass;
+    s->rail_temperature = c->rails.temperature;
+    s->armature_temperature = c->armature.temperature;
+    /* Free at once where nothing holds it: friction then starts at zero with the current, below the force. */
+    const bool loose = c->armature.friction_dry * c->armature.preload == 0.0 &&
+                       shot_push(m, 0.0, 1.0) > 2.0 * c->armature.friction_dry * c->armature.spreading;
+    if (z[Y_V] > 0.0 || loose) m->phase = SHOT_MOVING;
+    m->next_site = s->n_sites > 0 ? s->sites[0].position : INFINITY;
+    const shot_ledger l = shot_ledger_now(s);
+    s->start_energy = l.capacitors + l.coils + l.cables + l.rotors + l.kinetic;
+    s->result = (shot_summary){
+        .muzzle_velocity = NAN, .muzzle_time = NAN, .muzzle_energy = NAN, .efficiency = NAN, .exit_current = NAN
+    };
+}
+
+static status fill(shot *s, const shot_config *c)
+{
+    s->options = c->options;
+    TRY(shot_rails_fit(c, &s->model.rails));
+    TRY(memory_take(s, c));
+    TRY(groups_fill(s, c));
+    TRY(solver_take(s));
+    model_fill(s, c);
+    scales_fill(s);
+    state_fill(s, c);
+    return status_ok();
+}
+
+status shot_create(const shot_config *config, shot **out)
+{
+    *out = NULL;
+    TRY(config_check(config));
+    shot *s = calloc(1, sizeof *s);
+    CHECK(s, STATUS_MEMORY, "out of memory for the shot");
+    const status st = fill(s, config);
+    if (st.code != STATUS_OK) {
+        shot_free(s);
+        return st;
+    }
+    *out = s;
+    return st;
+}
+
+void shot_free(shot *s)
+{
+    if (!s) return;
+    dae_free(s->solver);
+    arrow_free(s->matrix);
+    for (int k = 0; s->model.groups && k < s->model.n; k++) {
+        supply_group *g = &s->model.groups[k];
+        if (g->kind && g->kind->release) g->kind->release(g);
+    }
+    free(s->model.groups);
+    free(s->supplies);
+    free(s->sites);
+    free(s->queue);
+    free(s->scale);
+    free(s->forced);
+    free(s);
+}

@@ -1,0 +1,60 @@
+/* A shot under way, and who does what to it (internal to circuit/):
+ *   shot_create.c  makes it from its configuration        shot.c         drives the integration, hands out events
+ *   shot_switch.c  switchings of supplies and armature    shot_state.c   reads it: ledger, state, summary */
+#ifndef BREECH_CIRCUIT_SHOT_INTERNAL_H
+#define BREECH_CIRCUIT_SHOT_INTERNAL_H
+
+#include "circuit/dae.h"
+#include "circuit/shot_model.h"
+
+/* Times closer than this are one instant [s]. */
+#define SHOT_INSTANT 1e-12
+
+typedef struct {
+    shot_event_kind kind;
+    int index;
+} pending;
+
+typedef struct {
+    double position;
+    int index; /* in the order given */
+} shot_place;
+
+struct shot {
+    shot_model model;
+    shot_options options;
+    dae *solver;
+    arrow *matrix;
+    void *supplies;    /* the groups' parameters, SUPPLY_BYTES each */
+    shot_place *sites; /* by position */
+    pending *queue;    /* events not yet handed out: queue[head] .. queue[tail - 1] */
+    double *scale;     /* of every unknown */
+    bool *forced;      /* groups that a root says conduct now; then room for the firing, two times as long */
+    int n_sites, passed, head, tail, capacity;
+    int switchings, switchings_limit;
+    bool restart, started;
+    double t, rail_temperature, armature_temperature;
+    double start_energy, exit_action;
+    double momentum_jumps, mass_jumps, energy_jumps;
+    double exit_kinetic, last_current, last_slope, last_t;
+    shot_summary result;
+};
+
+double *shot_y(const shot *s); /* all unknowns */
+double *shot_z(const shot *s); /* the tail's */
+shot_drive shot_drive_now(const shot *s);
+shot_forces shot_forces_now(const shot *s);
+shot_ledger shot_ledger_now(const shot *s);
+
+/* ---- switchings ---- */
+
+/* All that is due now: `found` as dae_found, NULL where no root was reported.  Asks for a restart where something switched. */
+void shot_settle(shot *s, const int *found);
+void shot_announce(shot *s, shot_event_kind kind, int index);
+void shot_switched(shot *s, shot_event_kind kind, int index);
+bool shot_any_current(const shot *s);
+double shot_next_firing(const shot *s); /* infinite: none */
+/* At rest after a stop: held where the current's push is too weak, else free again. */
+void shot_come_to_rest(shot *s);
+
+#endif

@@ -1,0 +1,144 @@
+/* Reading a shot: where its energy is, its state, its summary. */
+#include "circuit/shot_internal.h"
+
+#include <assert.h>
+#include <math.h>
+
+double *shot_y(const shot *s)
+{
+    return dae_y(s->solver);
+}
+
+double *shot_z(const shot *s)
+{
+    return dae_y(s->solver) + s->model.start;
+}
+
+shot_drive shot_drive_now(const shot *s)
+{
+    return shot_drive_at(&s->model, s->t, shot_y(s));
+}
+
+shot_forces shot_forces_now(const shot *s)
+{
+    const shot_drive d = shot_drive_now(s);
+    return shot_forces_at(&s->model, &d, shot_z(s));
+}
+
+static void stores_add(const shot *s, shot_ledger *l)
+{
+    for (int k = 0; k < s->model.n; k++) {
+        const supply_group *g = &s->model.groups[k];
+        double e[STORE_PLACES] = { 0.0 };
+        g->kind->stored(g, shot_y(s) + g->first, e);
+        l->capacitors += g->n * e[STORE_CAPACITOR];
+        l->coils += g->n * e[STORE_COIL];
+        l->cables += g->n * e[STORE_CABLE];
+        l->rotors += g->n * e[STORE_ROTOR];
+    }
+}
+
+shot_ledger shot_ledger_now(const shot *s)
+{
+    const double *z = shot_z(s);
+    const shot_model *m = &s->model;
+    const shot_drive d = shot_drive_now(s);
+    shot_ledger l = { .start = s->start_energy, .supplied = z[Y_SUPPLIED] };
+    stores_add(s, &l);
+    l.rails_field = shot_rails_field(m, &d, z);
+    l.kinetic = m->phase == SHOT_LEFT ? s->exit_kinetic : 0.5 * z[Y_MASS] * z[Y_V] * z[Y_V];
+    l.coil_heat = z[Y_COIL];
+    l.cable_heat = z[Y_CABLE];
+    l.crowbar_heat = z[Y_CROWBAR];
+    l.switch_heat = z[Y_SWITCH];
+    l.machine_heat = z[Y_MACHINE];
+    l.rails_heat = z[Y_RAILS];
+    l.armature_heat = z[Y_ARMATURE];
+    l.contact_heat = z[Y_CONTACT];
+    l.friction = z[Y_FRICTION];
+    l.drag = z[Y_DRAG];
+    l.muzzle = z[Y_MUZZLE];
+    l.wear = z[Y_WEAR];
+    l.jumps = s->energy_jumps;
+    l.momentum_jumps = s->momentum_jumps;
+    l.mass_jumps = s->mass_jumps;
+    const double stored = l.capacitors + l.coils + l.cables + l.rotors + l.rails_field + l.kinetic;
+    double spent = l.jumps;
+    for (int j = Y_COIL; j < Y_COUNT; j++) spent += j == Y_SUPPLIED ? 0.0 : z[j];
+    const double given = l.start + l.supplied;
+    l.energy_error = given > 0.0 ? (stored + spent - given) / given : 0.0;
+    return l;
+}
+
+/* Half-space heated by flux q that has brought E per area: T = T_0 + 2 sqrt(q E/pi)/sqrt(k rho c); exact for a constant
+ * flux, at most melting                                                                    (C-7) [K] */
+static double face_temperature(const shot *s, const shot_state *st)
+{
+    const shot_armature *a = &s->model.armature;
+    const double share = a->heat_share / (2.0 * s->model.contact_area);
+    const double q = share * (st->friction * st->v + a->contact_voltage * fabs(st->current - st->shunt_current));
+    const double E = share * (st->ledger.friction + st->ledger.contact_heat);
+    const double rise = 2.0 * sqrt(fmax(q * E, 0.0) / 3.14159265358979323846) /
+                        sqrt(a->thermal_conductivity * a->density * a->specific_heat);
+    return fmin(s->armature_temperature + rise, fmax(a->melting_temperature, s->armature_temperature));
+}
+
+/* The rails' heat over x I^2, direct current's where there is none to see. */
+static double resistance_gradient(const shot *s, const shot_drive *d, double I)
+{
+    const double *z = shot_z(s), loss = z[Y_X] * I * I;
+    return loss > 0.0 ? shot_rails_heat(&s->model, d, z) / loss : s->model.rails.ladder.R_dc;
+}
+
+shot_state shot_now(const shot *s)
+{
+    const double *z = shot_z(s);
+    const shot_model *m = &s->model;
+    const shot_drive d = shot_drive_now(s);
+    const shot_forces f = shot_forces_at(m, &d, z);
+    shot_state st = { .t = s->t, .x = z[Y_X], .v = z[Y_V], .current = f.I, .breech_voltage = z[Y_BREECH] };
+    st.a = m->phase == SHOT_MOVING ? f.net / z[Y_MASS] : 0.0;
+    st.shunt_current = f.shunt;
+    st.force = f.force;
+    st.friction = f.friction;
+    st.drag = f.drag;
+    st.friction_coefficient = f.mu;
+    st.contact_force = f.contact;
+    st.contact_pressure = f.contact / m->contact_area;
+    st.action = z[Y_ACTION];
+    st.mass = z[Y_MASS];
+    st.phase = m->phase;
+    st.muzzle_voltage = f.voltage;
+    st.inductance_gradient = rails_force_gradient(&m->rails, st.phase == SHOT_HELD ? 0.0 : st.v);
+    st.resistance_gradient = resistance_gradient(s, &d, f.I);
+    st.rail_temperature = s->rail_temperature;
+    st.ledger = shot_ledger_now(s);
+    st.armature_temperature = face_temperature(s, &st);
+    return st;
+}
+
+int shot_module_count(const shot *s)
+{
+    return s->model.n;
+}
+
+double shot_module_current(const shot *s, int group)
+{
+    assert(group >= 0 && group < s->model.n);
+    return shot_y(s)[s->model.groups[group].first];
+}
+
+double shot_module_voltage(const shot *s, int group)
+{
+    assert(group >= 0 && group < s->model.n);
+    const supply_group *g = &s->model.groups[group];
+    return g->kind->voltage(g, shot_y(s) + g->first);
+}
+
+shot_summary shot_result(const shot *s)
+{
+    shot_summary r = s->result;
+    r.energy_error = shot_ledger_now(s).energy_error;
+    r.action = s->model.phase == SHOT_LEFT ? s->exit_action : shot_z(s)[Y_ACTION];
+    return r;
+}

@@ -1,0 +1,93 @@
+/* What a kind of supply is to the circuit (internal to circuit/).
+ *
+ * A unit has up to SUPPLY_UNKNOWNS unknowns: y[0] = its current i [A], positive into the rails, the others its own.  Between
+ * two switchings, V the voltage where it joins the rails,
+ *     di/dt = push - pull V,    dy_j/dt = rate_j for j > 0                                      (S-1)
+ * or, for an unknown that is algebraic, y_j = rate_j.  A unit that does not conduct has i = 0.
+ * Law for every kind, stage and state, which tests/test_circuit_supplies.c checks:
+ *     supplied + (source ? V i : 0) - V i - sum of heats = d(stored)/dt,  heats >= 0            (S-2)
+ * The gate is the driver's (circuit/shot_switch.c); a stage is the kind's: it ends when `root` falls through zero, and `next`
+ * then changes the unknowns to those of the stage that follows. */
+#ifndef BREECH_CIRCUIT_SUPPLY_KIND_H
+#define BREECH_CIRCUIT_SUPPLY_KIND_H
+
+#include "circuit/arrow.h"
+#include "circuit/shot.h"
+
+enum { SUPPLY_UNKNOWNS = ARROW_BLOCK, SUPPLY_BYTES = 160 };
+
+typedef enum { GATE_UNFIRED, GATE_WAITING, GATE_ON, GATE_BLOCKED } supply_gate;
+
+typedef enum { HEAT_COIL, HEAT_CABLE, HEAT_CROWBAR, HEAT_SWITCH, HEAT_MACHINE, HEAT_PLACES } supply_heat;
+typedef enum { STORE_CAPACITOR, STORE_COIL, STORE_CABLE, STORE_ROTOR, STORE_PLACES } supply_store;
+
+typedef struct supply_kind supply_kind;
+
+/* A group as it stands. */
+typedef struct {
+    const supply_kind *kind;
+    const void *p;    /* the kind's struct, owned */
+    supply_common at; /* its common part */
+    double n;         /* count as a number */
+    void *curve;      /* the kind's own memory, owned; NULL for most */
+    supply_gate gate;
+    int stage;
+    int pulses;    /* times it may still begin to conduct, after the first */
+    bool reverses; /* its current may be negative */
+    int feed;      /* where it joins the rails: circuit/shot_model.h */
+    int first;     /* its first unknown in y */
+    int unknowns;
+} supply_group;
+
+/* Of one unit. */
+typedef struct {
+    double push, pull;            /* [A/s, A/s/V] */
+    double rate[SUPPLY_UNKNOWNS]; /* rate[0] only where i is algebraic */
+    double heat[HEAT_PLACES];     /* [W] */
+    double supplied;              /* by a battery [W] */
+} supply_flow;
+
+/* What its quantities can reach: scales of the absolute tolerances. */
+typedef struct {
+    double y[SUPPLY_UNKNOWNS];
+    double voltage, energy; /* [V], [J] */
+} supply_scale;
+
+struct supply_kind {
+    const char *name;
+    const param *params;
+    size_t size;
+    bool source;                                                  /* the power it gives is that at the rails */
+    status (*check)(const void *p, const char *where);            /* beyond the table's ranges; NULL: nothing */
+    status (*prepare)(supply_group *g);                           /* fills curve; NULL: nothing */
+    void (*release)(supply_group *g);                             /* frees curve; NULL with prepare */
+    int (*unknowns)(const void *p);                               /* 1 .. SUPPLY_UNKNOWNS */
+    bool (*reverses)(const void *p);                              /* its current may be negative; NULL: never */
+    int (*pulses)(const void *p);                                 /* NULL: one */
+    double (*rise)(const void *p);                                /* time to its peak, roughly [s] */
+    void (*start)(const void *p, double *y, supply_scale *scale); /* state at t = 0 */
+    void (*flow)(const supply_group *g, double t, const double *y, supply_flow *f); /* f comes zeroed */
+    bool (*algebraic)(const supply_group *g, int j);                                /* NULL: none */
+    int (*scaled_like)(const supply_group *g, int j);                  /* unknown whose scale y_j has; NULL: its own */
+    double (*knot)(const supply_group *g, double t);                   /* first time > t not to step over; NULL: none */
+    double (*root)(const supply_group *g, double t, const double *y);  /* of order 1; NULL: one stage */
+    shot_event_kind (*next)(supply_group *g, double *y);               /* the stage that follows, and what to call it */
+    void (*stored)(const supply_group *g, const double *y, double *e); /* adds to e[STORE_PLACES] [J] */
+    double (*voltage)(const supply_group *g, const double *y);         /* of capacitor, switch or machine [V] */
+};
+
+/* The line of every kind's table for `position`. */
+#define SUPPLY_POSITION(type)                        \
+    PARAM_DOUBLE(type, position, "m", 0.0, 0.0, 1e3, \
+                 "where it joins the rails, from the breech; conducts once the armature has passed there")
+
+extern const supply_kind *const supply_kinds[]; /* SUPPLY_KINDS */
+
+supply_common supply_common_of(const void *p); /* p: any kind's struct */
+bool supply_conducts(const supply_group *g);
+/* The group's flow and rates: d[j] = dy_j/dt, or the value y_j must have where it is algebraic. */
+void supply_rates(const supply_group *g, double t, const double *y, double V, double *d, supply_flow *f);
+bool supply_algebraic(const supply_group *g, int j);
+double supply_stage_root(const supply_group *g, double t, const double *y); /* 1 where the stage has no end */
+
+#endif

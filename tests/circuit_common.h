@@ -1,0 +1,98 @@
+/* Shots for tests and benchmarks: the 200 kJ unit of cases/pulse_unit_200kJ, a plain barrel, a notebook of events. */
+#ifndef BREECH_TESTS_CIRCUIT_COMMON_H
+#define BREECH_TESTS_CIRCUIT_COMMON_H
+
+#include "circuit/shot.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+typedef struct {
+    int n, count[SHOT_EVENT_COUNT];
+    double time[SHOT_EVENT_COUNT]; /* of the last event of each kind [s] */
+    double worst_error;            /* of the energy, over what was given by the end [1] */
+    double most;                   /* given so far [J] */
+    double worst;                  /* |energy error| x given so far [J] */
+} shot_notes;
+
+static inline bool note_event(void *user, shot *s, const shot_event *e)
+{
+    shot_notes *notes = user;
+    (void)s;
+    notes->n++;
+    notes->count[e->kind]++;
+    notes->time[e->kind] = e->state.t;
+    return true;
+}
+
+static inline bool note_sample(void *user, const shot *s, const shot_state *state)
+{
+    shot_notes *notes = user;
+    const double given = state->ledger.start + state->ledger.supplied;
+    (void)s;
+    notes->most = fmax(notes->most, given);
+    notes->worst = fmax(notes->worst, fabs(state->ledger.energy_error) * given);
+    notes->worst_error = notes->most > 0.0 ? notes->worst / notes->most : 0.0;
+    return true;
+}
+
+static inline shot_sink notes_sink(shot_notes *notes)
+{
+    memset(notes, 0, sizeof *notes);
+    return (shot_sink){ note_event, note_sample, notes };
+}
+
+static inline shot_module unit_200kJ(int count, double fire_at)
+{
+    shot_module m;
+    params_default(supply_capacitor_params, &m);
+    m.count = count;
+    m.capacitance = 3.594e-3;
+    m.charge = 10.55e3;
+    m.inductance = 12.56e-6;
+    m.resistance = 4.10e-3;
+    m.crowbar_drop = 1.48;
+    m.crowbar_resistance = 0.43e-3;
+    m.fire_at = fire_at;
+    return m;
+}
+
+/* 25 x 20 x 25 mm rails of constant gradients, a 0.25 kg armature with all losses but wear, 5 m; nothing drives it yet. */
+static inline shot_config plain_barrel(void)
+{
+    shot_config c = { .n_sites = 0 };
+    params_default(shot_rails_params, &c.rails);
+    params_default(shot_barrel_params, &c.barrel);
+    params_default(shot_armature_params, &c.armature);
+    params_default(shot_options_params, &c.options);
+    c.rails.level = SHOT_RAILS_CONSTANT;
+    c.rails.height = 0.025;
+    c.rails.thickness = 0.020;
+    c.rails.separation = 0.025;
+    c.rails.inductance_gradient = 0.5e-6;
+    c.rails.resistance_gradient = 1e-4;
+    c.barrel.length = 5.0;
+    c.barrel.start = 0.1;
+    c.armature.mass = 0.25;
+    c.armature.resistance = 20e-6;
+    c.armature.contact_voltage = 30.0;
+    c.armature.friction_dry = 0.3;
+    c.armature.friction_melted = 0.05;
+    c.armature.preload = 5e3;
+    c.armature.spreading = 3e-8;
+    return c;
+}
+
+/* Rails of no length and an armature that nothing moves: a short circuit. */
+static inline shot_config short_circuit(void)
+{
+    shot_config c = plain_barrel();
+    c.barrel.start = 0.0;
+    c.armature.preload = 1e9;
+    c.armature.resistance = 0.0;
+    c.armature.contact_voltage = 0.0;
+    return c;
+}
+
+#endif

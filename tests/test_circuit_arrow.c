@@ -1,0 +1,171 @@
+/* The bordered block-diagonal matrix against a dense one, and the circuit's Jacobian against differences of its residual. */
+#include "circuit/shot_internal.h"
+#include "tests/circuit_common.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+static void assert_ok(status st)
+{
+    if (st.code != STATUS_OK) fail_msg("%s", st.text);
+}
+
+static double dice(uint64_t *seed) /* -1 .. 1 */
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) / 4503599627370496.0 - 1.0;
+}
+
+/* All entries of the arrow as one dense matrix, n x n. */
+static double *dense_of(const arrow *a, int n)
+{
+    double *A = calloc((size_t)n * (size_t)n, sizeof *A);
+    const int tail = n - a->border;
+    assert_non_null(A);
+    for (int k = 0, row = 0; k < a->blocks; row += a->size[k++]) {
+        for (int i = 0; i < a->size[k]; i++) {
+            for (int j = 0; j < a->size[k]; j++) A[(row + i) * n + row + j] = arrow_block(a, k)[i * ARROW_BLOCK + j];
+            if (!a->idle[k]) A[(row + i) * n + tail + a->column[k]] = a->b[k * ARROW_BLOCK + i];
+        }
+        for (int j = 0; j < a->size[k] && !a->idle[k]; j++)
+            for (int r = 0; r < a->border; r++) A[(tail + r) * n + row + j] = arrow_column(a, k, j)[r];
+    }
+    for (int i = 0; i < a->border; i++)
+        for (int j = 0; j < a->border; j++) A[(tail + i) * n + tail + j] = a->E[i * a->border + j];
+    return A;
+}
+
+static void solves_as_a_dense_matrix(void **state)
+{
+    (void)state;
+    enum { BLOCKS = 7, BORDER = 5 };
+    uint64_t seed = 4;
+    for (int trial = 0; trial < 50; trial++) {
+        arrow *a = NULL;
+        assert_ok(arrow_create(BLOCKS, BORDER, &a));
+        arrow_clear(a);
+        int n = BORDER;
+        for (int k = 0; k < BLOCKS; k++) {
+            n += a->size[k] = 1 + (k + trial) % ARROW_BLOCK;
+            a->column[k] = (k * 3) % BORDER;
+            a->idle[k] = (k + trial) % 6 == 0;
+            for (int i = 0; i < a->size[k]; i++) {
+                for (int j = 0; j < a->size[k]; j++)
+                    arrow_block(a, k)[i * ARROW_BLOCK + j] = dice(&seed) + (i == j ? 3.0 : 0.0);
+                a->b[k * ARROW_BLOCK + i] = dice(&seed);
+                for (int r = 0; r < BORDER; r++) arrow_column(a, k, i)[r] = dice(&seed);
+            }
+        }
+        for (int i = 0; i < BORDER * BORDER; i++) a->E[i] = dice(&seed) + (i % (BORDER + 1) == 0 ? 6.0 : 0.0);
+        double x[40], y[40];
+        int pivot[40];
+        for (int i = 0; i < n; i++) x[i] = y[i] = dice(&seed);
+        double *A = dense_of(a, n);
+        assert_int_equal(lu_factor(A, n, n, pivot), 0);
+        lu_solve(A, n, n, pivot, y);
+        assert_int_equal(arrow_factor(a), 0);
+        arrow_solve(a, x);
+        for (int i = 0; i < n; i++)
+            assert_true(fabs(x[i] - y[i]) < 1e-11 * (1.0 + fabs(y[i]))); /* condition below 1e4 */
+        free(A);
+        arrow_free(a);
+    }
+}
+
+static void singular_is_said(void **state)
+{
+    (void)state;
+    arrow *a = NULL;
+    assert_ok(arrow_create(2, 1, &a));
+    arrow_clear(a);
+    a->size[0] = 1;
+    a->size[1] = 2;
+    arrow_block(a, 0)[0] = 1.0;
+    arrow_block(a, 1)[0] = 1.0;
+    a->E[0] = 1.0;
+    assert_int_equal(arrow_factor(a), 3); /* third row: the second of block 1 */
+    arrow_free(a);
+}
+
+/* A shot half way down a barrel with three feeds, a shunt, diffusing rails, wear and two kinds of supply. */
+static shot *busy_shot(void)
+{
+    shot_module m[4] = { unit_200kJ(9, 0.0), unit_200kJ(2, 2e-4), unit_200kJ(2, 0.0), unit_200kJ(1, NAN) };
+    supply_homopolar h;
+    params_default(supply_homopolar_params, &h);
+    h.flux = 0.2;
+    h.inertia = 50.0;
+    h.speed = 20e3;
+    h.windage = 0.01;
+    h.inductance = 4e-6;
+    m[1].damping_resistance = 0.5;
+    m[1].cable_inductance = 1e-6;
+    m[1].position = 0.3;
+    m[2].position = 0.6;
+    shot_config c = plain_barrel();
+    c.supplies[SUPPLY_capacitor] = (supply_list){ 4, m };
+    c.supplies[SUPPLY_homopolar] = (supply_list){ 1, &h };
+    c.rails.level = SHOT_RAILS_DIFFUSING;
+    c.barrel.shunt_resistance = 1e-3;
+    c.armature.wear_fraction = 0.05;
+    shot *s = NULL;
+    assert_ok(shot_create(&c, &s));
+    for (double t = 1e-4; shot_now(s).x < 1.0; t += 1e-4) assert_ok(shot_advance(s, t, NULL));
+    assert_int_equal(s->model.reached, 3);
+    return s;
+}
+
+/* Differences of the whole residual in one unknown, central, against the column: both are differences of functions that are
+ * smooth over the step, good to 1e-5 of the column's largest entry in the units of each row. */
+static void jacobian_is_the_residuals(void **state)
+{
+    (void)state;
+    shot *s = busy_shot();
+    const shot_model *m = &s->model;
+    const int n = shot_unknowns(m);
+    const double cj = 1e6;
+    double *y = shot_y(s), *yp = dae_yp(s->solver), *up = malloc((size_t)n * sizeof *up),
+           *down = malloc((size_t)n * sizeof *down);
+    assert_true(up && down);
+    arrow_clear(s->matrix);
+    shot_jacobian(m, s->t, cj, y, s->matrix);
+    double *J = dense_of(s->matrix, n), worst = 0.0;
+    for (int j = 0; j < n; j++) {
+        const double y0 = y[j], yp0 = yp[j], h = 1e-6 * fmax(fabs(y0), 1e-2 * s->scale[j]);
+        y[j] = y0 + h;
+        yp[j] = yp0 + cj * h;
+        shot_residual(m, s->t, y, yp, up);
+        y[j] = y0 - h;
+        yp[j] = yp0 - cj * h;
+        shot_residual(m, s->t, y, yp, down);
+        y[j] = y0;
+        yp[j] = yp0;
+        for (int i = 0; i < n; i++) {
+            const double want = (up[i] - down[i]) / (2.0 * h), row = cj * s->scale[i], column = s->scale[j];
+            const double off = fabs(J[i * n + j] - want) * column / row;
+            worst = fmax(worst, off);
+            if (!(off < 1e-5))
+                fail_msg("row %d, column %d of %d: %g, differences give %g", i, j, n, J[i * n + j], want);
+        }
+    }
+    print_message("worst entry off by %.1e of its row\n", worst);
+    free(J);
+    free(up);
+    free(down);
+    shot_free(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(solves_as_a_dense_matrix),
+        cmocka_unit_test(singular_is_said),
+        cmocka_unit_test(jacobian_is_the_residuals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
