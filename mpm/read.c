@@ -74,7 +74,7 @@ static void failed_block(void *user, const mpm *m, int index)
             r->failed_volume[m->links[index].body] += q->mass[0][l] / q->rho[0][l];
 }
 
-mpm_report mpm_state(const mpm *m)
+mpm_report mpm_glance(const mpm *m)
 {
     mpm_report r = m->report;
     r.time = m->time;
@@ -82,6 +82,12 @@ mpm_report mpm_state(const mpm *m)
     r.steps = m->steps;
     r.particle_steps_dense = (uint64_t)m->dense_steps;
     memset(r.failed_volume, 0, sizeof r.failed_volume);
+    return r;
+}
+
+mpm_report mpm_state(const mpm *m)
+{
+    mpm_report r = mpm_glance(m);
     visit(m, failed_block, &r);
     return r;
 }

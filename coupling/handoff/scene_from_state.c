@@ -81,7 +81,7 @@ static layout lay_out(const breech_case *c, const case_site *g, double cells_per
     l.ahead = s->rail_ahead;
     const double room = 3.0 * l.coarse;
     l.fine_behind = cells_over(fmin(given_or(s->fine_behind, 4.0 * g->radius), l.behind - room), l.fine);
-    const double ahead = (s->follow ? 12.0 : 26.0) * g->radius;
+    const double ahead = (s->follow ? 8.0 : 26.0) * g->radius;
     l.fine_ahead = cells_over(fmin(given_or(s->fine_ahead, ahead), l.ahead - room), l.fine);
     l.fine_depth = cells_over(fmin(given_or(s->fine_depth, 3.0 * g->radius), s->rail_depth - room), l.fine);
     l.fine_above = cells_over(fmin(top_of_zone(c, g), p->half_bore - room), l.fine);

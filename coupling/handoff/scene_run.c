@@ -128,7 +128,7 @@ static bool on_step(void *user, const mpm *m)
     run *r = user;
     const double now = wall_clock();
     if (r->host->progress && now - r->looked >= LIVE_INTERVAL) {
-        const mpm_report state = mpm_state(m);
+        const mpm_report state = mpm_glance(m);
         r->looked = now;
         progress_update(r->host->progress, state.time / r->job->scene.end_time, state.particle_steps);
     }
@@ -171,7 +171,7 @@ static status distance_left(const run *r, double *distance)
         if (p.damage[i] < 1.0) fastest2 = fmax(fastest2, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     }
     points_free(&p);
-    *distance = sqrt(fastest2) * (r->job->scene.end_time - mpm_state(r->m).time);
+    *distance = sqrt(fastest2) * (r->job->scene.end_time - mpm_glance(r->m).time);
     return status_ok();
 }
 
@@ -185,7 +185,7 @@ static bool groove_over(const run *r, const mpm_report *now)
 
 static status is_settled(const run *r, bool *settled)
 {
-    const mpm_report now = mpm_state(r->m);
+    const mpm_report now = mpm_glance(r->m);
     *settled = false;
     if (!r->job->c->scene.stop_when_settled) return status_ok();
     if (r->job->scene.follow_bodies) {
@@ -228,7 +228,7 @@ static status advance_piece(run *r, int piece)
 static status advance(run *r)
 {
     bool settled = false;
-    const double reached = r->job->resume.image ? mpm_state(r->m).time : -1.0;
+    const double reached = r->job->resume.image ? mpm_glance(r->m).time : -1.0;
     if (reached < 0.0) {
         TRY(write_row(r));
         TRY(write_snapshot(r));
@@ -282,7 +282,7 @@ static void book_losses(const run *r, const armature_metal *before, const armatu
 {
     const breech_case *c = r->job->c;
     const mpm_body *b = &r->job->scene.body[body_of_armature(&r->job->scene)];
-    const double halves = c->scene.half_model ? 2.0 : 1.0, time = mpm_state(r->m).time;
+    const double halves = c->scene.half_model ? 2.0 : 1.0, time = mpm_glance(r->m).time;
     const double pressing = -b->body_force[1] * before->mass;
     out->mass_loss = halves * fmax(before->mass - after->mass, 0.0);
     const double kept = after->mass * b->velocity[0] - after->momentum;
@@ -352,7 +352,7 @@ static status run_made(run *r, impact *out)
     armature_metal before;
     TRY(armature_now(r, &before));
     if (from->image) TRY(mpm_restore(r->m, from->image, from->bytes));
-    const mpm_report state = mpm_state(r->m);
+    const mpm_report state = mpm_glance(r->m);
     if (r->host->progress)
         progress_task(r->host->progress, r->job->task, state.time / r->job->scene.end_time, state.particle_steps);
     TRY(open_output(r));

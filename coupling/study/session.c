@@ -192,7 +192,7 @@ status session_shot(session *s, const site_jump *jump, bool with_history, shot_o
 status session_save_inside(void *user, const char *scene, const mpm *m, double wall)
 {
     const session *s = user;
-    checkpoint c = { .scene_hash = hash_bytes(0, scene, strlen(scene)), .scene_time = mpm_state(m).time };
+    checkpoint c = { .scene_hash = hash_bytes(0, scene, strlen(scene)), .scene_time = mpm_glance(m).time };
     void *image = NULL;
     snprintf(c.scene, sizeof c.scene, "%s", scene);
     TRY(mpm_save(m, &image, &c.image_bytes));
