@@ -1,4 +1,4 @@
-/* Grid to particles, and the material law: one brick, eight particles of a cell at a time.
+/* Grid to particles, and the material law: one brick, the particles of a cell a part of a block at a time.
  *
  *   v = sum S_i v_i,   L = sum v_i grad S_i,   de = sum S_i (v_i^2/2 + Q_i/m_i) - v^2/2 - ka     (transfer and contact heat)
  *   ka = 1/2 sum_k D_k |L e_k|^2,  D_k = sum S_i (x_i - x_p)_k^2                                  (TPIC's gradient part)   */
@@ -17,8 +17,18 @@ static void rows(int d, int *there, int *here, int *count)
     *count = d == 0 ? BRICK : 1;
 }
 
+/* Sizes that the compiler knows: it makes a few moves of them, not a string instruction. */
+LANE_INLINE void copy_row(double (*to)[NODE], double (*const from)[NODE], int count)
+{
+    if (count == BRICK)
+        memcpy(to, from, BRICK * sizeof *to);
+    else
+        memcpy(to, from, sizeof *to);
+}
+
 static void gather_halo(const mpm *m, const brick *b, halo_nodes halo)
 {
+    static double none[BRICK][NODE]; /* zero */
     for (int step = 0; step < NEIGHBOURS; step++) {
         int t[3], h[3], n[3];
         rows(step % 3 - 1, &t[0], &h[0], &n[0]);
@@ -26,13 +36,9 @@ static void gather_halo(const mpm *m, const brick *b, halo_nodes halo)
         rows(step / 9 - 1, &t[2], &h[2], &n[2]);
         const brick *from = b->neighbour[step] >= 0 ? &m->bricks[b->neighbour[step]] : NULL;
         for (int k = 0; k < n[2]; k++)
-            for (int j = 0; j < n[1]; j++) {
-                double(*to)[NODE] = &halo[((h[2] + k) * HALO + h[1] + j) * HALO + h[0]];
-                if (from)
-                    memcpy(to, from->node[cell_index(t[0], t[1] + j, t[2] + k)], (size_t)n[0] * sizeof *to);
-                else
-                    memset(to, 0, (size_t)n[0] * sizeof *to);
-            }
+            for (int j = 0; j < n[1]; j++)
+                copy_row(&halo[((h[2] + k) * HALO + h[1] + j) * HALO + h[0]],
+                         from ? &from->node[cell_index(t[0], t[1] + j, t[2] + k)] : none, n[0]);
     }
 }
 
@@ -63,151 +69,261 @@ static void mirror_ghosts(const mpm *m, brick *b, halo_nodes halo)
         }
 }
 
+/* ---- a cell's 27 nodes ---- */
+
+/* Weights sum to one, their gradients to zero, so along an axis
+ *   sum w f = f_1 + w_0 (f_0 - f_1) + w_2 (f_2 - f_1),   sum g f = g_0 (f_0 - f_1) + g_2 (f_2 - f_1):
+ * the nodes of a cell, with such differences in the places of the first and the last along each axis. */
+typedef double cell_nodes[27][NODE] __attribute__((aligned(64)));
+
+static void difference(cell_nodes n, int node, int stride)
+{
+    for (int i = 0; i < NODE; i++) {
+        n[node - stride][i] -= n[node][i];
+        n[node + stride][i] -= n[node][i];
+    }
+}
+
+static void gather_cell(const halo_nodes halo, int first, cell_nodes n)
+{
+    for (int c = 0; c < 3; c++)
+        for (int b = 0; b < 3; b++) memcpy(n[9 * c + 3 * b], halo[first + (c * HALO + b) * HALO], 3 * sizeof *n);
+    for (int i = 0; i < 9; i++) difference(n, 3 * i + 1, 1);
+    for (int i = 0; i < 9; i++) difference(n, 9 * (i / 3) + 3 + i % 3, 3);
+    for (int i = 0; i < 9; i++) difference(n, 9 + i, 9);
+}
+
 typedef struct {
-    v8 v[3], L[9], E, ka;
+    vd v[3], L[9], E, ka;
 } gathered;
 
-LANE_INLINE v8 spread(const weights *w)
+/* f + w_0 first + w_2 last */
+LANE_INLINE vd along(const vd f[3], const vd w[3])
+{
+    return f[1] + w[0] * f[0] + w[2] * f[2];
+}
+
+LANE_INLINE vd slope(const vd f[3], const vd g[3])
+{
+    return g[0] * f[0] + g[2] * f[2];
+}
+
+/* sum S f and, where `grad` is asked for, sum f grad S, of number q of the nodes. */
+LANE_INLINE vd interpolate(const weights w[3], const cell_nodes n, int q, vd grad[3])
+{
+    vd plane[3], plane_x[3], plane_y[3];
+#pragma GCC unroll 3
+    for (int c = 0; c < 3; c++) {
+        vd row[3], row_x[3];
+#pragma GCC unroll 3
+        for (int b = 0; b < 3; b++) {
+            const double *f = &n[9 * c + 3 * b][q];
+            row[b] = f[NODE] + w[0].w[0] * f[0] + w[0].w[2] * f[2 * NODE];
+            if (grad) row_x[b] = w[0].g[0] * f[0] + w[0].g[2] * f[2 * NODE];
+        }
+        plane[c] = along(row, w[1].w);
+        if (grad) plane_x[c] = along(row_x, w[1].w), plane_y[c] = slope(row, w[1].g);
+    }
+    if (grad) {
+        grad[0] = along(plane_x, w[2].w);
+        grad[1] = along(plane_y, w[2].w);
+        grad[2] = slope(plane, w[2].g);
+    }
+    return along(plane, w[2].w);
+}
+
+/* D = sum w (x_i - x_p)^2 */
+LANE_INLINE vd spread(const weights *w)
 {
     return w->w[0] * w->d[0] * w->d[0] + w->w[1] * w->d[1] * w->d[1] + w->w[2] * w->d[2] * w->d[2];
 }
 
-LANE_INLINE void gather(const weights w[3], double (*const node)[NODE], gathered *r)
+LANE_INLINE void gather(const weights w[3], const cell_nodes n, gathered *r)
 {
-    const v8 zero = v8_set(0);
-    v8 v[3] = { zero, zero, zero }, Lx[3] = { zero, zero, zero }, Ly[3] = { zero, zero, zero },
-       Lz[3] = { zero, zero, zero };
-    v8 E = zero;
-#pragma GCC unroll 3
-    for (int c = 0; c < 3; c++) {
-        v8 tv[3] = { zero, zero, zero }, tx[3] = { zero, zero, zero }, ty[3] = { zero, zero, zero }, tE = zero;
-#pragma GCC unroll 3
-        for (int b = 0; b < 3; b++) {
-            const double *n = node[(c * HALO + b) * HALO];
-#pragma GCC unroll 3
-            for (int q = 0; q < 3; q++) {
-                const v8 s = w[0].w[0] * n[q] + w[0].w[1] * n[NODE + q] + w[0].w[2] * n[2 * NODE + q];
-                const v8 d = w[0].g[0] * n[q] + w[0].g[1] * n[NODE + q] + w[0].g[2] * n[2 * NODE + q];
-                tv[q] += w[1].w[b] * s;
-                tx[q] += w[1].w[b] * d;
-                ty[q] += w[1].g[b] * s;
-            }
-            tE += w[1].w[b] * (w[0].w[0] * n[3] + w[0].w[1] * n[NODE + 3] + w[0].w[2] * n[2 * NODE + 3]);
-        }
-#pragma GCC unroll 3
-        for (int q = 0; q < 3; q++) {
-            v[q] += w[2].w[c] * tv[q];
-            Lx[q] += w[2].w[c] * tx[q];
-            Ly[q] += w[2].w[c] * ty[q];
-            Lz[q] += w[2].g[c] * tv[q];
-        }
-        E += w[2].w[c] * tE;
+    for (int q = 0; q < 3; q++) r->v[q] = interpolate(w, n, q, &r->L[3 * q]);
+    r->E = interpolate(w, n, 3, NULL);
+    r->ka = vd_set(0);
+    for (int k = 0; k < 3; k++) {
+        const vd x = r->L[k], y = r->L[3 + k], z = r->L[6 + k];
+        r->ka += 0.5 * spread(&w[k]) * (x * x + y * y + z * z);
     }
-    const v8 D[3] = { spread(&w[0]), spread(&w[1]), spread(&w[2]) };
-    v8 ka = zero;
-    for (int q = 0; q < 3; q++) {
-        r->v[q] = v[q];
-        r->L[3 * q] = Lx[q];
-        r->L[3 * q + 1] = Ly[q];
-        r->L[3 * q + 2] = Lz[q];
-        ka += D[0] * Lx[q] * Lx[q] + D[1] * Ly[q] * Ly[q] + D[2] * Lz[q] * Lz[q];
-    }
-    r->E = E;
-    r->ka = v8_set(0.5) * ka;
 }
 
-/* ---- a block ---- */
+/* ---- the part of a block that begins with `lane` ---- */
 
-LANE_INLINE v8 block_move(block *q, const gathered *r, const step_of *step)
+/* Holes stay at rest. */
+LANE_INLINE void leave_holes(gathered *r, vm here)
 {
-    const v8 dt = v8_set(step->dt);
-    v8 work = v8_set(0);
-    const v8 area = v8_load(q->area[0]), m = v8_load(q->mass[0]);
+    for (int i = 0; i < 3; i++) r->v[i] = vd_where(here, r->v[i]);
+    for (int i = 0; i < 9; i++) r->L[i] = vd_where(here, r->L[i]);
+    r->E = vd_where(here, r->E);
+    r->ka = vd_where(here, r->ka);
+}
+
+/* Moves and stretches; the work of the loads. */
+LANE_INLINE vd move(block *q, int lane, const gathered *r, const step_of *step)
+{
+    const vd area = vd_load(&q->area[0][lane]), m = vd_load(&q->mass[0][lane]);
+    vd work = vd_set(0);
     for (int k = 0; k < 3; k++) {
-        work += (m * step->force[k] + area * step->traction[k]) * dt * v8_set(0.5) * (r->v[k] + v8_load(q->v[k]));
-        v8_store(q->v[k], r->v[k]);
-        v8_store(q->x[k], v8_load(q->x[k]) + dt * r->v[k]);
-        const v8 grown = v8_load(q->half[k]) * (v8_set(1) + dt * r->L[4 * k]);
-        v8_store(q->half[k], v8_min(v8_max(grown, v8_set(0.02 * step->h[k])), v8_set(step->h[k])));
+        double *v = &q->v[k][lane], *x = &q->x[k][lane], *half = &q->half[k][lane];
+        work += (m * step->force[k] + area * step->traction[k]) * (0.5 * step->dt) * (r->v[k] + vd_load(v));
+        vd_store(v, r->v[k]);
+        vd_store(x, vd_load(x) + step->dt * r->v[k]);
+        const vd grown = vd_load(half) * (1 + step->dt * r->L[4 * k]);
+        vd_store(half, vd_min(vd_max(grown, vd_set(0.02 * step->h[k])), vd_set(step->h[k])));
     }
     return work;
 }
 
-/* Lanes to take out of the block: those that left the cell, that outgrew it (to be split, unless failed), that may be
+/* ---- what is booked ---- */
+
+/* Sums over the blocks of one body, a lane each until they are added to the brick's tally. */
+typedef struct {
+    vd heat_transfer, heat_viscous, work_external, mass, area;
+    vd rate, pressure, mises, strain, temperature, clamp_p, clamp_rho;
+} books;
+
+LANE_INLINE void book(books *t, const block *q, int lane, const lane_sums *w)
+{
+    const vd m = vd_load(&q->mass[0][lane]);
+    const vm here = vd_less(vd_set(0), m), intact = here & vd_less(vd_load(&q->damage[0][lane]), vd_set(1));
+    t->heat_transfer += m * w->heat;
+    t->heat_viscous += m * w->heat_viscous;
+    t->work_external += w->work_external;
+    t->mass += m;
+    t->area += vd_load(&q->area[0][lane]);
+    t->rate = vd_max(t->rate, vd_where(here, w->rate));
+    t->pressure = vd_max(t->pressure, vd_where(intact, vd_load(&q->p[0][lane])));
+    t->mises = vd_max(t->mises, vd_where(here, w->mises));
+    t->strain = vd_max(t->strain, vd_where(here, vd_load(&q->ep[0][lane])));
+    t->temperature = vd_max(t->temperature, vd_where(intact, vd_load(&q->T[0][lane])));
+    t->clamp_p += vd_where(here, w->clamp_p);
+    t->clamp_rho += vd_where(here, w->clamp_rho);
+}
+
+static void add_books(tally *t, const books *s, int body, const step_of *step)
+{
+    t->heat_transfer += vd_sum(s->heat_transfer);
+    t->heat_viscous += vd_sum(s->heat_viscous);
+    t->work_external += vd_sum(s->work_external);
+    for (int k = 0; k < 3; k++)
+        t->impulse_external[k] += step->dt * (step->force[k] * vd_sum(s->mass) + step->traction[k] * vd_sum(s->area));
+    t->rate = fmax(t->rate, vd_largest(s->rate));
+    t->peak_pressure_body[body] = fmax(t->peak_pressure_body[body], vd_largest(s->pressure));
+    t->peak_mises[body] = fmax(t->peak_mises[body], vd_largest(s->mises));
+    t->peak_strain[body] = fmax(t->peak_strain[body], vd_largest(s->strain));
+    t->peak_temperature = fmax(t->peak_temperature, vd_largest(s->temperature));
+    t->clamps_pressure += (uint64_t)vd_sum(s->clamp_p);
+    t->clamps_compression += (uint64_t)vd_sum(s->clamp_rho);
+}
+
+/* Notes the first particle that is not finite: x - x is 0, or NaN. */
+LANE_INLINE void find_bad(tally *t, const block *q, int lane, vd rate, int index)
+{
+    const vm here = vd_less(vd_set(0), vd_load(&q->mass[0][lane]));
+    vd sum = rate + vd_load(&q->e[0][lane]) + vd_load(&q->p[0][lane]);
+    for (int k = 0; k < 3; k++) sum += vd_load(&q->x[k][lane]);
+    const int bad = vm_bits(here & (sum - sum != 0));
+    if (!bad || t->bad_block >= 0) return;
+    t->bad_block = index;
+    t->bad_lane = lane + __builtin_ctz((unsigned)bad);
+}
+
+/* ---- a block ---- */
+
+/* Lanes to take out of the part: those that left the cell, that outgrew it (to be split, unless failed), that may be
  * eroded; movers.c looks at each. */
-static int leaving_lanes(const mpm *m, const brick *b, int cell, int index, const cell_grid *g)
+typedef struct {
+    double lo[3], hi[3], longest[3]; /* edges of the cell, half length of a domain to be split [m] */
+} cell_limits;
+
+LANE_INLINE int leaving_lanes(const block *q, int lane, const cell_limits *c, const law *k)
+{
+    const vm whole = vd_less(vd_load(&q->damage[0][lane]), vd_set(1));
+    vm leave = vd_less(vd_set(k->e_vapour), vd_load(&q->e[0][lane]));
+    leave |= vd_less(vd_load(&q->rho[0][lane]), vd_set(k->rho_dust));
+    for (int i = 0; i < 3; i++) {
+        const vd x = vd_load(&q->x[i][lane]), half = vd_load(&q->half[i][lane]);
+        leave |= (x < c->lo[i]) | (x >= c->hi[i]) | (whole & (half > c->longest[i]));
+    }
+    return vm_bits(leave) << lane;
+}
+
+static cell_limits limits_of(const mpm *m, const brick *b, int cell)
 {
     const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
-    const block *q = &m->blocks[index];
-    const law *law_of = &m->laws[m->links[index].body];
-    const m8 whole = v8_less(v8_load(q->damage[0]), v8_set(1));
-    m8 leave = { 0 };
+    cell_limits c;
     for (int k = 0; k < 3; k++) {
         const double *edge = &m->axes[k].edge[BRICK * b->at[k] + at[k]];
-        const v8 x = v8_load(q->x[k]), half = v8_load(q->half[k]);
-        leave = m8_or(leave, m8_or(v8_less(x, v8_set(edge[0])), v8_at_least(x, v8_set(edge[1]))));
-        leave = m8_or(leave, m8_and(v8_less(v8_set(0.4 * g->axis[k].cell), half), whole));
+        c.lo[k] = edge[0], c.hi[k] = edge[1];
+        c.longest[k] = 0.4 * (edge[1] - edge[0]);
     }
-    leave = m8_or(leave, v8_less(v8_set(law_of->e_vapour), v8_load(q->e[0])));
-    leave = m8_or(leave, v8_less(v8_load(q->rho[0]), v8_set(law_of->rho_dust)));
-    int lanes = 0;
-    for (int l = 0; l < LANES; l++) lanes |= leave[l] ? 1 << l : 0;
-    return lanes & m->links[index].mask;
+    return c;
 }
 
-static void book(brick *b, const block *q, const lane_sums *w, const step_of *step, int body, int index)
+static step_of step_for(const mpm *m, const cell_grid *g, int body)
 {
-    tally *t = &b->sum;
-    const v8 m = v8_load(q->mass[0]), zero = v8_set(0), area = v8_load(q->area[0]);
-    const m8 here = v8_less(zero, m), intact = m8_and(here, v8_less(v8_load(q->damage[0]), v8_set(1)));
-    t->heat_transfer += v8_sum(m * w->heat);
-    t->heat_viscous += v8_sum(m * w->heat_viscous);
-    t->work_external += v8_sum(w->work_external);
-    for (int k = 0; k < 3; k++)
-        t->impulse_external[k] += step->dt * v8_sum(m * step->force[k] + area * step->traction[k]);
-    t->rate = fmax(t->rate, v8_largest(v8_select(here, w->rate, zero)));
-    t->peak_pressure_body[body] =
-        fmax(t->peak_pressure_body[body], v8_largest(v8_select(intact, v8_load(q->p[0]), zero)));
-    t->peak_mises[body] = fmax(t->peak_mises[body], v8_largest(v8_select(here, w->mises, zero)));
-    t->peak_strain[body] = fmax(t->peak_strain[body], v8_largest(v8_select(here, v8_load(q->ep[0]), zero)));
-    t->peak_temperature = fmax(t->peak_temperature, v8_largest(v8_select(intact, v8_load(q->T[0]), zero)));
-    t->clamps_pressure += (uint64_t)v8_sum(v8_select(here, w->clamp_p, zero));
-    t->clamps_compression += (uint64_t)v8_sum(v8_select(here, w->clamp_rho, zero));
-    /* x - x is 0, or NaN where x is not finite */
-    v8 bad = v8_load(q->x[0]) + v8_load(q->x[1]) + v8_load(q->x[2]) + v8_load(q->e[0]) + v8_load(q->p[0]) + w->rate;
-    bad = v8_select(here, bad - bad, zero);
-    if (t->bad_block < 0 && !(v8_sum(bad) == 0)) {
-        t->bad_block = index;
-        while (bad[t->bad_lane] == 0) t->bad_lane++;
-    }
-}
-
-static void one_block(mpm *m, brick *b, int index, const cell_grid *g, double (*const node)[NODE])
-{
-    block *q = &m->blocks[index];
-    const int body = m->links[index].body;
-    const double affine = m->scene.transfer == TRANSFER_TPIC ? 1 : 0;
     step_of step = { .dt = m->dt };
     for (int i = 0; i < 3; i++) {
         step.h[i] = g->axis[i].cell;
         step.force[i] = m->scene.body[body].body_force[i];
         step.traction[i] = m->scene.body[body].traction[i];
     }
-    const weights w[3] = { cell_weights(g, 0, q), cell_weights(g, 1, q), cell_weights(g, 2, q) };
-    gathered r;
-    gather(w, node, &r);
-    const m8 here = v8_less(v8_set(0), v8_load(q->mass[0])); /* holes stay at rest */
-    for (int i = 0; i < 3; i++) r.v[i] = v8_select(here, r.v[i], v8_set(0));
-    for (int i = 0; i < 9; i++) r.L[i] = v8_select(here, r.L[i], v8_set(0));
-    r.E = v8_select(here, r.E, v8_set(0));
-    r.ka = v8_select(here, r.ka * affine, v8_set(0));
-    lane_sums sum;
-    sum.heat = r.E - 0.5 * (r.v[0] * r.v[0] + r.v[1] * r.v[1] + r.v[2] * r.v[2]) - r.ka;
-    v8_store(q->ka[0], r.ka);
-    for (int i = 0; i < 9; i++) v8_store(q->L[i], r.L[i]);
-    sum.work_external = block_move(q, &r, &step);
-    law_step(&m->laws[body], &step, r.L, r.L[0] + r.L[4] + r.L[8], q, &sum);
-    book(b, q, &sum, &step, body, index);
+    return step;
+}
+
+/* A run of blocks of one body, in a cell: what their kernels need to know, and what is booked of them. */
+typedef struct {
+    int body;
+    step_of step;
+    books books;
+} block_run;
+
+/* Advances a block by a step; the lanes that leave it. */
+LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const cell_limits *limits,
+                          const cell_nodes nodes, block_run *run)
+{
+    block *q = &m->blocks[index];
+    const law *k = &m->laws[run->body];
+    int leaving = 0;
+    for (int lane = 0; lane < LANES; lane += WIDTH) {
+        const weights w[3] = { cell_weights(g, 0, q, lane), cell_weights(g, 1, q, lane), cell_weights(g, 2, q, lane) };
+        gathered r;
+        lane_sums sum;
+        gather(w, nodes, &r);
+        if (m->scene.transfer != TRANSFER_TPIC) r.ka = vd_set(0);
+        leave_holes(&r, vd_less(vd_set(0), vd_load(&q->mass[0][lane])));
+        sum.heat = r.E - 0.5 * (r.v[0] * r.v[0] + r.v[1] * r.v[1] + r.v[2] * r.v[2]) - r.ka;
+        vd_store(&q->ka[0][lane], r.ka);
+        for (int i = 0; i < 9; i++) vd_store(&q->L[i][lane], r.L[i]);
+        sum.work_external = move(q, lane, &r, &run->step);
+        law_step(k, &run->step, r.L, q, lane, &sum);
+        book(&run->books, q, lane, &sum);
+        find_bad(&b->sum, q, lane, sum.rate, index);
+        leaving |= leaving_lanes(q, lane, limits, k);
+    }
+    return leaving & m->links[index].mask;
+}
+
+static void one_cell(mpm *m, brick *b, int cell, const halo_nodes halo, int thread, block_run *run)
+{
+    const cell_grid g = cell_grid_at(m, b, cell);
+    const cell_limits limits = limits_of(m, b, cell);
+    cell_nodes nodes;
+    gather_cell(halo, halo_index(cell), nodes);
+    run->step = step_for(m, &g, run->body);
+    for (int i = b->head[cell]; i >= 0; i = m->links[i].next) {
+        const int body = m->links[i].body;
+        prefetch_ahead(m, i);
+        if (body != run->body) {
+            add_books(&b->sum, &run->books, run->body, &run->step);
+            *run = (block_run){ .body = body, .step = step_for(m, &g, body) };
+        }
+        b->sum.particles += (uint64_t)__builtin_popcount(m->links[i].mask);
+        const int leaving = one_block(m, b, i, &g, &limits, nodes, run);
+        if (leaving && movers_reserve(&m->movers[thread], 2 * LANES)) movers_take(m, b, cell, i, leaving, thread);
+    }
 }
 
 void ISA(g2p)(mpm *m, brick *b, int thread)
@@ -216,16 +332,8 @@ void ISA(g2p)(mpm *m, brick *b, int thread)
     gather_halo(m, b, halo);
     mirror_ghosts(m, b, halo);
     b->movers = 0, b->mover_steps = 0, b->movers_thread = thread, b->movers_first = m->movers[thread].count;
-    for (int cell = 0; cell < BRICK_CELLS; cell++) {
-        if (b->head[cell] < 0) continue;
-        const cell_grid g = cell_grid_at(m, b, cell);
-        double(*node)[NODE] = &halo[halo_index(cell)];
-        for (int i = b->head[cell]; i >= 0; i = m->links[i].next) {
-            prefetch_ahead(m, i);
-            b->sum.particles += (uint64_t)__builtin_popcount(m->links[i].mask);
-            one_block(m, b, i, &g, node);
-            const int leaving = leaving_lanes(m, b, cell, i, &g);
-            if (leaving && movers_reserve(&m->movers[thread], 2 * LANES)) movers_take(m, b, cell, i, leaving, thread);
-        }
-    }
+    block_run run = { .body = 0 };
+    for (int cell = 0; cell < BRICK_CELLS; cell++)
+        if (b->head[cell] >= 0) one_cell(m, b, cell, halo, thread, &run);
+    add_books(&b->sum, &run.books, run.body, &run.step);
 }

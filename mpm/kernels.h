@@ -35,21 +35,21 @@ LANE_INLINE cell_axis cell_axis_at(const axis *a, int i)
 }
 
 typedef struct {
-    v8 w[3], g[3], d[3]; /* weights, their derivatives with the particle's position [1/m], node minus particle [m] */
+    vd w[3], g[3], d[3]; /* weights, their derivatives with the particle's position [1/m], node minus particle [m] */
 } weights;
 
 /* Generalized interpolation over the domain x - l .. x + l (Bardenhagen and Kober 2004), on unequal elements:
  *   w = 1/(2 l) int N dx,   g = [N(x + l) - N(x - l)]/(2 l),   N the hat functions of the three nodes            */
-LANE_INLINE weights weights_gimp(const cell_axis *c, v8 x, v8 half)
+LANE_INLINE weights weights_gimp(const cell_axis *c, vd x, vd half)
 {
-    const v8 zero = v8_set(0), l = v8_max(v8_min(half, v8_set(c->widest)), v8_set(c->narrowest));
-    const v8 t = x - c->x[1], a = t - l, b = t + l;
-    const v8 aL = v8_min(a, zero), bL = v8_min(b, zero), aR = v8_max(a, zero), bR = v8_max(b, zero);
-    const v8 scale = v8_set(0.5) / l, sL = scale * c->inv_left, sR = scale * c->inv_right;
+    const vd zero = vd_set(0), l = vd_max(vd_min(half, vd_set(c->widest)), vd_set(c->narrowest));
+    const vd t = x - c->x[1], a = t - l, b = t + l;
+    const vd aL = vd_min(a, zero), bL = vd_min(b, zero), aR = vd_max(a, zero), bR = vd_max(b, zero);
+    const vd scale = vd_set(0.5) / l, sL = scale * c->inv_left, sR = scale * c->inv_right;
     weights r;
-    r.w[0] = v8_set(0.5) * sL * (aL * aL - bL * bL);
-    r.w[2] = v8_set(0.5) * sR * (bR * bR - aR * aR);
-    r.w[1] = v8_set(1) - r.w[0] - r.w[2];
+    r.w[0] = vd_set(0.5) * sL * (aL * aL - bL * bL);
+    r.w[2] = vd_set(0.5) * sR * (bR * bR - aR * aR);
+    r.w[1] = vd_set(1) - r.w[0] - r.w[2];
     r.g[0] = sL * (aL - bL);
     r.g[2] = sR * (bR - aR);
     r.g[1] = zero - r.g[0] - r.g[2];
@@ -69,17 +69,17 @@ LANE_INLINE knots knots_at(const axis *a, int i)
     return (knots){ { a->edge[i - 1], a->edge[i], a->edge[i + 1], a->edge[i + 2] } };
 }
 
-LANE_INLINE weights weights_bspline(const knots *q, v8 x)
+LANE_INLINE weights weights_bspline(const knots *q, vd x)
 {
     const double h = q->e[2] - q->e[1], below = q->e[2] - q->e[0], above = q->e[3] - q->e[1];
-    const v8 from = x - q->e[1], to = q->e[2] - x;
+    const vd from = x - q->e[1], to = q->e[2] - x;
     weights r;
     r.w[0] = to * to * (1 / (h * below));
     r.w[2] = from * from * (1 / (h * above));
-    r.w[1] = v8_set(1) - r.w[0] - r.w[2];
+    r.w[1] = vd_set(1) - r.w[0] - r.w[2];
     r.g[0] = to * (-2 / (h * below));
     r.g[2] = from * (2 / (h * above));
-    r.g[1] = v8_set(0) - r.g[0] - r.g[2];
+    r.g[1] = vd_set(0) - r.g[0] - r.g[2];
     for (int k = 0; k < 3; k++) r.d[k] = 0.5 * (q->e[k] + q->e[k + 1]) - x;
     return r;
 }
@@ -121,10 +121,11 @@ LANE_INLINE cell_grid cell_grid_at(const mpm *m, const brick *b, int cell)
     return g;
 }
 
-LANE_INLINE weights cell_weights(const cell_grid *g, int k, const block *q)
+/* Along axis k, for the part of the block that begins with `lane`. */
+LANE_INLINE weights cell_weights(const cell_grid *g, int k, const block *q, int lane)
 {
-    return g->bspline ? weights_bspline(&g->knots[k], v8_load(q->x[k]))
-                      : weights_gimp(&g->axis[k], v8_load(q->x[k]), v8_load(q->half[k]));
+    const vd x = vd_load(&q->x[k][lane]);
+    return g->bspline ? weights_bspline(&g->knots[k], x) : weights_gimp(&g->axis[k], x, vd_load(&q->half[k][lane]));
 }
 
 /* First of the 27 nodes of a cell in its brick's 6 x 6 x 6. */

@@ -1,120 +1,114 @@
-/* Eight particles at a time: one GCC vector of eight doubles, whatever the machine's own width is. */
+/* Lanes: particles that are worked on together.  A block has eight; an instruction set takes them WIDTH at a time, as many
+ * as its vectors have doubles, so a block is eight, four or two `vd` wide parts of one, two or four.  The same source for
+ * all: gcc and clang turn comparisons and selects of a machine's own width into its compare and blend, but take wider
+ * vectors apart into single numbers. */
 #ifndef BREECH_MPM_LANES_H
 #define BREECH_MPM_LANES_H
 
+#include <math.h>
 #include <stdint.h>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
 
+#if defined(__AVX512DQ__)
+enum { WIDTH = 8 };
+#elif defined(__AVX2__)
+enum { WIDTH = 4 };
+#else
+enum { WIDTH = 2 };
+#endif
 enum { LANES = 8 };
 
-typedef double v8 __attribute__((vector_size(64), aligned(64)));
-typedef int64_t m8 __attribute__((vector_size(64), aligned(64))); /* all ones where true */
+typedef double vd __attribute__((vector_size(8 * WIDTH)));
+typedef int64_t vm __attribute__((vector_size(8 * WIDTH))); /* all ones where true */
 
 #define LANE_INLINE static inline __attribute__((always_inline))
 
-LANE_INLINE v8 v8_set(double a)
+/* Literals: gcc takes a loop that fills a vector apart. */
+LANE_INLINE vd vd_set(double a)
 {
-    return (v8){ a, a, a, a, a, a, a, a };
-}
-
-LANE_INLINE v8 v8_load(const double *p) /* 64-byte aligned */
-{
-    return *(const v8 *)(const void *)p;
-}
-
-LANE_INLINE void v8_store(double *p, v8 a)
-{
-    *(v8 *)(void *)p = a;
-}
-
-/* gcc splits the arithmetic of v8 into the vectors a machine has, but takes comparisons and masks apart into single
- * numbers: where vectors are narrower those work on the parts. */
-#if defined(__AVX512F__)
-enum { LANES_PART = 8 };
-#elif defined(__AVX__)
-enum { LANES_PART = 4 };
+#if defined(__AVX512DQ__)
+    return (vd){ a, a, a, a, a, a, a, a };
+#elif defined(__AVX2__)
+    return (vd){ a, a, a, a };
 #else
-enum { LANES_PART = 2 };
+    return (vd){ a, a };
 #endif
-typedef double part_v __attribute__((vector_size(8 * LANES_PART)));
-typedef int64_t part_m __attribute__((vector_size(8 * LANES_PART)));
-typedef union {
-    v8 v;
-    m8 m;
-    part_v pv[LANES / LANES_PART];
-    part_m pm[LANES / LANES_PART];
-} lane_parts;
-
-LANE_INLINE m8 v8_less(v8 a, v8 b)
-{
-    lane_parts x = { .v = a }, y = { .v = b };
-    for (int i = 0; i < LANES / LANES_PART; i++) x.pm[i] = x.pv[i] < y.pv[i];
-    return x.m;
 }
 
-LANE_INLINE m8 v8_at_least(v8 a, v8 b) /* a >= b */
+LANE_INLINE vd vd_load(const double *p) /* aligned like a vd */
 {
-    lane_parts x = { .v = a }, y = { .v = b };
-    for (int i = 0; i < LANES / LANES_PART; i++) x.pm[i] = x.pv[i] >= y.pv[i];
-    return x.m;
+    return *(const vd *)(const void *)p;
 }
 
-LANE_INLINE m8 m8_and(m8 a, m8 b)
+LANE_INLINE void vd_store(double *p, vd a)
 {
-    lane_parts x = { .m = a }, y = { .m = b };
-    for (int i = 0; i < LANES / LANES_PART; i++) x.pm[i] &= y.pm[i];
-    return x.m;
+    *(vd *)(void *)p = a;
 }
 
-LANE_INLINE m8 m8_or(m8 a, m8 b)
+LANE_INLINE vm vd_less(vd a, vd b)
 {
-    lane_parts x = { .m = a }, y = { .m = b };
-    for (int i = 0; i < LANES / LANES_PART; i++) x.pm[i] |= y.pm[i];
-    return x.m;
+    return a < b;
 }
 
-LANE_INLINE v8 v8_select(m8 mask, v8 yes, v8 no)
+LANE_INLINE vd vd_select(vm mask, vd yes, vd no)
 {
-    lane_parts m = { .m = mask }, y = { .v = yes }, n = { .v = no };
-    for (int i = 0; i < LANES / LANES_PART; i++) m.pm[i] = (y.pm[i] & m.pm[i]) | (n.pm[i] & ~m.pm[i]);
-    return m.v;
+    return (vd)(((vm)yes & mask) | ((vm)no & ~mask));
 }
 
-LANE_INLINE v8 v8_min(v8 a, v8 b)
+LANE_INLINE vd vd_where(vm mask, vd yes) /* else zero */
 {
-    lane_parts x = { .v = a }, y = { .v = b };
-    for (int i = 0; i < LANES / LANES_PART; i++) {
-        const part_m less = x.pv[i] < y.pv[i];
-        x.pm[i] = (x.pm[i] & less) | (y.pm[i] & ~less);
-    }
-    return x.v;
+    return (vd)((vm)yes & mask);
 }
 
-LANE_INLINE v8 v8_max(v8 a, v8 b)
+LANE_INLINE vd vd_min(vd a, vd b)
 {
-    lane_parts x = { .v = a }, y = { .v = b };
-    for (int i = 0; i < LANES / LANES_PART; i++) {
-        const part_m more = x.pv[i] > y.pv[i];
-        x.pm[i] = (x.pm[i] & more) | (y.pm[i] & ~more);
-    }
-    return x.v;
+    return vd_select(a < b, a, b);
 }
 
-LANE_INLINE double v8_largest(v8 a)
+LANE_INLINE vd vd_max(vd a, vd b)
+{
+    return vd_select(a > b, a, b);
+}
+
+LANE_INLINE double vd_largest(vd a)
 {
     double r = a[0];
-    for (int l = 1; l < LANES; l++) r = a[l] > r ? a[l] : r;
+    for (int l = 1; l < WIDTH; l++) r = a[l] > r ? a[l] : r;
     return r;
 }
 
-LANE_INLINE double v8_sum(v8 a) /* one fixed order on every machine */
+LANE_INLINE double vd_sum(vd a)
 {
-    return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+    double r[WIDTH];
+    for (int l = 0; l < WIDTH; l++) r[l] = a[l];
+    for (int n = WIDTH / 2; n > 0; n /= 2)
+        for (int l = 0; l < n; l++) r[l] += r[l + n];
+    return r[0];
+}
+
+/* Bit l: lane l is true. */
+LANE_INLINE int vm_bits(vm a)
+{
+#if defined(__AVX512DQ__)
+    return _mm512_movepi64_mask((__m512i)a);
+#elif defined(__AVX2__)
+    return _mm256_movemask_pd((__m256d)a);
+#elif defined(__x86_64__)
+    return _mm_movemask_pd((__m128d)a);
+#else
+    int r = 0;
+    for (int l = 0; l < WIDTH; l++) r |= a[l] ? 1 << l : 0;
+    return r;
+#endif
 }
 
 /* r[row][column] -> r[column][row] */
-LANE_INLINE void v8_transpose(v8 r[8])
+LANE_INLINE void vd_transpose(vd r[WIDTH])
 {
-    v8 a[8], b[8];
+#if defined(__AVX512DQ__)
+    vd a[8], b[8];
     for (int k = 0; k < 4; k++) {
         a[2 * k] = __builtin_shufflevector(r[2 * k], r[2 * k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
         a[2 * k + 1] = __builtin_shufflevector(r[2 * k], r[2 * k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
@@ -128,74 +122,55 @@ LANE_INLINE void v8_transpose(v8 r[8])
         r[k] = __builtin_shufflevector(b[k], b[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
         r[k + 4] = __builtin_shufflevector(b[k], b[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
     }
-}
-
-/* ---- sqrt, exp, log of eight lanes: glibc's vector functions by their published names (x86 vector function ABI) ---- */
-
-#include <math.h>
-
-LANE_INLINE v8 v8_sqrt(v8 a)
-{
-    double t[LANES] __attribute__((aligned(64)));
-    v8_store(t, a);
-    for (int l = 0; l < LANES; l++) t[l] = sqrt(t[l]);
-    return v8_load(t);
-}
-
-#if defined(__AVX512F__)
-v8 _ZGVeN8v_exp(v8);
-v8 _ZGVeN8v_log(v8);
-LANE_INLINE v8 v8_exp(v8 a)
-{
-    return _ZGVeN8v_exp(a);
-}
-LANE_INLINE v8 v8_log(v8 a)
-{
-    return _ZGVeN8v_log(a);
-}
-#elif defined(__x86_64__)
-#if defined(__AVX2__)
-enum { LANES_MATH = 4 };
-typedef double v_math __attribute__((vector_size(32)));
-v_math _ZGVdN4v_exp(v_math);
-v_math _ZGVdN4v_log(v_math);
-#define V_MATH_EXP _ZGVdN4v_exp
-#define V_MATH_LOG _ZGVdN4v_log
+#elif defined(__AVX2__)
+    vd a[4];
+    for (int k = 0; k < 2; k++) {
+        a[2 * k] = __builtin_shufflevector(r[2 * k], r[2 * k + 1], 0, 4, 2, 6);
+        a[2 * k + 1] = __builtin_shufflevector(r[2 * k], r[2 * k + 1], 1, 5, 3, 7);
+    }
+    for (int k = 0; k < 2; k++) {
+        r[k] = __builtin_shufflevector(a[k], a[k + 2], 0, 1, 4, 5);
+        r[k + 2] = __builtin_shufflevector(a[k], a[k + 2], 2, 3, 6, 7);
+    }
 #else
-enum { LANES_MATH = 2 };
-typedef double v_math __attribute__((vector_size(16)));
-v_math _ZGVbN2v_exp(v_math);
-v_math _ZGVbN2v_log(v_math);
-#define V_MATH_EXP _ZGVbN2v_exp
-#define V_MATH_LOG _ZGVbN2v_log
+    const vd a = r[0];
+    r[0] = __builtin_shufflevector(a, r[1], 0, 2);
+    r[1] = __builtin_shufflevector(a, r[1], 1, 3);
 #endif
-typedef union {
-    v8 all;
-    v_math part[LANES / LANES_MATH];
-} v8_parts;
-LANE_INLINE v8 v8_exp(v8 a)
-{
-    v8_parts u = { a };
-    for (int i = 0; i < LANES / LANES_MATH; i++) u.part[i] = V_MATH_EXP(u.part[i]);
-    return u.all;
 }
-LANE_INLINE v8 v8_log(v8 a)
+
+/* ---- sqrt, exp, log: glibc's vector functions by their published names (x86 vector function ABI) ---- */
+
+LANE_INLINE vd vd_sqrt(vd a)
 {
-    v8_parts u = { a };
-    for (int i = 0; i < LANES / LANES_MATH; i++) u.part[i] = V_MATH_LOG(u.part[i]);
-    return u.all;
-}
-#else
-LANE_INLINE v8 v8_exp(v8 a)
-{
-    for (int l = 0; l < LANES; l++) a[l] = exp(a[l]);
+    for (int l = 0; l < WIDTH; l++) a[l] = sqrt(a[l]);
     return a;
 }
-LANE_INLINE v8 v8_log(v8 a)
-{
-    for (int l = 0; l < LANES; l++) a[l] = log(a[l]);
-    return a;
-}
+
+#if defined(__x86_64__)
+#if defined(__AVX512DQ__)
+#define VD_MATH(name) _ZGVeN8v_##name
+#elif defined(__AVX2__)
+#define VD_MATH(name) _ZGVdN4v_##name
+#else
+#define VD_MATH(name) _ZGVbN2v_##name
 #endif
+vd VD_MATH(exp)(vd);
+vd VD_MATH(log)(vd);
+#define VD_FUNCTION(name)          \
+    LANE_INLINE vd vd_##name(vd a) \
+    {                              \
+        return VD_MATH(name)(a);   \
+    }
+#else
+#define VD_FUNCTION(name)                                  \
+    LANE_INLINE vd vd_##name(vd a)                         \
+    {                                                      \
+        for (int l = 0; l < WIDTH; l++) a[l] = name(a[l]); \
+        return a;                                          \
+    }
+#endif
+VD_FUNCTION(exp)
+VD_FUNCTION(log)
 
 #endif

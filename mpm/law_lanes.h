@@ -1,4 +1,4 @@
-/* The material law of eight particles of one body over one step: strength (M-1), damage (M-2), pressure (M-3), temperature
+/* The material law of some particles of one body over one step: strength (M-1), damage (M-2), pressure (M-3), temperature
  * (M-4), viscosity (M-5).  Constants are derived in law.c; the kernels include this once an instruction set.
  * To change a law: its function here, its constants in law.h and law.c, its closed answer in tests/test_mpm_material.c. */
 #ifndef BREECH_MPM_LAW_LANES_H
@@ -13,72 +13,72 @@ typedef struct {
     double traction[3];
 } step_of;
 
-/* What a block books, a lane a particle. */
+/* What is booked of some particles, a lane each. */
 typedef struct {
-    v8 heat, heat_viscous, work_external, rate, mises, clamp_p, clamp_rho;
+    vd heat, heat_viscous, work_external, rate, mises, clamp_p, clamp_rho;
 } lane_sums;
 
-LANE_INLINE v8 clamp01(v8 x)
+LANE_INLINE vd clamp01(vd x)
 {
-    return v8_min(v8_max(x, v8_set(0)), v8_set(1));
+    return vd_min(vd_max(x, vd_set(0)), vd_set(1));
 }
 
 /* x^n, zero at zero */
-LANE_INLINE v8 power(v8 x, double n)
+LANE_INLINE vd power(vd x, double n)
 {
-    const v8 tiny = v8_set(1e-14), y = v8_exp(n * v8_log(v8_max(x, tiny)));
-    return v8_select(v8_less(tiny, x), y, v8_set(0));
+    const vd tiny = vd_set(1e-14), y = vd_exp(n * vd_log(vd_max(x, tiny)));
+    return vd_select(vd_less(tiny, x), y, vd_set(0));
 }
 
 /*   sigma_y = (A + B e^n) (1 + C ln max(edot/edot0, 1)) (1 - T*^m)                  (M-1) [Pa]; zero when molten */
-LANE_INLINE v8 flow_stress(const law *k, v8 e, v8 log_rate, v8 T_star)
+LANE_INLINE vd flow_stress(const law *k, vd e, vd log_rate, vd T_star)
 {
     return (k->A + k->B * power(e, k->n)) * (1 + k->C * log_rate) * (1 - power(T_star, k->m));
 }
 
 /*   e_f = (D1 + D2 exp(D3 s*)) (1 + D4 ln e*) (1 + D5 T*)                            (M-2); s* capped at 1.5, e_f floored */
-LANE_INLINE v8 failure_strain(const law *k, v8 triaxiality, v8 log_rate, v8 T_star)
+LANE_INLINE vd failure_strain(const law *k, vd triaxiality, vd log_rate, vd T_star)
 {
-    const v8 x = v8_max(v8_min(triaxiality, v8_set(1.5)), v8_set(-5));
-    const v8 f = (k->D1 + k->D2 * v8_exp(k->D3 * x)) * (1 + k->D4 * log_rate) * (1 + k->D5 * T_star);
-    return v8_max(f, v8_set(0.01));
+    const vd x = vd_max(vd_min(triaxiality, vd_set(1.5)), vd_set(-5));
+    const vd f = (k->D1 + k->D2 * vd_exp(k->D3 * x)) * (1 + k->D4 * log_rate) * (1 + k->D5 * T_star);
+    return vd_max(f, vd_set(0.01));
 }
 
 /*   T = T_r + (e - e_cold - stored)/c_v, with a plateau while melting                (M-4) [K] */
-LANE_INLINE v8 temperature(const law *k, v8 e, v8 mu, v8 stored)
+LANE_INLINE vd temperature(const law *k, vd e, vd mu, vd stored)
 {
-    const v8 zero = v8_set(0), x = v8_max(mu, zero);
-    const v8 squeezed = x * x * (k->cold[0] + x * (k->cold[1] + x * (k->cold[2] + x * (k->cold[3] + x * k->cold[4]))));
-    const v8 cold = v8_select(v8_less(zero, mu), squeezed, 0.5 * k->c0 * k->c0 * mu * mu);
+    const vd zero = vd_set(0), x = vd_max(mu, zero);
+    const vd squeezed = x * x * (k->cold[0] + x * (k->cold[1] + x * (k->cold[2] + x * (k->cold[3] + x * k->cold[4]))));
+    const vd cold = vd_select(vd_less(zero, mu), squeezed, 0.5 * k->c0 * k->c0 * mu * mu);
     const double melt = k->c_v * (k->T_m - k->T_r);
-    const v8 thermal = e - cold - stored;
-    const v8 beyond = v8_max(thermal - melt - k->latent, zero);
-    return v8_max(k->T_r + (v8_min(thermal, v8_set(melt)) + beyond) * k->inv_c, v8_set(1));
+    const vd thermal = e - cold - stored;
+    const vd beyond = vd_max(thermal - melt - k->latent, zero);
+    return vd_max(k->T_r + (vd_min(thermal, vd_set(melt)) + beyond) * k->inv_c, vd_set(1));
 }
 
 /*   p_H = rho0 c0^2 mu [1 + (1 - g0/2) mu] / [1 - (s-1) mu]^2, mu >= 0;   rho0 c0^2 mu below;   p = p_H + g0 rho_e e   (M-3)
  * rho_e = rho0 in compression, rho in expansion: with rho0 there too, hot debris would keep its full thermal pressure
  * however thin it has become, and burst. */
-LANE_INLINE v8 hugoniot_pressure(const law *k, v8 mu)
+LANE_INLINE vd hugoniot_pressure(const law *k, vd mu)
 {
-    const v8 d = 1 - k->s1 * mu, zero = v8_set(0);
-    const v8 compressed = mu * (1 + (1 - 0.5 * k->g) * mu) / (d * d);
-    return k->K0 * v8_select(v8_less(zero, mu), compressed, mu);
+    const vd d = 1 - k->s1 * mu, zero = vd_set(0);
+    const vd compressed = mu * (1 + (1 - 0.5 * k->g) * mu) / (d * d);
+    return k->K0 * vd_select(vd_less(zero, mu), compressed, mu);
 }
 
 /* Longitudinal wave speed: K = K0 + K' p in compression, c0 in expansion; a failed point has no shear stiffness [m/s] */
-LANE_INLINE v8 sound_speed(const law *k, v8 rho, v8 p, m8 failed)
+LANE_INLINE vd sound_speed(const law *k, vd rho, vd p, vm failed)
 {
-    const v8 zero = v8_set(0);
-    const v8 bulk = (k->K0 + k->K_slope * v8_max(p, zero)) / v8_max(rho, v8_set(k->rho0));
-    return v8_sqrt(bulk + v8_select(failed, zero, 4.0 / 3.0 * k->G / rho));
+    const vd zero = vd_set(0);
+    const vd bulk = (k->K0 + k->K_slope * vd_max(p, zero)) / vd_max(rho, vd_set(k->rho0));
+    return vd_sqrt(bulk + vd_select(failed, zero, 4.0 / 3.0 * k->G / rho));
 }
 
 /* Elastic predictor with the Jaumann rate:  s' = W s - s W + 2 G dev D  */
-LANE_INLINE void predict(const law *k, double dt, const v8 L[9], v8 tr, v8 s[6])
+LANE_INLINE void predict(const law *k, double dt, const vd L[9], vd tr, vd s[6])
 {
-    const v8 w_xy = 0.5 * (L[1] - L[3]), w_xz = 0.5 * (L[2] - L[6]), w_yz = 0.5 * (L[5] - L[7]), third = tr / 3.0;
-    const v8 xx = s[0], yy = s[1], zz = s[2], xy = s[3], xz = s[4], yz = s[5];
+    const vd w_xy = 0.5 * (L[1] - L[3]), w_xz = 0.5 * (L[2] - L[6]), w_yz = 0.5 * (L[5] - L[7]), third = tr / 3.0;
+    const vd xx = s[0], yy = s[1], zz = s[2], xy = s[3], xz = s[4], yz = s[5];
     const double G2 = 2 * k->G;
     s[0] = xx + dt * (2 * (w_xy * xy + w_xz * xz) + G2 * (L[0] - third));
     s[1] = yy + dt * (2 * (w_yz * yz - w_xy * xy) + G2 * (L[4] - third));
@@ -88,93 +88,95 @@ LANE_INLINE void predict(const law *k, double dt, const v8 L[9], v8 tr, v8 s[6])
     s[5] = yz + dt * (w_yz * (zz - yy) - w_xy * xz - w_xz * xy + k->G * (L[5] + L[7]));
 }
 
-LANE_INLINE v8 stress_power(const v8 s[6], const v8 L[9])
+LANE_INLINE vd stress_power(const vd s[6], const vd L[9])
 {
     return s[0] * L[0] + s[1] * L[4] + s[2] * L[8] + s[3] * (L[1] + L[3]) + s[4] * (L[2] + L[6]) + s[5] * (L[5] + L[7]);
 }
 
-LANE_INLINE v8 square_norm(const v8 s[6])
+LANE_INLINE vd square_norm(const vd s[6])
 {
     return s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
 }
 
 /* sqrt(2/3 dev D : dev D) [1/s] */
-LANE_INLINE v8 shear_rate(const v8 L[9], v8 tr)
+LANE_INLINE vd shear_rate(const vd L[9], vd tr)
 {
-    const v8 a = L[1] + L[3], b = L[2] + L[6], c = L[5] + L[7];
-    const v8 D2 = L[0] * L[0] + L[4] * L[4] + L[8] * L[8] + 0.5 * (a * a + b * b + c * c) - tr * tr / 3.0;
-    return v8_sqrt(2.0 / 3.0 * v8_max(D2, v8_set(0)));
+    const vd a = L[1] + L[3], b = L[2] + L[6], c = L[5] + L[7];
+    const vd D2 = L[0] * L[0] + L[4] * L[4] + L[8] * L[8] + 0.5 * (a * a + b * b + c * c) - tr * tr / 3.0;
+    return vd_sqrt(2.0 / 3.0 * vd_max(D2, vd_set(0)));
 }
 
 /* (M-5)  q = rho l |tr D| (q1 c + q2 l |tr D|) in compression, l the cell's size in the direction that is compressed */
-LANE_INLINE v8 viscosity(const law *k, const step_of *step, const v8 L[9], v8 tr, v8 rho, v8 sound)
+LANE_INLINE vd viscosity(const law *k, const step_of *step, const vd L[9], vd tr, vd rho, vd sound)
 {
-    const v8 xx = L[0] * L[0], yy = L[4] * L[4], zz = L[8] * L[8];
+    const vd xx = L[0] * L[0], yy = L[4] * L[4], zz = L[8] * L[8];
     const double *h = step->h;
-    const v8 size = v8_sqrt((xx * (h[0] * h[0]) + yy * (h[1] * h[1]) + zz * (h[2] * h[2])) / (xx + yy + zz + 1e-300));
-    const v8 squeeze = v8_max(-tr, v8_set(0)) * size;
+    const vd size = vd_sqrt((xx * (h[0] * h[0]) + yy * (h[1] * h[1]) + zz * (h[2] * h[2])) / (xx + yy + zz + 1e-300));
+    const vd squeeze = vd_max(-tr, vd_set(0)) * size;
     return rho * squeeze * (k->q1 * sound + k->q2 * squeeze);
 }
 
-/* Stress, energy and temperature over a step.  The stress power is the mean of its values before and after, the
+/* Stress, energy and temperature of the part of a block that begins with `lane`, over a step.  The stress power is the mean of its values before and after, the
  * pressure is solved with the energy it changes, and a failed point's tension is removed before that energy. */
-LANE_INLINE void law_step(const law *k, const step_of *step, const v8 L[9], v8 tr, block *q, lane_sums *sum)
+LANE_INLINE void law_step(const law *k, const step_of *step, const vd L[9], block *q, int lane, lane_sums *sum)
 {
-    const v8 zero = v8_set(0), one = v8_set(1);
+    const vd zero = vd_set(0), one = vd_set(1);
+    const vd tr = L[0] + L[4] + L[8];
     const double dt = step->dt;
-    const v8 rho0 = v8_load(q->rho[0]), p0 = v8_load(q->p[0]), ep0 = v8_load(q->ep[0]), damage0 = v8_load(q->damage[0]);
-    const m8 failed = v8_at_least(damage0, one);
-    const v8 wanted = rho0 / (1 + dt * tr), rho = v8_min(v8_max(wanted, v8_set(k->rho_min)), v8_set(k->rho_max));
-    v8 s[6];
-    for (int i = 0; i < 6; i++) s[i] = v8_load(q->s[i]);
+    const vd rho0 = vd_load(&q->rho[0][lane]), p0 = vd_load(&q->p[0][lane]), ep0 = vd_load(&q->ep[0][lane]),
+             damage0 = vd_load(&q->damage[0][lane]);
+    const vm failed = ~vd_less(damage0, one);
+    const vd wanted = rho0 / (1 + dt * tr), rho = vd_min(vd_max(wanted, vd_set(k->rho_min)), vd_set(k->rho_max));
+    vd s[6];
+    for (int i = 0; i < 6; i++) s[i] = vd_load(&q->s[i][lane]);
 
-    const v8 power_before = (stress_power(s, L) - p0 * tr) / rho0;
+    const vd power_before = (stress_power(s, L) - p0 * tr) / rho0;
     predict(k, dt, L, tr, s);
-    const v8 trial = v8_sqrt(1.5 * square_norm(s));
-    const v8 T_star = clamp01((v8_load(q->T[0]) - k->T_r) * k->inv_T_range);
-    const v8 log_rate = v8_log(v8_max(shear_rate(L, tr) * k->inv_rate0, one));
-    const v8 yield = v8_select(failed, zero, flow_stress(k, ep0, log_rate, T_star));
-    const v8 mises = v8_min(trial, yield), scale = mises / v8_max(trial, v8_set(1e-30));
-    const v8 plastic = v8_select(failed, zero, (trial - mises) * (1 / (3 * k->G)));
+    const vd trial = vd_sqrt(1.5 * square_norm(s));
+    const vd T_star = clamp01((vd_load(&q->T[0][lane]) - k->T_r) * k->inv_T_range);
+    const vd log_rate = vd_log(vd_max(shear_rate(L, tr) * k->inv_rate0, one));
+    const vd yield = vd_select(failed, zero, flow_stress(k, ep0, log_rate, T_star));
+    const vd mises = vd_min(trial, yield), scale = mises / vd_max(trial, vd_set(1e-30));
+    const vd plastic = vd_select(failed, zero, (trial - mises) * (1 / (3 * k->G)));
     for (int i = 0; i < 6; i++) {
         s[i] *= scale;
-        v8_store(q->s[i], s[i]);
+        vd_store(&q->s[i][lane], s[i]);
     }
-    const v8 mu = rho * (1 / k->rho0) - 1;
-    const v8 sound = sound_speed(k, rho, p0, failed);
-    const v8 q_v = viscosity(k, step, L, tr, rho, sound);
-    const v8 half = 0.5 * dt * tr / rho;
-    const v8 slope = k->g * v8_min(rho, v8_set(k->rho0));
-    v8 e = v8_load(q->e[0]) + sum->heat + 0.5 * dt * (power_before + stress_power(s, L) / rho) - half * q_v;
-    const v8 p_free = (hugoniot_pressure(k, mu) + slope * e) / (1 + slope * half);
-    const m8 torn = m8_and(failed, v8_less(p_free, zero));
-    const v8 p = v8_select(torn, zero, p_free);
+    const vd mu = rho * (1 / k->rho0) - 1;
+    const vd sound = sound_speed(k, rho, p0, failed);
+    const vd q_v = viscosity(k, step, L, tr, rho, sound);
+    const vd half = 0.5 * dt * tr / rho;
+    const vd slope = k->g * vd_min(rho, vd_set(k->rho0));
+    vd e = vd_load(&q->e[0][lane]) + sum->heat + 0.5 * dt * (power_before + stress_power(s, L) / rho) - half * q_v;
+    const vd p_free = (hugoniot_pressure(k, mu) + slope * e) / (1 + slope * half);
+    const vm torn = failed & vd_less(p_free, zero);
+    const vd p = vd_select(torn, zero, p_free);
     e -= half * p;
 
     if (k->D1 >= 0) {
-        const v8 e_f = failure_strain(k, -p / (mises + 1e3), log_rate, T_star);
-        v8_store(q->damage[0], v8_min(damage0 + plastic / e_f, one));
+        const vd e_f = failure_strain(k, -p / (mises + 1e3), log_rate, T_star);
+        vd_store(&q->damage[0][lane], vd_min(damage0 + plastic / e_f, one));
     }
-    const v8 stored = square_norm(s) / (4 * k->G * rho);
-    const v8 T = k->plastic_heat ? v8_load(q->T[0]) + k->chi * mises * plastic / rho * k->inv_c
-                                 : temperature(k, e, v8_select(failed, v8_max(mu, zero), mu),
+    const vd stored = square_norm(s) / (4 * k->G * rho);
+    const vd T = k->plastic_heat ? vd_load(&q->T[0][lane]) + k->chi * mises * plastic / rho * k->inv_c
+                                 : temperature(k, e, vd_select(failed, vd_max(mu, zero), mu),
                                                stored); /* dust was stretched at no cost */
-    v8_store(q->T[0], T);
-    v8_store(q->ep[0], ep0 + plastic);
-    v8_store(q->flow[0], yield);
-    v8_store(q->e[0], e);
-    v8_store(q->rho[0], rho);
-    v8_store(q->p[0], p + q_v);
-    v8 rate = zero;
+    vd_store(&q->T[0][lane], T);
+    vd_store(&q->ep[0][lane], ep0 + plastic);
+    vd_store(&q->flow[0][lane], yield);
+    vd_store(&q->e[0][lane], e);
+    vd_store(&q->rho[0][lane], rho);
+    vd_store(&q->p[0][lane], p + q_v);
+    vd rate = zero;
     for (int i = 0; i < 3; i++) {
-        const v8 v = v8_load(q->v[i]);
-        rate = v8_max(rate, (sound + v8_max(v, -v)) * (1 / step->h[i]));
+        const vd v = vd_load(&q->v[i][lane]);
+        rate = vd_max(rate, (sound + vd_max(v, -v)) * (1 / step->h[i]));
     }
     sum->rate = rate;
     sum->mises = mises;
     sum->heat_viscous = -dt * tr / rho * q_v;
-    sum->clamp_p = v8_select(torn, one, zero);
-    sum->clamp_rho = v8_select(m8_or(v8_less(wanted, rho), v8_less(rho, wanted)), one, zero);
+    sum->clamp_p = vd_select(torn, one, zero);
+    sum->clamp_rho = vd_select(vd_less(wanted, rho) | vd_less(rho, wanted), one, zero);
 }
 
 #endif

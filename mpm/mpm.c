@@ -139,7 +139,7 @@ static double dense_particles(const mpm *m)
     for (int i = 0; i < m->bricks_used; i++)
         for (int c = 0; c < BRICK_CELLS; c++)
             for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next)
-                volume += v8_sum(v8_load(m->blocks[q].mass[0]) / v8_load(m->blocks[q].rho[0]));
+                for (int l = 0; l < LANES; l++) volume += m->blocks[q].mass[0][l] / m->blocks[q].rho[0][l];
     return volume / v;
 }
 

@@ -39,7 +39,7 @@ static void add_lines(double (*to)[LINE], double (*const from)[LINE], int step)
             for (int i = 0; i < n[0]; i++) {
                 double *a = to[cell_index(h[0] + i, h[1] + j, h[2] + k)];
                 const double *b = from[((t[2] + k) * HALO + t[1] + j) * HALO + t[0] + i];
-                v8_store(a, v8_load(a) + v8_load(b));
+                for (int q = 0; q < LINE; q += WIDTH) vd_store(a + q, vd_load(a + q) + vd_load(b + q));
             }
 }
 

@@ -24,16 +24,21 @@ static void balance_block(void *user, const mpm *m, int index)
 {
     mpm_ledger *l = user;
     const block *q = &m->blocks[index];
-    const v8 mass = v8_load(q->mass[0]);
-    v8 square = v8_set(0);
-    for (int k = 0; k < 3; k++) {
-        const v8 v = v8_load(q->v[k]);
-        square += v * v;
-        l->momentum[k] += v8_sum(mass * v);
+    double mass = 0, kinetic = 0, internal = 0, momentum[3] = { 0, 0, 0 };
+    for (int i = 0; i < LANES; i++) {
+        const double M = q->mass[0][i];
+        double square = 0;
+        for (int k = 0; k < 3; k++) {
+            const double v = q->v[k][i];
+            square += v * v;
+            momentum[k] += M * v;
+        }
+        mass += M;
+        kinetic += M * (0.5 * square + q->ka[0][i]);
+        internal += M * q->e[0][i];
     }
-    l->mass += v8_sum(mass);
-    l->kinetic += v8_sum(mass * (0.5 * square + v8_load(q->ka[0])));
-    l->internal += v8_sum(mass * v8_load(q->e[0]));
+    for (int k = 0; k < 3; k++) l->momentum[k] += momentum[k];
+    l->mass += mass, l->kinetic += kinetic, l->internal += internal;
 }
 
 static double norm(const double *a)

@@ -121,26 +121,26 @@ static void test_refused(void **state)
 
 typedef struct {
     int cell;
-    double x[LANES], half[LANES];
+    double x[WIDTH], half[WIDTH];
     cell_axis c;
     knots k;
 } sample;
 
-/* Eight particles in one cell; domains within what the solver allows: inside the cells on either side. */
+/* Particles in one cell; domains within what the solver allows: inside the cells on either side. */
 static sample any_sample(const axis *a)
 {
     sample s = { .cell = 2 + rand() % (a->last - 2) };
     s.c = cell_axis_at(a, s.cell), s.k = knots_at(a, s.cell);
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < WIDTH; l++) {
         s.x[l] = uniform(a->edge[s.cell], a->edge[s.cell + 1]);
         s.half[l] = uniform(0.05, 0.5) * fmin(axis_left(a, s.cell), axis_right(a, s.cell));
     }
     return s;
 }
 
-static v8 lanes(const double *p)
+static vd lanes(const double *p)
 {
-    v8 r;
+    vd r;
     memcpy(&r, p, sizeof r);
     return r;
 }
@@ -149,7 +149,7 @@ static v8 lanes(const double *p)
 static void check_weights(const sample *s, const weights *w)
 {
     const double h = s->k.e[2] - s->k.e[1], rounding = 2e-15 * (1 + fmax(fabs(s->k.e[0]), fabs(s->k.e[3])) / h);
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < WIDTH; l++) {
         double one = 0, zero = 0, place = 0, slope = 0;
         for (int i = 0; i < 3; i++) {
             one += w->w[i][l], zero += w->g[i][l];
@@ -172,7 +172,7 @@ static void test_weights(void **state)
         const mpm_axis spec = any_axis();
         axis a;
         assert_ok(axis_make(&spec, 'x', &a));
-        for (int q = 0; q < 10; q++) {
+        for (int q = 0; q < 40; q++) {
             const sample s = any_sample(&a);
             const weights gimp = weights_gimp(&s.c, lanes(s.x), lanes(s.half));
             const weights spline = weights_bspline(&s.k, lanes(s.x));
@@ -195,7 +195,7 @@ static void test_derivative(void **state)
     for (int q = 0; q < 200; q++) {
         sample s = any_sample(&a), up = s, down = s;
         const double h = s.k.e[2] - s.k.e[1], step = 1e-4 * h;
-        for (int l = 0; l < LANES; l++) {
+        for (int l = 0; l < WIDTH; l++) {
             s.half[l] = up.half[l] = down.half[l] = 0.2 * s.c.widest;
             s.x[l] = s.c.x[1] + uniform(0.3, 0.6) * s.c.widest; /* a piece without a kink for either basis */
             up.x[l] = s.x[l] + step, down.x[l] = s.x[l] - step;
@@ -227,9 +227,9 @@ static void test_continuity(void **state)
                      half = 0.24 * fmin(axis_right(&a, i), fmin(axis_left(&a, i), axis_right(&a, i + 1)));
         const cell_axis c[2] = { cell_axis_at(&a, i), cell_axis_at(&a, i + 1) };
         const knots k[2] = { knots_at(&a, i), knots_at(&a, i + 1) };
-        const weights g[2] = { weights_gimp(&c[0], v8_set(x), v8_set(half)),
-                               weights_gimp(&c[1], v8_set(x), v8_set(half)) };
-        const weights b[2] = { weights_bspline(&k[0], v8_set(x)), weights_bspline(&k[1], v8_set(x)) };
+        const weights g[2] = { weights_gimp(&c[0], vd_set(x), vd_set(half)),
+                               weights_gimp(&c[1], vd_set(x), vd_set(half)) };
+        const weights b[2] = { weights_bspline(&k[0], vd_set(x)), weights_bspline(&k[1], vd_set(x)) };
         for (int n = 0; n < 2; n++) { /* nodes i and i + 1 are seen from both */
             assert_near(g[0].w[1 + n][0], g[1].w[n][0], 1e-13);
             assert_near(b[0].w[1 + n][0], b[1].w[n][0], 1e-13);

@@ -42,11 +42,11 @@ static specimen specimen_of(material m, double q1, double q2, bool damage)
 /* L in rows, held for one step of dt. */
 static void strain(specimen *p, const double L[9], double dt)
 {
-    v8 g[9];
-    for (int i = 0; i < 9; i++) g[i] = v8_set(L[i]);
+    vd g[9];
+    for (int i = 0; i < 9; i++) g[i] = vd_set(L[i]);
     p->step.dt = dt;
-    p->sum.heat = v8_set(0);
-    law_step(&p->k, &p->step, g, g[0] + g[4] + g[8], &p->q, &p->sum);
+    p->sum.heat = vd_set(0);
+    for (int lane = 0; lane < LANES; lane += WIDTH) law_step(&p->k, &p->step, g, &p->q, lane, &p->sum);
 }
 
 static double mises_of(const specimen *p)
