@@ -6,6 +6,10 @@
 
 enum { MAX_NODES = 20000 };
 
+/* Of a cell: the longest domain it bears before a point is split.  In the fine zone a stretched point is halved before it
+ * spans its cell; outside it may: one or two points a cell and axis, so that eight lanes of a block hold a cell. */
+static const double LONGEST_FINE = 0.8, LONGEST_COARSE = 1.0;
+
 /* Spacings from the fine zone outwards until they cover `length`, then scaled to end on it.  Returns their number. */
 static int grade(const mpm_axis *s, double length, double *spacing)
 {
@@ -41,7 +45,8 @@ static status allocate(axis *a)
     a->bricks = (a->last + 2 + 3) / 4;
     a->node = calloc((size_t)(4 * a->bricks), sizeof(double));
     a->edge = calloc((size_t)(4 * a->bricks + 1), sizeof(double));
-    CHECK(a->node && a->edge, STATUS_MEMORY, "no memory for a grid axis of %d nodes", a->last);
+    a->longest = calloc((size_t)(4 * a->bricks), sizeof(double));
+    CHECK(a->node && a->edge && a->longest, STATUS_MEMORY, "no memory for a grid axis of %d nodes", a->last);
     return status_ok();
 }
 
@@ -65,6 +70,10 @@ static void finish(axis *a, const mpm_axis *s)
     }
     a->edge[0] = 2 * a->node[0] - a->edge[1];
     a->edge[4 * a->bricks] = 2 * a->node[4 * a->bricks - 1] - a->edge[4 * a->bricks - 1];
+    for (int i = 0; i < 4 * a->bricks; i++) {
+        const double cell = a->edge[i + 1] - a->edge[i];
+        a->longest[i] = (cell > 1.1 * s->fine ? LONGEST_COARSE : LONGEST_FINE) * cell;
+    }
 }
 
 status axis_make(const mpm_axis *spec, char letter, axis *out)
@@ -96,7 +105,8 @@ void axis_free(axis *a)
 {
     free(a->node);
     free(a->edge);
-    a->node = a->edge = NULL;
+    free(a->longest);
+    a->node = a->edge = a->longest = NULL;
 }
 
 int axis_locate(const axis *a, double x)

@@ -257,7 +257,7 @@ static cell_limits limits_of(const mpm *m, const brick *b, int cell)
     for (int k = 0; k < 3; k++) {
         const double *edge = &m->axes[k].edge[BRICK * b->at[k] + at[k]];
         c.lo[k] = edge[0], c.hi[k] = edge[1];
-        c.longest[k] = 0.4 * (edge[1] - edge[0]);
+        c.longest[k] = 0.5 * m->axes[k].longest[BRICK * b->at[k] + at[k]];
     }
     return c;
 }

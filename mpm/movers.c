@@ -76,8 +76,7 @@ static int axis_to_split(const mpm *m, const brick *b, const int cell[3], const 
     if (q[FIRST_damage] >= 1) return -1;
     for (int k = 0; k < 3; k++) {
         const axis *a = &m->axes[k];
-        const int i = BRICK * b->at[k] + cell[k];
-        if (2 * q[FIRST_half + k] > SPLIT_RATIO * (a->edge[i + 1] - a->edge[i])) return k;
+        if (2 * q[FIRST_half + k] > a->longest[BRICK * b->at[k] + cell[k]]) return k;
     }
     return -1;
 }

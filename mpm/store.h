@@ -188,7 +188,6 @@ status store_place(mpm *m, int body, const double *particle); /* makes its brick
 uint64_t image_scene_key(const mpm *m); /* before the fine zone has moved */
 
 /* particle.c: one particle's BLOCK_DOUBLES */
-#define SPLIT_RATIO 0.8 /* of a domain to its cell above which a particle is split along that axis */
 void particle_halve(double *q, double *other, int k);
 void particle_merge(double *q, const double *other, int k); /* the inverse: q takes other in */
 

@@ -10,7 +10,7 @@
 #include <string.h>
 
 static const double POWER_AHEAD = 0.05; /* of the plastic power lies ahead of the front */
-static const double MERGE_RATIO = 0.55; /* of a merged domain to its cell, at most */
+static const double MERGE_RATIO = 0.9;  /* of a merged domain to the longest that its cell bears, at most */
 static const int QUANTUM = 8;           /* fine cells the zone moves at a time, at least */
 
 /* ---- the front ---- */
@@ -156,7 +156,8 @@ static status merge_coarse(mpm *m)
             brick *b = &m->bricks[i];
             const int node = BRICK * b->at[0] + c % BRICK;
             const double size = a->edge[node + 1] - a->edge[node];
-            if (b->head[c] >= 0 && size > 1.2 * m->scene.axis[0].fine) s = merge_cell(m, b, c, MERGE_RATIO * size, &g);
+            if (b->head[c] >= 0 && size > 1.2 * m->scene.axis[0].fine)
+                s = merge_cell(m, b, c, MERGE_RATIO * a->longest[node], &g);
         }
     free(g.body);
     free(g.data);
@@ -204,8 +205,7 @@ static status leave_wake(mpm *m, double x)
 static bool too_long(const mpm *m, const double *q)
 {
     const axis *a = &m->axes[0];
-    const int i = axis_locate(a, q[FIRST_x]);
-    return q[FIRST_damage] < 1 && 2 * q[FIRST_half] > SPLIT_RATIO * (a->edge[i + 1] - a->edge[i]);
+    return q[FIRST_damage] < 1 && 2 * q[FIRST_half] > a->longest[axis_locate(a, q[FIRST_x])];
 }
 
 /* What the new window leaves out is gone. */
