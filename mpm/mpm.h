@@ -32,11 +32,10 @@ typedef struct {
     size_t particles;
     uint64_t clamps_pressure, clamps_compression; /* counted, never silent */
     uint64_t splits, merges, ejected, eroded;     /* ejected holds the eroded points too */
-    double plastic_front, plastic_power,
-        peak_plastic_power;                 /* of the bodies followed (mpm_scene.follow_bodies): all but
-                                                                a twentieth of the power lies behind the front [m, W, W] */
-    double eroded_mass;                     /* vapour and dust taken out so far [kg] */
-    double peak_pressure, peak_temperature; /* any intact particle, any time so far [Pa, K] */
+    double plastic_front;                     /* where the bodies followed are ploughed (mpm_scene.follow_bodies) [m] */
+    double plastic_power, peak_plastic_power; /* that goes into it: now, and the largest so far [W] */
+    double eroded_mass;                       /* vapour and dust taken out so far [kg] */
+    double peak_pressure, peak_temperature;   /* any intact particle, any time so far [Pa, K] */
     double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES]; /* so far [Pa] */
     double peak_mises_999[MPM_MAX_BODIES],
         peak_pressure_999[MPM_MAX_BODIES]; /* peak over time of the 99.9th percentile by mass */
