@@ -1,24 +1,17 @@
-/* Rail section: perfect conductor by panels on the outline, conductor by filaments (circuit/filaments.h). */
 #include "circuit/inductance.h"
 
 #include "circuit/filaments.h"
+#include "circuit/perimeter.h"
 
 #include <complex.h>
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_linalg.h>
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
-
-#undef I /* the current, here */
 
 static const double PI = 3.14159265358979323846;
 static const double MU0 = 1.25663706212e-6; /* [H/m] CODATA 2018 */
 
-enum { MAX_PANELS = 320 };
-
 /* Thinner skins than the section's largest side over this are taken as a surface impedance on the perfect conductor. */
-static const double THIN_SKIN = 150.0;
+static const double THIN_SKIN = 1000.0;
 
 /* L' = [A + B ln F1] ln F2 uH/m */
 double inductance_kerrisk(double h, double w, double s)
@@ -28,170 +21,143 @@ double inductance_kerrisk(double h, double w, double s)
     return 1e-6 * (0.4406411 - 0.07771617 * log(F1)) * log(F2);
 }
 
-static status section_check(double h, double w, double s)
+status inductance_limit(const rail_section *s, double *L)
 {
-    CHECK(h > 0.0 && w > 0.0 && s > 0.0, STATUS_BAD_INPUT,
-          "rails of height %g m, thickness %g m, separation %g m: all must be positive", h, w, s);
-    return status_ok();
+    double skin = 0.0;
+    TRY(section_check(s));
+    return perimeter_solve(s, L, &skin);
 }
 
-/* Panels along the quarter's outline, K [A/m] constant on each; graded to the corners, where K grows as r^(-1/3). */
-typedef struct {
-    double x, y, length; /* midpoint [m] */
-    bool upright;        /* along y, else along x */
-} panel;
-
-static int outline(double h, double w, double s, panel *panels)
+/* Of the better conductor of the two. */
+static double skin_depth(const rail_section *s, double f)
 {
-    double d[2 * MAX_PANELS];
-    const double growth = 1.16;
-    int n = 0;
-    for (int face = 0; face < 2; face++) { /* inner and outer face, from the edge to y = 0 */
-        const double x = 0.5 * s + face * w;
-        const int k = filaments_graded(0.5 * h, 1e-5 * h, growth, 1, d);
-        double y = 0.5 * h;
-        for (int j = 0; j < k; y -= d[j++]) panels[n++] = (panel){ x, y - 0.5 * d[j], d[j], true };
-    }
-    const int k = filaments_graded(w, 1e-5 * w, growth, 2, d);
-    double x = 0.5 * s;
-    for (int j = 0; j < k; x += d[j++]) panels[n++] = (panel){ x + 0.5 * d[j], 0.5 * h, d[j], false };
-    return n;
+    const double rho = s->cladding > 0.0 ? fmin(s->resistivity, s->cladding_resistivity) : s->resistivity;
+    return sqrt(rho / (PI * MU0 * f));
 }
 
-/* Integral of ln r over a panel centred at the origin, seen from `along` and `across`. */
-static double panel_log(double along, double across, double length)
+static double largest_side(const rail_section *s)
 {
-    double sum = 0.0;
-    for (int end = 0; end < 2; end++) {
-        const double t = (end ? 0.5 : -0.5) * length - along, r2 = t * t + across * across;
-        const double part =
-            (r2 > 0.0 ? 0.5 * t * log(r2) : 0.0) - t + (across != 0.0 ? across * atan(t / across) : 0.0);
-        sum += end ? part : -part;
-    }
-    return sum;
+    return fmax(s->height, s->thickness);
 }
 
-static double panel_potential(const panel *p, const panel *q)
+/* Below the frequency whose skin depth is 100 sections nothing changes by 1e-7: that is direct current. */
+static double at_least_slow(const rail_section *s, double f)
 {
-    double sum = 0.0;
-    for (int image = 0; image < 4; image++) {
-        const double dx = p->x - (image & 1 ? -q->x : q->x), dy = p->y - (image & 2 ? -q->y : q->y);
-        const double part = q->upright ? panel_log(dy, dx, q->length) : panel_log(dx, dy, q->length);
-        sum += image & 1 ? -part : part;
-    }
-    return -MU0 / (2.0 * PI) * sum;
+    const double ratio = skin_depth(s, 1.0) / (100.0 * largest_side(s));
+    return fmax(f, ratio * ratio);
 }
 
-static status panels_solve(const panel *panels, int n, gsl_vector *K)
+static status response(const rail_section *s, const filaments *cells, double f_top, impedance *out)
 {
-    const size_t size = (size_t)n;
-    gsl_matrix *matrix = gsl_matrix_alloc(size, size);
-    gsl_vector *right = gsl_vector_alloc(size);
-    gsl_permutation *order = gsl_permutation_alloc(size);
-    int sign = 0, bad = GSL_ENOMEM;
-    if (matrix && right && order) {
-        for (size_t i = 0; i < size; i++) {
-            for (size_t j = 0; j < size; j++) gsl_matrix_set(matrix, i, j, panel_potential(&panels[i], &panels[j]));
-        }
-        gsl_vector_set_all(right, 1.0); /* A = 1 Wb/m on the metal */
-        bad = gsl_linalg_LU_decomp(matrix, order, &sign);
-        if (!bad) bad = gsl_linalg_LU_solve(matrix, order, right, K);
-    }
-    if (matrix) gsl_matrix_free(matrix);
-    if (right) gsl_vector_free(right);
-    if (order) gsl_permutation_free(order);
-    CHECK(!bad, STATUS_NUMERICAL, "the rail section's surface system has no solution (%s)", gsl_strerror(bad));
-    return status_ok();
-}
-
-/* L = 2 A/I;  crowding = integral of K^2 over both rails' outlines over I^2 [1/m], so that a thin skin has
- * R' = rho/depth crowding                                                                 (C-9) */
-static status perfect_conductor(const double section[3], double *L, double *crowding)
-{
-    panel panels[MAX_PANELS];
-    const int n = outline(section[0], section[1], section[2], panels);
-    gsl_vector *K = gsl_vector_alloc((size_t)n);
-    CHECK(K, STATUS_MEMORY, "out of memory for %d rail panels", n);
-    const status st = panels_solve(panels, n, K);
-    double I = 0.0, K2 = 0.0;
-    for (int j = 0; j < n && st.code == STATUS_OK; j++) {
-        const double k = gsl_vector_get(K, (size_t)j);
-        I += 2.0 * k * panels[j].length;
-        K2 += 4.0 * k * k * panels[j].length;
-    }
-    gsl_vector_free(K);
-    TRY(st);
-    *L = 2.0 / I;
-    *crowding = K2 / (I * I);
-    return status_ok();
-}
-
-status inductance_limit(double h, double w, double s, double *L)
-{
-    TRY(section_check(h, w, s));
-    const double section[3] = { h, w, s };
-    double crowding = 0.0;
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
-    const status st = perfect_conductor(section, L, &crowding);
-    gsl_set_error_handler(handler);
+    double *L = NULL;
+    status st = filaments_inductance(s, cells, &L);
+    if (st.code == STATUS_OK) st = impedance_create(cells->n, L, cells->R, 2.0 * PI * f_top, out);
+    free(L);
     return st;
 }
 
-/* The skin is thin: surface impedance (1 + i) rho/depth on the perfect conductor's current. */
-static status thin_skin(const double section[3], double resistivity, double omega, double *L, double *R)
+static status mesh(const rail_section *s, double f_top, double fineness, filaments *cells)
 {
-    double crowding = 0.0;
-    TRY(perfect_conductor(section, L, &crowding));
-    *R = resistivity / sqrt(2.0 * resistivity / (omega * MU0)) * crowding;
-    *L += *R / omega;
-    return status_ok();
+    TRY(section_check(s));
+    CHECK(f_top > 0.0 && isfinite(f_top), STATUS_BAD_INPUT, "frequency %g Hz: must be positive and finite", f_top);
+    return filaments_create(s, skin_depth(s, f_top), fineness, cells);
 }
 
-status inductance_response(const double section[3], double resistivity, double f_top, impedance *out)
+status inductance_response(const rail_section *s, double f_top, double fineness, impedance *out)
 {
+    filaments cells = { 0 };
     *out = (impedance){ 0 };
-    TRY(section_check(section[0], section[1], section[2]));
-    CHECK(resistivity > 0.0 && isfinite(resistivity), STATUS_BAD_INPUT,
-          "rails.resistivity = %g ohm m: must be positive and finite", resistivity);
-    CHECK(f_top > 0.0 && isfinite(f_top), STATUS_BAD_INPUT, "frequency %g Hz: must be positive and finite", f_top);
-    filaments cells;
-    double *L = NULL;
-    const double omega = 2.0 * PI * f_top;
-    status st = filaments_of_rectangle(section, resistivity, sqrt(2.0 * resistivity / (omega * MU0)), &cells);
-    if (st.code == STATUS_OK) st = filaments_inductance(&cells, &L);
-    if (st.code == STATUS_OK) st = impedance_create(cells.n, L, cells.R, omega, out);
-    free(L);
+    status st = mesh(s, f_top, fineness, &cells);
+    if (st.code == STATUS_OK) st = response(s, &cells, f_top, out);
     filaments_free(&cells);
     return st;
 }
 
-static status thick_skin(const double section[3], double resistivity, double omega, double *L, double *R)
+status inductance_at(const rail_section *s, double f, double fineness, double *L, double *R)
 {
+    TRY(section_check(s));
+    CHECK(f >= 0.0 && isfinite(f), STATUS_BAD_INPUT, "frequency %g Hz: must be 0 or positive and finite", f);
+    f = at_least_slow(s, f);
+    if (skin_depth(s, f) <
+        largest_side(s) / THIN_SKIN) { /* surface impedance on the perfect conductor's current (C-9) */
+        TRY(perimeter_solve(s, L, R));
+        *R *= sqrt(f);
+        *L += *R / (2.0 * PI * f);
+        return status_ok();
+    }
     impedance z;
-    const status st = inductance_response(section, resistivity, omega / (2.0 * PI), &z);
+    const status st = inductance_response(s, f, fineness, &z);
     if (st.code == STATUS_OK) {
-        const double complex Z = impedance_at(&z, _Complex_I * omega);
-        *L = cimag(Z) / omega;
+        const double complex Z = impedance_at(&z, _Complex_I * 2.0 * PI * f);
+        *L = cimag(Z) / (2.0 * PI * f);
         *R = creal(Z);
     }
     impedance_free(&z);
     return st;
 }
 
-status inductance_at(const double section[3], double resistivity, double f, double *L, double *R)
+/* ---- along the surface ---- */
+
+void inductance_surface_free(inductance_surface *p)
 {
-    TRY(section_check(section[0], section[1], section[2]));
-    CHECK(resistivity > 0.0 && isfinite(resistivity), STATUS_BAD_INPUT,
-          "rails.resistivity = %g ohm m: must be positive and finite", resistivity);
-    CHECK(f >= 0.0 && isfinite(f), STATUS_BAD_INPUT, "frequency %g Hz: must be 0 or positive and finite", f);
-    const double largest = fmax(section[0], section[1]);
-    /* Below the frequency whose skin depth is 100 sections nothing changes by 1e-7: that is direct current. */
-    const double slow = resistivity / (PI * MU0 * 1e4 * largest * largest);
-    const double omega = 2.0 * PI * fmax(f, slow);
-    const double depth = sqrt(2.0 * resistivity / (omega * MU0));
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
-    const status st = depth < largest / THIN_SKIN ? thin_skin(section, resistivity, omega, L, R)
-                                                  : thick_skin(section, resistivity, omega, L, R);
-    gsl_set_error_handler(handler);
+    free(p->place);
+    *p = (inductance_surface){ 0 };
+}
+
+/* A cell, and its corners on the surface. */
+typedef struct {
+    int cell, from, to;
+} surface_cell;
+
+static surface_cell surface_cell_of(const filaments *c, int k)
+{
+    if (k < c->ny) return (surface_cell){ c->ny - 1 - k, 0, 3 };
+    if (k < c->ny + c->nx) return (surface_cell){ (k - c->ny) * c->ny, 3, 2 };
+    return (surface_cell){ (c->nx - 1) * c->ny + k - c->ny - c->nx, 2, 1 };
+}
+
+static void surface_fill(const rail_section *s, const filaments *c, const double complex *share,
+                         inductance_surface *out)
+{
+    double place = 0.0;
+    for (int k = 0; k < 2 * c->ny + c->nx; k++) {
+        const surface_cell at = surface_cell_of(c, k);
+        const filament *f = &c->cell[at.cell];
+        const section_point a = f->corner[at.from], b = f->corner[at.to];
+        const double length = hypot(b.x - a.x, b.y - a.y), J = 0.5 * cabs(share[at.cell]) / f->area;
+        place += length;
+        if (length <= 0.0) continue; /* a round rail has no side */
+        out->place[out->n] = place - 0.5 * length;
+        out->current[out->n] = J;
+        out->heating[out->n++] = c->R[at.cell] / section_weight(s) * f->area * J * J;
+    }
+}
+
+status inductance_surface_at(const rail_section *s, double f, double fineness, inductance_surface *out)
+{
+    filaments cells = { 0 };
+    impedance z = { 0 };
+    double complex *share = NULL;
+    *out = (inductance_surface){ 0 };
+    TRY(section_check(s));
+    f = at_least_slow(s, f);
+    status st = mesh(s, f, fineness, &cells);
+    if (st.code == STATUS_OK) st = response(s, &cells, f, &z);
+    if (st.code == STATUS_OK) {
+        const size_t rim = (size_t)(2 * cells.ny + cells.nx);
+        share = malloc((size_t)cells.n * sizeof *share);
+        out->place = malloc(3 * rim * sizeof *out->place);
+        if (!share || !out->place) {
+            st = status_error(STATUS_MEMORY, "out of memory for %d rail filaments", cells.n);
+        } else {
+            out->current = out->place + rim;
+            out->heating = out->current + rim;
+            st = impedance_currents(&z, _Complex_I * 2.0 * PI * f, share);
+        }
+    }
+    if (st.code == STATUS_OK) surface_fill(s, &cells, share, out);
+    free(share);
+    impedance_free(&z);
+    filaments_free(&cells);
     return st;
 }

@@ -12,6 +12,7 @@
 #include "base/param.h"
 #include "base/status.h"
 #include "circuit/ladder.h"
+#include "circuit/section.h"
 #include "circuit/supply.h"
 
 #include <stdbool.h>
@@ -21,13 +22,17 @@
 typedef enum { SHOT_RAILS_CONSTANT, SHOT_RAILS_SKIN, SHOT_RAILS_DIFFUSING } shot_rail_level;
 extern const char *const shot_rail_level_names[]; /* "constant", "skin", "diffusing", NULL */
 
-/* Two equal rectangular rails.  constant: the gradients are given; skin: those of the section at one frequency; diffusing:
+/* Equal rails (circuit/section.h).  constant: the gradients are given; skin: those of the section at one frequency; diffusing:
  * every slice of rail has its own history since the armature exposed it (circuit/rails.h). */
 typedef struct {
     int level;                      /* shot_rail_level */
     double height;                  /* across the bore, along the contact line of the armature [m] */
     double thickness;               /* [m] */
-    double separation;              /* between the facing surfaces [m] */
+    double separation;              /* between the facing surfaces, at their middles [m] */
+    int count;                      /* 2 or 4 */
+    double face_crown, back_crown;  /* sagittas of the faces' arcs [m] */
+    double cladding;                /* thickness of a layer on the bore face [m] */
+    double cladding_resistivity;    /* [ohm m] */
     double resistivity;             /* at 293.15 K [ohm m] */
     double resistivity_coefficient; /* [1/K] */
     double temperature;             /* before the shot [K] */
@@ -36,6 +41,7 @@ typedef struct {
     double frequency;               /* level skin [Hz]; NAN = from the pulse, equation (C-6) */
     double ladder_error;            /* level diffusing: largest error of the ladder over its band [1] */
     double ladder_frequency;        /* level diffusing: top of that band [Hz]; NAN = equation (C-13) */
+    double fineness;                /* filaments over the skin depth [1] */
 } shot_rails;
 
 typedef struct {
@@ -210,6 +216,9 @@ status shot_jump(shot *s, double impulse, double mass_loss);
 /* L' [H/m] and R' [ohm/m] of the pair at frequency f [Hz], by the level: constant returns what was given; skin and
  * diffusing solve the section (circuit/inductance.h).  f = 0 is direct current, INFINITY the perfect conductor (R' is then INFINITY). */
 status rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance);
+
+/* The cross-section at the temperature before the shot. */
+status rails_section(const shot_rails *rails, rail_section *out);
 
 /* The ladder that stands for the rails: at level diffusing fitted up to f_top [Hz], else L', R' at f_top and no rungs. */
 status rails_ladder(const shot_rails *rails, double f_top, ladder *out);

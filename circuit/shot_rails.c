@@ -16,6 +16,12 @@ const param shot_rails_params[] = {
     RAILS(height, "m", REQUIRED, 1e-4, 10.0, "height of a rail, across the bore"),
     RAILS(thickness, "m", REQUIRED, 1e-4, 10.0, "thickness of a rail"),
     RAILS(separation, "m", REQUIRED, 1e-4, 10.0, "separation of the facing rail surfaces"),
+    PARAM_INT(shot_rails, count, 2, 2, 4,
+              "2: a pair; 4: two facing ones carry the current, the other two bring it back"),
+    RAILS(face_crown, "m", 0.0, 0.0, 10.0, "sagitta of the bore face's arc; 0 = flat"),
+    RAILS(back_crown, "m", 0.0, 0.0, 10.0, "sagitta of the back's arc; half the height makes a D; 0 = flat"),
+    RAILS(cladding, "m", 0.0, 0.0, 10.0, "thickness of a layer of another metal on the bore face; 0 = none"),
+    RAILS(cladding_resistivity, "ohm m", 1.72e-8, 1e-10, 1e-3, "of that layer, at the rails' temperature"),
     RAILS(resistivity, "ohm m", 1.72e-8, 1e-10, 1e-3, "resistivity at 293.15 K"),
     RAILS(resistivity_coefficient, "1/K", 3.93e-3, 0.0, 0.1, "relative rise of the resistivity"),
     RAILS(temperature, "K", 293.15, 200.0, 3000.0, "temperature before the shot"),
@@ -26,6 +32,7 @@ const param shot_rails_params[] = {
           "largest error of the ladder that stands for the diffusing rails, over its band"),
     RAILS(ladder_frequency, "Hz", OPTIONAL, 1.0, 1e9,
           "top of the ladder's band; from bank energy, armature and contact length if not given"),
+    RAILS(fineness, "1", INDUCTANCE_FINENESS, 1.0, 20.0, "filaments over the skin depth at the highest frequency"),
     PARAMS_END
 };
 
@@ -64,12 +71,22 @@ static double supplies_energy(const shot_config *c)
     return E;
 }
 
-static status resistivity_now(const shot_rails *rails, double *resistivity)
+status rails_section(const shot_rails *rails, rail_section *out)
 {
-    *resistivity = rails->resistivity * (1.0 + rails->resistivity_coefficient * (rails->temperature - 293.15));
-    CHECK(*resistivity > 0.0, STATUS_BAD_INPUT, "rails.temperature = %g K makes rails.resistivity negative",
+    TRY(params_check(shot_rails_params, rails, "rails"));
+    const double warm = 1.0 + rails->resistivity_coefficient * (rails->temperature - 293.15);
+    CHECK(warm > 0.0, STATUS_BAD_INPUT, "rails.temperature = %g K makes rails.resistivity negative",
           rails->temperature);
-    return status_ok();
+    *out = (rail_section){ .height = rails->height,
+                           .thickness = rails->thickness,
+                           .separation = rails->separation,
+                           .face_crown = rails->face_crown,
+                           .back_crown = rails->back_crown,
+                           .cladding = rails->cladding,
+                           .resistivity = rails->resistivity * warm,
+                           .cladding_resistivity = rails->cladding_resistivity,
+                           .rails = rails->count };
+    return section_check(out);
 }
 
 status rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance)
@@ -83,26 +100,23 @@ status rails_impedance(const shot_rails *rails, double f, double *inductance, do
         *resistance = rails->resistance_gradient;
         return status_ok();
     }
+    rail_section section;
+    TRY(rails_section(rails, &section));
     if (isinf(f)) {
         *resistance = INFINITY;
-        return inductance_limit(rails->height, rails->thickness, rails->separation, inductance);
+        return inductance_limit(&section, inductance);
     }
-    double resistivity;
-    TRY(resistivity_now(rails, &resistivity));
-    const double section[3] = { rails->height, rails->thickness, rails->separation };
-    return inductance_at(section, resistivity, f, inductance, resistance);
+    return inductance_at(&section, f, rails->fineness, inductance, resistance);
 }
 
 status rails_ladder(const shot_rails *rails, double f_top, ladder *out)
 {
     *out = (ladder){ 0 };
     if (rails->level != SHOT_RAILS_DIFFUSING) return rails_impedance(rails, f_top, &out->L_inf, &out->R_dc);
-    TRY(params_check(shot_rails_params, rails, "rails"));
-    double resistivity;
-    TRY(resistivity_now(rails, &resistivity));
-    const double section[3] = { rails->height, rails->thickness, rails->separation };
+    rail_section section;
+    TRY(rails_section(rails, &section));
     impedance z;
-    status st = inductance_response(section, resistivity, f_top, &z);
+    status st = inductance_response(&section, f_top, rails->fineness, &z);
     if (st.code == STATUS_OK) st = ladder_fit(&z, TURN * f_top, rails->ladder_error, out);
     impedance_free(&z);
     return st;

@@ -58,8 +58,9 @@ static const command commands[] = {
     { "compare", "CASE", "the same for several rail surfaces, ranked", "Not in this version.", run_compare, true, 0,
       RUN_COMPARE, NULL },
     { "inductance", "CASE", "L', R' of a rail cross-section, over frequency",
-      "Needs the section rails.  1 Hz to 100 kHz and the perfect conductor.", run_case, true, CASE_FOR_INDUCTANCE,
-      RUN_INDUCTANCE, command_inductance },
+      "Needs the section rails.  Direct current, 1 Hz to 100 kHz, the perfect conductor; the surface at "
+      "rails.frequency.",
+      run_case, true, CASE_FOR_INDUCTANCE, RUN_INDUCTANCE, command_inductance },
     { "check", "CASE", "read and validate only; memory and time estimate",
       "Writes nothing.  Checks the case for every command whose sections it has.", run_check, true, 0, RUN_KINDS,
       NULL },

@@ -19,7 +19,9 @@
 
 static const double TURN = 6.28318530717958648, MU0 = 1.25663706212e-6;
 static const double COPPER = 1.72e-8; /* [ohm m] */
-static const double SECTION[3] = { 0.025, 0.020, 0.025 };
+static const rail_section SECTION = {
+    .height = 0.025, .thickness = 0.020, .separation = 0.025, .resistivity = 1.72e-8, .rails = 2
+};
 
 static void assert_ok(status st)
 {
@@ -36,7 +38,7 @@ static ladder fitted(double f_top, double error)
 {
     impedance z;
     ladder l;
-    assert_ok(inductance_response(SECTION, COPPER, f_top, &z));
+    assert_ok(inductance_response(&SECTION, f_top, 4.0, &z));
     assert_ok(ladder_fit(&z, TURN * f_top, error, &l));
     impedance_free(&z);
     return l;
@@ -49,7 +51,7 @@ static void error_as_asked(void **state)
 {
     (void)state;
     impedance z;
-    assert_ok(inductance_response(SECTION, COPPER, 5e4, &z));
+    assert_ok(inductance_response(&SECTION, 5e4, 4.0, &z));
     int rungs = 0;
     for (double error = 0.1; error > 1e-6; error *= 0.1) {
         ladder l;
@@ -74,8 +76,8 @@ static void ends_of_the_band(void **state)
     (void)state;
     double L = 0.0, R = 0.0, L_limit = 0.0;
     const ladder l = fitted(5e4, 1e-2);
-    assert_ok(inductance_at(SECTION, COPPER, 0.0, &L, &R));
-    assert_ok(inductance_limit(SECTION[0], SECTION[1], SECTION[2], &L_limit));
+    assert_ok(inductance_at(&SECTION, 0.0, 4.0, &L, &R));
+    assert_ok(inductance_limit(&SECTION, &L_limit));
     assert_near(l.R_dc, 2.0 * COPPER / (0.020 * 0.025), 1e-9);
     assert_near(ladder_slow_inductance(&l), L, 1e-4);
     assert_near(l.L_inf, L_limit, 0.003);
@@ -90,9 +92,14 @@ static void passive(void **state)
         { 0.025, 0.02, 0.025 }, { 0.025, 0.002, 0.025 }, { 0.04, 0.01, 0.002 }, { 0.005, 0.02, 0.05 }
     };
     for (size_t k = 0; k < sizeof sections / sizeof sections[0]; k++) {
+        const rail_section s = { .height = sections[k][0],
+                                 .thickness = sections[k][1],
+                                 .separation = sections[k][2],
+                                 .resistivity = COPPER,
+                                 .rails = 2 };
         impedance z;
         ladder l;
-        assert_ok(inductance_response(sections[k], COPPER, 2e4, &z));
+        assert_ok(inductance_response(&s, 2e4, 4.0, &z));
         assert_ok(ladder_fit(&z, TURN * 2e4, 1e-4, &l));
         assert_true(l.R_dc > 0.0 && l.L_inf > 0.0 && l.n >= 4);
         for (int r = 0; r < l.n; r++) assert_true(l.L[r] > 0.0 && l.R[r] > 0.0);
@@ -106,7 +113,7 @@ static void currents_carry_the_impedance(void **state)
 {
     (void)state;
     impedance z;
-    assert_ok(inductance_response(SECTION, COPPER, 1e4, &z));
+    assert_ok(inductance_response(&SECTION, 1e4, 4.0, &z));
     double complex *share = malloc((size_t)z.n * sizeof *share), total = 0.0;
     const double complex s = _Complex_I * TURN * 2e3;
     double heat = 0.0;
@@ -256,7 +263,7 @@ static void half_space_formula(void **state)
         }
         const rails_flow flow = rails_flow_at(&r, x, v, I, y);
         const double rest = flow.voltage / I - r.ladder.L_inf * v;
-        assert_near(rest, 4.0 * 0.405 / SECTION[0] * sqrt(COPPER * MU0 * v * x / 3.14159265358979), 0.05);
+        assert_near(rest, 4.0 * 0.405 / SECTION.height * sqrt(COPPER * MU0 * v * x / 3.14159265358979), 0.05);
     }
 }
 

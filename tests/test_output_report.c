@@ -62,7 +62,15 @@ static void write_run(const char *dir, run_kind kind)
     static const double frequency[] = { 10.0, 1e3, 1e5 }, gradient[] = { 0.6e-6, 0.55e-6, 0.5e-6 };
     static const compare_entry entries[] = { { "hardened", 1700.0, { 1650.0, 1750.0 }, NAN, 0.0 } };
     static const compare_result compare = { 1, entries };
-    static const inductance_result inductance = { 3, frequency, gradient, gradient, 0.49e-6 };
+    static const inductance_result inductance = { .n = 3,
+                                                  .frequency = frequency,
+                                                  .L_gradient = gradient,
+                                                  .R_gradient = gradient,
+                                                  .L_gradient_high_frequency = 0.49e-6,
+                                                  .n_perimeter = 3,
+                                                  .perimeter = frequency,
+                                                  .perimeter_current = gradient,
+                                                  .perimeter_heat = gradient };
     const run_summary s = { .kind = kind,
                             .case_name = "case <1> & \"two\"",
                             .instruction_set = "x86-64-v3",

@@ -43,7 +43,15 @@ static void fill(example *e, run_kind kind)
     e->scene = example_scene(0.4);
     example_onset(&e->study);
     e->compare = (compare_result){ 2, ranking };
-    e->inductance = (inductance_result){ 3, frequency, gradient, gradient, 0.49e-6 };
+    e->inductance = (inductance_result){ .n = 3,
+                                         .frequency = frequency,
+                                         .L_gradient = gradient,
+                                         .R_gradient = gradient,
+                                         .L_gradient_high_frequency = 0.49e-6,
+                                         .n_perimeter = 3,
+                                         .perimeter = frequency,
+                                         .perimeter_current = gradient,
+                                         .perimeter_heat = gradient };
     e->summary = (run_summary){ .kind = kind,
                                 .case_name = "a \"case\"",
                                 .instruction_set = "x86-64-v3",

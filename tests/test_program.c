@@ -184,7 +184,13 @@ static void test_inductance(void **state)
         assert_true(cJSON_GetArrayItem(R, i)->valuedouble >= cJSON_GetArrayItem(R, i - 1)->valuedouble);
     }
     assert_true(number(s, "L_gradient_high_frequency") < cJSON_GetArrayItem(L, n - 1)->valuedouble);
+    assert_true(number(s, "L_gradient_direct_current") >= cJSON_GetArrayItem(L, 0)->valuedouble);
+    assert_true(fabs(number(s, "kerrisk_error")) < 0.015); /* the formula's own error for s/h >= 0.5 */
+    const int places = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(s, "perimeter"));
+    assert_true(places > 10 && places == cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(s, "perimeter_heat")));
     cJSON_Delete(s);
+    assert_int_equal(run("inductance " SHOT " -o inductance/b --set rails.cladding=\"30 mm\""),
+                     2); /* thicker than the rail */
 }
 
 /* The same results whatever took them: all numbers but the times. */

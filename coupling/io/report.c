@@ -300,6 +300,9 @@ static void section_onset(const page *p)
     if (strcmp(report_text(s, "kind"), "inductance") == 0) {
         heading(p, "Inductance and resistance gradients");
         one_plot(p, plot_inductance, "inductance", "");
+        heading(p, "Along the surface of a rail");
+        one_plot(p, plot_perimeter, "perimeter",
+                 "From the middle of the bore face over the edge to the middle of the back.");
     }
 }
 

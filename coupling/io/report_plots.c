@@ -294,6 +294,30 @@ status plot_inductance(const report_source *r, bool *drawn)
     return status_ok();
 }
 
+status plot_perimeter(const report_source *r, bool *drawn)
+{
+    *drawn = false;
+    const int n = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(r->summary, "perimeter"));
+    if (n < 2 || !r->gnuplot) return status_ok();
+    plot p;
+    TRY(plot_begin(&p, r, "perimeter", 760, 380));
+    fputs("$table << EOD\n", p.script);
+    for (int i = 0; i < n; i++)
+        fprintf(p.script, "%.9g %.9g %.9g\n", 1e3 * report_element(r->summary, "perimeter", i),
+                1e-6 * report_element(r->summary, "perimeter_current", i),
+                1e-6 * report_element(r->summary, "perimeter_heat", i));
+    fprintf(p.script,
+            "EOD\nset border 11\nset ytics nomirror\nset y2tics\nset yrange [0:*]\nset y2range [0:*]\n"
+            "set xlabel 'along the surface, bore face to back [mm], at %.4g Hz'\n"
+            "set ylabel 'current density [A/mm2 per A]'\nset y2label 'heating [W/cm3 per A2]'\n"
+            "plot $table using 1:2 with lines lw 2 lc rgb '#1f5fa8' title 'current', "
+            "$table using 1:3 axes x1y2 with lines lw 2 lc rgb '#c0392b' title 'heating'\n",
+            report_number(r->summary, "perimeter_frequency"));
+    TRY(plot_end(&p));
+    *drawn = true;
+    return status_ok();
+}
+
 /* ---- the crater along its middle ---- */
 
 /* Depth at the map's middle: the two rows beside z = 0 where it lies between them. */

@@ -35,6 +35,7 @@ status plot_shot_curve(const report_source *r, const char *column, double unit, 
 status plot_barrel(const report_source *r, bool *drawn);
 status plot_threshold(const report_source *r, bool *drawn);
 status plot_inductance(const report_source *r, bool *drawn);
+status plot_perimeter(const report_source *r, bool *drawn);
 status plot_crater_profile(const report_source *r, const char *scene, bool *drawn);
 status plot_crater_map(const report_source *r, const char *scene, bool *drawn);
 

@@ -199,6 +199,18 @@ static const summary_key inductance_keys[] = {
     ARRAY(inductance_result, "L_gradient", L_gradient, n, "H/m", "of the pair, over frequency"),
     ARRAY(inductance_result, "R_gradient", R_gradient, n, "ohm/m", "of the pair, over frequency"),
     NUMBER(inductance_result, "L_gradient_high_frequency", L_gradient_high_frequency, "H/m", "limit"),
+    NUMBER(inductance_result, "L_gradient_direct_current", L_gradient_direct_current, "H/m", "limit"),
+    NUMBER(inductance_result, "R_gradient_direct_current", R_gradient_direct_current, "ohm/m", "limit"),
+    NUMBER(inductance_result, "L_gradient_kerrisk", L_gradient_kerrisk, "H/m",
+           "Kerrisk's formula for the high-frequency limit; null: not two flat rails"),
+    NUMBER(inductance_result, "kerrisk_error", kerrisk_error, "1", "of that formula, over L_gradient_high_frequency"),
+    NUMBER(inductance_result, "perimeter_frequency", perimeter_frequency, "Hz", "of the three that follow"),
+    ARRAY(inductance_result, "perimeter", perimeter, n_perimeter, "m",
+          "along the surface, middle of the bore face to middle of the back"),
+    ARRAY(inductance_result, "perimeter_current", perimeter_current, n_perimeter, "1/m2",
+          "current density there over the rail's current"),
+    ARRAY(inductance_result, "perimeter_heat", perimeter_heat, n_perimeter, "ohm/m3",
+          "heating there over the rail's current squared, W/m3 per A2"),
     KEYS_END
 };
 /* clang-format on */

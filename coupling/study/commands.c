@@ -1,8 +1,8 @@
 #include "coupling/study/commands.h"
 
-#include "circuit/inductance.h"
 #include "coupling/study/scenes.h"
 
+#include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +12,7 @@ void command_free(command_result *r)
     onset_answer_free(&r->onset);
     free(r->gradients);
     r->gradients = NULL;
+    inductance_surface_free(&r->surface);
 }
 
 status command_shot(session *s, command_result *out)
@@ -49,23 +50,58 @@ status command_onset(session *s, command_result *out)
 static const double frequencies[] = { 1, 2, 5, 10, 20, 50, 100, 200, 500, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5 };
 enum { FREQUENCIES = sizeof frequencies / sizeof frequencies[0] };
 
+/* All frequencies from one solution, the perfect conductor from another. */
+static status gradients_fill(const shot_rails *rails, command_result *out)
+{
+    static const double TURN = 6.28318530717958648;
+    inductance_result *r = &out->inductance;
+    rail_section section;
+    impedance z;
+    TRY(rails_section(rails, &section));
+    status done = inductance_response(&section, frequencies[FREQUENCIES - 1], rails->fineness, &z);
+    for (int i = 0; i < FREQUENCIES && done.code == STATUS_OK; i++) {
+        const double complex Z = impedance_at(&z, _Complex_I * TURN * frequencies[i]);
+        out->gradients[i] = cimag(Z) / (TURN * frequencies[i]);
+        out->gradients[FREQUENCIES + i] = creal(Z);
+    }
+    impedance_free(&z);
+    TRY(done);
+    TRY(inductance_at(&section, 0.0, rails->fineness, &r->L_gradient_direct_current, &r->R_gradient_direct_current));
+    TRY(inductance_limit(&section, &r->L_gradient_high_frequency));
+    const bool flat = section.rails == 2 && section.face_crown == 0.0 && section.back_crown == 0.0;
+    r->L_gradient_kerrisk = flat ? inductance_kerrisk(section.height, section.thickness, section.separation) : NAN;
+    r->kerrisk_error = r->L_gradient_kerrisk / r->L_gradient_high_frequency - 1.0;
+    return inductance_surface_at(&section, r->perimeter_frequency, rails->fineness, &out->surface);
+}
+
+/* The surface at rails.frequency; else at what the pulse says, at 1 kHz without supplies. */
+static double surface_frequency(const breech_case *c)
+{
+    if (!isnan(c->rails.frequency)) return c->rails.frequency;
+    supply_list supplies[SUPPLY_KINDS];
+    for (int k = 0; k < SUPPLY_KINDS; k++) supplies[k] = (supply_list){ c->supplies[k].n, c->supplies[k].item };
+    const double f = shot_effective_frequency(supplies);
+    return isnan(f) ? 1000.0 : f;
+}
+
 status command_inductance(session *s, command_result *out)
 {
-    const shot_rails *rails = &s->c->rails;
     const double since = wall_clock();
-    double no_resistance;
+    inductance_result *r = &out->inductance;
     out->gradients = malloc(2 * FREQUENCIES * sizeof *out->gradients);
     CHECK(out->gradients, STATUS_MEMORY, "no memory for %d frequencies", FREQUENCIES);
-    double *L = out->gradients, *R = L + FREQUENCIES;
     progress_task(&s->progress, "inductance gradients", 0.0, 0);
-    for (int i = 0; i < FREQUENCIES; i++) {
-        if (s->stop && s->stop()) return status_error(STATUS_STOPPED, "stopped at %g Hz", frequencies[i]);
-        TRY(rails_impedance(rails, frequencies[i], &L[i], &R[i]));
-        progress_update(&s->progress, (i + 1.0) / FREQUENCIES, 0);
-    }
-    out->inductance = (inductance_result){ FREQUENCIES, frequencies, L, R, NAN };
-    TRY(rails_impedance(rails, INFINITY, &out->inductance.L_gradient_high_frequency, &no_resistance));
-    out->summary.inductance = &out->inductance;
+    *r = (inductance_result){ .n = FREQUENCIES,
+                              .frequency = frequencies,
+                              .L_gradient = out->gradients,
+                              .R_gradient = out->gradients + FREQUENCIES,
+                              .perimeter_frequency = surface_frequency(s->c) };
+    TRY(gradients_fill(&s->c->rails, out));
+    r->n_perimeter = out->surface.n;
+    r->perimeter = out->surface.place;
+    r->perimeter_current = out->surface.current;
+    r->perimeter_heat = out->surface.heating;
+    out->summary.inductance = r;
     timing_add(&s->timing, "inductance", wall_clock() - since);
     return status_ok();
 }
@@ -75,7 +111,11 @@ status command_inductance(session *s, command_result *out)
 status command_possible(const breech_case *c, unsigned needs)
 {
     mpm_scene scene;
+    rail_section section;
     site_state state = state_of_case(c);
+    if ((needs & CASE_FOR_INDUCTANCE) ||
+        ((needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) && c->rails.level != SHOT_RAILS_CONSTANT))
+        TRY(rails_section(&c->rails, &section));
     if (needs & CASE_FOR_SCENE) TRY(scene_bodies(c, &state, c->scene.cells_per_radius, &scene));
     if (!(needs & CASE_FOR_ONSET)) return status_ok();
     state.velocity = c->study.velocity_low;

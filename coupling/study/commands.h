@@ -4,6 +4,7 @@
 #ifndef BREECH_COUPLING_COMMANDS_H
 #define BREECH_COUPLING_COMMANDS_H
 
+#include "circuit/inductance.h"
 #include "coupling/study/onset.h"
 
 typedef struct {
@@ -12,7 +13,8 @@ typedef struct {
     scene_result scene;
     onset_answer onset;
     inductance_result inductance;
-    double *gradients; /* of the inductance result, owned */
+    double *gradients;          /* of the inductance result, owned */
+    inductance_surface surface; /* likewise */
 } command_result;
 
 status command_shot(session *s, command_result *out);
