@@ -2,7 +2,7 @@
 # Sourced by demo.sh and test.sh: the Debian 12 packages Breech needs, and how to get them.  The one list of them.
 
 packages_build=(gcc libc6-dev cmake ninja-build libsundials-dev libgsl-dev libhdf5-dev libyaml-dev libudunits2-dev
-                libcjson-dev libcmocka-dev gnuplot-nox)
+                libcjson-dev libcmocka-dev gnuplot-nox libopenmpi-dev openmpi-bin)
 packages_test=(git clang libclang-rt-14-dev libomp-dev clang-format python3-h5py)
 packages_full=(paraview python3-paraview xvfb xauth chromium)
 

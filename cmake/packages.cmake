@@ -44,4 +44,6 @@ breech_plain(breech_udunits2 udunits2.h udunits2 libudunits2-dev udunits2)
 breech_plain(breech_cjson cJSON.h cjson libcjson-dev cjson)
 breech_plain(breech_cmocka cmocka.h cmocka libcmocka-dev)
 
-find_package(MPI QUIET COMPONENTS C)
+if(BREECH_MPI)
+    find_package(MPI QUIET COMPONENTS C)
+endif()

@@ -6,6 +6,8 @@
 #include "coupling/io/stop.h"
 #include "coupling/io/table.h"
 #include "coupling/study/commands.h"
+#include "coupling/study/crew.h"
+#include "coupling/study/ranks.h"
 
 #include <errno.h>
 #include <math.h>
@@ -488,17 +490,50 @@ static void wait_passively(char **argv)
     if (setenv("OMP_WAIT_POLICY", "passive", 1) == 0) execv("/proc/self/exe", argv);
 }
 
-int main(int argc, char **argv)
+/* All of the machine, or of what the launcher has bound this process to; several processes on one machine share it. */
+static int default_threads(void)
 {
-    wait_passively(argv);
+    const int mine = omp_get_num_procs(), all = (int)sysconf(_SC_NPROCESSORS_ONLN), here = ranks_on_machine();
+    if (getenv("OMP_NUM_THREADS") || mine < all || here == 1) return omp_get_max_threads();
+    return mine > here ? mine / here : 1;
+}
+
+static int lead(int argc, char **argv, int threads)
+{
     const int answered = argc > 1 ? answer(argc, argv) : -1;
     if (answered >= 0) return answered;
     if (argc == 1) {
         print_help(stderr);
         return EXIT_USAGE;
     }
-    options o = { .threads = omp_get_max_threads(), .max_walltime = INFINITY };
+    options o = { .threads = threads, .max_walltime = INFINITY };
     const status s = parse(argc, argv, &o);
     if (s.code != STATUS_OK) return complain(s);
     return o.command->run(&o);
+}
+
+/* The other processes read their number of threads only; what is wrong with the words, rank 0 says. */
+static int follow(int argc, char **argv, int threads)
+{
+    options o = { .threads = threads };
+    (void)parse(argc, argv, &o);
+    crew_serve(o.threads);
+    return EXIT_DONE;
+}
+
+int main(int argc, char **argv)
+{
+    wait_passively(argv);
+    const status s = ranks_start();
+    if (s.code != STATUS_OK) return complain(s);
+    const int threads = default_threads();
+    int code;
+    if (ranks_number() == 0) {
+        code = lead(argc, argv, threads);
+        crew_dismiss();
+    } else {
+        code = follow(argc, argv, threads);
+    }
+    ranks_finish();
+    return code;
 }

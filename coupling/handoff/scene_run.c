@@ -1,7 +1,5 @@
 #include "coupling/handoff/scene_run.h"
 
-#include "coupling/io/snapshot.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -133,7 +131,7 @@ static bool on_step(void *user, const mpm *m)
         progress_update(r->host->progress, state.time / r->job->scene.end_time, state.particle_steps);
     }
     if (now - r->saved >= r->job->c->output.checkpoint_interval) r->error = save(r);
-    return r->error.code == STATUS_OK && !(r->host->stop && r->host->stop());
+    return r->error.code == STATUS_OK && !(r->host->stop && r->host->stop(r->host->user));
 }
 
 static status write_row(run *r)
@@ -318,15 +316,28 @@ static status finish(run *r, const armature_metal *before, impact *out)
 
 /* ---- setting up ---- */
 
-/* Snapshots stand at piece ends, the first at the start, the last at the end. */
+/* Snapshots stand at piece ends, the first at the start, the last at the end; the pieces are those of the case whether
+ * anybody wants the snapshots or not. */
 static void plan_pieces(run *r)
 {
-    const int n = r->host->dir ? r->job->c->output.snapshots : 0;
+    const int n = r->job->c->output.snapshots;
     r->pieces = PIECES;
     if (n == 0) return;
-    const int gaps = n > 1 ? n - 1 : 1;
-    r->per_snapshot = (PIECES + gaps - 1) / gaps;
-    r->pieces = gaps * r->per_snapshot;
+    const int gaps = n > 1 ? n - 1 : 1, per_gap = (PIECES + gaps - 1) / gaps;
+    r->pieces = gaps * per_gap;
+    if (r->host->dir || r->host->sink) r->per_snapshot = per_gap;
+}
+
+static status open_snapshots(run *r, double reached)
+{
+    char dir[OUTDIR_PATH_SIZE];
+    if (!r->per_snapshot) return status_ok();
+    if (r->host->sink) {
+        snprintf(dir, sizeof dir, "scenes/%s", r->job->name);
+        return snapshots_open_sink(dir, r->host->sink, &r->shots);
+    }
+    TRY(outdir_scene(r->host->dir, r->job->name, dir, sizeof dir));
+    return snapshots_open(dir, reached, &r->shots);
 }
 
 static status open_output(run *r)
@@ -338,12 +349,7 @@ static status open_output(run *r)
         TRY(history_scene(h->history, r->job->name, &r->series));
         TRY(history_rewind(h->history, r->series, reached));
     }
-    if (r->per_snapshot) {
-        char dir[OUTDIR_PATH_SIZE];
-        TRY(outdir_scene(h->dir, r->job->name, dir, sizeof dir));
-        TRY(snapshots_open(dir, reached, &r->shots));
-    }
-    return status_ok();
+    return open_snapshots(r, reached);
 }
 
 static status run_made(run *r, impact *out)

@@ -12,16 +12,18 @@
 #include "coupling/io/history.h"
 #include "coupling/io/outdir.h"
 #include "coupling/io/progress.h"
+#include "coupling/io/snapshot.h"
 #include "coupling/io/summary.h"
 
 /* What a run offers its scenes; members that are NULL are not wanted.  All borrowed. */
 typedef struct {
-    const outdir *dir; /* snapshots go to DIR/scenes/<name> */
-    history *history;  /* takes /scene/<name> and its crater */
+    const outdir *dir;         /* snapshots go to DIR/scenes/<name> */
+    const snapshot_sink *sink; /* or are handed over, as scenes/<name>/... (dir NULL) */
+    history *history;          /* takes /scene/<name> and its crater */
     progress *progress;
     timing *timing;
-    int threads;        /* 0: as many as there are */
-    bool (*stop)(void); /* true: finish the step, save, STATUS_STOPPED */
+    int threads;              /* 0: as many as there are */
+    bool (*stop)(void *user); /* asked after every step; true: save, STATUS_STOPPED */
     /* A checkpoint: on a stop, and every output.checkpoint_interval.  wall: spent in the scene so far [s]. */
     status (*save)(void *user, const char *scene, const mpm *m, double wall);
     void *user;

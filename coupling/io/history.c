@@ -82,6 +82,13 @@ static status gather(history *h, series_buffer *b)
     return status_ok();
 }
 
+static status gather_all(history *h)
+{
+    for (int i = 0; i < HISTORY_MAX_SERIES; i++)
+        if (h->series[i].rows > 0) TRY(gather(h, &h->series[i]));
+    return status_ok();
+}
+
 static int find_series(const history *h, const char *group)
 {
     int i = 0;
@@ -152,8 +159,7 @@ status history_flush(history *h)
 {
     if (!h->changed || !h->path[0]) return status_ok();
     const double start = wall_clock();
-    for (int i = 0; i < HISTORY_MAX_SERIES; i++)
-        if (h->series[i].rows > 0) TRY(gather(h, &h->series[i]));
+    TRY(gather_all(h));
     TRY(h5_save(h->file, h->path));
     h->changed = false;
     h->flushed = wall_clock();
@@ -199,7 +205,18 @@ status history_export(history *h, const char *scene, h5_file *to)
 {
     char group[GROUP_SIZE];
     TRY(scene_group(scene, group));
+    TRY(gather_all(h));
     return h5_copy(h->file, group, to, STORED_GROUP);
+}
+
+status history_copy_scene(history *from, const char *scene, history *to)
+{
+    char group[GROUP_SIZE];
+    TRY(scene_group(scene, group));
+    if (!h5_exists(from->file, group)) return status_ok();
+    TRY(gather_all(from));
+    to->changed = true;
+    return h5_copy(from->file, group, to->file, group);
 }
 
 status history_import(history *h, const char *scene, const h5_file *from)

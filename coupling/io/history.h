@@ -44,9 +44,11 @@ status history_tick(history *h);
 /* Flushes and frees; NULL allowed. */
 status history_close(history *h);
 
-/* /scene/<scene> as the group /scene of another file, and back; no series of it may be open. */
+/* /scene/<scene> as the group /scene of another file, and back; no series of it may be open in the one that gets it. */
 status history_export(history *h, const char *scene, h5_file *to);
 status history_import(history *h, const char *scene, const h5_file *from);
+/* The same from one history to another; nothing where there is none. */
+status history_copy_scene(history *from, const char *scene, history *to);
 bool history_has(const history *h, const char *scene);
 
 /* The crater of scene `name`; a former one is replaced. */

@@ -250,3 +250,13 @@ status outdir_scene(const outdir *d, const char *scene, char *path, size_t size)
     TRY(path_join(scenes, scene, path, size));
     return directory_make(path);
 }
+
+void outdir_drop_scene(const outdir *d, const char *scene)
+{
+    char scenes[OUTDIR_PATH_SIZE], path[OUTDIR_PATH_SIZE];
+    if (!name_is_plain(scene) || path_join(d->path, "scenes", scenes, sizeof scenes).code != STATUS_OK ||
+        path_join(scenes, scene, path, sizeof path).code != STATUS_OK)
+        return;
+    remove_ours(path, 2);
+    rmdir(path);
+}

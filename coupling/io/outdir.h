@@ -57,6 +57,9 @@ bool name_is_plain(const char *name);
 /* DIR/scenes/<scene>, made when missing; scene must be a plain name. */
 status outdir_scene(const outdir *d, const char *scene, char *path, size_t size);
 
+/* Removes DIR/scenes/<scene> with the snapshots in it, where there is one. */
+void outdir_drop_scene(const outdir *d, const char *scene);
+
 /* ---- a file appears at once or not at all ---- */
 
 /* Write `bytes` to path: path.part, fsync, rename.  On error path is as it was and no .part is left. */

@@ -16,6 +16,7 @@ enum { FILE_SIZE = 32, MAX_WIDTH = 6, VTK_VERTEX = 1 };
 
 struct snapshots {
     char dir[OUTDIR_PATH_SIZE];
+    snapshot_sink sink;
     int n, room;
     double *time; /* n, owned [s] */
 };
@@ -47,20 +48,36 @@ static status add_time(snapshots *s, double time)
 
 /* ---- the index, and what an earlier run left ---- */
 
-static status write_index(const snapshots *s)
+static status put_file(void *user, const char *path, const void *data, size_t bytes)
 {
-    char path[OUTDIR_PATH_SIZE];
-    TRY(full_path(s, INDEX_NAME, path));
-    file_writer w;
-    TRY(file_begin(&w, path));
-    fputs("{ \"file-series-version\": \"1.0\",\n  \"files\": [", w.stream);
+    (void)user;
+    return file_write(path, data, bytes);
+}
+
+static void print_index(const snapshots *s, FILE *out)
+{
+    fputs("{ \"file-series-version\": \"1.0\",\n  \"files\": [", out);
     for (int i = 0; i < s->n; i++) {
         char name[FILE_SIZE];
         file_name(i, name);
-        fprintf(w.stream, "%s\n    { \"name\": \"%s\", \"time\": %.17g }", i ? "," : "", name, s->time[i]);
+        fprintf(out, "%s\n    { \"name\": \"%s\", \"time\": %.17g }", i ? "," : "", name, s->time[i]);
     }
-    fputs("\n  ] }\n", w.stream);
-    return file_end(&w, true);
+    fputs("\n  ] }\n", out);
+}
+
+static status write_index(const snapshots *s)
+{
+    char path[OUTDIR_PATH_SIZE], *text = NULL;
+    size_t bytes = 0;
+    TRY(full_path(s, INDEX_NAME, path));
+    FILE *out = open_memstream(&text, &bytes);
+    CHECK(out, STATUS_MEMORY, "no memory for the list of snapshots");
+    print_index(s, out);
+    const bool whole = fclose(out) == 0;
+    const status done = whole ? s->sink.put(s->sink.user, path, text, bytes)
+                              : status_error(STATUS_MEMORY, "no memory for the list of snapshots");
+    free(text);
+    return done;
 }
 
 /* Snapshots are numbered from 0 without gaps and in order of time: those to keep are the first ones. */
@@ -107,23 +124,38 @@ static void remove_others(const snapshots *s)
     closedir(d);
 }
 
-status snapshots_open(const char *dir, double resume_time, snapshots **out)
+static status open_list(snapshots *s, double resume_time)
+{
+    if (s->sink.put == put_file) {
+        TRY(read_index(s, resume_time));
+        remove_others(s);
+    }
+    return write_index(s);
+}
+
+static status open_with(const char *dir, const snapshot_sink *sink, double resume_time, snapshots **out)
 {
     *out = NULL;
     snapshots *s = calloc(1, sizeof *s);
     CHECK(s, STATUS_MEMORY, "no memory for the snapshots");
     snprintf(s->dir, sizeof s->dir, "%s", dir);
-    status result = read_index(s, resume_time);
-    if (result.code == STATUS_OK) {
-        remove_others(s);
-        result = write_index(s);
-    }
-    if (result.code != STATUS_OK) {
+    s->sink = *sink;
+    const status result = open_list(s, resume_time);
+    if (result.code == STATUS_OK)
+        *out = s;
+    else
         snapshots_close(s);
-        return result;
-    }
-    *out = s;
     return result;
+}
+
+status snapshots_open(const char *dir, double resume_time, snapshots **out)
+{
+    return open_with(dir, &(snapshot_sink){ put_file, NULL }, resume_time, out);
+}
+
+status snapshots_open_sink(const char *dir, const snapshot_sink *sink, snapshots **out)
+{
+    return open_with(dir, sink, -1.0, out);
 }
 
 int snapshots_count(const snapshots *s)
@@ -205,6 +237,16 @@ static status write_all(writer *w)
                     &(h5_array){ H5_DOUBLE, 1, { 1 }, &w->source->time });
 }
 
+static status put_image(const snapshots *s, h5_file *file, const char *path)
+{
+    void *image;
+    size_t bytes;
+    TRY(h5_image(file, &image, &bytes));
+    const status done = s->sink.put(s->sink.user, path, image, bytes);
+    free(image);
+    return done;
+}
+
 status snapshots_write_source(snapshots *s, const snapshot_source *source)
 {
     char name[FILE_SIZE], path[OUTDIR_PATH_SIZE];
@@ -218,7 +260,7 @@ status snapshots_write_source(snapshots *s, const snapshot_source *source)
     if (result.code == STATUS_OK) result = write_all(&w);
     free(w.value);
     free(w.single);
-    if (result.code == STATUS_OK) result = h5_save(w.file, path);
+    if (result.code == STATUS_OK) result = put_image(s, w.file, path);
     h5_close(w.file);
     if (result.code != STATUS_OK) return result;
     TRY(add_time(s, source->time));

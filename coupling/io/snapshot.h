@@ -14,6 +14,12 @@ typedef struct snapshots snapshots; /* owns the list of what was written */
 /* dir must exist.  resume_time: snapshots of that scene with a time up to it are kept and go on being counted, later ones
  * are removed [s]; a negative one starts anew and removes all. */
 status snapshots_open(const char *dir, double resume_time, snapshots **out);
+/* The same, always anew, but the files are handed to somebody else: on processes that write nothing themselves. */
+typedef struct {
+    status (*put)(void *user, const char *path, const void *data, size_t bytes); /* path: dir/scene-000012.hdf */
+    void *user;                                                                  /* borrowed */
+} snapshot_sink;
+status snapshots_open_sink(const char *dir, const snapshot_sink *sink, snapshots **out);
 status snapshots_write(snapshots *s, const mpm *m);
 int snapshots_count(const snapshots *s);
 void snapshots_close(snapshots *s); /* NULL allowed */

@@ -329,6 +329,25 @@ static void add_common(cJSON *root, const run_summary *s)
     cJSON_AddItemToObject(root, "warnings", warnings_json(s->warnings));
 }
 
+/* cJSON writes 15 digits where they are nearly right; numbers here are the shortest text that is exactly right. */
+static void make_exact(cJSON *node)
+{
+    for (cJSON *item = node ? node->child : NULL, *next; item; item = next) {
+        char text[32];
+        next = item->next;
+        make_exact(item);
+        if (!cJSON_IsNumber(item)) continue;
+        for (int digits = 15; digits <= 17; digits++) {
+            snprintf(text, sizeof text, "%.*g", digits, item->valuedouble);
+            if (strtod(text, NULL) == item->valuedouble) break;
+        }
+        cJSON *exact = cJSON_CreateRaw(text);
+        if (!exact) continue;
+        if (item->string) exact->string = strdup(item->string);
+        cJSON_ReplaceItemViaPointer(node, item, exact);
+    }
+}
+
 char *summary_text(const run_summary *s)
 {
     cJSON *root = cJSON_CreateObject();
@@ -340,6 +359,7 @@ char *summary_text(const run_summary *s)
         add_keys(shot_json, shot_keys, s->shot);
         cJSON_AddItemToObject(root, "shot", shot_json);
     }
+    make_exact(root);
     char *text = cJSON_Print(root);
     cJSON_Delete(root);
     return text;
@@ -382,6 +402,7 @@ char *summary_scene_text(const onset_scene *s)
     cJSON *object = cJSON_CreateObject();
     add_keys(object, study_scene_keys, s);
     add_keys(object, scene_keys, result_of(s));
+    make_exact(object);
     char *text = cJSON_PrintUnformatted(object);
     cJSON_Delete(object);
     return text;

@@ -1,40 +1,12 @@
 #include "coupling/study/scenes.h"
 
-#include "coupling/study/store.h"
+#include "coupling/study/crew.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double ENERGY_ERROR_LIMIT = 0.01; /* above it a scene is warned about (issue's bound of the base case) */
-
-/* ---- what a query asks for ---- */
-
-static void surface_text(const breech_case *c, char *out, size_t size)
-{
-    const case_layers *layers = &c->rail.layers;
-    int n = snprintf(out, size, "%s", c->rail.material);
-    for (int i = 0; i < layers->n && n > 0 && (size_t)n < size; i++)
-        n += snprintf(out + n, size - (size_t)n, " + %s", layers->item[i].material);
-}
-
-/* The entry all but its result. */
-static onset_scene describe(const scene_query *q)
-{
-    const site_state *state = &q->state;
-    onset_scene e;
-    memset(&e, 0, sizeof e);
-    memcpy(e.name, q->name, sizeof e.name);
-    e.velocity = state->velocity;
-    e.radius = state->grain.radius;
-    e.height = state->grain.height;
-    memcpy(e.shape, state->grain.shape, sizeof e.shape);
-    memcpy(e.material, state->grain.material, sizeof e.material);
-    surface_text(q->c, e.surface, sizeof e.surface);
-    e.contact_pressure = state->contact_pressure;
-    e.temperature = q->c->rail.temperature;
-    e.cells_per_radius = q->cells_per_radius;
-    return e;
-}
 
 /* ---- computing ---- */
 
@@ -57,25 +29,27 @@ static void say_outcome(session *s, const onset_scene *e)
                  r->severity, r->widening, r->wall_seconds);
 }
 
-static status run_here(session *s, const scene_query *q, impact *hit)
+static bool stop_asked(void *user)
 {
-    scene_job job;
+    const session *s = user;
+    return s->stop && s->stop();
+}
+
+static status run_here(session *s, const scene_query *q, const scene_key *key, scene_record *out)
+{
     char task[120];
-    TRY(scene_job_make(q->c, &q->state, q->cells_per_radius, &job));
     snprintf(task, sizeof task, "scene %d, %g m/s, %g cells a radius", s->n_records + 1, q->state.velocity,
              q->cells_per_radius);
-    job.name = q->name;
-    job.task = task;
-    job.resume = session_resume_of(s, q->name);
     const scene_host host = { .dir = &s->dir,
                               .history = s->history,
                               .progress = &s->progress,
                               .timing = &s->timing,
                               .threads = s->threads,
-                              .stop = s->stop,
+                              .stop = stop_asked,
                               .save = session_save_inside,
                               .user = s };
-    return s->run_scene(&job, &host, hit);
+    const scene_work_how how = { s->run_scene, task, &host, session_resume_of(s, q->name) };
+    return scene_work(q, key->hash, &how, out);
 }
 
 static status into_store(session *s, const scene_record *r, const scene_key *key)
@@ -100,14 +74,7 @@ static status keep(session *s, const scene_record *fresh)
 static status compute(session *s, const scene_query *q, const scene_key *key)
 {
     scene_record fresh;
-    impact hit;
-    memset(&fresh, 0, sizeof fresh);
-    TRY(run_here(s, q, &hit));
-    fresh.entry = describe(q);
-    fresh.entry.result = hit.result;
-    fresh.impulse = hit.impulse;
-    fresh.mass_loss = hit.mass_loss;
-    fresh.key = key->hash;
+    TRY(run_here(s, q, key, &fresh));
     TRY(into_store(s, &fresh, key));
     return keep(s, &fresh);
 }
@@ -115,15 +82,26 @@ static status compute(session *s, const scene_query *q, const scene_key *key)
 /* ---- taking up what is there ---- */
 
 /* The scene's series and crater come along where its file has them. */
-static status take_file(session *s, const scene_query *q, const scene_key *key, const h5_file *file)
+static status take_file(session *s, const scene_query *q, const scene_key *key, const h5_file *file, bool reused)
 {
-    scene_record old;
-    memset(&old, 0, sizeof old);
-    old.entry = describe(q);
-    old.entry.reused = true;
-    TRY(scene_file_read(file, key, &old));
+    scene_record r;
+    memset(&r, 0, sizeof r);
+    r.entry = scene_entry(q);
+    r.entry.reused = reused;
+    TRY(scene_file_read(file, key, &r));
     if (h5_exists(file, "/scene")) TRY(history_import(s->history, q->name, file));
-    return keep(s, &old);
+    return keep(s, &r);
+}
+
+/* From another process, or computed ahead. */
+static status take_come(session *s, const scene_query *q, const scene_key *key)
+{
+    h5_file *file = NULL;
+    if (!s->crew) return status_ok();
+    TRY(crew_take(s->crew, key, &file));
+    const status taken = file ? take_file(s, q, key, file, false) : status_ok();
+    h5_close(file);
+    return taken;
 }
 
 /* A file that cannot be used is none: its scene is computed and replaces it. */
@@ -133,7 +111,7 @@ static status take_stored(session *s, const scene_query *q, const scene_key *key
     if (!s->store[0] || q->anew) return status_ok();
     TRY(scene_store_get(s->store, key, &file));
     if (!file) return status_ok();
-    const status taken = take_file(s, q, key, file);
+    const status taken = take_file(s, q, key, file, true);
     h5_close(file);
     if (taken.code == STATUS_IO) session_warn(s, "%s; computed anew", taken.text);
     return taken.code == STATUS_IO ? status_ok() : taken;
@@ -155,6 +133,9 @@ static status look_up(session *s, const scene_query *q, scene_key *key, const sc
     TRY(scene_key_of(q->c, &q->state, q->cells_per_radius, key));
     *out = record_of(s, key->hash);
     if (*out) return status_ok();
+    TRY(take_come(s, q, key));
+    *out = record_of(s, key->hash);
+    if (*out) return status_ok();
     TRY(take_stored(s, q, key));
     *out = record_of(s, key->hash);
     return status_ok();
@@ -168,36 +149,76 @@ status scenes_find(session *s, const scene_query *query, const scene_record **ou
     return done;
 }
 
-static status find_or_compute(session *s, const scene_query *q, const scene_record **out)
+static status compute_here(session *s, const scene_query *q)
 {
     scene_key key = { .text = NULL };
-    status done = look_up(s, q, &key, out);
-    if (done.code == STATUS_OK && !*out) {
-        done = compute(s, q, &key);
-        *out = record_of(s, key.hash);
-    }
+    status done = scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
+    if (done.code == STATUS_OK) done = compute(s, q, &key);
     scene_key_free(&key);
     return done;
 }
 
-status scenes_all(session *s, const scene_query *query, int n, const scene_record **out)
+/* Those of the n that are not known, into missing (n of room); *left of them. */
+static status list_missing(session *s, const scene_query *query, int n, scene_query *missing, int *left)
 {
-    for (int i = 0; i < n; i++) TRY(find_or_compute(s, &query[i], &out[i]));
-    return status_ok();
-}
-
-status scenes_some(session *s, const scene_query *query, int n)
-{
-    const scene_record *known;
+    *left = 0;
     for (int i = 0; i < n; i++) {
+        const scene_record *known;
         TRY(scenes_find(s, &query[i], &known));
-        if (!known) return find_or_compute(s, &query[i], &known);
+        if (!known) missing[(*left)++] = query[i];
     }
     return status_ok();
 }
 
+/* One more of them, wherever it is computed; *left: how many were missing before. */
+static status one_more(session *s, const scene_query *query, int n, int *left)
+{
+    scene_query *missing = malloc(((size_t)n + 1) * sizeof *missing);
+    CHECK(missing, STATUS_MEMORY, "no memory for %d scenes", n);
+    status done = list_missing(s, query, n, missing, left);
+    if (done.code == STATUS_OK && *left > 0)
+        done = s->crew ? crew_some(s->crew, missing, *left) : compute_here(s, &missing[0]);
+    free(missing);
+    return done;
+}
+
+status scenes_some(session *s, const scene_query *query, int n)
+{
+    int left;
+    return one_more(s, query, n, &left);
+}
+
+status scenes_all(session *s, const scene_query *query, int n, const scene_record **out)
+{
+    int left = n;
+    while (left > 0) TRY(one_more(s, query, n, &left));
+    for (int i = 0; i < n; i++) TRY(scenes_find(s, &query[i], &out[i]));
+    return status_ok();
+}
+
+static status is_known(const session *s, const scene_query *q, bool *known)
+{
+    scene_key key = { .text = NULL };
+    const status done = scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
+    *known = record_of(s, key.hash) || (s->store[0] && scene_store_has(s->store, &key));
+    scene_key_free(&key);
+    return done;
+}
+
+/* One process has no idle ones. */
 status scenes_ahead(session *s, const scene_query *query, int n)
 {
-    (void)s, (void)query, (void)n; /* one process has no idle ones */
-    return status_ok();
+    if (!s->crew) return status_ok();
+    scene_query *open = malloc(((size_t)n + 1) * sizeof *open);
+    CHECK(open, STATUS_MEMORY, "no memory for %d scenes", n);
+    int left = 0;
+    status done = status_ok();
+    for (int i = 0; i < n && done.code == STATUS_OK; i++) {
+        bool known;
+        done = is_known(s, &query[i], &known);
+        if (!known) open[left++] = query[i];
+    }
+    if (done.code == STATUS_OK) done = crew_ahead(s->crew, open, left);
+    free(open);
+    return done;
 }

@@ -18,7 +18,7 @@
 #include "coupling/study/session.h"
 
 typedef struct {
-    const breech_case *c;         /* rail, projectile, scene, materials, snapshots; borrowed for the call */
+    const breech_case *c;         /* rail, projectile, scene, materials, snapshots; borrowed until session_close */
     site_state state;             /* its grain, velocity and contact pressure count; the temperatures are the case's */
     double cells_per_radius;      /* [1] */
     char name[SUMMARY_NAME_SIZE]; /* plain (outdir.h); a scene of this run keeps the name it has */
@@ -35,7 +35,7 @@ status scenes_all(session *s, const scene_query *query, int n, const scene_recor
 /* Returns as soon as one more of the n is known, at once when all are. */
 status scenes_some(session *s, const scene_query *query, int n);
 
-/* Replaces the former list; the likeliest first.  Copied; the cases are borrowed until the next call of this function. */
+/* Replaces the former list; the likeliest first. */
 status scenes_ahead(session *s, const scene_query *query, int n);
 
 #endif

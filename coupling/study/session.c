@@ -1,5 +1,8 @@
 #include "coupling/study/session.h"
 
+#include "coupling/study/crew.h"
+#include "coupling/study/ranks.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -150,13 +153,16 @@ status session_open(const breech_case *c, const session_options *o, session *s)
     TRY(write_used(s));
     if (s->dir.state == OUTDIR_RESUMED) TRY(take_up(s));
     TRY(outdir_file(&s->dir, OUTDIR_HISTORY, dir, sizeof dir));
-    return history_open(dir, s->dir.state == OUTDIR_RESUMED, &s->history);
+    TRY(history_open(dir, s->dir.state == OUTDIR_RESUMED, &s->history));
+    return ranks_count() > 1 ? crew_create(s, &s->crew) : status_ok();
 }
 
 status session_close(session *s, bool finished)
 {
     char path[OUTDIR_PATH_SIZE];
     progress_close(&s->progress);
+    crew_free(s->crew);
+    s->crew = NULL;
     const status done = history_close(s->history);
     if (finished && s->dir.lock >= 0 && checkpoint_path(s, path).code == STATUS_OK) unlink(path);
     outdir_close(&s->dir);

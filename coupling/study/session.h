@@ -30,6 +30,7 @@ typedef struct {
     checkpoint resumed;           /* empty unless the run goes on */
     double started, wall_before;  /* wall clock; spent before this process [s] */
     char store[OUTDIR_PATH_SIZE]; /* folder of the scene store, "": none */
+    struct crew *crew;            /* the other processes (crew.h), owned; NULL: there are none */
     int n_records;
     scene_record **record; /* in the order they came; owned, one by one */
     char *warnings;        /* a line each, owned */
@@ -45,7 +46,7 @@ typedef struct {
     bool (*stop)(void);
 } session_options;
 
-/* Opens the output directory, writes used.yaml, takes up the checkpoint.  s->dir.state OUTDIR_FINISHED: nothing to do.
+/* Opens the output directory, writes used.yaml, takes up the checkpoint.  *s stays where it is until session_close.  s->dir.state OUTDIR_FINISHED: nothing to do.
  * session_close is due in any case. */
 status session_open(const breech_case *c, const session_options *o, session *s);
 /* Flushes the history, frees all.  finished: the checkpoint has served. */

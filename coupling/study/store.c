@@ -94,6 +94,12 @@ status scene_store_get(const char *dir, const scene_key *key, h5_file **out)
     return status_ok();
 }
 
+bool scene_store_has(const char *dir, const scene_key *key)
+{
+    char path[OUTDIR_PATH_SIZE];
+    return path_of(dir, key, path).code == STATUS_OK && file_exists(path);
+}
+
 /* Under a name of its own first: another program may be writing the same scene. */
 status scene_store_put(const char *dir, const scene_key *key, h5_file *file)
 {

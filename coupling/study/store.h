@@ -23,6 +23,7 @@ status scene_file_read(const h5_file *f, const scene_key *key, scene_record *out
 status scene_store_open(const char *dir);
 /* *out is NULL when there is none; scene_file_read has the last word. */
 status scene_store_get(const char *dir, const scene_key *key, h5_file **out);
+bool scene_store_has(const char *dir, const scene_key *key);
 status scene_store_put(const char *dir, const scene_key *key, h5_file *file);
 
 #endif

@@ -1,0 +1,151 @@
+#include "coupling/study/crew.h"
+#include "coupling/study/crew_messages.h"
+#include "coupling/study/ranks.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+
+status crew_say(int to, int kind, const void *head, size_t head_bytes, const void *body, size_t body_bytes)
+{
+    char *all = malloc(head_bytes + body_bytes + 1);
+    CHECK(all, STATUS_MEMORY, "no memory for a message of %zu bytes", head_bytes + body_bytes);
+    memcpy(all, head, head_bytes);
+    if (body_bytes) memcpy(all + head_bytes, body, body_bytes);
+    const status said = ranks_send(to, kind, all, head_bytes + body_bytes);
+    free(all);
+    return said;
+}
+
+typedef struct {
+    int threads;
+    bool give_up; /* the scene under way */
+    bool over;    /* nothing more comes */
+} member;
+
+/* While a scene is under way nothing but these two can come. */
+static bool heard_stop(void *user)
+{
+    member *me = user;
+    message m;
+    bool any = false;
+    if (!me->give_up && ranks_receive(&m, &any).code == STATUS_OK && any) {
+        me->over = m.kind == SAY_END;
+        me->give_up = me->over || m.kind == SAY_STOP;
+        message_free(&m);
+    }
+    return me->give_up;
+}
+
+static status send_file(void *user, const char *path, const void *data, size_t bytes)
+{
+    (void)user;
+    return crew_say(0, SAY_FILE, path, strlen(path) + 1, data, bytes);
+}
+
+/* ---- one scene ---- */
+
+static status compute(member *me, const scene_query *q, const scene_key *key, h5_file **file)
+{
+    scene_record r;
+    history *rows;
+    progress silent;
+    progress_open(&silent, stderr, true);
+    TRY(history_open(NULL, false, &rows));
+    const scene_host host = { .sink = &(snapshot_sink){ send_file, NULL },
+                              .history = rows,
+                              .progress = &silent,
+                              .threads = me->threads,
+                              .stop = heard_stop,
+                              .user = me };
+    const scene_work_how how = { .run = scene_run, .task = q->name, .host = &host };
+    status done = scene_work(q, key->hash, &how, &r);
+    if (done.code == STATUS_OK) done = scene_file_make(&r, key, rows, file);
+    history_close(rows);
+    return done;
+}
+
+static status check_key(const scene_order *order, const scene_key *key)
+{
+    CHECK(
+        key->hash == order->key, STATUS_BAD_INPUT,
+        "rank %d would compute another scene than rank 0 asks for (solver %s, instruction set %s): all processes must "
+        "run the same build with the same instruction set",
+        ranks_number(), scene_solver_id(), mpm_instruction_set());
+    return status_ok();
+}
+
+static status compute_case(member *me, const scene_order *order, const breech_case *c, h5_file **file)
+{
+    scene_query q = { .c = c, .state = state_of_case(c), .cells_per_radius = c->scene.cells_per_radius };
+    scene_key key = { .text = NULL };
+    snprintf(q.name, sizeof q.name, "%s", order->name);
+    status done = scene_key_of(c, &q.state, q.cells_per_radius, &key);
+    if (done.code == STATUS_OK) done = check_key(order, &key);
+    if (done.code == STATUS_OK) done = compute(me, &q, &key, file);
+    scene_key_free(&key);
+    return done;
+}
+
+static status answer(uint64_t key, status done, h5_file *file)
+{
+    void *image;
+    size_t bytes;
+    if (done.code != STATUS_OK) return crew_say(0, SAY_FAILED, &key, sizeof key, &done, sizeof done);
+    TRY(h5_image(file, &image, &bytes));
+    const status said = crew_say(0, SAY_DONE, &key, sizeof key, image, bytes);
+    free(image);
+    return said;
+}
+
+static status take_order(member *me, const message *m)
+{
+    scene_order order;
+    breech_case *c = NULL;
+    char *errors = NULL;
+    h5_file *file = NULL;
+    me->give_up = false;
+    memcpy(&order, m->data, sizeof order);
+    const case_text text = { .bytes = m->data + sizeof order,
+                             .length = m->bytes - sizeof order,
+                             .path = "rank 0's case" };
+    status done = case_read_memory(&text, &(case_options){ .needs = CASE_FOR_SCENE }, &c, &errors);
+    if (done.code == STATUS_OK) done = compute_case(me, &order, c, &file);
+    done = answer(order.key, done, file);
+    h5_close(file);
+    case_free(c);
+    free(errors);
+    return done;
+}
+
+void crew_serve(int threads)
+{
+    member me = { .threads = threads };
+    signal(SIGINT, SIG_IGN); /* rank 0 hears them and says what to do */
+    signal(SIGTERM, SIG_IGN);
+    while (!me.over) {
+        message m;
+        bool any = false;
+        status done = ranks_receive(&m, &any);
+        if (!any) ranks_pause();
+        if (any && m.kind == SAY_SCENE) done = take_order(&me, &m);
+        if (any && m.kind == SAY_END) me.over = true;
+        if (done.code != STATUS_OK) fprintf(stderr, "breech, rank %d: %s\n", ranks_number(), done.text);
+        message_free(&m);
+    }
+    ranks_send(0, SAY_END, "", 0);
+}
+
+void crew_dismiss(void)
+{
+    int left = ranks_count() - 1;
+    for (int to = 1; to <= left; to++) ranks_send(to, SAY_END, "", 0);
+    while (left > 0) {
+        message m;
+        bool any = false;
+        ranks_receive(&m, &any);
+        if (!any) ranks_pause();
+        left -= any && m.kind == SAY_END;
+        message_free(&m);
+    }
+}

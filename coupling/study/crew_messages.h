@@ -1,0 +1,26 @@
+/* What the processes of a crew say to each other. */
+#ifndef BREECH_COUPLING_CREW_MESSAGES_H
+#define BREECH_COUPLING_CREW_MESSAGES_H
+
+#include "coupling/io/summary.h"
+
+#include <stdint.h>
+
+enum {
+    SAY_SCENE,  /* to a member: scene_order, then the key's text */
+    SAY_DONE,   /* from a member: the key's hash, then the scene's file */
+    SAY_FAILED, /* from a member: the key's hash, then a status */
+    SAY_FILE,   /* from a member: a path under the output directory, a 0, the bytes */
+    SAY_STOP,   /* to a member: give up the scene under way, if any; it says SAY_FAILED */
+    SAY_END     /* to a member: nothing more comes; and its answer, the last it says */
+};
+
+typedef struct {
+    uint64_t key;
+    char name[SUMMARY_NAME_SIZE];
+} scene_order;
+
+/* A head and a body as one message. */
+status crew_say(int to, int kind, const void *head, size_t head_bytes, const void *body, size_t body_bytes);
+
+#endif

@@ -1,0 +1,22 @@
+/* One scene computed for a query, whichever process does it. */
+#ifndef BREECH_COUPLING_SCENE_WORK_H
+#define BREECH_COUPLING_SCENE_WORK_H
+
+#include "coupling/study/scenes.h"
+#include "coupling/study/store.h"
+
+typedef status (*scene_runner)(const scene_job *, const scene_host *, impact *); /* scene_run, or a test's */
+
+typedef struct {
+    scene_runner run;
+    const char *task; /* for people */
+    const scene_host *host;
+    scene_resume resume;
+} scene_work_how;
+
+/* What the query says of its scene; the result is empty. */
+onset_scene scene_entry(const scene_query *q);
+/* STATUS_STOPPED and errors as scene_run. */
+status scene_work(const scene_query *q, uint64_t key, const scene_work_how *how, scene_record *out);
+
+#endif

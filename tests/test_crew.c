@@ -1,0 +1,247 @@
+/* Scenes over several processes: the same as by one, whoever computes them.
+ *
+ * Started by ctest as one process, it starts itself again as three under mpirun; rank 0 tests, the others serve. */
+#include "coupling/study/crew.h"
+#include "coupling/study/ranks.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#define OK(call)                                                        \
+    do {                                                                \
+        const status ok_ = (call);                                      \
+        if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
+    } while (0)
+
+#define CASES BREECH_TESTS "/../cases"
+enum { PROCESSES = 3, SKIPPED = 77 };
+
+/* Some hundred steps of real solver: a stub of an armature for a millionth of a second. */
+static breech_case *small_case(const char *end_time)
+{
+    const char *const dirs[] = { CASES "/materials" };
+    const case_options how = { dirs, 1, CASE_FOR_ONSET };
+    const char *const sets[] = { end_time,
+                                 "scene.coarse_cell=1.2 mm",
+                                 "scene.growth=1.3",
+                                 "scene.fine_ahead=2 mm",
+                                 "scene.fine_width=2 mm",
+                                 "scene.rail_ahead=6 mm",
+                                 "scene.rail_behind=1 mm",
+                                 "scene.rail_depth=5 mm",
+                                 "projectile.length=8 mm",
+                                 "projectile.half_bore=5 mm",
+                                 "projectile.width=8 mm",
+                                 "projectile.head_thickness=5 mm",
+                                 "projectile.leg_thickness=3 mm",
+                                 "output.snapshots=2" };
+    breech_case *c = NULL;
+    char *errors = NULL;
+    const status s = case_read(CASES "/default_shot", sets, sizeof sets / sizeof *sets, &how, &c, &errors);
+    if (s.code != STATUS_OK) fail_msg("%s", errors ? errors : s.text);
+    return c;
+}
+
+static scene_query query_at(const breech_case *c, double velocity)
+{
+    scene_query q = { .c = c, .cells_per_radius = 1.2 };
+    q.state =
+        (site_state){ .grain = c->sites.item[0], .reached = true, .velocity = velocity, .contact_pressure = 75e6 };
+    snprintf(q.name, sizeof q.name, "v%g-%p", velocity, (const void *)c);
+    return q;
+}
+
+static void open_session(const breech_case *c, const char *dir, session *s)
+{
+    const session_options options = {
+        .dir = dir, .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
+    };
+    OK(session_open(c, &options, s));
+    assert_non_null(s->crew);
+}
+
+/* What one process gives. */
+static scene_record alone(const breech_case *c, const scene_query *q)
+{
+    session s;
+    open_session(c, "alone", &s);
+    crew *others = s.crew;
+    const scene_record *out;
+    s.crew = NULL;
+    OK(scenes_all(&s, q, 1, &out));
+    const scene_record copy = *out;
+    s.crew = others;
+    OK(session_close(&s, true));
+    return copy;
+}
+
+static void assert_same(scene_record a, scene_record b)
+{
+    a.entry.result.wall_seconds = b.entry.result.wall_seconds = 0.0;
+    assert_true(a.entry.result.steps > 20 && isfinite(a.entry.result.severity));
+    /* one NaN need not have the other's bits */
+    if (isnan(a.entry.result.widening) && isnan(b.entry.result.widening))
+        a.entry.result.widening = b.entry.result.widening = 0.0;
+    assert_memory_equal(&a.entry, &b.entry, sizeof a.entry);
+    assert_true(a.impulse == b.impulse && a.mass_loss == b.mass_loss && a.key == b.key);
+}
+
+static bool is_there(const char *dir, const char *scene, const char *file)
+{
+    char path[400];
+    snprintf(path, sizeof path, "%s/scenes/%s/%s", dir, scene, file);
+    return access(path, F_OK) == 0;
+}
+
+/* A batch: the same bits, the history and the snapshots of every scene. */
+static void test_batch(void **state)
+{
+    (void)state;
+    enum { N = 5 };
+    breech_case *c = small_case("scene.end_time=0.5 us");
+    scene_query q[N];
+    const scene_record *out[N];
+    for (int i = 0; i < N; i++) q[i] = query_at(c, 1300.0 + 100.0 * i);
+    session s;
+    open_session(c, "batch", &s);
+    OK(scenes_all(&s, q, N, out));
+    assert_int_equal(s.n_records, N);
+    for (int i = 0; i < N; i++) {
+        assert_same(*out[i], alone(c, &q[i]));
+        assert_true(history_has(s.history, q[i].name));
+        assert_true(is_there("batch", q[i].name, "scene-000000.hdf") &&
+                    is_there("batch", q[i].name, "scene-000001.hdf"));
+        assert_true(is_there("batch", q[i].name, "scene.hdf.series"));
+    }
+    OK(session_close(&s, true));
+    case_free(c);
+}
+
+/* Rank 0's own scene is the long one: it is laid aside when a wanted one has come, and goes on to the same bits. */
+static void test_laid_aside(void **state)
+{
+    (void)state;
+    breech_case *c = small_case("scene.end_time=0.4 us"), *longer = small_case("scene.end_time=4 us");
+    const scene_query q[] = { query_at(longer, 1500.0), query_at(c, 1400.0), query_at(c, 1600.0) };
+    const scene_record *out[3];
+    int rounds = 0, known = 0;
+    session s;
+    open_session(c, "aside", &s);
+    while (known < 3) {
+        const int before = known;
+        OK(scenes_some(&s, q, 3));
+        known = 0;
+        for (int i = 0; i < 3; i++) {
+            OK(scenes_find(&s, &q[i], &out[i]));
+            known += out[i] != NULL;
+        }
+        assert_true(known > before);
+        if (++rounds == 1) assert_null(out[0]);
+    }
+    assert_true(rounds >= 2);
+    for (int i = 0; i < 3; i++) assert_same(*out[i], alone(q[i].c, &q[i]));
+    OK(session_close(&s, true));
+    case_free(c);
+    case_free(longer);
+}
+
+/* What was computed ahead is there at once when it is asked for, and leaves no trace when it is not. */
+static void test_ahead(void **state)
+{
+    (void)state;
+    breech_case *c = small_case("scene.end_time=0.4 us"), *longer = small_case("scene.end_time=4 us");
+    const scene_query wanted = query_at(longer, 1500.0), ahead[] = { query_at(c, 1400.0), query_at(c, 1600.0) };
+    const scene_record *out, *none;
+    session s;
+    open_session(c, "ahead", &s);
+    OK(scenes_ahead(&s, ahead, 2));
+    OK(scenes_all(&s, &wanted, 1, &out));
+    assert_int_equal(s.n_records, 1);
+    OK(scenes_find(&s, &ahead[0], &out)); /* the others have long finished it */
+    assert_non_null(out);
+    assert_false(out->entry.reused);
+    assert_same(*out, alone(c, &ahead[0]));
+    OK(scenes_ahead(&s, NULL, 0));
+    OK(scenes_find(&s, &wanted, &none));
+    OK(session_close(&s, true));
+    assert_true(is_there("ahead", ahead[0].name, "scene.hdf.series"));
+    assert_false(is_there("ahead", ahead[1].name, "scene.hdf.series"));
+    case_free(c);
+    case_free(longer);
+}
+
+/* A scene that cannot be: the words of the process that met it. */
+static void test_failed(void **state)
+{
+    (void)state;
+    breech_case *c = small_case("scene.end_time=0.4 us");
+    const scene_query q[] = { query_at(c, 1500.0), query_at(c, -1.0), query_at(c, 1400.0) };
+    const scene_record *out[3];
+    session s;
+    open_session(c, "failed", &s);
+    const status done = scenes_all(&s, q, 3, out);
+    assert_int_equal(done.code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(done.text, "velocity"));
+    OK(scenes_all(&s, &q[2], 1, out)); /* the crew is none the worse */
+    OK(session_close(&s, false));
+    case_free(c);
+}
+
+static bool stop_at_once(void)
+{
+    return true;
+}
+
+static void test_stopped(void **state)
+{
+    (void)state;
+    breech_case *c = small_case("scene.end_time=4 us");
+    const scene_query q[] = { query_at(c, 1500.0), query_at(c, 1400.0) };
+    const scene_record *out[2];
+    session s;
+    open_session(c, "stopped", &s);
+    s.stop = stop_at_once;
+    assert_int_equal(scenes_all(&s, q, 2, out).code, STATUS_STOPPED);
+    OK(session_close(&s, false));
+    case_free(c);
+}
+
+static int as_crew(const char *self)
+{
+    char count[8];
+    snprintf(count, sizeof count, "%d", PROCESSES);
+    setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+    execlp("mpirun", "mpirun", "--bind-to", "none", "-n", count, self, "crew", (char *)NULL);
+    puts("skipped: there is no mpirun");
+    return SKIPPED;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 1) return as_crew(argv[0]);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_batch),  cmocka_unit_test(test_laid_aside), cmocka_unit_test(test_ahead),
+        cmocka_unit_test(test_failed), cmocka_unit_test(test_stopped),
+    };
+    int failed = 0;
+    if (ranks_start().code != STATUS_OK) return SKIPPED; /* built without MPI */
+    if (ranks_count() < PROCESSES) return puts("skipped: not started by mpirun"), SKIPPED;
+    if (ranks_number() == 0) {
+        failed = cmocka_run_group_tests(tests, NULL, NULL);
+        crew_dismiss();
+    } else {
+        crew_serve(1);
+    }
+    ranks_finish();
+    return failed;
+}
