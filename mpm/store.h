@@ -191,6 +191,9 @@ uint64_t image_scene_key(const mpm *m); /* before the fine zone has moved */
 void particle_halve(double *q, double *other, int k);
 void particle_merge(double *q, const double *other, int k); /* the inverse: q takes other in */
 
+/* front.c: all but a twentieth of the power that ploughs the followed bodies lies behind it [m, W] */
+double front_find(const mpm *m, double *power);
+
 /* zone.c */
 zone zone_of(const mpm *m);
 status zone_follow(mpm *m);         /* goes after the plastic front, if it has come near the fine zone's end */
