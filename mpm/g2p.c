@@ -296,9 +296,10 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
         leave_holes(&r, vd_less(vd_set(0), vd_load(&q->mass[0][lane])));
         sum.heat = r.E - 0.5 * (r.v[0] * r.v[0] + r.v[1] * r.v[1] + r.v[2] * r.v[2]) - r.ka;
         vd_store(&q->ka[0][lane], r.ka);
-        for (int i = 0; i < 9; i++) vd_store(&q->L[i][lane], r.L[i]);
+        const motion moved = motion_of(r.L, run->step.dt);
+        for (int i = 0; i < 9; i++) vd_store(&q->L[i][lane], moved.end[i]);
         sum.work_external = move(q, lane, &r, &run->step);
-        law_step(k, &run->step, r.L, q, lane, &sum);
+        law_step(k, &run->step, &moved, q, lane, &sum);
         book(&run->books, q, lane, &sum);
         find_bad(&b->sum, q, lane, sum.rate, index);
         leaving |= leaving_lanes(q, lane, limits, k);

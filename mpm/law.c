@@ -3,72 +3,104 @@
 #include <math.h>
 #include <string.h>
 
-/* Pressure on the Hugoniot part of (M-3), without the energy term [Pa] */
-static double cold_pressure(const law *k, double mu)
+/* (M-3), with the energy e [Pa] */
+static double pressure(const law *k, double mu, double e)
 {
-    if (mu < 0) return k->K0 * mu;
+    if (mu < 0) return k->K0 * mu + k->g * k->rho0 * (1 + mu) * e;
     const double d = 1 - k->s1 * mu;
-    return k->K0 * mu * (1 + (1 - 0.5 * k->g) * mu) / (d * d);
+    return k->K0 * mu * (1 + (1 - 0.5 * k->g) * mu) / (d * d) + k->g * k->rho0 * e;
 }
 
-/*   de/dmu = [p_H(mu) + g0 rho0 e] / (rho0 (1 + mu)^2)                              the isentrope through T = 0, (M-4) */
-static double cold_slope(const law *k, double mu, double e)
+/* ---- the isentrope through rest at T_r (M-4) ---- */
+
+/*   de/dmu = p(mu, e) / (rho0 (1 + mu)^2) */
+static double isentrope_slope(const law *k, double mu, double e)
 {
-    return (cold_pressure(k, mu) + k->g * k->rho0 * e) / (k->rho0 * (1 + mu) * (1 + mu));
+    return pressure(k, mu, e) / (k->rho0 * (1 + mu) * (1 + mu));
 }
 
-static double cold_step(const law *k, double mu, double e, double d)
+static double isentrope_step(const law *k, double mu, double e, double d)
 {
-    const double k1 = cold_slope(k, mu, e);
-    const double k2 = cold_slope(k, mu + d / 2, e + d / 2 * k1);
-    const double k3 = cold_slope(k, mu + d / 2, e + d / 2 * k2);
-    const double k4 = cold_slope(k, mu + d, e + d * k3);
+    const double k1 = isentrope_slope(k, mu, e);
+    const double k2 = isentrope_slope(k, mu + d / 2, e + d / 2 * k1);
+    const double k3 = isentrope_slope(k, mu + d / 2, e + d / 2 * k2);
+    const double k4 = isentrope_slope(k, mu + d, e + d * k3);
     return e + d / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
 }
 
-/* Gauss elimination with pivoting of a 5 x 6 system; the unknowns go to x. */
-static void solve5(double a[5][6], double x[5])
+/*   dT/T = g d rho/rho, and the pressure law has g rho = g0 rho0 in compression, g = g0 in expansion:
+ *   T_s = T_r exp(g0 mu/(1 + mu)),   T_s = T_r (1 + mu)^g0                                                  */
+static double isentrope_temperature(const law *k, double mu)
 {
-    for (int c = 0; c < 5; c++) {
+    return k->T_r * (mu > 0 ? exp(k->g * mu / (1 + mu)) : pow(1 + mu, k->g));
+}
+
+/* Gauss elimination with pivoting; the unknowns go to x. */
+static void solve(double a[LAW_COLD][LAW_COLD + 1], double x[LAW_COLD])
+{
+    for (int c = 0; c < LAW_COLD; c++) {
         int pivot = c;
-        for (int r = c + 1; r < 5; r++)
+        for (int r = c + 1; r < LAW_COLD; r++)
             if (fabs(a[r][c]) > fabs(a[pivot][c])) pivot = r;
-        for (int q = 0; q < 6; q++) {
+        for (int q = 0; q <= LAW_COLD; q++) {
             const double t = a[c][q];
             a[c][q] = a[pivot][q];
             a[pivot][q] = t;
         }
-        for (int r = c + 1; r < 5; r++) {
+        for (int r = c + 1; r < LAW_COLD; r++) {
             const double f = a[r][c] / a[c][c];
-            for (int q = c; q < 6; q++) a[r][q] -= f * a[c][q];
+            for (int q = c; q <= LAW_COLD; q++) a[r][q] -= f * a[c][q];
         }
     }
-    for (int r = 4; r >= 0; r--) {
-        x[r] = a[r][5];
-        for (int q = r + 1; q < 5; q++) x[r] -= a[r][q] * x[q];
+    for (int r = LAW_COLD - 1; r >= 0; r--) {
+        x[r] = a[r][LAW_COLD];
+        for (int q = r + 1; q < LAW_COLD; q++) x[r] -= a[r][q] * x[q];
         x[r] /= a[r][r];
     }
 }
 
-/* Least squares of e_cold / mu^2 by a quartic over 0 .. 0.6 in compression (0.3 of the pole at most 0.7 / s1);
- * in expansion the same polynomial serves: e_cold there is below c0^2 mu^2 / 2 and small. */
-static void fit_cold(law *k)
+/* Least squares of e_r = e_s - c_v (T_s - T_r) = mu (c0 + c1 mu + ..) from rest to mu_end. */
+static void fit_reference(const law *k, double mu_end, double out[LAW_COLD])
 {
     enum { STEPS = 600 };
-    const double mu_end = fmin(0.6, 0.7 / fmax(k->s1, 0.01)), d = mu_end / STEPS;
-    double a[5][6];
+    const double d = mu_end / STEPS;
+    double a[LAW_COLD][LAW_COLD + 1], e = 0;
     memset(a, 0, sizeof a);
-    double e = 0;
     for (int i = 1; i <= STEPS; i++) {
-        e = cold_step(k, (i - 1) * d, e, d);
-        const double mu = i * d, y = e / (mu * mu);
-        double basis[5] = { 1, mu, mu * mu, mu * mu * mu, mu * mu * mu * mu };
-        for (int r = 0; r < 5; r++) {
-            for (int c = 0; c < 5; c++) a[r][c] += basis[r] * basis[c];
-            a[r][5] += basis[r] * y;
+        const double mu = i * d;
+        double basis[LAW_COLD] = { mu / mu_end }; /* of order one, or the system is badly conditioned */
+        for (int r = 1; r < LAW_COLD; r++) basis[r] = basis[r - 1] * mu / mu_end;
+        e = isentrope_step(k, (i - 1) * d, e, d);
+        const double y = e - k->c_v * (isentrope_temperature(k, mu) - k->T_r);
+        for (int r = 0; r < LAW_COLD; r++) {
+            for (int c = 0; c < LAW_COLD; c++) a[r][c] += basis[r] * basis[c];
+            a[r][LAW_COLD] += basis[r] * y;
         }
     }
-    solve5(a, k->cold);
+    solve(a, out);
+    for (int r = 0; r < LAW_COLD; r++) out[r] /= pow(mu_end, r + 1);
+}
+
+static double reference_energy(const law *k, double mu)
+{
+    const double *c = mu < 0 ? k->stretched : k->squeezed;
+    double sum = 0;
+    for (int i = LAW_COLD - 1; i >= 0; i--) sum = c[i] + mu * sum;
+    return mu * sum;
+}
+
+/* Energy and density at which the temperature is the body's and the pressure zero. */
+static void start_at(law *k, double temperature)
+{
+    enum { ITERATIONS = 200 };
+    const double thermal = k->c_v * (temperature - k->T_r) + (temperature > k->T_m ? k->latent : 0);
+    double mu = 0;
+    k->e_start = thermal;
+    for (int i = 0; i < ITERATIONS; i++) {
+        mu = fmin(fmax(mu - pressure(k, mu, k->e_start) / k->K0, k->mu_least), k->mu_most);
+        k->e_start = thermal + reference_energy(k, mu);
+    }
+    k->rho_start = k->rho0 * (1 + mu);
 }
 
 static double or_zero(double value)
@@ -76,7 +108,7 @@ static double or_zero(double value)
     return isnan(value) ? 0 : value;
 }
 
-static void thermal(law *k, const material *m, const mpm_body *body)
+static void thermal(law *k, const material *m)
 {
     k->c_v = m->specific_heat;
     k->inv_c = 1 / m->specific_heat;
@@ -89,8 +121,6 @@ static void thermal(law *k, const material *m, const mpm_body *body)
      * times); dust: failed or molten and four times as thin as the solid */
     k->e_vapour = cold_metal ? HUGE_VAL : k->c_v * (5 * k->T_m - k->T_r) + k->latent;
     k->rho_dust = 0.25 * k->rho0;
-    k->e_start = k->c_v * (body->temperature - k->T_r);
-    k->rho_start = k->rho0 * (1 - k->g * k->rho0 * k->e_start / k->K0);
 }
 
 static void strength(law *k, const material *m, const mpm_body *body)
@@ -124,9 +154,12 @@ status law_make(const mpm_body *body, const mpm_scene *scene, law *out)
     k.q1 = scene->viscosity_linear, k.q2 = scene->viscosity_quadratic;
     k.plastic_heat = scene->heat_by_plastic_work;
     k.chi = isnan(m->taylor_quinney) ? 0.9 : m->taylor_quinney;
-    thermal(&k, m, body);
+    thermal(&k, m);
     strength(&k, m, body);
-    fit_cold(&k);
+    k.mu_least = -0.5, k.mu_most = fmin(0.6, 0.7 / fmax(k.s1, 0.01));
+    fit_reference(&k, k.mu_most, k.squeezed);
+    fit_reference(&k, k.mu_least, k.stretched);
+    start_at(&k, body->temperature);
     *out = k;
     return status_ok();
 }

@@ -5,6 +5,8 @@
 
 #include "mpm/scene.h"
 
+enum { LAW_COLD = 6 };
+
 typedef struct {
     double rho0, c0;                 /* [kg/m3, m/s] */
     double K0, K_slope;              /* rho0 c0^2 [Pa]; dK/dp = 4 s - 1 [1] */
@@ -16,13 +18,15 @@ typedef struct {
     double D1, D2, D3, D4, D5;       /* failure strain; D1 < 0: no damage */
     double inv_c, c_v;               /* specific heat [kg K/J, J/(kg K)] */
     double latent;                   /* [J/kg] */
-    double cold[5];                  /* e_cold = mu^2 (cold0 + cold1 mu + ..) [J/kg] */
+    double squeezed[LAW_COLD];       /* e_r = mu (c0 + c1 mu + ..), the energy at T_r, in compression [J/kg] */
+    double stretched[LAW_COLD];      /* the same in expansion */
+    double mu_least, mu_most;        /* range of the two; held at its ends beyond [1] */
     double chi;                      /* heat_by_plastic_work: share of plastic work, else 0 */
     double q1, q2;                   /* viscosity, linear and quadratic */
     bool plastic_heat;
     double flow_start;         /* first flow stress [Pa] */
     double e_vapour, rho_dust; /* a point with more energy, or a failed or molten one that is thinner, is eroded */
-    double e_start, rho_start; /* of a body at rest at its temperature and zero pressure */
+    double e_start, rho_start; /* of a body at rest at its temperature, without pressure */
 } law;
 
 /* Refuses a material that lacks a constant the scene needs. */

@@ -5,6 +5,7 @@
 #define BREECH_MPM_LAW_LANES_H
 
 #include "mpm/law.h"
+#include "mpm/motion_lanes.h"
 #include "mpm/store.h"
 
 typedef struct {
@@ -44,14 +45,17 @@ LANE_INLINE vd failure_strain(const law *k, vd triaxiality, vd log_rate, vd T_st
     return vd_max(f, vd_set(0.01));
 }
 
-/*   T = T_r + (e - e_cold - stored)/c_v, with a plateau while melting                (M-4) [K] */
+/*   T = T_s + (e - e_s - stored)/c_v = T_r + (e - e_r - stored)/c_v, with a plateau while melting         (M-4) [K]
+ * T_s, e_s on the isentrope through rest at T_r; e_r = e_s - c_v (T_s - T_r) = mu x a polynomial either side of rest (law.c) */
 LANE_INLINE vd temperature(const law *k, vd e, vd mu, vd stored)
 {
-    const vd zero = vd_set(0), x = vd_max(mu, zero);
-    const vd squeezed = x * x * (k->cold[0] + x * (k->cold[1] + x * (k->cold[2] + x * (k->cold[3] + x * k->cold[4]))));
-    const vd cold = vd_select(vd_less(zero, mu), squeezed, 0.5 * k->c0 * k->c0 * mu * mu);
+    const vd zero = vd_set(0), x = vd_min(vd_max(mu, vd_set(k->mu_least)), vd_set(k->mu_most));
+    const vm out = vd_less(x, zero);
+    vd reference = zero;
+    for (int i = LAW_COLD - 1; i >= 0; i--)
+        reference = vd_select(out, vd_set(k->stretched[i]), vd_set(k->squeezed[i])) + x * reference;
     const double melt = k->c_v * (k->T_m - k->T_r);
-    const vd thermal = e - cold - stored;
+    const vd thermal = e - x * reference - stored;
     const vd beyond = vd_max(thermal - melt - k->latent, zero);
     return vd_max(k->T_r + (vd_min(thermal, vd_set(melt)) + beyond) * k->inv_c, vd_set(1));
 }
@@ -74,18 +78,27 @@ LANE_INLINE vd sound_speed(const law *k, vd rho, vd p, vm failed)
     return vd_sqrt(bulk + vd_select(failed, zero, 4.0 / 3.0 * k->G / rho));
 }
 
-/* Elastic predictor with the Jaumann rate:  s' = W s - s W + 2 G dev D  */
-LANE_INLINE void predict(const law *k, double dt, const vd L[9], vd tr, vd s[6])
+/* Jaumann rate  s' = W s - s W + 2 G dev D */
+LANE_INLINE void stress_rate(const law *k, const vd L[9], const vd s[6], vd r[6])
 {
-    const vd w_xy = 0.5 * (L[1] - L[3]), w_xz = 0.5 * (L[2] - L[6]), w_yz = 0.5 * (L[5] - L[7]), third = tr / 3.0;
-    const vd xx = s[0], yy = s[1], zz = s[2], xy = s[3], xz = s[4], yz = s[5];
+    const vd w_xy = 0.5 * (L[1] - L[3]), w_xz = 0.5 * (L[2] - L[6]), w_yz = 0.5 * (L[5] - L[7]), third = trace(L) / 3.0;
     const double G2 = 2 * k->G;
-    s[0] = xx + dt * (2 * (w_xy * xy + w_xz * xz) + G2 * (L[0] - third));
-    s[1] = yy + dt * (2 * (w_yz * yz - w_xy * xy) + G2 * (L[4] - third));
-    s[2] = zz + dt * (G2 * (L[8] - third) - 2 * (w_xz * xz + w_yz * yz));
-    s[3] = xy + dt * (w_xy * (yy - xx) + w_xz * yz + w_yz * xz + k->G * (L[1] + L[3]));
-    s[4] = xz + dt * (w_xz * (zz - xx) + w_xy * yz - w_yz * xy + k->G * (L[2] + L[6]));
-    s[5] = yz + dt * (w_yz * (zz - yy) - w_xy * xz - w_xz * xy + k->G * (L[5] + L[7]));
+    r[0] = 2 * (w_xy * s[3] + w_xz * s[4]) + G2 * (L[0] - third);
+    r[1] = 2 * (w_yz * s[5] - w_xy * s[3]) + G2 * (L[4] - third);
+    r[2] = G2 * (L[8] - third) - 2 * (w_xz * s[4] + w_yz * s[5]);
+    r[3] = w_xy * (s[1] - s[0]) + w_xz * s[5] + w_yz * s[4] + k->G * (L[1] + L[3]);
+    r[4] = w_xz * (s[2] - s[0]) + w_xy * s[5] - w_yz * s[3] + k->G * (L[2] + L[6]);
+    r[5] = w_yz * (s[2] - s[1]) - w_xy * s[4] - w_xz * s[3] + k->G * (L[5] + L[7]);
+}
+
+/* Elastic predictor by the midpoint rule */
+LANE_INLINE void predict(const law *k, double dt, const vd L[9], vd s[6])
+{
+    vd rate[6], middle[6];
+    stress_rate(k, L, s, rate);
+    for (int i = 0; i < 6; i++) middle[i] = s[i] + 0.5 * dt * rate[i];
+    stress_rate(k, L, middle, rate);
+    for (int i = 0; i < 6; i++) s[i] += dt * rate[i];
 }
 
 LANE_INLINE vd stress_power(const vd s[6], const vd L[9])
@@ -116,22 +129,23 @@ LANE_INLINE vd viscosity(const law *k, const step_of *step, const vd L[9], vd tr
     return rho * squeeze * (k->q1 * sound + k->q2 * squeeze);
 }
 
-/* Stress, energy and temperature of the part of a block that begins with `lane`, over a step.  The stress power is the mean of its values before and after, the
- * pressure is solved with the energy it changes, and a failed point's tension is removed before that energy. */
-LANE_INLINE void law_step(const law *k, const step_of *step, const vd L[9], block *q, int lane, lane_sums *sum)
+/* Stress, energy and temperature of the part of a block that begins with `lane`, over a step.  The stress power is the mean
+ * of its values at the start and at the end, each with the gradient and the volume there; the pressure is solved with the
+ * energy it changes, and a failed point's tension is removed before that energy. */
+LANE_INLINE void law_step(const law *k, const step_of *step, const motion *move, block *q, int lane, lane_sums *sum)
 {
     const vd zero = vd_set(0), one = vd_set(1);
-    const vd tr = L[0] + L[4] + L[8];
+    const vd *L = move->middle, tr = trace(L);
     const double dt = step->dt;
     const vd rho0 = vd_load(&q->rho[0][lane]), p0 = vd_load(&q->p[0][lane]), ep0 = vd_load(&q->ep[0][lane]),
              damage0 = vd_load(&q->damage[0][lane]);
     const vm failed = ~vd_less(damage0, one);
-    const vd wanted = rho0 / (1 + dt * tr), rho = vd_min(vd_max(wanted, vd_set(k->rho_min)), vd_set(k->rho_max));
+    const vd wanted = rho0 / move->growth, rho = vd_min(vd_max(wanted, vd_set(k->rho_min)), vd_set(k->rho_max));
     vd s[6];
     for (int i = 0; i < 6; i++) s[i] = vd_load(&q->s[i][lane]);
 
-    const vd power_before = (stress_power(s, L) - p0 * tr) / rho0;
-    predict(k, dt, L, tr, s);
+    const vd power_before = (stress_power(s, move->start) - p0 * trace(move->start)) / rho0;
+    predict(k, dt, L, s);
     const vd trial = vd_sqrt(1.5 * square_norm(s));
     const vd T_star = clamp01((vd_load(&q->T[0][lane]) - k->T_r) * k->inv_T_range);
     const vd log_rate = vd_log(vd_max(shear_rate(L, tr) * k->inv_rate0, one));
@@ -145,9 +159,10 @@ LANE_INLINE void law_step(const law *k, const step_of *step, const vd L[9], bloc
     const vd mu = rho * (1 / k->rho0) - 1;
     const vd sound = sound_speed(k, rho, p0, failed);
     const vd q_v = viscosity(k, step, L, tr, rho, sound);
-    const vd half = 0.5 * dt * tr / rho;
+    const vd half = 0.5 * dt * trace(move->end) / rho;
     const vd slope = k->g * vd_min(rho, vd_set(k->rho0));
-    vd e = vd_load(&q->e[0][lane]) + sum->heat + 0.5 * dt * (power_before + stress_power(s, L) / rho) - half * q_v;
+    vd e =
+        vd_load(&q->e[0][lane]) + sum->heat + 0.5 * dt * (power_before + stress_power(s, move->end) / rho) - half * q_v;
     const vd p_free = (hugoniot_pressure(k, mu) + slope * e) / (1 + slope * half);
     const vm torn = failed & vd_less(p_free, zero);
     const vd p = vd_select(torn, zero, p_free);

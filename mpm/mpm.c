@@ -30,8 +30,7 @@ void mpm_scene_default(mpm_scene *s)
 /* Where breech-stress and the sweep of docs/scene-solver.md saw scenes blow up. */
 static double courant_limit(const mpm_scene *s)
 {
-    if (s->transfer == TRANSFER_PIC) return 0.5;
-    return s->basis == BASIS_BSPLINE ? 0.6 : 0.9;
+    return s->transfer == TRANSFER_PIC ? 0.5 : 0.6;
 }
 
 static status check_scene(const mpm_scene *s)
