@@ -14,11 +14,12 @@ endif()
 # Headers are included from the root: #include "base/status.h"
 include_directories(${CMAKE_SOURCE_DIR})
 
-# Where the program looks for cases and materials: $BREECH_MATERIALS, then the source tree, then the installation.
+# Where the program looks for cases and materials: $BREECH_MATERIALS, its own installation, then the source tree.
+file(RELATIVE_PATH installed_cases ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR}/breech/cases)
 add_compile_definitions(
     BREECH_VERSION="${PROJECT_VERSION}"
     BREECH_SOURCE_CASES="${CMAKE_SOURCE_DIR}/cases"
-    BREECH_INSTALL_CASES="${CMAKE_INSTALL_FULL_DATADIR}/breech/cases")
+    BREECH_INSTALLED_CASES="${installed_cases}")
 
 if(BREECH_FUZZ)
     if(NOT CMAKE_C_COMPILER_ID STREQUAL "Clang")

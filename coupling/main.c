@@ -137,8 +137,9 @@ static int complain(status s)
 
 static status read_case(const options *o, unsigned needs, breech_case **c)
 {
-    const char *dirs[MATERIAL_MAX_DIRS];
-    const case_options how = { .material_dirs = dirs, .n_material_dirs = material_dirs(dirs), .needs = needs };
+    material_places at;
+    material_places_find(&at);
+    const case_options how = { .material_dirs = at.dir, .n_material_dirs = at.n, .needs = needs };
     char *errors = NULL;
     status s = case_read(o->subject, o->sets, o->n_sets, &how, c, &errors);
     if (s.code == STATUS_OK) {
@@ -307,14 +308,14 @@ static void print_sheet(const material_sheet *sheet)
     }
 }
 
-static int print_names(const char *const *dirs, int n_dirs)
+static int print_names(const material_places *at)
 {
-    for (int d = 0; d < n_dirs; d++) {
+    for (int d = 0; d < at->n; d++) {
         char **names;
         int n;
-        const status s = material_names(dirs[d], &names, &n);
+        const status s = material_names(at->dir[d], &names, &n);
         if (s.code != STATUS_OK) return complain(s);
-        for (int i = 0; i < n; i++) printf("%-20s %s\n", names[i], dirs[d]);
+        for (int i = 0; i < n; i++) printf("%-20s %s\n", names[i], at->dir[d]);
         material_names_free(names, n);
     }
     return EXIT_DONE;
@@ -322,12 +323,12 @@ static int print_names(const char *const *dirs, int n_dirs)
 
 static int run_materials(const options *o)
 {
-    const char *dirs[MATERIAL_MAX_DIRS];
-    const int n = material_dirs(dirs);
+    material_places at;
     material_sheet sheet;
     char *errors = NULL;
-    if (!o->subject) return print_names(dirs, n);
-    const status s = material_sheet_open(o->subject, dirs, n, &sheet, &errors);
+    material_places_find(&at);
+    if (!o->subject) return print_names(&at);
+    const status s = material_sheet_open(o->subject, at.dir, at.n, &sheet, &errors);
     if (errors) fputs(errors, stderr);
     free(errors);
     if (s.code != STATUS_OK) return complain(s);

@@ -15,5 +15,7 @@ for target in "${targets[@]}"; do
     corpus=build/fuzz/corpus/$name
     mkdir -p "$corpus"
     seeds=(tests/fuzz/seeds/"$name")
-    "$target" -runs="$inputs" -max_len=8192 -timeout=10 -print_final_stats=1 -artifact_prefix=build/fuzz/ "$corpus" "${seeds[@]}"
+    words=(tests/fuzz/"$name".dict) # none for some targets
+    "$target" -runs="$inputs" -max_len=8192 -timeout=10 -print_final_stats=1 -artifact_prefix=build/fuzz/ \
+        "${words[@]/#/-dict=}" "$corpus" "${seeds[@]}"
 done

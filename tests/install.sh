@@ -18,11 +18,14 @@ for file in share/breech/cases/materials include/breech/base/status.h include/br
 done
 bin/breech --version | grep -qF "$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")" ||
     { echo 'breech --version does not say the version' && exit 1; }
-materials=$(BREECH_MATERIALS=$prefix/share/breech/cases/materials bin/breech materials) ||
+materials=$(env -u BREECH_MATERIALS bin/breech materials) ||
     { echo 'breech materials fails on the installed materials' && exit 1; }
 for file in share/breech/cases/materials/*.yaml; do
-    grep -qw "$(basename "$file" .yaml)" <<<"$materials" || { echo "breech materials does not list $file" && exit 1; }
+    grep -q "^$(basename "$file" .yaml) .*$(realpath share)/breech/cases/materials" <<<"$materials" ||
+        { echo "breech materials does not list $file" && exit 1; }
 done
+env -u BREECH_MATERIALS bin/breech check share/breech/cases/default_shot >/dev/null ||
+    { echo 'breech check fails on an installed case' && exit 1; }
 
 cat >user.c <<'END'
 #include "base/status.h"

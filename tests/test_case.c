@@ -195,6 +195,18 @@ static void all_errors_at_once(void **state)
     free(e);
 }
 
+/* A limit in another unit is within, whatever the rounding of the conversion; what is really beyond is not. */
+static void limits_hold_in_any_unit(void **state)
+{
+    (void)state;
+    char *e = errors_of("name: a\nprojectile: {lead_angle: 90 deg}\n", NULL, 0, 0);
+    assert_null(strstr(e, "within the range"));
+    free(e);
+    e = errors_of("name: a\nprojectile: {lead_angle: 90.0001 deg}\n", NULL, 0, 0);
+    assert_non_null(strstr(e, "within the range"));
+    free(e);
+}
+
 static void errors_are_sorted_and_limited(void **state)
 {
     (void)state;
@@ -559,6 +571,7 @@ int main(void)
         cmocka_unit_test(missing_sections_hold_defaults),
         cmocka_unit_test(all_errors_at_once),
         cmocka_unit_test(errors_are_sorted_and_limited),
+        cmocka_unit_test(limits_hold_in_any_unit),
         cmocka_unit_test(yaml_errors_have_a_place),
         cmocka_unit_test(commands_say_what_they_need),
         cmocka_unit_test(what_must_fit_is_checked),

@@ -174,13 +174,14 @@ static void names_cannot_leave_the_folder(void **state)
 static void folders_are_found(void **state)
 {
     (void)state;
-    const char *found[MATERIAL_MAX_DIRS];
+    material_places found, without;
     setenv("BREECH_MATERIALS", MATERIALS, 1);
-    const int n = material_dirs(found);
-    assert_true(n >= 1 && n <= MATERIAL_MAX_DIRS);
-    assert_string_equal(found[0], MATERIALS);
+    material_places_find(&found);
+    assert_true(found.n >= 1 && found.n <= MATERIAL_MAX_DIRS);
+    assert_string_equal(found.dir[0], MATERIALS);
     setenv("BREECH_MATERIALS", MATERIALS "/nowhere", 1);
-    assert_int_equal(material_dirs(found), n - 1);
+    material_places_find(&without);
+    assert_int_equal(without.n, found.n - 1);
     unsetenv("BREECH_MATERIALS");
 }
 

@@ -28,6 +28,16 @@ static void out_of_range(case_reader *r, const param *p, const tree_node *node, 
     errors_add(r->errors, node, "%s = %.*s: %s (%s)", path, CASE_SHOWN, node->text, must, limits);
 }
 
+static const double UNIT_ROUNDING = 1e-14; /* quantities keep 15 digits when their unit changes [1] */
+
+/* A limit given in another unit, 90 deg for pi/2, may miss it by rounding. */
+static double on_limit(double value, const param *p)
+{
+    if (isfinite(p->max) && fabs(value - p->max) <= UNIT_ROUNDING * fabs(p->max)) return p->max;
+    if (isfinite(p->min) && fabs(value - p->min) <= UNIT_ROUNDING * fabs(p->min)) return p->min;
+    return value;
+}
+
 static void read_number(case_reader *r, const param *p, const tree_node *node, double *member, const char *path)
 {
     char user_unit[UNIT_SIZE];
@@ -45,6 +55,7 @@ static void read_number(case_reader *r, const param *p, const tree_node *node, d
         wrong(r, node, path, s.text);
         return;
     }
+    value = on_limit(value, p);
     if (value < p->min || value > p->max)
         out_of_range(r, p, node, path, user_unit, value);
     else

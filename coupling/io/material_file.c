@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 bool material_name_valid(const char *name)
 {
@@ -217,18 +218,30 @@ status material_sheet_parse(const units *u, const char *bytes, size_t length, co
 #ifndef BREECH_SOURCE_CASES
 #define BREECH_SOURCE_CASES "cases"
 #endif
-#ifndef BREECH_INSTALL_CASES
-#define BREECH_INSTALL_CASES "/usr/local/share/breech/cases"
+#ifndef BREECH_INSTALLED_CASES /* from the program's folder */
+#define BREECH_INSTALLED_CASES "../share/breech/cases"
 #endif
 
-int material_dirs(const char *dirs[MATERIAL_MAX_DIRS])
+/* "" where the system does not say where the program lies. */
+static void beside_program(char path[MATERIAL_PATH_SIZE])
 {
-    const char *const all[] = { getenv("BREECH_MATERIALS"), BREECH_SOURCE_CASES "/materials",
-                                BREECH_INSTALL_CASES "/materials" };
-    int n = 0;
+    static const char within[] = "/" BREECH_INSTALLED_CASES "/materials";
+    const ssize_t n = readlink("/proc/self/exe", path, MATERIAL_PATH_SIZE - sizeof within);
+    path[n > 0 ? n : 0] = '\0';
+    char *slash = strrchr(path, '/');
+    if (slash) memcpy(slash, within, sizeof within);
+    char *plain = realpath(path, NULL); /* without the dots */
+    snprintf(path, MATERIAL_PATH_SIZE, "%s", plain ? plain : "");
+    free(plain);
+}
+
+void material_places_find(material_places *out)
+{
+    beside_program(out->installed);
+    const char *const all[] = { getenv("BREECH_MATERIALS"), out->installed, BREECH_SOURCE_CASES "/materials" };
+    out->n = 0;
     for (int k = 0; k < MATERIAL_MAX_DIRS; k++)
-        if (all[k] && folder_exists(all[k])) dirs[n++] = all[k];
-    return n;
+        if (all[k] && folder_exists(all[k])) out->dir[out->n++] = all[k];
 }
 
 static int by_name(const void *a, const void *b)

@@ -58,10 +58,15 @@ void material_sheet_warning(const material_sheet *sheet, char out[MATERIAL_WARNI
 status material_names(const char *dir, char ***names, int *n);
 void material_names_free(char **names, int n);
 
-/* Where the program looks beside the case's own folder: $BREECH_MATERIALS, cases/materials of the source tree, the same
- * where Breech is installed; those that are there.  Returns how many; the texts are borrowed. */
+/* Where the program looks beside the case's own folder: $BREECH_MATERIALS, the installation the program belongs to
+ * (../share/breech/cases/materials from its folder), cases/materials of the source tree; those that are there. */
 enum { MATERIAL_MAX_DIRS = 3 };
-int material_dirs(const char *dirs[MATERIAL_MAX_DIRS]);
+typedef struct {
+    int n;
+    const char *dir[MATERIAL_MAX_DIRS]; /* n; point into the environment, the program and `installed` */
+    char installed[MATERIAL_PATH_SIZE];
+} material_places;
+void material_places_find(material_places *out);
 
 /* Letters, digits, _ - + and dots, not a dot first: a name that cannot lead out of its folder. */
 bool material_name_valid(const char *name);

@@ -76,8 +76,7 @@ typedef struct {
     char **names;
     int n, *group[GROUPS], count[GROUPS];
     double *melting; /* [K] */
-    const char *dirs[MATERIAL_MAX_DIRS];
-    int n_dirs;
+    material_places at;
 } stock;
 
 typedef struct {
@@ -294,7 +293,7 @@ static outcome run_one(const stock *s, uint64_t seed, int index, bool verbose)
     write_recipe(&r, &luck, s);
     if (verbose) printf("---- scene %d\n%s", index, r.text);
     snprintf(o.summary, sizeof o.summary, "%s", r.summary);
-    const case_options how = { s->dirs, s->n_dirs, CASE_FOR_SCENE };
+    const case_options how = { s->at.dir, s->at.n, CASE_FOR_SCENE };
     const case_text text = { .bytes = r.text, .length = r.length, .path = "stress.yaml" };
     breech_case *c = NULL;
     char *errors = NULL;
@@ -351,7 +350,7 @@ static void take_material(stock *s, int i)
     char *errors = NULL;
     s->melting[i] = 900;
     s->group[ANY][s->count[ANY]++] = i;
-    if (material_sheet_open(s->names[i], s->dirs, s->n_dirs, &sheet, &errors).code == STATUS_OK) {
+    if (material_sheet_open(s->names[i], s->at.dir, s->at.n, &sheet, &errors).code == STATUS_OK) {
         const material *m = &sheet.material;
         if (m->melting_temperature > 0) s->melting[i] = m->melting_temperature;
         const bool scene = material_check(m, MATERIAL_FOR_SCENE).code == STATUS_OK;
@@ -366,8 +365,8 @@ static void take_material(stock *s, int i)
 static bool open_stock(stock *s)
 {
     memset(s, 0, sizeof *s);
-    s->n_dirs = material_dirs(s->dirs);
-    if (s->n_dirs == 0 || material_names(s->dirs[0], &s->names, &s->n).code != STATUS_OK || s->n == 0) return false;
+    material_places_find(&s->at);
+    if (s->at.n == 0 || material_names(s->at.dir[0], &s->names, &s->n).code != STATUS_OK || s->n == 0) return false;
     s->melting = calloc((size_t)s->n, sizeof *s->melting);
     for (int g = 0; g < GROUPS; g++) s->group[g] = calloc((size_t)s->n, sizeof *s->group[g]);
     if (!s->melting || !s->group[0] || !s->group[1] || !s->group[2]) return false;
