@@ -44,7 +44,7 @@ void lu_solve(const double *A, int n, int stride, const int *pivot, double *x)
     }
 }
 
-status arrow_create(int blocks, int border, arrow **out)
+status arrow_create(int blocks, int border, int sums, arrow **out)
 {
     const size_t n = (size_t)blocks * ARROW_BLOCK, m = (size_t)border;
     arrow *a = calloc(1, sizeof *a);
@@ -52,6 +52,7 @@ status arrow_create(int blocks, int border, arrow **out)
     CHECK(a, STATUS_MEMORY, "out of memory for the circuit's matrix");
     a->blocks = blocks;
     a->border = border;
+    a->sums = sums;
     a->size = calloc(n + 1, sizeof *a->size);
     a->column = calloc(n + 1, sizeof *a->column);
     a->idle = calloc(n + 1, sizeof *a->idle);
@@ -105,6 +106,12 @@ double *arrow_column(const arrow *a, int k, int j)
     return a->C + ((size_t)k * ARROW_BLOCK + (size_t)j) * (size_t)a->border;
 }
 
+/* E without the sums. */
+static double *arrow_core(const arrow *a)
+{
+    return a->E + a->sums * (a->border + 1);
+}
+
 int arrow_factor(arrow *a)
 {
     int row = 0;
@@ -121,8 +128,11 @@ int arrow_factor(arrow *a)
             for (int r = 0; r < a->border; r++) a->E[r * a->border + a->column[k]] -= C[r] * X[j];
         }
     }
-    const int bad = lu_factor(a->E, a->border, a->border, a->pivot);
-    return bad ? row + bad : 0;
+    for (int r = 0; r < a->sums; r++) {
+        if (!(fabs(a->E[r * a->border + r]) > 0.0)) return row + r + 1;
+    }
+    const int bad = lu_factor(arrow_core(a), a->border - a->sums, a->border, a->pivot);
+    return bad ? row + a->sums + bad : 0;
 }
 
 void arrow_solve(const arrow *a, double *x)
@@ -137,7 +147,12 @@ void arrow_solve(const arrow *a, double *x)
             for (int r = 0; r < a->border; r++) z[r] -= C[r] * y[j];
         }
     }
-    lu_solve(a->E, a->border, a->border, a->pivot, z);
+    lu_solve(arrow_core(a), a->border - a->sums, a->border, a->pivot, z + a->sums);
+    for (int r = 0; r < a->sums; r++) {
+        const double *E = a->E + r * a->border;
+        for (int j = a->sums; j < a->border; j++) z[r] -= E[j] * z[j];
+        z[r] /= E[r];
+    }
     y = x;
     for (int k = 0; k < a->blocks; y += a->size[k++]) {
         for (int j = 0; j < a->size[k] && !a->idle[k]; j++) y[j] -= a->X[k * ARROW_BLOCK + j] * z[a->column[k]];

@@ -1,4 +1,5 @@
-/* Bordered block-diagonal matrix, the shape of a circuit of many branches on a few common nodes (internal to circuit/):
+/* Bordered block-diagonal matrix, the shape of a circuit of many branches on a few common nodes (internal to circuit/).
+ * The border begins with `sums` rows on which nothing else depends: their columns are zero but for the diagonal.
  *
  *   [ D_1            b_1 ]     D_k  size[k] square, at most ARROW_BLOCK
  *   [      D_2       b_2 ]     b_k  one column of the border, number column[k]; all others are zero
@@ -16,7 +17,7 @@
 enum { ARROW_BLOCK = 4 };
 
 typedef struct {
-    int blocks, border;
+    int blocks, border, sums;
     int *size;   /* of the blocks; to be filled before use */
     int *column; /* of the border, that block k couples to */
     bool *idle;  /* block k is coupled to nothing: its C_k and b_k count as zero */
@@ -28,7 +29,7 @@ typedef struct {
     int *pivot, *block_pivot;
 } arrow;
 
-status arrow_create(int blocks, int border, arrow **out); /* caller frees with arrow_free */
+status arrow_create(int blocks, int border, int sums, arrow **out); /* caller frees with arrow_free */
 void arrow_free(arrow *a);                                /* NULL allowed */
 void arrow_clear(arrow *a);                               /* all entries zero, no block idle */
 

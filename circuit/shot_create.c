@@ -149,7 +149,7 @@ static void scales_fill(shot *s)
     double *z = s->scale + m->start;
     const double v0 = m->armature.velocity;
     for (int j = 0; j < m->feeds; j++) z[shot_feed_unknown(j)] = V;
-    for (int j = Y_ACTION + 1; j < Y_COUNT; j++) z[j] = fmax(E + 0.5 * m->armature.mass * v0 * v0, 1.0);
+    for (int j = Y_COIL; j < Y_SUMS; j++) z[j] = fmax(E + 0.5 * m->armature.mass * v0 * v0, 1.0);
     z[Y_X] = m->barrel.length;
     z[Y_V] = fmax(fmax(1.0, v0), 0.1 * sqrt(2.0 * E / m->armature.mass));
     z[Y_MASS] = m->armature.mass;
@@ -200,7 +200,7 @@ static status solver_take(shot *s)
     const int n = shot_unknowns(m);
     s->scale = calloc((size_t)n, sizeof *s->scale);
     CHECK(s->scale, STATUS_MEMORY, "out of memory for a circuit of %d unknowns", n);
-    TRY(arrow_create(m->n, n - m->start, &s->matrix));
+    TRY(arrow_create(m->n, n - m->start, Y_SUMS, &s->matrix));
     s->switchings_limit = 8 * m->n + 1000;
     for (int k = 0; k < m->n; k++) {
         s->matrix->size[k] = m->groups[k].unknowns;

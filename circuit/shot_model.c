@@ -397,22 +397,42 @@ static void group_jacobian(const shot_model *m, int k, double t, double cj, cons
     J->b[k * ARROW_BLOCK] = supply_conducts(g) && !supply_algebraic(g, 0) ? f0.pull : 0.0;
 }
 
-/* Columns of the tail itself.  What is only summed up has none but the diagonal's; the rails' memory enters linearly. */
+/* The rails' memory enters linearly: its columns are known.  I: the segment's current. */
+static void memory_jacobian(const shot_model *m, int segment, double cj, double I, arrow *J)
+{
+    const ladder *l = &m->rails.ladder;
+    const int n = J->border, V = shot_feed_unknown(segment);
+    for (int k = 0, Q = memory_unknown(m, segment); k < l->n; k++, Q += 2) {
+        const int W = Q + 1;
+        const double frequency = l->R[k] / l->L[k];
+        const bool alive = segment < m->reached;
+        J->E[Q * n + Q] = cj + (alive ? frequency : 0.0);
+        J->E[W * n + W] = cj + (alive ? 2.0 * frequency : 0.0);
+        if (!alive) continue;
+        J->E[W * n + Q] = -2.0 * frequency * I;
+        J->E[V * n + Q] = l->R[k];
+        J->E[Y_RAILS * n + Q] = 2.0 * l->R[k] * I;
+        J->E[Y_RAILS * n + W] = -l->R[k];
+    }
+}
+
+/* Columns of the tail itself.  What is only summed up has none but the diagonal's. */
 static void tail_jacobian(const shot_model *m, double cj, const shot_drive *d, const double *z, const double *base,
                           arrow *J)
 {
     const int n = J->border;
-    double at[TAIL_MAX], moved[TAIL_MAX];
+    double at[TAIL_MAX], moved[TAIL_MAX], I = 0.0;
     memcpy(at, z, (size_t)n * sizeof *at);
-    for (int j = 0; j < n; j++) {
+    for (int j = 0; j < Y_SUMS; j++) J->E[j * n + j] = cj;
+    for (int j = Y_SUMS; j < memory_unknown(m, 0); j++) {
         J->E[j * n + j] = tail_is_algebraic(m, j) ? 1.0 : cj;
-        if (j >= Y_ACTION && j < Y_COUNT) continue;
         const double h = difference(z[j], m->scale[m->start + j]);
         at[j] = z[j] + h;
         tail_rates(m, d, at, moved);
         at[j] = z[j];
         for (int i = 0; i < n; i++) J->E[i * n + j] -= (moved[i] - base[i]) / h;
     }
+    for (int f = 0; f < m->feeds; f++) memory_jacobian(m, f, cj, I += d->I[f], J);
 }
 
 void shot_jacobian(const void *model, double t, double cj, const double *y, arrow *J)

@@ -15,13 +15,8 @@
 enum { SHOT_MAX_FEEDS = 64 };
 
 typedef enum {
-    Y_BREECH, /* voltage [V], algebraic, as those of the other feeds */
-    Y_X,      /* [m] */
-    Y_V,      /* [m/s] */
-    Y_MASS,   /* [kg] */
-    Y_SHUNT,  /* current of the muzzle shunt [A] */
-    Y_ACTION, /* of the armature's current [A^2 s]; what follows changes nothing, it is only summed up */
-    Y_COIL,   /* this and all below: heat or work so far [J] */
+    Y_ACTION, /* integral of the armature's current squared [A^2 s]; what stands here down to Y_WEAR is only summed up */
+    Y_COIL,   /* heat or work so far [J]; the places of supply_heat in their order */
     Y_CABLE,
     Y_CROWBAR,
     Y_SWITCH,
@@ -34,7 +29,13 @@ typedef enum {
     Y_DRAG,
     Y_MUZZLE,
     Y_WEAR,
-    Y_COUNT
+    Y_BREECH, /* voltage [V], algebraic, as those of the other feeds */
+    Y_X,      /* [m] */
+    Y_V,      /* [m/s] */
+    Y_MASS,   /* [kg] */
+    Y_SHUNT,  /* current of the muzzle shunt [A] */
+    Y_COUNT,
+    Y_SUMS = Y_BREECH /* how many are only summed up */
 } shot_unknown;
 
 enum { ROOT_MOTION, ROOT_SITE, ROOT_MUZZLE, ROOT_FEED, ROOT_GROUPS }; /* then two a group: stage or waiting, current */

@@ -64,7 +64,7 @@ shot_ledger shot_ledger_now(const shot *s)
     l.mass_jumps = s->mass_jumps;
     const double stored = l.capacitors + l.coils + l.cables + l.rotors + l.rails_field + l.kinetic;
     double spent = l.jumps;
-    for (int j = Y_COIL; j < Y_COUNT; j++) spent += j == Y_SUPPLIED ? 0.0 : z[j];
+    for (int j = Y_COIL; j < Y_SUMS; j++) spent += j == Y_SUPPLIED ? 0.0 : z[j];
     const double given = l.start + l.supplied;
     l.energy_error = given > 0.0 ? (stored + spent - given) / given : 0.0;
     return l;
