@@ -94,6 +94,7 @@ static void peaks_update(shot *s)
     s->result.peak_current = fmax(s->result.peak_current, top);
     if (s->model.phase != SHOT_MOVING) return;
     const shot_forces f = shot_forces_at(&s->model, &d, shot_z(s));
+    shot_limits_update(s, &f);
     s->result.peak_acceleration = fmax(s->result.peak_acceleration, f.net / shot_z(s)[Y_MASS]);
 }
 

@@ -39,6 +39,11 @@ typedef struct {
     double inductance_gradient;     /* level constant [H/m] */
     double resistance_gradient;     /* level constant, both rails together [ohm/m] */
     double frequency;               /* level skin [Hz]; NAN = from the pulse, equation (C-6) */
+    double density;                 /* [kg/m^3] */
+    double specific_heat;           /* [J/kg/K] */
+    double thermal_conductivity;    /* [W/m/K] */
+    double youngs_modulus;          /* [Pa] */
+    double backing_stiffness;       /* of the bed, force per length and deflection; NAN = not asked for [Pa] */
     double ladder_error;            /* level diffusing: largest error of the ladder over its band [1] */
     double ladder_frequency;        /* level diffusing: top of that band [Hz]; NAN = equation (C-13) */
     double fineness;                /* filaments over the skin depth [1] */
@@ -54,29 +59,33 @@ typedef struct {
 } shot_barrel;
 
 typedef struct {
-    double mass;                 /* [kg] */
-    double velocity;             /* at t = 0 [m/s] */
-    double resistance;           /* [ohm] */
-    double contact_voltage;      /* both contacts together [V] */
-    double friction_dry;         /* mu0 [1] */
-    double friction_melted;      /* mu1 [1] */
-    double friction_speed;       /* speed over which mu falls from mu0 to mu1, equation (C-4) [m/s] */
-    double preload;              /* contact force per rail face at I = 0 [N] */
-    double spreading;            /* k in N = preload + k I^2, per rail face [N/A^2] */
-    double bore_area;            /* drag; NAN = separation x height [m^2] */
-    double gas_pressure;         /* ahead of the armature; 0 with density 0 is vacuum [Pa] */
-    double gas_density;          /* [kg/m^3] */
-    double gas_gamma;            /* ratio of specific heats [1] */
-    double wear_fraction;        /* share of the contact's heat that melts metal off, 0 = no wear [1] */
-    double specific_heat;        /* [J/kg/K] */
-    double melting_temperature;  /* [K] */
-    double latent_heat;          /* [J/kg] */
-    double temperature;          /* before the shot [K] */
-    double density;              /* [kg/m^3] */
-    double thermal_conductivity; /* [W/m/K] */
-    double contact_length;       /* along the rail, one face [m] */
-    double contact_width;        /* across the rail, one face; NAN = the rail's height [m] */
-    double heat_share;           /* of the contact's heat that enters the armature [1] */
+    double mass;                    /* [kg] */
+    double velocity;                /* at t = 0 [m/s] */
+    double resistance;              /* [ohm] */
+    double contact_voltage;         /* both contacts together [V] */
+    double friction_dry;            /* mu0 [1] */
+    double friction_melted;         /* mu1 [1] */
+    double friction_speed;          /* speed over which mu falls from mu0 to mu1, equation (C-4) [m/s] */
+    double preload;                 /* contact force per rail face at I = 0 [N] */
+    double spreading;               /* k in N = preload + k I^2, per rail face [N/A^2] */
+    double bore_area;               /* drag; NAN = separation x height [m^2] */
+    double gas_pressure;            /* ahead of the armature; 0 with density 0 is vacuum [Pa] */
+    double gas_density;             /* [kg/m^3] */
+    double gas_gamma;               /* ratio of specific heats [1] */
+    double wear_fraction;           /* share of the contact's heat that melts metal off, 0 = no wear [1] */
+    double specific_heat;           /* [J/kg/K] */
+    double melting_temperature;     /* [K] */
+    double latent_heat;             /* [J/kg] */
+    double temperature;             /* before the shot [K] */
+    double density;                 /* [kg/m^3] */
+    double thermal_conductivity;    /* [W/m/K] */
+    double contact_length;          /* along the rail, one face [m] */
+    double contact_width;           /* across the rail, one face; NAN = the rail's height [m] */
+    double heat_share;              /* of the contact's heat that enters the armature [1] */
+    double resistivity;             /* at 293.15 K [ohm m] */
+    double resistivity_coefficient; /* [1/K] */
+    double leg_area, throat_area; /* the current's cross-section in one leg, in the throat; NAN = not asked for [m^2] */
+    double leg_thickness;         /* that wear may take; NAN = not asked for [m] */
 } shot_armature;
 
 typedef struct {
@@ -126,21 +135,23 @@ typedef enum { SHOT_HELD, SHOT_MOVING, SHOT_LEFT } shot_phase;
 
 /* Everything at one instant. */
 typedef struct {
-    double t, x, v, a;           /* [s, m, m/s, m/s^2]; x and v stay at their exit values after the muzzle */
-    double current;              /* of the rails behind the armature [A] */
-    double shunt_current;        /* of the muzzle shunt: the armature carries the rest [A] */
-    double breech_voltage;       /* [V] */
-    double muzzle_voltage;       /* between the rails ahead of the armature, then across the shunt [V] */
-    double force;                /* electromagnetic, equation (C-2) [N] */
-    double friction;             /* both faces [N] */
-    double drag;                 /* gas [N] */
-    double friction_coefficient; /* mu(v) [1] */
-    double contact_force;        /* per rail face [N] */
-    double contact_pressure;     /* contact_force over contact_length x contact_width [Pa] */
-    double action;               /* integral of I^2 dt [A^2 s] */
-    double mass;                 /* of the armature now [kg] */
-    double rail_temperature;     /* just ahead of the armature: as before the shot [K] */
-    double armature_temperature; /* of the contact face, estimate (C-7), at most melting [K] */
+    double t, x, v, a;              /* [s, m, m/s, m/s^2]; x and v stay at their exit values after the muzzle */
+    double current;                 /* of the rails behind the armature [A] */
+    double shunt_current;           /* of the muzzle shunt: the armature carries the rest [A] */
+    double breech_voltage;          /* [V] */
+    double muzzle_voltage;          /* between the rails ahead of the armature, then across the shunt [V] */
+    double force;                   /* electromagnetic, equation (C-2) [N] */
+    double friction;                /* both faces [N] */
+    double drag;                    /* gas [N] */
+    double friction_coefficient;    /* mu(v) [1] */
+    double contact_force;           /* per rail face [N] */
+    double contact_pressure;        /* contact_force over contact_length x contact_width [Pa] */
+    double action;                  /* integral of I^2 dt [A^2 s] */
+    double mass;                    /* of the armature now [kg] */
+    double rail_temperature;        /* just ahead of the armature: as before the shot [K] */
+    double armature_temperature;    /* of the contact face, estimate (C-7), at most melting [K] */
+    double film_temperature;        /* of the melt on it, estimate (C-16) [K] */
+    double rail_behind_temperature; /* rail surface one contact length behind, estimate (C-17) [K] */
     double inductance_gradient, resistance_gradient; /* 2 F/I^2 and the rails' heat over x I^2 [H/m, ohm/m] */
     shot_phase phase;
     shot_ledger ledger;
@@ -191,6 +202,19 @@ typedef struct {
     uint64_t steps;           /* accepted steps and located instants */
 } shot_summary;
 
+/* How near the armature and the rails have come to their limits; NAN where the configuration does not ask, or nothing was
+ * reached.  Above 1 (contact_ratio: below 1) the contact is expected to go over into an arc: transition. */
+typedef struct {
+    double contact_ratio;       /* least contact force over 1 gram-force per ampere, in motion [1] */
+    double leg_action;          /* action over that which melts the leg, (C-18) [1] */
+    double throat_action;       /* the throat alike [1] */
+    double wear_share;          /* thickness worn off over leg_thickness [1] */
+    double contact_position;    /* where contact_ratio first falls below 1 [m] */
+    double transition_position; /* where the first of the four passes its limit [m] */
+    double critical_velocity;   /* of bending waves in the rail on its bed, (C-19) [m/s] */
+    double critical_position;   /* where the armature first exceeds it [m] */
+} shot_limits;
+
 /* STATUS_BAD_INPUT names the parameter, its value, unit and range.  Caller frees *out with shot_free. */
 status shot_create(const shot_config *config, shot **out);
 void shot_free(shot *s); /* NULL allowed */
@@ -204,6 +228,7 @@ bool shot_done(const shot *s);
 
 shot_state shot_now(const shot *s);
 shot_summary shot_result(const shot *s);
+shot_limits shot_limits_of(const shot *s);            /* until exit, or so far */
 double shot_module_current(const shot *s, int group); /* one unit of the group [A] */
 double shot_module_voltage(const shot *s, int group); /* of its capacitor, switch or machine [V] */
 int shot_module_count(const shot *s);                 /* groups */

@@ -223,6 +223,7 @@ static void state_fill(shot *s, const shot_config *c)
     z[Y_X] = c->barrel.start;
     z[Y_V] = c->armature.velocity;
     z[Y_MASS] = c->armature.mass;
+    s->rails = c->rails;
     s->rail_temperature = c->rails.temperature;
     s->armature_temperature = c->armature.temperature;
     /* Free at once where nothing holds it: friction then starts at zero with the current, below the force. */
@@ -230,6 +231,7 @@ static void state_fill(shot *s, const shot_config *c)
                        shot_push(m, 0.0, 1.0) > 2.0 * c->armature.friction_dry * c->armature.spreading;
     if (z[Y_V] > 0.0 || loose) m->phase = SHOT_MOVING;
     m->next_site = s->n_sites > 0 ? s->sites[0].position : INFINITY;
+    shot_limits_start(s);
     const shot_ledger l = shot_ledger_now(s);
     s->start_energy = l.capacitors + l.coils + l.cables + l.rotors + l.kinetic;
     s->result = (shot_summary){

@@ -1,6 +1,7 @@
 /* A shot under way, and who does what to it (internal to circuit/):
  *   shot_create.c  makes it from its configuration        shot.c         drives the integration, hands out events
- *   shot_switch.c  switchings of supplies and armature    shot_state.c   reads it: ledger, state, summary */
+ *   shot_switch.c  switchings of supplies and armature    shot_state.c   reads it: ledger, state, summary
+ *   shot_limits.c  temperatures and limits */
 #ifndef BREECH_CIRCUIT_SHOT_INTERNAL_H
 #define BREECH_CIRCUIT_SHOT_INTERNAL_H
 
@@ -35,6 +36,8 @@ struct shot {
     bool restart, started;
     double t, rail_temperature, armature_temperature;
     double start_energy, exit_action;
+    shot_rails rails; /* their section and metal, as given */
+    shot_limits limits;
     double momentum_jumps, mass_jumps, energy_jumps;
     double exit_kinetic, last_current, last_slope, last_t;
     shot_summary result;
@@ -45,6 +48,14 @@ double *shot_z(const shot *s); /* the tail's */
 shot_drive shot_drive_now(const shot *s);
 shot_forces shot_forces_now(const shot *s);
 shot_ledger shot_ledger_now(const shot *s);
+
+/* ---- temperatures and limits; *st as far as it is filled before them ---- */
+
+double shot_face_temperature(const shot *s, const shot_state *st);        /* [K], as the two below */
+double shot_film_temperature(const shot *s, const shot_state *st);
+double shot_rail_behind_temperature(const shot *s, const shot_state *st);
+void shot_limits_start(shot *s);
+void shot_limits_update(shot *s, const shot_forces *f);
 
 /* ---- switchings ---- */
 

@@ -45,6 +45,11 @@ const param shot_armature_params[] = {
     ARMATURE(contact_length, "m", 0.02, 1e-4, 10.0, "length of one contact face along the rail"),
     ARMATURE(contact_width, "m", OPTIONAL, 1e-4, 10.0, "width of one contact face; the rail's height if not given"),
     ARMATURE(heat_share, "1", 0.5, 0.0, 1.0, "share of the contact's heat that enters the armature"),
+    ARMATURE(resistivity, "ohm m", 5.15e-8, 1e-10, 1e-3, "resistivity at 293.15 K, for the action that melts it"),
+    ARMATURE(resistivity_coefficient, "1/K", 2.0e-3, 0.0, 0.1, "relative rise of the resistivity"),
+    ARMATURE(leg_area, "m^2", OPTIONAL, 1e-9, 10.0, "cross-section of one leg: warned about when its metal melts"),
+    ARMATURE(throat_area, "m^2", OPTIONAL, 1e-9, 10.0, "cross-section of the throat: warned about alike"),
+    ARMATURE(leg_thickness, "m", OPTIONAL, 1e-6, 1.0, "thickness that wear may take off one face: warned about beyond"),
     PARAMS_END
 };
 

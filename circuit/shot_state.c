@@ -70,19 +70,6 @@ shot_ledger shot_ledger_now(const shot *s)
     return l;
 }
 
-/* Half-space heated by flux q that has brought E per area: T = T_0 + 2 sqrt(q E/pi)/sqrt(k rho c); exact for a constant
- * flux, at most melting                                                                    (C-7) [K] */
-static double face_temperature(const shot *s, const shot_state *st)
-{
-    const shot_armature *a = &s->model.armature;
-    const double share = a->heat_share / (2.0 * s->model.contact_area);
-    const double q = share * (st->friction * st->v + a->contact_voltage * fabs(st->current - st->shunt_current));
-    const double E = share * (st->ledger.friction + st->ledger.contact_heat);
-    const double rise = 2.0 * sqrt(fmax(q * E, 0.0) / 3.14159265358979323846) /
-                        sqrt(a->thermal_conductivity * a->density * a->specific_heat);
-    return fmin(s->armature_temperature + rise, fmax(a->melting_temperature, s->armature_temperature));
-}
-
 /* The rails' heat over x I^2, direct current's where there is none to see. */
 static double resistance_gradient(const shot *s, const shot_drive *d, double I)
 {
@@ -113,7 +100,9 @@ shot_state shot_now(const shot *s)
     st.resistance_gradient = resistance_gradient(s, &d, f.I);
     st.rail_temperature = s->rail_temperature;
     st.ledger = shot_ledger_now(s);
-    st.armature_temperature = face_temperature(s, &st);
+    st.armature_temperature = shot_face_temperature(s, &st);
+    st.film_temperature = shot_film_temperature(s, &st);
+    st.rail_behind_temperature = shot_rail_behind_temperature(s, &st);
     return st;
 }
 

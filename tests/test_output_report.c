@@ -151,7 +151,7 @@ static void onset_page_shows_everything(void **state)
     assert_non_null(strstr(text, "Gouging begins 2.5"));
     assert_non_null(strstr(text, "v1650"));
     assert_non_null(strstr(text, "energy_kinetic"));
-    const int maps = EXAMPLE_SCENES, curves = has_gnuplot() ? 4 + 2 + EXAMPLE_SCENES : 0;
+    const int maps = EXAMPLE_SCENES, curves = has_gnuplot() ? 1 + 2 + EXAMPLE_SCENES : 0;
     assert_int_equal(count(text, "<svg"), maps + curves);
     assert_int_equal(files_in("report", ".svg"), maps + curves);
     assert_int_equal(count(text, "class=\"missing\""), has_gnuplot() ? 0 : 1);

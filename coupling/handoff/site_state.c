@@ -145,6 +145,7 @@ static status run(recorder *r, shot *s)
     if (r->error.code != STATUS_OK) return r->error;
     TRY(done);
     r->out->summary = shot_result(s);
+    r->out->limits = shot_limits_of(s);
     return close_series(r);
 }
 

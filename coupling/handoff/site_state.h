@@ -37,6 +37,7 @@ typedef struct {
 
 typedef struct {
     shot_summary summary;
+    shot_limits limits;
     int n_sites;
     site_state *site; /* in the case's order, owned */
     int n_trace, trace_room;

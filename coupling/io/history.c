@@ -295,14 +295,20 @@ status history_crater(history *h, const char *scene, const crater *c)
     COLUMN(mass, "kg", "armature", s->mass)                                                             \
     COLUMN(rail_temperature, "K", "just ahead of the armature", s->rail_temperature)                    \
     COLUMN(armature_temperature, "K", "contact face", s->armature_temperature)                          \
+    COLUMN(film_temperature, "K", "melt on the contact face", s->film_temperature)                      \
+    COLUMN(rail_behind_temperature, "K", "rail surface, one contact length behind", s->rail_behind_temperature) \
+    COLUMN(shunt_current, "A", "of the muzzle shunt", s->shunt_current)                                 \
     COLUMN(energy_capacitors, "J", "stored", s->ledger.capacitors)                                      \
     COLUMN(energy_coils, "J", "stored", s->ledger.coils)                                                \
     COLUMN(energy_cables, "J", "stored", s->ledger.cables)                                              \
+    COLUMN(energy_rotors, "J", "stored", s->ledger.rotors)                                              \
     COLUMN(energy_rails_field, "J", "stored", s->ledger.rails_field)                                    \
     COLUMN(energy_kinetic, "J", "armature", s->ledger.kinetic)                                          \
     COLUMN(heat_coils, "J", "so far", s->ledger.coil_heat)                                              \
     COLUMN(heat_cables, "J", "so far", s->ledger.cable_heat)                                            \
     COLUMN(heat_crowbars, "J", "so far", s->ledger.crowbar_heat)                                        \
+    COLUMN(heat_switches, "J", "opening switches, so far", s->ledger.switch_heat)                       \
+    COLUMN(heat_machines, "J", "windage, so far", s->ledger.machine_heat)                               \
     COLUMN(heat_rails, "J", "so far", s->ledger.rails_heat)                                             \
     COLUMN(heat_armature, "J", "so far", s->ledger.armature_heat)                                       \
     COLUMN(heat_contact, "J", "contact voltage times current, so far", s->ledger.contact_heat)          \
@@ -311,7 +317,8 @@ status history_crater(history *h, const char *scene, const crater *c)
     COLUMN(energy_muzzle, "J", "shunt or arc after exit, so far", s->ledger.muzzle)                     \
     COLUMN(energy_wear, "J", "motion of the metal worn off, so far", s->ledger.wear)                    \
     COLUMN(energy_jumps, "J", "taken by gouges, so far", s->ledger.jumps)                               \
-    COLUMN(energy_error, "1", "ledger's rest over the energy at the start", s->ledger.energy_error)
+    COLUMN(energy_supplied, "J", "by batteries and given currents, so far", s->ledger.supplied)         \
+    COLUMN(energy_error, "1", "ledger's rest over the energy at the start and supplied", s->ledger.energy_error)
 
 #define SCENE_COLUMNS(COLUMN)                                                                           \
     COLUMN(time, "s", "time", r->time)                                                                  \
@@ -348,7 +355,7 @@ status history_crater(history *h, const char *scene, const crater *c)
 
 #define EVENT_COLUMNS(COLUMN)                                                                           \
     COLUMN(time, "s", "time", e->state.t)                                                               \
-    COLUMN(kind, "1", "0 fired 1 waiting 2 crowbar 3 blocked 4 released 5 stopped 6 site 7 muzzle", (double)e->kind) \
+    COLUMN(kind, "1", "0 fired 1 waiting 2 crowbar 3 blocked 4 released 5 stopped 6 site 7 muzzle 8 commutated 9 recharged", (double)e->kind) \
     COLUMN(index, "1", "of the group or the site, -1 if neither", (double)e->index)                     \
     COLUMN(position, "m", "armature", e->state.x)                                                       \
     COLUMN(velocity, "m/s", "armature", e->state.v)                                                     \
@@ -410,10 +417,10 @@ static status modules_series(history *h, int groups, char (*name)[64], history_c
     columns[n++] = (history_column){ "time", "s", "time" };
     for (int g = 0; g < groups; g++) {
         snprintf(name[n], sizeof *name, "current_%03d", g);
-        columns[n] = (history_column){ name[n], "A", "one module of the group" };
+        columns[n] = (history_column){ name[n], "A", "one unit of the group" };
         n++;
         snprintf(name[n], sizeof *name, "voltage_%03d", g);
-        columns[n] = (history_column){ name[n], "V", "capacitor of one module of the group" };
+        columns[n] = (history_column){ name[n], "V", "capacitor, switch or machine of one unit of the group" };
         n++;
     }
     return history_series(h, "/shot/modules", columns, n, series);

@@ -56,7 +56,7 @@ status history_crater(history *h, const char *scene, const crater *c);
 
 /* ---- the rows of Breech's own series ---- */
 
-enum { HISTORY_MAX_COLUMNS = 256, HISTORY_MAX_SERIES = 32 };
+enum { HISTORY_MAX_COLUMNS = 4096, HISTORY_MAX_SERIES = 32 };
 
 status history_shot(history *h, int *series); /* /shot */
 void history_shot_row(const shot_state *s, double *row);

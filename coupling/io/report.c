@@ -213,29 +213,6 @@ static void put_plot(const page *p, const char *name, const char *caption)
     fputs("</figure>\n", p->out);
 }
 
-static void section_shot(const page *p)
-{
-    static const struct {
-        const char *column, *label;
-        double unit;
-    } curves[] = { { "current", "current [kA]", 1e3 },
-                   { "velocity", "velocity [m/s]", 1.0 },
-                   { "force", "electromagnetic force [kN]", 1e3 },
-                   { "position", "position [m]", 1.0 } };
-    if (!p->source->history || !h5_exists(p->source->history, "/shot/time")) return;
-    heading(p, "The shot");
-    fputs("<div class=\"plots\">\n", p->out);
-    for (int i = 0; i < COUNT(curves); i++) {
-        bool drawn;
-        const status s = plot_shot_curve(p->source, curves[i].column, curves[i].unit, curves[i].label, &drawn);
-        if (drawn)
-            put_plot(p, curves[i].column, "");
-        else if (s.code != STATUS_OK)
-            paragraph(p, "missing", s.text);
-    }
-    fputs("</div>\n", p->out);
-}
-
 static void one_plot(const page *p, status (*draw)(const report_source *, bool *), const char *name,
                      const char *caption)
 {
@@ -245,6 +222,13 @@ static void one_plot(const page *p, status (*draw)(const report_source *, bool *
         put_plot(p, name, caption);
     else if (s.code != STATUS_OK)
         paragraph(p, "missing", s.text);
+}
+
+static void section_shot(const page *p)
+{
+    if (!p->source->history || !h5_exists(p->source->history, "/shot/time")) return;
+    heading(p, "The shot");
+    one_plot(p, plot_shot, "shot", "Modules in grey: one unit of each group.");
 }
 
 /* clang-format off */

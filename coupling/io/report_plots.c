@@ -150,29 +150,116 @@ static void scale(double *x, size_t n, double unit)
 
 /* ---- the shot ---- */
 
-status plot_shot_curve(const report_source *r, const char *column, double unit, const char *label, bool *drawn)
+enum { PANEL_CURVES = 7, PLOT_MODULES = 60 };
+
+typedef struct {
+    const char *label;
+    double unit;
+    struct {
+        const char *column, *title;
+    } curve[PANEL_CURVES];
+} panel;
+
+static const panel panels[] = {
+    { "current [kA]", 1e3, { { "current", "rails" }, { "shunt_current", "shunt" } } },
+    { "voltage [V]", 1.0, { { "breech_voltage", "breech" }, { "muzzle_voltage", "muzzle" } } },
+    { "velocity [m/s]", 1.0, { { "velocity", "armature" } } },
+    { "position [m]", 1.0, { { "position", "armature" } } },
+    { "force [kN]",
+      1e3,
+      { { "force", "electromagnetic" },
+        { "friction", "friction" },
+        { "drag", "gas" },
+        { "contact_force", "contact, one face" } } },
+    { "acceleration [km/s^2]", 1e3, { { "acceleration", "armature" } } },
+    { "energy [kJ]",
+      1e3,
+      { { "energy_capacitors", "capacitors" },
+        { "energy_coils", "coils" },
+        { "energy_rotors", "rotors" },
+        { "energy_rails_field", "field of the rails" },
+        { "energy_kinetic", "armature" },
+        { "heat_rails", "heat of the rails" },
+        { "heat_contact", "heat of the contact" } } },
+    { "temperature [K]",
+      1.0,
+      { { "armature_temperature", "armature, face" },
+        { "film_temperature", "melt" },
+        { "rail_behind_temperature", "rail behind" },
+        { "rail_temperature", "rail ahead" } } },
+};
+enum { PANELS = sizeof panels / sizeof *panels };
+
+/* A data block of a column over time, in ms and `unit`; false where there is none, or it is zero throughout. */
+static bool time_block(FILE *script, const report_source *r, const char *path, const char *block, double unit)
 {
-    *drawn = false;
-    char path[100];
-    snprintf(path, sizeof path, "/shot/%s", column);
-    curve c = curve_read(r, "/shot/time", path);
-    if (c.n < 2 || !r->gnuplot) {
-        curve_free(&c);
-        return status_ok();
-    }
+    const bool of_modules = strncmp(path, "modules/", 8) == 0;
+    char full[100];
+    snprintf(full, sizeof full, "/shot/%s", path);
+    curve c = curve_read(r, of_modules ? "/shot/modules/time" : "/shot/time", full);
+    bool some = false;
+    for (size_t i = 0; i < c.n; i++) some = some || c.y[i] != 0.0;
     scale(c.x, c.n, 1e-3);
     scale(c.y, c.n, unit);
-    plot p;
-    status s = plot_begin(&p, r, column, 560, 320);
-    if (s.code == STATUS_OK) {
-        data_block(p.script, "curve", c.x, c.y, c.n);
-        fprintf(p.script, "unset key\nset xlabel 'time [ms]'\nset ylabel '%s'\n", label);
-        fputs("plot $curve with lines lw 2 lc rgb '#1f5fa8'\n", p.script);
-        s = plot_end(&p);
-    }
+    if (some) data_block(script, block, c.x, c.y, c.n);
     curve_free(&c);
-    *drawn = s.code == STATUS_OK;
-    return s;
+    return some;
+}
+
+/* The modules' currents, thin and grey, behind those of the rails; returns how many. */
+static int module_blocks(FILE *script, const report_source *r)
+{
+    int n = 0;
+    for (char path[40], block[20], full[60]; n < PLOT_MODULES; n++) {
+        snprintf(path, sizeof path, "modules/current_%03d", n);
+        snprintf(block, sizeof block, "module%d", n);
+        snprintf(full, sizeof full, "/shot/%s", path);
+        if (!h5_exists(r->history, full)) break;
+        if (!time_block(script, r, path, block, 1e3)) fprintf(script, "$%s << EOD\n0 0\nEOD\n", block);
+    }
+    return n;
+}
+
+static void draw_panel(FILE *script, const report_source *r, int p, int modules)
+{
+    static const char *const shades[PANEL_CURVES] = { "#1f5fa8", "#c0392b", "#3d8b4f", "#7a4a1e",
+                                                      "#7b5ea7", "#d99a00", "#2a9d8f" };
+    bool used[PANEL_CURVES] = { false };
+    int n = 0;
+    char block[32];
+    for (int c = 0; c < PANEL_CURVES && panels[p].curve[c].column; c++) {
+        snprintf(block, sizeof block, "panel%d_%d", p, c);
+        used[c] = time_block(script, r, panels[p].curve[c].column, block, panels[p].unit);
+    }
+    fprintf(script, "set ylabel '%s'\nplot ", panels[p].label);
+    for (int m = 0; p == 0 && m < modules; m++)
+        fprintf(script, "%s$module%d with lines lw 1 lc rgb '#b8b8b8' notitle", n++ ? ", " : "", m);
+    for (int c = 0; c < PANEL_CURVES; c++) {
+        if (!used[c]) continue;
+        fprintf(script, "%s$panel%d_%d with lines lw 2 lc rgb '%s' title '%s'", n++ ? ", " : "", p, c, shades[c],
+                panels[p].curve[c].title);
+    }
+    fputs(n ? "\n" : "0 notitle\n", script);
+}
+
+status plot_shot(const report_source *r, bool *drawn)
+{
+    *drawn = false;
+    curve c = curve_read(r, "/shot/time", "/shot/current");
+    const size_t rows = c.n;
+    const double end = rows > 0 ? 1e3 * c.x[rows - 1] : 0.0;
+    curve_free(&c);
+    if (rows < 2 || !r->gnuplot) return status_ok();
+    plot p;
+    TRY(plot_begin(&p, r, "shot", 1100, 1300));
+    const int modules = module_blocks(p.script, r);
+    fprintf(p.script, "set xrange [0:%.7g]\nset xlabel 'time [ms]'\nset multiplot layout %d,2\n", end,
+            (PANELS + 1) / 2);
+    for (int k = 0; k < PANELS; k++) draw_panel(p.script, r, k, modules);
+    fputs("unset multiplot\n", p.script);
+    TRY(plot_end(&p));
+    *drawn = true;
+    return status_ok();
 }
 
 /* Points of a list of objects, a data block an outcome; returns how many were written. */

@@ -31,7 +31,7 @@ double report_element(const cJSON *object, const char *key, int i);
 const char *report_colour(const char *outcome);
 
 /* Each draws DIR/plot-<...>.svg; *drawn tells whether there was anything to draw. */
-status plot_shot_curve(const report_source *r, const char *column, double unit, const char *label, bool *drawn);
+status plot_shot(const report_source *r, bool *drawn); /* one page of everything over time */
 status plot_barrel(const report_source *r, bool *drawn);
 status plot_threshold(const report_source *r, bool *drawn);
 status plot_inductance(const report_source *r, bool *drawn);

@@ -22,6 +22,7 @@ enum { SUMMARY_NAME_SIZE = 96 };
 /* The shot, and what it took. */
 typedef struct {
     shot_summary is;
+    shot_limits limits;
     double wall_seconds; /* [s] */
 } shot_record;
 

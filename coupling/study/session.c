@@ -179,6 +179,27 @@ status session_close(session *s, bool finished)
 
 /* ---- the shot ---- */
 
+static void warn_of_limits(session *s, const shot_limits *l)
+{
+    const double x = l->transition_position;
+    if (l->contact_ratio < 1.0)
+        session_warn(s,
+                     "transition: from x = %.3g m on the contact force is below 1 gram-force per ampere (least %.2f)",
+                     l->contact_position, l->contact_ratio);
+    if (l->leg_action > 1.0 || l->throat_action > 1.0)
+        session_warn(
+            s,
+            "transition: the action melts the armature (leg %.2f, throat %.2f of what melts them), from x = %.3g m on",
+            l->leg_action, l->throat_action, x);
+    if (l->wear_share > 1.0)
+        session_warn(
+            s, "transition: wear takes %.2f times armature.leg_thickness, all of it by x = %.3g m at the earliest",
+            l->wear_share, x);
+    if (!isnan(l->critical_position))
+        session_warn(s, "rail: from x = %.3g m on the armature outruns the rail's bending waves, %.0f m/s",
+                     l->critical_position, l->critical_velocity);
+}
+
 status session_shot(session *s, const site_jump *jump, bool with_history, shot_outcome *out, shot_record *record)
 {
     const double since = wall_clock();
@@ -189,7 +210,8 @@ status session_shot(session *s, const site_jump *jump, bool with_history, shot_o
     const status done = shot_run(s->c, &plan, out);
     if (s->history && done.code == STATUS_OK) TRY(history_tick(s->history));
     timing_add(&s->timing, "shot", wall_clock() - since);
-    *record = (shot_record){ out->summary, wall_clock() - since };
+    *record = (shot_record){ out->summary, out->limits, wall_clock() - since };
+    if (done.code == STATUS_OK && with_history) warn_of_limits(s, &out->limits);
     return done;
 }
 

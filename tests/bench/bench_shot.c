@@ -105,8 +105,8 @@ static void curve(bench_shot *b, bool tiny, int repetitions)
     printf("  muzzle velocity %.6f m/s after %.4f ms\n", exact.muzzle_velocity, 1e3 * exact.muzzle_time);
     for (int k = tiny ? 10 : 6; k <= (tiny ? 10 : 20); k++) {
         const double rtol = pow(10.0, -0.5 * k), took = run(b, rtol, repetitions, &got);
-        printf("  rtol %.1e  error %8.1e  %8.3f ms  %6llu steps\n", k,
-               rtol, fabs(got.muzzle_velocity / exact.muzzle_velocity - 1.0), 1e3 * took, (unsigned long long)got.steps);
+        printf("  rtol %.1e  error %8.1e  %8.3f ms  %6llu steps\n", rtol,
+               fabs(got.muzzle_velocity / exact.muzzle_velocity - 1.0), 1e3 * took, (unsigned long long)got.steps);
     }
     b->config.fitted = NULL;
 }
