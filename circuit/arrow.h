@@ -30,8 +30,8 @@ typedef struct {
 } arrow;
 
 status arrow_create(int blocks, int border, int sums, arrow **out); /* caller frees with arrow_free */
-void arrow_free(arrow *a);                                /* NULL allowed */
-void arrow_clear(arrow *a);                               /* all entries zero, no block idle */
+void arrow_free(arrow *a);                                          /* NULL allowed */
+void arrow_clear(arrow *a);                                         /* all entries zero, no block idle */
 
 double *arrow_block(const arrow *a, int k);         /* D_k */
 double *arrow_column(const arrow *a, int k, int j); /* column j of C_k */

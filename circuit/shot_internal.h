@@ -51,7 +51,7 @@ shot_ledger shot_ledger_now(const shot *s);
 
 /* ---- temperatures and limits; *st as far as it is filled before them ---- */
 
-double shot_face_temperature(const shot *s, const shot_state *st);        /* [K], as the two below */
+double shot_face_temperature(const shot *s, const shot_state *st); /* [K], as the two below */
 double shot_film_temperature(const shot *s, const shot_state *st);
 double shot_rail_behind_temperature(const shot *s, const shot_state *st);
 void shot_limits_start(shot *s);
