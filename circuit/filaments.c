@@ -82,16 +82,16 @@ static int lines_add(double from, const double *size, int n, double *at)
     return n;
 }
 
-static columns columns_of(const rail_section *s, double first, double growth)
+static columns columns_of(const rail_section *s, double first, double fineness, double growth)
 {
     double size[MAX_LINES];
     columns c = { .at = { 0.0 } };
     const double core = s->thickness - s->cladding;
     if (s->cladding > 0.0) {
-        const int n = filaments_graded(s->cladding, fmin(first, s->cladding / 4.0), growth, 2, size);
+        const int n = filaments_graded(s->cladding, fmin(first, s->cladding / fineness), growth, 2, size);
         c.n = c.clad = lines_add(0.0, size, n, c.at);
     }
-    const int n = filaments_graded(core, fmin(first, core / 8.0), growth, 2, size);
+    const int n = filaments_graded(core, fmin(first, 0.25 * core / fineness), growth, 2, size);
     c.n += lines_add(s->cladding, size, n, c.at + c.n);
     return c;
 }
@@ -121,14 +121,16 @@ status filaments_create(const rail_section *s, double depth, double fineness, fi
 {
     *out = (filaments){ .fineness = fineness };
     const double first = depth / fineness, growth = 1.0 + 1.5 / fineness, half = 0.5 * s->height;
-    const double longest = fmax(s->thickness, half), least = fmin(fmin(first, s->thickness / 8.0), half / 8.0);
-    CHECK(4 * cells_across(longest, s->cladding > 0.0 ? fmin(least, s->cladding / 4.0) : least, growth) <= MAX_LINES,
+    const double longest = fmax(s->thickness, half),
+                 least = fmin(first, 0.25 * fmin(s->thickness - s->cladding, half) / fineness);
+    CHECK(4 * cells_across(longest, s->cladding > 0.0 ? fmin(least, s->cladding / fineness) : least, growth) <=
+              MAX_LINES,
           STATUS_BAD_INPUT, "a mesh of %g cells a skin depth of %g m needs more than %d lines: ask for less", fineness,
           depth, MAX_LINES);
     double y[SECTION_MAX_ROWS + 1];
-    const columns c = columns_of(s, first, growth);
+    const columns c = columns_of(s, first, fineness, growth);
     out->nx = c.n;
-    out->ny = section_rows(s, fmin(first, half / 8.0), growth, 0.3 / fineness, y);
+    out->ny = section_rows(s, fmin(first, 0.25 * half / fineness), growth, 0.3 / fineness, y);
     CHECK(out->ny > 0, STATUS_BAD_INPUT,
           "a mesh of %g cells a skin depth of %g m needs more than %d rows: ask for less", fineness, depth,
           SECTION_MAX_ROWS);

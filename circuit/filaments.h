@@ -22,7 +22,7 @@ typedef struct {
     double *R; /* of each, times section_weight [ohm/m] */
 } filaments;
 
-/* First cells of depth/fineness, growing by 1 + 1.5/fineness.  depth [m], fineness >= 1. */
+/* First cells of depth/fineness or a side/(4 fineness), growing by 1 + 1.5/fineness.  depth [m], fineness >= 1. */
 status filaments_create(const rail_section *s, double depth, double fineness, filaments *out);
 void filaments_free(filaments *f);
 

@@ -5,7 +5,7 @@
 #include "circuit/impedance.h"
 #include "circuit/section.h"
 
-/* Cells over the skin depth at the highest frequency: L' within 0.05 %, R' within 0.7 % (docs/shot.md has the curve). */
+/* Cells over the skin depth at the highest frequency: L' within 0.25 %, R' within 0.3 % (docs/shot.md has the curve). */
 #define INDUCTANCE_FINENESS 4.0
 
 /* Kerrisk's closed formula for two rectangular perfect conductors, height h, thickness w, separation s [m]: within 1.5 % for
