@@ -43,7 +43,6 @@ struct command {
 
 static int run_case(const options *o);
 static int run_check(const options *o);
-static int run_compare(const options *o);
 static int run_materials(const options *o);
 static int run_report(const options *o);
 
@@ -57,8 +56,9 @@ static const command commands[] = {
     { "onset", "CASE", "the main job: shot and sites, where gouging begins",
       "Runs the shot, then as many impact scenes as the threshold velocity needs (study.max_scenes at most).", run_case,
       true, CASE_FOR_ONSET, RUN_ONSET, command_onset },
-    { "compare", "CASE", "the same for several rail surfaces, ranked", "Not in this version.", run_compare, true, 0,
-      RUN_COMPARE, NULL },
+    { "compare", "CASE", "the same for several rail surfaces, ranked",
+      "As onset, for the case as it is and for each of its treatments; study.max_scenes holds for each surface.", run_case,
+      true, CASE_FOR_ONSET | CASE_FOR_COMPARE, RUN_COMPARE, command_compare },
     { "inductance", "CASE", "L', R' of a rail cross-section, over frequency",
       "Needs the section rails.  Direct current, 1 Hz to 100 kHz, the perfect conductor; the surface at "
       "rails.frequency.",
@@ -253,8 +253,9 @@ static unsigned needs_of(const breech_case *c)
     unsigned needs = 0;
     for (int k = 0; k < SUPPLY_KINDS; k++)
         if (g->supplies[k]) needs |= CASE_FOR_SHOT;
-    if (g->sites) needs |= CASE_FOR_ONSET;
-    if (g->projectile && g->scene && (!isnan(c->scene.velocity) || !g->sites)) needs |= CASE_FOR_SCENE;
+    if (g->sites || g->populations) needs |= CASE_FOR_ONSET;
+    if (g->treatments) needs |= CASE_FOR_COMPARE;
+    if (g->projectile && g->scene && (!isnan(c->scene.velocity) || !(needs & CASE_FOR_ONSET))) needs |= CASE_FOR_SCENE;
     if (g->rails) needs |= CASE_FOR_INDUCTANCE;
     return needs;
 }
@@ -344,16 +345,6 @@ static int run_report(const options *o)
     const status s = report_write(o->subject);
     if (s.code == STATUS_OK && !o->quiet) printf("%s/%s\n", o->subject, OUTDIR_REPORT);
     return complain(s);
-}
-
-static int run_compare(const options *o)
-{
-    (void)o;
-    fputs(
-        "breech: compare is not in this version; run `breech onset` once a surface and compare threshold_velocity and "
-        "onset_position of their summaries\n",
-        stderr);
-    return EXIT_USAGE;
 }
 
 /* ---- options ---- */

@@ -265,7 +265,7 @@ static void commands_say_what_they_need(void **state)
     (void)state;
     char *e = errors_of("name: a\n", NULL, 0, CASE_FOR_ONSET);
     has_line(e, "case.yaml:1:1: section `bank` is missing: `breech onset` needs it, or another supply\n");
-    has_line(e, "case.yaml:1:1: section `sites` is missing: `breech onset` needs it\n");
+    has_line(e, "case.yaml:1:1: section `sites` is missing: `breech onset` needs it, or `populations`\n");
     assert_null(strstr(e, "study")); /* all of it has defaults */
     free(e);
     e = errors_of("name: a\nscene: {friction: 0.1}\nparticle: {shape: cone}\nrail: {material: cucrzr}\n", NULL, 0,

@@ -176,6 +176,7 @@ static status read_tree(case_reader *r)
     case_section root = case_root;
     root.offset = 0;
     section_read(r, &root, r->root, c, "");
+    populations_resolve(r);
     materials_load(r);
     profiles_load(r);
     case_resolve(c, r->root);

@@ -23,8 +23,9 @@ enum {
     CASE_FOR_SHOT = 1, /* a supply, rails, barrel, armature */
     CASE_FOR_SCENE =
         2, /* rail, projectile, particle, scene; scene.velocity, particle.radius; the materials for a scene */
-    CASE_FOR_ONSET = 4,     /* the shot, the scene but for its velocity, sites; the materials for screen and scene */
-    CASE_FOR_INDUCTANCE = 8 /* rails */
+    CASE_FOR_ONSET = 4, /* the shot, the scene but for its velocity, sites or populations; materials for screen and scene */
+    CASE_FOR_INDUCTANCE = 8, /* rails */
+    CASE_FOR_COMPARE = 16    /* with CASE_FOR_ONSET: treatments */
 };
 
 /* A layer of the rail's surface, the first in the list at the bottom. */
@@ -85,6 +86,73 @@ typedef struct {
     case_site *item; /* n, owned by the case, in the file's order */
 } case_sites;
 
+/* A size of a tabulated population. */
+typedef struct {
+    double radius; /* [m] */
+    double share;  /* of the grains; need not add up to 1 [1] */
+} case_size;
+
+typedef struct {
+    int n;
+    case_size *item; /* n, owned by the case */
+} case_sizes;
+
+/* Grains strewn at random: a Poisson process along the barrel, sizes log-normal or tabulated.  What a preset says is
+ * resolved where not given. */
+typedef struct {
+    int preset;           /* population_preset */
+    double density;       /* grains on a metre of the rail [1/m] */
+    double radius_median; /* [m]; NAN with `sizes` */
+    double radius_spread; /* standard deviation of ln radius [1] */
+    double aspect;        /* height over radius [1] */
+    double from, to;      /* stretch of the barrel they lie on; NAN: its ends [m] */
+    char shape[PARAM_TEXT_SIZE];
+    char material[PARAM_TEXT_SIZE]; /* resolved to the rail's when not given */
+    double bond_strength;           /* [Pa]; NAN: welded for good */
+    bool renewed;                   /* strewn anew before every shot; no: what one shot passed is gone */
+    case_sizes sizes;
+} case_population;
+
+typedef struct {
+    int n;
+    case_population *item; /* n, owned by the case */
+} case_populations;
+
+/* Where grains come from; what each assumes stands in its line of population.def. */
+typedef enum {
+    POPULATION_NONE,
+#define POPULATION(name, ...) POPULATION_##name,
+#include "coupling/io/population.def"
+#undef POPULATION
+    POPULATION_PRESETS
+} population_preset;
+
+/* The settings of one kind of treatment; what they mean says its table, treatment_<kind>.c. */
+enum { TREATMENT_VALUES = 3 };
+typedef struct {
+    double value[TREATMENT_VALUES];
+    char material[PARAM_TEXT_SIZE];
+    case_layers layers;
+} treatment_settings;
+
+enum {
+#define TREATMENT(name, doc) TREATMENT_##name,
+#include "coupling/io/treatment.def"
+#undef TREATMENT
+    TREATMENT_KINDS
+};
+
+/* A rail surface to compare: all that is changed on the case (treatment.h). */
+typedef struct {
+    char name[PARAM_TEXT_SIZE];
+    treatment_settings kind[TREATMENT_KINDS];
+} case_treatment;
+
+typedef struct {
+    int n;
+    case_treatment *item; /* n, owned by the case */
+} case_treatments;
+
 /* How a scene is built and run.  Extents that are NAN are chosen by the hand-off from the grain's radius. */
 typedef struct {
     double velocity;                /* of `breech scene`; onset takes the shot's [m/s] */
@@ -125,7 +193,12 @@ typedef struct {
     int max_scenes;
     double screen_low, screen_high; /* band of impact pressure over hardness: below no scene is needed [1] */
     double coarse_cells_per_radius, fine_cells_per_radius; /* [1] */
-    bool feedback;                                         /* a gouge's impulse and mass loss go back into the shot */
+    bool feedback;          /* a gouge's impulse and mass loss go back into the shot */
+    bool sensitivities;     /* the shot again with changed inputs */
+    int shots;              /* fired one after the other on the same rail */
+    int sampled;            /* histories of the Monte Carlo */
+    int seed;               /* of its random numbers */
+    double smallest_radius; /* grains of a population below it are taken not to gouge [m] */
 } case_study;
 
 typedef struct {
@@ -149,7 +222,8 @@ typedef struct {
 /* Sections given in the file (or by --set). */
 typedef struct {
     bool supplies[SUPPLY_KINDS];
-    bool rails, barrel, armature, options, rail, projectile, particle, sites, scene, study, output;
+    bool rails, barrel, armature, options, rail, projectile, particle, sites, populations, treatments, scene, study,
+        output;
 } case_given;
 
 typedef struct {
@@ -164,6 +238,8 @@ typedef struct {
     case_projectile projectile;
     case_particle particle;
     case_sites sites;
+    case_populations populations;
+    case_treatments treatments;
     case_scene scene;
     case_study study;
     case_output output;

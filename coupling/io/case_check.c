@@ -35,8 +35,7 @@ static void resolve_site(case_site *site, const case_particle *shared, const tre
     if (!is_given(node, "bond_strength")) site->bond_strength = shared->bond_strength;
 }
 
-/* Entry k of a list section in the tree (a lone mapping is entry 0); NULL if it is not there. */
-static const tree_node *entry_node(const tree_node *list, int k)
+const tree_node *entry_node(const tree_node *list, int k)
 {
     if (!list) return NULL;
     if (list->kind != TREE_LIST) return k == 0 ? list : NULL;
@@ -59,6 +58,7 @@ typedef struct {
 } command_name;
 
 static const command_name commands[] = {
+    { CASE_FOR_COMPARE, "breech compare" },
     { CASE_FOR_ONSET, "breech onset" },
     { CASE_FOR_SHOT, "breech shot" },
     { CASE_FOR_SCENE, "breech scene" },
@@ -82,6 +82,9 @@ static void check_sections(case_reader *r)
         errors_add(r->errors, node ? node : r->root, "section `%s` is %s: `%s` needs it", s->key,
                    node ? "empty" : "missing", command_of(s->needed_for & needs));
     }
+    if ((needs & CASE_FOR_ONSET) && r->out->sites.n == 0 && r->out->populations.n == 0)
+        errors_add(r->errors, r->root, "section `sites` is missing: `%s` needs it, or `populations`",
+                   command_of(needs));
 }
 
 /* Something must drive a shot. */
@@ -164,8 +167,9 @@ static unsigned material_needs(const case_reader *r, const material_use *use)
     unsigned wanted = 0;
     if (needs & (CASE_FOR_SCENE | CASE_FOR_ONSET)) wanted |= MATERIAL_FOR_SCENE;
     if (wanted && r->out->scene.damage) wanted |= MATERIAL_FOR_DAMAGE;
-    const bool hit = strcmp(use->key, "rail.material") == 0 || strcmp(use->key, "projectile.material") == 0;
-    if ((needs & CASE_FOR_ONSET) && hit) wanted |= MATERIAL_FOR_SCREEN;
+    static const char *const meeting[] = { "rail.material", "projectile.material", ".rail_metal.", ".armature_metal." };
+    for (size_t k = 0; k < sizeof meeting / sizeof meeting[0]; k++)
+        if ((needs & CASE_FOR_ONSET) && strstr(use->key, meeting[k])) wanted |= MATERIAL_FOR_SCREEN;
     return wanted;
 }
 
@@ -232,5 +236,12 @@ void case_check_whole(case_reader *r)
         check_site(r, &r->out->sites.item[k], entry_node(sites, k), k);
         check_shape(r, entry_node(sites, k), r->out->sites.item[k].shape, path);
     }
+    const tree_node *populations = tree_find(r->root, "populations");
+    for (int k = 0; k < r->out->populations.n; k++) {
+        char path[32];
+        snprintf(path, sizeof path, "populations[%d]", k);
+        check_shape(r, entry_node(populations, k), r->out->populations.item[k].shape, path);
+    }
+    populations_check(r);
     check_materials(r);
 }

@@ -106,7 +106,7 @@ static void read_choice(case_reader *r, const param *p, const tree_node *node, i
                near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
 }
 
-static void note_material(case_reader *r, const tree_node *node, const char *path)
+void material_noted(case_reader *r, const char *name, const tree_node *where, const char *path)
 {
     const size_t n = (size_t)r->n_use;
     if ((n & (n - 1)) == 0) { /* grow at powers of two */
@@ -118,9 +118,9 @@ static void note_material(case_reader *r, const tree_node *node, const char *pat
         r->use = more;
     }
     material_use *use = &r->use[r->n_use++];
-    snprintf(use->name, sizeof use->name, "%s", node->text);
+    snprintf(use->name, sizeof use->name, "%s", name);
     snprintf(use->key, sizeof use->key, "%s", path);
-    use->where = node;
+    use->where = where;
 }
 
 static void read_text(case_reader *r, const param *p, const tree_node *node, char *member, const char *path)
@@ -135,7 +135,7 @@ static void read_text(case_reader *r, const param *p, const tree_node *node, cha
         return;
     }
     snprintf(member, PARAM_TEXT_SIZE, "%s", node->text);
-    if (strcmp(p->key, "material") == 0 && node->text[0] != '\0') note_material(r, node, path);
+    if (strcmp(p->key, "material") == 0 && node->text[0] != '\0') material_noted(r, node->text, node, path);
 }
 
 static void read_vector(case_reader *r, const param *p, const tree_node *node, double *member, const char *path)

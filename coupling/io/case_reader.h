@@ -34,6 +34,18 @@ void section_free(const case_section *section, void *parent);
 /* One value by its param, with unit and range. */
 void value_read(case_reader *r, const param *p, const tree_node *node, void *member, const char *path);
 
+/* A place that names a material without a key of that name. */
+void material_noted(case_reader *r, const char *name, const tree_node *where, const char *path);
+
+/* What presets say, where populations leave it out; names their materials. */
+void populations_resolve(case_reader *r);
+
+/* Stretches inside the barrel, sizes that are there. */
+void populations_check(case_reader *r);
+
+/* Entry k of a list section in the tree (a lone mapping is entry 0); NULL if it is not there. */
+const tree_node *entry_node(const tree_node *list, int k);
+
 /* Loads what the case names, in the order of the naming, after the case's own materials. */
 void materials_load(case_reader *r);
 

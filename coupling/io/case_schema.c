@@ -1,5 +1,6 @@
 #include "coupling/io/case_schema.h"
 
+#include "coupling/io/treatment.h"
 #include "mpm/scene.h"
 
 #include <string.h>
@@ -72,6 +73,42 @@ static const param site_params[] = {
     PARAMS_END,
 };
 
+static const char *const preset_names[] = {
+    "none",
+#define POPULATION(name, ...) #name,
+#include "coupling/io/population.def"
+#undef POPULATION
+    NULL
+};
+
+static const param population_params[] = {
+    PARAM_ENUM(case_population, preset, preset_names, POPULATION_NONE, "where they come from: gives what is not given"),
+    PARAM_DOUBLE(case_population, density, "1/m", OPTIONAL, 0.0, 1e6, "grains on a metre of the rail"),
+    PARAM_DOUBLE(case_population, radius_median, "m", OPTIONAL, 1e-6, 0.1, "half of them are larger; none with `sizes`"),
+    PARAM_DOUBLE(case_population, radius_spread, "1", OPTIONAL, 0.0, 3.0,
+                 "standard deviation of ln radius, log-normal sizes"),
+    PARAM_DOUBLE(case_population, aspect, "1", OPTIONAL, 0.01, 10.0, "height over radius; not given: 1"),
+    PARAM_DOUBLE(case_population, from, "m", OPTIONAL, 0.0, 1e3, "stretch they lie on; not given: barrel.start"),
+    PARAM_DOUBLE(case_population, to, "m", OPTIONAL, 0.0, 1e3, "its end; not given: barrel.length"),
+    PARAM_STRING(case_population, shape, "", "not given: particle.shape"),
+    PARAM_STRING(case_population, material, "", "not given: the rail's"),
+    PARAM_DOUBLE(case_population, bond_strength, "Pa", OPTIONAL, 0.0, 1e11,
+                 "traction at which they come off the rail; not given: never"),
+    PARAM_BOOL(case_population, renewed, 1, "strewn anew before every shot; no: what one shot has passed is gone"),
+    PARAMS_END,
+};
+
+static const param size_params[] = {
+    PARAM_DOUBLE(case_size, radius, "m", REQUIRED, 1e-6, 0.1, "of the grains' foot"),
+    PARAM_DOUBLE(case_size, share, "1", REQUIRED, 0.0, 1e9, "of the grains; shares need not add up to 1"),
+    PARAMS_END,
+};
+
+static const param treatment_params[] = {
+    PARAM_STRING(case_treatment, name, NULL, "short name of the surface"),
+    PARAMS_END,
+};
+
 static const param scene_params[] = {
     PARAM_DOUBLE(case_scene, velocity, "m/s", OPTIONAL, 1.0, 1e4,
                  "of the armature in `breech scene`; onset takes the shot's"),
@@ -129,6 +166,12 @@ static const param study_params[] = {
     PARAM_DOUBLE(case_study, coarse_cells_per_radius, "1", 3.0, 1.0, 100.0, "resolution the bracketing starts with"),
     PARAM_DOUBLE(case_study, fine_cells_per_radius, "1", 5.0, 1.0, 100.0, "resolution near the threshold"),
     PARAM_BOOL(case_study, feedback, 1, "a gouge's impulse and mass loss go back into the shot"),
+    PARAM_BOOL(case_study, sensitivities, 1, "what 5 % more charge, mass, friction and grain size would do"),
+    PARAM_INT(case_study, shots, 1, 1, 1000, "fired one after the other on the same rail"),
+    PARAM_INT(case_study, sampled, 100000, 100, 100000000, "histories of the Monte Carlo"),
+    PARAM_INT(case_study, seed, 1, 0, 2000000000, "of its random numbers"),
+    PARAM_DOUBLE(case_study, smallest_radius, "m", 1e-4, 1e-6, 0.1,
+                 "smaller grains of a population are taken not to gouge, no scene is run for them"),
     PARAMS_END,
 };
 
@@ -154,6 +197,38 @@ static const case_section rail_children[] = {
       .size = sizeof(case_layer),
       .given = NO_FLAG,
       .list = true },
+    END_OF_SECTIONS,
+};
+
+static const case_section population_children[] = {
+    { .key = "sizes",
+      .doc = "Tabulated sizes in place of log-normal ones, a list.",
+      .table = size_params,
+      .offset = offsetof(case_population, sizes),
+      .size = sizeof(case_size),
+      .given = NO_FLAG,
+      .list = true },
+    END_OF_SECTIONS,
+};
+
+static const case_section treatment_children[] = {
+#define TREATMENT_LAYERS(name, doc_)                       \
+    { .key = #name,                                        \
+      .doc = (doc_),                                       \
+      .table = layer_params,                               \
+      .offset = offsetof(case_treatment, kind[TREATMENT_##name].layers), \
+      .size = sizeof(case_layer),                          \
+      .given = NO_FLAG,                                    \
+      .list = true },
+#define TREATMENT(name, doc_)                                     \
+    { .key = #name,                                               \
+      .doc = (doc_),                                              \
+      .table = treatment_##name##_params,                         \
+      .offset = offsetof(case_treatment, kind[TREATMENT_##name]), \
+      .size = sizeof(treatment_settings),                         \
+      .given = NO_FLAG },
+#include "coupling/io/treatment.def"
+#undef TREATMENT
     END_OF_SECTIONS,
 };
 
@@ -200,8 +275,13 @@ static const case_section sections[] = {
       .size = sizeof(case_projectile) },
     { SECTION(particle, particle_params, CASE_FOR_SCENE, "The grain of `breech scene`, and what a site leaves out."),
       .size = sizeof(case_particle) },
-    { SECTION(sites, site_params, CASE_FOR_ONSET, "Grains along the barrel, a list."), .size = sizeof(case_site),
-      .list = true },
+    { SECTION(sites, site_params, 0, "Grains along the barrel, a list; `breech onset` needs these or populations."),
+      .size = sizeof(case_site), .list = true },
+    { SECTION(populations, population_params, 0, "Grains strewn at random along the barrel, a list."),
+      .children = population_children, .size = sizeof(case_population), .list = true },
+    { SECTION(treatments, treatment_params, CASE_FOR_COMPARE,
+              "Rail surfaces to compare, a list; the untreated one is always compared too."),
+      .children = treatment_children, .size = sizeof(case_treatment), .list = true },
     { SECTION(scene, scene_params, NEED_SCENE, "How an impact scene is built and run."), .size = sizeof(case_scene) },
     { SECTION(study, study_params, 0, "The search for where gouging begins."), .size = sizeof(case_study) },
     { SECTION(output, output_params, 0, "What is written."), .size = sizeof(case_output) },

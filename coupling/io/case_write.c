@@ -87,8 +87,17 @@ static void write_keys(FILE *file, const case_section *section, const void *obje
     for (const case_section *s = section->children; s && s->key; s++) write_section(file, s, object, indent);
 }
 
+/* A section inside another, not given: its first key must be given, and is not. */
+static bool is_absent(const case_section *section, const void *object)
+{
+    const param *first = section->table;
+    const bool required = first->kind == PARAM_TEXT ? !first->fallback_text : isinf(first->fallback);
+    return section->given == NO_FLAG && required && is_unset(first, (const char *)object + first->offset);
+}
+
 static void write_section(FILE *file, const case_section *section, const void *parent, int indent)
 {
+    if (!section->list && is_absent(section, (const char *)parent + section->offset)) return;
     if (!section->list) {
         fprintf(file, "%*s%s:\n", indent, "", section->key);
         write_keys(file, section, (const char *)parent + section->offset, indent + 2, false);

@@ -171,6 +171,43 @@ static const summary_key study_scene_keys[] = {
     KEYS_END
 };
 
+static const summary_key surface_keys[] = {
+    VALUE(onset_size, KEY_INTEGER, "family", family, "1", "of grains alike in all but size"),
+    VALUE(onset_size, KEY_TEXT, "shape", shape, "", "of its grains"),
+    VALUE(onset_size, KEY_TEXT, "material", material, "", "of its grains"),
+    NUMBER(onset_size, "radius", radius, "m", "of the grain"),
+    NUMBER(onset_size, "grains", grains, "1", "this size stands for"),
+    NUMBER(onset_size, "threshold_velocity", threshold_velocity, "m/s", "null: outside of the search"),
+    VECTOR(onset_size, "threshold_interval", threshold_interval, 2, "m/s", "its band, and the shift from coarse to fine"),
+    VALUE(onset_size, KEY_INTEGER, "scenes", scenes, "1", "of this size; 0: bounded by those of other sizes"),
+    KEYS_END
+};
+
+static const summary_key skip_keys[] = {
+    VALUE(onset_skip, KEY_TEXT, "rests_on", rests_on, "", "why no scene was needed"),
+    VALUE(onset_skip, KEY_INTEGER, "scenes", scenes, "1", "sites, sizes or populations skipped for it"),
+    KEYS_END
+};
+
+static const summary_key sensitivity_keys[] = {
+    VALUE(onset_sensitivity, KEY_TEXT, "input", input, "", "what is changed, all else as it was"),
+    NUMBER(onset_sensitivity, "change", change, "1", "relative"),
+    NUMBER(onset_sensitivity, "muzzle_velocity", muzzle_velocity, "m/s", ""),
+    NUMBER(onset_sensitivity, "threshold_position", threshold_position, "m", "along the barrel"),
+    NUMBER(onset_sensitivity, "expected_gouges", expected_gouges, "1", "a shot"),
+    KEYS_END
+};
+
+static const summary_key repeated_keys[] = {
+    VALUE(onset_shot, KEY_INTEGER, "shot", shot, "1", "from 1, on the same rail"),
+    NUMBER(onset_shot, "probability_gouge", probability_gouge, "1", "that it gouges"),
+    NUMBER(onset_shot, "expected_gouges", expected_gouges, "1", ""),
+    NUMBER(onset_shot, "expected_gouged_volume", expected_gouged_volume, "m3", ""),
+    NUMBER(onset_shot, "onset_position", onset_position, "m", "median of the first gouge; null: less than half gouge"),
+    VECTOR(onset_shot, "onset_interval", onset_interval, 2, "m", "5 and 95 % of the shots"),
+    KEYS_END
+};
+
 static const summary_key onset_keys[] = {
     NAME(onset_result, "verdict", verdict, onset_verdict_names, "gouges, no_gouging, undecided"),
     VALUE(onset_result, KEY_TEXT, "reason", reason, "", "of the verdict"),
@@ -179,6 +216,23 @@ static const summary_key onset_keys[] = {
     VECTOR(onset_result, "threshold_interval", threshold_interval, 2, "m/s", "bracket, resolution and input uncertainty"),
     NUMBER(onset_result, "onset_position", onset_position, "m", "along the barrel"),
     VECTOR(onset_result, "onset_interval", onset_interval, 2, "m", "of the position"),
+    NUMBER(onset_result, "threshold_position", threshold_position, "m", "where the threshold velocity is passed"),
+    VECTOR(onset_result, "threshold_position_interval", threshold_position_interval, 2, "m", "where its ends are"),
+    NUMBER(onset_result, "muzzle_velocity_feedback", muzzle_velocity_feedback, "m/s", "with what the gouges take; null: nothing taken"),
+    VALUE(onset_result, KEY_INTEGER, "gouges", gouges, "1", "sites of the list that gouge"),
+    NUMBER(onset_result, "expected_gouges", expected_gouges, "1", "a shot, sites and populations"),
+    VECTOR(onset_result, "expected_gouges_interval", expected_gouges_interval, 2, "1", "5 and 95 % of what may be true"),
+    NUMBER(onset_result, "expected_gouged_volume", expected_gouged_volume, "m3", "a shot"),
+    VECTOR(onset_result, "expected_gouged_volume_interval", expected_gouged_volume_interval, 2, "m3", "5 and 95 %"),
+    VALUE(onset_result, KEY_INTEGER, "histories", histories, "1", "of the Monte Carlo"),
+    NUMBER(onset_result, "monte_carlo_seconds", monte_carlo_seconds, "s", "time they took"),
+    ARRAY(onset_result, "along", along, n_along, "m", "along the barrel"),
+    ARRAY(onset_result, "probability_along", probability_along, n_along, "1", "that a gouge lies before it"),
+    LIST(onset_result, "surface", surface, n_surface, surface_keys, sizeof(onset_size), "a family and size each, keys below"),
+    LIST(onset_result, "skips", skip, n_skips, skip_keys, sizeof(onset_skip), "why scenes were not needed, keys below"),
+    LIST(onset_result, "sensitivities", sensitivities, n_sensitivities, sensitivity_keys, sizeof(onset_sensitivity), "keys below"),
+    LIST(onset_result, "shots", shot, n_shots, repeated_keys, sizeof(onset_shot), "on the same rail, keys below"),
+    VALUE(onset_result, KEY_INTEGER, "scenes_reused", scenes_reused, "1", "taken from the store"),
     VALUE(onset_result, KEY_INTEGER, "scenes_run", scenes_run, "1", "computed"),
     VALUE(onset_result, KEY_INTEGER, "scenes_skipped", scenes_skipped, "1", "by the screen or shared"),
     LIST(onset_result, "sites", site, n_sites, site_keys, sizeof(onset_site), "a site each, keys below"),
@@ -193,11 +247,29 @@ static const summary_key compare_entry_keys[] = {
     VECTOR(compare_entry, "threshold_interval", threshold_interval, 2, "m/s", ""),
     NUMBER(compare_entry, "onset_position", onset_position, "m", "along the barrel; null: no gouging"),
     NUMBER(compare_entry, "gouged_volume", gouged_volume, "m3", "of the whole shot"),
+    VECTOR(compare_entry, "gouged_volume_interval", gouged_volume_interval, 2, "m3", "5 and 95 % of what may be true"),
+    NUMBER(compare_entry, "threshold_position", threshold_position, "m", "where the threshold velocity is passed"),
+    NUMBER(compare_entry, "gouges", gouges, "1", "a shot, expected: what ranks"),
+    VECTOR(compare_entry, "gouges_interval", gouges_interval, 2, "1", "5 and 95 % of what may be true"),
+    NUMBER(compare_entry, "probability_gouge", probability_gouge, "1", "that a shot gouges"),
+    NUMBER(compare_entry, "better_than_next", better_than_next, "1", "share of what may be true in which it gouges less than the next"),
+    VALUE(compare_entry, KEY_FLAG, "significant", significant, "", "better_than_next is at least 0.95"),
+    VALUE(compare_entry, KEY_INTEGER, "tied", tied, "1", "rank of the group of surfaces it cannot be told apart from"),
+    VALUE(compare_entry, KEY_INTEGER, "scenes", scenes, "1", "its own, shared ones not counted twice"),
+    VALUE(compare_entry, KEY_TEXT, "layer", layer, "", "what its layers suffer: none, intact, spalled, worn through"),
+    NUMBER(compare_entry, "layer_failed", layer_failed, "1", "share of the layers under the crater that failed"),
+    NUMBER(compare_entry, "layer_velocity", layer_velocity, "m/s", "of the scene that says so"),
     KEYS_END
 };
 
 static const summary_key compare_keys[] = {
     LIST(compare_result, "ranking", ranking, n, compare_entry_keys, sizeof(compare_entry), "a surface each, best first"),
+    LIST(compare_result, "scenes", scene, n_scenes, study_scene_keys, sizeof(onset_scene), "a scene each, keys as in onset"),
+    VALUE(compare_result, KEY_INTEGER, "scenes_run", scenes_run, "1", "computed"),
+    VALUE(compare_result, KEY_INTEGER, "scenes_skipped", scenes_skipped, "1", "by the screen, shared or bounded by others"),
+    VALUE(compare_result, KEY_INTEGER, "scenes_reused", scenes_reused, "1", "taken from the store"),
+    VALUE(compare_result, KEY_INTEGER, "histories", histories, "1", "of the Monte Carlo"),
+    NUMBER(compare_result, "wall_seconds", wall_seconds, "s", "time it took"),
     KEYS_END
 };
 
@@ -561,13 +633,17 @@ static void print_scenes(const onset_result *o, FILE *out)
 static void print_ranking(const compare_result *c, FILE *out)
 {
     table *t;
-    if (!c || table_create("rank|surface|v_th [m/s]|from|to|x [m]|gouged [mm3]", &t).code != STATUS_OK) return;
+    const char *titles = "rank|surface|v_th [m/s]|from|to|x [m]|gouges|from|to|gouged [mm3]|better|layer";
+    if (!c || table_create(titles, &t).code != STATUS_OK) return;
     for (int i = 0; i < c->n; i++) {
         const compare_entry *e = &c->ranking[i];
-        char v[24], lo[24], hi[24], x[24], volume[24];
-        table_row(t, "%d|%s|%s|%s|%s|%s|%s", i + 1, e->surface, cell(e->threshold_velocity, 1.0, "%.0f", v),
-                  cell(e->threshold_interval[0], 1.0, "%.0f", lo), cell(e->threshold_interval[1], 1.0, "%.0f", hi),
-                  cell(e->onset_position, 1.0, "%.3f", x), cell(e->gouged_volume, 1e-9, "%.3g", volume));
+        char v[24], lo[24], hi[24], x[24], volume[24], n[24], few[24], many[24], better[24];
+        table_row(t, "%d|%s|%s|%s|%s|%s|%s|%s|%s|%s|%s|%s", e->tied ? e->tied : i + 1, e->surface,
+                  cell(e->threshold_velocity, 1.0, "%.0f", v), cell(e->threshold_interval[0], 1.0, "%.0f", lo),
+                  cell(e->threshold_interval[1], 1.0, "%.0f", hi), cell(e->threshold_position, 1.0, "%.3f", x),
+                  cell(e->gouges, 1.0, "%.3g", n), cell(e->gouges_interval[0], 1.0, "%.3g", few),
+                  cell(e->gouges_interval[1], 1.0, "%.3g", many), cell(e->gouged_volume, 1e-9, "%.3g", volume),
+                  cell(e->better_than_next, 0.01, "%.0f %%", better), e->layer);
     }
     table_print(t, out);
     table_free(t);
@@ -623,6 +699,10 @@ void summary_print_keys(FILE *out)
     for (int k = 0; k < RUN_KINDS; k++) print_key_list(run_kind_names[k], keys_of_kind[k], out);
     print_key_list("onset: an entry of `sites`", site_keys, out);
     print_key_list("onset: an entry of `scenes`, with all keys of `scene`", study_scene_keys, out);
+    print_key_list("onset: an entry of `surface`", surface_keys, out);
+    print_key_list("onset: an entry of `skips`", skip_keys, out);
+    print_key_list("onset: an entry of `sensitivities`", sensitivity_keys, out);
+    print_key_list("onset: an entry of `shots`", repeated_keys, out);
     print_key_list("compare: an entry of `ranking`", compare_entry_keys, out);
 }
 

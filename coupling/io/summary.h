@@ -88,6 +88,39 @@ typedef struct {
     char scene[SUMMARY_NAME_SIZE]; /* the scene that decided, "" if none */
 } onset_site;
 
+/* The threshold at one size of one family of grains. */
+typedef struct {
+    int family; /* from 1 */
+    char shape[PARAM_TEXT_SIZE], material[PARAM_TEXT_SIZE];
+    double radius;                /* [m] */
+    double grains;                /* it stands for */
+    double threshold_velocity;    /* [m/s] */
+    double threshold_interval[2]; /* [m/s] */
+    int scenes;                   /* of this size; 0: bounded by other sizes */
+} onset_size;
+
+/* Scenes that were not needed. */
+typedef struct {
+    char rests_on[120];
+    int scenes;
+} onset_skip;
+
+/* What a change of one input does, all else as it was. */
+typedef struct {
+    char input[40];
+    double change;             /* of the input, relative [1] */
+    double muzzle_velocity;    /* [m/s] */
+    double threshold_position; /* [m] */
+    double expected_gouges;    /* [1] */
+} onset_sensitivity;
+
+/* One of several shots on the same rail. */
+typedef struct {
+    int shot; /* from 1 */
+    double probability_gouge, expected_gouges, expected_gouged_volume; /* [1, 1, m3] */
+    double onset_position, onset_interval[2]; /* median, 5 .. 95 % [m] */
+} onset_shot;
+
 typedef enum { VERDICT_GOUGES, VERDICT_NO_GOUGING, VERDICT_UNDECIDED } onset_verdict;
 extern const char *const onset_verdict_names[]; /* "gouges", "no_gouging", "undecided", NULL */
 
@@ -99,7 +132,21 @@ typedef struct {
     double threshold_interval[2]; /* [m/s] */
     double onset_position;        /* along the barrel [m] */
     double onset_interval[2];     /* [m] */
-    int scenes_run, scenes_skipped;
+    double threshold_position, threshold_position_interval[2]; /* where the threshold velocity is passed [m] */
+    double muzzle_velocity_feedback;                           /* with what the gouges take [m/s] */
+    int gouges;                                                /* sites of the list that gouge */
+    double expected_gouges, expected_gouges_interval[2];       /* a shot, sites and populations [1] */
+    double expected_gouged_volume, expected_gouged_volume_interval[2]; /* [m3] */
+    int histories;                                                     /* of the Monte Carlo */
+    double monte_carlo_seconds;                                        /* [s] */
+    int n_along;
+    const double *along, *probability_along; /* n_along: P(gouge before x) at x [m, 1], borrowed */
+    int n_surface, n_skips, n_sensitivities, n_shots;
+    const onset_size *surface;              /* borrowed */
+    const onset_skip *skip;                 /* borrowed */
+    const onset_sensitivity *sensitivities; /* borrowed */
+    const onset_shot *shot;                 /* borrowed */
+    int scenes_run, scenes_skipped, scenes_reused;
     int n_sites, n_scenes;
     const onset_site *site;   /* n_sites, borrowed */
     const onset_scene *scene; /* n_scenes, borrowed */
@@ -111,11 +158,27 @@ typedef struct {
     double threshold_velocity, threshold_interval[2]; /* [m/s] */
     double onset_position;                            /* [m] */
     double gouged_volume;                             /* [m3] */
+    double gouged_volume_interval[2];                 /* [m3] */
+    double threshold_position;                        /* [m] */
+    double gouges, gouges_interval[2];                /* a shot, expected [1] */
+    double probability_gouge;                         /* [1] */
+    double better_than_next; /* share of what may be true in which it gouges less than the next one [1] */
+    bool significant;        /* that share is at least 0.95; of the last: the former one's */
+    int tied;                /* surfaces from the same `tied` on cannot be told apart; from 1 */
+    int scenes;              /* its own, those shared with surfaces before it not counted */
+    char layer[24];          /* what its layers suffer: "none", "intact", "spalled", "worn through" */
+    double layer_failed;     /* share of the layers under the crater that failed [1] */
+    double layer_velocity;   /* of the scene that says so [m/s] */
 } compare_entry;
 
 typedef struct {
     int n;
     const compare_entry *ranking; /* n, best first, borrowed */
+    int n_scenes;
+    const onset_scene *scene; /* n_scenes, borrowed */
+    int scenes_run, scenes_skipped, scenes_reused;
+    int histories;
+    double wall_seconds; /* [s] */
 } compare_result;
 
 typedef struct {

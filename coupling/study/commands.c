@@ -1,5 +1,7 @@
 #include "coupling/study/commands.h"
 
+#include "coupling/io/treatment.h"
+#include "coupling/study/population.h"
 #include "coupling/study/scenes.h"
 
 #include <complex.h>
@@ -10,6 +12,7 @@
 void command_free(command_result *r)
 {
     onset_answer_free(&r->onset);
+    compare_answer_free(&r->compare);
     free(r->gradients);
     r->gradients = NULL;
     inductance_surface_free(&r->surface);
@@ -18,7 +21,7 @@ void command_free(command_result *r)
 status command_shot(session *s, command_result *out)
 {
     shot_outcome o;
-    const status done = session_shot(s, NULL, true, &o, &out->shot);
+    const status done = session_shot(s, s->c, NULL, true, &o, &out->shot);
     shot_outcome_free(&o);
     if (done.code == STATUS_OK) out->summary.shot = &out->shot;
     return done;
@@ -42,6 +45,14 @@ status command_onset(session *s, command_result *out)
     const status done = onset_run(s, &out->onset);
     out->summary.onset = &out->onset.result;
     if (out->onset.shot.is.steps > 0) out->summary.shot = &out->onset.shot;
+    return done;
+}
+
+status command_compare(session *s, command_result *out)
+{
+    const status done = compare_run(s, &out->compare);
+    out->summary.compare = &out->compare.result;
+    if (out->compare.n > 0 && out->compare.answer[0].shot.is.steps > 0) out->summary.shot = &out->compare.answer[0].shot;
     return done;
 }
 
@@ -108,23 +119,59 @@ status command_inductance(session *s, command_result *out)
 
 /* ---- check ---- */
 
+/* Scenes at both resolutions with a grain of this size. */
+static status grain_possible(const breech_case *c, const case_site *grain)
+{
+    mpm_scene scene;
+    site_state state = state_of_case(c);
+    state.velocity = c->study.velocity_low;
+    state.grain = *grain;
+    TRY(scene_bodies(c, &state, c->study.coarse_cells_per_radius, &scene));
+    return scene_bodies(c, &state, c->study.fine_cells_per_radius, &scene);
+}
+
+static status grains_possible(const breech_case *c)
+{
+    for (int i = 0; i < c->sites.n; i++) TRY(grain_possible(c, &c->sites.item[i]));
+    for (int i = 0; i < c->populations.n; i++) {
+        const case_population *p = &c->populations.item[i];
+        double size[SURFACE_MAX_SIZES], number[SURFACE_MAX_SIZES];
+        const int n = population_sizes(p, c->study.smallest_radius, SURFACE_MAX_SIZES, size, number);
+        for (int k = 0; k < n; k += n > 1 ? n - 1 : 1) { /* the smallest and the largest */
+            case_site grain = { .radius = size[k], .height = p->aspect * size[k], .bond_strength = p->bond_strength };
+            memcpy(grain.shape, p->shape, sizeof grain.shape);
+            memcpy(grain.material, p->material, sizeof grain.material);
+            TRY(grain_possible(c, &grain));
+        }
+    }
+    return status_ok();
+}
+
+static status treatments_possible(const breech_case *c)
+{
+    for (int i = 0; i < c->treatments.n; i++) {
+        breech_case treated;
+        status s = treated_case(c, &c->treatments.item[i], &treated);
+        const bool made = s.code == STATUS_OK; /* its error names the treatment already */
+        if (made) s = grains_possible(&treated);
+        treated_free(&treated);
+        CHECK(s.code == STATUS_OK, s.code, "%s%s%s%.400s", made ? "treatment `" : "",
+              made ? c->treatments.item[i].name : "", made ? "`: " : "", s.text);
+    }
+    return status_ok();
+}
+
 status command_possible(const breech_case *c, unsigned needs)
 {
     mpm_scene scene;
     rail_section section;
-    site_state state = state_of_case(c);
+    const site_state state = state_of_case(c);
     if ((needs & CASE_FOR_INDUCTANCE) ||
         ((needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) && c->rails.level != SHOT_RAILS_CONSTANT))
         TRY(rails_section(&c->rails, &section));
     if (needs & CASE_FOR_SCENE) TRY(scene_bodies(c, &state, c->scene.cells_per_radius, &scene));
-    if (!(needs & CASE_FOR_ONSET)) return status_ok();
-    state.velocity = c->study.velocity_low;
-    for (int i = 0; i < c->sites.n; i++) {
-        state.grain = c->sites.item[i];
-        TRY(scene_bodies(c, &state, c->study.coarse_cells_per_radius, &scene));
-        TRY(scene_bodies(c, &state, c->study.fine_cells_per_radius, &scene));
-    }
-    return status_ok();
+    if (needs & CASE_FOR_ONSET) TRY(grains_possible(c));
+    return needs & CASE_FOR_COMPARE ? treatments_possible(c) : status_ok();
 }
 
 /* Two levels of thread: memory bandwidth and the serial rest are left out, so this is a lower bound on many threads. */

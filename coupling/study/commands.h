@@ -5,13 +5,14 @@
 #define BREECH_COUPLING_COMMANDS_H
 
 #include "circuit/inductance.h"
-#include "coupling/study/onset.h"
+#include "coupling/study/compare.h"
 
 typedef struct {
     run_summary summary; /* borrows what follows */
     shot_record shot;
     scene_result scene;
     onset_answer onset;
+    compare_answer compare;
     inductance_result inductance;
     double *gradients;          /* of the inductance result, owned */
     inductance_surface surface; /* likewise */
@@ -20,6 +21,7 @@ typedef struct {
 status command_shot(session *s, command_result *out);
 status command_scene(session *s, command_result *out);
 status command_onset(session *s, command_result *out);
+status command_compare(session *s, command_result *out);
 status command_inductance(session *s, command_result *out);
 void command_free(command_result *r);
 

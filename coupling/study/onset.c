@@ -1,36 +1,29 @@
 #include "coupling/study/onset.h"
 
 #include "coupling/handoff/screen.h"
-#include "coupling/study/scenes.h"
+#include "coupling/study/feedback.h"
+#include "coupling/study/population.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double PRESSURE_STEP = 5e6; /* [Pa] */
 static const double TRUSTED_CELLS = 5.0; /* a radius: below, the threshold hangs on the resolution (NUMERICS.md) */
+static const double SURE = 0.95;         /* probability from which a population's verdict is given */
 
 void onset_answer_free(onset_answer *a)
 {
-    free(a->site);
-    free(a->scene);
-    free(a->kind);
-    free(a->kind_of);
+    families_free(&a->grains);
+    shot_outcome_free(&a->flown);
+    mc_free(&a->drawn);
+    void *const owned[] = { a->site, a->scene, a->size, a->skip, a->sensitivity, a->repeated, a->along };
+    for (size_t k = 0; k < sizeof owned / sizeof owned[0]; k++) free(owned[k]);
     memset(a, 0, sizeof *a);
 }
 
-/* ---- sites and kinds ---- */
-
-static bool same_number(double a, double b)
-{
-    return a == b || (isnan(a) && isnan(b));
-}
-
-static bool same_kind(const case_site *a, const case_site *b)
-{
-    return a->radius == b->radius && a->height == b->height && strcmp(a->shape, b->shape) == 0 &&
-           strcmp(a->material, b->material) == 0 && same_number(a->bond_strength, b->bond_strength);
-}
+/* ---- the shot and its sites ---- */
 
 static status fill_site(const breech_case *c, const site_state *from, onset_site *to)
 {
@@ -55,139 +48,48 @@ static status fill_site(const breech_case *c, const site_state *from, onset_site
     return status_ok();
 }
 
-static int kind_for(onset_answer *a, const case_site *grain)
+static status list_sites(const breech_case *c, onset_answer *a)
 {
-    for (int k = 0; k < a->kinds; k++)
-        if (same_kind(&a->kind[k].grain, grain)) return k;
-    a->kind[a->kinds].grain = *grain;
-    return a->kinds++;
-}
-
-static status sort_sites(const session *s, const shot_outcome *flown, onset_answer *a)
-{
-    const size_t n = (size_t)flown->n_sites;
-    a->site = calloc(n + 1, sizeof *a->site);
-    a->kind = calloc(n + 1, sizeof *a->kind);
-    a->kind_of = calloc(n + 1, sizeof *a->kind_of);
-    CHECK(a->site && a->kind && a->kind_of, STATUS_MEMORY, "no memory for %zu sites", n);
-    for (size_t i = 0; i < n; i++) {
-        TRY(fill_site(s->c, &flown->site[i], &a->site[i]));
-        a->kind_of[i] = a->site[i].outcome == SITE_UNDECIDED ? kind_for(a, &flown->site[i].grain) : -1;
-        if (a->kind_of[i] >= 0) a->kind[a->kind_of[i]].sites++;
-    }
-    a->result.n_sites = (int)n;
+    const int n = a->flown.n_sites;
+    a->site = calloc((size_t)n + 1, sizeof *a->site);
+    CHECK(a->site, STATUS_MEMORY, "no memory for %d sites", n);
+    for (int i = 0; i < n; i++) TRY(fill_site(c, &a->flown.site[i], &a->site[i]));
+    a->result.n_sites = n;
     a->result.site = a->site;
     return status_ok();
 }
 
-/* ---- a scene of a kind at a velocity ---- */
-
-typedef struct {
-    session *session;
-    const shot_outcome *flown;
-    grain_kind *kind;
-    int number; /* of the kind, from 1 */
-} scene_source;
-
-static double contact_pressure_at(const scene_source *from, double v)
+static void unknown_all(onset_result *r)
 {
-    const shot_outcome *flown = from->flown;
-    const double given = from->session->c->scene.contact_pressure;
-    trace_point at = flown->n_trace > 0 ? flown->trace[flown->n_trace - 1] : (trace_point){ .contact_pressure = 0.0 };
-    if (!isnan(given)) return given;
-    trace_at_velocity(flown, v, &at);
-    return PRESSURE_STEP * round(at.contact_pressure / PRESSURE_STEP);
-}
-
-static status run_at(void *user, double velocity, double cells_per_radius, threshold_sample *out)
-{
-    scene_source *from = user;
-    const breech_case *c = from->session->c;
-    const scene_record *done;
-    scene_query query = { .c = c,
-                          .cells_per_radius = cells_per_radius,
-                          .state = { .grain = from->kind->grain,
-                                     .reached = true,
-                                     .velocity = velocity,
-                                     .contact_pressure = contact_pressure_at(from, velocity),
-                                     .rail_temperature = c->rail.temperature,
-                                     .armature_temperature = c->projectile.temperature } };
-    snprintf(query.name, sizeof query.name, "g%d-v%g-c%g", from->number, velocity, cells_per_radius);
-    TRY(scenes_all(from->session, &query, 1, &done));
-    const scene_result *r = &done->entry.result;
-    *out = (threshold_sample){ .excess = r->severity - c->scene.limit_severity, .class = r->class };
-    return status_ok();
-}
-
-/* ---- the searches ---- */
-
-static status plan_search(const session *s, threshold_plan *plan)
-{
-    const case_study *y = &s->c->study;
-    double sure;
-    TRY(screen_velocity(s->c, y->screen_low, &sure));
-    *plan = (threshold_plan){ .low = fmax(y->velocity_low, fmin(sure, 0.5 * y->velocity_high)),
-                              .high = y->velocity_high,
-                              .interval = y->velocity_interval,
-                              .step = threshold_step(y->velocity_interval),
-                              .coarse = y->coarse_cells_per_radius,
-                              .fine = y->fine_cells_per_radius,
-                              .max_scenes = y->max_scenes };
-    return status_ok();
-}
-
-static status search_all(session *s, const shot_outcome *flown, onset_answer *a)
-{
-    threshold_plan plan;
-    int left = s->c->study.max_scenes;
-    TRY(plan_search(s, &plan));
-    for (int k = 0; k < a->kinds; k++) {
-        CHECK(left > 0, STATUS_BAD_INPUT,
-              "study.max_scenes = %d: spent on %d of %d kinds of grain; allow more or make the sites alike",
-              plan.max_scenes, k, a->kinds);
-        scene_source from = { s, flown, &a->kind[k], k + 1 };
-        plan.max_scenes = left;
-        TRY(threshold_search(&plan, &(threshold_source){ run_at, &from }, &a->kind[k].threshold));
-        left -= a->kind[k].threshold.samples;
-        if (a->kind[k].threshold.warning[0]) session_warn(s, "%s", a->kind[k].threshold.warning);
+    r->verdict = VERDICT_UNDECIDED;
+    r->probability_gouge = r->threshold_velocity = r->threshold_position = r->onset_position = NAN;
+    r->muzzle_velocity_feedback = r->expected_gouges = r->expected_gouged_volume = NAN;
+    for (int k = 0; k < 2; k++) {
+        r->threshold_interval[k] = r->threshold_position_interval[k] = r->onset_interval[k] = NAN;
+        r->expected_gouges_interval[k] = r->expected_gouged_volume_interval[k] = NAN;
     }
-    if (a->kinds && plan.fine < TRUSTED_CELLS)
-        session_warn(
-            s,
-            "thresholds at %g cells a radius: below %g they still depend on the resolution; the interval holds the "
-            "shift from %g to %g cells, not what finer cells would add",
-            plan.fine, TRUSTED_CELLS, plan.coarse, plan.fine);
-    return status_ok();
+}
+
+status onset_begin(session *s, const breech_case *c, const char *prefix, onset_answer *out)
+{
+    memset(out, 0, sizeof *out);
+    unknown_all(&out->result);
+    TRY(session_shot(s, c, NULL, c == s->c, &out->flown, &out->shot));
+    TRY(list_sites(c, out));
+    return families_sort(c, &out->flown, prefix, &out->grains);
 }
 
 /* ---- judging the sites ---- */
 
-/* The scene of the kind that is nearest in velocity, among those of its best resolution. */
-static const scene_record *nearest_scene(const session *s, int kind, double velocity)
-{
-    char prefix[24];
-    const scene_record *best = NULL;
-    snprintf(prefix, sizeof prefix, "g%d-", kind + 1);
-    for (int i = 0; i < s->n_records; i++) {
-        const scene_record *a = s->record[i];
-        if (strncmp(a->entry.name, prefix, strlen(prefix)) != 0) continue;
-        const bool finer = best && a->entry.cells_per_radius > best->entry.cells_per_radius;
-        const bool coarser = best && a->entry.cells_per_radius < best->entry.cells_per_radius;
-        const bool nearer = !best || fabs(a->entry.velocity - velocity) < fabs(best->entry.velocity - velocity);
-        if (finer || (!coarser && nearer)) best = a;
-    }
-    return best;
-}
-
-static site_outcome outcome_at(const threshold_result *t, double v, const scene_record *near)
+static site_outcome outcome_at(const surface_size *t, double v, const family_scene *near)
 {
     if (!isnan(t->interval[1]) && v >= t->interval[1]) return SITE_GOUGE;
     if (isnan(t->interval[0]) || v > t->interval[0]) return SITE_UNDECIDED;
-    return near && near->entry.result.class == DAMAGE_NONE ? SITE_NONE : SITE_SCRATCH;
+    return near && near->record->entry.result.class == DAMAGE_NONE ? SITE_NONE : SITE_SCRATCH;
 }
 
 /* Where v lies in the interval, 0 below, 1 above; NaN where an end is unknown and v beyond the known one. */
-static double probability_at(const threshold_result *t, double v)
+static double probability_at(const surface_size *t, double v)
 {
     const double lo = t->interval[0], hi = t->interval[1];
     if (!isnan(hi) && v >= hi) return 1.0;
@@ -195,36 +97,47 @@ static double probability_at(const threshold_result *t, double v)
     return (v - lo) / (hi - lo);
 }
 
-static void judge_sites(const session *s, onset_answer *a)
+static const grain_family *family_of(const onset_answer *a, int site)
+{
+    const int k = a->grains.of_site[site];
+    return k < 0 ? NULL : &a->grains.family[k];
+}
+
+static surface_size threshold_of(const onset_answer *a, int site)
+{
+    return surface_at(&family_of(a, site)->surface, a->grains.c->sites.item[site].radius);
+}
+
+static void judge_sites(onset_answer *a)
 {
     for (int i = 0; i < a->result.n_sites; i++) {
         onset_site *site = &a->site[i];
-        if (a->kind_of[i] < 0) continue;
-        const threshold_result *t = &a->kind[a->kind_of[i]].threshold;
-        const scene_record *near = nearest_scene(s, a->kind_of[i], site->velocity);
-        site->threshold_velocity = t->velocity;
-        site->threshold_interval[0] = t->interval[0];
-        site->threshold_interval[1] = t->interval[1];
-        site->outcome = outcome_at(t, site->velocity, near);
-        if (near) memcpy(site->scene, near->entry.name, sizeof site->scene);
+        const grain_family *f = family_of(a, i);
+        if (!f) continue;
+        const surface_size t = threshold_of(a, i);
+        const family_scene *near = family_nearest(f, site->radius, site->velocity);
+        site->threshold_velocity = t.velocity;
+        memcpy(site->threshold_interval, t.interval, sizeof t.interval);
+        site->outcome = outcome_at(&t, site->velocity, near);
+        if (near) memcpy(site->scene, near->record->entry.name, sizeof site->scene);
         if (site->outcome != SITE_GOUGE) continue;
-        a->gouges++;
-        if (near) site->gouged_volume = near->entry.result.crater_volume;
+        a->result.gouges++;
+        if (near) site->gouged_volume = near->record->entry.result.crater_volume * pow(site->radius / near->radius, 3.0);
     }
 }
 
-/* ---- the verdict ---- */
+/* ---- the verdict of a list ---- */
 
-/* First site along the barrel, of those with an answer to be had, whose velocity has passed `end` of its kind's threshold:
+/* First site along the barrel, of those with an answer to be had, whose velocity has passed `end` of its threshold:
  * 0, 1 the interval's ends, 2 the threshold itself.  -1 if none. */
 static int first_site(const onset_answer *a, int end)
 {
     int first = -1;
     for (int i = 0; i < a->result.n_sites; i++) {
-        if (a->kind_of[i] < 0) continue;
-        const threshold_result *t = &a->kind[a->kind_of[i]].threshold;
-        const double v = a->site[i].velocity, at = end < 2 ? t->interval[end] : t->velocity;
-        const bool passed = end == 0 ? !(v <= at) : v >= (isnan(at) ? t->interval[1] : at);
+        if (!family_of(a, i)) continue;
+        const surface_size t = threshold_of(a, i);
+        const double v = a->site[i].velocity, at = end < 2 ? t.interval[end] : t.velocity;
+        const bool passed = end == 0 ? !(v <= at) : v >= (isnan(at) ? t.interval[1] : at);
         if (passed && (first < 0 || a->site[i].position < a->site[first].position)) first = i;
     }
     return first;
@@ -240,45 +153,16 @@ static double largest_probability(const onset_answer *a)
     double p = 0.0;
     bool unknown = false;
     for (int i = 0; i < a->result.n_sites; i++) {
-        if (a->kind_of[i] < 0) continue;
-        const double here = probability_at(&a->kind[a->kind_of[i]].threshold, a->site[i].velocity);
+        if (!family_of(a, i)) continue;
+        const surface_size t = threshold_of(a, i);
+        const double here = probability_at(&t, a->site[i].velocity);
         unknown = unknown || isnan(here);
         if (here > p) p = here;
     }
     return unknown && p < 1.0 ? NAN : p;
 }
 
-/* The kind that speaks for the case: that of the onset, else the one with the lowest threshold. */
-static int leading_kind(const onset_answer *a, int onset_site_index)
-{
-    if (onset_site_index >= 0) return a->kind_of[onset_site_index];
-    int best = a->kinds > 0 ? 0 : -1;
-    for (int k = 1; k < a->kinds; k++)
-        if (a->kind[k].threshold.velocity < a->kind[best].threshold.velocity) best = k;
-    return best;
-}
-
-static double place_of(const shot_outcome *flown, double v)
-{
-    trace_point at;
-    return v > 0.0 && trace_at_velocity(flown, v, &at) ? at.x : NAN;
-}
-
-static void set_threshold(const shot_outcome *flown, onset_answer *a, int kind)
-{
-    onset_result *r = &a->result;
-    r->threshold_velocity = r->threshold_interval[0] = r->threshold_interval[1] = NAN;
-    for (int k = 0; k < 3; k++) a->threshold_position[k] = NAN;
-    if (kind < 0) return;
-    const threshold_result *t = &a->kind[kind].threshold;
-    const double v[3] = { t->velocity, t->interval[0], t->interval[1] };
-    r->threshold_velocity = v[0];
-    r->threshold_interval[0] = v[1];
-    r->threshold_interval[1] = v[2];
-    for (int k = 0; k < 3; k++) a->threshold_position[k] = place_of(flown, v[k]);
-}
-
-static void conclude(const shot_outcome *flown, onset_answer *a)
+static void conclude_list(onset_answer *a)
 {
     onset_result *r = &a->result;
     const int at = first_site(a, 2), possible = first_site(a, 0), sure = first_site(a, 1);
@@ -287,8 +171,210 @@ static void conclude(const shot_outcome *flown, onset_answer *a)
     r->onset_position = position_of(a, at);
     r->onset_interval[0] = position_of(a, possible);
     r->onset_interval[1] = position_of(a, sure);
-    set_threshold(flown, a, leading_kind(a, at));
 }
+
+/* ---- the threshold that speaks for the case ---- */
+
+/* At the median size of the first population with a family, else at the onset's site, else the lowest of all. */
+static bool leading_threshold(const onset_answer *a, surface_size *out)
+{
+    const breech_case *c = a->grains.c;
+    const int site = first_site(a, 2);
+    for (int k = 0; k < c->populations.n; k++) {
+        if (a->grains.of_population[k] < 0) continue;
+        *out = surface_at(&a->grains.family[a->grains.of_population[k]].surface,
+                          population_quantile(&c->populations.item[k], 0.5));
+        return true;
+    }
+    if (site >= 0) {
+        *out = threshold_of(a, site);
+        return true;
+    }
+    for (int k = 0; k < a->grains.n; k++) {
+        const surface_result *s = &a->grains.family[k].surface;
+        if (k == 0 || s->size[s->sizes - 1].velocity < out->velocity) *out = s->size[s->sizes - 1];
+    }
+    return a->grains.n > 0;
+}
+
+static double place_of(const shot_outcome *flown, double v)
+{
+    trace_point at;
+    return v > 0.0 && trace_at_velocity(flown, v, &at) ? at.x : NAN;
+}
+
+static void set_threshold(onset_answer *a)
+{
+    onset_result *r = &a->result;
+    surface_size t;
+    if (!leading_threshold(a, &t)) return;
+    r->threshold_velocity = t.velocity;
+    r->threshold_position = place_of(&a->flown, t.velocity);
+    for (int k = 0; k < 2; k++) {
+        r->threshold_interval[k] = t.interval[k];
+        r->threshold_position_interval[k] = place_of(&a->flown, t.interval[k]);
+    }
+}
+
+/* ---- what was skipped, and why ---- */
+
+static status add_skip(onset_answer *a, int scenes, const char *rests_on)
+{
+    onset_result *r = &a->result;
+    if (scenes == 0) return status_ok();
+    onset_skip *more = realloc(a->skip, ((size_t)r->n_skips + 1) * sizeof *more);
+    CHECK(more, STATUS_MEMORY, "no memory for a summary");
+    a->skip = more;
+    r->skip = more;
+    r->scenes_skipped += scenes;
+    more[r->n_skips].scenes = scenes;
+    snprintf(more[r->n_skips++].rests_on, sizeof more->rests_on, "%s", rests_on);
+    return status_ok();
+}
+
+static status count_skips(onset_answer *a)
+{
+    int shared = 0, inferred = 0;
+    for (int i = 0; i < a->result.n_sites; i++) shared += a->grains.of_site[i] >= 0;
+    for (int k = 0; k < a->grains.n; k++) {
+        const grain_family *f = &a->grains.family[k];
+        inferred += f->surface.inferred;
+        for (int j = 0; j < f->surface.sizes; j++)
+            for (int i = 0; i < a->result.n_sites; i++)
+                if (a->grains.of_site[i] == k && a->grains.c->sites.item[i].radius == f->surface.size[j].radius) {
+                    shared--; /* one site of each size is what the search is for */
+                    break;
+                }
+    }
+    TRY(add_skip(a, a->grains.screened, "screen: impact pressure over hardness below study.screen_low"));
+    TRY(add_skip(a, shared, "shared: a site of the same grain has them"));
+    TRY(add_skip(a, inferred, "monotone: a size bounded by the scenes of smaller and larger ones"));
+    return add_skip(a, a->grains.too_small, "size: a population below study.smallest_radius");
+}
+
+static status list_surface(onset_answer *a)
+{
+    int n = 0;
+    for (int k = 0; k < a->grains.n; k++) n += a->grains.family[k].surface.sizes;
+    a->size = calloc((size_t)n + 1, sizeof *a->size);
+    CHECK(a->size, STATUS_MEMORY, "no memory for %d sizes", n);
+    a->result.surface = a->size;
+    for (int k = 0; k < a->grains.n; k++)
+        for (int j = 0; j < a->grains.family[k].surface.sizes; j++) {
+            const grain_family *f = &a->grains.family[k];
+            const surface_size *from = &f->surface.size[j];
+            onset_size *to = &a->size[a->result.n_surface++];
+            *to = (onset_size){ .family = k + 1,
+                                .radius = from->radius,
+                                .grains = from->weight,
+                                .threshold_velocity = from->velocity,
+                                .threshold_interval = { from->interval[0], from->interval[1] },
+                                .scenes = from->scenes };
+            memcpy(to->shape, f->grain.shape, sizeof to->shape);
+            memcpy(to->material, f->grain.material, sizeof to->material);
+        }
+    return status_ok();
+}
+
+static void warn_of_thresholds(session *s, const onset_answer *a)
+{
+    const case_study *y = &a->grains.c->study;
+    for (int k = 0; k < a->grains.n; k++)
+        if (a->grains.family[k].surface.warning[0])
+            session_warn(s, "%s%s", a->grains.prefix, a->grains.family[k].surface.warning);
+    if (a->grains.n && y->fine_cells_per_radius < TRUSTED_CELLS && !a->grains.prefix[0])
+        session_warn(
+            s,
+            "thresholds at %g cells a radius: below %g they still depend on the resolution; the interval holds the "
+            "shift from %g to %g cells, not what finer cells would add",
+            y->fine_cells_per_radius, TRUSTED_CELLS, y->coarse_cells_per_radius, y->fine_cells_per_radius);
+}
+
+status onset_judge(session *s, onset_answer *a)
+{
+    warn_of_thresholds(s, a);
+    judge_sites(a);
+    conclude_list(a);
+    set_threshold(a);
+    TRY(list_surface(a));
+    return count_skips(a);
+}
+
+/* ---- random shots ---- */
+
+static status list_shots(onset_answer *a)
+{
+    onset_result *r = &a->result;
+    a->repeated = calloc((size_t)a->drawn.shots, sizeof *a->repeated);
+    CHECK(a->repeated, STATUS_MEMORY, "no memory for %d shots", a->drawn.shots);
+    for (int k = 0; k < a->drawn.shots; k++) {
+        const mc_shot *from = &a->drawn.of[k];
+        a->repeated[k] = (onset_shot){ .shot = k + 1,
+                                       .probability_gouge = from->probability,
+                                       .expected_gouges = from->gouges,
+                                       .expected_gouged_volume = from->volume,
+                                       .onset_position = from->first[1],
+                                       .onset_interval = { from->first[0], from->first[2] } };
+    }
+    r->shot = a->repeated;
+    r->n_shots = a->drawn.shots;
+    return status_ok();
+}
+
+static status list_along(onset_answer *a, double length)
+{
+    enum { EVERY = 10, PLACES = MC_BINS / EVERY };
+    a->along = malloc(2 * PLACES * sizeof *a->along);
+    CHECK(a->along, STATUS_MEMORY, "no memory for a summary");
+    for (int k = 0; k < PLACES; k++) {
+        a->along[k] = length * (k + 1) / PLACES;
+        a->along[PLACES + k] = a->drawn.of[0].before[EVERY * (k + 1) - 1];
+    }
+    a->result.n_along = PLACES;
+    a->result.along = a->along;
+    a->result.probability_along = a->along + PLACES;
+    return status_ok();
+}
+
+static status draw_shots(onset_answer *a)
+{
+    const breech_case *c = a->grains.c;
+    onset_result *r = &a->result;
+    const mc_surface one = { &a->grains, 0, 1.0 };
+    const mc_plan plan = { .histories = c->study.sampled,
+                           .shots = c->study.shots,
+                           .seed = c->study.seed,
+                           .length = c->barrel.length,
+                           .n = 1,
+                           .surface = &one };
+    TRY(mc_run(&plan, &a->drawn));
+    const mc_shot *first = &a->drawn.of[0];
+    r->histories = a->drawn.histories;
+    r->monte_carlo_seconds = a->drawn.seconds;
+    r->expected_gouges = first->gouges;
+    r->expected_gouged_volume = first->volume;
+    memcpy(r->expected_gouges_interval, first->gouges_interval, sizeof first->gouges_interval);
+    memcpy(r->expected_gouged_volume_interval, first->volume_interval, sizeof first->volume_interval);
+    TRY(list_shots(a));
+    return list_along(a, c->barrel.length);
+}
+
+/* With a population the answer is that of the random shots. */
+static void conclude_population(onset_answer *a)
+{
+    onset_result *r = &a->result;
+    const mc_shot *first = &a->drawn.of[0];
+    if (a->grains.c->populations.n == 0) return;
+    r->probability_gouge = first->probability;
+    r->verdict = first->probability >= SURE        ? VERDICT_GOUGES
+                 : first->probability < 1.0 - SURE ? VERDICT_NO_GOUGING
+                                                   : VERDICT_UNDECIDED;
+    r->onset_position = first->first[1];
+    r->onset_interval[0] = first->first[0];
+    r->onset_interval[1] = first->first[2];
+}
+
+/* ---- in words ---- */
 
 static double fastest_site(const onset_answer *a)
 {
@@ -297,85 +383,72 @@ static double fastest_site(const onset_answer *a)
     return v;
 }
 
+static void say(onset_result *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void say(onset_result *r, const char *format, ...)
+{
+    va_list args;
+    const size_t used = strlen(r->reason);
+    va_start(args, format);
+    vsnprintf(r->reason + used, sizeof r->reason - used, format, args);
+    va_end(args);
+}
+
 static void explain(onset_answer *a)
 {
     onset_result *r = &a->result;
-    const double *x = a->threshold_position;
-    char text[160];
-    if (a->kinds == 0)
-        snprintf(text, sizeof text, "no site is reached fast enough to gouge (screen)");
+    const double *x = r->threshold_position_interval;
+    if (a->grains.n == 0)
+        say(r, "no site is reached fast enough to gouge (screen)");
     else if (isfinite(r->threshold_velocity))
-        snprintf(text, sizeof text, "threshold %.0f m/s (%.0f .. %.0f) is passed at x = %.3f m (%.3f .. %.3f)",
-                 r->threshold_velocity, r->threshold_interval[0], r->threshold_interval[1], x[0], x[1], x[2]);
+        say(r, "threshold %.0f m/s (%.0f .. %.0f) is passed at x = %.3f m (%.3f .. %.3f)", r->threshold_velocity,
+            r->threshold_interval[0], r->threshold_interval[1], r->threshold_position, x[0], x[1]);
     else if (isnan(r->threshold_interval[0]))
-        snprintf(text, sizeof text, "threshold at or below %.0f m/s, where the search began", r->threshold_interval[1]);
+        say(r, "threshold at or below %.0f m/s, where the search began", r->threshold_interval[1]);
     else
-        snprintf(text, sizeof text, "threshold above %.0f m/s, where the search ended", r->threshold_interval[0]);
-    int n = snprintf(r->reason, sizeof r->reason, "%s; fastest site %.0f m/s", text, fastest_site(a));
-    if (isfinite(a->muzzle_velocity_fed) && n > 0 && (size_t)n < sizeof r->reason)
-        snprintf(r->reason + n, sizeof r->reason - (size_t)n, "; muzzle velocity %.1f m/s, with %d gouges %.1f m/s",
-                 a->shot.is.muzzle_velocity, a->gouges, a->muzzle_velocity_fed);
-}
-
-/* ---- back into the shot ---- */
-
-/* Each gouge takes what the scene nearest in velocity took, unscaled. */
-static status feed_back(session *s, onset_answer *a)
-{
-    a->muzzle_velocity_fed = NAN;
-    if (!s->c->study.feedback || a->gouges == 0) return status_ok();
-    site_jump *jump = calloc((size_t)a->result.n_sites, sizeof *jump);
-    CHECK(jump, STATUS_MEMORY, "no memory for %d sites", a->result.n_sites);
-    for (int i = 0; i < a->result.n_sites; i++) {
-        const scene_record *near = a->kind_of[i] < 0 ? NULL : nearest_scene(s, a->kind_of[i], a->site[i].velocity);
-        if (near && a->site[i].outcome == SITE_GOUGE) jump[i] = (site_jump){ near->impulse, near->mass_loss };
-    }
-    shot_outcome again;
-    shot_record record;
-    const status done = session_shot(s, jump, false, &again, &record);
-    a->muzzle_velocity_fed = record.is.muzzle_velocity;
-    shot_outcome_free(&again);
-    free(jump);
-    return done;
+        say(r, "threshold above %.0f m/s, where the search ended", r->threshold_interval[0]);
+    if (a->result.n_sites > 0) say(r, "; fastest site %.0f m/s", fastest_site(a));
+    if (a->grains.c->populations.n > 0)
+        say(r, "; %.3g gouges a shot (%.3g .. %.3g)", r->expected_gouges, r->expected_gouges_interval[0],
+            r->expected_gouges_interval[1]);
+    if (isfinite(r->muzzle_velocity_feedback))
+        say(r, "; muzzle velocity %.1f m/s, with the gouges %.1f m/s", a->shot.is.muzzle_velocity,
+            r->muzzle_velocity_feedback);
 }
 
 /* ---- the whole ---- */
 
-static status list_scenes(const session *s, onset_answer *a)
+status onset_list_scenes(const session *s, onset_scene **out, int *n, int *run, int *reused)
 {
-    a->scene = calloc((size_t)s->n_records + 1, sizeof *a->scene);
-    CHECK(a->scene, STATUS_MEMORY, "no memory for %d scenes", s->n_records);
-    for (int i = 0; i < s->n_records; i++) a->scene[i] = s->record[i]->entry;
-    a->result.scene = a->scene;
-    a->result.n_scenes = s->n_records;
-    for (int i = 0; i < s->n_records; i++) a->result.scenes_run += !s->record[i]->entry.reused;
-    for (int i = 0; i < a->result.n_sites; i++) a->result.scenes_skipped += a->site[i].outcome == SITE_SKIPPED;
-    for (int k = 0; k < a->kinds; k++) a->result.scenes_skipped += a->kind[k].sites - 1; /* share their kind's */
+    *n = *run = *reused = 0;
+    *out = calloc((size_t)s->n_records + 1, sizeof **out);
+    CHECK(*out, STATUS_MEMORY, "no memory for %d scenes", s->n_records);
+    for (*n = 0; *n < s->n_records; (*n)++) {
+        (*out)[*n] = s->record[*n]->entry;
+        *(s->record[*n]->entry.reused ? reused : run) += 1;
+    }
     return status_ok();
 }
 
-static status study(session *s, const shot_outcome *flown, onset_answer *a)
+static status study(session *s, onset_answer *a)
 {
-    TRY(sort_sites(s, flown, a));
-    TRY(search_all(s, flown, a));
-    judge_sites(s, a);
-    conclude(flown, a);
-    TRY(feed_back(s, a));
+    grain_families *const all[] = { &a->grains };
+    TRY(onset_begin(s, s->c, "", a));
+    TRY(families_search(s, all, 1));
+    TRY(onset_judge(s, a));
+    TRY(draw_shots(a));
+    conclude_population(a);
+    TRY(feedback_shot(s, a));
+    TRY(sensitivities_run(s, a));
     explain(a);
     return status_ok();
 }
 
 status onset_run(session *s, onset_answer *out)
 {
-    shot_outcome flown;
-    memset(out, 0, sizeof *out);
-    out->result.verdict = VERDICT_UNDECIDED;
-    out->result.probability_gouge = out->result.threshold_velocity = out->result.onset_position = NAN;
-    for (int k = 0; k < 2; k++) out->result.threshold_interval[k] = out->result.onset_interval[k] = NAN;
-    status done = session_shot(s, NULL, true, &flown, &out->shot);
-    if (done.code == STATUS_OK) done = study(s, &flown, out);
-    const status listed = list_scenes(s, out);
-    out->result.wall_seconds = session_wall(s);
-    shot_outcome_free(&flown);
+    const status done = study(s, out);
+    onset_result *r = &out->result;
+    const status listed = onset_list_scenes(s, &out->scene, &r->n_scenes, &r->scenes_run, &r->scenes_reused);
+    r->scene = out->scene;
+    r->wall_seconds = session_wall(s);
     return done.code == STATUS_OK ? listed : done;
 }

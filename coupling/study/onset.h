@@ -1,39 +1,40 @@
 /* The main job: where along the rail does gouging begin?
  *
- *   shot -> every site's state at arrival -> screen -> for each kind of grain the threshold velocity (threshold.h), by
- *   scenes -> sites judged by their velocity against the interval -> gouges handed back to the shot.
- * A kind of grain: radius, height, shape, material and bond; sites of one kind share its scenes.  A scene's contact pressure
- * is the shot's where it has the scene's velocity, in steps of 5 MPa, unless the case gives one.
- * A site at v gouges from the interval's upper end on, does not up to its lower end, and is undecided between. */
+ *   shot -> every site's state at arrival -> screen -> for each family of grains (family.h) the threshold velocity over
+ *   size, by scenes -> sites judged, populations drawn (montecarlo.h) -> gouges handed back to the shot.
+ * A site at v gouges from its interval's upper end on, does not up to its lower end, and is undecided between.
+ * `breech compare` does the same for several surfaces with onset_begin and onset_judge. */
 #ifndef BREECH_COUPLING_ONSET_H
 #define BREECH_COUPLING_ONSET_H
 
-#include "coupling/study/session.h"
-#include "coupling/study/threshold.h"
-
-/* The threshold of one kind of grain. */
-typedef struct {
-    case_site grain; /* of its first site */
-    int sites;       /* that need an answer */
-    threshold_result threshold;
-    double pressure_low, pressure_high; /* of its scenes [Pa] */
-} grain_kind;
+#include "coupling/study/montecarlo.h"
 
 typedef struct {
     onset_result result; /* borrows the arrays below */
     shot_record shot;
-    onset_site *site;   /* owned */
-    onset_scene *scene; /* owned */
-    int kinds;
-    grain_kind *kind;             /* owned */
-    int *kind_of;                 /* of each site, owned; -1: needs none */
-    double threshold_position[3]; /* x(v) of the threshold and of its interval's ends; NaN: never [m] */
-    double muzzle_velocity_fed;   /* with the gouges' impulse and mass loss; NaN: no feedback [m/s] */
-    int gouges;                   /* sites that gouge */
+    shot_outcome flown;    /* owned */
+    grain_families grains; /* owned; borrows flown, so an answer stays where it is */
+    mc_result drawn;       /* owned */
+    onset_site *site;      /* owned, as all that follows */
+    onset_scene *scene;
+    onset_size *size;
+    onset_skip *skip;
+    onset_sensitivity *sensitivity;
+    onset_shot *repeated;
+    double *along;
 } onset_answer;
 
 /* *out needs onset_answer_free even on error; what was reached by then is in it. */
 status onset_run(session *s, onset_answer *out);
 void onset_answer_free(onset_answer *a);
+
+/* The shot of a case, its sites and families; c may be the session's case under a treatment, prefix names its scenes. */
+status onset_begin(session *s, const breech_case *c, const char *prefix, onset_answer *out);
+
+/* After families_search: every site's outcome, verdict, threshold. */
+status onset_judge(session *s, onset_answer *a);
+
+/* The scenes of the session, as a summary lists them; *n of them, the caller frees. */
+status onset_list_scenes(const session *s, onset_scene **out, int *n, int *run, int *reused);
 
 #endif

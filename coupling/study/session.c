@@ -200,14 +200,15 @@ static void warn_of_limits(session *s, const shot_limits *l)
                      l->critical_position, l->critical_velocity);
 }
 
-status session_shot(session *s, const site_jump *jump, bool with_history, shot_outcome *out, shot_record *record)
+status session_shot(session *s, const breech_case *c, const site_jump *jump, bool with_history, shot_outcome *out,
+                    shot_record *record)
 {
     const double since = wall_clock();
     progress_task(&s->progress, jump ? "shot with gouges" : "shot", 0.0, 0);
     const shot_plan plan = {
         .history = with_history ? s->history : NULL, .progress = &s->progress, .jump = jump, .stop = s->stop
     };
-    const status done = shot_run(s->c, &plan, out);
+    const status done = shot_run(c, &plan, out);
     if (s->history && done.code == STATUS_OK) TRY(history_tick(s->history));
     timing_add(&s->timing, "shot", wall_clock() - since);
     *record = (shot_record){ out->summary, out->limits, wall_clock() - since };

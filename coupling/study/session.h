@@ -62,7 +62,8 @@ status session_save_inside(void *session, const char *scene, const mpm *m, doubl
 /* Where the scene of this name is to be taken up; from the start unless the run was stopped inside it. */
 scene_resume session_resume_of(const session *s, const char *scene);
 
-/* The shot of the case, with what is asked for in jumps (NULL: none); only the first one of a run writes history. */
-status session_shot(session *s, const site_jump *jump, bool with_history, shot_outcome *out, shot_record *record);
+/* The shot of a case, the session's or one derived from it, with what is asked for in jumps (NULL: none); only the first one of a run writes history. */
+status session_shot(session *s, const breech_case *c, const site_jump *jump, bool with_history, shot_outcome *out,
+                    shot_record *record);
 
 #endif

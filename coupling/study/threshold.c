@@ -36,7 +36,7 @@ typedef struct {
     bool has_lo, has_hi;
 } bracket;
 
-static bool is_upper(const threshold_sample *s)
+bool threshold_is_upper(const threshold_sample *s)
 {
     return s->class == DAMAGE_GOUGE || (s->class == DAMAGE_UNDECIDED && s->excess >= 0.0);
 }
@@ -75,7 +75,7 @@ static status probe(search *s, double v, bracket *b)
 {
     threshold_sample a;
     TRY(ask(s, on_grid(s, v), &a));
-    if (is_upper(&a)) {
+    if (threshold_is_upper(&a)) {
         b->hi = a;
         b->has_hi = true;
     } else {
@@ -105,9 +105,16 @@ static double root(const bracket *b)
     return b->lo.velocity + width(b) * below / (below + above);
 }
 
-static status narrow(search *s, double wanted, bracket *b)
+static double place_width(const threshold_plan *p, const bracket *b)
 {
-    while (width(b) > wanted * middle(b) && width(b) > 1.5 * s->plan->step && budget_left(s)) {
+    return p->place ? p->place(p->place_user, b->hi.velocity) - p->place(p->place_user, b->lo.velocity) : 0.0;
+}
+
+/* Down to `wanted` of its middle and `place_wanted` in metres, but not below the grid. */
+static status narrow(search *s, double wanted, double place_wanted, bracket *b)
+{
+    while ((width(b) > wanted * middle(b) || place_width(s->plan, b) > place_wanted) &&
+           width(b) > 1.5 * s->plan->step && budget_left(s)) {
         const double edge = INNER_EDGE * width(b);
         double v = on_grid(s, fmin(fmax(root(b), b->lo.velocity + edge), b->hi.velocity - edge));
         if (v <= b->lo.velocity || v >= b->hi.velocity) v = on_grid(s, middle(b));
@@ -143,7 +150,7 @@ static status coarse_stage(search *s, bracket *b)
     s->cells = p->coarse;
     TRY(probe(s, 0.5 * (p->low + p->high), b));
     TRY(widen(s, 0.25 * (p->high - p->low), b));
-    return complete(b) ? narrow(s, fmax(COARSE_WIDTH, p->interval), b) : status_ok();
+    return complete(b) ? narrow(s, fmax(COARSE_WIDTH, p->interval), INFINITY, b) : status_ok();
 }
 
 /* The search itself never looks beyond its bracket, so it cannot see a function that turns back: one coarse scene on each
@@ -172,7 +179,7 @@ static status fine_stage(search *s, double expected, bracket *b)
     if (b->has_lo) /* else the next one down is a better guess than the one above */
         TRY(probe(s, fmax(expected + half, b->lo.velocity + p->step), b));
     TRY(widen(s, 2.0 * half, b));
-    return complete(b) ? narrow(s, p->interval, b) : status_ok();
+    return complete(b) ? narrow(s, p->interval, p->place_interval, b) : status_ok();
 }
 
 /* ---- the answer ---- */
@@ -184,8 +191,8 @@ static void decided_interval(const threshold_result *r, double cells, const brac
     for (int i = 0; i < r->samples; i++) {
         const threshold_sample *a = &r->sample[i];
         if (a->cells_per_radius != cells || a->class == DAMAGE_UNDECIDED) continue;
-        if (!is_upper(a) && a->velocity <= b->lo.velocity) lo = fmax(isnan(lo) ? a->velocity : lo, a->velocity);
-        if (is_upper(a) && a->velocity >= b->hi.velocity) hi = fmin(isnan(hi) ? a->velocity : hi, a->velocity);
+        if (!threshold_is_upper(a) && a->velocity <= b->lo.velocity) lo = fmax(isnan(lo) ? a->velocity : lo, a->velocity);
+        if (threshold_is_upper(a) && a->velocity >= b->hi.velocity) hi = fmin(isnan(hi) ? a->velocity : hi, a->velocity);
     }
     interval[0] = isnan(lo) ? b->lo.velocity : lo;
     interval[1] = isnan(hi) ? b->hi.velocity : hi;
@@ -209,7 +216,7 @@ static void check_monotone(threshold_result *r, double cells)
     for (int i = 0; i < r->samples; i++) {
         const threshold_sample *a = &r->sample[i];
         if (a->cells_per_radius != cells) continue;
-        if (is_upper(a))
+        if (threshold_is_upper(a))
             lowest_upper = fmin(lowest_upper, a->velocity);
         else
             highest_lower = fmax(highest_lower, a->velocity);
@@ -277,12 +284,13 @@ status threshold_search(const threshold_plan *plan, const threshold_source *sour
     bracket coarse = { .has_lo = false }, fine = { .has_lo = false };
     TRY(coarse_stage(&s, &coarse));
     const bool two_stages = plan->fine != plan->coarse && complete(&coarse);
-    if (complete(&coarse) && !two_stages) TRY(narrow(&s, plan->interval, &coarse));
+    if (complete(&coarse) && !two_stages) TRY(narrow(&s, plan->interval, plan->place_interval, &coarse));
     if (complete(&coarse)) TRY(look_beyond(&s, &coarse));
     if (two_stages && budget_left(&s)) TRY(fine_stage(&s, root(&coarse), &fine));
     const bool short_of_scenes = two_stages && !complete(&fine) && !budget_left(&s);
     if (complete(&fine)) out->shift = root(&fine) - root(&coarse);
     s.cells = two_stages && !short_of_scenes ? plan->fine : plan->coarse;
+    out->cells = s.cells;
     conclude(&s, two_stages && !short_of_scenes ? &fine : &coarse, out);
     if (short_of_scenes)
         warn(out,

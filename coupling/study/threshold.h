@@ -5,7 +5,7 @@
  *      bracket's inner 60 %, until the bracket is a fifth of its middle or the wanted interval, whichever is more.
  *      Then one coarse scene half way to each end of the range, where that is far: does the function turn back there?
  *   2. Fine: beside the coarse root, one wanted half interval below and above; where both lie on one side the bracket
- *      moves there in doubling steps; then halving to the wanted interval or the grid's step.
+ *      moves there in doubling steps; then halving to the wanted interval, in velocity and in place, or the grid's step.
  *   3. Interval: the fine bracket, by decided scenes (an `undecided` one takes the side of its severity, but does not end
  *      the interval), widened by the shift of the root from coarse to fine.
  * Monotonicity is checked: a higher velocity on the lower side of a lower one widens the interval over both and warns.
@@ -40,6 +40,9 @@ typedef struct {
     double interval;     /* wanted width of the bracket over its middle [1] */
     double coarse, fine; /* cells a radius; equal: one stage [1] */
     int max_scenes;
+    double (*place)(const void *user, double v); /* where the armature has it [m]; NULL: only velocities count */
+    const void *place_user;                      /* borrowed */
+    double place_interval;                       /* wanted width of the bracket as places [m] */
 } threshold_plan;
 
 typedef enum {
@@ -55,6 +58,7 @@ typedef struct {
     double interval[2]; /* where it lies; an end that is not known is NaN [m/s] */
     double bracket[2];  /* of the last stage alone [m/s] */
     double shift;       /* of the root from coarse to fine, NaN if there is only one [m/s] */
+    double cells;       /* a radius, of the last stage [1] */
     bool monotone;
     char warning[THRESHOLD_WARNING_SIZE]; /* "" if none */
     int samples;
@@ -62,6 +66,9 @@ typedef struct {
 } threshold_result;
 
 status threshold_search(const threshold_plan *plan, const threshold_source *source, threshold_result *out);
+
+/* Does a sample speak for a gouge?  An undecided one by its severity. */
+bool threshold_is_upper(const threshold_sample *s);
 
 /* Grid step for a wanted interval around 1.5 km/s: half of it, rounded down to 1, 2.5 or 5 times a power of ten [m/s]. */
 double threshold_step(double interval);

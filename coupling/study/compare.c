@@ -1,0 +1,242 @@
+#include "coupling/study/compare.h"
+
+#include "coupling/io/treatment.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double SIGNIFICANT = 0.95;
+static const double SPALLED = 0.1; /* share of the layers under the crater that failed, from which they count as spalled */
+
+void compare_answer_free(compare_answer *a)
+{
+    for (int i = 0; i < a->n; i++) {
+        onset_answer_free(&a->answer[i]);
+        treated_free(&a->treated[i]);
+    }
+    mc_free(&a->drawn);
+    free(a->treated);
+    free(a->answer);
+    free(a->entry);
+    free(a->scene);
+    memset(a, 0, sizeof *a);
+}
+
+/* ---- all surfaces ---- */
+
+enum { PREFIX_SIZE = 16 };
+
+static const case_treatment *treatment_of(const session *s, int surface)
+{
+    return surface == 0 ? NULL : &s->c->treatments.item[surface - 1];
+}
+
+static void prefix_of(int surface, char out[PREFIX_SIZE])
+{
+    snprintf(out, PREFIX_SIZE, surface ? "t%d-" : "", surface);
+}
+
+static status make_room(const session *s, compare_answer *a)
+{
+    const size_t n = (size_t)s->c->treatments.n + 1;
+    a->treated = calloc(n, sizeof *a->treated);
+    a->answer = calloc(n, sizeof *a->answer);
+    a->entry = calloc(n, sizeof *a->entry);
+    CHECK(a->treated && a->answer && a->entry, STATUS_MEMORY, "no memory for %zu surfaces", n);
+    a->n = (int)n;
+    return status_ok();
+}
+
+static status begin(session *s, compare_answer *a, char (*prefix)[PREFIX_SIZE])
+{
+    for (int i = 0; i < a->n; i++) {
+        const case_treatment *t = treatment_of(s, i);
+        prefix_of(i, prefix[i]);
+        TRY(treated_case(s->c, t, &a->treated[i]));
+        const status begun = onset_begin(s, i ? &a->treated[i] : s->c, prefix[i], &a->answer[i]);
+        CHECK(begun.code == STATUS_OK, begun.code, "%s%s%s%.400s", t ? "treatment `" : "", t ? t->name : "",
+              t ? "`: " : "", begun.text);
+    }
+    return status_ok();
+}
+
+static status search(session *s, compare_answer *a)
+{
+    grain_families **all = malloc((size_t)a->n * sizeof *all);
+    CHECK(all, STATUS_MEMORY, "no memory for %d surfaces", a->n);
+    for (int i = 0; i < a->n; i++) all[i] = &a->answer[i].grains;
+    const status done = families_search(s, all, a->n);
+    free(all);
+    TRY(done);
+    for (int i = 0; i < a->n; i++) TRY(onset_judge(s, &a->answer[i]));
+    return status_ok();
+}
+
+static status draw(const session *s, compare_answer *a)
+{
+    mc_surface *surface = malloc((size_t)a->n * sizeof *surface);
+    CHECK(surface, STATUS_MEMORY, "no memory for %d surfaces", a->n);
+    for (int i = 0; i < a->n; i++) surface[i] = (mc_surface){ &a->answer[i].grains, i, 1.0 };
+    const mc_plan plan = { .histories = s->c->study.sampled,
+                           .shots = 1,
+                           .seed = s->c->study.seed,
+                           .length = s->c->barrel.length,
+                           .n = a->n,
+                           .surface = surface };
+    const status done = mc_run(&plan, &a->drawn);
+    free(surface);
+    return done;
+}
+
+/* ---- what the layers suffer ---- */
+
+/* The fastest scene that does not gouge: what a layer must bear where it is meant to help; else the slowest of all. */
+static const family_scene *telling_scene(const grain_families *g)
+{
+    const family_scene *best = NULL;
+    if (g->n == 0) return NULL;
+    const grain_family *f = &g->family[0];
+    for (int i = 0; i < f->n_scenes; i++) {
+        const family_scene *a = &f->scene[i];
+        if (a->cells != f->surface.reference.cells) continue;
+        const bool gouged = a->record->entry.result.class == DAMAGE_GOUGE;
+        const bool best_gouged = best && best->record->entry.result.class == DAMAGE_GOUGE;
+        if (!best || (best_gouged && !gouged) || (gouged == best_gouged && (a->velocity > best->velocity) != gouged))
+            best = a;
+    }
+    return best;
+}
+
+static double failed_layers(const scene_result *r)
+{
+    double sum = 0.0;
+    for (int b = 0; b < r->bodies; b++)
+        if (strncmp(r->body[b], "layer_", 6) == 0) sum += r->failed_volume[b];
+    return sum;
+}
+
+static void judge_layers(const breech_case *c, const grain_families *g, compare_entry *e)
+{
+    double thickness = 0.0;
+    for (int i = 0; i < c->rail.layers.n; i++) thickness += c->rail.layers.item[i].thickness;
+    const family_scene *from = telling_scene(g);
+    snprintf(e->layer, sizeof e->layer, "none");
+    e->layer_failed = e->layer_velocity = NAN;
+    if (!(thickness > 0.0) || !from) return;
+    const scene_result *r = &from->record->entry.result;
+    const double ellipse = 0.25 * 3.14159265358979323846 * r->crater_length * r->crater_width;
+    const double grain = 3.14159265358979323846 * from->radius * from->radius;
+    e->layer_velocity = from->velocity;
+    e->layer_failed = fmin(failed_layers(r) / (thickness * fmax(ellipse, grain)), 1.0);
+    const bool through = r->crater_depth >= thickness;
+    snprintf(e->layer, sizeof e->layer, "%s",
+             through ? "worn through" : e->layer_failed >= SPALLED ? "spalled" : "intact");
+}
+
+/* ---- ranking ---- */
+
+static int scenes_of(const session *s, const char *prefix)
+{
+    int n = 0;
+    const bool treated = prefix[0] != '\0';
+    for (int i = 0; i < s->n_records; i++) {
+        const char *name = s->record[i]->entry.name;
+        n += treated ? strncmp(name, prefix, strlen(prefix)) == 0 : name[0] != 't';
+    }
+    return n;
+}
+
+static void fill_entry(const session *s, const compare_answer *a, int i, compare_entry *e)
+{
+    const onset_result *r = &a->answer[i].result;
+    const mc_shot *shot_drawn = &a->drawn.of[i];
+    const case_treatment *t = treatment_of(s, i);
+    snprintf(e->surface, sizeof e->surface, "%s", t ? t->name : "untreated");
+    e->threshold_velocity = r->threshold_velocity;
+    memcpy(e->threshold_interval, r->threshold_interval, sizeof e->threshold_interval);
+    e->threshold_position = r->threshold_position;
+    e->onset_position = s->c->populations.n > 0 ? shot_drawn->first[1] : r->onset_position;
+    e->gouges = shot_drawn->gouges;
+    memcpy(e->gouges_interval, shot_drawn->gouges_interval, sizeof e->gouges_interval);
+    e->gouged_volume = shot_drawn->volume;
+    memcpy(e->gouged_volume_interval, shot_drawn->volume_interval, sizeof e->gouged_volume_interval);
+    e->probability_gouge = shot_drawn->probability;
+    e->scenes = scenes_of(s, a->answer[i].grains.prefix);
+    judge_layers(&a->treated[i], &a->answer[i].grains, e);
+}
+
+/* Is surface i the better one?  Of equals the later threshold (never: the latest), then the order of the case. */
+static bool is_better(const compare_answer *a, int i, int j)
+{
+    const double gi = a->drawn.of[i].gouges, gj = a->drawn.of[j].gouges;
+    const double xi = a->answer[i].result.threshold_position, xj = a->answer[j].result.threshold_position;
+    if (gi != gj) return gi < gj;
+    if (isnan(xi) != isnan(xj)) return isnan(xi);
+    if (xi != xj && !isnan(xi)) return xi > xj;
+    return i < j;
+}
+
+static double share_better(const mc_result *drawn, int i, int j)
+{
+    const double *a = drawn->world_gouges + (size_t)i * MC_WORLDS, *b = drawn->world_gouges + (size_t)j * MC_WORLDS;
+    double wins = 0.0;
+    for (int w = 0; w < MC_WORLDS; w++) wins += a[w] < b[w] ? 1.0 : a[w] == b[w] ? 0.5 : 0.0;
+    return wins / MC_WORLDS;
+}
+
+static void order_of(const compare_answer *a, int *order)
+{
+    for (int i = 0; i < a->n; i++) {
+        int at = i;
+        for (; at > 0 && is_better(a, i, order[at - 1]); at--) order[at] = order[at - 1];
+        order[at] = i;
+    }
+}
+
+static status rank(const session *s, compare_answer *a)
+{
+    int *order = malloc((size_t)a->n * sizeof *order);
+    CHECK(order, STATUS_MEMORY, "no memory for %d surfaces", a->n);
+    order_of(a, order);
+    for (int k = 0; k < a->n; k++) {
+        compare_entry *e = &a->entry[k];
+        fill_entry(s, a, order[k], e);
+        e->better_than_next = k + 1 < a->n ? share_better(&a->drawn, order[k], order[k + 1]) : NAN;
+        e->significant = e->better_than_next >= SIGNIFICANT;
+        e->tied = k == 0 || a->entry[k - 1].significant ? k + 1 : a->entry[k - 1].tied;
+    }
+    free(order);
+    a->result.ranking = a->entry;
+    a->result.n = a->n;
+    a->result.histories = a->drawn.histories;
+    return status_ok();
+}
+
+/* ---- the whole ---- */
+
+static status compare(session *s, compare_answer *a, char (*prefix)[PREFIX_SIZE])
+{
+    TRY(begin(s, a, prefix));
+    TRY(search(s, a));
+    TRY(draw(s, a));
+    for (int i = 0; i < a->n; i++) a->result.scenes_skipped += a->answer[i].result.scenes_skipped;
+    return rank(s, a);
+}
+
+status compare_run(session *s, compare_answer *out)
+{
+    memset(out, 0, sizeof *out);
+    TRY(make_room(s, out));
+    char(*prefix)[PREFIX_SIZE] = calloc((size_t)out->n, sizeof *prefix);
+    CHECK(prefix, STATUS_MEMORY, "no memory for %d surfaces", out->n);
+    const status done = compare(s, out, prefix);
+    compare_result *r = &out->result;
+    const status listed = onset_list_scenes(s, &out->scene, &r->n_scenes, &r->scenes_run, &r->scenes_reused);
+    r->scene = out->scene;
+    r->wall_seconds = session_wall(s);
+    for (int i = 0; i < out->n; i++) out->answer[i].grains.prefix = "";
+    free(prefix);
+    return done.code == STATUS_OK ? listed : done;
+}

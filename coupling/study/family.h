@@ -1,0 +1,50 @@
+/* Families of grains and the search of their thresholds, by scenes (scenes.h).
+ *
+ * A family is what surface.h means by it: the grains of a case - sites of its list and populations - that are alike in shape,
+ * material, bond and height over radius.  All searches of a study, over families and over cases (rail surfaces), go on
+ * together: each runs on what is known and asks for one scene more, the scenes of all are computed as they come. */
+#ifndef BREECH_COUPLING_FAMILY_H
+#define BREECH_COUPLING_FAMILY_H
+
+#include "coupling/study/scenes.h"
+#include "coupling/study/surface.h"
+
+typedef struct {
+    double radius, velocity, cells; /* what was asked for */
+    const scene_record *record;     /* borrowed from the session */
+} family_scene;
+
+typedef struct {
+    case_site grain; /* of its first site or population; the size is the scene's */
+    double aspect;   /* height over radius */
+    surface_plan plan;
+    surface_result surface;
+    int n_scenes;
+    family_scene scene[THRESHOLD_MAX_SAMPLES];
+} grain_family;
+
+/* The grains of one case in one shot. */
+typedef struct {
+    const breech_case *c;      /* borrowed */
+    const shot_outcome *flown; /* borrowed */
+    const char *prefix;        /* of its scenes' names, "" for the case as it is; borrowed */
+    int n;
+    grain_family *family;          /* owned */
+    int *of_site, *of_population;  /* index of the family, -1: needs no scene; owned */
+    int screened, too_small; /* sites and populations without a scene: by the screen, by study.smallest_radius */
+} grain_families;
+
+/* Sorts sites and populations into families and plans their searches.  families_free even on error. */
+status families_sort(const breech_case *c, const shot_outcome *flown, const char *prefix, grain_families *out);
+void families_free(grain_families *f);
+
+/* Searches all families of n cases to their end. */
+status families_search(session *s, grain_families *const *f, int n);
+
+/* The scene of the best resolution nearest in velocity, of those nearest in size; NULL if there is none. */
+const family_scene *family_nearest(const grain_family *f, double radius, double velocity);
+
+/* First place where the armature has the velocity v; the barrel's end if it never has [m]. */
+double flown_place(const shot_outcome *flown, double barrel, double v);
+
+#endif

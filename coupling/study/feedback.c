@@ -1,0 +1,199 @@
+#include "coupling/study/feedback.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the shot with what the gouges take ---- */
+
+enum { PIECES = 20 }; /* of the barrel, for gouges of populations */
+
+/* As much of the scene's impulse and mass as its volume is of `volume`. */
+static site_jump share_of(const family_scene *near, double volume)
+{
+    const scene_record *r = near->record;
+    const double all = r->entry.result.crater_volume, share = all > 0.0 ? volume / all : 1.0;
+    return (site_jump){ share * r->impulse, share * r->mass_loss };
+}
+
+static int list_jumps(const onset_answer *a, site_jump *jump)
+{
+    int taken = 0;
+    for (int i = 0; i < a->result.n_sites; i++) {
+        if (a->site[i].outcome != SITE_GOUGE) continue;
+        const grain_family *f = &a->grains.family[a->grains.of_site[i]];
+        const family_scene *near = family_nearest(f, a->site[i].radius, a->site[i].velocity);
+        if (near) jump[i] = share_of(near, a->site[i].gouged_volume);
+        taken += near != NULL;
+    }
+    return taken;
+}
+
+static double velocity_at(const shot_outcome *flown, double x)
+{
+    int k = 0;
+    while (k + 1 < flown->n_trace && flown->trace[k].x < x) k++;
+    return flown->n_trace > 0 ? flown->trace[k].v : 0.0;
+}
+
+/* The first family of a population that can gouge; NULL if there is none. */
+static const grain_family *strewn_family(const grain_families *g)
+{
+    for (int k = 0; k < g->c->populations.n; k++)
+        if (g->of_population[k] >= 0) return &g->family[g->of_population[k]];
+    return NULL;
+}
+
+/* What populations are expected to take, piece by piece, as sites behind those of the list. */
+static int strewn_jumps(const onset_answer *a, case_site *site, site_jump *jump)
+{
+    const grain_family *f = strewn_family(&a->grains);
+    const mc_shot *drawn = &a->drawn.of[0];
+    const double length = a->grains.c->barrel.length;
+    int n = 0;
+    for (int p = 0; f && p < PIECES; p++) {
+        double gouges = 0.0;
+        for (int k = 0; k < MC_BINS / PIECES; k++) gouges += drawn->strewn[p * (MC_BINS / PIECES) + k];
+        const double x = length * (p + 0.5) / PIECES;
+        const family_scene *near = family_nearest(f, f->plan.size[f->plan.reference], velocity_at(&a->flown, x));
+        if (!(gouges > 0.0) || !near) continue;
+        site[n] = (case_site){ .position = x, .radius = f->plan.size[f->plan.reference] };
+        jump[n++] = share_of(near, gouges * drawn->volume / drawn->gouges);
+    }
+    return n;
+}
+
+static status fly_with(session *s, const onset_answer *a, const case_sites *sites, const site_jump *jump, double *muzzle)
+{
+    breech_case c = *a->grains.c; /* borrows all but the sites */
+    shot_outcome again;
+    shot_record record;
+    c.sites = *sites;
+    const status done = session_shot(s, &c, jump, false, &again, &record);
+    *muzzle = record.is.muzzle_velocity;
+    shot_outcome_free(&again);
+    return done;
+}
+
+status feedback_shot(session *s, onset_answer *a)
+{
+    const int n = a->result.n_sites;
+    if (!a->grains.c->study.feedback) return status_ok();
+    site_jump *jump = calloc((size_t)n + PIECES, sizeof *jump);
+    case_site *site = calloc((size_t)n + PIECES, sizeof *site);
+    status done = jump && site ? status_ok() : status_error(STATUS_MEMORY, "no memory for %d sites", n);
+    if (done.code == STATUS_OK) {
+        for (int i = 0; i < n; i++) site[i] = a->grains.c->sites.item[i];
+        const int listed = list_jumps(a, jump), strewn = strewn_jumps(a, site + n, jump + n);
+        const case_sites all = { n + strewn, site };
+        if (listed + strewn > 0) done = fly_with(s, a, &all, jump, &a->result.muzzle_velocity_feedback);
+    }
+    free(jump);
+    free(site);
+    return done;
+}
+
+/* ---- sensitivities ---- */
+
+static const double CHANGE = 0.05; /* relative */
+
+typedef struct {
+    const char *input;
+    void (*change)(breech_case *c, double factor); /* of a copy that owns its bank; NULL: the grains' size */
+} changed_input;
+
+static void change_charge(breech_case *c, double factor)
+{
+    for (int i = 0; i < c->bank.n; i++) c->bank.item[i].charge *= factor;
+}
+
+static void change_mass(breech_case *c, double factor)
+{
+    c->armature.mass *= factor;
+}
+
+static void change_friction(breech_case *c, double factor)
+{
+    c->armature.friction_dry *= factor;
+    c->armature.friction_melted *= factor;
+}
+
+static const changed_input inputs[] = {
+    { "bank.charge", change_charge },
+    { "armature.mass", change_mass },
+    { "armature.friction", change_friction },
+    { "grain size", NULL },
+};
+enum { INPUTS = sizeof inputs / sizeof inputs[0], SURFACES = INPUTS + 1 };
+
+/* The shot with one input changed; of grain size the shot as it was. */
+static status fly_changed(session *s, const onset_answer *a, const changed_input *input, shot_outcome *flown,
+                          shot_record *record)
+{
+    breech_case c = *a->grains.c;
+    *record = a->shot;
+    if (!input->change) return status_ok();
+    c.bank.item = malloc((size_t)c.bank.n * sizeof *c.bank.item);
+    CHECK(c.bank.item, STATUS_MEMORY, "no memory for a bank");
+    memcpy(c.bank.item, a->grains.c->bank.item, (size_t)c.bank.n * sizeof *c.bank.item);
+    input->change(&c, 1.0 + CHANGE);
+    const status done = session_shot(s, &c, NULL, false, flown, record);
+    free(c.bank.item);
+    return done;
+}
+
+static void conclude(const onset_answer *a, const shot_outcome *flown, const shot_record *record,
+                     const mc_result *drawn, int k)
+{
+    onset_sensitivity *out = &a->sensitivity[k];
+    trace_point at;
+    const double v = a->result.threshold_velocity;
+    snprintf(out->input, sizeof out->input, "%s", inputs[k].input);
+    out->change = CHANGE;
+    out->muzzle_velocity = record->is.muzzle_velocity;
+    out->threshold_position = v > 0.0 && trace_at_velocity(flown, v, &at) ? at.x : NAN;
+    /* of both the mean over the same random numbers: what differs is the input's doing */
+    out->expected_gouges = a->result.expected_gouges + drawn->of[k + 1].gouges - drawn->of[0].gouges;
+}
+
+static status draw_all(onset_answer *a, const grain_families *changed, mc_result *drawn)
+{
+    const breech_case *c = a->grains.c;
+    mc_surface surface[SURFACES];
+    surface[0] = (mc_surface){ &a->grains, 0, 1.0 };
+    for (int k = 0; k < INPUTS; k++)
+        surface[k + 1] = (mc_surface){ &changed[k], 0, inputs[k].change ? 1.0 : 1.0 + CHANGE };
+    const mc_plan plan = { .histories = c->study.sampled / 10 + 1,
+                           .shots = 1,
+                           .seed = c->study.seed,
+                           .length = c->barrel.length,
+                           .n = SURFACES,
+                           .surface = surface };
+    return mc_run(&plan, drawn);
+}
+
+status sensitivities_run(session *s, onset_answer *a)
+{
+    shot_outcome flown[INPUTS] = { { .site = NULL } };
+    shot_record record[INPUTS];
+    grain_families changed[INPUTS]; /* the same families in another shot */
+    mc_result drawn = { .of = NULL };
+    status done = status_ok();
+    if (!a->grains.c->study.sensitivities || a->grains.n == 0) return done;
+    a->sensitivity = calloc(INPUTS, sizeof *a->sensitivity);
+    CHECK(a->sensitivity, STATUS_MEMORY, "no memory for the sensitivities");
+    for (int k = 0; k < INPUTS && done.code == STATUS_OK; k++) {
+        done = fly_changed(s, a, &inputs[k], &flown[k], &record[k]);
+        changed[k] = a->grains;
+        changed[k].flown = inputs[k].change ? &flown[k] : &a->flown;
+    }
+    if (done.code == STATUS_OK) done = draw_all(a, changed, &drawn);
+    for (int k = 0; k < INPUTS && done.code == STATUS_OK; k++) conclude(a, changed[k].flown, &record[k], &drawn, k);
+    if (done.code == STATUS_OK) {
+        a->result.sensitivities = a->sensitivity;
+        a->result.n_sensitivities = INPUTS;
+    }
+    for (int k = 0; k < INPUTS; k++) shot_outcome_free(&flown[k]);
+    mc_free(&drawn);
+    return done;
+}

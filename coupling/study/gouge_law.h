@@ -1,0 +1,32 @@
+/* What a family's search says of any grain of it, tabulated for drawing by the million. */
+#ifndef BREECH_COUPLING_GOUGE_LAW_H
+#define BREECH_COUPLING_GOUGE_LAW_H
+
+#include "coupling/study/family.h"
+
+enum { LAW_SIZES = 128, LAW_VELOCITIES = 64 };
+
+/* What a gouge leaves, in radii of its grain; linear in velocity between the scenes that gouge, constant beyond. */
+typedef struct {
+    double volume; /* over r^3 [1] */
+    double rim, along; /* height of the rim, its way downstream, over r [1] */
+} gouge_mark;
+
+typedef struct {
+    double ln_first, per_ln;                     /* place of ln r in the tables below */
+    double low[LAW_SIZES + 1], high[LAW_SIZES + 1]; /* band of the threshold, INFINITY: never within the search [m/s] */
+    double shift;                                /* |coarse to fine| [m/s] */
+    double v_first, per_v;
+    gouge_mark mark[LAW_VELOCITIES + 1];
+} gouge_law;
+
+void gouge_law_make(const grain_family *f, gouge_law *out);
+
+/* low + in_band (high - low) + of_shift |shift|, in_band 0 .. 1, of_shift -1 .. 1 [m/s] */
+double gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_shift);
+gouge_mark gouge_law_mark(const gouge_law *l, double velocity);
+
+/* The lowest any size can have [m/s]. */
+double gouge_law_lowest(const gouge_law *l);
+
+#endif

@@ -1,0 +1,402 @@
+/* Treatments and their comparison, on scenes that cost nothing. */
+#include "coupling/io/treatment.h"
+#include "coupling/study/commands.h"
+#include "mpm/shape.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define OK(call)                                                        \
+    do {                                                                \
+        const status ok_ = (call);                                      \
+        if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
+    } while (0)
+
+static int scenes;
+
+/* Severity of a made-up scene: a line in velocity; a harder, colder or layered rail and a steeper lead face gouge later. */
+static double made_up_threshold(const scene_job *job)
+{
+    const mpm_body *rail = &job->scene.body[0], *armature = &job->scene.body[body_of_armature(&job->scene)];
+    double v = 1400.0 + 100.0 * (rail->yield_scale - 1.5) - 0.5 * (rail->temperature - 293.0);
+    v += 10.0 * (armature->shape_value.value[ARMATURE_LEAD_ANGLE] * 180.0 / 3.14159265358979 - 30.0);
+    for (int b = 0; b < job->scene.bodies; b++) {
+        const mpm_body *layer = &job->scene.body[b];
+        if (strncmp(layer->name, "layer_", 6) == 0)
+            v += 80.0 * layer->yield_scale + (strcmp(layer->material->name, "steel_4340") == 0 ? 200.0 : 0.0);
+    }
+    return v;
+}
+
+static status fake_scene(const scene_job *job, const scene_host *host, impact *out)
+{
+    (void)host;
+    memset(out, 0, sizeof *out);
+    scenes++;
+    const double v = job->scene.body[body_of_armature(&job->scene)].velocity[0], r = job->spec.particle_radius;
+    const double cells = r / job->scene.axis[0].fine;
+    const double excess = (v - made_up_threshold(job) - (cells < 2.5 ? 20.0 : 0.0)) / 150.0;
+    scene_result *hit = &out->result;
+    hit->severity = excess + job->spec.limit_severity;
+    hit->class = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
+    hit->crater_volume = 10.0 * r * r * r;
+    hit->crater_depth = 0.2 * r;
+    hit->crater_length = 6.0 * r;
+    hit->crater_width = 2.0 * r;
+    hit->bodies = job->scene.bodies;
+    for (int b = 0; b < hit->bodies; b++) {
+        snprintf(hit->body[b], sizeof hit->body[b], "%s", job->scene.body[b].name);
+        if (strncmp(hit->body[b], "layer_", 6) == 0) hit->failed_volume[b] = 1e-3 * r * r * r;
+    }
+    out->impulse = 0.02;
+    return status_ok();
+}
+
+static breech_case *read(const char *text, unsigned needs)
+{
+    const char *const dirs[] = { BREECH_TESTS "/../cases/materials" };
+    const case_options how = { dirs, 1, needs };
+    const case_text from = { text, strlen(text), "test/case.yaml", NULL, 0 };
+    breech_case *c = NULL;
+    char *errors = NULL;
+    const status s = case_read_memory(&from, &how, &c, &errors);
+    if (s.code != STATUS_OK) fail_msg("%s", errors ? errors : s.text);
+    return c;
+}
+
+/* What a case file says wrong; the caller frees. */
+static char *errors_of(const char *text, unsigned needs)
+{
+    const char *const dirs[] = { BREECH_TESTS "/../cases/materials" };
+    const case_options how = { dirs, 1, needs };
+    const case_text from = { text, strlen(text), "test/case.yaml", NULL, 0 };
+    breech_case *c = NULL;
+    char *errors = NULL;
+    assert_int_equal(case_read_memory(&from, &how, &c, &errors).code, STATUS_BAD_INPUT);
+    assert_non_null(errors);
+    return errors;
+}
+
+#define HEAD                                                                                                           \
+    "name: test\n"                                                                                                     \
+    "bank: {count: 15, capacitance: 3.594 mF, charge: 10.55 kV, inductance: 12.56 uH, resistance: 4.1 mohm,\n"         \
+    "  crowbar_drop: 1.48 V, crowbar_resistance: 0.43 mohm}\n"                                                         \
+    "rails: {level: constant, height: 25 mm, thickness: 20 mm, separation: 25 mm, resistivity: 1.72e-8 ohm m,\n"       \
+    "  inductance_gradient: 0.42 uH/m, resistance_gradient: 0.1 mohm/m}\n"                                                               \
+    "barrel: {length: 3 m, start: 0.1 m}\n"                                                                            \
+    "armature: {mass: 0.25 kg, contact_length: 16 mm, contact_width: 25 mm, friction_dry: 0.3, friction_melted: 0.05}\n" \
+    "rail: {material: ofhc_copper, yield_scale: 1.5}\n"                                                                \
+    "projectile: {material: al7075_t651, lead_angle: 30 deg, length: 20 mm, leg_thickness: 5 mm, head_thickness: 10 mm,\n" \
+    "  half_bore: 12.5 mm, width: 25 mm, chamfer_height: 2 mm}\n"                                                      \
+    "particle: {radius: 0.5 mm}\n"                                                                                     \
+    "scene: {friction: 0.05, coarse_cell: 2 mm, growth: 1.3, contact_pressure: 75 MPa}\n"                              \
+    "study: {coarse_cells_per_radius: 2, fine_cells_per_radius: 3, max_scenes: 40, sampled: 10000,\n"                  \
+    "  sensitivities: no, feedback: no}\n"                                                                             \
+    "output: {snapshots: 0, report: no}\n"
+#define GRAINS "populations:\n  - {density: 3 1/m, radius_median: 0.3 mm, radius_spread: 0.3}\n"
+
+enum { ALL = CASE_FOR_ONSET | CASE_FOR_COMPARE };
+
+/* ---- treatments ---- */
+
+/* Each kind with values of its own; a kind without a line here fails the test. */
+static const char *const example[TREATMENT_KINDS] = {
+    [TREATMENT_coating] = "coating: [{material: steel_4340, thickness: 0.2 mm}, {material: ofhc_copper, thickness: 0.1 mm}]",
+    [TREATMENT_hardening] = "hardening: {depth: 0.4 mm, factor: 2}",
+    [TREATMENT_rail_metal] = "rail_metal: {material: steel_4340}",
+    [TREATMENT_polish] = "polish: {size: 0.6, number: 0.5}",
+    [TREATMENT_lead_angle] = "lead_angle: {angle: 45 deg}",
+    [TREATMENT_preheat] = "preheat: {temperature: 400 K}",
+    [TREATMENT_armature_metal] = "armature_metal: {material: steel_4340}",
+};
+
+static char *used_text(const breech_case *c)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *f = open_memstream(&text, &size);
+    assert_non_null(f);
+    OK(case_write_used(c, f));
+    fclose(f);
+    return text;
+}
+
+static void test_every_kind(void **state)
+{
+    (void)state;
+    for (int k = 0; k < TREATMENT_KINDS; k++) {
+        char text[4000];
+        breech_case treated, same;
+        assert_non_null(example[k]);
+        assert_int_equal(strncmp(example[k], treatment_kinds[k].name, strlen(treatment_kinds[k].name)), 0);
+        snprintf(text, sizeof text, HEAD GRAINS "sites: [{position: 1 m}]\ntreatments:\n  - name: tried\n    %s\n", example[k]);
+        breech_case *c = read(text, ALL);
+        const case_treatment *t = &c->treatments.item[0];
+        for (int j = 0; j < TREATMENT_KINDS; j++) assert_int_equal(treatment_given(t, j), j == k);
+        OK(treated_case(c, NULL, &same));
+        OK(treated_case(c, t, &treated));
+        char *before = used_text(c), *untouched = used_text(&same), *after = used_text(&treated);
+        assert_string_equal(before, untouched);
+        assert_string_not_equal(before, after);
+        char *still = used_text(c); /* the case itself is left alone */
+        assert_string_equal(before, still);
+        breech_case *back = read(before, ALL); /* used.yaml says the same treatment */
+        assert_true(treatment_given(&back->treatments.item[0], k));
+        char *again = used_text(back);
+        assert_string_equal(before, again);
+        OK(command_possible(c, ALL)); /* its scenes can be made */
+        case_free(back);
+        free(before), free(untouched), free(after), free(still), free(again);
+        treated_free(&treated);
+        treated_free(&same);
+        case_free(c);
+    }
+}
+
+static void test_what_they_do(void **state)
+{
+    (void)state;
+    char text[6000];
+    int n = snprintf(text, sizeof text, HEAD GRAINS "sites: [{position: 1 m, material: steel_4340}]\ntreatments:\n");
+    for (int k = 0; k < TREATMENT_KINDS; k++)
+        n += snprintf(text + n, sizeof text - (size_t)n, "  - name: t%d\n    %s\n", k, example[k]);
+    breech_case *c = read(text, ALL), treated;
+    OK(treated_case(c, &c->treatments.item[TREATMENT_coating], &treated));
+    assert_int_equal(treated.rail.layers.n, 2);
+    assert_string_equal(treated.rail.layers.item[1].material, "ofhc_copper"); /* the last is on top */
+    treated_free(&treated);
+    OK(treated_case(c, &c->treatments.item[TREATMENT_hardening], &treated));
+    assert_int_equal(treated.rail.layers.n, 1);
+    assert_true(treated.rail.layers.item[0].yield_scale == 3.0 && isnan(treated.rail.layers.item[0].bond_strength));
+    treated_free(&treated);
+    OK(treated_case(c, &c->treatments.item[TREATMENT_rail_metal], &treated));
+    assert_string_equal(treated.populations.item[0].material, "steel_4340"); /* was the rail's */
+    assert_true(treated.rail.yield_scale == 1.0);
+    treated_free(&treated);
+    OK(treated_case(c, &c->treatments.item[TREATMENT_polish], &treated));
+    assert_true(fabs(treated.populations.item[0].radius_median - 0.18e-3) < 1e-12);
+    assert_true(fabs(treated.populations.item[0].density - 1.5) < 1e-12);
+    assert_true(fabs(treated.sites.item[0].radius - 0.3e-3) < 1e-12 && fabs(treated.sites.item[0].height - 0.3e-3) < 1e-12);
+    treated_free(&treated);
+    case_free(c);
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *says;
+    } wrong[] = {
+        { GRAINS, "treatments` is missing" },
+        { GRAINS "treatments: [{name: a, polish: {size: 2}}]\n", "treatments[0].polish.size = 2" },
+        { GRAINS "treatments: [{name: a, hardening: {depth: 1 mm}}]\n", "treatments[0].hardening.factor is missing" },
+        { GRAINS "treatments: [{name: a, coting: {depth: 1 mm}}]\n", "did you mean `coating`" },
+        { GRAINS "treatments: [{name: a, coating: [{material: unobtainium, thickness: 1 mm}]}]\n", "unobtainium" },
+        { GRAINS "treatments: [{name: a, rail_metal: {material: cucrzr}}]\n", "lacks" },
+        { "treatments: [{name: a}]\n", "needs it, or `populations`" },
+        { "populations: [{preset: dust}]\ntreatments: [{name: a}]\n", "must be one of none, machining, debris, sand" },
+        { "populations: [{density: 1 1/m}]\ntreatments: [{name: a}]\n", "radius_median is missing" },
+        { "populations: [{preset: sand, from: 2 m, to: 1 m}]\ntreatments: [{name: a}]\n", "must lie before" },
+        { "populations: [{preset: sand, to: 5 m}]\ntreatments: [{name: a}]\n", "barrel.length = 3 m" },
+        { "populations: [{preset: sand, sizes: [{radius: 2 mm, share: 1}, {radius: 1 mm, share: 1}]}]\ntreatments: "
+          "[{name: a}]\n",
+          "sizes must rise" },
+    };
+    for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
+        char text[4000];
+        snprintf(text, sizeof text, HEAD "%s", wrong[k].text);
+        char *errors = errors_of(text, ALL);
+        if (!strstr(errors, wrong[k].says)) fail_msg("`%s` is not in:\n%s", wrong[k].says, errors);
+        free(errors);
+    }
+    breech_case *c = read(HEAD GRAINS "treatments: [{name: flat, lead_angle: {angle: 2 deg}}]\n", ALL);
+    const status s = command_possible(c, ALL);
+    assert_int_equal(s.code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(s.text, "treatment `flat`"));
+    case_free(c);
+}
+
+/* Every preset fills what is not given and makes scenes; what is given stays. */
+static void test_presets(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "machining", "debris", "sand" };
+    assert_int_equal(POPULATION_PRESETS, 4);
+    for (int k = 0; k < 3; k++) {
+        char text[4000];
+        snprintf(text, sizeof text, HEAD "populations: [{preset: %s, from: 1 m}]\ntreatments: [{name: a}]\n", names[k]);
+        breech_case *c = read(text, ALL);
+        const case_population *p = &c->populations.item[0];
+        assert_true(p->density > 0.0 && p->radius_median > 0.0 && p->radius_spread > 0.0 && p->aspect > 0.0);
+        assert_true(p->from == 1.0 && p->to == 3.0);
+        assert_non_null(case_material(c, p->material));
+        OK(command_possible(c, ALL));
+        case_free(c);
+    }
+    breech_case *c = read(HEAD "populations: [{preset: debris, density: 7 1/m, bond_strength: none}]\ntreatments: [{name: a}]\n", ALL);
+    assert_true(c->populations.item[0].density == 7.0 && isnan(c->populations.item[0].bond_strength));
+    assert_string_equal(c->populations.item[0].material, "al7075_t651");
+    case_free(c);
+}
+
+/* ---- the comparison ---- */
+
+static const char FIVE[] = HEAD GRAINS
+    "treatments:\n"
+    "  - {name: hardened, hardening: {depth: 0.4 mm, factor: 2}}\n"
+    "  - {name: coated, coating: [{material: steel_4340, thickness: 0.4 mm}]}\n"
+    "  - {name: warm, preheat: {temperature: 500 K}}\n"
+    "  - {name: polished, polish: {size: 0.7}}\n"
+    "  - {name: the same}\n";
+
+static status run_compare(breech_case *c, const char *dir, compare_answer *out)
+{
+    session s;
+    const session_options options = {
+        .dir = dir, .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
+    };
+    OK(session_open(c, &options, &s));
+    s.run_scene = fake_scene;
+    scenes = 0;
+    const status done = compare_run(&s, out);
+    OK(session_close(&s, done.code == STATUS_OK));
+    return done;
+}
+
+static const compare_entry *entry_of(const compare_answer *a, const char *surface)
+{
+    for (int i = 0; i < a->result.n; i++)
+        if (strcmp(a->result.ranking[i].surface, surface) == 0) return &a->result.ranking[i];
+    fail_msg("no surface `%s`", surface);
+    return NULL;
+}
+
+static int rank_of(const compare_answer *a, const char *surface)
+{
+    return (int)(entry_of(a, surface) - a->result.ranking);
+}
+
+static void test_ranking(void **state)
+{
+    (void)state;
+    breech_case *c = read(FIVE, ALL);
+    compare_answer a;
+    OK(run_compare(c, "compare", &a));
+    assert_int_equal(a.result.n, 6);
+    assert_int_equal(a.result.scenes_run, scenes);
+    print_message("%d scenes for six surfaces\n", scenes);
+    /* coated 1400 + 80 + 200, hardened 1400 + 240, warm 1400 - 103 */
+    assert_int_equal(rank_of(&a, "coated"), 0);
+    assert_int_equal(rank_of(&a, "hardened"), 1);
+    assert_int_equal(rank_of(&a, "warm"), 5);
+    assert_true(fabs(entry_of(&a, "coated")->threshold_velocity - 1680.0) < 25.0);
+    assert_true(fabs(entry_of(&a, "hardened")->threshold_velocity - 1640.0) < 25.0);
+    const compare_entry *plain = entry_of(&a, "untreated"), *same = entry_of(&a, "the same"), *polished = entry_of(&a, "polished");
+    assert_true(polished->gouges < plain->gouges && polished->gouged_volume < plain->gouged_volume);
+    /* no treatment: the same scenes, none computed twice, and no difference to tell */
+    assert_int_equal(same->scenes, 0);
+    assert_int_equal(same->tied, plain->tied);
+    assert_true(same->threshold_velocity == plain->threshold_velocity);
+    double last = 0.0;
+    for (int i = 0; i < 6; i++) {
+        const compare_entry *e = &a.result.ranking[i];
+        assert_true(e->gouges >= last);
+        last = e->gouges;
+        assert_true(e->gouges_interval[0] <= e->gouges && e->gouges <= e->gouges_interval[1]);
+        assert_true(e->threshold_interval[0] <= e->threshold_velocity && e->threshold_velocity <= e->threshold_interval[1]);
+        if (i < 5) assert_true(e->better_than_next >= 0.0 && e->significant == (e->better_than_next >= 0.95));
+        if (i > 0) assert_int_equal(e->tied, a.result.ranking[i - 1].significant ? i + 1 : a.result.ranking[i - 1].tied);
+    }
+    assert_string_equal(plain->layer, "none");
+    assert_string_equal(entry_of(&a, "coated")->layer, "intact"); /* craters of 0.06 mm */
+    assert_true(entry_of(&a, "coated")->layer_failed > 0.0);
+    compare_answer_free(&a);
+    case_free(c);
+}
+
+/* Another seed draws other grains: the order and what is significant stay. */
+static void test_seed(void **state)
+{
+    (void)state;
+    breech_case *c = read(FIVE, ALL);
+    compare_answer a, b;
+    OK(run_compare(c, "seed", &a));
+    c->study.seed = 99;
+    OK(run_compare(c, "seed", &b));
+    for (int i = 0; i < 6; i++) {
+        const compare_entry *x = &a.result.ranking[i], *y = entry_of(&b, x->surface);
+        assert_true(x->gouges == 0.0 || fabs(y->gouges / x->gouges - 1.0) < 0.1);
+        if (x->significant && y->significant) assert_true(rank_of(&b, a.result.ranking[i + 1].surface) > rank_of(&b, x->surface));
+    }
+    assert_int_equal(rank_of(&b, "coated"), rank_of(&a, "coated"));
+    assert_int_equal(rank_of(&b, "warm"), rank_of(&a, "warm"));
+    compare_answer_free(&a);
+    compare_answer_free(&b);
+    case_free(c);
+}
+
+/* ---- one surface, with a population ---- */
+
+static void test_population_onset(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD GRAINS "sites: [{position: 1 m}, {position: 2.9 m}]\n", CASE_FOR_ONSET);
+    c->study.feedback = c->study.sensitivities = true;
+    c->study.shots = 3;
+    onset_answer a;
+    session s;
+    const session_options options = {
+        .dir = "population", .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
+    };
+    OK(session_open(c, &options, &s));
+    s.run_scene = fake_scene;
+    scenes = 0;
+    OK(onset_run(&s, &a));
+    OK(session_close(&s, true));
+    const onset_result *r = &a.result;
+    assert_true(r->threshold_interval[0] <= 1400.0 && 1400.0 <= r->threshold_interval[1]);
+    assert_true(r->threshold_position_interval[0] <= r->threshold_position && r->threshold_position <= r->threshold_position_interval[1]);
+    assert_true(fabs(r->expected_gouges / mc_expected(&a.grains, 3.0) - 1.0) < 0.05);
+    int fast = 0;
+    for (int i = 0; i < 2; i++) fast += a.site[i].velocity >= a.site[i].threshold_interval[1];
+    assert_true(fast > 0 && r->gouges == fast);
+    print_message("P %g, site at %g m/s, threshold to %g\n", r->probability_gouge, a.site[1].velocity, a.site[1].threshold_interval[1]);
+    assert_true(r->probability_gouge == 1.0 && r->verdict == VERDICT_GOUGES);
+    assert_true(r->onset_interval[0] < r->onset_position && r->onset_position < r->onset_interval[1]);
+    assert_true(r->muzzle_velocity_feedback < a.shot.is.muzzle_velocity);
+    assert_true(r->muzzle_velocity_feedback > a.shot.is.muzzle_velocity - 0.02 / 0.25 * (r->expected_gouges + 1.0) * 3.0);
+    /* more charge: faster, earlier, more gouges; more mass and friction: less; larger grains: as many (flat threshold) */
+    assert_int_equal(r->n_sensitivities, 4);
+    const onset_sensitivity *charge = &r->sensitivities[0], *mass = &r->sensitivities[1];
+    assert_true(charge->muzzle_velocity > a.shot.is.muzzle_velocity && charge->expected_gouges > r->expected_gouges);
+    assert_true(charge->threshold_position < r->threshold_position);
+    assert_true(mass->muzzle_velocity < a.shot.is.muzzle_velocity && mass->expected_gouges < r->expected_gouges);
+    assert_true(mass->threshold_position > r->threshold_position);
+    assert_true(r->sensitivities[2].expected_gouges <= r->expected_gouges);
+    /* skips: the second site, and what monotony gives */
+    int skipped = 0;
+    for (int k = 0; k < r->n_skips; k++) skipped += r->skip[k].scenes;
+    assert_true(r->n_skips > 0 && skipped == r->scenes_skipped);
+    assert_int_equal(r->scenes_run, scenes);
+    assert_int_equal(r->n_shots, 3);
+    assert_true(r->n_along > 0 && r->probability_along[r->n_along - 1] == 1.0);
+    onset_answer_free(&a);
+    case_free(c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_kind), cmocka_unit_test(test_what_they_do), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_presets),    cmocka_unit_test(test_ranking),      cmocka_unit_test(test_seed),
+        cmocka_unit_test(test_population_onset),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,312 @@
+/* Random shots over surfaces that are known: closed answers of a Poisson process. */
+#include "coupling/study/gouge_law.h"
+#include "coupling/study/montecarlo.h"
+#include "coupling/study/population.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define OK(call)                                                        \
+    do {                                                                \
+        const status ok_ = (call);                                      \
+        if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
+    } while (0)
+
+/* ---- a rail ---- */
+
+enum { TRACE = 200 };
+static const double LENGTH = 3.0, MUZZLE = 2100.0;
+
+/* v = MUZZLE x / LENGTH; one population, one family: the threshold v_th (r / 0.5 mm)^-slope in a band +- half. */
+typedef struct {
+    breech_case c;
+    case_population population;
+    case_site site[3];
+    trace_point trace[TRACE];
+    shot_outcome flown;
+    grain_family *family;
+    int of_population[1], of_site[3];
+    grain_families grains;
+    scene_record record[2];
+} rail;
+
+static void make(rail *r, double density, double median, double spread, double threshold, double slope, double half)
+{
+    memset(r, 0, sizeof *r);
+    r->population = (case_population){ .density = density,
+                                       .radius_median = median,
+                                       .radius_spread = spread,
+                                       .aspect = 1.0,
+                                       .from = 0.0,
+                                       .to = LENGTH,
+                                       .renewed = true };
+    r->c.populations = (case_populations){ 1, &r->population };
+    r->c.study.smallest_radius = 1e-4;
+    for (int i = 0; i < TRACE; i++) {
+        const double f = (double)i / (TRACE - 1);
+        r->trace[i] = (trace_point){ f, LENGTH * f, MUZZLE * f, 0.0 };
+    }
+    r->flown.trace = r->trace;
+    r->flown.n_trace = TRACE;
+    r->family = calloc(1, sizeof *r->family);
+    surface_result *s = &r->family->surface;
+    s->sizes = 9;
+    s->reference.shift = NAN;
+    s->reference.cells = 3.0;
+    for (int k = 0; k < 9; k++) {
+        const double radius = 1e-4 * pow(10.0, 0.15 * k), v = threshold * pow(radius / 0.5e-3, -slope);
+        s->size[k] = (surface_size){ .radius = radius, .velocity = v, .interval = { v - half, v + half } };
+    }
+    for (int k = 0; k < 2; k++) { /* crater 10 r^3 at 1000 m/s, 30 r^3 at 2000 */
+        scene_result *hit = &r->record[k].entry.result;
+        hit->class = DAMAGE_GOUGE;
+        hit->crater_volume = (10.0 + 20.0 * k) * 0.125e-9;
+        hit->rim_height = 0.25e-3;
+        hit->crater_length = 4e-3;
+        r->family->scene[k] = (family_scene){ 0.5e-3, 1000.0 + 1000.0 * k, 3.0, &r->record[k] };
+    }
+    r->family->n_scenes = 2;
+    r->grains = (grain_families){ .c = &r->c,
+                                  .flown = &r->flown,
+                                  .prefix = "",
+                                  .n = 1,
+                                  .family = r->family,
+                                  .of_site = r->of_site,
+                                  .of_population = r->of_population };
+}
+
+static mc_result run(const mc_surface *surface, int n, int histories, int shots)
+{
+    mc_result out;
+    const mc_plan plan = {
+        .histories = histories, .shots = shots, .seed = 7, .length = LENGTH, .n = n, .surface = surface
+    };
+    OK(mc_run(&plan, &out));
+    return out;
+}
+
+/* Standard error of a mean of `histories` Poisson numbers, times four. */
+static double four_sigma(double mean, int histories)
+{
+    return 4.0 * sqrt(mean / histories);
+}
+
+/* ---- populations ---- */
+
+static void test_sizes(void **state)
+{
+    (void)state;
+    case_population p = { .density = 10.0, .radius_median = 2e-4, .radius_spread = 0.5, .to = 3.0 };
+    double size[64], number[64], sum = 0.0;
+    assert_true(fabs(population_share_from(&p, 2e-4) - 0.5) < 1e-12);
+    assert_true(fabs(population_quantile(&p, 0.5) - 2e-4) < 1e-12);
+    assert_true(fabs(population_share_from(&p, population_quantile(&p, 0.9)) - 0.1) < 1e-9);
+    const int n = population_sizes(&p, 1e-4, 64, size, number);
+    assert_true(n > 4);
+    for (int k = 0; k < n; k++) {
+        const double place = 10.0 * log10(size[k]);
+        assert_true(fabs(place - round(place)) < 1e-6 && size[k] > 0.99e-4 && number[k] > 0.0);
+        sum += number[k];
+    }
+    assert_true(fabs(sum - 30.0 * population_share_from(&p, 1e-4)) < 1e-9); /* none is lost above the smallest */
+    case_size table[] = { { 5e-5, 5.0 }, { 2e-4, 3.0 }, { 4e-4, 2.0 } };
+    p.sizes = (case_sizes){ 3, table };
+    assert_int_equal(population_sizes(&p, 1e-4, 64, size, number), 2);
+    assert_true(size[0] == 2e-4 && fabs(number[0] - 9.0) < 1e-12 && fabs(number[1] - 6.0) < 1e-12);
+    assert_true(fabs(population_share_from(&p, 2e-4) - 0.5) < 1e-12 && population_quantile(&p, 0.9) == 4e-4);
+}
+
+/* ---- one surface ---- */
+
+/* Threshold 1400 m/s at x = 2 m for every size: gouges a Poisson process of density x share over the last metre. */
+static void test_closed(void **state)
+{
+    (void)state;
+    rail r;
+    make(&r, 2.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    const double share = population_share_from(&r.population, 1e-4), mean = 2.0 * share;
+    const mc_surface one = { &r.grains, 0, 1.0 };
+    mc_result out = run(&one, 1, 100000, 1);
+    const mc_shot *s = &out.of[0];
+    print_message("%d histories in %.2f s\n", out.histories, out.seconds);
+    assert_true(fabs(s->gouges - mean) < four_sigma(mean, out.histories));
+    assert_true(fabs(s->probability - (1.0 - exp(-mean))) < 4.0 * sqrt(0.25 / out.histories));
+    for (int k = 0; k < MC_BINS; k += 50) {
+        const double x = LENGTH * (k + 1) / MC_BINS, want = 1.0 - exp(-2.0 * share * fmax(x - 2.0, 0.0));
+        assert_true(fabs(s->before[k] - want) < 4.0 * sqrt(0.25 / out.histories) + 1e-3);
+    }
+    /* median: 1 - exp(-2 share (x - 2)) = 1/2; 95 % is never reached */
+    assert_true(fabs(s->first[1] - (2.0 + log(2.0) / (2.0 * share))) < 0.01);
+    assert_true(isnan(s->first[2]) == (1.0 - exp(-mean) < 0.95));
+    /* volume: r^3 above the smallest times the mark, linear in velocity from 18 at 1400 to 30 at 2000 and 30 beyond */
+    const double third = pow(2e-4, 3.0) * exp(4.5 * 0.25); /* mean r^3 of the whole log-normal */
+    const double z = log(0.5) / 0.5, above = 0.5 * erfc((z - 3.0 * 0.5) / sqrt(2.0));
+    const double mark = (600.0 * 24.0 + 100.0 * 30.0) / 700.0;
+    assert_true(fabs(s->volume / (2.0 * third * above * mark) - 1.0) < 0.03);
+    assert_true(fabs(mc_expected(&r.grains, LENGTH) - mean) < 2e-3 * mean); /* quadrature in 1024 places */
+    mc_free(&out);
+    free(r.family);
+}
+
+/* The threshold falls with size: the mean is that of the quadrature; the band opens the interval. */
+static void test_band(void **state)
+{
+    (void)state;
+    rail r;
+    make(&r, 20.0, 1.5e-4, 0.7, 1500.0, 0.2, 60.0);
+    const mc_surface one = { &r.grains, 0, 1.0 };
+    mc_result out = run(&one, 1, 40000, 1);
+    const double mean = mc_expected(&r.grains, LENGTH);
+    const mc_shot *s = &out.of[0];
+    assert_true(mean > 1.0);
+    assert_true(fabs(s->gouges / mean - 1.0) < 0.03); /* 200 worlds of a band that moves the mean by 20 % */
+    assert_true(s->gouges_interval[0] < 0.95 * mean && s->gouges_interval[1] > 1.05 * mean);
+    /* without a band the worlds differ by chance alone: 200 histories of some 15 gouges */
+    for (int k = 0; k < 9; k++) r.family->surface.size[k].interval[0] = r.family->surface.size[k].interval[1] = r.family->surface.size[k].velocity;
+    mc_result sharp = run(&one, 1, 40000, 1);
+    const double chance = 1.645 * sqrt(mean / 200.0);
+    assert_true(sharp.of[0].gouges_interval[1] - mean < 2.0 * chance);
+    assert_true(sharp.of[0].gouges_interval[1] - sharp.of[0].gouges_interval[0] <
+                0.5 * (s->gouges_interval[1] - s->gouges_interval[0]));
+    mc_free(&out);
+    mc_free(&sharp);
+    free(r.family);
+}
+
+static void test_table_and_sites(void **state)
+{
+    (void)state;
+    rail r;
+    make(&r, 5.0, NAN, NAN, 1400.0, 0.0, 0.0);
+    case_size table[] = { { 5e-5, 3.0 }, { 2e-4, 1.0 }, { 4e-4, 1.0 } };
+    r.population.sizes = (case_sizes){ 3, table };
+    const double at[3] = { 1.0, 2.1, 2.8 };
+    for (int i = 0; i < 3; i++) r.site[i] = (case_site){ .position = at[i], .radius = 3e-4 };
+    r.c.sites = (case_sites){ 3, r.site };
+    const mc_surface one = { &r.grains, 0, 1.0 };
+    mc_result out = run(&one, 1, 50000, 1);
+    const double strewn = 5.0 * 0.4; /* two of five are large enough, on the last metre */
+    assert_true(fabs(out.of[0].gouges - 2.0 - strewn) < four_sigma(strewn, out.histories)); /* two sites always */
+    assert_true(out.of[0].probability == 1.0);
+    assert_true(fabs(mc_expected(&r.grains, LENGTH) - 2.0 - strewn) < 0.01);
+    double sum = 0.0;
+    for (int k = 0; k < MC_BINS; k++) sum += out.of[0].strewn[k];
+    assert_true(fabs(sum - strewn) < four_sigma(strewn, out.histories)); /* those of the list are not among them */
+    mc_free(&out);
+    free(r.family);
+}
+
+static void test_beyond(void **state)
+{
+    (void)state;
+    rail r;
+    make(&r, 20.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    for (int k = 0; k < 9; k++) { /* above what the search looked at: never */
+        r.family->surface.size[k].velocity = r.family->surface.size[k].interval[1] = NAN;
+        r.family->surface.size[k].interval[0] = 2000.0;
+    }
+    const mc_surface one = { &r.grains, 0, 1.0 };
+    mc_result out = run(&one, 1, 1000, 1);
+    assert_true(out.of[0].gouges == 0.0 && out.of[0].probability == 0.0 && isnan(out.of[0].first[0]));
+    mc_free(&out);
+    free(r.family);
+}
+
+/* ---- several surfaces ---- */
+
+/* Two surfaces alike meet the same grains: no difference at all.  A better one is never worse in any world. */
+static void test_common_numbers(void **state)
+{
+    (void)state;
+    rail a, b;
+    make(&a, 5.0, 2e-4, 0.5, 1400.0, 0.1, 0.0);
+    make(&b, 5.0, 2e-4, 0.5, 1430.0, 0.1, 0.0);
+    const mc_surface three[] = { { &a.grains, 0, 1.0 }, { &a.grains, 1, 1.0 }, { &b.grains, 2, 1.0 } };
+    mc_result out = run(three, 3, 20000, 1);
+    assert_true(out.of[0].gouges == out.of[1].gouges && out.of[0].volume == out.of[1].volume);
+    assert_true(out.of[2].gouges < out.of[0].gouges);
+    for (int w = 0; w < MC_WORLDS; w++) assert_true(out.world_gouges[2 * MC_WORLDS + w] <= out.world_gouges[w]);
+    mc_free(&out);
+    /* half the grains, half the gouges; larger grains, more */
+    b.population.density = 2.5;
+    for (int k = 0; k < 9; k++) b.family->surface.size[k] = a.family->surface.size[k];
+    const mc_surface kept[] = { { &a.grains, 0, 1.0 }, { &b.grains, 0, 1.0 }, { &a.grains, 0, 1.3 } };
+    out = run(kept, 3, 20000, 1);
+    assert_true(fabs(out.of[1].gouges / out.of[0].gouges - 0.5) < 0.02);
+    assert_true(out.of[2].gouges > out.of[0].gouges && out.of[2].volume > 1.5 * out.of[0].volume);
+    mc_free(&out);
+    free(a.family);
+    free(b.family);
+}
+
+/* Same seed, same bits; another seed, another draw of the same mean. */
+static void test_seed(void **state)
+{
+    (void)state;
+    rail r;
+    make(&r, 5.0, 2e-4, 0.5, 1400.0, 0.1, 30.0);
+    const mc_surface one = { &r.grains, 0, 1.0 };
+    mc_result a = run(&one, 1, 2000, 1), b = run(&one, 1, 2000, 1);
+    assert_memory_equal(a.of, b.of, sizeof *a.of);
+    mc_result c;
+    const mc_plan plan = { .histories = 2000, .shots = 1, .seed = 8, .length = LENGTH, .n = 1, .surface = &one };
+    OK(mc_run(&plan, &c));
+    assert_true(a.of[0].gouges != c.of[0].gouges);
+    mc_free(&a);
+    mc_free(&b);
+    mc_free(&c);
+    free(r.family);
+}
+
+/* ---- several shots ---- */
+
+/* One grain of 1 mm at 2.1 m gouges and leaves a rim of half its size 8 radii on: it gouges the second shot there, its rim of
+ * 0.25 mm the third, 0.125 mm the fourth; then it is below the smallest. */
+static void test_rims(void **state)
+{
+    (void)state;
+    rail r;
+    make(&r, 1e-9, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    r.site[0] = (case_site){ .position = 2.1, .radius = 1e-3 };
+    r.c.sites = (case_sites){ 1, r.site };
+    const mc_surface one = { &r.grains, 0, 1.0 };
+    mc_result out = run(&one, 1, 200, 6);
+    double x = 2.1, radius = 1e-3;
+    for (int k = 0; k < 6; k++) {
+        const mc_shot *s = &out.of[k];
+        assert_true(fabs(s->gouges - (k < 4 ? 1.0 : 0.0)) < 1e-9);
+        if (k < 4) assert_true(fabs(s->first[1] - x) < LENGTH / MC_BINS);
+        if (k < 4) assert_true(fabs(s->volume / (pow(radius, 3.0) * (10.0 + 20.0 * (x * 700.0 - 1000.0) / 1000.0)) - 1.0) < 0.01);
+        x += 8.0 * radius;
+        radius *= 0.5;
+    }
+    mc_free(&out);
+    /* grains of the milling are gone after the first shot, debris comes again */
+    for (int renewed = 0; renewed < 2; renewed++) {
+        make(&r, 5.0, 2e-4, 0.3, 1400.0, 0.0, 0.0);
+        r.population.renewed = renewed;
+        for (int k = 0; k < 2; k++) r.record[k].entry.result.rim_height = 0.0;
+        out = run(&one, 1, 20000, 2);
+        if (renewed) assert_true(fabs(out.of[1].gouges / out.of[0].gouges - 1.0) < 0.03);
+        if (!renewed) assert_true(out.of[1].gouges == 0.0);
+        mc_free(&out);
+    }
+    free(r.family);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sizes),  cmocka_unit_test(test_closed),         cmocka_unit_test(test_band),
+        cmocka_unit_test(test_beyond), cmocka_unit_test(test_common_numbers), cmocka_unit_test(test_seed),
+        cmocka_unit_test(test_rims),   cmocka_unit_test(test_table_and_sites),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
