@@ -57,8 +57,8 @@ static const command commands[] = {
       "Runs the shot, then as many impact scenes as the threshold velocity needs (study.max_scenes at most).", run_case,
       true, CASE_FOR_ONSET, RUN_ONSET, command_onset },
     { "compare", "CASE", "the same for several rail surfaces, ranked",
-      "As onset, for the case as it is and for each of its treatments; study.max_scenes holds for each surface.", run_case,
-      true, CASE_FOR_ONSET | CASE_FOR_COMPARE, RUN_COMPARE, command_compare },
+      "As onset, for the case as it is and for each of its treatments; study.max_scenes holds for each surface.",
+      run_case, true, CASE_FOR_ONSET | CASE_FOR_COMPARE, RUN_COMPARE, command_compare },
     { "inductance", "CASE", "L', R' of a rail cross-section, over frequency",
       "Needs the section rails.  Direct current, 1 Hz to 100 kHz, the perfect conductor; the surface at "
       "rails.frequency.",

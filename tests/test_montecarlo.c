@@ -169,7 +169,9 @@ static void test_band(void **state)
     assert_true(fabs(s->gouges / mean - 1.0) < 0.03); /* 200 worlds of a band that moves the mean by 20 % */
     assert_true(s->gouges_interval[0] < 0.95 * mean && s->gouges_interval[1] > 1.05 * mean);
     /* without a band the worlds differ by chance alone: 200 histories of some 15 gouges */
-    for (int k = 0; k < 9; k++) r.family->surface.size[k].interval[0] = r.family->surface.size[k].interval[1] = r.family->surface.size[k].velocity;
+    for (int k = 0; k < 9; k++)
+        r.family->surface.size[k].interval[0] = r.family->surface.size[k].interval[1] =
+            r.family->surface.size[k].velocity;
     mc_result sharp = run(&one, 1, 40000, 1);
     const double chance = 1.645 * sqrt(mean / 200.0);
     assert_true(sharp.of[0].gouges_interval[1] - mean < 2.0 * chance);
@@ -283,7 +285,9 @@ static void test_rims(void **state)
         const mc_shot *s = &out.of[k];
         assert_true(fabs(s->gouges - (k < 4 ? 1.0 : 0.0)) < 1e-9);
         if (k < 4) assert_true(fabs(s->first[1] - x) < LENGTH / MC_BINS);
-        if (k < 4) assert_true(fabs(s->volume / (pow(radius, 3.0) * (10.0 + 20.0 * (x * 700.0 - 1000.0) / 1000.0)) - 1.0) < 0.01);
+        if (k < 4)
+            assert_true(fabs(s->volume / (pow(radius, 3.0) * (10.0 + 20.0 * (x * 700.0 - 1000.0) / 1000.0)) - 1.0) <
+                        0.01);
         x += 8.0 * radius;
         radius *= 0.5;
     }
@@ -304,8 +308,8 @@ static void test_rims(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sizes),  cmocka_unit_test(test_closed),         cmocka_unit_test(test_band),
-        cmocka_unit_test(test_beyond), cmocka_unit_test(test_common_numbers), cmocka_unit_test(test_seed),
+        cmocka_unit_test(test_sizes),  cmocka_unit_test(test_closed),          cmocka_unit_test(test_band),
+        cmocka_unit_test(test_beyond), cmocka_unit_test(test_common_numbers),  cmocka_unit_test(test_seed),
         cmocka_unit_test(test_rims),   cmocka_unit_test(test_table_and_sites),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

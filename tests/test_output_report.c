@@ -61,10 +61,10 @@ static void write_run(const char *dir, run_kind kind)
     scene = example_scene(0.4);
     static const double frequency[] = { 10.0, 1e3, 1e5 }, gradient[] = { 0.6e-6, 0.55e-6, 0.5e-6 };
     static const compare_entry entries[] = { { .surface = "hardened",
-      .threshold_velocity = 1700.0,
-      .threshold_interval = { 1650.0, 1750.0 },
-      .onset_position = NAN,
-      .gouged_volume = 0.0 } };
+                                               .threshold_velocity = 1700.0,
+                                               .threshold_interval = { 1650.0, 1750.0 },
+                                               .onset_position = NAN,
+                                               .gouged_volume = 0.0 } };
     static const compare_result compare = { .n = 1, .ranking = entries };
     static const inductance_result inductance = { .n = 3,
                                                   .frequency = frequency,

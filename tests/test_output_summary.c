@@ -25,15 +25,15 @@ static const char *const kind_keys[RUN_KINDS][32] = {
 
 static const double frequency[] = { 10.0, 1e3, 1e5 }, gradient[] = { 0.6e-6, 0.55e-6, 0.5e-6 };
 static const compare_entry ranking[] = { { .surface = "hardened",
-      .threshold_velocity = 1700.0,
-      .threshold_interval = { 1650.0, 1750.0 },
-      .onset_position = NAN,
-      .gouged_volume = 0.0 },
+                                           .threshold_velocity = 1700.0,
+                                           .threshold_interval = { 1650.0, 1750.0 },
+                                           .onset_position = NAN,
+                                           .gouged_volume = 0.0 },
                                          { .surface = "bare",
-      .threshold_velocity = 1480.0,
-      .threshold_interval = { 1450.0, 1510.0 },
-      .onset_position = 2.5,
-      .gouged_volume = 3e-9 } };
+                                           .threshold_velocity = 1480.0,
+                                           .threshold_interval = { 1450.0, 1510.0 },
+                                           .onset_position = 2.5,
+                                           .gouged_volume = 3e-9 } };
 
 /* Everything that a run of the kind may have. */
 typedef struct {

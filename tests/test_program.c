@@ -103,7 +103,7 @@ static void test_usage(void **state)
         assert_false(contains("err.txt", "Sanitizer"));
     }
     assert_int_equal(run("compare " SHOT), 2);
-    assert_true(contains("err.txt", "not in this version"));
+    assert_true(contains("err.txt", "section `treatments` is missing"));
 }
 
 /* Every error of the case at once, with its place; nothing is written. */

@@ -104,7 +104,8 @@ static void check_bands(const grains *g, const surface_plan *p, const surface_re
         if (!isnan(low)) assert_true(low <= v);
         if (!isnan(high)) assert_true(v <= high);
         if (!isnan(low) && !isnan(high)) assert_true(low <= s->velocity && s->velocity <= high);
-        if (k > 0 && !isnan(s->velocity)) assert_true(s->velocity <= r->size[k - 1].velocity || isnan(r->size[k - 1].velocity));
+        if (k > 0 && !isnan(s->velocity))
+            assert_true(s->velocity <= r->size[k - 1].velocity || isnan(r->size[k - 1].velocity));
         /* as wide as the range of the search where an end is not known */
         const double shift = fabs(r->reference.shift);
         const double band_low = isnan(low) ? 1000.0 - p->search.step : low + shift;
@@ -138,7 +139,9 @@ static void test_bands(void **state)
         }
         print_message("slope %.2f: %.1f scenes, %.1f of them at the reference, %d at most\n", slopes[s],
                       (double)scenes / n, (double)reference / n, most);
-        if (slopes[s] == 0.0) assert_true((double)(scenes - reference) / n <= 5.0); /* four, and now and then one for an asymmetric bracket */
+        if (slopes[s] == 0.0)
+            assert_true((double)(scenes - reference) / n <=
+                        5.0); /* four, and now and then one for an asymmetric bracket */
     }
 }
 
@@ -244,7 +247,9 @@ static void test_at(void **state)
     (void)state;
     surface_result r = { .sizes = 3 };
     for (int k = 0; k < 3; k++)
-        r.size[k] = (surface_size){ .radius = 1e-4 * pow(10.0, k), .velocity = 1800.0 - 200.0 * k, .interval = { 1700.0 - 200.0 * k, NAN } };
+        r.size[k] = (surface_size){ .radius = 1e-4 * pow(10.0, k),
+                                    .velocity = 1800.0 - 200.0 * k,
+                                    .interval = { 1700.0 - 200.0 * k, NAN } };
     assert_true(surface_at(&r, 1e-5).velocity == 1800.0 && surface_at(&r, 1.0).velocity == 1400.0);
     assert_true(surface_at(&r, 1e-3).velocity == 1600.0);
     assert_true(fabs(surface_at(&r, sqrt(1e-7)).velocity - 1700.0) < 1e-9); /* half way in ln r */
@@ -276,8 +281,8 @@ static void test_halving(void **state)
             within[reference] += fabs(va - vb) < 0.06 * va;
         }
     }
-    print_message("halved: %d of %d reference sizes, %d of %d other sizes within the former interval\n", within[1], n[1],
-                  within[0], n[0]);
+    print_message("halved: %d of %d reference sizes, %d of %d other sizes within the former interval\n", within[1],
+                  n[1], within[0], n[0]);
     assert_true(n[0] > 1000 && n[1] > 500);
     assert_true(within[1] >= 0.9 * n[1] && within[0] >= 0.9 * n[0]); /* 9 of 10, as the study is judged by */
 }
@@ -285,10 +290,14 @@ static void test_halving(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bands),       cmocka_unit_test(test_fewer_than_one_by_one),
-        cmocka_unit_test(test_knee),        cmocka_unit_test(test_slow_barrel),
-        cmocka_unit_test(test_rises_with_size), cmocka_unit_test(test_budget),
-        cmocka_unit_test(test_errors),      cmocka_unit_test(test_at),
+        cmocka_unit_test(test_bands),
+        cmocka_unit_test(test_fewer_than_one_by_one),
+        cmocka_unit_test(test_knee),
+        cmocka_unit_test(test_slow_barrel),
+        cmocka_unit_test(test_rises_with_size),
+        cmocka_unit_test(test_budget),
+        cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_at),
         cmocka_unit_test(test_halving),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

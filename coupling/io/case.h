@@ -23,7 +23,8 @@ enum {
     CASE_FOR_SHOT = 1, /* a supply, rails, barrel, armature */
     CASE_FOR_SCENE =
         2, /* rail, projectile, particle, scene; scene.velocity, particle.radius; the materials for a scene */
-    CASE_FOR_ONSET = 4, /* the shot, the scene but for its velocity, sites or populations; materials for screen and scene */
+    CASE_FOR_ONSET =
+        4, /* the shot, the scene but for its velocity, sites or populations; materials for screen and scene */
     CASE_FOR_INDUCTANCE = 8, /* rails */
     CASE_FOR_COMPARE = 16    /* with CASE_FOR_ONSET: treatments */
 };
@@ -193,11 +194,11 @@ typedef struct {
     int max_scenes;
     double screen_low, screen_high; /* band of impact pressure over hardness: below no scene is needed [1] */
     double coarse_cells_per_radius, fine_cells_per_radius; /* [1] */
-    bool feedback;          /* a gouge's impulse and mass loss go back into the shot */
-    bool sensitivities;     /* the shot again with changed inputs */
-    int shots;              /* fired one after the other on the same rail */
-    int sampled;            /* histories of the Monte Carlo */
-    int seed;               /* of its random numbers */
+    bool feedback;                                         /* a gouge's impulse and mass loss go back into the shot */
+    bool sensitivities;                                    /* the shot again with changed inputs */
+    int shots;                                             /* fired one after the other on the same rail */
+    int sampled;                                           /* histories of the Monte Carlo */
+    int seed;                                              /* of its random numbers */
     double smallest_radius; /* grains of a population below it are taken not to gouge [m] */
 } case_study;
 

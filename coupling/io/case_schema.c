@@ -73,18 +73,17 @@ static const param site_params[] = {
     PARAMS_END,
 };
 
-static const char *const preset_names[] = {
-    "none",
+static const char *const preset_names[] = { "none",
 #define POPULATION(name, ...) #name,
 #include "coupling/io/population.def"
 #undef POPULATION
-    NULL
-};
+                                            NULL };
 
 static const param population_params[] = {
     PARAM_ENUM(case_population, preset, preset_names, POPULATION_NONE, "where they come from: gives what is not given"),
     PARAM_DOUBLE(case_population, density, "1/m", OPTIONAL, 0.0, 1e6, "grains on a metre of the rail"),
-    PARAM_DOUBLE(case_population, radius_median, "m", OPTIONAL, 1e-6, 0.1, "half of them are larger; none with `sizes`"),
+    PARAM_DOUBLE(case_population, radius_median, "m", OPTIONAL, 1e-6, 0.1,
+                 "half of them are larger; none with `sizes`"),
     PARAM_DOUBLE(case_population, radius_spread, "1", OPTIONAL, 0.0, 3.0,
                  "standard deviation of ln radius, log-normal sizes"),
     PARAM_DOUBLE(case_population, aspect, "1", OPTIONAL, 0.01, 10.0, "height over radius; not given: 1"),
@@ -212,13 +211,13 @@ static const case_section population_children[] = {
 };
 
 static const case_section treatment_children[] = {
-#define TREATMENT_LAYERS(name, doc_)                       \
-    { .key = #name,                                        \
-      .doc = (doc_),                                       \
-      .table = layer_params,                               \
+#define TREATMENT_LAYERS(name, doc_)                                     \
+    { .key = #name,                                                      \
+      .doc = (doc_),                                                     \
+      .table = layer_params,                                             \
       .offset = offsetof(case_treatment, kind[TREATMENT_##name].layers), \
-      .size = sizeof(case_layer),                          \
-      .given = NO_FLAG,                                    \
+      .size = sizeof(case_layer),                                        \
+      .given = NO_FLAG,                                                  \
       .list = true },
 #define TREATMENT(name, doc_)                                     \
     { .key = #name,                                               \

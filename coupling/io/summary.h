@@ -116,9 +116,9 @@ typedef struct {
 
 /* One of several shots on the same rail. */
 typedef struct {
-    int shot; /* from 1 */
+    int shot;                                                          /* from 1 */
     double probability_gouge, expected_gouges, expected_gouged_volume; /* [1, 1, m3] */
-    double onset_position, onset_interval[2]; /* median, 5 .. 95 % [m] */
+    double onset_position, onset_interval[2];                          /* median, 5 .. 95 % [m] */
 } onset_shot;
 
 typedef enum { VERDICT_GOUGES, VERDICT_NO_GOUGING, VERDICT_UNDECIDED } onset_verdict;
@@ -126,16 +126,16 @@ extern const char *const onset_verdict_names[]; /* "gouges", "no_gouging", "unde
 
 typedef struct {
     onset_verdict verdict;
-    char reason[300];             /* of the verdict, in words */
-    double probability_gouge;     /* [1] */
-    double threshold_velocity;    /* at the median size for a population [m/s] */
-    double threshold_interval[2]; /* [m/s] */
-    double onset_position;        /* along the barrel [m] */
-    double onset_interval[2];     /* [m] */
-    double threshold_position, threshold_position_interval[2]; /* where the threshold velocity is passed [m] */
-    double muzzle_velocity_feedback;                           /* with what the gouges take [m/s] */
-    int gouges;                                                /* sites of the list that gouge */
-    double expected_gouges, expected_gouges_interval[2];       /* a shot, sites and populations [1] */
+    char reason[300];                                                  /* of the verdict, in words */
+    double probability_gouge;                                          /* [1] */
+    double threshold_velocity;                                         /* at the median size for a population [m/s] */
+    double threshold_interval[2];                                      /* [m/s] */
+    double onset_position;                                             /* along the barrel [m] */
+    double onset_interval[2];                                          /* [m] */
+    double threshold_position, threshold_position_interval[2];         /* where the threshold velocity is passed [m] */
+    double muzzle_velocity_feedback;                                   /* with what the gouges take [m/s] */
+    int gouges;                                                        /* sites of the list that gouge */
+    double expected_gouges, expected_gouges_interval[2];               /* a shot, sites and populations [1] */
     double expected_gouged_volume, expected_gouged_volume_interval[2]; /* [m3] */
     int histories;                                                     /* of the Monte Carlo */
     double monte_carlo_seconds;                                        /* [s] */

@@ -19,17 +19,17 @@ typedef struct {
 extern const treatment_kind treatment_kinds[TREATMENT_KINDS];
 
 #define TREATMENT_LAYERS(name, doc) status treatment_##name##_apply(const treatment_settings *t, breech_case *c);
-#define TREATMENT(name, doc)                      \
+#define TREATMENT(name, doc)                        \
     extern const param treatment_##name##_params[]; \
     status treatment_##name##_apply(const treatment_settings *t, breech_case *c);
 #include "coupling/io/treatment.def"
 #undef TREATMENT
 
 /* Rows of a kind's table. */
-#define TREATMENT_VALUE(i, key_, unit_, fallback_, min_, max_, doc_)                                       \
-    {                                                                                                      \
+#define TREATMENT_VALUE(i, key_, unit_, fallback_, min_, max_, doc_)                                     \
+    {                                                                                                    \
         .key = (key_), .unit = (unit_), .doc = (doc_), .offset = offsetof(treatment_settings, value[i]), \
-        .fallback = (fallback_), .min = (min_), .max = (max_), .kind = PARAM_NUMBER                        \
+        .fallback = (fallback_), .min = (min_), .max = (max_), .kind = PARAM_NUMBER                      \
     }
 
 /* Is this kind part of the treatment? */

@@ -13,7 +13,8 @@ status treatment_lead_angle_apply(const treatment_settings *t, breech_case *c)
     case_projectile *p = &c->projectile;
     const double run = p->chamfer_height / tan(t->value[ANGLE]);
     CHECK(run < p->length, STATUS_BAD_INPUT,
-          "lead_angle.angle = %g deg: the lead face would be %g m long, the armature is %g m: a larger angle, or a smaller "
+          "lead_angle.angle = %g deg: the lead face would be %g m long, the armature is %g m: a larger angle, or a "
+          "smaller "
           "projectile.chamfer_height",
           t->value[ANGLE] * 180.0 / 3.14159265358979323846, run, p->length);
     p->lead_angle = t->value[ANGLE];

@@ -52,7 +52,8 @@ status command_compare(session *s, command_result *out)
 {
     const status done = compare_run(s, &out->compare);
     out->summary.compare = &out->compare.result;
-    if (out->compare.n > 0 && out->compare.answer[0].shot.is.steps > 0) out->summary.shot = &out->compare.answer[0].shot;
+    if (out->compare.n > 0 && out->compare.answer[0].shot.is.steps > 0)
+        out->summary.shot = &out->compare.answer[0].shot;
     return done;
 }
 
@@ -137,7 +138,7 @@ static status grains_possible(const breech_case *c)
         const case_population *p = &c->populations.item[i];
         double size[SURFACE_MAX_SIZES], number[SURFACE_MAX_SIZES];
         const int n = population_sizes(p, c->study.smallest_radius, SURFACE_MAX_SIZES, size, number);
-        for (int k = 0; k < n; k += n > 1 ? n - 1 : 1) { /* the smallest and the largest */
+        for (int k = 0; k<n; k += n> 1 ? n - 1 : 1) { /* the smallest and the largest */
             case_site grain = { .radius = size[k], .height = p->aspect * size[k], .bond_strength = p->bond_strength };
             memcpy(grain.shape, p->shape, sizeof grain.shape);
             memcpy(grain.material, p->material, sizeof grain.material);

@@ -8,7 +8,8 @@
 #include <string.h>
 
 static const double SIGNIFICANT = 0.95;
-static const double SPALLED = 0.1; /* share of the layers under the crater that failed, from which they count as spalled */
+static const double SPALLED =
+    0.1; /* share of the layers under the crater that failed, from which they count as spalled */
 
 void compare_answer_free(compare_answer *a)
 {
@@ -132,7 +133,9 @@ static void judge_layers(const breech_case *c, const grain_families *g, compare_
     e->layer_failed = fmin(failed_layers(r) / (thickness * fmax(ellipse, grain)), 1.0);
     const bool through = r->crater_depth >= thickness;
     snprintf(e->layer, sizeof e->layer, "%s",
-             through ? "worn through" : e->layer_failed >= SPALLED ? "spalled" : "intact");
+             through                      ? "worn through"
+             : e->layer_failed >= SPALLED ? "spalled"
+                                          : "intact");
 }
 
 /* ---- ranking ---- */

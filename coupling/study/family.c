@@ -33,8 +33,7 @@ static bool same_number(double a, double b)
 static bool same_family(const grain_family *f, const case_site *grain, double aspect)
 {
     return fabs(f->aspect - aspect) < 1e-9 && strcmp(f->grain.shape, grain->shape) == 0 &&
-           strcmp(f->grain.material, grain->material) == 0 &&
-           same_number(f->grain.bond_strength, grain->bond_strength);
+           strcmp(f->grain.material, grain->material) == 0 && same_number(f->grain.bond_strength, grain->bond_strength);
 }
 
 static int family_for(grain_families *f, const case_site *grain, double aspect)
@@ -226,8 +225,7 @@ static status find(asker *a, const scene_query *q, const scene_record **out)
     grain_family *f = a->family;
     TRY(scenes_find(a->session, q, out));
     if (*out && f->n_scenes < THRESHOLD_MAX_SAMPLES)
-        f->scene[f->n_scenes++] =
-            (family_scene){ q->state.grain.radius, q->state.velocity, q->cells_per_radius, *out };
+        f->scene[f->n_scenes++] = (family_scene){ q->state.grain.radius, q->state.velocity, q->cells_per_radius, *out };
     return status_ok();
 }
 

@@ -29,9 +29,9 @@ typedef struct {
     const shot_outcome *flown; /* borrowed */
     const char *prefix;        /* of its scenes' names, "" for the case as it is; borrowed */
     int n;
-    grain_family *family;          /* owned */
-    int *of_site, *of_population;  /* index of the family, -1: needs no scene; owned */
-    int screened, too_small; /* sites and populations without a scene: by the screen, by study.smallest_radius */
+    grain_family *family;         /* owned */
+    int *of_site, *of_population; /* index of the family, -1: needs no scene; owned */
+    int screened, too_small;      /* sites and populations without a scene: by the screen, by study.smallest_radius */
 } grain_families;
 
 /* Sorts sites and populations into families and plans their searches.  families_free even on error. */

@@ -63,7 +63,8 @@ static int strewn_jumps(const onset_answer *a, case_site *site, site_jump *jump)
     return n;
 }
 
-static status fly_with(session *s, const onset_answer *a, const case_sites *sites, const site_jump *jump, double *muzzle)
+static status fly_with(session *s, const onset_answer *a, const case_sites *sites, const site_jump *jump,
+                       double *muzzle)
 {
     breech_case c = *a->grains.c; /* borrows all but the sites */
     shot_outcome again;
@@ -99,12 +100,28 @@ static const double CHANGE = 0.05; /* relative */
 
 typedef struct {
     const char *input;
-    void (*change)(breech_case *c, double factor); /* of a copy that owns its bank; NULL: the grains' size */
+    void (*change)(breech_case *c, double factor); /* of a copy that owns its supplies; NULL: the grains' size */
 } changed_input;
+
+/* What a kind of supply is charged to; a given current is not charged. */
+typedef struct {
+    size_t size, charge; /* of the kind's struct; offset of the double in it */
+} supply_charge;
+
+static const supply_charge charges[SUPPLY_KINDS] = {
+    [SUPPLY_capacitor] = { sizeof(shot_module), offsetof(shot_module, charge) },
+    [SUPPLY_inductor] = { sizeof(supply_inductor), offsetof(supply_inductor, current) },
+    [SUPPLY_homopolar] = { sizeof(supply_homopolar), offsetof(supply_homopolar, speed) },
+    [SUPPLY_alternator] = { sizeof(supply_alternator), offsetof(supply_alternator, speed) },
+};
 
 static void change_charge(breech_case *c, double factor)
 {
-    for (int i = 0; i < c->bank.n; i++) c->bank.item[i].charge *= factor;
+    for (int k = 0; k < SUPPLY_KINDS; k++)
+        for (int i = 0; charges[k].size && i < c->supplies[k].n; i++) {
+            char *group = (char *)c->supplies[k].item + (size_t)i * charges[k].size;
+            *(double *)(void *)(group + charges[k].charge) *= factor;
+        }
 }
 
 static void change_mass(breech_case *c, double factor)
@@ -119,12 +136,26 @@ static void change_friction(breech_case *c, double factor)
 }
 
 static const changed_input inputs[] = {
-    { "bank.charge", change_charge },
+    { "charge of the supplies", change_charge },
     { "armature.mass", change_mass },
     { "armature.friction", change_friction },
     { "grain size", NULL },
 };
 enum { INPUTS = sizeof inputs / sizeof inputs[0], SURFACES = INPUTS + 1 };
+
+static status own_supplies(const breech_case *from, breech_case *c)
+{
+    for (int k = 0; k < SUPPLY_KINDS; k++)
+        if (charges[k].size) c->supplies[k].item = NULL;
+    for (int k = 0; k < SUPPLY_KINDS; k++) {
+        const size_t bytes = (size_t)from->supplies[k].n * charges[k].size;
+        if (bytes == 0) continue;
+        c->supplies[k].item = malloc(bytes);
+        CHECK(c->supplies[k].item, STATUS_MEMORY, "no memory for the supplies");
+        memcpy(c->supplies[k].item, from->supplies[k].item, bytes);
+    }
+    return status_ok();
+}
 
 /* The shot with one input changed; of grain size the shot as it was. */
 static status fly_changed(session *s, const onset_answer *a, const changed_input *input, shot_outcome *flown,
@@ -133,13 +164,12 @@ static status fly_changed(session *s, const onset_answer *a, const changed_input
     breech_case c = *a->grains.c;
     *record = a->shot;
     if (!input->change) return status_ok();
-    c.bank.item = malloc((size_t)c.bank.n * sizeof *c.bank.item);
-    CHECK(c.bank.item, STATUS_MEMORY, "no memory for a bank");
-    memcpy(c.bank.item, a->grains.c->bank.item, (size_t)c.bank.n * sizeof *c.bank.item);
-    input->change(&c, 1.0 + CHANGE);
-    const status done = session_shot(s, &c, NULL, false, flown, record);
-    free(c.bank.item);
-    return done;
+    const status done = own_supplies(a->grains.c, &c);
+    if (done.code == STATUS_OK) input->change(&c, 1.0 + CHANGE);
+    const status shot_done = done.code == STATUS_OK ? session_shot(s, &c, NULL, false, flown, record) : done;
+    for (int k = 0; k < SUPPLY_KINDS; k++)
+        if (charges[k].size) free(c.supplies[k].item);
+    return shot_done;
 }
 
 static void conclude(const onset_answer *a, const shot_outcome *flown, const shot_record *record,

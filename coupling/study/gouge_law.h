@@ -8,14 +8,14 @@ enum { LAW_SIZES = 128, LAW_VELOCITIES = 64 };
 
 /* What a gouge leaves, in radii of its grain; linear in velocity between the scenes that gouge, constant beyond. */
 typedef struct {
-    double volume; /* over r^3 [1] */
+    double volume;     /* over r^3 [1] */
     double rim, along; /* height of the rim, its way downstream, over r [1] */
 } gouge_mark;
 
 typedef struct {
-    double ln_first, per_ln;                     /* place of ln r in the tables below */
+    double ln_first, per_ln;                        /* place of ln r in the tables below */
     double low[LAW_SIZES + 1], high[LAW_SIZES + 1]; /* band of the threshold, INFINITY: never within the search [m/s] */
-    double shift;                                /* |coarse to fine| [m/s] */
+    double shift;                                   /* |coarse to fine| [m/s] */
     double v_first, per_v;
     gouge_mark mark[LAW_VELOCITIES + 1];
 } gouge_law;

@@ -32,27 +32,27 @@ typedef struct {
 /* One surface, ready for drawing. */
 typedef struct {
     const grain_families *grains;
-    gouge_law *law;               /* of each family, owned */
-    double *in_band;              /* u_b of each family in this world, owned */
-    double v[PLACES + 1];         /* of the armature, over the barrel [m/s] */
-    double per_place;             /* [1/m] */
-    strewn_here *strewn;          /* of each population, owned */
-    double ln_factor;             /* on sizes */
-    double ln_smallest;           /* of a population's grains and of rims */
+    gouge_law *law;       /* of each family, owned */
+    double *in_band;      /* u_b of each family in this world, owned */
+    double v[PLACES + 1]; /* of the armature, over the barrel [m/s] */
+    double per_place;     /* [1/m] */
+    strewn_here *strewn;  /* of each population, owned */
+    double ln_factor;     /* on sizes */
+    double ln_smallest;   /* of a population's grains and of rims */
     int draws;
     int rims, rims_next;
     rim rim[MAX_RIMS], next[MAX_RIMS];
-    int gouges;                   /* of the shot under way */
+    int gouges; /* of the shot under way */
     double volume, first;
 } lane;
 
 /* What all surfaces draw of one population of the first surface. */
 typedef struct {
     const case_population *p;
-    double from, to;              /* stretch worth drawing [m] */
-    double mean;                  /* grains drawn, expected */
-    double lowest;                /* deviate below which a log-normal grain is too small for every surface */
-    gsl_ran_discrete_t *table;    /* of tabulated sizes, owned; NULL: log-normal */
+    double from, to;           /* stretch worth drawing [m] */
+    double mean;               /* grains drawn, expected */
+    double lowest;             /* deviate below which a log-normal grain is too small for every surface */
+    gsl_ran_discrete_t *table; /* of tabulated sizes, owned; NULL: log-normal */
 } strewn;
 
 typedef struct {
@@ -61,7 +61,7 @@ typedef struct {
     lane *lane;     /* owned */
     strewn *strewn; /* one a population, owned */
     int populations;
-    double *sum;    /* [n x shots x SUMS], owned */
+    double *sum;         /* [n x shots x SUMS], owned */
     double world_sum[2]; /* of the shot and surface under way */
     double of_shift;     /* u_s of this world */
 } mc;
@@ -177,7 +177,6 @@ static void fire(mc *m, int number)
 
 /* ---- counting ---- */
 
-
 static void count(mc *m, mc_result *out, int world, int number)
 {
     for (int i = 0; i < m->plan->n; i++) {
@@ -236,7 +235,8 @@ static void conclude(const mc *m, mc_result *out)
     for (int i = 0; i < out->n * out->shots; i++) {
         const double *sum = m->sum + (size_t)i * SUMS;
         mc_shot *s = &out->of[i];
-        double *gouges = out->world_gouges + (size_t)i * MC_WORLDS, *volumes = out->world_volumes + (size_t)i * MC_WORLDS;
+        double *gouges = out->world_gouges + (size_t)i * MC_WORLDS,
+               *volumes = out->world_volumes + (size_t)i * MC_WORLDS;
         for (int w = 0; w < MC_WORLDS; w++) gouges[w] *= in_world, volumes[w] *= in_world;
         s->gouges = sum[GOUGES] * each;
         s->volume = sum[VOLUME] * each;
@@ -456,13 +456,14 @@ double mc_expected(const grain_families *grains, double length)
         for (int i = 0; i < grains->c->sites.n; i++) {
             const case_site *site = &grains->c->sites.item[i];
             const int family = grains->of_site[i];
-            sum += family >= 0 && velocity_at(l, site->position) >=
-                                      gouge_law_threshold(&l->law[family], log(site->radius), 0.5, 0.0);
+            sum += family >= 0 &&
+                   velocity_at(l, site->position) >= gouge_law_threshold(&l->law[family], log(site->radius), 0.5, 0.0);
         }
         for (int k = 0; k < grains->c->populations.n; k++) {
             const case_population *p = &grains->c->populations.item[k];
             for (int i = 0; grains->of_population[k] >= 0 && i < PLACES; i++)
-                sum += gouging_density(l, k, p->from + (p->to - p->from) * (i + 0.5) / PLACES) * (p->to - p->from) / PLACES;
+                sum += gouging_density(l, k, p->from + (p->to - p->from) * (i + 0.5) / PLACES) * (p->to - p->from) /
+                       PLACES;
         }
     }
     if (l) lane_free(l);

@@ -31,9 +31,9 @@ typedef struct {
 
 /* Of one shot number on one surface, over all histories. */
 typedef struct {
-    double gouges, volume;  /* mean number, mean volume [1, m3] */
+    double gouges, volume;                         /* mean number, mean volume [1, m3] */
     double gouges_interval[2], volume_interval[2]; /* 5 and 95 % of the worlds' means */
-    double probability;     /* that it gouges at all */
+    double probability;                            /* that it gouges at all */
     double first[3];        /* place of the first gouge: 5, 50, 95 % of all shots; NaN where so many do not gouge [m] */
     double before[MC_BINS]; /* P(gouge before (k + 1) / MC_BINS of the barrel) */
     double strewn[MC_BINS]; /* mean number of a population's grains that gouge in that piece of the barrel */

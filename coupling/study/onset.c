@@ -122,7 +122,8 @@ static void judge_sites(onset_answer *a)
         if (near) memcpy(site->scene, near->record->entry.name, sizeof site->scene);
         if (site->outcome != SITE_GOUGE) continue;
         a->result.gouges++;
-        if (near) site->gouged_volume = near->record->entry.result.crater_volume * pow(site->radius / near->radius, 3.0);
+        if (near)
+            site->gouged_volume = near->record->entry.result.crater_volume * pow(site->radius / near->radius, 3.0);
     }
 }
 

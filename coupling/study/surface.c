@@ -7,7 +7,8 @@
 /* Expected slope -d ln v_th / d ln r: sets which scene comes next (wu2017.md, W7 to W11, from 0.5 to 0.1 mm: small). */
 static const double TREND = 0.1;
 static const double SECANT_TRUST = 0.5; /* width in which a secant's root is expected, over the band's [1] */
-static const double FAR = 3.0; /* how far beyond a band's known end its unknown one is expected, in the chance's scale [1] */
+static const double FAR =
+    3.0; /* how far beyond a band's known end its unknown one is expected, in the chance's scale [1] */
 
 typedef struct {
     const surface_plan *plan;
@@ -250,8 +251,7 @@ static status narrow_sizes(search *s)
         all_bands(s, bands);
         if (s->out->samples >= most) return status_ok();
         const bool next = flat_to_check(s, bands, &k, &v) ||
-                          (!narrow_enough(p, bands) && best_scene(s, bands, &k, &v)) ||
-                          end_to_check(p, bands, &k, &v);
+                          (!narrow_enough(p, bands) && best_scene(s, bands, &k, &v)) || end_to_check(p, bands, &k, &v);
         if (!next) return status_ok();
         TRY(ask(s, p->size[k], v, s->out->reference.cells, &seen));
     }
@@ -271,10 +271,11 @@ static void check_sizes(surface_result *r)
                 continue;
             r->monotone = false;
             if (!r->warning[0])
-                snprintf(r->warning, sizeof r->warning,
-                         "the threshold does not fall with size: a grain of %g mm gouges at %g m/s, one of %g mm does not "
-                         "at %g m/s",
-                         1e3 * small->radius, small->is.velocity, 1e3 * large->radius, large->is.velocity);
+                snprintf(
+                    r->warning, sizeof r->warning,
+                    "the threshold does not fall with size: a grain of %g mm gouges at %g m/s, one of %g mm does not "
+                    "at %g m/s",
+                    1e3 * small->radius, small->is.velocity, 1e3 * large->radius, large->is.velocity);
             return;
         }
 }

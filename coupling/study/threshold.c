@@ -191,8 +191,10 @@ static void decided_interval(const threshold_result *r, double cells, const brac
     for (int i = 0; i < r->samples; i++) {
         const threshold_sample *a = &r->sample[i];
         if (a->cells_per_radius != cells || a->class == DAMAGE_UNDECIDED) continue;
-        if (!threshold_is_upper(a) && a->velocity <= b->lo.velocity) lo = fmax(isnan(lo) ? a->velocity : lo, a->velocity);
-        if (threshold_is_upper(a) && a->velocity >= b->hi.velocity) hi = fmin(isnan(hi) ? a->velocity : hi, a->velocity);
+        if (!threshold_is_upper(a) && a->velocity <= b->lo.velocity)
+            lo = fmax(isnan(lo) ? a->velocity : lo, a->velocity);
+        if (threshold_is_upper(a) && a->velocity >= b->hi.velocity)
+            hi = fmin(isnan(hi) ? a->velocity : hi, a->velocity);
     }
     interval[0] = isnan(lo) ? b->lo.velocity : lo;
     interval[1] = isnan(hi) ? b->hi.velocity : hi;
