@@ -378,7 +378,6 @@ static void test_population_onset(void **state)
     int fast = 0;
     for (int i = 0; i < 2; i++) fast += a.site[i].velocity >= a.site[i].threshold_interval[1];
     assert_true(fast > 0 && r->gouges == fast);
-    print_message("P %g, site at %g m/s, threshold to %g\n", r->probability_gouge, a.site[1].velocity, a.site[1].threshold_interval[1]);
     assert_true(r->probability_gouge == 1.0 && r->verdict == VERDICT_GOUGES);
     assert_true(r->onset_interval[0] < r->onset_position && r->onset_position < r->onset_interval[1]);
     assert_true(r->muzzle_velocity_feedback < a.shot.is.muzzle_velocity);

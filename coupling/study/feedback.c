@@ -183,7 +183,7 @@ static void conclude(const onset_answer *a, const shot_outcome *flown, const sho
     out->muzzle_velocity = record->is.muzzle_velocity;
     out->threshold_position = v > 0.0 && trace_at_velocity(flown, v, &at) ? at.x : NAN;
     /* of both the mean over the same random numbers: what differs is the input's doing */
-    out->expected_gouges = a->result.expected_gouges + drawn->of[k + 1].gouges - drawn->of[0].gouges;
+    out->expected_gouges = a->result.expected_gouges + (drawn->of[k + 1].gouges - drawn->of[0].gouges);
 }
 
 static status draw_all(onset_answer *a, const grain_families *changed, mc_result *drawn)

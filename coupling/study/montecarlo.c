@@ -242,7 +242,8 @@ static void conclude(const mc *m, mc_result *out)
         s->volume = sum[VOLUME] * each;
         middle_of(gouges, s->gouges_interval);
         middle_of(volumes, s->volume_interval);
-        for (int k = 0; k < MC_BINS; k++) s->before[k] = (k > 0 ? s->before[k - 1] : 0.0) + sum[FIRSTS + k] * each;
+        double gouged = 0.0; /* histories: a whole number, so that certainty is 1 */
+        for (int k = 0; k < MC_BINS; k++) s->before[k] = (gouged += sum[FIRSTS + k]) / out->histories;
         for (int k = 0; k < MC_BINS; k++) s->strewn[k] = sum[STREWN + k] * each;
         s->probability = s->before[MC_BINS - 1];
         for (int k = 0; k < 3; k++) s->first[k] = place_of_share(s, shares[k], m->plan->length);
