@@ -74,23 +74,29 @@ static void mirror_ghosts(const mpm *m, brick *b, halo_nodes halo)
 /* Weights sum to one, their gradients to zero, so along an axis
  *   sum w f = f_1 + w_0 (f_0 - f_1) + w_2 (f_2 - f_1),   sum g f = g_0 (f_0 - f_1) + g_2 (f_2 - f_1):
  * the nodes of a cell, with such differences in the places of the first and the last along each axis. */
-typedef double cell_nodes[27][NODE] __attribute__((aligned(64)));
+typedef double node_values __attribute__((vector_size(8 * NODE)));
+typedef node_values cell_nodes[27];
 
-static void difference(cell_nodes n, int node, int stride)
+LANE_INLINE void difference(node_values *first, const node_values *middle, node_values *last)
 {
-    for (int i = 0; i < NODE; i++) {
-        n[node - stride][i] -= n[node][i];
-        n[node + stride][i] -= n[node][i];
-    }
+    *first -= *middle;
+    *last -= *middle;
 }
 
 static void gather_cell(const halo_nodes halo, int first, cell_nodes n)
 {
-    for (int c = 0; c < 3; c++)
-        for (int b = 0; b < 3; b++) memcpy(n[9 * c + 3 * b], halo[first + (c * HALO + b) * HALO], 3 * sizeof *n);
-    for (int i = 0; i < 9; i++) difference(n, 3 * i + 1, 1);
-    for (int i = 0; i < 9; i++) difference(n, 9 * (i / 3) + 3 + i % 3, 3);
-    for (int i = 0; i < 9; i++) difference(n, 9 + i, 9);
+#pragma GCC unroll 27
+    for (int i = 0; i < 27; i++)
+        n[i] = *(const node_values *)(const void *)halo[first + (i / 9 * HALO + i / 3 % 3) * HALO + i % 3];
+#pragma GCC unroll 9
+    for (int i = 0; i < 9; i++) difference(&n[3 * i], &n[3 * i + 1], &n[3 * i + 2]);
+#pragma GCC unroll 9
+    for (int i = 0; i < 9; i++) {
+        node_values *row = &n[9 * (i / 3) + i % 3];
+        difference(row, row + 3, row + 6);
+    }
+#pragma GCC unroll 9
+    for (int i = 0; i < 9; i++) difference(&n[i], &n[9 + i], &n[18 + i]);
 }
 
 typedef struct {
@@ -117,7 +123,7 @@ LANE_INLINE vd interpolate(const weights w[3], const cell_nodes n, int q, vd gra
         vd row[3], row_x[3];
 #pragma GCC unroll 3
         for (int b = 0; b < 3; b++) {
-            const double *f = &n[9 * c + 3 * b][q];
+            const double *f = (const double *)&n[9 * c + 3 * b] + q;
             row[b] = f[NODE] + w[0].w[0] * f[0] + w[0].w[2] * f[2 * NODE];
             if (grad) row_x[b] = w[0].g[0] * f[0] + w[0].g[2] * f[2 * NODE];
         }
@@ -181,7 +187,7 @@ LANE_INLINE vd move(block *q, int lane, const gathered *r, const step_of *step)
 /* Sums over the blocks of one body, a lane each until they are added to the brick's tally. */
 typedef struct {
     vd heat_transfer, heat_viscous, work_external, mass, area;
-    vd rate, pressure, mises, strain, temperature, clamp_p, clamp_rho;
+    vd rate, pressure, mises_square, strain, temperature, clamp_p, clamp_rho;
 } books;
 
 LANE_INLINE void book(books *t, const block *q, int lane, const lane_sums *w)
@@ -195,7 +201,7 @@ LANE_INLINE void book(books *t, const block *q, int lane, const lane_sums *w)
     t->area += vd_load(&q->area[0][lane]);
     t->rate = vd_max(t->rate, vd_where(here, w->rate));
     t->pressure = vd_max(t->pressure, vd_where(intact, vd_load(&q->p[0][lane])));
-    t->mises = vd_max(t->mises, vd_where(here, w->mises));
+    t->mises_square = vd_max(t->mises_square, vd_where(here, w->mises_square));
     t->strain = vd_max(t->strain, vd_where(here, vd_load(&q->ep[0][lane])));
     t->temperature = vd_max(t->temperature, vd_where(intact, vd_load(&q->T[0][lane])));
     t->clamp_p += vd_where(here, w->clamp_p);
@@ -211,7 +217,7 @@ static void add_books(tally *t, const books *s, int body, const step_of *step)
         t->impulse_external[k] += step->dt * (step->force[k] * vd_sum(s->mass) + step->traction[k] * vd_sum(s->area));
     t->rate = fmax(t->rate, vd_largest(s->rate));
     t->peak_pressure_body[body] = fmax(t->peak_pressure_body[body], vd_largest(s->pressure));
-    t->peak_mises[body] = fmax(t->peak_mises[body], vd_largest(s->mises));
+    t->peak_mises[body] = fmax(t->peak_mises[body], sqrt(vd_largest(s->mises_square)));
     t->peak_strain[body] = fmax(t->peak_strain[body], vd_largest(s->strain));
     t->peak_temperature = fmax(t->peak_temperature, vd_largest(s->temperature));
     t->clamps_pressure += (uint64_t)vd_sum(s->clamp_p);
@@ -266,7 +272,7 @@ static step_of step_for(const mpm *m, const cell_grid *g, int body)
 {
     step_of step = { .dt = m->dt };
     for (int i = 0; i < 3; i++) {
-        step.h[i] = g->axis[i].cell;
+        step.h[i] = g->axis[i].cell, step.inv_h[i] = 1 / g->axis[i].cell;
         step.force[i] = m->scene.body[body].body_force[i];
         step.traction[i] = m->scene.body[body].traction[i];
     }
@@ -299,7 +305,7 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
         const motion moved = motion_of(r.L, run->step.dt);
         for (int i = 0; i < 9; i++) vd_store(&q->L[i][lane], moved.end[i]);
         sum.work_external = move(q, lane, &r, &run->step);
-        law_step(k, &run->step, &moved, q, lane, &sum);
+        law_step(k, &run->step, &moved, q, lane, b->contact, &sum);
         book(&run->books, q, lane, &sum);
         find_bad(&b->sum, q, lane, sum.rate, index);
         leaving |= leaving_lanes(q, lane, limits, k);
@@ -316,7 +322,7 @@ static void one_cell(mpm *m, brick *b, int cell, const halo_nodes halo, int thre
     run->step = step_for(m, &g, run->body);
     for (int i = b->head[cell]; i >= 0; i = m->links[i].next) {
         const int body = m->links[i].body;
-        prefetch_ahead(m, i);
+        prefetch_ahead(m, i, FIRST_start);
         if (body != run->body) {
             add_books(&b->sum, &run->books, run->body, &run->step);
             *run = (block_run){ .body = body, .step = step_for(m, &g, body) };

@@ -61,34 +61,36 @@ LANE_INLINE weights weights_gimp(const cell_axis *c, vd x, vd half)
  * between the knots e1 < e2 (de Boor).  A function's place is the middle of its cell, not the node: then linear fields are
  * exact on any grading, sum w d = 0, and the affine part adds no momentum. */
 typedef struct {
-    double e[4]; /* knots around the cell: two below, two above [m] */
+    double e[4];         /* knots around the cell: two below, two above [m] */
+    double below, above; /* one over the cell's size times the distance of the knots around the function [1/m2] */
 } knots;
 
 LANE_INLINE knots knots_at(const axis *a, int i)
 {
-    return (knots){ { a->edge[i - 1], a->edge[i], a->edge[i + 1], a->edge[i + 2] } };
+    const double *e = &a->edge[i - 1], h = e[2] - e[1];
+    return (knots){ { e[0], e[1], e[2], e[3] }, 1 / (h * (e[2] - e[0])), 1 / (h * (e[3] - e[1])) };
 }
 
 LANE_INLINE weights weights_bspline(const knots *q, vd x)
 {
-    const double h = q->e[2] - q->e[1], below = q->e[2] - q->e[0], above = q->e[3] - q->e[1];
     const vd from = x - q->e[1], to = q->e[2] - x;
     weights r;
-    r.w[0] = to * to * (1 / (h * below));
-    r.w[2] = from * from * (1 / (h * above));
+    r.w[0] = to * to * q->below;
+    r.w[2] = from * from * q->above;
     r.w[1] = vd_set(1) - r.w[0] - r.w[2];
-    r.g[0] = to * (-2 / (h * below));
-    r.g[2] = from * (2 / (h * above));
+    r.g[0] = to * (-2 * q->below);
+    r.g[2] = from * (2 * q->above);
     r.g[1] = vd_set(0) - r.g[0] - r.g[2];
     for (int k = 0; k < 3; k++) r.d[k] = 0.5 * (q->e[k] + q->e[k + 1]) - x;
     return r;
 }
 
-/* Blocks lie in the order of cells (store_compact), so the one after next is most likely needed after next. */
-LANE_INLINE void prefetch_ahead(const mpm *m, int index)
+/* Blocks lie in the order of cells (store_compact), so the one after next is most likely needed after next: its first
+ * `fields` fields, a cache line each. */
+LANE_INLINE void prefetch_ahead(const mpm *m, int index, int fields)
 {
     const char *p = (const char *)&m->blocks[index] + 2 * sizeof(block);
-    for (size_t i = 0; i < sizeof(block); i += 64) __builtin_prefetch(p + i);
+    for (int i = 0; i < fields; i++) __builtin_prefetch(p + 64 * i);
 }
 
 /* Everything a cell's particles need to know of the grid. */
@@ -114,7 +116,7 @@ LANE_INLINE cell_grid cell_grid_at(const mpm *m, const brick *b, int cell)
     cell_grid g = { .bspline = m->scene.basis == BASIS_BSPLINE };
     for (int k = 0; k < 3; k++) {
         g.axis[k] = cell_axis_at(&m->axes[k], BRICK * b->at[k] + at[k]);
-        g.knots[k] = knots_at(&m->axes[k], BRICK * b->at[k] + at[k]);
+        if (g.bspline) g.knots[k] = knots_at(&m->axes[k], BRICK * b->at[k] + at[k]);
         const double stable = 2 * g.axis[k].widest * stable_half_length(&m->scene);
         if (stable > g.axis[k].narrowest) g.axis[k].narrowest = stable < g.axis[k].widest ? stable : g.axis[k].widest;
     }

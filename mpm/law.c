@@ -133,6 +133,7 @@ static void strength(law *k, const material *m, const mpm_body *body)
     k->m = isnan(m->softening_m) ? 1 : m->softening_m;
     k->inv_rate0 = 1 / (isnan(m->rate_0) ? 1 : m->rate_0);
     k->flow_start = k->A;
+    k->least_flow = k->B >= 0 && k->C >= 0 && k->m >= 1 ? k->A : 0;
     k->D1 = -1;
     if (body->damage) {
         k->D1 = m->damage_D1, k->D2 = m->damage_D2, k->D3 = m->damage_D3;
@@ -149,8 +150,9 @@ status law_make(const mpm_body *body, const mpm_scene *scene, law *out)
     k.K0 = k.rho0 * k.c0 * k.c0;
     k.K_slope = 4 * m->hugoniot_slope - 1;
     k.G = m->youngs_modulus / (2 * (1 + m->poisson));
-    k.rho_min = 0.05 * k.rho0;
-    k.rho_max = k.rho0 * (1 + fmin(1.5, 0.8 / fmax(k.s1, 0.01)));
+    k.volume0 = 1 / k.rho0;
+    k.volume_max = 20 * k.volume0;
+    k.volume_min = k.volume0 / (1 + fmin(1.5, 0.8 / fmax(k.s1, 0.01)));
     k.q1 = scene->viscosity_linear, k.q2 = scene->viscosity_quadratic;
     k.plastic_heat = scene->heat_by_plastic_work;
     k.chi = isnan(m->taylor_quinney) ? 0.9 : m->taylor_quinney;

@@ -12,8 +12,10 @@ typedef struct {
     double K0, K_slope;              /* rho0 c0^2 [Pa]; dK/dp = 4 s - 1 [1] */
     double g, s1;                    /* Grueneisen, s - 1 [1] */
     double G;                        /* shear modulus [Pa] */
-    double rho_min, rho_max;         /* guards of the density [kg/m3] */
+    double volume0;                  /* 1/rho0 [m3/kg] */
+    double volume_min, volume_max;   /* guards of the specific volume [m3/kg] */
     double A, B, n, C, m, inv_rate0; /* Johnson-Cook */
+    double least_flow;               /* [Pa] flow stress >= least_flow (1 - T*): A where m >= 1, else 0 */
     double T_r, T_m, inv_T_range;    /* [K, K, 1/K] */
     double D1, D2, D3, D4, D5;       /* failure strain; D1 < 0: no damage */
     double inv_c, c_v;               /* specific heat [kg K/J, J/(kg K)] */

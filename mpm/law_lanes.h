@@ -9,14 +9,14 @@
 #include "mpm/store.h"
 
 typedef struct {
-    double dt, h[3]; /* cell [m] */
-    double force[3]; /* body force [m/s2] */
+    double dt, h[3], inv_h[3]; /* cell [m] */
+    double force[3];           /* body force [m/s2] */
     double traction[3];
 } step_of;
 
 /* What is booked of some particles, a lane each. */
 typedef struct {
-    vd heat, heat_viscous, work_external, rate, mises, clamp_p, clamp_rho;
+    vd heat, heat_viscous, work_external, rate, mises_square, clamp_p, clamp_rho;
 } lane_sums;
 
 LANE_INLINE vd clamp01(vd x)
@@ -27,8 +27,10 @@ LANE_INLINE vd clamp01(vd x)
 /* x^n, zero at zero */
 LANE_INLINE vd power(vd x, double n)
 {
-    const vd tiny = vd_set(1e-14), y = vd_exp(n * vd_log(vd_max(x, tiny)));
-    return vd_select(vd_less(tiny, x), y, vd_set(0));
+    const vd tiny = vd_set(1e-14);
+    const vm some = vd_less(tiny, x);
+    if (!vm_bits(some)) return vd_set(0);
+    return vd_where(some, vd_exp(n * vd_log(vd_max(x, tiny))));
 }
 
 /*   sigma_y = (A + B e^n) (1 + C ln max(edot/edot0, 1)) (1 - T*^m)                  (M-1) [Pa]; zero when molten */
@@ -62,26 +64,28 @@ LANE_INLINE vd temperature(const law *k, vd e, vd mu, vd stored)
 
 /*   p_H = rho0 c0^2 mu [1 + (1 - g0/2) mu] / [1 - (s-1) mu]^2, mu >= 0;   rho0 c0^2 mu below;   p = p_H + g0 rho_e e   (M-3)
  * rho_e = rho0 in compression, rho in expansion: with rho0 there too, hot debris would keep its full thermal pressure
- * however thin it has become, and burst. */
-LANE_INLINE vd hugoniot_pressure(const law *k, vd mu)
+ * however thin it has become, and burst.  Solved with the energy e - half p that p itself changes, in one division. */
+LANE_INLINE vd pressure(const law *k, vd mu, vd rho, vd e, vd half)
 {
-    const vd d = 1 - k->s1 * mu, zero = vd_set(0);
-    const vd compressed = mu * (1 + (1 - 0.5 * k->g) * mu) / (d * d);
-    return k->K0 * vd_select(vd_less(zero, mu), compressed, mu);
+    const vd d = 1 - k->s1 * mu, one = vd_set(1);
+    const vm compressed = vd_less(vd_set(0), mu);
+    const vd above = k->K0 * mu * vd_select(compressed, 1 + (1 - 0.5 * k->g) * mu, one);
+    const vd below = vd_select(compressed, d * d, one), slope = k->g * vd_min(rho, vd_set(k->rho0));
+    return (above + slope * e * below) / (below * (1 + slope * half));
 }
 
 /* Longitudinal wave speed: K = K0 + K' p in compression, c0 in expansion; a failed point has no shear stiffness [m/s] */
-LANE_INLINE vd sound_speed(const law *k, vd rho, vd p, vm failed)
+LANE_INLINE vd sound_speed(const law *k, vd volume, vd p, vm failed)
 {
-    const vd zero = vd_set(0);
-    const vd bulk = (k->K0 + k->K_slope * vd_max(p, zero)) / vd_max(rho, vd_set(k->rho0));
-    return vd_sqrt(bulk + vd_select(failed, zero, 4.0 / 3.0 * k->G / rho));
+    const vd bulk = (k->K0 + k->K_slope * vd_max(p, vd_set(0))) * vd_min(volume, vd_set(k->volume0));
+    return vd_sqrt(bulk + vd_where(~failed, 4.0 / 3.0 * k->G * volume));
 }
 
 /* Jaumann rate  s' = W s - s W + 2 G dev D */
 LANE_INLINE void stress_rate(const law *k, const vd L[9], const vd s[6], vd r[6])
 {
-    const vd w_xy = 0.5 * (L[1] - L[3]), w_xz = 0.5 * (L[2] - L[6]), w_yz = 0.5 * (L[5] - L[7]), third = trace(L) / 3.0;
+    const vd w_xy = 0.5 * (L[1] - L[3]), w_xz = 0.5 * (L[2] - L[6]), w_yz = 0.5 * (L[5] - L[7]);
+    const vd third = (1 / 3.0) * trace(L);
     const double G2 = 2 * k->G;
     r[0] = 2 * (w_xy * s[3] + w_xz * s[4]) + G2 * (L[0] - third);
     r[1] = 2 * (w_yz * s[5] - w_xy * s[3]) + G2 * (L[4] - third);
@@ -115,83 +119,114 @@ LANE_INLINE vd square_norm(const vd s[6])
 LANE_INLINE vd shear_rate(const vd L[9], vd tr)
 {
     const vd a = L[1] + L[3], b = L[2] + L[6], c = L[5] + L[7];
-    const vd D2 = L[0] * L[0] + L[4] * L[4] + L[8] * L[8] + 0.5 * (a * a + b * b + c * c) - tr * tr / 3.0;
+    const vd D2 = L[0] * L[0] + L[4] * L[4] + L[8] * L[8] + 0.5 * (a * a + b * b + c * c) - (1 / 3.0) * tr * tr;
     return vd_sqrt(2.0 / 3.0 * vd_max(D2, vd_set(0)));
 }
 
 /* (M-5)  q = rho l |tr D| (q1 c + q2 l |tr D|) in compression, l the cell's size in the direction that is compressed */
 LANE_INLINE vd viscosity(const law *k, const step_of *step, const vd L[9], vd tr, vd rho, vd sound)
 {
-    const vd xx = L[0] * L[0], yy = L[4] * L[4], zz = L[8] * L[8];
+    const vd rest = vd_set(0), xx = L[0] * L[0], yy = L[4] * L[4], zz = L[8] * L[8];
     const double *h = step->h;
+    if (!vm_bits(vd_less(tr, rest))) return rest;
     const vd size = vd_sqrt((xx * (h[0] * h[0]) + yy * (h[1] * h[1]) + zz * (h[2] * h[2])) / (xx + yy + zz + 1e-300));
-    const vd squeeze = vd_max(-tr, vd_set(0)) * size;
+    const vd squeeze = vd_max(-tr, rest) * size;
     return rho * squeeze * (k->q1 * sound + k->q2 * squeeze);
+}
+
+/* What plastic flow did to some particles. */
+typedef struct {
+    bool any;               /* did one flow or has one failed? If not, only mises_square holds something */
+    vd mises_square, mises; /* von Mises stress after it, squared and plain [Pa^2, Pa] */
+    vd plastic;             /* increment of the equivalent plastic strain */
+    vd log_rate, T_star;    /* ln(edot/edot0) and homologous temperature */
+} yielding;
+
+/* Radial return of the trial deviator s.  Where all particles lie below the least stress at which their metal could flow,
+ *   sigma_y >= A (1 - T*)   for m >= 1,
+ * there is nothing to do; their flow stress stays that of the step in which it was last needed, unless a contact asks.
+ * (By a tenth below: where the fine zone goes is decided by what comes within a tenth of yielding, zone.c.) */
+LANE_INLINE yielding radial_return(const law *k, const vd L[9], vd tr, block *q, int lane, bool contact, vd s[6])
+{
+    const vd zero = vd_set(0), square = 1.5 * square_norm(s);
+    const vm failed = ~vd_less(vd_load(&q->damage[0][lane]), vd_set(1));
+    yielding y = { .mises_square = square };
+    y.T_star = clamp01((vd_load(&q->T[0][lane]) - k->T_r) * k->inv_T_range);
+    const vd least = 0.9 * k->least_flow * (1 - y.T_star);
+    y.any = contact || vm_bits(failed | ~vd_less(square, least * least));
+    if (!y.any) return y;
+    y.log_rate = vd_log(vd_max(shear_rate(L, tr) * k->inv_rate0, vd_set(1)));
+    const vd ep = vd_load(&q->ep[0][lane]), trial = vd_sqrt(square);
+    const vd yield = vd_where(~failed, flow_stress(k, ep, y.log_rate, y.T_star));
+    y.mises = vd_min(trial, yield);
+    y.mises_square = y.mises * y.mises;
+    y.plastic = vd_where(~failed, (trial - y.mises) * (1 / (3 * k->G)));
+    vd_store(&q->flow[0][lane], yield);
+    vd_store(&q->ep[0][lane], ep + y.plastic);
+    const vd scale = y.mises / vd_max(trial, vd_set(1e-30));
+    for (int i = 0; i < 6; i++) s[i] *= scale;
+    y.any = vm_bits(vd_less(zero, y.plastic));
+    return y;
+}
+
+/* (M-2) */
+LANE_INLINE void damage(const law *k, const yielding *y, vd p, block *q, int lane)
+{
+    const vd e_f = failure_strain(k, -p / (y->mises + 1e3), y->log_rate, y->T_star);
+    vd_store(&q->damage[0][lane], vd_min(vd_load(&q->damage[0][lane]) + y->plastic / e_f, vd_set(1)));
 }
 
 /* Stress, energy and temperature of the part of a block that begins with `lane`, over a step.  The stress power is the mean
  * of its values at the start and at the end, each with the gradient and the volume there; the pressure is solved with the
- * energy it changes, and a failed point's tension is removed before that energy. */
-LANE_INLINE void law_step(const law *k, const step_of *step, const motion *move, block *q, int lane, lane_sums *sum)
+ * energy it changes, and a failed point's tension is removed before that energy.  `contact`: the flow stress is needed even where nothing flows. */
+LANE_INLINE void law_step(const law *k, const step_of *step, const motion *move, block *q, int lane, bool contact,
+                          lane_sums *sum)
 {
-    const vd zero = vd_set(0), one = vd_set(1);
-    const vd *L = move->middle, tr = trace(L);
+    const vd zero = vd_set(0), one = vd_set(1), *L = move->middle, tr = trace(L);
     const double dt = step->dt;
-    const vd rho0 = vd_load(&q->rho[0][lane]), p0 = vd_load(&q->p[0][lane]), ep0 = vd_load(&q->ep[0][lane]),
-             damage0 = vd_load(&q->damage[0][lane]);
-    const vm failed = ~vd_less(damage0, one);
-    const vd wanted = rho0 / move->growth, rho = vd_min(vd_max(wanted, vd_set(k->rho_min)), vd_set(k->rho_max));
+    const vd p0 = vd_load(&q->p[0][lane]), volume0 = 1 / vd_load(&q->rho[0][lane]);
+    const vm failed = ~vd_less(vd_load(&q->damage[0][lane]), one);
+    const vd wanted = volume0 * move->growth;
+    const vd volume = vd_min(vd_max(wanted, vd_set(k->volume_min)), vd_set(k->volume_max)), rho = 1 / volume;
     vd s[6];
     for (int i = 0; i < 6; i++) s[i] = vd_load(&q->s[i][lane]);
 
-    const vd power_before = (stress_power(s, move->start) - p0 * trace(move->start)) / rho0;
+    const vd power_before = (stress_power(s, move->start) - p0 * trace(move->start)) * volume0;
     predict(k, dt, L, s);
-    const vd trial = vd_sqrt(1.5 * square_norm(s));
-    const vd T_star = clamp01((vd_load(&q->T[0][lane]) - k->T_r) * k->inv_T_range);
-    const vd log_rate = vd_log(vd_max(shear_rate(L, tr) * k->inv_rate0, one));
-    const vd yield = vd_select(failed, zero, flow_stress(k, ep0, log_rate, T_star));
-    const vd mises = vd_min(trial, yield), scale = mises / vd_max(trial, vd_set(1e-30));
-    const vd plastic = vd_select(failed, zero, (trial - mises) * (1 / (3 * k->G)));
-    for (int i = 0; i < 6; i++) {
-        s[i] *= scale;
-        vd_store(&q->s[i][lane], s[i]);
-    }
-    const vd mu = rho * (1 / k->rho0) - 1;
-    const vd sound = sound_speed(k, rho, p0, failed);
+    const yielding y = radial_return(k, L, tr, q, lane, contact, s);
+    for (int i = 0; i < 6; i++) vd_store(&q->s[i][lane], s[i]);
+
+    const vd mu = rho * k->volume0 - 1;
+    const vd sound = sound_speed(k, volume, p0, failed);
     const vd q_v = viscosity(k, step, L, tr, rho, sound);
-    const vd half = 0.5 * dt * trace(move->end) / rho;
-    const vd slope = k->g * vd_min(rho, vd_set(k->rho0));
-    vd e =
-        vd_load(&q->e[0][lane]) + sum->heat + 0.5 * dt * (power_before + stress_power(s, move->end) / rho) - half * q_v;
-    const vd p_free = (hugoniot_pressure(k, mu) + slope * e) / (1 + slope * half);
+    const vd half = 0.5 * dt * trace(move->end) * volume;
+    vd e = vd_load(&q->e[0][lane]) + sum->heat + 0.5 * dt * (power_before + stress_power(s, move->end) * volume) -
+           half * q_v;
+    const vd p_free = pressure(k, mu, rho, e, half);
     const vm torn = failed & vd_less(p_free, zero);
     const vd p = vd_select(torn, zero, p_free);
     e -= half * p;
+    if (k->D1 >= 0 && y.any) damage(k, &y, p, q, lane);
 
-    if (k->D1 >= 0) {
-        const vd e_f = failure_strain(k, -p / (mises + 1e3), log_rate, T_star);
-        vd_store(&q->damage[0][lane], vd_min(damage0 + plastic / e_f, one));
-    }
-    const vd stored = square_norm(s) / (4 * k->G * rho);
-    const vd T = k->plastic_heat ? vd_load(&q->T[0][lane]) + k->chi * mises * plastic / rho * k->inv_c
-                                 : temperature(k, e, vd_select(failed, vd_max(mu, zero), mu),
-                                               stored); /* dust was stretched at no cost */
+    const vd stored = y.mises_square * volume * (1 / (6 * k->G)); /* s:s/(4 G rho) */
+    vd T = vd_load(&q->T[0][lane]);
+    if (!k->plastic_heat)
+        T = temperature(k, e, vd_select(failed, vd_max(mu, zero), mu), stored); /* dust was stretched at no cost */
+    else if (y.any)
+        T += k->chi * y.mises * y.plastic * volume * k->inv_c;
     vd_store(&q->T[0][lane], T);
-    vd_store(&q->ep[0][lane], ep0 + plastic);
-    vd_store(&q->flow[0][lane], yield);
     vd_store(&q->e[0][lane], e);
     vd_store(&q->rho[0][lane], rho);
     vd_store(&q->p[0][lane], p + q_v);
-    vd rate = zero;
+    sum->rate = zero;
     for (int i = 0; i < 3; i++) {
         const vd v = vd_load(&q->v[i][lane]);
-        rate = vd_max(rate, (sound + vd_max(v, -v)) * (1 / step->h[i]));
+        sum->rate = vd_max(sum->rate, (sound + vd_max(v, -v)) * step->inv_h[i]);
     }
-    sum->rate = rate;
-    sum->mises = mises;
-    sum->heat_viscous = -dt * tr / rho * q_v;
-    sum->clamp_p = vd_select(torn, one, zero);
-    sum->clamp_rho = vd_select(vd_less(wanted, rho) | vd_less(rho, wanted), one, zero);
+    sum->mises_square = y.mises_square;
+    sum->heat_viscous = -dt * tr * volume * q_v;
+    sum->clamp_p = vd_where(torn, one);
+    sum->clamp_rho = vd_where(vd_less(wanted, volume) | vd_less(volume, wanted), one);
 }
 
 #endif

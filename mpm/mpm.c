@@ -296,16 +296,31 @@ static void smooth_force(mpm *m)
     }
 }
 
+static void lap(mpm *m, mpm_phase phase, double *since)
+{
+    const double now = omp_get_wtime();
+    m->phase_seconds[phase] += now - *since;
+    *since = now;
+}
+
+double mpm_phase_seconds(const mpm *m, mpm_phase phase)
+{
+    return m->phase_seconds[phase];
+}
+
 static status one_step(mpm *m, double until)
 {
     tally sum;
     const double wanted = m->dt, left = until - m->time;
     if (left < 2 * wanted) m->dt = left <= wanted * (1 + 1e-9) ? left : 0.5 * left; /* no tiny last step */
-    phase_p2g(m);
-    phase_nodes(m);
-    phase_g2p(m);
+    double clock = omp_get_wtime();
+    phase_p2g(m), lap(m, PHASE_P2G, &clock);
+    phase_nodes(m), lap(m, PHASE_NODES, &clock);
+    phase_g2p(m), lap(m, PHASE_G2P, &clock);
     TRY(collect(m, &sum));
+    lap(m, PHASE_REST, &clock);
     TRY(movers_exchange(m));
+    lap(m, PHASE_MOVERS, &clock);
     book(m, &sum);
     smooth_force(m);
     m->time += m->dt;
@@ -317,6 +332,7 @@ static status one_step(mpm *m, double until)
     if (m->steps % (uint64_t)SAMPLE_EVERY == 0) mpm_sample_percentiles(m);
     if (m->steps % (uint64_t)COMPACT_EVERY == 0) TRY(store_compact(m));
     if (m->steps % (uint64_t)FOLLOW_EVERY == 0) TRY(zone_follow(m));
+    lap(m, PHASE_REST, &clock);
     return status_ok();
 }
 

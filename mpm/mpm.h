@@ -103,6 +103,11 @@ status mpm_advance(mpm *m, double until, const mpm_sink *sink);
 
 mpm_ledger mpm_balance(const mpm *m);
 mpm_report mpm_state(const mpm *m);
+
+/* Wall time since mpm_create by phase of the step [s]; `rest` holds books, percentiles, sorting and the fine zone. */
+typedef enum { PHASE_P2G, PHASE_NODES, PHASE_G2P, PHASE_MOVERS, PHASE_REST, MPM_PHASES } mpm_phase;
+double mpm_phase_seconds(const mpm *m, mpm_phase phase);
+
 mpm_report mpm_glance(const mpm *m);         /* the same but failed_volume, zero, which takes a walk over all points */
 const mpm_scene *mpm_scene_of(const mpm *m); /* borrowed; its fine zone along x is where it is now */
 const mpm_wake *mpm_wake_of(const mpm *m);   /* borrowed, until the next mpm_advance */

@@ -311,6 +311,28 @@ static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int
     }
 }
 
+/* Away from every wall: one_node then only adds the forces, unless fields meet. */
+static bool is_inside(const mpm *m, const int index[3])
+{
+    for (int k = 0; k < 3; k++)
+        if (index[k] <= 1 || index[k] >= m->axes[k].last) return false;
+    return true;
+}
+
+/* one_node for a single field away from the walls. */
+static void free_node(const double line[LINE], double dt, double node[NODE])
+{
+    const double inverse = line[0] > 0 ? 1 / line[0] : 0;
+    double before = 0, after = 0;
+    for (int k = 0; k < 3; k++) {
+        const double v = line[1 + k] * inverse;
+        node[k] = v + dt * line[4 + k] * inverse;
+        before += v * v;
+        after += node[k] * node[k];
+    }
+    node[3] = 0.5 * after + line[7] * inverse - 0.5 * before;
+}
+
 /* Ghost nodes of a mirror plane are filled in G2P from the nodes they mirror. */
 static bool is_ghost(const mpm *m, const int index[3])
 {
@@ -343,6 +365,10 @@ void ISA(nodes)(mpm *m, int site)
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
         const int index[3] = { BRICK * at[0] + cell % BRICK, BRICK * at[1] + cell / BRICK % BRICK,
                                BRICK * at[2] + cell / (BRICK * BRICK) };
+        if (count == 1 && is_inside(m, index)) {
+            free_node(fields[0].line[cell], m->dt, fields[0].brick->node[cell]);
+            continue;
+        }
         if (is_ghost(m, index)) {
             for (int s = 0; s < count; s++) memset(fields[s].brick->node[cell], 0, NODE * sizeof(double));
             continue;

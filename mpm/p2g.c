@@ -208,7 +208,7 @@ static void cell_motion(const mpm *m, brick *b, int cell, const cell_grid *g)
         const block *q = &m->blocks[i];
         lines n;
         factors f;
-        prefetch_ahead(m, i);
+        prefetch_ahead(m, i, FIRST_ka + 1);
         for (int lane = 0; lane < LANES; lane += WIDTH) {
             store_factors(&f, g, q, lane);
             motion_lines(q, lane, affine, &m->scene.body[m->links[i].body], &n);

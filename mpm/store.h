@@ -146,6 +146,7 @@ struct mpm {
     void *histogram;           /* of percentiles (read.c) */
     mpm_report report;
     mpm_ledger ledger;
+    double phase_seconds[MPM_PHASES];
     uint64_t scene_key; /* of everything that determines a scene */
     mpm_wake wake;
     size_t wake_capacity;

@@ -6,7 +6,8 @@
  * block of the same number of points, one body and one field, sheared so that it yields.  Each line: median, least and
  * largest of the repetitions, each a run of so many steps of one solver that goes on.  Nothing is judged here: what is
  * printed holds for this machine and whatever else ran on it.  `cpu` is the least processor time of all threads together:
- * beside a busy neighbour it says more than the wall.  --only leaves out what lacks the word: a scene's name, an instruction
+ * beside a busy neighbour it says more than the wall; so do the phases, the least of each over the repetitions, best with one
+ * step a repetition.  --only leaves out what lacks the word: a scene's name, an instruction
  * set or a number of threads. */
 #include "mpm/mpm.h"
 #include "mpm/shape.h"
@@ -18,7 +19,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { MAX_REPETITIONS = 25 };
+enum { MAX_REPETITIONS = 1000 };
 
 enum { MAX_ONLY = 8 };
 
@@ -143,9 +144,11 @@ static double measure(const char *name, const mpm_scene *base, const char *set, 
     snprintf(s.instruction_set, sizeof s.instruction_set, "%s", set);
     mpm *m;
     if (mpm_create(&s, threads, &m).code != STATUS_OK) return 0;
-    double ns[MAX_REPETITIONS], cpu = HUGE_VAL;
+    double ns[MAX_REPETITIONS], cpu = HUGE_VAL, seconds[MPM_PHASES], phase[MPM_PHASES];
+    for (int p = 0; p < MPM_PHASES; p++) phase[p] = HUGE_VAL;
     mpm_report before = mpm_state(m);
     for (int r = -1; r < o->repetitions; r++) { /* the first warms up */
+        for (int p = 0; p < MPM_PHASES; p++) seconds[p] = mpm_phase_seconds(m, p);
         const double start = omp_get_wtime(), start_cpu = processor_time();
         const uint64_t until = before.steps + (uint64_t)o->steps;
         mpm_report now = before;
@@ -155,11 +158,14 @@ static double measure(const char *name, const mpm_scene *base, const char *set, 
         }
         const double each = 1e9 / (double)(now.particle_steps - before.particle_steps);
         if (r >= 0) ns[r] = (omp_get_wtime() - start) * each, cpu = fmin(cpu, (processor_time() - start_cpu) * each);
+        for (int p = 0; p < MPM_PHASES; p++) phase[p] = fmin(phase[p], (mpm_phase_seconds(m, p) - seconds[p]) * each);
         before = now;
     }
     qsort(ns, (size_t)o->repetitions, sizeof *ns, ascending);
-    printf("%-8s  %-10s  %7d  %9zu  %8.1f  %8.1f  %8.1f  %8.1f\n", name, set, threads, mpm_particles(m),
+    printf("%-8s  %-10s  %7d  %9zu  %8.1f  %8.1f  %8.1f  %8.1f ", name, set, threads, mpm_particles(m),
            ns[o->repetitions / 2], ns[0], ns[o->repetitions - 1], cpu);
+    for (int p = 0; p < MPM_PHASES; p++) printf(" %6.1f", phase[p]);
+    printf("\n");
     fflush(stdout);
     mpm_free(m);
     return ns[0];
