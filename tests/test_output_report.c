@@ -5,6 +5,8 @@
 #include "coupling/io/outdir.h"
 #include "coupling/io/report.h"
 
+#include <cJSON.h>
+
 enum { SAMPLES = 4000, MAP_X = 120, MAP_Z = 40 };
 
 static void write_shot(history *h)
@@ -162,6 +164,174 @@ static void onset_page_shows_everything(void **state)
     free(text);
 }
 
+/* ---- what a population's study and a comparison add, put into the summary as they write it ---- */
+
+static void add_to_summary(const char *dir, const char *const (*more)[2], int n)
+{
+    char path[200], *text;
+    snprintf(path, sizeof path, "%s/summary.json", dir);
+    OK(file_read(path, &text, NULL));
+    cJSON *root = cJSON_Parse(text);
+    free(text);
+    for (int i = 0; i < n; i++) {
+        cJSON_DeleteItemFromObjectCaseSensitive(root, more[i][0]);
+        cJSON *value = cJSON_Parse(more[i][1]);
+        assert_non_null(value);
+        cJSON_AddItemToObject(root, more[i][0], value);
+    }
+    text = cJSON_Print(root);
+    OK(file_write(path, text, strlen(text)));
+    free(text);
+    cJSON_Delete(root);
+}
+
+static void write_study(const char *dir)
+{
+    static const char *const more[][2] = {
+        { "surface", "[{\"family\":1,\"shape\":\"hemisphere\",\"material\":\"sand <x>\",\"radius\":1e-4,\"grains\":2.5,"
+                     "\"threshold_velocity\":1900,\"threshold_interval\":[1850,null],\"scenes\":1},"
+                     "{\"family\":1,\"shape\":\"hemisphere\",\"material\":\"sand\",\"radius\":2e-4,\"grains\":1,"
+                     "\"threshold_velocity\":1700,\"threshold_interval\":[1650,1750],\"scenes\":2},"
+                     "{\"family\":1,\"shape\":\"hemisphere\",\"material\":\"sand\",\"radius\":4e-4,\"grains\":1,"
+                     "\"threshold_velocity\":null,\"threshold_interval\":null,\"scenes\":0}]" },
+        { "skips", "[{\"rests_on\":\"the screen\",\"scenes\":4}]" },
+        { "sensitivities", "[{\"input\":\"charge\",\"change\":0.05,\"muzzle_velocity\":2200,\"threshold_position\":1.2,"
+                           "\"expected_gouges\":3.5}]" },
+        { "shots", "[{\"shot\":1,\"probability_gouge\":0.5,\"expected_gouges\":1,\"expected_gouged_volume\":1e-9,"
+                   "\"onset_position\":2.0,\"onset_interval\":[1.5,2.5]}]" },
+    };
+    write_run(dir, RUN_ONSET);
+    add_to_summary(dir, more, sizeof more / sizeof *more);
+}
+
+static void write_comparison(const char *dir)
+{
+    static const char *const more[][2] = {
+        { "ranking",
+          "[{\"surface\":\"hard \\\"skin\\\"\",\"gouges\":1.5,\"gouges_interval\":[1,2.25],\"better_than_next\":0.97,"
+          "\"significant\":true,\"tied\":1,\"threshold_velocity\":1800,\"threshold_interval\":[1750,1850],"
+          "\"onset_position\":2.2,\"gouged_volume\":1e-9,\"layer\":\"none\",\"scenes\":3},"
+          "{\"surface\":\"<as delivered>\",\"gouges\":4,\"gouges_interval\":[3,5],\"better_than_next\":null,"
+          "\"significant\":false,\"tied\":2,\"threshold_velocity\":1500,\"threshold_interval\":[1450,1550],"
+          "\"onset_position\":1.2,\"gouged_volume\":2e-9,\"layer\":\"none\",\"scenes\":5}]" },
+    };
+    write_run(dir, RUN_COMPARE);
+    add_to_summary(dir, more, 1);
+}
+
+static const char *const study_sections[] = { "Along the barrel",
+                                              "The threshold",
+                                              "Scenes that were not needed",
+                                              "What moves the answer",
+                                              "Shot after shot on the same rail",
+                                              "Craters",
+                                              "The shot",
+                                              "Where the energy went",
+                                              "Warnings",
+                                              "Inputs",
+                                              "Versions",
+                                              NULL };
+static const char *const comparison_sections[] = {
+    "Surfaces, best first", "The shot", "Warnings", "Inputs", "Versions", NULL
+};
+
+static void has_sections(const char *text, const char *const *titles)
+{
+    for (int i = 0; titles[i]; i++) {
+        char heading[100];
+        snprintf(heading, sizeof heading, "<h2>%s</h2>", titles[i]);
+        if (count(text, heading) != 1) fail_msg("the page has %d sections `%s`", count(text, heading), titles[i]);
+    }
+}
+
+static void study_pages_have_their_sections(void **state)
+{
+    (void)state;
+    write_study("report");
+    char *text = page_of("report");
+    is_self_contained(text);
+    has_sections(text, study_sections);
+    assert_non_null(strstr(text, "sand &lt;x&gt;"));
+    assert_non_null(strstr(text, "1650 to 1750"));
+    assert_int_equal(file_exists("report/plot-surface.svg"), has_gnuplot());
+    free(text);
+    write_comparison("report");
+    text = page_of("report");
+    is_self_contained(text);
+    has_sections(text, comparison_sections);
+    assert_non_null(strstr(text, "1 to 2.25"));
+    assert_int_equal(file_exists("report/plot-ranking.svg"), has_gnuplot());
+    assert_int_equal(count(text, "class=\"missing\""), has_gnuplot() ? 0 : 1);
+    free(text);
+}
+
+/* ---- a real browser ---- */
+
+#define BROWSER                                                                      \
+    "chromium --headless --no-sandbox --disable-gpu --allow-file-access-from-files " \
+    "--user-data-dir=\"$PWD/browser\" --virtual-time-budget=4000 --enable-logging=stderr --v=0 "
+
+/* A frame of a phone's width around the page; its title says how wide the page wants to be. */
+static void write_frame(const char *path, int width)
+{
+    char text[600];
+    const int n = snprintf(text, sizeof text,
+                           "<iframe id=\"f\" src=\"report/report.html\" width=\"%d\" height=\"800\" "
+                           "style=\"border:0\"></iframe><script>onload=function(){var d=document.getElementById('f')"
+                           ".contentDocument;document.title='wide '+d.documentElement.scrollWidth+' of "
+                           "'+d.documentElement.clientWidth+', plots '"
+                           "+d.querySelectorAll('svg').length}</script>",
+                           width);
+    OK(file_write(path, text, (size_t)n));
+}
+
+static char *browser_says(const char *arguments)
+{
+    char command[600], *text;
+    snprintf(command, sizeof command, "rm -rf browser; timeout 120 " BROWSER "%s >dom.html 2>console.txt", arguments);
+    assert_int_equal(system(command), 0);
+    OK(file_read("console.txt", &text, NULL));
+    if (strstr(text, "CONSOLE")) fail_msg("the console: %s", strstr(text, "CONSOLE"));
+    free(text);
+    OK(file_read("dom.html", &text, NULL));
+    return text;
+}
+
+static void browser_shows(const char *const *sections)
+{
+    char *text = browser_says("--dump-dom \"file://$PWD/report/report.html\"");
+    int wide = 0, room = -1, plots = -1;
+    has_sections(text, sections);
+    const int drawn = count(text, "<svg");
+    free(text);
+    write_frame("phone.html", 360);
+    text = browser_says("--dump-dom \"file://$PWD/phone.html\"");
+    const char *title = strstr(text, "wide ");
+    if (!title || sscanf(title, "wide %d of %d, plots %d", &wide, &room, &plots) != 3)
+        fail_msg("no answer: %.300s", text);
+    free(text);
+    assert_true(room > 300 && wide <= room); /* nothing sticks out; wide tables scroll by themselves */
+    assert_int_equal(plots, drawn);
+    free(browser_says("--print-to-pdf=report.pdf \"file://$PWD/report/report.html\""));
+    assert_true(file_exists("report.pdf"));
+}
+
+static void a_browser_reads_it(void **state)
+{
+    (void)state;
+    if (!full_tests()) skip();
+    if (system("command -v chromium > /dev/null") != 0) {
+        print_message("chromium is not installed\n");
+        skip();
+    }
+    write_study("report");
+    free(page_of("report"));
+    browser_shows(study_sections);
+    write_comparison("report");
+    free(page_of("report"));
+    browser_shows(comparison_sections);
+}
+
 /* Written again it is the same page: nothing but the directory's files goes into it. */
 static void same_files_same_page(void **state)
 {
@@ -220,7 +390,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(page_for_every_kind),       cmocka_unit_test(onset_page_shows_everything),
-        cmocka_unit_test(same_files_same_page),      cmocka_unit_test(without_gnuplot_it_says_so),
+        cmocka_unit_test(same_files_same_page),      cmocka_unit_test(study_pages_have_their_sections),
+        cmocka_unit_test(a_browser_reads_it),        cmocka_unit_test(without_gnuplot_it_says_so),
         cmocka_unit_test(failed_run_has_a_page_too), cmocka_unit_test(what_is_no_run_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -224,6 +224,33 @@ static void test_scene(void **state)
     cJSON_Delete(b);
 }
 
+/* The Python reader and the ParaView script of coupling/tools, on what test_scene left. */
+static void test_reader(void **state)
+{
+    (void)state;
+    run_script("read_run.py", BREECH_TESTS "/../coupling/tools scene/a scene");
+}
+
+static void test_paraview_crater(void **state)
+{
+    (void)state;
+    if (!full_tests()) skip();
+    if (system("command -v pvbatch xvfb-run > /dev/null") != 0) {
+        print_message("paraview or xvfb is not installed\n");
+        skip();
+    }
+    assert_int_equal(system("xvfb-run -a pvbatch '" BREECH_TESTS "/../coupling/tools/paraview_crater.py' "
+                            "scene/a/scenes/scene/scene.hdf.series scene/crater.png damage >out.txt 2>err.txt"),
+                     0);
+    int points = 0;
+    FILE *f = fopen("out.txt", "r");
+    assert_non_null(f);
+    while (!feof(f) && fscanf(f, "points of the rail: %d", &points) != 1) fgetc(f);
+    fclose(f);
+    assert_true(points > 1000);
+    assert_true(exists("scene/crater.png"));
+}
+
 /* Starts it, waits until it works on the scene, ends it with the signal; its exit code. */
 static int signalled(const char *arguments, int number_of_signal, double after)
 {
@@ -328,6 +355,8 @@ int main(void)
         cmocka_unit_test(test_shot),
         cmocka_unit_test(test_inductance),
         cmocka_unit_test(test_scene),
+        cmocka_unit_test(test_reader),
+        cmocka_unit_test(test_paraview_crater),
         cmocka_unit_test(test_stop_and_resume),
         cmocka_unit_test(test_max_walltime),
         cmocka_unit_test(test_failed),

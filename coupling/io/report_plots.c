@@ -1,20 +1,8 @@
-#include "coupling/io/report_plots.h"
+#include "coupling/io/report_gnuplot.h"
 
-#include "coupling/io/outdir.h"
-
-#include <ctype.h>
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
-#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-enum { MAX_POINTS = 1500 };
-
-extern char **environ;
 
 /* ---- what the summary says ---- */
 
@@ -34,92 +22,6 @@ const char *report_text(const cJSON *object, const char *key)
 {
     const char *text = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(object, key));
     return text ? text : "";
-}
-
-static const struct {
-    const char *outcome, *colour;
-} colours[] = { { "gouge", "#c0392b" },     { "scratch", "#d99a00" }, { "none", "#3d8b4f" },
-                { "undecided", "#7b5ea7" }, { "skipped", "#8fb8dc" }, { "not_reached", "#b0b0b0" } };
-enum { OUTCOMES = sizeof colours / sizeof *colours };
-
-const char *report_colour(const char *outcome)
-{
-    for (int i = 0; i < OUTCOMES; i++)
-        if (strcmp(colours[i].outcome, outcome) == 0) return colours[i].colour;
-    return "#555555";
-}
-
-/* ---- gnuplot: a script file in, an SVG file out, no shell ---- */
-
-static int run_gnuplot(const char *script, const char *svg)
-{
-    posix_spawn_file_actions_t files;
-    if (posix_spawn_file_actions_init(&files) != 0) return ENOMEM;
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, script, O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, svg, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    char name[] = "gnuplot", quiet[] = "-d";
-    char *const argv[] = { name, quiet, NULL };
-    pid_t child;
-    int error = posix_spawnp(&child, "gnuplot", &files, NULL, argv, environ), result = 0;
-    posix_spawn_file_actions_destroy(&files);
-    if (error) return error;
-    while (waitpid(child, &result, 0) < 0)
-        if (errno != EINTR) return errno;
-    if (WIFEXITED(result) && WEXITSTATUS(result) == 0) return 0;
-    return WIFEXITED(result) && WEXITSTATUS(result) == 127 ? ENOENT : EIO;
-}
-
-bool gnuplot_exists(void)
-{
-    return run_gnuplot("/dev/null", "/dev/null") == 0;
-}
-
-typedef struct {
-    FILE *script;
-    char script_path[OUTDIR_PATH_SIZE], part[OUTDIR_PATH_SIZE], svg[OUTDIR_PATH_SIZE];
-} plot;
-
-static status plot_begin(plot *p, const report_source *r, const char *name, int width, int height)
-{
-    const int n = snprintf(p->svg, sizeof p->svg, "%.900s/plot-%.80s.svg", r->dir, name);
-    CHECK(n > 0 && n < OUTDIR_PATH_SIZE - 16, STATUS_IO, "%.300s: path too long", r->dir);
-    snprintf(p->part, sizeof p->part, "%.1000s.part", p->svg);
-    snprintf(p->script_path, sizeof p->script_path, "%.1000s.gp.part", p->svg);
-    p->script = fopen(p->script_path, "w");
-    CHECK(p->script, STATUS_IO, "%.300s: cannot be written: %s", p->script_path, strerror(errno));
-    char id[100]; /* gnuplot wants an identifier */
-    snprintf(id, sizeof id, "plot_%s", name);
-    for (char *c = id; *c; c++)
-        if (!isalnum((unsigned char)*c)) *c = '_';
-    fprintf(p->script,
-            "set encoding utf8\nset terminal svg size %d,%d dynamic noenhanced font 'sans-serif,13' name '%s'\n", width,
-            height, id);
-    fputs("set border 3 lc rgb '#666666'\nset tics nomirror textcolor rgb '#333333'\nset grid lc rgb '#e4e4e4' lw 1\n"
-          "set key outside top center horizontal samplen 1.5 spacing 1.1\nset datafile missing 'nan'\n",
-          p->script);
-    return status_ok();
-}
-
-static status plot_end(plot *p)
-{
-    const bool written = !ferror(p->script);
-    const bool closed = fclose(p->script) == 0;
-    const int error = written && closed ? run_gnuplot(p->script_path, p->part) : EIO;
-    unlink(p->script_path);
-    if (!error && rename(p->part, p->svg) == 0) return status_ok();
-    unlink(p->part);
-    return status_error(STATUS_IO, "%.300s: gnuplot could not draw it: %s", p->svg, strerror(error ? error : errno));
-}
-
-/* A named data block of two columns, thinned to what a screen shows; the last point is kept. */
-static void data_block(FILE *script, const char *name, const double *x, const double *y, size_t n)
-{
-    const size_t stride = n / MAX_POINTS + 1;
-    fprintf(script, "$%s << EOD\n", name);
-    for (size_t i = 0; i < n; i += stride) fprintf(script, "%.7g %.7g\n", x[i], y[i]);
-    if (n > 0 && (n - 1) % stride != 0) fprintf(script, "%.7g %.7g\n", x[n - 1], y[n - 1]);
-    fputs("EOD\n", script);
 }
 
 /* Two columns of a group, of equal length; frees nothing on failure.  n = 0 where they are missing. */
@@ -201,7 +103,7 @@ static bool time_block(FILE *script, const report_source *r, const char *path, c
     for (size_t i = 0; i < c.n; i++) some = some || c.y[i] != 0.0;
     scale(c.x, c.n, 1e-3);
     scale(c.y, c.n, unit);
-    if (some) data_block(script, block, c.x, c.y, c.n);
+    if (some) plot_data(script, block, c.x, c.y, c.n);
     curve_free(&c);
     return some;
 }
@@ -262,54 +164,6 @@ status plot_shot(const report_source *r, bool *drawn)
     return status_ok();
 }
 
-/* Points of a list of objects, a data block an outcome; returns how many were written. */
-typedef struct {
-    const char *list, *outcome_key, *x, *y;
-} point_source;
-
-static int outcome_blocks(FILE *script, const report_source *r, const point_source *from, bool used[OUTCOMES])
-{
-    int total = 0;
-    for (int o = 0; o < OUTCOMES; o++) {
-        used[o] = false;
-        fprintf(script, "$%s << EOD\n", colours[o].outcome);
-        const cJSON *item;
-        cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(r->summary, from->list))
-        {
-            const double x = report_number(item, from->x), y = report_number(item, from->y);
-            if (strcmp(report_text(item, from->outcome_key), colours[o].outcome) != 0 || isnan(x) || isnan(y)) continue;
-            fprintf(script, "%.7g %.7g\n", x, y);
-            used[o] = true;
-            total++;
-        }
-        fputs("EOD\n", script);
-    }
-    return total;
-}
-
-static void plot_outcomes(FILE *script, const bool used[OUTCOMES], bool first)
-{
-    for (int o = 0; o < OUTCOMES; o++) {
-        if (!used[o]) continue;
-        fprintf(script, "%s$%s with points pt 7 ps 0.9 lc rgb '%s' title '%s'", first ? "" : ", ", colours[o].outcome,
-                colours[o].colour, colours[o].outcome);
-        first = false;
-    }
-    fputc('\n', script);
-}
-
-/* A shaded interval across the whole plot, along x or along y; none where the interval does not exist. */
-static void band(FILE *script, int object, const cJSON *summary, const char *key, bool along_x)
-{
-    const double lo = report_element(summary, key, 0), hi = report_element(summary, key, 1);
-    if (isnan(lo) || isnan(hi)) return;
-    if (along_x)
-        fprintf(script, "set object %d rectangle from %.7g,graph 0 to %.7g,graph 1", object, lo, hi);
-    else
-        fprintf(script, "set object %d rectangle from graph 0,first %.7g to graph 1,first %.7g", object, lo, hi);
-    fputs(" behind fillstyle solid 0.25 noborder fillcolor rgb '#e58a7f'\n", script);
-}
-
 status plot_barrel(const report_source *r, bool *drawn)
 {
     *drawn = false;
@@ -322,10 +176,10 @@ status plot_barrel(const report_source *r, bool *drawn)
     status s = plot_begin(&p, r, "barrel", 760, 400);
     if (s.code == STATUS_OK) {
         bool used[OUTCOMES];
-        data_block(p.script, "curve", c.x, c.y, c.n);
-        outcome_blocks(p.script, r, &(point_source){ "sites", "outcome", "position", "velocity" }, used);
-        band(p.script, 1, r->summary, "onset_interval", true);
-        band(p.script, 2, r->summary, "threshold_interval", false);
+        plot_data(p.script, "curve", c.x, c.y, c.n);
+        plot_outcome_data(p.script, r, &(point_source){ "sites", "outcome", "position", "velocity", 1.0 }, used);
+        plot_band(p.script, 1, r->summary, "onset_interval", true);
+        plot_band(p.script, 2, r->summary, "threshold_interval", false);
         fputs("set xlabel 'position along the barrel [m]'\nset ylabel 'velocity [m/s]'\n"
               "plot $curve with lines lw 2 lc rgb '#1f5fa8' title 'armature'",
               p.script);
@@ -348,8 +202,8 @@ status plot_threshold(const report_source *r, bool *drawn)
     plot p;
     TRY(plot_begin(&p, r, "threshold", 760, 380));
     bool used[OUTCOMES];
-    outcome_blocks(p.script, r, &(point_source){ "scenes", "class", "velocity", "severity" }, used);
-    band(p.script, 1, r->summary, "threshold_interval", true);
+    plot_outcome_data(p.script, r, &(point_source){ "scenes", "class", "velocity", "severity", 1.0 }, used);
+    plot_band(p.script, 1, r->summary, "threshold_interval", true);
     fputs("set xlabel 'velocity [m/s]'\nset ylabel 'severity [1]'\nset offsets graph 0.05, graph 0.05, graph 0.1, "
           "graph 0.1\n"
           "plot 0 with lines lw 1.5 dt 2 lc rgb '#555555' title 'growth sets in'",
@@ -420,7 +274,7 @@ static status draw_profile(const report_source *r, const char *scene, const curv
     snprintf(name, sizeof name, "profile-%.120s", scene);
     plot p;
     TRY(plot_begin(&p, r, name, 640, 240));
-    data_block(p.script, "curve", c->x, c->y, c->n);
+    plot_data(p.script, "curve", c->x, c->y, c->n);
     fputs("unset key\nset xlabel 'along the rail [mm]'\nset ylabel 'height [mm]'\n"
           "set offsets graph 0, graph 0, graph 0.1, graph 0.1\n"
           "plot 0 with lines lw 1 dt 2 lc rgb '#888888', $curve with lines lw 2 lc rgb '#7a4a1e'\n",

@@ -34,6 +34,9 @@ const char *report_colour(const char *outcome);
 status plot_shot(const report_source *r, bool *drawn); /* one page of everything over time */
 status plot_barrel(const report_source *r, bool *drawn);
 status plot_threshold(const report_source *r, bool *drawn);
+/* Threshold velocity over size, with the scenes; the ranking of surfaces with its intervals. */
+status plot_surface(const report_source *r, bool *drawn);
+status plot_ranking(const report_source *r, bool *drawn);
 status plot_inductance(const report_source *r, bool *drawn);
 status plot_perimeter(const report_source *r, bool *drawn);
 status plot_crater_profile(const report_source *r, const char *scene, bool *drawn);

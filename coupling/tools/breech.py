@@ -1,0 +1,134 @@
+"""Reads what Breech wrote: an output directory, a scene store.  Needs h5py and numpy (Debian: python3-h5py).
+
+    import breech
+    run = breech.Run("out/default_shot")
+    run.summary["muzzle_velocity"]             # summary.json as it is
+    run.shot["velocity"], run.shot.units["velocity"]
+    for name in run.scenes:                    # time series and crater of every scene
+        print(name, run.scene(name)["peak_pressure"].max(), run.crater(name).depth.max())
+    for time, points in run.snapshots(name):   # material points: points["position"], points["damage"], ...
+        ...
+    for scene in breech.store("out/default_shot/store"):
+        print(scene.key, scene.outcome["class"], scene.case.splitlines()[1])
+
+    python3 breech.py DIR                      # what is in an output directory, in a few lines
+
+All numbers are in SI units.  Whoever reads while a run goes on gets the last complete state.
+"""
+import json
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+
+def _text(value):
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+class Columns(dict):
+    """The one-dimensional datasets of a group as arrays, with .units and .descriptions by name."""
+
+    def __init__(self, group):
+        sets = {name: item for name, item in group.items() if isinstance(item, h5py.Dataset) and item.ndim == 1}
+        super().__init__({name: item[()] for name, item in sets.items()})
+        self.units = {name: _text(item.attrs.get("units", "")) for name, item in sets.items()}
+        self.descriptions = {name: _text(item.attrs.get("description", "")) for name, item in sets.items()}
+
+
+class Crater:
+    """depth[i, k] [m] below the undamaged surface at x[i], z[k] [m], the rim negative; numbers: length_m, severity, ..."""
+
+    def __init__(self, group):
+        self.x, self.z, self.depth = (group[name][()] for name in ("x", "z", "depth"))
+        self.numbers = {name: float(value) for name, value in group.attrs.items() if not isinstance(value, bytes)}
+        self.texts = {name: _text(value) for name, value in group.attrs.items() if isinstance(value, bytes)}
+
+    def profile(self):
+        """Height along the middle, the two rows beside z = 0 averaged [m]."""
+        n = self.depth.shape[1]
+        return -0.5 * (self.depth[:, (n - 1) // 2] + self.depth[:, n // 2])
+
+
+class Run:
+    """An output directory."""
+
+    def __init__(self, directory):
+        self.directory = Path(directory)
+        self.summary = json.loads((self.directory / "summary.json").read_text())
+
+    def _columns(self, group):
+        with h5py.File(self.directory / "history.h5", "r") as f:
+            return Columns(f[group])
+
+    @property
+    def shot(self):
+        return self._columns("/shot")
+
+    @property
+    def events(self):
+        return self._columns("/shot/events")
+
+    @property
+    def scenes(self):
+        with h5py.File(self.directory / "history.h5", "r") as f:
+            return list(f.get("scene", {}))
+
+    def scene(self, name):
+        return self._columns(f"/scene/{name}")
+
+    def crater(self, name):
+        with h5py.File(self.directory / "history.h5", "r") as f:
+            return Crater(f[f"/scene/{name}/crater"])
+
+    def snapshots(self, name):
+        """(time, points) of every snapshot, one after the other: points is a dict of arrays by name."""
+        folder = self.directory / "scenes" / name
+        index = folder / "scene.hdf.series"
+        for entry in json.loads(index.read_text())["files"] if index.exists() else []:
+            yield entry["time"], snapshot(folder / entry["name"])
+
+
+def snapshot(path):
+    """The material points of one snapshot file."""
+    with h5py.File(path, "r") as f:
+        root = f["VTKHDF"]
+        return {"position": root["Points"][()], **{name: item[()] for name, item in root["PointData"].items()}}
+
+
+class StoredScene:
+    """A file of a scene store: key, case (a case file of this scene), outcome (as in summary.json), columns, crater."""
+
+    def __init__(self, path):
+        self.path, self.key = Path(path), Path(path).stem
+        with h5py.File(path, "r") as f:
+            self.version, self.instruction_set, self.case = (
+                _text(f.attrs[name]) for name in ("version", "instruction_set", "case"))
+            self.outcome = json.loads(_text(f.attrs["outcome"]))
+            self.impulse, self.mass_loss = float(f.attrs["impulse_N_s"]), float(f.attrs["mass_loss_kg"])
+            self.columns = Columns(f["scene"]) if "scene" in f else None
+            self.crater = Crater(f["scene/crater"]) if "scene/crater" in f else None
+
+
+def store(directory):
+    """Every scene of a store, by key."""
+    return [StoredScene(path) for path in sorted(Path(directory).glob("*.h5"))]
+
+
+def describe(directory):
+    run = Run(directory)
+    shown = {name: value for name, value in run.summary.items() if not isinstance(value, (list, dict))}
+    width = max(map(len, shown))
+    for name, value in shown.items():
+        print(f"{name:{width}}  {value}")
+    for name in run.scenes:
+        crater = run.crater(name)
+        print(f"scene {name}: {crater.texts['class']}, depth {1e3 * np.max(crater.depth):.3f} mm, "
+              f"{len(run.scene(name)['time'])} rows, {sum(1 for _ in run.snapshots(name))} snapshots")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("usage: breech.py DIR")
+    describe(sys.argv[1])
