@@ -227,6 +227,18 @@ static void test_refusals(void **state)
     assert_int_equal(s.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(s.text, "treatment `flat`"));
     case_free(c);
+    /* a layer of its own field needs a cell; welded it is a film */
+    for (int welded = 0; welded < 2; welded++) {
+        char text[4000];
+        snprintf(text, sizeof text,
+                 HEAD GRAINS "treatments: [{name: thin, coating: [{material: steel_4340, thickness: 20 um%s}]}]\n",
+                 welded ? "" : ", bond_strength: 100 MPa");
+        c = read(text, ALL);
+        const status thin = command_possible(c, ALL);
+        assert_int_equal(thin.code, welded ? STATUS_OK : STATUS_BAD_INPUT);
+        if (!welded) assert_non_null(strstr(thin.text, "at least one cell across"));
+        case_free(c);
+    }
 }
 
 /* Every preset fills what is not given and makes scenes; what is given stays. */

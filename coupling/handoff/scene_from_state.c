@@ -110,6 +110,20 @@ static status check_layout(const breech_case *c, const case_site *g, const layou
     return status_ok();
 }
 
+/* A layer that may come off touches what lies below it: a body of less than a cell cannot. */
+static status check_layers(const breech_case *c, const case_site *g, const layout *l)
+{
+    for (int i = 0; i < c->rail.layers.n; i++) {
+        const case_layer *layer = &c->rail.layers.item[i];
+        CHECK(
+            isnan(layer->bond_strength) || layer->thickness >= l->fine * (1.0 - 1e-9), STATUS_BAD_INPUT,
+            "rail.layers[%d]: %g m of %s with a bond of its own, in cells of %g m: at least one cell across; take %.3g "
+            "cells a radius, or weld it (bond_strength: none)",
+            i, layer->thickness, layer->material, l->fine, g->radius / layer->thickness);
+    }
+    return status_ok();
+}
+
 /* ---- bodies ---- */
 
 static mpm_body *add_body(mpm_scene *s, const char *name, const material *m, int field)
@@ -371,6 +385,7 @@ status scene_bodies(const breech_case *c, const site_state *state, double cells_
           "scene: the armature's velocity is %g m/s: must be positive", state->velocity);
     const layout l = lay_out(c, &state->grain, cells_per_radius);
     TRY(check_layout(c, &state->grain, &l));
+    TRY(check_layers(c, &state->grain, &l));
     mpm_scene_default(out);
     TRY(add_bodies(c, state, &l, out));
     set_contacts(c, out);

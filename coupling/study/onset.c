@@ -277,6 +277,21 @@ static status list_surface(onset_answer *a)
     return status_ok();
 }
 
+/* A layer thinner than a cell is a film (docs/onset.md). */
+static void warn_of_films(session *s, const onset_answer *a)
+{
+    const breech_case *c = a->grains.c;
+    for (int k = 0; k < a->grains.n; k++) {
+        const surface_plan *p = &a->grains.family[k].plan;
+        const double cell = p->size[p->reference] / p->search.fine;
+        for (int i = 0; i < c->rail.layers.n; i++)
+            if (c->rail.layers.item[i].thickness < cell)
+                session_warn(s, "%srail.layers[%d]: %g um of %s in cells of %g um: a film, strained as its cell is",
+                             a->grains.prefix, i, 1e6 * c->rail.layers.item[i].thickness,
+                             c->rail.layers.item[i].material, 1e6 * cell);
+    }
+}
+
 static void warn_of_thresholds(session *s, const onset_answer *a)
 {
     const case_study *y = &a->grains.c->study;
@@ -294,6 +309,7 @@ static void warn_of_thresholds(session *s, const onset_answer *a)
 status onset_judge(session *s, onset_answer *a)
 {
     warn_of_thresholds(s, a);
+    warn_of_films(s, a);
     judge_sites(a);
     conclude_list(a);
     set_threshold(a);
