@@ -31,18 +31,51 @@ double rails_force_gradient(const rails_load *r, double v)
     return L;
 }
 
+/* So little action says nothing of a temperature yet [A^2 s m]: some microseconds of a pulse. */
+static const double LEAST_ACTION = 1.0;
+
+int rails_memory_size(const rails_load *r)
+{
+    return 2 * r->ladder.n + (r->heat_capacity > 0.0 ? 3 : 0);
+}
+
+void rails_memory_scale(const rails_load *r, double x, double I, double E, double *scale)
+{
+    static const double LONG_PULSE = 1e-3; /* [s] */
+    const int n = 2 * r->ladder.n;
+    for (int k = 0; k < n; k += 2) {
+        scale[k] = x * I;
+        scale[k + 1] = x * I * I;
+    }
+    if (r->heat_capacity <= 0.0) return;
+    scale[n] = scale[n + 1] = E;
+    scale[n + 2] = x * I * I * LONG_PULSE;
+}
+
+double rails_memory_rise(const rails_load *r, double x, const double *memory)
+{
+    const double *heat = memory + 2 * r->ladder.n, E = heat[0], E_c = heat[1], G = fmax(heat[2], 0.0);
+    return x > 0.0 ? E * E_c / (r->ladder.R_dc * r->heat_capacity * x * (G + LEAST_ACTION)) : 0.0;
+}
+
+double rails_warming(const rails_load *r, double x, const double *memory)
+{
+    return r->heat_capacity > 0.0 ? 1.0 + r->coefficient * rails_memory_rise(r, x, memory) : 1.0;
+}
+
 rails_flow rails_flow_at(const rails_load *r, double x, double v, double I, const double *memory)
 {
     const ladder *l = &r->ladder;
+    const double warm = rails_warming(r, x, memory), R_dc = warm * l->R_dc;
     rails_flow f = { .inductance = l->L_inf * x,
-                     .voltage = (l->L_inf * v + l->R_dc * x) * I,
-                     .heat = l->R_dc * x * I * I,
+                     .voltage = (l->L_inf * v + R_dc * x) * I,
+                     .heat = R_dc * x * I * I,
                      .field = 0.5 * l->L_inf * x * I * I };
     for (int k = 0; k < l->n; k++) {
         const double Q = memory[2 * k], W = memory[2 * k + 1], theta = theta_of(r, k, v);
         const double a = rails_share_at_birth(theta), under = a * (2.0 - a) - rails_share_of_force(theta);
-        f.voltage += l->R[k] * (x * I - Q) + l->L[k] * v * a * I;
-        f.heat += l->R[k] * (x * I * I - 2.0 * I * Q + W) + 0.5 * l->L[k] * v * under * I * I;
+        f.voltage += warm * l->R[k] * (x * I - Q) + l->L[k] * v * a * I;
+        f.heat += warm * l->R[k] * (x * I * I - 2.0 * I * Q + W) + 0.5 * l->L[k] * v * under * I * I;
         f.field += 0.5 * l->L[k] * W;
     }
     return f;
@@ -50,10 +83,16 @@ rails_flow rails_flow_at(const rails_load *r, double x, double v, double I, cons
 
 void rails_memory_rates(const rails_load *r, double x, double v, double I, const double *memory, double *rates)
 {
-    for (int k = 0; k < r->ladder.n; k++) {
-        const double Q = memory[2 * k], W = memory[2 * k + 1], frequency = r->ladder.R[k] / r->ladder.L[k];
+    const int n = r->ladder.n;
+    const double warm = rails_warming(r, x, memory);
+    for (int k = 0; k < n; k++) {
+        const double Q = memory[2 * k], W = memory[2 * k + 1], frequency = warm * r->ladder.R[k] / r->ladder.L[k];
         const double born = rails_share_at_birth(theta_of(r, k, v)) * I;
         rates[2 * k] = frequency * (x * I - Q) + v * born;
         rates[2 * k + 1] = 2.0 * frequency * (I * Q - W) + v * born * born;
     }
+    if (r->heat_capacity <= 0.0) return;
+    rates[2 * n] = rails_flow_at(r, x, v, I, memory).heat;
+    rates[2 * n + 1] = rates[2 * n] / warm;
+    rates[2 * n + 2] = x * I * I;
 }

@@ -26,6 +26,19 @@ double section_back(const rail_section *s, double y)
     return 0.5 * s->separation + s->thickness - arc(s->height, s->back_crown, y);
 }
 
+/* Below an arc of radius r, from its apex to the chord h. */
+static double lost_area(double h, double c)
+{
+    if (c <= 0.0) return 0.0;
+    const double r = radius(h, c), half = asin(fmin(0.5 * h / r, 1.0));
+    return h * c - r * r * (half - 0.5 * sin(2.0 * half));
+}
+
+double section_metal_area(const rail_section *s)
+{
+    return s->height * s->thickness - lost_area(s->height, s->face_crown) - lost_area(s->height, s->back_crown);
+}
+
 status section_check(const rail_section *s)
 {
     const double h = s->height, w = s->thickness, edge = w - s->face_crown - s->back_crown;

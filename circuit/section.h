@@ -31,6 +31,7 @@ status section_check(const rail_section *s); /* STATUS_BAD_INPUT names the key, 
 
 double section_face(const rail_section *s, double y); /* x of the bore face at |y| <= h/2 [m] */
 double section_back(const rail_section *s, double y);
+double section_metal_area(const rail_section *s); /* of one rail [m^2] */
 
 /* Lines y[0] = h/2 > y[1] > .. > y[n] = 0 across a face: rows grow from `first` [m] by `growth`, and span no more than `step`
  * radians of the more curved face's arc.  Returns n; `y` must hold n + 1 <= SECTION_MAX_ROWS + 1.  More than that: 0. */

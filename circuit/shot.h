@@ -47,6 +47,8 @@ typedef struct {
     double ladder_error;            /* level diffusing: largest error of the ladder over its band [1] */
     double ladder_frequency;        /* level diffusing: top of that band [Hz]; NAN = equation (C-13) */
     double fineness;                /* filaments over the skin depth [1] */
+    int slices;                     /* of the barrel, with a temperature and resistance of their own; 0 = none */
+    double heat_capacity;           /* of the metal, for the slices [J/m^3/K] */
 } shot_rails;
 
 typedef struct {

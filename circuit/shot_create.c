@@ -71,8 +71,8 @@ static status feed_at(shot_model *m, double position)
     int f = 0;
     while (f < m->feeds && m->feed[f] < position) f++;
     if (f < m->feeds && m->feed[f] == position) return status_ok();
-    CHECK(m->feeds < SHOT_MAX_FEEDS, STATUS_BAD_INPUT, "supplies join the rails at more than %d positions",
-          SHOT_MAX_FEEDS);
+    CHECK(m->feeds < SHOT_MAX_FEEDS, STATUS_BAD_INPUT,
+          "supplies join the rails, and rails.slices end, at more than %d positions", SHOT_MAX_FEEDS);
     memmove(m->feed + f + 1, m->feed + f, (size_t)(m->feeds - f) * sizeof *m->feed);
     m->feed[f] = position;
     m->feeds++;
@@ -104,6 +104,7 @@ static status groups_fill(shot *s, const shot_config *c)
             TRY(feed_at(m, g->at.position));
         }
     }
+    for (int k = 1; k < c->rails.slices; k++) TRY(feed_at(m, k * c->barrel.length / c->rails.slices));
     for (int k = 0; k < m->n; k++) {
         while (m->feed[m->groups[k].feed] != m->groups[k].at.position) m->groups[k].feed++;
     }
@@ -155,11 +156,9 @@ static void scales_fill(shot *s)
     z[Y_MASS] = m->armature.mass;
     z[Y_SHUNT] = I;
     z[Y_ACTION] = 1e-3 * I * I;
-    double *memory = z + Y_COUNT + m->feeds - 1;
-    for (int k = 0; k < m->feeds * m->rails.ladder.n; k++) {
-        memory[2 * k] = m->barrel.length * I;
-        memory[2 * k + 1] = m->barrel.length * I * I;
-    }
+    const int first = Y_COUNT + m->feeds - 1, size = rails_memory_size(&m->rails);
+    for (int f = 0; f < m->feeds; f++)
+        rails_memory_scale(&m->rails, m->barrel.length, I, z[Y_RAILS], z + first + f * size);
 }
 
 static int by_position(const void *a, const void *b)

@@ -6,11 +6,11 @@
 /* Held armatures are released once the force exceeds static friction by this [N]: a located root needs a sign change. */
 static const double RELEASE_MARGIN = 1e-3;
 
-enum { TAIL_MAX = Y_COUNT + SHOT_MAX_FEEDS * (1 + 2 * LADDER_MAX_RUNGS) };
+enum { TAIL_MAX = Y_COUNT + SHOT_MAX_FEEDS * (4 + 2 * LADDER_MAX_RUNGS) };
 
 static int tail_size(const shot_model *m)
 {
-    return Y_COUNT + m->feeds - 1 + 2 * m->feeds * m->rails.ladder.n;
+    return Y_COUNT + m->feeds - 1 + m->feeds * rails_memory_size(&m->rails);
 }
 
 int shot_unknowns(const shot_model *m)
@@ -25,7 +25,7 @@ int shot_feed_unknown(int feed)
 
 static int memory_unknown(const shot_model *m, int segment)
 {
-    return Y_COUNT + m->feeds - 1 + 2 * segment * m->rails.ladder.n;
+    return Y_COUNT + m->feeds - 1 + segment * rails_memory_size(&m->rails);
 }
 
 /* ---- the groups, summed ---- */
@@ -175,12 +175,16 @@ static double loop_end(const shot_model *m, const double *z)
     return m->phase == SHOT_LEFT ? m->barrel.length : z[Y_X];
 }
 
+static double segment_length(const shot_model *m, int f, const double *z)
+{
+    return (f == m->reached - 1 ? loop_end(m, z) : m->feed[f + 1]) - m->feed[f];
+}
+
 /* Segment f behind the armature: its length, and the speed at which it grows. */
 static rails_flow segment_flow(const shot_model *m, int f, double I, const double *z, double *len, double *v)
 {
-    const bool last = f == m->reached - 1;
-    *len = (last ? loop_end(m, z) : m->feed[f + 1]) - m->feed[f];
-    *v = last && m->phase == SHOT_MOVING ? fmax(z[Y_V], 0.0) : 0.0;
+    *len = segment_length(m, f, z);
+    *v = f == m->reached - 1 && m->phase == SHOT_MOVING ? fmax(z[Y_V], 0.0) : 0.0;
     return rails_flow_at(&m->rails, *len, *v, I, z + memory_unknown(m, f));
 }
 
@@ -397,22 +401,31 @@ static void group_jacobian(const shot_model *m, int k, double t, double cj, cons
     J->b[k * ARROW_BLOCK] = supply_conducts(g) && !supply_algebraic(g, 0) ? f0.pull : 0.0;
 }
 
-/* The rails' memory enters linearly: its columns are known.  I: the segment's current. */
-static void memory_jacobian(const shot_model *m, int segment, double cj, double I, arrow *J)
+/* The rails' memory enters linearly: its columns are known.  I: the segment's current.  A segment's own warming is slow:
+ * only what it does to the resistances now is in the matrix, not how it changes. */
+static void memory_jacobian(const shot_model *m, int segment, double cj, double I, const double *z, arrow *J)
 {
     const ladder *l = &m->rails.ladder;
-    const int n = J->border, V = shot_feed_unknown(segment);
-    for (int k = 0, Q = memory_unknown(m, segment); k < l->n; k++, Q += 2) {
+    const int n = J->border, V = shot_feed_unknown(segment), first = memory_unknown(m, segment);
+    const int heat = first + 2 * l->n, end = first + rails_memory_size(&m->rails);
+    const bool alive = segment < m->reached;
+    const double warm = alive ? rails_warming(&m->rails, segment_length(m, segment, z), z + first) : 1.0;
+    for (int j = heat; j < end; j++) J->E[j * n + j] = cj;
+    for (int k = 0, Q = first; k < l->n; k++, Q += 2) {
         const int W = Q + 1;
-        const double frequency = l->R[k] / l->L[k];
-        const bool alive = segment < m->reached;
+        const double R = warm * l->R[k], frequency = R / l->L[k];
         J->E[Q * n + Q] = cj + (alive ? frequency : 0.0);
         J->E[W * n + W] = cj + (alive ? 2.0 * frequency : 0.0);
         if (!alive) continue;
         J->E[W * n + Q] = -2.0 * frequency * I;
-        J->E[V * n + Q] = l->R[k];
-        J->E[Y_RAILS * n + Q] = 2.0 * l->R[k] * I;
-        J->E[Y_RAILS * n + W] = -l->R[k];
+        J->E[V * n + Q] = R;
+        J->E[Y_RAILS * n + Q] = 2.0 * R * I;
+        J->E[Y_RAILS * n + W] = -R;
+        if (heat == end) continue;
+        J->E[heat * n + Q] = 2.0 * R * I;
+        J->E[heat * n + W] = -R;
+        J->E[(heat + 1) * n + Q] = 2.0 * l->R[k] * I;
+        J->E[(heat + 1) * n + W] = -l->R[k];
     }
 }
 
@@ -432,7 +445,7 @@ static void tail_jacobian(const shot_model *m, double cj, const shot_drive *d, c
         at[j] = z[j];
         for (int i = 0; i < n; i++) J->E[i * n + j] -= (moved[i] - base[i]) / h;
     }
-    for (int f = 0; f < m->feeds; f++) memory_jacobian(m, f, cj, I += d->I[f], J);
+    for (int f = 0; f < m->feeds; f++) memory_jacobian(m, f, cj, I += d->I[f], z, J);
 }
 
 void shot_jacobian(const void *model, double t, double cj, const double *y, arrow *J)

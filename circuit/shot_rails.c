@@ -38,6 +38,9 @@ const param shot_rails_params[] = {
           "largest error of the ladder that stands for the diffusing rails, over its band"),
     RAILS(ladder_frequency, "Hz", OPTIONAL, 1.0, 1e9,
           "top of the ladder's band; from bank energy, armature and contact length if not given"),
+    PARAM_INT(shot_rails, slices, 0, 0, 32,
+              "parts of the barrel whose resistance follows their own temperature; 0: it stays as before the shot"),
+    RAILS(heat_capacity, "J/m^3/K", 3.45e6, 1e5, 1e7, "of the rails' metal, for slices"),
     RAILS(fineness, "1", INDUCTANCE_FINENESS, 1.0, 20.0, "filaments over the skin depth at the highest frequency"),
     PARAMS_END
 };
@@ -138,9 +141,22 @@ static double band_top(const shot_config *c)
     return fmax(f_contact, 10.0 * (isnan(f_pulse) ? 100.0 : f_pulse));
 }
 
+/* The slices' warming (C-16): nothing where none are asked for. */
+static status warming_fit(const shot_rails *rails, rails_load *out)
+{
+    if (rails->slices == 0) return status_ok();
+    rail_section section;
+    TRY(rails_section(rails, &section));
+    out->heat_capacity = rails->heat_capacity * section.rails * section_metal_area(&section);
+    out->coefficient =
+        rails->resistivity_coefficient / (1.0 + rails->resistivity_coefficient * (rails->temperature - 293.15));
+    return status_ok();
+}
+
 status shot_rails_fit(const shot_config *c, rails_load *out)
 {
     out->contact_length = c->armature.contact_length;
+    TRY(warming_fit(&c->rails, out));
     if (c->fitted) {
         out->ladder = *c->fitted;
         return status_ok();

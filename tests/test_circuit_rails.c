@@ -262,6 +262,10 @@ static void surface_currents(void **state)
     assert_near(p.current[0], sqrt(2.0) * exp(-0.125) / depth / 0.04, 0.15);
     assert_true(p.current[0] > 20.0 * p.current[p.n - 1]);
     inductance_surface_free(&p);
+    s.separation = 4.0; /* a rail alone: face and back alike */
+    assert_ok(inductance_surface_at(&s, 1e4, 4.0, &p));
+    assert_near(p.current[p.n - 1], p.current[0], 0.02);
+    inductance_surface_free(&p);
 }
 
 static void bad_sections(void **state)

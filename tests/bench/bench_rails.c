@@ -104,6 +104,13 @@ int main(int argc, char **argv)
     for (int k = 0; k < SPEEDS; k++) printf(" %.0f", speeds[k]);
     printf(" m/s\n");
     row("diffusing", &c);
+    for (int slices = 1; !tiny && slices <= 8; slices *= 2) {
+        char name[40];
+        snprintf(name, sizeof name, "diffusing, %d warm slices", slices);
+        c.rails.slices = slices;
+        row(name, &c);
+    }
+    c.rails.slices = 0;
     c.rails.level = SHOT_RAILS_SKIN;
     row("skin, pulse's frequency", &c);
     for (double f = 300; !tiny && f < 2e4; f *= 3.0) {
