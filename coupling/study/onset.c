@@ -434,6 +434,18 @@ static void explain(onset_answer *a)
 
 /* ---- the whole ---- */
 
+/* By resolution, size, velocity, then name: whatever the order in which several processes brought them. */
+static int in_order(const void *left, const void *right)
+{
+    const onset_scene *a = left, *b = right;
+    const double by[][2] = { { a->cells_per_radius, b->cells_per_radius },
+                             { a->radius, b->radius },
+                             { a->velocity, b->velocity } };
+    for (size_t i = 0; i < sizeof by / sizeof *by; i++)
+        if (by[i][0] != by[i][1]) return by[i][0] < by[i][1] ? -1 : 1;
+    return strcmp(a->name, b->name);
+}
+
 status onset_list_scenes(const session *s, onset_scene **out, int *n, int *run, int *reused)
 {
     *n = *run = *reused = 0;
@@ -443,6 +455,7 @@ status onset_list_scenes(const session *s, onset_scene **out, int *n, int *run, 
         (*out)[*n] = s->record[*n]->entry;
         *(s->record[*n]->entry.reused ? reused : run) += 1;
     }
+    qsort(*out, (size_t)*n, sizeof **out, in_order);
     return status_ok();
 }
 
