@@ -42,15 +42,17 @@ status profile_file_read(const char *path, supply_point **points, int *n)
     char *bytes = NULL;
     size_t length = 0;
     point_list list = { NULL, 0, 0 };
-    status s = file_text(path, PROFILE_MAX_BYTES, &bytes, &length);
-    int number = 0;
-    for (char *line = bytes; line && s.code == STATUS_OK; number++) {
+    TRY(file_text(path, PROFILE_MAX_BYTES, &bytes, &length));
+    char *text = realloc(bytes, length + 1), *line = text;
+    status s = text ? status_ok() : status_error(STATUS_MEMORY, "no memory for %.300s", path);
+    if (text) text[length] = '\0';
+    for (int number = 0; line && s.code == STATUS_OK; number++) {
         char *end = strchr(line, '\n');
         if (end) *end = '\0';
         s = read_line(path, number + 1, line, &list);
         line = end ? end + 1 : NULL;
     }
-    free(bytes);
+    free(text ? text : bytes);
     if (s.code != STATUS_OK) {
         free(list.item);
         return s;
