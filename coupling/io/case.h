@@ -9,6 +9,7 @@
 #define BREECH_COUPLING_CASE_H
 
 #include "base/param.h"
+#include "circuit/firing.h"
 #include "circuit/shot.h"
 #include "mpm/material.h"
 
@@ -223,8 +224,8 @@ typedef struct {
 /* Sections given in the file (or by --set). */
 typedef struct {
     bool supplies[SUPPLY_KINDS];
-    bool rails, barrel, armature, options, rail, projectile, particle, sites, populations, treatments, scene, study,
-        output;
+    bool rails, barrel, armature, options, optimise, rail, projectile, particle, sites, populations, treatments, scene,
+        study, output;
 } case_given;
 
 typedef struct {
@@ -235,6 +236,7 @@ typedef struct {
     shot_barrel barrel;
     shot_armature armature;
     shot_options options;
+    firing_wish optimise; /* of `breech shot` where it is given */
     case_rail rail;
     case_projectile projectile;
     case_particle particle;

@@ -99,6 +99,11 @@ static const summary_key shot_keys[] = {
     NUMBER(shot_record, "critical_position", limits.critical_position, "m", "where the armature first exceeds it; null: nowhere"),
     VALUE(shot_record, KEY_COUNT, "steps", is.steps, "1", "of the integration"),
     NUMBER(shot_record, "wall_seconds", wall_seconds, "s", "time it took"),
+    VALUE(shot_record, KEY_INTEGER, "optimise_evaluations", firing.evaluations, "1", "trials of the search for firing times; 0: none was asked for"),
+    NUMBER(shot_record, "optimise_before", firing.before, "1", "its measure at the start: unevenness, or stored energy [J]"),
+    NUMBER(shot_record, "optimise_after", firing.after, "1", "and of what was found"),
+    NUMBER(shot_record, "charge_scale", firing.charge_scale, "1", "factor on all charges that it found"),
+    ARRAY(shot_record, "fire_at", fire_at, n_fire_at, "s", "firing times of the bank's groups that it found"),
     KEYS_END
 };
 

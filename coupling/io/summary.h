@@ -8,6 +8,7 @@
 #define BREECH_COUPLING_SUMMARY_H
 
 #include "base/status.h"
+#include "circuit/firing.h"
 #include "circuit/shot.h"
 #include "mpm/crater.h"
 #include "mpm/mpm.h"
@@ -23,7 +24,10 @@ enum { SUMMARY_NAME_SIZE = 96 };
 typedef struct {
     shot_summary is;
     shot_limits limits;
-    double wall_seconds; /* [s] */
+    double wall_seconds;  /* [s] */
+    firing_result firing; /* of the search for firing times, all zero where there was none */
+    int n_fire_at;
+    const double *fire_at; /* of the bank's groups, as found [s]; n_fire_at, borrowed */
 } shot_record;
 
 /* One scene, full model: forces and volumes with the mirror half. */

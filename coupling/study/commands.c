@@ -13,17 +13,54 @@ void command_free(command_result *r)
 {
     onset_answer_free(&r->onset);
     compare_answer_free(&r->compare);
+    free(r->fire_at);
+    r->fire_at = NULL;
     free(r->gradients);
     r->gradients = NULL;
     inductance_surface_free(&r->surface);
 }
 
-status command_shot(session *s, command_result *out)
+/* ---- shot ---- */
+
+static status shoot(session *s, const breech_case *c, command_result *out)
 {
     shot_outcome o;
-    const status done = session_shot(s, s->c, NULL, true, &o, &out->shot);
+    const status done = session_shot(s, c, NULL, true, &o, &out->shot);
     shot_outcome_free(&o);
     if (done.code == STATUS_OK) out->summary.shot = &out->shot;
+    return done;
+}
+
+/* Shoots the case with the firing times found for it. */
+static status shoot_optimised(session *s, command_result *out, shot_module *modules)
+{
+    const breech_case *given = s->c;
+    const int n = given->supplies[SUPPLY_capacitor].n;
+    const shot_config config = shot_of_case(given, NULL);
+    const double since = wall_clock();
+    firing_result found;
+    progress_task(&s->progress, "search for firing times", 0.0, 0);
+    TRY(firing_optimise(&config, &given->optimise, s->stop, modules, &found));
+    timing_add(&s->timing, "firing times", wall_clock() - since);
+    breech_case tuned = *given;
+    tuned.supplies[SUPPLY_capacitor].item = modules;
+    const status done = shoot(s, &tuned, out);
+    out->shot.firing = found;
+    out->shot.n_fire_at = n;
+    out->shot.fire_at = out->fire_at;
+    for (int k = 0; k < n; k++) out->fire_at[k] = modules[k].fire_at;
+    return done;
+}
+
+status command_shot(session *s, command_result *out)
+{
+    if (!s->c->given.optimise) return shoot(s, s->c, out);
+    const size_t n = (size_t)s->c->supplies[SUPPLY_capacitor].n;
+    shot_module *modules = malloc((n + 1) * sizeof *modules);
+    out->fire_at = malloc((n + 1) * sizeof *out->fire_at);
+    const status done = modules && out->fire_at ? shoot_optimised(s, out, modules)
+                                                : status_error(STATUS_MEMORY, "no memory for %zu groups", n);
+    free(modules);
     return done;
 }
 

@@ -10,6 +10,7 @@
 typedef struct {
     run_summary summary; /* borrows what follows */
     shot_record shot;
+    double *fire_at; /* of the shot, owned */
     scene_result scene;
     onset_answer onset;
     compare_answer compare;

@@ -211,7 +211,7 @@ status session_shot(session *s, const breech_case *c, const site_jump *jump, boo
     const status done = shot_run(c, &plan, out);
     if (s->history && done.code == STATUS_OK) TRY(history_tick(s->history));
     timing_add(&s->timing, "shot", wall_clock() - since);
-    *record = (shot_record){ out->summary, out->limits, wall_clock() - since };
+    *record = (shot_record){ .is = out->summary, .limits = out->limits, .wall_seconds = wall_clock() - since };
     if (done.code == STATUS_OK && with_history) warn_of_limits(s, &out->limits);
     return done;
 }

@@ -1,0 +1,271 @@
+#include "circuit/firing.h"
+
+#include "circuit/shot_model.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multimin.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double EXCESS = 1e4; /* weight of what lies above the peak allowed */
+static const double CHARGE_LIMITS[2] = { 0.02, 5.0 };
+static const double NOT_LEFT = 10.0;       /* measure of a shot that does not leave the barrel, the way left on top */
+static const double SEARCH_RTOL = 1e-6;    /* of the shots on the way, good to some 1e-6 of the velocity */
+static const double VELOCITY_CLOSE = 1e-5; /* how near the velocity must come [1] */
+
+const char *const firing_goal_names[] = { "flat", "velocity", NULL };
+
+const param firing_wish_params[] = {
+    PARAM_ENUM(firing_wish, goal, firing_goal_names, FIRING_FLAT,
+               "flat: the flattest current below peak_current; velocity: muzzle_velocity at the least stored energy"),
+    PARAM_DOUBLE(firing_wish, peak_current, "A", OPTIONAL, 1.0, 1e9, "peak the rails' current should keep to"),
+    PARAM_DOUBLE(firing_wish, muzzle_velocity, "m/s", OPTIONAL, 1.0, 1e5, "wanted muzzle velocity (goal velocity)"),
+    PARAM_DOUBLE(firing_wish, spread, "s", 1e-4, 1e-9, 1.0, "first steps of the search in the firing times"),
+    PARAM_DOUBLE(firing_wish, tolerance, "s", 1e-6, 1e-12, 1.0, "the search ends when its simplex is this small"),
+    PARAM_INT(firing_wish, evaluations, 400, 1, 100000, "trials of the search at most"),
+    PARAMS_END
+};
+
+typedef struct {
+    shot_config config;
+    firing_wish wish;
+    const shot_module *given; /* as they came */
+    shot_module *modules;     /* on trial */
+    int n, *moved, n_moved;   /* groups; those whose time is moved */
+    bool (*stop)(void);
+    firing_result *out;
+    double scale; /* of the charges, last trial */
+    status failed;
+} search;
+
+/* ---- one shot ---- */
+
+typedef struct {
+    double I, x, badness; /* last sample; the integral so far */
+    double peak;          /* allowed */
+} flatness;
+
+static double unevenness(const flatness *f, double I)
+{
+    const double off = I / f->peak - 1.0;
+    return off > 0.0 ? EXCESS * off * off : off * off;
+}
+
+static bool on_sample(void *user, const shot *s, const shot_state *st)
+{
+    flatness *f = user;
+    (void)s;
+    if (st->phase == SHOT_MOVING && !isnan(f->peak))
+        f->badness += 0.5 * (unevenness(f, f->I) + unevenness(f, st->current)) * (st->x - f->x);
+    f->I = st->current;
+    f->x = st->x;
+    return st->phase != SHOT_LEFT;
+}
+
+/* STATUS_STOPPED is the muzzle.  *travel: share of the way that was made. */
+static status run(search *q, double scale, flatness *f, shot_summary *result, double *travel)
+{
+    const shot_barrel *b = &q->config.barrel;
+    shot *s = NULL;
+    for (int k = 0; k < q->n; k++) q->modules[k].charge = scale * q->given[k].charge;
+    *f = (flatness){ .x = b->start, .peak = q->wish.peak_current };
+    const shot_sink sink = { .sample = on_sample, .user = f };
+    q->out->shots++;
+    TRY(shot_create(&q->config, &s));
+    const status done = shot_advance(s, INFINITY, &sink);
+    *result = shot_result(s);
+    *travel = (shot_now(s).x - b->start) / (b->length - b->start);
+    f->badness /= b->length - b->start;
+    shot_free(s);
+    return done.code == STATUS_STOPPED ? status_ok() : done;
+}
+
+/* ---- the measures ---- */
+
+static status measure_flat(search *q, double *value)
+{
+    flatness f;
+    shot_summary r;
+    double travel;
+    TRY(run(q, q->scale, &f, &r, &travel));
+    *value = f.badness + (travel < 1.0 ? NOT_LEFT + 1.0 - travel : 0.0);
+    return status_ok();
+}
+
+/* The next factor to try, from the last two tries: the velocity is nearly proportional to the charge, then secants; inside
+ * what is known to be too low and too high. */
+static double next_factor(const double at[2], const double off[2], double wanted, double lo, double hi)
+{
+    double next = at[1] * (off[1] > -wanted ? wanted / (wanted + off[1]) : 1.2); /* -wanted: stayed in the barrel */
+    if (off[0] > -wanted && off[1] > -wanted && off[0] != off[1])
+        next = at[1] - off[1] * (at[1] - at[0]) / (off[1] - off[0]);
+    return next > lo && next < hi ? next : 0.5 * (lo + hi);
+}
+
+/* The charges' factor at which the muzzle velocity is the wanted one. */
+static status charge_for(search *q, flatness *f, bool *found)
+{
+    const double wanted = q->wish.muzzle_velocity;
+    double lo = CHARGE_LIMITS[0], hi = CHARGE_LIMITS[1], at[2] = { NAN, q->scale }, off[2] = { -wanted, -wanted },
+           travel;
+    *found = false;
+    for (int k = 0; k < 40 && hi - lo > 1e-12 * hi && !*found; k++) {
+        shot_summary r;
+        TRY(run(q, at[1], f, &r, &travel));
+        const double now = (isnan(r.muzzle_velocity) ? 0.0 : r.muzzle_velocity) - wanted;
+        *found = fabs(now) <= VELOCITY_CLOSE * wanted;
+        off[1] = now;
+        if (*found) q->scale = at[1];
+        if (now < 0.0)
+            lo = at[1];
+        else
+            hi = at[1];
+        const double next = next_factor(at, off, wanted, lo, hi);
+        at[0] = at[1], off[0] = now;
+        at[1] = next;
+    }
+    return status_ok();
+}
+
+static double stored_energy(const search *q)
+{
+    double E = 0.0;
+    for (int k = 0; k < q->n; k++) {
+        const shot_module *m = &q->modules[k];
+        E += 0.5 * m->count * m->capacitance * m->charge * m->charge;
+    }
+    return E;
+}
+
+static status measure_velocity(search *q, double *value)
+{
+    flatness f;
+    bool found;
+    TRY(charge_for(q, &f, &found));
+    if (!found) {
+        *value = INFINITY;
+        return status_ok();
+    }
+    double excess = 0.0;
+    if (!isnan(q->wish.peak_current)) { /* f.badness holds the unevenness too: only the excess is wanted */
+        shot_summary r;
+        double travel;
+        TRY(run(q, q->scale, &f, &r, &travel));
+        excess = fmax(r.peak_current / q->wish.peak_current - 1.0, 0.0);
+    }
+    *value = stored_energy(q) * (1.0 + EXCESS * excess * excess);
+    return status_ok();
+}
+
+/* ---- the search ---- */
+
+static double measure(const gsl_vector *times, void *user)
+{
+    search *q = user;
+    double value = INFINITY;
+    if (q->failed.code != STATUS_OK) return value;
+    if (q->stop && q->stop()) {
+        q->failed = status_error(STATUS_STOPPED, "the search for firing times was stopped");
+        return value;
+    }
+    for (int k = 0; k < q->n_moved; k++) q->modules[q->moved[k]].fire_at = fabs(gsl_vector_get(times, (size_t)k));
+    q->out->evaluations++;
+    q->failed = q->wish.goal == FIRING_FLAT ? measure_flat(q, &value) : measure_velocity(q, &value);
+    return isfinite(value) ? value : 1e300; /* GSL takes no infinities */
+}
+
+static status minimise(search *q, gsl_multimin_fminimizer *simplex, gsl_vector *times, gsl_vector *steps)
+{
+    gsl_multimin_function f = { measure, (size_t)q->n_moved, q };
+    for (int k = 0; k < q->n_moved; k++) gsl_vector_set(times, (size_t)k, q->modules[q->moved[k]].fire_at);
+    gsl_vector_set_all(steps, q->wish.spread);
+    q->out->before = measure(times, q);
+    TRY(q->failed);
+    CHECK(q->out->before < 1e299, STATUS_NUMERICAL, "no charge within %g .. %g times the given one reaches %g m/s",
+          CHARGE_LIMITS[0], CHARGE_LIMITS[1], q->wish.muzzle_velocity);
+    CHECK(gsl_multimin_fminimizer_set(simplex, &f, times, steps) == GSL_SUCCESS, STATUS_NUMERICAL,
+          "the search for firing times could not be started");
+    while (q->failed.code == STATUS_OK && q->out->evaluations < q->wish.evaluations) {
+        if (gsl_multimin_fminimizer_iterate(simplex) != GSL_SUCCESS) break;
+        if (gsl_multimin_fminimizer_size(simplex) < q->wish.tolerance) break;
+    }
+    TRY(q->failed);
+    q->out->after = measure(gsl_multimin_fminimizer_x(simplex), q); /* leaves the best in modules */
+    q->out->charge_scale = q->scale;
+    q->out->stored_energy = stored_energy(q);
+    return q->failed;
+}
+
+static status search_run(search *q)
+{
+    const size_t n = (size_t)q->n_moved;
+    gsl_multimin_fminimizer *simplex = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, n);
+    gsl_vector *times = gsl_vector_alloc(n), *steps = gsl_vector_alloc(n);
+    const status done = simplex && times && steps
+                            ? minimise(q, simplex, times, steps)
+                            : status_error(STATUS_MEMORY, "out of memory for %zu firing times", n);
+    if (simplex) gsl_multimin_fminimizer_free(simplex);
+    gsl_vector_free(times);
+    gsl_vector_free(steps);
+    return done;
+}
+
+/* The first to fire stays; which others are moved. */
+static void choose_moved(search *q)
+{
+    int first = -1;
+    for (int k = 0; k < q->n; k++) {
+        const shot_module *m = &q->modules[k];
+        if (!(m->fire_at <= q->config.options.max_time) || m->position > 0.0) continue;
+        if (first < 0 || m->fire_at < q->modules[first].fire_at) first = k;
+    }
+    for (int k = 0; k < q->n; k++) {
+        const shot_module *m = &q->modules[k];
+        if (k != first && m->fire_at <= q->config.options.max_time && m->position == 0.0) q->moved[q->n_moved++] = k;
+    }
+}
+
+static status wish_check(const search *q)
+{
+    TRY(params_check(firing_wish_params, &q->wish, "optimise"));
+    CHECK(q->n_moved > 0, STATUS_BAD_INPUT, "optimise: needs at least two capacitor groups that fire at the breech");
+    CHECK(q->wish.goal != FIRING_FLAT || !isnan(q->wish.peak_current), STATUS_BAD_INPUT,
+          "optimise.peak_current is missing [A]: goal flat needs it");
+    CHECK(q->wish.goal != FIRING_VELOCITY || !isnan(q->wish.muzzle_velocity), STATUS_BAD_INPUT,
+          "optimise.muzzle_velocity is missing [m/s]: goal velocity needs it");
+    return status_ok();
+}
+
+status firing_optimise(const shot_config *c, const firing_wish *wish, bool (*stop)(void), shot_module *modules,
+                       firing_result *out)
+{
+    const supply_list *bank = &c->supplies[SUPPLY_capacitor];
+    const size_t n = bank->n > 0 ? (size_t)bank->n : 1;
+    rails_load load;
+    *out = (firing_result){ .before = NAN, .after = NAN };
+    search q = { .config = *c,
+                 .wish = *wish,
+                 .given = bank->item,
+                 .modules = modules,
+                 .n = bank->n,
+                 .stop = stop,
+                 .out = out,
+                 .scale = 1.0,
+                 .failed = status_ok() };
+    if (bank->n > 0) memcpy(modules, bank->item, n * sizeof *modules);
+    q.config.supplies[SUPPLY_capacitor].item = modules;
+    q.config.n_sites = 0;
+    q.config.options.rtol = fmax(c->options.rtol, SEARCH_RTOL);
+    q.config.options.atol = 0.01 * q.config.options.rtol;
+    TRY(shot_rails_fit(c, &load));
+    q.config.fitted = &load.ladder;
+    q.moved = malloc(n * sizeof *q.moved);
+    CHECK(q.moved, STATUS_MEMORY, "out of memory for %zu groups", n);
+    choose_moved(&q);
+    gsl_error_handler_t *old = gsl_set_error_handler_off();
+    status done = wish_check(&q);
+    if (done.code == STATUS_OK) done = search_run(&q);
+    gsl_set_error_handler(old);
+    free(q.moved);
+    return done;
+}

@@ -1,0 +1,115 @@
+/* The search for firing times: it keeps its word on peak and velocity, and what it finds is better than what it was given. */
+#include "circuit/firing.h"
+#include "tests/circuit_common.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+enum { GROUPS = 3 };
+
+static void assert_ok(status st)
+{
+    if (st.code != STATUS_OK) fail_msg("%s", st.text);
+}
+
+static shot_config three_groups(shot_module *m)
+{
+    for (int k = 0; k < GROUPS; k++) {
+        m[k] = unit_200kJ(3, 3e-4 * k);
+        m[k].cable_inductance = 1e-6;
+    }
+    shot_config c = plain_barrel();
+    c.supplies[SUPPLY_capacitor] = (supply_list){ GROUPS, m };
+    c.barrel.length = 2.0;
+    return c;
+}
+
+static firing_wish wish_of(firing_goal goal)
+{
+    firing_wish w;
+    params_default(firing_wish_params, &w);
+    w.goal = goal;
+    w.evaluations = 60;
+    return w;
+}
+
+static shot_summary shoot(shot_config c, const shot_module *m)
+{
+    shot *s = NULL;
+    c.supplies[SUPPLY_capacitor].item = m;
+    assert_ok(shot_create(&c, &s));
+    assert_ok(shot_advance(s, INFINITY, NULL));
+    const shot_summary r = shot_result(s);
+    shot_free(s);
+    return r;
+}
+
+static void flat_below_a_peak(void **state)
+{
+    (void)state;
+    shot_module m[GROUPS], found[GROUPS];
+    firing_result r;
+    const shot_config c = three_groups(m);
+    firing_wish w = wish_of(FIRING_FLAT);
+    w.peak_current = 500e3;
+    assert_ok(firing_optimise(&c, &w, NULL, found, &r));
+    const shot_summary got = shoot(c, found);
+    print_message("unevenness %.4f -> %.4f, peak %.1f kA, %d trials\n", r.before, r.after, 1e-3 * got.peak_current,
+                  r.evaluations);
+    assert_true(r.after < 0.5 * r.before);
+    assert_true(got.peak_current < 1.01 * w.peak_current);
+    assert_true(found[0].fire_at == 0.0 && found[0].charge == m[0].charge && r.evaluations <= w.evaluations + 3);
+}
+
+static void velocity_at_least_energy(void **state)
+{
+    (void)state;
+    shot_module m[GROUPS], found[GROUPS];
+    firing_result r;
+    const shot_config c = three_groups(m);
+    firing_wish w = wish_of(FIRING_VELOCITY);
+    w.muzzle_velocity = 900.0;
+    w.evaluations = 30;
+    assert_ok(firing_optimise(&c, &w, NULL, found, &r));
+    const shot_summary got = shoot(c, found);
+    print_message("%.1f -> %.1f kJ, %.3f m/s, %d trials, %d shots\n", 1e-3 * r.before, 1e-3 * r.after,
+                  got.muzzle_velocity, r.evaluations, r.shots);
+    assert_true(fabs(got.muzzle_velocity / 900.0 - 1.0) < 2e-5); /* the search's own closeness and its shots' rtol */
+    assert_true(r.after < r.before && r.stored_energy == r.after);
+}
+
+static bool at_once(void)
+{
+    return true;
+}
+
+static void refusals(void **state)
+{
+    (void)state;
+    shot_module m[GROUPS], found[GROUPS];
+    firing_result r;
+    shot_config c = three_groups(m);
+    firing_wish w = wish_of(FIRING_FLAT);
+    assert_int_equal(firing_optimise(&c, &w, NULL, found, &r).code, STATUS_BAD_INPUT); /* no peak */
+    w.peak_current = 5e5;
+    assert_int_equal(firing_optimise(&c, &w, at_once, found, &r).code, STATUS_STOPPED);
+    w = wish_of(FIRING_VELOCITY);
+    w.muzzle_velocity = 5e4;
+    assert_int_equal(firing_optimise(&c, &w, NULL, found, &r).code, STATUS_NUMERICAL);
+    c.supplies[SUPPLY_capacitor].n = 1;
+    assert_int_equal(firing_optimise(&c, &w, NULL, found, &r).code, STATUS_BAD_INPUT);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(flat_below_a_peak),
+        cmocka_unit_test(velocity_at_least_energy),
+        cmocka_unit_test(refusals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
