@@ -202,7 +202,7 @@ static double heat_share(const mpm *m, int a, int b)
             if (m->scene.body[i].field == field[s])
                 e[s] = sqrt(m->materials[i].conductivity * m->materials[i].density * m->materials[i].specific_heat);
     }
-    return isfinite(e[0] + e[1]) ? e[0] / (e[0] + e[1]) : 0.5;
+    return isnan(e[0]) || isnan(e[1]) ? 0.5 : e[0] / (e[0] + e[1]);
 }
 
 typedef struct {

@@ -84,11 +84,12 @@ static void test_picture_sees(void **state)
 }
 
 /* Saved at step k and gone on from there in a fresh solver, with other threads: the bits of the run without a stop.
- * k at the start, early, on either side of the reordering of memory every 200 steps, and within the percentile samples. */
+ * k at the start, early, on either side of the reordering of memory every 200 steps, within the percentile samples, and two
+ * drawn at random once; the later ones lie amid contact and splits. */
 static void test_restart(void **state)
 {
     (void)state;
-    static const int stops[] = { 0, 1, 17, 119, 199, 200, 201 };
+    static const int stops[] = { 0, 1, 17, 83, 119, 148, 199, 200, 201 };
     enum { STOPS = sizeof stops / sizeof stops[0], LAST = 230 };
     gouge_scene g;
     scene_gouge(&g, H, SPEED);
@@ -99,6 +100,8 @@ static void test_restart(void **state)
     for (int i = 0; i < STOPS; i++) {
         scene_steps(m, stops[i] - at);
         at = stops[i];
+        const mpm_report r = mpm_state(m);
+        if (at > 50) assert_true(r.splits > 100 && r.contact_force[0][1] != 0);
         assert_ok(mpm_save(m, &image[i], &bytes[i]));
     }
     scene_steps(m, LAST - at);
