@@ -1,0 +1,179 @@
+/* V7: a block that slides down an incline, in line with the grid and across it; a ball that rolls.  V8: Hertz. */
+#include "valid.h"
+
+typedef struct {
+    double last, impulse[3];
+} pushing;
+
+static bool watch(void *user, const mpm *m)
+{
+    pushing *w = user;
+    const mpm_report r = mpm_state(m);
+    for (int k = 0; k < 3; k++) w->impulse[k] += (r.time - w->last) * r.contact_force[1][k];
+    w->last = r.time;
+    return true;
+}
+
+/* ---- V7: block, 6 x 4 x 1 mm, pulled by g at an angle to the face it lies on ---- */
+
+static const double PULL = 1e6, MU = 0.3; /* [m/s2, 1] */
+
+/* A box turned by `angle` about z: values x, y of the middle of its lower face, half length, height, angle. */
+static double turned_inside(const shape_values *s, const double x[3])
+{
+    const double c = cos(s->value[4]), t = sin(s->value[4]), dx = x[0] - s->value[0], dy = x[1] - s->value[1];
+    const double along = c * dx + t * dy, up = -t * dx + c * dy;
+    return fmin(s->value[2] - fabs(along), fmin(up, s->value[3] - up));
+}
+
+static void turned_bounds(const shape_values *s, double lo[3], double hi[3])
+{
+    const double c = cos(s->value[4]), t = sin(s->value[4]), L = s->value[2], H = s->value[3];
+    lo[0] = s->value[0] - c * L - fmax(t * H, 0), hi[0] = s->value[0] + c * L + fmax(-t * H, 0);
+    lo[1] = s->value[1] - fabs(t) * L + fmin(c * H, 0), hi[1] = s->value[1] + fabs(t) * L + fmax(c * H, 0);
+    lo[2] = -1, hi[2] = 1;
+}
+
+static const char *const turned_names[] = { "x", "y", "half_length", "height", "angle", NULL };
+static const shape_kind turned = { "turned", "a box turned about z", turned_names, turned_inside, turned_bounds };
+
+/* Acceleration down the face over g (sin - mu cos), less 1; the face is turned by `turn` from the grid's x axis, and the
+ * whole slides down a slope of 45 degrees. */
+static double incline(double cells, double turn, const valid_scheme *scheme, valid_result *out)
+{
+    const material m = scene_elastic();
+    const double height = 4e-3, length = 6e-3, h = height / cells, way = 4e-3, slope = SCENE_PI / 4;
+    const double c = cos(turn), t = sin(turn), x0 = 4e-3, want = PULL * (sin(slope) - MU * cos(slope));
+    mpm_scene s;
+    mpm_scene_default(&s);
+    valid_apply(scheme, &s);
+    s.axis[0] = scene_axis(-3e-3, 14e-3, h, BOUNDARY_FREE, BOUNDARY_FREE);
+    s.axis[1] = scene_axis(-4.185e-3 - 8e-3 * t, 6e-3 + 6e-3 * t, h, BOUNDARY_FREE, BOUNDARY_FREE);
+    s.axis[2] = scene_axis(0, h, h, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    /* the slope is far stiffer than what the block does to it in this time; its ends are held */
+    s.axis[0].boundary[0] = s.axis[0].boundary[1] = BOUNDARY_FIXED;
+    s.axis[0].boundary_fields[0] = s.axis[0].boundary_fields[1] = 1;
+    s.axis[1].boundary[0] = BOUNDARY_FIXED;
+    const double origin[2] = { x0, -0.37 * h }; /* off the grid planes */
+    for (int i = 0; i < 2; i++) {
+        mpm_body *b = scene_box(&s, 0, 0, 0, 1, 1, 1, &m);
+        b->shape = &turned;
+        const double v[] = { origin[0], origin[1], i ? 0.5 * length : 1, i ? height : -1, -turn };
+        memcpy(b->shape_value.value, v, sizeof v);
+        b->field = i;
+        if (i == 0) { /* below: from the face down */
+            b->shape_value.value[0] += -t * 0.1, b->shape_value.value[1] += -c * 0.1;
+            b->shape_value.value[3] = 0.1;
+        } else {
+            b->body_force[0] = PULL * (sin(slope) * c - cos(slope) * t);
+            b->body_force[1] = PULL * (-sin(slope) * t - cos(slope) * c);
+        }
+    }
+    scene_friction(&s, MU);
+    mpm *solver = scene_make(&s, 1);
+    const double end = sqrt(2 * way / want);
+    pushing w = { .last = 0 };
+    assert_ok(mpm_advance(solver, end, &(mpm_sink){ watch, &w }));
+    const double speed = c * scene_mean(solver, MPM_velocity, 0, 1) - t * scene_mean(solver, MPM_velocity, 1, 1);
+    const double normal = t * w.impulse[0] + c * w.impulse[1], along = c * w.impulse[0] - t * w.impulse[1];
+    out->figure[1] = -along / normal / MU - 1;
+    out->figure[2] = mpm_state(solver).peak_plastic_strain[1];
+    valid_finish(solver, out);
+    return speed / (want * end) - 1;
+}
+
+void valid_block(double cells, const valid_scheme *scheme, valid_result *out)
+{
+    out->figure[0] = fabs(incline(cells, 0, scheme, out));
+}
+
+void valid_tilted(double cells, const valid_scheme *scheme, valid_result *out)
+{
+    out->figure[0] = fabs(incline(cells, SCENE_PI / 9, scheme, out));
+}
+
+/* ---- V7: ball on a slope of 45 degrees, mu 0.495: it rolls, a = 5/7 g sin 45 ---- */
+
+static const double BALL_RADIUS = 4e-3;
+
+void valid_rolling(double cells, const valid_scheme *scheme, valid_result *out)
+{
+    const material m = scene_elastic();
+    const double R = BALL_RADIUS, h = R / cells, way = 6e-3, g = 0.2 * PULL, side = g * sqrt(0.5);
+    mpm_scene s;
+    mpm_scene_default(&s);
+    valid_apply(scheme, &s);
+    s.axis[0] = scene_axis(-1.4 * R, way + 1.4 * R, h, BOUNDARY_FREE, BOUNDARY_FREE);
+    s.axis[1] = scene_axis(-3 * h - 0.37 * h, 2.2 * R, h, BOUNDARY_FIXED, BOUNDARY_FREE);
+    s.axis[2] = scene_axis(0, 1.2 * R, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
+    scene_box(&s, -1, -1, -1, 1, 0, 1, &m);
+    const double ball[] = { 0, R, 0, R };
+    mpm_body *b = scene_body(&s, "sphere", ball, 4, &m);
+    b->field = 1;
+    b->body_force[0] = side, b->body_force[1] = -side;
+    scene_friction(&s, 0.495);
+    mpm *solver = scene_make(&s, 1);
+    const double want = 5.0 / 7.0 * side, end = sqrt(2 * way / want);
+    pushing w = { .last = 0 };
+    assert_ok(mpm_advance(solver, end, &(mpm_sink){ watch, &w }));
+    out->figure[0] = fabs(scene_mean(solver, MPM_velocity, 0, 1) / (want * end) - 1);
+    out->figure[1] = -w.impulse[0] / w.impulse[1]; /* 2/7 when it rolls, 0.495 when it slips */
+    out->figure[2] = scene_mean(solver, MPM_position, 0, 1) / way - 1;
+    valid_finish(solver, out);
+}
+
+/* ---- V8: two equal balls meet slowly; F^(2/3) is a straight line over the approach d, whose slope is
+ * (4/3 E* sqrt(R*))^(2/3), R* = R/2, E* = E/(2 (1 - nu^2)); where the line starts depends on the cells, its slope must not ---- */
+
+typedef struct {
+    double last, force, sum[5], largest, centres, smooth;
+} pressing;
+
+static bool press_step(void *user, const mpm *m)
+{
+    pressing *w = user;
+    const mpm_report r = mpm_state(m);
+    const double share = 1 - exp(-(r.time - w->last) / w->smooth);
+    w->last = r.time;
+    w->force += share * (4 * r.contact_force[1][1] - w->force); /* a quarter of it is computed */
+    if (w->force > w->largest) w->largest = w->force;
+    if (w->force == w->largest && w->force > 0 && r.steps % 10 == 0) {
+        w->centres = scene_mean(m, MPM_position, 1, 1) - scene_mean(m, MPM_position, 1, 0);
+        const double x = -w->centres, y = pow(w->force, 2.0 / 3.0);
+        w->sum[0] += 1, w->sum[1] += x, w->sum[2] += y, w->sum[3] += x * x, w->sum[4] += x * y;
+    }
+    return true;
+}
+
+void valid_hertz(double cells, const valid_scheme *scheme, valid_result *out)
+{
+    const double E = 1e9, nu = 0.33, R = 10e-3, h = R / cells, gap = 0.02 * R, speed = 4;
+    const material m = valid_solid(E, nu, 1000);
+    mpm_scene s;
+    mpm_scene_default(&s);
+    valid_apply(scheme, &s);
+    s.viscosity_linear = s.viscosity_quadratic = 0;
+    const double side = 1.1 * R, fine = 0.25 * R;
+    s.axis[0] = scene_graded(scene_axis(0, side, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE), 0, fine, fmax(R / 12, h), 1.2);
+    s.axis[2] = s.axis[0];
+    s.axis[1] =
+        scene_graded(scene_axis(-2.1 * R, 2.1 * R, h, BOUNDARY_FREE, BOUNDARY_FREE), -fine, fine, fmax(R / 12, h), 1.2);
+    for (int i = 0; i < 2; i++) {
+        const double way = i ? -1 : 1, off = 0.37 * h, ball[] = { 0, off - way * (R + gap / 2), 0, R };
+        mpm_body *b = scene_body(&s, "sphere", ball, 4, &m);
+        b->velocity[1] = way * speed;
+        b->field = i;
+    }
+    mpm *solver = scene_make(&s, 1);
+    /* Hertz: largest approach and half of the time of contact for a meeting at 2 speed */
+    const double K = 4.0 / 3.0 * E / (2 * (1 - nu * nu)) * sqrt(R / 2),
+                 mass = 0.5 * 1000 * 4.0 / 3.0 * SCENE_PI * R * R * R;
+    const double v = 2 * speed, d = pow(1.25 * mass * v * v / K, 0.4), half = 1.47 * d / v;
+    pressing w = { .last = 0, .smooth = half / 50 };
+    assert_ok(mpm_advance(solver, gap / v + 1.15 * half, &(mpm_sink){ press_step, &w }));
+    const double *a = w.sum, slope = (a[0] * a[4] - a[1] * a[2]) / (a[0] * a[3] - a[1] * a[1]);
+    out->figure[0] = fabs(pow(slope, 1.5) / K - 1);
+    out->figure[1] = w.largest / (K * pow(d, 1.5)) - 1;
+    out->figure[2] = d / h;
+    valid_finish(solver, out);
+}
