@@ -21,8 +21,8 @@ RUNS = {  # name: what differs from the base case
     "1.2 km/s": {"scene.velocity": "1.2 km/s"},
     "1.35 km/s": {"scene.velocity": "1.35 km/s"},
     "2.0 km/s": {"scene.velocity": "2.0 km/s"},
-    "r 0.2 mm": {"particle.radius": "0.2 mm", "scene.fine_width": "4 mm"},
-    "r 0.08 mm": {"particle.radius": "0.08 mm", "scene.fine_width": "2 mm"},
+    "r 0.2 mm": {"particle.radius": "0.2 mm", "scene.fine_width": "4 mm", "scene.end_time": "20 us"},
+    "r 0.08 mm": {"particle.radius": "0.08 mm", "scene.fine_width": "2 mm", "scene.end_time": "8 us"},
     "20 deg": {"projectile.lead_angle": "20 deg"},
     "30 deg": {"projectile.lead_angle": "30 deg"},
 }
