@@ -37,7 +37,7 @@ static status ladder_make(const axis *a, double lo, double hi, int per_cell, lad
 
 static bool inside(const mpm_body *b, const double x[3])
 {
-    return b->shape->inside(&b->shape_value, x) > 0;
+    return b->shape->inside(&b->shape_value, x) > 0 && !(b->cut && b->cut->inside(&b->cut_value, x) > 0);
 }
 
 static bool claimed_later(const mpm_scene *s, int body, const double x[3])

@@ -37,6 +37,8 @@ typedef struct {
     const material *material;
     const shape_kind *shape;
     shape_values shape_value;
+    const shape_kind *cut; /* a hole: no point of the body lies in it; NULL: none */
+    shape_values cut_value;
     int field;            /* velocity field: bodies of one field are welded together, different fields touch by contact.
                                 When several bodies of one field claim a point, the later body gets it. */
     double velocity[3];   /* at the start [m/s] */

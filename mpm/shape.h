@@ -22,6 +22,7 @@ status shape_check(const shape_kind *kind, const shape_values *values);
 
 /* Places of the values of those shapes that scenes are built from by name. */
 enum { HEMISPHERE_X, HEMISPHERE_Y, HEMISPHERE_Z, HEMISPHERE_RADIUS, HEMISPHERE_HEIGHT };
+enum { PIT_X, PIT_Y, PIT_Z, PIT_RADIUS, PIT_HEIGHT };
 enum { CONE_X, CONE_Y, CONE_Z, CONE_RADIUS, CONE_HEIGHT };
 enum { RIDGE_X, RIDGE_Y, RIDGE_Z, RIDGE_RADIUS, RIDGE_HEIGHT, RIDGE_HALF_LENGTH };
 enum { CYLINDER_X, CYLINDER_Y, CYLINDER_Z, CYLINDER_RADIUS, CYLINDER_HEIGHT };

@@ -15,6 +15,8 @@
 
 #include <cmocka.h>
 
+#define PI 3.14159265358979323846
+
 #define OK(call)                                                        \
     do {                                                                \
         const status ok_ = (call);                                      \
@@ -451,6 +453,50 @@ static void test_masses(void **state)
     case_free(m.c);
 }
 
+static double mass_with(const char *shape)
+{
+    char grain[40];
+    snprintf(grain, sizeof grain, "particle.shape=%s", shape);
+    const char *const sets[] = { grain,
+                                 "scene.cells_per_radius=4",
+                                 "scene.coarse_cell=2 mm",
+                                 "scene.growth=1.3",
+                                 "scene.fine_ahead=1 mm",
+                                 "scene.fine_behind=1 mm",
+                                 "scene.fine_width=3 mm",
+                                 NULL };
+    made m = make(sets);
+    mpm *solver = NULL;
+    assert_int_equal(m.scene.bodies, strcmp(shape, "pit") == 0 ? 2 : 3);
+    OK(mpm_create(&m.scene, 1, &solver));
+    const double mass = mpm_balance(solver).mass;
+    mpm_free(solver);
+    case_free(m.c);
+    return mass;
+}
+
+/* A hemisphere of copper is added to the rail, a pit of the same size is missing from it. */
+static void test_pit(void **state)
+{
+    (void)state;
+    const char *const sets[] = { "particle.shape=pit", NULL };
+    made m = make(sets);
+    const double r = m.state.grain.radius, ball = 4.0 / 3.0 * PI * r * r * r;
+    const double density = named(&m.scene, "rail")->material->density;
+    assert_non_null(named(&m.scene, "rail")->cut);
+    assert_null(named(&m.scene, "armature")->cut);
+    assert_true(fabs(m.spec.particle_volume / (0.5 * ball) - 1.0) < 5e-3);
+    assert_true(fabs(m.spec.particle_area / (PI * r * r) - 1.0) < 5e-3);
+    case_free(m.c);
+    /* eight points a radius: those on the border, one in eight, err both ways */
+    assert_true(fabs((mass_with("hemisphere") - mass_with("pit")) / (0.5 * density * ball) - 1.0) < 0.05);
+    m = make(sets);
+    m.c->scene.fine_depth = 1e-3;
+    m.state.grain.height = 2.5e-3;
+    assert_int_equal(scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec).code, STATUS_BAD_INPUT);
+    case_free(m.c);
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -471,7 +517,8 @@ int main(void)
         cmocka_unit_test(test_jumps),       cmocka_unit_test(test_stopped),    cmocka_unit_test(test_screen_table),
         cmocka_unit_test(test_screen_band), cmocka_unit_test(test_no_overlap), cmocka_unit_test(test_places),
         cmocka_unit_test(test_grid),        cmocka_unit_test(test_pressing),   cmocka_unit_test(test_grain_measures),
-        cmocka_unit_test(test_fields),      cmocka_unit_test(test_masses),     cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_fields),      cmocka_unit_test(test_masses),     cmocka_unit_test(test_pit),
+        cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,6 +36,7 @@ static const example examples[] = {
     { "armature",
       { { 0.0, 30e-3, 4e-3, 12e-3, 10e-3, 0.0, PI / 2.0, 9e-3, 5e-3 } },
       18e-3 * (30e-3 * 4e-3 + 12e-3 * 6e-3) },
+    { "pit", { { 1e-3, 2e-3, -1e-3, 0.5e-3, 0.35e-3 } }, 2.0 / 3.0 * PI * 0.25 * 0.35e-9 },
 };
 enum { EXAMPLES = sizeof examples / sizeof examples[0] };
 

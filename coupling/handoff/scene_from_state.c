@@ -106,6 +106,8 @@ static status check_layout(const breech_case *c, const case_site *g, const layou
     CHECK(l->layers < c->scene.rail_depth - l->coarse, STATUS_BAD_INPUT,
           "scene.rail_depth = %g m: must exceed the layers' thickness of %g m by more than a coarse cell",
           c->scene.rail_depth, l->layers);
+    CHECK(strcmp(g->shape, "pit") != 0 || g->height < l->fine_depth, STATUS_BAD_INPUT,
+          "scene.fine_depth = %g m: must exceed the depth of the pit, %g m", l->fine_depth, g->height);
     CHECK(-l->x_front < l->behind, STATUS_BAD_INPUT, "scene: the armature would start outside the window");
     return status_ok();
 }
@@ -192,13 +194,27 @@ static double grain_value(const case_site *g, const char *name)
     return 0.0;                       /* x, y, z */
 }
 
+static bool is_pit(const case_site *g)
+{
+    return strcmp(g->shape, "pit") == 0;
+}
+
+static void shape_grain(const case_site *g, const shape_kind **shape, shape_values *value)
+{
+    *shape = shape_find(g->shape);
+    for (int i = 0; *shape && (*shape)->value_names[i]; i++) value->value[i] = grain_value(g, (*shape)->value_names[i]);
+}
+
+/* A pit is a hole in rail and layers, no body. */
 static int add_grain(const breech_case *c, const case_site *g, int below, mpm_scene *s)
 {
+    if (is_pit(g)) {
+        for (int i = 0; i < s->bodies; i++) shape_grain(g, &s->body[i].cut, &s->body[i].cut_value);
+        return below;
+    }
     const int field = next_field(s, below, g->bond_strength);
     mpm_body *b = add_body(s, GRAIN, case_material(c, g->material), field);
-    b->shape = shape_find(g->shape);
-    for (int i = 0; b->shape && b->shape->value_names[i]; i++)
-        b->shape_value.value[i] = grain_value(g, b->shape->value_names[i]);
+    shape_grain(g, &b->shape, &b->shape_value);
     return field;
 }
 
@@ -338,14 +354,19 @@ static void set_method(const breech_case *c, const layout *l, mpm_scene *s)
 
 /* ---- the crater ---- */
 
-/* Plan area and volume of the part above y = 0, by the middles of N_PLAN x N_UP x N_PLAN cells of its box. */
-static void measure_grain(const mpm_body *b, double *area, double *volume)
+/* Plan area and volume of the part above y = 0, of a pit of all of it, by the middles of N_PLAN x N_UP x N_PLAN cells of its
+ * box. */
+static void measure_grain(const case_site *g, double *area, double *volume)
 {
     enum { N_PLAN = 128, N_UP = 48 };
+    const shape_kind *shape;
+    shape_values value;
     double lo[3], hi[3], h[3];
     int columns = 0, cells = 0;
-    b->shape->bounds(&b->shape_value, lo, hi);
-    lo[1] = fmax(lo[1], 0.0);
+    memset(&value, 0, sizeof value);
+    shape_grain(g, &shape, &value);
+    shape->bounds(&value, lo, hi);
+    if (!is_pit(g)) lo[1] = fmax(lo[1], 0.0);
     for (int k = 0; k < 3; k++) h[k] = (hi[k] - lo[k]) / (k == 1 ? N_UP : N_PLAN);
     for (int ix = 0; ix < N_PLAN; ix++)
         for (int iz = 0; iz < N_PLAN; iz++) {
@@ -353,10 +374,10 @@ static void measure_grain(const mpm_body *b, double *area, double *volume)
             int within = 0;
             for (int iy = 0; iy < N_UP; iy++) {
                 const double x[3] = { foot[0], lo[1] + (iy + 0.5) * h[1], foot[2] };
-                within += b->shape->inside(&b->shape_value, x) > 0.0;
+                within += shape->inside(&value, x) > 0.0;
             }
             cells += within;
-            columns += within > 0 || b->shape->inside(&b->shape_value, foot) > 0.0;
+            columns += within > 0 || shape->inside(&value, foot) > 0.0;
         }
     *area = columns * h[0] * h[2];
     *volume = cells * h[0] * h[1] * h[2];
@@ -375,7 +396,7 @@ static crater_spec spec_of(const breech_case *c, const case_site *g, const mpm_s
                          .particle_x = 0.0,
                          .limit_widening = c->scene.limit_widening,
                          .limit_severity = c->scene.limit_severity };
-    measure_grain(&s->body[s->bodies - 2], &spec.particle_area, &spec.particle_volume);
+    measure_grain(g, &spec.particle_area, &spec.particle_volume);
     return spec;
 }
 

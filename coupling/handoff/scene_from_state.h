@@ -2,7 +2,7 @@
  *
  * x = 0, y = 0, z = 0 is the middle of the grain's foot on the undamaged surface; the armature comes from -x.
  * Bodies, in this order, later ones winning points: rail (box), layers (boxes, the last one's top is y = 0), grain,
- * armature.  Rail, layers and grain share a velocity field where they are welded for good; a layer or a grain with a bond
+ * armature; a pit is a hole in rail and layers in place of a grain.  Rail, layers and grain share a velocity field where they are welded for good; a layer or a grain with a bond
  * strength begins a field of its own, bonded to what lies below it; the armature has the last field.
  * Window: along x the rail fills it and absorbs waves at both ends (a roller or a free end for the armature, which leaves
  * ahead); below the rail a roller; above the middle of the bore, the mirror plane of the launcher; across, z = 0 the mirror

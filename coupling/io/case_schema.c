@@ -50,7 +50,8 @@ static const param projectile_params[] = {
     PARAMS_END,
 };
 
-#define PARTICLE_DOC_SHAPE "hemisphere, cone, ridge or another shape of the scene solver"
+#define PARTICLE_DOC_SHAPE \
+    "hemisphere, cone, ridge, pit, sphere (embedded where lower than twice its radius), or another shape"
 
 static const param particle_params[] = {
     PARAM_DOUBLE(case_particle, radius, "m", OPTIONAL, 1e-6, 0.1, "of the grain's foot"),
