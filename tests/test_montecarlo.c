@@ -294,6 +294,7 @@ static void test_rims(void **state)
     mc_free(&out);
     /* grains of the milling are gone after the first shot, debris comes again */
     for (int renewed = 0; renewed < 2; renewed++) {
+        free(r.family);
         make(&r, 5.0, 2e-4, 0.3, 1400.0, 0.0, 0.0);
         r.population.renewed = renewed;
         for (int k = 0; k < 2; k++) r.record[k].entry.result.rim_height = 0.0;
