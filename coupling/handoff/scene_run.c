@@ -249,7 +249,9 @@ static status measure_crater(const run *r, crater *out)
     TRY(points_read(r->m, &p));
     keep_rail(r, &p);
     const crater_points rail = { .n = p.n, .position = p.position, .size = p.size, .damage = p.damage };
-    const status s = crater_measure(&rail, &r->job->spec, out);
+    crater_spec spec = r->job->spec;
+    spec.x_hi = fmin(spec.x_hi, mpm_scene_of(r->m)->axis[0].fine_hi); /* a zone that follows has got so far */
+    const status s = crater_measure(&rail, &spec, out);
     points_free(&p);
     return s;
 }

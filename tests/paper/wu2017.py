@@ -22,9 +22,9 @@ RUNS = {  # name: what differs from the base case
     "1.35 km/s": {"scene.velocity": "1.35 km/s"},
     "2.0 km/s": {"scene.velocity": "2.0 km/s"},
     "r 0.2 mm": {"particle.radius": "0.2 mm", "scene.fine_width": "4 mm", "scene.end_time": "20 us"},
-    "r 0.08 mm": {"particle.radius": "0.08 mm", "scene.fine_width": "2 mm", "scene.end_time": "8 us"},
     "20 deg": {"projectile.lead_angle": "20 deg"},
     "30 deg": {"projectile.lead_angle": "30 deg"},
+    "r 0.08 mm": {"particle.radius": "0.08 mm", "scene.fine_width": "2 mm", "scene.end_time": "8 us"},
 }
 
 
@@ -59,9 +59,10 @@ def table(runs):
             crater(base), base["class"], 1e3 * base["rim_height"], base["widening"]), None),
         ("W2", "force up to 15 kN", "x %.1f, y %.1f kN" % (kn[0], kn[1]), None),
         ("W3", "von Mises 900 / 450 MPa, armature / rail", "%.0f / %.0f MPa" % (
-            base["peak_mises_armature"] / 1e6, base["peak_mises_rail"] / 1e6), None),
-        ("W4", "pressure tens of GPa (planar bound 19.2)", "%.1f GPa" % (base["peak_pressure"] / 1e9),
-         5e9 < base["peak_pressure"] < 30e9),
+            base["peak_mises_armature"] / 1e6, base["peak_mises_rail"] / 1e6),
+         abs(base["peak_mises_armature"] / 900e6 - 1) < 0.15 and abs(base["peak_mises_rail"] / 450e6 - 1) < 0.15),
+        ("W4", "pressure tens of GPa (planar bound 19.2)", "%.1f GPa in one point, %.1f GPa the 99.9th percentile of the rail" % (
+            base["peak_pressure"] / 1e9, base["peak_pressure_rail_999"] / 1e9), None),
         ("W5", "more than 300 K hotter", "%.0f K" % (base["peak_temperature"] - 293), base["peak_temperature"] > 593),
         ("W7", "r 0.2 mm: tear-drop, smaller", "%s, %s" % (runs["r 0.2 mm"]["class"], crater(runs["r 0.2 mm"])),
          runs["r 0.2 mm"]["class"] == "gouge" and volume(runs["r 0.2 mm"]) < volume(base)),
@@ -76,9 +77,11 @@ def table(runs):
          "lowest gouge of 0.6, 0.8, 1.0, 1.2, 1.35, 1.5 km/s: %s" % (threshold[0] if threshold else
                                                                    "1.5 km/s" if tear_drop else "above"),
          not threshold and tear_drop or threshold == ["1.35 km/s"]),
-        ("W12", "peak pressure falls with speed", ", ".join("%.1f" % (runs[n]["peak_pressure"] / 1e9) for n in (
-            "1.0 km/s", "base", "2.0 km/s")) + " GPa at 1.0, 1.5, 2.0 km/s",
-         runs["1.0 km/s"]["peak_pressure"] < base["peak_pressure"] < runs["2.0 km/s"]["peak_pressure"]),
+        ("W12", "peak pressure falls with speed", ", ".join(
+            "%.2f" % (runs[n]["peak_pressure_rail_999"] / 1e9) for n in ("1.0 km/s", "base", "2.0 km/s")) +
+         " GPa (99.9th percentile of the rail) at 1.0, 1.5, 2.0 km/s",
+         runs["1.0 km/s"]["peak_pressure_rail_999"] < base["peak_pressure_rail_999"]
+         < runs["2.0 km/s"]["peak_pressure_rail_999"]),
         ("W13", "steeper lead face: smaller, shallower", "%.1f, %.1f, %.1f mm3; %.2f, %.2f, %.2f mm at 15, 20, 30 deg" % (
             volume(base), volume(runs["20 deg"]), volume(runs["30 deg"]), 1e3 * base["crater_depth"],
             1e3 * runs["20 deg"]["crater_depth"], 1e3 * runs["30 deg"]["crater_depth"]),
@@ -90,7 +93,7 @@ def table(runs):
     return rows
 
 
-EXPECTED = {"W4", "W5", "W7", "W9", "W12"}  # come out at 2 cells a radius
+EXPECTED = {"W3", "W5", "W7", "W9", "W10", "W12", "W14"}  # come out at 2 cells a radius
 
 
 def main():
