@@ -36,7 +36,10 @@ static const case_treatment *treatment_of(const session *s, int surface)
 
 static void prefix_of(int surface, char out[PREFIX_SIZE])
 {
-    snprintf(out, PREFIX_SIZE, surface ? "t%d-" : "", surface);
+    if (surface > 0)
+        snprintf(out, PREFIX_SIZE, "t%d-", surface);
+    else
+        out[0] = '\0';
 }
 
 static status make_room(const session *s, compare_answer *a)
