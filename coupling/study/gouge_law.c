@@ -73,14 +73,20 @@ static double worth(double value)
     return isfinite(value) ? value : 0.0;
 }
 
+/* An undecided scene takes the side of its severity, as in the search. */
+static bool gouges(const scene_result *r, double limit_severity)
+{
+    return r->class == DAMAGE_GOUGE || (r->class == DAMAGE_UNDECIDED && r->severity >= limit_severity);
+}
+
 /* The family's gouges at the resolution of its thresholds, in order of velocity. */
-static int collect(const grain_family *f, marked *out)
+static int collect(const grain_family *f, double limit_severity, marked *out)
 {
     int n = 0;
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *a = &f->scene[i];
         const scene_result *r = &a->record->entry.result;
-        if (a->cells != f->surface.reference.cells || r->class != DAMAGE_GOUGE) continue;
+        if (a->cells != f->surface.reference.cells || !gouges(r, limit_severity)) continue;
         out[n].v = a->velocity;
         out[n++].is = (gouge_mark){ .volume = worth(r->crater_volume) / pow(a->radius, 3.0),
                                     .rim = worth(r->rim_height) / a->radius,
@@ -105,10 +111,10 @@ static gouge_mark mark_at(const marked *m, int n, double v)
     return between(&m[k].is, &m[k + 1].is, (v - m[k].v) / (m[k + 1].v - m[k].v));
 }
 
-static void tabulate_marks(const grain_family *f, gouge_law *out)
+static void tabulate_marks(const grain_family *f, double limit_severity, gouge_law *out)
 {
     marked m[THRESHOLD_MAX_SAMPLES];
-    const int n = collect(f, m);
+    const int n = collect(f, limit_severity, m);
     const double first = n ? m[0].v : 1.0, last = n ? m[n - 1].v : 1.0;
     out->v_first = first;
     out->per_v = last > first ? LAW_VELOCITIES / (last - first) : 0.0;
@@ -123,8 +129,8 @@ gouge_mark gouge_law_mark(const gouge_law *l, double velocity)
     return between(&l->mark[i], &l->mark[i + 1], f);
 }
 
-void gouge_law_make(const grain_family *f, gouge_law *out)
+void gouge_law_make(const grain_family *f, double limit_severity, gouge_law *out)
 {
     tabulate_thresholds(f, out);
-    tabulate_marks(f, out);
+    tabulate_marks(f, limit_severity, out);
 }

@@ -20,7 +20,7 @@ typedef struct {
     gouge_mark mark[LAW_VELOCITIES + 1];
 } gouge_law;
 
-void gouge_law_make(const grain_family *f, gouge_law *out);
+void gouge_law_make(const grain_family *f, double limit_severity, gouge_law *out);
 
 /* low + in_band (high - low) + of_shift |shift|, in_band 0 .. 1, of_shift -1 .. 1 [m/s] */
 double gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_shift);

@@ -288,7 +288,8 @@ static status make_lane(const mc_plan *plan, int i, lane *l)
     l->strewn = calloc((size_t)s->grains->c->populations.n + 1, sizeof *l->strewn);
     CHECK(l->law && l->in_band && l->strewn, STATUS_MEMORY, "no memory for the Monte Carlo");
     place_populations(plan, l);
-    for (int k = 0; k < s->grains->n; k++) gouge_law_make(&s->grains->family[k], &l->law[k]);
+    for (int k = 0; k < s->grains->n; k++)
+        gouge_law_make(&s->grains->family[k], s->grains->c->scene.limit_severity, &l->law[k]);
     tabulate_velocity(s->grains->flown, plan->length, l);
     return status_ok();
 }
