@@ -84,6 +84,27 @@ static inline shot_config plain_barrel(void)
     return c;
 }
 
+enum { DEFAULT_SHOT_GROUPS = 13 };
+
+/* The shot of cases/default_shot: fifteen units, three at the start, then one every 0.22 ms; its rails and armature. */
+static inline shot_config default_shot(shot_module modules[DEFAULT_SHOT_GROUPS])
+{
+    shot_config c = plain_barrel();
+    for (int k = 0; k < DEFAULT_SHOT_GROUPS; k++) {
+        modules[k] = unit_200kJ(k == 0 ? 3 : 1, 0.22e-3 * k);
+        modules[k].cable_inductance = 1e-6;
+        modules[k].cable_resistance = 1e-3;
+    }
+    c.supplies[SUPPLY_capacitor] = (supply_list){ DEFAULT_SHOT_GROUPS, modules };
+    params_default(shot_rails_params, &c.rails);
+    c.rails.height = c.rails.separation = 0.025;
+    c.rails.thickness = 0.020;
+    c.barrel.length = 3.0;
+    c.armature.contact_length = 16.5e-3;
+    c.armature.contact_width = 25e-3;
+    return c;
+}
+
 /* Rails of no length and an armature that nothing moves: a short circuit. */
 static inline shot_config short_circuit(void)
 {

@@ -3,6 +3,7 @@
 #include "circuit/inductance.h"
 #include "circuit/rails.h"
 #include "circuit/shot.h"
+#include "tests/circuit_common.h"
 
 #include <complex.h>
 #include <math.h>
@@ -332,42 +333,6 @@ static void warming_of_even_current(void **state)
 
 /* ---- whole shots ---- */
 
-/* Fifteen 200 kJ units, three at the start, then one every 0.22 ms; the rails and armature of cases/default_shot. */
-static shot_config diffusing(shot_module modules[13])
-{
-    shot_config c = { .supplies = { [SUPPLY_capacitor] = { 13, modules } } };
-    for (int k = 0; k < 13; k++) {
-        params_default(supply_capacitor_params, &modules[k]);
-        modules[k].count = k == 0 ? 3 : 1;
-        modules[k].capacitance = 3.594e-3;
-        modules[k].charge = 10.55e3;
-        modules[k].inductance = 12.56e-6;
-        modules[k].resistance = 4.1e-3;
-        modules[k].crowbar_drop = 1.48;
-        modules[k].crowbar_resistance = 0.43e-3;
-        modules[k].cable_inductance = 1e-6;
-        modules[k].cable_resistance = 1e-3;
-        modules[k].fire_at = 0.22e-3 * k;
-    }
-    params_default(shot_rails_params, &c.rails);
-    params_default(shot_barrel_params, &c.barrel);
-    params_default(shot_armature_params, &c.armature);
-    params_default(shot_options_params, &c.options);
-    c.rails.height = c.rails.separation = 0.025;
-    c.rails.thickness = 0.020;
-    c.barrel.length = 3.0;
-    c.barrel.start = 0.1;
-    c.armature.mass = 0.25;
-    c.armature.resistance = 20e-6;
-    c.armature.contact_voltage = 30.0;
-    c.armature.friction_dry = 0.3;
-    c.armature.friction_melted = 0.05;
-    c.armature.preload = 5e3;
-    c.armature.spreading = 3e-8;
-    c.armature.contact_length = 16.5e-3;
-    return c;
-}
-
 typedef struct {
     double energy, field, heat; /* worst error; least increments */
     double last_heat;
@@ -401,8 +366,8 @@ static shot_summary shoot(const shot_config *c, watch *w)
 static void diffusing_shot(void **state)
 {
     (void)state;
-    shot_module modules[13];
-    shot_config c = diffusing(modules);
+    shot_module modules[DEFAULT_SHOT_GROUPS];
+    shot_config c = default_shot(modules);
     assert_int_equal(c.rails.level, SHOT_RAILS_DIFFUSING); /* the default */
     watch w;
     const shot_summary plain = shoot(&c, &w);
@@ -425,8 +390,8 @@ static void diffusing_shot(void **state)
 static void levels_agree(void **state)
 {
     (void)state;
-    shot_module modules[13];
-    shot_config c = diffusing(modules);
+    shot_module modules[DEFAULT_SHOT_GROUPS];
+    shot_config c = default_shot(modules);
     ladder l;
     watch w;
     c.rails.ladder_frequency = 5e4;
@@ -448,8 +413,8 @@ static void levels_agree(void **state)
 static void warm_slices(void **state)
 {
     (void)state;
-    shot_module modules[13];
-    shot_config c = diffusing(modules);
+    shot_module modules[DEFAULT_SHOT_GROUPS];
+    shot_config c = default_shot(modules);
     watch w;
     double muzzle[3];
     for (int k = 0; k < 3; k++) {

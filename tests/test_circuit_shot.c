@@ -1,5 +1,6 @@
 /* The shot: closed forms, a measured-like pulse, an independent integration, and everything a bank can be asked to do. */
 #include "circuit/shot.h"
+#include "tests/circuit_common.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -60,44 +61,11 @@ static shot_sink notebook(void)
     return (shot_sink){ on_event, on_sample, &rec };
 }
 
-static shot_module unit(int count, double fire_at)
-{
-    shot_module m;
-    params_default(supply_capacitor_params, &m);
-    m.count = count;
-    m.capacitance = 3.594e-3;
-    m.charge = 10.55e3;
-    m.inductance = 12.56e-6;
-    m.resistance = 4.10e-3;
-    m.crowbar_drop = 1.48;
-    m.crowbar_resistance = 0.43e-3;
-    m.fire_at = fire_at;
-    return m;
-}
-
 /* 25 x 20 x 25 mm rails at level constant, a 0.25 kg armature, 5 m. */
 static shot_config plain(const shot_module *modules, int n)
 {
-    shot_config c = { .supplies = { [SUPPLY_capacitor] = { n, modules } } };
-    params_default(shot_rails_params, &c.rails);
-    params_default(shot_barrel_params, &c.barrel);
-    params_default(shot_armature_params, &c.armature);
-    params_default(shot_options_params, &c.options);
-    c.rails.level = SHOT_RAILS_CONSTANT;
-    c.rails.height = 0.025;
-    c.rails.thickness = 0.020;
-    c.rails.separation = 0.025;
-    c.rails.inductance_gradient = 0.5e-6;
-    c.rails.resistance_gradient = 1e-4;
-    c.barrel.length = 5.0;
-    c.barrel.start = 0.1;
-    c.armature.mass = 0.25;
-    c.armature.resistance = 20e-6;
-    c.armature.contact_voltage = 30.0;
-    c.armature.friction_dry = 0.3;
-    c.armature.friction_melted = 0.05;
-    c.armature.preload = 5e3;
-    c.armature.spreading = 3e-8;
+    shot_config c = plain_barrel();
+    c.supplies[SUPPLY_capacitor] = (supply_list){ n, modules };
     return c;
 }
 
@@ -161,7 +129,7 @@ static double rlc_current(const rlc *c, double t)
 /* 1e-8 of the peak: the figure; at rtol 1e-11 the integration's own error is below it (docs/shot.md). */
 static void closed_form(double drop)
 {
-    shot_module m = unit(1, 0.0);
+    shot_module m = unit_200kJ(1, 0.0);
     m.crowbar_drop = drop;
     m.crowbar_resistance = 0.0;
     shot_config c = shorted(&m, 1);
@@ -208,7 +176,7 @@ static void rlc_with_ideal_crowbar(void **state)
 static void published_pulse(void **state)
 {
     (void)state;
-    const shot_module m = unit(1, 0.0);
+    const shot_module m = unit_200kJ(1, 0.0);
     const shot_config c = shorted(&m, 1);
     shot *s = NULL;
     assert_ok(shot_create(&c, &s));
@@ -290,7 +258,7 @@ static double integrate(const shot_config *c, bool crowbar, double t, double *y)
 static void independent_integration(void **state)
 {
     (void)state;
-    shot_module m = unit(8, 0.0);
+    shot_module m = unit_200kJ(8, 0.0);
     m.cable_inductance = 1e-6;
     m.cable_resistance = 1e-3;
     m.crowbar_resistance = 0.0;
@@ -319,7 +287,7 @@ static void independent_integration(void **state)
 static int default_bank(shot_module *modules)
 {
     for (int k = 0; k < 13; k++) {
-        modules[k] = unit(k ? 1 : 3, k * 2.2e-4);
+        modules[k] = unit_200kJ(k ? 1 : 3, k * 2.2e-4);
         modules[k].cable_inductance = 1e-6;
         modules[k].cable_resistance = 1e-3;
     }
@@ -361,7 +329,7 @@ static void tolerance_converges(void **state)
 static void many_at_once(void **state)
 {
     (void)state;
-    shot_module together = unit(48, 1e-4), apart[48];
+    shot_module together = unit_200kJ(48, 1e-4), apart[48];
     together.charge = 4e3;
     for (int k = 0; k < 48; k++) {
         apart[k] = together;
@@ -387,7 +355,7 @@ static void many_at_once(void **state)
 static void modules_that_never_fire(void **state)
 {
     (void)state;
-    shot_module modules[3] = { unit(4, 0.0), unit(2, NAN), unit(3, INFINITY) };
+    shot_module modules[3] = { unit_200kJ(4, 0.0), unit_200kJ(2, NAN), unit_200kJ(3, INFINITY) };
     modules[0].fire_at = 1e3;
     shot_config c = plain(modules, 3);
     shot *s = run(&c);
@@ -408,7 +376,7 @@ static void modules_that_never_fire(void **state)
 static void zero_charge(void **state)
 {
     (void)state;
-    shot_module modules[2] = { unit(4, 1e-4), unit(4, 1e-4) };
+    shot_module modules[2] = { unit_200kJ(4, 1e-4), unit_200kJ(4, 1e-4) };
     modules[0].charge = 0.0;
     shot_config c = plain(modules, 1);
     shot *s = run(&c);
@@ -432,7 +400,7 @@ static void zero_charge(void **state)
 static void weak_group_waits(void **state)
 {
     (void)state;
-    shot_module modules[2] = { unit(10, 0.0), unit(1, 6e-4) };
+    shot_module modules[2] = { unit_200kJ(10, 0.0), unit_200kJ(1, 6e-4) };
     modules[1].charge = 500.0;
     const shot_config c = plain(modules, 2);
     shot *s = run(&c);
@@ -452,7 +420,7 @@ static void weak_group_waits(void **state)
 static void stuck_armature(void **state)
 {
     (void)state;
-    const shot_module m = unit(10, 0.0);
+    const shot_module m = unit_200kJ(10, 0.0);
     shot_config c = plain(&m, 1);
     c.armature.preload = 1e7;
     shot *s = run(&c);
@@ -473,7 +441,7 @@ static void stuck_armature(void **state)
 static void armature_that_stops_again(void **state)
 {
     (void)state;
-    const shot_module m = unit(10, 0.0);
+    const shot_module m = unit_200kJ(10, 0.0);
     shot_config c = plain(&m, 1);
     c.armature.friction_dry = 0.5;
     c.armature.friction_melted = 0.5;
@@ -495,7 +463,7 @@ static void armature_that_stops_again(void **state)
 static void leaves_before_the_last_firing(void **state)
 {
     (void)state;
-    shot_module modules[2] = { unit(10, 0.0), unit(10, 5e-3) };
+    shot_module modules[2] = { unit_200kJ(10, 0.0), unit_200kJ(10, 5e-3) };
     shot_config c = plain(modules, 2);
     c.barrel.length = 0.5;
     c.barrel.muzzle_voltage = 200.0;
@@ -611,17 +579,17 @@ static status creation(const shot_config *c)
 static void bad_input_is_named(void **state)
 {
     (void)state;
-    shot_module m = unit(1, 0.0);
+    shot_module m = unit_200kJ(1, 0.0);
     const double outside[1] = { 7.0 };
     shot_config c = plain(&m, 1);
     m.capacitance = -5e-3;
     status st = creation(&c);
     assert_int_equal(st.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(st.text, "bank[0].capacitance"));
-    m = unit(1, 0.0);
+    m = unit_200kJ(1, 0.0);
     m.inductance = 0.0;
     assert_non_null(strstr(creation(&c).text, "inductance"));
-    m = unit(1, 0.0);
+    m = unit_200kJ(1, 0.0);
     c.barrel.start = 6.0;
     assert_non_null(strstr(creation(&c).text, "barrel.start"));
     c = plain(&m, 1);
@@ -648,7 +616,7 @@ static double dice_between(uint64_t *seed, double lo, double hi) /* evenly in th
 
 static shot_module dice_module(uint64_t *seed)
 {
-    shot_module m = unit(1 + (int)(5.0 * dice(seed)), floor(6.0 * dice(seed)) * 3e-4);
+    shot_module m = unit_200kJ(1 + (int)(5.0 * dice(seed)), floor(6.0 * dice(seed)) * 3e-4);
     m.capacitance = dice_between(seed, 1e-4, 1e-2);
     m.charge = dice(seed) < 0.1 ? 0.0 : dice_between(seed, 1e2, 2e4);
     m.inductance = dice_between(seed, 1e-6, 1e-4);
@@ -696,7 +664,7 @@ static void random_banks(void **state)
 }
 
 /* The default bank at level skin; the figures of docs/shot.md come from here. */
-static void default_shot(void **state)
+static void shot_of_default_case(void **state)
 {
     (void)state;
     shot_module modules[13];
@@ -739,7 +707,7 @@ int main(void)
         cmocka_unit_test(stop_and_go_on),
         cmocka_unit_test(bad_input_is_named),
         cmocka_unit_test(random_banks),
-        cmocka_unit_test(default_shot),
+        cmocka_unit_test(shot_of_default_case),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,13 +1,14 @@
 /* Rail levels on the default shot: what each makes of muzzle velocity, time, peak current and of the place where the
  * armature passes a speed.  The circuit of cases/default_shot. */
 #include "circuit/shot.h"
+#include "tests/circuit_common.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { GROUPS = 13, SPEEDS = 9 };
+enum { SPEEDS = 9 };
 static const double speeds[SPEEDS] = { 800, 1000, 1200, 1231, 1402, 1569, 1600, 1800, 1900 };
 
 typedef struct {
@@ -20,42 +21,6 @@ static void must(status s)
     if (s.code == STATUS_OK) return;
     fprintf(stderr, "%s\n", s.text);
     exit(1);
-}
-
-static shot_config default_shot(shot_module modules[GROUPS])
-{
-    shot_config c = { .supplies = { [SUPPLY_capacitor] = { GROUPS, modules } } };
-    for (int k = 0; k < GROUPS; k++) {
-        params_default(supply_capacitor_params, &modules[k]);
-        modules[k].count = k == 0 ? 3 : 1;
-        modules[k].capacitance = 3.594e-3;
-        modules[k].charge = 10.55e3;
-        modules[k].inductance = 12.56e-6;
-        modules[k].resistance = 4.1e-3;
-        modules[k].crowbar_drop = 1.48;
-        modules[k].crowbar_resistance = 0.43e-3;
-        modules[k].cable_inductance = 1e-6;
-        modules[k].cable_resistance = 1e-3;
-        modules[k].fire_at = 0.22e-3 * k;
-    }
-    params_default(shot_rails_params, &c.rails);
-    params_default(shot_barrel_params, &c.barrel);
-    params_default(shot_armature_params, &c.armature);
-    params_default(shot_options_params, &c.options);
-    c.rails.height = c.rails.separation = 0.025;
-    c.rails.thickness = 0.020;
-    c.barrel.length = 3.0;
-    c.barrel.start = 0.1;
-    c.armature.mass = 0.25;
-    c.armature.resistance = 20e-6;
-    c.armature.contact_voltage = 30.0;
-    c.armature.friction_dry = 0.3;
-    c.armature.friction_melted = 0.05;
-    c.armature.preload = 5e3;
-    c.armature.spreading = 3e-8;
-    c.armature.contact_length = 16.5e-3;
-    c.armature.contact_width = 25e-3;
-    return c;
 }
 
 static bool note(void *user, const shot *s, const shot_state *now)
@@ -97,7 +62,7 @@ static void row(const char *name, const shot_config *c)
 int main(int argc, char **argv)
 {
     const bool tiny = argc > 1 && strcmp(argv[1], "--tiny") == 0;
-    shot_module modules[GROUPS];
+    shot_module modules[DEFAULT_SHOT_GROUPS];
     shot_config c = default_shot(modules);
     if (tiny) c.options.rtol = 1e-4;
     printf("%-28s peak[kA] exit[m/s] t[ms] I[kA]  effic. heat[kJ], then x [m] at", "rails");
