@@ -205,13 +205,14 @@ const int *dae_found(const dae *d)
     return d->found;
 }
 
-status dae_restart(dae *d, double t, double rtol)
+status dae_restart(dae *d, double t, double rtol, double first)
 {
     d->t = t;
     int flag = IDAReInit(d->ida, t, d->y, d->yp);
     if (flag >= 0) flag = IDASVtolerances(d->ida, rtol, d->atol);
     if (flag >= 0) flag = IDASetId(d->ida, d->differential);
     if (flag >= 0) flag = IDASetRootDirection(d->ida, d->direction);
+    if (flag >= 0) flag = IDASetInitStep(d->ida, first);
     return flag >= 0 ? status_ok() : failure(flag, t);
 }
 

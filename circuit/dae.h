@@ -34,7 +34,8 @@ double *dae_differential(const dae *d); /* n: 1 where y' enters F, 0 where not (
 int *dae_direction(const dae *d);       /* n_roots: +1 rising, -1 falling, 0 both */
 const int *dae_found(const dae *d);     /* n_roots: after DAE_ROOT, nonzero where a root was found */
 
-status dae_restart(dae *d, double t, double rtol);
+/* first: step to begin with, 0 = IDA's own choice [s]. */
+status dae_restart(dae *d, double t, double rtol, double first);
 /* One accepted step, cut short at `stop` and at the first root.  *t is the time reached. */
 status dae_step(dae *d, double stop, double *t, dae_outcome *outcome);
 

@@ -193,18 +193,31 @@ static status memory_take(shot *s, const shot_config *c)
     return status_ok();
 }
 
+/* More than these is a switch that chatters.  A module that rings opens and closes its crowbar once a period, four rises: that
+ * often, four times over, for the rings of modules side by side are faster than their own. */
+static int switchings_allowed(const shot *s)
+{
+    static const double MOST = 1e6, BY_ARMATURE = 1000.0;
+    const shot_model *m = &s->model;
+    double allowed = BY_ARMATURE + 8.0 * m->n;
+    for (int k = 0; k < m->n; k++) {
+        const supply_group *g = &m->groups[k];
+        allowed += 4.0 * g->pulses;
+        if (g->reverses) allowed += 2.0 * s->options.max_time / g->kind->rise(g->p);
+    }
+    return (int)fmin(allowed, MOST);
+}
+
 static status solver_take(shot *s)
 {
     shot_model *m = &s->model;
     const int n = shot_unknowns(m);
     s->scale = calloc((size_t)n, sizeof *s->scale);
-    CHECK(s->scale, STATUS_MEMORY, "out of memory for a circuit of %d unknowns", n);
+    s->later = calloc((size_t)n * 2, sizeof *s->later);
+    CHECK(s->scale && s->later, STATUS_MEMORY, "out of memory for a circuit of %d unknowns", n);
     TRY(arrow_create(m->n, n - m->start, Y_SUMS, &s->matrix));
-    s->switchings_limit = 8 * m->n + 1000;
-    for (int k = 0; k < m->n; k++) {
-        s->matrix->size[k] = m->groups[k].unknowns;
-        s->switchings_limit += 4 * m->groups[k].pulses;
-    }
+    s->switchings_limit = switchings_allowed(s);
+    for (int k = 0; k < m->n; k++) s->matrix->size[k] = m->groups[k].unknowns;
     const dae_problem problem = { .n = n,
                                   .n_roots = ROOT_GROUPS + 2 * m->n,
                                   .residual = shot_residual,
@@ -280,6 +293,7 @@ void shot_free(shot *s)
     free(s->sites);
     free(s->queue);
     free(s->scale);
+    free(s->later);
     free(s->forced);
     free(s);
 }

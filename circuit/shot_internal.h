@@ -30,6 +30,7 @@ struct shot {
     shot_place *sites; /* by position */
     pending *queue;    /* events not yet handed out: queue[head] .. queue[tail - 1] */
     double *scale;     /* of every unknown */
+    double *later;     /* room for the first step: unknowns, rates */
     bool *forced;      /* groups that a root says conduct now; then room for the firing, two times as long */
     int n_sites, passed, head, tail, capacity;
     int switchings, switchings_limit;

@@ -13,6 +13,10 @@ enum { CHARGED, CROWBARRED };
  * back to it.  Far above round-off, far below any tolerance. */
 static const double KNEE = 4e-12;
 
+/* The diode's current goes from 0 to the module's in R_d C, a microsecond, and moves the capacitor by its drop alone: its scale
+ * is that of the capacitor's voltage over R_d, and no more than so many of the module's current. */
+static const double LOOSE = 100.0;
+
 #define MODULE(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_module, member, unit, fallback, min, max, doc)
 const param supply_capacitor_params[] = {
     PARAM_INT(shot_module, count, 1, 1, 1e6, "identical modules in this group"),
@@ -70,14 +74,14 @@ static double current_scale(const shot_module *p)
     return fmax(p->charge * sqrt(p->capacitance / (p->inductance + p->cable_inductance)), 1.0);
 }
 
-static void start(const void *params, double *y, supply_scale *scale)
+static void start(const void *params, double *y, supply_scale *to)
 {
     const shot_module *p = params;
     const double i = current_scale(p);
     y[1] = p->charge;
-    *scale = (supply_scale){ .y = { i, fmax(p->charge, 1.0), i, 0.0 },
-                             .voltage = p->charge,
-                             .energy = 0.5 * p->capacitance * p->charge * p->charge };
+    *to = (supply_scale){ .y = { i, fmax(p->charge, 1.0), i, 0.0 },
+                          .voltage = p->charge,
+                          .energy = 0.5 * p->capacitance * p->charge * p->charge };
 }
 
 static double capacitor_voltage(const supply_group *g, const double *y)
@@ -92,9 +96,12 @@ static bool algebraic(const supply_group *g, int j)
            ((const shot_module *)g->p)->crowbar_resistance == 0.0;
 }
 
-static int scaled_like(const supply_group *g, int j)
+static double scale(const supply_group *g, int j)
 {
-    return j == 1 && g->stage == CROWBARRED ? 0 : j;
+    const shot_module *p = g->p;
+    const double i = current_scale(p), u = fmax(p->charge, 1.0);
+    if (j != 1) return i;
+    return g->stage == CROWBARRED ? fmin(fmax(i, u / p->crowbar_resistance), LOOSE * i) : u;
 }
 
 static void flow(const supply_group *g, double t, const double *y, supply_flow *f)
@@ -166,7 +173,7 @@ const supply_kind kind_capacitor = {
     .start = start,
     .flow = flow,
     .algebraic = algebraic,
-    .scaled_like = scaled_like,
+    .scale = scale,
     .root = root,
     .next = next,
     .stored = stored,

@@ -68,7 +68,7 @@ struct supply_kind {
     void (*start)(const void *p, double *y, supply_scale *scale); /* state at t = 0 */
     void (*flow)(const supply_group *g, double t, const double *y, supply_flow *f); /* f comes zeroed */
     bool (*algebraic)(const supply_group *g, int j);                                /* NULL: none */
-    int (*scaled_like)(const supply_group *g, int j);                  /* unknown whose scale y_j has; NULL: its own */
+    double (*scale)(const supply_group *g, int j);                     /* of y_j in this stage; NULL: that of `start` */
     double (*knot)(const supply_group *g, double t);                   /* first time > t not to step over; NULL: none */
     double (*root)(const supply_group *g, double t, const double *y);  /* of order 1; NULL: one stage */
     shot_event_kind (*next)(supply_group *g, double *y);               /* the stage that follows, and what to call it */
