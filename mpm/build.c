@@ -35,55 +35,108 @@ static status ladder_make(const axis *a, double lo, double hi, int per_cell, lad
     return status_ok();
 }
 
-static bool inside(const mpm_body *b, const double x[3])
+/* Signed distance to the surface of what is the body's own: its shape, less its cut, less what later bodies claim. */
+static double depth_in(const mpm_body *b, const double x[3])
 {
-    return b->shape->inside(&b->shape_value, x) > 0 && !(b->cut && b->cut->inside(&b->cut_value, x) > 0);
+    const double in = b->shape->inside(&b->shape_value, x);
+    return b->cut ? fmin(in, -b->cut->inside(&b->cut_value, x)) : in;
 }
 
-static bool claimed_later(const mpm_scene *s, int body, const double x[3])
+static double depth(const mpm_scene *s, int body, const double x[3])
 {
-    for (int i = body + 1; i < s->bodies; i++)
-        if (inside(&s->body[i], x)) return true;
-    return false;
+    double d = depth_in(&s->body[body], x);
+    for (int i = body + 1; i < s->bodies; i++) d = fmin(d, -depth_in(&s->body[i], x));
+    return d;
 }
 
-/* Does the face of the body that the traction acts on lie between this point and the next lattice place? */
+/* A box of a body's lattice, or of it the part that is the body's. */
+typedef struct {
+    double x[3], size[3], share; /* centroid and lengths [m]; of the box's volume [1] */
+} piece;
+
+/* Extent of a box along the gradient of the depth at its middle [m]. */
+static double thickness(const mpm_scene *s, int body, const piece *p)
+{
+    double gradient[3], norm = 0, along = 0;
+    for (int q = 0; q < 3; q++) {
+        double lo[3] = { p->x[0], p->x[1], p->x[2] }, hi[3] = { p->x[0], p->x[1], p->x[2] };
+        lo[q] -= 0.25 * p->size[q], hi[q] += 0.25 * p->size[q];
+        gradient[q] = (depth(s, body, hi) - depth(s, body, lo)) / (0.5 * p->size[q]);
+        norm = hypot(norm, gradient[q]);
+        along += fabs(gradient[q]) * p->size[q];
+    }
+    return norm > 0 ? along / norm : p->size[0];
+}
+
+/* A box that the surface passes through is cut: its part inside is a point at its centroid, with the part's variance along
+ * each axis.  Whole boxes or none would make a staircase of every face that does not lie along the lattice, and contact
+ * normals would follow the steps (docs/scene-solver.md, V7b). */
+static void cut(const mpm_scene *s, int body, piece *p)
+{
+    enum { PARTS = 4, ALL = PARTS * PARTS * PARTS };         /* an axis; in all */
+    const double whole = (1 - 1.0 / (PARTS * PARTS)) / 12.0; /* variance of their middles, box of length 1 */
+    const double d = depth(s, body, p->x);
+    p->share = d > 0;
+    if (fabs(d) >= 0.5 * sqrt(p->size[0] * p->size[0] + p->size[1] * p->size[1] + p->size[2] * p->size[2])) return;
+    const double part = thickness(s, body, p) / PARTS;
+    double sum = 0, first[3] = { 0 }, second[3] = { 0 };
+    for (int i = 0; i < ALL; i++) {
+        const int at[3] = { i % PARTS, i / PARTS % PARTS, i / (PARTS * PARTS) };
+        double u[3], x[3];
+        for (int q = 0; q < 3; q++) u[q] = p->size[q] * ((at[q] + 0.5) / PARTS - 0.5), x[q] = p->x[q] + u[q];
+        const double w = fmin(1, fmax(0, 0.5 + depth(s, body, x) / part));
+        sum += w;
+        for (int q = 0; q < 3; q++) first[q] += w * u[q], second[q] += w * u[q] * u[q];
+    }
+    p->share = sum / ALL;
+    if (p->share > 1 - 1e-9 || !(sum > 0)) return;
+    for (int q = 0; q < 3; q++) {
+        const double mean = first[q] / sum, variance = fmax(second[q] / sum - mean * mean, 0);
+        p->x[q] += mean;
+        p->size[q] *= fmax(sqrt(variance / whole) / p->size[q], 0.2);
+    }
+}
+
+/* Does the face of the body that the traction acts on lie between this place of the lattice and the next? */
 static double loaded_area(const mpm_body *b, const double x[3], const double size[3])
 {
     if (b->traction[0] == 0 && b->traction[1] == 0 && b->traction[2] == 0) return 0;
     const int k = b->traction_face / 2;
     double next[3] = { x[0], x[1], x[2] };
     next[k] += b->traction_face % 2 ? size[k] : -size[k];
-    return inside(b, next) ? 0 : size[(k + 1) % 3] * size[(k + 2) % 3];
+    return depth_in(b, x) <= 0 || depth_in(b, next) > 0 ? 0 : size[(k + 1) % 3] * size[(k + 2) % 3];
 }
 
-static void fill_point(const mpm_body *b, const law *k, const double x[3], const double size[3], build_point *p)
+static void fill_point(const mpm_body *b, const piece *p, build_point *out)
 {
-    memset(p, 0, sizeof *p);
+    memset(out, 0, sizeof *out);
     for (int i = 0; i < 3; i++) {
-        p->x[i] = x[i];
-        p->half[i] = 0.5 * size[i];
-        p->v[i] = b->velocity[i];
+        out->x[i] = p->x[i];
+        out->half[i] = 0.5 * p->size[i];
+        out->v[i] = b->velocity[i];
     }
-    p->mass = k->rho_start * size[0] * size[1] * size[2];
-    p->area = loaded_area(b, x, size);
 }
 
 static status walk(const mpm_scene *s, int body, const law *k, const ladder l[3], const build_sink *sink)
 {
+    static const double SLIVER = 0.02; /* of a box: left out */
     const mpm_body *b = &s->body[body];
     for (int iz = 0; iz < l[2].n; iz++)
         for (int iy = 0; iy < l[1].n; iy++)
             for (int ix = 0; ix < l[0].n; ix++) {
                 const int at[3] = { ix, iy, iz };
-                double x[3], size[3];
+                piece box;
                 for (int q = 0; q < 3; q++) {
-                    size[q] = l[q].edge[at[q] + 1] - l[q].edge[at[q]];
-                    x[q] = l[q].edge[at[q]] + 0.5 * size[q];
+                    box.size[q] = l[q].edge[at[q] + 1] - l[q].edge[at[q]];
+                    box.x[q] = l[q].edge[at[q]] + 0.5 * box.size[q];
                 }
-                if (!inside(b, x) || claimed_later(s, body, x)) continue;
+                piece own = box;
+                cut(s, body, &own);
+                if (own.share < SLIVER) continue;
                 build_point p;
-                fill_point(b, k, x, size, &p);
+                fill_point(b, &own, &p);
+                p.mass = k->rho_start * own.share * box.size[0] * box.size[1] * box.size[2];
+                p.area = loaded_area(b, box.x, box.size);
                 TRY(sink->point(sink->user, body, &p));
             }
     return status_ok();

@@ -72,6 +72,7 @@ void valid_noh(double cells, const valid_scheme *scheme, valid_result *out);
 void valid_disks(double cells, const valid_scheme *scheme, valid_result *out);
 void valid_block(double cells, const valid_scheme *scheme, valid_result *out);
 void valid_tilted(double cells, const valid_scheme *scheme, valid_result *out);
+void valid_fast(double cells, const valid_scheme *scheme, valid_result *out);
 void valid_rolling(double cells, const valid_scheme *scheme, valid_result *out);
 void valid_hertz(double cells, const valid_scheme *scheme, valid_result *out);
 void valid_taylor(double cells, const valid_scheme *scheme, valid_result *out);
