@@ -54,20 +54,6 @@ typedef struct {
     double x[3], size[3], share; /* centroid and lengths [m]; of the box's volume [1] */
 } piece;
 
-/* Extent of a box along the gradient of the depth at its middle [m]. */
-static double thickness(const mpm_scene *s, int body, const piece *p)
-{
-    double gradient[3], norm = 0, along = 0;
-    for (int q = 0; q < 3; q++) {
-        double lo[3] = { p->x[0], p->x[1], p->x[2] }, hi[3] = { p->x[0], p->x[1], p->x[2] };
-        lo[q] -= 0.25 * p->size[q], hi[q] += 0.25 * p->size[q];
-        gradient[q] = (depth(s, body, hi) - depth(s, body, lo)) / (0.5 * p->size[q]);
-        norm = hypot(norm, gradient[q]);
-        along += fabs(gradient[q]) * p->size[q];
-    }
-    return norm > 0 ? along / norm : p->size[0];
-}
-
 /* A box that the surface passes through is cut: its part inside is a point at its centroid, with the part's variance along
  * each axis.  Whole boxes or none would make a staircase of every face that does not lie along the lattice, and contact
  * normals would follow the steps (docs/scene-solver.md, V7b). */
@@ -78,7 +64,8 @@ static void cut(const mpm_scene *s, int body, piece *p)
     const double d = depth(s, body, p->x);
     p->share = d > 0;
     if (fabs(d) >= 0.5 * sqrt(p->size[0] * p->size[0] + p->size[1] * p->size[1] + p->size[2] * p->size[2])) return;
-    const double part = thickness(s, body, p) / PARTS;
+    /* the surface counts over the thickness of a part: no more, or a box with a face on the surface would lose of it */
+    const double part = fmin(p->size[0], fmin(p->size[1], p->size[2])) / PARTS;
     double sum = 0, first[3] = { 0 }, second[3] = { 0 };
     for (int i = 0; i < ALL; i++) {
         const int at[3] = { i % PARTS, i / PARTS % PARTS, i / (PARTS * PARTS) };
