@@ -166,6 +166,18 @@ LANE_INLINE void leave_holes(gathered *r, vm here)
     r->ka = vd_where(here, r->ka);
 }
 
+/* A failed or molten point has nothing that resists its gradient: lone debris that is drawn out steepens it without bound (F^-1,
+ * motion_lanes.h), and what that motion needs came out of its heat, far below none.  So such a point's gradient part holds no more than
+ * the mixing has left, `budget` [J/kg].  Returns the factor on the gradient that this leaves. */
+LANE_INLINE vd bound_gradient(const law *k, const block *q, int lane, vd budget, vd *ka)
+{
+    const vm over = loose_points(k, q, lane) & vd_less(budget, *ka);
+    if (!vm_bits(over)) return vd_set(1);
+    const vd wanted = *ka, kept = vd_select(over, vd_max(budget, vd_set(0)), wanted);
+    *ka = kept;
+    return vd_sqrt(vd_select(over, kept / vd_max(wanted, vd_set(1e-300)), vd_set(1)));
+}
+
 /* Moves and stretches; the work of the loads. */
 LANE_INLINE vd move(block *q, int lane, const gathered *r, const step_of *step)
 {
@@ -300,10 +312,12 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
         gather(w, nodes, &r);
         if (m->scene.transfer != TRANSFER_TPIC) r.ka = vd_set(0);
         leave_holes(&r, vd_less(vd_set(0), vd_load(&q->mass[0][lane])));
-        sum.heat = r.E - 0.5 * (r.v[0] * r.v[0] + r.v[1] * r.v[1] + r.v[2] * r.v[2]) - r.ka;
+        const vd budget = r.E - 0.5 * (r.v[0] * r.v[0] + r.v[1] * r.v[1] + r.v[2] * r.v[2]);
+        const vd share = bound_gradient(k, q, lane, budget, &r.ka);
+        sum.heat = budget - r.ka;
         vd_store(&q->ka[0][lane], r.ka);
         const motion moved = motion_of(r.L, run->step.dt);
-        for (int i = 0; i < 9; i++) vd_store(&q->L[i][lane], moved.end[i]);
+        for (int i = 0; i < 9; i++) vd_store(&q->L[i][lane], share * moved.end[i]);
         sum.work_external = move(q, lane, &r, &run->step);
         law_step(k, &run->step, &moved, q, lane, b->contact, &sum);
         book(&run->books, q, lane, &sum);

@@ -176,16 +176,26 @@ LANE_INLINE void damage(const law *k, const yielding *y, vd p, block *q, int lan
     vd_store(&q->damage[0][lane], vd_min(vd_load(&q->damage[0][lane]) + y->plastic / e_f, vd_set(1)));
 }
 
+/* Failed or molten: no deviator, no tension. */
+LANE_INLINE vm loose_points(const law *k, const block *q, int lane)
+{
+    return ~(vd_less(vd_load(&q->damage[0][lane]), vd_set(1)) & vd_less(vd_load(&q->T[0][lane]), vd_set(k->T_m)));
+}
+
+/* A melt torn further apart than this share of K0 would hold has failed: were it to freeze again, it would pull with what
+ * nothing had stored. */
+#define LAW_MELT_TENSION 1e-4
+
 /* Stress, energy and temperature of the part of a block that begins with `lane`, over a step.  The stress power is the mean
  * of its values at the start and at the end, each with the gradient and the volume there; the pressure is solved with the
- * energy it changes, and a failed point's tension is removed before that energy.  `contact`: the flow stress is needed even where nothing flows. */
+ * energy it changes, and a loose point's tension is removed before that energy.  `contact`: the flow stress is needed even where nothing flows. */
 LANE_INLINE void law_step(const law *k, const step_of *step, const motion *move, block *q, int lane, bool contact,
                           lane_sums *sum)
 {
     const vd zero = vd_set(0), one = vd_set(1), *L = move->middle, tr = trace(L);
     const double dt = step->dt;
     const vd p0 = vd_load(&q->p[0][lane]), volume0 = 1 / vd_load(&q->rho[0][lane]);
-    const vm failed = ~vd_less(vd_load(&q->damage[0][lane]), one);
+    const vm failed = ~vd_less(vd_load(&q->damage[0][lane]), one), loose = loose_points(k, q, lane);
     const vd wanted = volume0 * move->growth;
     const vd volume = vd_min(vd_max(wanted, vd_set(k->volume_min)), vd_set(k->volume_max)), rho = 1 / volume;
     vd s[6];
@@ -203,15 +213,17 @@ LANE_INLINE void law_step(const law *k, const step_of *step, const motion *move,
     vd e = vd_load(&q->e[0][lane]) + sum->heat + 0.5 * dt * (power_before + stress_power(s, move->end) * volume) -
            half * q_v;
     const vd p_free = pressure(k, mu, rho, e, half);
-    const vm torn = failed & vd_less(p_free, zero);
+    const vm torn = loose & vd_less(p_free, zero), parted = loose & vd_less(p_free, vd_set(-LAW_MELT_TENSION * k->K0));
     const vd p = vd_select(torn, zero, p_free);
     e -= half * p;
     if (k->D1 >= 0 && y.any) damage(k, &y, p, q, lane);
+    if (vm_bits(parted & ~failed)) vd_store(&q->damage[0][lane], vd_select(parted, one, vd_load(&q->damage[0][lane])));
 
     const vd stored = y.mises_square * volume * (1 / (6 * k->G)); /* s:s/(4 G rho) */
     vd T = vd_load(&q->T[0][lane]);
     if (!k->plastic_heat)
-        T = temperature(k, e, vd_select(failed, vd_max(mu, zero), mu), stored); /* dust was stretched at no cost */
+        T = temperature(k, e, vd_select(failed | parted, vd_max(mu, zero), mu),
+                        stored); /* dust was stretched at no cost */
     else if (y.any)
         T += k->chi * y.mises * y.plastic * volume * k->inv_c;
     vd_store(&q->T[0][lane], T);
