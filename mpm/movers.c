@@ -40,15 +40,6 @@ static bool find_cell(const mpm *m, const brick *b, const int cell[3], const dou
     return true;
 }
 
-static void eject(tally *sum, const double *q)
-{
-    const double m = q[FIRST_mass], *v = q + FIRST_v;
-    sum->ejected++;
-    sum->ejected_mass += m;
-    for (int k = 0; k < 3; k++) sum->ejected_momentum[k] += m * v[k];
-    sum->ejected_energy += m * (0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + q[FIRST_ka] + q[FIRST_e]);
-}
-
 /* Vapour and dust: what no law here describes is taken out and booked, not kept as a hot, thin film between the bodies. */
 static bool erodes(const law *k, const double *q)
 {
@@ -61,7 +52,7 @@ static void send(mpm *m, brick *b, const int cell[3], int body, const double *q,
     mover_list *list = &m->movers[thread];
     mover_head h = { .body = body };
     if (!find_cell(m, b, cell, q + FIRST_x, &h)) {
-        eject(&b->sum, q);
+        particle_leave(q, &b->sum.left);
         return;
     }
     list->head[list->count] = h;
@@ -100,7 +91,7 @@ void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving, int t
         for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][lane];
         const int k = axis_to_split(m, b, at, one);
         if (erodes(&m->laws[link->body], one)) {
-            eject(&b->sum, one);
+            particle_leave(one, &b->sum.left);
             b->sum.eroded++;
             b->sum.eroded_mass += one[FIRST_mass];
             drop_lane(q, link, b, lane);
@@ -206,7 +197,7 @@ status movers_exchange(mpm *m)
     for (int i = 0; i < m->bricks_used; i++) {
         brick *b = &m->bricks[i];
         if (!b->out) continue;
-        if (b->mover_steps || b->sum.ejected)
+        if (b->mover_steps || b->sum.left.count)
             for (int c = 0; c < BRICK_CELLS; c++) tidy_cell(m, b, c);
         const bool empty = b->particles == 0;
         enough = arrive(m, b) && enough;

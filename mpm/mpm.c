@@ -217,11 +217,11 @@ static void add_tally(tally *a, const tally *b)
 {
     a->heat_friction += b->heat_friction, a->heat_transfer += b->heat_transfer, a->heat_viscous += b->heat_viscous;
     a->work_boundary += b->work_boundary, a->work_external += b->work_external;
-    a->ejected_mass += b->ejected_mass, a->ejected_energy += b->ejected_energy;
+    a->left.count += b->left.count, a->left.mass += b->left.mass, a->left.energy += b->left.energy;
     for (int k = 0; k < 3; k++) {
         a->impulse_boundary[k] += b->impulse_boundary[k];
         a->impulse_external[k] += b->impulse_external[k];
-        a->ejected_momentum[k] += b->ejected_momentum[k];
+        a->left.momentum[k] += b->left.momentum[k];
         for (int f = 0; f < MPM_MAX_FIELDS; f++) a->contact[f][k] += b->contact[f][k];
     }
     a->rate = fmax(a->rate, b->rate);
@@ -233,7 +233,7 @@ static void add_tally(tally *a, const tally *b)
         a->peak_strain[i] = fmax(a->peak_strain[i], b->peak_strain[i]);
     }
     a->clamps_pressure += b->clamps_pressure, a->clamps_compression += b->clamps_compression;
-    a->splits += b->splits, a->ejected += b->ejected, a->eroded += b->eroded, a->eroded_mass += b->eroded_mass;
+    a->splits += b->splits, a->eroded += b->eroded, a->eroded_mass += b->eroded_mass;
     a->particles += b->particles;
 }
 
@@ -258,6 +258,13 @@ static status collect(mpm *m, tally *sum)
     return status_ok();
 }
 
+void mpm_book_departure(mpm *m, const departure *d)
+{
+    m->report.ejected += d->count;
+    m->ledger.ejected_mass += d->mass, m->ledger.ejected_energy += d->energy;
+    for (int k = 0; k < 3; k++) m->ledger.ejected_momentum[k] += d->momentum[k];
+}
+
 static void book(mpm *m, const tally *t)
 {
     mpm_ledger *l = &m->ledger;
@@ -266,11 +273,10 @@ static void book(mpm *m, const tally *t)
     l->heat_transfer += t->heat_transfer - t->heat_friction; /* the particles' share held both */
     l->heat_viscous += t->heat_viscous;
     l->work_boundary += t->work_boundary, l->work_external += t->work_external;
-    l->ejected_mass += t->ejected_mass, l->ejected_energy += t->ejected_energy;
+    mpm_book_departure(m, &t->left);
     for (int k = 0; k < 3; k++) {
         l->impulse_boundary[k] += t->impulse_boundary[k];
         l->impulse_external[k] += t->impulse_external[k];
-        l->ejected_momentum[k] += t->ejected_momentum[k];
         for (int f = 0; f < m->fields; f++) r->contact_force[f][k] = t->contact[f][k] / m->dt;
     }
     for (int i = 0; i < m->scene.bodies; i++) {
@@ -281,9 +287,9 @@ static void book(mpm *m, const tally *t)
     }
     r->peak_temperature = fmax(r->peak_temperature, t->peak_temperature);
     r->clamps_pressure += t->clamps_pressure, r->clamps_compression += t->clamps_compression;
-    r->splits += t->splits, r->ejected += t->ejected, r->eroded += t->eroded, r->eroded_mass += t->eroded_mass;
+    r->splits += t->splits, r->eroded += t->eroded, r->eroded_mass += t->eroded_mass;
     r->particle_steps += t->particles;
-    r->particles = (size_t)(t->particles + t->splits - t->ejected);
+    r->particles = (size_t)(t->particles + t->splits - t->left.count);
 }
 
 /* First-order low pass, so that the peak does not hang on one step's noise. */

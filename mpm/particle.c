@@ -1,4 +1,4 @@
-/* One particle in two halves, and two neighbours in one. */
+/* One particle in two halves, two neighbours in one, and one that leaves. */
 #include "mpm/store.h"
 
 #include <math.h>
@@ -44,4 +44,13 @@ void particle_merge(double *q, const double *other, int k)
     q[FIRST_rho] = m / (v0 + v1);
     q[FIRST_half + k] = length;
     q[FIRST_area] = area;
+}
+
+void particle_leave(const double *q, departure *sum)
+{
+    const double m = q[FIRST_mass], *v = q + FIRST_v;
+    sum->count++;
+    sum->mass += m;
+    for (int k = 0; k < 3; k++) sum->momentum[k] += m * v[k];
+    sum->energy += m * (0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + q[FIRST_ka] + q[FIRST_e]);
 }

@@ -74,17 +74,23 @@ typedef struct {
     double (*data)[BLOCK_DOUBLES];
 } mover_list;
 
+/* What has left: through the window's ends, or as vapour and dust. */
+typedef struct {
+    uint64_t count;
+    double mass, momentum[3], energy; /* [kg, kg m/s, J] */
+} departure;
+
 /* What one brick, or one site, books in a step. */
 typedef struct {
     double heat_friction, heat_transfer, heat_viscous;
     double work_boundary, work_external;
     double impulse_boundary[3], impulse_external[3];
     double contact[MPM_MAX_FIELDS][3];
-    double ejected_mass, ejected_momentum[3], ejected_energy;
+    departure left;
     double rate; /* largest (c + |v|) / h [1/s] */
     double peak_pressure, peak_temperature;
     double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES], peak_strain[MPM_MAX_BODIES];
-    uint64_t clamps_pressure, clamps_compression, splits, ejected, eroded, particles;
+    uint64_t clamps_pressure, clamps_compression, splits, eroded, particles;
     double eroded_mass;
     int bad_lane, bad_block; /* first particle that is not finite, bad_block = -1: none */
 } tally;
@@ -191,6 +197,10 @@ uint64_t image_scene_key(const mpm *m); /* before the fine zone has moved */
 /* particle.c: one particle's BLOCK_DOUBLES */
 void particle_halve(double *q, double *other, int k);
 void particle_merge(double *q, const double *other, int k); /* the inverse: q takes other in */
+void particle_leave(const double *q, departure *sum);
+
+/* mpm.c */
+void mpm_book_departure(mpm *m, const departure *d);
 
 /* front.c: all but a twentieth of the power that ploughs the followed bodies lies behind it [m, W] */
 double front_find(const mpm *m, double *power);

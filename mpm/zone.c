@@ -164,20 +164,12 @@ static bool outside(const mpm *m, const double *q)
     return q[FIRST_x] < a->edge[1] || q[FIRST_x] >= a->edge[a->last + 1];
 }
 
-static void leave_behind(mpm *m, const double *q)
-{
-    const double mass = q[FIRST_mass], *v = q + FIRST_v;
-    mpm_ledger *l = &m->ledger;
-    m->report.ejected++;
-    l->ejected_mass += mass;
-    for (int k = 0; k < 3; k++) l->ejected_momentum[k] += mass * v[k];
-    l->ejected_energy += mass * (0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + q[FIRST_ka] + q[FIRST_e]);
-}
-
 static status place_split(mpm *m, int body, double *q)
 {
     if (outside(m, q)) {
-        leave_behind(m, q);
+        departure d = { .count = 0 };
+        particle_leave(q, &d);
+        mpm_book_departure(m, &d);
         return status_ok();
     }
     while (too_long(m, q)) {
