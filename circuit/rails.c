@@ -19,15 +19,22 @@ double rails_share_of_force(double theta)
     return 1.0 - 2.0 * theta * (1.0 + theta * expm1(-u));
 }
 
-static double theta_of(const rails_load *r, int k, double v)
+static double theta_of(const rails_load *r, int k, double rate)
 {
-    return v * r->ladder.L[k] / (r->ladder.R[k] * r->contact_length);
+    return rate * r->ladder.L[k] / r->ladder.R[k];
 }
 
-double rails_force_gradient(const rails_load *r, double v)
+/* 1 over the time that a slice of rail spends where the current enters [1/s]; only a ladder with rungs asks. */
+static double passing_rate(const rails_load *r, double v, double I)
 {
+    return r->ladder.n > 0 ? v / contact_spread(&r->contact, v, I) : 0.0;
+}
+
+double rails_force_gradient(const rails_load *r, double v, double I)
+{
+    const double rate = passing_rate(r, v, I);
     double L = r->ladder.L_inf;
-    for (int k = 0; k < r->ladder.n; k++) L += r->ladder.L[k] * rails_share_of_force(theta_of(r, k, v));
+    for (int k = 0; k < r->ladder.n; k++) L += r->ladder.L[k] * rails_share_of_force(theta_of(r, k, rate));
     return L;
 }
 
@@ -66,13 +73,13 @@ double rails_warming(const rails_load *r, double x, const double *memory)
 rails_flow rails_flow_at(const rails_load *r, double x, double v, double I, const double *memory)
 {
     const ladder *l = &r->ladder;
-    const double warm = rails_warming(r, x, memory), R_dc = warm * l->R_dc;
+    const double warm = rails_warming(r, x, memory), R_dc = warm * l->R_dc, rate = passing_rate(r, v, I);
     rails_flow f = { .inductance = l->L_inf * x,
                      .voltage = (l->L_inf * v + R_dc * x) * I,
                      .heat = R_dc * x * I * I,
                      .field = 0.5 * l->L_inf * x * I * I };
     for (int k = 0; k < l->n; k++) {
-        const double Q = memory[2 * k], W = memory[2 * k + 1], theta = theta_of(r, k, v);
+        const double Q = memory[2 * k], W = memory[2 * k + 1], theta = theta_of(r, k, rate);
         const double a = rails_share_at_birth(theta), under = a * (2.0 - a) - rails_share_of_force(theta);
         f.voltage += warm * l->R[k] * (x * I - Q) + l->L[k] * v * a * I;
         f.heat += warm * l->R[k] * (x * I * I - 2.0 * I * Q + W) + 0.5 * l->L[k] * v * under * I * I;
@@ -84,10 +91,10 @@ rails_flow rails_flow_at(const rails_load *r, double x, double v, double I, cons
 void rails_memory_rates(const rails_load *r, double x, double v, double I, const double *memory, double *rates)
 {
     const int n = r->ladder.n;
-    const double warm = rails_warming(r, x, memory);
+    const double warm = rails_warming(r, x, memory), rate = passing_rate(r, v, I);
     for (int k = 0; k < n; k++) {
         const double Q = memory[2 * k], W = memory[2 * k + 1], frequency = warm * r->ladder.R[k] / r->ladder.L[k];
-        const double born = rails_share_at_birth(theta_of(r, k, v)) * I;
+        const double born = rails_share_at_birth(theta_of(r, k, rate)) * I;
         rates[2 * k] = frequency * (x * I - Q) + v * born;
         rates[2 * k + 1] = 2.0 * frequency * (I * Q - W) + v * born * born;
     }

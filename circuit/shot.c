@@ -38,7 +38,7 @@ static void set_directions(shot *s)
     const shot_model *m = &s->model;
     int *direction = dae_direction(s->solver);
     direction[ROOT_MOTION] = m->phase == SHOT_HELD ? 1 : -1;
-    direction[ROOT_SITE] = direction[ROOT_MUZZLE] = direction[ROOT_FEED] = 1;
+    direction[ROOT_MELT] = direction[ROOT_SITE] = direction[ROOT_MUZZLE] = direction[ROOT_FEED] = 1;
     for (int k = 0; k < m->n; k++) {
         direction[ROOT_GROUPS + 2 * k] = -1;
         direction[ROOT_GROUPS + 2 * k + 1] = m->groups[k].gate == GATE_WAITING ? 1 : -1;

@@ -60,14 +60,23 @@ typedef struct {
     double shunt_inductance;  /* its own [H] */
 } shot_barrel;
 
+typedef enum { SHOT_FRICTION_SPEED, SHOT_FRICTION_FILM } shot_friction_law;
+extern const char *const shot_friction_law_names[]; /* "speed", "film", NULL */
+
+/* Friction.  speed: (C-4), a coefficient that falls with speed.  film: friction_dry until the face has melted (event SHOT_MELTED), then the
+ * shear of the melt (circuit/film.h), never more than friction_dry; what melts then is also what wears, and nothing before.
+ * At rest the face is solid. */
 typedef struct {
     double mass;                    /* [kg] */
     double velocity;                /* at t = 0 [m/s] */
     double resistance;              /* [ohm] */
     double contact_voltage;         /* both contacts together [V] */
+    int friction_law;               /* shot_friction_law */
     double friction_dry;            /* mu0 [1] */
     double friction_melted;         /* mu1 [1] */
     double friction_speed;          /* speed over which mu falls from mu0 to mu1, equation (C-4) [m/s] */
+    double film_viscosity;          /* of the melt, friction_law film [Pa s] */
+    bool velocity_skin;             /* the current crowds to the trailing edge of the contact, circuit/contact.h */
     double preload;                 /* contact force per rail face at I = 0 [N] */
     double spreading;               /* k in N = preload + k I^2, per rail face [N/A^2] */
     double bore_area;               /* drag; NAN = separation x height [m^2] */
@@ -153,6 +162,8 @@ typedef struct {
     double rail_temperature;        /* just ahead of the armature: as before the shot [K] */
     double armature_temperature;    /* of the contact face, estimate (C-7), at most melting [K] */
     double film_temperature;        /* of the melt on it, estimate (C-16) [K] */
+    double film_thickness;          /* of that melt, one face [m] */
+    double contact_spread;          /* length of the contact over which the current enters, (C-22) [m] */
     double rail_behind_temperature; /* rail surface one contact length behind, estimate (C-17) [K] */
     double inductance_gradient, resistance_gradient; /* 2 F/I^2 and the rails' heat over x I^2 [H/m, ohm/m] */
     shot_phase phase;
@@ -170,6 +181,7 @@ typedef enum {
     SHOT_MUZZLE,     /* the armature leaves */
     SHOT_COMMUTATED, /* opening switch of group `index`: its current has gone over into the rails */
     SHOT_RECHARGED,  /* diode of group `index` blocks again, its current having reversed */
+    SHOT_MELTED,     /* the armature's face has melted: it slides on a film (friction_law film) */
     SHOT_EVENT_COUNT
 } shot_event_kind;
 extern const char *const shot_event_names[]; /* "fired", "waiting", ..., NULL */
@@ -210,7 +222,8 @@ typedef struct {
     double contact_ratio;       /* least contact force over 1 gram-force per ampere, in motion [1] */
     double leg_action;          /* action over that which melts the leg, (C-18) [1] */
     double throat_action;       /* the throat alike [1] */
-    double wear_share;          /* thickness worn off over leg_thickness [1] */
+    double wear_share;          /* thickness worn off, where it is most, over leg_thickness [1] */
+    double melt_position;       /* where the face melted first, friction_law film [m] */
     double contact_position;    /* where contact_ratio first falls below 1 [m] */
     double transition_position; /* where the first of the four passes its limit [m] */
     double critical_velocity;   /* of bending waves in the rail on its bed, (C-19) [m/s] */

@@ -51,6 +51,12 @@ static status config_check(const shot_config *c)
     CHECK(c->armature.gas_density == 0.0 || c->armature.gas_pressure > 0.0, STATUS_BAD_INPUT,
           "armature.gas_pressure = 0 Pa with armature.gas_density = %g kg/m^3: give both or none",
           c->armature.gas_density);
+    const bool film = c->armature.friction_law == SHOT_FRICTION_FILM;
+    CHECK(!film || c->armature.wear_fraction > 0.0, STATUS_BAD_INPUT,
+          "armature.friction_law film needs armature.wear_fraction above 0: the share of the heat that melts makes the "
+          "film");
+    CHECK(!c->armature.velocity_skin || c->armature.contact_voltage > 0.0, STATUS_BAD_INPUT,
+          "armature.velocity_skin needs armature.contact_voltage above 0 V: nothing else spreads the current");
     CHECK(c->armature.wear_fraction == 0.0 || c->armature.melting_temperature > c->armature.temperature,
           STATUS_BAD_INPUT, "armature.temperature = %g K: must be below melting_temperature = %g K",
           c->armature.temperature, c->armature.melting_temperature);
@@ -128,6 +134,11 @@ static void model_fill(shot *s, const shot_config *c)
     m->bore_area = isnan(a->bore_area) ? c->rails.separation * c->rails.height : a->bore_area;
     m->sound_speed = a->gas_density > 0.0 ? sqrt(a->gas_gamma * a->gas_pressure / a->gas_density) : 0.0;
     m->wear_heat = a->specific_heat * (a->melting_temperature - a->temperature) + a->latent_heat;
+    m->film = (melt_film){ .viscosity = a->film_viscosity,
+                           .density = a->density,
+                           .melting = a->density * m->wear_heat,
+                           .length = a->contact_length,
+                           .share = a->wear_fraction };
 }
 
 /* Scales for the absolute tolerances: what each quantity could reach. */

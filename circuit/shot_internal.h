@@ -39,6 +39,7 @@ struct shot {
     double start_energy, exit_action;
     shot_rails rails; /* their section and metal, as given */
     shot_limits limits;
+    double worn, wear_rate, worn_until; /* velocity skin effect: thickness off the trailing edge [m], [m/s], [s] */
     double momentum_jumps, mass_jumps, energy_jumps;
     double exit_kinetic, last_current, last_slope, last_t;
     shot_summary result;
@@ -52,9 +53,10 @@ shot_ledger shot_ledger_now(const shot *s);
 
 /* ---- temperatures and limits; *st as far as it is filled before them ---- */
 
-double shot_face_temperature(const shot *s, const shot_state *st); /* [K], as the two below */
-double shot_film_temperature(const shot *s, const shot_state *st);
-double shot_rail_behind_temperature(const shot *s, const shot_state *st);
+double shot_face_temperature(const shot *s, const shot_forces *f);                              /* [K] */
+double shot_film_thickness(const shot *s, const shot_forces *f, const shot_state *st);          /* [m] */
+double shot_film_temperature(const shot *s, const shot_forces *f, const shot_state *st);        /* [K] */
+double shot_rail_behind_temperature(const shot *s, const shot_forces *f, const shot_state *st); /* [K] */
 void shot_limits_start(shot *s);
 void shot_limits_update(shot *s, const shot_forces *f);
 

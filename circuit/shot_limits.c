@@ -11,48 +11,49 @@ static const double CURRENT_THAT_COUNTS = 0.1; /* of the peak so far: below, the
 
 /* ---- temperatures ---- */
 
-/* Heat into both contact faces together: friction and contact voltage [W]. */
-static double contact_power(const shot *s, const shot_state *st)
+double shot_face_temperature(const shot *s, const shot_forces *f)
 {
-    return st->friction * st->v + s->model.armature.contact_voltage * fabs(st->current - st->shunt_current);
+    const double melting = fmax(s->model.armature.melting_temperature, s->armature_temperature);
+    return fmin(s->armature_temperature + shot_face_rise(&s->model, f, shot_z(s)), melting);
 }
 
-/* Half-space heated by flux q that has brought E per area: T = T_0 + 2 sqrt(q E/pi)/sqrt(k rho c); exact for a constant
- * flux, at most melting                                                                    (C-7) [K] */
-double shot_face_temperature(const shot *s, const shot_state *st)
+/* Heat per area of one face, both bodies' shares together [W/m^2]. */
+static double contact_heat(const shot *s, const shot_forces *f, double v)
 {
-    const shot_armature *a = &s->model.armature;
-    const double share = a->heat_share / (2.0 * s->model.contact_area);
-    const double q = share * contact_power(s, st), E = share * (st->ledger.friction + st->ledger.contact_heat);
-    const double rise =
-        2.0 * sqrt(fmax(q * E, 0.0) / PI) / sqrt(a->thermal_conductivity * a->density * a->specific_heat);
-    return fmin(s->armature_temperature + rise, fmax(a->melting_temperature, s->armature_temperature));
+    return shot_friction_heat(&s->model, f, v) + shot_current_heat(&s->model, f);
 }
 
-/* Film of melt under one face, carried at half the speed (Couette): thickness 2 (dm/dt)/(rho width v), and the flux q into
- * the armature has to cross half of it: T = T_m + q thickness/(2 k).  Nothing melted: the face's temperature.  (C-16) [K] */
-double shot_film_temperature(const shot *s, const shot_state *st)
+/* Of one face's melt: that of friction_law film, else what wear leaves behind, carried at half the speed (Couette):
+ * 2 w l/v, w the speed at which the face recedes [m] */
+double shot_film_thickness(const shot *s, const shot_forces *f, const shot_state *st)
 {
     const shot_armature *a = &s->model.armature;
     const bool melted = st->armature_temperature >= a->melting_temperature;
-    if (!melted || !(st->v > 0.0)) return st->armature_temperature;
-    const double q = a->heat_share * contact_power(s, st) / (2.0 * s->model.contact_area);
-    const double wear = a->wear_fraction * contact_power(s, st) / (2.0 * s->model.wear_heat);
-    const double width = s->model.contact_area / a->contact_length;
-    const double thickness = 2.0 * wear / (a->density * width * st->v);
-    return a->melting_temperature + 0.5 * q * thickness / a->thermal_conductivity;
+    if (a->friction_law == SHOT_FRICTION_FILM) return f->film;
+    if (!melted || !(st->v > 0.0)) return 0.0;
+    const double w = a->wear_fraction * contact_heat(s, f, st->v) / (a->density * s->model.wear_heat);
+    return 2.0 * w * a->contact_length / st->v;
+}
+
+/* The flux q into the armature has to cross half of the film: T = T_m + q thickness/(2 k).  No film: the face's temperature.
+ * (C-16) [K] */
+double shot_film_temperature(const shot *s, const shot_forces *f, const shot_state *st)
+{
+    const shot_armature *a = &s->model.armature;
+    if (!(st->film_thickness > 0.0)) return st->armature_temperature;
+    const double q = a->heat_share * contact_heat(s, f, st->v);
+    return a->melting_temperature + 0.5 * q * st->film_thickness / a->thermal_conductivity;
 }
 
 /* Rail surface one contact length l behind the trailing edge, t = l/v (at most the shot's age) after the passage that took as long.  Its share q of
  * the contact's heat: 2 q (sqrt(2 t) - sqrt(t))/sqrt(pi k rho c).  The current, K = P I/height on the surface from the
  * passage on, heats by int rho J^2 dt = mu0 K^2/pi ln(2 t/t): the integral is cut off at t, under the contact.  (C-17) [K] */
-double shot_rail_behind_temperature(const shot *s, const shot_state *st)
+double shot_rail_behind_temperature(const shot *s, const shot_forces *f, const shot_state *st)
 {
     const shot_armature *a = &s->model.armature;
     const shot_rails *r = &s->rails;
     if (st->phase != SHOT_MOVING || !(st->v > 0.0)) return s->rail_temperature;
-    const double t = fmin(a->contact_length / st->v, s->t),
-                 q = (1.0 - a->heat_share) * contact_power(s, st) / (2.0 * s->model.contact_area);
+    const double t = fmin(a->contact_length / st->v, s->t), q = (1.0 - a->heat_share) * contact_heat(s, f, st->v);
     const double contact =
         2.0 * q * (sqrt(2.0 * t) - sqrt(t)) / sqrt(PI * r->thermal_conductivity * r->density * r->specific_heat);
     const double K = CURRENT_ON_INNER_FACE * st->current / r->height;
@@ -85,6 +86,7 @@ void shot_limits_start(shot *s)
                                .leg_action = NAN,
                                .throat_action = NAN,
                                .wear_share = NAN,
+                               .melt_position = NAN,
                                .critical_velocity = critical_velocity(&s->rails),
                                .contact_position = NAN,
                                .transition_position = NAN,
@@ -94,6 +96,23 @@ void shot_limits_start(shot *s)
 static void first_place(double *place, bool over, double x)
 {
     if (over && isnan(*place)) *place = x;
+}
+
+/* Thickness worn off one face where it is most: all of what friction melts, and what the current does at the trailing edge.  A
+ * worn face is even without a velocity skin effect: then the mass tells. */
+static double worn_thickness(shot *s, const shot_forces *f)
+{
+    const shot_armature *a = &s->model.armature;
+    const double *z = shot_z(s);
+    if (!a->velocity_skin) return (a->mass - s->mass_jumps - z[Y_MASS]) / (2.0 * a->density * s->model.contact_area);
+    const bool solid = a->friction_law == SHOT_FRICTION_FILM && !s->model.melted;
+    const double q = shot_friction_heat(&s->model, f, z[Y_V]) +
+                     shot_crowding(&s->model, f, z[Y_V]) * shot_current_heat(&s->model, f);
+    const double rate = solid ? 0.0 : a->wear_fraction * q / (a->density * s->model.wear_heat);
+    s->worn += 0.5 * (rate + s->wear_rate) * (s->t - s->worn_until); /* trapezes over the integrator's own steps */
+    s->wear_rate = rate;
+    s->worn_until = s->t;
+    return s->worn;
 }
 
 void shot_limits_update(shot *s, const shot_forces *f)
@@ -107,11 +126,10 @@ void shot_limits_update(shot *s, const shot_forces *f)
         l->contact_ratio = fmin(ratio, isnan(l->contact_ratio) ? INFINITY : l->contact_ratio);
         first_place(&l->contact_position, ratio < 1.0, x);
     }
-    const double melting = melt_action(a),
-                 worn = (a->mass - s->mass_jumps - z[Y_MASS]) / (2.0 * a->density * s->model.contact_area);
+    const double melting = melt_action(a);
     l->leg_action = z[Y_ACTION] / (melting * a->leg_area * a->leg_area);
     l->throat_action = z[Y_ACTION] / (melting * a->throat_area * a->throat_area);
-    l->wear_share = worn / a->leg_thickness;
+    l->wear_share = worn_thickness(s, f) / a->leg_thickness;
     const bool over = l->contact_ratio < 1.0 || l->leg_action > 1.0 || l->throat_action > 1.0 || l->wear_share > 1.0;
     first_place(&l->transition_position, over, x);
     first_place(&l->critical_position, z[Y_V] > l->critical_velocity, x);

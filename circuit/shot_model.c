@@ -95,78 +95,6 @@ double shot_current_slope(const shot_model *m, const shot_drive *d, const double
     return slope;
 }
 
-/* ---- the armature ---- */
-
-/* mu(v) = mu1 + (mu0 - mu1) exp(-v/v_f)                                                   (C-4) */
-static double friction_coefficient(const shot_armature *a, double v)
-{
-    return a->friction_melted + (a->friction_dry - a->friction_melted) * exp(-fmax(v, 0.0) / a->friction_speed);
-}
-
-/* Drag of the shocked gas ahead, p0 behind:  rho0 u_s v A,
- * u_s = (g + 1)/4 v + sqrt(((g + 1) v/4)^2 + a^2)                                         (C-5) [N] */
-static double gas_drag(const shot_model *m, double v)
-{
-    const double half = 0.25 * (m->armature.gas_gamma + 1.0) * v;
-    return m->armature.gas_density * (half + sqrt(half * half + m->sound_speed * m->sound_speed)) * v * m->bore_area;
-}
-
-double shot_hold_force(const shot_model *m, double I)
-{
-    return 2.0 * m->armature.friction_dry * (m->armature.preload + m->armature.spreading * I * I);
-}
-
-double shot_push(const shot_model *m, double v, double I)
-{
-    return 0.5 * rails_force_gradient(&m->rails, fmax(v, 0.0)) * I * I;
-}
-
-/* Contact voltage U I/sqrt(I^2 + knee^2): its sign follows the current where that can reverse. */
-static double contact_voltage(const shot_model *m, double U, double I)
-{
-    return m->knee > 0.0 ? U * I / sqrt(I * I + m->knee * m->knee) : U;
-}
-
-/* m dv/dt = F - 2 mu(v) N - drag,  N = preload + k I^2                                     (C-3)
- * with a shunt F = F(I) - 1/2 L_inf i_m^2: its current i_m flows ahead of the armature, which carries I - i_m     (C-15) */
-shot_forces shot_forces_at(const shot_model *m, const shot_drive *d, const double *z)
-{
-    const bool left = m->phase == SHOT_LEFT;
-    shot_forces f = { .I = shot_total_current(d, m), .shunt = z[Y_SHUNT] };
-    const double v = z[Y_V], I = f.I - f.shunt;
-    f.R = left ? m->barrel.muzzle_resistance : m->armature.resistance;
-    f.drop = contact_voltage(m, left ? m->barrel.muzzle_voltage : m->armature.contact_voltage, I);
-    if (!d->any && !m->shunt) f.drop = 0.0;
-    f.voltage = f.R * I + f.drop;
-    if (left) return f;
-    f.force = shot_push(m, v, f.I) - 0.5 * m->rails.ladder.L_inf * f.shunt * f.shunt;
-    f.contact = m->armature.preload + m->armature.spreading * I * I;
-    f.mu = friction_coefficient(&m->armature, v);
-    if (m->phase == SHOT_HELD) {
-        f.friction = fmin(fmax(f.force, 0.0), shot_hold_force(m, I));
-        return f;
-    }
-    f.friction = 2.0 * f.mu * f.contact;
-    f.drag = gas_drag(m, v);
-    f.net = f.force - f.friction - f.drag;
-    return f;
-}
-
-static void armature_rates(const shot_model *m, const double *z, const shot_forces *f, double *q)
-{
-    const double I = f->I - f->shunt, v = m->phase == SHOT_MOVING ? z[Y_V] : 0.0;
-    q[Y_ARMATURE] = f->R * I * I;
-    q[Y_CONTACT] = f->drop * I;
-    if (m->phase != SHOT_MOVING) return;
-    q[Y_X] = v;
-    q[Y_V] = f->net / z[Y_MASS];
-    q[Y_FRICTION] = f->friction * v;
-    q[Y_DRAG] = f->drag * v;
-    const double wear = m->armature.wear_fraction * (q[Y_FRICTION] + q[Y_CONTACT]) / m->wear_heat;
-    q[Y_MASS] = -wear;
-    q[Y_WEAR] = 0.5 * wear * v * v; /* melt leaves at the armature's speed and takes its motion along */
-}
-
 /* ---- the rails ---- */
 
 /* Where the loop ends: at the armature, or at the muzzle once it has left. */
@@ -279,7 +207,7 @@ static void tail_rates(const shot_model *m, const shot_drive *d, const double *z
     if (m->phase == SHOT_LEFT) {
         q[Y_MUZZLE] = f.voltage * (f.I - f.shunt);
     } else {
-        armature_rates(m, z, &f, q);
+        shot_armature_rates(m, z, &f, q);
     }
     shunt_rates(m, z, &f, q);
 }
@@ -487,13 +415,16 @@ void shot_roots(const void *model, double t, const double *y, double *g)
     const double *z = y + m->start;
     const bool moving = m->phase == SHOT_MOVING;
     g[ROOT_MOTION] = moving ? z[Y_V] : 1.0;
+    g[ROOT_MELT] = 1.0;
     g[ROOT_SITE] = moving && isfinite(m->next_site) ? z[Y_X] - m->next_site : 1.0;
     g[ROOT_MUZZLE] = moving ? z[Y_X] - m->barrel.length : 1.0;
     g[ROOT_FEED] = moving && m->reached < m->feeds ? z[Y_X] - m->feed[m->reached] : 1.0;
-    if (m->phase == SHOT_HELD) {
+    const bool melts = moving && m->armature.friction_law == SHOT_FRICTION_FILM && !m->melted;
+    if (m->phase == SHOT_HELD || melts) {
         const shot_drive d = shot_drive_at(m, t, y);
         const shot_forces f = shot_forces_at(m, &d, z);
-        g[ROOT_MOTION] = f.force - shot_hold_force(m, f.I - f.shunt) - RELEASE_MARGIN;
+        if (melts) g[ROOT_MELT] = shot_melting(m, &f, z);
+        if (m->phase == SHOT_HELD) g[ROOT_MOTION] = f.force - shot_hold_force(m, f.I - f.shunt) - RELEASE_MARGIN;
     }
     for (int k = 0; k < m->n; k++) {
         const supply_group *s = &m->groups[k];

@@ -8,6 +8,7 @@
 #ifndef BREECH_CIRCUIT_SHOT_MODEL_H
 #define BREECH_CIRCUIT_SHOT_MODEL_H
 
+#include "circuit/film.h"
 #include "circuit/rails.h"
 #include "circuit/shot.h"
 #include "circuit/supply_kind.h"
@@ -38,7 +39,14 @@ typedef enum {
     Y_SUMS = Y_BREECH /* how many are only summed up */
 } shot_unknown;
 
-enum { ROOT_MOTION, ROOT_SITE, ROOT_MUZZLE, ROOT_FEED, ROOT_GROUPS }; /* then two a group: stage or waiting, current */
+enum {
+    ROOT_MOTION,
+    ROOT_MELT,
+    ROOT_SITE,
+    ROOT_MUZZLE,
+    ROOT_FEED,
+    ROOT_GROUPS
+}; /* then two a group: stage or waiting, current */
 
 typedef struct {
     supply_group *groups; /* owned by the shot */
@@ -50,6 +58,8 @@ typedef struct {
     rails_load rails;
     double bore_area, contact_area, sound_speed; /* of one contact face; of the gas [m^2, m^2, m/s] */
     double wear_heat;                            /* heat that melts off one kilogram [J/kg] */
+    melt_film film;                              /* friction_law film */
+    bool melted;                                 /* the armature slides on it */
     double knee;                                 /* of the contact voltage, where currents can reverse; else 0 [A] */
     bool shunt;                                  /* there is one at the muzzle */
     shot_phase phase;
@@ -69,6 +79,7 @@ typedef struct {
     double R, drop;                                 /* resistance and constant voltage of armature or muzzle arc */
     double voltage;                                 /* across it [V] */
     double force, contact, mu, friction, drag, net; /* [N], mu [1] */
+    double film;                                    /* thickness of the melt [m] */
 } shot_forces;
 
 int shot_unknowns(const shot_model *m);
@@ -76,12 +87,24 @@ shot_drive shot_drive_at(const shot_model *m, double t, const double *y);
 double shot_total_current(const shot_drive *d, const shot_model *m);                  /* [A] */
 double shot_current_slope(const shot_model *m, const shot_drive *d, const double *z); /* of the total [A/s] */
 int shot_feed_unknown(int feed);                                                      /* of its voltage, in the tail */
-double shot_hold_force(const shot_model *m, double I);        /* static friction of both faces [N] */
-status shot_rails_fit(const shot_config *c, rails_load *out); /* circuit/shot_rails.c */
-double shot_push(const shot_model *m, double v, double I);    /* electromagnetic force at the speed v [N] */
-double shot_rails_field(const shot_model *m, const shot_drive *d, const double *z); /* [J] */
-double shot_rails_heat(const shot_model *m, const shot_drive *d, const double *z);  /* [W] */
+status shot_rails_fit(const shot_config *c, rails_load *out);                         /* circuit/shot_rails.c */
+double shot_rails_field(const shot_model *m, const shot_drive *d, const double *z);   /* [J] */
+double shot_rails_heat(const shot_model *m, const shot_drive *d, const double *z);    /* [W] */
+
+/* ---- the armature: circuit/shot_armature.c ---- */
+
+double shot_hold_force(const shot_model *m, double I);     /* static friction of both faces [N] */
+double shot_push(const shot_model *m, double v, double I); /* electromagnetic force at the speed v [N] */
 shot_forces shot_forces_at(const shot_model *m, const shot_drive *d, const double *z);
+void shot_armature_rates(const shot_model *m, const double *z, const shot_forces *f, double *q);
+double shot_crowding(const shot_model *m, const shot_forces *f, double v); /* densest current over the mean [1] */
+/* Heat per area of one face, both bodies' shares together [W/m^2]. */
+double shot_friction_heat(const shot_model *m, const shot_forces *f, double v);
+double shot_current_heat(const shot_model *m, const shot_forces *f);               /* mean over the face */
+double shot_face_rise(const shot_model *m, const shot_forces *f, const double *z); /* above `temperature`, (C-7) [K] */
+/* Rises through 0 as the face melts, or as one that is hot enough already sets off: at rest it is solid. */
+double shot_melting(const shot_model *m, const shot_forces *f, const double *z);
+
 /* The feeds' voltages that the currents and the groups' push and pull ask for, into z. */
 void shot_voltages(const shot_model *m, const shot_drive *d, double *z);
 

@@ -2,7 +2,9 @@
 #include "circuit/shot.h"
 
 const char *const shot_event_names[] = { "fired", "waiting", "crowbar",    "blocked",   "released", "stopped",
-                                         "site",  "muzzle",  "commutated", "recharged", NULL };
+                                         "site",  "muzzle",  "commutated", "recharged", "melted",   NULL };
+
+const char *const shot_friction_law_names[] = { "speed", "film", NULL };
 
 #define BARREL(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_barrel, member, unit, fallback, min, max, doc)
 #define ARMATURE(member, unit, fallback, min, max, doc) \
@@ -26,9 +28,14 @@ const param shot_armature_params[] = {
     ARMATURE(velocity, "m/s", 0.0, 0.0, 2e4, "velocity at t = 0"),
     ARMATURE(resistance, "ohm", 0.0, 0.0, 1.0, "resistance between the rails, without the contacts"),
     ARMATURE(contact_voltage, "V", 0.0, 0.0, 1e3, "voltage of both contacts together"),
+    PARAM_ENUM(shot_armature, friction_law, shot_friction_law_names, SHOT_FRICTION_SPEED,
+               "speed: the coefficient falls with speed; film: dry until the face has melted, then the melt's shear"),
     ARMATURE(friction_dry, "1", 0.0, 0.0, 10.0, "friction coefficient at rest"),
     ARMATURE(friction_melted, "1", 0.0, 0.0, 10.0, "friction coefficient on a melted film"),
     ARMATURE(friction_speed, "m/s", 100.0, 1e-3, 1e5, "speed over which the coefficient falls to the melted one"),
+    ARMATURE(film_viscosity, "Pa s", 1.3e-3, 1e-6, 10.0, "viscosity of the melt, friction_law film"),
+    PARAM_BOOL(shot_armature, velocity_skin, 0,
+               "the current crowds to the trailing edge of the contact as speed rises"),
     ARMATURE(preload, "N", 0.0, 0.0, 1e9, "contact force per rail face without current"),
     ARMATURE(spreading, "N/A^2", 0.0, 0.0, 1e-3, "spreading force of the legs per current squared, per rail face"),
     ARMATURE(bore_area, "m^2", OPTIONAL, 0.0, 100.0, "area the gas acts on; rail separation x height if not given"),

@@ -153,9 +153,21 @@ static status warming_fit(const shot_rails *rails, rails_load *out)
     return status_ok();
 }
 
+/* With a velocity skin effect the current spreads by the contact voltage, over the metal of the bore face. */
+static void contact_fit(const shot_config *c, sliding_contact *out)
+{
+    const shot_armature *a = &c->armature;
+    const shot_rails *r = &c->rails;
+    const double width = isnan(a->contact_width) ? r->height : a->contact_width;
+    const double warm = 1.0 + r->resistivity_coefficient * (r->temperature - 293.15);
+    out->length = a->contact_length;
+    out->interface = a->velocity_skin ? 0.5 * a->contact_voltage * a->contact_length * width : 0.0;
+    out->resistivity = r->cladding > 0.0 ? r->cladding_resistivity : r->resistivity * warm;
+}
+
 status shot_rails_fit(const shot_config *c, rails_load *out)
 {
-    out->contact_length = c->armature.contact_length;
+    contact_fit(c, &out->contact);
     TRY(warming_fit(&c->rails, out));
     if (c->fitted) {
         out->ladder = *c->fitted;

@@ -96,13 +96,15 @@ shot_state shot_now(const shot *s)
     st.mass = z[Y_MASS];
     st.phase = m->phase;
     st.muzzle_voltage = f.voltage;
-    st.inductance_gradient = rails_force_gradient(&m->rails, st.phase == SHOT_HELD ? 0.0 : st.v);
+    st.inductance_gradient = rails_force_gradient(&m->rails, st.phase == SHOT_HELD ? 0.0 : st.v, f.I);
     st.resistance_gradient = resistance_gradient(s, &d, f.I);
     st.rail_temperature = s->rail_temperature;
     st.ledger = shot_ledger_now(s);
-    st.armature_temperature = shot_face_temperature(s, &st);
-    st.film_temperature = shot_film_temperature(s, &st);
-    st.rail_behind_temperature = shot_rail_behind_temperature(s, &st);
+    st.armature_temperature = shot_face_temperature(s, &f);
+    st.film_thickness = shot_film_thickness(s, &f, &st);
+    st.film_temperature = shot_film_temperature(s, &f, &st);
+    st.rail_behind_temperature = shot_rail_behind_temperature(s, &f, &st);
+    st.contact_spread = m->armature.contact_length / shot_crowding(m, &f, st.v);
     return st;
 }
 

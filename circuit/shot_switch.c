@@ -157,8 +157,20 @@ void shot_come_to_rest(shot *s)
     s->restart = true;
     const shot_forces f = shot_forces_now(s);
     if (f.force > shot_hold_force(m, f.I - f.shunt)) return;
+    m->melted = false;
     m->phase = SHOT_HELD;
     shot_switched(s, SHOT_STOPPED, -1);
+}
+
+static void face_melts(shot *s, bool root)
+{
+    shot_model *m = &s->model;
+    if (m->armature.friction_law != SHOT_FRICTION_FILM || m->melted) return;
+    const shot_forces f = shot_forces_now(s);
+    if (!root && shot_melting(m, &f, shot_z(s)) < 0.0) return;
+    m->melted = true;
+    if (isnan(s->limits.melt_position)) s->limits.melt_position = shot_z(s)[Y_X];
+    shot_switched(s, SHOT_MELTED, -1);
 }
 
 static void armature_settle(shot *s, const int *found)
@@ -170,6 +182,7 @@ static void armature_settle(shot *s, const int *found)
         shot_switched(s, SHOT_RELEASED, -1);
     }
     if (m->phase != SHOT_MOVING) return;
+    face_melts(s, found && found[ROOT_MELT]);
     sites_pass(s, found && found[ROOT_SITE]);
     feeds_pass(s, found && found[ROOT_FEED]);
     if ((found && found[ROOT_MUZZLE]) || z[Y_X] >= end) {

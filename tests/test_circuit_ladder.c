@@ -158,11 +158,11 @@ static void shares_under_the_contact(void **state)
 static void force_between_its_limits(void **state)
 {
     (void)state;
-    const rails_load r = { .ladder = fitted(5e4, 1e-2), .contact_length = 0.0165 };
-    assert_near(rails_force_gradient(&r, 0.0), ladder_slow_inductance(&r.ladder), 1e-12);
-    assert_near(rails_force_gradient(&r, 1e9), r.ladder.L_inf, 1e-5);
+    const rails_load r = { .ladder = fitted(5e4, 1e-2), .contact = { .length = 0.0165 } };
+    assert_near(rails_force_gradient(&r, 0.0, 1.0), ladder_slow_inductance(&r.ladder), 1e-12);
+    assert_near(rails_force_gradient(&r, 1e9, 1.0), r.ladder.L_inf, 1e-5);
     for (double v = 1.0, last = 1.0; v < 1e5; v *= 2.0) {
-        const double now = rails_force_gradient(&r, v);
+        const double now = rails_force_gradient(&r, v, 1.0);
         assert_true(now < last);
         last = now;
     }
@@ -224,10 +224,10 @@ static double slices_voltage(const rails_load *r, double end)
             const double young = end * pow((double)i / SLICES, 3.0), old = end * pow((i + 1.0) / SLICES, 3.0);
             const double t = end - 0.5 * (young + old),
                          length = 0.5 * g * (pow(end - young, 2.0) - pow(end - old, 2.0));
-            const double a = rails_share_at_birth(g * t * tau / r->contact_length);
+            const double a = rails_share_at_birth(g * t * tau / r->contact.length);
             V += length * l->R[k] * (pulse(end) - slice_current(t, a * pulse(t), end, tau));
         }
-        V += l->L[k] * g * end * rails_share_at_birth(g * end * tau / r->contact_length) * pulse(end);
+        V += l->L[k] * g * end * rails_share_at_birth(g * end * tau / r->contact.length) * pulse(end);
     }
     return V;
 }
@@ -237,8 +237,8 @@ static double slices_voltage(const rails_load *r, double end)
 static void slices_one_by_one(void **state)
 {
     (void)state;
-    const rails_load coarse = { .ladder = fitted(5e4, 1e-2), .contact_length = 0.0165 },
-                     fine = { .ladder = fitted(5e4, 1e-5), .contact_length = 0.0165 };
+    const rails_load coarse = { .ladder = fitted(5e4, 1e-2), .contact = { .length = 0.0165 } },
+                     fine = { .ladder = fitted(5e4, 1e-5), .contact = { .length = 0.0165 } };
     double y[2 * LADDER_MAX_RUNGS];
     for (double end = 5e-4; end < 2.1e-3; end += 5e-4) {
         const double x = x_0 + 0.5 * g * end * end, v = g * end, I = pulse(end);
@@ -254,7 +254,7 @@ static void slices_one_by_one(void **state)
 static void half_space_formula(void **state)
 {
     (void)state;
-    const rails_load r = { .ladder = fitted(1e6, 1e-3), .contact_length = 1e-9 };
+    const rails_load r = { .ladder = fitted(1e6, 1e-3), .contact = { .length = 1e-9 } };
     const double v = 1500.0, I = 1e6;
     double y[2 * LADDER_MAX_RUNGS] = { 0 };
     for (double time = 1e-4; time < 5.1e-4; time += 1e-4) {
@@ -276,10 +276,13 @@ static void half_space_formula(void **state)
 static void power_balance(void **state)
 {
     (void)state;
-    rails_load r = { .ladder = fitted(5e4, 1e-3), .contact_length = 0.0165, .coefficient = 4e-3 };
+    rails_load r = { .ladder = fitted(5e4, 1e-3),
+                     .contact = { .length = 0.0165, .resistivity = 1.72e-8 },
+                     .coefficient = 4e-3 };
     srand(7);
     for (int trial = 0; trial < 2000; trial++) {
-        r.heat_capacity = trial % 2 ? 3450.0 : 0.0; /* cold or warm, the balance is the same */
+        r.heat_capacity = trial % 2 ? 3450.0 : 0.0; /* cold or warm, even or crowded: the balance is the same */
+        r.contact.interface = trial % 3 ? 0.0 : 6e-3;
         const double U[4] = { rand() / (double)RAND_MAX, rand() / (double)RAND_MAX, rand() / (double)RAND_MAX,
                               rand() / (double)RAND_MAX };
         const double x = 0.1 + 5.0 * U[0], v = trial % 9 ? 3000.0 * U[1] * U[1] : 0.0;
@@ -297,7 +300,8 @@ static void power_balance(void **state)
         rails_memory_rates(&r, x, v, I, y, d);
         double field = r.ladder.L_inf * (0.5 * v * I * I + x * I * slope);
         for (int k = 0; k < r.ladder.n; k++) field += 0.5 * r.ladder.L[k] * d[2 * k + 1];
-        const double in = (f.inductance * slope + f.voltage) * I, work = 0.5 * rails_force_gradient(&r, v) * I * I * v;
+        const double in = (f.inductance * slope + f.voltage) * I,
+                     work = 0.5 * rails_force_gradient(&r, v, I) * I * I * v;
         assert_true(f.heat >= 0.0 && f.field >= 0.0 && work >= 0.0);
         const double scale = fabs(in) + fabs(field) + f.heat + work;
         assert_true(fabs(in - field - f.heat - work) <= 1e-12 * scale);
@@ -314,7 +318,7 @@ static void warming_of_even_current(void **state)
     (void)state;
     enum { STEPS = 40000 };
     const double I = 1e5, end = 1.0, dt = end / STEPS, x = 2.0;
-    rails_load r = { .ladder = fitted(30.0, 1e-1), .contact_length = 0.02, .heat_capacity = 3450.0 };
+    rails_load r = { .ladder = fitted(30.0, 1e-1), .contact = { .length = 0.02 }, .heat_capacity = 3450.0 };
     for (int k = 0; k < 2; k++) {
         double y[2 * LADDER_MAX_RUNGS + 3] = { 0.0 }, d[2 * LADDER_MAX_RUNGS + 3];
         r.coefficient = k ? 4e-3 : 0.0;

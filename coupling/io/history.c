@@ -296,6 +296,9 @@ status history_crater(history *h, const char *scene, const crater *c)
     COLUMN(rail_temperature, "K", "just ahead of the armature", s->rail_temperature)                    \
     COLUMN(armature_temperature, "K", "contact face", s->armature_temperature)                          \
     COLUMN(film_temperature, "K", "melt on the contact face", s->film_temperature)                      \
+    COLUMN(film_thickness, "m", "melt on one face", s->film_thickness)                                  \
+    COLUMN(contact_spread, "m", "of the contact, over which the current enters", s->contact_spread)     \
+    COLUMN(friction_coefficient, "1", "of the armature's faces", s->friction_coefficient)               \
     COLUMN(rail_behind_temperature, "K", "rail surface, one contact length behind", s->rail_behind_temperature) \
     COLUMN(shunt_current, "A", "of the muzzle shunt", s->shunt_current)                                 \
     COLUMN(energy_capacitors, "J", "stored", s->ledger.capacitors)                                      \
@@ -355,7 +358,7 @@ status history_crater(history *h, const char *scene, const crater *c)
 
 #define EVENT_COLUMNS(COLUMN)                                                                           \
     COLUMN(time, "s", "time", e->state.t)                                                               \
-    COLUMN(kind, "1", "0 fired 1 waiting 2 crowbar 3 blocked 4 released 5 stopped 6 site 7 muzzle 8 commutated 9 recharged", (double)e->kind) \
+    COLUMN(kind, "1", "0 fired 1 waiting 2 crowbar 3 blocked 4 released 5 stopped 6 site 7 muzzle 8 commutated 9 recharged 10 melted", (double)e->kind) \
     COLUMN(index, "1", "of the group or the site, -1 if neither", (double)e->index)                     \
     COLUMN(position, "m", "armature", e->state.x)                                                       \
     COLUMN(velocity, "m/s", "armature", e->state.v)                                                     \

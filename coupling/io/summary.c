@@ -95,6 +95,7 @@ static const summary_key shot_keys[] = {
     NUMBER(shot_record, "throat_action", limits.throat_action, "1", "the throat alike; null: armature.throat_area is not given"),
     NUMBER(shot_record, "wear_share", limits.wear_share, "1", "thickness worn off over armature.leg_thickness; null: not given"),
     NUMBER(shot_record, "transition_position", limits.transition_position, "m", "where the first of these four passes its limit; null: nowhere"),
+    NUMBER(shot_record, "melt_position", limits.melt_position, "m", "where the armature's face melted, friction_law film; null: it did not"),
     NUMBER(shot_record, "critical_velocity", limits.critical_velocity, "m/s", "of bending waves in the rail; null: rails.backing_stiffness is not given"),
     NUMBER(shot_record, "critical_position", limits.critical_position, "m", "where the armature first exceeds it; null: nowhere"),
     VALUE(shot_record, KEY_COUNT, "steps", is.steps, "1", "of the integration"),

@@ -133,6 +133,7 @@ static void change_friction(breech_case *c, double factor)
 {
     c->armature.friction_dry *= factor;
     c->armature.friction_melted *= factor;
+    c->armature.film_viscosity *= factor;
 }
 
 static const changed_input inputs[] = {

@@ -1,5 +1,5 @@
 /* Rail levels on the default shot: what each makes of muzzle velocity, time, peak current and of the place where the
- * armature passes a speed.  The circuit of cases/default_shot. */
+ * armature passes a speed; then what the laws of its contact make of it.  The circuit of cases/default_shot. */
 #include "circuit/shot.h"
 #include "tests/circuit_common.h"
 
@@ -59,6 +59,58 @@ static void row(const char *name, const shot_config *c)
     shot_free(s);
 }
 
+/* The state before the muzzle. */
+static bool note_moving(void *user, const shot *s, const shot_state *now)
+{
+    (void)s;
+    if (now->phase == SHOT_MOVING) *(shot_state *)user = *now;
+    return true;
+}
+
+static void contact_row(const char *name, const shot_config *c)
+{
+    shot_state e;
+    memset(&e, 0, sizeof e);
+    const shot_sink sink = { NULL, note_moving, &e };
+    shot *s = NULL;
+    must(shot_create(c, &s));
+    must(shot_advance(s, INFINITY, &sink));
+    const shot_summary r = shot_result(s);
+    const shot_limits l = shot_limits_of(s);
+    printf("%-34s %8.2f %8.2f %9.4f %8.2f %7.1f %7.3f %8.4f %6.0f %7.2f\n", name, r.muzzle_velocity,
+           1e-3 * e.ledger.friction, e.friction_coefficient, 1e6 * e.film_thickness, 1e3 * e.contact_spread,
+           1e3 * l.wear_share * c->armature.leg_thickness, l.melt_position, e.film_temperature,
+           1e3 * (c->armature.mass - e.mass));
+    shot_free(s);
+}
+
+/* What the armature's contact does to the default shot: the two laws of friction, the velocity skin effect. */
+static void contacts(shot_config c, bool tiny)
+{
+    const double wear[] = { 0.01, 0.03, 0.1, 0.3 }, volts[] = { 30.0, 10.0, 3.0 };
+    char name[60];
+    c.rails.level = SHOT_RAILS_DIFFUSING;
+    c.armature.leg_thickness = 1e-3;
+    printf("%-34s exit[m/s] lost[kJ] mu film[um] spread[mm] worn[mm] melts at x[m] T[K] mass lost[g]\n", "contact");
+    for (int film = 0; film < 2; film++) {
+        c.armature.friction_law = film;
+        for (int k = 0; k < (tiny ? 1 : 4); k++) {
+            snprintf(name, sizeof name, "friction %s, wear fraction %g", shot_friction_law_names[film], wear[k]);
+            c.armature.wear_fraction = wear[k];
+            contact_row(name, &c);
+        }
+    }
+    c.armature.wear_fraction = 0.03;
+    for (int k = 0; k < (tiny ? 1 : 3); k++) {
+        c.armature.contact_voltage = volts[k];
+        for (int skin = 0; skin < 2; skin++) {
+            snprintf(name, sizeof name, "film, %g V, velocity skin %s", volts[k], skin ? "yes" : "no");
+            c.armature.velocity_skin = skin;
+            contact_row(name, &c);
+        }
+    }
+}
+
 int main(int argc, char **argv)
 {
     const bool tiny = argc > 1 && strcmp(argv[1], "--tiny") == 0;
@@ -107,5 +159,8 @@ int main(int argc, char **argv)
         c.armature.contact_length = length;
         row(name, &c);
     }
+    c.rails.ladder_frequency = NAN;
+    c.armature.contact_length = 16.5e-3;
+    contacts(c, tiny);
     return 0;
 }

@@ -1,0 +1,321 @@
+/* The armature's contact: how its current crowds (circuit/contact.h), the film it slides on (circuit/film.h), both in a shot. */
+#include "circuit/contact.h"
+#include "circuit/film.h"
+#include "tests/circuit_common.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+static shot_notes notes;
+
+static void assert_ok(status st)
+{
+    if (st.code != STATUS_OK) fail_msg("%s", st.text);
+}
+
+static void assert_near(double got, double want, double tolerance)
+{
+    if (!(fabs(got - want) <= tolerance)) fail_msg("%.9g instead of %.9g (+- %.2g)", got, want, tolerance);
+}
+
+static void assert_refused(const shot_config *c, const char *key)
+{
+    shot *s = NULL;
+    const status st = shot_create(c, &s);
+    assert_int_equal(st.code, STATUS_BAD_INPUT);
+    if (!strstr(st.text, key)) fail_msg("%s does not name %s", st.text, key);
+}
+
+/* ---- crowding ---- */
+
+/* dJ/dx = sqrt(1/pi) int_0^x J(s)/sqrt(x - s) ds in lengths of d: J straight in every cell, the kernel's integral over the cell exact. */
+static double evenness_by_cells(double z)
+{
+    enum { CELLS = 2000 };
+    static double J[CELLS + 1];
+    const double h = z / CELLS, pi = 3.14159265358979;
+    double slope = 0.0, sum = 0.0;
+    J[0] = 1.0;
+    for (int n = 1; n <= CELLS; n++) {
+        J[n] = J[n - 1] + h * slope;
+        for (int pass = 0; pass < 4; pass++) { /* trapeze in dJ/dx: implicit */
+            double E = 0.0;
+            for (int k = 0; k < n; k++) { /* int (a + b s)/sqrt(x - s) ds over the cell, u = x - s */
+                const double u1 = (n - k) * h, u0 = u1 - h, b = (J[k + 1] - J[k]) / h;
+                const double at_x = J[k] + b * u1; /* the line carried on to s = x */
+                E += 2.0 * at_x * (sqrt(u1) - sqrt(u0)) - b * (pow(u1, 1.5) - pow(u0, 1.5)) * 2.0 / 3.0;
+            }
+            const double end = E / sqrt(pi);
+            J[n] = J[n - 1] + 0.5 * h * (slope + end);
+            if (pass == 3) slope = end;
+        }
+        sum += 0.5 * h * (J[n] + J[n - 1]);
+    }
+    return sum / (z * J[CELLS]);
+}
+
+static void current_crowds(void **state)
+{
+    (void)state;
+    assert_near(contact_evenness(0.0), 1.0, 0.0);
+    for (double z = 1e-3, last = 1.0; z < 100.0; z *= 1.3) {
+        const double now = contact_evenness(z);
+        assert_true(now < last && now * z < 1.0 + 1e-9 && (z < 5.0 || now * z > 0.99));
+        last = now;
+    }
+    assert_near(25.0 * contact_evenness(24.9999999), 1.0, 1e-8); /* where the series ends */
+    for (double z = 0.4; z < 8.0; z *= 2.5) assert_near(contact_evenness(z), evenness_by_cells(z), 2e-4);
+}
+
+static void spread_by_speed_and_current(void **state)
+{
+    (void)state;
+    const double area = 0.0165 * 0.025, rho = 1.72e-8, v = 1000.0, I = 9e5;
+    sliding_contact c = { .length = 0.0165, .interface = 15.0 * area, .resistivity = rho };
+    const double r = c.interface / I, d = cbrt(r * r / (4e-7 * 3.14159265358979 * rho * v));
+    assert_near(d, 0.01298, 1e-5); /* by hand: r 6.875e-9 ohm m^2 */
+    assert_near(contact_spread(&c, v, I), 0.0165 * contact_evenness(0.0165 / d), 1e-9);
+    assert_near(contact_spread(&c, v, -I), contact_spread(&c, v, I), 0.0);
+    assert_near(contact_spread(&c, 0.0, I), 0.0165, 0.0);
+    assert_true(contact_spread(&c, 2.0 * v, I) < contact_spread(&c, v, I));
+    assert_near(contact_spread(&c, 1e12, I), d * 1e-3, 1e-9); /* d falls as the cube root of v */
+    c.interface = 0.0;
+    assert_near(contact_spread(&c, v, I), 0.0165, 0.0);
+}
+
+/* ---- film ---- */
+
+static melt_film aluminium(void)
+{
+    return (melt_film){ .viscosity = 1.3e-3,
+                        .density = 2804.0,
+                        .melting = 2804.0 * (848.0 * 457.0 + 390e3),
+                        .length = 0.0165,
+                        .share = 0.01 };
+}
+
+/* (C-20), and both limits of (C-21), over six decades of speed and whatever the current heats. */
+static void film_balances_its_heat(void **state)
+{
+    (void)state;
+    const melt_film f = aluminium();
+    for (double v = 0.01; v < 1e4; v *= 2.0) {
+        double last = 0.0;
+        for (int k = 0; k < 4; k++) {
+            const double q[] = { 0.0, 1e7, 3e9, 3e10 }, P = 6e7;
+            const melt_flow m = melt_film_at(&f, v, P, q[k]);
+            assert_near(m.recession * f.melting / (f.share * (m.shear * v + q[k])), 1.0, 1e-11);
+            assert_true(m.recession > last); /* more heat, more melt */
+            assert_true(m.thickness < 2.0 * m.recession * f.length / v);
+            last = m.recession;
+        }
+        const melt_flow loose = melt_film_at(&f, v, 0.0, 1e9);
+        assert_near(loose.thickness * v / (2.0 * loose.recession * f.length), 1.0, 1e-12);
+    }
+    const melt_flow slow = melt_film_at(&f, 1e-3, 6e7, 3e9), still = melt_film_at(&f, 0.0, 6e7, 3e9);
+    assert_true(slow.shear < 10.0); /* Pa: a film at rest holds nothing */
+    assert_near(still.shear, 0.0, 0.0);
+    assert_near(still.recession, 0.01 * 3e9 / f.melting, 1e-15);
+}
+
+/* The film along x by small pieces: flux w x, thickness h, the pressure from the front of the full film on; its mean must be P, the shear on the
+ * rail's side (Couette, pressure, streaks) tau.  Laminar: a melt without mass. */
+static void film_by_pieces(double v, double P, double q, bool streaks)
+{
+    enum { N = 20000 };
+    melt_film f = aluminium();
+    f.density = 1e-12;
+    const melt_flow m = melt_film_at(&f, v, P, q);
+    const double l = f.length, w = m.recession, h = m.thickness, eta = f.viscosity;
+    const double full = streaks ? v * h / w - l : 0.0;                 /* where the full film and its pressure begin */
+    const double in_front = streaks ? 0.0 : 0.5 * v * h - 0.5 * w * l; /* flux at x = 0, negative: out in front */
+    const double dx = (l - full) / N;
+    double p = 0.0, mean = 0.0, shear = full * full * eta * w / (h * h); /* the streaks': int eta v/h 2 w x/(v h) dx */
+    assert_true(streaks == (v * h > w * l) && full < l);
+    for (int k = 0; k < N; k++) {
+        const double x = full + (k + 0.5) * dx;
+        const double slope = 12.0 * eta * (0.5 * v * h - in_front - w * x) / (h * h * h);
+        mean += (p + 0.5 * slope * dx) * dx;
+        p += slope * dx;
+        shear += (eta * v / h + 0.5 * h * slope) * dx;
+    }
+    assert_near(p, 0.0, 1e-3 * P); /* and out at the trailing edge at no pressure */
+    assert_near(mean / l, P, 1e-3 * P);
+    assert_near(shear / l, m.shear, 1e-3 * m.shear);
+}
+
+static void film_bears_and_shears(void **state)
+{
+    (void)state;
+    film_by_pieces(1000.0, 6e7, 3e10, true);
+    film_by_pieces(2500.0, 1e6, 1e9, true);
+    film_by_pieces(300.0, 6e7, 0.0, true);
+    film_by_pieces(1.0, 6e7, 3e9, false);
+    film_by_pieces(20.0, 2e8, 3e10, false);
+}
+
+/* ---- in a shot ---- */
+
+typedef struct {
+    shot_state melted, last;
+    double dry, least_spread;
+} contact_notes;
+
+static bool note_melting(void *user, shot *s, const shot_event *e)
+{
+    contact_notes *n = user;
+    note_event(&notes, s, e);
+    if (e->kind == SHOT_MELTED) n->melted = e->state;
+    return true;
+}
+
+static bool note_contact(void *user, const shot *s, const shot_state *st)
+{
+    contact_notes *n = user;
+    note_sample(&notes, s, st);
+    if (st->phase == SHOT_MOVING && notes.count[SHOT_MELTED] == 0) n->dry = st->friction_coefficient;
+    if (st->phase == SHOT_MOVING) n->last = *st;
+    n->least_spread = fmin(n->least_spread, st->contact_spread);
+    return true;
+}
+
+static shot_module bank; /* of the shots below */
+
+static shot_config launcher(void)
+{
+    shot_config c = plain_barrel();
+    bank = unit_200kJ(10, 0.0);
+    c.supplies[SUPPLY_capacitor] = (supply_list){ 1, &bank };
+    c.barrel.length = 2.0;
+    c.armature.wear_fraction = 0.01;
+    c.armature.leg_thickness = 1e-3;
+    return c;
+}
+
+static shot *watched(const shot_config *c, contact_notes *n)
+{
+    shot *s = NULL;
+    (void)notes_sink(&notes);
+    *n = (contact_notes){ .least_spread = INFINITY };
+    const shot_sink sink = { note_melting, note_contact, n };
+    assert_ok(shot_create(c, &s));
+    assert_ok(shot_advance(s, INFINITY, &sink));
+    assert_int_equal(notes.count[SHOT_MUZZLE], 1);
+    assert_true(notes.worst_error < 1e-6);
+    return s;
+}
+
+/* Dry until the face melts, at a located instant and where its temperature says; then the film's own shear; wear begins there. */
+static void melting_changes_friction(void **state)
+{
+    (void)state;
+    contact_notes n;
+    shot_config c = launcher();
+    c.armature.contact_voltage = 1.0;
+    shot *by_speed = watched(&c, &n);
+    assert_int_equal(notes.count[SHOT_MELTED], 0);
+    c.armature.friction_law = SHOT_FRICTION_FILM;
+    shot *s = watched(&c, &n);
+    const shot_armature *a = &c.armature;
+    const double area = a->contact_length * c.rails.height;
+    const melt_film f = { .viscosity = a->film_viscosity,
+                          .density = a->density,
+                          .melting = a->density *
+                                     (a->specific_heat * (a->melting_temperature - a->temperature) + a->latent_heat),
+                          .length = a->contact_length,
+                          .share = a->wear_fraction };
+    const shot_state *e = &n.last;
+    const double P = e->contact_force / area;
+    const melt_flow m = melt_film_at(&f, e->v, P, a->contact_voltage * e->current / (2.0 * area));
+    print_message("melts at x = %.4f m, %.0f m/s; at the muzzle mu %.4f, film %.2f um; %.1f m/s, by speed alone %.1f\n",
+                  n.melted.x, n.melted.v, e->friction_coefficient, 1e6 * e->film_thickness,
+                  shot_result(s).muzzle_velocity, shot_result(by_speed).muzzle_velocity);
+    assert_int_equal(notes.count[SHOT_MELTED], 1);
+    assert_near(n.dry, a->friction_dry, 0.0);
+    assert_near(n.melted.mass, a->mass, 0.0); /* nothing has worn off yet */
+    assert_near(n.melted.x, shot_limits_of(s).melt_position, 0.0);
+    assert_true(n.melted.x > c.barrel.start && n.melted.x < c.barrel.length);
+    assert_true(n.melted.friction_coefficient < a->friction_dry);
+    assert_near(e->friction_coefficient, m.shear / P, 1e-9);
+    assert_near(e->film_thickness, m.thickness, 1e-9 * m.thickness);
+    assert_true(e->mass < a->mass && e->film_temperature > a->melting_temperature);
+    shot_free(by_speed);
+    shot_free(s);
+    c.armature.velocity_skin = true; /* a trailing edge that is hotter melts sooner */
+    contact_notes sooner;
+    shot_free(watched(&c, &sooner));
+    assert_true(sooner.melted.x < n.melted.x);
+    c.armature.velocity_skin = false;
+    c.armature.wear_fraction = 0.0;
+    assert_refused(&c, "armature.wear_fraction");
+}
+
+/* Off changes nothing; on, the trailing edge is hotter and more worn, the energy still closes, and the muzzle velocity lies between those of the
+ * whole contact and of the least length over which the current enters. */
+static void current_crowds_in_a_shot(void **state)
+{
+    (void)state;
+    contact_notes n;
+    shot_config c = launcher();
+    c.rails.level = SHOT_RAILS_DIFFUSING;
+    ladder l;
+    assert_ok(rails_ladder(&c.rails, 5e4, &l));
+    c.fitted = &l;
+    shot *even = watched(&c, &n);
+    assert_near(n.least_spread, c.armature.contact_length, 0.0);
+    const double before = shot_result(even).muzzle_velocity;
+    c.armature.velocity_skin = true;
+    shot *s = watched(&c, &n);
+    const double v = shot_result(s).muzzle_velocity, worn = shot_limits_of(s).wear_share;
+    print_message(
+        "%.2f m/s instead of %.2f; the current enters over %.1f mm and more; wear %.3f instead of %.3f of the leg\n", v,
+        before, 1e3 * n.least_spread, worn, shot_limits_of(even).wear_share);
+    assert_true(n.least_spread < 0.8 * c.armature.contact_length);
+    assert_true(worn > 1.1 * shot_limits_of(even).wear_share);
+    assert_true(worn < c.armature.contact_length / n.least_spread * shot_limits_of(even).wear_share);
+    shot_free(even);
+    shot_free(s);
+
+    c.armature.velocity_skin = false;
+    c.armature.contact_length = n.least_spread;
+    c.armature.contact_width = 0.025;
+    shot *shorter = watched(&c, &n);
+    assert_true(shot_result(shorter).muzzle_velocity < v && v < before);
+    shot_free(shorter);
+    c.armature.velocity_skin = true;
+    c.armature.contact_voltage = 0.0;
+    assert_refused(&c, "armature.contact_voltage");
+}
+
+/* A contact without crowding, asked for its wear along the way, agrees with its mass: the trapezes are good. */
+static void wear_by_trapezes(void **state)
+{
+    (void)state;
+    contact_notes n;
+    shot_config c = launcher();
+    shot *by_mass = watched(&c, &n);
+    c.armature.velocity_skin = true;
+    c.rails.resistivity = 1e-10; /* d is long: even */
+    shot *s = watched(&c, &n);
+    assert_true(n.least_spread > 0.9 * c.armature.contact_length);
+    assert_near(shot_limits_of(s).wear_share / shot_limits_of(by_mass).wear_share,
+                c.armature.contact_length / n.least_spread, 0.05);
+    shot_free(by_mass);
+    shot_free(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(current_crowds),           cmocka_unit_test(spread_by_speed_and_current),
+        cmocka_unit_test(film_balances_its_heat),   cmocka_unit_test(film_bears_and_shears),
+        cmocka_unit_test(melting_changes_friction), cmocka_unit_test(current_crowds_in_a_shot),
+        cmocka_unit_test(wear_by_trapezes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
