@@ -210,6 +210,16 @@ static shot *watched(const shot_config *c, contact_notes *n)
     return s;
 }
 
+/* (C-7) by hand, from the state just after the face melted: what friction was before, and both heats so far. */
+static double rise_at_melting(const shot_armature *a, const shot_state *e, double area)
+{
+    const double pi = 3.14159265358979, crowding = a->contact_length / e->contact_spread;
+    const double q =
+        a->friction_dry * e->contact_force * e->v / area + crowding * a->contact_voltage * e->current / (2.0 * area);
+    const double E = (e->ledger.friction + crowding * e->ledger.contact_heat) / (2.0 * area);
+    return a->heat_share * 2.0 * sqrt(q * E / pi) / sqrt(a->thermal_conductivity * a->density * a->specific_heat);
+}
+
 /* Dry until the face melts, at a located instant and where its temperature says; then the film's own shear; wear begins there. */
 static void melting_changes_friction(void **state)
 {
@@ -250,6 +260,9 @@ static void melting_changes_friction(void **state)
     contact_notes sooner;
     shot_free(watched(&c, &sooner));
     assert_true(sooner.melted.x < n.melted.x);
+    const double rise = a->melting_temperature - a->temperature;
+    assert_near(rise_at_melting(a, &n.melted, area), rise, 1e-4 * rise);
+    assert_near(rise_at_melting(a, &sooner.melted, area), rise, 1e-4 * rise);
     c.armature.velocity_skin = false;
     c.armature.wear_fraction = 0.0;
     assert_refused(&c, "armature.wear_fraction");
