@@ -64,9 +64,10 @@ uint64_t image_scene_key(const mpm *m)
     for (int k = 0; k < 3; k++) h = hash_axis(h, &s->axis[k], &m->axes[k]);
     for (int a = 0; a < m->fields; a++)
         for (int b = 0; b < m->fields; b++) h = hash(h, &s->contact[a][b], sizeof s->contact[a][b]);
-    const double numbers[] = { s->contact_gap,         s->particles_per_axis, s->courant,     s->viscosity_linear,
-                               s->viscosity_quadratic, s->transfer,           s->basis,       s->heat_by_plastic_work,
-                               s->follow_bodies,       s->follow_lead,        s->follow_speed };
+    const double numbers[] = { s->contact_gap,         s->particles_per_axis, s->courant,      s->viscosity_linear,
+                               s->viscosity_quadratic, s->transfer,           s->basis,        s->heat_by_plastic_work,
+                               s->follow_bodies,       s->follow_lead,        s->follow_speed, s->gauge_time[0],
+                               s->gauge_time[1] };
     return hash(h, numbers, sizeof numbers);
 }
 

@@ -32,7 +32,9 @@ typedef struct {
     size_t particles;
     uint64_t clamps_pressure, clamps_compression; /* counted, never silent */
     uint64_t splits, merges, ejected, eroded;     /* ejected holds the eroded points too */
-    double plastic_front;                     /* where the bodies followed are ploughed (mpm_scene.follow_bodies) [m] */
+    double plastic_front; /* where the bodies followed are ploughed (mpm_scene.follow_bodies) [m] */
+    double gauge_power[2],
+        gauge_at[2]; /* plastic power at the first look after gauge_time, and when; 0: not yet [W, s] */
     double plastic_power, peak_plastic_power; /* that goes into it: now, and the largest so far [W] */
     double eroded_mass;                       /* vapour and dust taken out so far [kg] */
     double peak_pressure, peak_temperature;   /* any intact particle, any time so far [Pa, K] */

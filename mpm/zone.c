@@ -264,6 +264,15 @@ static zone zone_wanted(const mpm *m, double front)
     return z;
 }
 
+/* Plastic power is looked at now and then: the first look at or after a gauge's time counts. */
+static void note_gauges(mpm *m)
+{
+    mpm_report *r = &m->report;
+    for (int i = 0; i < 2; i++)
+        if (m->scene.gauge_time[i] > 0 && !(r->gauge_at[i] > 0) && m->time >= m->scene.gauge_time[i])
+            r->gauge_at[i] = m->time, r->gauge_power[i] = r->plastic_power;
+}
+
 status zone_follow(mpm *m)
 {
     const zone now = zone_of(m);
@@ -272,6 +281,7 @@ status zone_follow(mpm *m)
     const double front = front_find(m, &power);
     m->report.plastic_front = front, m->report.plastic_power = power;
     m->report.peak_plastic_power = fmax(m->report.peak_plastic_power, power);
+    note_gauges(m);
     const zone next = zone_wanted(m, power > 0 ? front : m->scene.axis[0].lo);
     const double step = QUANTUM * m->scene.axis[0].fine;
     if (next.at[0] - now.at[0] < 0.999 * step && next.at[2] - now.at[2] < 4 * step) return status_ok();

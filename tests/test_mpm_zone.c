@@ -14,6 +14,7 @@ static void followed(gouge_scene *g)
     g->scene.follow_bodies = 1;
     g->scene.follow_lead = 1.25e-3;
     g->scene.follow_speed = SPEED;
+    g->scene.gauge_time[0] = TIME / 2, g->scene.gauge_time[1] = 0.95 * TIME;
 }
 
 /* Any two neighbours in one: mass, volume, momentum and energy stay. */
@@ -78,6 +79,11 @@ static void test_books(void **state)
     assert_below(l.momentum_error, 1e-12);
     assert_below(fabs(l.energy_error), 1e-3);
     assert_int_equal(r.particles, mpm_particles(m));
+    for (int i = 0; i < 2; i++) { /* looked at every 20 steps */
+        assert_true(r.gauge_at[i] >= g.scene.gauge_time[i] && r.gauge_at[i] < g.scene.gauge_time[i] + 25 * r.dt);
+        assert_true(r.gauge_power[i] > 0.1 * r.plastic_power);
+    }
+    assert_true(r.gauge_power[0] != r.gauge_power[1]);
     const mpm_wake *w = mpm_wake_of(m);
     for (size_t i = 0; i < w->n; i++) assert_true(w->point[i].position[0] < w->until);
     mpm_free(m);

@@ -12,6 +12,10 @@ static const double END_FACTOR = 1.1;
 /* Speed of a groove's front over the armature's.  A zone that follows it ends when the contact face has passed it. */
 static const double FRONT_SPEED = 0.7;
 
+/* Where a groove's growth is gauged: the armature's way in grain radii.  Before, the grain itself is still being flattened;
+ * later the contact face begins to run out. */
+static const double GROWTH_WAY[2] = { 16.0, 28.0 };
+
 static const char ARMATURE[] = "armature", GRAIN[] = "particle";
 
 int body_of_armature(const mpm_scene *scene)
@@ -332,6 +336,7 @@ static void set_follow(const breech_case *c, const case_site *g, mpm_scene *s)
     if (!c->scene.follow) return;
     s->follow_speed = s->body[body_of_armature(s)].velocity[0];
     s->follow_lead = given_or(c->scene.follow_lead, 4.0 * g->radius);
+    for (int i = 0; i < 2; i++) s->gauge_time[i] = GROWTH_WAY[i] * g->radius / s->follow_speed;
     for (int i = 0; i < s->bodies; i++)
         if (body_is_rail(s, i)) s->follow_bodies |= 1u << i;
 }

@@ -36,6 +36,7 @@ static const page_column shot_cards[] = { { "peak_current", "peak current", 1e3,
                                     { "exit_current", "exit current", 1e3, "kA" },
                                     { "energy_error", "energy error", 1.0, "" } };
 static const page_column scene_cards[] = { { "severity", "severity", 1.0, "" },
+                                     { "groove_growth", "growth of the groove", 1e6, "1/&micro;s" },
                                      { "widening", "widening", 1.0, "" },
                                      { "crater_length", "length", 1e-3, "mm" },
                                      { "crater_width", "width", 1e-3, "mm" },

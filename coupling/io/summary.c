@@ -112,6 +112,7 @@ static const summary_key scene_keys[] = {
     NAME(scene_result, "class", class, damage_class_names, "none, scratch, gouge, undecided"),
     VALUE(scene_result, KEY_TEXT, "reason", reason, "", "the numbers behind the class"),
     NUMBER(scene_result, "severity", severity, "1", "(lean x volume - plan area x height of the grain) / its volume; gouging grows above 0"),
+    NUMBER(scene_result, "groove_growth", groove_growth, "1/s", "rate of ln of the plastic power in the groove, past the grain; null: not followed so far"),
     NUMBER(scene_result, "crater_length", crater_length, "m", "along the rail"),
     NUMBER(scene_result, "crater_width", crater_width, "m", "full width"),
     NUMBER(scene_result, "crater_depth", crater_depth, "m", "deepest"),
@@ -620,15 +621,16 @@ static void print_sites(const onset_result *o, FILE *out)
 static void print_scenes(const onset_result *o, FILE *out)
 {
     table *t;
-    const char *titles = "scene|v [m/s]|r [mm]|cells/r|severity|widening|depth [mm]|class|time [s]";
+    const char *titles = "scene|v [m/s]|r [mm]|cells/r|severity|growth [1/us]|widening|depth [mm]|class|time [s]";
     if (o->n_scenes == 0 || table_create(titles, &t).code != STATUS_OK) return;
     for (int i = 0; i < o->n_scenes; i++) {
         const onset_scene *s = &o->scene[i];
-        char v[24], r[24], c[24], severity[24], widening[24], d[24], w[24];
-        table_row(t, "%s|%s|%s|%s|%s|%s|%s|%s|%s", s->name, cell(s->velocity, 1.0, "%.0f", v),
+        char v[24], r[24], c[24], severity[24], growth[24], widening[24], d[24], w[24];
+        table_row(t, "%s|%s|%s|%s|%s|%s|%s|%s|%s|%s", s->name, cell(s->velocity, 1.0, "%.0f", v),
                   cell(s->radius, 1e-3, "%.3g", r), cell(s->cells_per_radius, 1.0, "%.3g", c),
-                  cell(s->result.severity, 1.0, "%.3f", severity), cell(s->result.widening, 1.0, "%.2f", widening),
-                  cell(s->result.crater_depth, 1e-3, "%.3f", d), damage_class_names[s->result.class],
+                  cell(s->result.severity, 1.0, "%.3f", severity), cell(s->result.groove_growth, 1e6, "%.3f", growth),
+                  cell(s->result.widening, 1.0, "%.2f", widening), cell(s->result.crater_depth, 1e-3, "%.3f", d),
+                  damage_class_names[s->result.class],
                   s->reused ? "reused" : cell(s->result.wall_seconds, 1.0, "%.1f", w));
     }
     fputc('\n', out);
@@ -768,6 +770,16 @@ static void take_bodies(scene_result *r, const scene_outcome *o)
     r->peak_pressure_rail_999 = of_body(m->peak_pressure_999, rail);
 }
 
+/* A groove that died between the two gauges: up to its end. */
+static double growth_of(const mpm_report *m)
+{
+    const bool whole = m->gauge_at[1] > 0.0;
+    const double from = m->gauge_at[0], to = whole ? m->gauge_at[1] : m->time;
+    const double power = fmax(whole ? m->gauge_power[1] : m->plastic_power, 1e-3 * m->gauge_power[0]);
+    if (!(from > 0.0 && to > from && m->gauge_power[0] > 0.0)) return NAN;
+    return log(power / m->gauge_power[0]) / (to - from);
+}
+
 scene_result scene_result_of(const scene_outcome *o)
 {
     const mpm_report *m = o->report;
@@ -775,6 +787,7 @@ scene_result scene_result_of(const scene_outcome *o)
     memset(&r, 0, sizeof r);
     take_crater(&r, o->crater);
     take_bodies(&r, o);
+    r.groove_growth = growth_of(m);
     r.peak_pressure = m->peak_pressure;
     r.peak_temperature = m->peak_temperature;
     r.momentum_error = o->ledger->momentum_error;

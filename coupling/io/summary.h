@@ -34,7 +34,8 @@ typedef struct {
 typedef struct {
     damage_class class;
     char reason[200];
-    double severity, widening;                                    /* [1] */
+    double severity, widening; /* [1] */
+    double groove_growth;      /* of the plastic power in a groove that is followed, NaN if it was not gauged [1/s] */
     double crater_length, crater_width, crater_depth, rim_height; /* [m] */
     double crater_volume;                                         /* [m3] */
     double peak_pressure;                                         /* of any particle [Pa] */
