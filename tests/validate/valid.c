@@ -114,6 +114,16 @@ const valid_case valid_table[] = {
       .limit_quick = { 0.11, 0.08, NONE },
       .limit_full = { 0.11, 0.05, NONE }, /* wanted 0.03: docs */
       .run = valid_hertz },
+    { .name = "V12",
+      .doc = "oblique impact, carried through the grid",
+      .figure = { "normal velocity, L1", "tangential velocity, L1", "normal, not carried", "tangential, not carried" },
+      .cells = { 8, 16, 32 },
+      .per = "thickness",
+      .quick = 2,
+      .limit_quick = { 0.146, 0.107, 0.143, 0.107 },
+      .limit_full = { 0.095, 0.073, 0.093, 0.081 },
+      .order = 0.6, /* of jumps in velocity */
+      .run = valid_oblique },
 };
 const int valid_cases = sizeof valid_table / sizeof valid_table[0];
 
