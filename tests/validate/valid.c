@@ -124,6 +124,15 @@ const valid_case valid_table[] = {
       .limit_full = { 0.095, 0.073, 0.093, 0.081 },
       .order = 0.6, /* of jumps in velocity */
       .run = valid_oblique },
+    { .name = "V13",
+      .doc = "notched bar, pulled",
+      .figure = { "kinetic energy spent", "failed volume, mm3", "layers of cells failed" }, /* no errors: docs */
+      .cells = { 4, 8, 12 },
+      .per = "half width",
+      .quick = 1,
+      .limit_quick = { 0.81, 0.28, 1.6 },
+      .limit_full = { 0.66, 0.26, 4.5 },
+      .run = valid_tension },
 };
 const int valid_cases = sizeof valid_table / sizeof valid_table[0];
 

@@ -1,4 +1,4 @@
-/* Validations V1 .. V12 (the list is in docs/scene-solver.md): small scenes with closed answers, each run at several cell
+/* Validations V1 .. V13 (the list is in docs/scene-solver.md): small scenes with closed answers, each run at several cell
  * sizes.  breech-validate prints them as curves, error against cell size and against run time; tests/test_valid.c holds
  * the coarse ones to limits, the rest too with BREECH_FULL=1.
  *
@@ -77,6 +77,7 @@ void valid_rolling(double cells, const valid_scheme *scheme, valid_result *out);
 void valid_hertz(double cells, const valid_scheme *scheme, valid_result *out);
 void valid_taylor(double cells, const valid_scheme *scheme, valid_result *out);
 void valid_oblique(double cells, const valid_scheme *scheme, valid_result *out);
+void valid_tension(double cells, const valid_scheme *scheme, valid_result *out);
 void valid_slide(double cells, const valid_scheme *scheme, valid_result *out);
 
 #endif
