@@ -130,8 +130,8 @@ const valid_case valid_table[] = {
       .cells = { 4, 8, 12 },
       .per = "half width",
       .quick = 1,
-      .limit_quick = { 0.81, 0.28, 1.6 },
-      .limit_full = { 0.66, 0.26, 4.5 },
+      .limit_quick = { 0.85, 0.27, 1.5 },
+      .limit_full = { 0.74, 0.36, 6.3 },
       .run = valid_tension },
 };
 const int valid_cases = sizeof valid_table / sizeof valid_table[0];
