@@ -1,6 +1,6 @@
 /* Rail levels on the default shot: what each makes of muzzle velocity, time, peak current and of the place where the
  * armature passes a speed; then what the laws of its contact make of it.  The circuit of cases/default_shot. */
-#include "circuit/shot.h"
+#include "circuit/shot_model.h"
 #include "tests/circuit_common.h"
 
 #include <math.h>
@@ -57,6 +57,29 @@ static void row(const char *name, const shot_config *c)
             printf("   %.0f m/s: x %.3f m, %.0f kA, %.1f MPa\n", speeds[k], p.x[k], 1e-3 * p.I[k], 1e-6 * p.p[k]);
     }
     shot_free(s);
+}
+
+/* What a slice holds at birth and what pushes there (C-12), over speed: of all rungs together, by their inductances. */
+static void births(const shot_config *c)
+{
+    rails_load r;
+    must(shot_rails_fit(c, &r));
+    printf("%-10s share at birth, share of force, 2 F/I^2 [uH/m], heat under the contact over motion\n", "v [m/s]");
+    static const double at[] = { 0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 2000.0, 3000.0 };
+    for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
+        const double v = at[i];
+        double all = 0.0, born = 0.0, pushes = 0.0, heat = 0.0;
+        for (int k = 0; k < r.ladder.n; k++) {
+            const double L = r.ladder.L[k], theta = v * L / (r.ladder.R[k] * r.contact.length);
+            const double a = rails_share_at_birth(theta), f = rails_share_of_force(theta);
+            all += L;
+            born += L * a;
+            pushes += L * f;
+            heat += L * (a * (2.0 - a) - f);
+        }
+        const double L = rails_force_gradient(&r, v, 1.0);
+        printf("%-10.4g %7.4f %7.4f %8.4f %8.4f\n", v, born / all, pushes / all, 1e6 * L, heat / L);
+    }
 }
 
 /* The state before the muzzle. */
@@ -161,6 +184,7 @@ int main(int argc, char **argv)
     }
     c.rails.ladder_frequency = NAN;
     c.armature.contact_length = 16.5e-3;
+    births(&c);
     contacts(c, tiny);
     return 0;
 }
