@@ -230,7 +230,9 @@ typedef struct {
     double critical_position;   /* where the armature first exceeds it [m] */
 } shot_limits;
 
-/* STATUS_BAD_INPUT names the parameter, its value, unit and range.  Caller frees *out with shot_free. */
+/* What a single value cannot say: STATUS_BAD_INPUT names the parameter, its value, unit and range.  The rails: rails_section. */
+status shot_check(const shot_config *config);
+/* As shot_check, and the rails.  Caller frees *out with shot_free. */
 status shot_create(const shot_config *config, shot **out);
 void shot_free(shot *s); /* NULL allowed */
 

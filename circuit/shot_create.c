@@ -41,7 +41,7 @@ static status supplies_check(const shot_config *c)
     return status_ok();
 }
 
-static status config_check(const shot_config *c)
+status shot_check(const shot_config *c)
 {
     TRY(params_check(shot_barrel_params, &c->barrel, "barrel"));
     TRY(params_check(shot_armature_params, &c->armature, "armature"));
@@ -278,7 +278,7 @@ static status fill(shot *s, const shot_config *c)
 status shot_create(const shot_config *config, shot **out)
 {
     *out = NULL;
-    TRY(config_check(config));
+    TRY(shot_check(config));
     shot *s = calloc(1, sizeof *s);
     CHECK(s, STATUS_MEMORY, "out of memory for the shot");
     const status st = fill(s, config);

@@ -179,6 +179,8 @@ static void armature_settle(shot *s, const int *found)
     const double *z = shot_z(s), end = m->barrel.length * (1.0 - 1e-14);
     if (m->phase == SHOT_HELD && found && found[ROOT_MOTION]) {
         m->phase = SHOT_MOVING;
+        s->worn_until = s->t;
+        s->wear_rate = 0.0;
         shot_switched(s, SHOT_RELEASED, -1);
     }
     if (m->phase != SHOT_MOVING) return;

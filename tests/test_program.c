@@ -125,6 +125,8 @@ static void test_bad_case(void **state)
     assert_false(exists("bad_out"));
     assert_int_equal(run("shot nowhere.yaml -o bad_out"), 2);
     assert_int_equal(run("check bad"), 2);
+    assert_int_equal(run("check " SHOT " --set armature.friction_law=film"), 2); /* without wear no film */
+    assert_true(contains("err.txt", "armature.wear_fraction"));
     assert_int_equal(run("shot " SHOT " --set bank.charge=9 -o bad_out"), 2);
     assert_false(exists("bad_out"));
 }

@@ -203,10 +203,12 @@ status command_possible(const breech_case *c, unsigned needs)
 {
     mpm_scene scene;
     rail_section section;
+    const shot_config circuit = shot_of_case(c, NULL);
     const site_state state = state_of_case(c);
     if ((needs & CASE_FOR_INDUCTANCE) ||
         ((needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) && c->rails.level != SHOT_RAILS_CONSTANT))
         TRY(rails_section(&c->rails, &section));
+    if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(shot_check(&circuit));
     if (needs & CASE_FOR_SCENE) TRY(scene_bodies(c, &state, c->scene.cells_per_radius, &scene));
     if (needs & CASE_FOR_ONSET) TRY(grains_possible(c));
     return needs & CASE_FOR_COMPARE ? treatments_possible(c) : status_ok();
