@@ -3,10 +3,18 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
+/* Large arrays start on a huge page and ask for them: points and nodes are reached in no order that small pages like. */
 static void *aligned(size_t bytes)
 {
-    return aligned_alloc(64, (bytes + 63) / 64 * 64);
+    enum { LINE_BYTES = 64, HUGE_BYTES = 1 << 21 };
+    const size_t unit = bytes < HUGE_BYTES ? LINE_BYTES : HUGE_BYTES, whole = (bytes + unit - 1) / unit * unit;
+    void *p = aligned_alloc(unit, whole);
+#ifdef MADV_HUGEPAGE
+    if (p && unit == HUGE_BYTES) madvise(p, whole, MADV_HUGEPAGE); /* a wish: refusal costs nothing */
+#endif
+    return p;
 }
 
 /* A bigger, 64-byte aligned array with the old content; NULL and the old one untouched when memory is short. */
