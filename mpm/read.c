@@ -20,25 +20,35 @@ static void visit(const mpm *m, block_visitor *each, void *user)
             for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) each(user, m, q);
 }
 
+/* Sums of the books.  Millions of equal terms round the same way each time: what is lost is carried along (Neumaier 1974). */
+enum { BOOK_MASS, BOOK_KINETIC, BOOK_INTERNAL, BOOK_MOMENTUM, BOOKS = BOOK_MOMENTUM + 3 };
+
+typedef struct {
+    double sum[BOOKS], rest[BOOKS];
+} books;
+
 static void balance_block(void *user, const mpm *m, int index)
 {
-    mpm_ledger *l = user;
+    books *b = user;
     const block *q = &m->blocks[index];
-    double mass = 0, kinetic = 0, internal = 0, momentum[3] = { 0, 0, 0 };
+    double add[BOOKS] = { 0 };
     for (int i = 0; i < LANES; i++) {
         const double M = q->mass[0][i];
         double square = 0;
         for (int k = 0; k < 3; k++) {
             const double v = q->v[k][i];
             square += v * v;
-            momentum[k] += M * v;
+            add[BOOK_MOMENTUM + k] += M * v;
         }
-        mass += M;
-        kinetic += M * (0.5 * square + q->ka[0][i]);
-        internal += M * q->e[0][i];
+        add[BOOK_MASS] += M;
+        add[BOOK_KINETIC] += M * (0.5 * square + q->ka[0][i]);
+        add[BOOK_INTERNAL] += M * q->e[0][i];
     }
-    for (int k = 0; k < 3; k++) l->momentum[k] += momentum[k];
-    l->mass += mass, l->kinetic += kinetic, l->internal += internal;
+    for (int i = 0; i < BOOKS; i++) {
+        const double old = b->sum[i], now = old + add[i];
+        b->rest[i] += fabs(old) >= fabs(add[i]) ? (old - now) + add[i] : (add[i] - now) + old;
+        b->sum[i] = now;
+    }
 }
 
 static double norm(const double *a)
@@ -56,9 +66,11 @@ static double start_speed(const mpm *m)
 mpm_ledger mpm_balance(const mpm *m)
 {
     mpm_ledger l = m->ledger;
-    l.mass = l.kinetic = l.internal = 0;
-    memset(l.momentum, 0, sizeof l.momentum);
-    visit(m, balance_block, &l);
+    books b = { .sum = { 0 } };
+    visit(m, balance_block, &b);
+    for (int i = 0; i < BOOKS; i++) b.sum[i] += b.rest[i];
+    l.mass = b.sum[BOOK_MASS], l.kinetic = b.sum[BOOK_KINETIC], l.internal = b.sum[BOOK_INTERNAL];
+    memcpy(l.momentum, b.sum + BOOK_MOMENTUM, sizeof l.momentum);
     double left[3];
     for (int k = 0; k < 3; k++)
         left[k] =
