@@ -1,8 +1,8 @@
 #include "circuit/contact.h"
+#include "base/constants.h"
 
 #include <math.h>
 
-static const double MU0 = 1.25663706212e-6; /* [H/m] */
 static const double GAMMA_5_2 = 1.32934038817913702;
 
 /* Beyond, only the exponential is left of the series, to 1e-10. */

@@ -1,10 +1,8 @@
 #include "circuit/filaments.h"
+#include "base/constants.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-static const double PI = 3.14159265358979323846;
-static const double MU0 = 1.25663706212e-6; /* [H/m] CODATA 2018 */
 
 enum { MAX_LINES = 400, GAUSS = 3, NEAR_POINTS = GAUSS * GAUSS };
 

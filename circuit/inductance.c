@@ -1,14 +1,12 @@
 #include "circuit/inductance.h"
 
+#include "base/constants.h"
 #include "circuit/filaments.h"
 #include "circuit/perimeter.h"
 
 #include <complex.h>
 #include <math.h>
 #include <stdlib.h>
-
-static const double PI = 3.14159265358979323846;
-static const double MU0 = 1.25663706212e-6; /* [H/m] CODATA 2018 */
 
 /* Thinner skins than the section's largest side over this are taken as a surface impedance on the perfect conductor. */
 static const double THIN_SKIN = 1000.0;

@@ -1,5 +1,6 @@
 #include "circuit/perimeter.h"
 
+#include "base/constants.h"
 #include "circuit/filaments.h"
 
 #include <gsl/gsl_errno.h>
@@ -7,9 +8,6 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
-
-static const double PI = 3.14159265358979323846;
-static const double MU0 = 1.25663706212e-6; /* [H/m] CODATA 2018 */
 
 /* K grows as r^(-1/3) towards a square corner: panels from 1e-5 of the side there. */
 static const double FINEST = 1e-5, GROWTH = 1.16, STEP = 0.04;

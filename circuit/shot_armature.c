@@ -1,9 +1,8 @@
 /* The armature: what pushes and holds it, what its contact costs.  Equations (C-3) .. (C-7), (C-20) .. (C-22): docs/shot.md. */
+#include "base/constants.h"
 #include "circuit/shot_model.h"
 
 #include <math.h>
-
-static const double PI = 3.14159265358979324;
 
 /* mu(v) = mu1 + (mu0 - mu1) exp(-v/v_f)                                                   (C-4) */
 static double friction_coefficient(const shot_armature *a, double v)

@@ -1,10 +1,9 @@
 /* Temperatures at the contact, and how near armature and rail come to their limits. */
+#include "base/constants.h"
 #include "circuit/shot_internal.h"
 
 #include <math.h>
 
-static const double PI = 3.14159265358979324;
-static const double MU0 = 1.25663706212e-6;       /* [H/m] */
 static const double GRAM_FORCE = 9.80665e-3;      /* [N] */
 static const double CURRENT_ON_INNER_FACE = 0.40; /* mean surface current over I/height, weighted with itself [1] */
 static const double CURRENT_THAT_COUNTS = 0.1; /* of the peak so far: below, the contact's rule is not asked for [1] */

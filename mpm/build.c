@@ -94,14 +94,16 @@ static double loaded_area(const mpm_body *b, const double x[3], const double siz
     return depth_in(b, x) <= 0 || depth_in(b, next) > 0 ? 0 : size[(k + 1) % 3] * size[(k + 2) % 3];
 }
 
-static void fill_point(const mpm_body *b, const piece *p, build_point *out)
+static build_point point_of(const mpm_body *b, const law *k, const piece *box, const piece *own)
 {
-    memset(out, 0, sizeof *out);
-    for (int i = 0; i < 3; i++) {
-        out->x[i] = p->x[i];
-        out->half[i] = 0.5 * p->size[i];
-        out->v[i] = b->velocity[i];
+    build_point p = { .mass = k->rho_start * own->share * box->size[0] * box->size[1] * box->size[2],
+                      .area = loaded_area(b, box->x, box->size) };
+    for (int q = 0; q < 3; q++) {
+        p.x[q] = own->x[q];
+        p.half[q] = 0.5 * own->size[q];
+        p.v[q] = b->velocity[q];
     }
+    return p;
 }
 
 static status walk(const mpm_scene *s, int body, const law *k, const ladder l[3], const build_sink *sink)
@@ -120,10 +122,7 @@ static status walk(const mpm_scene *s, int body, const law *k, const ladder l[3]
                 piece own = box;
                 cut(s, body, &own);
                 if (own.share < SLIVER) continue;
-                build_point p;
-                fill_point(b, &own, &p);
-                p.mass = k->rho_start * own.share * box.size[0] * box.size[1] * box.size[2];
-                p.area = loaded_area(b, box.x, box.size);
+                const build_point p = point_of(b, k, &box, &own);
                 TRY(sink->point(sink->user, body, &p));
             }
     return status_ok();

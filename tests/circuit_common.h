@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 typedef struct {
@@ -114,6 +115,26 @@ static inline shot_config short_circuit(void)
     c.armature.resistance = 0.0;
     c.armature.contact_voltage = 0.0;
     return c;
+}
+
+/* Largest distance of a shot's current from a published pulse (rows `t,i`, others are skipped) over the pulse's peak; NaN: no
+ * such file, or the shot stopped. */
+static inline double pulse_misfit(shot *s, const char *path, int *rows)
+{
+    FILE *file = fopen(path, "r");
+    char line[200];
+    double t, i, worst = 0.0, peak = 0.0;
+    bool fine = file != NULL;
+    *rows = 0;
+    while (fine && fgets(line, sizeof line, file)) {
+        if (sscanf(line, "%lf,%lf", &t, &i) != 2) continue;
+        fine = shot_advance(s, t, NULL).code == STATUS_OK;
+        worst = fmax(worst, fabs(shot_now(s).current - i));
+        peak = fmax(peak, i);
+        ++*rows;
+    }
+    if (file) fclose(file);
+    return fine ? worst / peak : NAN;
 }
 
 #endif

@@ -1,5 +1,6 @@
 /* The lead face at another angle to the rail; its height stays, so its length changes. */
 #include "coupling/io/treatment.h"
+#include "base/constants.h"
 
 enum { ANGLE };
 
@@ -16,7 +17,7 @@ status treatment_lead_angle_apply(const treatment_settings *t, breech_case *c)
           "lead_angle.angle = %g deg: the lead face would be %g m long, the armature is %g m: a larger angle, or a "
           "smaller "
           "projectile.chamfer_height",
-          t->value[ANGLE] * 180.0 / 3.14159265358979323846, run, p->length);
+          t->value[ANGLE] * 180.0 / PI, run, p->length);
     p->lead_angle = t->value[ANGLE];
     return status_ok();
 }

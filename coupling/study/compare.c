@@ -1,5 +1,6 @@
 #include "coupling/study/compare.h"
 
+#include "base/constants.h"
 #include "coupling/io/treatment.h"
 
 #include <math.h>
@@ -130,8 +131,8 @@ static void judge_layers(const breech_case *c, const grain_families *g, compare_
     e->layer_failed = e->layer_velocity = NAN;
     if (!(thickness > 0.0) || !from) return;
     const scene_result *r = &from->record->entry.result;
-    const double ellipse = 0.25 * 3.14159265358979323846 * r->crater_length * r->crater_width;
-    const double grain = 3.14159265358979323846 * from->radius * from->radius;
+    const double ellipse = 0.25 * PI * r->crater_length * r->crater_width;
+    const double grain = PI * from->radius * from->radius;
     e->layer_velocity = from->velocity;
     e->layer_failed = fmin(failed_layers(r) / (thickness * fmax(ellipse, grain)), 1.0);
     const bool through = r->crater_depth >= thickness;

@@ -38,14 +38,19 @@ static bool note(void *user, const shot *s, const shot_state *now)
     return true;
 }
 
+static shot *shoot(const shot_config *c, const shot_sink *sink)
+{
+    shot *s = NULL;
+    must(shot_create(c, &s));
+    must(shot_advance(s, INFINITY, sink));
+    return s;
+}
+
 static void row(const char *name, const shot_config *c)
 {
     passage p;
     memset(&p, 0, sizeof p);
-    const shot_sink sink = { NULL, note, &p };
-    shot *s = NULL;
-    must(shot_create(c, &s));
-    must(shot_advance(s, INFINITY, &sink));
+    shot *s = shoot(c, &(shot_sink){ NULL, note, &p });
     const shot_summary r = shot_result(s);
     const shot_ledger l = shot_now(s).ledger;
     printf("%-28s %8.1f %8.2f %7.3f %7.1f %6.4f %9.1f", name, 1e-3 * r.peak_current, r.muzzle_velocity,
@@ -94,10 +99,7 @@ static void contact_row(const char *name, const shot_config *c)
 {
     shot_state e;
     memset(&e, 0, sizeof e);
-    const shot_sink sink = { NULL, note_moving, &e };
-    shot *s = NULL;
-    must(shot_create(c, &s));
-    must(shot_advance(s, INFINITY, &sink));
+    shot *s = shoot(c, &(shot_sink){ NULL, note_moving, &e });
     const shot_summary r = shot_result(s);
     const shot_limits l = shot_limits_of(s);
     printf("%-34s %8.2f %8.2f %9.4f %8.2f %7.1f %7.3f %8.4f %6.0f %7.2f\n", name, r.muzzle_velocity,

@@ -1,0 +1,8 @@
+/* Constants of nature and of geometry. */
+#ifndef BREECH_BASE_CONSTANTS_H
+#define BREECH_BASE_CONSTANTS_H
+
+static const double PI = 3.14159265358979323846;
+static const double MU0 = 1.25663706212e-6; /* permeability of the vacuum, CODATA 2018 [H/m] */
+
+#endif
