@@ -144,9 +144,12 @@ LANE_INLINE vd spread(const weights *w)
     return w->w[0] * w->d[0] * w->d[0] + w->w[1] * w->d[1] * w->d[1] + w->w[2] * w->d[2] * w->d[2];
 }
 
-LANE_INLINE void gather(const weights w[3], const cell_nodes n, gathered *r)
+LANE_INLINE void gather(const weights w[3], const cell_nodes n, gathered *r, ahead *next)
 {
-    for (int q = 0; q < 3; q++) r->v[q] = interpolate(w, n, q, &r->L[3 * q]);
+    for (int q = 0; q < 3; q++) {
+        prefetch_share(next);
+        r->v[q] = interpolate(w, n, q, &r->L[3 * q]);
+    }
     r->E = interpolate(w, n, 3, NULL);
     r->ka = vd_set(0);
     for (int k = 0; k < 3; k++) {
@@ -305,11 +308,13 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
     block *q = &m->blocks[index];
     const law *k = &m->laws[run->body];
     int leaving = 0;
+    ahead next = ahead_of(m, index, FIRST_start, 1 + 5 * LANES / WIDTH);
+    prefetch_share(&next);
     for (int lane = 0; lane < LANES; lane += WIDTH) {
         const weights w[3] = { cell_weights(g, 0, q, lane), cell_weights(g, 1, q, lane), cell_weights(g, 2, q, lane) };
         gathered r;
         lane_sums sum;
-        gather(w, nodes, &r);
+        gather(w, nodes, &r, &next);
         if (m->scene.transfer != TRANSFER_TPIC) r.ka = vd_set(0);
         leave_holes(&r, vd_less(vd_set(0), vd_load(&q->mass[0][lane])));
         const vd budget = r.E - 0.5 * (r.v[0] * r.v[0] + r.v[1] * r.v[1] + r.v[2] * r.v[2]);
@@ -318,8 +323,10 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
         vd_store(&q->ka[0][lane], r.ka);
         const motion moved = motion_of(r.L, run->step.dt);
         for (int i = 0; i < 9; i++) vd_store(&q->L[i][lane], share * moved.end[i]);
+        prefetch_share(&next);
         sum.work_external = move(q, lane, &r, &run->step);
         law_step(k, &run->step, &moved, q, lane, b->contact, &sum);
+        prefetch_share(&next);
         book(&run->books, q, lane, &sum);
         find_bad(&b->sum, q, lane, sum.rate, index);
         leaving |= leaving_lanes(q, lane, limits, k);
@@ -336,7 +343,6 @@ static void one_cell(mpm *m, brick *b, int cell, const halo_nodes halo, int thre
     run->step = step_for(m, &g, run->body);
     for (int i = b->head[cell]; i >= 0; i = m->links[i].next) {
         const int body = m->links[i].body;
-        prefetch_ahead(m, i, FIRST_start);
         if (body != run->body) {
             add_books(&b->sum, &run->books, run->body, &run->step);
             *run = (block_run){ .body = body, .step = step_for(m, &g, body) };

@@ -85,12 +85,23 @@ LANE_INLINE weights weights_bspline(const knots *q, vd x)
     return r;
 }
 
-/* Blocks lie in the order of cells (store_compact), so the one after next is most likely needed after next: its first
- * `fields` fields, a cache line each. */
-LANE_INLINE void prefetch_ahead(const mpm *m, int index, int fields)
+/* Blocks lie in the order of cells (store_compact), so the one after next is most likely needed after next.  Its first
+ * `fields` fields, a cache line each, are asked for a share at a time between the parts of a block's work: a core keeps a
+ * dozen or so requests under way, and stands still where more are made at once. */
+typedef struct {
+    const char *next, *end;
+    int share; /* lines */
+} ahead;
+
+LANE_INLINE ahead ahead_of(const mpm *m, int index, int fields, int shares)
 {
     const char *p = (const char *)&m->blocks[index] + 2 * sizeof(block);
-    for (int i = 0; i < fields; i++) __builtin_prefetch(p + 64 * i);
+    return (ahead){ p, p + 64 * fields, (fields + shares - 1) / shares };
+}
+
+LANE_INLINE void prefetch_share(ahead *a)
+{
+    for (int i = 0; i < a->share && a->next < a->end; i++, a->next += 64) __builtin_prefetch(a->next);
 }
 
 /* Everything a cell's particles need to know of the grid. */

@@ -104,7 +104,8 @@ LANE_INLINE void add_plane(vd sum[9], const terms *t, const factors *f, int l, i
 
 /* Adds the lines of the particles in `mask`.  `force`: bit i: lane i of the line goes with grad w.  Nine sums at a time:
  * they stay in registers. */
-LANE_INLINE void accumulate(part_sums sum[PARTS], const lines *n, const factors *f, const int64_t force[LINE], int mask)
+LANE_INLINE void accumulate(part_sums sum[PARTS], const lines *n, const factors *f, const int64_t force[LINE], int mask,
+                            ahead *next)
 {
 #pragma GCC unroll 4
     for (int part = 0; part < PARTS; part++) {
@@ -115,7 +116,8 @@ LANE_INLINE void accumulate(part_sums sum[PARTS], const lines *n, const factors 
             make_terms(&t[l], n, f, gradient, part * WIDTH, l);
         }
 #pragma GCC unroll 3
-        for (int plane = 0; plane < 3; plane++)
+        for (int plane = 0; plane < 3; plane++) {
+            prefetch_share(next);
             for (int left = mask; left; left &= left - 1) {
                 const int l = __builtin_ctz((unsigned)left);
                 if (plane == 1)
@@ -123,6 +125,7 @@ LANE_INLINE void accumulate(part_sums sum[PARTS], const lines *n, const factors 
                 else
                     add_plane(&sum[part][9 * plane], &t[l], f, l, plane / 2);
             }
+        }
     }
 }
 
@@ -208,12 +211,13 @@ static void cell_motion(const mpm *m, brick *b, int cell, const cell_grid *g)
         const block *q = &m->blocks[i];
         lines n;
         factors f;
-        prefetch_ahead(m, i, FIRST_ka + 1);
+        ahead next = ahead_of(m, i, FIRST_ka + 1, 1 + 3 * PARTS);
+        prefetch_share(&next);
         for (int lane = 0; lane < LANES; lane += WIDTH) {
             store_factors(&f, g, q, lane);
             motion_lines(q, lane, affine, &m->scene.body[m->links[i].body], &n);
         }
-        accumulate(sum, &n, &f, force, m->links[i].mask);
+        accumulate(sum, &n, &f, force, m->links[i].mask, &next);
     }
     add_to_brick(b->out, halo_index(cell), sum);
 }
@@ -227,11 +231,12 @@ static void cell_contact(const mpm *m, brick *b, int cell, const cell_grid *g)
         const block *q = &m->blocks[i];
         lines n;
         factors f;
+        ahead none = { 0 }; /* cell_motion has asked already */
         for (int lane = 0; lane < LANES; lane += WIDTH) {
             store_factors(&f, g, q, lane);
             contact_lines(q, lane, &n);
         }
-        accumulate(sum, &n, &f, volume, m->links[i].mask);
+        accumulate(sum, &n, &f, volume, m->links[i].mask, &none);
     }
     add_to_brick(b->out_contact, halo_index(cell), sum);
 }
