@@ -48,7 +48,8 @@ typedef struct {
 } mpm_report;
 
 /* Points of the followed bodies (mpm_scene.follow_bodies) as they were when the fine zone left them, all with x < until:
- * behind it the points are merged, and a crater is read from these. */
+ * behind it the points are merged, and a crater is read from these.  The last before `until` are lengthened by half a fine cell,
+ * so that no crack opens where the rail moves on beyond it. */
 typedef struct {
     double position[3], size[3], velocity[3]; /* [m]; half lengths [m]; [m/s] */
     double damage, mass;                      /* [1, kg] */

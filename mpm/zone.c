@@ -11,6 +11,7 @@
 
 static const double MERGE_RATIO = 0.9; /* of a merged domain to the longest that its cell bears, at most */
 static const int QUANTUM = 8;          /* fine cells the zone moves at a time, at least */
+static const double SEAM = 0.5;        /* fine cells that the last points of a wake reach beyond their own ends */
 
 /* ---- merging ---- */
 
@@ -135,8 +136,19 @@ static status wake_point(mpm *m, const block *q, int lane, int body)
 }
 
 /* Keeps what the followed bodies look like upstream of x before it is merged. */
+/* What lies beyond x moves on for a while: without the overlap a crack would open there, as deep as that motion goes. */
+static void reach_over_seam(const mpm *m, size_t first, double x)
+{
+    const double cell = m->scene.axis[0].fine;
+    for (size_t i = first; i < m->wake.n; i++) {
+        mpm_wake_point *p = &m->wake.point[i];
+        if (p->position[0] + p->size[0] > x - cell) p->size[0] += SEAM * cell;
+    }
+}
+
 static status leave_wake(mpm *m, double x)
 {
+    const size_t first = m->wake.n;
     for (int i = 0; i < m->bricks_used; i++)
         for (int c = 0; c < BRICK_CELLS; c++)
             for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next)
@@ -145,6 +157,7 @@ static status leave_wake(mpm *m, double x)
                     if (m->links[q].mask >> l & 1 && b->x[0][l] >= m->wake.until && b->x[0][l] < x)
                         TRY(wake_point(m, b, l, m->links[q].body));
                 }
+    reach_over_seam(m, first, x);
     m->wake.until = x;
     return status_ok();
 }

@@ -2,6 +2,7 @@
  * groove is the one of a long zone that stays. */
 #include "mpm_scenes.h"
 
+#include "mpm/crater.h"
 #include "mpm/store.h"
 
 static const double H = 0.25e-3, SPEED = 1500, TIME = 4e-6;
@@ -158,11 +159,70 @@ static void test_same_groove(void **state)
     assert_near(front[0], front[1], 2 * H);
 }
 
+/* The rail's points as a crater is read from them: the wake, then what lies beyond it. */
+static crater_points rail_points(const mpm *m)
+{
+    const mpm_wake *w = mpm_wake_of(m);
+    const size_t live = mpm_particles(m), room = live + w->n;
+    double *x = scene_read(m, MPM_position), *size = scene_read(m, MPM_size), *damage = scene_read(m, MPM_damage),
+           *body = scene_read(m, MPM_body);
+    double *all[3] = { malloc(3 * room * sizeof **all), malloc(3 * room * sizeof **all), malloc(room * sizeof **all) };
+    size_t n = 0;
+    for (size_t i = 0; i < w->n; i++, n++) {
+        memcpy(all[0] + 3 * n, w->point[i].position, sizeof w->point[i].position);
+        memcpy(all[1] + 3 * n, w->point[i].size, sizeof w->point[i].size);
+        all[2][n] = w->point[i].damage;
+    }
+    for (size_t i = 0; i < live; i++) {
+        if (body[i] != 0 || x[3 * i] < w->until) continue;
+        memcpy(all[0] + 3 * n, x + 3 * i, 3 * sizeof *x);
+        memcpy(all[1] + 3 * n, size + 3 * i, 3 * sizeof *x);
+        all[2][n++] = damage[i];
+    }
+    double *const read[] = { x, size, damage, body };
+    for (int k = 0; k < 4; k++) free(read[k]);
+    return (crater_points){ .n = n, .position = all[0], .size = all[1], .damage = all[2] };
+}
+
+/* The rail moves on beyond a seam of the wake, and no crack may open there: on lines much closer than the cells the groove is
+ * as deep as on the cells' own, but for what two neighbouring points differ by. */
+static void test_seams(void **state)
+{
+    (void)state;
+    gouge_scene g;
+    followed(&g);
+    mpm *m = scene_make(&g.scene, 2);
+    assert_ok(mpm_advance(m, TIME, NULL));
+    const crater_points rail = rail_points(m);
+    crater_spec spec = { .x_lo = -0.5e-3,
+                         .x_hi = mpm_scene_of(m)->axis[0].fine_hi,
+                         .z_hi = 1e-3,
+                         .mirrored = true,
+                         .particle_radius = 0.5e-3,
+                         .particle_height = 0.5e-3,
+                         .particle_volume = 1e-10,
+                         .particle_area = 1e-6,
+                         .limit_widening = 1.5 };
+    double depth[2];
+    for (int i = 0; i < 2; i++) {
+        crater c;
+        spec.cell = i ? H / 16 : H;
+        assert_ok(crater_measure(&rail, &spec, &c));
+        depth[i] = c.depth;
+        crater_free(&c);
+    }
+    print_message("groove %.2f mm deep on lines of the cells, %.2f mm on lines 1/16 as far apart\n", 1e3 * depth[0],
+                  1e3 * depth[1]);
+    assert_true(mpm_wake_of(m)->n > 0 && depth[1] < depth[0] + 0.5 * H);
+    free((void *)rail.position), free((void *)rail.size), free((void *)rail.damage);
+    mpm_free(m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_merge), cmocka_unit_test(test_merge_undoes_halve), cmocka_unit_test(test_books),
-        cmocka_unit_test(test_bits),  cmocka_unit_test(test_same_groove),
+        cmocka_unit_test(test_bits),  cmocka_unit_test(test_same_groove),        cmocka_unit_test(test_seams),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
