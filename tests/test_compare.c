@@ -45,6 +45,7 @@ static status fake_scene(const scene_job *job, const scene_host *host, impact *o
     const double excess = (v - made_up_threshold(job) - (cells < 2.5 ? 20.0 : 0.0)) / 150.0;
     scene_result *hit = &out->result;
     hit->severity = excess + job->spec.limit_severity;
+    hit->groove_growth = excess / growth_folds(1.0, r, v);
     hit->class = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
     hit->crater_volume = 10.0 * r * r * r;
     hit->crater_depth = 0.2 * r;
@@ -53,7 +54,9 @@ static status fake_scene(const scene_job *job, const scene_host *host, impact *o
     hit->bodies = job->scene.bodies;
     for (int b = 0; b < hit->bodies; b++) {
         snprintf(hit->body[b], sizeof hit->body[b], "%s", job->scene.body[b].name);
-        if (strncmp(hit->body[b], "layer_", 6) == 0) hit->failed_volume[b] = 1e-3 * r * r * r;
+        if (strncmp(hit->body[b], "layer_", 6) != 0) continue;
+        hit->failed_volume[b] = 1e-3 * r * r * r;
+        if (job->scene.body[b].field > 0) hit->carried_volume[b] = 9.0 * r * r * r; /* its bond gave way */
     }
     out->impulse = 0.02;
     return status_ok();
@@ -342,6 +345,21 @@ static void test_ranking(void **state)
     case_free(c);
 }
 
+/* A layer whose bond gives way is told from one that stays. */
+static void test_sheared_off(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD GRAINS "treatments:\n"
+                                      "  - {name: loose, coating: [{material: steel_4340, thickness: 0.3 mm, "
+                                      "bond_strength: 100 MPa}]}\n",
+                          ALL);
+    compare_answer a;
+    OK(run_compare(c, "sheared", &a));
+    assert_string_equal(entry_of(&a, "loose")->layer, "sheared off");
+    compare_answer_free(&a);
+    case_free(c);
+}
+
 /* Another seed draws other grains: the order and what is significant stay. */
 static void test_seed(void **state)
 {
@@ -418,9 +436,9 @@ static void test_population_onset(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_kind),       cmocka_unit_test(test_what_they_do), cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_presets),          cmocka_unit_test(test_ranking),      cmocka_unit_test(test_seed),
-        cmocka_unit_test(test_population_onset),
+        cmocka_unit_test(test_every_kind), cmocka_unit_test(test_what_they_do),     cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_presets),    cmocka_unit_test(test_ranking),          cmocka_unit_test(test_sheared_off),
+        cmocka_unit_test(test_seed),       cmocka_unit_test(test_population_onset),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

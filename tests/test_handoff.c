@@ -497,6 +497,14 @@ static void test_pit(void **state)
     case_free(m.c);
 }
 
+/* 12 radii of way lie between the gauges. */
+static void test_growth(void **state)
+{
+    (void)state;
+    assert_true(fabs(growth_folds(1e5, 0.5e-3, 1500.0) - 1e5 * 12 * 0.5e-3 / 1500.0) < 1e-12);
+    assert_true(growth_folds(NAN, 0.5e-3, 1500.0) == -3.0);
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -518,7 +526,7 @@ int main(void)
         cmocka_unit_test(test_screen_band), cmocka_unit_test(test_no_overlap), cmocka_unit_test(test_places),
         cmocka_unit_test(test_grid),        cmocka_unit_test(test_pressing),   cmocka_unit_test(test_grain_measures),
         cmocka_unit_test(test_fields),      cmocka_unit_test(test_masses),     cmocka_unit_test(test_pit),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_refused),     cmocka_unit_test(test_growth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

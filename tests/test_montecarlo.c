@@ -70,7 +70,7 @@ static void make(rail *r, double density, double median, double spread, double t
         hit->crater_volume = (10.0 + 20.0 * k) * 0.125e-9;
         hit->rim_height = 0.25e-3;
         hit->crater_length = 4e-3;
-        r->family->scene[k] = (family_scene){ 0.5e-3, 1000.0 + 1000.0 * k, 3.0, &r->record[k] };
+        r->family->scene[k] = (family_scene){ 0.5e-3, 1000.0 + 1000.0 * k, 3.0, true, &r->record[k] };
     }
     r->family->n_scenes = 2;
     r->grains = (grain_families){ .c = &r->c,

@@ -227,6 +227,29 @@ static void test_scene(void **state)
     cJSON_Delete(b);
 }
 
+/* A scene that ends at its second gauge, 28 radii of way: the class is that of the growth, beyond its scatter or not. */
+static void test_gauged(void **state)
+{
+    (void)state;
+    const double gauge = 28 * 0.2e-3 / 2000.0;
+    const char *const scatter[] = { "0", "10" };
+    for (int i = 0; i < 2; i++) {
+        char command[1500];
+        snprintf(command, sizeof command,
+                 "scene " TINY " -o scene/gauged%d --set output.snapshots=0 --set particle.radius='0.2 mm' --set "
+                 "scene.velocity='2 km/s' --set scene.stop_when_gauged=yes --set scene.growth_scatter=%s",
+                 i, scatter[i]);
+        assert_int_equal(run(command), 0);
+        char dir[40];
+        snprintf(dir, sizeof dir, "scene/gauged%d", i);
+        cJSON *a = summary_of(dir);
+        const double growth = number(a, "groove_growth");
+        assert_true(number(a, "end_time") >= gauge && number(a, "end_time") < 1.1 * gauge);
+        assert_text(a, "class", i ? "undecided" : growth > 0.0 ? "gouge" : "scratch");
+        cJSON_Delete(a);
+    }
+}
+
 /* The Python reader and the ParaView script of coupling/tools, on what test_scene left. */
 static void test_reader(void **state)
 {
@@ -365,6 +388,7 @@ int main(void)
         cmocka_unit_test(test_shot),
         cmocka_unit_test(test_inductance),
         cmocka_unit_test(test_scene),
+        cmocka_unit_test(test_gauged),
         cmocka_unit_test(test_reader),
         cmocka_unit_test(test_paraview_crater),
         cmocka_unit_test(test_stop_and_resume),

@@ -318,7 +318,7 @@ static void test_errors(void **state)
 
 /* ---- the study: the real shot, scenes that cost nothing ---- */
 
-/* Severity of a made-up scene: rises with the velocity, earlier for larger grains; the coarse cells see it 40 m/s later. */
+/* Severity and growth of a made-up scene: rise with the velocity, earlier for larger grains; the coarse cells see it 40 m/s later. */
 typedef struct {
     int scenes, stop_after; /* of this process; 0: never */
     double base;            /* threshold of a 0.5 mm grain [m/s] */
@@ -340,6 +340,7 @@ static status fake_scene(const scene_job *job, const scene_host *host, impact *o
     const double r = job->spec.particle_radius, cells = r / job->scene.axis[0].fine;
     const double excess = (v - made_up_threshold(r) - (cells < 2.5 ? 40.0 : 0.0)) / 150.0;
     out->result.severity = excess + job->spec.limit_severity;
+    out->result.groove_growth = excess / growth_folds(1.0, r, v);
     out->result.widening = 2.0;
     out->result.class = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
     out->result.crater_volume = 1e-9 * v;
@@ -401,9 +402,34 @@ static double first_position_at(const onset_answer *a, double v)
     return NAN;
 }
 
-static void check_onset(double threshold, bool site_inside)
+/* Judged by growth, a study runs two whole scenes more where something gouges, at coarse cells. */
+static void check_scenes(const onset_answer *a, bool by_growth)
 {
-    breech_case *c = changed_case(NULL);
+    const onset_result *r = &a->result;
+    double slowest = INFINITY, fastest = 0.0;
+    int whole = 0;
+    for (int i = 0; i < r->n_scenes; i++) {
+        const onset_scene *s = &a->scene[i];
+        assert_true((strstr(s->name, "-growth") != NULL) == s->gauged);
+        if (s->gauged) continue;
+        whole++;
+        slowest = fmin(slowest, s->velocity);
+        fastest = fmax(fastest, s->velocity);
+        if (by_growth) assert_true(s->cells_per_radius == 2.0);
+    }
+    assert_int_equal(whole, by_growth ? 2 : r->n_scenes);
+    if (!by_growth) return;
+    assert_true(slowest == a->grains.family[0].surface.reference.bracket[1]);
+    assert_true(fastest == 25.0 * floor(fmin(a->site[r->n_sites - 1].velocity, 2000.0) / 25.0));
+    for (int i = 0; i < r->n_sites; i++) { /* the made-up volume is 1e-9 v */
+        const double v = a->site[i].velocity, at = fabs(v - slowest) < fabs(v - fastest) ? slowest : fastest;
+        if (a->site[i].outcome == SITE_GOUGE) assert_true(fabs(a->site[i].gouged_volume - 1e-9 * at) < 1e-15);
+    }
+}
+
+static void check_onset(const char *judge, double threshold, bool site_inside)
+{
+    breech_case *c = changed_case((const char *const[]){ judge, NULL });
     onset_answer a;
     int undecided = 0;
     counter.base = threshold;
@@ -430,6 +456,7 @@ static void check_onset(double threshold, bool site_inside)
         assert_true(s->scene[0] != '\0');
     }
     assert_true((undecided > 0) == site_inside);
+    check_scenes(&a, c->study.judge == JUDGE_GROWTH);
     /* x(v) falls between the sites around it */
     assert_true(r->threshold_position <= r->onset_position && r->threshold_position > r->onset_position - 0.3);
     /* feedback: every gouge takes 0.02 N s of 0.25 kg, 0.08 m/s at once, of which the later pushing keeps v_site/v_muzzle */
@@ -443,8 +470,11 @@ static void check_onset(double threshold, bool site_inside)
 static void test_onset(void **state)
 {
     (void)state;
-    check_onset(1430.0, false);
-    check_onset(1405.0, true); /* a site at 1416 m/s lies between the threshold and the interval's upper end */
+    const char *const judges[] = { "study.judge=severity", "study.judge=growth" };
+    for (int k = 0; k < 2; k++) {
+        check_onset(judges[k], 1430.0, false);
+        check_onset(judges[k], 1405.0, true); /* a site at 1416 m/s lies between the threshold and the interval's end */
+    }
 }
 
 /* Moves of the case move the answer the right way (wu2017.md, W7 to W11). */

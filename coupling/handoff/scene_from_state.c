@@ -15,6 +15,8 @@ static const double FRONT_SPEED = 0.7;
 /* Where a groove's growth is gauged: the armature's way in grain radii.  Before, the grain itself is still being flattened;
  * later the contact face begins to run out. */
 static const double GROWTH_WAY[2] = { 16.0, 28.0 };
+static const double DEAD_FOLDS = -3.0;  /* of a groove that died before the first gauge */
+static const double GAUGED_FACTOR = 1.1; /* of the second gauge's time: a scene that is over then has been gauged */
 
 static const char ARMATURE[] = "armature", GRAIN[] = "particle";
 
@@ -26,6 +28,16 @@ int body_of_armature(const mpm_scene *scene)
 bool body_is_rail(const mpm_scene *scene, int body)
 {
     return strcmp(scene->body[body].name, ARMATURE) != 0 && strcmp(scene->body[body].name, GRAIN) != 0;
+}
+
+bool scene_is_gauged(const breech_case *c)
+{
+    return c->scene.stop_when_gauged && c->scene.follow;
+}
+
+double growth_folds(double growth, double radius, double velocity)
+{
+    return isnan(growth) ? DEAD_FOLDS : growth * (GROWTH_WAY[1] - GROWTH_WAY[0]) * radius / velocity;
 }
 
 site_state state_of_case(const breech_case *c)
@@ -355,6 +367,7 @@ static void set_method(const breech_case *c, const layout *l, mpm_scene *s)
     const double passage = scene_crossing_time(s) + c->projectile.length / speed;
     s->end_time =
         given_or(from->end_time, from->follow ? l->travel / speed : fmin(END_FACTOR * scene_crossing_time(s), passage));
+    if (scene_is_gauged(c)) s->end_time = fmin(s->end_time, GAUGED_FACTOR * s->gauge_time[1]);
 }
 
 /* ---- the crater ---- */
@@ -416,8 +429,8 @@ status scene_bodies(const breech_case *c, const site_state *state, double cells_
     TRY(add_bodies(c, state, &l, out));
     set_contacts(c, out);
     set_axes(c, &l, out);
-    set_method(c, &l, out);
     set_follow(c, &state->grain, out);
+    set_method(c, &l, out);
     return status_ok();
 }
 

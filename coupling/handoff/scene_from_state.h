@@ -39,6 +39,14 @@ double scene_crossing_time(const mpm_scene *scene);
 double scene_grain_passed(const mpm_scene *scene);
 double scene_face_tail(const mpm_scene *scene, double time);
 
+/* Is such a scene over, and judged, once the growth of its groove is known (scene.stop_when_gauged)?  Only of a groove that
+ * is followed. */
+bool scene_is_gauged(const breech_case *c);
+
+/* A growth [1/s] as e-folds over the way between the two gauges [1]; one that died before the first has the growth NAN and
+ * counts as -3. */
+double growth_folds(double growth, double radius, double velocity);
+
 /* Does the crater count this body's points (rail and layers; not the grain, not the armature)? */
 bool body_is_rail(const mpm_scene *scene, int body);
 int body_of_armature(const mpm_scene *scene); /* its index */

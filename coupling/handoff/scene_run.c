@@ -181,10 +181,17 @@ static bool groove_over(const run *r, const mpm_report *now)
                                                  scene_face_tail(s, now->time) > now->plastic_front);
 }
 
+/* Whoever wants no more than its growth has it. */
+static bool is_gauged(const run *r, const mpm_report *now)
+{
+    return scene_is_gauged(r->job->c) && now->gauge_at[1] > 0.0;
+}
+
 static status is_settled(const run *r, bool *settled)
 {
     const mpm_report now = mpm_glance(r->m);
-    *settled = false;
+    *settled = is_gauged(r, &now);
+    if (*settled) return status_ok();
     if (!r->job->c->scene.stop_when_settled) return status_ok();
     if (r->job->scene.follow_bodies) {
         *settled = groove_over(r, &now);
@@ -277,6 +284,23 @@ static status armature_now(const run *r, armature_metal *out)
     return status_ok();
 }
 
+/* Sound metal of every body that goes with the armature: chips, layers that came off. */
+static status measure_carried(const run *r, scene_result *out)
+{
+    const mpm_scene *s = &r->job->scene;
+    const double fast = 0.5 * s->body[body_of_armature(s)].velocity[0];
+    const double halves = r->job->c->scene.half_model ? 2.0 : 1.0;
+    points p;
+    TRY(points_read(r->m, &p));
+    for (size_t i = 0; i < p.n; i++) {
+        const int body = (int)p.body[i];
+        if (p.damage[i] < 1.0 && p.velocity[3 * i] > fast)
+            out->carried_volume[body] += halves * p.mass[i] / s->body[body].material->density;
+    }
+    points_free(&p);
+    return status_ok();
+}
+
 /* The lost metal keeps its own speed's worth of impulse out of the sum: shot_jump books it with the mass (docs/onset.md). */
 static void book_losses(const run *r, const armature_metal *before, const armature_metal *after, impact *out)
 {
@@ -287,6 +311,18 @@ static void book_losses(const run *r, const armature_metal *before, const armatu
     out->mass_loss = halves * fmax(before->mass - after->mass, 0.0);
     const double kept = after->mass * b->velocity[0] - after->momentum;
     out->impulse = fmax(halves * (kept - c->scene.friction * pressing * time), 0.0);
+}
+
+/* A scene that ends at its second gauge has no whole crater to be judged by. */
+static void judge_by_growth(const run *r, scene_result *out)
+{
+    const double scatter = r->job->c->scene.growth_scatter;
+    const double folds = growth_folds(out->groove_growth, r->job->spec.particle_radius, r->job->scene.follow_speed);
+    const bool decided = fabs(folds) >= scatter;
+    out->class = !decided ? DAMAGE_UNDECIDED : folds > 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
+    snprintf(out->reason, sizeof out->reason,
+             "the groove's plastic power changes by %.2f e-folds between the gauges, %s %.2f", folds,
+             decided ? "beyond" : "within", scatter);
 }
 
 static status finish(run *r, const armature_metal *before, impact *out)
@@ -307,9 +343,10 @@ static status finish(run *r, const armature_metal *before, impact *out)
                               .threads = h->threads,
                               .mirrored = r->job->c->scene.half_model };
     out->result = scene_result_of(&o);
+    if (scene_is_gauged(r->job->c)) judge_by_growth(r, &out->result);
     book_losses(r, before, &after, out);
-    status s = status_ok();
-    if (h->history) s = history_crater(h->history, r->job->name, &found);
+    status s = measure_carried(r, &out->result);
+    if (s.code == STATUS_OK && h->history) s = history_crater(h->history, r->job->name, &found);
     crater_free(&found);
     if (s.code == STATUS_OK && r->series >= 0) s = history_end(h->history, r->series);
     book(h, "crater", since);

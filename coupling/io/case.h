@@ -175,6 +175,7 @@ typedef struct {
     double rail_width;              /* full; NAN: the projectile's [m] */
     double end_time;                /* NAN: from the lengths and the velocity [s] */
     bool stop_when_settled;         /* stop once the crater no longer changes */
+    bool stop_when_gauged;          /* stop once the groove's growth is known, and take the class from it */
     double courant;                 /* of c + |v| [1] */
     double viscosity_linear, viscosity_quadratic; /* (M-5) [1] */
     int transfer;                                 /* transfer_kind of mpm/scene.h */
@@ -185,13 +186,18 @@ typedef struct {
     bool half_model;           /* only z >= 0, mirrored */
     double limit_widening;     /* of the class gouge [1] */
     double limit_severity;     /* of the class gouge [1] */
+    double growth_scatter;     /* e-folds between the gauges within which growth decides nothing [1] */
 } case_scene;
+
+/* What a study takes for the onset of gouging: the groove's growth, or the crater's severity. */
+typedef enum { JUDGE_GROWTH, JUDGE_SEVERITY } study_judge;
 
 /* The search for where gouging begins. */
 typedef struct {
     double velocity_interval;           /* wanted width of the threshold's interval over its middle [1] */
     double position_interval;           /* wanted width of the onset's interval over the barrel's length [1] */
     double velocity_low, velocity_high; /* where the search may look [m/s] */
+    int judge;                          /* study_judge */
     int max_scenes;
     double screen_low, screen_high; /* band of impact pressure over hardness: below no scene is needed [1] */
     double coarse_cells_per_radius, fine_cells_per_radius; /* [1] */

@@ -8,6 +8,7 @@
 /* The tables.  Ranges catch a wrong unit or a slipped decimal point; what a value means stands in case.h. */
 
 static const char *const transfer_names[] = { [TRANSFER_TPIC] = "tpic", [TRANSFER_PIC] = "pic", NULL };
+static const char *const judge_names[] = { [JUDGE_GROWTH] = "growth", [JUDGE_SEVERITY] = "severity", NULL };
 static const char *const basis_names[] = { [BASIS_GIMP] = "gimp", [BASIS_BSPLINE] = "bspline", NULL };
 
 static const param case_params[] = {
@@ -138,6 +139,8 @@ static const param scene_params[] = {
                  "full width of the rail; not given: the projectile's"),
     PARAM_DOUBLE(case_scene, end_time, "s", OPTIONAL, 1e-9, 1.0, "not given: from the lengths and the velocity"),
     PARAM_BOOL(case_scene, stop_when_settled, 1, "stop once the crater no longer changes"),
+    PARAM_BOOL(case_scene, stop_when_gauged, 0,
+               "stop once the growth of a groove that is followed is known; its class is then that of the growth"),
     PARAM_DOUBLE(case_scene, courant, "1", 0.4, 0.01, 0.95, "Courant number of c + |v|"),
     PARAM_DOUBLE(case_scene, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),
     PARAM_DOUBLE(case_scene, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),
@@ -149,6 +152,8 @@ static const param scene_params[] = {
     PARAM_BOOL(case_scene, half_model, 1, "compute z >= 0 and mirror it"),
     PARAM_DOUBLE(case_scene, limit_widening, "1", 1.5, 1.0, 10.0, "widening from which a crater is a gouge"),
     PARAM_DOUBLE(case_scene, limit_severity, "1", 0.0, -10.0, 1e4, "severity from which a crater is a gouge"),
+    PARAM_DOUBLE(case_scene, growth_scatter, "1", 0.2, 0.0, 10.0,
+                 "growth between the gauges, e-folds either way, that decides nothing"),
     PARAMS_END,
 };
 
@@ -159,6 +164,8 @@ static const param study_params[] = {
                  "wanted width of the onset's interval over the barrel's length"),
     PARAM_DOUBLE(case_study, velocity_low, "m/s", 1000.0, 1.0, 1e4, "no threshold is looked for below"),
     PARAM_DOUBLE(case_study, velocity_high, "m/s", 2000.0, 1.0, 1e4, "no threshold is looked for above"),
+    PARAM_ENUM(case_study, judge, judge_names, JUDGE_GROWTH,
+               "a threshold is where the groove's growth past the grain, or the crater's severity, passes its limit"),
     PARAM_INT(case_study, max_scenes, 16, 1, 100000, "scenes the study may run"),
     PARAM_DOUBLE(case_study, screen_low, "1", 3.0, 0.0, 1e4,
                  "impact pressure over hardness of the harder partner below which no scene is run"),

@@ -132,6 +132,7 @@ static const summary_key scene_keys[] = {
     NUMBER(scene_result, "momentum_error", momentum_error, "1", "over mass times the largest initial speed"),
     NUMBER(scene_result, "energy_error", energy_error, "1", "over the kinetic energy the scene starts with"),
     VALUE(scene_result, KEY_BY_BODY, "failed_volume", failed_volume, "m3", "by body, full model"),
+    VALUE(scene_result, KEY_BY_BODY, "carried_volume", carried_volume, "m3", "sound metal that goes with the armature at the end, by body, full model"),
     NUMBER(scene_result, "end_time", end_time, "s", "simulated"),
     VALUE(scene_result, KEY_COUNT, "particles", particles, "1", "at the end"),
     VALUE(scene_result, KEY_COUNT, "steps", steps, "1", "of the solver"),
@@ -174,6 +175,7 @@ static const summary_key study_scene_keys[] = {
     NUMBER(onset_scene, "contact_pressure", contact_pressure, "Pa", "pressing the armature on"),
     NUMBER(onset_scene, "temperature", temperature, "K", "of the rail"),
     NUMBER(onset_scene, "cells_per_radius", cells_per_radius, "1", "resolution"),
+    VALUE(onset_scene, KEY_FLAG, "gauged", gauged, "", "over once its groove's growth was known: class by that, crater as far as it was"),
     VALUE(onset_scene, KEY_FLAG, "reused", reused, "", "not computed by this run"),
     KEYS_END
 };
@@ -263,7 +265,7 @@ static const summary_key compare_entry_keys[] = {
     VALUE(compare_entry, KEY_FLAG, "significant", significant, "", "better_than_next is at least 0.95"),
     VALUE(compare_entry, KEY_INTEGER, "tied", tied, "1", "rank of the group of surfaces it cannot be told apart from"),
     VALUE(compare_entry, KEY_INTEGER, "scenes", scenes, "1", "its own, shared ones not counted twice"),
-    VALUE(compare_entry, KEY_TEXT, "layer", layer, "", "what its layers suffer: none, intact, spalled, worn through"),
+    VALUE(compare_entry, KEY_TEXT, "layer", layer, "", "what its layers suffer: none, intact, spalled, sheared off, worn through"),
     NUMBER(compare_entry, "layer_failed", layer_failed, "1", "share of the layers under the crater that failed"),
     NUMBER(compare_entry, "layer_velocity", layer_velocity, "m/s", "of the scene that says so"),
     KEYS_END
@@ -332,11 +334,11 @@ static cJSON *vector_or_null(const double *value, int n)
     return any ? vector_json(value, n) : cJSON_CreateNull();
 }
 
-static cJSON *by_body_json(const scene_result *r)
+static cJSON *by_body_json(const scene_result *r, const double *value)
 {
     cJSON *object = cJSON_CreateObject();
     for (int b = 0; b < r->bodies && b < MPM_MAX_BODIES; b++)
-        cJSON_AddItemToObject(object, r->body[b], number_json(r->failed_volume[b]));
+        cJSON_AddItemToObject(object, r->body[b], number_json(value[b]));
     return object;
 }
 
@@ -373,7 +375,7 @@ static cJSON *value_json(const summary_key *k, const void *from)
     case KEY_FLAG: return cJSON_CreateBool(*(const bool *)member);
     case KEY_TEXT: return cJSON_CreateString(member);
     case KEY_NAME: return cJSON_CreateString(k->names[*(const int *)member]);
-    case KEY_BY_BODY: return by_body_json(from);
+    case KEY_BY_BODY: return by_body_json(from, (const double *)member);
     case KEY_LIST: return list_json(k, base);
     case KEY_ARRAY:
         return vector_json(*(const double *const *)member, *(const int *)(const void *)(base + k->n_offset));
@@ -506,7 +508,7 @@ static double number_of(const cJSON *value)
     return cJSON_IsNumber(value) ? value->valuedouble : NAN;
 }
 
-static bool read_by_body(const cJSON *object, scene_result *r)
+static bool read_by_body(const cJSON *object, scene_result *r, double *out)
 {
     const cJSON *value;
     r->bodies = 0;
@@ -514,7 +516,7 @@ static bool read_by_body(const cJSON *object, scene_result *r)
     {
         if (r->bodies == MPM_MAX_BODIES) return false;
         snprintf(r->body[r->bodies], sizeof r->body[0], "%s", value->string);
-        r->failed_volume[r->bodies++] = number_of(value);
+        out[r->bodies++] = number_of(value);
     }
     return cJSON_IsObject(object);
 }
@@ -535,7 +537,7 @@ static bool read_value(const summary_key *k, const cJSON *value, scene_result *r
         snprintf(member, sizeof r->reason, "%s", cJSON_IsString(value) ? value->valuestring : "");
         return cJSON_IsString(value);
     case KEY_NAME: *(int *)member = name_index(k->names, cJSON_GetStringValue(value)); return *(int *)member >= 0;
-    case KEY_BY_BODY: return read_by_body(value, r);
+    case KEY_BY_BODY: return read_by_body(value, r, member);
     case KEY_LIST:
     case KEY_ARRAY: break;
     }
@@ -628,8 +630,10 @@ static void print_scenes(const onset_result *o, FILE *out)
         char v[24], r[24], c[24], severity[24], growth[24], widening[24], d[24], w[24];
         table_row(t, "%s|%s|%s|%s|%s|%s|%s|%s|%s|%s", s->name, cell(s->velocity, 1.0, "%.0f", v),
                   cell(s->radius, 1e-3, "%.3g", r), cell(s->cells_per_radius, 1.0, "%.3g", c),
-                  cell(s->result.severity, 1.0, "%.3f", severity), cell(s->result.groove_growth, 1e6, "%.3f", growth),
-                  cell(s->result.widening, 1.0, "%.2f", widening), cell(s->result.crater_depth, 1e-3, "%.3f", d),
+                  cell(s->gauged ? NAN : s->result.severity, 1.0, "%.3f", severity),
+                  cell(s->result.groove_growth, 1e6, "%.3f", growth),
+                  cell(s->gauged ? NAN : s->result.widening, 1.0, "%.2f", widening),
+                  cell(s->gauged ? NAN : s->result.crater_depth, 1e-3, "%.3f", d),
                   damage_class_names[s->result.class],
                   s->reused ? "reused" : cell(s->result.wall_seconds, 1.0, "%.1f", w));
     }

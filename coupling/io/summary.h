@@ -49,6 +49,7 @@ typedef struct {
     int bodies;
     char body[MPM_MAX_BODIES][PARAM_TEXT_SIZE];
     double failed_volume[MPM_MAX_BODIES]; /* [m3] */
+    double carried_volume[MPM_MAX_BODIES]; /* sound and faster than half the armature's speed at the end [m3] */
     double end_time;                      /* [s] */
     uint64_t particles, steps, particle_steps, particle_steps_dense;
     uint64_t clamps_pressure, clamps_compression;
@@ -66,6 +67,7 @@ typedef struct {
     double contact_pressure; /* [Pa] */
     double temperature;      /* of the rail [K] */
     double cells_per_radius; /* [1] */
+    bool gauged;             /* over once its groove's growth was known: the class is by that, the crater as far as it was */
     bool reused;             /* taken from the store, not computed by this run */
     scene_result result;
 } onset_scene;
@@ -171,7 +173,7 @@ typedef struct {
     bool significant;        /* that share is at least 0.95; of the last: the former one's */
     int tied;                /* surfaces from the same `tied` on cannot be told apart; from 1 */
     int scenes;              /* its own, those shared with surfaces before it not counted */
-    char layer[24];          /* what its layers suffer: "none", "intact", "spalled", "worn through" */
+    char layer[24];          /* what its layers suffer: "none", "intact", "spalled", "sheared off", "worn through" */
     double layer_failed;     /* share of the layers under the crater that failed [1] */
     double layer_velocity;   /* of the scene that says so [m/s] */
 } compare_entry;

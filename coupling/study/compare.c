@@ -9,8 +9,8 @@
 #include <string.h>
 
 static const double SIGNIFICANT = 0.95;
-static const double SPALLED =
-    0.1; /* share of the layers under the crater that failed, from which they count as spalled */
+static const double SUFFERED =
+    0.1; /* share of the layers over the crater that failed or was carried off, from which it counts */
 
 void compare_answer_free(compare_answer *a)
 {
@@ -114,12 +114,20 @@ static const family_scene *telling_scene(const grain_families *g)
     return best;
 }
 
-static double failed_layers(const scene_result *r)
+/* Over the layers; volume: by body. */
+static double sum_layers(const scene_result *r, const double *volume)
 {
     double sum = 0.0;
     for (int b = 0; b < r->bodies; b++)
-        if (strncmp(r->body[b], "layer_", 6) == 0) sum += r->failed_volume[b];
+        if (strncmp(r->body[b], "layer_", 6) == 0) sum += volume[b];
     return sum;
+}
+
+static const char *suffering(const scene_result *r, double thickness, double failed, double carried)
+{
+    if (r->crater_depth >= thickness) return "worn through";
+    if (carried >= SUFFERED) return "sheared off";
+    return failed >= SUFFERED ? "spalled" : "intact";
 }
 
 static void judge_layers(const breech_case *c, const grain_families *g, compare_entry *e)
@@ -134,12 +142,10 @@ static void judge_layers(const breech_case *c, const grain_families *g, compare_
     const double ellipse = 0.25 * PI * r->crater_length * r->crater_width;
     const double grain = PI * from->radius * from->radius;
     e->layer_velocity = from->velocity;
-    e->layer_failed = fmin(failed_layers(r) / (thickness * fmax(ellipse, grain)), 1.0);
-    const bool through = r->crater_depth >= thickness;
+    const double over_crater = thickness * fmax(ellipse, grain);
+    e->layer_failed = fmin(sum_layers(r, r->failed_volume) / over_crater, 1.0);
     snprintf(e->layer, sizeof e->layer, "%s",
-             through                      ? "worn through"
-             : e->layer_failed >= SPALLED ? "spalled"
-                                          : "intact");
+             suffering(r, thickness, e->layer_failed, sum_layers(r, r->carried_volume) / over_crater));
 }
 
 /* ---- ranking ---- */

@@ -8,12 +8,14 @@
 #include <string.h>
 
 static const double PRESSURE_STEP = 5e6; /* [Pa] */
+enum { CRATERS = 2 };                    /* whole scenes of a family that gouges, study.judge growth */
 
 void families_free(grain_families *f)
 {
     free(f->family);
     free(f->of_site);
     free(f->of_population);
+    free(f->probe);
     memset(f, 0, sizeof *f);
 }
 
@@ -135,24 +137,38 @@ static int middle_size(const surface_plan *p)
 static status plan_searches(grain_families *f)
 {
     const case_study *y = &f->c->study;
+    const int craters = y->judge == JUDGE_GROWTH ? CRATERS * f->n : 0;
     double sure;
     TRY(screen_velocity(f->c, y->screen_low, &sure));
-    CHECK(f->n <= y->max_scenes, STATUS_BAD_INPUT,
-          "study.max_scenes = %d: for %d kinds of grain; allow more or make the grains alike", y->max_scenes, f->n);
+    CHECK(f->n + craters <= y->max_scenes, STATUS_BAD_INPUT,
+          "study.max_scenes = %d: for %d kinds of grain, %d whole craters; allow more or make the grains alike",
+          y->max_scenes, f->n, craters);
     for (int k = 0; k < f->n; k++) {
         surface_plan *p = &f->family[k].plan;
         p->reference = middle_size(p);
+        f->family[k].by_growth = y->judge == JUDGE_GROWTH;
         p->search = (threshold_plan){ .low = fmax(y->velocity_low, fmin(sure, 0.5 * y->velocity_high)),
                                       .high = y->velocity_high,
                                       .interval = y->velocity_interval,
                                       .step = threshold_step(y->velocity_interval),
                                       .coarse = y->coarse_cells_per_radius,
                                       .fine = y->fine_cells_per_radius,
-                                      .max_scenes = y->max_scenes / f->n,
+                                      .max_scenes = (y->max_scenes - craters) / f->n,
                                       .place = place_of,
                                       .place_user = f,
                                       .place_interval = y->position_interval * f->c->barrel.length };
     }
+    return status_ok();
+}
+
+static status make_probe(grain_families *f)
+{
+    f->probe = malloc(sizeof *f->probe);
+    CHECK(f->probe, STATUS_MEMORY, "no memory for a case");
+    *f->probe = *f->c;
+    if (f->c->study.judge != JUDGE_GROWTH) return status_ok();
+    f->probe->scene.stop_when_gauged = true;
+    f->probe->output.snapshots = 0;
     return status_ok();
 }
 
@@ -164,6 +180,7 @@ status families_sort(const breech_case *c, const shot_outcome *flown, const char
     out->of_site = calloc(sites + 1, sizeof *out->of_site);
     out->of_population = calloc(populations + 1, sizeof *out->of_population);
     CHECK(out->family && out->of_site && out->of_population, STATUS_MEMORY, "no memory for %zu sites", sites);
+    TRY(make_probe(out));
     TRY(sort_sites(out));
     TRY(sort_populations(out));
     return plan_searches(out);
@@ -192,9 +209,9 @@ static double contact_pressure_at(const grain_families *f, double v)
     return PRESSURE_STEP * round(at.contact_pressure / PRESSURE_STEP);
 }
 
-static scene_query query_of(const asker *a, double radius, double velocity, double cells)
+static scene_query query_of(const asker *a, bool whole, double radius, double velocity, double cells)
 {
-    const breech_case *c = a->of->c;
+    const breech_case *c = whole ? a->of->c : a->of->probe;
     scene_query q = { .c = c, .cells_per_radius = cells };
     q.state = (site_state){ .grain = a->family->grain,
                             .reached = true,
@@ -206,49 +223,86 @@ static scene_query query_of(const asker *a, double radius, double velocity, doub
     q.state.grain.height = a->family->aspect * radius;
     char size[32] = "";
     if (a->family->plan.sizes > 1) snprintf(size, sizeof size, "-r%.6g", 1e3 * radius);
-    snprintf(q.name, sizeof q.name, "%.40sg%d%s-v%g-c%g", a->of->prefix, a->number, size, velocity, cells);
+    snprintf(q.name, sizeof q.name, "%.40sg%d%s-v%g-c%g%s", a->of->prefix, a->number, size, velocity, cells,
+             scene_is_gauged(c) ? "-growth" : "");
     return q;
 }
 
-static const scene_record *known(const grain_family *f, double radius, double velocity, double cells)
+static const scene_record *known(const grain_family *f, const scene_query *q)
 {
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *k = &f->scene[i];
-        if (k->radius == radius && k->velocity == velocity && k->cells == cells) return k->record;
+        if (k->radius == q->state.grain.radius && k->velocity == q->state.velocity && k->cells == q->cells_per_radius &&
+            k->whole == !scene_is_gauged(q->c))
+            return k->record;
     }
     return NULL;
 }
 
-/* From the session, kept for the next round. */
+/* From the session, kept for the next round; NULL in *out: it is not known yet. */
 static status find(asker *a, const scene_query *q, const scene_record **out)
 {
     grain_family *f = a->family;
+    *out = known(f, q);
+    if (*out) return status_ok();
     TRY(scenes_find(a->session, q, out));
     if (*out && f->n_scenes < THRESHOLD_MAX_SAMPLES)
-        f->scene[f->n_scenes++] = (family_scene){ q->state.grain.radius, q->state.velocity, q->cells_per_radius, *out };
+        f->scene[f->n_scenes++] = (family_scene){ q->state.grain.radius, q->state.velocity, q->cells_per_radius,
+                                                  !scene_is_gauged(q->c), *out };
     return status_ok();
+}
+
+static double excess_of(const breech_case *c, const onset_scene *e)
+{
+    const scene_result *r = &e->result;
+    return e->gauged ? growth_folds(r->groove_growth, e->radius, e->velocity) : r->severity - c->scene.limit_severity;
 }
 
 static status outcome_at(void *user, double radius, double velocity, double cells, threshold_sample *out)
 {
     asker *a = user;
-    const scene_record *record = known(a->family, radius, velocity, cells);
-    if (!record) {
-        const scene_query q = query_of(a, radius, velocity, cells);
-        TRY(find(a, &q, &record));
-        if (!record && a->sure && !a->supposed) {
-            *out = *a->sure;
-            a->supposed = true;
-            return status_ok();
-        }
-        if (!record) {
-            a->wanting = true;
-            a->wanted = q;
-            return status_error(STATUS_STOPPED, "a scene is wanted"); /* ends this round of the search */
-        }
+    const scene_query q = query_of(a, false, radius, velocity, cells);
+    const scene_record *record;
+    TRY(find(a, &q, &record));
+    if (!record && a->sure && !a->supposed) {
+        *out = *a->sure;
+        a->supposed = true;
+        return status_ok();
     }
-    const scene_result *r = &record->entry.result;
-    *out = (threshold_sample){ .excess = r->severity - a->of->c->scene.limit_severity, .class = r->class };
+    if (!record) {
+        a->wanting = true;
+        a->wanted = q;
+        return status_error(STATUS_STOPPED, "a scene is wanted"); /* ends this round of the search */
+    }
+    *out = (threshold_sample){ .excess = excess_of(a->of->c, &record->entry), .class = record->entry.result.class };
+    return status_ok();
+}
+
+/* Of the grains of one family, on the grid of its search. */
+static double fastest_grain(const grain_families *f, const grain_family *family)
+{
+    const threshold_plan *p = &family->plan.search;
+    double v = 0.0;
+    for (int i = 0; i < f->c->sites.n; i++)
+        if (f->of_site[i] >= 0 && &f->family[f->of_site[i]] == family) v = fmax(v, f->flown->site[i].velocity);
+    for (int i = 0; i < f->c->populations.n; i++)
+        if (f->of_population[i] >= 0 && &f->family[f->of_population[i]] == family) v = fmax(v, fastest(f->flown));
+    return p->step * floor(fmin(v, p->high) / p->step + 1e-9);
+}
+
+/* Once the threshold is known: the whole craters at it and at the fastest grain. */
+static status round_of_craters(asker *a, const surface_result *surface)
+{
+    const surface_plan *p = &a->family->plan;
+    const double lowest = surface->reference.bracket[1], highest = fastest_grain(a->of, a->family);
+    const double at[CRATERS] = { lowest, highest };
+    if (!a->family->by_growth || !(lowest <= highest)) return status_ok();
+    for (int k = 0; k < CRATERS && !a->wanting; k++) {
+        const scene_record *record;
+        a->wanted = query_of(a, true, p->size[p->reference], at[k], p->search.coarse);
+        TRY(find(a, &a->wanted, &record));
+        a->wanting = !record;
+    }
     return status_ok();
 }
 
@@ -258,7 +312,9 @@ static status round_of(asker *a, surface_result *out)
     const surface_source source = { outcome_at, a };
     a->wanting = a->supposed = false;
     const status done = surface_search(&a->family->plan, &source, out);
-    return a->wanting ? status_ok() : done;
+    if (a->wanting) return status_ok();
+    TRY(done);
+    return round_of_craters(a, out);
 }
 
 /* ---- all searches ---- */
@@ -319,11 +375,12 @@ status families_search(session *s, grain_families *const *f, int n)
     return done;
 }
 
-const family_scene *family_nearest(const grain_family *f, double radius, double velocity)
+const family_scene *family_nearest(const grain_family *f, double radius, double velocity, bool whole)
 {
     const family_scene *best = NULL;
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *a = &f->scene[i];
+        if (whole && !a->whole) continue;
         if (!best) best = a;
         const double far = fabs(log(a->radius / radius)), best_far = fabs(log(best->radius / radius));
         const bool nearer = fabs(a->velocity - velocity) < fabs(best->velocity - velocity);

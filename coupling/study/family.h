@@ -2,7 +2,9 @@
  *
  * A family is what surface.h means by it: the grains of a case - sites of its list and populations - that are alike in shape,
  * material, bond and height over radius.  All searches of a study, over families and over cases (rail surfaces), go on
- * together: each runs on what is known and asks for one scene more, the scenes of all are computed as they come. */
+ * together: each runs on what is known and asks for one scene more, the scenes of all are computed as they come.
+ * With study.judge growth the searches' scenes end once the growth of their groove is known; where something gouges, two more
+ * at coarse cells, at the threshold and at the fastest grain, go on to their whole craters. */
 #ifndef BREECH_COUPLING_FAMILY_H
 #define BREECH_COUPLING_FAMILY_H
 
@@ -11,12 +13,14 @@
 
 typedef struct {
     double radius, velocity, cells; /* what was asked for */
+    bool whole;                     /* to its end, so that its crater counts; else until its growth was known */
     const scene_record *record;     /* borrowed from the session */
 } family_scene;
 
 typedef struct {
     case_site grain; /* of its first site or population; the size is the scene's */
     double aspect;   /* height over radius */
+    bool by_growth;  /* study.judge */
     surface_plan plan;
     surface_result surface;
     int n_scenes;
@@ -25,7 +29,8 @@ typedef struct {
 
 /* The grains of one case in one shot. */
 typedef struct {
-    const breech_case *c;      /* borrowed */
+    const breech_case *c; /* borrowed */
+    breech_case *probe;   /* what the searches' scenes are made of: c, judged as study.judge says; owned, borrows */
     const shot_outcome *flown; /* borrowed */
     const char *prefix;        /* of its scenes' names, "" for the case as it is; borrowed */
     int n;
@@ -41,8 +46,9 @@ void families_free(grain_families *f);
 /* Searches all families of n cases to their end. */
 status families_search(session *s, grain_families *const *f, int n);
 
-/* The scene of the best resolution nearest in velocity, of those nearest in size; NULL if there is none. */
-const family_scene *family_nearest(const grain_family *f, double radius, double velocity);
+/* Among the whole scenes, or all: that of the best resolution nearest in velocity, of those nearest in size; NULL if there
+ * is none. */
+const family_scene *family_nearest(const grain_family *f, double radius, double velocity, bool whole);
 
 /* First place where the armature has the velocity v; the barrel's end if it never has [m]. */
 double flown_place(const shot_outcome *flown, double barrel, double v);

@@ -22,7 +22,7 @@ static int list_jumps(const onset_answer *a, site_jump *jump)
     for (int i = 0; i < a->result.n_sites; i++) {
         if (a->site[i].outcome != SITE_GOUGE) continue;
         const grain_family *f = &a->grains.family[a->grains.of_site[i]];
-        const family_scene *near = family_nearest(f, a->site[i].radius, a->site[i].velocity);
+        const family_scene *near = family_nearest(f, a->site[i].radius, a->site[i].velocity, true);
         if (near) jump[i] = share_of(near, a->site[i].gouged_volume);
         taken += near != NULL;
     }
@@ -55,7 +55,7 @@ static int strewn_jumps(const onset_answer *a, case_site *site, site_jump *jump)
         double gouges = 0.0;
         for (int k = 0; k < MC_BINS / PIECES; k++) gouges += drawn->strewn[p * (MC_BINS / PIECES) + k];
         const double x = length * (p + 0.5) / PIECES;
-        const family_scene *near = family_nearest(f, f->plan.size[f->plan.reference], velocity_at(&a->flown, x));
+        const family_scene *near = family_nearest(f, f->plan.size[f->plan.reference], velocity_at(&a->flown, x), true);
         if (!(gouges > 0.0) || !near) continue;
         site[n] = (case_site){ .position = x, .radius = f->plan.size[f->plan.reference] };
         jump[n++] = share_of(near, gouges * drawn->volume / drawn->gouges);

@@ -79,14 +79,21 @@ static bool gouges(const scene_result *r, double limit_severity)
     return r->class == DAMAGE_GOUGE || (r->class == DAMAGE_UNDECIDED && r->severity >= limit_severity);
 }
 
-/* The family's gouges at the resolution of its thresholds, in order of velocity. */
+/* Scenes whose craters count: whole ones, at the resolution of the thresholds where those were found by craters. */
+static bool counts(const grain_family *f, const family_scene *a, double limit_severity)
+{
+    if (f->by_growth) return a->whole;
+    return a->cells == f->surface.reference.cells && gouges(&a->record->entry.result, limit_severity);
+}
+
+/* The family's gouges in order of velocity. */
 static int collect(const grain_family *f, double limit_severity, marked *out)
 {
     int n = 0;
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *a = &f->scene[i];
         const scene_result *r = &a->record->entry.result;
-        if (a->cells != f->surface.reference.cells || !gouges(r, limit_severity)) continue;
+        if (!counts(f, a, limit_severity)) continue;
         out[n].v = a->velocity;
         out[n++].is = (gouge_mark){ .volume = worth(r->crater_volume) / pow(a->radius, 3.0),
                                     .rim = worth(r->rim_height) / a->radius,

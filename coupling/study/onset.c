@@ -115,15 +115,16 @@ static void judge_sites(onset_answer *a)
         const grain_family *f = family_of(a, i);
         if (!f) continue;
         const surface_size t = threshold_of(a, i);
-        const family_scene *near = family_nearest(f, site->radius, site->velocity);
+        const family_scene *near = family_nearest(f, site->radius, site->velocity, false);
+        const family_scene *whole = family_nearest(f, site->radius, site->velocity, true);
         site->threshold_velocity = t.velocity;
         memcpy(site->threshold_interval, t.interval, sizeof t.interval);
         site->outcome = outcome_at(&t, site->velocity, near);
         if (near) memcpy(site->scene, near->record->entry.name, sizeof site->scene);
         if (site->outcome != SITE_GOUGE) continue;
         a->result.gouges++;
-        if (near)
-            site->gouged_volume = near->record->entry.result.crater_volume * pow(site->radius / near->radius, 3.0);
+        if (!whole) continue;
+        site->gouged_volume = whole->record->entry.result.crater_volume * pow(site->radius / whole->radius, 3.0);
     }
 }
 

@@ -25,6 +25,7 @@ onset_scene scene_entry(const scene_query *q)
     e.contact_pressure = state->contact_pressure;
     e.temperature = q->c->rail.temperature;
     e.cells_per_radius = q->cells_per_radius;
+    e.gauged = scene_is_gauged(q->c);
     return e;
 }
 
