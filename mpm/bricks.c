@@ -189,6 +189,7 @@ static void link_brick(mpm *m, brick *b)
                                  : -1;
     }
     b->contact = meets_other(m, b);
+    b->occupied = meeting_occupied(b);
     if (b->contact && b->out && !b->out_contact) b->out_contact = aligned(HALO_NODES * sizeof *b->out_contact);
 }
 

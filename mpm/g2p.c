@@ -287,7 +287,7 @@ static step_of step_for(const mpm *m, const cell_grid *g, int body)
 {
     step_of step = { .dt = m->dt };
     for (int i = 0; i < 3; i++) {
-        step.h[i] = g->axis[i].cell, step.inv_h[i] = 1 / g->axis[i].cell;
+        step.h[i] = g->axis[i]->cell, step.inv_h[i] = g->axis[i]->inv_cell;
         step.force[i] = m->scene.body[body].body_force[i];
         step.traction[i] = m->scene.body[body].traction[i];
     }
@@ -334,10 +334,11 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
     return leaving & m->links[index].mask;
 }
 
-static void one_cell(mpm *m, brick *b, int cell, const halo_nodes halo, int thread, block_run *run)
+static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const halo_nodes halo, block_run *run)
 {
-    const cell_grid g = cell_grid_at(m, b, cell);
+    const cell_grid g = cell_grid_of(grid, cell);
     const cell_limits limits = limits_of(m, b, cell);
+    mover_list *movers = &m->movers[b->movers_thread];
     cell_nodes nodes;
     gather_cell(halo, halo_index(cell), nodes);
     run->step = step_for(m, &g, run->body);
@@ -349,18 +350,19 @@ static void one_cell(mpm *m, brick *b, int cell, const halo_nodes halo, int thre
         }
         b->sum.particles += (uint64_t)__builtin_popcount(m->links[i].mask);
         const int leaving = one_block(m, b, i, &g, &limits, nodes, run);
-        if (leaving && movers_reserve(&m->movers[thread], 2 * LANES)) movers_take(m, b, cell, i, leaving, thread);
+        if (leaving && movers_reserve(movers, 2 * LANES)) movers_take(m, b, cell, i, leaving);
     }
 }
 
 void ISA(g2p)(mpm *m, brick *b, int thread)
 {
+    const brick_grid grid = brick_grid_at(m, b);
     halo_nodes halo;
     gather_halo(m, b, halo);
     mirror_ghosts(m, b, halo);
     b->movers = 0, b->mover_steps = 0, b->movers_thread = thread, b->movers_first = m->movers[thread].count;
     block_run run = { .body = 0 };
     for (int cell = 0; cell < BRICK_CELLS; cell++)
-        if (b->head[cell] >= 0) one_cell(m, b, cell, halo, thread, &run);
+        if (b->head[cell] >= 0) one_cell(m, b, cell, &grid, halo, &run);
     add_books(&b->sum, &run.books, run.body, &run.step);
 }

@@ -20,7 +20,7 @@ typedef struct {
     double x[3];                /* of the nodes before, at and after [m] */
     double inv_left, inv_right; /* one over the element sizes [1/m] */
     double narrowest, widest;   /* least and largest half length of a domain in the weights [m] */
-    double cell;                /* size of the cell [m] */
+    double cell, inv_cell;      /* size of the cell [m], one over it [1/m] */
 } cell_axis;
 
 LANE_INLINE cell_axis cell_axis_at(const axis *a, int i)
@@ -31,7 +31,8 @@ LANE_INLINE cell_axis cell_axis_at(const axis *a, int i)
                         .inv_right = 1 / right,
                         .narrowest = 0.025 * (left < right ? left : right),
                         .widest = 0.5 * (left < right ? left : right),
-                        .cell = 0.5 * (left + right) };
+                        .cell = 0.5 * (left + right),
+                        .inv_cell = 1 / (0.5 * (left + right)) };
 }
 
 typedef struct {
@@ -104,13 +105,6 @@ LANE_INLINE void prefetch_share(ahead *a)
     for (int i = 0; i < a->share && a->next < a->end; i++, a->next += 64) __builtin_prefetch(a->next);
 }
 
-/* Everything a cell's particles need to know of the grid. */
-typedef struct {
-    cell_axis axis[3];
-    knots knots[3];
-    bool bspline;
-} cell_grid;
-
 /* Least half length in cells that keeps a point stable which shares its nodes with no other.  Its forces change its own
  * velocity gradient by dt sigma/rho sum_i |grad S_i|^2 / S_i, and that sum is up to 2/(l h) an axis where the domain just
  * reaches over a node: with one axis strained it is stable for C^2 2 h/l <= 4, with three about a third of that.  l = C^2 h
@@ -121,16 +115,42 @@ LANE_INLINE double stable_half_length(const mpm_scene *s)
     return (s->transfer == TRANSFER_TPIC ? 1 : 2) * s->courant * s->courant;
 }
 
-LANE_INLINE cell_grid cell_grid_at(const mpm *m, const brick *b, int cell)
+/* The cells of a brick along each axis. */
+typedef struct {
+    cell_axis axis[3][BRICK];
+    knots knots[3][BRICK];
+    bool bspline;
+} brick_grid;
+
+/* Everything a cell's particles need to know of the grid; borrowed from the brick's. */
+typedef struct {
+    const cell_axis *axis[3];
+    const knots *knots[3];
+    bool bspline;
+} cell_grid;
+
+LANE_INLINE brick_grid brick_grid_at(const mpm *m, const brick *b)
+{
+    brick_grid g;
+    g.bspline = m->scene.basis == BASIS_BSPLINE;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < BRICK; i++) {
+            const int node = BRICK * b->at[k] + i;
+            if (node < 1 || node > m->axes[k].last) continue; /* no particles there */
+            cell_axis *a = &g.axis[k][i];
+            *a = cell_axis_at(&m->axes[k], node);
+            if (g.bspline) g.knots[k][i] = knots_at(&m->axes[k], node);
+            const double stable = 2 * a->widest * stable_half_length(&m->scene);
+            if (stable > a->narrowest) a->narrowest = stable < a->widest ? stable : a->widest;
+        }
+    return g;
+}
+
+LANE_INLINE cell_grid cell_grid_of(const brick_grid *b, int cell)
 {
     const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
-    cell_grid g = { .bspline = m->scene.basis == BASIS_BSPLINE };
-    for (int k = 0; k < 3; k++) {
-        g.axis[k] = cell_axis_at(&m->axes[k], BRICK * b->at[k] + at[k]);
-        if (g.bspline) g.knots[k] = knots_at(&m->axes[k], BRICK * b->at[k] + at[k]);
-        const double stable = 2 * g.axis[k].widest * stable_half_length(&m->scene);
-        if (stable > g.axis[k].narrowest) g.axis[k].narrowest = stable < g.axis[k].widest ? stable : g.axis[k].widest;
-    }
+    cell_grid g = { .bspline = b->bspline };
+    for (int k = 0; k < 3; k++) g.axis[k] = &b->axis[k][at[k]], g.knots[k] = &b->knots[k][at[k]];
     return g;
 }
 
@@ -138,7 +158,7 @@ LANE_INLINE cell_grid cell_grid_at(const mpm *m, const brick *b, int cell)
 LANE_INLINE weights cell_weights(const cell_grid *g, int k, const block *q, int lane)
 {
     const vd x = vd_load(&q->x[k][lane]);
-    return g->bspline ? weights_bspline(&g->knots[k], x) : weights_gimp(&g->axis[k], x, vd_load(&q->half[k][lane]));
+    return g->bspline ? weights_bspline(g->knots[k], x) : weights_gimp(g->axis[k], x, vd_load(&q->half[k][lane]));
 }
 
 /* First of the 27 nodes of a cell in its brick's 6 x 6 x 6. */

@@ -47,9 +47,9 @@ static bool erodes(const law *k, const double *q)
     return q[FIRST_e] > k->e_vapour || (loose && q[FIRST_rho] < k->rho_dust);
 }
 
-static void send(mpm *m, brick *b, const int cell[3], int body, const double *q, int thread)
+static void send(mpm *m, brick *b, const int cell[3], int body, const double *q)
 {
-    mover_list *list = &m->movers[thread];
+    mover_list *list = &m->movers[b->movers_thread];
     mover_head h = { .body = body };
     if (!find_cell(m, b, cell, q + FIRST_x, &h)) {
         particle_leave(q, &b->sum.left);
@@ -79,7 +79,7 @@ static void drop_lane(block *q, block_link *link, brick *b, int lane)
     b->particles--;
 }
 
-void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving, int thread)
+void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving)
 {
     const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
     block *q = &m->blocks[block_index];
@@ -99,10 +99,10 @@ void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving, int t
         }
         if (k >= 0) {
             particle_halve(one, other, k);
-            send(m, b, at, link->body, other, thread);
+            send(m, b, at, link->body, other);
             b->sum.splits++;
         }
-        send(m, b, at, link->body, one, thread);
+        send(m, b, at, link->body, one);
         drop_lane(q, link, b, lane);
     }
 }
@@ -201,6 +201,7 @@ status movers_exchange(mpm *m)
             for (int c = 0; c < BRICK_CELLS; c++) tidy_cell(m, b, c);
         const bool empty = b->particles == 0;
         enough = arrive(m, b) && enough;
+        b->occupied = meeting_occupied(b);
         occupied = occupied || (empty && b->particles > 0);
     }
     if (occupied) store_relink(m);

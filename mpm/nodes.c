@@ -56,7 +56,7 @@ static bool gather_field(const mpm *m, const brick *b, bool with_contact, field_
         any = true;
         /* neighbour k lies at step k; seen from it, we lie on the other side */
         add_lines(n->line, from->out, step);
-        if (with_contact && from->contact) add_lines(n->extra, from->out_contact, step);
+        if (with_contact && from->meets) add_lines(n->extra, from->out_contact, step);
     }
     return any;
 }
@@ -319,7 +319,14 @@ static bool is_inside(const mpm *m, const int index[3])
     return true;
 }
 
-/* one_node for a single field away from the walls. */
+static bool is_shared(const field_nodes *fields, int count, int cell)
+{
+    int n = 0;
+    for (int s = 0; s < count; s++) n += fields[s].line[cell][0] > 0;
+    return n > 1;
+}
+
+/* one_node for a single field away from the walls; zero where it has no mass. */
 static void free_node(const double line[LINE], double dt, double node[NODE])
 {
     const double inverse = line[0] > 0 ? 1 / line[0] : 0;
@@ -365,8 +372,8 @@ void ISA(nodes)(mpm *m, int site)
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
         const int index[3] = { BRICK * at[0] + cell % BRICK, BRICK * at[1] + cell / BRICK % BRICK,
                                BRICK * at[2] + cell / (BRICK * BRICK) };
-        if (count == 1 && is_inside(m, index)) {
-            free_node(fields[0].line[cell], m->dt, fields[0].brick->node[cell]);
+        if (is_inside(m, index) && !is_shared(fields, count, cell)) {
+            for (int s = 0; s < count; s++) free_node(fields[s].line[cell], m->dt, fields[s].brick->node[cell]);
             continue;
         }
         if (is_ghost(m, index)) {

@@ -248,7 +248,7 @@ static void fold_line(brick *b, int k, const int ghost[3], const int mirror[3], 
     double *to = b->out[halo_at(mirror)];
     for (int i = 0; i < LINE; i++) to[i] += i == 1 + k || i == 4 + k ? -from[i] : from[i];
     b->sum.impulse_boundary[k] -= 2 * (from[1 + k] + dt * from[4 + k]);
-    if (!b->contact) return;
+    if (!b->meets) return;
     const double *surface = b->out_contact[halo_at(ghost)];
     for (int i = 0; i < 7; i++) b->out_contact[halo_at(mirror)][i] += i == k || i == 3 + k ? -surface[i] : surface[i];
 }
@@ -271,12 +271,14 @@ void ISA(p2g)(mpm *m, brick *b)
     memset(&b->sum, 0, sizeof b->sum);
     b->sum.bad_block = -1;
     memset(b->out, 0, HALO_NODES * sizeof *b->out);
-    if (b->contact) memset(b->out_contact, 0, HALO_NODES * sizeof *b->out_contact);
+    b->meets = b->contact ? meeting_cells(m, b) : 0;
+    if (b->meets) memset(b->out_contact, 0, HALO_NODES * sizeof *b->out_contact);
+    const brick_grid grid = brick_grid_at(m, b);
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
         if (b->head[cell] < 0) continue;
-        const cell_grid g = cell_grid_at(m, b, cell);
+        const cell_grid g = cell_grid_of(&grid, cell);
         cell_motion(m, b, cell, &g);
-        if (b->contact) cell_contact(m, b, cell, &g);
+        if (b->meets >> cell & 1) cell_contact(m, b, cell, &g);
     }
     fold(m, b);
 }

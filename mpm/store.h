@@ -102,9 +102,10 @@ typedef struct {
     int head[BRICK_CELLS]; /* first block of each cell, -1 = none */
     int particles, blocks;
     bool contact;                            /* another field has particles here or next door */
+    uint64_t occupied, meets;                /* bit c: cell c has particles; it may share nodes with another field */
     int neighbour[NEIGHBOURS];               /* bricks of the same field around, -1 = none */
     double (*out)[LINE];                     /* [216] m, px, py, pz, fx, fy, fz, kinetic energy */
-    double (*out_contact)[LINE];             /* [216] V grad S (3), -m (x_i - x_p) (3), 0, 0 */
+    double (*out_contact)[LINE];             /* [216] V grad S (3), -m (x_i - x_p) (3), m flow, 0 */
     double (*node)[NODE];                    /* [64] vx, vy, vz, specific energy that is left to the particles */
     int movers, movers_first, movers_thread; /* its part of the thread's mover list */
     uint32_t mover_steps;                    /* bit k: a mover goes to neighbour k */
@@ -191,6 +192,10 @@ int store_insert(mpm *m, brick *b, int cell, int body, const double *particle); 
 
 status store_place(mpm *m, int body, const double *particle); /* makes its brick if need be; outside any step */
 
+/* meeting.c */
+uint64_t meeting_occupied(const brick *b);
+uint64_t meeting_cells(const mpm *m, const brick *b); /* brick.meets from what is occupied around */
+
 /* image.c */
 uint64_t image_scene_key(const mpm *m); /* before the fine zone has moved */
 
@@ -216,7 +221,7 @@ size_t mpm_histogram_bytes(void);
 
 /* movers.c */
 status movers_exchange(mpm *m); /* all movers into their new cells; makes bricks as needed */
-void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving, int thread);
+void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving);
 bool movers_reserve(mover_list *list, int more);
 
 static inline int site_index(const mpm *m, int bx, int by, int bz)

@@ -240,12 +240,52 @@ static void test_continuity(void **state)
     axis_free(&a);
 }
 
+/* Cells that may share a node with another field: those within two of one of its cells along every axis, by looking at all
+ * pairs in three bricks an axis. */
+static void test_meeting(void **state)
+{
+    (void)state;
+    enum { N = 3 * BRICK };
+    static brick bricks[2][27];
+    static int directory[2 * 27];
+    static mpm m;
+    m.axes[0].bricks = m.axes[1].bricks = m.axes[2].bricks = 3;
+    m.fields = 2, m.sites = 27, m.directory = directory, m.bricks = bricks[0];
+    srand(12);
+    for (int trial = 0; trial < 200; trial++) {
+        memset(bricks, 0, sizeof bricks);
+        for (int i = 0; i < 54; i++) {
+            directory[i] = rand() % 8 ? i : -1;
+            brick *b = &m.bricks[i];
+            *b = (brick){ .field = i / 27, .at = { i % 3, i / 3 % 3, i / 9 % 3 } };
+            for (int c = 0; c < BRICK_CELLS; c++) b->head[c] = rand() % 128 ? -1 : c;
+            b->occupied = meeting_occupied(b);
+        }
+        const int mine = 13 + 27 * (trial % 2),
+                  at = trial % 5 ? 13 : rand() % 27; /* the middle one, or one at the rim */
+        brick *b = &m.bricks[mine - 13 + at];
+        const uint64_t got = meeting_cells(&m, b);
+        uint64_t want = 0;
+        for (int c = 0; c < BRICK_CELLS; c++)
+            for (int other = 0; other < N * N * N; other++) {
+                const int to[3] = { other % N, other / N % N, other / (N * N) };
+                const int from[3] = { c % BRICK, c / BRICK % BRICK, c / (BRICK * BRICK) };
+                const int i = (to[2] / BRICK * 3 + to[1] / BRICK) * 3 + to[0] / BRICK + 27 * (1 - b->field);
+                const int cell = cell_index(to[0] % BRICK, to[1] % BRICK, to[2] % BRICK);
+                bool near = directory[i] >= 0 && m.bricks[i].head[cell] >= 0;
+                for (int k = 0; k < 3; k++) near = near && abs(to[k] - BRICK * b->at[k] - from[k]) <= 2;
+                if (near) want |= 1ull << c;
+            }
+        assert_int_equal(got, want);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_grading),    cmocka_unit_test(test_ratio),   cmocka_unit_test(test_locate),
         cmocka_unit_test(test_refused),    cmocka_unit_test(test_weights), cmocka_unit_test(test_derivative),
-        cmocka_unit_test(test_continuity),
+        cmocka_unit_test(test_continuity), cmocka_unit_test(test_meeting),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
