@@ -419,7 +419,8 @@ static void check_scenes(const onset_answer *a, bool by_growth)
     }
     assert_int_equal(whole, by_growth ? 2 : r->n_scenes);
     if (!by_growth) return;
-    assert_true(slowest == a->grains.family[0].surface.reference.bracket[1]);
+    /* the coarse cells see the made-up threshold 40 m/s later: two steps of the grid */
+    assert_true(slowest == a->grains.family[0].surface.reference.bracket[1] + 50.0);
     assert_true(fastest == 25.0 * floor(fmin(a->site[r->n_sites - 1].velocity, 2000.0) / 25.0));
     for (int i = 0; i < r->n_sites; i++) { /* the made-up volume is 1e-9 v */
         const double v = a->site[i].velocity, at = fabs(v - slowest) < fabs(v - fastest) ? slowest : fastest;

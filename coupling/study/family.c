@@ -290,11 +290,18 @@ static double fastest_grain(const grain_families *f, const grain_family *family)
     return p->step * floor(fmin(v, p->high) / p->step + 1e-9);
 }
 
+/* Where a groove grows at both resolutions: coarse cells may see it later. */
+static double lowest_gouge(const threshold_plan *p, const threshold_result *t)
+{
+    const double later = t->shift < 0.0 ? p->step * ceil(-t->shift / p->step) : 0.0;
+    return t->bracket[1] + later;
+}
+
 /* Once the threshold is known: the whole craters at it and at the fastest grain. */
 static status round_of_craters(asker *a, const surface_result *surface)
 {
     const surface_plan *p = &a->family->plan;
-    const double lowest = surface->reference.bracket[1], highest = fastest_grain(a->of, a->family);
+    const double lowest = lowest_gouge(&p->search, &surface->reference), highest = fastest_grain(a->of, a->family);
     const double at[CRATERS] = { lowest, highest };
     if (!a->family->by_growth || !(lowest <= highest)) return status_ok();
     for (int k = 0; k < CRATERS && !a->wanting; k++) {
