@@ -346,7 +346,8 @@ static status finish(run *r, const armature_metal *before, impact *out)
     if (scene_is_gauged(r->job->c)) judge_by_growth(r, &out->result);
     book_losses(r, before, &after, out);
     status s = measure_carried(r, &out->result);
-    if (s.code == STATUS_OK && h->history) s = history_crater(h->history, r->job->name, &found);
+    const bool whole = !scene_is_gauged(r->job->c);
+    if (s.code == STATUS_OK && h->history && whole) s = history_crater(h->history, r->job->name, &found);
     crater_free(&found);
     if (s.code == STATUS_OK && r->series >= 0) s = history_end(h->history, r->series);
     book(h, "crater", since);

@@ -194,20 +194,25 @@ status plot_barrel(const report_source *r, bool *drawn)
 status plot_threshold(const report_source *r, bool *drawn)
 {
     *drawn = false;
-    const cJSON *scenes = cJSON_GetObjectItemCaseSensitive(r->summary, "scenes");
+    const cJSON *scenes = cJSON_GetObjectItemCaseSensitive(r->summary, "scenes"), *item;
+    bool gauged = false; /* judged by growth, which whole scenes have too */
     int points = 0;
-    const cJSON *item;
-    cJSON_ArrayForEach(item, scenes) points += !isnan(report_number(item, "severity"));
+    cJSON_ArrayForEach(item, scenes)
+    {
+        gauged = gauged || cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(item, "gauged"));
+        points += !isnan(report_number(item, "severity"));
+    }
     if (points == 0 || !r->gnuplot) return status_ok();
     plot p;
     TRY(plot_begin(&p, r, "threshold", 760, 380));
     bool used[OUTCOMES];
-    plot_outcome_data(p.script, r, &(point_source){ "scenes", "class", "velocity", "severity", 1.0 }, used);
+    const char *y = gauged ? "groove_growth" : "severity";
+    plot_outcome_data(p.script, r, &(point_source){ "scenes", "class", "velocity", y, 1.0 }, used);
     plot_band(p.script, 1, r->summary, "threshold_interval", true);
-    fputs("set xlabel 'velocity [m/s]'\nset ylabel 'severity [1]'\nset offsets graph 0.05, graph 0.05, graph 0.1, "
-          "graph 0.1\n"
-          "plot 0 with lines lw 1.5 dt 2 lc rgb '#555555' title 'growth sets in'",
-          p.script);
+    fprintf(p.script,
+            "set xlabel 'velocity [m/s]'\nset ylabel '%s'\nset offsets graph 0.05, graph 0.05, graph 0.1, graph 0.1\n"
+            "plot 0 with lines lw 1.5 dt 2 lc rgb '#555555' title 'growth sets in'",
+            gauged ? "growth of the groove [1/s]" : "severity [1]");
     plot_outcomes(p.script, used, false);
     TRY(plot_end(&p));
     *drawn = true;

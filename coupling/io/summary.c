@@ -633,8 +633,7 @@ static void print_scenes(const onset_result *o, FILE *out)
                   cell(s->gauged ? NAN : s->result.severity, 1.0, "%.3f", severity),
                   cell(s->result.groove_growth, 1e6, "%.3f", growth),
                   cell(s->gauged ? NAN : s->result.widening, 1.0, "%.2f", widening),
-                  cell(s->gauged ? NAN : s->result.crater_depth, 1e-3, "%.3f", d),
-                  damage_class_names[s->result.class],
+                  cell(s->gauged ? NAN : s->result.crater_depth, 1e-3, "%.3f", d), damage_class_names[s->result.class],
                   s->reused ? "reused" : cell(s->result.wall_seconds, 1.0, "%.1f", w));
     }
     fputc('\n', out);

@@ -48,9 +48,9 @@ typedef struct {
     double momentum_error, energy_error; /* [1] */
     int bodies;
     char body[MPM_MAX_BODIES][PARAM_TEXT_SIZE];
-    double failed_volume[MPM_MAX_BODIES]; /* [m3] */
+    double failed_volume[MPM_MAX_BODIES];  /* [m3] */
     double carried_volume[MPM_MAX_BODIES]; /* sound and faster than half the armature's speed at the end [m3] */
-    double end_time;                      /* [s] */
+    double end_time;                       /* [s] */
     uint64_t particles, steps, particle_steps, particle_steps_dense;
     uint64_t clamps_pressure, clamps_compression;
     double eroded_mass;  /* [kg] */
@@ -67,8 +67,8 @@ typedef struct {
     double contact_pressure; /* [Pa] */
     double temperature;      /* of the rail [K] */
     double cells_per_radius; /* [1] */
-    bool gauged;             /* over once its groove's growth was known: the class is by that, the crater as far as it was */
-    bool reused;             /* taken from the store, not computed by this run */
+    bool gauged; /* over once its groove's growth was known: the class is by that, the crater as far as it was */
+    bool reused; /* taken from the store, not computed by this run */
     scene_result result;
 } onset_scene;
 

@@ -25,8 +25,12 @@ static void warn_of(session *s, const onset_scene *e)
 static void say_outcome(session *s, const onset_scene *e)
 {
     const scene_result *r = &e->result;
-    progress_say(&s->progress, "%-22s %s, severity %.2f, widening %.2f (%.0f s)", e->name, damage_class_names[r->class],
-                 r->severity, r->widening, r->wall_seconds);
+    if (e->gauged)
+        progress_say(&s->progress, "%-22s %s, growth %.2f a microsecond (%.0f s)", e->name,
+                     damage_class_names[r->class], 1e-6 * r->groove_growth, r->wall_seconds);
+    else
+        progress_say(&s->progress, "%-22s %s, severity %.2f, widening %.2f (%.0f s)", e->name,
+                     damage_class_names[r->class], r->severity, r->widening, r->wall_seconds);
 }
 
 static bool stop_asked(void *user)
