@@ -237,12 +237,14 @@ status command_check(const breech_case *c, int threads, scene_estimate out[CHECK
     }
     if (!c->given.projectile || c->sites.n == 0) return status_ok();
     const double cells[] = { c->study.coarse_cells_per_radius, c->study.fine_cells_per_radius };
+    breech_case probe = *c; /* as the searches' scenes are (family.c) */
+    probe.scene.stop_when_gauged = c->study.judge == JUDGE_GROWTH;
     for (int k = 0; k < 2; k++) {
         site_state state = state_of_case(c);
         state.grain = c->sites.item[0];
         state.velocity = c->study.velocity_low;
         snprintf(out[*n].what, sizeof out->what, "onset, %g m/s, %g cells a radius", state.velocity, cells[k]);
-        TRY(estimate(c, &state, cells[k], threads, &out[(*n)++]));
+        TRY(estimate(&probe, &state, cells[k], threads, &out[(*n)++]));
     }
     return status_ok();
 }
