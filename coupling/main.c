@@ -207,8 +207,8 @@ static int carry_out(const options *o, session *s)
     snprintf(path, sizeof path, "%s", s->dir.path);
     const bool report = s->c->output.report && written.code == STATUS_OK && work.code == STATUS_OK;
     say_where(o, s, work);
-    command_free(&result);
     const status closed = session_close(s, work.code == STATUS_OK && written.code == STATUS_OK);
+    command_free(&result); /* scenes of others may be made of its cases until then */
     if (report) {
         const status drawn = report_write(path);
         if (drawn.code != STATUS_OK) fprintf(stderr, "breech: no report: %s\n", drawn.text);

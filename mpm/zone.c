@@ -135,7 +135,6 @@ static status wake_point(mpm *m, const block *q, int lane, int body)
     return status_ok();
 }
 
-/* Keeps what the followed bodies look like upstream of x before it is merged. */
 /* What lies beyond x moves on for a while: without the overlap a crack would open there, as deep as that motion goes. */
 static void reach_over_seam(const mpm *m, size_t first, double x)
 {
@@ -146,6 +145,7 @@ static void reach_over_seam(const mpm *m, size_t first, double x)
     }
 }
 
+/* Keeps what the followed bodies look like upstream of x before it is merged. */
 static status leave_wake(mpm *m, double x)
 {
     const size_t first = m->wake.n;
