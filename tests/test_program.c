@@ -248,6 +248,7 @@ static void test_gauged(void **state)
         assert_text(a, "class", i ? "undecided" : growth > 0.0 ? "gouge" : "scratch");
         cJSON_Delete(a);
     }
+    run_script("read_gauged.py", BREECH_TESTS "/../coupling/tools scene/gauged0");
 }
 
 /* The Python reader and the ParaView script of coupling/tools, on what test_scene left. */

@@ -4,8 +4,8 @@
     run = breech.Run("out/default_shot")
     run.summary["muzzle_velocity"]             # summary.json as it is
     run.shot["velocity"], run.shot.units["velocity"]
-    for name in run.scenes:                    # time series and crater of every scene
-        print(name, run.scene(name)["peak_pressure"].max(), run.crater(name).depth.max())
+    for name in run.scenes:                    # time series of every scene, crater of those that ran to their end
+        print(name, run.scene(name)["peak_pressure"].max(), run.crater(name) and run.crater(name).depth.max())
     for time, points in run.snapshots(name):   # material points: points["position"], points["damage"], ...
         ...
     for scene in breech.store("out/default_shot/store"):
@@ -79,8 +79,9 @@ class Run:
         return self._columns(f"/scene/{name}")
 
     def crater(self, name):
+        """None of a scene that ended once its groove's growth was known."""
         with h5py.File(self.directory / "history.h5", "r") as f:
-            return Crater(f[f"/scene/{name}/crater"])
+            return Crater(f[f"/scene/{name}/crater"]) if f"/scene/{name}/crater" in f else None
 
     def snapshots(self, name):
         """(time, points) of every snapshot, one after the other: points is a dict of arrays by name."""
@@ -124,7 +125,8 @@ def describe(directory):
         print(f"{name:{width}}  {value}")
     for name in run.scenes:
         crater = run.crater(name)
-        print(f"scene {name}: {crater.texts['class']}, depth {1e3 * np.max(crater.depth):.3f} mm, "
+        shape = f"{crater.texts['class']}, depth {1e3 * np.max(crater.depth):.3f} mm" if crater else "until its second gauge"
+        print(f"scene {name}: {shape}, "
               f"{len(run.scene(name)['time'])} rows, {sum(1 for _ in run.snapshots(name))} snapshots")
 
 
