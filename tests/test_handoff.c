@@ -487,6 +487,9 @@ static void test_pit(void **state)
     assert_null(named(&m.scene, "armature")->cut);
     assert_true(fabs(m.spec.particle_volume / (0.5 * ball) - 1.0) < 5e-3);
     assert_true(fabs(m.spec.particle_area / (PI * r * r) - 1.0) < 5e-3);
+    made grain = make((const char *const[]){ NULL });
+    assert_true(scene_grain_passed(&m.scene) > 0.0 && scene_grain_passed(&m.scene) == scene_grain_passed(&grain.scene));
+    case_free(grain.c);
     case_free(m.c);
     /* eight points a radius: those on the border, one in eight, err both ways */
     assert_true(fabs((mass_with("hemisphere") - mass_with("pit")) / (0.5 * density * ball) - 1.0) < 0.05);
@@ -503,6 +506,26 @@ static void test_growth(void **state)
     (void)state;
     assert_true(fabs(growth_folds(1e5, 0.5e-3, 1500.0) - 1e5 * 12 * 0.5e-3 / 1500.0) < 1e-12);
     assert_true(growth_folds(NAN, 0.5e-3, 1500.0) == -3.0);
+    assert_true(growth_folds(-1e7, 0.5e-3, 1500.0) ==
+                -3.0); /* died between the gauges: no less than before the first */
+}
+
+/* A scene that is to be gauged ends a tenth after the second gauge, and is refused where it would be over before. */
+static void test_gauged(void **state)
+{
+    (void)state;
+    made m = make((const char *const[]){ NULL });
+    const double whole = m.scene.end_time;
+    m.c->scene.stop_when_gauged = true;
+    OK(scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec));
+    assert_true(fabs(m.scene.gauge_time[1] - 28 * m.state.grain.radius / m.state.velocity) < 1e-12);
+    assert_true(m.scene.end_time < whole && fabs(m.scene.end_time / m.scene.gauge_time[1] - 1.1) < 1e-12);
+    m.c->scene.end_time = 0.9 * m.scene.gauge_time[1];
+    assert_int_equal(scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec).code, STATUS_BAD_INPUT);
+    m.c->scene.follow = false; /* has no gauges */
+    OK(scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec));
+    assert_true(m.scene.end_time == m.c->scene.end_time);
+    case_free(m.c);
 }
 
 static void test_refused(void **state)
@@ -526,7 +549,7 @@ int main(void)
         cmocka_unit_test(test_screen_band), cmocka_unit_test(test_no_overlap), cmocka_unit_test(test_places),
         cmocka_unit_test(test_grid),        cmocka_unit_test(test_pressing),   cmocka_unit_test(test_grain_measures),
         cmocka_unit_test(test_fields),      cmocka_unit_test(test_masses),     cmocka_unit_test(test_pit),
-        cmocka_unit_test(test_refused),     cmocka_unit_test(test_growth),
+        cmocka_unit_test(test_refused),     cmocka_unit_test(test_growth),     cmocka_unit_test(test_gauged),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,7 +15,7 @@ static const double FRONT_SPEED = 0.7;
 /* Where a groove's growth is gauged: the armature's way in grain radii.  Before, the grain itself is still being flattened;
  * later the contact face begins to run out. */
 static const double GROWTH_WAY[2] = { 16.0, 28.0 };
-static const double DEAD_FOLDS = -3.0;  /* of a groove that died before the first gauge */
+static const double DEAD_FOLDS = -3.0;   /* of a groove that died before the first gauge, and the least of any */
 static const double GAUGED_FACTOR = 1.1; /* of the second gauge's time: a scene that is over then has been gauged */
 
 static const char ARMATURE[] = "armature", GRAIN[] = "particle";
@@ -37,7 +37,8 @@ bool scene_is_gauged(const breech_case *c)
 
 double growth_folds(double growth, double radius, double velocity)
 {
-    return isnan(growth) ? DEAD_FOLDS : growth * (GROWTH_WAY[1] - GROWTH_WAY[0]) * radius / velocity;
+    const double folds = growth * (GROWTH_WAY[1] - GROWTH_WAY[0]) * radius / velocity;
+    return folds > DEAD_FOLDS ? folds : DEAD_FOLDS; /* NAN too */
 }
 
 site_state state_of_case(const breech_case *c)
@@ -329,8 +330,9 @@ double scene_crossing_time(const mpm_scene *scene)
 double scene_grain_passed(const mpm_scene *scene)
 {
     const mpm_body *b = &scene->body[body_of_armature(scene)], *grain = b - 1;
+    const bool pit = body_is_rail(scene, body_of_armature(scene) - 1);
     double lo[3], hi[3];
-    grain->shape->bounds(&grain->shape_value, lo, hi);
+    (pit ? grain->cut : grain->shape)->bounds(pit ? &grain->cut_value : &grain->shape_value, lo, hi);
     return (hi[0] - b->shape_value.value[ARMATURE_X_FRONT]) / b->velocity[0];
 }
 
@@ -367,7 +369,19 @@ static void set_method(const breech_case *c, const layout *l, mpm_scene *s)
     const double passage = scene_crossing_time(s) + c->projectile.length / speed;
     s->end_time =
         given_or(from->end_time, from->follow ? l->travel / speed : fmin(END_FACTOR * scene_crossing_time(s), passage));
-    if (scene_is_gauged(c)) s->end_time = fmin(s->end_time, GAUGED_FACTOR * s->gauge_time[1]);
+}
+
+/* A scene that ends before its second gauge would pass for a groove that died. */
+static status end_at_gauge(const breech_case *c, mpm_scene *s)
+{
+    if (!scene_is_gauged(c)) return status_ok();
+    CHECK(s->end_time >= s->gauge_time[1], STATUS_BAD_INPUT,
+          "scene: over after %.3g s, before the growth of its groove is known, %.3g s: a longer scene.end_time, a "
+          "contact face "
+          "of more than %.3g grain radii, or study.judge: severity (for `breech scene`, no scene.stop_when_gauged)",
+          s->end_time, s->gauge_time[1], GROWTH_WAY[1] * (1.0 - FRONT_SPEED));
+    s->end_time = fmin(s->end_time, GAUGED_FACTOR * s->gauge_time[1]);
+    return status_ok();
 }
 
 /* ---- the crater ---- */
@@ -431,7 +445,7 @@ status scene_bodies(const breech_case *c, const site_state *state, double cells_
     set_axes(c, &l, out);
     set_follow(c, &state->grain, out);
     set_method(c, &l, out);
-    return status_ok();
+    return end_at_gauge(c, out);
 }
 
 status scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out,

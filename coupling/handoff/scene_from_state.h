@@ -35,7 +35,7 @@ site_state state_of_case(const breech_case *c);
 /* How long the armature's contact face takes to cross the fine zone, from the scene's start [s]. */
 double scene_crossing_time(const mpm_scene *scene);
 
-/* When the grain lies behind the front end of the contact face, and upstream end of that face at a time [s, m]. */
+/* When the grain, or the pit, lies behind the front end of the contact face, and upstream end of that face at a time [s, m]. */
 double scene_grain_passed(const mpm_scene *scene);
 double scene_face_tail(const mpm_scene *scene, double time);
 
@@ -44,7 +44,7 @@ double scene_face_tail(const mpm_scene *scene, double time);
 bool scene_is_gauged(const breech_case *c);
 
 /* A growth [1/s] as e-folds over the way between the two gauges [1]; one that died before the first has the growth NAN and
- * counts as -3. */
+ * counts as -3, and none as less. */
 double growth_folds(double growth, double radius, double velocity);
 
 /* Does the crater count this body's points (rail and layers; not the grain, not the armature)? */

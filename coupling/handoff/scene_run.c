@@ -313,13 +313,14 @@ static void book_losses(const run *r, const armature_metal *before, const armatu
     out->impulse = fmax(halves * (kept - c->scene.friction * pressing * time), 0.0);
 }
 
-/* A scene that ends at its second gauge has no whole crater to be judged by. */
+/* A scene that ends at its second gauge has no whole crater to be judged by; what left none until then is still `none`. */
 static void judge_by_growth(const run *r, scene_result *out)
 {
     const double scatter = r->job->c->scene.growth_scatter;
     const double folds = growth_folds(out->groove_growth, r->job->spec.particle_radius, r->job->scene.follow_speed);
     const bool decided = fabs(folds) >= scatter;
-    out->class = !decided ? DAMAGE_UNDECIDED : folds > 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
+    const damage_class below = out->class == DAMAGE_NONE ? DAMAGE_NONE : DAMAGE_SCRATCH;
+    out->class = !decided ? DAMAGE_UNDECIDED : folds > 0.0 ? DAMAGE_GOUGE : below;
     snprintf(out->reason, sizeof out->reason,
              "the groove's plastic power changes by %.2f e-folds between the gauges, %s %.2f", folds,
              decided ? "beyond" : "within", scatter);
