@@ -402,7 +402,7 @@ static double first_position_at(const onset_answer *a, double v)
     return NAN;
 }
 
-/* Judged by growth, a study runs two whole scenes more where something gouges, at coarse cells. */
+/* Judged by growth, a study runs two whole scenes more where something gouges, at coarse cells; and so they do gouge. */
 static void check_scenes(const onset_answer *a, bool by_growth)
 {
     const onset_result *r = &a->result;
@@ -415,7 +415,7 @@ static void check_scenes(const onset_answer *a, bool by_growth)
         whole++;
         slowest = fmin(slowest, s->velocity);
         fastest = fmax(fastest, s->velocity);
-        if (by_growth) assert_true(s->cells_per_radius == 2.0);
+        if (by_growth) assert_true(s->cells_per_radius == 2.0 && s->result.class == DAMAGE_GOUGE);
     }
     assert_int_equal(whole, by_growth ? 2 : r->n_scenes);
     if (!by_growth) return;
@@ -428,9 +428,9 @@ static void check_scenes(const onset_answer *a, bool by_growth)
     }
 }
 
-static void check_onset(const char *judge, double threshold, bool site_inside)
+static void check_onset(const char *const *sets, bool by_growth, double threshold, bool site_inside)
 {
-    breech_case *c = changed_case((const char *const[]){ judge, NULL });
+    breech_case *c = changed_case(sets);
     onset_answer a;
     int undecided = 0;
     counter.base = threshold;
@@ -457,7 +457,7 @@ static void check_onset(const char *judge, double threshold, bool site_inside)
         assert_true(s->scene[0] != '\0');
     }
     assert_true((undecided > 0) == site_inside);
-    check_scenes(&a, c->study.judge == JUDGE_GROWTH);
+    check_scenes(&a, by_growth);
     /* x(v) falls between the sites around it */
     assert_true(r->threshold_position <= r->onset_position && r->threshold_position > r->onset_position - 0.3);
     /* feedback: every gouge takes 0.02 N s of 0.25 kg, 0.08 m/s at once, of which the later pushing keeps v_site/v_muzzle */
@@ -471,11 +471,74 @@ static void check_onset(const char *judge, double threshold, bool site_inside)
 static void test_onset(void **state)
 {
     (void)state;
-    const char *const judges[] = { "study.judge=severity", "study.judge=growth" };
-    for (int k = 0; k < 2; k++) {
-        check_onset(judges[k], 1430.0, false);
-        check_onset(judges[k], 1405.0, true); /* a site at 1416 m/s lies between the threshold and the interval's end */
+    /* scene.stop_when_gauged is for a scene by itself; a groove that is not followed has no growth */
+    const char *const sets[][3] = { { "study.judge=growth" },
+                                    { "study.judge=growth", "scene.stop_when_gauged=yes" },
+                                    { "study.judge=growth", "scene.follow=no" },
+                                    { "study.judge=severity" },
+                                    { "study.judge=severity", "scene.stop_when_gauged=yes" } };
+    for (int k = 0; k < 5; k++) {
+        check_onset(sets[k], k < 2, 1430.0, false);
+        check_onset(sets[k], k < 2, 1405.0,
+                    true); /* a site at 1416 m/s lies between the threshold and the interval's end */
     }
+}
+
+/* Whole scenes of a study at the threshold `base`: how many, at which velocities and of which size. */
+typedef struct {
+    int n;
+    double slowest, fastest, radius;
+} whole_scenes;
+
+static whole_scenes whole_at(const char *const *sets, double base, onset_answer *a)
+{
+    whole_scenes w = { 0, INFINITY, 0.0, NAN };
+    breech_case *c = changed_case(sets);
+    counter.base = base;
+    OK(study(c, "craters", FORCE, a));
+    counter.base = 1430.0;
+    for (int i = 0; i < a->result.n_scenes; i++) {
+        const onset_scene *s = &a->scene[i];
+        if (s->gauged) continue;
+        assert_int_equal(s->result.class, DAMAGE_GOUGE);
+        w.n++;
+        w.slowest = fmin(w.slowest, s->velocity);
+        w.fastest = fmax(w.fastest, s->velocity);
+        w.radius = s->radius;
+    }
+    for (int i = 0; i < a->result.n_sites; i++)
+        assert_true(isnan(a->site[i].gouged_volume) == (a->site[i].outcome != SITE_GOUGE));
+    case_free(c);
+    return w;
+}
+
+/* Wherever the threshold lies, what gouges has a crater that gouges. */
+static void test_craters(void **state)
+{
+    (void)state;
+    const char *const slow[] = { "armature.mass=0.3 kg", NULL };
+    const char *const large[] = { "sites[11].radius=1 mm", "sites[11].height=1 mm", "particle.height=0.5 mm",
+                                  "study.max_scenes=30", NULL };
+    onset_answer a;
+    whole_scenes w = whole_at(NULL, 990.0, &a); /* below the range in fine cells, inside it in coarse ones */
+    assert_int_equal(a.grains.family[0].surface.reference.outcome, THRESHOLD_BELOW);
+    assert_true(w.n == 2 && w.slowest >= 1030.0 && w.fastest == 2000.0);
+    onset_answer_free(&a);
+    w = whole_at(slow, 1500.0, &a);
+    const double fastest = a.site[a.result.n_sites - 1].velocity;
+    assert_true(w.n == 2 && w.slowest == a.grains.family[0].surface.reference.bracket[1] + 50.0);
+    onset_answer_free(&a);
+    w = whole_at(slow, fastest - 5.0, &a); /* passed, but not by as much as the resolutions differ */
+    assert_true(fastest < 1950.0 && w.n == 1 && w.slowest > fastest);
+    onset_answer_free(&a);
+    w = whole_at(slow, fastest + 200.0, &a);
+    assert_true(w.n == 0 && a.result.gouges == 0);
+    onset_answer_free(&a);
+    w = whole_at(large, 2150.0, &a); /* only the one that is larger than the reference gouges */
+    assert_int_equal(a.grains.n, 1);
+    assert_int_equal(a.result.gouges, 1);
+    assert_true(w.n > 0 && w.radius == 1e-3);
+    onset_answer_free(&a);
 }
 
 /* Moves of the case move the answer the right way (wu2017.md, W7 to W11). */
@@ -592,7 +655,7 @@ int main(void)
         cmocka_unit_test(test_dip),        cmocka_unit_test(test_undecided),  cmocka_unit_test(test_budget),
         cmocka_unit_test(test_errors),     cmocka_unit_test(test_onset),      cmocka_unit_test(test_moves),
         cmocka_unit_test(test_screened),   cmocka_unit_test(test_two_kinds),  cmocka_unit_test(test_resume),
-        cmocka_unit_test(test_other_case),
+        cmocka_unit_test(test_other_case), cmocka_unit_test(test_craters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -165,7 +165,8 @@ static const param study_params[] = {
     PARAM_DOUBLE(case_study, velocity_low, "m/s", 1000.0, 1.0, 1e4, "no threshold is looked for below"),
     PARAM_DOUBLE(case_study, velocity_high, "m/s", 2000.0, 1.0, 1e4, "no threshold is looked for above"),
     PARAM_ENUM(case_study, judge, judge_names, JUDGE_GROWTH,
-               "a threshold is where the groove's growth past the grain, or the crater's severity, passes its limit"),
+               "a threshold is where the groove's growth past the grain (if scene.follow), or the crater's severity, "
+               "passes its limit"),
     PARAM_INT(case_study, max_scenes, 16, 1, 100000, "scenes the study may run"),
     PARAM_DOUBLE(case_study, screen_low, "1", 3.0, 0.0, 1e4,
                  "impact pressure over hardness of the harder partner below which no scene is run"),

@@ -157,15 +157,17 @@ status command_inductance(session *s, command_result *out)
 
 /* ---- check ---- */
 
-/* Scenes at both resolutions with a grain of this size. */
+/* A search's scenes at both resolutions with a grain of this size. */
 static status grain_possible(const breech_case *c, const case_site *grain)
 {
     mpm_scene scene;
+    breech_case probe;
     site_state state = state_of_case(c);
+    family_probe(c, &probe);
     state.velocity = c->study.velocity_low;
     state.grain = *grain;
-    TRY(scene_bodies(c, &state, c->study.coarse_cells_per_radius, &scene));
-    return scene_bodies(c, &state, c->study.fine_cells_per_radius, &scene);
+    TRY(scene_bodies(&probe, &state, c->study.coarse_cells_per_radius, &scene));
+    return scene_bodies(&probe, &state, c->study.fine_cells_per_radius, &scene);
 }
 
 static status grains_possible(const breech_case *c)
@@ -237,8 +239,8 @@ status command_check(const breech_case *c, int threads, scene_estimate out[CHECK
     }
     if (!c->given.projectile || c->sites.n == 0) return status_ok();
     const double cells[] = { c->study.coarse_cells_per_radius, c->study.fine_cells_per_radius };
-    breech_case probe = *c; /* as the searches' scenes are (family.c) */
-    probe.scene.stop_when_gauged = c->study.judge == JUDGE_GROWTH;
+    breech_case probe;
+    family_probe(c, &probe);
     for (int k = 0; k < 2; k++) {
         site_state state = state_of_case(c);
         state.grain = c->sites.item[0];

@@ -16,6 +16,7 @@ void families_free(grain_families *f)
     free(f->of_site);
     free(f->of_population);
     free(f->probe);
+    free(f->whole);
     memset(f, 0, sizeof *f);
 }
 
@@ -137,7 +138,8 @@ static int middle_size(const surface_plan *p)
 static status plan_searches(grain_families *f)
 {
     const case_study *y = &f->c->study;
-    const int craters = y->judge == JUDGE_GROWTH ? CRATERS * f->n : 0;
+    const bool by_growth = scene_is_gauged(f->probe);
+    const int craters = by_growth ? CRATERS * f->n : 0;
     double sure;
     TRY(screen_velocity(f->c, y->screen_low, &sure));
     CHECK(f->n + craters <= y->max_scenes, STATUS_BAD_INPUT,
@@ -146,7 +148,7 @@ static status plan_searches(grain_families *f)
     for (int k = 0; k < f->n; k++) {
         surface_plan *p = &f->family[k].plan;
         p->reference = middle_size(p);
-        f->family[k].by_growth = y->judge == JUDGE_GROWTH;
+        f->family[k].by_growth = by_growth;
         p->search = (threshold_plan){ .low = fmax(y->velocity_low, fmin(sure, 0.5 * y->velocity_high)),
                                       .high = y->velocity_high,
                                       .interval = y->velocity_interval,
@@ -161,14 +163,22 @@ static status plan_searches(grain_families *f)
     return status_ok();
 }
 
-static status make_probe(grain_families *f)
+void family_probe(const breech_case *c, breech_case *out)
+{
+    const bool by_growth = c->study.judge == JUDGE_GROWTH && c->scene.follow;
+    *out = *c;
+    out->scene.stop_when_gauged = by_growth;
+    if (by_growth) out->output.snapshots = 0;
+}
+
+static status make_cases(grain_families *f)
 {
     f->probe = malloc(sizeof *f->probe);
-    CHECK(f->probe, STATUS_MEMORY, "no memory for a case");
-    *f->probe = *f->c;
-    if (f->c->study.judge != JUDGE_GROWTH) return status_ok();
-    f->probe->scene.stop_when_gauged = true;
-    f->probe->output.snapshots = 0;
+    f->whole = malloc(sizeof *f->whole);
+    CHECK(f->probe && f->whole, STATUS_MEMORY, "no memory for two cases");
+    family_probe(f->c, f->probe);
+    *f->whole = *f->c;
+    f->whole->scene.stop_when_gauged = false;
     return status_ok();
 }
 
@@ -180,7 +190,7 @@ status families_sort(const breech_case *c, const shot_outcome *flown, const char
     out->of_site = calloc(sites + 1, sizeof *out->of_site);
     out->of_population = calloc(populations + 1, sizeof *out->of_population);
     CHECK(out->family && out->of_site && out->of_population, STATUS_MEMORY, "no memory for %zu sites", sites);
-    TRY(make_probe(out));
+    TRY(make_cases(out));
     TRY(sort_sites(out));
     TRY(sort_populations(out));
     return plan_searches(out);
@@ -211,7 +221,7 @@ static double contact_pressure_at(const grain_families *f, double v)
 
 static scene_query query_of(const asker *a, bool whole, double radius, double velocity, double cells)
 {
-    const breech_case *c = whole ? a->of->c : a->of->probe;
+    const breech_case *c = whole ? a->of->whole : a->of->probe;
     scene_query q = { .c = c, .cells_per_radius = cells };
     q.state = (site_state){ .grain = a->family->grain,
                             .reached = true,
@@ -278,37 +288,74 @@ static status outcome_at(void *user, double radius, double velocity, double cell
     return status_ok();
 }
 
-/* Of the grains of one family, on the grid of its search. */
+static double on_grid_below(const threshold_plan *p, double v)
+{
+    return p->step * floor(fmin(v, p->high) / p->step + 1e-9);
+}
+
+/* Of the grains of one family [m/s]. */
 static double fastest_grain(const grain_families *f, const grain_family *family)
 {
-    const threshold_plan *p = &family->plan.search;
     double v = 0.0;
     for (int i = 0; i < f->c->sites.n; i++)
         if (f->of_site[i] >= 0 && &f->family[f->of_site[i]] == family) v = fmax(v, f->flown->site[i].velocity);
     for (int i = 0; i < f->c->populations.n; i++)
         if (f->of_population[i] >= 0 && &f->family[f->of_population[i]] == family) v = fmax(v, fastest(f->flown));
-    return p->step * floor(fmin(v, p->high) / p->step + 1e-9);
+    return v;
+}
+
+/* The lowest velocity from `from` on at which a groove grows in coarse cells; `from` where none did. */
+static double lowest_coarse(const threshold_plan *p, const threshold_result *t, double from)
+{
+    double v = INFINITY;
+    for (int i = 0; i < t->samples; i++) {
+        const threshold_sample *s = &t->sample[i];
+        if (s->cells_per_radius == p->coarse && s->velocity >= from && threshold_is_upper(s)) v = fmin(v, s->velocity);
+    }
+    return isinf(v) ? from : v;
 }
 
 /* Where a groove grows at both resolutions: coarse cells may see it later. */
 static double lowest_gouge(const threshold_plan *p, const threshold_result *t)
 {
     const double later = t->shift < 0.0 ? p->step * ceil(-t->shift / p->step) : 0.0;
-    return t->bracket[1] + later;
+    return isnan(t->shift) ? lowest_coarse(p, t, t->bracket[1]) : t->bracket[1] + later;
 }
 
-/* Once the threshold is known: the whole craters at it and at the fastest grain. */
-static status round_of_craters(asker *a, const surface_result *surface)
+/* May a grain of this size that comes with v gouge, for all that is known? */
+static bool may_gouge(const surface_size *t, double v)
+{
+    return !isnan(t->interval[1]) && !(v <= t->interval[0]);
+}
+
+/* The size whose craters count: the reference if it may gouge at v, else the largest that may; -1: none. */
+static int size_of_craters(const surface_plan *p, const surface_result *s, double v)
+{
+    if (may_gouge(&s->size[p->reference], v)) return p->reference;
+    int k = s->sizes - 1;
+    while (k >= 0 && !may_gouge(&s->size[k], v)) k--;
+    return k;
+}
+
+/* Once the thresholds are known: the whole craters where gouging begins and at the fastest grain. */
+static status round_of_craters(asker *a, const surface_result *s)
 {
     const surface_plan *p = &a->family->plan;
-    const double lowest = lowest_gouge(&p->search, &surface->reference), highest = fastest_grain(a->of, a->family);
-    const double at[CRATERS] = { lowest, highest };
-    if (!a->family->by_growth || !(lowest <= highest)) return status_ok();
-    for (int k = 0; k < CRATERS && !a->wanting; k++) {
+    const double step = p->search.step, fastest = fastest_grain(a->of, a->family);
+    const int k = size_of_craters(p, s, fastest);
+    if (!a->family->by_growth || k < 0) return status_ok();
+    const double from =
+        k == p->reference ? lowest_gouge(&p->search, &s->reference) : step * ceil(s->size[k].interval[1] / step);
+    const double lowest = fmin(from, on_grid_below(&p->search, p->search.high));
+    const double at[CRATERS] = { lowest, fmax(lowest, on_grid_below(&p->search, fastest)) };
+    for (int i = 0; i < CRATERS && !a->wanting; i++) {
         const scene_record *record;
-        a->wanted = query_of(a, true, p->size[p->reference], at[k], p->search.coarse);
+        a->wanted = query_of(a, true, p->size[k], at[i], p->search.coarse);
         TRY(find(a, &a->wanted, &record));
-        a->wanting = !record;
+        if (!record && a->sure && !a->supposed)
+            a->supposed = true;
+        else
+            a->wanting = !record;
     }
     return status_ok();
 }

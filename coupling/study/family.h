@@ -4,7 +4,8 @@
  * material, bond and height over radius.  All searches of a study, over families and over cases (rail surfaces), go on
  * together: each runs on what is known and asks for one scene more, the scenes of all are computed as they come.
  * With study.judge growth the searches' scenes end once the growth of their groove is known; where something gouges, two more
- * at coarse cells, at the threshold and at the fastest grain, go on to their whole craters. */
+ * at coarse cells, at the threshold and at the fastest grain, go on to their whole craters.  A groove that is not followed
+ * (scene.follow) has no growth: such a study is judged by severity. */
 #ifndef BREECH_COUPLING_FAMILY_H
 #define BREECH_COUPLING_FAMILY_H
 
@@ -20,7 +21,7 @@ typedef struct {
 typedef struct {
     case_site grain; /* of its first site or population; the size is the scene's */
     double aspect;   /* height over radius */
-    bool by_growth;  /* study.judge */
+    bool by_growth;  /* else by severity: family_probe */
     surface_plan plan;
     surface_result surface;
     int n_scenes;
@@ -30,7 +31,8 @@ typedef struct {
 /* The grains of one case in one shot. */
 typedef struct {
     const breech_case *c; /* borrowed */
-    breech_case *probe;   /* what the searches' scenes are made of: c, judged as study.judge says; owned, borrows */
+    breech_case *probe,
+        *whole; /* what the searches' scenes are made of, and those that go to their end; owned, borrow */
     const shot_outcome *flown; /* borrowed */
     const char *prefix;        /* of its scenes' names, "" for the case as it is; borrowed */
     int n;
@@ -42,6 +44,10 @@ typedef struct {
 /* Sorts sites and populations into families and plans their searches.  families_free even on error. */
 status families_sort(const breech_case *c, const shot_outcome *flown, const char *prefix, grain_families *out);
 void families_free(grain_families *f);
+
+/* A copy of c, which it borrows from, as a search's scenes are made of: they end at their second gauge where the study is
+ * judged by growth, and else go to their end. */
+void family_probe(const breech_case *c, breech_case *out);
 
 /* Searches all families of n cases to their end. */
 status families_search(session *s, grain_families *const *f, int n);

@@ -226,7 +226,7 @@ static void check_monotone(threshold_result *r, double cells)
     r->monotone = r->monotone && highest_lower < lowest_upper;
     if (highest_lower < lowest_upper) return;
     warn(r,
-         "severity turns back (%g cells a radius): above its limit at %g m/s, below it at %g m/s; the interval spans "
+         "gouging turns back (%g cells a radius): above its limit at %g m/s, below it at %g m/s; the interval spans "
          "both",
          cells, lowest_upper, highest_lower);
     r->interval[0] = fmin(r->interval[0], lowest_upper);

@@ -1,4 +1,4 @@
-/* The search for a threshold velocity: where the severity of an impact crosses its limit.
+/* The search for a threshold velocity: where the growth of an impact's groove, or its severity, crosses its limit.
  *
  * What is known of the function: nothing but values at velocities we pay for, each at a resolution, each with a class.
  *   1. Coarse: from the middle of the range outwards to a change of side, then in between by the secant kept within the
@@ -6,7 +6,7 @@
  *      Then one coarse scene half way to each end of the range, where that is far: does the function turn back there?
  *   2. Fine: beside the coarse root, one wanted half interval below and above; where both lie on one side the bracket
  *      moves there in doubling steps; then halving to the wanted interval, in velocity and in place, or the grid's step.
- *   3. Interval: the fine bracket, by decided scenes (an `undecided` one takes the side of its severity, but does not end
+ *   3. Interval: the fine bracket, by decided scenes (an `undecided` one takes the side of its excess, but does not end
  *      the interval), widened by the shift of the root from coarse to fine.
  * Monotonicity is checked: a higher velocity on the lower side of a lower one widens the interval over both and warns.
  * Velocities lie on the grid k * step, so that scenes are shared, and none is asked for twice. */
@@ -24,7 +24,7 @@ enum { THRESHOLD_MAX_SAMPLES = 256, THRESHOLD_WARNING_SIZE = 300 };
 typedef struct {
     double velocity;         /* [m/s] */
     double cells_per_radius; /* [1] */
-    double excess;           /* severity less its limit [1] */
+    double excess;           /* severity less its limit, or growth in e-folds: crosses zero at the threshold [1] */
     damage_class class;
 } threshold_sample;
 
@@ -54,7 +54,7 @@ typedef enum {
 
 typedef struct {
     threshold_outcome outcome;
-    double velocity;    /* of the crossing, between the bracket's ends by severity; NaN unless found [m/s] */
+    double velocity;    /* of the crossing, between the bracket's ends by excess; NaN unless found [m/s] */
     double interval[2]; /* where it lies; an end that is not known is NaN [m/s] */
     double bracket[2];  /* of the last stage alone [m/s] */
     double shift;       /* of the root from coarse to fine, NaN if there is only one [m/s] */
@@ -67,7 +67,7 @@ typedef struct {
 
 status threshold_search(const threshold_plan *plan, const threshold_source *source, threshold_result *out);
 
-/* Does a sample speak for a gouge?  An undecided one by its severity. */
+/* Does a sample speak for a gouge?  An undecided one by its excess. */
 bool threshold_is_upper(const threshold_sample *s);
 
 /* Grid step for a wanted interval around 1.5 km/s: half of it, rounded down to 1, 2.5 or 5 times a power of ten [m/s]. */
