@@ -52,9 +52,8 @@ void family_probe(const breech_case *c, breech_case *out);
 /* Searches all families of n cases to their end. */
 status families_search(session *s, grain_families *const *f, int n);
 
-/* Among the whole scenes, or all: that of the best resolution nearest in velocity, of those nearest in size; NULL if there
- * is none. */
-const family_scene *family_nearest(const grain_family *f, double radius, double velocity, bool whole);
+/* That of the best resolution nearest in velocity, of those nearest in size; NULL if there is none. */
+const family_scene *family_nearest(const grain_family *f, double radius, double velocity);
 
 /* First place where the armature has the velocity v; the barrel's end if it never has [m]. */
 double flown_place(const shot_outcome *flown, double barrel, double v);

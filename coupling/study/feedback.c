@@ -1,5 +1,7 @@
 #include "coupling/study/feedback.h"
 
+#include "coupling/study/gouge_law.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,12 +10,13 @@
 
 enum { PIECES = 20 }; /* of the barrel, for gouges of populations */
 
-/* As much of the scene's impulse and mass as its volume is of `volume`. */
-static site_jump share_of(const family_scene *near, double volume)
+/* What gouges of this volume in all take at v; nothing where no scene left a crater. */
+static site_jump taken_by(const onset_answer *a, const grain_family *f, double v, double volume)
 {
-    const scene_record *r = near->record;
-    const double all = r->entry.result.crater_volume, share = all > 0.0 ? volume / all : 1.0;
-    return (site_jump){ share * r->impulse, share * r->mass_loss };
+    gouge_mark mark;
+    const bool known = gouge_mark_at(f, a->grains.c->scene.limit_severity, v, &mark) && mark.volume > 0.0;
+    const double share = known ? volume / mark.volume : 0.0;
+    return (site_jump){ share * mark.impulse, share * mark.metal };
 }
 
 static int list_jumps(const onset_answer *a, site_jump *jump)
@@ -22,9 +25,9 @@ static int list_jumps(const onset_answer *a, site_jump *jump)
     for (int i = 0; i < a->result.n_sites; i++) {
         if (a->site[i].outcome != SITE_GOUGE) continue;
         const grain_family *f = &a->grains.family[a->grains.of_site[i]];
-        const family_scene *near = family_nearest(f, a->site[i].radius, a->site[i].velocity, true);
-        if (near) jump[i] = share_of(near, a->site[i].gouged_volume);
-        taken += near != NULL;
+        if (isnan(a->site[i].gouged_volume)) continue;
+        jump[i] = taken_by(a, f, a->site[i].velocity, a->site[i].gouged_volume);
+        taken++;
     }
     return taken;
 }
@@ -55,10 +58,9 @@ static int strewn_jumps(const onset_answer *a, case_site *site, site_jump *jump)
         double gouges = 0.0;
         for (int k = 0; k < MC_BINS / PIECES; k++) gouges += drawn->strewn[p * (MC_BINS / PIECES) + k];
         const double x = length * (p + 0.5) / PIECES;
-        const family_scene *near = family_nearest(f, f->plan.size[f->plan.reference], velocity_at(&a->flown, x), true);
-        if (!(gouges > 0.0) || !near) continue;
+        if (!(gouges > 0.0)) continue;
         site[n] = (case_site){ .position = x, .radius = f->plan.size[f->plan.reference] };
-        jump[n++] = share_of(near, gouges * drawn->volume / drawn->gouges);
+        jump[n++] = taken_by(a, f, velocity_at(&a->flown, x), gouges * drawn->volume / drawn->gouges);
     }
     return n;
 }

@@ -93,11 +93,14 @@ static int collect(const grain_family *f, double limit_severity, marked *out)
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *a = &f->scene[i];
         const scene_result *r = &a->record->entry.result;
+        const double r3 = pow(a->radius, 3.0);
         if (!counts(f, a, limit_severity)) continue;
         out[n].v = a->velocity;
-        out[n++].is = (gouge_mark){ .volume = worth(r->crater_volume) / pow(a->radius, 3.0),
+        out[n++].is = (gouge_mark){ .volume = worth(r->crater_volume) / r3,
                                     .rim = worth(r->rim_height) / a->radius,
-                                    .along = worth(r->crater_length) / a->radius };
+                                    .along = worth(r->crater_length) / a->radius,
+                                    .impulse = a->record->impulse / r3,
+                                    .metal = a->record->mass_loss / r3 };
     }
     qsort(out, (size_t)n, sizeof *out, by_velocity);
     return n;
@@ -106,16 +109,25 @@ static int collect(const grain_family *f, double limit_severity, marked *out)
 static gouge_mark between(const gouge_mark *a, const gouge_mark *b, double f)
 {
     return (gouge_mark){ a->volume + f * (b->volume - a->volume), a->rim + f * (b->rim - a->rim),
-                         a->along + f * (b->along - a->along) };
+                         a->along + f * (b->along - a->along), a->impulse + f * (b->impulse - a->impulse),
+                         a->metal + f * (b->metal - a->metal) };
 }
 
 static gouge_mark mark_at(const marked *m, int n, double v)
 {
-    if (n == 0) return (gouge_mark){ 0.0, 0.0, 0.0 };
+    if (n == 0) return (gouge_mark){ .volume = 0.0 };
     int k = 0;
     while (k + 1 < n && m[k + 1].v < v) k++;
     if (k + 1 == n || v <= m[k].v || m[k + 1].v <= m[k].v) return m[k].is;
     return between(&m[k].is, &m[k + 1].is, (v - m[k].v) / (m[k + 1].v - m[k].v));
+}
+
+bool gouge_mark_at(const grain_family *f, double limit_severity, double velocity, gouge_mark *out)
+{
+    marked m[THRESHOLD_MAX_SAMPLES];
+    const int n = collect(f, limit_severity, m);
+    *out = mark_at(m, n, velocity);
+    return n > 0;
 }
 
 static void tabulate_marks(const grain_family *f, double limit_severity, gouge_law *out)

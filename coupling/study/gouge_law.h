@@ -6,10 +6,12 @@
 
 enum { LAW_SIZES = 128, LAW_VELOCITIES = 64 };
 
-/* What a gouge leaves, in radii of its grain; linear in velocity between the scenes that gouge, constant beyond. */
+/* What a gouge leaves and takes, by the radius of its grain; linear in velocity between the scenes that gouge, constant
+ * beyond. */
 typedef struct {
-    double volume;     /* over r^3 [1] */
-    double rim, along; /* height of the rim, its way downstream, over r [1] */
+    double volume;         /* over r^3 [1] */
+    double rim, along;     /* height of the rim, its way downstream, over r [1] */
+    double impulse, metal; /* of the armature, over r^3 [N s/m3, kg/m3] */
 } gouge_mark;
 
 typedef struct {
@@ -21,6 +23,9 @@ typedef struct {
 } gouge_law;
 
 void gouge_law_make(const grain_family *f, double limit_severity, gouge_law *out);
+
+/* By the scenes themselves, for one grain; false: none of them gouges. */
+bool gouge_mark_at(const grain_family *f, double limit_severity, double velocity, gouge_mark *out);
 
 /* low + in_band (high - low) + of_shift |shift|, in_band 0 .. 1, of_shift -1 .. 1 [m/s] */
 double gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_shift);

@@ -2,6 +2,7 @@
 
 #include "coupling/handoff/screen.h"
 #include "coupling/study/feedback.h"
+#include "coupling/study/gouge_law.h"
 #include "coupling/study/population.h"
 
 #include <math.h>
@@ -115,16 +116,16 @@ static void judge_sites(onset_answer *a)
         const grain_family *f = family_of(a, i);
         if (!f) continue;
         const surface_size t = threshold_of(a, i);
-        const family_scene *near = family_nearest(f, site->radius, site->velocity, false);
-        const family_scene *whole = family_nearest(f, site->radius, site->velocity, true);
+        const family_scene *near = family_nearest(f, site->radius, site->velocity);
+        gouge_mark mark;
         site->threshold_velocity = t.velocity;
         memcpy(site->threshold_interval, t.interval, sizeof t.interval);
         site->outcome = outcome_at(&t, site->velocity, near);
         if (near) memcpy(site->scene, near->record->entry.name, sizeof site->scene);
         if (site->outcome != SITE_GOUGE) continue;
         a->result.gouges++;
-        if (!whole) continue;
-        site->gouged_volume = whole->record->entry.result.crater_volume * pow(site->radius / whole->radius, 3.0);
+        if (gouge_mark_at(f, a->grains.c->scene.limit_severity, site->velocity, &mark))
+            site->gouged_volume = mark.volume * pow(site->radius, 3.0);
     }
 }
 
