@@ -339,11 +339,12 @@ static status fake_scene(const scene_job *job, const scene_host *host, impact *o
     const double v = job->scene.body[body_of_armature(&job->scene)].velocity[0];
     const double r = job->spec.particle_radius, cells = r / job->scene.axis[0].fine;
     const double excess = (v - made_up_threshold(r) - (cells < 2.5 ? 40.0 : 0.0)) / 150.0;
-    out->result.severity = excess + job->spec.limit_severity;
-    out->result.groove_growth = excess / growth_folds(1.0, r, v);
+    const bool gauged = scene_is_gauged(job->c); /* then severity says nothing, else growth */
+    out->result.severity = gauged ? -9.0 : excess + job->spec.limit_severity;
+    out->result.groove_growth = gauged ? excess / growth_folds(1.0, r, v) : NAN;
     out->result.widening = 2.0;
     out->result.class = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
-    out->result.crater_volume = (scene_is_gauged(job->c) ? 0.3e-9 : 1e-9) * v; /* as far as it was */
+    out->result.crater_volume = (gauged ? 0.3e-9 : 1e-9) * v; /* as far as it was */
     out->impulse = 0.02;
     out->mass_loss = 1e-6;
     return status_ok();
@@ -418,6 +419,7 @@ static void check_scenes(const onset_answer *a, bool by_growth)
         if (by_growth) assert_true(s->cells_per_radius == 2.0 && s->result.class == DAMAGE_GOUGE);
     }
     assert_int_equal(whole, by_growth ? 2 : r->n_scenes);
+    assert_int_equal(r->n_scenes, a->grains.family[0].surface.samples + (by_growth ? 2 : 0));
     if (!by_growth) return;
     /* the coarse cells see the made-up threshold 40 m/s later: two steps of the grid */
     assert_true(slowest == a->grains.family[0].surface.reference.bracket[1] + 50.0);
