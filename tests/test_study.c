@@ -335,6 +335,7 @@ static status fake_scene(const scene_job *job, const scene_host *host, impact *o
     memset(out, 0, sizeof *out);
     CHECK(counter.stop_after == 0 || counter.scenes < counter.stop_after, STATUS_STOPPED, "stopped");
     assert_non_null(host->dir);
+    assert_true((job->c->output.snapshots == 0) == scene_is_gauged(job->c)); /* those of whole scenes are the case's */
     counter.scenes++;
     const double v = job->scene.body[body_of_armature(&job->scene)].velocity[0];
     const double r = job->spec.particle_radius, cells = r / job->scene.axis[0].fine;

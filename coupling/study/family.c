@@ -165,10 +165,9 @@ static status plan_searches(grain_families *f)
 
 void family_probe(const breech_case *c, breech_case *out)
 {
-    const bool by_growth = c->study.judge == JUDGE_GROWTH && c->scene.follow;
     *out = *c;
-    out->scene.stop_when_gauged = by_growth;
-    if (by_growth) out->output.snapshots = 0;
+    out->scene.stop_when_gauged = c->study.judge == JUDGE_GROWTH;
+    if (scene_is_gauged(out)) out->output.snapshots = 0;
 }
 
 static status make_cases(grain_families *f)
