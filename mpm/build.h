@@ -4,6 +4,7 @@
 
 #include "mpm/axis.h"
 #include "mpm/law.h"
+#include "mpm/mpm.h"
 
 typedef struct {
     double x[3], v[3], half[3]; /* [m, m/s, m] */
@@ -22,7 +23,7 @@ status build_body(const mpm_scene *s, int body, const law *k, const axis axes[3]
 
 extern const double build_everywhere[2];
 
-/* A sink (mpm.c): user is the solver. */
-status mpm_insert_point(void *user, int body, const build_point *p);
+/* What the solver makes of a point (mpm.c): q has BLOCK_DOUBLES. */
+void mpm_point_of(const mpm *m, int body, const build_point *p, double *q);
 
 #endif

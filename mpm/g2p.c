@@ -311,6 +311,7 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
     ahead next = ahead_of(m, index, FIRST_start, 1 + 5 * LANES / WIDTH);
     prefetch_share(&next);
     for (int lane = 0; lane < LANES; lane += WIDTH) {
+        if (part_is_empty(m->links[index].mask, lane)) continue;
         const weights w[3] = { cell_weights(g, 0, q, lane), cell_weights(g, 1, q, lane), cell_weights(g, 2, q, lane) };
         gathered r;
         lane_sums sum;
@@ -321,8 +322,11 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
         const vd share = bound_gradient(k, q, lane, budget, &r.ka);
         sum.heat = budget - r.ka;
         vd_store(&q->ka[0][lane], r.ka);
-        const motion moved = motion_of(r.L, run->step.dt);
-        for (int i = 0; i < 9; i++) vd_store(&q->L[i][lane], share * moved.end[i]);
+        motion moved = motion_of(r.L, run->step.dt);
+        for (int i = 0; i < 9; i++) {
+            moved.end[i] *= share;
+            vd_store(&q->L[i][lane], moved.end[i]);
+        }
         prefetch_share(&next);
         sum.work_external = move(q, lane, &r, &run->step);
         law_step(k, &run->step, &moved, q, lane, b->contact, &sum);

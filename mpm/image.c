@@ -9,13 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char MAGIC[8] = "BREECH2";
+static const char MAGIC[8] = "BREECH3";
 
 typedef struct {
     char magic[8];
     char instruction_set[16];
     uint64_t scene, bytes;
-    double time, dt, dense_steps, force_sum[3], zone[3];
+    double time, dt, dt_last, dense_steps, force_sum[3], zone[3];
     uint64_t steps;
     int bricks, blocks;
     uint64_t wake;
@@ -115,7 +115,8 @@ status mpm_save(const mpm *m, void **image, size_t *bytes)
     memcpy(head.magic, MAGIC, sizeof head.magic);
     strncpy(head.instruction_set, m->kernel->name, sizeof head.instruction_set - 1);
     head.scene = m->scene_key, head.bytes = *bytes;
-    head.time = m->time, head.dt = m->dt, head.dense_steps = m->dense_steps, head.steps = m->steps;
+    head.time = m->time, head.dt = m->dt, head.dt_last = m->dt_last, head.dense_steps = m->dense_steps,
+    head.steps = m->steps;
     memcpy(head.force_sum, m->force_sum, sizeof head.force_sum);
     head.wake = m->wake.n, head.wake_until = m->wake.until;
     memcpy(head.zone, zone_of(m).at, sizeof head.zone);
@@ -220,7 +221,8 @@ status mpm_restore(mpm *m, const void *image, size_t bytes)
     if (!get(&r, &m->ledger, sizeof m->ledger) || !get(&r, &m->report, sizeof m->report)) return cut_short();
     TRY(get_wake(m, &head, &r));
     for (int i = 0; i < head.bricks; i++) TRY(get_brick(m, &r));
-    m->time = head.time, m->dt = head.dt, m->dense_steps = head.dense_steps, m->steps = head.steps;
+    m->time = head.time, m->dt = head.dt, m->dt_last = head.dt_last, m->dense_steps = head.dense_steps,
+    m->steps = head.steps;
     memcpy(m->force_sum, head.force_sum, sizeof head.force_sum);
     store_relink(m);
     return store_reserve(m);

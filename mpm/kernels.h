@@ -35,6 +35,12 @@ LANE_INLINE cell_axis cell_axis_at(const axis *a, int i)
                         .inv_cell = 1 / (0.5 * (left + right)) };
 }
 
+/* Are all lanes of the part of a block that begins with `lane` holes? */
+LANE_INLINE bool part_is_empty(int mask, int lane)
+{
+    return (int)WIDTH < (int)LANES && !(mask >> lane & ((1 << WIDTH) - 1));
+}
+
 typedef struct {
     vd w[3], g[3], d[3]; /* weights, their derivatives with the particle's position [1/m], node minus particle [m] */
 } weights;

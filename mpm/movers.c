@@ -52,7 +52,7 @@ static void send(mpm *m, brick *b, const int cell[3], int body, const double *q)
     mover_list *list = &m->movers[b->movers_thread];
     mover_head h = { .body = body };
     if (!find_cell(m, b, cell, q + FIRST_x, &h)) {
-        particle_leave(q, &b->sum.left);
+        particle_leave(q, m->dt, &b->sum.left);
         return;
     }
     list->head[list->count] = h;
@@ -91,7 +91,7 @@ void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving)
         for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][lane];
         const int k = axis_to_split(m, b, at, one);
         if (erodes(&m->laws[link->body], one)) {
-            particle_leave(one, &b->sum.left);
+            particle_leave(one, m->dt, &b->sum.left);
             b->sum.eroded++;
             b->sum.eroded_mass += one[FIRST_mass];
             drop_lane(q, link, b, lane);

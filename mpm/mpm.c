@@ -68,13 +68,17 @@ static void particle_make(double *q, const build_point *p, const law *k, double 
     q[FIRST_area] = p->area;
 }
 
-status mpm_insert_point(void *user, int body, const build_point *p)
+void mpm_point_of(const mpm *m, int body, const build_point *p, double *q)
 {
-    mpm *m = user;
-    double one[BLOCK_DOUBLES];
-    memset(one, 0, sizeof one);
-    particle_make(one, p, &m->laws[body], m->scene.body[body].temperature);
-    return store_place(m, body, one);
+    memset(q, 0, BLOCK_DOUBLES * sizeof *q);
+    particle_make(q, p, &m->laws[body], m->scene.body[body].temperature);
+}
+
+static status insert_point(void *user, int body, const build_point *p)
+{
+    double q[BLOCK_DOUBLES];
+    mpm_point_of(user, body, p, q);
+    return store_place(user, body, q);
 }
 
 static status make_laws(mpm *m)
@@ -97,7 +101,7 @@ static status fill(mpm *m)
     TRY(store_make(m, 1024));
     m->histogram = malloc(mpm_histogram_bytes());
     CHECK(m->histogram, STATUS_MEMORY, "no memory for the percentiles");
-    const build_sink sink = { mpm_insert_point, m };
+    const build_sink sink = { insert_point, m };
     for (int i = 0; i < m->scene.bodies; i++)
         TRY(build_body(&m->scene, i, &m->laws[i], m->axes, build_everywhere, &sink));
     return store_settle(m);
@@ -332,6 +336,7 @@ static status one_step(mpm *m, double until)
     m->time += m->dt;
     m->steps++;
     m->dense_steps += m->dense;
+    m->dt_last = m->dt;
     m->dt = fmin(sum.rate > 0 ? m->scene.courant / sum.rate : wanted, DT_GROWTH * wanted);
     CHECK(isfinite(m->dt) && m->dt > 0, STATUS_NUMERICAL, "t = %g s: the time step became %g s; try a smaller courant",
           m->time, m->dt);

@@ -14,15 +14,18 @@ typedef struct mpm mpm; /* owns all its memory */
 
 /* Every joule and newton second.  Model as computed (a half model is a half). */
 typedef struct {
-    double mass;                                       /* now in the window [kg] */
-    double momentum[3];                                /* now [kg m/s] */
-    double kinetic, internal;                          /* now [J]; internal = work of stress + heat */
+    double mass;              /* now in the window [kg] */
+    double momentum[3];       /* now [kg m/s] */
+    double kinetic, internal; /* now [J]; internal = work of stress + heat */
+    double
+        work_ahead; /* held by `internal`, but still to be taken from `kinetic`: the stress work of half a step [J] */
     double heat_friction, heat_transfer, heat_viscous; /* booked so far; all three are part of `internal` [J] */
     double work_boundary, work_external; /* done on the model so far: boundaries; tractions and body forces [J] */
     double impulse_boundary[3], impulse_external[3];          /* [N s] */
     double ejected_mass, ejected_momentum[3], ejected_energy; /* left the window or was eroded so far */
     double energy_start, momentum_start[3], kinetic_start, mass_start;
-    double energy_error;   /* (energy now + ejected - work - energy at start) / kinetic energy at start [1] */
+    double
+        energy_error; /* (energy now - work_ahead + ejected - work - energy at start) / kinetic energy at start [1] */
     double momentum_error; /* norm of the momentum left over / (mass x largest initial speed) [1] */
 } mpm_ledger;
 

@@ -1,7 +1,8 @@
 /* The grid phase at one site: sums of all bricks that reach its nodes, momentum update, boundaries, contact (M-6).
  *
  *   m dv/dt = f;   what the mixing of particle velocities and the contacts take from the kinetic energy stays at the
- *   node as heat and goes to the particles in G2P:  E_i = v_i^2/2 + Q_i/m_i                                            */
+ *   node as heat and goes to the particles in G2P:  E_i = v_i^2/2 + Q_i/m_i.  So does the work of the forces on the velocities
+ *   before them, dt/2 f . v, less what the particles had booked of it (p2g.c); that on those after them is the particles'. */
 #include "mpm/kernels.h"
 
 #include <math.h>
@@ -16,7 +17,8 @@ typedef struct {
 /* One node of one field while it is worked on. */
 typedef struct {
     double m, v[3], f[3], heat;
-    double v_start[3]; /* before the forces, after the walls [m/s] */
+    double v_start[3];  /* before the forces, after the walls [m/s] */
+    double absorbed[3]; /* impulse of absorbing boundaries [N s] */
     const double *extra;
 } node_state;
 
@@ -105,7 +107,7 @@ static void absorb(node_state *n, const wall *w, const law *k, double dt, tally 
         const double v = (n->v[q] + dt * n->f[q] / n->m) / (1 + dt * rate);
         const double J = -n->m * dt * rate * v;
         sum->impulse_boundary[q] += J;
-        sum->work_boundary += J * v;
+        n->absorbed[q] += J;
         n->f[q] += J / dt;
     }
 }
@@ -265,8 +267,9 @@ static const law *field_law(const mpm *m, int field)
     return &m->laws[0];
 }
 
-static void finish_node(const node_state *n, double node[NODE])
+static void finish_node(const node_state *n, double node[NODE], tally *sum)
 {
+    for (int k = 0; k < 3; k++) sum->work_boundary += 0.5 * n->absorbed[k] * (n->v_start[k] + n->v[k]);
     for (int k = 0; k < 3; k++) node[k] = n->v[k];
     node[3] = 0.5 * dot(n->v, n->v) + n->heat / n->m;
 }
@@ -289,6 +292,7 @@ static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int
         n_walls[s] = walls_at(m, index, field, walls[s]);
         apply_walls(walls[s], n_walls[s], field_law(m, field), m->dt, n, sum);
         memcpy(n->v_start, n->v, sizeof n->v_start);
+        n->heat -= 0.5 * m->dt * dot(line + 4, n->v);
         for (int k = 0; k < 3; k++) n->v[k] += m->dt * n->f[k] / n->m, n->f[k] = 0;
     }
     for (int a = 0; a < count; a++)
@@ -307,7 +311,7 @@ static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int
         if (count > 1 && n_walls[s] > 0)
             for (int i = 0; i < n_walls[s]; i++)
                 if (walls[s][i].kind == BOUNDARY_SYMMETRY) hold(&state[s], walls[s][i].axis, 0, m->dt, sum);
-        finish_node(&state[s], node);
+        finish_node(&state[s], node, sum);
     }
 }
 
@@ -330,14 +334,15 @@ static bool is_shared(const field_nodes *fields, int count, int cell)
 static void free_node(const double line[LINE], double dt, double node[NODE])
 {
     const double inverse = line[0] > 0 ? 1 / line[0] : 0;
-    double before = 0, after = 0;
+    double before = 0, after = 0, power = 0;
     for (int k = 0; k < 3; k++) {
         const double v = line[1 + k] * inverse;
+        power += line[4 + k] * v;
         node[k] = v + dt * line[4 + k] * inverse;
         before += v * v;
         after += node[k] * node[k];
     }
-    node[3] = 0.5 * after + line[7] * inverse - 0.5 * before;
+    node[3] = 0.5 * after + (line[7] - 0.5 * dt * power) * inverse - 0.5 * before;
 }
 
 /* Ghost nodes of a mirror plane are filled in G2P from the nodes they mirror. */

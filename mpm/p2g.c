@@ -2,6 +2,11 @@
  *
  *   line_i = sum_p S_ip { m, m [v + L (x_i - x_p)], m [v^2/2 + ka + v . L (x_i - x_p)] },   f_i = -sum_p V sigma grad S_ip
  *
+ * and, with the energy, the other side of the work that the forces do before they change the nodes (nodes.c takes
+ * dt/2 f_i . v_i from it): what they would do if the nodes moved as the particles do, dt/2 sum_p f_ip . [v + L (x_i - x_p)].
+ * Its sum is what the particles have booked at the end of the last step, dt/2 V sigma:L, so the two together are the work that
+ * the transfer's smoothing takes or makes.  Of L only the parts along the axes are told apart by node: those across sum to zero.
+ *
  * With S = wx wy wz every term is a product over the axes, so a particle's line at node (a, b, c) is
  *   wy_b wz_c A_a + wx_a B_bc,   A_a = wx_a base + qx_a CX,   B_bc = wz_c Y_b + wy_b Z_c,   Y_b = qy_b CY,   Z_c = qz_c CZ,
  * where q is w (x_i - x_p) in the lanes of momentum and energy and grad w in the lanes of force.
@@ -24,8 +29,10 @@ typedef struct {
 
 /* A block's factors, [axis][first or last node][particle]. */
 typedef struct {
-    double w[3][2][LANES], grad[3][2][LANES], moment[3][2][LANES]; /* weight, its gradient, weight x (x_i - x_p) */
-    double yz[2][2][LANES];                                        /* weights' product, [z][y] */
+    double w[3][2][LANES], grad[3][2][LANES];        /* weight, its gradient */
+    double moment[3][2][LANES], spread[3][2][LANES]; /* each x (x_i - x_p) */
+    double energy[3][2][LANES];                      /* what goes with the energy instead [J] */
+    double yz[2][2][LANES];                          /* weights' product, [z][y] */
 } __attribute__((aligned(64))) factors;
 
 LANE_INLINE void store_factors(factors *f, const cell_grid *g, const block *q, int lane)
@@ -36,6 +43,7 @@ LANE_INLINE void store_factors(factors *f, const cell_grid *g, const block *q, i
             vd_store(&f->w[k][a][lane], w.w[2 * a]);
             vd_store(&f->grad[k][a][lane], w.g[2 * a]);
             vd_store(&f->moment[k][a][lane], w.w[2 * a] * w.d[2 * a]);
+            vd_store(&f->spread[k][a][lane], w.g[2 * a] * w.d[2 * a]);
         }
     }
     for (int c = 0; c < 2; c++)
@@ -54,18 +62,26 @@ LANE_INLINE void store_lines(double (*to)[LINE], const vd row[LINE], int lane)
     }
 }
 
+/* Which of a line's lanes go with the gradient, and which with the block's own factors: all bits set. */
+typedef struct {
+    int64_t gradient[LINE], energy[LINE];
+} __attribute__((aligned(64))) line_kinds;
+
 /* One particle's part of a line: what its rows of three nodes along x are made of. */
 typedef struct {
     vd base, A[2], Y[2], Z[2];
 } terms;
 
-LANE_INLINE void make_terms(terms *t, const lines *n, const factors *f, vm gradient, int part, int l)
+LANE_INLINE void make_terms(terms *t, const lines *n, const factors *f, const line_kinds *kinds, int part, int l)
 {
     vd q[3][2];
+    const vm gradient = *(const vm *)(const void *)&kinds->gradient[part];
+    const vm energy = *(const vm *)(const void *)&kinds->energy[part];
     for (int k = 0; k < 3; k++)
-        for (int a = 0; a < 2; a++)
-            q[k][a] =
-                vd_select(gradient, vd_set(f->grad[k][a][l]), vd_set(f->moment[k][a][l])) * vd_load(&n->C[k][l][part]);
+        for (int a = 0; a < 2; a++) {
+            const vd w = vd_select(gradient, vd_set(f->grad[k][a][l]), vd_set(f->moment[k][a][l]));
+            q[k][a] = vd_select(energy, vd_set(f->energy[k][a][l]), w) * vd_load(&n->C[k][l][part]);
+        }
     t->base = vd_load(&n->base[l][part]);
     for (int a = 0; a < 2; a++) {
         t->A[a] = f->w[0][a][l] * t->base + q[0][a];
@@ -102,18 +118,16 @@ LANE_INLINE void add_plane(vd sum[9], const terms *t, const factors *f, int l, i
     for (int b = 0; b < 2; b++) add_row(&sum[6 * b], t, f, l, f->yz[c][b][l], wz * t->Y[b] + f->w[1][b][l] * t->Z[c]);
 }
 
-/* Adds the lines of the particles in `mask`.  `force`: bit i: lane i of the line goes with grad w.  Nine sums at a time:
- * they stay in registers. */
-LANE_INLINE void accumulate(part_sums sum[PARTS], const lines *n, const factors *f, const int64_t force[LINE], int mask,
+/* Adds the lines of the particles in `mask`.  Nine sums at a time: they stay in registers. */
+LANE_INLINE void accumulate(part_sums sum[PARTS], const lines *n, const factors *f, const line_kinds *kinds, int mask,
                             ahead *next)
 {
 #pragma GCC unroll 4
     for (int part = 0; part < PARTS; part++) {
         terms t[LANES];
-        const vm gradient = *(const vm *)(const void *)&force[part * WIDTH];
         for (int left = mask; left; left &= left - 1) {
             const int l = __builtin_ctz((unsigned)left);
-            make_terms(&t[l], n, f, gradient, part * WIDTH, l);
+            make_terms(&t[l], n, f, kinds, part * WIDTH, l);
         }
 #pragma GCC unroll 3
         for (int plane = 0; plane < 3; plane++) {
@@ -129,28 +143,46 @@ LANE_INLINE void accumulate(part_sums sum[PARTS], const lines *n, const factors 
     }
 }
 
+/* Half the time steps that the work before the forces is a share of: of this step, and of the last [s]. */
+typedef struct {
+    double now, last;
+} half_steps;
+
 /* lanes: 0 m, 1-3 momentum, 4-6 force, 7 energy */
-LANE_INLINE void motion_lines(const block *q, int lane, double affine, const mpm_body *body, lines *n)
+LANE_INLINE void motion_lines(const block *q, int lane, double affine, const mpm_body *body, half_steps dt, factors *f,
+                              lines *n)
 {
     static const int column[3][3] = { { 0, 3, 4 }, { 3, 1, 5 }, { 4, 5, 2 } };
-    const double *load = body->traction, *pull = body->body_force;
 #define AT(field) vd_load(&q->field[lane])
     const vd m = AT(mass[0]), v[3] = { AT(v[0]), AT(v[1]), AT(v[2]) }, V = m / AT(rho[0]), mL = m * affine;
     const vd square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], area = AT(area[0]);
-    vd row[LINE] = { m, m * v[0], m * v[1], m * v[2] };
-    for (int i = 0; i < 3; i++) row[4 + i] = m * pull[i] + area * load[i];
-    row[7] = m * (0.5 * square + AT(ka[0]));
-    store_lines(n->base, row, lane);
-    vd s[6]; /* -V sigma */
+    vd row[LINE] = { m, m * v[0], m * v[1], m * v[2] }, s[6] /* -V sigma */, load[3], stretch[3];
     for (int i = 0; i < 6; i++) s[i] = V * (i < 3 ? AT(p[0]) - AT(s[i]) : -AT(s[i]));
+    row[7] = m * (0.5 * square + AT(ka[0]));
+    for (int i = 0; i < 3; i++) {
+        const int *c = column[i];
+        load[i] = m * body->body_force[i] + area * body->traction[i];
+        stretch[i] = dt.last * (s[c[0]] * AT(L[i]) + s[c[1]] * AT(L[3 + i]) + s[c[2]] * AT(L[6 + i]));
+        row[4 + i] = load[i];
+        row[7] += dt.now * load[i] * v[i] + stretch[i];
+    }
+    store_lines(n->base, row, lane);
+    row[0] = vd_set(0), row[7] = vd_set(1);
     for (int k = 0; k < 3; k++) {
-        row[0] = row[7] = vd_set(0);
+        const int *c = column[k];
+        const vd push = dt.now * (s[c[0]] * v[0] + s[c[1]] * v[1] + s[c[2]] * v[2]);
+        vd swing = vd_set(0);
         for (int i = 0; i < 3; i++) {
             row[1 + i] = mL * AT(L[3 * i + k]);
-            row[4 + i] = s[column[k][i]];
-            row[7] += v[i] * row[1 + i];
+            row[4 + i] = s[c[i]];
+            swing += v[i] * row[1 + i];
         }
         store_lines(n->C[k], row, lane);
+        for (int a = 0; a < 2; a++) {
+            const vd w = vd_load(&f->w[k][a][lane]), grad = vd_load(&f->grad[k][a][lane]);
+            const vd moment = vd_load(&f->moment[k][a][lane]), spread = vd_load(&f->spread[k][a][lane]);
+            vd_store(&f->energy[k][a][lane], moment * swing + grad * push + (spread - w) * stretch[k]);
+        }
     }
 }
 
@@ -203,7 +235,8 @@ LANE_INLINE void clear(part_sums sum[PARTS])
 
 static void cell_motion(const mpm *m, brick *b, int cell, const cell_grid *g)
 {
-    static const int64_t force[LINE] __attribute__((aligned(64))) = { 0, 0, 0, 0, -1, -1, -1, 0 };
+    static const line_kinds kinds = { { 0, 0, 0, 0, -1, -1, -1, 0 }, { 0, 0, 0, 0, 0, 0, 0, -1 } };
+    const half_steps dt = { 0.5 * m->dt, 0.5 * m->dt_last };
     const double affine = m->scene.transfer == TRANSFER_TPIC ? 1 : 0;
     part_sums sum[PARTS];
     clear(sum);
@@ -214,17 +247,18 @@ static void cell_motion(const mpm *m, brick *b, int cell, const cell_grid *g)
         ahead next = ahead_of(m, i, FIRST_ka + 1, 1 + 3 * PARTS);
         prefetch_share(&next);
         for (int lane = 0; lane < LANES; lane += WIDTH) {
+            if (part_is_empty(m->links[i].mask, lane)) continue;
             store_factors(&f, g, q, lane);
-            motion_lines(q, lane, affine, &m->scene.body[m->links[i].body], &n);
+            motion_lines(q, lane, affine, &m->scene.body[m->links[i].body], dt, &f, &n);
         }
-        accumulate(sum, &n, &f, force, m->links[i].mask, &next);
+        accumulate(sum, &n, &f, &kinds, m->links[i].mask, &next);
     }
     add_to_brick(b->out, halo_index(cell), sum);
 }
 
 static void cell_contact(const mpm *m, brick *b, int cell, const cell_grid *g)
 {
-    static const int64_t volume[LINE] __attribute__((aligned(64))) = { -1, -1, -1, 0, 0, 0, 0, 0 };
+    static const line_kinds kinds = { { -1, -1, -1, 0, 0, 0, 0, 0 }, { 0 } };
     part_sums sum[PARTS];
     clear(sum);
     for (int i = b->head[cell]; i >= 0; i = m->links[i].next) {
@@ -233,10 +267,11 @@ static void cell_contact(const mpm *m, brick *b, int cell, const cell_grid *g)
         factors f;
         ahead none = { 0 }; /* cell_motion has asked already */
         for (int lane = 0; lane < LANES; lane += WIDTH) {
+            if (part_is_empty(m->links[i].mask, lane)) continue;
             store_factors(&f, g, q, lane);
             contact_lines(q, lane, &n);
         }
-        accumulate(sum, &n, &f, volume, m->links[i].mask, &none);
+        accumulate(sum, &n, &f, &kinds, m->links[i].mask, &none);
     }
     add_to_brick(b->out_contact, halo_index(cell), sum);
 }

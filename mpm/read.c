@@ -21,11 +21,19 @@ static void visit(const mpm *m, block_visitor *each, void *user)
 }
 
 /* Sums of the books.  Millions of equal terms round the same way each time: what is lost is carried along (Neumaier 1974). */
-enum { BOOK_MASS, BOOK_KINETIC, BOOK_INTERNAL, BOOK_MOMENTUM, BOOKS = BOOK_MOMENTUM + 3 };
+enum { BOOK_MASS, BOOK_KINETIC, BOOK_INTERNAL, BOOK_AHEAD, BOOK_MOMENTUM, BOOKS = BOOK_MOMENTUM + 3 };
 
 typedef struct {
     double sum[BOOKS], rest[BOOKS];
 } books;
+
+static double lane_work_ahead(const block *q, int lane, double dt)
+{
+    double s[6], L[9];
+    for (int i = 0; i < 6; i++) s[i] = q->s[i][lane];
+    for (int i = 0; i < 9; i++) L[i] = q->L[i][lane];
+    return work_ahead(s, q->p[0][lane], L, q->rho[0][lane], dt);
+}
 
 static void balance_block(void *user, const mpm *m, int index)
 {
@@ -43,6 +51,7 @@ static void balance_block(void *user, const mpm *m, int index)
         add[BOOK_MASS] += M;
         add[BOOK_KINETIC] += M * (0.5 * square + q->ka[0][i]);
         add[BOOK_INTERNAL] += M * q->e[0][i];
+        add[BOOK_AHEAD] += M * lane_work_ahead(q, i, m->dt_last);
     }
     for (int i = 0; i < BOOKS; i++) {
         const double old = b->sum[i], now = old + add[i];
@@ -70,6 +79,7 @@ mpm_ledger mpm_balance(const mpm *m)
     visit(m, balance_block, &b);
     for (int i = 0; i < BOOKS; i++) b.sum[i] += b.rest[i];
     l.mass = b.sum[BOOK_MASS], l.kinetic = b.sum[BOOK_KINETIC], l.internal = b.sum[BOOK_INTERNAL];
+    l.work_ahead = b.sum[BOOK_AHEAD];
     memcpy(l.momentum, b.sum + BOOK_MOMENTUM, sizeof l.momentum);
     double left[3];
     for (int k = 0; k < 3; k++)
@@ -77,7 +87,8 @@ mpm_ledger mpm_balance(const mpm *m)
             l.momentum[k] + l.ejected_momentum[k] - l.momentum_start[k] - l.impulse_boundary[k] - l.impulse_external[k];
     const double scale = l.mass_start * start_speed(m);
     l.momentum_error = norm(left) / (scale > 0 ? scale : 1);
-    l.energy_error = (l.kinetic + l.internal + l.ejected_energy - l.work_boundary - l.work_external - l.energy_start) /
+    l.energy_error = (l.kinetic + l.internal - l.work_ahead + l.ejected_energy - l.work_boundary - l.work_external -
+                      l.energy_start) /
                      (l.kinetic_start > 0 ? l.kinetic_start : 1);
     return l;
 }

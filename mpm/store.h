@@ -147,7 +147,7 @@ struct mpm {
     int threads;
     const kernels *kernel;
 
-    double time, dt;
+    double time, dt, dt_last; /* dt_last: of the step before, 0 before the first */
     uint64_t steps;
     double dense, dense_steps; /* particles, and particle-steps so far, of the finest cells everywhere */
     void *histogram;           /* of percentiles (read.c) */
@@ -201,8 +201,17 @@ uint64_t image_scene_key(const mpm *m); /* before the fine zone has moved */
 
 /* particle.c: one particle's BLOCK_DOUBLES */
 void particle_halve(double *q, double *other, int k);
-void particle_merge(double *q, const double *other, int k); /* the inverse: q takes other in */
-void particle_leave(const double *q, departure *sum);
+void particle_merge(double *q, const double *other, int k, double dt); /* the inverse: q takes other in */
+void particle_leave(const double *q, double dt, departure *sum);       /* dt: of the last step [s] */
+
+/* Work of the stress that a particle has booked at the end of a step and the nodes will do before the next forces (p2g.c):
+ * dt/2 sigma:L / rho [J/kg]. */
+static inline double work_ahead(const double s[6], double p, const double L[9], double rho, double dt)
+{
+    const double deviator =
+        s[0] * L[0] + s[1] * L[4] + s[2] * L[8] + s[3] * (L[1] + L[3]) + s[4] * (L[2] + L[6]) + s[5] * (L[5] + L[7]);
+    return 0.5 * dt * (deviator - p * (L[0] + L[4] + L[8])) / rho;
+}
 
 /* mpm.c */
 void mpm_book_departure(mpm *m, const departure *d);

@@ -81,7 +81,7 @@ static void hold(slide_result r)
 {
     assert_near(r.failed, 0, 0);
     assert_below(r.strain, 0.05);
-    assert_near(r.energy, 0, 1e-3);
+    assert_near(r.energy, 0, 1e-12);
     assert_below(r.momentum, 1e-10);
 }
 

@@ -49,7 +49,7 @@ static void hold(bar_shape b)
 {
     assert_true(b.length > 0.68 * 0.97 && b.length < 0.69 * 1.03);
     assert_true(b.width > 1.90 * 0.97 && b.width < 1.92 * 1.03);
-    assert_near(b.energy, 0, 0.01);    /* what the product promises of a scene */
+    assert_near(b.energy, 0, 1e-12);   /* rounding */
     assert_near(b.momentum, 0, 1e-10); /* against the booked impulse of the wall */
 }
 

@@ -22,24 +22,24 @@ static void followed(gouge_scene *g)
 static void test_merge(void **state)
 {
     (void)state;
+    const double dt = 0.3;
     srand(11);
     for (int trial = 0; trial < 300; trial++) {
-        double q[2][BLOCK_DOUBLES], sum[6] = { 0 }, got[6];
+        double q[2][BLOCK_DOUBLES], volume = 0;
+        departure before = { .count = 0 }, after = before;
         for (int p = 0; p < 2; p++) {
             for (int i = 0; i < BLOCK_DOUBLES; i++) q[p][i] = 0.1 + (double)rand() / RAND_MAX;
-            const double m = q[p][FIRST_mass], *v = q[p] + FIRST_v;
-            sum[0] += m, sum[1] += m / q[p][FIRST_rho];
-            for (int k = 0; k < 3; k++) sum[2 + k] += m * v[k];
-            sum[5] += m * (0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + q[p][FIRST_ka] + q[p][FIRST_e]);
+            volume += q[p][FIRST_mass] / q[p][FIRST_rho];
+            particle_leave(q[p], dt, &before);
         }
         const int k = trial % 3;
         const double length = q[0][FIRST_half + k] + q[1][FIRST_half + k];
-        particle_merge(q[0], q[1], k);
-        const double m = q[0][FIRST_mass], *v = q[0] + FIRST_v;
-        got[0] = m, got[1] = m / q[0][FIRST_rho];
-        for (int i = 0; i < 3; i++) got[2 + i] = m * v[i];
-        got[5] = m * (0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + q[0][FIRST_ka] + q[0][FIRST_e]);
-        for (int i = 0; i < 6; i++) assert_near(got[i] / sum[i], 1, 1e-14);
+        particle_merge(q[0], q[1], k, dt);
+        particle_leave(q[0], dt, &after);
+        assert_near(after.mass / before.mass, 1, 1e-14);
+        assert_near(q[0][FIRST_mass] / q[0][FIRST_rho] / volume, 1, 1e-14);
+        for (int i = 0; i < 3; i++) assert_near(after.momentum[i] / before.momentum[i], 1, 1e-14);
+        assert_near(after.energy / before.energy, 1, 1e-13);
         assert_near(q[0][FIRST_half + k], length, 1e-15);
     }
 }
@@ -55,7 +55,7 @@ static void test_merge_undoes_halve(void **state)
         whole[FIRST_ka] += 10; /* else the halves' motion comes out of e */
         memcpy(a, whole, sizeof a);
         particle_halve(a, b, trial % 3);
-        particle_merge(a, b, trial % 3);
+        particle_merge(a, b, trial % 3, 1e-9);
         for (int i = 0; i < BLOCK_DOUBLES; i++) assert_near(a[i] / whole[i], 1, 1e-14);
     }
 }
@@ -78,7 +78,7 @@ static void test_books(void **state)
     assert_true(l.mass_start > 1.05 * mass && l.ejected_mass > 0.02 * mass); /* grown in ahead, left behind */
     assert_near((l.mass + l.ejected_mass) / l.mass_start, 1, 1e-12);
     assert_below(l.momentum_error, 1e-12);
-    assert_below(fabs(l.energy_error), 1e-3);
+    assert_below(fabs(l.energy_error), 1e-12);
     assert_int_equal(r.particles, mpm_particles(m));
     for (int i = 0; i < 2; i++) { /* looked at every 20 steps */
         assert_true(r.gauge_at[i] >= g.scene.gauge_time[i] && r.gauge_at[i] < g.scene.gauge_time[i] + 25 * r.dt);

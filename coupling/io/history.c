@@ -331,6 +331,7 @@ status history_crater(history *h, const char *scene, const crater *c)
     COLUMN(particle_steps, "1", "so far", (double)r->particle_steps)                                    \
     COLUMN(kinetic, "J", "as computed: half a model is half", l->kinetic)                               \
     COLUMN(internal, "J", "work of stress and heat, as computed", l->internal)                          \
+    COLUMN(work_ahead, "J", "part of internal, still to be taken from kinetic", l->work_ahead)          \
     COLUMN(heat_friction, "J", "so far, part of internal", l->heat_friction)                            \
     COLUMN(heat_transfer, "J", "so far, part of internal", l->heat_transfer)                            \
     COLUMN(heat_viscous, "J", "so far, part of internal", l->heat_viscous)                              \
