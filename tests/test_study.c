@@ -527,6 +527,11 @@ static void test_craters(void **state)
     assert_int_equal(a.grains.family[0].surface.reference.outcome, THRESHOLD_BELOW);
     assert_true(w.n == 2 && w.slowest >= 1030.0 && w.fastest == 2000.0);
     onset_answer_free(&a);
+    w = whole_at((const char *const[]){ "study.fine_cells_per_radius=2", NULL }, 1430.0, &a);
+    for (int i = 0; i < a.result.n_sites;
+         i++) /* a site's scene is one that decided, at the whole ones' resolution too */
+        assert_true(w.n == 2 && strstr(a.site[i].scene, "-growth") != NULL);
+    onset_answer_free(&a);
     w = whole_at(slow, 1500.0, &a);
     const double fastest = a.site[a.result.n_sites - 1].velocity;
     assert_true(w.n == 2 && w.slowest == a.grains.family[0].surface.reference.bracket[1] + 50.0);

@@ -98,7 +98,7 @@ static status draw(const session *s, compare_answer *a)
 /* ---- what the layers suffer ---- */
 
 /* The fastest scene of the search that does not gouge: what a layer must bear where it is meant to help; else the slowest
- * of all.  Judged by growth, whole scenes, whose class is that of their severity, are none of them. */
+ * of all. */
 static const family_scene *telling_scene(const grain_families *g)
 {
     const family_scene *best = NULL;
@@ -106,7 +106,7 @@ static const family_scene *telling_scene(const grain_families *g)
     const grain_family *f = &g->family[0];
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *a = &f->scene[i];
-        if (a->cells != f->surface.reference.cells || (f->by_growth && a->whole)) continue;
+        if (a->cells != f->surface.reference.cells || !family_searched(f, a)) continue;
         const bool gouged = a->record->entry.result.class == DAMAGE_GOUGE;
         const bool best_gouged = best && best->record->entry.result.class == DAMAGE_GOUGE;
         if (!best || (best_gouged && !gouged) || (gouged == best_gouged && (a->velocity > best->velocity) != gouged))

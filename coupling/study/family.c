@@ -428,11 +428,17 @@ status families_search(session *s, grain_families *const *f, int n)
     return done;
 }
 
+bool family_searched(const grain_family *f, const family_scene *scene)
+{
+    return !(f->by_growth && scene->whole);
+}
+
 const family_scene *family_nearest(const grain_family *f, double radius, double velocity)
 {
     const family_scene *best = NULL;
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *a = &f->scene[i];
+        if (!family_searched(f, a)) continue;
         if (!best) best = a;
         const double far = fabs(log(a->radius / radius)), best_far = fabs(log(best->radius / radius));
         const bool nearer = fabs(a->velocity - velocity) < fabs(best->velocity - velocity);

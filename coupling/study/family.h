@@ -52,7 +52,10 @@ void family_probe(const breech_case *c, breech_case *out);
 /* Searches all families of n cases to their end. */
 status families_search(session *s, grain_families *const *f, int n);
 
-/* That of the best resolution nearest in velocity, of those nearest in size; NULL if there is none. */
+/* Is it of the search?  Judged by growth, whole scenes are not: their class is that of their severity. */
+bool family_searched(const grain_family *f, const family_scene *scene);
+
+/* Of the search's that of the best resolution nearest in velocity, of those nearest in size; NULL if there is none. */
 const family_scene *family_nearest(const grain_family *f, double radius, double velocity);
 
 /* First place where the armature has the velocity v; the barrel's end if it never has [m]. */
