@@ -303,24 +303,6 @@ static double fastest_grain(const grain_families *f, const grain_family *family)
     return v;
 }
 
-/* The lowest velocity from `from` on at which a groove grows in coarse cells; `from` where none did. */
-static double lowest_coarse(const threshold_plan *p, const threshold_result *t, double from)
-{
-    double v = INFINITY;
-    for (int i = 0; i < t->samples; i++) {
-        const threshold_sample *s = &t->sample[i];
-        if (s->cells_per_radius == p->coarse && s->velocity >= from && threshold_is_upper(s)) v = fmin(v, s->velocity);
-    }
-    return isinf(v) ? from : v;
-}
-
-/* Where a groove grows at both resolutions: coarse cells may see it later. */
-static double lowest_gouge(const threshold_plan *p, const threshold_result *t)
-{
-    const double later = t->shift < 0.0 ? p->step * ceil(-t->shift / p->step) : 0.0;
-    return isnan(t->shift) ? lowest_coarse(p, t, t->bracket[1]) : t->bracket[1] + later;
-}
-
 /* May a grain of this size that comes with v gouge, for all that is known? */
 static bool may_gouge(const surface_size *t, double v)
 {
@@ -343,13 +325,12 @@ static status round_of_craters(asker *a, const surface_result *s)
     const double step = p->search.step, fastest = fastest_grain(a->of, a->family);
     const int k = size_of_craters(p, s, fastest);
     if (!a->family->by_growth || k < 0) return status_ok();
-    const double from =
-        k == p->reference ? lowest_gouge(&p->search, &s->reference) : step * ceil(s->size[k].interval[1] / step);
+    const double from = k == p->reference ? s->reference.bracket[1] : step * ceil(s->size[k].interval[1] / step);
     const double lowest = fmin(from, on_grid_below(&p->search, p->search.high));
     const double at[CRATERS] = { lowest, fmax(lowest, on_grid_below(&p->search, fastest)) };
     for (int i = 0; i < CRATERS && !a->wanting; i++) {
         const scene_record *record;
-        a->wanted = query_of(a, true, p->size[k], at[i], p->search.coarse);
+        a->wanted = query_of(a, true, p->size[k], at[i], s->reference.cells);
         TRY(find(a, &a->wanted, &record));
         if (!record && a->sure && !a->supposed)
             a->supposed = true;

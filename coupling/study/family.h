@@ -4,7 +4,7 @@
  * material, bond and height over radius.  All searches of a study, over families and over cases (rail surfaces), go on
  * together: each runs on what is known and asks for one scene more, the scenes of all are computed as they come.
  * With study.judge growth the searches' scenes end once the growth of their groove is known; where something gouges, two more
- * at coarse cells, at the threshold and at the fastest grain, go on to their whole craters.  A groove that is not followed
+ * at fine cells, at the threshold and at the fastest grain, go on to their whole craters.  A groove that is not followed
  * (scene.follow) has no growth: such a study is judged by severity. */
 #ifndef BREECH_COUPLING_FAMILY_H
 #define BREECH_COUPLING_FAMILY_H
