@@ -33,7 +33,7 @@ static status check(const mpm_axis *s, char letter)
     CHECK(s->fine_lo >= s->lo - 1e-12 && s->fine_hi <= s->hi + 1e-12 && s->fine_hi > s->fine_lo, STATUS_BAD_INPUT,
           "fine zone along %c: %g .. %g m must lie inside the window %g .. %g m", letter, s->fine_lo, s->fine_hi, s->lo,
           s->hi);
-    CHECK(s->growth >= 1 && s->growth <= 1.5, STATUS_BAD_INPUT, "growth along %c = %g: must be 1 .. 1.5", letter,
+    CHECK(s->growth >= 1 && s->growth <= 2, STATUS_BAD_INPUT, "growth along %c = %g: must be 1 .. 2", letter,
           s->growth);
     CHECK((s->hi - s->lo) / s->fine < MAX_NODES, STATUS_BAD_INPUT,
           "cells along %c: %g m is too fine for %g m of window", letter, s->fine, s->hi - s->lo);

@@ -64,7 +64,7 @@ typedef struct {
     double lo, hi;                  /* window [m]; a boundary condition acts at lo and at hi */
     double fine_lo, fine_hi;        /* zone of cells of size `fine` [m] */
     double fine, coarse;            /* cell size in the zone, largest cell size outside [m] */
-    double growth;                  /* ratio of neighbouring cells outside the zone, 1.0 .. 1.3 */
+    double growth;                  /* ratio of neighbouring cells outside the zone, 1 .. 2 */
     boundary_kind boundary[2];      /* at lo, at hi */
     double boundary_velocity[2][3]; /* BOUNDARY_PRESCRIBED [m/s] */
     unsigned boundary_fields[2];    /* bit f set: the boundary acts on field f; 0 = on all */

@@ -107,15 +107,15 @@ static void test_carried(void **state)
 
 /* ---- a pulse through a graded zone ---- */
 
-/* Raised cosine of five steps, 9 mm wide, in a bar at rest; it runs both ways.  Pressure of the points that start before
- * x = 15 mm, in their order along the bar. */
-static size_t pulse(bool graded, double **pressure, double *incident)
+/* Raised cosine of five steps, 9 mm wide, in a bar at rest; it runs both ways, forwards into cells that grow by `growth` (1: they
+ * do not).  Pressure of the points that start before x = 15 mm, in their order along the bar. */
+static size_t pulse(double growth, double **pressure, double *incident)
 {
     static const double fine = 0.15e-3, length = 50e-3, speed[] = { 2.5, 7.5, 10, 7.5, 2.5 };
     const material m = scene_elastic();
     mpm_scene s;
     scene_bar(&s, 0, length, fine, 2);
-    if (graded) s.axis[0] = scene_graded(s.axis[0], 0, 20e-3, 4 * fine, 1.2);
+    if (growth > 1) s.axis[0] = scene_graded(s.axis[0], 0, 20e-3, 4 * fine, growth);
     scene_box(&s, 0, -1, -1, 6e-3, 1, 1, &m);
     for (int i = 0; i < 5; i++) {
         const double x = 6e-3 + i * 1.8e-3;
@@ -143,19 +143,25 @@ static size_t pulse(bool graded, double **pressure, double *incident)
     return n;
 }
 
-/* What the grading sends back is the difference from the same pulse in cells that stay fine. */
+/* What the grading sends back is the difference from the same pulse in cells that stay fine.  NUMERICS: a wave crossing the
+ * grading must not reflect more than 1 %; cells that double are let to 1.5 %, 1.2 % was measured. */
 static void test_grading(void **state)
 {
     (void)state;
-    double *even, *graded, peak, peak_graded, back = 0;
-    const size_t n = pulse(false, &even, &peak), n_graded = pulse(true, &graded, &peak_graded);
-    assert_int_equal(n, n_graded);
-    for (size_t i = 0; i < n; i++) back = fmax(back, fabs(graded[i] - even[i]));
-    print_message(
-        "pulse of %.1f MPa into cells four times as wide, 1.2 a cell: reflected %.2f %%, peak behind %.1f %%\n",
-        1e-6 * peak, 100 * back / peak, 100 * peak_graded / peak);
-    assert_below(back / peak, 0.01); /* NUMERICS: a wave crossing the grading must not reflect more than 1 % */
-    free(even), free(graded);
+    static const double growth[] = { 1.2, 1.5, 2 }, limit[] = { 0.01, 0.01, 0.015 };
+    double *even, peak;
+    const size_t n = pulse(1, &even, &peak);
+    for (int g = 0; g < 3; g++) {
+        double *graded, peak_graded, back = 0;
+        assert_int_equal(n, pulse(growth[g], &graded, &peak_graded));
+        for (size_t i = 0; i < n; i++) back = fmax(back, fabs(graded[i] - even[i]));
+        print_message(
+            "pulse of %.1f MPa into cells four times as wide, %.1f a cell: reflected %.2f %%, peak behind %.1f %%\n",
+            1e-6 * peak, growth[g], 100 * back / peak, 100 * peak_graded / peak);
+        assert_below(back / peak, limit[g]);
+        free(graded);
+    }
+    free(even);
 }
 
 /* The other basis is there to compare with: NUMERICS found it 4.7 % low at 400 cells and growing with the cells that the
