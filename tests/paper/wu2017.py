@@ -94,7 +94,7 @@ def table(runs):
     return rows
 
 
-EXPECTED = {"W3", "W5", "W7", "W9", "W12", "W13", "W14"}  # come out at 2 cells a radius
+EXPECTED = {"W3", "W5", "W7", "W9", "W10", "W11", "W12", "W13", "W14"}  # come out at 2 cells a radius
 
 
 def main():
