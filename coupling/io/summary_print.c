@@ -40,6 +40,14 @@ static void print_keys_table(const summary_key *keys, const void *from, FILE *ou
     table_free(t);
 }
 
+/* A blank line, the table, and its end. */
+static void close_table(table *t, FILE *out)
+{
+    fputc('\n', out);
+    table_print(t, out);
+    table_free(t);
+}
+
 /* x in units of `unit`, "-" where there is none. */
 static const char *cell(double x, double unit, const char *format, char text[24])
 {
@@ -63,9 +71,7 @@ static void print_sites(const onset_result *o, FILE *out)
                   cell(s->impact_pressure, 1e9, "%.2f", p), cell(s->screen, 1.0, "%.1f", h),
                   site_outcome_names[s->outcome], s->scene);
     }
-    fputc('\n', out);
-    table_print(t, out);
-    table_free(t);
+    close_table(t, out);
 }
 
 static void print_scenes(const onset_result *o, FILE *out)
@@ -84,9 +90,7 @@ static void print_scenes(const onset_result *o, FILE *out)
                   cell(s->gauged ? NAN : s->result.crater_depth, 1e-3, "%.3f", d), damage_class_names[s->result.class],
                   s->reused ? "reused" : cell(s->result.wall_seconds, 1.0, "%.1f", w));
     }
-    fputc('\n', out);
-    table_print(t, out);
-    table_free(t);
+    close_table(t, out);
 }
 
 static void print_ranking(const compare_result *c, FILE *out)
