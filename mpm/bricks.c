@@ -209,7 +209,7 @@ status store_reserve(mpm *m)
 {
     const int wanted = 64 + m->blocks_capacity / 16;
     if (m->blocks_free >= wanted) return status_ok();
-    return grow_blocks(m, m->blocks_capacity + m->blocks_capacity / 4 + wanted);
+    return grow_blocks(m, 2 * m->blocks_capacity + wanted); /* pages that nobody touches cost nothing */
 }
 
 /* Values that let the kernels run over a hole without a trap. */
@@ -292,9 +292,11 @@ status store_compact(mpm *m)
             for (int c = 0; i >= 0 && c < BRICK_CELLS; c++)
                 for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) to[q] = used++;
         }
-    int spare = used;
-    for (int i = 0; i < m->blocks_capacity; i++)
-        if (to[i] < 0) to[i] = spare++;
+    for (int i = 0, spare = used; i < used; i++) { /* free blocks make room; those beyond stay where they are */
+        if (to[i] >= 0) continue;
+        while (to[spare] < 0) spare++;
+        to[i] = spare++;
+    }
     for (int i = 0; i < m->bricks_used; i++)
         for (int c = 0; c < BRICK_CELLS; c++)
             if (m->bricks[i].head[c] >= 0) m->bricks[i].head[c] = to[m->bricks[i].head[c]];

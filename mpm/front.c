@@ -2,6 +2,7 @@
 #include "mpm/store.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 
 static const double POWER_AHEAD = 0.05; /* of the power lies ahead of the front */
@@ -14,7 +15,7 @@ typedef struct {
 typedef struct {
     double lo, width; /* of a slice [m] */
     int n;
-    slice *slice;
+    slice *slice; /* n of each share of the bricks */
 } profile;
 
 /* V s : D of a lane that yields, else 0. */
@@ -31,7 +32,7 @@ static double lane_plastic_power(const block *q, int l)
 }
 
 /* A point belongs to all slices that its domain covers. */
-static void add_lane(const mpm *m, const block *q, int l, profile *p)
+static void add_lane(const mpm *m, const block *q, int l, const profile *p, slice *to)
 {
     const mpm_axis *z = &m->scene.axis[2];
     const double half = q->half[0][l], power = lane_plastic_power(q, l), volume = q->mass[0][l] / q->rho[0][l];
@@ -39,18 +40,40 @@ static void add_lane(const mpm *m, const block *q, int l, profile *p)
     const int first = (int)fmax((q->x[0][l] - half - p->lo) / p->width, 0);
     const int last = (int)fmin((q->x[0][l] + half - p->lo) / p->width, p->n - 1);
     for (int i = first; i <= last; i++) {
-        p->slice[i].power[beside] += power / (last - first + 1);
-        p->slice[i].volume[beside] += volume / (last - first + 1);
+        to[i].power[beside] += power / (last - first + 1);
+        to[i].volume[beside] += volume / (last - first + 1);
     }
 }
 
+static void add_block(const mpm *m, int index, const profile *p, slice *to)
+{
+    if (!(m->scene.follow_bodies >> m->links[index].body & 1)) return;
+    const block *q = &m->blocks[index];
+    for (int l = 0; l < LANES; l++)
+        if (q->mass[0][l] > 0) add_lane(m, q, l, p, to);
+}
+
+static void add_share(const mpm *m, int share, const profile *p)
+{
+    slice *to = p->slice + (ptrdiff_t)share * p->n;
+    for (int i = share_begin(m->bricks_used, share); i < share_begin(m->bricks_used, share + 1); i++)
+        for (int c = 0; c < BRICK_CELLS; c++)
+            for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) add_block(m, q, p, to);
+}
+
+/* All shares into the first. */
 static void add_bodies(const mpm *m, profile *p)
 {
-    for (int i = 0; i < m->bricks_used; i++)
-        for (int c = 0; c < BRICK_CELLS; c++)
-            for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next)
-                for (int l = 0; l < LANES && m->scene.follow_bodies >> m->links[q].body & 1; l++)
-                    if (m->blocks[q].mass[0][l] > 0) add_lane(m, &m->blocks[q], l, p);
+#pragma omp parallel for schedule(dynamic) num_threads(m->threads)
+    for (int i = 0; i < SHARES; i++) add_share(m, i, p);
+    for (int i = 1; i < SHARES; i++)
+        for (int k = 0; k < p->n; k++) {
+            const slice *from = &p->slice[i * p->n + k];
+            for (int beside = 0; beside < 2; beside++) {
+                p->slice[k].power[beside] += from->power[beside];
+                p->slice[k].volume[beside] += from->volume[beside];
+            }
+        }
 }
 
 /* What a slice takes in the fine zone beyond what the same metal takes beside it: the edge of a slider that is pressed on
@@ -66,7 +89,7 @@ double front_find(const mpm *m, double *power)
 {
     const mpm_axis *s = &m->scene.axis[0];
     profile p = { .lo = s->lo, .width = 2 * s->fine, .n = (int)((s->hi - s->lo) / (2 * s->fine)) + 1 };
-    p.slice = calloc((size_t)p.n, sizeof *p.slice);
+    p.slice = calloc((size_t)p.n * SHARES, sizeof *p.slice);
     *power = 0;
     if (!p.slice) return s->lo;
     add_bodies(m, &p);

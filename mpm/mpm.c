@@ -10,6 +10,7 @@
 static const int COMPACT_EVERY = 200; /* steps between restorings of the blocks' order in memory */
 static const int SAMPLE_EVERY = 20;   /* steps between percentile samples */
 static const int FOLLOW_EVERY = 20;   /* steps between looks at the plastic front */
+enum { START_BLOCKS = 1 << 15 };      /* room at the start: memory that nobody touches costs nothing, growing does */
 static const double DT_GROWTH = 1.05;
 static const double FORCE_SMOOTHING = 0.2e-6; /* [s] */
 
@@ -98,7 +99,7 @@ static status fill(mpm *m)
     static const char letters[] = "xyz";
     TRY(make_laws(m));
     for (int k = 0; k < 3; k++) TRY(axis_make(&m->scene.axis[k], letters[k], &m->axes[k]));
-    TRY(store_make(m, 1024));
+    TRY(store_make(m, START_BLOCKS));
     m->histogram = malloc(mpm_histogram_bytes());
     CHECK(m->histogram, STATUS_MEMORY, "no memory for the percentiles");
     const build_sink sink = { insert_point, m };
@@ -217,48 +218,83 @@ static void phase_g2p(mpm *m)
     }
 }
 
-static void add_tally(tally *a, const tally *b)
+static double larger(double a, double b) /* b NaN: a */
 {
-    a->heat_friction += b->heat_friction, a->heat_transfer += b->heat_transfer, a->heat_viscous += b->heat_viscous;
-    a->work_boundary += b->work_boundary, a->work_external += b->work_external;
+    return b > a ? b : a;
+}
+
+static void add_vector(double a[3], const double b[3])
+{
+    for (int k = 0; k < 3; k++) a[k] += b[k];
+}
+
+/* What bricks book in G2P and movers.c, but for the boundaries' impulse. */
+static void add_points(tally *a, const tally *b)
+{
+    a->heat_transfer += b->heat_transfer, a->heat_viscous += b->heat_viscous;
+    a->work_external += b->work_external;
+    add_vector(a->impulse_external, b->impulse_external);
     a->left.count += b->left.count, a->left.mass += b->left.mass, a->left.energy += b->left.energy;
-    for (int k = 0; k < 3; k++) {
-        a->impulse_boundary[k] += b->impulse_boundary[k];
-        a->impulse_external[k] += b->impulse_external[k];
-        a->left.momentum[k] += b->left.momentum[k];
-        for (int f = 0; f < MPM_MAX_FIELDS; f++) a->contact[f][k] += b->contact[f][k];
-    }
-    a->rate = fmax(a->rate, b->rate);
-    a->peak_pressure = fmax(a->peak_pressure, b->peak_pressure);
-    a->peak_temperature = fmax(a->peak_temperature, b->peak_temperature);
+    add_vector(a->left.momentum, b->left.momentum);
+    a->rate = larger(a->rate, b->rate);
+    a->peak_temperature = larger(a->peak_temperature, b->peak_temperature);
     for (int i = 0; i < MPM_MAX_BODIES; i++) {
-        a->peak_mises[i] = fmax(a->peak_mises[i], b->peak_mises[i]);
-        a->peak_pressure_body[i] = fmax(a->peak_pressure_body[i], b->peak_pressure_body[i]);
-        a->peak_strain[i] = fmax(a->peak_strain[i], b->peak_strain[i]);
+        a->peak_mises[i] = larger(a->peak_mises[i], b->peak_mises[i]);
+        a->peak_pressure_body[i] = larger(a->peak_pressure_body[i], b->peak_pressure_body[i]);
+        a->peak_strain[i] = larger(a->peak_strain[i], b->peak_strain[i]);
     }
     a->clamps_pressure += b->clamps_pressure, a->clamps_compression += b->clamps_compression;
     a->splits += b->splits, a->eroded += b->eroded, a->eroded_mass += b->eroded_mass;
     a->particles += b->particles;
 }
 
+/* What sites book: contact and boundaries. */
+static void add_nodes(tally *a, const tally *b)
+{
+    a->heat_friction += b->heat_friction, a->work_boundary += b->work_boundary;
+    add_vector(a->impulse_boundary, b->impulse_boundary);
+    for (int f = 0; f < MPM_MAX_FIELDS; f++) add_vector(a->contact[f], b->contact[f]);
+}
+
+static void collect_share(const mpm *m, int share, tally *sum)
+{
+    memset(sum, 0, sizeof *sum);
+    sum->bad_block = -1;
+    for (int i = share_begin(m->bricks_used, share); i < share_begin(m->bricks_used, share + 1); i++) {
+        const tally *t = &m->bricks[i].sum;
+        if (t->particles == 0) continue;
+        if (sum->bad_block < 0) sum->bad_block = t->bad_block, sum->bad_lane = t->bad_lane;
+        add_points(sum, t);
+        add_vector(sum->impulse_boundary, t->impulse_boundary);
+    }
+    for (int i = share_begin(m->site_count, share); i < share_begin(m->site_count, share + 1); i++)
+        add_nodes(sum, &m->site_sum[m->site_list[i]]);
+}
+
+static status check_finite(const mpm *m, const tally *t)
+{
+    if (t->bad_block < 0) return status_ok();
+    const block *q = &m->blocks[t->bad_block];
+    const int l = t->bad_lane;
+    return status_error(STATUS_NUMERICAL,
+                        "t = %g s, step %llu: the particle of `%s` that started at (%g, %g, %g) m is not "
+                        "finite; try a smaller courant (now %g) or larger viscosity",
+                        m->time, (unsigned long long)m->steps, m->scene.body[m->links[t->bad_block].body].name,
+                        q->start[0][l], q->start[1][l], q->start[2][l], m->scene.courant);
+}
+
 /* Sums in the order of bricks and sites, whatever the threads did. */
 static status collect(mpm *m, tally *sum)
 {
+    tally share[SHARES];
     memset(sum, 0, sizeof *sum);
-    for (int i = 0; i < m->bricks_used; i++) {
-        const tally *t = &m->bricks[i].sum;
-        if (t->bad_block >= 0) {
-            const block *q = &m->blocks[t->bad_block];
-            const int l = t->bad_lane;
-            return status_error(STATUS_NUMERICAL,
-                                "t = %g s, step %llu: the particle of `%s` that started at (%g, %g, %g) m is not "
-                                "finite; try a smaller courant (now %g) or larger viscosity",
-                                m->time, (unsigned long long)m->steps, m->scene.body[m->links[t->bad_block].body].name,
-                                q->start[0][l], q->start[1][l], q->start[2][l], m->scene.courant);
-        }
-        add_tally(sum, t);
+#pragma omp parallel for schedule(static) num_threads(m->threads)
+    for (int i = 0; i < SHARES; i++) collect_share(m, i, &share[i]);
+    for (int i = 0; i < SHARES; i++) {
+        TRY(check_finite(m, &share[i]));
+        add_points(sum, &share[i]);
+        add_nodes(sum, &share[i]);
     }
-    for (int i = 0; i < m->site_count; i++) add_tally(sum, &m->site_sum[m->site_list[i]]);
     return status_ok();
 }
 

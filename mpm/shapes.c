@@ -48,19 +48,20 @@ status shape_positive(const shape_kind *kind, const shape_values *s, int i)
 /* Distance to the nearest edge; inside by the parity of the edges that a ray towards +x crosses. */
 double shape_polygon(int n, const double *corner, double x, double y)
 {
-    double nearest = INFINITY;
+    double nearest2 = INFINITY;
     int inside = 0;
     for (int i = 0, j = n - 1; i < n; j = i++) {
         const double ax = corner[2 * j], ay = corner[2 * j + 1];
         const double ex = corner[2 * i] - ax, ey = corner[2 * i + 1] - ay;
         const double length2 = ex * ex + ey * ey;
         const double along = length2 > 0.0 ? ((x - ax) * ex + (y - ay) * ey) / length2 : 0.0;
-        const double t = fmin(fmax(along, 0.0), 1.0);
-        nearest = fmin(nearest, hypot(x - ax - t * ex, y - ay - t * ey));
+        const double t = along > 1.0 ? 1.0 : along > 0.0 ? along : 0.0;
+        const double dx = x - ax - t * ex, dy = y - ay - t * ey, distance2 = dx * dx + dy * dy;
+        if (distance2 < nearest2) nearest2 = distance2;
         const int spans = (ay > y) != (corner[2 * i + 1] > y);
         if (spans && x < ax + (y - ay) / ey * ex) inside = !inside;
     }
-    return inside ? nearest : -nearest;
+    return inside ? sqrt(nearest2) : -sqrt(nearest2);
 }
 
 double shape_prism(double profile, double slab)

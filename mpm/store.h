@@ -24,8 +24,14 @@ enum {
     NODE = 4,                            /* vx vy vz E of a finished node */
     NEIGHBOURS = 27,
     SELF = 13, /* index of the brick itself among them */
-    MPM_MAX_THREADS = 256
+    MPM_MAX_THREADS = 256,
+    SHARES = 32 /* of the bricks: what is summed over all of them is summed share by share, on any number of threads */
 };
+
+static inline int share_begin(int bricks, int share)
+{
+    return (int)((int64_t)bricks * share / SHARES);
+}
 
 /* One list makes the block, the copies of single particles and the checkpoint. */
 #define BLOCK_FIELDS(FIELD)                                                    \
@@ -88,7 +94,7 @@ typedef struct {
     double contact[MPM_MAX_FIELDS][3];
     departure left;
     double rate; /* largest (c + |v|) / h [1/s] */
-    double peak_pressure, peak_temperature;
+    double peak_temperature;
     double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES], peak_strain[MPM_MAX_BODIES];
     uint64_t clamps_pressure, clamps_compression, splits, eroded, particles;
     double eroded_mass;

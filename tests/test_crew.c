@@ -110,7 +110,7 @@ static void test_batch(void **state)
 {
     (void)state;
     enum { N = 5 };
-    breech_case *c = small_case("scene.end_time=0.5 us");
+    breech_case *c = small_case("scene.end_time=1 us");
     scene_query q[N];
     const scene_record *out[N];
     for (int i = 0; i < N; i++) q[i] = query_at(c, 1300.0 + 100.0 * i);
@@ -133,7 +133,7 @@ static void test_batch(void **state)
 static void test_laid_aside(void **state)
 {
     (void)state;
-    breech_case *c = small_case("scene.end_time=0.4 us"), *longer = small_case("scene.end_time=4 us");
+    breech_case *c = small_case("scene.end_time=1 us"), *longer = small_case("scene.end_time=5 us");
     const scene_query q[] = { query_at(longer, 1500.0), query_at(c, 1400.0), query_at(c, 1600.0) };
     const scene_record *out[3];
     int rounds = 0, known = 0;
@@ -161,7 +161,7 @@ static void test_laid_aside(void **state)
 static void test_ahead(void **state)
 {
     (void)state;
-    breech_case *c = small_case("scene.end_time=0.4 us"), *longer = small_case("scene.end_time=4 us");
+    breech_case *c = small_case("scene.end_time=1 us"), *longer = small_case("scene.end_time=5 us");
     const scene_query wanted = query_at(longer, 1500.0), ahead[] = { query_at(c, 1400.0), query_at(c, 1600.0) };
     const scene_record *out, *none;
     session s;
@@ -186,7 +186,7 @@ static void test_ahead(void **state)
 static void test_failed(void **state)
 {
     (void)state;
-    breech_case *c = small_case("scene.end_time=0.4 us");
+    breech_case *c = small_case("scene.end_time=1 us");
     const scene_query q[] = { query_at(c, 1500.0), query_at(c, -1.0), query_at(c, 1400.0) };
     const scene_record *out[3];
     session s;
@@ -207,7 +207,7 @@ static bool stop_at_once(void)
 static void test_stopped(void **state)
 {
     (void)state;
-    breech_case *c = small_case("scene.end_time=4 us");
+    breech_case *c = small_case("scene.end_time=5 us");
     const scene_query q[] = { query_at(c, 1500.0), query_at(c, 1400.0) };
     const scene_record *out[2];
     session s;

@@ -248,6 +248,15 @@ static void test_gauged(void **state)
         assert_text(a, "class", i ? "undecided" : growth > 0.0 ? "gouge" : "scratch");
         cJSON_Delete(a);
     }
+    /* the whole scene, whatever it writes on the way, has the same growth, and goes on */
+    assert_int_equal(run("scene " TINY " -o scene/whole --set output.snapshots=3 --set particle.radius='0.2 mm' --set "
+                         "scene.velocity='2 km/s'"),
+                     0);
+    cJSON *whole = summary_of("scene/whole"), *gauged = summary_of("scene/gauged0");
+    assert_true(number(whole, "groove_growth") == number(gauged, "groove_growth"));
+    assert_true(number(whole, "steps") > number(gauged, "steps"));
+    cJSON_Delete(whole);
+    cJSON_Delete(gauged);
     run_script("read_gauged.py", BREECH_TESTS "/../coupling/tools scene/gauged0");
 }
 

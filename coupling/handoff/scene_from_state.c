@@ -15,8 +15,7 @@ static const double FRONT_SPEED = 0.7;
 /* Where a groove's growth is gauged: the armature's way in grain radii.  Before, the grain itself is still being flattened;
  * later the contact face begins to run out. */
 static const double GROWTH_WAY[2] = { 16.0, 28.0 };
-static const double DEAD_FOLDS = -3.0;   /* of a groove that died before the first gauge, and the least of any */
-static const double GAUGED_FACTOR = 1.1; /* of the second gauge's time: a scene that is over then has been gauged */
+static const double DEAD_FOLDS = -3.0; /* of a groove that died before the first gauge, and the least of any */
 
 static const char ARMATURE[] = "armature", GRAIN[] = "particle";
 
@@ -344,6 +343,11 @@ double scene_face_tail(const mpm_scene *scene, double time)
     return v[ARMATURE_X_FRONT] + lead - v[ARMATURE_LENGTH] + b->velocity[0] * time;
 }
 
+double scene_last(const breech_case *c, const mpm_scene *scene)
+{
+    return scene_is_gauged(c) ? scene->gauge_time[1] : scene->end_time;
+}
+
 /* The fine zone goes with the rail's plastic front. */
 static void set_follow(const breech_case *c, const case_site *g, mpm_scene *s)
 {
@@ -372,15 +376,13 @@ static void set_method(const breech_case *c, const layout *l, mpm_scene *s)
 }
 
 /* A scene that ends before its second gauge would pass for a groove that died. */
-static status end_at_gauge(const breech_case *c, mpm_scene *s)
+static status reaches_gauge(const breech_case *c, const mpm_scene *s)
 {
-    if (!scene_is_gauged(c)) return status_ok();
-    CHECK(s->end_time >= s->gauge_time[1], STATUS_BAD_INPUT,
+    CHECK(!scene_is_gauged(c) || s->end_time >= s->gauge_time[1], STATUS_BAD_INPUT,
           "scene: over after %.3g s, before the growth of its groove is known, %.3g s: a longer scene.end_time, a "
           "contact face "
           "of more than %.3g grain radii, or study.judge: severity (for `breech scene`, no scene.stop_when_gauged)",
           s->end_time, s->gauge_time[1], GROWTH_WAY[1] * (1.0 - FRONT_SPEED));
-    s->end_time = fmin(s->end_time, GAUGED_FACTOR * s->gauge_time[1]);
     return status_ok();
 }
 
@@ -445,7 +447,7 @@ status scene_bodies(const breech_case *c, const site_state *state, double cells_
     set_axes(c, &l, out);
     set_follow(c, &state->grain, out);
     set_method(c, &l, out);
-    return end_at_gauge(c, out);
+    return reaches_gauge(c, out);
 }
 
 status scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out,

@@ -43,6 +43,9 @@ double scene_face_tail(const mpm_scene *scene, double time);
  * is followed. */
 bool scene_is_gauged(const breech_case *c);
 
+/* When it will be over, for all that is known before: at its second gauge, or at its end [s]. */
+double scene_last(const breech_case *c, const mpm_scene *scene);
+
 /* A growth [1/s] as e-folds over the way between the two gauges [1]; one that died before the first has the growth NAN and
  * counts as -3, and none as less. */
 double growth_folds(double growth, double radius, double velocity);

@@ -22,6 +22,7 @@ typedef struct {
     const scene_job *job;
     const scene_host *host;
     mpm *m;
+    double piece_end; /* of the piece under way [s] */
     snapshots *shots;
     int series;                    /* of the history, -1: none */
     int pieces, per_snapshot;      /* pieces; pieces from one snapshot to the next, 0: no snapshots */
@@ -108,6 +109,11 @@ static double wall_spent(const run *r)
     return r->job->resume.wall + wall_clock() - r->started;
 }
 
+static double progress_of(const run *r, const mpm_report *now)
+{
+    return fmin(now->time / scene_last(r->job->c, &r->job->scene), 1.0);
+}
+
 static status save(run *r)
 {
     const scene_host *h = r->host;
@@ -120,16 +126,28 @@ static status save(run *r)
     return status_ok();
 }
 
-/* After every step: cheap unless something is due. */
+static bool is_gauged(const run *r, const mpm_report *now)
+{
+    return scene_is_gauged(r->job->c) && now->gauge_at[1] > 0.0;
+}
+
+/* Has the step ended a piece, or the scene? */
+static bool is_due(const run *r, const mpm_report *now)
+{
+    return now->time >= r->piece_end || is_gauged(r, now);
+}
+
+/* After every step: cheap unless something is due.  What a piece's end asks for comes before a stop or a checkpoint. */
 static bool on_step(void *user, const mpm *m)
 {
     run *r = user;
     const double now = wall_clock();
+    const mpm_report state = mpm_glance(m);
     if (r->host->progress && now - r->looked >= LIVE_INTERVAL) {
-        const mpm_report state = mpm_glance(m);
         r->looked = now;
-        progress_update(r->host->progress, state.time / r->job->scene.end_time, state.particle_steps);
+        progress_update(r->host->progress, progress_of(r, &state), state.particle_steps);
     }
+    if (is_due(r, &state)) return false;
     if (now - r->saved >= r->job->c->output.checkpoint_interval) r->error = save(r);
     return r->error.code == STATUS_OK && !(r->host->stop && r->host->stop(r->host->user));
 }
@@ -181,12 +199,6 @@ static bool groove_over(const run *r, const mpm_report *now)
                                                  scene_face_tail(s, now->time) > now->plastic_front);
 }
 
-/* Whoever wants no more than its growth has it. */
-static bool is_gauged(const run *r, const mpm_report *now)
-{
-    return scene_is_gauged(r->job->c) && now->gauge_at[1] > 0.0;
-}
-
 static status is_settled(const run *r, bool *settled)
 {
     const mpm_report now = mpm_glance(r->m);
@@ -208,42 +220,49 @@ static status is_settled(const run *r, bool *settled)
 static double piece_end(const run *r, int piece)
 {
     const double end = r->job->scene.end_time;
-    return piece + 1 == r->pieces ? end : end * (piece + 1) / r->pieces;
+    return piece + 1 == r->pieces ? end * (1.0 - 1e-12) : end * (piece + 1) / r->pieces;
 }
 
-/* The piece whose end is still to be dealt with: a checkpoint is made by a step, before the end of its piece. */
-static int piece_at(const run *r, double time)
+/* Pieces that are over by then; a step may end several. */
+static int pieces_over(const run *r, double time)
 {
-    int piece = 0;
-    while (piece + 1 < r->pieces && piece_end(r, piece) < time * (1.0 - 1e-12)) piece++;
-    return piece;
+    int n = 0;
+    while (n < r->pieces && piece_end(r, n) <= time) n++;
+    return n;
 }
 
+/* To the end of the piece, or to the gauge in it. */
 static status advance_piece(run *r, int piece)
 {
     const mpm_sink sink = { on_step, r };
     const double since = wall_clock();
-    const status s = mpm_advance(r->m, piece_end(r, piece), &sink);
+    r->piece_end = piece_end(r, piece);
+    const status s = mpm_advance(r->m, r->job->scene.end_time, &sink);
     book(r->host, "scene steps", since);
     if (r->error.code != STATUS_OK) return r->error;
-    if (s.code == STATUS_STOPPED) TRY(save(r));
+    const mpm_report now = mpm_glance(r->m);
+    if (s.code != STATUS_STOPPED) return s;
+    if (is_due(r, &now)) return status_ok();
+    TRY(save(r));
     return s;
 }
 
 static status advance(run *r)
 {
     bool settled = false;
-    const double reached = r->job->resume.image ? mpm_glance(r->m).time : -1.0;
-    if (reached < 0.0) {
+    int piece = pieces_over(r, mpm_glance(r->m).time);
+    if (!r->job->resume.image) {
         TRY(write_row(r));
         TRY(write_snapshot(r));
     }
-    for (int piece = reached < 0.0 ? 0 : piece_at(r, reached); piece < r->pieces && !settled; piece++) {
+    while (piece < r->pieces && !settled) {
         TRY(advance_piece(r, piece));
         TRY(is_settled(r, &settled));
         TRY(write_row(r));
-        const bool due = r->per_snapshot && (piece + 1) % r->per_snapshot == 0;
+        const int over = pieces_over(r, mpm_glance(r->m).time);
+        const bool due = r->per_snapshot && over / r->per_snapshot > piece / r->per_snapshot;
         if (due || (settled && r->per_snapshot)) TRY(write_snapshot(r));
+        piece = over;
     }
     return status_ok();
 }
@@ -400,8 +419,7 @@ static status run_made(run *r, impact *out)
     TRY(armature_now(r, &before));
     if (from->image) TRY(mpm_restore(r->m, from->image, from->bytes));
     const mpm_report state = mpm_glance(r->m);
-    if (r->host->progress)
-        progress_task(r->host->progress, r->job->task, state.time / r->job->scene.end_time, state.particle_steps);
+    if (r->host->progress) progress_task(r->host->progress, r->job->task, progress_of(r, &state), state.particle_steps);
     TRY(open_output(r));
     TRY(advance(r));
     return finish(r, &before, out);

@@ -1,8 +1,8 @@
 /* One impact scene from its making to its crater, with everything a run writes on the way.
  *
- * The scene is advanced in equal pieces; at their ends stand the history's rows, the snapshots and the question whether the
- * crater is settled.  Pieces and questions depend on the scene alone, so a run that was stopped and resumed gives the same
- * bits.  Settled (scene.stop_when_settled): the armature's contact face has crossed the fine zone at its first speed, and
+ * Its time is cut into equal pieces; after the step that ends one stand the history's row, a snapshot that is due and the
+ * question whether the crater is settled.  No step is shortened for them: what a run writes changes nothing of what it
+ * computes, and one that was stopped and resumed gives the same bits.  Settled (scene.stop_when_settled): the armature's contact face has crossed the fine zone at its first speed, and
  * no intact rail point in the crater's map could still move a tenth of the measuring depth until the end at its present
  * speed. */
 #ifndef BREECH_COUPLING_SCENE_RUN_H

@@ -223,7 +223,7 @@ static status estimate(const breech_case *c, const site_state *state, double cel
     double dt;
     TRY(scene_job_make(c, state, cells, &job));
     TRY(mpm_estimate(&job.scene, &out->particles, &out->bytes, &dt));
-    out->steps = job.scene.end_time / dt;
+    out->steps = scene_last(c, &job.scene) / dt;
     out->seconds = out->steps * (double)out->particles * CHECK_SECONDS_A_STEP / threads;
     return status_ok();
 }
