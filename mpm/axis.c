@@ -58,9 +58,9 @@ static void place_nodes(axis *a, const mpm_axis *s, const double *below, int n_b
     for (int i = 0; i <= n_fine; i++) a->node[1 + n_below + i] = s->fine_lo + i * fine;
 }
 
-static void finish(axis *a, const mpm_axis *s)
+/* From the nodes up to the last: those beyond it, edges, smallest spacing. */
+static void finish(axis *a)
 {
-    a->node[a->last] = s->hi;
     a->node[0] = 2 * a->node[1] - a->node[2];
     for (int i = a->last + 1; i < 4 * a->bricks; i++) a->node[i] = 2 * a->node[i - 1] - a->node[i - 2];
     a->smallest = HUGE_VAL;
@@ -70,10 +70,21 @@ static void finish(axis *a, const mpm_axis *s)
     }
     a->edge[0] = 2 * a->node[0] - a->edge[1];
     a->edge[4 * a->bricks] = 2 * a->node[4 * a->bricks - 1] - a->edge[4 * a->bricks - 1];
+}
+
+/* Cells up to `fine` are those of a fine zone. */
+static void bear(axis *a, double fine)
+{
     for (int i = 0; i < 4 * a->bricks; i++) {
-        const double cell = a->edge[i + 1] - a->edge[i];
-        a->longest[i] = (cell > 1.1 * s->fine ? LONGEST_COARSE : LONGEST_FINE) * cell;
+        const bool whole = i > 0 && i + 1 < 4 * a->bricks; /* of a cell that is cut, what it was */
+        const double cell = whole ? 0.5 * (a->node[i + 1] - a->node[i - 1]) : a->edge[i + 1] - a->edge[i];
+        a->longest[i] = (cell > 1.1 * fine ? LONGEST_COARSE : LONGEST_FINE) * cell;
     }
+}
+
+void axis_bear_long(axis *a)
+{
+    bear(a, 0);
 }
 
 status axis_make(const mpm_axis *spec, char letter, axis *out)
@@ -93,11 +104,34 @@ status axis_make(const mpm_axis *spec, char letter, axis *out)
             const int k = 1 + n_below + n_fine + i;
             out->node[k + 1] = out->node[k] + above[i];
         }
-        finish(out, spec);
+        out->node[out->last] = spec->hi;
+        finish(out);
+        bear(out, spec->fine);
     } else {
         axis_free(out);
     }
     free(below);
+    return s;
+}
+
+status axis_bisect(const axis *coarse, int lo, int hi, const bool seam[2], axis *out)
+{
+    memset(out, 0, sizeof *out);
+    out->last = 1 + 2 * (hi - lo);
+    const status s = allocate(out);
+    if (s.code != STATUS_OK) {
+        axis_free(out);
+        return s;
+    }
+    for (int i = lo; i <= hi; i++) out->node[1 + 2 * (i - lo)] = coarse->node[i];
+    for (int i = 2; i < out->last; i += 2) out->node[i] = 0.5 * (out->node[i - 1] + out->node[i + 1]);
+    finish(out);
+    bear(out, HUGE_VAL);
+    if (seam[0]) out->node[0] = 0.5 * (coarse->node[lo - 1] + coarse->node[lo]), out->edge[1] = out->node[1];
+    if (seam[1]) {
+        out->node[out->last + 1] = 0.5 * (coarse->node[hi] + coarse->node[hi + 1]);
+        out->edge[out->last + 1] = out->node[out->last];
+    }
     return s;
 }
 

@@ -17,6 +17,11 @@ typedef struct {
 } axis;
 
 status axis_make(const mpm_axis *spec, char letter, axis *out);
+/* Cells half as wide between the nodes lo and hi of `coarse`: its nodes there and the middles between them.  An end that lies
+ * inside (seam[0] at lo, seam[1] at hi) cuts the cell of its node in half; the ghost beyond it is the middle of the coarse
+ * element there. */
+status axis_bisect(const axis *coarse, int lo, int hi, const bool seam[2], axis *out);
+void axis_bear_long(axis *a); /* no zone of fine cells: a point may be as long as its cell */
 void axis_free(axis *a);
 
 /* The node whose cell holds x (1 .. last), or 0 below and last + 1 above the window's cells. */

@@ -51,19 +51,27 @@ static status grow_blocks(mpm *m, int capacity)
     return status_ok();
 }
 
-status store_new_grid(mpm *m)
+static void free_places(mpm *m)
 {
     free(m->directory);
     free(m->site_list);
+    free(m->seam_list);
     free(m->site_sum);
+}
+
+status store_new_grid(mpm *m)
+{
+    const size_t sites = (size_t)m->grids.sites;
+    free_places(m);
     m->bricks = NULL;
     m->bricks_used = m->bricks_capacity = 0;
-    m->sites = m->axes[0].bricks * m->axes[1].bricks * m->axes[2].bricks;
-    m->directory = malloc((size_t)m->fields * (size_t)m->sites * sizeof(int));
-    m->site_list = malloc((size_t)m->sites * sizeof(int));
-    m->site_sum = malloc((size_t)m->sites * sizeof(tally));
-    CHECK(m->directory && m->site_list && m->site_sum, STATUS_MEMORY, "no memory for a window of %d bricks", m->sites);
-    for (int i = 0; i < m->fields * m->sites; i++) m->directory[i] = -1;
+    m->directory = malloc((size_t)m->fields * sites * sizeof(int));
+    m->site_list = malloc(sites * sizeof(int));
+    m->seam_list = malloc(sites * sizeof(int));
+    m->site_sum = malloc(sites * sizeof(tally));
+    CHECK(m->directory && m->site_list && m->seam_list && m->site_sum, STATUS_MEMORY,
+          "no memory for a window of %zu bricks", sites);
+    for (int i = 0; i < m->fields * m->grids.sites; i++) m->directory[i] = -1;
     return status_ok();
 }
 
@@ -79,6 +87,7 @@ void store_free_brick(brick *b)
     free(b->out);
     free(b->out_contact);
     free(b->node);
+    free(b->line);
 }
 
 void store_free(mpm *m)
@@ -89,9 +98,7 @@ void store_free(mpm *m)
         free(m->movers[t].data);
     }
     free(m->bricks);
-    free(m->directory);
-    free(m->site_list);
-    free(m->site_sum);
+    free_places(m);
     free(m->blocks);
     free(m->links);
 }
@@ -107,16 +114,18 @@ static status grow_bricks(mpm *m)
     return status_ok();
 }
 
-status store_brick(mpm *m, int field, const int at[3], int *out)
+status store_brick(mpm *m, int field, int level, const int at[3], int *out)
 {
-    const int site = site_index(m, at[0], at[1], at[2]);
-    int *slot = &m->directory[field * m->sites + site];
+    const int site = site_index(m, level, at);
+    int *slot = &m->directory[field * m->grids.sites + site];
     if (*slot < 0) {
         TRY(grow_bricks(m));
         brick *b = &m->bricks[m->bricks_used];
         memset(b, 0, sizeof *b);
-        b->field = field;
+        b->field = field, b->level = level;
         b->site = site;
+        b->seam = seams_of(m, level, at);
+        b->at_seam = seam_any(&b->seam);
         memcpy(b->at, at, sizeof b->at);
         for (int c = 0; c < BRICK_CELLS; c++) b->head[c] = -1;
         b->node = aligned(BRICK_CELLS * sizeof *b->node);
@@ -128,12 +137,12 @@ status store_brick(mpm *m, int field, const int at[3], int *out)
     return status_ok();
 }
 
-static bool step_inside(const mpm *m, const int at[3], int step, int to[3])
+static bool step_inside(const mpm *m, const brick *b, int step, int to[3])
 {
     const int d[3] = { step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1 };
     for (int k = 0; k < 3; k++) {
-        to[k] = at[k] + d[k];
-        if (to[k] < 0 || to[k] >= m->axes[k].bricks) return false;
+        to[k] = b->at[k] + d[k];
+        if (to[k] < 0 || to[k] >= axes_of(m, b)[k].bricks) return false;
     }
     return true;
 }
@@ -150,7 +159,7 @@ status store_empty(mpm *m, int blocks)
 {
     for (int i = 0; i < m->bricks_used; i++) store_free_brick(&m->bricks[i]);
     m->bricks_used = 0;
-    for (int i = 0; i < m->fields * m->sites; i++) m->directory[i] = -1;
+    for (int i = 0; i < m->fields * m->grids.sites; i++) m->directory[i] = -1;
     m->free_head = -1, m->blocks_free = 0;
     chain_free_blocks(m, 0);
     return blocks > m->blocks_capacity ? grow_blocks(m, blocks + blocks / 8) : status_ok();
@@ -161,7 +170,11 @@ status store_surround(mpm *m, int brick_index)
     for (int step = 0; step < NEIGHBOURS; step++) {
         int to[3], found;
         const brick *b = &m->bricks[brick_index];
-        if (step_inside(m, b->at, step, to)) TRY(store_brick(m, b->field, to, &found));
+        if (step_inside(m, b, step, to)) TRY(store_brick(m, b->field, b->level, to, &found));
+    }
+    if (m->bricks[brick_index].at_seam) {
+        const brick b = m->bricks[brick_index]; /* the array may move */
+        TRY(seams_answer(m, &b));
     }
     return store_open(&m->bricks[brick_index]);
 }
@@ -171,9 +184,9 @@ static bool meets_other(const mpm *m, const brick *b)
 {
     for (int step = 0; step < NEIGHBOURS; step++) {
         int to[3];
-        if (!step_inside(m, b->at, step, to)) continue;
+        if (!step_inside(m, b, step, to)) continue;
         for (int f = 0; f < m->fields; f++) {
-            const int other = m->directory[f * m->sites + site_index(m, to[0], to[1], to[2])];
+            const int other = brick_at(m, f, b->level, to);
             if (f != b->field && other >= 0 && m->bricks[other].particles > 0) return true;
         }
     }
@@ -184,25 +197,27 @@ static void link_brick(mpm *m, brick *b)
 {
     for (int step = 0; step < NEIGHBOURS; step++) {
         int to[3];
-        b->neighbour[step] = step_inside(m, b->at, step, to)
-                                 ? m->directory[b->field * m->sites + site_index(m, to[0], to[1], to[2])]
-                                 : -1;
+        b->neighbour[step] = step_inside(m, b, step, to) ? brick_at(m, b->field, b->level, to) : -1;
     }
-    b->contact = meets_other(m, b);
+    b->across = b->at_seam && seams_meet(m, b);
+    b->contact = b->across || meets_other(m, b);
     b->occupied = meeting_occupied(b);
     if (b->contact && b->out && !b->out_contact) b->out_contact = aligned(HALO_NODES * sizeof *b->out_contact);
+    if (b->at_seam && !b->line) b->line = aligned(2 * BRICK_CELLS * sizeof *b->line);
 }
 
 void store_relink(mpm *m)
 {
     for (int i = 0; i < m->bricks_used; i++) link_brick(m, &m->bricks[i]);
-    m->site_count = 0;
-    for (int s = 0; s < m->sites; s++)
-        for (int f = 0; f < m->fields; f++)
-            if (m->directory[f * m->sites + s] >= 0) {
-                m->site_list[m->site_count++] = s;
-                break;
-            }
+    m->site_count = m->seam_count = 0;
+    for (int s = 0; s < m->grids.sites; s++)
+        for (int f = 0; f < m->fields; f++) {
+            const int i = m->directory[f * m->grids.sites + s];
+            if (i < 0) continue;
+            m->site_list[m->site_count++] = s;
+            if (m->bricks[i].at_seam) m->seam_list[m->seam_count++] = s;
+            break;
+        }
 }
 
 status store_reserve(mpm *m)
@@ -288,7 +303,7 @@ status store_compact(mpm *m)
     for (int i = 0; i < m->blocks_capacity; i++) to[i] = -1;
     for (int s = 0; s < m->site_count; s++)
         for (int f = 0; f < m->fields; f++) {
-            const int i = m->directory[f * m->sites + m->site_list[s]];
+            const int i = m->directory[f * m->grids.sites + m->site_list[s]];
             for (int c = 0; i >= 0 && c < BRICK_CELLS; c++)
                 for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) to[q] = used++;
         }
@@ -330,18 +345,25 @@ int store_insert(mpm *m, brick *b, int cell, int body, const double *particle)
     return *link;
 }
 
-status store_place(mpm *m, int body, const double *particle)
+int store_cell_at(const mpm *m, int level, const double x[3], int at[3])
 {
-    int at[3], place[3], index;
+    int place[3];
     for (int k = 0; k < 3; k++) {
-        const int node = axis_locate(&m->axes[k], particle[FIRST_x + k]);
+        const int node = axis_locate(&m->grids.level[level].axes[k], x[k]);
         at[k] = node / BRICK;
         place[k] = node % BRICK;
     }
-    TRY(store_brick(m, m->scene.body[body].field, at, &index));
+    return cell_index(place[0], place[1], place[2]);
+}
+
+status store_place(mpm *m, int body, const double *particle)
+{
+    int at[3], index;
+    const int level = grids_level(&m->grids, particle + FIRST_x);
+    const int cell = store_cell_at(m, level, particle + FIRST_x, at);
+    TRY(store_brick(m, m->scene.body[body].field, level, at, &index));
     if (m->blocks_free == 0) TRY(store_reserve(m));
-    CHECK(store_insert(m, &m->bricks[index], cell_index(place[0], place[1], place[2]), body, particle) >= 0,
-          STATUS_MEMORY, "no memory for the particles");
+    CHECK(store_insert(m, &m->bricks[index], cell, body, particle) >= 0, STATUS_MEMORY, "no memory for the particles");
     return status_ok();
 }
 

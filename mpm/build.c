@@ -106,10 +106,30 @@ static build_point point_of(const mpm_body *b, const law *k, const piece *box, c
     return p;
 }
 
-static status walk(const mpm_scene *s, int body, const law *k, const ladder l[3], const build_sink *sink)
+/* A box of the window's lattice, halved along each axis once for every level that it lies in. */
+static status one_box(const mpm_scene *s, int body, const law *k, const grids *g, const piece *window,
+                      const build_sink *sink)
 {
     static const double SLIVER = 0.02; /* of a box: left out */
-    const mpm_body *b = &s->body[body];
+    const int n = 1 << (g->levels - 1 - grids_level(g, window->x));
+    for (int i = 0; i < n * n * n; i++) {
+        const int at[3] = { i % n, i / n % n, i / (n * n) };
+        piece box = *window;
+        for (int q = 0; q < 3; q++) {
+            box.size[q] /= n;
+            box.x[q] += box.size[q] * (at[q] - 0.5 * (n - 1));
+        }
+        piece own = box;
+        cut(s, body, &own);
+        if (own.share < SLIVER) continue;
+        const build_point p = point_of(&s->body[body], k, &box, &own);
+        TRY(sink->point(sink->user, body, &p));
+    }
+    return status_ok();
+}
+
+static status walk(const mpm_scene *s, int body, const law *k, const grids *g, const ladder l[3], const build_sink *sink)
+{
     for (int iz = 0; iz < l[2].n; iz++)
         for (int iy = 0; iy < l[1].n; iy++)
             for (int ix = 0; ix < l[0].n; ix++) {
@@ -119,21 +139,18 @@ static status walk(const mpm_scene *s, int body, const law *k, const ladder l[3]
                     box.size[q] = l[q].edge[at[q] + 1] - l[q].edge[at[q]];
                     box.x[q] = l[q].edge[at[q]] + 0.5 * box.size[q];
                 }
-                piece own = box;
-                cut(s, body, &own);
-                if (own.share < SLIVER) continue;
-                const build_point p = point_of(b, k, &box, &own);
-                TRY(sink->point(sink->user, body, &p));
+                TRY(one_box(s, body, k, g, &box, sink));
             }
     return status_ok();
 }
 
 const double build_everywhere[2] = { -INFINITY, INFINITY };
 
-status build_body(const mpm_scene *s, int body, const law *k, const axis axes[3], const double x[2],
+status build_body(const mpm_scene *s, int body, const law *k, const grids *g, const double x[2],
                   const build_sink *sink)
 {
     const mpm_body *b = &s->body[body];
+    const axis *axes = grids_window(g)->axes;
     double lo[3], hi[3];
     b->shape->bounds(&b->shape_value, lo, hi);
     lo[0] = fmax(lo[0], x[0]), hi[0] = fmin(hi[0], x[1]);
@@ -147,7 +164,7 @@ status build_body(const mpm_scene *s, int body, const law *k, const axis axes[3]
         else
             r = ladder_make(&axes[q], lo[q], hi[q], s->particles_per_axis, &l[q]);
     }
-    if (r.code == STATUS_OK) r = walk(s, body, k, l, sink);
+    if (r.code == STATUS_OK) r = walk(s, body, k, g, l, sink);
     for (int q = 0; q < 3; q++) free(l[q].edge);
     return r;
 }

@@ -2,7 +2,7 @@
 #ifndef BREECH_MPM_BUILD_H
 #define BREECH_MPM_BUILD_H
 
-#include "mpm/axis.h"
+#include "mpm/grid.h"
 #include "mpm/law.h"
 #include "mpm/mpm.h"
 
@@ -18,7 +18,7 @@ typedef struct {
 
 /* Calls the sink for every material point of one body between two places along x (-INFINITY, INFINITY: all that lies in
  * the window), in a fixed order. */
-status build_body(const mpm_scene *s, int body, const law *k, const axis axes[3], const double x[2],
+status build_body(const mpm_scene *s, int body, const law *k, const grids *g, const double x[2],
                   const build_sink *sink);
 
 extern const double build_everywhere[2];

@@ -1,22 +1,33 @@
-/* Where the rail is ploughed: the plastic power of the followed bodies, slice by slice along x. */
+/* Where the rail is ploughed: the plastic power of the followed bodies in the fine zone, slice by slice along x and across.
+ *
+ * The edge of a slider that is pressed on ploughs over the whole width, a groove does not: what counts is the power beyond
+ * what the same metal takes in the zone's rim, its outer quarter on either side, in cells of the same size. */
 #include "mpm/store.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 
-static const double POWER_AHEAD = 0.05; /* of the power lies ahead of the front */
+static const double POWER_AHEAD = 0.05; /* of the power lies ahead of the front, and as much beyond the groove's half width */
+static const double RIM = 0.75;         /* of the zone's half width; beyond it lies the rim */
 
-/* Along x, of the followed bodies, inside the fine zone across (z) and beside it. */
-typedef struct {
-    double power[2], volume[2]; /* plastic power, volume: inside, beside [W, m3] */
-} slice;
+enum { ACROSS = 64 }; /* slices of the zone's half width */
 
 typedef struct {
-    double lo, width; /* of a slice [m] */
+    double power, volume; /* [W, m3] */
+} taken;
+
+typedef struct {
+    double lo, width;    /* of a slice along x [m] */
+    double middle, half; /* of the zone across [m] */
     int n;
-    slice *slice; /* n of each share of the bricks */
+    taken *sums; /* [2 n] along x, inside the rim and in it, then [ACROSS]; so many for each share of the bricks */
 } profile;
+
+static int sums_of(const profile *p)
+{
+    return 2 * p->n + ACROSS;
+}
 
 /* V s : D of a lane that yields, else 0. */
 static double lane_plastic_power(const block *q, int l)
@@ -31,72 +42,108 @@ static double lane_plastic_power(const block *q, int l)
     return fmax(power, 0) * q->mass[0][l] / q->rho[0][l];
 }
 
-/* A point belongs to all slices that its domain covers. */
-static void add_lane(const mpm *m, const block *q, int l, const profile *p, slice *to)
+/* Where the fine zone's middle lies across, and how far it reaches from there [m]. */
+static void width_of(const mpm *m, double *middle, double *half)
 {
     const mpm_axis *z = &m->scene.axis[2];
-    const double half = q->half[0][l], power = lane_plastic_power(q, l), volume = q->mass[0][l] / q->rho[0][l];
-    const int beside = q->x[2][l] < z->fine_lo || q->x[2][l] > z->fine_hi;
-    const int first = (int)fmax((q->x[0][l] - half - p->lo) / p->width, 0);
-    const int last = (int)fmin((q->x[0][l] + half - p->lo) / p->width, p->n - 1);
-    for (int i = first; i <= last; i++) {
-        to[i].power[beside] += power / (last - first + 1);
-        to[i].volume[beside] += volume / (last - first + 1);
-    }
+    const bool mirrored = z->boundary[0] == BOUNDARY_SYMMETRY && z->fine_lo <= z->lo;
+    *middle = mirrored ? z->fine_lo : 0.5 * (z->fine_lo + z->fine_hi);
+    *half = z->fine_hi - *middle;
 }
 
-static void add_block(const mpm *m, int index, const profile *p, slice *to)
+static void add(taken *t, double power, double volume)
+{
+    t->power += power, t->volume += volume;
+}
+
+/* A point belongs to all slices along x that its domain covers. */
+static void add_lane(const block *q, int l, double off, const profile *p, taken *to)
+{
+    const double half = q->half[0][l], power = lane_plastic_power(q, l), volume = q->mass[0][l] / q->rho[0][l];
+    const int first = (int)fmax((q->x[0][l] - half - p->lo) / p->width, 0);
+    const int last = (int)fmin((q->x[0][l] + half - p->lo) / p->width, p->n - 1), n = last - first + 1;
+    for (int i = first; i <= last; i++) add(&to[2 * i + (off > RIM)], power / n, volume / n);
+    add(&to[2 * p->n + (int)(off * ACROSS)], power, volume);
+}
+
+static void add_block(const mpm *m, int index, const profile *p, taken *to)
 {
     if (!(m->scene.follow_bodies >> m->links[index].body & 1)) return;
     const block *q = &m->blocks[index];
-    for (int l = 0; l < LANES; l++)
-        if (q->mass[0][l] > 0) add_lane(m, q, l, p, to);
+    for (int l = 0; l < LANES; l++) {
+        const double off = fabs(q->x[2][l] - p->middle) / p->half;
+        if (q->mass[0][l] > 0 && off < 1) add_lane(q, l, off, p, to);
+    }
 }
 
 static void add_share(const mpm *m, int share, const profile *p)
 {
-    slice *to = p->slice + (ptrdiff_t)share * p->n;
+    taken *to = p->sums + (ptrdiff_t)share * sums_of(p);
     for (int i = share_begin(m->bricks_used, share); i < share_begin(m->bricks_used, share + 1); i++)
         for (int c = 0; c < BRICK_CELLS; c++)
             for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) add_block(m, q, p, to);
 }
 
 /* All shares into the first. */
-static void add_bodies(const mpm *m, profile *p)
+static void add_bodies(const mpm *m, const profile *p)
 {
 #pragma omp parallel for schedule(dynamic) num_threads(m->threads)
     for (int i = 0; i < SHARES; i++) add_share(m, i, p);
     for (int i = 1; i < SHARES; i++)
-        for (int k = 0; k < p->n; k++) {
-            const slice *from = &p->slice[i * p->n + k];
-            for (int beside = 0; beside < 2; beside++) {
-                p->slice[k].power[beside] += from->power[beside];
-                p->slice[k].volume[beside] += from->volume[beside];
-            }
+        for (int k = 0; k < sums_of(p); k++) {
+            const taken *from = &p->sums[i * sums_of(p) + k];
+            add(&p->sums[k], from->power, from->volume);
         }
 }
 
-/* What a slice takes in the fine zone beyond what the same metal takes beside it: the edge of a slider that is pressed on
- * ploughs over the whole width, a groove does not. */
-static double excess(const slice *s)
+/* Beyond what the rim's metal takes. */
+static double excess(const taken *inside, const taken *rim)
 {
-    const double background = s->volume[1] > 0 ? s->power[1] * s->volume[0] / s->volume[1] : 0;
-    return fmax(s->power[0] - background, 0);
+    return fmax(inside->power - (rim->volume > 0 ? rim->power * inside->volume / rim->volume : 0), 0);
 }
 
-/* Where the followed bodies are ploughed: all but a twentieth of that power lies behind it [m, W]. */
-double front_find(const mpm *m, double *power)
+static void find_front(const profile *p, plough *out)
+{
+    double ahead = 0;
+    int i = p->n - 1;
+    for (int k = 0; k < p->n; k++) out->power += excess(&p->sums[2 * k], &p->sums[2 * k + 1]);
+    for (; i > 0; i--) {
+        const double here = excess(&p->sums[2 * i], &p->sums[2 * i + 1]);
+        if (ahead + here >= POWER_AHEAD * out->power) break;
+        ahead += here;
+    }
+    out->front = p->lo + p->width * (i + 1);
+}
+
+/* Share of the zone's half width. */
+static double find_width(const profile *p)
+{
+    const taken *across = p->sums + 2 * p->n;
+    const int rim_from = (int)(RIM * ACROSS);
+    taken rim = { 0, 0 };
+    double all = 0, beyond = 0;
+    int i = rim_from - 1;
+    for (int k = rim_from; k < ACROSS; k++) add(&rim, across[k].power, across[k].volume);
+    for (int k = 0; k < rim_from; k++) all += excess(&across[k], &rim);
+    for (; i > 0; i--) {
+        const double here = excess(&across[i], &rim);
+        if (beyond + here >= POWER_AHEAD * all) break;
+        beyond += here;
+    }
+    return (i + 1.0) / ACROSS;
+}
+
+plough plough_find(const mpm *m)
 {
     const mpm_axis *s = &m->scene.axis[0];
+    plough r = { .front = s->lo };
     profile p = { .lo = s->lo, .width = 2 * s->fine, .n = (int)((s->hi - s->lo) / (2 * s->fine)) + 1 };
-    p.slice = calloc((size_t)p.n * SHARES, sizeof *p.slice);
-    *power = 0;
-    if (!p.slice) return s->lo;
+    width_of(m, &p.middle, &p.half);
+    p.sums = calloc((size_t)sums_of(&p) * SHARES, sizeof *p.sums);
+    if (!p.sums) return r;
     add_bodies(m, &p);
-    for (int i = 0; i < p.n; i++) *power += excess(&p.slice[i]);
-    double ahead = 0;
-    int i = p.n - 1;
-    while (i > 0 && ahead + excess(&p.slice[i]) < POWER_AHEAD * *power) ahead += excess(&p.slice[i--]);
-    free(p.slice);
-    return p.lo + p.width * (i + 1);
+    find_front(&p, &r);
+    r.half_width = find_width(&p) * p.half;
+    free(p.sums);
+    return r;
 }

@@ -257,7 +257,20 @@ LANE_INLINE void find_bad(tally *t, const block *q, int lane, vd rate, int index
  * eroded; movers.c looks at each. */
 typedef struct {
     double lo[3], hi[3], longest[3]; /* edges of the cell, half length of a domain to be split [m] */
+    const grid_level *finer;               /* whose box may reach into the cell, or NULL */
 } cell_limits;
+
+/* As grid_holds. */
+LANE_INLINE vm inside_box(const grid_level *g, const block *q, int lane)
+{
+    vm in = vd_set(0) == vd_set(0);
+    for (int k = 0; k < 3; k++) {
+        const vd x = vd_load(&q->x[k][lane]);
+        if (g->seam[k][0]) in &= x >= g->axes[k].node[1];
+        if (g->seam[k][1]) in &= x < g->axes[k].node[g->axes[k].last];
+    }
+    return in;
+}
 
 LANE_INLINE int leaving_lanes(const block *q, int lane, const cell_limits *c, const law *k)
 {
@@ -268,17 +281,19 @@ LANE_INLINE int leaving_lanes(const block *q, int lane, const cell_limits *c, co
         const vd x = vd_load(&q->x[i][lane]), half = vd_load(&q->half[i][lane]);
         leave |= (x < c->lo[i]) | (x >= c->hi[i]) | (whole & (half > c->longest[i]));
     }
+    if (c->finer) leave |= inside_box(c->finer, q, lane);
     return vm_bits(leave) << lane;
 }
 
 static cell_limits limits_of(const mpm *m, const brick *b, int cell)
 {
     const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
-    cell_limits c;
+    cell_limits c = { .finer = b->at_seam && b->level > 0 ? &m->grids.level[b->level - 1] : NULL };
     for (int k = 0; k < 3; k++) {
-        const double *edge = &m->axes[k].edge[BRICK * b->at[k] + at[k]];
+        const axis *a = &axes_of(m, b)[k];
+        const double *edge = &a->edge[BRICK * b->at[k] + at[k]];
         c.lo[k] = edge[0], c.hi[k] = edge[1];
-        c.longest[k] = 0.5 * m->axes[k].longest[BRICK * b->at[k] + at[k]];
+        c.longest[k] = 0.5 * a->longest[BRICK * b->at[k] + at[k]];
     }
     return c;
 }

@@ -9,13 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char MAGIC[8] = "BREECH3";
+static const char MAGIC[8] = "BREECH4";
 
 typedef struct {
     char magic[8];
     char instruction_set[16];
     uint64_t scene, bytes;
-    double time, dt, dt_last, dense_steps, force_sum[3], zone[3];
+    double time, dt, dt_last, dense_steps, force_sum[3], zone[5];
     uint64_t steps;
     int bricks, blocks;
     uint64_t wake;
@@ -23,7 +23,7 @@ typedef struct {
 } image_head;
 
 typedef struct {
-    int field, at[3], particles, has_out;
+    int field, level, at[3], particles, has_out;
     int blocks[BRICK_CELLS];
 } image_brick;
 
@@ -61,13 +61,14 @@ uint64_t image_scene_key(const mpm *m)
     const mpm_scene *s = &m->scene;
     uint64_t h = 14695981039346656037ull;
     for (int i = 0; i < s->bodies; i++) h = hash_body(h, &s->body[i], &m->materials[i]);
-    for (int k = 0; k < 3; k++) h = hash_axis(h, &s->axis[k], &m->axes[k]);
+    for (int i = 0; i < m->grids.levels; i++)
+        for (int k = 0; k < 3; k++) h = hash_axis(h, &s->axis[k], &m->grids.level[i].axes[k]);
     for (int a = 0; a < m->fields; a++)
         for (int b = 0; b < m->fields; b++) h = hash(h, &s->contact[a][b], sizeof s->contact[a][b]);
     const double numbers[] = { s->contact_gap,         s->particles_per_axis, s->courant,      s->viscosity_linear,
                                s->viscosity_quadratic, s->transfer,           s->basis,        s->heat_by_plastic_work,
-                               s->follow_bodies,       s->follow_lead,        s->follow_speed, s->gauge_time[0],
-                               s->gauge_time[1] };
+                               s->follow_bodies,       s->follow_lead,        s->follow_speed, s->follow_width,
+                               s->gauge_time[0],       s->gauge_time[1] };
     return hash(h, numbers, sizeof numbers);
 }
 
@@ -89,7 +90,7 @@ static char *put_brick(char *to, const mpm *m, const brick *b)
 {
     image_brick head;
     memset(&head, 0, sizeof head);
-    head.field = b->field, head.particles = b->particles, head.has_out = b->out != NULL;
+    head.field = b->field, head.level = b->level, head.particles = b->particles, head.has_out = b->out != NULL;
     memcpy(head.at, b->at, sizeof head.at);
     for (int c = 0; c < BRICK_CELLS; c++)
         for (int q = b->head[c]; q >= 0; q = m->links[q].next) head.blocks[c]++;
@@ -172,11 +173,12 @@ static status get_brick(mpm *m, reader *r)
     image_brick head;
     int index;
     if (!get(r, &head, sizeof head)) return cut_short();
+    CHECK(head.level >= 0 && head.level < m->grids.levels, STATUS_IO, "the checkpoint holds a level that the scene lacks");
     for (int k = 0; k < 3; k++)
-        CHECK(head.at[k] >= 0 && head.at[k] < m->axes[k].bricks, STATUS_IO,
+        CHECK(head.at[k] >= 0 && head.at[k] < m->grids.level[head.level].axes[k].bricks, STATUS_IO,
               "the checkpoint holds a place outside the window");
     CHECK(head.field >= 0 && head.field < m->fields, STATUS_IO, "the checkpoint holds a field that the scene lacks");
-    TRY(store_brick(m, head.field, head.at, &index));
+    TRY(store_brick(m, head.field, head.level, head.at, &index));
     brick *b = &m->bricks[index];
     b->particles = head.particles;
     if (head.has_out) TRY(store_open(b));
@@ -237,17 +239,16 @@ static status count_point(void *user, int body, const build_point *p)
     return status_ok();
 }
 
-static status estimate(const mpm_scene *s, axis axes[3], size_t *particles, double *first_dt)
+static status estimate(const mpm_scene *s, const grids *g, size_t *particles, double *first_dt)
 {
     double fastest = 0;
-    for (int k = 0; k < 3; k++) TRY(axis_make(&s->axis[k], "xyz"[k], &axes[k]));
     const build_sink sink = { count_point, particles };
     for (int i = 0; i < s->bodies; i++) {
         law k;
         TRY(law_make(&s->body[i], s, &k));
-        TRY(build_body(s, i, &k, axes, build_everywhere, &sink));
+        TRY(build_body(s, i, &k, g, build_everywhere, &sink));
         const double sound = sqrt((k.K0 + 4.0 / 3.0 * k.G) / k.rho0);
-        for (int q = 0; q < 3; q++) fastest = fmax(fastest, (sound + fabs(s->body[i].velocity[q])) / axes[q].smallest);
+        for (int q = 0; q < 3; q++) fastest = fmax(fastest, (sound + fabs(s->body[i].velocity[q])) / g->level[0].axes[q].smallest);
     }
     *first_dt = s->courant / fastest;
     return status_ok();
@@ -255,10 +256,11 @@ static status estimate(const mpm_scene *s, axis axes[3], size_t *particles, doub
 
 status mpm_estimate(const mpm_scene *scene, size_t *particles, size_t *bytes, double *first_dt)
 {
-    axis axes[3] = { { 0 } };
+    grids g;
     *particles = 0;
-    const status r = estimate(scene, axes, particles, first_dt);
-    for (int k = 0; k < 3; k++) axis_free(&axes[k]);
+    TRY(grids_make(scene, &g));
+    const status r = estimate(scene, &g, particles, first_dt);
+    grids_free(&g);
     /* blocks three quarters full, a quarter in reserve; two bricks' sums for every 512 particles */
     *bytes = (size_t)((double)*particles *
                       (sizeof(block) / 8.0 / 0.75 * 1.25 + 2.0 * (HALO_NODES * LINE + BRICK_CELLS * NODE) * 8.0 / 512));

@@ -5,6 +5,7 @@
 
 #define KERNELS_OF(isa)                 \
     void p2g_##isa(mpm *m, brick *b);   \
+    void gather_##isa(mpm *m, int site); \
     void nodes_##isa(mpm *m, int site); \
     void g2p_##isa(mpm *m, brick *b, int thread);
 
@@ -18,12 +19,12 @@ KERNELS_OF(portable)
 
 static const kernels table[] = {
 #ifdef BREECH_ISA_V4
-    { "x86-64-v4", p2g_v4, nodes_v4, g2p_v4 },
+    { "x86-64-v4", p2g_v4, gather_v4, nodes_v4, g2p_v4 },
 #endif
 #ifdef BREECH_ISA_V3
-    { "x86-64-v3", p2g_v3, nodes_v3, g2p_v3 },
+    { "x86-64-v3", p2g_v3, gather_v3, nodes_v3, g2p_v3 },
 #endif
-    { "portable", p2g_portable, nodes_portable, g2p_portable },
+    { "portable", p2g_portable, gather_portable, nodes_portable, g2p_portable },
 };
 
 static bool runs_here(const char *name)

@@ -12,6 +12,7 @@
 #define ISA(name) ISA_JOIN(name, BREECH_ISA)
 
 void ISA(p2g)(mpm *m, brick *b);
+void ISA(gather)(mpm *m, int site);
 void ISA(nodes)(mpm *m, int site);
 void ISA(g2p)(mpm *m, brick *b, int thread);
 
@@ -142,10 +143,11 @@ LANE_INLINE brick_grid brick_grid_at(const mpm *m, const brick *b)
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < BRICK; i++) {
             const int node = BRICK * b->at[k] + i;
-            if (node < 1 || node > m->axes[k].last) continue; /* no particles there */
+            const axis *from = &axes_of(m, b)[k];
+            if (node < 1 || node > from->last) continue; /* no particles there */
             cell_axis *a = &g.axis[k][i];
-            *a = cell_axis_at(&m->axes[k], node);
-            if (g.bspline) g.knots[k][i] = knots_at(&m->axes[k], node);
+            *a = cell_axis_at(from, node);
+            if (g.bspline) g.knots[k][i] = knots_at(from, node);
             const double stable = 2 * a->widest * stable_half_length(&m->scene);
             if (stable > a->narrowest) a->narrowest = stable < a->widest ? stable : a->widest;
         }
@@ -201,7 +203,8 @@ static inline int mirror_planes(const mpm *m, const brick *b, mirror_plane p[6])
             const mpm_axis *s = &m->scene.axis[k];
             if (s->boundary[side] != BOUNDARY_SYMMETRY) continue;
             if (s->boundary_fields[side] && !(s->boundary_fields[side] >> b->field & 1)) continue;
-            const int at = (side ? m->axes[k].last : 1) - BRICK * b->at[k] + 1;
+            if (m->grids.level[b->level].seam[k][side]) continue;
+            const int at = (side ? axes_of(m, b)[k].last : 1) - BRICK * b->at[k] + 1;
             if (at < 1 || at > BRICK) continue;
             p[n++] = (mirror_plane){ k, side ? at + 1 : at - 1, side ? at - 1 : at + 1 };
         }

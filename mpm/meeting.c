@@ -32,11 +32,10 @@ static uint64_t others_at(const mpm *m, const brick *b, const int step[3])
     uint64_t cells = 0;
     for (int k = 0; k < 3; k++) {
         at[k] = b->at[k] + step[k];
-        if (at[k] < 0 || at[k] >= m->axes[k].bricks) return 0;
+        if (at[k] < 0 || at[k] >= axes_of(m, b)[k].bricks) return 0;
     }
-    const int site = site_index(m, at[0], at[1], at[2]);
     for (int f = 0; f < m->fields; f++) {
-        const int other = m->directory[f * m->sites + site];
+        const int other = brick_at(m, f, b->level, at);
         if (f != b->field && other >= 0) cells |= m->bricks[other].occupied;
     }
     return cells;

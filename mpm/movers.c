@@ -25,8 +25,14 @@ bool movers_reserve(mover_list *list, int more)
 static bool find_cell(const mpm *m, const brick *b, const int cell[3], const double *x, mover_head *h)
 {
     int step = 0, place[3];
+    h->level = b->at_seam ? grids_level(&m->grids, x) : b->level;
+    if (h->level != b->level) {
+        h->brick_step = CROSSES;
+        h->cell = store_cell_at(m, h->level, x, h->at);
+        return true;
+    }
     for (int k = 0, scale = 1; k < 3; k++, scale *= 3) {
-        const axis *a = &m->axes[k];
+        const axis *a = &axes_of(m, b)[k];
         int i = BRICK * b->at[k] + cell[k];
         while (i >= 1 && x[k] < a->edge[i]) i--;
         while (i <= a->last && x[k] >= a->edge[i + 1]) i++;
@@ -66,7 +72,7 @@ static int axis_to_split(const mpm *m, const brick *b, const int cell[3], const 
 {
     if (q[FIRST_damage] >= 1) return -1;
     for (int k = 0; k < 3; k++) {
-        const axis *a = &m->axes[k];
+        const axis *a = &axes_of(m, b)[k];
         if (2 * q[FIRST_half + k] > a->longest[BRICK * b->at[k] + cell[k]]) return k;
     }
     return -1;
@@ -170,9 +176,45 @@ static bool arrive(mpm *m, brick *b)
     return enough;
 }
 
+/* Calls `each` for every mover to another level, in the order of bricks. */
+typedef status crosser(mpm *m, const mover_list *list, int i, int field, bool *changed);
+
+static status each_crossing(mpm *m, crosser *each, bool *changed)
+{
+    const int before = m->bricks_used;
+    for (int i = 0; i < before; i++) {
+        const brick b = m->bricks[i]; /* the array may move */
+        if (!(b.mover_steps >> CROSSES & 1)) continue;
+        const mover_list *list = &m->movers[b.movers_thread];
+        for (int k = b.movers_first; k < b.movers_first + b.movers; k++)
+            if (list->head[k].brick_step == CROSSES) TRY(each(m, list, k, b.field, changed));
+    }
+    return status_ok();
+}
+
+static status open_across(mpm *m, const mover_list *list, int i, int field, bool *changed)
+{
+    int to;
+    TRY(store_brick(m, field, list->head[i].level, list->head[i].at, &to));
+    if (m->bricks[to].out) return status_ok();
+    *changed = true;
+    return store_surround(m, to);
+}
+
+static status arrive_across(mpm *m, const mover_list *list, int i, int field, bool *changed)
+{
+    brick *b = &m->bricks[brick_at(m, field, list->head[i].level, list->head[i].at)];
+    *changed = *changed || b->particles == 0;
+    const int q = store_insert(m, b, list->head[i].cell, list->head[i].body, list->data[i]);
+    CHECK(q >= 0, STATUS_MEMORY, "the particle blocks ran out where the grids' levels meet: use larger cells");
+    b->occupied |= 1ull << list->head[i].cell;
+    return status_ok();
+}
+
 /* Bricks that receive their first particle get memory and neighbours. */
 static status open_bricks(mpm *m, bool *changed)
 {
+    TRY(each_crossing(m, open_across, changed));
     const int before = m->bricks_used;
     for (int i = 0; i < before; i++) {
         if (!m->bricks[i].mover_steps) continue;
@@ -204,6 +246,7 @@ status movers_exchange(mpm *m)
         b->occupied = meeting_occupied(b);
         occupied = occupied || (empty && b->particles > 0);
     }
+    TRY(each_crossing(m, arrive_across, &occupied));
     if (occupied) store_relink(m);
     CHECK(enough, STATUS_MEMORY,
           "the particle blocks ran out within one step at t = %g s; this is a limit of the solver: use larger cells",

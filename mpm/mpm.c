@@ -17,6 +17,7 @@ static const double FORCE_SMOOTHING = 0.2e-6; /* [s] */
 void mpm_scene_default(mpm_scene *s)
 {
     memset(s, 0, sizeof *s);
+    s->levels = 1;
     s->particles_per_axis = 2;
     s->courant = 0.4;
     s->viscosity_linear = 0.2;
@@ -96,15 +97,14 @@ static status make_laws(mpm *m)
 
 static status fill(mpm *m)
 {
-    static const char letters[] = "xyz";
     TRY(make_laws(m));
-    for (int k = 0; k < 3; k++) TRY(axis_make(&m->scene.axis[k], letters[k], &m->axes[k]));
+    TRY(grids_make(&m->scene, &m->grids));
     TRY(store_make(m, START_BLOCKS));
     m->histogram = malloc(mpm_histogram_bytes());
     CHECK(m->histogram, STATUS_MEMORY, "no memory for the percentiles");
     const build_sink sink = { insert_point, m };
     for (int i = 0; i < m->scene.bodies; i++)
-        TRY(build_body(&m->scene, i, &m->laws[i], m->axes, build_everywhere, &sink));
+        TRY(build_body(&m->scene, i, &m->laws[i], &m->grids, build_everywhere, &sink));
     return store_settle(m);
 }
 
@@ -116,7 +116,7 @@ static double first_rate(const mpm *m)
         const law *k = &m->laws[i];
         const double sound = sqrt((k->K0 + 4.0 / 3.0 * k->G) / k->rho0);
         for (int q = 0; q < 3; q++)
-            fastest = fmax(fastest, (sound + fabs(m->scene.body[i].velocity[q])) / m->axes[q].smallest);
+            fastest = fmax(fastest, (sound + fabs(m->scene.body[i].velocity[q])) / m->grids.level[0].axes[q].smallest);
     }
     return fastest;
 }
@@ -138,7 +138,8 @@ static void start_books(mpm *m)
 static double dense_particles(const mpm *m)
 {
     const double n = m->scene.particles_per_axis;
-    const double v = m->axes[0].smallest * m->axes[1].smallest * m->axes[2].smallest / (n * n * n);
+    const axis *a = m->grids.level[0].axes;
+    const double v = a[0].smallest * a[1].smallest * a[2].smallest / (n * n * n);
     double volume = 0;
     for (int i = 0; i < m->bricks_used; i++)
         for (int c = 0; c < BRICK_CELLS; c++)
@@ -185,7 +186,7 @@ void mpm_free(mpm *m)
     store_free(m);
     free(m->histogram);
     free(m->wake.point);
-    for (int k = 0; k < 3; k++) axis_free(&m->axes[k]);
+    grids_free(&m->grids);
     free(m);
 }
 
@@ -198,10 +199,20 @@ static void phase_p2g(mpm *m)
         if (m->bricks[i].particles > 0) m->kernel->p2g(m, &m->bricks[i]);
 }
 
+/* Nodes that two levels share: sums there first, velocities of those that follow last. */
 static void phase_nodes(mpm *m)
 {
-#pragma omp parallel for schedule(dynamic, 16) num_threads(m->threads)
-    for (int i = 0; i < m->site_count; i++) m->kernel->nodes(m, m->site_list[i]);
+#pragma omp parallel num_threads(m->threads)
+    {
+#pragma omp for schedule(dynamic, 8)
+        for (int i = 0; i < m->seam_count; i++) m->kernel->gather(m, m->seam_list[i]);
+#pragma omp for schedule(dynamic, 8)
+        for (int i = 0; i < m->seam_count; i++) seams_receive(m, m->seam_list[i]);
+#pragma omp for schedule(dynamic, 16)
+        for (int i = 0; i < m->site_count; i++) m->kernel->nodes(m, m->site_list[i]);
+#pragma omp for schedule(dynamic, 8)
+        for (int i = 0; i < m->seam_count; i++) seams_follow(m, m->seam_list[i]);
+    }
 }
 
 static void phase_g2p(mpm *m)

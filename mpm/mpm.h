@@ -50,9 +50,9 @@ typedef struct {
     double peak_contact_force[3];            /* on field 0 (the rail), largest |component|, smoothed over 0.2 us [N] */
 } mpm_report;
 
-/* Points of the followed bodies (mpm_scene.follow_bodies) as they were when the fine zone left them, all with x < until:
- * behind it the points are merged, and a crater is read from these.  The last before `until` are lengthened by half a fine cell,
- * so that no crack opens where the rail moves on beyond it. */
+/* Points of the followed bodies (mpm_scene.follow_bodies) as they were when the fine zone left them, or their parts at x < until:
+ * behind it the points are merged, and a crater is read from these and the parts of points at x > until (mpm_cut_at).  The last
+ * before `until` are lengthened by half a fine cell, so that no crack opens where the rail moves on beyond it. */
 typedef struct {
     double position[3], size[3], velocity[3]; /* [m]; half lengths [m]; [m/s] */
     double damage, mass;                      /* [1, kg] */
@@ -116,6 +116,8 @@ double mpm_phase_seconds(const mpm *m, mpm_phase phase);
 
 mpm_report mpm_glance(const mpm *m);         /* the same but failed_volume, zero, which takes a walk over all points */
 const mpm_scene *mpm_scene_of(const mpm *m); /* borrowed; its fine zone along x is where it is now */
+/* The part of a point's domain above x, or below it, with its share of the mass; false: there is none. */
+bool mpm_cut_at(double x, bool above, double position[3], double size[3], double *mass);
 const mpm_wake *mpm_wake_of(const mpm *m);   /* borrowed, until the next mpm_advance */
 
 size_t mpm_particles(const mpm *m);

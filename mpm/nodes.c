@@ -8,10 +8,12 @@
 #include <math.h>
 #include <string.h>
 
+typedef double node_lines[BRICK_CELLS][LINE] __attribute__((aligned(64)));
+
 typedef struct {
     const brick *brick;
-    double line[BRICK_CELLS][LINE] __attribute__((aligned(64)));  /* m, p, f, K */
-    double extra[BRICK_CELLS][LINE] __attribute__((aligned(64))); /* V grad S, m (x_p - x_i), m flow stress */
+    double (*line)[LINE];  /* [64] m, p, f, K; borrowed */
+    double (*extra)[LINE]; /* [64] V grad S, m (x_p - x_i), m flow stress */
 } field_nodes;
 
 /* One node of one field while it is worked on. */
@@ -45,12 +47,11 @@ static void add_lines(double (*to)[LINE], double (*const from)[LINE], int step)
             }
 }
 
-static bool gather_field(const mpm *m, const brick *b, bool with_contact, field_nodes *n)
+static bool gather_field(const mpm *m, const brick *b, bool with_contact, const field_nodes *n)
 {
     bool any = false;
-    n->brick = b;
-    memset(n->line, 0, sizeof n->line);
-    if (with_contact) memset(n->extra, 0, sizeof n->extra);
+    memset(n->line, 0, sizeof(node_lines));
+    if (with_contact) memset(n->extra, 0, sizeof(node_lines));
     for (int step = 0; step < NEIGHBOURS; step++) {
         if (b->neighbour[step] < 0) continue;
         const brick *from = &m->bricks[b->neighbour[step]];
@@ -63,6 +64,29 @@ static bool gather_field(const mpm *m, const brick *b, bool with_contact, field_
     return any;
 }
 
+static field_nodes seam_lines(const brick *b)
+{
+    return (field_nodes){ b, b->line, b->line + BRICK_CELLS };
+}
+
+void ISA(gather)(mpm *m, int site)
+{
+    for (int f = 0; f < m->fields; f++) {
+        const int i = m->directory[f * m->grids.sites + site];
+        if (i < 0) continue;
+        const brick *b = &m->bricks[i];
+        const field_nodes n = seam_lines(b);
+        gather_field(m, b, b->across, &n);
+    }
+}
+
+static bool has_mass(double (*const line)[LINE])
+{
+    for (int i = 0; i < BRICK_CELLS; i++)
+        if (line[i][0] > 0) return true;
+    return false;
+}
+
 /* ---- boundaries ---- */
 
 typedef struct {
@@ -72,11 +96,11 @@ typedef struct {
     const double *velocity;
 } wall;
 
-static int walls_at(const mpm *m, const int index[3], int field, wall w[3])
+static int walls_at(const mpm *m, const axis axes[3], const int index[3], int field, wall w[3])
 {
     int n = 0;
     for (int k = 0; k < 3; k++) {
-        const axis *a = &m->axes[k];
+        const axis *a = &axes[k];
         const int hi = index[k] >= a->last;
         if (index[k] > 1 && !hi) continue;
         const mpm_axis *s = &m->scene.axis[k];
@@ -289,7 +313,7 @@ static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int
         if (!(n->m > 0)) continue;
         for (int k = 0; k < 3; k++) n->v[k] = line[1 + k] / n->m, n->f[k] = line[4 + k];
         n->heat = line[7] - kinetic(n);
-        n_walls[s] = walls_at(m, index, field, walls[s]);
+        n_walls[s] = walls_at(m, axes_of(m, fields[s].brick), index, field, walls[s]);
         apply_walls(walls[s], n_walls[s], field_law(m, field), m->dt, n, sum);
         memcpy(n->v_start, n->v, sizeof n->v_start);
         n->heat -= 0.5 * m->dt * dot(line + 4, n->v);
@@ -316,10 +340,10 @@ static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int
 }
 
 /* Away from every wall: one_node then only adds the forces, unless fields meet. */
-static bool is_inside(const mpm *m, const int index[3])
+static bool is_inside(const axis axes[3], const int index[3])
 {
     for (int k = 0; k < 3; k++)
-        if (index[k] <= 1 || index[k] >= m->axes[k].last) return false;
+        if (index[k] <= 1 || index[k] >= axes[k].last) return false;
     return true;
 }
 
@@ -346,47 +370,60 @@ static void free_node(const double line[LINE], double dt, double node[NODE])
 }
 
 /* Ghost nodes of a mirror plane are filled in G2P from the nodes they mirror. */
-static bool is_ghost(const mpm *m, const int index[3])
+static bool is_ghost(const mpm *m, const axis axes[3], const int index[3])
 {
     for (int k = 0; k < 3; k++) {
         const mpm_axis *s = &m->scene.axis[k];
         if (index[k] == 0 && s->boundary[0] == BOUNDARY_SYMMETRY) return true;
-        if (index[k] > m->axes[k].last && (index[k] > m->axes[k].last + 1 || s->boundary[1] == BOUNDARY_SYMMETRY))
+        if (index[k] > axes[k].last && (index[k] > axes[k].last + 1 || s->boundary[1] == BOUNDARY_SYMMETRY))
             return true;
     }
     return false;
 }
 
-void ISA(nodes)(mpm *m, int site)
+/* The fields that have mass at a site, a seam's already gathered; their number. */
+static int fields_at(mpm *m, int site, node_lines own[][2], field_nodes *fields)
 {
-    field_nodes fields[MPM_MAX_FIELDS];
-    int count = 0, present = 0, at[3] = { 0, 0, 0 };
-    for (int f = 0; f < m->fields; f++) present += m->directory[f * m->sites + site] >= 0;
+    int count = 0, present = 0;
+    for (int f = 0; f < m->fields; f++) present += m->directory[f * m->grids.sites + site] >= 0;
     for (int f = 0; f < m->fields; f++) {
-        const int i = m->directory[f * m->sites + site];
+        const int i = m->directory[f * m->grids.sites + site];
         if (i < 0) continue;
-        memcpy(at, m->bricks[i].at, sizeof at);
-        if (gather_field(m, &m->bricks[i], present > 1, &fields[count]))
+        const brick *b = &m->bricks[i];
+        fields[count] = b->at_seam ? seam_lines(b) : (field_nodes){ b, own[count][0], own[count][1] };
+        if (b->at_seam ? has_mass(b->line) : gather_field(m, b, present > 1, &fields[count]))
             count++;
         else
-            memset(m->bricks[i].node, 0, BRICK_CELLS * sizeof *m->bricks[i].node);
+            memset(b->node, 0, BRICK_CELLS * sizeof *b->node);
     }
+    return count;
+}
+
+void ISA(nodes)(mpm *m, int site)
+{
+    node_lines own[MPM_MAX_FIELDS][2];
+    field_nodes fields[MPM_MAX_FIELDS];
+    const int count = fields_at(m, site, own, fields);
     tally *sum = &m->site_sum[site];
     memset(sum, 0, sizeof *sum);
     if (count == 0) return;
+    const brick *b = fields[0].brick;
+    const axis *axes = axes_of(m, b);
+    const uint64_t follow = b->seam.follow_coarser | b->seam.follow_finer;
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
-        const int index[3] = { BRICK * at[0] + cell % BRICK, BRICK * at[1] + cell / BRICK % BRICK,
-                               BRICK * at[2] + cell / (BRICK * BRICK) };
-        if (is_inside(m, index) && !is_shared(fields, count, cell)) {
+        const int index[3] = { BRICK * b->at[0] + cell % BRICK, BRICK * b->at[1] + cell / BRICK % BRICK,
+                               BRICK * b->at[2] + cell / (BRICK * BRICK) };
+        if (follow >> cell & 1) continue; /* seams_follow */
+        if (is_inside(axes, index) && !is_shared(fields, count, cell)) {
             for (int s = 0; s < count; s++) free_node(fields[s].line[cell], m->dt, fields[s].brick->node[cell]);
             continue;
         }
-        if (is_ghost(m, index)) {
+        if (is_ghost(m, axes, index)) {
             for (int s = 0; s < count; s++) memset(fields[s].brick->node[cell], 0, NODE * sizeof(double));
             continue;
         }
         double h[3];
-        for (int k = 0; k < 3; k++) h[k] = m->axes[k].edge[index[k] + 1] - m->axes[k].edge[index[k]];
+        for (int k = 0; k < 3; k++) h[k] = axes[k].edge[index[k] + 1] - axes[k].edge[index[k]];
         one_node(m, fields, count, cell, index, h, sum);
     }
 }

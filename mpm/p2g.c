@@ -306,7 +306,7 @@ void ISA(p2g)(mpm *m, brick *b)
     memset(&b->sum, 0, sizeof b->sum);
     b->sum.bad_block = -1;
     memset(b->out, 0, HALO_NODES * sizeof *b->out);
-    b->meets = b->contact ? meeting_cells(m, b) : 0;
+    b->meets = b->across ? ~0ull : b->contact ? meeting_cells(m, b) : 0;
     if (b->meets) memset(b->out_contact, 0, HALO_NODES * sizeof *b->out_contact);
     const brick_grid grid = brick_grid_at(m, b);
     for (int cell = 0; cell < BRICK_CELLS; cell++) {

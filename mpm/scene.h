@@ -10,7 +10,7 @@
 
 #include <stdbool.h>
 
-enum { MPM_MAX_BODIES = 8, MPM_MAX_FIELDS = 4 };
+enum { MPM_MAX_BODIES = 8, MPM_MAX_FIELDS = 4, MPM_MAX_LEVELS = 3 };
 
 /* ---- shapes: one function table a shape, one line in shape.def ---- */
 
@@ -85,11 +85,14 @@ typedef struct {
     int bodies;
     mpm_body body[MPM_MAX_BODIES];
     mpm_axis axis[3];
+    int levels; /* of nested grids (grid.h): 1: the axes' grid; more: in the box of the three fine zones cells of size `fine`,
+                   outside it, for 2, cells twice as large from which the axes grow, for 3 four times, those of twice the size between */
     unsigned follow_bodies; /* bit i: the fine zone along x goes with the plastic front of body i; 0: it stays */
     double follow_lead;     /* from that front to the zone's upper end [m] */
     double
         follow_speed; /* of the window along x while it follows: the bodies followed grow in at its upper end, as they
                                were at the start, and what falls behind is booked as ejected [m/s] */
+    double follow_width; /* half width that the fine zone across may grow to with the groove [m]; 0: it stays */
     double gauge_time[2]; /* when the plastic power of the bodies followed is noted, in order; 0: not [s] */
     contact_law contact[MPM_MAX_FIELDS][MPM_MAX_FIELDS]; /* symmetric */
     double contact_gap;     /* fields touch when the distance of their points' means at a node is below this [cells] */

@@ -3,14 +3,14 @@
  *   block   8 particles of one body and one cell, array of structures of arrays; holes have mass 0
  *   brick   64 cells of one velocity field; `out` are the node sums of its own particles on its 6 x 6 x 6 nodes (own nodes
  *           and one layer around), `node` the velocities of its own 4 x 4 x 4 nodes
- *   site    the bricks of all fields at one place
+ *   site    the bricks of all fields at one place of one level of the nested grids (grid.h)
  * A step (mpm.c): P2G over bricks -> sums over sites, contact, boundaries -> G2P over bricks -> movers change cells.
  * Every phase reads what the last one wrote and writes only its own brick, in an order that no thread changes: the
  * same bits on any number of threads. */
 #ifndef BREECH_MPM_STORE_H
 #define BREECH_MPM_STORE_H
 
-#include "mpm/axis.h"
+#include "mpm/grid.h"
 #include "mpm/lanes.h"
 #include "mpm/law.h"
 #include "mpm/mpm.h"
@@ -23,7 +23,8 @@ enum {
     LINE = 8,                            /* doubles of a node line */
     NODE = 4,                            /* vx vy vz E of a finished node */
     NEIGHBOURS = 27,
-    SELF = 13, /* index of the brick itself among them */
+    SELF = 13,    /* index of the brick itself among them */
+    CROSSES = 27, /* of a mover: to another level */
     MPM_MAX_THREADS = 256,
     SHARES = 32 /* of the bricks: what is summed over all of them is summed share by share, on any number of threads */
 };
@@ -69,8 +70,10 @@ enum {
 
 /* A particle on its way between cells. */
 typedef struct {
-    int brick_step; /* which of the 27 neighbours it goes to */
+    int brick_step; /* which of the 27 neighbours it goes to; CROSSES: a brick of another level */
     int cell;       /* cell in that brick */
+    int level;      /* of it */
+    int at[3];      /* its place, of one that crosses */
     int body;
 } mover_head;
 
@@ -101,10 +104,19 @@ typedef struct {
     int bad_lane, bad_block; /* first particle that is not finite, bad_block = -1: none */
 } tally;
 
+/* Nodes of a brick (bits) that two levels share (seams.c). */
 typedef struct {
-    int field;
+    uint64_t follow_coarser, follow_finer; /* have their velocity from there */
+    uint64_t lead_coarser, lead_finer;     /* receive sums of nodes that follow them there */
+} seam_nodes;
+
+typedef struct {
+    int field, level;
     int at[3]; /* brick coordinates */
     int site;
+    seam_nodes seam; /* of its nodes */
+    bool at_seam;    /* there are any */
+    bool across;     /* another field has particles near a node that this brick shares with another level */
     int head[BRICK_CELLS]; /* first block of each cell, -1 = none */
     int particles, blocks;
     bool contact;                            /* another field has particles here or next door */
@@ -113,6 +125,7 @@ typedef struct {
     double (*out)[LINE];                     /* [216] m, px, py, pz, fx, fy, fz, kinetic energy */
     double (*out_contact)[LINE];             /* [216] V grad S (3), -m (x_i - x_p) (3), m flow, 0 */
     double (*node)[NODE];                    /* [64] vx, vy, vz, specific energy that is left to the particles */
+    double (*line)[LINE];                    /* of a seam brick: [64] sums as in `out`, then [64] as in `out_contact` */
     int movers, movers_first, movers_thread; /* its part of the thread's mover list */
     uint32_t mover_steps;                    /* bit k: a mover goes to neighbour k */
     tally sum;
@@ -124,9 +137,9 @@ typedef struct {
     uint8_t mask; /* lanes in use */
 } block_link;
 
-/* The window and its fine zone along x. */
+/* The window and its fine zone along x, and the zone across. */
 typedef struct {
-    double at[3]; /* lower end of the fine zone, ends of the window [m] */
+    double at[5]; /* lower end of the fine zone, ends of the window; ends of the zone across [m] */
 } zone;
 
 typedef struct kernels kernels;
@@ -135,15 +148,15 @@ struct mpm {
     mpm_scene scene;
     material materials[MPM_MAX_BODIES];
     law laws[MPM_MAX_BODIES];
-    axis axes[3];
+    grids grids;
     int fields;
-    int sites;       /* brick places of the window */
-    int *directory;  /* [fields][sites] brick or -1 */
-    tally *site_sum; /* [sites] */
+    int *directory;  /* [fields][grids.sites] brick or -1 */
+    tally *site_sum; /* [grids.sites] */
 
     brick *bricks;
     int bricks_used, bricks_capacity;
     int *site_list, site_count; /* sites that have a brick */
+    int *seam_list, seam_count; /* those of them at seams */
 
     block *blocks;
     block_link *links;
@@ -171,6 +184,7 @@ struct mpm {
 struct kernels {
     const char *name;
     void (*p2g)(mpm *m, brick *b);
+    void (*gather)(mpm *m, int site); /* a seam's sums into brick.line */
     void (*nodes)(mpm *m, int site);
     void (*g2p)(mpm *m, brick *b, int thread);
 };
@@ -187,7 +201,7 @@ void store_free_brick(brick *b);
 void store_release(mpm *m, int block_index);         /* back to the free blocks */
 void store_release_cell(mpm *m, brick *b, int cell); /* all blocks of a cell */
 void store_free(mpm *m);
-status store_brick(mpm *m, int field, const int at[3], int *out); /* finds or makes it */
+status store_brick(mpm *m, int field, int level, const int at[3], int *out); /* finds or makes it */
 status store_open(brick *b);                                      /* memory for the sums of its particles */
 status store_empty(mpm *m, int blocks);                           /* no bricks, room for so many blocks */
 status store_surround(mpm *m, int brick_index);                   /* makes its 26 neighbours inside the window */
@@ -197,6 +211,14 @@ status store_compact(mpm *m);                                     /* blocks into
 int store_insert(mpm *m, brick *b, int cell, int body, const double *particle); /* block, or -1 when none is free */
 
 status store_place(mpm *m, int body, const double *particle); /* makes its brick if need be; outside any step */
+int store_cell_at(const mpm *m, int level, const double x[3], int at[3]); /* cell and place of its brick */
+
+/* seams.c: nodes that two levels share */
+seam_nodes seams_of(const mpm *m, int level, const int at[3]); /* of a brick at this place */
+status seams_answer(mpm *m, const brick *b); /* makes the bricks that a brick's particles need in other levels */
+bool seams_meet(const mpm *m, const brick *b); /* brick.across */
+void seams_receive(mpm *m, int site);          /* adds to brick.line what nodes of other levels hand on */
+void seams_follow(mpm *m, int site);           /* velocities of the nodes that follow another level */
 
 /* meeting.c */
 uint64_t meeting_occupied(const brick *b);
@@ -222,13 +244,17 @@ static inline double work_ahead(const double s[6], double p, const double L[9], 
 /* mpm.c */
 void mpm_book_departure(mpm *m, const departure *d);
 
-/* front.c: all but a twentieth of the power that ploughs the followed bodies lies behind it [m, W] */
-double front_find(const mpm *m, double *power);
+/* front.c: the power that ploughs the followed bodies; all but a twentieth of it lies behind the front, and all but a twentieth
+ * within the half width of the fine zone's middle */
+typedef struct {
+    double front, power, half_width; /* [m, W, m] */
+} plough;
+plough plough_find(const mpm *m);
 
 /* zone.c */
 zone zone_of(const mpm *m);
 status zone_follow(mpm *m);         /* goes after the plastic front, if it has come near the fine zone's end */
-status zone_regrid(mpm *m, zone z); /* a new axis; all particles into its bricks, split and merged to fit */
+status zone_regrid(mpm *m, zone z); /* new grids; all particles into their bricks, split and merged to fit */
 
 /* read.c */
 void mpm_sample_percentiles(mpm *m);
@@ -239,9 +265,26 @@ status movers_exchange(mpm *m); /* all movers into their new cells; makes bricks
 void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving);
 bool movers_reserve(mover_list *list, int more);
 
-static inline int site_index(const mpm *m, int bx, int by, int bz)
+static inline int site_index(const mpm *m, int level, const int at[3])
 {
-    return (bz * m->axes[1].bricks + by) * m->axes[0].bricks + bx;
+    const grid_level *g = &m->grids.level[level];
+    return g->first_site + (at[2] * g->axes[1].bricks + at[1]) * g->axes[0].bricks + at[0];
+}
+
+/* Brick of a field at a place of a level, -1 = none. */
+static inline int brick_at(const mpm *m, int field, int level, const int at[3])
+{
+    return m->directory[field * m->grids.sites + site_index(m, level, at)];
+}
+
+static inline bool seam_any(const seam_nodes *s)
+{
+    return (s->follow_coarser | s->follow_finer | s->lead_coarser | s->lead_finer) != 0;
+}
+
+static inline const axis *axes_of(const mpm *m, const brick *b)
+{
+    return m->grids.level[b->level].axes;
 }
 
 static inline int cell_index(int i, int j, int k)

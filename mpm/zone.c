@@ -38,13 +38,15 @@ static status take_lane(gathering *g, const block *q, int lane, int body)
     return status_ok();
 }
 
-/* Side by side along x, of one size across, sound, and together no longer than the cell bears? */
-static bool mergeable(const double *a, const double *b, double longest)
+/* Side by side along an axis, of one size across, sound, and together no longer than the cell bears? */
+static bool mergeable(const double *a, const double *b, int along, double longest)
 {
     if (a[FIRST_damage] >= 1 || b[FIRST_damage] >= 1) return false;
-    const double length = a[FIRST_half] + b[FIRST_half], apart = fabs(a[FIRST_x] - b[FIRST_x]);
+    const double length = a[FIRST_half + along] + b[FIRST_half + along],
+                 apart = fabs(a[FIRST_x + along] - b[FIRST_x + along]);
     if (2 * length > longest || fabs(apart - length) > 0.5 * length) return false;
-    for (int k = 1; k < 3; k++) {
+    for (int i = 1; i < 3; i++) {
+        const int k = (along + i) % 3;
         const double small = fmin(a[FIRST_half + k], b[FIRST_half + k]),
                      large = fmax(a[FIRST_half + k], b[FIRST_half + k]);
         if (small < 0.7 * large || fabs(a[FIRST_x + k] - b[FIRST_x + k]) > 0.5 * small) return false;
@@ -52,26 +54,26 @@ static bool mergeable(const double *a, const double *b, double longest)
     return true;
 }
 
-static int partner(const gathering *g, int i, double longest)
+static int partner(const gathering *g, int i, int along, double longest)
 {
     int best = -1;
     double nearest = HUGE_VAL;
     for (int j = i + 1; j < g->n; j++) {
-        const double d = fabs(g->data[i][FIRST_x] - g->data[j][FIRST_x]);
-        if (g->body[j] == g->body[i] && d < nearest && mergeable(g->data[i], g->data[j], longest))
+        const double d = fabs(g->data[i][FIRST_x + along] - g->data[j][FIRST_x + along]);
+        if (g->body[j] == g->body[i] && d < nearest && mergeable(g->data[i], g->data[j], along, longest))
             best = j, nearest = d;
     }
     return best;
 }
 
-static void merge_all(gathering *g, double longest, double dt)
+static void merge_along(gathering *g, int along, double longest, double dt)
 {
     for (bool again = true; again;) {
         again = false;
         for (int i = 0; i < g->n; i++) {
-            const int j = partner(g, i, longest);
+            const int j = partner(g, i, along, longest);
             if (j < 0) continue;
-            particle_merge(g->data[i], g->data[j], 0, dt);
+            particle_merge(g->data[i], g->data[j], along, dt);
             g->n--;
             g->body[j] = g->body[g->n];
             memcpy(g->data[j], g->data[g->n], sizeof g->data[j]);
@@ -81,13 +83,14 @@ static void merge_all(gathering *g, double longest, double dt)
     }
 }
 
-static status merge_cell(mpm *m, brick *b, int cell, double longest, gathering *g)
+/* Longest domains along each axis; 0: none is merged along it. */
+static status merge_cell(mpm *m, brick *b, int cell, const double longest[3], gathering *g)
 {
     g->n = g->merged = 0;
     for (int q = b->head[cell]; q >= 0; q = m->links[q].next)
         for (int l = 0; l < LANES; l++)
             if (m->links[q].mask >> l & 1) TRY(take_lane(g, &m->blocks[q], l, m->links[q].body));
-    merge_all(g, longest, m->dt_last);
+    for (int k = 0; k < 3; k++) merge_along(g, k, longest[k], m->dt_last);
     if (g->merged == 0) return status_ok();
     b->particles -= g->n + g->merged;
     store_release_cell(m, b, cell);
@@ -96,18 +99,32 @@ static status merge_cell(mpm *m, brick *b, int cell, double longest, gathering *
     return status_ok();
 }
 
+/* Is the cell larger than a fine one along any axis?  How long may points become there by merging? */
+static bool coarse_cell(const mpm *m, const brick *b, int cell, double longest[3])
+{
+    const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
+    bool coarse = false;
+    for (int k = 0; k < 3; k++) {
+        const axis *a = &axes_of(m, b)[k];
+        const int node = BRICK * b->at[k] + at[k];
+        const bool larger = a->node[node + 1] - a->node[node - 1] > 2.4 * m->scene.axis[k].fine;
+        longest[k] = larger ? MERGE_RATIO * a->longest[node] : 0;
+        coarse = coarse || larger;
+    }
+    return coarse;
+}
+
+/* Cells of more than a block, so that what lies in its cell as it was made costs nothing. */
 static status merge_coarse(mpm *m)
 {
     gathering g = { 0 };
     status s = status_ok();
-    const axis *a = &m->axes[0];
     for (int i = 0; i < m->bricks_used && s.code == STATUS_OK; i++)
         for (int c = 0; c < BRICK_CELLS && s.code == STATUS_OK; c++) {
             brick *b = &m->bricks[i];
-            const int node = BRICK * b->at[0] + c % BRICK;
-            const double size = a->edge[node + 1] - a->edge[node];
-            if (b->head[c] >= 0 && size > 1.2 * m->scene.axis[0].fine)
-                s = merge_cell(m, b, c, MERGE_RATIO * a->longest[node], &g);
+            double longest[3];
+            const int q = b->head[c];
+            if (q >= 0 && m->links[q].next >= 0 && coarse_cell(m, b, c, longest)) s = merge_cell(m, b, c, longest, &g);
         }
     free(g.body);
     free(g.data);
@@ -116,7 +133,8 @@ static status merge_coarse(mpm *m)
 
 /* ---- the wake ---- */
 
-static status wake_point(mpm *m, const block *q, int lane, int body)
+/* The part of a point below x; what lies beyond is left to the point itself, however it is split by then. */
+static status wake_point(mpm *m, const block *q, int lane, int body, double x)
 {
     mpm_wake *w = &m->wake;
     if (w->n == m->wake_capacity) {
@@ -132,6 +150,7 @@ static status wake_point(mpm *m, const block *q, int lane, int body)
         p->position[k] = q->x[k][lane], p->size[k] = q->half[k][lane], p->velocity[k] = q->v[k][lane];
     }
     p->damage = q->damage[0][lane], p->mass = q->mass[0][lane], p->body = body;
+    mpm_cut_at(x, false, p->position, p->size, &p->mass);
     return status_ok();
 }
 
@@ -145,6 +164,16 @@ static void reach_over_seam(const mpm *m, size_t first, double x)
     }
 }
 
+bool mpm_cut_at(double x, bool above, double position[3], double size[3], double *mass)
+{
+    const double lo = position[0] - size[0], hi = position[0] + size[0];
+    const double from = above ? fmax(lo, x) : lo, to = above ? hi : fmin(hi, x);
+    if (!(to > from)) return false;
+    *mass *= (to - from) / (hi - lo);
+    if (from > lo || to < hi) position[0] = 0.5 * (from + to), size[0] = 0.5 * (to - from);
+    return true;
+}
+
 /* Keeps what the followed bodies look like upstream of x before it is merged. */
 static status leave_wake(mpm *m, double x)
 {
@@ -154,8 +183,9 @@ static status leave_wake(mpm *m, double x)
             for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next)
                 for (int l = 0; l < LANES && m->scene.follow_bodies >> m->links[q].body & 1; l++) {
                     const block *b = &m->blocks[q];
-                    if (m->links[q].mask >> l & 1 && b->x[0][l] >= m->wake.until && b->x[0][l] < x)
-                        TRY(wake_point(m, b, l, m->links[q].body));
+                    if (m->links[q].mask >> l & 1 && b->x[0][l] + b->half[0][l] > m->wake.until &&
+                        b->x[0][l] - b->half[0][l] < x)
+                        TRY(wake_point(m, b, l, m->links[q].body, x));
                 }
     reach_over_seam(m, first, x);
     m->wake.until = x;
@@ -164,16 +194,19 @@ static status leave_wake(mpm *m, double x)
 
 /* ---- moving ---- */
 
-static bool too_long(const mpm *m, const double *q)
+/* Axis along which the point is longer than its cell bears; -1: none. */
+static int too_long(const mpm *m, const double *q)
 {
-    const axis *a = &m->axes[0];
-    return q[FIRST_damage] < 1 && 2 * q[FIRST_half] > a->longest[axis_locate(a, q[FIRST_x])];
+    const axis *a = m->grids.level[grids_level(&m->grids, q + FIRST_x)].axes;
+    for (int k = 0; k < 3 && q[FIRST_damage] < 1; k++)
+        if (2 * q[FIRST_half + k] > a[k].longest[axis_locate(&a[k], q[FIRST_x + k])]) return k;
+    return -1;
 }
 
 /* What the new window leaves out is gone. */
 static bool outside(const mpm *m, const double *q)
 {
-    const axis *a = &m->axes[0];
+    const axis *a = &grids_window(&m->grids)->axes[0];
     return q[FIRST_x] < a->edge[1] || q[FIRST_x] >= a->edge[a->last + 1];
 }
 
@@ -185,9 +218,9 @@ static status place_split(mpm *m, int body, double *q)
         mpm_book_departure(m, &d);
         return status_ok();
     }
-    while (too_long(m, q)) {
+    for (int k; (k = too_long(m, q)) >= 0;) {
         double other[BLOCK_DOUBLES];
-        particle_halve(q, other, 0);
+        particle_halve(q, other, k);
         m->report.splits++;
         TRY(place_split(m, body, other));
     }
@@ -238,7 +271,7 @@ static status grow_in(mpm *m, double from)
     growth g = { .m = m };
     const build_sink sink = { grow_point, &g };
     for (int i = 0; i < m->scene.bodies; i++)
-        if (m->scene.follow_bodies >> i & 1) TRY(build_body(&m->scene, i, &m->laws[i], m->axes, x, &sink));
+        if (m->scene.follow_bodies >> i & 1) TRY(build_body(&m->scene, i, &m->laws[i], &m->grids, x, &sink));
     m->ledger.mass_start += g.brought.mass;
     m->ledger.energy_start += g.brought.energy;
     for (int k = 0; k < 3; k++) m->ledger.momentum_start[k] += g.brought.momentum[k];
@@ -261,33 +294,56 @@ static status refill(mpm *m)
 zone zone_of(const mpm *m)
 {
     const mpm_axis *s = &m->scene.axis[0];
-    return (zone){ { s->fine_lo, s->lo, s->hi } };
+    const mpm_axis *across = &m->scene.axis[2];
+    return (zone){ { s->fine_lo, s->lo, s->hi, across->fine_lo, across->fine_hi } };
 }
 
 status zone_regrid(mpm *m, zone z)
 {
     mpm_axis *s = &m->scene.axis[0];
-    axis made;
+    grids made;
     s->fine_lo = z.at[0], s->fine_hi = z.at[0] + m->zone_length;
     s->lo = z.at[1], s->hi = z.at[2];
-    TRY(axis_make(s, 'x', &made));
-    axis_free(&m->axes[0]);
-    m->axes[0] = made;
+    m->scene.axis[2].fine_lo = z.at[3], m->scene.axis[2].fine_hi = z.at[4];
+    TRY(grids_make(&m->scene, &made));
+    grids_free(&m->grids);
+    m->grids = made;
     TRY(refill(m));
     TRY(merge_coarse(m));
     return store_settle(m);
 }
 
+/* Across, the zone widens by a quarter or more of itself when the groove comes near its rim (front.c). */
+static void widen(const mpm *m, const plough *p, zone *z)
+{
+    static const double NEAR = 0.6, WIDER = 1.25;
+    const mpm_axis *s = &m->scene.axis[2];
+    const bool half_model = !(s->fine_lo > s->lo);
+    const double half = half_model ? s->fine_hi - s->fine_lo : 0.5 * (s->fine_hi - s->fine_lo);
+    if (!(p->half_width > NEAR * half) || !(half < m->scene.follow_width * (1 - 1e-9))) return;
+    const double together = (1 << (m->scene.levels - 1)) * s->fine;
+    const double more = ceil(((WIDER - 1) * half) / together) * together;
+    const double room = floor((s->hi - s->fine_hi - grids_margin(m->scene.levels, s->fine)) / together) * together;
+    const double wanted = fmin(more, fmin(m->scene.follow_width - half, room));
+    if (!(wanted > 0)) return;
+    z->at[4] += wanted;
+    if (!half_model) z->at[3] -= wanted;
+}
+
 /* Where the window ought to be now; the fine zone stays inside it. */
-static zone zone_wanted(const mpm *m, double front)
+static zone zone_wanted(const mpm *m, const plough *p)
 {
     const mpm_axis *s = &m->scene.axis[0];
-    const double room = 2 * s->coarse, way = m->scene.follow_speed * m->time;
+    const double front = p->power > 0 ? p->front : s->lo;
+    const double room = fmax(2 * s->coarse, grids_margin(m->scene.levels, s->fine)), way = m->scene.follow_speed * m->time;
     const double hi = m->zone_start.at[2] + way;
     const double fine_hi = fmin(front + m->scene.follow_lead, hi - room);
-    const double cells = fmax(floor((fine_hi - s->fine_hi) / s->fine), 0);
-    zone z = { { s->fine_lo + cells * s->fine, m->zone_start.at[1] + way, hi } };
+    const double together = 1 << (m->scene.levels - 1); /* cells of the coarsest level keep their places */
+    const double cells = fmax(floor((fine_hi - s->fine_hi) / s->fine / together), 0) * together;
+    zone z = zone_of(m);
+    z.at[0] += cells * s->fine, z.at[1] = m->zone_start.at[1] + way, z.at[2] = hi;
     z.at[1] = fmin(z.at[1], z.at[0] - room);
+    if (p->power > 0) widen(m, p, &z);
     return z;
 }
 
@@ -303,15 +359,15 @@ static void note_gauges(mpm *m)
 status zone_follow(mpm *m)
 {
     const zone now = zone_of(m);
-    double power;
     if (!m->scene.follow_bodies) return status_ok();
-    const double front = front_find(m, &power);
-    m->report.plastic_front = front, m->report.plastic_power = power;
-    m->report.peak_plastic_power = fmax(m->report.peak_plastic_power, power);
+    const plough p = plough_find(m);
+    m->report.plastic_front = p.front, m->report.plastic_power = p.power;
+    m->report.peak_plastic_power = fmax(m->report.peak_plastic_power, p.power);
     note_gauges(m);
-    const zone next = zone_wanted(m, power > 0 ? front : m->scene.axis[0].lo);
+    const zone next = zone_wanted(m, &p);
     const double step = QUANTUM * m->scene.axis[0].fine;
-    if (next.at[0] - now.at[0] < 0.999 * step && next.at[2] - now.at[2] < 4 * step) return status_ok();
+    if (next.at[0] - now.at[0] < 0.999 * step && next.at[2] - now.at[2] < 4 * step && !(next.at[4] > now.at[4]))
+        return m->scene.levels > 1 ? merge_coarse(m) : status_ok();
     TRY(leave_wake(m, next.at[0] + m->scene.axis[0].fine)); /* the cell at the zone's end merges already */
     TRY(zone_regrid(m, next));
     TRY(grow_in(m, now.at[2]));

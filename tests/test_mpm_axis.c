@@ -249,8 +249,8 @@ static void test_meeting(void **state)
     static brick bricks[2][27];
     static int directory[2 * 27];
     static mpm m;
-    m.axes[0].bricks = m.axes[1].bricks = m.axes[2].bricks = 3;
-    m.fields = 2, m.sites = 27, m.directory = directory, m.bricks = bricks[0];
+    for (int k = 0; k < 3; k++) m.grids.level[0].axes[k].bricks = 3;
+    m.fields = 2, m.grids.levels = 1, m.grids.sites = 27, m.directory = directory, m.bricks = bricks[0];
     srand(12);
     for (int trial = 0; trial < 200; trial++) {
         memset(bricks, 0, sizeof bricks);

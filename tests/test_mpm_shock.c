@@ -108,14 +108,16 @@ static void test_carried(void **state)
 /* ---- a pulse through a graded zone ---- */
 
 /* Raised cosine of five steps, 9 mm wide, in a bar at rest; it runs both ways, forwards into cells that grow by `growth` (1: they
- * do not).  Pressure of the points that start before x = 15 mm, in their order along the bar. */
-static size_t pulse(double growth, double **pressure, double *incident)
+ * do not), along the bar or, with levels, along all axes.  Pressure of the points that start before x = 15 mm, in their order along
+ * the bar. */
+static size_t pulse(double growth, int levels, double **pressure, double *incident)
 {
     static const double fine = 0.15e-3, length = 50e-3, speed[] = { 2.5, 7.5, 10, 7.5, 2.5 };
     const material m = scene_elastic();
     mpm_scene s;
-    scene_bar(&s, 0, length, fine, 2);
-    if (growth > 1) s.axis[0] = scene_graded(s.axis[0], 0, 20e-3, 4 * fine, growth);
+    scene_bar(&s, 0, length, fine, levels > 1 ? 8 : 2);
+    s.levels = levels;
+    if (growth > 1) s.axis[0] = scene_graded(s.axis[0], 0, 132 * fine, 4 * fine, growth);
     scene_box(&s, 0, -1, -1, 6e-3, 1, 1, &m);
     for (int i = 0; i < 5; i++) {
         const double x = 6e-3 + i * 1.8e-3;
@@ -148,17 +150,20 @@ static size_t pulse(double growth, double **pressure, double *incident)
 static void test_grading(void **state)
 {
     (void)state;
-    static const double growth[] = { 1.2, 1.5, 2 }, limit[] = { 0.01, 0.01, 0.015 };
+    static const struct {
+        double growth, limit;
+        int levels;
+    } into[] = { { 1.2, 0.01, 1 }, { 1.5, 0.01, 1 }, { 2, 0.015, 1 }, { 2, 0.015, 2 }, { 2, 0.015, 3 } };
     double *even, peak;
-    const size_t n = pulse(1, &even, &peak);
-    for (int g = 0; g < 3; g++) {
+    const size_t n = pulse(1, 1, &even, &peak);
+    for (int g = 0; g < 5; g++) {
         double *graded, peak_graded, back = 0;
-        assert_int_equal(n, pulse(growth[g], &graded, &peak_graded));
+        assert_int_equal(n, pulse(into[g].growth, into[g].levels, &graded, &peak_graded));
         for (size_t i = 0; i < n; i++) back = fmax(back, fabs(graded[i] - even[i]));
-        print_message(
-            "pulse of %.1f MPa into cells four times as wide, %.1f a cell: reflected %.2f %%, peak behind %.1f %%\n",
-            1e-6 * peak, growth[g], 100 * back / peak, 100 * peak_graded / peak);
-        assert_below(back / peak, limit[g]);
+        print_message("pulse of %.1f MPa into cells four times as wide, %.1f a cell, %d levels: reflected %.2f %%, peak behind "
+                      "%.1f %%\n",
+                      1e-6 * peak, into[g].growth, into[g].levels, 100 * back / peak, 100 * peak_graded / peak);
+        assert_below(back / peak, into[g].limit);
         free(graded);
     }
     free(even);

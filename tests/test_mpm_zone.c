@@ -174,7 +174,8 @@ static crater_points rail_points(const mpm *m)
         all[2][n] = w->point[i].damage;
     }
     for (size_t i = 0; i < live; i++) {
-        if (body[i] != 0 || x[3 * i] < w->until) continue;
+        double mass = 1;
+        if (body[i] != 0 || !mpm_cut_at(w->until, true, x + 3 * i, size + 3 * i, &mass)) continue;
         memcpy(all[0] + 3 * n, x + 3 * i, 3 * sizeof *x);
         memcpy(all[1] + 3 * n, size + 3 * i, 3 * sizeof *x);
         all[2][n++] = damage[i];

@@ -1,5 +1,6 @@
 #include "coupling/handoff/scene_from_state.h"
 
+#include "mpm/grid.h"
 #include "mpm/shape.h"
 
 #include <math.h>
@@ -16,6 +17,9 @@ static const double FRONT_SPEED = 0.7;
  * later the contact face begins to run out. */
 static const double GROWTH_WAY[2] = { 16.0, 28.0 };
 static const double DEAD_FOLDS = -3.0; /* of a groove that died before the first gauge, and the least of any */
+
+/* Share of its largest width that a fine zone that follows starts with; it widens with the groove. */
+static const double NARROW = 0.5;
 
 static const char ARMATURE[] = "armature", GRAIN[] = "particle";
 
@@ -63,6 +67,7 @@ typedef struct {
     double run;                     /* length of the lead face along x */
     double fine_behind, fine_ahead; /* ends of the fine zone, both positive */
     double fine_depth, fine_above, fine_half_width;
+    double narrow_half_width; /* of the fine zone at the start */
     double behind, ahead;               /* ends of the window, both positive; at the start, if it follows */
     double travel;                      /* of the window, at most */
     double rail_half_width, half_width; /* of the rail, of the window */
@@ -90,20 +95,22 @@ static layout lay_out(const breech_case *c, const case_site *g, double cells_per
     const case_scene *s = &c->scene;
     const case_projectile *p = &c->projectile;
     layout l = { .fine = g->radius / cells_per_radius };
-    l.coarse = fmax(s->coarse_cell, l.fine);
+    l.coarse = fmax(s->coarse_cell, (1 << (s->levels - 1)) * l.fine);
     l.run = p->chamfer_height / tan(p->lead_angle);
     l.x_front = -g->radius - fmin(g->height, p->chamfer_height) / tan(p->lead_angle) - l.fine;
     l.behind = fmax(s->rail_behind, p->length - l.run - l.x_front + 2.0 * l.coarse);
     l.ahead = s->rail_ahead;
-    const double room = 3.0 * l.coarse;
-    l.fine_behind = cells_over(fmin(given_or(s->fine_behind, 4.0 * g->radius), l.behind - room), l.fine);
+    const double room = fmax(3.0 * l.coarse, grids_margin(s->levels, l.fine));
+    const double pair = (s->levels > 1 ? 2 : 1) * l.fine; /* of the cells around it the zone takes whole ones */
+    l.fine_behind = cells_over(fmin(given_or(s->fine_behind, 4.0 * g->radius), l.behind - room), pair);
     const double ahead = (s->follow ? 8.0 : 26.0) * g->radius;
-    l.fine_ahead = cells_over(fmin(given_or(s->fine_ahead, ahead), l.ahead - room), l.fine);
-    l.fine_depth = cells_over(fmin(given_or(s->fine_depth, 3.0 * g->radius), s->rail_depth - room), l.fine);
-    l.fine_above = cells_over(fmin(top_of_zone(c, g), p->half_bore - room), l.fine);
+    l.fine_ahead = cells_over(fmin(given_or(s->fine_ahead, ahead), l.ahead - room), pair);
+    l.fine_depth = cells_over(fmin(given_or(s->fine_depth, 3.0 * g->radius), s->rail_depth - room), pair);
+    l.fine_above = cells_over(fmin(top_of_zone(c, g), p->half_bore - room), pair);
     l.rail_half_width = 0.5 * given_or(s->rail_width, p->width);
     l.half_width = fmax(l.rail_half_width, 0.5 * p->width) + room;
-    l.fine_half_width = cells_over(fmin(given_or(0.5 * s->fine_width, 8.0 * g->radius), l.half_width - room), l.fine);
+    l.fine_half_width = cells_over(fmin(given_or(0.5 * s->fine_width, 8.0 * g->radius), l.half_width - room), pair);
+    l.narrow_half_width = s->follow ? cells_over(NARROW * l.fine_half_width, pair) : l.fine_half_width;
     for (int i = 0; i < c->rail.layers.n; i++) l.layers += c->rail.layers.item[i].thickness;
     l.travel = s->follow ? (p->length - l.run) / (1.0 - FRONT_SPEED) : 0.0;
     return l;
@@ -115,7 +122,7 @@ static status check_layout(const breech_case *c, const case_site *g, const layou
           "scene: the fine zone, %g m behind to %g m ahead of the grain, must hold the grain of radius %g m: lengthen "
           "scene.rail_ahead, rail_behind or fine_ahead, fine_behind",
           l->fine_behind, l->fine_ahead, g->radius);
-    CHECK(l->fine_above > 0.0 && l->fine_depth > 0.0 && l->fine_half_width > g->radius, STATUS_BAD_INPUT,
+    CHECK(l->fine_above > 0.0 && l->fine_depth > 0.0 && l->narrow_half_width > g->radius, STATUS_BAD_INPUT,
           "scene: no room for a fine zone of %g m above, %g m below and %g m beside the grain: smaller "
           "scene.coarse_cell, or larger rail_depth, rail_width, projectile.half_bore",
           l->fine_above, l->fine_depth, l->fine_half_width);
@@ -299,8 +306,8 @@ static void set_axes(const breech_case *c, const layout *l, mpm_scene *s)
     const bool half = c->scene.half_model;
     const double lo[3] = { -l->behind, -c->scene.rail_depth, half ? 0.0 : -l->half_width };
     const double hi[3] = { l->ahead, c->projectile.half_bore, l->half_width };
-    const double fine_lo[3] = { -l->fine_behind, -l->fine_depth, half ? 0.0 : -l->fine_half_width };
-    const double fine_hi[3] = { l->fine_ahead, l->fine_above, l->fine_half_width };
+    const double fine_lo[3] = { -l->fine_behind, -l->fine_depth, half ? 0.0 : -l->narrow_half_width };
+    const double fine_hi[3] = { l->fine_ahead, l->fine_above, l->narrow_half_width };
     const boundary_kind kind[3][2] = { { BOUNDARY_ABSORBING, BOUNDARY_ABSORBING },
                                        { BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY },
                                        { half ? BOUNDARY_SYMMETRY : BOUNDARY_FREE, BOUNDARY_FREE } };
@@ -349,9 +356,10 @@ double scene_last(const breech_case *c, const mpm_scene *scene)
 }
 
 /* The fine zone goes with the rail's plastic front. */
-static void set_follow(const breech_case *c, const case_site *g, mpm_scene *s)
+static void set_follow(const breech_case *c, const case_site *g, const layout *l, mpm_scene *s)
 {
     if (!c->scene.follow) return;
+    s->follow_width = l->fine_half_width;
     s->follow_speed = s->body[body_of_armature(s)].velocity[0];
     s->follow_lead = given_or(c->scene.follow_lead, 4.0 * g->radius);
     for (int i = 0; i < 2; i++) s->gauge_time[i] = GROWTH_WAY[i] * g->radius / s->follow_speed;
@@ -362,6 +370,7 @@ static void set_follow(const breech_case *c, const case_site *g, mpm_scene *s)
 static void set_method(const breech_case *c, const layout *l, mpm_scene *s)
 {
     const case_scene *from = &c->scene;
+    s->levels = from->levels;
     s->particles_per_axis = from->particles_per_axis;
     s->courant = from->courant;
     s->viscosity_linear = from->viscosity_linear;
@@ -422,7 +431,7 @@ static crater_spec spec_of(const breech_case *c, const case_site *g, const mpm_s
     crater_spec spec = { .surface = 0.0,
                          .x_lo = s->axis[0].fine_lo,
                          .x_hi = s->axis[0].fine_hi + FRONT_SPEED * s->follow_speed * s->end_time,
-                         .z_hi = s->axis[2].fine_hi,
+                         .z_hi = fmax(s->axis[2].fine_hi, s->follow_width),
                          .mirrored = c->scene.half_model,
                          .cell = s->axis[0].fine,
                          .particle_radius = g->radius,
@@ -445,7 +454,7 @@ status scene_bodies(const breech_case *c, const site_state *state, double cells_
     TRY(add_bodies(c, state, &l, out));
     set_contacts(c, out);
     set_axes(c, &l, out);
-    set_follow(c, &state->grain, out);
+    set_follow(c, &state->grain, &l, out);
     set_method(c, &l, out);
     return reaches_gauge(c, out);
 }

@@ -84,9 +84,9 @@ static void keep_rail(const run *r, points *p)
     const mpm_wake *wake = mpm_wake_of(r->m);
     size_t kept = 0;
     for (size_t i = 0; i < p->n; i++) {
-        const double *x = p->position + 3 * i, *half = p->size + 3 * i;
-        if (!body_is_rail(&job->scene, (int)p->body[i]) || x[0] < wake->until || x[0] + half[0] < s->x_lo ||
-            x[0] - half[0] > s->x_hi || fabs(x[2]) - half[2] > s->z_hi)
+        double *x = p->position + 3 * i, *half = p->size + 3 * i;
+        if (!body_is_rail(&job->scene, (int)p->body[i]) || !mpm_cut_at(wake->until, true, x, half, &p->mass[i]) ||
+            x[0] + half[0] < s->x_lo || x[0] - half[0] > s->x_hi || fabs(x[2]) - half[2] > s->z_hi)
             continue;
         memmove(p->position + 3 * kept, x, 3 * sizeof *x);
         memmove(p->velocity + 3 * kept, p->velocity + 3 * i, 3 * sizeof *x);

@@ -164,6 +164,7 @@ typedef struct {
     double contact_gap;             /* bodies touch when nearer than this, NAN: the solver's own [cells] */
     double cells_per_radius;        /* fine cell = radius / this [1] */
     double coarse_cell;             /* largest cell [m] */
+    int levels;                     /* of nested grids: 1 .. 3 [1] */
     double growth;                  /* ratio of neighbouring cells outside the fine zone [1] */
     double fine_ahead, fine_behind; /* ends of the fine zone, from the grain's middle along x [m] */
     bool follow;                    /* the fine zone goes with the ploughing; else it stays */

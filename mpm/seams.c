@@ -1,0 +1,363 @@
+/* Where grids of two levels meet: nodes that follow the other level (grid.h).
+ *
+ * A fine node f on or beyond the face of its box, and a coarse node inside the box, are no freedoms of their own:
+ *   v_f = sum_c P_fc v_c,   P the coarse hat functions at f's place: 1, or 1/2, 1/4, 1/8 of the two, four, eight nodes around it;
+ *   v_c = v_f of the fine node at c's place.
+ * What particles have given to such a node goes to those it follows with the same weights: m_c += P_fc m_f and likewise force. Momentum
+ * is that of the motion at c's place, p_c += P_fc m_f [v_f + G_f (x_c - x_f)], G_f by differences of the fine nodes around, as
+ * the particles' own gradient is in P2G; else a shear would be smoothed out at every step. The energy goes with it,
+ *   K_c += P_fc [K_f + (p_f + dt/2 f_f) . G_f (x_c - x_f)].
+ * As sum_c P_fc = 1 and sum_c P_fc (x_c - x_f) = 0, mass, momentum and energy stay to rounding; a linear motion is exact.
+ * A node that is followed follows nobody: boxes are far enough apart (grid.c, PAD).
+ *
+ * Each node's sums are added to by the thread that works on its site, from the other level's sums, which nobody changes then. */
+#include "mpm/store.h"
+
+#include <string.h>
+
+/* Ranges of nodes, both ends included. */
+typedef struct {
+    int lo[3], hi[3];
+} node_box;
+
+static int half_down(int i)
+{
+    return i >= 0 ? i / 2 : -((1 - i) / 2);
+}
+
+static bool is_empty(const node_box *r)
+{
+    for (int k = 0; k < 3; k++)
+        if (r->lo[k] > r->hi[k]) return true;
+    return false;
+}
+
+static const grid_level *level_at(const mpm *m, int level)
+{
+    return level >= 0 && level < m->grids.levels ? &m->grids.level[level] : NULL;
+}
+
+/* Nodes of a brick, and so many around it. */
+static node_box nodes_of(const int at[3], int around)
+{
+    node_box r;
+    for (int k = 0; k < 3; k++) r.lo[k] = BRICK * at[k] - around, r.hi[k] = BRICK * at[k] + BRICK - 1 + around;
+    return r;
+}
+
+/* Nodes of the coarse grid around fine ones, and the other way round those from one coarse node to the last. */
+static node_box to_coarse(const grid_level *fine, const node_box *f)
+{
+    node_box r;
+    for (int k = 0; k < 3; k++)
+        r.lo[k] = fine->lo[k] + half_down(f->lo[k] - 1), r.hi[k] = fine->lo[k] + half_down(f->hi[k]);
+    return r;
+}
+
+static node_box to_fine(const grid_level *fine, const node_box *c)
+{
+    node_box r;
+    for (int k = 0; k < 3; k++)
+        r.lo[k] = 2 * (c->lo[k] - fine->lo[k]) + 1, r.hi[k] = 2 * (c->hi[k] - fine->lo[k]) + 1;
+    return r;
+}
+
+static node_box inside(node_box r, const int lo[3], const int hi[3])
+{
+    for (int k = 0; k < 3; k++) {
+        if (r.lo[k] < lo[k]) r.lo[k] = lo[k];
+        if (r.hi[k] > hi[k]) r.hi[k] = hi[k];
+    }
+    return r;
+}
+
+/* Nodes of a grid that exist: 0 .. last + 1. */
+static node_box existing(const grid_level *g, node_box r)
+{
+    const int lo[3] = { 0 }, hi[3] = { g->axes[0].last + 1, g->axes[1].last + 1, g->axes[2].last + 1 };
+    return inside(r, lo, hi);
+}
+
+/* ---- which nodes, which bricks ---- */
+
+/* Nodes of a brick along one axis, a bit each. */
+typedef struct {
+    unsigned beyond;        /* on or beyond a seam of this level's box */
+    unsigned in, rim, near; /* inside the finer level's box; next to a seam of it; inside, on or next to it outside */
+    unsigned at, at_rim;    /* at the place of a coarser node that is inside this level's box; next to a seam */
+} axis_nodes;
+
+static axis_nodes nodes_along(const grid_level *g, const grid_level *finer, int k, int first)
+{
+    axis_nodes r = { 0 };
+    for (int i = 0; i < BRICK; i++) {
+        const int n = first + i, last = g->axes[k].last;
+        const unsigned bit = 1u << i;
+        if (n > last + 1) break;
+        if ((g->seam[k][0] && n <= 1) || (g->seam[k][1] && n >= last)) r.beyond |= bit;
+        if (n % 2 && n >= 1 + 2 * g->seam[k][0] && n <= last - 2 * g->seam[k][1]) r.at |= bit;
+        if ((g->seam[k][0] && n == 3) || (g->seam[k][1] && n == last - 2)) r.at_rim |= bit;
+        if (!finer) continue;
+        const int lo = finer->lo[k], hi = finer->hi[k], below = finer->seam[k][0], above = finer->seam[k][1];
+        if (n >= lo + below && n <= hi - above) r.in |= bit;
+        if ((below && n == lo + 1) || (above && n == hi - 1)) r.rim |= bit;
+        if (n >= lo - 1 && n <= hi + 1) r.near |= bit;
+    }
+    return r;
+}
+
+static uint64_t all_of(unsigned x, unsigned y, unsigned z)
+{
+    uint64_t r = 0;
+    for (int c = 0; c < BRICK_CELLS; c++)
+        r |= (uint64_t)(x >> c % BRICK & y >> c / BRICK % BRICK & z >> c / (BRICK * BRICK) & 1) << c;
+    return r;
+}
+
+static uint64_t any_of(unsigned x, unsigned y, unsigned z)
+{
+    return ~all_of(~x, ~y, ~z);
+}
+
+seam_nodes seams_of(const mpm *m, int level, const int at[3])
+{
+    const grid_level *g = &m->grids.level[level], *finer = level_at(m, level - 1);
+    axis_nodes a[3];
+    for (int k = 0; k < 3; k++) a[k] = nodes_along(g, finer, k, BRICK * at[k]);
+    seam_nodes s;
+    s.follow_coarser = any_of(a[0].beyond, a[1].beyond, a[2].beyond);
+    s.follow_finer = all_of(a[0].in, a[1].in, a[2].in);
+    s.lead_coarser = all_of(a[0].at, a[1].at, a[2].at) & any_of(a[0].at_rim, a[1].at_rim, a[2].at_rim);
+    s.lead_finer = all_of(a[0].near, a[1].near, a[2].near) & ~s.follow_finer;
+    s.follow_finer &= any_of(a[0].rim, a[1].rim, a[2].rim); /* no particle reaches further in */
+    return s;
+}
+
+static status make_bricks(mpm *m, int field, int level, const node_box *r)
+{
+    if (is_empty(r)) return status_ok();
+    for (int z = r->lo[2] / BRICK; z <= r->hi[2] / BRICK; z++)
+        for (int y = r->lo[1] / BRICK; y <= r->hi[1] / BRICK; y++)
+            for (int x = r->lo[0] / BRICK; x <= r->hi[0] / BRICK; x++) {
+                const int at[3] = { x, y, z };
+                const seam_nodes s = seams_of(m, level, at);
+                int found;
+                if (seam_any(&s)) TRY(store_brick(m, field, level, at, &found));
+            }
+    return status_ok();
+}
+
+status seams_answer(mpm *m, const brick *b)
+{
+    const node_box reach = nodes_of(b->at, 1); /* of its particles */
+    const grid_level *g = &m->grids.level[b->level], *coarser = level_at(m, b->level + 1), *finer = level_at(m, b->level - 1);
+    if (coarser) {
+        const node_box c = to_coarse(g, &reach), there = existing(coarser, c);
+        TRY(make_bricks(m, b->field, b->level + 1, &there));
+    }
+    if (finer) {
+        const node_box own = inside(reach, finer->lo, finer->hi), f = to_fine(finer, &own);
+        if (!is_empty(&own)) TRY(make_bricks(m, b->field, b->level - 1, &f));
+    }
+    return status_ok();
+}
+
+/* Does another field have particles in bricks that hold these nodes? */
+static bool others_in(const mpm *m, int field, int level, const node_box *r)
+{
+    if (is_empty(r)) return false;
+    for (int z = r->lo[2] / BRICK; z <= r->hi[2] / BRICK; z++)
+        for (int y = r->lo[1] / BRICK; y <= r->hi[1] / BRICK; y++)
+            for (int x = r->lo[0] / BRICK; x <= r->hi[0] / BRICK; x++)
+                for (int f = 0; f < m->fields; f++) {
+                    const int i = brick_at(m, f, level, (const int[3]){ x, y, z });
+                    if (f != field && i >= 0 && m->bricks[i].particles > 0) return true;
+                }
+    return false;
+}
+
+/* Nodes of particles in the brick are followed by, or follow, nodes up to two further of their level; so are the others'. */
+bool seams_meet(const mpm *m, const brick *b)
+{
+    enum { REACH = 6 };
+    const grid_level *g = &m->grids.level[b->level], *coarser = level_at(m, b->level + 1), *finer = level_at(m, b->level - 1);
+    const node_box near = nodes_of(b->at, REACH), own = existing(g, near);
+    if (others_in(m, b->field, b->level, &own)) return true;
+    if (coarser) {
+        const node_box c = to_coarse(g, &near), there = existing(coarser, c);
+        if (others_in(m, b->field, b->level + 1, &there)) return true;
+    }
+    if (finer) {
+        const node_box f = to_fine(finer, &near), there = existing(finer, f);
+        if (others_in(m, b->field, b->level - 1, &there)) return true;
+    }
+    return false;
+}
+
+/* ---- a node of another level ---- */
+
+static const brick *brick_with(const mpm *m, int field, int level, const int node[3])
+{
+    const int at[3] = { node[0] / BRICK, node[1] / BRICK, node[2] / BRICK };
+    const int i = brick_at(m, field, level, at);
+    return i >= 0 ? &m->bricks[i] : NULL;
+}
+
+static int cell_of(const int node[3])
+{
+    return cell_index(node[0] % BRICK, node[1] % BRICK, node[2] % BRICK);
+}
+
+typedef void node_visitor(const mpm *m, brick *b, int cell, const int node[3]);
+
+static void each_node(const mpm *m, brick *b, uint64_t which, node_visitor *visit)
+{
+    for (; which; which &= which - 1) {
+        const int c = __builtin_ctzll(which);
+        const int node[3] = { BRICK * b->at[0] + c % BRICK, BRICK * b->at[1] + c / BRICK % BRICK,
+                              BRICK * b->at[2] + c / (BRICK * BRICK) };
+        visit(m, b, c, node);
+    }
+}
+
+/* ---- sums go to the nodes that are followed ---- */
+
+/* Adds share x the sums of another level's node, which lies `off` from this one; `change` is that of the motion from there to
+ * here [m/s]. */
+static void add_from(brick *b, int cell, const brick *from, int from_cell, double share, const double off[3],
+                     const double change[3], double dt)
+{
+    const double *line = from->line[from_cell], *extra = from->line[BRICK_CELLS + from_cell];
+    double *to = b->line[cell], *to_extra = b->line[BRICK_CELLS + cell];
+    for (int i = 0; i < LINE; i++) to[i] += share * line[i];
+    for (int k = 0; k < 3; k++) {
+        to[1 + k] += share * line[0] * change[k];
+        to[7] += share * (line[1 + k] + 0.5 * dt * line[4 + k]) * change[k];
+    }
+    if (!b->across || !from->across) return;
+    for (int i = 0; i < LINE; i++) to_extra[i] += share * extra[i];
+    for (int k = 0; k < 3; k++) to_extra[3 + k] += share * line[0] * off[k];
+}
+
+/* What has reached the ghosts of a mirror plane is folded back already (p2g.c). */
+static bool is_mirror(const mpm *m, const grid_level *g, int k, int side)
+{
+    return !g->seam[k][side] && m->scene.axis[k].boundary[side] == BOUNDARY_SYMMETRY;
+}
+
+/* Sums of a node, NULL where it has no mass. */
+static const double *line_at(const mpm *m, int field, int level, const int node[3])
+{
+    const brick *b = brick_with(m, field, level, node);
+    const double *line = b ? b->line[cell_of(node)] : NULL;
+    return line && line[0] > 0 ? line : NULL;
+}
+
+/* Adds the change of the motion from fine node f by one node along axis k, forwards or back: the mean of the differences on both
+ * sides, that of one side where the other has no mass. */
+static void add_slope(const mpm *m, int field, int level, const int f[3], int k, int way, double change[3])
+{
+    int at[2][3];
+    memcpy(at[0], f, sizeof at[0]), memcpy(at[1], f, sizeof at[1]);
+    at[0][k]--, at[1][k]++;
+    const double *here = line_at(m, field, level, f);
+    const double *before = at[0][k] < 0 ? NULL : line_at(m, field, level, at[0]);
+    const double *after = at[1][k] > m->grids.level[level].axes[k].last + 1 ? NULL : line_at(m, field, level, at[1]);
+    const double *lo = before ? before : here, *hi = after ? after : here;
+    const double scale = way * (before && after ? 0.5 : 1);
+    for (int i = 0; i < 3; i++) change[i] += scale * (hi[1 + i] / hi[0] - lo[1 + i] / lo[0]);
+}
+
+/* Of the up to 27 fine nodes around a coarse one those that follow it. */
+static void receive_from_finer(const mpm *m, brick *b, int cell, const int node[3])
+{
+    const grid_level *g = &m->grids.level[b->level], *finer = g - 1;
+    int middle[3];
+    node_box r;
+    for (int k = 0; k < 3; k++) {
+        const int first = is_mirror(m, finer, k, 0), last = finer->axes[k].last + !is_mirror(m, finer, k, 1);
+        middle[k] = 2 * (node[k] - finer->lo[k]) + 1;
+        r.lo[k] = middle[k] - 1 > first ? middle[k] - 1 : first;
+        r.hi[k] = middle[k] + 1 < last ? middle[k] + 1 : last;
+    }
+    for (int z = r.lo[2]; z <= r.hi[2]; z++)
+        for (int y = r.lo[1]; y <= r.hi[1]; y++)
+            for (int x = r.lo[0]; x <= r.hi[0]; x++) {
+                const int f[3] = { x, y, z }, at = cell_of(f);
+                const brick *from = brick_with(m, b->field, b->level - 1, f);
+                if (!from || !(from->seam.follow_coarser >> at & 1) || !(from->line[at][0] > 0)) continue;
+                double share = 1, off[3], change[3] = { 0 };
+                for (int k = 0; k < 3; k++) {
+                    off[k] = finer->axes[k].node[f[k]] - g->axes[k].node[node[k]];
+                    if (f[k] == middle[k]) continue;
+                    share *= 0.5;
+                    add_slope(m, b->field, b->level - 1, f, k, middle[k] - f[k], change);
+                }
+                add_from(b, cell, from, at, share, off, change, m->dt);
+            }
+}
+
+/* The coarse node at a fine one's place. */
+static void receive_from_coarser(const mpm *m, brick *b, int cell, const int node[3])
+{
+    static const double none[3] = { 0 };
+    const grid_level *g = &m->grids.level[b->level];
+    const int c[3] = { g->lo[0] + node[0] / 2, g->lo[1] + node[1] / 2, g->lo[2] + node[2] / 2 };
+    const brick *from = brick_with(m, b->field, b->level + 1, c);
+    if (from && from->line[cell_of(c)][0] > 0) add_from(b, cell, from, cell_of(c), 1, none, none, m->dt);
+}
+
+void seams_receive(mpm *m, int site)
+{
+    for (int f = 0; f < m->fields; f++) {
+        const int i = m->directory[f * m->grids.sites + site];
+        if (i < 0) continue;
+        brick *b = &m->bricks[i];
+        each_node(m, b, b->seam.lead_finer, receive_from_finer);
+        each_node(m, b, b->seam.lead_coarser, receive_from_coarser);
+    }
+}
+
+/* ---- velocities come from them ---- */
+
+static void add_node(double to[NODE], const mpm *m, const brick *b, int level, const int node[3], double share)
+{
+    const brick *from = brick_with(m, b->field, level, node);
+    for (int i = 0; from && i < NODE; i++) to[i] += share * from->node[cell_of(node)][i];
+}
+
+static void follow_finer(const mpm *m, brick *b, int cell, const int node[3])
+{
+    const grid_level *finer = &m->grids.level[b->level - 1];
+    double *to = b->node[cell];
+    memset(to, 0, NODE * sizeof *to);
+    if (!(b->line[cell][0] > 0)) return;
+    const int f[3] = { 2 * (node[0] - finer->lo[0]) + 1, 2 * (node[1] - finer->lo[1]) + 1,
+                       2 * (node[2] - finer->lo[2]) + 1 };
+    add_node(to, m, b, b->level - 1, f, 1);
+}
+
+static void follow_coarser(const mpm *m, brick *b, int cell, const int node[3])
+{
+    double *to = b->node[cell], share = 1;
+    memset(to, 0, NODE * sizeof *to);
+    if (!(b->line[cell][0] > 0)) return;
+    const node_box f = { { node[0], node[1], node[2] }, { node[0], node[1], node[2] } };
+    const node_box c = to_coarse(&m->grids.level[b->level], &f);
+    for (int k = 0; k < 3; k++) share *= c.lo[k] < c.hi[k] ? 0.5 : 1;
+    for (int z = c.lo[2]; z <= c.hi[2]; z++)
+        for (int y = c.lo[1]; y <= c.hi[1]; y++)
+            for (int x = c.lo[0]; x <= c.hi[0]; x++)
+                add_node(to, m, b, b->level + 1, (const int[3]){ x, y, z }, share);
+}
+
+void seams_follow(mpm *m, int site)
+{
+    for (int f = 0; f < m->fields; f++) {
+        const int i = m->directory[f * m->grids.sites + site];
+        if (i < 0) continue;
+        brick *b = &m->bricks[i];
+        each_node(m, b, b->seam.follow_finer, follow_finer);
+        each_node(m, b, b->seam.follow_coarser, follow_coarser);
+    }
+}

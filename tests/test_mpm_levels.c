@@ -1,0 +1,281 @@
+/* Nested grids (mpm/grid.c, seams.c): nothing may tell that two levels meet but the size of the cells.  Tolerances are rounding,
+ * as in test_mpm_flight. */
+#include "mpm_scenes.h"
+
+#include "mpm/store.h"
+
+static const double ROUNDING = 1e-12;
+
+static double uniform(double lo, double hi)
+{
+    return lo + (hi - lo) * ((double)rand() / RAND_MAX);
+}
+
+static int whole(int lo, int hi)
+{
+    return lo + rand() % (hi - lo + 1);
+}
+
+/* ---- the grids ---- */
+
+/* A fine zone of an even number of cells; now and then it reaches an end of the window, or both. */
+static mpm_axis any_axis(void)
+{
+    const double h = uniform(0.1e-3, 1e-3), lo = rand() % 2 ? 0 : uniform(-5e-3, 5e-3);
+    const double below = rand() % 3 ? h * whole(12, 40) : 0,
+                 above = rand() % 3 ? h * whole(12, 40) : 0;
+    const double length = (below > 0 || above > 0 ? 2 : 4) * h * whole(2, 20); /* it may fill the window */
+    return (mpm_axis){ .lo = lo,
+                       .hi = lo + below + length + above,
+                       .fine_lo = lo + below,
+                       .fine_hi = lo + below + length,
+                       .fine = h,
+                       .coarse = 8 * h,
+                       .growth = uniform(1.2, 2) };
+}
+
+/* Every node of a box lies on one of the coarser grid or half-way between two, and the finest box is the fine zone. */
+static void test_nodes(void **state)
+{
+    (void)state;
+    srand(3);
+    for (int trial = 0; trial < 300; trial++) {
+        mpm_scene s;
+        grids g;
+        mpm_scene_default(&s);
+        s.levels = whole(2, MPM_MAX_LEVELS);
+        for (int k = 0; k < 3; k++) s.axis[k] = any_axis();
+        assert_ok(grids_make(&s, &g));
+        for (int k = 0; k < 3; k++) {
+            const axis *fine = &g.level[0].axes[k];
+            const double tiny = 1e-9 * s.axis[k].fine;
+            assert_near(fine->node[1], s.axis[k].fine_lo, tiny);
+            assert_near(fine->node[fine->last], s.axis[k].fine_hi, tiny);
+            for (int i = 1; i < fine->last; i++) assert_near(axis_right(fine, i), s.axis[k].fine, tiny);
+            for (int i = 0; i + 1 < g.levels; i++) {
+                const grid_level *f = &g.level[i];
+                const axis *c = &g.level[i + 1].axes[k], *a = &f->axes[k];
+                assert_int_equal(f->seam[k][0], f->lo[k] > 1);
+                assert_int_equal(f->seam[k][1], f->hi[k] < c->last);
+                for (int n = f->seam[k][0] ? 0 : 1; n <= a->last + f->seam[k][1]; n++) {
+                    const int at = f->lo[k] + (n + 1) / 2 - 1; /* at or below it */
+                    assert_near(a->node[n], n % 2 ? c->node[at] : 0.5 * (c->node[at] + c->node[at + 1]), tiny);
+                }
+            }
+            assert_near(g.level[g.levels - 1].axes[k].node[1], s.axis[k].lo, 0);
+        }
+        grids_free(&g);
+    }
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    mpm_scene s;
+    grids g;
+    mpm_scene_default(&s);
+    for (int k = 0; k < 3; k++)
+        s.axis[k] = scene_graded(scene_axis(0, 40e-3, 1e-3, BOUNDARY_FREE, BOUNDARY_FREE), 16e-3, 24e-3, 4e-3, 1.5);
+    s.levels = 2;
+    mpm_scene bad[5] = { s, s, s, s, s };
+    bad[0].levels = 0, bad[1].levels = MPM_MAX_LEVELS + 1, bad[2].basis = BASIS_BSPLINE;
+    bad[3].axis[1].fine_hi = 25e-3, bad[4].axis[2].fine_hi = 18e-3;
+    for (int i = 0; i < 5; i++) assert_int_equal(grids_make(&bad[i], &g).code, STATUS_BAD_INPUT);
+    assert_ok(grids_make(&s, &g));
+    grids_free(&g);
+}
+
+/* ---- fields ---- */
+
+static void cube(mpm_scene *s, const material *m, int levels)
+{
+    mpm_scene_default(s);
+    s->levels = levels;
+    for (int k = 0; k < 3; k++) {
+        s->axis[k] = scene_axis(0, k ? 20e-3 : 40e-3, 0.5e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+        s->axis[k] = scene_graded(s->axis[k], k ? 7e-3 : 12e-3, k ? 11e-3 : 18e-3, 4e-3, 2);
+    }
+    scene_box(s, 3.3e-3, 3.3e-3, 3.3e-3, 9.3e-3, 9.3e-3, 9.3e-3, m);
+}
+
+/* A linear velocity comes back as it was at all points whose nodes are full, with a gradient and no heat, wherever the levels meet:
+ * P is exact for it. */
+static void test_linear(void **state)
+{
+    (void)state;
+    const material copper = scene_copper();
+    for (int levels = 2; levels <= MPM_MAX_LEVELS; levels++) {
+        mpm_scene s;
+        cube(&s, &copper, levels);
+        for (int i = 0; i < 3; i++) s.body[0].shape_value.value[i] = 1e-3, s.body[0].shape_value.value[3 + i] = 19e-3;
+        mpm *m = scene_make(&s, 2);
+        double L[9], at_level[MPM_MAX_LEVELS] = { 0 };
+        srand(4);
+        for (int i = 0; i < 9; i++) L[i] = uniform(-1, 1);
+        for (int i = 0; i < m->bricks_used; i++)
+            for (int c = 0; c < BRICK_CELLS; c++)
+                for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) {
+                    block *b = &m->blocks[q];
+                    for (int l = 0; l < LANES; l++)
+                        for (int k = 0; k < 3; k++) {
+                            b->v[k][l] = 0;
+                            for (int j = 0; j < 3; j++) b->L[3 * k + j][l] = L[3 * k + j], b->v[k][l] += L[3 * k + j] * b->x[j][l];
+                        }
+                }
+        m->dt = 1e-15; /* so that nothing moves */
+        assert_ok(mpm_advance(m, 1e-15, NULL));
+        double worst = 0, worst_L = 0;
+        for (int i = 0; i < m->bricks_used; i++)
+            for (int c = 0; c < BRICK_CELLS; c++)
+                for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) {
+                    const block *b = &m->blocks[q];
+                    for (int l = 0; l < LANES; l++) {
+                        if (!(b->mass[0][l] > 0)) continue;
+                        at_level[m->bricks[i].level]++;
+                        for (int k = 0; k < 3; k++) {
+                            double v = 0;
+                            for (int j = 0; j < 3; j++) {
+                                v += L[3 * k + j] * b->x[j][l];
+                                worst_L = fmax(worst_L, fabs(b->L[3 * k + j][l] - L[3 * k + j]));
+                            }
+                            worst = fmax(worst, fabs(b->v[k][l] - v) / 20e-3);
+                        }
+                    }
+                }
+        print_message("%d levels: %.0f, %.0f, %.0f points; linear velocity to %.1e, its gradient to %.1e\n", levels, at_level[0],
+                      at_level[1], at_level[2], worst, worst_L);
+        for (int i = 0; i < levels; i++) assert_true(at_level[i] > 500);
+        assert_below(worst, ROUNDING);
+        assert_below(worst_L, 1e-10); /* differences over a cell of what is rounded at 20 mm */
+        mpm_free(m);
+    }
+}
+
+/* A cube flies through all levels, in and out again: split and put from one to the other, and nothing else happens to it. */
+static void test_flight(void **state)
+{
+    (void)state;
+    const material copper = scene_copper();
+    for (int levels = 2; levels <= MPM_MAX_LEVELS; levels++) {
+        mpm_scene s;
+        cube(&s, &copper, levels);
+        mpm_body *b = &s.body[0];
+        b->velocity[0] = 900, b->velocity[1] = 200, b->velocity[2] = -100;
+        mpm *m = scene_make(&s, 2);
+        const double K0 = material_bulk_modulus(&copper), x0 = scene_mean(m, MPM_position, 0, -1);
+        scene_steps(m, scene_full() ? 1000 : 400);
+        const mpm_ledger l = mpm_balance(m);
+        const mpm_report r = mpm_state(m);
+        const double way = scene_mean(m, MPM_position, 0, -1) - x0;
+        print_message("%d levels: %.1f mm, %llu splits, stress / K0 %.1e, kinetic energy %.1e, momentum %.1e, energy %.1e\n", levels,
+                      1e3 * way, (unsigned long long)r.splits, scene_largest(m, MPM_stress) / K0,
+                      l.kinetic / l.kinetic_start - 1, l.momentum_error, l.energy_error);
+        assert_true(r.splits > 1000 && way > 9e-3);
+        assert_below(scene_largest(m, MPM_stress) / K0, ROUNDING);
+        assert_near(l.kinetic / l.kinetic_start, 1, ROUNDING);
+        assert_near(l.mass / l.mass_start, 1, ROUNDING);
+        assert_below(l.momentum_error, ROUNDING);
+        assert_near(l.energy_error, 0, ROUNDING);
+        assert_near(way / (900 * r.time), 1, ROUNDING);
+        mpm_free(m);
+    }
+}
+
+/* ---- the gouge ---- */
+
+static void gouge(gouge_scene *g, int levels)
+{
+    scene_gouge(g, 0.25e-3, 1500);
+    mpm_scene *s = &g->scene;
+    s->levels = levels;
+    s->axis[0] = scene_graded(s->axis[0], -1e-3, 2e-3, 1.5e-3, 1.5);
+    s->axis[1] = scene_graded(s->axis[1], -1e-3, 1e-3, 1e-3, 1.5);
+    s->axis[2] = scene_graded(scene_axis(0, 6e-3, 0.25e-3, BOUNDARY_SYMMETRY, BOUNDARY_FREE), 0, 1e-3, 1e-3, 1.5);
+    s->body[0].shape_value.value[3] = 40e-3; /* the rail goes on */
+    s->follow_bodies = 1;
+    s->follow_lead = 1.25e-3, s->follow_speed = 1500, s->follow_width = 1.5e-3;
+}
+
+/* The zone follows and widens, points go from level to level, are split and merged: the books close. */
+static void test_books(void **state)
+{
+    (void)state;
+    for (int levels = 2; levels <= MPM_MAX_LEVELS; levels++) {
+        gouge_scene g;
+        gouge(&g, levels);
+        mpm *m = scene_make(&g.scene, 2);
+        const mpm_axis across = mpm_scene_of(m)->axis[2];
+        assert_ok(mpm_advance(m, 4e-6, NULL));
+        const mpm_ledger l = mpm_balance(m);
+        const mpm_report r = mpm_state(m);
+        print_message("%d levels: zone 0 .. %.2f mm across, then %.2f, %llu splits, %llu merges, energy %.1e, momentum %.1e\n",
+                      levels, 1e3 * across.fine_hi, 1e3 * mpm_scene_of(m)->axis[2].fine_hi, (unsigned long long)r.splits,
+                      (unsigned long long)r.merges, l.energy_error, l.momentum_error);
+        assert_true(mpm_scene_of(m)->axis[2].fine_hi > across.fine_hi);
+        assert_true(r.splits > 1000 && r.merges > 300);
+        assert_near((l.mass + l.ejected_mass) / l.mass_start, 1, ROUNDING);
+        assert_below(l.momentum_error, ROUNDING);
+        assert_near(l.energy_error, 0, ROUNDING);
+        assert_int_equal(r.particles, mpm_particles(m));
+        mpm_free(m);
+    }
+}
+
+static void test_bits(void **state)
+{
+    (void)state;
+    gouge_scene g;
+    gouge(&g, 3);
+    void *image = NULL;
+    size_t bytes = 0;
+    mpm *m[3];
+    for (int i = 0; i < 3; i++) {
+        m[i] = scene_make(&g.scene, 1 + i);
+        if (i == 2) assert_ok(mpm_restore(m[i], image, bytes));
+        if (i < 2) scene_steps(m[i], 230);
+        if (i == 0) assert_ok(mpm_save(m[0], &image, &bytes));
+        scene_steps(m[i], 90);
+    }
+    free(image);
+    double *want = scene_read(m[0], MPM_position);
+    for (int i = 1; i < 3; i++) {
+        assert_int_equal(mpm_particles(m[i]), mpm_particles(m[0]));
+        double *got = scene_read(m[i], MPM_position);
+        assert_memory_equal(got, want, mpm_particles(m[0]) * 3 * sizeof *want);
+        const mpm_ledger a = mpm_balance(m[0]), b = mpm_balance(m[i]);
+        assert_memory_equal(&a, &b, sizeof a);
+        free(got);
+    }
+    free(want);
+    for (int i = 0; i < 3; i++) mpm_free(m[i]);
+}
+
+/* The power that ploughs the rail and what the armature has lost, with fine cells all around and with levels. */
+static void test_same_groove(void **state)
+{
+    (void)state;
+    double power[MPM_MAX_LEVELS], lost[MPM_MAX_LEVELS];
+    for (int levels = 1; levels <= MPM_MAX_LEVELS; levels++) {
+        gouge_scene g;
+        gouge(&g, levels);
+        mpm *m = scene_make(&g.scene, 2);
+        assert_ok(mpm_advance(m, 3e-6, NULL));
+        power[levels - 1] = mpm_state(m).plastic_power;
+        lost[levels - 1] = 1 - scene_mean(m, MPM_velocity, 0, 2) / 1500;
+        print_message("%d levels: %zu points, power %.4g W, velocity lost %.4f\n", levels, mpm_particles(m), power[levels - 1],
+                      lost[levels - 1]);
+        mpm_free(m);
+        assert_near(power[levels - 1] / power[0], 1, levels < 3 ? 0.15 : 0.35); /* with three the scene is but a few cells wide */
+        assert_near(lost[levels - 1] / lost[0], 1, 0.1);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_nodes),  cmocka_unit_test(test_refused), cmocka_unit_test(test_linear),
+        cmocka_unit_test(test_flight), cmocka_unit_test(test_books),   cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_same_groove),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
