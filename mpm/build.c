@@ -128,7 +128,8 @@ static status one_box(const mpm_scene *s, int body, const law *k, const grids *g
     return status_ok();
 }
 
-static status walk(const mpm_scene *s, int body, const law *k, const grids *g, const ladder l[3], const build_sink *sink)
+static status walk(const mpm_scene *s, int body, const law *k, const grids *g, const ladder l[3],
+                   const build_sink *sink)
 {
     for (int iz = 0; iz < l[2].n; iz++)
         for (int iy = 0; iy < l[1].n; iy++)
@@ -146,8 +147,7 @@ static status walk(const mpm_scene *s, int body, const law *k, const grids *g, c
 
 const double build_everywhere[2] = { -INFINITY, INFINITY };
 
-status build_body(const mpm_scene *s, int body, const law *k, const grids *g, const double x[2],
-                  const build_sink *sink)
+status build_body(const mpm_scene *s, int body, const law *k, const grids *g, const double x[2], const build_sink *sink)
 {
     const mpm_body *b = &s->body[body];
     const axis *axes = grids_window(g)->axes;

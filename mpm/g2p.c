@@ -257,7 +257,7 @@ LANE_INLINE void find_bad(tally *t, const block *q, int lane, vd rate, int index
  * eroded; movers.c looks at each. */
 typedef struct {
     double lo[3], hi[3], longest[3]; /* edges of the cell, half length of a domain to be split [m] */
-    const grid_level *finer;               /* whose box may reach into the cell, or NULL */
+    const grid_level *finer;         /* whose box may reach into the cell, or NULL */
 } cell_limits;
 
 /* As grid_holds. */

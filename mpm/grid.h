@@ -10,9 +10,9 @@
 
 typedef struct {
     axis axes[3];
-    bool seam[3][2];   /* the box's face lies inside the next coarser level */
-    int lo[3], hi[3];  /* nodes of that level which the box's first and last node lie on */
-    int first_site;    /* of its bricks' places among those of all levels (store.h) */
+    bool seam[3][2];  /* the box's face lies inside the next coarser level */
+    int lo[3], hi[3]; /* nodes of that level which the box's first and last node lie on */
+    int first_site;   /* of its bricks' places among those of all levels (store.h) */
 } grid_level;
 
 typedef struct {

@@ -173,7 +173,8 @@ static status get_brick(mpm *m, reader *r)
     image_brick head;
     int index;
     if (!get(r, &head, sizeof head)) return cut_short();
-    CHECK(head.level >= 0 && head.level < m->grids.levels, STATUS_IO, "the checkpoint holds a level that the scene lacks");
+    CHECK(head.level >= 0 && head.level < m->grids.levels, STATUS_IO,
+          "the checkpoint holds a level that the scene lacks");
     for (int k = 0; k < 3; k++)
         CHECK(head.at[k] >= 0 && head.at[k] < m->grids.level[head.level].axes[k].bricks, STATUS_IO,
               "the checkpoint holds a place outside the window");
@@ -248,7 +249,8 @@ static status estimate(const mpm_scene *s, const grids *g, size_t *particles, do
         TRY(law_make(&s->body[i], s, &k));
         TRY(build_body(s, i, &k, g, build_everywhere, &sink));
         const double sound = sqrt((k.K0 + 4.0 / 3.0 * k.G) / k.rho0);
-        for (int q = 0; q < 3; q++) fastest = fmax(fastest, (sound + fabs(s->body[i].velocity[q])) / g->level[0].axes[q].smallest);
+        for (int q = 0; q < 3; q++)
+            fastest = fmax(fastest, (sound + fabs(s->body[i].velocity[q])) / g->level[0].axes[q].smallest);
     }
     *first_dt = s->courant / fastest;
     return status_ok();

@@ -3,10 +3,10 @@
 
 #include <string.h>
 
-#define KERNELS_OF(isa)                 \
-    void p2g_##isa(mpm *m, brick *b);   \
+#define KERNELS_OF(isa)                  \
+    void p2g_##isa(mpm *m, brick *b);    \
     void gather_##isa(mpm *m, int site); \
-    void nodes_##isa(mpm *m, int site); \
+    void nodes_##isa(mpm *m, int site);  \
     void g2p_##isa(mpm *m, brick *b, int thread);
 
 #ifdef BREECH_ISA_V4

@@ -118,7 +118,7 @@ mpm_report mpm_glance(const mpm *m);         /* the same but failed_volume, zero
 const mpm_scene *mpm_scene_of(const mpm *m); /* borrowed; its fine zone along x is where it is now */
 /* The part of a point's domain above x, or below it, with its share of the mass; false: there is none. */
 bool mpm_cut_at(double x, bool above, double position[3], double size[3], double *mass);
-const mpm_wake *mpm_wake_of(const mpm *m);   /* borrowed, until the next mpm_advance */
+const mpm_wake *mpm_wake_of(const mpm *m); /* borrowed, until the next mpm_advance */
 
 size_t mpm_particles(const mpm *m);
 /* out: mpm_particles() x width doubles, owned by the caller. */

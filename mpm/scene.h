@@ -92,7 +92,7 @@ typedef struct {
     double
         follow_speed; /* of the window along x while it follows: the bodies followed grow in at its upper end, as they
                                were at the start, and what falls behind is booked as ejected [m/s] */
-    double follow_width; /* half width that the fine zone across may grow to with the groove [m]; 0: it stays */
+    double follow_width;  /* half width that the fine zone across may grow to with the groove [m]; 0: it stays */
     double gauge_time[2]; /* when the plastic power of the bodies followed is noted, in order; 0: not [s] */
     contact_law contact[MPM_MAX_FIELDS][MPM_MAX_FIELDS]; /* symmetric */
     double contact_gap;     /* fields touch when the distance of their points' means at a node is below this [cells] */

@@ -57,8 +57,7 @@ static node_box to_coarse(const grid_level *fine, const node_box *f)
 static node_box to_fine(const grid_level *fine, const node_box *c)
 {
     node_box r;
-    for (int k = 0; k < 3; k++)
-        r.lo[k] = 2 * (c->lo[k] - fine->lo[k]) + 1, r.hi[k] = 2 * (c->hi[k] - fine->lo[k]) + 1;
+    for (int k = 0; k < 3; k++) r.lo[k] = 2 * (c->lo[k] - fine->lo[k]) + 1, r.hi[k] = 2 * (c->hi[k] - fine->lo[k]) + 1;
     return r;
 }
 
@@ -150,7 +149,8 @@ static status make_bricks(mpm *m, int field, int level, const node_box *r)
 status seams_answer(mpm *m, const brick *b)
 {
     const node_box reach = nodes_of(b->at, 1); /* of its particles */
-    const grid_level *g = &m->grids.level[b->level], *coarser = level_at(m, b->level + 1), *finer = level_at(m, b->level - 1);
+    const grid_level *g = &m->grids.level[b->level], *coarser = level_at(m, b->level + 1),
+                     *finer = level_at(m, b->level - 1);
     if (coarser) {
         const node_box c = to_coarse(g, &reach), there = existing(coarser, c);
         TRY(make_bricks(m, b->field, b->level + 1, &there));
@@ -180,7 +180,8 @@ static bool others_in(const mpm *m, int field, int level, const node_box *r)
 bool seams_meet(const mpm *m, const brick *b)
 {
     enum { REACH = 6 };
-    const grid_level *g = &m->grids.level[b->level], *coarser = level_at(m, b->level + 1), *finer = level_at(m, b->level - 1);
+    const grid_level *g = &m->grids.level[b->level], *coarser = level_at(m, b->level + 1),
+                     *finer = level_at(m, b->level - 1);
     const node_box near = nodes_of(b->at, REACH), own = existing(g, near);
     if (others_in(m, b->field, b->level, &own)) return true;
     if (coarser) {
@@ -347,8 +348,7 @@ static void follow_coarser(const mpm *m, brick *b, int cell, const int node[3])
     for (int k = 0; k < 3; k++) share *= c.lo[k] < c.hi[k] ? 0.5 : 1;
     for (int z = c.lo[2]; z <= c.hi[2]; z++)
         for (int y = c.lo[1]; y <= c.hi[1]; y++)
-            for (int x = c.lo[0]; x <= c.hi[0]; x++)
-                add_node(to, m, b, b->level + 1, (const int[3]){ x, y, z }, share);
+            for (int x = c.lo[0]; x <= c.hi[0]; x++) add_node(to, m, b, b->level + 1, (const int[3]){ x, y, z }, share);
 }
 
 void seams_follow(mpm *m, int site)

@@ -114,9 +114,9 @@ typedef struct {
     int field, level;
     int at[3]; /* brick coordinates */
     int site;
-    seam_nodes seam; /* of its nodes */
-    bool at_seam;    /* there are any */
-    bool across;     /* another field has particles near a node that this brick shares with another level */
+    seam_nodes seam;       /* of its nodes */
+    bool at_seam;          /* there are any */
+    bool across;           /* another field has particles near a node that this brick shares with another level */
     int head[BRICK_CELLS]; /* first block of each cell, -1 = none */
     int particles, blocks;
     bool contact;                            /* another field has particles here or next door */
@@ -202,12 +202,12 @@ void store_release(mpm *m, int block_index);         /* back to the free blocks 
 void store_release_cell(mpm *m, brick *b, int cell); /* all blocks of a cell */
 void store_free(mpm *m);
 status store_brick(mpm *m, int field, int level, const int at[3], int *out); /* finds or makes it */
-status store_open(brick *b);                                      /* memory for the sums of its particles */
-status store_empty(mpm *m, int blocks);                           /* no bricks, room for so many blocks */
-status store_surround(mpm *m, int brick_index);                   /* makes its 26 neighbours inside the window */
-void store_relink(mpm *m);                                        /* neighbours, contact flags, site list */
-status store_reserve(mpm *m);                                     /* free blocks for the next step */
-status store_compact(mpm *m);                                     /* blocks into the order of bricks and cells */
+status store_open(brick *b);                                                 /* memory for the sums of its particles */
+status store_empty(mpm *m, int blocks);                                      /* no bricks, room for so many blocks */
+status store_surround(mpm *m, int brick_index); /* makes its 26 neighbours inside the window */
+void store_relink(mpm *m);                      /* neighbours, contact flags, site list */
+status store_reserve(mpm *m);                   /* free blocks for the next step */
+status store_compact(mpm *m);                   /* blocks into the order of bricks and cells */
 int store_insert(mpm *m, brick *b, int cell, int body, const double *particle); /* block, or -1 when none is free */
 
 status store_place(mpm *m, int body, const double *particle); /* makes its brick if need be; outside any step */
@@ -215,7 +215,7 @@ int store_cell_at(const mpm *m, int level, const double x[3], int at[3]); /* cel
 
 /* seams.c: nodes that two levels share */
 seam_nodes seams_of(const mpm *m, int level, const int at[3]); /* of a brick at this place */
-status seams_answer(mpm *m, const brick *b); /* makes the bricks that a brick's particles need in other levels */
+status seams_answer(mpm *m, const brick *b);   /* makes the bricks that a brick's particles need in other levels */
 bool seams_meet(const mpm *m, const brick *b); /* brick.across */
 void seams_receive(mpm *m, int site);          /* adds to brick.line what nodes of other levels hand on */
 void seams_follow(mpm *m, int site);           /* velocities of the nodes that follow another level */

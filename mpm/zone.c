@@ -203,28 +203,29 @@ static int too_long(const mpm *m, const double *q)
     return -1;
 }
 
-/* What the new window leaves out is gone. */
+/* What the new window leaves out is gone; so is a half that lies beyond its sides. */
 static bool outside(const mpm *m, const double *q)
 {
-    const axis *a = &grids_window(&m->grids)->axes[0];
-    return q[FIRST_x] < a->edge[1] || q[FIRST_x] >= a->edge[a->last + 1];
+    for (int k = 0; k < 3; k++) {
+        const axis *a = &grids_window(&m->grids)->axes[k];
+        if (q[FIRST_x + k] < a->edge[1] || q[FIRST_x + k] >= a->edge[a->last + 1]) return true;
+    }
+    return false;
 }
 
 static status place_split(mpm *m, int body, double *q)
 {
-    if (outside(m, q)) {
-        departure d = { .count = 0 };
-        particle_leave(q, m->dt_last, &d);
-        mpm_book_departure(m, &d);
-        return status_ok();
-    }
-    for (int k; (k = too_long(m, q)) >= 0;) {
+    for (int k; !outside(m, q) && (k = too_long(m, q)) >= 0;) {
         double other[BLOCK_DOUBLES];
         particle_halve(q, other, k);
         m->report.splits++;
         TRY(place_split(m, body, other));
     }
-    return store_place(m, body, q);
+    if (!outside(m, q)) return store_place(m, body, q);
+    departure d = { .count = 0 };
+    particle_leave(q, m->dt_last, &d);
+    mpm_book_departure(m, &d);
+    return status_ok();
 }
 
 /* Empties one brick of the old grid into the new one; its blocks go back as soon as they are read. */
@@ -335,7 +336,8 @@ static zone zone_wanted(const mpm *m, const plough *p)
 {
     const mpm_axis *s = &m->scene.axis[0];
     const double front = p->power > 0 ? p->front : s->lo;
-    const double room = fmax(2 * s->coarse, grids_margin(m->scene.levels, s->fine)), way = m->scene.follow_speed * m->time;
+    const double room = fmax(2 * s->coarse, grids_margin(m->scene.levels, s->fine)),
+                 way = m->scene.follow_speed * m->time;
     const double hi = m->zone_start.at[2] + way;
     const double fine_hi = fmin(front + m->scene.follow_lead, hi - room);
     const double together = 1 << (m->scene.levels - 1); /* cells of the coarsest level keep their places */

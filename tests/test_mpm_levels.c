@@ -22,8 +22,7 @@ static int whole(int lo, int hi)
 static mpm_axis any_axis(void)
 {
     const double h = uniform(0.1e-3, 1e-3), lo = rand() % 2 ? 0 : uniform(-5e-3, 5e-3);
-    const double below = rand() % 3 ? h * whole(12, 40) : 0,
-                 above = rand() % 3 ? h * whole(12, 40) : 0;
+    const double below = rand() % 3 ? h * whole(12, 40) : 0, above = rand() % 3 ? h * whole(12, 40) : 0;
     const double length = (below > 0 || above > 0 ? 2 : 4) * h * whole(2, 20); /* it may fill the window */
     return (mpm_axis){ .lo = lo,
                        .hi = lo + below + length + above,
@@ -119,7 +118,8 @@ static void test_linear(void **state)
                     for (int l = 0; l < LANES; l++)
                         for (int k = 0; k < 3; k++) {
                             b->v[k][l] = 0;
-                            for (int j = 0; j < 3; j++) b->L[3 * k + j][l] = L[3 * k + j], b->v[k][l] += L[3 * k + j] * b->x[j][l];
+                            for (int j = 0; j < 3; j++)
+                                b->L[3 * k + j][l] = L[3 * k + j], b->v[k][l] += L[3 * k + j] * b->x[j][l];
                         }
                 }
         m->dt = 1e-15; /* so that nothing moves */
@@ -142,8 +142,8 @@ static void test_linear(void **state)
                         }
                     }
                 }
-        print_message("%d levels: %.0f, %.0f, %.0f points; linear velocity to %.1e, its gradient to %.1e\n", levels, at_level[0],
-                      at_level[1], at_level[2], worst, worst_L);
+        print_message("%d levels: %.0f, %.0f, %.0f points; linear velocity to %.1e, its gradient to %.1e\n", levels,
+                      at_level[0], at_level[1], at_level[2], worst, worst_L);
         for (int i = 0; i < levels; i++) assert_true(at_level[i] > 500);
         assert_below(worst, ROUNDING);
         assert_below(worst_L, 1e-10); /* differences over a cell of what is rounded at 20 mm */
@@ -167,9 +167,10 @@ static void test_flight(void **state)
         const mpm_ledger l = mpm_balance(m);
         const mpm_report r = mpm_state(m);
         const double way = scene_mean(m, MPM_position, 0, -1) - x0;
-        print_message("%d levels: %.1f mm, %llu splits, stress / K0 %.1e, kinetic energy %.1e, momentum %.1e, energy %.1e\n", levels,
-                      1e3 * way, (unsigned long long)r.splits, scene_largest(m, MPM_stress) / K0,
-                      l.kinetic / l.kinetic_start - 1, l.momentum_error, l.energy_error);
+        print_message(
+            "%d levels: %.1f mm, %llu splits, stress / K0 %.1e, kinetic energy %.1e, momentum %.1e, energy %.1e\n",
+            levels, 1e3 * way, (unsigned long long)r.splits, scene_largest(m, MPM_stress) / K0,
+            l.kinetic / l.kinetic_start - 1, l.momentum_error, l.energy_error);
         assert_true(r.splits > 1000 && way > 9e-3);
         assert_below(scene_largest(m, MPM_stress) / K0, ROUNDING);
         assert_near(l.kinetic / l.kinetic_start, 1, ROUNDING);
@@ -208,9 +209,10 @@ static void test_books(void **state)
         assert_ok(mpm_advance(m, 4e-6, NULL));
         const mpm_ledger l = mpm_balance(m);
         const mpm_report r = mpm_state(m);
-        print_message("%d levels: zone 0 .. %.2f mm across, then %.2f, %llu splits, %llu merges, energy %.1e, momentum %.1e\n",
-                      levels, 1e3 * across.fine_hi, 1e3 * mpm_scene_of(m)->axis[2].fine_hi, (unsigned long long)r.splits,
-                      (unsigned long long)r.merges, l.energy_error, l.momentum_error);
+        print_message(
+            "%d levels: zone 0 .. %.2f mm across, then %.2f, %llu splits, %llu merges, energy %.1e, momentum %.1e\n",
+            levels, 1e3 * across.fine_hi, 1e3 * mpm_scene_of(m)->axis[2].fine_hi, (unsigned long long)r.splits,
+            (unsigned long long)r.merges, l.energy_error, l.momentum_error);
         assert_true(mpm_scene_of(m)->axis[2].fine_hi > across.fine_hi);
         assert_true(r.splits > 1000 && r.merges > 300);
         assert_near((l.mass + l.ejected_mass) / l.mass_start, 1, ROUNDING);
@@ -262,10 +264,11 @@ static void test_same_groove(void **state)
         assert_ok(mpm_advance(m, 3e-6, NULL));
         power[levels - 1] = mpm_state(m).plastic_power;
         lost[levels - 1] = 1 - scene_mean(m, MPM_velocity, 0, 2) / 1500;
-        print_message("%d levels: %zu points, power %.4g W, velocity lost %.4f\n", levels, mpm_particles(m), power[levels - 1],
-                      lost[levels - 1]);
+        print_message("%d levels: %zu points, power %.4g W, velocity lost %.4f\n", levels, mpm_particles(m),
+                      power[levels - 1], lost[levels - 1]);
         mpm_free(m);
-        assert_near(power[levels - 1] / power[0], 1, levels < 3 ? 0.15 : 0.35); /* with three the scene is but a few cells wide */
+        assert_near(power[levels - 1] / power[0], 1,
+                    levels < 3 ? 0.15 : 0.35); /* with three the scene is but a few cells wide */
         assert_near(lost[levels - 1] / lost[0], 1, 0.1);
     }
 }
@@ -273,8 +276,8 @@ static void test_same_groove(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nodes),  cmocka_unit_test(test_refused), cmocka_unit_test(test_linear),
-        cmocka_unit_test(test_flight), cmocka_unit_test(test_books),   cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_nodes),       cmocka_unit_test(test_refused), cmocka_unit_test(test_linear),
+        cmocka_unit_test(test_flight),      cmocka_unit_test(test_books),   cmocka_unit_test(test_bits),
         cmocka_unit_test(test_same_groove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

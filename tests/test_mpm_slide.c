@@ -11,7 +11,8 @@ static const double H = 0.3e-3, LENGTH = 10e-3, HALF_BORE = 4e-3, HALF_WIDTH = 3
                     CHAMFER = 1e-3;
 
 /* Rail ahead and the grid: 4 mm behind the armature, `travel` + 4 mm before it; fine over the whole way along x. */
-static void slide_scene(mpm_scene *s, const material *copper, const material *aluminium, double speed, double travel, int levels)
+static void slide_scene(mpm_scene *s, const material *copper, const material *aluminium, double speed, double travel,
+                        int levels)
 {
     mpm_scene_default(s);
     s->levels = levels;
@@ -72,7 +73,8 @@ static slide_result slide(double speed, double travel, int levels)
     free(x), free(ep);
     for (int i = 0; i < s.bodies; i++) out.failed += r.failed_volume[i];
     out.pressure = r.peak_pressure;
-    print_message("%d levels, %.1f km/s over %.0f mm, %zu points, %llu steps: plastic strain %.2e, failed %.2g mm3, energy %+.1e, "
+    print_message("%d levels, %.1f km/s over %.0f mm, %zu points, %llu steps: plastic strain %.2e, failed %.2g mm3, "
+                  "energy %+.1e, "
                   "momentum %.1e, load %.0f N of %.0f, peak pressure %.0f MPa\n",
                   levels, 1e-3 * speed, 1e3 * travel, mpm_particles(m), (unsigned long long)r.steps, out.strain,
                   1e9 * out.failed, out.energy, out.momentum, w.impulse / (end / 2), pressed, 1e-6 * out.pressure);

@@ -67,7 +67,7 @@ typedef struct {
     double run;                     /* length of the lead face along x */
     double fine_behind, fine_ahead; /* ends of the fine zone, both positive */
     double fine_depth, fine_above, fine_half_width;
-    double narrow_half_width; /* of the fine zone at the start */
+    double narrow_half_width;           /* of the fine zone at the start */
     double behind, ahead;               /* ends of the window, both positive; at the start, if it follows */
     double travel;                      /* of the window, at most */
     double rail_half_width, half_width; /* of the rail, of the window */
