@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -161,25 +162,65 @@ static void test_laid_aside(void **state)
 static void test_ahead(void **state)
 {
     (void)state;
-    breech_case *c = small_case("scene.end_time=1 us"), *longer = small_case("scene.end_time=5 us");
+    breech_case *c = small_case("scene.end_time=1 us"), *longer = small_case("scene.end_time=10 us");
     const scene_query wanted = query_at(longer, 1500.0), ahead[] = { query_at(c, 1400.0), query_at(c, 1600.0) };
     const scene_record *out, *none;
     session s;
     open_session(c, "ahead", &s);
-    OK(scenes_ahead(&s, ahead, 2));
+    OK(scenes_ahead(&s, ahead, 2, false));
     OK(scenes_all(&s, &wanted, 1, &out));
     assert_int_equal(s.n_records, 1);
     OK(scenes_find(&s, &ahead[0], &out)); /* the others have long finished it */
     assert_non_null(out);
     assert_false(out->entry.reused);
     assert_same(*out, alone(c, &ahead[0]));
-    OK(scenes_ahead(&s, NULL, 0));
+    OK(scenes_ahead(&s, NULL, 0, false));
     OK(scenes_find(&s, &wanted, &none));
     OK(session_close(&s, true));
     assert_true(is_there("ahead", ahead[0].name, "scene.hdf.series"));
     assert_false(is_there("ahead", ahead[1].name, "scene.hdf.series"));
     case_free(c);
     case_free(longer);
+}
+
+static double written_at(const char *dir, const char *scene, const char *file)
+{
+    char path[400];
+    struct stat about;
+    snprintf(path, sizeof path, "%s/scenes/%s/%s", dir, scene, file);
+    assert_int_equal(stat(path, &about), 0);
+    return (double)about.st_mtim.tv_sec + 1e-9 * (double)about.st_mtim.tv_nsec;
+}
+
+/* Members that compute what may be wanted put it off for what is, and go on with it afterwards; what nobody asks for any more
+ * they give up.  All of it to the same bits. */
+static void test_put_off(void **state)
+{
+    (void)state;
+    breech_case *c = small_case("scene.end_time=1 us"), *longer = small_case("scene.end_time=5 us"),
+                *longest = small_case("scene.end_time=10 us");
+    const scene_query ahead[] = { query_at(longer, 1400.0), query_at(longer, 1600.0) };
+    const scene_query first = query_at(c, 1500.0), two[] = { query_at(longest, 1550.0), query_at(c, 1450.0) };
+    const scene_record *out[2];
+    session s;
+    open_session(c, "put-off", &s);
+    OK(scenes_ahead(&s, ahead, 2, false));
+    OK(scenes_all(&s, &first, 1, out)); /* by rank 0, while the others have begun what may come */
+    OK(scenes_all(&s, two, 2, out));    /* rank 0 takes the long one, a member the other at once */
+    for (int i = 0; i < 2; i++) assert_same(*out[i], alone(two[i].c, &two[i]));
+    assert_true(written_at("put-off", two[1].name, "scene-000001.hdf") <
+                written_at("put-off", two[0].name, "scene-000001.hdf"));
+    OK(scenes_ahead(&s, &ahead[1], 1, false));
+    OK(scenes_all(&s, &first, 1, out)); /* known */
+    OK(scenes_ahead(&s, NULL, 0, false));
+    const scene_query last = query_at(c, 1350.0);
+    OK(scenes_all(&s, &last, 1, out)); /* nobody wants the long ones: given up where they are */
+    OK(scenes_all(&s, ahead, 2, out)); /* or does: from the start */
+    for (int i = 0; i < 2; i++) assert_same(*out[i], alone(ahead[i].c, &ahead[i]));
+    OK(session_close(&s, true));
+    case_free(c);
+    case_free(longer);
+    case_free(longest);
 }
 
 /* A scene that cannot be: the words of the process that met it. */
@@ -236,7 +277,7 @@ int main(int argc, char **argv)
     if (argc == 1) return as_crew(argv[0]);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_batch),  cmocka_unit_test(test_laid_aside), cmocka_unit_test(test_ahead),
-        cmocka_unit_test(test_failed), cmocka_unit_test(test_stopped),
+        cmocka_unit_test(test_failed), cmocka_unit_test(test_stopped),    cmocka_unit_test(test_put_off),
     };
     int failed = 0;
     if (ranks_start().code != STATUS_OK) return SKIPPED; /* built without MPI */

@@ -33,6 +33,8 @@ typedef struct {
     double doubt;          /* |excess| below which the class is undecided */
     double dip_at;         /* a stretch of 60 m/s that does not gouge, NaN: none [m/s] */
     int calls, fail_at;    /* 0: never fails */
+    double promised[2];    /* by `together`, to be kept [m/s, cells a radius] */
+    int pairs, kept;
     double asked[THRESHOLD_MAX_SAMPLES][2];
 } function;
 
@@ -43,6 +45,7 @@ static status value_of(void *user, double v, double cells, threshold_sample *out
         if (f->asked[i][0] == v && f->asked[i][1] == cells) fail_msg("%g m/s at %g cells asked for twice", v, cells);
     f->asked[f->calls][0] = v;
     f->asked[f->calls++][1] = cells;
+    if (f->promised[0] == v && f->promised[1] == cells) f->kept++;
     CHECK(f->calls != f->fail_at, STATUS_STOPPED, "stopped");
     uint64_t seed = (uint64_t)(1000.0 * v) + (uint64_t)cells;
     uniform(&seed);
@@ -52,6 +55,13 @@ static status value_of(void *user, double v, double cells, threshold_sample *out
     const damage_class side = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
     *out = (threshold_sample){ .excess = excess, .class = fabs(excess) < f->doubt ? DAMAGE_UNDECIDED : side };
     return status_ok();
+}
+
+static void together(void *user, double v, double cells)
+{
+    function *f = user;
+    f->promised[0] = v, f->promised[1] = cells;
+    f->pairs++;
 }
 
 static double line(double u)
@@ -101,7 +111,8 @@ static function plain(double (*f)(double), double zero)
 static threshold_result search(function *f, const threshold_plan *plan)
 {
     threshold_result r;
-    OK(threshold_search(plan, &(threshold_source){ value_of, f }, &r));
+    OK(threshold_search(plan, &(threshold_source){ value_of, together, f }, &r));
+    assert_int_equal(f->pairs, f->kept);
     for (int i = 0; i < r.samples; i++) {
         const double k = r.sample[i].velocity / plan->step;
         assert_true(fabs(k - round(k)) < 1e-9);
@@ -119,7 +130,7 @@ static void test_found(void **state)
     (void)state;
     uint64_t seed = 7;
     const threshold_plan plan = usual();
-    double most = 0, sum = 0;
+    double most = 0, sum = 0, rounds = 0;
     int n = 0;
     for (int k = 0; k < FUNCTIONS; k++)
         for (int i = 0; i < 400; i++) {
@@ -137,11 +148,14 @@ static void test_found(void **state)
             assert_true(fabs((r.interval[1] - r.bracket[1]) - fabs(r.shift)) < 1e-9);
             most = fmax(most, r.samples);
             sum += r.samples;
+            rounds += r.samples - f.pairs;
             n++;
         }
-    print_message("scenes: %.2f on average, %.0f at most, of %d searches\n", sum / n, most, n);
+    print_message("scenes: %.2f on average, %.0f at most, in %.2f rounds of one or two, of %d searches\n", sum / n,
+                  most, rounds / n, n);
     assert_true(most <= 16.0);   /* 5 steps of halving coarse, 4 doublings and 4 halvings fine, and the first three */
     assert_true(sum / n <= 9.0); /* the brief of the default case: 6 to 9 scenes */
+    assert_true(rounds < 0.7 * sum); /* two processes have something to do in most of them */
 }
 
 /* The root: a line is met exactly by the secant. */
@@ -306,13 +320,13 @@ static void test_errors(void **state)
     for (int at = 1; at <= 4; at++) {
         function f = plain(line, 1400.0);
         f.fail_at = at;
-        assert_int_equal(threshold_search(&plan, &(threshold_source){ value_of, &f }, &r).code, STATUS_STOPPED);
+        assert_int_equal(threshold_search(&plan, &(threshold_source){ value_of, NULL, &f }, &r).code, STATUS_STOPPED);
         assert_int_equal(r.samples, at - 1); /* what was reached is there */
     }
     function f = plain(line, NAN);
-    assert_int_equal(threshold_search(&plan, &(threshold_source){ value_of, &f }, &r).code, STATUS_NUMERICAL);
+    assert_int_equal(threshold_search(&plan, &(threshold_source){ value_of, NULL, &f }, &r).code, STATUS_NUMERICAL);
     plan.high = plan.low + 1.0;
-    assert_int_equal(threshold_search(&plan, &(threshold_source){ value_of, &f }, &r).code, STATUS_BAD_INPUT);
+    assert_int_equal(threshold_search(&plan, &(threshold_source){ value_of, NULL, &f }, &r).code, STATUS_BAD_INPUT);
     assert_true(threshold_step(0.05) == 25.0 && threshold_step(0.03) == 10.0 && threshold_step(0.1) == 50.0);
 }
 

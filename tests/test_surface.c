@@ -82,7 +82,7 @@ static surface_result search(grains *g, const surface_plan *p)
 {
     surface_result r;
     g->calls = 0;
-    OK(surface_search(p, &(surface_source){ outcome, g }, &r));
+    OK(surface_search(p, &(surface_source){ outcome, NULL, g }, &r));
     assert_int_equal(r.samples, g->calls); /* none asked for twice */
     assert_true(r.samples <= p->search.max_scenes);
     for (int i = 0; i < r.samples; i++)
@@ -236,10 +236,10 @@ static void test_errors(void **state)
     const int all = search(&g, &p).samples;
     for (int at = 1; at <= all; at++) {
         g = (grains){ .base = 1400.0, .slope = 0.2, .fail_at = at };
-        assert_int_equal(surface_search(&p, &(surface_source){ outcome, &g }, &r).code, STATUS_STOPPED);
+        assert_int_equal(surface_search(&p, &(surface_source){ outcome, NULL, &g }, &r).code, STATUS_STOPPED);
     }
     p.size[1] = p.size[0];
-    assert_int_equal(surface_search(&p, &(surface_source){ outcome, &g }, &r).code, STATUS_BAD_INPUT);
+    assert_int_equal(surface_search(&p, &(surface_source){ outcome, NULL, &g }, &r).code, STATUS_BAD_INPUT);
 }
 
 static void test_at(void **state)

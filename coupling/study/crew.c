@@ -9,17 +9,21 @@
 typedef enum { WAITING, AWAY, HERE, COME } place;
 
 /* One scene on its way. */
-typedef struct {
+typedef struct errand {
     scene_query query;
     scene_key key;
     place where;
-    bool wanted;     /* by the call under way; else it may be wanted */
-    bool ahead;      /* still in the list of those that may be */
-    h5_file *file;   /* COME and not failed */
-    status failed;   /* COME: STATUS_OK if not */
-    history *rows;   /* of rank 0's own scenes */
-    void *image;     /* laid aside by rank 0, to go on from; owned */
-    scene_resume at; /* image, when there is one */
+    bool wanted;            /* by the call under way; else it may be wanted */
+    bool ahead;             /* still in the list of those that may be */
+    int order;              /* in the list it came up in last */
+    int member;             /* AWAY: who has it */
+    bool dropped;           /* AWAY: that one was told to give it up */
+    struct errand *put_off; /* AWAY: by the member that has it, for this one */
+    h5_file *file;          /* COME and not failed */
+    status failed;          /* COME: STATUS_OK if not */
+    history *rows;          /* of rank 0's own scenes */
+    void *image;            /* laid aside by rank 0, to go on from; owned */
+    scene_resume at;        /* image, when there is one */
 } errand;
 
 struct crew {
@@ -28,6 +32,7 @@ struct crew {
     errand **busy; /* members + 1, by rank: what it computes, NULL: idle; rank 0's is unused */
     int n;
     errand **errand; /* n, in the order they came up; owned, one by one */
+    bool level;      /* wanted ones do not go before the others */
     bool aside;      /* rank 0's scene is being laid aside */
     status error;    /* met while rank 0's scene was stepping */
 };
@@ -89,15 +94,21 @@ static status find_or_add(crew *k, const scene_query *q, errand **out)
     return done;
 }
 
-/* What waits and is no longer asked for. */
-static void forget_idle(crew *k)
+/* What is no longer asked for: what waits is forgotten, what others compute they may give up. */
+static status forget_idle(crew *k)
 {
     for (int i = k->n - 1; i >= 0; i--) {
         errand *e = k->errand[i];
-        if (e->where != WAITING || e->wanted || e->ahead) continue;
-        strike(k, e);
-        errand_free(e);
+        if (e->wanted || e->ahead) continue;
+        if (e->where == WAITING) {
+            strike(k, e);
+            errand_free(e);
+        } else if (e->where == AWAY && !e->dropped) {
+            e->dropped = true;
+            TRY(crew_say(e->member, SAY_DROP, &e->key.hash, sizeof e->key.hash, NULL, 0));
+        }
     }
+    return status_ok();
 }
 
 /* ---- messages ---- */
@@ -129,8 +140,14 @@ static status hear_outcome(crew *k, const message *m)
     errand *e = find(k, key);
     const char *body = m->data + sizeof key;
     const size_t bytes = m->bytes - sizeof key;
-    k->busy[m->from] = NULL;
     if (!e || e->where != AWAY) return status_ok();
+    k->busy[m->from] = e->put_off;
+    e->put_off = NULL;
+    if (m->kind == SAY_FAILED && e->dropped) { /* for good, unless somebody has thought better of it */
+        e->where = WAITING;
+        e->dropped = false;
+        return status_ok();
+    }
     if (m->kind == SAY_FAILED) {
         e->where = COME;
         memcpy(&e->failed, body, sizeof e->failed);
@@ -159,27 +176,36 @@ static bool resumable(const crew *k, const errand *e)
     return e->image || session_resume_of(k->s, e->query.name).image;
 }
 
-/* The next for a member: wanted before ahead; what rank 0 has begun stays with rank 0. */
-static errand *next_for_member(const crew *k)
+/* Is a to be computed rather than b?  Wanted before ahead, unless all are level, then as they were listed. */
+static bool goes_first(const crew *k, const errand *a, const errand *b)
 {
-    for (int wanted = 1; wanted >= 0; wanted--)
-        for (int i = 0; i < k->n; i++) {
-            errand *e = k->errand[i];
-            if (e->where == WAITING && e->wanted == (wanted == 1) && !resumable(k, e)) return e;
-        }
-    return NULL;
+    return !b || (!k->level && a->wanted != b->wanted ? a->wanted : a->order < b->order);
 }
 
-/* The next for rank 0: what it has begun before the rest. */
+/* The next for a member; what rank 0 has begun stays with rank 0. */
+static errand *next_for_member(const crew *k)
+{
+    errand *best = NULL;
+    for (int i = 0; i < k->n; i++) {
+        errand *e = k->errand[i];
+        if (e->where == WAITING && (e->wanted || e->ahead) && !resumable(k, e) && goes_first(k, e, best)) best = e;
+    }
+    return best;
+}
+
+/* The next for rank 0: of those that are wanted, or of the others, what it has begun before the rest. */
 static errand *next_for_me(const crew *k)
 {
-    for (int wanted = 1; wanted >= 0; wanted--)
-        for (int begun = 1; begun >= 0; begun--)
-            for (int i = 0; i < k->n; i++) {
-                errand *e = k->errand[i];
-                if (e->where == WAITING && e->wanted == (wanted == 1) && resumable(k, e) == (begun == 1)) return e;
-            }
-    return NULL;
+    errand *best = NULL;
+    for (int i = 0; i < k->n; i++) {
+        errand *e = k->errand[i];
+        if (e->where != WAITING || !(e->wanted || e->ahead)) continue;
+        const bool sooner = best && (k->level || best->wanted == e->wanted) && resumable(k, e) != resumable(k, best)
+                                ? resumable(k, e)
+                                : goes_first(k, e, best);
+        if (sooner) best = e;
+    }
+    return best;
 }
 
 static int idle_member(const crew *k)
@@ -189,21 +215,40 @@ static int idle_member(const crew *k)
     return 0;
 }
 
+/* An idle one; for a wanted scene one that computes what nobody waits for, and has put off nothing yet: two solvers take the
+ * memory of two.  0: nobody. */
+static int member_for(const crew *k, const errand *e)
+{
+    const int idle = idle_member(k);
+    if (idle || !e->wanted || k->level) return idle;
+    for (int r = 1; r <= k->members; r++)
+        if (!k->busy[r]->wanted && !k->busy[r]->put_off) return r;
+    return 0;
+}
+
+static status give(crew *k, errand *e, int member)
+{
+    scene_order order;
+    memset(&order, 0, sizeof order);
+    order.key = e->key.hash;
+    snprintf(order.name, sizeof order.name, "%s", e->query.name);
+    outdir_drop_scene(&k->s->dir, e->query.name); /* of a part that was stopped */
+    TRY(crew_say(member, SAY_SCENE, &order, sizeof order, e->key.text, e->key.bytes));
+    e->where = AWAY;
+    e->member = member;
+    e->put_off = k->busy[member];
+    k->busy[member] = e;
+    return status_ok();
+}
+
 static status hand_out(crew *k)
 {
-    for (int r; (r = idle_member(k));) {
+    for (;;) {
         errand *e = next_for_member(k);
-        if (!e) return status_ok();
-        scene_order order;
-        memset(&order, 0, sizeof order);
-        order.key = e->key.hash;
-        snprintf(order.name, sizeof order.name, "%s", e->query.name);
-        outdir_drop_scene(&k->s->dir, e->query.name); /* of a part that was stopped */
-        TRY(crew_say(r, SAY_SCENE, &order, sizeof order, e->key.text, e->key.bytes));
-        e->where = AWAY;
-        k->busy[r] = e;
+        const int member = e ? member_for(k, e) : 0;
+        if (!member) return status_ok();
+        TRY(give(k, e, member));
     }
-    return status_ok();
 }
 
 /* ---- rank 0's own scene ---- */
@@ -228,7 +273,7 @@ static bool stop_own(void *user)
     if (k->error.code == STATUS_OK) k->error = hear(k);
     if (k->error.code == STATUS_OK) k->error = hand_out(k);
     if (k->error.code != STATUS_OK || (k->s->stop && k->s->stop())) return true;
-    k->aside = wanted_has_come(k) && (!own->e->wanted || idle_member(k));
+    k->aside = wanted_has_come(k) && ((!own->e->wanted && !k->level) || idle_member(k));
     return k->aside;
 }
 
@@ -318,8 +363,10 @@ status crew_create(session *s, crew **out)
 static void stop_members(crew *k)
 {
     int left = 0;
-    for (int r = 1; r <= k->members; r++)
-        if (k->busy[r]) left += ranks_send(r, SAY_STOP, "", 0).code == STATUS_OK;
+    for (int r = 1; r <= k->members; r++) {
+        if (k->busy[r]) ranks_send(r, SAY_STOP, "", 0);
+        for (const errand *e = k->busy[r]; e; e = e->put_off) left++;
+    }
     while (left > 0) {
         message m;
         bool any = false;
@@ -343,15 +390,16 @@ void crew_free(crew *k)
     free(k);
 }
 
-status crew_ahead(crew *k, const scene_query *query, int n)
+status crew_ahead(crew *k, const scene_query *query, int n, bool level)
 {
+    k->level = level;
     for (int i = 0; i < k->n; i++) k->errand[i]->ahead = false;
     for (int i = 0; i < n; i++) {
         errand *e;
         TRY(find_or_add(k, &query[i], &e));
         e->ahead = true;
+        e->order = i;
     }
-    forget_idle(k);
     return status_ok();
 }
 
@@ -361,10 +409,10 @@ static status want(crew *k, const scene_query *query, int n)
     for (int i = 0; i < n; i++) {
         errand *e;
         TRY(find_or_add(k, &query[i], &e));
+        if (!(k->level && e->ahead)) e->order = i;
         e->wanted = true;
     }
-    forget_idle(k);
-    return status_ok();
+    return forget_idle(k);
 }
 
 status crew_some(crew *k, const scene_query *query, int n)

@@ -17,24 +17,30 @@ status crew_say(int to, int kind, const void *head, size_t head_bytes, const voi
     return said;
 }
 
-typedef struct {
-    int threads;
-    bool give_up; /* the scene under way */
-    bool over;    /* nothing more comes */
-} member;
+typedef struct member member;
 
-/* While a scene is under way nothing but these two can come. */
+/* A scene under way; those below the top are put off until it is done. */
+typedef struct work {
+    member *me;
+    uint64_t key;
+    bool give_up;
+    struct work *put_off;
+} work;
+
+struct member {
+    int threads;
+    work *top;
+    bool over; /* nothing more comes */
+};
+
+static bool listen(member *me);
+
+/* Between two steps: a scene that comes now is computed here and now, and this one then goes on. */
 static bool heard_stop(void *user)
 {
-    member *me = user;
-    message m;
-    bool any = false;
-    if (!me->give_up && ranks_receive(&m, &any).code == STATUS_OK && any) {
-        me->over = m.kind == SAY_END;
-        me->give_up = me->over || m.kind == SAY_STOP;
-        message_free(&m);
-    }
-    return me->give_up;
+    const work *w = user;
+    while (listen(w->me)) continue;
+    return w->give_up;
 }
 
 static status send_file(void *user, const char *path, const void *data, size_t bytes)
@@ -45,7 +51,7 @@ static status send_file(void *user, const char *path, const void *data, size_t b
 
 /* ---- one scene ---- */
 
-static status compute(member *me, const scene_query *q, const scene_key *key, h5_file **file)
+static status compute(work *w, const scene_query *q, const scene_key *key, h5_file **file)
 {
     scene_record r;
     history *rows;
@@ -55,9 +61,9 @@ static status compute(member *me, const scene_query *q, const scene_key *key, h5
     const scene_host host = { .sink = &(snapshot_sink){ send_file, NULL },
                               .history = rows,
                               .progress = &silent,
-                              .threads = me->threads,
+                              .threads = w->me->threads,
                               .stop = heard_stop,
-                              .user = me };
+                              .user = w };
     const scene_work_how how = { .run = scene_run, .task = q->name, .host = &host };
     status done = scene_work(q, key->hash, &how, &r);
     if (done.code == STATUS_OK) done = scene_file_make(&r, key, rows, file);
@@ -75,14 +81,14 @@ static status check_key(const scene_order *order, const scene_key *key)
     return status_ok();
 }
 
-static status compute_case(member *me, const scene_order *order, const breech_case *c, h5_file **file)
+static status compute_case(work *w, const scene_order *order, const breech_case *c, h5_file **file)
 {
     scene_query q = { .c = c, .state = state_of_case(c), .cells_per_radius = c->scene.cells_per_radius };
     scene_key key = { .text = NULL };
     snprintf(q.name, sizeof q.name, "%s", order->name);
     status done = scene_key_of(c, &q.state, q.cells_per_radius, &key);
     if (done.code == STATUS_OK) done = check_key(order, &key);
-    if (done.code == STATUS_OK) done = compute(me, &q, &key, file);
+    if (done.code == STATUS_OK) done = compute(w, &q, &key, file);
     scene_key_free(&key);
     return done;
 }
@@ -104,13 +110,15 @@ static status take_order(member *me, const message *m)
     breech_case *c = NULL;
     char *errors = NULL;
     h5_file *file = NULL;
-    me->give_up = false;
     memcpy(&order, m->data, sizeof order);
+    work w = { .me = me, .key = order.key, .put_off = me->top };
+    me->top = &w;
     const case_text text = { .bytes = m->data + sizeof order,
                              .length = m->bytes - sizeof order,
                              .path = "rank 0's case" };
     status done = case_read_memory(&text, &(case_options){ .needs = CASE_FOR_SCENE }, &c, &errors);
-    if (done.code == STATUS_OK) done = compute_case(me, &order, c, &file);
+    if (done.code == STATUS_OK) done = compute_case(&w, &order, c, &file);
+    me->top = w.put_off;
     done = answer(order.key, done, file);
     h5_close(file);
     case_free(c);
@@ -118,21 +126,35 @@ static status take_order(member *me, const message *m)
     return done;
 }
 
+/* key NULL: all */
+static void give_up(member *me, const char *key)
+{
+    for (work *w = me->top; w; w = w->put_off)
+        w->give_up = w->give_up || !key || memcmp(key, &w->key, sizeof w->key) == 0;
+}
+
+/* One message, if there is one. */
+static bool listen(member *me)
+{
+    message m;
+    bool any = false;
+    status done = ranks_receive(&m, &any);
+    if (any && m.kind == SAY_SCENE && !me->over) done = take_order(me, &m);
+    if (any && m.kind == SAY_DROP) give_up(me, m.data);
+    if (any && (m.kind == SAY_STOP || m.kind == SAY_END)) give_up(me, NULL);
+    me->over = me->over || (any && m.kind == SAY_END);
+    if (done.code != STATUS_OK) fprintf(stderr, "breech, rank %d: %s\n", ranks_number(), done.text);
+    message_free(&m);
+    return any;
+}
+
 void crew_serve(int threads)
 {
     member me = { .threads = threads };
     signal(SIGINT, SIG_IGN); /* rank 0 hears them and says what to do */
     signal(SIGTERM, SIG_IGN);
-    while (!me.over) {
-        message m;
-        bool any = false;
-        status done = ranks_receive(&m, &any);
-        if (!any) ranks_pause();
-        if (any && m.kind == SAY_SCENE) done = take_order(&me, &m);
-        if (any && m.kind == SAY_END) me.over = true;
-        if (done.code != STATUS_OK) fprintf(stderr, "breech, rank %d: %s\n", ranks_number(), done.text);
-        message_free(&m);
-    }
+    while (!me.over)
+        if (!listen(&me)) ranks_pause();
     ranks_send(0, SAY_END, "", 0);
 }
 

@@ -7,11 +7,12 @@
 #include <stdint.h>
 
 enum {
-    SAY_SCENE,  /* to a member: scene_order, then the key's text */
+    SAY_SCENE,  /* to a member: scene_order, then the key's text; it puts off what it is computing */
     SAY_DONE,   /* from a member: the key's hash, then the scene's file */
     SAY_FAILED, /* from a member: the key's hash, then a status */
     SAY_FILE,   /* from a member: a path under the output directory, a 0, the bytes */
-    SAY_STOP,   /* to a member: give up the scene under way, if any; it says SAY_FAILED */
+    SAY_DROP,   /* to a member: the key's hash: give that scene up, if it is under way or put off; it says SAY_FAILED */
+    SAY_STOP,   /* to a member: give up all of them */
     SAY_END     /* to a member: nothing more comes; and its answer, the last it says */
 };
 

@@ -2,7 +2,7 @@
  *
  * A family is what surface.h means by it: the grains of a case - sites of its list and populations - that are alike in shape,
  * material, bond and height over radius.  All searches of a study, over families and over cases (rail surfaces), go on
- * together: each runs on what is known and asks for one scene more, the scenes of all are computed as they come.
+ * together: each runs on what is known and asks for one scene more, or two, the scenes of all are computed as they come.
  * With study.judge growth the searches' scenes end once the growth of their groove is known; where something gouges, two more
  * at fine cells, at the threshold and at the fastest grain, go on to their whole craters.  A groove that is not followed
  * (scene.follow) has no growth: such a study is judged by severity. */
@@ -11,6 +11,8 @@
 
 #include "coupling/study/scenes.h"
 #include "coupling/study/surface.h"
+
+enum { FAMILY_CRATERS = 2 }; /* whole scenes of a family that gouges, study.judge growth */
 
 typedef struct {
     double radius, velocity, cells; /* what was asked for */
@@ -60,5 +62,6 @@ const family_scene *family_nearest(const grain_family *f, double radius, double 
 
 /* First place where the armature has the velocity v; the barrel's end if it never has [m]. */
 double flown_place(const shot_outcome *flown, double barrel, double v);
+double flown_fastest(const shot_outcome *flown); /* largest velocity that the armature has [m/s] */
 
 #endif

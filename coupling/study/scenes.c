@@ -210,7 +210,7 @@ static status is_known(const session *s, const scene_query *q, bool *known)
 }
 
 /* One process has no idle ones. */
-status scenes_ahead(session *s, const scene_query *query, int n)
+status scenes_ahead(session *s, const scene_query *query, int n, bool level)
 {
     if (!s->crew) return status_ok();
     scene_query *open = malloc(((size_t)n + 1) * sizeof *open);
@@ -222,7 +222,7 @@ status scenes_ahead(session *s, const scene_query *query, int n)
         done = is_known(s, &query[i], &known);
         if (!known) open[left++] = query[i];
     }
-    if (done.code == STATUS_OK) done = crew_ahead(s->crew, open, left);
+    if (done.code == STATUS_OK) done = crew_ahead(s->crew, open, left, level);
     free(open);
     return done;
 }

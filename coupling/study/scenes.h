@@ -35,7 +35,8 @@ status scenes_all(session *s, const scene_query *query, int n, const scene_recor
 /* Returns as soon as one more of the n is known, at once when all are. */
 status scenes_some(session *s, const scene_query *query, int n);
 
-/* Replaces the former list; the likeliest first. */
-status scenes_ahead(session *s, const scene_query *query, int n);
+/* Replaces the former list; the likeliest first.  level: nothing hangs on those that scenes_some will want sooner than on these;
+ * they may stand among them, and all are computed in the order of this list. */
+status scenes_ahead(session *s, const scene_query *query, int n, bool level);
 
 #endif

@@ -37,6 +37,12 @@ static status ask_reference(void *user, double velocity, double cells, threshold
     return ask(s, s->radius, velocity, cells, out);
 }
 
+static void reference_together(void *user, double velocity, double cells)
+{
+    const search *s = user;
+    if (s->source->together) s->source->together(s->source->user, s->radius, velocity, cells);
+}
+
 /* ---- bands ---- */
 
 /* What the samples of one resolution say of a size: none gouges up to `low`, all from `high` on. */
@@ -344,7 +350,7 @@ status surface_search(const surface_plan *plan, const surface_source *source, su
     out->monotone = true;
     TRY(check_plan(plan));
     search s = { plan, source, out, plan->size[plan->reference] };
-    const threshold_source at_reference = { ask_reference, &s };
+    const threshold_source at_reference = { ask_reference, reference_together, &s };
     TRY(threshold_search(&plan->search, &at_reference, &out->reference));
     memcpy(out->warning, out->reference.warning, sizeof out->warning);
     out->monotone = out->reference.monotone;

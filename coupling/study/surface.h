@@ -24,6 +24,8 @@ enum { SURFACE_MAX_SIZES = 48 };
 
 typedef struct {
     status (*run)(void *user, double radius, double velocity, double cells_per_radius, threshold_sample *out);
+    /* As in threshold_source; NULL: nobody cares. */
+    void (*together)(void *user, double radius, double velocity, double cells_per_radius);
     void *user; /* borrowed */
 } surface_source;
 

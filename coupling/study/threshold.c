@@ -28,6 +28,7 @@ typedef struct {
     const threshold_source *source;
     threshold_result *out;
     double cells; /* of the stage */
+    int reserved; /* scenes of the budget that are still to be asked beyond the bracket */
 } search;
 
 /* Two ends of a bracket: lo on the lower side, hi on the upper one. */
@@ -48,19 +49,27 @@ static double on_grid(const search *s, double v)
     return p->step * fmin(fmax(round(v / p->step), lowest), highest);
 }
 
-static bool budget_left(const search *s)
+static int budget_left(const search *s)
 {
-    return s->out->samples < s->plan->max_scenes && s->out->samples < THRESHOLD_MAX_SAMPLES;
+    const int most = s->plan->max_scenes < THRESHOLD_MAX_SAMPLES ? s->plan->max_scenes : THRESHOLD_MAX_SAMPLES;
+    return most - s->out->samples - s->reserved;
+}
+
+static const threshold_sample *known(const search *s, double v)
+{
+    const threshold_result *r = s->out;
+    for (int i = 0; i < r->samples; i++)
+        if (r->sample[i].velocity == v && r->sample[i].cells_per_radius == s->cells) return &r->sample[i];
+    return NULL;
 }
 
 static status ask(search *s, double v, threshold_sample *out)
 {
     threshold_result *r = s->out;
-    for (int i = 0; i < r->samples; i++)
-        if (r->sample[i].velocity == v && r->sample[i].cells_per_radius == s->cells) {
-            *out = r->sample[i];
-            return status_ok();
-        }
+    if (known(s, v)) {
+        *out = *known(s, v);
+        return status_ok();
+    }
     TRY(s->source->run(s->source->user, v, s->cells, out));
     out->velocity = v;
     out->cells_per_radius = s->cells;
@@ -70,18 +79,37 @@ static status ask(search *s, double v, threshold_sample *out)
     return status_ok();
 }
 
-/* One more value; the bracket takes it where it narrows or moves it. */
+/* The bracket takes a value where that narrows or moves it. */
+static void take(bracket *b, const threshold_sample *a)
+{
+    if (threshold_is_upper(a)) {
+        b->hi = *a;
+        b->has_hi = true;
+    } else {
+        b->lo = *a;
+        b->has_lo = true;
+    }
+}
+
 static status probe(search *s, double v, bracket *b)
 {
     threshold_sample a;
     TRY(ask(s, on_grid(s, v), &a));
-    if (threshold_is_upper(&a)) {
-        b->hi = a;
-        b->has_hi = true;
-    } else {
-        b->lo = a;
-        b->has_lo = true;
-    }
+    take(b, &a);
+    return status_ok();
+}
+
+/* Two at a time; one where they are the same on the grid, or the budget is short.  If the slower gouges the faster says nothing
+ * of the bracket: the lowest change of side counts, and check_monotone sees the rest. */
+static status probe_two(search *s, double first, double second, bracket *b)
+{
+    const double v[2] = { on_grid(s, fmin(first, second)), on_grid(s, fmax(first, second)) };
+    threshold_sample a[2];
+    if (v[0] == v[1] || budget_left(s) < 2) return probe(s, first, b);
+    if (s->source->together && !known(s, v[0]) && !known(s, v[1])) s->source->together(s->source->user, v[1], s->cells);
+    for (int i = 0; i < 2; i++) TRY(ask(s, v[i], &a[i]));
+    take(b, &a[0]);
+    if (!threshold_is_upper(&a[0])) take(b, &a[1]);
     return status_ok();
 }
 
@@ -105,21 +133,48 @@ static double root(const bracket *b)
     return b->lo.velocity + width(b) * below / (below + above);
 }
 
-static double place_width(const threshold_plan *p, const bracket *b)
+/* How narrow a bracket is to be: over its middle, and in metres [1, m]. */
+typedef struct {
+    double velocity, place;
+} widths;
+
+static bool too_wide(const search *s, widths wanted, double lo, double hi)
 {
-    return p->place ? p->place(p->place_user, b->hi.velocity) - p->place(p->place_user, b->lo.velocity) : 0.0;
+    const threshold_plan *p = s->plan;
+    if (hi - lo < 1.5 * p->step) return false;
+    return hi - lo > wanted.velocity * 0.5 * (lo + hi) ||
+           (p->place && p->place(p->place_user, hi) - p->place(p->place_user, lo) > wanted.place);
 }
 
-/* Down to `wanted` of its middle and `place_wanted` in metres, but not below the grid. */
-static status narrow(search *s, double wanted, double place_wanted, bracket *b)
+/* Do these velocities, rising and inside the bracket, leave no part of it too wide? */
+static bool enough(const search *s, widths wanted, const bracket *b, int n, const double *v)
 {
-    while ((width(b) > wanted * middle(b) || place_width(s->plan, b) > place_wanted) &&
-           width(b) > 1.5 * s->plan->step && budget_left(s)) {
-        const double edge = INNER_EDGE * width(b);
-        double v = on_grid(s, fmin(fmax(root(b), b->lo.velocity + edge), b->hi.velocity - edge));
-        if (v <= b->lo.velocity || v >= b->hi.velocity) v = on_grid(s, middle(b));
-        if (v <= b->lo.velocity || v >= b->hi.velocity) return status_ok();
-        TRY(probe(s, v, b));
+    double from = b->lo.velocity;
+    for (int i = 0; i <= n; i++) {
+        const double to = i < n ? v[i] : b->hi.velocity;
+        if (!(to > from) || too_wide(s, wanted, from, to)) return false;
+        from = to;
+    }
+    return true;
+}
+
+static status narrow(search *s, widths wanted, bracket *b)
+{
+    while (too_wide(s, wanted, b->lo.velocity, b->hi.velocity) && budget_left(s) > 0) {
+        const double lo = b->lo.velocity, hi = b->hi.velocity, edge = INNER_EDGE * width(b);
+        const double half = on_grid(s, middle(b)),
+                     third[2] = { on_grid(s, lo + width(b) / 3), on_grid(s, hi - width(b) / 3) };
+        double v = on_grid(s, fmin(fmax(root(b), lo + edge), hi - edge));
+        if (v <= lo || v >= hi) v = half;
+        if (v <= lo || v >= hi) return status_ok();
+        if (enough(s, wanted, b, 1, &v))
+            TRY(probe(s, v, b));
+        else if (enough(s, wanted, b, 1, &half))
+            TRY(probe(s, half, b));
+        else if (enough(s, wanted, b, 2, third))
+            TRY(probe_two(s, third[0], third[1], b));
+        else /* and the middle of the larger part */
+            TRY(probe_two(s, v, v - lo > hi - v ? 0.5 * (lo + v) : 0.5 * (v + hi), b));
     }
     return status_ok();
 }
@@ -131,14 +186,13 @@ static bool complete(const bracket *b)
     return b->has_lo && b->has_hi;
 }
 
-/* From `at` away from the side it lies on, in doubling steps, to a change of side or the end of the range. */
+/* Away from the side that is known, two doubling steps at a time, to a change of side or the end of the range. */
 static status widen(search *s, double step, bracket *b)
 {
-    while (!complete(b) && budget_left(s)) {
-        const double from = b->has_hi ? b->hi.velocity : b->lo.velocity;
-        const double v = on_grid(s, b->has_hi ? from - step : from + step);
-        if (v == from) return status_ok();
-        TRY(probe(s, v, b));
+    while (!complete(b) && budget_left(s) > 0) {
+        const double from = b->has_hi ? b->hi.velocity : b->lo.velocity, away = b->has_hi ? -step : step;
+        if (on_grid(s, from + away) == from) return status_ok();
+        TRY(probe_two(s, from + away, from + 2.0 * away, b));
         step *= 2.0;
     }
     return status_ok();
@@ -147,39 +201,51 @@ static status widen(search *s, double step, bracket *b)
 static status coarse_stage(search *s, bracket *b)
 {
     const threshold_plan *p = s->plan;
+    const double quarter = 0.25 * (p->high - p->low);
     s->cells = p->coarse;
-    TRY(probe(s, 0.5 * (p->low + p->high), b));
-    TRY(widen(s, 0.25 * (p->high - p->low), b));
-    return complete(b) ? narrow(s, fmax(COARSE_WIDTH, p->interval), INFINITY, b) : status_ok();
+    TRY(probe_two(s, p->low + quarter, p->high - quarter, b));
+    TRY(widen(s, 0.5 * quarter, b));
+    return complete(b) ? narrow(s, (widths){ fmax(COARSE_WIDTH, p->interval), INFINITY }, b) : status_ok();
 }
 
 /* The search itself never looks beyond its bracket, so it cannot see a function that turns back: one coarse scene on each
- * side, half way to the end of the range, looks there. */
-static status look_beyond(search *s, const bracket *b)
+ * side, half way to the end of the range, looks there.  Planned when the coarse bracket is known, asked for last. */
+typedef struct {
+    int n;
+    double at[2]; /* [m/s] */
+} beyond;
+
+static beyond plan_beyond(const search *s, const bracket *b)
 {
     const threshold_plan *p = s->plan;
     const double far[2] = { 0.5 * (b->lo.velocity + p->low), 0.5 * (b->hi.velocity + p->high) };
     const double gap[2] = { b->lo.velocity - p->low, p->high - b->hi.velocity };
-    s->cells = p->coarse;
+    beyond r = { .n = 0 };
     for (int k = 0; k < 2; k++) {
-        threshold_sample seen;
-        if (gap[k] < BEYOND_GAP * middle(b) || s->out->samples + BEYOND_RESERVE > p->max_scenes) continue;
-        TRY(ask(s, on_grid(s, far[k]), &seen));
+        const double v = on_grid(s, far[k]);
+        if (gap[k] < BEYOND_GAP * middle(b) || known(s, v) || budget_left(s) < BEYOND_RESERVE + r.n) continue;
+        r.at[r.n++] = v;
     }
-    return status_ok();
+    return r;
+}
+
+static status look_beyond(search *s, const beyond *far)
+{
+    bracket seen = { .has_lo = false };
+    s->cells = s->plan->coarse;
+    s->reserved = 0;
+    if (far->n == 1) return probe(s, far->at[0], &seen);
+    return far->n == 2 ? probe_two(s, far->at[0], far->at[1], &seen) : status_ok();
 }
 
 static status fine_stage(search *s, double expected, bracket *b)
 {
     const threshold_plan *p = s->plan;
-    const double half = fmax(p->step, 0.5 * p->interval * expected);
+    const double half = fmax(p->step, 0.5 * p->interval * expected), below = on_grid(s, expected - half);
     s->cells = p->fine;
-    TRY(probe(s, expected - half, b));
-    if (!budget_left(s)) return status_ok();
-    if (b->has_lo) /* else the next one down is a better guess than the one above */
-        TRY(probe(s, fmax(expected + half, b->lo.velocity + p->step), b));
+    TRY(probe_two(s, below, fmax(expected + half, below + p->step), b));
     TRY(widen(s, 2.0 * half, b));
-    return complete(b) ? narrow(s, p->interval, p->place_interval, b) : status_ok();
+    return complete(b) ? narrow(s, (widths){ p->interval, p->place_interval }, b) : status_ok();
 }
 
 /* ---- the answer ---- */
@@ -286,10 +352,12 @@ status threshold_search(const threshold_plan *plan, const threshold_source *sour
     bracket coarse = { .has_lo = false }, fine = { .has_lo = false };
     TRY(coarse_stage(&s, &coarse));
     const bool two_stages = plan->fine != plan->coarse && complete(&coarse);
-    if (complete(&coarse) && !two_stages) TRY(narrow(&s, plan->interval, plan->place_interval, &coarse));
-    if (complete(&coarse)) TRY(look_beyond(&s, &coarse));
-    if (two_stages && budget_left(&s)) TRY(fine_stage(&s, root(&coarse), &fine));
-    const bool short_of_scenes = two_stages && !complete(&fine) && !budget_left(&s);
+    if (complete(&coarse) && !two_stages) TRY(narrow(&s, (widths){ plan->interval, plan->place_interval }, &coarse));
+    const beyond far = complete(&coarse) ? plan_beyond(&s, &coarse) : (beyond){ .n = 0 };
+    s.reserved = far.n;
+    if (two_stages && budget_left(&s) > 0) TRY(fine_stage(&s, root(&coarse), &fine));
+    TRY(look_beyond(&s, &far));
+    const bool short_of_scenes = two_stages && !complete(&fine) && budget_left(&s) <= 0;
     if (complete(&fine)) out->shift = root(&fine) - root(&coarse);
     s.cells = two_stages && !short_of_scenes ? plan->fine : plan->coarse;
     out->cells = s.cells;

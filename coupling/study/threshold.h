@@ -1,11 +1,13 @@
 /* The search for a threshold velocity: where the growth of an impact's groove, or its severity, crosses its limit.
  *
  * What is known of the function: nothing but values at velocities we pay for, each at a resolution, each with a class.
- *   1. Coarse: from the middle of the range outwards to a change of side, then in between by the secant kept within the
- *      bracket's inner 60 %, until the bracket is a fifth of its middle or the wanted interval, whichever is more.
- *      Then one coarse scene half way to each end of the range, where that is far: does the function turn back there?
- *   2. Fine: beside the coarse root, one wanted half interval below and above; where both lie on one side the bracket
- *      moves there in doubling steps; then halving to the wanted interval, in velocity and in place, or the grid's step.
+ *   1. Coarse: a quarter of the range from both its ends, outwards to a change of side, then in between until the bracket is
+ *      a fifth of its middle or the wanted interval, whichever is more.
+ *   2. Fine: one wanted half interval below and above the coarse root; where both lie on one side the bracket moves there in
+ *      doubling steps; then in between to the wanted interval, in velocity and in place, or the grid's step.
+ *      In between: one velocity where one is enough, the secant's kept within the bracket's inner 60 %, or its middle; else
+ *      two, in thirds where that is enough.  Two at a time, so that two processes have something to do.
+ *      Last a coarse scene half way to each end of the range, where that is far: does the function turn back there?
  *   3. Interval: the fine bracket, by decided scenes (an `undecided` one takes the side of its excess, but does not end
  *      the interval), widened by the shift of the root from coarse to fine.
  * Monotonicity is checked: a higher velocity on the lower side of a lower one widens the interval over both and warns.
@@ -31,6 +33,8 @@ typedef struct {
 /* Gives the answer at a velocity of the grid.  STATUS_STOPPED or an error ends the search. */
 typedef struct {
     status (*run)(void *user, double velocity, double cells_per_radius, threshold_sample *out);
+    /* Said before the first of two is asked: the second will be, whatever the first answers.  NULL: nobody cares. */
+    void (*together)(void *user, double velocity, double cells_per_radius);
     void *user; /* borrowed */
 } threshold_source;
 
