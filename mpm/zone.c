@@ -11,7 +11,7 @@
 
 static const double MERGE_RATIO = 0.9; /* of a merged domain to the longest that its cell bears, at most */
 static const int QUANTUM = 8;          /* fine cells the zone moves at a time, at least */
-static const double SEAM = 0.5;        /* fine cells that the last points of a wake reach beyond their own ends */
+static const double SEAM = 1.0;        /* fine cells, or own half lengths, that the last points of a wake reach beyond their ends */
 
 /* ---- merging ---- */
 
@@ -160,7 +160,9 @@ static void reach_over_seam(const mpm *m, size_t first, double x)
     const double cell = m->scene.axis[0].fine;
     for (size_t i = first; i < m->wake.n; i++) {
         mpm_wake_point *p = &m->wake.point[i];
-        if (p->position[0] + p->size[0] > x - cell) p->size[0] += SEAM * cell;
+        if (p->position[0] + p->size[0] <= x - cell) continue;
+        const double more = SEAM * fmax(cell, p->size[0]);
+        p->position[0] += 0.5 * more, p->size[0] += 0.5 * more;
     }
 }
 

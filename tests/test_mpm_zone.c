@@ -86,7 +86,7 @@ static void test_books(void **state)
     }
     assert_true(r.gauge_power[0] != r.gauge_power[1]);
     const mpm_wake *w = mpm_wake_of(m);
-    for (size_t i = 0; i < w->n; i++) assert_true(w->point[i].position[0] < w->until);
+    for (size_t i = 0; i < w->n; i++) assert_true(w->point[i].position[0] - w->point[i].size[0] < w->until);
     mpm_free(m);
 }
 

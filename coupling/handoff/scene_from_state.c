@@ -327,6 +327,17 @@ static void set_axes(const breech_case *c, const layout *l, mpm_scene *s)
     }
 }
 
+/* As many nested grids as asked for and as there is room for. */
+static void set_levels(const breech_case *c, mpm_scene *s)
+{
+    for (s->levels = s->basis == BASIS_GIMP ? c->scene.levels : 1; s->levels > 1; s->levels--) {
+        grids g;
+        const bool fits = grids_make(s, &g).code == STATUS_OK;
+        if (fits) grids_free(&g);
+        if (fits) return;
+    }
+}
+
 double scene_crossing_time(const mpm_scene *scene)
 {
     const mpm_body *b = &scene->body[body_of_armature(scene)];
@@ -370,7 +381,6 @@ static void set_follow(const breech_case *c, const case_site *g, const layout *l
 static void set_method(const breech_case *c, const layout *l, mpm_scene *s)
 {
     const case_scene *from = &c->scene;
-    s->levels = from->levels;
     s->particles_per_axis = from->particles_per_axis;
     s->courant = from->courant;
     s->viscosity_linear = from->viscosity_linear;
@@ -456,6 +466,7 @@ status scene_bodies(const breech_case *c, const site_state *state, double cells_
     set_axes(c, &l, out);
     set_follow(c, &state->grain, &l, out);
     set_method(c, &l, out);
+    set_levels(c, out);
     return reaches_gauge(c, out);
 }
 
