@@ -6,9 +6,10 @@
 
 enum { SAMPLES = 2 /* sample lines a map cell and axis */, MAP_LIMIT = 20000000 /* cells of a map */ };
 static const double GAUSS =
-    0.21132486540518712;                    /* (1 - 1/sqrt 3)/2: a cell's mean from its lines is exact for a cubic */
-static const double GAP = 1.2;              /* of the touching distance: a wider gap ends the rail */
-static const double FOOTPRINT_SLACK = 0.1; /* of a half length: slits between points that have moved apart a little are closed */
+    0.21132486540518712;       /* (1 - 1/sqrt 3)/2: a cell's mean from its lines is exact for a cubic */
+static const double GAP = 1.2; /* of the touching distance: a wider gap ends the rail */
+static const double FOOTPRINT_SLACK =
+    0.1; /* of a half length: slits between points that have moved apart a little are closed */
 
 /* Sample lines: top is the height reached so far, half the half length of the point there. */
 typedef struct {

@@ -122,7 +122,7 @@ static const param scene_params[] = {
                  "bodies touch when nearer than this, in cells; not given: the solver's own"),
     PARAM_DOUBLE(case_scene, cells_per_radius, "1", 5.0, 1.0, 100.0, "fine cell = grain's radius / this"),
     PARAM_DOUBLE(case_scene, coarse_cell, "m", 8e-4, 1e-6, 0.1, "largest cell, far from the grain"),
-    PARAM_INT(case_scene, levels, 1, 1, 3,
+    PARAM_INT(case_scene, levels, 2, 1, 3,
               "nested grids: around the fine zone cells twice, with 3 four times as large"),
     PARAM_DOUBLE(case_scene, growth, "1", 1.2, 1.0, 2.0, "ratio of neighbouring cells outside the fine zone"),
     PARAM_DOUBLE(case_scene, fine_ahead, "m", OPTIONAL, 0.0, 1.0,
