@@ -1,6 +1,7 @@
 /* Bricks and blocks: making, finding, linking.  Nothing here runs in the middle of a step but store_insert. */
 #include "mpm/store.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -349,7 +350,9 @@ int store_cell_at(const mpm *m, int level, const double x[3], int at[3])
 {
     int place[3];
     for (int k = 0; k < 3; k++) {
-        const int node = axis_locate(&m->grids.level[level].axes[k], x[k]);
+        const axis *a = &m->grids.level[level].axes[k];
+        const int node = axis_locate(a, x[k]);
+        if (node < 1 || node > a->last) return -1;
         at[k] = node / BRICK;
         place[k] = node % BRICK;
     }
@@ -361,6 +364,7 @@ status store_place(mpm *m, int body, const double *particle)
     int at[3], index;
     const int level = grids_level(&m->grids, particle + FIRST_x);
     const int cell = store_cell_at(m, level, particle + FIRST_x, at);
+    assert(cell >= 0);
     TRY(store_brick(m, m->scene.body[body].field, level, at, &index));
     if (m->blocks_free == 0) TRY(store_reserve(m));
     CHECK(store_insert(m, &m->bricks[index], cell, body, particle) >= 0, STATUS_MEMORY, "no memory for the particles");

@@ -5,6 +5,7 @@
 
 /* Cells of a level between the next finer box and its own faces, or where its cells begin to grow. */
 static const int PAD = 2;
+static const char axis_letters[3] = { 'x', 'y', 'z' };
 
 /* ---- boxes along one axis ---- */
 
@@ -22,7 +23,8 @@ static span around(span inner, double cell, double pitch, double origin, const m
     double first = ceil((s->lo - origin) / pitch - ROUND), last = floor((s->hi - origin) / pitch + ROUND);
     /* no sliver of a cell at the window's end */
     const double left = first - (s->lo - origin) / pitch, right = (s->hi - origin) / pitch - last;
-    first += left > ROUND && left<0.5, last -= right> ROUND && right < 0.5;
+    if (left > ROUND && left < 0.5) first++;
+    if (right > ROUND && right < 0.5) last--;
     const span r = { origin + fmax(below, first) * pitch, origin + fmin(above, last) * pitch };
     const double tiny = ROUND * cell; /* an end of the window is exact */
     return (span){ r.lo < s->lo + tiny ? s->lo : fmin(r.lo, inner.lo),
@@ -57,13 +59,11 @@ static status add_box(grid_level *fine, const grid_level *coarse, int k, span bo
 {
     const axis *from = &coarse->axes[k];
     fine->lo[k] = node_at(from, box.lo), fine->hi[k] = node_at(from, box.hi);
-    const double lo = from->node[fine->lo[k]], hi = from->node[fine->hi[k]],
-                 off = fmax(fabs(lo - box.lo), fabs(hi - box.hi));
-    CHECK(fine->hi[k] - fine->lo[k] >= 2 && off < 0.25 * s->fine, STATUS_BAD_INPUT,
+    const double off = fmax(fabs(from->node[fine->lo[k]] - box.lo), fabs(from->node[fine->hi[k]] - box.hi)) / s->fine;
+    CHECK(fine->hi[k] - fine->lo[k] >= 2 && off < 0.25, STATUS_BAD_INPUT,
           "levels along %c: a fine zone from %g to %g m, cells of %g m: at least four of them, an even number, with "
-          "three levels a "
-          "multiple of four where it fills the window",
-          "xyz"[k], s -> fine_lo, s -> fine_hi, s -> fine);
+          "three levels a multiple of four where it fills the window",
+          axis_letters[k], s->fine_lo, s->fine_hi, s->fine);
     fine->seam[k][0] = fine->lo[k] > 1, fine->seam[k][1] = fine->hi[k] < from->last;
     return axis_bisect(from, fine->lo[k], fine->hi[k], fine->seam[k], &fine->axes[k]);
 }
@@ -88,15 +88,15 @@ static status make_axis(const mpm_scene *s, int k, grids *g)
         box[i] = around(box[i - 1], window.fine, (i < g->levels - 1 ? 2 : 1) * window.fine, origin, spec);
         CHECK(i == g->levels - 1 || !is_crowded(box[i], box[i - 1], window.fine, spec), STATUS_BAD_INPUT,
               "levels along %c: no room for %d levels between the fine zone, %g to %g m, and the window's ends, %g and "
-              "%g m: at "
-              "least %g m, or none",
-              "xyz"[k], s -> levels, spec -> fine_lo, spec -> fine_hi, spec -> lo, spec -> hi,
-              grids_margin(s->levels, spec->fine));
+              "%g m: at least %g m, or none",
+              axis_letters[k], g->levels, spec->fine_lo, spec->fine_hi, spec->lo, spec->hi,
+              grids_margin(g->levels, spec->fine));
     }
     window.fine_lo = box[g->levels - 1].lo, window.fine_hi = box[g->levels - 1].hi;
     window.coarse = fmax(window.coarse, window.fine);
-    TRY(axis_make(&window, "xyz"[k], &g -> level[g->levels - 1].axes[k]));
-    if (g->levels > 1) axis_bear_long(&g->level[g->levels - 1].axes[k]);
+    axis *coarsest = &g->level[g->levels - 1].axes[k];
+    TRY(axis_make(&window, axis_letters[k], coarsest));
+    if (g->levels > 1) axis_bear_long(coarsest);
     for (int i = g->levels - 2; i >= 0; i--) {
         TRY(add_box(&g->level[i], &g->level[i + 1], k, box[i], spec));
         if (i > 0) axis_bear_long(&g->level[i].axes[k]);

@@ -194,16 +194,21 @@ static inline void plane_point(int k, int plane, int n, int at[3])
     at[(k + 2) % 3] = n / HALO;
 }
 
+/* Is this end of the brick's level a mirror to its field? */
+static inline bool is_mirror(const mpm *m, const brick *b, int k, int side)
+{
+    const mpm_axis *s = &m->scene.axis[k];
+    return s->boundary[side] == BOUNDARY_SYMMETRY && !m->grids.level[b->level].seam[k][side] &&
+           (!s->boundary_fields[side] || s->boundary_fields[side] >> b->field & 1);
+}
+
 /* Mirror planes that the brick's particles reach over; their number, by axis. */
 static inline int mirror_planes(const mpm *m, const brick *b, mirror_plane p[6])
 {
     int n = 0;
     for (int k = 0; k < 3; k++)
         for (int side = 0; side < 2; side++) {
-            const mpm_axis *s = &m->scene.axis[k];
-            if (s->boundary[side] != BOUNDARY_SYMMETRY) continue;
-            if (s->boundary_fields[side] && !(s->boundary_fields[side] >> b->field & 1)) continue;
-            if (m->grids.level[b->level].seam[k][side]) continue;
+            if (!is_mirror(m, b, k, side)) continue;
             const int at = (side ? axes_of(m, b)[k].last : 1) - BRICK * b->at[k] + 1;
             if (at < 1 || at > BRICK) continue;
             p[n++] = (mirror_plane){ k, side ? at + 1 : at - 1, side ? at - 1 : at + 1 };

@@ -29,7 +29,7 @@ static bool find_cell(const mpm *m, const brick *b, const int cell[3], const dou
     if (h->level != b->level) {
         h->brick_step = CROSSES;
         h->cell = store_cell_at(m, h->level, x, h->at);
-        return true;
+        return h->cell >= 0;
     }
     for (int k = 0, scale = 1; k < 3; k++, scale *= 3) {
         const axis *a = &axes_of(m, b)[k];
@@ -231,23 +231,22 @@ static status open_bricks(mpm *m, bool *changed)
 
 status movers_exchange(mpm *m)
 {
-    bool changed = false, enough = true, occupied = false;
+    bool changed = false, enough = true, relink = false;
     TRY(open_bricks(m, &changed));
     if (changed) store_relink(m);
     TRY(store_reserve(m));
-#pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads) reduction(&& : enough) reduction(|| : occupied)
+#pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads) reduction(&& : enough) reduction(|| : relink)
     for (int i = 0; i < m->bricks_used; i++) {
         brick *b = &m->bricks[i];
         if (!b->out) continue;
         if (b->mover_steps || b->sum.left.count)
             for (int c = 0; c < BRICK_CELLS; c++) tidy_cell(m, b, c);
-        const bool empty = b->particles == 0;
         enough = arrive(m, b) && enough;
         b->occupied = meeting_occupied(b);
-        occupied = occupied || (empty && b->particles > 0);
+        relink = relink || (b->sum.particles > 0) != (b->particles > 0); /* filled or emptied by this step */
     }
-    TRY(each_crossing(m, arrive_across, &occupied));
-    if (occupied) store_relink(m);
+    TRY(each_crossing(m, arrive_across, &relink));
+    if (relink) store_relink(m);
     CHECK(enough, STATUS_MEMORY,
           "the particle blocks ran out within one step at t = %g s; this is a limit of the solver: use larger cells",
           m->time);

@@ -47,6 +47,21 @@ static void add_lines(double (*to)[LINE], double (*const from)[LINE], int step)
             }
 }
 
+/* Ghosts of a mirror: their sums are folded back already (p2g.c), their velocities are made in G2P. */
+static void clear_ghosts(const mpm *m, const brick *b, double (*line)[LINE])
+{
+    for (int k = 0; k < 3; k++)
+        for (int side = 0; side < 2; side++) {
+            const int ghost = (side ? axes_of(m, b)[k].last + 1 : 0) - BRICK * b->at[k];
+            if (ghost < 0 || ghost >= BRICK || !is_mirror(m, b, k, side)) continue;
+            for (int i = 0; i < BRICK * BRICK; i++) {
+                int at[3];
+                at[k] = ghost, at[(k + 1) % 3] = i % BRICK, at[(k + 2) % 3] = i / BRICK;
+                memset(line[cell_index(at[0], at[1], at[2])], 0, sizeof *line);
+            }
+        }
+}
+
 static bool gather_field(const mpm *m, const brick *b, bool with_contact, const field_nodes *n)
 {
     bool any = false;
@@ -61,6 +76,7 @@ static bool gather_field(const mpm *m, const brick *b, bool with_contact, const 
         add_lines(n->line, from->out, step);
         if (with_contact && from->meets) add_lines(n->extra, from->out_contact, step);
     }
+    clear_ghosts(m, b, n->line);
     return any;
 }
 
@@ -369,18 +385,6 @@ static void free_node(const double line[LINE], double dt, double node[NODE])
     node[3] = 0.5 * after + (line[7] - 0.5 * dt * power) * inverse - 0.5 * before;
 }
 
-/* Ghost nodes of a mirror plane are filled in G2P from the nodes they mirror. */
-static bool is_ghost(const mpm *m, const axis axes[3], const int index[3])
-{
-    for (int k = 0; k < 3; k++) {
-        const mpm_axis *s = &m->scene.axis[k];
-        if (index[k] == 0 && s->boundary[0] == BOUNDARY_SYMMETRY) return true;
-        if (index[k] > axes[k].last && (index[k] > axes[k].last + 1 || s->boundary[1] == BOUNDARY_SYMMETRY))
-            return true;
-    }
-    return false;
-}
-
 /* The fields that have mass at a site, a seam's already gathered; their number. */
 static int fields_at(mpm *m, int site, node_lines own[][2], field_nodes *fields)
 {
@@ -416,10 +420,6 @@ void ISA(nodes)(mpm *m, int site)
         if (follow >> cell & 1) continue; /* seams_follow */
         if (is_inside(axes, index) && !is_shared(fields, count, cell)) {
             for (int s = 0; s < count; s++) free_node(fields[s].line[cell], m->dt, fields[s].brick->node[cell]);
-            continue;
-        }
-        if (is_ghost(m, axes, index)) {
-            for (int s = 0; s < count; s++) memset(fields[s].brick->node[cell], 0, NODE * sizeof(double));
             continue;
         }
         double h[3];

@@ -209,16 +209,14 @@ static int cell_of(const int node[3])
     return cell_index(node[0] % BRICK, node[1] % BRICK, node[2] % BRICK);
 }
 
-typedef void node_visitor(const mpm *m, brick *b, int cell, const int node[3]);
-
-static void each_node(const mpm *m, brick *b, uint64_t which, node_visitor *visit)
+/* Takes the first of a brick's nodes out of the set: its cell, and the node. */
+static int next_node(const brick *b, uint64_t *set, int node[3])
 {
-    for (; which; which &= which - 1) {
-        const int c = __builtin_ctzll(which);
-        const int node[3] = { BRICK * b->at[0] + c % BRICK, BRICK * b->at[1] + c / BRICK % BRICK,
-                              BRICK * b->at[2] + c / (BRICK * BRICK) };
-        visit(m, b, c, node);
-    }
+    const int c = __builtin_ctzll(*set);
+    const int in[3] = { c % BRICK, c / BRICK % BRICK, c / (BRICK * BRICK) };
+    for (int k = 0; k < 3; k++) node[k] = BRICK * b->at[k] + in[k];
+    *set &= *set - 1;
+    return c;
 }
 
 /* ---- sums go to the nodes that are followed ---- */
@@ -240,72 +238,87 @@ static void add_from(brick *b, int cell, const brick *from, int from_cell, doubl
     for (int k = 0; k < 3; k++) to_extra[3 + k] += share * line[0] * off[k];
 }
 
-/* What has reached the ghosts of a mirror plane is folded back already (p2g.c). */
-static bool is_mirror(const mpm *m, const grid_level *g, int k, int side)
+/* Sums of the node before or after one along axis k, NULL where it has no mass. */
+static const double *line_beside(const mpm *m, const brick *b, int cell, int k, int way)
 {
-    return !g->seam[k][side] && m->scene.axis[k].boundary[side] == BOUNDARY_SYMMETRY;
+    static const int stride[3] = { 1, BRICK, BRICK * BRICK }, step[3] = { 1, 3, 9 };
+    const int place = cell / stride[k] % BRICK + way;
+    const bool here = place >= 0 && place < BRICK;
+    const int other = b->neighbour[SELF + way * step[k]];
+    if (!here && other < 0) return NULL;
+    const double *line =
+        here ? b->line[cell + way * stride[k]] : m->bricks[other].line[cell - way * (BRICK - 1) * stride[k]];
+    return line[0] > 0 ? line : NULL;
 }
 
-/* Sums of a node, NULL where it has no mass. */
-static const double *line_at(const mpm *m, int field, int level, const int node[3])
+/* Change of the motion from one node to the next along axis k: the mean of the differences on both sides, that of one side where
+ * the other has no mass. */
+static void slope_at(const mpm *m, const brick *b, int cell, int k, double slope[3])
 {
-    const brick *b = brick_with(m, field, level, node);
-    const double *line = b ? b->line[cell_of(node)] : NULL;
-    return line && line[0] > 0 ? line : NULL;
-}
-
-/* Adds the change of the motion from fine node f by one node along axis k, forwards or back: the mean of the differences on both
- * sides, that of one side where the other has no mass. */
-static void add_slope(const mpm *m, int field, int level, const int f[3], int k, int way, double change[3])
-{
-    int at[2][3];
-    memcpy(at[0], f, sizeof at[0]), memcpy(at[1], f, sizeof at[1]);
-    at[0][k]--, at[1][k]++;
-    const double *here = line_at(m, field, level, f);
-    const double *before = at[0][k] < 0 ? NULL : line_at(m, field, level, at[0]);
-    const double *after = at[1][k] > m->grids.level[level].axes[k].last + 1 ? NULL : line_at(m, field, level, at[1]);
+    const double *here = b->line[cell], *before = line_beside(m, b, cell, k, -1),
+                 *after = line_beside(m, b, cell, k, 1);
     const double *lo = before ? before : here, *hi = after ? after : here;
-    const double scale = way * (before && after ? 0.5 : 1);
-    for (int i = 0; i < 3; i++) change[i] += scale * (hi[1 + i] / hi[0] - lo[1 + i] / lo[0]);
+    const double scale = before && after ? 0.5 : 1;
+    for (int i = 0; i < 3; i++) slope[i] = scale * (hi[1 + i] / hi[0] - lo[1 + i] / lo[0]);
 }
 
-/* Of the up to 27 fine nodes around a coarse one those that follow it. */
-static void receive_from_finer(const mpm *m, brick *b, int cell, const int node[3])
+/* From a fine node to those of a coarse brick that it follows. */
+static void hand_on(const mpm *m, const brick *from, int from_cell, const int f[3], brick *b)
 {
     const grid_level *g = &m->grids.level[b->level], *finer = g - 1;
-    int middle[3];
-    node_box r;
-    for (int k = 0; k < 3; k++) {
-        const int first = is_mirror(m, finer, k, 0), last = finer->axes[k].last + !is_mirror(m, finer, k, 1);
-        middle[k] = 2 * (node[k] - finer->lo[k]) + 1;
-        r.lo[k] = middle[k] - 1 > first ? middle[k] - 1 : first;
-        r.hi[k] = middle[k] + 1 < last ? middle[k] + 1 : last;
-    }
-    for (int z = r.lo[2]; z <= r.hi[2]; z++)
-        for (int y = r.lo[1]; y <= r.hi[1]; y++)
-            for (int x = r.lo[0]; x <= r.hi[0]; x++) {
-                const int f[3] = { x, y, z }, at = cell_of(f);
-                const brick *from = brick_with(m, b->field, b->level - 1, f);
-                if (!from || !(from->seam.follow_coarser >> at & 1) || !(from->line[at][0] > 0)) continue;
-                double share = 1, off[3], change[3] = { 0 };
+    const node_box own = nodes_of(b->at, 0), one = { { f[0], f[1], f[2] }, { f[0], f[1], f[2] } };
+    const node_box followed = to_coarse(finer, &one), c = inside(followed, own.lo, own.hi);
+    if (!(from->line[from_cell][0] > 0) || is_empty(&c)) return;
+    double share = 1, slope[3][3] = { { 0 } };
+    for (int k = 0; k < 3; k++)
+        if (followed.lo[k] < followed.hi[k]) share *= 0.5, slope_at(m, from, from_cell, k, slope[k]);
+    for (int z = c.lo[2]; z <= c.hi[2]; z++)
+        for (int y = c.lo[1]; y <= c.hi[1]; y++)
+            for (int x = c.lo[0]; x <= c.hi[0]; x++) {
+                const int to[3] = { x, y, z };
+                double off[3], change[3] = { 0 };
                 for (int k = 0; k < 3; k++) {
-                    off[k] = finer->axes[k].node[f[k]] - g->axes[k].node[node[k]];
-                    if (f[k] == middle[k]) continue;
-                    share *= 0.5;
-                    add_slope(m, b->field, b->level - 1, f, k, middle[k] - f[k], change);
+                    off[k] = finer->axes[k].node[f[k]] - g->axes[k].node[to[k]];
+                    for (int i = 0; i < 3; i++) change[i] += to[k] > followed.lo[k] ? slope[k][i] : -slope[k][i];
                 }
-                add_from(b, cell, from, at, share, off, change, m->dt);
+                const int cell = cell_index(x - own.lo[0], y - own.lo[1], z - own.lo[2]);
+                add_from(b, cell, from, from_cell, share, off, change, m->dt);
             }
 }
 
-/* The coarse node at a fine one's place. */
-static void receive_from_coarser(const mpm *m, brick *b, int cell, const int node[3])
+/* Of the fine nodes around a coarse brick's those that follow them. */
+static void receive_from_finer(const mpm *m, brick *b)
+{
+    const grid_level *finer = &m->grids.level[b->level - 1];
+    node_box own = nodes_of(b->at, 0), r = to_fine(finer, &own);
+    for (int k = 0; k < 3; k++) r.lo[k]--, r.hi[k]++;
+    r = existing(finer, r);
+    for (int z = r.lo[2] / BRICK; z <= r.hi[2] / BRICK; z++)
+        for (int y = r.lo[1] / BRICK; y <= r.hi[1] / BRICK; y++)
+            for (int x = r.lo[0] / BRICK; x <= r.hi[0] / BRICK; x++) {
+                const int i = brick_at(m, b->field, b->level - 1, (const int[3]){ x, y, z });
+                if (i < 0) continue;
+                const brick *from = &m->bricks[i];
+                for (uint64_t set = from->seam.follow_coarser; set;) {
+                    int node[3];
+                    const int cell = next_node(from, &set, node);
+                    hand_on(m, from, cell, node, b);
+                }
+            }
+}
+
+/* Of the coarse nodes those at a fine brick's that follow them. */
+static void receive_from_coarser(const mpm *m, brick *b)
 {
     static const double none[3] = { 0 };
     const grid_level *g = &m->grids.level[b->level];
-    const int c[3] = { g->lo[0] + node[0] / 2, g->lo[1] + node[1] / 2, g->lo[2] + node[2] / 2 };
-    const brick *from = brick_with(m, b->field, b->level + 1, c);
-    if (from && from->line[cell_of(c)][0] > 0) add_from(b, cell, from, cell_of(c), 1, none, none, m->dt);
+    for (uint64_t set = b->seam.lead_coarser; set;) {
+        int node[3];
+        const int cell = next_node(b, &set, node);
+        const int c[3] = { g->lo[0] + node[0] / 2, g->lo[1] + node[1] / 2, g->lo[2] + node[2] / 2 };
+        const brick *from = brick_with(m, b->field, b->level + 1, c);
+        if (from && from->line[cell_of(c)][0] > 0) add_from(b, cell, from, cell_of(c), 1, none, none, m->dt);
+    }
 }
 
 void seams_receive(mpm *m, int site)
@@ -314,8 +327,8 @@ void seams_receive(mpm *m, int site)
         const int i = m->directory[f * m->grids.sites + site];
         if (i < 0) continue;
         brick *b = &m->bricks[i];
-        each_node(m, b, b->seam.lead_finer, receive_from_finer);
-        each_node(m, b, b->seam.lead_coarser, receive_from_coarser);
+        if (b->seam.lead_finer) receive_from_finer(m, b);
+        receive_from_coarser(m, b);
     }
 }
 
@@ -330,25 +343,21 @@ static void add_node(double to[NODE], const mpm *m, const brick *b, int level, c
 static void follow_finer(const mpm *m, brick *b, int cell, const int node[3])
 {
     const grid_level *finer = &m->grids.level[b->level - 1];
-    double *to = b->node[cell];
-    memset(to, 0, NODE * sizeof *to);
-    if (!(b->line[cell][0] > 0)) return;
     const int f[3] = { 2 * (node[0] - finer->lo[0]) + 1, 2 * (node[1] - finer->lo[1]) + 1,
                        2 * (node[2] - finer->lo[2]) + 1 };
-    add_node(to, m, b, b->level - 1, f, 1);
+    add_node(b->node[cell], m, b, b->level - 1, f, 1);
 }
 
 static void follow_coarser(const mpm *m, brick *b, int cell, const int node[3])
 {
-    double *to = b->node[cell], share = 1;
-    memset(to, 0, NODE * sizeof *to);
-    if (!(b->line[cell][0] > 0)) return;
     const node_box f = { { node[0], node[1], node[2] }, { node[0], node[1], node[2] } };
     const node_box c = to_coarse(&m->grids.level[b->level], &f);
+    double share = 1;
     for (int k = 0; k < 3; k++) share *= c.lo[k] < c.hi[k] ? 0.5 : 1;
     for (int z = c.lo[2]; z <= c.hi[2]; z++)
         for (int y = c.lo[1]; y <= c.hi[1]; y++)
-            for (int x = c.lo[0]; x <= c.hi[0]; x++) add_node(to, m, b, b->level + 1, (const int[3]){ x, y, z }, share);
+            for (int x = c.lo[0]; x <= c.hi[0]; x++)
+                add_node(b->node[cell], m, b, b->level + 1, (const int[3]){ x, y, z }, share);
 }
 
 void seams_follow(mpm *m, int site)
@@ -357,7 +366,15 @@ void seams_follow(mpm *m, int site)
         const int i = m->directory[f * m->grids.sites + site];
         if (i < 0) continue;
         brick *b = &m->bricks[i];
-        each_node(m, b, b->seam.follow_finer, follow_finer);
-        each_node(m, b, b->seam.follow_coarser, follow_coarser);
+        for (uint64_t set = b->seam.follow_finer | b->seam.follow_coarser; set;) {
+            int node[3];
+            const int cell = next_node(b, &set, node);
+            memset(b->node[cell], 0, sizeof b->node[cell]);
+            if (!(b->line[cell][0] > 0)) continue;
+            if (b->seam.follow_finer >> cell & 1)
+                follow_finer(m, b, cell, node);
+            else
+                follow_coarser(m, b, cell, node);
+        }
     }
 }

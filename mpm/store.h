@@ -211,7 +211,7 @@ status store_compact(mpm *m);                   /* blocks into the order of bric
 int store_insert(mpm *m, brick *b, int cell, int body, const double *particle); /* block, or -1 when none is free */
 
 status store_place(mpm *m, int body, const double *particle); /* makes its brick if need be; outside any step */
-int store_cell_at(const mpm *m, int level, const double x[3], int at[3]); /* cell and place of its brick */
+int store_cell_at(const mpm *m, int level, const double x[3], int at[3]); /* cell and its brick's place; -1: outside */
 
 /* seams.c: nodes that two levels share */
 seam_nodes seams_of(const mpm *m, int level, const int at[3]); /* of a brick at this place */

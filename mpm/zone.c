@@ -206,14 +206,11 @@ static int too_long(const mpm *m, const double *q)
     return -1;
 }
 
-/* What the new window leaves out is gone; so is a half that lies beyond its sides. */
+/* What the new window leaves out is gone; so is what lies beyond the cells of its level. */
 static bool outside(const mpm *m, const double *q)
 {
-    for (int k = 0; k < 3; k++) {
-        const axis *a = &grids_window(&m->grids)->axes[k];
-        if (q[FIRST_x + k] < a->edge[1] || q[FIRST_x + k] >= a->edge[a->last + 1]) return true;
-    }
-    return false;
+    int at[3];
+    return store_cell_at(m, grids_level(&m->grids, q + FIRST_x), q + FIRST_x, at) < 0;
 }
 
 static status place_split(mpm *m, int body, double *q)
@@ -325,10 +322,12 @@ static void widen(const mpm *m, const plough *p, zone *z)
     const bool half_model = !(s->fine_lo > s->lo);
     const double half = half_model ? s->fine_hi - s->fine_lo : 0.5 * (s->fine_hi - s->fine_lo);
     if (!(p->half_width > NEAR * half) || !(half < m->scene.follow_width * (1 - 1e-9))) return;
+    const double pair = (m->scene.levels > 1 ? 2 : 1) * s->fine; /* of the cells around it the zone takes whole ones */
     const double together = (1 << (m->scene.levels - 1)) * s->fine;
-    const double more = ceil(((WIDER - 1) * half) / together) * together;
-    const double room = floor((s->hi - s->fine_hi - grids_margin(m->scene.levels, s->fine)) / together) * together;
-    const double wanted = fmin(more, fmin(m->scene.follow_width - half, room));
+    const double more = ceil((WIDER - 1) * half / together) * together;
+    const double end = half_model ? s->hi - s->fine_hi : fmin(s->hi - s->fine_hi, s->fine_lo - s->lo);
+    const double room = fmin(m->scene.follow_width - half, end - grids_margin(m->scene.levels, s->fine));
+    const double wanted = fmin(more, floor(room / pair + 1e-6) * pair);
     if (!(wanted > 0)) return;
     z->at[4] += wanted;
     if (!half_model) z->at[3] -= wanted;

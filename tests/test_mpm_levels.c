@@ -182,6 +182,45 @@ static void test_flight(void **state)
     }
 }
 
+/* Past an end of the window that the boxes reach: what goes out there, out of cells of any size, is booked, and so is what the end
+ * does to the rest.  A mirror that acts on another field than the cube's does nothing to it. */
+static void test_ends(void **state)
+{
+    (void)state;
+    static const struct {
+        boundary_kind kind;
+        unsigned fields;
+    } ends[] = { { BOUNDARY_FREE, 0 },
+                 { BOUNDARY_ABSORBING, 0 },
+                 { BOUNDARY_FIXED, 0 },
+                 { BOUNDARY_SYMMETRY, 0 },
+                 { BOUNDARY_SYMMETRY, 2 } };
+    const material copper = scene_copper();
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++)
+        for (int levels = 2; levels <= MPM_MAX_LEVELS; levels++) {
+            mpm_scene s;
+            cube(&s, &copper, levels);
+            for (int k = 1; k < 3; k++)
+                s.axis[k] = scene_graded(s.axis[k], k == 1 ? 0 : 16e-3, k == 1 ? 4e-3 : 20e-3, 4e-3, 2);
+            s.axis[1].boundary[0] = s.axis[2].boundary[1] = ends[i].kind;
+            s.axis[1].boundary_fields[0] = s.axis[2].boundary_fields[1] = ends[i].fields;
+            double *box = s.body[0].shape_value.value;
+            box[1] = 0, box[4] = 3e-3, box[2] = 15e-3, box[5] = 20e-3;
+            s.body[0].velocity[0] = 900, s.body[0].velocity[1] = -100, s.body[0].velocity[2] = 100;
+            mpm *m = scene_make(&s, 2);
+            scene_steps(m, 250);
+            const mpm_ledger l = mpm_balance(m);
+            print_message("end %zu, %d levels: %.1e of the mass left, mass %.1e, energy %.1e, momentum %.1e\n", i,
+                          levels, l.ejected_mass / l.mass_start, (l.mass + l.ejected_mass) / l.mass_start - 1,
+                          l.energy_error, l.momentum_error);
+            assert_true(ends[i].kind != BOUNDARY_FREE || l.ejected_mass > 0.01 * l.mass_start);
+            assert_near((l.mass + l.ejected_mass) / l.mass_start, 1, ROUNDING);
+            assert_below(l.momentum_error, ROUNDING);
+            assert_near(l.energy_error, 0, ROUNDING);
+            mpm_free(m);
+        }
+}
+
 /* ---- the gouge ---- */
 
 static void gouge(gouge_scene *g, int levels)
@@ -221,6 +260,72 @@ static void test_books(void **state)
         assert_int_equal(r.particles, mpm_particles(m));
         mpm_free(m);
     }
+}
+
+/* A model of both halves widens on both sides, by whole cells, and no further than the nearer end of the window allows. */
+static void test_widening(void **state)
+{
+    (void)state;
+    static const struct {
+        double lo, widest, want; /* [m] */
+    } cases[] = {
+        { -6e-3, 1.5e-3, 1.5e-3 }, { -6e-3, 1.4e-3, 1e-3 }, { -1.3e-3, 1.5e-3, 1e-3 }, { -2e-3, 1.5e-3, 1.5e-3 }
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        gouge_scene g;
+        gouge(&g, 2);
+        mpm_axis *z = &g.scene.axis[2];
+        z->lo = cases[i].lo, z->fine_lo = -z->fine_hi, z->boundary[0] = BOUNDARY_FREE;
+        g.scene.follow_width = cases[i].widest;
+        mpm *m = scene_make(&g.scene, 2);
+        assert_ok(zone_follow(m)); /* nothing yields yet */
+        assert_near(mpm_scene_of(m)->axis[2].fine_hi, 1e-3, 0);
+        for (int k = 0; k < m->bricks_used; k++) /* all of the rail in the zone yields as far as z = 0.8 mm */
+            for (int c = 0; c < BRICK_CELLS; c++)
+                for (int q = m->bricks[k].head[c]; q >= 0; q = m->links[q].next)
+                    for (int l = 0; l < LANES; l++) {
+                        block *b = &m->blocks[q];
+                        if (fabs(b->x[2][l]) < 0.8e-3) b->s[3][l] = b->flow[0][l], b->L[1][l] = 1e3;
+                    }
+        assert_ok(zone_follow(m));
+        const mpm_axis now = mpm_scene_of(m)->axis[2];
+        print_message("window from %.1f mm, at most %.1f mm: %.2f .. %.2f mm\n", 1e3 * z->lo, 1e3 * cases[i].widest,
+                      1e3 * now.fine_lo, 1e3 * now.fine_hi);
+        assert_near(now.fine_hi, cases[i].want, 1e-9);
+        assert_near(now.fine_lo, -cases[i].want, 1e-9);
+        mpm_free(m);
+    }
+}
+
+/* What a brick knows of the other fields around it follows from where particles are, whenever it was found out: or a run that goes
+ * on from a checkpoint would know other things. */
+static void test_known(void **state)
+{
+    (void)state;
+    gouge_scene g;
+    gouge(&g, 3);
+    mpm *m = scene_make(&g.scene, 2);
+    int emptied = 0;
+    for (int step = 0; step < 150; step++) {
+        int filled = 0, still = 0;
+        for (int i = 0; i < m->bricks_used; i++) filled += m->bricks[i].particles > 0;
+        scene_steps(m, 1);
+        const int n = m->bricks_used;
+        bool *contact = calloc((size_t)n, sizeof *contact), *across = calloc((size_t)n, sizeof *across);
+        for (int i = 0; i < n; i++) {
+            contact[i] = m->bricks[i].contact, across[i] = m->bricks[i].across;
+            still += m->bricks[i].particles > 0;
+        }
+        emptied += still < filled;
+        store_relink(m);
+        for (int i = 0; i < n; i++)
+            if (contact[i] != m->bricks[i].contact || across[i] != m->bricks[i].across)
+                fail_msg("step %d, brick %d of level %d: contact %d, now %d", step, i, m->bricks[i].level, contact[i],
+                         m->bricks[i].contact);
+        free(contact), free(across);
+    }
+    print_message("fewer bricks with particles after %d of 150 steps\n", emptied);
+    mpm_free(m);
 }
 
 static void test_bits(void **state)
@@ -277,7 +382,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_nodes),       cmocka_unit_test(test_refused), cmocka_unit_test(test_linear),
-        cmocka_unit_test(test_flight),      cmocka_unit_test(test_books),   cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_flight),      cmocka_unit_test(test_ends),    cmocka_unit_test(test_books),
+        cmocka_unit_test(test_widening),    cmocka_unit_test(test_known),   cmocka_unit_test(test_bits),
         cmocka_unit_test(test_same_groove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -110,7 +110,8 @@ static layout lay_out(const breech_case *c, const case_site *g, double cells_per
     l.rail_half_width = 0.5 * given_or(s->rail_width, p->width);
     l.half_width = fmax(l.rail_half_width, 0.5 * p->width) + room;
     l.fine_half_width = cells_over(fmin(given_or(0.5 * s->fine_width, 8.0 * g->radius), l.half_width - room), pair);
-    l.narrow_half_width = s->follow ? cells_over(NARROW * l.fine_half_width, pair) : l.fine_half_width;
+    const double narrow = fmax(NARROW * l.fine_half_width, s->levels > 1 ? 2.0 * pair : 0.0); /* as grids_make wants */
+    l.narrow_half_width = s->follow ? fmin(cells_over(narrow, pair), l.fine_half_width) : l.fine_half_width;
     for (int i = 0; i < c->rail.layers.n; i++) l.layers += c->rail.layers.item[i].thickness;
     l.travel = s->follow ? (p->length - l.run) / (1.0 - FRONT_SPEED) : 0.0;
     return l;

@@ -9,7 +9,8 @@
  *
  * Materials are those of cases/materials; speeds 0.1 .. 5 km/s, grain radii 0.05 .. 2 mm, lead angles 5 .. 90 degrees, Courant
  * numbers 0.1 .. 0.6 (some more, to be refused), 1 .. 1.5 cells a radius, temperatures up to melting; with layers as thin as a twentieth of a cell, loose,
- * bonded and welded grains, fragments that fly through the scene, and armature, grains and fragments that leave the window. */
+ * bonded and welded grains, fragments that fly through the scene, and armature, grains and fragments that leave the window; on one
+ * to three nested grids. */
 #include "coupling/handoff/scene_run.h"
 #include "coupling/io/case.h"
 #include "coupling/io/material_file.h"
@@ -83,6 +84,8 @@ typedef struct {
     char text[TEXT_SIZE];
     size_t length;
     double radius, velocity, courant; /* [m, m/s, 1] */
+    int levels;                       /* of nested grids */
+    double wider;                     /* what the window needs for them beside what it has for one [m] */
     group group;
     char summary[200];
 } recipe;
@@ -135,7 +138,7 @@ static int add_projectile(recipe *r, chance *c, const stock *s)
         "  head_thickness: %.6g m\n  half_bore: %.6g m\n  width: %.6g m\n  chamfer_height: %.6g m\n  temperature: %.6g "
         "K\n",
         s->names[armature], lead, a * uniform(c, 4, 9) + chamfer / tan(lead * 3.14159265358979 / 180), leg,
-        a * uniform(c, 1.5, 3), a * uniform(c, 9, 11), a * uniform(c, 4, 9), chamfer,
+        a * uniform(c, 1.5, 3), a * uniform(c, 9, 11) + r->wider, a * uniform(c, 4, 9), chamfer,
         temperature(c, s->melting[armature]));
     return armature;
 }
@@ -157,12 +160,17 @@ static void add_scene(recipe *r, chance *c)
     add(r, "  friction: %.4g\n  growth: %.4g\n  contact_pressure: %.6g Pa\n", one_in(c, 4) ? 0 : uniform(c, 0, 1),
         uniform(c, 1.05, 1.3), one_in(c, 2) ? 0 : log_uniform(c, 1e6, 1e9));
     add(r, "  rail_ahead: %.6g m\n  rail_behind: %.6g m\n  rail_depth: %.6g m\n  fine_ahead: %.6g m\n",
-        a * uniform(c, 7, 12), a * uniform(c, 6, 9), a * uniform(c, 7, 9), a * uniform(c, 2, 5));
-    add(r, "  fine_behind: %.6g m\n  fine_depth: %.6g m\n  fine_width: %.6g m\n", 1.5 * a, 1.3 * a, 4 * a);
+        a * uniform(c, 7, 12) + r->wider, a * uniform(c, 6, 9) + r->wider, a * uniform(c, 7, 9) + r->wider,
+        a * uniform(c, 2, 5));
+    add(r, "  fine_behind: %.6g m\n  fine_depth: %.6g m\n  fine_width: %.6g m\n", 1.5 * a, 1.3 * a,
+        (r->levels > 1 ? 8 : 4) * a);
     /* no longer than MAX_STEPS of a metal whose waves run at 6 km/s */
     const double crossing = 12 * a / r->velocity;
     add(r, "  end_time: %.6g s\n", fmin(crossing, MAX_STEPS * r->courant * a / cells / (6000 + r->velocity)));
-    if (one_in(c, 5)) add(r, "  basis: bspline\n");
+    if (one_in(c, 5))
+        add(r, "  basis: bspline\n"); /* one grid only */
+    else
+        add(r, "  levels: %d\n", r->levels);
     if (one_in(c, 8)) add(r, "  transfer: pic\n");
     if (one_in(c, 6)) add(r, "  heat_by_plastic_work: yes\n");
     if (r->group == WITHOUT_DAMAGE) add(r, "  damage: no\n");
@@ -174,8 +182,11 @@ static void add_scene(recipe *r, chance *c)
 
 static void write_recipe(recipe *r, chance *c, const stock *s)
 {
+    chance levels = { ~c->state }; /* beside the others, which it leaves as they were without levels */
     r->length = 0;
     r->radius = log_uniform(c, 0.05e-3, 2e-3);
+    r->levels = 1 + below(&levels, 3);
+    r->wider = 3 * ((1 << (r->levels - 1)) - 1) * r->radius; /* three of the largest cells, and one cell a radius */
     r->velocity = log_uniform(c, 100, 5000);
     r->courant = uniform(c, 0.1, one_in(c, 10) ? 0.8 : 0.6); /* more than 0.6 is refused */
     r->group = one_in(c, 25) ? ANY : one_in(c, 3) ? WITHOUT_DAMAGE : WITH_DAMAGE;
@@ -183,8 +194,8 @@ static void write_recipe(recipe *r, chance *c, const stock *s)
     const int rail = add_rail(r, c, s), armature = add_projectile(r, c, s);
     add_particle(r, c, s);
     add_scene(r, c);
-    snprintf(r->summary, sizeof r->summary, "%.0f m/s, r %.3f mm, C %.2f, %s on %s", r->velocity, 1e3 * r->radius,
-             r->courant, s->names[armature], s->names[rail]);
+    snprintf(r->summary, sizeof r->summary, "%.0f m/s, r %.3f mm, C %.2f, %d levels, %s on %s", r->velocity,
+             1e3 * r->radius, r->courant, r->levels, s->names[armature], s->names[rail]);
 }
 
 /* Spheres that fly about: they hit the armature, or leave by the free side and the ends.  The armature stays the last body, so
