@@ -11,8 +11,8 @@
 
 static const double MERGE_RATIO = 0.9; /* of a merged domain to the longest that its cell bears, at most */
 static const int QUANTUM = 8;          /* fine cells the zone moves at a time, at least */
-static const double SEAM =
-    1.0; /* fine cells, or own half lengths, that the last points of a wake reach beyond their ends */
+/* Fine cells, or own half lengths, that the last points of a wake reach beyond their ends. */
+static const double SEAM = 1.0;
 
 /* ---- merging ---- */
 
