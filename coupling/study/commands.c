@@ -72,6 +72,7 @@ status command_scene(session *s, command_result *out)
     };
     const scene_record *done;
     TRY(scenes_all(s, &query, 1, &done));
+    scenes_warn_of(s, &done->entry);
     out->scene = done->entry.result;
     out->summary.scene = &out->scene;
     return status_ok();

@@ -28,8 +28,9 @@ typedef struct errand {
 
 struct crew {
     session *s;
-    int members;   /* ranks but rank 0 */
-    errand **busy; /* members + 1, by rank: what it computes, NULL: idle; rank 0's is unused */
+    int members; /* ranks but rank 0 */
+    errand *
+        *busy; /* members + 1, by rank: what it computes, then what it has put off; NULL: idle; rank 0's is unused */
     int n;
     errand **errand; /* n, in the order they came up; owned, one by one */
     bool level;      /* wanted ones do not go before the others */
@@ -133,6 +134,15 @@ static status write_file(const crew *k, const message *m)
     return file_write(path, m->data + name, m->bytes - name);
 }
 
+/* It need not be the last that was given: an outcome and an order may have crossed. */
+static void off_the_stack(crew *k, errand *e)
+{
+    errand **at = &k->busy[e->member];
+    while (*at != e) at = &(*at)->put_off;
+    *at = e->put_off;
+    e->put_off = NULL;
+}
+
 static status hear_outcome(crew *k, const message *m)
 {
     uint64_t key;
@@ -141,8 +151,7 @@ static status hear_outcome(crew *k, const message *m)
     const char *body = m->data + sizeof key;
     const size_t bytes = m->bytes - sizeof key;
     if (!e || e->where != AWAY) return status_ok();
-    k->busy[m->from] = e->put_off;
-    e->put_off = NULL;
+    off_the_stack(k, e);
     if (m->kind == SAY_FAILED && e->dropped) { /* for good, unless somebody has thought better of it */
         e->where = WAITING;
         e->dropped = false;

@@ -448,7 +448,7 @@ static int in_order(const void *left, const void *right)
     return strcmp(a->name, b->name);
 }
 
-status onset_list_scenes(const session *s, onset_scene **out, int *n, int *run, int *reused)
+status onset_list_scenes(session *s, onset_scene **out, int *n, int *run, int *reused)
 {
     *n = *run = *reused = 0;
     *out = calloc((size_t)s->n_records + 1, sizeof **out);
@@ -458,6 +458,7 @@ status onset_list_scenes(const session *s, onset_scene **out, int *n, int *run, 
         *(s->record[*n]->entry.reused ? reused : run) += 1;
     }
     qsort(*out, (size_t)*n, sizeof **out, in_order);
+    for (int i = 0; i < *n; i++) scenes_warn_of(s, &(*out)[i]);
     return status_ok();
 }
 

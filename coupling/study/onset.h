@@ -34,7 +34,7 @@ status onset_begin(session *s, const breech_case *c, const char *prefix, onset_a
 /* After families_search: every site's outcome, verdict, threshold. */
 status onset_judge(session *s, onset_answer *a);
 
-/* The scenes of the session, as a summary lists them; *n of them, the caller frees. */
-status onset_list_scenes(const session *s, onset_scene **out, int *n, int *run, int *reused);
+/* The scenes of the session, as a summary lists them, and what is to be warned of in them; *n of them, the caller frees. */
+status onset_list_scenes(session *s, onset_scene **out, int *n, int *run, int *reused);
 
 #endif

@@ -10,7 +10,7 @@ static const double ENERGY_ERROR_LIMIT = 0.01; /* above it a scene is warned abo
 
 /* ---- computing ---- */
 
-static void warn_of(session *s, const onset_scene *e)
+void scenes_warn_of(session *s, const onset_scene *e)
 {
     const scene_result *r = &e->result;
     if (fabs(r->energy_error) > ENERGY_ERROR_LIMIT)
@@ -70,7 +70,6 @@ static status into_store(session *s, const scene_record *r, const scene_key *key
 static status keep(session *s, const scene_record *fresh)
 {
     TRY(session_keep(s, fresh));
-    warn_of(s, &fresh->entry);
     say_outcome(s, &fresh->entry);
     return status_ok();
 }

@@ -35,6 +35,10 @@ status scenes_all(session *s, const scene_query *query, int n, const scene_recor
 /* Returns as soon as one more of the n is known, at once when all are. */
 status scenes_some(session *s, const scene_query *query, int n);
 
+/* What is to be said of a scene that was computed.  By whoever lists a study's scenes, in that list's order: they come in another
+ * with every number of processes. */
+void scenes_warn_of(session *s, const onset_scene *e);
+
 /* Replaces the former list; the likeliest first.  level: nothing hangs on those that scenes_some will want sooner than on these;
  * they may stand among them, and all are computed in the order of this list. */
 status scenes_ahead(session *s, const scene_query *query, int n, bool level);
