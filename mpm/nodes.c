@@ -32,6 +32,15 @@ static void overlap(int d, int *here, int *there, int *count)
     *count = d == 0 ? BRICK : 1;
 }
 
+/* Cells of a neighbour whose particles reach this brick's nodes. */
+static uint64_t cells_towards(int step)
+{
+    static const uint64_t cells[3][3] = { { 0x8888888888888888, ~0ull, 0x1111111111111111 },
+                                          { 0xf000f000f000f000, ~0ull, 0x000f000f000f000f },
+                                          { 0xffff000000000000, ~0ull, 0x000000000000ffff } };
+    return cells[0][step % 3] & cells[1][step / 3 % 3] & cells[2][step / 9];
+}
+
 static void add_lines(double (*to)[LINE], double (*const from)[LINE], int step)
 {
     int h[3], t[3], n[3];
@@ -70,11 +79,12 @@ static bool gather_field(const mpm *m, const brick *b, bool with_contact, const 
     for (int step = 0; step < NEIGHBOURS; step++) {
         if (b->neighbour[step] < 0) continue;
         const brick *from = &m->bricks[b->neighbour[step]];
-        if (from->particles == 0) continue;
+        const uint64_t near = from->occupied & cells_towards(step);
+        if (!near) continue;
         any = true;
         /* neighbour k lies at step k; seen from it, we lie on the other side */
         add_lines(n->line, from->out, step);
-        if (with_contact && from->meets) add_lines(n->extra, from->out_contact, step);
+        if (with_contact && from->meets & near) add_lines(n->extra, from->out_contact, step);
     }
     clear_ghosts(m, b, n->line);
     return any;

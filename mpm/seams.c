@@ -268,7 +268,7 @@ static void hand_on(const mpm *m, const brick *from, int from_cell, const int f[
     const grid_level *g = &m->grids.level[b->level], *finer = g - 1;
     const node_box own = nodes_of(b->at, 0), one = { { f[0], f[1], f[2] }, { f[0], f[1], f[2] } };
     const node_box followed = to_coarse(finer, &one), c = inside(followed, own.lo, own.hi);
-    if (!(from->line[from_cell][0] > 0) || is_empty(&c)) return;
+    if (is_empty(&c)) return;
     double share = 1, slope[3][3] = { { 0 } };
     for (int k = 0; k < 3; k++)
         if (followed.lo[k] < followed.hi[k]) share *= 0.5, slope_at(m, from, from_cell, k, slope[k]);
@@ -302,7 +302,7 @@ static void receive_from_finer(const mpm *m, brick *b)
                 for (uint64_t set = from->seam.follow_coarser; set;) {
                     int node[3];
                     const int cell = next_node(from, &set, node);
-                    hand_on(m, from, cell, node, b);
+                    if (from->line[cell][0] > 0) hand_on(m, from, cell, node, b);
                 }
             }
 }
