@@ -1,4 +1,4 @@
-/* Bricks and blocks: making, finding, linking.  Nothing here runs in the middle of a step but store_insert. */
+/* Bricks and blocks: making, finding, linking.  One thread at a time, but for store_insert and store_release. */
 #include "mpm/store.h"
 
 #include <assert.h>
@@ -194,7 +194,7 @@ static bool meets_other(const mpm *m, const brick *b)
     return false;
 }
 
-static void link_brick(mpm *m, brick *b)
+static status link_brick(mpm *m, brick *b)
 {
     for (int step = 0; step < NEIGHBOURS; step++) {
         int to[3];
@@ -205,11 +205,14 @@ static void link_brick(mpm *m, brick *b)
     b->occupied = meeting_occupied(b);
     if (b->contact && b->out && !b->out_contact) b->out_contact = aligned(HALO_NODES * sizeof *b->out_contact);
     if (b->at_seam && !b->line) b->line = aligned(2 * BRICK_CELLS * sizeof *b->line);
+    CHECK((b->out_contact || !b->contact || !b->out) && (b->line || !b->at_seam), STATUS_MEMORY,
+          "no memory for a brick");
+    return status_ok();
 }
 
-void store_relink(mpm *m)
+status store_relink(mpm *m)
 {
-    for (int i = 0; i < m->bricks_used; i++) link_brick(m, &m->bricks[i]);
+    for (int i = 0; i < m->bricks_used; i++) TRY(link_brick(m, &m->bricks[i]));
     m->site_count = m->seam_count = 0;
     for (int s = 0; s < m->grids.sites; s++)
         for (int f = 0; f < m->fields; f++) {
@@ -219,6 +222,7 @@ void store_relink(mpm *m)
             if (m->bricks[i].at_seam) m->seam_list[m->seam_count++] = s;
             break;
         }
+    return status_ok();
 }
 
 status store_reserve(mpm *m)
@@ -375,7 +379,7 @@ status store_settle(mpm *m)
 {
     const int filled = m->bricks_used;
     for (int i = 0; i < filled; i++) TRY(store_surround(m, i));
-    store_relink(m);
+    TRY(store_relink(m));
     TRY(store_reserve(m));
     return store_compact(m);
 }

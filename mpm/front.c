@@ -8,8 +8,8 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-static const double POWER_AHEAD =
-    0.05;                       /* of the power lies ahead of the front, and as much beyond the groove's half width */
+/* Of the power lies ahead of the front, and as much beyond the groove's half width. */
+static const double POWER_AHEAD = 0.05;
 static const double RIM = 0.75; /* of the zone's half width; beyond it lies the rim */
 
 enum { ACROSS = 64 }; /* slices of the zone's half width */

@@ -227,7 +227,7 @@ status mpm_restore(mpm *m, const void *image, size_t bytes)
     m->time = head.time, m->dt = head.dt, m->dt_last = head.dt_last, m->dense_steps = head.dense_steps,
     m->steps = head.steps;
     memcpy(m->force_sum, head.force_sum, sizeof head.force_sum);
-    store_relink(m);
+    TRY(store_relink(m));
     return store_reserve(m);
 }
 

@@ -183,8 +183,8 @@ static status each_crossing(mpm *m, crosser *each, bool *changed)
 {
     const int before = m->bricks_used;
     for (int i = 0; i < before; i++) {
+        if (!(m->bricks[i].mover_steps >> CROSSES & 1)) continue;
         const brick b = m->bricks[i]; /* the array may move */
-        if (!(b.mover_steps >> CROSSES & 1)) continue;
         const mover_list *list = &m->movers[b.movers_thread];
         for (int k = b.movers_first; k < b.movers_first + b.movers; k++)
             if (list->head[k].brick_step == CROSSES) TRY(each(m, list, k, b.field, changed));
@@ -233,7 +233,7 @@ status movers_exchange(mpm *m)
 {
     bool changed = false, enough = true, relink = false;
     TRY(open_bricks(m, &changed));
-    if (changed) store_relink(m);
+    if (changed) TRY(store_relink(m));
     TRY(store_reserve(m));
 #pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads) reduction(&& : enough) reduction(|| : relink)
     for (int i = 0; i < m->bricks_used; i++) {
@@ -246,7 +246,7 @@ status movers_exchange(mpm *m)
         relink = relink || (b->sum.particles > 0) != (b->particles > 0); /* filled or emptied by this step */
     }
     TRY(each_crossing(m, arrive_across, &relink));
-    if (relink) store_relink(m);
+    if (relink) TRY(store_relink(m));
     CHECK(enough, STATUS_MEMORY,
           "the particle blocks ran out within one step at t = %g s; this is a limit of the solver: use larger cells",
           m->time);

@@ -194,8 +194,8 @@ const kernels *kernels_choose(const char *name);
 
 /* bricks.c */
 status store_make(mpm *m, int blocks);
-status
-store_new_grid(mpm *m);      /* an empty directory for the axes as they are now; forgets the bricks, keeps the blocks */
+/* An empty directory for the axes as they are now; forgets the bricks, keeps the blocks. */
+status store_new_grid(mpm *m);
 status store_settle(mpm *m); /* after filling: neighbours, order in memory, room for the next step */
 void store_free_brick(brick *b);
 void store_release(mpm *m, int block_index);         /* back to the free blocks */
@@ -205,7 +205,7 @@ status store_brick(mpm *m, int field, int level, const int at[3], int *out); /* 
 status store_open(brick *b);                                                 /* memory for the sums of its particles */
 status store_empty(mpm *m, int blocks);                                      /* no bricks, room for so many blocks */
 status store_surround(mpm *m, int brick_index); /* makes its 26 neighbours inside the window */
-void store_relink(mpm *m);                      /* neighbours, contact flags, site list */
+status store_relink(mpm *m);                    /* neighbours, contact flags, site list */
 status store_reserve(mpm *m);                   /* free blocks for the next step */
 status store_compact(mpm *m);                   /* blocks into the order of bricks and cells */
 int store_insert(mpm *m, brick *b, int cell, int body, const double *particle); /* block, or -1 when none is free */

@@ -18,16 +18,25 @@ static int whole(int lo, int hi)
 
 /* ---- the grids ---- */
 
-/* A fine zone of an even number of cells; now and then it reaches an end of the window, or both. */
-static mpm_axis any_axis(void)
+/* Room between the fine zone and an end of the window that it does not reach: as little as grids.h says, or more; a whole number of
+ * cells or not. */
+static double any_room(int levels, double h)
 {
-    const double h = uniform(0.1e-3, 1e-3), lo = rand() % 2 ? 0 : uniform(-5e-3, 5e-3);
-    const double below = rand() % 3 ? h * whole(12, 40) : 0, above = rand() % 3 ? h * whole(12, 40) : 0;
+    const double least = grids_margin(levels, h);
+    return rand() % 4 ? least + h * (rand() % 2 ? whole(0, 30) : uniform(0, 30)) : least;
+}
+
+/* A fine zone of an even number of cells, anywhere or where zero is one of the grid's nodes; now and then it reaches an end of the
+ * window, or both. */
+static mpm_axis any_axis(int levels)
+{
+    const double h = uniform(0.1e-3, 1e-3), fine_lo = rand() % 2 ? 2 * h * whole(-10, 10) : uniform(-5e-3, 5e-3);
+    const double below = rand() % 3 ? any_room(levels, h) : 0, above = rand() % 3 ? any_room(levels, h) : 0;
     const double length = (below > 0 || above > 0 ? 2 : 4) * h * whole(2, 20); /* it may fill the window */
-    return (mpm_axis){ .lo = lo,
-                       .hi = lo + below + length + above,
-                       .fine_lo = lo + below,
-                       .fine_hi = lo + below + length,
+    return (mpm_axis){ .lo = fine_lo - below,
+                       .hi = fine_lo + length + above,
+                       .fine_lo = fine_lo,
+                       .fine_hi = fine_lo + length,
                        .fine = h,
                        .coarse = 8 * h,
                        .growth = uniform(1.2, 2) };
@@ -38,12 +47,12 @@ static void test_nodes(void **state)
 {
     (void)state;
     srand(3);
-    for (int trial = 0; trial < 300; trial++) {
+    for (int trial = 0; trial < 2000; trial++) {
         mpm_scene s;
         grids g;
         mpm_scene_default(&s);
         s.levels = whole(2, MPM_MAX_LEVELS);
-        for (int k = 0; k < 3; k++) s.axis[k] = any_axis();
+        for (int k = 0; k < 3; k++) s.axis[k] = any_axis(s.levels);
         assert_ok(grids_make(&s, &g));
         for (int k = 0; k < 3; k++) {
             const axis *fine = &g.level[0].axes[k];
@@ -56,6 +65,11 @@ static void test_nodes(void **state)
                 const axis *c = &g.level[i + 1].axes[k], *a = &f->axes[k];
                 assert_int_equal(f->seam[k][0], f->lo[k] > 1);
                 assert_int_equal(f->seam[k][1], f->hi[k] < c->last);
+                /* nodes that are followed follow nobody (seams.c) */
+                assert_true(i == 0 || !f->seam[k][0] || g.level[i - 1].lo[k] - 1 > 1);
+                assert_true(i == 0 || !f->seam[k][1] || g.level[i - 1].hi[k] + 1 < a->last);
+                if (f->seam[k][0]) assert_near(a->edge[1], a->node[1], 0); /* a seam cuts the cell of its node */
+                if (f->seam[k][1]) assert_near(a->edge[a->last + 1], a->node[a->last], 0);
                 for (int n = f->seam[k][0] ? 0 : 1; n <= a->last + f->seam[k][1]; n++) {
                     const int at = f->lo[k] + (n + 1) / 2 - 1; /* at or below it */
                     assert_near(a->node[n], n % 2 ? c->node[at] : 0.5 * (c->node[at] + c->node[at + 1]), tiny);
@@ -253,7 +267,8 @@ static void test_books(void **state)
             levels, 1e3 * across.fine_hi, 1e3 * mpm_scene_of(m)->axis[2].fine_hi, (unsigned long long)r.splits,
             (unsigned long long)r.merges, l.energy_error, l.momentum_error);
         assert_true(mpm_scene_of(m)->axis[2].fine_hi > across.fine_hi);
-        assert_true(r.splits > 1000 && r.merges > 300);
+        assert_true(r.splits > 1000);
+        assert_true(r.merges > 3500); /* 2700 to 3200 when points are merged only where the zone moves */
         assert_near((l.mass + l.ejected_mass) / l.mass_start, 1, ROUNDING);
         assert_below(l.momentum_error, ROUNDING);
         assert_near(l.energy_error, 0, ROUNDING);
@@ -317,7 +332,7 @@ static void test_known(void **state)
             still += m->bricks[i].particles > 0;
         }
         emptied += still < filled;
-        store_relink(m);
+        assert_ok(store_relink(m));
         for (int i = 0; i < n; i++)
             if (contact[i] != m->bricks[i].contact || across[i] != m->bricks[i].across)
                 fail_msg("step %d, brick %d of level %d: contact %d, now %d", step, i, m->bricks[i].level, contact[i],
