@@ -103,17 +103,21 @@ static double excess(const taken *inside, const taken *rim)
     return fmax(inside->power - (rim->volume > 0 ? rim->power * inside->volume / rim->volume : 0), 0);
 }
 
+static double slice_power(const profile *p, int i)
+{
+    return excess(&p->sums[2 * i], &p->sums[2 * i + 1]);
+}
+
 static void find_front(const profile *p, plough *out)
 {
     double ahead = 0;
-    int i = p->n - 1;
-    for (int k = 0; k < p->n; k++) out->power += excess(&p->sums[2 * k], &p->sums[2 * k + 1]);
-    for (; i > 0; i--) {
-        const double here = excess(&p->sums[2 * i], &p->sums[2 * i + 1]);
-        if (ahead + here >= POWER_AHEAD * out->power) break;
-        ahead += here;
+    int front = p->n - 1;
+    for (int i = 0; i < p->n; i++) out->power += slice_power(p, i);
+    for (; front > 0; front--) {
+        if (ahead + slice_power(p, front) >= POWER_AHEAD * out->power) break;
+        ahead += slice_power(p, front);
     }
-    out->front = p->lo + p->width * (i + 1);
+    out->front = p->lo + p->width * (front + 1);
 }
 
 /* Share of the zone's half width. */

@@ -337,11 +337,11 @@ static void widen(const mpm *m, const plough *p, zone *z)
 static zone zone_wanted(const mpm *m, const plough *p)
 {
     const mpm_axis *s = &m->scene.axis[0];
-    const double front = p->power > 0 ? p->front : s->lo;
+    const double end = p->power > 0 ? p->front + m->scene.follow_lead : s->lo;
     const double room = fmax(2 * s->coarse, grids_margin(m->scene.levels, s->fine)),
                  way = m->scene.follow_speed * m->time;
     const double hi = m->zone_start.at[2] + way;
-    const double fine_hi = fmin(front + m->scene.follow_lead, hi - room);
+    const double fine_hi = fmin(end, hi - room);
     const double together = 1 << (m->scene.levels - 1); /* cells of the coarsest level keep their places */
     const double cells = fmax(floor((fine_hi - s->fine_hi) / s->fine / together), 0) * together;
     zone z = zone_of(m);
@@ -364,8 +364,12 @@ status zone_follow(mpm *m)
 {
     const zone now = zone_of(m);
     if (!m->scene.follow_bodies) return status_ok();
-    const plough p = plough_find(m);
-    m->report.plastic_front = p.front, m->report.plastic_power = p.power;
+    plough p = plough_find(m);
+    /* no groove goes faster than the slider: what its edge takes far ahead must not draw the zone off a groove that dies */
+    const double passed = m->scene.follow_speed * (m->time - m->report.plastic_time);
+    if (m->report.peak_plastic_power > 0 && m->scene.follow_speed > 0)
+        p.front = fmin(p.front, m->report.plastic_front + passed);
+    m->report.plastic_front = p.front, m->report.plastic_power = p.power, m->report.plastic_time = m->time;
     m->report.peak_plastic_power = fmax(m->report.peak_plastic_power, p.power);
     note_gauges(m);
     const zone next = zone_wanted(m, &p);
