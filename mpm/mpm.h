@@ -35,7 +35,7 @@ typedef struct {
     size_t particles;
     uint64_t clamps_pressure, clamps_compression; /* counted, never silent */
     uint64_t splits, merges, ejected, eroded;     /* ejected holds the eroded points too */
-    double plastic_time;  /* of the last look at the plastic power [s] */
+    double plastic_time;                          /* of the last look at the plastic power [s] */
     double plastic_front; /* where the bodies followed are ploughed (mpm_scene.follow_bodies) [m] */
     double gauge_power[2],
         gauge_at[2]; /* plastic power at the first look after gauge_time, and when; 0: not yet [W, s] */
