@@ -134,7 +134,7 @@ static void test_batch(void **state)
 static void test_laid_aside(void **state)
 {
     (void)state;
-    breech_case *c = small_case("scene.end_time=1 us"), *longer = small_case("scene.end_time=5 us");
+    breech_case *c = small_case("scene.end_time=1 us"), *longer = small_case("scene.end_time=4 us");
     const scene_query q[] = { query_at(longer, 1500.0), query_at(c, 1400.0), query_at(c, 1600.0) };
     const scene_record *out[3];
     int rounds = 0, known = 0;
@@ -197,10 +197,9 @@ static double written_at(const char *dir, const char *scene, const char *file)
 static void test_put_off(void **state)
 {
     (void)state;
-    breech_case *c = small_case("scene.end_time=1 us"), *longer = small_case("scene.end_time=5 us"),
-                *longest = small_case("scene.end_time=10 us");
+    breech_case *c = small_case("scene.end_time=1 us"), *longer = small_case("scene.end_time=4 us");
     const scene_query ahead[] = { query_at(longer, 1400.0), query_at(longer, 1600.0) };
-    const scene_query first = query_at(c, 1500.0), two[] = { query_at(longest, 1550.0), query_at(c, 1450.0) };
+    const scene_query first = query_at(c, 1500.0), two[] = { query_at(longer, 1550.0), query_at(c, 1450.0) };
     const scene_record *out[2];
     session s;
     open_session(c, "put-off", &s);
@@ -220,7 +219,6 @@ static void test_put_off(void **state)
     OK(session_close(&s, true));
     case_free(c);
     case_free(longer);
-    case_free(longest);
 }
 
 /* A scene that cannot be: the words of the process that met it. */

@@ -1,5 +1,5 @@
 /* From the shot to the scene: states at the sites, the screen, the geometry and the forces of the scenes. */
-#include "coupling/handoff/scene_from_state.h"
+#include "coupling/handoff/scene_run.h"
 #include "coupling/handoff/screen.h"
 #include "coupling/handoff/site_state.h"
 #include "mpm/mpm.h"
@@ -435,7 +435,7 @@ static void test_masses(void **state)
                                  "scene.growth=1.3",
                                  "scene.fine_ahead=2 mm",
                                  "scene.fine_behind=1 mm",
-                                 "scene.fine_width=3 mm",
+                                 "scene.fine_width=2 mm",
                                  NULL };
     made m = make(sets);
     mpm *solver = NULL;
@@ -463,7 +463,7 @@ static double mass_with(const char *shape)
                                  "scene.growth=1.3",
                                  "scene.fine_ahead=1 mm",
                                  "scene.fine_behind=1 mm",
-                                 "scene.fine_width=3 mm",
+                                 "scene.fine_width=2 mm",
                                  NULL };
     made m = make(sets);
     mpm *solver = NULL;
@@ -541,6 +541,108 @@ static void test_refused(void **state)
     case_free(m.c);
 }
 
+/* ---- the shelf ---- */
+
+typedef struct {
+    int steps, snapshots;
+    history *rows;
+    impact hit;
+} run_counted;
+
+static bool count_step(void *user)
+{
+    ((run_counted *)user)->steps++;
+    return false;
+}
+
+static status count_snapshot(void *user, const char *path, const void *data, size_t bytes)
+{
+    (void)data;
+    ((run_counted *)user)->snapshots += bytes > 0 && strstr(path, ".hdf") && !strstr(path, ".series");
+    return status_ok();
+}
+
+/* A small scene, to its gauge or whole. */
+static run_counted run_small(bool to_gauge, const char *written, scene_shelf *shelf)
+{
+    const char *const sets[] = { written,
+                                 to_gauge ? "scene.stop_when_gauged=yes" : "scene.stop_when_gauged=no",
+                                 "scene.velocity=2 km/s",
+                                 "scene.contact_pressure=300 MPa",
+                                 "particle.radius=0.2 mm",
+                                 "scene.end_time=3.4 us",
+                                 "scene.coarse_cell=1.2 mm",
+                                 "scene.growth=1.3",
+                                 "scene.fine_ahead=3 mm",
+                                 "scene.fine_width=2 mm",
+                                 "scene.rail_ahead=8 mm",
+                                 "scene.rail_behind=1 mm",
+                                 "scene.rail_depth=4 mm",
+                                 "projectile.length=10 mm",
+                                 "projectile.width=10 mm",
+                                 "projectile.half_bore=6 mm",
+                                 "projectile.head_thickness=6 mm",
+                                 NULL };
+    breech_case *c = changed_case(sets);
+    const site_state at = state_of_case(c);
+    run_counted r = { .steps = 0 };
+    scene_job job;
+    OK(scene_job_make(c, &at, 1.2, &job));
+    job.name = to_gauge ? "short" : "whole";
+    job.twin = 1;
+    OK(history_open(NULL, false, &r.rows));
+    const snapshot_sink sink = { count_snapshot, &r };
+    const scene_host host = {
+        .sink = &sink, .history = r.rows, .shelf = shelf, .threads = 1, .stop = count_step, .user = &r
+    };
+    OK(scene_run(&job, &host, &r.hit));
+    r.hit.result.wall_seconds = 0.0;
+    case_free(c);
+    return r;
+}
+
+static void assert_same_rows(history *a, history *b)
+{
+    h5_file *file[2];
+    double *time[2];
+    size_t rows[2][H5_MAX_RANK];
+    for (int i = 0; i < 2; i++) {
+        OK(h5_create(&file[i]));
+        OK(history_export(i ? b : a, "whole", file[i]));
+        OK(h5_read(file[i], "/scene/time", &time[i], rows[i]));
+    }
+    assert_int_equal(rows[0][0], rows[1][0]);
+    assert_true(rows[0][0] > 20);
+    assert_memory_equal(time[0], time[1], rows[0][0] * sizeof *time[0]);
+    for (int i = 0; i < 2; i++) free(time[i]), h5_close(file[i]);
+}
+
+/* A whole scene goes on from the one that ended at its gauge, to the same bits, unless a snapshot is missing. */
+static void test_shelf(void **state)
+{
+    (void)state;
+    scene_shelf shelf = { .oldest = 0 };
+    const run_counted alone = run_small(false, "output.snapshots=2", NULL);
+    const run_counted gauged = run_small(true, "output.snapshots=0", &shelf);
+    assert_true(gauged.hit.result.groove_growth > 0.0 && scene_shelf_find(&shelf, 1) && !scene_shelf_find(&shelf, 2));
+    const run_counted on = run_small(false, "output.snapshots=2", &shelf);
+    print_message("%d steps from the start, %d to the gauge, %d from there\n", alone.steps, gauged.steps, on.steps);
+    assert_memory_equal(&on.hit, &alone.hit, sizeof on.hit);
+    assert_true(on.steps < alone.steps - gauged.steps + 20 && on.snapshots == 2 && alone.snapshots == 2);
+    assert_same_rows(alone.rows, on.rows);
+    const char *full = getenv("BREECH_FULL");
+    if (full && strcmp(full, "1") == 0) {
+        const run_counted many = run_small(false, "output.snapshots=31", &shelf);
+        assert_true(many.steps > 0.9 * alone.steps && many.snapshots == 31);
+        assert_memory_equal(&many.hit, &alone.hit, sizeof many.hit);
+        OK(history_close(many.rows));
+    }
+    scene_shelf_clear(&shelf);
+    assert_null(scene_shelf_find(&shelf, 1));
+    history *const rows[] = { alone.rows, gauged.rows, on.rows };
+    for (int i = 0; i < 3; i++) OK(history_close(rows[i]));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -550,6 +652,7 @@ int main(void)
         cmocka_unit_test(test_grid),        cmocka_unit_test(test_pressing),   cmocka_unit_test(test_grain_measures),
         cmocka_unit_test(test_fields),      cmocka_unit_test(test_masses),     cmocka_unit_test(test_pit),
         cmocka_unit_test(test_refused),     cmocka_unit_test(test_growth),     cmocka_unit_test(test_gauged),
+        cmocka_unit_test(test_shelf),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

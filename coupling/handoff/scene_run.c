@@ -22,7 +22,9 @@ typedef struct {
     const scene_job *job;
     const scene_host *host;
     mpm *m;
-    double piece_end; /* of the piece under way [s] */
+    scene_resume from;      /* job->resume, or what was on the shelf */
+    double piece_end;       /* of the piece under way [s] */
+    double before, reached; /* times of the last two steps [s] */
     snapshots *shots;
     int series;                    /* of the history, -1: none */
     int pieces, per_snapshot;      /* pieces; pieces from one snapshot to the next, 0: no snapshots */
@@ -106,7 +108,7 @@ static void book(const scene_host *h, const char *phase, double since)
 
 static double wall_spent(const run *r)
 {
-    return r->job->resume.wall + wall_clock() - r->started;
+    return r->from.wall + wall_clock() - r->started;
 }
 
 static double progress_of(const run *r, const mpm_report *now)
@@ -143,6 +145,7 @@ static bool on_step(void *user, const mpm *m)
     run *r = user;
     const double now = wall_clock();
     const mpm_report state = mpm_glance(m);
+    r->before = r->reached, r->reached = state.time;
     if (r->host->progress && now - r->looked >= LIVE_INTERVAL) {
         r->looked = now;
         progress_update(r->host->progress, progress_of(r, &state), state.particle_steps);
@@ -251,7 +254,7 @@ static status advance(run *r)
 {
     bool settled = false;
     int piece = pieces_over(r, mpm_glance(r->m).time);
-    if (!r->job->resume.image) {
+    if (!r->from.image) {
         TRY(write_row(r));
         TRY(write_snapshot(r));
     }
@@ -374,6 +377,37 @@ static status finish(run *r, const armature_metal *before, impact *out)
     return s;
 }
 
+/* ---- the shelf ---- */
+
+static status shelve(run *r)
+{
+    const scene_host *h = r->host;
+    shelved_scene item = {
+        .twin = r->job->twin, .pieces = r->pieces, .time = r->reached, .before = r->before, .wall = wall_spent(r)
+    };
+    TRY(mpm_save(r->m, &item.image, &item.bytes));
+    status s = h->history ? h5_create(&item.rows) : status_ok();
+    if (s.code == STATUS_OK && h->history) s = history_export(h->history, r->job->name, item.rows);
+    scene_shelf_put(h->shelf, &item);
+    return s;
+}
+
+/* What a whole scene would have written up to there must be what the one to its gauge has: the same rows, and no snapshot but
+ * the first. */
+static bool goes_on_from(const run *r, const shelved_scene *item)
+{
+    const int over = pieces_over(r, item->time);
+    return item->pieces == r->pieces && over == pieces_over(r, item->before) && !item->rows == !r->host->history &&
+           (!r->per_snapshot || over < r->per_snapshot);
+}
+
+static const shelved_scene *find_shelved(const run *r)
+{
+    if (!r->host->shelf || r->job->resume.image || scene_is_gauged(r->job->c)) return NULL;
+    const shelved_scene *item = scene_shelf_find(r->host->shelf, r->job->twin);
+    return item && goes_on_from(r, item) ? item : NULL;
+}
+
 /* ---- setting up ---- */
 
 /* Snapshots stand at piece ends, the first at the start, the last at the end; the pieces are those of the case whether
@@ -403,31 +437,47 @@ static status open_snapshots(run *r, double reached)
 static status open_output(run *r)
 {
     const scene_host *h = r->host;
-    const scene_resume *from = &r->job->resume;
-    const double reached = from->image ? from->time * (1.0 - 1e-9) : -1.0; /* what stands at that instant is redone */
+    const double reached =
+        r->from.image ? r->from.time * (1.0 - 1e-9) : -1.0; /* what stands at that instant is redone */
     if (h->history) {
         TRY(history_scene(h->history, r->job->name, &r->series));
         TRY(history_rewind(h->history, r->series, reached));
     }
-    return open_snapshots(r, reached);
+    return open_snapshots(r, r->job->resume.image ? reached : -1.0);
+}
+
+/* From the start, from where it was stopped, or from where the one to its gauge has ended; then its first snapshot, of the start,
+ * is still to be written. */
+static status take_up(run *r)
+{
+    const shelved_scene *shelved = find_shelved(r);
+    if (shelved) {
+        r->from = (scene_resume){ shelved->image, shelved->bytes, shelved->time, shelved->wall };
+        if (r->host->history) TRY(history_import(r->host->history, r->job->name, shelved->rows));
+    }
+    TRY(open_output(r));
+    if (shelved) TRY(write_snapshot(r));
+    return r->from.image ? mpm_restore(r->m, r->from.image, r->from.bytes) : status_ok();
 }
 
 static status run_made(run *r, impact *out)
 {
-    const scene_resume *from = &r->job->resume;
     armature_metal before;
     TRY(armature_now(r, &before));
-    if (from->image) TRY(mpm_restore(r->m, from->image, from->bytes));
+    TRY(take_up(r));
     const mpm_report state = mpm_glance(r->m);
+    r->reached = state.time;
     if (r->host->progress) progress_task(r->host->progress, r->job->task, progress_of(r, &state), state.particle_steps);
-    TRY(open_output(r));
     TRY(advance(r));
-    return finish(r, &before, out);
+    TRY(finish(r, &before, out));
+    const bool goes_on =
+        r->host->shelf && r->job->twin && scene_is_gauged(r->job->c) && out->result.groove_growth > 0.0;
+    return goes_on && r->reached < r->piece_end ? shelve(r) : status_ok();
 }
 
 status scene_run(const scene_job *job, const scene_host *host, impact *out)
 {
-    run r = { .job = job, .host = host, .series = -1, .error = status_ok() };
+    run r = { .job = job, .host = host, .from = job->resume, .series = -1, .error = status_ok() };
     memset(out, 0, sizeof *out);
     r.started = r.saved = r.looked = wall_clock();
     plan_pieces(&r);

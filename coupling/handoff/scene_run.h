@@ -9,6 +9,7 @@
 #define BREECH_COUPLING_SCENE_RUN_H
 
 #include "coupling/handoff/scene_from_state.h"
+#include "coupling/handoff/scene_shelf.h"
 #include "coupling/io/history.h"
 #include "coupling/io/outdir.h"
 #include "coupling/io/progress.h"
@@ -22,7 +23,9 @@ typedef struct {
     history *history;          /* takes /scene/<name> and its crater */
     progress *progress;
     timing *timing;
-    int threads;              /* 0: as many as there are */
+    scene_shelf
+        *shelf;  /* keeps what ended at its gauge while its groove grew, and is what its whole scene goes on from */
+    int threads; /* 0: as many as there are */
     bool (*stop)(void *user); /* asked after every step; true: save, STATUS_STOPPED */
     /* A checkpoint: on a stop, and every output.checkpoint_interval.  wall: spent in the scene so far [s]. */
     status (*save)(void *user, const char *scene, const mpm *m, double wall);
@@ -44,6 +47,7 @@ typedef struct {
     mpm_scene scene;
     crater_spec spec;
     scene_resume resume;
+    uint64_t twin; /* the same for a scene to its gauge and for the whole one, for no others; 0: not known */
 } scene_job;
 
 typedef struct {

@@ -320,6 +320,7 @@ static status run_own(crew *k, errand *e)
                               .history = e->rows,
                               .progress = &s->progress,
                               .timing = &s->timing,
+                              .shelf = &s->shelf,
                               .threads = s->threads,
                               .stop = stop_own,
                               .save = save_own,

@@ -30,6 +30,7 @@ typedef struct work {
 struct member {
     int threads;
     work *top;
+    scene_shelf shelf;
     bool over; /* nothing more comes */
 };
 
@@ -61,6 +62,7 @@ static status compute(work *w, const scene_query *q, const scene_key *key, h5_fi
     const scene_host host = { .sink = &(snapshot_sink){ send_file, NULL },
                               .history = rows,
                               .progress = &silent,
+                              .shelf = &w->me->shelf,
                               .threads = w->me->threads,
                               .stop = heard_stop,
                               .user = w };
@@ -155,6 +157,7 @@ void crew_serve(int threads)
     signal(SIGTERM, SIG_IGN);
     while (!me.over)
         if (!listen(&me)) ranks_pause();
+    scene_shelf_clear(&me.shelf);
     ranks_send(0, SAY_END, "", 0);
 }
 

@@ -29,6 +29,21 @@ onset_scene scene_entry(const scene_query *q)
     return e;
 }
 
+/* What makes the scene, but for where it ends and what it writes. */
+static status twin_of(const scene_query *q, uint64_t *twin)
+{
+    breech_case c = *q->c;
+    scene_key key = { .text = NULL };
+    *twin = 0;
+    if (!c.scene.follow) return status_ok(); /* has no gauges */
+    c.scene.stop_when_gauged = false;
+    c.output.snapshots = 0;
+    const status done = scene_key_of(&c, &q->state, q->cells_per_radius, &key);
+    if (done.code == STATUS_OK) *twin = key.hash;
+    scene_key_free(&key);
+    return done;
+}
+
 status scene_work(const scene_query *q, uint64_t key, const scene_work_how *how, scene_record *out)
 {
     scene_job job;
@@ -37,6 +52,7 @@ status scene_work(const scene_query *q, uint64_t key, const scene_work_how *how,
     job.name = q->name;
     job.task = how->task;
     job.resume = how->resume;
+    TRY(twin_of(q, &job.twin));
     TRY(how->run(&job, how->host, &hit));
     memset(out, 0, sizeof *out);
     out->entry = scene_entry(q);

@@ -48,6 +48,7 @@ static status run_here(session *s, const scene_query *q, const scene_key *key, s
                               .history = s->history,
                               .progress = &s->progress,
                               .timing = &s->timing,
+                              .shelf = &s->shelf,
                               .threads = s->threads,
                               .stop = stop_asked,
                               .save = session_save_inside,

@@ -167,6 +167,7 @@ status session_close(session *s, bool finished)
     if (finished && s->dir.lock >= 0 && checkpoint_path(s, path).code == STATUS_OK) unlink(path);
     outdir_close(&s->dir);
     checkpoint_free(&s->resumed);
+    scene_shelf_clear(&s->shelf);
     for (int i = 0; i < s->n_records; i++) free(s->record[i]);
     free(s->record);
     free(s->warnings);

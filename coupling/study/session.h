@@ -31,6 +31,7 @@ typedef struct {
     double started, wall_before;  /* wall clock; spent before this process [s] */
     char store[OUTDIR_PATH_SIZE]; /* folder of the scene store, "": none */
     struct crew *crew;            /* the other processes (crew.h), owned; NULL: there are none */
+    scene_shelf shelf;            /* of this process */
     int n_records;
     scene_record **record; /* in the order they came; owned, one by one */
     char *warnings;        /* a line each, owned */
