@@ -435,7 +435,7 @@ static void test_masses(void **state)
                                  "scene.growth=1.3",
                                  "scene.fine_ahead=2 mm",
                                  "scene.fine_behind=1 mm",
-                                 "scene.fine_width=2 mm",
+                                 "scene.fine_width=3 mm",
                                  NULL };
     made m = make(sets);
     mpm *solver = NULL;
@@ -463,7 +463,7 @@ static double mass_with(const char *shape)
                                  "scene.growth=1.3",
                                  "scene.fine_ahead=1 mm",
                                  "scene.fine_behind=1 mm",
-                                 "scene.fine_width=2 mm",
+                                 "scene.fine_width=3 mm",
                                  NULL };
     made m = make(sets);
     mpm *solver = NULL;

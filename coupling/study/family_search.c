@@ -232,29 +232,22 @@ typedef struct {
     surface_result scratch;
 } requests;
 
-static double slowest(const asker *a, double above)
-{
-    double v = INFINITY;
-    for (int i = 0; i < a->n; i++)
-        if (a->wanted[i].state.velocity > above) v = fmin(v, a->wanted[i].state.velocity);
-    return v;
-}
-
-/* The search run to its end with the threshold below, between and above its wanted scenes: what it asks for then.  *guesses: how
- * many there were. */
+/* The search run to its end with the threshold on both sides of its wanted scenes and at the ends of the range: what it asks for
+ * then.  *guesses: how many there were. */
 static status guess_on(const asker *now, requests *r, int *guesses)
 {
-    const double half = 0.5 * now->family->plan.search.step;
-    double from = 0.0;
-    *guesses = r->ahead.n = 0;
-    for (bool more = true; more; ++*guesses) {
-        const double v = slowest(now, from);
+    const threshold_plan *p = &now->family->plan.search;
+    double threshold[2 * TOGETHER + 2] = { p->low, p->high };
+    *guesses = 2;
+    r->ahead.n = 0;
+    for (int i = 0; i < now->n; i++)
+        for (int side = -1; side <= 1; side += 2)
+            threshold[(*guesses)++] = now->wanted[i].state.velocity + 0.5 * side * p->step;
+    for (int i = 0; i < *guesses; i++) {
         asker a = *now;
         a.ahead = &r->ahead;
-        more = isfinite(v);
-        a.threshold = more ? v - half : from + half;
+        a.threshold = threshold[i];
         TRY(round_of(&a, &r->scratch));
-        from = v;
     }
     return status_ok();
 }
