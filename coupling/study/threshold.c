@@ -192,7 +192,7 @@ static status widen(search *s, double step, bracket *b)
     while (!complete(b) && budget_left(s) > 0) {
         const double from = b->has_hi ? b->hi.velocity : b->lo.velocity, away = b->has_hi ? -step : step;
         if (on_grid(s, from + away) == from) return status_ok();
-        TRY(probe_two(s, from + away, from + 2.0 * away, b));
+        TRY(probe_two(s, from + away, from + 3.0 * away, b));
         step *= 2.0;
     }
     return status_ok();
