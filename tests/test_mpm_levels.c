@@ -313,6 +313,46 @@ static void test_widening(void **state)
     }
 }
 
+/* Two bodies that meet in the boxes' middle: nodes that both reach have all that contact asks for, whichever level it came from. The
+ * flow stress is one everywhere. */
+static void test_contact_sums(void **state)
+{
+    (void)state;
+    const material copper = scene_copper();
+    for (int i = 0; i < 12; i++) {
+        const int levels = 2 + i % 2;
+        const double y = 7.25e-3 + 0.3e-3 * i; /* where they meet, among the cells and bricks of the boxes */
+        mpm_scene s;
+        cube(&s, &copper, levels);
+        const double low[6] = { 1e-3, 1e-3, 1e-3, 39e-3, y, 19e-3 }, high[6] = { 1e-3, y, 1e-3, 39e-3, 19e-3, 19e-3 };
+        memcpy(s.body[0].shape_value.value, low, sizeof low);
+        scene_box(&s, high[0], high[1], high[2], high[3], high[4], high[5], &copper)->field = 1;
+        mpm *m = scene_make(&s, 2);
+        m->dt = 1e-15; /* so that nothing moves */
+        assert_ok(mpm_advance(m, 1e-15, NULL));
+        int shared = 0;
+        double worst = 0;
+        for (int k = 0; k < m->bricks_used; k++) {
+            const brick *b = &m->bricks[k], *other = NULL;
+            const int o = brick_at(m, !b->field, b->level, b->at);
+            if (o >= 0) other = &m->bricks[o];
+            for (int c = 0; c < BRICK_CELLS && b->at_seam && other; c++) {
+                const double *line = b->line[c], *extra = b->line[BRICK_CELLS + c];
+                if ((b->seam.follow_coarser | b->seam.follow_finer) >> c & 1 || !(line[0] > 0 && other->line[c][0] > 0))
+                    continue;
+                shared++;
+                assert_true(b->across && other->across);
+                worst = fmax(worst, fabs(extra[6] / (line[0] * m->laws[b->field].flow_start) - 1));
+            }
+        }
+        print_message("%d levels, meeting at %.2f mm: %d nodes of both, flow stress to %.1e\n", levels, 1e3 * y, shared,
+                      worst);
+        assert_true(shared > 100);
+        assert_below(worst, ROUNDING);
+        mpm_free(m);
+    }
+}
+
 /* Every brick's flags, found out again, are what they were. */
 static void hold_known(mpm *m)
 {
@@ -406,10 +446,10 @@ static void test_same_groove(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nodes),       cmocka_unit_test(test_refused), cmocka_unit_test(test_linear),
-        cmocka_unit_test(test_flight),      cmocka_unit_test(test_ends),    cmocka_unit_test(test_books),
-        cmocka_unit_test(test_widening),    cmocka_unit_test(test_known),   cmocka_unit_test(test_bits),
-        cmocka_unit_test(test_same_groove),
+        cmocka_unit_test(test_nodes),    cmocka_unit_test(test_refused),      cmocka_unit_test(test_linear),
+        cmocka_unit_test(test_flight),   cmocka_unit_test(test_ends),         cmocka_unit_test(test_books),
+        cmocka_unit_test(test_widening), cmocka_unit_test(test_contact_sums), cmocka_unit_test(test_known),
+        cmocka_unit_test(test_bits),     cmocka_unit_test(test_same_groove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
