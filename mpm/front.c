@@ -43,15 +43,6 @@ static double lane_plastic_power(const block *q, int l)
     return fmax(power, 0) * q->mass[0][l] / q->rho[0][l];
 }
 
-/* Where the fine zone's middle lies across, and how far it reaches from there [m]. */
-static void width_of(const mpm *m, double *middle, double *half)
-{
-    const mpm_axis *z = &m->scene.axis[2];
-    const bool mirrored = z->boundary[0] == BOUNDARY_SYMMETRY && z->fine_lo <= z->lo;
-    *middle = mirrored ? z->fine_lo : 0.5 * (z->fine_lo + z->fine_hi);
-    *half = z->fine_hi - *middle;
-}
-
 static void add(taken *t, double power, double volume)
 {
     t->power += power, t->volume += volume;
@@ -143,7 +134,7 @@ plough plough_find(const mpm *m)
     const mpm_axis *s = &m->scene.axis[0];
     plough r = { .front = s->lo };
     profile p = { .lo = s->lo, .width = 2 * s->fine, .n = (int)((s->hi - s->lo) / (2 * s->fine)) + 1 };
-    width_of(m, &p.middle, &p.half);
+    zone_across(m, &p.middle, &p.half);
     p.sums = calloc((size_t)sums_of(&p) * SHARES, sizeof *p.sums);
     if (!p.sums) return r;
     add_bodies(m, &p);

@@ -299,6 +299,15 @@ zone zone_of(const mpm *m)
     return (zone){ { s->fine_lo, s->lo, s->hi, across->fine_lo, across->fine_hi } };
 }
 
+/* A half model's zone begins at its mirror. */
+void zone_across(const mpm *m, double *middle, double *half)
+{
+    const mpm_axis *z = &m->scene.axis[2];
+    const bool mirrored = z->boundary[0] == BOUNDARY_SYMMETRY && z->fine_lo <= z->lo;
+    *middle = mirrored ? z->fine_lo : 0.5 * (z->fine_lo + z->fine_hi);
+    *half = z->fine_hi - *middle;
+}
+
 status zone_regrid(mpm *m, zone z)
 {
     mpm_axis *s = &m->scene.axis[0];
@@ -319,8 +328,9 @@ static void widen(const mpm *m, const plough *p, zone *z)
 {
     static const double NEAR = 0.6, WIDER = 1.25;
     const mpm_axis *s = &m->scene.axis[2];
-    const bool half_model = !(s->fine_lo > s->lo);
-    const double half = half_model ? s->fine_hi - s->fine_lo : 0.5 * (s->fine_hi - s->fine_lo);
+    double middle, half;
+    zone_across(m, &middle, &half);
+    const bool half_model = !(middle > s->fine_lo);
     if (!(p->half_width > NEAR * half) || !(half < m->scene.follow_width * (1 - 1e-9))) return;
     const double pair = (m->scene.levels > 1 ? 2 : 1) * s->fine; /* of the cells around it the zone takes whole ones */
     const double together = (1 << (m->scene.levels - 1)) * s->fine;

@@ -233,4 +233,65 @@ static inline double scene_mean(const mpm *m, mpm_field field, int component, in
     return sum / total;
 }
 
+/* ---- bits ---- */
+
+/* Every readable field of every particle, then the books and the wake. */
+typedef struct {
+    size_t bytes;
+    char *data;
+} scene_picture;
+
+static inline scene_picture scene_picture_of(const mpm *m)
+{
+    const mpm_ledger l = mpm_balance(m);
+    const mpm_report r = mpm_state(m);
+    const mpm_wake *w = mpm_wake_of(m);
+    size_t doubles = 0;
+    for (int f = 0; f < MPM_FIELD_COUNT; f++) doubles += mpm_particles(m) * (size_t)mpm_field_table[f].width;
+    scene_picture p = { doubles * sizeof(double) + sizeof l + sizeof r + w->n * sizeof *w->point, NULL };
+    p.data = malloc(p.bytes);
+    assert_non_null(p.data);
+    double *to = (double *)(void *)p.data;
+    for (int f = 0; f < MPM_FIELD_COUNT; f++) {
+        mpm_read(m, (mpm_field)f, to);
+        to += mpm_particles(m) * (size_t)mpm_field_table[f].width;
+    }
+    memcpy(to, &l, sizeof l);
+    memcpy((char *)to + sizeof l, &r, sizeof r);
+    if (w->n) memcpy((char *)to + sizeof l + sizeof r, w->point, w->n * sizeof *w->point);
+    return p;
+}
+
+static inline void scene_assert_same(scene_picture a, scene_picture b, const char *what)
+{
+    if (a.bytes != b.bytes) fail_msg("%s: %zu bytes, want %zu", what, b.bytes, a.bytes);
+    for (size_t i = 0; i < a.bytes; i += sizeof(double))
+        if (memcmp(a.data + i, b.data + i, sizeof(double)) != 0)
+            fail_msg("%s: differs at byte %zu of %zu", what, i, a.bytes);
+}
+
+/* A run on one thread, the same on two, and one on three that goes on from the first's image: `before` steps, image, `after`
+ * steps, the same bits.  Returns the first, which the caller frees. */
+static inline mpm *scene_same_bits(const mpm_scene *s, int before, int after)
+{
+    void *image = NULL;
+    size_t bytes = 0;
+    mpm *m[3];
+    scene_picture p[3];
+    for (int i = 0; i < 3; i++) {
+        m[i] = scene_make(s, 1 + i);
+        if (i == 2) assert_ok(mpm_restore(m[i], image, bytes));
+        if (i < 2) scene_steps(m[i], before);
+        if (i == 0) assert_ok(mpm_save(m[i], &image, &bytes));
+        scene_steps(m[i], after);
+        p[i] = scene_picture_of(m[i]);
+    }
+    scene_assert_same(p[0], p[1], "two threads");
+    scene_assert_same(p[0], p[2], "three threads from an image");
+    for (int i = 0; i < 3; i++) free(p[i].data);
+    mpm_free(m[1]), mpm_free(m[2]);
+    free(image);
+    return m[0];
+}
+
 #endif

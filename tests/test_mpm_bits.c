@@ -5,49 +5,16 @@
 
 static const double H = 0.25e-3, SPEED = 1500;
 
-/* Every readable field of every particle, then the books. */
-typedef struct {
-    size_t bytes;
-    char *data;
-} picture;
-
-static picture picture_of(const mpm *m)
-{
-    const mpm_ledger l = mpm_balance(m);
-    const mpm_report r = mpm_state(m);
-    size_t doubles = 0;
-    for (int f = 0; f < MPM_FIELD_COUNT; f++) doubles += mpm_particles(m) * (size_t)mpm_field_table[f].width;
-    picture p = { doubles * sizeof(double) + sizeof l + sizeof r, NULL };
-    p.data = malloc(p.bytes);
-    assert_non_null(p.data);
-    double *to = (double *)(void *)p.data;
-    for (int f = 0; f < MPM_FIELD_COUNT; f++) {
-        mpm_read(m, (mpm_field)f, to);
-        to += mpm_particles(m) * (size_t)mpm_field_table[f].width;
-    }
-    memcpy(to, &l, sizeof l);
-    memcpy((char *)to + sizeof l, &r, sizeof r);
-    return p;
-}
-
-static void assert_same(picture a, picture b, const char *what)
-{
-    if (a.bytes != b.bytes) fail_msg("%s: %zu bytes, want %zu", what, b.bytes, a.bytes);
-    for (size_t i = 0; i < a.bytes; i += sizeof(double))
-        if (memcmp(a.data + i, b.data + i, sizeof(double)) != 0)
-            fail_msg("%s: differs at byte %zu of %zu", what, i, a.bytes);
-}
-
 static void test_threads(void **state)
 {
     (void)state;
     gouge_scene g;
     scene_gouge(&g, H, SPEED);
-    picture one = { 0, NULL };
+    scene_picture one = { 0, NULL };
     for (int threads = 1; threads <= 3; threads++) {
         mpm *m = scene_make(&g.scene, threads);
         scene_steps(m, 120);
-        picture p = picture_of(m);
+        scene_picture p = scene_picture_of(m);
         const mpm_report r = mpm_state(m);
         if (threads == 1) {
             one = p;
@@ -56,7 +23,7 @@ static void test_threads(void **state)
             assert_true(r.splits > 100); /* or the movers were hardly tried */
             assert_true(r.peak_plastic_strain[0] > 0.1);
         } else {
-            assert_same(one, p, threads == 2 ? "two threads" : "three threads");
+            scene_assert_same(one, p, threads == 2 ? "two threads" : "three threads");
             free(p.data);
         }
         mpm_free(m);
@@ -70,12 +37,12 @@ static void test_picture_sees(void **state)
     (void)state;
     gouge_scene g;
     scene_gouge(&g, H, SPEED);
-    picture p[2];
+    scene_picture p[2];
     for (int i = 0; i < 2; i++) {
         g.scene.body[2].velocity[0] = i ? nextafter(SPEED, 2000) : SPEED;
         mpm *m = scene_make(&g.scene, 1);
         scene_steps(m, 5);
-        p[i] = picture_of(m);
+        p[i] = scene_picture_of(m);
         mpm_free(m);
     }
     assert_int_equal(p[0].bytes, p[1].bytes);
@@ -105,17 +72,17 @@ static void test_restart(void **state)
         assert_ok(mpm_save(m, &image[i], &bytes[i]));
     }
     scene_steps(m, LAST - at);
-    const picture want = picture_of(m);
+    const scene_picture want = scene_picture_of(m);
     mpm_free(m);
     for (int i = 0; i < STOPS; i++) {
         mpm *again = scene_make(&g.scene, 2);
         assert_ok(mpm_restore(again, image[i], bytes[i]));
         assert_int_equal(mpm_state(again).steps, stops[i]);
         scene_steps(again, LAST - stops[i]);
-        const picture got = picture_of(again);
+        const scene_picture got = scene_picture_of(again);
         char what[40];
         snprintf(what, sizeof what, "restarted at step %d", stops[i]);
-        assert_same(want, got, what);
+        scene_assert_same(want, got, what);
         free(got.data);
         mpm_free(again);
         free(image[i]);
