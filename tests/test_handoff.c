@@ -2,6 +2,7 @@
 #include "coupling/handoff/scene_run.h"
 #include "coupling/handoff/screen.h"
 #include "coupling/handoff/site_state.h"
+#include "mpm/grid.h"
 #include "mpm/mpm.h"
 #include "mpm/shape.h"
 
@@ -352,6 +353,24 @@ static void test_grid(void **state)
     }
 }
 
+/* The layout leaves room for all levels asked for. */
+static void test_levels(void **state)
+{
+    (void)state;
+    for (int k = 0; k < VARIANTS; k++) {
+        made m = make(variants[k]);
+        for (int levels = 1; levels <= MPM_MAX_LEVELS; levels++) {
+            grids g;
+            m.c->scene.levels = levels;
+            OK(scene_from_state(m.c, &m.state, m.c->scene.cells_per_radius, &m.scene, &m.spec));
+            OK(grids_make(&m.scene, &g));
+            assert_int_equal(g.levels, m.scene.basis == BASIS_GIMP ? levels : 1);
+            grids_free(&g);
+        }
+        case_free(m.c);
+    }
+}
+
 /* Volume inside a body by midpoints of 400 x 400 cells of its section; the armature is a prism. */
 static double section_area(const mpm_body *b)
 {
@@ -646,13 +665,16 @@ static void test_shelf(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_states),      cmocka_unit_test(test_trace),      cmocka_unit_test(test_not_reached),
-        cmocka_unit_test(test_jumps),       cmocka_unit_test(test_stopped),    cmocka_unit_test(test_screen_table),
-        cmocka_unit_test(test_screen_band), cmocka_unit_test(test_no_overlap), cmocka_unit_test(test_places),
-        cmocka_unit_test(test_grid),        cmocka_unit_test(test_pressing),   cmocka_unit_test(test_grain_measures),
-        cmocka_unit_test(test_fields),      cmocka_unit_test(test_masses),     cmocka_unit_test(test_pit),
-        cmocka_unit_test(test_refused),     cmocka_unit_test(test_growth),     cmocka_unit_test(test_gauged),
-        cmocka_unit_test(test_shelf),
+        cmocka_unit_test(test_states),         cmocka_unit_test(test_trace),
+        cmocka_unit_test(test_not_reached),    cmocka_unit_test(test_jumps),
+        cmocka_unit_test(test_stopped),        cmocka_unit_test(test_screen_table),
+        cmocka_unit_test(test_screen_band),    cmocka_unit_test(test_no_overlap),
+        cmocka_unit_test(test_places),         cmocka_unit_test(test_grid),
+        cmocka_unit_test(test_levels),         cmocka_unit_test(test_pressing),
+        cmocka_unit_test(test_grain_measures), cmocka_unit_test(test_fields),
+        cmocka_unit_test(test_masses),         cmocka_unit_test(test_pit),
+        cmocka_unit_test(test_refused),        cmocka_unit_test(test_growth),
+        cmocka_unit_test(test_gauged),         cmocka_unit_test(test_shelf),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

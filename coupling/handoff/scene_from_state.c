@@ -328,17 +328,6 @@ static void set_axes(const breech_case *c, const layout *l, mpm_scene *s)
     }
 }
 
-/* As many nested grids as asked for and as there is room for. */
-static void set_levels(const breech_case *c, mpm_scene *s)
-{
-    for (s->levels = s->basis == BASIS_GIMP ? c->scene.levels : 1; s->levels > 1; s->levels--) {
-        grids g;
-        const bool fits = grids_make(s, &g).code == STATUS_OK;
-        if (fits) grids_free(&g);
-        if (fits) return;
-    }
-}
-
 double scene_crossing_time(const mpm_scene *scene)
 {
     const mpm_body *b = &scene->body[body_of_armature(scene)];
@@ -388,6 +377,7 @@ static void set_method(const breech_case *c, const layout *l, mpm_scene *s)
     s->viscosity_quadratic = from->viscosity_quadratic;
     s->transfer = (transfer_kind)from->transfer;
     s->basis = (basis_kind)from->basis;
+    s->levels = s->basis == BASIS_GIMP ? from->levels : 1;
     s->heat_by_plastic_work = from->heat_by_plastic_work;
     const double speed = s->body[body_of_armature(s)].velocity[0];
     const double passage = scene_crossing_time(s) + c->projectile.length / speed;
@@ -467,7 +457,6 @@ status scene_bodies(const breech_case *c, const site_state *state, double cells_
     set_axes(c, &l, out);
     set_follow(c, &state->grain, &l, out);
     set_method(c, &l, out);
-    set_levels(c, out);
     return reaches_gauge(c, out);
 }
 
