@@ -18,6 +18,12 @@ static void *aligned(size_t bytes)
     return p;
 }
 
+static void *cleared(size_t bytes)
+{
+    void *p = aligned(bytes);
+    return p ? memset(p, 0, bytes) : NULL;
+}
+
 /* A bigger, 64-byte aligned array with the old content; NULL and the old one untouched when memory is short. */
 static void *enlarge(void *old, size_t old_bytes, size_t bytes)
 {
@@ -89,6 +95,7 @@ void store_free_brick(brick *b)
     free(b->out_contact);
     free(b->node);
     free(b->line);
+    free(b->held);
 }
 
 void store_free(mpm *m)
@@ -204,9 +211,10 @@ static status link_brick(mpm *m, brick *b)
     b->contact = b->across || meets_other(m, b);
     b->occupied = meeting_occupied(b);
     if (b->contact && b->out && !b->out_contact) b->out_contact = aligned(HALO_NODES * sizeof *b->out_contact);
-    if (b->at_seam && !b->line) b->line = aligned(2 * BRICK_CELLS * sizeof *b->line);
-    CHECK((b->out_contact || !b->contact || !b->out) && (b->line || !b->at_seam), STATUS_MEMORY,
-          "no memory for a brick");
+    if (b->at_seam && !b->line) b->line = cleared(2 * BRICK_CELLS * sizeof *b->line);
+    if (seam_shared(&b->seam) && !b->held) b->held = cleared(sizeof *b->held);
+    CHECK((b->out_contact || !b->contact || !b->out) && (b->line || !b->at_seam) && (b->held || !seam_shared(&b->seam)),
+          STATUS_MEMORY, "no memory for a brick");
     return status_ok();
 }
 

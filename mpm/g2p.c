@@ -298,9 +298,9 @@ static cell_limits limits_of(const mpm *m, const brick *b, int cell)
     return c;
 }
 
-static step_of step_for(const mpm *m, const cell_grid *g, int body)
+static step_of step_for(const mpm *m, const brick *b, const cell_grid *g, int body)
 {
-    step_of step = { .dt = m->dt };
+    step_of step = { .dt = level_dt(m, b->level) };
     for (int i = 0; i < 3; i++) {
         step.h[i] = g->axis[i]->cell, step.inv_h[i] = g->axis[i]->inv_cell;
         step.force[i] = m->scene.body[body].body_force[i];
@@ -360,12 +360,12 @@ static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const h
     mover_list *movers = &m->movers[b->movers_thread];
     cell_nodes nodes;
     gather_cell(halo, halo_index(cell), nodes);
-    run->step = step_for(m, &g, run->body);
+    run->step = step_for(m, b, &g, run->body);
     for (int i = b->head[cell]; i >= 0; i = m->links[i].next) {
         const int body = m->links[i].body;
         if (body != run->body) {
             add_books(&b->sum, &run->books, run->body, &run->step);
-            *run = (block_run){ .body = body, .step = step_for(m, &g, body) };
+            *run = (block_run){ .body = body, .step = step_for(m, b, &g, body) };
         }
         b->sum.particles += (uint64_t)__builtin_popcount(m->links[i].mask);
         const int leaving = one_block(m, b, i, &g, &limits, nodes, run);
@@ -384,4 +384,5 @@ void ISA(g2p)(mpm *m, brick *b, int thread)
     for (int cell = 0; cell < BRICK_CELLS; cell++)
         if (b->head[cell] >= 0) one_cell(m, b, cell, &grid, halo, &run);
     add_books(&b->sum, &run.books, run.body, &run.step);
+    b->sum.rate /= level_steps(m, b->level);
 }

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char MAGIC[8] = "BREECH4";
+static const char MAGIC[8] = "BREECH5";
 
 typedef struct {
     char magic[8];

@@ -21,11 +21,14 @@ bool movers_reserve(mover_list *list, int more)
     return true;
 }
 
-/* New cell of a particle near (ci, cj, ck); false when it has left the window. */
+/* New cell of a particle near (ci, cj, ck); false when it has left the window.  One that comes to a level that is amid a step stays in
+ * the last cell of its own: by less than half a cell it is beyond, and has the weights of that cell there. */
 static bool find_cell(const mpm *m, const brick *b, const int cell[3], const double *x, mover_head *h)
 {
     int step = 0, place[3];
     h->level = b->at_seam ? grids_level(&m->grids, x) : b->level;
+    const bool stays = h->level > m->ends;
+    if (stays) h->level = b->level;
     if (h->level != b->level) {
         h->brick_step = CROSSES;
         h->cell = store_cell_at(m, h->level, x, h->at);
@@ -36,6 +39,7 @@ static bool find_cell(const mpm *m, const brick *b, const int cell[3], const dou
         int i = BRICK * b->at[k] + cell[k];
         while (i >= 1 && x[k] < a->edge[i]) i--;
         while (i <= a->last && x[k] >= a->edge[i + 1]) i++;
+        if (stays) i = i < 1 ? 1 : i > a->last ? a->last : i;
         if (i < 1 || i > a->last) return false;
         int d = i / BRICK - b->at[k];
         step += scale * (d + 1);
@@ -58,11 +62,12 @@ static void send(mpm *m, brick *b, const int cell[3], int body, const double *q)
     mover_list *list = &m->movers[b->movers_thread];
     mover_head h = { .body = body };
     if (!find_cell(m, b, cell, q + FIRST_x, &h)) {
-        particle_leave(q, m->dt, &b->sum.left);
+        particle_leave(q, level_dt(m, b->level), &b->sum.left);
         return;
     }
     list->head[list->count] = h;
     memcpy(list->data[list->count], q, sizeof list->data[0]);
+    if (h.brick_step == CROSSES) particle_restep(list->data[list->count], level_dt(m, b->level), level_dt(m, h.level));
     list->count++;
     b->movers++;
     b->mover_steps |= 1u << h.brick_step;
@@ -97,7 +102,7 @@ void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving)
         for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][lane];
         const int k = axis_to_split(m, b, at, one);
         if (erodes(&m->laws[link->body], one)) {
-            particle_leave(one, m->dt, &b->sum.left);
+            particle_leave(one, level_dt(m, b->level), &b->sum.left);
             b->sum.eroded++;
             b->sum.eroded_mass += one[FIRST_mass];
             drop_lane(q, link, b, lane);
@@ -238,7 +243,7 @@ status movers_exchange(mpm *m)
 #pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads) reduction(&& : enough) reduction(|| : relink)
     for (int i = 0; i < m->bricks_used; i++) {
         brick *b = &m->bricks[i];
-        if (!b->out) continue;
+        if (!b->out || b->level > m->ends) continue;
         if (b->mover_steps || b->sum.left.count)
             for (int c = 0; c < BRICK_CELLS; c++) tidy_cell(m, b, c);
         enough = arrive(m, b) && enough;

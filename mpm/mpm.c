@@ -7,11 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const int COMPACT_EVERY = 200; /* steps between restorings of the blocks' order in memory */
-static const int SAMPLE_EVERY = 20;   /* steps between percentile samples */
-static const int FOLLOW_EVERY = 20;   /* steps between looks at the plastic front */
+static const int COMPACT_EVERY = 200; /* steps of the finest level between restorings of the blocks' order in memory */
+static const int SAMPLE_EVERY = 20;   /* the same between percentile samples */
+static const int FOLLOW_EVERY = 20;   /* the same between looks at the plastic front */
 enum { START_BLOCKS = 1 << 15 };      /* room at the start: memory that nobody touches costs nothing, growing does */
-static const double DT_GROWTH = 1.05;
+static const double DT_GROWTH = 1.05; /* a step of the coarsest level */
 static const double FORCE_SMOOTHING = 0.2e-6; /* [s] */
 
 void mpm_scene_default(mpm_scene *s)
@@ -128,7 +128,7 @@ static void start_books(mpm *m)
     m->ledger.kinetic_start = now.kinetic;
     m->ledger.mass_start = now.mass;
     memcpy(m->ledger.momentum_start, now.momentum, sizeof now.momentum);
-    m->dt = m->scene.courant / first_rate(m);
+    m->dt = m->scene.courant / first_rate(m) * level_steps(m, 0);
     m->report.particles = mpm_particles(m);
     for (int i = 0; i < m->scene.bodies; i++)
         m->report.peak_temperature = fmax(m->report.peak_temperature, m->scene.body[i].temperature);
@@ -196,7 +196,7 @@ static void phase_p2g(mpm *m)
 {
 #pragma omp parallel for schedule(dynamic, 4) num_threads(m->threads)
     for (int i = 0; i < m->bricks_used; i++)
-        if (m->bricks[i].particles > 0) m->kernel->p2g(m, &m->bricks[i]);
+        if (m->bricks[i].particles > 0 && m->bricks[i].level <= m->begins) m->kernel->p2g(m, &m->bricks[i]);
 }
 
 /* Nodes that two levels share: sums there first, velocities of those that follow last. */
@@ -205,13 +205,18 @@ static void phase_nodes(mpm *m)
 #pragma omp parallel num_threads(m->threads)
     {
 #pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < m->seam_count; i++) m->kernel->gather(m, m->seam_list[i]);
+        for (int i = 0; i < m->seam_count; i++) {
+            m->kernel->gather(m, m->seam_list[i]);
+            shares_lay_out(m, m->seam_list[i]);
+        }
 #pragma omp for schedule(dynamic, 8)
         for (int i = 0; i < m->seam_count; i++) seams_receive(m, m->seam_list[i]);
 #pragma omp for schedule(dynamic, 16)
         for (int i = 0; i < m->site_count; i++) m->kernel->nodes(m, m->site_list[i]);
 #pragma omp for schedule(dynamic, 8)
         for (int i = 0; i < m->seam_count; i++) seams_follow(m, m->seam_list[i]);
+#pragma omp for schedule(dynamic, 8)
+        for (int i = 0; i < m->seam_count; i++) shares_take_back(m, m->seam_list[i]);
     }
 }
 
@@ -222,6 +227,7 @@ static void phase_g2p(mpm *m)
     for (int i = 0; i < m->bricks_used; i++) {
         brick *b = &m->bricks[i];
         b->movers = 0, b->mover_steps = 0;
+        if (b->level > m->ends) continue;
         if (b->particles > 0)
             m->kernel->g2p(m, b, omp_get_thread_num());
         else
@@ -273,7 +279,7 @@ static void collect_share(const mpm *m, int share, tally *sum)
     sum->bad_block = -1;
     for (int i = share_begin(m->bricks_used, share); i < share_begin(m->bricks_used, share + 1); i++) {
         const tally *t = &m->bricks[i].sum;
-        if (t->particles == 0) continue;
+        if (t->particles == 0 || m->bricks[i].level > m->ends) continue;
         if (sum->bad_block < 0) sum->bad_block = t->bad_block, sum->bad_lane = t->bad_lane;
         add_points(sum, t);
         add_vector(sum->impulse_boundary, t->impulse_boundary);
@@ -294,11 +300,10 @@ static status check_finite(const mpm *m, const tally *t)
                         q->start[0][l], q->start[1][l], q->start[2][l], m->scene.courant);
 }
 
-/* Sums in the order of bricks and sites, whatever the threads did. */
+/* Adds up in the order of bricks and sites, whatever the threads did. */
 static status collect(mpm *m, tally *sum)
 {
     tally share[SHARES];
-    memset(sum, 0, sizeof *sum);
 #pragma omp parallel for schedule(static) num_threads(m->threads)
     for (int i = 0; i < SHARES; i++) collect_share(m, i, &share[i]);
     for (int i = 0; i < SHARES; i++) {
@@ -340,7 +345,7 @@ static void book(mpm *m, const tally *t)
     r->clamps_pressure += t->clamps_pressure, r->clamps_compression += t->clamps_compression;
     r->splits += t->splits, r->eroded += t->eroded, r->eroded_mass += t->eroded_mass;
     r->particle_steps += t->particles;
-    r->particles = (size_t)(t->particles + t->splits - t->left.count);
+    r->particles = mpm_particles(m);
 }
 
 /* First-order low pass, so that the peak does not hang on one step's noise. */
@@ -365,31 +370,55 @@ double mpm_phase_seconds(const mpm *m, mpm_phase phase)
     return m->phase_seconds[phase];
 }
 
-static status one_step(mpm *m, double until)
+/* The coarsest level that begins its step with number n of the finest. */
+static int coarsest_at(const mpm *m, int n)
 {
-    tally sum;
-    const double wanted = m->dt, left = until - m->time;
-    if (left < 2 * wanted) m->dt = left <= wanted * (1 + 1e-9) ? left : 0.5 * left; /* no tiny last step */
+    int level = 0;
+    while (level + 1 < m->grids.levels && n % (level_steps(m, 0) / level_steps(m, level + 1)) == 0) level++;
+    return level;
+}
+
+/* Step n of the finest level, and of those that begin or end theirs with it. */
+static status one_substep(mpm *m, int n, tally *sum)
+{
     double clock = omp_get_wtime();
+    m->begins = coarsest_at(m, n), m->ends = coarsest_at(m, n + 1);
     phase_p2g(m), lap(m, PHASE_P2G, &clock);
     phase_nodes(m), lap(m, PHASE_NODES, &clock);
     phase_g2p(m), lap(m, PHASE_G2P, &clock);
-    TRY(collect(m, &sum));
+    TRY(collect(m, sum));
     lap(m, PHASE_REST, &clock);
     TRY(movers_exchange(m));
     lap(m, PHASE_MOVERS, &clock);
+    m->dt_last = m->dt; /* for levels that begin from here on */
+    return status_ok();
+}
+
+/* Is it time for what is done every so many steps of the finest level, when all are in step? */
+static bool is_due(const mpm *m, int every)
+{
+    return m->steps % (uint64_t)(every / level_steps(m, 0)) == 0;
+}
+
+/* From one moment at which all levels are in step to the next. */
+static status one_step(mpm *m, double until)
+{
+    tally sum = { .rate = 0 };
+    const double wanted = m->dt, left = until - m->time;
+    if (left < 2 * wanted) m->dt = left <= wanted * (1 + 1e-9) ? left : 0.5 * left; /* no tiny last step */
+    for (int n = 0; n < level_steps(m, 0); n++) TRY(one_substep(m, n, &sum));
+    double clock = omp_get_wtime();
     book(m, &sum);
     smooth_force(m);
     m->time += m->dt;
     m->steps++;
-    m->dense_steps += m->dense;
-    m->dt_last = m->dt;
+    m->dense_steps += m->dense * level_steps(m, 0);
     m->dt = fmin(sum.rate > 0 ? m->scene.courant / sum.rate : wanted, DT_GROWTH * wanted);
     CHECK(isfinite(m->dt) && m->dt > 0, STATUS_NUMERICAL, "t = %g s: the time step became %g s; try a smaller courant",
           m->time, m->dt);
-    if (m->steps % (uint64_t)SAMPLE_EVERY == 0) mpm_sample_percentiles(m);
-    if (m->steps % (uint64_t)COMPACT_EVERY == 0) TRY(store_compact(m));
-    if (m->steps % (uint64_t)FOLLOW_EVERY == 0) TRY(zone_follow(m));
+    if (is_due(m, SAMPLE_EVERY)) mpm_sample_percentiles(m);
+    if (is_due(m, COMPACT_EVERY)) TRY(store_compact(m));
+    if (is_due(m, FOLLOW_EVERY)) TRY(zone_follow(m));
     lap(m, PHASE_REST, &clock);
     return status_ok();
 }

@@ -1,5 +1,6 @@
 /* The material-point solver: a scene in, its state at a later time out.
  *
+ * A step is one of the coarsest level; the finer ones make two or four in it (shares.c), and after it all are in step.
  * mpm_create copies the scene; mpm_advance steps until a time; everything else reads.  No files, no printing.
  * One binary and one instruction set give the same bits on any number of threads and across save and restore. */
 #ifndef BREECH_MPM_MPM_H
@@ -30,7 +31,7 @@ typedef struct {
 } mpm_ledger;
 
 typedef struct {
-    double time, dt; /* [s] */
+    double time, dt; /* dt: of a step of the coarsest level [s] */
     uint64_t steps, particle_steps, particle_steps_dense;
     size_t particles;
     uint64_t clamps_pressure, clamps_compression; /* counted, never silent */
@@ -130,7 +131,7 @@ status mpm_save(const mpm *m, void **image, size_t *bytes);
 /* Into a solver made by mpm_create from the same scene; refuses an image of another scene, version or instruction set. */
 status mpm_restore(mpm *m, const void *image, size_t bytes);
 
-/* Cell boundaries count for memory estimates: particles and bytes the scene will take, without building it. */
+/* Cell boundaries count for memory estimates: particles and bytes the scene will take, without building it.  first_dt: of the finest level. */
 status mpm_estimate(const mpm_scene *scene, size_t *particles, size_t *bytes, double *first_dt);
 
 const char *mpm_instruction_set(void); /* "x86-64-v4", "x86-64-v3", "portable" */

@@ -102,7 +102,7 @@ void ISA(gather)(mpm *m, int site)
         if (i < 0) continue;
         const brick *b = &m->bricks[i];
         const field_nodes n = seam_lines(b);
-        gather_field(m, b, b->across, &n);
+        if (b->level <= m->begins) gather_field(m, b, b->across, &n);
     }
 }
 
@@ -261,6 +261,7 @@ typedef struct {
     const double *h;
     const wall *walls;
     int wall_count;
+    double dt; /* [s] */
 } node_place;
 
 /* Two fields that touch at a node: J is the impulse on b, minus it that on a. */
@@ -281,7 +282,7 @@ static bool contact_pair(const mpm *m, touching *t, const node_place *at, tally 
     const contact_law *c = &m->scene.contact[t->field[0]][t->field[1]];
     double rel[3];
     for (int k = 0; k < 3; k++) rel[k] = b->v[k] - a->v[k];
-    if (!contact_impulse(c, &g, a->m * b->m / (a->m + b->m), rel, m->dt, t->J)) return false;
+    if (!contact_impulse(c, &g, a->m * b->m / (a->m + b->m), rel, at->dt, t->J)) return false;
     for (int k = 0; k < 3; k++) {
         a->v[k] -= t->J[k] / a->m;
         b->v[k] += t->J[k] / b->m;
@@ -310,13 +311,6 @@ static void contact_heat(const mpm *m, const touching *t, tally *sum)
 
 /* ---- one node ---- */
 
-static const law *field_law(const mpm *m, int field)
-{
-    for (int i = 0; i < m->scene.bodies; i++)
-        if (m->scene.body[i].field == field) return &m->laws[i];
-    return &m->laws[0];
-}
-
 static void finish_node(const node_state *n, double node[NODE], tally *sum)
 {
     for (int k = 0; k < 3; k++) sum->work_boundary += 0.5 * n->absorbed[k] * (n->v_start[k] + n->v[k]);
@@ -324,7 +318,7 @@ static void finish_node(const node_state *n, double node[NODE], tally *sum)
     node[3] = 0.5 * dot(n->v, n->v) + n->heat / n->m;
 }
 
-static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int index[3], const double h[3],
+static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int index[3], const double h[3], double dt,
                      tally *sum)
 {
     node_state state[MPM_MAX_FIELDS];
@@ -340,15 +334,15 @@ static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int
         for (int k = 0; k < 3; k++) n->v[k] = line[1 + k] / n->m, n->f[k] = line[4 + k];
         n->heat = line[7] - kinetic(n);
         n_walls[s] = walls_at(m, axes_of(m, fields[s].brick), index, field, walls[s]);
-        apply_walls(walls[s], n_walls[s], field_law(m, field), m->dt, n, sum);
+        apply_walls(walls[s], n_walls[s], field_law(m, field), dt, n, sum);
         memcpy(n->v_start, n->v, sizeof n->v_start);
-        n->heat -= 0.5 * m->dt * dot(line + 4, n->v);
-        for (int k = 0; k < 3; k++) n->v[k] += m->dt * n->f[k] / n->m, n->f[k] = 0;
+        n->heat -= 0.5 * dt * dot(line + 4, n->v);
+        for (int k = 0; k < 3; k++) n->v[k] += dt * n->f[k] / n->m, n->f[k] = 0;
     }
     for (int a = 0; a < count; a++)
         for (int b = a + 1; b < count; b++)
             if (state[a].m > 0 && state[b].m > 0) {
-                const node_place at = { h, walls[a], n_walls[a] };
+                const node_place at = { h, walls[a], n_walls[a], dt };
                 touching *t = &pair[pairs];
                 *t = (touching){ { fields[a].brick->field, fields[b].brick->field }, &state[a], &state[b], { 0 } };
                 if (contact_pair(m, t, &at, sum)) pairs++;
@@ -360,7 +354,7 @@ static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int
         if (!(state[s].m > 0)) continue;
         if (count > 1 && n_walls[s] > 0)
             for (int i = 0; i < n_walls[s]; i++)
-                if (walls[s][i].kind == BOUNDARY_SYMMETRY) hold(&state[s], walls[s][i].axis, 0, m->dt, sum);
+                if (walls[s][i].kind == BOUNDARY_SYMMETRY) hold(&state[s], walls[s][i].axis, 0, dt, sum);
         finish_node(&state[s], node, sum);
     }
 }
@@ -413,27 +407,36 @@ static int fields_at(mpm *m, int site, node_lines own[][2], field_nodes *fields)
     return count;
 }
 
+static const brick *first_at(const mpm *m, int site)
+{
+    int f = 0;
+    while (m->directory[f * m->grids.sites + site] < 0) f++;
+    return &m->bricks[m->directory[f * m->grids.sites + site]];
+}
+
 void ISA(nodes)(mpm *m, int site)
 {
     node_lines own[MPM_MAX_FIELDS][2];
     field_nodes fields[MPM_MAX_FIELDS];
-    const int count = fields_at(m, site, own, fields);
     tally *sum = &m->site_sum[site];
     memset(sum, 0, sizeof *sum);
+    const brick *b = first_at(m, site);
+    const uint64_t due = shares_due(m, b) & ~(b->seam.follow_coarser | b->seam.follow_finer); /* seams_follow */
+    if (!due) return;
+    const int count = fields_at(m, site, own, fields);
     if (count == 0) return;
-    const brick *b = fields[0].brick;
     const axis *axes = axes_of(m, b);
-    const uint64_t follow = b->seam.follow_coarser | b->seam.follow_finer;
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
         const int index[3] = { BRICK * b->at[0] + cell % BRICK, BRICK * b->at[1] + cell / BRICK % BRICK,
                                BRICK * b->at[2] + cell / (BRICK * BRICK) };
-        if (follow >> cell & 1) continue; /* seams_follow */
+        if (!(due >> cell & 1)) continue;
+        const double dt = shares_dt(m, b, cell);
         if (is_inside(axes, index) && !is_shared(fields, count, cell)) {
-            for (int s = 0; s < count; s++) free_node(fields[s].line[cell], m->dt, fields[s].brick->node[cell]);
+            for (int s = 0; s < count; s++) free_node(fields[s].line[cell], dt, fields[s].brick->node[cell]);
             continue;
         }
         double h[3];
         for (int k = 0; k < 3; k++) h[k] = axes[k].edge[index[k] + 1] - axes[k].edge[index[k]];
-        one_node(m, fields, count, cell, index, h, sum);
+        one_node(m, fields, count, cell, index, h, dt, sum);
     }
 }

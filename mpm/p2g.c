@@ -236,7 +236,7 @@ LANE_INLINE void clear(part_sums sum[PARTS])
 static void cell_motion(const mpm *m, brick *b, int cell, const cell_grid *g)
 {
     static const line_kinds kinds = { { 0, 0, 0, 0, -1, -1, -1, 0 }, { 0, 0, 0, 0, 0, 0, 0, -1 } };
-    const half_steps dt = { 0.5 * m->dt, 0.5 * m->dt_last };
+    const half_steps dt = { 0.5 * level_dt(m, b->level), 0.5 * level_dt_last(m, b->level) };
     const double affine = m->scene.transfer == TRANSFER_TPIC ? 1 : 0;
     part_sums sum[PARTS];
     clear(sum);
@@ -297,7 +297,7 @@ static void fold(const mpm *m, brick *b)
             int ghost[3], mirror[3];
             plane_point(plane[i].axis, plane[i].ghost, n, ghost);
             plane_point(plane[i].axis, plane[i].mirror, n, mirror);
-            if (!mirror_shared(plane, i, ghost)) fold_line(b, plane[i].axis, ghost, mirror, m->dt);
+            if (!mirror_shared(plane, i, ghost)) fold_line(b, plane[i].axis, ghost, mirror, level_dt(m, b->level));
         }
 }
 

@@ -53,6 +53,11 @@ void particle_merge(double *q, const double *other, int k, double dt)
     q[FIRST_e] += ahead_of(q, dt) - ahead;
 }
 
+void particle_restep(double *q, double dt, double other)
+{
+    q[FIRST_e] += ahead_of(q, other) - ahead_of(q, dt);
+}
+
 void particle_leave(const double *q, double dt, departure *sum)
 {
     const double m = q[FIRST_mass], *v = q + FIRST_v;

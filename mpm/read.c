@@ -11,13 +11,13 @@ const mpm_field_info mpm_field_table[MPM_FIELD_COUNT] = {
 };
 
 /* Calls `each` for every block of some bricks in the fixed order of bricks, cells and chains. */
-typedef void block_visitor(void *user, const mpm *m, int index);
+typedef void block_visitor(void *user, const mpm *m, const brick *b, int index);
 
 static void visit_bricks(const mpm *m, int from, int to, block_visitor *each, void *user)
 {
     for (int i = from; i < to; i++)
         for (int c = 0; c < BRICK_CELLS; c++)
-            for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) each(user, m, q);
+            for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) each(user, m, &m->bricks[i], q);
 }
 
 static void visit(const mpm *m, block_visitor *each, void *user)
@@ -58,7 +58,7 @@ static void books_add(books *b, const double add[BOOKS])
     }
 }
 
-static void balance_block(void *user, const mpm *m, int index)
+static void balance_block(void *user, const mpm *m, const brick *b, int index)
 {
     const block *q = &m->blocks[index];
     double add[BOOKS] = { 0 };
@@ -73,7 +73,7 @@ static void balance_block(void *user, const mpm *m, int index)
         add[BOOK_MASS] += M;
         add[BOOK_KINETIC] += M * (0.5 * square + q->ka[0][i]);
         add[BOOK_INTERNAL] += M * q->e[0][i];
-        add[BOOK_AHEAD] += M * lane_work_ahead(q, i, m->dt_last);
+        add[BOOK_AHEAD] += M * lane_work_ahead(q, i, level_dt_last(m, b->level));
     }
     books_add(user, add);
 }
@@ -122,8 +122,9 @@ typedef struct {
     double volume[MPM_MAX_BODIES];
 } failures;
 
-static void failed_block(void *user, const mpm *m, int index)
+static void failed_block(void *user, const mpm *m, const brick *b, int index)
 {
+    (void)b;
     failures *f = user;
     const block *q = &m->blocks[index];
     for (int l = 0; l < LANES; l++)
@@ -210,8 +211,9 @@ static double lane_mises(const block *q, int l)
     return sqrt(lane_mises_square(q, l));
 }
 
-static void tops_block(void *user, const mpm *m, int index)
+static void tops_block(void *user, const mpm *m, const brick *b, int index)
 {
+    (void)b;
     tops *t = user;
     const block *q = &m->blocks[index];
     const int body = m->links[index].body;
@@ -268,8 +270,9 @@ typedef struct {
     int stress;
 } histogram_of_tops;
 
-static void histogram_block(void *user, const mpm *m, int index)
+static void histogram_block(void *user, const mpm *m, const brick *b, int index)
 {
+    (void)b;
     const histogram_of_tops *h = user;
     const block *q = &m->blocks[index];
     const int body = m->links[index].body;
@@ -353,8 +356,9 @@ typedef struct {
     double *to;
 } reading;
 
-static void read_block(void *user, const mpm *m, int index)
+static void read_block(void *user, const mpm *m, const brick *b, int index)
 {
+    (void)b;
     reading *r = user;
     for (int l = 0; l < LANES; l++)
         if (m->links[index].mask >> l & 1) {

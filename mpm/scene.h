@@ -97,7 +97,7 @@ typedef struct {
     contact_law contact[MPM_MAX_FIELDS][MPM_MAX_FIELDS]; /* symmetric */
     double contact_gap;     /* fields touch when the distance of their points' means at a node is below this [cells] */
     int particles_per_axis; /* material points a cell and axis, 2 or 3 */
-    double courant;         /* of c + |v| */
+    double courant;         /* of c + |v|, on each level by its own steps and cells */
     double end_time;        /* [s] */
     double viscosity_linear, viscosity_quadratic; /* (M-5) [1] */
     transfer_kind transfer;

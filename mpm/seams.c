@@ -84,9 +84,10 @@ typedef struct {
     unsigned beyond;        /* on or beyond a seam of this level's box */
     unsigned in, rim, near; /* inside the finer level's box; next to a seam of it; inside, on or next to it outside */
     unsigned at, at_rim;    /* at the place of a coarser node that is inside this level's box; next to a seam */
+    unsigned near_finest;   /* at the place of a finer node that is near the box of the level after that */
 } axis_nodes;
 
-static axis_nodes nodes_along(const grid_level *g, const grid_level *finer, int k, int first)
+static axis_nodes nodes_along(const grid_level *g, const grid_level *finer, const grid_level *finest, int k, int first)
 {
     axis_nodes r = { 0 };
     for (int i = 0; i < BRICK; i++) {
@@ -101,6 +102,8 @@ static axis_nodes nodes_along(const grid_level *g, const grid_level *finer, int 
         if (n >= lo + below && n <= hi - above) r.in |= bit;
         if ((below && n == lo + 1) || (above && n == hi - 1)) r.rim |= bit;
         if (n >= lo - 1 && n <= hi + 1) r.near |= bit;
+        const int there = 2 * (n - lo) + 1;
+        if (finest && there >= finest->lo[k] - 1 && there <= finest->hi[k] + 1) r.near_finest |= bit;
     }
     return r;
 }
@@ -120,15 +123,16 @@ static uint64_t any_of(unsigned x, unsigned y, unsigned z)
 
 seam_nodes seams_of(const mpm *m, int level, const int at[3])
 {
-    const grid_level *g = &m->grids.level[level], *finer = level_at(m, level - 1);
+    const grid_level *g = &m->grids.level[level], *finer = level_at(m, level - 1), *finest = level_at(m, level - 2);
     axis_nodes a[3];
-    for (int k = 0; k < 3; k++) a[k] = nodes_along(g, finer, k, BRICK * at[k]);
+    for (int k = 0; k < 3; k++) a[k] = nodes_along(g, finer, finest, k, BRICK * at[k]);
     seam_nodes s;
     s.follow_coarser = any_of(a[0].beyond, a[1].beyond, a[2].beyond);
     s.follow_finer = all_of(a[0].in, a[1].in, a[2].in);
     s.lead_coarser = all_of(a[0].at, a[1].at, a[2].at) & any_of(a[0].at_rim, a[1].at_rim, a[2].at_rim);
     s.lead_finer = all_of(a[0].near, a[1].near, a[2].near) & ~s.follow_finer;
     s.follow_finer &= any_of(a[0].rim, a[1].rim, a[2].rim); /* no particle reaches further in */
+    s.twice_finer = s.follow_finer & all_of(a[0].near_finest, a[1].near_finest, a[2].near_finest);
     return s;
 }
 
@@ -238,25 +242,24 @@ static void add_from(brick *b, int cell, const brick *from, int from_cell, doubl
     for (int k = 0; k < 3; k++) to_extra[3 + k] += share * line[0] * off[k];
 }
 
-/* Sums of the node before or after one along axis k, NULL where it has no mass. */
-static const double *line_beside(const mpm *m, const brick *b, int cell, int k, int way)
+/* Sums of the node before or after one along axis k, NULL where its mass is not above `least`. */
+static const double *line_beside(const mpm *m, const brick *b, int cell, int k, int way, double least)
 {
     static const int stride[3] = { 1, BRICK, BRICK * BRICK }, step[3] = { 1, 3, 9 };
     const int place = cell / stride[k] % BRICK + way;
     const bool here = place >= 0 && place < BRICK;
     const int other = b->neighbour[SELF + way * step[k]];
-    if (!here && other < 0) return NULL;
+    if (!here && (other < 0 || !m->bricks[other].line)) return NULL;
     const double *line =
         here ? b->line[cell + way * stride[k]] : m->bricks[other].line[cell - way * (BRICK - 1) * stride[k]];
-    return line[0] > 0 ? line : NULL;
+    return line[0] > least ? line : NULL;
 }
 
-/* Change of the motion from one node to the next along axis k: the mean of the differences on both sides, that of one side where
- * the other has no mass. */
-static void slope_at(const mpm *m, const brick *b, int cell, int k, double slope[3])
+/* The mean of the differences on both sides, that of one side where the other is too light. */
+void seams_slope(const mpm *m, const brick *b, int cell, int k, double least, double slope[3])
 {
-    const double *here = b->line[cell], *before = line_beside(m, b, cell, k, -1),
-                 *after = line_beside(m, b, cell, k, 1);
+    const double *here = b->line[cell], *before = line_beside(m, b, cell, k, -1, least),
+                 *after = line_beside(m, b, cell, k, 1, least);
     const double *lo = before ? before : here, *hi = after ? after : here;
     const double scale = before && after ? 0.5 : 1;
     for (int i = 0; i < 3; i++) slope[i] = scale * (hi[1 + i] / hi[0] - lo[1 + i] / lo[0]);
@@ -271,7 +274,7 @@ static void hand_on(const mpm *m, const brick *from, int from_cell, const int f[
     if (is_empty(&c)) return;
     double share = 1, slope[3][3] = { { 0 } };
     for (int k = 0; k < 3; k++)
-        if (followed.lo[k] < followed.hi[k]) share *= 0.5, slope_at(m, from, from_cell, k, slope[k]);
+        if (followed.lo[k] < followed.hi[k]) share *= 0.5, seams_slope(m, from, from_cell, k, 0, slope[k]);
     for (int z = c.lo[2]; z <= c.hi[2]; z++)
         for (int y = c.lo[1]; y <= c.hi[1]; y++)
             for (int x = c.lo[0]; x <= c.hi[0]; x++) {
@@ -282,7 +285,7 @@ static void hand_on(const mpm *m, const brick *from, int from_cell, const int f[
                     for (int i = 0; i < 3; i++) change[i] += to[k] > followed.lo[k] ? slope[k][i] : -slope[k][i];
                 }
                 const int cell = cell_index(x - own.lo[0], y - own.lo[1], z - own.lo[2]);
-                add_from(b, cell, from, from_cell, share, off, change, m->dt);
+                add_from(b, cell, from, from_cell, share, off, change, level_dt(m, from->level));
             }
 }
 
@@ -312,12 +315,12 @@ static void receive_from_coarser(const mpm *m, brick *b)
 {
     static const double none[3] = { 0 };
     const grid_level *g = &m->grids.level[b->level];
-    for (uint64_t set = b->seam.lead_coarser; set;) {
+    for (uint64_t set = b->seam.lead_coarser & shares_due(m, b); set;) {
         int node[3];
         const int cell = next_node(b, &set, node);
         const int c[3] = { g->lo[0] + node[0] / 2, g->lo[1] + node[1] / 2, g->lo[2] + node[2] / 2 };
         const brick *from = brick_with(m, b->field, b->level + 1, c);
-        if (from && from->line[cell_of(c)][0] > 0) add_from(b, cell, from, cell_of(c), 1, none, none, m->dt);
+        if (from && from->line[cell_of(c)][0] > 0) add_from(b, cell, from, cell_of(c), 1, none, none, 0);
     }
 }
 
@@ -327,7 +330,7 @@ void seams_receive(mpm *m, int site)
         const int i = m->directory[f * m->grids.sites + site];
         if (i < 0) continue;
         brick *b = &m->bricks[i];
-        if (b->seam.lead_finer) receive_from_finer(m, b);
+        if (b->seam.lead_finer && b->level <= m->ends + 1) receive_from_finer(m, b);
         receive_from_coarser(m, b);
     }
 }
@@ -366,7 +369,7 @@ void seams_follow(mpm *m, int site)
         const int i = m->directory[f * m->grids.sites + site];
         if (i < 0) continue;
         brick *b = &m->bricks[i];
-        for (uint64_t set = b->seam.follow_finer | b->seam.follow_coarser; set;) {
+        for (uint64_t set = (b->seam.follow_finer | b->seam.follow_coarser) & shares_due(m, b); set;) {
             int node[3];
             const int cell = next_node(b, &set, node);
             memset(b->node[cell], 0, sizeof b->node[cell]);

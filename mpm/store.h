@@ -4,7 +4,7 @@
  *   brick   64 cells of one velocity field; `out` are the node sums of its own particles on its 6 x 6 x 6 nodes (own nodes
  *           and one layer around), `node` the velocities of its own 4 x 4 x 4 nodes
  *   site    the bricks of all fields at one place of one level of the nested grids (grid.h)
- * A step (mpm.c): P2G over bricks -> sums over sites, contact, boundaries -> G2P over bricks -> movers change cells.
+ * A step (mpm.c) of a level: P2G over bricks -> sums over sites, contact, boundaries -> G2P over bricks -> movers change cells.
  * Every phase reads what the last one wrote and writes only its own brick, in an order that no thread changes: the
  * same bits on any number of threads. */
 #ifndef BREECH_MPM_STORE_H
@@ -96,7 +96,7 @@ typedef struct {
     double impulse_boundary[3], impulse_external[3];
     double contact[MPM_MAX_FIELDS][3];
     departure left;
-    double rate; /* largest (c + |v|) / h [1/s] */
+    double rate; /* largest (c + |v|) / h, times the share of m.dt that the level's steps are [1/s] */
     double peak_temperature;
     double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES], peak_strain[MPM_MAX_BODIES];
     uint64_t clamps_pressure, clamps_compression, splits, eroded, particles;
@@ -108,7 +108,15 @@ typedef struct {
 typedef struct {
     uint64_t follow_coarser, follow_finer; /* have their velocity from there */
     uint64_t lead_coarser, lead_finer;     /* receive sums of nodes that follow them there */
+    uint64_t twice_finer; /* those of follow_finer where the node that they follow leads a still finer level */
 } seam_nodes;
+
+/* What a brick's particles gave to its nodes, while a finer level makes several steps with those that both share (shares.c). */
+typedef struct {
+    double line[2 * BRICK_CELLS][LINE]; /* as brick.line; of shared nodes as their last step left it */
+    double drift[BRICK_CELLS][3];       /* velocity that is still to be added for the particles [m/s] */
+    double owed[BRICK_CELLS];           /* the same of the energy [J] */
+} node_shares;
 
 typedef struct {
     int field, level;
@@ -126,6 +134,7 @@ typedef struct {
     double (*out_contact)[LINE];             /* [216] V grad S (3), -m (x_i - x_p) (3), m flow, 0 */
     double (*node)[NODE];                    /* [64] vx, vy, vz, specific energy that is left to the particles */
     double (*line)[LINE];                    /* of a seam brick: [64] sums as in `out`, then [64] as in `out_contact` */
+    node_shares *held;                       /* of a brick that shares nodes with a finer level */
     int movers, movers_first, movers_thread; /* its part of the thread's mover list */
     uint32_t mover_steps;                    /* bit k: a mover goes to neighbour k */
     tally sum;
@@ -166,7 +175,8 @@ struct mpm {
     int threads;
     const kernels *kernel;
 
-    double time, dt, dt_last; /* dt_last: of the step before, 0 before the first */
+    double time, dt, dt_last; /* steps of the coarsest level; dt_last: the last that began, 0 before the first [s] */
+    int begins, ends; /* levels 0 .. begins begin a step with the finest level's that is under way, 0 .. ends end one */
     uint64_t steps;
     double dense, dense_steps; /* particles, and particle-steps so far, of the finest cells everywhere */
     void *histogram;           /* of percentiles (read.c) */
@@ -219,6 +229,14 @@ status seams_answer(mpm *m, const brick *b);   /* makes the bricks that a brick'
 bool seams_meet(const mpm *m, const brick *b); /* brick.across */
 void seams_receive(mpm *m, int site);          /* adds to brick.line what nodes of other levels hand on */
 void seams_follow(mpm *m, int site);           /* velocities of the nodes that follow another level */
+/* Change of the motion from one node to the next along axis k, from nodes of more mass than `least` [kg]. */
+void seams_slope(const mpm *m, const brick *b, int cell, int k, double least, double slope[3]);
+
+/* shares.c: nodes that a level shares with a finer one make the steps of that */
+uint64_t shares_due(const mpm *m, const brick *b); /* nodes that end a step with the finest level's that is under way */
+double shares_dt(const mpm *m, const brick *b, int cell); /* of a node's step [s] */
+void shares_lay_out(mpm *m, int site);                    /* brick.line as brick.held has it */
+void shares_take_back(mpm *m, int site); /* into brick.held, or for its particles, what a step has made of it */
 
 /* meeting.c */
 uint64_t meeting_occupied(const brick *b);
@@ -231,6 +249,7 @@ uint64_t image_scene_key(const mpm *m); /* before the fine zone has moved */
 void particle_halve(double *q, double *other, int k);
 void particle_merge(double *q, const double *other, int k, double dt); /* the inverse: q takes other in */
 void particle_leave(const double *q, double dt, departure *sum);       /* dt: of the last step [s] */
+void particle_restep(double *q, double dt, double other);              /* its last step counts as one of `other` [s] */
 
 /* Work of the stress that a particle has booked at the end of a step and the nodes will do before the next forces (p2g.c):
  * dt/2 sigma:L / rho [J/kg]. */
@@ -278,9 +297,39 @@ static inline int brick_at(const mpm *m, int field, int level, const int at[3])
     return m->directory[field * m->grids.sites + site_index(m, level, at)];
 }
 
+/* Steps that a level makes in one of the coarsest. */
+static inline int level_steps(const mpm *m, int level)
+{
+    return 1 << (m->grids.levels - 1 - level);
+}
+
+static inline double level_dt(const mpm *m, int level)
+{
+    return m->dt / level_steps(m, level);
+}
+
+static inline double level_dt_last(const mpm *m, int level)
+{
+    return m->dt_last / level_steps(m, level);
+}
+
+/* Nodes that make the steps of a finer level. */
+static inline uint64_t seam_shared(const seam_nodes *s)
+{
+    return s->lead_finer | s->follow_finer;
+}
+
 static inline bool seam_any(const seam_nodes *s)
 {
     return (s->follow_coarser | s->follow_finer | s->lead_coarser | s->lead_finer) != 0;
+}
+
+/* Of the field's first body. */
+static inline const law *field_law(const mpm *m, int field)
+{
+    for (int i = 0; i < m->scene.bodies; i++)
+        if (m->scene.body[i].field == field) return &m->laws[i];
+    return &m->laws[0];
 }
 
 static inline const axis *axes_of(const mpm *m, const brick *b)

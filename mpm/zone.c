@@ -91,7 +91,7 @@ static status merge_cell(mpm *m, brick *b, int cell, const double longest[3], ga
     for (int q = b->head[cell]; q >= 0; q = m->links[q].next)
         for (int l = 0; l < LANES; l++)
             if (m->links[q].mask >> l & 1) TRY(take_lane(g, &m->blocks[q], l, m->links[q].body));
-    for (int k = 0; k < 3; k++) merge_along(g, k, longest[k], m->dt_last);
+    for (int k = 0; k < 3; k++) merge_along(g, k, longest[k], level_dt_last(m, b->level));
     if (g->merged == 0) return status_ok();
     b->particles -= g->n + g->merged;
     store_release_cell(m, b, cell);
@@ -213,17 +213,20 @@ static bool outside(const mpm *m, const double *q)
     return store_cell_at(m, grids_level(&m->grids, q + FIRST_x), q + FIRST_x, at) < 0;
 }
 
-static status place_split(mpm *m, int body, double *q)
+static status place_split(mpm *m, int body, double *q, double dt)
 {
     for (int k; !outside(m, q) && (k = too_long(m, q)) >= 0;) {
         double other[BLOCK_DOUBLES];
         particle_halve(q, other, k);
         m->report.splits++;
-        TRY(place_split(m, body, other));
+        TRY(place_split(m, body, other, dt));
     }
-    if (!outside(m, q)) return store_place(m, body, q);
+    if (!outside(m, q)) {
+        particle_restep(q, dt, level_dt_last(m, grids_level(&m->grids, q + FIRST_x)));
+        return store_place(m, body, q);
+    }
     departure d = { .count = 0 };
-    particle_leave(q, m->dt_last, &d);
+    particle_leave(q, dt, &d);
     mpm_book_departure(m, &d);
     return status_ok();
 }
@@ -243,7 +246,7 @@ static status empty_brick(mpm *m, brick *old)
                 double one[BLOCK_DOUBLES];
                 if (!(link.mask >> l & 1)) continue;
                 for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][l];
-                TRY(place_split(m, link.body, one));
+                TRY(place_split(m, link.body, one, level_dt_last(m, old->level)));
             }
         }
     return status_ok();
