@@ -312,6 +312,30 @@ static void test_budget(void **state)
         }
 }
 
+/* Short of scenes, it does not claim what its fine scenes have refuted. */
+static void test_driven(void **state)
+{
+    (void)state;
+    int moved[2] = { 0, 0 };
+    for (int scenes = 4; scenes <= 12; scenes++)
+        for (double shift = -400.0; shift <= 400.0; shift += 100.0) {
+            threshold_plan plan = usual();
+            plan.max_scenes = scenes;
+            function f = plain(line, 1500.0);
+            f.shift = shift;
+            const threshold_result r = search(&f, &plan);
+            if (r.outcome != THRESHOLD_FOUND) continue;
+            for (int i = 0; i < r.samples; i++) {
+                const threshold_sample *a = &r.sample[i];
+                if (a->cells_per_radius != plan.fine) continue;
+                assert_true(threshold_is_upper(a) ? r.velocity <= a->velocity : r.velocity >= a->velocity);
+            }
+            assert_true(r.interval[0] <= r.velocity && r.velocity <= r.interval[1]);
+            if (strstr(r.warning, "moved to")) moved[shift < 0.0]++;
+        }
+    assert_true(moved[0] > 0 && moved[1] > 0);
+}
+
 static void test_errors(void **state)
 {
     (void)state;
@@ -671,12 +695,12 @@ static void test_other_case(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_found),      cmocka_unit_test(test_line_exact), cmocka_unit_test(test_shift_shown),
-        cmocka_unit_test(test_one_stage),  cmocka_unit_test(test_ends),       cmocka_unit_test(test_noise),
-        cmocka_unit_test(test_dip),        cmocka_unit_test(test_undecided),  cmocka_unit_test(test_budget),
-        cmocka_unit_test(test_errors),     cmocka_unit_test(test_onset),      cmocka_unit_test(test_moves),
-        cmocka_unit_test(test_screened),   cmocka_unit_test(test_two_kinds),  cmocka_unit_test(test_resume),
-        cmocka_unit_test(test_other_case), cmocka_unit_test(test_craters),
+        cmocka_unit_test(test_found),     cmocka_unit_test(test_line_exact), cmocka_unit_test(test_shift_shown),
+        cmocka_unit_test(test_one_stage), cmocka_unit_test(test_ends),       cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_dip),       cmocka_unit_test(test_undecided),  cmocka_unit_test(test_budget),
+        cmocka_unit_test(test_driven),    cmocka_unit_test(test_errors),     cmocka_unit_test(test_onset),
+        cmocka_unit_test(test_moves),     cmocka_unit_test(test_screened),   cmocka_unit_test(test_two_kinds),
+        cmocka_unit_test(test_resume),    cmocka_unit_test(test_other_case), cmocka_unit_test(test_craters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -341,6 +341,29 @@ static status check_plan(const threshold_plan *p)
     return status_ok();
 }
 
+/* How far the fine scenes of one side have driven the root off the coarse one, at least; NaN: not at all. */
+static double driven(const bracket *coarse, const bracket *fine)
+{
+    const double from = root(coarse);
+    if (fine->has_hi && fine->hi.velocity < from) return fine->hi.velocity - from;
+    if (fine->has_lo && fine->lo.velocity > from) return fine->lo.velocity - from;
+    return NAN;
+}
+
+/* The coarse stage's answer, where the fine one was short of scenes: as far off as that has seen. */
+static void conclude_short(const search *s, const bracket *coarse, const bracket *fine, threshold_result *out)
+{
+    const threshold_plan *p = s->plan;
+    out->shift = driven(coarse, fine);
+    conclude(s, coarse, out);
+    warn(out, "study.max_scenes = %d spent before %g cells a radius had a bracket: the threshold is that of %g cells",
+         p->max_scenes, p->fine, p->coarse);
+    if (isnan(out->shift)) return;
+    out->velocity += out->shift;
+    warn(out, "moved to %g m/s, where %g cells %s", out->velocity, p->fine,
+         out->shift < 0.0 ? "still gouge" : "do not gouge yet");
+}
+
 status threshold_search(const threshold_plan *plan, const threshold_source *source, threshold_result *out)
 {
     memset(out, 0, sizeof *out);
@@ -361,10 +384,9 @@ status threshold_search(const threshold_plan *plan, const threshold_source *sour
     if (complete(&fine)) out->shift = root(&fine) - root(&coarse);
     s.cells = two_stages && !short_of_scenes ? plan->fine : plan->coarse;
     out->cells = s.cells;
-    conclude(&s, two_stages && !short_of_scenes ? &fine : &coarse, out);
     if (short_of_scenes)
-        warn(out,
-             "study.max_scenes = %d spent before %g cells a radius had a bracket: the threshold is that of %g cells",
-             plan->max_scenes, plan->fine, plan->coarse);
+        conclude_short(&s, &coarse, &fine, out);
+    else
+        conclude(&s, two_stages ? &fine : &coarse, out);
     return status_ok();
 }

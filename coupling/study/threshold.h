@@ -8,6 +8,7 @@
  *      In between: one velocity where one is enough, the secant's kept within the bracket's inner 60 %, or its middle; else
  *      two, in thirds where that is enough.  Two at a time, so that two processes have something to do.
  *      Last a coarse scene half way to each end of the range, where that is far: does the function turn back there?
+ *      If scenes run out before it has both sides: the coarse root, moved as far as the fine scenes' one side has driven it.
  *   3. Interval: the fine bracket, by decided scenes (an `undecided` one takes the side of its excess, but does not end
  *      the interval), widened by the shift of the root from coarse to fine.
  * Monotonicity is checked: a higher velocity on the lower side of a lower one widens the interval over both and warns.
@@ -61,7 +62,7 @@ typedef struct {
     double velocity;    /* of the crossing, between the bracket's ends by excess; NaN unless found [m/s] */
     double interval[2]; /* where it lies; an end that is not known is NaN [m/s] */
     double bracket[2];  /* of the last stage alone [m/s] */
-    double shift;       /* of the root from coarse to fine, NaN if there is only one [m/s] */
+    double shift;       /* of the root from coarse to fine, at least, NaN if there is only one [m/s] */
     double cells;       /* a radius, of the last stage [1] */
     bool monotone;
     char warning[THRESHOLD_WARNING_SIZE]; /* "" if none */
