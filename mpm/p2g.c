@@ -35,6 +35,11 @@ typedef struct {
     double yz[2][2][LANES];                          /* weights' product, [z][y] */
 } __attribute__((aligned(64))) factors;
 
+/* What a block gives to contact lines, [axis][first or last node][particle]: V grad w, m w (x_p - x_i); m flow stress. */
+typedef struct {
+    double gradient[3][2][LANES], moment[3][2][LANES], flow[LANES];
+} __attribute__((aligned(64))) contact_factors;
+
 LANE_INLINE void store_factors(factors *f, const cell_grid *g, const block *q, int lane)
 {
     for (int k = 0; k < 3; k++) {
@@ -62,32 +67,59 @@ LANE_INLINE void store_lines(double (*to)[LINE], const vd row[LINE], int lane)
     }
 }
 
-/* Which of a line's lanes go with the gradient, and which with the block's own factors: all bits set. */
-typedef struct {
+/* Lanes of a line, all bits set: those that go with the gradient, and those with the block's own factors. */
+static const struct {
     int64_t gradient[LINE], energy[LINE];
-} __attribute__((aligned(64))) line_kinds;
+} motion_kinds __attribute__((aligned(64))) = { { 0, 0, 0, 0, -1, -1, -1, 0 }, { 0, 0, 0, 0, 0, 0, 0, -1 } };
+
+/* The same of a contact line: V grad S and m (x_i - x_p) along each axis, m flow stress. */
+static const struct {
+    int64_t gradient[3][LINE], moment[3][LINE], flow[LINE];
+} contact_kinds __attribute__((aligned(64))) = { { { -1 }, { 0, -1 }, { 0, 0, -1 } },
+                                                 { { 0, 0, 0, -1 }, { 0, 0, 0, 0, -1 }, { 0, 0, 0, 0, 0, -1 } },
+                                                 { 0, 0, 0, 0, 0, 0, -1 } };
+
+LANE_INLINE vm kind_at(const int64_t *kind, int part)
+{
+    return *(const vm *)(const void *)&kind[part];
+}
 
 /* One particle's part of a line: what its rows of three nodes along x are made of. */
 typedef struct {
     vd base, A[2], Y[2], Z[2];
 } terms;
 
-LANE_INLINE void make_terms(terms *t, const lines *n, const factors *f, const line_kinds *kinds, int part, int l)
+LANE_INLINE terms terms_of(const factors *f, int l, vd base, vd q[3][2])
 {
+    terms t = { .base = base };
+    for (int a = 0; a < 2; a++) {
+        t.A[a] = f->w[0][a][l] * base + q[0][a];
+        t.Y[a] = q[1][a];
+        t.Z[a] = q[2][a];
+    }
+    return t;
+}
+
+LANE_INLINE terms motion_terms(const lines *n, const factors *f, int part, int l)
+{
+    const vm gradient = kind_at(motion_kinds.gradient, part), energy = kind_at(motion_kinds.energy, part);
     vd q[3][2];
-    const vm gradient = *(const vm *)(const void *)&kinds->gradient[part];
-    const vm energy = *(const vm *)(const void *)&kinds->energy[part];
     for (int k = 0; k < 3; k++)
         for (int a = 0; a < 2; a++) {
             const vd w = vd_select(gradient, vd_set(f->grad[k][a][l]), vd_set(f->moment[k][a][l]));
             q[k][a] = vd_select(energy, vd_set(f->energy[k][a][l]), w) * vd_load(&n->C[k][l][part]);
         }
-    t->base = vd_load(&n->base[l][part]);
-    for (int a = 0; a < 2; a++) {
-        t->A[a] = f->w[0][a][l] * t->base + q[0][a];
-        t->Y[a] = q[1][a];
-        t->Z[a] = q[2][a];
-    }
+    return terms_of(f, l, vd_load(&n->base[l][part]), q);
+}
+
+LANE_INLINE terms contact_terms(const contact_factors *n, const factors *f, int part, int l)
+{
+    vd q[3][2];
+    for (int k = 0; k < 3; k++)
+        for (int a = 0; a < 2; a++)
+            q[k][a] = vd_select(kind_at(contact_kinds.gradient[k], part), vd_set(n->gradient[k][a][l]),
+                                vd_where(kind_at(contact_kinds.moment[k], part), vd_set(n->moment[k][a][l])));
+    return terms_of(f, l, vd_where(kind_at(contact_kinds.flow, part), vd_set(n->flow[l])), q);
 }
 
 /* Three nodes along x: sum += yz A + wx B */
@@ -118,27 +150,18 @@ LANE_INLINE void add_plane(vd sum[9], const terms *t, const factors *f, int l, i
     for (int b = 0; b < 2; b++) add_row(&sum[6 * b], t, f, l, f->yz[c][b][l], wz * t->Y[b] + f->w[1][b][l] * t->Z[c]);
 }
 
-/* Adds the lines of the particles in `mask`.  Nine sums at a time: they stay in registers. */
-LANE_INLINE void accumulate(part_sums sum[PARTS], const lines *n, const factors *f, const line_kinds *kinds, int mask,
-                            ahead *next)
+/* Adds the terms of the particles in `mask`, a part of their lines.  Nine sums at a time: they stay in registers. */
+LANE_INLINE void accumulate(part_sums sum, const terms t[LANES], const factors *f, int mask, ahead *next)
 {
-#pragma GCC unroll 4
-    for (int part = 0; part < PARTS; part++) {
-        terms t[LANES];
+#pragma GCC unroll 3
+    for (int plane = 0; plane < 3; plane++) {
+        prefetch_share(next);
         for (int left = mask; left; left &= left - 1) {
             const int l = __builtin_ctz((unsigned)left);
-            make_terms(&t[l], n, f, kinds, part * WIDTH, l);
-        }
-#pragma GCC unroll 3
-        for (int plane = 0; plane < 3; plane++) {
-            prefetch_share(next);
-            for (int left = mask; left; left &= left - 1) {
-                const int l = __builtin_ctz((unsigned)left);
-                if (plane == 1)
-                    add_whole(&sum[part][9], &t[l], f, l);
-                else
-                    add_plane(&sum[part][9 * plane], &t[l], f, l, plane / 2);
-            }
+            if (plane == 1)
+                add_whole(&sum[9], &t[l], f, l);
+            else
+                add_plane(&sum[9 * plane], &t[l], f, l, plane / 2);
         }
     }
 }
@@ -186,18 +209,15 @@ LANE_INLINE void motion_lines(const block *q, int lane, double affine, const mpm
     }
 }
 
-/* lanes: 0-2 V grad S, 3-5 m (x_p - x_i), 6 m flow stress */
-LANE_INLINE void contact_lines(const block *q, int lane, lines *n)
+LANE_INLINE void surface_of(const block *q, int lane, const factors *f, contact_factors *n)
 {
-    const vd zero = vd_set(0), m = AT(mass[0]), V = m / AT(rho[0]);
-    vd row[LINE] = { zero, zero, zero, zero, zero, zero, m * AT(flow[0]), zero };
-    store_lines(n->base, row, lane);
-    row[6] = zero;
-    for (int k = 0; k < 3; k++) {
-        row[k] = V, row[3 + k] = -m;
-        store_lines(n->C[k], row, lane);
-        row[k] = row[3 + k] = zero;
-    }
+    const vd m = AT(mass[0]), V = m / AT(rho[0]);
+    for (int k = 0; k < 3; k++)
+        for (int a = 0; a < 2; a++) {
+            vd_store(&n->gradient[k][a][lane], V * vd_load(&f->grad[k][a][lane]));
+            vd_store(&n->moment[k][a][lane], -m * vd_load(&f->moment[k][a][lane]));
+        }
+    vd_store(&n->flow[lane], m * AT(flow[0]));
 #undef AT
 }
 
@@ -233,47 +253,48 @@ LANE_INLINE void clear(part_sums sum[PARTS])
         for (int i = 0; i < 27; i++) sum[part][i] = vd_set(0);
 }
 
-static void cell_motion(const mpm *m, brick *b, int cell, const cell_grid *g)
+/* A block's lines into the sums of its cell; contact lines where `meets`. */
+LANE_INLINE void one_block(const mpm *m, int index, const cell_grid *g, half_steps dt, double affine, bool meets,
+                           part_sums motion[PARTS], part_sums contact[PARTS])
 {
-    static const line_kinds kinds = { { 0, 0, 0, 0, -1, -1, -1, 0 }, { 0, 0, 0, 0, 0, 0, 0, -1 } };
-    const half_steps dt = { 0.5 * level_dt(m, b->level), 0.5 * level_dt_last(m, b->level) };
-    const double affine = m->scene.transfer == TRANSFER_TPIC ? 1 : 0;
-    part_sums sum[PARTS];
-    clear(sum);
-    for (int i = b->head[cell]; i >= 0; i = m->links[i].next) {
-        const block *q = &m->blocks[i];
-        lines n;
-        factors f;
-        ahead next = ahead_of(m, i, FIRST_ka + 1, 1 + 3 * PARTS);
-        prefetch_share(&next);
-        for (int lane = 0; lane < LANES; lane += WIDTH) {
-            if (part_is_empty(m->links[i].mask, lane)) continue;
-            store_factors(&f, g, q, lane);
-            motion_lines(q, lane, affine, &m->scene.body[m->links[i].body], dt, &f, &n);
-        }
-        accumulate(sum, &n, &f, &kinds, m->links[i].mask, &next);
+    const block *q = &m->blocks[index];
+    const int mask = m->links[index].mask;
+    const mpm_body *body = &m->scene.body[m->links[index].body];
+    lines n;
+    factors f;
+    contact_factors s;
+    ahead next = ahead_of(m, index, FIRST_ka + 1, 1 + 3 * PARTS), none = { 0 };
+    prefetch_share(&next);
+    for (int lane = 0; lane < LANES; lane += WIDTH) {
+        if (part_is_empty(mask, lane)) continue;
+        store_factors(&f, g, q, lane);
+        motion_lines(q, lane, affine, body, dt, &f, &n);
+        if (meets) surface_of(q, lane, &f, &s);
     }
-    add_to_brick(b->out, halo_index(cell), sum);
+#pragma GCC unroll 4
+    for (int part = 0; part < PARTS; part++) {
+        terms t[LANES];
+        for (int l = 0; l < LANES; l++)
+            if (mask >> l & 1) t[l] = motion_terms(&n, &f, part * WIDTH, l);
+        accumulate(motion[part], t, &f, mask, &next);
+        if (!meets) continue;
+        for (int l = 0; l < LANES; l++)
+            if (mask >> l & 1) t[l] = contact_terms(&s, &f, part * WIDTH, l);
+        accumulate(contact[part], t, &f, mask, &none);
+    }
 }
 
-static void cell_contact(const mpm *m, brick *b, int cell, const cell_grid *g)
+static void one_cell(const mpm *m, brick *b, int cell, const cell_grid *g)
 {
-    static const line_kinds kinds = { { -1, -1, -1, 0, 0, 0, 0, 0 }, { 0 } };
-    part_sums sum[PARTS];
-    clear(sum);
-    for (int i = b->head[cell]; i >= 0; i = m->links[i].next) {
-        const block *q = &m->blocks[i];
-        lines n;
-        factors f;
-        ahead none = { 0 }; /* cell_motion has asked already */
-        for (int lane = 0; lane < LANES; lane += WIDTH) {
-            if (part_is_empty(m->links[i].mask, lane)) continue;
-            store_factors(&f, g, q, lane);
-            contact_lines(q, lane, &n);
-        }
-        accumulate(sum, &n, &f, &kinds, m->links[i].mask, &none);
-    }
-    add_to_brick(b->out_contact, halo_index(cell), sum);
+    const half_steps dt = { 0.5 * level_dt(m, b->level), 0.5 * level_dt_last(m, b->level) };
+    const double affine = m->scene.transfer == TRANSFER_TPIC ? 1 : 0;
+    const bool meets = b->meets >> cell & 1;
+    part_sums motion[PARTS], contact[PARTS];
+    clear(motion);
+    clear(contact);
+    for (int i = b->head[cell]; i >= 0; i = m->links[i].next) one_block(m, i, g, dt, affine, meets, motion, contact);
+    add_to_brick(b->out, halo_index(cell), motion);
+    if (meets) add_to_brick(b->out_contact, halo_index(cell), contact);
 }
 
 /* Adds a ghost's line, mirrored across axis k, to the node it mirrors; the momentum that turns is the mirror's impulse. */
@@ -312,8 +333,7 @@ void ISA(p2g)(mpm *m, brick *b)
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
         if (b->head[cell] < 0) continue;
         const cell_grid g = cell_grid_of(&grid, cell);
-        cell_motion(m, b, cell, &g);
-        if (b->meets >> cell & 1) cell_contact(m, b, cell, &g);
+        one_cell(m, b, cell, &g);
     }
     fold(m, b);
 }
