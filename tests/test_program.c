@@ -15,8 +15,8 @@
 
 /* A scene of a second or two: a stub of an armature over a short rail, one or two cells a radius. */
 #define TINY                                                                                                    \
-    SHOT " --set scene.cells_per_radius=1.5 --set scene.coarse_cell='0.8 mm' --set scene.growth=1.3 --set "     \
-         "output.report=no"                                                                                     \
+    SHOT " --set scene.cells_per_radius=1.5 --set scene.levels=2 --set scene.coarse_cell='0.8 mm' --set "       \
+         "scene.growth=1.3 --set output.report=no"                                                              \
          " --set scene.fine_ahead='3 mm' --set scene.fine_width='3 mm' --set scene.rail_ahead='8 mm' --set "    \
          "projectile.length='10 mm' --set projectile.half_bore='6 mm' --set projectile.width='10 mm' --set "    \
          "projectile.head_thickness='6 mm' --set scene.rail_behind='1 mm' --set scene.rail_depth='4 mm' --set " \

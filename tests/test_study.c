@@ -198,6 +198,48 @@ static void test_one_stage(void **state)
     }
 }
 
+/* The interval allows for the resolution: a share of the threshold, or the shift where that is more. */
+static void test_allowance(void **state)
+{
+    (void)state;
+    threshold_plan plan = usual();
+    plan.resolution = 0.1;
+    for (double shift = -200.0; shift <= 200.0; shift += 50.0) {
+        function f = plain(line, 1411.0);
+        f.shift = shift;
+        const threshold_result r = search(&f, &plan);
+        assert_true(fabs(r.allowance - fmax(141.1, fabs(shift))) < 1e-6);
+        assert_true(fabs(r.bracket[0] - r.interval[0] - r.allowance) < 1e-9);
+        assert_true(fabs(r.interval[1] - r.bracket[1] - r.allowance) < 1e-9);
+    }
+}
+
+/* Does the function turn back?  Of each resolution's search some scene lies far out on both sides, its own or one that asks for that. */
+static void test_beyond(void **state)
+{
+    (void)state;
+    static const double FAR = 0.15;
+    threshold_plan plan = usual();
+    int spared = 0;
+    for (int stages = 1; stages <= 2; stages++) {
+        plan.coarse = stages == 1 ? plan.fine : 2.0;
+        for (double zero = 1110.0; zero < 1900.0; zero += 7.0) {
+            function f = plain(line, zero);
+            const threshold_result r = search(&f, &plan);
+            const double low = plan.low + FAR * zero, high = plan.high - FAR * zero;
+            double lowest = INFINITY, highest = -INFINITY;
+            for (int i = 0; i < r.samples; i++) {
+                if (r.sample[i].cells_per_radius != plan.coarse) continue;
+                lowest = fmin(lowest, r.sample[i].velocity), highest = fmax(highest, r.sample[i].velocity);
+            }
+            if (r.bracket[0] > low + 2.0 * plan.step) assert_true(lowest <= r.bracket[0] - 0.07 * zero);
+            if (r.bracket[1] < high - 2.0 * plan.step) assert_true(highest >= r.bracket[1] + 0.07 * zero);
+            spared += lowest == plan.low + 250.0 || highest == plan.high - 250.0; /* the search's first two */
+        }
+    }
+    assert_true(spared > 0);
+}
+
 static void test_ends(void **state)
 {
     (void)state;
@@ -394,7 +436,7 @@ static breech_case *changed_case(const char *const *sets)
     const char *const dirs[] = { BREECH_TESTS "/../cases/materials" };
     const case_options how = { dirs, 1, CASE_FOR_ONSET };
     /* what the made-up scenes and the numbers below count on, whatever the case says */
-    const char *all[20] = {
+    const char *all[40] = {
         "study.coarse_cells_per_radius=2",
         "study.fine_cells_per_radius=3",
         "study.max_scenes=14",
@@ -404,6 +446,19 @@ static breech_case *changed_case(const char *const *sets)
         "rails.level=skin",
         "study.position_interval=1",
         "study.sensitivities=no",
+        "study.resolution_error=0",
+        "sites[0].position=0.60 m",
+        "sites[1].position=0.75 m",
+        "sites[2].position=0.90 m",
+        "sites[3].position=1.05 m",
+        "sites[4].position=1.20 m",
+        "sites[5].position=1.35 m",
+        "sites[6].position=1.50 m",
+        "sites[7].position=1.65 m",
+        "sites[8].position=1.85 m",
+        "sites[9].position=2.10 m",
+        "sites[10].position=2.40 m",
+        "sites[11].position=2.70 m",
     };
     breech_case *c = NULL;
     char *errors = NULL;
@@ -695,12 +750,13 @@ static void test_other_case(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_found),     cmocka_unit_test(test_line_exact), cmocka_unit_test(test_shift_shown),
-        cmocka_unit_test(test_one_stage), cmocka_unit_test(test_ends),       cmocka_unit_test(test_noise),
-        cmocka_unit_test(test_dip),       cmocka_unit_test(test_undecided),  cmocka_unit_test(test_budget),
-        cmocka_unit_test(test_driven),    cmocka_unit_test(test_errors),     cmocka_unit_test(test_onset),
-        cmocka_unit_test(test_moves),     cmocka_unit_test(test_screened),   cmocka_unit_test(test_two_kinds),
-        cmocka_unit_test(test_resume),    cmocka_unit_test(test_other_case), cmocka_unit_test(test_craters),
+        cmocka_unit_test(test_found),      cmocka_unit_test(test_line_exact), cmocka_unit_test(test_shift_shown),
+        cmocka_unit_test(test_allowance),  cmocka_unit_test(test_beyond),     cmocka_unit_test(test_one_stage),
+        cmocka_unit_test(test_ends),       cmocka_unit_test(test_noise),      cmocka_unit_test(test_dip),
+        cmocka_unit_test(test_undecided),  cmocka_unit_test(test_budget),     cmocka_unit_test(test_driven),
+        cmocka_unit_test(test_errors),     cmocka_unit_test(test_onset),      cmocka_unit_test(test_moves),
+        cmocka_unit_test(test_screened),   cmocka_unit_test(test_two_kinds),  cmocka_unit_test(test_resume),
+        cmocka_unit_test(test_other_case), cmocka_unit_test(test_craters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

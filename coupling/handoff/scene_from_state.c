@@ -18,8 +18,12 @@ static const double FRONT_SPEED = 0.7;
 static const double GROWTH_WAY[2] = { 16.0, 28.0 };
 static const double DEAD_FOLDS = -3.0; /* of a groove that died before the first gauge, and the least of any */
 
-/* Share of its largest width that a fine zone that follows starts with; it widens with the groove. */
-static const double NARROW = 0.5;
+/* A fine zone that follows starts so many radii wider than the grain on either side, but no wider than half of its largest; it
+ * widens with the groove. */
+static const double BESIDE = 1.5;
+
+/* Length across the rail of shapes that have one. */
+#define RIDGE_LENGTH 4.0 /* half of it, in radii */
 
 static const char ARMATURE[] = "armature", GRAIN[] = "particle";
 
@@ -87,7 +91,16 @@ static double cells_over(double length, double cell)
 
 static double top_of_zone(const breech_case *c, const case_site *g)
 {
-    return given_or(c->scene.fine_above, fmax(2.5 * g->radius, g->height + g->radius));
+    return given_or(c->scene.fine_above, fmax(1.5 * g->radius, g->height + 0.5 * g->radius));
+}
+
+/* Half of the grain's extent across the rail. */
+static double half_across(const case_site *g)
+{
+    const shape_kind *k = shape_find(g->shape);
+    for (int i = 0; k && k->value_names[i]; i++)
+        if (strcmp(k->value_names[i], "half_length") == 0) return RIDGE_LENGTH * g->radius;
+    return g->radius;
 }
 
 static layout lay_out(const breech_case *c, const case_site *g, double cells_per_radius)
@@ -102,15 +115,16 @@ static layout lay_out(const breech_case *c, const case_site *g, double cells_per
     l.ahead = s->rail_ahead;
     const double room = fmax(3.0 * l.coarse, grids_margin(s->levels, l.fine));
     const double pair = (s->levels > 1 ? 2 : 1) * l.fine; /* of the cells around it the zone takes whole ones */
-    l.fine_behind = cells_over(fmin(given_or(s->fine_behind, 4.0 * g->radius), l.behind - room), pair);
-    const double ahead = (s->follow ? 8.0 : 26.0) * g->radius;
+    l.fine_behind = cells_over(fmin(given_or(s->fine_behind, 3.0 * g->radius), l.behind - room), pair);
+    const double ahead = (s->follow ? 5.0 : 26.0) * g->radius;
     l.fine_ahead = cells_over(fmin(given_or(s->fine_ahead, ahead), l.ahead - room), pair);
-    l.fine_depth = cells_over(fmin(given_or(s->fine_depth, 3.0 * g->radius), s->rail_depth - room), pair);
+    l.fine_depth = cells_over(fmin(given_or(s->fine_depth, 2.0 * g->radius), s->rail_depth - room), pair);
     l.fine_above = cells_over(fmin(top_of_zone(c, g), p->half_bore - room), pair);
     l.rail_half_width = 0.5 * given_or(s->rail_width, p->width);
     l.half_width = fmax(l.rail_half_width, 0.5 * p->width) + room;
     l.fine_half_width = cells_over(fmin(given_or(0.5 * s->fine_width, 8.0 * g->radius), l.half_width - room), pair);
-    const double narrow = fmax(NARROW * l.fine_half_width, s->levels > 1 ? 2.0 * pair : 0.0); /* as grids_make wants */
+    const double start = fmin(half_across(g) + BESIDE * g->radius, 0.5 * l.fine_half_width);
+    const double narrow = fmax(start, s->levels > 1 ? 2.0 * pair : 0.0); /* as grids_make wants */
     l.narrow_half_width = s->follow ? fmin(cells_over(narrow, pair), l.fine_half_width) : l.fine_half_width;
     for (int i = 0; i < c->rail.layers.n; i++) l.layers += c->rail.layers.item[i].thickness;
     l.travel = s->follow ? (p->length - l.run) / (1.0 - FRONT_SPEED) : 0.0;
@@ -204,9 +218,6 @@ static int add_rail(const breech_case *c, const layout *l, mpm_scene *s)
     }
     return field;
 }
-
-/* Length across the rail of shapes that have one. */
-#define RIDGE_LENGTH 4.0 /* half of it, in radii */
 
 static double grain_value(const case_site *g, const char *name)
 {

@@ -133,9 +133,10 @@ static const param scene_params[] = {
                  "from the front of the ploughing to the fine zone's end"),
     PARAM_DOUBLE(case_scene, fine_depth, "m", OPTIONAL, 0.0, 1.0, "fine zone below the rail's surface"),
     PARAM_DOUBLE(case_scene, fine_above, "m", OPTIONAL, 0.0, 1.0, "fine zone above it"),
-    PARAM_DOUBLE(case_scene, fine_width, "m", OPTIONAL, 0.0, 1.0,
-                 "full width of the fine zone across the rail; one that follows starts with half of it and widens with "
-                 "the groove"),
+    PARAM_DOUBLE(
+        case_scene, fine_width, "m", OPTIONAL, 0.0, 1.0,
+        "full width of the fine zone across the rail, at most; one that follows starts with half of it or 1.5 radii "
+        "beside the grain, and widens with the groove"),
     PARAM_DOUBLE(case_scene, rail_ahead, "m", 2e-2, 1e-4, 10.0, "rail modelled downstream of the grain's middle"),
     PARAM_DOUBLE(case_scene, rail_behind, "m", 1e-2, 1e-4, 10.0, "rail modelled upstream of it"),
     PARAM_DOUBLE(case_scene, rail_depth, "m", 1e-2, 1e-4, 1.0, "thickness of the rail modelled"),
@@ -177,6 +178,9 @@ static const param study_params[] = {
     PARAM_DOUBLE(case_study, screen_high, "1", 30.0, 0.0, 1e4, "the same ratio above which a gouge is expected"),
     PARAM_DOUBLE(case_study, coarse_cells_per_radius, "1", 3.0, 1.0, 100.0, "resolution the bracketing starts with"),
     PARAM_DOUBLE(case_study, fine_cells_per_radius, "1", 5.0, 1.0, 100.0, "resolution near the threshold"),
+    PARAM_DOUBLE(case_study, resolution_error, "1", 0.1, 0.0, 1.0,
+                 "share of a threshold that finer cells may move it by: its interval allows for that, or for the shift "
+                 "from coarse to fine cells where that is more"),
     PARAM_BOOL(case_study, feedback, 1, "a gouge's impulse and mass loss go back into the shot"),
     PARAM_BOOL(case_study, sensitivities, 1, "what 5 % more charge, mass, friction and grain size would do"),
     PARAM_INT(case_study, shots, 1, 1, 1000, "fired one after the other on the same rail"),

@@ -152,6 +152,7 @@ static status plan_searches(grain_families *f)
                                       .step = threshold_step(y->velocity_interval),
                                       .coarse = y->coarse_cells_per_radius,
                                       .fine = y->fine_cells_per_radius,
+                                      .resolution = y->resolution_error,
                                       .max_scenes = (y->max_scenes - craters) / f->n,
                                       .place = place_of,
                                       .place_user = f,

@@ -14,13 +14,13 @@ static int step_of(double x, double first, double per, int n, double *f)
 
 /* ---- thresholds ---- */
 
-/* A band without the shift; beyond the search it gouges from the lowest velocity on, or never. */
-static void band_at(const grain_family *f, double radius, double shift, double *low, double *high)
+/* A band without the allowance for the resolution; beyond the search it gouges from the lowest velocity on, or never. */
+static void band_at(const grain_family *f, double radius, double allowance, double *low, double *high)
 {
     const surface_size at = surface_at(&f->surface, radius);
     const threshold_plan *p = &f->plan.search;
-    *low = isnan(at.interval[0]) ? p->low : at.interval[0] + shift;
-    *high = isnan(at.interval[1]) ? INFINITY : at.interval[1] - shift;
+    *low = isnan(at.interval[0]) ? p->low : at.interval[0] + allowance;
+    *high = isnan(at.interval[1]) ? INFINITY : at.interval[1] - allowance;
     if (isnan(at.interval[1])) *low = INFINITY;
     if (*high < *low) *low = *high = 0.5 * (*low + *high);
 }
@@ -29,30 +29,30 @@ static void tabulate_thresholds(const grain_family *f, gouge_law *out)
 {
     const surface_result *s = &f->surface;
     const double first = log(s->size[0].radius), last = log(s->size[s->sizes - 1].radius);
-    out->shift = isnan(s->reference.shift) ? 0.0 : fabs(s->reference.shift);
+    out->allowance = s->reference.allowance;
     out->ln_first = first;
     out->per_ln = last > first ? LAW_SIZES / (last - first) : 0.0;
     for (int i = 0; i <= LAW_SIZES; i++) {
         const double ln_r = out->per_ln > 0.0 ? first + i / out->per_ln : first;
-        band_at(f, exp(ln_r), out->shift, &out->low[i], &out->high[i]);
+        band_at(f, exp(ln_r), out->allowance, &out->low[i], &out->high[i]);
     }
 }
 
-double gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_shift)
+double gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_allowance)
 {
     double f;
     const int i = step_of(ln_radius, l->ln_first, l->per_ln, LAW_SIZES, &f);
     if (isinf(l->low[i]) || isinf(l->low[i + 1])) return INFINITY;
     const double low = l->low[i] + f * (l->low[i + 1] - l->low[i]);
     const double high = l->high[i] + f * (l->high[i + 1] - l->high[i]);
-    return low + in_band * (high - low) + of_shift * l->shift;
+    return low + in_band * (high - low) + of_allowance * l->allowance;
 }
 
 double gouge_law_lowest(const gouge_law *l)
 {
     double lowest = INFINITY;
     for (int i = 0; i <= LAW_SIZES; i++) lowest = fmin(lowest, l->low[i]);
-    return lowest - l->shift;
+    return lowest - l->allowance;
 }
 
 /* ---- marks ---- */

@@ -17,7 +17,7 @@ typedef struct {
 typedef struct {
     double ln_first, per_ln;                        /* place of ln r in the tables below */
     double low[LAW_SIZES + 1], high[LAW_SIZES + 1]; /* band of the threshold, INFINITY: never within the search [m/s] */
-    double shift;                                   /* |coarse to fine| [m/s] */
+    double allowance;                               /* for the resolution (threshold.h) [m/s] */
     double v_first, per_v;
     gouge_mark mark[LAW_VELOCITIES + 1];
 } gouge_law;
@@ -27,8 +27,8 @@ void gouge_law_make(const grain_family *f, double limit_severity, gouge_law *out
 /* By the scenes themselves, for one grain; false: none of them gouges. */
 bool gouge_mark_at(const grain_family *f, double limit_severity, double velocity, gouge_mark *out);
 
-/* low + in_band (high - low) + of_shift |shift|, in_band 0 .. 1, of_shift -1 .. 1 [m/s] */
-double gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_shift);
+/* low + in_band (high - low) + of_allowance x allowance, in_band 0 .. 1, of_allowance -1 .. 1 [m/s] */
+double gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_allowance);
 gouge_mark gouge_law_mark(const gouge_law *l, double velocity);
 
 /* The lowest any size can have [m/s]. */

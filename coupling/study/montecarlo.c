@@ -63,7 +63,7 @@ typedef struct {
     int populations;
     double *sum;         /* [n x shots x SUMS], owned */
     double world_sum[2]; /* of the shot and surface under way */
-    double of_shift;     /* u_s of this world */
+    double of_allowance; /* u_s of this world */
 } mc;
 
 /* ---- counting ---- */
@@ -99,7 +99,7 @@ static bool meet(const mc *m, lane *l, int family, double x, double ln_r)
 {
     const gouge_law *law = &l->law[family];
     const double v = velocity_at(l, x);
-    if (v < gouge_law_threshold(law, ln_r, l->in_band[family], m->of_shift)) return false;
+    if (v < gouge_law_threshold(law, ln_r, l->in_band[family], m->of_allowance)) return false;
     const double radius = exp(ln_r);
     const gouge_mark mark = gouge_law_mark(law, v);
     l->gouges++;
@@ -193,7 +193,7 @@ static void count(mc *m, mc_result *out, int world, int number)
 
 static void new_world(mc *m)
 {
-    m->of_shift = 2.0 * gsl_rng_uniform(m->rng) - 1.0;
+    m->of_allowance = 2.0 * gsl_rng_uniform(m->rng) - 1.0;
     for (int i = 0; i < m->plan->n; i++) {
         lane *l = &m->lane[i], *same = l;
         for (int j = 0; j < i && same == l; j++)

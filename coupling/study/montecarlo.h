@@ -3,8 +3,8 @@
  * Surfaces (a rail under a treatment, or one with a changed input) meet the same grains: every random number is drawn once
  * and used by all, so differences between surfaces are not blurred by chance.
  * What is not known is drawn too, once a world: where in its band a family's threshold lies (uniform, u_b, its own number
- * for every surface and family) and how much of the shift from coarse to fine cells remains (uniform in +- |shift|, u_s, one
- * number for all: cells err alike on all surfaces):  v_th(r) = low(r) + u_b (high(r) - low(r)) + u_s |shift|,  u_s in -1 .. 1.
+ * for every surface and family) and how far cells have moved it (a share u_s of what is allowed for the resolution, threshold.h;
+ * one number for all: cells err alike on all surfaces):  v_th(r) = low(r) + u_b (high(r) - low(r)) + u_s allowance,  u_s in -1 .. 1.
  * A history is a rail under `shots` shots.  A gouge leaves a rim downstream, which is a grain of the same family to
  * the next shot: its place and height, in radii of the grain that made it, by the scenes that gouged (gouge_law.h).
  * Populations are a Poisson process; grains that no surface could gouge with are not drawn. */

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double TRUSTED_CELLS = 5.0; /* a radius: below, the threshold hangs on the resolution (NUMERICS.md) */
+static const double TRUSTED_CELLS = 3.0; /* a radius: below, the threshold hangs on the resolution (docs/onset.md) */
 static const double SURE = 0.95;         /* probability from which a population's verdict is given */
 
 void onset_answer_free(onset_answer *a)
@@ -303,9 +303,9 @@ static void warn_of_thresholds(session *s, const onset_answer *a)
     if (a->grains.n && y->fine_cells_per_radius < TRUSTED_CELLS && !a->grains.prefix[0])
         session_warn(
             s,
-            "thresholds at %g cells a radius: below %g they still depend on the resolution; the interval holds the "
-            "shift from %g to %g cells, not what finer cells would add",
-            y->fine_cells_per_radius, TRUSTED_CELLS, y->coarse_cells_per_radius, y->fine_cells_per_radius);
+            "thresholds at %g cells a radius: below %g they come out up to twice too high, by more than the interval "
+            "allows for (docs/onset.md)",
+            y->fine_cells_per_radius, TRUSTED_CELLS);
 }
 
 status onset_judge(session *s, onset_answer *a)

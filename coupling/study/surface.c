@@ -292,16 +292,16 @@ static surface_size answer_of(search *s, int k)
     surface_result *r = s->out;
     band b = band_of(s, p->size[k]);
     surface_size a = { .radius = p->size[k], .weight = p->weight[k], .velocity = NAN, .interval = { NAN, NAN } };
-    const double shift = isnan(r->reference.shift) ? 0.0 : fabs(r->reference.shift);
+    const double allowance = r->reference.allowance;
     for (int i = 0; i < r->samples; i++) a.scenes += r->sample[i].radius == a.radius;
-    if (b.low_known) a.interval[0] = b.low - shift;
-    if (b.high_known) a.interval[1] = b.high + shift;
+    if (b.low_known) a.interval[0] = b.low - allowance;
+    if (b.high_known) a.interval[1] = b.high + allowance;
     if (b.low_known && b.high_known) {
         a.velocity = crossing(&b);
         if (b.low >= b.high) {
             r->monotone = false; /* its own scenes turn back */
-            a.interval[0] = b.high - shift;
-            a.interval[1] = b.low + shift;
+            a.interval[0] = b.high - allowance;
+            a.interval[1] = b.low + allowance;
         }
     }
     if (k == p->reference) {

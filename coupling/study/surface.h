@@ -14,7 +14,7 @@
  *      decides which scene comes next, never the answer.
  *   3. The search ends when the bands' weighted mean width is the wanted one in velocity and in place, when no size has a
  *      band wider than the grid, or with the budget.  A flat threshold takes four scenes beyond the reference.
- * Interval of a size: its band and on both sides the reference's shift from coarse to fine. */
+ * Interval of a size: its band and on both sides the reference's allowance for the resolution. */
 #ifndef BREECH_COUPLING_SURFACE_H
 #define BREECH_COUPLING_SURFACE_H
 

@@ -9,7 +9,7 @@ static const double TYPICAL = 1500.0;   /* of thresholds [m/s] */
 static const double COARSE_WIDTH = 0.2; /* of the coarse bracket over its middle [1] */
 static const double BEYOND_GAP =
     0.15;                             /* of the threshold: a narrower stretch beside the bracket is not looked at [1] */
-enum { BEYOND_RESERVE = 6 };          /* scenes left for the fine stage, this one included */
+enum { FINE_RESERVE = 6 };            /* scenes left for the fine stage, one beyond included */
 static const double INNER_EDGE = 0.2; /* of a bracket, kept free on both sides by the secant [1] */
 
 double threshold_step(double interval)
@@ -209,22 +209,33 @@ static status coarse_stage(search *s, bracket *b)
 }
 
 /* The search itself never looks beyond its bracket, so it cannot see a function that turns back: one coarse scene on each
- * side, half way to the end of the range, looks there.  Planned when the coarse bracket is known, asked for last. */
+ * side, half way to the end of the range, looks there, unless one of the search's lies far enough out.  Planned when the coarse
+ * bracket is known, asked for last. */
 typedef struct {
     int n;
     double at[2]; /* [m/s] */
 } beyond;
 
-static beyond plan_beyond(const search *s, const bracket *b)
+/* Has a scene of this resolution been asked so far outside of the bracket, above or below? */
+static bool has_looked(const search *s, const bracket *b, bool above, double far)
+{
+    for (int i = 0; i < s->out->samples; i++) {
+        const threshold_sample *a = &s->out->sample[i];
+        if (a->cells_per_radius != s->cells) continue;
+        if (above ? a->velocity >= b->hi.velocity + far : a->velocity <= b->lo.velocity - far) return true;
+    }
+    return false;
+}
+
+static beyond plan_beyond(const search *s, const bracket *b, int reserve)
 {
     const threshold_plan *p = s->plan;
-    const double far[2] = { 0.5 * (b->lo.velocity + p->low), 0.5 * (b->hi.velocity + p->high) };
-    const double gap[2] = { b->lo.velocity - p->low, p->high - b->hi.velocity };
+    const double at[2] = { 0.5 * (b->lo.velocity + p->low), 0.5 * (b->hi.velocity + p->high) };
+    const double gap[2] = { b->lo.velocity - p->low, p->high - b->hi.velocity }, far = BEYOND_GAP * middle(b);
     beyond r = { .n = 0 };
-    for (int k = 0; k < 2; k++) {
-        const double v = on_grid(s, far[k]);
-        if (gap[k] < BEYOND_GAP * middle(b) || known(s, v) || budget_left(s) < BEYOND_RESERVE + r.n) continue;
-        r.at[r.n++] = v;
+    for (int above = 0; above < 2; above++) {
+        if (gap[above] < far || has_looked(s, b, above, far) || budget_left(s) < reserve + r.n) continue;
+        r.at[r.n++] = on_grid(s, at[above]);
     }
     return r;
 }
@@ -322,9 +333,9 @@ static void conclude(const search *s, const bracket *b, threshold_result *r)
     decided_interval(r, s->cells, b, r->interval);
     check_monotone(r, s->plan->coarse);
     if (s->cells != s->plan->coarse) check_monotone(r, s->cells);
-    if (isnan(r->shift)) return;
-    r->interval[0] -= fabs(r->shift);
-    r->interval[1] += fabs(r->shift);
+    r->allowance = fmax(s->plan->resolution * r->velocity, isnan(r->shift) ? 0.0 : fabs(r->shift));
+    r->interval[0] -= r->allowance;
+    r->interval[1] += r->allowance;
 }
 
 static status check_plan(const threshold_plan *p)
@@ -376,7 +387,7 @@ status threshold_search(const threshold_plan *plan, const threshold_source *sour
     TRY(coarse_stage(&s, &coarse));
     const bool two_stages = plan->fine != plan->coarse && complete(&coarse);
     if (complete(&coarse) && !two_stages) TRY(narrow(&s, (widths){ plan->interval, plan->place_interval }, &coarse));
-    const beyond far = complete(&coarse) ? plan_beyond(&s, &coarse) : (beyond){ .n = 0 };
+    const beyond far = complete(&coarse) ? plan_beyond(&s, &coarse, two_stages ? FINE_RESERVE : 1) : (beyond){ .n = 0 };
     s.reserved = far.n;
     if (two_stages && budget_left(&s) > 0) TRY(fine_stage(&s, root(&coarse), &fine));
     TRY(look_beyond(&s, &far));

@@ -10,7 +10,8 @@
  *      Last a coarse scene half way to each end of the range, where that is far: does the function turn back there?
  *      If scenes run out before it has both sides: the coarse root, moved as far as the fine scenes' one side has driven it.
  *   3. Interval: the fine bracket, by decided scenes (an `undecided` one takes the side of its excess, but does not end
- *      the interval), widened by the shift of the root from coarse to fine.
+ *      the interval), widened by what the resolution may change: the shift of the root from coarse to fine, or the plan's share
+ *      of the threshold where that is more.
  * Monotonicity is checked: a higher velocity on the lower side of a lower one widens the interval over both and warns.
  * Velocities lie on the grid k * step, so that scenes are shared, and none is asked for twice. */
 #ifndef BREECH_COUPLING_THRESHOLD_H
@@ -44,6 +45,7 @@ typedef struct {
     double step;         /* of the grid of velocities [m/s] */
     double interval;     /* wanted width of the bracket over its middle [1] */
     double coarse, fine; /* cells a radius; equal: one stage [1] */
+    double resolution;   /* share of the threshold that finer cells still may move it by [1] */
     int max_scenes;
     double (*place)(const void *user, double v); /* where the armature has it [m]; NULL: only velocities count */
     const void *place_user;                      /* borrowed */
@@ -63,6 +65,7 @@ typedef struct {
     double interval[2]; /* where it lies; an end that is not known is NaN [m/s] */
     double bracket[2];  /* of the last stage alone [m/s] */
     double shift;       /* of the root from coarse to fine, at least, NaN if there is only one [m/s] */
+    double allowance;   /* for the resolution, on both sides of the interval: the shift or the plan's share [m/s] */
     double cells;       /* a radius, of the last stage [1] */
     bool monotone;
     char warning[THRESHOLD_WARNING_SIZE]; /* "" if none */

@@ -27,6 +27,7 @@ RUNS = {  # name: what differs from the base case
     "30 deg": {"projectile.lead_angle": "30 deg", "projectile.length": "22 mm"},
     "r 0.08 mm": {"particle.radius": "0.08 mm", "scene.fine_width": "2 mm", "scene.end_time": "8 us", "scene.levels": "2"},
 }
+ZONE = {"fine_ahead": 8, "fine_behind": 4, "fine_depth": 3, "fine_above": 2.5}  # radii: the zone W1 was calibrated with
 COARSER = {"r 0.08 mm": 0.7}  # of the cells a radius: an hour otherwise
 
 
@@ -37,6 +38,9 @@ def scene(breech, out, name, cells, changes):
     if not os.path.exists(file):
         command = [breech, "scene", CASE, "-o", folder, "--quiet", "--set", f"scene.cells_per_radius={cells:g}"]
         command += ["--set", "output.snapshots=0", "--set", "output.report=no"]
+        radius = float(changes.get("particle.radius", "0.5 mm").split()[0])
+        for key, radii in ZONE.items():
+            command += ["--set", f"scene.{key}={radii * radius:g} mm"]
         for key, value in changes.items():
             command += ["--set", f"{key}={value}"]
         subprocess.run(command, check=True)
