@@ -22,7 +22,7 @@
 
 #include <stdbool.h>
 
-enum { THRESHOLD_MAX_SAMPLES = 256, THRESHOLD_WARNING_SIZE = 300 };
+enum { THRESHOLD_MAX_SAMPLES = 256, THRESHOLD_WARNING_SIZE = 400 };
 
 /* One scene's answer. */
 typedef struct {

@@ -1,20 +1,23 @@
 #!/usr/bin/env bash
 # Tries the deliberate faults of list.txt in a scratch copy: each must build, and its test must fail.
-#   tests/mutants/run.sh [PATTERN]   all, or those whose line matches the pattern
+#   tests/mutants/run.sh [PATTERN]   all (hours), or those whose line matches the pattern
+#   tests/mutants/run.sh --part K/N  every Nth, from the Kth on (K = 0 .. N - 1)
 #   tests/mutants/run.sh --check     only that every line applies and names a test (seconds; part of ctest)
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source tests/files.sh
 export BREECH_FULL=0 # the short part of a test must notice
 
-pattern=. dry=0
+pattern=. dry=0 part=0/1
 case "${1:-}" in
 --check) dry=1 ;;
+--part) part=$2 ;;
 ?*) pattern=$1 ;;
 esac
 
 list=$(grep -vE '^[[:space:]]*(#|$)' tests/mutants/list.txt | grep -E -- "$pattern") ||
     { echo "no fault matches $pattern" && exit 1; }
+list=$(awk -v k="${part%/*}" -v n="${part#*/}" 'NR % n == k % n' <<<"$list")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
