@@ -116,7 +116,7 @@ static layout lay_out(const breech_case *c, const case_site *g, double cells_per
     const double room = fmax(3.0 * l.coarse, grids_margin(s->levels, l.fine));
     const double pair = (s->levels > 1 ? 2 : 1) * l.fine; /* of the cells around it the zone takes whole ones */
     l.fine_behind = cells_over(fmin(given_or(s->fine_behind, 3.0 * g->radius), l.behind - room), pair);
-    const double ahead = (s->follow ? 5.0 : 26.0) * g->radius;
+    const double ahead = (s->follow ? 4.0 : 26.0) * g->radius;
     l.fine_ahead = cells_over(fmin(given_or(s->fine_ahead, ahead), l.ahead - room), pair);
     l.fine_depth = cells_over(fmin(given_or(s->fine_depth, 2.0 * g->radius), s->rail_depth - room), pair);
     l.fine_above = cells_over(fmin(top_of_zone(c, g), p->half_bore - room), pair);
@@ -373,7 +373,7 @@ static void set_follow(const breech_case *c, const case_site *g, const layout *l
     if (!c->scene.follow) return;
     s->follow_width = l->fine_half_width;
     s->follow_speed = s->body[body_of_armature(s)].velocity[0];
-    s->follow_lead = given_or(c->scene.follow_lead, 4.0 * g->radius);
+    s->follow_lead = given_or(c->scene.follow_lead, 3.0 * g->radius);
     for (int i = 0; i < 2; i++) s->gauge_time[i] = GROWTH_WAY[i] * g->radius / s->follow_speed;
     for (int i = 0; i < s->bodies; i++)
         if (body_is_rail(s, i)) s->follow_bodies |= 1u << i;

@@ -109,7 +109,8 @@ static bool is_beyond(const surface_plan *p, const band *b)
 
 static bool is_open(const surface_plan *p, int k, const band *b)
 {
-    if (k == p->reference || !(p->weight[k] > 0.0) || b->high - b->low < 1.5 * p->search.step) return false;
+    const double least = fmax(1.5 * p->search.step, p->search.resolution * 0.5 * (b->high + b->low));
+    if (k == p->reference || !(p->weight[k] > 0.0) || b->high - b->low < least) return false;
     return !is_beyond(p, b) && (velocity_width(p, b) > 1.0 || place_width(p, b) > 1.0);
 }
 

@@ -138,10 +138,11 @@ typedef struct {
     double velocity, place;
 } widths;
 
+/* Never where it is narrower than what the resolution leaves open. */
 static bool too_wide(const search *s, widths wanted, double lo, double hi)
 {
     const threshold_plan *p = s->plan;
-    if (hi - lo < 1.5 * p->step) return false;
+    if (hi - lo < 1.5 * p->step || hi - lo <= p->resolution * 0.5 * (lo + hi)) return false;
     return hi - lo > wanted.velocity * 0.5 * (lo + hi) ||
            (p->place && p->place(p->place_user, hi) - p->place(p->place_user, lo) > wanted.place);
 }

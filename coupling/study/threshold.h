@@ -7,6 +7,7 @@
  *      doubling steps; then in between to the wanted interval, in velocity and in place, or the grid's step.
  *      In between: one velocity where one is enough, the secant's kept within the bracket's inner 60 %, or its middle; else
  *      two, in thirds where that is enough.  Two at a time, so that two processes have something to do.
+ *      No bracket is made narrower than what the resolution leaves open (`resolution`).
  *      Last a coarse scene half way to each end of the range, where that is far: does the function turn back there?
  *      If scenes run out before it has both sides: the coarse root, moved as far as the fine scenes' one side has driven it.
  *   3. Interval: the fine bracket, by decided scenes (an `undecided` one takes the side of its excess, but does not end

@@ -27,7 +27,7 @@ RUNS = {  # name: what differs from the base case
     "30 deg": {"projectile.lead_angle": "30 deg", "projectile.length": "22 mm"},
     "r 0.08 mm": {"particle.radius": "0.08 mm", "scene.fine_width": "2 mm", "scene.end_time": "8 us", "scene.levels": "2"},
 }
-ZONE = {"fine_ahead": 8, "fine_behind": 4, "fine_depth": 3, "fine_above": 2.5}  # radii: the zone W1 was calibrated with
+ZONE = {"fine_ahead": 8, "fine_behind": 4, "fine_depth": 3, "fine_above": 2.5, "follow_lead": 4}  # radii: the zone W1 was calibrated with
 COARSER = {"r 0.08 mm": 0.7}  # of the cells a radius: an hour otherwise
 
 
