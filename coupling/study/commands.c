@@ -242,7 +242,7 @@ status command_check(const breech_case *c, int threads, scene_estimate out[CHECK
     const double cells[] = { c->study.coarse_cells_per_radius, c->study.fine_cells_per_radius };
     breech_case probe;
     family_probe(c, &probe);
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < (cells[0] < cells[1] ? 2 : 1); k++) {
         site_state state = state_of_case(c);
         state.grain = c->sites.item[0];
         state.velocity = c->study.velocity_low;
