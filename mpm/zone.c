@@ -387,12 +387,14 @@ status zone_follow(mpm *m)
     note_gauges(m);
     const zone next = zone_wanted(m, &p);
     const double step = QUANTUM * m->scene.axis[0].fine;
-    if (next.at[0] - now.at[0] < 0.999 * step && next.at[2] - now.at[2] < 4 * step && !(next.at[4] > now.at[4]))
-        return m->scene.levels > 1 ? merge_coarse(m) : status_ok();
-    TRY(leave_wake(m, next.at[0] + m->scene.axis[0].fine)); /* the cell at the zone's end merges already */
-    TRY(zone_regrid(m, next));
-    TRY(grow_in(m, now.at[2]));
-    TRY(store_settle(m));
+    if (next.at[0] - now.at[0] < 0.999 * step && next.at[2] - now.at[2] < 4 * step && !(next.at[4] > now.at[4])) {
+        if (m->scene.levels > 1) TRY(merge_coarse(m));
+    } else {
+        TRY(leave_wake(m, next.at[0] + m->scene.axis[0].fine)); /* the cell at the zone's end merges already */
+        TRY(zone_regrid(m, next));
+        TRY(grow_in(m, now.at[2]));
+        TRY(store_settle(m));
+    }
     m->report.particles = mpm_particles(m);
     return status_ok();
 }
