@@ -214,6 +214,26 @@ static void test_allowance(void **state)
     }
 }
 
+/* No bracket is made narrower than what the resolution leaves open. */
+static void test_open_resolution(void **state)
+{
+    (void)state;
+    threshold_plan plan = usual();
+    plan.coarse = plan.fine;
+    int asked[2] = { 0 };
+    for (int k = 0; k < 2; k++) {
+        plan.resolution = k ? 0.15 : 0.0;
+        for (double zero = 1110.0; zero < 1900.0; zero += 7.0) {
+            function f = plain(line, zero);
+            const threshold_result r = search(&f, &plan);
+            asked[k] += r.samples;
+            assert_true(r.bracket[1] - r.bracket[0] <= fmax(1.5 * plan.step, (k ? 0.15 : 0.05) * 1.1 * zero));
+        }
+    }
+    print_message("%d scenes, %d where the resolution leaves 15 %% open\n", asked[0], asked[1]);
+    assert_true(asked[1] < 0.85 * asked[0]);
+}
+
 /* Does the function turn back?  Of each resolution's search some scene lies far out on both sides, its own or one that asks for that. */
 static void test_beyond(void **state)
 {
@@ -750,13 +770,17 @@ static void test_other_case(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_found),      cmocka_unit_test(test_line_exact), cmocka_unit_test(test_shift_shown),
-        cmocka_unit_test(test_allowance),  cmocka_unit_test(test_beyond),     cmocka_unit_test(test_one_stage),
-        cmocka_unit_test(test_ends),       cmocka_unit_test(test_noise),      cmocka_unit_test(test_dip),
-        cmocka_unit_test(test_undecided),  cmocka_unit_test(test_budget),     cmocka_unit_test(test_driven),
-        cmocka_unit_test(test_errors),     cmocka_unit_test(test_onset),      cmocka_unit_test(test_moves),
-        cmocka_unit_test(test_screened),   cmocka_unit_test(test_two_kinds),  cmocka_unit_test(test_resume),
-        cmocka_unit_test(test_other_case), cmocka_unit_test(test_craters),
+        cmocka_unit_test(test_found),           cmocka_unit_test(test_line_exact),
+        cmocka_unit_test(test_shift_shown),     cmocka_unit_test(test_allowance),
+        cmocka_unit_test(test_open_resolution), cmocka_unit_test(test_beyond),
+        cmocka_unit_test(test_one_stage),       cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_noise),           cmocka_unit_test(test_dip),
+        cmocka_unit_test(test_undecided),       cmocka_unit_test(test_budget),
+        cmocka_unit_test(test_driven),          cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_onset),           cmocka_unit_test(test_moves),
+        cmocka_unit_test(test_screened),        cmocka_unit_test(test_two_kinds),
+        cmocka_unit_test(test_resume),          cmocka_unit_test(test_other_case),
+        cmocka_unit_test(test_craters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
