@@ -72,7 +72,7 @@ static const struct {
     int64_t gradient[LINE], energy[LINE];
 } motion_kinds __attribute__((aligned(64))) = { { 0, 0, 0, 0, -1, -1, -1, 0 }, { 0, 0, 0, 0, 0, 0, 0, -1 } };
 
-/* The same of a contact line: V grad S and m (x_i - x_p) along each axis, m flow stress. */
+/* The same of a contact line: V grad S and m (x_p - x_i) along each axis, m flow stress. */
 static const struct {
     int64_t gradient[3][LINE], moment[3][LINE], flow[LINE];
 } contact_kinds __attribute__((aligned(64))) = { { { -1 }, { 0, -1 }, { 0, 0, -1 } },
