@@ -16,27 +16,44 @@ static const double SEAM = 1.0;
 
 /* ---- merging ---- */
 
+/* A cell's points; a thread has its own. */
 typedef struct {
     int n, capacity, merged;
     int *body;
     double (*data)[BLOCK_DOUBLES];
 } gathering;
 
-static status take_lane(gathering *g, const block *q, int lane, int body)
+static bool make_room(gathering *g, int n)
 {
-    if (g->n == g->capacity) {
-        const int capacity = 2 * g->capacity + 64;
-        int *b = realloc(g->body, (size_t)capacity * sizeof *b);
-        if (b) g->body = b;
-        double(*d)[BLOCK_DOUBLES] = realloc(g->data, (size_t)capacity * sizeof *d);
-        if (d) g->data = d;
-        CHECK(b && d, STATUS_MEMORY, "no memory to merge %d particles", capacity);
-        g->capacity = capacity;
+    if (n <= g->capacity) return true;
+    const int capacity = 2 * n + 64;
+    int *b = realloc(g->body, (size_t)capacity * sizeof *b);
+    if (b) g->body = b;
+    double(*d)[BLOCK_DOUBLES] = realloc(g->data, (size_t)capacity * sizeof *d);
+    if (d) g->data = d;
+    if (b && d) g->capacity = capacity;
+    return b && d;
+}
+
+/* All of the points, or only what decides which of them are merged. */
+static bool gather_cell(const mpm *m, const brick *b, int cell, bool whole, gathering *g)
+{
+    static const int decides[] = { FIRST_x,        FIRST_x + 1,    FIRST_x + 2, FIRST_half,
+                                   FIRST_half + 1, FIRST_half + 2, FIRST_damage };
+    const int fields = whole ? (int)BLOCK_DOUBLES : (int)(sizeof decides / sizeof *decides);
+    g->n = g->merged = 0;
+    for (int q = b->head[cell]; q >= 0; q = m->links[q].next) {
+        const double(*from)[LANES] = (const double(*)[LANES])(const void *)&m->blocks[q];
+        if (!make_room(g, g->n + LANES)) return false;
+        for (unsigned lanes = m->links[q].mask; lanes; lanes &= lanes - 1) {
+            for (int i = 0; i < fields; i++) {
+                const int field = whole ? i : decides[i];
+                g->data[g->n][field] = from[field][__builtin_ctz(lanes)];
+            }
+            g->body[g->n++] = m->links[q].body;
+        }
     }
-    const double(*from)[LANES] = (const double(*)[LANES])(const void *)q;
-    for (int i = 0; i < BLOCK_DOUBLES; i++) g->data[g->n][i] = from[i][lane];
-    g->body[g->n++] = body;
-    return status_ok();
+    return true;
 }
 
 /* Side by side along an axis, of one size across, sound, and together no longer than the cell bears? */
@@ -84,52 +101,72 @@ static void merge_along(gathering *g, int along, double longest, double dt)
     }
 }
 
-/* Longest domains along each axis; 0: none is merged along it. */
-static status merge_cell(mpm *m, brick *b, int cell, const double longest[3], gathering *g)
+static bool any_partner(const gathering *g, const double longest[3])
 {
-    g->n = g->merged = 0;
-    for (int q = b->head[cell]; q >= 0; q = m->links[q].next)
-        for (int l = 0; l < LANES; l++)
-            if (m->links[q].mask >> l & 1) TRY(take_lane(g, &m->blocks[q], l, m->links[q].body));
-    for (int k = 0; k < 3; k++) merge_along(g, k, longest[k], level_dt_last(m, b->level));
-    if (g->merged == 0) return status_ok();
-    b->particles -= g->n + g->merged;
-    store_release_cell(m, b, cell);
-    for (int i = 0; i < g->n; i++) store_insert(m, b, cell, g->body[i], g->data[i]);
-    m->report.merges += (uint64_t)g->merged;
-    return status_ok();
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < g->n && longest[k] > 0; i++)
+            if (partner(g, i, k, longest[k]) >= 0) return true;
+    return false;
 }
 
-/* Is the cell larger than a fine one along any axis?  How long may points become there by merging? */
-static bool coarse_cell(const mpm *m, const brick *b, int cell, double longest[3])
+/* Longest domains along each axis; 0: none is merged along it.  False: no memory. */
+static bool merge_cell(mpm *m, brick *b, int cell, const double longest[3], gathering *g)
 {
-    const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
-    bool coarse = false;
-    for (int k = 0; k < 3; k++) {
-        const axis *a = &axes_of(m, b)[k];
-        const int node = BRICK * b->at[k] + at[k];
-        const bool larger = a->node[node + 1] - a->node[node - 1] > 2.4 * m->scene.axis[k].fine;
-        longest[k] = larger ? MERGE_RATIO * a->longest[node] : 0;
-        coarse = coarse || larger;
-    }
-    return coarse;
+    if (!gather_cell(m, b, cell, false, g)) return false;
+    if (!any_partner(g, longest)) return true;
+    if (!gather_cell(m, b, cell, true, g)) return false;
+    for (int k = 0; k < 3; k++) merge_along(g, k, longest[k], level_dt_last(m, b->level));
+    b->particles -= g->n + g->merged;
+    store_release_cell(m, b, cell);
+    for (int i = 0; i < g->n; i++) store_insert(m, b, cell, g->body[i], g->data[i]); /* fits: less than was released */
+    return true;
+}
+
+/* How long points may become by merging in a brick's cells along each axis; 0 where cells are no larger than fine ones. */
+static bool merge_lengths(const mpm *m, const brick *b, double longest[3][BRICK])
+{
+    bool any = false;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < BRICK; i++) {
+            const axis *a = &axes_of(m, b)[k];
+            const int node = BRICK * b->at[k] + i;
+            const bool larger =
+                node >= 1 && node <= a->last && a->node[node + 1] - a->node[node - 1] > 2.4 * m->scene.axis[k].fine;
+            longest[k][i] = larger ? MERGE_RATIO * a->longest[node] : 0;
+            any = any || larger;
+        }
+    return any;
 }
 
 /* Cells of more than a block, so that what lies in its cell as it was made costs nothing. */
+static bool merge_brick(mpm *m, brick *b, gathering *g, uint64_t *merges)
+{
+    double along[3][BRICK];
+    if (b->particles == 0 || !merge_lengths(m, b, along)) return true;
+    for (int c = 0; c < BRICK_CELLS; c++) {
+        const double longest[3] = { along[0][c % BRICK], along[1][c / BRICK % BRICK], along[2][c / (BRICK * BRICK)] };
+        if (b->head[c] < 0 || m->links[b->head[c]].next < 0) continue;
+        if (!merge_cell(m, b, c, longest, g)) return false;
+        *merges += (uint64_t)g->merged;
+    }
+    return true;
+}
+
 static status merge_coarse(mpm *m)
 {
-    gathering g = { 0 };
-    status s = status_ok();
-    for (int i = 0; i < m->bricks_used && s.code == STATUS_OK; i++)
-        for (int c = 0; c < BRICK_CELLS && s.code == STATUS_OK; c++) {
-            brick *b = &m->bricks[i];
-            double longest[3];
-            const int q = b->head[c];
-            if (q >= 0 && m->links[q].next >= 0 && coarse_cell(m, b, c, longest)) s = merge_cell(m, b, c, longest, &g);
-        }
-    free(g.body);
-    free(g.data);
-    return s;
+    bool enough = true;
+    uint64_t merges = 0;
+#pragma omp parallel num_threads(m->threads) reduction(&& : enough) reduction(+ : merges)
+    {
+        gathering g = { 0 };
+#pragma omp for schedule(dynamic, 4)
+        for (int i = 0; i < m->bricks_used; i++) enough = merge_brick(m, &m->bricks[i], &g, &merges) && enough;
+        free(g.body);
+        free(g.data);
+    }
+    m->report.merges += merges;
+    CHECK(enough, STATUS_MEMORY, "no memory to merge particles");
+    return status_ok();
 }
 
 /* ---- the wake ---- */
