@@ -2,6 +2,7 @@
 #include "mpm/store.h"
 
 #include <assert.h>
+#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -292,27 +293,69 @@ void store_release_cell(mpm *m, brick *b, int cell)
     }
 }
 
-/* Follows one cycle of the permutation: the block at `first` goes to to[first], and so on round. */
-static void permute_cycle(mpm *m, int *to, int first)
+/* Places that take the block at the next one, cycle by cycle; the last of a cycle takes that at the first. */
+typedef struct {
+    int n, *place, *first; /* index of the cycle's first place */
+} moves;
+
+/* From where each block goes, -1: nowhere, which is used up. */
+static void find_moves(int *to, int blocks, moves *c)
 {
-    block held = m->blocks[first];
-    block_link link = m->links[first];
-    int at = first;
-    while (to[at] >= 0) {
-        const int next = to[at];
-        const block b = m->blocks[next];
-        const block_link l = m->links[next];
-        m->blocks[next] = held, m->links[next] = link;
-        held = b, link = l;
-        to[at] = -1;
-        at = next;
+    c->n = 0;
+    for (int i = 0; i < blocks; i++) {
+        const int first = c->n;
+        for (int at = i; to[at] >= 0 && to[at] != at;) {
+            const int next = to[at];
+            to[at] = -1;
+            c->first[c->n] = first;
+            c->place[c->n++] = at;
+            at = next;
+        }
+        /* found from each place to where its block goes: backwards each takes the next one's */
+        for (int a = first, b = c->n - 1; a < b; a++, b--) {
+            const int place = c->place[a];
+            c->place[a] = c->place[b], c->place[b] = place;
+        }
     }
 }
 
-status store_compact(mpm *m)
+typedef struct {
+    block points;
+    block_link link;
+} held_block;
+
+static held_block hold(const mpm *m, int i)
 {
-    int *to = malloc((size_t)m->blocks_capacity * sizeof *to), used = 0;
-    CHECK(to, STATUS_MEMORY, "no memory to sort %d blocks", m->blocks_capacity);
+    return (held_block){ m->blocks[i], m->links[i] };
+}
+
+static void put(mpm *m, int i, const held_block *h)
+{
+    m->blocks[i] = h->points, m->links[i] = h->link;
+}
+
+/* This thread's part of the moves.  What other threads overwrite is held before any of them begins: the first block of the cycle
+ * that the part begins in, and the one after the part. */
+static void make_moves(mpm *m, const moves *c)
+{
+    const int me = omp_get_thread_num(), threads = omp_get_num_threads();
+    const int lo = (int)((int64_t)c->n * me / threads), hi = (int)((int64_t)c->n * (me + 1) / threads);
+    held_block first = { .link = { 0 } }, after = first;
+    if (lo < hi) first = hold(m, c->place[c->first[lo]]);
+    if (hi < c->n) after = hold(m, c->place[hi]);
+#pragma omp barrier
+    for (int i = lo; i < hi; i++) {
+        if (c->first[i] == i) first = hold(m, c->place[i]);
+        const bool last = i + 1 == c->n || c->first[i + 1] == i + 1;
+        const held_block next = last || i + 1 == hi ? (last ? first : after) : hold(m, c->place[i + 1]);
+        put(m, c->place[i], &next);
+    }
+}
+
+/* Where each block goes, -1: nowhere; the number of those in use. */
+static int compact_order(const mpm *m, int *to)
+{
+    int used = 0;
     for (int i = 0; i < m->blocks_capacity; i++) to[i] = -1;
     for (int s = 0; s < m->site_count; s++)
         for (int f = 0; f < m->fields; f++) {
@@ -325,13 +368,24 @@ status store_compact(mpm *m)
         while (to[spare] < 0) spare++;
         to[i] = spare++;
     }
+    return used;
+}
+
+status store_compact(mpm *m)
+{
+    const size_t blocks = (size_t)m->blocks_capacity;
+    int *to = malloc(3 * blocks * sizeof *to);
+    CHECK(to, STATUS_MEMORY, "no memory to sort %d blocks", m->blocks_capacity);
+    const int used = compact_order(m, to);
     for (int i = 0; i < m->bricks_used; i++)
         for (int c = 0; c < BRICK_CELLS; c++)
             if (m->bricks[i].head[c] >= 0) m->bricks[i].head[c] = to[m->bricks[i].head[c]];
     for (int i = 0; i < m->blocks_capacity; i++)
         if (m->links[i].next >= 0) m->links[i].next = to[m->links[i].next];
-    for (int i = 0; i < m->blocks_capacity; i++)
-        if (to[i] >= 0) permute_cycle(m, to, i);
+    moves c = { .place = to + blocks, .first = to + 2 * blocks };
+    find_moves(to, m->blocks_capacity, &c);
+#pragma omp parallel num_threads(m->threads)
+    make_moves(m, &c);
     free(to);
     m->free_head = -1, m->blocks_free = 0;
     chain_free_blocks(m, used);
