@@ -137,9 +137,8 @@ status store_brick(mpm *m, int field, int level, const int at[3], int *out)
         b->at_seam = seam_any(&b->seam);
         memcpy(b->at, at, sizeof b->at);
         for (int c = 0; c < BRICK_CELLS; c++) b->head[c] = -1;
-        b->node = aligned(BRICK_CELLS * sizeof *b->node);
+        b->node = cleared(BRICK_CELLS * sizeof *b->node);
         CHECK(b->node, STATUS_MEMORY, "no memory for a brick");
-        memset(b->node, 0, BRICK_CELLS * sizeof *b->node);
         *slot = m->bricks_used++;
     }
     *out = *slot;
@@ -158,9 +157,8 @@ static bool step_inside(const mpm *m, const brick *b, int step, int to[3])
 
 status store_open(brick *b)
 {
-    if (!b->out) b->out = aligned(HALO_NODES * sizeof *b->out);
+    if (!b->out) b->out = cleared(HALO_NODES * sizeof *b->out);
     CHECK(b->out, STATUS_MEMORY, "no memory for a brick");
-    memset(b->out, 0, HALO_NODES * sizeof *b->out);
     return status_ok();
 }
 
@@ -202,7 +200,8 @@ static bool meets_other(const mpm *m, const brick *b)
     return false;
 }
 
-static status link_brick(mpm *m, brick *b)
+/* False: no memory. */
+static bool link_brick(mpm *m, brick *b)
 {
     for (int step = 0; step < NEIGHBOURS; step++) {
         int to[3];
@@ -214,14 +213,16 @@ static status link_brick(mpm *m, brick *b)
     if (b->contact && b->out && !b->out_contact) b->out_contact = aligned(HALO_NODES * sizeof *b->out_contact);
     if (b->at_seam && !b->line) b->line = cleared(2 * BRICK_CELLS * sizeof *b->line);
     if (seam_shared(&b->seam) && !b->held) b->held = cleared(sizeof *b->held);
-    CHECK((b->out_contact || !b->contact || !b->out) && (b->line || !b->at_seam) && (b->held || !seam_shared(&b->seam)),
-          STATUS_MEMORY, "no memory for a brick");
-    return status_ok();
+    return (b->out_contact || !b->contact || !b->out) && (b->line || !b->at_seam) &&
+           (b->held || !seam_shared(&b->seam));
 }
 
 status store_relink(mpm *m)
 {
-    for (int i = 0; i < m->bricks_used; i++) TRY(link_brick(m, &m->bricks[i]));
+    bool enough = true;
+#pragma omp parallel for schedule(dynamic, 16) num_threads(m->threads) reduction(&& : enough)
+    for (int i = 0; i < m->bricks_used; i++) enough = link_brick(m, &m->bricks[i]) && enough;
+    CHECK(enough, STATUS_MEMORY, "no memory for a brick");
     m->site_count = m->seam_count = 0;
     for (int s = 0; s < m->grids.sites; s++)
         for (int f = 0; f < m->fields; f++) {
@@ -234,9 +235,9 @@ status store_relink(mpm *m)
     return status_ok();
 }
 
-status store_reserve(mpm *m)
+status store_reserve(mpm *m, int blocks)
 {
-    const int wanted = 64 + m->blocks_capacity / 16;
+    const int step = 64 + m->blocks_capacity / 16, wanted = blocks > step ? blocks : step;
     if (m->blocks_free >= wanted) return status_ok();
     return grow_blocks(m, 2 * m->blocks_capacity + wanted); /* pages that nobody touches cost nothing */
 }
@@ -432,16 +433,23 @@ status store_place(mpm *m, int body, const double *particle)
     const int cell = store_cell_at(m, level, particle + FIRST_x, at);
     assert(cell >= 0);
     TRY(store_brick(m, m->scene.body[body].field, level, at, &index));
-    if (m->blocks_free == 0) TRY(store_reserve(m));
+    if (m->blocks_free == 0) TRY(store_reserve(m, 0));
     CHECK(store_insert(m, &m->bricks[index], cell, body, particle) >= 0, STATUS_MEMORY, "no memory for the particles");
+    return status_ok();
+}
+
+status store_surround_all(mpm *m)
+{
+    const int filled = m->bricks_used;
+    for (int i = 0; i < filled; i++)
+        if (!m->bricks[i].out) TRY(store_surround(m, i));
     return status_ok();
 }
 
 status store_settle(mpm *m)
 {
-    const int filled = m->bricks_used;
-    for (int i = 0; i < filled; i++) TRY(store_surround(m, i));
+    TRY(store_surround_all(m));
     TRY(store_relink(m));
-    TRY(store_reserve(m));
+    TRY(store_reserve(m, 0));
     return store_compact(m);
 }

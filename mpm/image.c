@@ -228,7 +228,7 @@ status mpm_restore(mpm *m, const void *image, size_t bytes)
     m->steps = head.steps;
     memcpy(m->force_sum, head.force_sum, sizeof head.force_sum);
     TRY(store_relink(m));
-    return store_reserve(m);
+    return store_reserve(m, 0);
 }
 
 /* ---- estimate ---- */

@@ -239,7 +239,7 @@ status movers_exchange(mpm *m)
     bool changed = false, enough = true, relink = false;
     TRY(open_bricks(m, &changed));
     if (changed) TRY(store_relink(m));
-    TRY(store_reserve(m));
+    TRY(store_reserve(m, 0));
 #pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads) reduction(&& : enough) reduction(|| : relink)
     for (int i = 0; i < m->bricks_used; i++) {
         brick *b = &m->bricks[i];

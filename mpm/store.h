@@ -216,8 +216,9 @@ status store_open(brick *b);                                                 /* 
 status store_empty(mpm *m, int blocks);                                      /* no bricks, room for so many blocks */
 status store_surround(mpm *m, int brick_index); /* makes its 26 neighbours inside the window */
 status store_relink(mpm *m);                    /* neighbours, contact flags, site list */
-status store_reserve(mpm *m);                   /* free blocks for the next step */
-status store_compact(mpm *m);                   /* blocks into the order of bricks and cells */
+status store_surround_all(mpm *m);
+status store_reserve(mpm *m, int blocks); /* so many free blocks, and those for the next step */
+status store_compact(mpm *m);             /* blocks into the order of bricks and cells */
 int store_insert(mpm *m, brick *b, int cell, int body, const double *particle); /* block, or -1 when none is free */
 
 status store_place(mpm *m, int body, const double *particle); /* makes its brick if need be; outside any step */
@@ -273,8 +274,9 @@ plough plough_find(const mpm *m);
 /* zone.c */
 zone zone_of(const mpm *m);
 void zone_across(const mpm *m, double *middle, double *half); /* of the fine zone: its middle, how far it reaches [m] */
-status zone_follow(mpm *m);         /* goes after the plastic front, if it has come near the fine zone's end */
-status zone_regrid(mpm *m, zone z); /* new grids; all particles into their bricks, split and merged to fit */
+status zone_follow(mpm *m); /* goes after the plastic front, if it has come near the fine zone's end */
+status zone_regrid(mpm *m,
+                   zone z); /* new grids; all particles into their bricks, split and merged to fit; to be settled */
 
 /* read.c */
 void mpm_sample_percentiles(mpm *m);

@@ -6,6 +6,7 @@
 #include "mpm/store.h"
 
 #include <math.h>
+#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -234,59 +235,125 @@ static status leave_wake(mpm *m, double x)
 
 /* ---- moving ---- */
 
-/* Axis along which the point is longer than its cell bears; -1: none. */
-static int too_long(const mpm *m, const double *q)
+/* Axis along which the point is longer than its new cell bears; -1: none. */
+static int too_long(const mpm *m, const mover_head *h, const double *q)
 {
-    const axis *a = m->grids.level[grids_level(&m->grids, q + FIRST_x)].axes;
+    const axis *a = m->grids.level[h->level].axes;
+    const int in[3] = { h->cell % BRICK, h->cell / BRICK % BRICK, h->cell / (BRICK * BRICK) };
     for (int k = 0; k < 3 && q[FIRST_damage] < 1; k++)
-        if (2 * q[FIRST_half + k] > a[k].longest[axis_locate(&a[k], q[FIRST_x + k])]) return k;
+        if (2 * q[FIRST_half + k] > a[k].longest[BRICK * h->at[k] + in[k]]) return k;
     return -1;
 }
 
-/* What the new window leaves out is gone; so is what lies beyond the cells of its level. */
-static bool outside(const mpm *m, const double *q)
+/* Notes where a point goes, halved until its new cell bears it.  What the new window leaves out is gone, and so is what lies
+ * beyond the cells of its level: no cell.  False: no memory. */
+static bool send_off(mpm *m, brick *old, int body, double *q)
 {
-    int at[3];
-    return store_cell_at(m, grids_level(&m->grids, q + FIRST_x), q + FIRST_x, at) < 0;
-}
-
-static status place_split(mpm *m, int body, double *q, double dt)
-{
-    for (int k; !outside(m, q) && (k = too_long(m, q)) >= 0;) {
+    mover_list *to = &m->movers[old->movers_thread];
+    mover_head h = { .body = body, .level = grids_level(&m->grids, q + FIRST_x) };
+    h.cell = store_cell_at(m, h.level, q + FIRST_x, h.at);
+    const int k = h.cell >= 0 ? too_long(m, &h, q) : -1;
+    if (k >= 0) {
         double other[BLOCK_DOUBLES];
         particle_halve(q, other, k);
-        m->report.splits++;
-        TRY(place_split(m, body, other, dt));
+        old->sum.splits++;
+        return send_off(m, old, body, other) && send_off(m, old, body, q);
     }
-    if (!outside(m, q)) {
-        particle_restep(q, dt, level_dt_last(m, grids_level(&m->grids, q + FIRST_x)));
-        return store_place(m, body, q);
+    if (!movers_reserve(to, 1)) return false;
+    if (h.cell >= 0) particle_restep(q, level_dt_last(m, old->level), level_dt_last(m, h.level));
+    to->head[to->count] = h;
+    memcpy(to->data[to->count++], q, sizeof to->data[0]);
+    old->movers++;
+    return true;
+}
+
+/* All points of a brick of the old grid, in the order of cells and chains; its blocks go back. */
+static bool empty_brick(mpm *m, brick *old)
+{
+    bool enough = true;
+    old->sum.splits = 0;
+    old->movers = 0, old->movers_thread = omp_get_thread_num(), old->movers_first = m->movers[old->movers_thread].count;
+    for (int c = 0; c < BRICK_CELLS; c++) {
+        for (int q = old->head[c]; q >= 0; q = m->links[q].next) {
+            const double(*from)[LANES] = (const double(*)[LANES])(const void *)&m->blocks[q];
+            for (unsigned lanes = m->links[q].mask; lanes; lanes &= lanes - 1) {
+                double one[BLOCK_DOUBLES];
+                for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][__builtin_ctz(lanes)];
+                enough = send_off(m, old, m->links[q].body, one) && enough;
+            }
+        }
+        store_release_cell(m, old, c);
     }
-    departure d = { .count = 0 };
-    particle_leave(q, dt, &d);
-    mpm_book_departure(m, &d);
+    return enough;
+}
+
+/* Bricks for the points that come from an old one, and a bound on the blocks they take: each run of points to one cell its own.
+ * Points that have no cell are booked as gone. */
+static status receive(mpm *m, const brick *old, int *blocks)
+{
+    const mover_list *list = &m->movers[old->movers_thread];
+    m->report.splits += old->sum.splits;
+    for (int i = old->movers_first, run = 0; i < old->movers_first + old->movers; i++) {
+        const mover_head *h = &list->head[i];
+        int found;
+        if (h->cell >= 0) {
+            run = i > old->movers_first && memcmp(h, h - 1, sizeof *h) == 0 ? run + 1 : 0;
+            *blocks += run % LANES == 0;
+            TRY(store_brick(m, old->field, h->level, h->at, &found));
+            continue;
+        }
+        departure d = { .count = 0 };
+        particle_leave(list->data[i], level_dt_last(m, old->level), &d);
+        mpm_book_departure(m, &d);
+    }
     return status_ok();
 }
 
-/* Empties one brick of the old grid into the new one; its blocks go back as soon as they are read. */
-static status empty_brick(mpm *m, brick *old)
+/* Every thread looks at all points and takes those of its own bricks: in each brick they come in the order of the old ones. */
+static bool fill_bricks(mpm *m, const brick *old, int n)
 {
-    for (int c = 0; c < BRICK_CELLS; c++)
-        while (old->head[c] >= 0) {
-            const int q = old->head[c];
-            const block held = m->blocks[q];
-            const block_link link = m->links[q];
-            old->head[c] = link.next;
-            store_release(m, q);
-            const double(*from)[LANES] = (const double(*)[LANES])(const void *)&held;
-            for (int l = 0; l < LANES; l++) {
-                double one[BLOCK_DOUBLES];
-                if (!(link.mask >> l & 1)) continue;
-                for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][l];
-                TRY(place_split(m, link.body, one, level_dt_last(m, old->level)));
-            }
+    const int me = omp_get_thread_num(), threads = omp_get_num_threads();
+    bool enough = true;
+    for (int b = 0; b < n; b++) {
+        const mover_list *list = &m->movers[old[b].movers_thread];
+        for (int i = old[b].movers_first; i < old[b].movers_first + old[b].movers; i++) {
+            const mover_head *h = &list->head[i];
+            const int to = h->cell >= 0 ? brick_at(m, old[b].field, h->level, h->at) : -1;
+            if (to < 0 || to % threads != me) continue;
+            enough = store_insert(m, &m->bricks[to], h->cell, h->body, list->data[i]) >= 0 && enough;
         }
+    }
+    return enough;
+}
+
+static status move_over(mpm *m, brick *old, int n)
+{
+    bool enough = true;
+    int blocks = 0;
+    for (int t = 0; t < m->threads; t++) m->movers[t].count = 0;
+#pragma omp parallel for schedule(dynamic, 2) num_threads(m->threads) reduction(&& : enough)
+    for (int i = 0; i < n; i++) enough = empty_brick(m, &old[i]) && enough;
+    CHECK(enough, STATUS_MEMORY, "no memory to move the fine zone");
+    for (int i = 0; i < n; i++) TRY(receive(m, &old[i], &blocks));
+    TRY(store_reserve(m, blocks));
+#pragma omp parallel num_threads(m->threads) reduction(&& : enough)
+    enough = fill_bricks(m, old, n);
+    CHECK(enough, STATUS_MEMORY, "no memory for the particles");
     return status_ok();
+}
+
+/* From the old bricks to new ones, so many at a time that the copies on the way take little memory. */
+static status refill(mpm *m)
+{
+    enum { TOGETHER = 128 };
+    brick *old = m->bricks;
+    const int n = m->bricks_used;
+    status s = store_new_grid(m);
+    for (int i = 0; i < n && s.code == STATUS_OK; i += TOGETHER)
+        s = move_over(m, &old[i], n - i < TOGETHER ? n - i : TOGETHER);
+    for (int i = 0; i < n; i++) store_free_brick(&old[i]);
+    free(old);
+    return s;
 }
 
 /* Points that come in, and what they bring. */
@@ -319,19 +386,6 @@ static status grow_in(mpm *m, double from)
     return status_ok();
 }
 
-static status refill(mpm *m)
-{
-    brick *old = m->bricks;
-    const int n = m->bricks_used;
-    status s = store_new_grid(m);
-    for (int i = 0; i < n; i++) {
-        if (s.code == STATUS_OK) s = empty_brick(m, &old[i]);
-        store_free_brick(&old[i]);
-    }
-    free(old);
-    return s;
-}
-
 zone zone_of(const mpm *m)
 {
     const mpm_axis *s = &m->scene.axis[0];
@@ -359,8 +413,7 @@ status zone_regrid(mpm *m, zone z)
     grids_free(&m->grids);
     m->grids = made;
     TRY(refill(m));
-    TRY(merge_coarse(m));
-    return store_settle(m);
+    return merge_coarse(m);
 }
 
 /* Across, the zone widens by a quarter or more of itself when the groove comes near its rim (front.c). */
@@ -429,6 +482,7 @@ status zone_follow(mpm *m)
     } else {
         TRY(leave_wake(m, next.at[0] + m->scene.axis[0].fine)); /* the cell at the zone's end merges already */
         TRY(zone_regrid(m, next));
+        TRY(store_surround_all(m));
         TRY(grow_in(m, now.at[2]));
         TRY(store_settle(m));
     }
