@@ -27,6 +27,7 @@ typedef struct {
     const char *store;   /* --store; NULL: in the output directory, "": none */
     const char *sets[MAX_SETS];
     int n_sets, threads;
+    lending *lending;
     outdir_options how;
     double max_walltime; /* [s], INFINITY: none */
     bool quiet;
@@ -227,6 +228,7 @@ static int run_case(const options *o)
                                   .store = o->store,
                                   .how = o->how,
                                   .threads = o->threads,
+                                  .lending = o->lending,
                                   .progress_to = stderr,
                                   .quiet = o->quiet,
                                   .stop = stop_requested };
@@ -490,7 +492,7 @@ static int default_threads(void)
     return mine > here ? mine / here : 1;
 }
 
-static int lead(int argc, char **argv, int threads)
+static int lead(int argc, char **argv, int threads, lending *l)
 {
     const int answered = argc > 1 ? answer(argc, argv) : -1;
     if (answered >= 0) return answered;
@@ -498,34 +500,41 @@ static int lead(int argc, char **argv, int threads)
         print_help(stderr);
         return EXIT_USAGE;
     }
-    options o = { .threads = threads, .max_walltime = INFINITY };
+    options o = { .threads = threads, .lending = l, .max_walltime = INFINITY };
     const status s = parse(argc, argv, &o);
     if (s.code != STATUS_OK) return complain(s);
+    lending_own(l, o.threads);
     return o.command->run(&o);
 }
 
 /* The other processes read their number of threads only; what is wrong with the words, rank 0 says. */
-static int follow(int argc, char **argv, int threads)
+static int follow(int argc, char **argv, int threads, lending *l)
 {
     options o = { .threads = threads };
     (void)parse(argc, argv, &o);
-    crew_serve(o.threads);
+    lending_own(l, o.threads);
+    crew_serve(o.threads, l);
     return EXIT_DONE;
 }
 
 int main(int argc, char **argv)
 {
     wait_passively(argv);
-    const status s = ranks_start();
+    status s = ranks_start();
     if (s.code != STATUS_OK) return complain(s);
-    const int threads = default_threads();
+    const int threads =
+        default_threads(); /* of the cores that this process was bound to, not of those that it may use then */
+    lending *l;
+    s = lending_open(threads, &l);
+    if (s.code != STATUS_OK) return complain(s);
     int code;
     if (ranks_number() == 0) {
-        code = lead(argc, argv, threads);
+        code = lead(argc, argv, threads, l);
         crew_dismiss();
     } else {
-        code = follow(argc, argv, threads);
+        code = follow(argc, argv, threads, l);
     }
+    lending_close(l);
     ranks_finish();
     return code;
 }

@@ -148,6 +148,13 @@ static double dense_particles(const mpm *m)
     return volume / v;
 }
 
+/* What is made for each thread is there for MPM_MAX_THREADS of them. */
+void mpm_set_threads(mpm *m, int threads)
+{
+    m->threads = threads > 0 ? threads : omp_get_max_threads();
+    if (m->threads > MPM_MAX_THREADS) m->threads = MPM_MAX_THREADS;
+}
+
 status mpm_create(const mpm_scene *scene, int threads, mpm **out)
 {
     *out = NULL;
@@ -156,8 +163,7 @@ status mpm_create(const mpm_scene *scene, int threads, mpm **out)
     CHECK(m, STATUS_MEMORY, "no memory for the solver");
     memset(m, 0, sizeof *m);
     m->scene = *scene;
-    m->threads = threads > 0 ? threads : omp_get_max_threads();
-    if (m->threads > MPM_MAX_THREADS) m->threads = MPM_MAX_THREADS;
+    mpm_set_threads(m, threads);
     m->kernel = kernels_choose(scene->instruction_set);
     status s =
         m->kernel

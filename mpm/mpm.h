@@ -105,6 +105,8 @@ typedef struct {
 
 status mpm_create(const mpm_scene *scene, int threads, mpm **out);
 void mpm_free(mpm *m); /* NULL allowed */
+/* Between steps: in mpm_sink too.  Changes no bit of what comes out; 0: as many as OpenMP gives. */
+void mpm_set_threads(mpm *m, int threads);
 
 /* Steps until time >= until [s].  STATUS_NUMERICAL names the particle, the time and what to try. */
 status mpm_advance(mpm *m, double until, const mpm_sink *sink);

@@ -1,10 +1,15 @@
-/* Scenes over several processes: the same as by one, whoever computes them.
+/* Scenes over several processes: the same as by one, whoever computes them, on whatever threads are lent.
  *
  * Started by ctest as one process, it starts itself again as three under mpirun; rank 0 tests, the others serve. */
+#define _GNU_SOURCE /* sched_setaffinity */
+
 #include "coupling/study/crew.h"
+#include "coupling/study/lending.h"
 #include "coupling/study/ranks.h"
 
+#include <dirent.h>
 #include <math.h>
+#include <sched.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -23,7 +28,12 @@
     } while (0)
 
 #define CASES BREECH_TESTS "/../cases"
-enum { PROCESSES = 3, SKIPPED = 77 };
+enum { PROCESSES = 3, SKIPPED = 77, SUBSETS = 1 << PROCESSES };
+
+/* What main, which all processes run, has seen before the tests; and what they lend by. */
+static lending *lent;
+static int shares[SUBSETS][PROCESSES];
+static bool all_cores;
 
 /* Some hundred steps of real solver: a stub of an armature for a millionth of a second. */
 static breech_case *small_case(const char *end_time)
@@ -63,9 +73,13 @@ static scene_query query_at(const breech_case *c, double velocity)
 
 static void open_session(const breech_case *c, const char *dir, session *s)
 {
-    const session_options options = {
-        .dir = dir, .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
-    };
+    const session_options options = { .dir = dir,
+                                      .store = "",
+                                      .how = { .force = true },
+                                      .threads = 1,
+                                      .lending = lent,
+                                      .progress_to = stderr,
+                                      .quiet = true };
     OK(session_open(c, &options, s));
     assert_non_null(s->crew);
 }
@@ -258,10 +272,150 @@ static void test_stopped(void **state)
     case_free(c);
 }
 
+/* ---- lending ---- */
+
+/* Every process with threads of its own, first one, then two, three; whoever is at work, none are lost. */
+static void test_shares(void **state)
+{
+    (void)state;
+    for (int at_work = 1; at_work < SUBSETS; at_work++) {
+        int sum = 0;
+        for (int i = 0; i < PROCESSES; i++) {
+            if (!(at_work >> i & 1)) continue;
+            assert_true(shares[at_work][i] >= i + 1);
+            sum += shares[at_work][i];
+        }
+        assert_int_equal(sum, 1 + 2 + 3);
+    }
+    assert_int_equal(shares[1 | 2][0], 1 + 2); /* of three the larger half */
+    assert_true(all_cores);
+}
+
+static int tasks(void)
+{
+    int n = 0;
+    DIR *d = opendir("/proc/self/task");
+    assert_non_null(d);
+    for (const struct dirent *e = readdir(d); e; e = readdir(d)) n += e->d_name[0] != '.';
+    closedir(d);
+    return n;
+}
+
+/* One scene while the others idle: on everybody's threads, to the bits of one. */
+static void test_lent(void **state)
+{
+    (void)state;
+    breech_case *c = small_case("scene.end_time=1 us");
+    const scene_query q = query_at(c, 1500.0);
+    const scene_record *out;
+    const scene_record want = alone(c, &q);
+    const int before = tasks();
+    session s;
+    open_session(c, "lent", &s);
+    OK(scenes_all(&s, &q, 1, &out));
+    assert_same(*out, want);
+
+    assert_true(tasks() >= before + PROCESSES - 1);
+    OK(session_close(&s, true));
+    case_free(c);
+}
+
+static bool comes_to(const scene_host *host, int threads)
+{
+    const double limit = wall_clock() + 60.0;
+    while (host->threads_now(host->user) != threads && wall_clock() < limit) {
+        host->stop(host->user); /* hears the others */
+        ranks_pause();
+    }
+    return wall_clock() < limit;
+}
+
+static int borrowed; /* the runs in which this was seen */
+
+/* The first waits until both others compute, and until both have done. */
+static status run_and_look(const scene_job *job, const scene_host *host, impact *out)
+{
+    if (!borrowed++) {
+        assert_true(comes_to(host, 1));
+        assert_true(comes_to(host, PROCESSES));
+    }
+    return scene_run(job, host, out);
+}
+
+/* Who computes lends nothing, and lends again when it has done. */
+static void test_given_back(void **state)
+{
+    (void)state;
+    breech_case *c = small_case("scene.end_time=1 us");
+    const scene_query q[] = { query_at(c, 1500.0), query_at(c, 1400.0), query_at(c, 1600.0) };
+    const scene_record *out[3];
+    session s;
+    open_session(c, "given-back", &s);
+    s.run_scene = run_and_look;
+    OK(scenes_all(&s, q, 3, out));
+    assert_true(borrowed > 0);
+    for (int i = 0; i < 3; i++) assert_same(*out[i], alone(c, &q[i]));
+    OK(session_close(&s, true));
+    case_free(c);
+}
+
+/* ---- starting ---- */
+
+/* As a launcher does it: to one core. */
+static void bind_to_one(const cpu_set_t *cores)
+{
+    cpu_set_t one;
+    int core = 0, left = ranks_number() % CPU_COUNT(cores);
+    while (!CPU_ISSET(core, cores) || left-- > 0) core++;
+    CPU_ZERO(&one);
+    CPU_SET(core, &one);
+    sched_setaffinity(0, sizeof one, &one);
+}
+
+static bool has_all(const cpu_set_t *cores)
+{
+    cpu_set_t mine;
+    return sched_getaffinity(0, sizeof mine, &mine) == 0 && (CPU_EQUAL(&mine, cores) || CPU_COUNT(&mine) == PROCESSES);
+}
+
+/* All processes together, for every subset of them at work. */
+static status try_shares(void)
+{
+    const int me = ranks_number();
+    lending *l;
+    TRY(lending_open(1, &l));
+    lending_own(l, me + 1);
+    for (int at_work = 0; at_work < SUBSETS; at_work++) {
+        ranks_memory all;
+        if (at_work >> me & 1) lending_begin(l);
+        TRY(ranks_share(&me, sizeof me, &all)); /* all have begun */
+        ranks_unshare(&all);
+        const int mine = lending_threads(l);
+        TRY(ranks_share(&mine, sizeof mine, &all));
+        memcpy(shares[at_work], all.part, sizeof shares[at_work]);
+        ranks_unshare(&all);
+        if (at_work >> me & 1) lending_end(l);
+    }
+    lending_close(l);
+    return status_ok();
+}
+
+static status start_lending(void)
+{
+    cpu_set_t cores;
+    sched_getaffinity(0, sizeof cores, &cores);
+    bind_to_one(&cores);
+    TRY(lending_open(1, &lent));
+    all_cores = has_all(&cores);
+    return try_shares();
+}
+
 static int as_crew(const char *self)
 {
     char count[8];
     snprintf(count, sizeof count, "%d", PROCESSES);
+    unsetenv("OMP_PROC_BIND"); /* nothing would be lent */
+    unsetenv("OMP_PLACES");
     setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
     setenv("LSAN_OPTIONS", "detect_leaks=0", 0); /* MPI's own */
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
@@ -275,18 +429,22 @@ int main(int argc, char **argv)
 {
     if (argc == 1) return as_crew(argv[0]);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_batch),  cmocka_unit_test(test_laid_aside), cmocka_unit_test(test_ahead),
-        cmocka_unit_test(test_failed), cmocka_unit_test(test_stopped),    cmocka_unit_test(test_put_off),
+        cmocka_unit_test(test_lent), /* first: no other has made threads yet */
+        cmocka_unit_test(test_shares),     cmocka_unit_test(test_given_back), cmocka_unit_test(test_batch),
+        cmocka_unit_test(test_laid_aside), cmocka_unit_test(test_ahead),      cmocka_unit_test(test_failed),
+        cmocka_unit_test(test_stopped),    cmocka_unit_test(test_put_off),
     };
     int failed = 0;
     if (ranks_start().code != STATUS_OK) return SKIPPED; /* built without MPI */
     if (ranks_count() < PROCESSES) return puts("skipped: not started by mpirun"), SKIPPED;
+    if (start_lending().code != STATUS_OK) return 1;
     if (ranks_number() == 0) {
         failed = cmocka_run_group_tests(tests, NULL, NULL);
         crew_dismiss();
     } else {
-        crew_serve(1);
+        crew_serve(1, lent);
     }
+    lending_close(lent);
     ranks_finish();
     return failed;
 }

@@ -31,6 +31,38 @@ static void test_threads(void **state)
     free(one.data);
 }
 
+typedef struct {
+    mpm *m;
+    bool change;
+} thread_changer;
+
+static bool change_threads(void *user, const mpm *m)
+{
+    static const int numbers[] = { 3, 1, 2, 2, 1, 1, 4, 3 };
+    const thread_changer *c = user;
+    const int step = (int)mpm_state(m).steps;
+    if (c->change) mpm_set_threads(c->m, numbers[step % 8]);
+    return step < 120;
+}
+
+/* Threads that come and go between two steps. */
+static void test_threads_change(void **state)
+{
+    (void)state;
+    gouge_scene g;
+    scene_gouge(&g, H, SPEED);
+    scene_picture p[2];
+    for (int i = 0; i < 2; i++) {
+        thread_changer c = { scene_make(&g.scene, 1), i == 1 };
+        assert_int_equal(mpm_advance(c.m, 1.0, &(mpm_sink){ change_threads, &c }).code, STATUS_STOPPED);
+        assert_int_equal(mpm_state(c.m).steps, 120);
+        p[i] = scene_picture_of(c.m);
+        mpm_free(c.m);
+    }
+    scene_assert_same(p[0], p[1], "threads that come and go");
+    free(p[0].data), free(p[1].data);
+}
+
 /* The threads must have something to disagree about: another scene gives another picture. */
 static void test_picture_sees(void **state)
 {
@@ -196,9 +228,10 @@ static void test_instruction_sets(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_threads),  cmocka_unit_test(test_picture_sees),
-        cmocka_unit_test(test_restart),  cmocka_unit_test(test_stops_between),
-        cmocka_unit_test(test_refusals), cmocka_unit_test(test_instruction_sets),
+        cmocka_unit_test(test_threads),          cmocka_unit_test(test_threads_change),
+        cmocka_unit_test(test_picture_sees),     cmocka_unit_test(test_restart),
+        cmocka_unit_test(test_stops_between),    cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_instruction_sets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

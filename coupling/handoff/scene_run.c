@@ -146,6 +146,7 @@ static bool on_step(void *user, const mpm *m)
     const double now = wall_clock();
     const mpm_report state = mpm_glance(m);
     r->before = r->reached, r->reached = state.time;
+    if (r->host->threads_now) mpm_set_threads(r->m, r->host->threads_now(r->host->user));
     if (r->host->progress && now - r->looked >= LIVE_INTERVAL) {
         r->looked = now;
         progress_update(r->host->progress, progress_of(r, &state), state.particle_steps);

@@ -26,7 +26,8 @@ typedef struct {
     scene_shelf
         *shelf;  /* keeps what ended at its gauge while its groove grew, and is what its whole scene goes on from */
     int threads; /* 0: as many as there are */
-    bool (*stop)(void *user); /* asked after every step; true: save, STATUS_STOPPED */
+    int (*threads_now)(void *user); /* asked after every step: how many from here on; NULL: threads */
+    bool (*stop)(void *user);       /* asked after every step; true: save, STATUS_STOPPED */
     /* A checkpoint: on a stop, and every output.checkpoint_interval.  wall: spent in the scene so far [s]. */
     status (*save)(void *user, const char *scene, const mpm *m, double wall);
     void *user;

@@ -286,6 +286,12 @@ static bool stop_own(void *user)
     return k->aside;
 }
 
+static int threads_now(void *user)
+{
+    const own_scene *own = user;
+    return lending_threads(own->k->s->lending);
+}
+
 static status save_own(void *user, const char *scene, const mpm *m, double wall)
 {
     const own_scene *own = user;
@@ -322,12 +328,13 @@ static status run_own(crew *k, errand *e)
                               .timing = &s->timing,
                               .shelf = &s->shelf,
                               .threads = s->threads,
+                              .threads_now = s->lending ? threads_now : NULL,
                               .stop = stop_own,
                               .save = save_own,
                               .user = &own };
     snprintf(task, sizeof task, "%s, %d of %d others at work", e->query.name, k->members - (idle_member(k) ? 1 : 0),
              k->members);
-    const scene_work_how how = { .run = s->run_scene, .task = task, .host = &host, .resume = e->at };
+    const scene_work_how how = { s->run_scene, task, &host, s->lending, e->at };
     TRY(scene_work(&e->query, e->key.hash, &how, &r));
     TRY(scene_file_make(&r, &e->key, e->rows, &file));
     return come(k, e, file);

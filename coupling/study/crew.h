@@ -28,7 +28,7 @@ status crew_ahead(crew *k, const scene_query *query, int n, bool level);
 status crew_take(crew *k, const scene_key *key, h5_file **out);
 
 /* The others: compute until rank 0 says it is over. */
-void crew_serve(int threads);
+void crew_serve(int threads, lending *l);
 /* Rank 0, last: says so and waits until all have heard. */
 void crew_dismiss(void);
 

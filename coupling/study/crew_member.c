@@ -29,6 +29,7 @@ typedef struct work {
 
 struct member {
     int threads;
+    lending *lending;
     work *top;
     scene_shelf shelf;
     bool over; /* nothing more comes */
@@ -42,6 +43,12 @@ static bool heard_stop(void *user)
     const work *w = user;
     while (listen(w->me)) continue;
     return w->give_up;
+}
+
+static int threads_now(void *user)
+{
+    const work *w = user;
+    return lending_threads(w->me->lending);
 }
 
 static status send_file(void *user, const char *path, const void *data, size_t bytes)
@@ -64,9 +71,10 @@ static status compute(work *w, const scene_query *q, const scene_key *key, h5_fi
                               .progress = &silent,
                               .shelf = &w->me->shelf,
                               .threads = w->me->threads,
+                              .threads_now = w->me->lending ? threads_now : NULL,
                               .stop = heard_stop,
                               .user = w };
-    const scene_work_how how = { .run = scene_run, .task = q->name, .host = &host };
+    const scene_work_how how = { .run = scene_run, .task = q->name, .host = &host, .lending = w->me->lending };
     status done = scene_work(q, key->hash, &how, &r);
     if (done.code == STATUS_OK) done = scene_file_make(&r, key, rows, file);
     history_close(rows);
@@ -150,9 +158,9 @@ static bool listen(member *me)
     return any;
 }
 
-void crew_serve(int threads)
+void crew_serve(int threads, lending *l)
 {
-    member me = { .threads = threads };
+    member me = { .threads = threads, .lending = l };
     signal(SIGINT, SIG_IGN); /* rank 0 hears them and says what to do */
     signal(SIGTERM, SIG_IGN);
     while (!me.over)

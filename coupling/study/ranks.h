@@ -34,6 +34,17 @@ status ranks_send(int to, int kind, const void *data, size_t bytes);
 status ranks_receive(message *out, bool *any);
 void message_free(message *m);
 
+/* Memory that the processes of one machine share, a part each, one behind the other.  All of several processes call these two
+ * together. */
+typedef struct {
+    void *part;
+    int n, me;
+    void *window; /* MPI's, owned */
+} ranks_memory;
+/* Returns when every part holds what its process has brought; bytes: the same for all.  For what changes later: atomics. */
+status ranks_share(const void *mine, size_t bytes, ranks_memory *out);
+void ranks_unshare(ranks_memory *m);
+
 /* Sleeps a little: between two looks that found nothing. */
 void ranks_pause(void);
 

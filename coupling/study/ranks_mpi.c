@@ -86,6 +86,32 @@ status ranks_receive(message *out, bool *any)
     return status_ok();
 }
 
+status ranks_share(const void *mine, size_t bytes, ranks_memory *out)
+{
+    MPI_Comm machine;
+    MPI_Aint size;
+    int unit;
+    void *here;
+    MPI_Win *window = malloc(sizeof *window);
+    CHECK(window, STATUS_MEMORY, "no memory for a window of MPI");
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+    MPI_Comm_size(machine, &out->n);
+    MPI_Comm_rank(machine, &out->me);
+    MPI_Win_allocate_shared((MPI_Aint)bytes, 1, MPI_INFO_NULL, machine, &here, window);
+    MPI_Win_shared_query(*window, 0, &size, &unit, &out->part);
+    MPI_Comm_free(&machine);
+    out->window = window;
+    memcpy(here, mine, bytes);
+    MPI_Win_fence(0, *window);
+    return status_ok();
+}
+
+void ranks_unshare(ranks_memory *m)
+{
+    MPI_Win_free(m->window);
+    free(m->window);
+}
+
 void message_free(message *m)
 {
     free(m->data);

@@ -53,7 +53,10 @@ status scene_work(const scene_query *q, uint64_t key, const scene_work_how *how,
     job.task = how->task;
     job.resume = how->resume;
     TRY(twin_of(q, &job.twin));
-    TRY(how->run(&job, how->host, &hit));
+    lending_begin(how->lending);
+    const status run = how->run(&job, how->host, &hit);
+    lending_end(how->lending);
+    TRY(run);
     memset(out, 0, sizeof *out);
     out->entry = scene_entry(q);
     out->entry.result = hit.result;

@@ -2,6 +2,7 @@
 #ifndef BREECH_COUPLING_SCENE_WORK_H
 #define BREECH_COUPLING_SCENE_WORK_H
 
+#include "coupling/study/lending.h"
 #include "coupling/study/scenes.h"
 #include "coupling/study/store.h"
 
@@ -11,6 +12,7 @@ typedef struct {
     scene_runner run;
     const char *task; /* for people */
     const scene_host *host;
+    lending *lending; /* NULL: none */
     scene_resume resume;
 } scene_work_how;
 

@@ -53,7 +53,7 @@ static status run_here(session *s, const scene_query *q, const scene_key *key, s
                               .stop = stop_asked,
                               .save = session_save_inside,
                               .user = s };
-    const scene_work_how how = { s->run_scene, task, &host, session_resume_of(s, q->name) };
+    const scene_work_how how = { s->run_scene, task, &host, NULL, session_resume_of(s, q->name) };
     return scene_work(q, key->hash, &how, out);
 }
 

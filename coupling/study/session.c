@@ -136,6 +136,7 @@ status session_open(const breech_case *c, const session_options *o, session *s)
     s->c = c;
     s->dir.lock = -1;
     s->threads = o->threads;
+    s->lending = o->lending;
     s->stop = o->stop;
     s->run_scene = scene_run;
     s->started = wall_clock();

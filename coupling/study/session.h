@@ -24,6 +24,7 @@ typedef struct {
     progress progress;
     timing timing;
     int threads;
+    struct lending *lending; /* borrowed; NULL: there is none */
     bool (*stop)(void);
     status (*run_scene)(const scene_job *, const scene_host *, impact *); /* scene_run; tests put another in */
     checkpoint_key key;
@@ -42,6 +43,7 @@ typedef struct {
     const char *store;  /* NULL: <dir>/store; "": none */
     outdir_options how; /* --force, --resume */
     int threads;
+    struct lending *lending; /* between processes (lending.h), borrowed; NULL: none */
     FILE *progress_to;
     bool quiet;
     bool (*stop)(void);
