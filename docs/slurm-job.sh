@@ -7,7 +7,7 @@
 #SBATCH --time=04:00:00
 set -euo pipefail
 case=${1:?which case?}
-export OMP_NUM_THREADS=${SLURM_CPUS_PER_TASK:-1} OMP_PLACES=cores OMP_WAIT_POLICY=passive
+export OMP_NUM_THREADS=${SLURM_CPUS_PER_TASK:-1} OMP_WAIT_POLICY=passive # no OMP_PLACES: idle processes lend their threads
 
 # Stop by itself ten minutes before Slurm would: rank 0's scene is checkpointed, the others' are computed again.
 srun breech onset "$case" -o "out/$(basename "$case" .yaml)" --store "${BREECH_STORE:-out/store}" \

@@ -95,7 +95,7 @@ const summary_key summary_scene_keys[] = {
     VALUE(scene_result, KEY_COUNT, "clamps_compression", clamps_compression, "1", "compressions held at a limit"),
     NUMBER(scene_result, "eroded_mass", eroded_mass, "kg", "vapour and dust taken out, full model"),
     NUMBER(scene_result, "wall_seconds", wall_seconds, "s", "time it took"),
-    VALUE(scene_result, KEY_INTEGER, "threads", threads, "1", "used"),
+    VALUE(scene_result, KEY_INTEGER, "threads", threads, "1", "of its process; others may have lent theirs"),
     KEYS_END
 };
 
