@@ -547,6 +547,27 @@ static void test_gauged(void **state)
     case_free(m.c);
 }
 
+/* A groove that dies is known half way between its gauges, one that grows or hesitates is not. */
+static void test_dying(void **state)
+{
+    (void)state;
+    made m = make((const char *const[]){ NULL });
+    const double *gauge = m.scene.gauge_time, half = 0.5 * (gauge[0] + gauge[1]);
+    mpm_report now = { .time = half, .plastic_time = half, .gauge_at = { gauge[0] }, .gauge_power = { 1e5 } };
+    for (double folds = -2.0; folds <= 2.0; folds += 0.1) {
+        now.plastic_power = 1e5 * exp(0.5 * folds);
+        assert_true(scene_groove_dies(m.c, &m.scene, &now) == (folds < -0.501));
+    }
+    now.plastic_power = 1e5 * exp(0.5 * -0.7);
+    m.c->scene.growth_scatter = 0.3; /* what decides nothing reaches further */
+    assert_false(scene_groove_dies(m.c, &m.scene, &now));
+    now.plastic_power = 1e4;
+    assert_true(scene_groove_dies(m.c, &m.scene, &now));
+    now.time = now.plastic_time = 0.99 * half;
+    assert_false(scene_groove_dies(m.c, &m.scene, &now));
+    case_free(m.c);
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -581,15 +602,19 @@ static status count_snapshot(void *user, const char *path, const void *data, siz
     return status_ok();
 }
 
+static const char *const FAST[] = { "scene.velocity=2 km/s", "scene.end_time=3.4 us",
+                                    "scene.contact_pressure=300 MPa" };
+static const char *const SLOW[] = { "scene.velocity=0.8 km/s", "scene.end_time=8 us", "scene.contact_pressure=20 MPa" };
+
 /* A small scene, to its gauge or whole. */
-static run_counted run_small(bool to_gauge, const char *written, scene_shelf *shelf)
+static run_counted run_small(const char *const *speed, bool to_gauge, const char *written, scene_shelf *shelf)
 {
     const char *const sets[] = { written,
                                  to_gauge ? "scene.stop_when_gauged=yes" : "scene.stop_when_gauged=no",
-                                 "scene.velocity=2 km/s",
-                                 "scene.contact_pressure=300 MPa",
+                                 speed[0],
+                                 speed[1],
+                                 speed[2],
                                  "particle.radius=0.2 mm",
-                                 "scene.end_time=3.4 us",
                                  "scene.courant=0.2", /* more steps than pieces: none ends with the gauge's */
                                  "scene.coarse_cell=1.2 mm",
                                  "scene.growth=1.3",
@@ -646,17 +671,17 @@ static void test_shelf(void **state)
 {
     (void)state;
     scene_shelf shelf = { .oldest = 0 };
-    const run_counted alone = run_small(false, "output.snapshots=2", NULL);
-    const run_counted gauged = run_small(true, "output.snapshots=0", &shelf);
+    const run_counted alone = run_small(FAST, false, "output.snapshots=2", NULL);
+    const run_counted gauged = run_small(FAST, true, "output.snapshots=0", &shelf);
     assert_true(gauged.hit.result.groove_growth > 0.0 && scene_shelf_find(&shelf, 1) && !scene_shelf_find(&shelf, 2));
-    const run_counted on = run_small(false, "output.snapshots=2", &shelf);
+    const run_counted on = run_small(FAST, false, "output.snapshots=2", &shelf);
     print_message("%d steps from the start, %d to the gauge, %d from there\n", alone.steps, gauged.steps, on.steps);
     assert_memory_equal(&on.hit, &alone.hit, sizeof on.hit);
     assert_true(on.steps < alone.steps - gauged.steps + 20 && on.snapshots == 2 && alone.snapshots == 2);
     assert_same_rows(alone.rows, on.rows);
     const char *full = getenv("BREECH_FULL");
     if (full && strcmp(full, "1") == 0) {
-        const run_counted many = run_small(false, "output.snapshots=31", &shelf);
+        const run_counted many = run_small(FAST, false, "output.snapshots=31", &shelf);
         assert_true(many.steps > 0.9 * alone.steps && many.snapshots == 31);
         assert_memory_equal(&many.hit, &alone.hit, sizeof many.hit);
         OK(history_close(many.rows));
@@ -665,6 +690,21 @@ static void test_shelf(void **state)
     assert_null(scene_shelf_find(&shelf, 1));
     history *const rows[] = { alone.rows, gauged.rows, on.rows };
     for (int i = 0; i < 3; i++) OK(history_close(rows[i]));
+}
+
+/* A dying groove is not driven to its second gauge, and is no gouge. */
+static void test_dies_early(void **state)
+{
+    (void)state;
+    scene_shelf shelf = { .oldest = 0 };
+    const run_counted slow = run_small(SLOW, true, "output.snapshots=0", &shelf);
+    const double gauge = 28 * 0.2e-3 / 800.0, half = 22 * 0.2e-3 / 800.0;
+    print_message("over at %.2f of the way to the second gauge: %s\n", slow.hit.result.end_time / gauge,
+                  slow.hit.result.reason);
+    assert_true(slow.hit.result.end_time >= half && slow.hit.result.end_time < 0.9 * gauge);
+    assert_true(slow.hit.result.class == DAMAGE_SCRATCH || slow.hit.result.class == DAMAGE_NONE);
+    assert_true(growth_folds(slow.hit.result.groove_growth, 0.2e-3, 800.0) < -0.5);
+    OK(history_close(slow.rows));
 }
 
 int main(void)
@@ -679,7 +719,8 @@ int main(void)
         cmocka_unit_test(test_grain_measures), cmocka_unit_test(test_fields),
         cmocka_unit_test(test_masses),         cmocka_unit_test(test_pit),
         cmocka_unit_test(test_refused),        cmocka_unit_test(test_growth),
-        cmocka_unit_test(test_gauged),         cmocka_unit_test(test_shelf),
+        cmocka_unit_test(test_gauged),         cmocka_unit_test(test_dying),
+        cmocka_unit_test(test_shelf),          cmocka_unit_test(test_dies_early),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

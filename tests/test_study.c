@@ -30,6 +30,7 @@ typedef struct {
     double zero, scale;    /* u = (v - zero) / scale [m/s] */
     double shift;          /* of the zero at the coarse resolution, 2 cells a radius [m/s] */
     double noise;          /* amplitude */
+    uint64_t salt;         /* of the noise */
     double doubt;          /* |excess| below which the class is undecided */
     double dip_at;         /* a stretch of 60 m/s that does not gouge, NaN: none [m/s] */
     int calls, fail_at;    /* 0: never fails */
@@ -47,7 +48,7 @@ static status value_of(void *user, double v, double cells, threshold_sample *out
     f->asked[f->calls++][1] = cells;
     if (f->promised[0] == v && f->promised[1] == cells) f->kept++;
     CHECK(f->calls != f->fail_at, STATUS_STOPPED, "stopped");
-    uint64_t seed = (uint64_t)(1000.0 * v) + (uint64_t)cells;
+    uint64_t seed = (uint64_t)(1000.0 * v) + (uint64_t)cells + f->salt;
     uniform(&seed);
     const double zero = f->zero + (cells < 2.5 ? f->shift : 0.0);
     double excess = f->f((v - zero) / f->scale) + f->noise * (2.0 * uniform(&seed) - 1.0);
@@ -130,8 +131,8 @@ static void test_found(void **state)
     (void)state;
     uint64_t seed = 7;
     const threshold_plan plan = usual();
-    double most = 0, sum = 0, rounds = 0;
-    int n = 0;
+    double most = 0, sum = 0;
+    int n = 0, pairs = 0;
     for (int k = 0; k < FUNCTIONS; k++)
         for (int i = 0; i < 400; i++) {
             function f = plain(functions[k], 1030.0 + 940.0 * uniform(&seed));
@@ -148,14 +149,13 @@ static void test_found(void **state)
             assert_true(fabs((r.interval[1] - r.bracket[1]) - fabs(r.shift)) < 1e-9);
             most = fmax(most, r.samples);
             sum += r.samples;
-            rounds += r.samples - f.pairs;
+            pairs += f.pairs;
             n++;
         }
-    print_message("scenes: %.2f on average, %.0f at most, in %.2f rounds of one or two, of %d searches\n", sum / n,
-                  most, rounds / n, n);
+    print_message("scenes: %.2f on average, %.0f at most, of %d searches\n", sum / n, most, n);
     assert_true(most <= 16.0);   /* 5 steps of halving coarse, 4 doublings and 4 halvings fine, and the first three */
-    assert_true(sum / n <= 9.0); /* the brief of the default case: 6 to 9 scenes */
-    assert_true(rounds < 0.7 * sum); /* two processes have something to do in most of them */
+    assert_true(sum / n <= 7.5); /* 8.1 when most were asked in pairs */
+    assert_true(pairs >= n);     /* the first two are wanted whatever either says */
 }
 
 /* The root: a line is met exactly by the secant. */
@@ -231,7 +231,7 @@ static void test_open_resolution(void **state)
         }
     }
     print_message("%d scenes, %d where the resolution leaves 15 %% open\n", asked[0], asked[1]);
-    assert_true(asked[1] < 0.85 * asked[0]);
+    assert_true(asked[1] < 0.9 * asked[0]);
 }
 
 /* Does the function turn back?  Of each resolution's search some scene lies far out on both sides, its own or one that asks for that. */
@@ -276,6 +276,21 @@ static void test_ends(void **state)
     }
 }
 
+/* Fine cells far off the coarse ones: the steps grow. */
+static void test_far_shift(void **state)
+{
+    (void)state;
+    const threshold_plan plan = usual();
+    int asked = 0, n = 0;
+    for (double shift = 200.0; shift <= 450.0; shift += 10.0, n++) {
+        function f = plain(line, 1500.0 - 0.5 * shift);
+        f.shift = shift;
+        asked += search(&f, &plan).samples;
+    }
+    print_message("%d scenes\n", asked);
+    assert_true(asked < 10 * n);
+}
+
 /* ---- functions that are not so kind ---- */
 
 /* Whatever the noise makes of the samples, the interval holds every velocity where their side is in doubt. */
@@ -289,6 +304,7 @@ static void test_noise(void **state)
         function f = plain(line, 1200.0 + 600.0 * uniform(&seed));
         f.scale = 400.0;
         f.noise = 0.9; /* 360 m/s on the slope below */
+        f.salt = (uint64_t)i << 32;
         const threshold_result r = search(&f, &plan);
         warned += !r.monotone;
         for (int a = 0; a < r.samples; a++) {
@@ -517,6 +533,23 @@ static double first_position_at(const onset_answer *a, double v)
     return NAN;
 }
 
+/* Where the slower of the two whole craters of a study with one size of grain stands. */
+static double crater_between(const onset_answer *a)
+{
+    const threshold_result *t = &a->grains.family[0].surface.reference;
+    const double fastest = fmin(25.0 * floor(a->site[a->result.n_sites - 1].velocity / 25.0), 2000.0);
+    const double middle = 0.5 * (t->interval[1] + fastest);
+    double best = NAN;
+    if (t->interval[1] >= fastest) return t->bracket[1];
+    for (int i = 0; i < a->result.n_scenes; i++) {
+        const onset_scene *s = &a->scene[i];
+        const bool gouges = s->gauged && s->cells_per_radius == t->cells && s->result.class == DAMAGE_GOUGE;
+        if (!gouges || fabs(s->velocity - middle) > (fastest - t->interval[1]) / 3.0) continue;
+        if (isnan(best) || fabs(s->velocity - middle) < fabs(best - middle)) best = s->velocity;
+    }
+    return isnan(best) ? 25.0 * ceil(middle / 25.0) : best;
+}
+
 /* Judged by growth, a study runs two whole scenes more where something gouges, at fine cells; and so they do gouge. */
 static void check_scenes(const onset_answer *a, bool by_growth)
 {
@@ -535,7 +568,7 @@ static void check_scenes(const onset_answer *a, bool by_growth)
     assert_int_equal(whole, by_growth ? 2 : r->n_scenes);
     assert_int_equal(r->n_scenes, a->grains.family[0].surface.samples + (by_growth ? 2 : 0));
     if (!by_growth) return;
-    assert_true(slowest == a->grains.family[0].surface.reference.bracket[1]);
+    assert_true(slowest == crater_between(a));
     assert_true(fastest == 25.0 * floor(fmin(a->site[r->n_sites - 1].velocity, 2000.0) / 25.0));
     for (int i = 0; i < r->n_sites; i++) { /* the made-up volume is 1e-9 v */
         const double at = fmin(fmax(a->site[i].velocity, slowest), fastest);
@@ -637,7 +670,7 @@ static void test_craters(void **state)
     onset_answer a;
     whole_scenes w = whole_at(NULL, 990.0, &a); /* below the range in fine cells, inside it in coarse ones */
     assert_int_equal(a.grains.family[0].surface.reference.outcome, THRESHOLD_BELOW);
-    assert_true(w.n == 2 && w.slowest == 1000.0 && w.fastest == 2000.0);
+    assert_true(w.n == 2 && w.slowest == crater_between(&a) && w.slowest > 1000.0 && w.fastest == 2000.0);
     onset_answer_free(&a);
     w = whole_at((const char *const[]){ "study.fine_cells_per_radius=2", NULL }, 1430.0, &a);
     for (int i = 0; i < a.result.n_sites;
@@ -646,9 +679,13 @@ static void test_craters(void **state)
     onset_answer_free(&a);
     w = whole_at(slow, 1500.0, &a);
     const double fastest = a.site[a.result.n_sites - 1].velocity;
-    assert_true(w.n == 2 && w.slowest == a.grains.family[0].surface.reference.bracket[1]);
+    assert_true(w.n == 2 && w.slowest == crater_between(&a));
     onset_answer_free(&a);
-    w = whole_at(slow, fastest - 5.0, &a); /* passed, but not by a step of the grid */
+    w = whole_at((const char *const[]){ "study.resolution_error=0.1", "study.coarse_cells_per_radius=3", NULL }, 1390.0,
+                 &a);
+    assert_true(w.n == 2 && w.slowest == 1750.0); /* the search's second; goes on from where that ended */
+    onset_answer_free(&a);
+    w = whole_at(slow, 0.5 * (25.0 * floor(fastest / 25.0) + fastest), &a); /* passed, but not by a step of the grid */
     assert_true(fastest < 1950.0 && w.n == 1 && fabs(w.slowest - fastest) < 25.0);
     onset_answer_free(&a);
     w = whole_at(slow, fastest + 200.0, &a);
@@ -770,16 +807,27 @@ static void test_other_case(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_found),           cmocka_unit_test(test_line_exact),
-        cmocka_unit_test(test_shift_shown),     cmocka_unit_test(test_allowance),
-        cmocka_unit_test(test_open_resolution), cmocka_unit_test(test_beyond),
-        cmocka_unit_test(test_one_stage),       cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_noise),           cmocka_unit_test(test_dip),
-        cmocka_unit_test(test_undecided),       cmocka_unit_test(test_budget),
-        cmocka_unit_test(test_driven),          cmocka_unit_test(test_errors),
-        cmocka_unit_test(test_onset),           cmocka_unit_test(test_moves),
-        cmocka_unit_test(test_screened),        cmocka_unit_test(test_two_kinds),
-        cmocka_unit_test(test_resume),          cmocka_unit_test(test_other_case),
+        cmocka_unit_test(test_found),
+        cmocka_unit_test(test_line_exact),
+        cmocka_unit_test(test_shift_shown),
+        cmocka_unit_test(test_allowance),
+        cmocka_unit_test(test_open_resolution),
+        cmocka_unit_test(test_beyond),
+        cmocka_unit_test(test_one_stage),
+        cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_far_shift),
+        cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_dip),
+        cmocka_unit_test(test_undecided),
+        cmocka_unit_test(test_budget),
+        cmocka_unit_test(test_driven),
+        cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_onset),
+        cmocka_unit_test(test_moves),
+        cmocka_unit_test(test_screened),
+        cmocka_unit_test(test_two_kinds),
+        cmocka_unit_test(test_resume),
+        cmocka_unit_test(test_other_case),
         cmocka_unit_test(test_craters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,6 @@
 #include "coupling/handoff/scene_from_state.h"
 
+#include "coupling/io/summary.h"
 #include "mpm/grid.h"
 #include "mpm/shape.h"
 
@@ -17,6 +18,9 @@ static const double FRONT_SPEED = 0.7;
  * later the contact face begins to run out. */
 static const double GROWTH_WAY[2] = { 16.0, 28.0 };
 static const double DEAD_FOLDS = -3.0; /* of a groove that died before the first gauge, and the least of any */
+
+/* A groove that loses so much from gauge to gauge, more than twice what decides nothing, is known to die half way. */
+static const double DYING_FOLDS = -0.5;
 
 /* A fine zone that follows starts so many radii wider than the grain on either side, but no wider than half of its largest; it
  * widens with the groove. */
@@ -46,6 +50,14 @@ double growth_folds(double growth, double radius, double velocity)
 {
     const double folds = growth * (GROWTH_WAY[1] - GROWTH_WAY[0]) * radius / velocity;
     return folds > DEAD_FOLDS ? folds : DEAD_FOLDS; /* NAN too */
+}
+
+bool scene_groove_dies(const breech_case *c, const mpm_scene *s, const mpm_report *now)
+{
+    if (!(now->gauge_at[0] > 0.0) || now->time < 0.5 * (s->gauge_time[0] + s->gauge_time[1])) return false;
+    const double radius = s->gauge_time[0] * s->follow_speed / GROWTH_WAY[0];
+    const double folds = growth_folds(scene_growth(now), radius, s->follow_speed);
+    return folds < fmin(DYING_FOLDS, -2.5 * c->scene.growth_scatter);
 }
 
 site_state state_of_case(const breech_case *c)

@@ -19,6 +19,7 @@
 #include "coupling/handoff/site_state.h"
 #include "coupling/io/case.h"
 #include "mpm/crater.h"
+#include "mpm/mpm.h"
 #include "mpm/scene.h"
 
 /* state: grain, velocity and contact pressure are used.  The scene borrows its materials from the case.
@@ -45,6 +46,10 @@ bool scene_is_gauged(const breech_case *c);
 
 /* When it will be over, for all that is known before: at its second gauge, or at its end [s]. */
 double scene_last(const breech_case *c, const mpm_scene *scene);
+
+/* Half way between its gauges or later: does the groove's plastic power fall so fast that the rest of the way would not change
+ * the answer? */
+bool scene_groove_dies(const breech_case *c, const mpm_scene *scene, const mpm_report *now);
 
 /* A growth [1/s] as e-folds over the way between the two gauges [1]; one that died before the first has the growth NAN and
  * counts as -3, and none as less. */

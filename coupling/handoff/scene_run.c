@@ -130,7 +130,8 @@ static status save(run *r)
 
 static bool is_gauged(const run *r, const mpm_report *now)
 {
-    return scene_is_gauged(r->job->c) && now->gauge_at[1] > 0.0;
+    const breech_case *c = r->job->c;
+    return scene_is_gauged(c) && (now->gauge_at[1] > 0.0 || scene_groove_dies(c, &r->job->scene, now));
 }
 
 /* Has the step ended a piece, or the scene? */
@@ -336,7 +337,7 @@ static void book_losses(const run *r, const armature_metal *before, const armatu
     out->impulse = fmax(halves * (kept - c->scene.friction * pressing * time), 0.0);
 }
 
-/* A scene that ends at its second gauge has no whole crater to be judged by; what left none until then is still `none`. */
+/* A scene that ends at its second gauge, or dying, has no whole crater to be judged by; what left none until then is still `none`. */
 static void judge_by_growth(const run *r, scene_result *out)
 {
     const double scatter = r->job->c->scene.growth_scatter;
@@ -345,7 +346,7 @@ static void judge_by_growth(const run *r, scene_result *out)
     const damage_class below = out->class == DAMAGE_NONE ? DAMAGE_NONE : DAMAGE_SCRATCH;
     out->class = !decided ? DAMAGE_UNDECIDED : folds > 0.0 ? DAMAGE_GOUGE : below;
     snprintf(out->reason, sizeof out->reason,
-             "the groove's plastic power changes by %.2f e-folds between the gauges, %s %.2f", folds,
+             "the groove's plastic power changes by %.2f e-folds from gauge to gauge, %s %.2f", folds,
              decided ? "beyond" : "within", scatter);
 }
 

@@ -5,7 +5,7 @@
 
 #include "coupling/io/history.h"
 
-enum { SCENE_SHELF_ROOM = 2 }; /* each takes the memory of its material points */
+enum { SCENE_SHELF_ROOM = 4 }; /* each takes the memory of its material points */
 
 typedef struct {
     uint64_t twin;       /* hash of what makes the scene, but for where it ends (scene_run.h); 0: an empty place */

@@ -58,11 +58,10 @@ static void take_bodies(scene_result *r, const scene_outcome *o)
     r->peak_pressure_rail_999 = of_body(m->peak_pressure_999, rail);
 }
 
-/* A groove that died between the two gauges: up to its end. */
-static double growth_of(const mpm_report *m)
+double scene_growth(const mpm_report *m)
 {
     const bool whole = m->gauge_at[1] > 0.0;
-    const double from = m->gauge_at[0], to = whole ? m->gauge_at[1] : m->time;
+    const double from = m->gauge_at[0], to = whole ? m->gauge_at[1] : m->plastic_time;
     const double power = fmax(whole ? m->gauge_power[1] : m->plastic_power, 1e-3 * m->gauge_power[0]);
     if (!(from > 0.0 && to > from && m->gauge_power[0] > 0.0)) return NAN;
     return log(power / m->gauge_power[0]) / (to - from);
@@ -75,7 +74,7 @@ scene_result scene_result_of(const scene_outcome *o)
     memset(&r, 0, sizeof r);
     take_crater(&r, o->crater);
     take_bodies(&r, o);
-    r.groove_growth = growth_of(m);
+    r.groove_growth = scene_growth(m);
     r.peak_pressure = m->peak_pressure;
     r.peak_temperature = m->peak_temperature;
     r.momentum_error = o->ledger->momentum_error;

@@ -255,6 +255,8 @@ typedef struct {
 } scene_outcome;
 /* The bodies named "rail" and "armature" give the peaks by body; NaN where there is none of that name. */
 scene_result scene_result_of(const scene_outcome *o);
+/* Of the power that ploughs a groove, from its first gauge to its second, or as far as it has come; NAN before [1/s]. */
+double scene_growth(const mpm_report *m);
 
 const char *breech_version(void); /* BREECH_VERSION, "unknown" where the build does not say */
 

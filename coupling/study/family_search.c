@@ -185,16 +185,35 @@ static int size_of_craters(const surface_plan *p, const surface_result *s, doubl
     return k;
 }
 
-/* Once the thresholds are known: the whole craters where gouging begins and at the fastest grain. */
+/* The scene of the search nearest to the middle of the velocities that gouge for sure; of none in their inner two thirds, the
+ * middle; where no grain is fast enough for sure, the slowest that gouges. */
+static double middle_gouge(const surface_plan *p, const surface_result *s, int k, double fastest)
+{
+    const double step = p->search.step, low = s->size[k].interval[1], middle = 0.5 * (low + fastest);
+    double best = NAN, off = (fastest - low) / 3.0;
+    if (low >= fastest) return k == p->reference ? s->reference.bracket[1] : step * ceil(low / step);
+    for (int i = 0; i < s->samples; i++) {
+        const surface_sample *a = &s->sample[i];
+        const double v = a->is.velocity;
+        if (a->radius != p->size[k] || a->is.cells_per_radius != s->reference.cells || !threshold_is_upper(&a->is) ||
+            fabs(v - middle) > off)
+            continue;
+        best = v, off = fabs(v - middle);
+    }
+    return isnan(best) ? step * ceil(middle / step) : best;
+}
+
+/* Once the thresholds are known: whole craters of what gouges, in the middle of its velocities and at the fastest grain.  Where
+ * gouging begins a groove is longest, costs most, and hangs on the resolution. */
 static status round_of_craters(asker *a, const surface_result *s)
 {
     const surface_plan *p = &a->family->plan;
-    const double step = p->search.step, fastest = fastest_grain(a->of, a->family);
+    const double fastest = fastest_grain(a->of, a->family);
     const int k = size_of_craters(p, s, fastest);
     if (!a->family->by_growth || k < 0) return status_ok();
-    const double from = k == p->reference ? s->reference.bracket[1] : step * ceil(s->size[k].interval[1] / step);
-    const double lowest = fmin(from, on_grid_below(&p->search, p->search.high));
-    const double at[FAMILY_CRATERS] = { lowest, fmax(lowest, on_grid_below(&p->search, fastest)) };
+    const double top = on_grid_below(&p->search, p->search.high);
+    const double slower = fmin(middle_gouge(p, s, k, on_grid_below(&p->search, fastest)), top);
+    const double at[FAMILY_CRATERS] = { slower, fmax(slower, on_grid_below(&p->search, fastest)) };
     for (int i = 0; i < FAMILY_CRATERS; i++) {
         const scene_query q = query_of(a, true, p->size[k], at[i], s->reference.cells);
         const scene_record *record;

@@ -8,9 +8,8 @@
 static const double TYPICAL = 1500.0;   /* of thresholds [m/s] */
 static const double COARSE_WIDTH = 0.2; /* of the coarse bracket over its middle [1] */
 static const double BEYOND_GAP =
-    0.15;                             /* of the threshold: a narrower stretch beside the bracket is not looked at [1] */
-enum { FINE_RESERVE = 6 };            /* scenes left for the fine stage, one beyond included */
-static const double INNER_EDGE = 0.2; /* of a bracket, kept free on both sides by the secant [1] */
+    0.15;                  /* of the threshold: a narrower stretch beside the bracket is not looked at [1] */
+enum { FINE_RESERVE = 6 }; /* scenes left for the fine stage, one beyond included */
 
 double threshold_step(double interval)
 {
@@ -147,36 +146,29 @@ static bool too_wide(const search *s, widths wanted, double lo, double hi)
            (p->place && p->place(p->place_user, hi) - p->place(p->place_user, lo) > wanted.place);
 }
 
-/* Do these velocities, rising and inside the bracket, leave no part of it too wide? */
-static bool enough(const search *s, widths wanted, const bracket *b, int n, const double *v)
+/* The velocity of the grid furthest from one end of a bracket towards the other that leaves no more than the wanted width. */
+static double reach(const search *s, widths wanted, double end, double other)
 {
-    double from = b->lo.velocity;
-    for (int i = 0; i <= n; i++) {
-        const double to = i < n ? v[i] : b->hi.velocity;
-        if (!(to > from) || too_wide(s, wanted, from, to)) return false;
-        from = to;
-    }
-    return true;
+    const double step = end < other ? s->plan->step : -s->plan->step;
+    double v = end;
+    while (fabs(other - v) > 0.5 * s->plan->step && !too_wide(s, wanted, fmin(end, v + step), fmax(end, v + step)))
+        v += step;
+    return v;
+}
+
+/* Where one scene is enough, there.  Else the secant's root, but where an end is within reach of it, at the end's reach: then the
+ * likelier side is narrow enough. */
+static double next_within(const search *s, widths wanted, const bracket *b)
+{
+    const double up = reach(s, wanted, b->lo.velocity, b->hi.velocity);
+    const double down = reach(s, wanted, b->hi.velocity, b->lo.velocity);
+    return fmin(fmax(root(b), fmin(up, down)), fmax(up, down));
 }
 
 static status narrow(search *s, widths wanted, bracket *b)
 {
-    while (too_wide(s, wanted, b->lo.velocity, b->hi.velocity) && budget_left(s) > 0) {
-        const double lo = b->lo.velocity, hi = b->hi.velocity, edge = INNER_EDGE * width(b);
-        const double half = on_grid(s, middle(b)),
-                     third[2] = { on_grid(s, lo + width(b) / 3), on_grid(s, hi - width(b) / 3) };
-        double v = on_grid(s, fmin(fmax(root(b), lo + edge), hi - edge));
-        if (v <= lo || v >= hi) v = half;
-        if (v <= lo || v >= hi) return status_ok();
-        if (enough(s, wanted, b, 1, &v))
-            TRY(probe(s, v, b));
-        else if (enough(s, wanted, b, 1, &half))
-            TRY(probe(s, half, b));
-        else if (enough(s, wanted, b, 2, third))
-            TRY(probe_two(s, third[0], third[1], b));
-        else /* and the middle of the larger part */
-            TRY(probe_two(s, v, v - lo > hi - v ? 0.5 * (lo + v) : 0.5 * (v + hi), b));
-    }
+    while (too_wide(s, wanted, b->lo.velocity, b->hi.velocity) && budget_left(s) > 0)
+        TRY(probe(s, next_within(s, wanted, b), b));
     return status_ok();
 }
 
@@ -187,26 +179,28 @@ static bool complete(const bracket *b)
     return b->has_lo && b->has_hi;
 }
 
-/* Away from the side that is known, two doubling steps at a time, to a change of side or the end of the range. */
+/* Away from the side that is known, a step and then as far again as it has come, to a change of side or the end of the range. */
 static status widen(search *s, double step, bracket *b)
 {
+    double gone = 0.0;
     while (!complete(b) && budget_left(s) > 0) {
-        const double from = b->has_hi ? b->hi.velocity : b->lo.velocity, away = b->has_hi ? -step : step;
-        if (on_grid(s, from + away) == from) return status_ok();
-        TRY(probe_two(s, from + away, from + 3.0 * away, b));
-        step *= 2.0;
+        const double from = b->has_hi ? b->hi.velocity : b->lo.velocity, away = fmax(step, gone);
+        const double to = on_grid(s, b->has_hi ? from - away : from + away);
+        if (to == from) return status_ok();
+        TRY(probe(s, to, b));
+        gone += fabs(to - from);
     }
     return status_ok();
 }
 
-static status coarse_stage(search *s, bracket *b)
+static status coarse_stage(search *s, widths wanted, bracket *b)
 {
     const threshold_plan *p = s->plan;
     const double quarter = 0.25 * (p->high - p->low);
     s->cells = p->coarse;
     TRY(probe_two(s, p->low + quarter, p->high - quarter, b));
-    TRY(widen(s, 0.5 * quarter, b));
-    return complete(b) ? narrow(s, (widths){ fmax(COARSE_WIDTH, p->interval), INFINITY }, b) : status_ok();
+    TRY(widen(s, COARSE_WIDTH * (b->has_hi ? b->hi.velocity : b->lo.velocity), b));
+    return complete(b) ? narrow(s, wanted, b) : status_ok();
 }
 
 /* The search itself never looks beyond its bracket, so it cannot see a function that turns back: one coarse scene on each
@@ -250,14 +244,14 @@ static status look_beyond(search *s, const beyond *far)
     return far->n == 2 ? probe_two(s, far->at[0], far->at[1], &seen) : status_ok();
 }
 
-static status fine_stage(search *s, double expected, bracket *b)
+static status fine_stage(search *s, double expected, widths wanted, bracket *b)
 {
     const threshold_plan *p = s->plan;
-    const double half = fmax(p->step, 0.5 * p->interval * expected), below = on_grid(s, expected - half);
+    const double half = fmax(p->step, 0.5 * p->interval * expected);
     s->cells = p->fine;
-    TRY(probe_two(s, below, fmax(expected + half, below + p->step), b));
+    TRY(probe(s, expected - half, b));
     TRY(widen(s, 2.0 * half, b));
-    return complete(b) ? narrow(s, (widths){ p->interval, p->place_interval }, b) : status_ok();
+    return complete(b) ? narrow(s, wanted, b) : status_ok();
 }
 
 /* ---- the answer ---- */
@@ -385,12 +379,13 @@ status threshold_search(const threshold_plan *plan, const threshold_source *sour
     TRY(check_plan(plan));
     search s = { .plan = plan, .source = source, .out = out };
     bracket coarse = { .has_lo = false }, fine = { .has_lo = false };
-    TRY(coarse_stage(&s, &coarse));
+    const widths wanted = { plan->interval, plan->place_interval },
+                 rough = { fmax(COARSE_WIDTH, plan->interval), INFINITY };
+    TRY(coarse_stage(&s, plan->fine != plan->coarse ? rough : wanted, &coarse));
     const bool two_stages = plan->fine != plan->coarse && complete(&coarse);
-    if (complete(&coarse) && !two_stages) TRY(narrow(&s, (widths){ plan->interval, plan->place_interval }, &coarse));
     const beyond far = complete(&coarse) ? plan_beyond(&s, &coarse, two_stages ? FINE_RESERVE : 1) : (beyond){ .n = 0 };
     s.reserved = far.n;
-    if (two_stages && budget_left(&s) > 0) TRY(fine_stage(&s, root(&coarse), &fine));
+    if (two_stages && budget_left(&s) > 0) TRY(fine_stage(&s, root(&coarse), wanted, &fine));
     TRY(look_beyond(&s, &far));
     const bool short_of_scenes = two_stages && !complete(&fine) && budget_left(&s) <= 0;
     if (complete(&fine)) out->shift = root(&fine) - root(&coarse);
