@@ -410,6 +410,61 @@ static status start_lending(void)
     return try_shares();
 }
 
+/* ---- the shelf ---- */
+
+static breech_case *grown_case(bool to_gauge)
+{
+    breech_case *c = small_case("scene.end_time=3.2 us");
+    c->scene.courant = 0.2; /* more steps than pieces: none ends with the gauge's */
+    c->scene.levels = 2;
+    c->scene.fine_depth = 0.6e-3;
+    c->scene.fine_above = 0.5e-3;
+    c->scene.fine_behind = 0.8e-3;
+    c->scene.stop_when_gauged = to_gauge;
+    c->output.snapshots = 0;
+    return c;
+}
+
+static scene_query grown_query(const breech_case *c, double velocity)
+{
+    scene_query q = query_at(c, velocity);
+    q.state.grain.radius = q.state.grain.height = 0.2e-3;
+    q.state.contact_pressure = 300e6;
+    return q;
+}
+
+static int own_runs;
+
+static status count_run(const scene_job *job, const scene_host *host, impact *out)
+{
+    own_runs++;
+    return scene_run(job, host, out);
+}
+
+/* A whole scene is computed by the one that has computed it to its gauge. */
+static void test_keeper(void **state)
+{
+    (void)state;
+    breech_case *c = grown_case(true), *whole = grown_case(false);
+    const scene_query to_gauge[] = { grown_query(c, 2000.0), grown_query(c, 1990.0) };
+    const scene_query q[] = { grown_query(whole, 2000.0), grown_query(whole, 1990.0) };
+    const scene_record *out[2];
+    session s;
+    open_session(c, "keeper", &s);
+    s.run_scene = count_run;
+    OK(scenes_all(&s, to_gauge, 2, out)); /* the first by rank 0 */
+    for (int i = 0; i < 2; i++) assert_true(out[i]->entry.result.groove_growth > 0.0);
+    assert_int_equal(own_runs, 1);
+    OK(scenes_all(&s, &q[1], 1, &out[1]));
+    assert_int_equal(own_runs, 1);
+    OK(scenes_all(&s, &q[0], 1, &out[0]));
+    assert_int_equal(own_runs, 2);
+    assert_same(*out[1], alone(whole, &q[1]));
+    OK(session_close(&s, true));
+    case_free(c);
+    case_free(whole);
+}
+
 static int as_crew(const char *self)
 {
     char count[8];
@@ -430,9 +485,9 @@ int main(int argc, char **argv)
     if (argc == 1) return as_crew(argv[0]);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lent), /* first: no other has made threads yet */
-        cmocka_unit_test(test_shares),     cmocka_unit_test(test_given_back), cmocka_unit_test(test_batch),
-        cmocka_unit_test(test_laid_aside), cmocka_unit_test(test_ahead),      cmocka_unit_test(test_failed),
-        cmocka_unit_test(test_stopped),    cmocka_unit_test(test_put_off),
+        cmocka_unit_test(test_shares), cmocka_unit_test(test_given_back), cmocka_unit_test(test_keeper),
+        cmocka_unit_test(test_batch),  cmocka_unit_test(test_laid_aside), cmocka_unit_test(test_ahead),
+        cmocka_unit_test(test_failed), cmocka_unit_test(test_stopped),    cmocka_unit_test(test_put_off),
     };
     int failed = 0;
     if (ranks_start().code != STATUS_OK) return SKIPPED; /* built without MPI */

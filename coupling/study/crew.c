@@ -12,6 +12,7 @@ typedef enum { WAITING, AWAY, HERE, COME } place;
 typedef struct errand {
     scene_query query;
     scene_key key;
+    uint64_t twin; /* of a whole scene, else 0 */
     place where;
     bool wanted;            /* by the call under way; else it may be wanted */
     bool ahead;             /* still in the list of those that may be */
@@ -31,6 +32,7 @@ struct crew {
     int members; /* ranks but rank 0 */
     errand *
         *busy; /* members + 1, by rank: what it computes, then what it has put off; NULL: idle; rank 0's is unused */
+    scene_answer *told; /* members + 1, by rank: the last, for its shelf */
     int n;
     errand **errand; /* n, in the order they came up; owned, one by one */
     bool level;      /* wanted ones do not go before the others */
@@ -85,9 +87,12 @@ static status find_or_add(crew *k, const scene_query *q, errand **out)
     status done = scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
     *out = find(k, key.hash);
     if (done.code == STATUS_OK && !*out) {
-        done = add(k, q, out);
+        uint64_t twin = 0;
+        if (!scene_is_gauged(q->c)) done = scene_twin(q, &twin);
+        if (done.code == STATUS_OK) done = add(k, q, out);
         if (done.code == STATUS_OK) {
             (*out)->key = key;
+            (*out)->twin = twin;
             return done;
         }
     }
@@ -145,11 +150,11 @@ static void off_the_stack(crew *k, errand *e)
 
 static status hear_outcome(crew *k, const message *m)
 {
-    uint64_t key;
-    memcpy(&key, m->data, sizeof key);
-    errand *e = find(k, key);
-    const char *body = m->data + sizeof key;
-    const size_t bytes = m->bytes - sizeof key;
+    scene_answer *told = &k->told[m->from];
+    memcpy(told, m->data, sizeof *told);
+    errand *e = find(k, told->key);
+    const char *body = m->data + sizeof *told;
+    const size_t bytes = m->bytes - sizeof *told;
     if (!e || e->where != AWAY) return status_ok();
     off_the_stack(k, e);
     if (m->kind == SAY_FAILED && e->dropped) { /* for good, unless somebody has thought better of it */
@@ -185,6 +190,21 @@ static bool resumable(const crew *k, const errand *e)
     return e->image || session_resume_of(k->s, e->query.name).image;
 }
 
+/* An idle member that can go on to it from the scene to its gauge; 0: none, or rank 0 has begun it. */
+static int keeper(const crew *k, const errand *e)
+{
+    if (!e->twin || resumable(k, e)) return 0;
+    for (int r = 1; r <= k->members; r++)
+        for (int i = 0; i < SCENE_SHELF_ROOM; i++)
+            if (!k->busy[r] && k->told[r].shelf[i] == e->twin) return r;
+    return 0;
+}
+
+static bool begun_here(const crew *k, const errand *e)
+{
+    return resumable(k, e) || scene_shelf_find(&k->s->shelf, e->twin);
+}
+
 /* Is a to be computed rather than b?  Wanted before ahead, unless all are level, then as they were listed. */
 static bool goes_first(const crew *k, const errand *a, const errand *b)
 {
@@ -202,15 +222,16 @@ static errand *next_for_member(const crew *k)
     return best;
 }
 
-/* The next for rank 0: of those that are wanted, or of the others, what it has begun before the rest. */
+/* The next for rank 0: of those that are wanted, or of the others, what it has begun before the rest, and nothing that an idle
+ * member has. */
 static errand *next_for_me(const crew *k)
 {
     errand *best = NULL;
     for (int i = 0; i < k->n; i++) {
         errand *e = k->errand[i];
-        if (e->where != WAITING || !(e->wanted || e->ahead)) continue;
-        const bool sooner = best && (k->level || best->wanted == e->wanted) && resumable(k, e) != resumable(k, best)
-                                ? resumable(k, e)
+        if (e->where != WAITING || !(e->wanted || e->ahead) || keeper(k, e)) continue;
+        const bool sooner = best && (k->level || best->wanted == e->wanted) && begun_here(k, e) != begun_here(k, best)
+                                ? begun_here(k, e)
                                 : goes_first(k, e, best);
         if (sooner) best = e;
     }
@@ -224,11 +245,11 @@ static int idle_member(const crew *k)
     return 0;
 }
 
-/* An idle one; for a wanted scene one that computes what nobody waits for, and has put off nothing yet: two solvers take the
+/* An idle one, best one that has begun it; for a wanted scene one that computes what nobody waits for, and has put off nothing yet: two solvers take the
  * memory of two.  0: nobody. */
 static int member_for(const crew *k, const errand *e)
 {
-    const int idle = idle_member(k);
+    const int idle = keeper(k, e) ? keeper(k, e) : idle_member(k);
     if (idle || !e->wanted || k->level) return idle;
     for (int r = 1; r <= k->members; r++)
         if (!k->busy[r]->wanted && !k->busy[r]->put_off) return r;
@@ -362,16 +383,19 @@ status crew_create(session *s, crew **out)
 {
     crew *k = calloc(1, sizeof *k);
     errand **busy = calloc((size_t)ranks_count(), sizeof *busy);
+    scene_answer *told = calloc((size_t)ranks_count(), sizeof *told);
     *out = k;
-    if (!k || !busy) {
+    if (!k || !busy || !told) {
         free(k);
         free(busy);
+        free(told);
         *out = NULL;
         return status_error(STATUS_MEMORY, "no memory for %d processes", ranks_count());
     }
     k->s = s;
     k->members = ranks_count() - 1;
     k->busy = busy;
+    k->told = told;
     k->error = status_ok();
     return status_ok();
 }
@@ -404,6 +428,7 @@ void crew_free(crew *k)
     }
     free(k->errand);
     free(k->busy);
+    free(k->told);
     free(k);
 }
 

@@ -103,13 +103,15 @@ static status compute_case(work *w, const scene_order *order, const breech_case 
     return done;
 }
 
-static status answer(uint64_t key, status done, h5_file *file)
+static status answer(const member *me, uint64_t key, status done, h5_file *file)
 {
+    scene_answer head = { .key = key };
     void *image;
     size_t bytes;
-    if (done.code != STATUS_OK) return crew_say(0, SAY_FAILED, &key, sizeof key, &done, sizeof done);
+    for (int i = 0; i < SCENE_SHELF_ROOM; i++) head.shelf[i] = me->shelf.item[i].twin;
+    if (done.code != STATUS_OK) return crew_say(0, SAY_FAILED, &head, sizeof head, &done, sizeof done);
     TRY(h5_image(file, &image, &bytes));
-    const status said = crew_say(0, SAY_DONE, &key, sizeof key, image, bytes);
+    const status said = crew_say(0, SAY_DONE, &head, sizeof head, image, bytes);
     free(image);
     return said;
 }
@@ -129,7 +131,7 @@ static status take_order(member *me, const message *m)
     status done = case_read_memory(&text, &(case_options){ .needs = CASE_FOR_SCENE }, &c, &errors);
     if (done.code == STATUS_OK) done = compute_case(&w, &order, c, &file);
     me->top = w.put_off;
-    done = answer(order.key, done, file);
+    done = answer(me, order.key, done, file);
     h5_close(file);
     case_free(c);
     free(errors);

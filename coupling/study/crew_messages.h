@@ -2,14 +2,15 @@
 #ifndef BREECH_COUPLING_CREW_MESSAGES_H
 #define BREECH_COUPLING_CREW_MESSAGES_H
 
+#include "coupling/handoff/scene_shelf.h"
 #include "coupling/io/summary.h"
 
 #include <stdint.h>
 
 enum {
     SAY_SCENE,  /* to a member: scene_order, then the key's text; it puts off what it is computing */
-    SAY_DONE,   /* from a member: the key's hash, then the scene's file */
-    SAY_FAILED, /* from a member: the key's hash, then a status */
+    SAY_DONE,   /* from a member: scene_answer, then the scene's file */
+    SAY_FAILED, /* from a member: scene_answer, then a status */
     SAY_FILE,   /* from a member: a path under the output directory, a 0, the bytes */
     SAY_DROP,   /* to a member: the key's hash: give that scene up, if it is under way or put off; it says SAY_FAILED */
     SAY_STOP,   /* to a member: give up all of them */
@@ -20,6 +21,11 @@ typedef struct {
     uint64_t key;
     char name[SUMMARY_NAME_SIZE];
 } scene_order;
+
+typedef struct {
+    uint64_t key;
+    uint64_t shelf[SCENE_SHELF_ROOM]; /* twins of what the member could go on from now */
+} scene_answer;
 
 /* A head and a body as one message. */
 status crew_say(int to, int kind, const void *head, size_t head_bytes, const void *body, size_t body_bytes);

@@ -30,7 +30,7 @@ onset_scene scene_entry(const scene_query *q)
 }
 
 /* What makes the scene, but for where it ends and what it writes. */
-static status twin_of(const scene_query *q, uint64_t *twin)
+status scene_twin(const scene_query *q, uint64_t *twin)
 {
     breech_case c = *q->c;
     scene_key key = { .text = NULL };
@@ -52,7 +52,7 @@ status scene_work(const scene_query *q, uint64_t key, const scene_work_how *how,
     job.name = q->name;
     job.task = how->task;
     job.resume = how->resume;
-    TRY(twin_of(q, &job.twin));
+    TRY(scene_twin(q, &job.twin));
     lending_begin(how->lending);
     const status run = how->run(&job, how->host, &hit);
     lending_end(how->lending);
