@@ -299,7 +299,7 @@ static status receive(mpm *m, const brick *old, int *blocks)
         if (h->cell >= 0) {
             run = i > old->movers_first && memcmp(h, h - 1, sizeof *h) == 0 ? run + 1 : 0;
             *blocks += run % LANES == 0;
-            TRY(store_brick(m, old->field, h->level, h->at, &found));
+            if (run == 0) TRY(store_brick(m, old->field, h->level, h->at, &found));
             continue;
         }
         departure d = { .count = 0 };
