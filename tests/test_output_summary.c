@@ -294,7 +294,8 @@ static void half_model_is_doubled(void **state)
     }
     assert_true(isnan(scene_result_of(&o).groove_growth)); /* was not gauged */
     report.gauge_at[0] = 2e-6, report.gauge_power[0] = 3e5;
-    report.time = 4e-6, report.plastic_power = 3e5 * exp(-1.0); /* died on its way to the second gauge */
+    report.time = 5e-6, report.plastic_time = 4e-6,
+    report.plastic_power = 3e5 * exp(-1.0); /* died on its way to the second gauge */
     assert_true(fabs(scene_result_of(&o).groove_growth / -0.5e6 - 1.0) < 1e-12);
     report.gauge_at[1] = 3e-6, report.gauge_power[1] = 3e5 * exp(0.25);
     assert_true(fabs(scene_result_of(&o).groove_growth / 0.25e6 - 1.0) < 1e-12);
