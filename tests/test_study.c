@@ -373,6 +373,30 @@ static void test_undecided(void **state)
     }
 }
 
+/* With the scatter known the interval ends where a line leaves it, not at the decided scene beyond. */
+static void test_scatter(void **state)
+{
+    (void)state;
+    threshold_plan plan = usual();
+    plan.scatter = 0.2, plan.coarse = plan.fine;
+    int inside = 0;
+    for (double zero = 1250.0; zero < 1750.0; zero += 13.0) {
+        function f = plain(line, zero);
+        f.doubt = plan.scatter;
+        const threshold_result r = search(&f, &plan);
+        const double end[2] = { zero - 40.0, zero + 40.0 };
+        for (int e = 0; e < 2; e++) {
+            const bool decided = fabs(r.bracket[e] - zero) >= 40.0;
+            if (decided) assert_true(r.interval[e] == r.bracket[e]);
+            if (!decided && r.interval[e] != r.bracket[e]) { /* or it has no decided scene there */
+                assert_true(fabs(r.interval[e] - end[e]) < 1e-9);
+                inside++;
+            }
+        }
+    }
+    assert_true(inside > 10);
+}
+
 static void test_budget(void **state)
 {
     (void)state;
@@ -688,6 +712,9 @@ static void test_craters(void **state)
     w = whole_at(slow, 0.5 * (25.0 * floor(fastest / 25.0) + fastest), &a); /* passed, but not by a step of the grid */
     assert_true(fastest < 1950.0 && w.n == 1 && fabs(w.slowest - fastest) < 25.0);
     onset_answer_free(&a);
+    w = whole_at((const char *const[]){ "armature.mass=0.3 kg", "study.craters=1", NULL }, 1500.0, &a);
+    assert_true(w.n == 1 && w.slowest == crater_between(&a) && w.slowest < fastest - 100.0);
+    onset_answer_free(&a);
     w = whole_at(slow, fastest + 200.0, &a);
     assert_true(w.n == 0 && a.result.gouges == 0);
     onset_answer_free(&a);
@@ -819,6 +846,7 @@ int main(void)
         cmocka_unit_test(test_noise),
         cmocka_unit_test(test_dip),
         cmocka_unit_test(test_undecided),
+        cmocka_unit_test(test_scatter),
         cmocka_unit_test(test_budget),
         cmocka_unit_test(test_driven),
         cmocka_unit_test(test_errors),

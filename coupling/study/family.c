@@ -136,7 +136,7 @@ static status plan_searches(grain_families *f)
 {
     const case_study *y = &f->c->study;
     const bool by_growth = scene_is_gauged(f->probe);
-    const int craters = by_growth ? FAMILY_CRATERS * f->n : 0;
+    const int craters = by_growth ? y->craters * f->n : 0;
     double sure;
     TRY(screen_velocity(f->c, y->screen_low, &sure));
     CHECK(f->n + craters <= y->max_scenes, STATUS_BAD_INPUT,
@@ -152,6 +152,7 @@ static status plan_searches(grain_families *f)
                                       .step = threshold_step(y->velocity_interval),
                                       .coarse = y->coarse_cells_per_radius,
                                       .fine = y->fine_cells_per_radius,
+                                      .scatter = by_growth ? f->c->scene.growth_scatter : 0.0,
                                       .resolution = y->resolution_error,
                                       .max_scenes = (y->max_scenes - craters) / f->n,
                                       .place = place_of,

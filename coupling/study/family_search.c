@@ -213,8 +213,8 @@ static status round_of_craters(asker *a, const surface_result *s)
     if (!a->family->by_growth || k < 0) return status_ok();
     const double top = on_grid_below(&p->search, p->search.high);
     const double slower = fmin(middle_gouge(p, s, k, on_grid_below(&p->search, fastest)), top);
-    const double at[FAMILY_CRATERS] = { slower, fmax(slower, on_grid_below(&p->search, fastest)) };
-    for (int i = 0; i < FAMILY_CRATERS; i++) {
+    const double at[2] = { slower, fmax(slower, on_grid_below(&p->search, fastest)) };
+    for (int i = 0; i < a->of->c->study.craters; i++) {
         const scene_query q = query_of(a, true, p->size[k], at[i], s->reference.cells);
         const scene_record *record;
         TRY(find(a, &q, &record));

@@ -256,20 +256,38 @@ static status fine_stage(search *s, double expected, widths wanted, bracket *b)
 
 /* ---- the answer ---- */
 
-/* Decided scenes of a stage around the crossing: the highest surely lower one below every surely upper one above. */
-static void decided_interval(const threshold_result *r, double cells, const bracket *b, double interval[2])
+/* Where the line between two scenes has this excess; the first where it does not cross it in between. */
+static double crossing(const threshold_sample *a, const threshold_sample *b, double excess)
 {
-    double lo = NAN, hi = NAN;
+    const double share = (excess - a->excess) / (b->excess - a->excess);
+    return share > 0.0 && share <= 1.0 ? a->velocity + share * (b->velocity - a->velocity) : a->velocity;
+}
+
+/* From an end of the bracket outwards to the first decided scene of its side; where the scatter of the excess is known, only to where
+ * the line from the last undecided one before it leaves the scatter. */
+static double decided_end(const search *s, const threshold_sample *end)
+{
+    const threshold_result *r = s->out;
+    const bool upper = threshold_is_upper(end);
+    const threshold_sample *decided = NULL, *last = end;
     for (int i = 0; i < r->samples; i++) {
         const threshold_sample *a = &r->sample[i];
-        if (a->cells_per_radius != cells || a->class == DAMAGE_UNDECIDED) continue;
-        if (!threshold_is_upper(a) && a->velocity <= b->lo.velocity)
-            lo = fmax(isnan(lo) ? a->velocity : lo, a->velocity);
-        if (threshold_is_upper(a) && a->velocity >= b->hi.velocity)
-            hi = fmin(isnan(hi) ? a->velocity : hi, a->velocity);
+        const double out = upper ? a->velocity - end->velocity : end->velocity - a->velocity;
+        if (a->cells_per_radius != s->cells || a->class == DAMAGE_UNDECIDED || threshold_is_upper(a) != upper ||
+            out < 0.0)
+            continue;
+        if (!decided || fabs(a->velocity - end->velocity) < fabs(decided->velocity - end->velocity)) decided = a;
     }
-    interval[0] = isnan(lo) ? b->lo.velocity : lo;
-    interval[1] = isnan(hi) ? b->hi.velocity : hi;
+    if (!decided || decided->velocity == end->velocity) return end->velocity;
+    for (int i = 0; i < r->samples; i++) {
+        const threshold_sample *a = &r->sample[i];
+        const bool between = (a->velocity - end->velocity) * (a->velocity - decided->velocity) < 0.0;
+        if (a->cells_per_radius == s->cells && between &&
+            fabs(a->velocity - decided->velocity) < fabs(last->velocity - decided->velocity))
+            last = a;
+    }
+    return s->plan->scatter > 0.0 ? crossing(decided, last, upper ? s->plan->scatter : -s->plan->scatter)
+                                  : decided->velocity;
 }
 
 static void warn(threshold_result *r, const char *format, ...)
@@ -325,7 +343,8 @@ static void conclude(const search *s, const bracket *b, threshold_result *r)
     r->velocity = root(b);
     r->bracket[0] = b->lo.velocity;
     r->bracket[1] = b->hi.velocity;
-    decided_interval(r, s->cells, b, r->interval);
+    r->interval[0] = decided_end(s, &b->lo);
+    r->interval[1] = decided_end(s, &b->hi);
     check_monotone(r, s->plan->coarse);
     if (s->cells != s->plan->coarse) check_monotone(r, s->cells);
     r->allowance = fmax(s->plan->resolution * r->velocity, isnan(r->shift) ? 0.0 : fabs(r->shift));

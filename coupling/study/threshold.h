@@ -14,7 +14,7 @@
  *      turn back?
  *      If scenes run out before it has both sides: the coarse root, moved as far as the fine scenes' one side has driven it.
  *   3. Interval: the fine bracket, by decided scenes (an `undecided` one takes the side of its excess, but does not end
- *      the interval), widened by what the resolution may change: the shift of the root from coarse to fine, or the plan's share
+ *      the interval: that ends where the line from it to the next decided one leaves the scatter), widened by what the resolution may change: the shift of the root from coarse to fine, or the plan's share
  *      of the threshold where that is more.
  * Monotonicity is checked: a higher velocity on the lower side of a lower one widens the interval over both and warns.
  * Velocities lie on the grid k * step, so that scenes are shared, and none is asked for twice. */
@@ -49,6 +49,7 @@ typedef struct {
     double step;         /* of the grid of velocities [m/s] */
     double interval;     /* wanted width of the bracket over its middle [1] */
     double coarse, fine; /* cells a radius; equal: one stage [1] */
+    double scatter;      /* |excess| within which a scene is undecided; 0: not known [1] */
     double resolution;   /* share of the threshold that finer cells still may move it by [1] */
     int max_scenes;
     double (*place)(const void *user, double v); /* where the armature has it [m]; NULL: only velocities count */
