@@ -433,11 +433,11 @@ static scene_query grown_query(const breech_case *c, double velocity)
     return q;
 }
 
-static int own_runs;
+static int own_runs; /* begun: one that was laid aside goes on */
 
 static status count_run(const scene_job *job, const scene_host *host, impact *out)
 {
-    own_runs++;
+    own_runs += !job->resume.image;
     return scene_run(job, host, out);
 }
 
