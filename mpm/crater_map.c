@@ -119,21 +119,31 @@ static status pile_points(const crater_points *p, const crater_spec *spec, sampl
     return status_ok();
 }
 
-/* Height of a line between the lowest and highest of its eight neighbours (those there are, itself at a mirror). */
+/* Top of a neighbouring line; none where there is none, or no point on it. */
+static double top_at(const sampling *s, int ix, int iz, bool mirrored, double none)
+{
+    const int kz = mirrored && iz < 0 ? 0 : iz;
+    if (ix < 0 || ix >= s->nx || kz < 0 || kz >= s->nz) return none;
+    const size_t at = (size_t)ix * (size_t)s->nz + (size_t)kz;
+    return s->half[at] < 0.0 ? none : s->top[at];
+}
+
+/* Height of a line, but no higher than the highest of its eight neighbours, and no lower than both along an axis (those there
+ * are, itself at a mirror): what is one line wide is a splinter, or a slit between points. */
 static double without_spike(const sampling *s, int ix, int iz, bool mirrored)
 {
-    double lowest = INFINITY, highest = -INFINITY;
-    for (int jx = ix - 1; jx <= ix + 1; jx++)
-        for (int jz = iz - 1; jz <= iz + 1; jz++) {
-            const int kz = mirrored && jz < 0 ? 0 : jz;
-            if (jx < 0 || jx >= s->nx || kz < 0 || kz >= s->nz || (jx == ix && jz == iz)) continue;
-            const size_t at = (size_t)jx * (size_t)s->nz + (size_t)kz;
-            if (s->half[at] < 0.0) continue;
-            lowest = fmin(lowest, s->top[at]);
-            highest = fmax(highest, s->top[at]);
-        }
+    double lowest = -INFINITY, highest = -INFINITY;
+    for (int jx = -1; jx <= 1; jx++)
+        for (int jz = -1; jz <= 1; jz++)
+            if (jx || jz) highest = fmax(highest, top_at(s, ix + jx, iz + jz, mirrored, -INFINITY));
+    for (int k = 0; k < 2; k++) {
+        double lower = INFINITY;
+        for (int side = -1; side <= 1; side += 2)
+            lower = fmin(lower, top_at(s, ix + (k ? 0 : side), iz + (k ? side : 0), mirrored, INFINITY));
+        if (isfinite(lower)) lowest = fmax(lowest, lower);
+    }
     const double top = s->top[(size_t)ix * (size_t)s->nz + (size_t)iz];
-    return lowest <= highest ? fmin(fmax(top, lowest), highest) : top;
+    return isfinite(highest) ? fmin(fmax(top, lowest), highest) : top;
 }
 
 static double cell_depth(const sampling *s, int i, int j, const crater_spec *spec)

@@ -541,6 +541,28 @@ static void test_noise(void **state)
     }
 }
 
+/* Rows of points that have moved apart by a quarter of their pitch, across x or across z, in the map and at its edge: one sample line
+ * falls through each slit, half a millimetre down. */
+static void test_slits(void **state)
+{
+    (void)state;
+    const crater_spec spec = spec_of(0.1);
+    for (size_t k = 0; k < 3; k += 2) {
+        rail r = uniform(-2.0, 0.1, flat);
+        for (size_t i = 0; i < r.n; i++) {
+            double *x = &r.position[3 * i + k];
+            const bool row = fabs(*x - 0.35 * MM) < 1e-6 || fabs(*x - (k ? 1.95 : 6.95) * MM) < 1e-6;
+            if (!row || r.position[3 * i + 1] < -0.5 * MM) continue;
+            *x -= 0.02 * MM;
+            r.size[3 * i + k] = 0.04 * MM;
+        }
+        crater c = measured(&r, &spec);
+        assert_untouched(&c);
+        crater_free(&c);
+        drop(&r);
+    }
+}
+
 /* Volume against the map's cell with d_m = 0.1 fixed by the particle (radius 1): at least first order, from 2 % at 0.2,
  * a cell over which the wall of slope 1/2 falls by d_m. */
 static void test_convergence(void **state)
@@ -624,11 +646,11 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flat),       cmocka_unit_test(test_flat_graded), cmocka_unit_test(test_cap),
-        cmocka_unit_test(test_scratch),    cmocka_unit_test(test_gouge),       cmocka_unit_test(test_graded),
-        cmocka_unit_test(test_mirrored),   cmocka_unit_test(test_debris),      cmocka_unit_test(test_failed),
-        cmocka_unit_test(test_patches),    cmocka_unit_test(test_noise),       cmocka_unit_test(test_convergence),
-        cmocka_unit_test(test_continuity), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_flat),        cmocka_unit_test(test_flat_graded), cmocka_unit_test(test_cap),
+        cmocka_unit_test(test_scratch),     cmocka_unit_test(test_gouge),       cmocka_unit_test(test_graded),
+        cmocka_unit_test(test_mirrored),    cmocka_unit_test(test_debris),      cmocka_unit_test(test_failed),
+        cmocka_unit_test(test_patches),     cmocka_unit_test(test_noise),       cmocka_unit_test(test_slits),
+        cmocka_unit_test(test_convergence), cmocka_unit_test(test_continuity),  cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
