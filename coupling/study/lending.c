@@ -11,9 +11,9 @@
 
 /* What a process tells the others of its machine. */
 typedef struct {
-    _Alignas(64) atomic_int threads; /* a line of the cache each: written seldom, read after every step */
-    atomic_int scenes;               /* under way, those that are put off too */
-    cpu_set_t cores;                 /* that it was bound to at the start */
+    atomic_int threads; /* written seldom, read after every step; MPI's memory is aligned for no more than this */
+    atomic_int scenes;  /* under way, those that are put off too */
+    cpu_set_t cores;    /* that it was bound to at the start */
 } slip;
 
 struct lending {
