@@ -522,8 +522,7 @@ int main(int argc, char **argv)
     wait_passively(argv);
     status s = ranks_start();
     if (s.code != STATUS_OK) return complain(s);
-    const int threads =
-        default_threads(); /* of the cores that this process was bound to, not of those that it may use then */
+    const int threads = default_threads(); /* before lending_open, which unbinds */
     lending *l;
     s = lending_open(threads, &l);
     if (s.code != STATUS_OK) return complain(s);

@@ -275,8 +275,8 @@ plough plough_find(const mpm *m);
 zone zone_of(const mpm *m);
 void zone_across(const mpm *m, double *middle, double *half); /* of the fine zone: its middle, how far it reaches [m] */
 status zone_follow(mpm *m); /* goes after the plastic front, if it has come near the fine zone's end */
-status zone_regrid(mpm *m,
-                   zone z); /* new grids; all particles into their bricks, split and merged to fit; to be settled */
+/* New grids; all particles into their bricks, split and merged to fit; to be settled. */
+status zone_regrid(mpm *m, zone z);
 
 /* read.c */
 void mpm_sample_percentiles(mpm *m);

@@ -337,7 +337,8 @@ static void book_losses(const run *r, const armature_metal *before, const armatu
     out->impulse = fmax(halves * (kept - c->scene.friction * pressing * time), 0.0);
 }
 
-/* A scene that ends at its second gauge, or dying, has no whole crater to be judged by; what left none until then is still `none`. */
+/* A scene that ends at its second gauge, or dying, has no whole crater to be judged by; what left none until then is still
+ * `none`. */
 static void judge_by_growth(const run *r, scene_result *out)
 {
     const double scatter = r->job->c->scene.growth_scatter;

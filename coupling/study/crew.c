@@ -245,8 +245,8 @@ static int idle_member(const crew *k)
     return 0;
 }
 
-/* An idle one, best one that has begun it; for a wanted scene one that computes what nobody waits for, and has put off nothing yet: two solvers take the
- * memory of two.  0: nobody. */
+/* An idle one, best one that has begun it; for a wanted scene one that computes what nobody waits for, and has put off nothing
+ * yet: two solvers take the memory of two.  0: nobody. */
 static int member_for(const crew *k, const errand *e)
 {
     const int idle = keeper(k, e) ? keeper(k, e) : idle_member(k);

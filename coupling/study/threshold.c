@@ -263,31 +263,32 @@ static double crossing(const threshold_sample *a, const threshold_sample *b, dou
     return share > 0.0 && share <= 1.0 ? a->velocity + share * (b->velocity - a->velocity) : a->velocity;
 }
 
-/* From an end of the bracket outwards to the first decided scene of its side; where the scatter of the excess is known, only to where
- * the line from the last undecided one before it leaves the scatter. */
+/* The next scene of the stage and of the same side, away from the bracket; NULL: none. */
+static const threshold_sample *further_out(const search *s, const threshold_sample *from)
+{
+    const bool upper = threshold_is_upper(from);
+    const threshold_sample *next = NULL;
+    for (int i = 0; i < s->out->samples; i++) {
+        const threshold_sample *a = &s->out->sample[i];
+        const double way = upper ? a->velocity - from->velocity : from->velocity - a->velocity;
+        if (a->cells_per_radius != s->cells || threshold_is_upper(a) != upper || !(way > 0.0)) continue;
+        if (!next || way < fabs(next->velocity - from->velocity)) next = a;
+    }
+    return next;
+}
+
+/* From an end of the bracket outwards to the first decided scene of its side; where the scatter of the excess is known, only to
+ * where the line from the last undecided one leaves it. */
 static double decided_end(const search *s, const threshold_sample *end)
 {
-    const threshold_result *r = s->out;
-    const bool upper = threshold_is_upper(end);
-    const threshold_sample *decided = NULL, *last = end;
-    for (int i = 0; i < r->samples; i++) {
-        const threshold_sample *a = &r->sample[i];
-        const double out = upper ? a->velocity - end->velocity : end->velocity - a->velocity;
-        if (a->cells_per_radius != s->cells || a->class == DAMAGE_UNDECIDED || threshold_is_upper(a) != upper ||
-            out < 0.0)
-            continue;
-        if (!decided || fabs(a->velocity - end->velocity) < fabs(decided->velocity - end->velocity)) decided = a;
+    const threshold_sample *decided = end, *undecided = end;
+    const double scatter = threshold_is_upper(end) ? s->plan->scatter : -s->plan->scatter;
+    while (decided && decided->class == DAMAGE_UNDECIDED) {
+        undecided = decided;
+        decided = further_out(s, decided);
     }
-    if (!decided || decided->velocity == end->velocity) return end->velocity;
-    for (int i = 0; i < r->samples; i++) {
-        const threshold_sample *a = &r->sample[i];
-        const bool between = (a->velocity - end->velocity) * (a->velocity - decided->velocity) < 0.0;
-        if (a->cells_per_radius == s->cells && between &&
-            fabs(a->velocity - decided->velocity) < fabs(last->velocity - decided->velocity))
-            last = a;
-    }
-    return s->plan->scatter > 0.0 ? crossing(decided, last, upper ? s->plan->scatter : -s->plan->scatter)
-                                  : decided->velocity;
+    if (!decided) return end->velocity;
+    return decided != end && scatter != 0.0 ? crossing(decided, undecided, scatter) : decided->velocity;
 }
 
 static void warn(threshold_result *r, const char *format, ...)
