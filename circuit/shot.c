@@ -118,6 +118,7 @@ static void peaks_update(shot *s)
     const shot_drive d = shot_drive_now(s);
     const double I = s->last_current, slope = s->last_slope, h = s->t - s->last_t;
     note_current(s, &d);
+    shot_heat_update(s, &d);
     const double top = cubic_top(I, slope, s->last_current, s->last_slope, h);
     s->result.peak_current = fmax(s->result.peak_current, top);
     if (s->model.phase != SHOT_MOVING) return;

@@ -11,7 +11,7 @@
 
 #include "base/param.h"
 #include "base/status.h"
-#include "circuit/ladder.h"
+#include "circuit/rails_heat.h"
 #include "circuit/section.h"
 #include "circuit/supply.h"
 
@@ -48,7 +48,7 @@ typedef struct {
     double ladder_frequency;        /* level diffusing: top of that band [Hz]; NAN = equation (C-13) */
     double fineness;                /* filaments over the skin depth [1] */
     int slices;                     /* of the barrel, with a temperature and resistance of their own; 0 = none */
-    double heat_capacity;           /* of the metal, for the slices [J/m^3/K] */
+    double heat_capacity;           /* of the metal [J/m^3/K] */
 } shot_rails;
 
 typedef struct {
@@ -245,7 +245,13 @@ bool shot_done(const shot *s);
 
 shot_state shot_now(const shot *s);
 shot_summary shot_result(const shot *s);
-shot_limits shot_limits_of(const shot *s);            /* until exit, or so far */
+shot_limits shot_limits_of(const shot *s); /* until exit, or so far */
+
+/* What the shot has left in its rails so far: rise of temperature once the heat has evened out over their section, by pieces
+ * of the barrel.  Current's heat, and the rails' share of the contact's (1 - armature.heat_share). [K] */
+enum { SHOT_PIECES = RAILS_PIECES };
+void shot_rail_rise(const shot *s, double rise[SHOT_PIECES]);
+
 double shot_module_current(const shot *s, int group); /* one unit of the group [A] */
 double shot_module_voltage(const shot *s, int group); /* of its capacitor, switch or machine [V] */
 int shot_module_count(const shot *s);                 /* groups */

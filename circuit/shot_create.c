@@ -272,7 +272,7 @@ static status fill(shot *s, const shot_config *c)
     model_fill(s, c);
     scales_fill(s);
     state_fill(s, c);
-    return status_ok();
+    return shot_heat_start(s, c);
 }
 
 status shot_create(const shot_config *config, shot **out)

@@ -1,11 +1,12 @@
 /* A shot under way, and who does what to it (internal to circuit/):
  *   shot_create.c  makes it from its configuration        shot.c         drives the integration, hands out events
  *   shot_switch.c  switchings of supplies and armature    shot_state.c   reads it: ledger, state, summary
- *   shot_limits.c  temperatures and limits */
+ *   shot_limits.c  temperatures and limits                    shot_heat.c    heat left in the rails */
 #ifndef BREECH_CIRCUIT_SHOT_INTERNAL_H
 #define BREECH_CIRCUIT_SHOT_INTERNAL_H
 
 #include "circuit/dae.h"
+#include "circuit/rails_heat.h"
 #include "circuit/shot_model.h"
 
 /* Times closer than this are one instant [s]. */
@@ -20,6 +21,13 @@ typedef struct {
     double position;
     int index; /* in the order given */
 } shot_place;
+
+/* What the rails' heat by place needs of an accepted step. */
+typedef struct {
+    double t, x, v, shunt;
+    double contact;           /* of the contact's heat and friction so far, what went into the rails [J] */
+    double I[SHOT_MAX_FEEDS]; /* of every segment behind the armature [A] */
+} shot_heat_instant;
 
 struct shot {
     shot_model model;
@@ -40,6 +48,9 @@ struct shot {
     shot_rails rails; /* their section and metal, as given */
     shot_limits limits;
     double worn, wear_rate, worn_until; /* velocity skin effect: thickness off the trailing edge [m], [m/s], [s] */
+    rails_heat heat;
+    double rail_capacity; /* of all rails [J/K/m] */
+    shot_heat_instant heat_until;
     double momentum_jumps, mass_jumps, energy_jumps;
     double exit_kinetic, last_current, last_slope, last_t;
     shot_summary result;
@@ -59,6 +70,11 @@ double shot_film_temperature(const shot *s, const shot_forces *f, const shot_sta
 double shot_rail_behind_temperature(const shot *s, const shot_forces *f, const shot_state *st); /* [K] */
 void shot_limits_start(shot *s);
 void shot_limits_update(shot *s, const shot_forces *f);
+
+/* ---- heat left in the rails ---- */
+
+status shot_heat_start(shot *s, const shot_config *c);
+void shot_heat_update(shot *s, const shot_drive *d); /* after every accepted step */
 
 /* ---- switchings ---- */
 

@@ -116,6 +116,11 @@ static rails_flow segment_flow(const shot_model *m, int f, double I, const doubl
     return rails_flow_at(&m->rails, *len, *v, I, z + memory_unknown(m, f));
 }
 
+double shot_rails_warming(const shot_model *m, int f, const double *z)
+{
+    return rails_warming(&m->rails, segment_length(m, f, z), z + memory_unknown(m, f));
+}
+
 double shot_rails_heat(const shot_model *m, const shot_drive *d, const double *z)
 {
     double heat = 0.0, I = 0.0, len, v;

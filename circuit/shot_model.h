@@ -90,6 +90,7 @@ int shot_feed_unknown(int feed);                                                
 status shot_rails_fit(const shot_config *c, rails_load *out);                         /* circuit/shot_rails.c */
 double shot_rails_field(const shot_model *m, const shot_drive *d, const double *z);   /* [J] */
 double shot_rails_heat(const shot_model *m, const shot_drive *d, const double *z);    /* [W] */
+double shot_rails_warming(const shot_model *m, int f, const double *z);               /* of segment f [1] */
 
 /* ---- the armature: circuit/shot_armature.c ---- */
 

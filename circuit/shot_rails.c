@@ -40,7 +40,7 @@ const param shot_rails_params[] = {
           "top of the ladder's band; from bank energy, armature and contact length if not given"),
     PARAM_INT(shot_rails, slices, 0, 0, 32,
               "parts of the barrel whose resistance follows their own temperature; 0: it stays as before the shot"),
-    RAILS(heat_capacity, "J/m^3/K", 3.45e6, 1e5, 1e7, "of the rails' metal, for slices"),
+    RAILS(heat_capacity, "J/m^3/K", 3.45e6, 1e5, 1e7, "of the rails' metal: slices, and what a shot leaves"),
     RAILS(fineness, "1", INDUCTANCE_FINENESS, 1.0, 20.0, "filaments over the skin depth at the highest frequency"),
     PARAMS_END
 };

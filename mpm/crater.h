@@ -1,4 +1,4 @@
-/* The crater: what the rail's surface looks like after the pass, and what class of damage that is (PHYSICS.md).
+/* The crater: what the rail's surface looks like after the pass, and what class of damage that is.
  *
  * Surface.  Over the map lies a lattice of sample lines, two a cell and axis, at its Gauss points (irrational, so that
  * lines keep off the borders between points).  Along each line the points whose footprint
@@ -26,7 +26,7 @@
  * passes d_m, and springback or noise below d_m counts nothing.  Severity is - A h / V_p (-1.5 for a hemisphere) without
  * a crater; below that where the groove dies out, however long it is; it passes 0 where what grows downstream exceeds the
  * particle's cylinder A h.  V alone would not do: at 1.0 km/s the groove of a 0.5 mm grain holds 2.1 mm3, five times A h,
- * and dies out after 6 mm; at 1.5 km/s it grows until the armature has passed (docs/scene-solver.md).
+ * and dies out after 6 mm; at 1.5 km/s it grows until the armature has passed.
  *
  * Class.  none: no cell above d_m.  gouge: severity and widening at or above their limits and a rim higher than d_m
  * downstream of the crater's middle.  scratch: severity below its limit, and not both widening and rim.  Else undecided. */

@@ -440,12 +440,115 @@ static void test_population_onset(void **state)
     case_free(c);
 }
 
+/* ---- shot after shot ---- */
+
+static onset_answer repeated(breech_case *c, const char *dir, status want)
+{
+    onset_answer a;
+    session s;
+    const session_options options = {
+        .dir = dir, .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
+    };
+    OK(session_open(c, &options, &s));
+    s.run_scene = fake_scene;
+    const status done = onset_run(&s, &a);
+    assert_int_equal(done.code, want.code);
+    if (want.code != STATUS_OK && !strstr(done.text, want.text)) fail_msg("%s", done.text);
+    OK(session_close(&s, true));
+    return a;
+}
+
+static int scenes_named(const onset_answer *a, const char *prefix)
+{
+    int n = 0;
+    for (int i = 0; i < a->result.n_scenes; i++) n += strncmp(a->result.scene[i].name, prefix, strlen(prefix)) == 0;
+    return n;
+}
+
+/* The rail gets warmer from shot to shot, and this made-up one gouges 0.5 m/s earlier for every kelvin. */
+static void test_shots_warm_the_rail(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD "populations:\n  - {preset: debris, radius_median: 0.3 mm}\n", CASE_FOR_ONSET);
+    c->rails.level = SHOT_RAILS_DIFFUSING;
+    c->study.velocity_interval = 0.01;
+    c->study.shots = 4;
+    onset_answer a = repeated(c, "warm", status_ok());
+    const onset_shot *each = a.result.shot;
+    assert_true(each[0].rail_rise == 0.0 && each[0].threshold_velocity == a.result.threshold_velocity);
+    for (int k = 1; k < 4; k++) {
+        assert_true(each[k].rail_rise > each[k - 1].rail_rise + 10.0);
+        assert_true(each[k].muzzle_velocity < each[k - 1].muzzle_velocity); /* resistance */
+        assert_true(fabs(each[k].threshold_velocity - (each[0].threshold_velocity - 0.5 * each[k].rail_rise)) < 12.0);
+        assert_true(each[k].onset_position < each[k - 1].onset_position);
+        assert_true(each[k].expected_gouges > each[k - 1].expected_gouges);
+    }
+    assert_true(fabs(each[1].rail_rise * 3.0 / each[3].rail_rise - 1.0) <
+                0.2); /* as much again each time, and a bit more */
+    assert_true(scenes_named(&a, "warm-") > 0);
+    const onset_shot first = each[0];
+    onset_answer_free(&a);
+    c->study.heat_kept = 0.0; /* all of it gone: as the first, and not a scene more */
+    a = repeated(c, "cooled", status_ok());
+    each = a.result.shot;
+    assert_int_equal(scenes_named(&a, "warm-"), 0);
+    assert_true(each[3].rail_rise == 0.0 && each[3].threshold_velocity == first.threshold_velocity);
+    assert_true(each[3].muzzle_velocity == first.muzzle_velocity);
+    assert_true(fabs(each[0].expected_gouges / first.expected_gouges - 1.0) < 0.02); /* other random numbers */
+    onset_answer_free(&a);
+    c->study.heat_kept = 0.5; /* it settles at as much as one shot leaves */
+    c->study.shots = 12;
+    a = repeated(c, "settled", status_ok());
+    each = a.result.shot;
+    assert_true(each[11].rail_rise < 1.02 * each[9].rail_rise && each[1].rail_rise < 0.6 * each[11].rail_rise);
+    onset_answer_free(&a);
+    c->study.heat_kept = 1.0;
+    c->study.shots = 500;
+    a = repeated(c, "melted", status_error(STATUS_BAD_INPUT, "ofhc_copper melts at 1356 K; lower study.shots"));
+    onset_answer_free(&a);
+    case_free(c);
+}
+
+/* Gouges 0.1 mm deep: through a layer of 0.05 mm, not of 0.2 mm. */
+static void test_shots_strip_the_rail(void **state)
+{
+    (void)state;
+    static const char *const thickness[] = { "0.05 mm", "0.2 mm" };
+    for (int k = 0; k < 2; k++) {
+        char text[4000];
+        snprintf(text, sizeof text, HEAD "sites: [{position: 2 m}]\n");
+        breech_case *c = read(text, CASE_FOR_ONSET);
+        case_layer layer = { .thickness = k == 0 ? 0.05e-3 : 0.2e-3, .yield_scale = 1.0, .bond_strength = NAN };
+        snprintf(layer.material, sizeof layer.material, "ofhc_copper");
+        const case_layers none = c->rail.layers;
+        c->rail.layers = (case_layers){ 1, &layer };
+        c->study.shots = 2;
+        c->study.heat_kept = 0.0;
+        onset_answer a = repeated(c, "stripped", status_ok());
+        if ((scenes_named(&a, "bare-") > 0) != (k == 0)) fail_msg("%s", thickness[k]);
+        for (int i = 0; i < a.result.n_scenes; i++) {
+            const bool bare = strncmp(a.result.scene[i].name, "bare-", 5) == 0;
+            assert_int_equal(a.result.scene[i].result.bodies, bare ? 3 : 4);
+        }
+        onset_answer_free(&a);
+        c->rail.layers = none;
+        case_free(c);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_kind), cmocka_unit_test(test_what_they_do),     cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_presets),    cmocka_unit_test(test_ranking),          cmocka_unit_test(test_sheared_off),
-        cmocka_unit_test(test_seed),       cmocka_unit_test(test_population_onset),
+        cmocka_unit_test(test_every_kind),
+        cmocka_unit_test(test_what_they_do),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_presets),
+        cmocka_unit_test(test_ranking),
+        cmocka_unit_test(test_sheared_off),
+        cmocka_unit_test(test_seed),
+        cmocka_unit_test(test_population_onset),
+        cmocka_unit_test(test_shots_warm_the_rail),
+        cmocka_unit_test(test_shots_strip_the_rail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -82,6 +82,11 @@ static void make(rail *r, double density, double median, double spread, double t
                                   .of_population = r->of_population };
 }
 
+static mc_surface as_new(const rail *r, int draws, double size_factor)
+{
+    return (mc_surface){ .grains = &r->grains, .draws = draws, .size_factor = size_factor };
+}
+
 static mc_result run(const mc_surface *surface, int n, int histories, int shots)
 {
     mc_result out;
@@ -132,7 +137,7 @@ static void test_closed(void **state)
     rail r;
     make(&r, 2.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
     const double share = population_share_from(&r.population, 1e-4), mean = 2.0 * share;
-    const mc_surface one = { &r.grains, 0, 1.0 };
+    const mc_surface one = as_new(&r, 0, 1.0);
     mc_result out = run(&one, 1, 100000, 1);
     const mc_shot *s = &out.of[0];
     print_message("%d histories in %.2f s\n", out.histories, out.seconds);
@@ -161,7 +166,7 @@ static void test_band(void **state)
     (void)state;
     rail r;
     make(&r, 20.0, 1.5e-4, 0.7, 1500.0, 0.2, 60.0);
-    const mc_surface one = { &r.grains, 0, 1.0 };
+    const mc_surface one = as_new(&r, 0, 1.0);
     mc_result out = run(&one, 1, 40000, 1);
     const double mean = mc_expected(&r.grains, LENGTH);
     const mc_shot *s = &out.of[0];
@@ -192,7 +197,7 @@ static void test_table_and_sites(void **state)
     const double at[3] = { 1.0, 2.1, 2.8 };
     for (int i = 0; i < 3; i++) r.site[i] = (case_site){ .position = at[i], .radius = 3e-4 };
     r.c.sites = (case_sites){ 3, r.site };
-    const mc_surface one = { &r.grains, 0, 1.0 };
+    const mc_surface one = as_new(&r, 0, 1.0);
     mc_result out = run(&one, 1, 50000, 1);
     const double strewn = 5.0 * 0.4; /* two of five are large enough, on the last metre */
     assert_true(fabs(out.of[0].gouges - 2.0 - strewn) < four_sigma(strewn, out.histories)); /* two sites always */
@@ -214,7 +219,7 @@ static void test_beyond(void **state)
         r.family->surface.size[k].velocity = r.family->surface.size[k].interval[1] = NAN;
         r.family->surface.size[k].interval[0] = 2000.0;
     }
-    const mc_surface one = { &r.grains, 0, 1.0 };
+    const mc_surface one = as_new(&r, 0, 1.0);
     mc_result out = run(&one, 1, 1000, 1);
     assert_true(out.of[0].gouges == 0.0 && out.of[0].probability == 0.0 && isnan(out.of[0].first[0]));
     mc_free(&out);
@@ -230,7 +235,7 @@ static void test_common_numbers(void **state)
     rail a, b;
     make(&a, 5.0, 2e-4, 0.5, 1400.0, 0.1, 0.0);
     make(&b, 5.0, 2e-4, 0.5, 1430.0, 0.1, 0.0);
-    const mc_surface three[] = { { &a.grains, 0, 1.0 }, { &a.grains, 1, 1.0 }, { &b.grains, 2, 1.0 } };
+    const mc_surface three[] = { as_new(&a, 0, 1.0), as_new(&a, 1, 1.0), as_new(&b, 2, 1.0) };
     mc_result out = run(three, 3, 20000, 1);
     assert_true(out.of[0].gouges == out.of[1].gouges && out.of[0].volume == out.of[1].volume);
     assert_true(out.of[2].gouges < out.of[0].gouges);
@@ -239,7 +244,7 @@ static void test_common_numbers(void **state)
     /* half the grains, half the gouges; larger grains, more */
     b.population.density = 2.5;
     for (int k = 0; k < 9; k++) b.family->surface.size[k] = a.family->surface.size[k];
-    const mc_surface kept[] = { { &a.grains, 0, 1.0 }, { &b.grains, 0, 1.0 }, { &a.grains, 0, 1.3 } };
+    const mc_surface kept[] = { as_new(&a, 0, 1.0), as_new(&b, 0, 1.0), as_new(&a, 0, 1.3) };
     out = run(kept, 3, 20000, 1);
     assert_true(fabs(out.of[1].gouges / out.of[0].gouges - 0.5) < 0.02);
     assert_true(out.of[2].gouges > out.of[0].gouges && out.of[2].volume > 1.5 * out.of[0].volume);
@@ -254,7 +259,7 @@ static void test_seed(void **state)
     (void)state;
     rail r;
     make(&r, 5.0, 2e-4, 0.5, 1400.0, 0.1, 30.0);
-    const mc_surface one = { &r.grains, 0, 1.0 };
+    const mc_surface one = as_new(&r, 0, 1.0);
     mc_result a = run(&one, 1, 2000, 1), b = run(&one, 1, 2000, 1);
     assert_memory_equal(a.of, b.of, sizeof *a.of);
     mc_result c;
@@ -278,7 +283,7 @@ static void test_rims(void **state)
     make(&r, 1e-9, 2e-4, 0.5, 1400.0, 0.0, 0.0);
     r.site[0] = (case_site){ .position = 2.1, .radius = 1e-3 };
     r.c.sites = (case_sites){ 1, r.site };
-    const mc_surface one = { &r.grains, 0, 1.0 };
+    const mc_surface one = as_new(&r, 0, 1.0);
     mc_result out = run(&one, 1, 200, 6);
     double x = 2.1, radius = 1e-3;
     for (int k = 0; k < 6; k++) {
@@ -306,12 +311,97 @@ static void test_rims(void **state)
     free(r.family);
 }
 
+/* ---- what shots leave for the next ---- */
+
+static mc_along *along_of(const rail *r, int shots)
+{
+    mc_along *a = calloc((size_t)shots, sizeof *a);
+    for (int k = 0; k < shots; k++) mc_velocities(&r->flown, LENGTH, a[k].v);
+    return a;
+}
+
+/* Thresholds of 1400 m/s on the cold rail (x = 2 m), 1200 on the warm one; volumes double there. */
+static void test_warm(void **state)
+{
+    (void)state;
+    rail cold, warm;
+    make(&cold, 20.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    make(&warm, 20.0, 2e-4, 0.5, 1200.0, 0.0, 0.0);
+    for (int k = 0; k < 2; k++) {
+        cold.record[k].entry.result.rim_height = warm.record[k].entry.result.rim_height = 0.0;
+        cold.record[k].entry.result.crater_volume = 10.0 * 0.125e-9;
+        warm.record[k].entry.result.crater_volume = 20.0 * 0.125e-9;
+    }
+    mc_along *along = along_of(&cold, 4);
+    for (int k = 0; k <= MC_PLACES; k++) {
+        along[1].warm[k] = 0.5;
+        along[2].warm[k] = k < MC_PLACES / 2 ? 0.0 : 1.0; /* the muzzle's half alone */
+        along[3].v[k] = 0.8 * along[3].v[k];              /* cold, but slower: 1400 m/s at 2.5 m */
+    }
+    mc_surface one = as_new(&cold, 0, 1.0);
+    one.along = along;
+    one.warm = &warm.grains;
+    const double start[4] = { 2.0, 3.0 * 1300.0 / MUZZLE, 3.0 * 1200.0 / MUZZLE, 2.5 },
+                 volume[4] = { 10.0, 15.0, 20.0, 10.0 };
+    mc_result out = run(&one, 1, 20000, 4);
+    const double mean = 20.0 * population_share_from(&cold.population, 1e-4),
+                 each = out.of[0].volume / out.of[0].gouges;
+    for (int k = 0; k < 4; k++) {
+        assert_true(fabs(out.of[k].gouges - mean * (3.0 - start[k])) < four_sigma(mean, out.histories));
+        assert_true(fabs(out.of[k].volume / out.of[k].gouges / each - volume[k] / volume[0]) < 0.05);
+    }
+    mc_free(&out);
+    for (int k = 0; k < 9; k++) { /* the cold rail never gouges: the nearer of the two counts */
+        cold.family->surface.size[k].velocity = cold.family->surface.size[k].interval[1] = NAN;
+        cold.family->surface.size[k].interval[0] = 2000.0;
+    }
+    for (int k = 0; k <= MC_PLACES; k++) along[1].warm[k] = k < MC_PLACES / 2 ? 0.4 : 0.6;
+    cold.family->n_scenes = 0;
+    out = run(&one, 1, 20000, 2);
+    assert_true(out.of[0].gouges == 0.0);
+    assert_true(fabs(out.of[1].gouges - mean * (3.0 - start[2])) < four_sigma(mean, out.histories));
+    assert_true(fabs(out.of[1].volume / out.of[1].gouges / each - 2.0) < 0.05);
+    mc_free(&out);
+    free(along);
+    free(cold.family);
+    free(warm.family);
+}
+
+/* The grain of test_rims on a layer: its gouge is 0.6 mm deep.  Rims on the bare rail meet that one's threshold. */
+static void test_bare(void **state)
+{
+    (void)state;
+    for (int through = 0; through < 2; through++) {
+        rail covered, bare;
+        case_layer layer = { .thickness = through ? 0.5e-3 : 0.7e-3 };
+        make(&covered, 1e-9, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+        make(&bare, 1e-9, 2e-4, 0.5, 1900.0, 0.0, 0.0);
+        covered.site[0] = (case_site){ .position = 2.1, .radius = 1e-3 };
+        covered.c.sites = (case_sites){ 1, covered.site };
+        covered.c.rail.layers = (case_layers){ 1, &layer };
+        for (int k = 0; k < 2; k++) covered.record[k].entry.result.crater_depth = 0.3e-3;
+        mc_surface one = as_new(&covered, 0, 1.0);
+        one.bare = &bare.grains;
+        mc_result out = run(&one, 1, 200, 2);
+        assert_true(fabs(out.of[0].gouges - 1.0) < 1e-9);
+        assert_true(fabs(out.of[1].gouges - (through ? 0.0 : 1.0)) < 1e-9);
+        mc_free(&out);
+        bare.grains.n = 0; /* none of its kind is fast enough there: never */
+        out = run(&one, 1, 200, 2);
+        assert_true(fabs(out.of[1].gouges - (through ? 0.0 : 1.0)) < 1e-9);
+        mc_free(&out);
+        free(covered.family);
+        free(bare.family);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sizes),  cmocka_unit_test(test_closed),          cmocka_unit_test(test_band),
         cmocka_unit_test(test_beyond), cmocka_unit_test(test_common_numbers),  cmocka_unit_test(test_seed),
-        cmocka_unit_test(test_rims),   cmocka_unit_test(test_table_and_sites),
+        cmocka_unit_test(test_rims),   cmocka_unit_test(test_table_and_sites), cmocka_unit_test(test_warm),
+        cmocka_unit_test(test_bare),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

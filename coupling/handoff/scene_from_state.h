@@ -8,8 +8,7 @@
  * ahead); below the rail a roller; above the middle of the bore, the mirror plane of the launcher; across, z = 0 the mirror
  * of a half model, a free side beyond the edges.
  * A node lies on the rail's surface, whatever the case: every fine zone starts a whole number of cells from it.
- * Extents a case leaves out, in grain radii r: fine zone x -4 .. 26, y -3 .. 2.5 (at least a radius above the grain),
- * z -8 .. 8; kept inside the rail.
+ * Extents a case leaves out: lay_out in the source, in grain radii; kept inside the rail.
  * The armature starts with its lead face a fine cell short of the grain's upper upstream edge.  It is pressed on by a body
  * force: contact pressure x contact face / mass.  Laws that tests/test_handoff.c checks: no two bodies overlap, the
  * grain's foot is on the surface, masses and the pressing force are those of the case, whatever the case. */

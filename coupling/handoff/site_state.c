@@ -146,6 +146,7 @@ static status run(recorder *r, shot *s)
     TRY(done);
     r->out->summary = shot_result(s);
     r->out->limits = shot_limits_of(s);
+    shot_rail_rise(s, r->out->rail_rise);
     return close_series(r);
 }
 

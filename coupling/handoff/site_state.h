@@ -38,6 +38,7 @@ typedef struct {
 typedef struct {
     shot_summary summary;
     shot_limits limits;
+    double rail_rise[SHOT_PIECES]; /* that the shot leaves, along the barrel [K] */
     int n_sites;
     site_state *site; /* in the case's order, owned */
     int n_trace, trace_room;

@@ -207,6 +207,7 @@ typedef struct {
     bool feedback;                                         /* a gouge's impulse and mass loss go back into the shot */
     bool sensitivities;                                    /* the shot again with changed inputs */
     int shots;                                             /* fired one after the other on the same rail */
+    double heat_kept;                                      /* in the rails from shot to shot [1] */
     int sampled;                                           /* histories of the Monte Carlo */
     int seed;                                              /* of its random numbers */
     double smallest_radius; /* grains of a population below it are taken not to gouge [m] */

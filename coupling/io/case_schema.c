@@ -187,6 +187,8 @@ static const param study_params[] = {
     PARAM_BOOL(case_study, feedback, 1, "a gouge's impulse and mass loss go back into the shot"),
     PARAM_BOOL(case_study, sensitivities, 1, "what 5 % more charge, mass, friction and grain size would do"),
     PARAM_INT(case_study, shots, 1, 1, 1000, "fired one after the other on the same rail"),
+    PARAM_DOUBLE(case_study, heat_kept, "1", 1.0, 0.0, 1.0,
+                 "share of what the shots before have left in the rails that is still there at the next one"),
     PARAM_INT(case_study, sampled, 100000, 100, 100000000, "histories of the Monte Carlo"),
     PARAM_INT(case_study, seed, 1, 0, 2000000000, "of its random numbers"),
     PARAM_DOUBLE(case_study, smallest_radius, "m", 1e-4, 1e-6, 0.1,

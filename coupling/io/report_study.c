@@ -70,7 +70,9 @@ static const page_column sensitivity_columns[] = {
 static const page_column repeated_columns[] = {
     { "shot", "shot", 1.0, "" },                       { "probability_gouge", "P(gouge)", 1.0, "" },
     { "expected_gouges", "expected gouges", 1.0, "" }, { "expected_gouged_volume", "gouged volume", 1e-9, "mm&sup3;" },
-    { "onset_position", "onset", 1.0, "m" },           { "onset_interval", "5 to 95 %", 1.0, "m" } };
+    { "onset_position", "onset", 1.0, "m" },           { "onset_interval", "5 to 95 %", 1.0, "m" },
+    { "rail_rise", "rail warmer by", 1.0, "K" },       { "threshold_velocity", "threshold there", 1.0, "m/s" },
+    { "muzzle_velocity", "muzzle", 1.0, "m/s" } };
 static const page_column ranking_columns[] = {
     { "surface", "surface", 1.0, "" },
     { "gouges", "gouges", 1.0, "" },                       { "gouges_interval", "5 to 95 %", 1.0, "" },

@@ -24,8 +24,10 @@ enum { SUMMARY_NAME_SIZE = 96 };
 typedef struct {
     shot_summary is;
     shot_limits limits;
-    double wall_seconds;  /* [s] */
-    firing_result firing; /* of the search for firing times, all zero where there was none */
+    double rail_rise,
+        rail_rise_position; /* largest that the shot leaves in its rails, even over the section; where [K, m] */
+    double wall_seconds;    /* [s] */
+    firing_result firing;   /* of the search for firing times, all zero where there was none */
     int n_fire_at;
     const double *fire_at; /* of the bank's groups, as found [s]; n_fire_at, borrowed */
 } shot_record;
@@ -126,6 +128,9 @@ typedef struct {
     int shot;                                                          /* from 1 */
     double probability_gouge, expected_gouges, expected_gouged_volume; /* [1, 1, m3] */
     double onset_position, onset_interval[2];                          /* median, 5 .. 95 % [m] */
+    double muzzle_velocity;                                            /* [m/s] */
+    double rail_rise; /* left by the shots before, where the armature is fast enough to be looked at: the largest [K] */
+    double threshold_velocity; /* as the study's, where the rail is that warm [m/s] */
 } onset_shot;
 
 typedef enum { VERDICT_GOUGES, VERDICT_NO_GOUGING, VERDICT_UNDECIDED } onset_verdict;

@@ -51,6 +51,8 @@ const summary_key summary_shot_keys[] = {
     NUMBER(shot_record, "melt_position", limits.melt_position, "m", "where the armature's face melted, friction_law film; null: it did not"),
     NUMBER(shot_record, "critical_velocity", limits.critical_velocity, "m/s", "of bending waves in the rail; null: rails.backing_stiffness is not given"),
     NUMBER(shot_record, "critical_position", limits.critical_position, "m", "where the armature first exceeds it; null: nowhere"),
+    NUMBER(shot_record, "rail_rise", rail_rise, "K", "largest rise of temperature that the shot leaves in its rails, once even over the section"),
+    NUMBER(shot_record, "rail_rise_position", rail_rise_position, "m", "where that is"),
     VALUE(shot_record, KEY_COUNT, "steps", is.steps, "1", "of the integration"),
     NUMBER(shot_record, "wall_seconds", wall_seconds, "s", "time it took"),
     VALUE(shot_record, KEY_INTEGER, "optimise_evaluations", firing.evaluations, "1", "trials of the search for firing times; 0: none was asked for"),
@@ -167,6 +169,9 @@ const summary_key summary_repeated_keys[] = {
     NUMBER(onset_shot, "expected_gouged_volume", expected_gouged_volume, "m3", ""),
     NUMBER(onset_shot, "onset_position", onset_position, "m", "median of the first gouge; null: less than half gouge"),
     VECTOR(onset_shot, "onset_interval", onset_interval, 2, "m", "5 and 95 % of the shots"),
+    NUMBER(onset_shot, "muzzle_velocity", muzzle_velocity, "m/s", "through rails as warm as they are in the mean"),
+    NUMBER(onset_shot, "rail_rise", rail_rise, "K", "of the rail before it: the largest from study.velocity_low on"),
+    NUMBER(onset_shot, "threshold_velocity", threshold_velocity, "m/s", "as the study's, where the rail is that warm"),
     KEYS_END
 };
 

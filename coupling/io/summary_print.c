@@ -93,6 +93,22 @@ static void print_scenes(const onset_result *o, FILE *out)
     close_table(t, out);
 }
 
+static void print_shots(const onset_result *o, FILE *out)
+{
+    table *t;
+    const char *titles = "shot|rail +[K]|muzzle [m/s]|v_th [m/s]|gouges|gouged [mm3]|onset [m]";
+    if (o->n_shots < 2 || table_create(titles, &t).code != STATUS_OK) return;
+    for (int i = 0; i < o->n_shots; i++) {
+        const onset_shot *s = &o->shot[i];
+        char rise[24], muzzle[24], v[24], n[24], volume[24], x[24];
+        table_row(t, "%d|%s|%s|%s|%s|%s|%s", s->shot, cell(s->rail_rise, 1.0, "%.0f", rise),
+                  cell(s->muzzle_velocity, 1.0, "%.0f", muzzle), cell(s->threshold_velocity, 1.0, "%.0f", v),
+                  cell(s->expected_gouges, 1.0, "%.3g", n), cell(s->expected_gouged_volume, 1e-9, "%.3g", volume),
+                  cell(s->onset_position, 1.0, "%.3f", x));
+    }
+    close_table(t, out);
+}
+
 static void print_ranking(const compare_result *c, FILE *out)
 {
     table *t;
@@ -132,6 +148,7 @@ void summary_print(const run_summary *s, FILE *out)
     if (s->kind == RUN_ONSET && s->onset) {
         print_sites(s->onset, out);
         print_scenes(s->onset, out);
+        print_shots(s->onset, out);
         if (s->onset->reason[0]) fprintf(out, "\n%s: %s\n", onset_verdict_names[s->onset->verdict], s->onset->reason);
     }
     if (s->kind == RUN_SCENE && s->scene && s->scene->reason[0])

@@ -83,7 +83,8 @@ static status draw(const session *s, compare_answer *a)
 {
     mc_surface *surface = malloc((size_t)a->n * sizeof *surface);
     CHECK(surface, STATUS_MEMORY, "no memory for %d surfaces", a->n);
-    for (int i = 0; i < a->n; i++) surface[i] = (mc_surface){ &a->answer[i].grains, i, 1.0 };
+    for (int i = 0; i < a->n; i++)
+        surface[i] = (mc_surface){ .grains = &a->answer[i].grains, .draws = i, .size_factor = 1.0 };
     const mc_plan plan = { .histories = s->c->study.sampled,
                            .shots = 1,
                            .seed = s->c->study.seed,

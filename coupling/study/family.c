@@ -194,6 +194,13 @@ status families_sort(const breech_case *c, const shot_outcome *flown, const char
     return plan_searches(out);
 }
 
+const grain_family *family_alike(const grain_families *in, const grain_family *f)
+{
+    for (int k = 0; k < in->n; k++)
+        if (same_family(&in->family[k], &f->grain, f->aspect)) return &in->family[k];
+    return NULL;
+}
+
 bool family_searched(const grain_family *f, const family_scene *scene)
 {
     return !(f->by_growth && scene->whole);

@@ -52,6 +52,9 @@ void family_probe(const breech_case *c, breech_case *out);
 /* Searches all families of n cases to their end. */
 status families_search(session *s, grain_families *const *f, int n);
 
+/* Its family in another case of the same grains; NULL: none of them is fast enough there (screen). */
+const grain_family *family_alike(const grain_families *in, const grain_family *f);
+
 /* Is it of the search?  Judged by growth, whole scenes are not: their class is that of their severity. */
 bool family_searched(const grain_family *f, const family_scene *scene);
 

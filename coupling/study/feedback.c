@@ -193,9 +193,9 @@ static status draw_all(onset_answer *a, const grain_families *changed, mc_result
 {
     const breech_case *c = a->grains.c;
     mc_surface surface[SURFACES];
-    surface[0] = (mc_surface){ &a->grains, 0, 1.0 };
+    surface[0] = (mc_surface){ .grains = &a->grains, .size_factor = 1.0 };
     for (int k = 0; k < INPUTS; k++)
-        surface[k + 1] = (mc_surface){ &changed[k], 0, inputs[k].change ? 1.0 : 1.0 + CHANGE };
+        surface[k + 1] = (mc_surface){ .grains = &changed[k], .size_factor = inputs[k].change ? 1.0 : 1.0 + CHANGE };
     const mc_plan plan = { .histories = c->study.sampled / 10 + 1,
                            .shots = 1,
                            .seed = c->study.seed,

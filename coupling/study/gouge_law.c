@@ -99,6 +99,7 @@ static int collect(const grain_family *f, double limit_severity, marked *out)
         out[n++].is = (gouge_mark){ .volume = worth(r->crater_volume) / r3,
                                     .rim = worth(r->rim_height) / a->radius,
                                     .along = worth(r->crater_length) / a->radius,
+                                    .depth = worth(r->crater_depth) / a->radius,
                                     .impulse = a->record->impulse / r3,
                                     .metal = a->record->mass_loss / r3 };
     }
@@ -106,11 +107,11 @@ static int collect(const grain_family *f, double limit_severity, marked *out)
     return n;
 }
 
-static gouge_mark between(const gouge_mark *a, const gouge_mark *b, double f)
+gouge_mark gouge_mark_between(const gouge_mark *a, const gouge_mark *b, double f)
 {
-    return (gouge_mark){ a->volume + f * (b->volume - a->volume), a->rim + f * (b->rim - a->rim),
-                         a->along + f * (b->along - a->along), a->impulse + f * (b->impulse - a->impulse),
-                         a->metal + f * (b->metal - a->metal) };
+    return (gouge_mark){ a->volume + f * (b->volume - a->volume),    a->rim + f * (b->rim - a->rim),
+                         a->along + f * (b->along - a->along),       a->depth + f * (b->depth - a->depth),
+                         a->impulse + f * (b->impulse - a->impulse), a->metal + f * (b->metal - a->metal) };
 }
 
 static gouge_mark mark_at(const marked *m, int n, double v)
@@ -119,7 +120,7 @@ static gouge_mark mark_at(const marked *m, int n, double v)
     int k = 0;
     while (k + 1 < n && m[k + 1].v < v) k++;
     if (k + 1 == n || v <= m[k].v || m[k + 1].v <= m[k].v) return m[k].is;
-    return between(&m[k].is, &m[k + 1].is, (v - m[k].v) / (m[k + 1].v - m[k].v));
+    return gouge_mark_between(&m[k].is, &m[k + 1].is, (v - m[k].v) / (m[k + 1].v - m[k].v));
 }
 
 bool gouge_mark_at(const grain_family *f, double limit_severity, double velocity, gouge_mark *out)
@@ -135,6 +136,7 @@ static void tabulate_marks(const grain_family *f, double limit_severity, gouge_l
     marked m[THRESHOLD_MAX_SAMPLES];
     const int n = collect(f, limit_severity, m);
     const double first = n ? m[0].v : 1.0, last = n ? m[n - 1].v : 1.0;
+    out->marked = n > 0;
     out->v_first = first;
     out->per_v = last > first ? LAW_VELOCITIES / (last - first) : 0.0;
     for (int i = 0; i <= LAW_VELOCITIES; i++)
@@ -145,7 +147,22 @@ gouge_mark gouge_law_mark(const gouge_law *l, double velocity)
 {
     double f;
     const int i = step_of(velocity, l->v_first, l->per_v, LAW_VELOCITIES, &f);
-    return between(&l->mark[i], &l->mark[i + 1], f);
+    return gouge_mark_between(&l->mark[i], &l->mark[i + 1], f);
+}
+
+double gouge_law_depth(const grain_family *f, double limit_severity)
+{
+    double depth = 0.0;
+    for (int i = 0; i < f->n_scenes; i++)
+        if (counts(f, &f->scene[i], limit_severity))
+            depth = fmax(depth, worth(f->scene[i].record->entry.result.crater_depth));
+    return depth;
+}
+
+void gouge_law_none(gouge_law *out)
+{
+    *out = (gouge_law){ .v_first = 1.0 };
+    for (int i = 0; i <= LAW_SIZES; i++) out->low[i] = out->high[i] = INFINITY;
 }
 
 void gouge_law_make(const grain_family *f, double limit_severity, gouge_law *out)

@@ -11,16 +11,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PLACES = 1024, MAX_RIMS = 256 };
+enum { MAX_RIMS = 256 };
 
 /* What is added up over all histories, for each surface and shot. */
 enum { GOUGES, VOLUME, FIRSTS, STREWN = FIRSTS + MC_BINS, SUMS = STREWN + MC_BINS };
 
-/* A rim that a gouge left: a grain to the next shot. */
+/* A grain; of those that gouges leave, rims, as the next shot finds them. */
 typedef struct {
     double x, ln_r;
     int family;
-} rim;
+    bool bare; /* it stands on the rail's own metal, not on a layer */
+} grain;
 
 /* A population on one surface. */
 typedef struct {
@@ -32,16 +33,19 @@ typedef struct {
 /* One surface, ready for drawing. */
 typedef struct {
     const grain_families *grains;
-    gouge_law *law;       /* of each family, owned */
-    double *in_band;      /* u_b of each family in this world, owned */
-    double v[PLACES + 1]; /* of the armature, over the barrel [m/s] */
-    double per_place;     /* [1/m] */
-    strewn_here *strewn;  /* of each population, owned */
-    double ln_factor;     /* on sizes */
-    double ln_smallest;   /* of a population's grains and of rims */
+    gouge_law *law; /* of each family, owned, as those of a warmer and of a bare rail: NULL: there are none */
+    gouge_law *warm, *bare;
+    double *in_band;       /* u_b of each family in this world, owned */
+    mc_along *own;         /* where all shots are alike, owned */
+    const mc_along *along; /* of the shot under way */
+    double per_place;      /* [1/m] */
+    double layers;         /* thickness of all [m] */
+    strewn_here *strewn;   /* of each population, owned */
+    double ln_factor;      /* on sizes */
+    double ln_smallest;    /* of a population's grains and of rims */
     int draws;
     int rims, rims_next;
-    rim rim[MAX_RIMS], next[MAX_RIMS];
+    grain rim[MAX_RIMS], next[MAX_RIMS];
     int gouges; /* of the shot under way */
     double volume, first;
 } lane;
@@ -81,31 +85,63 @@ static int bin_of(const mc *m, double x)
 
 /* ---- one grain on one surface ---- */
 
-static double velocity_at(const lane *l, double x)
+static double value_at(const lane *l, const double table[MC_PLACES + 1], double x)
 {
-    const double at = fmin(fmax(x * l->per_place, 0.0), PLACES - 1e-9);
+    const double at = fmin(fmax(x * l->per_place, 0.0), MC_PLACES - 1e-9);
     const int i = (int)at;
-    return l->v[i] + (at - i) * (l->v[i + 1] - l->v[i]);
+    return table[i] + (at - i) * (table[i + 1] - table[i]);
 }
 
-static void leave_rim(lane *l, int family, double x, double radius, const gouge_mark *m)
+static double velocity_at(const lane *l, double x)
+{
+    return value_at(l, l->along->v, x);
+}
+
+/* A threshold on a rail that is warmer by a share of what `hot` is warmer than `cold`; where one of the two never gouges, the
+ * nearer one says. */
+static double warmed(double threshold, double cold, double hot, double share)
+{
+    if (isfinite(cold) && isfinite(hot)) return threshold * (1.0 + share * (hot / cold - 1.0));
+    return share < 0.5 || isinf(cold) == isinf(hot) ? threshold : hot;
+}
+
+static double threshold_at(const mc *m, const lane *l, const grain *g, double warm)
+{
+    const double in_band = l->in_band[g->family], allowed = m->of_allowance;
+    const double cold = gouge_law_threshold(&l->law[g->family], g->ln_r, in_band, allowed);
+    const double here = g->bare ? gouge_law_threshold(&l->bare[g->family], g->ln_r, in_band, allowed) : cold;
+    if (!(warm > 0.0)) return here;
+    return warmed(here, cold, gouge_law_threshold(&l->warm[g->family], g->ln_r, in_band, allowed), warm);
+}
+
+static gouge_mark mark_at(const lane *l, const grain *g, double v, double warm)
+{
+    const gouge_law *cold = g->bare ? &l->bare[g->family] : &l->law[g->family];
+    const gouge_law *hot = warm > 0.0 ? &l->warm[g->family] : cold;
+    if (!cold->marked || !hot->marked) return gouge_law_mark(cold->marked ? cold : hot, v);
+    const gouge_mark a = gouge_law_mark(cold, v), b = gouge_law_mark(hot, v);
+    return gouge_mark_between(&a, &b, warm);
+}
+
+/* Where the gouge ends; on the rail's own metal if it goes through the layers, or is in such a place itself. */
+static void leave_rim(lane *l, const grain *g, double radius, const gouge_mark *m)
 {
     if (l->rims_next == MAX_RIMS || !(m->rim > 0.0)) return;
-    l->next[l->rims_next++] = (rim){ x + m->along * radius, log(m->rim * radius), family };
+    const bool bare = l->bare && (g->bare || m->depth * radius > l->layers);
+    l->next[l->rims_next++] = (grain){ g->x + m->along * radius, log(m->rim * radius), g->family, bare };
 }
 
 /* Does it gouge? */
-static bool meet(const mc *m, lane *l, int family, double x, double ln_r)
+static bool meet(const mc *m, lane *l, const grain *g)
 {
-    const gouge_law *law = &l->law[family];
-    const double v = velocity_at(l, x);
-    if (v < gouge_law_threshold(law, ln_r, l->in_band[family], m->of_allowance)) return false;
-    const double radius = exp(ln_r);
-    const gouge_mark mark = gouge_law_mark(law, v);
+    const double v = velocity_at(l, g->x), warm = l->warm ? value_at(l, l->along->warm, g->x) : 0.0;
+    if (v < threshold_at(m, l, g, warm)) return false;
+    const double radius = exp(g->ln_r);
+    const gouge_mark mark = mark_at(l, g, v, warm);
     l->gouges++;
     l->volume += mark.volume * radius * radius * radius;
-    l->first = fmin(l->first, x);
-    leave_rim(l, family, x, radius, &mark);
+    l->first = fmin(l->first, g->x);
+    leave_rim(l, g, radius, &mark);
     return true;
 }
 
@@ -114,16 +150,17 @@ static bool meet(const mc *m, lane *l, int family, double x, double ln_r)
 static void meet_sites(const mc *m, lane *l)
 {
     const breech_case *c = l->grains->c;
-    for (int i = 0; i < c->sites.n; i++)
-        if (l->grains->of_site[i] >= 0)
-            meet(m, l, l->grains->of_site[i], c->sites.item[i].position, log(c->sites.item[i].radius) + l->ln_factor);
+    for (int i = 0; i < c->sites.n; i++) {
+        const case_site *site = &c->sites.item[i];
+        const grain g = { site->position, log(site->radius) + l->ln_factor, l->grains->of_site[i], false };
+        if (g.family >= 0) meet(m, l, &g);
+    }
 }
 
 static void meet_rims(const mc *m, lane *l)
 {
     for (int i = 0; i < l->rims; i++)
-        if (l->rim[i].ln_r >= l->ln_smallest && l->rim[i].x < m->plan->length)
-            meet(m, l, l->rim[i].family, l->rim[i].x, l->rim[i].ln_r);
+        if (l->rim[i].ln_r >= l->ln_smallest && l->rim[i].x < m->plan->length) meet(m, l, &l->rim[i]);
 }
 
 static double draw_deviate(const mc *m, const strewn *s)
@@ -149,8 +186,8 @@ static void strew(mc *m, int index, int number)
             if (here->family < 0 || kept >= here->kept) continue;
             const case_sizes *sizes = &l->grains->c->populations.item[index].sizes;
             const double ln_r = l->ln_factor + (s->table ? log(sizes->item[line].radius) : here->ln_median + spread);
-            if (ln_r >= l->ln_smallest && meet(m, l, here->family, x, ln_r))
-                sums_of(m, i, number)[STREWN + bin_of(m, x)] += 1.0;
+            const grain g = { x, ln_r, here->family, false };
+            if (ln_r >= l->ln_smallest && meet(m, l, &g)) sums_of(m, i, number)[STREWN + bin_of(m, x)] += 1.0;
         }
     }
 }
@@ -160,6 +197,7 @@ static void fire(mc *m, int number)
 {
     for (int i = 0; i < m->plan->n; i++) {
         lane *l = &m->lane[i];
+        if (!l->own) l->along = &m->plan->surface[i].along[number];
         l->gouges = l->rims_next = 0;
         l->volume = 0.0;
         l->first = INFINITY;
@@ -252,19 +290,45 @@ static void conclude(const mc *m, mc_result *out)
 
 /* ---- setting up ---- */
 
-static void tabulate_velocity(const shot_outcome *flown, double length, lane *l)
+void mc_velocities(const shot_outcome *flown, double length, double v[MC_PLACES + 1])
 {
     int k = 0;
     const trace_point *t = flown->trace;
-    l->per_place = PLACES / length;
-    for (int i = 0; i <= PLACES; i++) {
-        const double x = i / l->per_place;
+    for (int i = 0; i <= MC_PLACES; i++) {
+        const double x = i * length / MC_PLACES;
         while (k + 1 < flown->n_trace && t[k + 1].x < x) k++;
         const bool last = k + 1 >= flown->n_trace;
-        l->v[i] = flown->n_trace == 0 || x < t[0].x || (last && x > t[k].x) ? 0.0 : t[k].v;
+        v[i] = flown->n_trace == 0 || x < t[0].x || (last && x > t[k].x) ? 0.0 : t[k].v;
         if (!last && x >= t[k].x && t[k + 1].x > t[k].x)
-            l->v[i] += (x - t[k].x) / (t[k + 1].x - t[k].x) * (t[k + 1].v - t[k].v);
+            v[i] += (x - t[k].x) / (t[k + 1].x - t[k].x) * (t[k + 1].v - t[k].v);
     }
+}
+
+static status make_along(const mc_plan *plan, const mc_surface *s, lane *l)
+{
+    l->per_place = MC_PLACES / plan->length;
+    l->along = s->along;
+    if (s->along) return status_ok();
+    l->along = l->own = calloc(1, sizeof *l->own);
+    CHECK(l->own, STATUS_MEMORY, "no memory for the Monte Carlo");
+    mc_velocities(s->grains->flown, plan->length, l->own->v);
+    return status_ok();
+}
+
+/* The laws of another rail's families, in the order of the first's; none in *out where there are none. */
+static status make_laws(const mc_surface *s, const grain_families *from, gouge_law **out)
+{
+    if (!from) return status_ok();
+    *out = calloc((size_t)s->grains->n + 1, sizeof **out);
+    CHECK(*out, STATUS_MEMORY, "no memory for the Monte Carlo");
+    for (int k = 0; k < s->grains->n; k++) {
+        const grain_family *f = family_alike(from, &s->grains->family[k]);
+        if (f)
+            gouge_law_make(f, from->c->scene.limit_severity, &(*out)[k]);
+        else
+            gouge_law_none(&(*out)[k]);
+    }
+    return status_ok();
 }
 
 static void place_populations(const mc_plan *plan, lane *l)
@@ -283,31 +347,32 @@ static status make_lane(const mc_plan *plan, int i, lane *l)
     l->draws = s->draws;
     l->ln_factor = log(s->size_factor);
     l->ln_smallest = log(s->grains->c->study.smallest_radius);
-    l->law = calloc((size_t)s->grains->n + 1, sizeof *l->law);
     l->in_band = calloc((size_t)s->grains->n + 1, sizeof *l->in_band);
     l->strewn = calloc((size_t)s->grains->c->populations.n + 1, sizeof *l->strewn);
-    CHECK(l->law && l->in_band && l->strewn, STATUS_MEMORY, "no memory for the Monte Carlo");
+    CHECK(l->in_band && l->strewn, STATUS_MEMORY, "no memory for the Monte Carlo");
     place_populations(plan, l);
-    for (int k = 0; k < s->grains->n; k++)
-        gouge_law_make(&s->grains->family[k], s->grains->c->scene.limit_severity, &l->law[k]);
-    tabulate_velocity(s->grains->flown, plan->length, l);
-    return status_ok();
+    for (int k = 0; k < s->grains->c->rail.layers.n; k++) l->layers += s->grains->c->rail.layers.item[k].thickness;
+    TRY(make_laws(s, s->grains, &l->law));
+    TRY(make_laws(s, s->warm, &l->warm));
+    TRY(make_laws(s, s->bare, &l->bare));
+    return make_along(plan, s, l);
 }
 
-/* First place where any surface may gouge with grains of this population. */
+/* First place where any shot on any surface may gouge with grains of this population. */
 static double first_place(const mc *m, int index)
 {
     double first = m->plan->length;
     for (int i = 0; i < m->plan->n; i++) {
         const lane *l = &m->lane[i];
-        const int family = l->grains->of_population[index];
+        const int family = l->grains->of_population[index], shots = l->own ? 1 : m->plan->shots;
         if (family < 0) continue;
-        const double lowest = gouge_law_lowest(&l->law[family]);
-        for (int k = 0; k <= PLACES; k++)
-            if (l->v[k] >= lowest) {
-                first = fmin(first, fmax(k - 1, 0) / l->per_place);
-                break;
-            }
+        double lowest = gouge_law_lowest(&l->law[family]);
+        if (l->warm) lowest = fmin(lowest, gouge_law_lowest(&l->warm[family]));
+        for (int number = 0; number < shots; number++) {
+            int k = 0;
+            while (k <= MC_PLACES && l->along[number].v[k] < lowest) k++;
+            if (k <= MC_PLACES) first = fmin(first, fmax(k - 1, 0) / l->per_place);
+        }
     }
     return first;
 }
@@ -368,6 +433,9 @@ static status set_up(mc *m, mc_result *out)
 static void lane_free(lane *l)
 {
     free(l->law);
+    free(l->warm);
+    free(l->bare);
+    free(l->own);
     free(l->in_band);
     free(l->strewn);
 }
@@ -449,7 +517,7 @@ static double gouging_density(const lane *l, int index, double x)
 
 double mc_expected(const grain_families *grains, double length)
 {
-    const mc_surface one = { grains, 0, 1.0 };
+    const mc_surface one = { .grains = grains, .size_factor = 1.0 };
     const mc_plan plan = { .length = length, .n = 1, .surface = &one };
     lane *l = calloc(1, sizeof *l);
     double sum = NAN;
@@ -463,9 +531,9 @@ double mc_expected(const grain_families *grains, double length)
         }
         for (int k = 0; k < grains->c->populations.n; k++) {
             const case_population *p = &grains->c->populations.item[k];
-            for (int i = 0; grains->of_population[k] >= 0 && i < PLACES; i++)
-                sum += gouging_density(l, k, p->from + (p->to - p->from) * (i + 0.5) / PLACES) * (p->to - p->from) /
-                       PLACES;
+            for (int i = 0; grains->of_population[k] >= 0 && i < MC_PLACES; i++)
+                sum += gouging_density(l, k, p->from + (p->to - p->from) * (i + 0.5) / MC_PLACES) * (p->to - p->from) /
+                       MC_PLACES;
         }
     }
     if (l) lane_free(l);

@@ -6,20 +6,31 @@
  * for every surface and family) and how far cells have moved it (a share u_s of what is allowed for the resolution, threshold.h;
  * one number for all: cells err alike on all surfaces):  v_th(r) = low(r) + u_b (high(r) - low(r)) + u_s allowance,  u_s in -1 .. 1.
  * A history is a rail under `shots` shots.  A gouge leaves a rim downstream, which is a grain of the same family to
- * the next shot: its place and height, in radii of the grain that made it, by the scenes that gouged (gouge_law.h).
+ * the next shot: its place and height, in radii of the grain that made it, by the scenes that gouged (gouge_law.h).  What else the shots
+ * leave for those after them is the caller's to say (repeated.h): `along`, `warm`, `bare`.
  * Populations are a Poisson process; grains that no surface could gouge with are not drawn. */
 #ifndef BREECH_COUPLING_MONTECARLO_H
 #define BREECH_COUPLING_MONTECARLO_H
 
 #include "coupling/study/family.h"
 
-enum { MC_WORLDS = 200, MC_BINS = 1000 };
+enum { MC_WORLDS = 200, MC_BINS = 1000, MC_PLACES = 1024 };
+
+/* What a shot of one number finds along the barrel, at MC_PLACES equal steps. */
+typedef struct {
+    double v[MC_PLACES + 1];    /* of the armature [m/s] */
+    double warm[MC_PLACES + 1]; /* 0: the rail of `grains`, 1: that of `warm` */
+} mc_along;
 
 /* One surface. */
 typedef struct {
-    const grain_families *grains; /* borrowed */
+    const grain_families *grains; /* borrowed, as all that follows */
     int draws;                    /* surfaces with the same number share their u_b: the same thresholds, other inputs */
     double size_factor;           /* on every grain (a sensitivity); else 1 */
+    const mc_along *along;        /* [shots]; NULL: every shot is that of `grains`, and finds its rail */
+    const grain_families
+        *warm; /* the same grains on a warmer rail; thresholds and marks in between are linear; NULL: none */
+    const grain_families *bare; /* for rims where a gouge went through the layers; NULL: as all others */
 } mc_surface;
 
 typedef struct {
@@ -46,6 +57,9 @@ typedef struct {
     double *world_volumes; /* the same for the volume [m3], owned */
     double seconds;        /* that it took */
 } mc_result;
+
+/* v of an mc_along, no more of it. */
+void mc_velocities(const shot_outcome *flown, double length, double v[MC_PLACES + 1]);
 
 /* *out needs mc_free even on error. */
 status mc_run(const mc_plan *plan, mc_result *out);

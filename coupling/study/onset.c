@@ -16,6 +16,7 @@ static const double SURE = 0.95;         /* probability from which a population'
 
 void onset_answer_free(onset_answer *a)
 {
+    repeated_free(&a->rail);
     families_free(&a->grains);
     shot_outcome_free(&a->flown);
     mc_free(&a->drawn);
@@ -178,26 +179,32 @@ static void conclude_list(onset_answer *a)
 
 /* ---- the threshold that speaks for the case ---- */
 
-/* At the median size of the first population with a family, else at the onset's site, else the lowest of all. */
-static bool leading_threshold(const onset_answer *a, surface_size *out)
+/* A grain: of the median size of the first population with a family, else the onset's site, else the one with the lowest threshold of
+ * all.  NULL: there is none. */
+static const grain_family *leading_grain(const onset_answer *a, double *radius)
 {
     const breech_case *c = a->grains.c;
     const int site = first_site(a, 2);
+    const grain_family *lowest = NULL;
+    double v = NAN;
     for (int k = 0; k < c->populations.n; k++) {
         if (a->grains.of_population[k] < 0) continue;
-        *out = surface_at(&a->grains.family[a->grains.of_population[k]].surface,
-                          population_quantile(&c->populations.item[k], 0.5));
-        return true;
+        *radius = population_quantile(&c->populations.item[k], 0.5);
+        return &a->grains.family[a->grains.of_population[k]];
     }
     if (site >= 0) {
-        *out = threshold_of(a, site);
-        return true;
+        *radius = c->sites.item[site].radius;
+        return family_of(a, site);
     }
     for (int k = 0; k < a->grains.n; k++) {
         const surface_result *s = &a->grains.family[k].surface;
-        if (k == 0 || s->size[s->sizes - 1].velocity < out->velocity) *out = s->size[s->sizes - 1];
+        const surface_size *largest = &s->size[s->sizes - 1];
+        if (lowest && !(largest->velocity < v)) continue;
+        lowest = &a->grains.family[k];
+        v = largest->velocity;
+        *radius = largest->radius;
     }
-    return a->grains.n > 0;
+    return lowest;
 }
 
 static double place_of(const shot_outcome *flown, double v)
@@ -209,8 +216,10 @@ static double place_of(const shot_outcome *flown, double v)
 static void set_threshold(onset_answer *a)
 {
     onset_result *r = &a->result;
-    surface_size t;
-    if (!leading_threshold(a, &t)) return;
+    double radius;
+    const grain_family *f = leading_grain(a, &radius);
+    if (!f) return;
+    const surface_size t = surface_at(&f->surface, radius);
     r->threshold_velocity = t.velocity;
     r->threshold_position = place_of(&a->flown, t.velocity);
     for (int k = 0; k < 2; k++) {
@@ -321,14 +330,30 @@ status onset_judge(session *s, onset_answer *a)
 
 /* ---- random shots ---- */
 
+/* On the rail of shot k where that is warmest, linear in temperature. */
+static double threshold_of_shot(const onset_answer *a, int k)
+{
+    const repeated_rail *rail = &a->rail;
+    double radius;
+    const grain_family *f = leading_grain(a, &radius), *hot = f && rail->warm.n ? family_alike(&rail->warm, f) : NULL;
+    const double cold = a->result.threshold_velocity;
+    if (!hot || !(rail->shot[k].warm > 0.0)) return cold;
+    return cold + rail->shot[k].warm * (surface_at(&hot->surface, radius).velocity - cold);
+}
+
 static status list_shots(onset_answer *a)
 {
     onset_result *r = &a->result;
+    const repeated_shot alone = { .muzzle_velocity = a->shot.is.muzzle_velocity };
     a->repeated = calloc((size_t)a->drawn.shots, sizeof *a->repeated);
     CHECK(a->repeated, STATUS_MEMORY, "no memory for %d shots", a->drawn.shots);
     for (int k = 0; k < a->drawn.shots; k++) {
         const mc_shot *from = &a->drawn.of[k];
+        const repeated_shot *found = a->rail.shots ? &a->rail.shot[k] : &alone;
         a->repeated[k] = (onset_shot){ .shot = k + 1,
+                                       .muzzle_velocity = found->muzzle_velocity,
+                                       .rail_rise = found->rise,
+                                       .threshold_velocity = threshold_of_shot(a, k),
                                        .probability_gouge = from->probability,
                                        .expected_gouges = from->gouges,
                                        .expected_gouged_volume = from->volume,
@@ -359,7 +384,11 @@ static status draw_shots(onset_answer *a)
 {
     const breech_case *c = a->grains.c;
     onset_result *r = &a->result;
-    const mc_surface one = { &a->grains, 0, 1.0 };
+    const mc_surface one = { .grains = &a->grains,
+                             .size_factor = 1.0,
+                             .along = a->rail.along,
+                             .warm = a->rail.warm_case ? &a->rail.warm : NULL,
+                             .bare = a->rail.bare_case ? &a->rail.bare : NULL };
     const mc_plan plan = { .histories = c->study.sampled,
                            .shots = c->study.shots,
                            .seed = c->study.seed,
@@ -468,6 +497,7 @@ static status study(session *s, onset_answer *a)
     TRY(onset_begin(s, s->c, "", a));
     TRY(families_search(s, all, 1));
     TRY(onset_judge(s, a));
+    TRY(repeated_run(s, &a->grains, &a->shot, &a->rail));
     TRY(draw_shots(a));
     conclude_population(a);
     TRY(feedback_shot(s, a));

@@ -1,19 +1,21 @@
 /* The main job: where along the rail does gouging begin?
  *
  *   shot -> every site's state at arrival -> screen -> for each family of grains (family.h) the threshold velocity over
- *   size, by scenes -> sites judged, populations drawn (montecarlo.h) -> gouges handed back to the shot.
+ *   size, by scenes -> sites judged -> what further shots find (repeated.h) -> populations drawn (montecarlo.h)
+ *   -> gouges handed back to the shot.
  * A site at v gouges from its interval's upper end on, does not up to its lower end, and is undecided between.
  * `breech compare` does the same for several surfaces with onset_begin and onset_judge. */
 #ifndef BREECH_COUPLING_ONSET_H
 #define BREECH_COUPLING_ONSET_H
 
-#include "coupling/study/montecarlo.h"
+#include "coupling/study/repeated.h"
 
 typedef struct {
     onset_result result; /* borrows the arrays below */
     shot_record shot;
     shot_outcome flown;    /* owned */
     grain_families grains; /* owned; borrows flown, so an answer stays where it is */
+    repeated_rail rail;    /* of the shots after the first; owned, borrows grains */
     mc_result drawn;       /* owned */
     onset_site *site;      /* owned, as all that follows */
     onset_scene *scene;

@@ -213,7 +213,14 @@ status session_shot(session *s, const breech_case *c, const site_jump *jump, boo
     const status done = shot_run(c, &plan, out);
     if (s->history && done.code == STATUS_OK) TRY(history_tick(s->history));
     timing_add(&s->timing, "shot", wall_clock() - since);
-    *record = (shot_record){ .is = out->summary, .limits = out->limits, .wall_seconds = wall_clock() - since };
+    int warmest = 0;
+    for (int k = 1; k < SHOT_PIECES; k++)
+        if (out->rail_rise[k] > out->rail_rise[warmest]) warmest = k;
+    *record = (shot_record){ .is = out->summary,
+                             .limits = out->limits,
+                             .rail_rise = out->rail_rise[warmest],
+                             .rail_rise_position = (warmest + 0.5) * c->barrel.length / SHOT_PIECES,
+                             .wall_seconds = wall_clock() - since };
     if (done.code == STATUS_OK && with_history) warn_of_limits(s, &out->limits);
     return done;
 }

@@ -1,0 +1,184 @@
+#include "coupling/study/repeated.h"
+
+#include "coupling/study/gouge_law.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double LEAST_RISE = 10.0; /* below, a threshold moves by less than half a per cent (docs/onset.md) [K] */
+static const double RISE_STEP = 25.0;  /* so that scenes are shared [K] */
+static const double SAME_FLIGHT = 1.0; /* of the rails' mean temperature [K] */
+
+void repeated_free(repeated_rail *r)
+{
+    families_free(&r->warm);
+    families_free(&r->bare);
+    free(r->warm_case);
+    free(r->bare_case);
+    free(r->shot);
+    free(r->along);
+    memset(r, 0, sizeof *r);
+}
+
+/* ---- the flights ---- */
+
+typedef double rises[SHOT_PIECES];
+
+static double mean_of(const rises rise)
+{
+    double sum = 0.0;
+    for (int k = 0; k < SHOT_PIECES; k++) sum += rise[k];
+    return sum / SHOT_PIECES;
+}
+
+/* Of the piece's middles linearly, even before the first and after the last. */
+static double rise_at(const rises rise, double share_of_barrel)
+{
+    const double at = fmin(fmax(SHOT_PIECES * share_of_barrel - 0.5, 0.0), SHOT_PIECES - 1.0);
+    const int k = at < SHOT_PIECES - 1 ? (int)at : SHOT_PIECES - 2;
+    return rise[k] + (at - k) * (rise[k + 1] - rise[k]);
+}
+
+/* The largest where the armature is at least this fast. */
+static double warmest(const mc_along *a, double slowest)
+{
+    double most = 0.0;
+    for (int k = 0; k <= MC_PLACES; k++)
+        if (a->v[k] >= slowest) most = fmax(most, a->warm[k]);
+    return most;
+}
+
+static status no_melting(const breech_case *c, int number, double rise)
+{
+    const material *metal = case_material(c, c->rail.material);
+    CHECK(c->rail.temperature + rise < metal->melting_temperature, STATUS_BAD_INPUT,
+          "study.shots: shot %d would find the rail at %.0f K, %s melts at %.0f K; lower study.shots or "
+          "study.heat_kept = %g",
+          number, c->rail.temperature + rise, c->rail.material, metal->melting_temperature, c->study.heat_kept);
+    return status_ok();
+}
+
+/* The shot of this number, from 1, through rails that are warmer in the mean; the same flight as the last where they hardly are. */
+static status fly(session *s, const breech_case *c, int number, const rises rise, double *flown_at, rises left,
+                  repeated_rail *out)
+{
+    const double mean = mean_of(rise);
+    out->along[number] = out->along[number - 1];
+    out->shot[number].muzzle_velocity = out->shot[number - 1].muzzle_velocity;
+    if (fabs(mean - *flown_at) < SAME_FLIGHT) return status_ok();
+    breech_case warm = *c; /* borrows all */
+    shot_outcome flown;
+    shot_record record;
+    warm.rails.temperature += mean;
+    const status done = session_shot(s, &warm, NULL, false, &flown, &record);
+    if (done.code == STATUS_OK) {
+        mc_velocities(&flown, c->barrel.length, out->along[number].v);
+        out->shot[number].muzzle_velocity = record.is.muzzle_velocity;
+        memcpy(left, flown.rail_rise, sizeof(rises));
+        *flown_at = mean;
+    }
+    shot_outcome_free(&flown);
+    return done;
+}
+
+/* along[].warm is the rise itself until it is known what the warm search is for. */
+static status fly_all(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out)
+{
+    const breech_case *c = first->c;
+    rises rise = { 0.0 }, left;
+    double flown_at = 0.0;
+    memcpy(left, first->flown->rail_rise, sizeof left);
+    mc_velocities(first->flown, c->barrel.length, out->along[0].v);
+    out->shot[0].muzzle_velocity = flight->is.muzzle_velocity;
+    for (int n = 1; n < out->shots; n++) {
+        for (int k = 0; k < SHOT_PIECES; k++) rise[k] = c->study.heat_kept * (rise[k] + left[k]);
+        TRY(fly(s, c, n, rise, &flown_at, left, out));
+        for (int k = 0; k <= MC_PLACES; k++) out->along[n].warm[k] = rise_at(rise, (double)k / MC_PLACES);
+        out->shot[n].rise = warmest(&out->along[n], c->study.velocity_low);
+        TRY(no_melting(c, n + 1, out->shot[n].rise));
+        out->rise = fmax(out->rise, out->shot[n].rise);
+    }
+    return status_ok();
+}
+
+/* ---- the searches ---- */
+
+static bool is_renewed(const grain_families *f)
+{
+    for (int i = 0; i < f->c->populations.n; i++)
+        if (f->of_population[i] >= 0 && f->c->populations.item[i].renewed) return true;
+    return false;
+}
+
+/* The deepest crater among those that count. */
+static double deepest_gouge(const grain_families *f)
+{
+    double depth = 0.0;
+    for (int k = 0; k < f->n; k++) depth = fmax(depth, gouge_law_depth(&f->family[k], f->c->scene.limit_severity));
+    return depth;
+}
+
+static double layers_thickness(const breech_case *c)
+{
+    double sum = 0.0;
+    for (int i = 0; i < c->rail.layers.n; i++) sum += c->rail.layers.item[i].thickness;
+    return sum;
+}
+
+/* A copy of the first shot's case, to be changed. */
+static status copy_case(const grain_families *first, breech_case **out)
+{
+    *out = malloc(sizeof **out);
+    CHECK(*out, STATUS_MEMORY, "no memory for a case");
+    **out = *first->c;
+    return status_ok();
+}
+
+static status search(session *s, const grain_families *first, repeated_rail *out)
+{
+    const double depth = deepest_gouge(first);
+    const bool warm = out->rise >= LEAST_RISE && (depth > 0.0 || is_renewed(first));
+    const bool bare = first->c->rail.layers.n > 0 && depth > layers_thickness(first->c);
+    grain_families *all[2];
+    int n = 0;
+    out->rise = warm ? RISE_STEP * ceil(out->rise / RISE_STEP) : 0.0;
+    if (warm) {
+        TRY(copy_case(first, &out->warm_case));
+        out->warm_case->rail.temperature += out->rise;
+        TRY(families_sort(out->warm_case, first->flown, "warm-", &out->warm));
+        all[n++] = &out->warm;
+    }
+    if (bare) {
+        TRY(copy_case(first, &out->bare_case));
+        out->bare_case->rail.layers.n = 0;
+        TRY(families_sort(out->bare_case, first->flown, "bare-", &out->bare));
+        all[n++] = &out->bare;
+    }
+    return n > 0 ? families_search(s, all, n) : status_ok();
+}
+
+/* From rises to shares of the warm search's. */
+static void share_out(repeated_rail *r)
+{
+    const double per = r->rise > 0.0 ? 1.0 / r->rise : 0.0;
+    for (int n = 0; n < r->shots; n++) {
+        r->shot[n].warm = per * r->shot[n].rise;
+        for (int k = 0; k <= MC_PLACES; k++) r->along[n].warm[k] = fmin(per * r->along[n].warm[k], 1.0);
+    }
+}
+
+status repeated_run(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out)
+{
+    const int shots = first->c->study.shots;
+    memset(out, 0, sizeof *out);
+    if (shots == 1) return status_ok();
+    out->shot = calloc((size_t)shots, sizeof *out->shot);
+    out->along = calloc((size_t)shots, sizeof *out->along);
+    CHECK(out->shot && out->along, STATUS_MEMORY, "no memory for %d shots", shots);
+    out->shots = shots;
+    TRY(fly_all(s, first, flight, out));
+    TRY(search(s, first, out));
+    share_out(out);
+    return status_ok();
+}

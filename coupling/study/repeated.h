@@ -1,0 +1,34 @@
+/* Shots fired one after the other at the same rail (study.shots): what each finds there of those before it.
+ *
+ * Heat: what the shots before have left (shot_rail_rise), of which study.heat_kept is still there, even over the section.  Each shot
+ * flies through rails of that mean temperature.  If the rail is warm where grains may gouge, their thresholds are searched for once more
+ * at the warmest of all places and shots (in steps of 25 K); in between they go linearly with temperature.
+ * A bare rail: where a gouge is deeper than the layers, the rim that it leaves stands on the rail's own metal; thresholds
+ * for that are searched for too.
+ * Rims themselves are drawn: montecarlo.h.  Nothing is searched for that no later shot can meet. */
+#ifndef BREECH_COUPLING_REPEATED_H
+#define BREECH_COUPLING_REPEATED_H
+
+#include "coupling/study/montecarlo.h"
+
+/* One shot. */
+typedef struct {
+    double muzzle_velocity; /* NaN: the armature did not leave [m/s] */
+    double rise;            /* of the rail before it, largest where the armature is fast enough to be looked at [K] */
+    double warm;            /* the same as a share of the warm search's rise [1] */
+} repeated_shot;
+
+typedef struct {
+    int shots;                          /* 0: there is but one, all below is empty */
+    repeated_shot *shot;                /* [shots], owned */
+    mc_along *along;                    /* [shots], owned */
+    double rise;                        /* that the warm search is for; 0: there is none [K] */
+    breech_case *warm_case, *bare_case; /* owned, borrow from the first's; NULL: not needed */
+    grain_families warm, bare;          /* owned */
+} repeated_rail;
+
+/* After the first shot's search.  *out needs repeated_free even on error, before `first` goes.  STATUS_BAD_INPUT: the rail would melt. */
+status repeated_run(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out);
+void repeated_free(repeated_rail *r);
+
+#endif
