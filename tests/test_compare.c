@@ -440,9 +440,7 @@ static void test_population_onset(void **state)
     case_free(c);
 }
 
-/* ---- shot after shot ---- */
-
-static onset_answer repeated(breech_case *c, const char *dir, status want)
+static onset_answer studied(breech_case *c, const char *dir, status want)
 {
     onset_answer a;
     session s;
@@ -465,6 +463,55 @@ static int scenes_named(const onset_answer *a, const char *prefix)
     return n;
 }
 
+/* ---- inputs that are not well known ---- */
+
+/* The made-up threshold rises by 150 m/s where the rail is half as strong again (yield_scale 1.5), by 30 for a tenth; friction does
+ * nothing. */
+static void test_uncertain_inputs(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD GRAINS, CASE_FOR_ONSET);
+    c->study.velocity_low = 500.0;
+    c->study.velocity_high = 3000.0;
+    c->study.velocity_interval = 0.01;
+    c->study.sampled = 100000;
+    onset_answer a = studied(c, "certain", status_ok());
+    const onset_result sure = a.result;
+    onset_answer_free(&a);
+    c->study.sensitivities = true;
+    c->study.strength_error = 1.0 / 1.5 * 0.8; /* 80 m/s */
+    c->study.friction_error = 0.5;
+    a = studied(c, "uncertain", status_ok());
+    const onset_result *r = &a.result;
+    assert_true(r->threshold_velocity == sure.threshold_velocity);
+    const double resolution = 0.1 * sure.threshold_velocity, both = sqrt(resolution * resolution + 80.0 * 80.0);
+    for (int e = 0; e < 2; e++)
+        assert_true(fabs(fabs(r->threshold_interval[e] - sure.threshold_interval[e]) - (both - resolution)) < 6.0);
+    assert_true(r->threshold_interval[0] < sure.threshold_interval[0] &&
+                r->threshold_interval[1] > sure.threshold_interval[1]);
+    assert_true(r->expected_gouges_interval[1] - r->expected_gouges_interval[0] >
+                sure.expected_gouges_interval[1] - sure.expected_gouges_interval[0]);
+    const case_study *near = &a.uncertain.of[0].c->study;
+    const double threshold = a.grains.family[0].surface.reference.velocity;
+    assert_true(fabs(near->velocity_low / threshold - 0.6) < 1e-9);
+    assert_true(fabs(near->velocity_high / threshold - 1.6) < 1e-9);
+    assert_int_equal(r->n_sensitivities, 6);
+    const onset_sensitivity *strength = &r->sensitivities[4], *friction = &r->sensitivities[5];
+    assert_string_equal(strength->input, "rail.yield_scale");
+    assert_true(fabs(strength->threshold_velocity - r->threshold_velocity - 80.0) < 12.0);
+    assert_true(strength->threshold_position > r->threshold_position && strength->expected_gouges < r->expected_gouges);
+    assert_true(fabs(friction->threshold_velocity - r->threshold_velocity) < 12.0);
+    assert_true(scenes_named(&a, "strength-") > 0 && scenes_named(&a, "friction-") > 0);
+    for (int i = 0; i < r->n_scenes; i++) /* near the threshold, and no whole craters */
+        if (strncmp(r->scene[i].name, "g1", 2) != 0)
+            assert_true(r->scene[i].gauged && r->scene[i].velocity > 0.55 * r->threshold_velocity &&
+                        r->scene[i].velocity < 1.65 * r->threshold_velocity);
+    onset_answer_free(&a);
+    case_free(c);
+}
+
+/* ---- shot after shot ---- */
+
 /* The rail gets warmer from shot to shot, and this made-up one gouges 0.5 m/s earlier for every kelvin. */
 static void test_shots_warm_the_rail(void **state)
 {
@@ -473,7 +520,7 @@ static void test_shots_warm_the_rail(void **state)
     c->rails.level = SHOT_RAILS_DIFFUSING;
     c->study.velocity_interval = 0.01;
     c->study.shots = 4;
-    onset_answer a = repeated(c, "warm", status_ok());
+    onset_answer a = studied(c, "warm", status_ok());
     const onset_shot *each = a.result.shot;
     assert_true(each[0].rail_rise == 0.0 && each[0].threshold_velocity == a.result.threshold_velocity);
     for (int k = 1; k < 4; k++) {
@@ -489,7 +536,7 @@ static void test_shots_warm_the_rail(void **state)
     const onset_shot first = each[0];
     onset_answer_free(&a);
     c->study.heat_kept = 0.0; /* all of it gone: as the first, and not a scene more */
-    a = repeated(c, "cooled", status_ok());
+    a = studied(c, "cooled", status_ok());
     each = a.result.shot;
     assert_int_equal(scenes_named(&a, "warm-"), 0);
     assert_true(each[3].rail_rise == 0.0 && each[3].threshold_velocity == first.threshold_velocity);
@@ -498,13 +545,13 @@ static void test_shots_warm_the_rail(void **state)
     onset_answer_free(&a);
     c->study.heat_kept = 0.5; /* it settles at as much as one shot leaves */
     c->study.shots = 12;
-    a = repeated(c, "settled", status_ok());
+    a = studied(c, "settled", status_ok());
     each = a.result.shot;
     assert_true(each[11].rail_rise < 1.02 * each[9].rail_rise && each[1].rail_rise < 0.6 * each[11].rail_rise);
     onset_answer_free(&a);
     c->study.heat_kept = 1.0;
     c->study.shots = 500;
-    a = repeated(c, "melted", status_error(STATUS_BAD_INPUT, "ofhc_copper melts at 1356 K; lower study.shots"));
+    a = studied(c, "melted", status_error(STATUS_BAD_INPUT, "ofhc_copper melts at 1356 K; lower study.shots"));
     onset_answer_free(&a);
     case_free(c);
 }
@@ -524,7 +571,7 @@ static void test_shots_strip_the_rail(void **state)
         c->rail.layers = (case_layers){ 1, &layer };
         c->study.shots = 2;
         c->study.heat_kept = 0.0;
-        onset_answer a = repeated(c, "stripped", status_ok());
+        onset_answer a = studied(c, "stripped", status_ok());
         if ((scenes_named(&a, "bare-") > 0) != (k == 0)) fail_msg("%s", thickness[k]);
         for (int i = 0; i < a.result.n_scenes; i++) {
             const bool bare = strncmp(a.result.scene[i].name, "bare-", 5) == 0;
@@ -547,6 +594,7 @@ int main(void)
         cmocka_unit_test(test_sheared_off),
         cmocka_unit_test(test_seed),
         cmocka_unit_test(test_population_onset),
+        cmocka_unit_test(test_uncertain_inputs),
         cmocka_unit_test(test_shots_warm_the_rail),
         cmocka_unit_test(test_shots_strip_the_rail),
     };

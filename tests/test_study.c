@@ -263,15 +263,16 @@ static void test_beyond(void **state)
 static void test_ends(void **state)
 {
     (void)state;
-    const threshold_plan plan = usual();
-    for (int k = 0; k < FUNCTIONS; k++) {
-        function low = plain(functions[k], 700.0), high = plain(functions[k], 2600.0);
+    threshold_plan plan = usual();
+    for (int k = 0; k < 2 * FUNCTIONS; k++) {
+        plan.resolution = k < FUNCTIONS ? 0.0 : 0.1; /* what finer cells may change holds for one side too */
+        function low = plain(functions[k % FUNCTIONS], 700.0), high = plain(functions[k % FUNCTIONS], 2600.0);
         threshold_result r = search(&low, &plan);
         assert_int_equal(r.outcome, THRESHOLD_BELOW);
-        assert_true(isnan(r.velocity) && isnan(r.interval[0]) && r.interval[1] == 1000.0);
+        assert_true(isnan(r.velocity) && isnan(r.interval[0]) && r.interval[1] == 1000.0 * (1.0 + plan.resolution));
         r = search(&high, &plan);
         assert_int_equal(r.outcome, THRESHOLD_ABOVE);
-        assert_true(isnan(r.velocity) && isnan(r.interval[1]) && r.interval[0] == 2000.0);
+        assert_true(isnan(r.velocity) && isnan(r.interval[1]) && r.interval[0] == 2000.0 * (1.0 - plan.resolution));
         assert_true(low.calls <= 4 && high.calls <= 4); /* the middle and doubling steps of a quarter */
     }
 }

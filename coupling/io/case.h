@@ -204,6 +204,7 @@ typedef struct {
     double screen_low, screen_high; /* band of impact pressure over hardness: below no scene is needed [1] */
     double coarse_cells_per_radius, fine_cells_per_radius; /* [1] */
     double resolution_error;                               /* share that finer cells may move a threshold by [1] */
+    double strength_error, friction_error;                 /* of rail.yield_scale, of scene.friction, relative [1] */
     bool feedback;                                         /* a gouge's impulse and mass loss go back into the shot */
     bool sensitivities;                                    /* the shot again with changed inputs */
     int shots;                                             /* fired one after the other on the same rail */

@@ -184,6 +184,9 @@ static const param study_params[] = {
     PARAM_DOUBLE(case_study, resolution_error, "1", 0.1, 0.0, 1.0,
                  "share of a threshold that finer cells may move it by: its interval allows for that, or for the shift "
                  "from coarse to fine cells where that is more"),
+    PARAM_DOUBLE(case_study, strength_error, "1", 0.0, 0.0, 1.0,
+                 "uncertainty of rail.yield_scale, relative: a search more, and the threshold's interval holds it"),
+    PARAM_DOUBLE(case_study, friction_error, "1", 0.0, 0.0, 10.0, "uncertainty of scene.friction alike"),
     PARAM_BOOL(case_study, feedback, 1, "a gouge's impulse and mass loss go back into the shot"),
     PARAM_BOOL(case_study, sensitivities, 1, "what 5 % more charge, mass, friction and grain size would do"),
     PARAM_INT(case_study, shots, 1, 1, 1000, "fired one after the other on the same rail"),

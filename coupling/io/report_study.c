@@ -65,8 +65,8 @@ static const page_column skip_columns[] = { { "rests_on", "why no scene was need
                                             { "scenes", "scenes", 1.0, "" } };
 static const page_column sensitivity_columns[] = {
     { "input", "changed", 1.0, "" },                      { "change", "by", 0.01, "%" },
-    { "muzzle_velocity", "muzzle velocity", 1.0, "m/s" }, { "threshold_position", "threshold passed at", 1.0, "m" },
-    { "expected_gouges", "expected gouges", 1.0, "" } };
+    { "muzzle_velocity", "muzzle velocity", 1.0, "m/s" }, { "threshold_velocity", "threshold", 1.0, "m/s" },
+    { "threshold_position", "passed at", 1.0, "m" },      { "expected_gouges", "expected gouges", 1.0, "" } };
 static const page_column repeated_columns[] = {
     { "shot", "shot", 1.0, "" },                       { "probability_gouge", "P(gouge)", 1.0, "" },
     { "expected_gouges", "expected gouges", 1.0, "" }, { "expected_gouged_volume", "gouged volume", 1e-9, "mm&sup3;" },

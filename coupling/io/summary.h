@@ -119,6 +119,7 @@ typedef struct {
     char input[40];
     double change;             /* of the input, relative [1] */
     double muzzle_velocity;    /* [m/s] */
+    double threshold_velocity; /* [m/s] */
     double threshold_position; /* [m] */
     double expected_gouges;    /* [1] */
 } onset_sensitivity;

@@ -157,6 +157,7 @@ const summary_key summary_sensitivity_keys[] = {
     VALUE(onset_sensitivity, KEY_TEXT, "input", input, "", "what is changed, all else as it was"),
     NUMBER(onset_sensitivity, "change", change, "1", "relative"),
     NUMBER(onset_sensitivity, "muzzle_velocity", muzzle_velocity, "m/s", ""),
+    NUMBER(onset_sensitivity, "threshold_velocity", threshold_velocity, "m/s", "of the grain that speaks for the case"),
     NUMBER(onset_sensitivity, "threshold_position", threshold_position, "m", "along the barrel"),
     NUMBER(onset_sensitivity, "expected_gouges", expected_gouges, "1", "a shot"),
     KEYS_END

@@ -1,4 +1,4 @@
-/* What the gouges of a study do to its shot, and what a change of its inputs would do to the gouges. */
+/* What the gouges of a study do to its shot. */
 #ifndef BREECH_COUPLING_FEEDBACK_H
 #define BREECH_COUPLING_FEEDBACK_H
 
@@ -7,8 +7,5 @@
 /* The shot again with what gouges take: sites of the list that gouge, and what populations are expected to.  Sets
  * result.muzzle_velocity_feedback; NaN where nothing is taken or study.feedback is off. */
 status feedback_shot(session *s, onset_answer *a);
-
-/* Charge, mass, friction and grain size, each 5 % more: the shot again, the same thresholds, the same random numbers. */
-status sensitivities_run(session *s, onset_answer *a);
 
 #endif

@@ -4,6 +4,7 @@
 #include "coupling/study/feedback.h"
 #include "coupling/study/gouge_law.h"
 #include "coupling/study/population.h"
+#include "coupling/study/sensitivity.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -17,6 +18,7 @@ static const double SURE = 0.95;         /* probability from which a population'
 void onset_answer_free(onset_answer *a)
 {
     repeated_free(&a->rail);
+    uncertain_free(&a->uncertain);
     families_free(&a->grains);
     shot_outcome_free(&a->flown);
     mc_free(&a->drawn);
@@ -179,9 +181,7 @@ static void conclude_list(onset_answer *a)
 
 /* ---- the threshold that speaks for the case ---- */
 
-/* A grain: of the median size of the first population with a family, else the onset's site, else the one with the lowest threshold of
- * all.  NULL: there is none. */
-static const grain_family *leading_grain(const onset_answer *a, double *radius)
+const grain_family *onset_leading_grain(const onset_answer *a, double *radius)
 {
     const breech_case *c = a->grains.c;
     const int site = first_site(a, 2);
@@ -217,7 +217,7 @@ static void set_threshold(onset_answer *a)
 {
     onset_result *r = &a->result;
     double radius;
-    const grain_family *f = leading_grain(a, &radius);
+    const grain_family *f = onset_leading_grain(a, &radius);
     if (!f) return;
     const surface_size t = surface_at(&f->surface, radius);
     r->threshold_velocity = t.velocity;
@@ -335,7 +335,8 @@ static double threshold_of_shot(const onset_answer *a, int k)
 {
     const repeated_rail *rail = &a->rail;
     double radius;
-    const grain_family *f = leading_grain(a, &radius), *hot = f && rail->warm.n ? family_alike(&rail->warm, f) : NULL;
+    const grain_family *f = onset_leading_grain(a, &radius),
+                       *hot = f && rail->warm.n ? family_alike(&rail->warm, f) : NULL;
     const double cold = a->result.threshold_velocity;
     if (!hot || !(rail->shot[k].warm > 0.0)) return cold;
     return cold + rail->shot[k].warm * (surface_at(&hot->surface, radius).velocity - cold);
@@ -445,15 +446,18 @@ static void explain(onset_answer *a)
 {
     onset_result *r = &a->result;
     const double *x = r->threshold_position_interval;
+    double radius;
+    const grain_family *f = onset_leading_grain(a, &radius);
+    const double allowance = f ? f->surface.reference.allowance : 0.0;
     if (a->grains.n == 0)
         say(r, "no site is reached fast enough to gouge (screen)");
     else if (isfinite(r->threshold_velocity))
         say(r, "threshold %.0f m/s (%.0f .. %.0f) is passed at x = %.3f m (%.3f .. %.3f)", r->threshold_velocity,
             r->threshold_interval[0], r->threshold_interval[1], r->threshold_position, x[0], x[1]);
     else if (isnan(r->threshold_interval[0]))
-        say(r, "threshold at or below %.0f m/s, where the search began", r->threshold_interval[1]);
+        say(r, "threshold at or below %.0f m/s, where the search began", r->threshold_interval[1] - allowance);
     else
-        say(r, "threshold above %.0f m/s, where the search ended", r->threshold_interval[0]);
+        say(r, "threshold above %.0f m/s, where the search ended", r->threshold_interval[0] + allowance);
     if (a->result.n_sites > 0) say(r, "; fastest site %.0f m/s", fastest_site(a));
     if (a->grains.c->populations.n > 0)
         say(r, "; %.3g gouges a shot (%.3g .. %.3g)", r->expected_gouges, r->expected_gouges_interval[0],
@@ -496,6 +500,7 @@ static status study(session *s, onset_answer *a)
     grain_families *const all[] = { &a->grains };
     TRY(onset_begin(s, s->c, "", a));
     TRY(families_search(s, all, 1));
+    TRY(uncertain_run(s, &a->grains, &a->uncertain));
     TRY(onset_judge(s, a));
     TRY(repeated_run(s, &a->grains, &a->shot, &a->rail));
     TRY(draw_shots(a));

@@ -1,7 +1,7 @@
 /* The main job: where along the rail does gouging begin?
  *
  *   shot -> every site's state at arrival -> screen -> for each family of grains (family.h) the threshold velocity over
- *   size, by scenes -> sites judged -> what further shots find (repeated.h) -> populations drawn (montecarlo.h)
+ *   size, by scenes -> what else its interval has to hold (uncertain.h) -> sites judged -> what further shots find (repeated.h) -> populations drawn (montecarlo.h)
  *   -> gouges handed back to the shot.
  * A site at v gouges from its interval's upper end on, does not up to its lower end, and is undecided between.
  * `breech compare` does the same for several surfaces with onset_begin and onset_judge. */
@@ -9,15 +9,17 @@
 #define BREECH_COUPLING_ONSET_H
 
 #include "coupling/study/repeated.h"
+#include "coupling/study/uncertain.h"
 
 typedef struct {
     onset_result result; /* borrows the arrays below */
     shot_record shot;
-    shot_outcome flown;    /* owned */
-    grain_families grains; /* owned; borrows flown, so an answer stays where it is */
-    repeated_rail rail;    /* of the shots after the first; owned, borrows grains */
-    mc_result drawn;       /* owned */
-    onset_site *site;      /* owned, as all that follows */
+    shot_outcome flown;         /* owned */
+    grain_families grains;      /* owned; borrows flown, so an answer stays where it is */
+    uncertain_inputs uncertain; /* owned, borrows grains */
+    repeated_rail rail;         /* of the shots after the first; owned, borrows grains */
+    mc_result drawn;            /* owned */
+    onset_site *site;           /* owned, as all that follows */
     onset_scene *scene;
     onset_size *size;
     onset_skip *skip;
@@ -35,6 +37,10 @@ status onset_begin(session *s, const breech_case *c, const char *prefix, onset_a
 
 /* After families_search: every site's outcome, verdict, threshold. */
 status onset_judge(session *s, onset_answer *a);
+
+/* The grain that speaks for the case: of the median size of the first population with a family, else the onset's site, else the
+ * one with the lowest threshold.  NULL: there is none. */
+const grain_family *onset_leading_grain(const onset_answer *a, double *radius);
 
 /* The scenes of the session, as a summary lists them, and what is to be warned of in them; *n of them, the caller frees. */
 status onset_list_scenes(session *s, onset_scene **out, int *n, int *run, int *reused);

@@ -328,8 +328,11 @@ static void one_sided(const search *s, const bracket *b, threshold_result *r)
 {
     const double grid_low = on_grid(s, s->plan->low), grid_high = on_grid(s, s->plan->high);
     r->outcome = THRESHOLD_UNKNOWN;
-    if (b->has_hi) r->interval[1] = r->bracket[1] = b->hi.velocity;
-    if (b->has_lo) r->interval[0] = r->bracket[0] = b->lo.velocity;
+    if (b->has_hi) r->bracket[1] = b->hi.velocity;
+    if (b->has_lo) r->bracket[0] = b->lo.velocity;
+    r->allowance = s->plan->resolution * (b->has_hi ? b->hi.velocity : b->has_lo ? b->lo.velocity : 0.0);
+    r->interval[0] = r->bracket[0] - r->allowance;
+    r->interval[1] = r->bracket[1] + r->allowance;
     if (b->has_hi && b->hi.velocity == grid_low) r->outcome = THRESHOLD_BELOW;
     if (b->has_lo && b->lo.velocity == grid_high) r->outcome = THRESHOLD_ABOVE;
 }

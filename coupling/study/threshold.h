@@ -13,7 +13,8 @@
  *      back?  If scenes run out before it has both sides: the coarse root, moved as far as the fine scenes' one side drove it.
  *   3. Interval: the fine bracket, by decided scenes (an `undecided` one takes the side of its excess, but does not end the
  *      interval: that ends at the next decided one, or where the line to it leaves the scatter), widened by what the
- *      resolution may change: the shift of the root from coarse to fine, or the plan's share of the threshold if more.
+ *      resolution may change: the shift of the root from coarse to fine, or the plan's share of the threshold if more; of
+ *      a threshold outside of the range that share of the end where it was looked for.
  * Monotonicity is checked: a higher velocity on the lower side of a lower one widens the interval over both and warns.
  * Velocities lie on the grid k * step, so that scenes are shared, and none is asked for twice. */
 #ifndef BREECH_COUPLING_THRESHOLD_H

@@ -1,0 +1,166 @@
+#include "coupling/study/sensitivity.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double CHANGE = 0.05; /* relative */
+
+typedef struct {
+    const char *input;
+    void (*change)(breech_case *c, double factor); /* of a copy that owns its supplies; NULL: the grains' size */
+} changed_input;
+
+/* What a kind of supply is charged to; a given current is not charged. */
+typedef struct {
+    size_t size, charge; /* of the kind's struct; offset of the double in it */
+} supply_charge;
+
+static const supply_charge charges[SUPPLY_KINDS] = {
+    [SUPPLY_capacitor] = { sizeof(shot_module), offsetof(shot_module, charge) },
+    [SUPPLY_inductor] = { sizeof(supply_inductor), offsetof(supply_inductor, current) },
+    [SUPPLY_homopolar] = { sizeof(supply_homopolar), offsetof(supply_homopolar, speed) },
+    [SUPPLY_alternator] = { sizeof(supply_alternator), offsetof(supply_alternator, speed) },
+};
+
+static void change_charge(breech_case *c, double factor)
+{
+    for (int k = 0; k < SUPPLY_KINDS; k++)
+        for (int i = 0; charges[k].size && i < c->supplies[k].n; i++) {
+            char *group = (char *)c->supplies[k].item + (size_t)i * charges[k].size;
+            *(double *)(void *)(group + charges[k].charge) *= factor;
+        }
+}
+
+static void change_mass(breech_case *c, double factor)
+{
+    c->armature.mass *= factor;
+}
+
+static void change_friction(breech_case *c, double factor)
+{
+    c->armature.friction_dry *= factor;
+    c->armature.friction_melted *= factor;
+    c->armature.film_viscosity *= factor;
+}
+
+static const changed_input inputs[] = {
+    { "charge of the supplies", change_charge },
+    { "armature.mass", change_mass },
+    { "armature.friction", change_friction },
+    { "grain size", NULL },
+};
+enum { INPUTS = sizeof inputs / sizeof inputs[0], MOST = INPUTS + UNCERTAIN_MAX };
+
+static status own_supplies(const breech_case *from, breech_case *c)
+{
+    for (int k = 0; k < SUPPLY_KINDS; k++)
+        if (charges[k].size) c->supplies[k].item = NULL;
+    for (int k = 0; k < SUPPLY_KINDS; k++) {
+        const size_t bytes = (size_t)from->supplies[k].n * charges[k].size;
+        if (bytes == 0) continue;
+        c->supplies[k].item = malloc(bytes);
+        CHECK(c->supplies[k].item, STATUS_MEMORY, "no memory for the supplies");
+        memcpy(c->supplies[k].item, from->supplies[k].item, bytes);
+    }
+    return status_ok();
+}
+
+/* The shot with one input changed; of grain size the shot as it was. */
+static status fly_changed(session *s, const onset_answer *a, const changed_input *input, shot_outcome *flown,
+                          shot_record *record)
+{
+    breech_case c = *a->grains.c;
+    *record = a->shot;
+    if (!input->change) return status_ok();
+    const status done = own_supplies(a->grains.c, &c);
+    if (done.code == STATUS_OK) input->change(&c, 1.0 + CHANGE);
+    const status shot_done = done.code == STATUS_OK ? session_shot(s, &c, NULL, false, flown, record) : done;
+    for (int k = 0; k < SUPPLY_KINDS; k++)
+        if (charges[k].size) free(c.supplies[k].item);
+    return shot_done;
+}
+
+/* An input changed: of the shot (the same grains in another one), or of the scenes (other thresholds). */
+typedef struct {
+    const char *input;
+    double change;
+    shot_outcome flown; /* owned; empty where the shot is as it was */
+    shot_record record;
+    grain_families grains; /* borrows */
+    double size_factor;
+} changed;
+
+static void conclude(const onset_answer *a, const changed *with, const mc_result *drawn, int k)
+{
+    onset_sensitivity *out = &a->sensitivity[k];
+    double radius;
+    trace_point at;
+    const grain_family *leading = onset_leading_grain(a, &radius);
+    const grain_family *f = leading ? family_alike(&with->grains, leading) : NULL;
+    const double v = f ? surface_at(&f->surface, radius).velocity : NAN;
+    snprintf(out->input, sizeof out->input, "%s", with->input);
+    out->change = with->change;
+    out->muzzle_velocity = with->record.is.muzzle_velocity;
+    out->threshold_velocity = v;
+    out->threshold_position = v > 0.0 && trace_at_velocity(with->grains.flown, v, &at) ? at.x : NAN;
+    /* of both the mean over the same random numbers: what differs is the input's doing */
+    out->expected_gouges = a->result.expected_gouges + (drawn->of[k + 1].gouges - drawn->of[0].gouges);
+}
+
+static status draw_all(const onset_answer *a, const changed *with, int n, mc_result *drawn)
+{
+    const breech_case *c = a->grains.c;
+    mc_surface surface[MOST + 1] = { { .grains = &a->grains, .size_factor = 1.0 } };
+    for (int k = 0; k < n; k++)
+        surface[k + 1] = (mc_surface){ .grains = &with[k].grains, .size_factor = with[k].size_factor };
+    const mc_plan plan = { .histories = c->study.sampled / 10 + 1,
+                           .shots = 1,
+                           .seed = c->study.seed,
+                           .length = c->barrel.length,
+                           .n = n + 1,
+                           .surface = surface };
+    return mc_run(&plan, drawn);
+}
+
+/* The shots with each input changed, then the searches with each uncertain one. */
+static status change_all(session *s, onset_answer *a, changed *with)
+{
+    for (int k = 0; k < INPUTS; k++) {
+        changed *to = &with[k];
+        TRY(fly_changed(s, a, &inputs[k], &to->flown, &to->record));
+        to->input = inputs[k].input;
+        to->change = CHANGE;
+        to->grains = a->grains;
+        to->grains.flown = inputs[k].change ? &to->flown : &a->flown;
+        to->size_factor = inputs[k].change ? 1.0 : 1.0 + CHANGE;
+    }
+    for (int k = 0; k < a->uncertain.n; k++) {
+        const uncertain_input *u = &a->uncertain.of[k];
+        with[INPUTS + k] = (changed){
+            .input = u->input, .change = u->change, .record = a->shot, .grains = u->grains, .size_factor = 1.0
+        };
+    }
+    return status_ok();
+}
+
+status sensitivities_run(session *s, onset_answer *a)
+{
+    const int n = INPUTS + a->uncertain.n;
+    changed with[MOST] = { { .input = NULL } };
+    mc_result drawn = { .of = NULL };
+    if (!a->grains.c->study.sensitivities || a->grains.n == 0) return status_ok();
+    a->sensitivity = calloc((size_t)n, sizeof *a->sensitivity);
+    CHECK(a->sensitivity, STATUS_MEMORY, "no memory for the sensitivities");
+    status done = change_all(s, a, with);
+    if (done.code == STATUS_OK) done = draw_all(a, with, n, &drawn);
+    if (done.code == STATUS_OK) {
+        for (int k = 0; k < n; k++) conclude(a, &with[k], &drawn, k);
+        a->result.sensitivities = a->sensitivity;
+        a->result.n_sensitivities = n;
+    }
+    for (int k = 0; k < n; k++) shot_outcome_free(&with[k].flown);
+    mc_free(&drawn);
+    return done;
+}
