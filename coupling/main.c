@@ -301,6 +301,7 @@ static int run_check(const options *o)
 static void print_sheet(const material_sheet *sheet)
 {
     printf("%s: %s\n%s\n", sheet->material.name, sheet->title, sheet->path);
+    if (sheet->material.strength == STRENGTH_PTW) printf("  flow stress of Preston, Tonks and Wallace (M-23)\n");
     for (int i = 0; i < sheet->n; i++) {
         const material_constant *k = &sheet->constant[i];
         const double value = *(const double *)(const void *)((const char *)&sheet->material + k->constant->offset);

@@ -38,6 +38,7 @@ static uint64_t hash(uint64_t h, const void *data, size_t bytes) /* FNV-1a */
 
 static uint64_t hash_body(uint64_t h, const mpm_body *b, const material *m)
 {
+    h = hash(h, &m->strength, sizeof m->strength);
     h = hash(h, &m->density, sizeof *m - offsetof(material, density));
     h = hash(h, b->shape->name, strlen(b->shape->name));
     h = hash(h, &b->shape_value, sizeof b->shape_value);

@@ -123,6 +123,59 @@ static void thermal(law *k, const material *m)
     k->rho_dust = 0.25 * k->rho0;
 }
 
+/* (M-23), see mpm/law_lanes.h; here for the bound below and the start only. */
+static double ptw_flow(const ptw *k, double e, double log_rate, double T)
+{
+    const double T_hat = T * k->inv_T_m, soft = 1 - k->alpha * T_hat;
+    const double x = log_rate + k->log_rate - 0.5 * log(soft), f = erf(-k->kappa * T_hat * x);
+    const double driven = k->s0 * exp(k->beta * x), s = fmax(k->s0 - k->s_fall * f, driven);
+    const double y = fmax(k->y0 - k->y_fall * f, fmin(k->y1 * exp(k->y2 * x), driven));
+    const double room = (k->s0 - y) * k->inv_p;
+    if (!(room > 1e-6 * k->s0) || !(s - y > 1e-6 * s)) return k->G2 * soft * s;
+    const double D = exp(fmin((s - y) / room, 50));
+    return k->G2 * soft * (s + room * log(1 - (1 - 1 / D) * exp(-k->theta * (e + k->cold_work) / (room * (D - 1)))));
+}
+
+/* Least of sigma_y/(1 - T*) over temperature, at the strain and the rate at which a metal is weakest. */
+static double ptw_least(const law *k)
+{
+    enum { STEPS = 200 };
+    double least = HUGE_VAL;
+    for (int i = 0; i < STEPS; i++) {
+        const double T_star = (double)i / STEPS, T = k->T_r + T_star * (k->T_m - k->T_r);
+        least = fmin(least, ptw_flow(&k->ptw, 0, 0, T) / (1 - T_star));
+    }
+    return least;
+}
+
+/*   xi = 1/2 (4 pi rho0/(3 M))^(1/3) sqrt(G0/rho0), M the mass of an atom                              (M-23) [1/s] */
+static void strength_ptw(law *k, const material *m, double scale)
+{
+    const double avogadro = 6.02214076e23, third = 1.0 / 3.0, four_pi = 16 * atan(1);
+    const double atom = m->molar_mass / avogadro;
+    const double xi = 0.5 * pow(four_pi * m->density / (3 * atom), third) * sqrt(m->ptw_G0 / m->density);
+    k->is_ptw = true;
+    k->ptw = (ptw){
+        .theta = m->ptw_theta,
+        .inv_p = 1 / fmax(m->ptw_p, 1e-4), /* p = 0: the limit, to 1e-4 */
+        .s0 = m->ptw_s0,
+        .s_fall = m->ptw_s0 - m->ptw_s_inf,
+        .kappa = m->ptw_kappa,
+        .y0 = m->ptw_y0,
+        .y_fall = m->ptw_y0 - m->ptw_y_inf,
+        .y1 = m->ptw_y1,
+        .y2 = m->ptw_y2,
+        .beta = m->ptw_beta,
+        .G2 = 2 * scale * m->ptw_G0,
+        .alpha = m->ptw_alpha,
+        .inv_T_m = 1 / k->T_m,
+        .log_rate = -log(m->ptw_gamma * xi * k->inv_rate0),
+        .cold_work = or_zero(m->ptw_cold_work),
+    };
+    k->least_flow = ptw_least(k);
+    k->flow_start = ptw_flow(&k->ptw, 0, 0, k->T_r);
+}
+
 static void strength(law *k, const material *m, const mpm_body *body)
 {
     const double scale = body->yield_scale > 0 ? body->yield_scale : 1;
@@ -134,6 +187,7 @@ static void strength(law *k, const material *m, const mpm_body *body)
     k->inv_rate0 = 1 / (isnan(m->rate_0) ? 1 : m->rate_0);
     k->flow_start = k->A;
     k->least_flow = k->B >= 0 && k->C >= 0 && k->m >= 1 ? k->A : 0;
+    if (m->strength == STRENGTH_PTW) strength_ptw(k, m, scale);
     k->D1 = -1;
     if (body->damage) {
         k->D1 = m->damage_D1, k->D2 = m->damage_D2, k->D3 = m->damage_D3;

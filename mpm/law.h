@@ -1,5 +1,6 @@
-/* The material law of one body, constants derived once (law_make) for the kernels: Johnson-Cook strength (M-1) and
- * damage (M-2), Mie-Grueneisen pressure (M-3), temperature from energy (M-4), viscosity (M-5).  See docs/scene-solver.md. */
+/* The material law of one body, constants derived once (law_make) for the kernels: strength by Johnson-Cook (M-1) or
+ * Preston-Tonks-Wallace (M-23), damage (M-2), Mie-Grueneisen pressure (M-3), temperature from energy (M-4), viscosity
+ * (M-5).  See docs/scene-solver.md. */
 #ifndef BREECH_MPM_LAW_H
 #define BREECH_MPM_LAW_H
 
@@ -7,7 +8,17 @@
 
 enum { LAW_COLD = 6 };
 
+/* Preston-Tonks-Wallace (M-23) */
 typedef struct {
+    double theta, inv_p, s0, s_fall, kappa, y0, y_fall, y1, y2, beta; /* s_fall = s0 - s_inf, y_fall = y0 - y_inf */
+    double G2, alpha, inv_T_m;                                        /* 2 G0 x the body's yield_scale [Pa]; [1, 1/K] */
+    double log_rate; /* ln(rate_0/(gamma xi)), xi the rate at T = 0 at which a shear wave crosses an atom */
+    double cold_work;
+} ptw;
+
+typedef struct {
+    bool is_ptw;
+    ptw ptw;                         /* of a body with is_ptw, else zero */
     double rho0, c0;                 /* [kg/m3, m/s] */
     double K0, K_slope;              /* rho0 c0^2 [Pa]; dK/dp = 4 s - 1 [1] */
     double g, s1;                    /* Grueneisen, s - 1 [1] */
@@ -15,7 +26,7 @@ typedef struct {
     double volume0;                  /* 1/rho0 [m3/kg] */
     double volume_min, volume_max;   /* guards of the specific volume [m3/kg] */
     double A, B, n, C, m, inv_rate0; /* Johnson-Cook */
-    double least_flow;               /* [Pa] flow stress >= least_flow (1 - T*): A where m >= 1, else 0 */
+    double least_flow;               /* [Pa] flow stress >= least_flow (1 - T*) */
     double T_r, T_m, inv_T_range;    /* [K, K, 1/K] */
     double D1, D2, D3, D4, D5;       /* failure strain; D1 < 0: no damage */
     double inv_c, c_v;               /* specific heat [kg K/J, J/(kg K)] */

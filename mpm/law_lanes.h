@@ -1,5 +1,5 @@
-/* The material law of some particles of one body over one step: strength (M-1), damage (M-2), pressure (M-3), temperature
- * (M-4), viscosity (M-5).  Constants are derived in law.c; the kernels include this once an instruction set.
+/* The material law of some particles of one body over one step: strength (M-1), (M-23), damage (M-2), pressure (M-3),
+ * temperature (M-4), viscosity (M-5).  Constants are derived in law.c; the kernels include this once an instruction set.
  * To change a law: its function here, its constants in law.h and law.c, its closed answer in tests/test_mpm_material.c. */
 #ifndef BREECH_MPM_LAW_LANES_H
 #define BREECH_MPM_LAW_LANES_H
@@ -37,6 +37,35 @@ LANE_INLINE vd power(vd x, double n)
 LANE_INLINE vd flow_stress(const law *k, vd e, vd log_rate, vd T_star)
 {
     return (k->A + k->B * power(e, k->n)) * (1 + k->C * log_rate) * (1 - power(T_star, k->m));
+}
+
+/* Error function: Abramowitz and Stegun, Handbook of Mathematical Functions, 7.1.26; off by at most 1.5e-7. */
+LANE_INLINE vd error_function(vd x)
+{
+    const vd a = vd_max(x, -x), t = 1 / (1 + 0.3275911 * a);
+    const vd sum = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
+    const vd r = 1 - sum * vd_exp(-a * a);
+    return vd_select(vd_less(x, vd_set(0)), -r, r);
+}
+
+/* Preston, Tonks, Wallace, J. Appl. Phys. 93 (2003) 211, at the density of rest:                          (M-23)
+ *   sigma_y = 2 G0 (1 - alpha T^) {s + r ln[1 - (1 - 1/D) exp(-theta (e + e_0)/(r (D - 1)))]}  [Pa], zero when molten;
+ *   T^ = T/T_m,   x = ln(edot/(gamma xi(T))),   f = erf(-kappa T^ x),   r = (s0 - y)/p,   D = exp((s - y)/r),
+ *   s = max(s0 - (s0 - s_inf) f, s0 exp(beta x)),   y = max(y0 - (y0 - y_inf) f, min(y1 exp(y2 x), s0 exp(beta x))).
+ * s is what hardening leads to, y where it begins; where no room is left between them, s.  A call, not inlined, so that
+ * the kernel of the other metals stays as it is. */
+static __attribute__((noinline)) vd flow_stress_ptw(const ptw *k, vd e, vd log_rate, vd T, vd T_star)
+{
+    const vd one = vd_set(1), T_hat = T * k->inv_T_m, soft = vd_max(1 - k->alpha * T_hat, vd_set(0.01));
+    const vd x = log_rate + k->log_rate - 0.5 * vd_log(soft), f = error_function(-k->kappa * T_hat * x);
+    const vd driven = k->s0 * vd_exp(k->beta * x), s = vd_max(k->s0 - k->s_fall * f, driven);
+    const vd y = vd_max(k->y0 - k->y_fall * f, vd_min(k->y1 * vd_exp(k->y2 * x), driven));
+    const vd room = (k->s0 - y) * k->inv_p;
+    const vm hardens = vd_less(vd_set(1e-6 * k->s0), room) & vd_less(1e-6 * s, s - y);
+    const vd r = vd_select(hardens, room, one), D = vd_exp(vd_select(hardens, vd_min((s - y) / r, vd_set(50)), one));
+    const vd left = (1 - 1 / D) * vd_exp(-k->theta * (e + k->cold_work) / (r * (D - 1)));
+    const vd stress = k->G2 * soft * (s + vd_where(hardens, r * vd_log(1 - left)));
+    return vd_where(vd_less(T_star, one), stress);
 }
 
 /*   e_f = (D1 + D2 exp(D3 s*)) (1 + D4 ln e*) (1 + D5 T*)                            (M-2); s* capped at 1.5, e_f floored */
@@ -143,7 +172,7 @@ typedef struct {
 } yielding;
 
 /* Radial return of the trial deviator s.  Where all particles lie below the least stress at which their metal could flow,
- *   sigma_y >= A (1 - T*)   for m >= 1,
+ *   sigma_y >= least (1 - T*),   least = A for m >= 1 in (M-1), found by law.c for (M-23),
  * there is nothing to do; their flow stress stays that of the step in which it was last needed, unless a contact asks.
  * (By a tenth below: where the fine zone goes is decided by what comes within a tenth of yielding, zone.c.) */
 LANE_INLINE yielding radial_return(const law *k, const vd L[9], vd tr, block *q, int lane, bool contact, vd s[6])
@@ -157,7 +186,9 @@ LANE_INLINE yielding radial_return(const law *k, const vd L[9], vd tr, block *q,
     if (!y.any) return y;
     y.log_rate = vd_log(vd_max(shear_rate(L, tr) * k->inv_rate0, vd_set(1)));
     const vd ep = vd_load(&q->ep[0][lane]), trial = vd_sqrt(square);
-    const vd yield = vd_where(~failed, flow_stress(k, ep, y.log_rate, y.T_star));
+    const vd flow = k->is_ptw ? flow_stress_ptw(&k->ptw, ep, y.log_rate, vd_load(&q->T[0][lane]), y.T_star)
+                              : flow_stress(k, ep, y.log_rate, y.T_star);
+    const vd yield = vd_where(~failed, flow);
     y.mises = vd_min(trial, yield);
     y.mises_square = y.mises * y.mises;
     y.plastic = vd_where(~failed, (trial - y.mises) * (1 / (3 * k->G)));

@@ -7,8 +7,12 @@
  * decimal point, not a poor value. */
 #define NUMBER(member, unit, min, max, doc) PARAM_DOUBLE(material, member, unit, OPTIONAL, min, max, doc)
 
+static const char *const strength_names[] = { "johnson_cook", "ptw", NULL };
+
 const param material_params[] = {
     PARAM_STRING(material, name, NULL, "name of the material, the same as its file's"),
+    PARAM_ENUM(material, strength, strength_names, STRENGTH_JOHNSON_COOK,
+               "flow stress: Johnson-Cook (M-1) or Preston-Tonks-Wallace (M-23)"),
     NUMBER(density, "kg/m^3", 100.0, 3e4, "density at the reference temperature"),
     NUMBER(youngs_modulus, "Pa", 1e6, 2e12, "Young's modulus"),
     NUMBER(poisson, "1", 0.0, 0.499, "Poisson's ratio"),
@@ -22,7 +26,23 @@ const param material_params[] = {
     NUMBER(hardening_n, "1", 0.0, 2.0, "Johnson-Cook n: hardening exponent"),
     NUMBER(rate_C, "1", 0.0, 1.0, "Johnson-Cook C: rate sensitivity"),
     NUMBER(softening_m, "1", 0.0, 10.0, "Johnson-Cook m: thermal softening exponent"),
-    NUMBER(rate_0, "1/s", 1e-6, 1e6, "Johnson-Cook reference strain rate"),
+    NUMBER(rate_0, "1/s", 1e-6, 1e6, "Johnson-Cook reference strain rate; slower ones count as this, in (M-23) too"),
+    NUMBER(ptw_theta, "1", 0.0, 10.0, "Preston-Tonks-Wallace theta: first rate of hardening"),
+    NUMBER(ptw_p, "1", 0.0, 20.0, "Preston-Tonks-Wallace p: hardening"),
+    NUMBER(ptw_s0, "1", 1e-6, 1.0, "Preston-Tonks-Wallace s0: saturation stress at T = 0"),
+    NUMBER(ptw_s_inf, "1", 0.0, 1.0, "Preston-Tonks-Wallace s_inf: saturation stress when hot"),
+    NUMBER(ptw_kappa, "1", 0.0, 10.0, "Preston-Tonks-Wallace kappa: dependence on temperature"),
+    NUMBER(ptw_gamma, "1", 1e-9, 1.0, "Preston-Tonks-Wallace gamma: dependence on strain rate"),
+    NUMBER(ptw_y0, "1", 0.0, 1.0, "Preston-Tonks-Wallace y0: yield stress at T = 0"),
+    NUMBER(ptw_y_inf, "1", 0.0, 1.0, "Preston-Tonks-Wallace y_inf: yield stress when hot"),
+    NUMBER(ptw_y1, "1", 0.0, 10.0, "Preston-Tonks-Wallace y1: yield stress at middling rates"),
+    NUMBER(ptw_y2, "1", 0.0, 2.0, "Preston-Tonks-Wallace y2: its exponent"),
+    NUMBER(ptw_beta, "1", 0.0, 1.0, "Preston-Tonks-Wallace beta: exponent of the overdriven regime"),
+    NUMBER(ptw_G0, "Pa", 1e6, 1e12, "Preston-Tonks-Wallace shear modulus at T = 0"),
+    NUMBER(ptw_alpha, "1", 0.0, 0.95, "Preston-Tonks-Wallace alpha: share of that modulus lost at melting"),
+    NUMBER(ptw_cold_work, "1", 0.0, 100.0,
+           "Preston-Tonks-Wallace: plastic strain the metal has had before; not given: none"),
+    NUMBER(molar_mass, "kg/mol", 1e-3, 0.5, "molar mass"),
     NUMBER(taylor_quinney, "1", 0.0, 1.0, "share of plastic work that becomes heat (heat by plastic work only)"),
     NUMBER(damage_D1, "1", -10.0, 100.0, "Johnson-Cook failure D1"),
     NUMBER(damage_D2, "1", -10.0, 100.0, "Johnson-Cook failure D2"),
@@ -52,6 +72,9 @@ typedef struct {
         (needs_), offsetof(material, member) \
     }
 
+/* What a scene needs besides, by the material's law of strength; not of material_need. */
+enum { FOR_JOHNSON_COOK = 1 << 16, FOR_PTW = 1 << 17 };
+
 /* (M-1) and (M-2) divide by melting - reference temperature, so these come with strength as with failure. */
 static const needed needed_constants[] = {
     NEED(density, MATERIAL_FOR_SCENE | MATERIAL_FOR_SCREEN),
@@ -61,12 +84,26 @@ static const needed needed_constants[] = {
     NEED(reference_temperature, MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE | MATERIAL_FOR_MELTING),
     NEED(melting_temperature, MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE | MATERIAL_FOR_MELTING),
     NEED(latent_heat, MATERIAL_FOR_MELTING),
-    NEED(yield_A, MATERIAL_FOR_SCENE),
-    NEED(hardening_B, MATERIAL_FOR_SCENE),
-    NEED(hardening_n, MATERIAL_FOR_SCENE),
-    NEED(rate_C, MATERIAL_FOR_SCENE),
-    NEED(softening_m, MATERIAL_FOR_SCENE),
+    NEED(yield_A, FOR_JOHNSON_COOK),
+    NEED(hardening_B, FOR_JOHNSON_COOK),
+    NEED(hardening_n, FOR_JOHNSON_COOK),
+    NEED(rate_C, FOR_JOHNSON_COOK),
+    NEED(softening_m, FOR_JOHNSON_COOK),
     NEED(rate_0, MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE),
+    NEED(ptw_theta, FOR_PTW),
+    NEED(ptw_p, FOR_PTW),
+    NEED(ptw_s0, FOR_PTW),
+    NEED(ptw_s_inf, FOR_PTW),
+    NEED(ptw_kappa, FOR_PTW),
+    NEED(ptw_gamma, FOR_PTW),
+    NEED(ptw_y0, FOR_PTW),
+    NEED(ptw_y_inf, FOR_PTW),
+    NEED(ptw_y1, FOR_PTW),
+    NEED(ptw_y2, FOR_PTW),
+    NEED(ptw_beta, FOR_PTW),
+    NEED(ptw_G0, FOR_PTW),
+    NEED(ptw_alpha, FOR_PTW),
+    NEED(molar_mass, FOR_PTW),
     NEED(damage_D1, MATERIAL_FOR_DAMAGE),
     NEED(damage_D2, MATERIAL_FOR_DAMAGE),
     NEED(damage_D3, MATERIAL_FOR_DAMAGE),
@@ -90,10 +127,12 @@ status material_check(const material *m, unsigned needs)
 {
     char missing[400] = "";
     size_t length = 0;
+    const unsigned law = m->strength == STRENGTH_PTW ? FOR_PTW : FOR_JOHNSON_COOK;
+    const unsigned all = needs & MATERIAL_FOR_SCENE ? needs | law : needs;
     for (size_t i = 0; i < sizeof needed_constants / sizeof needed_constants[0]; i++) {
         const needed *c = &needed_constants[i];
         const double value = *(const double *)(const void *)((const char *)m + c->offset);
-        if (!(c->needs & needs) || !isnan(value) || length >= sizeof missing) continue;
+        if (!(c->needs & all) || !isnan(value) || length >= sizeof missing) continue;
         length +=
             (size_t)snprintf(missing + length, sizeof missing - length, "%s%s", length ? ", " : "", key_of(c->offset));
     }

@@ -6,8 +6,11 @@
 
 #include "base/param.h"
 
+typedef enum { STRENGTH_JOHNSON_COOK, STRENGTH_PTW } material_strength;
+
 typedef struct {
     char name[PARAM_TEXT_SIZE];
+    int strength;                 /* material_strength: which flow stress; the other's constants are not used */
     double density;               /* rho0 [kg/m3] at the reference temperature */
     double youngs_modulus;        /* E [Pa] */
     double poisson;               /* nu [1] */
@@ -17,8 +20,13 @@ typedef struct {
     double melting_temperature;   /* T_m, solidus [K] */
     double latent_heat;           /* of fusion [J/kg] */
     double yield_A, hardening_B, hardening_n, rate_C, softening_m,
-        rate_0;                                                   /* Johnson-Cook (M-1) [Pa, Pa, 1, 1, 1, 1/s] */
-    double taylor_quinney;                                        /* chi [1], option `plastic` of (M-4) only */
+        rate_0; /* Johnson-Cook (M-1) [Pa, Pa, 1, 1, 1, 1/s] */
+    double ptw_theta, ptw_p, ptw_s0, ptw_s_inf, ptw_kappa, ptw_gamma, ptw_y0, ptw_y_inf, ptw_y1, ptw_y2,
+        ptw_beta;             /* Preston-Tonks-Wallace (M-23) [1] */
+    double ptw_G0, ptw_alpha; /* shear modulus in (M-23): G0 (1 - alpha T/T_m) [Pa, 1] */
+    double ptw_cold_work;     /* plastic strain the metal has had before (M-23) [1] */
+    double molar_mass;        /* [kg/mol] */
+    double taylor_quinney;    /* chi [1], option `plastic` of (M-4) only */
     double damage_D1, damage_D2, damage_D3, damage_D4, damage_D5; /* Johnson-Cook failure (M-2) [1] */
     double spall_strength;                                        /* tension at which it fails [Pa] */
     double sound_speed;                                           /* c0, bulk, at zero pressure [m/s] */
@@ -32,7 +40,7 @@ typedef struct {
 extern const param material_params[];
 
 typedef enum {
-    MATERIAL_FOR_SCENE = 1,   /* density, elastic, equation of state, strength, specific heat */
+    MATERIAL_FOR_SCENE = 1,   /* density, elastic, equation of state, its own law of strength, specific heat */
     MATERIAL_FOR_DAMAGE = 2,  /* D1..D5 */
     MATERIAL_FOR_SCREEN = 4,  /* hardness, equation of state */
     MATERIAL_FOR_MELTING = 8, /* latent heat, melting temperature */

@@ -144,22 +144,35 @@ static void test_needs(void **state)
     assert_non_null(strstr(material_check(&m, MATERIAL_FOR_SCENE).text, "melting_temperature"));
 }
 
-/* Each constant alone, taken away from a complete material, is refused by name by some study; those that no study needs
- * are listed here.  The whole list fits the message. */
+static bool listed(const char *key, const char *const *list)
+{
+    while (*list && strcmp(*list, key) != 0) list++;
+    return *list != NULL;
+}
+
+/* Each constant alone, taken away from a complete material, is refused by name by some study, the constants of a law of
+ * strength where the material has that law; those that no study needs are listed here.  The whole list fits the message. */
 static void test_every_constant(void **state)
 {
     (void)state;
-    const char *const free_of_need[] = { "conductivity", "taylor_quinney", "spall_strength", "resistivity_slope" };
+    const char *const free_of_need[] = { "conductivity",      "taylor_quinney", "spall_strength",
+                                         "resistivity_slope", "ptw_cold_work",  NULL };
+    const char *const johnson_cook[] = { "yield_A", "hardening_B", "hardening_n", "rate_C", "softening_m", NULL };
     const unsigned every =
         MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE | MATERIAL_FOR_SCREEN | MATERIAL_FOR_MELTING | MATERIAL_FOR_CIRCUIT;
-    const material none = blank("empty");
-    const status bad = material_check(&none, every);
-    assert_int_equal(bad.code, STATUS_BAD_INPUT);
-    for (const param *p = material_params; p->key; p++) {
-        if (p->kind != PARAM_NUMBER) continue;
-        bool needed = true;
-        for (int i = 0; i < 4; i++) needed = needed && strcmp(free_of_need[i], p->key) != 0;
-        if ((strstr(bad.text, p->key) != NULL) != needed) fail_msg("%s: in the message or not? %s", p->key, bad.text);
+    for (int law = STRENGTH_JOHNSON_COOK; law <= STRENGTH_PTW; law++) {
+        material none = blank("empty");
+        none.strength = law;
+        const status bad = material_check(&none, every);
+        assert_int_equal(bad.code, STATUS_BAD_INPUT);
+        for (const param *p = material_params; p->key; p++) {
+            const bool ptw = strncmp(p->key, "ptw_", 4) == 0 || strcmp(p->key, "molar_mass") == 0;
+            if (p->kind != PARAM_NUMBER) continue;
+            const bool other = law == STRENGTH_PTW ? listed(p->key, johnson_cook) : ptw;
+            const bool needed = !other && !listed(p->key, free_of_need);
+            if ((strstr(bad.text, p->key) != NULL) != needed)
+                fail_msg("%s: in the message or not? %s", p->key, bad.text);
+        }
     }
 }
 

@@ -119,6 +119,24 @@ static void the_papers_sets_are_kept(void **state)
     material_sheet_free(&sheet);
 }
 
+/* Johnson-Cook unless the file says otherwise; either is complete for its own law. */
+static void the_law_of_strength_is_read(void **state)
+{
+    shelf *s = *state;
+    int ptw = 0;
+    for (int k = 0; k < s->n; k++) {
+        material_sheet sheet;
+        char *errors = NULL;
+        assert_int_equal(material_sheet_find(s->u, s->names[k], dirs, 1, &sheet, &errors).code, STATUS_OK);
+        const bool named = strstr(s->names[k], "_ptw") != NULL;
+        assert_int_equal(sheet.material.strength, named ? STRENGTH_PTW : STRENGTH_JOHNSON_COOK);
+        if (named) assert_int_equal(material_check(&sheet.material, MATERIAL_FOR_SCENE).code, STATUS_OK);
+        ptw += named;
+        material_sheet_free(&sheet);
+    }
+    assert_int_equal(ptw, 1);
+}
+
 typedef struct {
     const char *text, *error;
 } bad_file;
@@ -144,6 +162,7 @@ static void bad_files_say_where(void **state)
           "x.yaml:4:36: unknown key `waek` in constants.poisson; did you mean `weak`?" },
         { HEAD "constants:\n  poisson: {value: 0.3 Pa, source: A}\n",
           "x.yaml:4:20: constants.poisson.value = 0.3 Pa: is a pure number" },
+        { HEAD "strength: wood\nconstants: {}\n", "x.yaml:3:11: strength = wood: must be one of johnson_cook, ptw" },
         { "- a\n", "x.yaml:1:1: a material's file has the keys" },
     };
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
@@ -191,6 +210,7 @@ int main(void)
         cmocka_unit_test(every_file_reads_and_has_sources), cmocka_unit_test(unchecked_constants_are_weak),
         cmocka_unit_test(the_papers_sets_are_kept),         cmocka_unit_test(bad_files_say_where),
         cmocka_unit_test(names_cannot_leave_the_folder),    cmocka_unit_test(folders_are_found),
+        cmocka_unit_test(the_law_of_strength_is_read),
     };
     return cmocka_run_group_tests(tests, open_shelf, close_shelf);
 }

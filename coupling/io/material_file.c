@@ -165,15 +165,25 @@ static void read_head(case_reader *r, const char *path, material_sheet *sheet)
         errors_add(r->errors, node, "name = %s: must be the file's name, %.*s", given, (int)stem, file);
 }
 
+/* The law of strength: not a constant, so without a source of its own. */
+static void read_strength(case_reader *r, material_sheet *sheet)
+{
+    const tree_node *node = tree_find(r->root, "strength");
+    for (const param *p = material_params; p->key; p++)
+        if (node && strcmp(p->key, "strength") == 0)
+            value_read(r, p, node, (char *)&sheet->material + p->offset, p->key);
+}
+
 static void read_sheet(case_reader *r, const char *path, material_sheet *sheet)
 {
-    static const char *const known[] = { "name", "title", "sources", "constants", NULL };
+    static const char *const known[] = { "name", "title", "strength", "sources", "constants", NULL };
     if (r->root->kind != TREE_MAP) {
-        errors_add(r->errors, r->root, "a material's file has the keys name, title, sources and constants");
+        errors_add(r->errors, r->root, "a material's file has the keys name, title, strength, sources and constants");
         return;
     }
     check_keys(r, r->root, "a material's file", known);
     read_head(r, path, sheet);
+    read_strength(r, sheet);
     read_sources(r);
     const tree_node *constants = tree_find(r->root, "constants");
     if (!constants || constants->kind != TREE_MAP) {

@@ -10,6 +10,7 @@
  *
  * The constants are those of material_params (mpm/material.c), each optional: one that is not there is not known, and
  * what needs it refuses the material.  `weak: true` marks a secondary or unchecked value; whoever uses it is warned.
+ * `strength: ptw` after the title: the flow stress is (M-23), not (M-1).
  * To add a material: add a file; tests/test_materials.c covers it at once. */
 #ifndef BREECH_COUPLING_MATERIAL_FILE_H
 #define BREECH_COUPLING_MATERIAL_FILE_H
