@@ -49,13 +49,15 @@ static double warmest(const mc_along *a, double slowest)
     return most;
 }
 
-static status no_melting(const breech_case *c, int number, double rise)
+static status no_melting(const breech_case *c, int number, const rises rise)
 {
     const material *metal = case_material(c, c->rail.material);
-    CHECK(c->rail.temperature + rise < metal->melting_temperature, STATUS_BAD_INPUT,
-          "study.shots: shot %d would find the rail at %.0f K, %s melts at %.0f K; lower study.shots or "
-          "study.heat_kept = %g",
-          number, c->rail.temperature + rise, c->rail.material, metal->melting_temperature, c->study.heat_kept);
+    for (int k = 0; k < SHOT_PIECES; k++)
+        CHECK(c->rail.temperature + rise[k] < metal->melting_temperature, STATUS_BAD_INPUT,
+              "study.shots: shot %d would find the rail at %.0f K %.3g m from the breech, %s melts at %.0f K; lower "
+              "study.shots or study.heat_kept = %g",
+              number, c->rail.temperature + rise[k], (k + 0.5) * c->barrel.length / SHOT_PIECES, c->rail.material,
+              metal->melting_temperature, c->study.heat_kept);
     return status_ok();
 }
 
@@ -93,10 +95,10 @@ static status fly_all(session *s, const grain_families *first, const shot_record
     out->shot[0].muzzle_velocity = flight->is.muzzle_velocity;
     for (int n = 1; n < out->shots; n++) {
         for (int k = 0; k < SHOT_PIECES; k++) rise[k] = c->study.heat_kept * (rise[k] + left[k]);
+        TRY(no_melting(c, n + 1, rise));
         TRY(fly(s, c, n, rise, &flown_at, left, out));
         for (int k = 0; k <= MC_PLACES; k++) out->along[n].warm[k] = rise_at(rise, (double)k / MC_PLACES);
         out->shot[n].rise = warmest(&out->along[n], c->study.velocity_low);
-        TRY(no_melting(c, n + 1, out->shot[n].rise));
         out->rise = fmax(out->rise, out->shot[n].rise);
     }
     return status_ok();
