@@ -499,10 +499,11 @@ static status study(session *s, onset_answer *a)
 {
     grain_families *const all[] = { &a->grains };
     TRY(onset_begin(s, s->c, "", a));
+    TRY(repeated_fly(s, &a->grains, &a->shot, &a->rail));
     TRY(families_search(s, all, 1));
     TRY(uncertain_run(s, &a->grains, &a->uncertain));
     TRY(onset_judge(s, a));
-    TRY(repeated_run(s, &a->grains, &a->shot, &a->rail));
+    TRY(repeated_search(s, &a->grains, &a->rail));
     TRY(draw_shots(a));
     conclude_population(a);
     TRY(feedback_shot(s, a));

@@ -49,15 +49,21 @@ static double warmest(const mc_along *a, double slowest)
     return most;
 }
 
+/* Rise at which the rail melts. */
+static double melting_rise(const breech_case *c)
+{
+    return case_material(c, c->rail.material)->melting_temperature - c->rail.temperature;
+}
+
 static status no_melting(const breech_case *c, int number, const rises rise)
 {
-    const material *metal = case_material(c, c->rail.material);
+    const double melting = melting_rise(c);
     for (int k = 0; k < SHOT_PIECES; k++)
-        CHECK(c->rail.temperature + rise[k] < metal->melting_temperature, STATUS_BAD_INPUT,
+        CHECK(rise[k] < melting, STATUS_BAD_INPUT,
               "study.shots: shot %d would find the rail at %.0f K %.3g m from the breech, %s melts at %.0f K; lower "
               "study.shots or study.heat_kept = %g",
               number, c->rail.temperature + rise[k], (k + 0.5) * c->barrel.length / SHOT_PIECES, c->rail.material,
-              metal->melting_temperature, c->study.heat_kept);
+              c->rail.temperature + melting, c->study.heat_kept);
     return status_ok();
 }
 
@@ -104,6 +110,18 @@ static status fly_all(session *s, const grain_families *first, const shot_record
     return status_ok();
 }
 
+status repeated_fly(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out)
+{
+    const int shots = first->c->study.shots;
+    memset(out, 0, sizeof *out);
+    if (shots == 1) return status_ok();
+    out->shot = calloc((size_t)shots, sizeof *out->shot);
+    out->along = calloc((size_t)shots, sizeof *out->along);
+    CHECK(out->shot && out->along, STATUS_MEMORY, "no memory for %d shots", shots);
+    out->shots = shots;
+    return fly_all(s, first, flight, out);
+}
+
 /* ---- the searches ---- */
 
 static bool is_renewed(const grain_families *f)
@@ -137,14 +155,26 @@ static status copy_case(const grain_families *first, breech_case **out)
     return status_ok();
 }
 
-static status search(session *s, const grain_families *first, repeated_rail *out)
+/* From rises to shares of the warm search's. */
+static void share_out(repeated_rail *r)
 {
+    const double per = r->rise > 0.0 ? 1.0 / r->rise : 0.0;
+    for (int n = 0; n < r->shots; n++) {
+        r->shot[n].warm = per * r->shot[n].rise;
+        for (int k = 0; k <= MC_PLACES; k++) r->along[n].warm[k] = fmin(per * r->along[n].warm[k], 1.0);
+    }
+}
+
+status repeated_search(session *s, const grain_families *first, repeated_rail *out)
+{
+    if (out->shots == 0) return status_ok();
     const double depth = deepest_gouge(first);
     const bool warm = out->rise >= LEAST_RISE && (depth > 0.0 || is_renewed(first));
     const bool bare = first->c->rail.layers.n > 0 && depth > layers_thickness(first->c);
     grain_families *all[2];
     int n = 0;
-    out->rise = warm ? RISE_STEP * ceil(out->rise / RISE_STEP) : 0.0;
+    const double rounded = RISE_STEP * ceil(out->rise / RISE_STEP);
+    if (!warm || rounded < melting_rise(first->c)) out->rise = warm ? rounded : 0.0;
     if (warm) {
         TRY(copy_case(first, &out->warm_case));
         out->warm_case->rail.temperature += out->rise;
@@ -157,30 +187,7 @@ static status search(session *s, const grain_families *first, repeated_rail *out
         TRY(families_sort(out->bare_case, first->flown, "bare-", &out->bare));
         all[n++] = &out->bare;
     }
-    return n > 0 ? families_search(s, all, n) : status_ok();
-}
-
-/* From rises to shares of the warm search's. */
-static void share_out(repeated_rail *r)
-{
-    const double per = r->rise > 0.0 ? 1.0 / r->rise : 0.0;
-    for (int n = 0; n < r->shots; n++) {
-        r->shot[n].warm = per * r->shot[n].rise;
-        for (int k = 0; k <= MC_PLACES; k++) r->along[n].warm[k] = fmin(per * r->along[n].warm[k], 1.0);
-    }
-}
-
-status repeated_run(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out)
-{
-    const int shots = first->c->study.shots;
-    memset(out, 0, sizeof *out);
-    if (shots == 1) return status_ok();
-    out->shot = calloc((size_t)shots, sizeof *out->shot);
-    out->along = calloc((size_t)shots, sizeof *out->along);
-    CHECK(out->shot && out->along, STATUS_MEMORY, "no memory for %d shots", shots);
-    out->shots = shots;
-    TRY(fly_all(s, first, flight, out));
-    TRY(search(s, first, out));
+    if (n > 0) TRY(families_search(s, all, n));
     share_out(out);
     return status_ok();
 }

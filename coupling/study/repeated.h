@@ -27,8 +27,10 @@ typedef struct {
     grain_families warm, bare;          /* owned */
 } repeated_rail;
 
-/* After the first shot's search.  *out needs repeated_free even on error, before `first` goes.  STATUS_BAD_INPUT: the rail would melt. */
-status repeated_run(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out);
+/* The flights.  *out needs repeated_free even on error, before `first` goes.  STATUS_BAD_INPUT: the rail would melt. */
+status repeated_fly(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out);
+/* After the first shot's search: those of what further shots find, as far as any of them can meet it. */
+status repeated_search(session *s, const grain_families *first, repeated_rail *out);
 void repeated_free(repeated_rail *r);
 
 #endif
