@@ -510,6 +510,25 @@ static void test_uncertain_inputs(void **state)
     case_free(c);
 }
 
+/* No whole craters: numbers of gouges as with them, volumes and what the gouges take unknown. */
+static void test_no_craters(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD GRAINS "sites: [{position: 2.9 m}]\n", CASE_FOR_ONSET);
+    c->study.feedback = true;
+    onset_answer with = studied(c, "craters", status_ok());
+    c->study.craters = 0;
+    onset_answer without = studied(c, "no-craters", status_ok());
+    const onset_result *a = &with.result, *b = &without.result;
+    assert_true(a->expected_gouges == b->expected_gouges && a->threshold_velocity == b->threshold_velocity);
+    assert_true(a->expected_gouged_volume > 0.0 && isnan(b->expected_gouged_volume));
+    assert_true(isfinite(a->muzzle_velocity_feedback) && isnan(b->muzzle_velocity_feedback));
+    assert_int_equal(b->scenes_run, a->scenes_run - 2);
+    onset_answer_free(&with);
+    onset_answer_free(&without);
+    case_free(c);
+}
+
 /* ---- shot after shot ---- */
 
 /* The rail gets warmer from shot to shot, and this made-up one gouges 0.5 m/s earlier for every kelvin. */
@@ -595,6 +614,7 @@ int main(void)
         cmocka_unit_test(test_sheared_off),
         cmocka_unit_test(test_seed),
         cmocka_unit_test(test_population_onset),
+        cmocka_unit_test(test_no_craters),
         cmocka_unit_test(test_uncertain_inputs),
         cmocka_unit_test(test_shots_warm_the_rail),
         cmocka_unit_test(test_shots_strip_the_rail),

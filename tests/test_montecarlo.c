@@ -223,6 +223,14 @@ static void test_beyond(void **state)
     mc_result out = run(&one, 1, 1000, 1);
     assert_true(out.of[0].gouges == 0.0 && out.of[0].probability == 0.0 && isnan(out.of[0].first[0]));
     mc_free(&out);
+    /* gouges without a crater: their number is known, their volume is not */
+    free(r.family);
+    make(&r, 20.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    r.family->n_scenes = 0;
+    out = run(&one, 1, 1000, 2);
+    for (int k = 0; k < 2; k++)
+        assert_true(out.of[k].gouges > 10.0 && isnan(out.of[k].volume) && isnan(out.of[k].volume_interval[1]));
+    mc_free(&out);
     free(r.family);
 }
 

@@ -173,9 +173,9 @@ static const param study_params[] = {
                "a threshold is where the groove's growth past the grain (if scene.follow), or the crater's severity, "
                "passes its limit"),
     PARAM_INT(case_study, max_scenes, 16, 1, 100000, "scenes the study may run"),
-    PARAM_INT(case_study, craters, 2, 1, 2,
+    PARAM_INT(case_study, craters, 2, 0, 2,
               "whole craters of each kind of grain that gouges, judge: growth: in the middle of the velocities that "
-              "gouge; and at the fastest grain"),
+              "gouge; and at the fastest grain; 0: none, so no volumes, rims and feedback"),
     PARAM_DOUBLE(case_study, screen_low, "1", 3.0, 0.0, 1e4,
                  "impact pressure over hardness of the harder partner below which no scene is run"),
     PARAM_DOUBLE(case_study, screen_high, "1", 30.0, 0.0, 1e4, "the same ratio above which a gouge is expected"),

@@ -47,14 +47,14 @@ static const grain_family *strewn_family(const grain_families *g)
     return NULL;
 }
 
-/* What populations are expected to take, piece by piece, as sites behind those of the list. */
+/* What populations are expected to take, piece by piece, as sites behind those of the list; nothing where no crater was computed. */
 static int strewn_jumps(const onset_answer *a, case_site *site, site_jump *jump)
 {
     const grain_family *f = strewn_family(&a->grains);
     const mc_shot *drawn = &a->drawn.of[0];
     const double length = a->grains.c->barrel.length;
     int n = 0;
-    for (int p = 0; f && p < PIECES; p++) {
+    for (int p = 0; f && !isnan(drawn->volume) && p < PIECES; p++) {
         double gouges = 0.0;
         for (int k = 0; k < MC_BINS / PIECES; k++) gouges += drawn->strewn[p * (MC_BINS / PIECES) + k];
         const double x = length * (p + 0.5) / PIECES;

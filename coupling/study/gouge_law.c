@@ -116,7 +116,7 @@ gouge_mark gouge_mark_between(const gouge_mark *a, const gouge_mark *b, double f
 
 static gouge_mark mark_at(const marked *m, int n, double v)
 {
-    if (n == 0) return (gouge_mark){ .volume = 0.0 };
+    if (n == 0) return (gouge_mark){ .volume = NAN }; /* not known */
     int k = 0;
     while (k + 1 < n && m[k + 1].v < v) k++;
     if (k + 1 == n || v <= m[k].v || m[k + 1].v <= m[k].v) return m[k].is;

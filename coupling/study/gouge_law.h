@@ -20,7 +20,7 @@ typedef struct {
     double low[LAW_SIZES + 1], high[LAW_SIZES + 1]; /* band of the threshold, INFINITY: never within the search [m/s] */
     double allowance;                               /* for the resolution (threshold.h) [m/s] */
     double v_first, per_v;
-    bool marked; /* some scene gouges: else all marks are 0 */
+    bool marked; /* some scene gouges; else a mark's volume is NaN, all else of it 0 */
     gouge_mark mark[LAW_VELOCITIES + 1];
 } gouge_law;
 

@@ -279,7 +279,10 @@ static void conclude(const mc *m, mc_result *out)
         s->gouges = sum[GOUGES] * each;
         s->volume = sum[VOLUME] * each;
         middle_of(gouges, s->gouges_interval);
-        middle_of(volumes, s->volume_interval);
+        if (isnan(s->volume))
+            s->volume_interval[0] = s->volume_interval[1] = NAN;
+        else
+            middle_of(volumes, s->volume_interval);
         double gouged = 0.0; /* histories: a whole number, so that certainty is 1 */
         for (int k = 0; k < MC_BINS; k++) s->before[k] = (gouged += sum[FIRSTS + k]) / out->histories;
         for (int k = 0; k < MC_BINS; k++) s->strewn[k] = sum[STREWN + k] * each;

@@ -42,7 +42,7 @@ typedef struct {
 
 /* Of one shot number on one surface, over all histories. */
 typedef struct {
-    double gouges, volume;                         /* mean number, mean volume [1, m3] */
+    double gouges, volume;                         /* mean number, mean volume, NaN: not known [1, m3] */
     double gouges_interval[2], volume_interval[2]; /* 5 and 95 % of the worlds' means */
     double probability;                            /* that it gouges at all */
     double first[3];        /* place of the first gouge: 5, 50, 95 % of all shots; NaN where so many do not gouge [m] */
