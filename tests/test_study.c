@@ -34,8 +34,8 @@ typedef struct {
     double doubt;          /* |excess| below which the class is undecided */
     double dip_at;         /* a stretch of 60 m/s that does not gouge, NaN: none [m/s] */
     int calls, fail_at;    /* 0: never fails */
-    double promised[2];    /* by `together`, to be kept [m/s, cells a radius] */
-    int pairs, kept;
+    double promised[2];    /* by `together`, to be kept by the second call from then [m/s, cells a radius] */
+    int promised_at, pairs, kept;
     double asked[THRESHOLD_MAX_SAMPLES][2];
 } function;
 
@@ -46,7 +46,7 @@ static status value_of(void *user, double v, double cells, threshold_sample *out
         if (f->asked[i][0] == v && f->asked[i][1] == cells) fail_msg("%g m/s at %g cells asked for twice", v, cells);
     f->asked[f->calls][0] = v;
     f->asked[f->calls++][1] = cells;
-    if (f->promised[0] == v && f->promised[1] == cells) f->kept++;
+    if (f->promised[0] == v && f->promised[1] == cells && f->calls == f->promised_at + 2) f->kept++;
     CHECK(f->calls != f->fail_at, STATUS_STOPPED, "stopped");
     uint64_t seed = (uint64_t)(1000.0 * v) + (uint64_t)cells + f->salt;
     uniform(&seed);
@@ -62,6 +62,7 @@ static void together(void *user, double v, double cells)
 {
     function *f = user;
     f->promised[0] = v, f->promised[1] = cells;
+    f->promised_at = f->calls;
     f->pairs++;
 }
 
