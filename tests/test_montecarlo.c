@@ -342,13 +342,14 @@ static void test_warm(void **state)
     }
     mc_along *along = along_of(&cold, 4);
     for (int k = 0; k <= MC_PLACES; k++) {
-        along[1].warm[k] = 0.5;
-        along[2].warm[k] = k < MC_PLACES / 2 ? 0.0 : 1.0; /* the muzzle's half alone */
-        along[3].v[k] = 0.8 * along[3].v[k];              /* cold, but slower: 1400 m/s at 2.5 m */
+        along[1].rise[k] = 50.0;
+        along[2].rise[k] = k < MC_PLACES / 2 ? 0.0 : 100.0; /* the muzzle's half alone */
+        along[3].v[k] = 0.8 * along[3].v[k];                /* cold, but slower: 1400 m/s at 2.5 m */
     }
     mc_surface one = as_new(&cold, 0, 1.0);
     one.along = along;
     one.warm = &warm.grains;
+    one.warm_rise = 100.0;
     const double start[4] = { 2.0, 3.0 * 1300.0 / MUZZLE, 3.0 * 1200.0 / MUZZLE, 2.5 },
                  volume[4] = { 10.0, 15.0, 20.0, 10.0 };
     mc_result out = run(&one, 1, 20000, 4);
@@ -363,7 +364,7 @@ static void test_warm(void **state)
         cold.family->surface.size[k].velocity = cold.family->surface.size[k].interval[1] = NAN;
         cold.family->surface.size[k].interval[0] = 2000.0;
     }
-    for (int k = 0; k <= MC_PLACES; k++) along[1].warm[k] = k < MC_PLACES / 2 ? 0.4 : 0.6;
+    for (int k = 0; k <= MC_PLACES; k++) along[1].rise[k] = k < MC_PLACES / 2 ? 40.0 : 60.0;
     cold.family->n_scenes = 0;
     out = run(&one, 1, 20000, 2);
     assert_true(out.of[0].gouges == 0.0);

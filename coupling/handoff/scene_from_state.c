@@ -138,7 +138,7 @@ static layout lay_out(const breech_case *c, const case_site *g, double cells_per
     const double start = fmin(half_across(g) + BESIDE * g->radius, 0.5 * l.fine_half_width);
     const double narrow = fmax(start, s->levels > 1 ? 2.0 * pair : 0.0); /* as grids_make wants */
     l.narrow_half_width = s->follow ? fmin(cells_over(narrow, pair), l.fine_half_width) : l.fine_half_width;
-    for (int i = 0; i < c->rail.layers.n; i++) l.layers += c->rail.layers.item[i].thickness;
+    l.layers = case_layers_thickness(&c->rail.layers);
     l.travel = s->follow ? (p->length - l.run) / (1.0 - FRONT_SPEED) : 0.0;
     return l;
 }

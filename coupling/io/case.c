@@ -16,6 +16,13 @@ void case_free(breech_case *c)
     free(c);
 }
 
+double case_layers_thickness(const case_layers *layers)
+{
+    double sum = 0.0;
+    for (int i = 0; i < layers->n; i++) sum += layers->item[i].thickness;
+    return sum;
+}
+
 const material *case_material(const breech_case *c, const char *name)
 {
     for (int k = 0; k < c->materials.n; k++)

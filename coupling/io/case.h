@@ -292,6 +292,8 @@ void case_free(breech_case *c); /* NULL allowed */
 /* A material the case names (never NULL for those); NULL for any other name.  Borrowed from the case. */
 const material *case_material(const breech_case *c, const char *name);
 
+double case_layers_thickness(const case_layers *layers); /* of all together [m] */
+
 /* used.yaml: all values resolved, in SI with units, the materials' constants too.  Read back it gives the same case. */
 status case_write_used(const breech_case *c, FILE *file);
 

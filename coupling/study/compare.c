@@ -134,8 +134,7 @@ static const char *suffering(const scene_result *r, double thickness, double fai
 
 static void judge_layers(const breech_case *c, const grain_families *g, compare_entry *e)
 {
-    double thickness = 0.0;
-    for (int i = 0; i < c->rail.layers.n; i++) thickness += c->rail.layers.item[i].thickness;
+    const double thickness = case_layers_thickness(&c->rail.layers);
     const family_scene *from = telling_scene(g);
     snprintf(e->layer, sizeof e->layer, "none");
     e->layer_failed = e->layer_velocity = NAN;

@@ -39,6 +39,7 @@ typedef struct {
     mc_along *own;         /* where all shots are alike, owned */
     const mc_along *along; /* of the shot under way */
     double per_place;      /* [1/m] */
+    double warm_rise;      /* [K] */
     double layers;         /* thickness of all [m] */
     strewn_here *strewn;   /* of each population, owned */
     double ln_factor;      /* on sizes */
@@ -134,7 +135,8 @@ static void leave_rim(lane *l, const grain *g, double radius, const gouge_mark *
 /* Does it gouge? */
 static bool meet(const mc *m, lane *l, const grain *g)
 {
-    const double v = velocity_at(l, g->x), warm = l->warm ? value_at(l, l->along->warm, g->x) : 0.0;
+    const double v = velocity_at(l, g->x);
+    const double warm = l->warm ? fmin(value_at(l, l->along->rise, g->x) / l->warm_rise, 1.0) : 0.0;
     if (v < threshold_at(m, l, g, warm)) return false;
     const double radius = exp(g->ln_r);
     const gouge_mark mark = mark_at(l, g, v, warm);
@@ -348,13 +350,14 @@ static status make_lane(const mc_plan *plan, int i, lane *l)
     const mc_surface *s = &plan->surface[i];
     l->grains = s->grains;
     l->draws = s->draws;
+    l->warm_rise = s->warm_rise;
     l->ln_factor = log(s->size_factor);
     l->ln_smallest = log(s->grains->c->study.smallest_radius);
     l->in_band = calloc((size_t)s->grains->n + 1, sizeof *l->in_band);
     l->strewn = calloc((size_t)s->grains->c->populations.n + 1, sizeof *l->strewn);
     CHECK(l->in_band && l->strewn, STATUS_MEMORY, "no memory for the Monte Carlo");
     place_populations(plan, l);
-    for (int k = 0; k < s->grains->c->rail.layers.n; k++) l->layers += s->grains->c->rail.layers.item[k].thickness;
+    l->layers = case_layers_thickness(&s->grains->c->rail.layers);
     TRY(make_laws(s, s->grains, &l->law));
     TRY(make_laws(s, s->warm, &l->warm));
     TRY(make_laws(s, s->bare, &l->bare));

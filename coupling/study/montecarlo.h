@@ -19,7 +19,7 @@ enum { MC_WORLDS = 200, MC_BINS = 1000, MC_PLACES = 1024 };
 /* What a shot of one number finds along the barrel, at MC_PLACES equal steps. */
 typedef struct {
     double v[MC_PLACES + 1];    /* of the armature [m/s] */
-    double warm[MC_PLACES + 1]; /* 0: the rail of `grains`, 1: that of `warm` */
+    double rise[MC_PLACES + 1]; /* of the rail above that of `grains` [K] */
 } mc_along;
 
 /* One surface. */
@@ -28,9 +28,9 @@ typedef struct {
     int draws;                    /* surfaces with the same number share their u_b: the same thresholds, other inputs */
     double size_factor;           /* on every grain (a sensitivity); else 1 */
     const mc_along *along;        /* [shots]; NULL: every shot is that of `grains`, and finds its rail */
-    const grain_families
-        *warm; /* the same grains on a warmer rail; thresholds and marks in between are linear; NULL: none */
-    const grain_families *bare; /* for rims where a gouge went through the layers; NULL: as all others */
+    const grain_families *warm;   /* the same grains on a rail warmer by warm_rise; in between linear; NULL: none */
+    double warm_rise;             /* [K] */
+    const grain_families *bare;   /* for rims where a gouge went through the layers; NULL: as all others */
 } mc_surface;
 
 typedef struct {

@@ -338,8 +338,8 @@ static double threshold_of_shot(const onset_answer *a, int k)
     const grain_family *f = onset_leading_grain(a, &radius),
                        *hot = f && rail->warm.n ? family_alike(&rail->warm, f) : NULL;
     const double cold = a->result.threshold_velocity;
-    if (!hot || !(rail->shot[k].warm > 0.0)) return cold;
-    return cold + rail->shot[k].warm * (surface_at(&hot->surface, radius).velocity - cold);
+    if (!hot) return cold;
+    return cold + rail->shot[k].rise / rail->rise * (surface_at(&hot->surface, radius).velocity - cold);
 }
 
 static status list_shots(onset_answer *a)
@@ -389,6 +389,7 @@ static status draw_shots(onset_answer *a)
                              .size_factor = 1.0,
                              .along = a->rail.along,
                              .warm = a->rail.warm_case ? &a->rail.warm : NULL,
+                             .warm_rise = a->rail.rise,
                              .bare = a->rail.bare_case ? &a->rail.bare : NULL };
     const mc_plan plan = { .histories = c->study.sampled,
                            .shots = c->study.shots,
@@ -504,6 +505,8 @@ static status study(session *s, onset_answer *a)
     TRY(uncertain_run(s, &a->grains, &a->uncertain));
     TRY(onset_judge(s, a));
     TRY(repeated_search(s, &a->grains, &a->rail));
+    uncertain_widen(&a->uncertain, &a->grains, &a->rail.warm);
+    uncertain_widen(&a->uncertain, &a->grains, &a->rail.bare);
     TRY(draw_shots(a));
     conclude_population(a);
     TRY(feedback_shot(s, a));

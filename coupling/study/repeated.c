@@ -45,7 +45,7 @@ static double warmest(const mc_along *a, double slowest)
 {
     double most = 0.0;
     for (int k = 0; k <= MC_PLACES; k++)
-        if (a->v[k] >= slowest) most = fmax(most, a->warm[k]);
+        if (a->v[k] >= slowest) most = fmax(most, a->rise[k]);
     return most;
 }
 
@@ -90,7 +90,6 @@ static status fly(session *s, const breech_case *c, int number, const rises rise
     return done;
 }
 
-/* along[].warm is the rise itself until it is known what the warm search is for. */
 static status fly_all(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out)
 {
     const breech_case *c = first->c;
@@ -103,7 +102,7 @@ static status fly_all(session *s, const grain_families *first, const shot_record
         for (int k = 0; k < SHOT_PIECES; k++) rise[k] = c->study.heat_kept * (rise[k] + left[k]);
         TRY(no_melting(c, n + 1, rise));
         TRY(fly(s, c, n, rise, &flown_at, left, out));
-        for (int k = 0; k <= MC_PLACES; k++) out->along[n].warm[k] = rise_at(rise, (double)k / MC_PLACES);
+        for (int k = 0; k <= MC_PLACES; k++) out->along[n].rise[k] = rise_at(rise, (double)k / MC_PLACES);
         out->shot[n].rise = warmest(&out->along[n], c->study.velocity_low);
         out->rise = fmax(out->rise, out->shot[n].rise);
     }
@@ -139,13 +138,6 @@ static double deepest_gouge(const grain_families *f)
     return depth;
 }
 
-static double layers_thickness(const breech_case *c)
-{
-    double sum = 0.0;
-    for (int i = 0; i < c->rail.layers.n; i++) sum += c->rail.layers.item[i].thickness;
-    return sum;
-}
-
 /* A copy of the first shot's case, to be changed. */
 static status copy_case(const grain_families *first, breech_case **out)
 {
@@ -155,22 +147,12 @@ static status copy_case(const grain_families *first, breech_case **out)
     return status_ok();
 }
 
-/* From rises to shares of the warm search's. */
-static void share_out(repeated_rail *r)
-{
-    const double per = r->rise > 0.0 ? 1.0 / r->rise : 0.0;
-    for (int n = 0; n < r->shots; n++) {
-        r->shot[n].warm = per * r->shot[n].rise;
-        for (int k = 0; k <= MC_PLACES; k++) r->along[n].warm[k] = fmin(per * r->along[n].warm[k], 1.0);
-    }
-}
-
 status repeated_search(session *s, const grain_families *first, repeated_rail *out)
 {
     if (out->shots == 0) return status_ok();
     const double depth = deepest_gouge(first);
     const bool warm = out->rise >= LEAST_RISE && (depth > 0.0 || is_renewed(first));
-    const bool bare = first->c->rail.layers.n > 0 && depth > layers_thickness(first->c);
+    const bool bare = first->c->rail.layers.n > 0 && depth > case_layers_thickness(&first->c->rail.layers);
     grain_families *all[2];
     int n = 0;
     const double rounded = RISE_STEP * ceil(out->rise / RISE_STEP);
@@ -187,7 +169,5 @@ status repeated_search(session *s, const grain_families *first, repeated_rail *o
         TRY(families_sort(out->bare_case, first->flown, "bare-", &out->bare));
         all[n++] = &out->bare;
     }
-    if (n > 0) TRY(families_search(s, all, n));
-    share_out(out);
-    return status_ok();
+    return n > 0 ? families_search(s, all, n) : status_ok();
 }

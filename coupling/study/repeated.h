@@ -15,7 +15,6 @@
 typedef struct {
     double muzzle_velocity; /* NaN: the armature did not leave [m/s] */
     double rise;            /* of the rail before it, largest where the armature is fast enough to be looked at [K] */
-    double warm;            /* the same as a share of the warm search's rise [1] */
 } repeated_shot;
 
 typedef struct {

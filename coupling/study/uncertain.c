@@ -92,13 +92,14 @@ static void widen(surface_result *s, double allowance)
     }
 }
 
-static void widen_all(grain_families *g, const uncertain_inputs *u)
+void uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other)
 {
-    for (int k = 0; k < g->n; k++) {
-        surface_result *s = &g->family[k].surface;
+    for (int k = 0; k < other->n; k++) {
+        surface_result *s = &other->family[k].surface;
+        const grain_family *f = family_alike(first, &other->family[k]);
         double squares = s->reference.allowance * s->reference.allowance;
-        for (int i = 0; i < u->n; i++) {
-            const double off = moved_to(&u->of[i], &g->family[k]) - s->reference.velocity;
+        for (int i = 0; f && i < u->n; i++) {
+            const double off = moved_to(&u->of[i], f) - f->surface.reference.velocity;
             if (isfinite(off)) squares += off * off;
         }
         widen(s, sqrt(squares));
@@ -117,6 +118,6 @@ status uncertain_run(session *s, grain_families *grains, uncertain_inputs *out)
     }
     if (out->n == 0) return status_ok();
     TRY(families_search(s, all, out->n));
-    widen_all(grains, out);
+    uncertain_widen(out, grains, grains);
     return status_ok();
 }

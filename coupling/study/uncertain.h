@@ -25,6 +25,8 @@ typedef struct {
 
 /* After the search of `grains`, whose intervals it widens.  *out needs uncertain_free even on error, before `grains` goes. */
 status uncertain_run(session *s, grain_families *grains, uncertain_inputs *out);
+/* The same for the families of another rail (repeated.h), by as much as the thresholds of `first` have moved. */
+void uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other);
 void uncertain_free(uncertain_inputs *u);
 
 #endif
