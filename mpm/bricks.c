@@ -94,7 +94,6 @@ void store_free_brick(brick *b)
 {
     free(b->out);
     free(b->out_contact);
-    free(b->node);
     free(b->line);
     free(b->held);
 }
@@ -107,6 +106,7 @@ void store_free(mpm *m)
         free(m->movers[t].data);
     }
     free(m->bricks);
+    free(m->nodes);
     free_places(m);
     free(m->blocks);
     free(m->links);
@@ -119,6 +119,9 @@ static status grow_bricks(mpm *m)
     brick *b = enlarge(m->bricks, (size_t)m->bricks_used * sizeof(brick), (size_t)capacity * sizeof(brick));
     CHECK(b, STATUS_MEMORY, "no memory for %d bricks", capacity);
     m->bricks = b;
+    void *nodes = enlarge(m->nodes, (size_t)m->bricks_used * sizeof *m->nodes, (size_t)capacity * sizeof *m->nodes);
+    CHECK(nodes, STATUS_MEMORY, "no memory for %d bricks", capacity);
+    m->nodes = nodes;
     m->bricks_capacity = capacity;
     return status_ok();
 }
@@ -137,8 +140,7 @@ status store_brick(mpm *m, int field, int level, const int at[3], int *out)
         b->at_seam = seam_any(&b->seam);
         memcpy(b->at, at, sizeof b->at);
         for (int c = 0; c < BRICK_CELLS; c++) b->head[c] = -1;
-        b->node = cleared(BRICK_CELLS * sizeof *b->node);
-        CHECK(b->node, STATUS_MEMORY, "no memory for a brick");
+        memset(m->nodes[m->bricks_used], 0, sizeof *m->nodes);
         *slot = m->bricks_used++;
     }
     *out = *slot;

@@ -28,17 +28,17 @@ LANE_INLINE void copy_row(double (*to)[NODE], double (*const from)[NODE], int co
 
 static void gather_halo(const mpm *m, const brick *b, halo_nodes halo)
 {
-    static double none[BRICK][NODE]; /* zero */
+    static double none[BRICK_CELLS][NODE]; /* zero */
     for (int step = 0; step < NEIGHBOURS; step++) {
         int t[3], h[3], n[3];
         rows(step % 3 - 1, &t[0], &h[0], &n[0]);
         rows(step / 3 % 3 - 1, &t[1], &h[1], &n[1]);
         rows(step / 9 - 1, &t[2], &h[2], &n[2]);
-        const brick *from = b->neighbour[step] >= 0 ? &m->bricks[b->neighbour[step]] : NULL;
+        double(*const from)[NODE] = b->neighbour[step] >= 0 ? m->nodes[b->neighbour[step]] : none;
         for (int k = 0; k < n[2]; k++)
             for (int j = 0; j < n[1]; j++)
                 copy_row(&halo[((h[2] + k) * HALO + h[1] + j) * HALO + h[0]],
-                         from ? &from->node[cell_index(t[0], t[1] + j, t[2] + k)] : none, n[0]);
+                         &from[cell_index(t[0], t[1] + j, t[2] + k)], n[0]);
     }
 }
 
@@ -65,7 +65,7 @@ static void mirror_ghosts(const mpm *m, brick *b, halo_nodes halo)
             int ghost[3];
             plane_point(k, plane[i].ghost, n, ghost);
             if (mirror_shared(plane, i, ghost)) continue;
-            b->sum.impulse_boundary[k] += 2 * b->out[halo_at(ghost)][0] * halo[halo_at(ghost)][k];
+            b->sum.impulse_boundary[k] += 2 * b->out[halo_place[halo_at(ghost)]][0] * halo[halo_at(ghost)][k];
         }
 }
 
@@ -317,8 +317,8 @@ typedef struct {
 } block_run;
 
 /* Advances a block by a step; the lanes that leave it. */
-LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const cell_limits *limits,
-                          const cell_nodes nodes, block_run *run)
+static __attribute__((noinline)) int one_block(mpm *m, brick *b, int index, const cell_grid *g,
+                                               const cell_limits *limits, const cell_nodes nodes, block_run *run)
 {
     block *q = &m->blocks[index];
     const law *k = &m->laws[run->body];
@@ -355,7 +355,8 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
 
 static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const halo_nodes halo, block_run *run)
 {
-    const cell_grid g = cell_grid_of(grid, cell);
+    cell_grid g;
+    cell_grid_set(&g, grid, cell);
     const cell_limits limits = limits_of(m, b, cell);
     mover_list *movers = &m->movers[b->movers_thread];
     cell_nodes nodes;

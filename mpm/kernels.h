@@ -154,12 +154,12 @@ LANE_INLINE brick_grid brick_grid_at(const mpm *m, const brick *b)
     return g;
 }
 
-LANE_INLINE cell_grid cell_grid_of(const brick_grid *b, int cell)
+/* In its place: returned by value it is copied in wider pieces than it was written in, which a core waits for. */
+LANE_INLINE void cell_grid_set(cell_grid *g, const brick_grid *b, int cell)
 {
     const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
-    cell_grid g = { .bspline = b->bspline };
-    for (int k = 0; k < 3; k++) g.axis[k] = &b->axis[k][at[k]], g.knots[k] = &b->knots[k][at[k]];
-    return g;
+    for (int k = 0; k < 3; k++) g->axis[k] = &b->axis[k][at[k]], g->knots[k] = &b->knots[k][at[k]];
+    g->bspline = b->bspline;
 }
 
 /* Along axis k, for the part of the block that begins with `lane`. */
@@ -185,6 +185,22 @@ static inline int halo_at(const int at[3])
 {
     return (at[2] * HALO + at[1]) * HALO + at[0];
 }
+
+/* Where the sums of a node of the 6 x 6 x 6 lie in brick.out: nodes that go to one neighbour lie together, in the order of its
+ * cells, so that it reads them in one piece (nodes.c: add_lines).  First the six times six below along z, and so on inwards. */
+#define HALO_SIDE(i) ((i) == 0 ? 0 : (i) == HALO - 1 ? 2 : 1)
+#define HALO_START(i, rest) ((i) == 0 ? 0 : (i) == HALO - 1 ? (HALO - 1) * (rest) : (rest))
+#define HALO_COUNT(i) (HALO_SIDE(i) == 1 ? BRICK : 1)
+#define HALO_WITHIN(i) (HALO_SIDE(i) == 1 ? (i)-1 : 0)
+#define HALO_PLACE(x, y, z)                                                                                  \
+    (HALO_START(z, HALO * HALO) + HALO_COUNT(z) * (HALO_START(y, HALO) + HALO_COUNT(y) * HALO_START(x, 1)) + \
+     (HALO_WITHIN(z) * HALO_COUNT(y) + HALO_WITHIN(y)) * HALO_COUNT(x) + HALO_WITHIN(x))
+#define HALO_ROW(y, z)                                                                                       \
+    HALO_PLACE(0, y, z), HALO_PLACE(1, y, z), HALO_PLACE(2, y, z), HALO_PLACE(3, y, z), HALO_PLACE(4, y, z), \
+        HALO_PLACE(5, y, z)
+#define HALO_PLANE(z) HALO_ROW(0, z), HALO_ROW(1, z), HALO_ROW(2, z), HALO_ROW(3, z), HALO_ROW(4, z), HALO_ROW(5, z)
+static const uint8_t halo_place[HALO_NODES] = { HALO_PLANE(0), HALO_PLANE(1), HALO_PLANE(2),
+                                                HALO_PLANE(3), HALO_PLANE(4), HALO_PLANE(5) };
 
 /* Point n (0 .. 35) of a plane across axis k. */
 static inline void plane_point(int k, int plane, int n, int at[3])

@@ -24,12 +24,12 @@ typedef struct {
     const double *extra;
 } node_state;
 
-/* Rows of the 6^3 of a neighbour that lie on this brick's 4^3: first row here, first row there, number. */
-static void overlap(int d, int *here, int *there, int *count)
+/* Rows of a brick's nodes that its neighbour's particles reach: the first, and their number; where the neighbour has them. */
+static void overlap(int d, int *first, int *count, int *there)
 {
-    *here = d > 0 ? BRICK - 1 : 0;
-    *there = d < 0 ? HALO - 1 : d > 0 ? 0 : 1;
+    *first = d > 0 ? BRICK - 1 : 0;
     *count = d == 0 ? BRICK : 1;
+    *there = d > 0 ? 0 : d < 0 ? HALO - 1 : 1;
 }
 
 /* Cells of a neighbour whose particles reach this brick's nodes. */
@@ -41,18 +41,16 @@ static uint64_t cells_towards(int step)
     return cells[0][step % 3] & cells[1][step / 3 % 3] & cells[2][step / 9];
 }
 
-static void add_lines(double (*to)[LINE], double (*const from)[LINE], int step)
+static void add_lines(double (*to)[LINE], double (*const out)[LINE], int step)
 {
     int h[3], t[3], n[3];
-    overlap(step % 3 - 1, &h[0], &t[0], &n[0]);
-    overlap(step / 3 % 3 - 1, &h[1], &t[1], &n[1]);
-    overlap(step / 9 - 1, &h[2], &t[2], &n[2]);
+    for (int k = 0, s = step; k < 3; k++, s /= 3) overlap(s % 3 - 1, &h[k], &n[k], &t[k]);
+    double(*from)[LINE] = &out[halo_place[halo_at(t)]];
     for (int k = 0; k < n[2]; k++)
         for (int j = 0; j < n[1]; j++)
-            for (int i = 0; i < n[0]; i++) {
+            for (int i = 0; i < n[0]; i++, from++) {
                 double *a = to[cell_index(h[0] + i, h[1] + j, h[2] + k)];
-                const double *b = from[((t[2] + k) * HALO + t[1] + j) * HALO + t[0] + i];
-                for (int q = 0; q < LINE; q += WIDTH) vd_store(a + q, vd_load(a + q) + vd_load(b + q));
+                for (int q = 0; q < LINE; q += WIDTH) vd_store(a + q, vd_load(a + q) + vd_load(*from + q));
             }
 }
 
@@ -349,7 +347,7 @@ static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int
             }
     for (int i = 0; i < pairs; i++) contact_heat(m, &pair[i], sum);
     for (int s = 0; s < count; s++) {
-        double *node = fields[s].brick->node[cell];
+        double *node = brick_nodes(m, fields[s].brick)[cell];
         memset(node, 0, NODE * sizeof *node);
         if (!(state[s].m > 0)) continue;
         if (count > 1 && n_walls[s] > 0)
@@ -402,7 +400,7 @@ static int fields_at(mpm *m, int site, node_lines own[][2], field_nodes *fields)
         if (b->at_seam ? has_mass(b->line) : gather_field(m, b, present > 1, &fields[count]))
             count++;
         else
-            memset(b->node, 0, BRICK_CELLS * sizeof *b->node);
+            memset(brick_nodes(m, b), 0, sizeof *m->nodes);
     }
     return count;
 }
@@ -432,7 +430,7 @@ void ISA(nodes)(mpm *m, int site)
         if (!(due >> cell & 1)) continue;
         const double dt = shares_dt(m, b, cell);
         if (is_inside(axes, index) && !is_shared(fields, count, cell)) {
-            for (int s = 0; s < count; s++) free_node(fields[s].line[cell], dt, fields[s].brick->node[cell]);
+            for (int s = 0; s < count; s++) free_node(fields[s].line[cell], dt, brick_nodes(m, fields[s].brick)[cell]);
             continue;
         }
         double h[3];

@@ -22,17 +22,15 @@ enum { PARTS = (int)LINE / (int)WIDTH }; /* of a node line */
 /* A part of the lines of nodes (a, b, c): place 9 c + 3 b + a; place 1 along an axis: of all three. */
 typedef vd part_sums[27];
 
-/* A block's lines, [particle][lane of the line]. */
+/* What a block's rows of three nodes along x are made of, [first or last node][particle][lane of the line]. */
 typedef struct {
-    double base[LANES][LINE], C[3][LANES][LINE];
+    double base[LANES][LINE], A[2][LANES][LINE], Y[2][LANES][LINE], Z[2][LANES][LINE];
 } __attribute__((aligned(64))) lines;
 
 /* A block's factors, [axis][first or last node][particle]. */
 typedef struct {
-    double w[3][2][LANES], grad[3][2][LANES];        /* weight, its gradient */
-    double moment[3][2][LANES], spread[3][2][LANES]; /* each x (x_i - x_p) */
-    double energy[3][2][LANES];                      /* what goes with the energy instead [J] */
-    double yz[2][2][LANES];                          /* weights' product, [z][y] */
+    double w[3][2][LANES];  /* weight */
+    double yz[2][2][LANES]; /* weights' product, [z][y] */
 } __attribute__((aligned(64))) factors;
 
 /* What a block gives to contact lines, [axis][first or last node][particle]: V grad w, m w (x_p - x_i); m flow stress. */
@@ -40,20 +38,12 @@ typedef struct {
     double gradient[3][2][LANES], moment[3][2][LANES], flow[LANES];
 } __attribute__((aligned(64))) contact_factors;
 
-LANE_INLINE void store_factors(factors *f, const cell_grid *g, const block *q, int lane)
+LANE_INLINE void store_factors(factors *f, const weights w[3], int lane)
 {
-    for (int k = 0; k < 3; k++) {
-        const weights w = cell_weights(g, k, q, lane);
-        for (int a = 0; a < 2; a++) {
-            vd_store(&f->w[k][a][lane], w.w[2 * a]);
-            vd_store(&f->grad[k][a][lane], w.g[2 * a]);
-            vd_store(&f->moment[k][a][lane], w.w[2 * a] * w.d[2 * a]);
-            vd_store(&f->spread[k][a][lane], w.g[2 * a] * w.d[2 * a]);
-        }
-    }
+    for (int k = 0; k < 3; k++)
+        for (int a = 0; a < 2; a++) vd_store(&f->w[k][a][lane], w[k].w[2 * a]);
     for (int c = 0; c < 2; c++)
-        for (int b = 0; b < 2; b++)
-            vd_store(&f->yz[c][b][lane], vd_load(&f->w[1][b][lane]) * vd_load(&f->w[2][c][lane]));
+        for (int b = 0; b < 2; b++) vd_store(&f->yz[c][b][lane], w[1].w[2 * b] * w[2].w[2 * c]);
 }
 
 /* Rows (a line's lane each) of some particles -> lines of those particles. */
@@ -67,12 +57,7 @@ LANE_INLINE void store_lines(double (*to)[LINE], const vd row[LINE], int lane)
     }
 }
 
-/* Lanes of a line, all bits set: those that go with the gradient, and those with the block's own factors. */
-static const struct {
-    int64_t gradient[LINE], energy[LINE];
-} motion_kinds __attribute__((aligned(64))) = { { 0, 0, 0, 0, -1, -1, -1, 0 }, { 0, 0, 0, 0, 0, 0, 0, -1 } };
-
-/* The same of a contact line: V grad S and m (x_p - x_i) along each axis, m flow stress. */
+/* Lanes of a contact line, all bits set: V grad S and m (x_p - x_i) along each axis, m flow stress. */
 static const struct {
     int64_t gradient[3][LINE], moment[3][LINE], flow[LINE];
 } contact_kinds __attribute__((aligned(64))) = { { { -1 }, { 0, -1 }, { 0, 0, -1 } },
@@ -84,85 +69,61 @@ LANE_INLINE vm kind_at(const int64_t *kind, int part)
     return *(const vm *)(const void *)&kind[part];
 }
 
-/* One particle's part of a line: what its rows of three nodes along x are made of. */
-typedef struct {
-    vd base, A[2], Y[2], Z[2];
-} terms;
-
-LANE_INLINE terms terms_of(const factors *f, int l, vd base, vd q[3][2])
-{
-    terms t = { .base = base };
-    for (int a = 0; a < 2; a++) {
-        t.A[a] = f->w[0][a][l] * base + q[0][a];
-        t.Y[a] = q[1][a];
-        t.Z[a] = q[2][a];
-    }
-    return t;
-}
-
-LANE_INLINE terms motion_terms(const lines *n, const factors *f, int part, int l)
-{
-    const vm gradient = kind_at(motion_kinds.gradient, part), energy = kind_at(motion_kinds.energy, part);
-    vd q[3][2];
-    for (int k = 0; k < 3; k++)
-        for (int a = 0; a < 2; a++) {
-            const vd w = vd_select(gradient, vd_set(f->grad[k][a][l]), vd_set(f->moment[k][a][l]));
-            q[k][a] = vd_select(energy, vd_set(f->energy[k][a][l]), w) * vd_load(&n->C[k][l][part]);
-        }
-    return terms_of(f, l, vd_load(&n->base[l][part]), q);
-}
-
-LANE_INLINE terms contact_terms(const contact_factors *n, const factors *f, int part, int l)
-{
-    vd q[3][2];
-    for (int k = 0; k < 3; k++)
-        for (int a = 0; a < 2; a++)
-            q[k][a] = vd_select(kind_at(contact_kinds.gradient[k], part), vd_set(n->gradient[k][a][l]),
-                                vd_where(kind_at(contact_kinds.moment[k], part), vd_set(n->moment[k][a][l])));
-    return terms_of(f, l, vd_where(kind_at(contact_kinds.flow, part), vd_set(n->flow[l])), q);
-}
-
 /* Three nodes along x: sum += yz A + wx B */
-LANE_INLINE void add_row(vd sum[3], const terms *t, const factors *f, int l, double yz, vd B)
+LANE_INLINE void add_row(vd sum[3], const lines *n, int part, const factors *f, int l, double yz, vd B)
 {
-    sum[0] += yz * t->A[0];
-    sum[1] += yz * t->base;
-    sum[2] += yz * t->A[1];
+    sum[0] += yz * vd_load(&n->A[0][l][part]);
+    sum[1] += yz * vd_load(&n->base[l][part]);
+    sum[2] += yz * vd_load(&n->A[1][l][part]);
     sum[0] += f->w[0][0][l] * B;
     sum[1] += B;
     sum[2] += f->w[0][1][l] * B;
 }
 
 /* The nine nodes of all planes together. */
-LANE_INLINE void add_whole(vd sum[9], const terms *t, const factors *f, int l)
+LANE_INLINE void add_whole(vd sum[9], const lines *n, int part, const factors *f, int l)
 {
-    sum[3] += t->A[0];
-    sum[4] += t->base;
-    sum[5] += t->A[1];
-    for (int b = 0; b < 2; b++) add_row(&sum[6 * b], t, f, l, f->w[1][b][l], t->Y[b]);
+    sum[3] += vd_load(&n->A[0][l][part]);
+    sum[4] += vd_load(&n->base[l][part]);
+    sum[5] += vd_load(&n->A[1][l][part]);
+    for (int b = 0; b < 2; b++) add_row(&sum[6 * b], n, part, f, l, f->w[1][b][l], vd_load(&n->Y[b][l][part]));
 }
 
 /* The nine nodes of the first or the last plane across z. */
-LANE_INLINE void add_plane(vd sum[9], const terms *t, const factors *f, int l, int c)
+LANE_INLINE void add_plane(vd sum[9], const lines *n, int part, const factors *f, int l, int c)
 {
     const double wz = f->w[2][c][l];
-    add_row(&sum[3], t, f, l, wz, t->Z[c]);
-    for (int b = 0; b < 2; b++) add_row(&sum[6 * b], t, f, l, f->yz[c][b][l], wz * t->Y[b] + f->w[1][b][l] * t->Z[c]);
+    const vd Z = vd_load(&n->Z[c][l][part]);
+    add_row(&sum[3], n, part, f, l, wz, Z);
+    for (int b = 0; b < 2; b++)
+        add_row(&sum[6 * b], n, part, f, l, f->yz[c][b][l], wz * vd_load(&n->Y[b][l][part]) + f->w[1][b][l] * Z);
 }
 
-/* Adds the terms of the particles in `mask`, a part of their lines.  Nine sums at a time: they stay in registers. */
-LANE_INLINE void accumulate(part_sums sum, const terms t[LANES], const factors *f, int mask, ahead *next)
+/* Nine nodes of the particles in `mask`, a part of their lines.  Nine sums at a time: they stay in registers. */
+LANE_INLINE void accumulate_plane(vd to[9], const lines *n, int part, const factors *f, int mask, int plane, bool first)
+{
+    vd sum[9];
+#pragma GCC unroll 9
+    for (int i = 0; i < 9; i++) sum[i] = first ? vd_set(0) : to[i];
+    for (int left = mask; left; left &= left - 1) {
+        const int l = __builtin_ctz((unsigned)left);
+        if (plane == 1)
+            add_whole(sum, n, part, f, l);
+        else
+            add_plane(sum, n, part, f, l, plane / 2);
+    }
+#pragma GCC unroll 9
+    for (int i = 0; i < 9; i++) to[i] = sum[i];
+}
+
+/* Adds a part of the lines of the particles in `mask`. */
+LANE_INLINE void accumulate(part_sums sum, const lines *n, int part, const factors *f, int mask, bool first,
+                            ahead *next)
 {
 #pragma GCC unroll 3
     for (int plane = 0; plane < 3; plane++) {
         prefetch_share(next);
-        for (int left = mask; left; left &= left - 1) {
-            const int l = __builtin_ctz((unsigned)left);
-            if (plane == 1)
-                add_whole(&sum[9], &t[l], f, l);
-            else
-                add_plane(&sum[9 * plane], &t[l], f, l, plane / 2);
-        }
+        accumulate_plane(&sum[9 * plane], n, part, f, mask, plane, first);
     }
 }
 
@@ -172,53 +133,69 @@ typedef struct {
 } half_steps;
 
 /* lanes: 0 m, 1-3 momentum, 4-6 force, 7 energy */
-LANE_INLINE void motion_lines(const block *q, int lane, double affine, const mpm_body *body, half_steps dt, factors *f,
-                              lines *n)
+LANE_INLINE void motion_lines(const block *q, int lane, double affine, const mpm_body *body, half_steps dt,
+                              const weights w[3], lines *n)
 {
     static const int column[3][3] = { { 0, 3, 4 }, { 3, 1, 5 }, { 4, 5, 2 } };
 #define AT(field) vd_load(&q->field[lane])
     const vd m = AT(mass[0]), v[3] = { AT(v[0]), AT(v[1]), AT(v[2]) }, V = m / AT(rho[0]), mL = m * affine;
     const vd square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], area = AT(area[0]);
-    vd row[LINE] = { m, m * v[0], m * v[1], m * v[2] }, s[6] /* -V sigma */, load[3], stretch[3];
+    vd base[LINE] = { m, m * v[0], m * v[1], m * v[2] }, s[6] /* -V sigma */, load[3], stretch[3];
     for (int i = 0; i < 6; i++) s[i] = V * (i < 3 ? AT(p[0]) - AT(s[i]) : -AT(s[i]));
-    row[7] = m * (0.5 * square + AT(ka[0]));
+    base[7] = m * (0.5 * square + AT(ka[0]));
     for (int i = 0; i < 3; i++) {
         const int *c = column[i];
         load[i] = m * body->body_force[i] + area * body->traction[i];
         stretch[i] = dt.last * (s[c[0]] * AT(L[i]) + s[c[1]] * AT(L[3 + i]) + s[c[2]] * AT(L[6 + i]));
-        row[4 + i] = load[i];
-        row[7] += dt.now * load[i] * v[i] + stretch[i];
+        base[4 + i] = load[i];
+        base[7] += dt.now * load[i] * v[i] + stretch[i];
     }
-    store_lines(n->base, row, lane);
-    row[0] = vd_set(0), row[7] = vd_set(1);
+    store_lines(n->base, base, lane);
     for (int k = 0; k < 3; k++) {
         const int *c = column[k];
         const vd push = dt.now * (s[c[0]] * v[0] + s[c[1]] * v[1] + s[c[2]] * v[2]);
-        vd swing = vd_set(0);
+        vd turn[3], swing = vd_set(0);
         for (int i = 0; i < 3; i++) {
-            row[1 + i] = mL * AT(L[3 * i + k]);
-            row[4 + i] = s[c[i]];
-            swing += v[i] * row[1 + i];
+            turn[i] = mL * AT(L[3 * i + k]);
+            swing += v[i] * turn[i];
         }
-        store_lines(n->C[k], row, lane);
         for (int a = 0; a < 2; a++) {
-            const vd w = vd_load(&f->w[k][a][lane]), grad = vd_load(&f->grad[k][a][lane]);
-            const vd moment = vd_load(&f->moment[k][a][lane]), spread = vd_load(&f->spread[k][a][lane]);
-            vd_store(&f->energy[k][a][lane], moment * swing + grad * push + (spread - w) * stretch[k]);
+            const vd weight = w[k].w[2 * a], grad = w[k].g[2 * a], d = w[k].d[2 * a], moment = weight * d;
+            vd row[LINE] = { vd_set(0) };
+            for (int i = 0; i < 3; i++) row[1 + i] = moment * turn[i], row[4 + i] = grad * s[c[i]];
+            row[7] = moment * swing + grad * push + (grad * d - weight) * stretch[k];
+            for (int i = 0; i < LINE && k == 0; i++) row[i] += weight * base[i];
+            store_lines(k == 0 ? n->A[a] : k == 1 ? n->Y[a] : n->Z[a], row, lane);
         }
     }
 }
 
-LANE_INLINE void surface_of(const block *q, int lane, const factors *f, contact_factors *n)
+LANE_INLINE void surface_of(const block *q, int lane, const weights w[3], contact_factors *n)
 {
     const vd m = AT(mass[0]), V = m / AT(rho[0]);
     for (int k = 0; k < 3; k++)
         for (int a = 0; a < 2; a++) {
-            vd_store(&n->gradient[k][a][lane], V * vd_load(&f->grad[k][a][lane]));
-            vd_store(&n->moment[k][a][lane], -m * vd_load(&f->moment[k][a][lane]));
+            vd_store(&n->gradient[k][a][lane], V * w[k].g[2 * a]);
+            vd_store(&n->moment[k][a][lane], -m * (w[k].w[2 * a] * w[k].d[2 * a]));
         }
     vd_store(&n->flow[lane], m * AT(flow[0]));
 #undef AT
+}
+
+/* A part of particle l's contact lines: each lane is one number, so nothing need be transposed. */
+LANE_INLINE void contact_lines(const contact_factors *s, const factors *f, int part, int l, lines *n)
+{
+    const vd base = vd_where(kind_at(contact_kinds.flow, part), vd_set(s->flow[l]));
+    vd_store(&n->base[l][part], base);
+    for (int a = 0; a < 2; a++) {
+        vd q[3];
+        for (int k = 0; k < 3; k++)
+            q[k] = vd_select(kind_at(contact_kinds.gradient[k], part), vd_set(s->gradient[k][a][l]),
+                             vd_where(kind_at(contact_kinds.moment[k], part), vd_set(s->moment[k][a][l])));
+        vd_store(&n->A[a][l][part], f->w[0][a][l] * base + q[0]);
+        vd_store(&n->Y[a][l][part], q[1]);
+        vd_store(&n->Z[a][l][part], q[2]);
+    }
 }
 
 /* The middle of three is what the others leave of the sum that is in its place. */
@@ -239,27 +216,28 @@ LANE_INLINE void add_to_brick(double (*out)[LINE], int first, part_sums sum[PART
         leave_middles(sum[part]);
 #pragma GCC unroll 27
         for (int i = 0; i < 27; i++) {
-            double *line = &out[first + (i / 9 * HALO + i / 3 % 3) * HALO + i % 3][part * WIDTH];
+            double *line = &out[halo_place[first + (i / 9 * HALO + i / 3 % 3) * HALO + i % 3]][part * WIDTH];
             vd_store(line, vd_load(line) + sum[part][i]);
         }
     }
 }
 
-LANE_INLINE void clear(part_sums sum[PARTS])
-{
-#pragma GCC unroll 4
-    for (int part = 0; part < PARTS; part++)
-#pragma GCC unroll 27
-        for (int i = 0; i < 27; i++) sum[part][i] = vd_set(0);
-}
+/* What the kernel of a cell's blocks needs to know beside them. */
+typedef struct {
+    const cell_grid *grid;
+    half_steps dt;
+    double affine; /* 1, or 0 without the affine part */
+    bool meets;    /* are contact lines wanted? */
+} cell_work;
 
-/* A block's lines into the sums of its cell; contact lines where `meets`. */
-LANE_INLINE void one_block(const mpm *m, int index, const cell_grid *g, half_steps dt, double affine, bool meets,
-                           part_sums motion[PARTS], part_sums contact[PARTS])
+/* A block's lines into the sums of its cell, which begin with its `first`.  A call, not inlined: gcc then takes the sums as begun. */
+static __attribute__((noinline)) void one_block(const mpm *m, int index, const cell_work *c, bool first,
+                                                part_sums motion[PARTS], part_sums contact[PARTS])
 {
     const block *q = &m->blocks[index];
     const int mask = m->links[index].mask;
     const mpm_body *body = &m->scene.body[m->links[index].body];
+    const cell_grid *g = c->grid;
     lines n;
     factors f;
     contact_factors s;
@@ -267,46 +245,41 @@ LANE_INLINE void one_block(const mpm *m, int index, const cell_grid *g, half_ste
     prefetch_share(&next);
     for (int lane = 0; lane < LANES; lane += WIDTH) {
         if (part_is_empty(mask, lane)) continue;
-        store_factors(&f, g, q, lane);
-        motion_lines(q, lane, affine, body, dt, &f, &n);
-        if (meets) surface_of(q, lane, &f, &s);
+        const weights w[3] = { cell_weights(g, 0, q, lane), cell_weights(g, 1, q, lane), cell_weights(g, 2, q, lane) };
+        store_factors(&f, w, lane);
+        motion_lines(q, lane, c->affine, body, c->dt, w, &n);
+        if (c->meets) surface_of(q, lane, w, &s);
     }
 #pragma GCC unroll 4
     for (int part = 0; part < PARTS; part++) {
-        terms t[LANES];
-        for (int l = 0; l < LANES; l++)
-            if (mask >> l & 1) t[l] = motion_terms(&n, &f, part * WIDTH, l);
-        accumulate(motion[part], t, &f, mask, &next);
-        if (!meets) continue;
-        for (int l = 0; l < LANES; l++)
-            if (mask >> l & 1) t[l] = contact_terms(&s, &f, part * WIDTH, l);
-        accumulate(contact[part], t, &f, mask, &none);
+        accumulate(motion[part], &n, part * WIDTH, &f, mask, first, &next);
+        if (!c->meets) continue;
+        lines on_surface;
+        for (int left = mask; left; left &= left - 1)
+            contact_lines(&s, &f, part * WIDTH, __builtin_ctz((unsigned)left), &on_surface);
+        accumulate(contact[part], &on_surface, part * WIDTH, &f, mask, first, &none);
     }
 }
 
-static void one_cell(const mpm *m, brick *b, int cell, const cell_grid *g)
+static void one_cell(const mpm *m, brick *b, int cell, const cell_work *c)
 {
-    const half_steps dt = { 0.5 * level_dt(m, b->level), 0.5 * level_dt_last(m, b->level) };
-    const double affine = m->scene.transfer == TRANSFER_TPIC ? 1 : 0;
-    const bool meets = b->meets >> cell & 1;
     part_sums motion[PARTS], contact[PARTS];
-    clear(motion);
-    clear(contact);
-    for (int i = b->head[cell]; i >= 0; i = m->links[i].next) one_block(m, i, g, dt, affine, meets, motion, contact);
+    for (int i = b->head[cell]; i >= 0; i = m->links[i].next) one_block(m, i, c, i == b->head[cell], motion, contact);
     add_to_brick(b->out, halo_index(cell), motion);
-    if (meets) add_to_brick(b->out_contact, halo_index(cell), contact);
+    if (c->meets) add_to_brick(b->out_contact, halo_index(cell), contact);
 }
 
 /* Adds a ghost's line, mirrored across axis k, to the node it mirrors; the momentum that turns is the mirror's impulse. */
 static void fold_line(brick *b, int k, const int ghost[3], const int mirror[3], double dt)
 {
-    const double *from = b->out[halo_at(ghost)];
-    double *to = b->out[halo_at(mirror)];
+    const int source = halo_place[halo_at(ghost)], target = halo_place[halo_at(mirror)];
+    const double *from = b->out[source];
+    double *to = b->out[target];
     for (int i = 0; i < LINE; i++) to[i] += i == 1 + k || i == 4 + k ? -from[i] : from[i];
     b->sum.impulse_boundary[k] -= 2 * (from[1 + k] + dt * from[4 + k]);
     if (!b->meets) return;
-    const double *surface = b->out_contact[halo_at(ghost)];
-    for (int i = 0; i < 7; i++) b->out_contact[halo_at(mirror)][i] += i == k || i == 3 + k ? -surface[i] : surface[i];
+    const double *surface = b->out_contact[source];
+    for (int i = 0; i < 7; i++) b->out_contact[target][i] += i == k || i == 3 + k ? -surface[i] : surface[i];
 }
 
 static void fold(const mpm *m, brick *b)
@@ -330,10 +303,15 @@ void ISA(p2g)(mpm *m, brick *b)
     b->meets = b->across ? ~0ull : b->contact ? meeting_cells(m, b) : 0;
     if (b->meets) memset(b->out_contact, 0, HALO_NODES * sizeof *b->out_contact);
     const brick_grid grid = brick_grid_at(m, b);
+    cell_grid at;
+    cell_work work = { .grid = &at,
+                       .dt = { 0.5 * level_dt(m, b->level), 0.5 * level_dt_last(m, b->level) },
+                       .affine = m->scene.transfer == TRANSFER_TPIC ? 1 : 0 };
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
         if (b->head[cell] < 0) continue;
-        const cell_grid g = cell_grid_of(&grid, cell);
-        one_cell(m, b, cell, &g);
+        cell_grid_set(&at, &grid, cell);
+        work.meets = b->meets >> cell & 1;
+        one_cell(m, b, cell, &work);
     }
     fold(m, b);
 }

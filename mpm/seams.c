@@ -340,7 +340,7 @@ void seams_receive(mpm *m, int site)
 static void add_node(double to[NODE], const mpm *m, const brick *b, int level, const int node[3], double share)
 {
     const brick *from = brick_with(m, b->field, level, node);
-    for (int i = 0; from && i < NODE; i++) to[i] += share * from->node[cell_of(node)][i];
+    for (int i = 0; from && i < NODE; i++) to[i] += share * brick_nodes(m, from)[cell_of(node)][i];
 }
 
 static void follow_finer(const mpm *m, brick *b, int cell, const int node[3])
@@ -348,7 +348,7 @@ static void follow_finer(const mpm *m, brick *b, int cell, const int node[3])
     const grid_level *finer = &m->grids.level[b->level - 1];
     const int f[3] = { 2 * (node[0] - finer->lo[0]) + 1, 2 * (node[1] - finer->lo[1]) + 1,
                        2 * (node[2] - finer->lo[2]) + 1 };
-    add_node(b->node[cell], m, b, b->level - 1, f, 1);
+    add_node(brick_nodes(m, b)[cell], m, b, b->level - 1, f, 1);
 }
 
 static void follow_coarser(const mpm *m, brick *b, int cell, const int node[3])
@@ -360,7 +360,7 @@ static void follow_coarser(const mpm *m, brick *b, int cell, const int node[3])
     for (int z = c.lo[2]; z <= c.hi[2]; z++)
         for (int y = c.lo[1]; y <= c.hi[1]; y++)
             for (int x = c.lo[0]; x <= c.hi[0]; x++)
-                add_node(b->node[cell], m, b, b->level + 1, (const int[3]){ x, y, z }, share);
+                add_node(brick_nodes(m, b)[cell], m, b, b->level + 1, (const int[3]){ x, y, z }, share);
 }
 
 void seams_follow(mpm *m, int site)
@@ -372,7 +372,7 @@ void seams_follow(mpm *m, int site)
         for (uint64_t set = (b->seam.follow_finer | b->seam.follow_coarser) & shares_due(m, b); set;) {
             int node[3];
             const int cell = next_node(b, &set, node);
-            memset(b->node[cell], 0, sizeof b->node[cell]);
+            memset(brick_nodes(m, b)[cell], 0, NODE * sizeof(double));
             if (!(b->line[cell][0] > 0)) continue;
             if (b->seam.follow_finer >> cell & 1)
                 follow_finer(m, b, cell, node);

@@ -100,7 +100,7 @@ static void drift_of(const mpm *m, const brick *b, int cell, double dt, double d
 static void keep_node(const mpm *m, brick *b, int cell)
 {
     double *line = b->held->line[cell], drift[3], u[3];
-    const double *v = b->node[cell], mass = line[0], dt = shares_dt(m, b, cell);
+    const double *v = brick_nodes(m, b)[cell], mass = line[0], dt = shares_dt(m, b, cell);
     drift_of(m, b, cell, dt, drift);
     for (int k = 0; k < 3; k++) {
         u[k] = v[k] - drift[k];
@@ -116,7 +116,7 @@ static void keep_node(const mpm *m, brick *b, int cell)
 static void pay_node(const mpm *m, brick *b, int cell)
 {
     const double *line = b->held->line[cell];
-    double *v = b->node[cell];
+    double *v = brick_nodes(m, b)[cell];
     const double owed = b->held->owed[cell] - 0.5 * shares_dt(m, b, cell) * power(line, v);
     for (int k = 0; k < 3; k++) v[k] += b->held->drift[cell][k];
     v[3] += (owed + 0.5 * level_dt(m, b->level) * power(line, v)) / line[0];

@@ -132,7 +132,6 @@ typedef struct {
     int neighbour[NEIGHBOURS];               /* bricks of the same field around, -1 = none */
     double (*out)[LINE];                     /* [216] m, px, py, pz, fx, fy, fz, kinetic energy */
     double (*out_contact)[LINE];             /* [216] V grad S (3), -m (x_i - x_p) (3), m flow, 0 */
-    double (*node)[NODE];                    /* [64] vx, vy, vz, specific energy that is left to the particles */
     double (*line)[LINE];                    /* of a seam brick: [64] sums as in `out`, then [64] as in `out_contact` */
     node_shares *held;                       /* of a brick that shares nodes with a finer level */
     int movers, movers_first, movers_thread; /* its part of the thread's mover list */
@@ -163,6 +162,7 @@ struct mpm {
     tally *site_sum; /* [grids.sites] */
 
     brick *bricks;
+    double (*nodes)[BRICK_CELLS][NODE]; /* of each brick: vx, vy, vz, specific energy that is left to the particles */
     int bricks_used, bricks_capacity;
     int *site_list, site_count; /* sites that have a brick */
     int *seam_list, seam_count; /* those of them at seams */
@@ -291,6 +291,12 @@ static inline int site_index(const mpm *m, int level, const int at[3])
 {
     const grid_level *g = &m->grids.level[level];
     return g->first_site + (at[2] * g->axes[1].bricks + at[1]) * g->axes[0].bricks + at[0];
+}
+
+/* Velocities and energies of a brick's own nodes.  In one array, so that those of 27 bricks are found without reading the bricks. */
+static inline double (*brick_nodes(const mpm *m, const brick *b))[NODE]
+{
+    return m->nodes[b - m->bricks];
 }
 
 /* Brick of a field at a place of a level, -1 = none. */
