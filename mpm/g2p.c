@@ -10,36 +10,21 @@
 
 typedef double halo_nodes[HALO_NODES][NODE] __attribute__((aligned(64)));
 
-static void rows(int d, int *there, int *here, int *count)
-{
-    *here = d < 0 ? 0 : d > 0 ? HALO - 1 : 1;
-    *there = d < 0 ? BRICK - 1 : 0;
-    *count = d == 0 ? BRICK : 1;
-}
-
-/* Sizes that the compiler knows: it makes a few moves of them, not a string instruction. */
-LANE_INLINE void copy_row(double (*to)[NODE], double (*const from)[NODE], int count)
-{
-    if (count == BRICK)
-        memcpy(to, from, BRICK * sizeof *to);
-    else
-        memcpy(to, from, sizeof *to);
-}
-
+/* The velocities of 6 x 6 x 6 nodes, row by row along x: one node of the brick before, four of its own or of one beside it,
+ * one of the brick after; zero where there is none. */
 static void gather_halo(const mpm *m, const brick *b, halo_nodes halo)
 {
     static double none[BRICK_CELLS][NODE]; /* zero */
-    for (int step = 0; step < NEIGHBOURS; step++) {
-        int t[3], h[3], n[3];
-        rows(step % 3 - 1, &t[0], &h[0], &n[0]);
-        rows(step / 3 % 3 - 1, &t[1], &h[1], &n[1]);
-        rows(step / 9 - 1, &t[2], &h[2], &n[2]);
-        double(*const from)[NODE] = b->neighbour[step] >= 0 ? m->nodes[b->neighbour[step]] : none;
-        for (int k = 0; k < n[2]; k++)
-            for (int j = 0; j < n[1]; j++)
-                copy_row(&halo[((h[2] + k) * HALO + h[1] + j) * HALO + h[0]],
-                         &from[cell_index(t[0], t[1] + j, t[2] + k)], n[0]);
-    }
+    for (int z = 0; z < HALO; z++)
+        for (int y = 0; y < HALO; y++) {
+            const int *there = &b->neighbour[3 * (HALO_SIDE(y) + 3 * HALO_SIDE(z))];
+            double(*to)[NODE] = &halo[(z * HALO + y) * HALO], (*from[3])[NODE];
+            const int row = cell_index(0, (y + BRICK - 1) % BRICK, (z + BRICK - 1) % BRICK);
+            for (int i = 0; i < 3; i++) from[i] = (there[i] >= 0 ? m->nodes[there[i]] : none) + row;
+            memcpy(to[0], from[0][BRICK - 1], sizeof *to);
+            memcpy(to[1], from[1], BRICK * sizeof *to);
+            memcpy(to[HALO - 1], from[2], sizeof *to);
+        }
 }
 
 /* Ghost velocities.  A ghost gives its particles the mirror of what its node holds: the difference is the mirror's

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char MAGIC[8] = "BREECH5";
+static const char MAGIC[8] = "BREECH6";
 
 typedef struct {
     char magic[8];

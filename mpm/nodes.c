@@ -24,12 +24,23 @@ typedef struct {
     const double *extra;
 } node_state;
 
-/* Rows of a brick's nodes that its neighbour's particles reach: the first, and their number; where the neighbour has them. */
-static void overlap(int d, int *first, int *count, int *there)
+/* Nodes of a brick that the particles of its neighbour at a step reach: a box, and where the neighbour has its sums of them. */
+typedef struct {
+    int first[3], count[3], there;
+} shared_box;
+
+static shared_box box_towards(int step)
 {
-    *first = d > 0 ? BRICK - 1 : 0;
-    *count = d == 0 ? BRICK : 1;
-    *there = d > 0 ? 0 : d < 0 ? HALO - 1 : 1;
+    shared_box b;
+    int there[3];
+    for (int k = 0, s = step; k < 3; k++, s /= 3) {
+        const int d = s % 3 - 1;
+        b.first[k] = d > 0 ? BRICK - 1 : 0;
+        b.count[k] = d == 0 ? BRICK : 1;
+        there[k] = d > 0 ? 0 : d < 0 ? HALO - 1 : 1;
+    }
+    b.there = halo_place[halo_at(there)];
+    return b;
 }
 
 /* Cells of a neighbour whose particles reach this brick's nodes. */
@@ -41,17 +52,20 @@ static uint64_t cells_towards(int step)
     return cells[0][step % 3] & cells[1][step / 3 % 3] & cells[2][step / 9];
 }
 
-static void add_lines(double (*to)[LINE], double (*const out)[LINE], int step)
+static void add_lines(double (*to)[LINE], double (*const out)[LINE], const shared_box *b)
 {
-    int h[3], t[3], n[3];
-    for (int k = 0, s = step; k < 3; k++, s /= 3) overlap(s % 3 - 1, &h[k], &n[k], &t[k]);
-    double(*from)[LINE] = &out[halo_place[halo_at(t)]];
-    for (int k = 0; k < n[2]; k++)
-        for (int j = 0; j < n[1]; j++)
-            for (int i = 0; i < n[0]; i++, from++) {
-                double *a = to[cell_index(h[0] + i, h[1] + j, h[2] + k)];
+    double(*from)[LINE] = &out[b->there];
+    for (int k = 0; k < b->count[2]; k++)
+        for (int j = 0; j < b->count[1]; j++)
+            for (int i = 0; i < b->count[0]; i++, from++) {
+                double *a = to[cell_index(b->first[0] + i, b->first[1] + j, b->first[2] + k)];
                 for (int q = 0; q < LINE; q += WIDTH) vd_store(a + q, vd_load(a + q) + vd_load(*from + q));
             }
+}
+
+static void prefetch_lines(double (*const out)[LINE], const shared_box *b)
+{
+    for (int i = 0; i < b->count[0] * b->count[1] * b->count[2]; i++) __builtin_prefetch(out[b->there + i]);
 }
 
 /* Ghosts of a mirror: their sums are folded back already (p2g.c), their velocities are made in G2P. */
@@ -69,23 +83,32 @@ static void clear_ghosts(const mpm *m, const brick *b, double (*line)[LINE])
         }
 }
 
+/* All sums are asked for before any is added: most come from another core's cache or from memory. */
 static bool gather_field(const mpm *m, const brick *b, bool with_contact, const field_nodes *n)
 {
-    bool any = false;
-    memset(n->line, 0, sizeof(node_lines));
-    if (with_contact) memset(n->extra, 0, sizeof(node_lines));
+    const brick *from[NEIGHBOURS];
+    shared_box box[NEIGHBOURS];
+    bool meets[NEIGHBOURS];
+    int count = 0;
     for (int step = 0; step < NEIGHBOURS; step++) {
         if (b->neighbour[step] < 0) continue;
-        const brick *from = &m->bricks[b->neighbour[step]];
-        const uint64_t near = from->occupied & cells_towards(step);
+        from[count] = &m->bricks[b->neighbour[step]];
+        const uint64_t near = from[count]->occupied & cells_towards(step);
         if (!near) continue;
-        any = true;
-        /* neighbour k lies at step k; seen from it, we lie on the other side */
-        add_lines(n->line, from->out, step);
-        if (with_contact && from->meets & near) add_lines(n->extra, from->out_contact, step);
+        box[count] = box_towards(step);
+        meets[count] = with_contact && from[count]->meets & near;
+        prefetch_lines(from[count]->out, &box[count]);
+        if (meets[count]) prefetch_lines(from[count]->out_contact, &box[count]);
+        count++;
+    }
+    memset(n->line, 0, sizeof(node_lines));
+    if (with_contact) memset(n->extra, 0, sizeof(node_lines));
+    for (int i = 0; i < count; i++) {
+        add_lines(n->line, from[i]->out, &box[i]);
+        if (meets[i]) add_lines(n->extra, from[i]->out_contact, &box[i]);
     }
     clear_ghosts(m, b, n->line);
-    return any;
+    return count > 0;
 }
 
 static field_nodes seam_lines(const brick *b)

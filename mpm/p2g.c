@@ -241,7 +241,7 @@ static __attribute__((noinline)) void one_block(const mpm *m, int index, const c
     lines n;
     factors f;
     contact_factors s;
-    ahead next = ahead_of(m, index, FIRST_ka + 1, 1 + 3 * PARTS), none = { 0 };
+    ahead next = ahead_of(m, index, FIRST_e, 1 + 3 * PARTS), none = { 0 };
     prefetch_share(&next);
     for (int lane = 0; lane < LANES; lane += WIDTH) {
         if (part_is_empty(mask, lane)) continue;

@@ -34,7 +34,7 @@ static inline int share_begin(int bricks, int share)
     return (int)((int64_t)bricks * share / SHARES);
 }
 
-/* One list makes the block, the copies of single particles and the checkpoint. */
+/* One list makes the block, the copies of single particles and the checkpoint.  P2G reads what comes before e, G2P all before start. */
 #define BLOCK_FIELDS(FIELD)                                                    \
     FIELD(x, 3)      /* position [m] */                                        \
     FIELD(v, 3)      /* velocity [m/s] */                                      \
@@ -44,13 +44,13 @@ static inline int share_begin(int bricks, int share)
     FIELD(rho, 1)    /* density [kg/m3] */                                     \
     FIELD(mass, 1)   /* [kg], 0 in a hole */                                   \
     FIELD(half, 3)   /* half lengths of the domain [m] */                      \
-    FIELD(e, 1)      /* specific internal energy [J/kg] */                     \
     FIELD(ka, 1)     /* specific kinetic energy of the gradient part [J/kg] */ \
+    FIELD(area, 1)   /* face area that the body's traction acts on [m2] */     \
+    FIELD(flow, 1)   /* flow stress of the last step [Pa] */                   \
+    FIELD(e, 1)      /* specific internal energy [J/kg] */                     \
     FIELD(ep, 1)     /* equivalent plastic strain [1] */                       \
     FIELD(damage, 1) /* failed at 1 */                                         \
     FIELD(T, 1)      /* temperature [K] */                                     \
-    FIELD(flow, 1)   /* flow stress of the last step [Pa] */                   \
-    FIELD(area, 1)   /* face area that the body's traction acts on [m2] */     \
     FIELD(start, 3)  /* position at the start [m] */
 
 typedef struct {
