@@ -272,9 +272,11 @@ static status print_check(const breech_case *c, int threads)
     fputs(c->warnings, stdout);
     TRY(table_create("scene|points|memory [GB]|steps|time, estimated", &t));
     for (int i = 0; i < n; i++) {
-        char time[40];
-        duration_text(e[i].seconds, time, sizeof time);
-        table_row(t, "%s|%zu|%.2f|%.0f|%s", e[i].what, e[i].particles, 1e-9 * (double)e[i].bytes, e[i].steps, time);
+        const mpm_needs *at = &e[i].needs;
+        char time[2][40];
+        for (int k = 0; k < 2; k++) duration_text(e[i].seconds[k], time[k], sizeof time[k]);
+        table_row(t, "%s|%zu .. %zu|%.2f .. %.2f|%.0f|%s .. %s", e[i].what, at->particles[0], at->particles[1],
+                  1e-9 * (double)at->bytes[0], 1e-9 * (double)at->bytes[1], e[i].steps, time[0], time[1]);
     }
     if (n > 0) table_print(t, stdout);
     table_free(t);

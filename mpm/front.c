@@ -134,7 +134,7 @@ plough plough_find(const mpm *m)
     const mpm_axis *s = &m->scene.axis[0];
     plough r = { .front = s->lo };
     profile p = { .lo = s->lo, .width = 2 * s->fine, .n = (int)((s->hi - s->lo) / (2 * s->fine)) + 1 };
-    zone_across(m, &p.middle, &p.half);
+    zone_across(&m->scene, &p.middle, &p.half);
     p.sums = calloc((size_t)sums_of(&p) * SHARES, sizeof *p.sums);
     if (!p.sums) return r;
     add_bodies(m, &p);

@@ -234,17 +234,26 @@ status mpm_restore(mpm *m, const void *image, size_t bytes)
 
 /* ---- estimate ---- */
 
+typedef struct {
+    const grids *grids;
+    size_t particles;
+    double work;
+} counting;
+
 static status count_point(void *user, int body, const build_point *p)
 {
-    (void)body, (void)p;
-    (*(size_t *)user)++;
+    (void)body;
+    counting *c = user;
+    c->particles++;
+    c->work += 1.0 / (1 << grids_level(c->grids, p->x));
     return status_ok();
 }
 
-static status estimate(const mpm_scene *s, const grids *g, size_t *particles, double *first_dt)
+static status count(const mpm_scene *s, const grids *g, counting *c, double *dt)
 {
     double fastest = 0;
-    const build_sink sink = { count_point, particles };
+    *c = (counting){ .grids = g };
+    const build_sink sink = { count_point, c };
     for (int i = 0; i < s->bodies; i++) {
         law k;
         TRY(law_make(&s->body[i], s, &k));
@@ -253,19 +262,23 @@ static status estimate(const mpm_scene *s, const grids *g, size_t *particles, do
         for (int q = 0; q < 3; q++)
             fastest = fmax(fastest, (sound + fabs(s->body[i].velocity[q])) / g->level[0].axes[q].smallest);
     }
-    *first_dt = s->courant / fastest;
+    *dt = s->courant / fastest;
     return status_ok();
 }
 
-status mpm_estimate(const mpm_scene *scene, size_t *particles, size_t *bytes, double *first_dt)
+status mpm_estimate(const mpm_scene *scene, mpm_needs *needs)
 {
-    grids g;
-    *particles = 0;
-    TRY(grids_make(scene, &g));
-    const status r = estimate(scene, &g, particles, first_dt);
-    grids_free(&g);
-    /* blocks three quarters full, a quarter in reserve; two bricks' sums for every 512 particles */
-    *bytes = (size_t)((double)*particles *
-                      (sizeof(block) / 8.0 / 0.75 * 1.25 + 2.0 * (HALO_NODES * LINE + BRICK_CELLS * NODE) * 8.0 / 512));
-    return r;
+    mpm_scene at[2] = { *scene, *scene };
+    zone_widen(scene, HUGE_VAL, &at[1].axis[2].fine_lo, &at[1].axis[2].fine_hi);
+    for (int i = 0; i < 2; i++) {
+        grids g;
+        counting c;
+        TRY(grids_make(&at[i], &g));
+        const status s = count(&at[i], &g, &c, &needs->dt);
+        grids_free(&g);
+        TRY(s);
+        needs->particles[i] = c.particles, needs->work[i] = c.work;
+        needs->bytes[i] = MPM_BYTES + c.particles * MPM_BYTES_A_PARTICLE;
+    }
+    return status_ok();
 }

@@ -133,8 +133,18 @@ status mpm_save(const mpm *m, void **image, size_t *bytes);
 /* Into a solver made by mpm_create from the same scene; refuses an image of another scene, version or instruction set. */
 status mpm_restore(mpm *m, const void *image, size_t bytes);
 
-/* Cell boundaries count for memory estimates: particles and bytes the scene will take, without building it.  first_dt: of the finest level. */
-status mpm_estimate(const mpm_scene *scene, size_t *particles, size_t *bytes, double *first_dt);
+/* What a scene will take, without building it: at the start, and with the fine zone as wide as it may grow. */
+typedef struct {
+    size_t particles[2];
+    double work[2];  /* particle-steps in a step of the finest level: coarser levels make fewer */
+    size_t bytes[2]; /* MPM_BYTES and MPM_BYTES_A_PARTICLE each */
+    double dt;       /* first step of the finest level [s] */
+} mpm_needs;
+
+/* Blocks five eighths full, a quarter in reserve, sums of their bricks, copies of what the zone leaves behind; measured,
+ * docs/scene-solver.md, Memory. */
+enum { MPM_BYTES = 20000000, MPM_BYTES_A_PARTICLE = 1600 };
+status mpm_estimate(const mpm_scene *scene, mpm_needs *needs);
 
 const char *mpm_instruction_set(void); /* "x86-64-v4", "x86-64-v3", "portable" */
 

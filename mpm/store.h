@@ -273,7 +273,10 @@ plough plough_find(const mpm *m);
 
 /* zone.c */
 zone zone_of(const mpm *m);
-void zone_across(const mpm *m, double *middle, double *half); /* of the fine zone: its middle, how far it reaches [m] */
+void zone_across(const mpm_scene *s, double *middle,
+                 double *half); /* of the fine zone: its middle, how far it reaches [m] */
+/* Its ends with at most `more` on either side, and no more than follow_width and the window allow [m]; false: as they were. */
+bool zone_widen(const mpm_scene *s, double more, double *lo, double *hi);
 status zone_follow(mpm *m); /* goes after the plastic front, if it has come near the fine zone's end */
 /* New grids; all particles into their bricks, split and merged to fit; to be settled. */
 status zone_regrid(mpm *m, zone z);

@@ -393,13 +393,31 @@ zone zone_of(const mpm *m)
     return (zone){ { s->fine_lo, s->lo, s->hi, across->fine_lo, across->fine_hi } };
 }
 
-/* A half model's zone begins at its mirror. */
-void zone_across(const mpm *m, double *middle, double *half)
+static bool is_half_model(const mpm_axis *across)
 {
-    const mpm_axis *z = &m->scene.axis[2];
-    const bool mirrored = z->boundary[0] == BOUNDARY_SYMMETRY && z->fine_lo <= z->lo;
-    *middle = mirrored ? z->fine_lo : 0.5 * (z->fine_lo + z->fine_hi);
+    return across->boundary[0] == BOUNDARY_SYMMETRY && across->fine_lo <= across->lo;
+}
+
+void zone_across(const mpm_scene *s, double *middle, double *half)
+{
+    const mpm_axis *z = &s->axis[2];
+    *middle = is_half_model(z) ? z->fine_lo : 0.5 * (z->fine_lo + z->fine_hi); /* a half model's begins at its mirror */
     *half = z->fine_hi - *middle;
+}
+
+bool zone_widen(const mpm_scene *s, double more, double *lo, double *hi)
+{
+    const mpm_axis *z = &s->axis[2];
+    const bool half_model = is_half_model(z);
+    const double pair = (s->levels > 1 ? 2 : 1) * z->fine; /* of the cells around it the zone takes whole ones */
+    const double end = half_model ? z->hi - z->fine_hi : fmin(z->hi - z->fine_hi, z->fine_lo - z->lo);
+    double middle, half;
+    zone_across(s, &middle, &half);
+    const double room = fmin(s->follow_width - half, end - grids_margin(s->levels, z->fine));
+    const double wider = fmin(more, floor(room / pair + 1e-6) * pair);
+    *hi = z->fine_hi + fmax(wider, 0);
+    *lo = z->fine_lo - (half_model ? 0 : fmax(wider, 0));
+    return wider > 0;
 }
 
 status zone_regrid(mpm *m, zone z)
@@ -420,20 +438,11 @@ status zone_regrid(mpm *m, zone z)
 static void widen(const mpm *m, const plough *p, zone *z)
 {
     static const double NEAR = 0.6, WIDER = 1.25;
-    const mpm_axis *s = &m->scene.axis[2];
     double middle, half;
-    zone_across(m, &middle, &half);
-    const bool half_model = !(middle > s->fine_lo);
+    zone_across(&m->scene, &middle, &half);
     if (!(p->half_width > NEAR * half) || !(half < m->scene.follow_width * (1 - 1e-9))) return;
-    const double pair = (m->scene.levels > 1 ? 2 : 1) * s->fine; /* of the cells around it the zone takes whole ones */
-    const double together = (1 << (m->scene.levels - 1)) * s->fine;
-    const double more = ceil((WIDER - 1) * half / together) * together;
-    const double end = half_model ? s->hi - s->fine_hi : fmin(s->hi - s->fine_hi, s->fine_lo - s->lo);
-    const double room = fmin(m->scene.follow_width - half, end - grids_margin(m->scene.levels, s->fine));
-    const double wanted = fmin(more, floor(room / pair + 1e-6) * pair);
-    if (!(wanted > 0)) return;
-    z->at[4] += wanted;
-    if (!half_model) z->at[3] -= wanted;
+    const double together = (1 << (m->scene.levels - 1)) * m->scene.axis[2].fine;
+    zone_widen(&m->scene, ceil((WIDER - 1) * half / together) * together, &z->at[3], &z->at[4]);
 }
 
 /* Where the window ought to be now; the fine zone stays inside it. */

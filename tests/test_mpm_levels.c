@@ -321,7 +321,19 @@ static void test_widening(void **state)
         mpm_axis *z = &g.scene.axis[2];
         z->lo = cases[i].lo, z->fine_lo = -z->fine_hi, z->boundary[0] = BOUNDARY_FREE;
         g.scene.follow_width = cases[i].widest;
-        mpm *m = scene_make(&g.scene, 2);
+        mpm_needs needs;
+        assert_ok(mpm_estimate(&g.scene, &needs));
+        mpm_scene wide = g.scene;
+        wide.axis[2].fine_lo = -cases[i].want, wide.axis[2].fine_hi = cases[i].want;
+        mpm *m = scene_make(&wide, 2);
+        assert_int_equal(needs.particles[1], mpm_particles(m));
+        mpm_free(m);
+        m = scene_make(&g.scene, 2);
+        assert_int_equal(needs.particles[0], mpm_particles(m));
+        double work = 0; /* of the two levels' steps */
+        for (int k = 0; k < m->bricks_used; k++) work += m->bricks[k].particles * (m->bricks[k].level ? 0.5 : 1);
+        assert_near(needs.work[0] / work, 1, 1e-12);
+        assert_true(needs.work[1] >= needs.work[0] && needs.bytes[1] >= needs.bytes[0]);
         assert_ok(zone_follow(m)); /* nothing yields yet */
         assert_near(mpm_scene_of(m)->axis[2].fine_hi, 1e-3, 0);
         for (int k = 0; k < m->bricks_used; k++) /* all of the rail in the zone yields as far as z = 0.8 mm */

@@ -221,11 +221,10 @@ status command_possible(const breech_case *c, unsigned needs)
 static status estimate(const breech_case *c, const site_state *state, double cells, int threads, scene_estimate *out)
 {
     scene_job job;
-    double dt;
     TRY(scene_job_make(c, state, cells, &job));
-    TRY(mpm_estimate(&job.scene, &out->particles, &out->bytes, &dt));
-    out->steps = scene_last(c, &job.scene) / dt;
-    out->seconds = out->steps * (double)out->particles * CHECK_SECONDS_A_STEP / threads;
+    TRY(mpm_estimate(&job.scene, &out->needs));
+    out->steps = scene_last(c, &job.scene) / out->needs.dt;
+    for (int i = 0; i < 2; i++) out->seconds[i] = out->steps * out->needs.work[i] * CHECK_SECONDS_A_STEP / threads;
     return status_ok();
 }
 

@@ -32,11 +32,13 @@ status command_possible(const breech_case *c, unsigned needs);
 /* `breech check`: what each scene the case leads to would take. */
 typedef struct {
     char what[80];
-    size_t particles, bytes;
-    double steps, seconds; /* at CHECK_SECONDS_A_STEP a particle-step on this machine's threads [1, s] */
+    mpm_needs needs;
+    double steps; /* of the finest level */
+    double seconds
+        [2]; /* at CHECK_SECONDS_A_STEP a particle-step on this machine's threads: the fine zone as at the start, as wide as it may grow */
 } scene_estimate;
 enum { CHECK_MAX_ESTIMATES = 3 };
-#define CHECK_SECONDS_A_STEP 150e-9 /* one thread */
+#define CHECK_SECONDS_A_STEP 200e-9 /* one thread */
 
 /* The scene of the case, and of its first site the slowest and finest of the search; *n of them. */
 status command_check(const breech_case *c, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n);
