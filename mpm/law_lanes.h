@@ -76,17 +76,23 @@ LANE_INLINE vd failure_strain(const law *k, vd triaxiality, vd log_rate, vd T_st
     return vd_max(f, vd_set(0.01));
 }
 
-/*   T = T_s + (e - e_s - stored)/c_v = T_r + (e - e_r - stored)/c_v, with a plateau while melting         (M-4) [K]
- * T_s, e_s on the isentrope through rest at T_r; e_r = e_s - c_v (T_s - T_r) = mu x a polynomial either side of rest (law.c) */
-LANE_INLINE vd temperature(const law *k, vd e, vd mu, vd stored)
+/* e_r = e_s - c_v (T_s - T_r) with T_s, e_s on the isentrope through rest at T_r: mu x a polynomial either side of rest (law.c) */
+LANE_INLINE vd reference_energy(const law *k, vd mu)
 {
     const vd zero = vd_set(0), x = vd_min(vd_max(mu, vd_set(k->mu_least)), vd_set(k->mu_most));
     const vm out = vd_less(x, zero);
-    vd reference = zero;
+    vd sum = zero;
     for (int i = LAW_COLD - 1; i >= 0; i--)
-        reference = vd_select(out, vd_set(k->stretched[i]), vd_set(k->squeezed[i])) + x * reference;
+        sum = vd_select(out, vd_set(k->stretched[i]), vd_set(k->squeezed[i])) + x * sum;
+    return x * sum;
+}
+
+/*   T = T_s + (e - e_s - stored)/c_v = T_r + (e - e_r - stored)/c_v, with a plateau while melting         (M-4) [K] */
+LANE_INLINE vd temperature(const law *k, vd e, vd reference, vd stored)
+{
+    const vd zero = vd_set(0);
     const double melt = k->c_v * (k->T_m - k->T_r);
-    const vd thermal = e - x * reference - stored;
+    const vd thermal = e - reference - stored;
     const vd beyond = vd_max(thermal - melt - k->latent, zero);
     return vd_max(k->T_r + (vd_min(thermal, vd_set(melt)) + beyond) * k->inv_c, vd_set(1));
 }
@@ -144,12 +150,12 @@ LANE_INLINE vd square_norm(const vd s[6])
     return s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
 }
 
-/* sqrt(2/3 dev D : dev D) [1/s] */
-LANE_INLINE vd shear_rate(const vd L[9], vd tr)
+/* 2/3 dev D : dev D, the square of the equivalent rate [1/s2] */
+LANE_INLINE vd rate_square(const vd L[9], vd tr)
 {
     const vd a = L[1] + L[3], b = L[2] + L[6], c = L[5] + L[7];
     const vd D2 = L[0] * L[0] + L[4] * L[4] + L[8] * L[8] + 0.5 * (a * a + b * b + c * c) - (1 / 3.0) * tr * tr;
-    return vd_sqrt(2.0 / 3.0 * vd_max(D2, vd_set(0)));
+    return 2.0 / 3.0 * D2;
 }
 
 /* (M-5)  q = rho l |tr D| (q1 c + q2 l |tr D|) in compression, l the cell's size in the direction that is compressed */
@@ -184,7 +190,7 @@ LANE_INLINE yielding radial_return(const law *k, const vd L[9], vd tr, block *q,
     const vd least = 0.9 * k->least_flow * (1 - y.T_star);
     y.any = contact || vm_bits(failed | ~vd_less(square, least * least));
     if (!y.any) return y;
-    y.log_rate = vd_log(vd_max(shear_rate(L, tr) * k->inv_rate0, vd_set(1)));
+    y.log_rate = 0.5 * vd_log(vd_max(rate_square(L, tr) * (k->inv_rate0 * k->inv_rate0), vd_set(1)));
     const vd ep = vd_load(&q->ep[0][lane]), trial = vd_sqrt(square);
     const vd flow = k->is_ptw ? flow_stress_ptw(&k->ptw, ep, y.log_rate, vd_load(&q->T[0][lane]), y.T_star)
                               : flow_stress(k, ep, y.log_rate, y.T_star);
@@ -232,14 +238,14 @@ LANE_INLINE void law_step(const law *k, const step_of *step, const motion *move,
     vd s[6];
     for (int i = 0; i < 6; i++) s[i] = vd_load(&q->s[i][lane]);
 
+    const vd mu = rho * k->volume0 - 1, reference = reference_energy(k, mu);
+    const vd sound = sound_speed(k, volume, p0, failed);
+    const vd q_v = viscosity(k, step, L, tr, rho, sound);
     const vd power_before = (stress_power(s, move->start) - p0 * trace(move->start)) * volume0;
     predict(k, dt, L, s);
     const yielding y = radial_return(k, L, tr, q, lane, contact, s);
     for (int i = 0; i < 6; i++) vd_store(&q->s[i][lane], s[i]);
 
-    const vd mu = rho * k->volume0 - 1;
-    const vd sound = sound_speed(k, volume, p0, failed);
-    const vd q_v = viscosity(k, step, L, tr, rho, sound);
     const vd half = 0.5 * dt * trace(move->end) * volume;
     vd e = vd_load(&q->e[0][lane]) + sum->heat + 0.5 * dt * (power_before + stress_power(s, move->end) * volume) -
            half * q_v;
@@ -252,9 +258,9 @@ LANE_INLINE void law_step(const law *k, const step_of *step, const motion *move,
 
     const vd stored = y.mises_square * volume * (1 / (6 * k->G)); /* s:s/(4 G rho) */
     vd T = vd_load(&q->T[0][lane]);
+    const vm dust = (failed | parted) & vd_less(mu, zero); /* was stretched at no cost */
     if (!k->plastic_heat)
-        T = temperature(k, e, vd_select(failed | parted, vd_max(mu, zero), mu),
-                        stored); /* dust was stretched at no cost */
+        T = temperature(k, e, vd_where(~dust, reference), stored);
     else if (y.any)
         T += k->chi * y.mises * y.plastic * volume * k->inv_c;
     vd_store(&q->T[0][lane], T);
