@@ -26,10 +26,10 @@ typedef struct {
     double piece_end;       /* of the piece under way [s] */
     double before, reached; /* times of the last two steps [s] */
     snapshots *shots;
-    int series;                    /* of the history, -1: none */
-    int pieces, per_snapshot;      /* pieces; pieces from one snapshot to the next, 0: no snapshots */
-    double started, saved, looked; /* wall clock [s] */
-    status error;                  /* of the sink */
+    int series;                      /* of the history, -1: none */
+    int pieces, per_snapshot;        /* pieces; pieces from one snapshot to the next, 0: no snapshots */
+    double started, save_at, looked; /* wall clock [s] */
+    status error;                    /* of the sink */
 } run;
 
 /* ---- the material points, read once for all who look at them ---- */
@@ -116,15 +116,19 @@ static double progress_of(const run *r, const mpm_report *now)
     return fmin(now->time / scene_last(r->job->c, &r->job->scene), 1.0);
 }
 
+/* A large scene's checkpoints come further apart than asked for, lest they take more than a twentieth of the time. */
 static status save(run *r)
 {
+    enum { SHARE = 20 };
     const scene_host *h = r->host;
-    r->saved = wall_clock();
-    if (!h->save) return status_ok();
     const double since = wall_clock();
-    TRY(h->save(h->user, r->job->name, r->m, wall_spent(r)));
-    if (h->history) TRY(history_flush(h->history));
-    book(h, "checkpoints", since);
+    if (h->save) {
+        TRY(h->save(h->user, r->job->name, r->m, wall_spent(r)));
+        if (h->history) TRY(history_flush(h->history));
+        book(h, "checkpoints", since);
+    }
+    const double now = wall_clock(), interval = r->job->c->output.checkpoint_interval;
+    r->save_at = now + (interval > 0 ? fmax(interval, SHARE * (now - since)) : 0.0); /* 0: after every step */
     return status_ok();
 }
 
@@ -153,7 +157,7 @@ static bool on_step(void *user, const mpm *m)
         progress_update(r->host->progress, progress_of(r, &state), state.particle_steps);
     }
     if (is_due(r, &state)) return false;
-    if (now - r->saved >= r->job->c->output.checkpoint_interval) r->error = save(r);
+    if (now >= r->save_at) r->error = save(r);
     return r->error.code == STATUS_OK && !(r->host->stop && r->host->stop(r->host->user));
 }
 
@@ -482,7 +486,8 @@ status scene_run(const scene_job *job, const scene_host *host, impact *out)
 {
     run r = { .job = job, .host = host, .from = job->resume, .series = -1, .error = status_ok() };
     memset(out, 0, sizeof *out);
-    r.started = r.saved = r.looked = wall_clock();
+    r.started = r.looked = wall_clock();
+    r.save_at = r.started + r.job->c->output.checkpoint_interval;
     plan_pieces(&r);
     status s = mpm_create(&job->scene, host->threads, &r.m);
     book(host, "scene making", r.started);

@@ -203,7 +203,8 @@ static const param output_params[] = {
     PARAM_INT(case_output, snapshots, 20, 0, 10000, "of a scene, evenly over its time; 0 = none"),
     PARAM_DOUBLE(case_output, history_interval, "s", OPTIONAL, 1e-9, 1.0,
                  "least time between two samples of the shot's history; not given: every step"),
-    PARAM_DOUBLE(case_output, checkpoint_interval, "s", 60.0, 1.0, 1e6, "wall time between two checkpoints"),
+    PARAM_DOUBLE(case_output, checkpoint_interval, "s", 60.0, 1.0, 1e6,
+                 "wall time between two checkpoints, at least 20 times what one takes"),
     PARAM_BOOL(case_output, report, 1, "write report.html"),
     PARAMS_END,
 };

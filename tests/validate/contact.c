@@ -158,12 +158,48 @@ void valid_rolling(double cells, const valid_scheme *scheme, valid_result *out)
     valid_finish(solver, out);
 }
 
-/* ---- V8: two equal balls meet slowly; F^(2/3) is a straight line over the approach d, whose slope is
- * (4/3 E* sqrt(R*))^(2/3), R* = R/2, E* = E/(2 (1 - nu^2)); where the line starts depends on the cells, its slope must not ---- */
+/* ---- V8: two equal balls meet slowly.  Hertz's approach 3 P/(4 E' a) is that of points far away, and a ball has none: its
+ * middle comes nearer by three quarters of a/R less (point force on a half space), 10 % here.  What holds near the contact, to
+ * (a/R)^2, is the way that points on the axis at depth z come nearer to the face under p0 sqrt(1 - r^2/a^2),
+ *   u(0) - u(z) = (1 + nu) p0 a/E {atan Z - 2 nu [Z - Z^2/2 acot Z - (Z - atan Z)/2]},   Z = z/a,
+ *   a^3 = 3 P R'/(4 E'),   p0 = 3 P/(2 pi a^2),   E' = E/(2 (1 - nu^2)),   R' = R/2.
+ * Where the contact begins depends on the cells; how fast the points come nearer with this way must not. ---- */
+
+static const double BALL_E = 1e9, BALL_NU = 0.33, BALL_R = 10e-3,
+                    BALL_DEPTH = 2e-3; /* DEPTH: of the points looked at [m] */
+
+/* How much nearer the points of both balls come under a force [m]. */
+static double hertz_way(double force)
+{
+    const double stiff = BALL_E / (2 * (1 - BALL_NU * BALL_NU)), a = cbrt(3 * force * BALL_R / 2 / (4 * stiff));
+    const double p0 = 3 * force / (2 * SCENE_PI * a * a), Z = BALL_DEPTH / a;
+    const double side = Z - 0.5 * Z * Z * atan(1 / Z) - 0.5 * (Z - atan(Z));
+    return 2 * (1 + BALL_NU) * p0 * a / BALL_E * (atan(Z) - 2 * BALL_NU * side);
+}
 
 typedef struct {
-    double last, force, sum[5], largest, centres, smooth;
+    double face, spacing; /* where the balls meet, distance of points [m] */
+    double last, force, sum[5], largest, smooth;
 } pressing;
+
+/* Distance of the points that began near the axis at BALL_DEPTH below either face, interpolated to that depth [m]. */
+static double tracer_distance(const mpm *m, const pressing *w)
+{
+    double *x = scene_read(m, MPM_position), *start = scene_read(m, MPM_start), *body = scene_read(m, MPM_body);
+    double at[2] = { 0 };
+    for (int b = 0; b < 2; b++) {
+        double sum[5] = { 0 };
+        for (size_t i = 0; i < mpm_particles(m); i++) {
+            const double *s = &start[3 * i], deep = (b ? s[1] - w->face : w->face - s[1]) - BALL_DEPTH;
+            if ((int)body[i] != b || s[0] > w->spacing || s[2] > w->spacing || fabs(deep) > 2 * w->spacing) continue;
+            sum[0] += 1, sum[1] += deep, sum[2] += x[3 * i + 1], sum[3] += deep * deep, sum[4] += deep * x[3 * i + 1];
+        }
+        const double slope = (sum[0] * sum[4] - sum[1] * sum[2]) / (sum[0] * sum[3] - sum[1] * sum[1]);
+        at[b] = (sum[2] - slope * sum[1]) / sum[0];
+    }
+    free(x), free(start), free(body);
+    return at[1] - at[0];
+}
 
 static bool press_step(void *user, const mpm *m)
 {
@@ -174,8 +210,7 @@ static bool press_step(void *user, const mpm *m)
     w->force += share * (4 * r.contact_force[1][1] - w->force); /* a quarter of it is computed */
     if (w->force > w->largest) w->largest = w->force;
     if (w->force == w->largest && w->force > 0 && r.steps % 10 == 0) {
-        w->centres = scene_mean(m, MPM_position, 1, 1) - scene_mean(m, MPM_position, 1, 0);
-        const double x = -w->centres, y = pow(w->force, 2.0 / 3.0);
+        const double x = hertz_way(w->force), y = -tracer_distance(m, w);
         w->sum[0] += 1, w->sum[1] += x, w->sum[2] += y, w->sum[3] += x * x, w->sum[4] += x * y;
     }
     return true;
@@ -183,7 +218,7 @@ static bool press_step(void *user, const mpm *m)
 
 void valid_hertz(double cells, const valid_scheme *scheme, valid_result *out)
 {
-    const double E = 1e9, nu = 0.33, R = 10e-3, h = R / cells, gap = 0.02 * R, speed = 4;
+    const double E = BALL_E, nu = BALL_NU, R = BALL_R, h = R / cells, gap = 0.02 * R, speed = 4;
     const material m = valid_solid(E, nu, 1000);
     mpm_scene s;
     mpm_scene_default(&s);
@@ -205,10 +240,10 @@ void valid_hertz(double cells, const valid_scheme *scheme, valid_result *out)
     const double K = 4.0 / 3.0 * E / (2 * (1 - nu * nu)) * sqrt(R / 2),
                  mass = 0.5 * 1000 * 4.0 / 3.0 * SCENE_PI * R * R * R;
     const double v = 2 * speed, d = pow(1.25 * mass * v * v / K, 0.4), half = 1.47 * d / v;
-    pressing w = { .last = 0, .smooth = half / 50 };
+    pressing w = { .face = 0.37 * h, .spacing = 0.5 * h, .smooth = half / 50 };
     assert_ok(mpm_advance(solver, gap / v + 1.15 * half, &(mpm_sink){ press_step, &w }));
     const double *a = w.sum, slope = (a[0] * a[4] - a[1] * a[2]) / (a[0] * a[3] - a[1] * a[1]);
-    out->figure[0] = fabs(pow(slope, 1.5) / K - 1);
+    out->figure[0] = fabs(slope - 1);
     out->figure[1] = w.largest / (K * pow(d, 1.5)) - 1;
     out->figure[2] = d / h;
     valid_finish(solver, out);
