@@ -64,6 +64,7 @@ double valid_clock(void);
 /* ---- the runs, one file each ---- */
 void valid_cube(double cells, const valid_scheme *scheme, valid_result *out);
 void valid_vortex(double cells, const valid_scheme *scheme, valid_result *out);
+void valid_vortex_far(double cells, const valid_scheme *scheme, valid_result *out);
 void valid_bar(double cells, const valid_scheme *scheme, valid_result *out);
 void valid_hugoniot(double cells, const valid_scheme *scheme, valid_result *out);
 void valid_carried(double cells, const valid_scheme *scheme, valid_result *out);
