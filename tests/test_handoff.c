@@ -606,8 +606,7 @@ static const char *const FAST[] = { "scene.velocity=2 km/s", "scene.end_time=3.4
                                     "scene.contact_pressure=300 MPa" };
 static const char *const SLOW[] = { "scene.velocity=0.8 km/s", "scene.end_time=8 us", "scene.contact_pressure=20 MPa" };
 
-/* A small scene, to its gauge or whole. */
-static run_counted run_small(const char *const *speed, bool to_gauge, const char *written, scene_shelf *shelf)
+static breech_case *small_case(const char *const *speed, bool to_gauge, const char *written)
 {
     const char *const sets[] = { written,
                                  to_gauge ? "scene.stop_when_gauged=yes" : "scene.stop_when_gauged=no",
@@ -632,7 +631,13 @@ static run_counted run_small(const char *const *speed, bool to_gauge, const char
                                  "projectile.half_bore=6 mm",
                                  "projectile.head_thickness=6 mm",
                                  NULL };
-    breech_case *c = changed_case(sets);
+    return changed_case(sets);
+}
+
+/* A small scene, to its gauge or whole. */
+static run_counted run_small(const char *const *speed, bool to_gauge, const char *written, scene_shelf *shelf)
+{
+    breech_case *c = small_case(speed, to_gauge, written);
     const site_state at = state_of_case(c);
     run_counted r = { .steps = 0 };
     scene_job job;
@@ -648,6 +653,40 @@ static run_counted run_small(const char *const *speed, bool to_gauge, const char
     r.hit.result.wall_seconds = 0.0;
     case_free(c);
     return r;
+}
+
+static const double SAVING = 5e-3; /* [s] */
+
+static status save_slowly(void *user, const char *scene, const mpm *m, double wall)
+{
+    (void)scene, (void)m, (void)wall;
+    const double until = wall_clock() + SAVING;
+    while (wall_clock() < until) {
+    }
+    ++*(int *)user;
+    return status_ok();
+}
+
+/* Asked for every millisecond, checkpoints that take five are made no oftener than 20 times as far apart. */
+static void test_checkpoints(void **state)
+{
+    (void)state;
+    static const char *const brief[] = { "scene.velocity=2 km/s", "scene.end_time=1 us",
+                                         "scene.contact_pressure=300 MPa" };
+    breech_case *c = small_case(brief, false, "output.snapshots=0");
+    const site_state at = state_of_case(c);
+    scene_job job;
+    impact hit;
+    int saves = 0;
+    OK(scene_job_make(c, &at, 1.2, &job));
+    c->output.checkpoint_interval = 1e-3;
+    const scene_host host = { .threads = 1, .save = save_slowly, .user = &saves };
+    const double start = wall_clock();
+    OK(scene_run(&job, &host, &hit));
+    const double wall = wall_clock() - start;
+    print_message("%d checkpoints of %g ms in %.2f s\n", saves, 1e3 * SAVING, wall);
+    assert_true(saves > 1 && (saves - 1) * 20 * SAVING <= wall);
+    case_free(c);
 }
 
 static void assert_same_rows(history *a, history *b)
@@ -720,7 +759,8 @@ int main(void)
         cmocka_unit_test(test_masses),         cmocka_unit_test(test_pit),
         cmocka_unit_test(test_refused),        cmocka_unit_test(test_growth),
         cmocka_unit_test(test_gauged),         cmocka_unit_test(test_dying),
-        cmocka_unit_test(test_shelf),          cmocka_unit_test(test_dies_early),
+        cmocka_unit_test(test_checkpoints),    cmocka_unit_test(test_shelf),
+        cmocka_unit_test(test_dies_early),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
