@@ -484,6 +484,14 @@ static void test_failed(void **state)
     without_strength(&p);
     assert_near(p.q.p[0][0] / (p.k.K0 * (p.q.rho[0][0] / p.k.rho0 - 1)), 1, 0.02); /* next order of mu */
 
+    /* dust drifts apart at no cost: it stays as warm as it was */
+    p = specimen_of(scene_copper(), 0, 0, true);
+    for (int l = 0; l < LANES; l++) p.q.damage[0][l] = 1;
+    const double before = p.q.T[0][0];
+    for (int i = 0; i < 10; i++) strain(&p, pull, 1e-6);
+    assert_true(p.q.rho[0][0] < 0.8 * p.k.rho0);
+    assert_near(p.q.T[0][0] / before, 1, 1e-9);
+
     /* an intact one does bear tension */
     p = specimen_of(scene_copper(), 0, 0, true);
     for (int i = 0; i < 10; i++) strain(&p, pull, 1e-9);
