@@ -2,7 +2,7 @@
  *
  *   block   8 particles of one body and one cell, array of structures of arrays; holes have mass 0
  *   brick   64 cells of one velocity field; `out` are the node sums of its own particles on its 6 x 6 x 6 nodes (own nodes
- *           and one layer around), `node` the velocities of its own 4 x 4 x 4 nodes
+ *           and one layer around), `mpm.nodes` the velocities of its own 4 x 4 x 4 nodes
  *   site    the bricks of all fields at one place of one level of the nested grids (grid.h)
  * A step (mpm.c) of a level: P2G over bricks -> sums over sites, contact, boundaries -> G2P over bricks -> movers change cells.
  * Every phase reads what the last one wrote and writes only its own brick, in an order that no thread changes: the
@@ -127,13 +127,13 @@ typedef struct {
     bool across;           /* another field has particles near a node that this brick shares with another level */
     int head[BRICK_CELLS]; /* first block of each cell, -1 = none */
     int particles, blocks;
-    bool contact;                            /* another field has particles here or next door */
-    uint64_t occupied, meets;                /* bit c: cell c has particles; it may share nodes with another field */
-    int neighbour[NEIGHBOURS];               /* bricks of the same field around, -1 = none */
-    double (*out)[LINE];                     /* [216] m, px, py, pz, fx, fy, fz, kinetic energy */
-    double (*out_contact)[LINE];             /* [216] V grad S (3), -m (x_i - x_p) (3), m flow, 0 */
-    double (*line)[LINE];                    /* of a seam brick: [64] sums as in `out`, then [64] as in `out_contact` */
-    node_shares *held;                       /* of a brick that shares nodes with a finer level */
+    bool contact;                /* another field has particles here or next door */
+    uint64_t occupied, meets;    /* bit c: cell c has particles; it may share nodes with another field */
+    int neighbour[NEIGHBOURS];   /* bricks of the same field around, -1 = none */
+    double (*out)[LINE];         /* [216] m, px, py, pz, fx, fy, fz, kinetic energy; halo_place (kernels.h) */
+    double (*out_contact)[LINE]; /* [216] V grad S (3), -m (x_i - x_p) (3), m flow, 0 */
+    double (*line)[LINE];        /* of a seam brick: [64] sums as in `out`, then [64] as in `out_contact` */
+    node_shares *held;           /* of a brick that shares nodes with a finer level */
     int movers, movers_first, movers_thread; /* its part of the thread's mover list */
     uint32_t mover_steps;                    /* bit k: a mover goes to neighbour k */
     tally sum;
@@ -273,10 +273,10 @@ plough plough_find(const mpm *m);
 
 /* zone.c */
 zone zone_of(const mpm *m);
-void zone_across(const mpm_scene *s, double *middle,
-                 double *half); /* of the fine zone: its middle, how far it reaches [m] */
-/* Its ends with at most `more` on either side, and no more than follow_width and the window allow [m]; false: as they were. */
-bool zone_widen(const mpm_scene *s, double more, double *lo, double *hi);
+/* Of the fine zone across: its middle, and how far it reaches [m] */
+void zone_across(const mpm_scene *s, double *middle, double *half);
+/* Its ends with at most `more` on either side, and no more than follow_width and the window allow [m] */
+void zone_widen(const mpm_scene *s, double more, double *lo, double *hi);
 status zone_follow(mpm *m); /* goes after the plastic front, if it has come near the fine zone's end */
 /* New grids; all particles into their bricks, split and merged to fit; to be settled. */
 status zone_regrid(mpm *m, zone z);

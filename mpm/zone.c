@@ -405,7 +405,7 @@ void zone_across(const mpm_scene *s, double *middle, double *half)
     *half = z->fine_hi - *middle;
 }
 
-bool zone_widen(const mpm_scene *s, double more, double *lo, double *hi)
+void zone_widen(const mpm_scene *s, double more, double *lo, double *hi)
 {
     const mpm_axis *z = &s->axis[2];
     const bool half_model = is_half_model(z);
@@ -414,10 +414,9 @@ bool zone_widen(const mpm_scene *s, double more, double *lo, double *hi)
     double middle, half;
     zone_across(s, &middle, &half);
     const double room = fmin(s->follow_width - half, end - grids_margin(s->levels, z->fine));
-    const double wider = fmin(more, floor(room / pair + 1e-6) * pair);
-    *hi = z->fine_hi + fmax(wider, 0);
-    *lo = z->fine_lo - (half_model ? 0 : fmax(wider, 0));
-    return wider > 0;
+    const double wider = fmax(fmin(more, floor(room / pair + 1e-6) * pair), 0);
+    *hi = z->fine_hi + wider;
+    *lo = z->fine_lo - (half_model ? 0 : wider);
 }
 
 status zone_regrid(mpm *m, zone z)

@@ -33,9 +33,8 @@ status command_possible(const breech_case *c, unsigned needs);
 typedef struct {
     char what[80];
     mpm_needs needs;
-    double steps; /* of the finest level */
-    double seconds
-        [2]; /* at CHECK_SECONDS_A_STEP a particle-step on this machine's threads: the fine zone as at the start, as wide as it may grow */
+    double steps;      /* of the finest level */
+    double seconds[2]; /* at CHECK_SECONDS_A_STEP on this machine's threads; [2] everywhere: as mpm_needs */
 } scene_estimate;
 enum { CHECK_MAX_ESTIMATES = 3 };
 #define CHECK_SECONDS_A_STEP 200e-9 /* one thread */
