@@ -11,9 +11,9 @@
 
 #include "base/param.h"
 #include "base/status.h"
-#include "circuit/rails_heat.h"
-#include "circuit/section.h"
-#include "circuit/supply.h"
+#include "circuit/rails/rails_heat.h"
+#include "circuit/rails/section.h"
+#include "circuit/supply/supply.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -22,8 +22,8 @@
 typedef enum { SHOT_RAILS_CONSTANT, SHOT_RAILS_SKIN, SHOT_RAILS_DIFFUSING } shot_rail_level;
 extern const char *const shot_rail_level_names[]; /* "constant", "skin", "diffusing", NULL */
 
-/* Equal rails (circuit/section.h).  constant: the gradients are given; skin: those of the section at one frequency; diffusing:
- * every slice of rail has its own history since the armature exposed it (circuit/rails.h). */
+/* Equal rails (circuit/rails/section.h).  constant: the gradients are given; skin: those of the section at one frequency; diffusing:
+ * every slice of rail has its own history since the armature exposed it (circuit/rails/rails.h). */
 typedef struct {
     int level;                      /* shot_rail_level */
     double height;                  /* across the bore, along the contact line of the armature [m] */
@@ -64,31 +64,31 @@ typedef enum { SHOT_FRICTION_SPEED, SHOT_FRICTION_FILM } shot_friction_law;
 extern const char *const shot_friction_law_names[]; /* "speed", "film", NULL */
 
 /* Friction.  speed: (C-4), a coefficient that falls with speed.  film: friction_dry until the face has melted (event SHOT_MELTED), then the
- * shear of the melt (circuit/film.h), never more than friction_dry; what melts then is also what wears, and nothing before.
+ * shear of the melt (circuit/armature/film.h), never more than friction_dry; what melts then is also what wears, and nothing before.
  * At rest the face is solid. */
 typedef struct {
-    double mass;                    /* [kg] */
-    double velocity;                /* at t = 0 [m/s] */
-    double resistance;              /* [ohm] */
-    double contact_voltage;         /* both contacts together [V] */
-    int friction_law;               /* shot_friction_law */
-    double friction_dry;            /* mu0 [1] */
-    double friction_melted;         /* mu1 [1] */
-    double friction_speed;          /* speed over which mu falls from mu0 to mu1, equation (C-4) [m/s] */
-    double film_viscosity;          /* of the melt, friction_law film [Pa s] */
-    bool velocity_skin;             /* the current crowds to the trailing edge of the contact, circuit/contact.h */
-    double preload;                 /* contact force per rail face at I = 0 [N] */
-    double spreading;               /* k in N = preload + k I^2, per rail face [N/A^2] */
-    double bore_area;               /* drag; NAN = separation x height [m^2] */
-    double gas_pressure;            /* ahead of the armature; 0 with density 0 is vacuum [Pa] */
-    double gas_density;             /* [kg/m^3] */
-    double gas_gamma;               /* ratio of specific heats [1] */
-    double wear_fraction;           /* share of the contact's heat that melts metal off, 0 = no wear [1] */
-    double specific_heat;           /* [J/kg/K] */
-    double melting_temperature;     /* [K] */
-    double latent_heat;             /* [J/kg] */
-    double temperature;             /* before the shot [K] */
-    double density;                 /* [kg/m^3] */
+    double mass;                /* [kg] */
+    double velocity;            /* at t = 0 [m/s] */
+    double resistance;          /* [ohm] */
+    double contact_voltage;     /* both contacts together [V] */
+    int friction_law;           /* shot_friction_law */
+    double friction_dry;        /* mu0 [1] */
+    double friction_melted;     /* mu1 [1] */
+    double friction_speed;      /* speed over which mu falls from mu0 to mu1, equation (C-4) [m/s] */
+    double film_viscosity;      /* of the melt, friction_law film [Pa s] */
+    bool velocity_skin;         /* the current crowds to the trailing edge of the contact, circuit/armature/contact.h */
+    double preload;             /* contact force per rail face at I = 0 [N] */
+    double spreading;           /* k in N = preload + k I^2, per rail face [N/A^2] */
+    double bore_area;           /* drag; NAN = separation x height [m^2] */
+    double gas_pressure;        /* ahead of the armature; 0 with density 0 is vacuum [Pa] */
+    double gas_density;         /* [kg/m^3] */
+    double gas_gamma;           /* ratio of specific heats [1] */
+    double wear_fraction;       /* share of the contact's heat that melts metal off, 0 = no wear [1] */
+    double specific_heat;       /* [J/kg/K] */
+    double melting_temperature; /* [K] */
+    double latent_heat;         /* [J/kg] */
+    double temperature;         /* before the shot [K] */
+    double density;             /* [kg/m^3] */
     double thermal_conductivity;    /* [W/m/K] */
     double contact_length;          /* along the rail, one face [m] */
     double contact_width;           /* across the rail, one face; NAN = the rail's height [m] */
@@ -262,7 +262,7 @@ int shot_module_count(const shot *s);                 /* groups */
 status shot_jump(shot *s, double impulse, double mass_loss);
 
 /* L' [H/m] and R' [ohm/m] of the pair at frequency f [Hz], by the level: constant returns what was given; skin and
- * diffusing solve the section (circuit/inductance.h).  f = 0 is direct current, INFINITY the perfect conductor (R' is then INFINITY). */
+ * diffusing solve the section (circuit/rails/inductance.h).  f = 0 is direct current, INFINITY the perfect conductor (R' is then INFINITY). */
 status rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance);
 
 /* The cross-section at the temperature before the shot. */

@@ -6,7 +6,7 @@
 #define BREECH_CIRCUIT_SHOT_INTERNAL_H
 
 #include "circuit/dae.h"
-#include "circuit/rails_heat.h"
+#include "circuit/rails/rails_heat.h"
 #include "circuit/shot_model.h"
 
 /* Times closer than this are one instant [s]. */

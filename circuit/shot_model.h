@@ -1,17 +1,17 @@
 /* The equations of a shot between two switchings (internal to circuit/; docs/shot.md has them with their tags).
  *
- * Unknowns, in this order: those of every group (circuit/supply_kind.h), then the tail z: those of shot_unknown, the voltages
- * of the feeds after the breech, and the rails' memory, two a rung (circuit/rails.h) of every segment.
+ * Unknowns, in this order: those of every group (circuit/supply/supply_kind.h), then the tail z: those of shot_unknown, the voltages
+ * of the feeds after the breech, and the rails' memory, two a rung (circuit/rails/rails.h) of every segment.
  * Feed f is a position at which groups join the rails, feed 0 the breech; segment f runs from there to the next feed, or as
  * far as the armature has come.  A group does not conduct before the armature has passed its feed.
  * A switching changes gate, stage, phase or `reached`, never the list of unknowns. */
 #ifndef BREECH_CIRCUIT_SHOT_MODEL_H
 #define BREECH_CIRCUIT_SHOT_MODEL_H
 
-#include "circuit/film.h"
-#include "circuit/rails.h"
+#include "circuit/armature/film.h"
+#include "circuit/rails/rails.h"
 #include "circuit/shot.h"
-#include "circuit/supply_kind.h"
+#include "circuit/supply/supply_kind.h"
 
 enum { SHOT_MAX_FEEDS = 64 };
 

@@ -1,5 +1,5 @@
 /* The shot's rails: their keys, and the ladder that stands for them at each level. */
-#include "circuit/inductance.h"
+#include "circuit/rails/inductance.h"
 #include "circuit/shot_model.h"
 
 static const double TURN = 6.28318530717958648;

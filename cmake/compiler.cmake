@@ -1,4 +1,4 @@
-# Language, warnings and the compile definitions that every folder gets.
+# Language and warnings of every folder.
 set(CMAKE_C_STANDARD 11)
 set(CMAKE_C_STANDARD_REQUIRED ON)
 set(CMAKE_C_EXTENSIONS ON)
@@ -13,13 +13,6 @@ endif()
 
 # Headers are included from the root: #include "base/status.h"
 include_directories(${CMAKE_SOURCE_DIR})
-
-# Where the program looks for cases and materials: $BREECH_MATERIALS, its own installation, then the source tree.
-file(RELATIVE_PATH installed_cases ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR}/breech/cases)
-add_compile_definitions(
-    BREECH_VERSION="${PROJECT_VERSION}"
-    BREECH_SOURCE_CASES="${CMAKE_SOURCE_DIR}/cases"
-    BREECH_INSTALLED_CASES="${installed_cases}")
 
 if(BREECH_FUZZ)
     if(NOT CMAKE_C_COMPILER_ID STREQUAL "Clang")

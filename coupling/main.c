@@ -1,13 +1,13 @@
 /* breech: the program.  Options in, exit code out; the only place that prints and exits.
  *
  * To add a command: a line in `commands`, its function here or in study/commands.c, its text in the line. */
-#include "coupling/io/material_file.h"
-#include "coupling/io/report.h"
-#include "coupling/io/stop.h"
-#include "coupling/io/table.h"
+#include "coupling/case/material_file.h"
+#include "coupling/host/stop.h"
+#include "coupling/host/table.h"
+#include "coupling/report/report.h"
+#include "coupling/run/crew.h"
+#include "coupling/run/ranks.h"
 #include "coupling/study/commands.h"
-#include "coupling/study/crew.h"
-#include "coupling/study/ranks.h"
 
 #include <errno.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* The solver's step and its books. */
-#include "mpm/build.h"
-#include "mpm/store.h"
+#include "mpm/memory/build.h"
+#include "mpm/memory/store.h"
 
 #include <math.h>
 #include <omp.h>

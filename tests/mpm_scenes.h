@@ -6,7 +6,7 @@
 #define BREECH_TESTS_MPM_SCENES_H
 
 #include "mpm/mpm.h"
-#include "mpm/shape.h"
+#include "mpm/shape/shape.h"
 
 #include <math.h>
 #include <setjmp.h>

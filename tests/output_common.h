@@ -2,7 +2,7 @@
 #ifndef BREECH_TESTS_OUTPUT_COMMON_H
 #define BREECH_TESTS_OUTPUT_COMMON_H
 
-#include "coupling/io/summary.h"
+#include "coupling/output/summary.h"
 
 #include <dirent.h>
 #include <math.h>

@@ -5,10 +5,10 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "coupling/io/case.h"
-#include "coupling/io/case_errors.h"
-#include "coupling/io/case_schema.h"
-#include "coupling/io/units.h"
+#include "coupling/case/case.h"
+#include "coupling/case/case_errors.h"
+#include "coupling/case/case_schema.h"
+#include "coupling/host/units.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* The cases of every supply: read as they are, run, energy closed; the published pulse of one unit. */
-#include "coupling/handoff/site_state.h"
+#include "coupling/gouge/site_state.h"
 #include "tests/circuit_common.h"
 
 #include <setjmp.h>

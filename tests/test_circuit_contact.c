@@ -1,6 +1,6 @@
-/* The armature's contact: how its current crowds (circuit/contact.h), the film it slides on (circuit/film.h), both in a shot. */
-#include "circuit/contact.h"
-#include "circuit/film.h"
+/* The armature's contact: how its current crowds (circuit/armature/contact.h), the film it slides on (circuit/armature/film.h), both in a shot. */
+#include "circuit/armature/contact.h"
+#include "circuit/armature/film.h"
 #include "tests/circuit_common.h"
 
 #include <setjmp.h>

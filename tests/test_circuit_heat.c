@@ -1,5 +1,5 @@
-/* Heat left along the rails (circuit/rails_heat.h): closed forms of one piece, and the ledger of whole shots. */
-#include "circuit/rails_heat.h"
+/* Heat left along the rails (circuit/rails/rails_heat.h): closed forms of one piece, and the ledger of whole shots. */
+#include "circuit/rails/rails_heat.h"
 #include "tests/circuit_common.h"
 
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* Diffusing rails: the ladder against the section it stands for, the two equations a rung against slices summed one by one,
  * the closed formula of a half-space, and the power balance that must hold for any current and speed. */
-#include "circuit/inductance.h"
-#include "circuit/rails.h"
+#include "circuit/rails/inductance.h"
+#include "circuit/rails/rails.h"
 #include "circuit/shot.h"
 #include "tests/circuit_common.h"
 

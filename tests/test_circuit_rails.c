@@ -1,5 +1,5 @@
 /* Rails: L', R' of the section against the reference tables, limits and scaling laws; the parameter tables' own laws. */
-#include "circuit/inductance.h"
+#include "circuit/rails/inductance.h"
 #include "circuit/shot.h"
 
 #include <complex.h>
@@ -339,7 +339,7 @@ static void parameter_tables(void **state)
 {
     (void)state;
 #define SUPPLY(kind, type, section, lists, text) table_laws(supply_##kind##_params);
-#include "circuit/supply.def"
+#include "circuit/supply/supply.def"
 #undef SUPPLY
     table_laws(shot_rails_params);
     table_laws(shot_barrel_params);

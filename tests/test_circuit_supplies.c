@@ -1,5 +1,5 @@
 /* Supplies: the law of the table for every kind, closed forms of each, several of them on one barrel. */
-#include "circuit/supply_kind.h"
+#include "circuit/supply/supply_kind.h"
 #include "tests/circuit_common.h"
 
 #include <setjmp.h>

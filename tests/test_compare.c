@@ -1,7 +1,7 @@
 /* Treatments and their comparison, on scenes that cost nothing. */
-#include "coupling/io/treatment.h"
+#include "coupling/case/treatment.h"
 #include "coupling/study/commands.h"
-#include "mpm/shape.h"
+#include "mpm/shape/shape.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -2,7 +2,7 @@
  *
  * A rail is a lattice of points, some mm deep, whose topmost point in each column is cut to end exactly at the surface.
  * Lengths here are in mm; the rail is handed over in metres. */
-#include "mpm/crater.h"
+#include "coupling/gouge/crater.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -3,9 +3,9 @@
  * Started by ctest as one process, it starts itself again as three under mpirun; rank 0 tests, the others serve. */
 #define _GNU_SOURCE /* sched_setaffinity */
 
-#include "coupling/study/crew.h"
-#include "coupling/study/lending.h"
-#include "coupling/study/ranks.h"
+#include "coupling/run/crew.h"
+#include "coupling/run/lending.h"
+#include "coupling/run/ranks.h"
 
 #include <dirent.h>
 #include <math.h>

@@ -1,10 +1,10 @@
 /* From the shot to the scene: states at the sites, the screen, the geometry and the forces of the scenes. */
-#include "coupling/handoff/scene_run.h"
-#include "coupling/handoff/screen.h"
-#include "coupling/handoff/site_state.h"
-#include "mpm/grid.h"
+#include "coupling/gouge/screen.h"
+#include "coupling/gouge/site_state.h"
+#include "coupling/scene/scene_run.h"
+#include "mpm/grid/grid.h"
 #include "mpm/mpm.h"
-#include "mpm/shape.h"
+#include "mpm/shape/shape.h"
 
 #include <math.h>
 #include <setjmp.h>

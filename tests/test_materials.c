@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "coupling/io/material_file.h"
+#include "coupling/case/material_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>

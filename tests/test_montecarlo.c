@@ -1,7 +1,7 @@
 /* Random shots over surfaces that are known: closed answers of a Poisson process. */
-#include "coupling/study/gouge_law.h"
-#include "coupling/study/montecarlo.h"
-#include "coupling/study/population.h"
+#include "coupling/study/sampling/gouge_law.h"
+#include "coupling/study/sampling/montecarlo.h"
+#include "coupling/study/sampling/population.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -3,7 +3,7 @@
  * Tolerances are rounding: 2e-16 of the largest number in the sum, which is the position in the window, a few terms. */
 #include "mpm_scenes.h"
 
-#include "mpm/kernels.h"
+#include "mpm/kernel/kernels.h"
 
 static double uniform(double lo, double hi)
 {

@@ -3,7 +3,7 @@
  * some 1e-14 at random and 2e-13 at worst, unless said. */
 #include "mpm_scenes.h"
 
-#include "mpm/store.h"
+#include "mpm/memory/store.h"
 
 static const double ROUNDING = 1e-12;
 

@@ -1,8 +1,8 @@
-/* Nested grids (mpm/grid.c, seams.c): nothing may tell that two levels meet but the size of the cells.  Tolerances are rounding,
+/* Nested grids (mpm/grid/grid.c, seams.c): nothing may tell that two levels meet but the size of the cells.  Tolerances are rounding,
  * as in test_mpm_flight. */
 #include "mpm_scenes.h"
 
-#include "mpm/store.h"
+#include "mpm/memory/store.h"
 
 static const double ROUNDING = 1e-12;
 

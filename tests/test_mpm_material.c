@@ -6,7 +6,7 @@
 #define BREECH_ISA material_test
 #include "mpm_scenes.h"
 
-#include "mpm/g2p.c"
+#include "mpm/kernel/g2p.c"
 
 static const double EXACT = 1e-12;
 

@@ -1,9 +1,9 @@
-/* The fine zone that follows the ploughing (mpm/zone.c): nothing is lost, nothing depends on threads or restarts, and the
+/* The fine zone that follows the ploughing (mpm/refine/zone.c): nothing is lost, nothing depends on threads or restarts, and the
  * groove is the one of a long zone that stays. */
 #include "mpm_scenes.h"
 
-#include "mpm/crater.h"
-#include "mpm/store.h"
+#include "coupling/gouge/crater.h"
+#include "mpm/memory/store.h"
 
 static const double H = 0.25e-3, SPEED = 1500, TIME = 4e-6;
 

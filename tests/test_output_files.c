@@ -1,11 +1,11 @@
 /* Output directory, files that appear at once, checkpoints, progress, stop requests. */
 #include "output_common.h"
 
-#include "coupling/io/checkpoint.h"
-#include "coupling/io/outdir.h"
-#include "coupling/io/progress.h"
-#include "coupling/io/stop.h"
-#include "coupling/io/table.h"
+#include "coupling/host/outdir.h"
+#include "coupling/host/progress.h"
+#include "coupling/host/stop.h"
+#include "coupling/host/table.h"
+#include "coupling/run/checkpoint.h"
 
 #include <signal.h>
 #include <sys/resource.h>

@@ -2,8 +2,8 @@
  * leaves a file that cannot be read. */
 #include "output_common.h"
 
-#include "coupling/io/hdf5_file.h"
-#include "coupling/io/history.h"
+#include "coupling/host/hdf5_file.h"
+#include "coupling/output/history.h"
 
 #include <signal.h>
 #include <sys/wait.h>

@@ -1,9 +1,9 @@
 /* report.html: made from the files of the directory alone, whole whatever is missing, with no link to the network. */
 #include "output_common.h"
 
-#include "coupling/io/history.h"
-#include "coupling/io/outdir.h"
-#include "coupling/io/report.h"
+#include "coupling/host/outdir.h"
+#include "coupling/output/history.h"
+#include "coupling/report/report.h"
 
 #include <cJSON.h>
 

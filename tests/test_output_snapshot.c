@@ -2,8 +2,8 @@
  * keeps.  ParaView itself reads them when BREECH_FULL is 1. */
 #include "output_common.h"
 
-#include "coupling/io/outdir.h"
-#include "coupling/io/snapshot.h"
+#include "coupling/host/outdir.h"
+#include "coupling/output/snapshot.h"
 
 /* Particle i, field f, component k: a value that says which it is, exact in float32. */
 typedef struct {

@@ -1,8 +1,8 @@
 /* summary.json: every key of the design is there for every kind of run and every end of it, and says what it was given. */
 #include "output_common.h"
 
-#include "coupling/io/history.h"
-#include "coupling/io/outdir.h"
+#include "coupling/host/outdir.h"
+#include "coupling/output/history.h"
 
 #include <cJSON.h>
 

@@ -1,9 +1,9 @@
 /* The program from outside: exit codes, refusals that write nothing, --set, summaries, stop and resume. */
 #include "output_common.h"
 
-#include "coupling/io/hdf5_file.h"
-#include "coupling/io/outdir.h"
-#include "coupling/io/progress.h"
+#include "coupling/host/hdf5_file.h"
+#include "coupling/host/outdir.h"
+#include "coupling/host/progress.h"
 
 #include <cJSON.h>
 #include <signal.h>

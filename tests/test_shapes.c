@@ -1,5 +1,5 @@
-/* Shapes: the laws of mpm/shape.h over the whole table; one example of each, with its closed volume, in `examples`. */
-#include "mpm/shape.h"
+/* Shapes: the laws of mpm/shape/shape.h over the whole table; one example of each, with its closed volume, in `examples`. */
+#include "mpm/shape/shape.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* The scene store: what decides a scene, its file, and that no scene is computed twice, whoever else is at it. */
-#include "coupling/study/scenes.h"
-#include "coupling/study/store.h"
+#include "coupling/run/scenes.h"
+#include "coupling/run/store.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 /* Threshold surfaces of known functions: bands hold the truth, few scenes, halving the wanted interval. */
-#include "coupling/study/surface.h"
+#include "coupling/study/search/surface.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,8 +1,8 @@
 #include "coupling/study/commands.h"
 
-#include "coupling/io/treatment.h"
-#include "coupling/study/population.h"
-#include "coupling/study/scenes.h"
+#include "coupling/case/treatment.h"
+#include "coupling/run/scenes.h"
+#include "coupling/study/sampling/population.h"
 
 #include <complex.h>
 #include <math.h>

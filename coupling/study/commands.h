@@ -4,7 +4,7 @@
 #ifndef BREECH_COUPLING_COMMANDS_H
 #define BREECH_COUPLING_COMMANDS_H
 
-#include "circuit/inductance.h"
+#include "circuit/rails/inductance.h"
 #include "coupling/study/compare.h"
 
 typedef struct {

@@ -1,7 +1,7 @@
 #include "coupling/study/compare.h"
 
 #include "base/constants.h"
-#include "coupling/io/treatment.h"
+#include "coupling/case/treatment.h"
 
 #include <math.h>
 #include <stdio.h>

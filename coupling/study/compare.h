@@ -1,4 +1,4 @@
-/* Rail surfaces compared: the untreated one and every treatment of the case (io/treatment.h), at the same shot, the same
+/* Rail surfaces compared: the untreated one and every treatment of the case (case/treatment.h), at the same shot, the same
  * grains, the same random numbers.
  *
  * Ranked by the expected number of gouges a shot; of equals the one that reaches its threshold later is the better.

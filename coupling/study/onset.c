@@ -1,9 +1,9 @@
 #include "coupling/study/onset.h"
 
-#include "coupling/handoff/screen.h"
+#include "coupling/gouge/screen.h"
 #include "coupling/study/feedback.h"
-#include "coupling/study/gouge_law.h"
-#include "coupling/study/population.h"
+#include "coupling/study/sampling/gouge_law.h"
+#include "coupling/study/sampling/population.h"
 #include "coupling/study/sensitivity.h"
 
 #include <math.h>

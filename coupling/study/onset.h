@@ -9,7 +9,7 @@
 #define BREECH_COUPLING_ONSET_H
 
 #include "coupling/study/repeated.h"
-#include "coupling/study/uncertain.h"
+#include "coupling/study/search/uncertain.h"
 
 typedef struct {
     onset_result result; /* borrows the arrays below */

@@ -1,6 +1,6 @@
 #include "coupling/study/repeated.h"
 
-#include "coupling/study/gouge_law.h"
+#include "coupling/study/sampling/gouge_law.h"
 
 #include <math.h>
 #include <stdlib.h>

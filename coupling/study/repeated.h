@@ -9,7 +9,7 @@
 #ifndef BREECH_COUPLING_REPEATED_H
 #define BREECH_COUPLING_REPEATED_H
 
-#include "coupling/study/montecarlo.h"
+#include "coupling/study/sampling/montecarlo.h"
 
 /* One shot. */
 typedef struct {

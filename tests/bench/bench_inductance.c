@@ -2,7 +2,7 @@
  *
  * Error: the largest over 1 Hz .. 20 kHz of L' and R', against the same section at the finest mesh.  Time: processor time of
  * one solution, least of three.  The last column is Kerrisk's formula against the perfect conductor, where it applies. */
-#include "circuit/inductance.h"
+#include "circuit/rails/inductance.h"
 
 #include <complex.h>
 #include <math.h>

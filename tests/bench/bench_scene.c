@@ -10,7 +10,7 @@
  * step a repetition.  --only leaves out what lacks the word: a scene's name, an instruction
  * set or a number of threads. */
 #include "mpm/mpm.h"
-#include "mpm/shape.h"
+#include "mpm/shape/shape.h"
 
 #include <math.h>
 #include <omp.h>

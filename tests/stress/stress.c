@@ -11,11 +11,11 @@
  * numbers 0.1 .. 0.6 (some more, to be refused), 1 .. 1.5 cells a radius, temperatures up to melting; with layers as thin as a twentieth of a cell, loose,
  * bonded and welded grains, fragments that fly through the scene, and armature, grains and fragments that leave the window; on one
  * to three nested grids. */
-#include "coupling/handoff/scene_run.h"
-#include "coupling/io/case.h"
-#include "coupling/io/material_file.h"
+#include "coupling/case/case.h"
+#include "coupling/case/material_file.h"
+#include "coupling/scene/scene_run.h"
 #include "mpm/mpm.h"
-#include "mpm/shape.h"
+#include "mpm/shape/shape.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -7,7 +7,7 @@
 #ifndef BREECH_TESTS_VALID_H
 #define BREECH_TESTS_VALID_H
 
-#include "mpm/store.h"
+#include "mpm/memory/store.h"
 #include "mpm_scenes.h"
 
 enum { VALID_FIGURES = 4, VALID_LEVELS = 5 };

@@ -1,0 +1,26 @@
+/* A ladder of rungs in place of Z'(s): each an inductance beside a resistance, all in series,
+ *   Z'(s) = R_dc + s L_inf + sum s L_k R_k/(R_k + s L_k),   R_dc, L_inf, L_k, R_k >= 0                   (C-11)
+ * Passive by construction.  A ladder of no rungs is a pair of constant gradients. */
+#ifndef BREECH_CIRCUIT_LADDER_H
+#define BREECH_CIRCUIT_LADDER_H
+
+#include "circuit/rails/impedance.h"
+
+enum { LADDER_MAX_RUNGS = 24 };
+
+typedef struct {
+    int n;                                           /* rungs, slowest first */
+    double R_dc, L_inf;                              /* [ohm/m], [H/m] */
+    double L[LADDER_MAX_RUNGS], R[LADDER_MAX_RUNGS]; /* [H/m], [ohm/m]; tau_k = L_k/R_k */
+    double error; /* largest |Z' - ladder| over |Z' - s L_inf|, 0 < frequency <= the band's top [1] */
+} ladder;
+
+double _Complex ladder_at(const ladder *l, double _Complex s); /* [1/s] -> [ohm/m] */
+double ladder_slow_inductance(const ladder *l);                /* L' at direct current [H/m] */
+
+/* As many rungs as `error` [1] asks for up to omega_top [rad/s].  R_dc and the filaments' L' at infinite frequency are met
+ * exactly, by Galerkin's projection on the current distributions of a few real frequencies (docs/shot.md).
+ * STATUS_NUMERICAL if LADDER_MAX_RUNGS do not do. */
+status ladder_fit(const impedance *z, double omega_top, double error, ladder *out);
+
+#endif

@@ -1,0 +1,120 @@
+#include "circuit/rails/perimeter.h"
+
+#include "base/constants.h"
+#include "circuit/rails/filaments.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+/* K grows as r^(-1/3) towards a square corner: panels from 1e-5 of the side there. */
+static const double FINEST = 1e-5, GROWTH = 1.16, STEP = 0.04;
+enum { MAX_PANELS = 600, MAX_SIDE = 200 };
+
+typedef struct {
+    section_point middle, along; /* [m], unit vector */
+    double length;               /* [m] */
+    double resistivity;          /* of the metal behind it [ohm m] */
+} panel;
+
+typedef struct {
+    int n;
+    panel at[MAX_PANELS];
+} outline;
+
+static void outline_add(outline *o, section_point a, section_point b, double resistivity)
+{
+    const double dx = b.x - a.x, dy = b.y - a.y, length = hypot(dx, dy);
+    o->at[o->n++] =
+        (panel){ { 0.5 * (a.x + b.x), 0.5 * (a.y + b.y) }, { dx / length, dy / length }, length, resistivity };
+}
+
+/* Bore face from the edge to the middle, back likewise, the side between them. */
+static void outline_trace(const rail_section *s, outline *o)
+{
+    double d[MAX_SIDE], y[SECTION_MAX_ROWS + 1];
+    const int rows = section_rows(s, FINEST * s->height, GROWTH, STEP, y);
+    const double half = 0.5 * s->height, top = section_face(s, half), side = section_back(s, half) - top;
+    const double face_metal = s->cladding > 0.0 ? s->cladding_resistivity : s->resistivity;
+    o->n = 0;
+    for (int back = 0; back < 2; back++) {
+        double (*const x)(const rail_section *, double) = back ? section_back : section_face;
+        for (int j = 0; j < rows; j++)
+            outline_add(o, (section_point){ x(s, y[j]), y[j] }, (section_point){ x(s, y[j + 1]), y[j + 1] },
+                        back ? s->resistivity : face_metal);
+    }
+    if (side < 1e-9 * s->thickness) return;
+    const int n = filaments_graded(side, FINEST * side, GROWTH, 2, d);
+    double x = top;
+    for (int j = 0; j < n; x += d[j++])
+        outline_add(o, (section_point){ x, half }, (section_point){ x + d[j], half },
+                    x + 0.5 * d[j] - top < s->cladding ? face_metal : s->resistivity);
+}
+
+/* Integral of ln r over a panel, seen from p. */
+static double panel_log(const panel *q, section_point p)
+{
+    const double dx = p.x - q->middle.x, dy = p.y - q->middle.y;
+    const double along = dx * q->along.x + dy * q->along.y, across = dx * q->along.y - dy * q->along.x;
+    double sum = 0.0;
+    for (int end = 0; end < 2; end++) {
+        const double t = (end ? 0.5 : -0.5) * q->length - along, r2 = t * t + across * across;
+        const double part =
+            (r2 > 0.0 ? 0.5 * t * log(r2) : 0.0) - t + (across != 0.0 ? across * atan(t / across) : 0.0);
+        sum += end ? part : -part;
+    }
+    return sum;
+}
+
+static double panel_potential(const rail_section *s, const panel *p, const panel *q)
+{
+    double sum = 0.0;
+    for (int image = 0; image < section_images(s); image++)
+        sum += section_image_sign(s, image) * panel_log(q, section_image(p->middle, image));
+    return -MU0 / (2.0 * PI) * sum;
+}
+
+static status currents_solve(const rail_section *s, const outline *o, gsl_vector *K)
+{
+    const size_t n = (size_t)o->n;
+    gsl_matrix *matrix = gsl_matrix_alloc(n, n);
+    gsl_vector *right = gsl_vector_alloc(n);
+    gsl_permutation *order = gsl_permutation_alloc(n);
+    int sign = 0, bad = GSL_ENOMEM;
+    if (matrix && right && order) {
+        for (size_t i = 0; i < n; i++) {
+            for (size_t j = 0; j < n; j++) gsl_matrix_set(matrix, i, j, panel_potential(s, &o->at[i], &o->at[j]));
+        }
+        gsl_vector_set_all(right, 1.0); /* A = 1 Wb/m on the metal */
+        bad = gsl_linalg_LU_decomp(matrix, order, &sign);
+        if (!bad) bad = gsl_linalg_LU_solve(matrix, order, right, K);
+    }
+    if (matrix) gsl_matrix_free(matrix);
+    if (right) gsl_vector_free(right);
+    if (order) gsl_permutation_free(order);
+    CHECK(!bad, STATUS_NUMERICAL, "the rail section's surface system has no solution (%s)", gsl_strerror(bad));
+    return status_ok();
+}
+
+status perimeter_solve(const rail_section *s, double *L, double *skin)
+{
+    outline o;
+    outline_trace(s, &o);
+    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    gsl_vector *K = gsl_vector_alloc((size_t)o.n);
+    status st = K ? currents_solve(s, &o, K) : status_error(STATUS_MEMORY, "out of memory for %d rail panels", o.n);
+    gsl_set_error_handler(handler);
+    double I = 0.0, loss = 0.0;
+    for (int j = 0; j < o.n && st.code == STATUS_OK; j++) {
+        const double k = gsl_vector_get(K, (size_t)j);
+        I += k * o.at[j].length;
+        loss += sqrt(PI * MU0 * o.at[j].resistivity) * k * k * o.at[j].length;
+    }
+    if (K) gsl_vector_free(K);
+    TRY(st);
+    *L = section_weight(s) / I;
+    *skin = section_weight(s) * loss / (I * I);
+    return status_ok();
+}

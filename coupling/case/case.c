@@ -1,0 +1,272 @@
+#include "coupling/case/case.h"
+
+#include "coupling/case/case_reader.h"
+#include "coupling/case/material_file.h"
+#include "coupling/case/profile_file.h"
+#include "coupling/host/file_text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void case_free(breech_case *c)
+{
+    if (!c) return;
+    for (const case_section *s = case_root.children; s->key; s++) section_free(s, c);
+    free(c->warnings);
+    free(c);
+}
+
+double case_layers_thickness(const case_layers *layers)
+{
+    double sum = 0.0;
+    for (int i = 0; i < layers->n; i++) sum += layers->item[i].thickness;
+    return sum;
+}
+
+const material *case_material(const breech_case *c, const char *name)
+{
+    for (int k = 0; k < c->materials.n; k++)
+        if (strcmp(c->materials.item[k].name, name) == 0) return &c->materials.item[k];
+    return NULL;
+}
+
+/* ---- materials ---- */
+
+static void warn(case_reader *r, const char *line)
+{
+    const size_t old = strlen(r->out->warnings), more = strlen(line);
+    if (more == 0) return;
+    char *all = realloc(r->out->warnings, old + more + 2);
+    if (!all) {
+        r->out_of_memory = true;
+        return;
+    }
+    snprintf(all + old, more + 2, "%s\n", line);
+    r->out->warnings = all;
+}
+
+static void keep_material(case_reader *r, const material *m)
+{
+    case_materials *list = &r->out->materials;
+    material *more = realloc(list->item, ((size_t)list->n + 1) * sizeof *more);
+    if (!more) {
+        r->out_of_memory = true;
+        return;
+    }
+    more[list->n++] = *m;
+    list->item = more;
+}
+
+/* All lines of a material file's errors, after the case's own. */
+static void add_lines(case_errors *e, char *lines)
+{
+    char *rest = NULL;
+    for (char *line = strtok_r(lines, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+        if (e->n == CASE_MAX_ERRORS) return;
+        e->item[e->n] = (case_error){ .set = -1, .line = 1 << 30, .order = e->n, .text = strdup(line) };
+        if (e->item[e->n].text)
+            e->n++;
+        else
+            e->out_of_memory = true;
+    }
+}
+
+static void load_one(case_reader *r, const material_use *use, const char *const *dirs, int n_dirs)
+{
+    material_sheet sheet;
+    char *errors = NULL, warning[MATERIAL_WARNING_SIZE];
+    const status s = material_sheet_find(r->u, use->name, dirs, n_dirs, &sheet, &errors);
+    if (s.code == STATUS_MEMORY) {
+        r->out_of_memory = true;
+    } else if (s.code != STATUS_OK) {
+        errors_add(r->errors, use->where, "%s = %.*s: %s", use->key, CASE_SHOWN, use->name,
+                   errors ? "its file has errors" : s.text);
+        if (errors) add_lines(r->errors, errors);
+    } else {
+        keep_material(r, &sheet.material);
+        material_sheet_warning(&sheet, warning);
+        warn(r, warning);
+        material_sheet_free(&sheet);
+    }
+    free(errors);
+}
+
+static void check_own(case_reader *r)
+{
+    const case_materials *list = &r->out->materials;
+    const tree_node *node = tree_find(r->root, "materials");
+    char line[PARAM_TEXT_SIZE + 100];
+    for (int k = 0; k < list->n; k++) {
+        const char *name = list->item[k].name;
+        for (int i = 0; i < k; i++)
+            if (name[0] && strcmp(name, list->item[i].name) == 0)
+                errors_add(r->errors, node, "materials[%d].name = %s: the same as materials[%d]", k, name, i);
+        snprintf(line, sizeof line, "material %s: constants as given in the case itself, without their sources", name);
+        warn(r, line);
+    }
+}
+
+/* Was this name tried before?  One error a name is enough. */
+static bool seen(const case_reader *r, int k)
+{
+    for (int i = 0; i < k; i++)
+        if (strcmp(r->use[i].name, r->use[k].name) == 0) return true;
+    return false;
+}
+
+/* Where the case lies, without the slash at the end. */
+static void case_folder(const case_reader *r, char folder[CASE_PATH_SIZE])
+{
+    snprintf(folder, CASE_PATH_SIZE, "%s", r->out->path);
+    char *slash = strrchr(folder, '/');
+    if (slash)
+        *slash = '\0';
+    else
+        snprintf(folder, CASE_PATH_SIZE, ".");
+}
+
+void materials_load(case_reader *r)
+{
+    enum { MAX_DIRS = 16 };
+    const char *dirs[MAX_DIRS];
+    char folder[CASE_PATH_SIZE];
+    int n_dirs = 0;
+    case_folder(r, folder);
+    dirs[n_dirs++] = folder[0] ? folder : "/";
+    for (int k = 0; k < r->options->n_material_dirs && n_dirs < MAX_DIRS; k++)
+        dirs[n_dirs++] = r->options->material_dirs[k];
+
+    check_own(r);
+    for (int k = 0; k < r->n_use; k++)
+        if (!case_material(r->out, r->use[k].name) && !seen(r, k)) load_one(r, &r->use[k], dirs, n_dirs);
+}
+
+/* ---- current profiles ---- */
+
+static void profile_load(case_reader *r, supply_profile *p, const tree_node *where)
+{
+    char path[CASE_PATH_SIZE + PARAM_TEXT_SIZE + 2], folder[CASE_PATH_SIZE];
+    if (p->file[0] == '\0') return;
+    if (p->points.n > 0) {
+        errors_add(r->errors, where, "a current profile with both file and points: give one of them");
+        return;
+    }
+    case_folder(r, folder);
+    snprintf(path, sizeof path, "%s%s%s", p->file[0] == '/' ? "" : folder, p->file[0] == '/' ? "" : "/", p->file);
+    const status s = profile_file_read(path, &p->points.item, &p->points.n);
+    if (s.code != STATUS_OK) errors_add(r->errors, where, "%.400s", s.text);
+    p->file[0] = '\0'; /* used.yaml then has the points themselves */
+}
+
+void profiles_load(case_reader *r)
+{
+    case_supplies *list = &r->out->supplies[SUPPLY_profile];
+    for (int k = 0; k < list->n; k++)
+        profile_load(r, (supply_profile *)list->item + k, tree_find(r->root, supply_sections[SUPPLY_profile]));
+}
+
+/* ---- the whole way ---- */
+
+static status set_all(case_errors *e, tree_node **root, const char *const *sets, int n_sets)
+{
+    for (int k = 0; k < n_sets; k++) {
+        const status s = tree_set(root, sets[k], k);
+        CHECK(s.code == STATUS_OK || s.code == STATUS_BAD_INPUT, s.code, "%s", s.text);
+        if (s.code != STATUS_OK) errors_add(e, &(tree_node){ .set = k }, "%s", s.text);
+    }
+    return status_ok();
+}
+
+static status read_tree(case_reader *r)
+{
+    breech_case *c = r->out;
+    case_section root = case_root;
+    root.offset = 0;
+    section_read(r, &root, r->root, c, "");
+    populations_resolve(r);
+    materials_load(r);
+    profiles_load(r);
+    case_resolve(c, r->root);
+    case_check_whole(r);
+    CHECK(!r->out_of_memory, STATUS_MEMORY, "out of memory while reading %.200s", c->path);
+    return status_ok();
+}
+
+static status build(case_reader *r, const case_text *text, tree_node **root)
+{
+    int line, column;
+    const status s = tree_parse(text->bytes, text->length, root, &line, &column);
+    CHECK(s.code != STATUS_MEMORY, s.code, "%s", s.text);
+    if (s.code != STATUS_OK) {
+        errors_add_at(r->errors, line, column, "%s", s.text);
+        return status_ok();
+    }
+    if ((*root)->kind != TREE_MAP) {
+        errors_add(r->errors, *root, "%s is no case: it must hold sections, such as `bank:` and `rails:`", text->path);
+        return status_ok();
+    }
+    TRY(set_all(r->errors, root, text->sets, text->n_sets));
+    r->root = *root;
+    return read_tree(r);
+}
+
+status case_build(const units *u, const case_text *text, const case_options *options, breech_case **out, char **errors)
+{
+    tree_node *root = NULL;
+    *out = NULL;
+    *errors = NULL;
+    CHECK(strlen(text->path) < CASE_PATH_SIZE, STATUS_BAD_INPUT, "the case's path is longer than %d bytes",
+          CASE_PATH_SIZE - 1);
+    breech_case *c = calloc(1, sizeof *c);
+    case_errors *found = calloc(1, sizeof *found);
+    case_reader r = { .u = u, .options = options, .errors = found, .out = c };
+    status s = status_error(STATUS_MEMORY, "out of memory while reading %.200s", text->path);
+    if (c && found) {
+        c->warnings = strdup("");
+        snprintf(c->path, sizeof c->path, "%s", text->path);
+        found->file = c->path;
+        found->sets = text->sets;
+        if (c->warnings) s = build(&r, text, &root);
+        if (s.code == STATUS_OK) s = errors_finish(found, errors);
+        errors_free(found);
+    }
+    free(r.use);
+    free(found);
+    tree_free(root);
+    if (s.code == STATUS_OK)
+        *out = c;
+    else
+        case_free(c);
+    return s;
+}
+
+status case_read_memory(const case_text *text, const case_options *options, breech_case **out, char **errors)
+{
+    units *u = NULL;
+    *out = NULL;
+    *errors = NULL;
+    TRY(units_open(&u));
+    const status s = case_build(u, text, options, out, errors);
+    units_close(u);
+    return s;
+}
+
+status case_read(const char *path, const char *const *sets, int n_sets, const case_options *options, breech_case **out,
+                 char **errors)
+{
+    char file[CASE_PATH_SIZE];
+    char *bytes = NULL;
+    size_t length = 0;
+    *out = NULL;
+    *errors = NULL;
+    const size_t end = strlen(path);
+    const char *slash = end > 0 && path[end - 1] == '/' ? "" : "/";
+    const int used = folder_exists(path) ? snprintf(file, sizeof file, "%s%scase.yaml", path, slash)
+                                         : snprintf(file, sizeof file, "%s", path);
+    CHECK(used < (int)sizeof file, STATUS_BAD_INPUT, "the case's path is longer than %d bytes", CASE_PATH_SIZE - 1);
+    TRY(file_text(file, TREE_MAX_BYTES, &bytes, &length));
+    const case_text text = { bytes, length, file, sets, n_sets };
+    const status s = case_read_memory(&text, options, out, errors);
+    free(bytes);
+    return s;
+}

@@ -1,0 +1,247 @@
+/* What no single value of a case can say. */
+#include "coupling/case/case_reader.h"
+
+#include "mpm/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- resolving ---- */
+
+static void resolve_text(char *own, const char *shared)
+{
+    if (own[0] == '\0') memcpy(own, shared, PARAM_TEXT_SIZE);
+}
+
+static bool is_given(const tree_node *map, const char *key)
+{
+    return tree_find(map, key) != NULL;
+}
+
+/* Given, and not as `none`. */
+static bool has_value(const tree_node *map, const char *key)
+{
+    const tree_node *node = tree_find(map, key);
+    return node && !(node->kind == TREE_TEXT && strcmp(node->text, "none") == 0);
+}
+
+static void resolve_site(case_site *site, const case_particle *shared, const tree_node *node)
+{
+    const bool own_radius = !isnan(site->radius);
+    if (!own_radius) site->radius = shared->radius;
+    if (isnan(site->height)) site->height = own_radius ? site->radius : shared->height;
+    resolve_text(site->shape, shared->shape);
+    resolve_text(site->material, shared->material);
+    if (!is_given(node, "bond_strength")) site->bond_strength = shared->bond_strength;
+}
+
+const tree_node *entry_node(const tree_node *list, int k)
+{
+    if (!list) return NULL;
+    if (list->kind != TREE_LIST) return k == 0 ? list : NULL;
+    return k < list->n ? list->item[k] : NULL;
+}
+
+void case_resolve(breech_case *c, const tree_node *root)
+{
+    const tree_node *sites = tree_find(root, "sites");
+    resolve_text(c->particle.material, c->rail.material);
+    if (isnan(c->particle.height)) c->particle.height = c->particle.radius;
+    for (int k = 0; k < c->sites.n; k++) resolve_site(&c->sites.item[k], &c->particle, entry_node(sites, k));
+}
+
+/* ---- sections and keys that the command needs ---- */
+
+typedef struct {
+    unsigned need;
+    const char *command;
+} command_name;
+
+static const command_name commands[] = {
+    { CASE_FOR_COMPARE, "breech compare" },
+    { CASE_FOR_ONSET, "breech onset" },
+    { CASE_FOR_SHOT, "breech shot" },
+    { CASE_FOR_SCENE, "breech scene" },
+    { CASE_FOR_INDUCTANCE, "breech inductance" },
+};
+
+static const char *command_of(unsigned needs)
+{
+    for (size_t k = 0; k < sizeof commands / sizeof commands[0]; k++)
+        if (commands[k].need & needs) return commands[k].command;
+    return "this command";
+}
+
+static void check_sections(case_reader *r)
+{
+    const unsigned needs = r->options->needs;
+    for (const case_section *s = case_root.children; s->key; s++) {
+        const tree_node *node = tree_find(r->root, s->key);
+        const bool empty_list = s->list && node && ((node->kind == TREE_LIST && node->n == 0) || tree_is_empty(node));
+        if (!(s->needed_for & needs) || (node && !empty_list)) continue;
+        errors_add(r->errors, node ? node : r->root, "section `%s` is %s: `%s` needs it", s->key,
+                   node ? "empty" : "missing", command_of(s->needed_for & needs));
+    }
+    if ((needs & CASE_FOR_ONSET) && r->out->sites.n == 0 && r->out->populations.n == 0)
+        errors_add(r->errors, r->root, "section `sites` is missing: `%s` needs it, or `populations`",
+                   command_of(needs));
+}
+
+/* Something must drive a shot. */
+static void check_supplies(case_reader *r)
+{
+    const unsigned needs = r->options->needs & (CASE_FOR_SHOT | CASE_FOR_ONSET);
+    bool given = !needs;
+    for (int k = 0; k < SUPPLY_KINDS; k++) given = given || r->out->supplies[k].n > 0;
+    for (int k = 0; k < SUPPLY_KINDS && !given; k++)
+        if (tree_find(r->root, supply_sections[k])) given = r->errors->n > 0; /* its own errors say it */
+    if (!given)
+        errors_add(r->errors, r->root, "section `%s` is missing: `%s` needs it, or another supply", supply_sections[0],
+                   command_of(needs));
+}
+
+static void need_key(case_reader *r, const char *section, const char *key, const char *unit)
+{
+    const tree_node *map = tree_find(r->root, section);
+    const tree_node *node = tree_find(map, key);
+    if (map && map->kind == TREE_MAP && !has_value(map, key))
+        errors_add(r->errors, node ? node : map, "%s.%s is missing [%s]: `breech scene` needs it", section, key, unit);
+}
+
+/* ---- lengths that must fit ---- */
+
+/* An error at section.key unless ok; the section alone where the key is a default. */
+static void must(case_reader *r, bool ok, const char *section, const char *key, const char *text)
+{
+    if (ok) return;
+    const tree_node *map = tree_find(r->root, section);
+    const tree_node *node = tree_find(map, key);
+    errors_add(r->errors, node ? node : map, "%s.%s%s%.*s: %s", section, key, node && node->text ? " = " : "",
+               CASE_SHOWN, node && node->text ? node->text : "", text);
+}
+
+/* Comparisons are written so that a NAN, not given or already an error, passes. */
+static void check_lengths(case_reader *r)
+{
+    const breech_case *c = r->out;
+    const case_projectile *p = &c->projectile;
+    must(r, !(p->leg_thickness > p->half_bore), "projectile", "leg_thickness", "must not exceed half_bore");
+    must(r, !(p->head_thickness > p->length), "projectile", "head_thickness", "must not exceed length");
+    must(r, !(p->chamfer_height > p->half_bore), "projectile", "chamfer_height", "must not exceed half_bore");
+    must(r, !(p->chamfer_height > p->length * tan(p->lead_angle)), "projectile", "chamfer_height",
+         "the lead face would be longer than the armature (chamfer_height / tan(lead_angle) > length)");
+    must(r, !(c->study.velocity_low >= c->study.velocity_high), "study", "velocity_low",
+         "must lie below velocity_high");
+    must(r, !(c->study.screen_low >= c->study.screen_high), "study", "screen_low", "must lie below screen_high");
+    must(r, !(c->study.coarse_cells_per_radius > c->study.fine_cells_per_radius), "study", "coarse_cells_per_radius",
+         "must not exceed fine_cells_per_radius");
+    must(r, !(c->particle.radius / c->scene.cells_per_radius > c->scene.coarse_cell), "scene", "coarse_cell",
+         "must not be smaller than the fine cell, particle.radius / cells_per_radius");
+    must(r, !(c->particle.height > p->half_bore), "particle", "height", "must not exceed projectile.half_bore");
+    must(r, !(c->barrel.start >= c->barrel.length), "barrel", "start", "must lie before the barrel's length");
+    must(r, !(c->given.barrel && c->study.velocity_high <= c->armature.velocity), "study", "velocity_high",
+         "must lie above the armature's initial velocity");
+}
+
+static void check_site(case_reader *r, const case_site *site, const tree_node *node, int k)
+{
+    const tree_node *position = tree_find(node, "position");
+    const char *text = position && position->text ? position->text : "";
+    if (r->out->given.barrel && (site->position <= r->out->barrel.start || site->position >= r->out->barrel.length))
+        errors_add(r->errors, position,
+                   "sites[%d].position = %.*s: must lie between barrel.start = %g m and barrel.length = %g m", k,
+                   CASE_SHOWN, text, r->out->barrel.start, r->out->barrel.length);
+    if (node && node->kind == TREE_MAP && !has_value(node, "radius") &&
+        !has_value(tree_find(r->root, "particle"), "radius"))
+        errors_add(r->errors, node, "sites[%d].radius is missing [m]: give it here, or once for all as particle.radius",
+                   k);
+    if (site->height > r->out->projectile.half_bore)
+        errors_add(r->errors, node, "sites[%d].height = %g m: must not exceed projectile.half_bore", k, site->height);
+}
+
+/* ---- materials ---- */
+
+static unsigned material_needs(const case_reader *r, const material_use *use)
+{
+    const unsigned needs = r->options->needs;
+    unsigned wanted = 0;
+    if (needs & (CASE_FOR_SCENE | CASE_FOR_ONSET)) wanted |= MATERIAL_FOR_SCENE;
+    if (wanted && r->out->scene.damage) wanted |= MATERIAL_FOR_DAMAGE;
+    static const char *const meeting[] = { "rail.material", "projectile.material", ".rail_metal.", ".armature_metal." };
+    for (size_t k = 0; k < sizeof meeting / sizeof meeting[0]; k++)
+        if ((needs & CASE_FOR_ONSET) && strstr(use->key, meeting[k])) wanted |= MATERIAL_FOR_SCREEN;
+    return wanted;
+}
+
+static void check_materials(case_reader *r)
+{
+    for (int k = 0; k < r->n_use; k++) {
+        const material_use *use = &r->use[k];
+        const material *m = case_material(r->out, use->name);
+        const unsigned needs = material_needs(r, use);
+        if (!m || needs == 0) continue; /* one that could not be loaded is an error already */
+        const status s = material_check(m, needs);
+        const bool damage =
+            r->out->scene.damage && material_check(m, needs & ~(unsigned)MATERIAL_FOR_DAMAGE).code == STATUS_OK;
+        if (s.code != STATUS_OK)
+            errors_add(r->errors, use->where, "%s = %s: %.400s%s", use->key, use->name, s.text,
+                       damage ? " (or set scene.damage: no)" : "");
+    }
+}
+
+/* ---- shapes ---- */
+
+/* Shapes of the scene solver that are no grains. */
+static bool is_grain(const char *shape)
+{
+    return strcmp(shape, "armature") != 0 && strcmp(shape, "box") != 0;
+}
+
+static const char *grain_name(const void *user, int i)
+{
+    (void)user;
+    for (int k = 0; shape_at(k); k++)
+        if (is_grain(shape_at(k)->name) && i-- == 0) return shape_at(k)->name;
+    return NULL;
+}
+
+static void check_shape(case_reader *r, const tree_node *map, const char *shape, const char *path)
+{
+    const tree_node *node = tree_find(map, "shape");
+    if (!node || shape[0] == '\0' || (shape_find(shape) && is_grain(shape))) return;
+    const char *near = nearest_name(shape, grain_name, NULL);
+    char known[200] = "";
+    for (int k = 0; grain_name(NULL, k); k++) {
+        const size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s", k > 0 ? ", " : "", grain_name(NULL, k));
+    }
+    errors_add(r->errors, node, "%s.shape = %s: must be one of %s%s%s%s", path, shape, known,
+               near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
+}
+
+void case_check_whole(case_reader *r)
+{
+    const tree_node *sites = tree_find(r->root, "sites");
+    check_sections(r);
+    check_supplies(r);
+    if (r->options->needs & CASE_FOR_SCENE) {
+        need_key(r, "scene", "velocity", "m/s");
+        need_key(r, "particle", "radius", "m");
+    }
+    check_lengths(r);
+    check_shape(r, tree_find(r->root, "particle"), r->out->particle.shape, "particle");
+    for (int k = 0; k < r->out->sites.n; k++) {
+        char path[32];
+        snprintf(path, sizeof path, "sites[%d]", k);
+        check_site(r, &r->out->sites.item[k], entry_node(sites, k), k);
+        check_shape(r, entry_node(sites, k), r->out->sites.item[k].shape, path);
+    }
+    const tree_node *populations = tree_find(r->root, "populations");
+    for (int k = 0; k < r->out->populations.n; k++) {
+        char path[32];
+        snprintf(path, sizeof path, "populations[%d]", k);
+        check_shape(r, entry_node(populations, k), r->out->populations.item[k].shape, path);
+    }
+    populations_check(r);
+    check_materials(r);
+}

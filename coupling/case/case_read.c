@@ -1,0 +1,360 @@
+#include "coupling/case/case_reader.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* ---- one value ---- */
+
+static bool is_word(const char *text, const char *const *words)
+{
+    for (int k = 0; words[k]; k++)
+        if (strcasecmp(text, words[k]) == 0) return true;
+    return false;
+}
+
+static void wrong(case_reader *r, const tree_node *node, const char *path, const char *reason)
+{
+    errors_add(r->errors, node, "%s = %.*s: %s", path, CASE_SHOWN, node->text, reason);
+}
+
+static void out_of_range(case_reader *r, const param *p, const tree_node *node, const char *path, const char *user_unit,
+                         double value)
+{
+    char limits[LIMITS_SIZE];
+    const char *must = p->min > 0.0 && value <= 0.0 ? "must be positive" : "must lie within the range";
+    quantity_limits(r->u, p->min, p->max, p->unit, user_unit, limits);
+    errors_add(r->errors, node, "%s = %.*s: %s (%s)", path, CASE_SHOWN, node->text, must, limits);
+}
+
+static const double UNIT_ROUNDING = 1e-14; /* quantities keep 15 digits when their unit changes [1] */
+
+/* A limit given in another unit, 90 deg for pi/2, may miss it by rounding. */
+static double on_limit(double value, const param *p)
+{
+    if (isfinite(p->max) && fabs(value - p->max) <= UNIT_ROUNDING * fabs(p->max)) return p->max;
+    if (isfinite(p->min) && fabs(value - p->min) <= UNIT_ROUNDING * fabs(p->min)) return p->min;
+    return value;
+}
+
+static void read_number(case_reader *r, const param *p, const tree_node *node, double *member, const char *path)
+{
+    char user_unit[UNIT_SIZE];
+    double value;
+    if (isnan(p->fallback) && strcmp(node->text, "none") == 0) {
+        *member = NAN;
+        return;
+    }
+    if (isinf(p->max) && strcmp(node->text, "never") == 0) {
+        *member = INFINITY;
+        return;
+    }
+    const status s = quantity_read(r->u, node->text, p->unit, &value, user_unit);
+    if (s.code != STATUS_OK) {
+        wrong(r, node, path, s.text);
+        return;
+    }
+    value = on_limit(value, p);
+    if (value < p->min || value > p->max)
+        out_of_range(r, p, node, path, user_unit, value);
+    else
+        *member = value;
+}
+
+static void read_integer(case_reader *r, const param *p, const tree_node *node, int *member, const char *path)
+{
+    char *end = NULL;
+    const long value = strtol(node->text, &end, 10);
+    if (end == node->text || *end != '\0')
+        wrong(r, node, path, "must be a whole number");
+    else if ((double)value < p->min || (double)value > p->max)
+        out_of_range(r, p, node, path, "", (double)value);
+    else
+        *member = (int)value;
+}
+
+static void read_flag(case_reader *r, const tree_node *node, bool *member, const char *path)
+{
+    static const char *const yes[] = { "true", "yes", "on", NULL }, *const no[] = { "false", "no", "off", NULL };
+    if (is_word(node->text, yes))
+        *member = true;
+    else if (is_word(node->text, no))
+        *member = false;
+    else
+        wrong(r, node, path, "must be yes or no");
+}
+
+static const char *choice_name(const void *choices, int i)
+{
+    return ((const char *const *)choices)[i];
+}
+
+static void read_choice(case_reader *r, const param *p, const tree_node *node, int *member, const char *path)
+{
+    char known[200] = "";
+    for (int k = 0; p->choices[k]; k++) {
+        if (strcmp(node->text, p->choices[k]) == 0) {
+            *member = k;
+            return;
+        }
+        const size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s", k > 0 ? ", " : "", p->choices[k]);
+    }
+    const char *near = nearest_name(node->text, choice_name, p->choices);
+    errors_add(r->errors, node, "%s = %.*s: must be one of %s%s%s%s", path, CASE_SHOWN, node->text, known,
+               near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
+}
+
+void material_noted(case_reader *r, const char *name, const tree_node *where, const char *path)
+{
+    const size_t n = (size_t)r->n_use;
+    if ((n & (n - 1)) == 0) { /* grow at powers of two */
+        material_use *more = realloc(r->use, (n == 0 ? 1 : 2 * n) * sizeof *more);
+        if (!more) {
+            r->out_of_memory = true;
+            return;
+        }
+        r->use = more;
+    }
+    material_use *use = &r->use[r->n_use++];
+    snprintf(use->name, sizeof use->name, "%s", name);
+    snprintf(use->key, sizeof use->key, "%s", path);
+    use->where = where;
+}
+
+static void read_text(case_reader *r, const param *p, const tree_node *node, char *member, const char *path)
+{
+    if (strlen(node->text) >= PARAM_TEXT_SIZE) {
+        errors_add(r->errors, node, "%s = %.*s...: longer than %d bytes", path, CASE_SHOWN, node->text,
+                   PARAM_TEXT_SIZE - 1);
+        return;
+    }
+    if (!p->fallback_text && node->text[0] == '\0') {
+        errors_add(r->errors, node, "%s is empty: %s", path, p->doc);
+        return;
+    }
+    snprintf(member, PARAM_TEXT_SIZE, "%s", node->text);
+    if (strcmp(p->key, "material") == 0 && node->text[0] != '\0') material_noted(r, node->text, node, path);
+}
+
+static void read_vector(case_reader *r, const param *p, const tree_node *node, double *member, const char *path)
+{
+    char entry[CASE_KEY_SIZE];
+    if (node->kind != TREE_LIST || node->n != 3) {
+        errors_add(r->errors, node, "%s: must be three values, [x, y, z], in %s", path, p->unit);
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        snprintf(entry, sizeof entry, "%s[%d]", path, k);
+        if (node->item[k]->kind == TREE_TEXT)
+            read_number(r, p, node->item[k], &member[k], entry);
+        else
+            errors_add(r->errors, node->item[k], "%s: must be one value", entry);
+    }
+}
+
+void value_read(case_reader *r, const param *p, const tree_node *node, void *member, const char *path)
+{
+    if (p->kind == PARAM_VECTOR) {
+        read_vector(r, p, node, member, path);
+        return;
+    }
+    if (node->kind != TREE_TEXT) {
+        errors_add(r->errors, node, "%s: must be one value, not a %s", path,
+                   node->kind == TREE_MAP ? "section" : "list");
+        return;
+    }
+    if (tree_is_empty(node)) {
+        errors_add(r->errors, node, "%s has no value: %s", path, p->doc);
+        return;
+    }
+    switch (p->kind) {
+    case PARAM_NUMBER: read_number(r, p, node, member, path); break;
+    case PARAM_INTEGER: read_integer(r, p, node, member, path); break;
+    case PARAM_FLAG: read_flag(r, node, member, path); break;
+    case PARAM_CHOICE: read_choice(r, p, node, member, path); break;
+    case PARAM_TEXT: read_text(r, p, node, member, path); break;
+    case PARAM_VECTOR: break;
+    }
+}
+
+/* ---- keys ---- */
+
+static const char *known_key(const void *user, int i)
+{
+    const case_section *section = user;
+    for (const param *p = section->table; p->key; p++)
+        if (i-- == 0) return p->key;
+    for (const case_section *s = section->children; s && s->key; s++)
+        if (i-- == 0) return s->key;
+    return NULL;
+}
+
+/* The section of the case, other than `not_this`, that has this very key. */
+static const char *home_of(const char *key, const case_section *not_this)
+{
+    for (const case_section *s = case_root.children; s->key; s++) {
+        if (s == not_this) continue;
+        for (int i = 0; known_key(s, i); i++)
+            if (strcmp(known_key(s, i), key) == 0) return s->key;
+    }
+    return NULL;
+}
+
+static void unknown_key(case_reader *r, const case_section *section, const tree_node *key, const char *path)
+{
+    const bool listed = r->errors->n < CASE_MAX_ERRORS; /* beyond the list there is no need to look for names */
+    const char *near = listed ? nearest_name(key->text, known_key, section) : NULL;
+    const char *home = near || !listed ? NULL : home_of(key->text, section);
+    const char *in = path[0] ? " in " : "";
+    if (near) {
+        errors_add(r->errors, key, "unknown key `%.*s`%s%s; did you mean `%s`?", CASE_SHOWN, key->text, in, path, near);
+        return;
+    }
+    if (home) {
+        errors_add(r->errors, key, "unknown key `%.*s`%s%s; `%s` has one", CASE_SHOWN, key->text, in, path, home);
+        return;
+    }
+    char known[400] = "";
+    for (int i = 0; known_key(section, i); i++) {
+        const size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s", i > 0 ? ", " : "", known_key(section, i));
+    }
+    errors_add(r->errors, key, "unknown key `%.*s`%s%s; known are %s", CASE_SHOWN, key->text, in, path, known);
+}
+
+static bool is_required(const param *p)
+{
+    if (p->kind == PARAM_TEXT) return p->fallback_text == NULL;
+    return isinf(p->fallback);
+}
+
+static void join(char out[CASE_KEY_SIZE], const char *path, const char *key)
+{
+    snprintf(out, CASE_KEY_SIZE, "%s%s%s", path, path[0] ? "." : "", key);
+}
+
+static void missing_key(case_reader *r, const param *p, const tree_node *where, const char *path)
+{
+    char key[CASE_KEY_SIZE];
+    join(key, path, p->key);
+    if (p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR)
+        errors_add(r->errors, where, "%s is missing [%s]: %s", key, p->unit, p->doc);
+    else
+        errors_add(r->errors, where, "%s is missing: %s", key, p->doc);
+}
+
+static const param *param_of(const case_section *section, const char *key)
+{
+    for (const param *p = section->table; p->key; p++)
+        if (strcmp(p->key, key) == 0) return p;
+    return NULL;
+}
+
+static const case_section *child_of(const case_section *section, const char *key)
+{
+    for (const case_section *s = section->children; s && s->key; s++)
+        if (strcmp(s->key, key) == 0) return s;
+    return NULL;
+}
+
+/* Was the key given, but mistyped?  Then that is the error, not its absence. */
+static bool is_mistyped(const case_reader *r, const case_section *section, const tree_node *map, const char *key)
+{
+    if (r->errors->n >= CASE_MAX_ERRORS) return true;
+    for (int k = 0; map->kind == TREE_MAP && k < map->n; k++) {
+        const char *given = map->key[k]->text;
+        if (param_of(section, given) || child_of(section, given)) continue;
+        const char *near = nearest_name(given, known_key, section);
+        if (near && strcmp(near, key) == 0) return true;
+    }
+    return false;
+}
+
+/* ---- sections ---- */
+
+/* One mapping (NULL: nothing given) into one struct. */
+static void read_map(case_reader *r, const case_section *section, const tree_node *map, void *object, const char *path)
+{
+    char inner[CASE_KEY_SIZE];
+    params_default(section->table, object);
+    for (const case_section *s = section->children; s && s->key; s++) {
+        join(inner, path, s->key);
+        section_read(r, s, map ? tree_find(map, s->key) : NULL, object, inner);
+    }
+    if (!map) return;
+    if (map->kind != TREE_MAP && !tree_is_empty(map)) {
+        errors_add(r->errors, map, "%s must be a section: key and value, one a line", path[0] ? path : "the case");
+        return;
+    }
+    for (int k = 0; map->kind == TREE_MAP && k < map->n; k++) {
+        const param *p = param_of(section, map->key[k]->text);
+        if (!p && child_of(section, map->key[k]->text)) continue;
+        if (!p) {
+            unknown_key(r, section, map->key[k], path);
+            continue;
+        }
+        join(inner, path, p->key);
+        value_read(r, p, map->item[k], (char *)object + p->offset, inner);
+    }
+    for (const param *p = section->table; p->key; p++)
+        if (is_required(p) && !tree_find(map, p->key) && !is_mistyped(r, section, map, p->key))
+            missing_key(r, p, map, path);
+}
+
+static void read_list(case_reader *r, const case_section *section, const tree_node *node, void *parent,
+                      const char *path)
+{
+    const bool lone = node && node->kind != TREE_LIST;
+    case_list list = { 0, NULL };
+    case_list_put(parent, section, list);
+    if (!node || (lone && tree_is_empty(node))) return;
+    const int n = lone ? 1 : node->n;
+    if (n == 0) return;
+    if (n > CASE_MAX_ENTRIES) {
+        errors_add(r->errors, node, "%s has %d entries: at most %d", path, n, CASE_MAX_ENTRIES);
+        return;
+    }
+    list.item = calloc((size_t)n, section->size);
+    if (!list.item) {
+        r->out_of_memory = true;
+        return;
+    }
+    list.n = n;
+    case_list_put(parent, section, list);
+    for (int k = 0; k < n; k++) {
+        char entry[CASE_KEY_SIZE];
+        if (lone)
+            snprintf(entry, sizeof entry, "%s", path);
+        else
+            snprintf(entry, sizeof entry, "%s[%d]", path, k);
+        read_map(r, section, lone ? node : node->item[k], (char *)list.item + (size_t)k * section->size, entry);
+    }
+}
+
+void section_read(case_reader *r, const case_section *section, const tree_node *node, void *parent, const char *path)
+{
+    if (section->given != NO_FLAG) *(bool *)((char *)r->out + section->given) = node != NULL;
+    if (section->list)
+        read_list(r, section, node, parent, path);
+    else
+        read_map(r, section, node, (char *)parent + section->offset, path);
+}
+
+static void free_children(const case_section *section, void *object)
+{
+    for (const case_section *s = section->children; s && s->key; s++) section_free(s, object);
+}
+
+void section_free(const case_section *section, void *parent)
+{
+    if (!section->list) {
+        free_children(section, (char *)parent + section->offset);
+        return;
+    }
+    const case_list list = case_list_get(parent, section);
+    for (int k = 0; k < list.n; k++) free_children(section, (char *)list.item + (size_t)k * section->size);
+    free(list.item);
+    case_list_put(parent, section, (case_list){ 0, NULL });
+}

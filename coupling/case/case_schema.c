@@ -1,0 +1,344 @@
+#include "coupling/case/case_schema.h"
+
+#include "coupling/case/treatment.h"
+#include "mpm/scene.h"
+
+#include <string.h>
+
+/* The tables.  Ranges catch a wrong unit or a slipped decimal point; what a value means stands in case.h. */
+
+static const char *const transfer_names[] = { [TRANSFER_TPIC] = "tpic", [TRANSFER_PIC] = "pic", NULL };
+static const char *const judge_names[] = { [JUDGE_GROWTH] = "growth", [JUDGE_SEVERITY] = "severity", NULL };
+static const char *const basis_names[] = { [BASIS_GIMP] = "gimp", [BASIS_BSPLINE] = "bspline", NULL };
+
+static const param case_params[] = {
+    PARAM_STRING(breech_case, name, NULL, "short name of the case: its output goes to out/<name>"),
+    PARAM_STRING(breech_case, title, "", "one line for reports"),
+    PARAMS_END,
+};
+
+static const param layer_params[] = {
+    PARAM_STRING(case_layer, material, NULL, "the layer's material"),
+    PARAM_DOUBLE(case_layer, thickness, "m", REQUIRED, 1e-6, 0.1, "its thickness"),
+    PARAM_DOUBLE(case_layer, bond_strength, "Pa", OPTIONAL, 0.0, 1e11,
+                 "traction at which it comes off what lies below; not given: never"),
+    PARAM_DOUBLE(case_layer, yield_scale, "1", 1.0, 0.01, 100.0, "hardening: factor on the yield stress"),
+    PARAMS_END,
+};
+
+static const param rail_params[] = {
+    PARAM_STRING(case_rail, material, NULL, "the rail's material"),
+    PARAM_DOUBLE(case_rail, temperature, "K", 293.0, 4.0, 2000.0, "rail ahead of the armature: initial or preheat"),
+    PARAM_DOUBLE(case_rail, yield_scale, "1", 1.0, 0.01, 100.0,
+                 "hardening of the whole rail: factor on the yield stress, and on the hardness in the screen"),
+    PARAMS_END,
+};
+
+static const param projectile_params[] = {
+    PARAM_STRING(case_projectile, material, NULL, "the armature's material"),
+    PARAM_DOUBLE(case_projectile, lead_angle, "rad", REQUIRED, 0.01, 1.5707963267948966,
+                 "between the lead face at the front and the rail's surface"),
+    PARAM_DOUBLE(case_projectile, length, "m", REQUIRED, 1e-4, 1.0, "along the rail, head and leg"),
+    PARAM_DOUBLE(case_projectile, leg_thickness, "m", REQUIRED, 1e-5, 0.5, "of one leg, normal to the rail"),
+    PARAM_DOUBLE(case_projectile, head_thickness, "m", REQUIRED, 1e-5, 1.0,
+                 "of the head that joins the legs, along the rail"),
+    PARAM_DOUBLE(case_projectile, half_bore, "m", REQUIRED, 1e-4, 1.0,
+                 "from the rail's surface to the middle of the bore"),
+    PARAM_DOUBLE(case_projectile, width, "m", REQUIRED, 1e-4, 1.0, "full width across the rail"),
+    PARAM_DOUBLE(case_projectile, chamfer_height, "m", REQUIRED, 0.0, 1.0,
+                 "height of the lead face, normal to the rail; 0 = a square front"),
+    PARAM_DOUBLE(case_projectile, temperature, "K", 293.0, 4.0, 2000.0, "of the armature in the scene"),
+    PARAMS_END,
+};
+
+#define PARTICLE_DOC_SHAPE \
+    "hemisphere, cone, ridge, pit, sphere (embedded where lower than twice its radius), or another shape"
+
+static const param particle_params[] = {
+    PARAM_DOUBLE(case_particle, radius, "m", OPTIONAL, 1e-6, 0.1, "of the grain's foot"),
+    PARAM_DOUBLE(case_particle, height, "m", OPTIONAL, 1e-6, 0.1, "above the surface; not given: the radius"),
+    PARAM_STRING(case_particle, shape, "hemisphere", PARTICLE_DOC_SHAPE),
+    PARAM_STRING(case_particle, material, "", "the grain's material; not given: the rail's"),
+    PARAM_DOUBLE(case_particle, bond_strength, "Pa", OPTIONAL, 0.0, 1e11,
+                 "traction at which it comes off the rail; not given: never"),
+    PARAMS_END,
+};
+
+static const param site_params[] = {
+    PARAM_DOUBLE(case_site, position, "m", REQUIRED, 0.0, 1e3, "along the barrel, from the breech"),
+    PARAM_DOUBLE(case_site, radius, "m", OPTIONAL, 1e-6, 0.1, "not given: particle.radius"),
+    PARAM_DOUBLE(case_site, height, "m", OPTIONAL, 1e-6, 0.1,
+                 "not given: the site's own radius if it has one, else particle.height"),
+    PARAM_STRING(case_site, shape, "", "not given: particle.shape"),
+    PARAM_STRING(case_site, material, "", "not given: particle.material"),
+    PARAM_DOUBLE(case_site, bond_strength, "Pa", OPTIONAL, 0.0, 1e11, "not given: particle.bond_strength"),
+    PARAMS_END,
+};
+
+static const char *const preset_names[] = { "none",
+#define POPULATION(name, ...) #name,
+#include "coupling/case/population.def"
+#undef POPULATION
+                                            NULL };
+
+static const param population_params[] = {
+    PARAM_ENUM(case_population, preset, preset_names, POPULATION_NONE, "where they come from: gives what is not given"),
+    PARAM_DOUBLE(case_population, density, "1/m", OPTIONAL, 0.0, 1e6, "grains on a metre of the rail"),
+    PARAM_DOUBLE(case_population, radius_median, "m", OPTIONAL, 1e-6, 0.1,
+                 "half of them are larger; none with `sizes`"),
+    PARAM_DOUBLE(case_population, radius_spread, "1", OPTIONAL, 0.0, 3.0,
+                 "standard deviation of ln radius, log-normal sizes"),
+    PARAM_DOUBLE(case_population, aspect, "1", OPTIONAL, 0.01, 10.0, "height over radius; not given: 1"),
+    PARAM_DOUBLE(case_population, from, "m", OPTIONAL, 0.0, 1e3, "stretch they lie on; not given: barrel.start"),
+    PARAM_DOUBLE(case_population, to, "m", OPTIONAL, 0.0, 1e3, "its end; not given: barrel.length"),
+    PARAM_STRING(case_population, shape, "", "not given: particle.shape"),
+    PARAM_STRING(case_population, material, "", "not given: the rail's"),
+    PARAM_DOUBLE(case_population, bond_strength, "Pa", OPTIONAL, 0.0, 1e11,
+                 "traction at which they come off the rail; not given: never"),
+    PARAM_BOOL(case_population, renewed, 1, "strewn anew before every shot; no: what one shot has passed is gone"),
+    PARAMS_END,
+};
+
+static const param size_params[] = {
+    PARAM_DOUBLE(case_size, radius, "m", REQUIRED, 1e-6, 0.1, "of the grains' foot"),
+    PARAM_DOUBLE(case_size, share, "1", REQUIRED, 0.0, 1e9, "of the grains; shares need not add up to 1"),
+    PARAMS_END,
+};
+
+static const param treatment_params[] = {
+    PARAM_STRING(case_treatment, name, NULL, "short name of the surface"),
+    PARAMS_END,
+};
+
+static const param scene_params[] = {
+    PARAM_DOUBLE(case_scene, velocity, "m/s", OPTIONAL, 1.0, 1e4,
+                 "of the armature in `breech scene`; onset takes the shot's"),
+    PARAM_DOUBLE(case_scene, contact_pressure, "Pa", OPTIONAL, 0.0, 1e10,
+                 "armature on rail; not given: the shot's, or none in `breech scene`"),
+    PARAM_DOUBLE(case_scene, friction, "1", REQUIRED, 0.0, 2.0, "Coulomb coefficient between any two bodies"),
+    PARAM_DOUBLE(case_scene, shear_limit, "Pa", OPTIONAL, 0.0, 1e11,
+                 "upper limit of the friction stress; not given: none"),
+    PARAM_DOUBLE(case_scene, contact_gap, "1", OPTIONAL, 0.0, 3.0,
+                 "bodies touch when nearer than this, in cells; not given: the solver's own"),
+    PARAM_DOUBLE(case_scene, cells_per_radius, "1", 5.0, 1.0, 100.0, "fine cell = grain's radius / this"),
+    PARAM_DOUBLE(case_scene, coarse_cell, "m", 8e-4, 1e-6, 0.1, "largest cell, far from the grain"),
+    PARAM_INT(case_scene, levels, 2, 1, 3,
+              "nested grids: around the fine zone cells twice, with 3 four times as large"),
+    PARAM_DOUBLE(case_scene, growth, "1", 1.2, 1.0, 2.0, "ratio of neighbouring cells outside the fine zone"),
+    PARAM_DOUBLE(case_scene, fine_ahead, "m", OPTIONAL, 0.0, 1.0,
+                 "fine zone downstream of the grain's middle, at the start"),
+    PARAM_DOUBLE(case_scene, fine_behind, "m", OPTIONAL, 0.0, 1.0, "fine zone upstream of it"),
+    PARAM_BOOL(case_scene, follow, 1, "the fine zone follows the ploughing along the rail"),
+    PARAM_DOUBLE(case_scene, follow_lead, "m", OPTIONAL, 0.0, 1.0,
+                 "from the front of the ploughing to the fine zone's end"),
+    PARAM_DOUBLE(case_scene, fine_depth, "m", OPTIONAL, 0.0, 1.0, "fine zone below the rail's surface"),
+    PARAM_DOUBLE(case_scene, fine_above, "m", OPTIONAL, 0.0, 1.0, "fine zone above it"),
+    PARAM_DOUBLE(
+        case_scene, fine_width, "m", OPTIONAL, 0.0, 1.0,
+        "full width of the fine zone across the rail, at most; one that follows starts with half of it or 1.5 radii "
+        "beside the grain, and widens with the groove"),
+    PARAM_DOUBLE(case_scene, rail_ahead, "m", 2e-2, 1e-4, 10.0, "rail modelled downstream of the grain's middle"),
+    PARAM_DOUBLE(case_scene, rail_behind, "m", 1e-2, 1e-4, 10.0, "rail modelled upstream of it"),
+    PARAM_DOUBLE(case_scene, rail_depth, "m", 1e-2, 1e-4, 1.0, "thickness of the rail modelled"),
+    PARAM_DOUBLE(case_scene, rail_width, "m", OPTIONAL, 1e-4, 1.0,
+                 "full width of the rail; not given: the projectile's"),
+    PARAM_DOUBLE(case_scene, end_time, "s", OPTIONAL, 1e-9, 1.0, "not given: from the lengths and the velocity"),
+    PARAM_BOOL(case_scene, stop_when_settled, 1, "stop once the crater no longer changes"),
+    PARAM_BOOL(case_scene, stop_when_gauged, 0,
+               "stop once the growth of a groove that is followed is known; its class is then that of the growth"),
+    PARAM_DOUBLE(case_scene, courant, "1", 0.4, 0.01, 0.95, "Courant number of c + |v|"),
+    PARAM_DOUBLE(case_scene, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),
+    PARAM_DOUBLE(case_scene, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),
+    PARAM_ENUM(case_scene, transfer, transfer_names, TRANSFER_TPIC, "how velocity goes between points and grid"),
+    PARAM_ENUM(case_scene, basis, basis_names, BASIS_GIMP, "shape functions"),
+    PARAM_INT(case_scene, particles_per_axis, 2, 2, 3, "material points a cell and axis"),
+    PARAM_BOOL(case_scene, heat_by_plastic_work, 0, "(M-4) temperature by plastic work; no: by energy"),
+    PARAM_BOOL(case_scene, damage, 1, "(M-2) Johnson-Cook damage in all bodies"),
+    PARAM_BOOL(case_scene, half_model, 1, "compute z >= 0 and mirror it"),
+    PARAM_DOUBLE(case_scene, limit_widening, "1", 1.5, 1.0, 10.0, "widening from which a crater is a gouge"),
+    PARAM_DOUBLE(case_scene, limit_severity, "1", 0.0, -10.0, 1e4, "severity from which a crater is a gouge"),
+    PARAM_DOUBLE(case_scene, growth_scatter, "1", 0.2, 0.0, 10.0,
+                 "growth between the gauges, e-folds either way, that decides nothing"),
+    PARAMS_END,
+};
+
+static const param study_params[] = {
+    PARAM_DOUBLE(case_study, velocity_interval, "1", 0.03, 1e-4, 1.0,
+                 "wanted width of the threshold's interval over its middle"),
+    PARAM_DOUBLE(case_study, position_interval, "1", 0.02, 1e-4, 1.0,
+                 "wanted width of the onset's interval over the barrel's length"),
+    PARAM_DOUBLE(case_study, velocity_low, "m/s", 1000.0, 1.0, 1e4, "no threshold is looked for below"),
+    PARAM_DOUBLE(case_study, velocity_high, "m/s", 2000.0, 1.0, 1e4, "no threshold is looked for above"),
+    PARAM_ENUM(case_study, judge, judge_names, JUDGE_GROWTH,
+               "a threshold is where the groove's growth past the grain (if scene.follow), or the crater's severity, "
+               "passes its limit"),
+    PARAM_INT(case_study, max_scenes, 16, 1, 100000, "scenes the study may run"),
+    PARAM_INT(case_study, craters, 2, 0, 2,
+              "whole craters of each kind of grain that gouges, judge: growth: in the middle of the velocities that "
+              "gouge; and at the fastest grain; 0: none, so no volumes, rims and feedback"),
+    PARAM_DOUBLE(case_study, screen_low, "1", 3.0, 0.0, 1e4,
+                 "impact pressure over hardness of the harder partner below which no scene is run"),
+    PARAM_DOUBLE(case_study, screen_high, "1", 30.0, 0.0, 1e4, "the same ratio above which a gouge is expected"),
+    PARAM_DOUBLE(case_study, coarse_cells_per_radius, "1", 3.0, 1.0, 100.0, "resolution the bracketing starts with"),
+    PARAM_DOUBLE(case_study, fine_cells_per_radius, "1", 5.0, 1.0, 100.0, "resolution near the threshold"),
+    PARAM_DOUBLE(case_study, resolution_error, "1", 0.1, 0.0, 1.0,
+                 "share of a threshold that finer cells may move it by: its interval allows for that, or for the shift "
+                 "from coarse to fine cells where that is more"),
+    PARAM_DOUBLE(case_study, strength_error, "1", 0.0, 0.0, 1.0,
+                 "uncertainty of rail.yield_scale, relative: a search more, and the threshold's interval holds it"),
+    PARAM_DOUBLE(case_study, friction_error, "1", 0.0, 0.0, 10.0, "uncertainty of scene.friction alike"),
+    PARAM_BOOL(case_study, feedback, 1, "a gouge's impulse and mass loss go back into the shot"),
+    PARAM_BOOL(case_study, sensitivities, 1, "what 5 % more charge, mass, friction and grain size would do"),
+    PARAM_INT(case_study, shots, 1, 1, 1000, "fired one after the other on the same rail"),
+    PARAM_DOUBLE(case_study, heat_kept, "1", 1.0, 0.0, 1.0,
+                 "share of what the shots before have left in the rails that is still there at the next one"),
+    PARAM_INT(case_study, sampled, 100000, 100, 100000000, "histories of the Monte Carlo"),
+    PARAM_INT(case_study, seed, 1, 0, 2000000000, "of its random numbers"),
+    PARAM_DOUBLE(case_study, smallest_radius, "m", 1e-4, 1e-6, 0.1,
+                 "smaller grains of a population are taken not to gouge, no scene is run for them"),
+    PARAMS_END,
+};
+
+static const param output_params[] = {
+    PARAM_INT(case_output, snapshots, 20, 0, 10000, "of a scene, evenly over its time; 0 = none"),
+    PARAM_DOUBLE(case_output, history_interval, "s", OPTIONAL, 1e-9, 1.0,
+                 "least time between two samples of the shot's history; not given: every step"),
+    PARAM_DOUBLE(case_output, checkpoint_interval, "s", 60.0, 1.0, 1e6,
+                 "wall time between two checkpoints, at least 20 times what one takes"),
+    PARAM_BOOL(case_output, report, 1, "write report.html"),
+    PARAMS_END,
+};
+
+#define END_OF_SECTIONS \
+    {                   \
+        .key = NULL     \
+    }
+
+static const case_section rail_children[] = {
+    { .key = "layers",
+      .doc = "Layers on the rail's surface, a list; the first is the lowest.",
+      .table = layer_params,
+      .offset = offsetof(case_rail, layers),
+      .size = sizeof(case_layer),
+      .given = NO_FLAG,
+      .list = true },
+    END_OF_SECTIONS,
+};
+
+static const case_section population_children[] = {
+    { .key = "sizes",
+      .doc = "Tabulated sizes in place of log-normal ones, a list.",
+      .table = size_params,
+      .offset = offsetof(case_population, sizes),
+      .size = sizeof(case_size),
+      .given = NO_FLAG,
+      .list = true },
+    END_OF_SECTIONS,
+};
+
+static const case_section treatment_children[] = {
+#define TREATMENT_LAYERS(name, doc_)                                     \
+    { .key = #name,                                                      \
+      .doc = (doc_),                                                     \
+      .table = layer_params,                                             \
+      .offset = offsetof(case_treatment, kind[TREATMENT_##name].layers), \
+      .size = sizeof(case_layer),                                        \
+      .given = NO_FLAG,                                                  \
+      .list = true },
+#define TREATMENT(name, doc_)                                     \
+    { .key = #name,                                               \
+      .doc = (doc_),                                              \
+      .table = treatment_##name##_params,                         \
+      .offset = offsetof(case_treatment, kind[TREATMENT_##name]), \
+      .size = sizeof(treatment_settings),                         \
+      .given = NO_FLAG },
+#include "coupling/case/treatment.def"
+#undef TREATMENT
+    END_OF_SECTIONS,
+};
+
+#define SECTION(member, table_, needed_, doc_)                                                 \
+    .key = #member, .doc = (doc_), .table = (table_), .offset = offsetof(breech_case, member), \
+    .given = offsetof(breech_case, given.member), .needed_for = (needed_)
+
+enum { NEED_SHOT = CASE_FOR_SHOT | CASE_FOR_ONSET, NEED_SCENE = CASE_FOR_SCENE | CASE_FOR_ONSET };
+
+static const case_section profile_children[] = {
+    { .key = "points",
+      .doc = "The table itself where there is no file, a list.",
+      .table = supply_point_params,
+      .offset = offsetof(supply_profile, points),
+      .size = sizeof(supply_point),
+      .given = NO_FLAG,
+      .list = true },
+    END_OF_SECTIONS,
+};
+
+#define SUPPLY(kind, type, section, lists, text)                     \
+    { .key = #section,                                               \
+      .doc = (text),                                                 \
+      .table = supply_##kind##_params,                               \
+      .children = (lists),                                           \
+      .offset = offsetof(breech_case, supplies[SUPPLY_##kind]),      \
+      .size = sizeof(type),                                          \
+      .given = offsetof(breech_case, given.supplies[SUPPLY_##kind]), \
+      .list = true },
+
+static const case_section sections[] = {
+#include "circuit/supply/supply.def"
+#undef SUPPLY
+    { SECTION(rails, shot_rails_params, NEED_SHOT | CASE_FOR_INDUCTANCE, "The pair of rails as the circuit sees it."),
+      .size = sizeof(shot_rails) },
+    { SECTION(barrel, shot_barrel_params, NEED_SHOT, "The barrel."), .size = sizeof(shot_barrel) },
+    { SECTION(armature, shot_armature_params, NEED_SHOT, "The armature as the circuit sees it."),
+      .size = sizeof(shot_armature) },
+    { SECTION(options, shot_options_params, 0, "Tolerances of the shot's integration."), .size = sizeof(shot_options) },
+    { SECTION(optimise, firing_wish_params, 0,
+              "Firing times of the bank that `breech shot` looks for before it shoots."),
+      .size = sizeof(firing_wish) },
+    { SECTION(rail, rail_params, NEED_SCENE, "The rail as the impact scene sees it."), .children = rail_children,
+      .size = sizeof(case_rail) },
+    { SECTION(projectile, projectile_params, NEED_SCENE,
+              "The armature's body in the impact scene: half a U, one leg on one rail, the head in front."),
+      .size = sizeof(case_projectile) },
+    { SECTION(particle, particle_params, CASE_FOR_SCENE, "The grain of `breech scene`, and what a site leaves out."),
+      .size = sizeof(case_particle) },
+    { SECTION(sites, site_params, 0, "Grains along the barrel, a list; `breech onset` needs these or populations."),
+      .size = sizeof(case_site), .list = true },
+    { SECTION(populations, population_params, 0, "Grains strewn at random along the barrel, a list."),
+      .children = population_children, .size = sizeof(case_population), .list = true },
+    { SECTION(treatments, treatment_params, CASE_FOR_COMPARE,
+              "Rail surfaces to compare, a list; the untreated one is always compared too."),
+      .children = treatment_children, .size = sizeof(case_treatment), .list = true },
+    { SECTION(scene, scene_params, NEED_SCENE, "How an impact scene is built and run."), .size = sizeof(case_scene) },
+    { SECTION(study, study_params, 0, "The search for where gouging begins."), .size = sizeof(case_study) },
+    { SECTION(output, output_params, 0, "What is written."), .size = sizeof(case_output) },
+    { .key = "materials",
+      .doc = "Materials given in the case itself, a list: used.yaml has them. They come before the files of "
+             "cases/materials, where every constant has its source.",
+      .table = material_params,
+      .offset = offsetof(breech_case, materials),
+      .size = sizeof(material),
+      .given = NO_FLAG,
+      .list = true },
+    END_OF_SECTIONS,
+};
+
+const case_section case_root = { .key = "",
+                                 .doc = "The case.",
+                                 .table = case_params,
+                                 .children = sections,
+                                 .size = sizeof(breech_case),
+                                 .given = NO_FLAG };
+
+case_list case_list_get(const void *parent, const case_section *section)
+{
+    case_list list;
+    memcpy(&list, (const char *)parent + section->offset, sizeof list);
+    return list;
+}
+
+void case_list_put(void *parent, const case_section *section, case_list list)
+{
+    memcpy((char *)parent + section->offset, &list, sizeof list);
+}

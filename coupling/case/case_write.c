@@ -1,0 +1,195 @@
+/* used.yaml and the manual's key list, from the same tables as the reader. */
+#include "coupling/case/case_reader.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The shortest text that reads back as the same number. */
+static void number_text(double value, char out[32])
+{
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(out, 32, "%.*g", digits, value);
+        double back;
+        if (sscanf(out, "%lf", &back) == 1 && back == value) return;
+    }
+}
+
+static bool is_pure(const param *p)
+{
+    return strcmp(p->unit, "1") == 0;
+}
+
+static void write_number(FILE *file, const param *p, double value)
+{
+    char text[32];
+    if (isnan(value)) {
+        fputs("none", file);
+        return;
+    }
+    number_text(value, text);
+    fprintf(file, "%s%s%s", text, is_pure(p) ? "" : " ", is_pure(p) ? "" : p->unit);
+}
+
+static void write_quoted(FILE *file, const char *text)
+{
+    fputc('"', file);
+    for (; *text; text++) {
+        if (*text == '"' || *text == '\\') fputc('\\', file);
+        fputc(*text, file);
+    }
+    fputc('"', file);
+}
+
+static void write_vector(FILE *file, const param *p, const double *v)
+{
+    for (int k = 0; k < 3; k++) {
+        fputs(k == 0 ? "[" : ", ", file);
+        write_number(file, p, v[k]);
+    }
+    fputc(']', file);
+}
+
+/* Left out: a text that is empty, and a number that is required but has no value (there is no `none` for it). */
+static bool is_unset(const param *p, const void *member)
+{
+    const bool number = p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR;
+    if (number) return isinf(p->fallback) && isnan(*(const double *)member);
+    if (p->kind == PARAM_TEXT) return *(const char *)member == '\0';
+    return false;
+}
+
+static void write_value(FILE *file, const param *p, const void *member)
+{
+    switch (p->kind) {
+    case PARAM_NUMBER: write_number(file, p, *(const double *)member); break;
+    case PARAM_INTEGER: fprintf(file, "%d", *(const int *)member); break;
+    case PARAM_FLAG: fputs(*(const bool *)member ? "yes" : "no", file); break;
+    case PARAM_CHOICE: fputs(p->choices[*(const int *)member], file); break;
+    case PARAM_TEXT: write_quoted(file, member); break;
+    case PARAM_VECTOR: write_vector(file, p, member); break;
+    }
+}
+
+static void write_section(FILE *file, const case_section *section, const void *parent, int indent);
+
+/* The keys of one struct; `first` stands before the first of them ("- " in a list). */
+static void write_keys(FILE *file, const case_section *section, const void *object, int indent, bool in_list)
+{
+    bool first = in_list;
+    for (const param *p = section->table; p->key; p++) {
+        const void *member = (const char *)object + p->offset;
+        if (is_unset(p, member)) continue;
+        fprintf(file, "%*s%s%s: ", first ? indent - 2 : indent, "", first ? "- " : "", p->key);
+        write_value(file, p, member);
+        fputc('\n', file);
+        first = false;
+    }
+    for (const case_section *s = section->children; s && s->key; s++) write_section(file, s, object, indent);
+}
+
+/* A section inside another, not given: its first key must be given, and is not. */
+static bool is_absent(const case_section *section, const void *object)
+{
+    const param *first = section->table;
+    const bool required = first->kind == PARAM_TEXT ? !first->fallback_text : isinf(first->fallback);
+    return section->given == NO_FLAG && required && is_unset(first, (const char *)object + first->offset);
+}
+
+static void write_section(FILE *file, const case_section *section, const void *parent, int indent)
+{
+    if (!section->list && is_absent(section, (const char *)parent + section->offset)) return;
+    if (!section->list) {
+        fprintf(file, "%*s%s:\n", indent, "", section->key);
+        write_keys(file, section, (const char *)parent + section->offset, indent + 2, false);
+        return;
+    }
+    const case_list list = case_list_get(parent, section);
+    if (list.n == 0) return;
+    fprintf(file, "%*s%s:\n", indent, "", section->key);
+    for (int k = 0; k < list.n; k++)
+        write_keys(file, section, (const char *)list.item + (size_t)k * section->size, indent + 4, true);
+}
+
+status case_write_used(const breech_case *c, FILE *file)
+{
+    const case_section head = { .key = "", .table = case_root.table, .given = NO_FLAG };
+    fputs("# The case as it was run: every value resolved, in SI units.\n", file);
+    write_keys(file, &head, c, 0, false);
+    for (const case_section *s = case_root.children; s->key; s++) {
+        const bool given = s->given == NO_FLAG || *(const bool *)((const char *)c + s->given);
+        if (given) write_section(file, s, c, 0);
+    }
+    CHECK(!ferror(file), STATUS_IO, "used.yaml cannot be written");
+    return status_ok();
+}
+
+/* ---- the manual ---- */
+
+static void print_default(FILE *file, const param *p)
+{
+    char text[64];
+    if (p->kind == PARAM_TEXT) {
+        fputs(!p->fallback_text ? "required" : p->fallback_text[0] ? p->fallback_text : "-", file);
+        return;
+    }
+    if (isinf(p->fallback) || isnan(p->fallback)) {
+        fputs(isinf(p->fallback) ? "required" : "-", file);
+        return;
+    }
+    if (p->kind == PARAM_FLAG) fputs(p->fallback != 0.0 ? "yes" : "no", file);
+    if (p->kind == PARAM_CHOICE) fputs(p->choices[(int)p->fallback], file);
+    if (p->kind == PARAM_INTEGER) fprintf(file, "%d", (int)p->fallback);
+    if (p->kind != PARAM_NUMBER && p->kind != PARAM_VECTOR) return;
+    quantity_text(p->fallback, p->unit, text, sizeof text);
+    fputs(text, file);
+}
+
+static void print_range(FILE *file, const param *p)
+{
+    char limits[LIMITS_SIZE];
+    switch (p->kind) {
+    case PARAM_TEXT: fputs("text", file); break;
+    case PARAM_FLAG: fputs("yes, no", file); break;
+    case PARAM_CHOICE:
+        for (int k = 0; p->choices[k]; k++) fprintf(file, "%s%s", k > 0 ? ", " : "", p->choices[k]);
+        break;
+    case PARAM_NUMBER:
+    case PARAM_INTEGER:
+    case PARAM_VECTOR:
+        quantity_limits(NULL, p->min, p->max, p->unit, "", limits);
+        fprintf(file, "%s%s", limits, p->kind == PARAM_VECTOR ? ", three of them" : "");
+        break;
+    }
+}
+
+/* Markdown takes | for the end of a cell and < for a tag. */
+static void print_cell(FILE *file, const char *text)
+{
+    for (; *text; text++) {
+        if (*text == '|' || *text == '<') fputc('\\', file);
+        fputc(*text, file);
+    }
+}
+
+static void print_section(FILE *file, const case_section *section, const char *parent)
+{
+    if (section->key[0])
+        fprintf(file, "\n## `%s%s%s`\n\n%s\n", parent, parent[0] ? "." : "", section->key, section->doc);
+    fputs("\n| key | unit | default | range | meaning |\n|---|---|---|---|---|\n", file);
+    for (const param *p = section->table; p->key; p++) {
+        const bool number = p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR;
+        fprintf(file, "| `%s` | %s | ", p->key, number && !is_pure(p) ? p->unit : "");
+        print_default(file, p);
+        fputs(" | ", file);
+        print_range(file, p);
+        fputs(" | ", file);
+        print_cell(file, p->doc);
+        fputs(" |\n", file);
+    }
+    for (const case_section *s = section->children; s && s->key; s++) print_section(file, s, section->key);
+}
+
+void case_print_keys(FILE *file)
+{
+    print_section(file, &case_root, "");
+}

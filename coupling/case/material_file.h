@@ -1,0 +1,75 @@
+/* A material's file: cases/materials/<name>.yaml, every constant with its source.
+ *
+ *   name: ofhc_copper
+ *   title: OFHC copper
+ *   sources:
+ *     JC: Johnson and Cook 1983, as used in public solver inputs
+ *   constants:
+ *     density: {value: 8960 kg/m^3, source: JC}
+ *     hardness: {value: 725 MPa, source: book, weak: true, note: annealed 0.5 GPa .. half hard 0.95 GPa}
+ *
+ * The constants are those of material_params (mpm/material.c), each optional: one that is not there is not known, and
+ * what needs it refuses the material.  `weak: true` marks a secondary or unchecked value; whoever uses it is warned.
+ * `strength: ptw` after the title: the flow stress is (M-23), not (M-1).
+ * To add a material: add a file; tests/test_materials.c covers it at once. */
+#ifndef BREECH_COUPLING_MATERIAL_FILE_H
+#define BREECH_COUPLING_MATERIAL_FILE_H
+
+#include "coupling/host/units.h"
+#include "mpm/material.h"
+
+#include <stdbool.h>
+
+enum { MATERIAL_MAX_CONSTANTS = 64, MATERIAL_PATH_SIZE = 512, MATERIAL_WARNING_SIZE = 600 };
+
+typedef struct {
+    const param *constant; /* borrowed from material_params */
+    bool weak;
+    char *source; /* the whole citation, owned */
+    char *note;   /* owned, NULL if none */
+} material_constant;
+
+typedef struct {
+    material material;
+    char title[PARAM_TEXT_SIZE];
+    char path[MATERIAL_PATH_SIZE];
+    int n;
+    material_constant constant[MATERIAL_MAX_CONSTANTS]; /* those given, in the file's order */
+} material_sheet;
+
+/* Finds <dir>/<name>.yaml in the first of the folders that has it.  STATUS_BAD_INPUT names the folders and the nearest
+ * name; errors of the file itself are all in *errors (owned by the caller, NULL when there are none). */
+status material_sheet_find(const units *u, const char *name, const char *const *dirs, int n_dirs, material_sheet *out,
+                           char **errors);
+
+/* The same for those who have no unit system open. */
+status material_sheet_open(const char *name, const char *const *dirs, int n_dirs, material_sheet *out, char **errors);
+
+/* From memory; the name in the file must be that of `path`. */
+status material_sheet_parse(const units *u, const char *bytes, size_t length, const char *path, material_sheet *out,
+                            char **errors);
+
+void material_sheet_free(material_sheet *sheet);
+
+/* A line naming the weak constants, "" if there are none. */
+void material_sheet_warning(const material_sheet *sheet, char out[MATERIAL_WARNING_SIZE]);
+
+/* Names of all materials in a folder, sorted; *names is an array of *n strings, freed with material_names_free.
+ * A folder that is not there has none. */
+status material_names(const char *dir, char ***names, int *n);
+void material_names_free(char **names, int n);
+
+/* Where the program looks beside the case's own folder: $BREECH_MATERIALS, the installation the program belongs to
+ * (../share/breech/cases/materials from its folder), cases/materials of the source tree; those that are there. */
+enum { MATERIAL_MAX_DIRS = 3 };
+typedef struct {
+    int n;
+    const char *dir[MATERIAL_MAX_DIRS]; /* n; point into the environment, the program and `installed` */
+    char installed[MATERIAL_PATH_SIZE];
+} material_places;
+void material_places_find(material_places *out);
+
+/* Letters, digits, _ - + and dots, not a dot first: a name that cannot lead out of its folder. */
+bool material_name_valid(const char *name);
+
+#endif

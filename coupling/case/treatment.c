@@ -1,0 +1,87 @@
+#include "coupling/case/treatment.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const treatment_kind treatment_kinds[TREATMENT_KINDS] = {
+#define TREATMENT_LAYERS(name, doc) { #name, doc, NULL, treatment_##name##_apply },
+#define TREATMENT(name, doc) { #name, doc, treatment_##name##_params, treatment_##name##_apply },
+#include "coupling/case/treatment.def"
+#undef TREATMENT
+};
+
+bool treatment_given(const case_treatment *t, int kind)
+{
+    const treatment_settings *s = &t->kind[kind];
+    const param *first = treatment_kinds[kind].params;
+    if (!first) return s->layers.n > 0;
+    const char *member = (const char *)s + first->offset;
+    return first->kind == PARAM_TEXT ? member[0] != '\0' : !isnan(*(const double *)(const void *)member);
+}
+
+/* *list becomes a copy of its own. */
+static status own(void **item, int n, size_t size)
+{
+    void *copy = malloc((size_t)n * size + 1);
+    CHECK(copy, STATUS_MEMORY, "no memory for a treated case");
+    if (n > 0) memcpy(copy, *item, (size_t)n * size);
+    *item = copy;
+    return status_ok();
+}
+
+static status own_sizes(case_populations *list)
+{
+    for (int i = 0; i < list->n; i++) {
+        case_sizes *sizes = &list->item[i].sizes;
+        const status s = own((void **)&sizes->item, sizes->n, sizeof *sizes->item);
+        if (s.code == STATUS_OK) continue;
+        for (; i < list->n; i++) list->item[i].sizes = (case_sizes){ 0, NULL };
+        return s;
+    }
+    return status_ok();
+}
+
+status treated_case(const breech_case *c, const case_treatment *t, breech_case *out)
+{
+    *out = *c;
+    out->rail.layers = (case_layers){ 0, NULL };
+    out->sites = (case_sites){ 0, NULL };
+    out->populations = (case_populations){ 0, NULL };
+    case_layers layers = c->rail.layers;
+    TRY(own((void **)&layers.item, layers.n, sizeof *layers.item));
+    out->rail.layers = layers;
+    case_sites sites = c->sites;
+    TRY(own((void **)&sites.item, sites.n, sizeof *sites.item));
+    out->sites = sites;
+    case_populations populations = c->populations;
+    TRY(own((void **)&populations.item, populations.n, sizeof *populations.item));
+    out->populations = populations;
+    TRY(own_sizes(&out->populations));
+    for (int k = 0; t && k < TREATMENT_KINDS; k++) {
+        if (!treatment_given(t, k)) continue;
+        const status s = treatment_kinds[k].apply(&t->kind[k], out);
+        CHECK(s.code == STATUS_OK, s.code, "treatment `%s`: %.400s", t->name, s.text);
+    }
+    return status_ok();
+}
+
+void treated_free(breech_case *c)
+{
+    free(c->rail.layers.item);
+    free(c->sites.item);
+    for (int i = 0; i < c->populations.n; i++) free(c->populations.item[i].sizes.item);
+    free(c->populations.item);
+    memset(c, 0, sizeof *c);
+}
+
+status treatment_add_layer(breech_case *c, int at, const case_layer *layer)
+{
+    case_layers *l = &c->rail.layers;
+    case_layer *more = realloc(l->item, ((size_t)l->n + 1) * sizeof *more);
+    CHECK(more, STATUS_MEMORY, "no memory for a layer");
+    l->item = more;
+    memmove(more + at + 1, more + at, (size_t)(l->n - at) * sizeof *more);
+    more[at] = *layer;
+    l->n++;
+    return status_ok();
+}

@@ -1,0 +1,19 @@
+/* Another armature.  Grains of the former armature's metal (debris) are of the new one; the shot keeps its mass. */
+#include "coupling/case/treatment.h"
+
+#include <string.h>
+
+const param treatment_armature_metal_params[] = {
+    PARAM_STRING(treatment_settings, material, NULL, "the armature's material"),
+    PARAMS_END,
+};
+
+status treatment_armature_metal_apply(const treatment_settings *t, breech_case *c)
+{
+    for (int i = 0; i < c->populations.n; i++) {
+        char *grain = c->populations.item[i].material;
+        if (strcmp(grain, c->projectile.material) == 0) snprintf(grain, PARAM_TEXT_SIZE, "%s", t->material);
+    }
+    snprintf(c->projectile.material, sizeof c->projectile.material, "%s", t->material);
+    return status_ok();
+}

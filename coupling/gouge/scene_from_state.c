@@ -1,0 +1,492 @@
+#include "coupling/gouge/scene_from_state.h"
+
+#include "coupling/output/summary.h"
+#include "mpm/grid/grid.h"
+#include "mpm/shape/shape.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Of the time in which the contact face crosses the fine zone.  The groove's front goes at about 0.7 of the armature's
+ * speed, so a groove that would die out late is still growing then: what that changes is in docs/onset.md. */
+static const double END_FACTOR = 1.1;
+
+/* Speed of a groove's front over the armature's.  A zone that follows it ends when the contact face has passed it. */
+static const double FRONT_SPEED = 0.7;
+
+/* Where a groove's growth is gauged: the armature's way in grain radii.  Before, the grain itself is still being flattened;
+ * later the contact face begins to run out. */
+static const double GROWTH_WAY[2] = { 16.0, 28.0 };
+static const double DEAD_FOLDS = -3.0; /* of a groove that died before the first gauge, and the least of any */
+
+/* A groove that loses so much from gauge to gauge, more than twice what decides nothing, is known to die half way. */
+static const double DYING_FOLDS = -0.5;
+
+/* A fine zone that follows starts so many radii wider than the grain on either side, but no wider than half of its largest; it
+ * widens with the groove. */
+static const double BESIDE = 1.5;
+
+/* Length across the rail of shapes that have one. */
+#define RIDGE_LENGTH 4.0 /* half of it, in radii */
+
+static const char ARMATURE[] = "armature", GRAIN[] = "particle";
+
+int body_of_armature(const mpm_scene *scene)
+{
+    return scene->bodies - 1;
+}
+
+bool body_is_rail(const mpm_scene *scene, int body)
+{
+    return strcmp(scene->body[body].name, ARMATURE) != 0 && strcmp(scene->body[body].name, GRAIN) != 0;
+}
+
+bool scene_is_gauged(const breech_case *c)
+{
+    return c->scene.stop_when_gauged && c->scene.follow;
+}
+
+double growth_folds(double growth, double radius, double velocity)
+{
+    const double folds = growth * (GROWTH_WAY[1] - GROWTH_WAY[0]) * radius / velocity;
+    return folds > DEAD_FOLDS ? folds : DEAD_FOLDS; /* NAN too */
+}
+
+bool scene_groove_dies(const breech_case *c, const mpm_scene *s, const mpm_report *now)
+{
+    if (!(now->gauge_at[0] > 0.0) || now->time < 0.5 * (s->gauge_time[0] + s->gauge_time[1])) return false;
+    const double radius = s->gauge_time[0] * s->follow_speed / GROWTH_WAY[0];
+    const double folds = growth_folds(scene_growth(now), radius, s->follow_speed);
+    return folds < fmin(DYING_FOLDS, -2.5 * c->scene.growth_scatter);
+}
+
+site_state state_of_case(const breech_case *c)
+{
+    const case_particle *p = &c->particle;
+    site_state s = { .reached = true, .time = 0.0, .velocity = c->scene.velocity, .current = NAN };
+    s.grain =
+        (case_site){ .position = NAN, .radius = p->radius, .height = p->height, .bond_strength = p->bond_strength };
+    memcpy(s.grain.shape, p->shape, sizeof s.grain.shape);
+    memcpy(s.grain.material, p->material, sizeof s.grain.material);
+    s.contact_pressure = isnan(c->scene.contact_pressure) ? 0.0 : c->scene.contact_pressure;
+    s.rail_temperature = c->rail.temperature;
+    s.armature_temperature = c->projectile.temperature;
+    return s;
+}
+
+/* ---- lengths ---- */
+
+/* Everything along x, y, z that more than one part of the scene needs [m]. */
+typedef struct {
+    double fine, coarse;
+    double x_front;                 /* front end of the armature's contact face at the start */
+    double run;                     /* length of the lead face along x */
+    double fine_behind, fine_ahead; /* ends of the fine zone, both positive */
+    double fine_depth, fine_above, fine_half_width;
+    double narrow_half_width;           /* of the fine zone at the start */
+    double behind, ahead;               /* ends of the window, both positive; at the start, if it follows */
+    double travel;                      /* of the window, at most */
+    double rail_half_width, half_width; /* of the rail, of the window */
+    double layers;                      /* thickness of all layers */
+} layout;
+
+static double given_or(double value, double fallback)
+{
+    return isnan(value) ? fallback : value;
+}
+
+/* A whole number of cells that covers `length`. */
+static double cells_over(double length, double cell)
+{
+    return cell * ceil(length / cell * (1.0 - 1e-9));
+}
+
+static double top_of_zone(const breech_case *c, const case_site *g)
+{
+    return given_or(c->scene.fine_above, fmax(1.5 * g->radius, g->height + 0.5 * g->radius));
+}
+
+/* Half of the grain's extent across the rail. */
+static double half_across(const case_site *g)
+{
+    const shape_kind *k = shape_find(g->shape);
+    for (int i = 0; k && k->value_names[i]; i++)
+        if (strcmp(k->value_names[i], "half_length") == 0) return RIDGE_LENGTH * g->radius;
+    return g->radius;
+}
+
+static layout lay_out(const breech_case *c, const case_site *g, double cells_per_radius)
+{
+    const case_scene *s = &c->scene;
+    const case_projectile *p = &c->projectile;
+    layout l = { .fine = g->radius / cells_per_radius };
+    l.coarse = fmax(s->coarse_cell, (1 << (s->levels - 1)) * l.fine);
+    l.run = p->chamfer_height / tan(p->lead_angle);
+    l.x_front = -g->radius - fmin(g->height, p->chamfer_height) / tan(p->lead_angle) - l.fine;
+    l.behind = fmax(s->rail_behind, p->length - l.run - l.x_front + 2.0 * l.coarse);
+    l.ahead = s->rail_ahead;
+    const double room = fmax(3.0 * l.coarse, grids_margin(s->levels, l.fine));
+    const double pair = (s->levels > 1 ? 2 : 1) * l.fine; /* of the cells around it the zone takes whole ones */
+    l.fine_behind = cells_over(fmin(given_or(s->fine_behind, 3.0 * g->radius), l.behind - room), pair);
+    const double ahead = (s->follow ? 4.0 : 26.0) * g->radius;
+    l.fine_ahead = cells_over(fmin(given_or(s->fine_ahead, ahead), l.ahead - room), pair);
+    l.fine_depth = cells_over(fmin(given_or(s->fine_depth, 2.0 * g->radius), s->rail_depth - room), pair);
+    l.fine_above = cells_over(fmin(top_of_zone(c, g), p->half_bore - room), pair);
+    l.rail_half_width = 0.5 * given_or(s->rail_width, p->width);
+    l.half_width = fmax(l.rail_half_width, 0.5 * p->width) + room;
+    l.fine_half_width = cells_over(fmin(given_or(0.5 * s->fine_width, 8.0 * g->radius), l.half_width - room), pair);
+    const double start = fmin(half_across(g) + BESIDE * g->radius, 0.5 * l.fine_half_width);
+    const double narrow = fmax(start, s->levels > 1 ? 2.0 * pair : 0.0); /* as grids_make wants */
+    l.narrow_half_width = s->follow ? fmin(cells_over(narrow, pair), l.fine_half_width) : l.fine_half_width;
+    l.layers = case_layers_thickness(&c->rail.layers);
+    l.travel = s->follow ? (p->length - l.run) / (1.0 - FRONT_SPEED) : 0.0;
+    return l;
+}
+
+static status check_layout(const breech_case *c, const case_site *g, const layout *l)
+{
+    CHECK(l->fine_ahead > g->radius && l->fine_behind > g->radius, STATUS_BAD_INPUT,
+          "scene: the fine zone, %g m behind to %g m ahead of the grain, must hold the grain of radius %g m: lengthen "
+          "scene.rail_ahead, rail_behind or fine_ahead, fine_behind",
+          l->fine_behind, l->fine_ahead, g->radius);
+    CHECK(l->fine_above > 0.0 && l->fine_depth > 0.0 && l->narrow_half_width > g->radius, STATUS_BAD_INPUT,
+          "scene: no room for a fine zone of %g m above, %g m below and %g m beside the grain: smaller "
+          "scene.coarse_cell, or larger rail_depth, rail_width, projectile.half_bore",
+          l->fine_above, l->fine_depth, l->fine_half_width);
+    CHECK(l->layers < c->scene.rail_depth - l->coarse, STATUS_BAD_INPUT,
+          "scene.rail_depth = %g m: must exceed the layers' thickness of %g m by more than a coarse cell",
+          c->scene.rail_depth, l->layers);
+    CHECK(strcmp(g->shape, "pit") != 0 || g->height < l->fine_depth, STATUS_BAD_INPUT,
+          "scene.fine_depth = %g m: must exceed the depth of the pit, %g m", l->fine_depth, g->height);
+    CHECK(-l->x_front < l->behind, STATUS_BAD_INPUT, "scene: the armature would start outside the window");
+    return status_ok();
+}
+
+/* A layer that may come off touches what lies below it: a body of less than a cell cannot. */
+static status check_layers(const breech_case *c, const case_site *g, const layout *l)
+{
+    for (int i = 0; i < c->rail.layers.n; i++) {
+        const case_layer *layer = &c->rail.layers.item[i];
+        CHECK(
+            isnan(layer->bond_strength) || layer->thickness >= l->fine * (1.0 - 1e-9), STATUS_BAD_INPUT,
+            "rail.layers[%d]: %g m of %s with a bond of its own, in cells of %g m: at least one cell across; take %.3g "
+            "cells a radius, or weld it (bond_strength: none)",
+            i, layer->thickness, layer->material, l->fine, g->radius / layer->thickness);
+    }
+    return status_ok();
+}
+
+/* ---- bodies ---- */
+
+static mpm_body *add_body(mpm_scene *s, const char *name, const material *m, int field)
+{
+    mpm_body *b = &s->body[s->bodies++];
+    memset(b, 0, sizeof *b);
+    snprintf(b->name, sizeof b->name, "%s", name);
+    b->material = m;
+    b->field = field;
+    b->yield_scale = 1.0;
+    return b;
+}
+
+static void make_box(mpm_body *b, const layout *l, double bottom, double top)
+{
+    const double lo[3] = { -l->behind, bottom, -l->rail_half_width },
+                 hi[3] = { l->ahead + l->travel, top, l->rail_half_width };
+    b->shape = shape_find("box");
+    for (int k = 0; k < 3; k++) {
+        b->shape_value.value[BOX_LO + k] = lo[k];
+        b->shape_value.value[BOX_HI + k] = hi[k];
+    }
+}
+
+/* Bonded to the field below, or welded into it.  Returns the field. */
+static int next_field(mpm_scene *s, int below, double bond_strength)
+{
+    if (isnan(bond_strength)) return below;
+    const int field = below + 1;
+    if (field < MPM_MAX_FIELDS)
+        s->contact[below][field].bond_strength = s->contact[field][below].bond_strength = bond_strength;
+    return field;
+}
+
+static int add_rail(const breech_case *c, const layout *l, mpm_scene *s)
+{
+    mpm_body *rail = add_body(s, "rail", case_material(c, c->rail.material), 0);
+    make_box(rail, l, -c->scene.rail_depth, -l->layers);
+    rail->yield_scale = c->rail.yield_scale;
+    double bottom = -l->layers;
+    int field = 0;
+    for (int i = 0; i < c->rail.layers.n; i++) {
+        const case_layer *layer = &c->rail.layers.item[i];
+        char name[PARAM_TEXT_SIZE];
+        snprintf(name, sizeof name, "layer_%d", i + 1);
+        field = next_field(s, field, layer->bond_strength);
+        mpm_body *b = add_body(s, name, case_material(c, layer->material), field);
+        const bool last = i == c->rail.layers.n - 1;
+        make_box(b, l, bottom, last ? 0.0 : bottom + layer->thickness);
+        b->yield_scale = layer->yield_scale;
+        bottom += layer->thickness;
+    }
+    return field;
+}
+
+static double grain_value(const case_site *g, const char *name)
+{
+    if (strcmp(name, "radius") == 0) return g->radius;
+    if (strcmp(name, "height") == 0) return g->height;
+    if (strcmp(name, "half_length") == 0) return RIDGE_LENGTH * g->radius;
+    if (strcmp(name, "y") == 0 && strcmp(g->shape, "sphere") == 0)
+        return g->height - g->radius; /* the rest of it lies in the rail */
+    return 0.0;                       /* x, y, z */
+}
+
+static bool is_pit(const case_site *g)
+{
+    return strcmp(g->shape, "pit") == 0;
+}
+
+static void shape_grain(const case_site *g, const shape_kind **shape, shape_values *value)
+{
+    *shape = shape_find(g->shape);
+    for (int i = 0; *shape && (*shape)->value_names[i]; i++) value->value[i] = grain_value(g, (*shape)->value_names[i]);
+}
+
+/* A pit is a hole in rail and layers, no body. */
+static int add_grain(const breech_case *c, const case_site *g, int below, mpm_scene *s)
+{
+    if (is_pit(g)) {
+        for (int i = 0; i < s->bodies; i++) shape_grain(g, &s->body[i].cut, &s->body[i].cut_value);
+        return below;
+    }
+    const int field = next_field(s, below, g->bond_strength);
+    mpm_body *b = add_body(s, GRAIN, case_material(c, g->material), field);
+    shape_grain(g, &b->shape, &b->shape_value);
+    return field;
+}
+
+/* Mass of the armature's half U, mpm/shape/shape_armature.c [kg]. */
+static double armature_mass(const case_projectile *p, const material *m)
+{
+    const double section = p->length * p->leg_thickness + p->head_thickness * (p->half_bore - p->leg_thickness) -
+                           0.5 * p->chamfer_height * p->chamfer_height / tan(p->lead_angle);
+    return m->density * section * p->width;
+}
+
+static void add_armature(const breech_case *c, const site_state *state, const layout *l, int field, mpm_scene *s)
+{
+    const case_projectile *p = &c->projectile;
+    mpm_body *b = add_body(s, ARMATURE, case_material(c, p->material), field);
+    double *v = b->shape_value.value;
+    b->shape = shape_find("armature");
+    v[ARMATURE_X_FRONT] = l->x_front;
+    v[ARMATURE_LENGTH] = p->length;
+    v[ARMATURE_LEG_THICKNESS] = p->leg_thickness;
+    v[ARMATURE_HEAD_THICKNESS] = p->head_thickness;
+    v[ARMATURE_HALF_BORE] = p->half_bore;
+    v[ARMATURE_CHAMFER_HEIGHT] = p->chamfer_height;
+    v[ARMATURE_LEAD_ANGLE] = p->lead_angle;
+    v[ARMATURE_HALF_WIDTH] = 0.5 * p->width;
+    b->velocity[0] = state->velocity;
+    b->body_force[1] = -state->contact_pressure * projectile_face_area(p) / armature_mass(p, b->material);
+}
+
+static status add_bodies(const breech_case *c, const site_state *state, const layout *l, mpm_scene *s)
+{
+    const int wanted = c->rail.layers.n + 3;
+    CHECK(wanted <= MPM_MAX_BODIES, STATUS_BAD_INPUT, "rail.layers: %d layers, a scene takes at most %d",
+          c->rail.layers.n, MPM_MAX_BODIES - 3);
+    const int top = add_rail(c, l, s);
+    const int grain = add_grain(c, &state->grain, top, s);
+    CHECK(grain + 1 < MPM_MAX_FIELDS, STATUS_BAD_INPUT,
+          "rail.layers, particle: %d bonds that can break, a scene takes at most %d; weld some (bond_strength: none)",
+          grain, MPM_MAX_FIELDS - 2);
+    add_armature(c, state, l, grain + 1, s);
+    for (int i = 0; i < s->bodies; i++) {
+        mpm_body *b = &s->body[i];
+        CHECK(b->shape && b->material, STATUS_BAD_INPUT, "scene: body `%s` has no shape or no material", b->name);
+        TRY(shape_check(b->shape, &b->shape_value));
+        b->temperature = i == body_of_armature(s) ? c->projectile.temperature : c->rail.temperature;
+        b->damage = c->scene.damage;
+    }
+    return status_ok();
+}
+
+static void set_contacts(const breech_case *c, mpm_scene *s)
+{
+    const double limit = given_or(c->scene.shear_limit, INFINITY);
+    for (int a = 0; a < MPM_MAX_FIELDS; a++)
+        for (int b = 0; b < MPM_MAX_FIELDS; b++) {
+            s->contact[a][b].friction = c->scene.friction;
+            s->contact[a][b].shear_limit = limit;
+        }
+    if (!isnan(c->scene.contact_gap)) s->contact_gap = c->scene.contact_gap;
+}
+
+/* ---- grid ---- */
+
+static void set_axes(const breech_case *c, const layout *l, mpm_scene *s)
+{
+    const bool half = c->scene.half_model;
+    const double lo[3] = { -l->behind, -c->scene.rail_depth, half ? 0.0 : -l->half_width };
+    const double hi[3] = { l->ahead, c->projectile.half_bore, l->half_width };
+    const double fine_lo[3] = { -l->fine_behind, -l->fine_depth, half ? 0.0 : -l->narrow_half_width };
+    const double fine_hi[3] = { l->fine_ahead, l->fine_above, l->narrow_half_width };
+    const boundary_kind kind[3][2] = { { BOUNDARY_ABSORBING, BOUNDARY_ABSORBING },
+                                       { BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY },
+                                       { half ? BOUNDARY_SYMMETRY : BOUNDARY_FREE, BOUNDARY_FREE } };
+    unsigned rail_fields = 0;
+    for (int i = 0; i < s->bodies; i++)
+        if (body_is_rail(s, i)) rail_fields |= 1u << s->body[i].field;
+    for (int k = 0; k < 3; k++) {
+        mpm_axis *a = &s->axis[k];
+        a->lo = lo[k], a->hi = hi[k];
+        a->fine_lo = fine_lo[k], a->fine_hi = fine_hi[k];
+        a->fine = l->fine, a->coarse = l->coarse;
+        a->growth = c->scene.growth;
+        for (int e = 0; e < 2; e++) {
+            a->boundary[e] = kind[k][e];
+            a->boundary_fields[e] = k == 0 ? rail_fields : 0;
+        }
+    }
+}
+
+double scene_crossing_time(const mpm_scene *scene)
+{
+    const mpm_body *b = &scene->body[body_of_armature(scene)];
+    return (scene->axis[0].fine_hi - b->shape_value.value[ARMATURE_X_FRONT]) / b->velocity[0];
+}
+
+double scene_grain_passed(const mpm_scene *scene)
+{
+    const mpm_body *b = &scene->body[body_of_armature(scene)], *grain = b - 1;
+    const bool pit = body_is_rail(scene, body_of_armature(scene) - 1);
+    double lo[3], hi[3];
+    (pit ? grain->cut : grain->shape)->bounds(pit ? &grain->cut_value : &grain->shape_value, lo, hi);
+    return (hi[0] - b->shape_value.value[ARMATURE_X_FRONT]) / b->velocity[0];
+}
+
+double scene_face_tail(const mpm_scene *scene, double time)
+{
+    const mpm_body *b = &scene->body[body_of_armature(scene)];
+    const double *v = b->shape_value.value;
+    const double lead = v[ARMATURE_CHAMFER_HEIGHT] / tan(v[ARMATURE_LEAD_ANGLE]);
+    return v[ARMATURE_X_FRONT] + lead - v[ARMATURE_LENGTH] + b->velocity[0] * time;
+}
+
+double scene_last(const breech_case *c, const mpm_scene *scene)
+{
+    return scene_is_gauged(c) ? scene->gauge_time[1] : scene->end_time;
+}
+
+/* The fine zone goes with the rail's plastic front. */
+static void set_follow(const breech_case *c, const case_site *g, const layout *l, mpm_scene *s)
+{
+    if (!c->scene.follow) return;
+    s->follow_width = l->fine_half_width;
+    s->follow_speed = s->body[body_of_armature(s)].velocity[0];
+    s->follow_lead = given_or(c->scene.follow_lead, 3.0 * g->radius);
+    for (int i = 0; i < 2; i++) s->gauge_time[i] = GROWTH_WAY[i] * g->radius / s->follow_speed;
+    for (int i = 0; i < s->bodies; i++)
+        if (body_is_rail(s, i)) s->follow_bodies |= 1u << i;
+}
+
+static void set_method(const breech_case *c, const layout *l, mpm_scene *s)
+{
+    const case_scene *from = &c->scene;
+    s->particles_per_axis = from->particles_per_axis;
+    s->courant = from->courant;
+    s->viscosity_linear = from->viscosity_linear;
+    s->viscosity_quadratic = from->viscosity_quadratic;
+    s->transfer = (transfer_kind)from->transfer;
+    s->basis = (basis_kind)from->basis;
+    s->levels = s->basis == BASIS_GIMP ? from->levels : 1;
+    s->heat_by_plastic_work = from->heat_by_plastic_work;
+    const double speed = s->body[body_of_armature(s)].velocity[0];
+    const double passage = scene_crossing_time(s) + c->projectile.length / speed;
+    s->end_time =
+        given_or(from->end_time, from->follow ? l->travel / speed : fmin(END_FACTOR * scene_crossing_time(s), passage));
+}
+
+/* A scene that ends before its second gauge would pass for a groove that died. */
+static status reaches_gauge(const breech_case *c, const mpm_scene *s)
+{
+    CHECK(!scene_is_gauged(c) || s->end_time >= s->gauge_time[1], STATUS_BAD_INPUT,
+          "scene: over after %.3g s, before the growth of its groove is known, %.3g s: a longer scene.end_time, a "
+          "contact face "
+          "of more than %.3g grain radii, or study.judge: severity (for `breech scene`, no scene.stop_when_gauged)",
+          s->end_time, s->gauge_time[1], GROWTH_WAY[1] * (1.0 - FRONT_SPEED));
+    return status_ok();
+}
+
+/* ---- the crater ---- */
+
+/* Plan area and volume of the part above y = 0, of a pit of all of it, by the middles of N_PLAN x N_UP x N_PLAN cells of its
+ * box. */
+static void measure_grain(const case_site *g, double *area, double *volume)
+{
+    enum { N_PLAN = 128, N_UP = 48 };
+    const shape_kind *shape;
+    shape_values value;
+    double lo[3], hi[3], h[3];
+    int columns = 0, cells = 0;
+    memset(&value, 0, sizeof value);
+    shape_grain(g, &shape, &value);
+    shape->bounds(&value, lo, hi);
+    if (!is_pit(g)) lo[1] = fmax(lo[1], 0.0);
+    for (int k = 0; k < 3; k++) h[k] = (hi[k] - lo[k]) / (k == 1 ? N_UP : N_PLAN);
+    for (int ix = 0; ix < N_PLAN; ix++)
+        for (int iz = 0; iz < N_PLAN; iz++) {
+            const double foot[3] = { lo[0] + (ix + 0.5) * h[0], lo[1] + 1e-6 * h[1], lo[2] + (iz + 0.5) * h[2] };
+            int within = 0;
+            for (int iy = 0; iy < N_UP; iy++) {
+                const double x[3] = { foot[0], lo[1] + (iy + 0.5) * h[1], foot[2] };
+                within += shape->inside(&value, x) > 0.0;
+            }
+            cells += within;
+            columns += within > 0 || shape->inside(&value, foot) > 0.0;
+        }
+    *area = columns * h[0] * h[2];
+    *volume = cells * h[0] * h[1] * h[2];
+}
+
+static crater_spec spec_of(const breech_case *c, const case_site *g, const mpm_scene *s)
+{
+    crater_spec spec = { .surface = 0.0,
+                         .x_lo = s->axis[0].fine_lo,
+                         .x_hi = s->axis[0].fine_hi + FRONT_SPEED * s->follow_speed * s->end_time,
+                         .z_hi = fmax(s->axis[2].fine_hi, s->follow_width),
+                         .mirrored = c->scene.half_model,
+                         .cell = s->axis[0].fine,
+                         .particle_radius = g->radius,
+                         .particle_height = g->height,
+                         .particle_x = 0.0,
+                         .limit_widening = c->scene.limit_widening,
+                         .limit_severity = c->scene.limit_severity };
+    measure_grain(g, &spec.particle_area, &spec.particle_volume);
+    return spec;
+}
+
+status scene_bodies(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out)
+{
+    CHECK(state->velocity > 0.0 && isfinite(state->velocity), STATUS_BAD_INPUT,
+          "scene: the armature's velocity is %g m/s: must be positive", state->velocity);
+    const layout l = lay_out(c, &state->grain, cells_per_radius);
+    TRY(check_layout(c, &state->grain, &l));
+    TRY(check_layers(c, &state->grain, &l));
+    mpm_scene_default(out);
+    TRY(add_bodies(c, state, &l, out));
+    set_contacts(c, out);
+    set_axes(c, &l, out);
+    set_follow(c, &state->grain, &l, out);
+    set_method(c, &l, out);
+    return reaches_gauge(c, out);
+}
+
+status scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out,
+                        crater_spec *spec)
+{
+    TRY(scene_bodies(c, state, cells_per_radius, out));
+    *spec = spec_of(c, &state->grain, out);
+    return status_ok();
+}

@@ -1,0 +1,197 @@
+#include "coupling/gouge/site_state.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+double projectile_face_area(const case_projectile *p)
+{
+    return (p->length - p->chamfer_height / tan(p->lead_angle)) * p->width;
+}
+
+void shot_outcome_free(shot_outcome *o)
+{
+    if (!o) return;
+    free(o->site);
+    free(o->trace);
+    memset(o, 0, sizeof *o);
+}
+
+bool trace_at_velocity(const shot_outcome *o, double v, trace_point *at)
+{
+    for (int i = 0; i < o->n_trace; i++) {
+        const trace_point *b = &o->trace[i];
+        if (b->v < v) continue;
+        *at = *b;
+        if (i == 0 || b->v == v) return true;
+        const trace_point *a = b - 1;
+        const double f = (v - a->v) / (b->v - a->v);
+        *at = (trace_point){ a->t + f * (b->t - a->t), a->x + f * (b->x - a->x), v,
+                             a->contact_pressure + f * (b->contact_pressure - a->contact_pressure) };
+        return true;
+    }
+    return false;
+}
+
+/* ---- the sinks ---- */
+
+typedef struct {
+    const breech_case *c;
+    const shot_plan *plan;
+    shot_outcome *out;
+    double face_area;   /* [m2] */
+    double last_sample; /* of the history [s] */
+    int rows[3];        /* series: shot, modules, events */
+    status error;       /* of the sinks, reported when the shot has stopped */
+} recorder;
+
+static bool keep(recorder *r, status s)
+{
+    if (s.code != STATUS_OK && r->error.code == STATUS_OK) r->error = s;
+    return r->error.code == STATUS_OK;
+}
+
+static double pressure_of(const recorder *r, const shot_state *s)
+{
+    return s->contact_force / r->face_area;
+}
+
+static void arrive(recorder *r, const shot_event *e)
+{
+    site_state *s = &r->out->site[e->index];
+    s->reached = true;
+    s->time = e->state.t;
+    s->velocity = e->state.v;
+    s->current = e->state.current;
+    s->contact_pressure = pressure_of(r, &e->state);
+    s->rail_temperature = e->state.rail_temperature;
+    s->armature_temperature = e->state.armature_temperature;
+}
+
+static bool on_event(void *user, shot *s, const shot_event *e)
+{
+    recorder *r = user;
+    if (r->plan->history) {
+        double row[HISTORY_MAX_COLUMNS];
+        history_event_row(e, row);
+        if (!keep(r, history_append(r->plan->history, r->rows[2], row))) return false;
+    }
+    if (e->kind != SHOT_SITE) return true;
+    arrive(r, e);
+    const site_jump *j = r->plan->jump ? &r->plan->jump[e->index] : NULL;
+    return !j || !(j->impulse > 0.0 || j->mass_loss > 0.0) || keep(r, shot_jump(s, j->impulse, j->mass_loss));
+}
+
+static status keep_trace(recorder *r, const shot_state *s)
+{
+    shot_outcome *o = r->out;
+    if (s->phase == SHOT_LEFT || (o->n_trace > 0 && s->t <= o->trace[o->n_trace - 1].t)) return status_ok();
+    if (o->n_trace == o->trace_room) {
+        const int room = o->trace_room ? 2 * o->trace_room : 1024;
+        trace_point *more = realloc(o->trace, (size_t)room * sizeof *more);
+        CHECK(more, STATUS_MEMORY, "no memory for %d steps of the shot", room);
+        o->trace = more;
+        o->trace_room = room;
+    }
+    o->trace[o->n_trace++] = (trace_point){ s->t, s->x, s->v, pressure_of(r, s) };
+    return status_ok();
+}
+
+static status write_rows(recorder *r, const shot *s, const shot_state *state)
+{
+    double row[HISTORY_MAX_COLUMNS];
+    const double interval = r->c->output.history_interval;
+    if (!r->plan->history || (interval > 0.0 && state->t < r->last_sample + interval)) return status_ok();
+    r->last_sample = state->t;
+    history_shot_row(state, row);
+    TRY(history_append(r->plan->history, r->rows[0], row));
+    history_modules_row(s, row);
+    return history_append(r->plan->history, r->rows[1], row);
+}
+
+static bool on_sample(void *user, const shot *s, const shot_state *state)
+{
+    recorder *r = user;
+    const double length = r->c->barrel.length, start = r->c->barrel.start;
+    if (r->plan->progress) progress_update(r->plan->progress, (state->x - start) / (length - start), 0);
+    if (r->plan->stop && r->plan->stop()) keep(r, status_error(STATUS_STOPPED, "stopped at t = %g s", state->t));
+    return keep(r, keep_trace(r, state)) && keep(r, write_rows(r, s, state));
+}
+
+/* ---- the run ---- */
+
+static status open_series(recorder *r, const shot *s)
+{
+    history *h = r->plan->history;
+    if (!h) return status_ok();
+    TRY(history_shot(h, &r->rows[0]));
+    TRY(history_modules(h, s, &r->rows[1]));
+    TRY(history_events(h, &r->rows[2]));
+    for (int k = 0; k < 3; k++) TRY(history_rewind(h, r->rows[k], -1.0)); /* a shot is rerun, not taken up again */
+    return status_ok();
+}
+
+static status close_series(recorder *r)
+{
+    for (int k = 0; r->plan->history && k < 3; k++) TRY(history_end(r->plan->history, r->rows[k]));
+    return status_ok();
+}
+
+static status run(recorder *r, shot *s)
+{
+    TRY(open_series(r, s));
+    const shot_sink sink = { on_event, on_sample, r };
+    const status done = shot_advance(s, INFINITY, &sink);
+    if (r->error.code != STATUS_OK) return r->error;
+    TRY(done);
+    r->out->summary = shot_result(s);
+    r->out->limits = shot_limits_of(s);
+    shot_rail_rise(s, r->out->rail_rise);
+    return close_series(r);
+}
+
+static status prepare(const breech_case *c, shot_outcome *out, double **positions)
+{
+    const size_t n = c->sites.n > 0 ? (size_t)c->sites.n : 1;
+    out->site = malloc(n * sizeof *out->site);
+    *positions = malloc(n * sizeof **positions);
+    CHECK(out->site && *positions, STATUS_MEMORY, "no memory for %d sites", c->sites.n);
+    out->n_sites = c->sites.n;
+    for (int i = 0; i < c->sites.n; i++) {
+        (*positions)[i] = c->sites.item[i].position;
+        out->site[i] = (site_state){ c->sites.item[i], false, NAN, NAN, NAN, NAN, NAN, NAN };
+    }
+    return status_ok();
+}
+
+shot_config shot_of_case(const breech_case *c, const double *sites)
+{
+    shot_config config = { .rails = c->rails,
+                           .barrel = c->barrel,
+                           .armature = c->armature,
+                           .options = c->options,
+                           .sites = sites,
+                           .n_sites = sites ? c->sites.n : 0 };
+    for (int k = 0; k < SUPPLY_KINDS; k++) config.supplies[k] = (supply_list){ c->supplies[k].n, c->supplies[k].item };
+    return config;
+}
+
+status shot_run(const breech_case *c, const shot_plan *plan, shot_outcome *out)
+{
+    memset(out, 0, sizeof *out);
+    double *positions = NULL;
+    shot *s = NULL;
+    recorder r = { .c = c, .plan = plan, .out = out, .last_sample = -INFINITY, .error = status_ok() };
+    const double nominal =
+        c->armature.contact_length * (isnan(c->armature.contact_width) ? c->rails.height : c->armature.contact_width);
+    r.face_area = c->given.projectile ? projectile_face_area(&c->projectile) : nominal;
+    status done = prepare(c, out, &positions);
+    if (done.code == STATUS_OK) {
+        const shot_config config = shot_of_case(c, positions);
+        done = shot_create(&config, &s);
+    }
+    if (done.code == STATUS_OK) done = run(&r, s);
+    shot_free(s);
+    free(positions);
+    return done;
+}

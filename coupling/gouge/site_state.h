@@ -1,0 +1,70 @@
+/* From the shot to the sites: the armature's state on its arrival at every grain of the case.
+ *
+ * The shot is run once, the sites its located roots (no step passes over one); what it was along the way is kept as a
+ * trace, so that a velocity becomes a place.  Gouges can be handed back as jumps at their sites. */
+#ifndef BREECH_COUPLING_SITE_STATE_H
+#define BREECH_COUPLING_SITE_STATE_H
+
+#include "circuit/shot.h"
+#include "coupling/case/case.h"
+#include "coupling/host/progress.h"
+#include "coupling/output/history.h"
+
+/* What an impact scene is made from. */
+typedef struct {
+    case_site grain;
+    bool reached;            /* the armature comes there; if not, all below is NaN */
+    double time;             /* of arrival [s] */
+    double velocity;         /* [m/s] */
+    double current;          /* [A] */
+    double contact_pressure; /* contact force of one face over the face, projectile_face_area [Pa] */
+    double rail_temperature; /* as the circuit has it ahead of the armature; scenes take case.rail's [K] */
+    double
+        armature_temperature; /* of its contact face, a film thinner than a cell; scenes take case.projectile's [K] */
+} site_state;
+
+/* The shot at one accepted step. */
+typedef struct {
+    double t, x, v;          /* [s, m, m/s] */
+    double contact_pressure; /* [Pa] */
+} trace_point;
+
+/* What a gouge takes from the armature at its site. */
+typedef struct {
+    double impulse;   /* against the motion [N s] */
+    double mass_loss; /* [kg] */
+} site_jump;
+
+typedef struct {
+    shot_summary summary;
+    shot_limits limits;
+    double rail_rise[SHOT_PIECES]; /* that the shot leaves, along the barrel [K] */
+    int n_sites;
+    site_state *site; /* in the case's order, owned */
+    int n_trace, trace_room;
+    trace_point *trace; /* owned */
+} shot_outcome;
+
+/* How a shot is run; members that are NULL are not wanted. */
+typedef struct {
+    history *history;      /* takes /shot, /shot/modules, /shot/events */
+    progress *progress;    /* measured by the way in the barrel */
+    const site_jump *jump; /* one a site of the case, taken when it is passed */
+    bool (*stop)(void);    /* true: stop after the step, STATUS_STOPPED */
+} shot_plan;
+
+/* What circuit/ is given; sites: positions of the case's sites, NULL for none; all borrowed. */
+shot_config shot_of_case(const breech_case *c, const double *sites);
+
+/* The case's bank, rails, barrel and armature; its sites too when there are any.  *out needs shot_outcome_free even on
+ * error.  STATUS_NUMERICAL, STATUS_BAD_INPUT as shot_create and shot_advance. */
+status shot_run(const breech_case *c, const shot_plan *plan, shot_outcome *out);
+void shot_outcome_free(shot_outcome *o); /* NULL allowed */
+
+/* First instant at which the armature has the velocity v, between two steps linearly; false if it never has. */
+bool trace_at_velocity(const shot_outcome *o, double v, trace_point *at);
+
+/* Nominal contact face of one leg: its length without the lead face, times its width [m2]. */
+double projectile_face_area(const case_projectile *p);
+
+#endif

@@ -1,0 +1,47 @@
+#include "coupling/host/file_text.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+bool file_exists(const char *path)
+{
+    struct stat s;
+    return stat(path, &s) == 0 && !S_ISDIR(s.st_mode);
+}
+
+bool folder_exists(const char *path)
+{
+    struct stat s;
+    return stat(path, &s) == 0 && S_ISDIR(s.st_mode);
+}
+
+static status read_all(FILE *file, const char *path, size_t limit, char *bytes, size_t *length)
+{
+    *length = fread(bytes, 1, limit + 1, file);
+    CHECK(!ferror(file), STATUS_IO, "%s cannot be read: %s", path, strerror(errno));
+    CHECK(*length <= limit, STATUS_BAD_INPUT, "%s is longer than %zu bytes", path, limit);
+    return status_ok();
+}
+
+status file_text(const char *path, size_t limit, char **bytes, size_t *length)
+{
+    *bytes = NULL;
+    *length = 0;
+    FILE *file = fopen(path, "rb");
+    CHECK(file, errno == ENOENT ? STATUS_BAD_INPUT : STATUS_IO, "%s cannot be opened: %s", path, strerror(errno));
+    char *all = malloc(limit + 1);
+    if (!all) {
+        fclose(file);
+        return status_error(STATUS_MEMORY, "out of memory while reading %s", path);
+    }
+    const status s = read_all(file, path, limit, all, length);
+    fclose(file);
+    if (s.code == STATUS_OK)
+        *bytes = all;
+    else
+        free(all);
+    return s;
+}

@@ -1,0 +1,262 @@
+#include "coupling/host/outdir.h"
+
+#include "coupling/output/summary.h"
+
+#include <ctype.h>
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- a file appears at once or not at all ---- */
+
+static status path_join(const char *dir, const char *name, char *path, size_t size)
+{
+    const int n = snprintf(path, size, "%s/%s", dir, name);
+    CHECK(n > 0 && (size_t)n < size, STATUS_IO, "%.200s/%.100s: path longer than %zu characters", dir, name, size - 1);
+    return status_ok();
+}
+
+status file_begin(file_writer *w, const char *path)
+{
+    const int n = snprintf(w->path, sizeof w->path, "%s", path);
+    CHECK(n > 0 && (size_t)n < sizeof w->path, STATUS_IO, "%.200s...: path longer than %d characters", path,
+          OUTDIR_PATH_SIZE - 1);
+    snprintf(w->part, sizeof w->part, "%s.part", path);
+    w->stream = fopen(w->part, "wb");
+    CHECK(w->stream, STATUS_IO, "%.300s: cannot be written: %s", w->part, strerror(errno));
+    return status_ok();
+}
+
+/* The rename itself must survive a power cut, so the directory is synchronised too; file systems that cannot, do not. */
+static void sync_parent(const char *path)
+{
+    char dir[OUTDIR_PATH_SIZE];
+    snprintf(dir, sizeof dir, "%s", path);
+    char *slash = strrchr(dir, '/');
+    if (slash) slash[slash == dir ? 1 : 0] = '\0';
+    const int fd = open(slash ? dir : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd < 0) return;
+    fsync(fd);
+    close(fd);
+}
+
+status file_end(file_writer *w, bool keep)
+{
+    errno = 0;
+    int error = 0;
+    if (keep && (ferror(w->stream) || fflush(w->stream) != 0 || fsync(fileno(w->stream)) != 0))
+        error = errno ? errno : EIO;
+    if (fclose(w->stream) != 0 && keep && !error) error = errno;
+    w->stream = NULL;
+    if (keep && !error && rename(w->part, w->path) != 0) error = errno;
+    if (!keep || error) unlink(w->part);
+    CHECK(!error, STATUS_IO, "%.300s: cannot be written: %s", w->path, strerror(error));
+    if (keep) sync_parent(w->path);
+    return status_ok();
+}
+
+status file_write(const char *path, const void *data, size_t bytes)
+{
+    file_writer w;
+    TRY(file_begin(&w, path));
+    if (bytes > 0 && fwrite(data, 1, bytes, w.stream) != bytes) {
+        const int error = errno;
+        file_end(&w, false);
+        return status_error(STATUS_IO, "%.300s: cannot be written: %s", path, strerror(error));
+    }
+    return file_end(&w, true);
+}
+
+static status read_open_file(FILE *f, const char *path, char **data, size_t *bytes)
+{
+    struct stat info;
+    CHECK(fstat(fileno(f), &info) == 0 && S_ISREG(info.st_mode), STATUS_IO, "%.300s: is not a file", path);
+    const size_t size = (size_t)info.st_size;
+    char *text = malloc(size + 1);
+    CHECK(text, STATUS_MEMORY, "%.300s: no memory for its %zu bytes", path, size);
+    if (fread(text, 1, size, f) != size) {
+        free(text);
+        return status_error(STATUS_IO, "%.300s: cannot be read to its end", path);
+    }
+    text[size] = '\0';
+    *data = text;
+    if (bytes) *bytes = size;
+    return status_ok();
+}
+
+status file_read(const char *path, char **data, size_t *bytes)
+{
+    *data = NULL;
+    FILE *f = fopen(path, "rb");
+    CHECK(f, STATUS_IO, "%.300s: cannot be read: %s", path, strerror(errno));
+    const status s = read_open_file(f, path, data, bytes);
+    fclose(f);
+    return s;
+}
+
+/* ---- the directory ---- */
+
+status outdir_default(const char *case_name, char *path, size_t size)
+{
+    char name[128];
+    size_t n = 0;
+    for (const char *c = case_name; *c && n + 1 < sizeof name; c++)
+        name[n++] = isalnum((unsigned char)*c) || strchr("-_.", *c) ? *c : '-';
+    name[n] = '\0';
+    if (strspn(name, ".") == n) snprintf(name, sizeof name, "case");
+    return path_join("out", name, path, size);
+}
+
+status directory_make(const char *path)
+{
+    char part[OUTDIR_PATH_SIZE];
+    const int n = snprintf(part, sizeof part, "%s", path);
+    CHECK(n > 0 && (size_t)n < sizeof part, STATUS_BAD_INPUT,
+          "output directory: the path has %d characters, at most %d", n, OUTDIR_PATH_SIZE - 1);
+    for (char *c = part + 1;; c++) {
+        if (*c != '/' && *c != '\0') continue;
+        const char kept = *c;
+        *c = '\0';
+        CHECK(mkdir(part, 0777) == 0 || errno == EEXIST || errno == EISDIR, STATUS_IO,
+              "%.300s: this directory cannot be made: %s", part, strerror(errno));
+        if (!kept) return status_ok();
+        *c = kept;
+    }
+}
+
+static status probe_writable(const char *dir)
+{
+    char probe[OUTDIR_PATH_SIZE];
+    TRY(path_join(dir, ".probe.part", probe, sizeof probe));
+    const int fd = open(probe, O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
+    CHECK(fd >= 0, STATUS_IO, "%.300s: cannot be written to: %s", dir, strerror(errno));
+    close(fd);
+    unlink(probe);
+    return status_ok();
+}
+
+/* The descriptor holds the lock; it goes with the process, however that ends.  File systems without locks get none. */
+static status lock_directory(const char *dir, int *lock)
+{
+    *lock = open(dir, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    CHECK(*lock >= 0, STATUS_IO, "%.300s: cannot be opened as a directory: %s", dir, strerror(errno));
+    if (flock(*lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return status_ok();
+    close(*lock);
+    *lock = -1;
+    return status_error(STATUS_BAD_INPUT, "%.300s: another run is writing there; wait for it or give another -o", dir);
+}
+
+static bool has_suffix(const char *name, const char *suffix)
+{
+    const size_t n = strlen(name), m = strlen(suffix);
+    return n >= m && strcmp(name + n - m, suffix) == 0;
+}
+
+static bool is_ours(const char *name)
+{
+    static const char *const names[] = { OUTDIR_SUMMARY, OUTDIR_HISTORY, OUTDIR_USED, OUTDIR_CHECKPOINT,
+                                         OUTDIR_REPORT };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(name, names[i]) == 0) return true;
+    return has_suffix(name, ".part") || (strncmp(name, "plot-", 5) == 0 && has_suffix(name, ".svg")) ||
+           (strncmp(name, "scene", 5) == 0 && (has_suffix(name, ".hdf") || has_suffix(name, ".hdf.series")));
+}
+
+/* Removes what a run wrote there and nothing else: an unknown file, and the folder that holds it, stay. */
+static void remove_ours(const char *dir, int depth)
+{
+    DIR *d = opendir(dir);
+    if (!d) return;
+    for (const struct dirent *e; (e = readdir(d));) {
+        char path[OUTDIR_PATH_SIZE];
+        if (e->d_name[0] == '.' || path_join(dir, e->d_name, path, sizeof path).code != STATUS_OK) continue;
+        if (is_ours(e->d_name)) unlink(path);
+        if (depth == 1 || (depth == 0 && strcmp(e->d_name, "scenes") == 0)) {
+            remove_ours(path, depth + 1);
+            rmdir(path);
+        }
+    }
+    closedir(d);
+}
+
+static status decide(outdir *d, outdir_options options)
+{
+    char state[16], checkpoint[OUTDIR_PATH_SIZE];
+    summary_status(d->path, state, sizeof state);
+    TRY(outdir_file(d, OUTDIR_CHECKPOINT, checkpoint, sizeof checkpoint));
+    const bool finished = strcmp(state, "done") == 0, stopped = file_exists(checkpoint);
+    d->state = OUTDIR_NEW;
+    if (options.force) {
+        remove_ours(d->path, 0);
+    } else if (options.resume) {
+        d->state = finished ? OUTDIR_FINISHED : stopped ? OUTDIR_RESUMED : OUTDIR_NEW;
+    } else {
+        CHECK(!finished, STATUS_BAD_INPUT,
+              "%.300s: holds a finished result; --force overwrites it, -o names another directory", d->path);
+        CHECK(!stopped, STATUS_BAD_INPUT, "%.300s: holds a stopped run; --resume goes on with it, --force starts over",
+              d->path);
+    }
+    if (d->state == OUTDIR_NEW) remove_ours(d->path, 0);
+    return status_ok();
+}
+
+status outdir_open(const char *path, outdir_options options, outdir *out)
+{
+    CHECK(!(options.force && options.resume), STATUS_BAD_INPUT, "--force and --resume exclude each other");
+    outdir d = { .lock = -1 };
+    TRY(directory_make(path));
+    snprintf(d.path, sizeof d.path, "%s", path);
+    TRY(probe_writable(path));
+    TRY(lock_directory(path, &d.lock));
+    const status s = decide(&d, options);
+    if (s.code != STATUS_OK) {
+        outdir_close(&d);
+        return s;
+    }
+    *out = d;
+    return status_ok();
+}
+
+void outdir_close(outdir *d)
+{
+    if (d->lock >= 0) close(d->lock);
+    d->lock = -1;
+}
+
+status outdir_file(const outdir *d, const char *name, char *path, size_t size)
+{
+    return path_join(d->path, name, path, size);
+}
+
+bool name_is_plain(const char *name)
+{
+    if (name[0] == '\0' || name[0] == '.') return false;
+    for (; *name; name++)
+        if (!isalnum((unsigned char)*name) && !strchr("-_.", *name)) return false;
+    return true;
+}
+
+status outdir_scene(const outdir *d, const char *scene, char *path, size_t size)
+{
+    char scenes[OUTDIR_PATH_SIZE];
+    CHECK(name_is_plain(scene), STATUS_BAD_INPUT, "scene `%.100s`: letters, digits, - _ . only", scene);
+    TRY(path_join(d->path, "scenes", scenes, sizeof scenes));
+    TRY(path_join(scenes, scene, path, size));
+    return directory_make(path);
+}
+
+void outdir_drop_scene(const outdir *d, const char *scene)
+{
+    char scenes[OUTDIR_PATH_SIZE], path[OUTDIR_PATH_SIZE];
+    if (!name_is_plain(scene) || path_join(d->path, "scenes", scenes, sizeof scenes).code != STATUS_OK ||
+        path_join(scenes, scene, path, sizeof path).code != STATUS_OK)
+        return;
+    remove_ours(path, 2);
+    rmdir(path);
+}

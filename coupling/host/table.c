@@ -1,0 +1,147 @@
+#include "coupling/host/table.h"
+
+#include <ctype.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_COLUMNS = 16, CELL_SIZE = 96, LINE_SIZE = MAX_COLUMNS * CELL_SIZE };
+
+typedef struct {
+    char cell[MAX_COLUMNS][CELL_SIZE];
+} row;
+
+struct table {
+    int columns;
+    size_t rows, room;
+    row *row; /* the titles come first */
+};
+
+/* Bytes that start a character: what a terminal shows of UTF-8. */
+static int shown_width(const char *text)
+{
+    int n = 0;
+    for (; *text; text++) n += ((unsigned char)*text & 0xC0) != 0x80;
+    return n;
+}
+
+/* Number of cells, or -1 when there are too many or one is too long. */
+static int split(const char *line, row *out)
+{
+    memset(out, 0, sizeof *out);
+    int column = 0;
+    size_t n = 0;
+    for (; *line; line++) {
+        if (*line == '|') {
+            column++;
+            n = 0;
+        } else if (column < MAX_COLUMNS && n + 1 < CELL_SIZE) {
+            out->cell[column][n++] = *line;
+        } else {
+            return -1;
+        }
+    }
+    return column < MAX_COLUMNS ? column + 1 : -1;
+}
+
+static status add(table *t, const row *r)
+{
+    if (t->rows == t->room) {
+        const size_t room = 2 * t->room + 8;
+        row *grown = realloc(t->row, room * sizeof *grown);
+        CHECK(grown, STATUS_MEMORY, "no memory for a table of %zu rows", room);
+        t->row = grown;
+        t->room = room;
+    }
+    t->row[t->rows++] = *r;
+    return status_ok();
+}
+
+status table_create(const char *titles, table **out)
+{
+    *out = NULL;
+    row r;
+    const int columns = split(titles, &r);
+    CHECK(columns > 0, STATUS_BAD_INPUT, "table: at most %d columns of %d characters: %.200s", MAX_COLUMNS,
+          CELL_SIZE - 1, titles);
+    table *t = calloc(1, sizeof *t);
+    CHECK(t, STATUS_MEMORY, "no memory for a table");
+    t->columns = columns;
+    const status s = add(t, &r);
+    if (s.code != STATUS_OK) {
+        table_free(t);
+        return s;
+    }
+    *out = t;
+    return s;
+}
+
+status table_row(table *t, const char *format, ...)
+{
+    char line[LINE_SIZE];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(line, sizeof line, format, args);
+    va_end(args);
+    row r;
+    const int columns = split(line, &r);
+    CHECK(columns > 0 && columns <= t->columns, STATUS_BAD_INPUT, "table: %d cells in a row of %d columns: %.200s",
+          columns, t->columns, line);
+    return add(t, &r);
+}
+
+static bool is_number(const char *text)
+{
+    char *end;
+    strtod(text, &end);
+    if (end == text) return false;
+    while (isspace((unsigned char)*end) || *end == '%') end++;
+    return *end == '\0';
+}
+
+/* A column of numbers (and dashes for what is missing) goes to the right, with its title. */
+static bool column_is_numbers(const table *t, int c)
+{
+    bool any = false;
+    for (size_t i = 1; i < t->rows; i++) {
+        const char *cell = t->row[i].cell[c];
+        if (is_number(cell))
+            any = true;
+        else if (cell[0] && strcmp(cell, "-") != 0)
+            return false;
+    }
+    return any;
+}
+
+void table_print(const table *t, FILE *out)
+{
+    int width[MAX_COLUMNS] = { 0 };
+    bool right[MAX_COLUMNS];
+    for (int c = 0; c < t->columns; c++) {
+        right[c] = column_is_numbers(t, c);
+        for (size_t i = 0; i < t->rows; i++) {
+            const int w = shown_width(t->row[i].cell[c]);
+            if (w > width[c]) width[c] = w;
+        }
+    }
+    for (size_t i = 0; i < t->rows; i++) {
+        for (int c = 0; c < t->columns; c++) {
+            const char *cell = t->row[i].cell[c];
+            const int pad = width[c] - shown_width(cell);
+            const bool last = c == t->columns - 1;
+            if (c) fputs("  ", out);
+            if (right[c]) fprintf(out, "%*s", pad, "");
+            fputs(cell, out);
+            if (!right[c] && !last) fprintf(out, "%*s", pad, "");
+        }
+        fputc('\n', out);
+    }
+}
+
+void table_free(table *t)
+{
+    if (!t) return;
+    free(t->row);
+    free(t);
+}

@@ -1,0 +1,316 @@
+#include "coupling/host/units.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <udunits2.h>
+
+enum { NUMBER_SIZE = 64 };
+
+struct units {
+    ut_system *system;
+};
+
+status units_open(units **out)
+{
+    *out = NULL;
+    ut_set_error_message_handler(ut_ignore);
+    ut_system *system = ut_read_xml(NULL);
+    CHECK(system, STATUS_IO,
+          "udunits2 cannot read its unit database (udunits2.xml): is the package libudunits2-data "
+          "installed, or UDUNITS2_XML_PATH set to another file?");
+    units *u = malloc(sizeof *u);
+    if (!u) {
+        ut_free_system(system);
+        return status_error(STATUS_MEMORY, "out of memory for the unit system");
+    }
+    u->system = system;
+    *out = u;
+    return status_ok();
+}
+
+void units_close(units *u)
+{
+    if (!u) return;
+    ut_free_system(u->system);
+    free(u);
+}
+
+static bool same(const char *a, const char *b)
+{
+    return strcmp(a, b) == 0;
+}
+
+/* Length of the decimal number at the start of `text`, 0 if there is none.  No hexadecimal, no "nan". */
+static size_t number_length(const char *text)
+{
+    size_t i = 0, digits = 0;
+    if (text[i] == '+' || text[i] == '-') i++;
+    if (strncmp(text + i, ".inf", 4) == 0 || strncmp(text + i, "inf", 3) == 0) return i + (text[i] == '.' ? 4 : 3);
+    for (; isdigit((unsigned char)text[i]); i++) digits++;
+    if (text[i] == '.') i++;
+    for (; isdigit((unsigned char)text[i]); i++) digits++;
+    if (digits == 0) return 0;
+    if (text[i] != 'e' && text[i] != 'E') return i;
+    size_t j = i + 1;
+    if (text[j] == '+' || text[j] == '-') j++;
+    if (!isdigit((unsigned char)text[j])) return i;
+    while (isdigit((unsigned char)text[j])) j++;
+    return j;
+}
+
+static double number_value(const char *text, size_t length)
+{
+    const bool minus = text[0] == '-';
+    if (strstr(text, "inf") && text[length - 1] == 'f') return minus ? -INFINITY : INFINITY;
+    char copy[NUMBER_SIZE];
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    return strtod(copy, NULL);
+}
+
+/* Words udunits2 would take for a shift of the origin, a logarithm or a sign. */
+static bool has_forbidden_word(const char *unit)
+{
+    static const char *const words[] = { "since", "after", "from", "ref", "re", "lg", "ln", "lb", "log", "per", NULL };
+    for (const char *s = unit; *s;) {
+        const size_t length = strspn(s, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+        for (int k = 0; words[k]; k++)
+            if (length == strlen(words[k]) && strncmp(s, words[k], length) == 0) return true;
+        s += length > 0 ? length : 1;
+    }
+    return false;
+}
+
+/* ---- what a unit may look like ----
+ *
+ *   unit    = [1/] product               "1/s", "kg m^-3", "W/(m K)"
+ *   product = factor { [* . / or nothing] factor }
+ *   factor  = name [power] | ( product ) [power]
+ *   power   = [^ or **] [sign] one or two digits, or a superscript 2 or 3
+ *
+ * udunits2 knows more, and loses memory on some of what it does not know: so it only sees what has this form.
+ * Each function returns where its part ends, NULL where it is none. */
+
+enum { UNIT_MAX_DEPTH = 3 };
+
+static const char *skip_any(const char *s, const char *const *words)
+{
+    for (int k = 0; words[k]; k++)
+        if (strncmp(s, words[k], strlen(words[k])) == 0) return s + strlen(words[k]);
+    return s;
+}
+
+static const char *skip_name(const char *s)
+{
+    static const char *const letters[] = {
+        "\xc2\xb5", "\xce\xbc", "\xc2\xb0", "\xce\xa9", "\xe2\x84\xa6", NULL
+    }; /* micro, micro, degree, ohm, ohm */
+    const char *start = s;
+    for (;;) {
+        const char *next = skip_any(s, letters);
+        if (next == s && (isalpha((unsigned char)*s) || *s == '_' || *s == '%')) next++;
+        if (next == s) return s > start ? s : NULL;
+        s = next;
+    }
+}
+
+static const char *skip_power(const char *s)
+{
+    static const char *const superscripts[] = { "\xc2\xb2", "\xc2\xb3", NULL }, *const marks[] = { "^", "**", NULL };
+    const char *end = skip_any(s, superscripts);
+    if (end != s) return end;
+    end = skip_any(s, marks);
+    if (*end == '-' || *end == '+') end++;
+    const size_t digits = strspn(end, "0123456789");
+    if (digits == 0) return end == s ? s : NULL; /* no power; a mark or a sign without a number */
+    return digits <= 2 ? end + digits : NULL;
+}
+
+static const char *skip_blanks(const char *s)
+{
+    return s + strspn(s, " \t");
+}
+
+static const char *skip_product(const char *s, int depth);
+
+static const char *skip_factor(const char *s, int depth)
+{
+    const char *end = NULL;
+    if (*s == '(') {
+        end = skip_product(s + 1, depth + 1);
+        if (!end || *end != ')') return NULL;
+        end++;
+    } else {
+        end = skip_name(s);
+    }
+    return end ? skip_power(end) : NULL;
+}
+
+/* Ends at the text's end or at a closing bracket. */
+static const char *skip_product(const char *s, int depth)
+{
+    static const char *const signs[] = { "*", "/", ".", "\xc2\xb7", NULL };
+    if (depth > UNIT_MAX_DEPTH) return NULL;
+    s = skip_factor(skip_blanks(s), depth);
+    while (s) {
+        const char *next = skip_blanks(s);
+        if (*next == '\0' || *next == ')') return next;
+        const char *after = skip_any(next, signs);
+        if (after == s) return NULL; /* neither a blank nor a sign between two factors */
+        s = skip_factor(skip_blanks(after), depth);
+    }
+    return NULL;
+}
+
+static bool is_plausible(const char *unit)
+{
+    if (same(unit, "1")) return true;
+    const char *end = skip_product(strncmp(unit, "1/", 2) == 0 ? unit + 2 : unit, 0);
+    return end && *end == '\0' && !has_forbidden_word(unit);
+}
+
+static ut_unit *unit_parse(const units *u, const char *unit)
+{
+    if (same(unit, "deg")) unit = "degree";
+    if (!is_plausible(unit)) return NULL;
+    ut_unit *parsed = ut_parse(u->system, unit, UT_UTF8);
+    ut_set_status(UT_SUCCESS);
+    return parsed;
+}
+
+/* Radians and pure numbers are the same to udunits2, not to us. */
+static bool is_angle(const char *unit)
+{
+    static const char *const names[] = { "deg",  "degree",   "degrees",   "rad",       "radian", "radians",
+                                         "mrad", "\xc2\xb0", "arcminute", "arcsecond", NULL };
+    for (int k = 0; names[k]; k++)
+        if (same(unit, names[k])) return true;
+    return false;
+}
+
+static bool is_pure(const char *unit)
+{
+    return same(unit, "") || same(unit, "1") || same(unit, "%") || same(unit, "percent") || same(unit, "ppm");
+}
+
+/* Fifteen digits: "18 mm" and "0.018 m" are then the same bits, whatever the conversion's last one. */
+static double tidy(double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.15g", value);
+    return strtod(text, NULL);
+}
+
+static status convert(const units *u, double number, const char *from, const char *to, double *value)
+{
+    ut_unit *a = unit_parse(u, from), *b = unit_parse(u, to);
+    cv_converter *converter = a && b && ut_are_convertible(a, b) ? ut_get_converter(a, b) : NULL;
+    const bool known = a != NULL;
+    if (converter) *value = same(from, to) ? number : tidy(cv_convert_double(converter, number));
+    const bool done = converter != NULL;
+    if (converter) cv_free(converter);
+    ut_free(a);
+    ut_free(b);
+    ut_set_status(UT_SUCCESS);
+    CHECK(known, STATUS_BAD_INPUT, "`%s` is not a known unit (wanted: a unit of %s)", from, to);
+    CHECK(done, STATUS_BAD_INPUT, "`%s` is not a unit of %s", from, to);
+    return status_ok();
+}
+
+status quantity_read(const units *u, const char *text, const char *unit, double *value, char user_unit[UNIT_SIZE])
+{
+    const size_t length = number_length(text);
+    const bool pure = same(unit, "1");
+    const char *example = same(unit, "rad") ? "deg" : unit;
+    user_unit[0] = '\0';
+    if (pure) CHECK(length > 0, STATUS_BAD_INPUT, "must be a number");
+    CHECK(length > 0, STATUS_BAD_INPUT, "must be a number with a unit, such as `1 %s`", example);
+    CHECK(length < NUMBER_SIZE, STATUS_BAD_INPUT, "the number is longer than %d characters", NUMBER_SIZE - 1);
+    const double number = number_value(text, length);
+    CHECK(isfinite(number) || text[length - 1] == 'f', STATUS_BAD_INPUT, "is too large to be held in %s", unit);
+
+    const char *rest = text + length + strspn(text + length, " \t");
+    size_t end = strlen(rest);
+    while (end > 0 && (rest[end - 1] == ' ' || rest[end - 1] == '\t')) end--;
+    CHECK(end < UNIT_SIZE, STATUS_BAD_INPUT, "its unit is longer than %d characters", UNIT_SIZE - 1);
+    memcpy(user_unit, rest, end);
+    user_unit[end] = '\0';
+
+    if (end == 0 && (pure || isinf(number))) {
+        *value = number;
+        return status_ok();
+    }
+    CHECK(end > 0, STATUS_BAD_INPUT, "needs a unit, such as `%.*s %s`", (int)length, text, example);
+    if (pure)
+        CHECK(is_pure(user_unit), STATUS_BAD_INPUT, "is a pure number: no unit `%s` (or give it in %%)", user_unit);
+    if (same(unit, "rad"))
+        CHECK(is_angle(user_unit), STATUS_BAD_INPUT, "`%s` is not a unit of angle: use deg or rad", user_unit);
+    TRY(convert(u, number, user_unit, unit, value));
+    CHECK(!isnan(*value) && (isfinite(*value) || isinf(number)), STATUS_BAD_INPUT, "is too large to be held in %s",
+          unit);
+    return status_ok();
+}
+
+/* ---- showing ---- */
+
+static bool takes_prefix(const char *unit)
+{
+    static const char *const names[] = { "m", "s", "F", "H", "V", "A", "Pa", "ohm", "J", "W", "N", "Hz", "C", NULL };
+    for (int k = 0; names[k]; k++)
+        if (same(unit, names[k])) return true;
+    return false;
+}
+
+void quantity_text(double value, const char *unit, char *out, size_t size)
+{
+    static const char *const prefix[] = { "p", "n", "u", "m", "", "k", "M", "G", "T" };
+    if (same(unit, "1")) {
+        snprintf(out, size, "%.6g", value);
+        return;
+    }
+    int k = 4;
+    if (takes_prefix(unit) && value != 0.0 && isfinite(value)) {
+        k += (int)floor(log10(fabs(value)) / 3.0 + 1e-9);
+        k = k < 0 ? 0 : k > 8 ? 8 : k;
+        if (same(unit, "s") && k > 4) k = 4; /* nobody says kiloseconds */
+    }
+    snprintf(out, size, "%.6g %s%s", value * pow(10.0, -3.0 * (k - 4)), prefix[k], unit);
+}
+
+/* The user's unit is `unit` with a prefix or none: limits then read best with prefixes of their own. */
+static bool is_prefixed(const char *user_unit, const char *unit)
+{
+    if (!takes_prefix(unit)) return false;
+    const size_t a = strlen(user_unit), b = strlen(unit);
+    return a == 0 || (a >= b && a <= b + 2 && same(user_unit + a - b, unit));
+}
+
+static void limit_text(const units *u, double value, const char *unit, const char *user_unit, char *out, size_t size)
+{
+    double shown = value;
+    if (user_unit[0] == '\0' || same(user_unit, unit) || is_prefixed(user_unit, unit) ||
+        convert(u, value, unit, user_unit, &shown).code != STATUS_OK)
+        quantity_text(value, unit, out, size);
+    else
+        snprintf(out, size, "%.6g %s", shown, user_unit);
+}
+
+void quantity_limits(const units *u, double min, double max, const char *unit, const char *user_unit,
+                     char out[LIMITS_SIZE])
+{
+    char a[LIMITS_SIZE / 2 - 4], b[LIMITS_SIZE / 2 - 4];
+    limit_text(u, min, unit, user_unit, a, sizeof a);
+    limit_text(u, max, unit, user_unit, b, sizeof b);
+    if (isinf(min) && isinf(max))
+        snprintf(out, LIMITS_SIZE, "any value");
+    else if (isinf(max))
+        snprintf(out, LIMITS_SIZE, "at least %s", a);
+    else if (isinf(min))
+        snprintf(out, LIMITS_SIZE, "at most %s", b);
+    else
+        snprintf(out, LIMITS_SIZE, "%s .. %s", a, b);
+}

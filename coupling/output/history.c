@@ -1,0 +1,466 @@
+#include "coupling/output/history.h"
+
+#include "coupling/host/hdf5_file.h"
+#include "coupling/host/outdir.h"
+#include "coupling/host/progress.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define TICK_INTERVAL 5.0 /* between two flushes by history_tick [s] */
+#define TICK_SHARE 20.0   /* and at least this many times what the last one took */
+
+enum { BUFFER_ROWS = 256, GROUP_SIZE = 200, PATH_SIZE = 300 };
+
+typedef struct {
+    char group[GROUP_SIZE]; /* "" = free */
+    int columns;
+    char (*name)[64], (*unit)[32], (*description)[160]; /* columns each, owned */
+    double *row;                                        /* BUFFER_ROWS x columns, owned */
+    double *column;                                     /* BUFFER_ROWS, owned */
+    size_t rows;                                        /* gathered */
+} series_buffer;
+
+struct history {
+    char path[OUTDIR_PATH_SIZE];
+    h5_file *file;
+    series_buffer series[HISTORY_MAX_SERIES];
+    double flushed, flush_seconds; /* wall clock of the last flush, what it took [s] */
+    bool changed;
+};
+
+status history_open(const char *path, bool resume, history **out)
+{
+    *out = NULL;
+    history *h = calloc(1, sizeof *h);
+    CHECK(h, STATUS_MEMORY, "no memory for the history");
+    const int n = snprintf(h->path, sizeof h->path, "%s", path ? path : "");
+    status s = (size_t)n < sizeof h->path ? status_ok() : status_error(STATUS_IO, "%.200s...: path too long", path);
+    if (s.code == STATUS_OK) s = resume && path && file_exists(path) ? h5_open(path, &h->file) : h5_create(&h->file);
+    if (s.code != STATUS_OK) {
+        free(h);
+        return s;
+    }
+    h->flushed = wall_clock();
+    h->changed = true;
+    *out = h;
+    return s;
+}
+
+static void series_free(series_buffer *b)
+{
+    free(b->name);
+    free(b->unit);
+    free(b->description);
+    free(b->row);
+    free(b->column);
+    memset(b, 0, sizeof *b);
+}
+
+static bool series_allocate(series_buffer *b, int n)
+{
+    const size_t columns = (size_t)n;
+    b->columns = n;
+    b->name = calloc(columns, sizeof *b->name);
+    b->unit = calloc(columns, sizeof *b->unit);
+    b->description = calloc(columns, sizeof *b->description);
+    b->row = calloc(columns * BUFFER_ROWS, sizeof *b->row);
+    b->column = calloc(BUFFER_ROWS, sizeof *b->column);
+    return b->name && b->unit && b->description && b->row && b->column;
+}
+
+/* Moves the gathered rows into the file in memory; makes the columns on first use. */
+static status gather(history *h, series_buffer *b)
+{
+    for (int c = 0; c < b->columns; c++) {
+        char path[PATH_SIZE];
+        snprintf(path, sizeof path, "%s/%s", b->group, b->name[c]);
+        for (size_t i = 0; i < b->rows; i++) b->column[i] = b->row[i * (size_t)b->columns + (size_t)c];
+        TRY(h5_append(h->file, &(h5_name){ path, b->unit[c], b->description[c] }, b->column, b->rows));
+    }
+    b->rows = 0;
+    return status_ok();
+}
+
+static status gather_all(history *h)
+{
+    for (int i = 0; i < HISTORY_MAX_SERIES; i++)
+        if (h->series[i].rows > 0) TRY(gather(h, &h->series[i]));
+    return status_ok();
+}
+
+static int find_series(const history *h, const char *group)
+{
+    int i = 0;
+    while (i < HISTORY_MAX_SERIES && strcmp(h->series[i].group, group) != 0) i++;
+    return i;
+}
+
+status history_series(history *h, const char *group, const history_column *columns, int n, int *series)
+{
+    CHECK(n > 0 && n <= HISTORY_MAX_COLUMNS, STATUS_BAD_INPUT, "history %.100s: %d columns, 1 to %d", group, n,
+          HISTORY_MAX_COLUMNS);
+    CHECK(group[0] == '/' && strlen(group) < GROUP_SIZE, STATUS_BAD_INPUT, "history: %.100s is no group's name", group);
+    *series = find_series(h, group);
+    if (*series < HISTORY_MAX_SERIES) return status_ok();
+    *series = find_series(h, "");
+    CHECK(*series < HISTORY_MAX_SERIES, STATUS_BAD_INPUT, "history: more than %d series open", HISTORY_MAX_SERIES);
+    series_buffer *b = &h->series[*series];
+    if (!series_allocate(b, n)) {
+        series_free(b);
+        return status_error(STATUS_MEMORY, "no memory for the history of %.100s", group);
+    }
+    snprintf(b->group, sizeof b->group, "%s", group);
+    for (int c = 0; c < n; c++) {
+        snprintf(b->name[c], sizeof b->name[c], "%s", columns[c].name);
+        snprintf(b->unit[c], sizeof b->unit[c], "%s", columns[c].unit);
+        snprintf(b->description[c], sizeof b->description[c], "%s", columns[c].description);
+    }
+    h->changed = true;
+    return gather(h, b);
+}
+
+status history_append(history *h, int series, const double *row)
+{
+    series_buffer *b = &h->series[series];
+    memcpy(b->row + b->rows * (size_t)b->columns, row, (size_t)b->columns * sizeof *row);
+    b->rows++;
+    h->changed = true;
+    return b->rows < BUFFER_ROWS ? status_ok() : gather(h, b);
+}
+
+status history_rewind(history *h, int series, double time)
+{
+    series_buffer *b = &h->series[series];
+    TRY(gather(h, b));
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/%s", b->group, b->name[0]);
+    double *t;
+    size_t dims[H5_MAX_RANK], keep = 0;
+    TRY(h5_read(h->file, path, &t, dims));
+    while (keep < dims[0] && t[keep] <= time) keep++;
+    free(t);
+    for (int c = 0; c < b->columns; c++) {
+        snprintf(path, sizeof path, "%s/%s", b->group, b->name[c]);
+        TRY(h5_truncate(h->file, path, keep));
+    }
+    h->changed = true;
+    return status_ok();
+}
+
+status history_end(history *h, int series)
+{
+    const status s = gather(h, &h->series[series]);
+    series_free(&h->series[series]);
+    return s;
+}
+
+status history_flush(history *h)
+{
+    if (!h->changed || !h->path[0]) return status_ok();
+    const double start = wall_clock();
+    TRY(gather_all(h));
+    TRY(h5_save(h->file, h->path));
+    h->changed = false;
+    h->flushed = wall_clock();
+    h->flush_seconds = h->flushed - start;
+    return status_ok();
+}
+
+status history_tick(history *h)
+{
+    const double since = wall_clock() - h->flushed;
+    return since > TICK_INTERVAL && since > TICK_SHARE * h->flush_seconds ? history_flush(h) : status_ok();
+}
+
+status history_close(history *h)
+{
+    if (!h) return status_ok();
+    const status s = history_flush(h);
+    for (int i = 0; i < HISTORY_MAX_SERIES; i++) series_free(&h->series[i]);
+    h5_close(h->file);
+    free(h);
+    return s;
+}
+
+/* ---- a scene from one file to another ---- */
+
+#define STORED_GROUP "/scene"
+
+static status scene_group(const char *scene, char group[GROUP_SIZE])
+{
+    const int n = snprintf(group, GROUP_SIZE, "/scene/%s", scene);
+    CHECK(n > 0 && n < GROUP_SIZE - 20 && name_is_plain(scene), STATUS_BAD_INPUT,
+          "scene `%.100s`: letters, digits, - _ . only, at most 170", scene);
+    return status_ok();
+}
+
+bool history_has(const history *h, const char *scene)
+{
+    char group[GROUP_SIZE];
+    return scene_group(scene, group).code == STATUS_OK && h5_exists(h->file, group);
+}
+
+status history_export(history *h, const char *scene, h5_file *to)
+{
+    char group[GROUP_SIZE];
+    TRY(scene_group(scene, group));
+    TRY(gather_all(h));
+    return h5_copy(h->file, group, to, STORED_GROUP);
+}
+
+status history_copy_scene(history *from, const char *scene, history *to)
+{
+    char group[GROUP_SIZE];
+    TRY(scene_group(scene, group));
+    if (!h5_exists(from->file, group)) return status_ok();
+    TRY(gather_all(from));
+    to->changed = true;
+    return h5_copy(from->file, group, to->file, group);
+}
+
+status history_import(history *h, const char *scene, const h5_file *from)
+{
+    char group[GROUP_SIZE];
+    TRY(scene_group(scene, group));
+    h->changed = true;
+    return h5_copy(from, STORED_GROUP, h->file, group);
+}
+
+/* ---- the crater ---- */
+
+static status crater_axis(history *h, const char *path, const double range[2], int n, const char *description)
+{
+    double *x = malloc((n > 0 ? (size_t)n : 1) * sizeof *x);
+    CHECK(x, STATUS_MEMORY, "no memory for the crater's map");
+    for (int i = 0; i < n; i++) x[i] = range[0] + range[1] * i;
+    const status s = h5_write(h->file, &(h5_name){ path, "m", description },
+                              &(h5_array){ .type = H5_DOUBLE, .rank = 1, .dims = { (size_t)n }, .data = x });
+    free(x);
+    return s;
+}
+
+static status crater_numbers(history *h, const char *group, const crater *c)
+{
+    const struct {
+        const char *name;
+        double value;
+    } numbers[] = {
+        { "severity", c->severity },     { "widening", c->widening },
+        { "length_m", c->length },       { "width_m", c->width },
+        { "depth_m", c->depth },         { "volume_m3", c->volume },
+        { "rim_x_m", c->rim_x },         { "rim_height_m", c->rim_height },
+        { "deepest_x_m", c->deepest_x }, { "measuring_depth_m", c->measuring_depth },
+    };
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        TRY(h5_attribute_double(h->file, group, numbers[i].name, numbers[i].value));
+    TRY(h5_attribute_text(h->file, group, "class", damage_class_names[c->class]));
+    return h5_attribute_text(h->file, group, "reason", c->reason);
+}
+
+status history_crater(history *h, const char *scene, const crater *c)
+{
+    char group[GROUP_SIZE], path[PATH_SIZE];
+    TRY(scene_group(scene, group));
+    strcat(group, "/crater");
+    TRY(h5_group(h->file, group));
+    snprintf(path, sizeof path, "%s/x", group);
+    TRY(crater_axis(h, path, (const double[2]){ c->x0, c->dx }, c->nx, "along the rail, middle of a map cell"));
+    snprintf(path, sizeof path, "%s/z", group);
+    TRY(crater_axis(h, path, (const double[2]){ c->z0, c->dz }, c->nz, "across the rail, middle of a map cell"));
+    snprintf(path, sizeof path, "%s/depth", group);
+    TRY(h5_write(h->file, &(h5_name){ path, "m", "depth below the undamaged surface over (x, z), rim negative" },
+                 &(h5_array){ H5_DOUBLE, 2, { (size_t)c->nx, (size_t)c->nz }, c->depth_map }));
+    h->changed = true;
+    return crater_numbers(h, group, c);
+}
+
+/* ---- the rows of Breech's own series: one list makes the columns and the row ---- */
+
+/* clang-format off */
+#define SHOT_COLUMNS(COLUMN)                                                                            \
+    COLUMN(time, "s", "time", s->t)                                                                     \
+    COLUMN(position, "m", "armature along the barrel", s->x)                                            \
+    COLUMN(velocity, "m/s", "armature", s->v)                                                           \
+    COLUMN(acceleration, "m/s^2", "armature", s->a)                                                     \
+    COLUMN(current, "A", "rails", s->current)                                                           \
+    COLUMN(breech_voltage, "V", "between the rails at the breech", s->breech_voltage)                   \
+    COLUMN(muzzle_voltage, "V", "between the rails ahead of the armature", s->muzzle_voltage)           \
+    COLUMN(force, "N", "electromagnetic, on the armature", s->force)                                    \
+    COLUMN(friction, "N", "both rail faces", s->friction)                                               \
+    COLUMN(drag, "N", "gas ahead of the armature", s->drag)                                             \
+    COLUMN(contact_force, "N", "per rail face", s->contact_force)                                       \
+    COLUMN(contact_pressure, "Pa", "contact force over the nominal contact area", s->contact_pressure)  \
+    COLUMN(action, "A^2 s", "integral of the current's square", s->action)                              \
+    COLUMN(mass, "kg", "armature", s->mass)                                                             \
+    COLUMN(rail_temperature, "K", "just ahead of the armature", s->rail_temperature)                    \
+    COLUMN(armature_temperature, "K", "contact face", s->armature_temperature)                          \
+    COLUMN(film_temperature, "K", "melt on the contact face", s->film_temperature)                      \
+    COLUMN(film_thickness, "m", "melt on one face", s->film_thickness)                                  \
+    COLUMN(contact_spread, "m", "of the contact, over which the current enters", s->contact_spread)     \
+    COLUMN(friction_coefficient, "1", "of the armature's faces", s->friction_coefficient)               \
+    COLUMN(rail_behind_temperature, "K", "rail surface, one contact length behind", s->rail_behind_temperature) \
+    COLUMN(shunt_current, "A", "of the muzzle shunt", s->shunt_current)                                 \
+    COLUMN(energy_capacitors, "J", "stored", s->ledger.capacitors)                                      \
+    COLUMN(energy_coils, "J", "stored", s->ledger.coils)                                                \
+    COLUMN(energy_cables, "J", "stored", s->ledger.cables)                                              \
+    COLUMN(energy_rotors, "J", "stored", s->ledger.rotors)                                              \
+    COLUMN(energy_rails_field, "J", "stored", s->ledger.rails_field)                                    \
+    COLUMN(energy_kinetic, "J", "armature", s->ledger.kinetic)                                          \
+    COLUMN(heat_coils, "J", "so far", s->ledger.coil_heat)                                              \
+    COLUMN(heat_cables, "J", "so far", s->ledger.cable_heat)                                            \
+    COLUMN(heat_crowbars, "J", "so far", s->ledger.crowbar_heat)                                        \
+    COLUMN(heat_switches, "J", "opening switches, so far", s->ledger.switch_heat)                       \
+    COLUMN(heat_machines, "J", "windage, so far", s->ledger.machine_heat)                               \
+    COLUMN(heat_rails, "J", "so far", s->ledger.rails_heat)                                             \
+    COLUMN(heat_armature, "J", "so far", s->ledger.armature_heat)                                       \
+    COLUMN(heat_contact, "J", "contact voltage times current, so far", s->ledger.contact_heat)          \
+    COLUMN(work_friction, "J", "so far", s->ledger.friction)                                            \
+    COLUMN(work_drag, "J", "so far", s->ledger.drag)                                                    \
+    COLUMN(energy_muzzle, "J", "shunt or arc after exit, so far", s->ledger.muzzle)                     \
+    COLUMN(energy_wear, "J", "motion of the metal worn off, so far", s->ledger.wear)                    \
+    COLUMN(energy_jumps, "J", "taken by gouges, so far", s->ledger.jumps)                               \
+    COLUMN(energy_supplied, "J", "by batteries and given currents, so far", s->ledger.supplied)         \
+    COLUMN(energy_error, "1", "ledger's rest over the energy at the start and supplied", s->ledger.energy_error)
+
+#define SCENE_COLUMNS(COLUMN)                                                                           \
+    COLUMN(time, "s", "time", r->time)                                                                  \
+    COLUMN(dt, "s", "step", r->dt)                                                                      \
+    COLUMN(steps, "1", "so far", (double)r->steps)                                                      \
+    COLUMN(particles, "1", "now", (double)r->particles)                                                 \
+    COLUMN(particle_steps, "1", "so far", (double)r->particle_steps)                                    \
+    COLUMN(kinetic, "J", "as computed: half a model is half", l->kinetic)                               \
+    COLUMN(internal, "J", "work of stress and heat, as computed", l->internal)                          \
+    COLUMN(work_ahead, "J", "part of internal, still to be taken from kinetic", l->work_ahead)          \
+    COLUMN(heat_friction, "J", "so far, part of internal", l->heat_friction)                            \
+    COLUMN(heat_transfer, "J", "so far, part of internal", l->heat_transfer)                            \
+    COLUMN(heat_viscous, "J", "so far, part of internal", l->heat_viscous)                              \
+    COLUMN(work_boundary, "J", "done on the model so far", l->work_boundary)                            \
+    COLUMN(work_external, "J", "done on the model so far", l->work_external)                            \
+    COLUMN(momentum_x, "kg m/s", "as computed", l->momentum[0])                                         \
+    COLUMN(momentum_y, "kg m/s", "as computed", l->momentum[1])                                         \
+    COLUMN(momentum_z, "kg m/s", "as computed", l->momentum[2])                                         \
+    COLUMN(ejected_mass, "kg", "left the window so far", l->ejected_mass)                               \
+    COLUMN(ejected_energy, "J", "left the window so far", l->ejected_energy)                            \
+    COLUMN(energy_error, "1", "ledger's rest over the kinetic energy at the start", l->energy_error)    \
+    COLUMN(momentum_error, "1", "over mass times the largest initial speed", l->momentum_error)         \
+    COLUMN(contact_force_x, "N", "on the rail's field, as computed", r->contact_force[0][0])            \
+    COLUMN(contact_force_y, "N", "on the rail's field, as computed", r->contact_force[0][1])            \
+    COLUMN(contact_force_z, "N", "on the rail's field, as computed", r->contact_force[0][2])            \
+    COLUMN(peak_pressure, "Pa", "of any particle so far", r->peak_pressure)                             \
+    COLUMN(peak_temperature, "K", "of any particle so far", r->peak_temperature)                        \
+    COLUMN(failed_volume, "m^3", "of all bodies now, as computed", failed_volume(r))                    \
+    COLUMN(clamps_pressure, "1", "so far", (double)r->clamps_pressure)                                  \
+    COLUMN(clamps_compression, "1", "so far", (double)r->clamps_compression)                            \
+    COLUMN(splits, "1", "particles split so far", (double)r->splits)                                    \
+    COLUMN(merges, "1", "particles merged so far", (double)r->merges)                                   \
+    COLUMN(plastic_front, "m", "rail deforms plastically behind it", r->plastic_front)                  \
+    COLUMN(plastic_power, "W", "of the rail, as computed", r->plastic_power)
+
+#define EVENT_COLUMNS(COLUMN)                                                                           \
+    COLUMN(time, "s", "time", e->state.t)                                                               \
+    COLUMN(kind, "1", "0 fired 1 waiting 2 crowbar 3 blocked 4 released 5 stopped 6 site 7 muzzle 8 commutated 9 recharged 10 melted", (double)e->kind) \
+    COLUMN(index, "1", "of the group or the site, -1 if neither", (double)e->index)                     \
+    COLUMN(position, "m", "armature", e->state.x)                                                       \
+    COLUMN(velocity, "m/s", "armature", e->state.v)                                                     \
+    COLUMN(current, "A", "rails", e->state.current)
+/* clang-format on */
+
+#define COLUMN_ENTRY(name, unit, description, value) { #name, unit, description },
+#define COLUMN_VALUE(name, unit, description, value) *row++ = (value);
+#define WIDTH(columns) ((int)(sizeof(columns) / sizeof *(columns)))
+
+static const history_column shot_columns[] = { SHOT_COLUMNS(COLUMN_ENTRY) };
+static const history_column scene_columns[] = { SCENE_COLUMNS(COLUMN_ENTRY) };
+static const history_column event_columns[] = { EVENT_COLUMNS(COLUMN_ENTRY) };
+
+status history_shot(history *h, int *series)
+{
+    return history_series(h, "/shot", shot_columns, WIDTH(shot_columns), series);
+}
+
+void history_shot_row(const shot_state *s, double *row){ SHOT_COLUMNS(COLUMN_VALUE) }
+
+status history_events(history *h, int *series)
+{
+    return history_series(h, "/shot/events", event_columns, WIDTH(event_columns), series);
+}
+
+void history_event_row(const shot_event *e, double *row){ EVENT_COLUMNS(COLUMN_VALUE) }
+
+status history_scene(history *h, const char *scene, int *series)
+{
+    char group[GROUP_SIZE];
+    TRY(scene_group(scene, group));
+    return history_series(h, group, scene_columns, WIDTH(scene_columns), series);
+}
+
+static double failed_volume(const mpm_report *r)
+{
+    double sum = 0.0;
+    for (int b = 0; b < MPM_MAX_BODIES; b++) sum += r->failed_volume[b];
+    return sum;
+}
+
+void history_scene_row(const mpm_report *r, const mpm_ledger *l, double *row)
+{
+    SCENE_COLUMNS(COLUMN_VALUE)
+}
+
+/* ---- the bank's groups: as many columns as the bank has ---- */
+
+static int groups_kept(int groups)
+{
+    const int room = (HISTORY_MAX_COLUMNS - 1) / 2;
+    return groups < room ? groups : room;
+}
+
+static status modules_series(history *h, int groups, char (*name)[64], history_column *columns, int *series)
+{
+    int n = 0;
+    columns[n++] = (history_column){ "time", "s", "time" };
+    for (int g = 0; g < groups; g++) {
+        snprintf(name[n], sizeof *name, "current_%03d", g);
+        columns[n] = (history_column){ name[n], "A", "one unit of the group" };
+        n++;
+        snprintf(name[n], sizeof *name, "voltage_%03d", g);
+        columns[n] = (history_column){ name[n], "V", "capacitor, switch or machine of one unit of the group" };
+        n++;
+    }
+    return history_series(h, "/shot/modules", columns, n, series);
+}
+
+status history_modules(history *h, const shot *s, int *series)
+{
+    char(*name)[64] = calloc(HISTORY_MAX_COLUMNS, sizeof *name);
+    history_column *columns = calloc(HISTORY_MAX_COLUMNS, sizeof *columns);
+    const status result = name && columns ? modules_series(h, groups_kept(shot_module_count(s)), name, columns, series)
+                                          : status_error(STATUS_MEMORY, "no memory for the history of the modules");
+    free(columns);
+    free(name);
+    return result;
+}
+
+void history_modules_row(const shot *s, double *row)
+{
+    const int groups = groups_kept(shot_module_count(s));
+    *row++ = shot_now(s).t;
+    for (int g = 0; g < groups; g++) {
+        *row++ = shot_module_current(s, g);
+        *row++ = shot_module_voltage(s, g);
+    }
+}
+
+static void print_columns(const char *group, const history_column *columns, int n, FILE *out)
+{
+    fprintf(out, "\n### %s\n\n| dataset | units | what |\n|---|---|---|\n", group);
+    for (int c = 0; c < n; c++)
+        fprintf(out, "| `%s` | %s | %s |\n", columns[c].name, columns[c].unit, columns[c].description);
+}
+
+void history_print_columns(FILE *out)
+{
+    print_columns("/shot", shot_columns, WIDTH(shot_columns), out);
+    print_columns("/shot/events", event_columns, WIDTH(event_columns), out);
+    print_columns("/scene/<name>", scene_columns, WIDTH(scene_columns), out);
+}

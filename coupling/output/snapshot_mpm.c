@@ -1,0 +1,12 @@
+#include "coupling/output/snapshot.h"
+
+static void read_field(const void *source, mpm_field field, double *out)
+{
+    mpm_read(source, field, out);
+}
+
+status snapshots_write(snapshots *s, const mpm *m)
+{
+    const snapshot_source source = { mpm_glance(m).time, mpm_particles(m), read_field, m };
+    return snapshots_write_source(s, &source);
+}

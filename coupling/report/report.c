@@ -1,0 +1,278 @@
+#include "coupling/report/report.h"
+
+#include "coupling/host/outdir.h"
+#include "coupling/report/report_page.h"
+
+#include <cJSON.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_CRATERS = 24 };
+
+/* ---- verdict ---- */
+
+static void scene_sentence(const page *p, const cJSON *s)
+{
+    const char *class = report_text(s, "class");
+    fprintf(p->out, "<p class=\"verdict\" style=\"border-color:%s\">Damage class: %s.</p>\n", report_colour(class),
+            class[0] ? class : "not measured");
+    if (report_text(s, "reason")[0]) page_paragraph(p, "reason", report_text(s, "reason"));
+}
+
+/* clang-format off */
+static const page_column onset_cards[] = { { "threshold_velocity", "threshold velocity", 1.0, "m/s" },
+                                     { "onset_position", "onset position", 1.0, "m" },
+                                     { "probability_gouge", "probability of a gouge", 1.0, "" },
+                                     { "scenes_run", "scenes run", 1.0, "" },
+                                     { "scenes_skipped", "scenes skipped", 1.0, "" },
+                                     { "wall_seconds", "wall time", 1.0, "s" } };
+static const page_column shot_cards[] = { { "peak_current", "peak current", 1e3, "kA" },
+                                    { "muzzle_velocity", "muzzle velocity", 1.0, "m/s" },
+                                    { "muzzle_time", "muzzle time", 1e-3, "ms" },
+                                    { "muzzle_energy", "muzzle energy", 1e3, "kJ" },
+                                    { "efficiency", "efficiency", 0.01, "%" },
+                                    { "peak_acceleration", "peak acceleration", 9806.65, "&times; 1000 g" },
+                                    { "exit_current", "exit current", 1e3, "kA" },
+                                    { "energy_error", "energy error", 1.0, "" } };
+static const page_column scene_cards[] = { { "severity", "severity", 1.0, "" },
+                                     { "groove_growth", "growth of the groove", 1e6, "1/&micro;s" },
+                                     { "widening", "widening", 1.0, "" },
+                                     { "crater_length", "length", 1e-3, "mm" },
+                                     { "crater_width", "width", 1e-3, "mm" },
+                                     { "crater_depth", "depth", 1e-3, "mm" },
+                                     { "crater_volume", "volume", 1e-9, "mm&sup3;" },
+                                     { "rim_height", "rim", 1e-3, "mm" },
+                                     { "peak_pressure", "peak pressure", 1e9, "GPa" },
+                                     { "peak_temperature", "peak temperature", 1.0, "K" },
+                                     { "energy_error", "energy error", 1.0, "" },
+                                     { "momentum_error", "momentum error", 1.0, "" },
+                                     { "wall_seconds", "wall time", 1.0, "s" } };
+/* clang-format on */
+
+static void section_verdict(const page *p)
+{
+    const cJSON *s = p->source->summary;
+    const char *kind = report_text(s, "kind"), *state = report_text(s, "status");
+    fprintf(p->out, "<h1>");
+    page_escaped(p->out, report_text(s, "case"));
+    fprintf(p->out, "</h1>\n<p class=\"sub\">breech %s &middot; %s</p>\n", kind, state);
+    if (strcmp(state, "done") != 0) {
+        fputs("<p class=\"verdict\" style=\"border-color:#c0392b\">The run ", p->out);
+        fputs(strcmp(state, "stopped") == 0 ? "was stopped early; breech --resume goes on with it. " : "failed. ",
+              p->out);
+        page_escaped(p->out, report_text(s, "error"));
+        fputs("</p>\n", p->out);
+    }
+    if (strcmp(kind, "onset") == 0) {
+        if (strcmp(state, "done") == 0) section_onset_sentence(p);
+        page_cards(p, s, onset_cards, PAGE_COUNT(onset_cards));
+    }
+    if (strcmp(kind, "scene") == 0) {
+        if (strcmp(state, "done") == 0) scene_sentence(p, s);
+        page_cards(p, s, scene_cards, PAGE_COUNT(scene_cards));
+    }
+    const cJSON *shot = cJSON_GetObjectItemCaseSensitive(s, "shot");
+    if (strcmp(kind, "shot") == 0) shot = s;
+    if (shot) page_cards(p, shot, shot_cards, PAGE_COUNT(shot_cards));
+}
+
+/* ---- plots ---- */
+
+static void section_shot(const page *p)
+{
+    if (!p->source->history || !h5_exists(p->source->history, "/shot/time")) return;
+    page_heading(p, "The shot");
+    page_draw(p, plot_shot, "shot", "Modules in grey: one unit of each group.");
+}
+
+/* ---- craters ---- */
+
+static void one_crater(const page *p, const char *scene)
+{
+    char name[160], group[300], reason[256];
+    bool map, profile;
+    const status drawn_map = plot_crater_map(p->source, scene, &map);
+    const status drawn_profile = plot_crater_profile(p->source, scene, &profile);
+    fputs("<section class=\"crater\"><h3>", p->out);
+    page_escaped(p->out, scene);
+    fputs("</h3>\n", p->out);
+    snprintf(group, sizeof group, "/scene/%.150s/crater", scene);
+    if (h5_read_attribute_text(p->source->history, group, "reason", reason, sizeof reason).code == STATUS_OK)
+        page_paragraph(p, "reason", reason);
+    snprintf(name, sizeof name, "map-%.120s", scene);
+    if (map)
+        page_plot(p, name, "Depth below the undamaged surface, launch direction to the right.");
+    else if (drawn_map.code != STATUS_OK)
+        page_paragraph(p, "missing", drawn_map.text);
+    snprintf(name, sizeof name, "profile-%.120s", scene);
+    if (profile)
+        page_plot(p, name, "Along the middle.");
+    else if (drawn_profile.code != STATUS_OK)
+        page_paragraph(p, "missing", drawn_profile.text);
+    fputs("</section>\n", p->out);
+}
+
+static void section_craters(const page *p)
+{
+    char *names, group[300];
+    if (!p->source->history || h5_list(p->source->history, "/scene", &names).code != STATUS_OK) return;
+    int shown_craters = 0, left_out = 0;
+    for (char *name = names, *end; (end = strchr(name, '\n')); name = end + 1) {
+        *end = '\0';
+        snprintf(group, sizeof group, "/scene/%.150s/crater/depth", name);
+        if (!name_is_plain(name) || !h5_exists(p->source->history, group)) continue;
+        if (shown_craters == 0) page_heading(p, "Craters");
+        if (shown_craters < MAX_CRATERS) one_crater(p, name);
+        if (shown_craters++ >= MAX_CRATERS) left_out++;
+    }
+    if (left_out) fprintf(p->out, "<p class=\"missing\">%d more craters are in history.h5.</p>\n", left_out);
+    free(names);
+}
+
+/* ---- books, warnings, inputs ---- */
+
+/* Last value of a column, NaN where there is none. */
+static double last_of(const report_source *r, const char *path)
+{
+    double *data, value = NAN;
+    size_t dims[H5_MAX_RANK];
+    if (h5_read(r->history, path, &data, dims).code != STATUS_OK) return NAN;
+    if (dims[0] > 0) value = data[dims[0] - 1];
+    free(data);
+    return value;
+}
+
+static void section_ledger(const page *p)
+{
+    static const char *const columns[] = { "energy_capacitors", "energy_coils",  "energy_cables", "energy_rails_field",
+                                           "energy_kinetic",    "heat_coils",    "heat_cables",   "heat_crowbars",
+                                           "heat_rails",        "heat_armature", "heat_contact",  "work_friction",
+                                           "work_drag",         "energy_muzzle", "energy_wear",   "energy_jumps" };
+    if (!p->source->history || !h5_exists(p->source->history, "/shot/energy_error")) return;
+    page_heading(p, "Where the energy went");
+    fputs("<div class=\"wide\"><table><tr><th>place</th><th>[kJ]</th></tr>\n", p->out);
+    double sum = 0.0;
+    for (int i = 0; i < PAGE_COUNT(columns); i++) {
+        char path[100];
+        snprintf(path, sizeof path, "/shot/%s", columns[i]);
+        const double value = last_of(p->source, path);
+        if (isfinite(value)) sum += value;
+        fprintf(p->out, "<tr><td class=\"text\">%s</td><td>%.3f</td></tr>\n", columns[i], 1e-3 * value);
+    }
+    fprintf(p->out, "<tr><td class=\"text\"><b>sum</b></td><td><b>%.3f</b></td></tr>\n", 1e-3 * sum);
+    fprintf(p->out, "<tr><td class=\"text\">error over the start</td><td>%.2e</td></tr>\n</table></div>\n",
+            last_of(p->source, "/shot/energy_error"));
+}
+
+static void section_rest(const page *p)
+{
+    const cJSON *warnings = cJSON_GetObjectItemCaseSensitive(p->source->summary, "warnings"), *item;
+    page_heading(p, "Warnings");
+    if (cJSON_GetArraySize(warnings) == 0) page_paragraph(p, "reason", "none");
+    fputs("<ul>\n", p->out);
+    cJSON_ArrayForEach(item, warnings)
+    {
+        fputs("<li>", p->out);
+        page_escaped(p->out, cJSON_IsString(item) ? item->valuestring : "");
+        fputs("</li>\n", p->out);
+    }
+    fputs("</ul>\n", p->out);
+    page_heading(p, "Inputs");
+    if (p->source->used) {
+        fputs("<details><summary>used.yaml</summary><pre>", p->out);
+        page_escaped(p->out, p->source->used);
+        fputs("</pre></details>\n", p->out);
+    } else {
+        page_paragraph(p, "missing", "used.yaml is not there");
+    }
+    page_heading(p, "Versions");
+    fputs("<p>Breech ", p->out);
+    page_escaped(p->out, report_text(p->source->summary, "version"));
+    fputs(", instruction set ", p->out);
+    page_escaped(p->out, report_text(p->source->summary, "instruction_set"));
+    fputs(".</p>\n", p->out);
+}
+
+static const char style[] =
+    "body{font:16px/1.5 system-ui,sans-serif;color:#222;background:#fff;max-width:60rem;margin:0 auto;padding:1rem}"
+    "h1{margin:.2rem 0 0}h2{margin:2rem 0 .5rem;border-bottom:1px solid "
+    "#ddd}.sub,figcaption,.reason,.missing{color:#666}"
+    ".verdict{font-size:1.25rem;border-left:.4rem solid;padding:.4rem .8rem;background:#f7f6f3}"
+    ".cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(9rem,1fr));gap:.5rem;margin:.7rem 0}"
+    ".card{border:1px solid #ddd;border-radius:.4rem;padding:.4rem .6rem}.card "
+    "span{display:block;color:#666;font-size:.8rem}"
+    ".plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,25rem),1fr));gap:.5rem}"
+    "figure{margin:.5rem 0}figure svg{display:block;width:100%;height:auto;max-width:760px}.wide{overflow-x:auto}"
+    "table{border-collapse:collapse;font-size:.85rem}th,td{padding:.15rem .6rem;text-align:right;border-bottom:1px "
+    "solid #eee;"
+    "white-space:nowrap}th{text-align:right;color:#666}td.text{text-align:left}pre{overflow-x:auto;font-size:.8rem}"
+    "@media print{body{max-width:none;font-size:11pt}figure,.card,tr{break-inside:avoid}h2{break-after:avoid}"
+    ".wide{overflow:visible}table{font-size:7.5pt}th,td{padding:.1rem .3rem}}";
+
+static void write_page(const page *p)
+{
+    const report_source *r = p->source;
+    fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>",
+          p->out);
+    page_escaped(p->out, report_text(r->summary, "case"));
+    fprintf(p->out, " &ndash; Breech</title><style>%s</style></head><body>\n", style);
+    section_verdict(p);
+    if (!r->gnuplot)
+        page_paragraph(p, "missing",
+                       "gnuplot is not installed: the curves are left out; breech report draws them later.");
+    if (!r->history) page_paragraph(p, "missing", "history.h5 is not there: no curves and no craters.");
+    section_compare(p);
+    section_onset(p);
+    section_craters(p);
+    section_shot(p);
+    section_ledger(p);
+    section_rest(p);
+    fputs("</body></html>\n", p->out);
+}
+
+static status report_page(const report_source *r)
+{
+    char path[OUTDIR_PATH_SIZE];
+    const int n = snprintf(path, sizeof path, "%s/%s", r->dir, OUTDIR_REPORT);
+    CHECK(n > 0 && n < OUTDIR_PATH_SIZE, STATUS_IO, "%.300s: path too long", r->dir);
+    file_writer w;
+    TRY(file_begin(&w, path));
+    write_page(&(page){ r, w.stream });
+    return file_end(&w, true);
+}
+
+/* The files beside the summary may be missing; the page says so. */
+static status report_with(const outdir *d, const cJSON *summary)
+{
+    char path[OUTDIR_PATH_SIZE], *used = NULL;
+    h5_file *history = NULL;
+    TRY(outdir_file(d, OUTDIR_HISTORY, path, sizeof path));
+    if (file_exists(path)) TRY(h5_open(path, &history));
+    if (outdir_file(d, OUTDIR_USED, path, sizeof path).code == STATUS_OK && file_exists(path))
+        (void)file_read(path, &used, NULL);
+    const report_source source = { d->path, summary, history, used, gnuplot_exists() };
+    const status s = report_page(&source);
+    h5_close(history);
+    free(used);
+    return s;
+}
+
+status report_write(const char *dir)
+{
+    outdir d = { .lock = -1 };
+    const int n = snprintf(d.path, sizeof d.path, "%s", dir);
+    CHECK(n > 0 && n < OUTDIR_PATH_SIZE, STATUS_BAD_INPUT, "%.300s: path too long", dir);
+    char path[OUTDIR_PATH_SIZE], *text;
+    TRY(outdir_file(&d, OUTDIR_SUMMARY, path, sizeof path));
+    CHECK(file_exists(path), STATUS_BAD_INPUT, "%.300s: holds no %s; give the output directory of a run", dir,
+          OUTDIR_SUMMARY);
+    TRY(file_read(path, &text, NULL));
+    cJSON *summary = cJSON_Parse(text);
+    free(text);
+    CHECK(summary, STATUS_BAD_INPUT, "%.300s: is no JSON", path);
+    const status s = report_with(&d, summary);
+    cJSON_Delete(summary);
+    return s;
+}

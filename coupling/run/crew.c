@@ -1,0 +1,489 @@
+#include "coupling/run/crew.h"
+
+#include "coupling/run/crew_messages.h"
+#include "coupling/run/ranks.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef enum { WAITING, AWAY, HERE, COME } place;
+
+/* One scene on its way. */
+typedef struct errand {
+    scene_query query;
+    scene_key key;
+    uint64_t twin; /* of a whole scene, else 0 */
+    place where;
+    bool wanted;            /* by the call under way; else it may be wanted */
+    bool ahead;             /* still in the list of those that may be */
+    int order;              /* in the list it came up in last */
+    int member;             /* AWAY: who has it */
+    bool dropped;           /* AWAY: that one was told to give it up */
+    struct errand *put_off; /* AWAY: by the member that has it, for this one */
+    h5_file *file;          /* COME and not failed */
+    status failed;          /* COME: STATUS_OK if not */
+    history *rows;          /* of rank 0's own scenes */
+    void *image;            /* laid aside by rank 0, to go on from; owned */
+    scene_resume at;        /* image, when there is one */
+} errand;
+
+struct crew {
+    session *s;
+    int members; /* ranks but rank 0 */
+    errand *
+        *busy; /* members + 1, by rank: what it computes, then what it has put off; NULL: idle; rank 0's is unused */
+    scene_answer *told; /* members + 1, by rank: the last, for its shelf */
+    int n;
+    errand **errand; /* n, in the order they came up; owned, one by one */
+    bool level;      /* wanted ones do not go before the others */
+    bool aside;      /* rank 0's scene is being laid aside */
+    status error;    /* met while rank 0's scene was stepping */
+};
+
+/* ---- the list ---- */
+
+static errand *find(const crew *k, uint64_t key)
+{
+    for (int i = 0; i < k->n; i++)
+        if (k->errand[i]->key.hash == key) return k->errand[i];
+    return NULL;
+}
+
+static void errand_free(errand *e)
+{
+    scene_key_free(&e->key);
+    h5_close(e->file);
+    history_close(e->rows);
+    free(e->image);
+    free(e);
+}
+
+static void strike(crew *k, const errand *e)
+{
+    int kept = 0;
+    for (int i = 0; i < k->n; i++)
+        if (k->errand[i] != e) k->errand[kept++] = k->errand[i];
+    k->n = kept;
+}
+
+static status add(crew *k, const scene_query *q, errand **out)
+{
+    errand *e = calloc(1, sizeof *e);
+    errand **more = realloc(k->errand, ((size_t)k->n + 1) * sizeof *more);
+    if (more) k->errand = more;
+    if (!e || !more) {
+        free(e);
+        return status_error(STATUS_MEMORY, "no memory for %d scenes", k->n + 1);
+    }
+    e->query = *q;
+    k->errand[k->n++] = e;
+    *out = e;
+    return status_ok();
+}
+
+static status find_or_add(crew *k, const scene_query *q, errand **out)
+{
+    scene_key key = { .text = NULL };
+    status done = scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
+    *out = find(k, key.hash);
+    if (done.code == STATUS_OK && !*out) {
+        uint64_t twin = 0;
+        if (!scene_is_gauged(q->c)) done = scene_twin(q, &twin);
+        if (done.code == STATUS_OK) done = add(k, q, out);
+        if (done.code == STATUS_OK) {
+            (*out)->key = key;
+            (*out)->twin = twin;
+            return done;
+        }
+    }
+    scene_key_free(&key);
+    return done;
+}
+
+/* What is no longer asked for: what waits is forgotten, what others compute they may give up. */
+static status forget_idle(crew *k)
+{
+    for (int i = k->n - 1; i >= 0; i--) {
+        errand *e = k->errand[i];
+        if (e->wanted || e->ahead) continue;
+        if (e->where == WAITING) {
+            strike(k, e);
+            errand_free(e);
+        } else if (e->where == AWAY && !e->dropped) {
+            e->dropped = true;
+            TRY(crew_say(e->member, SAY_DROP, &e->key.hash, sizeof e->key.hash, NULL, 0));
+        }
+    }
+    return status_ok();
+}
+
+/* ---- messages ---- */
+
+static status come(crew *k, errand *e, h5_file *file)
+{
+    e->where = COME;
+    e->file = file;
+    if (!k->s->store[0]) return status_ok();
+    TRY(scene_store_open(k->s->store));
+    return scene_store_put(k->s->store, &e->key, file);
+}
+
+static status write_file(const crew *k, const message *m)
+{
+    char path[OUTDIR_PATH_SIZE], folder[OUTDIR_PATH_SIZE];
+    const size_t name = strlen(m->data) + 1;
+    TRY(outdir_file(&k->s->dir, m->data, path, sizeof path));
+    snprintf(folder, sizeof folder, "%s", path);
+    *strrchr(folder, '/') = '\0';
+    TRY(directory_make(folder));
+    return file_write(path, m->data + name, m->bytes - name);
+}
+
+/* It need not be the last that was given: an outcome and an order may have crossed. */
+static void off_the_stack(crew *k, errand *e)
+{
+    errand **at = &k->busy[e->member];
+    while (*at != e) at = &(*at)->put_off;
+    *at = e->put_off;
+    e->put_off = NULL;
+}
+
+static status hear_outcome(crew *k, const message *m)
+{
+    scene_answer *told = &k->told[m->from];
+    memcpy(told, m->data, sizeof *told);
+    errand *e = find(k, told->key);
+    const char *body = m->data + sizeof *told;
+    const size_t bytes = m->bytes - sizeof *told;
+    if (!e || e->where != AWAY) return status_ok();
+    off_the_stack(k, e);
+    if (m->kind == SAY_FAILED && e->dropped) { /* for good, unless somebody has thought better of it */
+        e->where = WAITING;
+        e->dropped = false;
+        return status_ok();
+    }
+    if (m->kind == SAY_FAILED) {
+        e->where = COME;
+        memcpy(&e->failed, body, sizeof e->failed);
+        return status_ok();
+    }
+    h5_file *file;
+    TRY(h5_open_image(e->query.name, body, bytes, &file));
+    return come(k, e, file);
+}
+
+static status hear(crew *k)
+{
+    for (;;) {
+        message m;
+        bool any;
+        TRY(ranks_receive(&m, &any));
+        if (!any) return status_ok();
+        const status done = m.kind == SAY_FILE ? write_file(k, &m) : hear_outcome(k, &m);
+        message_free(&m);
+        TRY(done);
+    }
+}
+
+static bool resumable(const crew *k, const errand *e)
+{
+    return e->image || session_resume_of(k->s, e->query.name).image;
+}
+
+/* An idle member that can go on to it from the scene to its gauge; 0: none, or rank 0 has begun it. */
+static int keeper(const crew *k, const errand *e)
+{
+    if (!e->twin || resumable(k, e)) return 0;
+    for (int r = 1; r <= k->members; r++)
+        for (int i = 0; i < SCENE_SHELF_ROOM; i++)
+            if (!k->busy[r] && k->told[r].shelf[i] == e->twin) return r;
+    return 0;
+}
+
+static bool begun_here(const crew *k, const errand *e)
+{
+    return resumable(k, e) || scene_shelf_find(&k->s->shelf, e->twin);
+}
+
+/* Is a to be computed rather than b?  Wanted before ahead, unless all are level, then as they were listed. */
+static bool goes_first(const crew *k, const errand *a, const errand *b)
+{
+    return !b || (!k->level && a->wanted != b->wanted ? a->wanted : a->order < b->order);
+}
+
+/* The next for a member; what rank 0 has begun stays with rank 0. */
+static errand *next_for_member(const crew *k)
+{
+    errand *best = NULL;
+    for (int i = 0; i < k->n; i++) {
+        errand *e = k->errand[i];
+        if (e->where == WAITING && (e->wanted || e->ahead) && !resumable(k, e) && goes_first(k, e, best)) best = e;
+    }
+    return best;
+}
+
+/* The next for rank 0: of those that are wanted, or of the others, what it has begun before the rest, and nothing that an idle
+ * member has. */
+static errand *next_for_me(const crew *k)
+{
+    errand *best = NULL;
+    for (int i = 0; i < k->n; i++) {
+        errand *e = k->errand[i];
+        if (e->where != WAITING || !(e->wanted || e->ahead) || keeper(k, e)) continue;
+        const bool sooner = best && (k->level || best->wanted == e->wanted) && begun_here(k, e) != begun_here(k, best)
+                                ? begun_here(k, e)
+                                : goes_first(k, e, best);
+        if (sooner) best = e;
+    }
+    return best;
+}
+
+static int idle_member(const crew *k)
+{
+    for (int r = 1; r <= k->members; r++)
+        if (!k->busy[r]) return r;
+    return 0;
+}
+
+/* An idle one, best one that has begun it; for a wanted scene one that computes what nobody waits for, and has put off nothing
+ * yet: two solvers take the memory of two.  0: nobody. */
+static int member_for(const crew *k, const errand *e)
+{
+    const int idle = keeper(k, e) ? keeper(k, e) : idle_member(k);
+    if (idle || !e->wanted || k->level) return idle;
+    for (int r = 1; r <= k->members; r++)
+        if (!k->busy[r]->wanted && !k->busy[r]->put_off) return r;
+    return 0;
+}
+
+static status give(crew *k, errand *e, int member)
+{
+    scene_order order;
+    memset(&order, 0, sizeof order);
+    order.key = e->key.hash;
+    snprintf(order.name, sizeof order.name, "%s", e->query.name);
+    outdir_drop_scene(&k->s->dir, e->query.name); /* of a part that was stopped */
+    TRY(crew_say(member, SAY_SCENE, &order, sizeof order, e->key.text, e->key.bytes));
+    e->where = AWAY;
+    e->member = member;
+    e->put_off = k->busy[member];
+    k->busy[member] = e;
+    return status_ok();
+}
+
+static status hand_out(crew *k)
+{
+    for (;;) {
+        errand *e = next_for_member(k);
+        const int member = e ? member_for(k, e) : 0;
+        if (!member) return status_ok();
+        TRY(give(k, e, member));
+    }
+}
+
+/* ---- rank 0's own scene ---- */
+
+typedef struct {
+    crew *k;
+    errand *e;
+} own_scene;
+
+static bool wanted_has_come(const crew *k)
+{
+    for (int i = 0; i < k->n; i++)
+        if (k->errand[i]->wanted && k->errand[i]->where == COME) return true;
+    return false;
+}
+
+/* After every step of it. */
+static bool stop_own(void *user)
+{
+    const own_scene *own = user;
+    crew *k = own->k;
+    if (k->error.code == STATUS_OK) k->error = hear(k);
+    if (k->error.code == STATUS_OK) k->error = hand_out(k);
+    if (k->error.code != STATUS_OK || (k->s->stop && k->s->stop())) return true;
+    k->aside = wanted_has_come(k) && ((!own->e->wanted && !k->level) || idle_member(k));
+    return k->aside;
+}
+
+static int threads_now(void *user)
+{
+    const own_scene *own = user;
+    return lending_threads(own->k->s->lending);
+}
+
+static status save_own(void *user, const char *scene, const mpm *m, double wall)
+{
+    const own_scene *own = user;
+    errand *e = own->e;
+    if (!own->k->aside) {
+        TRY(history_copy_scene(e->rows, scene, own->k->s->history));
+        return session_save_inside(own->k->s, scene, m, wall);
+    }
+    free(e->image);
+    e->image = NULL;
+    size_t bytes;
+    TRY(mpm_save(m, &e->image, &bytes));
+    e->at = (scene_resume){ e->image, bytes, mpm_state(m).time, wall };
+    return status_ok();
+}
+
+static status take_up_rows(crew *k, errand *e)
+{
+    if (e->rows) return status_ok();
+    TRY(history_open(NULL, false, &e->rows));
+    return e->at.image ? history_copy_scene(k->s->history, e->query.name, e->rows) : status_ok();
+}
+
+static status run_own(crew *k, errand *e)
+{
+    session *s = k->s;
+    own_scene own = { k, e };
+    char task[160];
+    scene_record r;
+    h5_file *file;
+    const scene_host host = { .dir = &s->dir,
+                              .history = e->rows,
+                              .progress = &s->progress,
+                              .timing = &s->timing,
+                              .shelf = &s->shelf,
+                              .threads = s->threads,
+                              .threads_now = s->lending ? threads_now : NULL,
+                              .stop = stop_own,
+                              .save = save_own,
+                              .user = &own };
+    snprintf(task, sizeof task, "%s, %d of %d others at work", e->query.name, k->members - (idle_member(k) ? 1 : 0),
+             k->members);
+    const scene_work_how how = { s->run_scene, task, &host, s->lending, e->at };
+    TRY(scene_work(&e->query, e->key.hash, &how, &r));
+    TRY(scene_file_make(&r, &e->key, e->rows, &file));
+    return come(k, e, file);
+}
+
+static status compute_own(crew *k, errand *e)
+{
+    if (!e->image) e->at = session_resume_of(k->s, e->query.name);
+    TRY(take_up_rows(k, e));
+    e->where = HERE;
+    k->aside = false;
+    const status done = run_own(k, e);
+    if (k->error.code != STATUS_OK) return k->error;
+    if (e->where == COME) return done;
+    e->where = WAITING;
+    if (done.code == STATUS_STOPPED) return k->aside ? status_ok() : done;
+    e->where = COME;
+    e->failed = done;
+    return status_ok();
+}
+
+/* ---- what the study calls ---- */
+
+status crew_create(session *s, crew **out)
+{
+    crew *k = calloc(1, sizeof *k);
+    errand **busy = calloc((size_t)ranks_count(), sizeof *busy);
+    scene_answer *told = calloc((size_t)ranks_count(), sizeof *told);
+    *out = k;
+    if (!k || !busy || !told) {
+        free(k);
+        free(busy);
+        free(told);
+        *out = NULL;
+        return status_error(STATUS_MEMORY, "no memory for %d processes", ranks_count());
+    }
+    k->s = s;
+    k->members = ranks_count() - 1;
+    k->busy = busy;
+    k->told = told;
+    k->error = status_ok();
+    return status_ok();
+}
+
+/* Every member that computes is told to give up and heard out, so that the next crew finds all of them idle. */
+static void stop_members(crew *k)
+{
+    int left = 0;
+    for (int r = 1; r <= k->members; r++) {
+        if (k->busy[r]) ranks_send(r, SAY_STOP, "", 0);
+        for (const errand *e = k->busy[r]; e; e = e->put_off) left++;
+    }
+    while (left > 0) {
+        message m;
+        bool any = false;
+        ranks_receive(&m, &any);
+        if (!any) ranks_pause();
+        left -= any && (m.kind == SAY_DONE || m.kind == SAY_FAILED);
+        message_free(&m);
+    }
+}
+
+void crew_free(crew *k)
+{
+    if (!k) return;
+    stop_members(k);
+    for (int i = 0; i < k->n; i++) {
+        outdir_drop_scene(&k->s->dir, k->errand[i]->query.name);
+        errand_free(k->errand[i]);
+    }
+    free(k->errand);
+    free(k->busy);
+    free(k->told);
+    free(k);
+}
+
+status crew_ahead(crew *k, const scene_query *query, int n, bool level)
+{
+    k->level = level;
+    for (int i = 0; i < k->n; i++) k->errand[i]->ahead = false;
+    for (int i = 0; i < n; i++) {
+        errand *e;
+        TRY(find_or_add(k, &query[i], &e));
+        e->ahead = true;
+        e->order = i;
+    }
+    return status_ok();
+}
+
+static status want(crew *k, const scene_query *query, int n)
+{
+    for (int i = 0; i < k->n; i++) k->errand[i]->wanted = false;
+    for (int i = 0; i < n; i++) {
+        errand *e;
+        TRY(find_or_add(k, &query[i], &e));
+        if (!(k->level && e->ahead)) e->order = i;
+        e->wanted = true;
+    }
+    return forget_idle(k);
+}
+
+status crew_some(crew *k, const scene_query *query, int n)
+{
+    TRY(want(k, query, n));
+    for (;;) {
+        TRY(hear(k));
+        errand *mine = wanted_has_come(k) ? NULL : next_for_me(k);
+        if (mine) mine->where = HERE;
+        TRY(hand_out(k));
+        if (wanted_has_come(k)) return status_ok();
+        if (k->s->stop && k->s->stop()) return status_error(STATUS_STOPPED, "stopped while others computed");
+        if (mine)
+            TRY(compute_own(k, mine));
+        else
+            ranks_pause();
+    }
+}
+
+status crew_take(crew *k, const scene_key *key, h5_file **out)
+{
+    errand *e = find(k, key->hash);
+    *out = NULL;
+    if (!e || e->where != COME) return status_ok();
+    const status failed = e->failed;
+    if (failed.code != STATUS_OK) return failed;
+    *out = e->file;
+    e->file = NULL;
+    strike(k, e);
+    errand_free(e);
+    return status_ok();
+}

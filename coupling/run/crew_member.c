@@ -1,0 +1,186 @@
+#include "coupling/run/crew.h"
+#include "coupling/run/crew_messages.h"
+#include "coupling/run/ranks.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+
+status crew_say(int to, int kind, const void *head, size_t head_bytes, const void *body, size_t body_bytes)
+{
+    char *all = malloc(head_bytes + body_bytes + 1);
+    CHECK(all, STATUS_MEMORY, "no memory for a message of %zu bytes", head_bytes + body_bytes);
+    memcpy(all, head, head_bytes);
+    if (body_bytes) memcpy(all + head_bytes, body, body_bytes);
+    const status said = ranks_send(to, kind, all, head_bytes + body_bytes);
+    free(all);
+    return said;
+}
+
+typedef struct member member;
+
+/* A scene under way; those below the top are put off until it is done. */
+typedef struct work {
+    member *me;
+    uint64_t key;
+    bool give_up;
+    struct work *put_off;
+} work;
+
+struct member {
+    int threads;
+    lending *lending;
+    work *top;
+    scene_shelf shelf;
+    bool over; /* nothing more comes */
+};
+
+static bool listen(member *me);
+
+/* Between two steps: a scene that comes now is computed here and now, and this one then goes on. */
+static bool heard_stop(void *user)
+{
+    const work *w = user;
+    while (listen(w->me)) continue;
+    return w->give_up;
+}
+
+static int threads_now(void *user)
+{
+    const work *w = user;
+    return lending_threads(w->me->lending);
+}
+
+static status send_file(void *user, const char *path, const void *data, size_t bytes)
+{
+    (void)user;
+    return crew_say(0, SAY_FILE, path, strlen(path) + 1, data, bytes);
+}
+
+/* ---- one scene ---- */
+
+static status compute(work *w, const scene_query *q, const scene_key *key, h5_file **file)
+{
+    scene_record r;
+    history *rows;
+    progress silent;
+    progress_open(&silent, stderr, true);
+    TRY(history_open(NULL, false, &rows));
+    const scene_host host = { .sink = &(snapshot_sink){ send_file, NULL },
+                              .history = rows,
+                              .progress = &silent,
+                              .shelf = &w->me->shelf,
+                              .threads = w->me->threads,
+                              .threads_now = w->me->lending ? threads_now : NULL,
+                              .stop = heard_stop,
+                              .user = w };
+    const scene_work_how how = { .run = scene_run, .task = q->name, .host = &host, .lending = w->me->lending };
+    status done = scene_work(q, key->hash, &how, &r);
+    if (done.code == STATUS_OK) done = scene_file_make(&r, key, rows, file);
+    history_close(rows);
+    return done;
+}
+
+static status check_key(const scene_order *order, const scene_key *key)
+{
+    CHECK(
+        key->hash == order->key, STATUS_BAD_INPUT,
+        "rank %d would compute another scene than rank 0 asks for (solver %s, instruction set %s): all processes must "
+        "run the same build with the same instruction set",
+        ranks_number(), scene_solver_id(), mpm_instruction_set());
+    return status_ok();
+}
+
+static status compute_case(work *w, const scene_order *order, const breech_case *c, h5_file **file)
+{
+    scene_query q = { .c = c, .state = state_of_case(c), .cells_per_radius = c->scene.cells_per_radius };
+    scene_key key = { .text = NULL };
+    snprintf(q.name, sizeof q.name, "%s", order->name);
+    status done = scene_key_of(c, &q.state, q.cells_per_radius, &key);
+    if (done.code == STATUS_OK) done = check_key(order, &key);
+    if (done.code == STATUS_OK) done = compute(w, &q, &key, file);
+    scene_key_free(&key);
+    return done;
+}
+
+static status answer(const member *me, uint64_t key, status done, h5_file *file)
+{
+    scene_answer head = { .key = key };
+    void *image;
+    size_t bytes;
+    for (int i = 0; i < SCENE_SHELF_ROOM; i++) head.shelf[i] = me->shelf.item[i].twin;
+    if (done.code != STATUS_OK) return crew_say(0, SAY_FAILED, &head, sizeof head, &done, sizeof done);
+    TRY(h5_image(file, &image, &bytes));
+    const status said = crew_say(0, SAY_DONE, &head, sizeof head, image, bytes);
+    free(image);
+    return said;
+}
+
+static status take_order(member *me, const message *m)
+{
+    scene_order order;
+    breech_case *c = NULL;
+    char *errors = NULL;
+    h5_file *file = NULL;
+    memcpy(&order, m->data, sizeof order);
+    work w = { .me = me, .key = order.key, .put_off = me->top };
+    me->top = &w;
+    const case_text text = { .bytes = m->data + sizeof order,
+                             .length = m->bytes - sizeof order,
+                             .path = "rank 0's case" };
+    status done = case_read_memory(&text, &(case_options){ .needs = CASE_FOR_SCENE }, &c, &errors);
+    if (done.code == STATUS_OK) done = compute_case(&w, &order, c, &file);
+    me->top = w.put_off;
+    done = answer(me, order.key, done, file);
+    h5_close(file);
+    case_free(c);
+    free(errors);
+    return done;
+}
+
+/* key NULL: all */
+static void give_up(member *me, const char *key)
+{
+    for (work *w = me->top; w; w = w->put_off)
+        w->give_up = w->give_up || !key || memcmp(key, &w->key, sizeof w->key) == 0;
+}
+
+/* One message, if there is one. */
+static bool listen(member *me)
+{
+    message m;
+    bool any = false;
+    status done = ranks_receive(&m, &any);
+    if (any && m.kind == SAY_SCENE && !me->over) done = take_order(me, &m);
+    if (any && m.kind == SAY_DROP) give_up(me, m.data);
+    if (any && (m.kind == SAY_STOP || m.kind == SAY_END)) give_up(me, NULL);
+    me->over = me->over || (any && m.kind == SAY_END);
+    if (done.code != STATUS_OK) fprintf(stderr, "breech, rank %d: %s\n", ranks_number(), done.text);
+    message_free(&m);
+    return any;
+}
+
+void crew_serve(int threads, lending *l)
+{
+    member me = { .threads = threads, .lending = l };
+    signal(SIGINT, SIG_IGN); /* rank 0 hears them and says what to do */
+    signal(SIGTERM, SIG_IGN);
+    while (!me.over)
+        if (!listen(&me)) ranks_pause();
+    scene_shelf_clear(&me.shelf);
+    ranks_send(0, SAY_END, "", 0);
+}
+
+void crew_dismiss(void)
+{
+    int left = ranks_count() - 1;
+    for (int to = 1; to <= left; to++) ranks_send(to, SAY_END, "", 0);
+    while (left > 0) {
+        message m;
+        bool any = false;
+        ranks_receive(&m, &any);
+        if (!any) ranks_pause();
+        left -= any && m.kind == SAY_END;
+        message_free(&m);
+    }
+}

@@ -1,0 +1,26 @@
+/* One scene computed for a query, whichever process does it. */
+#ifndef BREECH_COUPLING_SCENE_WORK_H
+#define BREECH_COUPLING_SCENE_WORK_H
+
+#include "coupling/run/lending.h"
+#include "coupling/run/scenes.h"
+#include "coupling/run/store.h"
+
+typedef status (*scene_runner)(const scene_job *, const scene_host *, impact *); /* scene_run, or a test's */
+
+typedef struct {
+    scene_runner run;
+    const char *task; /* for people */
+    const scene_host *host;
+    lending *lending; /* NULL: none */
+    scene_resume resume;
+} scene_work_how;
+
+/* What the query says of its scene; the result is empty. */
+onset_scene scene_entry(const scene_query *q);
+/* The same for a scene to its gauge and for the whole one (scene_job); 0: it has no gauges. */
+status scene_twin(const scene_query *q, uint64_t *twin);
+/* STATUS_STOPPED and errors as scene_run. */
+status scene_work(const scene_query *q, uint64_t key, const scene_work_how *how, scene_record *out);
+
+#endif

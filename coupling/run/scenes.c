@@ -1,0 +1,228 @@
+#include "coupling/run/scenes.h"
+
+#include "coupling/run/crew.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double ENERGY_ERROR_LIMIT = 0.01; /* above it a scene is warned about (issue's bound of the base case) */
+
+/* ---- computing ---- */
+
+void scenes_warn_of(session *s, const onset_scene *e)
+{
+    const scene_result *r = &e->result;
+    if (fabs(r->energy_error) > ENERGY_ERROR_LIMIT)
+        session_warn(s, "scene %s: energy error %.2f %%, above %.0f %%: lower scene.courant or raise the resolution",
+                     e->name, 100.0 * r->energy_error, 100.0 * ENERGY_ERROR_LIMIT);
+    if (r->crater_truncated)
+        session_warn(s,
+                     "scene %s: the crater reaches the edge of the fine zone: enlarge scene.fine_ahead or fine_width",
+                     e->name);
+}
+
+static void say_outcome(session *s, const onset_scene *e)
+{
+    const scene_result *r = &e->result;
+    if (e->gauged)
+        progress_say(&s->progress, "%-22s %s, growth %.2f a microsecond (%.0f s)", e->name,
+                     damage_class_names[r->class], 1e-6 * r->groove_growth, r->wall_seconds);
+    else
+        progress_say(&s->progress, "%-22s %s, severity %.2f, widening %.2f (%.0f s)", e->name,
+                     damage_class_names[r->class], r->severity, r->widening, r->wall_seconds);
+}
+
+static bool stop_asked(void *user)
+{
+    const session *s = user;
+    return s->stop && s->stop();
+}
+
+static status run_here(session *s, const scene_query *q, const scene_key *key, scene_record *out)
+{
+    char task[120];
+    snprintf(task, sizeof task, "scene %d, %g m/s, %g cells a radius", s->n_records + 1, q->state.velocity,
+             q->cells_per_radius);
+    const scene_host host = { .dir = &s->dir,
+                              .history = s->history,
+                              .progress = &s->progress,
+                              .timing = &s->timing,
+                              .shelf = &s->shelf,
+                              .threads = s->threads,
+                              .stop = stop_asked,
+                              .save = session_save_inside,
+                              .user = s };
+    const scene_work_how how = { s->run_scene, task, &host, NULL, session_resume_of(s, q->name) };
+    return scene_work(q, key->hash, &how, out);
+}
+
+static status into_store(session *s, const scene_record *r, const scene_key *key)
+{
+    h5_file *file;
+    if (!s->store[0]) return status_ok();
+    TRY(scene_store_open(s->store));
+    TRY(scene_file_make(r, key, s->history, &file));
+    const status done = scene_store_put(s->store, key, file);
+    h5_close(file);
+    return done;
+}
+
+static status keep(session *s, const scene_record *fresh)
+{
+    TRY(session_keep(s, fresh));
+    say_outcome(s, &fresh->entry);
+    return status_ok();
+}
+
+static status compute(session *s, const scene_query *q, const scene_key *key)
+{
+    scene_record fresh;
+    TRY(run_here(s, q, key, &fresh));
+    TRY(into_store(s, &fresh, key));
+    return keep(s, &fresh);
+}
+
+/* ---- taking up what is there ---- */
+
+/* The scene's series and crater come along where its file has them. */
+static status take_file(session *s, const scene_query *q, const scene_key *key, const h5_file *file, bool reused)
+{
+    scene_record r;
+    memset(&r, 0, sizeof r);
+    r.entry = scene_entry(q);
+    r.entry.reused = reused;
+    TRY(scene_file_read(file, key, &r));
+    if (h5_exists(file, "/scene")) TRY(history_import(s->history, q->name, file));
+    return keep(s, &r);
+}
+
+/* From another process, or computed ahead. */
+static status take_come(session *s, const scene_query *q, const scene_key *key)
+{
+    h5_file *file = NULL;
+    if (!s->crew) return status_ok();
+    TRY(crew_take(s->crew, key, &file));
+    const status taken = file ? take_file(s, q, key, file, false) : status_ok();
+    h5_close(file);
+    return taken;
+}
+
+/* A file that cannot be used is none: its scene is computed and replaces it. */
+static status take_stored(session *s, const scene_query *q, const scene_key *key)
+{
+    h5_file *file = NULL;
+    if (!s->store[0] || q->anew) return status_ok();
+    TRY(scene_store_get(s->store, key, &file));
+    if (!file) return status_ok();
+    const status taken = take_file(s, q, key, file, true);
+    h5_close(file);
+    if (taken.code == STATUS_IO) session_warn(s, "%s; computed anew", taken.text);
+    return taken.code == STATUS_IO ? status_ok() : taken;
+}
+
+static const scene_record *record_of(const session *s, uint64_t key)
+{
+    for (int i = 0; i < s->n_records; i++)
+        if (s->record[i]->key == key) return s->record[i];
+    return NULL;
+}
+
+/* ---- asking ---- */
+
+/* Known by now, or NULL in *out; the key is the caller's to free. */
+static status look_up(session *s, const scene_query *q, scene_key *key, const scene_record **out)
+{
+    *out = NULL;
+    TRY(scene_key_of(q->c, &q->state, q->cells_per_radius, key));
+    *out = record_of(s, key->hash);
+    if (*out) return status_ok();
+    TRY(take_come(s, q, key));
+    *out = record_of(s, key->hash);
+    if (*out) return status_ok();
+    TRY(take_stored(s, q, key));
+    *out = record_of(s, key->hash);
+    return status_ok();
+}
+
+status scenes_find(session *s, const scene_query *query, const scene_record **out)
+{
+    scene_key key = { .text = NULL };
+    const status done = look_up(s, query, &key, out);
+    scene_key_free(&key);
+    return done;
+}
+
+static status compute_here(session *s, const scene_query *q)
+{
+    scene_key key = { .text = NULL };
+    status done = scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
+    if (done.code == STATUS_OK) done = compute(s, q, &key);
+    scene_key_free(&key);
+    return done;
+}
+
+/* Those of the n that are not known, into missing (n of room); *left of them. */
+static status list_missing(session *s, const scene_query *query, int n, scene_query *missing, int *left)
+{
+    *left = 0;
+    for (int i = 0; i < n; i++) {
+        const scene_record *known;
+        TRY(scenes_find(s, &query[i], &known));
+        if (!known) missing[(*left)++] = query[i];
+    }
+    return status_ok();
+}
+
+/* One more of them, wherever it is computed; *left: how many were missing before. */
+static status one_more(session *s, const scene_query *query, int n, int *left)
+{
+    scene_query *missing = malloc(((size_t)n + 1) * sizeof *missing);
+    CHECK(missing, STATUS_MEMORY, "no memory for %d scenes", n);
+    status done = list_missing(s, query, n, missing, left);
+    if (done.code == STATUS_OK && *left > 0)
+        done = s->crew ? crew_some(s->crew, missing, *left) : compute_here(s, &missing[0]);
+    free(missing);
+    return done;
+}
+
+status scenes_some(session *s, const scene_query *query, int n)
+{
+    int left;
+    return one_more(s, query, n, &left);
+}
+
+status scenes_all(session *s, const scene_query *query, int n, const scene_record **out)
+{
+    int left = n;
+    while (left > 0) TRY(one_more(s, query, n, &left));
+    for (int i = 0; i < n; i++) TRY(scenes_find(s, &query[i], &out[i]));
+    return status_ok();
+}
+
+static status is_known(const session *s, const scene_query *q, bool *known)
+{
+    scene_key key = { .text = NULL };
+    const status done = scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
+    *known = record_of(s, key.hash) || (s->store[0] && scene_store_has(s->store, &key));
+    scene_key_free(&key);
+    return done;
+}
+
+/* One process has no idle ones. */
+status scenes_ahead(session *s, const scene_query *query, int n, bool level)
+{
+    if (!s->crew) return status_ok();
+    scene_query *open = malloc(((size_t)n + 1) * sizeof *open);
+    CHECK(open, STATUS_MEMORY, "no memory for %d scenes", n);
+    int left = 0;
+    status done = status_ok();
+    for (int i = 0; i < n && done.code == STATUS_OK; i++) {
+        bool known;
+        done = is_known(s, &query[i], &known);
+        if (!known) open[left++] = query[i];
+    }
+    if (done.code == STATUS_OK) done = crew_ahead(s->crew, open, left, level);
+    free(open);
+    return done;
+}

@@ -1,0 +1,255 @@
+#include "coupling/run/session.h"
+
+#include "coupling/run/crew.h"
+#include "coupling/run/ranks.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+double session_wall(const session *s)
+{
+    return s->wall_before + wall_clock() - s->started;
+}
+
+void session_warn(session *s, const char *format, ...)
+{
+    char line[600];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(line, sizeof line, format, args);
+    va_end(args);
+    const size_t old = s->warnings ? strlen(s->warnings) : 0, more = strlen(line);
+    char *all = realloc(s->warnings, old + more + 2);
+    if (!all) return;
+    snprintf(all + old, more + 2, "%s\n", line);
+    s->warnings = all;
+    progress_say(&s->progress, "warning: %s", line);
+}
+
+/* ---- checkpoints: the records one after the other, after a head that says how many ---- */
+
+typedef struct {
+    uint64_t scenes, scene_bytes;
+    double scene_wall; /* spent in the scene under way [s] */
+} store_head;
+
+static status checkpoint_path(const session *s, char path[OUTDIR_PATH_SIZE])
+{
+    return outdir_file(&s->dir, OUTDIR_CHECKPOINT, path, OUTDIR_PATH_SIZE);
+}
+
+static status write_checkpoint(const session *s, checkpoint *c, double scene_wall)
+{
+    char path[OUTDIR_PATH_SIZE];
+    const store_head head = { (uint64_t)s->n_records, sizeof(scene_record), scene_wall };
+    const size_t bytes = (size_t)s->n_records * sizeof(scene_record);
+    TRY(checkpoint_path(s, path));
+    char *study = malloc(sizeof head + bytes);
+    CHECK(study, STATUS_MEMORY, "no memory for a checkpoint of %d scenes", s->n_records);
+    memcpy(study, &head, sizeof head);
+    for (int i = 0; i < s->n_records; i++)
+        memcpy(study + sizeof head + (size_t)i * sizeof(scene_record), s->record[i], sizeof(scene_record));
+    c->study = study;
+    c->study_bytes = sizeof head + bytes;
+    c->wall_seconds = session_wall(s);
+    const status done = checkpoint_write(path, &s->key, c);
+    free(study);
+    return done;
+}
+
+static status add_record(session *s, const scene_record *from)
+{
+    scene_record *copy = malloc(sizeof *copy);
+    scene_record **more = realloc(s->record, ((size_t)s->n_records + 1) * sizeof *more);
+    if (more) s->record = more;
+    if (!copy || !more) {
+        free(copy);
+        return status_error(STATUS_MEMORY, "no memory for %d scenes", s->n_records + 1);
+    }
+    memcpy(copy, from, sizeof *copy);
+    s->record[s->n_records++] = copy;
+    return status_ok();
+}
+
+static status take_up(session *s)
+{
+    char path[OUTDIR_PATH_SIZE];
+    store_head head;
+    TRY(checkpoint_path(s, path));
+    TRY(checkpoint_read(path, &s->key, &s->resumed));
+    CHECK(s->resumed.study_bytes >= sizeof head, STATUS_IO, "%.300s: holds no study; start over with --force", path);
+    memcpy(&head, s->resumed.study, sizeof head);
+    CHECK(head.scene_bytes == sizeof(scene_record) &&
+              s->resumed.study_bytes == sizeof head + head.scenes * sizeof(scene_record),
+          STATUS_IO, "%.300s: its scenes are of another build; start over with --force", path);
+    for (size_t i = 0; i < head.scenes; i++) {
+        scene_record one;
+        memcpy(&one, (const char *)s->resumed.study + sizeof head + i * sizeof one, sizeof one);
+        TRY(add_record(s, &one));
+    }
+    s->wall_before = s->resumed.wall_seconds;
+    return status_ok();
+}
+
+static double resumed_scene_wall(const session *s)
+{
+    store_head head;
+    memcpy(&head, s->resumed.study, sizeof head);
+    return head.scene_wall;
+}
+
+/* ---- opening and closing ---- */
+
+/* used.yaml into the directory, its hash into the key. */
+static status write_used(session *s)
+{
+    char *text = NULL, path[OUTDIR_PATH_SIZE];
+    size_t bytes = 0;
+    FILE *f = open_memstream(&text, &bytes);
+    CHECK(f, STATUS_MEMORY, "no memory for used.yaml");
+    status done = case_write_used(s->c, f);
+    if (fclose(f) != 0 && done.code == STATUS_OK) done = status_error(STATUS_MEMORY, "no memory for used.yaml");
+    s->key = checkpoint_key_of(mpm_instruction_set(), hash_bytes(0, text, bytes));
+    if (done.code == STATUS_OK) done = outdir_file(&s->dir, OUTDIR_USED, path, sizeof path);
+    if (done.code == STATUS_OK && s->dir.state == OUTDIR_NEW) done = file_write(path, text, bytes);
+    free(text);
+    return done;
+}
+
+static status find_store(session *s, const char *wanted)
+{
+    if (!wanted)
+        TRY(outdir_file(&s->dir, OUTDIR_STORE, s->store, sizeof s->store));
+    else
+        CHECK(snprintf(s->store, sizeof s->store, "%s", wanted) < (int)sizeof s->store, STATUS_BAD_INPUT,
+              "--store: the path is too long");
+    return status_ok();
+}
+
+status session_open(const breech_case *c, const session_options *o, session *s)
+{
+    char dir[OUTDIR_PATH_SIZE];
+    memset(s, 0, sizeof *s);
+    s->c = c;
+    s->dir.lock = -1;
+    s->threads = o->threads;
+    s->lending = o->lending;
+    s->stop = o->stop;
+    s->run_scene = scene_run;
+    s->started = wall_clock();
+    s->warnings = strdup(c->warnings);
+    CHECK(s->warnings, STATUS_MEMORY, "no memory for the warnings");
+    progress_open(&s->progress, o->progress_to, o->quiet);
+    timing_open(&s->timing);
+    if (o->dir)
+        CHECK(snprintf(dir, sizeof dir, "%s", o->dir) < (int)sizeof dir, STATUS_BAD_INPUT, "-o: the path is too long");
+    else
+        TRY(outdir_default(c->name, dir, sizeof dir));
+    TRY(outdir_open(dir, o->how, &s->dir));
+    if (s->dir.state == OUTDIR_FINISHED) return status_ok();
+    TRY(find_store(s, o->store));
+    TRY(write_used(s));
+    if (s->dir.state == OUTDIR_RESUMED) TRY(take_up(s));
+    TRY(outdir_file(&s->dir, OUTDIR_HISTORY, dir, sizeof dir));
+    TRY(history_open(dir, s->dir.state == OUTDIR_RESUMED, &s->history));
+    return ranks_count() > 1 ? crew_create(s, &s->crew) : status_ok();
+}
+
+status session_close(session *s, bool finished)
+{
+    char path[OUTDIR_PATH_SIZE];
+    progress_close(&s->progress);
+    crew_free(s->crew);
+    s->crew = NULL;
+    const status done = history_close(s->history);
+    if (finished && s->dir.lock >= 0 && checkpoint_path(s, path).code == STATUS_OK) unlink(path);
+    outdir_close(&s->dir);
+    checkpoint_free(&s->resumed);
+    scene_shelf_clear(&s->shelf);
+    for (int i = 0; i < s->n_records; i++) free(s->record[i]);
+    free(s->record);
+    free(s->warnings);
+    s->history = NULL;
+    s->record = NULL;
+    s->n_records = 0;
+    s->warnings = NULL;
+    return done;
+}
+
+/* ---- the shot ---- */
+
+static void warn_of_limits(session *s, const shot_limits *l)
+{
+    const double x = l->transition_position;
+    if (l->contact_ratio < 1.0)
+        session_warn(s,
+                     "transition: from x = %.3g m on the contact force is below 1 gram-force per ampere (least %.2f)",
+                     l->contact_position, l->contact_ratio);
+    if (l->leg_action > 1.0 || l->throat_action > 1.0)
+        session_warn(
+            s,
+            "transition: the action melts the armature (leg %.2f, throat %.2f of what melts them), from x = %.3g m on",
+            l->leg_action, l->throat_action, x);
+    if (l->wear_share > 1.0)
+        session_warn(
+            s, "transition: wear takes %.2f times armature.leg_thickness, all of it by x = %.3g m at the earliest",
+            l->wear_share, x);
+    if (!isnan(l->critical_position))
+        session_warn(s, "rail: from x = %.3g m on the armature outruns the rail's bending waves, %.0f m/s",
+                     l->critical_position, l->critical_velocity);
+}
+
+status session_shot(session *s, const breech_case *c, const site_jump *jump, bool with_history, shot_outcome *out,
+                    shot_record *record)
+{
+    const double since = wall_clock();
+    progress_task(&s->progress, jump ? "shot with gouges" : "shot", 0.0, 0);
+    const shot_plan plan = {
+        .history = with_history ? s->history : NULL, .progress = &s->progress, .jump = jump, .stop = s->stop
+    };
+    const status done = shot_run(c, &plan, out);
+    if (s->history && done.code == STATUS_OK) TRY(history_tick(s->history));
+    timing_add(&s->timing, "shot", wall_clock() - since);
+    int warmest = 0;
+    for (int k = 1; k < SHOT_PIECES; k++)
+        if (out->rail_rise[k] > out->rail_rise[warmest]) warmest = k;
+    *record = (shot_record){ .is = out->summary,
+                             .limits = out->limits,
+                             .rail_rise = out->rail_rise[warmest],
+                             .rail_rise_position = (warmest + 0.5) * c->barrel.length / SHOT_PIECES,
+                             .wall_seconds = wall_clock() - since };
+    if (done.code == STATUS_OK && with_history) warn_of_limits(s, &out->limits);
+    return done;
+}
+
+/* ---- scenes ---- */
+
+status session_save_inside(void *user, const char *scene, const mpm *m, double wall)
+{
+    const session *s = user;
+    checkpoint c = { .scene_hash = hash_bytes(0, scene, strlen(scene)), .scene_time = mpm_glance(m).time };
+    void *image = NULL;
+    snprintf(c.scene, sizeof c.scene, "%s", scene);
+    TRY(mpm_save(m, &image, &c.image_bytes));
+    c.image = image;
+    const status done = write_checkpoint(s, &c, wall);
+    free(image);
+    return done;
+}
+
+scene_resume session_resume_of(const session *s, const char *scene)
+{
+    if (!s->resumed.image || strcmp(s->resumed.scene, scene) != 0) return (scene_resume){ .image = NULL };
+    return (scene_resume){ s->resumed.image, s->resumed.image_bytes, s->resumed.scene_time, resumed_scene_wall(s) };
+}
+
+status session_keep(session *s, const scene_record *fresh)
+{
+    checkpoint between = { .scene = "" };
+    TRY(add_record(s, fresh));
+    TRY(history_flush(s->history));
+    return write_checkpoint(s, &between, 0.0);
+}

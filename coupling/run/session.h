@@ -1,0 +1,72 @@
+/* A session: one run of the program on one case, and what it carries along - output directory, history, progress, timing,
+ * checkpoints, the scenes computed so far.
+ *
+ * The scenes of the run (scenes.h asks for them) are part of every checkpoint, so that a resumed run computes none twice
+ * and goes on inside the one it was stopped in, bit for bit. */
+#ifndef BREECH_COUPLING_SESSION_H
+#define BREECH_COUPLING_SESSION_H
+
+#include "coupling/host/outdir.h"
+#include "coupling/run/checkpoint.h"
+#include "coupling/scene/scene_run.h"
+
+/* A scene that was computed. */
+typedef struct {
+    onset_scene entry;
+    double impulse, mass_loss; /* as impact */
+    uint64_t key;              /* hash of all that decides it, scene_key.h */
+} scene_record;
+
+typedef struct {
+    const breech_case *c; /* borrowed */
+    outdir dir;
+    history *history;
+    progress progress;
+    timing timing;
+    int threads;
+    struct lending *lending; /* borrowed; NULL: there is none */
+    bool (*stop)(void);
+    status (*run_scene)(const scene_job *, const scene_host *, impact *); /* scene_run; tests put another in */
+    checkpoint_key key;
+    checkpoint resumed;           /* empty unless the run goes on */
+    double started, wall_before;  /* wall clock; spent before this process [s] */
+    char store[OUTDIR_PATH_SIZE]; /* folder of the scene store, "": none */
+    struct crew *crew;            /* the other processes (crew.h), owned; NULL: there are none */
+    scene_shelf shelf;            /* of this process */
+    int n_records;
+    scene_record **record; /* in the order they came; owned, one by one */
+    char *warnings;        /* a line each, owned */
+} session;
+
+typedef struct {
+    const char *dir;    /* NULL: out/<case> */
+    const char *store;  /* NULL: <dir>/store; "": none */
+    outdir_options how; /* --force, --resume */
+    int threads;
+    struct lending *lending; /* between processes (lending.h), borrowed; NULL: none */
+    FILE *progress_to;
+    bool quiet;
+    bool (*stop)(void);
+} session_options;
+
+/* Opens the output directory, writes used.yaml, takes up the checkpoint.  *s stays where it is until session_close.  s->dir.state OUTDIR_FINISHED: nothing to do.
+ * session_close is due in any case. */
+status session_open(const breech_case *c, const session_options *o, session *s);
+/* Flushes the history, frees all.  finished: the checkpoint has served. */
+status session_close(session *s, bool finished);
+
+double session_wall(const session *s); /* spent by the run, the stopped parts too [s] */
+void session_warn(session *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Takes a copy of the record, flushes the history, writes the checkpoint. */
+status session_keep(session *s, const scene_record *fresh);
+/* A checkpoint inside a scene: the scene_host's save, the session its user. */
+status session_save_inside(void *session, const char *scene, const mpm *m, double wall);
+/* Where the scene of this name is to be taken up; from the start unless the run was stopped inside it. */
+scene_resume session_resume_of(const session *s, const char *scene);
+
+/* The shot of a case, the session's or one derived from it, with what is asked for in jumps (NULL: none); only the first one of a run writes history. */
+status session_shot(session *s, const breech_case *c, const site_jump *jump, bool with_history, shot_outcome *out,
+                    shot_record *record);
+
+#endif

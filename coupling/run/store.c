@@ -1,0 +1,115 @@
+#include "coupling/run/store.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define FORMAT "breech scene 1"
+
+enum { TEXT_SIZE = 1 << 16 }; /* an attribute holds no more */
+
+/* ---- the file of one scene ---- */
+
+static status put_texts(h5_file *f, const scene_record *r, const scene_key *key)
+{
+    char *outcome = summary_scene_text(&r->entry);
+    CHECK(outcome, STATUS_MEMORY, "no memory for a scene's outcome");
+    const char *const texts[][2] = { { "format", FORMAT },
+                                     { "version", breech_version() },
+                                     { "instruction_set", mpm_instruction_set() },
+                                     { "solver", scene_solver_id() },
+                                     { "case", key->text },
+                                     { "outcome", outcome } };
+    status done = status_ok();
+    for (size_t i = 0; i < sizeof texts / sizeof *texts && done.code == STATUS_OK; i++)
+        done = h5_attribute_text(f, "/", texts[i][0], texts[i][1]);
+    free(outcome);
+    return done;
+}
+
+static status fill(h5_file *f, const scene_record *r, const scene_key *key, history *h)
+{
+    TRY(put_texts(f, r, key));
+    TRY(h5_attribute_double(f, "/", "impulse_N_s", r->impulse));
+    TRY(h5_attribute_double(f, "/", "mass_loss_kg", r->mass_loss));
+    return h && history_has(h, r->entry.name) ? history_export(h, r->entry.name, f) : status_ok();
+}
+
+status scene_file_make(const scene_record *r, const scene_key *key, history *h, h5_file **out)
+{
+    TRY(h5_create(out));
+    const status done = fill(*out, r, key, h);
+    if (done.code != STATUS_OK) {
+        h5_close(*out);
+        *out = NULL;
+    }
+    return done;
+}
+
+static status read_with(const h5_file *f, const scene_key *key, scene_record *out, char *text)
+{
+    TRY(h5_read_attribute_text(f, "/", "case", text, TEXT_SIZE));
+    CHECK(strcmp(text, key->text) == 0, STATUS_IO, "the store's scene %016llx has other inputs",
+          (unsigned long long)key->hash);
+    TRY(h5_read_attribute_text(f, "/", "outcome", text, TEXT_SIZE));
+    TRY(summary_scene_result(text, &out->entry.result));
+    TRY(h5_read_attribute_double(f, "/", "impulse_N_s", &out->impulse));
+    TRY(h5_read_attribute_double(f, "/", "mass_loss_kg", &out->mass_loss));
+    out->key = key->hash;
+    return status_ok();
+}
+
+status scene_file_read(const h5_file *f, const scene_key *key, scene_record *out)
+{
+    char *text = malloc(TEXT_SIZE);
+    CHECK(text, STATUS_MEMORY, "no memory to read a scene");
+    const status done = read_with(f, key, out, text);
+    free(text);
+    return done;
+}
+
+/* ---- where they lie ---- */
+
+static status path_of(const char *dir, const scene_key *key, char path[OUTDIR_PATH_SIZE])
+{
+    const int n = snprintf(path, OUTDIR_PATH_SIZE, "%s/%016llx.h5", dir, (unsigned long long)key->hash);
+    CHECK(n > 0 && n < OUTDIR_PATH_SIZE - 40, STATUS_BAD_INPUT, "store %.200s...: the path is too long", dir);
+    return status_ok();
+}
+
+status scene_store_open(const char *dir)
+{
+    TRY(directory_make(dir));
+    CHECK(access(dir, R_OK | W_OK | X_OK) == 0, STATUS_IO, "store %.300s: cannot be used: %s", dir, strerror(errno));
+    return status_ok();
+}
+
+status scene_store_get(const char *dir, const scene_key *key, h5_file **out)
+{
+    char path[OUTDIR_PATH_SIZE];
+    *out = NULL;
+    TRY(path_of(dir, key, path));
+    if (file_exists(path) && h5_open(path, out).code != STATUS_OK) *out = NULL;
+    return status_ok();
+}
+
+bool scene_store_has(const char *dir, const scene_key *key)
+{
+    char path[OUTDIR_PATH_SIZE];
+    return path_of(dir, key, path).code == STATUS_OK && file_exists(path);
+}
+
+/* Under a name of its own first: another program may be writing the same scene. */
+status scene_store_put(const char *dir, const scene_key *key, h5_file *file)
+{
+    char path[OUTDIR_PATH_SIZE], own[OUTDIR_PATH_SIZE], host[64] = "";
+    TRY(path_of(dir, key, path));
+    gethostname(host, sizeof host - 1);
+    snprintf(own, sizeof own, "%.900s.%.60s-%ld", path, host, (long)getpid());
+    TRY(h5_save(file, own));
+    if (rename(own, path) == 0) return status_ok();
+    const int error = errno;
+    unlink(own);
+    return status_error(STATUS_IO, "%.300s: cannot be written: %s", path, strerror(error));
+}

@@ -1,0 +1,172 @@
+#include "coupling/study/sampling/gouge_law.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Place of x in a table of n steps: index and share of the step. */
+static int step_of(double x, double first, double per, int n, double *f)
+{
+    const double at = fmin(fmax((x - first) * per, 0.0), n - 1e-9);
+    const int i = (int)at;
+    *f = at - i;
+    return i;
+}
+
+/* ---- thresholds ---- */
+
+/* A band without the allowance for the resolution; beyond the search it gouges from the lowest velocity on, or never. */
+static void band_at(const grain_family *f, double radius, double allowance, double *low, double *high)
+{
+    const surface_size at = surface_at(&f->surface, radius);
+    const threshold_plan *p = &f->plan.search;
+    *low = isnan(at.interval[0]) ? p->low : at.interval[0] + allowance;
+    *high = isnan(at.interval[1]) ? INFINITY : at.interval[1] - allowance;
+    if (isnan(at.interval[1])) *low = INFINITY;
+    if (*high < *low) *low = *high = 0.5 * (*low + *high);
+}
+
+static void tabulate_thresholds(const grain_family *f, gouge_law *out)
+{
+    const surface_result *s = &f->surface;
+    const double first = log(s->size[0].radius), last = log(s->size[s->sizes - 1].radius);
+    out->allowance = s->reference.allowance;
+    out->ln_first = first;
+    out->per_ln = last > first ? LAW_SIZES / (last - first) : 0.0;
+    for (int i = 0; i <= LAW_SIZES; i++) {
+        const double ln_r = out->per_ln > 0.0 ? first + i / out->per_ln : first;
+        band_at(f, exp(ln_r), out->allowance, &out->low[i], &out->high[i]);
+    }
+}
+
+double gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_allowance)
+{
+    double f;
+    const int i = step_of(ln_radius, l->ln_first, l->per_ln, LAW_SIZES, &f);
+    if (isinf(l->low[i]) || isinf(l->low[i + 1])) return INFINITY;
+    const double low = l->low[i] + f * (l->low[i + 1] - l->low[i]);
+    const double high = l->high[i] + f * (l->high[i + 1] - l->high[i]);
+    return low + in_band * (high - low) + of_allowance * l->allowance;
+}
+
+double gouge_law_lowest(const gouge_law *l)
+{
+    double lowest = INFINITY;
+    for (int i = 0; i <= LAW_SIZES; i++) lowest = fmin(lowest, l->low[i]);
+    return lowest - l->allowance;
+}
+
+/* ---- marks ---- */
+
+typedef struct {
+    double v;
+    gouge_mark is;
+} marked;
+
+static int by_velocity(const void *a, const void *b)
+{
+    const double x = ((const marked *)a)->v, y = ((const marked *)b)->v;
+    return (x > y) - (x < y);
+}
+
+static double worth(double value)
+{
+    return isfinite(value) ? value : 0.0;
+}
+
+/* An undecided scene takes the side of its severity, as in the search. */
+static bool gouges(const scene_result *r, double limit_severity)
+{
+    return r->class == DAMAGE_GOUGE || (r->class == DAMAGE_UNDECIDED && r->severity >= limit_severity);
+}
+
+/* Scenes whose craters count: whole ones, at the resolution of the thresholds where those were found by craters. */
+static bool counts(const grain_family *f, const family_scene *a, double limit_severity)
+{
+    if (f->by_growth) return a->whole;
+    return a->cells == f->surface.reference.cells && gouges(&a->record->entry.result, limit_severity);
+}
+
+/* The family's gouges in order of velocity. */
+static int collect(const grain_family *f, double limit_severity, marked *out)
+{
+    int n = 0;
+    for (int i = 0; i < f->n_scenes; i++) {
+        const family_scene *a = &f->scene[i];
+        const scene_result *r = &a->record->entry.result;
+        const double r3 = pow(a->radius, 3.0);
+        if (!counts(f, a, limit_severity)) continue;
+        out[n].v = a->velocity;
+        out[n++].is = (gouge_mark){ .volume = worth(r->crater_volume) / r3,
+                                    .rim = worth(r->rim_height) / a->radius,
+                                    .along = worth(r->crater_length) / a->radius,
+                                    .depth = worth(r->crater_depth) / a->radius,
+                                    .impulse = a->record->impulse / r3,
+                                    .metal = a->record->mass_loss / r3 };
+    }
+    qsort(out, (size_t)n, sizeof *out, by_velocity);
+    return n;
+}
+
+gouge_mark gouge_mark_between(const gouge_mark *a, const gouge_mark *b, double f)
+{
+    return (gouge_mark){ a->volume + f * (b->volume - a->volume),    a->rim + f * (b->rim - a->rim),
+                         a->along + f * (b->along - a->along),       a->depth + f * (b->depth - a->depth),
+                         a->impulse + f * (b->impulse - a->impulse), a->metal + f * (b->metal - a->metal) };
+}
+
+static gouge_mark mark_at(const marked *m, int n, double v)
+{
+    if (n == 0) return (gouge_mark){ .volume = NAN }; /* not known */
+    int k = 0;
+    while (k + 1 < n && m[k + 1].v < v) k++;
+    if (k + 1 == n || v <= m[k].v || m[k + 1].v <= m[k].v) return m[k].is;
+    return gouge_mark_between(&m[k].is, &m[k + 1].is, (v - m[k].v) / (m[k + 1].v - m[k].v));
+}
+
+bool gouge_mark_at(const grain_family *f, double limit_severity, double velocity, gouge_mark *out)
+{
+    marked m[THRESHOLD_MAX_SAMPLES];
+    const int n = collect(f, limit_severity, m);
+    *out = mark_at(m, n, velocity);
+    return n > 0;
+}
+
+static void tabulate_marks(const grain_family *f, double limit_severity, gouge_law *out)
+{
+    marked m[THRESHOLD_MAX_SAMPLES];
+    const int n = collect(f, limit_severity, m);
+    const double first = n ? m[0].v : 1.0, last = n ? m[n - 1].v : 1.0;
+    out->marked = n > 0;
+    out->v_first = first;
+    out->per_v = last > first ? LAW_VELOCITIES / (last - first) : 0.0;
+    for (int i = 0; i <= LAW_VELOCITIES; i++)
+        out->mark[i] = mark_at(m, n, out->per_v > 0.0 ? first + i / out->per_v : first);
+}
+
+gouge_mark gouge_law_mark(const gouge_law *l, double velocity)
+{
+    double f;
+    const int i = step_of(velocity, l->v_first, l->per_v, LAW_VELOCITIES, &f);
+    return gouge_mark_between(&l->mark[i], &l->mark[i + 1], f);
+}
+
+double gouge_law_depth(const grain_family *f, double limit_severity)
+{
+    double depth = 0.0;
+    for (int i = 0; i < f->n_scenes; i++)
+        if (counts(f, &f->scene[i], limit_severity))
+            depth = fmax(depth, worth(f->scene[i].record->entry.result.crater_depth));
+    return depth;
+}
+
+void gouge_law_none(gouge_law *out)
+{
+    *out = (gouge_law){ .v_first = 1.0 };
+    for (int i = 0; i <= LAW_SIZES; i++) out->low[i] = out->high[i] = INFINITY;
+}
+
+void gouge_law_make(const grain_family *f, double limit_severity, gouge_law *out)
+{
+    tabulate_thresholds(f, out);
+    tabulate_marks(f, limit_severity, out);
+}

@@ -1,0 +1,43 @@
+/* What a family's search says of any grain of it, tabulated for drawing by the million. */
+#ifndef BREECH_COUPLING_GOUGE_LAW_H
+#define BREECH_COUPLING_GOUGE_LAW_H
+
+#include "coupling/study/search/family.h"
+
+enum { LAW_SIZES = 128, LAW_VELOCITIES = 64 };
+
+/* What a gouge leaves and takes, by the radius of its grain; linear in velocity between the scenes that gouge, constant
+ * beyond. */
+typedef struct {
+    double volume;         /* over r^3 [1] */
+    double rim, along;     /* height of the rim, its way downstream, over r [1] */
+    double depth;          /* over r [1] */
+    double impulse, metal; /* of the armature, over r^3 [N s/m3, kg/m3] */
+} gouge_mark;
+
+typedef struct {
+    double ln_first, per_ln;                        /* place of ln r in the tables below */
+    double low[LAW_SIZES + 1], high[LAW_SIZES + 1]; /* band of the threshold, INFINITY: never within the search [m/s] */
+    double allowance;                               /* for the resolution (threshold.h) [m/s] */
+    double v_first, per_v;
+    bool marked; /* some scene gouges; else a mark's volume is NaN, all else of it 0 */
+    gouge_mark mark[LAW_VELOCITIES + 1];
+} gouge_law;
+
+/* Of a family that no scene was run for: it never gouges. */
+void gouge_law_none(gouge_law *out);
+void gouge_law_make(const grain_family *f, double limit_severity, gouge_law *out);
+
+/* By the scenes themselves, for one grain; false: none of them gouges. */
+bool gouge_mark_at(const grain_family *f, double limit_severity, double velocity, gouge_mark *out);
+
+/* low + in_band (high - low) + of_allowance x allowance, in_band 0 .. 1, of_allowance -1 .. 1 [m/s] */
+double gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_allowance);
+gouge_mark gouge_law_mark(const gouge_law *l, double velocity);
+gouge_mark gouge_mark_between(const gouge_mark *a, const gouge_mark *b, double share); /* 0: a, 1: b */
+double gouge_law_depth(const grain_family *f, double limit_severity); /* of the deepest crater; 0: nothing gouges [m] */
+
+/* The lowest any size can have [m/s]. */
+double gouge_law_lowest(const gouge_law *l);
+
+#endif

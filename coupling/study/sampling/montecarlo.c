@@ -1,0 +1,548 @@
+#include "coupling/study/sampling/montecarlo.h"
+
+#include "coupling/host/progress.h"
+#include "coupling/study/sampling/gouge_law.h"
+#include "coupling/study/sampling/population.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_RIMS = 256 };
+
+/* What is added up over all histories, for each surface and shot. */
+enum { GOUGES, VOLUME, FIRSTS, STREWN = FIRSTS + MC_BINS, SUMS = STREWN + MC_BINS };
+
+/* A grain; of those that gouges leave, rims, as the next shot finds them. */
+typedef struct {
+    double x, ln_r;
+    int family;
+    bool bare; /* it stands on the rail's own metal, not on a layer */
+} grain;
+
+/* A population on one surface. */
+typedef struct {
+    int family;       /* -1: cannot gouge */
+    double kept;      /* share of the first surface's grains that are there */
+    double ln_median; /* of log-normal sizes */
+} strewn_here;
+
+/* One surface, ready for drawing. */
+typedef struct {
+    const grain_families *grains;
+    gouge_law *law; /* of each family, owned, as those of a warmer and of a bare rail: NULL: there are none */
+    gouge_law *warm, *bare;
+    double *in_band;       /* u_b of each family in this world, owned */
+    mc_along *own;         /* where all shots are alike, owned */
+    const mc_along *along; /* of the shot under way */
+    double per_place;      /* [1/m] */
+    double warm_rise;      /* [K] */
+    double layers;         /* thickness of all [m] */
+    strewn_here *strewn;   /* of each population, owned */
+    double ln_factor;      /* on sizes */
+    double ln_smallest;    /* of a population's grains and of rims */
+    int draws;
+    int rims, rims_next;
+    grain rim[MAX_RIMS], next[MAX_RIMS];
+    int gouges; /* of the shot under way */
+    double volume, first;
+} lane;
+
+/* What all surfaces draw of one population of the first surface. */
+typedef struct {
+    const case_population *p;
+    double from, to;           /* stretch worth drawing [m] */
+    double mean;               /* grains drawn, expected */
+    double lowest;             /* deviate below which a log-normal grain is too small for every surface */
+    gsl_ran_discrete_t *table; /* of tabulated sizes, owned; NULL: log-normal */
+} strewn;
+
+typedef struct {
+    const mc_plan *plan;
+    gsl_rng *rng;
+    lane *lane;     /* owned */
+    strewn *strewn; /* one a population, owned */
+    int populations;
+    double *sum;         /* [n x shots x SUMS], owned */
+    double world_sum[2]; /* of the shot and surface under way */
+    double of_allowance; /* u_s of this world */
+} mc;
+
+/* ---- counting ---- */
+
+static double *sums_of(const mc *m, int surface, int number)
+{
+    return m->sum + ((size_t)surface * (size_t)m->plan->shots + (size_t)number) * SUMS;
+}
+
+static int bin_of(const mc *m, double x)
+{
+    const int bin = (int)(MC_BINS * x / m->plan->length);
+    return bin < MC_BINS ? bin : MC_BINS - 1;
+}
+
+/* ---- one grain on one surface ---- */
+
+static double value_at(const lane *l, const double table[MC_PLACES + 1], double x)
+{
+    const double at = fmin(fmax(x * l->per_place, 0.0), MC_PLACES - 1e-9);
+    const int i = (int)at;
+    return table[i] + (at - i) * (table[i + 1] - table[i]);
+}
+
+static double velocity_at(const lane *l, double x)
+{
+    return value_at(l, l->along->v, x);
+}
+
+/* A threshold on a rail that is warmer by a share of what `hot` is warmer than `cold`; where one of the two never gouges, the
+ * nearer one says. */
+static double warmed(double threshold, double cold, double hot, double share)
+{
+    if (isfinite(cold) && isfinite(hot)) return threshold * (1.0 + share * (hot / cold - 1.0));
+    return share < 0.5 || isinf(cold) == isinf(hot) ? threshold : hot;
+}
+
+static double threshold_at(const mc *m, const lane *l, const grain *g, double warm)
+{
+    const double in_band = l->in_band[g->family], allowed = m->of_allowance;
+    const double cold = gouge_law_threshold(&l->law[g->family], g->ln_r, in_band, allowed);
+    const double here = g->bare ? gouge_law_threshold(&l->bare[g->family], g->ln_r, in_band, allowed) : cold;
+    if (!(warm > 0.0)) return here;
+    return warmed(here, cold, gouge_law_threshold(&l->warm[g->family], g->ln_r, in_band, allowed), warm);
+}
+
+static gouge_mark mark_at(const lane *l, const grain *g, double v, double warm)
+{
+    const gouge_law *cold = g->bare ? &l->bare[g->family] : &l->law[g->family];
+    const gouge_law *hot = warm > 0.0 ? &l->warm[g->family] : cold;
+    if (!cold->marked || !hot->marked) return gouge_law_mark(cold->marked ? cold : hot, v);
+    const gouge_mark a = gouge_law_mark(cold, v), b = gouge_law_mark(hot, v);
+    return gouge_mark_between(&a, &b, warm);
+}
+
+/* Where the gouge ends; on the rail's own metal if it goes through the layers, or is in such a place itself. */
+static void leave_rim(lane *l, const grain *g, double radius, const gouge_mark *m)
+{
+    if (l->rims_next == MAX_RIMS || !(m->rim > 0.0)) return;
+    const bool bare = l->bare && (g->bare || m->depth * radius > l->layers);
+    l->next[l->rims_next++] = (grain){ g->x + m->along * radius, log(m->rim * radius), g->family, bare };
+}
+
+/* Does it gouge? */
+static bool meet(const mc *m, lane *l, const grain *g)
+{
+    const double v = velocity_at(l, g->x);
+    const double warm = l->warm ? fmin(value_at(l, l->along->rise, g->x) / l->warm_rise, 1.0) : 0.0;
+    if (v < threshold_at(m, l, g, warm)) return false;
+    const double radius = exp(g->ln_r);
+    const gouge_mark mark = mark_at(l, g, v, warm);
+    l->gouges++;
+    l->volume += mark.volume * radius * radius * radius;
+    l->first = fmin(l->first, g->x);
+    leave_rim(l, g, radius, &mark);
+    return true;
+}
+
+/* ---- one shot ---- */
+
+static void meet_sites(const mc *m, lane *l)
+{
+    const breech_case *c = l->grains->c;
+    for (int i = 0; i < c->sites.n; i++) {
+        const case_site *site = &c->sites.item[i];
+        const grain g = { site->position, log(site->radius) + l->ln_factor, l->grains->of_site[i], false };
+        if (g.family >= 0) meet(m, l, &g);
+    }
+}
+
+static void meet_rims(const mc *m, lane *l)
+{
+    for (int i = 0; i < l->rims; i++)
+        if (l->rim[i].ln_r >= l->ln_smallest && l->rim[i].x < m->plan->length) meet(m, l, &l->rim[i]);
+}
+
+static double draw_deviate(const mc *m, const strewn *s)
+{
+    double z;
+    if (s->lowest > 0.0) return gsl_ran_ugaussian_tail(m->rng, s->lowest);
+    do z = gsl_ran_gaussian_ziggurat(m->rng, 1.0);
+    while (z < s->lowest);
+    return z;
+}
+
+static void strew(mc *m, int index, int number)
+{
+    const strewn *s = &m->strewn[index];
+    for (unsigned k = gsl_ran_poisson(m->rng, s->mean); k > 0; k--) {
+        const double x = s->from + (s->to - s->from) * gsl_rng_uniform(m->rng);
+        const double kept = gsl_rng_uniform(m->rng);
+        const size_t line = s->table ? gsl_ran_discrete(m->rng, s->table) : 0;
+        const double spread = s->table ? 0.0 : s->p->radius_spread * draw_deviate(m, s);
+        for (int i = 0; i < m->plan->n; i++) {
+            lane *l = &m->lane[i];
+            const strewn_here *here = &l->strewn[index];
+            if (here->family < 0 || kept >= here->kept) continue;
+            const case_sizes *sizes = &l->grains->c->populations.item[index].sizes;
+            const double ln_r = l->ln_factor + (s->table ? log(sizes->item[line].radius) : here->ln_median + spread);
+            const grain g = { x, ln_r, here->family, false };
+            if (ln_r >= l->ln_smallest && meet(m, l, &g)) sums_of(m, i, number)[STREWN + bin_of(m, x)] += 1.0;
+        }
+    }
+}
+
+/* The shot of this number, from 0, on all surfaces. */
+static void fire(mc *m, int number)
+{
+    for (int i = 0; i < m->plan->n; i++) {
+        lane *l = &m->lane[i];
+        if (!l->own) l->along = &m->plan->surface[i].along[number];
+        l->gouges = l->rims_next = 0;
+        l->volume = 0.0;
+        l->first = INFINITY;
+        if (number == 0) meet_sites(m, l);
+        meet_rims(m, l);
+    }
+    for (int k = 0; k < m->populations; k++)
+        if (number == 0 || m->strewn[k].p->renewed) strew(m, k, number);
+    for (int i = 0; i < m->plan->n; i++) {
+        lane *l = &m->lane[i];
+        memcpy(l->rim, l->next, (size_t)l->rims_next * sizeof *l->rim);
+        l->rims = l->rims_next;
+    }
+}
+
+/* ---- counting ---- */
+
+static void count(mc *m, mc_result *out, int world, int number)
+{
+    for (int i = 0; i < m->plan->n; i++) {
+        const lane *l = &m->lane[i];
+        double *sum = sums_of(m, i, number);
+        const size_t at = ((size_t)i * (size_t)m->plan->shots + (size_t)number) * MC_WORLDS + (size_t)world;
+        sum[GOUGES] += l->gouges;
+        sum[VOLUME] += l->volume;
+        out->world_gouges[at] += l->gouges;
+        out->world_volumes[at] += l->volume;
+        if (l->gouges > 0) sum[FIRSTS + bin_of(m, l->first)] += 1.0;
+    }
+}
+
+static void new_world(mc *m)
+{
+    m->of_allowance = 2.0 * gsl_rng_uniform(m->rng) - 1.0;
+    for (int i = 0; i < m->plan->n; i++) {
+        lane *l = &m->lane[i], *same = l;
+        for (int j = 0; j < i && same == l; j++)
+            if (m->lane[j].draws == l->draws) same = &m->lane[j];
+        for (int k = 0; k < l->grains->n; k++) l->in_band[k] = same == l ? gsl_rng_uniform(m->rng) : same->in_band[k];
+    }
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void middle_of(const double *worlds, double interval[2])
+{
+    double sorted[MC_WORLDS];
+    memcpy(sorted, worlds, sizeof sorted);
+    qsort(sorted, MC_WORLDS, sizeof *sorted, by_value);
+    interval[0] = sorted[MC_WORLDS / 20];
+    interval[1] = sorted[MC_WORLDS - 1 - MC_WORLDS / 20];
+}
+
+/* Place before which this share of all shots has gouged: linear inside a bin; NaN if fewer gouge. */
+static double place_of_share(const mc_shot *s, double share, double length)
+{
+    for (int k = 0; k < MC_BINS; k++) {
+        if (s->before[k] < share) continue;
+        const double below = k > 0 ? s->before[k - 1] : 0.0;
+        return length * (k + (share - below) / (s->before[k] - below)) / MC_BINS;
+    }
+    return NAN;
+}
+
+static void conclude(const mc *m, mc_result *out)
+{
+    static const double shares[3] = { 0.05, 0.5, 0.95 };
+    const double each = 1.0 / out->histories, in_world = (double)MC_WORLDS / out->histories;
+    for (int i = 0; i < out->n * out->shots; i++) {
+        const double *sum = m->sum + (size_t)i * SUMS;
+        mc_shot *s = &out->of[i];
+        double *gouges = out->world_gouges + (size_t)i * MC_WORLDS,
+               *volumes = out->world_volumes + (size_t)i * MC_WORLDS;
+        for (int w = 0; w < MC_WORLDS; w++) gouges[w] *= in_world, volumes[w] *= in_world;
+        s->gouges = sum[GOUGES] * each;
+        s->volume = sum[VOLUME] * each;
+        middle_of(gouges, s->gouges_interval);
+        if (isnan(s->volume))
+            s->volume_interval[0] = s->volume_interval[1] = NAN;
+        else
+            middle_of(volumes, s->volume_interval);
+        double gouged = 0.0; /* histories: a whole number, so that certainty is 1 */
+        for (int k = 0; k < MC_BINS; k++) s->before[k] = (gouged += sum[FIRSTS + k]) / out->histories;
+        for (int k = 0; k < MC_BINS; k++) s->strewn[k] = sum[STREWN + k] * each;
+        s->probability = s->before[MC_BINS - 1];
+        for (int k = 0; k < 3; k++) s->first[k] = place_of_share(s, shares[k], m->plan->length);
+    }
+}
+
+/* ---- setting up ---- */
+
+void mc_velocities(const shot_outcome *flown, double length, double v[MC_PLACES + 1])
+{
+    int k = 0;
+    const trace_point *t = flown->trace;
+    for (int i = 0; i <= MC_PLACES; i++) {
+        const double x = i * length / MC_PLACES;
+        while (k + 1 < flown->n_trace && t[k + 1].x < x) k++;
+        const bool last = k + 1 >= flown->n_trace;
+        v[i] = flown->n_trace == 0 || x < t[0].x || (last && x > t[k].x) ? 0.0 : t[k].v;
+        if (!last && x >= t[k].x && t[k + 1].x > t[k].x)
+            v[i] += (x - t[k].x) / (t[k + 1].x - t[k].x) * (t[k + 1].v - t[k].v);
+    }
+}
+
+static status make_along(const mc_plan *plan, const mc_surface *s, lane *l)
+{
+    l->per_place = MC_PLACES / plan->length;
+    l->along = s->along;
+    if (s->along) return status_ok();
+    l->along = l->own = calloc(1, sizeof *l->own);
+    CHECK(l->own, STATUS_MEMORY, "no memory for the Monte Carlo");
+    mc_velocities(s->grains->flown, plan->length, l->own->v);
+    return status_ok();
+}
+
+/* The laws of another rail's families, in the order of the first's; none in *out where there are none. */
+static status make_laws(const mc_surface *s, const grain_families *from, gouge_law **out)
+{
+    if (!from) return status_ok();
+    *out = calloc((size_t)s->grains->n + 1, sizeof **out);
+    CHECK(*out, STATUS_MEMORY, "no memory for the Monte Carlo");
+    for (int k = 0; k < s->grains->n; k++) {
+        const grain_family *f = family_alike(from, &s->grains->family[k]);
+        if (f)
+            gouge_law_make(f, from->c->scene.limit_severity, &(*out)[k]);
+        else
+            gouge_law_none(&(*out)[k]);
+    }
+    return status_ok();
+}
+
+static void place_populations(const mc_plan *plan, lane *l)
+{
+    const case_populations *all = &l->grains->c->populations, *first = &plan->surface[0].grains->c->populations;
+    for (int k = 0; k < all->n; k++)
+        l->strewn[k] = (strewn_here){ .family = l->grains->of_population[k],
+                                      .kept = all->item[k].density / first->item[k].density,
+                                      .ln_median = log(all->item[k].radius_median) };
+}
+
+static status make_lane(const mc_plan *plan, int i, lane *l)
+{
+    const mc_surface *s = &plan->surface[i];
+    l->grains = s->grains;
+    l->draws = s->draws;
+    l->warm_rise = s->warm_rise;
+    l->ln_factor = log(s->size_factor);
+    l->ln_smallest = log(s->grains->c->study.smallest_radius);
+    l->in_band = calloc((size_t)s->grains->n + 1, sizeof *l->in_band);
+    l->strewn = calloc((size_t)s->grains->c->populations.n + 1, sizeof *l->strewn);
+    CHECK(l->in_band && l->strewn, STATUS_MEMORY, "no memory for the Monte Carlo");
+    place_populations(plan, l);
+    l->layers = case_layers_thickness(&s->grains->c->rail.layers);
+    TRY(make_laws(s, s->grains, &l->law));
+    TRY(make_laws(s, s->warm, &l->warm));
+    TRY(make_laws(s, s->bare, &l->bare));
+    return make_along(plan, s, l);
+}
+
+/* First place where any shot on any surface may gouge with grains of this population. */
+static double first_place(const mc *m, int index)
+{
+    double first = m->plan->length;
+    for (int i = 0; i < m->plan->n; i++) {
+        const lane *l = &m->lane[i];
+        const int family = l->grains->of_population[index], shots = l->own ? 1 : m->plan->shots;
+        if (family < 0) continue;
+        double lowest = gouge_law_lowest(&l->law[family]);
+        if (l->warm) lowest = fmin(lowest, gouge_law_lowest(&l->warm[family]));
+        for (int number = 0; number < shots; number++) {
+            int k = 0;
+            while (k <= MC_PLACES && l->along[number].v[k] < lowest) k++;
+            if (k <= MC_PLACES) first = fmin(first, fmax(k - 1, 0) / l->per_place);
+        }
+    }
+    return first;
+}
+
+static double smallest_deviate(const mc *m, int index)
+{
+    double lowest = INFINITY;
+    for (int i = 0; i < m->plan->n; i++) {
+        const lane *l = &m->lane[i];
+        const case_population *p = &l->grains->c->populations.item[index];
+        const double ln = log(l->grains->c->study.smallest_radius / p->radius_median) - l->ln_factor;
+        lowest = fmin(lowest, ln / fmax(p->radius_spread, 1e-9));
+    }
+    return lowest;
+}
+
+static status make_strewn(mc *m, int index)
+{
+    strewn *s = &m->strewn[index];
+    s->p = &m->plan->surface[0].grains->c->populations.item[index];
+    s->to = s->p->to;
+    s->from = fmin(fmax(s->p->from, first_place(m, index)), s->to);
+    s->mean = s->p->density * (s->to - s->from);
+    if (s->p->sizes.n == 0) {
+        s->lowest = smallest_deviate(m, index);
+        s->mean *= gsl_cdf_ugaussian_Q(s->lowest);
+        return status_ok();
+    }
+    double *share = malloc((size_t)s->p->sizes.n * sizeof *share);
+    CHECK(share, STATUS_MEMORY, "no memory for the Monte Carlo");
+    for (int k = 0; k < s->p->sizes.n; k++) share[k] = s->p->sizes.item[k].share;
+    s->table = gsl_ran_discrete_preproc((size_t)s->p->sizes.n, share);
+    free(share);
+    CHECK(s->table, STATUS_MEMORY, "no memory for the Monte Carlo");
+    return status_ok();
+}
+
+static status set_up(mc *m, mc_result *out)
+{
+    const mc_plan *p = m->plan;
+    const size_t n = (size_t)p->n, cells = n * (size_t)p->shots;
+    m->populations = p->surface[0].grains->c->populations.n;
+    m->rng = gsl_rng_alloc(gsl_rng_mt19937);
+    m->lane = calloc(n, sizeof *m->lane);
+    m->strewn = calloc((size_t)m->populations + 1, sizeof *m->strewn);
+    m->sum = calloc(cells * SUMS, sizeof *m->sum);
+    out->of = calloc(cells, sizeof *out->of);
+    out->world_gouges = calloc(cells * MC_WORLDS, sizeof(double));
+    out->world_volumes = calloc(cells * MC_WORLDS, sizeof(double));
+    CHECK(m->rng && m->lane && m->strewn && m->sum && out->of && out->world_gouges && out->world_volumes, STATUS_MEMORY,
+          "no memory for the Monte Carlo");
+    gsl_rng_set(m->rng, (unsigned long)p->seed);
+    for (int i = 0; i < p->n; i++) TRY(make_lane(p, i, &m->lane[i]));
+    for (int k = 0; k < m->populations; k++) TRY(make_strewn(m, k));
+    return status_ok();
+}
+
+static void lane_free(lane *l)
+{
+    free(l->law);
+    free(l->warm);
+    free(l->bare);
+    free(l->own);
+    free(l->in_band);
+    free(l->strewn);
+}
+
+static void tear_down(mc *m)
+{
+    for (int i = 0; m->lane && i < m->plan->n; i++) lane_free(&m->lane[i]);
+    for (int k = 0; m->strewn && k < m->populations; k++)
+        if (m->strewn[k].table) gsl_ran_discrete_free(m->strewn[k].table);
+    if (m->rng) gsl_rng_free(m->rng);
+    free(m->lane);
+    free(m->strewn);
+    free(m->sum);
+}
+
+static void run_all(mc *m, mc_result *out)
+{
+    const int in_world = out->histories / MC_WORLDS;
+    for (int w = 0; w < MC_WORLDS; w++) {
+        new_world(m);
+        for (int h = 0; h < in_world; h++) {
+            for (int i = 0; i < m->plan->n; i++) m->lane[i].rims = 0;
+            for (int k = 0; k < m->plan->shots; k++) {
+                fire(m, k);
+                count(m, out, w, k);
+            }
+        }
+    }
+}
+
+status mc_run(const mc_plan *plan, mc_result *out)
+{
+    mc m = { .plan = plan };
+    const double since = wall_clock();
+    memset(out, 0, sizeof *out);
+    out->n = plan->n;
+    out->shots = plan->shots;
+    out->histories = MC_WORLDS * (plan->histories / MC_WORLDS + (plan->histories % MC_WORLDS != 0));
+    const status s = set_up(&m, out);
+    if (s.code == STATUS_OK) {
+        run_all(&m, out);
+        conclude(&m, out);
+    }
+    tear_down(&m);
+    out->seconds = wall_clock() - since;
+    return s;
+}
+
+void mc_free(mc_result *r)
+{
+    free(r->of);
+    free(r->world_gouges);
+    free(r->world_volumes);
+    memset(r, 0, sizeof *r);
+}
+
+/* ---- by quadrature ---- */
+
+/* Grains of a population at a place that gouge there: density x share of the sizes whose threshold is passed. */
+static double gouging_density(const lane *l, int index, double x)
+{
+    enum { SIZES = 400 };
+    const case_population *p = &l->grains->c->populations.item[index];
+    const gouge_law *law = &l->law[l->grains->of_population[index]];
+    const double smallest = l->grains->c->study.smallest_radius, v = velocity_at(l, x);
+    double sum = 0.0;
+    for (int i = 0; i < p->sizes.n; i++) {
+        const double r = p->sizes.item[i].radius;
+        if (r < smallest || v < gouge_law_threshold(law, log(r), 0.5, 0.0)) continue;
+        sum += population_share_from(p, r) - population_share_from(p, r * (1.0 + 1e-12));
+    }
+    for (int i = 0; p->sizes.n == 0 && i < SIZES; i++) { /* equal shares above the smallest */
+        const double all = population_share_from(p, smallest), share = 1.0 - all * (1.0 - (i + 0.5) / SIZES);
+        const double ln_r = log(p->radius_median) + p->radius_spread * gsl_cdf_ugaussian_Pinv(share);
+        if (v >= gouge_law_threshold(law, ln_r, 0.5, 0.0)) sum += all / SIZES;
+    }
+    return p->density * sum;
+}
+
+double mc_expected(const grain_families *grains, double length)
+{
+    const mc_surface one = { .grains = grains, .size_factor = 1.0 };
+    const mc_plan plan = { .length = length, .n = 1, .surface = &one };
+    lane *l = calloc(1, sizeof *l);
+    double sum = NAN;
+    if (l && make_lane(&plan, 0, l).code == STATUS_OK) {
+        sum = 0.0;
+        for (int i = 0; i < grains->c->sites.n; i++) {
+            const case_site *site = &grains->c->sites.item[i];
+            const int family = grains->of_site[i];
+            sum += family >= 0 &&
+                   velocity_at(l, site->position) >= gouge_law_threshold(&l->law[family], log(site->radius), 0.5, 0.0);
+        }
+        for (int k = 0; k < grains->c->populations.n; k++) {
+            const case_population *p = &grains->c->populations.item[k];
+            for (int i = 0; grains->of_population[k] >= 0 && i < MC_PLACES; i++)
+                sum += gouging_density(l, k, p->from + (p->to - p->from) * (i + 0.5) / MC_PLACES) * (p->to - p->from) /
+                       MC_PLACES;
+        }
+    }
+    if (l) lane_free(l);
+    free(l);
+    return sum;
+}

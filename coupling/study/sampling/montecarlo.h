@@ -1,0 +1,71 @@
+/* Random shots over threshold surfaces: how many grains gouge, where first, how much.
+ *
+ * Surfaces (a rail under a treatment, or one with a changed input) meet the same grains: every random number is drawn once
+ * and used by all, so differences between surfaces are not blurred by chance.
+ * What is not known is drawn too, once a world: where in its band a family's threshold lies (uniform, u_b, its own number
+ * for every surface and family) and how far cells have moved it (a share u_s of what is allowed for the resolution, threshold.h;
+ * one number for all: cells err alike on all surfaces):  v_th(r) = low(r) + u_b (high(r) - low(r)) + u_s allowance,  u_s in -1 .. 1.
+ * A history is a rail under `shots` shots.  A gouge leaves a rim downstream, which is a grain of the same family to
+ * the next shot: its place and height, in radii of the grain that made it, by the scenes that gouged (gouge_law.h).  What else the shots
+ * leave for those after them is the caller's to say (repeated.h): `along`, `warm`, `bare`.
+ * Populations are a Poisson process; grains that no surface could gouge with are not drawn. */
+#ifndef BREECH_COUPLING_MONTECARLO_H
+#define BREECH_COUPLING_MONTECARLO_H
+
+#include "coupling/study/search/family.h"
+
+enum { MC_WORLDS = 200, MC_BINS = 1000, MC_PLACES = 1024 };
+
+/* What a shot of one number finds along the barrel, at MC_PLACES equal steps. */
+typedef struct {
+    double v[MC_PLACES + 1];    /* of the armature [m/s] */
+    double rise[MC_PLACES + 1]; /* of the rail above that of `grains` [K] */
+} mc_along;
+
+/* One surface. */
+typedef struct {
+    const grain_families *grains; /* borrowed, as all that follows */
+    int draws;                    /* surfaces with the same number share their u_b: the same thresholds, other inputs */
+    double size_factor;           /* on every grain (a sensitivity); else 1 */
+    const mc_along *along;        /* [shots]; NULL: every shot is that of `grains`, and finds its rail */
+    const grain_families *warm;   /* the same grains on a rail warmer by warm_rise; in between linear; NULL: none */
+    double warm_rise;             /* [K] */
+    const grain_families *bare;   /* for rims where a gouge went through the layers; NULL: as all others */
+} mc_surface;
+
+typedef struct {
+    int histories, shots, seed;
+    double length; /* of the barrel [m] */
+    int n;
+    const mc_surface *surface; /* n; the first says what populations and sites there are; borrowed */
+} mc_plan;
+
+/* Of one shot number on one surface, over all histories. */
+typedef struct {
+    double gouges, volume;                         /* mean number, mean volume, NaN: not known [1, m3] */
+    double gouges_interval[2], volume_interval[2]; /* 5 and 95 % of the worlds' means */
+    double probability;                            /* that it gouges at all */
+    double first[3];        /* place of the first gouge: 5, 50, 95 % of all shots; NaN where so many do not gouge [m] */
+    double before[MC_BINS]; /* P(gouge before (k + 1) / MC_BINS of the barrel) */
+    double strewn[MC_BINS]; /* mean number of a population's grains that gouge in that piece of the barrel */
+} mc_shot;
+
+typedef struct {
+    int n, shots, histories;
+    mc_shot *of;           /* [n x shots], owned */
+    double *world_gouges;  /* [n x MC_WORLDS] means of the first shot, owned */
+    double *world_volumes; /* the same for the volume [m3], owned */
+    double seconds;        /* that it took */
+} mc_result;
+
+/* v of an mc_along, no more of it. */
+void mc_velocities(const shot_outcome *flown, double length, double v[MC_PLACES + 1]);
+
+/* *out needs mc_free even on error. */
+status mc_run(const mc_plan *plan, mc_result *out);
+void mc_free(mc_result *r);
+
+/* Of one surface in the middle of its bands, by quadrature: expected number of gouges [1]. */
+double mc_expected(const grain_families *grains, double length);
+
+#endif

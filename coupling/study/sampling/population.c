@@ -1,0 +1,74 @@
+#include "coupling/study/sampling/population.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+
+static const double TAIL = 0.02; /* share of the grains beyond the last class at each end [1] */
+enum { PER_DECADE = 10 };
+
+static double deviation(const case_population *p, double radius)
+{
+    return log(radius / p->radius_median) / p->radius_spread;
+}
+
+static double sum_of_shares(const case_sizes *s, int from)
+{
+    double sum = 0.0;
+    for (int i = from; i < s->n; i++) sum += s->item[i].share;
+    return sum;
+}
+
+double population_share_from(const case_population *p, double radius)
+{
+    int k = 0;
+    if (p->sizes.n == 0 && !(p->radius_spread > 0.0)) return radius <= p->radius_median ? 1.0 : 0.0;
+    if (p->sizes.n == 0) return gsl_cdf_ugaussian_Q(deviation(p, radius));
+    while (k < p->sizes.n && p->sizes.item[k].radius < radius) k++;
+    return sum_of_shares(&p->sizes, k) / sum_of_shares(&p->sizes, 0);
+}
+
+double population_quantile(const case_population *p, double share)
+{
+    if (p->sizes.n == 0) return p->radius_median * exp(p->radius_spread * gsl_cdf_ugaussian_Pinv(share));
+    int k = 0;
+    const double all = sum_of_shares(&p->sizes, 0);
+    while (k + 1 < p->sizes.n && sum_of_shares(&p->sizes, k + 1) > (1.0 - share) * all) k++;
+    return p->sizes.item[k].radius;
+}
+
+static int tabulated(const case_population *p, double smallest, double grains, int room, double *size, double *number)
+{
+    const double all = sum_of_shares(&p->sizes, 0);
+    int n = 0;
+    for (int i = 0; i < p->sizes.n && n < room; i++) {
+        const case_size *s = &p->sizes.item[i];
+        if (s->radius < smallest || !(s->share > 0.0)) continue;
+        size[n] = s->radius;
+        number[n++] = grains * s->share / all;
+    }
+    return n;
+}
+
+static double series(double i)
+{
+    return pow(10.0, i / PER_DECADE);
+}
+
+int population_sizes(const case_population *p, double smallest, int room, double *size, double *number)
+{
+    const double grains = p->density * (p->to - p->from);
+    if (p->sizes.n > 0) return tabulated(p, smallest, grains, room, size, number);
+    if (!(population_share_from(p, smallest) > 0.0)) return 0;
+    const double low = fmax(smallest, population_quantile(p, TAIL)), high = population_quantile(p, 1.0 - TAIL);
+    const int first = (int)ceil(PER_DECADE * log10(low) - 1e-6);
+    const int last = (int)fmax(floor(PER_DECADE * log10(high) + 1e-6), first);
+    int n = 0;
+    for (int i = first; i <= last && n < room; i++, n++) {
+        const bool open = i == last || n + 1 == room;
+        const double from = i == first ? smallest : series(i - 0.5);
+        size[n] = series(i);
+        number[n] =
+            grains * (population_share_from(p, from) - (open ? 0.0 : population_share_from(p, series(i + 0.5))));
+    }
+    return n;
+}

@@ -1,0 +1,69 @@
+/* The threshold surface of a family of grains: the velocity from which a grain of a given size gouges.
+ *
+ * A family: grains alike in all but size - shape, material, bond, height over radius - on one surface, in one shot.  A
+ * scene's contact pressure follows from its velocity, so size and velocity are the axes.
+ *   1. At the reference size the whole search of threshold.h, coarse and fine.
+ *   2. At the other sizes scenes of the last resolution, under two assumptions that are checked, not taken on faith: what
+ *      gouges at v gouges at more than v, and where a grain gouges a larger one does.  So one scene that gouges bounds the
+ *      threshold of its size and all larger ones from above, one that does not bounds all smaller ones from below:
+ *      low(r) <= v_th(r) <= high(r), both falling with r.
+ *      The bands of the smallest and the largest size end at scenes of their own, so that a
+ *      threshold that rises with size shows; a size's own scenes count before those of others.
+ *      Each scene is placed where it is expected to take most off the bands: sum over sizes of weight x width of the
+ *      band, as velocity and as place along the barrel.  What it expects (a threshold that falls slowly with size)
+ *      decides which scene comes next, never the answer.
+ *   3. The search ends when the bands' weighted mean width is the wanted one in velocity and in place, when no size has a
+ *      band wider than the grid, or with the budget.  A flat threshold takes four scenes beyond the reference.
+ * Interval of a size: its band and on both sides the reference's allowance for the resolution. */
+#ifndef BREECH_COUPLING_SURFACE_H
+#define BREECH_COUPLING_SURFACE_H
+
+#include "coupling/study/search/threshold.h"
+
+enum { SURFACE_MAX_SIZES = 48 };
+
+typedef struct {
+    status (*run)(void *user, double radius, double velocity, double cells_per_radius, threshold_sample *out);
+    /* As in threshold_source; NULL: nobody cares. */
+    void (*together)(void *user, double radius, double velocity, double cells_per_radius);
+    void *user; /* borrowed */
+} surface_source;
+
+typedef struct {
+    threshold_plan search; /* its max_scenes are those of the whole surface */
+    int sizes;
+    double size[SURFACE_MAX_SIZES];   /* rising [m] */
+    double weight[SURFACE_MAX_SIZES]; /* of each in the answer, >= 0 */
+    int reference;                    /* index */
+} surface_plan;
+
+typedef struct {
+    double radius; /* [m] */
+    threshold_sample is;
+} surface_sample;
+
+/* A size's answer. */
+typedef struct {
+    double radius, weight;
+    double velocity;    /* [m/s]; NaN: outside of the search */
+    double interval[2]; /* an end that is not known is NaN [m/s] */
+    int scenes;         /* of this very size */
+} surface_size;
+
+typedef struct {
+    threshold_result reference;
+    int sizes;
+    surface_size size[SURFACE_MAX_SIZES]; /* rising in radius, falling in velocity */
+    int inferred;                         /* sizes bounded without a scene of their own */
+    bool monotone;
+    char warning[THRESHOLD_WARNING_SIZE]; /* "" if none */
+    int samples;
+    surface_sample sample[THRESHOLD_MAX_SAMPLES]; /* in the order they were asked for */
+} surface_result;
+
+status surface_search(const surface_plan *plan, const surface_source *source, surface_result *out);
+
+/* At any size: linear in ln r between sizes, that of the last size beyond the ends. */
+surface_size surface_at(const surface_result *s, double radius);
+
+#endif

@@ -1,0 +1,123 @@
+#include "coupling/study/search/uncertain.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double NEAR[2] = { 0.6, 1.6 }; /* of the threshold */
+
+void uncertain_free(uncertain_inputs *u)
+{
+    for (int k = 0; k < u->n; k++) {
+        families_free(&u->of[k].grains);
+        free(u->of[k].c);
+    }
+    memset(u, 0, sizeof *u);
+}
+
+/* ---- the inputs ---- */
+
+static void raise_strength(breech_case *c, double factor)
+{
+    c->rail.yield_scale *= factor;
+}
+
+static void raise_friction(breech_case *c, double factor)
+{
+    c->scene.friction *= factor;
+}
+
+typedef struct {
+    const char *input, *prefix;
+    size_t error; /* offset of its relative uncertainty in case_study */
+    void (*raise)(breech_case *c, double factor);
+} raised;
+
+static const raised inputs[UNCERTAIN_MAX] = {
+    { "rail.yield_scale", "strength-", offsetof(case_study, strength_error), raise_strength },
+    { "scene.friction", "friction-", offsetof(case_study, friction_error), raise_friction },
+};
+
+/* ---- their searches ---- */
+
+/* The lowest and the highest of all families' thresholds; false: one of them is not known. */
+static bool thresholds_of(const grain_families *g, double *low, double *high)
+{
+    *low = INFINITY, *high = 0.0;
+    for (int k = 0; k < g->n; k++) {
+        const double v = g->family[k].surface.reference.velocity;
+        if (isnan(v)) return false;
+        *low = fmin(*low, v), *high = fmax(*high, v);
+    }
+    return g->n > 0;
+}
+
+static status plan(const grain_families *g, const raised *from, double error, uncertain_input *out)
+{
+    double low, high;
+    breech_case *c = malloc(sizeof *c);
+    CHECK(c, STATUS_MEMORY, "no memory for a case");
+    *c = *g->c;
+    *out = (uncertain_input){ .input = from->input, .change = error, .c = c };
+    from->raise(c, 1.0 + error);
+    c->study.craters = 0;
+    if (thresholds_of(g, &low, &high)) {
+        c->study.velocity_low = fmax(NEAR[0] * low, c->study.velocity_low);
+        c->study.velocity_high = fmin(NEAR[1] * high, c->study.velocity_high);
+    }
+    return families_sort(c, g->flown, from->prefix, &out->grains);
+}
+
+/* ---- what they move ---- */
+
+/* To where the raised input moves the threshold of a family; where its search saw one side alone, as far as that reached. */
+static double moved_to(const uncertain_input *u, const grain_family *f)
+{
+    const grain_family *as = family_alike(&u->grains, f);
+    if (!as) return NAN;
+    const threshold_result *r = &as->surface.reference;
+    if (!isnan(r->velocity)) return r->velocity;
+    return isnan(r->bracket[0]) ? r->bracket[1] : r->bracket[0];
+}
+
+static void widen(surface_result *s, double allowance)
+{
+    const double by = allowance - s->reference.allowance;
+    s->reference.allowance = allowance;
+    s->reference.interval[0] -= by;
+    s->reference.interval[1] += by;
+    for (int k = 0; k < s->sizes; k++) {
+        s->size[k].interval[0] -= by;
+        s->size[k].interval[1] += by;
+    }
+}
+
+void uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other)
+{
+    for (int k = 0; k < other->n; k++) {
+        surface_result *s = &other->family[k].surface;
+        const grain_family *f = family_alike(first, &other->family[k]);
+        double squares = s->reference.allowance * s->reference.allowance;
+        for (int i = 0; f && i < u->n; i++) {
+            const double off = moved_to(&u->of[i], f) - f->surface.reference.velocity;
+            if (isfinite(off)) squares += off * off;
+        }
+        widen(s, sqrt(squares));
+    }
+}
+
+status uncertain_run(session *s, grain_families *grains, uncertain_inputs *out)
+{
+    grain_families *all[UNCERTAIN_MAX];
+    memset(out, 0, sizeof *out);
+    for (int k = 0; k < UNCERTAIN_MAX; k++) {
+        const double error = *(const double *)(const void *)((const char *)&grains->c->study + inputs[k].error);
+        if (!(error > 0.0) || grains->n == 0) continue;
+        all[out->n] = &out->of[out->n].grains;
+        TRY(plan(grains, &inputs[k], error, &out->of[out->n++]));
+    }
+    if (out->n == 0) return status_ok();
+    TRY(families_search(s, all, out->n));
+    uncertain_widen(out, grains, grains);
+    return status_ok();
+}

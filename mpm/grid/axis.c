@@ -1,0 +1,167 @@
+#include "mpm/grid/axis.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_NODES = 20000 };
+
+/* Of a cell: the longest domain it bears before a point is split.  In the fine zone a stretched point is halved before it
+ * spans its cell; outside it may: one or two points a cell and axis, so that eight lanes of a block hold a cell. */
+static const double LONGEST_FINE = 0.8, LONGEST_COARSE = 1.0;
+
+/* Spacings from the fine zone outwards until they cover `length`, then scaled to end on it.  Returns their number. */
+static int grade(const mpm_axis *s, double length, double *spacing)
+{
+    if (length < 1e-9 * s->fine) return 0;
+    double sum = 0, h = s->fine;
+    int n = 0;
+    while (sum < length * (1 - 1e-9) && n < MAX_NODES) {
+        h = fmin(h * s->growth, fmax(s->coarse, s->fine));
+        spacing[n++] = h;
+        sum += h;
+    }
+    for (int i = 0; i < n; i++) spacing[i] *= length / sum;
+    return n;
+}
+
+static status check(const mpm_axis *s, char letter)
+{
+    CHECK(s->hi > s->lo, STATUS_BAD_INPUT, "window along %c: hi = %g m must lie above lo = %g m", letter, s->hi, s->lo);
+    CHECK(s->fine > 0 && s->coarse >= s->fine, STATUS_BAD_INPUT,
+          "cells along %c: fine = %g m must be positive and at most coarse = %g m", letter, s->fine, s->coarse);
+    CHECK(s->fine_lo >= s->lo - 1e-12 && s->fine_hi <= s->hi + 1e-12 && s->fine_hi > s->fine_lo, STATUS_BAD_INPUT,
+          "fine zone along %c: %g .. %g m must lie inside the window %g .. %g m", letter, s->fine_lo, s->fine_hi, s->lo,
+          s->hi);
+    CHECK(s->growth >= 1 && s->growth <= 2, STATUS_BAD_INPUT, "growth along %c = %g: must be 1 .. 2", letter,
+          s->growth);
+    CHECK((s->hi - s->lo) / s->fine < MAX_NODES, STATUS_BAD_INPUT,
+          "cells along %c: %g m is too fine for %g m of window", letter, s->fine, s->hi - s->lo);
+    return status_ok();
+}
+
+static status allocate(axis *a)
+{
+    a->bricks = (a->last + 2 + 3) / 4;
+    a->node = calloc((size_t)(4 * a->bricks), sizeof(double));
+    a->edge = calloc((size_t)(4 * a->bricks + 1), sizeof(double));
+    a->longest = calloc((size_t)(4 * a->bricks), sizeof(double));
+    CHECK(a->node && a->edge && a->longest, STATUS_MEMORY, "no memory for a grid axis of %d nodes", a->last);
+    return status_ok();
+}
+
+static void place_nodes(axis *a, const mpm_axis *s, const double *below, int n_below, int n_fine)
+{
+    const double fine = (s->fine_hi - s->fine_lo) / n_fine;
+    a->node[1] = s->lo;
+    for (int i = 0; i < n_below; i++) a->node[2 + i] = a->node[1 + i] + below[n_below - 1 - i];
+    for (int i = 0; i <= n_fine; i++) a->node[1 + n_below + i] = s->fine_lo + i * fine;
+}
+
+/* From the nodes up to the last: those beyond it, edges, smallest spacing. */
+static void finish(axis *a)
+{
+    a->node[0] = 2 * a->node[1] - a->node[2];
+    for (int i = a->last + 1; i < 4 * a->bricks; i++) a->node[i] = 2 * a->node[i - 1] - a->node[i - 2];
+    a->smallest = HUGE_VAL;
+    for (int i = 1; i < 4 * a->bricks; i++) {
+        a->edge[i] = 0.5 * (a->node[i - 1] + a->node[i]);
+        a->smallest = fmin(a->smallest, a->node[i] - a->node[i - 1]);
+    }
+    a->edge[0] = 2 * a->node[0] - a->edge[1];
+    a->edge[4 * a->bricks] = 2 * a->node[4 * a->bricks - 1] - a->edge[4 * a->bricks - 1];
+}
+
+/* Cells up to `fine` are those of a fine zone. */
+static void bear(axis *a, double fine)
+{
+    for (int i = 0; i < 4 * a->bricks; i++) {
+        const bool whole = i > 0 && i + 1 < 4 * a->bricks; /* of a cell that is cut, what it was */
+        const double cell = whole ? 0.5 * (a->node[i + 1] - a->node[i - 1]) : a->edge[i + 1] - a->edge[i];
+        a->longest[i] = (cell > 1.1 * fine ? LONGEST_COARSE : LONGEST_FINE) * cell;
+    }
+}
+
+void axis_bear_long(axis *a)
+{
+    bear(a, 0);
+}
+
+status axis_make(const mpm_axis *spec, char letter, axis *out)
+{
+    memset(out, 0, sizeof *out);
+    TRY(check(spec, letter));
+    double *below = malloc(2 * MAX_NODES * sizeof *below), *above = below + MAX_NODES;
+    CHECK(below, STATUS_MEMORY, "no memory for a grid axis");
+    const int n_below = grade(spec, spec->fine_lo - spec->lo, below);
+    const int n_above = grade(spec, spec->hi - spec->fine_hi, above);
+    const int n_fine = (int)fmax(1, round((spec->fine_hi - spec->fine_lo) / spec->fine));
+    out->last = 1 + n_below + n_fine + n_above;
+    const status s = allocate(out);
+    if (s.code == STATUS_OK) {
+        place_nodes(out, spec, below, n_below, n_fine);
+        for (int i = 0; i < n_above; i++) {
+            const int k = 1 + n_below + n_fine + i;
+            out->node[k + 1] = out->node[k] + above[i];
+        }
+        out->node[out->last] = spec->hi;
+        finish(out);
+        bear(out, spec->fine);
+    } else {
+        axis_free(out);
+    }
+    free(below);
+    return s;
+}
+
+status axis_bisect(const axis *coarse, int lo, int hi, const bool seam[2], axis *out)
+{
+    memset(out, 0, sizeof *out);
+    out->last = 1 + 2 * (hi - lo);
+    const status s = allocate(out);
+    if (s.code != STATUS_OK) {
+        axis_free(out);
+        return s;
+    }
+    for (int i = lo; i <= hi; i++) out->node[1 + 2 * (i - lo)] = coarse->node[i];
+    for (int i = 2; i < out->last; i += 2) out->node[i] = 0.5 * (out->node[i - 1] + out->node[i + 1]);
+    finish(out);
+    bear(out, HUGE_VAL);
+    if (seam[0]) out->node[0] = 0.5 * (coarse->node[lo - 1] + coarse->node[lo]), out->edge[1] = out->node[1];
+    if (seam[1]) {
+        out->node[out->last + 1] = 0.5 * (coarse->node[hi] + coarse->node[hi + 1]);
+        out->edge[out->last + 1] = out->node[out->last];
+    }
+    return s;
+}
+
+void axis_free(axis *a)
+{
+    free(a->node);
+    free(a->edge);
+    free(a->longest);
+    a->node = a->edge = a->longest = NULL;
+}
+
+int axis_locate(const axis *a, double x)
+{
+    if (!(x >= a->edge[1])) return 0;
+    if (x >= a->edge[a->last + 1]) return a->last + 1;
+    int lo = 1, hi = a->last + 1; /* edge[lo] <= x < edge[hi] */
+    while (hi - lo > 1) {
+        const int mid = (lo + hi) / 2;
+        if (x >= a->edge[mid])
+            lo = mid;
+        else
+            hi = mid;
+    }
+    return lo;
+}
+
+double axis_spacing(const axis *a, double x)
+{
+    int i = axis_locate(a, x);
+    if (i < 1) i = 1;
+    if (i > a->last) i = a->last;
+    return x >= a->node[i] ? axis_right(a, i < a->last ? i : a->last - 1) : axis_left(a, i > 1 ? i : 2);
+}

@@ -1,0 +1,49 @@
+/* Which instruction set the kernels run in: the best one this machine has, unless one is asked for by name. */
+#include "mpm/memory/store.h"
+
+#include <string.h>
+
+#define KERNELS_OF(isa)                  \
+    void p2g_##isa(mpm *m, brick *b);    \
+    void gather_##isa(mpm *m, int site); \
+    void nodes_##isa(mpm *m, int site);  \
+    void g2p_##isa(mpm *m, brick *b, int thread);
+
+#ifdef BREECH_ISA_V4
+KERNELS_OF(v4)
+#endif
+#ifdef BREECH_ISA_V3
+KERNELS_OF(v3)
+#endif
+KERNELS_OF(portable)
+
+static const kernels table[] = {
+#ifdef BREECH_ISA_V4
+    { "x86-64-v4", p2g_v4, gather_v4, nodes_v4, g2p_v4 },
+#endif
+#ifdef BREECH_ISA_V3
+    { "x86-64-v3", p2g_v3, gather_v3, nodes_v3, g2p_v3 },
+#endif
+    { "portable", p2g_portable, gather_portable, nodes_portable, g2p_portable },
+};
+
+static bool runs_here(const char *name)
+{
+#if defined(__x86_64__)
+    __builtin_cpu_init();
+    if (strcmp(name, "x86-64-v4") == 0)
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+               __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+               __builtin_cpu_supports("avx512vl");
+    if (strcmp(name, "x86-64-v3") == 0)
+        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+#endif
+    return strcmp(name, "portable") == 0;
+}
+
+const kernels *kernels_choose(const char *name)
+{
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
+        if ((!name || !name[0] || strcmp(name, table[i].name) == 0) && runs_here(table[i].name)) return &table[i];
+    return NULL;
+}

@@ -1,0 +1,243 @@
+/* Shared by the files that are compiled once an instruction set: ISA(name) gives each its own symbol. */
+#ifndef BREECH_MPM_KERNELS_H
+#define BREECH_MPM_KERNELS_H
+
+#include "mpm/memory/store.h"
+
+#ifndef BREECH_ISA
+#define BREECH_ISA portable
+#endif
+#define ISA_JOIN2(name, isa) name##_##isa
+#define ISA_JOIN(name, isa) ISA_JOIN2(name, isa)
+#define ISA(name) ISA_JOIN(name, BREECH_ISA)
+
+void ISA(p2g)(mpm *m, brick *b);
+void ISA(gather)(mpm *m, int site);
+void ISA(nodes)(mpm *m, int site);
+void ISA(g2p)(mpm *m, brick *b, int thread);
+
+/* The two elements beside the node of a cell along each axis. */
+typedef struct {
+    double x[3];                /* of the nodes before, at and after [m] */
+    double inv_left, inv_right; /* one over the element sizes [1/m] */
+    double narrowest, widest;   /* least and largest half length of a domain in the weights [m] */
+    double cell, inv_cell;      /* size of the cell [m], one over it [1/m] */
+} cell_axis;
+
+LANE_INLINE cell_axis cell_axis_at(const axis *a, int i)
+{
+    const double left = axis_left(a, i), right = axis_right(a, i);
+    return (cell_axis){ .x = { a->node[i - 1], a->node[i], a->node[i + 1] },
+                        .inv_left = 1 / left,
+                        .inv_right = 1 / right,
+                        .narrowest = 0.025 * (left < right ? left : right),
+                        .widest = 0.5 * (left < right ? left : right),
+                        .cell = 0.5 * (left + right),
+                        .inv_cell = 1 / (0.5 * (left + right)) };
+}
+
+/* Are all lanes of the part of a block that begins with `lane` holes? */
+LANE_INLINE bool part_is_empty(int mask, int lane)
+{
+    return (int)WIDTH < (int)LANES && !(mask >> lane & ((1 << WIDTH) - 1));
+}
+
+typedef struct {
+    vd w[3], g[3], d[3]; /* weights, their derivatives with the particle's position [1/m], node minus particle [m] */
+} weights;
+
+/* Generalized interpolation over the domain x - l .. x + l (Bardenhagen and Kober 2004), on unequal elements:
+ *   w = 1/(2 l) int N dx,   g = [N(x + l) - N(x - l)]/(2 l),   N the hat functions of the three nodes            */
+LANE_INLINE weights weights_gimp(const cell_axis *c, vd x, vd half)
+{
+    const vd zero = vd_set(0), l = vd_max(vd_min(half, vd_set(c->widest)), vd_set(c->narrowest));
+    const vd t = x - c->x[1], a = t - l, b = t + l;
+    const vd aL = vd_min(a, zero), bL = vd_min(b, zero), aR = vd_max(a, zero), bR = vd_max(b, zero);
+    const vd scale = vd_set(0.5) / l, sL = scale * c->inv_left, sR = scale * c->inv_right;
+    weights r;
+    r.w[0] = vd_set(0.5) * sL * (aL * aL - bL * bL);
+    r.w[2] = vd_set(0.5) * sR * (bR * bR - aR * aR);
+    r.w[1] = vd_set(1) - r.w[0] - r.w[2];
+    r.g[0] = sL * (aL - bL);
+    r.g[2] = sR * (bR - aR);
+    r.g[1] = zero - r.g[0] - r.g[2];
+    for (int k = 0; k < 3; k++) r.d[k] = c->x[k] - x;
+    return r;
+}
+
+/* Quadratic B-spline whose knots are the cell's edges, on unequal cells: the three functions that do not vanish
+ * between the knots e1 < e2 (de Boor).  A function's place is the middle of its cell, not the node: then linear fields are
+ * exact on any grading, sum w d = 0, and the affine part adds no momentum. */
+typedef struct {
+    double e[4];         /* knots around the cell: two below, two above [m] */
+    double below, above; /* one over the cell's size times the distance of the knots around the function [1/m2] */
+} knots;
+
+LANE_INLINE knots knots_at(const axis *a, int i)
+{
+    const double *e = &a->edge[i - 1], h = e[2] - e[1];
+    return (knots){ { e[0], e[1], e[2], e[3] }, 1 / (h * (e[2] - e[0])), 1 / (h * (e[3] - e[1])) };
+}
+
+LANE_INLINE weights weights_bspline(const knots *q, vd x)
+{
+    const vd from = x - q->e[1], to = q->e[2] - x;
+    weights r;
+    r.w[0] = to * to * q->below;
+    r.w[2] = from * from * q->above;
+    r.w[1] = vd_set(1) - r.w[0] - r.w[2];
+    r.g[0] = to * (-2 * q->below);
+    r.g[2] = from * (2 * q->above);
+    r.g[1] = vd_set(0) - r.g[0] - r.g[2];
+    for (int k = 0; k < 3; k++) r.d[k] = 0.5 * (q->e[k] + q->e[k + 1]) - x;
+    return r;
+}
+
+/* Blocks lie in the order of cells (store_compact), so the one after next is most likely needed after next.  Its first
+ * `fields` fields, a cache line each, are asked for a share at a time between the parts of a block's work: a core keeps a
+ * dozen or so requests under way, and stands still where more are made at once. */
+typedef struct {
+    const char *next, *end;
+    int share; /* lines */
+} ahead;
+
+LANE_INLINE ahead ahead_of(const mpm *m, int index, int fields, int shares)
+{
+    const char *p = (const char *)&m->blocks[index] + 2 * sizeof(block);
+    return (ahead){ p, p + 64 * fields, (fields + shares - 1) / shares };
+}
+
+LANE_INLINE void prefetch_share(ahead *a)
+{
+    for (int i = 0; i < a->share && a->next < a->end; i++, a->next += 64) __builtin_prefetch(a->next);
+}
+
+/* Least half length in cells that keeps a point stable which shares its nodes with no other.  Its forces change its own
+ * velocity gradient by dt sigma/rho sum_i |grad S_i|^2 / S_i, and that sum is up to 2/(l h) an axis where the domain just
+ * reaches over a node: with one axis strained it is stable for C^2 2 h/l <= 4, with three about a third of that.  l = C^2 h
+ * lies between, and docs/scene-solver.md has the scenes that blew up with less.  Without the affine part the last step's
+ * gradient is forgotten, which halves the limit. */
+LANE_INLINE double stable_half_length(const mpm_scene *s)
+{
+    return (s->transfer == TRANSFER_TPIC ? 1 : 2) * s->courant * s->courant;
+}
+
+/* The cells of a brick along each axis. */
+typedef struct {
+    cell_axis axis[3][BRICK];
+    knots knots[3][BRICK];
+    bool bspline;
+} brick_grid;
+
+/* Everything a cell's particles need to know of the grid; borrowed from the brick's. */
+typedef struct {
+    const cell_axis *axis[3];
+    const knots *knots[3];
+    bool bspline;
+} cell_grid;
+
+LANE_INLINE brick_grid brick_grid_at(const mpm *m, const brick *b)
+{
+    brick_grid g;
+    g.bspline = m->scene.basis == BASIS_BSPLINE;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < BRICK; i++) {
+            const int node = BRICK * b->at[k] + i;
+            const axis *from = &axes_of(m, b)[k];
+            if (node < 1 || node > from->last) continue; /* no particles there */
+            cell_axis *a = &g.axis[k][i];
+            *a = cell_axis_at(from, node);
+            if (g.bspline) g.knots[k][i] = knots_at(from, node);
+            const double stable = 2 * a->widest * stable_half_length(&m->scene);
+            if (stable > a->narrowest) a->narrowest = stable < a->widest ? stable : a->widest;
+        }
+    return g;
+}
+
+/* In its place: returned by value it is copied in wider pieces than it was written in, which a core waits for. */
+LANE_INLINE void cell_grid_set(cell_grid *g, const brick_grid *b, int cell)
+{
+    const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
+    for (int k = 0; k < 3; k++) g->axis[k] = &b->axis[k][at[k]], g->knots[k] = &b->knots[k][at[k]];
+    g->bspline = b->bspline;
+}
+
+/* Along axis k, for the part of the block that begins with `lane`. */
+LANE_INLINE weights cell_weights(const cell_grid *g, int k, const block *q, int lane)
+{
+    const vd x = vd_load(&q->x[k][lane]);
+    return g->bspline ? weights_bspline(g->knots[k], x) : weights_gimp(g->axis[k], x, vd_load(&q->half[k][lane]));
+}
+
+/* First of the 27 nodes of a cell in its brick's 6 x 6 x 6. */
+LANE_INLINE int halo_index(int cell)
+{
+    return (cell / (BRICK * BRICK) * HALO + cell / BRICK % BRICK) * HALO + cell % BRICK;
+}
+
+/* ---- mirror planes: the ghost nodes beyond them, in a brick's 6 x 6 x 6 ---- */
+
+typedef struct {
+    int axis, ghost, mirror; /* halo indices along the axis */
+} mirror_plane;
+
+static inline int halo_at(const int at[3])
+{
+    return (at[2] * HALO + at[1]) * HALO + at[0];
+}
+
+/* Where the sums of a node of the 6 x 6 x 6 lie in brick.out: nodes that go to one neighbour lie together, in the order of its
+ * cells, so that it reads them in one piece (nodes.c: add_lines).  First the six times six below along z, and so on inwards. */
+#define HALO_SIDE(i) ((i) == 0 ? 0 : (i) == HALO - 1 ? 2 : 1)
+#define HALO_START(i, rest) ((i) == 0 ? 0 : (i) == HALO - 1 ? (HALO - 1) * (rest) : (rest))
+#define HALO_COUNT(i) (HALO_SIDE(i) == 1 ? BRICK : 1)
+#define HALO_WITHIN(i) (HALO_SIDE(i) == 1 ? (i)-1 : 0)
+#define HALO_PLACE(x, y, z)                                                                                  \
+    (HALO_START(z, HALO * HALO) + HALO_COUNT(z) * (HALO_START(y, HALO) + HALO_COUNT(y) * HALO_START(x, 1)) + \
+     (HALO_WITHIN(z) * HALO_COUNT(y) + HALO_WITHIN(y)) * HALO_COUNT(x) + HALO_WITHIN(x))
+#define HALO_ROW(y, z)                                                                                       \
+    HALO_PLACE(0, y, z), HALO_PLACE(1, y, z), HALO_PLACE(2, y, z), HALO_PLACE(3, y, z), HALO_PLACE(4, y, z), \
+        HALO_PLACE(5, y, z)
+#define HALO_PLANE(z) HALO_ROW(0, z), HALO_ROW(1, z), HALO_ROW(2, z), HALO_ROW(3, z), HALO_ROW(4, z), HALO_ROW(5, z)
+static const uint8_t halo_place[HALO_NODES] = { HALO_PLANE(0), HALO_PLANE(1), HALO_PLANE(2),
+                                                HALO_PLANE(3), HALO_PLANE(4), HALO_PLANE(5) };
+
+/* Point n (0 .. 35) of a plane across axis k. */
+static inline void plane_point(int k, int plane, int n, int at[3])
+{
+    at[k] = plane;
+    at[(k + 1) % 3] = n % HALO;
+    at[(k + 2) % 3] = n / HALO;
+}
+
+/* Is this end of the brick's level a mirror to its field? */
+static inline bool is_mirror(const mpm *m, const brick *b, int k, int side)
+{
+    const mpm_axis *s = &m->scene.axis[k];
+    return s->boundary[side] == BOUNDARY_SYMMETRY && !m->grids.level[b->level].seam[k][side] &&
+           (!s->boundary_fields[side] || s->boundary_fields[side] >> b->field & 1);
+}
+
+/* Mirror planes that the brick's particles reach over; their number, by axis. */
+static inline int mirror_planes(const mpm *m, const brick *b, mirror_plane p[6])
+{
+    int n = 0;
+    for (int k = 0; k < 3; k++)
+        for (int side = 0; side < 2; side++) {
+            if (!is_mirror(m, b, k, side)) continue;
+            const int at = (side ? axes_of(m, b)[k].last : 1) - BRICK * b->at[k] + 1;
+            if (at < 1 || at > BRICK) continue;
+            p[n++] = (mirror_plane){ k, side ? at + 1 : at - 1, side ? at - 1 : at + 1 };
+        }
+    return n;
+}
+
+/* Is this ghost of plane i a ghost of an earlier plane too, which it is folded over first? */
+static inline bool mirror_shared(const mirror_plane *p, int i, const int at[3])
+{
+    for (int j = 0; j < i; j++)
+        if (p[j].axis != p[i].axis && at[p[j].axis] == p[j].ghost) return true;
+    return false;
+}
+
+#endif

@@ -1,0 +1,463 @@
+/* The grid phase at one site: sums of all bricks that reach its nodes, momentum update, boundaries, contact (M-6).
+ *
+ *   m dv/dt = f;   what the mixing of particle velocities and the contacts take from the kinetic energy stays at the
+ *   node as heat and goes to the particles in G2P:  E_i = v_i^2/2 + Q_i/m_i.  So does the work of the forces on the velocities
+ *   before them, dt/2 f . v, less what the particles had booked of it (p2g.c); that on those after them is the particles'. */
+#include "mpm/kernel/kernels.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef double node_lines[BRICK_CELLS][LINE] __attribute__((aligned(64)));
+
+typedef struct {
+    const brick *brick;
+    double (*line)[LINE];  /* [64] m, p, f, K; borrowed */
+    double (*extra)[LINE]; /* [64] V grad S, m (x_p - x_i), m flow stress */
+} field_nodes;
+
+/* One node of one field while it is worked on. */
+typedef struct {
+    double m, v[3], f[3], heat;
+    double v_start[3];  /* before the forces, after the walls [m/s] */
+    double absorbed[3]; /* impulse of absorbing boundaries [N s] */
+    const double *extra;
+} node_state;
+
+/* Nodes of a brick that the particles of its neighbour at a step reach: a box, and where the neighbour has its sums of them. */
+typedef struct {
+    int first[3], count[3], there;
+} shared_box;
+
+static shared_box box_towards(int step)
+{
+    shared_box b;
+    int there[3];
+    for (int k = 0, s = step; k < 3; k++, s /= 3) {
+        const int d = s % 3 - 1;
+        b.first[k] = d > 0 ? BRICK - 1 : 0;
+        b.count[k] = d == 0 ? BRICK : 1;
+        there[k] = d > 0 ? 0 : d < 0 ? HALO - 1 : 1;
+    }
+    b.there = halo_place[halo_at(there)];
+    return b;
+}
+
+/* Cells of a neighbour whose particles reach this brick's nodes. */
+static uint64_t cells_towards(int step)
+{
+    static const uint64_t cells[3][3] = { { 0x8888888888888888, ~0ull, 0x1111111111111111 },
+                                          { 0xf000f000f000f000, ~0ull, 0x000f000f000f000f },
+                                          { 0xffff000000000000, ~0ull, 0x000000000000ffff } };
+    return cells[0][step % 3] & cells[1][step / 3 % 3] & cells[2][step / 9];
+}
+
+static void add_lines(double (*to)[LINE], double (*const out)[LINE], const shared_box *b)
+{
+    double(*from)[LINE] = &out[b->there];
+    for (int k = 0; k < b->count[2]; k++)
+        for (int j = 0; j < b->count[1]; j++)
+            for (int i = 0; i < b->count[0]; i++, from++) {
+                double *a = to[cell_index(b->first[0] + i, b->first[1] + j, b->first[2] + k)];
+                for (int q = 0; q < LINE; q += WIDTH) vd_store(a + q, vd_load(a + q) + vd_load(*from + q));
+            }
+}
+
+static void prefetch_lines(double (*const out)[LINE], const shared_box *b)
+{
+    for (int i = 0; i < b->count[0] * b->count[1] * b->count[2]; i++) __builtin_prefetch(out[b->there + i]);
+}
+
+/* Ghosts of a mirror: their sums are folded back already (p2g.c), their velocities are made in G2P. */
+static void clear_ghosts(const mpm *m, const brick *b, double (*line)[LINE])
+{
+    for (int k = 0; k < 3; k++)
+        for (int side = 0; side < 2; side++) {
+            const int ghost = (side ? axes_of(m, b)[k].last + 1 : 0) - BRICK * b->at[k];
+            if (ghost < 0 || ghost >= BRICK || !is_mirror(m, b, k, side)) continue;
+            for (int i = 0; i < BRICK * BRICK; i++) {
+                int at[3];
+                at[k] = ghost, at[(k + 1) % 3] = i % BRICK, at[(k + 2) % 3] = i / BRICK;
+                memset(line[cell_index(at[0], at[1], at[2])], 0, sizeof *line);
+            }
+        }
+}
+
+/* All sums are asked for before any is added: most come from another core's cache or from memory. */
+static bool gather_field(const mpm *m, const brick *b, bool with_contact, const field_nodes *n)
+{
+    const brick *from[NEIGHBOURS];
+    shared_box box[NEIGHBOURS];
+    bool meets[NEIGHBOURS];
+    int count = 0;
+    for (int step = 0; step < NEIGHBOURS; step++) {
+        if (b->neighbour[step] < 0) continue;
+        from[count] = &m->bricks[b->neighbour[step]];
+        const uint64_t near = from[count]->occupied & cells_towards(step);
+        if (!near) continue;
+        box[count] = box_towards(step);
+        meets[count] = with_contact && from[count]->meets & near;
+        prefetch_lines(from[count]->out, &box[count]);
+        if (meets[count]) prefetch_lines(from[count]->out_contact, &box[count]);
+        count++;
+    }
+    memset(n->line, 0, sizeof(node_lines));
+    if (with_contact) memset(n->extra, 0, sizeof(node_lines));
+    for (int i = 0; i < count; i++) {
+        add_lines(n->line, from[i]->out, &box[i]);
+        if (meets[i]) add_lines(n->extra, from[i]->out_contact, &box[i]);
+    }
+    clear_ghosts(m, b, n->line);
+    return count > 0;
+}
+
+static field_nodes seam_lines(const brick *b)
+{
+    return (field_nodes){ b, b->line, b->line + BRICK_CELLS };
+}
+
+void ISA(gather)(mpm *m, int site)
+{
+    for (int f = 0; f < m->fields; f++) {
+        const int i = m->directory[f * m->grids.sites + site];
+        if (i < 0) continue;
+        const brick *b = &m->bricks[i];
+        const field_nodes n = seam_lines(b);
+        if (b->level <= m->begins) gather_field(m, b, b->across, &n);
+    }
+}
+
+static bool has_mass(double (*const line)[LINE])
+{
+    for (int i = 0; i < BRICK_CELLS; i++)
+        if (line[i][0] > 0) return true;
+    return false;
+}
+
+/* ---- boundaries ---- */
+
+typedef struct {
+    boundary_kind kind;
+    int axis;
+    double size; /* of the element beside the boundary [m] */
+    const double *velocity;
+} wall;
+
+static int walls_at(const mpm *m, const axis axes[3], const int index[3], int field, wall w[3])
+{
+    int n = 0;
+    for (int k = 0; k < 3; k++) {
+        const axis *a = &axes[k];
+        const int hi = index[k] >= a->last;
+        if (index[k] > 1 && !hi) continue;
+        const mpm_axis *s = &m->scene.axis[k];
+        if (s->boundary_fields[hi] && !(s->boundary_fields[hi] >> field & 1)) continue;
+        if (s->boundary[hi] == BOUNDARY_FREE) continue;
+        w[n++] = (wall){ s->boundary[hi], k, hi ? axis_left(a, a->last) : axis_right(a, 1), s->boundary_velocity[hi] };
+    }
+    return n;
+}
+
+/* The wall's velocity in component k; what the mixing with it takes is heat, its reaction's work is booked. */
+static void hold(node_state *n, int k, double velocity, double dt, tally *sum)
+{
+    const double change = velocity - n->v[k], J = n->m * change - dt * n->f[k];
+    sum->impulse_boundary[k] += J;
+    sum->work_boundary += J * velocity;
+    n->heat += 0.5 * n->m * change * change;
+    n->v[k] = velocity;
+    n->f[k] = 0;
+}
+
+/* Viscous boundary of Lysmer and Kuhlemeyer (1969), implicit in v: the node's mass is rho A h/2, so rho c A = 2 c m/h. */
+static void absorb(node_state *n, const wall *w, const law *k, double dt, tally *sum)
+{
+    const double cp = sqrt((k->K0 + 4.0 / 3.0 * k->G) / k->rho0), cs = sqrt(k->G / k->rho0);
+    for (int q = 0; q < 3; q++) {
+        const double rate = 2 * (q == w->axis ? cp : cs) / w->size;
+        const double v = (n->v[q] + dt * n->f[q] / n->m) / (1 + dt * rate);
+        const double J = -n->m * dt * rate * v;
+        sum->impulse_boundary[q] += J;
+        n->absorbed[q] += J;
+        n->f[q] += J / dt;
+    }
+}
+
+static void apply_walls(const wall *w, int walls, const law *k, double dt, node_state *n, tally *sum)
+{
+    static const double rest[3] = { 0, 0, 0 };
+    for (int i = 0; i < walls; i++) {
+        const double *velocity = w[i].kind == BOUNDARY_PRESCRIBED ? w[i].velocity : rest;
+        if (w[i].kind == BOUNDARY_SYMMETRY)
+            hold(n, w[i].axis, 0, dt, sum);
+        else if (w[i].kind == BOUNDARY_ABSORBING)
+            absorb(n, &w[i], k, dt, sum);
+        else
+            for (int q = 0; q < 3; q++) hold(n, q, velocity[q], dt, sum);
+    }
+}
+
+/* ---- contact of two fields at a node ---- */
+
+typedef struct {
+    double n[3];  /* unit normal from a to b */
+    double area;  /* of the surface of a that belongs to this node [m2] */
+    double shear; /* strength in shear of the weaker side there [Pa] */
+    bool touch;
+} contact_geometry;
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The normal is the volume gradient of the lower field alone (the rail's, the particle's): behind the edge of the lead
+ * face a difference of gradients tilts and reads sliding as approach.  Where that field has no surface at the node (deep
+ * overlap) the difference must serve. */
+static contact_geometry geometry(const mpm *m, const node_state *a, const node_state *b, const wall *w, int walls,
+                                 const double h[3])
+{
+    contact_geometry g = { .touch = false };
+    double d[3];
+    for (int k = 0; k < 3; k++) d[k] = a->extra[k];
+    const double smallest = fmin(h[0], fmin(h[1], h[2]));
+    if (sqrt(dot(d, d)) * smallest < 0.05 * h[0] * h[1] * h[2] * fmin(1, a->m / (a->m + b->m)))
+        for (int k = 0; k < 3; k++) d[k] = a->extra[k] - b->extra[k];
+    for (int i = 0; i < walls; i++)
+        if (w[i].kind == BOUNDARY_SYMMETRY) d[w[i].axis] = 0;
+    const double length = sqrt(dot(d, d));
+    if (!(length > 0)) return g;
+    double gap = 0, span = 0;
+    for (int k = 0; k < 3; k++) {
+        g.n[k] = d[k] / length;
+        gap += g.n[k] * (b->extra[3 + k] / b->m - a->extra[3 + k] / a->m);
+        span += g.n[k] * h[k] * g.n[k] * h[k];
+    }
+    g.area = length;
+    g.shear = fmin(a->extra[6] / a->m, b->extra[6] / b->m) / sqrt(3);
+    g.touch = gap < m->scene.contact_gap * sqrt(span);
+    return g;
+}
+
+/* Impulse on b (minus it on a) that ends the approach; friction by Coulomb, but never more than the weaker side bears in
+ * shear: a molten or failed layer slides freely.  Zero where they part. */
+static bool contact_impulse(const contact_law *c, const contact_geometry *g, double reduced, const double rel[3],
+                            double dt, double J[3])
+{
+    const double vn = dot(rel, g->n), stick2 = dot(rel, rel);
+    if (c->bond_strength > 0 && reduced * sqrt(stick2) <= c->bond_strength * g->area * dt) {
+        for (int k = 0; k < 3; k++) J[k] = -reduced * rel[k];
+        return true;
+    }
+    if (!(vn < 0)) return false;
+    double vt[3], Jn = -reduced * vn;
+    for (int k = 0; k < 3; k++) vt[k] = rel[k] - vn * g->n[k];
+    const double slip = sqrt(dot(vt, vt));
+    const double limit = fmin(c->friction * Jn, fmin(c->shear_limit, g->shear) * g->area * dt);
+    const double Jt = fmin(limit, reduced * slip);
+    for (int k = 0; k < 3; k++) J[k] = Jn * g->n[k] - (slip > 0 ? Jt * vt[k] / slip : 0);
+    return true;
+}
+
+static double kinetic(const node_state *n)
+{
+    return 0.5 * n->m * dot(n->v, n->v);
+}
+
+/* Share of the contact heat that goes to a: by effusivity sqrt(k rho c) where both are known, else half. */
+static double heat_share(const mpm *m, int a, int b)
+{
+    double e[2];
+    const int field[2] = { a, b };
+    for (int s = 0; s < 2; s++) {
+        e[s] = NAN;
+        for (int i = m->scene.bodies - 1; i >= 0; i--)
+            if (m->scene.body[i].field == field[s])
+                e[s] = sqrt(m->materials[i].conductivity * m->materials[i].density * m->materials[i].specific_heat);
+    }
+    return isnan(e[0]) || isnan(e[1]) ? 0.5 : e[0] / (e[0] + e[1]);
+}
+
+typedef struct {
+    const double *h;
+    const wall *walls;
+    int wall_count;
+    double dt; /* [s] */
+} node_place;
+
+/* Two fields that touch at a node: J is the impulse on b, minus it that on a. */
+typedef struct {
+    int field[2];
+    node_state *a, *b;
+    double J[3]; /* [N s] */
+} touching;
+
+/* Sets the pair's velocities and its J; false where the two do not touch. */
+static bool contact_pair(const mpm *m, touching *t, const node_place *at, tally *sum)
+{
+    static const double MASS_SCREEN = 1e-6;
+    node_state *a = t->a, *b = t->b;
+    if (a->m < MASS_SCREEN * b->m || b->m < MASS_SCREEN * a->m) return false;
+    const contact_geometry g = geometry(m, a, b, at->walls, at->wall_count, at->h);
+    if (!g.touch) return false;
+    const contact_law *c = &m->scene.contact[t->field[0]][t->field[1]];
+    double rel[3];
+    for (int k = 0; k < 3; k++) rel[k] = b->v[k] - a->v[k];
+    if (!contact_impulse(c, &g, a->m * b->m / (a->m + b->m), rel, at->dt, t->J)) return false;
+    for (int k = 0; k < 3; k++) {
+        a->v[k] -= t->J[k] / a->m;
+        b->v[k] += t->J[k] / b->m;
+        sum->contact[t->field[0]][k] -= t->J[k];
+        sum->contact[t->field[1]][k] += t->J[k];
+    }
+    return true;
+}
+
+/* What a contact takes from the kinetic energy over the step, forces included, is
+ *   Q = -J . (v_b - v_a), the mean of that difference before the forces and at the end of the step.
+ * The drop of kinetic energy across the contact alone would count the approach that the forces have just made and the
+ * contact takes back: heat from bodies that only press on each other. */
+static void contact_heat(const mpm *m, const touching *t, tally *sum)
+{
+    double Q = 0;
+    for (int k = 0; k < 3; k++) {
+        const double slip = t->b->v[k] - t->a->v[k], slip_start = t->b->v_start[k] - t->a->v_start[k];
+        Q -= t->J[k] * 0.5 * (slip + slip_start);
+    }
+    const double share = heat_share(m, t->field[0], t->field[1]);
+    t->a->heat += share * Q;
+    t->b->heat += (1 - share) * Q;
+    sum->heat_friction += Q;
+}
+
+/* ---- one node ---- */
+
+static void finish_node(const node_state *n, double node[NODE], tally *sum)
+{
+    for (int k = 0; k < 3; k++) sum->work_boundary += 0.5 * n->absorbed[k] * (n->v_start[k] + n->v[k]);
+    for (int k = 0; k < 3; k++) node[k] = n->v[k];
+    node[3] = 0.5 * dot(n->v, n->v) + n->heat / n->m;
+}
+
+static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int index[3], const double h[3], double dt,
+                     tally *sum)
+{
+    node_state state[MPM_MAX_FIELDS];
+    wall walls[MPM_MAX_FIELDS][3];
+    int n_walls[MPM_MAX_FIELDS], pairs = 0;
+    touching pair[MPM_MAX_FIELDS * (MPM_MAX_FIELDS - 1) / 2];
+    for (int s = 0; s < count; s++) {
+        const double *line = fields[s].line[cell];
+        const int field = fields[s].brick->field;
+        node_state *n = &state[s];
+        *n = (node_state){ .m = line[0], .extra = fields[s].extra[cell] };
+        if (!(n->m > 0)) continue;
+        for (int k = 0; k < 3; k++) n->v[k] = line[1 + k] / n->m, n->f[k] = line[4 + k];
+        n->heat = line[7] - kinetic(n);
+        n_walls[s] = walls_at(m, axes_of(m, fields[s].brick), index, field, walls[s]);
+        apply_walls(walls[s], n_walls[s], field_law(m, field), dt, n, sum);
+        memcpy(n->v_start, n->v, sizeof n->v_start);
+        n->heat -= 0.5 * dt * dot(line + 4, n->v);
+        for (int k = 0; k < 3; k++) n->v[k] += dt * n->f[k] / n->m, n->f[k] = 0;
+    }
+    for (int a = 0; a < count; a++)
+        for (int b = a + 1; b < count; b++)
+            if (state[a].m > 0 && state[b].m > 0) {
+                const node_place at = { h, walls[a], n_walls[a], dt };
+                touching *t = &pair[pairs];
+                *t = (touching){ { fields[a].brick->field, fields[b].brick->field }, &state[a], &state[b], { 0 } };
+                if (contact_pair(m, t, &at, sum)) pairs++;
+            }
+    for (int i = 0; i < pairs; i++) contact_heat(m, &pair[i], sum);
+    for (int s = 0; s < count; s++) {
+        double *node = brick_nodes(m, fields[s].brick)[cell];
+        memset(node, 0, NODE * sizeof *node);
+        if (!(state[s].m > 0)) continue;
+        if (count > 1 && n_walls[s] > 0)
+            for (int i = 0; i < n_walls[s]; i++)
+                if (walls[s][i].kind == BOUNDARY_SYMMETRY) hold(&state[s], walls[s][i].axis, 0, dt, sum);
+        finish_node(&state[s], node, sum);
+    }
+}
+
+/* Away from every wall: one_node then only adds the forces, unless fields meet. */
+static bool is_inside(const axis axes[3], const int index[3])
+{
+    for (int k = 0; k < 3; k++)
+        if (index[k] <= 1 || index[k] >= axes[k].last) return false;
+    return true;
+}
+
+static bool is_shared(const field_nodes *fields, int count, int cell)
+{
+    int n = 0;
+    for (int s = 0; s < count; s++) n += fields[s].line[cell][0] > 0;
+    return n > 1;
+}
+
+/* one_node for a single field away from the walls; zero where it has no mass. */
+static void free_node(const double line[LINE], double dt, double node[NODE])
+{
+    const double inverse = line[0] > 0 ? 1 / line[0] : 0;
+    double before = 0, after = 0, power = 0;
+    for (int k = 0; k < 3; k++) {
+        const double v = line[1 + k] * inverse;
+        power += line[4 + k] * v;
+        node[k] = v + dt * line[4 + k] * inverse;
+        before += v * v;
+        after += node[k] * node[k];
+    }
+    node[3] = 0.5 * after + (line[7] - 0.5 * dt * power) * inverse - 0.5 * before;
+}
+
+/* The fields that have mass at a site, a seam's already gathered; their number. */
+static int fields_at(mpm *m, int site, node_lines own[][2], field_nodes *fields)
+{
+    int count = 0, present = 0;
+    for (int f = 0; f < m->fields; f++) present += m->directory[f * m->grids.sites + site] >= 0;
+    for (int f = 0; f < m->fields; f++) {
+        const int i = m->directory[f * m->grids.sites + site];
+        if (i < 0) continue;
+        const brick *b = &m->bricks[i];
+        fields[count] = b->at_seam ? seam_lines(b) : (field_nodes){ b, own[count][0], own[count][1] };
+        if (b->at_seam ? has_mass(b->line) : gather_field(m, b, present > 1, &fields[count]))
+            count++;
+        else
+            memset(brick_nodes(m, b), 0, sizeof *m->nodes);
+    }
+    return count;
+}
+
+static const brick *first_at(const mpm *m, int site)
+{
+    int f = 0;
+    while (m->directory[f * m->grids.sites + site] < 0) f++;
+    return &m->bricks[m->directory[f * m->grids.sites + site]];
+}
+
+void ISA(nodes)(mpm *m, int site)
+{
+    node_lines own[MPM_MAX_FIELDS][2];
+    field_nodes fields[MPM_MAX_FIELDS];
+    tally *sum = &m->site_sum[site];
+    memset(sum, 0, sizeof *sum);
+    const brick *b = first_at(m, site);
+    const uint64_t due = shares_due(m, b) & ~(b->seam.follow_coarser | b->seam.follow_finer); /* seams_follow */
+    if (!due) return;
+    const int count = fields_at(m, site, own, fields);
+    if (count == 0) return;
+    const axis *axes = axes_of(m, b);
+    for (int cell = 0; cell < BRICK_CELLS; cell++) {
+        const int index[3] = { BRICK * b->at[0] + cell % BRICK, BRICK * b->at[1] + cell / BRICK % BRICK,
+                               BRICK * b->at[2] + cell / (BRICK * BRICK) };
+        if (!(due >> cell & 1)) continue;
+        const double dt = shares_dt(m, b, cell);
+        if (is_inside(axes, index) && !is_shared(fields, count, cell)) {
+            for (int s = 0; s < count; s++) free_node(fields[s].line[cell], dt, brick_nodes(m, fields[s].brick)[cell]);
+            continue;
+        }
+        double h[3];
+        for (int k = 0; k < 3; k++) h[k] = axes[k].edge[index[k] + 1] - axes[k].edge[index[k]];
+        one_node(m, fields, count, cell, index, h, dt, sum);
+    }
+}

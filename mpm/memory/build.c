@@ -1,0 +1,170 @@
+/* A scene's bodies as material points: each body has a lattice of its own, aligned with its faces, as fine as the grid
+ * is at the place; later bodies take the points they claim from earlier ones. */
+#include "mpm/memory/build.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    int n;
+    double *edge; /* n + 1 lattice planes [m], owned */
+} ladder;
+
+/* Planes from lo to hi, spaced like the grid over `per_cell`, then scaled to end on hi. */
+static status ladder_make(const axis *a, double lo, double hi, int per_cell, ladder *out)
+{
+    int n = 0;
+    for (double x = lo; x < hi * (1 + 1e-12) - 1e-12 && n < 1000000; n++)
+        x += axis_spacing(a, x + 1e-9 * (hi - lo)) / per_cell;
+    out->edge = malloc(((size_t)n + 2) * sizeof(double));
+    CHECK(out->edge, STATUS_MEMORY, "no memory for a lattice of %d planes", n);
+    double x = lo;
+    int k = 0;
+    out->edge[0] = lo;
+    while (x < hi - 1e-6 * axis_spacing(a, x)) {
+        x += axis_spacing(a, x + 1e-9 * (hi - lo)) / per_cell;
+        out->edge[++k] = x;
+        if (k > n) break;
+    }
+    /* the last plane lies at or beyond hi: drop it if the one before is nearer */
+    if (k > 1 && hi - out->edge[k - 1] < out->edge[k] - hi) k--;
+    const double scale = (hi - lo) / (out->edge[k] - lo);
+    for (int i = 1; i <= k; i++) out->edge[i] = lo + scale * (out->edge[i] - lo);
+    out->n = k;
+    return status_ok();
+}
+
+/* Signed distance to the surface of what is the body's own: its shape, less its cut, less what later bodies claim. */
+static double depth_in(const mpm_body *b, const double x[3])
+{
+    const double in = b->shape->inside(&b->shape_value, x);
+    return b->cut ? fmin(in, -b->cut->inside(&b->cut_value, x)) : in;
+}
+
+static double depth(const mpm_scene *s, int body, const double x[3])
+{
+    double d = depth_in(&s->body[body], x);
+    for (int i = body + 1; i < s->bodies; i++) d = fmin(d, -depth_in(&s->body[i], x));
+    return d;
+}
+
+/* A box of a body's lattice, or of it the part that is the body's. */
+typedef struct {
+    double x[3], size[3], share; /* centroid and lengths [m]; of the box's volume [1] */
+} piece;
+
+/* A box that the surface passes through is cut: its part inside is a point at its centroid, with the part's variance along
+ * each axis.  Whole boxes or none would make a staircase of every face that does not lie along the lattice, and contact
+ * normals would follow the steps (docs/scene-solver.md, V7b). */
+static void cut(const mpm_scene *s, int body, piece *p)
+{
+    enum { PARTS = 4, ALL = PARTS * PARTS * PARTS };         /* an axis; in all */
+    const double whole = (1 - 1.0 / (PARTS * PARTS)) / 12.0; /* variance of their middles, box of length 1 */
+    const double d = depth(s, body, p->x);
+    p->share = d > 0;
+    if (fabs(d) >= 0.5 * sqrt(p->size[0] * p->size[0] + p->size[1] * p->size[1] + p->size[2] * p->size[2])) return;
+    /* the surface counts over the thickness of a part: no more, or a box with a face on the surface would lose of it */
+    const double part = fmin(p->size[0], fmin(p->size[1], p->size[2])) / PARTS;
+    double sum = 0, first[3] = { 0 }, second[3] = { 0 };
+    for (int i = 0; i < ALL; i++) {
+        const int at[3] = { i % PARTS, i / PARTS % PARTS, i / (PARTS * PARTS) };
+        double u[3], x[3];
+        for (int q = 0; q < 3; q++) u[q] = p->size[q] * ((at[q] + 0.5) / PARTS - 0.5), x[q] = p->x[q] + u[q];
+        const double w = fmin(1, fmax(0, 0.5 + depth(s, body, x) / part));
+        sum += w;
+        for (int q = 0; q < 3; q++) first[q] += w * u[q], second[q] += w * u[q] * u[q];
+    }
+    p->share = sum / ALL;
+    if (p->share > 1 - 1e-9 || !(sum > 0)) return;
+    for (int q = 0; q < 3; q++) {
+        const double mean = first[q] / sum, variance = fmax(second[q] / sum - mean * mean, 0);
+        p->x[q] += mean;
+        p->size[q] *= fmax(sqrt(variance / whole) / p->size[q], 0.2);
+    }
+}
+
+/* Does the face of the body that the traction acts on lie between this place of the lattice and the next? */
+static double loaded_area(const mpm_body *b, const double x[3], const double size[3])
+{
+    if (b->traction[0] == 0 && b->traction[1] == 0 && b->traction[2] == 0) return 0;
+    const int k = b->traction_face / 2;
+    double next[3] = { x[0], x[1], x[2] };
+    next[k] += b->traction_face % 2 ? size[k] : -size[k];
+    return depth_in(b, x) <= 0 || depth_in(b, next) > 0 ? 0 : size[(k + 1) % 3] * size[(k + 2) % 3];
+}
+
+static build_point point_of(const mpm_body *b, const law *k, const piece *box, const piece *own)
+{
+    build_point p = { .mass = k->rho_start * own->share * box->size[0] * box->size[1] * box->size[2],
+                      .area = loaded_area(b, box->x, box->size) };
+    for (int q = 0; q < 3; q++) {
+        p.x[q] = own->x[q];
+        p.half[q] = 0.5 * own->size[q];
+        p.v[q] = b->velocity[q];
+    }
+    return p;
+}
+
+/* A box of the window's lattice, halved along each axis once for every level that it lies in. */
+static status one_box(const mpm_scene *s, int body, const law *k, const grids *g, const piece *window,
+                      const build_sink *sink)
+{
+    static const double SLIVER = 0.02; /* of a box: left out */
+    const int n = 1 << (g->levels - 1 - grids_level(g, window->x));
+    for (int i = 0; i < n * n * n; i++) {
+        const int at[3] = { i % n, i / n % n, i / (n * n) };
+        piece box = *window;
+        for (int q = 0; q < 3; q++) {
+            box.size[q] /= n;
+            box.x[q] += box.size[q] * (at[q] - 0.5 * (n - 1));
+        }
+        piece own = box;
+        cut(s, body, &own);
+        if (own.share < SLIVER) continue;
+        const build_point p = point_of(&s->body[body], k, &box, &own);
+        TRY(sink->point(sink->user, body, &p));
+    }
+    return status_ok();
+}
+
+static status walk(const mpm_scene *s, int body, const law *k, const grids *g, const ladder l[3],
+                   const build_sink *sink)
+{
+    for (int iz = 0; iz < l[2].n; iz++)
+        for (int iy = 0; iy < l[1].n; iy++)
+            for (int ix = 0; ix < l[0].n; ix++) {
+                const int at[3] = { ix, iy, iz };
+                piece box;
+                for (int q = 0; q < 3; q++) {
+                    box.size[q] = l[q].edge[at[q] + 1] - l[q].edge[at[q]];
+                    box.x[q] = l[q].edge[at[q]] + 0.5 * box.size[q];
+                }
+                TRY(one_box(s, body, k, g, &box, sink));
+            }
+    return status_ok();
+}
+
+const double build_everywhere[2] = { -INFINITY, INFINITY };
+
+status build_body(const mpm_scene *s, int body, const law *k, const grids *g, const double x[2], const build_sink *sink)
+{
+    const mpm_body *b = &s->body[body];
+    const axis *axes = grids_window(g)->axes;
+    double lo[3], hi[3];
+    b->shape->bounds(&b->shape_value, lo, hi);
+    lo[0] = fmax(lo[0], x[0]), hi[0] = fmin(hi[0], x[1]);
+    ladder l[3] = { { 0 } };
+    status r = status_ok();
+    for (int q = 0; q < 3 && r.code == STATUS_OK; q++) {
+        lo[q] = fmax(lo[q], axes[q].node[1]);
+        hi[q] = fmin(hi[q], axes[q].node[axes[q].last]);
+        if (hi[q] <= lo[q])
+            r = status_error(STATUS_BAD_INPUT, "body `%s` lies outside the window along axis %d", b->name, q);
+        else
+            r = ladder_make(&axes[q], lo[q], hi[q], s->particles_per_axis, &l[q]);
+    }
+    if (r.code == STATUS_OK) r = walk(s, body, k, g, l, sink);
+    for (int q = 0; q < 3; q++) free(l[q].edge);
+    return r;
+}

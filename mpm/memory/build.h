@@ -1,0 +1,29 @@
+/* From bodies to material points. */
+#ifndef BREECH_MPM_BUILD_H
+#define BREECH_MPM_BUILD_H
+
+#include "mpm/grid/grid.h"
+#include "mpm/law/law.h"
+#include "mpm/mpm.h"
+
+typedef struct {
+    double x[3], v[3], half[3]; /* [m, m/s, m] */
+    double mass, area;          /* [kg]; face under the body's traction [m2] */
+} build_point;
+
+typedef struct {
+    status (*point)(void *user, int body, const build_point *p);
+    void *user; /* borrowed */
+} build_sink;
+
+/* Calls the sink for every material point of one body between two places along x (-INFINITY, INFINITY: all that lies in
+ * the window), in a fixed order. */
+status build_body(const mpm_scene *s, int body, const law *k, const grids *g, const double x[2],
+                  const build_sink *sink);
+
+extern const double build_everywhere[2];
+
+/* What the solver makes of a point (mpm.c): q has BLOCK_DOUBLES. */
+void mpm_point_of(const mpm *m, int body, const build_point *p, double *q);
+
+#endif

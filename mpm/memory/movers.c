@@ -1,0 +1,259 @@
+/* Particles that change cells: out of their block after G2P, into the new cell before the next P2G.
+ *
+ * Each brick's movers lie together in the list of the thread that worked on it; a brick takes its arrivals from its 27
+ * neighbours in a fixed order, so the order in the cells depends on no thread. */
+#include "mpm/memory/store.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool movers_reserve(mover_list *list, int more)
+{
+    if (list->count + more <= list->capacity) return true;
+    const int capacity = 2 * list->capacity + more + 1024;
+    mover_head *head = realloc(list->head, (size_t)capacity * sizeof *head);
+    if (head) list->head = head;
+    double(*data)[BLOCK_DOUBLES] = realloc(list->data, (size_t)capacity * sizeof *data);
+    if (data) list->data = data;
+    if (!head || !data) return false;
+    list->capacity = capacity;
+    return true;
+}
+
+/* New cell of a particle near (ci, cj, ck); false when it has left the window.  One that comes to a level that is amid a step stays in
+ * the last cell of its own: by less than half a cell it is beyond, and has the weights of that cell there. */
+static bool find_cell(const mpm *m, const brick *b, const int cell[3], const double *x, mover_head *h)
+{
+    int step = 0, place[3];
+    h->level = b->at_seam ? grids_level(&m->grids, x) : b->level;
+    const bool stays = h->level > m->ends;
+    if (stays) h->level = b->level;
+    if (h->level != b->level) {
+        h->brick_step = CROSSES;
+        h->cell = store_cell_at(m, h->level, x, h->at);
+        return h->cell >= 0;
+    }
+    for (int k = 0, scale = 1; k < 3; k++, scale *= 3) {
+        const axis *a = &axes_of(m, b)[k];
+        int i = BRICK * b->at[k] + cell[k];
+        while (i >= 1 && x[k] < a->edge[i]) i--;
+        while (i <= a->last && x[k] >= a->edge[i + 1]) i++;
+        if (stays) i = i < 1 ? 1 : i > a->last ? a->last : i;
+        if (i < 1 || i > a->last) return false;
+        int d = i / BRICK - b->at[k];
+        step += scale * (d + 1);
+        place[k] = i % BRICK;
+    }
+    h->brick_step = step;
+    h->cell = cell_index(place[0], place[1], place[2]);
+    return true;
+}
+
+/* Vapour and dust: what no law here describes is taken out and booked, not kept as a hot, thin film between the bodies. */
+static bool erodes(const law *k, const double *q)
+{
+    const bool loose = q[FIRST_damage] >= 1 || q[FIRST_T] >= k->T_m;
+    return q[FIRST_e] > k->e_vapour || (loose && q[FIRST_rho] < k->rho_dust);
+}
+
+static void send(mpm *m, brick *b, const int cell[3], int body, const double *q)
+{
+    mover_list *list = &m->movers[b->movers_thread];
+    mover_head h = { .body = body };
+    if (!find_cell(m, b, cell, q + FIRST_x, &h)) {
+        particle_leave(q, level_dt(m, b->level), &b->sum.left);
+        return;
+    }
+    list->head[list->count] = h;
+    memcpy(list->data[list->count], q, sizeof list->data[0]);
+    if (h.brick_step == CROSSES) particle_restep(list->data[list->count], level_dt(m, b->level), level_dt(m, h.level));
+    list->count++;
+    b->movers++;
+    b->mover_steps |= 1u << h.brick_step;
+}
+
+static int axis_to_split(const mpm *m, const brick *b, const int cell[3], const double *q)
+{
+    if (q[FIRST_damage] >= 1) return -1;
+    for (int k = 0; k < 3; k++) {
+        const axis *a = &axes_of(m, b)[k];
+        if (2 * q[FIRST_half + k] > a->longest[BRICK * b->at[k] + cell[k]]) return k;
+    }
+    return -1;
+}
+
+static void drop_lane(block *q, block_link *link, brick *b, int lane)
+{
+    link->mask &= (uint8_t) ~(1u << lane);
+    q->mass[0][lane] = q->area[0][lane] = 0;
+    b->particles--;
+}
+
+void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving)
+{
+    const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
+    block *q = &m->blocks[block_index];
+    block_link *link = &m->links[block_index];
+    double(*from)[LANES] = (double(*)[LANES])(void *)q;
+    for (int lane = 0; lane < LANES; lane++) {
+        if (!(leaving >> lane & 1)) continue;
+        double one[BLOCK_DOUBLES], other[BLOCK_DOUBLES];
+        for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][lane];
+        const int k = axis_to_split(m, b, at, one);
+        if (erodes(&m->laws[link->body], one)) {
+            particle_leave(one, level_dt(m, b->level), &b->sum.left);
+            b->sum.eroded++;
+            b->sum.eroded_mass += one[FIRST_mass];
+            drop_lane(q, link, b, lane);
+            continue;
+        }
+        if (k >= 0) {
+            particle_halve(one, other, k);
+            send(m, b, at, link->body, other);
+            b->sum.splits++;
+        }
+        send(m, b, at, link->body, one);
+        drop_lane(q, link, b, lane);
+    }
+}
+
+/* Cells give back empty blocks, and close ranks when their last block fits into the holes of the others. */
+static void tidy_cell(mpm *m, brick *b, int cell)
+{
+    for (int *link = &b->head[cell]; *link >= 0;) {
+        const int i = *link;
+        if (m->links[i].mask == 0) {
+            *link = m->links[i].next;
+            store_release(m, i);
+            b->blocks--;
+        } else {
+            link = &m->links[i].next;
+        }
+    }
+}
+
+static void merge_cell(mpm *m, brick *b, int cell)
+{
+    int holes = 0, last = -1, *last_link = NULL;
+    for (int *link = &b->head[cell]; *link >= 0; link = &m->links[*link].next) {
+        if (last >= 0) holes += LANES - __builtin_popcount(m->links[last].mask);
+        last = *link;
+        last_link = link;
+    }
+    if (last < 0 || holes < __builtin_popcount(m->links[last].mask)) return;
+    for (int i = b->head[cell]; i != last; i = m->links[i].next)
+        if (m->links[i].body != m->links[last].body) return;
+    const uint8_t mask = m->links[last].mask;
+    *last_link = -1;
+    b->blocks--;
+    double(*from)[LANES] = (double(*)[LANES])(void *)&m->blocks[last];
+    for (int lane = 0; lane < LANES; lane++) {
+        if (!(mask >> lane & 1)) continue;
+        double one[BLOCK_DOUBLES];
+        for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][lane];
+        b->particles--;
+        store_insert(m, b, cell, m->links[last].body, one);
+    }
+    store_release(m, last);
+}
+
+/* Takes this brick's arrivals from its neighbours; false when the blocks ran out. */
+static bool arrive(mpm *m, brick *b)
+{
+    uint64_t dirty = 0;
+    bool enough = true;
+    for (int step = 0; step < NEIGHBOURS; step++) {
+        if (b->neighbour[step] < 0) continue;
+        const brick *from = &m->bricks[b->neighbour[step]];
+        const int towards = NEIGHBOURS - 1 - step; /* me, seen from there */
+        if (!(from->mover_steps >> towards & 1)) continue;
+        const mover_list *list = &m->movers[from->movers_thread];
+        for (int i = from->movers_first; i < from->movers_first + from->movers; i++) {
+            const mover_head *h = &list->head[i];
+            if (h->brick_step != towards) continue;
+            if (store_insert(m, b, h->cell, h->body, list->data[i]) < 0) enough = false;
+            dirty |= 1ull << h->cell;
+        }
+    }
+    for (int c = 0; c < BRICK_CELLS; c++)
+        if (dirty >> c & 1) merge_cell(m, b, c);
+    return enough;
+}
+
+/* Calls `each` for every mover to another level, in the order of bricks. */
+typedef status crosser(mpm *m, const mover_list *list, int i, int field, bool *changed);
+
+static status each_crossing(mpm *m, crosser *each, bool *changed)
+{
+    const int before = m->bricks_used;
+    for (int i = 0; i < before; i++) {
+        if (!(m->bricks[i].mover_steps >> CROSSES & 1)) continue;
+        const brick b = m->bricks[i]; /* the array may move */
+        const mover_list *list = &m->movers[b.movers_thread];
+        for (int k = b.movers_first; k < b.movers_first + b.movers; k++)
+            if (list->head[k].brick_step == CROSSES) TRY(each(m, list, k, b.field, changed));
+    }
+    return status_ok();
+}
+
+static status open_across(mpm *m, const mover_list *list, int i, int field, bool *changed)
+{
+    int to;
+    TRY(store_brick(m, field, list->head[i].level, list->head[i].at, &to));
+    if (m->bricks[to].out) return status_ok();
+    *changed = true;
+    return store_surround(m, to);
+}
+
+static status arrive_across(mpm *m, const mover_list *list, int i, int field, bool *changed)
+{
+    brick *b = &m->bricks[brick_at(m, field, list->head[i].level, list->head[i].at)];
+    *changed = *changed || b->particles == 0;
+    const int q = store_insert(m, b, list->head[i].cell, list->head[i].body, list->data[i]);
+    CHECK(q >= 0, STATUS_MEMORY, "the particle blocks ran out where the grids' levels meet: use larger cells");
+    b->occupied |= 1ull << list->head[i].cell;
+    return status_ok();
+}
+
+/* Bricks that receive their first particle get memory and neighbours. */
+static status open_bricks(mpm *m, bool *changed)
+{
+    TRY(each_crossing(m, open_across, changed));
+    const int before = m->bricks_used;
+    for (int i = 0; i < before; i++) {
+        if (!m->bricks[i].mover_steps) continue;
+        for (int step = 0; step < NEIGHBOURS; step++) {
+            if (!(m->bricks[i].mover_steps >> step & 1)) continue;
+            const int to = m->bricks[i].neighbour[step];
+            if (m->bricks[to].out) continue;
+            TRY(store_surround(m, to));
+            *changed = true;
+        }
+    }
+    return status_ok();
+}
+
+status movers_exchange(mpm *m)
+{
+    bool changed = false, enough = true, relink = false;
+    TRY(open_bricks(m, &changed));
+    if (changed) TRY(store_relink(m));
+    TRY(store_reserve(m, 0));
+#pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads) reduction(&& : enough) reduction(|| : relink)
+    for (int i = 0; i < m->bricks_used; i++) {
+        brick *b = &m->bricks[i];
+        if (!b->out || b->level > m->ends) continue;
+        if (b->mover_steps || b->sum.left.count)
+            for (int c = 0; c < BRICK_CELLS; c++) tidy_cell(m, b, c);
+        enough = arrive(m, b) && enough;
+        b->occupied = meeting_occupied(b);
+        relink = relink || (b->sum.particles > 0) != (b->particles > 0); /* filled or emptied by this step */
+    }
+    TRY(each_crossing(m, arrive_across, &relink));
+    if (relink) TRY(store_relink(m));
+    CHECK(enough, STATUS_MEMORY,
+          "the particle blocks ran out within one step at t = %g s; this is a limit of the solver: use larger cells",
+          m->time);
+    return status_ok();
+}

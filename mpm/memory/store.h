@@ -1,0 +1,356 @@
+/* The solver's memory: particles in blocks of eight, blocks chained by cell, cells in bricks of 4 x 4 x 4.
+ *
+ *   block   8 particles of one body and one cell, array of structures of arrays; holes have mass 0
+ *   brick   64 cells of one velocity field; `out` are the node sums of its own particles on its 6 x 6 x 6 nodes (own nodes
+ *           and one layer around), `mpm.nodes` the velocities of its own 4 x 4 x 4 nodes
+ *   site    the bricks of all fields at one place of one level of the nested grids (grid.h)
+ * A step (mpm.c) of a level: P2G over bricks -> sums over sites, contact, boundaries -> G2P over bricks -> movers change cells.
+ * Every phase reads what the last one wrote and writes only its own brick, in an order that no thread changes: the
+ * same bits on any number of threads. */
+#ifndef BREECH_MPM_STORE_H
+#define BREECH_MPM_STORE_H
+
+#include "mpm/grid/grid.h"
+#include "mpm/kernel/lanes.h"
+#include "mpm/law/law.h"
+#include "mpm/mpm.h"
+
+enum {
+    BRICK = 4,                           /* cells a brick and axis */
+    BRICK_CELLS = BRICK * BRICK * BRICK, /* 64 */
+    HALO = BRICK + 2,                    /* nodes a brick's particles see, an axis */
+    HALO_NODES = HALO * HALO * HALO,     /* 216 */
+    LINE = 8,                            /* doubles of a node line */
+    NODE = 4,                            /* vx vy vz E of a finished node */
+    NEIGHBOURS = 27,
+    SELF = 13,    /* index of the brick itself among them */
+    CROSSES = 27, /* of a mover: to another level */
+    MPM_MAX_THREADS = 256,
+    SHARES = 32 /* of the bricks: what is summed over all of them is summed share by share, on any number of threads */
+};
+
+static inline int share_begin(int bricks, int share)
+{
+    return (int)((int64_t)bricks * share / SHARES);
+}
+
+/* One list makes the block, the copies of single particles and the checkpoint.  P2G reads what comes before e, G2P all before start. */
+#define BLOCK_FIELDS(FIELD)                                                    \
+    FIELD(x, 3)      /* position [m] */                                        \
+    FIELD(v, 3)      /* velocity [m/s] */                                      \
+    FIELD(L, 9)      /* velocity gradient, L[3 i + k] = dv_i/dx_k [1/s] */     \
+    FIELD(s, 6)      /* stress deviator xx yy zz xy yz xz [Pa] */              \
+    FIELD(p, 1)      /* pressure with viscosity [Pa] */                        \
+    FIELD(rho, 1)    /* density [kg/m3] */                                     \
+    FIELD(mass, 1)   /* [kg], 0 in a hole */                                   \
+    FIELD(half, 3)   /* half lengths of the domain [m] */                      \
+    FIELD(ka, 1)     /* specific kinetic energy of the gradient part [J/kg] */ \
+    FIELD(area, 1)   /* face area that the body's traction acts on [m2] */     \
+    FIELD(flow, 1)   /* flow stress of the last step [Pa] */                   \
+    FIELD(e, 1)      /* specific internal energy [J/kg] */                     \
+    FIELD(ep, 1)     /* equivalent plastic strain [1] */                       \
+    FIELD(damage, 1) /* failed at 1 */                                         \
+    FIELD(T, 1)      /* temperature [K] */                                     \
+    FIELD(start, 3)  /* position at the start [m] */
+
+typedef struct {
+#define BLOCK_MEMBER(name, n) double name[n][LANES];
+    BLOCK_FIELDS(BLOCK_MEMBER)
+#undef BLOCK_MEMBER
+} block __attribute__((aligned(64)));
+
+enum { BLOCK_DOUBLES = sizeof(block) / (sizeof(double) * LANES) };
+
+/* Places of the fields in a single particle's BLOCK_DOUBLES. */
+enum {
+#define BLOCK_FIRST(name, n) FIRST_##name, LAST_##name = FIRST_##name + (n)-1,
+    BLOCK_FIELDS(BLOCK_FIRST)
+#undef BLOCK_FIRST
+};
+
+/* A particle on its way between cells. */
+typedef struct {
+    int brick_step; /* which of the 27 neighbours it goes to; CROSSES: a brick of another level */
+    int cell;       /* cell in that brick */
+    int level;      /* of it */
+    int at[3];      /* its place, of one that crosses */
+    int body;
+} mover_head;
+
+typedef struct {
+    int count, capacity;
+    mover_head *head;
+    double (*data)[BLOCK_DOUBLES];
+} mover_list;
+
+/* What has left: through the window's ends, or as vapour and dust. */
+typedef struct {
+    uint64_t count;
+    double mass, momentum[3], energy; /* [kg, kg m/s, J] */
+} departure;
+
+/* What one brick, or one site, books in a step. */
+typedef struct {
+    double heat_friction, heat_transfer, heat_viscous;
+    double work_boundary, work_external;
+    double impulse_boundary[3], impulse_external[3];
+    double contact[MPM_MAX_FIELDS][3];
+    departure left;
+    double rate; /* largest (c + |v|) / h, times the share of m.dt that the level's steps are [1/s] */
+    double peak_temperature;
+    double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES], peak_strain[MPM_MAX_BODIES];
+    uint64_t clamps_pressure, clamps_compression, splits, eroded, particles;
+    double eroded_mass;
+    int bad_lane, bad_block; /* first particle that is not finite, bad_block = -1: none */
+} tally;
+
+/* Nodes of a brick (bits) that two levels share (seams.c). */
+typedef struct {
+    uint64_t follow_coarser, follow_finer; /* have their velocity from there */
+    uint64_t lead_coarser, lead_finer;     /* receive sums of nodes that follow them there */
+    uint64_t twice_finer; /* those of follow_finer where the node that they follow leads a still finer level */
+} seam_nodes;
+
+/* What a brick's particles gave to its nodes, while a finer level makes several steps with those that both share (shares.c). */
+typedef struct {
+    double line[2 * BRICK_CELLS][LINE]; /* as brick.line; of shared nodes as their last step left it */
+    double drift[BRICK_CELLS][3];       /* velocity that is still to be added for the particles [m/s] */
+    double owed[BRICK_CELLS];           /* the same of the energy [J] */
+} node_shares;
+
+typedef struct {
+    int field, level;
+    int at[3]; /* brick coordinates */
+    int site;
+    seam_nodes seam;       /* of its nodes */
+    bool at_seam;          /* there are any */
+    bool across;           /* another field has particles near a node that this brick shares with another level */
+    int head[BRICK_CELLS]; /* first block of each cell, -1 = none */
+    int particles, blocks;
+    bool contact;                /* another field has particles here or next door */
+    uint64_t occupied, meets;    /* bit c: cell c has particles; it may share nodes with another field */
+    int neighbour[NEIGHBOURS];   /* bricks of the same field around, -1 = none */
+    double (*out)[LINE];         /* [216] m, px, py, pz, fx, fy, fz, kinetic energy; halo_place (kernels.h) */
+    double (*out_contact)[LINE]; /* [216] V grad S (3), -m (x_i - x_p) (3), m flow, 0 */
+    double (*line)[LINE];        /* of a seam brick: [64] sums as in `out`, then [64] as in `out_contact` */
+    node_shares *held;           /* of a brick that shares nodes with a finer level */
+    int movers, movers_first, movers_thread; /* its part of the thread's mover list */
+    uint32_t mover_steps;                    /* bit k: a mover goes to neighbour k */
+    tally sum;
+} brick;
+
+typedef struct {
+    int next; /* block of the same cell, -1 = none; also chains the free blocks */
+    uint8_t body;
+    uint8_t mask; /* lanes in use */
+} block_link;
+
+/* The window and its fine zone along x, and the zone across. */
+typedef struct {
+    double at[5]; /* lower end of the fine zone, ends of the window; ends of the zone across [m] */
+} zone;
+
+typedef struct kernels kernels;
+
+struct mpm {
+    mpm_scene scene;
+    material materials[MPM_MAX_BODIES];
+    law laws[MPM_MAX_BODIES];
+    grids grids;
+    int fields;
+    int *directory;  /* [fields][grids.sites] brick or -1 */
+    tally *site_sum; /* [grids.sites] */
+
+    brick *bricks;
+    double (*nodes)[BRICK_CELLS][NODE]; /* of each brick: vx, vy, vz, specific energy that is left to the particles */
+    int bricks_used, bricks_capacity;
+    int *site_list, site_count; /* sites that have a brick */
+    int *seam_list, seam_count; /* those of them at seams */
+
+    block *blocks;
+    block_link *links;
+    int blocks_capacity, blocks_free, free_head;
+
+    mover_list movers[MPM_MAX_THREADS];
+    int threads;
+    const kernels *kernel;
+
+    double time, dt, dt_last; /* steps of the coarsest level; dt_last: the last that began, 0 before the first [s] */
+    int begins, ends; /* levels 0 .. begins begin a step with the finest level's that is under way, 0 .. ends end one */
+    uint64_t steps;
+    double dense, dense_steps; /* particles, and particle-steps so far, of the finest cells everywhere */
+    void *histogram;           /* of percentiles (read.c) */
+    mpm_report report;
+    mpm_ledger ledger;
+    double phase_seconds[MPM_PHASES];
+    uint64_t scene_key; /* of everything that determines a scene */
+    mpm_wake wake;
+    size_t wake_capacity;
+    zone zone_start;
+    double zone_length;  /* of the fine zone along x [m] */
+    double force_sum[3]; /* smoothing of the contact force on field 0 */
+};
+
+struct kernels {
+    const char *name;
+    void (*p2g)(mpm *m, brick *b);
+    void (*gather)(mpm *m, int site); /* a seam's sums into brick.line */
+    void (*nodes)(mpm *m, int site);
+    void (*g2p)(mpm *m, brick *b, int thread);
+};
+
+/* The kernels for this machine, or those named (NULL = best); NULL if it cannot run them. */
+const kernels *kernels_choose(const char *name);
+
+/* bricks.c */
+status store_make(mpm *m, int blocks);
+/* An empty directory for the axes as they are now; forgets the bricks, keeps the blocks. */
+status store_new_grid(mpm *m);
+status store_settle(mpm *m); /* after filling: neighbours, order in memory, room for the next step */
+void store_free_brick(brick *b);
+void store_release(mpm *m, int block_index);         /* back to the free blocks */
+void store_release_cell(mpm *m, brick *b, int cell); /* all blocks of a cell */
+void store_free(mpm *m);
+status store_brick(mpm *m, int field, int level, const int at[3], int *out); /* finds or makes it */
+status store_open(brick *b);                                                 /* memory for the sums of its particles */
+status store_empty(mpm *m, int blocks);                                      /* no bricks, room for so many blocks */
+status store_surround(mpm *m, int brick_index); /* makes its 26 neighbours inside the window */
+status store_relink(mpm *m);                    /* neighbours, contact flags, site list */
+status store_surround_all(mpm *m);
+status store_reserve(mpm *m, int blocks); /* so many free blocks, and those for the next step */
+status store_compact(mpm *m);             /* blocks into the order of bricks and cells */
+int store_insert(mpm *m, brick *b, int cell, int body, const double *particle); /* block, or -1 when none is free */
+
+status store_place(mpm *m, int body, const double *particle); /* makes its brick if need be; outside any step */
+int store_cell_at(const mpm *m, int level, const double x[3], int at[3]); /* cell and its brick's place; -1: outside */
+
+/* seams.c: nodes that two levels share */
+seam_nodes seams_of(const mpm *m, int level, const int at[3]); /* of a brick at this place */
+status seams_answer(mpm *m, const brick *b);   /* makes the bricks that a brick's particles need in other levels */
+bool seams_meet(const mpm *m, const brick *b); /* brick.across */
+void seams_receive(mpm *m, int site);          /* adds to brick.line what nodes of other levels hand on */
+void seams_follow(mpm *m, int site);           /* velocities of the nodes that follow another level */
+/* Change of the motion from one node to the next along axis k, from nodes of more mass than `least` [kg]. */
+void seams_slope(const mpm *m, const brick *b, int cell, int k, double least, double slope[3]);
+
+/* shares.c: nodes that a level shares with a finer one make the steps of that */
+uint64_t shares_due(const mpm *m, const brick *b); /* nodes that end a step with the finest level's that is under way */
+double shares_dt(const mpm *m, const brick *b, int cell); /* of a node's step [s] */
+void shares_lay_out(mpm *m, int site);                    /* brick.line as brick.held has it */
+void shares_take_back(mpm *m, int site); /* into brick.held, or for its particles, what a step has made of it */
+
+/* meeting.c */
+uint64_t meeting_occupied(const brick *b);
+uint64_t meeting_cells(const mpm *m, const brick *b); /* brick.meets from what is occupied around */
+
+/* image.c */
+uint64_t image_scene_key(const mpm *m); /* before the fine zone has moved */
+
+/* particle.c: one particle's BLOCK_DOUBLES */
+void particle_halve(double *q, double *other, int k);
+void particle_merge(double *q, const double *other, int k, double dt); /* the inverse: q takes other in */
+void particle_leave(const double *q, double dt, departure *sum);       /* dt: of the last step [s] */
+void particle_restep(double *q, double dt, double other);              /* its last step counts as one of `other` [s] */
+
+/* Work of the stress that a particle has booked at the end of a step and the nodes will do before the next forces (p2g.c):
+ * dt/2 sigma:L / rho [J/kg]. */
+static inline double work_ahead(const double s[6], double p, const double L[9], double rho, double dt)
+{
+    const double deviator =
+        s[0] * L[0] + s[1] * L[4] + s[2] * L[8] + s[3] * (L[1] + L[3]) + s[4] * (L[2] + L[6]) + s[5] * (L[5] + L[7]);
+    return 0.5 * dt * (deviator - p * (L[0] + L[4] + L[8])) / rho;
+}
+
+/* mpm.c */
+void mpm_book_departure(mpm *m, const departure *d);
+
+/* front.c: the power that ploughs the followed bodies; all but a twentieth of it lies behind the front, and all but a twentieth
+ * within the half width of the fine zone's middle */
+typedef struct {
+    double front, power, half_width; /* [m, W, m] */
+} plough;
+plough plough_find(const mpm *m);
+
+/* zone.c */
+zone zone_of(const mpm *m);
+/* Of the fine zone across: its middle, and how far it reaches [m] */
+void zone_across(const mpm_scene *s, double *middle, double *half);
+/* Its ends with at most `more` on either side, and no more than follow_width and the window allow [m] */
+void zone_widen(const mpm_scene *s, double more, double *lo, double *hi);
+status zone_follow(mpm *m); /* goes after the plastic front, if it has come near the fine zone's end */
+/* New grids; all particles into their bricks, split and merged to fit; to be settled. */
+status zone_regrid(mpm *m, zone z);
+
+/* read.c */
+void mpm_sample_percentiles(mpm *m);
+size_t mpm_histogram_bytes(void);
+
+/* movers.c */
+status movers_exchange(mpm *m); /* all movers into their new cells; makes bricks as needed */
+void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving);
+bool movers_reserve(mover_list *list, int more);
+
+static inline int site_index(const mpm *m, int level, const int at[3])
+{
+    const grid_level *g = &m->grids.level[level];
+    return g->first_site + (at[2] * g->axes[1].bricks + at[1]) * g->axes[0].bricks + at[0];
+}
+
+/* Velocities and energies of a brick's own nodes.  In one array, so that those of 27 bricks are found without reading the bricks. */
+static inline double (*brick_nodes(const mpm *m, const brick *b))[NODE]
+{
+    return m->nodes[b - m->bricks];
+}
+
+/* Brick of a field at a place of a level, -1 = none. */
+static inline int brick_at(const mpm *m, int field, int level, const int at[3])
+{
+    return m->directory[field * m->grids.sites + site_index(m, level, at)];
+}
+
+/* Steps that a level makes in one of the coarsest. */
+static inline int level_steps(const mpm *m, int level)
+{
+    return 1 << (m->grids.levels - 1 - level);
+}
+
+static inline double level_dt(const mpm *m, int level)
+{
+    return m->dt / level_steps(m, level);
+}
+
+static inline double level_dt_last(const mpm *m, int level)
+{
+    return m->dt_last / level_steps(m, level);
+}
+
+/* Nodes that make the steps of a finer level. */
+static inline uint64_t seam_shared(const seam_nodes *s)
+{
+    return s->lead_finer | s->follow_finer;
+}
+
+static inline bool seam_any(const seam_nodes *s)
+{
+    return (s->follow_coarser | s->follow_finer | s->lead_coarser | s->lead_finer) != 0;
+}
+
+/* Of the field's first body. */
+static inline const law *field_law(const mpm *m, int field)
+{
+    for (int i = 0; i < m->scene.bodies; i++)
+        if (m->scene.body[i].field == field) return &m->laws[i];
+    return &m->laws[0];
+}
+
+static inline const axis *axes_of(const mpm *m, const brick *b)
+{
+    return m->grids.level[b->level].axes;
+}
+
+static inline int cell_index(int i, int j, int k)
+{
+    return (k * BRICK + j) * BRICK + i;
+}
+
+#endif

@@ -1,0 +1,284 @@
+/* Checkpoints and estimates.
+ *
+ * An image is one flat run of bytes: a header, the books, then every brick in its order with its chains of blocks as they
+ * lie, holes included: a restored solver goes on with the same bits. */
+#include "mpm/memory/build.h"
+#include "mpm/memory/store.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char MAGIC[8] = "BREECH6";
+
+typedef struct {
+    char magic[8];
+    char instruction_set[16];
+    uint64_t scene, bytes;
+    double time, dt, dt_last, dense_steps, force_sum[3], zone[5];
+    uint64_t steps;
+    int bricks, blocks;
+    uint64_t wake;
+    double wake_until;
+} image_head;
+
+typedef struct {
+    int field, level, at[3], particles, has_out;
+    int blocks[BRICK_CELLS];
+} image_brick;
+
+/* ---- what determines a scene ---- */
+
+static uint64_t hash(uint64_t h, const void *data, size_t bytes) /* FNV-1a */
+{
+    const unsigned char *p = data;
+    for (size_t i = 0; i < bytes; i++) h = (h ^ p[i]) * 1099511628211ull;
+    return h;
+}
+
+static uint64_t hash_body(uint64_t h, const mpm_body *b, const material *m)
+{
+    h = hash(h, &m->strength, sizeof m->strength);
+    h = hash(h, &m->density, sizeof *m - offsetof(material, density));
+    h = hash(h, b->shape->name, strlen(b->shape->name));
+    h = hash(h, &b->shape_value, sizeof b->shape_value);
+    h = hash(h, b->velocity, sizeof b->velocity);
+    h = hash(h, b->body_force, sizeof b->body_force);
+    h = hash(h, b->traction, sizeof b->traction);
+    const double numbers[] = { b->field, b->temperature, b->traction_face, b->yield_scale, b->damage };
+    return hash(h, numbers, sizeof numbers);
+}
+
+static uint64_t hash_axis(uint64_t h, const mpm_axis *s, const axis *a)
+{
+    h = hash(h, a->node, (size_t)(a->last + 2) * sizeof *a->node);
+    h = hash(h, s->boundary_velocity, sizeof s->boundary_velocity);
+    const double numbers[] = { s->boundary[0], s->boundary[1], s->boundary_fields[0], s->boundary_fields[1] };
+    return hash(h, numbers, sizeof numbers);
+}
+
+uint64_t image_scene_key(const mpm *m)
+{
+    const mpm_scene *s = &m->scene;
+    uint64_t h = 14695981039346656037ull;
+    for (int i = 0; i < s->bodies; i++) h = hash_body(h, &s->body[i], &m->materials[i]);
+    for (int i = 0; i < m->grids.levels; i++)
+        for (int k = 0; k < 3; k++) h = hash_axis(h, &s->axis[k], &m->grids.level[i].axes[k]);
+    for (int a = 0; a < m->fields; a++)
+        for (int b = 0; b < m->fields; b++) h = hash(h, &s->contact[a][b], sizeof s->contact[a][b]);
+    const double numbers[] = { s->contact_gap,         s->particles_per_axis, s->courant,      s->viscosity_linear,
+                               s->viscosity_quadratic, s->transfer,           s->basis,        s->heat_by_plastic_work,
+                               s->follow_bodies,       s->follow_lead,        s->follow_speed, s->follow_width,
+                               s->gauge_time[0],       s->gauge_time[1] };
+    return hash(h, numbers, sizeof numbers);
+}
+
+/* ---- writing ---- */
+
+static size_t image_bytes(const mpm *m, int blocks)
+{
+    return sizeof(image_head) + sizeof(mpm_ledger) + sizeof(mpm_report) + (size_t)m->bricks_used * sizeof(image_brick) +
+           (size_t)blocks * (sizeof(block) + sizeof(block_link)) + m->wake.n * sizeof *m->wake.point;
+}
+
+static char *put(char *to, const void *from, size_t bytes)
+{
+    memcpy(to, from, bytes);
+    return to + bytes;
+}
+
+static char *put_brick(char *to, const mpm *m, const brick *b)
+{
+    image_brick head;
+    memset(&head, 0, sizeof head);
+    head.field = b->field, head.level = b->level, head.particles = b->particles, head.has_out = b->out != NULL;
+    memcpy(head.at, b->at, sizeof head.at);
+    for (int c = 0; c < BRICK_CELLS; c++)
+        for (int q = b->head[c]; q >= 0; q = m->links[q].next) head.blocks[c]++;
+    to = put(to, &head, sizeof head);
+    for (int c = 0; c < BRICK_CELLS; c++)
+        for (int q = b->head[c]; q >= 0; q = m->links[q].next) {
+            to = put(to, &m->links[q], sizeof m->links[q]);
+            to = put(to, &m->blocks[q], sizeof m->blocks[q]);
+        }
+    return to;
+}
+
+status mpm_save(const mpm *m, void **image, size_t *bytes)
+{
+    int blocks = 0;
+    for (int i = 0; i < m->bricks_used; i++) blocks += m->bricks[i].blocks;
+    *bytes = image_bytes(m, blocks);
+    char *to = malloc(*bytes);
+    *image = to;
+    CHECK(to, STATUS_MEMORY, "no memory for a checkpoint of %.1f MB", 1e-6 * (double)*bytes);
+    image_head head;
+    memset(&head, 0, sizeof head);
+    memcpy(head.magic, MAGIC, sizeof head.magic);
+    strncpy(head.instruction_set, m->kernel->name, sizeof head.instruction_set - 1);
+    head.scene = m->scene_key, head.bytes = *bytes;
+    head.time = m->time, head.dt = m->dt, head.dt_last = m->dt_last, head.dense_steps = m->dense_steps,
+    head.steps = m->steps;
+    memcpy(head.force_sum, m->force_sum, sizeof head.force_sum);
+    head.wake = m->wake.n, head.wake_until = m->wake.until;
+    memcpy(head.zone, zone_of(m).at, sizeof head.zone);
+    head.bricks = m->bricks_used, head.blocks = blocks;
+    to = put(to, &head, sizeof head);
+    to = put(to, &m->ledger, sizeof m->ledger);
+    to = put(to, &m->report, sizeof m->report);
+    if (m->wake.n) to = put(to, m->wake.point, m->wake.n * sizeof *m->wake.point);
+    for (int i = 0; i < m->bricks_used; i++) to = put_brick(to, m, &m->bricks[i]);
+    return status_ok();
+}
+
+/* ---- reading ---- */
+
+typedef struct {
+    const char *at, *end;
+} reader;
+
+static bool get(reader *r, void *to, size_t bytes)
+{
+    if ((size_t)(r->end - r->at) < bytes) return false;
+    memcpy(to, r->at, bytes);
+    r->at += bytes;
+    return true;
+}
+
+static status cut_short(void)
+{
+    return status_error(STATUS_IO, "the checkpoint is cut short or damaged");
+}
+
+static status get_cell(mpm *m, brick *b, int cell, int blocks, reader *r)
+{
+    int *link = &b->head[cell];
+    for (int i = 0; i < blocks; i++) {
+        const int q = m->free_head;
+        CHECK(q >= 0, STATUS_IO, "the checkpoint holds more particles than it says");
+        m->free_head = m->links[q].next;
+        m->blocks_free--;
+        if (!get(r, &m->links[q], sizeof m->links[q]) || !get(r, &m->blocks[q], sizeof m->blocks[q]))
+            return cut_short();
+        CHECK(m->links[q].body < m->scene.bodies, STATUS_IO, "the checkpoint names a body that the scene lacks");
+        m->links[q].next = -1;
+        *link = q;
+        link = &m->links[q].next;
+        b->blocks++;
+    }
+    return status_ok();
+}
+
+static status get_brick(mpm *m, reader *r)
+{
+    image_brick head;
+    int index;
+    if (!get(r, &head, sizeof head)) return cut_short();
+    CHECK(head.level >= 0 && head.level < m->grids.levels, STATUS_IO,
+          "the checkpoint holds a level that the scene lacks");
+    for (int k = 0; k < 3; k++)
+        CHECK(head.at[k] >= 0 && head.at[k] < m->grids.level[head.level].axes[k].bricks, STATUS_IO,
+              "the checkpoint holds a place outside the window");
+    CHECK(head.field >= 0 && head.field < m->fields, STATUS_IO, "the checkpoint holds a field that the scene lacks");
+    TRY(store_brick(m, head.field, head.level, head.at, &index));
+    brick *b = &m->bricks[index];
+    b->particles = head.particles;
+    if (head.has_out) TRY(store_open(b));
+    for (int c = 0; c < BRICK_CELLS; c++) TRY(get_cell(m, b, c, head.blocks[c], r));
+    return status_ok();
+}
+
+static status get_wake(mpm *m, const image_head *h, reader *r)
+{
+    const size_t bytes = h->wake * sizeof *m->wake.point;
+    if (h->wake > (size_t)(r->end - r->at) / sizeof *m->wake.point) return cut_short();
+    mpm_wake_point *p = realloc(m->wake.point, bytes ? bytes : 1);
+    CHECK(p, STATUS_MEMORY, "no memory for a wake of %llu points", (unsigned long long)h->wake);
+    m->wake = (mpm_wake){ h->wake, p, h->wake_until };
+    m->wake_capacity = h->wake;
+    return get(r, p, bytes) ? status_ok() : cut_short();
+}
+
+static status check_head(const mpm *m, const image_head *h, size_t bytes)
+{
+    CHECK(memcmp(h->magic, MAGIC, sizeof MAGIC) == 0, STATUS_IO, "this is no checkpoint of this version");
+    CHECK(strncmp(h->instruction_set, m->kernel->name, sizeof h->instruction_set) == 0, STATUS_IO,
+          "the checkpoint was written with instruction set %.16s, this run uses %s: results would differ in last bits; "
+          "pin the set or start anew",
+          h->instruction_set, m->kernel->name);
+    CHECK(h->scene == m->scene_key, STATUS_IO, "the checkpoint belongs to another scene");
+    CHECK(h->bytes == bytes, STATUS_IO, "the checkpoint has %zu bytes, it says %llu: cut short", bytes,
+          (unsigned long long)h->bytes);
+    return status_ok();
+}
+
+status mpm_restore(mpm *m, const void *image, size_t bytes)
+{
+    reader r = { image, (const char *)image + bytes };
+    image_head head;
+    if (!get(&r, &head, sizeof head)) return cut_short();
+    TRY(check_head(m, &head, bytes));
+    TRY(store_empty(m, head.blocks));
+    zone z;
+    memcpy(z.at, head.zone, sizeof z.at);
+    TRY(zone_regrid(m, z));
+    if (!get(&r, &m->ledger, sizeof m->ledger) || !get(&r, &m->report, sizeof m->report)) return cut_short();
+    TRY(get_wake(m, &head, &r));
+    for (int i = 0; i < head.bricks; i++) TRY(get_brick(m, &r));
+    m->time = head.time, m->dt = head.dt, m->dt_last = head.dt_last, m->dense_steps = head.dense_steps,
+    m->steps = head.steps;
+    memcpy(m->force_sum, head.force_sum, sizeof head.force_sum);
+    TRY(store_relink(m));
+    return store_reserve(m, 0);
+}
+
+/* ---- estimate ---- */
+
+typedef struct {
+    const grids *grids;
+    size_t particles;
+    double work;
+} counting;
+
+static status count_point(void *user, int body, const build_point *p)
+{
+    (void)body;
+    counting *c = user;
+    c->particles++;
+    c->work += 1.0 / (1 << grids_level(c->grids, p->x));
+    return status_ok();
+}
+
+static status count(const mpm_scene *s, const grids *g, counting *c, double *dt)
+{
+    double fastest = 0;
+    *c = (counting){ .grids = g };
+    const build_sink sink = { count_point, c };
+    for (int i = 0; i < s->bodies; i++) {
+        law k;
+        TRY(law_make(&s->body[i], s, &k));
+        TRY(build_body(s, i, &k, g, build_everywhere, &sink));
+        const double sound = sqrt((k.K0 + 4.0 / 3.0 * k.G) / k.rho0);
+        for (int q = 0; q < 3; q++)
+            fastest = fmax(fastest, (sound + fabs(s->body[i].velocity[q])) / g->level[0].axes[q].smallest);
+    }
+    *dt = s->courant / fastest;
+    return status_ok();
+}
+
+status mpm_estimate(const mpm_scene *scene, mpm_needs *needs)
+{
+    mpm_scene at[2] = { *scene, *scene };
+    zone_widen(scene, HUGE_VAL, &at[1].axis[2].fine_lo, &at[1].axis[2].fine_hi);
+    for (int i = 0; i < 2; i++) {
+        grids g;
+        counting c;
+        TRY(grids_make(&at[i], &g));
+        const status s = count(&at[i], &g, &c, &needs->dt);
+        grids_free(&g);
+        TRY(s);
+        needs->particles[i] = c.particles, needs->work[i] = c.work;
+        needs->bytes[i] = MPM_BYTES + c.particles * MPM_BYTES_A_PARTICLE;
+    }
+    return status_ok();
+}

@@ -1,0 +1,374 @@
+/* Reading the solver's state: balance, report, particle fields. */
+#include "mpm/memory/store.h"
+
+#include <math.h>
+#include <string.h>
+
+const mpm_field_info mpm_field_table[MPM_FIELD_COUNT] = {
+#define INFO(name, width, unit, doc) { #name, width, unit, doc },
+    PARTICLE_FIELDS(INFO)
+#undef INFO
+};
+
+/* Calls `each` for every block of some bricks in the fixed order of bricks, cells and chains. */
+typedef void block_visitor(void *user, const mpm *m, const brick *b, int index);
+
+static void visit_bricks(const mpm *m, int from, int to, block_visitor *each, void *user)
+{
+    for (int i = from; i < to; i++)
+        for (int c = 0; c < BRICK_CELLS; c++)
+            for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) each(user, m, &m->bricks[i], q);
+}
+
+static void visit(const mpm *m, block_visitor *each, void *user)
+{
+    visit_bricks(m, 0, m->bricks_used, each, user);
+}
+
+/* Each share of the bricks on its own, by all threads: `sums` are SHARES of `bytes`, for the caller to add up in order. */
+static void visit_shares(const mpm *m, block_visitor *each, void *sums, size_t bytes)
+{
+#pragma omp parallel for schedule(dynamic) num_threads(m->threads)
+    for (int i = 0; i < SHARES; i++)
+        visit_bricks(m, share_begin(m->bricks_used, i), share_begin(m->bricks_used, i + 1), each,
+                     (char *)sums + (size_t)i * bytes);
+}
+
+/* Sums of the books.  Millions of equal terms round the same way each time: what is lost is carried along (Neumaier 1974). */
+enum { BOOK_MASS, BOOK_KINETIC, BOOK_INTERNAL, BOOK_AHEAD, BOOK_MOMENTUM, BOOKS = BOOK_MOMENTUM + 3 };
+
+typedef struct {
+    double sum[BOOKS], rest[BOOKS];
+} books;
+
+static double lane_work_ahead(const block *q, int lane, double dt)
+{
+    double s[6], L[9];
+    for (int i = 0; i < 6; i++) s[i] = q->s[i][lane];
+    for (int i = 0; i < 9; i++) L[i] = q->L[i][lane];
+    return work_ahead(s, q->p[0][lane], L, q->rho[0][lane], dt);
+}
+
+static void books_add(books *b, const double add[BOOKS])
+{
+    for (int i = 0; i < BOOKS; i++) {
+        const double old = b->sum[i], now = old + add[i];
+        b->rest[i] += fabs(old) >= fabs(add[i]) ? (old - now) + add[i] : (add[i] - now) + old;
+        b->sum[i] = now;
+    }
+}
+
+static void balance_block(void *user, const mpm *m, const brick *b, int index)
+{
+    const block *q = &m->blocks[index];
+    double add[BOOKS] = { 0 };
+    for (int i = 0; i < LANES; i++) {
+        const double M = q->mass[0][i];
+        double square = 0;
+        for (int k = 0; k < 3; k++) {
+            const double v = q->v[k][i];
+            square += v * v;
+            add[BOOK_MOMENTUM + k] += M * v;
+        }
+        add[BOOK_MASS] += M;
+        add[BOOK_KINETIC] += M * (0.5 * square + q->ka[0][i]);
+        add[BOOK_INTERNAL] += M * q->e[0][i];
+        add[BOOK_AHEAD] += M * lane_work_ahead(q, i, level_dt_last(m, b->level));
+    }
+    books_add(user, add);
+}
+
+static books all_books(const mpm *m)
+{
+    books share[SHARES] = { { .sum = { 0 } } }, all = { .sum = { 0 } };
+    visit_shares(m, balance_block, share, sizeof *share);
+    for (int i = 0; i < SHARES; i++) books_add(&all, share[i].sum), books_add(&all, share[i].rest);
+    return all;
+}
+
+static double norm(const double *a)
+{
+    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+}
+
+static double start_speed(const mpm *m)
+{
+    double largest = 0;
+    for (int i = 0; i < m->scene.bodies; i++) largest = fmax(largest, norm(m->scene.body[i].velocity));
+    return largest;
+}
+
+mpm_ledger mpm_balance(const mpm *m)
+{
+    mpm_ledger l = m->ledger;
+    books b = all_books(m);
+    for (int i = 0; i < BOOKS; i++) b.sum[i] += b.rest[i];
+    l.mass = b.sum[BOOK_MASS], l.kinetic = b.sum[BOOK_KINETIC], l.internal = b.sum[BOOK_INTERNAL];
+    l.work_ahead = b.sum[BOOK_AHEAD];
+    memcpy(l.momentum, b.sum + BOOK_MOMENTUM, sizeof l.momentum);
+    double left[3];
+    for (int k = 0; k < 3; k++)
+        left[k] =
+            l.momentum[k] + l.ejected_momentum[k] - l.momentum_start[k] - l.impulse_boundary[k] - l.impulse_external[k];
+    const double scale = l.mass_start * start_speed(m);
+    l.momentum_error = norm(left) / (scale > 0 ? scale : 1);
+    l.energy_error = (l.kinetic + l.internal - l.work_ahead + l.ejected_energy - l.work_boundary - l.work_external -
+                      l.energy_start) /
+                     (l.kinetic_start > 0 ? l.kinetic_start : 1);
+    return l;
+}
+
+typedef struct {
+    double volume[MPM_MAX_BODIES];
+} failures;
+
+static void failed_block(void *user, const mpm *m, const brick *b, int index)
+{
+    (void)b;
+    failures *f = user;
+    const block *q = &m->blocks[index];
+    for (int l = 0; l < LANES; l++)
+        if (q->mass[0][l] > 0 && q->damage[0][l] >= 1) f->volume[m->links[index].body] += q->mass[0][l] / q->rho[0][l];
+}
+
+mpm_report mpm_glance(const mpm *m)
+{
+    mpm_report r = m->report;
+    r.time = m->time;
+    r.dt = m->dt;
+    r.steps = m->steps;
+    r.particle_steps_dense = (uint64_t)m->dense_steps;
+    memset(r.failed_volume, 0, sizeof r.failed_volume);
+    return r;
+}
+
+mpm_report mpm_state(const mpm *m)
+{
+    mpm_report r = mpm_glance(m);
+    failures share[SHARES] = { { .volume = { 0 } } };
+    visit_shares(m, failed_block, share, sizeof *share);
+    for (int i = 0; i < SHARES; i++)
+        for (int body = 0; body < MPM_MAX_BODIES; body++) r.failed_volume[body] += share[i].volume[body];
+    return r;
+}
+
+const mpm_scene *mpm_scene_of(const mpm *m)
+{
+    return &m->scene;
+}
+
+const mpm_wake *mpm_wake_of(const mpm *m)
+{
+    return &m->wake;
+}
+
+const char *mpm_instruction_set(void)
+{
+    return kernels_choose(NULL)->name;
+}
+
+size_t mpm_particles(const mpm *m)
+{
+    size_t n = 0;
+    for (int i = 0; i < m->bricks_used; i++) n += (size_t)m->bricks[i].particles;
+    return n;
+}
+
+/* ---- percentiles ---- */
+
+static const double TOP = 1e-3;        /* share of a body's mass above its 99.9th percentile [1] */
+static const double BIN_LOWEST = 1e3;  /* [Pa] */
+enum { BINS = 2400, BINS_AN_E = 100 }; /* bins of 1 % */
+
+/* What percentiles are taken of: Mises stress, pressure [Pa]. */
+enum { MISES, PRESSURE, STRESSES };
+
+typedef struct {
+    double of[STRESSES][MPM_MAX_BODIES][BINS]; /* [kg] */
+} histogram;
+
+/* Bodies' metal, and what of it lies above their largest percentiles so far, lane by lane [kg]. */
+typedef struct {
+    double passed[STRESSES][MPM_MAX_BODIES]; /* ends of the bins that hold those percentiles [Pa] */
+    double mass[MPM_MAX_BODIES][LANES], above[STRESSES][MPM_MAX_BODIES][LANES];
+} tops;
+
+static int bin_of(double pascal)
+{
+    const int i = pascal > BIN_LOWEST ? (int)(log(pascal / BIN_LOWEST) * BINS_AN_E) : 0;
+    return i < BINS ? i : BINS - 1;
+}
+
+static double lane_mises_square(const block *q, int l)
+{
+    const double n = q->s[0][l] * q->s[0][l] + q->s[1][l] * q->s[1][l] + q->s[2][l] * q->s[2][l] +
+                     2 * (q->s[3][l] * q->s[3][l] + q->s[4][l] * q->s[4][l] + q->s[5][l] * q->s[5][l]);
+    return 1.5 * n;
+}
+
+static double lane_mises(const block *q, int l)
+{
+    return sqrt(lane_mises_square(q, l));
+}
+
+static void tops_block(void *user, const mpm *m, const brick *b, int index)
+{
+    (void)b;
+    tops *t = user;
+    const block *q = &m->blocks[index];
+    const int body = m->links[index].body;
+    const double mises2 = t->passed[MISES][body] * t->passed[MISES][body], pressure = t->passed[PRESSURE][body];
+    for (int l = 0; l < LANES; l++) {
+        const double mass = q->mass[0][l];
+        t->mass[body][l] += mass;
+        t->above[MISES][body][l] += lane_mises_square(q, l) > mises2 ? mass : 0;
+        t->above[PRESSURE][body][l] += q->p[0][l] > pressure ? mass : 0;
+    }
+}
+
+static void add_tops(tops *a, const tops *b)
+{
+    for (int body = 0; body < MPM_MAX_BODIES; body++)
+        for (int l = 0; l < LANES; l++) {
+            a->mass[body][l] += b->mass[body][l];
+            for (int k = 0; k < STRESSES; k++) a->above[k][body][l] += b->above[k][body][l];
+        }
+}
+
+static tops find_tops(const mpm *m)
+{
+    tops share[SHARES], all = { .mass = { { 0 } } };
+    for (int body = 0; body < m->scene.bodies; body++) {
+        all.passed[MISES][body] = m->report.peak_mises_999[body] * exp(0.5 / BINS_AN_E);
+        all.passed[PRESSURE][body] = m->report.peak_pressure_999[body] * exp(0.5 / BINS_AN_E);
+    }
+    for (int i = 0; i < SHARES; i++) share[i] = all;
+    visit_shares(m, tops_block, share, sizeof *share);
+    for (int i = 0; i < SHARES; i++) add_tops(&all, &share[i]);
+    return all;
+}
+
+static double lanes_sum(const double a[LANES])
+{
+    double sum = 0;
+    for (int l = 0; l < LANES; l++) sum += a[l];
+    return sum;
+}
+
+static bool percentiles_rise(const tops *t, int stress)
+{
+    bool rise = false;
+    for (int body = 0; body < MPM_MAX_BODIES; body++)
+        rise = rise || lanes_sum(t->above[stress][body]) > TOP * lanes_sum(t->mass[body]);
+    return rise;
+}
+
+/* Of the points above the percentile so far; the others cannot raise it. */
+typedef struct {
+    histogram *bins;
+    const tops *tops;
+    int stress;
+} histogram_of_tops;
+
+static void histogram_block(void *user, const mpm *m, const brick *b, int index)
+{
+    (void)b;
+    const histogram_of_tops *h = user;
+    const block *q = &m->blocks[index];
+    const int body = m->links[index].body;
+    const double passed = h->tops->passed[h->stress][body];
+    for (int l = 0; l < LANES; l++) {
+        const double stress = h->stress == MISES ? lane_mises(q, l) : q->p[0][l];
+        if (stress > passed) h->bins->of[h->stress][body][bin_of(stress)] += q->mass[0][l];
+    }
+}
+
+static double percentile_999(const double *bins, const double mass[LANES])
+{
+    const double top = TOP * lanes_sum(mass);
+    double above = 0;
+    int i = BINS - 1;
+    for (; i > 0; i--) {
+        above += bins[i];
+        if (above > top) break;
+    }
+    return i > 0 ? BIN_LOWEST * exp((i + 0.5) / BINS_AN_E) : 0;
+}
+
+void mpm_sample_percentiles(mpm *m)
+{
+    const tops t = find_tops(m);
+    histogram *h = m->histogram;
+    double *const largest[STRESSES] = { m->report.peak_mises_999, m->report.peak_pressure_999 };
+    memset(h, 0, sizeof *h);
+#pragma omp parallel for num_threads(m->threads)
+    for (int k = 0; k < STRESSES; k++)
+        if (percentiles_rise(&t, k)) visit(m, histogram_block, &(histogram_of_tops){ h, &t, k });
+    for (int k = 0; k < STRESSES; k++)
+        for (int i = 0; i < m->scene.bodies; i++)
+            largest[k][i] = fmax(largest[k][i], percentile_999(h->of[k][i], t.mass[i]));
+}
+
+size_t mpm_histogram_bytes(void)
+{
+    return sizeof(histogram);
+}
+
+/* ---- particle fields ---- */
+
+static void get_stress(const block *q, int l, double *out)
+{
+    for (int i = 0; i < 6; i++) out[i] = q->s[i][l] - (i < 3 ? q->p[0][l] : 0);
+}
+
+static void get_lane(const mpm *m, int index, int l, mpm_field field, double *out)
+{
+    const block *q = &m->blocks[index];
+    switch (field) {
+    case MPM_position:
+        for (int k = 0; k < 3; k++) out[k] = q->x[k][l];
+        break;
+    case MPM_velocity:
+        for (int k = 0; k < 3; k++) out[k] = q->v[k][l];
+        break;
+    case MPM_stress: get_stress(q, l, out); break;
+    case MPM_pressure: out[0] = q->p[0][l]; break;
+    case MPM_mises: out[0] = lane_mises(q, l); break;
+    case MPM_plastic_strain: out[0] = q->ep[0][l]; break;
+    case MPM_damage: out[0] = q->damage[0][l]; break;
+    case MPM_temperature: out[0] = q->T[0][l]; break;
+    case MPM_density: out[0] = q->rho[0][l]; break;
+    case MPM_energy: out[0] = q->e[0][l]; break;
+    case MPM_mass: out[0] = q->mass[0][l]; break;
+    case MPM_size:
+        for (int k = 0; k < 3; k++) out[k] = q->half[k][l];
+        break;
+    case MPM_body: out[0] = m->links[index].body; break;
+    case MPM_start:
+        for (int k = 0; k < 3; k++) out[k] = q->start[k][l];
+        break;
+    case MPM_FIELD_COUNT: break;
+    }
+}
+
+typedef struct {
+    mpm_field field;
+    double *to;
+} reading;
+
+static void read_block(void *user, const mpm *m, const brick *b, int index)
+{
+    (void)b;
+    reading *r = user;
+    for (int l = 0; l < LANES; l++)
+        if (m->links[index].mask >> l & 1) {
+            get_lane(m, index, l, r->field, r->to);
+            r->to += mpm_field_table[r->field].width;
+        }
+}
+
+void mpm_read(const mpm *m, mpm_field field, double *out)
+{
+    reading r = { field, out };
+    visit(m, read_block, &r);
+}

@@ -1,0 +1,82 @@
+#include "mpm/shape/shape.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct {
+    const shape_kind *kind;
+    status (*check)(const shape_values *s);
+} shape_entry;
+
+static const shape_entry shape_table[] = {
+#define SHAPE(name) { &shape_##name, shape_##name##_check },
+#include "mpm/shape/shape.def"
+#undef SHAPE
+};
+
+enum { SHAPES = sizeof shape_table / sizeof shape_table[0] };
+
+const shape_kind *shape_at(int i)
+{
+    return i >= 0 && i < (int)SHAPES ? shape_table[i].kind : NULL;
+}
+
+const shape_kind *shape_find(const char *name)
+{
+    for (int i = 0; i < (int)SHAPES; i++)
+        if (strcmp(shape_table[i].kind->name, name) == 0) return shape_table[i].kind;
+    return NULL;
+}
+
+status shape_check(const shape_kind *kind, const shape_values *values)
+{
+    for (int i = 0; kind->value_names[i]; i++)
+        CHECK(isfinite(values->value[i]), STATUS_BAD_INPUT, "%s.%s is not a finite number", kind->name,
+              kind->value_names[i]);
+    for (int i = 0; i < (int)SHAPES; i++)
+        if (shape_table[i].kind == kind) return shape_table[i].check(values);
+    return status_ok();
+}
+
+status shape_positive(const shape_kind *kind, const shape_values *s, int i)
+{
+    CHECK(s->value[i] > 0.0, STATUS_BAD_INPUT, "%s.%s = %g: must be positive", kind->name, kind->value_names[i],
+          s->value[i]);
+    return status_ok();
+}
+
+/* Distance to the nearest edge; inside by the parity of the edges that a ray towards +x crosses. */
+double shape_polygon(int n, const double *corner, double x, double y)
+{
+    double nearest2 = INFINITY;
+    int inside = 0;
+    for (int i = 0, j = n - 1; i < n; j = i++) {
+        const double ax = corner[2 * j], ay = corner[2 * j + 1];
+        const double ex = corner[2 * i] - ax, ey = corner[2 * i + 1] - ay;
+        const double length2 = ex * ex + ey * ey;
+        const double along = length2 > 0.0 ? ((x - ax) * ex + (y - ay) * ey) / length2 : 0.0;
+        const double t = along > 1.0 ? 1.0 : along > 0.0 ? along : 0.0;
+        const double dx = x - ax - t * ex, dy = y - ay - t * ey, distance2 = dx * dx + dy * dy;
+        if (distance2 < nearest2) nearest2 = distance2;
+        const int spans = (ay > y) != (corner[2 * i + 1] > y);
+        if (spans && x < ax + (y - ay) / ey * ex) inside = !inside;
+    }
+    return inside ? sqrt(nearest2) : -sqrt(nearest2);
+}
+
+double shape_prism(double profile, double slab)
+{
+    if (profile > 0.0 && slab > 0.0) return fmin(profile, slab);
+    return -hypot(fmin(profile, 0.0), fmin(slab, 0.0));
+}
+
+/* With k = |(r / radius, y / height)|, the curved side is k = 1 and (1 - k) k / |grad(k^2 / 2)| the distance to first order;
+ * below the flat side the nearest point is on it or at its corner. */
+double shape_dome(double radius, double height, double r, double y)
+{
+    if (y < 0.0) return r <= radius ? y : -hypot(y, r - radius);
+    const double k = hypot(r / radius, y / height);
+    const double slope = hypot(r / (radius * radius), y / (height * height));
+    const double curved = slope > 0.0 ? k * (1.0 - k) / slope : fmin(radius, height);
+    return fmin(curved, y);
+}
