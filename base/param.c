@@ -21,7 +21,7 @@ static void set_default(const param *p, char *member)
     }
 }
 
-void params_default(const param *table, void *object)
+void base_params_default(const param *table, void *object)
 {
     for (const param *p = table; p->key; p++) set_default(p, (char *)object + p->offset);
 }
@@ -65,7 +65,7 @@ static status check_one(const param *p, const char *member, const char *section)
     return status_ok();
 }
 
-status params_check(const param *table, const void *object, const char *section)
+status base_params_check(const param *table, const void *object, const char *section)
 {
     for (const param *p = table; p->key; p++) TRY(check_one(p, (const char *)object + p->offset, section));
     return status_ok();

@@ -1,9 +1,10 @@
 /* Parameters: one table a struct says every key once: unit, default, range, text.
  *
  * The case reader, `breech check`, used.yaml and the manual's key list are all made from these tables, and so is any
- * validation of a struct that was filled in by hand (params_check).
+ * validation of a struct that was filled in by hand (base_params_check).
  * To add a parameter: a member in the struct, one line in its table.  Nothing else.
- * A double that has no value and needs none holds NAN (`OPTIONAL`).  Units are udunits2 expressions of the SI value held. */
+ * A double that has no value and needs none holds NAN (`OPTIONAL`).  Units are udunits2 expressions of the SI value
+ * held. */
 #ifndef BREECH_BASE_PARAM_H
 #define BREECH_BASE_PARAM_H
 
@@ -59,10 +60,10 @@ typedef struct {
 /* clang-format on */
 
 /* Fills every member of the table with its default; REQUIRED numbers become NAN, required texts "". */
-void params_default(const param *table, void *object);
+void base_params_default(const param *table, void *object);
 
 /* Error STATUS_BAD_INPUT naming "<section>.<key>", value, unit and range for the first member that is out of range or
  * required and unset. */
-status params_check(const param *table, const void *object, const char *section);
+status base_params_check(const param *table, const void *object, const char *section);
 
 #endif

@@ -3,12 +3,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-status status_ok(void)
-{
-    return (status){ .code = STATUS_OK };
-}
-
-status status_error(status_code code, const char *format, ...)
+status base_status_error(status_code code, const char *format, ...)
 {
     status s = { .code = code };
     va_list args;

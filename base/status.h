@@ -19,13 +19,17 @@ typedef struct {
     char text[500];
 } status;
 
-status status_ok(void);
-status status_error(status_code code, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static inline status status_ok(void)
+{
+    return (status){ .code = STATUS_OK };
+}
+
+status base_status_error(status_code code, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* CHECK(cond, code, "format", ...): returns an error from the calling function unless cond holds. */
-#define CHECK(cond, code, ...)                                 \
-    do {                                                       \
-        if (!(cond)) return status_error((code), __VA_ARGS__); \
+#define CHECK(cond, code, ...)                                      \
+    do {                                                            \
+        if (!(cond)) return base_status_error((code), __VA_ARGS__); \
     } while (0)
 
 /* TRY(call): returns the error of `call` from the calling function, if it has one. */

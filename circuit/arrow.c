@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-int lu_factor(double *A, int n, int stride, int *pivot)
+int circuit_lu_factor(double *A, int n, int stride, int *pivot)
 {
     for (int k = 0; k < n; k++) {
         int best = k;
@@ -28,7 +28,7 @@ int lu_factor(double *A, int n, int stride, int *pivot)
     return 0;
 }
 
-void lu_solve(const double *A, int n, int stride, const int *pivot, double *x)
+void circuit_lu_solve(const double *A, int n, int stride, const int *pivot, double *x)
 {
     for (int k = 0; k < n; k++) {
         const double swap = x[pivot[k]];
@@ -44,7 +44,7 @@ void lu_solve(const double *A, int n, int stride, const int *pivot, double *x)
     }
 }
 
-status arrow_create(int blocks, int border, int sums, arrow **out)
+status circuit_arrow_create(int blocks, int border, int sums, arrow **out)
 {
     const size_t n = (size_t)blocks * ARROW_BLOCK, m = (size_t)border;
     arrow *a = calloc(1, sizeof *a);
@@ -65,12 +65,12 @@ status arrow_create(int blocks, int border, int sums, arrow **out)
     a->block_pivot = calloc(n + 1, sizeof *a->block_pivot);
     if (a->size && a->column && a->idle && a->D && a->b && a->X && a->C && a->E && a->pivot && a->block_pivot)
         return status_ok();
-    arrow_free(a);
+    circuit_arrow_free(a);
     *out = NULL;
-    return status_error(STATUS_MEMORY, "out of memory for a circuit of %d groups", blocks);
+    return base_status_error(STATUS_MEMORY, "out of memory for a circuit of %d groups", blocks);
 }
 
-void arrow_free(arrow *a)
+void circuit_arrow_free(arrow *a)
 {
     if (!a) return;
     free(a->size);
@@ -86,7 +86,7 @@ void arrow_free(arrow *a)
     free(a);
 }
 
-void arrow_clear(arrow *a)
+void circuit_arrow_clear(arrow *a)
 {
     const size_t n = (size_t)a->blocks * ARROW_BLOCK, m = (size_t)a->border;
     memset(a->D, 0, n * ARROW_BLOCK * sizeof *a->D);
@@ -96,12 +96,12 @@ void arrow_clear(arrow *a)
     memset(a->idle, 0, (size_t)a->blocks * sizeof *a->idle);
 }
 
-double *arrow_block(const arrow *a, int k)
+double *circuit_arrow_block(const arrow *a, int k)
 {
     return a->D + (size_t)k * ARROW_BLOCK * ARROW_BLOCK;
 }
 
-double *arrow_column(const arrow *a, int k, int j)
+double *circuit_arrow_column(const arrow *a, int k, int j)
 {
     return a->C + ((size_t)k * ARROW_BLOCK + (size_t)j) * (size_t)a->border;
 }
@@ -112,42 +112,42 @@ static double *arrow_core(const arrow *a)
     return a->E + a->sums * (a->border + 1);
 }
 
-int arrow_factor(arrow *a)
+int circuit_arrow_factor(arrow *a)
 {
     int row = 0;
     for (int k = 0; k < a->blocks; row += a->size[k++]) {
         const int n = a->size[k];
         double *X = a->X + k * ARROW_BLOCK;
-        const int bad = lu_factor(arrow_block(a, k), n, ARROW_BLOCK, a->block_pivot + k * ARROW_BLOCK);
+        const int bad = circuit_lu_factor(circuit_arrow_block(a, k), n, ARROW_BLOCK, a->block_pivot + k * ARROW_BLOCK);
         if (bad) return row + bad;
         if (a->idle[k]) continue;
         memcpy(X, a->b + k * ARROW_BLOCK, sizeof(double) * ARROW_BLOCK);
-        lu_solve(arrow_block(a, k), n, ARROW_BLOCK, a->block_pivot + k * ARROW_BLOCK, X);
+        circuit_lu_solve(circuit_arrow_block(a, k), n, ARROW_BLOCK, a->block_pivot + k * ARROW_BLOCK, X);
         for (int j = 0; j < n; j++) {
-            const double *C = arrow_column(a, k, j);
+            const double *C = circuit_arrow_column(a, k, j);
             for (int r = 0; r < a->border; r++) a->E[r * a->border + a->column[k]] -= C[r] * X[j];
         }
     }
     for (int r = 0; r < a->sums; r++) {
         if (!(fabs(a->E[r * a->border + r]) > 0.0)) return row + r + 1;
     }
-    const int bad = lu_factor(arrow_core(a), a->border - a->sums, a->border, a->pivot);
+    const int bad = circuit_lu_factor(arrow_core(a), a->border - a->sums, a->border, a->pivot);
     return bad ? row + a->sums + bad : 0;
 }
 
-void arrow_solve(const arrow *a, double *x)
+void circuit_arrow_solve(const arrow *a, double *x)
 {
     double *z = x;
     for (int k = 0; k < a->blocks; k++) z += a->size[k];
     double *y = x;
     for (int k = 0; k < a->blocks; y += a->size[k++]) {
-        lu_solve(arrow_block(a, k), a->size[k], ARROW_BLOCK, a->block_pivot + k * ARROW_BLOCK, y);
+        circuit_lu_solve(circuit_arrow_block(a, k), a->size[k], ARROW_BLOCK, a->block_pivot + k * ARROW_BLOCK, y);
         for (int j = 0; j < a->size[k] && !a->idle[k]; j++) {
-            const double *C = arrow_column(a, k, j);
+            const double *C = circuit_arrow_column(a, k, j);
             for (int r = 0; r < a->border; r++) z[r] -= C[r] * y[j];
         }
     }
-    lu_solve(arrow_core(a), a->border - a->sums, a->border, a->pivot, z + a->sums);
+    circuit_lu_solve(arrow_core(a), a->border - a->sums, a->border, a->pivot, z + a->sums);
     for (int r = 0; r < a->sums; r++) {
         const double *E = a->E + r * a->border;
         for (int j = a->sums; j < a->border; j++) z[r] -= E[j] * z[j];

@@ -6,7 +6,8 @@
  *   [           ...      ]     C_k  border rows of the block's columns
  *   [ C_1  C_2  ...   E  ]     E    border square
  *
- * Factored by eliminating the blocks (Schur complement of the border): work grows as blocks x border, not as its cube. */
+ * Factored by eliminating the blocks (Schur complement of the border): work grows as blocks x border, not as its cube.
+ */
 #ifndef BREECH_CIRCUIT_ARROW_H
 #define BREECH_CIRCUIT_ARROW_H
 
@@ -25,24 +26,24 @@ typedef struct {
     double *b;   /* block k, row i: b[k * ARROW_BLOCK + i] */
     double *C;   /* block k, its column j, border row r: C[(k * ARROW_BLOCK + j) * border + r] */
     double *E;   /* row i, column j: E[i * border + j] */
-    double *X;   /* D_k^-1 b_k, after arrow_factor */
+    double *X;   /* D_k^-1 b_k, after circuit_arrow_factor */
     int *pivot, *block_pivot;
 } arrow;
 
-status arrow_create(int blocks, int border, int sums, arrow **out); /* caller frees with arrow_free */
-void arrow_free(arrow *a);                                          /* NULL allowed */
-void arrow_clear(arrow *a);                                         /* all entries zero, no block idle */
+status circuit_arrow_create(int blocks, int border, int sums, arrow **out); /* caller frees with circuit_arrow_free */
+void circuit_arrow_free(arrow *a);                                          /* NULL allowed */
+void circuit_arrow_clear(arrow *a);                                         /* all entries zero, no block idle */
 
-double *arrow_block(const arrow *a, int k);         /* D_k */
-double *arrow_column(const arrow *a, int k, int j); /* column j of C_k */
+double *circuit_arrow_block(const arrow *a, int k);         /* D_k */
+double *circuit_arrow_column(const arrow *a, int k, int j); /* column j of C_k */
 
 /* In place.  0, or 1 + the row of the first zero pivot. */
-int arrow_factor(arrow *a);
-/* x: right-hand side in, solution out; after arrow_factor. */
-void arrow_solve(const arrow *a, double *x);
+int circuit_arrow_factor(arrow *a);
+/* x: right-hand side in, solution out; after circuit_arrow_factor. */
+void circuit_arrow_solve(const arrow *a, double *x);
 
 /* Dense LU with partial pivoting of an n x n matrix of row stride `stride`; the border's, and of use elsewhere. */
-int lu_factor(double *A, int n, int stride, int *pivot);
-void lu_solve(const double *A, int n, int stride, const int *pivot, double *x);
+int circuit_lu_factor(double *A, int n, int stride, int *pivot);
+void circuit_lu_solve(const double *A, int n, int stride, const int *pivot, double *x);
 
 #endif

@@ -44,7 +44,7 @@ static SUNMatrix_ID matrix_id(SUNMatrix A)
 
 static int matrix_zero(SUNMatrix A)
 {
-    arrow_clear(A->content);
+    circuit_arrow_clear(A->content);
     return 0;
 }
 
@@ -57,7 +57,7 @@ static SUNLinearSolver_Type solver_type(SUNLinearSolver S)
 static int solver_setup(SUNLinearSolver S, SUNMatrix A)
 {
     (void)S;
-    return arrow_factor(A->content);
+    return circuit_arrow_factor(A->content);
 }
 
 static int solver_solve(SUNLinearSolver S, SUNMatrix A, N_Vector x, N_Vector b, sunrealtype tolerance)
@@ -65,7 +65,7 @@ static int solver_solve(SUNLinearSolver S, SUNMatrix A, N_Vector x, N_Vector b, 
     (void)S;
     (void)tolerance;
     if (x != b) N_VScale(1.0, b, x);
-    arrow_solve(A->content, N_VGetArrayPointer(x));
+    circuit_arrow_solve(A->content, N_VGetArrayPointer(x));
     return 0;
 }
 
@@ -100,10 +100,10 @@ static status failure(int flag, double t)
 {
     char *name = IDAGetReturnFlagName(flag);
     const status st =
-        status_error(STATUS_NUMERICAL,
-                     "the circuit's integration failed at t = %.9g s (%s): try a larger options.rtol, and "
-                     "check for zero inductances or extreme values",
-                     t, name ? name : "unknown");
+        base_status_error(STATUS_NUMERICAL,
+                          "the circuit's integration failed at t = %.9g s (%s): try a larger options.rtol, and "
+                          "check for zero inductances or extreme values",
+                          t, name ? name : "unknown");
     free(name);
     return st;
 }
@@ -143,7 +143,7 @@ static status solver_create(dae *d)
     return status_ok();
 }
 
-status dae_create(const dae_problem *problem, dae **out)
+status circuit_dae_create(const dae_problem *problem, dae **out)
 {
     *out = NULL;
     dae *d = calloc(1, sizeof *d);
@@ -152,14 +152,14 @@ status dae_create(const dae_problem *problem, dae **out)
     status st = vectors_create(d);
     if (st.code == STATUS_OK) st = solver_create(d);
     if (st.code != STATUS_OK) {
-        dae_free(d);
+        circuit_dae_free(d);
         return st;
     }
     *out = d;
     return st;
 }
 
-void dae_free(dae *d)
+void circuit_dae_free(dae *d)
 {
     if (!d) return;
     if (d->ida) IDAFree(&d->ida);
@@ -175,37 +175,37 @@ void dae_free(dae *d)
     free(d);
 }
 
-double *dae_y(const dae *d)
+double *circuit_dae_y(const dae *d)
 {
     return N_VGetArrayPointer(d->y);
 }
 
-double *dae_yp(const dae *d)
+double *circuit_dae_yp(const dae *d)
 {
     return N_VGetArrayPointer(d->yp);
 }
 
-double *dae_atol(const dae *d)
+double *circuit_dae_atol(const dae *d)
 {
     return N_VGetArrayPointer(d->atol);
 }
 
-double *dae_differential(const dae *d)
+double *circuit_dae_differential(const dae *d)
 {
     return N_VGetArrayPointer(d->differential);
 }
 
-int *dae_direction(const dae *d)
+int *circuit_dae_direction(const dae *d)
 {
     return d->direction;
 }
 
-const int *dae_found(const dae *d)
+const int *circuit_dae_found(const dae *d)
 {
     return d->found;
 }
 
-status dae_restart(dae *d, double t, double rtol, double first)
+status circuit_dae_restart(dae *d, double t, double rtol, double first)
 {
     d->t = t;
     int flag = IDAReInit(d->ida, t, d->y, d->yp);
@@ -216,7 +216,7 @@ status dae_restart(dae *d, double t, double rtol, double first)
     return flag >= 0 ? status_ok() : failure(flag, t);
 }
 
-status dae_step(dae *d, double stop, double *t, dae_outcome *outcome)
+status circuit_dae_step(dae *d, double stop, double *t, dae_outcome *outcome)
 {
     int flag = IDASetStopTime(d->ida, stop);
     if (flag >= 0) flag = IDASolve(d->ida, stop, &d->t, d->y, d->yp, IDA_ONE_STEP);

@@ -13,10 +13,10 @@ static const double NOT_LEFT = 10.0;       /* measure of a shot that does not le
 static const double SEARCH_RTOL = 1e-6;    /* of the shots on the way, good to some 1e-6 of the velocity */
 static const double VELOCITY_CLOSE = 1e-5; /* how near the velocity must come [1] */
 
-const char *const firing_goal_names[] = { "flat", "velocity", NULL };
+const char *const circuit_firing_goal_names[] = { "flat", "velocity", NULL };
 
-const param firing_wish_params[] = {
-    PARAM_ENUM(firing_wish, goal, firing_goal_names, FIRING_FLAT,
+const param circuit_firing_wish_params[] = {
+    PARAM_ENUM(firing_wish, goal, circuit_firing_goal_names, FIRING_FLAT,
                "flat: the flattest current below peak_current; velocity: muzzle_velocity at the least stored energy"),
     PARAM_DOUBLE(firing_wish, peak_current, "A", OPTIONAL, 1.0, 1e9, "peak the rails' current should keep to"),
     PARAM_DOUBLE(firing_wish, muzzle_velocity, "m/s", OPTIONAL, 1.0, 1e5, "wanted muzzle velocity (goal velocity)"),
@@ -71,12 +71,12 @@ static status run(search *q, double scale, flatness *f, shot_summary *result, do
     *f = (flatness){ .x = b->start, .peak = q->wish.peak_current };
     const shot_sink sink = { .sample = on_sample, .user = f };
     q->out->shots++;
-    TRY(shot_create(&q->config, &s));
-    const status done = shot_advance(s, INFINITY, &sink);
-    *result = shot_result(s);
-    *travel = (shot_now(s).x - b->start) / (b->length - b->start);
+    TRY(circuit_shot_create(&q->config, &s));
+    const status done = circuit_shot_advance(s, INFINITY, &sink);
+    *result = circuit_shot_result(s);
+    *travel = (circuit_shot_now(s).x - b->start) / (b->length - b->start);
     f->badness /= b->length - b->start;
-    shot_free(s);
+    circuit_shot_free(s);
     return done.code == STATUS_STOPPED ? status_ok() : done;
 }
 
@@ -92,8 +92,8 @@ static status measure_flat(search *q, double *value)
     return status_ok();
 }
 
-/* The next factor to try, from the last two tries: the velocity is nearly proportional to the charge, then secants; inside
- * what is known to be too low and too high. */
+/* The next factor to try, from the last two tries: the velocity is nearly proportional to the charge, then secants;
+ * inside what is known to be too low and too high. */
 static double next_factor(const double at[2], const double off[2], double wanted, double lo, double hi)
 {
     double next = at[1] * (off[1] > -wanted ? wanted / (wanted + off[1]) : 1.2); /* -wanted: stayed in the barrel */
@@ -165,7 +165,7 @@ static double measure(const gsl_vector *times, void *user)
     double value = INFINITY;
     if (q->failed.code != STATUS_OK) return value;
     if (q->stop && q->stop()) {
-        q->failed = status_error(STATUS_STOPPED, "the search for firing times was stopped");
+        q->failed = base_status_error(STATUS_STOPPED, "the search for firing times was stopped");
         return value;
     }
     for (int k = 0; k < q->n_moved; k++) q->modules[q->moved[k]].fire_at = fabs(gsl_vector_get(times, (size_t)k));
@@ -203,7 +203,7 @@ static status search_run(search *q)
     gsl_vector *times = gsl_vector_alloc(n), *steps = gsl_vector_alloc(n);
     const status done = simplex && times && steps
                             ? minimise(q, simplex, times, steps)
-                            : status_error(STATUS_MEMORY, "out of memory for %zu firing times", n);
+                            : base_status_error(STATUS_MEMORY, "out of memory for %zu firing times", n);
     if (simplex) gsl_multimin_fminimizer_free(simplex);
     gsl_vector_free(times);
     gsl_vector_free(steps);
@@ -227,7 +227,7 @@ static void choose_moved(search *q)
 
 static status wish_check(const search *q)
 {
-    TRY(params_check(firing_wish_params, &q->wish, "optimise"));
+    TRY(base_params_check(circuit_firing_wish_params, &q->wish, "optimise"));
     CHECK(q->n_moved > 0, STATUS_BAD_INPUT, "optimise: needs at least two capacitor groups that fire at the breech");
     CHECK(q->wish.goal != FIRING_FLAT || !isnan(q->wish.peak_current), STATUS_BAD_INPUT,
           "optimise.peak_current is missing [A]: goal flat needs it");
@@ -236,8 +236,8 @@ static status wish_check(const search *q)
     return status_ok();
 }
 
-status firing_optimise(const shot_config *c, const firing_wish *wish, bool (*stop)(void), shot_module *modules,
-                       firing_result *out)
+status circuit_firing_optimise(const shot_config *c, const firing_wish *wish, bool (*stop)(void), shot_module *modules,
+                               firing_result *out)
 {
     const supply_list *bank = &c->supplies[SUPPLY_capacitor];
     const size_t n = bank->n > 0 ? (size_t)bank->n : 1;
@@ -257,7 +257,7 @@ status firing_optimise(const shot_config *c, const firing_wish *wish, bool (*sto
     q.config.n_sites = 0;
     q.config.options.rtol = fmax(c->options.rtol, SEARCH_RTOL);
     q.config.options.atol = 0.01 * q.config.options.rtol;
-    TRY(shot_rails_fit(c, &load));
+    TRY(circuit_shot_rails_fit(c, &load));
     q.config.fitted = &load.ladder;
     q.moved = malloc(n * sizeof *q.moved);
     CHECK(q.moved, STATUS_MEMORY, "out of memory for %zu groups", n);

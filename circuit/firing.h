@@ -1,8 +1,8 @@
 /* Firing times of a bank that suit a wish, found by a simplex search (Nelder and Mead, as GSL has it).
  *
- * Moved are the firing times of all capacitor groups that fire and join at the breech, but the first of them; for the goal
- * `velocity` all charges too, by one factor.  The rails' ladder is fitted once.  A search finds a good place near where it
- * starts, not the best of all. */
+ * Moved are the firing times of all capacitor groups that fire and join at the breech, but the first of them; for the
+ * goal `velocity` all charges too, by one factor.  The rails' ladder is fitted once.  A search finds a good place near
+ * where it starts, not the best of all. */
 #ifndef BREECH_CIRCUIT_FIRING_H
 #define BREECH_CIRCUIT_FIRING_H
 
@@ -22,8 +22,8 @@ typedef struct {
     int evaluations;        /* at most, of the wish's measure */
 } firing_wish;
 
-extern const char *const firing_goal_names[]; /* "flat", "velocity", NULL */
-extern const param firing_wish_params[];
+extern const char *const circuit_firing_goal_names[]; /* "flat", "velocity", NULL */
+extern const param circuit_firing_wish_params[];
 
 typedef struct {
     double before, after;   /* the measure: flat [1]; velocity: stored energy [J] */
@@ -35,7 +35,7 @@ typedef struct {
 /* Times and charges are written into `modules`, a copy of the configuration's capacitor groups that the caller owns.
  * STATUS_BAD_INPUT: nothing to move, or a wish without its number; STATUS_NUMERICAL: no charge reaches the velocity.
  * stop (may be NULL): true ends the search, STATUS_STOPPED. */
-status firing_optimise(const shot_config *c, const firing_wish *wish, bool (*stop)(void), shot_module *modules,
-                       firing_result *out);
+status circuit_firing_optimise(const shot_config *c, const firing_wish *wish, bool (*stop)(void), shot_module *modules,
+                               firing_result *out);
 
 #endif

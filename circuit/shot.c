@@ -9,26 +9,26 @@ static bool comes_again(const supply_group *g)
     return g->gate == GATE_WAITING && g->kind->pulses;
 }
 
-bool shot_done(const shot *s)
+bool circuit_shot_done(const shot *s)
 {
     const shot_model *m = &s->model;
-    const bool in_motion = m->phase == SHOT_MOVING && shot_z(s)[Y_V] > 0.0;
-    bool busy = !s->started || s->head != s->tail || in_motion || shot_any_current(s);
+    const bool in_motion = m->phase == SHOT_MOVING && circuit_shot_z(s)[Y_V] > 0.0;
+    bool busy = !s->started || s->head != s->tail || in_motion || circuit_shot_any_current(s);
     for (int k = 0; k < m->n && !busy; k++) busy = comes_again(&m->groups[k]);
-    return !busy && shot_next_firing(s) > s->options.max_time;
+    return !busy && circuit_shot_next_firing(s) > s->options.max_time;
 }
 
 /* Fills everything the solver needs after a switching: the algebraic unknowns, y', tolerances, root directions. */
 static void set_tolerances(shot *s)
 {
     const shot_model *m = &s->model;
-    const int n = shot_unknowns(m);
-    for (int j = 0; j < n; j++) dae_atol(s->solver)[j] = s->options.atol * s->scale[j];
+    const int n = circuit_shot_unknowns(m);
+    for (int j = 0; j < n; j++) circuit_dae_atol(s->solver)[j] = s->options.atol * s->scale[j];
     for (int k = 0; k < m->n; k++) {
         const supply_group *g = &m->groups[k];
         for (int j = 0; j < g->unknowns; j++) {
             const double scale = g->kind->scale ? g->kind->scale(g, j) : s->scale[g->first + j];
-            dae_atol(s->solver)[g->first + j] = s->options.atol * scale;
+            circuit_dae_atol(s->solver)[g->first + j] = s->options.atol * scale;
         }
     }
 }
@@ -36,7 +36,7 @@ static void set_tolerances(shot *s)
 static void set_directions(shot *s)
 {
     const shot_model *m = &s->model;
-    int *direction = dae_direction(s->solver);
+    int *direction = circuit_dae_direction(s->solver);
     direction[ROOT_MOTION] = m->phase == SHOT_HELD ? 1 : -1;
     direction[ROOT_MELT] = direction[ROOT_SITE] = direction[ROOT_MUZZLE] = direction[ROOT_FEED] = 1;
     for (int k = 0; k < m->n; k++) {
@@ -47,35 +47,36 @@ static void set_directions(shot *s)
 
 static void note_current(shot *s, const shot_drive *d)
 {
-    s->last_current = shot_total_current(d, &s->model);
-    s->last_slope = shot_current_slope(&s->model, d, shot_z(s));
+    s->last_current = circuit_shot_total_current(d, &s->model);
+    s->last_slope = circuit_shot_current_slope(&s->model, d, circuit_shot_z(s));
     s->last_t = s->t;
 }
 
 /* Largest |x_j| over its weight rtol |y_j| + atol_j, of what is not algebraic. */
 static double weighted(const shot *s, const double *x)
 {
-    const double *y = shot_y(s), *atol = dae_atol(s->solver), *differential = dae_differential(s->solver);
+    const double *y = circuit_shot_y(s), *atol = circuit_dae_atol(s->solver),
+                 *differential = circuit_dae_differential(s->solver);
     double most = 0.0;
-    for (int j = 0, n = shot_unknowns(&s->model); j < n; j++)
+    for (int j = 0, n = circuit_shot_unknowns(&s->model); j < n; j++)
         most = fmax(most, differential[j] * fabs(x[j]) / (s->options.rtol * fabs(y[j]) + atol[j]));
     return most;
 }
 
-/* A first step of order 1 is off by 1/2 h^2 y'', which may be one weight: y'' from the rates half a weight later.  IDA's own
- * choice is that half weight itself: ten doublings and more that do nothing.  0 where nothing moves. */
+/* A first step of order 1 is off by 1/2 h^2 y'', which may be one weight: y'' from the rates half a weight later.
+ * IDA's own choice is that half weight itself: ten doublings and more that do nothing.  0 where nothing moves. */
 static double first_step(shot *s)
 {
     const shot_model *m = &s->model;
-    const int n = shot_unknowns(m);
-    const double *y = shot_y(s), *yp = dae_yp(s->solver), speed = weighted(s, yp);
+    const int n = circuit_shot_unknowns(m);
+    const double *y = circuit_shot_y(s), *yp = circuit_dae_yp(s->solver), speed = weighted(s, yp);
     double *later = s->later, *bend = s->later + n;
     if (!(speed > 0.0)) return 0.0;
     const double h = 0.5 / speed;
     for (int j = 0; j < n; j++) later[j] = y[j] + h * yp[j];
-    const shot_drive d = shot_drive_at(m, s->t + h, later);
-    shot_voltages(m, &d, later + m->start);
-    shot_rates(m, s->t + h, later, bend);
+    const shot_drive d = circuit_shot_drive_at(m, s->t + h, later);
+    circuit_shot_voltages(m, &d, later + m->start);
+    circuit_shot_rates(m, s->t + h, later, bend);
     for (int j = 0; j < n; j++) bend[j] = (bend[j] - yp[j]) / h;
     return fmax(h, sqrt(2.0 / weighted(s, bend)));
 }
@@ -83,24 +84,24 @@ static double first_step(shot *s)
 static status restart(shot *s)
 {
     const shot_model *m = &s->model;
-    const int n = shot_unknowns(m);
-    double *y = shot_y(s), *yp = dae_yp(s->solver);
+    const int n = circuit_shot_unknowns(m);
+    double *y = circuit_shot_y(s), *yp = circuit_dae_yp(s->solver);
     CHECK(s->switchings <= s->switchings_limit, STATUS_NUMERICAL,
           "the circuit switched %d times by t = %.9g s: switches chatter; check preload, spreading and firing times",
           s->switchings, s->t);
-    const shot_drive d = shot_drive_now(s);
-    shot_voltages(m, &d, shot_z(s));
-    shot_rates(m, s->t, y, yp);
+    const shot_drive d = circuit_shot_drive_now(s);
+    circuit_shot_voltages(m, &d, circuit_shot_z(s));
+    circuit_shot_rates(m, s->t, y, yp);
     for (int j = 0; j < n; j++) {
-        const bool algebraic = shot_is_algebraic(m, j);
-        dae_differential(s->solver)[j] = algebraic ? 0.0 : 1.0;
+        const bool algebraic = circuit_shot_is_algebraic(m, j);
+        circuit_dae_differential(s->solver)[j] = algebraic ? 0.0 : 1.0;
         if (algebraic) yp[j] = 0.0;
     }
     set_tolerances(s);
     set_directions(s);
     s->restart = false;
     note_current(s, &d);
-    return dae_restart(s->solver, s->t, s->options.rtol, first_step(s));
+    return circuit_dae_restart(s->solver, s->t, s->options.rtol, first_step(s));
 }
 
 /* Largest value of the cubic through (I0, slope0) and (I1, slope1) over one step h, where it has its top inside. */
@@ -115,25 +116,25 @@ static double cubic_top(double I0, double d0, double I1, double d1, double h)
 
 static void peaks_update(shot *s)
 {
-    const shot_drive d = shot_drive_now(s);
+    const shot_drive d = circuit_shot_drive_now(s);
     const double I = s->last_current, slope = s->last_slope, h = s->t - s->last_t;
     note_current(s, &d);
-    shot_heat_update(s, &d);
+    circuit_shot_heat_update(s, &d);
     const double top = cubic_top(I, slope, s->last_current, s->last_slope, h);
     s->result.peak_current = fmax(s->result.peak_current, top);
     if (s->model.phase != SHOT_MOVING) return;
-    const shot_forces f = shot_forces_at(&s->model, &d, shot_z(s));
-    shot_limits_update(s, &f);
-    s->result.peak_acceleration = fmax(s->result.peak_acceleration, f.net / shot_z(s)[Y_MASS]);
+    const shot_forces f = circuit_shot_forces_at(&s->model, &d, circuit_shot_z(s));
+    circuit_shot_limits_update(s, &f);
+    s->result.peak_acceleration = fmax(s->result.peak_acceleration, f.net / circuit_shot_z(s)[Y_MASS]);
 }
 
-/* Hands out the queue.  A sink may call shot_jump, which asks for a restart. */
+/* Hands out the queue.  A sink may call circuit_shot_jump, which asks for a restart. */
 static bool deliver(shot *s, const shot_sink *sink)
 {
     while (s->head < s->tail) {
         const pending p = s->queue[s->head++];
         if (!sink || !sink->event) continue;
-        const shot_event e = { .kind = p.kind, .index = p.index, .state = shot_now(s) };
+        const shot_event e = { .kind = p.kind, .index = p.index, .state = circuit_shot_now(s) };
         if (!sink->event(sink->user, s, &e)) return false;
     }
     s->head = s->tail = 0;
@@ -142,7 +143,7 @@ static bool deliver(shot *s, const shot_sink *sink)
 
 static status settle_and_deliver(shot *s, const int *found, const shot_sink *sink)
 {
-    shot_settle(s, found);
+    circuit_shot_settle(s, found);
     if (s->restart) TRY(restart(s));
     const bool go_on = deliver(s, sink);
     if (s->restart) TRY(restart(s));
@@ -161,19 +162,19 @@ static status begin(shot *s, const shot_sink *sink)
     s->started = s->restart = true;
     TRY(settle_and_deliver(s, NULL, sink));
     if (!sink || !sink->sample) return status_ok();
-    const shot_state now = shot_now(s);
+    const shot_state now = circuit_shot_now(s);
     CHECK(sink->sample(sink->user, s, &now), STATUS_STOPPED, "the shot was stopped at t = %.9g s", s->t);
     return status_ok();
 }
 
-/* Where a given current has its next point: a stop, so that no short pulse is stepped over.  Nor is the half wave for which a
- * machine waits: at most a quarter of a wave a step. */
+/* Where a given current has its next point: a stop, so that no short pulse is stepped over.  Nor is the half wave for
+ * which a machine waits: at most a quarter of a wave a step. */
 static double next_knot(const shot *s)
 {
     double t = INFINITY;
     for (int k = 0; k < s->model.n; k++) {
         const supply_group *g = &s->model.groups[k];
-        if (g->kind->knot && supply_conducts(g)) t = fmin(t, g->kind->knot(g, s->t + SHOT_INSTANT));
+        if (g->kind->knot && circuit_supply_conducts(g)) t = fmin(t, g->kind->knot(g, s->t + SHOT_INSTANT));
         if (comes_again(g)) t = fmin(t, s->t + g->kind->rise(g->p));
     }
     return t;
@@ -182,10 +183,10 @@ static double next_knot(const shot *s)
 static status step(shot *s, double until, const shot_sink *sink)
 {
     dae_outcome outcome = DAE_STEP;
-    const double firing = shot_next_firing(s), t0 = s->t;
-    TRY(dae_step(s->solver, fmin(fmin(until, firing), next_knot(s)), &s->t, &outcome));
+    const double firing = circuit_shot_next_firing(s), t0 = s->t;
+    TRY(circuit_dae_step(s->solver, fmin(fmin(until, firing), next_knot(s)), &s->t, &outcome));
     s->result.steps++;
-    const double *z = shot_z(s);
+    const double *z = circuit_shot_z(s);
     CHECK(isfinite(z[Y_V]) && isfinite(z[Y_BREECH]), STATUS_NUMERICAL,
           "the circuit's state is not finite at t = %.9g s", s->t);
     CHECK(z[Y_MASS] > 0.01 * s->scale[s->model.start + Y_MASS], STATUS_NUMERICAL,
@@ -193,23 +194,23 @@ static status step(shot *s, double until, const shot_sink *sink)
     peaks_update(s);
     bool go_on = true;
     if (sink && sink->sample && s->t > t0) {
-        const shot_state now = shot_now(s);
+        const shot_state now = circuit_shot_now(s);
         go_on = sink->sample(sink->user, s, &now);
     }
     if (outcome == DAE_ROOT || s->t >= firing) {
-        TRY(settle_and_deliver(s, outcome == DAE_ROOT ? dae_found(s->solver) : NULL, sink));
+        TRY(settle_and_deliver(s, outcome == DAE_ROOT ? circuit_dae_found(s->solver) : NULL, sink));
     }
     CHECK(go_on, STATUS_STOPPED, "the shot was stopped at t = %.9g s", s->t);
     return status_ok();
 }
 
-status shot_advance(shot *s, double until, const shot_sink *sink)
+status circuit_shot_advance(shot *s, double until, const shot_sink *sink)
 {
     static const uint64_t STEPS_LIMIT = 5000000;
     const double end = fmin(until, s->options.max_time);
     CHECK(!isnan(until), STATUS_BAD_INPUT, "the time to advance the shot to is not a number");
     TRY(begin(s, sink));
-    while (s->t + SHOT_INSTANT < end && !shot_done(s)) {
+    while (s->t + SHOT_INSTANT < end && !circuit_shot_done(s)) {
         CHECK(s->result.steps < STEPS_LIMIT, STATUS_NUMERICAL,
               "the circuit took %llu steps by t = %.9g s: try a larger options.rtol",
               (unsigned long long)s->result.steps, s->t);
@@ -218,9 +219,9 @@ status shot_advance(shot *s, double until, const shot_sink *sink)
     return status_ok();
 }
 
-status shot_jump(shot *s, double impulse, double mass_loss)
+status circuit_shot_jump(shot *s, double impulse, double mass_loss)
 {
-    double *z = shot_z(s);
+    double *z = circuit_shot_z(s);
     CHECK(impulse >= 0.0 && isfinite(impulse), STATUS_BAD_INPUT, "a gouge's impulse of %g N s: must be 0 or more",
           impulse);
     CHECK(mass_loss >= 0.0 && mass_loss < z[Y_MASS], STATUS_BAD_INPUT,
@@ -233,7 +234,7 @@ status shot_jump(shot *s, double impulse, double mass_loss)
     s->energy_jumps += 0.5 * z[Y_MASS] * z[Y_V] * z[Y_V] - 0.5 * mass * v * v;
     z[Y_MASS] = mass;
     z[Y_V] = v;
-    if (v == 0.0) shot_come_to_rest(s);
+    if (v == 0.0) circuit_shot_come_to_rest(s);
     s->restart = true;
     return status_ok();
 }

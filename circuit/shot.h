@@ -1,9 +1,9 @@
 /* The shot: from the charged bank to the armature leaving the muzzle, as one circuit with a moving part.
  *
- * shot_create copies the configuration; shot_advance integrates until a time and calls the sinks; everything else reads.
- * SI units throughout.  No files, no printing.  Equations and their tags: docs/shot.md.
- * To add a parameter: a member in its struct and one line in its table (circuit/shot_params.c); reader, manual and checks
- * follow.  Laws that tests/test_circuit_shot.c checks for every shot it makes:
+ * circuit_shot_create copies the configuration; circuit_shot_advance integrates until a time and calls the sinks;
+ * everything else reads. SI units throughout.  No files, no printing.  Equations and their tags: docs/shot.md.
+ * To add a parameter: a member in its struct and one line in its table (circuit/shot_params.c); reader, manual and
+ * checks follow.  Laws that tests/test_circuit_shot.c checks for every shot it makes:
  *   all energy now + all heat and work so far = energy at the start           (ledger.energy_error, default < 1e-6)
  *   every switching and every site is a located instant, none is stepped over; the number of switchings is bounded. */
 #ifndef BREECH_CIRCUIT_SHOT_H
@@ -20,10 +20,11 @@
 #include <stdint.h>
 
 typedef enum { SHOT_RAILS_CONSTANT, SHOT_RAILS_SKIN, SHOT_RAILS_DIFFUSING } shot_rail_level;
-extern const char *const shot_rail_level_names[]; /* "constant", "skin", "diffusing", NULL */
+extern const char *const circuit_shot_rail_level_names[]; /* "constant", "skin", "diffusing", NULL */
 
-/* Equal rails (circuit/rails/section.h).  constant: the gradients are given; skin: those of the section at one frequency; diffusing:
- * every slice of rail has its own history since the armature exposed it (circuit/rails/rails.h). */
+/* Equal rails (circuit/rails/section.h).  constant: the gradients are given; skin: those of the section at one
+ * frequency; diffusing: every slice of rail has its own history since the armature exposed it (circuit/rails/rails.h).
+ */
 typedef struct {
     int level;                      /* shot_rail_level */
     double height;                  /* across the bore, along the contact line of the armature [m] */
@@ -61,11 +62,11 @@ typedef struct {
 } shot_barrel;
 
 typedef enum { SHOT_FRICTION_SPEED, SHOT_FRICTION_FILM } shot_friction_law;
-extern const char *const shot_friction_law_names[]; /* "speed", "film", NULL */
+extern const char *const circuit_shot_friction_law_names[]; /* "speed", "film", NULL */
 
-/* Friction.  speed: (C-4), a coefficient that falls with speed.  film: friction_dry until the face has melted (event SHOT_MELTED), then the
- * shear of the melt (circuit/armature/film.h), never more than friction_dry; what melts then is also what wears, and nothing before.
- * At rest the face is solid. */
+/* Friction.  speed: (C-4), a coefficient that falls with speed.  film: friction_dry until the face has melted (event
+ * SHOT_MELTED), then the shear of the melt (circuit/armature/film.h), never more than friction_dry; what melts then is
+ * also what wears, and nothing before. At rest the face is solid. */
 typedef struct {
     double mass;                /* [kg] */
     double velocity;            /* at t = 0 [m/s] */
@@ -102,25 +103,26 @@ typedef struct {
 typedef struct {
     double rtol;     /* relative tolerance of the integration [1] */
     double atol;     /* absolute tolerance, as a share of each quantity's scale [1] */
-    double max_time; /* shot_advance never goes further [s] */
+    double max_time; /* circuit_shot_advance never goes further [s] */
 } shot_options;
 
 /* Keys, units, defaults, ranges and texts; the case reader is made from them. */
-extern const param shot_rails_params[];
-extern const param shot_barrel_params[];
-extern const param shot_armature_params[];
-extern const param shot_options_params[];
+extern const param circuit_shot_rails_params[];
+extern const param circuit_shot_barrel_params[];
+extern const param circuit_shot_armature_params[];
+extern const param circuit_shot_options_params[];
 
 typedef struct {
     supply_list supplies[SUPPLY_KINDS]; /* by kind: groups are numbered in this order */
     shot_rails rails;
-    const ladder
-        *fitted; /* of these rails, from rails_ladder: for many shots with one section; NULL = fitted by shot_create,
-                             about 0.1 s; borrowed until it returns */
+    /* Of these rails, from circuit_rails_ladder: for many shots with one section.  NULL = fitted by
+     * circuit_shot_create in about 0.1 s.  Borrowed until it returns. */
+    const ladder *fitted;
     shot_barrel barrel;
     shot_armature armature;
     shot_options options;
-    const double *sites; /* positions, any order, each in (start, length) [m]; borrowed until shot_create returns */
+    const double
+        *sites; /* positions, any order, each in (start, length) [m]; borrowed until circuit_shot_create returns */
     int n_sites;
 } shot_config;
 
@@ -136,9 +138,9 @@ typedef struct {
     double rails_heat, armature_heat, contact_heat; /* contact_heat = contact voltage x current */
     double friction, drag, muzzle;                  /* muzzle: shunt or arc after exit */
     double wear;                                    /* motion of the metal worn off */
-    double jumps;                                   /* taken by shot_jump */
-    double momentum_jumps;                          /* impulse taken by shot_jump [N s] */
-    double mass_jumps;                              /* mass taken by shot_jump [kg] */
+    double jumps;                                   /* taken by circuit_shot_jump */
+    double momentum_jumps;                          /* impulse taken by circuit_shot_jump [N s] */
+    double mass_jumps;                              /* mass taken by circuit_shot_jump [kg] */
     double energy_error; /* (sum now + so far - start - supplied)/(start + supplied); 0 where those are 0 [1] */
 } shot_ledger;
 
@@ -184,7 +186,7 @@ typedef enum {
     SHOT_MELTED,     /* the armature's face has melted: it slides on a film (friction_law film) */
     SHOT_EVENT_COUNT
 } shot_event_kind;
-extern const char *const shot_event_names[]; /* "fired", "waiting", ..., NULL */
+extern const char *const circuit_shot_event_names[]; /* "fired", "waiting", ..., NULL */
 
 typedef struct {
     shot_event_kind kind;
@@ -194,8 +196,8 @@ typedef struct {
 
 typedef struct shot shot; /* owns all its memory */
 
-/* Sinks; both may be NULL.  Return false to stop: shot_advance then returns STATUS_STOPPED and may be called again.
- * From `event` at a SHOT_SITE, shot_jump may be called; anything else that changes the shot may not. */
+/* Sinks; both may be NULL.  Return false to stop: circuit_shot_advance then returns STATUS_STOPPED and may be called
+ * again. From `event` at a SHOT_SITE, circuit_shot_jump may be called; anything else that changes the shot may not. */
 typedef struct {
     bool (*event)(void *user, shot *s, const shot_event *e);
     bool (*sample)(void *user, const shot *s, const shot_state *state); /* first call, every accepted step */
@@ -216,8 +218,8 @@ typedef struct {
     uint64_t steps;           /* accepted steps and located instants */
 } shot_summary;
 
-/* How near the armature and the rails have come to their limits; NAN where the configuration does not ask, or nothing was
- * reached.  Above 1 (contact_ratio: below 1) the contact is expected to go over into an arc: transition. */
+/* How near the armature and the rails have come to their limits; NAN where the configuration does not ask, or nothing
+ * was reached.  Above 1 (contact_ratio: below 1) the contact is expected to go over into an arc: transition. */
 typedef struct {
     double contact_ratio;       /* least contact force over 1 gram-force per ampere, in motion [1] */
     double leg_action;          /* action over that which melts the leg, (C-18) [1] */
@@ -230,48 +232,52 @@ typedef struct {
     double critical_position;   /* where the armature first exceeds it [m] */
 } shot_limits;
 
-/* What a single value cannot say: STATUS_BAD_INPUT names the parameter, its value, unit and range.  The rails: rails_section. */
-status shot_check(const shot_config *config);
-/* As shot_check, and the rails.  Caller frees *out with shot_free. */
-status shot_create(const shot_config *config, shot **out);
-void shot_free(shot *s); /* NULL allowed */
+/* What a single value cannot say: STATUS_BAD_INPUT names the parameter, its value, unit and range.  The rails:
+ * circuit_rails_section. */
+status circuit_shot_check(const shot_config *config);
+/* As circuit_shot_check, and the rails.  Caller frees *out with circuit_shot_free. */
+status circuit_shot_create(const shot_config *config, shot **out);
+void circuit_shot_free(shot *s); /* NULL allowed */
 
-/* Integrates until t = until, or max_time, or until nothing can happen any more (shot_done), whichever comes first.
- * sink may be NULL.  STATUS_NUMERICAL says at which time and what to try. */
-status shot_advance(shot *s, double until, const shot_sink *sink);
+/* Integrates until t = until, or max_time, or until nothing can happen any more (circuit_shot_done), whichever comes
+ * first. sink may be NULL.  STATUS_NUMERICAL says at which time and what to try. */
+status circuit_shot_advance(shot *s, double until, const shot_sink *sink);
 
 /* Rest or exit, no current, nothing left to fire. */
-bool shot_done(const shot *s);
+bool circuit_shot_done(const shot *s);
 
-shot_state shot_now(const shot *s);
-shot_summary shot_result(const shot *s);
-shot_limits shot_limits_of(const shot *s); /* until exit, or so far */
+shot_state circuit_shot_now(const shot *s);
+shot_summary circuit_shot_result(const shot *s);
+shot_limits circuit_shot_limits_of(const shot *s); /* until exit, or so far */
 
-/* What the shot has left in its rails so far: rise of temperature once the heat has evened out over their section, by pieces
- * of the barrel.  Current's heat, and the rails' share of the contact's (1 - armature.heat_share). [K] */
+/* What the shot has left in its rails so far: rise of temperature once the heat has evened out over their section, by
+ * pieces of the barrel.  Current's heat, and the rails' share of the contact's (1 - armature.heat_share). [K] */
 enum { SHOT_PIECES = RAILS_PIECES };
-void shot_rail_rise(const shot *s, double rise[SHOT_PIECES]);
+void circuit_shot_rail_rise(const shot *s, double rise[SHOT_PIECES]);
 
-double shot_module_current(const shot *s, int group); /* one unit of the group [A] */
-double shot_module_voltage(const shot *s, int group); /* of its capacitor, switch or machine [V] */
-int shot_module_count(const shot *s);                 /* groups */
+double circuit_shot_module_current(const shot *s, int group); /* one unit of the group [A] */
+double circuit_shot_module_voltage(const shot *s, int group); /* of its capacitor, switch or machine [V] */
+int circuit_shot_module_count(const shot *s);                 /* groups */
 
 /* A gouge: takes `impulse` [N s] (against the motion) and `mass_loss` [kg] (leaving at the armature's speed) at the
  * present instant; booked in the ledger.  An impulse larger than the momentum stops the armature.  STATUS_BAD_INPUT for
  * negative values or more mass than there is. */
-status shot_jump(shot *s, double impulse, double mass_loss);
+status circuit_shot_jump(shot *s, double impulse, double mass_loss);
 
 /* L' [H/m] and R' [ohm/m] of the pair at frequency f [Hz], by the level: constant returns what was given; skin and
- * diffusing solve the section (circuit/rails/inductance.h).  f = 0 is direct current, INFINITY the perfect conductor (R' is then INFINITY). */
-status rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance);
+ * diffusing solve the section (circuit/rails/inductance.h).  f = 0 is direct current, INFINITY the perfect conductor
+ * (R' is then INFINITY). */
+status circuit_rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance);
 
 /* The cross-section at the temperature before the shot. */
-status rails_section(const shot_rails *rails, rail_section *out);
+status circuit_rails_section(const shot_rails *rails, rail_section *out);
 
-/* The ladder that stands for the rails: at level diffusing fitted up to f_top [Hz], else L', R' at f_top and no rungs. */
-status rails_ladder(const shot_rails *rails, double f_top, ladder *out);
+/* The ladder that stands for the rails: at level diffusing fitted up to f_top [Hz], else L', R' at f_top and no rungs.
+ */
+status circuit_rails_ladder(const shot_rails *rails, double f_top, ladder *out);
 
-/* The frequency that level skin takes for these supplies when none is given, equation (C-6) [Hz]; NAN if nothing fires. */
-double shot_effective_frequency(const supply_list supplies[SUPPLY_KINDS]);
+/* The frequency that level skin takes for these supplies when none is given, equation (C-6) [Hz]; NAN if nothing fires.
+ */
+double circuit_shot_effective_frequency(const supply_list supplies[SUPPLY_KINDS]);
 
 #endif

@@ -1,4 +1,5 @@
-/* The armature: what pushes and holds it, what its contact costs.  Equations (C-3) .. (C-7), (C-20) .. (C-22): docs/shot.md. */
+/* The armature: what pushes and holds it, what its contact costs.  Equations (C-3) .. (C-7), (C-20) .. (C-22):
+ * docs/shot.md. */
 #include "base/constants.h"
 #include "circuit/shot_model.h"
 
@@ -18,14 +19,14 @@ static double gas_drag(const shot_model *m, double v)
     return m->armature.gas_density * (half + sqrt(half * half + m->sound_speed * m->sound_speed)) * v * m->bore_area;
 }
 
-double shot_hold_force(const shot_model *m, double I)
+double circuit_shot_hold_force(const shot_model *m, double I)
 {
     return 2.0 * m->armature.friction_dry * (m->armature.preload + m->armature.spreading * I * I);
 }
 
-double shot_push(const shot_model *m, double v, double I)
+double circuit_shot_push(const shot_model *m, double v, double I)
 {
-    return 0.5 * rails_force_gradient(&m->rails, fmax(v, 0.0), I) * I * I;
+    return 0.5 * circuit_rails_force_gradient(&m->rails, fmax(v, 0.0), I) * I * I;
 }
 
 /* Contact voltage U I/sqrt(I^2 + knee^2): its sign follows the current where that can reverse. */
@@ -34,49 +35,51 @@ static double contact_voltage(const shot_model *m, double U, double I)
     return m->knee > 0.0 ? U * I / sqrt(I * I + m->knee * m->knee) : U;
 }
 
-double shot_crowding(const shot_model *m, const shot_forces *f, double v)
+double circuit_shot_crowding(const shot_model *m, const shot_forces *f, double v)
 {
-    return m->armature.contact_length / contact_spread(&m->rails.contact, fmax(v, 0.0), f->I - f->shunt);
+    return m->armature.contact_length / circuit_contact_spread(&m->rails.contact, fmax(v, 0.0), f->I - f->shunt);
 }
 
-double shot_friction_heat(const shot_model *m, const shot_forces *f, double v)
+double circuit_shot_friction_heat(const shot_model *m, const shot_forces *f, double v)
 {
     return f->friction * v / (2.0 * m->contact_area);
 }
 
-double shot_current_heat(const shot_model *m, const shot_forces *f)
+double circuit_shot_current_heat(const shot_model *m, const shot_forces *f)
 {
     return m->armature.contact_voltage * fabs(f->I - f->shunt) / (2.0 * m->contact_area);
 }
 
-/* Solid until its face has melted; then the melt's shear, unless the solid's is less.                   (C-20), (C-21) */
+/* Solid until its face has melted; then the melt's shear, unless the solid's is less.                   (C-20), (C-21)
+ */
 static void film_friction(const shot_model *m, double v, shot_forces *f)
 {
     f->mu = m->armature.friction_dry;
     if (!m->melted || !(f->contact > 0.0)) return;
     const double P = f->contact / m->contact_area;
-    const melt_flow melt = melt_film_at(&m->film, v, P, shot_current_heat(m, f));
+    const melt_flow melt = circuit_melt_film_at(&m->film, v, P, circuit_shot_current_heat(m, f));
     f->film = melt.thickness;
     f->mu = fmin(f->mu, melt.shear / P);
 }
 
 /* m dv/dt = F - 2 mu(v) N - drag,  N = preload + k I^2                                     (C-3)
- * with a shunt F = F(I) - 1/2 L_inf i_m^2: its current i_m flows ahead of the armature, which carries I - i_m     (C-15) */
-shot_forces shot_forces_at(const shot_model *m, const shot_drive *d, const double *z)
+ * with a shunt F = F(I) - 1/2 L_inf i_m^2: its current i_m flows ahead of the armature, which carries I - i_m
+ * (C-15) */
+shot_forces circuit_shot_forces_at(const shot_model *m, const shot_drive *d, const double *z)
 {
     const bool left = m->phase == SHOT_LEFT;
-    shot_forces f = { .I = shot_total_current(d, m), .shunt = z[Y_SHUNT] };
+    shot_forces f = { .I = circuit_shot_total_current(d, m), .shunt = z[Y_SHUNT] };
     const double v = z[Y_V], I = f.I - f.shunt;
     f.R = left ? m->barrel.muzzle_resistance : m->armature.resistance;
     f.drop = contact_voltage(m, left ? m->barrel.muzzle_voltage : m->armature.contact_voltage, I);
     if (!d->any && !m->shunt) f.drop = 0.0;
     f.voltage = f.R * I + f.drop;
     if (left) return f;
-    f.force = shot_push(m, v, f.I) - 0.5 * m->rails.ladder.L_inf * f.shunt * f.shunt;
+    f.force = circuit_shot_push(m, v, f.I) - 0.5 * m->rails.ladder.L_inf * f.shunt * f.shunt;
     f.contact = m->armature.preload + m->armature.spreading * I * I;
     f.mu = m->phase == SHOT_HELD ? m->armature.friction_dry : friction_coefficient(&m->armature, v);
     if (m->phase == SHOT_HELD) {
-        f.friction = fmin(fmax(f.force, 0.0), shot_hold_force(m, I));
+        f.friction = fmin(fmax(f.force, 0.0), circuit_shot_hold_force(m, I));
         return f;
     }
     if (m->armature.friction_law == SHOT_FRICTION_FILM) film_friction(m, v, &f);
@@ -86,7 +89,7 @@ shot_forces shot_forces_at(const shot_model *m, const shot_drive *d, const doubl
     return f;
 }
 
-void shot_armature_rates(const shot_model *m, const double *z, const shot_forces *f, double *q)
+void circuit_shot_armature_rates(const shot_model *m, const double *z, const shot_forces *f, double *q)
 {
     const double I = f->I - f->shunt, v = m->phase == SHOT_MOVING ? z[Y_V] : 0.0;
     q[Y_ARMATURE] = f->R * I * I;
@@ -102,20 +105,21 @@ void shot_armature_rates(const shot_model *m, const double *z, const shot_forces
     q[Y_WEAR] = 0.5 * wear * v * v; /* melt leaves at the armature's speed and takes its motion along */
 }
 
-/* Half-space heated by flux q that has brought E per area: rise 2 sqrt(q E/pi)/sqrt(k rho c); exact for a constant flux.  With a
+/* Half-space heated by flux q that has brought E per area: rise 2 sqrt(q E/pi)/sqrt(k rho c); exact for a constant
+ * flux.  With a
  * velocity skin effect E counts the current's heat as if it had always been as crowded as now.          (C-7) */
-double shot_face_rise(const shot_model *m, const shot_forces *f, const double *z)
+double circuit_shot_face_rise(const shot_model *m, const shot_forces *f, const double *z)
 {
     const shot_armature *a = &m->armature;
-    const double v = z[Y_V], crowding = shot_crowding(m, f, v);
-    const double q = a->heat_share * (shot_friction_heat(m, f, v) + crowding * shot_current_heat(m, f));
+    const double v = z[Y_V], crowding = circuit_shot_crowding(m, f, v);
+    const double q = a->heat_share * (circuit_shot_friction_heat(m, f, v) + crowding * circuit_shot_current_heat(m, f));
     const double E = a->heat_share * (z[Y_FRICTION] + crowding * z[Y_CONTACT]) / (2.0 * m->contact_area);
     return 2.0 * sqrt(fmax(q * E, 0.0) / PI) / sqrt(a->thermal_conductivity * a->density * a->specific_heat);
 }
 
-double shot_melting(const shot_model *m, const shot_forces *f, const double *z)
+double circuit_shot_melting(const shot_model *m, const shot_forces *f, const double *z)
 {
     static const double CREEP = 1e-3; /* [m/s] */
     const double to_melting = m->armature.melting_temperature - m->armature.temperature;
-    return fmin(shot_face_rise(m, f, z) / to_melting - 1.0, z[Y_V] / CREEP - 1.0);
+    return fmin(circuit_shot_face_rise(m, f, z) / to_melting - 1.0, z[Y_V] / CREEP - 1.0);
 }

@@ -17,10 +17,10 @@ static status supply_check(const shot_config *c, const supply_kind *kind, const 
 {
     char copy[SUPPLY_BYTES];
     memcpy(copy, p, kind->size);
-    supply_common at = supply_common_of(p);
+    supply_common at = circuit_supply_common_of(p);
     if (isnan(at.fire_at)) at.fire_at = 0.0; /* never is a value too */
     memcpy(copy, &at, sizeof at);
-    TRY(params_check(kind->params, copy, where));
+    TRY(base_params_check(kind->params, copy, where));
     CHECK(at.position < c->barrel.length, STATUS_BAD_INPUT,
           "%s.position = %g m: must be less than barrel.length = %g m", where, at.position, c->barrel.length);
     return kind->check ? kind->check(p, where) : status_ok();
@@ -33,19 +33,19 @@ static status supplies_check(const shot_config *c)
         const supply_list *list = &c->supplies[s];
         for (int k = 0; k < list->n; k++, groups++) {
             char where[48];
-            snprintf(where, sizeof where, "%s[%d]", supply_sections[s], k);
-            TRY(supply_check(c, supply_kinds[s], supply_item(list, supply_kinds[s], k), where));
+            snprintf(where, sizeof where, "%s[%d]", circuit_supply_sections[s], k);
+            TRY(supply_check(c, circuit_supply_kinds[s], supply_item(list, circuit_supply_kinds[s], k), where));
         }
     }
     CHECK(groups > 0, STATUS_BAD_INPUT, "nothing drives the shot: give at least one group, such as a bank of modules");
     return status_ok();
 }
 
-status shot_check(const shot_config *c)
+status circuit_shot_check(const shot_config *c)
 {
-    TRY(params_check(shot_barrel_params, &c->barrel, "barrel"));
-    TRY(params_check(shot_armature_params, &c->armature, "armature"));
-    TRY(params_check(shot_options_params, &c->options, "options"));
+    TRY(base_params_check(circuit_shot_barrel_params, &c->barrel, "barrel"));
+    TRY(base_params_check(circuit_shot_armature_params, &c->armature, "armature"));
+    TRY(base_params_check(circuit_shot_options_params, &c->options, "options"));
     CHECK(c->barrel.start < c->barrel.length, STATUS_BAD_INPUT,
           "barrel.start = %g m: must be less than barrel.length = %g m", c->barrel.start, c->barrel.length);
     CHECK(c->armature.gas_density == 0.0 || c->armature.gas_pressure > 0.0, STATUS_BAD_INPUT,
@@ -88,7 +88,7 @@ static status feed_at(shot_model *m, double position)
 static status group_fill(supply_group *g, const supply_kind *kind, const void *p, void *memory)
 {
     memcpy(memory, p, kind->size);
-    *g = (supply_group){ .kind = kind, .p = memory, .at = supply_common_of(p), .gate = GATE_UNFIRED };
+    *g = (supply_group){ .kind = kind, .p = memory, .at = circuit_supply_common_of(p), .gate = GATE_UNFIRED };
     g->n = g->at.count;
     g->unknowns = kind->unknowns(p);
     g->reverses = kind->reverses && kind->reverses(p);
@@ -104,7 +104,8 @@ static status groups_fill(shot *s, const shot_config *c)
         for (int j = 0; j < c->supplies[kind].n; j++, k++) {
             supply_group *g = &m->groups[k];
             char *memory = (char *)s->supplies + (size_t)k * SUPPLY_BYTES;
-            TRY(group_fill(g, supply_kinds[kind], supply_item(&c->supplies[kind], supply_kinds[kind], j), memory));
+            TRY(group_fill(g, circuit_supply_kinds[kind],
+                           supply_item(&c->supplies[kind], circuit_supply_kinds[kind], j), memory));
             g->first = m->start;
             m->start += g->unknowns;
             TRY(feed_at(m, g->at.position));
@@ -150,7 +151,7 @@ static void scales_fill(shot *s)
     for (int k = 0; k < m->n; k++) {
         const supply_group *g = &m->groups[k];
         supply_scale scale;
-        g->kind->start(g->p, shot_y(s) + g->first, &scale);
+        g->kind->start(g->p, circuit_shot_y(s) + g->first, &scale);
         memcpy(s->scale + g->first, scale.y, (size_t)g->unknowns * sizeof(double));
         E += g->n * scale.energy;
         I += g->n * scale.y[0];
@@ -160,16 +161,16 @@ static void scales_fill(shot *s)
     m->knee = reverses ? 1e-5 * I : 0.0;
     double *z = s->scale + m->start;
     const double v0 = m->armature.velocity;
-    for (int j = 0; j < m->feeds; j++) z[shot_feed_unknown(j)] = V;
+    for (int j = 0; j < m->feeds; j++) z[circuit_shot_feed_unknown(j)] = V;
     for (int j = Y_COIL; j < Y_SUMS; j++) z[j] = fmax(E + 0.5 * m->armature.mass * v0 * v0, 1.0);
     z[Y_X] = m->barrel.length;
     z[Y_V] = fmax(fmax(1.0, v0), 0.1 * sqrt(2.0 * E / m->armature.mass));
     z[Y_MASS] = m->armature.mass;
     z[Y_SHUNT] = I;
     z[Y_ACTION] = 1e-3 * I * I;
-    const int first = Y_COUNT + m->feeds - 1, size = rails_memory_size(&m->rails);
+    const int first = Y_COUNT + m->feeds - 1, size = circuit_rails_memory_size(&m->rails);
     for (int f = 0; f < m->feeds; f++)
-        rails_memory_scale(&m->rails, m->barrel.length, I, z[Y_RAILS], z + first + f * size);
+        circuit_rails_memory_scale(&m->rails, m->barrel.length, I, z[Y_RAILS], z + first + f * size);
 }
 
 static int by_position(const void *a, const void *b)
@@ -204,8 +205,8 @@ static status memory_take(shot *s, const shot_config *c)
     return status_ok();
 }
 
-/* More than these is a switch that chatters.  A module that rings opens and closes its crowbar once a period, four rises: that
- * often, four times over, for the rings of modules side by side are faster than their own. */
+/* More than these is a switch that chatters.  A module that rings opens and closes its crowbar once a period, four
+ * rises: that often, four times over, for the rings of modules side by side are faster than their own. */
 static int switchings_allowed(const shot *s)
 {
     static const double MOST = 1e6, BY_ARMATURE = 1000.0;
@@ -222,27 +223,27 @@ static int switchings_allowed(const shot *s)
 static status solver_take(shot *s)
 {
     shot_model *m = &s->model;
-    const int n = shot_unknowns(m);
+    const int n = circuit_shot_unknowns(m);
     s->scale = calloc((size_t)n, sizeof *s->scale);
     s->later = calloc((size_t)n * 2, sizeof *s->later);
     CHECK(s->scale && s->later, STATUS_MEMORY, "out of memory for a circuit of %d unknowns", n);
-    TRY(arrow_create(m->n, n - m->start, Y_SUMS, &s->matrix));
+    TRY(circuit_arrow_create(m->n, n - m->start, Y_SUMS, &s->matrix));
     s->switchings_limit = switchings_allowed(s);
     for (int k = 0; k < m->n; k++) s->matrix->size[k] = m->groups[k].unknowns;
     const dae_problem problem = { .n = n,
                                   .n_roots = ROOT_GROUPS + 2 * m->n,
-                                  .residual = shot_residual,
-                                  .roots = shot_roots,
-                                  .jacobian = shot_jacobian,
+                                  .residual = circuit_shot_residual,
+                                  .roots = circuit_shot_roots,
+                                  .jacobian = circuit_shot_jacobian,
                                   .model = m,
                                   .matrix = s->matrix };
-    return dae_create(&problem, &s->solver);
+    return circuit_dae_create(&problem, &s->solver);
 }
 
 static void state_fill(shot *s, const shot_config *c)
 {
     shot_model *m = &s->model;
-    double *z = shot_z(s);
+    double *z = circuit_shot_z(s);
     z[Y_X] = c->barrel.start;
     z[Y_V] = c->armature.velocity;
     z[Y_MASS] = c->armature.mass;
@@ -251,11 +252,11 @@ static void state_fill(shot *s, const shot_config *c)
     s->armature_temperature = c->armature.temperature;
     /* Free at once where nothing holds it: friction then starts at zero with the current, below the force. */
     const bool loose = c->armature.friction_dry * c->armature.preload == 0.0 &&
-                       shot_push(m, 0.0, 1.0) > 2.0 * c->armature.friction_dry * c->armature.spreading;
+                       circuit_shot_push(m, 0.0, 1.0) > 2.0 * c->armature.friction_dry * c->armature.spreading;
     if (z[Y_V] > 0.0 || loose) m->phase = SHOT_MOVING;
     m->next_site = s->n_sites > 0 ? s->sites[0].position : INFINITY;
-    shot_limits_start(s);
-    const shot_ledger l = shot_ledger_now(s);
+    circuit_shot_limits_start(s);
+    const shot_ledger l = circuit_shot_ledger_now(s);
     s->start_energy = l.capacitors + l.coils + l.cables + l.rotors + l.kinetic;
     s->result = (shot_summary){
         .muzzle_velocity = NAN, .muzzle_time = NAN, .muzzle_energy = NAN, .efficiency = NAN, .exit_current = NAN
@@ -265,36 +266,36 @@ static void state_fill(shot *s, const shot_config *c)
 static status fill(shot *s, const shot_config *c)
 {
     s->options = c->options;
-    TRY(shot_rails_fit(c, &s->model.rails));
+    TRY(circuit_shot_rails_fit(c, &s->model.rails));
     TRY(memory_take(s, c));
     TRY(groups_fill(s, c));
     TRY(solver_take(s));
     model_fill(s, c);
     scales_fill(s);
     state_fill(s, c);
-    return shot_heat_start(s, c);
+    return circuit_shot_heat_start(s, c);
 }
 
-status shot_create(const shot_config *config, shot **out)
+status circuit_shot_create(const shot_config *config, shot **out)
 {
     *out = NULL;
-    TRY(shot_check(config));
+    TRY(circuit_shot_check(config));
     shot *s = calloc(1, sizeof *s);
     CHECK(s, STATUS_MEMORY, "out of memory for the shot");
     const status st = fill(s, config);
     if (st.code != STATUS_OK) {
-        shot_free(s);
+        circuit_shot_free(s);
         return st;
     }
     *out = s;
     return st;
 }
 
-void shot_free(shot *s)
+void circuit_shot_free(shot *s)
 {
     if (!s) return;
-    dae_free(s->solver);
-    arrow_free(s->matrix);
+    circuit_dae_free(s->solver);
+    circuit_arrow_free(s->matrix);
     for (int k = 0; s->model.groups && k < s->model.n; k++) {
         supply_group *g = &s->model.groups[k];
         if (g->kind && g->kind->release) g->kind->release(g);

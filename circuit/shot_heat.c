@@ -3,39 +3,40 @@
 
 static shot_heat_instant instant(const shot *s, const shot_drive *d)
 {
-    const double *z = shot_z(s);
+    const double *z = circuit_shot_z(s);
     shot_heat_instant now = { .t = s->t, .x = z[Y_X], .v = z[Y_V], .shunt = z[Y_SHUNT] };
     now.contact = (1.0 - s->model.armature.heat_share) * (z[Y_FRICTION] + z[Y_CONTACT]);
     for (int f = 0; f < s->model.reached; f++) now.I[f] = d->I[f] + (f > 0 ? now.I[f - 1] : 0.0);
     return now;
 }
 
-status shot_heat_start(shot *s, const shot_config *c)
+status circuit_shot_heat_start(shot *s, const shot_config *c)
 {
     rail_section section;
-    TRY(rails_section(&c->rails, &section));
-    const shot_drive d = shot_drive_now(s);
-    rails_heat_start(&s->heat, c->barrel.length);
-    s->rail_capacity = c->rails.heat_capacity * section.rails * section_metal_area(&section);
+    TRY(circuit_rails_section(&c->rails, &section));
+    const shot_drive d = circuit_shot_drive_now(s);
+    circuit_rails_heat_start(&s->heat, c->barrel.length);
+    s->rail_capacity = c->rails.heat_capacity * section.rails * circuit_section_metal_area(&section);
     s->heat_until = instant(s, &d);
     return status_ok();
 }
 
-void shot_heat_update(shot *s, const shot_drive *d)
+void circuit_shot_heat_update(shot *s, const shot_drive *d)
 {
     const shot_model *m = &s->model;
     const shot_heat_instant a = s->heat_until, b = instant(s, d);
     for (int f = 0; f < m->reached; f++) {
         const double end = f + 1 < m->feeds ? m->feed[f + 1] : m->barrel.length;
         const rails_instant from = { a.t, a.x, a.v, a.I[f] }, to = { b.t, b.x, b.v, b.I[f] };
-        rails_heat_carry(&s->heat, &m->rails, shot_rails_warming(m, f, shot_z(s)), m->feed[f], end, &from, &to);
+        circuit_rails_heat_carry(&s->heat, &m->rails, circuit_shot_rails_warming(m, f, circuit_shot_z(s)), m->feed[f],
+                                 end, &from, &to);
     }
-    if (m->shunt) rails_heat_ahead(&s->heat, &m->rails, b.x, b.t - a.t, a.shunt, b.shunt);
-    rails_heat_slide(&s->heat, a.x, b.x, b.contact - a.contact);
+    if (m->shunt) circuit_rails_heat_ahead(&s->heat, &m->rails, b.x, b.t - a.t, a.shunt, b.shunt);
+    circuit_rails_heat_slide(&s->heat, a.x, b.x, b.contact - a.contact);
     s->heat_until = b;
 }
 
-void shot_rail_rise(const shot *s, double rise[SHOT_PIECES])
+void circuit_shot_rail_rise(const shot *s, double rise[SHOT_PIECES])
 {
     for (int k = 0; k < SHOT_PIECES; k++) rise[k] = s->heat.heat[k] / s->rail_capacity;
 }

@@ -56,35 +56,36 @@ struct shot {
     shot_summary result;
 };
 
-double *shot_y(const shot *s); /* all unknowns */
-double *shot_z(const shot *s); /* the tail's */
-shot_drive shot_drive_now(const shot *s);
-shot_forces shot_forces_now(const shot *s);
-shot_ledger shot_ledger_now(const shot *s);
+double *circuit_shot_y(const shot *s); /* all unknowns */
+double *circuit_shot_z(const shot *s); /* the tail's */
+shot_drive circuit_shot_drive_now(const shot *s);
+shot_forces circuit_shot_forces_now(const shot *s);
+shot_ledger circuit_shot_ledger_now(const shot *s);
 
 /* ---- temperatures and limits; *st as far as it is filled before them ---- */
 
-double shot_face_temperature(const shot *s, const shot_forces *f);                              /* [K] */
-double shot_film_thickness(const shot *s, const shot_forces *f, const shot_state *st);          /* [m] */
-double shot_film_temperature(const shot *s, const shot_forces *f, const shot_state *st);        /* [K] */
-double shot_rail_behind_temperature(const shot *s, const shot_forces *f, const shot_state *st); /* [K] */
-void shot_limits_start(shot *s);
-void shot_limits_update(shot *s, const shot_forces *f);
+double circuit_shot_face_temperature(const shot *s, const shot_forces *f);                              /* [K] */
+double circuit_shot_film_thickness(const shot *s, const shot_forces *f, const shot_state *st);          /* [m] */
+double circuit_shot_film_temperature(const shot *s, const shot_forces *f, const shot_state *st);        /* [K] */
+double circuit_shot_rail_behind_temperature(const shot *s, const shot_forces *f, const shot_state *st); /* [K] */
+void circuit_shot_limits_start(shot *s);
+void circuit_shot_limits_update(shot *s, const shot_forces *f);
 
 /* ---- heat left in the rails ---- */
 
-status shot_heat_start(shot *s, const shot_config *c);
-void shot_heat_update(shot *s, const shot_drive *d); /* after every accepted step */
+status circuit_shot_heat_start(shot *s, const shot_config *c);
+void circuit_shot_heat_update(shot *s, const shot_drive *d); /* after every accepted step */
 
 /* ---- switchings ---- */
 
-/* All that is due now: `found` as dae_found, NULL where no root was reported.  Asks for a restart where something switched. */
-void shot_settle(shot *s, const int *found);
-void shot_announce(shot *s, shot_event_kind kind, int index);
-void shot_switched(shot *s, shot_event_kind kind, int index);
-bool shot_any_current(const shot *s);
-double shot_next_firing(const shot *s); /* infinite: none */
+/* All that is due now: `found` as circuit_dae_found, NULL where no root was reported.  Asks for a restart where
+ * something switched. */
+void circuit_shot_settle(shot *s, const int *found);
+void circuit_shot_announce(shot *s, shot_event_kind kind, int index);
+void circuit_shot_switched(shot *s, shot_event_kind kind, int index);
+bool circuit_shot_any_current(const shot *s);
+double circuit_shot_next_firing(const shot *s); /* infinite: none */
 /* At rest after a stop: held where the current's push is too weak, else free again. */
-void shot_come_to_rest(shot *s);
+void circuit_shot_come_to_rest(shot *s);
 
 #endif

@@ -10,21 +10,21 @@ static const double CURRENT_THAT_COUNTS = 0.1; /* of the peak so far: below, the
 
 /* ---- temperatures ---- */
 
-double shot_face_temperature(const shot *s, const shot_forces *f)
+double circuit_shot_face_temperature(const shot *s, const shot_forces *f)
 {
     const double melting = fmax(s->model.armature.melting_temperature, s->armature_temperature);
-    return fmin(s->armature_temperature + shot_face_rise(&s->model, f, shot_z(s)), melting);
+    return fmin(s->armature_temperature + circuit_shot_face_rise(&s->model, f, circuit_shot_z(s)), melting);
 }
 
 /* Heat per area of one face, both bodies' shares together [W/m^2]. */
 static double contact_heat(const shot *s, const shot_forces *f, double v)
 {
-    return shot_friction_heat(&s->model, f, v) + shot_current_heat(&s->model, f);
+    return circuit_shot_friction_heat(&s->model, f, v) + circuit_shot_current_heat(&s->model, f);
 }
 
 /* Of one face's melt: that of friction_law film, else what wear leaves behind, carried at half the speed (Couette):
  * 2 w l/v, w the speed at which the face recedes [m] */
-double shot_film_thickness(const shot *s, const shot_forces *f, const shot_state *st)
+double circuit_shot_film_thickness(const shot *s, const shot_forces *f, const shot_state *st)
 {
     const shot_armature *a = &s->model.armature;
     const bool melted = st->armature_temperature >= a->melting_temperature;
@@ -34,9 +34,9 @@ double shot_film_thickness(const shot *s, const shot_forces *f, const shot_state
     return 2.0 * w * a->contact_length / st->v;
 }
 
-/* The flux q into the armature has to cross half of the film: T = T_m + q thickness/(2 k).  No film: the face's temperature.
- * (C-16) [K] */
-double shot_film_temperature(const shot *s, const shot_forces *f, const shot_state *st)
+/* The flux q into the armature has to cross half of the film: T = T_m + q thickness/(2 k).  No film: the face's
+ * temperature. (C-16) [K] */
+double circuit_shot_film_temperature(const shot *s, const shot_forces *f, const shot_state *st)
 {
     const shot_armature *a = &s->model.armature;
     if (!(st->film_thickness > 0.0)) return st->armature_temperature;
@@ -44,10 +44,11 @@ double shot_film_temperature(const shot *s, const shot_forces *f, const shot_sta
     return a->melting_temperature + 0.5 * q * st->film_thickness / a->thermal_conductivity;
 }
 
-/* Rail surface one contact length l behind the trailing edge, t = l/v (at most the shot's age) after the passage that took as long.  Its share q of
- * the contact's heat: 2 q (sqrt(2 t) - sqrt(t))/sqrt(pi k rho c).  The current, K = P I/height on the surface from the
- * passage on, heats by int rho J^2 dt = mu0 K^2/pi ln(2 t/t): the integral is cut off at t, under the contact.  (C-17) [K] */
-double shot_rail_behind_temperature(const shot *s, const shot_forces *f, const shot_state *st)
+/* Rail surface one contact length l behind the trailing edge, t = l/v (at most the shot's age) after the passage that
+ * took as long.  Its share q of the contact's heat: 2 q (sqrt(2 t) - sqrt(t))/sqrt(pi k rho c).  The current, K = P
+ * I/height on the surface from the passage on, heats by int rho J^2 dt = mu0 K^2/pi ln(2 t/t): the integral is cut off
+ * at t, under the contact.  (C-17) [K] */
+double circuit_shot_rail_behind_temperature(const shot *s, const shot_forces *f, const shot_state *st)
 {
     const shot_armature *a = &s->model.armature;
     const shot_rails *r = &s->rails;
@@ -71,7 +72,8 @@ static double melt_action(const shot_armature *a)
     return a->density * a->specific_heat * span / (a->resistivity * warm);
 }
 
-/* A load moving over a beam (bending stiffness E I, mass per length m) on a bed of stiffness k outruns its bending waves at
+/* A load moving over a beam (bending stiffness E I, mass per length m) on a bed of stiffness k outruns its bending
+ * waves at
  * v^2 = 2 sqrt(k E I)/m, I = height thickness^3/12                                          (C-19) [m/s] */
 static double critical_velocity(const shot_rails *r)
 {
@@ -79,7 +81,7 @@ static double critical_velocity(const shot_rails *r)
     return sqrt(2.0 * sqrt(r->backing_stiffness * bending) / (r->density * r->height * r->thickness));
 }
 
-void shot_limits_start(shot *s)
+void circuit_shot_limits_start(shot *s)
 {
     s->limits = (shot_limits){ .contact_ratio = NAN,
                                .leg_action = NAN,
@@ -97,16 +99,16 @@ static void first_place(double *place, bool over, double x)
     if (over && isnan(*place)) *place = x;
 }
 
-/* Thickness worn off one face where it is most: all of what friction melts, and what the current does at the trailing edge.  A
- * worn face is even without a velocity skin effect: then the mass tells. */
+/* Thickness worn off one face where it is most: all of what friction melts, and what the current does at the trailing
+ * edge.  A worn face is even without a velocity skin effect: then the mass tells. */
 static double worn_thickness(shot *s, const shot_forces *f)
 {
     const shot_armature *a = &s->model.armature;
-    const double *z = shot_z(s);
+    const double *z = circuit_shot_z(s);
     if (!a->velocity_skin) return (a->mass - s->mass_jumps - z[Y_MASS]) / (2.0 * a->density * s->model.contact_area);
     const bool solid = a->friction_law == SHOT_FRICTION_FILM && !s->model.melted;
-    const double q = shot_friction_heat(&s->model, f, z[Y_V]) +
-                     shot_crowding(&s->model, f, z[Y_V]) * shot_current_heat(&s->model, f);
+    const double q = circuit_shot_friction_heat(&s->model, f, z[Y_V]) +
+                     circuit_shot_crowding(&s->model, f, z[Y_V]) * circuit_shot_current_heat(&s->model, f);
     const double rate = solid ? 0.0 : a->wear_fraction * q / (a->density * s->model.wear_heat);
     s->worn += 0.5 * (rate + s->wear_rate) * (s->t - s->worn_until); /* trapezes over the integrator's own steps */
     s->wear_rate = rate;
@@ -114,10 +116,10 @@ static double worn_thickness(shot *s, const shot_forces *f)
     return s->worn;
 }
 
-void shot_limits_update(shot *s, const shot_forces *f)
+void circuit_shot_limits_update(shot *s, const shot_forces *f)
 {
     const shot_armature *a = &s->model.armature;
-    const double *z = shot_z(s), I = fabs(f->I - f->shunt), x = z[Y_X];
+    const double *z = circuit_shot_z(s), I = fabs(f->I - f->shunt), x = z[Y_X];
     shot_limits *l = &s->limits;
     if (s->model.phase != SHOT_MOVING) return;
     if (I > CURRENT_THAT_COUNTS * s->result.peak_current) {
@@ -134,7 +136,7 @@ void shot_limits_update(shot *s, const shot_forces *f)
     first_place(&l->critical_position, z[Y_V] > l->critical_velocity, x);
 }
 
-shot_limits shot_limits_of(const shot *s)
+shot_limits circuit_shot_limits_of(const shot *s)
 {
     return s->limits;
 }

@@ -3,29 +3,30 @@
 #include <math.h>
 #include <string.h>
 
-/* Held armatures are released once the force exceeds static friction by this [N]: a located root needs a sign change. */
+/* Held armatures are released once the force exceeds static friction by this [N]: a located root needs a sign change.
+ */
 static const double RELEASE_MARGIN = 1e-3;
 
 enum { TAIL_MAX = Y_COUNT + SHOT_MAX_FEEDS * (4 + 2 * LADDER_MAX_RUNGS) };
 
 static int tail_size(const shot_model *m)
 {
-    return Y_COUNT + m->feeds - 1 + m->feeds * rails_memory_size(&m->rails);
+    return Y_COUNT + m->feeds - 1 + m->feeds * circuit_rails_memory_size(&m->rails);
 }
 
-int shot_unknowns(const shot_model *m)
+int circuit_shot_unknowns(const shot_model *m)
 {
     return m->start + tail_size(m);
 }
 
-int shot_feed_unknown(int feed)
+int circuit_shot_feed_unknown(int feed)
 {
     return feed == 0 ? Y_BREECH : Y_COUNT + feed - 1;
 }
 
 static int memory_unknown(const shot_model *m, int segment)
 {
-    return Y_COUNT + m->feeds - 1 + segment * rails_memory_size(&m->rails);
+    return Y_COUNT + m->feeds - 1 + segment * circuit_rails_memory_size(&m->rails);
 }
 
 /* ---- the groups, summed ---- */
@@ -34,7 +35,7 @@ static void drive_add(shot_drive *d, const supply_group *g, const supply_flow *f
 {
     for (int h = 0; h < HEAT_PLACES; h++) d->heat[h] += g->n * f->heat[h];
     d->supplied += g->n * f->supplied;
-    if (!supply_conducts(g)) return;
+    if (!circuit_supply_conducts(g)) return;
     d->any = true;
     d->I[g->feed] += g->n * i;
     d->push[g->feed] += g->n * f->push;
@@ -62,12 +63,12 @@ static void groups_rates(const shot_model *m, double t, const double *y, double 
     for (int k = 0; k < m->n; k++) {
         const supply_group *g = &m->groups[k];
         supply_flow f;
-        supply_rates(g, t, y + g->first, z[shot_feed_unknown(g->feed)], rates + g->first, &f);
+        circuit_supply_rates(g, t, y + g->first, z[circuit_shot_feed_unknown(g->feed)], rates + g->first, &f);
         drive_add(d, g, &f, y[g->first]);
     }
 }
 
-shot_drive shot_drive_at(const shot_model *m, double t, const double *y)
+shot_drive circuit_shot_drive_at(const shot_model *m, double t, const double *y)
 {
     shot_drive d;
     double rates[SUPPLY_UNKNOWNS];
@@ -75,23 +76,23 @@ shot_drive shot_drive_at(const shot_model *m, double t, const double *y)
     for (int k = 0; k < m->n; k++) {
         const supply_group *g = &m->groups[k];
         supply_flow f;
-        supply_rates(g, t, y + g->first, 0.0, rates, &f);
+        circuit_supply_rates(g, t, y + g->first, 0.0, rates, &f);
         drive_add(&d, g, &f, y[g->first]);
     }
     return d;
 }
 
-double shot_total_current(const shot_drive *d, const shot_model *m)
+double circuit_shot_total_current(const shot_drive *d, const shot_model *m)
 {
     double I = 0.0;
     for (int f = 0; f < m->reached; f++) I += d->I[f];
     return I;
 }
 
-double shot_current_slope(const shot_model *m, const shot_drive *d, const double *z)
+double circuit_shot_current_slope(const shot_model *m, const shot_drive *d, const double *z)
 {
     double slope = 0.0;
-    for (int f = 0; f < m->reached; f++) slope += d->push[f] - d->pull[f] * z[shot_feed_unknown(f)];
+    for (int f = 0; f < m->reached; f++) slope += d->push[f] - d->pull[f] * z[circuit_shot_feed_unknown(f)];
     return slope;
 }
 
@@ -113,15 +114,15 @@ static rails_flow segment_flow(const shot_model *m, int f, double I, const doubl
 {
     *len = segment_length(m, f, z);
     *v = f == m->reached - 1 && m->phase == SHOT_MOVING ? fmax(z[Y_V], 0.0) : 0.0;
-    return rails_flow_at(&m->rails, *len, *v, I, z + memory_unknown(m, f));
+    return circuit_rails_flow_at(&m->rails, *len, *v, I, z + memory_unknown(m, f));
 }
 
-double shot_rails_warming(const shot_model *m, int f, const double *z)
+double circuit_shot_rails_warming(const shot_model *m, int f, const double *z)
 {
-    return rails_warming(&m->rails, segment_length(m, f, z), z + memory_unknown(m, f));
+    return circuit_rails_warming(&m->rails, segment_length(m, f, z), z + memory_unknown(m, f));
 }
 
-double shot_rails_heat(const shot_model *m, const shot_drive *d, const double *z)
+double circuit_shot_rails_heat(const shot_model *m, const shot_drive *d, const double *z)
 {
     double heat = 0.0, I = 0.0, len, v;
     for (int f = 0; f < m->reached; f++) heat += segment_flow(m, f, I += d->I[f], z, &len, &v).heat;
@@ -134,7 +135,7 @@ static double shunt_inductance(const shot_model *m, const double *z)
     return m->barrel.shunt_inductance + m->rails.ladder.L_inf * (m->barrel.length - loop_end(m, z));
 }
 
-double shot_rails_field(const shot_model *m, const shot_drive *d, const double *z)
+double circuit_shot_rails_field(const shot_model *m, const shot_drive *d, const double *z)
 {
     double field = m->shunt ? 0.5 * shunt_inductance(m, z) * z[Y_SHUNT] * z[Y_SHUNT] : 0.0, I = 0.0, len, v;
     for (int f = 0; f < m->reached; f++) field += segment_flow(m, f, I += d->I[f], z, &len, &v).field;
@@ -154,8 +155,8 @@ static void shunt_rates(const shot_model *m, const double *z, const shot_forces 
     q[Y_MUZZLE] += m->barrel.shunt_resistance * i * i;
 }
 
-/* Currents add up from the breech on, I_f = sum over feeds g <= f; every segment but the last ends at the next feed, the last
- * at the armature (voltage U), with S_g - G_g V_g the slope of the current that joins at feed g:
+/* Currents add up from the breech on, I_f = sum over feeds g <= f; every segment but the last ends at the next feed,
+ * the last at the armature (voltage U), with S_g - G_g V_g the slope of the current that joins at feed g:
  *   V_f = V_f+1 (or U) + L_f sum_g<=f (S_g - G_g V_g) + (the rest of segment f's voltage)           (C-1)
  * value[f]: what V_f must be at these V; z's voltages are not touched. */
 typedef struct {
@@ -182,7 +183,7 @@ static void line_rates(const shot_model *m, const shot_drive *d, const double *z
         I += d->I[f];
         const rails_flow flow = segment_flow(m, f, I, z, &len, &v);
         const int memory = memory_unknown(m, f);
-        rails_memory_rates(&m->rails, len, v, I, z + memory, q + memory);
+        circuit_rails_memory_rates(&m->rails, len, v, I, z + memory, q + memory);
         q[Y_RAILS] += flow.heat;
         line->inductance[f] = flow.inductance;
         line->rest[f] = flow.voltage;
@@ -191,20 +192,20 @@ static void line_rates(const shot_model *m, const shot_drive *d, const double *z
 
 static void feed_voltages(const shot_model *m, const double *z, double *V)
 {
-    for (int f = 0; f < m->feeds; f++) V[f] = z[shot_feed_unknown(f)];
+    for (int f = 0; f < m->feeds; f++) V[f] = z[circuit_shot_feed_unknown(f)];
 }
 
 /* All the tail's rates, from the sums over the groups. */
 static void tail_rates(const shot_model *m, const shot_drive *d, const double *z, double *q)
 {
-    const shot_forces f = shot_forces_at(m, d, z);
+    const shot_forces f = circuit_shot_forces_at(m, d, z);
     double V[SHOT_MAX_FEEDS], value[SHOT_MAX_FEEDS];
     shot_line line;
     memset(q, 0, (size_t)tail_size(m) * sizeof *q);
     line_rates(m, d, z, q, &line);
     feed_voltages(m, z, V);
     line_voltages(m, d, &line, f.voltage, V, value);
-    for (int k = 0; k < m->feeds; k++) q[shot_feed_unknown(k)] = value[k];
+    for (int k = 0; k < m->feeds; k++) q[circuit_shot_feed_unknown(k)] = value[k];
     for (int h = 0; h < HEAT_PLACES; h++) q[Y_COIL + h] = d->heat[h];
     q[Y_SUPPLIED] = d->supplied;
     for (int k = 0; k < m->reached; k++) q[Y_SUPPLIED] += d->source[k] * V[k];
@@ -212,14 +213,14 @@ static void tail_rates(const shot_model *m, const shot_drive *d, const double *z
     if (m->phase == SHOT_LEFT) {
         q[Y_MUZZLE] = f.voltage * (f.I - f.shunt);
     } else {
-        shot_armature_rates(m, z, &f, q);
+        circuit_shot_armature_rates(m, z, &f, q);
     }
     shunt_rates(m, z, &f, q);
 }
 
-void shot_voltages(const shot_model *m, const shot_drive *d, double *z)
+void circuit_shot_voltages(const shot_model *m, const shot_drive *d, double *z)
 {
-    const shot_forces f = shot_forces_at(m, d, z);
+    const shot_forces f = circuit_shot_forces_at(m, d, z);
     double q[TAIL_MAX] = { 0.0 }, A[SHOT_MAX_FEEDS * SHOT_MAX_FEEDS], V[SHOT_MAX_FEEDS] = { 0.0 };
     double at_zero[SHOT_MAX_FEEDS], value[SHOT_MAX_FEEDS];
     int pivot[SHOT_MAX_FEEDS];
@@ -233,14 +234,14 @@ void shot_voltages(const shot_model *m, const shot_drive *d, double *z)
         for (int i = 0; i < n; i++) A[i * n + j] = V[i] - (value[i] - at_zero[i]);
         V[j] = 0.0;
     }
-    (void)lu_factor(A, n, n, pivot); /* diagonally dominant: inductances and pulls are positive */
-    lu_solve(A, n, n, pivot, at_zero);
-    for (int k = 0; k < m->feeds; k++) z[shot_feed_unknown(k)] = k < n ? at_zero[k] : 0.0;
+    (void)circuit_lu_factor(A, n, n, pivot); /* diagonally dominant: inductances and pulls are positive */
+    circuit_lu_solve(A, n, n, pivot, at_zero);
+    for (int k = 0; k < m->feeds; k++) z[circuit_shot_feed_unknown(k)] = k < n ? at_zero[k] : 0.0;
 }
 
 /* ---- for the solver ---- */
 
-void shot_rates(const shot_model *m, double t, const double *y, double *d)
+void circuit_shot_rates(const shot_model *m, double t, const double *y, double *d)
 {
     shot_drive drive;
     groups_rates(m, t, y, d, &drive);
@@ -252,23 +253,23 @@ static bool tail_is_algebraic(const shot_model *m, int j)
     return j == Y_BREECH || (j >= Y_COUNT && j < Y_COUNT + m->feeds - 1);
 }
 
-bool shot_is_algebraic(const shot_model *m, int j)
+bool circuit_shot_is_algebraic(const shot_model *m, int j)
 {
     if (j >= m->start) return tail_is_algebraic(m, j - m->start);
     int k = m->n - 1;
     while (m->groups[k].first > j) k--;
-    return supply_algebraic(&m->groups[k], j - m->groups[k].first);
+    return circuit_supply_algebraic(&m->groups[k], j - m->groups[k].first);
 }
 
-void shot_residual(const void *model, double t, const double *y, const double *yp, double *r)
+void circuit_shot_residual(const void *model, double t, const double *y, const double *yp, double *r)
 {
     const shot_model *m = model;
-    shot_rates(m, t, y, r);
+    circuit_shot_rates(m, t, y, r);
     for (int k = 0; k < m->n; k++) {
         const supply_group *g = &m->groups[k];
         for (int j = 0; j < g->unknowns; j++) {
             const int i = g->first + j;
-            r[i] = (supply_algebraic(g, j) ? y[i] : yp[i]) - r[i];
+            r[i] = (circuit_supply_algebraic(g, j) ? y[i] : yp[i]) - r[i];
         }
     }
     for (int j = 0, n = tail_size(m); j < n; j++) {
@@ -292,7 +293,7 @@ static void feed_columns_at(const shot_model *m, const shot_drive *d, int feed, 
 {
     const int n = tail_size(m);
     shot_drive moved = *d;
-    const double hI = 1e-6 * fmax(fabs(shot_total_current(d, m)), 1e3), hp = fmax(fabs(d->push[feed]), 1e6);
+    const double hI = 1e-6 * fmax(fabs(circuit_shot_total_current(d, m)), 1e3), hp = fmax(fabs(d->push[feed]), 1e6);
     moved.I[feed] += hI;
     tail_rates(m, &moved, z, c->I);
     moved.I[feed] = d->I[feed];
@@ -310,39 +311,39 @@ static void group_jacobian(const shot_model *m, int k, double t, double cj, cons
 {
     const supply_group *g = &m->groups[k];
     const double *own = y + g->first, V = y[m->start + J->column[k]];
-    double base[SUPPLY_UNKNOWNS], moved[SUPPLY_UNKNOWNS], at[SUPPLY_UNKNOWNS], *D = arrow_block(J, k);
+    double base[SUPPLY_UNKNOWNS], moved[SUPPLY_UNKNOWNS], at[SUPPLY_UNKNOWNS], *D = circuit_arrow_block(J, k);
     supply_flow f0, f1;
-    for (int j = 0; j < g->unknowns; j++) D[j * ARROW_BLOCK + j] = supply_algebraic(g, j) ? 1.0 : cj;
+    for (int j = 0; j < g->unknowns; j++) D[j * ARROW_BLOCK + j] = circuit_supply_algebraic(g, j) ? 1.0 : cj;
     J->idle[k] = g->gate == GATE_BLOCKED;
     if (J->idle[k]) return;
-    supply_rates(g, t, own, V, base, &f0);
+    circuit_supply_rates(g, t, own, V, base, &f0);
     memcpy(at, own, (size_t)g->unknowns * sizeof *at);
     for (int j = 0; j < g->unknowns; j++) {
         const double h = difference(own[j], m->scale[g->first + j]);
-        double *C = arrow_column(J, k, j);
+        double *C = circuit_arrow_column(J, k, j);
         at[j] = own[j] + h;
-        supply_rates(g, t, at, V, moved, &f1);
+        circuit_supply_rates(g, t, at, V, moved, &f1);
         at[j] = own[j];
         for (int i = 0; i < g->unknowns; i++) D[i * ARROW_BLOCK + j] -= (moved[i] - base[i]) / h;
         for (int p = 0; p < HEAT_PLACES; p++) C[Y_COIL + p] -= g->n * (f1.heat[p] - f0.heat[p]) / h;
         C[Y_SUPPLIED] -= g->n * (f1.supplied - f0.supplied) / h;
-        if (!supply_conducts(g)) continue;
+        if (!circuit_supply_conducts(g)) continue;
         const double dI = j == 0 ? g->n : 0.0, dpush = g->n * (f1.push - f0.push) / h;
         for (int r = 0; r < J->border; r++) C[r] -= c->I[r] * dI + c->push[r] * dpush;
         if (g->kind->source) C[Y_SUPPLIED] -= dI * V;
     }
-    J->b[k * ARROW_BLOCK] = supply_conducts(g) && !supply_algebraic(g, 0) ? f0.pull : 0.0;
+    J->b[k * ARROW_BLOCK] = circuit_supply_conducts(g) && !circuit_supply_algebraic(g, 0) ? f0.pull : 0.0;
 }
 
-/* The rails' memory enters linearly: its columns are known.  I: the segment's current.  A segment's own warming is slow:
- * only what it does to the resistances now is in the matrix, not how it changes. */
+/* The rails' memory enters linearly: its columns are known.  I: the segment's current.  A segment's own warming is
+ * slow: only what it does to the resistances now is in the matrix, not how it changes. */
 static void memory_jacobian(const shot_model *m, int segment, double cj, double I, const double *z, arrow *J)
 {
     const ladder *l = &m->rails.ladder;
-    const int n = J->border, V = shot_feed_unknown(segment), first = memory_unknown(m, segment);
-    const int heat = first + 2 * l->n, end = first + rails_memory_size(&m->rails);
+    const int n = J->border, V = circuit_shot_feed_unknown(segment), first = memory_unknown(m, segment);
+    const int heat = first + 2 * l->n, end = first + circuit_rails_memory_size(&m->rails);
     const bool alive = segment < m->reached;
-    const double warm = alive ? rails_warming(&m->rails, segment_length(m, segment, z), z + first) : 1.0;
+    const double warm = alive ? circuit_rails_warming(&m->rails, segment_length(m, segment, z), z + first) : 1.0;
     for (int j = heat; j < end; j++) J->E[j * n + j] = cj;
     for (int k = 0, Q = first; k < l->n; k++, Q += 2) {
         const int W = Q + 1;
@@ -381,10 +382,10 @@ static void tail_jacobian(const shot_model *m, double cj, const shot_drive *d, c
     for (int f = 0; f < m->feeds; f++) memory_jacobian(m, f, cj, I += d->I[f], z, J);
 }
 
-void shot_jacobian(const void *model, double t, double cj, const double *y, arrow *J)
+void circuit_shot_jacobian(const void *model, double t, double cj, const double *y, arrow *J)
 {
     const shot_model *m = model;
-    const shot_drive d = shot_drive_at(m, t, y);
+    const shot_drive d = circuit_shot_drive_at(m, t, y);
     const double *z = y + m->start;
     double base[TAIL_MAX];
     feed_columns c;
@@ -395,7 +396,7 @@ void shot_jacobian(const void *model, double t, double cj, const double *y, arro
             if (m->groups[k].feed != f) continue;
             if (!filled) feed_columns_at(m, &d, f, z, base, &c);
             filled = true;
-            J->column[k] = shot_feed_unknown(f);
+            J->column[k] = circuit_shot_feed_unknown(f);
             group_jacobian(m, k, t, cj, y, &c, J);
         }
     }
@@ -405,16 +406,16 @@ void shot_jacobian(const void *model, double t, double cj, const double *y, arro
 static void group_roots(const supply_group *g, double t, const double *y, double V, double *root)
 {
     supply_flow f = { .push = 0.0 };
-    root[0] = supply_stage_root(g, t, y);
+    root[0] = circuit_supply_stage_root(g, t, y);
     root[1] = 1.0;
     if (g->gate == GATE_WAITING) {
         g->kind->flow(g, t, y, &f);
         root[1] = f.push - f.pull * V;
     }
-    if (supply_conducts(g) && !g->reverses) root[1] = y[0];
+    if (circuit_supply_conducts(g) && !g->reverses) root[1] = y[0];
 }
 
-void shot_roots(const void *model, double t, const double *y, double *g)
+void circuit_shot_roots(const void *model, double t, const double *y, double *g)
 {
     const shot_model *m = model;
     const double *z = y + m->start;
@@ -426,13 +427,14 @@ void shot_roots(const void *model, double t, const double *y, double *g)
     g[ROOT_FEED] = moving && m->reached < m->feeds ? z[Y_X] - m->feed[m->reached] : 1.0;
     const bool melts = moving && m->armature.friction_law == SHOT_FRICTION_FILM && !m->melted;
     if (m->phase == SHOT_HELD || melts) {
-        const shot_drive d = shot_drive_at(m, t, y);
-        const shot_forces f = shot_forces_at(m, &d, z);
-        if (melts) g[ROOT_MELT] = shot_melting(m, &f, z);
-        if (m->phase == SHOT_HELD) g[ROOT_MOTION] = f.force - shot_hold_force(m, f.I - f.shunt) - RELEASE_MARGIN;
+        const shot_drive d = circuit_shot_drive_at(m, t, y);
+        const shot_forces f = circuit_shot_forces_at(m, &d, z);
+        if (melts) g[ROOT_MELT] = circuit_shot_melting(m, &f, z);
+        if (m->phase == SHOT_HELD)
+            g[ROOT_MOTION] = f.force - circuit_shot_hold_force(m, f.I - f.shunt) - RELEASE_MARGIN;
     }
     for (int k = 0; k < m->n; k++) {
         const supply_group *s = &m->groups[k];
-        group_roots(s, t, y + s->first, z[shot_feed_unknown(s->feed)], g + ROOT_GROUPS + 2 * k);
+        group_roots(s, t, y + s->first, z[circuit_shot_feed_unknown(s->feed)], g + ROOT_GROUPS + 2 * k);
     }
 }

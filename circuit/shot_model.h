@@ -1,9 +1,9 @@
 /* The equations of a shot between two switchings (internal to circuit/; docs/shot.md has them with their tags).
  *
- * Unknowns, in this order: those of every group (circuit/supply/supply_kind.h), then the tail z: those of shot_unknown, the voltages
- * of the feeds after the breech, and the rails' memory, two a rung (circuit/rails/rails.h) of every segment.
- * Feed f is a position at which groups join the rails, feed 0 the breech; segment f runs from there to the next feed, or as
- * far as the armature has come.  A group does not conduct before the armature has passed its feed.
+ * Unknowns, in this order: those of every group (circuit/supply/supply_kind.h), then the tail z: those of shot_unknown,
+ * the voltages of the feeds after the breech, and the rails' memory, two a rung (circuit/rails/rails.h) of every
+ * segment. Feed f is a position at which groups join the rails, feed 0 the breech; segment f runs from there to the
+ * next feed, or as far as the armature has come.  A group does not conduct before the armature has passed its feed.
  * A switching changes gate, stage, phase or `reached`, never the list of unknowns. */
 #ifndef BREECH_CIRCUIT_SHOT_MODEL_H
 #define BREECH_CIRCUIT_SHOT_MODEL_H
@@ -16,8 +16,9 @@
 enum { SHOT_MAX_FEEDS = 64 };
 
 typedef enum {
-    Y_ACTION, /* integral of the armature's current squared [A^2 s]; what stands here down to Y_WEAR is only summed up */
-    Y_COIL,   /* heat or work so far [J]; the places of supply_heat in their order */
+    /* integral of the armature's current squared [A^2 s]; what stands here down to Y_WEAR is only summed up */
+    Y_ACTION,
+    Y_COIL, /* heat or work so far [J]; the places of supply_heat in their order */
     Y_CABLE,
     Y_CROWBAR,
     Y_SWITCH,
@@ -82,40 +83,42 @@ typedef struct {
     double film;                                    /* thickness of the melt [m] */
 } shot_forces;
 
-int shot_unknowns(const shot_model *m);
-shot_drive shot_drive_at(const shot_model *m, double t, const double *y);
-double shot_total_current(const shot_drive *d, const shot_model *m);                  /* [A] */
-double shot_current_slope(const shot_model *m, const shot_drive *d, const double *z); /* of the total [A/s] */
-int shot_feed_unknown(int feed);                                                      /* of its voltage, in the tail */
-status shot_rails_fit(const shot_config *c, rails_load *out);                         /* circuit/shot_rails.c */
-double shot_rails_field(const shot_model *m, const shot_drive *d, const double *z);   /* [J] */
-double shot_rails_heat(const shot_model *m, const shot_drive *d, const double *z);    /* [W] */
-double shot_rails_warming(const shot_model *m, int f, const double *z);               /* of segment f [1] */
+int circuit_shot_unknowns(const shot_model *m);
+shot_drive circuit_shot_drive_at(const shot_model *m, double t, const double *y);
+double circuit_shot_total_current(const shot_drive *d, const shot_model *m);                  /* [A] */
+double circuit_shot_current_slope(const shot_model *m, const shot_drive *d, const double *z); /* of the total [A/s] */
+int circuit_shot_feed_unknown(int feed);                              /* of its voltage, in the tail */
+status circuit_shot_rails_fit(const shot_config *c, rails_load *out); /* circuit/shot_rails.c */
+double circuit_shot_rails_field(const shot_model *m, const shot_drive *d, const double *z); /* [J] */
+double circuit_shot_rails_heat(const shot_model *m, const shot_drive *d, const double *z);  /* [W] */
+double circuit_shot_rails_warming(const shot_model *m, int f, const double *z);             /* of segment f [1] */
 
 /* ---- the armature: circuit/shot_armature.c ---- */
 
-double shot_hold_force(const shot_model *m, double I);     /* static friction of both faces [N] */
-double shot_push(const shot_model *m, double v, double I); /* electromagnetic force at the speed v [N] */
-shot_forces shot_forces_at(const shot_model *m, const shot_drive *d, const double *z);
-void shot_armature_rates(const shot_model *m, const double *z, const shot_forces *f, double *q);
-double shot_crowding(const shot_model *m, const shot_forces *f, double v); /* densest current over the mean [1] */
+double circuit_shot_hold_force(const shot_model *m, double I);     /* static friction of both faces [N] */
+double circuit_shot_push(const shot_model *m, double v, double I); /* electromagnetic force at the speed v [N] */
+shot_forces circuit_shot_forces_at(const shot_model *m, const shot_drive *d, const double *z);
+void circuit_shot_armature_rates(const shot_model *m, const double *z, const shot_forces *f, double *q);
+double circuit_shot_crowding(const shot_model *m, const shot_forces *f,
+                             double v); /* densest current over the mean [1] */
 /* Heat per area of one face, both bodies' shares together [W/m^2]. */
-double shot_friction_heat(const shot_model *m, const shot_forces *f, double v);
-double shot_current_heat(const shot_model *m, const shot_forces *f);               /* mean over the face */
-double shot_face_rise(const shot_model *m, const shot_forces *f, const double *z); /* above `temperature`, (C-7) [K] */
+double circuit_shot_friction_heat(const shot_model *m, const shot_forces *f, double v);
+double circuit_shot_current_heat(const shot_model *m, const shot_forces *f); /* mean over the face */
+double circuit_shot_face_rise(const shot_model *m, const shot_forces *f,
+                              const double *z); /* above `temperature`, (C-7) [K] */
 /* Rises through 0 as the face melts, or as one that is hot enough already sets off: at rest it is solid. */
-double shot_melting(const shot_model *m, const shot_forces *f, const double *z);
+double circuit_shot_melting(const shot_model *m, const shot_forces *f, const double *z);
 
 /* The feeds' voltages that the currents and the groups' push and pull ask for, into z. */
-void shot_voltages(const shot_model *m, const shot_drive *d, double *z);
+void circuit_shot_voltages(const shot_model *m, const shot_drive *d, double *z);
 
 /* d[j] = dy_j/dt where y_j is differential, = the value y_j must have where it is algebraic. */
-void shot_rates(const shot_model *m, double t, const double *y, double *d);
-bool shot_is_algebraic(const shot_model *m, int j);
+void circuit_shot_rates(const shot_model *m, double t, const double *y, double *d);
+bool circuit_shot_is_algebraic(const shot_model *m, int j);
 
 /* For circuit/dae.h. */
-void shot_residual(const void *model, double t, const double *y, const double *yp, double *r);
-void shot_roots(const void *model, double t, const double *y, double *g);
-void shot_jacobian(const void *model, double t, double cj, const double *y, arrow *J);
+void circuit_shot_residual(const void *model, double t, const double *y, const double *yp, double *r);
+void circuit_shot_roots(const void *model, double t, const double *y, double *g);
+void circuit_shot_jacobian(const void *model, double t, double cj, const double *y, arrow *J);
 
 #endif

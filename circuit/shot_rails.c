@@ -4,13 +4,13 @@
 
 static const double TURN = 6.28318530717958648;
 
-const char *const shot_rail_level_names[] = { "constant", "skin", "diffusing", NULL };
+const char *const circuit_shot_rail_level_names[] = { "constant", "skin", "diffusing", NULL };
 
 #define RAILS(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_rails, member, unit, fallback, min, max, doc)
 
-const param shot_rails_params[] = {
+const param circuit_shot_rails_params[] = {
     PARAM_ENUM(
-        shot_rails, level, shot_rail_level_names, SHOT_RAILS_DIFFUSING,
+        shot_rails, level, circuit_shot_rail_level_names, SHOT_RAILS_DIFFUSING,
         "constant: gradients as given; skin: of the cross-section at one frequency; diffusing: of every slice by its "
         "own history"),
     RAILS(height, "m", REQUIRED, 1e-4, 10.0, "height of a rail, across the bore"),
@@ -46,14 +46,14 @@ const param shot_rails_params[] = {
 };
 
 /* f = 1/(4 t_r), t_r = spread of the firing times + mean rise time of the units that fire                 (C-6) */
-double shot_effective_frequency(const supply_list supplies[SUPPLY_KINDS])
+double circuit_shot_effective_frequency(const supply_list supplies[SUPPLY_KINDS])
 {
     double first = INFINITY, last = -INFINITY, rise = 0.0, count = 0.0;
     for (int s = 0; s < SUPPLY_KINDS; s++) {
-        const supply_kind *kind = supply_kinds[s];
+        const supply_kind *kind = circuit_supply_kinds[s];
         for (int k = 0; k < supplies[s].n; k++) {
             const void *p = (const char *)supplies[s].item + (size_t)k * kind->size;
-            const supply_common at = supply_common_of(p);
+            const supply_common at = circuit_supply_common_of(p);
             if (!isfinite(at.fire_at)) continue;
             first = fmin(first, at.fire_at);
             last = fmax(last, at.fire_at);
@@ -70,19 +70,19 @@ static double supplies_energy(const shot_config *c)
     double E = 0.0;
     for (int s = 0; s < SUPPLY_KINDS; s++) {
         for (int k = 0; k < c->supplies[s].n; k++) {
-            const void *p = (const char *)c->supplies[s].item + (size_t)k * supply_kinds[s]->size;
+            const void *p = (const char *)c->supplies[s].item + (size_t)k * circuit_supply_kinds[s]->size;
             double y[SUPPLY_UNKNOWNS];
             supply_scale scale;
-            supply_kinds[s]->start(p, y, &scale);
-            E += supply_common_of(p).count * scale.energy;
+            circuit_supply_kinds[s]->start(p, y, &scale);
+            E += circuit_supply_common_of(p).count * scale.energy;
         }
     }
     return E;
 }
 
-status rails_section(const shot_rails *rails, rail_section *out)
+status circuit_rails_section(const shot_rails *rails, rail_section *out)
 {
-    TRY(params_check(shot_rails_params, rails, "rails"));
+    TRY(base_params_check(circuit_shot_rails_params, rails, "rails"));
     const double warm = 1.0 + rails->resistivity_coefficient * (rails->temperature - 293.15);
     CHECK(warm > 0.0, STATUS_BAD_INPUT, "rails.temperature = %g K makes rails.resistivity negative",
           rails->temperature);
@@ -95,13 +95,13 @@ status rails_section(const shot_rails *rails, rail_section *out)
                            .resistivity = rails->resistivity * warm,
                            .cladding_resistivity = rails->cladding_resistivity,
                            .rails = rails->count };
-    return section_check(out);
+    return circuit_section_check(out);
 }
 
-status rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance)
+status circuit_rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance)
 {
     CHECK(f >= 0.0, STATUS_BAD_INPUT, "frequency %g Hz: must be 0 or more", f);
-    TRY(params_check(shot_rails_params, rails, "rails"));
+    TRY(base_params_check(circuit_shot_rails_params, rails, "rails"));
     if (rails->level == SHOT_RAILS_CONSTANT) {
         CHECK(!isnan(rails->inductance_gradient) && !isnan(rails->resistance_gradient), STATUS_BAD_INPUT,
               "rails.level constant needs rails.inductance_gradient [H/m] and rails.resistance_gradient [ohm/m]");
@@ -110,32 +110,33 @@ status rails_impedance(const shot_rails *rails, double f, double *inductance, do
         return status_ok();
     }
     rail_section section;
-    TRY(rails_section(rails, &section));
+    TRY(circuit_rails_section(rails, &section));
     if (isinf(f)) {
         *resistance = INFINITY;
-        return inductance_limit(&section, inductance);
+        return circuit_inductance_limit(&section, inductance);
     }
-    return inductance_at(&section, f, rails->fineness, inductance, resistance);
+    return circuit_inductance_at(&section, f, rails->fineness, inductance, resistance);
 }
 
-status rails_ladder(const shot_rails *rails, double f_top, ladder *out)
+status circuit_rails_ladder(const shot_rails *rails, double f_top, ladder *out)
 {
     *out = (ladder){ 0 };
-    if (rails->level != SHOT_RAILS_DIFFUSING) return rails_impedance(rails, f_top, &out->L_inf, &out->R_dc);
+    if (rails->level != SHOT_RAILS_DIFFUSING) return circuit_rails_impedance(rails, f_top, &out->L_inf, &out->R_dc);
     rail_section section;
-    TRY(rails_section(rails, &section));
+    TRY(circuit_rails_section(rails, &section));
     impedance z;
-    status st = inductance_response(&section, f_top, rails->fineness, &z);
-    if (st.code == STATUS_OK) st = ladder_fit(&z, TURN * f_top, rails->ladder_error, out);
-    impedance_free(&z);
+    status st = circuit_inductance_response(&section, f_top, rails->fineness, &z);
+    if (st.code == STATUS_OK) st = circuit_ladder_fit(&z, TURN * f_top, rails->ladder_error, out);
+    circuit_impedance_free(&z);
     return st;
 }
 
-/* No armature gets faster than sqrt(2 E/m + v0^2), so no slice of rail gets its current in less than the contact's length
+/* No armature gets faster than sqrt(2 E/m + v0^2), so no slice of rail gets its current in less than the contact's
+ * length
  * over that; nor does the bank change its current faster than a quarter of a sine (C-6) does.             (C-13) */
 static double band_top(const shot_config *c)
 {
-    const double f_pulse = shot_effective_frequency(c->supplies);
+    const double f_pulse = circuit_shot_effective_frequency(c->supplies);
     const double v0 = c->armature.velocity, v2 = v0 * v0 + 2.0 * supplies_energy(c) / c->armature.mass;
     const double f_contact = sqrt(v2) / (TURN * c->armature.contact_length);
     return fmax(f_contact, 10.0 * (isnan(f_pulse) ? 100.0 : f_pulse));
@@ -146,8 +147,8 @@ static status warming_fit(const shot_rails *rails, rails_load *out)
 {
     if (rails->slices == 0) return status_ok();
     rail_section section;
-    TRY(rails_section(rails, &section));
-    out->heat_capacity = rails->heat_capacity * section.rails * section_metal_area(&section);
+    TRY(circuit_rails_section(rails, &section));
+    out->heat_capacity = rails->heat_capacity * section.rails * circuit_section_metal_area(&section);
     out->coefficient =
         rails->resistivity_coefficient / (1.0 + rails->resistivity_coefficient * (rails->temperature - 293.15));
     return status_ok();
@@ -165,7 +166,7 @@ static void contact_fit(const shot_config *c, sliding_contact *out)
     out->resistivity = r->cladding > 0.0 ? r->cladding_resistivity : r->resistivity * warm;
 }
 
-status shot_rails_fit(const shot_config *c, rails_load *out)
+status circuit_shot_rails_fit(const shot_config *c, rails_load *out)
 {
     contact_fit(c, &out->contact);
     TRY(warming_fit(&c->rails, out));
@@ -175,6 +176,6 @@ status shot_rails_fit(const shot_config *c, rails_load *out)
     }
     const bool diffusing = c->rails.level == SHOT_RAILS_DIFFUSING;
     double f = diffusing ? c->rails.ladder_frequency : c->rails.frequency;
-    if (isnan(f)) f = diffusing ? band_top(c) : shot_effective_frequency(c->supplies);
-    return rails_ladder(&c->rails, isnan(f) ? 1000.0 : f, &out->ladder);
+    if (isnan(f)) f = diffusing ? band_top(c) : circuit_shot_effective_frequency(c->supplies);
+    return circuit_rails_ladder(&c->rails, isnan(f) ? 1000.0 : f, &out->ladder);
 }

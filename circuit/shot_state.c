@@ -4,25 +4,25 @@
 #include <assert.h>
 #include <math.h>
 
-double *shot_y(const shot *s)
+double *circuit_shot_y(const shot *s)
 {
-    return dae_y(s->solver);
+    return circuit_dae_y(s->solver);
 }
 
-double *shot_z(const shot *s)
+double *circuit_shot_z(const shot *s)
 {
-    return dae_y(s->solver) + s->model.start;
+    return circuit_dae_y(s->solver) + s->model.start;
 }
 
-shot_drive shot_drive_now(const shot *s)
+shot_drive circuit_shot_drive_now(const shot *s)
 {
-    return shot_drive_at(&s->model, s->t, shot_y(s));
+    return circuit_shot_drive_at(&s->model, s->t, circuit_shot_y(s));
 }
 
-shot_forces shot_forces_now(const shot *s)
+shot_forces circuit_shot_forces_now(const shot *s)
 {
-    const shot_drive d = shot_drive_now(s);
-    return shot_forces_at(&s->model, &d, shot_z(s));
+    const shot_drive d = circuit_shot_drive_now(s);
+    return circuit_shot_forces_at(&s->model, &d, circuit_shot_z(s));
 }
 
 static void stores_add(const shot *s, shot_ledger *l)
@@ -30,7 +30,7 @@ static void stores_add(const shot *s, shot_ledger *l)
     for (int k = 0; k < s->model.n; k++) {
         const supply_group *g = &s->model.groups[k];
         double e[STORE_PLACES] = { 0.0 };
-        g->kind->stored(g, shot_y(s) + g->first, e);
+        g->kind->stored(g, circuit_shot_y(s) + g->first, e);
         l->capacitors += g->n * e[STORE_CAPACITOR];
         l->coils += g->n * e[STORE_COIL];
         l->cables += g->n * e[STORE_CABLE];
@@ -38,14 +38,14 @@ static void stores_add(const shot *s, shot_ledger *l)
     }
 }
 
-shot_ledger shot_ledger_now(const shot *s)
+shot_ledger circuit_shot_ledger_now(const shot *s)
 {
-    const double *z = shot_z(s);
+    const double *z = circuit_shot_z(s);
     const shot_model *m = &s->model;
-    const shot_drive d = shot_drive_now(s);
+    const shot_drive d = circuit_shot_drive_now(s);
     shot_ledger l = { .start = s->start_energy, .supplied = z[Y_SUPPLIED] };
     stores_add(s, &l);
-    l.rails_field = shot_rails_field(m, &d, z);
+    l.rails_field = circuit_shot_rails_field(m, &d, z);
     l.kinetic = m->phase == SHOT_LEFT ? s->exit_kinetic : 0.5 * z[Y_MASS] * z[Y_V] * z[Y_V];
     l.coil_heat = z[Y_COIL];
     l.cable_heat = z[Y_CABLE];
@@ -73,16 +73,16 @@ shot_ledger shot_ledger_now(const shot *s)
 /* The rails' heat over x I^2, direct current's where there is none to see. */
 static double resistance_gradient(const shot *s, const shot_drive *d, double I)
 {
-    const double *z = shot_z(s), loss = z[Y_X] * I * I;
-    return loss > 0.0 ? shot_rails_heat(&s->model, d, z) / loss : s->model.rails.ladder.R_dc;
+    const double *z = circuit_shot_z(s), loss = z[Y_X] * I * I;
+    return loss > 0.0 ? circuit_shot_rails_heat(&s->model, d, z) / loss : s->model.rails.ladder.R_dc;
 }
 
-shot_state shot_now(const shot *s)
+shot_state circuit_shot_now(const shot *s)
 {
-    const double *z = shot_z(s);
+    const double *z = circuit_shot_z(s);
     const shot_model *m = &s->model;
-    const shot_drive d = shot_drive_now(s);
-    const shot_forces f = shot_forces_at(m, &d, z);
+    const shot_drive d = circuit_shot_drive_now(s);
+    const shot_forces f = circuit_shot_forces_at(m, &d, z);
     shot_state st = { .t = s->t, .x = z[Y_X], .v = z[Y_V], .current = f.I, .breech_voltage = z[Y_BREECH] };
     st.a = m->phase == SHOT_MOVING ? f.net / z[Y_MASS] : 0.0;
     st.shunt_current = f.shunt;
@@ -96,40 +96,40 @@ shot_state shot_now(const shot *s)
     st.mass = z[Y_MASS];
     st.phase = m->phase;
     st.muzzle_voltage = f.voltage;
-    st.inductance_gradient = rails_force_gradient(&m->rails, st.phase == SHOT_HELD ? 0.0 : st.v, f.I);
+    st.inductance_gradient = circuit_rails_force_gradient(&m->rails, st.phase == SHOT_HELD ? 0.0 : st.v, f.I);
     st.resistance_gradient = resistance_gradient(s, &d, f.I);
     st.rail_temperature = s->rail_temperature;
-    st.ledger = shot_ledger_now(s);
-    st.armature_temperature = shot_face_temperature(s, &f);
-    st.film_thickness = shot_film_thickness(s, &f, &st);
-    st.film_temperature = shot_film_temperature(s, &f, &st);
-    st.rail_behind_temperature = shot_rail_behind_temperature(s, &f, &st);
-    st.contact_spread = m->armature.contact_length / shot_crowding(m, &f, st.v);
+    st.ledger = circuit_shot_ledger_now(s);
+    st.armature_temperature = circuit_shot_face_temperature(s, &f);
+    st.film_thickness = circuit_shot_film_thickness(s, &f, &st);
+    st.film_temperature = circuit_shot_film_temperature(s, &f, &st);
+    st.rail_behind_temperature = circuit_shot_rail_behind_temperature(s, &f, &st);
+    st.contact_spread = m->armature.contact_length / circuit_shot_crowding(m, &f, st.v);
     return st;
 }
 
-int shot_module_count(const shot *s)
+int circuit_shot_module_count(const shot *s)
 {
     return s->model.n;
 }
 
-double shot_module_current(const shot *s, int group)
+double circuit_shot_module_current(const shot *s, int group)
 {
     assert(group >= 0 && group < s->model.n);
-    return shot_y(s)[s->model.groups[group].first];
+    return circuit_shot_y(s)[s->model.groups[group].first];
 }
 
-double shot_module_voltage(const shot *s, int group)
+double circuit_shot_module_voltage(const shot *s, int group)
 {
     assert(group >= 0 && group < s->model.n);
     const supply_group *g = &s->model.groups[group];
-    return g->kind->voltage(g, shot_y(s) + g->first);
+    return g->kind->voltage(g, circuit_shot_y(s) + g->first);
 }
 
-shot_summary shot_result(const shot *s)
+shot_summary circuit_shot_result(const shot *s)
 {
     shot_summary r = s->result;
-    r.energy_error = shot_ledger_now(s).energy_error;
-    r.action = s->model.phase == SHOT_LEFT ? s->exit_action : shot_z(s)[Y_ACTION];
+    r.energy_error = circuit_shot_ledger_now(s).energy_error;
+    r.action = s->model.phase == SHOT_LEFT ? s->exit_action : circuit_shot_z(s)[Y_ACTION];
     return r;
 }

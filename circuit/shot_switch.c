@@ -4,23 +4,23 @@
 #include <assert.h>
 #include <math.h>
 
-void shot_announce(shot *s, shot_event_kind kind, int index)
+void circuit_shot_announce(shot *s, shot_event_kind kind, int index)
 {
     assert(s->tail < s->capacity);
     s->queue[s->tail++] = (pending){ kind, index };
 }
 
-void shot_switched(shot *s, shot_event_kind kind, int index)
+void circuit_shot_switched(shot *s, shot_event_kind kind, int index)
 {
     s->switchings++;
     s->restart = true;
-    shot_announce(s, kind, index);
+    circuit_shot_announce(s, kind, index);
 }
 
-bool shot_any_current(const shot *s)
+bool circuit_shot_any_current(const shot *s)
 {
     for (int k = 0; k < s->model.n; k++) {
-        if (supply_conducts(&s->model.groups[k])) return true;
+        if (circuit_supply_conducts(&s->model.groups[k])) return true;
     }
     return false;
 }
@@ -30,7 +30,7 @@ static bool may_fire(const shot_model *m, const supply_group *g)
     return g->gate == GATE_UNFIRED && g->feed < m->reached && !isnan(g->at.fire_at);
 }
 
-double shot_next_firing(const shot *s)
+double circuit_shot_next_firing(const shot *s)
 {
     double t = INFINITY;
     for (int k = 0; k < s->model.n; k++) {
@@ -45,29 +45,29 @@ double shot_next_firing(const shot *s)
 static void group_block(shot *s, int k)
 {
     supply_group *g = &s->model.groups[k];
-    shot_y(s)[g->first] = 0.0;
+    circuit_shot_y(s)[g->first] = 0.0;
     const bool again = g->pulses-- > 0;
     g->gate = again ? GATE_WAITING : GATE_BLOCKED;
-    shot_switched(s, again ? SHOT_WAITING : SHOT_BLOCKED, k);
+    circuit_shot_switched(s, again ? SHOT_WAITING : SHOT_BLOCKED, k);
 }
 
-/* Groups that are due try to conduct together; whichever would carry a negative current then waits.  Taking one away only
- * raises the rails' voltage, so the loop ends after at most n rounds with the one solution. */
+/* Groups that are due try to conduct together; whichever would carry a negative current then waits.  Taking one away
+ * only raises the rails' voltage, so the loop ends after at most n rounds with the one solution. */
 static void groups_try(shot *s, const bool *before)
 {
     shot_model *m = &s->model;
-    double *z = shot_z(s), rates[SUPPLY_UNKNOWNS];
+    double *z = circuit_shot_z(s), rates[SUPPLY_UNKNOWNS];
     for (bool changed = true; changed;) {
         changed = false;
-        const shot_drive d = shot_drive_now(s);
-        shot_voltages(m, &d, z);
+        const shot_drive d = circuit_shot_drive_now(s);
+        circuit_shot_voltages(m, &d, z);
         for (int k = 0; k < m->n; k++) {
             supply_group *g = &m->groups[k];
             const bool fresh = g->gate == GATE_ON && !before[k];
             if (!fresh || s->forced[k] || g->reverses || g->kind->source) continue;
             supply_flow f;
-            supply_rates(g, s->t, shot_y(s) + g->first, 0.0, rates, &f);
-            if (f.push - f.pull * z[shot_feed_unknown(g->feed)] > 1e-9 * fabs(f.push)) continue;
+            circuit_supply_rates(g, s->t, circuit_shot_y(s) + g->first, 0.0, rates, &f);
+            if (f.push - f.pull * z[circuit_shot_feed_unknown(g->feed)] > 1e-9 * fabs(f.push)) continue;
             g->gate = GATE_WAITING;
             changed = true;
         }
@@ -89,25 +89,26 @@ static void groups_fire(shot *s)
     if (some) groups_try(s, before);
     for (int k = 0; k < m->n; k++) {
         const supply_gate now = m->groups[k].gate;
-        if (now == GATE_ON && !before[k]) shot_switched(s, SHOT_FIRED, k);
-        if (now == GATE_WAITING && !waiting[k]) shot_switched(s, SHOT_WAITING, k);
+        if (now == GATE_ON && !before[k]) circuit_shot_switched(s, SHOT_FIRED, k);
+        if (now == GATE_WAITING && !waiting[k]) circuit_shot_switched(s, SHOT_WAITING, k);
         s->forced[k] = false;
     }
 }
 
-/* Ends of stages and of currents that are due now, whether a root was reported for them or for a twin at the same instant. */
+/* Ends of stages and of currents that are due now, whether a root was reported for them or for a twin at the same
+ * instant. */
 static void groups_settle(shot *s, const int *found)
 {
     for (int k = 0; k < s->model.n; k++) {
         const int *root = found ? found + ROOT_GROUPS + 2 * k : NULL;
         supply_group *g = &s->model.groups[k];
-        double *y = shot_y(s) + g->first;
+        double *y = circuit_shot_y(s) + g->first;
         if (g->gate == GATE_WAITING && root && root[1]) s->forced[k] = true;
-        const bool ends = y[0] <= 1e-12 * s->scale[g->first] && dae_yp(s->solver)[g->first] < 0.0;
-        if (supply_conducts(g) && !g->reverses && ((root && root[1]) || ends)) group_block(s, k);
+        const bool ends = y[0] <= 1e-12 * s->scale[g->first] && circuit_dae_yp(s->solver)[g->first] < 0.0;
+        if (circuit_supply_conducts(g) && !g->reverses && ((root && root[1]) || ends)) group_block(s, k);
         if (g->gate == GATE_BLOCKED || !g->kind->next) continue;
-        const bool over = supply_stage_root(g, s->t, y) <= 1e-12;
-        if ((root && root[0]) || over) shot_switched(s, g->kind->next(g, y), k);
+        const bool over = circuit_supply_stage_root(g, s->t, y) <= 1e-12;
+        if ((root && root[0]) || over) circuit_shot_switched(s, g->kind->next(g, y), k);
     }
 }
 
@@ -115,8 +116,8 @@ static void groups_settle(shot *s, const int *found)
 
 static void armature_leave(shot *s)
 {
-    double *z = shot_z(s);
-    const shot_forces f = shot_forces_now(s);
+    double *z = circuit_shot_z(s);
+    const shot_forces f = circuit_shot_forces_now(s);
     z[Y_X] = s->model.barrel.length;
     s->exit_kinetic = 0.5 * z[Y_MASS] * z[Y_V] * z[Y_V];
     s->exit_action = z[Y_ACTION];
@@ -127,61 +128,61 @@ static void armature_leave(shot *s)
     s->result.efficiency = spent > 0.0 ? s->exit_kinetic / spent : 0.0;
     s->result.exit_current = f.I;
     s->model.phase = SHOT_LEFT;
-    shot_switched(s, SHOT_MUZZLE, -1);
+    circuit_shot_switched(s, SHOT_MUZZLE, -1);
 }
 
 static void sites_pass(shot *s, bool root)
 {
     shot_model *m = &s->model;
-    const double x = shot_z(s)[Y_X];
+    const double x = circuit_shot_z(s)[Y_X];
     while (s->passed < s->n_sites &&
            (s->sites[s->passed].position <= x || (root && m->next_site == s->sites[s->passed].position)))
-        shot_announce(s, SHOT_SITE, s->sites[s->passed++].index);
+        circuit_shot_announce(s, SHOT_SITE, s->sites[s->passed++].index);
     m->next_site = s->passed < s->n_sites ? s->sites[s->passed].position : INFINITY;
 }
 
 static void feeds_pass(shot *s, bool root)
 {
     shot_model *m = &s->model;
-    double *x = &shot_z(s)[Y_X];
+    double *x = &circuit_shot_z(s)[Y_X];
     for (; m->reached < m->feeds && (root || m->feed[m->reached] <= *x); root = false) {
         *x = fmax(*x, m->feed[m->reached++]);
         s->restart = true;
     }
 }
 
-void shot_come_to_rest(shot *s)
+void circuit_shot_come_to_rest(shot *s)
 {
     shot_model *m = &s->model;
-    shot_z(s)[Y_V] = 0.0;
+    circuit_shot_z(s)[Y_V] = 0.0;
     s->restart = true;
-    const shot_forces f = shot_forces_now(s);
-    if (f.force > shot_hold_force(m, f.I - f.shunt)) return;
+    const shot_forces f = circuit_shot_forces_now(s);
+    if (f.force > circuit_shot_hold_force(m, f.I - f.shunt)) return;
     m->melted = false;
     m->phase = SHOT_HELD;
-    shot_switched(s, SHOT_STOPPED, -1);
+    circuit_shot_switched(s, SHOT_STOPPED, -1);
 }
 
 static void face_melts(shot *s, bool root)
 {
     shot_model *m = &s->model;
     if (m->armature.friction_law != SHOT_FRICTION_FILM || m->melted) return;
-    const shot_forces f = shot_forces_now(s);
-    if (!root && shot_melting(m, &f, shot_z(s)) < 0.0) return;
+    const shot_forces f = circuit_shot_forces_now(s);
+    if (!root && circuit_shot_melting(m, &f, circuit_shot_z(s)) < 0.0) return;
     m->melted = true;
-    if (isnan(s->limits.melt_position)) s->limits.melt_position = shot_z(s)[Y_X];
-    shot_switched(s, SHOT_MELTED, -1);
+    if (isnan(s->limits.melt_position)) s->limits.melt_position = circuit_shot_z(s)[Y_X];
+    circuit_shot_switched(s, SHOT_MELTED, -1);
 }
 
 static void armature_settle(shot *s, const int *found)
 {
     shot_model *m = &s->model;
-    const double *z = shot_z(s), end = m->barrel.length * (1.0 - 1e-14);
+    const double *z = circuit_shot_z(s), end = m->barrel.length * (1.0 - 1e-14);
     if (m->phase == SHOT_HELD && found && found[ROOT_MOTION]) {
         m->phase = SHOT_MOVING;
         s->worn_until = s->t;
         s->wear_rate = 0.0;
-        shot_switched(s, SHOT_RELEASED, -1);
+        circuit_shot_switched(s, SHOT_RELEASED, -1);
     }
     if (m->phase != SHOT_MOVING) return;
     face_melts(s, found && found[ROOT_MELT]);
@@ -191,11 +192,11 @@ static void armature_settle(shot *s, const int *found)
         armature_leave(s);
     } else if ((found && found[ROOT_MOTION]) || z[Y_V] < 0.0) {
         s->switchings++;
-        shot_come_to_rest(s);
+        circuit_shot_come_to_rest(s);
     }
 }
 
-void shot_settle(shot *s, const int *found)
+void circuit_shot_settle(shot *s, const int *found)
 {
     groups_settle(s, found);
     armature_settle(s, found);

@@ -4,6 +4,7 @@
 #include "coupling/case/material_file.h"
 #include "coupling/host/stop.h"
 #include "coupling/host/table.h"
+#include "coupling/host/version.h"
 #include "coupling/report/report.h"
 #include "coupling/run/crew.h"
 #include "coupling/run/ranks.h"
@@ -50,20 +51,20 @@ static int run_report(const options *o);
 static const command commands[] = {
     { "shot", "CASE", "the electromechanical shot alone",
       "Needs the sections bank (or another supply), rails, barrel and armature.  Writes the shot's history.", run_case,
-      true, CASE_FOR_SHOT, RUN_SHOT, command_shot },
+      true, CASE_FOR_SHOT, RUN_SHOT, study_command_shot },
     { "scene", "CASE", "one embedded impact at a given velocity",
       "Needs rail, projectile, particle and scene, with scene.velocity and particle.radius.", run_case, true,
-      CASE_FOR_SCENE, RUN_SCENE, command_scene },
+      CASE_FOR_SCENE, RUN_SCENE, study_command_scene },
     { "onset", "CASE", "the main job: shot and sites, where gouging begins",
       "Runs the shot, then as many impact scenes as the threshold velocity needs (study.max_scenes at most).", run_case,
-      true, CASE_FOR_ONSET, RUN_ONSET, command_onset },
+      true, CASE_FOR_ONSET, RUN_ONSET, study_command_onset },
     { "compare", "CASE", "the same for several rail surfaces, ranked",
       "As onset, for the case as it is and for each of its treatments; study.max_scenes holds for each surface.",
-      run_case, true, CASE_FOR_ONSET | CASE_FOR_COMPARE, RUN_COMPARE, command_compare },
+      run_case, true, CASE_FOR_ONSET | CASE_FOR_COMPARE, RUN_COMPARE, study_command_compare },
     { "inductance", "CASE", "L', R' of a rail cross-section, over frequency",
       "Needs the section rails.  Direct current, 1 Hz to 100 kHz, the perfect conductor; the surface at "
       "rails.frequency.",
-      run_case, true, CASE_FOR_INDUCTANCE, RUN_INDUCTANCE, command_inductance },
+      run_case, true, CASE_FOR_INDUCTANCE, RUN_INDUCTANCE, study_command_inductance },
     { "check", "CASE", "read and validate only; memory and time estimate",
       "Writes nothing.  Checks the case for every command whose sections it has.", run_check, true, 0, RUN_KINDS,
       NULL },
@@ -139,12 +140,12 @@ static int complain(status s)
 static status read_case(const options *o, unsigned needs, breech_case **c)
 {
     material_places at;
-    material_places_find(&at);
+    case_material_places_find(&at);
     const case_options how = { .material_dirs = at.dir, .n_material_dirs = at.n, .needs = needs };
     char *errors = NULL;
     status s = case_read(o->subject, o->sets, o->n_sets, &how, c, &errors);
     if (s.code == STATUS_OK) {
-        s = command_possible(*c, needs);
+        s = study_command_possible(*c, needs);
         if (s.code != STATUS_OK) case_free(*c);
     }
     if (errors)
@@ -171,19 +172,19 @@ static status write_results(const options *o, session *s, command_result *r, sta
     summary->instruction_set = mpm_instruction_set();
     summary->status = status_of(work);
     if (work.code == STATUS_STOPPED)
-        snprintf(error, sizeof error, "%s: %s", stop_reason(), work.text);
+        snprintf(error, sizeof error, "%s: %s", host_stop_reason(), work.text);
     else
         snprintf(error, sizeof error, "%s", work.text);
     summary->error = work.code == STATUS_OK ? NULL : error;
     summary->warnings = s->warnings;
-    TRY(history_flush(s->history));
-    const status written = summary_write(s->dir.path, summary);
-    progress_close(&s->progress);
+    TRY(output_history_flush(s->history));
+    const status written = output_summary_write(s->dir.path, summary);
+    host_progress_close(&s->progress);
     if (!o->quiet) {
         fputc('\n', stdout);
-        summary_print(summary, stdout);
+        output_summary_print(summary, stdout);
         fputc('\n', stdout);
-        timing_print(&s->timing, stdout);
+        host_timing_print(&s->timing, stdout);
     }
     return written;
 }
@@ -191,7 +192,7 @@ static status write_results(const options *o, session *s, command_result *r, sta
 static void say_where(const options *o, const session *s, status work)
 {
     if (work.code == STATUS_STOPPED)
-        fprintf(stderr, "breech: stopped (%s); --resume goes on: breech %s %s -o %s --resume\n", stop_reason(),
+        fprintf(stderr, "breech: stopped (%s); --resume goes on: breech %s %s -o %s --resume\n", host_stop_reason(),
                 o->command->name, o->subject, s->dir.path);
     else if (!o->quiet)
         printf("\nresults: %s\n", s->dir.path);
@@ -201,15 +202,15 @@ static int carry_out(const options *o, session *s)
 {
     command_result result;
     memset(&result, 0, sizeof result);
-    stop_install(o->max_walltime);
+    host_stop_install(o->max_walltime);
     status work = o->command->work(s, &result);
     const status written = write_results(o, s, &result, work);
     char path[OUTDIR_PATH_SIZE];
     snprintf(path, sizeof path, "%s", s->dir.path);
     const bool report = s->c->output.report && written.code == STATUS_OK && work.code == STATUS_OK;
     say_where(o, s, work);
-    const status closed = session_close(s, work.code == STATUS_OK && written.code == STATUS_OK);
-    command_free(&result); /* scenes of others may be made of its cases until then */
+    const status closed = run_session_close(s, work.code == STATUS_OK && written.code == STATUS_OK);
+    study_command_free(&result); /* scenes of others may be made of its cases until then */
     if (report) {
         const status drawn = report_write(path);
         if (drawn.code != STATUS_OK) fprintf(stderr, "breech: no report: %s\n", drawn.text);
@@ -231,8 +232,8 @@ static int run_case(const options *o)
                                   .lending = o->lending,
                                   .progress_to = stderr,
                                   .quiet = o->quiet,
-                                  .stop = stop_requested };
-    const status opened = session_open(c, &how, &s);
+                                  .stop = host_stop_requested };
+    const status opened = run_session_open(c, &how, &s);
     int code;
     if (opened.code == STATUS_OK && s.dir.state != OUTDIR_FINISHED) {
         if (!o->quiet && c->warnings[0]) fputs(c->warnings, stderr);
@@ -240,7 +241,7 @@ static int run_case(const options *o)
     } else {
         if (opened.code == STATUS_OK && !o->quiet) printf("%s: finished already\n", s.dir.path);
         code = complain(opened);
-        session_close(&s, false);
+        run_session_close(&s, false);
     }
     case_free(c);
     return code;
@@ -267,19 +268,19 @@ static status print_check(const breech_case *c, int threads)
     scene_estimate e[CHECK_MAX_ESTIMATES];
     int n = 0;
     table *t;
-    TRY(command_check(c, threads, e, &n));
+    TRY(study_command_check(c, threads, e, &n));
     printf("%s: %s\n", c->path, c->title[0] ? c->title : c->name);
     fputs(c->warnings, stdout);
-    TRY(table_create("scene|points|memory [GB]|steps|time, estimated", &t));
+    TRY(host_table_create("scene|points|memory [GB]|steps|time, estimated", &t));
     for (int i = 0; i < n; i++) {
         const mpm_needs *at = &e[i].needs;
         char time[2][40];
-        for (int k = 0; k < 2; k++) duration_text(e[i].seconds[k], time[k], sizeof time[k]);
-        table_row(t, "%s|%zu .. %zu|%.2f .. %.2f|%.0f|%s .. %s", e[i].what, at->particles[0], at->particles[1],
-                  1e-9 * (double)at->bytes[0], 1e-9 * (double)at->bytes[1], e[i].steps, time[0], time[1]);
+        for (int k = 0; k < 2; k++) host_duration_text(e[i].seconds[k], time[k], sizeof time[k]);
+        host_table_row(t, "%s|%zu .. %zu|%.2f .. %.2f|%.0f|%s .. %s", e[i].what, at->particles[0], at->particles[1],
+                       1e-9 * (double)at->bytes[0], 1e-9 * (double)at->bytes[1], e[i].steps, time[0], time[1]);
     }
-    if (n > 0) table_print(t, stdout);
-    table_free(t);
+    if (n > 0) host_table_print(t, stdout);
+    host_table_free(t);
     if (c->sites.n > 0) printf("onset: %d sites, at most %d scenes\n", c->sites.n, c->study.max_scenes);
     return status_ok();
 }
@@ -308,7 +309,7 @@ static void print_sheet(const material_sheet *sheet)
         const material_constant *k = &sheet->constant[i];
         const double value = *(const double *)(const void *)((const char *)&sheet->material + k->constant->offset);
         char text[60];
-        quantity_text(value, k->constant->unit, text, sizeof text);
+        host_quantity_text(value, k->constant->unit, text, sizeof text);
         printf("  %-22s %-16s %s%s\n", k->constant->key, text, k->weak ? "[weak] " : "", k->source);
         if (k->note) printf("  %-22s %-16s (%s)\n", "", "", k->note);
     }
@@ -319,10 +320,10 @@ static int print_names(const material_places *at)
     for (int d = 0; d < at->n; d++) {
         char **names;
         int n;
-        const status s = material_names(at->dir[d], &names, &n);
+        const status s = case_material_names(at->dir[d], &names, &n);
         if (s.code != STATUS_OK) return complain(s);
         for (int i = 0; i < n; i++) printf("%-20s %s\n", names[i], at->dir[d]);
-        material_names_free(names, n);
+        case_material_names_free(names, n);
     }
     return EXIT_DONE;
 }
@@ -332,14 +333,14 @@ static int run_materials(const options *o)
     material_places at;
     material_sheet sheet;
     char *errors = NULL;
-    material_places_find(&at);
+    case_material_places_find(&at);
     if (!o->subject) return print_names(&at);
-    const status s = material_sheet_open(o->subject, at.dir, at.n, &sheet, &errors);
+    const status s = case_material_sheet_open(o->subject, at.dir, at.n, &sheet, &errors);
     if (errors) fputs(errors, stderr);
     free(errors);
     if (s.code != STATUS_OK) return complain(s);
     print_sheet(&sheet);
-    material_sheet_free(&sheet);
+    case_material_sheet_free(&sheet);
     return EXIT_DONE;
 }
 
@@ -468,7 +469,7 @@ static int answer(int argc, char **argv)
         const char *name = i + 1 < argc ? argv[i + 1] : i > 1 ? argv[1] : NULL;
         if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) return help(name);
         if (strcmp(argv[i], "--version") == 0) {
-            printf("breech %s, instruction set %s\n", breech_version(), mpm_instruction_set());
+            printf("breech %s, instruction set %s\n", host_version(), mpm_instruction_set());
             return EXIT_DONE;
         }
         if (strcmp(argv[i], "--keys") == 0) {
@@ -490,7 +491,7 @@ static void wait_passively(char **argv)
 /* All of the machine, or of what the launcher has bound this process to; several processes on one machine share it. */
 static int default_threads(void)
 {
-    const int mine = omp_get_num_procs(), all = (int)sysconf(_SC_NPROCESSORS_ONLN), here = ranks_on_machine();
+    const int mine = omp_get_num_procs(), all = (int)sysconf(_SC_NPROCESSORS_ONLN), here = run_ranks_on_machine();
     if (getenv("OMP_NUM_THREADS") || mine < all || here == 1) return omp_get_max_threads();
     return mine > here ? mine / here : 1;
 }
@@ -506,7 +507,7 @@ static int lead(int argc, char **argv, int threads, lending *l)
     options o = { .threads = threads, .lending = l, .max_walltime = INFINITY };
     const status s = parse(argc, argv, &o);
     if (s.code != STATUS_OK) return complain(s);
-    lending_own(l, o.threads);
+    run_lending_own(l, o.threads);
     return o.command->run(&o);
 }
 
@@ -515,28 +516,28 @@ static int follow(int argc, char **argv, int threads, lending *l)
 {
     options o = { .threads = threads };
     (void)parse(argc, argv, &o);
-    lending_own(l, o.threads);
-    crew_serve(o.threads, l);
+    run_lending_own(l, o.threads);
+    run_crew_serve(o.threads, l);
     return EXIT_DONE;
 }
 
 int main(int argc, char **argv)
 {
     wait_passively(argv);
-    status s = ranks_start();
+    status s = run_ranks_start();
     if (s.code != STATUS_OK) return complain(s);
-    const int threads = default_threads(); /* before lending_open, which unbinds */
+    const int threads = default_threads(); /* before run_lending_open, which unbinds */
     lending *l;
-    s = lending_open(threads, &l);
+    s = run_lending_open(threads, &l);
     if (s.code != STATUS_OK) return complain(s);
     int code;
-    if (ranks_number() == 0) {
+    if (run_ranks_number() == 0) {
         code = lead(argc, argv, threads, l);
-        crew_dismiss();
+        run_crew_dismiss();
     } else {
         code = follow(argc, argv, threads, l);
     }
-    lending_close(l);
-    ranks_finish();
+    run_lending_close(l);
+    run_ranks_finish();
     return code;
 }

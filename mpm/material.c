@@ -2,14 +2,14 @@
 
 #include <stdio.h>
 
-/* Everything is OPTIONAL but the name: a file may leave out what its author does not know, and material_check refuses
- * the study that needs it.  The ranges are those of metals with room to spare: they catch a wrong unit or a slip of the
- * decimal point, not a poor value. */
+/* Everything is OPTIONAL but the name: a file may leave out what its author does not know, and mpm_material_check
+ * refuses the study that needs it.  The ranges are those of metals with room to spare: they catch a wrong unit or a
+ * slip of the decimal point, not a poor value. */
 #define NUMBER(member, unit, min, max, doc) PARAM_DOUBLE(material, member, unit, OPTIONAL, min, max, doc)
 
 static const char *const strength_names[] = { "johnson_cook", "ptw", NULL };
 
-const param material_params[] = {
+const param mpm_material_params[] = {
     PARAM_STRING(material, name, NULL, "name of the material, the same as its file's"),
     PARAM_ENUM(material, strength, strength_names, STRENGTH_JOHNSON_COOK,
                "flow stress: Johnson-Cook (M-1) or Preston-Tonks-Wallace (M-23)"),
@@ -118,12 +118,12 @@ static const needed needed_constants[] = {
 
 static const char *key_of(size_t offset)
 {
-    for (const param *p = material_params; p->key; p++)
+    for (const param *p = mpm_material_params; p->key; p++)
         if (p->offset == offset) return p->key;
     return "?";
 }
 
-status material_check(const material *m, unsigned needs)
+status mpm_material_check(const material *m, unsigned needs)
 {
     char missing[400] = "";
     size_t length = 0;
@@ -137,7 +137,7 @@ status material_check(const material *m, unsigned needs)
             (size_t)snprintf(missing + length, sizeof missing - length, "%s%s", length ? ", " : "", key_of(c->offset));
     }
     CHECK(length == 0, STATUS_BAD_INPUT, "material %.40s lacks what this study needs: %s", m->name, missing);
-    TRY(params_check(material_params, m, m->name));
+    TRY(base_params_check(mpm_material_params, m, m->name));
     const unsigned hot = MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE | MATERIAL_FOR_MELTING;
     CHECK(!(needs & hot) || m->melting_temperature > m->reference_temperature, STATUS_BAD_INPUT,
           "material %.40s: melting_temperature = %g K must lie above reference_temperature = %g K", m->name,
@@ -147,31 +147,31 @@ status material_check(const material *m, unsigned needs)
 
 /* ---- derived ---- */
 
-double material_shear_modulus(const material *m)
+double mpm_material_shear_modulus(const material *m)
 {
     return m->youngs_modulus / (2.0 * (1.0 + m->poisson));
 }
 
-double material_bulk_modulus(const material *m)
+double mpm_material_bulk_modulus(const material *m)
 {
     return m->density * m->sound_speed * m->sound_speed;
 }
 
-double material_longitudinal_speed(const material *m)
+double mpm_material_longitudinal_speed(const material *m)
 {
-    return sqrt((material_bulk_modulus(m) + 4.0 / 3.0 * material_shear_modulus(m)) / m->density);
+    return sqrt((mpm_material_bulk_modulus(m) + 4.0 / 3.0 * mpm_material_shear_modulus(m)) / m->density);
 }
 
-double material_shear_speed(const material *m)
+double mpm_material_shear_speed(const material *m)
 {
-    return sqrt(material_shear_modulus(m) / m->density);
+    return sqrt(mpm_material_shear_modulus(m) / m->density);
 }
 
 /* With the flyer's rho_f, c_f, s_f, the target's rho_t, c_t, s_t and the target's particle velocity u,
  *   p = rho_t (c_t + s_t u) u = rho_f (c_f + s_f (v - u)) (v - u)                         (M-22) [Pa]
  * is a u^2 + b u - d = 0; at u = 0 its left side is -d < 0 and at u = v it is the target's p > 0, so one root lies
  * between; the form below finds it without cancellation for either sign of a. */
-status impedance_match(const material *flyer, const material *target, double velocity, double *p, double *u_target)
+status mpm_impedance_match(const material *flyer, const material *target, double velocity, double *p, double *u_target)
 {
     CHECK(velocity >= 0.0 && velocity <= 1e5, STATUS_BAD_INPUT, "impact velocity = %g m/s: must be 0 .. 1e5 m/s",
           velocity);

@@ -1,5 +1,5 @@
 /* One material's constants, as read from cases/materials/<name>.yaml.  NAN = not known: a feature that needs the
- * constant refuses the material by name (material_check), it never assumes zero.
+ * constant refuses the material by name (mpm_material_check), it never assumes zero.
  * To add a constant: a member here, one line in material.c's table. */
 #ifndef BREECH_MPM_MATERIAL_H
 #define BREECH_MPM_MATERIAL_H
@@ -37,7 +37,7 @@ typedef struct {
     double resistivity_slope;                                     /* its temperature coefficient [1/K] */
 } material;
 
-extern const param material_params[];
+extern const param mpm_material_params[];
 
 typedef enum {
     MATERIAL_FOR_SCENE = 1,   /* density, elastic, equation of state, its own law of strength, specific heat */
@@ -48,18 +48,19 @@ typedef enum {
 } material_need;
 
 /* STATUS_BAD_INPUT naming the material and every missing constant, unless it has all that `needs` (a sum) asks for. */
-status material_check(const material *m, unsigned needs);
+status mpm_material_check(const material *m, unsigned needs);
 
 /* Elastic constants of the solid.  Bulk modulus K = rho0 c0^2 from the equation of state (what the pressure law (M-3)
- * uses), shear modulus G = E / (2 (1 + nu)) from E and nu; so E / (3 (1 - 2 nu)) is not used anywhere and differs from K by
- * some per cent.  Speeds: longitudinal sqrt((K + 4/3 G) / rho0), shear sqrt(G / rho0).  NAN where a constant is. */
-double material_bulk_modulus(const material *m);       /* [Pa] */
-double material_shear_modulus(const material *m);      /* [Pa] */
-double material_longitudinal_speed(const material *m); /* [m/s] */
-double material_shear_speed(const material *m);        /* [m/s] */
+ * uses), shear modulus G = E / (2 (1 + nu)) from E and nu; so E / (3 (1 - 2 nu)) is not used anywhere and differs from
+ * K by some per cent.  Speeds: longitudinal sqrt((K + 4/3 G) / rho0), shear sqrt(G / rho0).  NAN where a constant is.
+ */
+double mpm_material_bulk_modulus(const material *m);       /* [Pa] */
+double mpm_material_shear_modulus(const material *m);      /* [Pa] */
+double mpm_material_longitudinal_speed(const material *m); /* [m/s] */
+double mpm_material_shear_speed(const material *m);        /* [m/s] */
 
 /* Hydrodynamic impedance match of a planar impact at `velocity` [m/s]; p [Pa], u_target = the target's particle
  * velocity [m/s].  Hugoniot p = rho0 (c0 + s u) u of each. */
-status impedance_match(const material *flyer, const material *target, double velocity, double *p, double *u_target);
+status mpm_impedance_match(const material *flyer, const material *target, double velocity, double *p, double *u_target);
 
 #endif

@@ -80,7 +80,7 @@ static status insert_point(void *user, int body, const build_point *p)
 {
     double q[BLOCK_DOUBLES];
     mpm_point_of(user, body, p, q);
-    return store_place(user, body, q);
+    return mpm_store_place(user, body, q);
 }
 
 static status make_laws(mpm *m)
@@ -89,7 +89,7 @@ static status make_laws(mpm *m)
     for (int i = 0; i < s->bodies; i++) {
         m->materials[i] = *s->body[i].material;
         s->body[i].material = &m->materials[i];
-        TRY(law_make(&s->body[i], s, &m->laws[i]));
+        TRY(mpm_law_make(&s->body[i], s, &m->laws[i]));
         if (s->body[i].field + 1 > m->fields) m->fields = s->body[i].field + 1;
     }
     return status_ok();
@@ -98,14 +98,14 @@ static status make_laws(mpm *m)
 static status fill(mpm *m)
 {
     TRY(make_laws(m));
-    TRY(grids_make(&m->scene, &m->grids));
-    TRY(store_make(m, START_BLOCKS));
+    TRY(mpm_grids_make(&m->scene, &m->grids));
+    TRY(mpm_store_make(m, START_BLOCKS));
     m->histogram = malloc(mpm_histogram_bytes());
     CHECK(m->histogram, STATUS_MEMORY, "no memory for the percentiles");
     const build_sink sink = { insert_point, m };
     for (int i = 0; i < m->scene.bodies; i++)
-        TRY(build_body(&m->scene, i, &m->laws[i], &m->grids, build_everywhere, &sink));
-    return store_settle(m);
+        TRY(mpm_build_body(&m->scene, i, &m->laws[i], &m->grids, mpm_build_everywhere, &sink));
+    return mpm_store_settle(m);
 }
 
 /* Fastest crossing of a cell at the start [1/s] */
@@ -164,11 +164,11 @@ status mpm_create(const mpm_scene *scene, int threads, mpm **out)
     memset(m, 0, sizeof *m);
     m->scene = *scene;
     mpm_set_threads(m, threads);
-    m->kernel = kernels_choose(scene->instruction_set);
+    m->kernel = mpm_kernels_choose(scene->instruction_set);
     status s =
         m->kernel
             ? fill(m)
-            : status_error(
+            : base_status_error(
                   STATUS_BAD_INPUT,
                   "instruction set `%s` is unknown or this machine lacks it: use x86-64-v4, x86-64-v3 or portable",
                   scene->instruction_set);
@@ -177,8 +177,8 @@ status mpm_create(const mpm_scene *scene, int threads, mpm **out)
         return s;
     }
     start_books(m);
-    m->scene_key = image_scene_key(m);
-    m->zone_start = zone_of(m);
+    m->scene_key = mpm_scene_key(m);
+    m->zone_start = mpm_zone_of(m);
     m->zone_length = m->scene.axis[0].fine_hi - m->scene.axis[0].fine_lo;
     m->wake.until = m->scene.axis[0].lo;
     m->dense = dense_particles(m);
@@ -189,10 +189,10 @@ status mpm_create(const mpm_scene *scene, int threads, mpm **out)
 void mpm_free(mpm *m)
 {
     if (!m) return;
-    store_free(m);
+    mpm_store_free(m);
     free(m->histogram);
     free(m->wake.point);
-    grids_free(&m->grids);
+    mpm_grids_free(&m->grids);
     free(m);
 }
 
@@ -213,16 +213,16 @@ static void phase_nodes(mpm *m)
 #pragma omp for schedule(dynamic, 8)
         for (int i = 0; i < m->seam_count; i++) {
             m->kernel->gather(m, m->seam_list[i]);
-            shares_lay_out(m, m->seam_list[i]);
+            mpm_substep_restore(m, m->seam_list[i]);
         }
 #pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < m->seam_count; i++) seams_receive(m, m->seam_list[i]);
+        for (int i = 0; i < m->seam_count; i++) mpm_interface_add_sums(m, m->seam_list[i]);
 #pragma omp for schedule(dynamic, 16)
         for (int i = 0; i < m->site_count; i++) m->kernel->nodes(m, m->site_list[i]);
 #pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < m->seam_count; i++) seams_follow(m, m->seam_list[i]);
+        for (int i = 0; i < m->seam_count; i++) mpm_interface_constrain(m, m->seam_list[i]);
 #pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < m->seam_count; i++) shares_take_back(m, m->seam_list[i]);
+        for (int i = 0; i < m->seam_count; i++) mpm_substep_store(m, m->seam_list[i]);
     }
 }
 
@@ -299,11 +299,11 @@ static status check_finite(const mpm *m, const tally *t)
     if (t->bad_block < 0) return status_ok();
     const block *q = &m->blocks[t->bad_block];
     const int l = t->bad_lane;
-    return status_error(STATUS_NUMERICAL,
-                        "t = %g s, step %llu: the particle of `%s` that started at (%g, %g, %g) m is not "
-                        "finite; try a smaller courant (now %g) or larger viscosity",
-                        m->time, (unsigned long long)m->steps, m->scene.body[m->links[t->bad_block].body].name,
-                        q->start[0][l], q->start[1][l], q->start[2][l], m->scene.courant);
+    return base_status_error(STATUS_NUMERICAL,
+                             "t = %g s, step %llu: the particle of `%s` that started at (%g, %g, %g) m is not "
+                             "finite; try a smaller courant (now %g) or larger viscosity",
+                             m->time, (unsigned long long)m->steps, m->scene.body[m->links[t->bad_block].body].name,
+                             q->start[0][l], q->start[1][l], q->start[2][l], m->scene.courant);
 }
 
 /* Adds up in the order of bricks and sites, whatever the threads did. */
@@ -394,7 +394,7 @@ static status one_substep(mpm *m, int n, tally *sum)
     phase_g2p(m), lap(m, PHASE_G2P, &clock);
     TRY(collect(m, sum));
     lap(m, PHASE_REST, &clock);
-    TRY(movers_exchange(m));
+    TRY(mpm_movers_exchange(m));
     lap(m, PHASE_MOVERS, &clock);
     m->dt_last = m->dt; /* for levels that begin from here on */
     return status_ok();
@@ -423,8 +423,8 @@ static status one_step(mpm *m, double until)
     CHECK(isfinite(m->dt) && m->dt > 0, STATUS_NUMERICAL, "t = %g s: the time step became %g s; try a smaller courant",
           m->time, m->dt);
     if (is_due(m, SAMPLE_EVERY)) mpm_sample_percentiles(m);
-    if (is_due(m, COMPACT_EVERY)) TRY(store_compact(m));
-    if (is_due(m, FOLLOW_EVERY)) TRY(zone_follow(m));
+    if (is_due(m, COMPACT_EVERY)) TRY(mpm_store_compact(m));
+    if (is_due(m, FOLLOW_EVERY)) TRY(mpm_zone_follow(m));
     lap(m, PHASE_REST, &clock);
     return status_ok();
 }
@@ -434,7 +434,7 @@ status mpm_advance(mpm *m, double until, const mpm_sink *sink)
     while (m->time < until * (1 - 1e-12)) {
         TRY(one_step(m, until));
         if (sink && sink->step && !sink->step(sink->user, m))
-            return status_error(STATUS_STOPPED, "stopped at t = %g s", m->time);
+            return base_status_error(STATUS_STOPPED, "stopped at t = %g s", m->time);
     }
     return status_ok();
 }

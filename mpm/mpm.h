@@ -52,9 +52,10 @@ typedef struct {
     double peak_contact_force[3];            /* on field 0 (the rail), largest |component|, smoothed over 0.2 us [N] */
 } mpm_report;
 
-/* Points of the followed bodies (mpm_scene.follow_bodies) as they were when the fine zone left them, or their parts at x < until:
- * behind it the points are merged, and a crater is read from these and the parts of points at x > until (mpm_cut_at).  The last
- * before `until` are lengthened by a fine cell or half of themselves, so that no crack opens where the rail moves on beyond it. */
+/* Points of the followed bodies (mpm_scene.follow_bodies) as they were when the fine zone left them, or their parts at
+ * x < until: behind it the points are merged, and a crater is read from these and the parts of points at x > until
+ * (mpm_cut_at).  The last before `until` are lengthened by a fine cell or half of themselves, so that no crack opens
+ * where the rail moves on beyond it. */
 typedef struct {
     double position[3], size[3], velocity[3]; /* [m]; half lengths [m]; [m/s] */
     double damage, mass;                      /* [1, kg] */
@@ -130,7 +131,8 @@ void mpm_read(const mpm *m, mpm_field field, double *out);
 
 /* Checkpoint: a flat image of everything, order included.  *image is malloc'ed, the caller frees it. */
 status mpm_save(const mpm *m, void **image, size_t *bytes);
-/* Into a solver made by mpm_create from the same scene; refuses an image of another scene, version or instruction set. */
+/* Into a solver made by mpm_create from the same scene; refuses an image of another scene, version or instruction set.
+ */
 status mpm_restore(mpm *m, const void *image, size_t bytes);
 
 /* What a scene will take, without building it: at the start, and with the fine zone as wide as it may grow. */
@@ -141,8 +143,8 @@ typedef struct {
     double dt;       /* first step of the finest level [s] */
 } mpm_needs;
 
-/* Blocks five eighths full, a quarter in reserve, sums of their bricks, copies of what the zone leaves behind; measured,
- * docs/scene-solver.md, Memory. */
+/* Blocks five eighths full, a quarter in reserve, sums of their bricks, copies of what the zone leaves behind;
+ * measured, docs/scene-solver.md, Memory. */
 enum { MPM_BYTES = 20000000, MPM_BYTES_A_PARTICLE = 1600 };
 status mpm_estimate(const mpm_scene *scene, mpm_needs *needs);
 

@@ -1,5 +1,6 @@
 /* A scene: what the material-point solver is given.  Bodies with shapes and materials, a graded grid, boundaries,
- * contact laws.  SI units.  x = launch direction, y = normal to the contact face (rail below, armature above), z = across.
+ * contact laws.  SI units.  x = launch direction, y = normal to the contact face (rail below, armature above), z =
+ * across.
  *
  * The scene borrows its materials; mpm_create copies all it needs. */
 #ifndef BREECH_MPM_SCENE_H
@@ -26,9 +27,9 @@ typedef struct shape_kind {
     void (*bounds)(const shape_values *s, double lo[3], double hi[3]); /* box that holds the shape [m] */
 } shape_kind;
 
-/* Shape by name, NULL if there is none.  shape_at(i) walks the table, NULL at its end. */
-const shape_kind *shape_find(const char *name);
-const shape_kind *shape_at(int i);
+/* Shape by name, NULL if there is none.  mpm_shape_at(i) walks the table, NULL at its end. */
+const shape_kind *mpm_shape_find(const char *name);
+const shape_kind *mpm_shape_at(int i);
 
 /* ---- bodies ---- */
 
@@ -85,8 +86,10 @@ typedef struct {
     int bodies;
     mpm_body body[MPM_MAX_BODIES];
     mpm_axis axis[3];
-    int levels; /* of nested grids (grid.h): 1: the axes' grid; more: in the box of the three fine zones cells of size `fine`,
-                   outside it, for 2, cells twice as large from which the axes grow, for 3 four times, those of twice the size between */
+    /* Of nested grids (grid.h).  1: the axes' grid.  More: in the box of the three fine zones cells of size `fine`;
+     * outside it, for 2, cells twice as large from which the axes grow, for 3 four times, with cells of twice the size
+     * between. */
+    int levels;
     unsigned follow_bodies; /* bit i: the fine zone along x goes with the plastic front of body i; 0: it stays */
     double follow_lead;     /* from that front to the zone's upper end [m] */
     double

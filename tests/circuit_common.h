@@ -47,7 +47,7 @@ static inline shot_sink notes_sink(shot_notes *notes)
 static inline shot_module unit_200kJ(int count, double fire_at)
 {
     shot_module m;
-    params_default(supply_capacitor_params, &m);
+    base_params_default(circuit_supply_capacitor_params, &m);
     m.count = count;
     m.capacitance = 3.594e-3;
     m.charge = 10.55e3;
@@ -59,14 +59,15 @@ static inline shot_module unit_200kJ(int count, double fire_at)
     return m;
 }
 
-/* 25 x 20 x 25 mm rails of constant gradients, a 0.25 kg armature with all losses but wear, 5 m; nothing drives it yet. */
+/* 25 x 20 x 25 mm rails of constant gradients, a 0.25 kg armature with all losses but wear, 5 m; nothing drives it yet.
+ */
 static inline shot_config plain_barrel(void)
 {
     shot_config c = { .n_sites = 0 };
-    params_default(shot_rails_params, &c.rails);
-    params_default(shot_barrel_params, &c.barrel);
-    params_default(shot_armature_params, &c.armature);
-    params_default(shot_options_params, &c.options);
+    base_params_default(circuit_shot_rails_params, &c.rails);
+    base_params_default(circuit_shot_barrel_params, &c.barrel);
+    base_params_default(circuit_shot_armature_params, &c.armature);
+    base_params_default(circuit_shot_options_params, &c.options);
     c.rails.level = SHOT_RAILS_CONSTANT;
     c.rails.height = 0.025;
     c.rails.thickness = 0.020;
@@ -97,7 +98,7 @@ static inline shot_config default_shot(shot_module modules[DEFAULT_SHOT_GROUPS])
         modules[k].cable_resistance = 1e-3;
     }
     c.supplies[SUPPLY_capacitor] = (supply_list){ DEFAULT_SHOT_GROUPS, modules };
-    params_default(shot_rails_params, &c.rails);
+    base_params_default(circuit_shot_rails_params, &c.rails);
     c.rails.height = c.rails.separation = 0.025;
     c.rails.thickness = 0.020;
     c.barrel.length = 3.0;
@@ -117,8 +118,8 @@ static inline shot_config short_circuit(void)
     return c;
 }
 
-/* Largest distance of a shot's current from a published pulse (rows `t,i`, others are skipped) over the pulse's peak; NaN: no
- * such file, or the shot stopped. */
+/* Largest distance of a shot's current from a published pulse (rows `t,i`, others are skipped) over the pulse's peak;
+ * NaN: no such file, or the shot stopped. */
 static inline double pulse_misfit(shot *s, const char *path, int *rows)
 {
     FILE *file = fopen(path, "r");
@@ -128,8 +129,8 @@ static inline double pulse_misfit(shot *s, const char *path, int *rows)
     *rows = 0;
     while (fine && fgets(line, sizeof line, file)) {
         if (sscanf(line, "%lf,%lf", &t, &i) != 2) continue;
-        fine = shot_advance(s, t, NULL).code == STATUS_OK;
-        worst = fmax(worst, fabs(shot_now(s).current - i));
+        fine = circuit_shot_advance(s, t, NULL).code == STATUS_OK;
+        worst = fmax(worst, fabs(circuit_shot_now(s).current - i));
         peak = fmax(peak, i);
         ++*rows;
     }

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Every .c and .h is formatted by the repository's .clang-format.    tests/format.sh --fix [FILE...]   formats them.
+# Every .c and .h is formatted by the repository's .clang-format, and no line is longer than 120 columns.
+#    tests/format.sh --fix [FILE...]   formats them.
 # Versions of clang-format differ in their results: 14 is the one that counts.  Exit 77 = skipped.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -23,4 +24,9 @@ while read -r file; do
         bad=1
     fi
 done < <(sources '\.[ch]$')
+wide=$(sources '\.(c|h|def)$' | xargs awk 'length($0) > 120 { print FILENAME ":" FNR ": " length($0) " columns" }')
+if [ -n "$wide" ]; then
+    printf 'more than 120 columns:\n%s\n' "$wide"
+    bad=1
+fi
 exit $bad

@@ -51,7 +51,7 @@ static inline bool scene_full(void)
 static inline material scene_copper(void) /* row ofhc_copper */
 {
     material m;
-    params_default(material_params, &m);
+    base_params_default(mpm_material_params, &m);
     strcpy(m.name, "ofhc_copper");
     m.density = 8960, m.youngs_modulus = 124e9, m.poisson = 0.34;
     m.specific_heat = 383, m.conductivity = 386;
@@ -66,7 +66,7 @@ static inline material scene_copper(void) /* row ofhc_copper */
 static inline material scene_aluminium(void) /* row w17_al7075 */
 {
     material m;
-    params_default(material_params, &m);
+    base_params_default(mpm_material_params, &m);
     strcpy(m.name, "w17_al7075");
     m.density = 2810, m.youngs_modulus = 71e9, m.poisson = 0.33;
     m.specific_heat = 960;
@@ -129,7 +129,7 @@ static inline mpm_body *scene_body(mpm_scene *s, const char *shape, const double
     memset(b, 0, sizeof *b);
     snprintf(b->name, sizeof b->name, "body%d", s->bodies - 1);
     b->material = m;
-    b->shape = shape_find(shape);
+    b->shape = mpm_shape_find(shape);
     assert_non_null(b->shape);
     for (int i = 0; i < n; i++) b->shape_value.value[i] = values[i];
     b->temperature = 293;
@@ -270,8 +270,8 @@ static inline void scene_assert_same(scene_picture a, scene_picture b, const cha
             fail_msg("%s: differs at byte %zu of %zu", what, i, a.bytes);
 }
 
-/* A run on one thread, the same on two, and one on three that goes on from the first's image: `before` steps, image, `after`
- * steps, the same bits.  Returns the first, which the caller frees. */
+/* A run on one thread, the same on two, and one on three that goes on from the first's image: `before` steps, image,
+ * `after` steps, the same bits.  Returns the first, which the caller frees. */
 static inline mpm *scene_same_bits(const mpm_scene *s, int before, int after)
 {
     void *image = NULL;

@@ -37,7 +37,7 @@ static void test_status_ok(void **state)
 static void test_status_text_is_formatted(void **state)
 {
     (void)state;
-    const status s = status_error(STATUS_IO, "%s: line %d, %.1f V", "file", 12, 2.5);
+    const status s = base_status_error(STATUS_IO, "%s: line %d, %.1f V", "file", 12, 2.5);
     assert_int_equal(s.code, STATUS_IO);
     assert_string_equal(s.text, "file: line 12, 2.5 V");
 }
@@ -48,7 +48,7 @@ static void test_status_long_text_is_cut(void **state)
     char text[2000];
     memset(text, 'a', sizeof text - 1);
     text[sizeof text - 1] = '\0';
-    const status s = status_error(STATUS_MEMORY, "%s", text);
+    const status s = base_status_error(STATUS_MEMORY, "%s", text);
     assert_int_equal(strlen(s.text), sizeof s.text - 1);
 }
 
@@ -90,12 +90,12 @@ static const param part_params[] = {
     PARAMS_END,
 };
 
-/* Every byte set before, so that a member that params_default leaves alone shows. */
+/* Every byte set before, so that a member that base_params_default leaves alone shows. */
 static part part_with_defaults(void)
 {
     part p;
     memset(&p, 0x5a, sizeof p);
-    params_default(part_params, &p);
+    base_params_default(part_params, &p);
     return p;
 }
 
@@ -109,14 +109,14 @@ static part part_valid(void)
 
 static void assert_refused(const part *p, const char *text)
 {
-    const status s = params_check(part_params, p, "bank");
+    const status s = base_params_check(part_params, p, "bank");
     assert_int_equal(s.code, STATUS_BAD_INPUT);
     assert_string_equal(s.text, text);
 }
 
 static void assert_accepted(const part *p)
 {
-    const status s = params_check(part_params, p, "bank");
+    const status s = base_params_check(part_params, p, "bank");
     assert_string_equal(s.text, "");
     assert_int_equal(s.code, STATUS_OK);
 }
@@ -143,7 +143,7 @@ static void test_default_text_is_cut_and_ended(void **state)
     const param table[] = { PARAM_STRING(part, name, longer, "too long"), PARAMS_END };
     part p;
     memset(&p, 0x5a, sizeof p);
-    params_default(table, &p);
+    base_params_default(table, &p);
     assert_int_equal(strlen(p.name), PARAM_TEXT_SIZE - 1);
     assert_memory_equal(p.name, longer, PARAM_TEXT_SIZE - 1);
     assert_int_equal(p.note[0], 0x5a); /* the neighbour is untouched */
@@ -176,11 +176,11 @@ static void test_check_range_is_inclusive(void **state)
     p.gap = 1;
     assert_accepted(&p);
     p.gap = nextafter(0, -1);
-    assert_int_equal(params_check(part_params, &p, "bank").code, STATUS_BAD_INPUT);
+    assert_int_equal(base_params_check(part_params, &p, "bank").code, STATUS_BAD_INPUT);
     p.gap = nextafter(1, 2);
-    assert_int_equal(params_check(part_params, &p, "bank").code, STATUS_BAD_INPUT);
+    assert_int_equal(base_params_check(part_params, &p, "bank").code, STATUS_BAD_INPUT);
     p.gap = INFINITY;
-    assert_int_equal(params_check(part_params, &p, "bank").code, STATUS_BAD_INPUT);
+    assert_int_equal(base_params_check(part_params, &p, "bank").code, STATUS_BAD_INPUT);
     p.gap = -2;
     assert_refused(&p, "bank.gap = -2 m: must be 0 .. 1 m");
 }
@@ -203,7 +203,7 @@ static void test_check_integers_and_vectors(void **state)
     assert_refused(&p, "bank.count = 0: must be 1 .. 40");
     p = part_valid();
     p.count = 41;
-    assert_int_equal(params_check(part_params, &p, "bank").code, STATUS_BAD_INPUT);
+    assert_int_equal(base_params_check(part_params, &p, "bank").code, STATUS_BAD_INPUT);
     for (int k = 0; k < 3; k++) {
         p = part_valid();
         p.axis[k] = 1.5;
@@ -220,7 +220,7 @@ static void test_check_choice_lies_in_its_list(void **state)
     p.level = 2;
     assert_refused(&p, "bank.level = choice 2: must be one of the 2 from constant to skin");
     p.level = -1;
-    assert_int_equal(params_check(part_params, &p, "bank").code, STATUS_BAD_INPUT);
+    assert_int_equal(base_params_check(part_params, &p, "bank").code, STATUS_BAD_INPUT);
 }
 
 static void test_check_refuses_nan_where_a_default_exists(void **state)
@@ -228,7 +228,7 @@ static void test_check_refuses_nan_where_a_default_exists(void **state)
     (void)state;
     part p = part_valid();
     p.gap = NAN;
-    assert_int_equal(params_check(part_params, &p, "bank").code, STATUS_BAD_INPUT);
+    assert_int_equal(base_params_check(part_params, &p, "bank").code, STATUS_BAD_INPUT);
 }
 
 static void test_check_reports_the_first_in_table_order(void **state)

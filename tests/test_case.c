@@ -468,7 +468,7 @@ static void check_section(const units *u, const case_section *section)
         check_param(section, p);
         if (p->kind != PARAM_NUMBER && p->kind != PARAM_VECTOR) continue;
         snprintf(text, sizeof text, "2 %s", strcmp(p->unit, "1") == 0 ? "" : p->unit);
-        assert_int_equal(quantity_read(u, text, p->unit, &value, user_unit).code, STATUS_OK);
+        assert_int_equal(host_quantity_read(u, text, p->unit, &value, user_unit).code, STATUS_OK);
         assert_true(value == 2.0);
     }
     for (const case_section *s = section->children; s && s->key; s++) check_section(u, s);
@@ -478,9 +478,9 @@ static void tables_are_sound(void **state)
 {
     (void)state;
     units *u = NULL;
-    assert_int_equal(units_open(&u).code, STATUS_OK);
+    assert_int_equal(host_units_open(&u).code, STATUS_OK);
     check_section(u, &case_root);
-    units_close(u);
+    host_units_close(u);
 }
 
 /* ---- units ---- */
@@ -540,26 +540,26 @@ static void quantities(void **state)
         { "1e308 km", "m", NAN },
     };
     units *u = NULL;
-    assert_int_equal(units_open(&u).code, STATUS_OK);
+    assert_int_equal(host_units_open(&u).code, STATUS_OK);
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
         double value = 0.0;
         char user_unit[UNIT_SIZE];
-        const status s = quantity_read(u, all[k].text, all[k].unit, &value, user_unit);
+        const status s = host_quantity_read(u, all[k].text, all[k].unit, &value, user_unit);
         if (isnan(all[k].value) != (s.code != STATUS_OK)) print_error("%s: %s\n", all[k].text, s.text);
         assert_int_equal(s.code, isnan(all[k].value) ? STATUS_BAD_INPUT : STATUS_OK);
         /* fifteen digits are kept, so most of these are exact */
         if (s.code == STATUS_OK) assert_true(fabs(value - all[k].value) <= 1e-14 * fabs(all[k].value));
     }
-    units_close(u);
+    host_units_close(u);
 }
 
 static void words(void **state)
 {
     (void)state;
-    assert_int_equal(word_distance("leadangle", "lead_angle"), 0);
-    assert_int_equal(word_distance("chrage", "charge"), 1); /* neighbours swapped */
-    assert_int_equal(word_distance("kitten", "sitting"), 3);
-    assert_int_equal(word_distance("", "abc"), 3);
+    assert_int_equal(host_word_distance("leadangle", "lead_angle"), 0);
+    assert_int_equal(host_word_distance("chrage", "charge"), 1); /* neighbours swapped */
+    assert_int_equal(host_word_distance("kitten", "sitting"), 3);
+    assert_int_equal(host_word_distance("", "abc"), 3);
 }
 
 int main(void)

@@ -1,4 +1,5 @@
-/* The fuzzer's seeds, and every cut and some broken bytes of them, through the fuzzer's own function: its laws abort. */
+/* The fuzzer's seeds, and every cut and some broken bytes of them, through the fuzzer's own function: its laws abort.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -31,18 +31,18 @@ static void cases_run(void **state)
     bool kinds[SUPPLY_KINDS] = { false };
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         breech_case *c = case_of(names[k]);
-        const shot_config config = shot_of_case(c, NULL);
+        const shot_config config = gouge_shot_config(c, NULL);
         shot_notes notes;
         shot *s = NULL;
         const shot_sink sink = notes_sink(&notes);
-        assert_int_equal(shot_create(&config, &s).code, STATUS_OK);
-        assert_int_equal(shot_advance(s, INFINITY, &sink).code, STATUS_OK);
-        print_message("%-16s %.0f m/s, energy error %.1e\n", names[k], shot_result(s).muzzle_velocity,
+        assert_int_equal(circuit_shot_create(&config, &s).code, STATUS_OK);
+        assert_int_equal(circuit_shot_advance(s, INFINITY, &sink).code, STATUS_OK);
+        print_message("%-16s %.0f m/s, energy error %.1e\n", names[k], circuit_shot_result(s).muzzle_velocity,
                       notes.worst_error);
         assert_int_equal(notes.count[SHOT_MUZZLE], 1);
         assert_true(notes.worst_error < 1e-6); /* ARCHITECTURE's bound at the default tolerances */
         for (int i = 0; i < SUPPLY_KINDS; i++) kinds[i] = kinds[i] || config.supplies[i].n > 0;
-        shot_free(s);
+        circuit_shot_free(s);
         case_free(c);
     }
     for (int i = 0; i < SUPPLY_KINDS; i++) assert_true(kinds[i]); /* a case a kind */
@@ -53,15 +53,15 @@ static void published_pulse(void **state)
 {
     (void)state;
     breech_case *c = case_of("pulse_unit_200kJ");
-    const shot_config config = shot_of_case(c, NULL);
+    const shot_config config = gouge_shot_config(c, NULL);
     shot *s = NULL;
-    assert_int_equal(shot_create(&config, &s).code, STATUS_OK);
+    assert_int_equal(circuit_shot_create(&config, &s).code, STATUS_OK);
     int rows;
     const double misfit = pulse_misfit(s, CASES "pulse_unit_200kJ/pulse_unit_200kJ.csv", &rows);
     print_message("worst difference %.3f %% of peak over %d rows\n", 100.0 * misfit, rows);
     assert_int_equal(rows, 54);
     assert_true(misfit < 0.006);
-    shot_free(s);
+    circuit_shot_free(s);
     case_free(c);
 }
 
@@ -86,8 +86,8 @@ static void bad_tables(void **state)
         shot *s = NULL;
         const status read = case_read_memory(&in, &(case_options){ .needs = CASE_FOR_SHOT }, &c, &errors);
         if (read.code == STATUS_OK) {
-            const shot_config config = shot_of_case(c, NULL);
-            const status made = shot_create(&config, &s);
+            const shot_config config = gouge_shot_config(c, NULL);
+            const status made = circuit_shot_create(&config, &s);
             assert_int_equal(made.code, STATUS_BAD_INPUT);
             assert_non_null(strstr(made.text, tables[k][1]));
         } else {

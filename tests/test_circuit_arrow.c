@@ -1,4 +1,5 @@
-/* The bordered block-diagonal matrix against a dense one, and the circuit's Jacobian against differences of its residual. */
+/* The bordered block-diagonal matrix against a dense one, and the circuit's Jacobian against differences of its
+ * residual. */
 #include "circuit/shot_internal.h"
 #include "tests/circuit_common.h"
 
@@ -29,11 +30,12 @@ static double *dense_of(const arrow *a, int n)
     assert_non_null(A);
     for (int k = 0, row = 0; k < a->blocks; row += a->size[k++]) {
         for (int i = 0; i < a->size[k]; i++) {
-            for (int j = 0; j < a->size[k]; j++) A[(row + i) * n + row + j] = arrow_block(a, k)[i * ARROW_BLOCK + j];
+            for (int j = 0; j < a->size[k]; j++)
+                A[(row + i) * n + row + j] = circuit_arrow_block(a, k)[i * ARROW_BLOCK + j];
             if (!a->idle[k]) A[(row + i) * n + tail + a->column[k]] = a->b[k * ARROW_BLOCK + i];
         }
         for (int j = 0; j < a->size[k] && !a->idle[k]; j++)
-            for (int r = 0; r < a->border; r++) A[(tail + r) * n + row + j] = arrow_column(a, k, j)[r];
+            for (int r = 0; r < a->border; r++) A[(tail + r) * n + row + j] = circuit_arrow_column(a, k, j)[r];
     }
     for (int i = 0; i < a->border; i++)
         for (int j = 0; j < a->border; j++) A[(tail + i) * n + tail + j] = a->E[i * a->border + j];
@@ -47,8 +49,8 @@ static void solves_as_a_dense_matrix(void **state)
     uint64_t seed = 4;
     for (int trial = 0; trial < 50; trial++) {
         arrow *a = NULL;
-        assert_ok(arrow_create(BLOCKS, BORDER, SUMS, &a));
-        arrow_clear(a);
+        assert_ok(circuit_arrow_create(BLOCKS, BORDER, SUMS, &a));
+        circuit_arrow_clear(a);
         int n = BORDER;
         for (int k = 0; k < BLOCKS; k++) {
             n += a->size[k] = 1 + (k + trial) % ARROW_BLOCK;
@@ -56,9 +58,9 @@ static void solves_as_a_dense_matrix(void **state)
             a->idle[k] = (k + trial) % 6 == 0;
             for (int i = 0; i < a->size[k]; i++) {
                 for (int j = 0; j < a->size[k]; j++)
-                    arrow_block(a, k)[i * ARROW_BLOCK + j] = dice(&seed) + (i == j ? 3.0 : 0.0);
+                    circuit_arrow_block(a, k)[i * ARROW_BLOCK + j] = dice(&seed) + (i == j ? 3.0 : 0.0);
                 a->b[k * ARROW_BLOCK + i] = dice(&seed);
-                for (int r = 0; r < BORDER; r++) arrow_column(a, k, i)[r] = dice(&seed);
+                for (int r = 0; r < BORDER; r++) circuit_arrow_column(a, k, i)[r] = dice(&seed);
             }
         }
         for (int i = 0; i < BORDER * BORDER; i++) a->E[i] = dice(&seed) + (i % (BORDER + 1) == 0 ? 6.0 : 0.0);
@@ -70,14 +72,14 @@ static void solves_as_a_dense_matrix(void **state)
         int pivot[40];
         for (int i = 0; i < n; i++) x[i] = y[i] = dice(&seed);
         double *A = dense_of(a, n);
-        assert_int_equal(lu_factor(A, n, n, pivot), 0);
-        lu_solve(A, n, n, pivot, y);
-        assert_int_equal(arrow_factor(a), 0);
-        arrow_solve(a, x);
+        assert_int_equal(circuit_lu_factor(A, n, n, pivot), 0);
+        circuit_lu_solve(A, n, n, pivot, y);
+        assert_int_equal(circuit_arrow_factor(a), 0);
+        circuit_arrow_solve(a, x);
         for (int i = 0; i < n; i++)
             assert_true(fabs(x[i] - y[i]) < 1e-11 * (1.0 + fabs(y[i]))); /* condition below 1e4 */
         free(A);
-        arrow_free(a);
+        circuit_arrow_free(a);
     }
 }
 
@@ -85,24 +87,24 @@ static void singular_is_said(void **state)
 {
     (void)state;
     arrow *a = NULL;
-    assert_ok(arrow_create(2, 1, 0, &a));
-    arrow_clear(a);
+    assert_ok(circuit_arrow_create(2, 1, 0, &a));
+    circuit_arrow_clear(a);
     a->size[0] = 1;
     a->size[1] = 2;
-    arrow_block(a, 0)[0] = 1.0;
-    arrow_block(a, 1)[0] = 1.0;
+    circuit_arrow_block(a, 0)[0] = 1.0;
+    circuit_arrow_block(a, 1)[0] = 1.0;
     a->E[0] = 1.0;
-    assert_int_equal(arrow_factor(a), 3); /* third row: the second of block 1 */
-    arrow_free(a);
+    assert_int_equal(circuit_arrow_factor(a), 3); /* third row: the second of block 1 */
+    circuit_arrow_free(a);
 }
 
-/* A shot half way down a barrel with three feeds, a shunt, diffusing rails, wear and two kinds of supply; on a film of melt, its
- * current crowded, where asked. */
+/* A shot half way down a barrel with three feeds, a shunt, diffusing rails, wear and two kinds of supply; on a film of
+ * melt, its current crowded, where asked. */
 static shot *busy_shot(bool film)
 {
     shot_module m[4] = { unit_200kJ(9, 0.0), unit_200kJ(2, 2e-4), unit_200kJ(2, 0.0), unit_200kJ(1, NAN) };
     supply_homopolar h;
-    params_default(supply_homopolar_params, &h);
+    base_params_default(circuit_supply_homopolar_params, &h);
     h.flux = 0.2;
     h.inertia = 50.0;
     h.speed = 20e3;
@@ -121,33 +123,33 @@ static shot *busy_shot(bool film)
     c.armature.friction_law = film ? SHOT_FRICTION_FILM : SHOT_FRICTION_SPEED;
     c.armature.velocity_skin = film;
     shot *s = NULL;
-    assert_ok(shot_create(&c, &s));
-    for (double t = 1e-4; shot_now(s).x < 1.0; t += 1e-4) assert_ok(shot_advance(s, t, NULL));
+    assert_ok(circuit_shot_create(&c, &s));
+    for (double t = 1e-4; circuit_shot_now(s).x < 1.0; t += 1e-4) assert_ok(circuit_shot_advance(s, t, NULL));
     assert_int_equal(s->model.reached, 3);
     return s;
 }
 
-/* Differences of the whole residual in one unknown, central, against the column: both are differences of functions that are
- * smooth over the step, good to 1e-5 of the column's largest entry in the units of each row. */
+/* Differences of the whole residual in one unknown, central, against the column: both are differences of functions that
+ * are smooth over the step, good to 1e-5 of the column's largest entry in the units of each row. */
 static void check_jacobian(shot *s)
 {
     const shot_model *m = &s->model;
-    const int n = shot_unknowns(m);
+    const int n = circuit_shot_unknowns(m);
     const double cj = 1e6;
-    double *y = shot_y(s), *yp = dae_yp(s->solver), *up = malloc((size_t)n * sizeof *up),
+    double *y = circuit_shot_y(s), *yp = circuit_dae_yp(s->solver), *up = malloc((size_t)n * sizeof *up),
            *down = malloc((size_t)n * sizeof *down);
     assert_true(up && down);
-    arrow_clear(s->matrix);
-    shot_jacobian(m, s->t, cj, y, s->matrix);
+    circuit_arrow_clear(s->matrix);
+    circuit_shot_jacobian(m, s->t, cj, y, s->matrix);
     double *J = dense_of(s->matrix, n), worst = 0.0;
     for (int j = 0; j < n; j++) {
         const double y0 = y[j], yp0 = yp[j], h = 1e-6 * fmax(fabs(y0), 1e-2 * s->scale[j]);
         y[j] = y0 + h;
         yp[j] = yp0 + cj * h;
-        shot_residual(m, s->t, y, yp, up);
+        circuit_shot_residual(m, s->t, y, yp, up);
         y[j] = y0 - h;
         yp[j] = yp0 - cj * h;
-        shot_residual(m, s->t, y, yp, down);
+        circuit_shot_residual(m, s->t, y, yp, down);
         y[j] = y0;
         yp[j] = yp0;
         for (int i = 0; i < n; i++) {
@@ -162,7 +164,7 @@ static void check_jacobian(shot *s)
     free(J);
     free(up);
     free(down);
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
 static void jacobian_is_the_residuals(void **state)

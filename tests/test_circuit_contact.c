@@ -1,4 +1,5 @@
-/* The armature's contact: how its current crowds (circuit/armature/contact.h), the film it slides on (circuit/armature/film.h), both in a shot. */
+/* The armature's contact: how its current crowds (circuit/armature/contact.h), the film it slides on
+ * (circuit/armature/film.h), both in a shot. */
 #include "circuit/armature/contact.h"
 #include "circuit/armature/film.h"
 #include "tests/circuit_common.h"
@@ -26,14 +27,15 @@ static void assert_near(double got, double want, double tolerance)
 static void assert_refused(const shot_config *c, const char *key)
 {
     shot *s = NULL;
-    const status st = shot_create(c, &s);
+    const status st = circuit_shot_create(c, &s);
     assert_int_equal(st.code, STATUS_BAD_INPUT);
     if (!strstr(st.text, key)) fail_msg("%s does not name %s", st.text, key);
 }
 
 /* ---- crowding ---- */
 
-/* dJ/dx = sqrt(1/pi) int_0^x J(s)/sqrt(x - s) ds in lengths of d: J straight in every cell, the kernel's integral over the cell exact. */
+/* dJ/dx = sqrt(1/pi) int_0^x J(s)/sqrt(x - s) ds in lengths of d: J straight in every cell, the kernel's integral over
+ * the cell exact. */
 static double evenness_by_cells(double z)
 {
     enum { CELLS = 2000 };
@@ -62,14 +64,14 @@ static double evenness_by_cells(double z)
 static void current_crowds(void **state)
 {
     (void)state;
-    assert_near(contact_evenness(0.0), 1.0, 0.0);
+    assert_near(circuit_contact_evenness(0.0), 1.0, 0.0);
     for (double z = 1e-3, last = 1.0; z < 100.0; z *= 1.3) {
-        const double now = contact_evenness(z);
+        const double now = circuit_contact_evenness(z);
         assert_true(now < last && now * z < 1.0 + 1e-9 && (z < 5.0 || now * z > 0.99));
         last = now;
     }
-    assert_near(25.0 * contact_evenness(24.9999999), 1.0, 1e-8); /* where the series ends */
-    for (double z = 0.4; z < 8.0; z *= 2.5) assert_near(contact_evenness(z), evenness_by_cells(z), 2e-4);
+    assert_near(25.0 * circuit_contact_evenness(24.9999999), 1.0, 1e-8); /* where the series ends */
+    for (double z = 0.4; z < 8.0; z *= 2.5) assert_near(circuit_contact_evenness(z), evenness_by_cells(z), 2e-4);
 }
 
 static void spread_by_speed_and_current(void **state)
@@ -79,13 +81,13 @@ static void spread_by_speed_and_current(void **state)
     sliding_contact c = { .length = 0.0165, .interface = 15.0 * area, .resistivity = rho };
     const double r = c.interface / I, d = cbrt(r * r / (4e-7 * 3.14159265358979 * rho * v));
     assert_near(d, 0.01298, 1e-5); /* by hand: r 6.875e-9 ohm m^2 */
-    assert_near(contact_spread(&c, v, I), 0.0165 * contact_evenness(0.0165 / d), 1e-9);
-    assert_near(contact_spread(&c, v, -I), contact_spread(&c, v, I), 0.0);
-    assert_near(contact_spread(&c, 0.0, I), 0.0165, 0.0);
-    assert_true(contact_spread(&c, 2.0 * v, I) < contact_spread(&c, v, I));
-    assert_near(contact_spread(&c, 1e12, I), d * 1e-3, 1e-9); /* d falls as the cube root of v */
+    assert_near(circuit_contact_spread(&c, v, I), 0.0165 * circuit_contact_evenness(0.0165 / d), 1e-9);
+    assert_near(circuit_contact_spread(&c, v, -I), circuit_contact_spread(&c, v, I), 0.0);
+    assert_near(circuit_contact_spread(&c, 0.0, I), 0.0165, 0.0);
+    assert_true(circuit_contact_spread(&c, 2.0 * v, I) < circuit_contact_spread(&c, v, I));
+    assert_near(circuit_contact_spread(&c, 1e12, I), d * 1e-3, 1e-9); /* d falls as the cube root of v */
     c.interface = 0.0;
-    assert_near(contact_spread(&c, v, I), 0.0165, 0.0);
+    assert_near(circuit_contact_spread(&c, v, I), 0.0165, 0.0);
 }
 
 /* ---- film ---- */
@@ -108,29 +110,29 @@ static void film_balances_its_heat(void **state)
         double last = 0.0;
         for (int k = 0; k < 4; k++) {
             const double q[] = { 0.0, 1e7, 3e9, 3e10 }, P = 6e7;
-            const melt_flow m = melt_film_at(&f, v, P, q[k]);
+            const melt_flow m = circuit_melt_film_at(&f, v, P, q[k]);
             assert_near(m.recession * f.melting / (f.share * (m.shear * v + q[k])), 1.0, 1e-11);
             assert_true(m.recession > last); /* more heat, more melt */
             assert_true(m.thickness < 2.0 * m.recession * f.length / v);
             last = m.recession;
         }
-        const melt_flow loose = melt_film_at(&f, v, 0.0, 1e9);
+        const melt_flow loose = circuit_melt_film_at(&f, v, 0.0, 1e9);
         assert_near(loose.thickness * v / (2.0 * loose.recession * f.length), 1.0, 1e-12);
     }
-    const melt_flow slow = melt_film_at(&f, 1e-3, 6e7, 3e9), still = melt_film_at(&f, 0.0, 6e7, 3e9);
+    const melt_flow slow = circuit_melt_film_at(&f, 1e-3, 6e7, 3e9), still = circuit_melt_film_at(&f, 0.0, 6e7, 3e9);
     assert_true(slow.shear < 10.0); /* Pa: a film at rest holds nothing */
     assert_near(still.shear, 0.0, 0.0);
     assert_near(still.recession, 0.01 * 3e9 / f.melting, 1e-15);
 }
 
-/* The film along x by small pieces: flux w x, thickness h, the pressure from the front of the full film on; its mean must be P, the shear on the
- * rail's side (Couette, pressure, streaks) tau.  Laminar: a melt without mass. */
+/* The film along x by small pieces: flux w x, thickness h, the pressure from the front of the full film on; its mean
+ * must be P, the shear on the rail's side (Couette, pressure, streaks) tau.  Laminar: a melt without mass. */
 static void film_by_pieces(double v, double P, double q, bool streaks)
 {
     enum { N = 20000 };
     melt_film f = aluminium();
     f.density = 1e-12;
-    const melt_flow m = melt_film_at(&f, v, P, q);
+    const melt_flow m = circuit_melt_film_at(&f, v, P, q);
     const double l = f.length, w = m.recession, h = m.thickness, eta = f.viscosity;
     const double full = streaks ? v * h / w - l : 0.0;                 /* where the full film and its pressure begin */
     const double in_front = streaks ? 0.0 : 0.5 * v * h - 0.5 * w * l; /* flux at x = 0, negative: out in front */
@@ -203,8 +205,8 @@ static shot *watched(const shot_config *c, contact_notes *n)
     (void)notes_sink(&notes);
     *n = (contact_notes){ .least_spread = INFINITY };
     const shot_sink sink = { note_melting, note_contact, n };
-    assert_ok(shot_create(c, &s));
-    assert_ok(shot_advance(s, INFINITY, &sink));
+    assert_ok(circuit_shot_create(c, &s));
+    assert_ok(circuit_shot_advance(s, INFINITY, &sink));
     assert_int_equal(notes.count[SHOT_MUZZLE], 1);
     assert_true(notes.worst_error < 1e-6);
     return s;
@@ -220,7 +222,8 @@ static double rise_at_melting(const shot_armature *a, const shot_state *e, doubl
     return a->heat_share * 2.0 * sqrt(q * E / pi) / sqrt(a->thermal_conductivity * a->density * a->specific_heat);
 }
 
-/* Dry until the face melts, at a located instant and where its temperature says; then the film's own shear; wear begins there. */
+/* Dry until the face melts, at a located instant and where its temperature says; then the film's own shear; wear begins
+ * there. */
 static void melting_changes_friction(void **state)
 {
     (void)state;
@@ -241,24 +244,24 @@ static void melting_changes_friction(void **state)
                           .share = a->wear_fraction };
     const shot_state *e = &n.last;
     const double P = e->contact_force / area;
-    const melt_flow m = melt_film_at(&f, e->v, P, a->contact_voltage * e->current / (2.0 * area));
+    const melt_flow m = circuit_melt_film_at(&f, e->v, P, a->contact_voltage * e->current / (2.0 * area));
     print_message("melts at x = %.4f m, %.0f m/s; at the muzzle mu %.4f, film %.2f um; %.1f m/s, by speed alone %.1f\n",
                   n.melted.x, n.melted.v, e->friction_coefficient, 1e6 * e->film_thickness,
-                  shot_result(s).muzzle_velocity, shot_result(by_speed).muzzle_velocity);
+                  circuit_shot_result(s).muzzle_velocity, circuit_shot_result(by_speed).muzzle_velocity);
     assert_int_equal(notes.count[SHOT_MELTED], 1);
     assert_near(n.dry, a->friction_dry, 0.0);
     assert_near(n.melted.mass, a->mass, 0.0); /* nothing has worn off yet */
-    assert_near(n.melted.x, shot_limits_of(s).melt_position, 0.0);
+    assert_near(n.melted.x, circuit_shot_limits_of(s).melt_position, 0.0);
     assert_true(n.melted.x > c.barrel.start && n.melted.x < c.barrel.length);
     assert_true(n.melted.friction_coefficient < a->friction_dry);
     assert_near(e->friction_coefficient, m.shear / P, 1e-9);
     assert_near(e->film_thickness, m.thickness, 1e-9 * m.thickness);
     assert_true(e->mass < a->mass && e->film_temperature > a->melting_temperature);
-    shot_free(by_speed);
-    shot_free(s);
+    circuit_shot_free(by_speed);
+    circuit_shot_free(s);
     c.armature.velocity_skin = true; /* a trailing edge that is hotter melts sooner */
     contact_notes sooner;
-    shot_free(watched(&c, &sooner));
+    circuit_shot_free(watched(&c, &sooner));
     assert_true(sooner.melted.x < n.melted.x);
     const double rise = a->melting_temperature - a->temperature;
     assert_near(rise_at_melting(a, &n.melted, area), rise, 1e-4 * rise);
@@ -268,8 +271,8 @@ static void melting_changes_friction(void **state)
     assert_refused(&c, "armature.wear_fraction");
 }
 
-/* Off changes nothing; on, the trailing edge is hotter and more worn, the energy still closes, and the muzzle velocity lies between those of the
- * whole contact and of the least length over which the current enters. */
+/* Off changes nothing; on, the trailing edge is hotter and more worn, the energy still closes, and the muzzle velocity
+ * lies between those of the whole contact and of the least length over which the current enters. */
 static void current_crowds_in_a_shot(void **state)
 {
     (void)state;
@@ -277,29 +280,29 @@ static void current_crowds_in_a_shot(void **state)
     shot_config c = launcher();
     c.rails.level = SHOT_RAILS_DIFFUSING;
     ladder l;
-    assert_ok(rails_ladder(&c.rails, 5e4, &l));
+    assert_ok(circuit_rails_ladder(&c.rails, 5e4, &l));
     c.fitted = &l;
     shot *even = watched(&c, &n);
     assert_near(n.least_spread, c.armature.contact_length, 0.0);
-    const double before = shot_result(even).muzzle_velocity;
+    const double before = circuit_shot_result(even).muzzle_velocity;
     c.armature.velocity_skin = true;
     shot *s = watched(&c, &n);
-    const double v = shot_result(s).muzzle_velocity, worn = shot_limits_of(s).wear_share;
+    const double v = circuit_shot_result(s).muzzle_velocity, worn = circuit_shot_limits_of(s).wear_share;
     print_message(
         "%.2f m/s instead of %.2f; the current enters over %.1f mm and more; wear %.3f instead of %.3f of the leg\n", v,
-        before, 1e3 * n.least_spread, worn, shot_limits_of(even).wear_share);
+        before, 1e3 * n.least_spread, worn, circuit_shot_limits_of(even).wear_share);
     assert_true(n.least_spread < 0.8 * c.armature.contact_length);
-    assert_true(worn > 1.1 * shot_limits_of(even).wear_share);
-    assert_true(worn < c.armature.contact_length / n.least_spread * shot_limits_of(even).wear_share);
-    shot_free(even);
-    shot_free(s);
+    assert_true(worn > 1.1 * circuit_shot_limits_of(even).wear_share);
+    assert_true(worn < c.armature.contact_length / n.least_spread * circuit_shot_limits_of(even).wear_share);
+    circuit_shot_free(even);
+    circuit_shot_free(s);
 
     c.armature.velocity_skin = false;
     c.armature.contact_length = n.least_spread;
     c.armature.contact_width = 0.025;
     shot *shorter = watched(&c, &n);
-    assert_true(shot_result(shorter).muzzle_velocity < v && v < before);
-    shot_free(shorter);
+    assert_true(circuit_shot_result(shorter).muzzle_velocity < v && v < before);
+    circuit_shot_free(shorter);
     c.armature.velocity_skin = true;
     c.armature.contact_voltage = 0.0;
     assert_refused(&c, "armature.contact_voltage");
@@ -316,10 +319,10 @@ static void wear_by_trapezes(void **state)
     c.rails.resistivity = 1e-10; /* d is long: even */
     shot *s = watched(&c, &n);
     assert_true(n.least_spread > 0.9 * c.armature.contact_length);
-    assert_near(shot_limits_of(s).wear_share / shot_limits_of(by_mass).wear_share,
+    assert_near(circuit_shot_limits_of(s).wear_share / circuit_shot_limits_of(by_mass).wear_share,
                 c.armature.contact_length / n.least_spread, 0.05);
-    shot_free(by_mass);
-    shot_free(s);
+    circuit_shot_free(by_mass);
+    circuit_shot_free(s);
 }
 
 int main(void)

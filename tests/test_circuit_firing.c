@@ -1,4 +1,5 @@
-/* The search for firing times: it keeps its word on peak and velocity, and what it finds is better than what it was given. */
+/* The search for firing times: it keeps its word on peak and velocity, and what it finds is better than what it was
+ * given. */
 #include "circuit/firing.h"
 #include "tests/circuit_common.h"
 
@@ -31,7 +32,7 @@ static shot_config three_groups(shot_module *m)
 static firing_wish wish_of(firing_goal goal)
 {
     firing_wish w;
-    params_default(firing_wish_params, &w);
+    base_params_default(circuit_firing_wish_params, &w);
     w.goal = goal;
     w.evaluations = 60;
     return w;
@@ -41,10 +42,10 @@ static shot_summary shoot(shot_config c, const shot_module *m)
 {
     shot *s = NULL;
     c.supplies[SUPPLY_capacitor].item = m;
-    assert_ok(shot_create(&c, &s));
-    assert_ok(shot_advance(s, INFINITY, NULL));
-    const shot_summary r = shot_result(s);
-    shot_free(s);
+    assert_ok(circuit_shot_create(&c, &s));
+    assert_ok(circuit_shot_advance(s, INFINITY, NULL));
+    const shot_summary r = circuit_shot_result(s);
+    circuit_shot_free(s);
     return r;
 }
 
@@ -56,7 +57,7 @@ static void flat_below_a_peak(void **state)
     const shot_config c = three_groups(m);
     firing_wish w = wish_of(FIRING_FLAT);
     w.peak_current = 500e3;
-    assert_ok(firing_optimise(&c, &w, NULL, found, &r));
+    assert_ok(circuit_firing_optimise(&c, &w, NULL, found, &r));
     const shot_summary got = shoot(c, found);
     print_message("unevenness %.4f -> %.4f, peak %.1f kA, %d trials\n", r.before, r.after, 1e-3 * got.peak_current,
                   r.evaluations);
@@ -74,7 +75,7 @@ static void velocity_at_least_energy(void **state)
     firing_wish w = wish_of(FIRING_VELOCITY);
     w.muzzle_velocity = 900.0;
     w.evaluations = 30;
-    assert_ok(firing_optimise(&c, &w, NULL, found, &r));
+    assert_ok(circuit_firing_optimise(&c, &w, NULL, found, &r));
     const shot_summary got = shoot(c, found);
     print_message("%.1f -> %.1f kJ, %.3f m/s, %d trials, %d shots\n", 1e-3 * r.before, 1e-3 * r.after,
                   got.muzzle_velocity, r.evaluations, r.shots);
@@ -94,14 +95,14 @@ static void refusals(void **state)
     firing_result r;
     shot_config c = three_groups(m);
     firing_wish w = wish_of(FIRING_FLAT);
-    assert_int_equal(firing_optimise(&c, &w, NULL, found, &r).code, STATUS_BAD_INPUT); /* no peak */
+    assert_int_equal(circuit_firing_optimise(&c, &w, NULL, found, &r).code, STATUS_BAD_INPUT); /* no peak */
     w.peak_current = 5e5;
-    assert_int_equal(firing_optimise(&c, &w, at_once, found, &r).code, STATUS_STOPPED);
+    assert_int_equal(circuit_firing_optimise(&c, &w, at_once, found, &r).code, STATUS_STOPPED);
     w = wish_of(FIRING_VELOCITY);
     w.muzzle_velocity = 5e4;
-    assert_int_equal(firing_optimise(&c, &w, NULL, found, &r).code, STATUS_NUMERICAL);
+    assert_int_equal(circuit_firing_optimise(&c, &w, NULL, found, &r).code, STATUS_NUMERICAL);
     c.supplies[SUPPLY_capacitor].n = 1;
-    assert_int_equal(firing_optimise(&c, &w, NULL, found, &r).code, STATUS_BAD_INPUT);
+    assert_int_equal(circuit_firing_optimise(&c, &w, NULL, found, &r).code, STATUS_BAD_INPUT);
 }
 
 int main(void)

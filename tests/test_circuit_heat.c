@@ -29,7 +29,8 @@ static rails_load two_rungs(void)
 
 /* ---- one piece ---- */
 
-/* A current that goes linearly, over a rail that is exposed all the time: j' = (I - j)/tau by many small steps of order 4. */
+/* A current that goes linearly, over a rail that is exposed all the time: j' = (I - j)/tau by many small steps of order
+ * 4. */
 static double heat_by_steps(const rails_load *r, double warm, double T, double I0, double I1)
 {
     enum { STEPS = 20000 };
@@ -60,12 +61,12 @@ static void steady_and_changing_current(void **state)
         for (double warm = 1.0; warm < 2.0; warm += 0.4) {
             const double T = 4e-4, I0 = currents[k][0], I1 = currents[k][1];
             const double want = heat_by_steps(&r, warm, T, I0, I1);
-            rails_heat_start(&h, 1.0);
+            circuit_rails_heat_start(&h, 1.0);
             for (int j = 0; j < 8; j++) { /* in unequal parts: the memory goes on */
                 const double t0 = T * j * j / 64.0, t1 = T * (j + 1) * (j + 1) / 64.0;
                 const rails_instant a = { t0, 1.0, 0.0, I0 + (I1 - I0) * t0 / T },
                                     b = { t1, 1.0, 0.0, I0 + (I1 - I0) * t1 / T };
-                rails_heat_carry(&h, &r, warm, 0.0, 1.0, &a, &b);
+                circuit_rails_heat_carry(&h, &r, warm, 0.0, 1.0, &a, &b);
             }
             assert_near(h.heat[0], want, 1e-7 * want);
             assert_near(h.heat[RAILS_PIECES - 1], want, 1e-7 * want);
@@ -79,17 +80,17 @@ static void exposed_on_the_way(void **state)
     const rails_load r = two_rungs();
     const double v = 1500.0, I = 3e5, T = 4e-4, length = 1.0;
     (void)state;
-    rails_heat_start(&h, length);
+    circuit_rails_heat_start(&h, length);
     const rails_instant a = { 0.0, 0.0, v, I }, b = { T, v * T, v, I };
-    rails_heat_carry(&h, &r, 1.0, 0.0, length, &a, &b);
+    circuit_rails_heat_carry(&h, &r, 1.0, 0.0, length, &a, &b);
     for (int k = 0; k < RAILS_PIECES; k += 5) {
         const double x = (k + 0.5) * length / RAILS_PIECES, t = T - x / v;
         double want = t > 0.0 ? r.ladder.R_dc * I * I * t : 0.0;
         for (int n = 0; n < r.ladder.n && t > 0.0; n++) {
             const double tau = r.ladder.L[n] / r.ladder.R[n], theta = v * tau / r.contact.length;
-            const double born = rails_share_at_birth(theta), u = (1.0 - born) * I;
+            const double born = circuit_rails_share_at_birth(theta), u = (1.0 - born) * I;
             want += r.ladder.R[n] * u * u * 0.5 * tau * (1.0 - exp(-2.0 * t / tau)) +
-                    0.5 * r.ladder.L[n] * (born * (2.0 - born) - rails_share_of_force(theta)) * I * I;
+                    0.5 * r.ladder.L[n] * (born * (2.0 - born) - circuit_rails_share_of_force(theta)) * I * I;
         }
         assert_near(h.heat[k], want, 1e-12 * fabs(want));
     }
@@ -102,11 +103,11 @@ static void only_its_own_stretch(void **state)
     const rails_load r = two_rungs();
     const rails_instant a = { 0.0, 1.0, 0.0, 1e5 }, b = { 1e-4, 1.0, 0.0, 1e5 };
     (void)state;
-    rails_heat_start(&h, 1.0);
-    rails_heat_carry(&h, &r, 1.0, 0.25, 0.5, &a, &b);
+    circuit_rails_heat_start(&h, 1.0);
+    circuit_rails_heat_carry(&h, &r, 1.0, 0.25, 0.5, &a, &b);
     assert_true(h.heat[15] == 0.0 && h.heat[16] > 0.0 && h.heat[31] > 0.0 && h.heat[32] == 0.0);
-    rails_heat_start(&h, 1.0);
-    rails_heat_ahead(&h, &r, 0.5, 1e-3, 1e5, 2e5);
+    circuit_rails_heat_start(&h, 1.0);
+    circuit_rails_heat_ahead(&h, &r, 0.5, 1e-3, 1e5, 2e5);
     assert_near(h.heat[32], r.ladder.R_dc * 7e10 / 3.0 * 1e-3, 1e-6);
     assert_true(h.heat[31] == 0.0);
 }
@@ -122,12 +123,12 @@ static void contact_leaves_its_heat_where_it_slides(void **state)
 {
     static rails_heat h;
     (void)state;
-    rails_heat_start(&h, 2.0);
-    rails_heat_slide(&h, 0.31, 0.77, 500.0);
+    circuit_rails_heat_start(&h, 2.0);
+    circuit_rails_heat_slide(&h, 0.31, 0.77, 500.0);
     assert_near(sum_of(&h), 500.0, 1e-9);
-    assert_near(h.heat[15], 500.0 / 0.46, 1e-9); /* a piece in the middle of it */
-    rails_heat_slide(&h, 0.5, 0.5, 100.0);       /* at rest */
-    rails_heat_slide(&h, 1.99, 2.0, 50.0);       /* at the end */
+    assert_near(h.heat[15], 500.0 / 0.46, 1e-9);   /* a piece in the middle of it */
+    circuit_rails_heat_slide(&h, 0.5, 0.5, 100.0); /* at rest */
+    circuit_rails_heat_slide(&h, 1.99, 2.0, 50.0); /* at the end */
     assert_near(sum_of(&h), 650.0, 1e-9);
     assert_near(h.heat[16] * h.piece, 500.0 / 0.46 * h.piece + 100.0, 1e-9);
 }
@@ -139,10 +140,10 @@ static double check_ledger(const char *name, const shot_config *c)
 {
     shot *s = NULL;
     double rise[SHOT_PIECES], sum = 0.0, most = 0.0;
-    assert_ok(shot_create(c, &s));
-    assert_ok(shot_advance(s, INFINITY, NULL));
-    shot_rail_rise(s, rise);
-    const shot_ledger l = shot_now(s).ledger;
+    assert_ok(circuit_shot_create(c, &s));
+    assert_ok(circuit_shot_advance(s, INFINITY, NULL));
+    circuit_shot_rail_rise(s, rise);
+    const shot_ledger l = circuit_shot_now(s).ledger;
     const double capacity = c->rails.heat_capacity * 2.0 * c->rails.height * c->rails.thickness,
                  piece = c->barrel.length / SHOT_PIECES;
     const double want = l.rails_heat + (1.0 - c->armature.heat_share) * (l.friction + l.contact_heat);
@@ -154,7 +155,7 @@ static double check_ledger(const char *name, const shot_config *c)
     print_message("%-22s %7.1f kJ in the rails, pieces %+.3f %%, warmest piece %.1f K\n", name, 1e-3 * want,
                   100.0 * (sum / want - 1.0), most);
     assert_near(sum, want, 0.5 * most * capacity * piece + 2e-3 * want);
-    shot_free(s);
+    circuit_shot_free(s);
     return most;
 }
 

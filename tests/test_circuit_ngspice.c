@@ -1,5 +1,5 @@
-/* The same shot by ngspice, from a netlist written here out of the configuration: armature and rails as behavioural sources,
- * flux form.  Both must agree to 0.1 %, and ngspice must take at least five times as long at its own error.
+/* The same shot by ngspice, from a netlist written here out of the configuration: armature and rails as behavioural
+ * sources, flux form.  Both must agree to 0.1 %, and ngspice must take at least five times as long at its own error.
  * Skipped where BREECH_FULL is not 1 or ngspice (Debian package) is not there. */
 #include "tests/circuit_common.h"
 
@@ -148,11 +148,11 @@ static shot_summary shoot(shot_config c, double rtol, double *took)
     c.options.rtol = rtol;
     c.options.atol = 0.01 * rtol;
     const double since = now();
-    assert_ok(shot_create(&c, &s));
-    assert_int_equal(shot_advance(s, INFINITY, &sink).code, STATUS_STOPPED);
+    assert_ok(circuit_shot_create(&c, &s));
+    assert_int_equal(circuit_shot_advance(s, INFINITY, &sink).code, STATUS_STOPPED);
     *took = now() - since;
-    const shot_summary r = shot_result(s);
-    shot_free(s);
+    const shot_summary r = circuit_shot_result(s);
+    circuit_shot_free(s);
     return r;
 }
 

@@ -1,4 +1,5 @@
-/* The shot: closed forms, a measured-like pulse, an independent integration, and everything a bank can be asked to do. */
+/* The shot: closed forms, a measured-like pulse, an independent integration, and everything a bank can be asked to do.
+ */
 #include "circuit/shot.h"
 #include "tests/circuit_common.h"
 
@@ -42,7 +43,7 @@ static bool on_event(void *user, shot *s, const shot_event *e)
     assert_true(r->n < MAX_EVENTS);
     r->events[r->n++] = *e;
     r->count[e->kind]++;
-    if (e->kind == SHOT_SITE && r->impulse > 0.0) assert_ok(shot_jump(s, r->impulse, r->mass_loss));
+    if (e->kind == SHOT_SITE && r->impulse > 0.0) assert_ok(circuit_shot_jump(s, r->impulse, r->mass_loss));
     return r->n != r->stop_at;
 }
 
@@ -85,8 +86,8 @@ static shot *run(const shot_config *c)
 {
     shot *s = NULL;
     const shot_sink sink = notebook();
-    assert_ok(shot_create(c, &s));
-    assert_ok(shot_advance(s, INFINITY, &sink));
+    assert_ok(circuit_shot_create(c, &s));
+    assert_ok(circuit_shot_advance(s, INFINITY, &sink));
     assert_true(rec.worst_energy < 1e-6); /* ARCHITECTURE's bound at the default tolerances */
     assert_true(rec.n <= 4 * c->supplies[SUPPLY_capacitor].n + c->n_sites + 16); /* no chatter */
     for (int k = 1; k < rec.n; k++) assert_true(rec.events[k].state.t >= rec.events[k - 1].state.t);
@@ -141,26 +142,27 @@ static void closed_form(double drop)
     const double peak = rlc_current(&exact, atan(exact.w / exact.a) / exact.w);
     shot *s = NULL;
     const shot_sink sink = notebook();
-    assert_ok(shot_create(&c, &s));
+    assert_ok(circuit_shot_create(&c, &s));
     double worst = 0.0;
     for (int k = 1; k <= 200; k++) {
         const double t = k * 2e-5;
-        assert_ok(shot_advance(s, t, &sink));
-        worst = fmax(worst, fabs(shot_now(s).current - rlc_current(&exact, t)) / peak);
+        assert_ok(circuit_shot_advance(s, t, &sink));
+        worst = fmax(worst, fabs(circuit_shot_now(s).current - rlc_current(&exact, t)) / peak);
     }
-    print_message("worst current error %.2e of peak, peak %.2e\n", worst, shot_result(s).peak_current / peak - 1.0);
+    print_message("worst current error %.2e of peak, peak %.2e\n", worst,
+                  circuit_shot_result(s).peak_current / peak - 1.0);
     assert_true(worst < 1e-8);
-    assert_near(shot_result(s).peak_current, peak, 1e-8 * peak);
+    assert_near(circuit_shot_result(s).peak_current, peak, 1e-8 * peak);
     assert_int_equal(rec.count[SHOT_CROWBAR], 1);
     assert_near(rec.events[1].state.t, exact.crowbar, 1e-11); /* NUMERICS: right to 1e-12 s at rtol 1e-8 for one loop */
     if (drop > 0.0) {                                         /* zero current at t_c + L/R ln(1 + R i_c/V_d) */
         const double end = exact.crowbar + exact.L / exact.R * log1p(exact.R * exact.i_crowbar / drop);
-        assert_ok(shot_advance(s, INFINITY, &sink));
-        assert_true(shot_done(s));
+        assert_ok(circuit_shot_advance(s, INFINITY, &sink));
+        assert_true(circuit_shot_done(s));
         assert_int_equal(rec.count[SHOT_BLOCKED], 1);
         assert_near(rec.events[rec.n - 1].state.t, end, 1e-8 * end);
     }
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
 static void rlc_with_ideal_crowbar(void **state)
@@ -179,19 +181,19 @@ static void published_pulse(void **state)
     const shot_module m = unit_200kJ(1, 0.0);
     const shot_config c = shorted(&m, 1);
     shot *s = NULL;
-    assert_ok(shot_create(&c, &s));
+    assert_ok(circuit_shot_create(&c, &s));
     int rows;
     const double misfit = pulse_misfit(s, BREECH_TESTS "/../cases/pulse_unit_200kJ/pulse_unit_200kJ.csv", &rows);
     print_message("worst difference %.3f %% of peak over %d rows\n", 100.0 * misfit, rows);
     assert_int_equal(rows, 54);
     assert_true(misfit < 0.006);
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
 /* ---- an integration of its own ---- */
 
-/* y = u, i, x, v, m: one module, held by nothing, all of (C-1), (C-3), (C-4), (C-5), written from PHYSICS and not from the
- * code; classical Runge-Kutta. */
+/* y = u, i, x, v, m: one module, held by nothing, all of (C-1), (C-3), (C-4), (C-5), written from PHYSICS and not from
+ * the code; classical Runge-Kutta. */
 static void slope(const shot_config *c, bool crowbar, const double *y, double *d)
 {
     const shot_module *p = c->supplies[SUPPLY_capacitor].item;
@@ -261,15 +263,16 @@ static void independent_integration(void **state)
     const double crowbar = integrate(&c, false, 0.0, y), t = integrate(&c, true, crowbar, y);
     assert_near(y[2], c.barrel.length, 1e-9);
     shot *s = run(&c);
-    const shot_summary r = shot_result(s);
+    const shot_summary r = circuit_shot_result(s);
     print_message("muzzle velocity %.6f m/s, differs by %.1e; time by %.1e; wear %.3f g\n", r.muzzle_velocity,
-                  r.muzzle_velocity / y[3] - 1.0, r.muzzle_time / t - 1.0, 1e3 * (c.armature.mass - shot_now(s).mass));
+                  r.muzzle_velocity / y[3] - 1.0, r.muzzle_time / t - 1.0,
+                  1e3 * (c.armature.mass - circuit_shot_now(s).mass));
     assert_near(r.muzzle_velocity, y[3], 1e-8 * y[3]);
     assert_near(r.muzzle_time, t, 1e-8 * t);
     assert_near(r.exit_current, m.count * y[1], 1e-8 * r.peak_current);
-    assert_near(shot_now(s).mass, y[4], 1e-8 * y[4]);
+    assert_near(circuit_shot_now(s).mass, y[4], 1e-8 * y[4]);
     assert_true(c.armature.mass - y[4] > 1e-4); /* the wear is there to be compared */
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
 /* 13 groups, 15 units: the bank of the default shot. */
@@ -290,10 +293,10 @@ static double muzzle_velocity_at(double rtol)
     c.options.rtol = rtol;
     c.options.atol = 0.01 * rtol;
     shot *s = NULL;
-    assert_ok(shot_create(&c, &s));
-    assert_ok(shot_advance(s, INFINITY, NULL));
-    const double v = shot_result(s).muzzle_velocity;
-    shot_free(s);
+    assert_ok(circuit_shot_create(&c, &s));
+    assert_ok(circuit_shot_advance(s, INFINITY, NULL));
+    const double v = circuit_shot_result(s).muzzle_velocity;
+    circuit_shot_free(s);
     return v;
 }
 
@@ -335,10 +338,10 @@ static void many_at_once(void **state)
     assert_int_equal(rec.count[SHOT_WAITING], 0);
     assert_int_equal(rec.count[SHOT_MUZZLE], 1);
     /* the same circuit, integrated with other error norms: both within 100 rtol of the truth (see above) */
-    const double v = shot_result(one).muzzle_velocity;
-    assert_near(shot_result(all).muzzle_velocity, v, 2e-6 * v);
-    shot_free(one);
-    shot_free(all);
+    const double v = circuit_shot_result(one).muzzle_velocity;
+    assert_near(circuit_shot_result(all).muzzle_velocity, v, 2e-6 * v);
+    circuit_shot_free(one);
+    circuit_shot_free(all);
 }
 
 static void modules_that_never_fire(void **state)
@@ -348,18 +351,18 @@ static void modules_that_never_fire(void **state)
     modules[0].fire_at = 1e3;
     shot_config c = plain(modules, 3);
     shot *s = run(&c);
-    assert_true(shot_done(s));
+    assert_true(circuit_shot_done(s));
     assert_int_equal(rec.n, 0);
-    assert_true(shot_now(s).v == 0.0 && shot_result(s).peak_current == 0.0);
-    shot_free(s);
+    assert_true(circuit_shot_now(s).v == 0.0 && circuit_shot_result(s).peak_current == 0.0);
+    circuit_shot_free(s);
 
     modules[0].fire_at = 0.0; /* beside one that does, they keep their charge */
     c = plain(modules, 3);
     s = run(&c);
     assert_int_equal(rec.count[SHOT_FIRED], 1);
     assert_int_equal(rec.count[SHOT_MUZZLE], 1);
-    assert_true(shot_module_voltage(s, 1) == modules[1].charge && shot_module_current(s, 2) == 0.0);
-    shot_free(s);
+    assert_true(circuit_shot_module_voltage(s, 1) == modules[1].charge && circuit_shot_module_current(s, 2) == 0.0);
+    circuit_shot_free(s);
 }
 
 static void zero_charge(void **state)
@@ -369,20 +372,20 @@ static void zero_charge(void **state)
     modules[0].charge = 0.0;
     shot_config c = plain(modules, 1);
     shot *s = run(&c);
-    assert_true(shot_done(s) && shot_now(s).v == 0.0 && shot_result(s).energy_error == 0.0);
+    assert_true(circuit_shot_done(s) && circuit_shot_now(s).v == 0.0 && circuit_shot_result(s).energy_error == 0.0);
     assert_int_equal(rec.count[SHOT_FIRED], 0);
-    shot_free(s);
+    circuit_shot_free(s);
     c = plain(modules, 1); /* nothing that would hold the armature: still no motion, and an end */
     c.armature.preload = 0.0;
     s = run(&c);
-    assert_true(shot_done(s) && shot_now(s).v == 0.0);
-    shot_free(s);
+    assert_true(circuit_shot_done(s) && circuit_shot_now(s).v == 0.0);
+    circuit_shot_free(s);
     c = plain(modules, 2); /* beside a charged group it waits for a breech voltage below zero, which never comes */
     s = run(&c);
     assert_int_equal(rec.count[SHOT_WAITING], 1);
     assert_int_equal(rec.count[SHOT_FIRED], 1);
     assert_int_equal(rec.count[SHOT_MUZZLE], 1);
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
 /* Fired into a breech above its own voltage, a weak group waits, and conducts when the breech has fallen to it. */
@@ -403,7 +406,7 @@ static void weak_group_waits(void **state)
     assert_non_null(fires);
     assert_near(waits->state.t, 6e-4, 1e-12);
     assert_true(waits->state.breech_voltage > 500.0 && fires->state.t > waits->state.t);
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
 static void stuck_armature(void **state)
@@ -413,17 +416,17 @@ static void stuck_armature(void **state)
     shot_config c = plain(&m, 1);
     c.armature.preload = 1e7;
     shot *s = run(&c);
-    assert_true(shot_done(s));
-    assert_true(shot_now(s).x == c.barrel.start && shot_now(s).phase == SHOT_HELD);
-    assert_true(isnan(shot_result(s).muzzle_velocity) && shot_result(s).peak_current > 1e6);
+    assert_true(circuit_shot_done(s));
+    assert_true(circuit_shot_now(s).x == c.barrel.start && circuit_shot_now(s).phase == SHOT_HELD);
+    assert_true(isnan(circuit_shot_result(s).muzzle_velocity) && circuit_shot_result(s).peak_current > 1e6);
     assert_int_equal(rec.count[SHOT_RELEASED] + rec.count[SHOT_MUZZLE], 0);
-    shot_free(s);
+    circuit_shot_free(s);
     c = plain(&m, 1); /* spreading alone can hold it at any current: 2 mu k > L'/2 */
     c.armature.preload = 0.0;
     c.armature.spreading = 1e-6;
     s = run(&c);
-    assert_true(shot_done(s) && shot_now(s).phase == SHOT_HELD);
-    shot_free(s);
+    assert_true(circuit_shot_done(s) && circuit_shot_now(s).phase == SHOT_HELD);
+    circuit_shot_free(s);
 }
 
 /* Friction that the force exceeds only around the peak: released once, stopped once, at the right instants. */
@@ -438,7 +441,7 @@ static void armature_that_stops_again(void **state)
     c.armature.preload = 3e5;
     c.armature.mass = 5.0;
     shot *s = run(&c);
-    assert_true(shot_done(s));
+    assert_true(circuit_shot_done(s));
     assert_int_equal(rec.count[SHOT_RELEASED], 1);
     assert_int_equal(rec.count[SHOT_STOPPED], 1);
     for (int k = 0; k < rec.n; k++) { /* (C-3): 1/2 L' I^2 = 2 mu N, to the release margin of 1e-3 N and round-off */
@@ -446,7 +449,7 @@ static void armature_that_stops_again(void **state)
         if (rec.events[k].kind == SHOT_RELEASED) assert_near(0.25e-6 * e->current * e->current, 3e5, 0.01);
         if (rec.events[k].kind == SHOT_STOPPED) assert_true(e->v == 0.0 && e->x > 0.1 && e->x < 5.0);
     }
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
 static void leaves_before_the_last_firing(void **state)
@@ -457,13 +460,14 @@ static void leaves_before_the_last_firing(void **state)
     c.barrel.length = 0.5;
     c.barrel.muzzle_voltage = 200.0;
     shot *s = run(&c);
-    const shot_summary result = shot_result(s);
-    assert_true(shot_done(s) && result.muzzle_time < 5e-3);
+    const shot_summary result = circuit_shot_result(s);
+    assert_true(circuit_shot_done(s) && result.muzzle_time < 5e-3);
     assert_int_equal(rec.count[SHOT_FIRED], 2);
     assert_int_equal(rec.count[SHOT_BLOCKED], 2);
-    assert_near(shot_now(s).ledger.kinetic, result.muzzle_energy, 0.0);
-    assert_true(shot_now(s).ledger.muzzle > 0.5 * 0.5 * shot_now(s).ledger.start); /* the late half goes mostly there */
-    shot_free(s);
+    assert_near(circuit_shot_now(s).ledger.kinetic, result.muzzle_energy, 0.0);
+    assert_true(circuit_shot_now(s).ledger.muzzle >
+                0.5 * 0.5 * circuit_shot_now(s).ledger.start); /* the late half goes mostly there */
+    circuit_shot_free(s);
 }
 
 /* ---- sites and jumps ---- */
@@ -491,10 +495,10 @@ static void sites_are_located(void **state)
         n++;
     }
     assert_int_equal(n, 8);
-    assert_near(shot_result(s).muzzle_velocity, shot_result(bare).muzzle_velocity,
+    assert_near(circuit_shot_result(s).muzzle_velocity, circuit_shot_result(bare).muzzle_velocity,
                 1e-9 * 2e3); /* looking changes nothing */
-    shot_free(s);
-    shot_free(bare);
+    circuit_shot_free(s);
+    circuit_shot_free(bare);
 }
 
 static void gouges_hand_back(void **state)
@@ -510,28 +514,28 @@ static void gouges_hand_back(void **state)
     const shot_sink sink = notebook();
     rec.impulse = 5.0;
     rec.mass_loss = 1e-4;
-    assert_ok(shot_create(&c, &s));
-    assert_ok(shot_advance(s, INFINITY, &sink));
-    const shot_ledger l = shot_now(s).ledger;
+    assert_ok(circuit_shot_create(&c, &s));
+    assert_ok(circuit_shot_advance(s, INFINITY, &sink));
+    const shot_ledger l = circuit_shot_now(s).ledger;
     assert_true(rec.worst_energy < 1e-6);
     assert_near(l.momentum_jumps, 10.0, 1e-12);
     assert_near(l.mass_jumps, 2e-4, 1e-16);
-    assert_true(l.jumps > 0.0 && shot_now(s).mass < c.armature.mass);
-    const double loss = shot_result(free_run).muzzle_velocity - shot_result(s).muzzle_velocity;
+    assert_true(l.jumps > 0.0 && circuit_shot_now(s).mass < c.armature.mass);
+    const double loss = circuit_shot_result(free_run).muzzle_velocity - circuit_shot_result(s).muzzle_velocity;
     assert_true(loss > 5.0 && loss < 10.0 / 0.249); /* less than both jumps: a slower armature gains more afterwards */
-    shot_free(s);
-    shot_free(free_run);
+    circuit_shot_free(s);
+    circuit_shot_free(free_run);
 
     const shot_sink again =
         notebook(); /* more than the momentum: it stops there, and the current starts it again or not */
     rec.impulse = 1e6;
-    assert_ok(shot_create(&c, &s));
-    assert_int_equal(shot_jump(s, 1.0, 0.0).code, STATUS_BAD_INPUT); /* held: no motion to take from */
-    assert_ok(shot_advance(s, INFINITY, &again));
-    assert_true(rec.worst_energy < 1e-6 && shot_done(s));
-    assert_int_equal(shot_jump(s, -1.0, 0.0).code, STATUS_BAD_INPUT);
-    assert_int_equal(shot_jump(s, 0.0, 1.0).code, STATUS_BAD_INPUT);
-    shot_free(s);
+    assert_ok(circuit_shot_create(&c, &s));
+    assert_int_equal(circuit_shot_jump(s, 1.0, 0.0).code, STATUS_BAD_INPUT); /* held: no motion to take from */
+    assert_ok(circuit_shot_advance(s, INFINITY, &again));
+    assert_true(rec.worst_energy < 1e-6 && circuit_shot_done(s));
+    assert_int_equal(circuit_shot_jump(s, -1.0, 0.0).code, STATUS_BAD_INPUT);
+    assert_int_equal(circuit_shot_jump(s, 0.0, 1.0).code, STATUS_BAD_INPUT);
+    circuit_shot_free(s);
 }
 
 /* Stopped at any event and taken up again, the shot gives the same bits and the same events. */
@@ -546,22 +550,22 @@ static void stop_and_go_on(void **state)
         shot *s = NULL;
         const shot_sink sink = notebook();
         rec.stop_at = stop;
-        assert_ok(shot_create(&c, &s));
-        assert_int_equal(shot_advance(s, INFINITY, &sink).code, STATUS_STOPPED);
-        assert_ok(shot_advance(s, INFINITY, &sink));
+        assert_ok(circuit_shot_create(&c, &s));
+        assert_int_equal(circuit_shot_advance(s, INFINITY, &sink).code, STATUS_STOPPED);
+        assert_ok(circuit_shot_advance(s, INFINITY, &sink));
         assert_int_equal(rec.n, n);
-        assert_true(shot_result(s).muzzle_velocity == shot_result(whole).muzzle_velocity);
-        shot_free(s);
+        assert_true(circuit_shot_result(s).muzzle_velocity == circuit_shot_result(whole).muzzle_velocity);
+        circuit_shot_free(s);
     }
-    shot_free(whole);
+    circuit_shot_free(whole);
 }
 
 static status creation(const shot_config *c)
 {
     shot *s = NULL;
-    const status st = shot_create(c, &s);
+    const status st = circuit_shot_create(c, &s);
     if (st.code != STATUS_OK) assert_null(s);
-    shot_free(s);
+    circuit_shot_free(s);
     return st;
 }
 
@@ -642,10 +646,10 @@ static void random_banks(void **state)
         c.barrel.muzzle_voltage = dice(&seed) < 0.5 ? 0.0 : 300.0;
         shot *s = run(&c);
         worst = fmax(worst, rec.worst_energy);
-        most = shot_result(s).steps > most ? shot_result(s).steps : most;
+        most = circuit_shot_result(s).steps > most ? circuit_shot_result(s).steps : most;
         left += rec.count[SHOT_MUZZLE];
         stopped += rec.count[SHOT_STOPPED];
-        shot_free(s);
+        circuit_shot_free(s);
     }
     print_message("%d shots: %d leave, %d stop, worst energy error %.1e, at most %llu steps\n", n_shots, left, stopped,
                   worst, (unsigned long long)most);
@@ -660,9 +664,9 @@ static void shot_of_default_case(void **state)
     shot_config c = plain(modules, default_bank(modules));
     c.rails.level = SHOT_RAILS_SKIN;
     shot *s = run(&c);
-    const shot_summary r = shot_result(s);
-    const shot_state now = shot_now(s);
-    const double frequency = shot_effective_frequency(c.supplies);
+    const shot_summary r = circuit_shot_result(s);
+    const shot_state now = circuit_shot_now(s);
+    const double frequency = circuit_shot_effective_frequency(c.supplies);
     print_message("f %.1f Hz, L' %.4f uH/m, R' %.1f uohm/m\n", frequency, 1e6 * now.inductance_gradient,
                   1e6 * now.resistance_gradient);
     print_message(
@@ -674,7 +678,7 @@ static void shot_of_default_case(void **state)
     assert_near(r.muzzle_energy, 0.5 * c.armature.mass * r.muzzle_velocity * r.muzzle_velocity, 1e-9 * r.muzzle_energy);
     assert_near(r.efficiency, r.muzzle_energy / now.ledger.start, 1e-12);
     assert_true(r.action > 0.0 && r.action < r.peak_current * r.peak_current * r.muzzle_time);
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
 int main(void)

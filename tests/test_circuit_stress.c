@@ -35,10 +35,10 @@ static status run(const shot_config *c, shot_summary *out)
 {
     shot *s = NULL;
     const shot_sink sink = notes_sink(&notes);
-    TRY(shot_create(c, &s));
-    const status done = shot_advance(s, INFINITY, &sink);
-    *out = shot_result(s);
-    shot_free(s);
+    TRY(circuit_shot_create(c, &s));
+    const status done = circuit_shot_advance(s, INFINITY, &sink);
+    *out = circuit_shot_result(s);
+    circuit_shot_free(s);
     return done;
 }
 
@@ -149,7 +149,8 @@ static void many_groups(void **state)
     }
 }
 
-/* A module that fires at the very instant of the exit, of a crowbar, of another's end; one whose crowbar is due as it fires. */
+/* A module that fires at the very instant of the exit, of a crowbar, of another's end; one whose crowbar is due as it
+ * fires. */
 static void coincidences(void **state)
 {
     (void)state;

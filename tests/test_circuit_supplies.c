@@ -38,7 +38,7 @@ static one_of_each samples(void)
     s.capacitor = unit_200kJ(1, 0.0);
     s.capacitor.cable_inductance = 1e-6;
     s.capacitor.cable_resistance = 1e-3;
-    params_default(supply_inductor_params, &s.inductor);
+    base_params_default(circuit_supply_inductor_params, &s.inductor);
     s.inductor.inductance = 20e-6;
     s.inductor.resistance = 1e-3;
     s.inductor.current = 3e5;
@@ -46,14 +46,14 @@ static one_of_each samples(void)
     s.inductor.opening_voltage = 4e3;
     s.inductor.cable_inductance = 0.3e-6;
     s.inductor.cable_resistance = 1e-4;
-    params_default(supply_homopolar_params, &s.homopolar);
+    base_params_default(circuit_supply_homopolar_params, &s.homopolar);
     s.homopolar.flux = 0.2;
     s.homopolar.inertia = 50.0;
     s.homopolar.speed = 700.0;
     s.homopolar.windage = 0.01;
     s.homopolar.inductance = 4e-6;
     s.homopolar.resistance = 50e-6;
-    params_default(supply_alternator_params, &s.alternator);
+    base_params_default(circuit_supply_alternator_params, &s.alternator);
     s.alternator.flux = 3.0;
     s.alternator.pole_pairs = 2;
     s.alternator.inertia = 20.0;
@@ -61,7 +61,7 @@ static one_of_each samples(void)
     s.alternator.windage = 0.01;
     s.alternator.inductance = 2e-6;
     s.alternator.resistance = 300e-6;
-    params_default(supply_profile_params, &s.profile);
+    base_params_default(circuit_supply_profile_params, &s.profile);
     for (int k = 0; k < 9; k++) hump[k] = (supply_point){ k * 5e-4, 4e5 * sin(3.14159265358979 * k / 8) };
     hump[8].current = 0.0;
     s.profile.points.n = 9;
@@ -100,16 +100,16 @@ static void balance(const supply_group *g, const double *y0, double V)
     memcpy(y, y0, sizeof y);
     const double t = 1e-3, h = 1e-7;
     for (int pass = 0; pass < 2; pass++) { /* algebraic unknowns get the value they must have */
-        supply_rates(g, t, y, V, d, &f);
+        circuit_supply_rates(g, t, y, V, d, &f);
         for (int j = 0; j < g->unknowns; j++)
-            if (supply_algebraic(g, j)) y[j] = d[j];
+            if (circuit_supply_algebraic(g, j)) y[j] = d[j];
     }
     for (int j = 0; j < g->unknowns; j++) { /* and move with the current they follow */
-        const double rate = supply_algebraic(g, j) ? (j == 0 ? f.push : d[0]) : d[j];
+        const double rate = circuit_supply_algebraic(g, j) ? (j == 0 ? f.push : d[0]) : d[j];
         ahead[j] = y[j] + h * rate;
         behind[j] = y[j] - h * rate;
     }
-    const double i = supply_conducts(g) ? y[0] : 0.0;
+    const double i = circuit_supply_conducts(g) ? y[0] : 0.0;
     double lost = 0.0;
     for (int p = 0; p < HEAT_PLACES; p++) {
         assert_true(f.heat[p] >= 0.0);
@@ -127,12 +127,12 @@ static void law_of_the_table(void **state)
     const one_of_each s = samples();
     for (int kind = 0; kind < SUPPLY_KINDS; kind++) {
         for (int variant = 0; variant < 2; variant++) {
-            supply_group g = { .kind = supply_kinds[kind], .p = sample_of(&s, kind), .n = 1.0 };
+            supply_group g = { .kind = circuit_supply_kinds[kind], .p = sample_of(&s, kind), .n = 1.0 };
             shot_module damped = s.capacitor;
             damped.damping_resistance = 0.3;
             damped.crowbar_resistance = 0.0;
             if (variant && kind == SUPPLY_capacitor) g.p = &damped;
-            g.at = supply_common_of(g.p);
+            g.at = circuit_supply_common_of(g.p);
             g.unknowns = g.kind->unknowns(g.p);
             if (g.kind->prepare) assert_ok(g.kind->prepare(&g));
             for (int gate = GATE_UNFIRED; gate <= GATE_ON; gate++) {
@@ -159,8 +159,8 @@ static shot *run(const shot_config *c)
 {
     shot *s = NULL;
     const shot_sink sink = notes_sink(&notes);
-    assert_ok(shot_create(c, &s));
-    assert_ok(shot_advance(s, INFINITY, &sink));
+    assert_ok(circuit_shot_create(c, &s));
+    assert_ok(circuit_shot_advance(s, INFINITY, &sink));
     /* default tolerances: docs/shot.md's 1000 random banks stay below 3e-7 */
     if (!(notes.worst_error < 1e-6)) fail_msg("energy error %.2e", notes.worst_error);
     return s;
@@ -174,13 +174,14 @@ static void every_kind_shoots(void **state)
         shot_config c = plain_barrel();
         c.supplies[kind] = (supply_list){ 1, sample_of(&s, kind) };
         shot *one = run(&c);
-        const shot_summary r = shot_result(one);
-        print_message("%-10s peak %.0f kA, %.0f m/s, worst energy error %.1e, %llu steps\n", supply_kinds[kind]->name,
-                      1e-3 * r.peak_current, r.muzzle_velocity, notes.worst_error, (unsigned long long)r.steps);
+        const shot_summary r = circuit_shot_result(one);
+        print_message("%-10s peak %.0f kA, %.0f m/s, worst energy error %.1e, %llu steps\n",
+                      circuit_supply_kinds[kind]->name, 1e-3 * r.peak_current, r.muzzle_velocity, notes.worst_error,
+                      (unsigned long long)r.steps);
         assert_int_equal(notes.count[SHOT_FIRED], 1);
-        assert_int_equal(shot_module_count(one), 1);
-        assert_true(r.peak_current > 1e4 && (r.muzzle_velocity > 10.0 || shot_now(one).phase != SHOT_LEFT));
-        shot_free(one);
+        assert_int_equal(circuit_shot_module_count(one), 1);
+        assert_true(r.peak_current > 1e4 && (r.muzzle_velocity > 10.0 || circuit_shot_now(one).phase != SHOT_LEFT));
+        circuit_shot_free(one);
     }
 }
 
@@ -191,10 +192,11 @@ static void all_kinds_together(void **state)
     shot_config c = plain_barrel();
     for (int kind = 0; kind < SUPPLY_KINDS; kind++) c.supplies[kind] = (supply_list){ 1, sample_of(&s, kind) };
     shot *one = run(&c);
-    assert_int_equal(shot_module_count(one), SUPPLY_KINDS);
+    assert_int_equal(circuit_shot_module_count(one), SUPPLY_KINDS);
     assert_int_equal(notes.count[SHOT_MUZZLE], 1);
-    print_message("together: %.0f m/s, worst energy error %.1e\n", shot_result(one).muzzle_velocity, notes.worst_error);
-    shot_free(one);
+    print_message("together: %.0f m/s, worst energy error %.1e\n", circuit_shot_result(one).muzzle_velocity,
+                  notes.worst_error);
+    circuit_shot_free(one);
 }
 
 /* Without windage a homopolar machine is a capacitor J/k^2 charged to k w_0. */
@@ -205,7 +207,7 @@ static void homopolar_is_a_capacitor(void **state)
     h.windage = 0.0;
     h.inertia = 2e-3;
     shot_module m;
-    params_default(supply_capacitor_params, &m);
+    base_params_default(circuit_supply_capacitor_params, &m);
     m.capacitance = h.inertia / (h.flux * h.flux);
     m.charge = h.flux * h.speed * 10.0;
     h.speed *= 10.0;
@@ -216,16 +218,17 @@ static void homopolar_is_a_capacitor(void **state)
     a.supplies[SUPPLY_homopolar] = (supply_list){ 1, &h };
     b.supplies[SUPPLY_capacitor] = (supply_list){ 1, &m };
     shot *one = run(&a), *other = run(&b);
-    const double peak = shot_result(other).peak_current;
-    assert_near(shot_result(one).peak_current, peak, 1e-7 * peak); /* both within 100 rtol of the truth */
-    assert_near(shot_now(one).x, shot_now(other).x, 1e-6);
-    assert_near(shot_now(one).ledger.rotors, shot_now(other).ledger.capacitors, 1e-6 * shot_now(one).ledger.start);
-    shot_free(one);
-    shot_free(other);
+    const double peak = circuit_shot_result(other).peak_current;
+    assert_near(circuit_shot_result(one).peak_current, peak, 1e-7 * peak); /* both within 100 rtol of the truth */
+    assert_near(circuit_shot_now(one).x, circuit_shot_now(other).x, 1e-6);
+    assert_near(circuit_shot_now(one).ledger.rotors, circuit_shot_now(other).ledger.capacitors,
+                1e-6 * circuit_shot_now(one).ledger.start);
+    circuit_shot_free(one);
+    circuit_shot_free(other);
 }
 
-/* Charged by its battery, i_0 = V_b/R (1 - exp(-R t/L)); then, lossless for the few us it takes, i* = i_0 L_s/(L_s + L_c) and
- * the switch burns 1/2 i_0^2 L_s L_c/(L_s + L_c). */
+/* Charged by its battery, i_0 = V_b/R (1 - exp(-R t/L)); then, lossless for the few us it takes, i* = i_0 L_s/(L_s +
+ * L_c) and the switch burns 1/2 i_0^2 L_s L_c/(L_s + L_c). */
 static void opening_switch(void **state)
 {
     (void)state;
@@ -242,22 +245,23 @@ static void opening_switch(void **state)
     c.supplies[SUPPLY_inductor] = (supply_list){ 1, &p };
     shot *s = NULL;
     const shot_sink sink = notes_sink(&notes);
-    assert_ok(shot_create(&c, &s));
-    assert_ok(shot_advance(s, 0.020001, &sink));
+    assert_ok(circuit_shot_create(&c, &s));
+    assert_ok(circuit_shot_advance(s, 0.020001, &sink));
     assert_int_equal(notes.count[SHOT_COMMUTATED], 1);
     /* R i_0/U = 2.6e-4 of the current is lost or gained on the way */
     assert_near(notes.time[SHOT_COMMUTATED] - p.fire_at, took, 1e-3 * took);
-    assert_near(shot_result(s).peak_current, i0 * share, 1e-3 * i0);
-    assert_near(shot_now(s).ledger.switch_heat, 0.5 * i0 * i0 * share * p.cable_inductance,
-                1e-3 * shot_now(s).ledger.switch_heat);
+    assert_near(circuit_shot_result(s).peak_current, i0 * share, 1e-3 * i0);
+    assert_near(circuit_shot_now(s).ledger.switch_heat, 0.5 * i0 * i0 * share * p.cable_inductance,
+                1e-3 * circuit_shot_now(s).ledger.switch_heat);
     /* after 0.02 s the store holds half of what the battery gave; that is in `supplied` */
-    assert_true(shot_now(s).ledger.start == 0.0 && shot_now(s).ledger.supplied > 0.5 * p.inductance * i0 * i0);
+    assert_true(circuit_shot_now(s).ledger.start == 0.0 &&
+                circuit_shot_now(s).ledger.supplied > 0.5 * p.inductance * i0 * i0);
     assert_true(notes.worst_error < 1e-6);
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
-/* Lossless and of endless inertia, switched on at the electrical angle f: i = k/(p L) (cos f - cos a), zero again at the angle
- * 2 pi - f; it comes on again where its voltage turns positive, at 2 pi. */
+/* Lossless and of endless inertia, switched on at the electrical angle f: i = k/(p L) (cos f - cos a), zero again at
+ * the angle 2 pi - f; it comes on again where its voltage turns positive, at 2 pi. */
 static void alternator_pulses(void **state)
 {
     (void)state;
@@ -271,22 +275,23 @@ static void alternator_pulses(void **state)
     const double pi = 3.14159265358979, w = p.pole_pairs * p.speed, unit = p.flux / (p.pole_pairs * p.inductance);
     shot *s = NULL;
     const shot_sink sink = notes_sink(&notes);
-    assert_ok(shot_create(&c, &s));
-    assert_ok(shot_advance(s, (2.0 * pi - 0.6) / w, &sink));
-    assert_near(shot_result(s).peak_current, unit * (1.0 + cos(0.5)), 2e-5 * unit); /* the rotor's share: 1e-6 */
+    assert_ok(circuit_shot_create(&c, &s));
+    assert_ok(circuit_shot_advance(s, (2.0 * pi - 0.6) / w, &sink));
+    assert_near(circuit_shot_result(s).peak_current, unit * (1.0 + cos(0.5)),
+                2e-5 * unit); /* the rotor's share: 1e-6 */
     assert_int_equal(notes.count[SHOT_WAITING], 1);
     assert_near(notes.time[SHOT_WAITING], (2.0 * pi - 1.0) / w, 1e-5 / w);
-    assert_ok(shot_advance(s, 3.0 * pi / w, &sink));
+    assert_ok(circuit_shot_advance(s, 3.0 * pi / w, &sink));
     assert_int_equal(notes.count[SHOT_FIRED], 2);
     assert_near(notes.time[SHOT_FIRED], (2.0 * pi - 0.5) / w, 1e-5 / w);
     assert_int_equal(notes.count[SHOT_BLOCKED], 0);
     assert_true(notes.worst_error < 1e-6);
-    shot_free(s);
+    circuit_shot_free(s);
     p.resistance = 3e-4; /* with losses the second pulse ends too, for good */
     s = run(&c);
     assert_int_equal(notes.count[SHOT_BLOCKED], 1);
-    assert_true(shot_done(s));
-    shot_free(s);
+    assert_true(circuit_shot_done(s));
+    circuit_shot_free(s);
 }
 
 static void profile_is_followed(void **state)
@@ -296,19 +301,20 @@ static void profile_is_followed(void **state)
     shot_config c = plain_barrel();
     c.supplies[SUPPLY_profile] = (supply_list){ 1, &all.profile };
     shot *s = NULL;
-    assert_ok(shot_create(&c, &s));
+    assert_ok(circuit_shot_create(&c, &s));
     for (int k = 1; k < 8; k++) {
-        assert_ok(shot_advance(s, hump[k].time, NULL));
-        assert_near(shot_now(s).current, hump[k].current, 1e-9 * 4e5); /* algebraic: met to the Newton iteration */
+        assert_ok(circuit_shot_advance(s, hump[k].time, NULL));
+        assert_near(circuit_shot_now(s).current, hump[k].current,
+                    1e-9 * 4e5); /* algebraic: met to the Newton iteration */
     }
-    assert_ok(shot_advance(s, INFINITY, NULL));
-    assert_near(shot_now(s).ledger.energy_error, 0.0, 1e-6);
-    assert_true(shot_now(s).current == 0.0 && shot_now(s).ledger.supplied > 1e4);
-    shot_free(s);
+    assert_ok(circuit_shot_advance(s, INFINITY, NULL));
+    assert_near(circuit_shot_now(s).ledger.energy_error, 0.0, 1e-6);
+    assert_true(circuit_shot_now(s).current == 0.0 && circuit_shot_now(s).ledger.supplied > 1e4);
+    circuit_shot_free(s);
     supply_profile bad = all.profile;
     hump[8].current = 7.0;
     c.supplies[SUPPLY_profile].item = &bad;
-    const status st = shot_create(&c, &s);
+    const status st = circuit_shot_create(&c, &s);
     assert_int_equal(st.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(st.text, "current_profiles[0]"));
 }
@@ -319,14 +325,14 @@ static void late_spike(void **state)
     (void)state;
     supply_point points[] = { { 0.0, 0.0 }, { 0.05, 0.0 }, { 0.05001, 5e5 }, { 0.05002, 0.0 } };
     supply_profile p;
-    params_default(supply_profile_params, &p);
+    base_params_default(circuit_supply_profile_params, &p);
     p.points.n = 4;
     p.points.item = points;
     shot_config c = short_circuit();
     c.supplies[SUPPLY_profile] = (supply_list){ 1, &p };
     shot *s = run(&c);
-    assert_near(shot_result(s).peak_current, 5e5, 1.0);
-    shot_free(s);
+    assert_near(circuit_shot_result(s).peak_current, 5e5, 1.0);
+    circuit_shot_free(s);
 }
 
 /* ---- the module's options ---- */
@@ -342,19 +348,19 @@ static void ringing(void **state)
     c.options.rtol = 1e-11;
     c.options.atol = 1e-13;
     shot *s = NULL;
-    assert_ok(shot_create(&c, &s));
+    assert_ok(circuit_shot_create(&c, &s));
     const double a = 0.5 * m.resistance / m.inductance, w = sqrt(1.0 / (m.inductance * m.capacitance) - a * a);
     const double peak = m.charge / (w * m.inductance);
     double worst = 0.0, least = 0.0;
     for (int k = 1; k <= 100; k++) {
         const double t = 5e-5 * k, i = peak * exp(-a * t) * sin(w * t);
-        assert_ok(shot_advance(s, t, NULL));
-        worst = fmax(worst, fabs(shot_now(s).current - i));
-        least = fmin(least, shot_now(s).current);
+        assert_ok(circuit_shot_advance(s, t, NULL));
+        worst = fmax(worst, fabs(circuit_shot_now(s).current - i));
+        least = fmin(least, circuit_shot_now(s).current);
     }
     print_message("ringing: worst %.1e of peak\n", worst / peak);
     assert_true(worst < 1e-8 * peak && least < -0.3 * peak);
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
 /* Crowbar but no series diode: the current reverses through the diode's end, and the capacitor charges again. */
@@ -370,7 +376,7 @@ static void reversal_through_a_crowbar(void **state)
     c.options.max_time = 0.02;
     shot *s = run(&c);
     assert_true(notes.count[SHOT_RECHARGED] >= 1);
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
 static double muzzle_velocity(const shot_module *m, int n)
@@ -378,8 +384,8 @@ static double muzzle_velocity(const shot_module *m, int n)
     shot_config c = plain_barrel();
     c.supplies[SUPPLY_capacitor] = (supply_list){ n, m };
     shot *s = run(&c);
-    const double v = shot_result(s).muzzle_velocity;
-    shot_free(s);
+    const double v = circuit_shot_result(s).muzzle_velocity;
+    circuit_shot_free(s);
     return v;
 }
 
@@ -400,7 +406,7 @@ static void damping(void **state)
     shot_config c = plain_barrel();
     c.supplies[SUPPLY_capacitor] = (supply_list){ 1, &m };
     shot *s = NULL;
-    assert_int_equal(shot_create(&c, &s).code, STATUS_BAD_INPUT);
+    assert_int_equal(circuit_shot_create(&c, &s).code, STATUS_BAD_INPUT);
 }
 
 /* ---- feeds along the barrel, muzzle shunt ---- */
@@ -417,7 +423,8 @@ static void feed_at_the_breech_is_the_breech(void **state)
     assert_true(muzzle_velocity(m, 2) > together);
 }
 
-/* Two feeds of ideal sources behind inductances, by Runge-Kutta: y = u_0, i_0, u_1, i_1, x, v.  Level constant, no losses. */
+/* Two feeds of ideal sources behind inductances, by Runge-Kutta: y = u_0, i_0, u_1, i_1, x, v.  Level constant, no
+ * losses. */
 typedef struct {
     const shot_module *m;
     double Lr, mass, join;
@@ -490,13 +497,13 @@ static void joining_on_the_way(void **state)
     y[4] = m[1].position;
     two_feeds_until(&own, c.barrel.length, y);
     shot *s = run(&c);
-    const shot_summary r = shot_result(s);
+    const shot_summary r = circuit_shot_result(s);
     print_message("two feeds: %.4f m/s, differs by %.1e\n", r.muzzle_velocity, r.muzzle_velocity / y[5] - 1.0);
     assert_near(r.muzzle_velocity, y[5], 1e-8 * y[5]); /* Runge-Kutta at 1 us is good to 1e-10, rtol 1e-10 to 1e-9 */
     assert_near(r.exit_current, y[1] + y[3], 1e-8 * r.exit_current);
     assert_int_equal(notes.count[SHOT_FIRED], 2);
     assert_true(notes.time[SHOT_FIRED] > 1e-4); /* the second one on the way, not at the start */
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
 static void a_barrel_of_feeds(void **state)
@@ -514,16 +521,17 @@ static void a_barrel_of_feeds(void **state)
     c.rails.level = SHOT_RAILS_DIFFUSING;
     shot *s = run(&c);
     print_message("12 feeds: %.1f m/s, peak %.0f kA, worst energy error %.1e, %llu steps\n",
-                  shot_result(s).muzzle_velocity, 1e-3 * shot_result(s).peak_current, notes.worst_error,
-                  (unsigned long long)shot_result(s).steps);
+                  circuit_shot_result(s).muzzle_velocity, 1e-3 * circuit_shot_result(s).peak_current, notes.worst_error,
+                  (unsigned long long)circuit_shot_result(s).steps);
     assert_int_equal(notes.count[SHOT_FIRED], 12);
     m[3].position = 5.0;
     shot *none = NULL;
-    assert_int_equal(shot_create(&c, &none).code, STATUS_BAD_INPUT);
-    shot_free(s);
+    assert_int_equal(circuit_shot_create(&c, &none).code, STATUS_BAD_INPUT);
+    circuit_shot_free(s);
 }
 
-/* A shunt of great resistance is none; one of little takes current from the armature and slows it; what it burns is booked. */
+/* A shunt of great resistance is none; one of little takes current from the armature and slows it; what it burns is
+ * booked. */
 static void muzzle_shunt(void **state)
 {
     (void)state;
@@ -534,19 +542,20 @@ static void muzzle_shunt(void **state)
     shot *bare = run(&c);
     c.barrel.shunt_resistance = 1e3;
     shot *open = run(&c);
-    const double v = shot_result(bare).muzzle_velocity;
-    assert_near(shot_result(open).muzzle_velocity, v, 1e-5 * v); /* 30 V over 1 kohm of 1 MA, and the contact's knee */
+    const double v = circuit_shot_result(bare).muzzle_velocity;
+    assert_near(circuit_shot_result(open).muzzle_velocity, v,
+                1e-5 * v); /* 30 V over 1 kohm of 1 MA, and the contact's knee */
     c.barrel.shunt_resistance = 1e-4;
     c.rails.level = SHOT_RAILS_DIFFUSING;
     shot *shunted = run(&c);
-    const shot_state now = shot_now(shunted);
+    const shot_state now = circuit_shot_now(shunted);
     print_message("muzzle velocity %.2f m/s, with a shunt of 0.1 mohm %.2f; worst energy error %.1e\n", v,
-                  shot_result(shunted).muzzle_velocity, notes.worst_error);
-    assert_true(shot_result(shunted).muzzle_velocity < v);
+                  circuit_shot_result(shunted).muzzle_velocity, notes.worst_error);
+    assert_true(circuit_shot_result(shunted).muzzle_velocity < v);
     assert_true(now.ledger.muzzle > 0.0);
-    shot_free(bare);
-    shot_free(open);
-    shot_free(shunted);
+    circuit_shot_free(bare);
+    circuit_shot_free(open);
+    circuit_shot_free(shunted);
 }
 
 /* ---- limits and temperatures ---- */
@@ -559,12 +568,12 @@ static void limits(void **state)
     shot_config c = plain_barrel();
     c.supplies[SUPPLY_capacitor] = (supply_list){ 1, &m };
     shot *s = run(&c);
-    shot_limits l = shot_limits_of(s);
+    shot_limits l = circuit_shot_limits_of(s);
     assert_true(isnan(l.leg_action) && isnan(l.wear_share) && isnan(l.critical_velocity) &&
                 isnan(l.transition_position));
     assert_true(l.contact_ratio > 1.0); /* 5 kN + 3e-8 I^2 against 9.81e-3 I: least 2.5 at 408 kA */
     assert_near(l.contact_ratio, 2.0 * sqrt(5e3 * 3e-8) / 9.80665e-3, 1e-3);
-    shot_free(s);
+    circuit_shot_free(s);
 
     c.armature.preload = 10.0;
     c.armature.spreading = 1e-9;
@@ -574,20 +583,20 @@ static void limits(void **state)
     c.armature.leg_thickness = 1e-4;
     c.rails.backing_stiffness = 1e9;
     s = run(&c);
-    l = shot_limits_of(s);
+    l = circuit_shot_limits_of(s);
     const double melting = 2804.0 * 848.0 / (5.15e-8 * 2e-3) * log1p(2e-3 * (750.0 - 293.15));
-    const double worn = (c.armature.mass - shot_now(s).mass) / (2.0 * 2804.0 * 0.02 * 0.025);
+    const double worn = (c.armature.mass - circuit_shot_now(s).mass) / (2.0 * 2804.0 * 0.02 * 0.025);
     const double bending = 124e9 * 0.025 * 8e-6 / 12.0,
                  speed = sqrt(2.0 * sqrt(1e9 * bending) / (8960.0 * 0.025 * 0.020));
     print_message("contact ratio %.3f, leg %.3f, wear %.2f, bending waves %.0f m/s, from x = %.2f m\n", l.contact_ratio,
                   l.leg_action, l.wear_share, l.critical_velocity, l.critical_position);
-    assert_near(l.leg_action, shot_result(s).action / (melting * 9e-8), 1e-9);
+    assert_near(l.leg_action, circuit_shot_result(s).action / (melting * 9e-8), 1e-9);
     assert_near(l.throat_action, 0.25 * l.leg_action, 1e-9);
     assert_near(l.wear_share, worn / 1e-4, 1e-6 * l.wear_share);
     assert_near(l.critical_velocity, speed, 1e-6 * speed);
     assert_true(l.contact_ratio < 1.0 && l.transition_position <= l.contact_position);
     assert_true(l.critical_position > c.barrel.start && l.critical_position < c.barrel.length);
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
 static bool temperatures_in_order(void *user, const shot *s, const shot_state *st)
@@ -612,9 +621,9 @@ static void temperatures(void **state)
         shot *s = NULL;
         const shot_sink sink = { .sample = temperatures_in_order, .user = &hottest[k] };
         c.armature.wear_fraction = 0.3 * k;
-        assert_ok(shot_create(&c, &s));
-        assert_ok(shot_advance(s, INFINITY, &sink));
-        shot_free(s);
+        assert_ok(circuit_shot_create(&c, &s));
+        assert_ok(circuit_shot_advance(s, INFINITY, &sink));
+        circuit_shot_free(s);
     }
     assert_near(hottest[0], c.armature.melting_temperature, 1e-9);
     assert_true(hottest[1] > hottest[0]);

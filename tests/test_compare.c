@@ -21,10 +21,11 @@
 
 static int scenes;
 
-/* Severity of a made-up scene: a line in velocity; a harder, colder or layered rail and a steeper lead face gouge later. */
+/* Severity of a made-up scene: a line in velocity; a harder, colder or layered rail and a steeper lead face gouge
+ * later. */
 static double made_up_threshold(const scene_job *job)
 {
-    const mpm_body *rail = &job->scene.body[0], *armature = &job->scene.body[body_of_armature(&job->scene)];
+    const mpm_body *rail = &job->scene.body[0], *armature = &job->scene.body[gouge_body_of_armature(&job->scene)];
     double v = 1400.0 + 100.0 * (rail->yield_scale - 1.5) - 0.5 * (rail->temperature - 293.0);
     v += 10.0 * (armature->shape_value.value[ARMATURE_LEAD_ANGLE] * 180.0 / 3.14159265358979 - 30.0);
     for (int b = 0; b < job->scene.bodies; b++) {
@@ -40,14 +41,14 @@ static status fake_scene(const scene_job *job, const scene_host *host, impact *o
     (void)host;
     memset(out, 0, sizeof *out);
     scenes++;
-    const double v = job->scene.body[body_of_armature(&job->scene)].velocity[0], r = job->spec.particle_radius;
+    const double v = job->scene.body[gouge_body_of_armature(&job->scene)].velocity[0], r = job->spec.particle_radius;
     const double cells = r / job->scene.axis[0].fine;
     const double excess = (v - made_up_threshold(job) - (cells < 2.5 ? 20.0 : 0.0)) / 150.0;
     scene_result *hit = &out->result;
     hit->severity = excess + job->spec.limit_severity;
-    hit->groove_growth = excess / growth_folds(1.0, r, v);
+    hit->groove_growth = excess / gouge_growth_folds(1.0, r, v);
     /* a groove must have grown for a while before its crater is a gouge */
-    hit->class = excess >= (scene_is_gauged(job->c) ? 0.0 : 0.4) ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
+    hit->class = excess >= (gouge_is_gauged(job->c) ? 0.0 : 0.4) ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
     hit->crater_volume = 10.0 * r * r * r;
     hit->crater_depth = 0.2 * r;
     hit->crater_length = 6.0 * r;
@@ -143,28 +144,28 @@ static void test_every_kind(void **state)
         char text[4000];
         breech_case treated, same;
         assert_non_null(example[k]);
-        assert_int_equal(strncmp(example[k], treatment_kinds[k].name, strlen(treatment_kinds[k].name)), 0);
+        assert_int_equal(strncmp(example[k], case_treatment_kinds[k].name, strlen(case_treatment_kinds[k].name)), 0);
         snprintf(text, sizeof text, HEAD GRAINS "sites: [{position: 1 m}]\ntreatments:\n  - name: tried\n    %s\n",
                  example[k]);
         breech_case *c = read(text, ALL);
         const case_treatment *t = &c->treatments.item[0];
-        for (int j = 0; j < TREATMENT_KINDS; j++) assert_int_equal(treatment_given(t, j), j == k);
-        OK(treated_case(c, NULL, &same));
-        OK(treated_case(c, t, &treated));
+        for (int j = 0; j < TREATMENT_KINDS; j++) assert_int_equal(case_treatment_given(t, j), j == k);
+        OK(case_treat(c, NULL, &same));
+        OK(case_treat(c, t, &treated));
         char *before = used_text(c), *untouched = used_text(&same), *after = used_text(&treated);
         assert_string_equal(before, untouched);
         assert_string_not_equal(before, after);
         char *still = used_text(c); /* the case itself is left alone */
         assert_string_equal(before, still);
         breech_case *back = read(before, ALL); /* used.yaml says the same treatment */
-        assert_true(treatment_given(&back->treatments.item[0], k));
+        assert_true(case_treatment_given(&back->treatments.item[0], k));
         char *again = used_text(back);
         assert_string_equal(before, again);
-        OK(command_possible(c, ALL)); /* its scenes can be made */
+        OK(study_command_possible(c, ALL)); /* its scenes can be made */
         case_free(back);
         free(before), free(untouched), free(after), free(still), free(again);
-        treated_free(&treated);
-        treated_free(&same);
+        case_treated_free(&treated);
+        case_treated_free(&same);
         case_free(c);
     }
 }
@@ -177,24 +178,24 @@ static void test_what_they_do(void **state)
     for (int k = 0; k < TREATMENT_KINDS; k++)
         n += snprintf(text + n, sizeof text - (size_t)n, "  - name: t%d\n    %s\n", k, example[k]);
     breech_case *c = read(text, ALL), treated;
-    OK(treated_case(c, &c->treatments.item[TREATMENT_coating], &treated));
+    OK(case_treat(c, &c->treatments.item[TREATMENT_coating], &treated));
     assert_int_equal(treated.rail.layers.n, 2);
     assert_string_equal(treated.rail.layers.item[1].material, "ofhc_copper"); /* the last is on top */
-    treated_free(&treated);
-    OK(treated_case(c, &c->treatments.item[TREATMENT_hardening], &treated));
+    case_treated_free(&treated);
+    OK(case_treat(c, &c->treatments.item[TREATMENT_hardening], &treated));
     assert_int_equal(treated.rail.layers.n, 1);
     assert_true(treated.rail.layers.item[0].yield_scale == 3.0 && isnan(treated.rail.layers.item[0].bond_strength));
-    treated_free(&treated);
-    OK(treated_case(c, &c->treatments.item[TREATMENT_rail_metal], &treated));
+    case_treated_free(&treated);
+    OK(case_treat(c, &c->treatments.item[TREATMENT_rail_metal], &treated));
     assert_string_equal(treated.populations.item[0].material, "steel_4340"); /* was the rail's */
     assert_true(treated.rail.yield_scale == 1.0);
-    treated_free(&treated);
-    OK(treated_case(c, &c->treatments.item[TREATMENT_polish], &treated));
+    case_treated_free(&treated);
+    OK(case_treat(c, &c->treatments.item[TREATMENT_polish], &treated));
     assert_true(fabs(treated.populations.item[0].radius_median - 0.18e-3) < 1e-12);
     assert_true(fabs(treated.populations.item[0].density - 1.5) < 1e-12);
     assert_true(fabs(treated.sites.item[0].radius - 0.3e-3) < 1e-12 &&
                 fabs(treated.sites.item[0].height - 0.3e-3) < 1e-12);
-    treated_free(&treated);
+    case_treated_free(&treated);
     case_free(c);
 }
 
@@ -227,7 +228,7 @@ static void test_refusals(void **state)
         free(errors);
     }
     breech_case *c = read(HEAD GRAINS "treatments: [{name: flat, lead_angle: {angle: 2 deg}}]\n", ALL);
-    const status s = command_possible(c, ALL);
+    const status s = study_command_possible(c, ALL);
     assert_int_equal(s.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(s.text, "treatment `flat`"));
     case_free(c);
@@ -238,7 +239,7 @@ static void test_refusals(void **state)
                  HEAD GRAINS "treatments: [{name: thin, coating: [{material: steel_4340, thickness: 20 um%s}]}]\n",
                  welded ? "" : ", bond_strength: 100 MPa");
         c = read(text, ALL);
-        const status thin = command_possible(c, ALL);
+        const status thin = study_command_possible(c, ALL);
         assert_int_equal(thin.code, welded ? STATUS_OK : STATUS_BAD_INPUT);
         if (!welded) assert_non_null(strstr(thin.text, "at least one cell across"));
         case_free(c);
@@ -259,7 +260,7 @@ static void test_presets(void **state)
         assert_true(p->density > 0.0 && p->radius_median > 0.0 && p->radius_spread > 0.0 && p->aspect > 0.0);
         assert_true(p->from == 1.0 && p->to == 3.0);
         assert_non_null(case_material(c, p->material));
-        OK(command_possible(c, ALL));
+        OK(study_command_possible(c, ALL));
         case_free(c);
     }
     breech_case *c = read(
@@ -284,11 +285,11 @@ static status run_compare(breech_case *c, const char *dir, compare_answer *out)
     const session_options options = {
         .dir = dir, .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
     };
-    OK(session_open(c, &options, &s));
+    OK(run_session_open(c, &options, &s));
     s.run_scene = fake_scene;
     scenes = 0;
-    const status done = compare_run(&s, out);
-    OK(session_close(&s, done.code == STATUS_OK));
+    const status done = study_compare_run(&s, out);
+    OK(run_session_close(&s, done.code == STATUS_OK));
     return done;
 }
 
@@ -342,7 +343,7 @@ static void test_ranking(void **state)
     assert_string_equal(plain->layer, "none");
     assert_string_equal(entry_of(&a, "coated")->layer, "intact"); /* craters of 0.06 mm */
     assert_true(entry_of(&a, "coated")->layer_failed > 0.0);
-    compare_answer_free(&a);
+    study_compare_answer_free(&a);
     case_free(c);
 }
 
@@ -357,13 +358,13 @@ static void test_sheared_off(void **state)
     compare_answer a;
     OK(run_compare(c, "sheared", &a));
     assert_string_equal(entry_of(&a, "loose")->layer, "sheared off");
-    compare_answer_free(&a);
+    study_compare_answer_free(&a);
     c->study.fine_cells_per_radius =
         c->study.coarse_cells_per_radius; /* whole scenes have the search's resolution too */
     OK(run_compare(c, "one", &a));
     const compare_entry *loose = entry_of(&a, "loose");
     assert_true(loose->layer_velocity > 0.0 && loose->layer_velocity < loose->threshold_velocity);
-    compare_answer_free(&a);
+    study_compare_answer_free(&a);
     case_free(c);
 }
 
@@ -384,8 +385,8 @@ static void test_seed(void **state)
     }
     assert_int_equal(rank_of(&b, "coated"), rank_of(&a, "coated"));
     assert_int_equal(rank_of(&b, "warm"), rank_of(&a, "warm"));
-    compare_answer_free(&a);
-    compare_answer_free(&b);
+    study_compare_answer_free(&a);
+    study_compare_answer_free(&b);
     case_free(c);
 }
 
@@ -402,12 +403,12 @@ static void test_population_onset(void **state)
     const session_options options = {
         .dir = "population", .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
     };
-    OK(session_open(c, &options, &s));
+    OK(run_session_open(c, &options, &s));
     s.run_scene = fake_scene;
     scenes = 0;
-    OK(onset_run(&s, &a));
-    const double expected = mc_expected(&a.grains, 3.0); /* looks into the session's scenes */
-    OK(session_close(&s, true));
+    OK(study_onset_run(&s, &a));
+    const double expected = study_mc_expected(&a.grains, 3.0); /* looks into the session's scenes */
+    OK(run_session_close(&s, true));
     const onset_result *r = &a.result;
     assert_true(r->threshold_interval[0] <= 1400.0 && 1400.0 <= r->threshold_interval[1]);
     assert_true(r->threshold_position_interval[0] <= r->threshold_position &&
@@ -421,7 +422,8 @@ static void test_population_onset(void **state)
     assert_true(r->muzzle_velocity_feedback < a.shot.is.muzzle_velocity);
     assert_true(r->muzzle_velocity_feedback >
                 a.shot.is.muzzle_velocity - 0.02 / 0.18 * (r->expected_gouges + 1.0) * 3.0);
-    /* more charge: faster, earlier, more gouges; more mass and friction: less; larger grains: as many (flat threshold) */
+    /* more charge: faster, earlier, more gouges; more mass and friction: less; larger grains: as many (flat threshold)
+     */
     assert_int_equal(r->n_sensitivities, 4);
     const onset_sensitivity *charge = &r->sensitivities[0], *mass = &r->sensitivities[1];
     assert_true(charge->muzzle_velocity > a.shot.is.muzzle_velocity && charge->expected_gouges > r->expected_gouges);
@@ -436,7 +438,7 @@ static void test_population_onset(void **state)
     assert_int_equal(r->scenes_run, scenes);
     assert_int_equal(r->n_shots, 3);
     assert_true(r->n_along > 0 && r->probability_along[r->n_along - 1] == 1.0);
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     case_free(c);
 }
 
@@ -447,12 +449,12 @@ static onset_answer studied(breech_case *c, const char *dir, status want)
     const session_options options = {
         .dir = dir, .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
     };
-    OK(session_open(c, &options, &s));
+    OK(run_session_open(c, &options, &s));
     s.run_scene = fake_scene;
-    const status done = onset_run(&s, &a);
+    const status done = study_onset_run(&s, &a);
     assert_int_equal(done.code, want.code);
     if (want.code != STATUS_OK && !strstr(done.text, want.text)) fail_msg("%s", done.text);
-    OK(session_close(&s, true));
+    OK(run_session_close(&s, true));
     return a;
 }
 
@@ -465,7 +467,8 @@ static int scenes_named(const onset_answer *a, const char *prefix)
 
 /* ---- inputs that are not well known ---- */
 
-/* The made-up threshold rises by 150 m/s where the rail is twice as strong (yield_scale 3 for 1.5); friction does nothing. */
+/* The made-up threshold rises by 150 m/s where the rail is twice as strong (yield_scale 3 for 1.5); friction does
+ * nothing. */
 static void test_uncertain_inputs(void **state)
 {
     (void)state;
@@ -475,7 +478,7 @@ static void test_uncertain_inputs(void **state)
     c->study.velocity_interval = 0.02;
     onset_answer a = studied(c, "certain", status_ok());
     const onset_result sure = a.result;
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     c->study.sensitivities = true;
     c->study.strength_error = 1.0; /* 150 m/s */
     c->study.friction_error = 0.5;
@@ -506,7 +509,7 @@ static void test_uncertain_inputs(void **state)
         if (strncmp(r->scene[i].name, "strength-", 9) == 0 || strncmp(r->scene[i].name, "friction-", 9) == 0)
             assert_true(r->scene[i].gauged && r->scene[i].velocity > 0.55 * r->threshold_velocity &&
                         r->scene[i].velocity < 1.65 * r->threshold_velocity);
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     case_free(c);
 }
 
@@ -524,8 +527,8 @@ static void test_no_craters(void **state)
     assert_true(a->expected_gouged_volume > 0.0 && isnan(b->expected_gouged_volume));
     assert_true(isfinite(a->muzzle_velocity_feedback) && isnan(b->muzzle_velocity_feedback));
     assert_int_equal(b->scenes_run, a->scenes_run - 2);
-    onset_answer_free(&with);
-    onset_answer_free(&without);
+    study_onset_answer_free(&with);
+    study_onset_answer_free(&without);
     case_free(c);
 }
 
@@ -553,7 +556,7 @@ static void test_shots_warm_the_rail(void **state)
                 0.2); /* as much again each time, and a bit more */
     assert_true(scenes_named(&a, "warm-") > 0);
     const onset_shot first = each[0];
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     c->study.heat_kept = 0.0; /* all of it gone: as the first, and not a scene more */
     a = studied(c, "cooled", status_ok());
     each = a.result.shot;
@@ -561,18 +564,18 @@ static void test_shots_warm_the_rail(void **state)
     assert_true(each[3].rail_rise == 0.0 && each[3].threshold_velocity == first.threshold_velocity);
     assert_true(each[3].muzzle_velocity == first.muzzle_velocity);
     assert_true(fabs(each[0].expected_gouges / first.expected_gouges - 1.0) < 0.02); /* other random numbers */
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     c->rails.level = SHOT_RAILS_CONSTANT; /* cheap flights */
     c->study.heat_kept = 0.5;             /* it settles at as much as one shot leaves */
     c->study.shots = 12;
     a = studied(c, "settled", status_ok());
     each = a.result.shot;
     assert_true(each[11].rail_rise < 1.02 * each[9].rail_rise && each[1].rail_rise < 0.6 * each[11].rail_rise);
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     c->study.heat_kept = 1.0;
     c->study.shots = 500;
-    a = studied(c, "melted", status_error(STATUS_BAD_INPUT, "ofhc_copper melts at 1356 K; lower study.shots"));
-    onset_answer_free(&a);
+    a = studied(c, "melted", base_status_error(STATUS_BAD_INPUT, "ofhc_copper melts at 1356 K; lower study.shots"));
+    study_onset_answer_free(&a);
     case_free(c);
 }
 
@@ -594,7 +597,7 @@ static void test_shots_strip_the_rail(void **state)
             const bool bare = strncmp(a.result.scene[i].name, "bare-", 5) == 0;
             assert_int_equal(a.result.scene[i].result.bodies, bare ? 3 : 4);
         }
-        onset_answer_free(&a);
+        study_onset_answer_free(&a);
         c->rail.layers = none;
         case_free(c);
     }

@@ -32,7 +32,7 @@ typedef struct {
     double *position, *size, *damage;
 } rail;
 
-typedef double surface_at(double x, double z); /* height of the surface [mm], 0 = undamaged */
+typedef double study_surface_at(double x, double z); /* height of the surface [mm], 0 = undamaged */
 
 static void add(rail *r, const double x[3], const double half[3])
 {
@@ -83,7 +83,7 @@ static int edges(double *edge, double lo, double hi, const double fine[2], doubl
     return n;
 }
 
-static rail build(const double *x_edge, int nx, const double *z_edge, int nz, double pitch, surface_at *surface)
+static rail build(const double *x_edge, int nx, const double *z_edge, int nz, double pitch, study_surface_at *surface)
 {
     rail r = { 0 };
     for (int i = 0; i + 1 < nx; i++)
@@ -94,7 +94,7 @@ static rail build(const double *x_edge, int nx, const double *z_edge, int nz, do
 }
 
 /* x from -1 to 7, z from z_lo to 2; points of `pitch` each way. */
-static rail uniform(double z_lo, double pitch, surface_at *surface)
+static rail uniform(double z_lo, double pitch, study_surface_at *surface)
 {
     double x_edge[1000], z_edge[1000];
     const int nx = edges(x_edge, -1.0, 7.0, (const double[2]){ -1.0, 7.0 }, pitch, 1.0);
@@ -122,13 +122,13 @@ static crater measured(const rail *r, const crater_spec *spec)
 {
     const crater_points points = { .n = r->n, .position = r->position, .size = r->size, .damage = r->damage };
     crater c;
-    const status done = crater_measure(&points, spec, &c);
+    const status done = gouge_crater_measure(&points, spec, &c);
     if (done.code != STATUS_OK) fail_msg("%s", done.text);
     return c;
 }
 
 /* Builds, measures and drops a rail. */
-static crater measured_once(double z_lo, double pitch, surface_at *surface, const crater_spec *spec)
+static crater measured_once(double z_lo, double pitch, study_surface_at *surface, const crater_spec *spec)
 {
     rail r = uniform(z_lo, pitch, surface);
     const crater c = measured(&r, spec);
@@ -194,7 +194,8 @@ static double wide_groove(double x, double z)
     return x > 0.5 && x < 5.5 && fabs(t) < 1.0 ? -0.2 * (1.0 - t * t) : 0.0;
 }
 
-/* Tear-drop from x = 0 to 5: half width 0.3 -> 1.3, depth 0.15 -> 0.5, section parabolic; a rim 0.3 high and 0.4 long. */
+/* Tear-drop from x = 0 to 5: half width 0.3 -> 1.3, depth 0.15 -> 0.5, section parabolic; a rim 0.3 high and 0.4 long.
+ */
 #define DROP_L 5.0
 static double drop_half_width(double x)
 {
@@ -262,12 +263,12 @@ static void test_flat(void **state)
         assert_untouched(&c);
         assert_near(c.dx * c.nx, 8.0 * MM, 1e-12);
         assert_near(c.z0 + c.dz * (c.nz - 1), -c.z0, 1e-12);
-        crater_free(&c);
+        gouge_crater_free(&c);
     }
     drop(&r);
 }
 
-static rail graded(double z_lo, surface_at *surface)
+static rail graded(double z_lo, study_surface_at *surface)
 {
     double x_edge[1000], z_edge[1000];
     const int nx = edges(x_edge, -3.0, 10.0, (const double[2]){ 0.0, 5.5 }, 0.05, 1.15);
@@ -282,12 +283,13 @@ static void test_flat_graded(void **state)
     const crater_spec spec = spec_of(0.1);
     crater c = measured(&r, &spec);
     assert_untouched(&c);
-    crater_free(&c);
+    gouge_crater_free(&c);
     drop(&r);
 }
 
-/* Tolerances: the deepest cell, 0.1 wide, lies beside the middle: (2 x 0.05^2 + 0.1^2/6)/(2 R) = 1.7 um, and the points'
- * own steps as much; the outline is linear between cells, a fifth of a cell; volume 1 %: the edge's share of a cell. */
+/* Tolerances: the deepest cell, 0.1 wide, lies beside the middle: (2 x 0.05^2 + 0.1^2/6)/(2 R) = 1.7 um, and the
+ * points' own steps as much; the outline is linear between cells, a fifth of a cell; volume 1 %: the edge's share of a
+ * cell. */
 static void test_cap(void **state)
 {
     (void)state;
@@ -310,7 +312,7 @@ static void test_cap(void **state)
     assert_false(c.truncated);
     assert_int_equal(c.class, DAMAGE_SCRATCH); /* does not grow downstream */
     assert_non_null(strstr(c.reason, "widening 1.0"));
-    crater_free(&c);
+    gouge_crater_free(&c);
 }
 
 static void test_scratch(void **state)
@@ -325,12 +327,12 @@ static void test_scratch(void **state)
     assert_near(c.widening, 1.0, 1e-6);                         /* all rows are alike */
     assert_near(c.severity, -1.5, 0.02 * 1.5);                  /* lean 0 within a cell of the length */
     assert_near(c.volume_beside, 0.0, 1e-15);
-    crater_free(&c);
+    gouge_crater_free(&c);
     /* Wider and longer makes a scratch no gouge. */
     c = measured_once(-2.0, 0.05, wide_groove, &spec);
     assert_int_equal(c.class, DAMAGE_SCRATCH);
     assert_near(c.severity, -1.5, 0.05 * 1.5);
-    crater_free(&c);
+    gouge_crater_free(&c);
 }
 
 static void assert_tear_drop(const crater *c, double cell)
@@ -356,22 +358,22 @@ static void test_gouge(void **state)
     const crater_spec spec = spec_of(0.1);
     crater c = measured_once(-2.0, 0.05, tear_drop, &spec);
     assert_tear_drop(&c, 0.1);
-    crater_free(&c);
+    gouge_crater_free(&c);
     c = measured_once(-2.0, 0.05, tear_drop_without_rim, &spec);
     assert_int_equal(c.class, DAMAGE_UNDECIDED);
     assert_non_null(strstr(c.reason, "rim downstream 0.000 mm <= 0.050 mm"));
-    crater_free(&c);
+    gouge_crater_free(&c);
     crater_spec strict = spec; /* the limits decide */
     strict.limit_widening = 9.0, strict.limit_severity = 99.0;
     c = measured_once(-2.0, 0.05, tear_drop, &strict);
     assert_int_equal(c.class, DAMAGE_SCRATCH);
-    crater_free(&c);
+    gouge_crater_free(&c);
     crater_spec cut = spec; /* the map ends within the crater */
     cut.x_hi = 4.0 * MM;
     c = measured_once(-2.0, 0.05, tear_drop, &cut);
     assert_true(c.truncated);
     assert_non_null(strstr(c.reason, "edge of the map"));
-    crater_free(&c);
+    gouge_crater_free(&c);
 }
 
 /* The same measures from points that grow away from the crater. */
@@ -382,7 +384,7 @@ static void test_graded(void **state)
     const crater_spec spec = spec_of(0.1);
     crater c = measured(&r, &spec);
     assert_tear_drop(&c, 0.1);
-    crater_free(&c);
+    gouge_crater_free(&c);
     drop(&r);
 }
 
@@ -405,8 +407,8 @@ static void test_mirrored(void **state)
     assert_near(half.severity, full.severity, 1e-8);
     assert_near(half.rim_height, full.rim_height, 1e-12);
     assert_int_equal(half.class, full.class);
-    crater_free(&full);
-    crater_free(&half);
+    gouge_crater_free(&full);
+    gouge_crater_free(&half);
 }
 
 static void add_cluster(rail *r, double x, double y, double z, int n)
@@ -442,8 +444,8 @@ static void test_debris(void **state)
     crater dirty = measured(&r, &spec);
     assert_same(&clean, &dirty);
     assert_near(clean.depth_map[(clean.nx - 2) * clean.nz + 3], 0.0, 0.0); /* beyond the end */
-    crater_free(&clean);
-    crater_free(&dirty);
+    gouge_crater_free(&clean);
+    gouge_crater_free(&dirty);
     drop(&r);
 }
 
@@ -458,8 +460,8 @@ static void fail_box(rail *r, const double lo[3], const double hi[3])
     }
 }
 
-/* Failed points are removed: a box of 2 x 0.2 x 1 leaves a hole of just that size, its cells being whole.  An intact roof
- * over a failed seam of two layers goes with it, a seam of one is bridged; one failed point leaves no mark. */
+/* Failed points are removed: a box of 2 x 0.2 x 1 leaves a hole of just that size, its cells being whole.  An intact
+ * roof over a failed seam of two layers goes with it, a seam of one is bridged; one failed point leaves no mark. */
 static void test_failed(void **state)
 {
     (void)state;
@@ -471,14 +473,14 @@ static void test_failed(void **state)
     assert_near(box.volume / 1e-9, 0.4, 0.4 * 0.01); /* the filter fills a sample, 0.05^2, in each of four corners */
     assert_near(box.length / MM, 2.0, 0.1);          /* steps: a cell */
     assert_near(box.width / MM, 1.0, 0.1);
-    crater_free(&box);
+    gouge_crater_free(&box);
     drop(&r);
 
     r = uniform(-2.0, 0.05, flat);
     fail_box(&r, (const double[3]){ 2.0, -0.2, -0.5 }, (const double[3]){ 4.0, -0.1, 0.5 });
     crater roofed = measured(&r, &spec);
     assert_near(roofed.depth / MM, 0.2, 1e-9);
-    crater_free(&roofed);
+    gouge_crater_free(&roofed);
     drop(&r);
 
     r = uniform(-2.0, 0.05, flat);
@@ -486,14 +488,14 @@ static void test_failed(void **state)
     fail_box(&r, (const double[3]){ 3.0, -0.05, 0.5 }, (const double[3]){ 3.05, 0.0, 0.55 });
     crater speck = measured(&r, &spec);
     assert_untouched(&speck);
-    crater_free(&speck);
+    gouge_crater_free(&speck);
     drop(&r);
 
     r = uniform(-2.0, 0.05, flat); /* all of it, down to the floor */
     fail_box(&r, (const double[3]){ 2.0, -2.0, -0.5 }, (const double[3]){ 4.0, 0.0, 0.5 });
     crater hole = measured(&r, &spec);
     assert_near(hole.depth / MM, BASE, 1e-9);
-    crater_free(&hole);
+    gouge_crater_free(&hole);
     drop(&r);
 }
 
@@ -507,21 +509,22 @@ static void test_patches(void **state)
     fail_box(&r, (const double[3]){ 6.0, -0.2, -0.1 }, (const double[3]){ 6.3, 0.0, 0.1 }); /* 3 % */
     crater alone = measured(&r, &spec);
     assert_near(alone.length / MM, 2.0, 0.1);
-    crater_free(&alone);
+    gouge_crater_free(&alone);
     fail_box(&r, (const double[3]){ 5.5, -0.2, -0.2 }, (const double[3]){ 6.5, 0.0, 0.2 }); /* 20 % */
     crater both = measured(&r, &spec);
     assert_near(both.length / MM, 6.5, 0.1);
-    crater_free(&both);
+    gouge_crater_free(&both);
     drop(&r);
 }
 
-/* Points shaken by up to 0.15 of their pitch sideways and 0.1 of it upwards: cracks and bumps of the lattice.  A bump of
- * 5 um and a missing or doubled layer in a crack of a third of the samples' borders: 3 % of the volume, 0.03 in depth. */
+/* Points shaken by up to 0.15 of their pitch sideways and 0.1 of it upwards: cracks and bumps of the lattice.  A bump
+ * of 5 um and a missing or doubled layer in a crack of a third of the samples' borders: 3 % of the volume, 0.03 in
+ * depth. */
 static void test_noise(void **state)
 {
     (void)state;
     const crater_spec spec = spec_of(0.1);
-    surface_at *const surfaces[] = { flat, cap };
+    study_surface_at *const surfaces[] = { flat, cap };
     for (int k = 0; k < 2; k++) {
         rail r = uniform(-2.0, 0.05, surfaces[k]);
         uint64_t seed = 11;
@@ -536,13 +539,13 @@ static void test_noise(void **state)
             assert_near(c.volume / 1e-9, cap_volume(0.05), 0.03 * cap_volume(0.05));
             assert_near(c.depth / MM, CAP_D, 0.03);
         }
-        crater_free(&c);
+        gouge_crater_free(&c);
         drop(&r);
     }
 }
 
-/* Rows of points that have moved apart by a quarter of their pitch, across x or across z, in the map and at its edge: one sample line
- * falls through each slit, half a millimetre down. */
+/* Rows of points that have moved apart by a quarter of their pitch, across x or across z, in the map and at its edge:
+ * one sample line falls through each slit, half a millimetre down. */
 static void test_slits(void **state)
 {
     (void)state;
@@ -558,7 +561,7 @@ static void test_slits(void **state)
         }
         crater c = measured(&r, &spec);
         assert_untouched(&c);
-        crater_free(&c);
+        gouge_crater_free(&c);
         drop(&r);
     }
 }
@@ -578,7 +581,7 @@ static void test_convergence(void **state)
         assert_near(c.measuring_depth, 0.1 * MM, 1e-12);
         error[k] = fabs(c.volume / 1e-9 / cap_volume(0.1) - 1.0);
         print_message("cell %.3f mm: volume error %.2e\n", cells[k], error[k]);
-        crater_free(&c);
+        gouge_crater_free(&c);
     }
     for (int k = 0; k < 3; k++) assert_true(error[k] < 0.1 * cells[k]);
     assert_true(error[2] < 0.25 * error[0]);
@@ -606,7 +609,7 @@ static void test_continuity(void **state)
             fail_msg("depth %g mm: volume %g after %g mm3", sinking_depth, volume, before);
         assert_int_equal(c.class == DAMAGE_NONE, k <= 20);
         before = volume;
-        crater_free(&c);
+        gouge_crater_free(&c);
     }
     assert_near(before, area * 2.0 * d_m, 0.02 * area * 2.0 * d_m); /* corners filled by the filter */
 }
@@ -619,25 +622,25 @@ static void test_refused(void **state)
     const crater_points none = { .n = 0 };
     const crater_spec good = spec_of(0.1);
     crater c;
-    assert_int_equal(crater_measure(&none, &good, &c).code, STATUS_BAD_INPUT);
+    assert_int_equal(gouge_crater_measure(&none, &good, &c).code, STATUS_BAD_INPUT);
     crater_spec s = good;
     s.cell = 0.0;
-    assert_int_equal(crater_measure(&points, &s, &c).code, STATUS_BAD_INPUT);
+    assert_int_equal(gouge_crater_measure(&points, &s, &c).code, STATUS_BAD_INPUT);
     s = good;
     s.cell = 1e-12;
-    assert_non_null(strstr(crater_measure(&points, &s, &c).text, "too large"));
+    assert_non_null(strstr(gouge_crater_measure(&points, &s, &c).text, "too large"));
     s = good;
     s.x_hi = s.x_lo;
-    assert_int_equal(crater_measure(&points, &s, &c).code, STATUS_BAD_INPUT);
+    assert_int_equal(gouge_crater_measure(&points, &s, &c).code, STATUS_BAD_INPUT);
     s = good;
     s.particle_volume = NAN;
-    assert_int_equal(crater_measure(&points, &s, &c).code, STATUS_BAD_INPUT);
+    assert_int_equal(gouge_crater_measure(&points, &s, &c).code, STATUS_BAD_INPUT);
     s = good;
     s.x_lo = 1.0, s.x_hi = 1.001; /* a metre away */
-    assert_non_null(strstr(crater_measure(&points, &s, &c).text, "no material point"));
+    assert_non_null(strstr(gouge_crater_measure(&points, &s, &c).text, "no material point"));
     assert_null(c.depth_map);
     r.position[3 * 17] = NAN;
-    const status lost = crater_measure(&points, &good, &c);
+    const status lost = gouge_crater_measure(&points, &good, &c);
     assert_int_equal(lost.code, STATUS_NUMERICAL);
     assert_non_null(strstr(lost.text, "point 17 "));
     drop(&r);

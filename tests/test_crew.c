@@ -80,7 +80,7 @@ static void open_session(const breech_case *c, const char *dir, session *s)
                                       .lending = lent,
                                       .progress_to = stderr,
                                       .quiet = true };
-    OK(session_open(c, &options, s));
+    OK(run_session_open(c, &options, s));
     assert_non_null(s->crew);
 }
 
@@ -92,10 +92,10 @@ static scene_record alone(const breech_case *c, const scene_query *q)
     crew *others = s.crew;
     const scene_record *out;
     s.crew = NULL;
-    OK(scenes_all(&s, q, 1, &out));
+    OK(run_scenes_all(&s, q, 1, &out));
     const scene_record copy = *out;
     s.crew = others;
-    OK(session_close(&s, true));
+    OK(run_session_close(&s, true));
     return copy;
 }
 
@@ -132,16 +132,16 @@ static void test_batch(void **state)
     for (int i = 0; i < N; i++) q[i] = query_at(c, 1300.0 + 100.0 * i);
     session s;
     open_session(c, "batch", &s);
-    OK(scenes_all(&s, q, N, out));
+    OK(run_scenes_all(&s, q, N, out));
     assert_int_equal(s.n_records, N);
     for (int i = 0; i < N; i++) {
         assert_same(*out[i], alone(c, &q[i]));
-        assert_true(history_has(s.history, q[i].name));
+        assert_true(output_history_has(s.history, q[i].name));
         assert_true(is_there("batch", q[i].name, "scene-000000.hdf") &&
                     is_there("batch", q[i].name, "scene-000001.hdf"));
         assert_true(is_there("batch", q[i].name, "scene.hdf.series"));
     }
-    OK(session_close(&s, true));
+    OK(run_session_close(&s, true));
     case_free(c);
 }
 
@@ -157,10 +157,10 @@ static void test_laid_aside(void **state)
     open_session(c, "aside", &s);
     while (known < 3) {
         const int before = known;
-        OK(scenes_some(&s, q, 3));
+        OK(run_scenes_some(&s, q, 3));
         known = 0;
         for (int i = 0; i < 3; i++) {
-            OK(scenes_find(&s, &q[i], &out[i]));
+            OK(run_scenes_find(&s, &q[i], &out[i]));
             known += out[i] != NULL;
         }
         assert_true(known > before);
@@ -168,7 +168,7 @@ static void test_laid_aside(void **state)
     }
     assert_true(rounds >= 2);
     for (int i = 0; i < 3; i++) assert_same(*out[i], alone(q[i].c, &q[i]));
-    OK(session_close(&s, true));
+    OK(run_session_close(&s, true));
     case_free(c);
     case_free(longer);
 }
@@ -182,16 +182,16 @@ static void test_ahead(void **state)
     const scene_record *out, *none;
     session s;
     open_session(c, "ahead", &s);
-    OK(scenes_ahead(&s, ahead, 2, false));
-    OK(scenes_all(&s, &wanted, 1, &out));
+    OK(run_scenes_ahead(&s, ahead, 2, false));
+    OK(run_scenes_all(&s, &wanted, 1, &out));
     assert_int_equal(s.n_records, 1);
-    OK(scenes_find(&s, &ahead[0], &out)); /* the others have long finished it */
+    OK(run_scenes_find(&s, &ahead[0], &out)); /* the others have long finished it */
     assert_non_null(out);
     assert_false(out->entry.reused);
     assert_same(*out, alone(c, &ahead[0]));
-    OK(scenes_ahead(&s, NULL, 0, false));
-    OK(scenes_find(&s, &wanted, &none));
-    OK(session_close(&s, true));
+    OK(run_scenes_ahead(&s, NULL, 0, false));
+    OK(run_scenes_find(&s, &wanted, &none));
+    OK(run_session_close(&s, true));
     assert_true(is_there("ahead", ahead[0].name, "scene.hdf.series"));
     assert_false(is_there("ahead", ahead[1].name, "scene.hdf.series"));
     case_free(c);
@@ -207,8 +207,8 @@ static double written_at(const char *dir, const char *scene, const char *file)
     return (double)about.st_mtim.tv_sec + 1e-9 * (double)about.st_mtim.tv_nsec;
 }
 
-/* Members that compute what may be wanted put it off for what is, and go on with it afterwards; what nobody asks for any more
- * they give up.  All of it to the same bits. */
+/* Members that compute what may be wanted put it off for what is, and go on with it afterwards; what nobody asks for
+ * any more they give up.  All of it to the same bits. */
 static void test_put_off(void **state)
 {
     (void)state;
@@ -218,20 +218,20 @@ static void test_put_off(void **state)
     const scene_record *out[2];
     session s;
     open_session(c, "put-off", &s);
-    OK(scenes_ahead(&s, ahead, 2, false));
-    OK(scenes_all(&s, &first, 1, out)); /* by rank 0, while the others have begun what may come */
-    OK(scenes_all(&s, two, 2, out));    /* rank 0 takes the long one, a member the other at once */
+    OK(run_scenes_ahead(&s, ahead, 2, false));
+    OK(run_scenes_all(&s, &first, 1, out)); /* by rank 0, while the others have begun what may come */
+    OK(run_scenes_all(&s, two, 2, out));    /* rank 0 takes the long one, a member the other at once */
     for (int i = 0; i < 2; i++) assert_same(*out[i], alone(two[i].c, &two[i]));
     assert_true(written_at("put-off", two[1].name, "scene-000001.hdf") <
                 written_at("put-off", two[0].name, "scene-000001.hdf"));
-    OK(scenes_ahead(&s, &ahead[1], 1, false));
-    OK(scenes_all(&s, &first, 1, out)); /* known */
-    OK(scenes_ahead(&s, NULL, 0, false));
+    OK(run_scenes_ahead(&s, &ahead[1], 1, false));
+    OK(run_scenes_all(&s, &first, 1, out)); /* known */
+    OK(run_scenes_ahead(&s, NULL, 0, false));
     const scene_query last = query_at(c, 1350.0);
-    OK(scenes_all(&s, &last, 1, out)); /* nobody wants the long ones: given up where they are */
-    OK(scenes_all(&s, ahead, 2, out)); /* or does: from the start */
+    OK(run_scenes_all(&s, &last, 1, out)); /* nobody wants the long ones: given up where they are */
+    OK(run_scenes_all(&s, ahead, 2, out)); /* or does: from the start */
     for (int i = 0; i < 2; i++) assert_same(*out[i], alone(ahead[i].c, &ahead[i]));
-    OK(session_close(&s, true));
+    OK(run_session_close(&s, true));
     case_free(c);
     case_free(longer);
 }
@@ -245,11 +245,11 @@ static void test_failed(void **state)
     const scene_record *out[3];
     session s;
     open_session(c, "failed", &s);
-    const status done = scenes_all(&s, q, 3, out);
+    const status done = run_scenes_all(&s, q, 3, out);
     assert_int_equal(done.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(done.text, "velocity"));
-    OK(scenes_all(&s, &q[2], 1, out)); /* the crew is none the worse */
-    OK(session_close(&s, false));
+    OK(run_scenes_all(&s, &q[2], 1, out)); /* the crew is none the worse */
+    OK(run_session_close(&s, false));
     case_free(c);
 }
 
@@ -267,8 +267,8 @@ static void test_stopped(void **state)
     session s;
     open_session(c, "stopped", &s);
     s.stop = stop_at_once;
-    assert_int_equal(scenes_all(&s, q, 2, out).code, STATUS_STOPPED);
-    OK(session_close(&s, false));
+    assert_int_equal(run_scenes_all(&s, q, 2, out).code, STATUS_STOPPED);
+    OK(run_session_close(&s, false));
     case_free(c);
 }
 
@@ -312,22 +312,22 @@ static void test_lent(void **state)
     const int before = tasks();
     session s;
     open_session(c, "lent", &s);
-    OK(scenes_all(&s, &q, 1, &out));
+    OK(run_scenes_all(&s, &q, 1, &out));
     assert_same(*out, want);
 
     assert_true(tasks() >= before + PROCESSES - 1);
-    OK(session_close(&s, true));
+    OK(run_session_close(&s, true));
     case_free(c);
 }
 
 static bool comes_to(const scene_host *host, int threads)
 {
-    const double limit = wall_clock() + 60.0;
-    while (host->threads_now(host->user) != threads && wall_clock() < limit) {
+    const double limit = host_wall_clock() + 60.0;
+    while (host->threads_now(host->user) != threads && host_wall_clock() < limit) {
         host->stop(host->user); /* hears the others */
-        ranks_pause();
+        run_ranks_pause();
     }
-    return wall_clock() < limit;
+    return host_wall_clock() < limit;
 }
 
 static int borrowed; /* the runs in which this was seen */
@@ -352,10 +352,10 @@ static void test_given_back(void **state)
     session s;
     open_session(c, "given-back", &s);
     s.run_scene = run_and_look;
-    OK(scenes_all(&s, q, 3, out));
+    OK(run_scenes_all(&s, q, 3, out));
     assert_true(borrowed > 0);
     for (int i = 0; i < 3; i++) assert_same(*out[i], alone(c, &q[i]));
-    OK(session_close(&s, true));
+    OK(run_session_close(&s, true));
     case_free(c);
 }
 
@@ -365,7 +365,7 @@ static void test_given_back(void **state)
 static void bind_to_one(const cpu_set_t *cores)
 {
     cpu_set_t one;
-    int core = 0, left = ranks_number() % CPU_COUNT(cores);
+    int core = 0, left = run_ranks_number() % CPU_COUNT(cores);
     while (!CPU_ISSET(core, cores) || left-- > 0) core++;
     CPU_ZERO(&one);
     CPU_SET(core, &one);
@@ -381,22 +381,22 @@ static bool has_all(const cpu_set_t *cores)
 /* All processes together, for every subset of them at work. */
 static status try_shares(void)
 {
-    const int me = ranks_number();
+    const int me = run_ranks_number();
     lending *l;
-    TRY(lending_open(1, &l));
-    lending_own(l, me + 1);
+    TRY(run_lending_open(1, &l));
+    run_lending_own(l, me + 1);
     for (int at_work = 0; at_work < SUBSETS; at_work++) {
         ranks_memory all;
-        if (at_work >> me & 1) lending_begin(l);
-        TRY(ranks_share(&me, sizeof me, &all)); /* all have begun */
-        ranks_unshare(&all);
-        const int mine = lending_threads(l);
-        TRY(ranks_share(&mine, sizeof mine, &all));
+        if (at_work >> me & 1) run_lending_begin(l);
+        TRY(run_ranks_share(&me, sizeof me, &all)); /* all have begun */
+        run_ranks_unshare(&all);
+        const int mine = run_lending_threads(l);
+        TRY(run_ranks_share(&mine, sizeof mine, &all));
         memcpy(shares[at_work], all.part, sizeof shares[at_work]);
-        ranks_unshare(&all);
-        if (at_work >> me & 1) lending_end(l);
+        run_ranks_unshare(&all);
+        if (at_work >> me & 1) run_lending_end(l);
     }
-    lending_close(l);
+    run_lending_close(l);
     return status_ok();
 }
 
@@ -405,7 +405,7 @@ static status start_lending(void)
     cpu_set_t cores;
     sched_getaffinity(0, sizeof cores, &cores);
     bind_to_one(&cores);
-    TRY(lending_open(1, &lent));
+    TRY(run_lending_open(1, &lent));
     all_cores = has_all(&cores);
     return try_shares();
 }
@@ -452,15 +452,15 @@ static void test_keeper(void **state)
     session s;
     open_session(c, "keeper", &s);
     s.run_scene = count_run;
-    OK(scenes_all(&s, to_gauge, 2, out)); /* the first by rank 0 */
+    OK(run_scenes_all(&s, to_gauge, 2, out)); /* the first by rank 0 */
     for (int i = 0; i < 2; i++) assert_true(out[i]->entry.result.groove_growth > 0.0);
     assert_int_equal(own_runs, 1);
-    OK(scenes_all(&s, &q[1], 1, &out[1]));
+    OK(run_scenes_all(&s, &q[1], 1, &out[1]));
     assert_int_equal(own_runs, 1);
-    OK(scenes_all(&s, &q[0], 1, &out[0]));
+    OK(run_scenes_all(&s, &q[0], 1, &out[0]));
     assert_int_equal(own_runs, 2);
     assert_same(*out[1], alone(whole, &q[1]));
-    OK(session_close(&s, true));
+    OK(run_session_close(&s, true));
     case_free(c);
     case_free(whole);
 }
@@ -490,16 +490,16 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_failed), cmocka_unit_test(test_stopped),    cmocka_unit_test(test_put_off),
     };
     int failed = 0;
-    if (ranks_start().code != STATUS_OK) return SKIPPED; /* built without MPI */
-    if (ranks_count() < PROCESSES) return puts("skipped: not started by mpirun"), SKIPPED;
+    if (run_ranks_start().code != STATUS_OK) return SKIPPED; /* built without MPI */
+    if (run_ranks_count() < PROCESSES) return puts("skipped: not started by mpirun"), SKIPPED;
     if (start_lending().code != STATUS_OK) return 1;
-    if (ranks_number() == 0) {
+    if (run_ranks_number() == 0) {
         failed = cmocka_run_group_tests(tests, NULL, NULL);
-        crew_dismiss();
+        run_crew_dismiss();
     } else {
-        crew_serve(1, lent);
+        run_crew_serve(1, lent);
     }
-    lending_close(lent);
-    ranks_finish();
+    run_lending_close(lent);
+    run_ranks_finish();
     return failed;
 }

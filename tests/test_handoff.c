@@ -47,22 +47,22 @@ static void test_states(void **state)
     (void)state;
     breech_case *c = changed_case(NULL);
     shot_outcome o;
-    OK(shot_run(c, &(shot_plan){ .history = NULL }, &o));
+    OK(gouge_shot_run(c, &(shot_plan){ .history = NULL }, &o));
     assert_int_equal(o.n_sites, c->sites.n);
     for (int i = 0; i < o.n_sites; i++) {
         const site_state *s = &o.site[i];
         trace_point at;
         assert_true(s->reached);
-        assert_true(trace_at_velocity(&o, s->velocity, &at));
-        /* the trace is linear between steps of about 1 us: a dt^2/8 of 1e6 m/s2 is 1e-7 m in x; 1e-4 leaves room for the
-         * curvature of v(t) in the quotient */
+        assert_true(gouge_trace_at_velocity(&o, s->velocity, &at));
+        /* the trace is linear between steps of about 1 us: a dt^2/8 of 1e6 m/s2 is 1e-7 m in x; 1e-4 leaves room for
+         * the curvature of v(t) in the quotient */
         assert_true(fabs(at.x - s->grain.position) < 1e-4);
         const double force = c->armature.preload + c->armature.spreading * s->current * s->current;
-        const double pressure = force / projectile_face_area(&c->projectile);
+        const double pressure = force / gouge_face_area(&c->projectile);
         assert_true(fabs(s->contact_pressure - pressure) < 1e-9 * pressure); /* rounding */
         assert_true(i == 0 || s->velocity > o.site[i - 1].velocity);
     }
-    shot_outcome_free(&o);
+    gouge_shot_outcome_free(&o);
     case_free(c);
 }
 
@@ -72,18 +72,18 @@ static void test_trace(void **state)
     (void)state;
     breech_case *c = changed_case(NULL);
     shot_outcome o;
-    OK(shot_run(c, &(shot_plan){ .history = NULL }, &o));
+    OK(gouge_shot_run(c, &(shot_plan){ .history = NULL }, &o));
     trace_point at;
     for (int i = 1; i < o.n_trace; i += 7) {
         const trace_point *a = &o.trace[i - 1], *b = &o.trace[i];
         if (!(b->v > a->v)) continue;
-        assert_true(trace_at_velocity(&o, 0.75 * a->v + 0.25 * b->v, &at));
+        assert_true(gouge_trace_at_velocity(&o, 0.75 * a->v + 0.25 * b->v, &at));
         assert_true(fabs(at.x - (0.75 * a->x + 0.25 * b->x)) < 1e-9); /* rounding: a velocity over a small difference */
         assert_true(fabs(at.t - (0.75 * a->t + 0.25 * b->t)) < 1e-9);
     }
-    assert_false(trace_at_velocity(&o, 1e5, &at));
-    assert_true(trace_at_velocity(&o, 0.0, &at) && at.x == c->barrel.start);
-    shot_outcome_free(&o);
+    assert_false(gouge_trace_at_velocity(&o, 1e5, &at));
+    assert_true(gouge_trace_at_velocity(&o, 0.0, &at) && at.x == c->barrel.start);
+    gouge_shot_outcome_free(&o);
     case_free(c);
 }
 
@@ -93,12 +93,12 @@ static void test_not_reached(void **state)
     const char *const sets[] = { "armature.friction_dry=10", "armature.preload=1 GN", NULL };
     breech_case *c = changed_case(sets);
     shot_outcome o;
-    OK(shot_run(c, &(shot_plan){ .history = NULL }, &o));
+    OK(gouge_shot_run(c, &(shot_plan){ .history = NULL }, &o));
     for (int i = 0; i < o.n_sites; i++) {
         assert_false(o.site[i].reached);
         assert_true(isnan(o.site[i].velocity) && isnan(o.site[i].time) && isnan(o.site[i].contact_pressure));
     }
-    shot_outcome_free(&o);
+    gouge_shot_outcome_free(&o);
     case_free(c);
 }
 
@@ -110,8 +110,8 @@ static void test_jumps(void **state)
     shot_outcome before, after;
     enum { AT = 5 };
     site_jump jump[64] = { [AT] = { .impulse = 1.0, .mass_loss = 0.0 } };
-    OK(shot_run(c, &(shot_plan){ .history = NULL }, &before));
-    OK(shot_run(c, &(shot_plan){ .jump = jump }, &after));
+    OK(gouge_shot_run(c, &(shot_plan){ .history = NULL }, &before));
+    OK(gouge_shot_run(c, &(shot_plan){ .jump = jump }, &after));
     /* 1e-7: a hundred times the integration's relative tolerance, 1e-8, over an accumulated shot */
     for (int i = 0; i <= AT; i++) assert_true(fabs(after.site[i].velocity / before.site[i].velocity - 1.0) < 1e-6);
     assert_true(after.site[AT + 1].velocity < before.site[AT + 1].velocity);
@@ -119,8 +119,8 @@ static void test_jumps(void **state)
      * 5 %: the force changes a little with the way the current took */
     const double dv = 1.0 / c->armature.mass, v = before.site[AT].velocity, next = before.site[AT + 1].velocity;
     assert_true(fabs((next - after.site[AT + 1].velocity) / (dv * v / next) - 1.0) < 0.05);
-    shot_outcome_free(&before);
-    shot_outcome_free(&after);
+    gouge_shot_outcome_free(&before);
+    gouge_shot_outcome_free(&after);
     case_free(c);
 }
 
@@ -134,8 +134,8 @@ static void test_stopped(void **state)
     (void)state;
     breech_case *c = changed_case(NULL);
     shot_outcome o;
-    assert_int_equal(shot_run(c, &(shot_plan){ .stop = stop_now }, &o).code, STATUS_STOPPED);
-    shot_outcome_free(&o);
+    assert_int_equal(gouge_shot_run(c, &(shot_plan){ .stop = stop_now }, &o).code, STATUS_STOPPED);
+    gouge_shot_outcome_free(&o);
     case_free(c);
 }
 
@@ -158,7 +158,7 @@ static void test_screen_table(void **state)
         if (strcmp(flyer, "al7075_t651") != 0 || strcmp(target, "ofhc_copper") != 0) continue;
         breech_case *c = changed_case(sets);
         screen s;
-        OK(screen_impact(c, v, &s));
+        OK(gouge_screen_impact(c, v, &s));
         /* the table has copper of 8930 kg/m3, the material's file 8960, 0.34 % more, which moves a copper-aluminium
          * pressure by less than 0.15 %; and its rounding of 0.005 GPa */
         assert_true(fabs(s.impact_pressure / 1e9 - p) <= 0.0015 * p + 0.005);
@@ -178,23 +178,23 @@ static void test_screen_band(void **state)
     for (double ratio = 2.0; ratio < 40.0; ratio *= 1.7) {
         double v;
         screen below, above;
-        OK(screen_velocity(c, ratio, &v));
-        OK(screen_impact(c, v - 0.01, &below));
-        OK(screen_impact(c, v + 0.01, &above));
+        OK(gouge_screen_velocity(c, ratio, &v));
+        OK(gouge_screen_impact(c, v - 0.01, &below));
+        OK(gouge_screen_impact(c, v + 0.01, &above));
         assert_true(below.ratio < ratio && above.ratio > ratio);
         c->study.screen_low = ratio;
-        OK(screen_impact(c, v - 0.01, &below));
-        OK(screen_impact(c, v + 0.01, &above));
+        OK(gouge_screen_impact(c, v - 0.01, &below));
+        OK(gouge_screen_impact(c, v + 0.01, &above));
         assert_true(below.skip && !above.skip);
         c->study.screen_high = ratio;
-        OK(screen_impact(c, v + 0.01, &above));
+        OK(gouge_screen_impact(c, v + 0.01, &above));
         assert_true(above.expected && !above.skip);
     }
     /* a rail hardened beyond the armature lowers the ratio by its factor */
     screen soft, hard;
-    OK(screen_impact(c, 1400.0, &soft));
+    OK(gouge_screen_impact(c, 1400.0, &soft));
     c->rail.yield_scale = 2.0 * 1.7 / 0.725;
-    OK(screen_impact(c, 1400.0, &hard));
+    OK(gouge_screen_impact(c, 1400.0, &hard));
     assert_true(fabs(hard.ratio - 0.5 * soft.ratio) < 1e-9);
     case_free(c);
 }
@@ -238,9 +238,9 @@ static made make(const char *const *sets)
 {
     made m = { .c = changed_case(sets) };
     add_layer(m.c);
-    m.state = state_of_case(m.c);
+    m.state = gouge_state_of_case(m.c);
     m.state.contact_pressure = 60e6;
-    const status s = scene_from_state(m.c, &m.state, m.c->scene.cells_per_radius, &m.scene, &m.spec);
+    const status s = gouge_scene_from_state(m.c, &m.state, m.c->scene.cells_per_radius, &m.scene, &m.spec);
     if (s.code != STATUS_OK) fail_msg("%s ...: %s", sets[0] ? sets[0] : "default", s.text);
     return m;
 }
@@ -301,8 +301,8 @@ static void test_no_overlap(void **state)
     }
 }
 
-/* Foot on the surface, the rail's top at y = 0, the armature's contact face on it, no nearer to the grain than half a fine
- * cell and no farther than a fine cell plus what its lead face leaves open at the grain's edge. */
+/* Foot on the surface, the rail's top at y = 0, the armature's contact face on it, no nearer to the grain than half a
+ * fine cell and no farther than a fine cell plus what its lead face leaves open at the grain's edge. */
 static void test_places(void **state)
 {
     (void)state;
@@ -319,7 +319,7 @@ static void test_places(void **state)
         assert_true(lo[0] > m.scene.axis[0].lo && hi[0] < m.scene.axis[0].hi);
         double top = -INFINITY;
         for (int i = 0; i < m.scene.bodies; i++) {
-            if (!body_is_rail(&m.scene, i)) continue;
+            if (!gouge_body_is_rail(&m.scene, i)) continue;
             m.scene.body[i].shape->bounds(&m.scene.body[i].shape_value, lo, hi);
             top = fmax(top, hi[1]);
             assert_true(lo[0] <= m.scene.axis[0].lo && hi[0] >= m.scene.axis[0].hi); /* it fills the window */
@@ -362,10 +362,10 @@ static void test_levels(void **state)
         for (int levels = 1; levels <= MPM_MAX_LEVELS; levels++) {
             grids g;
             m.c->scene.levels = levels;
-            OK(scene_from_state(m.c, &m.state, m.c->scene.cells_per_radius, &m.scene, &m.spec));
-            OK(grids_make(&m.scene, &g));
+            OK(gouge_scene_from_state(m.c, &m.state, m.c->scene.cells_per_radius, &m.scene, &m.spec));
+            OK(mpm_grids_make(&m.scene, &g));
             assert_int_equal(g.levels, m.scene.basis == BASIS_GIMP ? levels : 1);
-            grids_free(&g);
+            mpm_grids_free(&g);
         }
         case_free(m.c);
     }
@@ -507,7 +507,7 @@ static void test_pit(void **state)
     assert_true(fabs(m.spec.particle_volume / (0.5 * ball) - 1.0) < 5e-3);
     assert_true(fabs(m.spec.particle_area / (PI * r * r) - 1.0) < 5e-3);
     made grain = make((const char *const[]){ NULL });
-    assert_true(scene_grain_passed(&m.scene) > 0.0 && scene_grain_passed(&m.scene) == scene_grain_passed(&grain.scene));
+    assert_true(gouge_grain_passed(&m.scene) > 0.0 && gouge_grain_passed(&m.scene) == gouge_grain_passed(&grain.scene));
     case_free(grain.c);
     case_free(m.c);
     /* eight points a radius: those on the border, one in eight, err both ways */
@@ -515,7 +515,7 @@ static void test_pit(void **state)
     m = make(sets);
     m.c->scene.fine_depth = 1e-3;
     m.state.grain.height = 2.5e-3;
-    assert_int_equal(scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec).code, STATUS_BAD_INPUT);
+    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec).code, STATUS_BAD_INPUT);
     case_free(m.c);
 }
 
@@ -523,9 +523,9 @@ static void test_pit(void **state)
 static void test_growth(void **state)
 {
     (void)state;
-    assert_true(fabs(growth_folds(1e5, 0.5e-3, 1500.0) - 1e5 * 12 * 0.5e-3 / 1500.0) < 1e-12);
-    assert_true(growth_folds(NAN, 0.5e-3, 1500.0) == -3.0);
-    assert_true(growth_folds(-1e7, 0.5e-3, 1500.0) ==
+    assert_true(fabs(gouge_growth_folds(1e5, 0.5e-3, 1500.0) - 1e5 * 12 * 0.5e-3 / 1500.0) < 1e-12);
+    assert_true(gouge_growth_folds(NAN, 0.5e-3, 1500.0) == -3.0);
+    assert_true(gouge_growth_folds(-1e7, 0.5e-3, 1500.0) ==
                 -3.0); /* died between the gauges: no less than before the first */
 }
 
@@ -536,13 +536,13 @@ static void test_gauged(void **state)
     made m = make((const char *const[]){ NULL });
     const double whole = m.scene.end_time;
     m.c->scene.stop_when_gauged = true;
-    OK(scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec));
+    OK(gouge_scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec));
     assert_true(fabs(m.scene.gauge_time[1] - 28 * m.state.grain.radius / m.state.velocity) < 1e-12);
-    assert_true(m.scene.end_time == whole && scene_last(m.c, &m.scene) == m.scene.gauge_time[1]);
+    assert_true(m.scene.end_time == whole && gouge_last_time(m.c, &m.scene) == m.scene.gauge_time[1]);
     m.c->scene.end_time = 0.9 * m.scene.gauge_time[1];
-    assert_int_equal(scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec).code, STATUS_BAD_INPUT);
+    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec).code, STATUS_BAD_INPUT);
     m.c->scene.follow = false; /* has no gauges */
-    OK(scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec));
+    OK(gouge_scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec));
     assert_true(m.scene.end_time == m.c->scene.end_time);
     case_free(m.c);
 }
@@ -556,15 +556,15 @@ static void test_dying(void **state)
     mpm_report now = { .time = half, .plastic_time = half, .gauge_at = { gauge[0] }, .gauge_power = { 1e5 } };
     for (double folds = -2.0; folds <= 2.0; folds += 0.1) {
         now.plastic_power = 1e5 * exp(0.5 * folds);
-        assert_true(scene_groove_dies(m.c, &m.scene, &now) == (folds < -0.501));
+        assert_true(gouge_groove_dies(m.c, &m.scene, &now) == (folds < -0.501));
     }
     now.plastic_power = 1e5 * exp(0.5 * -0.7);
     m.c->scene.growth_scatter = 0.3; /* what decides nothing reaches further */
-    assert_false(scene_groove_dies(m.c, &m.scene, &now));
+    assert_false(gouge_groove_dies(m.c, &m.scene, &now));
     now.plastic_power = 1e4;
-    assert_true(scene_groove_dies(m.c, &m.scene, &now));
+    assert_true(gouge_groove_dies(m.c, &m.scene, &now));
     now.time = now.plastic_time = 0.99 * half;
-    assert_false(scene_groove_dies(m.c, &m.scene, &now));
+    assert_false(gouge_groove_dies(m.c, &m.scene, &now));
     case_free(m.c);
 }
 
@@ -573,11 +573,11 @@ static void test_refused(void **state)
     (void)state;
     made m = make(variants[0]);
     m.c->scene.rail_ahead = 1e-3; /* no room for the grain's fine zone */
-    assert_int_equal(scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec).code, STATUS_BAD_INPUT);
+    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec).code, STATUS_BAD_INPUT);
     case_free(m.c);
     m = make(variants[0]);
     m.state.velocity = 0.0;
-    assert_int_equal(scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec).code, STATUS_BAD_INPUT);
+    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec).code, STATUS_BAD_INPUT);
     case_free(m.c);
 }
 
@@ -638,13 +638,13 @@ static breech_case *small_case(const char *const *speed, bool to_gauge, const ch
 static run_counted run_small(const char *const *speed, bool to_gauge, const char *written, scene_shelf *shelf)
 {
     breech_case *c = small_case(speed, to_gauge, written);
-    const site_state at = state_of_case(c);
+    const site_state at = gouge_state_of_case(c);
     run_counted r = { .steps = 0 };
     scene_job job;
     OK(scene_job_make(c, &at, 1.2, &job));
     job.name = to_gauge ? "short" : "whole";
     job.twin = 1;
-    OK(history_open(NULL, false, &r.rows));
+    OK(output_history_open(NULL, false, &r.rows));
     const snapshot_sink sink = { count_snapshot, &r };
     const scene_host host = {
         .sink = &sink, .history = r.rows, .shelf = shelf, .threads = 1, .stop = count_step, .user = &r
@@ -660,8 +660,8 @@ static const double SAVING = 5e-3; /* [s] */
 static status save_slowly(void *user, const char *scene, const mpm *m, double wall)
 {
     (void)scene, (void)m, (void)wall;
-    const double until = wall_clock() + SAVING;
-    while (wall_clock() < until) {
+    const double until = host_wall_clock() + SAVING;
+    while (host_wall_clock() < until) {
     }
     ++*(int *)user;
     return status_ok();
@@ -674,16 +674,16 @@ static void test_checkpoints(void **state)
     static const char *const brief[] = { "scene.velocity=2 km/s", "scene.end_time=1 us",
                                          "scene.contact_pressure=300 MPa" };
     breech_case *c = small_case(brief, false, "output.snapshots=0");
-    const site_state at = state_of_case(c);
+    const site_state at = gouge_state_of_case(c);
     scene_job job;
     impact hit;
     int saves = 0;
     OK(scene_job_make(c, &at, 1.2, &job));
     c->output.checkpoint_interval = 1e-3;
     const scene_host host = { .threads = 1, .save = save_slowly, .user = &saves };
-    const double start = wall_clock();
+    const double start = host_wall_clock();
     OK(scene_run(&job, &host, &hit));
-    const double wall = wall_clock() - start;
+    const double wall = host_wall_clock() - start;
     print_message("%d checkpoints of %g ms in %.2f s\n", saves, 1e3 * SAVING, wall);
     assert_true(saves > 1 && (saves - 1) * 20 * SAVING <= wall);
     case_free(c);
@@ -695,14 +695,14 @@ static void assert_same_rows(history *a, history *b)
     double *time[2];
     size_t rows[2][H5_MAX_RANK];
     for (int i = 0; i < 2; i++) {
-        OK(h5_create(&file[i]));
-        OK(history_export(i ? b : a, "whole", file[i]));
-        OK(h5_read(file[i], "/scene/time", &time[i], rows[i]));
+        OK(host_h5_create(&file[i]));
+        OK(output_history_export(i ? b : a, "whole", file[i]));
+        OK(host_h5_read(file[i], "/scene/time", &time[i], rows[i]));
     }
     assert_int_equal(rows[0][0], rows[1][0]);
     assert_true(rows[0][0] > 20);
     assert_memory_equal(time[0], time[1], rows[0][0] * sizeof *time[0]);
-    for (int i = 0; i < 2; i++) free(time[i]), h5_close(file[i]);
+    for (int i = 0; i < 2; i++) free(time[i]), host_h5_close(file[i]);
 }
 
 /* A whole scene goes on from the one that ended at its gauge, to the same bits, unless a snapshot is missing. */
@@ -723,12 +723,12 @@ static void test_shelf(void **state)
         const run_counted many = run_small(FAST, false, "output.snapshots=31", &shelf);
         assert_true(many.steps > 0.9 * alone.steps && many.snapshots == 31);
         assert_memory_equal(&many.hit, &alone.hit, sizeof many.hit);
-        OK(history_close(many.rows));
+        OK(output_history_close(many.rows));
     }
     scene_shelf_clear(&shelf);
     assert_null(scene_shelf_find(&shelf, 1));
     history *const rows[] = { alone.rows, gauged.rows, on.rows };
-    for (int i = 0; i < 3; i++) OK(history_close(rows[i]));
+    for (int i = 0; i < 3; i++) OK(output_history_close(rows[i]));
 }
 
 /* A dying groove is not driven to its second gauge, and is no gouge. */
@@ -742,8 +742,8 @@ static void test_dies_early(void **state)
                   slow.hit.result.reason);
     assert_true(slow.hit.result.end_time >= half && slow.hit.result.end_time < 0.9 * gauge);
     assert_true(slow.hit.result.class == DAMAGE_SCRATCH || slow.hit.result.class == DAMAGE_NONE);
-    assert_true(growth_folds(slow.hit.result.groove_growth, 0.2e-3, 800.0) < -0.5);
-    OK(history_close(slow.rows));
+    assert_true(gouge_growth_folds(slow.hit.result.groove_growth, 0.2e-3, 800.0) < -0.5);
+    OK(output_history_close(slow.rows));
 }
 
 int main(void)

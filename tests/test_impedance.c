@@ -25,7 +25,7 @@
 static material blank(const char *name)
 {
     material m;
-    params_default(material_params, &m);
+    base_params_default(mpm_material_params, &m);
     snprintf(m.name, sizeof m.name, "%s", name);
     return m;
 }
@@ -60,7 +60,7 @@ static void test_table(void **state)
         double v, p_table, u_table, p, u;
         if (sscanf(line, "%39[^,],%39[^,],%lf,%lf,%lf", flyer_name, target_name, &v, &p_table, &u_table) != 5) continue;
         const material flyer = by_name(flyer_name), target = by_name(target_name);
-        assert_int_equal(impedance_match(&flyer, &target, v, &p, &u).code, STATUS_OK);
+        assert_int_equal(mpm_impedance_match(&flyer, &target, v, &p, &u).code, STATUS_OK);
         if (fabs(p / 1e9 - p_table) > 0.005 + 1e-9 || fabs(u - u_table) > 0.5 + 1e-9)
             fail_msg("%s on %s at %g m/s: %.4f GPa, %.2f m/s; table %.2f, %.0f", flyer_name, target_name, v, p / 1e9, u,
                      p_table, u_table);
@@ -85,8 +85,8 @@ static void test_laws(void **state)
         for (int j = 0; j < n; j++)
             for (double v = 0.0; v <= 5000.0; v += 250.0) {
                 double p, u, p_back, u_back;
-                assert_int_equal(impedance_match(&list[i], &list[j], v, &p, &u).code, STATUS_OK);
-                assert_int_equal(impedance_match(&list[j], &list[i], v, &p_back, &u_back).code, STATUS_OK);
+                assert_int_equal(mpm_impedance_match(&list[i], &list[j], v, &p, &u).code, STATUS_OK);
+                assert_int_equal(mpm_impedance_match(&list[j], &list[i], v, &p_back, &u_back).code, STATUS_OK);
                 const double w = v - u;
                 const double p_flyer = list[i].density * (list[i].sound_speed + list[i].hugoniot_slope * w) * w;
                 assert_near(p, p_flyer, 1e-11 * p + 1e-9);
@@ -104,11 +104,11 @@ static void test_match_refuses(void **state)
     snprintf(bad.name, sizeof bad.name, "unobtainium");
     bad.hugoniot_slope = NAN;
     double p, u;
-    const status missing = impedance_match(&good, &bad, 1000.0, &p, &u);
+    const status missing = mpm_impedance_match(&good, &bad, 1000.0, &p, &u);
     assert_int_equal(missing.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(missing.text, "unobtainium"));
-    assert_int_equal(impedance_match(&good, &good, -1.0, &p, &u).code, STATUS_BAD_INPUT);
-    assert_int_equal(impedance_match(&good, &good, NAN, &p, &u).code, STATUS_BAD_INPUT);
+    assert_int_equal(mpm_impedance_match(&good, &good, -1.0, &p, &u).code, STATUS_BAD_INPUT);
+    assert_int_equal(mpm_impedance_match(&good, &good, NAN, &p, &u).code, STATUS_BAD_INPUT);
 }
 
 /* OFHC copper with everything a scene needs. */
@@ -127,21 +127,21 @@ static void test_needs(void **state)
 {
     (void)state;
     material m = copper();
-    assert_int_equal(material_check(&m, MATERIAL_FOR_SCENE).code, STATUS_OK);
-    assert_int_equal(material_check(&m, 0).code, STATUS_OK);
-    const status damage = material_check(&m, MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE);
+    assert_int_equal(mpm_material_check(&m, MATERIAL_FOR_SCENE).code, STATUS_OK);
+    assert_int_equal(mpm_material_check(&m, 0).code, STATUS_OK);
+    const status damage = mpm_material_check(&m, MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE);
     assert_int_equal(damage.code, STATUS_BAD_INPUT);
     const char *const all[] = { "ofhc_copper", "damage_D1", "damage_D2", "damage_D3", "damage_D4", "damage_D5" };
     for (int i = 0; i < 6; i++) assert_non_null(strstr(damage.text, all[i]));
     assert_null(strstr(damage.text, "yield_A"));
-    assert_non_null(strstr(material_check(&m, MATERIAL_FOR_SCREEN).text, "hardness"));
-    assert_non_null(strstr(material_check(&m, MATERIAL_FOR_MELTING).text, "latent_heat"));
-    assert_non_null(strstr(material_check(&m, MATERIAL_FOR_CIRCUIT).text, "resistivity"));
+    assert_non_null(strstr(mpm_material_check(&m, MATERIAL_FOR_SCREEN).text, "hardness"));
+    assert_non_null(strstr(mpm_material_check(&m, MATERIAL_FOR_MELTING).text, "latent_heat"));
+    assert_non_null(strstr(mpm_material_check(&m, MATERIAL_FOR_CIRCUIT).text, "resistivity"));
     m.poisson = 0.7;
-    assert_non_null(strstr(material_check(&m, MATERIAL_FOR_SCENE).text, "poisson"));
+    assert_non_null(strstr(mpm_material_check(&m, MATERIAL_FOR_SCENE).text, "poisson"));
     m = copper();
     m.melting_temperature = 290.0;
-    assert_non_null(strstr(material_check(&m, MATERIAL_FOR_SCENE).text, "melting_temperature"));
+    assert_non_null(strstr(mpm_material_check(&m, MATERIAL_FOR_SCENE).text, "melting_temperature"));
 }
 
 static bool listed(const char *key, const char *const *list)
@@ -151,7 +151,8 @@ static bool listed(const char *key, const char *const *list)
 }
 
 /* Each constant alone, taken away from a complete material, is refused by name by some study, the constants of a law of
- * strength where the material has that law; those that no study needs are listed here.  The whole list fits the message. */
+ * strength where the material has that law; those that no study needs are listed here.  The whole list fits the
+ * message. */
 static void test_every_constant(void **state)
 {
     (void)state;
@@ -163,9 +164,9 @@ static void test_every_constant(void **state)
     for (int law = STRENGTH_JOHNSON_COOK; law <= STRENGTH_PTW; law++) {
         material none = blank("empty");
         none.strength = law;
-        const status bad = material_check(&none, every);
+        const status bad = mpm_material_check(&none, every);
         assert_int_equal(bad.code, STATUS_BAD_INPUT);
-        for (const param *p = material_params; p->key; p++) {
+        for (const param *p = mpm_material_params; p->key; p++) {
             const bool ptw = strncmp(p->key, "ptw_", 4) == 0 || strcmp(p->key, "molar_mass") == 0;
             if (p->kind != PARAM_NUMBER) continue;
             const bool other = law == STRENGTH_PTW ? listed(p->key, johnson_cook) : ptw;
@@ -181,12 +182,12 @@ static void test_derived(void **state)
 {
     (void)state;
     const material m = copper();
-    assert_near(material_bulk_modulus(&m), 139.0915e9, 1e-4 * 139e9);
-    assert_near(material_shear_modulus(&m), 46.2687e9, 1e-4 * 46e9);
-    assert_near(material_longitudinal_speed(&m), 4733.5, 1e-4 * 4733.5);
-    assert_near(material_shear_speed(&m), 2272.4, 1e-4 * 2272.4);
+    assert_near(mpm_material_bulk_modulus(&m), 139.0915e9, 1e-4 * 139e9);
+    assert_near(mpm_material_shear_modulus(&m), 46.2687e9, 1e-4 * 46e9);
+    assert_near(mpm_material_longitudinal_speed(&m), 4733.5, 1e-4 * 4733.5);
+    assert_near(mpm_material_shear_speed(&m), 2272.4, 1e-4 * 2272.4);
     const material none = blank("empty");
-    assert_true(isnan(material_shear_modulus(&none)) && isnan(material_bulk_modulus(&none)));
+    assert_true(isnan(mpm_material_shear_modulus(&none)) && isnan(mpm_material_bulk_modulus(&none)));
 }
 
 /* Every row of the table is well formed: a range, a text, a unit, and a member of its own. */
@@ -194,10 +195,10 @@ static void test_param_table(void **state)
 {
     (void)state;
     size_t rows = 0;
-    for (const param *p = material_params; p->key; p++, rows++) {
+    for (const param *p = mpm_material_params; p->key; p++, rows++) {
         assert_true(p->doc && p->unit && p->key[0]);
         if (p->kind == PARAM_NUMBER) assert_true(p->min < p->max);
-        for (const param *q = material_params; q != p; q++)
+        for (const param *q = mpm_material_params; q != p; q++)
             assert_true(q->offset != p->offset && strcmp(q->key, p->key) != 0);
     }
     assert_int_equal(rows, 1 + (sizeof(material) - PARAM_TEXT_SIZE) / sizeof(double));

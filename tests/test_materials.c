@@ -1,4 +1,5 @@
-/* Every file of cases/materials: it reads, each constant has a source and lies in its range; and what the reader refuses. */
+/* Every file of cases/materials: it reads, each constant has a source and lies in its range; and what the reader
+ * refuses. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,8 +25,8 @@ typedef struct {
 static int open_shelf(void **state)
 {
     static shelf s;
-    assert_int_equal(units_open(&s.u).code, STATUS_OK);
-    assert_int_equal(material_names(MATERIALS, &s.names, &s.n).code, STATUS_OK);
+    assert_int_equal(host_units_open(&s.u).code, STATUS_OK);
+    assert_int_equal(case_material_names(MATERIALS, &s.names, &s.n).code, STATUS_OK);
     *state = &s;
     return 0;
 }
@@ -33,15 +34,15 @@ static int open_shelf(void **state)
 static int close_shelf(void **state)
 {
     shelf *s = *state;
-    units_close(s->u);
-    material_names_free(s->names, s->n);
+    host_units_close(s->u);
+    case_material_names_free(s->names, s->n);
     return 0;
 }
 
 static void check_sheet(const material_sheet *sheet)
 {
     int given = 0;
-    assert_int_equal(params_check(material_params, &sheet->material, sheet->material.name).code, STATUS_OK);
+    assert_int_equal(base_params_check(mpm_material_params, &sheet->material, sheet->material.name).code, STATUS_OK);
     for (int k = 0; k < sheet->n; k++) {
         const material_constant *c = &sheet->constant[k];
         const double value = *(const double *)(const void *)((const char *)&sheet->material + c->constant->offset);
@@ -49,7 +50,7 @@ static void check_sheet(const material_sheet *sheet)
         assert_non_null(c->source);
         assert_true(strlen(c->source) >= 20); /* a citation, not a short name */
     }
-    for (const param *p = material_params; p->key; p++) {
+    for (const param *p = mpm_material_params; p->key; p++) {
         const double *value = (const double *)(const void *)((const char *)&sheet->material + p->offset);
         given += p->kind == PARAM_NUMBER && !isnan(*value);
     }
@@ -63,12 +64,12 @@ static void every_file_reads_and_has_sources(void **state)
     for (int k = 0; k < s->n; k++) {
         material_sheet sheet;
         char *errors = NULL;
-        const status result = material_sheet_find(s->u, s->names[k], dirs, 1, &sheet, &errors);
+        const status result = case_material_sheet_find(s->u, s->names[k], dirs, 1, &sheet, &errors);
         if (result.code != STATUS_OK) print_error("%s: %s\n%s", s->names[k], result.text, errors ? errors : "");
         assert_int_equal(result.code, STATUS_OK);
         assert_string_equal(sheet.material.name, s->names[k]);
         check_sheet(&sheet);
-        material_sheet_free(&sheet);
+        case_material_sheet_free(&sheet);
     }
 }
 
@@ -88,8 +89,8 @@ static void unchecked_constants_are_weak(void **state)
         material_sheet sheet;
         char *errors = NULL, warning[MATERIAL_WARNING_SIZE];
         int weak = 0;
-        assert_int_equal(material_sheet_find(s->u, s->names[k], dirs, 1, &sheet, &errors).code, STATUS_OK);
-        material_sheet_warning(&sheet, warning);
+        assert_int_equal(case_material_sheet_find(s->u, s->names[k], dirs, 1, &sheet, &errors).code, STATUS_OK);
+        case_material_sheet_warning(&sheet, warning);
         for (int i = 0; i < sheet.n; i++) {
             const material_constant *c = &sheet.constant[i];
             if (mentions(c->source, words) && !c->weak) print_error("%s.%s\n", s->names[k], c->constant->key);
@@ -98,7 +99,7 @@ static void unchecked_constants_are_weak(void **state)
             weak += c->weak;
         }
         assert_true((weak > 0) == (warning[0] != '\0'));
-        material_sheet_free(&sheet);
+        case_material_sheet_free(&sheet);
     }
 }
 
@@ -108,7 +109,7 @@ static void the_papers_sets_are_kept(void **state)
     shelf *s = *state;
     material_sheet sheet;
     char *errors = NULL;
-    assert_int_equal(material_sheet_find(s->u, "w17_al7075", dirs, 1, &sheet, &errors).code, STATUS_OK);
+    assert_int_equal(case_material_sheet_find(s->u, "w17_al7075", dirs, 1, &sheet, &errors).code, STATUS_OK);
     const material *m = &sheet.material;
     assert_true(m->density == 2810.0 && m->youngs_modulus == 71e9 && m->poisson == 0.33 && m->specific_heat == 960.0);
     assert_true(m->yield_A == 369e6 && m->hardening_B == 684e6 && m->hardening_n == 0.73);
@@ -116,7 +117,7 @@ static void the_papers_sets_are_kept(void **state)
     assert_true(m->damage_D1 == 0.13 && m->damage_D2 == 0.13 && m->damage_D3 == -1.5 && m->damage_D4 == 0.011);
     assert_true(m->damage_D5 == 0.0 && m->sound_speed == 5350.0 && m->hugoniot_slope == 1.34 && m->gruneisen == 2.0);
     assert_true(isnan(m->hardness) && isnan(m->conductivity)); /* blank in the table */
-    material_sheet_free(&sheet);
+    case_material_sheet_free(&sheet);
 }
 
 /* Johnson-Cook unless the file says otherwise; either is complete for its own law. */
@@ -127,12 +128,12 @@ static void the_law_of_strength_is_read(void **state)
     for (int k = 0; k < s->n; k++) {
         material_sheet sheet;
         char *errors = NULL;
-        assert_int_equal(material_sheet_find(s->u, s->names[k], dirs, 1, &sheet, &errors).code, STATUS_OK);
+        assert_int_equal(case_material_sheet_find(s->u, s->names[k], dirs, 1, &sheet, &errors).code, STATUS_OK);
         const bool named = strstr(s->names[k], "_ptw") != NULL;
         assert_int_equal(sheet.material.strength, named ? STRENGTH_PTW : STRENGTH_JOHNSON_COOK);
-        if (named) assert_int_equal(material_check(&sheet.material, MATERIAL_FOR_SCENE).code, STATUS_OK);
+        if (named) assert_int_equal(mpm_material_check(&sheet.material, MATERIAL_FOR_SCENE).code, STATUS_OK);
         ptw += named;
-        material_sheet_free(&sheet);
+        case_material_sheet_free(&sheet);
     }
     assert_int_equal(ptw, 1);
 }
@@ -168,7 +169,7 @@ static void bad_files_say_where(void **state)
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
         material_sheet sheet;
         char *errors = NULL;
-        const status r = material_sheet_parse(s->u, bad[k].text, strlen(bad[k].text), "x.yaml", &sheet, &errors);
+        const status r = case_material_sheet_parse(s->u, bad[k].text, strlen(bad[k].text), "x.yaml", &sheet, &errors);
         assert_int_equal(r.code, STATUS_BAD_INPUT);
         assert_non_null(errors);
         if (!strstr(errors, bad[k].error)) print_error("wanted %s\nin %s", bad[k].error, errors);
@@ -184,8 +185,8 @@ static void names_cannot_leave_the_folder(void **state)
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
         material_sheet sheet;
         char *errors = NULL;
-        assert_false(material_name_valid(bad[k]));
-        assert_int_equal(material_sheet_find(s->u, bad[k], dirs, 1, &sheet, &errors).code, STATUS_BAD_INPUT);
+        assert_false(case_material_name_valid(bad[k]));
+        assert_int_equal(case_material_sheet_find(s->u, bad[k], dirs, 1, &sheet, &errors).code, STATUS_BAD_INPUT);
     }
 }
 
@@ -195,11 +196,11 @@ static void folders_are_found(void **state)
     (void)state;
     material_places found, without;
     setenv("BREECH_MATERIALS", MATERIALS, 1);
-    material_places_find(&found);
+    case_material_places_find(&found);
     assert_true(found.n >= 1 && found.n <= MATERIAL_MAX_DIRS);
     assert_string_equal(found.dir[0], MATERIALS);
     setenv("BREECH_MATERIALS", MATERIALS "/nowhere", 1);
-    material_places_find(&without);
+    case_material_places_find(&without);
     assert_int_equal(without.n, found.n - 1);
     unsetenv("BREECH_MATERIALS");
 }

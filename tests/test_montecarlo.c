@@ -93,7 +93,7 @@ static mc_result run(const mc_surface *surface, int n, int histories, int shots)
     const mc_plan plan = {
         .histories = histories, .shots = shots, .seed = 7, .length = LENGTH, .n = n, .surface = surface
     };
-    OK(mc_run(&plan, &out));
+    OK(study_mc_run(&plan, &out));
     return out;
 }
 
@@ -110,22 +110,23 @@ static void test_sizes(void **state)
     (void)state;
     case_population p = { .density = 10.0, .radius_median = 2e-4, .radius_spread = 0.5, .to = 3.0 };
     double size[64], number[64], sum = 0.0;
-    assert_true(fabs(population_share_from(&p, 2e-4) - 0.5) < 1e-12);
-    assert_true(fabs(population_quantile(&p, 0.5) - 2e-4) < 1e-12);
-    assert_true(fabs(population_share_from(&p, population_quantile(&p, 0.9)) - 0.1) < 1e-9);
-    const int n = population_sizes(&p, 1e-4, 64, size, number);
+    assert_true(fabs(study_population_share_from(&p, 2e-4) - 0.5) < 1e-12);
+    assert_true(fabs(study_population_quantile(&p, 0.5) - 2e-4) < 1e-12);
+    assert_true(fabs(study_population_share_from(&p, study_population_quantile(&p, 0.9)) - 0.1) < 1e-9);
+    const int n = study_population_sizes(&p, 1e-4, 64, size, number);
     assert_true(n > 4);
     for (int k = 0; k < n; k++) {
         const double place = 10.0 * log10(size[k]);
         assert_true(fabs(place - round(place)) < 1e-6 && size[k] > 0.99e-4 && number[k] > 0.0);
         sum += number[k];
     }
-    assert_true(fabs(sum - 30.0 * population_share_from(&p, 1e-4)) < 1e-9); /* none is lost above the smallest */
+    assert_true(fabs(sum - 30.0 * study_population_share_from(&p, 1e-4)) < 1e-9); /* none is lost above the smallest */
     case_size table[] = { { 5e-5, 5.0 }, { 2e-4, 3.0 }, { 4e-4, 2.0 } };
     p.sizes = (case_sizes){ 3, table };
-    assert_int_equal(population_sizes(&p, 1e-4, 64, size, number), 2);
+    assert_int_equal(study_population_sizes(&p, 1e-4, 64, size, number), 2);
     assert_true(size[0] == 2e-4 && fabs(number[0] - 9.0) < 1e-12 && fabs(number[1] - 6.0) < 1e-12);
-    assert_true(fabs(population_share_from(&p, 2e-4) - 0.5) < 1e-12 && population_quantile(&p, 0.9) == 4e-4);
+    assert_true(fabs(study_population_share_from(&p, 2e-4) - 0.5) < 1e-12 &&
+                study_population_quantile(&p, 0.9) == 4e-4);
 }
 
 /* ---- one surface ---- */
@@ -136,7 +137,7 @@ static void test_closed(void **state)
     (void)state;
     rail r;
     make(&r, 2.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
-    const double share = population_share_from(&r.population, 1e-4), mean = 2.0 * share;
+    const double share = study_population_share_from(&r.population, 1e-4), mean = 2.0 * share;
     const mc_surface one = as_new(&r, 0, 1.0);
     mc_result out = run(&one, 1, 100000, 1);
     const mc_shot *s = &out.of[0];
@@ -155,8 +156,8 @@ static void test_closed(void **state)
     const double z = log(0.5) / 0.5, above = 0.5 * erfc((z - 3.0 * 0.5) / sqrt(2.0));
     const double mark = (600.0 * 24.0 + 100.0 * 30.0) / 700.0;
     assert_true(fabs(s->volume / (2.0 * third * above * mark) - 1.0) < 0.03);
-    assert_true(fabs(mc_expected(&r.grains, LENGTH) - mean) < 2e-3 * mean); /* quadrature in 1024 places */
-    mc_free(&out);
+    assert_true(fabs(study_mc_expected(&r.grains, LENGTH) - mean) < 2e-3 * mean); /* quadrature in 1024 places */
+    study_mc_free(&out);
     free(r.family);
 }
 
@@ -168,7 +169,7 @@ static void test_band(void **state)
     make(&r, 20.0, 1.5e-4, 0.7, 1500.0, 0.2, 60.0);
     const mc_surface one = as_new(&r, 0, 1.0);
     mc_result out = run(&one, 1, 40000, 1);
-    const double mean = mc_expected(&r.grains, LENGTH);
+    const double mean = study_mc_expected(&r.grains, LENGTH);
     const mc_shot *s = &out.of[0];
     assert_true(mean > 1.0);
     assert_true(fabs(s->gouges / mean - 1.0) < 0.03); /* 200 worlds of a band that moves the mean by 20 % */
@@ -182,8 +183,8 @@ static void test_band(void **state)
     assert_true(sharp.of[0].gouges_interval[1] - mean < 2.0 * chance);
     assert_true(sharp.of[0].gouges_interval[1] - sharp.of[0].gouges_interval[0] <
                 0.5 * (s->gouges_interval[1] - s->gouges_interval[0]));
-    mc_free(&out);
-    mc_free(&sharp);
+    study_mc_free(&out);
+    study_mc_free(&sharp);
     free(r.family);
 }
 
@@ -202,11 +203,11 @@ static void test_table_and_sites(void **state)
     const double strewn = 5.0 * 0.4; /* two of five are large enough, on the last metre */
     assert_true(fabs(out.of[0].gouges - 2.0 - strewn) < four_sigma(strewn, out.histories)); /* two sites always */
     assert_true(out.of[0].probability == 1.0);
-    assert_true(fabs(mc_expected(&r.grains, LENGTH) - 2.0 - strewn) < 0.01);
+    assert_true(fabs(study_mc_expected(&r.grains, LENGTH) - 2.0 - strewn) < 0.01);
     double sum = 0.0;
     for (int k = 0; k < MC_BINS; k++) sum += out.of[0].strewn[k];
     assert_true(fabs(sum - strewn) < four_sigma(strewn, out.histories)); /* those of the list are not among them */
-    mc_free(&out);
+    study_mc_free(&out);
     free(r.family);
 }
 
@@ -222,7 +223,7 @@ static void test_beyond(void **state)
     const mc_surface one = as_new(&r, 0, 1.0);
     mc_result out = run(&one, 1, 1000, 1);
     assert_true(out.of[0].gouges == 0.0 && out.of[0].probability == 0.0 && isnan(out.of[0].first[0]));
-    mc_free(&out);
+    study_mc_free(&out);
     /* gouges without a crater: their number is known, their volume is not */
     free(r.family);
     make(&r, 20.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
@@ -230,7 +231,7 @@ static void test_beyond(void **state)
     out = run(&one, 1, 1000, 2);
     for (int k = 0; k < 2; k++)
         assert_true(out.of[k].gouges > 10.0 && isnan(out.of[k].volume) && isnan(out.of[k].volume_interval[1]));
-    mc_free(&out);
+    study_mc_free(&out);
     free(r.family);
 }
 
@@ -248,7 +249,7 @@ static void test_common_numbers(void **state)
     assert_true(out.of[0].gouges == out.of[1].gouges && out.of[0].volume == out.of[1].volume);
     assert_true(out.of[2].gouges < out.of[0].gouges);
     for (int w = 0; w < MC_WORLDS; w++) assert_true(out.world_gouges[2 * MC_WORLDS + w] <= out.world_gouges[w]);
-    mc_free(&out);
+    study_mc_free(&out);
     /* half the grains, half the gouges; larger grains, more */
     b.population.density = 2.5;
     for (int k = 0; k < 9; k++) b.family->surface.size[k] = a.family->surface.size[k];
@@ -256,7 +257,7 @@ static void test_common_numbers(void **state)
     out = run(kept, 3, 20000, 1);
     assert_true(fabs(out.of[1].gouges / out.of[0].gouges - 0.5) < 0.02);
     assert_true(out.of[2].gouges > out.of[0].gouges && out.of[2].volume > 1.5 * out.of[0].volume);
-    mc_free(&out);
+    study_mc_free(&out);
     free(a.family);
     free(b.family);
 }
@@ -272,18 +273,18 @@ static void test_seed(void **state)
     assert_memory_equal(a.of, b.of, sizeof *a.of);
     mc_result c;
     const mc_plan plan = { .histories = 2000, .shots = 1, .seed = 8, .length = LENGTH, .n = 1, .surface = &one };
-    OK(mc_run(&plan, &c));
+    OK(study_mc_run(&plan, &c));
     assert_true(a.of[0].gouges != c.of[0].gouges);
-    mc_free(&a);
-    mc_free(&b);
-    mc_free(&c);
+    study_mc_free(&a);
+    study_mc_free(&b);
+    study_mc_free(&c);
     free(r.family);
 }
 
 /* ---- several shots ---- */
 
-/* One grain of 1 mm at 2.1 m gouges and leaves a rim of half its size 8 radii on: it gouges the second shot there, its rim of
- * 0.25 mm the third, 0.125 mm the fourth; then it is below the smallest. */
+/* One grain of 1 mm at 2.1 m gouges and leaves a rim of half its size 8 radii on: it gouges the second shot there, its
+ * rim of 0.25 mm the third, 0.125 mm the fourth; then it is below the smallest. */
 static void test_rims(void **state)
 {
     (void)state;
@@ -304,7 +305,7 @@ static void test_rims(void **state)
         x += 8.0 * radius;
         radius *= 0.5;
     }
-    mc_free(&out);
+    study_mc_free(&out);
     /* grains of the milling are gone after the first shot, debris comes again */
     for (int renewed = 0; renewed < 2; renewed++) {
         free(r.family);
@@ -314,7 +315,7 @@ static void test_rims(void **state)
         out = run(&one, 1, 20000, 2);
         if (renewed) assert_true(fabs(out.of[1].gouges / out.of[0].gouges - 1.0) < 0.03);
         if (!renewed) assert_true(out.of[1].gouges == 0.0);
-        mc_free(&out);
+        study_mc_free(&out);
     }
     free(r.family);
 }
@@ -324,7 +325,7 @@ static void test_rims(void **state)
 static mc_along *along_of(const rail *r, int shots)
 {
     mc_along *a = calloc((size_t)shots, sizeof *a);
-    for (int k = 0; k < shots; k++) mc_velocities(&r->flown, LENGTH, a[k].v);
+    for (int k = 0; k < shots; k++) study_mc_velocities(&r->flown, LENGTH, a[k].v);
     return a;
 }
 
@@ -353,13 +354,13 @@ static void test_warm(void **state)
     const double start[4] = { 2.0, 3.0 * 1300.0 / MUZZLE, 3.0 * 1200.0 / MUZZLE, 2.5 },
                  volume[4] = { 10.0, 15.0, 20.0, 10.0 };
     mc_result out = run(&one, 1, 20000, 4);
-    const double mean = 20.0 * population_share_from(&cold.population, 1e-4),
+    const double mean = 20.0 * study_population_share_from(&cold.population, 1e-4),
                  each = out.of[0].volume / out.of[0].gouges;
     for (int k = 0; k < 4; k++) {
         assert_true(fabs(out.of[k].gouges - mean * (3.0 - start[k])) < four_sigma(mean, out.histories));
         assert_true(fabs(out.of[k].volume / out.of[k].gouges / each - volume[k] / volume[0]) < 0.05);
     }
-    mc_free(&out);
+    study_mc_free(&out);
     for (int k = 0; k < 9; k++) { /* the cold rail never gouges: the nearer of the two counts */
         cold.family->surface.size[k].velocity = cold.family->surface.size[k].interval[1] = NAN;
         cold.family->surface.size[k].interval[0] = 2000.0;
@@ -370,7 +371,7 @@ static void test_warm(void **state)
     assert_true(out.of[0].gouges == 0.0);
     assert_true(fabs(out.of[1].gouges - mean * (3.0 - start[2])) < four_sigma(mean, out.histories));
     assert_true(fabs(out.of[1].volume / out.of[1].gouges / each - 2.0) < 0.05);
-    mc_free(&out);
+    study_mc_free(&out);
     free(along);
     free(cold.family);
     free(warm.family);
@@ -394,11 +395,11 @@ static void test_bare(void **state)
         mc_result out = run(&one, 1, 200, 2);
         assert_true(fabs(out.of[0].gouges - 1.0) < 1e-9);
         assert_true(fabs(out.of[1].gouges - (through ? 0.0 : 1.0)) < 1e-9);
-        mc_free(&out);
+        study_mc_free(&out);
         bare.grains.n = 0; /* none of its kind is fast enough there: never */
         out = run(&one, 1, 200, 2);
         assert_true(fabs(out.of[1].gouges - (through ? 0.0 : 1.0)) < 1e-9);
-        mc_free(&out);
+        study_mc_free(&out);
         free(covered.family);
         free(bare.family);
     }

@@ -31,7 +31,7 @@ static void test_grading(void **state)
     for (int trial = 0; trial < 400; trial++) {
         const mpm_axis s = any_axis();
         axis a;
-        assert_ok(axis_make(&s, 'x', &a));
+        assert_ok(mpm_axis_make(&s, 'x', &a));
         assert_near(a.node[1], s.lo, 0); /* exact: boundaries act there */
         assert_near(a.node[a.last], s.hi, 0);
         assert_true(4 * a.bricks >= a.last + 2);
@@ -48,7 +48,7 @@ static void test_grading(void **state)
             if (middle > s.fine_lo && middle < s.fine_hi) assert_true(h / s.fine > 0.66 && h / s.fine < 1.5);
         }
         assert_near(a.smallest / smallest, 1, 1e-9);
-        axis_free(&a);
+        mpm_axis_free(&a);
     }
 }
 
@@ -64,12 +64,12 @@ static void test_ratio(void **state)
         s.fine_lo = s.lo + 0.4 * (s.hi - s.lo), s.fine_hi = s.lo + 0.6 * (s.hi - s.lo);
         s.coarse = 3 * s.fine;
         axis a;
-        assert_ok(axis_make(&s, 'y', &a));
+        assert_ok(mpm_axis_make(&s, 'y', &a));
         for (int i = 2; i < a.last; i++) {
             const double ratio = axis_right(&a, i) / axis_left(&a, i);
             assert_true(fmax(ratio, 1 / ratio) < 1.1 * s.growth);
         }
-        axis_free(&a);
+        mpm_axis_free(&a);
     }
 }
 
@@ -80,23 +80,23 @@ static void test_locate(void **state)
     for (int trial = 0; trial < 200; trial++) {
         const mpm_axis s = any_axis();
         axis a;
-        assert_ok(axis_make(&s, 'z', &a));
+        assert_ok(mpm_axis_make(&s, 'z', &a));
         for (int i = 1; i <= a.last; i++) {
-            assert_int_equal(axis_locate(&a, a.node[i]), i);
-            assert_int_equal(axis_locate(&a, a.edge[i]), i); /* a cell holds its lower edge, not its upper */
-            assert_int_equal(axis_locate(&a, nextafter(a.edge[i + 1], -1)), i);
+            assert_int_equal(mpm_axis_locate(&a, a.node[i]), i);
+            assert_int_equal(mpm_axis_locate(&a, a.edge[i]), i); /* a cell holds its lower edge, not its upper */
+            assert_int_equal(mpm_axis_locate(&a, nextafter(a.edge[i + 1], -1)), i);
         }
-        assert_int_equal(axis_locate(&a, nextafter(a.edge[1], -1)), 0);
-        assert_int_equal(axis_locate(&a, a.edge[a.last + 1]), a.last + 1);
-        assert_int_equal(axis_locate(&a, NAN), 0);
-        assert_true(axis_locate(&a, s.lo) == 1 &&
-                    axis_locate(&a, s.hi) == a.last); /* the whole window is in some cell */
+        assert_int_equal(mpm_axis_locate(&a, nextafter(a.edge[1], -1)), 0);
+        assert_int_equal(mpm_axis_locate(&a, a.edge[a.last + 1]), a.last + 1);
+        assert_int_equal(mpm_axis_locate(&a, NAN), 0);
+        assert_true(mpm_axis_locate(&a, s.lo) == 1 &&
+                    mpm_axis_locate(&a, s.hi) == a.last); /* the whole window is in some cell */
         for (int q = 0; q < 20; q++) {
-            const double x = uniform(s.lo, s.hi), h = axis_spacing(&a, x);
-            const int i = axis_locate(&a, x);
+            const double x = uniform(s.lo, s.hi), h = mpm_axis_spacing(&a, x);
+            const int i = mpm_axis_locate(&a, x);
             assert_true(h == axis_left(&a, i) || h == axis_right(&a, i));
         }
-        axis_free(&a);
+        mpm_axis_free(&a);
     }
 }
 
@@ -111,7 +111,7 @@ static void test_refused(void **state)
     bad[6].fine_lo = 1e-2;
     for (int i = 0; i < 7; i++) {
         axis a;
-        const status s = axis_make(&bad[i], 'x', &a);
+        const status s = mpm_axis_make(&bad[i], 'x', &a);
         assert_int_equal(s.code, STATUS_BAD_INPUT);
         assert_non_null(strstr(s.text, " x")); /* names the axis */
     }
@@ -171,7 +171,7 @@ static void test_weights(void **state)
     for (int trial = 0; trial < 300; trial++) {
         const mpm_axis spec = any_axis();
         axis a;
-        assert_ok(axis_make(&spec, 'x', &a));
+        assert_ok(mpm_axis_make(&spec, 'x', &a));
         for (int q = 0; q < 40; q++) {
             const sample s = any_sample(&a);
             const weights gimp = weights_gimp(&s.c, lanes(s.x), lanes(s.half));
@@ -179,7 +179,7 @@ static void test_weights(void **state)
             check_weights(&s, &gimp);
             check_weights(&s, &spline);
         }
-        axis_free(&a);
+        mpm_axis_free(&a);
     }
 }
 
@@ -191,7 +191,7 @@ static void test_derivative(void **state)
     srand(5);
     const mpm_axis spec = any_axis();
     axis a;
-    assert_ok(axis_make(&spec, 'x', &a));
+    assert_ok(mpm_axis_make(&spec, 'x', &a));
     for (int q = 0; q < 200; q++) {
         sample s = any_sample(&a), up = s, down = s;
         const double h = s.k.e[2] - s.k.e[1], step = 1e-4 * h;
@@ -211,7 +211,7 @@ static void test_derivative(void **state)
             assert_near(h * b[0].g[i][0], h * (b[1].w[i][0] - b[2].w[i][0]) / (2 * step), tolerance);
         }
     }
-    axis_free(&a);
+    mpm_axis_free(&a);
 }
 
 /* Continuous where a particle changes cells: the weight of a node is the same from either side of the edge. */
@@ -221,7 +221,7 @@ static void test_continuity(void **state)
     srand(6);
     const mpm_axis spec = scene_graded(scene_axis(0, 1e-2, 2e-4, BOUNDARY_FREE, BOUNDARY_FREE), 4e-3, 6e-3, 1e-3, 1.25);
     axis a;
-    assert_ok(axis_make(&spec, 'x', &a));
+    assert_ok(mpm_axis_make(&spec, 'x', &a));
     for (int i = 2; i < a.last - 1; i++) {
         const double x = a.edge[i + 1],
                      half = 0.24 * fmin(axis_right(&a, i), fmin(axis_left(&a, i), axis_right(&a, i + 1)));
@@ -237,11 +237,11 @@ static void test_continuity(void **state)
         assert_near(g[0].w[0][0], 0, 1e-13); /* and the node that is lost had nothing left */
         assert_near(b[0].w[0][0], 0, 1e-13);
     }
-    axis_free(&a);
+    mpm_axis_free(&a);
 }
 
-/* Cells that may share a node with another field: those within two of one of its cells along every axis, by looking at all
- * pairs in three bricks an axis. */
+/* Cells that may share a node with another field: those within two of one of its cells along every axis, by looking at
+ * all pairs in three bricks an axis. */
 static void test_meeting(void **state)
 {
     (void)state;
@@ -259,12 +259,12 @@ static void test_meeting(void **state)
             brick *b = &m.bricks[i];
             *b = (brick){ .field = i / 27, .at = { i % 3, i / 3 % 3, i / 9 % 3 } };
             for (int c = 0; c < BRICK_CELLS; c++) b->head[c] = rand() % 128 ? -1 : c;
-            b->occupied = meeting_occupied(b);
+            b->occupied = mpm_occupied_cells(b);
         }
         const int mine = 13 + 27 * (trial % 2),
                   at = trial % 5 ? 13 : rand() % 27; /* the middle one, or one at the rim */
         brick *b = &m.bricks[mine - 13 + at];
-        const uint64_t got = meeting_cells(&m, b);
+        const uint64_t got = mpm_contact_cells(&m, b);
         uint64_t want = 0;
         for (int c = 0; c < BRICK_CELLS; c++)
             for (int other = 0; other < N * N * N; other++) {

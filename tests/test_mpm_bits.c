@@ -83,8 +83,8 @@ static void test_picture_sees(void **state)
 }
 
 /* Saved at step k and gone on from there in a fresh solver, with other threads: the bits of the run without a stop.
- * k at the start, early, on either side of the reordering of memory every 200 steps, within the percentile samples, and two
- * drawn at random once; the later ones lie amid contact and splits. */
+ * k at the start, early, on either side of the reordering of memory every 200 steps, within the percentile samples, and
+ * two drawn at random once; the later ones lie amid contact and splits. */
 static void test_restart(void **state)
 {
     (void)state;
@@ -171,8 +171,8 @@ static void test_refusals(void **state)
         mpm_free(m);
     }
 
-    /* cut anywhere: in the head, in the books, at every kilobyte or so of the bricks; each in a buffer of its own, so that
-     * a sanitizer sees a read past its end */
+    /* cut anywhere: in the head, in the books, at every kilobyte or so of the bricks; each in a buffer of its own, so
+     * that a sanitizer sees a read past its end */
     m = scene_make(&g.scene, 1);
     for (size_t cut = 0; cut < bytes; cut += cut < 4096 ? 97 : bytes / 37 + 1) {
         char *part = malloc(cut + 1);

@@ -1,4 +1,5 @@
-/* Contact of two fields at the nodes (M-6) against closed answers: friction, sticking, bond, impact, opposite forces. */
+/* Contact of two fields at the nodes (M-6) against closed answers: friction, sticking, bond, impact, opposite forces.
+ */
 #include "mpm_scenes.h"
 
 /* What a sink collects over the steps. */
@@ -39,9 +40,9 @@ static void block_scene(mpm_scene *s, const material *m, double mu, double speed
     scene_friction(s, mu);
 }
 
-/* Coulomb: dv/dt = -mu N/m.  N rings about m G with the block's own period 4 HEIGHT/c_l, 1.6 us; over 40 us that leaves at most
- * 1 % of the mean (M-6 wants 1 %), while the ratio of the two impulses is exact, since every node slides: to 0.1 % (the
- * normal's tilt at the block's ends). */
+/* Coulomb: dv/dt = -mu N/m.  N rings about m G with the block's own period 4 HEIGHT/c_l, 1.6 us; over 40 us that leaves
+ * at most 1 % of the mean (M-6 wants 1 %), while the ratio of the two impulses is exact, since every node slides: to
+ * 0.1 % (the normal's tilt at the block's ends). */
 static void test_friction(void **state)
 {
     (void)state;
@@ -62,7 +63,8 @@ static void test_friction(void **state)
     assert_near((v0 - v) / (mu * G * end), 1, 0.01);
     assert_near(-w.impulse[0] / w.impulse[1], mu, 1e-3 * mu);
     assert_below(w.opposite / w.force, 1e-12); /* exactly opposite, but for the order of the sums */
-    /* Heat of friction is force times slip; the slip at the nodes differs from the block's mean velocity by its ringing: 1 %. */
+    /* Heat of friction is force times slip; the slip at the nodes differs from the block's mean velocity by its
+     * ringing: 1 %. */
     assert_near(l.heat_friction / w.slip_work, 1, 0.01);
     assert_near(l.energy_error, 0, 1e-11); /* rounding, of the block's kinetic energy */
     mpm_free(solver);
@@ -106,16 +108,16 @@ static void test_shear_limit(void **state)
     assert_ok(mpm_advance(solver, end, NULL));
     const double ratio = (v0 - scene_mean(solver, MPM_velocity, 0, 1)) / (0.03 * G * end);
     print_message("shear limit: deceleration / (limit x area / mass) %.4f\n", ratio);
-    /* the area at a node is its volume gradient, right to some per cent at the block's ends; contact is open some of the
-     * time while the block rings */
+    /* the area at a node is its volume gradient, right to some per cent at the block's ends; contact is open some of
+     * the time while the block rings */
     assert_near(ratio, 1, 0.15);
     mpm_free(solver);
 }
 
 /* ---- a bonded pair, one-dimensional ---- */
 
-/* A bar of two fields, the lower one held, the upper pulled by a body force: the bond bears rho a L at rest and up to twice
- * that while it rings.  Returns how far the pair has come apart [m]. */
+/* A bar of two fields, the lower one held, the upper pulled by a body force: the bond bears rho a L at rest and up to
+ * twice that while it rings.  Returns how far the pair has come apart [m]. */
 static double bonded(double strength, double pull)
 {
     const material m = scene_elastic();

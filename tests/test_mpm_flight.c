@@ -30,7 +30,7 @@ static void thousand_steps(basis_kind basis, bool graded, transfer_kind transfer
     scene_steps(solver, 1000);
     const mpm_ledger l = mpm_balance(solver);
     const mpm_report r = mpm_state(solver);
-    const double K0 = material_bulk_modulus(&m), speed2 = 300.0 * 300 + 100 * 100 + 50 * 50;
+    const double K0 = mpm_material_bulk_modulus(&m), speed2 = 300.0 * 300 + 100 * 100 + 50 * 50;
     print_message("%s %s %s: %.1f mm, stress / K0 %.2e, kinetic energy %.2e, momentum %.2e, energy %.2e, splits %llu\n",
                   basis == BASIS_GIMP ? "GIMP" : "B-spline", graded ? "graded" : "uniform",
                   transfer == TRANSFER_TPIC ? "TPIC" : "PIC", 1e3 * (scene_mean(solver, MPM_position, 0, -1) - x0),
@@ -104,7 +104,7 @@ static void test_halves(void **state)
         if (trial % 3 == 0) whole[FIRST_ka] = 0; /* then the energy of the parted halves must come out of e */
         memcpy(a, whole, sizeof a);
         const int k = trial % 3;
-        particle_halve(a, b, k);
+        mpm_point_halve(a, b, k);
         assert_near(a[FIRST_mass] + b[FIRST_mass], whole[FIRST_mass], 1e-15);
         assert_near(a[FIRST_area] + b[FIRST_area], whole[FIRST_area], 1e-15);
         double before = whole[FIRST_ka] + whole[FIRST_e],
@@ -157,8 +157,9 @@ static void test_splitting(void **state)
     mpm_free(solver);
 }
 
-/* One failed point, drawn out along x and flattened along y: nothing resists.  Its gradient part may hold no more than it began
- * with, and its heat may not go below none; without the bound it holds a hundred times as much after some hundred steps. */
+/* One failed point, drawn out along x and flattened along y: nothing resists.  Its gradient part may hold no more than
+ * it began with, and its heat may not go below none; without the bound it holds a hundred times as much after some
+ * hundred steps. */
 static void test_debris(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
-/* The books of a small gouge scene, with everything in it that can go wrong: three bodies, contact, friction, failure, a
- * graded grid, splits, and every kind of boundary.
+/* The books of a small gouge scene, with everything in it that can go wrong: three bodies, contact, friction, failure,
+ * a graded grid, splits, and every kind of boundary.
  *
- * The product promises momentum to 1e-10 against the booked boundary impulses and energy to 1 %.  Both close to rounding,
- * whatever the boundaries, loads and options: 1e-15 was measured. */
+ * The product promises momentum to 1e-10 against the booked boundary impulses and energy to 1 %.  Both close to
+ * rounding, whatever the boundaries, loads and options: 1e-15 was measured. */
 #include "mpm_scenes.h"
 
 static const double H = 0.25e-3, SPEED = 1500, END = 2e-6;
@@ -78,14 +78,16 @@ static void test_loads(void **state)
     g.scene.body[2].traction_face = 0;
     g.scene.body[2].body_force[1] = -2e6;
     const mpm_ledger l = run(&g.scene, "traction and body force");
-    /* the surface that looks backwards: the leg's end, 1.5 mm high, and the head's inner side, 1 mm, both 2 mm wide here.
-     * Over 1500 m/s x 2 us; it is a lattice's surface, and the armature slows by some per cent on the grain: 5 % */
+    /* the surface that looks backwards: the leg's end, 1.5 mm high, and the head's inner side, 1 mm, both 2 mm wide
+     * here. Over 1500 m/s x 2 us; it is a lattice's surface, and the armature slows by some per cent on the grain: 5 %
+     */
     const double force = 300e6 * 2.5e-3 * 2e-3;
     assert_near(l.work_external / (force * SPEED * END), 1, 0.05);
     assert_near(l.impulse_external[0] / (force * END), 1, 0.05);
 }
 
-/* What the scene can be asked for otherwise: other transfers, heat from plastic work, three points a cell, a loose grain. */
+/* What the scene can be asked for otherwise: other transfers, heat from plastic work, three points a cell, a loose
+ * grain. */
 static void test_options(void **state)
 {
     (void)state;
@@ -114,8 +116,8 @@ static void test_options(void **state)
     run(&g.scene, "finer, 2 km/s");
 }
 
-/* What is beyond five melting temperatures' worth of heat is vapour: taken out at once, counted, booked with its mass, momentum
- * and energy.  What is merely hot stays. */
+/* What is beyond five melting temperatures' worth of heat is vapour: taken out at once, counted, booked with its mass,
+ * momentum and energy.  What is merely hot stays. */
 static void test_vapour(void **state)
 {
     (void)state;

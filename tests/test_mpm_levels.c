@@ -1,5 +1,5 @@
-/* Nested grids (mpm/grid/grid.c, seams.c): nothing may tell that two levels meet but the size of the cells.  Tolerances are rounding,
- * as in test_mpm_flight. */
+/* Nested grids (mpm/grid/grid.c, seams.c): nothing may tell that two levels meet but the size of the cells.  Tolerances
+ * are rounding, as in test_mpm_flight. */
 #include "mpm_scenes.h"
 
 #include "mpm/memory/store.h"
@@ -18,16 +18,16 @@ static int whole(int lo, int hi)
 
 /* ---- the grids ---- */
 
-/* Room between the fine zone and an end of the window that it does not reach: as little as grids.h says, or more; a whole number of
- * cells or not. */
+/* Room between the fine zone and an end of the window that it does not reach: as little as grids.h says, or more; a
+ * whole number of cells or not. */
 static double any_room(int levels, double h)
 {
-    const double least = grids_margin(levels, h);
+    const double least = mpm_grids_margin(levels, h);
     return rand() % 4 ? least + h * (rand() % 2 ? whole(0, 30) : uniform(0, 30)) : least;
 }
 
-/* A fine zone of an even number of cells, anywhere or where zero is one of the grid's nodes; now and then it reaches an end of the
- * window, or both. */
+/* A fine zone of an even number of cells, anywhere or where zero is one of the grid's nodes; now and then it reaches an
+ * end of the window, or both. */
 static mpm_axis any_axis(int levels)
 {
     const double h = uniform(0.1e-3, 1e-3), fine_lo = rand() % 2 ? 2 * h * whole(-10, 10) : uniform(-5e-3, 5e-3);
@@ -53,7 +53,7 @@ static void test_nodes(void **state)
         mpm_scene_default(&s);
         s.levels = whole(2, MPM_MAX_LEVELS);
         for (int k = 0; k < 3; k++) s.axis[k] = any_axis(s.levels);
-        assert_ok(grids_make(&s, &g));
+        assert_ok(mpm_grids_make(&s, &g));
         for (int k = 0; k < 3; k++) {
             const axis *fine = &g.level[0].axes[k];
             const double tiny = 1e-9 * s.axis[k].fine;
@@ -77,7 +77,7 @@ static void test_nodes(void **state)
             }
             assert_near(g.level[g.levels - 1].axes[k].node[1], s.axis[k].lo, 0);
         }
-        grids_free(&g);
+        mpm_grids_free(&g);
     }
 }
 
@@ -93,9 +93,9 @@ static void test_refused(void **state)
     mpm_scene bad[5] = { s, s, s, s, s };
     bad[0].levels = 0, bad[1].levels = MPM_MAX_LEVELS + 1, bad[2].basis = BASIS_BSPLINE;
     bad[3].axis[1].fine_hi = 25e-3, bad[4].axis[2].fine_hi = 18e-3;
-    for (int i = 0; i < 5; i++) assert_int_equal(grids_make(&bad[i], &g).code, STATUS_BAD_INPUT);
-    assert_ok(grids_make(&s, &g));
-    grids_free(&g);
+    for (int i = 0; i < 5; i++) assert_int_equal(mpm_grids_make(&bad[i], &g).code, STATUS_BAD_INPUT);
+    assert_ok(mpm_grids_make(&s, &g));
+    mpm_grids_free(&g);
 }
 
 /* ---- fields ---- */
@@ -111,8 +111,9 @@ static void cube(mpm_scene *s, const material *m, int levels)
     scene_box(s, 3.3e-3, 3.3e-3, 3.3e-3, 9.3e-3, 9.3e-3, 9.3e-3, m);
 }
 
-/* A motion that is linear in space, and carried along the boxes meanwhile, stays what it was at all points, with a gradient and no
- * heat, wherever the levels meet: P is exact for it, and so is what a coarser level shows a finer one amid its step. */
+/* A motion that is linear in space, and carried along the boxes meanwhile, stays what it was at all points, with a
+ * gradient and no heat, wherever the levels meet: P is exact for it, and so is what a coarser level shows a finer one
+ * amid its step. */
 static void test_linear(void **state)
 {
     (void)state;
@@ -193,7 +194,8 @@ static void test_paces(void **state)
     }
 }
 
-/* A cube flies through all levels, in and out again: split and put from one to the other, and nothing else happens to it. */
+/* A cube flies through all levels, in and out again: split and put from one to the other, and nothing else happens to
+ * it. */
 static void test_flight(void **state)
 {
     (void)state;
@@ -204,7 +206,7 @@ static void test_flight(void **state)
         mpm_body *b = &s.body[0];
         b->velocity[0] = 900, b->velocity[1] = 200, b->velocity[2] = -100;
         mpm *m = scene_make(&s, 2);
-        const double K0 = material_bulk_modulus(&copper), x0 = scene_mean(m, MPM_position, 0, -1);
+        const double K0 = mpm_material_bulk_modulus(&copper), x0 = scene_mean(m, MPM_position, 0, -1);
         assert_ok(mpm_advance(m, scene_full() ? 28e-6 : 14e-6, NULL));
         const mpm_ledger l = mpm_balance(m);
         const mpm_report r = mpm_state(m);
@@ -224,8 +226,8 @@ static void test_flight(void **state)
     }
 }
 
-/* Past an end of the window that the boxes reach: what goes out there, out of cells of any size, is booked, and so is what the end
- * does to the rest.  A mirror that acts on another field than the cube's does nothing to it. */
+/* Past an end of the window that the boxes reach: what goes out there, out of cells of any size, is booked, and so is
+ * what the end does to the rest.  A mirror that acts on another field than the cube's does nothing to it. */
 static void test_ends(void **state)
 {
     (void)state;
@@ -306,7 +308,8 @@ static void test_books(void **state)
     }
 }
 
-/* A model of both halves widens on both sides, by whole cells, and no further than the nearer end of the window allows. */
+/* A model of both halves widens on both sides, by whole cells, and no further than the nearer end of the window allows.
+ */
 static void test_widening(void **state)
 {
     (void)state;
@@ -334,7 +337,7 @@ static void test_widening(void **state)
         for (int k = 0; k < m->bricks_used; k++) work += m->bricks[k].particles * (m->bricks[k].level ? 0.5 : 1);
         assert_near(needs.work[0] / work, 1, 1e-12);
         assert_true(needs.work[1] >= needs.work[0] && needs.bytes[1] >= needs.bytes[0]);
-        assert_ok(zone_follow(m)); /* nothing yields yet */
+        assert_ok(mpm_zone_follow(m)); /* nothing yields yet */
         assert_near(mpm_scene_of(m)->axis[2].fine_hi, 1e-3, 0);
         for (int k = 0; k < m->bricks_used; k++) /* all of the rail in the zone yields as far as z = 0.8 mm */
             for (int c = 0; c < BRICK_CELLS; c++)
@@ -343,7 +346,7 @@ static void test_widening(void **state)
                         block *b = &m->blocks[q];
                         if (fabs(b->x[2][l]) < 0.8e-3) b->s[3][l] = b->flow[0][l], b->L[1][l] = 1e3;
                     }
-        assert_ok(zone_follow(m));
+        assert_ok(mpm_zone_follow(m));
         const mpm_axis now = mpm_scene_of(m)->axis[2];
         print_message("window from %.1f mm, at most %.1f mm: %.2f .. %.2f mm\n", 1e3 * z->lo, 1e3 * cases[i].widest,
                       1e3 * now.fine_lo, 1e3 * now.fine_hi);
@@ -353,8 +356,8 @@ static void test_widening(void **state)
     }
 }
 
-/* Two bodies that meet in the boxes' middle: nodes that both reach have all that contact asks for, whichever level it came from. The
- * flow stress is one everywhere. */
+/* Two bodies that meet in the boxes' middle: nodes that both reach have all that contact asks for, whichever level it
+ * came from. The flow stress is one everywhere. */
 static void test_contact_sums(void **state)
 {
     (void)state;
@@ -400,7 +403,7 @@ static void hold_known(mpm *m)
     bool(*was)[2] = calloc((size_t)n, sizeof *was);
     assert_non_null(was);
     for (int i = 0; i < n; i++) was[i][0] = m->bricks[i].contact, was[i][1] = m->bricks[i].across;
-    assert_ok(store_relink(m));
+    assert_ok(mpm_store_relink(m));
     for (int i = 0; i < n; i++) {
         const brick *b = &m->bricks[i];
         if (was[i][0] != b->contact || was[i][1] != b->across)
@@ -410,8 +413,9 @@ static void hold_known(mpm *m)
     free(was);
 }
 
-/* What a brick knows of the other fields around it follows from where particles are now, or a run that goes on from a checkpoint
- * would know other things than one without a stop.  A slab flies past a cube, into its bricks' neighbours and out of them. */
+/* What a brick knows of the other fields around it follows from where particles are now, or a run that goes on from a
+ * checkpoint would know other things than one without a stop.  A slab flies past a cube, into its bricks' neighbours
+ * and out of them. */
 static void test_known(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
 /* The material law of one particle in a given velocity gradient, against closed answers.  The kernel's own code is
  * compiled in here, for the compiler's default instruction set.
  *
- * Tolerances: where the law is algebraic, 1e-12 (vector exp and log are good to 4 units in the last place, and sums to a
- * few more); where it is integrated over N steps, what the order of the integration gives, said at each. */
+ * Tolerances: where the law is algebraic, 1e-12 (vector exp and log are good to 4 units in the last place, and sums to
+ * a few more); where it is integrated over N steps, what the order of the integration gives, said at each. */
 #define BREECH_ISA material_test
 #include "mpm_scenes.h"
 
@@ -28,7 +28,7 @@ static specimen specimen_make(material m, double temperature, double q1, double 
     mpm_scene_default(&s);
     s.viscosity_linear = q1, s.viscosity_quadratic = q2;
     mpm_body b = { .material = &p.material, .temperature = temperature, .yield_scale = 1, .damage = damage };
-    assert_ok(law_make(&b, &s, &p.k));
+    assert_ok(mpm_law_make(&b, &s, &p.k));
     for (int l = 0; l < LANES; l++) {
         p.q.rho[0][l] = p.k.rho_start, p.q.e[0][l] = p.k.e_start, p.q.T[0][l] = b.temperature, p.q.mass[0][l] = 1;
         for (int i = 0; i < 3; i++) p.q.half[i][l] = 1;
@@ -67,8 +67,9 @@ static double mises_of(const specimen *p)
 
 /* ---- elastic ---- */
 
-/* Uniaxial strain eps: s_xx = -4/3 G eps exactly (a step's strain is ln(1 + L dt), to third order in L dt), sigma_xx = -(K + 4/3 G) eps to the next
- * order of eps, whose factor is of the order of 2 s.  Work e = 1/2 (K + 4/3 G) eps^2 / rho0, likewise. */
+/* Uniaxial strain eps: s_xx = -4/3 G eps exactly (a step's strain is ln(1 + L dt), to third order in L dt), sigma_xx =
+ * -(K + 4/3 G) eps to the next order of eps, whose factor is of the order of 2 s.  Work e = 1/2 (K + 4/3 G) eps^2 /
+ * rho0, likewise. */
 static void test_uniaxial(void **state)
 {
     (void)state;
@@ -85,16 +86,17 @@ static void test_uniaxial(void **state)
     assert_near(p.q.ep[0][0], 0, 0);
     assert_near(p.q.T[0][0], 293, 0.5); /* isentropic: g T eps = 0.3 K at most */
 
-    /* and back, F inverted: the same path, no energy left; the stress power is a mean over the step, error eps^2 / STEPS^2 */
+    /* and back, F inverted: the same path, no energy left; the stress power is a mean over the step, error eps^2 /
+     * STEPS^2 */
     const double back[9] = { 1e4 / (1 - eps / STEPS), 0, 0, 0, 0, 0, 0, 0, 0 }, e_top = p.q.e[0][0];
     for (int i = 0; i < STEPS; i++) strain(&p, back, eps / 1e4 / STEPS);
     assert_near(p.q.e[0][0] / e_top, 0, 1e-5);
     assert_near(mises_of(&p) / (2 * G * eps), 0, 1e-9);
 }
 
-/* A stressed body that only turns: stress turns with it.  A step's motion F = 1 + dt L is a turn by `angle`, so L has the small
- * contraction that keeps a turning body's size.  Half a turn brings the stress back; the midpoint rule turns it by
- * angle + angle^3/6 a step and grows it by angle^4/8. */
+/* A stressed body that only turns: stress turns with it.  A step's motion F = 1 + dt L is a turn by `angle`, so L has
+ * the small contraction that keeps a turning body's size.  Half a turn brings the stress back; the midpoint rule turns
+ * it by angle + angle^3/6 a step and grows it by angle^4/8. */
 static void test_turning(void **state)
 {
     (void)state;
@@ -126,8 +128,8 @@ static double yield_of(const material *m, double ep, double rate, double T)
            (1 - pow(T_star, m->softening_m));
 }
 
-/* Simple shear far beyond yield: the stress is (M-1) of the strain and temperature before the step, whatever those are; the
- * plastic strain is what is left of the total, gamma/sqrt(3) - sigma_y/(3 G). */
+/* Simple shear far beyond yield: the stress is (M-1) of the strain and temperature before the step, whatever those are;
+ * the plastic strain is what is left of the total, gamma/sqrt(3) - sigma_y/(3 G). */
 static void test_yield(void **state)
 {
     (void)state;
@@ -145,7 +147,8 @@ static void test_yield(void **state)
         assert_near(mises_of(&p) / want, 1, 1e-11);
         assert_near(p.q.flow[0][0] / want, 1, 1e-11);
     }
-    /* the Jaumann rate turns the stress by gamma/2 times its own rotation: a second-order share, 1 % at these stresses */
+    /* the Jaumann rate turns the stress by gamma/2 times its own rotation: a second-order share, 1 % at these stresses
+     */
     const double ep = gamma / sqrt(3) - mises_of(&p) / (3 * p.k.G);
     assert_near(p.q.ep[0][0] / ep, 1, 0.01);
     /* all plastic work is heat in the energy: T = T_r + (e - e_elastic) / c */
@@ -233,8 +236,8 @@ static void test_ptw(void **state)
     assert_near(ptw_stress(&flat, 1, 0.1, 1, 293) / (s - (s - y) * exp(-0.025 * 0.1 * G2 / (s - y))), 1, 1e-4);
 }
 
-/* The bound below which nothing is computed holds, and is not idle: within a factor of three of the stress of a cold metal.
- * A body's yield_scale reaches both. */
+/* The bound below which nothing is computed holds, and is not idle: within a factor of three of the stress of a cold
+ * metal. A body's yield_scale reaches both. */
 static void test_ptw_bound(void **state)
 {
     (void)state;
@@ -255,7 +258,7 @@ static void test_ptw_bound(void **state)
         mpm_scene_default(&s);
         law hard;
         const mpm_body b = { .material = &m, .temperature = 293, .yield_scale = 1.5 };
-        assert_ok(law_make(&b, &s, &hard));
+        assert_ok(mpm_law_make(&b, &s, &hard));
         assert_near(hard.flow_start / p.k.flow_start, 1.5, EXACT);
         assert_near(hard.least_flow / p.k.least_flow, 1.5, EXACT);
         assert_near(hard.ptw.G2 / p.k.ptw.G2, 1.5, EXACT);
@@ -295,9 +298,9 @@ static void test_hugoniot(void **state)
     assert_near(pressure, 48.48e9, 0.005e9); /* NUMERICS V3 */
 }
 
-/* Squeezed slowly: energy and pressure along the isentrope by a fine Runge-Kutta of de/dmu = p(mu, e)/(rho0 (1 + mu)^2).
- * The law takes the power p tr D / rho at either end of a step, as the grid does, so that energy is conserved with it; as
- * p dv that is off by half of dt tr D, here 5e-5. */
+/* Squeezed slowly: energy and pressure along the isentrope by a fine Runge-Kutta of de/dmu = p(mu, e)/(rho0 (1 +
+ * mu)^2). The law takes the power p tr D / rho at either end of a step, as the grid does, so that energy is conserved
+ * with it; as p dv that is off by half of dt tr D, here 5e-5. */
 static double isentrope(const law *k, double mu_end)
 {
     enum { N = 4000 };
@@ -358,7 +361,7 @@ static void test_melting(void **state)
     }
 }
 
-/* A body that starts hot has no pressure: law_make gives it the density that goes with it. */
+/* A body that starts hot has no pressure: mpm_law_make gives it the density that goes with it. */
 static void test_hot_start(void **state)
 {
     (void)state;
@@ -368,7 +371,7 @@ static void test_hot_start(void **state)
     mpm_scene_default(&s);
     mpm_body b = { .material = &m, .temperature = 700, .yield_scale = 1 };
     specimen p = specimen_of(m, 0, 0, false);
-    assert_ok(law_make(&b, &s, &p.k));
+    assert_ok(mpm_law_make(&b, &s, &p.k));
     for (int l = 0; l < LANES; l++) p.q.rho[0][l] = p.k.rho_start, p.q.e[0][l] = p.k.e_start;
     strain(&p, none, 1e-9);
     /* solved by iteration to rounding; the law's step of no strain changes nothing */
@@ -378,7 +381,8 @@ static void test_hot_start(void **state)
 
 /* Temperature on the Hugoniot, by another way than the law's: Walsh and Christian (1955),
  *   dT/dV = -T g/V + [p + (V0 - V) dp/dV]/(2 c_v),   g/V = g0 rho0
- * with p(V) of the shock.  Within 2 K of a rise of hundreds: the law's polynomials, and N steps of the midpoint rule. */
+ * with p(V) of the shock.  Within 2 K of a rise of hundreds: the law's polynomials, and N steps of the midpoint rule.
+ */
 static void test_hugoniot_temperature(void **state)
 {
     (void)state;
@@ -430,8 +434,8 @@ static void test_viscosity(void **state)
 
 /* ---- failure ---- */
 
-/* Shear at constant temperature: triaxiality 0, so e_f = (D1 + D2)(1 + D4 ln rate), and it fails at ep = e_f.  The strain of
- * one step is the error; pressure stays near zero. */
+/* Shear at constant temperature: triaxiality 0, so e_f = (D1 + D2)(1 + D4 ln rate), and it fails at ep = e_f.  The
+ * strain of one step is the error; pressure stays near zero. */
 static void test_damage(void **state)
 {
     (void)state;
@@ -456,7 +460,8 @@ static void test_damage(void **state)
     assert_near(p.q.damage[0][0], 0, 0);
 }
 
-/* A failed point bears neither shear nor tension; squeezed, it bears pressure like any other.  Pulled it takes no energy. */
+/* A failed point bears neither shear nor tension; squeezed, it bears pressure like any other.  Pulled it takes no
+ * energy. */
 static void without_strength(specimen *p)
 {
     const double pull[9] = { 1e4, 3e3, 0, 0, 1e4, 0, 0, 0, 1e4 }, push[9] = { -1e4, 3e3, 0, 0, -1e4, 0, 0, 0, -1e4 };
@@ -498,8 +503,8 @@ static void test_failed(void **state)
     assert_true(p.q.p[0][0] < -1e6);
 }
 
-/* So does a molten one, and one that has been torn stays loose when it freezes: else it would pull at once with the tension that
- * it was spared, 0.3 % of K0 here. */
+/* So does a molten one, and one that has been torn stays loose when it freezes: else it would pull at once with the
+ * tension that it was spared, 0.3 % of K0 here. */
 static void test_molten(void **state)
 {
     (void)state;

@@ -107,9 +107,9 @@ static void test_carried(void **state)
 
 /* ---- a pulse through a graded zone ---- */
 
-/* Raised cosine of five steps, 9 mm wide, in a bar at rest; it runs both ways, forwards into cells that grow by `growth` (1: they
- * do not), along the bar or, with levels, along all axes.  Pressure of the points that start before x = 15 mm, in their order along
- * the bar. */
+/* Raised cosine of five steps, 9 mm wide, in a bar at rest; it runs both ways, forwards into cells that grow by
+ * `growth` (1: they do not), along the bar or, with levels, along all axes.  Pressure of the points that start before x
+ * = 15 mm, in their order along the bar. */
 static size_t pulse(double growth, int levels, double **pressure, double *incident)
 {
     static const double fine = 0.15e-3, length = 50e-3, speed[] = { 2.5, 7.5, 10, 7.5, 2.5 };
@@ -145,8 +145,8 @@ static size_t pulse(double growth, int levels, double **pressure, double *incide
     return n;
 }
 
-/* What the grading sends back is the difference from the same pulse in cells that stay fine.  NUMERICS: a wave crossing the
- * grading must not reflect more than 1 %; cells that double are let to 1.5 %, 1.2 % was measured. */
+/* What the grading sends back is the difference from the same pulse in cells that stay fine.  NUMERICS: a wave crossing
+ * the grading must not reflect more than 1 %; cells that double are let to 1.5 %, 1.2 % was measured. */
 static void test_grading(void **state)
 {
     (void)state;
@@ -170,8 +170,8 @@ static void test_grading(void **state)
     free(even);
 }
 
-/* The other basis is there to compare with: NUMERICS found it 4.7 % low at 400 cells and growing with the cells that the
- * points cross.  Were it as good as the domains that follow the stretch, those would not be the default. */
+/* The other basis is there to compare with: NUMERICS found it 4.7 % low at 400 cells and growing with the cells that
+ * the points cross.  Were it as good as the domains that follow the stretch, those would not be the default. */
 static void test_bspline(void **state)
 {
     (void)state;

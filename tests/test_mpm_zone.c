@@ -1,5 +1,5 @@
-/* The fine zone that follows the ploughing (mpm/refine/zone.c): nothing is lost, nothing depends on threads or restarts, and the
- * groove is the one of a long zone that stays. */
+/* The fine zone that follows the ploughing (mpm/refine/zone.c): nothing is lost, nothing depends on threads or
+ * restarts, and the groove is the one of a long zone that stays. */
 #include "mpm_scenes.h"
 
 #include "coupling/gouge/crater.h"
@@ -30,12 +30,12 @@ static void test_merge(void **state)
         for (int p = 0; p < 2; p++) {
             for (int i = 0; i < BLOCK_DOUBLES; i++) q[p][i] = 0.1 + (double)rand() / RAND_MAX;
             volume += q[p][FIRST_mass] / q[p][FIRST_rho];
-            particle_leave(q[p], dt, &before);
+            mpm_point_departure(q[p], dt, &before);
         }
         const int k = trial % 3;
         const double length = q[0][FIRST_half + k] + q[1][FIRST_half + k];
-        particle_merge(q[0], q[1], k, dt);
-        particle_leave(q[0], dt, &after);
+        mpm_point_merge(q[0], q[1], k, dt);
+        mpm_point_departure(q[0], dt, &after);
         assert_near(after.mass / before.mass, 1, 1e-14);
         assert_near(q[0][FIRST_mass] / q[0][FIRST_rho] / volume, 1, 1e-14);
         for (int i = 0; i < 3; i++) assert_near(after.momentum[i] / before.momentum[i], 1, 1e-14);
@@ -54,8 +54,8 @@ static void test_merge_undoes_halve(void **state)
         for (int i = 0; i < BLOCK_DOUBLES; i++) whole[i] = 0.1 + (double)rand() / RAND_MAX;
         whole[FIRST_ka] += 10; /* else the halves' motion comes out of e */
         memcpy(a, whole, sizeof a);
-        particle_halve(a, b, trial % 3);
-        particle_merge(a, b, trial % 3, 1e-9);
+        mpm_point_halve(a, b, trial % 3);
+        mpm_point_merge(a, b, trial % 3, 1e-9);
         for (int i = 0; i < BLOCK_DOUBLES; i++) assert_near(a[i] / whole[i], 1, 1e-14);
     }
 }
@@ -160,8 +160,8 @@ static crater_points rail_points(const mpm *m)
     return (crater_points){ .n = n, .position = all[0], .size = all[1], .damage = all[2] };
 }
 
-/* The rail moves on beyond a seam of the wake, and no crack may open there: on lines much closer than the cells the groove is
- * as deep as on the cells' own, but for what two neighbouring points differ by. */
+/* The rail moves on beyond a seam of the wake, and no crack may open there: on lines much closer than the cells the
+ * groove is as deep as on the cells' own, but for what two neighbouring points differ by. */
 static void test_seams(void **state)
 {
     (void)state;
@@ -183,9 +183,9 @@ static void test_seams(void **state)
     for (int i = 0; i < 2; i++) {
         crater c;
         spec.cell = i ? H / 16 : H;
-        assert_ok(crater_measure(&rail, &spec, &c));
+        assert_ok(gouge_crater_measure(&rail, &spec, &c));
         depth[i] = c.depth;
-        crater_free(&c);
+        gouge_crater_free(&c);
     }
     print_message("groove %.2f mm deep on lines of the cells, %.2f mm on lines 1/16 as far apart\n", 1e3 * depth[0],
                   1e3 * depth[1]);

@@ -27,8 +27,8 @@ static void file_comes_back(void **state)
     fresh_folder("files");
     char *text;
     size_t bytes;
-    OK(file_write("files/a", "x\0y", 3));
-    OK(file_read("files/a", &text, &bytes));
+    OK(host_file_write("files/a", "x\0y", 3));
+    OK(host_file_read("files/a", &text, &bytes));
     assert_int_equal(bytes, 3);
     assert_memory_equal(text, "x\0y", 3);
     free(text);
@@ -42,12 +42,12 @@ static void full_disk_keeps_the_older_file(void **state)
     fresh_folder("files");
     put("files/a", "old");
     assert_int_equal(symlink("/dev/full", "files/a.part"), 0);
-    const status s = file_write("files/a", "new", 3);
+    const status s = host_file_write("files/a", "new", 3);
     assert_int_equal(s.code, STATUS_IO);
     assert_non_null(strstr(s.text, "files/a"));
     assert_non_null(strstr(s.text, "No space left"));
     char *text;
-    OK(file_read("files/a", &text, NULL));
+    OK(host_file_read("files/a", &text, NULL));
     assert_string_equal(text, "old");
     free(text);
     assert_int_equal(files_in("files", ""), 1);
@@ -60,14 +60,14 @@ static void unwritable_places_are_named(void **state)
     put("files/plain", "not a folder");
     const char *const paths[] = { "files/nowhere/a", "files/plain/a", "/proc/breech/a" };
     for (size_t i = 0; i < 3; i++) {
-        const status s = file_write(paths[i], "x", 1);
+        const status s = host_file_write(paths[i], "x", 1);
         assert_int_equal(s.code, STATUS_IO);
         assert_non_null(strstr(s.text, paths[i]));
     }
     char *text;
-    assert_int_equal(file_read("files/nothing", &text, NULL).code, STATUS_IO);
+    assert_int_equal(host_file_read("files/nothing", &text, NULL).code, STATUS_IO);
     assert_null(text);
-    assert_int_equal(file_read("files", &text, NULL).code, STATUS_IO);
+    assert_int_equal(host_file_read("files", &text, NULL).code, STATUS_IO);
 }
 
 /* ---- output directory ---- */
@@ -76,23 +76,23 @@ static void default_directory(void **state)
 {
     (void)state;
     char path[64];
-    OK(outdir_default("wu2017", path, sizeof path));
+    OK(host_outdir_default("wu2017", path, sizeof path));
     assert_string_equal(path, "out/wu2017");
-    OK(outdir_default("../a b", path, sizeof path));
+    OK(host_outdir_default("../a b", path, sizeof path));
     assert_string_equal(path, "out/..-a-b");
-    OK(outdir_default("..", path, sizeof path));
+    OK(host_outdir_default("..", path, sizeof path));
     assert_string_equal(path, "out/case");
-    assert_int_equal(outdir_default("a-name-that-does-not-fit-into-the-buffer-of-the-caller-at-all", path, 16).code,
-                     STATUS_IO);
+    assert_int_equal(
+        host_outdir_default("a-name-that-does-not-fit-into-the-buffer-of-the-caller-at-all", path, 16).code, STATUS_IO);
 }
 
 static status open_and_close(outdir_options options, outdir_state *what)
 {
     outdir d;
-    const status s = outdir_open("run/deep", options, &d);
+    const status s = host_outdir_open("run/deep", options, &d);
     if (s.code != STATUS_OK) return s;
     *what = d.state;
-    outdir_close(&d);
+    host_outdir_close(&d);
     return s;
 }
 
@@ -126,7 +126,7 @@ static void rules_of_overwriting(void **state)
     assert_non_null(strstr(stopped.text, "--resume"));
     OK(open_and_close(resume, &what));
     assert_int_equal(what, OUTDIR_RESUMED);
-    assert_true(file_exists("run/deep/checkpoint.bin"));
+    assert_true(host_file_exists("run/deep/checkpoint.bin"));
     assert_int_equal(open_and_close(both, &what).code, STATUS_BAD_INPUT);
 
     assert_int_equal(
@@ -134,7 +134,7 @@ static void rules_of_overwriting(void **state)
     OK(open_and_close(force, &what));
     assert_int_equal(what, OUTDIR_NEW);
     assert_int_equal(files_in("run/deep", ""), 1); /* the user's own file */
-    assert_true(file_exists("run/deep/mine.txt"));
+    assert_true(host_file_exists("run/deep/mine.txt"));
 
     put("run/deep/summary.json", "{ \"status\": \"failed\" }");
     OK(open_and_close(plain, &what)); /* a failed run may be repeated */
@@ -146,15 +146,16 @@ static void one_run_at_a_time(void **state)
     (void)state;
     fresh_folder("run");
     outdir d, other;
-    OK(outdir_open("run", (outdir_options){ false, false }, &d));
+    OK(host_outdir_open("run", (outdir_options){ false, false }, &d));
     const pid_t child = fork();
-    if (child == 0) _exit(outdir_open("run", (outdir_options){ true, false }, &other).code == STATUS_BAD_INPUT ? 0 : 1);
+    if (child == 0)
+        _exit(host_outdir_open("run", (outdir_options){ true, false }, &other).code == STATUS_BAD_INPUT ? 0 : 1);
     int result;
     waitpid(child, &result, 0);
     assert_int_equal(result, 0);
-    outdir_close(&d);
-    OK(outdir_open("run", (outdir_options){ false, false }, &other));
-    outdir_close(&other);
+    host_outdir_close(&d);
+    OK(host_outdir_open("run", (outdir_options){ false, false }, &other));
+    host_outdir_close(&other);
 }
 
 static void directory_that_cannot_be(void **state)
@@ -163,11 +164,11 @@ static void directory_that_cannot_be(void **state)
     fresh_folder("run");
     put("run/plain", "a file");
     outdir d;
-    const status s = outdir_open("run/plain/deep", (outdir_options){ false, false }, &d);
+    const status s = host_outdir_open("run/plain/deep", (outdir_options){ false, false }, &d);
     assert_int_equal(s.code, STATUS_IO);
     assert_non_null(strstr(s.text, "run/plain"));
-    assert_int_equal(outdir_open("run/plain", (outdir_options){ false, false }, &d).code, STATUS_IO);
-    assert_int_equal(outdir_open("/proc/breech", (outdir_options){ false, false }, &d).code, STATUS_IO);
+    assert_int_equal(host_outdir_open("run/plain", (outdir_options){ false, false }, &d).code, STATUS_IO);
+    assert_int_equal(host_outdir_open("/proc/breech", (outdir_options){ false, false }, &d).code, STATUS_IO);
 }
 
 static void scene_folders(void **state)
@@ -176,13 +177,13 @@ static void scene_folders(void **state)
     fresh_folder("run");
     outdir d;
     char path[OUTDIR_PATH_SIZE];
-    OK(outdir_open("run", (outdir_options){ false, false }, &d));
-    OK(outdir_scene(&d, "v1500-r0.5", path, sizeof path));
+    OK(host_outdir_open("run", (outdir_options){ false, false }, &d));
+    OK(host_outdir_scene(&d, "v1500-r0.5", path, sizeof path));
     assert_string_equal(path, "run/scenes/v1500-r0.5");
     assert_int_equal(access(path, W_OK), 0);
-    assert_int_equal(outdir_scene(&d, "../a", path, sizeof path).code, STATUS_BAD_INPUT);
-    assert_int_equal(outdir_scene(&d, "a b", path, sizeof path).code, STATUS_BAD_INPUT);
-    outdir_close(&d);
+    assert_int_equal(host_outdir_scene(&d, "../a", path, sizeof path).code, STATUS_BAD_INPUT);
+    assert_int_equal(host_outdir_scene(&d, "a b", path, sizeof path).code, STATUS_BAD_INPUT);
+    host_outdir_close(&d);
 }
 
 /* ---- checkpoint ---- */
@@ -209,24 +210,24 @@ static void checkpoint_comes_back(void **state)
     char image[IMAGE];
     for (int i = 0; i < IMAGE; i++) image[i] = (char)(i * 7);
     const checkpoint c = example_checkpoint(image);
-    const checkpoint_key key = checkpoint_key_of("x86-64-v3", 99);
+    const checkpoint_key key = run_checkpoint_key_of("x86-64-v3", 99);
     checkpoint back;
-    OK(checkpoint_write("check/a", &key, &c));
-    OK(checkpoint_read("check/a", &key, &back));
+    OK(run_checkpoint_write("check/a", &key, &c));
+    OK(run_checkpoint_read("check/a", &key, &back));
     assert_string_equal(back.scene, "v1500");
     assert_true(back.scene_time == c.scene_time && back.wall_seconds == 12.5 && back.scene_hash == 77);
     assert_int_equal(back.image_bytes, IMAGE);
     assert_memory_equal(back.image, image, IMAGE);
     assert_memory_equal(back.study, "study", 6);
-    checkpoint_free(&back);
+    run_checkpoint_free(&back);
 
     const checkpoint empty = { .wall_seconds = 1.0 };
-    OK(checkpoint_write("check/a", &key, &empty));
-    OK(checkpoint_read("check/a", &key, &back));
+    OK(run_checkpoint_write("check/a", &key, &empty));
+    OK(run_checkpoint_read("check/a", &key, &back));
     assert_null(back.image);
     assert_null(back.study);
     assert_string_equal(back.scene, "");
-    checkpoint_free(&back);
+    run_checkpoint_free(&back);
 }
 
 static void foreign_checkpoint_is_refused(void **state)
@@ -235,12 +236,12 @@ static void foreign_checkpoint_is_refused(void **state)
     fresh_folder("check");
     char image[IMAGE] = { 1 };
     const checkpoint c = example_checkpoint(image);
-    const checkpoint_key key = checkpoint_key_of("x86-64-v3", 99);
-    OK(checkpoint_write("check/a", &key, &c));
+    const checkpoint_key key = run_checkpoint_key_of("x86-64-v3", 99);
+    OK(run_checkpoint_write("check/a", &key, &c));
     checkpoint back;
 
-    const checkpoint_key other_set = checkpoint_key_of("x86-64-v4", 99),
-                         other_case = checkpoint_key_of("x86-64-v3", 98);
+    const checkpoint_key other_set = run_checkpoint_key_of("x86-64-v4", 99),
+                         other_case = run_checkpoint_key_of("x86-64-v3", 98);
     checkpoint_key other_version = key;
     strcpy(other_version.version, "9.9.9");
     const struct {
@@ -248,16 +249,16 @@ static void foreign_checkpoint_is_refused(void **state)
         const char *word;
     } foreign[] = { { &other_set, "instruction set" }, { &other_case, "another case" }, { &other_version, "version" } };
     for (size_t i = 0; i < 3; i++) {
-        const status s = checkpoint_read("check/a", foreign[i].key, &back);
+        const status s = run_checkpoint_read("check/a", foreign[i].key, &back);
         assert_int_equal(s.code, STATUS_BAD_INPUT);
         assert_non_null(strstr(s.text, foreign[i].word));
         assert_null(back.image);
     }
     put("check/b", "something else");
-    const status s = checkpoint_read("check/b", &key, &back);
+    const status s = run_checkpoint_read("check/b", &key, &back);
     assert_int_equal(s.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(s.text, "not a checkpoint"));
-    assert_int_equal(checkpoint_read("check/nothing", &key, &back).code, STATUS_IO);
+    assert_int_equal(run_checkpoint_read("check/nothing", &key, &back).code, STATUS_IO);
 }
 
 /* Each byte of the file changed in turn, and each shorter length: never accepted. */
@@ -268,9 +269,9 @@ static void damage_is_found_in_every_byte(void **state)
     char image[IMAGE] = { 1 }, *data;
     size_t bytes;
     const checkpoint c = example_checkpoint(image);
-    const checkpoint_key key = checkpoint_key_of("x86-64-v3", 99);
-    OK(checkpoint_write("check/a", &key, &c));
-    OK(file_read("check/a", &data, &bytes));
+    const checkpoint_key key = run_checkpoint_key_of("x86-64-v3", 99);
+    OK(run_checkpoint_write("check/a", &key, &c));
+    OK(host_file_read("check/a", &data, &bytes));
     checkpoint back;
     for (size_t i = 0; i < bytes; i++) {
         data[i] = (char)(data[i] ^ (1 << i % 8));
@@ -278,13 +279,14 @@ static void damage_is_found_in_every_byte(void **state)
         fwrite(data, 1, bytes, f);
         fclose(f);
         data[i] = (char)(data[i] ^ (1 << i % 8));
-        if (checkpoint_read("check/b", &key, &back).code == STATUS_OK) fail_msg("byte %zu changed, and accepted", i);
+        if (run_checkpoint_read("check/b", &key, &back).code == STATUS_OK)
+            fail_msg("byte %zu changed, and accepted", i);
     }
     for (size_t n = 0; n < bytes; n += 37) {
         FILE *f = fopen("check/b", "wb");
         fwrite(data, 1, n, f);
         fclose(f);
-        assert_int_equal(checkpoint_read("check/b", &key, &back).code, STATUS_BAD_INPUT);
+        assert_int_equal(run_checkpoint_read("check/b", &key, &back).code, STATUS_BAD_INPUT);
     }
     free(data);
 }
@@ -296,8 +298,8 @@ static void checkpoint_survives_a_full_disk(void **state)
     fresh_folder("check");
     char image[IMAGE] = { 1 };
     checkpoint c = example_checkpoint(image), back;
-    const checkpoint_key key = checkpoint_key_of("x86-64-v3", 99);
-    OK(checkpoint_write("check/a", &key, &c));
+    const checkpoint_key key = run_checkpoint_key_of("x86-64-v3", 99);
+    OK(run_checkpoint_write("check/a", &key, &c));
     const pid_t child = fork();
     if (child == 0) {
         signal(SIGXFSZ, SIG_IGN);
@@ -305,30 +307,30 @@ static void checkpoint_survives_a_full_disk(void **state)
         setrlimit(RLIMIT_FSIZE, &limit);
         c.image = calloc(1, 1 << 20);
         c.image_bytes = 1 << 20;
-        _exit(checkpoint_write("check/a", &key, &c).code == STATUS_IO ? 0 : 1);
+        _exit(run_checkpoint_write("check/a", &key, &c).code == STATUS_IO ? 0 : 1);
     }
     int result;
     waitpid(child, &result, 0);
     assert_int_equal(result, 0);
     assert_int_equal(files_in("check", ".part"), 0);
-    OK(checkpoint_read("check/a", &key, &back));
+    OK(run_checkpoint_read("check/a", &key, &back));
     assert_int_equal(back.image_bytes, IMAGE);
-    checkpoint_free(&back);
+    run_checkpoint_free(&back);
 }
 
 static void hash_sees_every_bit_and_the_length(void **state)
 {
     (void)state;
     unsigned char data[40] = { 0 };
-    const uint64_t zero = hash_bytes(0, data, sizeof data);
+    const uint64_t zero = host_hash_bytes(0, data, sizeof data);
     for (size_t i = 0; i < 8 * sizeof data; i++) {
         data[i / 8] ^= (unsigned char)(1 << i % 8);
-        assert_true(hash_bytes(0, data, sizeof data) != zero);
+        assert_true(host_hash_bytes(0, data, sizeof data) != zero);
         data[i / 8] ^= (unsigned char)(1 << i % 8);
     }
-    for (size_t n = 0; n < sizeof data; n++) assert_true(hash_bytes(0, data, n) != zero);
-    assert_true(hash_bytes(1, data, sizeof data) != zero);
-    assert_true(hash_bytes(0, data, sizeof data) == zero);
+    for (size_t n = 0; n < sizeof data; n++) assert_true(host_hash_bytes(0, data, n) != zero);
+    assert_true(host_hash_bytes(1, data, sizeof data) != zero);
+    assert_true(host_hash_bytes(0, data, sizeof data) == zero);
 }
 
 /* ---- progress, tables, stop ---- */
@@ -344,7 +346,7 @@ static void durations(void **state)
                   { -1.0, "unknown" },    { NAN, "unknown" },       { INFINITY, "unknown" } };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[32];
-        duration_text(cases[i].s, text, sizeof text);
+        host_duration_text(cases[i].s, text, sizeof text);
         assert_string_equal(text, cases[i].text);
     }
 }
@@ -355,18 +357,18 @@ static void progress_line(void **state)
     progress p = { .fraction_started = 0.0 };
     strcpy(p.task, "scene 3 of 8");
     char text[200];
-    progress_text(&p, 0.25, 10.0, 312000000, text, sizeof text);
+    host_progress_text(&p, 0.25, 10.0, 312000000, text, sizeof text);
     assert_string_equal(text, "scene 3 of 8  25 %  30 s left  31.2 M particle-steps/s");
-    progress_text(&p, 0.0, 0.0, 0, text, sizeof text);
+    host_progress_text(&p, 0.0, 0.0, 0, text, sizeof text);
     assert_string_equal(text, "scene 3 of 8  0 %");
-    progress_text(&p, 0.999, 10.0, 0, text, sizeof text); /* not 100 % before it is done */
+    host_progress_text(&p, 0.999, 10.0, 0, text, sizeof text); /* not 100 % before it is done */
     assert_non_null(strstr(text, " 99 %"));
     p.fraction_started = 0.5; /* resumed at one half: the rest takes as long as the gained half */
     p.steps_started = 100000000;
-    progress_text(&p, 0.75, 10.0, 200000000, text, sizeof text);
+    host_progress_text(&p, 0.75, 10.0, 200000000, text, sizeof text);
     assert_string_equal(text, "scene 3 of 8  75 %  10 s left  10.0 M particle-steps/s");
     char small[12];
-    progress_text(&p, 0.75, 10.0, 200000000, small, sizeof small);
+    host_progress_text(&p, 0.75, 10.0, 200000000, small, sizeof small);
     assert_int_equal(strlen(small), sizeof small - 1);
 }
 
@@ -378,14 +380,14 @@ static void progress_on_no_terminal(void **state)
         FILE *f = tmpfile();
         assert_non_null(f);
         progress p;
-        progress_open(&p, f, quiet);
-        progress_task(&p, "scene", 0.0, 0);
-        progress_update(&p, 0.1, 1000);
+        host_progress_open(&p, f, quiet);
+        host_progress_task(&p, "scene", 0.0, 0);
+        host_progress_update(&p, 0.1, 1000);
         assert_int_equal(ftell(f), 0);
         p.last_shown -= 11.0; /* as if eleven seconds had gone by */
-        progress_update(&p, 0.2, 1000);
-        progress_say(&p, "site %d passed", 4);
-        progress_close(&p);
+        host_progress_update(&p, 0.2, 1000);
+        host_progress_say(&p, "site %d passed", 4);
+        host_progress_close(&p);
         char text[300] = "";
         rewind(f);
         const size_t n = fread(text, 1, sizeof text - 1, f);
@@ -404,16 +406,16 @@ static void timing_books_every_second(void **state)
 {
     (void)state;
     timing t;
-    timing_open(&t);
-    timing_add(&t, "shot", 1.0);
-    timing_add(&t, "scenes", 2.0);
-    timing_add(&t, "shot", 0.5);
+    host_timing_open(&t);
+    host_timing_add(&t, "shot", 1.0);
+    host_timing_add(&t, "scenes", 2.0);
+    host_timing_add(&t, "shot", 0.5);
     assert_int_equal(t.phases, 2);
     assert_true(t.phase[0].seconds == 1.5 && t.phase[0].calls == 2);
     for (int i = 0; i < 3 * TIMING_MAX_PHASES; i++) {
         char name[16];
         snprintf(name, sizeof name, "phase %d", i);
-        timing_add(&t, name, 1.0);
+        host_timing_add(&t, name, 1.0);
     }
     double sum = 0.0;
     for (int i = 0; i < t.phases; i++) sum += t.phase[i].seconds;
@@ -422,7 +424,7 @@ static void timing_books_every_second(void **state)
     char *text = NULL;
     size_t bytes;
     FILE *out = open_memstream(&text, &bytes);
-    timing_print(&t, out);
+    host_timing_print(&t, out);
     fclose(out);
     assert_non_null(strstr(text, "others"));
     assert_non_null(strstr(text, "total"));
@@ -433,40 +435,40 @@ static void table_is_aligned(void **state)
 {
     (void)state;
     table *t;
-    OK(table_create("site|v [m/s]|class", &t));
-    OK(table_row(t, "a|%d|%s", 1500, "gouge"));
-    OK(table_row(t, "b \xc2\xb5m|-|none"));
-    assert_int_equal(table_row(t, "a|b|c|d").code, STATUS_BAD_INPUT);
+    OK(host_table_create("site|v [m/s]|class", &t));
+    OK(host_table_row(t, "a|%d|%s", 1500, "gouge"));
+    OK(host_table_row(t, "b \xc2\xb5m|-|none"));
+    assert_int_equal(host_table_row(t, "a|b|c|d").code, STATUS_BAD_INPUT);
     char *text = NULL;
     size_t bytes;
     FILE *out = open_memstream(&text, &bytes);
-    table_print(t, out);
+    host_table_print(t, out);
     fclose(out);
     assert_string_equal(text, "site  v [m/s]  class\na        1500  gouge\nb \xc2\xb5m        -  none\n");
     free(text);
-    table_free(t);
-    assert_int_equal(table_create("1|2|3|4|5|6|7|8|9|10|11|12|13|14|15|16|17", &t).code, STATUS_BAD_INPUT);
+    host_table_free(t);
+    assert_int_equal(host_table_create("1|2|3|4|5|6|7|8|9|10|11|12|13|14|15|16|17", &t).code, STATUS_BAD_INPUT);
 }
 
 static void signals_ask_to_stop(void **state)
 {
     (void)state;
-    stop_install(NAN);
-    assert_false(stop_requested());
-    assert_string_equal(stop_reason(), "");
+    host_stop_install(NAN);
+    assert_false(host_stop_requested());
+    assert_string_equal(host_stop_reason(), "");
     raise(SIGTERM);
-    assert_true(stop_requested());
-    assert_string_equal(stop_reason(), "SIGTERM");
-    stop_install(INFINITY);
-    assert_false(stop_requested());
+    assert_true(host_stop_requested());
+    assert_string_equal(host_stop_reason(), "SIGTERM");
+    host_stop_install(INFINITY);
+    assert_false(host_stop_requested());
     raise(SIGINT);
-    assert_string_equal(stop_reason(), "SIGINT");
-    stop_install(1e-3);
+    assert_string_equal(host_stop_reason(), "SIGINT");
+    host_stop_install(1e-3);
     usleep(3000);
-    assert_true(stop_requested());
-    assert_string_equal(stop_reason(), "--max-walltime reached");
-    stop_install(3600.0);
-    assert_false(stop_requested());
+    assert_true(host_stop_requested());
+    assert_string_equal(host_stop_reason(), "--max-walltime reached");
+    host_stop_install(3600.0);
+    assert_false(host_stop_requested());
 }
 
 static void second_interrupt_ends_it(void **state)
@@ -474,7 +476,7 @@ static void second_interrupt_ends_it(void **state)
     (void)state;
     const pid_t child = fork();
     if (child == 0) {
-        stop_install(NAN);
+        host_stop_install(NAN);
         raise(SIGINT);
         raise(SIGINT);
         _exit(0);

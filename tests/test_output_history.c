@@ -13,7 +13,7 @@ static const history_column two[] = { { "time", "s", "time" }, { "x", "m", "posi
 
 static void append_many(history *h, int series, int from, int to)
 {
-    for (int i = from; i < to; i++) OK(history_append(h, series, (const double[]){ 1e-6 * i, 2.0 * i }));
+    for (int i = from; i < to; i++) OK(output_history_append(h, series, (const double[]){ 1e-6 * i, 2.0 * i }));
 }
 
 static double *read_series(const char *path, const char *name, size_t *n)
@@ -21,9 +21,9 @@ static double *read_series(const char *path, const char *name, size_t *n)
     h5_file *f;
     double *data;
     size_t dims[H5_MAX_RANK];
-    OK(h5_open(path, &f));
-    OK(h5_read(f, name, &data, dims));
-    h5_close(f);
+    OK(host_h5_open(path, &f));
+    OK(host_h5_read(f, name, &data, dims));
+    host_h5_close(f);
     *n = dims[0];
     return data;
 }
@@ -35,12 +35,12 @@ static void rows_come_back(void **state)
     fresh_folder("history");
     history *h;
     int series, again;
-    OK(history_open("history/a.h5", false, &h));
-    OK(history_series(h, "/scene/a", two, 2, &series));
+    OK(output_history_open("history/a.h5", false, &h));
+    OK(output_history_series(h, "/scene/a", two, 2, &series));
     append_many(h, series, 0, 1000);
-    OK(history_series(h, "/scene/a", two, 2, &again));
+    OK(output_history_series(h, "/scene/a", two, 2, &again));
     assert_int_equal(series, again);
-    OK(history_close(h));
+    OK(output_history_close(h));
     size_t n;
     double *x = read_series("history/a.h5", "/scene/a/x", &n);
     assert_int_equal(n, 1000);
@@ -55,28 +55,28 @@ static void every_column_has_units_and_description(void **state)
     fresh_folder("history");
     history *h;
     int series;
-    OK(history_open("history/a.h5", false, &h));
-    OK(history_shot(h, &series));
+    OK(output_history_open("history/a.h5", false, &h));
+    OK(output_history_shot(h, &series));
     double row[HISTORY_MAX_COLUMNS];
     shot_state s;
     memset(&s, 0, sizeof s);
     s.t = 1e-3;
     s.v = 1234.5;
     s.ledger.energy_error = 7e-9;
-    history_shot_row(&s, row);
-    OK(history_append(h, series, row));
-    OK(history_events(h, &series));
+    output_history_shot_row(&s, row);
+    OK(output_history_append(h, series, row));
+    OK(output_history_events(h, &series));
     const shot_event e = { SHOT_SITE, 3, s };
-    history_event_row(&e, row);
-    OK(history_append(h, series, row));
-    OK(history_scene(h, "v1500", &series));
+    output_history_event_row(&e, row);
+    OK(output_history_append(h, series, row));
+    OK(output_history_scene(h, "v1500", &series));
     mpm_report report;
     mpm_ledger ledger;
     memset(&report, 0, sizeof report);
     memset(&ledger, 0, sizeof ledger);
     report.failed_volume[2] = 5.0;
-    history_scene_row(&report, &ledger, row);
-    OK(history_append(h, series, row));
+    output_history_scene_row(&report, &ledger, row);
+    OK(output_history_append(h, series, row));
     double map[12];
     for (int i = 0; i < 12; i++) map[i] = 1e-4 * i;
     const crater c = { .class = DAMAGE_GOUGE,
@@ -89,9 +89,9 @@ static void every_column_has_units_and_description(void **state)
                        .z0 = -1e-4,
                        .dz = 1e-4,
                        .depth_map = map };
-    OK(history_crater(h, "v1500", &c));
-    OK(history_crater(h, "v1500", &c)); /* a former one is replaced */
-    OK(history_close(h));
+    OK(output_history_crater(h, "v1500", &c));
+    OK(output_history_crater(h, "v1500", &c)); /* a former one is replaced */
+    OK(output_history_close(h));
 
     size_t n;
     double *v = read_series("history/a.h5", "/shot/velocity", &n);
@@ -121,12 +121,12 @@ static bool write_sample(void *user, const shot *s, const shot_state *state)
 {
     shot_writer *w = user;
     double row[HISTORY_MAX_COLUMNS];
-    history_shot_row(state, row);
-    OK(history_append(w->h, w->series, row));
-    history_modules_row(s, row);
-    OK(history_append(w->h, w->modules, row));
-    w->current = shot_module_current(s, 1);
-    w->voltage = shot_module_voltage(s, 1);
+    output_history_shot_row(state, row);
+    OK(output_history_append(w->h, w->series, row));
+    output_history_modules_row(s, row);
+    OK(output_history_append(w->h, w->modules, row));
+    w->current = circuit_shot_module_current(s, 1);
+    w->voltage = circuit_shot_module_voltage(s, 1);
     w->n++;
     return true;
 }
@@ -135,7 +135,7 @@ static shot *two_groups(void)
 {
     shot_module module[2];
     for (int g = 0; g < 2; g++) {
-        params_default(supply_capacitor_params, &module[g]);
+        base_params_default(circuit_supply_capacitor_params, &module[g]);
         module[g].count = g + 1;
         module[g].capacitance = 3.594e-3;
         module[g].charge = 10e3;
@@ -144,10 +144,10 @@ static shot *two_groups(void)
         module[g].fire_at = 1e-4 * g;
     }
     shot_config c = { .supplies = { [SUPPLY_capacitor] = { 2, module } } };
-    params_default(shot_rails_params, &c.rails);
-    params_default(shot_barrel_params, &c.barrel);
-    params_default(shot_armature_params, &c.armature);
-    params_default(shot_options_params, &c.options);
+    base_params_default(circuit_shot_rails_params, &c.rails);
+    base_params_default(circuit_shot_barrel_params, &c.barrel);
+    base_params_default(circuit_shot_armature_params, &c.armature);
+    base_params_default(circuit_shot_options_params, &c.options);
     c.rails.level = SHOT_RAILS_CONSTANT;
     c.rails.height = c.rails.separation = 0.025;
     c.rails.thickness = 0.02;
@@ -157,7 +157,7 @@ static shot *two_groups(void)
     c.barrel.start = 0.1;
     c.armature.mass = 0.1;
     shot *s;
-    OK(shot_create(&c, &s));
+    OK(circuit_shot_create(&c, &s));
     return s;
 }
 
@@ -167,13 +167,13 @@ static void real_shot_comes_back(void **state)
     fresh_folder("history");
     shot *s = two_groups();
     shot_writer w = { .n = 0 };
-    OK(history_open("history/a.h5", false, &w.h));
-    OK(history_shot(w.h, &w.series));
-    OK(history_modules(w.h, s, &w.modules));
-    OK(shot_advance(s, 1e-3, &(shot_sink){ .sample = write_sample, .user = &w }));
-    OK(history_close(w.h));
-    const shot_state now = shot_now(s);
-    shot_free(s);
+    OK(output_history_open("history/a.h5", false, &w.h));
+    OK(output_history_shot(w.h, &w.series));
+    OK(output_history_modules(w.h, s, &w.modules));
+    OK(circuit_shot_advance(s, 1e-3, &(shot_sink){ .sample = write_sample, .user = &w }));
+    OK(output_history_close(w.h));
+    const shot_state now = circuit_shot_now(s);
+    circuit_shot_free(s);
     assert_true(w.n > 20);
     const struct {
         const char *name;
@@ -199,19 +199,19 @@ static void names_that_are_no_names(void **state)
     fresh_folder("history");
     history *h;
     int series;
-    OK(history_open("history/a.h5", false, &h));
-    assert_int_equal(history_scene(h, "a/b", &series).code, STATUS_BAD_INPUT);
-    assert_int_equal(history_series(h, "/a", two, 0, &series).code, STATUS_BAD_INPUT);
-    assert_int_equal(history_series(h, "a", two, 2, &series).code, STATUS_BAD_INPUT);
+    OK(output_history_open("history/a.h5", false, &h));
+    assert_int_equal(output_history_scene(h, "a/b", &series).code, STATUS_BAD_INPUT);
+    assert_int_equal(output_history_series(h, "/a", two, 0, &series).code, STATUS_BAD_INPUT);
+    assert_int_equal(output_history_series(h, "a", two, 2, &series).code, STATUS_BAD_INPUT);
     char name[16];
     for (int i = 0; i < HISTORY_MAX_SERIES; i++) {
         snprintf(name, sizeof name, "/s%d", i);
-        OK(history_series(h, name, two, 2, &series));
+        OK(output_history_series(h, name, two, 2, &series));
     }
-    assert_int_equal(history_series(h, "/more", two, 2, &series).code, STATUS_BAD_INPUT);
-    OK(history_end(h, 5)); /* frees a place */
-    OK(history_series(h, "/more", two, 2, &series));
-    OK(history_close(h));
+    assert_int_equal(output_history_series(h, "/more", two, 2, &series).code, STATUS_BAD_INPUT);
+    OK(output_history_end(h, 5)); /* frees a place */
+    OK(output_history_series(h, "/more", two, 2, &series));
+    OK(output_history_close(h));
 }
 
 /* A run stopped at row 500 with rows flushed up to 700 goes on from its checkpoint: each time once, in order. */
@@ -221,38 +221,38 @@ static void resumed_run_has_no_gap_and_no_double(void **state)
     fresh_folder("history");
     history *h;
     int series;
-    OK(history_open("history/a.h5", false, &h));
-    OK(history_series(h, "/scene/a", two, 2, &series));
+    OK(output_history_open("history/a.h5", false, &h));
+    OK(output_history_series(h, "/scene/a", two, 2, &series));
     append_many(h, series, 0, 700);
-    OK(history_close(h));
-    OK(history_open("history/a.h5", true, &h));
-    OK(history_series(h, "/scene/a", two, 2, &series));
-    OK(history_rewind(h, series, 1e-6 * 499));
+    OK(output_history_close(h));
+    OK(output_history_open("history/a.h5", true, &h));
+    OK(output_history_series(h, "/scene/a", two, 2, &series));
+    OK(output_history_rewind(h, series, 1e-6 * 499));
     append_many(h, series, 500, 1200);
-    OK(history_close(h));
+    OK(output_history_close(h));
     size_t n;
     double *t = read_series("history/a.h5", "/scene/a/time", &n), *x = read_series("history/a.h5", "/scene/a/x", &n);
     assert_int_equal(n, 1200);
     for (int i = 0; i < 1200; i++) assert_true(t[i] == 1e-6 * i && x[i] == 2.0 * i);
     free(t);
     free(x);
-    OK(history_open("history/a.h5", false, &h)); /* without --resume: replaced */
-    OK(history_close(h));
+    OK(output_history_open("history/a.h5", false, &h)); /* without --resume: replaced */
+    OK(output_history_close(h));
     h5_file *f;
-    OK(h5_open("history/a.h5", &f));
-    assert_false(h5_exists(f, "/scene"));
-    h5_close(f);
+    OK(host_h5_open("history/a.h5", &f));
+    assert_false(host_h5_exists(f, "/scene"));
+    host_h5_close(f);
 }
 
 static void write_for_ever(void)
 {
     history *h;
     int series;
-    if (history_open("history/a.h5", false, &h).code != STATUS_OK) _exit(3);
-    if (history_series(h, "/scene/a", two, 2, &series).code != STATUS_OK) _exit(4);
+    if (output_history_open("history/a.h5", false, &h).code != STATUS_OK) _exit(3);
+    if (output_history_series(h, "/scene/a", two, 2, &series).code != STATUS_OK) _exit(4);
     for (int i = 0;; i++) {
-        if (history_append(h, series, (const double[]){ 1e-6 * i, 2.0 * i }).code != STATUS_OK) _exit(5);
-        if (i % 40 == 0 && history_flush(h).code != STATUS_OK) _exit(6);
+        if (output_history_append(h, series, (const double[]){ 1e-6 * i, 2.0 * i }).code != STATUS_OK) _exit(5);
+        if (i % 40 == 0 && output_history_flush(h).code != STATUS_OK) _exit(6);
     }
 }
 
@@ -291,19 +291,19 @@ static void full_disk_is_an_error_and_keeps_the_file(void **state)
     fresh_folder("history");
     history *h;
     int series;
-    OK(history_open("history/a.h5", false, &h));
-    OK(history_series(h, "/scene/a", two, 2, &series));
+    OK(output_history_open("history/a.h5", false, &h));
+    OK(output_history_series(h, "/scene/a", two, 2, &series));
     append_many(h, series, 0, 10);
-    OK(history_flush(h));
+    OK(output_history_flush(h));
     append_many(h, series, 10, 20);
     assert_int_equal(symlink("/dev/full", "history/a.h5.part"), 0);
-    const status s = history_flush(h);
+    const status s = output_history_flush(h);
     assert_int_equal(s.code, STATUS_IO);
     assert_non_null(strstr(s.text, "history/a.h5"));
     size_t n;
     free(read_series("history/a.h5", "/scene/a/time", &n));
     assert_int_equal(n, 10);
-    OK(history_close(h)); /* there is room again: nothing is lost */
+    OK(output_history_close(h)); /* there is room again: nothing is lost */
     free(read_series("history/a.h5", "/scene/a/time", &n));
     assert_int_equal(n, 20);
 }
@@ -316,19 +316,19 @@ static void foreign_files_are_refused(void **state)
     fputs("no HDF5", out);
     fclose(out);
     history *h;
-    const status s = history_open("history/a.h5", true, &h);
+    const status s = output_history_open("history/a.h5", true, &h);
     assert_int_equal(s.code, STATUS_IO);
     assert_non_null(strstr(s.text, "history/a.h5"));
     assert_null(h);
     h5_file *f;
-    assert_int_equal(h5_open("history/none.h5", &f).code, STATUS_IO);
-    OK(h5_create(&f));
+    assert_int_equal(host_h5_open("history/none.h5", &f).code, STATUS_IO);
+    OK(host_h5_create(&f));
     double *data;
     size_t dims[H5_MAX_RANK];
-    assert_int_equal(h5_read(f, "/nothing/here", &data, dims).code, STATUS_IO);
+    assert_int_equal(host_h5_read(f, "/nothing/here", &data, dims).code, STATUS_IO);
     assert_null(data);
-    assert_int_equal(h5_truncate(f, "/nothing", 3).code, STATUS_IO);
-    h5_close(f);
+    assert_int_equal(host_h5_truncate(f, "/nothing", 3).code, STATUS_IO);
+    host_h5_close(f);
 }
 
 /* Two files open at once do not see each other. */
@@ -337,19 +337,19 @@ static void files_in_memory_are_apart(void **state)
     (void)state;
     h5_file *a, *b;
     const double one = 1.0;
-    OK(h5_create(&a));
-    OK(h5_create(&b));
-    OK(h5_write(a, &(h5_name){ "/x", "m", "one" }, &(h5_array){ H5_DOUBLE, 1, { 1 }, &one }));
-    assert_true(h5_exists(a, "/x"));
-    assert_false(h5_exists(b, "/x"));
+    OK(host_h5_create(&a));
+    OK(host_h5_create(&b));
+    OK(host_h5_write(a, &(h5_name){ "/x", "m", "one" }, &(h5_array){ H5_DOUBLE, 1, { 1 }, &one }));
+    assert_true(host_h5_exists(a, "/x"));
+    assert_false(host_h5_exists(b, "/x"));
     char *names, unit[8];
-    OK(h5_list(a, "/", &names));
+    OK(host_h5_list(a, "/", &names));
     assert_string_equal(names, "x\n");
     free(names);
-    OK(h5_read_attribute_text(a, "/x", "units", unit, sizeof unit));
+    OK(host_h5_read_attribute_text(a, "/x", "units", unit, sizeof unit));
     assert_string_equal(unit, "m");
-    h5_close(a);
-    h5_close(b);
+    host_h5_close(a);
+    host_h5_close(b);
 }
 
 int main(void)

@@ -1,4 +1,5 @@
 /* report.html: made from the files of the directory alone, whole whatever is missing, with no link to the network. */
+#include "coupling/host/version.h"
 #include "output_common.h"
 
 #include "coupling/host/outdir.h"
@@ -13,7 +14,7 @@ static void write_shot(history *h)
 {
     int series;
     double row[HISTORY_MAX_COLUMNS];
-    OK(history_shot(h, &series));
+    OK(output_history_shot(h, &series));
     for (int i = 0; i < SAMPLES; i++) {
         shot_state s;
         memset(&s, 0, sizeof s);
@@ -23,8 +24,8 @@ static void write_shot(history *h)
         s.x = 2100.0 * (s.t - 1.5e-3 * (1.0 - exp(-s.t / 1.5e-3)));
         s.force = 0.25e-6 * s.current * s.current;
         s.ledger.kinetic = 0.1 * s.v * s.v;
-        history_shot_row(&s, row);
-        OK(history_append(h, series, row));
+        output_history_shot_row(&s, row);
+        OK(output_history_append(h, series, row));
     }
 }
 
@@ -48,7 +49,7 @@ static void write_crater(history *h, const char *scene, double growth)
                        .z0 = -1.95e-3,
                        .dz = 0.1e-3,
                        .depth_map = map };
-    OK(history_crater(h, scene, &c));
+    OK(output_history_crater(h, scene, &c));
 }
 
 static void write_run(const char *dir, run_kind kind)
@@ -86,18 +87,18 @@ static void write_run(const char *dir, run_kind kind)
                             .onset = &study.result,
                             .compare = &compare,
                             .inductance = &inductance };
-    OK(summary_write(dir, &s));
+    OK(output_summary_write(dir, &s));
     snprintf(path, sizeof path, "%s/used.yaml", dir);
-    OK(file_write(path, "name: a <b>\n", 12));
+    OK(host_file_write(path, "name: a <b>\n", 12));
     if (kind == RUN_INDUCTANCE) return;
     history *h;
     snprintf(path, sizeof path, "%s/history.h5", dir);
-    OK(history_open(path, false, &h));
+    OK(output_history_open(path, false, &h));
     if (kind != RUN_SCENE) write_shot(h);
     if (kind == RUN_ONSET)
         for (int i = 0; i < EXAMPLE_SCENES; i++) write_crater(h, study.scene[i].name, 0.2 * i);
     if (kind == RUN_SCENE) write_crater(h, "scene", 0.5);
-    OK(history_close(h));
+    OK(output_history_close(h));
 }
 
 static char *page_of(const char *dir)
@@ -105,7 +106,7 @@ static char *page_of(const char *dir)
     char path[200], *text;
     OK(report_write(dir));
     snprintf(path, sizeof path, "%s/report.html", dir);
-    OK(file_read(path, &text, NULL));
+    OK(host_file_read(path, &text, NULL));
     assert_int_equal(files_in(dir, ".part"), 0);
     return text;
 }
@@ -144,7 +145,7 @@ static void page_for_every_kind(void **state)
         assert_non_null(strstr(text, "case &lt;1&gt; &amp; &quot;two&quot;"));
         assert_non_null(strstr(text, "copper &lt;weak&gt;"));
         assert_non_null(strstr(text, "name: a &lt;b&gt;"));
-        assert_non_null(strstr(text, breech_version()));
+        assert_non_null(strstr(text, host_version()));
         free(text);
     }
 }
@@ -170,7 +171,7 @@ static void add_to_summary(const char *dir, const char *const (*more)[2], int n)
 {
     char path[200], *text;
     snprintf(path, sizeof path, "%s/summary.json", dir);
-    OK(file_read(path, &text, NULL));
+    OK(host_file_read(path, &text, NULL));
     cJSON *root = cJSON_Parse(text);
     free(text);
     for (int i = 0; i < n; i++) {
@@ -180,7 +181,7 @@ static void add_to_summary(const char *dir, const char *const (*more)[2], int n)
         cJSON_AddItemToObject(root, more[i][0], value);
     }
     text = cJSON_Print(root);
-    OK(file_write(path, text, strlen(text)));
+    OK(host_file_write(path, text, strlen(text)));
     free(text);
     cJSON_Delete(root);
 }
@@ -253,14 +254,14 @@ static void study_pages_have_their_sections(void **state)
     has_sections(text, study_sections);
     assert_non_null(strstr(text, "sand &lt;x&gt;"));
     assert_non_null(strstr(text, "1650 to 1750"));
-    assert_int_equal(file_exists("report/plot-surface.svg"), has_gnuplot());
+    assert_int_equal(host_file_exists("report/plot-surface.svg"), has_gnuplot());
     free(text);
     write_comparison("report");
     text = page_of("report");
     is_self_contained(text);
     has_sections(text, comparison_sections);
     assert_non_null(strstr(text, "1 to 2.25"));
-    assert_int_equal(file_exists("report/plot-ranking.svg"), has_gnuplot());
+    assert_int_equal(host_file_exists("report/plot-ranking.svg"), has_gnuplot());
     assert_int_equal(count(text, "class=\"missing\""), has_gnuplot() ? 0 : 1);
     free(text);
 }
@@ -282,7 +283,7 @@ static void write_frame(const char *path, int width)
                            "'+d.documentElement.clientWidth+', plots '"
                            "+d.querySelectorAll('svg').length}</script>",
                            width);
-    OK(file_write(path, text, (size_t)n));
+    OK(host_file_write(path, text, (size_t)n));
 }
 
 static char *browser_says(const char *arguments)
@@ -290,10 +291,10 @@ static char *browser_says(const char *arguments)
     char command[600], *text;
     snprintf(command, sizeof command, "rm -rf browser; timeout 120 " BROWSER "%s >dom.html 2>console.txt", arguments);
     assert_int_equal(system(command), 0);
-    OK(file_read("console.txt", &text, NULL));
+    OK(host_file_read("console.txt", &text, NULL));
     if (strstr(text, "CONSOLE")) fail_msg("the console: %s", strstr(text, "CONSOLE"));
     free(text);
-    OK(file_read("dom.html", &text, NULL));
+    OK(host_file_read("dom.html", &text, NULL));
     return text;
 }
 
@@ -313,7 +314,7 @@ static void browser_shows(const char *const *sections)
     assert_true(room > 300 && wide <= room); /* nothing sticks out; wide tables scroll by themselves */
     assert_int_equal(plots, drawn);
     free(browser_says("--print-to-pdf=report.pdf \"file://$PWD/report/report.html\""));
-    assert_true(file_exists("report.pdf"));
+    assert_true(host_file_exists("report.pdf"));
 }
 
 static void a_browser_reads_it(void **state)
@@ -361,8 +362,8 @@ static void failed_run_has_a_page_too(void **state)
 {
     (void)state;
     fresh_folder("report");
-    OK(summary_write("report",
-                     &(run_summary){ .kind = RUN_ONSET, .case_name = "x", .status = RUN_FAILED, .error = "it broke" }));
+    OK(output_summary_write(
+        "report", &(run_summary){ .kind = RUN_ONSET, .case_name = "x", .status = RUN_FAILED, .error = "it broke" }));
     char *text = page_of("report");
     assert_non_null(strstr(text, "it broke"));
     assert_non_null(strstr(text, "history.h5 is not there"));
@@ -377,12 +378,12 @@ static void what_is_no_run_is_refused(void **state)
     const status s = report_write("report");
     assert_int_equal(s.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(s.text, "summary.json"));
-    OK(file_write("report/summary.json", "{ \"kind\": [", 11));
+    OK(host_file_write("report/summary.json", "{ \"kind\": [", 11));
     assert_int_equal(report_write("report").code, STATUS_BAD_INPUT);
-    OK(file_write("report/summary.json", "{}", 2));
-    OK(file_write("report/history.h5", "damaged", 7));
+    OK(host_file_write("report/summary.json", "{}", 2));
+    OK(host_file_write("report/history.h5", "damaged", 7));
     assert_int_equal(report_write("report").code, STATUS_IO);
-    assert_false(file_exists("report/report.html"));
+    assert_false(host_file_exists("report/report.html"));
     assert_int_equal(report_write("report/nowhere").code, STATUS_BAD_INPUT);
 }
 

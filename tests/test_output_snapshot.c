@@ -24,19 +24,19 @@ static void read_fake(const void *source, mpm_field field, double *out)
 static status write_one(snapshots *s, size_t n, double time)
 {
     const fake_particles p = { n };
-    return snapshots_write_source(s, &(snapshot_source){ time, n, read_fake, &p });
+    return output_snapshots_write_source(s, &(snapshot_source){ time, n, read_fake, &p });
 }
 
 static void write_three(void)
 {
     fresh_folder("snap");
     snapshots *s;
-    OK(snapshots_open("snap", -1.0, &s));
+    OK(output_snapshots_open("snap", -1.0, &s));
     OK(write_one(s, 1000, 0.0));
     OK(write_one(s, 1500, 1e-6));
     OK(write_one(s, 3000, 2e-6));
-    assert_int_equal(snapshots_count(s), 3);
-    snapshots_close(s);
+    assert_int_equal(output_snapshots_count(s), 3);
+    output_snapshots_close(s);
 }
 
 static void structure_is_vtkhdf(void **state)
@@ -54,9 +54,9 @@ static void field_list_is_complete(void **state)
     (void)state;
     fresh_folder("snap");
     snapshots *s;
-    OK(snapshots_open("snap", -1.0, &s));
+    OK(output_snapshots_open("snap", -1.0, &s));
     OK(write_one(s, 1, 0.0)); /* the smallest scene there is */
-    snapshots_close(s);
+    output_snapshots_close(s);
     char names[1000] = "snap/scene-000000.hdf 1 0.0";
 #define FIELD_NAME(name, width, unit, doc) " " #name
     strcat(names, PARTICLE_FIELDS(FIELD_NAME));
@@ -72,21 +72,21 @@ static void resumed_scene_goes_on(void **state)
     FILE *part = fopen("snap/scene-000003.hdf.part", "w");
     fclose(part);
     snapshots *s;
-    OK(snapshots_open("snap", 1.5e-6, &s));
-    assert_int_equal(snapshots_count(s), 2);
+    OK(output_snapshots_open("snap", 1.5e-6, &s));
+    assert_int_equal(output_snapshots_count(s), 2);
     assert_int_equal(files_in("snap", ".hdf"), 2);
     assert_int_equal(files_in("snap", ".part"), 0);
     OK(write_one(s, 2000, 3e-6));
-    assert_int_equal(snapshots_count(s), 3);
-    snapshots_close(s);
+    assert_int_equal(output_snapshots_count(s), 3);
+    output_snapshots_close(s);
     char *index;
-    OK(file_read("snap/scene.hdf.series", &index, NULL));
+    OK(host_file_read("snap/scene.hdf.series", &index, NULL));
     assert_non_null(strstr(index, "scene-000002.hdf"));
     assert_null(strstr(index, "scene-000003.hdf"));
     free(index);
-    OK(snapshots_open("snap", -1.0, &s)); /* anew: all gone */
+    OK(output_snapshots_open("snap", -1.0, &s)); /* anew: all gone */
     assert_int_equal(files_in("snap", ".hdf"), 0);
-    snapshots_close(s);
+    output_snapshots_close(s);
 }
 
 static void full_disk_leaves_no_half_snapshot(void **state)
@@ -94,17 +94,17 @@ static void full_disk_leaves_no_half_snapshot(void **state)
     (void)state;
     fresh_folder("snap");
     snapshots *s;
-    OK(snapshots_open("snap", -1.0, &s));
+    OK(output_snapshots_open("snap", -1.0, &s));
     assert_int_equal(symlink("/dev/full", "snap/scene-000000.hdf.part"), 0);
     const status full = write_one(s, 1000, 0.0);
     assert_int_equal(full.code, STATUS_IO);
     assert_non_null(strstr(full.text, "scene-000000.hdf"));
     assert_int_equal(files_in("snap", ".hdf"), 0);
-    assert_int_equal(snapshots_count(s), 0);
+    assert_int_equal(output_snapshots_count(s), 0);
     OK(write_one(s, 1000, 0.0)); /* room again */
-    assert_int_equal(snapshots_count(s), 1);
-    snapshots_close(s);
-    assert_int_equal(snapshots_open("snap/nowhere", -1.0, &s).code, STATUS_IO);
+    assert_int_equal(output_snapshots_count(s), 1);
+    output_snapshots_close(s);
+    assert_int_equal(output_snapshots_open("snap/nowhere", -1.0, &s).code, STATUS_IO);
     assert_null(s);
 }
 
@@ -119,7 +119,7 @@ static void paraview_reads_it(void **state)
     write_three();
     assert_int_equal(
         system("xvfb-run -a pvbatch '" BREECH_TESTS "/paraview/check.py' snap/scene.hdf.series snap/picture.png"), 0);
-    assert_true(file_exists("snap/picture.png"));
+    assert_true(host_file_exists("snap/picture.png"));
 }
 
 int main(void)

@@ -1,4 +1,5 @@
-/* summary.json: every key of the design is there for every kind of run and every end of it, and says what it was given. */
+/* summary.json: every key of the design is there for every kind of run and every end of it, and says what it was given.
+ */
 #include "output_common.h"
 
 #include "coupling/host/outdir.h"
@@ -74,7 +75,7 @@ static void fill(example *e, run_kind kind)
 
 static cJSON *parsed(const run_summary *s)
 {
-    char *text = summary_text(s);
+    char *text = output_summary_text(s);
     assert_non_null(text);
     cJSON *root = cJSON_Parse(text);
     assert_non_null(root);
@@ -179,7 +180,7 @@ static void onset_carries_shot_sites_and_scenes(void **state)
     assert_int_equal(cJSON_GetArraySize(scenes), EXAMPLE_SCENES);
     for (int i = 0; i < EXAMPLE_SITES; i++)
         assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(cJSON_GetArrayItem(sites, i), "outcome")),
-                            site_outcome_names[i]);
+                            output_site_outcome_names[i]);
     assert_true(cJSON_IsNull(cJSON_GetObjectItem(cJSON_GetArrayItem(sites, 0), "velocity")));
     has_keys(cJSON_GetArrayItem(scenes, 2), kind_keys[RUN_SCENE]);
     assert_true(number_of(cJSON_GetArrayItem(scenes, 2), "velocity") == 1500.0);
@@ -193,7 +194,7 @@ static void manual_lists_every_key(void **state)
     char *text = NULL;
     size_t bytes;
     FILE *out = open_memstream(&text, &bytes);
-    summary_print_keys(out);
+    output_summary_print_keys(out);
     fclose(out);
     for (int kind = 0; kind < RUN_KINDS; kind++)
         for (const char *const *key = kind_keys[kind]; *key; key++) {
@@ -211,12 +212,12 @@ static void manual_is_up_to_date(void **state)
     char *text = NULL, *columns = NULL, *page;
     size_t bytes;
     FILE *out = open_memstream(&text, &bytes);
-    summary_print_keys(out);
+    output_summary_print_keys(out);
     fclose(out);
     out = open_memstream(&columns, &bytes);
-    history_print_columns(out);
+    output_history_print_columns(out);
     fclose(out);
-    OK(file_read(BREECH_TESTS "/../docs/output.md", &page, NULL));
+    OK(host_file_read(BREECH_TESTS "/../docs/output.md", &page, NULL));
     assert_non_null(strstr(page, text));
     assert_non_null(strstr(page, columns));
     free(page);
@@ -232,7 +233,7 @@ static void closing_table_shows_the_result(void **state)
     example e;
     fill(&e, RUN_ONSET);
     FILE *out = open_memstream(&text, &bytes);
-    summary_print(&e.summary, out);
+    output_summary_print(&e.summary, out);
     fclose(out);
     assert_non_null(strstr(text, "threshold_velocity"));
     assert_non_null(strstr(text, "1480"));
@@ -246,19 +247,19 @@ static void file_and_its_status(void **state)
     (void)state;
     char word[16];
     const char *dir = fresh_folder("summary");
-    summary_status(dir, word, sizeof word);
+    output_summary_status(dir, word, sizeof word);
     assert_string_equal(word, "");
     for (int status_of = 0; status_of < 3; status_of++) {
         example e;
         fill(&e, RUN_SCENE);
         e.summary.status = (run_status)status_of;
-        OK(summary_write(dir, &e.summary));
-        summary_status(dir, word, sizeof word);
-        assert_string_equal(word, run_status_names[status_of]);
+        OK(output_summary_write(dir, &e.summary));
+        output_summary_status(dir, word, sizeof word);
+        assert_string_equal(word, output_run_status_names[status_of]);
         assert_int_equal(files_in(dir, ""), 1);
     }
-    OK(file_write("summary/summary.json", "{ \"status\": ", 12));
-    summary_status(dir, word, sizeof word);
+    OK(host_file_write("summary/summary.json", "{ \"status\": ", 12));
+    output_summary_status(dir, word, sizeof word);
     assert_string_equal(word, "");
 }
 
@@ -283,7 +284,7 @@ static void half_model_is_doubled(void **state)
     scene_outcome o = { .scene = &scene, .report = &report, .ledger = &ledger, .wall_seconds = 3.0, .threads = 2 };
     for (int mirrored = 0; mirrored < 2; mirrored++) {
         o.mirrored = mirrored;
-        const scene_result r = scene_result_of(&o);
+        const scene_result r = output_scene_result(&o);
         assert_true(r.peak_force[0] == 1.0 + mirrored && r.peak_force[1] == 2.0 + 2.0 * mirrored);
         assert_true(r.peak_force[2] == (mirrored ? 0.0 : 3.0));
         assert_true(r.failed_volume[1] == 11.0 + 11.0 * mirrored);
@@ -292,15 +293,15 @@ static void half_model_is_doubled(void **state)
         assert_int_equal(r.class, DAMAGE_UNDECIDED); /* no crater was measured */
         assert_true(isnan(r.severity));
     }
-    assert_true(isnan(scene_result_of(&o).groove_growth)); /* was not gauged */
+    assert_true(isnan(output_scene_result(&o).groove_growth)); /* was not gauged */
     report.gauge_at[0] = 2e-6, report.gauge_power[0] = 3e5;
     report.time = 5e-6, report.plastic_time = 4e-6,
     report.plastic_power = 3e5 * exp(-1.0); /* died on its way to the second gauge */
-    assert_true(fabs(scene_result_of(&o).groove_growth / -0.5e6 - 1.0) < 1e-12);
+    assert_true(fabs(output_scene_result(&o).groove_growth / -0.5e6 - 1.0) < 1e-12);
     report.gauge_at[1] = 3e-6, report.gauge_power[1] = 3e5 * exp(0.25);
-    assert_true(fabs(scene_result_of(&o).groove_growth / 0.25e6 - 1.0) < 1e-12);
+    assert_true(fabs(output_scene_result(&o).groove_growth / 0.25e6 - 1.0) < 1e-12);
     strcpy(scene.body[0].name, "flyer");
-    assert_true(isnan(scene_result_of(&o).peak_mises_armature));
+    assert_true(isnan(output_scene_result(&o).peak_mises_armature));
 }
 
 int main(void)

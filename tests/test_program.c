@@ -33,7 +33,7 @@ static int run(const char *arguments)
 static bool contains(const char *file, const char *text)
 {
     char *all = NULL;
-    OK(file_read(file, &all, NULL));
+    OK(host_file_read(file, &all, NULL));
     const bool found = strstr(all, text) != NULL;
     free(all);
     return found;
@@ -49,7 +49,7 @@ static cJSON *summary_of(const char *dir)
 {
     char path[200], *text = NULL;
     snprintf(path, sizeof path, "%s/summary.json", dir);
-    OK(file_read(path, &text, NULL));
+    OK(host_file_read(path, &text, NULL));
     cJSON *s = cJSON_Parse(text);
     free(text);
     assert_non_null(s);
@@ -227,7 +227,8 @@ static void test_scene(void **state)
     cJSON_Delete(b);
 }
 
-/* A scene that ends at its second gauge, 28 radii of way: the class is that of the growth, beyond its scatter or not. */
+/* A scene that ends at its second gauge, 28 radii of way: the class is that of the growth, beyond its scatter or not.
+ */
 static void test_gauged(void **state)
 {
     (void)state;
@@ -287,8 +288,8 @@ static void test_paraview_crater(void **state)
     assert_true(exists("scene/crater.png"));
 }
 
-/* Starts it and ends it with the signal once the folder holds a snapshot more; its exit code.  Snapshots come at fixed times of the
- * scene: how far it has come does not depend on how busy the machine is. */
+/* Starts it and ends it with the signal once the folder holds a snapshot more; its exit code.  Snapshots come at fixed
+ * times of the scene: how far it has come does not depend on how busy the machine is. */
 static int signalled(const char *arguments, int number_of_signal, const char *snapshots)
 {
     char command[2000];
@@ -323,9 +324,9 @@ static void assert_same_history(const char *dataset)
     size_t dims[2][H5_MAX_RANK];
     for (int k = 0; k < 2; k++) {
         h5_file *f = NULL;
-        OK(h5_open(files[k], &f));
-        OK(h5_read(f, dataset, &data[k], dims[k]));
-        h5_close(f);
+        OK(host_h5_open(files[k], &f));
+        OK(host_h5_read(f, dataset, &data[k], dims[k]));
+        host_h5_close(f);
     }
     const size_t n = dims[0][0] * (strstr(dataset, "depth") ? dims[0][1] : 1);
     assert_int_equal(dims[0][0], dims[1][0]);

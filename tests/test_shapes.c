@@ -1,4 +1,5 @@
-/* Shapes: the laws of mpm/shape/shape.h over the whole table; one example of each, with its closed volume, in `examples`. */
+/* Shapes: the laws of mpm/shape/shape.h over the whole table; one example of each, with its closed volume, in
+ * `examples`. */
 #include "mpm/shape/shape.h"
 
 #include <math.h>
@@ -55,8 +56,8 @@ static void test_table(void **state)
 {
     (void)state;
     int n = 0;
-    for (const shape_kind *k; (k = shape_at(n)); n++) {
-        assert_ptr_equal(shape_find(k->name), k);
+    for (const shape_kind *k; (k = mpm_shape_at(n)); n++) {
+        assert_ptr_equal(mpm_shape_find(k->name), k);
         assert_true(k->doc && k->doc[0] && k->inside && k->bounds);
         int values = 0, found = 0;
         while (k->value_names[values]) values++;
@@ -65,15 +66,16 @@ static void test_table(void **state)
         if (!found) fail_msg("shape %s has no example in tests/test_shapes.c", k->name);
     }
     assert_true(n >= 8);
-    assert_null(shape_at(-1));
-    assert_null(shape_find("tetrakis"));
+    assert_null(mpm_shape_at(-1));
+    assert_null(mpm_shape_find("tetrakis"));
     for (int e = 0; e < EXAMPLES; e++) {
-        assert_non_null(shape_find(examples[e].name));
-        assert_int_equal(shape_check(shape_find(examples[e].name), &examples[e].s).code, STATUS_OK);
+        assert_non_null(mpm_shape_find(examples[e].name));
+        assert_int_equal(mpm_shape_check(mpm_shape_find(examples[e].name), &examples[e].s).code, STATUS_OK);
     }
 }
 
-/* Largest `inside` on the plane x[axis] = at, on a lattice over the box that holds its middle, its edges and corners. */
+/* Largest `inside` on the plane x[axis] = at, on a lattice over the box that holds its middle, its edges and corners.
+ */
 static double largest_on_plane(const shape_kind *k, const shape_values *s, int axis, double at)
 {
     enum { N = 200 };
@@ -96,7 +98,7 @@ static void test_bounds(void **state)
 {
     (void)state;
     for (int e = 0; e < EXAMPLES; e++) {
-        const shape_kind *k = shape_find(examples[e].name);
+        const shape_kind *k = mpm_shape_find(examples[e].name);
         double lo[3], hi[3];
         k->bounds(&examples[e].s, lo, hi);
         const double size = size_of(lo, hi);
@@ -112,14 +114,14 @@ static void test_bounds(void **state)
     }
 }
 
-/* Counting on 120^3 cells; the error is that of the cells the surface cuts, about (6/120) over the root of their number:
- * below 0.1 %, 0.3 % taken, as faces parallel to the lattice do not average. */
+/* Counting on 120^3 cells; the error is that of the cells the surface cuts, about (6/120) over the root of their
+ * number: below 0.1 %, 0.3 % taken, as faces parallel to the lattice do not average. */
 static void test_volume(void **state)
 {
     (void)state;
     enum { N = 120 };
     for (int e = 0; e < EXAMPLES; e++) {
-        const shape_kind *k = shape_find(examples[e].name);
+        const shape_kind *k = mpm_shape_find(examples[e].name);
         double lo[3], hi[3], x[3];
         k->bounds(&examples[e].s, lo, hi);
         long count = 0;
@@ -179,7 +181,7 @@ static void test_distance(void **state)
     double(*surface)[3] = malloc(ROOM * sizeof *surface);
     assert_non_null(surface);
     for (int e = 0; e < EXAMPLES; e++) {
-        const shape_kind *k = shape_find(examples[e].name);
+        const shape_kind *k = mpm_shape_find(examples[e].name);
         const shape_values *s = &examples[e].s;
         double lo[3], hi[3];
         k->bounds(s, lo, hi);
@@ -222,7 +224,7 @@ static void test_corners(void **state)
     };
     for (size_t i = 0; i < sizeof probes / sizeof probes[0]; i++) {
         const example *e = &examples[probes[i].example];
-        const double f = shape_find(e->name)->inside(&e->s, probes[i].x);
+        const double f = mpm_shape_find(e->name)->inside(&e->s, probes[i].x);
         if (!(fabs(f / probes[i].want - 1.0) < 1e-12))
             fail_msg("%s, probe %zu: %g, want %g", e->name, i, f, probes[i].want);
     }
@@ -251,15 +253,15 @@ static void test_armature(void **state)
         { { 0.0, -d, 0.0 }, 0 },                                    /* in the rail */
     };
     for (size_t i = 0; i < sizeof probes / sizeof probes[0]; i++)
-        if ((shape_find("armature")->inside(&s, probes[i].x) > 0.0) != probes[i].in) fail_msg("probe %zu", i);
+        if ((mpm_shape_find("armature")->inside(&s, probes[i].x) > 0.0) != probes[i].in) fail_msg("probe %zu", i);
 }
 
 static void test_refused(void **state)
 {
     (void)state;
     const shape_values good = examples[9].s;
-    const shape_kind *armature = shape_find("armature");
-    assert_int_equal(shape_check(armature, &good).code, STATUS_OK);
+    const shape_kind *armature = mpm_shape_find("armature");
+    assert_int_equal(mpm_shape_check(armature, &good).code, STATUS_OK);
     const struct {
         int i;
         double value;
@@ -274,7 +276,7 @@ static void test_refused(void **state)
     for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
         shape_values s = good;
         s.value[faults[i].i] = faults[i].value;
-        const status refused = shape_check(armature, &s);
+        const status refused = mpm_shape_check(armature, &s);
         assert_int_equal(refused.code, STATUS_BAD_INPUT);
         if (!strstr(refused.text, faults[i].word)) fail_msg("%s", refused.text);
     }
@@ -282,12 +284,12 @@ static void test_refused(void **state)
     shape_values cut = good;
     cut.value[ARMATURE_CHAMFER_HEIGHT] = 9e-3, cut.value[ARMATURE_LEAD_ANGLE] = 0.4,
     cut.value[ARMATURE_LEG_THICKNESS] = 2e-3;
-    assert_non_null(strstr(shape_check(armature, &cut).text, "cuts"));
+    assert_non_null(strstr(mpm_shape_check(armature, &cut).text, "cuts"));
     for (int e = 0; e < EXAMPLES; e++) {
         shape_values s = examples[e].s;
-        const shape_kind *k = shape_find(examples[e].name);
+        const shape_kind *k = mpm_shape_find(examples[e].name);
         s.value[strcmp(k->name, "box") == 0 ? BOX_HI : 3] *= -1.0; /* a radius, or a box inside out */
-        assert_int_equal(shape_check(k, &s).code, STATUS_BAD_INPUT);
+        assert_int_equal(mpm_shape_check(k, &s).code, STATUS_BAD_INPUT);
     }
 }
 

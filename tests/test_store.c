@@ -46,9 +46,9 @@ static uint64_t key_at(const breech_case *c, double velocity, double cells)
 {
     const site_state state = state_at(c, velocity);
     scene_key key;
-    OK(scene_key_of(c, &state, cells, &key));
+    OK(run_scene_key_of(c, &state, cells, &key));
     const uint64_t hash = key.hash;
-    scene_key_free(&key);
+    run_scene_key_free(&key);
     return hash;
 }
 
@@ -102,19 +102,19 @@ static void test_key_is_a_case(void **state)
     const site_state at = state_at(c, 1480.0 / 3.0 * 3.1);
     scene_key key, again;
     char *errors = NULL;
-    OK(scene_key_of(c, &at, 3.7, &key));
+    OK(run_scene_key_of(c, &at, 3.7, &key));
     const case_text text = { .bytes = key.text, .length = key.bytes, .path = "key" };
     const status read = case_read_memory(&text, &(case_options){ .needs = CASE_FOR_SCENE }, &back, &errors);
     if (read.code != STATUS_OK) fail_msg("%s", errors ? errors : read.text);
-    const site_state state_back = state_of_case(back);
-    OK(scene_key_of(back, &state_back, back->scene.cells_per_radius, &again));
+    const site_state state_back = gouge_state_of_case(back);
+    OK(run_scene_key_of(back, &state_back, back->scene.cells_per_radius, &again));
     assert_string_equal(key.text, again.text);
     assert_true(key.hash == again.hash);
 
     mpm_scene a, b;
     crater_spec of_a, of_b;
-    OK(scene_from_state(c, &at, 3.7, &a, &of_a));
-    OK(scene_from_state(back, &state_back, back->scene.cells_per_radius, &b, &of_b));
+    OK(gouge_scene_from_state(c, &at, 3.7, &a, &of_a));
+    OK(gouge_scene_from_state(back, &state_back, back->scene.cells_per_radius, &b, &of_b));
     assert_int_equal(a.bodies, b.bodies);
     for (int i = 0; i < a.bodies; i++) {
         assert_string_equal(a.body[i].name, b.body[i].name);
@@ -124,8 +124,8 @@ static void test_key_is_a_case(void **state)
     }
     assert_true(a.end_time == b.end_time && a.axis[0].fine_hi == b.axis[0].fine_hi);
     assert_true(of_a.particle_volume == of_b.particle_volume);
-    scene_key_free(&key);
-    scene_key_free(&again);
+    run_scene_key_free(&key);
+    run_scene_key_free(&again);
     case_free(back);
     case_free(c);
 }
@@ -164,27 +164,27 @@ static void test_file(void **state)
     const site_state at = state_at(c, 1500.0);
     scene_record r = some_record(), back;
     scene_key key, other;
-    OK(scene_key_of(c, &at, 3.0, &key));
-    OK(scene_key_of(c, &at, 4.0, &other));
+    OK(run_scene_key_of(c, &at, 3.0, &key));
+    OK(run_scene_key_of(c, &at, 4.0, &other));
     r.key = key.hash;
     h5_file *f;
     void *image;
     size_t bytes;
-    OK(scene_file_make(&r, &key, NULL, &f));
-    OK(h5_image(f, &image, &bytes));
-    h5_close(f);
-    OK(h5_open_image("sent", image, bytes, &f)); /* as it goes from process to process */
+    OK(run_scene_file_make(&r, &key, NULL, &f));
+    OK(host_h5_image(f, &image, &bytes));
+    host_h5_close(f);
+    OK(host_h5_open_image("sent", image, bytes, &f)); /* as it goes from process to process */
     free(image);
     memset(&back, 0, sizeof back);
-    OK(scene_file_read(f, &key, &back));
+    OK(run_scene_file_read(f, &key, &back));
     assert_true(isnan(back.entry.result.widening));
     back.entry.result.widening = r.entry.result.widening; /* one NaN need not have the other's bits */
     assert_memory_equal(&back.entry.result, &r.entry.result, sizeof r.entry.result);
     assert_true(back.impulse == r.impulse && back.mass_loss == r.mass_loss && back.key == r.key);
-    assert_int_equal(scene_file_read(f, &other, &back).code, STATUS_IO); /* not the file of that scene */
-    h5_close(f);
-    scene_key_free(&key);
-    scene_key_free(&other);
+    assert_int_equal(run_scene_file_read(f, &other, &back).code, STATUS_IO); /* not the file of that scene */
+    host_h5_close(f);
+    run_scene_key_free(&key);
+    run_scene_key_free(&other);
     case_free(c);
 }
 
@@ -198,12 +198,12 @@ static status fake_scene(const scene_job *job, const scene_host *host, impact *o
 {
     memset(out, 0, sizeof *out);
     ran.scenes++;
-    const double v = job->scene.body[body_of_armature(&job->scene)].velocity[0];
+    const double v = job->scene.body[gouge_body_of_armature(&job->scene)].velocity[0];
     double row[HISTORY_MAX_COLUMNS] = { 0.0, v };
     int series;
-    OK(history_scene(host->history, job->name, &series));
-    OK(history_append(host->history, series, row));
-    OK(history_end(host->history, series));
+    OK(output_history_scene(host->history, job->name, &series));
+    OK(output_history_append(host->history, series, row));
+    OK(output_history_end(host->history, series));
     out->result.severity = v - 1500.0;
     out->result.class = v >= 1500.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
     out->impulse = 1e-5 * v;
@@ -216,7 +216,7 @@ static session opened(const breech_case *c, const char *dir, const char *store)
     const session_options options = {
         .dir = dir, .store = store, .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
     };
-    OK(session_open(c, &options, &s));
+    OK(run_session_open(c, &options, &s));
     s.run_scene = fake_scene;
     ran.scenes = 0;
     return s;
@@ -244,40 +244,40 @@ static void test_shared(void **state)
     const scene_query q[] = { query_at(c, 1400.0, "a"), query_at(c, 1600.0, "b"), query_at(c, 1400.0, "c") };
     const scene_record *out[3];
     session s = opened(c, "shared/one", "shared/store");
-    OK(scenes_all(&s, q, 3, out));
+    OK(run_scenes_all(&s, q, 3, out));
     assert_int_equal(ran.scenes, 2);
     assert_ptr_equal(out[0], out[2]); /* the same inputs are one scene, whatever its name */
     assert_true(out[0]->impulse == 1e-5 * 1400.0 && out[1]->entry.result.severity == 100.0);
     assert_false(out[0]->entry.reused);
     const scene_record first = *out[0];
-    OK(session_close(&s, true));
+    OK(run_session_close(&s, true));
 
     s = opened(c, "shared/two", "shared/store");
     const scene_query more[] = { query_at(c, 1600.0, "x"), query_at(c, 1500.0, "y"), query_at(c, 1400.0, "z") };
-    OK(scenes_find(&s, &more[1], &out[1]));
+    OK(run_scenes_find(&s, &more[1], &out[1]));
     assert_null(out[1]);
-    OK(scenes_some(&s, more, 3)); /* two of them are there already: it computes the third */
+    OK(run_scenes_some(&s, more, 3)); /* two of them are there already: it computes the third */
     assert_int_equal(ran.scenes, 1);
-    OK(scenes_all(&s, more, 3, out));
+    OK(run_scenes_all(&s, more, 3, out));
     assert_int_equal(ran.scenes, 1);
     assert_true(out[2]->entry.reused && !out[1]->entry.reused);
     assert_string_equal(out[2]->entry.name, "z");
     assert_true(out[2]->impulse == first.impulse && out[2]->entry.result.severity == first.entry.result.severity);
-    assert_true(history_has(s.history, "z")); /* its series came along */
+    assert_true(output_history_has(s.history, "z")); /* its series came along */
     scene_query anew = more[2];
     anew.anew = true;
-    OK(session_close(&s, true));
+    OK(run_session_close(&s, true));
 
     s = opened(c, "shared/three", ""); /* no store */
-    OK(scenes_all(&s, more, 3, out));
+    OK(run_scenes_all(&s, more, 3, out));
     assert_int_equal(ran.scenes, 3);
-    OK(session_close(&s, true));
+    OK(run_session_close(&s, true));
     assert_int_not_equal(access("shared/three/store", F_OK), 0);
 
     s = opened(c, "shared/four", "shared/store");
-    OK(scenes_all(&s, &anew, 1, out));
+    OK(run_scenes_all(&s, &anew, 1, out));
     assert_int_equal(ran.scenes, 1);
-    OK(session_close(&s, true));
+    OK(run_session_close(&s, true));
     case_free(c);
 }
 
@@ -291,9 +291,9 @@ static void test_force_keeps_it(void **state)
     const scene_query q = query_at(c, 1400.0, "a");
     for (int k = 0; k < 2; k++) {
         session s = opened(c, "force", NULL);
-        OK(scenes_all(&s, &q, 1, &out));
+        OK(run_scenes_all(&s, &q, 1, &out));
         assert_int_equal(ran.scenes, k == 0);
-        OK(session_close(&s, true));
+        OK(run_session_close(&s, true));
     }
     case_free(c);
 }
@@ -315,17 +315,17 @@ static void test_damaged(void **state)
     for (int kind = 0; kind < 3; kind++) {
         fresh_folder("damaged");
         session s = opened(c, "damaged/one", "damaged/store");
-        for (int k = 0; k < 2; k++) OK(scenes_all(&s, &q[k], 1, &out));
-        OK(session_close(&s, true));
+        for (int k = 0; k < 2; k++) OK(run_scenes_all(&s, &q[k], 1, &out));
+        OK(run_session_close(&s, true));
         if (kind == 0) assert_int_equal(truncate(path[0], 1000), 0);
         if (kind == 1) assert_int_equal(truncate(path[0], 0), 0);
         if (kind == 2) assert_int_equal(rename(path[1], path[0]), 0);
         for (int again = 0; again < 2; again++) {
             s = opened(c, "damaged/two", "damaged/store");
-            OK(scenes_all(&s, &q[0], 1, &out));
+            OK(run_scenes_all(&s, &q[0], 1, &out));
             assert_int_equal(ran.scenes, again == 0);
             assert_true(out->entry.result.severity == -100.0);
-            OK(session_close(&s, true));
+            OK(run_session_close(&s, true));
         }
     }
     case_free(c);
@@ -337,9 +337,9 @@ static void write_again_and_again(const char *dir, const scene_record *r, const 
 {
     for (;;) {
         h5_file *f;
-        if (scene_file_make(r, key, NULL, &f).code != STATUS_OK || scene_store_put(dir, key, f).code != STATUS_OK)
+        if (run_scene_file_make(r, key, NULL, &f).code != STATUS_OK || run_store_put(dir, key, f).code != STATUS_OK)
             _exit(1);
-        h5_close(f);
+        host_h5_close(f);
     }
 }
 
@@ -348,12 +348,12 @@ static void test_killed_writers(void **state)
 {
     (void)state;
     fresh_folder("killed");
-    OK(scene_store_open("killed"));
+    OK(run_store_open("killed"));
     breech_case *c = read_case(NULL);
     const site_state at = state_at(c, 1500.0);
     scene_record r = some_record(), back;
     scene_key key;
-    OK(scene_key_of(c, &at, 3.0, &key));
+    OK(run_scene_key_of(c, &at, 3.0, &key));
     int reads = 0;
     for (int round = 0; round < 12; round++) {
         pid_t child[2];
@@ -364,12 +364,12 @@ static void test_killed_writers(void **state)
         }
         for (int i = 0; i < 40 + round || (reads == 0 && i < 5000); i++) { /* the first file takes its time */
             h5_file *f;
-            OK(scene_store_get("killed", &key, &f));
+            OK(run_store_get("killed", &key, &f));
             if (f) {
-                OK(scene_file_read(f, &key, &back));
+                OK(run_scene_file_read(f, &key, &back));
                 reads++;
             }
-            h5_close(f);
+            host_h5_close(f);
             usleep(1000);
         }
         for (int k = 0; k < 2; k++) {
@@ -381,7 +381,7 @@ static void test_killed_writers(void **state)
     }
     print_message("read %d times\n", reads);
     assert_true(reads > 100);
-    scene_key_free(&key);
+    run_scene_key_free(&key);
     case_free(c);
 }
 
@@ -395,23 +395,23 @@ static void test_full_disk(void **state)
     const scene_query q[] = { query_at(c, 1400.0, "a"), query_at(c, 1600.0, "b") };
     struct rlimit before, small;
     session s = opened(c, "full/one", "full/store");
-    OK(scenes_all(&s, &q[0], 1, &out));
+    OK(run_scenes_all(&s, &q[0], 1, &out));
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
     small = before;
     small.rlim_cur = 4000; /* a file that would grow beyond fails like one on a full disk */
     signal(SIGXFSZ, SIG_IGN);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
-    const status full = scenes_all(&s, &q[1], 1, &out);
+    const status full = run_scenes_all(&s, &q[1], 1, &out);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
     assert_int_equal(full.code, STATUS_IO);
     assert_non_null(strstr(full.text, "cannot be written"));
-    session_close(&s, false);
+    run_session_close(&s, false);
     s = opened(c, "full/two", "full/store");
-    OK(scenes_all(&s, &q[0], 1, &out));
+    OK(run_scenes_all(&s, &q[0], 1, &out));
     assert_int_equal(ran.scenes, 0);
-    OK(scenes_all(&s, &q[1], 1, &out));
+    OK(run_scenes_all(&s, &q[1], 1, &out));
     assert_int_equal(ran.scenes, 1);
-    OK(session_close(&s, true));
+    OK(run_session_close(&s, true));
     case_free(c);
 }
 

@@ -98,7 +98,7 @@ static threshold_plan usual(void)
 {
     return (threshold_plan){ .low = 1000.0,
                              .high = 2000.0,
-                             .step = threshold_step(0.05),
+                             .step = study_threshold_step(0.05),
                              .interval = 0.05,
                              .coarse = 2.0,
                              .fine = 3.0,
@@ -113,7 +113,7 @@ static function plain(double (*f)(double), double zero)
 static threshold_result search(function *f, const threshold_plan *plan)
 {
     threshold_result r;
-    OK(threshold_search(plan, &(threshold_source){ value_of, together, f }, &r));
+    OK(study_threshold_search(plan, &(threshold_source){ value_of, together, f }, &r));
     assert_int_equal(f->pairs, f->kept);
     for (int i = 0; i < r.samples; i++) {
         const double k = r.sample[i].velocity / plan->step;
@@ -235,7 +235,8 @@ static void test_open_resolution(void **state)
     assert_true(asked[1] < 0.9 * asked[0]);
 }
 
-/* Does the function turn back?  Of each resolution's search some scene lies far out on both sides, its own or one that asks for that. */
+/* Does the function turn back?  Of each resolution's search some scene lies far out on both sides, its own or one that
+ * asks for that. */
 static void test_beyond(void **state)
 {
     (void)state;
@@ -432,7 +433,7 @@ static void test_driven(void **state)
             for (int i = 0; i < r.samples; i++) {
                 const threshold_sample *a = &r.sample[i];
                 if (a->cells_per_radius != plan.fine) continue;
-                assert_true(threshold_is_upper(a) ? r.velocity <= a->velocity : r.velocity >= a->velocity);
+                assert_true(study_threshold_is_upper(a) ? r.velocity <= a->velocity : r.velocity >= a->velocity);
             }
             assert_true(r.interval[0] <= r.velocity && r.velocity <= r.interval[1]);
             if (strstr(r.warning, "moved to")) moved[shift < 0.0]++;
@@ -448,19 +449,24 @@ static void test_errors(void **state)
     for (int at = 1; at <= 4; at++) {
         function f = plain(line, 1400.0);
         f.fail_at = at;
-        assert_int_equal(threshold_search(&plan, &(threshold_source){ value_of, NULL, &f }, &r).code, STATUS_STOPPED);
+        assert_int_equal(study_threshold_search(&plan, &(threshold_source){ value_of, NULL, &f }, &r).code,
+                         STATUS_STOPPED);
         assert_int_equal(r.samples, at - 1); /* what was reached is there */
     }
     function f = plain(line, NAN);
-    assert_int_equal(threshold_search(&plan, &(threshold_source){ value_of, NULL, &f }, &r).code, STATUS_NUMERICAL);
+    assert_int_equal(study_threshold_search(&plan, &(threshold_source){ value_of, NULL, &f }, &r).code,
+                     STATUS_NUMERICAL);
     plan.high = plan.low + 1.0;
-    assert_int_equal(threshold_search(&plan, &(threshold_source){ value_of, NULL, &f }, &r).code, STATUS_BAD_INPUT);
-    assert_true(threshold_step(0.05) == 25.0 && threshold_step(0.03) == 10.0 && threshold_step(0.1) == 50.0);
+    assert_int_equal(study_threshold_search(&plan, &(threshold_source){ value_of, NULL, &f }, &r).code,
+                     STATUS_BAD_INPUT);
+    assert_true(study_threshold_step(0.05) == 25.0 && study_threshold_step(0.03) == 10.0 &&
+                study_threshold_step(0.1) == 50.0);
 }
 
 /* ---- the study: the real shot, scenes that cost nothing ---- */
 
-/* Severity and growth of a made-up scene: rise with the velocity, earlier for larger grains; the coarse cells see it 40 m/s later. */
+/* Severity and growth of a made-up scene: rise with the velocity, earlier for larger grains; the coarse cells see it 40
+ * m/s later. */
 typedef struct {
     int scenes, stop_after; /* of this process; 0: never */
     double base;            /* threshold of a 0.5 mm grain [m/s] */
@@ -477,14 +483,14 @@ static status fake_scene(const scene_job *job, const scene_host *host, impact *o
     memset(out, 0, sizeof *out);
     CHECK(counter.stop_after == 0 || counter.scenes < counter.stop_after, STATUS_STOPPED, "stopped");
     assert_non_null(host->dir);
-    assert_true((job->c->output.snapshots == 0) == scene_is_gauged(job->c)); /* those of whole scenes are the case's */
+    assert_true((job->c->output.snapshots == 0) == gouge_is_gauged(job->c)); /* those of whole scenes are the case's */
     counter.scenes++;
-    const double v = job->scene.body[body_of_armature(&job->scene)].velocity[0];
+    const double v = job->scene.body[gouge_body_of_armature(&job->scene)].velocity[0];
     const double r = job->spec.particle_radius, cells = r / job->scene.axis[0].fine;
     const double excess = (v - made_up_threshold(r) - (cells < 2.5 ? 40.0 : 0.0)) / 150.0;
-    const bool gauged = scene_is_gauged(job->c); /* then severity says nothing, else growth */
+    const bool gauged = gouge_is_gauged(job->c); /* then severity says nothing, else growth */
     out->result.severity = gauged ? -9.0 : excess + job->spec.limit_severity;
-    out->result.groove_growth = gauged ? excess / growth_folds(1.0, r, v) : NAN;
+    out->result.groove_growth = gauged ? excess / gouge_growth_folds(1.0, r, v) : NAN;
     out->result.widening = 2.0;
     out->result.class = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
     out->result.crater_volume = (gauged ? 0.3e-9 : 1e-9) * v; /* as far as it was */
@@ -538,11 +544,11 @@ static status study(const breech_case *c, const char *dir, outdir_options how, o
     const session_options options = {
         .dir = dir, .store = "", .how = how, .threads = 1, .progress_to = stderr, .quiet = true
     };
-    OK(session_open(c, &options, &s));
+    OK(run_session_open(c, &options, &s));
     s.run_scene = fake_scene;
     counter.scenes = 0;
-    const status done = onset_run(&s, out);
-    OK(session_close(&s, done.code == STATUS_OK));
+    const status done = study_onset_run(&s, out);
+    OK(run_session_close(&s, done.code == STATUS_OK));
     return done;
 }
 
@@ -634,10 +640,11 @@ static void check_onset(const char *const *sets, bool by_growth, double threshol
     check_scenes(&a, by_growth);
     /* x(v) falls between the sites around it */
     assert_true(r->threshold_position <= r->onset_position && r->threshold_position > r->onset_position - 0.3);
-    /* feedback: every gouge takes 0.02 N s of 0.25 kg, 0.08 m/s at once, of which the later pushing keeps v_site/v_muzzle */
+    /* feedback: every gouge takes 0.02 N s of 0.25 kg, 0.08 m/s at once, of which the later pushing keeps
+     * v_site/v_muzzle */
     const double loss = a.shot.is.muzzle_velocity - a.result.muzzle_velocity_feedback;
     assert_true(a.result.gouges > 0 && loss > 0.5 * 0.08 * a.result.gouges && loss < 0.08 * a.result.gouges);
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     case_free(c);
     counter.base = 1430.0;
 }
@@ -697,34 +704,34 @@ static void test_craters(void **state)
     whole_scenes w = whole_at(NULL, 990.0, &a); /* below the range in fine cells, inside it in coarse ones */
     assert_int_equal(a.grains.family[0].surface.reference.outcome, THRESHOLD_BELOW);
     assert_true(w.n == 2 && w.slowest == crater_between(&a) && w.slowest > 1000.0 && w.fastest == 2000.0);
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     w = whole_at((const char *const[]){ "study.fine_cells_per_radius=2", NULL }, 1430.0, &a);
     for (int i = 0; i < a.result.n_sites;
          i++) /* a site's scene is one that decided, at the whole ones' resolution too */
         assert_true(w.n == 2 && strstr(a.site[i].scene, "-growth") != NULL);
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     w = whole_at(slow, 1500.0, &a);
     const double fastest = a.site[a.result.n_sites - 1].velocity;
     assert_true(w.n == 2 && w.slowest == crater_between(&a));
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     w = whole_at((const char *const[]){ "study.resolution_error=0.1", "study.coarse_cells_per_radius=3", NULL }, 1390.0,
                  &a);
     assert_true(w.n == 2 && w.slowest == 1750.0); /* the search's second; goes on from where that ended */
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     w = whole_at(slow, 0.5 * (25.0 * floor(fastest / 25.0) + fastest), &a); /* passed, but not by a step of the grid */
     assert_true(fastest < 1950.0 && w.n == 1 && fabs(w.slowest - fastest) < 25.0);
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     w = whole_at((const char *const[]){ "armature.mass=0.3 kg", "study.craters=1", NULL }, 1500.0, &a);
     assert_true(w.n == 1 && w.slowest == crater_between(&a) && w.slowest < fastest - 100.0);
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     w = whole_at(slow, fastest + 200.0, &a);
     assert_true(w.n == 0 && a.result.gouges == 0);
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     w = whole_at(large, 2150.0, &a); /* only the one that is larger than the reference gouges */
     assert_int_equal(a.grains.n, 1);
     assert_int_equal(a.result.gouges, 1);
     assert_true(w.n > 0 && w.radius == 1e-3);
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
 }
 
 /* Moves of the case move the answer the right way (wu2017.md, W7 to W11). */
@@ -741,7 +748,7 @@ static void test_moves(void **state)
     OK(study(c, "moves", FORCE, &a));
     assert_true(a.result.threshold_velocity > base.result.threshold_velocity);
     assert_true(a.result.onset_position > base.result.onset_position);
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     case_free(c);
     c = changed_case(weak);
     OK(study(c, "moves", FORCE, &a));
@@ -750,8 +757,8 @@ static void test_moves(void **state)
     assert_true(a.result.probability_gouge == 0.0);
     assert_int_equal(a.result.gouges, 0);
     assert_true(isnan(a.result.muzzle_velocity_feedback));
-    onset_answer_free(&a);
-    onset_answer_free(&base);
+    study_onset_answer_free(&a);
+    study_onset_answer_free(&base);
     case_free(c);
 }
 
@@ -766,7 +773,7 @@ static void test_screened(void **state)
     assert_int_equal(a.result.verdict, VERDICT_NO_GOUGING);
     assert_int_equal(a.result.scenes_skipped, c->sites.n);
     for (int i = 0; i < a.result.n_sites; i++) assert_int_equal(a.site[i].outcome, SITE_SKIPPED);
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     case_free(c);
 }
 
@@ -781,7 +788,7 @@ static void test_two_kinds(void **state)
     assert_true(fabs(a.site[3].threshold_velocity - made_up_threshold(0.7e-3)) < 1e-6);
     assert_true(fabs(a.site[0].threshold_velocity - made_up_threshold(0.5e-3)) < 1e-6);
     assert_true(strncmp(a.site[3].scene, a.site[0].scene, 3) != 0);
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     case_free(c);
 }
 
@@ -797,7 +804,7 @@ static void test_resume(void **state)
         counter.stop_after = k;
         assert_int_equal(study(c, "part", FORCE, &part).code, STATUS_STOPPED);
         assert_int_equal(part.result.n_scenes, k);
-        onset_answer_free(&part);
+        study_onset_answer_free(&part);
         counter.stop_after = 0;
         OK(study(c, "part", (outdir_options){ .resume = true }, &part));
         assert_int_equal(counter.scenes, scenes - k);
@@ -806,9 +813,9 @@ static void test_resume(void **state)
         assert_true(memcmp(part.scene, whole.scene, (size_t)scenes * sizeof *part.scene) == 0);
         assert_true(part.result.muzzle_velocity_feedback == whole.result.muzzle_velocity_feedback);
         assert_string_equal(part.result.reason, whole.result.reason);
-        onset_answer_free(&part);
+        study_onset_answer_free(&part);
     }
-    onset_answer_free(&whole);
+    study_onset_answer_free(&whole);
     case_free(c);
 }
 
@@ -823,12 +830,12 @@ static void test_other_case(void **state)
     counter.stop_after = 2;
     assert_int_equal(study(c, "other", FORCE, &a).code, STATUS_STOPPED);
     counter.stop_after = 0;
-    onset_answer_free(&a);
+    study_onset_answer_free(&a);
     const session_options options = {
         .dir = "other", .how = { .resume = true }, .threads = 1, .progress_to = stderr, .quiet = true
     };
-    assert_int_not_equal(session_open(other, &options, &s).code, STATUS_OK);
-    session_close(&s, false);
+    assert_int_not_equal(run_session_open(other, &options, &s).code, STATUS_OK);
+    run_session_close(&s, false);
     case_free(c);
     case_free(other);
 }

@@ -62,7 +62,7 @@ static surface_plan plan_of(int sizes, double interval)
 {
     surface_plan p = { .search = { .low = 1000.0,
                                    .high = 2000.0,
-                                   .step = threshold_step(interval),
+                                   .step = study_threshold_step(interval),
                                    .interval = interval,
                                    .coarse = 2.0,
                                    .fine = 3.0,
@@ -82,7 +82,7 @@ static surface_result search(grains *g, const surface_plan *p)
 {
     surface_result r;
     g->calls = 0;
-    OK(surface_search(p, &(surface_source){ outcome, NULL, g }, &r));
+    OK(study_surface_search(p, &(surface_source){ outcome, NULL, g }, &r));
     assert_int_equal(r.samples, g->calls); /* none asked for twice */
     assert_true(r.samples <= p->search.max_scenes);
     for (int i = 0; i < r.samples; i++)
@@ -236,10 +236,10 @@ static void test_errors(void **state)
     const int all = search(&g, &p).samples;
     for (int at = 1; at <= all; at++) {
         g = (grains){ .base = 1400.0, .slope = 0.2, .fail_at = at };
-        assert_int_equal(surface_search(&p, &(surface_source){ outcome, NULL, &g }, &r).code, STATUS_STOPPED);
+        assert_int_equal(study_surface_search(&p, &(surface_source){ outcome, NULL, &g }, &r).code, STATUS_STOPPED);
     }
     p.size[1] = p.size[0];
-    assert_int_equal(surface_search(&p, &(surface_source){ outcome, NULL, &g }, &r).code, STATUS_BAD_INPUT);
+    assert_int_equal(study_surface_search(&p, &(surface_source){ outcome, NULL, &g }, &r).code, STATUS_BAD_INPUT);
 }
 
 static void test_at(void **state)
@@ -250,11 +250,11 @@ static void test_at(void **state)
         r.size[k] = (surface_size){ .radius = 1e-4 * pow(10.0, k),
                                     .velocity = 1800.0 - 200.0 * k,
                                     .interval = { 1700.0 - 200.0 * k, NAN } };
-    assert_true(surface_at(&r, 1e-5).velocity == 1800.0 && surface_at(&r, 1.0).velocity == 1400.0);
-    assert_true(surface_at(&r, 1e-3).velocity == 1600.0);
-    assert_true(fabs(surface_at(&r, sqrt(1e-7)).velocity - 1700.0) < 1e-9); /* half way in ln r */
-    assert_true(fabs(surface_at(&r, sqrt(1e-7)).interval[0] - 1600.0) < 1e-9);
-    assert_true(isnan(surface_at(&r, sqrt(1e-7)).interval[1]));
+    assert_true(study_surface_at(&r, 1e-5).velocity == 1800.0 && study_surface_at(&r, 1.0).velocity == 1400.0);
+    assert_true(study_surface_at(&r, 1e-3).velocity == 1600.0);
+    assert_true(fabs(study_surface_at(&r, sqrt(1e-7)).velocity - 1700.0) < 1e-9); /* half way in ln r */
+    assert_true(fabs(study_surface_at(&r, sqrt(1e-7)).interval[0] - 1600.0) < 1e-9);
+    assert_true(isnan(study_surface_at(&r, sqrt(1e-7)).interval[1]));
 }
 
 /* ---- halving the wanted interval ---- */

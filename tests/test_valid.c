@@ -1,5 +1,5 @@
-/* The validations of tests/validate held to their limits: the coarse levels, all of them with BREECH_FULL=1.  Momentum and mass
- * (V11) everywhere. */
+/* The validations of tests/validate held to their limits: the coarse levels, all of them with BREECH_FULL=1.  Momentum
+ * and mass (V11) everywhere. */
 #include "valid.h"
 
 static const double ROUNDING = 1e-12; /* what NUMERICS V11 wants */

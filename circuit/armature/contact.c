@@ -10,7 +10,7 @@ static const double LONG = 25.0;
 
 /* E_3/2(y) = sum y^k/Gamma(3 k/2 + 1), y = z^(3/2): every second term follows from the last but one by
  * Gamma(a + 3) = a (a + 1) (a + 2) Gamma(a).  Its integral over 0 .. z has z/(3 k/2 + 1) on every term. */
-double contact_evenness(double z)
+double circuit_contact_evenness(double z)
 {
     if (z > LONG) return 1.0 / z;
     double end = 0.0, mean = 0.0, term[2] = { 1.0, z * sqrt(z) / GAMMA_5_2 };
@@ -24,9 +24,9 @@ double contact_evenness(double z)
     return mean / end;
 }
 
-double contact_spread(const sliding_contact *c, double v, double I)
+double circuit_contact_spread(const sliding_contact *c, double v, double I)
 {
     if (!(c->interface > 0.0)) return c->length;
     const double r_inverse = I / c->interface;
-    return c->length * contact_evenness(c->length * cbrt(MU0 * c->resistivity * v * r_inverse * r_inverse));
+    return c->length * circuit_contact_evenness(c->length * cbrt(MU0 * c->resistivity * v * r_inverse * r_inverse));
 }

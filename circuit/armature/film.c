@@ -26,7 +26,7 @@ static double off(const melt_film *f, double v, double P, double q, double ln_w)
     return ln_w - log(f->share * (m.shear * v + q) / f->melting);
 }
 
-melt_flow melt_film_at(const melt_film *f, double v, double P, double q)
+melt_flow circuit_melt_film_at(const melt_film *f, double v, double P, double q)
 {
     const double by_current = f->share * q / f->melting;
     if (!(v > 0.0)) return (melt_flow){ .recession = by_current };

@@ -11,7 +11,7 @@ static const double FAR = 3.0;
 
 /* ---- mesh ---- */
 
-int filaments_graded(double length, double first, double growth, int ends, double *size)
+int circuit_filaments_graded(double length, double first, double growth, int ends, double *size)
 {
     const double span = length / ends;
     int n = 0;
@@ -86,10 +86,10 @@ static columns columns_of(const rail_section *s, double first, double fineness, 
     columns c = { .at = { 0.0 } };
     const double core = s->thickness - s->cladding;
     if (s->cladding > 0.0) {
-        const int n = filaments_graded(s->cladding, fmin(first, s->cladding / fineness), growth, 2, size);
+        const int n = circuit_filaments_graded(s->cladding, fmin(first, s->cladding / fineness), growth, 2, size);
         c.n = c.clad = lines_add(0.0, size, n, c.at);
     }
-    const int n = filaments_graded(core, fmin(first, 0.25 * core / fineness), growth, 2, size);
+    const int n = circuit_filaments_graded(core, fmin(first, 0.25 * core / fineness), growth, 2, size);
     c.n += lines_add(s->cladding, size, n, c.at + c.n);
     return c;
 }
@@ -97,13 +97,13 @@ static columns columns_of(const rail_section *s, double first, double fineness, 
 /* The cladding keeps its thickness, the core is stretched between it and the back. */
 static section_point grid_point(const rail_section *s, const columns *c, int i, double y)
 {
-    const double face = section_face(s, y), at = c->at[i];
+    const double face = circuit_section_face(s, y), at = c->at[i];
     if (i <= c->clad) return (section_point){ face + at, y };
     const double share = (at - s->cladding) / (s->thickness - s->cladding);
-    return (section_point){ face + s->cladding + share * (section_back(s, y) - face - s->cladding), y };
+    return (section_point){ face + s->cladding + share * (circuit_section_back(s, y) - face - s->cladding), y };
 }
 
-void filaments_free(filaments *f)
+void circuit_filaments_free(filaments *f)
 {
     free(f->cell);
     free(f->R);
@@ -115,7 +115,7 @@ static int cells_across(double length, double first, double growth)
     return (int)(log1p(length * (growth - 1.0) / first) / log(growth)) + 2;
 }
 
-status filaments_create(const rail_section *s, double depth, double fineness, filaments *out)
+status circuit_filaments_create(const rail_section *s, double depth, double fineness, filaments *out)
 {
     *out = (filaments){ .fineness = fineness };
     const double first = depth / fineness, growth = 1.0 + 1.5 / fineness, half = 0.5 * s->height;
@@ -128,7 +128,7 @@ status filaments_create(const rail_section *s, double depth, double fineness, fi
     double y[SECTION_MAX_ROWS + 1];
     const columns c = columns_of(s, first, fineness, growth);
     out->nx = c.n;
-    out->ny = section_rows(s, fmin(first, 0.25 * half / fineness), growth, 0.3 / fineness, y);
+    out->ny = circuit_section_rows(s, fmin(first, 0.25 * half / fineness), growth, 0.3 / fineness, y);
     CHECK(out->ny > 0, STATUS_BAD_INPUT,
           "a mesh of %g cells a skin depth of %g m needs more than %d rows: ask for less", fineness, depth,
           SECTION_MAX_ROWS);
@@ -143,7 +143,7 @@ status filaments_create(const rail_section *s, double depth, double fineness, fi
             filament *f = &out->cell[i * out->ny + j];
             *f = filament_of(corner);
             out->R[i * out->ny + j] =
-                section_weight(s) * (i < c.clad ? s->cladding_resistivity : s->resistivity) / f->area;
+                circuit_section_weight(s) * (i < c.clad ? s->cladding_resistivity : s->resistivity) / f->area;
         }
     }
     return status_ok();
@@ -200,7 +200,7 @@ static points points_of(const filament *f)
 static double near_log(const points *p, const filament *q, int image)
 {
     double sum = 0.0;
-    for (int k = 0; k < NEAR_POINTS; k++) sum += p->weight[k] * area_log(q, section_image(p->at[k], image));
+    for (int k = 0; k < NEAR_POINTS; k++) sum += p->weight[k] * area_log(q, circuit_section_image(p->at[k], image));
     return sum / q->area;
 }
 
@@ -210,9 +210,10 @@ static double far_log(const filament *p, const filament *q, int image, double un
     double product = 1.0;
     for (int k = 0; k < 4; k++) {
         const double s = k & 1 ? 1.0 : -1.0, t = k & 2 ? 1.0 : -1.0;
-        const section_point at = section_image((section_point){ p->centre.x + s * p->axis[0].x + t * p->axis[1].x,
-                                                                p->centre.y + s * p->axis[0].y + t * p->axis[1].y },
-                                               image);
+        const section_point at =
+            circuit_section_image((section_point){ p->centre.x + s * p->axis[0].x + t * p->axis[1].x,
+                                                   p->centre.y + s * p->axis[0].y + t * p->axis[1].y },
+                                  image);
         for (int l = 0; l < 4; l++) {
             const double a = l & 1 ? 1.0 : -1.0, b = l & 2 ? 1.0 : -1.0;
             const double dx = (q->centre.x + a * q->axis[0].x + b * q->axis[1].x - at.x) / unit;
@@ -227,29 +228,30 @@ static double far_log(const filament *p, const filament *q, int image, double un
 static double potential(const rail_section *s, const filament *p, const points *from, const filament *q)
 {
     double sum = 0.0;
-    for (int image = 0; image < section_images(s); image++) {
-        const section_point apart = minus(section_image(p->centre, image), q->centre);
+    for (int image = 0; image < circuit_section_images(s); image++) {
+        const section_point apart = minus(circuit_section_image(p->centre, image), q->centre);
         const double r = hypot(apart.x, apart.y);
         const double part = r > FAR * fmax(p->reach, q->reach) ? far_log(p, q, image, r) : near_log(from, q, image);
-        sum += section_image_sign(s, image) * part;
+        sum += circuit_section_image_sign(s, image) * part;
     }
     return -MU0 / (2.0 * PI) * sum;
 }
 
-status filaments_inductance(const rail_section *s, const filaments *f, double **L)
+status circuit_filaments_inductance(const rail_section *s, const filaments *f, double **L)
 {
     const size_t n = (size_t)f->n;
     points *from = malloc(n * sizeof *from);
     *L = malloc(n * n * sizeof **L);
     if (!from || !*L) {
         free(from);
-        return status_error(STATUS_MEMORY, "out of memory for the inductances of %d rail filaments", f->n);
+        return base_status_error(STATUS_MEMORY, "out of memory for the inductances of %d rail filaments", f->n);
     }
     for (size_t i = 0; i < n; i++) from[i] = points_of(&f->cell[i]);
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j <= i; j++) {
             const size_t p = f->cell[i].reach < f->cell[j].reach ? i : j, q = i + j - p;
-            (*L)[i * n + j] = (*L)[j * n + i] = section_weight(s) * potential(s, &f->cell[p], &from[p], &f->cell[q]);
+            (*L)[i * n + j] = (*L)[j * n + i] =
+                circuit_section_weight(s) * potential(s, &f->cell[p], &from[p], &f->cell[q]);
         }
     }
     free(from);

@@ -1,5 +1,5 @@
-/* Parallel filaments of quadrangular section, in the solved half of one rail (circuit/rails/section.h).  The vector potential of
- * filament j and its images at i, averaged over both sections, is
+/* Parallel filaments of quadrangular section, in the solved half of one rail (circuit/rails/section.h).  The vector
+ * potential of filament j and its images at i, averaged over both sections, is
  *   A_i = - mu0/(2 pi) sum_j sum_images +-I_j <ln r_ij>                                              (C-8) [Wb/m]
  * The mesh is a grid of nx columns from face to back and ny rows from the edge (y = h/2) to the middle: cell i ny + j.
  * Cells are finest at the surface and grow inwards by a constant ratio. */
@@ -19,18 +19,18 @@ typedef struct {
     int n, nx, ny;
     double fineness; /* cells over the skin depth that was asked for */
     filament *cell;
-    double *R; /* of each, times section_weight [ohm/m] */
+    double *R; /* of each, times circuit_section_weight [ohm/m] */
 } filaments;
 
 /* First cells of depth/fineness or a side/(4 fineness), growing by 1 + 1.5/fineness.  depth [m], fineness >= 1. */
-status filaments_create(const rail_section *s, double depth, double fineness, filaments *out);
-void filaments_free(filaments *f);
+status circuit_filaments_create(const rail_section *s, double depth, double fineness, filaments *out);
+void circuit_filaments_free(filaments *f);
 
-/* n x n inductances, images and section_weight included [H/m]; the caller frees *L. */
-status filaments_inductance(const rail_section *s, const filaments *f, double **L);
+/* n x n inductances, images and circuit_section_weight included [H/m]; the caller frees *L. */
+status circuit_filaments_inductance(const rail_section *s, const filaments *f, double **L);
 
-/* Cell sizes over `length`, growing from `first` by `growth` at most away from one end, or from both (ends = 2).  Returns
- * their number; `size` must hold them. */
-int filaments_graded(double length, double first, double growth, int ends, double *size);
+/* Cell sizes over `length`, growing from `first` by `growth` at most away from one end, or from both (ends = 2).
+ * Returns their number; `size` must hold them. */
+int circuit_filaments_graded(double length, double first, double growth, int ends, double *size);
 
 #endif

@@ -9,7 +9,7 @@
 static const double SETTLED = 1e-7; /* of Z' over CHECK_EVERY terms */
 enum { CHECK_EVERY = 8 };
 
-void impedance_free(impedance *z)
+void circuit_impedance_free(impedance *z)
 {
     free(z->diagonal);
     free(z->coupling);
@@ -25,13 +25,13 @@ static double complex fraction(const impedance *z, int m, double complex s)
     return z->R_dc * d;
 }
 
-double complex impedance_at(const impedance *z, double complex s)
+double complex circuit_impedance_at(const impedance *z, double complex s)
 {
     return fraction(z, z->m, s);
 }
 
 /* The same fraction over s, in the limit. */
-double impedance_fast_inductance(const impedance *z)
+double circuit_impedance_fast_inductance(const impedance *z)
 {
     double d = z->diagonal[z->m - 1];
     for (int k = z->m - 2; k >= 0; k--) d = z->diagonal[k] - z->coupling[k] * z->coupling[k] / d;
@@ -98,7 +98,7 @@ static void lanczos(impedance *z, const double *K)
     }
 }
 
-status impedance_create(int n, double *L, const double *R, double omega_top, impedance *out)
+status circuit_impedance_create(int n, double *L, const double *R, double omega_top, impedance *out)
 {
     const size_t size = (size_t)n;
     *out = (impedance){ .n = n, .omega_top = omega_top };
@@ -114,13 +114,14 @@ status impedance_create(int n, double *L, const double *R, double omega_top, imp
         for (size_t j = 0; j < size; j++) L[i * size + j] *= out->conductance[i] * out->conductance[j];
     }
     lanczos(out, L);
-    CHECK(isfinite(creal(impedance_at(out, omega_top))) && impedance_fast_inductance(out) > 0.0, STATUS_NUMERICAL,
+    CHECK(isfinite(creal(circuit_impedance_at(out, omega_top))) && circuit_impedance_fast_inductance(out) > 0.0,
+          STATUS_NUMERICAL,
           "the rail section's inductances are not positive definite: the filament mesh of %d is too fine", n);
     return status_ok();
 }
 
 /* share = R^(-1/2) V (1 + s T)^-1 e_1 Z'; the tridiagonal system by forward and backward substitution. */
-status impedance_currents(const impedance *z, double complex s, double complex *share)
+status circuit_impedance_currents(const impedance *z, double complex s, double complex *share)
 {
     const int m = z->m;
     double complex *d = malloc(2 * (size_t)m * sizeof *d), *y = d ? d + m : NULL;

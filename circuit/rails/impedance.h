@@ -1,7 +1,7 @@
 /* Z'(s) of parallel filaments of one length, for every complex frequency s at once.
  *
- * (R + s L) i = e 1,  Z' = e/(1.i),  R diagonal.  With K = R^(-1/2) L R^(-1/2), b = R^(-1/2) 1, Lanczos' process from b gives
- * K = V T V^T, T tridiagonal, and
+ * (R + s L) i = e 1,  Z' = e/(1.i),  R diagonal.  With K = R^(-1/2) L R^(-1/2), b = R^(-1/2) 1, Lanczos' process from b
+ * gives K = V T V^T, T tridiagonal, and
  *   Z'(s) = R_dc d_1,  d_k = 1 + s T_kk - s^2 T_k,k+1^2/d_k+1,  R_dc = 1/b.b                             (C-10)
  * a continued fraction of positive terms: passive however early the process stops.  Source: lanczos1950. */
 #ifndef BREECH_CIRCUIT_IMPEDANCE_H
@@ -20,14 +20,14 @@ typedef struct {
 } impedance;
 
 /* L: n x n, symmetric, row by row [H/m]; changed to K.  R: n [ohm/m].  Ends once Z' at i omega_top is settled to 1e-7.
- * *out is freed by impedance_free, also after an error. */
-status impedance_create(int n, double *L, const double *R, double omega_top, impedance *out);
-void impedance_free(impedance *z);
+ * *out is freed by circuit_impedance_free, also after an error. */
+status circuit_impedance_create(int n, double *L, const double *R, double omega_top, impedance *out);
+void circuit_impedance_free(impedance *z);
 
-double _Complex impedance_at(const impedance *z, double _Complex s); /* Re s >= 0 [1/s] -> [ohm/m] */
-double impedance_fast_inductance(const impedance *z);                /* L' as s -> infinity, on these filaments [H/m] */
+double _Complex circuit_impedance_at(const impedance *z, double _Complex s); /* Re s >= 0 [1/s] -> [ohm/m] */
+double circuit_impedance_fast_inductance(const impedance *z); /* L' as s -> infinity, on these filaments [H/m] */
 
 /* Share of each filament in a total current of 1 at the frequency s; `share` has n places. */
-status impedance_currents(const impedance *z, double _Complex s, double _Complex *share);
+status circuit_impedance_currents(const impedance *z, double _Complex s, double _Complex *share);
 
 #endif

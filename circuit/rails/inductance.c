@@ -12,18 +12,18 @@
 static const double THIN_SKIN = 1000.0;
 
 /* L' = [A + B ln F1] ln F2 uH/m */
-double inductance_kerrisk(double h, double w, double s)
+double circuit_inductance_kerrisk(double h, double w, double s)
 {
     const double F1 = 1.0 + 3.397143 * (w / h) - 0.06603002 * (w / h) * (s / h);
     const double F2 = 1.007719 + 2.743651 * (s / h) + 0.02209308 * (w / h) + 0.2637392 * (s / h) * (w / h);
     return 1e-6 * (0.4406411 - 0.07771617 * log(F1)) * log(F2);
 }
 
-status inductance_limit(const rail_section *s, double *L)
+status circuit_inductance_limit(const rail_section *s, double *L)
 {
     double skin = 0.0;
-    TRY(section_check(s));
-    return perimeter_solve(s, L, &skin);
+    TRY(circuit_section_check(s));
+    return circuit_perimeter_solve(s, L, &skin);
 }
 
 /* Of the better conductor of the two. */
@@ -48,55 +48,55 @@ static double at_least_slow(const rail_section *s, double f)
 static status response(const rail_section *s, const filaments *cells, double f_top, impedance *out)
 {
     double *L = NULL;
-    status st = filaments_inductance(s, cells, &L);
-    if (st.code == STATUS_OK) st = impedance_create(cells->n, L, cells->R, 2.0 * PI * f_top, out);
+    status st = circuit_filaments_inductance(s, cells, &L);
+    if (st.code == STATUS_OK) st = circuit_impedance_create(cells->n, L, cells->R, 2.0 * PI * f_top, out);
     free(L);
     return st;
 }
 
 static status mesh(const rail_section *s, double f_top, double fineness, filaments *cells)
 {
-    TRY(section_check(s));
+    TRY(circuit_section_check(s));
     CHECK(f_top > 0.0 && isfinite(f_top), STATUS_BAD_INPUT, "frequency %g Hz: must be positive and finite", f_top);
-    return filaments_create(s, skin_depth(s, f_top), fineness, cells);
+    return circuit_filaments_create(s, skin_depth(s, f_top), fineness, cells);
 }
 
-status inductance_response(const rail_section *s, double f_top, double fineness, impedance *out)
+status circuit_inductance_response(const rail_section *s, double f_top, double fineness, impedance *out)
 {
     filaments cells = { 0 };
     *out = (impedance){ 0 };
     status st = mesh(s, f_top, fineness, &cells);
     if (st.code == STATUS_OK) st = response(s, &cells, f_top, out);
-    filaments_free(&cells);
+    circuit_filaments_free(&cells);
     return st;
 }
 
-status inductance_at(const rail_section *s, double f, double fineness, double *L, double *R)
+status circuit_inductance_at(const rail_section *s, double f, double fineness, double *L, double *R)
 {
-    TRY(section_check(s));
+    TRY(circuit_section_check(s));
     CHECK(f >= 0.0 && isfinite(f), STATUS_BAD_INPUT, "frequency %g Hz: must be 0 or positive and finite", f);
     f = at_least_slow(s, f);
     if (skin_depth(s, f) <
         largest_side(s) / THIN_SKIN) { /* surface impedance on the perfect conductor's current (C-9) */
-        TRY(perimeter_solve(s, L, R));
+        TRY(circuit_perimeter_solve(s, L, R));
         *R *= sqrt(f);
         *L += *R / (2.0 * PI * f);
         return status_ok();
     }
     impedance z;
-    const status st = inductance_response(s, f, fineness, &z);
+    const status st = circuit_inductance_response(s, f, fineness, &z);
     if (st.code == STATUS_OK) {
-        const double complex Z = impedance_at(&z, _Complex_I * 2.0 * PI * f);
+        const double complex Z = circuit_impedance_at(&z, _Complex_I * 2.0 * PI * f);
         *L = cimag(Z) / (2.0 * PI * f);
         *R = creal(Z);
     }
-    impedance_free(&z);
+    circuit_impedance_free(&z);
     return st;
 }
 
 /* ---- along the surface ---- */
 
-void inductance_surface_free(inductance_surface *p)
+void circuit_inductance_surface_free(inductance_surface *p)
 {
     free(p->place);
     *p = (inductance_surface){ 0 };
@@ -127,17 +127,17 @@ static void surface_fill(const rail_section *s, const filaments *c, const double
         if (length <= 0.0) continue; /* a round rail has no side */
         out->place[out->n] = place - 0.5 * length;
         out->current[out->n] = J;
-        out->heating[out->n++] = c->R[at.cell] / section_weight(s) * f->area * J * J;
+        out->heating[out->n++] = c->R[at.cell] / circuit_section_weight(s) * f->area * J * J;
     }
 }
 
-status inductance_surface_at(const rail_section *s, double f, double fineness, inductance_surface *out)
+status circuit_inductance_surface_at(const rail_section *s, double f, double fineness, inductance_surface *out)
 {
     filaments cells = { 0 };
     impedance z = { 0 };
     double complex *share = NULL;
     *out = (inductance_surface){ 0 };
-    TRY(section_check(s));
+    TRY(circuit_section_check(s));
     f = at_least_slow(s, f);
     status st = mesh(s, f, fineness, &cells);
     if (st.code == STATUS_OK) st = response(s, &cells, f, &z);
@@ -146,16 +146,16 @@ status inductance_surface_at(const rail_section *s, double f, double fineness, i
         share = malloc((size_t)cells.n * sizeof *share);
         out->place = malloc(3 * rim * sizeof *out->place);
         if (!share || !out->place) {
-            st = status_error(STATUS_MEMORY, "out of memory for %d rail filaments", cells.n);
+            st = base_status_error(STATUS_MEMORY, "out of memory for %d rail filaments", cells.n);
         } else {
             out->current = out->place + rim;
             out->heating = out->current + rim;
-            st = impedance_currents(&z, _Complex_I * 2.0 * PI * f, share);
+            st = circuit_impedance_currents(&z, _Complex_I * 2.0 * PI * f, share);
         }
     }
     if (st.code == STATUS_OK) surface_fill(s, &cells, share, out);
     free(share);
-    impedance_free(&z);
-    filaments_free(&cells);
+    circuit_impedance_free(&z);
+    circuit_filaments_free(&cells);
     return st;
 }

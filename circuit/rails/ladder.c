@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where the real frequencies lie: from 10 over the slowest mode's time (T_11 is several of them) to twice the band's top.
- * Of the pairs tried (2, 5, 10; 1/2, 1, 2) this one needs the fewest rungs for every error from 0.1 to 1e-6. */
+/* Where the real frequencies lie: from 10 over the slowest mode's time (T_11 is several of them) to twice the band's
+ * top. Of the pairs tried (2, 5, 10; 1/2, 1, 2) this one needs the fewest rungs for every error from 0.1 to 1e-6. */
 static const double LOWEST = 10.0, HIGHEST = 2.0;
 
 enum { MAX_BASIS = LADDER_MAX_RUNGS + 1, GRID = 96 };
@@ -21,14 +21,14 @@ typedef struct {
     double T[MAX_BASIS][MAX_BASIS]; /* U T U^T */
 } projection;
 
-double complex ladder_at(const ladder *l, double complex s)
+double complex circuit_ladder_at(const ladder *l, double complex s)
 {
     double complex z = l->R_dc + s * l->L_inf;
     for (int k = 0; k < l->n; k++) z += s * l->L[k] * l->R[k] / (l->R[k] + s * l->L[k]);
     return z;
 }
 
-double ladder_slow_inductance(const ladder *l)
+double circuit_ladder_slow_inductance(const ladder *l)
 {
     double L = l->L_inf;
     for (int k = 0; k < l->n; k++) L += l->L[k];
@@ -86,7 +86,8 @@ static void enrich(projection *p, double c, double s)
     p->n++;
 }
 
-/* With T = [t c; c C] and C = G tau G^T, w = G^T c:  Z'/R_dc = 1 + s (t - sum w^2/tau) + sum (w^2/tau) s/(1 + s tau). */
+/* With T = [t c; c C] and C = G tau G^T, w = G^T c:  Z'/R_dc = 1 + s (t - sum w^2/tau) + sum (w^2/tau) s/(1 + s tau).
+ */
 static void rungs_of(const projection *p, ladder *out)
 {
     const size_t n = (size_t)p->n - 1;
@@ -121,8 +122,8 @@ static double worst(const projection *p, double omega_top, ladder *l)
     l->error = 0.0;
     double omega = low;
     for (int k = 0; k < GRID; k++, omega *= ratio) {
-        const double complex s = _Complex_I * omega, whole = impedance_at(p->z, s);
-        const double error = cabs(whole - ladder_at(l, s)) / cabs(whole - s * l->L_inf);
+        const double complex s = _Complex_I * omega, whole = circuit_impedance_at(p->z, s);
+        const double error = cabs(whole - circuit_ladder_at(l, s)) / cabs(whole - s * l->L_inf);
         if (!(error <= l->error)) l->error = error;
     }
     return l->error;
@@ -138,7 +139,7 @@ static void project(projection *p, int n, double omega_top)
     for (int j = 0; j < n; j++) enrich(p, 1.0, low * pow(top / low, (j + 0.5) / n));
 }
 
-status ladder_fit(const impedance *z, double omega_top, double error, ladder *out)
+status circuit_ladder_fit(const impedance *z, double omega_top, double error, ladder *out)
 {
     projection p = { .z = z, .U = malloc((size_t)(MAX_BASIS + 1) * (size_t)z->m * sizeof *p.U) };
     CHECK(p.U, STATUS_MEMORY, "out of memory for the rails' ladder");

@@ -15,12 +15,12 @@ typedef struct {
     double error; /* largest |Z' - ladder| over |Z' - s L_inf|, 0 < frequency <= the band's top [1] */
 } ladder;
 
-double _Complex ladder_at(const ladder *l, double _Complex s); /* [1/s] -> [ohm/m] */
-double ladder_slow_inductance(const ladder *l);                /* L' at direct current [H/m] */
+double _Complex circuit_ladder_at(const ladder *l, double _Complex s); /* [1/s] -> [ohm/m] */
+double circuit_ladder_slow_inductance(const ladder *l);                /* L' at direct current [H/m] */
 
-/* As many rungs as `error` [1] asks for up to omega_top [rad/s].  R_dc and the filaments' L' at infinite frequency are met
- * exactly, by Galerkin's projection on the current distributions of a few real frequencies (docs/shot.md).
+/* As many rungs as `error` [1] asks for up to omega_top [rad/s].  R_dc and the filaments' L' at infinite frequency are
+ * met exactly, by Galerkin's projection on the current distributions of a few real frequencies (docs/shot.md).
  * STATUS_NUMERICAL if LADDER_MAX_RUNGS do not do. */
-status ladder_fit(const impedance *z, double omega_top, double error, ladder *out);
+status circuit_ladder_fit(const impedance *z, double omega_top, double error, ladder *out);
 
 #endif

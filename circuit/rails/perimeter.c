@@ -35,18 +35,19 @@ static void outline_add(outline *o, section_point a, section_point b, double res
 static void outline_trace(const rail_section *s, outline *o)
 {
     double d[MAX_SIDE], y[SECTION_MAX_ROWS + 1];
-    const int rows = section_rows(s, FINEST * s->height, GROWTH, STEP, y);
-    const double half = 0.5 * s->height, top = section_face(s, half), side = section_back(s, half) - top;
+    const int rows = circuit_section_rows(s, FINEST * s->height, GROWTH, STEP, y);
+    const double half = 0.5 * s->height, top = circuit_section_face(s, half),
+                 side = circuit_section_back(s, half) - top;
     const double face_metal = s->cladding > 0.0 ? s->cladding_resistivity : s->resistivity;
     o->n = 0;
     for (int back = 0; back < 2; back++) {
-        double (*const x)(const rail_section *, double) = back ? section_back : section_face;
+        double (*const x)(const rail_section *, double) = back ? circuit_section_back : circuit_section_face;
         for (int j = 0; j < rows; j++)
             outline_add(o, (section_point){ x(s, y[j]), y[j] }, (section_point){ x(s, y[j + 1]), y[j + 1] },
                         back ? s->resistivity : face_metal);
     }
     if (side < 1e-9 * s->thickness) return;
-    const int n = filaments_graded(side, FINEST * side, GROWTH, 2, d);
+    const int n = circuit_filaments_graded(side, FINEST * side, GROWTH, 2, d);
     double x = top;
     for (int j = 0; j < n; x += d[j++])
         outline_add(o, (section_point){ x, half }, (section_point){ x + d[j], half },
@@ -71,8 +72,8 @@ static double panel_log(const panel *q, section_point p)
 static double panel_potential(const rail_section *s, const panel *p, const panel *q)
 {
     double sum = 0.0;
-    for (int image = 0; image < section_images(s); image++)
-        sum += section_image_sign(s, image) * panel_log(q, section_image(p->middle, image));
+    for (int image = 0; image < circuit_section_images(s); image++)
+        sum += circuit_section_image_sign(s, image) * panel_log(q, circuit_section_image(p->middle, image));
     return -MU0 / (2.0 * PI) * sum;
 }
 
@@ -98,13 +99,14 @@ static status currents_solve(const rail_section *s, const outline *o, gsl_vector
     return status_ok();
 }
 
-status perimeter_solve(const rail_section *s, double *L, double *skin)
+status circuit_perimeter_solve(const rail_section *s, double *L, double *skin)
 {
     outline o;
     outline_trace(s, &o);
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     gsl_vector *K = gsl_vector_alloc((size_t)o.n);
-    status st = K ? currents_solve(s, &o, K) : status_error(STATUS_MEMORY, "out of memory for %d rail panels", o.n);
+    status st =
+        K ? currents_solve(s, &o, K) : base_status_error(STATUS_MEMORY, "out of memory for %d rail panels", o.n);
     gsl_set_error_handler(handler);
     double I = 0.0, loss = 0.0;
     for (int j = 0; j < o.n && st.code == STATUS_OK; j++) {
@@ -114,7 +116,7 @@ status perimeter_solve(const rail_section *s, double *L, double *skin)
     }
     if (K) gsl_vector_free(K);
     TRY(st);
-    *L = section_weight(s) / I;
-    *skin = section_weight(s) * loss / (I * I);
+    *L = circuit_section_weight(s) / I;
+    *skin = circuit_section_weight(s) * loss / (I * I);
     return status_ok();
 }

@@ -1,4 +1,5 @@
-/* Rails as perfect conductors: the surface current on the outline, by panels of constant current graded to the corners. */
+/* Rails as perfect conductors: the surface current on the outline, by panels of constant current graded to the corners.
+ */
 #ifndef BREECH_CIRCUIT_PERIMETER_H
 #define BREECH_CIRCUIT_PERIMETER_H
 
@@ -6,6 +7,6 @@
 
 /* L of the whole [H/m], and R over sqrt(frequency) that a thin skin has in the metals' own surface impedance (C-9)
  * [ohm/m/Hz^1/2]. */
-status perimeter_solve(const rail_section *s, double *L, double *skin);
+status circuit_perimeter_solve(const rail_section *s, double *L, double *skin);
 
 #endif

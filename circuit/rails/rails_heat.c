@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-void rails_heat_start(rails_heat *h, double length)
+void circuit_rails_heat_start(rails_heat *h, double length)
 {
     memset(h, 0, sizeof *h);
     h->piece = length / RAILS_PIECES;
@@ -33,16 +33,16 @@ static void pass(rails_heat *h, const rails_load *r, double warm, int k, double 
 static void expose(rails_heat *h, const rails_load *r, int k, double v, double I)
 {
     const ladder *l = &r->ladder;
-    const double rate = l->n > 0 ? v / contact_spread(&r->contact, v, I) : 0.0;
+    const double rate = l->n > 0 ? v / circuit_contact_spread(&r->contact, v, I) : 0.0;
     for (int n = 0; n < l->n; n++) {
-        const double theta = rate * l->L[n] / l->R[n], a = rails_share_at_birth(theta);
-        h->heat[k] += 0.5 * l->L[n] * (a * (2.0 - a) - rails_share_of_force(theta)) * I * I;
+        const double theta = rate * l->L[n] / l->R[n], a = circuit_rails_share_at_birth(theta);
+        h->heat[k] += 0.5 * l->L[n] * (a * (2.0 - a) - circuit_rails_share_of_force(theta)) * I * I;
         h->j[k][n] = a * I;
     }
 }
 
-void rails_heat_carry(rails_heat *h, const rails_load *r, double warm, double from, double to, const rails_instant *a,
-                      const rails_instant *b)
+void circuit_rails_heat_carry(rails_heat *h, const rails_load *r, double warm, double from, double to,
+                              const rails_instant *a, const rails_instant *b)
 {
     for (int k = 0; k < RAILS_PIECES; k++) {
         const double x = (k + 0.5) * h->piece;
@@ -54,13 +54,13 @@ void rails_heat_carry(rails_heat *h, const rails_load *r, double warm, double fr
     }
 }
 
-void rails_heat_ahead(rails_heat *h, const rails_load *r, double x, double dt, double i0, double i1)
+void circuit_rails_heat_ahead(rails_heat *h, const rails_load *r, double x, double dt, double i0, double i1)
 {
     for (int k = 0; k < RAILS_PIECES; k++)
         if ((k + 0.5) * h->piece > x) h->heat[k] += r->ladder.R_dc * action(i0, i1, dt);
 }
 
-void rails_heat_slide(rails_heat *h, double x0, double x1, double E)
+void circuit_rails_heat_slide(rails_heat *h, double x0, double x1, double E)
 {
     const int first = (int)fmin(x0 / h->piece, RAILS_PIECES - 1), last = (int)fmin(x1 / h->piece, RAILS_PIECES - 1);
     for (int k = first; k <= last; k++) {

@@ -16,12 +16,12 @@ static double arc(double h, double c, double y)
     return y * y / (r + sqrt(fmax(r * r - y * y, 0.0)));
 }
 
-double section_face(const rail_section *s, double y)
+double circuit_section_face(const rail_section *s, double y)
 {
     return 0.5 * s->separation + arc(s->height, s->face_crown, y);
 }
 
-double section_back(const rail_section *s, double y)
+double circuit_section_back(const rail_section *s, double y)
 {
     return 0.5 * s->separation + s->thickness - arc(s->height, s->back_crown, y);
 }
@@ -34,12 +34,12 @@ static double lost_area(double h, double c)
     return h * c - r * r * (half - 0.5 * sin(2.0 * half));
 }
 
-double section_metal_area(const rail_section *s)
+double circuit_section_metal_area(const rail_section *s)
 {
     return s->height * s->thickness - lost_area(s->height, s->face_crown) - lost_area(s->height, s->back_crown);
 }
 
-status section_check(const rail_section *s)
+status circuit_section_check(const rail_section *s)
 {
     const double h = s->height, w = s->thickness, edge = w - s->face_crown - s->back_crown;
     CHECK(h > 0.0 && w > 0.0 && s->separation > 0.0, STATUS_BAD_INPUT,
@@ -59,7 +59,7 @@ status section_check(const rail_section *s)
     CHECK(s->cladding == 0.0 || (s->cladding_resistivity > 0.0 && isfinite(s->cladding_resistivity)), STATUS_BAD_INPUT,
           "rails.cladding_resistivity = %g ohm m: must be positive and finite", s->cladding_resistivity);
     CHECK(s->rails == 2 || s->rails == 4, STATUS_BAD_INPUT, "rails.count = %d: must be 2 or 4", s->rails);
-    CHECK(s->rails == 2 || section_face(s, 0.5 * h) > 0.5 * h, STATUS_BAD_INPUT,
+    CHECK(s->rails == 2 || circuit_section_face(s, 0.5 * h) > 0.5 * h, STATUS_BAD_INPUT,
           "four rails of height %g m, %g m apart, overlap: rails.height must be less than the bore at their edges", h,
           s->separation);
     return status_ok();
@@ -72,7 +72,7 @@ static double row_end(double y, double size, double r, double step)
     return fmax(y - size, r * sin(asin(fmin(y / r, 1.0)) - step));
 }
 
-int section_rows(const rail_section *s, double first, double growth, double step, double *y)
+int circuit_section_rows(const rail_section *s, double first, double growth, double step, double *y)
 {
     const double half = 0.5 * s->height, r = radius(s->height, fmax(s->face_crown, s->back_crown));
     double size = first;
@@ -87,24 +87,24 @@ int section_rows(const rail_section *s, double first, double growth, double step
     return n;
 }
 
-int section_images(const rail_section *s)
+int circuit_section_images(const rail_section *s)
 {
     return 2 * s->rails;
 }
 
-section_point section_image(section_point p, int image)
+section_point circuit_section_image(section_point p, int image)
 {
     if (image & 4) p = (section_point){ p.y, p.x };
     return (section_point){ image & 1 ? -p.x : p.x, image & 2 ? -p.y : p.y };
 }
 
-double section_image_sign(const rail_section *s, int image)
+double circuit_section_image_sign(const rail_section *s, int image)
 {
     if (s->rails == 4) return image & 4 ? -1.0 : 1.0;
     return image & 1 ? -1.0 : 1.0;
 }
 
-double section_weight(const rail_section *s)
+double circuit_section_weight(const rail_section *s)
 {
     return s->rails == 4 ? 0.5 : 1.0;
 }

@@ -1,10 +1,10 @@
 /* Cross-section of a set of equal rails, and its symmetry.
  *
- * The bore is at x = 0; the first rail lies at x > 0, symmetric about y = 0, its bore face at x = s/2 + (arc), its back at
- * x = s/2 + w - (arc).  Crowned faces are circular arcs that recede by the crown at y = +-h/2; with both crowns h/2 and
- * w = h the rail is round, with one it is D-shaped.  Two rails: the second at x < 0 carries the current back.  Four rails:
- * one at each of +-x carries half the current, one at each of +-y half of it back.  What is solved is the quarter of one
- * rail's neighbourhood, y > 0, and its images. */
+ * The bore is at x = 0; the first rail lies at x > 0, symmetric about y = 0, its bore face at x = s/2 + (arc), its back
+ * at x = s/2 + w - (arc).  Crowned faces are circular arcs that recede by the crown at y = +-h/2; with both crowns h/2
+ * and w = h the rail is round, with one it is D-shaped.  Two rails: the second at x < 0 carries the current back.  Four
+ * rails: one at each of +-x carries half the current, one at each of +-y half of it back.  What is solved is the
+ * quarter of one rail's neighbourhood, y > 0, and its images. */
 #ifndef BREECH_CIRCUIT_SECTION_H
 #define BREECH_CIRCUIT_SECTION_H
 
@@ -27,23 +27,24 @@ typedef struct {
 
 enum { SECTION_MAX_IMAGES = 8 };
 
-status section_check(const rail_section *s); /* STATUS_BAD_INPUT names the key, its value and range */
+status circuit_section_check(const rail_section *s); /* STATUS_BAD_INPUT names the key, its value and range */
 
-double section_face(const rail_section *s, double y); /* x of the bore face at |y| <= h/2 [m] */
-double section_back(const rail_section *s, double y);
-double section_metal_area(const rail_section *s); /* of one rail [m^2] */
+double circuit_section_face(const rail_section *s, double y); /* x of the bore face at |y| <= h/2 [m] */
+double circuit_section_back(const rail_section *s, double y);
+double circuit_section_metal_area(const rail_section *s); /* of one rail [m^2] */
 
-/* Lines y[0] = h/2 > y[1] > .. > y[n] = 0 across a face: rows grow from `first` [m] by `growth`, and span no more than `step`
- * radians of the more curved face's arc.  Returns n; `y` must hold n + 1 <= SECTION_MAX_ROWS + 1.  More than that: 0. */
+/* Lines y[0] = h/2 > y[1] > .. > y[n] = 0 across a face: rows grow from `first` [m] by `growth`, and span no more than
+ * `step` radians of the more curved face's arc.  Returns n; `y` must hold n + 1 <= SECTION_MAX_ROWS + 1.  More than
+ * that: 0. */
 enum { SECTION_MAX_ROWS = 400 };
-int section_rows(const rail_section *s, double first, double growth, double step, double *y);
+int circuit_section_rows(const rail_section *s, double first, double growth, double step, double *y);
 
-int section_images(const rail_section *s);                   /* 4 or 8; number 0 is the point itself */
-section_point section_image(section_point p, int image);     /* isometries */
-double section_image_sign(const rail_section *s, int image); /* of the current there */
+int circuit_section_images(const rail_section *s);                   /* 4 or 8; number 0 is the point itself */
+section_point circuit_section_image(section_point p, int image);     /* isometries */
+double circuit_section_image_sign(const rail_section *s, int image); /* of the current there */
 
-/* Z' [ohm/m] of the whole = this over the current that the solved half of a rail carries at 1 V/m between its two ends and
- * the field's potential (C-8) [1]. */
-double section_weight(const rail_section *s);
+/* Z' [ohm/m] of the whole = this over the current that the solved half of a rail carries at 1 V/m between its two ends
+ * and the field's potential (C-8) [1]. */
+double circuit_section_weight(const rail_section *s);
 
 #endif

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #define SUPPLY(kind, type, section, lists, text)                                      \
-    extern const supply_kind kind_##kind;                                             \
+    extern const supply_kind circuit_kind_##kind;                                     \
     _Static_assert(offsetof(type, count) == offsetof(supply_common, count) &&         \
                        offsetof(type, fire_at) == offsetof(supply_common, fire_at) && \
                        offsetof(type, position) == offsetof(supply_common, position), \
@@ -12,37 +12,37 @@
 #include "circuit/supply/supply.def"
 #undef SUPPLY
 
-#define SUPPLY(kind, type, section, lists, text) &kind_##kind,
-const supply_kind *const supply_kinds[] = {
+#define SUPPLY(kind, type, section, lists, text) &circuit_kind_##kind,
+const supply_kind *const circuit_supply_kinds[] = {
 #include "circuit/supply/supply.def"
 };
 #undef SUPPLY
 
 #define SUPPLY(kind, type, section, lists, text) #section,
-const char *const supply_sections[] = {
+const char *const circuit_supply_sections[] = {
 #include "circuit/supply/supply.def"
     NULL
 };
 #undef SUPPLY
 
-supply_common supply_common_of(const void *p)
+supply_common circuit_supply_common_of(const void *p)
 {
     supply_common at;
     memcpy(&at, p, sizeof at);
     return at;
 }
 
-bool supply_conducts(const supply_group *g)
+bool circuit_supply_conducts(const supply_group *g)
 {
     return g->gate == GATE_ON;
 }
 
-bool supply_algebraic(const supply_group *g, int j)
+bool circuit_supply_algebraic(const supply_group *g, int j)
 {
     return g->kind->algebraic && g->kind->algebraic(g, j);
 }
 
-void supply_rates(const supply_group *g, double t, const double *y, double V, double *d, supply_flow *f)
+void circuit_supply_rates(const supply_group *g, double t, const double *y, double V, double *d, supply_flow *f)
 {
     *f = (supply_flow){ .push = 0.0 };
     const int n = g->unknowns;
@@ -50,11 +50,11 @@ void supply_rates(const supply_group *g, double t, const double *y, double V, do
     if (g->gate == GATE_BLOCKED) return;
     g->kind->flow(g, t, y, f);
     for (int j = 1; j < n; j++) d[j] = f->rate[j];
-    if (!supply_conducts(g)) return;
-    d[0] = supply_algebraic(g, 0) ? f->rate[0] : f->push - f->pull * V;
+    if (!circuit_supply_conducts(g)) return;
+    d[0] = circuit_supply_algebraic(g, 0) ? f->rate[0] : f->push - f->pull * V;
 }
 
-double supply_stage_root(const supply_group *g, double t, const double *y)
+double circuit_supply_stage_root(const supply_group *g, double t, const double *y)
 {
     return g->kind->root && g->gate != GATE_BLOCKED ? g->kind->root(g, t, y) : 1.0;
 }

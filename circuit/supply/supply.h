@@ -1,8 +1,8 @@
 /* What can drive a shot: the parameters of every kind of supply.
  *
  * `count` equal units side by side, fired together, are a group; groups of all kinds stand in parallel on the rails.
- * To add a kind: its struct here, circuit/supply/supply_<kind>.c (the rules: circuit/supply/supply_kind.h), one line in circuit/supply/supply.def.
- * Reader, manual, used.yaml, checks and tests/test_circuit_supplies.c walk the table. */
+ * To add a kind: its struct here, circuit/supply/supply_<kind>.c (the rules: circuit/supply/supply_kind.h), one line in
+ * circuit/supply/supply.def. Reader, manual, used.yaml, checks and tests/test_circuit_supplies.c walk the table. */
 #ifndef BREECH_CIRCUIT_SUPPLY_H
 #define BREECH_CIRCUIT_SUPPLY_H
 
@@ -21,9 +21,9 @@ typedef struct {
     SUPPLY_COMMON
 } supply_common;
 
-/* Capacitor, crowbar diode across it, switch, pulse-forming coil, cable to the rails, all in series but the diode.  The gate
- * is held from fire_at until the switch has conducted; with a series diode (or a thyristor for the switch) it is off for good
- * once its current has come back to zero, without one the current may reverse. */
+/* Capacitor, crowbar diode across it, switch, pulse-forming coil, cable to the rails, all in series but the diode.  The
+ * gate is held from fire_at until the switch has conducted; with a series diode (or a thyristor for the switch) it is
+ * off for good once its current has come back to zero, without one the current may reverse. */
 typedef struct {
     SUPPLY_COMMON
     double capacitance;        /* of one module [F] */
@@ -63,8 +63,9 @@ typedef struct {
     double resistance; /* [ohm] */
 } supply_homopolar;
 
-/* One phase of a pulse alternator (compulsator) behind a thyristor: voltage flux x speed x sin(pole_pairs x angle + phase),
- * at constant excitation.  Gives `pulses` half waves, each from the instant its voltage exceeds that of the rails. */
+/* One phase of a pulse alternator (compulsator) behind a thyristor: voltage flux x speed x sin(pole_pairs x angle +
+ * phase), at constant excitation.  Gives `pulses` half waves, each from the instant its voltage exceeds that of the
+ * rails. */
 typedef struct {
     SUPPLY_COMMON
     double flux; /* peak [V s/rad] */
@@ -82,13 +83,14 @@ typedef struct {
     double time, current; /* after fire_at; of one unit [s, A] */
 } supply_point;
 
-/* A current that is given: what the source is does not matter.  Monotone cubic between its points, first and last zero. */
+/* A current that is given: what the source is does not matter.  Monotone cubic between its points, first and last zero.
+ */
 typedef struct {
     SUPPLY_COMMON
     char file[PARAM_TEXT_SIZE]; /* where the points came from; circuit/ does not open it */
     struct {
         int n;
-        supply_point *item; /* n, times ascending from 0; borrowed until shot_create returns */
+        supply_point *item; /* n, times ascending from 0; borrowed until circuit_shot_create returns */
     } points;
 } supply_profile;
 
@@ -102,15 +104,15 @@ typedef enum {
 /* The groups of one kind. */
 typedef struct {
     int n;
-    const void *item; /* n structs of the kind; borrowed until shot_create returns */
+    const void *item; /* n structs of the kind; borrowed until circuit_shot_create returns */
 } supply_list;
 
 /* Keys, units, defaults, ranges and texts, a table a kind. */
-#define SUPPLY(kind, type, section, lists, text) extern const param supply_##kind##_params[];
+#define SUPPLY(kind, type, section, lists, text) extern const param circuit_supply_##kind##_params[];
 #include "circuit/supply/supply.def"
 #undef SUPPLY
-extern const param supply_point_params[];
+extern const param circuit_supply_point_params[];
 
-extern const char *const supply_sections[]; /* of the case file, by kind, NULL at the end */
+extern const char *const circuit_supply_sections[]; /* of the case file, by kind, NULL at the end */
 
 #endif

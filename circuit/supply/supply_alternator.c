@@ -1,4 +1,5 @@
-/* One phase of a pulse alternator at constant excitation (flux k, p pole pairs, inertia J, speed w, angle a, windage b w):
+/* One phase of a pulse alternator at constant excitation (flux k, p pole pairs, inertia J, speed w, angle a, windage b
+ * w):
  *   e = k sin(p a + phase),   L di/dt = e w - R i - V,   J dw/dt = -e i - b w,   da/dt = w
  * y = i, w, a. */
 #include "circuit/supply/supply_kind.h"
@@ -7,7 +8,7 @@
 
 #define MACHINE(member, unit, fallback, min, max, doc) \
     PARAM_DOUBLE(supply_alternator, member, unit, fallback, min, max, doc)
-const param supply_alternator_params[] = {
+const param circuit_supply_alternator_params[] = {
     PARAM_INT(supply_alternator, count, 1, 1, 1e6, "identical machines in this group, in step"),
     MACHINE(flux, "V s/rad", REQUIRED, 1e-6, 1e4, "peak voltage over speed, peak torque over current"),
     PARAM_INT(supply_alternator, pole_pairs, 1, 1, 100, "pole pairs"),
@@ -79,9 +80,9 @@ static void stored(const supply_group *g, const double *y, double *e)
     e[STORE_ROTOR] += 0.5 * p->inertia * y[1] * y[1];
 }
 
-const supply_kind kind_alternator = {
+const supply_kind circuit_kind_alternator = {
     .name = "alternator",
-    .params = supply_alternator_params,
+    .params = circuit_supply_alternator_params,
     .size = sizeof(supply_alternator),
     .unknowns = unknowns,
     .pulses = pulses,

@@ -1,4 +1,5 @@
-/* Capacitor module (C voltage u, crowbar diode V_d + R_d i_D across it, coil L_p with damping R_p across it, cable L_c):
+/* Capacitor module (C voltage u, crowbar diode V_d + R_d i_D across it, coil L_p with damping R_p across it, cable
+ * L_c):
  *   L di/dt = u - R i - V,  L = L_p + L_c,  C du/dt = -i
  *   crowbar conducting:  R_d C di_D/dt = i - i_D,  u = -V_d - R_d i_D   (R_d = 0: i_D = i, algebraic)
  *   damped:  L_c di/dt = u - R i - R_p (i - i_p) - V,  L_p di_p/dt = R_p (i - i_p)
@@ -9,16 +10,16 @@
 
 enum { CHARGED, CROWBARRED };
 
-/* The diode goes on and off this far apart, in units of what voltage and current can reach: it must leave its knee to come
- * back to it.  Far above round-off, far below any tolerance. */
+/* The diode goes on and off this far apart, in units of what voltage and current can reach: it must leave its knee to
+ * come back to it.  Far above round-off, far below any tolerance. */
 static const double KNEE = 4e-12;
 
-/* The diode's current goes from 0 to the module's in R_d C, a microsecond, and moves the capacitor by its drop alone: its scale
- * is that of the capacitor's voltage over R_d, and no more than so many of the module's current. */
+/* The diode's current goes from 0 to the module's in R_d C, a microsecond, and moves the capacitor by its drop alone:
+ * its scale is that of the capacitor's voltage over R_d, and no more than so many of the module's current. */
 static const double LOOSE = 100.0;
 
 #define MODULE(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_module, member, unit, fallback, min, max, doc)
-const param supply_capacitor_params[] = {
+const param circuit_supply_capacitor_params[] = {
     PARAM_INT(shot_module, count, 1, 1, 1e6, "identical modules in this group"),
     MODULE(capacitance, "F", REQUIRED, 1e-12, 1e3, "capacitance of one module"),
     MODULE(charge, "V", REQUIRED, 0.0, 1e6, "charging voltage at t = 0"),
@@ -162,9 +163,9 @@ static void stored(const supply_group *g, const double *y, double *e)
     e[STORE_CABLE] += 0.5 * p->cable_inductance * y[0] * y[0];
 }
 
-const supply_kind kind_capacitor = {
+const supply_kind circuit_kind_capacitor = {
     .name = "capacitor",
-    .params = supply_capacitor_params,
+    .params = circuit_supply_capacitor_params,
     .size = sizeof(shot_module),
     .check = check,
     .unknowns = unknowns,

@@ -7,7 +7,7 @@
 
 #define MACHINE(member, unit, fallback, min, max, doc) \
     PARAM_DOUBLE(supply_homopolar, member, unit, fallback, min, max, doc)
-const param supply_homopolar_params[] = {
+const param circuit_supply_homopolar_params[] = {
     PARAM_INT(supply_homopolar, count, 1, 1, 1e6, "identical machines in this group"),
     MACHINE(flux, "V s/rad", REQUIRED, 1e-6, 1e4, "voltage over speed, torque over current"),
     MACHINE(inertia, "kg m^2", REQUIRED, 1e-6, 1e7, "moment of inertia of the rotor"),
@@ -65,9 +65,9 @@ static void stored(const supply_group *g, const double *y, double *e)
     e[STORE_ROTOR] += 0.5 * p->inertia * y[1] * y[1];
 }
 
-const supply_kind kind_homopolar = {
+const supply_kind circuit_kind_homopolar = {
     .name = "homopolar",
-    .params = supply_homopolar_params,
+    .params = circuit_supply_homopolar_params,
     .size = sizeof(supply_homopolar),
     .unknowns = unknowns,
     .rise = rise,

@@ -11,7 +11,7 @@ enum { SWITCH_CLOSED, SWITCH_OPEN };
 
 #define STORE(member, unit, fallback, min, max, doc) \
     PARAM_DOUBLE(supply_inductor, member, unit, fallback, min, max, doc)
-const param supply_inductor_params[] = {
+const param circuit_supply_inductor_params[] = {
     PARAM_INT(supply_inductor, count, 1, 1, 1e6, "identical stores in this group"),
     STORE(inductance, "H", REQUIRED, 1e-9, 10.0, "inductance of the store"),
     STORE(resistance, "ohm", 0.0, 0.0, 1e3, "resistance of store, battery and leads in series"),
@@ -105,9 +105,9 @@ static double voltage(const supply_group *g, const double *y)
     return opening ? p->opening_voltage : 0.0;
 }
 
-const supply_kind kind_inductor = {
+const supply_kind circuit_kind_inductor = {
     .name = "inductor",
-    .params = supply_inductor_params,
+    .params = circuit_supply_inductor_params,
     .size = sizeof(supply_inductor),
     .unknowns = unknowns,
     .rise = rise,

@@ -1,13 +1,13 @@
 /* What a kind of supply is to the circuit (internal to circuit/).
  *
- * A unit has up to SUPPLY_UNKNOWNS unknowns: y[0] = its current i [A], positive into the rails, the others its own.  Between
- * two switchings, V the voltage where it joins the rails,
+ * A unit has up to SUPPLY_UNKNOWNS unknowns: y[0] = its current i [A], positive into the rails, the others its own.
+ * Between two switchings, V the voltage where it joins the rails,
  *     di/dt = push - pull V,    dy_j/dt = rate_j for j > 0                                      (S-1)
  * or, for an unknown that is algebraic, y_j = rate_j.  A unit that does not conduct has i = 0.
  * Law for every kind, stage and state, which tests/test_circuit_supplies.c checks:
  *     supplied + (source ? V i : 0) - V i - sum of heats = d(stored)/dt,  heats >= 0            (S-2)
- * The gate is the driver's (circuit/shot_switch.c); a stage is the kind's: it ends when `root` falls through zero, and `next`
- * then changes the unknowns to those of the stage that follows. */
+ * The gate is the driver's (circuit/shot_switch.c); a stage is the kind's: it ends when `root` falls through zero, and
+ * `next` then changes the unknowns to those of the stage that follows. */
 #ifndef BREECH_CIRCUIT_SUPPLY_KIND_H
 #define BREECH_CIRCUIT_SUPPLY_KIND_H
 
@@ -81,13 +81,13 @@ struct supply_kind {
     PARAM_DOUBLE(type, position, "m", 0.0, 0.0, 1e3, \
                  "where it joins the rails, from the breech; conducts once the armature has passed there")
 
-extern const supply_kind *const supply_kinds[]; /* SUPPLY_KINDS */
+extern const supply_kind *const circuit_supply_kinds[]; /* SUPPLY_KINDS */
 
-supply_common supply_common_of(const void *p); /* p: any kind's struct */
-bool supply_conducts(const supply_group *g);
+supply_common circuit_supply_common_of(const void *p); /* p: any kind's struct */
+bool circuit_supply_conducts(const supply_group *g);
 /* The group's flow and rates: d[j] = dy_j/dt, or the value y_j must have where it is algebraic. */
-void supply_rates(const supply_group *g, double t, const double *y, double V, double *d, supply_flow *f);
-bool supply_algebraic(const supply_group *g, int j);
-double supply_stage_root(const supply_group *g, double t, const double *y); /* 1 where the stage has no end */
+void circuit_supply_rates(const supply_group *g, double t, const double *y, double V, double *d, supply_flow *f);
+bool circuit_supply_algebraic(const supply_group *g, int j);
+double circuit_supply_stage_root(const supply_group *g, double t, const double *y); /* 1 where the stage has no end */
 
 #endif

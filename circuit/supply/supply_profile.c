@@ -1,5 +1,5 @@
-/* A current that is given: i = I(t - fire_at), algebraic, I the monotone cubic (Steffen 1990) through the points; its slope
- * drives the rails' inductance.  The power V i that this takes is booked as supplied.  y = i. */
+/* A current that is given: i = I(t - fire_at), algebraic, I the monotone cubic (Steffen 1990) through the points; its
+ * slope drives the rails' inductance.  The power V i that this takes is booked as supplied.  y = i. */
 #include "circuit/supply/supply_kind.h"
 
 #include <gsl/gsl_errno.h>
@@ -9,7 +9,7 @@
 
 enum { MAX_POINTS = 5000 };
 
-const param supply_profile_params[] = {
+const param circuit_supply_profile_params[] = {
     PARAM_INT(supply_profile, count, 1, 1, 1e6, "factor on the current"),
     PARAM_STRING(supply_profile, file, "",
                  "table of time [s] and current [A], a row a point; looked for beside the case"),
@@ -18,9 +18,10 @@ const param supply_profile_params[] = {
     SUPPLY_POSITION(supply_profile), PARAMS_END
 };
 
-const param supply_point_params[] = { PARAM_DOUBLE(supply_point, time, "s", REQUIRED, 0.0, 1e3, "from fire_at"),
-                                      PARAM_DOUBLE(supply_point, current, "A", REQUIRED, -1e9, 1e9, "current then"),
-                                      PARAMS_END };
+const param circuit_supply_point_params[] = {
+    PARAM_DOUBLE(supply_point, time, "s", REQUIRED, 0.0, 1e3, "from fire_at"),
+    PARAM_DOUBLE(supply_point, current, "A", REQUIRED, -1e9, 1e9, "current then"), PARAMS_END
+};
 
 typedef struct {
     gsl_interp *interp;
@@ -165,9 +166,9 @@ static double voltage(const supply_group *g, const double *y)
     return 0.0;
 }
 
-const supply_kind kind_profile = {
+const supply_kind circuit_kind_profile = {
     .name = "profile",
-    .params = supply_profile_params,
+    .params = circuit_supply_profile_params,
     .size = sizeof(supply_profile),
     .source = true,
     .check = check,

@@ -11,7 +11,7 @@
 void case_free(breech_case *c)
 {
     if (!c) return;
-    for (const case_section *s = case_root.children; s->key; s++) section_free(s, c);
+    for (const case_section *s = case_root.children; s->key; s++) case_section_free(s, c);
     free(c->warnings);
     free(c);
 }
@@ -75,18 +75,18 @@ static void load_one(case_reader *r, const material_use *use, const char *const 
 {
     material_sheet sheet;
     char *errors = NULL, warning[MATERIAL_WARNING_SIZE];
-    const status s = material_sheet_find(r->u, use->name, dirs, n_dirs, &sheet, &errors);
+    const status s = case_material_sheet_find(r->u, use->name, dirs, n_dirs, &sheet, &errors);
     if (s.code == STATUS_MEMORY) {
         r->out_of_memory = true;
     } else if (s.code != STATUS_OK) {
-        errors_add(r->errors, use->where, "%s = %.*s: %s", use->key, CASE_SHOWN, use->name,
-                   errors ? "its file has errors" : s.text);
+        case_errors_add(r->errors, use->where, "%s = %.*s: %s", use->key, CASE_SHOWN, use->name,
+                        errors ? "its file has errors" : s.text);
         if (errors) add_lines(r->errors, errors);
     } else {
         keep_material(r, &sheet.material);
-        material_sheet_warning(&sheet, warning);
+        case_material_sheet_warning(&sheet, warning);
         warn(r, warning);
-        material_sheet_free(&sheet);
+        case_material_sheet_free(&sheet);
     }
     free(errors);
 }
@@ -94,13 +94,13 @@ static void load_one(case_reader *r, const material_use *use, const char *const 
 static void check_own(case_reader *r)
 {
     const case_materials *list = &r->out->materials;
-    const tree_node *node = tree_find(r->root, "materials");
+    const tree_node *node = host_tree_find(r->root, "materials");
     char line[PARAM_TEXT_SIZE + 100];
     for (int k = 0; k < list->n; k++) {
         const char *name = list->item[k].name;
         for (int i = 0; i < k; i++)
             if (name[0] && strcmp(name, list->item[i].name) == 0)
-                errors_add(r->errors, node, "materials[%d].name = %s: the same as materials[%d]", k, name, i);
+                case_errors_add(r->errors, node, "materials[%d].name = %s: the same as materials[%d]", k, name, i);
         snprintf(line, sizeof line, "material %s: constants as given in the case itself, without their sources", name);
         warn(r, line);
     }
@@ -125,7 +125,7 @@ static void case_folder(const case_reader *r, char folder[CASE_PATH_SIZE])
         snprintf(folder, CASE_PATH_SIZE, ".");
 }
 
-void materials_load(case_reader *r)
+void case_materials_load(case_reader *r)
 {
     enum { MAX_DIRS = 16 };
     const char *dirs[MAX_DIRS];
@@ -148,21 +148,22 @@ static void profile_load(case_reader *r, supply_profile *p, const tree_node *whe
     char path[CASE_PATH_SIZE + PARAM_TEXT_SIZE + 2], folder[CASE_PATH_SIZE];
     if (p->file[0] == '\0') return;
     if (p->points.n > 0) {
-        errors_add(r->errors, where, "a current profile with both file and points: give one of them");
+        case_errors_add(r->errors, where, "a current profile with both file and points: give one of them");
         return;
     }
     case_folder(r, folder);
     snprintf(path, sizeof path, "%s%s%s", p->file[0] == '/' ? "" : folder, p->file[0] == '/' ? "" : "/", p->file);
-    const status s = profile_file_read(path, &p->points.item, &p->points.n);
-    if (s.code != STATUS_OK) errors_add(r->errors, where, "%.400s", s.text);
+    const status s = case_profile_read(path, &p->points.item, &p->points.n);
+    if (s.code != STATUS_OK) case_errors_add(r->errors, where, "%.400s", s.text);
     p->file[0] = '\0'; /* used.yaml then has the points themselves */
 }
 
-void profiles_load(case_reader *r)
+void case_profiles_load(case_reader *r)
 {
     case_supplies *list = &r->out->supplies[SUPPLY_profile];
     for (int k = 0; k < list->n; k++)
-        profile_load(r, (supply_profile *)list->item + k, tree_find(r->root, supply_sections[SUPPLY_profile]));
+        profile_load(r, (supply_profile *)list->item + k,
+                     host_tree_find(r->root, circuit_supply_sections[SUPPLY_profile]));
 }
 
 /* ---- the whole way ---- */
@@ -170,9 +171,9 @@ void profiles_load(case_reader *r)
 static status set_all(case_errors *e, tree_node **root, const char *const *sets, int n_sets)
 {
     for (int k = 0; k < n_sets; k++) {
-        const status s = tree_set(root, sets[k], k);
+        const status s = host_tree_set(root, sets[k], k);
         CHECK(s.code == STATUS_OK || s.code == STATUS_BAD_INPUT, s.code, "%s", s.text);
-        if (s.code != STATUS_OK) errors_add(e, &(tree_node){ .set = k }, "%s", s.text);
+        if (s.code != STATUS_OK) case_errors_add(e, &(tree_node){ .set = k }, "%s", s.text);
     }
     return status_ok();
 }
@@ -182,10 +183,10 @@ static status read_tree(case_reader *r)
     breech_case *c = r->out;
     case_section root = case_root;
     root.offset = 0;
-    section_read(r, &root, r->root, c, "");
-    populations_resolve(r);
-    materials_load(r);
-    profiles_load(r);
+    case_section_read(r, &root, r->root, c, "");
+    case_populations_resolve(r);
+    case_materials_load(r);
+    case_profiles_load(r);
     case_resolve(c, r->root);
     case_check_whole(r);
     CHECK(!r->out_of_memory, STATUS_MEMORY, "out of memory while reading %.200s", c->path);
@@ -195,14 +196,15 @@ static status read_tree(case_reader *r)
 static status build(case_reader *r, const case_text *text, tree_node **root)
 {
     int line, column;
-    const status s = tree_parse(text->bytes, text->length, root, &line, &column);
+    const status s = host_tree_parse(text->bytes, text->length, root, &line, &column);
     CHECK(s.code != STATUS_MEMORY, s.code, "%s", s.text);
     if (s.code != STATUS_OK) {
-        errors_add_at(r->errors, line, column, "%s", s.text);
+        case_errors_add_at(r->errors, line, column, "%s", s.text);
         return status_ok();
     }
     if ((*root)->kind != TREE_MAP) {
-        errors_add(r->errors, *root, "%s is no case: it must hold sections, such as `bank:` and `rails:`", text->path);
+        case_errors_add(r->errors, *root, "%s is no case: it must hold sections, such as `bank:` and `rails:`",
+                        text->path);
         return status_ok();
     }
     TRY(set_all(r->errors, root, text->sets, text->n_sets));
@@ -220,19 +222,19 @@ status case_build(const units *u, const case_text *text, const case_options *opt
     breech_case *c = calloc(1, sizeof *c);
     case_errors *found = calloc(1, sizeof *found);
     case_reader r = { .u = u, .options = options, .errors = found, .out = c };
-    status s = status_error(STATUS_MEMORY, "out of memory while reading %.200s", text->path);
+    status s = base_status_error(STATUS_MEMORY, "out of memory while reading %.200s", text->path);
     if (c && found) {
         c->warnings = strdup("");
         snprintf(c->path, sizeof c->path, "%s", text->path);
         found->file = c->path;
         found->sets = text->sets;
         if (c->warnings) s = build(&r, text, &root);
-        if (s.code == STATUS_OK) s = errors_finish(found, errors);
-        errors_free(found);
+        if (s.code == STATUS_OK) s = case_errors_finish(found, errors);
+        case_errors_free(found);
     }
     free(r.use);
     free(found);
-    tree_free(root);
+    host_tree_free(root);
     if (s.code == STATUS_OK)
         *out = c;
     else
@@ -245,9 +247,9 @@ status case_read_memory(const case_text *text, const case_options *options, bree
     units *u = NULL;
     *out = NULL;
     *errors = NULL;
-    TRY(units_open(&u));
+    TRY(host_units_open(&u));
     const status s = case_build(u, text, options, out, errors);
-    units_close(u);
+    host_units_close(u);
     return s;
 }
 
@@ -261,10 +263,10 @@ status case_read(const char *path, const char *const *sets, int n_sets, const ca
     *errors = NULL;
     const size_t end = strlen(path);
     const char *slash = end > 0 && path[end - 1] == '/' ? "" : "/";
-    const int used = folder_exists(path) ? snprintf(file, sizeof file, "%s%scase.yaml", path, slash)
-                                         : snprintf(file, sizeof file, "%s", path);
+    const int used = host_folder_exists(path) ? snprintf(file, sizeof file, "%s%scase.yaml", path, slash)
+                                              : snprintf(file, sizeof file, "%s", path);
     CHECK(used < (int)sizeof file, STATUS_BAD_INPUT, "the case's path is longer than %d bytes", CASE_PATH_SIZE - 1);
-    TRY(file_text(file, TREE_MAX_BYTES, &bytes, &length));
+    TRY(host_file_text(file, TREE_MAX_BYTES, &bytes, &length));
     const case_text text = { bytes, length, file, sets, n_sets };
     const status s = case_read_memory(&text, options, out, errors);
     free(bytes);

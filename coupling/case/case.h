@@ -3,8 +3,8 @@
  * Every key stands once, in a param table (this folder's case_schema.c; circuit/ for the electromechanical sections);
  * reading, `breech check`, used.yaml and the manual's key list are made from it.
  * To add a key: a member below and one line in its table.  To add a section: a struct, a table, one line in the schema.
- * A section that the file leaves out holds the table's defaults, required numbers NAN; `needs` says which must be there.
- * Numbers that are OPTIONAL and not given hold NAN. */
+ * A section that the file leaves out holds the table's defaults, required numbers NAN; `needs` says which must be
+ * there. Numbers that are OPTIONAL and not given hold NAN. */
 #ifndef BREECH_COUPLING_CASE_H
 #define BREECH_COUPLING_CASE_H
 

@@ -15,13 +15,13 @@ static void resolve_text(char *own, const char *shared)
 
 static bool is_given(const tree_node *map, const char *key)
 {
-    return tree_find(map, key) != NULL;
+    return host_tree_find(map, key) != NULL;
 }
 
 /* Given, and not as `none`. */
 static bool has_value(const tree_node *map, const char *key)
 {
-    const tree_node *node = tree_find(map, key);
+    const tree_node *node = host_tree_find(map, key);
     return node && !(node->kind == TREE_TEXT && strcmp(node->text, "none") == 0);
 }
 
@@ -35,7 +35,7 @@ static void resolve_site(case_site *site, const case_particle *shared, const tre
     if (!is_given(node, "bond_strength")) site->bond_strength = shared->bond_strength;
 }
 
-const tree_node *entry_node(const tree_node *list, int k)
+const tree_node *case_entry_node(const tree_node *list, int k)
 {
     if (!list) return NULL;
     if (list->kind != TREE_LIST) return k == 0 ? list : NULL;
@@ -44,10 +44,10 @@ const tree_node *entry_node(const tree_node *list, int k)
 
 void case_resolve(breech_case *c, const tree_node *root)
 {
-    const tree_node *sites = tree_find(root, "sites");
+    const tree_node *sites = host_tree_find(root, "sites");
     resolve_text(c->particle.material, c->rail.material);
     if (isnan(c->particle.height)) c->particle.height = c->particle.radius;
-    for (int k = 0; k < c->sites.n; k++) resolve_site(&c->sites.item[k], &c->particle, entry_node(sites, k));
+    for (int k = 0; k < c->sites.n; k++) resolve_site(&c->sites.item[k], &c->particle, case_entry_node(sites, k));
 }
 
 /* ---- sections and keys that the command needs ---- */
@@ -76,15 +76,16 @@ static void check_sections(case_reader *r)
 {
     const unsigned needs = r->options->needs;
     for (const case_section *s = case_root.children; s->key; s++) {
-        const tree_node *node = tree_find(r->root, s->key);
-        const bool empty_list = s->list && node && ((node->kind == TREE_LIST && node->n == 0) || tree_is_empty(node));
+        const tree_node *node = host_tree_find(r->root, s->key);
+        const bool empty_list =
+            s->list && node && ((node->kind == TREE_LIST && node->n == 0) || host_tree_is_empty(node));
         if (!(s->needed_for & needs) || (node && !empty_list)) continue;
-        errors_add(r->errors, node ? node : r->root, "section `%s` is %s: `%s` needs it", s->key,
-                   node ? "empty" : "missing", command_of(s->needed_for & needs));
+        case_errors_add(r->errors, node ? node : r->root, "section `%s` is %s: `%s` needs it", s->key,
+                        node ? "empty" : "missing", command_of(s->needed_for & needs));
     }
     if ((needs & CASE_FOR_ONSET) && r->out->sites.n == 0 && r->out->populations.n == 0)
-        errors_add(r->errors, r->root, "section `sites` is missing: `%s` needs it, or `populations`",
-                   command_of(needs));
+        case_errors_add(r->errors, r->root, "section `sites` is missing: `%s` needs it, or `populations`",
+                        command_of(needs));
 }
 
 /* Something must drive a shot. */
@@ -94,18 +95,19 @@ static void check_supplies(case_reader *r)
     bool given = !needs;
     for (int k = 0; k < SUPPLY_KINDS; k++) given = given || r->out->supplies[k].n > 0;
     for (int k = 0; k < SUPPLY_KINDS && !given; k++)
-        if (tree_find(r->root, supply_sections[k])) given = r->errors->n > 0; /* its own errors say it */
+        if (host_tree_find(r->root, circuit_supply_sections[k])) given = r->errors->n > 0; /* its own errors say it */
     if (!given)
-        errors_add(r->errors, r->root, "section `%s` is missing: `%s` needs it, or another supply", supply_sections[0],
-                   command_of(needs));
+        case_errors_add(r->errors, r->root, "section `%s` is missing: `%s` needs it, or another supply",
+                        circuit_supply_sections[0], command_of(needs));
 }
 
 static void need_key(case_reader *r, const char *section, const char *key, const char *unit)
 {
-    const tree_node *map = tree_find(r->root, section);
-    const tree_node *node = tree_find(map, key);
+    const tree_node *map = host_tree_find(r->root, section);
+    const tree_node *node = host_tree_find(map, key);
     if (map && map->kind == TREE_MAP && !has_value(map, key))
-        errors_add(r->errors, node ? node : map, "%s.%s is missing [%s]: `breech scene` needs it", section, key, unit);
+        case_errors_add(r->errors, node ? node : map, "%s.%s is missing [%s]: `breech scene` needs it", section, key,
+                        unit);
 }
 
 /* ---- lengths that must fit ---- */
@@ -114,10 +116,10 @@ static void need_key(case_reader *r, const char *section, const char *key, const
 static void must(case_reader *r, bool ok, const char *section, const char *key, const char *text)
 {
     if (ok) return;
-    const tree_node *map = tree_find(r->root, section);
-    const tree_node *node = tree_find(map, key);
-    errors_add(r->errors, node ? node : map, "%s.%s%s%.*s: %s", section, key, node && node->text ? " = " : "",
-               CASE_SHOWN, node && node->text ? node->text : "", text);
+    const tree_node *map = host_tree_find(r->root, section);
+    const tree_node *node = host_tree_find(map, key);
+    case_errors_add(r->errors, node ? node : map, "%s.%s%s%.*s: %s", section, key, node && node->text ? " = " : "",
+                    CASE_SHOWN, node && node->text ? node->text : "", text);
 }
 
 /* Comparisons are written so that a NAN, not given or already an error, passes. */
@@ -145,18 +147,19 @@ static void check_lengths(case_reader *r)
 
 static void check_site(case_reader *r, const case_site *site, const tree_node *node, int k)
 {
-    const tree_node *position = tree_find(node, "position");
+    const tree_node *position = host_tree_find(node, "position");
     const char *text = position && position->text ? position->text : "";
     if (r->out->given.barrel && (site->position <= r->out->barrel.start || site->position >= r->out->barrel.length))
-        errors_add(r->errors, position,
-                   "sites[%d].position = %.*s: must lie between barrel.start = %g m and barrel.length = %g m", k,
-                   CASE_SHOWN, text, r->out->barrel.start, r->out->barrel.length);
+        case_errors_add(r->errors, position,
+                        "sites[%d].position = %.*s: must lie between barrel.start = %g m and barrel.length = %g m", k,
+                        CASE_SHOWN, text, r->out->barrel.start, r->out->barrel.length);
     if (node && node->kind == TREE_MAP && !has_value(node, "radius") &&
-        !has_value(tree_find(r->root, "particle"), "radius"))
-        errors_add(r->errors, node, "sites[%d].radius is missing [m]: give it here, or once for all as particle.radius",
-                   k);
+        !has_value(host_tree_find(r->root, "particle"), "radius"))
+        case_errors_add(r->errors, node,
+                        "sites[%d].radius is missing [m]: give it here, or once for all as particle.radius", k);
     if (site->height > r->out->projectile.half_bore)
-        errors_add(r->errors, node, "sites[%d].height = %g m: must not exceed projectile.half_bore", k, site->height);
+        case_errors_add(r->errors, node, "sites[%d].height = %g m: must not exceed projectile.half_bore", k,
+                        site->height);
 }
 
 /* ---- materials ---- */
@@ -180,12 +183,12 @@ static void check_materials(case_reader *r)
         const material *m = case_material(r->out, use->name);
         const unsigned needs = material_needs(r, use);
         if (!m || needs == 0) continue; /* one that could not be loaded is an error already */
-        const status s = material_check(m, needs);
+        const status s = mpm_material_check(m, needs);
         const bool damage =
-            r->out->scene.damage && material_check(m, needs & ~(unsigned)MATERIAL_FOR_DAMAGE).code == STATUS_OK;
+            r->out->scene.damage && mpm_material_check(m, needs & ~(unsigned)MATERIAL_FOR_DAMAGE).code == STATUS_OK;
         if (s.code != STATUS_OK)
-            errors_add(r->errors, use->where, "%s = %s: %.400s%s", use->key, use->name, s.text,
-                       damage ? " (or set scene.damage: no)" : "");
+            case_errors_add(r->errors, use->where, "%s = %s: %.400s%s", use->key, use->name, s.text,
+                            damage ? " (or set scene.damage: no)" : "");
     }
 }
 
@@ -200,28 +203,28 @@ static bool is_grain(const char *shape)
 static const char *grain_name(const void *user, int i)
 {
     (void)user;
-    for (int k = 0; shape_at(k); k++)
-        if (is_grain(shape_at(k)->name) && i-- == 0) return shape_at(k)->name;
+    for (int k = 0; mpm_shape_at(k); k++)
+        if (is_grain(mpm_shape_at(k)->name) && i-- == 0) return mpm_shape_at(k)->name;
     return NULL;
 }
 
 static void check_shape(case_reader *r, const tree_node *map, const char *shape, const char *path)
 {
-    const tree_node *node = tree_find(map, "shape");
-    if (!node || shape[0] == '\0' || (shape_find(shape) && is_grain(shape))) return;
-    const char *near = nearest_name(shape, grain_name, NULL);
+    const tree_node *node = host_tree_find(map, "shape");
+    if (!node || shape[0] == '\0' || (mpm_shape_find(shape) && is_grain(shape))) return;
+    const char *near = host_nearest_name(shape, grain_name, NULL);
     char known[200] = "";
     for (int k = 0; grain_name(NULL, k); k++) {
         const size_t used = strlen(known);
         snprintf(known + used, sizeof known - used, "%s%s", k > 0 ? ", " : "", grain_name(NULL, k));
     }
-    errors_add(r->errors, node, "%s.shape = %s: must be one of %s%s%s%s", path, shape, known,
-               near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
+    case_errors_add(r->errors, node, "%s.shape = %s: must be one of %s%s%s%s", path, shape, known,
+                    near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
 }
 
 void case_check_whole(case_reader *r)
 {
-    const tree_node *sites = tree_find(r->root, "sites");
+    const tree_node *sites = host_tree_find(r->root, "sites");
     check_sections(r);
     check_supplies(r);
     if (r->options->needs & CASE_FOR_SCENE) {
@@ -229,19 +232,19 @@ void case_check_whole(case_reader *r)
         need_key(r, "particle", "radius", "m");
     }
     check_lengths(r);
-    check_shape(r, tree_find(r->root, "particle"), r->out->particle.shape, "particle");
+    check_shape(r, host_tree_find(r->root, "particle"), r->out->particle.shape, "particle");
     for (int k = 0; k < r->out->sites.n; k++) {
         char path[32];
         snprintf(path, sizeof path, "sites[%d]", k);
-        check_site(r, &r->out->sites.item[k], entry_node(sites, k), k);
-        check_shape(r, entry_node(sites, k), r->out->sites.item[k].shape, path);
+        check_site(r, &r->out->sites.item[k], case_entry_node(sites, k), k);
+        check_shape(r, case_entry_node(sites, k), r->out->sites.item[k].shape, path);
     }
-    const tree_node *populations = tree_find(r->root, "populations");
+    const tree_node *populations = host_tree_find(r->root, "populations");
     for (int k = 0; k < r->out->populations.n; k++) {
         char path[32];
         snprintf(path, sizeof path, "populations[%d]", k);
-        check_shape(r, entry_node(populations, k), r->out->populations.item[k].shape, path);
+        check_shape(r, case_entry_node(populations, k), r->out->populations.item[k].shape, path);
     }
-    populations_check(r);
+    case_populations_check(r);
     check_materials(r);
 }

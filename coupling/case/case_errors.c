@@ -33,7 +33,7 @@ static void add(case_errors *e, const case_error *at, const char *format, va_lis
         e->out_of_memory = true;
 }
 
-void errors_add(case_errors *e, const tree_node *where, const char *format, ...)
+void case_errors_add(case_errors *e, const tree_node *where, const char *format, ...)
 {
     case_error at = { .set = -1 };
     if (where) at = (case_error){ .set = where->set, .line = where->line, .column = where->column };
@@ -43,7 +43,7 @@ void errors_add(case_errors *e, const tree_node *where, const char *format, ...)
     va_end(args);
 }
 
-void errors_add_at(case_errors *e, int line, int column, const char *format, ...)
+void case_errors_add_at(case_errors *e, int line, int column, const char *format, ...)
 {
     const case_error at = { .set = -1, .line = line, .column = column };
     va_list args;
@@ -61,7 +61,7 @@ static int by_place(const void *a, const void *b)
     return p->order < q->order ? -1 : p->order > q->order;
 }
 
-status errors_finish(case_errors *e, char **text)
+status case_errors_finish(case_errors *e, char **text)
 {
     *text = NULL;
     CHECK(!e->out_of_memory, STATUS_MEMORY, "out of memory while collecting the errors of %.200s", e->file);
@@ -74,65 +74,13 @@ status errors_finish(case_errors *e, char **text)
     for (int k = 0; k < e->n; k++) end += snprintf(end, size - (size_t)(end - all), "%s\n", e->item[k].text);
     if (e->more > 0) snprintf(end, size - (size_t)(end - all), "... and %d more\n", e->more);
     *text = all;
-    return status_error(STATUS_BAD_INPUT, "%s", e->item[0].text);
+    return base_status_error(STATUS_BAD_INPUT, "%s", e->item[0].text);
 }
 
-void errors_free(case_errors *e)
+void case_errors_free(case_errors *e)
 {
     for (int k = 0; k < e->n; k++) free(e->item[k].text);
     e->n = 0;
 }
 
 /* ---- the nearest name ---- */
-
-enum { WORD_SIZE = 64 };
-
-static int plain_word(const char *name, char out[WORD_SIZE])
-{
-    int n = 0;
-    for (; *name && n < WORD_SIZE - 1; name++)
-        if (*name != '_' && *name != '-' && *name != ' ') out[n++] = (char)tolower((unsigned char)*name);
-    out[n] = '\0';
-    return n;
-}
-
-static int least(int a, int b, int c)
-{
-    const int d = a < b ? a : b;
-    return d < c ? d : c;
-}
-
-/* Damerau-Levenshtein distance (neighbouring letters swapped count once), three rows of the table kept. */
-int word_distance(const char *name_a, const char *name_b)
-{
-    char a[WORD_SIZE], b[WORD_SIZE];
-    const int na = plain_word(name_a, a), nb = plain_word(name_b, b);
-    int row[3][WORD_SIZE];
-    for (int j = 0; j <= nb; j++) row[0][j] = j;
-    for (int i = 1; i <= na; i++) {
-        int *now = row[i % 3];
-        const int *last = row[(i + 2) % 3], *before = row[(i + 1) % 3];
-        now[0] = i;
-        for (int j = 1; j <= nb; j++) {
-            now[j] = least(last[j] + 1, now[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1]));
-            const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-            if (swapped && before[j - 2] + 1 < now[j]) now[j] = before[j - 2] + 1;
-        }
-    }
-    return row[na % 3][nb];
-}
-
-const char *nearest_name(const char *name, const char *(*next)(const void *user, int i), const void *user)
-{
-    const char *best = NULL;
-    const int length = (int)strlen(name);
-    int limit = length < 4 ? 1 : length < 8 ? 2 : length / 3;
-    for (int i = 0;; i++) {
-        const char *candidate = next(user, i);
-        if (!candidate) return best;
-        const int distance = word_distance(name, candidate);
-        if (distance > limit) continue;
-        best = candidate;
-        limit = distance - 1;
-    }
-}

@@ -6,6 +6,7 @@
 #define BREECH_COUPLING_CASE_ERRORS_H
 
 #include "base/status.h"
+#include "coupling/host/words.h"
 #include "coupling/host/yaml_tree.h"
 
 enum { CASE_MAX_ERRORS = 200, CASE_ERROR_SIZE = 700 };
@@ -25,17 +26,13 @@ typedef struct {
 } case_errors;
 
 /* `where` NULL: the file as a whole.  A --set that goes wrong in many places is said once. */
-void errors_add(case_errors *e, const tree_node *where, const char *format, ...) __attribute__((format(printf, 3, 4)));
-void errors_add_at(case_errors *e, int line, int column, const char *format, ...) __attribute__((format(printf, 4, 5)));
+void case_errors_add(case_errors *e, const tree_node *where, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void case_errors_add_at(case_errors *e, int line, int column, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
 
 /* STATUS_OK when empty; else STATUS_BAD_INPUT with the first line, and all of them in *text (owned by the caller). */
-status errors_finish(case_errors *e, char **text);
-void errors_free(case_errors *e);
-
-/* The nearest of the names to a mistyped one, NULL if none is near.  next(user, i) gives the names, NULL at the end. */
-const char *nearest_name(const char *name, const char *(*next)(const void *user, int i), const void *user);
-
-/* How far apart two words are: letters changed, added, left out or swapped; case, - and _ do not count. */
-int word_distance(const char *a, const char *b);
+status case_errors_finish(case_errors *e, char **text);
+void case_errors_free(case_errors *e);
 
 #endif

@@ -45,20 +45,20 @@ static void resolve(case_reader *r, case_population *p, const tree_node *node, c
     fill(&p->from, c->barrel.start);
     fill(&p->to, c->barrel.length);
     if (!p->shape[0]) snprintf(p->shape, sizeof p->shape, "%s", from->shape[0] ? from->shape : c->particle.shape);
-    if (!tree_find(node, "bond_strength")) p->bond_strength = from->bond_strength;
-    if (!tree_find(node, "renewed")) p->renewed = from->renewed;
+    if (!host_tree_find(node, "bond_strength")) p->bond_strength = from->bond_strength;
+    if (!host_tree_find(node, "renewed")) p->renewed = from->renewed;
     if (p->material[0]) return;
     snprintf(p->material, sizeof p->material, "%s", metal(c, from->material));
-    if (p->material[0]) material_noted(r, p->material, node, path);
+    if (p->material[0]) case_note_material(r, p->material, node, path);
 }
 
-void populations_resolve(case_reader *r)
+void case_populations_resolve(case_reader *r)
 {
-    const tree_node *list = tree_find(r->root, "populations");
+    const tree_node *list = host_tree_find(r->root, "populations");
     for (int k = 0; k < r->out->populations.n; k++) {
         char path[CASE_KEY_SIZE];
         snprintf(path, sizeof path, "populations[%d].material", k);
-        resolve(r, &r->out->populations.item[k], entry_node(list, k), path);
+        resolve(r, &r->out->populations.item[k], case_entry_node(list, k), path);
     }
 }
 
@@ -66,39 +66,40 @@ void populations_resolve(case_reader *r)
 
 static void need(case_reader *r, bool there, const tree_node *node, int k, const char *what)
 {
-    if (!there) errors_add(r->errors, node, "populations[%d].%s: give it, or a preset", k, what);
+    if (!there) case_errors_add(r->errors, node, "populations[%d].%s: give it, or a preset", k, what);
 }
 
 static void check_sizes(case_reader *r, const case_population *p, const tree_node *node, int k)
 {
     double sum = 0.0;
     if (p->sizes.n > 0 && !isnan(p->radius_median))
-        errors_add(r->errors, node, "populations[%d]: either radius_median and radius_spread, or sizes", k);
+        case_errors_add(r->errors, node, "populations[%d]: either radius_median and radius_spread, or sizes", k);
     for (int i = 0; i < p->sizes.n; i++) {
         sum += p->sizes.item[i].share;
         if (i > 0 && !(p->sizes.item[i].radius > p->sizes.item[i - 1].radius))
-            errors_add(r->errors, node, "populations[%d].sizes[%d].radius = %g m: sizes must rise", k, i,
-                       p->sizes.item[i].radius);
+            case_errors_add(r->errors, node, "populations[%d].sizes[%d].radius = %g m: sizes must rise", k, i,
+                            p->sizes.item[i].radius);
     }
-    if (p->sizes.n > 0 && !(sum > 0.0)) errors_add(r->errors, node, "populations[%d].sizes: all shares are 0", k);
+    if (p->sizes.n > 0 && !(sum > 0.0)) case_errors_add(r->errors, node, "populations[%d].sizes: all shares are 0", k);
 }
 
-void populations_check(case_reader *r)
+void case_populations_check(case_reader *r)
 {
-    const tree_node *list = tree_find(r->root, "populations");
+    const tree_node *list = host_tree_find(r->root, "populations");
     const breech_case *c = r->out;
     for (int k = 0; k < c->populations.n; k++) {
         const case_population *p = &c->populations.item[k];
-        const tree_node *node = entry_node(list, k);
+        const tree_node *node = case_entry_node(list, k);
         need(r, !isnan(p->density), node, k, "density is missing [1/m]");
         need(r, p->sizes.n > 0 || !isnan(p->radius_median), node, k, "radius_median is missing [m]");
         need(r, p->sizes.n > 0 || !isnan(p->radius_spread), node, k, "radius_spread is missing");
         check_sizes(r, p, node, k);
         if (p->to <= p->from)
-            errors_add(r->errors, node, "populations[%d].from = %g m: must lie before `to` = %g m", k, p->from, p->to);
+            case_errors_add(r->errors, node, "populations[%d].from = %g m: must lie before `to` = %g m", k, p->from,
+                            p->to);
         if (c->given.barrel && (p->from < c->barrel.start || p->to > c->barrel.length))
-            errors_add(r->errors, node,
-                       "populations[%d]: %g .. %g m must lie between barrel.start = %g m and barrel.length = %g m", k,
-                       p->from, p->to, c->barrel.start, c->barrel.length);
+            case_errors_add(r->errors, node,
+                            "populations[%d]: %g .. %g m must lie between barrel.start = %g m and barrel.length = %g m",
+                            k, p->from, p->to, c->barrel.start, c->barrel.length);
     }
 }

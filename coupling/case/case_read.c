@@ -16,7 +16,7 @@ static bool is_word(const char *text, const char *const *words)
 
 static void wrong(case_reader *r, const tree_node *node, const char *path, const char *reason)
 {
-    errors_add(r->errors, node, "%s = %.*s: %s", path, CASE_SHOWN, node->text, reason);
+    case_errors_add(r->errors, node, "%s = %.*s: %s", path, CASE_SHOWN, node->text, reason);
 }
 
 static void out_of_range(case_reader *r, const param *p, const tree_node *node, const char *path, const char *user_unit,
@@ -24,8 +24,8 @@ static void out_of_range(case_reader *r, const param *p, const tree_node *node, 
 {
     char limits[LIMITS_SIZE];
     const char *must = p->min > 0.0 && value <= 0.0 ? "must be positive" : "must lie within the range";
-    quantity_limits(r->u, p->min, p->max, p->unit, user_unit, limits);
-    errors_add(r->errors, node, "%s = %.*s: %s (%s)", path, CASE_SHOWN, node->text, must, limits);
+    host_quantity_limits(r->u, p->min, p->max, p->unit, user_unit, limits);
+    case_errors_add(r->errors, node, "%s = %.*s: %s (%s)", path, CASE_SHOWN, node->text, must, limits);
 }
 
 static const double UNIT_ROUNDING = 1e-14; /* quantities keep 15 digits when their unit changes [1] */
@@ -50,7 +50,7 @@ static void read_number(case_reader *r, const param *p, const tree_node *node, d
         *member = INFINITY;
         return;
     }
-    const status s = quantity_read(r->u, node->text, p->unit, &value, user_unit);
+    const status s = host_quantity_read(r->u, node->text, p->unit, &value, user_unit);
     if (s.code != STATUS_OK) {
         wrong(r, node, path, s.text);
         return;
@@ -101,12 +101,12 @@ static void read_choice(case_reader *r, const param *p, const tree_node *node, i
         const size_t used = strlen(known);
         snprintf(known + used, sizeof known - used, "%s%s", k > 0 ? ", " : "", p->choices[k]);
     }
-    const char *near = nearest_name(node->text, choice_name, p->choices);
-    errors_add(r->errors, node, "%s = %.*s: must be one of %s%s%s%s", path, CASE_SHOWN, node->text, known,
-               near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
+    const char *near = host_nearest_name(node->text, choice_name, p->choices);
+    case_errors_add(r->errors, node, "%s = %.*s: must be one of %s%s%s%s", path, CASE_SHOWN, node->text, known,
+                    near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
 }
 
-void material_noted(case_reader *r, const char *name, const tree_node *where, const char *path)
+void case_note_material(case_reader *r, const char *name, const tree_node *where, const char *path)
 {
     const size_t n = (size_t)r->n_use;
     if ((n & (n - 1)) == 0) { /* grow at powers of two */
@@ -126,23 +126,23 @@ void material_noted(case_reader *r, const char *name, const tree_node *where, co
 static void read_text(case_reader *r, const param *p, const tree_node *node, char *member, const char *path)
 {
     if (strlen(node->text) >= PARAM_TEXT_SIZE) {
-        errors_add(r->errors, node, "%s = %.*s...: longer than %d bytes", path, CASE_SHOWN, node->text,
-                   PARAM_TEXT_SIZE - 1);
+        case_errors_add(r->errors, node, "%s = %.*s...: longer than %d bytes", path, CASE_SHOWN, node->text,
+                        PARAM_TEXT_SIZE - 1);
         return;
     }
     if (!p->fallback_text && node->text[0] == '\0') {
-        errors_add(r->errors, node, "%s is empty: %s", path, p->doc);
+        case_errors_add(r->errors, node, "%s is empty: %s", path, p->doc);
         return;
     }
     snprintf(member, PARAM_TEXT_SIZE, "%s", node->text);
-    if (strcmp(p->key, "material") == 0 && node->text[0] != '\0') material_noted(r, node->text, node, path);
+    if (strcmp(p->key, "material") == 0 && node->text[0] != '\0') case_note_material(r, node->text, node, path);
 }
 
 static void read_vector(case_reader *r, const param *p, const tree_node *node, double *member, const char *path)
 {
     char entry[CASE_KEY_SIZE];
     if (node->kind != TREE_LIST || node->n != 3) {
-        errors_add(r->errors, node, "%s: must be three values, [x, y, z], in %s", path, p->unit);
+        case_errors_add(r->errors, node, "%s: must be three values, [x, y, z], in %s", path, p->unit);
         return;
     }
     for (int k = 0; k < 3; k++) {
@@ -150,23 +150,23 @@ static void read_vector(case_reader *r, const param *p, const tree_node *node, d
         if (node->item[k]->kind == TREE_TEXT)
             read_number(r, p, node->item[k], &member[k], entry);
         else
-            errors_add(r->errors, node->item[k], "%s: must be one value", entry);
+            case_errors_add(r->errors, node->item[k], "%s: must be one value", entry);
     }
 }
 
-void value_read(case_reader *r, const param *p, const tree_node *node, void *member, const char *path)
+void case_value_read(case_reader *r, const param *p, const tree_node *node, void *member, const char *path)
 {
     if (p->kind == PARAM_VECTOR) {
         read_vector(r, p, node, member, path);
         return;
     }
     if (node->kind != TREE_TEXT) {
-        errors_add(r->errors, node, "%s: must be one value, not a %s", path,
-                   node->kind == TREE_MAP ? "section" : "list");
+        case_errors_add(r->errors, node, "%s: must be one value, not a %s", path,
+                        node->kind == TREE_MAP ? "section" : "list");
         return;
     }
-    if (tree_is_empty(node)) {
-        errors_add(r->errors, node, "%s has no value: %s", path, p->doc);
+    if (host_tree_is_empty(node)) {
+        case_errors_add(r->errors, node, "%s has no value: %s", path, p->doc);
         return;
     }
     switch (p->kind) {
@@ -205,15 +205,16 @@ static const char *home_of(const char *key, const case_section *not_this)
 static void unknown_key(case_reader *r, const case_section *section, const tree_node *key, const char *path)
 {
     const bool listed = r->errors->n < CASE_MAX_ERRORS; /* beyond the list there is no need to look for names */
-    const char *near = listed ? nearest_name(key->text, known_key, section) : NULL;
+    const char *near = listed ? host_nearest_name(key->text, known_key, section) : NULL;
     const char *home = near || !listed ? NULL : home_of(key->text, section);
     const char *in = path[0] ? " in " : "";
     if (near) {
-        errors_add(r->errors, key, "unknown key `%.*s`%s%s; did you mean `%s`?", CASE_SHOWN, key->text, in, path, near);
+        case_errors_add(r->errors, key, "unknown key `%.*s`%s%s; did you mean `%s`?", CASE_SHOWN, key->text, in, path,
+                        near);
         return;
     }
     if (home) {
-        errors_add(r->errors, key, "unknown key `%.*s`%s%s; `%s` has one", CASE_SHOWN, key->text, in, path, home);
+        case_errors_add(r->errors, key, "unknown key `%.*s`%s%s; `%s` has one", CASE_SHOWN, key->text, in, path, home);
         return;
     }
     char known[400] = "";
@@ -221,7 +222,7 @@ static void unknown_key(case_reader *r, const case_section *section, const tree_
         const size_t used = strlen(known);
         snprintf(known + used, sizeof known - used, "%s%s", i > 0 ? ", " : "", known_key(section, i));
     }
-    errors_add(r->errors, key, "unknown key `%.*s`%s%s; known are %s", CASE_SHOWN, key->text, in, path, known);
+    case_errors_add(r->errors, key, "unknown key `%.*s`%s%s; known are %s", CASE_SHOWN, key->text, in, path, known);
 }
 
 static bool is_required(const param *p)
@@ -240,9 +241,9 @@ static void missing_key(case_reader *r, const param *p, const tree_node *where, 
     char key[CASE_KEY_SIZE];
     join(key, path, p->key);
     if (p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR)
-        errors_add(r->errors, where, "%s is missing [%s]: %s", key, p->unit, p->doc);
+        case_errors_add(r->errors, where, "%s is missing [%s]: %s", key, p->unit, p->doc);
     else
-        errors_add(r->errors, where, "%s is missing: %s", key, p->doc);
+        case_errors_add(r->errors, where, "%s is missing: %s", key, p->doc);
 }
 
 static const param *param_of(const case_section *section, const char *key)
@@ -266,7 +267,7 @@ static bool is_mistyped(const case_reader *r, const case_section *section, const
     for (int k = 0; map->kind == TREE_MAP && k < map->n; k++) {
         const char *given = map->key[k]->text;
         if (param_of(section, given) || child_of(section, given)) continue;
-        const char *near = nearest_name(given, known_key, section);
+        const char *near = host_nearest_name(given, known_key, section);
         if (near && strcmp(near, key) == 0) return true;
     }
     return false;
@@ -278,14 +279,14 @@ static bool is_mistyped(const case_reader *r, const case_section *section, const
 static void read_map(case_reader *r, const case_section *section, const tree_node *map, void *object, const char *path)
 {
     char inner[CASE_KEY_SIZE];
-    params_default(section->table, object);
+    base_params_default(section->table, object);
     for (const case_section *s = section->children; s && s->key; s++) {
         join(inner, path, s->key);
-        section_read(r, s, map ? tree_find(map, s->key) : NULL, object, inner);
+        case_section_read(r, s, map ? host_tree_find(map, s->key) : NULL, object, inner);
     }
     if (!map) return;
-    if (map->kind != TREE_MAP && !tree_is_empty(map)) {
-        errors_add(r->errors, map, "%s must be a section: key and value, one a line", path[0] ? path : "the case");
+    if (map->kind != TREE_MAP && !host_tree_is_empty(map)) {
+        case_errors_add(r->errors, map, "%s must be a section: key and value, one a line", path[0] ? path : "the case");
         return;
     }
     for (int k = 0; map->kind == TREE_MAP && k < map->n; k++) {
@@ -296,10 +297,10 @@ static void read_map(case_reader *r, const case_section *section, const tree_nod
             continue;
         }
         join(inner, path, p->key);
-        value_read(r, p, map->item[k], (char *)object + p->offset, inner);
+        case_value_read(r, p, map->item[k], (char *)object + p->offset, inner);
     }
     for (const param *p = section->table; p->key; p++)
-        if (is_required(p) && !tree_find(map, p->key) && !is_mistyped(r, section, map, p->key))
+        if (is_required(p) && !host_tree_find(map, p->key) && !is_mistyped(r, section, map, p->key))
             missing_key(r, p, map, path);
 }
 
@@ -309,11 +310,11 @@ static void read_list(case_reader *r, const case_section *section, const tree_no
     const bool lone = node && node->kind != TREE_LIST;
     case_list list = { 0, NULL };
     case_list_put(parent, section, list);
-    if (!node || (lone && tree_is_empty(node))) return;
+    if (!node || (lone && host_tree_is_empty(node))) return;
     const int n = lone ? 1 : node->n;
     if (n == 0) return;
     if (n > CASE_MAX_ENTRIES) {
-        errors_add(r->errors, node, "%s has %d entries: at most %d", path, n, CASE_MAX_ENTRIES);
+        case_errors_add(r->errors, node, "%s has %d entries: at most %d", path, n, CASE_MAX_ENTRIES);
         return;
     }
     list.item = calloc((size_t)n, section->size);
@@ -333,7 +334,8 @@ static void read_list(case_reader *r, const case_section *section, const tree_no
     }
 }
 
-void section_read(case_reader *r, const case_section *section, const tree_node *node, void *parent, const char *path)
+void case_section_read(case_reader *r, const case_section *section, const tree_node *node, void *parent,
+                       const char *path)
 {
     if (section->given != NO_FLAG) *(bool *)((char *)r->out + section->given) = node != NULL;
     if (section->list)
@@ -344,10 +346,10 @@ void section_read(case_reader *r, const case_section *section, const tree_node *
 
 static void free_children(const case_section *section, void *object)
 {
-    for (const case_section *s = section->children; s && s->key; s++) section_free(s, object);
+    for (const case_section *s = section->children; s && s->key; s++) case_section_free(s, object);
 }
 
-void section_free(const case_section *section, void *parent)
+void case_section_free(const case_section *section, void *parent)
 {
     if (!section->list) {
         free_children(section, (char *)parent + section->offset);

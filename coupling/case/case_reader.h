@@ -1,4 +1,5 @@
-/* How a case is read, for the files that do it: tree -> sections by their tables -> materials -> checks of the whole. */
+/* How a case is read, for the files that do it: tree -> sections by their tables -> materials -> checks of the whole.
+ */
 #ifndef BREECH_COUPLING_CASE_READER_H
 #define BREECH_COUPLING_CASE_READER_H
 
@@ -27,35 +28,38 @@ typedef struct {
     bool out_of_memory;
 } case_reader;
 
-/* A section, or all entries of a list, into its place in `parent`; path is "" for the root.  node NULL: defaults only. */
-void section_read(case_reader *r, const case_section *section, const tree_node *node, void *parent, const char *path);
-void section_free(const case_section *section, void *parent);
+/* A section, or all entries of a list, into its place in `parent`; path is "" for the root.  node NULL: defaults only.
+ */
+void case_section_read(case_reader *r, const case_section *section, const tree_node *node, void *parent,
+                       const char *path);
+void case_section_free(const case_section *section, void *parent);
 
 /* One value by its param, with unit and range. */
-void value_read(case_reader *r, const param *p, const tree_node *node, void *member, const char *path);
+void case_value_read(case_reader *r, const param *p, const tree_node *node, void *member, const char *path);
 
 /* A place that names a material without a key of that name. */
-void material_noted(case_reader *r, const char *name, const tree_node *where, const char *path);
+void case_note_material(case_reader *r, const char *name, const tree_node *where, const char *path);
 
 /* What presets say, where populations leave it out; names their materials. */
-void populations_resolve(case_reader *r);
+void case_populations_resolve(case_reader *r);
 
 /* Stretches inside the barrel, sizes that are there. */
-void populations_check(case_reader *r);
+void case_populations_check(case_reader *r);
 
 /* Entry k of a list section in the tree (a lone mapping is entry 0); NULL if it is not there. */
-const tree_node *entry_node(const tree_node *list, int k);
+const tree_node *case_entry_node(const tree_node *list, int k);
 
 /* Loads what the case names, in the order of the naming, after the case's own materials. */
-void materials_load(case_reader *r);
+void case_materials_load(case_reader *r);
 
 /* Current profiles given as files, beside the case. */
-void profiles_load(case_reader *r);
+void case_profiles_load(case_reader *r);
 
 /* What sites leave out, from `particle`; what `particle` leaves out. */
 void case_resolve(breech_case *c, const tree_node *root);
 
-/* What no single value can say: sections needed, lengths that must fit, sites inside the barrel, materials that suffice. */
+/* What no single value can say: sections needed, lengths that must fit, sites inside the barrel, materials that
+ * suffice. */
 void case_check_whole(case_reader *r);
 
 /* case_read_memory with the unit system given; the one way in for all of them. */

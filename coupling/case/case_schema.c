@@ -248,7 +248,7 @@ static const case_section treatment_children[] = {
 #define TREATMENT(name, doc_)                                     \
     { .key = #name,                                               \
       .doc = (doc_),                                              \
-      .table = treatment_##name##_params,                         \
+      .table = case_treatment_##name##_params,                    \
       .offset = offsetof(case_treatment, kind[TREATMENT_##name]), \
       .size = sizeof(treatment_settings),                         \
       .given = NO_FLAG },
@@ -266,7 +266,7 @@ enum { NEED_SHOT = CASE_FOR_SHOT | CASE_FOR_ONSET, NEED_SCENE = CASE_FOR_SCENE |
 static const case_section profile_children[] = {
     { .key = "points",
       .doc = "The table itself where there is no file, a list.",
-      .table = supply_point_params,
+      .table = circuit_supply_point_params,
       .offset = offsetof(supply_profile, points),
       .size = sizeof(supply_point),
       .given = NO_FLAG,
@@ -277,7 +277,7 @@ static const case_section profile_children[] = {
 #define SUPPLY(kind, type, section, lists, text)                     \
     { .key = #section,                                               \
       .doc = (text),                                                 \
-      .table = supply_##kind##_params,                               \
+      .table = circuit_supply_##kind##_params,                       \
       .children = (lists),                                           \
       .offset = offsetof(breech_case, supplies[SUPPLY_##kind]),      \
       .size = sizeof(type),                                          \
@@ -287,13 +287,15 @@ static const case_section profile_children[] = {
 static const case_section sections[] = {
 #include "circuit/supply/supply.def"
 #undef SUPPLY
-    { SECTION(rails, shot_rails_params, NEED_SHOT | CASE_FOR_INDUCTANCE, "The pair of rails as the circuit sees it."),
+    { SECTION(rails, circuit_shot_rails_params, NEED_SHOT | CASE_FOR_INDUCTANCE,
+              "The pair of rails as the circuit sees it."),
       .size = sizeof(shot_rails) },
-    { SECTION(barrel, shot_barrel_params, NEED_SHOT, "The barrel."), .size = sizeof(shot_barrel) },
-    { SECTION(armature, shot_armature_params, NEED_SHOT, "The armature as the circuit sees it."),
+    { SECTION(barrel, circuit_shot_barrel_params, NEED_SHOT, "The barrel."), .size = sizeof(shot_barrel) },
+    { SECTION(armature, circuit_shot_armature_params, NEED_SHOT, "The armature as the circuit sees it."),
       .size = sizeof(shot_armature) },
-    { SECTION(options, shot_options_params, 0, "Tolerances of the shot's integration."), .size = sizeof(shot_options) },
-    { SECTION(optimise, firing_wish_params, 0,
+    { SECTION(options, circuit_shot_options_params, 0, "Tolerances of the shot's integration."),
+      .size = sizeof(shot_options) },
+    { SECTION(optimise, circuit_firing_wish_params, 0,
               "Firing times of the bank that `breech shot` looks for before it shoots."),
       .size = sizeof(firing_wish) },
     { SECTION(rail, rail_params, NEED_SCENE, "The rail as the impact scene sees it."), .children = rail_children,
@@ -316,7 +318,7 @@ static const case_section sections[] = {
     { .key = "materials",
       .doc = "Materials given in the case itself, a list: used.yaml has them. They come before the files of "
              "cases/materials, where every constant has its source.",
-      .table = material_params,
+      .table = mpm_material_params,
       .offset = offsetof(breech_case, materials),
       .size = sizeof(material),
       .given = NO_FLAG,

@@ -140,7 +140,7 @@ static void print_default(FILE *file, const param *p)
     if (p->kind == PARAM_CHOICE) fputs(p->choices[(int)p->fallback], file);
     if (p->kind == PARAM_INTEGER) fprintf(file, "%d", (int)p->fallback);
     if (p->kind != PARAM_NUMBER && p->kind != PARAM_VECTOR) return;
-    quantity_text(p->fallback, p->unit, text, sizeof text);
+    host_quantity_text(p->fallback, p->unit, text, sizeof text);
     fputs(text, file);
 }
 
@@ -156,7 +156,7 @@ static void print_range(FILE *file, const param *p)
     case PARAM_NUMBER:
     case PARAM_INTEGER:
     case PARAM_VECTOR:
-        quantity_limits(NULL, p->min, p->max, p->unit, "", limits);
+        host_quantity_limits(NULL, p->min, p->max, p->unit, "", limits);
         fprintf(file, "%s%s", limits, p->kind == PARAM_VECTOR ? ", three of them" : "");
         break;
     }

@@ -10,7 +10,7 @@
 #include <strings.h>
 #include <unistd.h>
 
-bool material_name_valid(const char *name)
+bool case_material_name_valid(const char *name)
 {
     if (name[0] == '\0' || name[0] == '.' || strlen(name) >= PARAM_TEXT_SIZE) return false;
     for (; *name; name++)
@@ -18,7 +18,7 @@ bool material_name_valid(const char *name)
     return true;
 }
 
-void material_sheet_free(material_sheet *sheet)
+void case_material_sheet_free(material_sheet *sheet)
 {
     for (int k = 0; k < sheet->n; k++) {
         free(sheet->constant[k].source);
@@ -31,7 +31,7 @@ void material_sheet_free(material_sheet *sheet)
 
 static const param *constant_of(const char *key)
 {
-    for (const param *p = material_params; p->key; p++)
+    for (const param *p = mpm_material_params; p->key; p++)
         if (p->kind == PARAM_NUMBER && strcmp(p->key, key) == 0) return p;
     return NULL;
 }
@@ -39,7 +39,7 @@ static const param *constant_of(const char *key)
 static const char *constant_name(const void *user, int i)
 {
     (void)user;
-    for (const param *p = material_params; p->key; p++)
+    for (const param *p = mpm_material_params; p->key; p++)
         if (p->kind == PARAM_NUMBER && i-- == 0) return p->key;
     return NULL;
 }
@@ -55,18 +55,19 @@ static void check_keys(case_reader *r, const tree_node *map, const char *path, c
         bool found = false;
         for (int i = 0; known[i]; i++) found = found || strcmp(known[i], map->key[k]->text) == 0;
         if (found) continue;
-        const char *near = nearest_name(map->key[k]->text, list_name, known);
-        errors_add(r->errors, map->key[k], "unknown key `%.*s` in %s%s%s%s", CASE_SHOWN, map->key[k]->text, path,
-                   near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
+        const char *near = host_nearest_name(map->key[k]->text, list_name, known);
+        case_errors_add(r->errors, map->key[k], "unknown key `%.*s` in %s%s%s%s", CASE_SHOWN, map->key[k]->text, path,
+                        near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
     }
 }
 
 /* A text that must be there; NULL with an error if it is not. */
 static const char *text_of(case_reader *r, const tree_node *map, const char *key, const char *path)
 {
-    const tree_node *node = tree_find(map, key);
-    if (node && node->kind == TREE_TEXT && !tree_is_empty(node) && node->text[0]) return node->text;
-    errors_add(r->errors, node ? node : map, "%s.%s is missing: every constant has a value and a source", path, key);
+    const tree_node *node = host_tree_find(map, key);
+    if (node && node->kind == TREE_TEXT && !host_tree_is_empty(node) && node->text[0]) return node->text;
+    case_errors_add(r->errors, node ? node : map, "%s.%s is missing: every constant has a value and a source", path,
+                    key);
     return NULL;
 }
 
@@ -81,25 +82,25 @@ static void read_source(case_reader *r, const tree_node *entry, const char *path
 {
     const char *name = text_of(r, entry, "source", path);
     if (!name) return;
-    const tree_node *source = tree_find(tree_find(r->root, "sources"), name);
+    const tree_node *source = host_tree_find(host_tree_find(r->root, "sources"), name);
     if (source && source->kind == TREE_TEXT && source->text[0])
         c->source = copy_text(r, source->text);
     else
-        errors_add(r->errors, tree_find(entry, "source"), "%s.source = %.*s: not in `sources` of this file", path,
-                   CASE_SHOWN, name);
+        case_errors_add(r->errors, host_tree_find(entry, "source"), "%s.source = %.*s: not in `sources` of this file",
+                        path, CASE_SHOWN, name);
 }
 
 static void read_remarks(case_reader *r, const tree_node *entry, const char *path, material_constant *c)
 {
     static const param weak = { .key = "weak", .unit = "1", .kind = PARAM_FLAG, .max = 1, .doc = "yes or no" };
     char key[CASE_KEY_SIZE + 8];
-    const tree_node *flag = tree_find(entry, "weak"), *note = tree_find(entry, "note");
+    const tree_node *flag = host_tree_find(entry, "weak"), *note = host_tree_find(entry, "note");
     snprintf(key, sizeof key, "%s.weak", path);
-    if (flag) value_read(r, &weak, flag, &c->weak, key);
+    if (flag) case_value_read(r, &weak, flag, &c->weak, key);
     if (note && note->kind == TREE_TEXT)
         c->note = copy_text(r, note->text);
     else if (note)
-        errors_add(r->errors, note, "%s.note: must be one line of text", path);
+        case_errors_add(r->errors, note, "%s.note: must be one line of text", path);
 }
 
 static void read_constant(case_reader *r, const tree_node *key, const tree_node *entry, material_sheet *sheet)
@@ -108,14 +109,14 @@ static void read_constant(case_reader *r, const tree_node *key, const tree_node 
     char path[CASE_KEY_SIZE], value_path[CASE_KEY_SIZE + 8];
     const param *p = constant_of(key->text);
     if (!p) {
-        const char *near = nearest_name(key->text, constant_name, NULL);
-        errors_add(r->errors, key, "unknown constant `%.*s`%s%s%s", CASE_SHOWN, key->text,
-                   near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
+        const char *near = host_nearest_name(key->text, constant_name, NULL);
+        case_errors_add(r->errors, key, "unknown constant `%.*s`%s%s%s", CASE_SHOWN, key->text,
+                        near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
         return;
     }
     snprintf(path, sizeof path, "constants.%s", p->key);
     if (entry->kind != TREE_MAP) {
-        errors_add(r->errors, entry, "%s: must be {value: ..., source: ...}", path);
+        case_errors_add(r->errors, entry, "%s: must be {value: ..., source: ...}", path);
         return;
     }
     check_keys(r, entry, path, known);
@@ -126,20 +127,21 @@ static void read_constant(case_reader *r, const tree_node *key, const tree_node 
     read_remarks(r, entry, path, c);
     if (!text_of(r, entry, "value", path)) return;
     snprintf(value_path, sizeof value_path, "%s.value", path);
-    value_read(r, p, tree_find(entry, "value"), (char *)&sheet->material + p->offset, value_path);
+    case_value_read(r, p, host_tree_find(entry, "value"), (char *)&sheet->material + p->offset, value_path);
 }
 
 static void read_sources(case_reader *r)
 {
-    const tree_node *sources = tree_find(r->root, "sources");
+    const tree_node *sources = host_tree_find(r->root, "sources");
     if (!sources || sources->kind != TREE_MAP) {
-        errors_add(r->errors, sources ? sources : r->root, "`sources` is missing: short name and citation, one a line");
+        case_errors_add(r->errors, sources ? sources : r->root,
+                        "`sources` is missing: short name and citation, one a line");
         return;
     }
     for (int k = 0; k < sources->n; k++)
         if (sources->item[k]->kind != TREE_TEXT || !sources->item[k]->text[0])
-            errors_add(r->errors, sources->key[k], "sources.%.*s: must be a citation, one line", CASE_SHOWN,
-                       sources->key[k]->text);
+            case_errors_add(r->errors, sources->key[k], "sources.%.*s: must be a citation, one line", CASE_SHOWN,
+                            sources->key[k]->text);
 }
 
 static void read_head(case_reader *r, const char *path, material_sheet *sheet)
@@ -150,73 +152,74 @@ static void read_head(case_reader *r, const char *path, material_sheet *sheet)
     static const param title = {
         .key = "title", .unit = "1", .kind = PARAM_TEXT, .fallback_text = "", .doc = "one line"
     };
-    const tree_node *node = tree_find(r->root, "name"), *title_node = tree_find(r->root, "title");
+    const tree_node *node = host_tree_find(r->root, "name"), *title_node = host_tree_find(r->root, "title");
     const char *file = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
     const char *dot = strrchr(file, '.');
     const size_t stem = dot ? (size_t)(dot - file) : strlen(file);
-    if (title_node) value_read(r, &title, title_node, sheet->title, "title");
+    if (title_node) case_value_read(r, &title, title_node, sheet->title, "title");
     if (!node) {
-        errors_add(r->errors, r->root, "name is missing: the file's name without .yaml");
+        case_errors_add(r->errors, r->root, "name is missing: the file's name without .yaml");
         return;
     }
-    value_read(r, &name, node, sheet->material.name, "name");
+    case_value_read(r, &name, node, sheet->material.name, "name");
     const char *given = sheet->material.name;
     if (given[0] && (strlen(given) != stem || strncmp(given, file, stem) != 0))
-        errors_add(r->errors, node, "name = %s: must be the file's name, %.*s", given, (int)stem, file);
+        case_errors_add(r->errors, node, "name = %s: must be the file's name, %.*s", given, (int)stem, file);
 }
 
 /* The law of strength: not a constant, so without a source of its own. */
 static void read_strength(case_reader *r, material_sheet *sheet)
 {
-    const tree_node *node = tree_find(r->root, "strength");
-    for (const param *p = material_params; p->key; p++)
+    const tree_node *node = host_tree_find(r->root, "strength");
+    for (const param *p = mpm_material_params; p->key; p++)
         if (node && strcmp(p->key, "strength") == 0)
-            value_read(r, p, node, (char *)&sheet->material + p->offset, p->key);
+            case_value_read(r, p, node, (char *)&sheet->material + p->offset, p->key);
 }
 
 static void read_sheet(case_reader *r, const char *path, material_sheet *sheet)
 {
     static const char *const known[] = { "name", "title", "strength", "sources", "constants", NULL };
     if (r->root->kind != TREE_MAP) {
-        errors_add(r->errors, r->root, "a material's file has the keys name, title, strength, sources and constants");
+        case_errors_add(r->errors, r->root,
+                        "a material's file has the keys name, title, strength, sources and constants");
         return;
     }
     check_keys(r, r->root, "a material's file", known);
     read_head(r, path, sheet);
     read_strength(r, sheet);
     read_sources(r);
-    const tree_node *constants = tree_find(r->root, "constants");
+    const tree_node *constants = host_tree_find(r->root, "constants");
     if (!constants || constants->kind != TREE_MAP) {
-        errors_add(r->errors, constants ? constants : r->root, "`constants` is missing");
+        case_errors_add(r->errors, constants ? constants : r->root, "`constants` is missing");
         return;
     }
     for (int k = 0; k < constants->n; k++) read_constant(r, constants->key[k], constants->item[k], sheet);
 }
 
-status material_sheet_parse(const units *u, const char *bytes, size_t length, const char *path, material_sheet *out,
-                            char **errors)
+status case_material_sheet_parse(const units *u, const char *bytes, size_t length, const char *path,
+                                 material_sheet *out, char **errors)
 {
     tree_node *root = NULL;
     int line, column;
     *errors = NULL;
     memset(out, 0, sizeof *out);
-    params_default(material_params, &out->material);
+    base_params_default(mpm_material_params, &out->material);
     snprintf(out->path, sizeof out->path, "%s", path);
     case_errors *found = calloc(1, sizeof *found);
     CHECK(found, STATUS_MEMORY, "out of memory while reading %s", path);
     found->file = path;
     case_reader r = { .u = u, .errors = found };
-    status s = tree_parse(bytes, length, &root, &line, &column);
+    status s = host_tree_parse(bytes, length, &root, &line, &column);
     r.root = root;
     if (s.code == STATUS_OK)
         read_sheet(&r, path, out);
     else if (s.code == STATUS_BAD_INPUT)
-        errors_add_at(found, line, column, "%s", s.text);
-    if (s.code != STATUS_MEMORY) s = errors_finish(found, errors);
-    if (r.out_of_memory) s = status_error(STATUS_MEMORY, "out of memory while reading %s", path);
-    if (s.code != STATUS_OK) material_sheet_free(out);
-    tree_free(root);
-    errors_free(found);
+        case_errors_add_at(found, line, column, "%s", s.text);
+    if (s.code != STATUS_MEMORY) s = case_errors_finish(found, errors);
+    if (r.out_of_memory) s = base_status_error(STATUS_MEMORY, "out of memory while reading %s", path);
+    if (s.code != STATUS_OK) case_material_sheet_free(out);
+    host_tree_free(root);
+    case_errors_free(found);
     free(found);
     free(r.use);
     return s;
@@ -245,13 +248,13 @@ static void beside_program(char path[MATERIAL_PATH_SIZE])
     free(plain);
 }
 
-void material_places_find(material_places *out)
+void case_material_places_find(material_places *out)
 {
     beside_program(out->installed);
     const char *const all[] = { getenv("BREECH_MATERIALS"), out->installed, BREECH_SOURCE_CASES "/materials" };
     out->n = 0;
     for (int k = 0; k < MATERIAL_MAX_DIRS; k++)
-        if (all[k] && folder_exists(all[k])) out->dir[out->n++] = all[k];
+        if (all[k] && host_folder_exists(all[k])) out->dir[out->n++] = all[k];
 }
 
 static int by_name(const void *a, const void *b)
@@ -259,7 +262,7 @@ static int by_name(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-void material_names_free(char **names, int n)
+void case_material_names_free(char **names, int n)
 {
     for (int k = 0; k < n; k++) free(names[k]);
     free(names);
@@ -274,14 +277,14 @@ static status add_name(char ***names, int *n, const char *file)
     *names = more;
     more[*n] = strndup(file, length - 5);
     CHECK(more[*n], STATUS_MEMORY, "out of memory while listing materials");
-    if (material_name_valid(more[*n]))
+    if (case_material_name_valid(more[*n]))
         (*n)++;
     else
         free(more[*n]);
     return status_ok();
 }
 
-status material_names(const char *dir, char ***names, int *n)
+status case_material_names(const char *dir, char ***names, int *n)
 {
     *names = NULL;
     *n = 0;
@@ -291,7 +294,7 @@ status material_names(const char *dir, char ***names, int *n)
     for (struct dirent *entry; s.code == STATUS_OK && (entry = readdir(folder));) s = add_name(names, n, entry->d_name);
     closedir(folder);
     if (s.code != STATUS_OK) {
-        material_names_free(*names, *n);
+        case_material_names_free(*names, *n);
         *names = NULL;
         *n = 0;
         return s;
@@ -313,53 +316,54 @@ static status not_found(const char *name, const char *const *dirs, int n_dirs)
         int n;
         const size_t used = strlen(text);
         snprintf(text + used, sizeof text - used, "%s%s", d > 0 ? ", " : "", dirs[d]);
-        TRY(material_names(dirs[d], &names, &n));
+        TRY(case_material_names(dirs[d], &names, &n));
         char **ended = realloc(names, ((size_t)n + 1) * sizeof *ended);
         if (ended) {
             names = ended;
             names[n] = NULL;
-            const char *found = nearest_name(name, listed, names);
+            const char *found = host_nearest_name(name, listed, names);
             if (found) snprintf(near, sizeof near, "%s", found);
         }
-        material_names_free(names, n);
+        case_material_names_free(names, n);
     }
-    return status_error(STATUS_BAD_INPUT, "no material of this name in %s%s%s%s",
-                        n_dirs > 0 ? text : "(no folder given)", near[0] ? "; did you mean `" : "", near,
-                        near[0] ? "`?" : "");
+    return base_status_error(STATUS_BAD_INPUT, "no material of this name in %s%s%s%s",
+                             n_dirs > 0 ? text : "(no folder given)", near[0] ? "; did you mean `" : "", near,
+                             near[0] ? "`?" : "");
 }
 
-status material_sheet_find(const units *u, const char *name, const char *const *dirs, int n_dirs, material_sheet *out,
-                           char **errors)
+status case_material_sheet_find(const units *u, const char *name, const char *const *dirs, int n_dirs,
+                                material_sheet *out, char **errors)
 {
     *errors = NULL;
     memset(out, 0, sizeof *out);
-    CHECK(material_name_valid(name), STATUS_BAD_INPUT, "a material's name has letters, digits, _ - + . only");
+    CHECK(case_material_name_valid(name), STATUS_BAD_INPUT, "a material's name has letters, digits, _ - + . only");
     for (int d = 0; d < n_dirs; d++) {
         char path[MATERIAL_PATH_SIZE];
         if (snprintf(path, sizeof path, "%s/%s.yaml", dirs[d], name) >= (int)sizeof path) continue;
         char *bytes = NULL;
         size_t length = 0;
-        if (!file_exists(path)) continue;
-        TRY(file_text(path, TREE_MAX_BYTES, &bytes, &length));
-        const status s = material_sheet_parse(u, bytes, length, path, out, errors);
+        if (!host_file_exists(path)) continue;
+        TRY(host_file_text(path, TREE_MAX_BYTES, &bytes, &length));
+        const status s = case_material_sheet_parse(u, bytes, length, path, out, errors);
         free(bytes);
         return s;
     }
     return not_found(name, dirs, n_dirs);
 }
 
-status material_sheet_open(const char *name, const char *const *dirs, int n_dirs, material_sheet *out, char **errors)
+status case_material_sheet_open(const char *name, const char *const *dirs, int n_dirs, material_sheet *out,
+                                char **errors)
 {
     units *u = NULL;
     *errors = NULL;
     memset(out, 0, sizeof *out);
-    TRY(units_open(&u));
-    const status s = material_sheet_find(u, name, dirs, n_dirs, out, errors);
-    units_close(u);
+    TRY(host_units_open(&u));
+    const status s = case_material_sheet_find(u, name, dirs, n_dirs, out, errors);
+    host_units_close(u);
     return s;
 }
 
-void material_sheet_warning(const material_sheet *sheet, char out[MATERIAL_WARNING_SIZE])
+void case_material_sheet_warning(const material_sheet *sheet, char out[MATERIAL_WARNING_SIZE])
 {
     int used = 0, weak = 0;
     out[0] = '\0';

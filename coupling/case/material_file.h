@@ -8,9 +8,9 @@
  *     density: {value: 8960 kg/m^3, source: JC}
  *     hardness: {value: 725 MPa, source: book, weak: true, note: annealed 0.5 GPa .. half hard 0.95 GPa}
  *
- * The constants are those of material_params (mpm/material.c), each optional: one that is not there is not known, and
- * what needs it refuses the material.  `weak: true` marks a secondary or unchecked value; whoever uses it is warned.
- * `strength: ptw` after the title: the flow stress is (M-23), not (M-1).
+ * The constants are those of mpm_material_params (mpm/material.c), each optional: one that is not there is not known,
+ * and what needs it refuses the material.  `weak: true` marks a secondary or unchecked value; whoever uses it is
+ * warned. `strength: ptw` after the title: the flow stress is (M-23), not (M-1).
  * To add a material: add a file; tests/test_materials.c covers it at once. */
 #ifndef BREECH_COUPLING_MATERIAL_FILE_H
 #define BREECH_COUPLING_MATERIAL_FILE_H
@@ -23,7 +23,7 @@
 enum { MATERIAL_MAX_CONSTANTS = 64, MATERIAL_PATH_SIZE = 512, MATERIAL_WARNING_SIZE = 600 };
 
 typedef struct {
-    const param *constant; /* borrowed from material_params */
+    const param *constant; /* borrowed from mpm_material_params */
     bool weak;
     char *source; /* the whole citation, owned */
     char *note;   /* owned, NULL if none */
@@ -39,25 +39,26 @@ typedef struct {
 
 /* Finds <dir>/<name>.yaml in the first of the folders that has it.  STATUS_BAD_INPUT names the folders and the nearest
  * name; errors of the file itself are all in *errors (owned by the caller, NULL when there are none). */
-status material_sheet_find(const units *u, const char *name, const char *const *dirs, int n_dirs, material_sheet *out,
-                           char **errors);
+status case_material_sheet_find(const units *u, const char *name, const char *const *dirs, int n_dirs,
+                                material_sheet *out, char **errors);
 
 /* The same for those who have no unit system open. */
-status material_sheet_open(const char *name, const char *const *dirs, int n_dirs, material_sheet *out, char **errors);
+status case_material_sheet_open(const char *name, const char *const *dirs, int n_dirs, material_sheet *out,
+                                char **errors);
 
 /* From memory; the name in the file must be that of `path`. */
-status material_sheet_parse(const units *u, const char *bytes, size_t length, const char *path, material_sheet *out,
-                            char **errors);
+status case_material_sheet_parse(const units *u, const char *bytes, size_t length, const char *path,
+                                 material_sheet *out, char **errors);
 
-void material_sheet_free(material_sheet *sheet);
+void case_material_sheet_free(material_sheet *sheet);
 
 /* A line naming the weak constants, "" if there are none. */
-void material_sheet_warning(const material_sheet *sheet, char out[MATERIAL_WARNING_SIZE]);
+void case_material_sheet_warning(const material_sheet *sheet, char out[MATERIAL_WARNING_SIZE]);
 
-/* Names of all materials in a folder, sorted; *names is an array of *n strings, freed with material_names_free.
+/* Names of all materials in a folder, sorted; *names is an array of *n strings, freed with case_material_names_free.
  * A folder that is not there has none. */
-status material_names(const char *dir, char ***names, int *n);
-void material_names_free(char **names, int n);
+status case_material_names(const char *dir, char ***names, int *n);
+void case_material_names_free(char **names, int n);
 
 /* Where the program looks beside the case's own folder: $BREECH_MATERIALS, the installation the program belongs to
  * (../share/breech/cases/materials from its folder), cases/materials of the source tree; those that are there. */
@@ -67,9 +68,9 @@ typedef struct {
     const char *dir[MATERIAL_MAX_DIRS]; /* n; point into the environment, the program and `installed` */
     char installed[MATERIAL_PATH_SIZE];
 } material_places;
-void material_places_find(material_places *out);
+void case_material_places_find(material_places *out);
 
 /* Letters, digits, _ - + and dots, not a dot first: a name that cannot lead out of its folder. */
-bool material_name_valid(const char *name);
+bool case_material_name_valid(const char *name);
 
 #endif

@@ -37,14 +37,14 @@ static status read_line(const char *path, int number, char *line, point_list *li
     return status_ok();
 }
 
-status profile_file_read(const char *path, supply_point **points, int *n)
+status case_profile_read(const char *path, supply_point **points, int *n)
 {
     char *bytes = NULL;
     size_t length = 0;
     point_list list = { NULL, 0, 0 };
-    TRY(file_text(path, PROFILE_MAX_BYTES, &bytes, &length));
+    TRY(host_file_text(path, PROFILE_MAX_BYTES, &bytes, &length));
     char *text = realloc(bytes, length + 1), *line = text;
-    status s = text ? status_ok() : status_error(STATUS_MEMORY, "no memory for %.300s", path);
+    status s = text ? status_ok() : base_status_error(STATUS_MEMORY, "no memory for %.300s", path);
     if (text) text[length] = '\0';
     for (int number = 0; line && s.code == STATUS_OK; number++) {
         char *end = strchr(line, '\n');

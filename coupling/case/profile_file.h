@@ -1,5 +1,5 @@
-/* A current profile from a table file: time [s] and current [A] a row, parted by commas or blanks; # begins a comment; lines
- * before the first row that are no numbers are its heading. */
+/* A current profile from a table file: time [s] and current [A] a row, parted by commas or blanks; # begins a comment;
+ * lines before the first row that are no numbers are its heading. */
 #ifndef BREECH_COUPLING_PROFILE_FILE_H
 #define BREECH_COUPLING_PROFILE_FILE_H
 
@@ -9,6 +9,6 @@
 enum { PROFILE_MAX_BYTES = 1 << 20 };
 
 /* *points is malloc'ed, *n long; the caller frees it.  STATUS_BAD_INPUT names the file's line. */
-status profile_file_read(const char *path, supply_point **points, int *n);
+status case_profile_read(const char *path, supply_point **points, int *n);
 
 #endif

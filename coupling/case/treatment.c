@@ -3,17 +3,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-const treatment_kind treatment_kinds[TREATMENT_KINDS] = {
-#define TREATMENT_LAYERS(name, doc) { #name, doc, NULL, treatment_##name##_apply },
-#define TREATMENT(name, doc) { #name, doc, treatment_##name##_params, treatment_##name##_apply },
+const treatment_kind case_treatment_kinds[TREATMENT_KINDS] = {
+#define TREATMENT_LAYERS(name, doc) { #name, doc, NULL, case_treatment_##name##_apply },
+#define TREATMENT(name, doc) { #name, doc, case_treatment_##name##_params, case_treatment_##name##_apply },
 #include "coupling/case/treatment.def"
 #undef TREATMENT
 };
 
-bool treatment_given(const case_treatment *t, int kind)
+bool case_treatment_given(const case_treatment *t, int kind)
 {
     const treatment_settings *s = &t->kind[kind];
-    const param *first = treatment_kinds[kind].params;
+    const param *first = case_treatment_kinds[kind].params;
     if (!first) return s->layers.n > 0;
     const char *member = (const char *)s + first->offset;
     return first->kind == PARAM_TEXT ? member[0] != '\0' : !isnan(*(const double *)(const void *)member);
@@ -41,7 +41,7 @@ static status own_sizes(case_populations *list)
     return status_ok();
 }
 
-status treated_case(const breech_case *c, const case_treatment *t, breech_case *out)
+status case_treat(const breech_case *c, const case_treatment *t, breech_case *out)
 {
     *out = *c;
     out->rail.layers = (case_layers){ 0, NULL };
@@ -58,14 +58,14 @@ status treated_case(const breech_case *c, const case_treatment *t, breech_case *
     out->populations = populations;
     TRY(own_sizes(&out->populations));
     for (int k = 0; t && k < TREATMENT_KINDS; k++) {
-        if (!treatment_given(t, k)) continue;
-        const status s = treatment_kinds[k].apply(&t->kind[k], out);
+        if (!case_treatment_given(t, k)) continue;
+        const status s = case_treatment_kinds[k].apply(&t->kind[k], out);
         CHECK(s.code == STATUS_OK, s.code, "treatment `%s`: %.400s", t->name, s.text);
     }
     return status_ok();
 }
 
-void treated_free(breech_case *c)
+void case_treated_free(breech_case *c)
 {
     free(c->rail.layers.item);
     free(c->sites.item);
@@ -74,7 +74,7 @@ void treated_free(breech_case *c)
     memset(c, 0, sizeof *c);
 }
 
-status treatment_add_layer(breech_case *c, int at, const case_layer *layer)
+status case_treatment_add_layer(breech_case *c, int at, const case_layer *layer)
 {
     case_layers *l = &c->rail.layers;
     case_layer *more = realloc(l->item, ((size_t)l->n + 1) * sizeof *more);

@@ -1,11 +1,13 @@
 /* Treatments: what can be done to a rail's surface, as a change of the case.
  *
- * A case lists surfaces to compare, each a name and the kinds of treatment on it.  To add a kind: treatment_<kind>.c with
- *   const param treatment_<kind>_params[]: the keys of the case file, members of treatment_settings, the first REQUIRED
+ * A case lists surfaces to compare, each a name and the kinds of treatment on it.  To add a kind: treatment_<kind>.c
+ * with
+ *   const param case_treatment_<kind>_params[]: the keys of the case file, members of treatment_settings, the first
+ *   REQUIRED
  *     (a kind is given if its first key is);
- *   status treatment_<kind>_apply(settings, case): changes the case; STATUS_BAD_INPUT names what cannot be;
- * and one line in treatment.def, the file in case_sources.cmake.  tests/test_treatments.c checks every kind: applied, the
- * case differs and its scenes can be built. */
+ *   status case_treatment_<kind>_apply(settings, case): changes the case; STATUS_BAD_INPUT names what cannot be;
+ * and one line in treatment.def, the file in case_sources.cmake.  tests/test_treatments.c checks every kind: applied,
+ * the case differs and its scenes can be built. */
 #ifndef BREECH_COUPLING_TREATMENT_H
 #define BREECH_COUPLING_TREATMENT_H
 
@@ -16,12 +18,12 @@ typedef struct {
     const param *params; /* NULL: a list of layers */
     status (*apply)(const treatment_settings *t, breech_case *c);
 } treatment_kind;
-extern const treatment_kind treatment_kinds[TREATMENT_KINDS];
+extern const treatment_kind case_treatment_kinds[TREATMENT_KINDS];
 
-#define TREATMENT_LAYERS(name, doc) status treatment_##name##_apply(const treatment_settings *t, breech_case *c);
-#define TREATMENT(name, doc)                        \
-    extern const param treatment_##name##_params[]; \
-    status treatment_##name##_apply(const treatment_settings *t, breech_case *c);
+#define TREATMENT_LAYERS(name, doc) status case_treatment_##name##_apply(const treatment_settings *t, breech_case *c);
+#define TREATMENT(name, doc)                             \
+    extern const param case_treatment_##name##_params[]; \
+    status case_treatment_##name##_apply(const treatment_settings *t, breech_case *c);
 #include "coupling/case/treatment.def"
 #undef TREATMENT
 
@@ -33,14 +35,14 @@ extern const treatment_kind treatment_kinds[TREATMENT_KINDS];
     }
 
 /* Is this kind part of the treatment? */
-bool treatment_given(const case_treatment *t, int kind);
+bool case_treatment_given(const case_treatment *t, int kind);
 
-/* The case under a treatment (NULL: as it is): a copy that borrows what it does not change.  It owns its layers, sites and
- * populations; treated_free, even on error. */
-status treated_case(const breech_case *c, const case_treatment *t, breech_case *out);
-void treated_free(breech_case *c);
+/* The case under a treatment (NULL: as it is): a copy that borrows what it does not change.  It owns its layers, sites
+ * and populations; case_treated_free, even on error. */
+status case_treat(const breech_case *c, const case_treatment *t, breech_case *out);
+void case_treated_free(breech_case *c);
 
 /* A layer more, at place `at` from below. */
-status treatment_add_layer(breech_case *c, int at, const case_layer *layer);
+status case_treatment_add_layer(breech_case *c, int at, const case_layer *layer);
 
 #endif

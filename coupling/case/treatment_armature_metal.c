@@ -3,12 +3,12 @@
 
 #include <string.h>
 
-const param treatment_armature_metal_params[] = {
+const param case_treatment_armature_metal_params[] = {
     PARAM_STRING(treatment_settings, material, NULL, "the armature's material"),
     PARAMS_END,
 };
 
-status treatment_armature_metal_apply(const treatment_settings *t, breech_case *c)
+status case_treatment_armature_metal_apply(const treatment_settings *t, breech_case *c)
 {
     for (int i = 0; i < c->populations.n; i++) {
         char *grain = c->populations.item[i].material;

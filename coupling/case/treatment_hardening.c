@@ -1,22 +1,22 @@
-/* A skin of the rail's metal whose flow stress is raised: shot peening, laser hardening, cold rolling.  Uniform over its
- * depth; it lies below the rail's own layers and coatings. */
+/* A skin of the rail's metal whose flow stress is raised: shot peening, laser hardening, cold rolling.  Uniform over
+ * its depth; it lies below the rail's own layers and coatings. */
 #include "coupling/case/treatment.h"
 
 #include <string.h>
 
 enum { DEPTH, FACTOR };
 
-const param treatment_hardening_params[] = {
+const param case_treatment_hardening_params[] = {
     TREATMENT_VALUE(DEPTH, "depth", "m", REQUIRED, 1e-6, 0.1, "of the skin"),
     TREATMENT_VALUE(FACTOR, "factor", "1", REQUIRED, 0.01, 100.0, "on the rail's flow stress and hardness"),
     PARAMS_END,
 };
 
-status treatment_hardening_apply(const treatment_settings *t, breech_case *c)
+status case_treatment_hardening_apply(const treatment_settings *t, breech_case *c)
 {
     case_layer skin = { .thickness = t->value[DEPTH],
                         .bond_strength = NAN,
                         .yield_scale = c->rail.yield_scale * t->value[FACTOR] };
     memcpy(skin.material, c->rail.material, sizeof skin.material);
-    return treatment_add_layer(c, 0, &skin);
+    return case_treatment_add_layer(c, 0, &skin);
 }

@@ -4,12 +4,12 @@
 
 enum { ANGLE };
 
-const param treatment_lead_angle_params[] = {
+const param case_treatment_lead_angle_params[] = {
     TREATMENT_VALUE(ANGLE, "angle", "rad", REQUIRED, 0.01, 1.5707963267948966, "between lead face and rail surface"),
     PARAMS_END,
 };
 
-status treatment_lead_angle_apply(const treatment_settings *t, breech_case *c)
+status case_treatment_lead_angle_apply(const treatment_settings *t, breech_case *c)
 {
     case_projectile *p = &c->projectile;
     const double run = p->chamfer_height / tan(t->value[ANGLE]);

@@ -3,13 +3,13 @@
 
 enum { SIZE, NUMBER };
 
-const param treatment_polish_params[] = {
+const param case_treatment_polish_params[] = {
     TREATMENT_VALUE(SIZE, "size", "1", REQUIRED, 0.01, 1.0, "factor on every grain's size"),
     TREATMENT_VALUE(NUMBER, "number", "1", 1.0, 0.0, 1.0, "share of a population's grains that is left"),
     PARAMS_END,
 };
 
-status treatment_polish_apply(const treatment_settings *t, breech_case *c)
+status case_treatment_polish_apply(const treatment_settings *t, breech_case *c)
 {
     for (int i = 0; i < c->sites.n; i++) {
         c->sites.item[i].radius *= t->value[SIZE];

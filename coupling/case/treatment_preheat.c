@@ -3,12 +3,12 @@
 
 enum { TEMPERATURE };
 
-const param treatment_preheat_params[] = {
+const param case_treatment_preheat_params[] = {
     TREATMENT_VALUE(TEMPERATURE, "temperature", "K", REQUIRED, 4.0, 2000.0, "of rail, layers and grains"),
     PARAMS_END,
 };
 
-status treatment_preheat_apply(const treatment_settings *t, breech_case *c)
+status case_treatment_preheat_apply(const treatment_settings *t, breech_case *c)
 {
     c->rail.temperature = t->value[TEMPERATURE];
     return status_ok();

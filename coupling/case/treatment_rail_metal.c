@@ -5,7 +5,7 @@
 
 enum { YIELD_SCALE };
 
-const param treatment_rail_metal_params[] = {
+const param case_treatment_rail_metal_params[] = {
     PARAM_STRING(treatment_settings, material, NULL, "the rail's material"),
     TREATMENT_VALUE(YIELD_SCALE, "yield_scale", "1", 1.0, 0.01, 100.0, "factor on its flow stress and hardness"),
     PARAMS_END,
@@ -16,7 +16,7 @@ static void exchange(char *metal, const char *former, const char *now)
     if (strcmp(metal, former) == 0) snprintf(metal, PARAM_TEXT_SIZE, "%s", now);
 }
 
-status treatment_rail_metal_apply(const treatment_settings *t, breech_case *c)
+status case_treatment_rail_metal_apply(const treatment_settings *t, breech_case *c)
 {
     char former[PARAM_TEXT_SIZE];
     memcpy(former, c->rail.material, sizeof former);

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-const char *const damage_class_names[] = { "none", "scratch", "gouge", "undecided", NULL };
+const char *const gouge_class_names[] = { "none", "scratch", "gouge", "undecided", NULL };
 
 static const double SMOOTH_TO = 1.5; /* (M-20): full weight from this multiple of d_m */
 
@@ -86,8 +86,8 @@ static void measure_outline(const crater_spec *spec, const crater_outline *o, cr
     c->rim_height = highest(c, o, fmax(c->width, 4.0 * spec->particle_radius), -INFINITY, &c->rim_x);
 }
 
-/* How far V leans downstream: 6 <x - x_middle>/length over d w(d), 0 for a constant section, 1 for a wedge that begins at
- * a point, negative for one that dies out. */
+/* How far V leans downstream: 6 <x - x_middle>/length over d w(d), 0 for a constant section, 1 for a wedge that begins
+ * at a point, negative for one that dies out. */
 static double lean_of(const crater_outline *o, const crater *c)
 {
     double moment = 0.0, sum = 0.0;
@@ -151,24 +151,24 @@ static status check_spec(const crater_spec *s)
     return status_ok();
 }
 
-status crater_measure(const crater_points *points, const crater_spec *spec, crater *out)
+status gouge_crater_measure(const crater_points *points, const crater_spec *spec, crater *out)
 {
     assert(points && spec && out);
     *out = (crater){ .class = DAMAGE_NONE };
     TRY(check_spec(spec));
     out->measuring_depth = fmax(0.1 * spec->particle_radius, 0.5 * spec->cell);
     crater_outline o = { .row = NULL };
-    status done = crater_map(points, spec, out);
-    if (done.code == STATUS_OK) done = crater_trace(out, &o);
+    status done = gouge_crater_map(points, spec, out);
+    if (done.code == STATUS_OK) done = gouge_crater_trace(out, &o);
     if (done.code == STATUS_OK)
         measure(spec, &o, out);
     else
-        crater_free(out);
+        gouge_crater_free(out);
     free(o.row);
     return done;
 }
 
-void crater_free(crater *c)
+void gouge_crater_free(crater *c)
 {
     if (!c) return;
     free(c->depth_map);

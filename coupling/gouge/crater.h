@@ -2,34 +2,38 @@
  *
  * Surface.  Over the map lies a lattice of sample lines, two a cell and axis, at its Gauss points (irrational, so that
  * lines keep off the borders between points).  Along each line the points whose footprint
- * (position +- half lengths) it meets are walked up from below; failed points (damage >= 1) are left out.  The walk ends
- * at the first gap wider than 1.2 times the distance at which the two points beside it would touch: one missing point is
- * bridged, what floats higher is debris, and so is a flap over a deeper cavity.  The height is position + half length of
- * the last point.  A sample above all of its eight neighbours, or below both of those along x or along z, is set to the
- * nearest of them: spikes of one sample and slits one sample wide, however long, are the lattice's.  A map cell is the mean of its samples, so an undisturbed rail has depth 0 to
- * rounding whatever the sizes of its points; a line that meets nothing of the rail's lower half is left out (the rail
- * ends there), depth 0.  Choose `cell` about the fine grid's cell.
+ * (position +- half lengths) it meets are walked up from below; failed points (damage >= 1) are left out.  The walk
+ * ends at the first gap wider than 1.2 times the distance at which the two points beside it would touch: one missing
+ * point is bridged, what floats higher is debris, and so is a flap over a deeper cavity.  The height is position + half
+ * length of the last point.  A sample above all of its eight neighbours, or below both of those along x or along z, is
+ * set to the nearest of them: spikes of one sample and slits one sample wide, however long, are the lattice's.  A map
+ * cell is the mean of its samples, so an undisturbed rail has depth 0 to rounding whatever the sizes of its points; a
+ * line that meets nothing of the rail's lower half is left out (the rail ends there), depth 0.  Choose `cell` about the
+ * fine grid's cell.
  *
  * Measures, at the measuring depth d_m = max(0.1 particle_radius, cell / 2), d the depth, downstream = +x:
  *   the crater is the cells with d > d_m that hang together (by edge or corner), with every other such patch that has a
  *   tenth of its volume; its outline is where d = d_m between cell centres, linearly;
  *   length, width     extents of the outline along x, and across z at its widest
  *   depth, deepest_x  largest d and where
- *   volume     V = sum of d w(d) over all cells, w rising smoothly from 0 at d_m to 1 at 1.5 d_m              (M-20) [m3]
- *   volume_beside  the part of V beside the particle's own track, |z| > particle_radius
- *   lean       6 <x - x_middle> / length, the mean over V: 0 for a groove of constant section, 1 for a wedge that begins at
+ *   volume     V = sum of d w(d) over all cells, w rising smoothly from 0 at d_m to 1 at 1.5 d_m              (M-20)
+ *   [m3] volume_beside  the part of V beside the particle's own track, |z| > particle_radius
+ *   lean       6 <x - x_middle> / length, the mean over V: 0 for a groove of constant section, 1 for a wedge that
+ *   begins at
  *              a point, negative for a groove that dies out
- *   severity   (lean V - A h) / V_p, A, h, V_p plan area, height and volume of the particle                   (M-21) [1]
+ *   severity   (lean V - A h) / V_p, A, h, V_p plan area, height and volume of the particle                   (M-21)
+ *   [1]
  *   widening   mean width of the downstream third of the length over that of the upstream third
  *   rim_height largest height above the surface within max(width, 4 particle_radius) of the crater, rim_x where
- * Because w is smooth, V and severity are continuous in the surface: a shallow scratch does not jump in as a whole when it
- * passes d_m, and springback or noise below d_m counts nothing.  Severity is - A h / V_p (-1.5 for a hemisphere) without
- * a crater; below that where the groove dies out, however long it is; it passes 0 where what grows downstream exceeds the
- * particle's cylinder A h.  V alone would not do: at 1.0 km/s the groove of a 0.5 mm grain holds 2.1 mm3, five times A h,
- * and dies out after 6 mm; at 1.5 km/s it grows until the armature has passed.
+ * Because w is smooth, V and severity are continuous in the surface: a shallow scratch does not jump in as a whole when
+ * it passes d_m, and springback or noise below d_m counts nothing.  Severity is - A h / V_p (-1.5 for a hemisphere)
+ * without a crater; below that where the groove dies out, however long it is; it passes 0 where what grows downstream
+ * exceeds the particle's cylinder A h.  V alone would not do: at 1.0 km/s the groove of a 0.5 mm grain holds 2.1 mm3,
+ * five times A h, and dies out after 6 mm; at 1.5 km/s it grows until the armature has passed.
  *
  * Class.  none: no cell above d_m.  gouge: severity and widening at or above their limits and a rim higher than d_m
- * downstream of the crater's middle.  scratch: severity below its limit, and not both widening and rim.  Else undecided. */
+ * downstream of the crater's middle.  scratch: severity below its limit, and not both widening and rim.  Else
+ * undecided. */
 #ifndef BREECH_MPM_CRATER_H
 #define BREECH_MPM_CRATER_H
 
@@ -39,7 +43,7 @@
 #include <stddef.h>
 
 typedef enum { DAMAGE_NONE, DAMAGE_SCRATCH, DAMAGE_GOUGE, DAMAGE_UNDECIDED } damage_class;
-extern const char *const damage_class_names[]; /* "none", "scratch", "gouge", "undecided", NULL */
+extern const char *const gouge_class_names[]; /* "none", "scratch", "gouge", "undecided", NULL */
 
 /* The material points of the rail (and welded layers) down to well below the crater; arrays of n, borrowed. */
 typedef struct {
@@ -76,8 +80,8 @@ typedef struct {
     double *depth_map;     /* nx x nz, depth below the surface, rim negative [m]; owned */
 } crater;
 
-/* STATUS_BAD_INPUT when the spec makes no sense or the region holds no rail; `out` then needs no crater_free. */
-status crater_measure(const crater_points *points, const crater_spec *spec, crater *out);
-void crater_free(crater *c);
+/* STATUS_BAD_INPUT when the spec makes no sense or the region holds no rail; `out` then needs no gouge_crater_free. */
+status gouge_crater_measure(const crater_points *points, const crater_spec *spec, crater *out);
+void gouge_crater_free(crater *c);
 
 #endif

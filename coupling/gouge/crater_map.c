@@ -128,8 +128,8 @@ static double top_at(const sampling *s, int ix, int iz, bool mirrored, double no
     return s->half[at] < 0.0 ? none : s->top[at];
 }
 
-/* Height of a line, but no higher than the highest of its eight neighbours, and no lower than both along an axis (those there
- * are, itself at a mirror): what is one line wide is a splinter, or a slit between points. */
+/* Height of a line, but no higher than the highest of its eight neighbours, and no lower than both along an axis (those
+ * there are, itself at a mirror): what is one line wide is a splinter, or a slit between points. */
 static double without_spike(const sampling *s, int ix, int iz, bool mirrored)
 {
     double lowest = -INFINITY, highest = -INFINITY;
@@ -171,7 +171,7 @@ static void fill_map(const sampling *s, const crater_spec *spec, crater *c)
         }
 }
 
-status crater_map(const crater_points *p, const crater_spec *spec, crater *c)
+status gouge_crater_map(const crater_points *p, const crater_spec *spec, crater *c)
 {
     const double z_lo = spec->mirrored ? 0.0 : -spec->z_hi;
     const double wide_x = ceil((spec->x_hi - spec->x_lo) / spec->cell * (1.0 - 1e-9));
@@ -194,7 +194,7 @@ status crater_map(const crater_points *p, const crater_spec *spec, crater *c)
     c->depth_map = malloc((size_t)c->nx * (size_t)c->nz * sizeof *c->depth_map);
     status done = status_ok();
     if (!s.top || !s.half || !c->depth_map)
-        done = status_error(STATUS_MEMORY, "crater: no memory for a map of %d x %d cells", c->nx, c->nz);
+        done = base_status_error(STATUS_MEMORY, "crater: no memory for a map of %d x %d cells", c->nx, c->nz);
     for (size_t k = 0; done.code == STATUS_OK && k < lines; k++) s.half[k] = -1.0;
     if (done.code == STATUS_OK) done = pile_points(p, spec, &s);
     if (done.code == STATUS_OK) fill_map(&s, spec, c);

@@ -37,7 +37,8 @@ static double flood(const crater *c, int *label, int mark, size_t seed, size_t *
     return volume;
 }
 
-/* label: patch of each cell, 0 = none; volume[mark] its volume; both with room for every cell + 1.  Returns their count. */
+/* label: patch of each cell, 0 = none; volume[mark] its volume; both with room for every cell + 1.  Returns their
+ * count. */
 static int label_patches(const crater *c, int *label, double *volume, size_t *stack)
 {
     const size_t cells = (size_t)c->nx * (size_t)c->nz;
@@ -130,7 +131,7 @@ static void trace(const crater *c, const bool *mask, crater_outline *o)
     o->x_hi = c->x0 + c->dx * (o->last + row_crossing(c, &o->row[o->last], o->last + 1));
 }
 
-status crater_trace(const crater *c, crater_outline *o)
+status gouge_crater_trace(const crater *c, crater_outline *o)
 {
     bool *mask = NULL;
     TRY(find_crater(c, &mask));

@@ -4,8 +4,8 @@
 
 #include "coupling/gouge/crater.h"
 
-/* crater_map.c: lays out the map of `c` and fills depth_map (malloc'ed; crater_free). */
-status crater_map(const crater_points *points, const crater_spec *spec, crater *c);
+/* crater_map.c: lays out the map of `c` and fills depth_map (malloc'ed; gouge_crater_free). */
+status gouge_crater_map(const crater_points *points, const crater_spec *spec, crater *c);
 
 /* crater_outline.c */
 
@@ -23,6 +23,6 @@ typedef struct {
 } crater_outline;
 
 /* The map's cells that belong to the crater and their outline; the caller frees o->row. */
-status crater_trace(const crater *c, crater_outline *o);
+status gouge_crater_trace(const crater *c, crater_outline *o);
 
 #endif

@@ -14,16 +14,16 @@ static const double END_FACTOR = 1.1;
 /* Speed of a groove's front over the armature's.  A zone that follows it ends when the contact face has passed it. */
 static const double FRONT_SPEED = 0.7;
 
-/* Where a groove's growth is gauged: the armature's way in grain radii.  Before, the grain itself is still being flattened;
- * later the contact face begins to run out. */
+/* Where a groove's growth is gauged: the armature's way in grain radii.  Before, the grain itself is still being
+ * flattened; later the contact face begins to run out. */
 static const double GROWTH_WAY[2] = { 16.0, 28.0 };
 static const double DEAD_FOLDS = -3.0; /* of a groove that died before the first gauge, and the least of any */
 
 /* A groove that loses so much from gauge to gauge, more than twice what decides nothing, is known to die half way. */
 static const double DYING_FOLDS = -0.5;
 
-/* A fine zone that follows starts so many radii wider than the grain on either side, but no wider than half of its largest; it
- * widens with the groove. */
+/* A fine zone that follows starts so many radii wider than the grain on either side, but no wider than half of its
+ * largest; it widens with the groove. */
 static const double BESIDE = 1.5;
 
 /* Length across the rail of shapes that have one. */
@@ -31,36 +31,36 @@ static const double BESIDE = 1.5;
 
 static const char ARMATURE[] = "armature", GRAIN[] = "particle";
 
-int body_of_armature(const mpm_scene *scene)
+int gouge_body_of_armature(const mpm_scene *scene)
 {
     return scene->bodies - 1;
 }
 
-bool body_is_rail(const mpm_scene *scene, int body)
+bool gouge_body_is_rail(const mpm_scene *scene, int body)
 {
     return strcmp(scene->body[body].name, ARMATURE) != 0 && strcmp(scene->body[body].name, GRAIN) != 0;
 }
 
-bool scene_is_gauged(const breech_case *c)
+bool gouge_is_gauged(const breech_case *c)
 {
     return c->scene.stop_when_gauged && c->scene.follow;
 }
 
-double growth_folds(double growth, double radius, double velocity)
+double gouge_growth_folds(double growth, double radius, double velocity)
 {
     const double folds = growth * (GROWTH_WAY[1] - GROWTH_WAY[0]) * radius / velocity;
     return folds > DEAD_FOLDS ? folds : DEAD_FOLDS; /* NAN too */
 }
 
-bool scene_groove_dies(const breech_case *c, const mpm_scene *s, const mpm_report *now)
+bool gouge_groove_dies(const breech_case *c, const mpm_scene *s, const mpm_report *now)
 {
     if (!(now->gauge_at[0] > 0.0) || now->time < 0.5 * (s->gauge_time[0] + s->gauge_time[1])) return false;
     const double radius = s->gauge_time[0] * s->follow_speed / GROWTH_WAY[0];
-    const double folds = growth_folds(scene_growth(now), radius, s->follow_speed);
+    const double folds = gouge_growth_folds(output_scene_growth(now), radius, s->follow_speed);
     return folds < fmin(DYING_FOLDS, -2.5 * c->scene.growth_scatter);
 }
 
-site_state state_of_case(const breech_case *c)
+site_state gouge_state_of_case(const breech_case *c)
 {
     const case_particle *p = &c->particle;
     site_state s = { .reached = true, .time = 0.0, .velocity = c->scene.velocity, .current = NAN };
@@ -109,7 +109,7 @@ static double top_of_zone(const breech_case *c, const case_site *g)
 /* Half of the grain's extent across the rail. */
 static double half_across(const case_site *g)
 {
-    const shape_kind *k = shape_find(g->shape);
+    const shape_kind *k = mpm_shape_find(g->shape);
     for (int i = 0; k && k->value_names[i]; i++)
         if (strcmp(k->value_names[i], "half_length") == 0) return RIDGE_LENGTH * g->radius;
     return g->radius;
@@ -125,7 +125,7 @@ static layout lay_out(const breech_case *c, const case_site *g, double cells_per
     l.x_front = -g->radius - fmin(g->height, p->chamfer_height) / tan(p->lead_angle) - l.fine;
     l.behind = fmax(s->rail_behind, p->length - l.run - l.x_front + 2.0 * l.coarse);
     l.ahead = s->rail_ahead;
-    const double room = fmax(3.0 * l.coarse, grids_margin(s->levels, l.fine));
+    const double room = fmax(3.0 * l.coarse, mpm_grids_margin(s->levels, l.fine));
     const double pair = (s->levels > 1 ? 2 : 1) * l.fine; /* of the cells around it the zone takes whole ones */
     l.fine_behind = cells_over(fmin(given_or(s->fine_behind, 3.0 * g->radius), l.behind - room), pair);
     const double ahead = (s->follow ? 4.0 : 26.0) * g->radius;
@@ -136,7 +136,7 @@ static layout lay_out(const breech_case *c, const case_site *g, double cells_per
     l.half_width = fmax(l.rail_half_width, 0.5 * p->width) + room;
     l.fine_half_width = cells_over(fmin(given_or(0.5 * s->fine_width, 8.0 * g->radius), l.half_width - room), pair);
     const double start = fmin(half_across(g) + BESIDE * g->radius, 0.5 * l.fine_half_width);
-    const double narrow = fmax(start, s->levels > 1 ? 2.0 * pair : 0.0); /* as grids_make wants */
+    const double narrow = fmax(start, s->levels > 1 ? 2.0 * pair : 0.0); /* as mpm_grids_make wants */
     l.narrow_half_width = s->follow ? fmin(cells_over(narrow, pair), l.fine_half_width) : l.fine_half_width;
     l.layers = case_layers_thickness(&c->rail.layers);
     l.travel = s->follow ? (p->length - l.run) / (1.0 - FRONT_SPEED) : 0.0;
@@ -193,7 +193,7 @@ static void make_box(mpm_body *b, const layout *l, double bottom, double top)
 {
     const double lo[3] = { -l->behind, bottom, -l->rail_half_width },
                  hi[3] = { l->ahead + l->travel, top, l->rail_half_width };
-    b->shape = shape_find("box");
+    b->shape = mpm_shape_find("box");
     for (int k = 0; k < 3; k++) {
         b->shape_value.value[BOX_LO + k] = lo[k];
         b->shape_value.value[BOX_HI + k] = hi[k];
@@ -248,7 +248,7 @@ static bool is_pit(const case_site *g)
 
 static void shape_grain(const case_site *g, const shape_kind **shape, shape_values *value)
 {
-    *shape = shape_find(g->shape);
+    *shape = mpm_shape_find(g->shape);
     for (int i = 0; *shape && (*shape)->value_names[i]; i++) value->value[i] = grain_value(g, (*shape)->value_names[i]);
 }
 
@@ -278,7 +278,7 @@ static void add_armature(const breech_case *c, const site_state *state, const la
     const case_projectile *p = &c->projectile;
     mpm_body *b = add_body(s, ARMATURE, case_material(c, p->material), field);
     double *v = b->shape_value.value;
-    b->shape = shape_find("armature");
+    b->shape = mpm_shape_find("armature");
     v[ARMATURE_X_FRONT] = l->x_front;
     v[ARMATURE_LENGTH] = p->length;
     v[ARMATURE_LEG_THICKNESS] = p->leg_thickness;
@@ -288,7 +288,7 @@ static void add_armature(const breech_case *c, const site_state *state, const la
     v[ARMATURE_LEAD_ANGLE] = p->lead_angle;
     v[ARMATURE_HALF_WIDTH] = 0.5 * p->width;
     b->velocity[0] = state->velocity;
-    b->body_force[1] = -state->contact_pressure * projectile_face_area(p) / armature_mass(p, b->material);
+    b->body_force[1] = -state->contact_pressure * gouge_face_area(p) / armature_mass(p, b->material);
 }
 
 static status add_bodies(const breech_case *c, const site_state *state, const layout *l, mpm_scene *s)
@@ -305,8 +305,8 @@ static status add_bodies(const breech_case *c, const site_state *state, const la
     for (int i = 0; i < s->bodies; i++) {
         mpm_body *b = &s->body[i];
         CHECK(b->shape && b->material, STATUS_BAD_INPUT, "scene: body `%s` has no shape or no material", b->name);
-        TRY(shape_check(b->shape, &b->shape_value));
-        b->temperature = i == body_of_armature(s) ? c->projectile.temperature : c->rail.temperature;
+        TRY(mpm_shape_check(b->shape, &b->shape_value));
+        b->temperature = i == gouge_body_of_armature(s) ? c->projectile.temperature : c->rail.temperature;
         b->damage = c->scene.damage;
     }
     return status_ok();
@@ -337,7 +337,7 @@ static void set_axes(const breech_case *c, const layout *l, mpm_scene *s)
                                        { half ? BOUNDARY_SYMMETRY : BOUNDARY_FREE, BOUNDARY_FREE } };
     unsigned rail_fields = 0;
     for (int i = 0; i < s->bodies; i++)
-        if (body_is_rail(s, i)) rail_fields |= 1u << s->body[i].field;
+        if (gouge_body_is_rail(s, i)) rail_fields |= 1u << s->body[i].field;
     for (int k = 0; k < 3; k++) {
         mpm_axis *a = &s->axis[k];
         a->lo = lo[k], a->hi = hi[k];
@@ -351,32 +351,32 @@ static void set_axes(const breech_case *c, const layout *l, mpm_scene *s)
     }
 }
 
-double scene_crossing_time(const mpm_scene *scene)
+double gouge_crossing_time(const mpm_scene *scene)
 {
-    const mpm_body *b = &scene->body[body_of_armature(scene)];
+    const mpm_body *b = &scene->body[gouge_body_of_armature(scene)];
     return (scene->axis[0].fine_hi - b->shape_value.value[ARMATURE_X_FRONT]) / b->velocity[0];
 }
 
-double scene_grain_passed(const mpm_scene *scene)
+double gouge_grain_passed(const mpm_scene *scene)
 {
-    const mpm_body *b = &scene->body[body_of_armature(scene)], *grain = b - 1;
-    const bool pit = body_is_rail(scene, body_of_armature(scene) - 1);
+    const mpm_body *b = &scene->body[gouge_body_of_armature(scene)], *grain = b - 1;
+    const bool pit = gouge_body_is_rail(scene, gouge_body_of_armature(scene) - 1);
     double lo[3], hi[3];
     (pit ? grain->cut : grain->shape)->bounds(pit ? &grain->cut_value : &grain->shape_value, lo, hi);
     return (hi[0] - b->shape_value.value[ARMATURE_X_FRONT]) / b->velocity[0];
 }
 
-double scene_face_tail(const mpm_scene *scene, double time)
+double gouge_face_tail(const mpm_scene *scene, double time)
 {
-    const mpm_body *b = &scene->body[body_of_armature(scene)];
+    const mpm_body *b = &scene->body[gouge_body_of_armature(scene)];
     const double *v = b->shape_value.value;
     const double lead = v[ARMATURE_CHAMFER_HEIGHT] / tan(v[ARMATURE_LEAD_ANGLE]);
     return v[ARMATURE_X_FRONT] + lead - v[ARMATURE_LENGTH] + b->velocity[0] * time;
 }
 
-double scene_last(const breech_case *c, const mpm_scene *scene)
+double gouge_last_time(const breech_case *c, const mpm_scene *scene)
 {
-    return scene_is_gauged(c) ? scene->gauge_time[1] : scene->end_time;
+    return gouge_is_gauged(c) ? scene->gauge_time[1] : scene->end_time;
 }
 
 /* The fine zone goes with the rail's plastic front. */
@@ -384,11 +384,11 @@ static void set_follow(const breech_case *c, const case_site *g, const layout *l
 {
     if (!c->scene.follow) return;
     s->follow_width = l->fine_half_width;
-    s->follow_speed = s->body[body_of_armature(s)].velocity[0];
+    s->follow_speed = s->body[gouge_body_of_armature(s)].velocity[0];
     s->follow_lead = given_or(c->scene.follow_lead, 3.0 * g->radius);
     for (int i = 0; i < 2; i++) s->gauge_time[i] = GROWTH_WAY[i] * g->radius / s->follow_speed;
     for (int i = 0; i < s->bodies; i++)
-        if (body_is_rail(s, i)) s->follow_bodies |= 1u << i;
+        if (gouge_body_is_rail(s, i)) s->follow_bodies |= 1u << i;
 }
 
 static void set_method(const breech_case *c, const layout *l, mpm_scene *s)
@@ -402,16 +402,16 @@ static void set_method(const breech_case *c, const layout *l, mpm_scene *s)
     s->basis = (basis_kind)from->basis;
     s->levels = s->basis == BASIS_GIMP ? from->levels : 1;
     s->heat_by_plastic_work = from->heat_by_plastic_work;
-    const double speed = s->body[body_of_armature(s)].velocity[0];
-    const double passage = scene_crossing_time(s) + c->projectile.length / speed;
+    const double speed = s->body[gouge_body_of_armature(s)].velocity[0];
+    const double passage = gouge_crossing_time(s) + c->projectile.length / speed;
     s->end_time =
-        given_or(from->end_time, from->follow ? l->travel / speed : fmin(END_FACTOR * scene_crossing_time(s), passage));
+        given_or(from->end_time, from->follow ? l->travel / speed : fmin(END_FACTOR * gouge_crossing_time(s), passage));
 }
 
 /* A scene that ends before its second gauge would pass for a groove that died. */
 static status reaches_gauge(const breech_case *c, const mpm_scene *s)
 {
-    CHECK(!scene_is_gauged(c) || s->end_time >= s->gauge_time[1], STATUS_BAD_INPUT,
+    CHECK(!gouge_is_gauged(c) || s->end_time >= s->gauge_time[1], STATUS_BAD_INPUT,
           "scene: over after %.3g s, before the growth of its groove is known, %.3g s: a longer scene.end_time, a "
           "contact face "
           "of more than %.3g grain radii, or study.judge: severity (for `breech scene`, no scene.stop_when_gauged)",
@@ -421,8 +421,8 @@ static status reaches_gauge(const breech_case *c, const mpm_scene *s)
 
 /* ---- the crater ---- */
 
-/* Plan area and volume of the part above y = 0, of a pit of all of it, by the middles of N_PLAN x N_UP x N_PLAN cells of its
- * box. */
+/* Plan area and volume of the part above y = 0, of a pit of all of it, by the middles of N_PLAN x N_UP x N_PLAN cells
+ * of its box. */
 static void measure_grain(const case_site *g, double *area, double *volume)
 {
     enum { N_PLAN = 128, N_UP = 48 };
@@ -467,7 +467,7 @@ static crater_spec spec_of(const breech_case *c, const case_site *g, const mpm_s
     return spec;
 }
 
-status scene_bodies(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out)
+status gouge_scene_bodies(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out)
 {
     CHECK(state->velocity > 0.0 && isfinite(state->velocity), STATUS_BAD_INPUT,
           "scene: the armature's velocity is %g m/s: must be positive", state->velocity);
@@ -483,10 +483,10 @@ status scene_bodies(const breech_case *c, const site_state *state, double cells_
     return reaches_gauge(c, out);
 }
 
-status scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out,
-                        crater_spec *spec)
+status gouge_scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out,
+                              crater_spec *spec)
 {
-    TRY(scene_bodies(c, state, cells_per_radius, out));
+    TRY(gouge_scene_bodies(c, state, cells_per_radius, out));
     *spec = spec_of(c, &state->grain, out);
     return status_ok();
 }

@@ -13,13 +13,13 @@ static const material *surface_of(const breech_case *c, double *scale)
     return case_material(c, layered ? layers->item[layers->n - 1].material : c->rail.material);
 }
 
-status screen_impact(const breech_case *c, double velocity, screen *out)
+status gouge_screen_impact(const breech_case *c, double velocity, screen *out)
 {
     double scale, u;
     const material *rail = surface_of(c, &scale), *armature = case_material(c, c->projectile.material);
-    TRY(material_check(rail, MATERIAL_FOR_SCREEN));
-    TRY(material_check(armature, MATERIAL_FOR_SCREEN));
-    TRY(impedance_match(armature, rail, velocity, &out->impact_pressure, &u));
+    TRY(mpm_material_check(rail, MATERIAL_FOR_SCREEN));
+    TRY(mpm_material_check(armature, MATERIAL_FOR_SCREEN));
+    TRY(mpm_impedance_match(armature, rail, velocity, &out->impact_pressure, &u));
     out->ratio = out->impact_pressure / fmax(armature->hardness, scale * rail->hardness);
     out->skip = out->ratio < c->study.screen_low;
     out->expected = out->ratio > c->study.screen_high;
@@ -27,16 +27,16 @@ status screen_impact(const breech_case *c, double velocity, screen *out)
 }
 
 /* The pressure rises with the velocity, so halving finds the one place. */
-status screen_velocity(const breech_case *c, double ratio, double *velocity)
+status gouge_screen_velocity(const breech_case *c, double ratio, double *velocity)
 {
     double lo = 0.0, hi = FASTEST;
     screen s;
-    TRY(screen_impact(c, hi, &s));
+    TRY(gouge_screen_impact(c, hi, &s));
     *velocity = INFINITY;
     if (s.ratio < ratio) return status_ok();
     while (hi - lo > 1e-3) {
         const double mid = 0.5 * (lo + hi);
-        TRY(screen_impact(c, mid, &s));
+        TRY(gouge_screen_impact(c, mid, &s));
         if (s.ratio < ratio)
             lo = mid;
         else

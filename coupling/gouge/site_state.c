@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-double projectile_face_area(const case_projectile *p)
+double gouge_face_area(const case_projectile *p)
 {
     return (p->length - p->chamfer_height / tan(p->lead_angle)) * p->width;
 }
 
-void shot_outcome_free(shot_outcome *o)
+void gouge_shot_outcome_free(shot_outcome *o)
 {
     if (!o) return;
     free(o->site);
@@ -17,7 +17,7 @@ void shot_outcome_free(shot_outcome *o)
     memset(o, 0, sizeof *o);
 }
 
-bool trace_at_velocity(const shot_outcome *o, double v, trace_point *at)
+bool gouge_trace_at_velocity(const shot_outcome *o, double v, trace_point *at)
 {
     for (int i = 0; i < o->n_trace; i++) {
         const trace_point *b = &o->trace[i];
@@ -73,13 +73,13 @@ static bool on_event(void *user, shot *s, const shot_event *e)
     recorder *r = user;
     if (r->plan->history) {
         double row[HISTORY_MAX_COLUMNS];
-        history_event_row(e, row);
-        if (!keep(r, history_append(r->plan->history, r->rows[2], row))) return false;
+        output_history_event_row(e, row);
+        if (!keep(r, output_history_append(r->plan->history, r->rows[2], row))) return false;
     }
     if (e->kind != SHOT_SITE) return true;
     arrive(r, e);
     const site_jump *j = r->plan->jump ? &r->plan->jump[e->index] : NULL;
-    return !j || !(j->impulse > 0.0 || j->mass_loss > 0.0) || keep(r, shot_jump(s, j->impulse, j->mass_loss));
+    return !j || !(j->impulse > 0.0 || j->mass_loss > 0.0) || keep(r, circuit_shot_jump(s, j->impulse, j->mass_loss));
 }
 
 static status keep_trace(recorder *r, const shot_state *s)
@@ -103,18 +103,18 @@ static status write_rows(recorder *r, const shot *s, const shot_state *state)
     const double interval = r->c->output.history_interval;
     if (!r->plan->history || (interval > 0.0 && state->t < r->last_sample + interval)) return status_ok();
     r->last_sample = state->t;
-    history_shot_row(state, row);
-    TRY(history_append(r->plan->history, r->rows[0], row));
-    history_modules_row(s, row);
-    return history_append(r->plan->history, r->rows[1], row);
+    output_history_shot_row(state, row);
+    TRY(output_history_append(r->plan->history, r->rows[0], row));
+    output_history_modules_row(s, row);
+    return output_history_append(r->plan->history, r->rows[1], row);
 }
 
 static bool on_sample(void *user, const shot *s, const shot_state *state)
 {
     recorder *r = user;
     const double length = r->c->barrel.length, start = r->c->barrel.start;
-    if (r->plan->progress) progress_update(r->plan->progress, (state->x - start) / (length - start), 0);
-    if (r->plan->stop && r->plan->stop()) keep(r, status_error(STATUS_STOPPED, "stopped at t = %g s", state->t));
+    if (r->plan->progress) host_progress_update(r->plan->progress, (state->x - start) / (length - start), 0);
+    if (r->plan->stop && r->plan->stop()) keep(r, base_status_error(STATUS_STOPPED, "stopped at t = %g s", state->t));
     return keep(r, keep_trace(r, state)) && keep(r, write_rows(r, s, state));
 }
 
@@ -124,16 +124,17 @@ static status open_series(recorder *r, const shot *s)
 {
     history *h = r->plan->history;
     if (!h) return status_ok();
-    TRY(history_shot(h, &r->rows[0]));
-    TRY(history_modules(h, s, &r->rows[1]));
-    TRY(history_events(h, &r->rows[2]));
-    for (int k = 0; k < 3; k++) TRY(history_rewind(h, r->rows[k], -1.0)); /* a shot is rerun, not taken up again */
+    TRY(output_history_shot(h, &r->rows[0]));
+    TRY(output_history_modules(h, s, &r->rows[1]));
+    TRY(output_history_events(h, &r->rows[2]));
+    for (int k = 0; k < 3; k++)
+        TRY(output_history_rewind(h, r->rows[k], -1.0)); /* a shot is rerun, not taken up again */
     return status_ok();
 }
 
 static status close_series(recorder *r)
 {
-    for (int k = 0; r->plan->history && k < 3; k++) TRY(history_end(r->plan->history, r->rows[k]));
+    for (int k = 0; r->plan->history && k < 3; k++) TRY(output_history_end(r->plan->history, r->rows[k]));
     return status_ok();
 }
 
@@ -141,12 +142,12 @@ static status run(recorder *r, shot *s)
 {
     TRY(open_series(r, s));
     const shot_sink sink = { on_event, on_sample, r };
-    const status done = shot_advance(s, INFINITY, &sink);
+    const status done = circuit_shot_advance(s, INFINITY, &sink);
     if (r->error.code != STATUS_OK) return r->error;
     TRY(done);
-    r->out->summary = shot_result(s);
-    r->out->limits = shot_limits_of(s);
-    shot_rail_rise(s, r->out->rail_rise);
+    r->out->summary = circuit_shot_result(s);
+    r->out->limits = circuit_shot_limits_of(s);
+    circuit_shot_rail_rise(s, r->out->rail_rise);
     return close_series(r);
 }
 
@@ -164,7 +165,7 @@ static status prepare(const breech_case *c, shot_outcome *out, double **position
     return status_ok();
 }
 
-shot_config shot_of_case(const breech_case *c, const double *sites)
+shot_config gouge_shot_config(const breech_case *c, const double *sites)
 {
     shot_config config = { .rails = c->rails,
                            .barrel = c->barrel,
@@ -176,7 +177,7 @@ shot_config shot_of_case(const breech_case *c, const double *sites)
     return config;
 }
 
-status shot_run(const breech_case *c, const shot_plan *plan, shot_outcome *out)
+status gouge_shot_run(const breech_case *c, const shot_plan *plan, shot_outcome *out)
 {
     memset(out, 0, sizeof *out);
     double *positions = NULL;
@@ -184,14 +185,14 @@ status shot_run(const breech_case *c, const shot_plan *plan, shot_outcome *out)
     recorder r = { .c = c, .plan = plan, .out = out, .last_sample = -INFINITY, .error = status_ok() };
     const double nominal =
         c->armature.contact_length * (isnan(c->armature.contact_width) ? c->rails.height : c->armature.contact_width);
-    r.face_area = c->given.projectile ? projectile_face_area(&c->projectile) : nominal;
+    r.face_area = c->given.projectile ? gouge_face_area(&c->projectile) : nominal;
     status done = prepare(c, out, &positions);
     if (done.code == STATUS_OK) {
-        const shot_config config = shot_of_case(c, positions);
-        done = shot_create(&config, &s);
+        const shot_config config = gouge_shot_config(c, positions);
+        done = circuit_shot_create(&config, &s);
     }
     if (done.code == STATUS_OK) done = run(&r, s);
-    shot_free(s);
+    circuit_shot_free(s);
     free(positions);
     return done;
 }

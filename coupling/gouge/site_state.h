@@ -17,7 +17,7 @@ typedef struct {
     double time;             /* of arrival [s] */
     double velocity;         /* [m/s] */
     double current;          /* [A] */
-    double contact_pressure; /* contact force of one face over the face, projectile_face_area [Pa] */
+    double contact_pressure; /* contact force of one face over the face, gouge_face_area [Pa] */
     double rail_temperature; /* as the circuit has it ahead of the armature; scenes take case.rail's [K] */
     double
         armature_temperature; /* of its contact face, a film thinner than a cell; scenes take case.projectile's [K] */
@@ -54,17 +54,17 @@ typedef struct {
 } shot_plan;
 
 /* What circuit/ is given; sites: positions of the case's sites, NULL for none; all borrowed. */
-shot_config shot_of_case(const breech_case *c, const double *sites);
+shot_config gouge_shot_config(const breech_case *c, const double *sites);
 
-/* The case's bank, rails, barrel and armature; its sites too when there are any.  *out needs shot_outcome_free even on
- * error.  STATUS_NUMERICAL, STATUS_BAD_INPUT as shot_create and shot_advance. */
-status shot_run(const breech_case *c, const shot_plan *plan, shot_outcome *out);
-void shot_outcome_free(shot_outcome *o); /* NULL allowed */
+/* The case's bank, rails, barrel and armature; its sites too when there are any.  *out needs gouge_shot_outcome_free
+ * even on error.  STATUS_NUMERICAL, STATUS_BAD_INPUT as circuit_shot_create and circuit_shot_advance. */
+status gouge_shot_run(const breech_case *c, const shot_plan *plan, shot_outcome *out);
+void gouge_shot_outcome_free(shot_outcome *o); /* NULL allowed */
 
 /* First instant at which the armature has the velocity v, between two steps linearly; false if it never has. */
-bool trace_at_velocity(const shot_outcome *o, double v, trace_point *at);
+bool gouge_trace_at_velocity(const shot_outcome *o, double v, trace_point *at);
 
 /* Nominal contact face of one leg: its length without the lead face, times its width [m2]. */
-double projectile_face_area(const case_projectile *p);
+double gouge_face_area(const case_projectile *p);
 
 #endif

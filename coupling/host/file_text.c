@@ -6,13 +6,13 @@
 #include <string.h>
 #include <sys/stat.h>
 
-bool file_exists(const char *path)
+bool host_file_exists(const char *path)
 {
     struct stat s;
     return stat(path, &s) == 0 && !S_ISDIR(s.st_mode);
 }
 
-bool folder_exists(const char *path)
+bool host_folder_exists(const char *path)
 {
     struct stat s;
     return stat(path, &s) == 0 && S_ISDIR(s.st_mode);
@@ -26,7 +26,7 @@ static status read_all(FILE *file, const char *path, size_t limit, char *bytes, 
     return status_ok();
 }
 
-status file_text(const char *path, size_t limit, char **bytes, size_t *length)
+status host_file_text(const char *path, size_t limit, char **bytes, size_t *length)
 {
     *bytes = NULL;
     *length = 0;
@@ -35,7 +35,7 @@ status file_text(const char *path, size_t limit, char **bytes, size_t *length)
     char *all = malloc(limit + 1);
     if (!all) {
         fclose(file);
-        return status_error(STATUS_MEMORY, "out of memory while reading %s", path);
+        return base_status_error(STATUS_MEMORY, "out of memory while reading %s", path);
     }
     const status s = read_all(file, path, limit, all, length);
     fclose(file);

@@ -40,7 +40,7 @@ static status allocate(const char *path, h5_file **out, char *name, size_t size)
     return status_ok();
 }
 
-status h5_create(h5_file **out)
+status host_h5_create(h5_file **out)
 {
     *out = NULL;
     be_quiet();
@@ -52,7 +52,7 @@ status h5_create(h5_file **out)
     H5Pclose(access);
     if (f->id < 0) {
         free(f);
-        return status_error(STATUS_MEMORY, "an HDF5 file cannot be made in memory");
+        return base_status_error(STATUS_MEMORY, "an HDF5 file cannot be made in memory");
     }
     *out = f;
     return status_ok();
@@ -68,7 +68,7 @@ static hid_t open_memory(const char *name, const void *image, size_t bytes)
     return id;
 }
 
-status h5_open_image(const char *what, const void *image, size_t bytes, h5_file **out)
+status host_h5_open_image(const char *what, const void *image, size_t bytes, h5_file **out)
 {
     char name[64];
     *out = NULL;
@@ -78,24 +78,24 @@ status h5_open_image(const char *what, const void *image, size_t bytes, h5_file 
     f->id = open_memory(name, image, bytes);
     if (f->id < 0) {
         free(f);
-        return status_error(STATUS_IO, "%.300s: is not an HDF5 file, or a damaged one (%zu bytes)", what, bytes);
+        return base_status_error(STATUS_IO, "%.300s: is not an HDF5 file, or a damaged one (%zu bytes)", what, bytes);
     }
     *out = f;
     return status_ok();
 }
 
-status h5_open(const char *path, h5_file **out)
+status host_h5_open(const char *path, h5_file **out)
 {
     char *image;
     size_t bytes;
     *out = NULL;
-    TRY(file_read(path, &image, &bytes));
-    const status s = h5_open_image(path, image, bytes, out);
+    TRY(host_file_read(path, &image, &bytes));
+    const status s = host_h5_open_image(path, image, bytes, out);
     free(image);
     return s;
 }
 
-status h5_image(h5_file *f, void **image, size_t *bytes)
+status host_h5_image(h5_file *f, void **image, size_t *bytes)
 {
     *image = NULL;
     *bytes = 0;
@@ -106,24 +106,24 @@ status h5_image(h5_file *f, void **image, size_t *bytes)
     CHECK(all, STATUS_MEMORY, "%.300s: no memory for %zd bytes", f->name, size);
     if (H5Fget_file_image(f->id, all, (size_t)size) != size) {
         free(all);
-        return status_error(STATUS_IO, "%.300s: HDF5 cannot complete it", f->name);
+        return base_status_error(STATUS_IO, "%.300s: HDF5 cannot complete it", f->name);
     }
     *image = all;
     *bytes = (size_t)size;
     return status_ok();
 }
 
-status h5_save(h5_file *f, const char *path)
+status host_h5_save(h5_file *f, const char *path)
 {
     void *image;
     size_t bytes = 0;
-    TRY(h5_image(f, &image, &bytes));
-    const status s = file_write(path, image, bytes);
+    TRY(host_h5_image(f, &image, &bytes));
+    const status s = host_file_write(path, image, bytes);
     free(image);
     return s;
 }
 
-void h5_close(h5_file *f)
+void host_h5_close(h5_file *f)
 {
     if (!f) return;
     H5Fclose(f->id);
@@ -133,7 +133,7 @@ void h5_close(h5_file *f)
 /* ---- names and groups ---- */
 
 /* Calls H5Lexists for every part of the path: HDF5 wants the parents to be there first. */
-bool h5_exists(const h5_file *f, const char *path)
+bool host_h5_exists(const h5_file *f, const char *path)
 {
     char part[400];
     snprintf(part, sizeof part, "%s", path);
@@ -154,9 +154,9 @@ static hid_t link_with_parents(void)
     return links;
 }
 
-status h5_group(h5_file *f, const char *path)
+status host_h5_group(h5_file *f, const char *path)
 {
-    if (h5_exists(f, path)) return status_ok();
+    if (host_h5_exists(f, path)) return status_ok();
     const hid_t links = link_with_parents();
     const hid_t group = H5Gcreate2(f->id, path, links, H5P_DEFAULT, H5P_DEFAULT);
     H5Pclose(links);
@@ -165,15 +165,15 @@ status h5_group(h5_file *f, const char *path)
     return status_ok();
 }
 
-void h5_remove(h5_file *f, const char *path)
+void host_h5_remove(h5_file *f, const char *path)
 {
-    if (h5_exists(f, path)) H5Ldelete(f->id, path, H5P_DEFAULT);
+    if (host_h5_exists(f, path)) H5Ldelete(f->id, path, H5P_DEFAULT);
 }
 
-status h5_copy(const h5_file *from, const char *path, h5_file *to, const char *to_path)
+status host_h5_copy(const h5_file *from, const char *path, h5_file *to, const char *to_path)
 {
-    CHECK(h5_exists(from, path), STATUS_IO, "%.150s: holds no %.150s", from->name, path);
-    h5_remove(to, to_path);
+    CHECK(host_h5_exists(from, path), STATUS_IO, "%.150s: holds no %.150s", from->name, path);
+    host_h5_remove(to, to_path);
     const hid_t links = link_with_parents();
     const herr_t done = H5Ocopy(from->id, path, to->id, to_path, H5P_DEFAULT, links);
     H5Pclose(links);
@@ -189,13 +189,13 @@ static herr_t add_name(hid_t group, const char *name, const H5L_info_t *info, vo
     return 0;
 }
 
-status h5_list(const h5_file *f, const char *group, char **names)
+status host_h5_list(const h5_file *f, const char *group, char **names)
 {
     size_t bytes;
     *names = NULL;
     FILE *out = open_memstream(names, &bytes);
     CHECK(out, STATUS_MEMORY, "no memory for a list of names");
-    const hid_t id = h5_exists(f, group) ? H5Gopen2(f->id, group, H5P_DEFAULT) : -1;
+    const hid_t id = host_h5_exists(f, group) ? H5Gopen2(f->id, group, H5P_DEFAULT) : -1;
     if (id >= 0) {
         H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, NULL, add_name, out);
         H5Gclose(id);
@@ -222,7 +222,7 @@ static status put_attribute(h5_file *f, const char *path, const char *name, hid_
     return status_ok();
 }
 
-status h5_attribute_text(h5_file *f, const char *path, const char *name, const char *text)
+status host_h5_attribute_text(h5_file *f, const char *path, const char *name, const char *text)
 {
     const size_t n = strlen(text);
     const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
@@ -235,7 +235,7 @@ status h5_attribute_text(h5_file *f, const char *path, const char *name, const c
     return s;
 }
 
-status h5_attribute_double(h5_file *f, const char *path, const char *name, double value)
+status host_h5_attribute_double(h5_file *f, const char *path, const char *name, double value)
 {
     const hid_t space = H5Screate(H5S_SCALAR);
     const status s = put_attribute(f, path, name, H5T_NATIVE_DOUBLE, space, &value);
@@ -243,7 +243,7 @@ status h5_attribute_double(h5_file *f, const char *path, const char *name, doubl
     return s;
 }
 
-status h5_attribute_ints(h5_file *f, const char *path, const char *name, const int64_t *values, size_t n)
+status host_h5_attribute_ints(h5_file *f, const char *path, const char *name, const int64_t *values, size_t n)
 {
     const hsize_t size = n;
     const hid_t space = H5Screate_simple(1, &size, NULL);
@@ -254,7 +254,7 @@ status h5_attribute_ints(h5_file *f, const char *path, const char *name, const i
 
 static hid_t open_attribute(const h5_file *f, const char *path, const char *name)
 {
-    const hid_t object = h5_exists(f, path) || strcmp(path, "/") == 0 ? H5Oopen(f->id, path, H5P_DEFAULT) : -1;
+    const hid_t object = host_h5_exists(f, path) || strcmp(path, "/") == 0 ? H5Oopen(f->id, path, H5P_DEFAULT) : -1;
     const hid_t attribute = object >= 0 && H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1;
     if (object >= 0) H5Oclose(object);
     return attribute;
@@ -271,7 +271,7 @@ static bool read_text(hid_t attribute, char *out, size_t size)
     return done;
 }
 
-status h5_read_attribute_text(const h5_file *f, const char *path, const char *name, char *out, size_t size)
+status host_h5_read_attribute_text(const h5_file *f, const char *path, const char *name, char *out, size_t size)
 {
     out[0] = '\0';
     const hid_t attribute = open_attribute(f, path, name);
@@ -281,7 +281,7 @@ status h5_read_attribute_text(const h5_file *f, const char *path, const char *na
     return status_ok();
 }
 
-status h5_read_attribute_double(const h5_file *f, const char *path, const char *name, double *out)
+status host_h5_read_attribute_double(const h5_file *f, const char *path, const char *name, double *out)
 {
     const hid_t attribute = open_attribute(f, path, name);
     const bool done = attribute >= 0 && H5Aread(attribute, H5T_NATIVE_DOUBLE, out) >= 0;
@@ -292,8 +292,8 @@ status h5_read_attribute_double(const h5_file *f, const char *path, const char *
 
 static status put_names(h5_file *f, const h5_name *name)
 {
-    if (name->unit) TRY(h5_attribute_text(f, name->path, "units", name->unit));
-    if (name->description) TRY(h5_attribute_text(f, name->path, "description", name->description));
+    if (name->unit) TRY(host_h5_attribute_text(f, name->path, "units", name->unit));
+    if (name->description) TRY(host_h5_attribute_text(f, name->path, "description", name->description));
     return status_ok();
 }
 
@@ -333,9 +333,9 @@ static hid_t creation_for(const h5_array *a, const hsize_t *dims)
     return chunked(a->rank, chunk, true);
 }
 
-status h5_write(h5_file *f, const h5_name *name, const h5_array *a)
+status host_h5_write(h5_file *f, const h5_name *name, const h5_array *a)
 {
-    h5_remove(f, name->path);
+    host_h5_remove(f, name->path);
     const hsize_t dims[H5_MAX_RANK] = { a->dims[0], a->rank > 1 ? a->dims[1] : 1 };
     const hid_t space = H5Screate_simple(a->rank, dims, NULL), links = link_with_parents(),
                 kind = creation_for(a, dims);
@@ -386,9 +386,9 @@ static herr_t extend(hid_t set, const double *values, hsize_t rows)
     return done;
 }
 
-status h5_append(h5_file *f, const h5_name *name, const double *values, size_t rows)
+status host_h5_append(h5_file *f, const h5_name *name, const double *values, size_t rows)
 {
-    if (!h5_exists(f, name->path)) TRY(make_series(f, name));
+    if (!host_h5_exists(f, name->path)) TRY(make_series(f, name));
     const hid_t set = H5Dopen2(f->id, name->path, H5P_DEFAULT);
     herr_t done = set < 0 ? -1 : rows == 0 ? 0 : extend(set, values, rows);
     if (set >= 0 && H5Dclose(set) < 0) done = -1;
@@ -396,9 +396,9 @@ status h5_append(h5_file *f, const h5_name *name, const double *values, size_t r
     return status_ok();
 }
 
-status h5_truncate(h5_file *f, const char *path, size_t rows)
+status host_h5_truncate(h5_file *f, const char *path, size_t rows)
 {
-    const hid_t set = h5_exists(f, path) ? H5Dopen2(f->id, path, H5P_DEFAULT) : -1;
+    const hid_t set = host_h5_exists(f, path) ? H5Dopen2(f->id, path, H5P_DEFAULT) : -1;
     hsize_t length = 0;
     const hsize_t wanted = rows;
     const bool line = set >= 0 && length_of(set, &length);
@@ -426,13 +426,13 @@ static status read_set(hid_t set, double **data, size_t dims[H5_MAX_RANK])
     if (n == 0 || H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, *data) >= 0) return status_ok();
     free(*data);
     *data = NULL;
-    return status_error(STATUS_IO, "its values cannot be read");
+    return base_status_error(STATUS_IO, "its values cannot be read");
 }
 
-status h5_read(const h5_file *f, const char *path, double **data, size_t dims[H5_MAX_RANK])
+status host_h5_read(const h5_file *f, const char *path, double **data, size_t dims[H5_MAX_RANK])
 {
     *data = NULL;
-    const hid_t set = h5_exists(f, path) ? H5Dopen2(f->id, path, H5P_DEFAULT) : -1;
+    const hid_t set = host_h5_exists(f, path) ? H5Dopen2(f->id, path, H5P_DEFAULT) : -1;
     CHECK(set >= 0, STATUS_IO, "%.150s: holds no %.150s", f->name, path);
     const status s = read_set(set, data, dims);
     H5Dclose(set);

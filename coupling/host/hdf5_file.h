@@ -1,9 +1,9 @@
 /* HDF5 behind one file: a tree of datasets held in memory, saved whole.
  *
- * A file lives in memory until h5_save writes it: NAME.part, fsync, rename.  So whatever happens to the process, NAME is
- * always a complete file in the default format, and others may read it while the run goes on.  Memory: the size of the file.
- * Paths are absolute inside the file ("/shot/time"); missing groups are made.  Every dataset carries `units` and
- * `description`.  Errors: STATUS_IO (files), STATUS_MEMORY; the text names the file or the dataset. */
+ * A file lives in memory until host_h5_save writes it: NAME.part, fsync, rename.  So whatever happens to the process,
+ * NAME is always a complete file in the default format, and others may read it while the run goes on.  Memory: the size
+ * of the file. Paths are absolute inside the file ("/shot/time"); missing groups are made.  Every dataset carries
+ * `units` and `description`.  Errors: STATUS_IO (files), STATUS_MEMORY; the text names the file or the dataset. */
 #ifndef BREECH_COUPLING_HDF5_FILE_H
 #define BREECH_COUPLING_HDF5_FILE_H
 
@@ -32,41 +32,42 @@ typedef struct {
     const void *data;
 } h5_array;
 
-status h5_create(h5_file **out);
-status h5_open(const char *path, h5_file **out); /* a copy in memory; the file itself is not kept open */
-status h5_save(h5_file *f, const char *path);
+status host_h5_create(h5_file **out);
+status host_h5_open(const char *path, h5_file **out); /* a copy in memory; the file itself is not kept open */
+status host_h5_save(h5_file *f, const char *path);
 /* The file as bytes, and back; *image is malloc'ed, the caller frees it.  what: names it in messages. */
-status h5_image(h5_file *f, void **image, size_t *bytes);
-status h5_open_image(const char *what, const void *image, size_t bytes, h5_file **out);
-void h5_close(h5_file *f); /* NULL allowed; saves nothing */
+status host_h5_image(h5_file *f, void **image, size_t *bytes);
+status host_h5_open_image(const char *what, const void *image, size_t bytes, h5_file **out);
+void host_h5_close(h5_file *f); /* NULL allowed; saves nothing */
 
-bool h5_exists(const h5_file *f, const char *path);
-status h5_group(h5_file *f, const char *path);
+bool host_h5_exists(const h5_file *f, const char *path);
+status host_h5_group(h5_file *f, const char *path);
 
 /* Copies a group or dataset with all below it into another file; what was there under the new path goes. */
-status h5_copy(const h5_file *from, const char *path, h5_file *to, const char *to_path);
+status host_h5_copy(const h5_file *from, const char *path, h5_file *to, const char *to_path);
 /* Removes a group or dataset; nothing when it is not there.  Its room in the file is not given back. */
-void h5_remove(h5_file *f, const char *path);
+void host_h5_remove(h5_file *f, const char *path);
 
 /* Writes a whole dataset (an older one of that name goes); deflate 1 + shuffle from 1 KiB on. */
-status h5_write(h5_file *f, const h5_name *name, const h5_array *array);
+status host_h5_write(h5_file *f, const h5_name *name, const h5_array *array);
 
 /* Appends `rows` values to a one-dimensional dataset of doubles, made when missing. */
-status h5_append(h5_file *f, const h5_name *name, const double *values, size_t rows);
+status host_h5_append(h5_file *f, const h5_name *name, const double *values, size_t rows);
 /* Cuts a one-dimensional dataset to its first `rows` values. */
-status h5_truncate(h5_file *f, const char *path, size_t rows);
+status host_h5_truncate(h5_file *f, const char *path, size_t rows);
 
 /* Reads a dataset as doubles; *data is malloc'ed, the caller frees it; dims past the rank are 1. */
-status h5_read(const h5_file *f, const char *path, double **data, size_t dims[H5_MAX_RANK]);
+status host_h5_read(const h5_file *f, const char *path, double **data, size_t dims[H5_MAX_RANK]);
 
 /* Names in a group, sorted, '\n' after each; malloc'ed, the caller frees it. "" when there is no such group. */
-status h5_list(const h5_file *f, const char *group, char **names);
+status host_h5_list(const h5_file *f, const char *group, char **names);
 
-status h5_attribute_text(h5_file *f, const char *path, const char *name, const char *text); /* fixed length, ASCII */
-status h5_attribute_double(h5_file *f, const char *path, const char *name, double value);
-status h5_attribute_ints(h5_file *f, const char *path, const char *name, const int64_t *values, size_t n);
-status h5_read_attribute_double(const h5_file *f, const char *path, const char *name, double *out);
+status host_h5_attribute_text(h5_file *f, const char *path, const char *name,
+                              const char *text); /* fixed length, ASCII */
+status host_h5_attribute_double(h5_file *f, const char *path, const char *name, double value);
+status host_h5_attribute_ints(h5_file *f, const char *path, const char *name, const int64_t *values, size_t n);
+status host_h5_read_attribute_double(const h5_file *f, const char *path, const char *name, double *out);
 /* STATUS_IO when it is missing or longer than size - 1. */
-status h5_read_attribute_text(const h5_file *f, const char *path, const char *name, char *out, size_t size);
+status host_h5_read_attribute_text(const h5_file *f, const char *path, const char *name, char *out, size_t size);
 
 #endif

@@ -22,7 +22,7 @@ static status path_join(const char *dir, const char *name, char *path, size_t si
     return status_ok();
 }
 
-status file_begin(file_writer *w, const char *path)
+status host_file_begin(file_writer *w, const char *path)
 {
     const int n = snprintf(w->path, sizeof w->path, "%s", path);
     CHECK(n > 0 && (size_t)n < sizeof w->path, STATUS_IO, "%.200s...: path longer than %d characters", path,
@@ -33,7 +33,8 @@ status file_begin(file_writer *w, const char *path)
     return status_ok();
 }
 
-/* The rename itself must survive a power cut, so the directory is synchronised too; file systems that cannot, do not. */
+/* The rename itself must survive a power cut, so the directory is synchronised too; file systems that cannot, do not.
+ */
 static void sync_parent(const char *path)
 {
     char dir[OUTDIR_PATH_SIZE];
@@ -46,7 +47,7 @@ static void sync_parent(const char *path)
     close(fd);
 }
 
-status file_end(file_writer *w, bool keep)
+status host_file_end(file_writer *w, bool keep)
 {
     errno = 0;
     int error = 0;
@@ -61,16 +62,16 @@ status file_end(file_writer *w, bool keep)
     return status_ok();
 }
 
-status file_write(const char *path, const void *data, size_t bytes)
+status host_file_write(const char *path, const void *data, size_t bytes)
 {
     file_writer w;
-    TRY(file_begin(&w, path));
+    TRY(host_file_begin(&w, path));
     if (bytes > 0 && fwrite(data, 1, bytes, w.stream) != bytes) {
         const int error = errno;
-        file_end(&w, false);
-        return status_error(STATUS_IO, "%.300s: cannot be written: %s", path, strerror(error));
+        host_file_end(&w, false);
+        return base_status_error(STATUS_IO, "%.300s: cannot be written: %s", path, strerror(error));
     }
-    return file_end(&w, true);
+    return host_file_end(&w, true);
 }
 
 static status read_open_file(FILE *f, const char *path, char **data, size_t *bytes)
@@ -82,7 +83,7 @@ static status read_open_file(FILE *f, const char *path, char **data, size_t *byt
     CHECK(text, STATUS_MEMORY, "%.300s: no memory for its %zu bytes", path, size);
     if (fread(text, 1, size, f) != size) {
         free(text);
-        return status_error(STATUS_IO, "%.300s: cannot be read to its end", path);
+        return base_status_error(STATUS_IO, "%.300s: cannot be read to its end", path);
     }
     text[size] = '\0';
     *data = text;
@@ -90,7 +91,7 @@ static status read_open_file(FILE *f, const char *path, char **data, size_t *byt
     return status_ok();
 }
 
-status file_read(const char *path, char **data, size_t *bytes)
+status host_file_read(const char *path, char **data, size_t *bytes)
 {
     *data = NULL;
     FILE *f = fopen(path, "rb");
@@ -102,7 +103,7 @@ status file_read(const char *path, char **data, size_t *bytes)
 
 /* ---- the directory ---- */
 
-status outdir_default(const char *case_name, char *path, size_t size)
+status host_outdir_default(const char *case_name, char *path, size_t size)
 {
     char name[128];
     size_t n = 0;
@@ -113,7 +114,7 @@ status outdir_default(const char *case_name, char *path, size_t size)
     return path_join("out", name, path, size);
 }
 
-status directory_make(const char *path)
+status host_folder_make(const char *path)
 {
     char part[OUTDIR_PATH_SIZE];
     const int n = snprintf(part, sizeof part, "%s", path);
@@ -149,7 +150,8 @@ static status lock_directory(const char *dir, int *lock)
     if (flock(*lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return status_ok();
     close(*lock);
     *lock = -1;
-    return status_error(STATUS_BAD_INPUT, "%.300s: another run is writing there; wait for it or give another -o", dir);
+    return base_status_error(STATUS_BAD_INPUT, "%.300s: another run is writing there; wait for it or give another -o",
+                             dir);
 }
 
 static bool has_suffix(const char *name, const char *suffix)
@@ -188,9 +190,9 @@ static void remove_ours(const char *dir, int depth)
 static status decide(outdir *d, outdir_options options)
 {
     char state[16], checkpoint[OUTDIR_PATH_SIZE];
-    summary_status(d->path, state, sizeof state);
-    TRY(outdir_file(d, OUTDIR_CHECKPOINT, checkpoint, sizeof checkpoint));
-    const bool finished = strcmp(state, "done") == 0, stopped = file_exists(checkpoint);
+    output_summary_status(d->path, state, sizeof state);
+    TRY(host_outdir_file(d, OUTDIR_CHECKPOINT, checkpoint, sizeof checkpoint));
+    const bool finished = strcmp(state, "done") == 0, stopped = host_file_exists(checkpoint);
     d->state = OUTDIR_NEW;
     if (options.force) {
         remove_ours(d->path, 0);
@@ -206,35 +208,35 @@ static status decide(outdir *d, outdir_options options)
     return status_ok();
 }
 
-status outdir_open(const char *path, outdir_options options, outdir *out)
+status host_outdir_open(const char *path, outdir_options options, outdir *out)
 {
     CHECK(!(options.force && options.resume), STATUS_BAD_INPUT, "--force and --resume exclude each other");
     outdir d = { .lock = -1 };
-    TRY(directory_make(path));
+    TRY(host_folder_make(path));
     snprintf(d.path, sizeof d.path, "%s", path);
     TRY(probe_writable(path));
     TRY(lock_directory(path, &d.lock));
     const status s = decide(&d, options);
     if (s.code != STATUS_OK) {
-        outdir_close(&d);
+        host_outdir_close(&d);
         return s;
     }
     *out = d;
     return status_ok();
 }
 
-void outdir_close(outdir *d)
+void host_outdir_close(outdir *d)
 {
     if (d->lock >= 0) close(d->lock);
     d->lock = -1;
 }
 
-status outdir_file(const outdir *d, const char *name, char *path, size_t size)
+status host_outdir_file(const outdir *d, const char *name, char *path, size_t size)
 {
     return path_join(d->path, name, path, size);
 }
 
-bool name_is_plain(const char *name)
+bool host_name_is_plain(const char *name)
 {
     if (name[0] == '\0' || name[0] == '.') return false;
     for (; *name; name++)
@@ -242,19 +244,19 @@ bool name_is_plain(const char *name)
     return true;
 }
 
-status outdir_scene(const outdir *d, const char *scene, char *path, size_t size)
+status host_outdir_scene(const outdir *d, const char *scene, char *path, size_t size)
 {
     char scenes[OUTDIR_PATH_SIZE];
-    CHECK(name_is_plain(scene), STATUS_BAD_INPUT, "scene `%.100s`: letters, digits, - _ . only", scene);
+    CHECK(host_name_is_plain(scene), STATUS_BAD_INPUT, "scene `%.100s`: letters, digits, - _ . only", scene);
     TRY(path_join(d->path, "scenes", scenes, sizeof scenes));
     TRY(path_join(scenes, scene, path, size));
-    return directory_make(path);
+    return host_folder_make(path);
 }
 
-void outdir_drop_scene(const outdir *d, const char *scene)
+void host_outdir_drop_scene(const outdir *d, const char *scene)
 {
     char scenes[OUTDIR_PATH_SIZE], path[OUTDIR_PATH_SIZE];
-    if (!name_is_plain(scene) || path_join(d->path, "scenes", scenes, sizeof scenes).code != STATUS_OK ||
+    if (!host_name_is_plain(scene) || path_join(d->path, "scenes", scenes, sizeof scenes).code != STATUS_OK ||
         path_join(scenes, scene, path, sizeof path).code != STATUS_OK)
         return;
     remove_ours(path, 2);

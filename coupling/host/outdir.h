@@ -3,7 +3,8 @@
  * Rules: -o defaults to out/<case>.  A finished result is not overwritten without --force, a stopped one that holds a
  * checkpoint neither (resume it, or --force).  --resume of a finished result has nothing to do, --resume of nothing
  * starts anew: so a scheduler can always pass --resume.  Two runs never write to one directory at a time.
- * Files of a directory: the OUTDIR_ names below, scenes/<name>/scene-000012.hdf with scene.hdf.series, plots as .svg. */
+ * Files of a directory: the OUTDIR_ names below, scenes/<name>/scene-000012.hdf with scene.hdf.series, plots as .svg.
+ */
 #ifndef BREECH_COUPLING_OUTDIR_H
 #define BREECH_COUPLING_OUTDIR_H
 
@@ -41,37 +42,37 @@ typedef struct {
 } outdir;
 
 /* "out/<name of the case>" into path; the name with anything but letters, digits, - _ . made '-'. */
-status outdir_default(const char *case_name, char *path, size_t size);
+status host_outdir_default(const char *case_name, char *path, size_t size);
 
 /* Makes the directory (parents too), locks it, applies the rules.  STATUS_BAD_INPUT where a rule forbids the run,
  * STATUS_IO where the directory cannot be made or written.  On error nothing is changed and nothing needs closing. */
-status outdir_open(const char *path, outdir_options options, outdir *out);
-void outdir_close(outdir *d);
+status host_outdir_open(const char *path, outdir_options options, outdir *out);
+void host_outdir_close(outdir *d);
 
 /* With its parents; fine when it is there. */
-status directory_make(const char *path);
+status host_folder_make(const char *path);
 /* DIR/name into path. */
-status outdir_file(const outdir *d, const char *name, char *path, size_t size);
+status host_outdir_file(const outdir *d, const char *name, char *path, size_t size);
 /* A name that files, HDF5 groups and scripts take as it is: letters, digits, - _ . and no leading dot. */
-bool name_is_plain(const char *name);
+bool host_name_is_plain(const char *name);
 /* DIR/scenes/<scene>, made when missing; scene must be a plain name. */
-status outdir_scene(const outdir *d, const char *scene, char *path, size_t size);
+status host_outdir_scene(const outdir *d, const char *scene, char *path, size_t size);
 
 /* Removes DIR/scenes/<scene> with the snapshots in it, where there is one. */
-void outdir_drop_scene(const outdir *d, const char *scene);
+void host_outdir_drop_scene(const outdir *d, const char *scene);
 
 /* ---- a file appears at once or not at all ---- */
 
 /* Write `bytes` to path: path.part, fsync, rename.  On error path is as it was and no .part is left. */
-status file_write(const char *path, const void *data, size_t bytes);
+status host_file_write(const char *path, const void *data, size_t bytes);
 /* The same by pieces: begin, fprintf/fwrite to the stream, end.  end with keep = false drops it. */
 typedef struct {
     FILE *stream;
     char path[OUTDIR_PATH_SIZE], part[OUTDIR_PATH_SIZE + 8];
 } file_writer;
-status file_begin(file_writer *w, const char *path);
-status file_end(file_writer *w, bool keep);
+status host_file_begin(file_writer *w, const char *path);
+status host_file_end(file_writer *w, bool keep);
 /* The whole file, a 0 byte after it; *data is malloc'ed.  bytes may be NULL. */
-status file_read(const char *path, char **data, size_t *bytes);
+status host_file_read(const char *path, char **data, size_t *bytes);
 
 #endif

@@ -9,14 +9,14 @@
 #define TERMINAL_INTERVAL 0.2 /* between two pictures of the live line [s] */
 #define PLAIN_INTERVAL 10.0   /* between two plain lines [s] */
 
-double wall_clock(void)
+double host_wall_clock(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-void duration_text(double seconds, char *text, size_t size)
+void host_duration_text(double seconds, char *text, size_t size)
 {
     if (!(seconds >= 0.0 && seconds < 1e9)) {
         snprintf(text, size, "unknown");
@@ -33,32 +33,33 @@ void duration_text(double seconds, char *text, size_t size)
         snprintf(text, size, "%ld d %02ld h", s / 86400, s / 3600 % 24);
 }
 
-void progress_open(progress *p, FILE *stream, bool quiet)
+void host_progress_open(progress *p, FILE *stream, bool quiet)
 {
     memset(p, 0, sizeof *p);
     p->stream = stream;
     p->quiet = quiet;
     p->terminal = isatty(fileno(stream)) == 1;
-    p->started = p->last_shown = wall_clock();
+    p->started = p->last_shown = host_wall_clock();
 }
 
-void progress_task(progress *p, const char *task, double fraction, uint64_t particle_steps)
+void host_progress_task(progress *p, const char *task, double fraction, uint64_t particle_steps)
 {
-    progress_close(p);
+    host_progress_close(p);
     snprintf(p->task, sizeof p->task, "%s", task);
-    p->started = wall_clock();
+    p->started = host_wall_clock();
     p->last_shown = p->terminal ? p->started - TERMINAL_INTERVAL : p->started;
     p->fraction_started = fraction;
     p->steps_started = particle_steps;
 }
 
-void progress_text(const progress *p, double fraction, double elapsed, uint64_t particle_steps, char *text, size_t size)
+void host_progress_text(const progress *p, double fraction, double elapsed, uint64_t particle_steps, char *text,
+                        size_t size)
 {
     const double done = fmin(fmax(fraction, 0.0), 1.0), gained = done - p->fraction_started;
     int n = snprintf(text, size, "%s  %.0f %%", p->task, floor(100.0 * done));
     if (gained > 0.0 && elapsed > 0.0 && n > 0 && (size_t)n < size) {
         char left[32];
-        duration_text(elapsed * (1.0 - done) / gained, left, sizeof left);
+        host_duration_text(elapsed * (1.0 - done) / gained, left, sizeof left);
         n += snprintf(text + n, size - (size_t)n, "  %s left", left);
     }
     const double rate = elapsed > 0.0 ? (double)(particle_steps - p->steps_started) / elapsed : 0.0;
@@ -66,23 +67,23 @@ void progress_text(const progress *p, double fraction, double elapsed, uint64_t 
         snprintf(text + n, size - (size_t)n, "  %.1f M particle-steps/s", 1e-6 * rate);
 }
 
-void progress_update(progress *p, double fraction, uint64_t particle_steps)
+void host_progress_update(progress *p, double fraction, uint64_t particle_steps)
 {
     if (p->quiet) return;
-    const double now = wall_clock();
+    const double now = host_wall_clock();
     if (now - p->last_shown < (p->terminal ? TERMINAL_INTERVAL : PLAIN_INTERVAL)) return;
     char text[300];
-    progress_text(p, fraction, now - p->started, particle_steps, text, sizeof text);
+    host_progress_text(p, fraction, now - p->started, particle_steps, text, sizeof text);
     fprintf(p->stream, p->terminal ? "\r\033[K%s" : "%s\n", text);
     fflush(p->stream);
     p->shown = p->terminal;
     p->last_shown = now;
 }
 
-void progress_say(progress *p, const char *format, ...)
+void host_progress_say(progress *p, const char *format, ...)
 {
     if (p->quiet) return;
-    progress_close(p);
+    host_progress_close(p);
     va_list args;
     va_start(args, format);
     vfprintf(p->stream, format, args);
@@ -91,7 +92,7 @@ void progress_say(progress *p, const char *format, ...)
     fflush(p->stream);
 }
 
-void progress_close(progress *p)
+void host_progress_close(progress *p)
 {
     if (p->shown) {
         fputs("\r\033[K", p->stream);
@@ -102,14 +103,14 @@ void progress_close(progress *p)
 
 /* ---- where the time went ---- */
 
-void timing_open(timing *t)
+void host_timing_open(timing *t)
 {
     memset(t, 0, sizeof *t);
-    t->started = wall_clock();
+    t->started = host_wall_clock();
 }
 
 /* Past the last place everything goes into the last phase made: nothing is lost, the name says "others". */
-void timing_add(timing *t, const char *phase, double seconds)
+void host_timing_add(timing *t, const char *phase, double seconds)
 {
     int i = 0;
     while (i < t->phases && strcmp(t->phase[i].name, phase) != 0) i++;
@@ -124,9 +125,9 @@ void timing_add(timing *t, const char *phase, double seconds)
     t->phase[i].calls++;
 }
 
-void timing_print(const timing *t, FILE *out)
+void host_timing_print(const timing *t, FILE *out)
 {
-    const double total = wall_clock() - t->started;
+    const double total = host_wall_clock() - t->started;
     double booked = 0.0;
     int width = 5;
     for (int i = 0; i < t->phases; i++) {

@@ -1,5 +1,5 @@
-/* Progress for the one who waits: a live line on a terminal, a plain line every ten seconds elsewhere, nothing if quiet.
- * And where the time went: seconds by phase. */
+/* Progress for the one who waits: a live line on a terminal, a plain line every ten seconds elsewhere, nothing if
+ * quiet. And where the time went: seconds by phase. */
 #ifndef BREECH_COUPLING_PROGRESS_H
 #define BREECH_COUPLING_PROGRESS_H
 
@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 /* Seconds on a clock that only goes forward [s]. */
-double wall_clock(void);
+double host_wall_clock(void);
 
 typedef struct {
     FILE *stream; /* borrowed; where lines go (stderr) */
@@ -20,22 +20,22 @@ typedef struct {
     uint64_t steps_started;
 } progress;
 
-void progress_open(progress *p, FILE *stream, bool quiet);
+void host_progress_open(progress *p, FILE *stream, bool quiet);
 /* A new task; `fraction` and `particle_steps` where it is taken up, 0 unless resumed. */
-void progress_task(progress *p, const char *task, double fraction, uint64_t particle_steps);
+void host_progress_task(progress *p, const char *task, double fraction, uint64_t particle_steps);
 /* As often as you like: it looks at the clock and mostly returns.  fraction of the task done, 0..1. */
-void progress_update(progress *p, double fraction, uint64_t particle_steps);
+void host_progress_update(progress *p, double fraction, uint64_t particle_steps);
 /* A line that stays (an event, a result), above the live line. */
-void progress_say(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void host_progress_say(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Clears the live line. */
-void progress_close(progress *p);
+void host_progress_close(progress *p);
 
 /* The text of a line: "scene 3 of 8  42 %  1 min 20 s left  31.2 M particle-steps/s".
  * elapsed, the time spent on the `gained` fraction [s]. */
-void progress_text(const progress *p, double fraction, double elapsed, uint64_t particle_steps, char *text,
-                   size_t size);
+void host_progress_text(const progress *p, double fraction, double elapsed, uint64_t particle_steps, char *text,
+                        size_t size);
 /* "45 s", "1 min 20 s", "2 h 05 min", "3 d 04 h" */
-void duration_text(double seconds, char *text, size_t size);
+void host_duration_text(double seconds, char *text, size_t size);
 
 /* ---- where the time went ---- */
 
@@ -50,10 +50,10 @@ typedef struct {
     double started;
 } timing;
 
-void timing_open(timing *t);
-/* seconds = wall_clock() - what it was at the phase's start; phases are made on first use. */
-void timing_add(timing *t, const char *phase, double seconds);
+void host_timing_open(timing *t);
+/* seconds = host_wall_clock() - what it was at the phase's start; phases are made on first use. */
+void host_timing_add(timing *t, const char *phase, double seconds);
 /* A table: phase, calls, seconds, share of the whole; the rest as `other`. */
-void timing_print(const timing *t, FILE *out);
+void host_timing_print(const timing *t, FILE *out);
 
 #endif

@@ -9,7 +9,7 @@
 
 /* The only state of the program that a signal handler may touch; written there, read by the sinks. */
 static volatile sig_atomic_t signal_seen;
-/* Set once before any work starts [s of wall_clock]. */
+/* Set once before any work starts [s of host_wall_clock]. */
 static double deadline = INFINITY;
 
 static void on_signal(int number)
@@ -18,7 +18,7 @@ static void on_signal(int number)
     signal_seen = number;
 }
 
-void stop_install(double max_walltime)
+void host_stop_install(double max_walltime)
 {
     struct sigaction action;
     memset(&action, 0, sizeof action);
@@ -26,19 +26,19 @@ void stop_install(double max_walltime)
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
     signal_seen = 0;
-    deadline = isnan(max_walltime) ? INFINITY : wall_clock() + max_walltime;
+    deadline = isnan(max_walltime) ? INFINITY : host_wall_clock() + max_walltime;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
 }
 
-bool stop_requested(void)
+bool host_stop_requested(void)
 {
-    return signal_seen || (isfinite(deadline) && wall_clock() >= deadline);
+    return signal_seen || (isfinite(deadline) && host_wall_clock() >= deadline);
 }
 
-const char *stop_reason(void)
+const char *host_stop_reason(void)
 {
     if (signal_seen == SIGTERM) return "SIGTERM";
     if (signal_seen == SIGINT) return "SIGINT";
-    return stop_requested() ? "--max-walltime reached" : "";
+    return host_stop_requested() ? "--max-walltime reached" : "";
 }

@@ -1,15 +1,16 @@
 /* Stop requests: SIGINT, SIGTERM and --max-walltime, polled by the sinks.
  *
- * The first signal asks: the step is finished, a checkpoint written, exit 75.  A second SIGINT ends the process at once. */
+ * The first signal asks: the step is finished, a checkpoint written, exit 75.  A second SIGINT ends the process at
+ * once. */
 #ifndef BREECH_COUPLING_STOP_H
 #define BREECH_COUPLING_STOP_H
 
 #include <stdbool.h>
 
 /* Installs the handlers; max_walltime counts from here [s], INFINITY or NAN: no limit. */
-void stop_install(double max_walltime);
-bool stop_requested(void);
+void host_stop_install(double max_walltime);
+bool host_stop_requested(void);
 /* "SIGTERM", "SIGINT", "--max-walltime reached", or "" when none. */
-const char *stop_reason(void);
+const char *host_stop_reason(void);
 
 #endif

@@ -58,7 +58,7 @@ static status add(table *t, const row *r)
     return status_ok();
 }
 
-status table_create(const char *titles, table **out)
+status host_table_create(const char *titles, table **out)
 {
     *out = NULL;
     row r;
@@ -70,14 +70,14 @@ status table_create(const char *titles, table **out)
     t->columns = columns;
     const status s = add(t, &r);
     if (s.code != STATUS_OK) {
-        table_free(t);
+        host_table_free(t);
         return s;
     }
     *out = t;
     return s;
 }
 
-status table_row(table *t, const char *format, ...)
+status host_table_row(table *t, const char *format, ...)
 {
     char line[LINE_SIZE];
     va_list args;
@@ -114,7 +114,7 @@ static bool column_is_numbers(const table *t, int c)
     return any;
 }
 
-void table_print(const table *t, FILE *out)
+void host_table_print(const table *t, FILE *out)
 {
     int width[MAX_COLUMNS] = { 0 };
     bool right[MAX_COLUMNS];
@@ -139,7 +139,7 @@ void table_print(const table *t, FILE *out)
     }
 }
 
-void table_free(table *t)
+void host_table_free(table *t)
 {
     if (!t) return;
     free(t->row);

@@ -9,10 +9,10 @@
 typedef struct table table; /* owns its cells */
 
 /* titles: '|' between columns, "site|x [m]|v [m/s]|class". */
-status table_create(const char *titles, table **out);
+status host_table_create(const char *titles, table **out);
 /* A row, cells split at '|' too; missing cells stay empty, cells past the last column are refused. */
-status table_row(table *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void table_print(const table *t, FILE *out);
-void table_free(table *t); /* NULL allowed */
+status host_table_row(table *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void host_table_print(const table *t, FILE *out);
+void host_table_free(table *t); /* NULL allowed */
 
 #endif

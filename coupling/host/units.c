@@ -14,7 +14,7 @@ struct units {
     ut_system *system;
 };
 
-status units_open(units **out)
+status host_units_open(units **out)
 {
     *out = NULL;
     ut_set_error_message_handler(ut_ignore);
@@ -25,14 +25,14 @@ status units_open(units **out)
     units *u = malloc(sizeof *u);
     if (!u) {
         ut_free_system(system);
-        return status_error(STATUS_MEMORY, "out of memory for the unit system");
+        return base_status_error(STATUS_MEMORY, "out of memory for the unit system");
     }
     u->system = system;
     *out = u;
     return status_ok();
 }
 
-void units_close(units *u)
+void host_units_close(units *u)
 {
     if (!u) return;
     ut_free_system(u->system);
@@ -221,7 +221,7 @@ static status convert(const units *u, double number, const char *from, const cha
     return status_ok();
 }
 
-status quantity_read(const units *u, const char *text, const char *unit, double *value, char user_unit[UNIT_SIZE])
+status host_quantity_read(const units *u, const char *text, const char *unit, double *value, char user_unit[UNIT_SIZE])
 {
     const size_t length = number_length(text);
     const bool pure = same(unit, "1");
@@ -265,7 +265,7 @@ static bool takes_prefix(const char *unit)
     return false;
 }
 
-void quantity_text(double value, const char *unit, char *out, size_t size)
+void host_quantity_text(double value, const char *unit, char *out, size_t size)
 {
     static const char *const prefix[] = { "p", "n", "u", "m", "", "k", "M", "G", "T" };
     if (same(unit, "1")) {
@@ -294,13 +294,13 @@ static void limit_text(const units *u, double value, const char *unit, const cha
     double shown = value;
     if (user_unit[0] == '\0' || same(user_unit, unit) || is_prefixed(user_unit, unit) ||
         convert(u, value, unit, user_unit, &shown).code != STATUS_OK)
-        quantity_text(value, unit, out, size);
+        host_quantity_text(value, unit, out, size);
     else
         snprintf(out, size, "%.6g %s", shown, user_unit);
 }
 
-void quantity_limits(const units *u, double min, double max, const char *unit, const char *user_unit,
-                     char out[LIMITS_SIZE])
+void host_quantity_limits(const units *u, double min, double max, const char *unit, const char *user_unit,
+                          char out[LIMITS_SIZE])
 {
     char a[LIMITS_SIZE / 2 - 4], b[LIMITS_SIZE / 2 - 4];
     limit_text(u, min, unit, user_unit, a, sizeof a);

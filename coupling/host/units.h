@@ -14,18 +14,18 @@ enum { UNIT_SIZE = 48, LIMITS_SIZE = 160 };
 
 typedef struct units units; /* the unit system; read-only once open */
 
-status units_open(units **out);
-void units_close(units *u); /* NULL allowed */
+status host_units_open(units **out);
+void host_units_close(units *u); /* NULL allowed */
 
 /* The number in `text` [as written], in `unit`.  user_unit: the unit as written, "" for none.
  * STATUS_BAD_INPUT's text is the reason alone: "needs a unit, such as `5 mF`". */
-status quantity_read(const units *u, const char *text, const char *unit, double *value, char user_unit[UNIT_SIZE]);
+status host_quantity_read(const units *u, const char *text, const char *unit, double *value, char user_unit[UNIT_SIZE]);
 
 /* "1 pF .. 1 kF": a range held in `unit`, in the family of the unit the user wrote. */
-void quantity_limits(const units *u, double min, double max, const char *unit, const char *user_unit,
-                     char out[LIMITS_SIZE]);
+void host_quantity_limits(const units *u, double min, double max, const char *unit, const char *user_unit,
+                          char out[LIMITS_SIZE]);
 
 /* A value held in `unit` with an SI prefix where the unit takes one: "12.56 uH", "1500 m/s", "0.3". */
-void quantity_text(double value, const char *unit, char *out, size_t size);
+void host_quantity_text(double value, const char *unit, char *out, size_t size);
 
 #endif

@@ -14,12 +14,12 @@ typedef struct {
     int line, column;
 } reading;
 
-void tree_free(tree_node *node)
+void host_tree_free(tree_node *node)
 {
     if (!node) return;
     for (int k = 0; k < node->n; k++) {
-        if (node->key) tree_free(node->key[k]);
-        tree_free(node->item[k]);
+        if (node->key) host_tree_free(node->key[k]);
+        host_tree_free(node->item[k]);
     }
     free(node->key);
     free(node->item);
@@ -27,7 +27,7 @@ void tree_free(tree_node *node)
     free(node);
 }
 
-const tree_node *tree_find(const tree_node *map, const char *key)
+const tree_node *host_tree_find(const tree_node *map, const char *key)
 {
     if (!map || map->kind != TREE_MAP) return NULL;
     for (int k = 0; k < map->n; k++)
@@ -35,7 +35,7 @@ const tree_node *tree_find(const tree_node *map, const char *key)
     return NULL;
 }
 
-bool tree_is_empty(const tree_node *node)
+bool host_tree_is_empty(const tree_node *node)
 {
     return node->kind == TREE_TEXT && !node->quoted && (node->text[0] == '\0' || strcmp(node->text, "~") == 0);
 }
@@ -58,8 +58,8 @@ static status node_text(const char *text, size_t length, int line, int column, i
     CHECK(node, STATUS_MEMORY, "out of memory while reading a case");
     node->text = malloc(length + 1);
     if (!node->text) {
-        tree_free(node);
-        return status_error(STATUS_MEMORY, "out of memory while reading a case");
+        host_tree_free(node);
+        return base_status_error(STATUS_MEMORY, "out of memory while reading a case");
     }
     memcpy(node->text, text, length);
     node->text[length] = '\0';
@@ -78,11 +78,11 @@ static status node_append(tree_node *parent, tree_node *key, tree_node *item)
         if (items) parent->item = items;
         tree_node **keys = key ? realloc(parent->key, wanted * sizeof *keys) : NULL;
         if (keys) parent->key = keys;
-        if (!items || (key && !keys)) result = status_error(STATUS_MEMORY, "out of memory while reading a case");
+        if (!items || (key && !keys)) result = base_status_error(STATUS_MEMORY, "out of memory while reading a case");
     }
     if (result.code != STATUS_OK) {
-        tree_free(key);
-        tree_free(item);
+        host_tree_free(key);
+        host_tree_free(item);
         return result;
     }
     if (key) parent->key[n] = key;
@@ -107,8 +107,8 @@ static status next_event(reading *r)
         const yaml_parser_t *p = &r->parser;
         CHECK(p->error != YAML_MEMORY_ERROR, STATUS_MEMORY, "out of memory while reading a case");
         mark(r, p->problem_mark);
-        return status_error(STATUS_BAD_INPUT, "not valid YAML: %s%s%s", p->problem ? p->problem : "cannot be read",
-                            p->context ? " " : "", p->context ? p->context : "");
+        return base_status_error(STATUS_BAD_INPUT, "not valid YAML: %s%s%s", p->problem ? p->problem : "cannot be read",
+                                 p->context ? " " : "", p->context ? p->context : "");
     }
     r->has_event = true;
     mark(r, r->event.start_mark);
@@ -160,7 +160,7 @@ static status read_entries(reading *r, tree_node *node, yaml_event_type_t end, i
         }
         if (s.code == STATUS_OK) s = read_node(r, depth + 1, &item);
         if (s.code != STATUS_OK) {
-            tree_free(key);
+            host_tree_free(key);
             return s;
         }
         TRY(node_append(node, key, item));
@@ -188,7 +188,7 @@ static status read_node(reading *r, int depth, tree_node **out)
     CHECK(node, STATUS_MEMORY, "out of memory while reading a case");
     const status s = read_entries(r, node, is_map ? YAML_MAPPING_END_EVENT : YAML_SEQUENCE_END_EVENT, depth);
     if (s.code != STATUS_OK)
-        tree_free(node);
+        host_tree_free(node);
     else
         *out = node;
     return s;
@@ -222,13 +222,13 @@ static status parse(const char *bytes, size_t length, int set, tree_node **out, 
     *line = r.line;
     *column = r.column;
     if (s.code != STATUS_OK) {
-        tree_free(*out);
+        host_tree_free(*out);
         *out = NULL;
     }
     return s;
 }
 
-status tree_parse(const char *bytes, size_t length, tree_node **out, int *line, int *column)
+status host_tree_parse(const char *bytes, size_t length, tree_node **out, int *line, int *column)
 {
     return parse(bytes, length, -1, out, line, column);
 }
@@ -302,7 +302,7 @@ static status put(tree_node **slot, const set_path *path)
 {
     tree_node *value = NULL;
     TRY(make_value(path, &value));
-    tree_free(*slot);
+    host_tree_free(*slot);
     *slot = value;
     return status_ok();
 }
@@ -341,7 +341,7 @@ static status set_in_list(tree_node **slot, const set_path *path, int i)
 static status set_in(tree_node **slot, const set_path *path, int i)
 {
     const set_step *step = &path->step[i];
-    if (*slot && tree_is_empty(*slot)) (*slot)->kind = TREE_MAP; /* `rails:` with nothing in it */
+    if (*slot && host_tree_is_empty(*slot)) (*slot)->kind = TREE_MAP; /* `rails:` with nothing in it */
     tree_node *map = *slot;
     CHECK(map->kind == TREE_MAP, STATUS_BAD_INPUT, "%s is not inside a section: `%s` stands in a %s", step->name,
           i > 0 ? path->step[i - 1].name : "the file", map->kind == TREE_LIST ? "list" : "value");
@@ -353,7 +353,7 @@ static status set_in(tree_node **slot, const set_path *path, int i)
         CHECK(fresh, STATUS_MEMORY, "out of memory while reading --set");
         const status s = node_text(step->name, strlen(step->name), 0, 0, path->set, &key);
         if (s.code != STATUS_OK) {
-            tree_free(fresh);
+            host_tree_free(fresh);
             return s;
         }
         TRY(node_append(map, key, fresh));
@@ -362,7 +362,7 @@ static status set_in(tree_node **slot, const set_path *path, int i)
     return set_in_list(inner, path, i);
 }
 
-status tree_set(tree_node **root, const char *assignment, int set)
+status host_tree_set(tree_node **root, const char *assignment, int set)
 {
     set_path path = { .set = set };
     TRY(read_path(assignment, &path));

@@ -2,7 +2,7 @@
  *
  * Robust to any bytes: size, depth, number of nodes and keys are limited.  Anchors, aliases, tags, several documents,
  * duplicate keys, keys that are not plain words and control characters are errors with a position.
- * tree_set puts a value from the command line into the tree, so that it is checked like the rest. */
+ * host_tree_set puts a value from the command line into the tree, so that it is checked like the rest. */
 #ifndef BREECH_COUPLING_YAML_TREE_H
 #define BREECH_COUPLING_YAML_TREE_H
 
@@ -33,18 +33,18 @@ typedef struct tree_node {
 } tree_node;
 
 /* On STATUS_BAD_INPUT the text has no position: *line and *column hold it. */
-status tree_parse(const char *bytes, size_t length, tree_node **out, int *line, int *column);
+status host_tree_parse(const char *bytes, size_t length, tree_node **out, int *line, int *column);
 
 /* "path.to.key=value": path through lists as bank[1].charge (from 0), bank.charge = all entries.  A value that begins
  * with [ { or a quote is YAML, any other is taken as it stands.  Sections that are missing on the way are made. */
-status tree_set(tree_node **root, const char *assignment, int set);
+status host_tree_set(tree_node **root, const char *assignment, int set);
 
-void tree_free(tree_node *node); /* NULL allowed */
+void host_tree_free(tree_node *node); /* NULL allowed */
 
 /* Value of `key` in a map; NULL if it is not there or `map` is NULL or no map. */
-const tree_node *tree_find(const tree_node *map, const char *key);
+const tree_node *host_tree_find(const tree_node *map, const char *key);
 
 /* A plain text with nothing in it: `key:` or ~. */
-bool tree_is_empty(const tree_node *node);
+bool host_tree_is_empty(const tree_node *node);
 
 #endif

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TICK_INTERVAL 5.0 /* between two flushes by history_tick [s] */
+#define TICK_INTERVAL 5.0 /* between two flushes by output_history_tick [s] */
 #define TICK_SHARE 20.0   /* and at least this many times what the last one took */
 
 enum { BUFFER_ROWS = 256, GROUP_SIZE = 200, PATH_SIZE = 300 };
@@ -29,19 +29,21 @@ struct history {
     bool changed;
 };
 
-status history_open(const char *path, bool resume, history **out)
+status output_history_open(const char *path, bool resume, history **out)
 {
     *out = NULL;
     history *h = calloc(1, sizeof *h);
     CHECK(h, STATUS_MEMORY, "no memory for the history");
     const int n = snprintf(h->path, sizeof h->path, "%s", path ? path : "");
-    status s = (size_t)n < sizeof h->path ? status_ok() : status_error(STATUS_IO, "%.200s...: path too long", path);
-    if (s.code == STATUS_OK) s = resume && path && file_exists(path) ? h5_open(path, &h->file) : h5_create(&h->file);
+    status s =
+        (size_t)n < sizeof h->path ? status_ok() : base_status_error(STATUS_IO, "%.200s...: path too long", path);
+    if (s.code == STATUS_OK)
+        s = resume && path && host_file_exists(path) ? host_h5_open(path, &h->file) : host_h5_create(&h->file);
     if (s.code != STATUS_OK) {
         free(h);
         return s;
     }
-    h->flushed = wall_clock();
+    h->flushed = host_wall_clock();
     h->changed = true;
     *out = h;
     return s;
@@ -76,7 +78,7 @@ static status gather(history *h, series_buffer *b)
         char path[PATH_SIZE];
         snprintf(path, sizeof path, "%s/%s", b->group, b->name[c]);
         for (size_t i = 0; i < b->rows; i++) b->column[i] = b->row[i * (size_t)b->columns + (size_t)c];
-        TRY(h5_append(h->file, &(h5_name){ path, b->unit[c], b->description[c] }, b->column, b->rows));
+        TRY(host_h5_append(h->file, &(h5_name){ path, b->unit[c], b->description[c] }, b->column, b->rows));
     }
     b->rows = 0;
     return status_ok();
@@ -96,7 +98,7 @@ static int find_series(const history *h, const char *group)
     return i;
 }
 
-status history_series(history *h, const char *group, const history_column *columns, int n, int *series)
+status output_history_series(history *h, const char *group, const history_column *columns, int n, int *series)
 {
     CHECK(n > 0 && n <= HISTORY_MAX_COLUMNS, STATUS_BAD_INPUT, "history %.100s: %d columns, 1 to %d", group, n,
           HISTORY_MAX_COLUMNS);
@@ -108,7 +110,7 @@ status history_series(history *h, const char *group, const history_column *colum
     series_buffer *b = &h->series[*series];
     if (!series_allocate(b, n)) {
         series_free(b);
-        return status_error(STATUS_MEMORY, "no memory for the history of %.100s", group);
+        return base_status_error(STATUS_MEMORY, "no memory for the history of %.100s", group);
     }
     snprintf(b->group, sizeof b->group, "%s", group);
     for (int c = 0; c < n; c++) {
@@ -120,7 +122,7 @@ status history_series(history *h, const char *group, const history_column *colum
     return gather(h, b);
 }
 
-status history_append(history *h, int series, const double *row)
+status output_history_append(history *h, int series, const double *row)
 {
     series_buffer *b = &h->series[series];
     memcpy(b->row + b->rows * (size_t)b->columns, row, (size_t)b->columns * sizeof *row);
@@ -129,7 +131,7 @@ status history_append(history *h, int series, const double *row)
     return b->rows < BUFFER_ROWS ? status_ok() : gather(h, b);
 }
 
-status history_rewind(history *h, int series, double time)
+status output_history_rewind(history *h, int series, double time)
 {
     series_buffer *b = &h->series[series];
     TRY(gather(h, b));
@@ -137,48 +139,48 @@ status history_rewind(history *h, int series, double time)
     snprintf(path, sizeof path, "%s/%s", b->group, b->name[0]);
     double *t;
     size_t dims[H5_MAX_RANK], keep = 0;
-    TRY(h5_read(h->file, path, &t, dims));
+    TRY(host_h5_read(h->file, path, &t, dims));
     while (keep < dims[0] && t[keep] <= time) keep++;
     free(t);
     for (int c = 0; c < b->columns; c++) {
         snprintf(path, sizeof path, "%s/%s", b->group, b->name[c]);
-        TRY(h5_truncate(h->file, path, keep));
+        TRY(host_h5_truncate(h->file, path, keep));
     }
     h->changed = true;
     return status_ok();
 }
 
-status history_end(history *h, int series)
+status output_history_end(history *h, int series)
 {
     const status s = gather(h, &h->series[series]);
     series_free(&h->series[series]);
     return s;
 }
 
-status history_flush(history *h)
+status output_history_flush(history *h)
 {
     if (!h->changed || !h->path[0]) return status_ok();
-    const double start = wall_clock();
+    const double start = host_wall_clock();
     TRY(gather_all(h));
-    TRY(h5_save(h->file, h->path));
+    TRY(host_h5_save(h->file, h->path));
     h->changed = false;
-    h->flushed = wall_clock();
+    h->flushed = host_wall_clock();
     h->flush_seconds = h->flushed - start;
     return status_ok();
 }
 
-status history_tick(history *h)
+status output_history_tick(history *h)
 {
-    const double since = wall_clock() - h->flushed;
-    return since > TICK_INTERVAL && since > TICK_SHARE * h->flush_seconds ? history_flush(h) : status_ok();
+    const double since = host_wall_clock() - h->flushed;
+    return since > TICK_INTERVAL && since > TICK_SHARE * h->flush_seconds ? output_history_flush(h) : status_ok();
 }
 
-status history_close(history *h)
+status output_history_close(history *h)
 {
     if (!h) return status_ok();
-    const status s = history_flush(h);
+    const status s = output_history_flush(h);
     for (int i = 0; i < HISTORY_MAX_SERIES; i++) series_free(&h->series[i]);
-    h5_close(h->file);
+    host_h5_close(h->file);
     free(h);
     return s;
 }
@@ -190,41 +192,41 @@ status history_close(history *h)
 static status scene_group(const char *scene, char group[GROUP_SIZE])
 {
     const int n = snprintf(group, GROUP_SIZE, "/scene/%s", scene);
-    CHECK(n > 0 && n < GROUP_SIZE - 20 && name_is_plain(scene), STATUS_BAD_INPUT,
+    CHECK(n > 0 && n < GROUP_SIZE - 20 && host_name_is_plain(scene), STATUS_BAD_INPUT,
           "scene `%.100s`: letters, digits, - _ . only, at most 170", scene);
     return status_ok();
 }
 
-bool history_has(const history *h, const char *scene)
+bool output_history_has(const history *h, const char *scene)
 {
     char group[GROUP_SIZE];
-    return scene_group(scene, group).code == STATUS_OK && h5_exists(h->file, group);
+    return scene_group(scene, group).code == STATUS_OK && host_h5_exists(h->file, group);
 }
 
-status history_export(history *h, const char *scene, h5_file *to)
+status output_history_export(history *h, const char *scene, h5_file *to)
 {
     char group[GROUP_SIZE];
     TRY(scene_group(scene, group));
     TRY(gather_all(h));
-    return h5_copy(h->file, group, to, STORED_GROUP);
+    return host_h5_copy(h->file, group, to, STORED_GROUP);
 }
 
-status history_copy_scene(history *from, const char *scene, history *to)
+status output_history_copy_scene(history *from, const char *scene, history *to)
 {
     char group[GROUP_SIZE];
     TRY(scene_group(scene, group));
-    if (!h5_exists(from->file, group)) return status_ok();
+    if (!host_h5_exists(from->file, group)) return status_ok();
     TRY(gather_all(from));
     to->changed = true;
-    return h5_copy(from->file, group, to->file, group);
+    return host_h5_copy(from->file, group, to->file, group);
 }
 
-status history_import(history *h, const char *scene, const h5_file *from)
+status output_history_import(history *h, const char *scene, const h5_file *from)
 {
     char group[GROUP_SIZE];
     TRY(scene_group(scene, group));
     h->changed = true;
-    return h5_copy(from, STORED_GROUP, h->file, group);
+    return host_h5_copy(from, STORED_GROUP, h->file, group);
 }
 
 /* ---- the crater ---- */
@@ -234,8 +236,8 @@ static status crater_axis(history *h, const char *path, const double range[2], i
     double *x = malloc((n > 0 ? (size_t)n : 1) * sizeof *x);
     CHECK(x, STATUS_MEMORY, "no memory for the crater's map");
     for (int i = 0; i < n; i++) x[i] = range[0] + range[1] * i;
-    const status s = h5_write(h->file, &(h5_name){ path, "m", description },
-                              &(h5_array){ .type = H5_DOUBLE, .rank = 1, .dims = { (size_t)n }, .data = x });
+    const status s = host_h5_write(h->file, &(h5_name){ path, "m", description },
+                                   &(h5_array){ .type = H5_DOUBLE, .rank = 1, .dims = { (size_t)n }, .data = x });
     free(x);
     return s;
 }
@@ -253,24 +255,24 @@ static status crater_numbers(history *h, const char *group, const crater *c)
         { "deepest_x_m", c->deepest_x }, { "measuring_depth_m", c->measuring_depth },
     };
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        TRY(h5_attribute_double(h->file, group, numbers[i].name, numbers[i].value));
-    TRY(h5_attribute_text(h->file, group, "class", damage_class_names[c->class]));
-    return h5_attribute_text(h->file, group, "reason", c->reason);
+        TRY(host_h5_attribute_double(h->file, group, numbers[i].name, numbers[i].value));
+    TRY(host_h5_attribute_text(h->file, group, "class", gouge_class_names[c->class]));
+    return host_h5_attribute_text(h->file, group, "reason", c->reason);
 }
 
-status history_crater(history *h, const char *scene, const crater *c)
+status output_history_crater(history *h, const char *scene, const crater *c)
 {
     char group[GROUP_SIZE], path[PATH_SIZE];
     TRY(scene_group(scene, group));
     strcat(group, "/crater");
-    TRY(h5_group(h->file, group));
+    TRY(host_h5_group(h->file, group));
     snprintf(path, sizeof path, "%s/x", group);
     TRY(crater_axis(h, path, (const double[2]){ c->x0, c->dx }, c->nx, "along the rail, middle of a map cell"));
     snprintf(path, sizeof path, "%s/z", group);
     TRY(crater_axis(h, path, (const double[2]){ c->z0, c->dz }, c->nz, "across the rail, middle of a map cell"));
     snprintf(path, sizeof path, "%s/depth", group);
-    TRY(h5_write(h->file, &(h5_name){ path, "m", "depth below the undamaged surface over (x, z), rim negative" },
-                 &(h5_array){ H5_DOUBLE, 2, { (size_t)c->nx, (size_t)c->nz }, c->depth_map }));
+    TRY(host_h5_write(h->file, &(h5_name){ path, "m", "depth below the undamaged surface over (x, z), rim negative" },
+                      &(h5_array){ H5_DOUBLE, 2, { (size_t)c->nx, (size_t)c->nz }, c->depth_map }));
     h->changed = true;
     return crater_numbers(h, group, c);
 }
@@ -359,7 +361,8 @@ status history_crater(history *h, const char *scene, const crater *c)
 
 #define EVENT_COLUMNS(COLUMN)                                                                           \
     COLUMN(time, "s", "time", e->state.t)                                                               \
-    COLUMN(kind, "1", "0 fired 1 waiting 2 crowbar 3 blocked 4 released 5 stopped 6 site 7 muzzle 8 commutated 9 recharged 10 melted", (double)e->kind) \
+    COLUMN(kind, "1", "0 fired 1 waiting 2 crowbar 3 blocked 4 released 5 stopped 6 site 7 muzzle "       \
+           "8 commutated 9 recharged 10 melted", (double)e->kind)                                       \
     COLUMN(index, "1", "of the group or the site, -1 if neither", (double)e->index)                     \
     COLUMN(position, "m", "armature", e->state.x)                                                       \
     COLUMN(velocity, "m/s", "armature", e->state.v)                                                     \
@@ -374,25 +377,25 @@ static const history_column shot_columns[] = { SHOT_COLUMNS(COLUMN_ENTRY) };
 static const history_column scene_columns[] = { SCENE_COLUMNS(COLUMN_ENTRY) };
 static const history_column event_columns[] = { EVENT_COLUMNS(COLUMN_ENTRY) };
 
-status history_shot(history *h, int *series)
+status output_history_shot(history *h, int *series)
 {
-    return history_series(h, "/shot", shot_columns, WIDTH(shot_columns), series);
+    return output_history_series(h, "/shot", shot_columns, WIDTH(shot_columns), series);
 }
 
-void history_shot_row(const shot_state *s, double *row){ SHOT_COLUMNS(COLUMN_VALUE) }
+void output_history_shot_row(const shot_state *s, double *row){ SHOT_COLUMNS(COLUMN_VALUE) }
 
-status history_events(history *h, int *series)
+status output_history_events(history *h, int *series)
 {
-    return history_series(h, "/shot/events", event_columns, WIDTH(event_columns), series);
+    return output_history_series(h, "/shot/events", event_columns, WIDTH(event_columns), series);
 }
 
-void history_event_row(const shot_event *e, double *row){ EVENT_COLUMNS(COLUMN_VALUE) }
+void output_history_event_row(const shot_event *e, double *row){ EVENT_COLUMNS(COLUMN_VALUE) }
 
-status history_scene(history *h, const char *scene, int *series)
+status output_history_scene(history *h, const char *scene, int *series)
 {
     char group[GROUP_SIZE];
     TRY(scene_group(scene, group));
-    return history_series(h, group, scene_columns, WIDTH(scene_columns), series);
+    return output_history_series(h, group, scene_columns, WIDTH(scene_columns), series);
 }
 
 static double failed_volume(const mpm_report *r)
@@ -402,7 +405,7 @@ static double failed_volume(const mpm_report *r)
     return sum;
 }
 
-void history_scene_row(const mpm_report *r, const mpm_ledger *l, double *row)
+void output_history_scene_row(const mpm_report *r, const mpm_ledger *l, double *row)
 {
     SCENE_COLUMNS(COLUMN_VALUE)
 }
@@ -427,27 +430,28 @@ static status modules_series(history *h, int groups, char (*name)[64], history_c
         columns[n] = (history_column){ name[n], "V", "capacitor, switch or machine of one unit of the group" };
         n++;
     }
-    return history_series(h, "/shot/modules", columns, n, series);
+    return output_history_series(h, "/shot/modules", columns, n, series);
 }
 
-status history_modules(history *h, const shot *s, int *series)
+status output_history_modules(history *h, const shot *s, int *series)
 {
     char(*name)[64] = calloc(HISTORY_MAX_COLUMNS, sizeof *name);
     history_column *columns = calloc(HISTORY_MAX_COLUMNS, sizeof *columns);
-    const status result = name && columns ? modules_series(h, groups_kept(shot_module_count(s)), name, columns, series)
-                                          : status_error(STATUS_MEMORY, "no memory for the history of the modules");
+    const status result = name && columns
+                              ? modules_series(h, groups_kept(circuit_shot_module_count(s)), name, columns, series)
+                              : base_status_error(STATUS_MEMORY, "no memory for the history of the modules");
     free(columns);
     free(name);
     return result;
 }
 
-void history_modules_row(const shot *s, double *row)
+void output_history_modules_row(const shot *s, double *row)
 {
-    const int groups = groups_kept(shot_module_count(s));
-    *row++ = shot_now(s).t;
+    const int groups = groups_kept(circuit_shot_module_count(s));
+    *row++ = circuit_shot_now(s).t;
     for (int g = 0; g < groups; g++) {
-        *row++ = shot_module_current(s, g);
-        *row++ = shot_module_voltage(s, g);
+        *row++ = circuit_shot_module_current(s, g);
+        *row++ = circuit_shot_module_voltage(s, g);
     }
 }
 
@@ -458,7 +462,7 @@ static void print_columns(const char *group, const history_column *columns, int 
         fprintf(out, "| `%s` | %s | %s |\n", columns[c].name, columns[c].unit, columns[c].description);
 }
 
-void history_print_columns(FILE *out)
+void output_history_print_columns(FILE *out)
 {
     print_columns("/shot", shot_columns, WIDTH(shot_columns), out);
     print_columns("/shot/events", event_columns, WIDTH(event_columns), out);

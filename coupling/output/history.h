@@ -5,7 +5,8 @@
  *   /shot/events/<column>           what happened when
  *   /scene/<name>/<column>          one scene, a row a sample
  *   /scene/<name>/crater/depth      the crater's map [m], with x, z, and the crater's numbers as attributes
- * The file on disk is always complete: rows gather in memory, history_flush puts the whole file there at once. */
+ * The file on disk is always complete: rows gather in memory, output_history_flush puts the whole file there at once.
+ */
 #ifndef BREECH_COUPLING_HISTORY_H
 #define BREECH_COUPLING_HISTORY_H
 
@@ -25,49 +26,49 @@ typedef struct {
     const char *name, *unit, *description;
 } history_column;
 
-/* resume: take up the file that is there (a new one when there is none); else an older file is replaced at the first flush.
- * path NULL: in memory only, never flushed. */
-status history_open(const char *path, bool resume, history **out);
+/* resume: take up the file that is there (a new one when there is none); else an older file is replaced at the first
+ * flush. path NULL: in memory only, never flushed. */
+status output_history_open(const char *path, bool resume, history **out);
 
 /* A group of columns ("/shot", "/scene/a"); appended to when it is there.  columns: n, copied.  The first column is the
  * time.  At most HISTORY_MAX_SERIES are open at once; opening the same group again gives the same series. */
-status history_series(history *h, const char *group, const history_column *columns, int n, int *series);
-status history_append(history *h, int series, const double *row);
+status output_history_series(history *h, const char *group, const history_column *columns, int n, int *series);
+status output_history_append(history *h, int series, const double *row);
 /* Drops the rows later than `time`: for a run that goes on from a checkpoint. */
-status history_rewind(history *h, int series, double time);
+status output_history_rewind(history *h, int series, double time);
 /* No more rows for this series: its place is free for another. */
-status history_end(history *h, int series);
+status output_history_end(history *h, int series);
 
-status history_flush(history *h);
+status output_history_flush(history *h);
 /* Flushes when the last one was five seconds ago and less than a twentieth of the time goes into flushing. */
-status history_tick(history *h);
+status output_history_tick(history *h);
 /* Flushes and frees; NULL allowed. */
-status history_close(history *h);
+status output_history_close(history *h);
 
 /* /scene/<scene> as the group /scene of another file, and back; no series of it may be open in the one that gets it. */
-status history_export(history *h, const char *scene, h5_file *to);
-status history_import(history *h, const char *scene, const h5_file *from);
+status output_history_export(history *h, const char *scene, h5_file *to);
+status output_history_import(history *h, const char *scene, const h5_file *from);
 /* The same from one history to another; nothing where there is none. */
-status history_copy_scene(history *from, const char *scene, history *to);
-bool history_has(const history *h, const char *scene);
+status output_history_copy_scene(history *from, const char *scene, history *to);
+bool output_history_has(const history *h, const char *scene);
 
 /* The crater of scene `name`; a former one is replaced. */
-status history_crater(history *h, const char *scene, const crater *c);
+status output_history_crater(history *h, const char *scene, const crater *c);
 
 /* ---- the rows of Breech's own series ---- */
 
 enum { HISTORY_MAX_COLUMNS = 4096, HISTORY_MAX_SERIES = 32 };
 
-status history_shot(history *h, int *series); /* /shot */
-void history_shot_row(const shot_state *s, double *row);
-status history_events(history *h, int *series); /* /shot/events */
-void history_event_row(const shot_event *e, double *row);
-status history_modules(history *h, const shot *s, int *series); /* /shot/modules: as many groups as fit */
-void history_modules_row(const shot *s, double *row);
-status history_scene(history *h, const char *scene, int *series); /* /scene/<name> */
-void history_scene_row(const mpm_report *r, const mpm_ledger *l, double *row);
+status output_history_shot(history *h, int *series); /* /shot */
+void output_history_shot_row(const shot_state *s, double *row);
+status output_history_events(history *h, int *series); /* /shot/events */
+void output_history_event_row(const shot_event *e, double *row);
+status output_history_modules(history *h, const shot *s, int *series); /* /shot/modules: as many groups as fit */
+void output_history_modules_row(const shot *s, double *row);
+status output_history_scene(history *h, const char *scene, int *series); /* /scene/<name> */
+void output_history_scene_row(const mpm_report *r, const mpm_ledger *l, double *row);
 
 /* The manual's list of columns, in markdown. */
-void history_print_columns(FILE *out);
+void output_history_print_columns(FILE *out);
 
 #endif

@@ -58,7 +58,7 @@ static void take_bodies(scene_result *r, const scene_outcome *o)
     r->peak_pressure_rail_999 = of_body(m->peak_pressure_999, rail);
 }
 
-double scene_growth(const mpm_report *m)
+double output_scene_growth(const mpm_report *m)
 {
     const bool whole = m->gauge_at[1] > 0.0;
     const double from = m->gauge_at[0], to = whole ? m->gauge_at[1] : m->plastic_time;
@@ -67,14 +67,14 @@ double scene_growth(const mpm_report *m)
     return log(power / m->gauge_power[0]) / (to - from);
 }
 
-scene_result scene_result_of(const scene_outcome *o)
+scene_result output_scene_result(const scene_outcome *o)
 {
     const mpm_report *m = o->report;
     scene_result r;
     memset(&r, 0, sizeof r);
     take_crater(&r, o->crater);
     take_bodies(&r, o);
-    r.groove_growth = scene_growth(m);
+    r.groove_growth = output_scene_growth(m);
     r.peak_pressure = m->peak_pressure;
     r.peak_temperature = m->peak_temperature;
     r.momentum_error = o->ledger->momentum_error;

@@ -51,7 +51,7 @@ static status add_time(snapshots *s, double time)
 static status put_file(void *user, const char *path, const void *data, size_t bytes)
 {
     (void)user;
-    return file_write(path, data, bytes);
+    return host_file_write(path, data, bytes);
 }
 
 static void print_index(const snapshots *s, FILE *out)
@@ -75,7 +75,7 @@ static status write_index(const snapshots *s)
     print_index(s, out);
     const bool whole = fclose(out) == 0;
     const status done = whole ? s->sink.put(s->sink.user, path, text, bytes)
-                              : status_error(STATUS_MEMORY, "no memory for the list of snapshots");
+                              : base_status_error(STATUS_MEMORY, "no memory for the list of snapshots");
     free(text);
     return done;
 }
@@ -90,7 +90,7 @@ static status keep_until(snapshots *s, const cJSON *root, double resume_time)
         const cJSON *time = cJSON_GetObjectItemCaseSensitive(entry, "time");
         file_name(s->n, name);
         TRY(full_path(s, name, path));
-        if (!cJSON_IsNumber(time) || time->valuedouble > resume_time || !file_exists(path)) break;
+        if (!cJSON_IsNumber(time) || time->valuedouble > resume_time || !host_file_exists(path)) break;
         TRY(add_time(s, time->valuedouble));
     }
     return status_ok();
@@ -100,8 +100,8 @@ static status read_index(snapshots *s, double resume_time)
 {
     char path[OUTDIR_PATH_SIZE], *text;
     TRY(full_path(s, INDEX_NAME, path));
-    if (resume_time < 0.0 || !file_exists(path)) return status_ok();
-    TRY(file_read(path, &text, NULL));
+    if (resume_time < 0.0 || !host_file_exists(path)) return status_ok();
+    TRY(host_file_read(path, &text, NULL));
     cJSON *root = cJSON_Parse(text);
     free(text);
     const status result = keep_until(s, root, resume_time);
@@ -144,26 +144,26 @@ static status open_with(const char *dir, const snapshot_sink *sink, double resum
     if (result.code == STATUS_OK)
         *out = s;
     else
-        snapshots_close(s);
+        output_snapshots_close(s);
     return result;
 }
 
-status snapshots_open(const char *dir, double resume_time, snapshots **out)
+status output_snapshots_open(const char *dir, double resume_time, snapshots **out)
 {
     return open_with(dir, &(snapshot_sink){ put_file, NULL }, resume_time, out);
 }
 
-status snapshots_open_sink(const char *dir, const snapshot_sink *sink, snapshots **out)
+status output_snapshots_open_sink(const char *dir, const snapshot_sink *sink, snapshots **out)
 {
     return open_with(dir, sink, -1.0, out);
 }
 
-int snapshots_count(const snapshots *s)
+int output_snapshots_count(const snapshots *s)
 {
     return s->n;
 }
 
-void snapshots_close(snapshots *s)
+void output_snapshots_close(snapshots *s)
 {
     if (!s) return;
     free(s->time);
@@ -199,13 +199,13 @@ static status write_field(writer *w, const field_entry *f)
         snprintf(path, sizeof path, "/VTKHDF/PointData/%s", f->name);
     w->source->read(w->source->source, f->field, w->value);
     for (size_t i = 0; i < values; i++) w->single[i] = (float)w->value[i];
-    return h5_write(w->file, &(h5_name){ path, f->unit, f->description },
-                    &(h5_array){ H5_FLOAT, f->width > 1 ? 2 : 1, { n, (size_t)f->width }, w->single });
+    return host_h5_write(w->file, &(h5_name){ path, f->unit, f->description },
+                         &(h5_array){ H5_FLOAT, f->width > 1 ? 2 : 1, { n, (size_t)f->width }, w->single });
 }
 
 static status write_ints(writer *w, const char *path, const int64_t *values, size_t n)
 {
-    return h5_write(w->file, &(h5_name){ path, NULL, NULL }, &(h5_array){ H5_INT64, 1, { n }, values });
+    return host_h5_write(w->file, &(h5_name){ path, NULL, NULL }, &(h5_array){ H5_INT64, 1, { n }, values });
 }
 
 /* One vertex cell a particle: cell i is point i. */
@@ -222,32 +222,32 @@ static status write_cells(writer *w)
     TRY(write_ints(w, "/VTKHDF/NumberOfConnectivityIds", &count, 1));
     TRY(write_ints(w, "/VTKHDF/Offsets", offset, n + 1));
     TRY(write_ints(w, "/VTKHDF/Connectivity", offset, n));
-    return h5_write(w->file, &(h5_name){ "/VTKHDF/Types", NULL, NULL }, &(h5_array){ H5_UINT8, 1, { n }, kind });
+    return host_h5_write(w->file, &(h5_name){ "/VTKHDF/Types", NULL, NULL }, &(h5_array){ H5_UINT8, 1, { n }, kind });
 }
 
 static status write_all(writer *w)
 {
     const int64_t version[2] = { 1, 0 };
-    TRY(h5_group(w->file, "/VTKHDF"));
-    TRY(h5_attribute_ints(w->file, "/VTKHDF", "Version", version, 2));
-    TRY(h5_attribute_text(w->file, "/VTKHDF", "Type", "UnstructuredGrid"));
+    TRY(host_h5_group(w->file, "/VTKHDF"));
+    TRY(host_h5_attribute_ints(w->file, "/VTKHDF", "Version", version, 2));
+    TRY(host_h5_attribute_text(w->file, "/VTKHDF", "Type", "UnstructuredGrid"));
     TRY(write_cells(w));
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) TRY(write_field(w, &fields[i]));
-    return h5_write(w->file, &(h5_name){ "/VTKHDF/FieldData/time", "s", "of the scene" },
-                    &(h5_array){ H5_DOUBLE, 1, { 1 }, &w->source->time });
+    return host_h5_write(w->file, &(h5_name){ "/VTKHDF/FieldData/time", "s", "of the scene" },
+                         &(h5_array){ H5_DOUBLE, 1, { 1 }, &w->source->time });
 }
 
 static status put_image(const snapshots *s, h5_file *file, const char *path)
 {
     void *image;
     size_t bytes;
-    TRY(h5_image(file, &image, &bytes));
+    TRY(host_h5_image(file, &image, &bytes));
     const status done = s->sink.put(s->sink.user, path, image, bytes);
     free(image);
     return done;
 }
 
-status snapshots_write_source(snapshots *s, const snapshot_source *source)
+status output_snapshots_write_source(snapshots *s, const snapshot_source *source)
 {
     char name[FILE_SIZE], path[OUTDIR_PATH_SIZE];
     file_name(s->n, name);
@@ -255,13 +255,13 @@ status snapshots_write_source(snapshots *s, const snapshot_source *source)
     const size_t room = (source->n + 1) * MAX_WIDTH;
     writer w = { .source = source, .value = malloc(room * sizeof(double)), .single = malloc(room * sizeof(float)) };
     status result = w.value && w.single
-                        ? h5_create(&w.file)
-                        : status_error(STATUS_MEMORY, "no memory for a snapshot of %zu particles", source->n);
+                        ? host_h5_create(&w.file)
+                        : base_status_error(STATUS_MEMORY, "no memory for a snapshot of %zu particles", source->n);
     if (result.code == STATUS_OK) result = write_all(&w);
     free(w.value);
     free(w.single);
     if (result.code == STATUS_OK) result = put_image(s, w.file, path);
-    h5_close(w.file);
+    host_h5_close(w.file);
     if (result.code != STATUS_OK) return result;
     TRY(add_time(s, source->time));
     return write_index(s);

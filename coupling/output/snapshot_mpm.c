@@ -5,8 +5,8 @@ static void read_field(const void *source, mpm_field field, double *out)
     mpm_read(source, field, out);
 }
 
-status snapshots_write(snapshots *s, const mpm *m)
+status output_snapshots_write(snapshots *s, const mpm *m)
 {
     const snapshot_source source = { mpm_glance(m).time, mpm_particles(m), read_field, m };
-    return snapshots_write_source(s, &source);
+    return output_snapshots_write_source(s, &source);
 }

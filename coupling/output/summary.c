@@ -1,3 +1,4 @@
+#include "coupling/host/version.h"
 #include "coupling/output/summary_keys.h"
 
 #include "coupling/host/outdir.h"
@@ -6,19 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const site_outcome_names[] = { "not_reached", "skipped", "none", "scratch", "gouge", "undecided", NULL };
-const char *const onset_verdict_names[] = { "gouges", "no_gouging", "undecided", NULL };
-const char *const run_kind_names[] = { "shot", "scene", "onset", "compare", "inductance", NULL };
-const char *const run_status_names[] = { "done", "stopped", "failed", NULL };
-
-const char *breech_version(void)
-{
-#ifdef BREECH_VERSION
-    return BREECH_VERSION;
-#else
-    return "unknown";
-#endif
-}
+const char *const output_site_outcome_names[] = { "not_reached", "skipped",   "none", "scratch",
+                                                  "gouge",       "undecided", NULL };
+const char *const output_onset_verdict_names[] = { "gouges", "no_gouging", "undecided", NULL };
+const char *const output_run_kind_names[] = { "shot", "scene", "onset", "compare", "inductance", NULL };
+const char *const output_run_status_names[] = { "done", "stopped", "failed", NULL };
 
 /* ---- JSON ---- */
 
@@ -66,13 +59,13 @@ static cJSON *list_json(const summary_key *k, const char *base)
         const char *item = items + (size_t)i * k->item_size;
         cJSON *object = cJSON_CreateObject();
         add_keys(object, k->item, item);
-        if (k->item == summary_study_scene_keys) add_keys(object, summary_scene_keys, result_of(item));
+        if (k->item == output_summary_study_scene_keys) add_keys(object, output_summary_scene_keys, result_of(item));
         cJSON_AddItemToArray(list, object);
     }
     return list;
 }
 
-cJSON *summary_value_json(const summary_key *k, const void *from)
+cJSON *output_summary_value_json(const summary_key *k, const void *from)
 {
     const char *base = from;
     const void *member = base + k->offset;
@@ -95,7 +88,7 @@ cJSON *summary_value_json(const summary_key *k, const void *from)
 static void add_keys(cJSON *object, const summary_key *keys, const void *from)
 {
     for (const summary_key *k = keys; k->name; k++)
-        cJSON_AddItemToObject(object, k->name, from ? summary_value_json(k, from) : cJSON_CreateNull());
+        cJSON_AddItemToObject(object, k->name, from ? output_summary_value_json(k, from) : cJSON_CreateNull());
 }
 
 static cJSON *warnings_json(const char *warnings)
@@ -113,11 +106,11 @@ static cJSON *warnings_json(const char *warnings)
 
 static void add_common(cJSON *root, const run_summary *s)
 {
-    cJSON_AddStringToObject(root, "kind", run_kind_names[s->kind]);
+    cJSON_AddStringToObject(root, "kind", output_run_kind_names[s->kind]);
     cJSON_AddStringToObject(root, "case", s->case_name ? s->case_name : "");
-    cJSON_AddStringToObject(root, "version", breech_version());
+    cJSON_AddStringToObject(root, "version", host_version());
     cJSON_AddStringToObject(root, "instruction_set", s->instruction_set ? s->instruction_set : "");
-    cJSON_AddStringToObject(root, "status", run_status_names[s->status]);
+    cJSON_AddStringToObject(root, "status", output_run_status_names[s->status]);
     if (s->error)
         cJSON_AddStringToObject(root, "error", s->error);
     else
@@ -144,15 +137,15 @@ static void make_exact(cJSON *node)
     }
 }
 
-char *summary_text(const run_summary *s)
+char *output_summary_text(const run_summary *s)
 {
     cJSON *root = cJSON_CreateObject();
     if (!root) return NULL;
     add_common(root, s);
-    add_keys(root, summary_keys_of_kind[s->kind], summary_object_of_kind(s));
+    add_keys(root, output_summary_keys_of_kind[s->kind], output_summary_object_of_kind(s));
     if (s->kind == RUN_ONSET || s->kind == RUN_COMPARE) {
         cJSON *shot_json = cJSON_CreateObject();
-        add_keys(shot_json, summary_shot_keys, s->shot);
+        add_keys(shot_json, output_summary_shot_keys, s->shot);
         cJSON_AddItemToObject(root, "shot", shot_json);
     }
     make_exact(root);
@@ -161,29 +154,29 @@ char *summary_text(const run_summary *s)
     return text;
 }
 
-status summary_write(const char *dir, const run_summary *s)
+status output_summary_write(const char *dir, const run_summary *s)
 {
     char path[OUTDIR_PATH_SIZE];
     const int n = snprintf(path, sizeof path, "%s/%s", dir, OUTDIR_SUMMARY);
     CHECK(n > 0 && (size_t)n < sizeof path, STATUS_IO, "%.300s: path too long", dir);
-    char *text = summary_text(s);
+    char *text = output_summary_text(s);
     CHECK(text, STATUS_MEMORY, "no memory for the summary");
     file_writer w;
-    status result = file_begin(&w, path);
+    status result = host_file_begin(&w, path);
     if (result.code == STATUS_OK) {
         fprintf(w.stream, "%s\n", text);
-        result = file_end(&w, true);
+        result = host_file_end(&w, true);
     }
     free(text);
     return result;
 }
 
-void summary_status(const char *dir, char *out, size_t size)
+void output_summary_status(const char *dir, char *out, size_t size)
 {
     out[0] = '\0';
     char path[OUTDIR_PATH_SIZE], *text;
     const int n = snprintf(path, sizeof path, "%s/%s", dir, OUTDIR_SUMMARY);
-    if (n < 0 || (size_t)n >= sizeof path || file_read(path, &text, NULL).code != STATUS_OK) return;
+    if (n < 0 || (size_t)n >= sizeof path || host_file_read(path, &text, NULL).code != STATUS_OK) return;
     cJSON *root = cJSON_Parse(text);
     const char *word = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(root, "status"));
     if (word) snprintf(out, size, "%s", word);
@@ -193,11 +186,11 @@ void summary_status(const char *dir, char *out, size_t size)
 
 /* ---- one scene as text, and back ---- */
 
-char *summary_scene_text(const onset_scene *s)
+char *output_summary_scene_text(const onset_scene *s)
 {
     cJSON *object = cJSON_CreateObject();
-    add_keys(object, summary_study_scene_keys, s);
-    add_keys(object, summary_scene_keys, result_of(s));
+    add_keys(object, output_summary_study_scene_keys, s);
+    add_keys(object, output_summary_scene_keys, result_of(s));
     make_exact(object);
     char *text = cJSON_PrintUnformatted(object);
     cJSON_Delete(object);
@@ -252,12 +245,12 @@ static bool read_value(const summary_key *k, const cJSON *value, scene_result *r
     return false;
 }
 
-status summary_scene_result(const char *text, scene_result *out)
+status output_summary_scene_result(const char *text, scene_result *out)
 {
     memset(out, 0, sizeof *out);
     cJSON *root = cJSON_Parse(text);
     const char *missing = NULL;
-    for (const summary_key *k = summary_scene_keys; k->name && !missing; k++)
+    for (const summary_key *k = output_summary_scene_keys; k->name && !missing; k++)
         if (!read_value(k, cJSON_GetObjectItemCaseSensitive(root, k->name), out)) missing = k->name;
     cJSON_Delete(root);
     CHECK(!missing, STATUS_IO, "the result of a scene has no `%s`", missing);

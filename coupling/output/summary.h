@@ -1,9 +1,9 @@
 /* summary.json: the machine's face of every run, written at its end whatever the end was.
  *
- * One table a kind of run says every key once (name, unit, where it stands): writing, the closing table, the manual's key
- * list and the tests use it.  SI units; NaN and what a run did not reach become null, so every key is always there.
- * The keys of the run's own kind stand at the top level beside those of `all`; the shot of an onset or a comparison stands
- * under "shot".  To add a key: a member in the struct, one line in its table.  Keys are only ever added. */
+ * One table a kind of run says every key once (name, unit, where it stands): writing, the closing table, the manual's
+ * key list and the tests use it.  SI units; NaN and what a run did not reach become null, so every key is always there.
+ * The keys of the run's own kind stand at the top level beside those of `all`; the shot of an onset or a comparison
+ * stands under "shot".  To add a key: a member in the struct, one line in its table.  Keys are only ever added. */
 #ifndef BREECH_COUPLING_SUMMARY_H
 #define BREECH_COUPLING_SUMMARY_H
 
@@ -82,7 +82,7 @@ typedef enum {
     SITE_GOUGE,
     SITE_UNDECIDED
 } site_outcome;
-extern const char *const site_outcome_names[]; /* "not_reached", "skipped", "none", ..., NULL */
+extern const char *const output_site_outcome_names[]; /* "not_reached", "skipped", "none", ..., NULL */
 
 typedef struct {
     double position;                                  /* along the barrel [m] */
@@ -135,7 +135,7 @@ typedef struct {
 } onset_shot;
 
 typedef enum { VERDICT_GOUGES, VERDICT_NO_GOUGING, VERDICT_UNDECIDED } onset_verdict;
-extern const char *const onset_verdict_names[]; /* "gouges", "no_gouging", "undecided", NULL */
+extern const char *const output_onset_verdict_names[]; /* "gouges", "no_gouging", "undecided", NULL */
 
 typedef struct {
     onset_verdict verdict;
@@ -212,10 +212,10 @@ typedef struct {
 } inductance_result;
 
 typedef enum { RUN_SHOT, RUN_SCENE, RUN_ONSET, RUN_COMPARE, RUN_INDUCTANCE, RUN_KINDS } run_kind;
-extern const char *const run_kind_names[]; /* "shot", ..., NULL */
+extern const char *const output_run_kind_names[]; /* "shot", ..., NULL */
 
 typedef enum { RUN_DONE, RUN_STOPPED, RUN_FAILED } run_status;
-extern const char *const run_status_names[]; /* "done", "stopped", "failed", NULL */
+extern const char *const output_run_status_names[]; /* "done", "stopped", "failed", NULL */
 
 /* Everything a summary says; members that are NULL were not reached.  All borrowed. */
 typedef struct {
@@ -233,20 +233,21 @@ typedef struct {
 } run_summary;
 
 /* DIR/summary.json, at once or not at all. */
-status summary_write(const char *dir, const run_summary *s);
+status output_summary_write(const char *dir, const run_summary *s);
 /* Its text, malloc'ed, the caller frees it; NULL when out of memory. */
-char *summary_text(const run_summary *s);
+char *output_summary_text(const run_summary *s);
 /* One scene as a line of JSON, the keys of an entry of `scenes`, and its result back from it; numbers survive exactly.
- * The text is malloc'ed, the caller frees it; NULL when out of memory.  STATUS_IO: not such a text, or keys are missing. */
-char *summary_scene_text(const onset_scene *s);
-status summary_scene_result(const char *text, scene_result *out);
+ * The text is malloc'ed, the caller frees it; NULL when out of memory.  STATUS_IO: not such a text, or keys are
+ * missing. */
+char *output_summary_scene_text(const onset_scene *s);
+status output_summary_scene_result(const char *text, scene_result *out);
 /* "done", "stopped", "failed" of the summary.json in dir; "" when there is none or it cannot be read. */
-void summary_status(const char *dir, char *out, size_t size);
+void output_summary_status(const char *dir, char *out, size_t size);
 
 /* The closing table for people. */
-void summary_print(const run_summary *s, FILE *out);
+void output_summary_print(const run_summary *s, FILE *out);
 /* The manual's key list, in markdown. */
-void summary_print_keys(FILE *out);
+void output_summary_print_keys(FILE *out);
 
 /* ---- from what the libraries say ---- */
 
@@ -260,10 +261,9 @@ typedef struct {
     bool mirrored; /* the scene is half of the model */
 } scene_outcome;
 /* The bodies named "rail" and "armature" give the peaks by body; NaN where there is none of that name. */
-scene_result scene_result_of(const scene_outcome *o);
-/* Of the power that ploughs a groove, from its first gauge to its second, or as far as it has come; NAN before [1/s]. */
-double scene_growth(const mpm_report *m);
-
-const char *breech_version(void); /* BREECH_VERSION, "unknown" where the build does not say */
+scene_result output_scene_result(const scene_outcome *o);
+/* Of the power that ploughs a groove, from its first gauge to its second, or as far as it has come; NAN before [1/s].
+ */
+double output_scene_growth(const mpm_report *m);
 
 #endif

@@ -1,5 +1,5 @@
-/* The keys of summary.json: one table a struct (summary_keys.c), from which they are written (summary.c), read back, printed and
- * listed in the manual (summary_print.c).  Inside of coupling/io. */
+/* The keys of summary.json: one table a struct (summary_keys.c), from which they are written (summary.c), read back,
+ * printed and listed in the manual (summary_print.c).  Inside of coupling/io. */
 #ifndef BREECH_COUPLING_SUMMARY_KEYS_H
 #define BREECH_COUPLING_SUMMARY_KEYS_H
 
@@ -30,13 +30,13 @@ typedef struct summary_key {
     size_t item_size, n_offset;     /* KEY_LIST, KEY_ARRAY: where the int stands that counts them */
 } summary_key;
 
-extern const summary_key summary_shot_keys[], summary_scene_keys[], summary_site_keys[], summary_study_scene_keys[],
-    summary_surface_keys[], summary_skip_keys[], summary_sensitivity_keys[], summary_repeated_keys[],
-    summary_compare_entry_keys[];
-extern const summary_key *const summary_keys_of_kind[RUN_KINDS];
-const void *summary_object_of_kind(const run_summary *s); /* what those keys are of; NULL: not there */
+extern const summary_key output_summary_shot_keys[], output_summary_scene_keys[], output_summary_site_keys[],
+    output_summary_study_scene_keys[], output_summary_surface_keys[], output_summary_skip_keys[],
+    output_summary_sensitivity_keys[], output_summary_repeated_keys[], output_summary_compare_entry_keys[];
+extern const summary_key *const output_summary_keys_of_kind[RUN_KINDS];
+const void *output_summary_object_of_kind(const run_summary *s); /* what those keys are of; NULL: not there */
 
 /* A key's value of the struct it belongs to; the caller frees. */
-cJSON *summary_value_json(const summary_key *k, const void *from);
+cJSON *output_summary_value_json(const summary_key *k, const void *from);
 
 #endif

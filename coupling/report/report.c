@@ -17,7 +17,7 @@ static void scene_sentence(const page *p, const cJSON *s)
     const char *class = report_text(s, "class");
     fprintf(p->out, "<p class=\"verdict\" style=\"border-color:%s\">Damage class: %s.</p>\n", report_colour(class),
             class[0] ? class : "not measured");
-    if (report_text(s, "reason")[0]) page_paragraph(p, "reason", report_text(s, "reason"));
+    if (report_text(s, "reason")[0]) report_page_paragraph(p, "reason", report_text(s, "reason"));
 }
 
 /* clang-format off */
@@ -55,35 +55,35 @@ static void section_verdict(const page *p)
     const cJSON *s = p->source->summary;
     const char *kind = report_text(s, "kind"), *state = report_text(s, "status");
     fprintf(p->out, "<h1>");
-    page_escaped(p->out, report_text(s, "case"));
+    report_page_escaped(p->out, report_text(s, "case"));
     fprintf(p->out, "</h1>\n<p class=\"sub\">breech %s &middot; %s</p>\n", kind, state);
     if (strcmp(state, "done") != 0) {
         fputs("<p class=\"verdict\" style=\"border-color:#c0392b\">The run ", p->out);
         fputs(strcmp(state, "stopped") == 0 ? "was stopped early; breech --resume goes on with it. " : "failed. ",
               p->out);
-        page_escaped(p->out, report_text(s, "error"));
+        report_page_escaped(p->out, report_text(s, "error"));
         fputs("</p>\n", p->out);
     }
     if (strcmp(kind, "onset") == 0) {
-        if (strcmp(state, "done") == 0) section_onset_sentence(p);
-        page_cards(p, s, onset_cards, PAGE_COUNT(onset_cards));
+        if (strcmp(state, "done") == 0) report_section_onset_sentence(p);
+        report_page_cards(p, s, onset_cards, PAGE_COUNT(onset_cards));
     }
     if (strcmp(kind, "scene") == 0) {
         if (strcmp(state, "done") == 0) scene_sentence(p, s);
-        page_cards(p, s, scene_cards, PAGE_COUNT(scene_cards));
+        report_page_cards(p, s, scene_cards, PAGE_COUNT(scene_cards));
     }
     const cJSON *shot = cJSON_GetObjectItemCaseSensitive(s, "shot");
     if (strcmp(kind, "shot") == 0) shot = s;
-    if (shot) page_cards(p, shot, shot_cards, PAGE_COUNT(shot_cards));
+    if (shot) report_page_cards(p, shot, shot_cards, PAGE_COUNT(shot_cards));
 }
 
 /* ---- plots ---- */
 
 static void section_shot(const page *p)
 {
-    if (!p->source->history || !h5_exists(p->source->history, "/shot/time")) return;
-    page_heading(p, "The shot");
-    page_draw(p, plot_shot, "shot", "Modules in grey: one unit of each group.");
+    if (!p->source->history || !host_h5_exists(p->source->history, "/shot/time")) return;
+    report_page_heading(p, "The shot");
+    report_page_draw(p, report_plot_shot, "shot", "Modules in grey: one unit of each group.");
 }
 
 /* ---- craters ---- */
@@ -92,37 +92,37 @@ static void one_crater(const page *p, const char *scene)
 {
     char name[160], group[300], reason[256];
     bool map, profile;
-    const status drawn_map = plot_crater_map(p->source, scene, &map);
-    const status drawn_profile = plot_crater_profile(p->source, scene, &profile);
+    const status drawn_map = report_plot_crater_map(p->source, scene, &map);
+    const status drawn_profile = report_plot_crater_profile(p->source, scene, &profile);
     fputs("<section class=\"crater\"><h3>", p->out);
-    page_escaped(p->out, scene);
+    report_page_escaped(p->out, scene);
     fputs("</h3>\n", p->out);
     snprintf(group, sizeof group, "/scene/%.150s/crater", scene);
-    if (h5_read_attribute_text(p->source->history, group, "reason", reason, sizeof reason).code == STATUS_OK)
-        page_paragraph(p, "reason", reason);
+    if (host_h5_read_attribute_text(p->source->history, group, "reason", reason, sizeof reason).code == STATUS_OK)
+        report_page_paragraph(p, "reason", reason);
     snprintf(name, sizeof name, "map-%.120s", scene);
     if (map)
-        page_plot(p, name, "Depth below the undamaged surface, launch direction to the right.");
+        report_page_plot(p, name, "Depth below the undamaged surface, launch direction to the right.");
     else if (drawn_map.code != STATUS_OK)
-        page_paragraph(p, "missing", drawn_map.text);
+        report_page_paragraph(p, "missing", drawn_map.text);
     snprintf(name, sizeof name, "profile-%.120s", scene);
     if (profile)
-        page_plot(p, name, "Along the middle.");
+        report_page_plot(p, name, "Along the middle.");
     else if (drawn_profile.code != STATUS_OK)
-        page_paragraph(p, "missing", drawn_profile.text);
+        report_page_paragraph(p, "missing", drawn_profile.text);
     fputs("</section>\n", p->out);
 }
 
 static void section_craters(const page *p)
 {
     char *names, group[300];
-    if (!p->source->history || h5_list(p->source->history, "/scene", &names).code != STATUS_OK) return;
+    if (!p->source->history || host_h5_list(p->source->history, "/scene", &names).code != STATUS_OK) return;
     int shown_craters = 0, left_out = 0;
     for (char *name = names, *end; (end = strchr(name, '\n')); name = end + 1) {
         *end = '\0';
         snprintf(group, sizeof group, "/scene/%.150s/crater/depth", name);
-        if (!name_is_plain(name) || !h5_exists(p->source->history, group)) continue;
-        if (shown_craters == 0) page_heading(p, "Craters");
+        if (!host_name_is_plain(name) || !host_h5_exists(p->source->history, group)) continue;
+        if (shown_craters == 0) report_page_heading(p, "Craters");
         if (shown_craters < MAX_CRATERS) one_crater(p, name);
         if (shown_craters++ >= MAX_CRATERS) left_out++;
     }
@@ -137,7 +137,7 @@ static double last_of(const report_source *r, const char *path)
 {
     double *data, value = NAN;
     size_t dims[H5_MAX_RANK];
-    if (h5_read(r->history, path, &data, dims).code != STATUS_OK) return NAN;
+    if (host_h5_read(r->history, path, &data, dims).code != STATUS_OK) return NAN;
     if (dims[0] > 0) value = data[dims[0] - 1];
     free(data);
     return value;
@@ -149,8 +149,8 @@ static void section_ledger(const page *p)
                                            "energy_kinetic",    "heat_coils",    "heat_cables",   "heat_crowbars",
                                            "heat_rails",        "heat_armature", "heat_contact",  "work_friction",
                                            "work_drag",         "energy_muzzle", "energy_wear",   "energy_jumps" };
-    if (!p->source->history || !h5_exists(p->source->history, "/shot/energy_error")) return;
-    page_heading(p, "Where the energy went");
+    if (!p->source->history || !host_h5_exists(p->source->history, "/shot/energy_error")) return;
+    report_page_heading(p, "Where the energy went");
     fputs("<div class=\"wide\"><table><tr><th>place</th><th>[kJ]</th></tr>\n", p->out);
     double sum = 0.0;
     for (int i = 0; i < PAGE_COUNT(columns); i++) {
@@ -168,29 +168,29 @@ static void section_ledger(const page *p)
 static void section_rest(const page *p)
 {
     const cJSON *warnings = cJSON_GetObjectItemCaseSensitive(p->source->summary, "warnings"), *item;
-    page_heading(p, "Warnings");
-    if (cJSON_GetArraySize(warnings) == 0) page_paragraph(p, "reason", "none");
+    report_page_heading(p, "Warnings");
+    if (cJSON_GetArraySize(warnings) == 0) report_page_paragraph(p, "reason", "none");
     fputs("<ul>\n", p->out);
     cJSON_ArrayForEach(item, warnings)
     {
         fputs("<li>", p->out);
-        page_escaped(p->out, cJSON_IsString(item) ? item->valuestring : "");
+        report_page_escaped(p->out, cJSON_IsString(item) ? item->valuestring : "");
         fputs("</li>\n", p->out);
     }
     fputs("</ul>\n", p->out);
-    page_heading(p, "Inputs");
+    report_page_heading(p, "Inputs");
     if (p->source->used) {
         fputs("<details><summary>used.yaml</summary><pre>", p->out);
-        page_escaped(p->out, p->source->used);
+        report_page_escaped(p->out, p->source->used);
         fputs("</pre></details>\n", p->out);
     } else {
-        page_paragraph(p, "missing", "used.yaml is not there");
+        report_page_paragraph(p, "missing", "used.yaml is not there");
     }
-    page_heading(p, "Versions");
+    report_page_heading(p, "Versions");
     fputs("<p>Breech ", p->out);
-    page_escaped(p->out, report_text(p->source->summary, "version"));
+    report_page_escaped(p->out, report_text(p->source->summary, "version"));
     fputs(", instruction set ", p->out);
-    page_escaped(p->out, report_text(p->source->summary, "instruction_set"));
+    report_page_escaped(p->out, report_text(p->source->summary, "instruction_set"));
     fputs(".</p>\n", p->out);
 }
 
@@ -216,15 +216,15 @@ static void write_page(const page *p)
     fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>",
           p->out);
-    page_escaped(p->out, report_text(r->summary, "case"));
+    report_page_escaped(p->out, report_text(r->summary, "case"));
     fprintf(p->out, " &ndash; Breech</title><style>%s</style></head><body>\n", style);
     section_verdict(p);
     if (!r->gnuplot)
-        page_paragraph(p, "missing",
-                       "gnuplot is not installed: the curves are left out; breech report draws them later.");
-    if (!r->history) page_paragraph(p, "missing", "history.h5 is not there: no curves and no craters.");
-    section_compare(p);
-    section_onset(p);
+        report_page_paragraph(p, "missing",
+                              "gnuplot is not installed: the curves are left out; breech report draws them later.");
+    if (!r->history) report_page_paragraph(p, "missing", "history.h5 is not there: no curves and no craters.");
+    report_section_compare(p);
+    report_section_onset(p);
     section_craters(p);
     section_shot(p);
     section_ledger(p);
@@ -238,9 +238,9 @@ static status report_page(const report_source *r)
     const int n = snprintf(path, sizeof path, "%s/%s", r->dir, OUTDIR_REPORT);
     CHECK(n > 0 && n < OUTDIR_PATH_SIZE, STATUS_IO, "%.300s: path too long", r->dir);
     file_writer w;
-    TRY(file_begin(&w, path));
+    TRY(host_file_begin(&w, path));
     write_page(&(page){ r, w.stream });
-    return file_end(&w, true);
+    return host_file_end(&w, true);
 }
 
 /* The files beside the summary may be missing; the page says so. */
@@ -248,13 +248,13 @@ static status report_with(const outdir *d, const cJSON *summary)
 {
     char path[OUTDIR_PATH_SIZE], *used = NULL;
     h5_file *history = NULL;
-    TRY(outdir_file(d, OUTDIR_HISTORY, path, sizeof path));
-    if (file_exists(path)) TRY(h5_open(path, &history));
-    if (outdir_file(d, OUTDIR_USED, path, sizeof path).code == STATUS_OK && file_exists(path))
-        (void)file_read(path, &used, NULL);
-    const report_source source = { d->path, summary, history, used, gnuplot_exists() };
+    TRY(host_outdir_file(d, OUTDIR_HISTORY, path, sizeof path));
+    if (host_file_exists(path)) TRY(host_h5_open(path, &history));
+    if (host_outdir_file(d, OUTDIR_USED, path, sizeof path).code == STATUS_OK && host_file_exists(path))
+        (void)host_file_read(path, &used, NULL);
+    const report_source source = { d->path, summary, history, used, report_gnuplot_exists() };
     const status s = report_page(&source);
-    h5_close(history);
+    host_h5_close(history);
     free(used);
     return s;
 }
@@ -265,10 +265,10 @@ status report_write(const char *dir)
     const int n = snprintf(d.path, sizeof d.path, "%s", dir);
     CHECK(n > 0 && n < OUTDIR_PATH_SIZE, STATUS_BAD_INPUT, "%.300s: path too long", dir);
     char path[OUTDIR_PATH_SIZE], *text;
-    TRY(outdir_file(&d, OUTDIR_SUMMARY, path, sizeof path));
-    CHECK(file_exists(path), STATUS_BAD_INPUT, "%.300s: holds no %s; give the output directory of a run", dir,
+    TRY(host_outdir_file(&d, OUTDIR_SUMMARY, path, sizeof path));
+    CHECK(host_file_exists(path), STATUS_BAD_INPUT, "%.300s: holds no %s; give the output directory of a run", dir,
           OUTDIR_SUMMARY);
-    TRY(file_read(path, &text, NULL));
+    TRY(host_file_read(path, &text, NULL));
     cJSON *summary = cJSON_Parse(text);
     free(text);
     CHECK(summary, STATUS_BAD_INPUT, "%.300s: is no JSON", path);

@@ -47,12 +47,12 @@ static int run_gnuplot(const char *script, const char *svg)
     return WIFEXITED(result) && WEXITSTATUS(result) == 127 ? ENOENT : EIO;
 }
 
-bool gnuplot_exists(void)
+bool report_gnuplot_exists(void)
 {
     return run_gnuplot("/dev/null", "/dev/null") == 0;
 }
 
-status plot_begin(plot *p, const report_source *r, const char *name, int width, int height)
+status report_plot_begin(plot *p, const report_source *r, const char *name, int width, int height)
 {
     const int n = snprintf(p->svg, sizeof p->svg, "%.900s/plot-%.80s.svg", r->dir, name);
     CHECK(n > 0 && n < OUTDIR_PATH_SIZE - 16, STATUS_IO, "%.300s: path too long", r->dir);
@@ -73,7 +73,7 @@ status plot_begin(plot *p, const report_source *r, const char *name, int width, 
     return status_ok();
 }
 
-status plot_end(plot *p)
+status report_plot_end(plot *p)
 {
     const bool written = !ferror(p->script);
     const bool closed = fclose(p->script) == 0;
@@ -81,11 +81,12 @@ status plot_end(plot *p)
     unlink(p->script_path);
     if (!error && rename(p->part, p->svg) == 0) return status_ok();
     unlink(p->part);
-    return status_error(STATUS_IO, "%.300s: gnuplot could not draw it: %s", p->svg, strerror(error ? error : errno));
+    return base_status_error(STATUS_IO, "%.300s: gnuplot could not draw it: %s", p->svg,
+                             strerror(error ? error : errno));
 }
 
 /* A named data block of two columns, thinned to what a screen shows; the last point is kept. */
-void plot_data(FILE *script, const char *name, const double *x, const double *y, size_t n)
+void report_plot_data(FILE *script, const char *name, const double *x, const double *y, size_t n)
 {
     const size_t stride = n / MAX_POINTS + 1;
     fprintf(script, "$%s << EOD\n", name);
@@ -94,7 +95,7 @@ void plot_data(FILE *script, const char *name, const double *x, const double *y,
     fputs("EOD\n", script);
 }
 
-int plot_outcome_data(FILE *script, const report_source *r, const point_source *from, bool used[OUTCOMES])
+int report_plot_outcome_data(FILE *script, const report_source *r, const point_source *from, bool used[OUTCOMES])
 {
     int total = 0;
     for (int o = 0; o < OUTCOMES; o++) {
@@ -114,7 +115,7 @@ int plot_outcome_data(FILE *script, const report_source *r, const point_source *
     return total;
 }
 
-void plot_outcomes(FILE *script, const bool used[OUTCOMES], bool first)
+void report_plot_outcomes(FILE *script, const bool used[OUTCOMES], bool first)
 {
     for (int o = 0; o < OUTCOMES; o++) {
         if (!used[o]) continue;
@@ -125,7 +126,7 @@ void plot_outcomes(FILE *script, const bool used[OUTCOMES], bool first)
     fputc('\n', script);
 }
 
-void plot_band(FILE *script, int object, const cJSON *summary, const char *key, bool along_x)
+void report_plot_band(FILE *script, int object, const cJSON *summary, const char *key, bool along_x)
 {
     const double lo = report_element(summary, key, 0), hi = report_element(summary, key, 1);
     if (isnan(lo) || isnan(hi)) return;

@@ -1,6 +1,6 @@
 /* SVG plots by gnuplot, a script file in, an SVG file out, no shell.  Internal to the report.
  *
- * plot_begin, then gnuplot's own words and data blocks into .script, then plot_end. */
+ * report_plot_begin, then gnuplot's own words and data blocks into .script, then report_plot_end. */
 #ifndef BREECH_COUPLING_REPORT_GNUPLOT_H
 #define BREECH_COUPLING_REPORT_GNUPLOT_H
 
@@ -13,11 +13,11 @@ typedef struct {
 } plot;
 
 /* DIR/plot-<name>.svg, width x height pixels; frame, grid and key are set.  After an error nothing is to be ended. */
-status plot_begin(plot *p, const report_source *r, const char *name, int width, int height);
-status plot_end(plot *p);
+status report_plot_begin(plot *p, const report_source *r, const char *name, int width, int height);
+status report_plot_end(plot *p);
 
 /* Data block $name of two columns, thinned to what a screen shows; the last point is kept. */
-void plot_data(FILE *script, const char *name, const double *x, const double *y, size_t n);
+void report_plot_data(FILE *script, const char *name, const double *x, const double *y, size_t n);
 
 /* The objects of a list of the summary as points, by outcome. */
 enum { OUTCOMES = 6 };
@@ -26,10 +26,10 @@ typedef struct {
     double x_unit;
 } point_source;
 /* A data block an outcome; returns how many points there are.  used[i]: outcome i has some. */
-int plot_outcome_data(FILE *script, const report_source *r, const point_source *from, bool used[OUTCOMES]);
+int report_plot_outcome_data(FILE *script, const report_source *r, const point_source *from, bool used[OUTCOMES]);
 /* The words that plot them; first: nothing stands before them in the plot command. */
-void plot_outcomes(FILE *script, const bool used[OUTCOMES], bool first);
+void report_plot_outcomes(FILE *script, const bool used[OUTCOMES], bool first);
 /* A shaded interval of the summary across the whole plot, along x or along y; none where there is no interval. */
-void plot_band(FILE *script, int object, const cJSON *summary, const char *key, bool along_x);
+void report_plot_band(FILE *script, int object, const cJSON *summary, const char *key, bool along_x);
 
 #endif

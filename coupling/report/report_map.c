@@ -111,7 +111,7 @@ static status draw(const report_source *r, const char *scene, const map *m)
     const double aspect = (m->z1 - m->z0 + cell_x) / (m->x1 - m->x0 + cell_x);
     const double height = fmin(fmax(width * aspect, 30.0), 2.0 * width); /* true to scale but for the narrowest */
     file_writer w;
-    TRY(file_begin(&w, path));
+    TRY(host_file_begin(&w, path));
     fprintf(w.stream,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %.0f\" width=\"%d\" font-family=\"sans-serif\" "
             "font-size=\"12\" fill=\"#333\">\n",
@@ -119,7 +119,7 @@ static status draw(const report_source *r, const char *scene, const map *m)
     draw_cells(m, w.stream, width, height);
     draw_frame(m, w.stream, width, height);
     fputs("</svg>\n", w.stream);
-    return file_end(&w, true);
+    return host_file_end(&w, true);
 }
 
 static bool read_part(const report_source *r, const char *scene, const char *part, double **data,
@@ -127,7 +127,7 @@ static bool read_part(const report_source *r, const char *scene, const char *par
 {
     char path[300];
     snprintf(path, sizeof path, "/scene/%.150s/crater/%s", scene, part);
-    return h5_read(r->history, path, data, dims).code == STATUS_OK;
+    return host_h5_read(r->history, path, data, dims).code == STATUS_OK;
 }
 
 static bool read_map(const report_source *r, const char *scene, map *m)
@@ -154,7 +154,7 @@ static bool read_map(const report_source *r, const char *scene, map *m)
     return there;
 }
 
-status plot_crater_map(const report_source *r, const char *scene, bool *drawn)
+status report_plot_crater_map(const report_source *r, const char *scene, bool *drawn)
 {
     map m = { .depth = NULL };
     *drawn = r->history && read_map(r, scene, &m);

@@ -17,25 +17,26 @@ typedef struct {
 } page_column;
 #define PAGE_COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 
-void page_escaped(FILE *out, const char *text);
-void page_heading(const page *p, const char *text);
-void page_paragraph(const page *p, const char *class, const char *text);
+void report_page_escaped(FILE *out, const char *text);
+void report_page_heading(const page *p, const char *text);
+void report_page_paragraph(const page *p, const char *class, const char *text);
 /* Four digits and the unit's name; a dash where there is no number. */
-void page_number(FILE *out, double x, double unit, const char *name);
+void report_page_number(FILE *out, double x, double unit, const char *name);
 /* One box a key. */
-void page_cards(const page *p, const cJSON *object, const page_column *list, int n);
+void report_page_cards(const page *p, const cJSON *object, const page_column *list, int n);
 /* One row an object; a vector of two is shown as an interval, outcomes in their colours.  Nothing for an empty list. */
-void page_list_table(const page *p, const cJSON *list, const page_column *columns, int n);
+void report_page_list_table(const page *p, const cJSON *list, const page_column *columns, int n);
 
 /* The plot that was drawn into DIR/plot-<name>.svg; caption may be "". */
-void page_plot(const page *p, const char *name, const char *caption);
+void report_page_plot(const page *p, const char *name, const char *caption);
 /* Draws it and takes it in; says so where it cannot be drawn, nothing where there is nothing to draw. */
-void page_draw(const page *p, status (*draw)(const report_source *, bool *), const char *name, const char *caption);
+void report_page_draw(const page *p, status (*draw)(const report_source *, bool *), const char *name,
+                      const char *caption);
 
 /* ---- sections in files of their own ---- */
 
-void section_onset_sentence(const page *p);
-void section_onset(const page *p);
-void section_compare(const page *p);
+void report_section_onset_sentence(const page *p);
+void report_section_onset(const page *p);
+void report_section_compare(const page *p);
 
 #endif

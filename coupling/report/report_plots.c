@@ -40,8 +40,8 @@ static curve curve_read(const report_source *r, const char *x, const char *y)
 {
     curve c = { NULL, NULL, 0 };
     size_t a[H5_MAX_RANK], b[H5_MAX_RANK];
-    if (!r->history || h5_read(r->history, x, &c.x, a).code != STATUS_OK) return c;
-    if (h5_read(r->history, y, &c.y, b).code == STATUS_OK) c.n = a[0] < b[0] ? a[0] : b[0];
+    if (!r->history || host_h5_read(r->history, x, &c.x, a).code != STATUS_OK) return c;
+    if (host_h5_read(r->history, y, &c.y, b).code == STATUS_OK) c.n = a[0] < b[0] ? a[0] : b[0];
     return c;
 }
 
@@ -103,7 +103,7 @@ static bool time_block(FILE *script, const report_source *r, const char *path, c
     for (size_t i = 0; i < c.n; i++) some = some || c.y[i] != 0.0;
     scale(c.x, c.n, 1e-3);
     scale(c.y, c.n, unit);
-    if (some) plot_data(script, block, c.x, c.y, c.n);
+    if (some) report_plot_data(script, block, c.x, c.y, c.n);
     curve_free(&c);
     return some;
 }
@@ -116,7 +116,7 @@ static int module_blocks(FILE *script, const report_source *r)
         snprintf(path, sizeof path, "modules/current_%03d", n);
         snprintf(block, sizeof block, "module%d", n);
         snprintf(full, sizeof full, "/shot/%s", path);
-        if (!h5_exists(r->history, full)) break;
+        if (!host_h5_exists(r->history, full)) break;
         if (!time_block(script, r, path, block, 1e3)) fprintf(script, "$%s << EOD\n0 0\nEOD\n", block);
     }
     return n;
@@ -144,7 +144,7 @@ static void draw_panel(FILE *script, const report_source *r, int p, int modules)
     fputs(n ? "\n" : "0 notitle\n", script);
 }
 
-status plot_shot(const report_source *r, bool *drawn)
+status report_plot_shot(const report_source *r, bool *drawn)
 {
     *drawn = false;
     curve c = curve_read(r, "/shot/time", "/shot/current");
@@ -153,18 +153,18 @@ status plot_shot(const report_source *r, bool *drawn)
     curve_free(&c);
     if (rows < 2 || !r->gnuplot) return status_ok();
     plot p;
-    TRY(plot_begin(&p, r, "shot", 1100, 1300));
+    TRY(report_plot_begin(&p, r, "shot", 1100, 1300));
     const int modules = module_blocks(p.script, r);
     fprintf(p.script, "set xrange [0:%.7g]\nset xlabel 'time [ms]'\nset multiplot layout %d,2\n", end,
             (PANELS + 1) / 2);
     for (int k = 0; k < PANELS; k++) draw_panel(p.script, r, k, modules);
     fputs("unset multiplot\n", p.script);
-    TRY(plot_end(&p));
+    TRY(report_plot_end(&p));
     *drawn = true;
     return status_ok();
 }
 
-status plot_barrel(const report_source *r, bool *drawn)
+status report_plot_barrel(const report_source *r, bool *drawn)
 {
     *drawn = false;
     curve c = curve_read(r, "/shot/position", "/shot/velocity");
@@ -173,25 +173,25 @@ status plot_barrel(const report_source *r, bool *drawn)
         return status_ok();
     }
     plot p;
-    status s = plot_begin(&p, r, "barrel", 760, 400);
+    status s = report_plot_begin(&p, r, "barrel", 760, 400);
     if (s.code == STATUS_OK) {
         bool used[OUTCOMES];
-        plot_data(p.script, "curve", c.x, c.y, c.n);
-        plot_outcome_data(p.script, r, &(point_source){ "sites", "outcome", "position", "velocity", 1.0 }, used);
-        plot_band(p.script, 1, r->summary, "onset_interval", true);
-        plot_band(p.script, 2, r->summary, "threshold_interval", false);
+        report_plot_data(p.script, "curve", c.x, c.y, c.n);
+        report_plot_outcome_data(p.script, r, &(point_source){ "sites", "outcome", "position", "velocity", 1.0 }, used);
+        report_plot_band(p.script, 1, r->summary, "onset_interval", true);
+        report_plot_band(p.script, 2, r->summary, "threshold_interval", false);
         fputs("set xlabel 'position along the barrel [m]'\nset ylabel 'velocity [m/s]'\n"
               "plot $curve with lines lw 2 lc rgb '#1f5fa8' title 'armature'",
               p.script);
-        plot_outcomes(p.script, used, false);
-        s = plot_end(&p);
+        report_plot_outcomes(p.script, used, false);
+        s = report_plot_end(&p);
     }
     curve_free(&c);
     *drawn = s.code == STATUS_OK;
     return s;
 }
 
-status plot_threshold(const report_source *r, bool *drawn)
+status report_plot_threshold(const report_source *r, bool *drawn)
 {
     *drawn = false;
     const cJSON *scenes = cJSON_GetObjectItemCaseSensitive(r->summary, "scenes"), *item;
@@ -204,28 +204,28 @@ status plot_threshold(const report_source *r, bool *drawn)
     }
     if (points == 0 || !r->gnuplot) return status_ok();
     plot p;
-    TRY(plot_begin(&p, r, "threshold", 760, 380));
+    TRY(report_plot_begin(&p, r, "threshold", 760, 380));
     bool used[OUTCOMES];
     const char *y = gauged ? "groove_growth" : "severity";
-    plot_outcome_data(p.script, r, &(point_source){ "scenes", "class", "velocity", y, 1.0 }, used);
-    plot_band(p.script, 1, r->summary, "threshold_interval", true);
+    report_plot_outcome_data(p.script, r, &(point_source){ "scenes", "class", "velocity", y, 1.0 }, used);
+    report_plot_band(p.script, 1, r->summary, "threshold_interval", true);
     fprintf(p.script,
             "set xlabel 'velocity [m/s]'\nset ylabel '%s'\nset offsets graph 0.05, graph 0.05, graph 0.1, graph 0.1\n"
             "plot 0 with lines lw 1.5 dt 2 lc rgb '#555555' title 'growth sets in'",
             gauged ? "growth of the groove [1/s]" : "severity [1]");
-    plot_outcomes(p.script, used, false);
-    TRY(plot_end(&p));
+    report_plot_outcomes(p.script, used, false);
+    TRY(report_plot_end(&p));
     *drawn = true;
     return status_ok();
 }
 
-status plot_inductance(const report_source *r, bool *drawn)
+status report_plot_inductance(const report_source *r, bool *drawn)
 {
     *drawn = false;
     const int n = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(r->summary, "frequency"));
     if (n < 2 || !r->gnuplot) return status_ok();
     plot p;
-    TRY(plot_begin(&p, r, "inductance", 760, 380));
+    TRY(report_plot_begin(&p, r, "inductance", 760, 380));
     fputs("$table << EOD\n", p.script);
     for (int i = 0; i < n; i++)
         fprintf(p.script, "%.9g %.9g %.9g\n", report_element(r->summary, "frequency", i),
@@ -235,18 +235,18 @@ status plot_inductance(const report_source *r, bool *drawn)
           "plot $table using 1:2 with linespoints pt 7 ps 0.4 lw 2 lc rgb '#1f5fa8' title \"L'\", "
           "$table using 1:3 axes x1y2 with linespoints pt 7 ps 0.4 lw 2 lc rgb '#c0392b' title \"R'\"\n",
           p.script);
-    TRY(plot_end(&p));
+    TRY(report_plot_end(&p));
     *drawn = true;
     return status_ok();
 }
 
-status plot_perimeter(const report_source *r, bool *drawn)
+status report_plot_perimeter(const report_source *r, bool *drawn)
 {
     *drawn = false;
     const int n = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(r->summary, "perimeter"));
     if (n < 2 || !r->gnuplot) return status_ok();
     plot p;
-    TRY(plot_begin(&p, r, "perimeter", 760, 380));
+    TRY(report_plot_begin(&p, r, "perimeter", 760, 380));
     fputs("$table << EOD\n", p.script);
     for (int i = 0; i < n; i++)
         fprintf(p.script, "%.9g %.9g %.9g\n", 1e3 * report_element(r->summary, "perimeter", i),
@@ -259,7 +259,7 @@ status plot_perimeter(const report_source *r, bool *drawn)
             "plot $table using 1:2 with lines lw 2 lc rgb '#1f5fa8' title 'current', "
             "$table using 1:3 axes x1y2 with lines lw 2 lc rgb '#c0392b' title 'heating'\n",
             report_number(r->summary, "perimeter_frequency"));
-    TRY(plot_end(&p));
+    TRY(report_plot_end(&p));
     *drawn = true;
     return status_ok();
 }
@@ -278,16 +278,16 @@ static status draw_profile(const report_source *r, const char *scene, const curv
     char name[160];
     snprintf(name, sizeof name, "profile-%.120s", scene);
     plot p;
-    TRY(plot_begin(&p, r, name, 640, 240));
-    plot_data(p.script, "curve", c->x, c->y, c->n);
+    TRY(report_plot_begin(&p, r, name, 640, 240));
+    report_plot_data(p.script, "curve", c->x, c->y, c->n);
     fputs("unset key\nset xlabel 'along the rail [mm]'\nset ylabel 'height [mm]'\n"
           "set offsets graph 0, graph 0, graph 0.1, graph 0.1\n"
           "plot 0 with lines lw 1 dt 2 lc rgb '#888888', $curve with lines lw 2 lc rgb '#7a4a1e'\n",
           p.script);
-    return plot_end(&p);
+    return report_plot_end(&p);
 }
 
-status plot_crater_profile(const report_source *r, const char *scene, bool *drawn)
+status report_plot_crater_profile(const report_source *r, const char *scene, bool *drawn)
 {
     *drawn = false;
     if (!r->history || !r->gnuplot) return status_ok();
@@ -296,13 +296,13 @@ status plot_crater_profile(const report_source *r, const char *scene, bool *draw
     size_t dims[H5_MAX_RANK], nx[H5_MAX_RANK] = { 0, 0 };
     curve c = { NULL, NULL, 0 };
     snprintf(path, sizeof path, "/scene/%.150s/crater/x", scene);
-    if (h5_read(r->history, path, &c.x, nx).code != STATUS_OK) return status_ok();
+    if (host_h5_read(r->history, path, &c.x, nx).code != STATUS_OK) return status_ok();
     snprintf(path, sizeof path, "/scene/%.150s/crater/depth", scene);
-    status s = h5_read(r->history, path, &depth, dims);
+    status s = host_h5_read(r->history, path, &depth, dims);
     if (s.code == STATUS_OK && dims[0] == nx[0] && dims[0] > 1 && dims[1] > 0) {
         c.n = dims[0];
         c.y = malloc(c.n * sizeof *c.y);
-        s = c.y ? status_ok() : status_error(STATUS_MEMORY, "no memory for a profile");
+        s = c.y ? status_ok() : base_status_error(STATUS_MEMORY, "no memory for a profile");
         if (c.y) {
             middle_profile(depth, dims, c.y);
             scale(c.x, c.n, 1e-3);
@@ -315,12 +315,12 @@ status plot_crater_profile(const report_source *r, const char *scene, bool *draw
     return s;
 }
 
-status plot_inline(const report_source *r, const char *name, FILE *page)
+status report_plot_inline(const report_source *r, const char *name, FILE *page)
 {
     char path[OUTDIR_PATH_SIZE], *text;
     const int n = snprintf(path, sizeof path, "%.900s/plot-%.110s.svg", r->dir, name);
     CHECK(n > 0 && n < OUTDIR_PATH_SIZE, STATUS_IO, "%.300s: path too long", r->dir);
-    TRY(file_read(path, &text, NULL));
+    TRY(host_file_read(path, &text, NULL));
     const char *svg = strstr(text, "<svg");
     if (svg) fputs(svg, page);
     free(text);

@@ -20,7 +20,7 @@ typedef struct {
     bool gnuplot;           /* there is one */
 } report_source;
 
-bool gnuplot_exists(void);
+bool report_gnuplot_exists(void);
 
 /* A number of the object, NaN where it is null or missing; a text, "" where missing. */
 double report_number(const cJSON *object, const char *key);
@@ -31,18 +31,18 @@ double report_element(const cJSON *object, const char *key, int i);
 const char *report_colour(const char *outcome);
 
 /* Each draws DIR/plot-<...>.svg; *drawn tells whether there was anything to draw. */
-status plot_shot(const report_source *r, bool *drawn); /* one page of everything over time */
-status plot_barrel(const report_source *r, bool *drawn);
-status plot_threshold(const report_source *r, bool *drawn);
+status report_plot_shot(const report_source *r, bool *drawn); /* one page of everything over time */
+status report_plot_barrel(const report_source *r, bool *drawn);
+status report_plot_threshold(const report_source *r, bool *drawn);
 /* Threshold velocity over size, with the scenes; the ranking of surfaces with its intervals. */
-status plot_surface(const report_source *r, bool *drawn);
-status plot_ranking(const report_source *r, bool *drawn);
-status plot_inductance(const report_source *r, bool *drawn);
-status plot_perimeter(const report_source *r, bool *drawn);
-status plot_crater_profile(const report_source *r, const char *scene, bool *drawn);
-status plot_crater_map(const report_source *r, const char *scene, bool *drawn);
+status report_plot_surface(const report_source *r, bool *drawn);
+status report_plot_ranking(const report_source *r, bool *drawn);
+status report_plot_inductance(const report_source *r, bool *drawn);
+status report_plot_perimeter(const report_source *r, bool *drawn);
+status report_plot_crater_profile(const report_source *r, const char *scene, bool *drawn);
+status report_plot_crater_map(const report_source *r, const char *scene, bool *drawn);
 
 /* DIR/plot-<name>.svg without what stands before <svg, into the page. */
-status plot_inline(const report_source *r, const char *name, FILE *page);
+status report_plot_inline(const report_source *r, const char *name, FILE *page);
 
 #endif

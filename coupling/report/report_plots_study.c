@@ -38,18 +38,18 @@ static int family_data(FILE *script, const cJSON *surface, int family)
     return n;
 }
 
-status plot_surface(const report_source *r, bool *drawn)
+status report_plot_surface(const report_source *r, bool *drawn)
 {
     const cJSON *surface = list_of(r, "surface");
     *drawn = false;
     if (cJSON_GetArraySize(surface) < 2 || !r->gnuplot) return status_ok();
     plot p;
-    TRY(plot_begin(&p, r, "surface", 760, 420));
+    TRY(report_plot_begin(&p, r, "surface", 760, 420));
     bool used[OUTCOMES], first = true;
     const int families = last_family(surface);
     int sizes[64] = { 0 };
     for (int f = 0; f <= families && f < 64; f++) sizes[f] = family_data(p.script, surface, f);
-    plot_outcome_data(p.script, r, &(point_source){ "scenes", "class", "radius", "velocity", 1e-3 }, used);
+    report_plot_outcome_data(p.script, r, &(point_source){ "scenes", "class", "radius", "velocity", 1e-3 }, used);
     fputs("set logscale x\nset xlabel 'radius of the grain [mm]'\nset ylabel 'velocity [m/s]'\n"
           "set offsets graph 0.05, graph 0.05, graph 0.1, graph 0.1\nplot ",
           p.script);
@@ -62,8 +62,8 @@ status plot_surface(const report_source *r, bool *drawn)
                 first ? "" : ", ", f, f, f, families > 1 ? ", by kind of grain" : "");
         first = false;
     }
-    plot_outcomes(p.script, used, first);
-    TRY(plot_end(&p));
+    report_plot_outcomes(p.script, used, first);
+    TRY(report_plot_end(&p));
     *drawn = true;
     return status_ok();
 }
@@ -103,7 +103,7 @@ static int ranking_data(FILE *script, const cJSON *ranking, const ranked_by *by)
     return n;
 }
 
-status plot_ranking(const report_source *r, bool *drawn)
+status report_plot_ranking(const report_source *r, bool *drawn)
 {
     const cJSON *ranking = list_of(r, "ranking");
     const int n = cJSON_GetArraySize(ranking);
@@ -112,14 +112,14 @@ status plot_ranking(const report_source *r, bool *drawn)
     const bool counted = cJSON_IsNumber(cJSON_GetObjectItemCaseSensitive(ranking->child, "gouges"));
     const ranked_by *by = counted ? &by_gouges : &by_threshold;
     plot p;
-    TRY(plot_begin(&p, r, "ranking", 760, 90 + 36 * n));
+    TRY(report_plot_begin(&p, r, "ranking", 760, 90 + 36 * n));
     const bool any = ranking_data(p.script, ranking, by) > 0;
     fprintf(p.script, "unset key\nset xlabel '%s'\nset yrange [%d.5:0.5]\nset offsets 0, 0, 0, 0\n", by->label, n);
     if (counted) fputs("set xrange [0:*]\n", p.script);
     if (any)
         fputs("plot $ranking using 1:2:3:4:yticlabels(5) with xerrorbars pt 7 ps 0.9 lw 1.5 lc rgb '#1f5fa8'\n",
               p.script);
-    TRY(plot_end(&p));
+    TRY(report_plot_end(&p));
     *drawn = any;
     return status_ok();
 }

@@ -3,24 +3,24 @@
 
 #include <string.h>
 
-void section_onset_sentence(const page *p)
+void report_section_onset_sentence(const page *p)
 {
     const cJSON *s = p->source->summary;
     const char *verdict = report_text(s, "verdict");
     FILE *out = p->out;
     if (strcmp(verdict, "gouges") == 0) {
         fprintf(out, "<p class=\"verdict\" style=\"border-color:%s\">Gouging begins ", report_colour("gouge"));
-        page_number(out, report_number(s, "onset_position"), 1.0, "m");
+        report_page_number(out, report_number(s, "onset_position"), 1.0, "m");
         fputs(" from the breech (", out);
-        page_number(out, report_element(s, "onset_interval", 0), 1.0, "");
+        report_page_number(out, report_element(s, "onset_interval", 0), 1.0, "");
         fputs(" to ", out);
-        page_number(out, report_element(s, "onset_interval", 1), 1.0, "m");
+        report_page_number(out, report_element(s, "onset_interval", 1), 1.0, "m");
         fputs("), at ", out);
-        page_number(out, report_number(s, "threshold_velocity"), 1.0, "m/s");
+        report_page_number(out, report_number(s, "threshold_velocity"), 1.0, "m/s");
         fputs(" (", out);
-        page_number(out, report_element(s, "threshold_interval", 0), 1.0, "");
+        report_page_number(out, report_element(s, "threshold_interval", 0), 1.0, "");
         fputs(" to ", out);
-        page_number(out, report_element(s, "threshold_interval", 1), 1.0, "m/s");
+        report_page_number(out, report_element(s, "threshold_interval", 1), 1.0, "m/s");
         fputs(").</p>\n", out);
     } else if (strcmp(verdict, "no_gouging") == 0) {
         fprintf(out, "<p class=\"verdict\" style=\"border-color:%s\">No gouging in this shot.</p>\n",
@@ -28,7 +28,7 @@ void section_onset_sentence(const page *p)
     } else {
         fprintf(out, "<p class=\"verdict\" style=\"border-color:%s\">Undecided.</p>\n", report_colour("undecided"));
     }
-    if (report_text(s, "reason")[0]) page_paragraph(p, "reason", report_text(s, "reason"));
+    if (report_text(s, "reason")[0]) report_page_paragraph(p, "reason", report_text(s, "reason"));
 }
 
 /* clang-format off */
@@ -95,44 +95,46 @@ static void listed(const page *p, const char *key, const char *title, const page
 {
     const cJSON *list = list_of(p, key);
     if (cJSON_GetArraySize(list) == 0) return;
-    page_heading(p, title);
-    page_list_table(p, list, columns, n);
+    report_page_heading(p, title);
+    report_page_list_table(p, list, columns, n);
 }
 
-void section_compare(const page *p)
+void report_section_compare(const page *p)
 {
     if (cJSON_GetArraySize(list_of(p, "ranking")) == 0) return;
-    page_heading(p, "Surfaces, best first");
-    page_draw(p, plot_ranking, "ranking", "");
-    page_list_table(p, list_of(p, "ranking"), ranking_columns, PAGE_COUNT(ranking_columns));
+    report_page_heading(p, "Surfaces, best first");
+    report_page_draw(p, report_plot_ranking, "ranking", "");
+    report_page_list_table(p, list_of(p, "ranking"), ranking_columns, PAGE_COUNT(ranking_columns));
 }
 
 static void section_threshold(const page *p)
 {
     if (cJSON_GetArraySize(list_of(p, "scenes")) == 0) return;
-    page_heading(p, "The threshold");
+    report_page_heading(p, "The threshold");
     if (cJSON_GetArraySize(list_of(p, "surface")) > 1) {
-        page_draw(p, plot_surface, "surface", "One point a scene. Line and shade: the threshold and its interval.");
-        page_list_table(p, list_of(p, "surface"), size_columns, PAGE_COUNT(size_columns));
+        report_page_draw(p, report_plot_surface, "surface",
+                         "One point a scene. Line and shade: the threshold and its interval.");
+        report_page_list_table(p, list_of(p, "surface"), size_columns, PAGE_COUNT(size_columns));
     }
-    page_draw(p, plot_threshold, "threshold", "One point a scene that was run. Shaded: the threshold's interval.");
-    page_list_table(p, list_of(p, "scenes"), scene_columns, PAGE_COUNT(scene_columns));
+    report_page_draw(p, report_plot_threshold, "threshold",
+                     "One point a scene that was run. Shaded: the threshold's interval.");
+    report_page_list_table(p, list_of(p, "scenes"), scene_columns, PAGE_COUNT(scene_columns));
 }
 
-void section_onset(const page *p)
+void report_section_onset(const page *p)
 {
     if (cJSON_GetArraySize(list_of(p, "sites")) > 0) {
-        page_heading(p, "Along the barrel");
-        page_draw(p, plot_barrel, "barrel",
-                  "Shaded: the intervals of the onset position and of the threshold velocity.");
-        page_list_table(p, list_of(p, "sites"), site_columns, PAGE_COUNT(site_columns));
+        report_page_heading(p, "Along the barrel");
+        report_page_draw(p, report_plot_barrel, "barrel",
+                         "Shaded: the intervals of the onset position and of the threshold velocity.");
+        report_page_list_table(p, list_of(p, "sites"), site_columns, PAGE_COUNT(site_columns));
     }
     section_threshold(p);
     listed(p, "skips", "Scenes that were not needed", skip_columns, PAGE_COUNT(skip_columns));
     listed(p, "sensitivities", "What moves the answer", sensitivity_columns, PAGE_COUNT(sensitivity_columns));
     listed(p, "shots", "Shot after shot on the same rail", repeated_columns, PAGE_COUNT(repeated_columns));
     if (strcmp(report_text(p->source->summary, "kind"), "inductance") == 0) {
-        page_heading(p, "Inductance and resistance gradients");
-        page_draw(p, plot_inductance, "inductance", "");
+        report_page_heading(p, "Inductance and resistance gradients");
+        report_page_draw(p, report_plot_inductance, "inductance", "");
     }
 }

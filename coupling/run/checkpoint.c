@@ -1,4 +1,5 @@
 #include "coupling/run/checkpoint.h"
+#include "coupling/host/version.h"
 
 #include "coupling/host/outdir.h"
 #include "coupling/output/summary.h"
@@ -8,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The file: head, study bytes, image bytes.  The head's sum covers the head (with its sum zero), then both bodies, so no
- * byte of the file is outside it.  Native byte order: a checkpoint is not carried to another architecture, and the magic
- * number reads wrong there. */
+/* The file: head, study bytes, image bytes.  The head's sum covers the head (with its sum zero), then both bodies, so
+ * no byte of the file is outside it.  Native byte order: a checkpoint is not carried to another architecture, and the
+ * magic number reads wrong there. */
 #define MAGIC UINT64_C(0x3150434843454552) /* "REECHCP1" */
 
 typedef struct {
@@ -21,48 +22,26 @@ typedef struct {
     double scene_time, wall_seconds;
 } head;
 
-/* One round is a bijection of the state for a given word and of the word for a given state: a changed word shows. */
-static uint64_t mix(uint64_t hash, uint64_t word)
-{
-    hash = (hash ^ word) * UINT64_C(0x9E3779B97F4A7C15);
-    return hash ^ (hash >> 32);
-}
-
-uint64_t hash_bytes(uint64_t hash, const void *data, size_t bytes)
-{
-    const unsigned char *p = data;
-    uint64_t word;
-    size_t i = 0;
-    for (; i + sizeof word <= bytes; i += sizeof word) {
-        memcpy(&word, p + i, sizeof word);
-        hash = mix(hash, word);
-    }
-    word = 0;
-    if (i < bytes) memcpy(&word, p + i, bytes - i);
-    hash = mix(hash, word);
-    return mix(hash, (uint64_t)bytes);
-}
-
 static uint64_t sum_of(const head *h, const void *study, const void *image)
 {
     head blank = *h;
     blank.sum = 0;
-    uint64_t sum = hash_bytes(0, &blank, sizeof blank);
-    sum = hash_bytes(sum, study, (size_t)h->study_bytes);
-    return hash_bytes(sum, image, (size_t)h->image_bytes);
+    uint64_t sum = host_hash_bytes(0, &blank, sizeof blank);
+    sum = host_hash_bytes(sum, study, (size_t)h->study_bytes);
+    return host_hash_bytes(sum, image, (size_t)h->image_bytes);
 }
 
-checkpoint_key checkpoint_key_of(const char *instruction_set, uint64_t inputs)
+checkpoint_key run_checkpoint_key_of(const char *instruction_set, uint64_t inputs)
 {
     checkpoint_key key;
     memset(&key, 0, sizeof key); /* padding too: the key is compared and summed as bytes */
-    snprintf(key.version, sizeof key.version, "%s", breech_version());
+    snprintf(key.version, sizeof key.version, "%s", host_version());
     snprintf(key.instruction_set, sizeof key.instruction_set, "%s", instruction_set);
     key.inputs = inputs;
     return key;
 }
 
-status checkpoint_write(const char *path, const checkpoint_key *key, const checkpoint *c)
+status run_checkpoint_write(const char *path, const checkpoint_key *key, const checkpoint *c)
 {
     head h;
     memset(&h, 0, sizeof h);
@@ -78,16 +57,16 @@ status checkpoint_write(const char *path, const checkpoint_key *key, const check
     h.sum = sum_of(&h, c->study, c->image);
 
     file_writer w;
-    TRY(file_begin(&w, path));
+    TRY(host_file_begin(&w, path));
     const bool written = fwrite(&h, sizeof h, 1, w.stream) == 1 &&
                          (c->study_bytes == 0 || fwrite(c->study, 1, c->study_bytes, w.stream) == c->study_bytes) &&
                          (c->image_bytes == 0 || fwrite(c->image, 1, c->image_bytes, w.stream) == c->image_bytes);
     if (!written) {
         const int error = errno;
-        file_end(&w, false);
-        return status_error(STATUS_IO, "%.300s: the checkpoint cannot be written: %s", path, strerror(error));
+        host_file_end(&w, false);
+        return base_status_error(STATUS_IO, "%.300s: the checkpoint cannot be written: %s", path, strerror(error));
     }
-    return file_end(&w, true);
+    return host_file_end(&w, true);
 }
 
 static status check_key(const char *path, const checkpoint_key *had, const checkpoint_key *want)
@@ -143,19 +122,19 @@ static status unpack(const char *path, const char *data, size_t bytes, const che
     return copy_part(image, h.image_bytes, &out->image);
 }
 
-status checkpoint_read(const char *path, const checkpoint_key *key, checkpoint *out)
+status run_checkpoint_read(const char *path, const checkpoint_key *key, checkpoint *out)
 {
     memset(out, 0, sizeof *out);
     char *data;
     size_t bytes;
-    TRY(file_read(path, &data, &bytes));
+    TRY(host_file_read(path, &data, &bytes));
     const status s = unpack(path, data, bytes, key, out);
     free(data);
-    if (s.code != STATUS_OK) checkpoint_free(out);
+    if (s.code != STATUS_OK) run_checkpoint_free(out);
     return s;
 }
 
-void checkpoint_free(checkpoint *c)
+void run_checkpoint_free(checkpoint *c)
 {
     free((void *)c->study);
     free((void *)c->image);

@@ -1,12 +1,13 @@
 /* Checkpoint: what a stopped run needs to go on bit for bit, in one file.
  *
- * Holds the study's own bookkeeping (opaque bytes: results so far, which scene is next) and, when stopped inside a scene,
- * the solver's image (mpm_save).  A file made by another version, instruction set or case, or damaged in any byte, is
- * refused with words that say which. */
+ * Holds the study's own bookkeeping (opaque bytes: results so far, which scene is next) and, when stopped inside a
+ * scene, the solver's image (mpm_save).  A file made by another version, instruction set or case, or damaged in any
+ * byte, is refused with words that say which. */
 #ifndef BREECH_COUPLING_CHECKPOINT_H
 #define BREECH_COUPLING_CHECKPOINT_H
 
 #include "base/status.h"
+#include "coupling/host/hash.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -15,7 +16,7 @@
 typedef struct {
     char version[32];         /* BREECH_VERSION */
     char instruction_set[32]; /* mpm_instruction_set() */
-    uint64_t inputs;          /* hash of everything that decides the result: hash_bytes over used.yaml */
+    uint64_t inputs;          /* hash of everything that decides the result: host_hash_bytes over used.yaml */
 } checkpoint_key;
 
 typedef struct {
@@ -29,14 +30,11 @@ typedef struct {
     size_t image_bytes;
 } checkpoint;
 
-checkpoint_key checkpoint_key_of(const char *instruction_set, uint64_t inputs);
+checkpoint_key run_checkpoint_key_of(const char *instruction_set, uint64_t inputs);
 
 /* Atomic: an older checkpoint stays until the new one is complete. */
-status checkpoint_write(const char *path, const checkpoint_key *key, const checkpoint *c);
-status checkpoint_read(const char *path, const checkpoint_key *key, checkpoint *out);
-void checkpoint_free(checkpoint *c); /* of one that was read */
-
-/* 64-bit hash, chained: start with 0.  Any change of one 8-byte word changes it. */
-uint64_t hash_bytes(uint64_t hash, const void *data, size_t bytes);
+status run_checkpoint_write(const char *path, const checkpoint_key *key, const checkpoint *c);
+status run_checkpoint_read(const char *path, const checkpoint_key *key, checkpoint *out);
+void run_checkpoint_free(checkpoint *c); /* of one that was read */
 
 #endif

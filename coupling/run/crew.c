@@ -51,9 +51,9 @@ static errand *find(const crew *k, uint64_t key)
 
 static void errand_free(errand *e)
 {
-    scene_key_free(&e->key);
-    h5_close(e->file);
-    history_close(e->rows);
+    run_scene_key_free(&e->key);
+    host_h5_close(e->file);
+    output_history_close(e->rows);
     free(e->image);
     free(e);
 }
@@ -73,7 +73,7 @@ static status add(crew *k, const scene_query *q, errand **out)
     if (more) k->errand = more;
     if (!e || !more) {
         free(e);
-        return status_error(STATUS_MEMORY, "no memory for %d scenes", k->n + 1);
+        return base_status_error(STATUS_MEMORY, "no memory for %d scenes", k->n + 1);
     }
     e->query = *q;
     k->errand[k->n++] = e;
@@ -84,11 +84,11 @@ static status add(crew *k, const scene_query *q, errand **out)
 static status find_or_add(crew *k, const scene_query *q, errand **out)
 {
     scene_key key = { .text = NULL };
-    status done = scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
+    status done = run_scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
     *out = find(k, key.hash);
     if (done.code == STATUS_OK && !*out) {
         uint64_t twin = 0;
-        if (!scene_is_gauged(q->c)) done = scene_twin(q, &twin);
+        if (!gouge_is_gauged(q->c)) done = run_scene_twin(q, &twin);
         if (done.code == STATUS_OK) done = add(k, q, out);
         if (done.code == STATUS_OK) {
             (*out)->key = key;
@@ -96,7 +96,7 @@ static status find_or_add(crew *k, const scene_query *q, errand **out)
             return done;
         }
     }
-    scene_key_free(&key);
+    run_scene_key_free(&key);
     return done;
 }
 
@@ -111,7 +111,7 @@ static status forget_idle(crew *k)
             errand_free(e);
         } else if (e->where == AWAY && !e->dropped) {
             e->dropped = true;
-            TRY(crew_say(e->member, SAY_DROP, &e->key.hash, sizeof e->key.hash, NULL, 0));
+            TRY(run_crew_say(e->member, SAY_DROP, &e->key.hash, sizeof e->key.hash, NULL, 0));
         }
     }
     return status_ok();
@@ -124,19 +124,19 @@ static status come(crew *k, errand *e, h5_file *file)
     e->where = COME;
     e->file = file;
     if (!k->s->store[0]) return status_ok();
-    TRY(scene_store_open(k->s->store));
-    return scene_store_put(k->s->store, &e->key, file);
+    TRY(run_store_open(k->s->store));
+    return run_store_put(k->s->store, &e->key, file);
 }
 
 static status write_file(const crew *k, const message *m)
 {
     char path[OUTDIR_PATH_SIZE], folder[OUTDIR_PATH_SIZE];
     const size_t name = strlen(m->data) + 1;
-    TRY(outdir_file(&k->s->dir, m->data, path, sizeof path));
+    TRY(host_outdir_file(&k->s->dir, m->data, path, sizeof path));
     snprintf(folder, sizeof folder, "%s", path);
     *strrchr(folder, '/') = '\0';
-    TRY(directory_make(folder));
-    return file_write(path, m->data + name, m->bytes - name);
+    TRY(host_folder_make(folder));
+    return host_file_write(path, m->data + name, m->bytes - name);
 }
 
 /* It need not be the last that was given: an outcome and an order may have crossed. */
@@ -168,7 +168,7 @@ static status hear_outcome(crew *k, const message *m)
         return status_ok();
     }
     h5_file *file;
-    TRY(h5_open_image(e->query.name, body, bytes, &file));
+    TRY(host_h5_open_image(e->query.name, body, bytes, &file));
     return come(k, e, file);
 }
 
@@ -177,17 +177,17 @@ static status hear(crew *k)
     for (;;) {
         message m;
         bool any;
-        TRY(ranks_receive(&m, &any));
+        TRY(run_ranks_receive(&m, &any));
         if (!any) return status_ok();
         const status done = m.kind == SAY_FILE ? write_file(k, &m) : hear_outcome(k, &m);
-        message_free(&m);
+        run_message_free(&m);
         TRY(done);
     }
 }
 
 static bool resumable(const crew *k, const errand *e)
 {
-    return e->image || session_resume_of(k->s, e->query.name).image;
+    return e->image || run_session_resume_of(k->s, e->query.name).image;
 }
 
 /* An idle member that can go on to it from the scene to its gauge; 0: none, or rank 0 has begun it. */
@@ -222,8 +222,8 @@ static errand *next_for_member(const crew *k)
     return best;
 }
 
-/* The next for rank 0: of those that are wanted, or of the others, what it has begun before the rest, and nothing that an idle
- * member has. */
+/* The next for rank 0: of those that are wanted, or of the others, what it has begun before the rest, and nothing that
+ * an idle member has. */
 static errand *next_for_me(const crew *k)
 {
     errand *best = NULL;
@@ -245,8 +245,8 @@ static int idle_member(const crew *k)
     return 0;
 }
 
-/* An idle one, best one that has begun it; for a wanted scene one that computes what nobody waits for, and has put off nothing
- * yet: two solvers take the memory of two.  0: nobody. */
+/* An idle one, best one that has begun it; for a wanted scene one that computes what nobody waits for, and has put off
+ * nothing yet: two solvers take the memory of two.  0: nobody. */
 static int member_for(const crew *k, const errand *e)
 {
     const int idle = keeper(k, e) ? keeper(k, e) : idle_member(k);
@@ -262,8 +262,8 @@ static status give(crew *k, errand *e, int member)
     memset(&order, 0, sizeof order);
     order.key = e->key.hash;
     snprintf(order.name, sizeof order.name, "%s", e->query.name);
-    outdir_drop_scene(&k->s->dir, e->query.name); /* of a part that was stopped */
-    TRY(crew_say(member, SAY_SCENE, &order, sizeof order, e->key.text, e->key.bytes));
+    host_outdir_drop_scene(&k->s->dir, e->query.name); /* of a part that was stopped */
+    TRY(run_crew_say(member, SAY_SCENE, &order, sizeof order, e->key.text, e->key.bytes));
     e->where = AWAY;
     e->member = member;
     e->put_off = k->busy[member];
@@ -310,7 +310,7 @@ static bool stop_own(void *user)
 static int threads_now(void *user)
 {
     const own_scene *own = user;
-    return lending_threads(own->k->s->lending);
+    return run_lending_threads(own->k->s->lending);
 }
 
 static status save_own(void *user, const char *scene, const mpm *m, double wall)
@@ -318,8 +318,8 @@ static status save_own(void *user, const char *scene, const mpm *m, double wall)
     const own_scene *own = user;
     errand *e = own->e;
     if (!own->k->aside) {
-        TRY(history_copy_scene(e->rows, scene, own->k->s->history));
-        return session_save_inside(own->k->s, scene, m, wall);
+        TRY(output_history_copy_scene(e->rows, scene, own->k->s->history));
+        return run_session_save_inside(own->k->s, scene, m, wall);
     }
     free(e->image);
     e->image = NULL;
@@ -332,8 +332,8 @@ static status save_own(void *user, const char *scene, const mpm *m, double wall)
 static status take_up_rows(crew *k, errand *e)
 {
     if (e->rows) return status_ok();
-    TRY(history_open(NULL, false, &e->rows));
-    return e->at.image ? history_copy_scene(k->s->history, e->query.name, e->rows) : status_ok();
+    TRY(output_history_open(NULL, false, &e->rows));
+    return e->at.image ? output_history_copy_scene(k->s->history, e->query.name, e->rows) : status_ok();
 }
 
 static status run_own(crew *k, errand *e)
@@ -356,14 +356,14 @@ static status run_own(crew *k, errand *e)
     snprintf(task, sizeof task, "%s, %d of %d others at work", e->query.name, k->members - (idle_member(k) ? 1 : 0),
              k->members);
     const scene_work_how how = { s->run_scene, task, &host, s->lending, e->at };
-    TRY(scene_work(&e->query, e->key.hash, &how, &r));
-    TRY(scene_file_make(&r, &e->key, e->rows, &file));
+    TRY(run_scene_work(&e->query, e->key.hash, &how, &r));
+    TRY(run_scene_file_make(&r, &e->key, e->rows, &file));
     return come(k, e, file);
 }
 
 static status compute_own(crew *k, errand *e)
 {
-    if (!e->image) e->at = session_resume_of(k->s, e->query.name);
+    if (!e->image) e->at = run_session_resume_of(k->s, e->query.name);
     TRY(take_up_rows(k, e));
     e->where = HERE;
     k->aside = false;
@@ -379,21 +379,21 @@ static status compute_own(crew *k, errand *e)
 
 /* ---- what the study calls ---- */
 
-status crew_create(session *s, crew **out)
+status run_crew_create(session *s, crew **out)
 {
     crew *k = calloc(1, sizeof *k);
-    errand **busy = calloc((size_t)ranks_count(), sizeof *busy);
-    scene_answer *told = calloc((size_t)ranks_count(), sizeof *told);
+    errand **busy = calloc((size_t)run_ranks_count(), sizeof *busy);
+    scene_answer *told = calloc((size_t)run_ranks_count(), sizeof *told);
     *out = k;
     if (!k || !busy || !told) {
         free(k);
         free(busy);
         free(told);
         *out = NULL;
-        return status_error(STATUS_MEMORY, "no memory for %d processes", ranks_count());
+        return base_status_error(STATUS_MEMORY, "no memory for %d processes", run_ranks_count());
     }
     k->s = s;
-    k->members = ranks_count() - 1;
+    k->members = run_ranks_count() - 1;
     k->busy = busy;
     k->told = told;
     k->error = status_ok();
@@ -405,25 +405,25 @@ static void stop_members(crew *k)
 {
     int left = 0;
     for (int r = 1; r <= k->members; r++) {
-        if (k->busy[r]) ranks_send(r, SAY_STOP, "", 0);
+        if (k->busy[r]) run_ranks_send(r, SAY_STOP, "", 0);
         for (const errand *e = k->busy[r]; e; e = e->put_off) left++;
     }
     while (left > 0) {
         message m;
         bool any = false;
-        ranks_receive(&m, &any);
-        if (!any) ranks_pause();
+        run_ranks_receive(&m, &any);
+        if (!any) run_ranks_pause();
         left -= any && (m.kind == SAY_DONE || m.kind == SAY_FAILED);
-        message_free(&m);
+        run_message_free(&m);
     }
 }
 
-void crew_free(crew *k)
+void run_crew_free(crew *k)
 {
     if (!k) return;
     stop_members(k);
     for (int i = 0; i < k->n; i++) {
-        outdir_drop_scene(&k->s->dir, k->errand[i]->query.name);
+        host_outdir_drop_scene(&k->s->dir, k->errand[i]->query.name);
         errand_free(k->errand[i]);
     }
     free(k->errand);
@@ -432,7 +432,7 @@ void crew_free(crew *k)
     free(k);
 }
 
-status crew_ahead(crew *k, const scene_query *query, int n, bool level)
+status run_crew_ahead(crew *k, const scene_query *query, int n, bool level)
 {
     k->level = level;
     for (int i = 0; i < k->n; i++) k->errand[i]->ahead = false;
@@ -457,7 +457,7 @@ static status want(crew *k, const scene_query *query, int n)
     return forget_idle(k);
 }
 
-status crew_some(crew *k, const scene_query *query, int n)
+status run_crew_some(crew *k, const scene_query *query, int n)
 {
     TRY(want(k, query, n));
     for (;;) {
@@ -466,15 +466,15 @@ status crew_some(crew *k, const scene_query *query, int n)
         if (mine) mine->where = HERE;
         TRY(hand_out(k));
         if (wanted_has_come(k)) return status_ok();
-        if (k->s->stop && k->s->stop()) return status_error(STATUS_STOPPED, "stopped while others computed");
+        if (k->s->stop && k->s->stop()) return base_status_error(STATUS_STOPPED, "stopped while others computed");
         if (mine)
             TRY(compute_own(k, mine));
         else
-            ranks_pause();
+            run_ranks_pause();
     }
 }
 
-status crew_take(crew *k, const scene_key *key, h5_file **out)
+status run_crew_take(crew *k, const scene_key *key, h5_file **out)
 {
     errand *e = find(k, key->hash);
     *out = NULL;

@@ -6,13 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-status crew_say(int to, int kind, const void *head, size_t head_bytes, const void *body, size_t body_bytes)
+status run_crew_say(int to, int kind, const void *head, size_t head_bytes, const void *body, size_t body_bytes)
 {
     char *all = malloc(head_bytes + body_bytes + 1);
     CHECK(all, STATUS_MEMORY, "no memory for a message of %zu bytes", head_bytes + body_bytes);
     memcpy(all, head, head_bytes);
     if (body_bytes) memcpy(all + head_bytes, body, body_bytes);
-    const status said = ranks_send(to, kind, all, head_bytes + body_bytes);
+    const status said = run_ranks_send(to, kind, all, head_bytes + body_bytes);
     free(all);
     return said;
 }
@@ -48,13 +48,13 @@ static bool heard_stop(void *user)
 static int threads_now(void *user)
 {
     const work *w = user;
-    return lending_threads(w->me->lending);
+    return run_lending_threads(w->me->lending);
 }
 
 static status send_file(void *user, const char *path, const void *data, size_t bytes)
 {
     (void)user;
-    return crew_say(0, SAY_FILE, path, strlen(path) + 1, data, bytes);
+    return run_crew_say(0, SAY_FILE, path, strlen(path) + 1, data, bytes);
 }
 
 /* ---- one scene ---- */
@@ -64,8 +64,8 @@ static status compute(work *w, const scene_query *q, const scene_key *key, h5_fi
     scene_record r;
     history *rows;
     progress silent;
-    progress_open(&silent, stderr, true);
-    TRY(history_open(NULL, false, &rows));
+    host_progress_open(&silent, stderr, true);
+    TRY(output_history_open(NULL, false, &rows));
     const scene_host host = { .sink = &(snapshot_sink){ send_file, NULL },
                               .history = rows,
                               .progress = &silent,
@@ -75,9 +75,9 @@ static status compute(work *w, const scene_query *q, const scene_key *key, h5_fi
                               .stop = heard_stop,
                               .user = w };
     const scene_work_how how = { .run = scene_run, .task = q->name, .host = &host, .lending = w->me->lending };
-    status done = scene_work(q, key->hash, &how, &r);
-    if (done.code == STATUS_OK) done = scene_file_make(&r, key, rows, file);
-    history_close(rows);
+    status done = run_scene_work(q, key->hash, &how, &r);
+    if (done.code == STATUS_OK) done = run_scene_file_make(&r, key, rows, file);
+    output_history_close(rows);
     return done;
 }
 
@@ -87,19 +87,19 @@ static status check_key(const scene_order *order, const scene_key *key)
         key->hash == order->key, STATUS_BAD_INPUT,
         "rank %d would compute another scene than rank 0 asks for (solver %s, instruction set %s): all processes must "
         "run the same build with the same instruction set",
-        ranks_number(), scene_solver_id(), mpm_instruction_set());
+        run_ranks_number(), run_solver_id(), mpm_instruction_set());
     return status_ok();
 }
 
 static status compute_case(work *w, const scene_order *order, const breech_case *c, h5_file **file)
 {
-    scene_query q = { .c = c, .state = state_of_case(c), .cells_per_radius = c->scene.cells_per_radius };
+    scene_query q = { .c = c, .state = gouge_state_of_case(c), .cells_per_radius = c->scene.cells_per_radius };
     scene_key key = { .text = NULL };
     snprintf(q.name, sizeof q.name, "%s", order->name);
-    status done = scene_key_of(c, &q.state, q.cells_per_radius, &key);
+    status done = run_scene_key_of(c, &q.state, q.cells_per_radius, &key);
     if (done.code == STATUS_OK) done = check_key(order, &key);
     if (done.code == STATUS_OK) done = compute(w, &q, &key, file);
-    scene_key_free(&key);
+    run_scene_key_free(&key);
     return done;
 }
 
@@ -109,9 +109,9 @@ static status answer(const member *me, uint64_t key, status done, h5_file *file)
     void *image;
     size_t bytes;
     for (int i = 0; i < SCENE_SHELF_ROOM; i++) head.shelf[i] = me->shelf.item[i].twin;
-    if (done.code != STATUS_OK) return crew_say(0, SAY_FAILED, &head, sizeof head, &done, sizeof done);
-    TRY(h5_image(file, &image, &bytes));
-    const status said = crew_say(0, SAY_DONE, &head, sizeof head, image, bytes);
+    if (done.code != STATUS_OK) return run_crew_say(0, SAY_FAILED, &head, sizeof head, &done, sizeof done);
+    TRY(host_h5_image(file, &image, &bytes));
+    const status said = run_crew_say(0, SAY_DONE, &head, sizeof head, image, bytes);
     free(image);
     return said;
 }
@@ -132,7 +132,7 @@ static status take_order(member *me, const message *m)
     if (done.code == STATUS_OK) done = compute_case(&w, &order, c, &file);
     me->top = w.put_off;
     done = answer(me, order.key, done, file);
-    h5_close(file);
+    host_h5_close(file);
     case_free(c);
     free(errors);
     return done;
@@ -150,37 +150,37 @@ static bool listen(member *me)
 {
     message m;
     bool any = false;
-    status done = ranks_receive(&m, &any);
+    status done = run_ranks_receive(&m, &any);
     if (any && m.kind == SAY_SCENE && !me->over) done = take_order(me, &m);
     if (any && m.kind == SAY_DROP) give_up(me, m.data);
     if (any && (m.kind == SAY_STOP || m.kind == SAY_END)) give_up(me, NULL);
     me->over = me->over || (any && m.kind == SAY_END);
-    if (done.code != STATUS_OK) fprintf(stderr, "breech, rank %d: %s\n", ranks_number(), done.text);
-    message_free(&m);
+    if (done.code != STATUS_OK) fprintf(stderr, "breech, rank %d: %s\n", run_ranks_number(), done.text);
+    run_message_free(&m);
     return any;
 }
 
-void crew_serve(int threads, lending *l)
+void run_crew_serve(int threads, lending *l)
 {
     member me = { .threads = threads, .lending = l };
     signal(SIGINT, SIG_IGN); /* rank 0 hears them and says what to do */
     signal(SIGTERM, SIG_IGN);
     while (!me.over)
-        if (!listen(&me)) ranks_pause();
+        if (!listen(&me)) run_ranks_pause();
     scene_shelf_clear(&me.shelf);
-    ranks_send(0, SAY_END, "", 0);
+    run_ranks_send(0, SAY_END, "", 0);
 }
 
-void crew_dismiss(void)
+void run_crew_dismiss(void)
 {
-    int left = ranks_count() - 1;
-    for (int to = 1; to <= left; to++) ranks_send(to, SAY_END, "", 0);
+    int left = run_ranks_count() - 1;
+    for (int to = 1; to <= left; to++) run_ranks_send(to, SAY_END, "", 0);
     while (left > 0) {
         message m;
         bool any = false;
-        ranks_receive(&m, &any);
-        if (!any) ranks_pause();
+        run_ranks_receive(&m, &any);
+        if (!any) run_ranks_pause();
         left -= any && m.kind == SAY_END;
-        message_free(&m);
+        run_message_free(&m);
     }
 }

@@ -28,6 +28,6 @@ typedef struct {
 } scene_answer;
 
 /* A head and a body as one message. */
-status crew_say(int to, int kind, const void *head, size_t head_bytes, const void *body, size_t body_bytes);
+status run_crew_say(int to, int kind, const void *head, size_t head_bytes, const void *body, size_t body_bytes);
 
 #endif

@@ -26,8 +26,8 @@ static slip *slip_of(const lending *l, int rank)
     return (slip *)l->board.part + rank;
 }
 
-/* Launchers bind a process to as many cores as it has threads, which borrowed ones would have to share.  false: so they would
- * now. */
+/* Launchers bind a process to as many cores as it has threads, which borrowed ones would have to share.  false: so they
+ * would now. */
 static bool unbind(const lending *l)
 {
     cpu_set_t all, mine;
@@ -38,16 +38,16 @@ static bool unbind(const lending *l)
     return sched_getaffinity(0, sizeof mine, &mine) == 0 && CPU_EQUAL(&mine, &all); /* a container grants less */
 }
 
-status lending_open(int threads, lending **out)
+status run_lending_open(int threads, lending **out)
 {
     slip mine = { .threads = threads };
     *out = NULL;
-    if (ranks_count() == 1) return status_ok();
+    if (run_ranks_count() == 1) return status_ok();
     lending *l = malloc(sizeof *l);
-    CHECK(l, STATUS_MEMORY, "no memory for the threads of %d processes", ranks_count());
+    CHECK(l, STATUS_MEMORY, "no memory for the threads of %d processes", run_ranks_count());
     CPU_ZERO(&mine.cores);
     sched_getaffinity(0, sizeof mine.cores, &mine.cores);
-    const status shared = ranks_share(&mine, sizeof mine, &l->board);
+    const status shared = run_ranks_share(&mine, sizeof mine, &l->board);
     if (shared.code != STATUS_OK) {
         free(l);
         return shared;
@@ -57,30 +57,30 @@ status lending_open(int threads, lending **out)
     return status_ok();
 }
 
-void lending_close(lending *l)
+void run_lending_close(lending *l)
 {
     if (!l) return;
-    ranks_unshare(&l->board);
+    run_ranks_unshare(&l->board);
     free(l);
 }
 
-void lending_own(lending *l, int threads)
+void run_lending_own(lending *l, int threads)
 {
     if (l) atomic_store(&slip_of(l, l->board.me)->threads, threads);
 }
 
-void lending_begin(lending *l)
+void run_lending_begin(lending *l)
 {
     if (l) atomic_fetch_add(&slip_of(l, l->board.me)->scenes, 1);
 }
 
-void lending_end(lending *l)
+void run_lending_end(lending *l)
 {
     if (l) atomic_fetch_sub(&slip_of(l, l->board.me)->scenes, 1);
 }
 
 /* Its own, and as many of the idle ones' as the others at work; what is left over goes to the first of them. */
-int lending_threads(const lending *l)
+int run_lending_threads(const lending *l)
 {
     const int own = atomic_load(&slip_of(l, l->board.me)->threads);
     int idle = 0, working = 0, before = 0;

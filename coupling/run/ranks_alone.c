@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-status ranks_start(void)
+status run_ranks_start(void)
 {
     static const char *const sizes[] = { "OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE" };
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
@@ -15,54 +15,54 @@ status ranks_start(void)
     return status_ok();
 }
 
-void ranks_finish(void)
+void run_ranks_finish(void)
 {
 }
 
-int ranks_number(void)
+int run_ranks_number(void)
 {
     return 0;
 }
 
-int ranks_count(void)
+int run_ranks_count(void)
 {
     return 1;
 }
 
-int ranks_on_machine(void)
+int run_ranks_on_machine(void)
 {
     return 1;
 }
 
-status ranks_send(int to, int kind, const void *data, size_t bytes)
+status run_ranks_send(int to, int kind, const void *data, size_t bytes)
 {
     (void)to, (void)kind, (void)data, (void)bytes;
-    return status_error(STATUS_BAD_INPUT, "built without MPI");
+    return base_status_error(STATUS_BAD_INPUT, "built without MPI");
 }
 
-status ranks_receive(message *out, bool *any)
+status run_ranks_receive(message *out, bool *any)
 {
     *out = (message){ .data = NULL };
     *any = false;
     return status_ok();
 }
 
-void message_free(message *m)
+void run_message_free(message *m)
 {
     m->data = NULL;
 }
 
-status ranks_share(const void *mine, size_t bytes, ranks_memory *out)
+status run_ranks_share(const void *mine, size_t bytes, ranks_memory *out)
 {
     (void)mine, (void)bytes, (void)out;
-    return status_error(STATUS_BAD_INPUT, "built without MPI");
+    return base_status_error(STATUS_BAD_INPUT, "built without MPI");
 }
 
-void ranks_unshare(ranks_memory *m)
+void run_ranks_unshare(ranks_memory *m)
 {
     (void)m;
 }
 
-void ranks_pause(void)
+void run_ranks_pause(void)
 {
 }

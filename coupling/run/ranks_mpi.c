@@ -24,32 +24,32 @@ static bool running(void)
     return started && !finished;
 }
 
-status ranks_start(void)
+status run_ranks_start(void)
 {
     if (under_mpirun()) MPI_Init(NULL, NULL);
     return status_ok();
 }
 
-void ranks_finish(void)
+void run_ranks_finish(void)
 {
     if (running()) MPI_Finalize();
 }
 
-int ranks_number(void)
+int run_ranks_number(void)
 {
     int rank = 0;
     if (running()) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     return rank;
 }
 
-int ranks_count(void)
+int run_ranks_count(void)
 {
     int count = 1;
     if (running()) MPI_Comm_size(MPI_COMM_WORLD, &count);
     return count;
 }
 
-int ranks_on_machine(void)
+int run_ranks_on_machine(void)
 {
     MPI_Comm machine;
     int count = 1;
@@ -60,14 +60,14 @@ int ranks_on_machine(void)
     return count;
 }
 
-status ranks_send(int to, int kind, const void *data, size_t bytes)
+status run_ranks_send(int to, int kind, const void *data, size_t bytes)
 {
     CHECK(bytes <= INT_MAX, STATUS_MEMORY, "a message of %zu bytes between processes: at most %d", bytes, INT_MAX);
     MPI_Send(data, (int)bytes, MPI_BYTE, to, kind, MPI_COMM_WORLD);
     return status_ok();
 }
 
-status ranks_receive(message *out, bool *any)
+status run_ranks_receive(message *out, bool *any)
 {
     MPI_Status about;
     int there = 0, bytes = 0;
@@ -86,7 +86,7 @@ status ranks_receive(message *out, bool *any)
     return status_ok();
 }
 
-status ranks_share(const void *mine, size_t bytes, ranks_memory *out)
+status run_ranks_share(const void *mine, size_t bytes, ranks_memory *out)
 {
     MPI_Comm machine;
     MPI_Aint size;
@@ -106,19 +106,19 @@ status ranks_share(const void *mine, size_t bytes, ranks_memory *out)
     return status_ok();
 }
 
-void ranks_unshare(ranks_memory *m)
+void run_ranks_unshare(ranks_memory *m)
 {
     MPI_Win_free(m->window);
     free(m->window);
 }
 
-void message_free(message *m)
+void run_message_free(message *m)
 {
     free(m->data);
     m->data = NULL;
 }
 
-void ranks_pause(void)
+void run_ranks_pause(void)
 {
     nanosleep(&(struct timespec){ 0, 2000000 }, NULL);
 }

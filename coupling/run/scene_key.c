@@ -55,12 +55,13 @@ static status case_of_scene(const breech_case *c, const site_state *state, doubl
 
 static uint64_t hash_of(const char *text, size_t bytes)
 {
-    const uint64_t inputs = hash_bytes(hash_bytes(0, BREECH_SOLVER_ID, strlen(BREECH_SOLVER_ID)), text, bytes);
-    const checkpoint_key who = checkpoint_key_of(mpm_instruction_set(), inputs);
-    return hash_bytes(0, &who, sizeof who);
+    const uint64_t inputs =
+        host_hash_bytes(host_hash_bytes(0, BREECH_SOLVER_ID, strlen(BREECH_SOLVER_ID)), text, bytes);
+    const checkpoint_key who = run_checkpoint_key_of(mpm_instruction_set(), inputs);
+    return host_hash_bytes(0, &who, sizeof who);
 }
 
-status scene_key_of(const breech_case *c, const site_state *state, double cells_per_radius, scene_key *out)
+status run_scene_key_of(const breech_case *c, const site_state *state, double cells_per_radius, scene_key *out)
 {
     breech_case one;
     *out = (scene_key){ .text = NULL };
@@ -68,22 +69,23 @@ status scene_key_of(const breech_case *c, const site_state *state, double cells_
     FILE *f = done.code == STATUS_OK ? open_memstream(&out->text, &out->bytes) : NULL;
     if (f) {
         done = case_write_used(&one, f);
-        if (fclose(f) != 0 && done.code == STATUS_OK) done = status_error(STATUS_MEMORY, "no memory for a scene's key");
+        if (fclose(f) != 0 && done.code == STATUS_OK)
+            done = base_status_error(STATUS_MEMORY, "no memory for a scene's key");
         out->hash = hash_of(out->text, out->bytes);
     } else if (done.code == STATUS_OK) {
-        done = status_error(STATUS_MEMORY, "no memory for a scene's key");
+        done = base_status_error(STATUS_MEMORY, "no memory for a scene's key");
     }
     free(one.materials.item);
     return done;
 }
 
-void scene_key_free(scene_key *k)
+void run_scene_key_free(scene_key *k)
 {
     free(k->text);
     *k = (scene_key){ .text = NULL };
 }
 
-const char *scene_solver_id(void)
+const char *run_solver_id(void)
 {
     return BREECH_SOLVER_ID;
 }

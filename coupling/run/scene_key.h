@@ -1,9 +1,10 @@
 /* What decides a scene, as text: the case file that `breech scene` would compute just this scene from.
  *
- * Rail, projectile, grain, scene settings, the constants of the materials named, every value resolved; written by the tables
- * of the case's schema, so that a new key of these sections is in it from the start.  Read back (case_read_memory) it gives
- * the same scene, bit for bit.  Of `output` the number of snapshots counts: it sets where a scene looks whether it is settled.
- * The key is the hash of this text, the version, the instruction set and the solver's id. */
+ * Rail, projectile, grain, scene settings, the constants of the materials named, every value resolved; written by the
+ * tables of the case's schema, so that a new key of these sections is in it from the start.  Read back
+ * (case_read_memory) it gives the same scene, bit for bit.  Of `output` the number of snapshots counts: it sets where a
+ * scene looks whether it is settled. The key is the hash of this text, the version, the instruction set and the
+ * solver's id. */
 #ifndef BREECH_COUPLING_SCENE_KEY_H
 #define BREECH_COUPLING_SCENE_KEY_H
 
@@ -17,11 +18,11 @@ typedef struct {
     uint64_t hash;
 } scene_key;
 
-/* *out needs scene_key_free even on error. */
-status scene_key_of(const breech_case *c, const site_state *state, double cells_per_radius, scene_key *out);
-void scene_key_free(scene_key *k);
+/* *out needs run_scene_key_free even on error. */
+status run_scene_key_of(const breech_case *c, const site_state *state, double cells_per_radius, scene_key *out);
+void run_scene_key_free(scene_key *k);
 
 /* Of the solver's sources, the compiler and its flags (cmake/solver_id.cmake). */
-const char *scene_solver_id(void);
+const char *run_solver_id(void);
 
 #endif

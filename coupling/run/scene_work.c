@@ -10,7 +10,7 @@ static void surface_text(const breech_case *c, char *out, size_t size)
         n += snprintf(out + n, size - (size_t)n, " + %s", layers->item[i].material);
 }
 
-onset_scene scene_entry(const scene_query *q)
+onset_scene run_scene_entry(const scene_query *q)
 {
     const site_state *state = &q->state;
     onset_scene e;
@@ -25,12 +25,12 @@ onset_scene scene_entry(const scene_query *q)
     e.contact_pressure = state->contact_pressure;
     e.temperature = q->c->rail.temperature;
     e.cells_per_radius = q->cells_per_radius;
-    e.gauged = scene_is_gauged(q->c);
+    e.gauged = gouge_is_gauged(q->c);
     return e;
 }
 
 /* What makes the scene, but for where it ends and what it writes. */
-status scene_twin(const scene_query *q, uint64_t *twin)
+status run_scene_twin(const scene_query *q, uint64_t *twin)
 {
     breech_case c = *q->c;
     scene_key key = { .text = NULL };
@@ -38,13 +38,13 @@ status scene_twin(const scene_query *q, uint64_t *twin)
     if (!c.scene.follow) return status_ok(); /* has no gauges */
     c.scene.stop_when_gauged = false;
     c.output.snapshots = 0;
-    const status done = scene_key_of(&c, &q->state, q->cells_per_radius, &key);
+    const status done = run_scene_key_of(&c, &q->state, q->cells_per_radius, &key);
     if (done.code == STATUS_OK) *twin = key.hash;
-    scene_key_free(&key);
+    run_scene_key_free(&key);
     return done;
 }
 
-status scene_work(const scene_query *q, uint64_t key, const scene_work_how *how, scene_record *out)
+status run_scene_work(const scene_query *q, uint64_t key, const scene_work_how *how, scene_record *out)
 {
     scene_job job;
     impact hit;
@@ -52,13 +52,13 @@ status scene_work(const scene_query *q, uint64_t key, const scene_work_how *how,
     job.name = q->name;
     job.task = how->task;
     job.resume = how->resume;
-    TRY(scene_twin(q, &job.twin));
-    lending_begin(how->lending);
+    TRY(run_scene_twin(q, &job.twin));
+    run_lending_begin(how->lending);
     const status run = how->run(&job, how->host, &hit);
-    lending_end(how->lending);
+    run_lending_end(how->lending);
     TRY(run);
     memset(out, 0, sizeof *out);
-    out->entry = scene_entry(q);
+    out->entry = run_scene_entry(q);
     out->entry.result = hit.result;
     out->impulse = hit.impulse;
     out->mass_loss = hit.mass_loss;

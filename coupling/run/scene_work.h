@@ -17,10 +17,10 @@ typedef struct {
 } scene_work_how;
 
 /* What the query says of its scene; the result is empty. */
-onset_scene scene_entry(const scene_query *q);
+onset_scene run_scene_entry(const scene_query *q);
 /* The same for a scene to its gauge and for the whole one (scene_job); 0: it has no gauges. */
-status scene_twin(const scene_query *q, uint64_t *twin);
+status run_scene_twin(const scene_query *q, uint64_t *twin);
 /* STATUS_STOPPED and errors as scene_run. */
-status scene_work(const scene_query *q, uint64_t key, const scene_work_how *how, scene_record *out);
+status run_scene_work(const scene_query *q, uint64_t key, const scene_work_how *how, scene_record *out);
 
 #endif

@@ -10,27 +10,28 @@ static const double ENERGY_ERROR_LIMIT = 0.01; /* above it a scene is warned abo
 
 /* ---- computing ---- */
 
-void scenes_warn_of(session *s, const onset_scene *e)
+void run_scenes_warn_of(session *s, const onset_scene *e)
 {
     const scene_result *r = &e->result;
     if (fabs(r->energy_error) > ENERGY_ERROR_LIMIT)
-        session_warn(s, "scene %s: energy error %.2f %%, above %.0f %%: lower scene.courant or raise the resolution",
-                     e->name, 100.0 * r->energy_error, 100.0 * ENERGY_ERROR_LIMIT);
+        run_session_warn(s,
+                         "scene %s: energy error %.2f %%, above %.0f %%: lower scene.courant or raise the resolution",
+                         e->name, 100.0 * r->energy_error, 100.0 * ENERGY_ERROR_LIMIT);
     if (r->crater_truncated)
-        session_warn(s,
-                     "scene %s: the crater reaches the edge of the fine zone: enlarge scene.fine_ahead or fine_width",
-                     e->name);
+        run_session_warn(
+            s, "scene %s: the crater reaches the edge of the fine zone: enlarge scene.fine_ahead or fine_width",
+            e->name);
 }
 
 static void say_outcome(session *s, const onset_scene *e)
 {
     const scene_result *r = &e->result;
     if (e->gauged)
-        progress_say(&s->progress, "%-22s %s, growth %.2f a microsecond (%.0f s)", e->name,
-                     damage_class_names[r->class], 1e-6 * r->groove_growth, r->wall_seconds);
+        host_progress_say(&s->progress, "%-22s %s, growth %.2f a microsecond (%.0f s)", e->name,
+                          gouge_class_names[r->class], 1e-6 * r->groove_growth, r->wall_seconds);
     else
-        progress_say(&s->progress, "%-22s %s, severity %.2f, widening %.2f (%.0f s)", e->name,
-                     damage_class_names[r->class], r->severity, r->widening, r->wall_seconds);
+        host_progress_say(&s->progress, "%-22s %s, severity %.2f, widening %.2f (%.0f s)", e->name,
+                          gouge_class_names[r->class], r->severity, r->widening, r->wall_seconds);
 }
 
 static bool stop_asked(void *user)
@@ -51,26 +52,26 @@ static status run_here(session *s, const scene_query *q, const scene_key *key, s
                               .shelf = &s->shelf,
                               .threads = s->threads,
                               .stop = stop_asked,
-                              .save = session_save_inside,
+                              .save = run_session_save_inside,
                               .user = s };
-    const scene_work_how how = { s->run_scene, task, &host, NULL, session_resume_of(s, q->name) };
-    return scene_work(q, key->hash, &how, out);
+    const scene_work_how how = { s->run_scene, task, &host, NULL, run_session_resume_of(s, q->name) };
+    return run_scene_work(q, key->hash, &how, out);
 }
 
 static status into_store(session *s, const scene_record *r, const scene_key *key)
 {
     h5_file *file;
     if (!s->store[0]) return status_ok();
-    TRY(scene_store_open(s->store));
-    TRY(scene_file_make(r, key, s->history, &file));
-    const status done = scene_store_put(s->store, key, file);
-    h5_close(file);
+    TRY(run_store_open(s->store));
+    TRY(run_scene_file_make(r, key, s->history, &file));
+    const status done = run_store_put(s->store, key, file);
+    host_h5_close(file);
     return done;
 }
 
 static status keep(session *s, const scene_record *fresh)
 {
-    TRY(session_keep(s, fresh));
+    TRY(run_session_keep(s, fresh));
     say_outcome(s, &fresh->entry);
     return status_ok();
 }
@@ -90,10 +91,10 @@ static status take_file(session *s, const scene_query *q, const scene_key *key, 
 {
     scene_record r;
     memset(&r, 0, sizeof r);
-    r.entry = scene_entry(q);
+    r.entry = run_scene_entry(q);
     r.entry.reused = reused;
-    TRY(scene_file_read(file, key, &r));
-    if (h5_exists(file, "/scene")) TRY(history_import(s->history, q->name, file));
+    TRY(run_scene_file_read(file, key, &r));
+    if (host_h5_exists(file, "/scene")) TRY(output_history_import(s->history, q->name, file));
     return keep(s, &r);
 }
 
@@ -102,9 +103,9 @@ static status take_come(session *s, const scene_query *q, const scene_key *key)
 {
     h5_file *file = NULL;
     if (!s->crew) return status_ok();
-    TRY(crew_take(s->crew, key, &file));
+    TRY(run_crew_take(s->crew, key, &file));
     const status taken = file ? take_file(s, q, key, file, false) : status_ok();
-    h5_close(file);
+    host_h5_close(file);
     return taken;
 }
 
@@ -113,11 +114,11 @@ static status take_stored(session *s, const scene_query *q, const scene_key *key
 {
     h5_file *file = NULL;
     if (!s->store[0] || q->anew) return status_ok();
-    TRY(scene_store_get(s->store, key, &file));
+    TRY(run_store_get(s->store, key, &file));
     if (!file) return status_ok();
     const status taken = take_file(s, q, key, file, true);
-    h5_close(file);
-    if (taken.code == STATUS_IO) session_warn(s, "%s; computed anew", taken.text);
+    host_h5_close(file);
+    if (taken.code == STATUS_IO) run_session_warn(s, "%s; computed anew", taken.text);
     return taken.code == STATUS_IO ? status_ok() : taken;
 }
 
@@ -134,7 +135,7 @@ static const scene_record *record_of(const session *s, uint64_t key)
 static status look_up(session *s, const scene_query *q, scene_key *key, const scene_record **out)
 {
     *out = NULL;
-    TRY(scene_key_of(q->c, &q->state, q->cells_per_radius, key));
+    TRY(run_scene_key_of(q->c, &q->state, q->cells_per_radius, key));
     *out = record_of(s, key->hash);
     if (*out) return status_ok();
     TRY(take_come(s, q, key));
@@ -145,20 +146,20 @@ static status look_up(session *s, const scene_query *q, scene_key *key, const sc
     return status_ok();
 }
 
-status scenes_find(session *s, const scene_query *query, const scene_record **out)
+status run_scenes_find(session *s, const scene_query *query, const scene_record **out)
 {
     scene_key key = { .text = NULL };
     const status done = look_up(s, query, &key, out);
-    scene_key_free(&key);
+    run_scene_key_free(&key);
     return done;
 }
 
 static status compute_here(session *s, const scene_query *q)
 {
     scene_key key = { .text = NULL };
-    status done = scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
+    status done = run_scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
     if (done.code == STATUS_OK) done = compute(s, q, &key);
-    scene_key_free(&key);
+    run_scene_key_free(&key);
     return done;
 }
 
@@ -168,7 +169,7 @@ static status list_missing(session *s, const scene_query *query, int n, scene_qu
     *left = 0;
     for (int i = 0; i < n; i++) {
         const scene_record *known;
-        TRY(scenes_find(s, &query[i], &known));
+        TRY(run_scenes_find(s, &query[i], &known));
         if (!known) missing[(*left)++] = query[i];
     }
     return status_ok();
@@ -181,36 +182,36 @@ static status one_more(session *s, const scene_query *query, int n, int *left)
     CHECK(missing, STATUS_MEMORY, "no memory for %d scenes", n);
     status done = list_missing(s, query, n, missing, left);
     if (done.code == STATUS_OK && *left > 0)
-        done = s->crew ? crew_some(s->crew, missing, *left) : compute_here(s, &missing[0]);
+        done = s->crew ? run_crew_some(s->crew, missing, *left) : compute_here(s, &missing[0]);
     free(missing);
     return done;
 }
 
-status scenes_some(session *s, const scene_query *query, int n)
+status run_scenes_some(session *s, const scene_query *query, int n)
 {
     int left;
     return one_more(s, query, n, &left);
 }
 
-status scenes_all(session *s, const scene_query *query, int n, const scene_record **out)
+status run_scenes_all(session *s, const scene_query *query, int n, const scene_record **out)
 {
     int left = n;
     while (left > 0) TRY(one_more(s, query, n, &left));
-    for (int i = 0; i < n; i++) TRY(scenes_find(s, &query[i], &out[i]));
+    for (int i = 0; i < n; i++) TRY(run_scenes_find(s, &query[i], &out[i]));
     return status_ok();
 }
 
 static status is_known(const session *s, const scene_query *q, bool *known)
 {
     scene_key key = { .text = NULL };
-    const status done = scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
-    *known = record_of(s, key.hash) || (s->store[0] && scene_store_has(s->store, &key));
-    scene_key_free(&key);
+    const status done = run_scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
+    *known = record_of(s, key.hash) || (s->store[0] && run_store_has(s->store, &key));
+    run_scene_key_free(&key);
     return done;
 }
 
 /* One process has no idle ones. */
-status scenes_ahead(session *s, const scene_query *query, int n, bool level)
+status run_scenes_ahead(session *s, const scene_query *query, int n, bool level)
 {
     if (!s->crew) return status_ok();
     scene_query *open = malloc(((size_t)n + 1) * sizeof *open);
@@ -222,7 +223,7 @@ status scenes_ahead(session *s, const scene_query *query, int n, bool level)
         done = is_known(s, &query[i], &known);
         if (!known) open[left++] = query[i];
     }
-    if (done.code == STATUS_OK) done = crew_ahead(s->crew, open, left, level);
+    if (done.code == STATUS_OK) done = run_crew_ahead(s->crew, open, left, level);
     free(open);
     return done;
 }

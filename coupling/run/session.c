@@ -9,12 +9,12 @@
 #include <string.h>
 #include <unistd.h>
 
-double session_wall(const session *s)
+double run_session_wall(const session *s)
 {
-    return s->wall_before + wall_clock() - s->started;
+    return s->wall_before + host_wall_clock() - s->started;
 }
 
-void session_warn(session *s, const char *format, ...)
+void run_session_warn(session *s, const char *format, ...)
 {
     char line[600];
     va_list args;
@@ -26,7 +26,7 @@ void session_warn(session *s, const char *format, ...)
     if (!all) return;
     snprintf(all + old, more + 2, "%s\n", line);
     s->warnings = all;
-    progress_say(&s->progress, "warning: %s", line);
+    host_progress_say(&s->progress, "warning: %s", line);
 }
 
 /* ---- checkpoints: the records one after the other, after a head that says how many ---- */
@@ -38,7 +38,7 @@ typedef struct {
 
 static status checkpoint_path(const session *s, char path[OUTDIR_PATH_SIZE])
 {
-    return outdir_file(&s->dir, OUTDIR_CHECKPOINT, path, OUTDIR_PATH_SIZE);
+    return host_outdir_file(&s->dir, OUTDIR_CHECKPOINT, path, OUTDIR_PATH_SIZE);
 }
 
 static status write_checkpoint(const session *s, checkpoint *c, double scene_wall)
@@ -54,8 +54,8 @@ static status write_checkpoint(const session *s, checkpoint *c, double scene_wal
         memcpy(study + sizeof head + (size_t)i * sizeof(scene_record), s->record[i], sizeof(scene_record));
     c->study = study;
     c->study_bytes = sizeof head + bytes;
-    c->wall_seconds = session_wall(s);
-    const status done = checkpoint_write(path, &s->key, c);
+    c->wall_seconds = run_session_wall(s);
+    const status done = run_checkpoint_write(path, &s->key, c);
     free(study);
     return done;
 }
@@ -67,7 +67,7 @@ static status add_record(session *s, const scene_record *from)
     if (more) s->record = more;
     if (!copy || !more) {
         free(copy);
-        return status_error(STATUS_MEMORY, "no memory for %d scenes", s->n_records + 1);
+        return base_status_error(STATUS_MEMORY, "no memory for %d scenes", s->n_records + 1);
     }
     memcpy(copy, from, sizeof *copy);
     s->record[s->n_records++] = copy;
@@ -79,7 +79,7 @@ static status take_up(session *s)
     char path[OUTDIR_PATH_SIZE];
     store_head head;
     TRY(checkpoint_path(s, path));
-    TRY(checkpoint_read(path, &s->key, &s->resumed));
+    TRY(run_checkpoint_read(path, &s->key, &s->resumed));
     CHECK(s->resumed.study_bytes >= sizeof head, STATUS_IO, "%.300s: holds no study; start over with --force", path);
     memcpy(&head, s->resumed.study, sizeof head);
     CHECK(head.scene_bytes == sizeof(scene_record) &&
@@ -111,10 +111,10 @@ static status write_used(session *s)
     FILE *f = open_memstream(&text, &bytes);
     CHECK(f, STATUS_MEMORY, "no memory for used.yaml");
     status done = case_write_used(s->c, f);
-    if (fclose(f) != 0 && done.code == STATUS_OK) done = status_error(STATUS_MEMORY, "no memory for used.yaml");
-    s->key = checkpoint_key_of(mpm_instruction_set(), hash_bytes(0, text, bytes));
-    if (done.code == STATUS_OK) done = outdir_file(&s->dir, OUTDIR_USED, path, sizeof path);
-    if (done.code == STATUS_OK && s->dir.state == OUTDIR_NEW) done = file_write(path, text, bytes);
+    if (fclose(f) != 0 && done.code == STATUS_OK) done = base_status_error(STATUS_MEMORY, "no memory for used.yaml");
+    s->key = run_checkpoint_key_of(mpm_instruction_set(), host_hash_bytes(0, text, bytes));
+    if (done.code == STATUS_OK) done = host_outdir_file(&s->dir, OUTDIR_USED, path, sizeof path);
+    if (done.code == STATUS_OK && s->dir.state == OUTDIR_NEW) done = host_file_write(path, text, bytes);
     free(text);
     return done;
 }
@@ -122,14 +122,14 @@ static status write_used(session *s)
 static status find_store(session *s, const char *wanted)
 {
     if (!wanted)
-        TRY(outdir_file(&s->dir, OUTDIR_STORE, s->store, sizeof s->store));
+        TRY(host_outdir_file(&s->dir, OUTDIR_STORE, s->store, sizeof s->store));
     else
         CHECK(snprintf(s->store, sizeof s->store, "%s", wanted) < (int)sizeof s->store, STATUS_BAD_INPUT,
               "--store: the path is too long");
     return status_ok();
 }
 
-status session_open(const breech_case *c, const session_options *o, session *s)
+status run_session_open(const breech_case *c, const session_options *o, session *s)
 {
     char dir[OUTDIR_PATH_SIZE];
     memset(s, 0, sizeof *s);
@@ -139,35 +139,35 @@ status session_open(const breech_case *c, const session_options *o, session *s)
     s->lending = o->lending;
     s->stop = o->stop;
     s->run_scene = scene_run;
-    s->started = wall_clock();
+    s->started = host_wall_clock();
     s->warnings = strdup(c->warnings);
     CHECK(s->warnings, STATUS_MEMORY, "no memory for the warnings");
-    progress_open(&s->progress, o->progress_to, o->quiet);
-    timing_open(&s->timing);
+    host_progress_open(&s->progress, o->progress_to, o->quiet);
+    host_timing_open(&s->timing);
     if (o->dir)
         CHECK(snprintf(dir, sizeof dir, "%s", o->dir) < (int)sizeof dir, STATUS_BAD_INPUT, "-o: the path is too long");
     else
-        TRY(outdir_default(c->name, dir, sizeof dir));
-    TRY(outdir_open(dir, o->how, &s->dir));
+        TRY(host_outdir_default(c->name, dir, sizeof dir));
+    TRY(host_outdir_open(dir, o->how, &s->dir));
     if (s->dir.state == OUTDIR_FINISHED) return status_ok();
     TRY(find_store(s, o->store));
     TRY(write_used(s));
     if (s->dir.state == OUTDIR_RESUMED) TRY(take_up(s));
-    TRY(outdir_file(&s->dir, OUTDIR_HISTORY, dir, sizeof dir));
-    TRY(history_open(dir, s->dir.state == OUTDIR_RESUMED, &s->history));
-    return ranks_count() > 1 ? crew_create(s, &s->crew) : status_ok();
+    TRY(host_outdir_file(&s->dir, OUTDIR_HISTORY, dir, sizeof dir));
+    TRY(output_history_open(dir, s->dir.state == OUTDIR_RESUMED, &s->history));
+    return run_ranks_count() > 1 ? run_crew_create(s, &s->crew) : status_ok();
 }
 
-status session_close(session *s, bool finished)
+status run_session_close(session *s, bool finished)
 {
     char path[OUTDIR_PATH_SIZE];
-    progress_close(&s->progress);
-    crew_free(s->crew);
+    host_progress_close(&s->progress);
+    run_crew_free(s->crew);
     s->crew = NULL;
-    const status done = history_close(s->history);
+    const status done = output_history_close(s->history);
     if (finished && s->dir.lock >= 0 && checkpoint_path(s, path).code == STATUS_OK) unlink(path);
-    outdir_close(&s->dir);
-    checkpoint_free(&s->resumed);
+    host_outdir_close(&s->dir);
+    run_checkpoint_free(&s->resumed);
     scene_shelf_clear(&s->shelf);
     for (int i = 0; i < s->n_records; i++) free(s->record[i]);
     free(s->record);
@@ -185,34 +185,34 @@ static void warn_of_limits(session *s, const shot_limits *l)
 {
     const double x = l->transition_position;
     if (l->contact_ratio < 1.0)
-        session_warn(s,
-                     "transition: from x = %.3g m on the contact force is below 1 gram-force per ampere (least %.2f)",
-                     l->contact_position, l->contact_ratio);
+        run_session_warn(
+            s, "transition: from x = %.3g m on the contact force is below 1 gram-force per ampere (least %.2f)",
+            l->contact_position, l->contact_ratio);
     if (l->leg_action > 1.0 || l->throat_action > 1.0)
-        session_warn(
+        run_session_warn(
             s,
             "transition: the action melts the armature (leg %.2f, throat %.2f of what melts them), from x = %.3g m on",
             l->leg_action, l->throat_action, x);
     if (l->wear_share > 1.0)
-        session_warn(
+        run_session_warn(
             s, "transition: wear takes %.2f times armature.leg_thickness, all of it by x = %.3g m at the earliest",
             l->wear_share, x);
     if (!isnan(l->critical_position))
-        session_warn(s, "rail: from x = %.3g m on the armature outruns the rail's bending waves, %.0f m/s",
-                     l->critical_position, l->critical_velocity);
+        run_session_warn(s, "rail: from x = %.3g m on the armature outruns the rail's bending waves, %.0f m/s",
+                         l->critical_position, l->critical_velocity);
 }
 
-status session_shot(session *s, const breech_case *c, const site_jump *jump, bool with_history, shot_outcome *out,
-                    shot_record *record)
+status run_session_shot(session *s, const breech_case *c, const site_jump *jump, bool with_history, shot_outcome *out,
+                        shot_record *record)
 {
-    const double since = wall_clock();
-    progress_task(&s->progress, jump ? "shot with gouges" : "shot", 0.0, 0);
+    const double since = host_wall_clock();
+    host_progress_task(&s->progress, jump ? "shot with gouges" : "shot", 0.0, 0);
     const shot_plan plan = {
         .history = with_history ? s->history : NULL, .progress = &s->progress, .jump = jump, .stop = s->stop
     };
-    const status done = shot_run(c, &plan, out);
-    if (s->history && done.code == STATUS_OK) TRY(history_tick(s->history));
-    timing_add(&s->timing, "shot", wall_clock() - since);
+    const status done = gouge_shot_run(c, &plan, out);
+    if (s->history && done.code == STATUS_OK) TRY(output_history_tick(s->history));
+    host_timing_add(&s->timing, "shot", host_wall_clock() - since);
     int warmest = 0;
     for (int k = 1; k < SHOT_PIECES; k++)
         if (out->rail_rise[k] > out->rail_rise[warmest]) warmest = k;
@@ -220,17 +220,17 @@ status session_shot(session *s, const breech_case *c, const site_jump *jump, boo
                              .limits = out->limits,
                              .rail_rise = out->rail_rise[warmest],
                              .rail_rise_position = (warmest + 0.5) * c->barrel.length / SHOT_PIECES,
-                             .wall_seconds = wall_clock() - since };
+                             .wall_seconds = host_wall_clock() - since };
     if (done.code == STATUS_OK && with_history) warn_of_limits(s, &out->limits);
     return done;
 }
 
 /* ---- scenes ---- */
 
-status session_save_inside(void *user, const char *scene, const mpm *m, double wall)
+status run_session_save_inside(void *user, const char *scene, const mpm *m, double wall)
 {
     const session *s = user;
-    checkpoint c = { .scene_hash = hash_bytes(0, scene, strlen(scene)), .scene_time = mpm_glance(m).time };
+    checkpoint c = { .scene_hash = host_hash_bytes(0, scene, strlen(scene)), .scene_time = mpm_glance(m).time };
     void *image = NULL;
     snprintf(c.scene, sizeof c.scene, "%s", scene);
     TRY(mpm_save(m, &image, &c.image_bytes));
@@ -240,16 +240,16 @@ status session_save_inside(void *user, const char *scene, const mpm *m, double w
     return done;
 }
 
-scene_resume session_resume_of(const session *s, const char *scene)
+scene_resume run_session_resume_of(const session *s, const char *scene)
 {
     if (!s->resumed.image || strcmp(s->resumed.scene, scene) != 0) return (scene_resume){ .image = NULL };
     return (scene_resume){ s->resumed.image, s->resumed.image_bytes, s->resumed.scene_time, resumed_scene_wall(s) };
 }
 
-status session_keep(session *s, const scene_record *fresh)
+status run_session_keep(session *s, const scene_record *fresh)
 {
     checkpoint between = { .scene = "" };
     TRY(add_record(s, fresh));
-    TRY(history_flush(s->history));
+    TRY(output_history_flush(s->history));
     return write_checkpoint(s, &between, 0.0);
 }

@@ -1,8 +1,8 @@
-/* A session: one run of the program on one case, and what it carries along - output directory, history, progress, timing,
- * checkpoints, the scenes computed so far.
+/* A session: one run of the program on one case, and what it carries along - output directory, history, progress,
+ * timing, checkpoints, the scenes computed so far.
  *
- * The scenes of the run (scenes.h asks for them) are part of every checkpoint, so that a resumed run computes none twice
- * and goes on inside the one it was stopped in, bit for bit. */
+ * The scenes of the run (scenes.h asks for them) are part of every checkpoint, so that a resumed run computes none
+ * twice and goes on inside the one it was stopped in, bit for bit. */
 #ifndef BREECH_COUPLING_SESSION_H
 #define BREECH_COUPLING_SESSION_H
 
@@ -49,24 +49,25 @@ typedef struct {
     bool (*stop)(void);
 } session_options;
 
-/* Opens the output directory, writes used.yaml, takes up the checkpoint.  *s stays where it is until session_close.  s->dir.state OUTDIR_FINISHED: nothing to do.
- * session_close is due in any case. */
-status session_open(const breech_case *c, const session_options *o, session *s);
+/* Opens the output directory, writes used.yaml, takes up the checkpoint.  *s stays where it is until run_session_close.
+ * s->dir.state OUTDIR_FINISHED: nothing to do. run_session_close is due in any case. */
+status run_session_open(const breech_case *c, const session_options *o, session *s);
 /* Flushes the history, frees all.  finished: the checkpoint has served. */
-status session_close(session *s, bool finished);
+status run_session_close(session *s, bool finished);
 
-double session_wall(const session *s); /* spent by the run, the stopped parts too [s] */
-void session_warn(session *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
+double run_session_wall(const session *s); /* spent by the run, the stopped parts too [s] */
+void run_session_warn(session *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Takes a copy of the record, flushes the history, writes the checkpoint. */
-status session_keep(session *s, const scene_record *fresh);
+status run_session_keep(session *s, const scene_record *fresh);
 /* A checkpoint inside a scene: the scene_host's save, the session its user. */
-status session_save_inside(void *session, const char *scene, const mpm *m, double wall);
+status run_session_save_inside(void *session, const char *scene, const mpm *m, double wall);
 /* Where the scene of this name is to be taken up; from the start unless the run was stopped inside it. */
-scene_resume session_resume_of(const session *s, const char *scene);
+scene_resume run_session_resume_of(const session *s, const char *scene);
 
-/* The shot of a case, the session's or one derived from it, with what is asked for in jumps (NULL: none); only the first one of a run writes history. */
-status session_shot(session *s, const breech_case *c, const site_jump *jump, bool with_history, shot_outcome *out,
-                    shot_record *record);
+/* The shot of a case, the session's or one derived from it, with what is asked for in jumps (NULL: none); only the
+ * first one of a run writes history. */
+status run_session_shot(session *s, const breech_case *c, const site_jump *jump, bool with_history, shot_outcome *out,
+                        shot_record *record);
 
 #endif

@@ -1,4 +1,5 @@
 #include "coupling/run/store.h"
+#include "coupling/host/version.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -13,17 +14,15 @@ enum { TEXT_SIZE = 1 << 16 }; /* an attribute holds no more */
 
 static status put_texts(h5_file *f, const scene_record *r, const scene_key *key)
 {
-    char *outcome = summary_scene_text(&r->entry);
+    char *outcome = output_summary_scene_text(&r->entry);
     CHECK(outcome, STATUS_MEMORY, "no memory for a scene's outcome");
-    const char *const texts[][2] = { { "format", FORMAT },
-                                     { "version", breech_version() },
-                                     { "instruction_set", mpm_instruction_set() },
-                                     { "solver", scene_solver_id() },
-                                     { "case", key->text },
-                                     { "outcome", outcome } };
+    const char *const texts[][2] = {
+        { "format", FORMAT },          { "version", host_version() }, { "instruction_set", mpm_instruction_set() },
+        { "solver", run_solver_id() }, { "case", key->text },         { "outcome", outcome }
+    };
     status done = status_ok();
     for (size_t i = 0; i < sizeof texts / sizeof *texts && done.code == STATUS_OK; i++)
-        done = h5_attribute_text(f, "/", texts[i][0], texts[i][1]);
+        done = host_h5_attribute_text(f, "/", texts[i][0], texts[i][1]);
     free(outcome);
     return done;
 }
@@ -31,17 +30,17 @@ static status put_texts(h5_file *f, const scene_record *r, const scene_key *key)
 static status fill(h5_file *f, const scene_record *r, const scene_key *key, history *h)
 {
     TRY(put_texts(f, r, key));
-    TRY(h5_attribute_double(f, "/", "impulse_N_s", r->impulse));
-    TRY(h5_attribute_double(f, "/", "mass_loss_kg", r->mass_loss));
-    return h && history_has(h, r->entry.name) ? history_export(h, r->entry.name, f) : status_ok();
+    TRY(host_h5_attribute_double(f, "/", "impulse_N_s", r->impulse));
+    TRY(host_h5_attribute_double(f, "/", "mass_loss_kg", r->mass_loss));
+    return h && output_history_has(h, r->entry.name) ? output_history_export(h, r->entry.name, f) : status_ok();
 }
 
-status scene_file_make(const scene_record *r, const scene_key *key, history *h, h5_file **out)
+status run_scene_file_make(const scene_record *r, const scene_key *key, history *h, h5_file **out)
 {
-    TRY(h5_create(out));
+    TRY(host_h5_create(out));
     const status done = fill(*out, r, key, h);
     if (done.code != STATUS_OK) {
-        h5_close(*out);
+        host_h5_close(*out);
         *out = NULL;
     }
     return done;
@@ -49,18 +48,18 @@ status scene_file_make(const scene_record *r, const scene_key *key, history *h, 
 
 static status read_with(const h5_file *f, const scene_key *key, scene_record *out, char *text)
 {
-    TRY(h5_read_attribute_text(f, "/", "case", text, TEXT_SIZE));
+    TRY(host_h5_read_attribute_text(f, "/", "case", text, TEXT_SIZE));
     CHECK(strcmp(text, key->text) == 0, STATUS_IO, "the store's scene %016llx has other inputs",
           (unsigned long long)key->hash);
-    TRY(h5_read_attribute_text(f, "/", "outcome", text, TEXT_SIZE));
-    TRY(summary_scene_result(text, &out->entry.result));
-    TRY(h5_read_attribute_double(f, "/", "impulse_N_s", &out->impulse));
-    TRY(h5_read_attribute_double(f, "/", "mass_loss_kg", &out->mass_loss));
+    TRY(host_h5_read_attribute_text(f, "/", "outcome", text, TEXT_SIZE));
+    TRY(output_summary_scene_result(text, &out->entry.result));
+    TRY(host_h5_read_attribute_double(f, "/", "impulse_N_s", &out->impulse));
+    TRY(host_h5_read_attribute_double(f, "/", "mass_loss_kg", &out->mass_loss));
     out->key = key->hash;
     return status_ok();
 }
 
-status scene_file_read(const h5_file *f, const scene_key *key, scene_record *out)
+status run_scene_file_read(const h5_file *f, const scene_key *key, scene_record *out)
 {
     char *text = malloc(TEXT_SIZE);
     CHECK(text, STATUS_MEMORY, "no memory to read a scene");
@@ -78,38 +77,38 @@ static status path_of(const char *dir, const scene_key *key, char path[OUTDIR_PA
     return status_ok();
 }
 
-status scene_store_open(const char *dir)
+status run_store_open(const char *dir)
 {
-    TRY(directory_make(dir));
+    TRY(host_folder_make(dir));
     CHECK(access(dir, R_OK | W_OK | X_OK) == 0, STATUS_IO, "store %.300s: cannot be used: %s", dir, strerror(errno));
     return status_ok();
 }
 
-status scene_store_get(const char *dir, const scene_key *key, h5_file **out)
+status run_store_get(const char *dir, const scene_key *key, h5_file **out)
 {
     char path[OUTDIR_PATH_SIZE];
     *out = NULL;
     TRY(path_of(dir, key, path));
-    if (file_exists(path) && h5_open(path, out).code != STATUS_OK) *out = NULL;
+    if (host_file_exists(path) && host_h5_open(path, out).code != STATUS_OK) *out = NULL;
     return status_ok();
 }
 
-bool scene_store_has(const char *dir, const scene_key *key)
+bool run_store_has(const char *dir, const scene_key *key)
 {
     char path[OUTDIR_PATH_SIZE];
-    return path_of(dir, key, path).code == STATUS_OK && file_exists(path);
+    return path_of(dir, key, path).code == STATUS_OK && host_file_exists(path);
 }
 
 /* Under a name of its own first: another program may be writing the same scene. */
-status scene_store_put(const char *dir, const scene_key *key, h5_file *file)
+status run_store_put(const char *dir, const scene_key *key, h5_file *file)
 {
     char path[OUTDIR_PATH_SIZE], own[OUTDIR_PATH_SIZE], host[64] = "";
     TRY(path_of(dir, key, path));
     gethostname(host, sizeof host - 1);
     snprintf(own, sizeof own, "%.900s.%.60s-%ld", path, host, (long)getpid());
-    TRY(h5_save(file, own));
+    TRY(host_h5_save(file, own));
     if (rename(own, path) == 0) return status_ok();
     const int error = errno;
     unlink(own);
-    return status_error(STATUS_IO, "%.300s: cannot be written: %s", path, strerror(error));
+    return base_status_error(STATUS_IO, "%.300s: cannot be written: %s", path, strerror(error));
 }

@@ -13,7 +13,7 @@ status scene_job_make(const breech_case *c, const site_state *state, double cell
 {
     memset(job, 0, sizeof *job);
     job->c = c;
-    return scene_from_state(c, state, cells_per_radius, &job->scene, &job->spec);
+    return gouge_scene_from_state(c, state, cells_per_radius, &job->scene, &job->spec);
 }
 
 /* ---- one run ---- */
@@ -87,7 +87,7 @@ static void keep_rail(const run *r, points *p)
     size_t kept = 0;
     for (size_t i = 0; i < p->n; i++) {
         double *x = p->position + 3 * i, *half = p->size + 3 * i;
-        if (!body_is_rail(&job->scene, (int)p->body[i]) || !mpm_cut_at(wake->until, true, x, half, &p->mass[i]) ||
+        if (!gouge_body_is_rail(&job->scene, (int)p->body[i]) || !mpm_cut_at(wake->until, true, x, half, &p->mass[i]) ||
             x[0] + half[0] < s->x_lo || x[0] - half[0] > s->x_hi || fabs(x[2]) - half[2] > s->z_hi)
             continue;
         memmove(p->position + 3 * kept, x, 3 * sizeof *x);
@@ -103,17 +103,17 @@ static void keep_rail(const run *r, points *p)
 
 static void book(const scene_host *h, const char *phase, double since)
 {
-    if (h->timing) timing_add(h->timing, phase, wall_clock() - since);
+    if (h->timing) host_timing_add(h->timing, phase, host_wall_clock() - since);
 }
 
 static double wall_spent(const run *r)
 {
-    return r->from.wall + wall_clock() - r->started;
+    return r->from.wall + host_wall_clock() - r->started;
 }
 
 static double progress_of(const run *r, const mpm_report *now)
 {
-    return fmin(now->time / scene_last(r->job->c, &r->job->scene), 1.0);
+    return fmin(now->time / gouge_last_time(r->job->c, &r->job->scene), 1.0);
 }
 
 /* A large scene's checkpoints come further apart than asked for, lest they take more than a twentieth of the time. */
@@ -121,13 +121,13 @@ static status save(run *r)
 {
     enum { SHARE = 20 };
     const scene_host *h = r->host;
-    const double since = wall_clock();
+    const double since = host_wall_clock();
     if (h->save) {
         TRY(h->save(h->user, r->job->name, r->m, wall_spent(r)));
-        if (h->history) TRY(history_flush(h->history));
+        if (h->history) TRY(output_history_flush(h->history));
         book(h, "checkpoints", since);
     }
-    const double now = wall_clock(), interval = r->job->c->output.checkpoint_interval;
+    const double now = host_wall_clock(), interval = r->job->c->output.checkpoint_interval;
     r->save_at = now + (interval > 0 ? fmax(interval, SHARE * (now - since)) : 0.0); /* 0: after every step */
     return status_ok();
 }
@@ -135,7 +135,7 @@ static status save(run *r)
 static bool is_gauged(const run *r, const mpm_report *now)
 {
     const breech_case *c = r->job->c;
-    return scene_is_gauged(c) && (now->gauge_at[1] > 0.0 || scene_groove_dies(c, &r->job->scene, now));
+    return gouge_is_gauged(c) && (now->gauge_at[1] > 0.0 || gouge_groove_dies(c, &r->job->scene, now));
 }
 
 /* Has the step ended a piece, or the scene? */
@@ -148,13 +148,13 @@ static bool is_due(const run *r, const mpm_report *now)
 static bool on_step(void *user, const mpm *m)
 {
     run *r = user;
-    const double now = wall_clock();
+    const double now = host_wall_clock();
     const mpm_report state = mpm_glance(m);
     r->before = r->reached, r->reached = state.time;
     if (r->host->threads_now) mpm_set_threads(r->m, r->host->threads_now(r->host->user));
     if (r->host->progress && now - r->looked >= LIVE_INTERVAL) {
         r->looked = now;
-        progress_update(r->host->progress, progress_of(r, &state), state.particle_steps);
+        host_progress_update(r->host->progress, progress_of(r, &state), state.particle_steps);
     }
     if (is_due(r, &state)) return false;
     if (now >= r->save_at) r->error = save(r);
@@ -165,12 +165,12 @@ static status write_row(run *r)
 {
     double row[HISTORY_MAX_COLUMNS];
     if (r->series < 0) return status_ok();
-    const double since = wall_clock();
+    const double since = host_wall_clock();
     const mpm_report state = mpm_state(r->m);
     const mpm_ledger balance = mpm_balance(r->m);
-    history_scene_row(&state, &balance, row);
-    TRY(history_append(r->host->history, r->series, row));
-    TRY(history_tick(r->host->history));
+    output_history_scene_row(&state, &balance, row);
+    TRY(output_history_append(r->host->history, r->series, row));
+    TRY(output_history_tick(r->host->history));
     book(r->host, "history", since);
     return status_ok();
 }
@@ -178,8 +178,8 @@ static status write_row(run *r)
 static status write_snapshot(run *r)
 {
     if (!r->shots) return status_ok();
-    const double since = wall_clock();
-    TRY(snapshots_write(r->shots, r->m));
+    const double since = host_wall_clock();
+    TRY(output_snapshots_write(r->shots, r->m));
     book(r->host, "snapshots", since);
     return status_ok();
 }
@@ -204,8 +204,8 @@ static status distance_left(const run *r, double *distance)
 static bool groove_over(const run *r, const mpm_report *now)
 {
     const mpm_scene *s = &r->job->scene;
-    return now->time > scene_grain_passed(s) && (now->plastic_power < DEAD_SHARE * now->peak_plastic_power ||
-                                                 scene_face_tail(s, now->time) > now->plastic_front);
+    return now->time > gouge_grain_passed(s) && (now->plastic_power < DEAD_SHARE * now->peak_plastic_power ||
+                                                 gouge_face_tail(s, now->time) > now->plastic_front);
 }
 
 static status is_settled(const run *r, bool *settled)
@@ -218,7 +218,7 @@ static status is_settled(const run *r, bool *settled)
         *settled = groove_over(r, &now);
         return status_ok();
     }
-    if (now.time < scene_crossing_time(&r->job->scene)) return status_ok();
+    if (now.time < gouge_crossing_time(&r->job->scene)) return status_ok();
     const crater_spec *s = &r->job->spec;
     double distance;
     TRY(distance_left(r, &distance));
@@ -244,7 +244,7 @@ static int pieces_over(const run *r, double time)
 static status advance_piece(run *r, int piece)
 {
     const mpm_sink sink = { on_step, r };
-    const double since = wall_clock();
+    const double since = host_wall_clock();
     r->piece_end = piece_end(r, piece);
     const status s = mpm_advance(r->m, r->job->scene.end_time, &sink);
     book(r->host, "scene steps", since);
@@ -286,7 +286,7 @@ static status measure_crater(const run *r, crater *out)
     const crater_points rail = { .n = p.n, .position = p.position, .size = p.size, .damage = p.damage };
     crater_spec spec = r->job->spec;
     spec.x_hi = fmin(spec.x_hi, mpm_scene_of(r->m)->axis[0].fine_hi); /* a zone that follows has got so far */
-    const status s = crater_measure(&rail, &spec, out);
+    const status s = gouge_crater_measure(&rail, &spec, out);
     points_free(&p);
     return s;
 }
@@ -297,7 +297,7 @@ typedef struct {
 
 static status armature_now(const run *r, armature_metal *out)
 {
-    const int armature = body_of_armature(&r->job->scene);
+    const int armature = gouge_body_of_armature(&r->job->scene);
     const double slow = 0.5 * r->job->scene.body[armature].velocity[0];
     points p;
     *out = (armature_metal){ 0.0, 0.0 };
@@ -316,7 +316,7 @@ static status armature_now(const run *r, armature_metal *out)
 static status measure_carried(const run *r, scene_result *out)
 {
     const mpm_scene *s = &r->job->scene;
-    const double fast = 0.5 * s->body[body_of_armature(s)].velocity[0];
+    const double fast = 0.5 * s->body[gouge_body_of_armature(s)].velocity[0];
     const double halves = r->job->c->scene.half_model ? 2.0 : 1.0;
     points p;
     TRY(points_read(r->m, &p));
@@ -329,11 +329,12 @@ static status measure_carried(const run *r, scene_result *out)
     return status_ok();
 }
 
-/* The lost metal keeps its own speed's worth of impulse out of the sum: shot_jump books it with the mass (docs/onset.md). */
+/* The lost metal keeps its own speed's worth of impulse out of the sum: circuit_shot_jump books it with the mass
+ * (docs/onset.md). */
 static void book_losses(const run *r, const armature_metal *before, const armature_metal *after, impact *out)
 {
     const breech_case *c = r->job->c;
-    const mpm_body *b = &r->job->scene.body[body_of_armature(&r->job->scene)];
+    const mpm_body *b = &r->job->scene.body[gouge_body_of_armature(&r->job->scene)];
     const double halves = c->scene.half_model ? 2.0 : 1.0, time = mpm_glance(r->m).time;
     const double pressing = -b->body_force[1] * before->mass;
     out->mass_loss = halves * fmax(before->mass - after->mass, 0.0);
@@ -341,12 +342,13 @@ static void book_losses(const run *r, const armature_metal *before, const armatu
     out->impulse = fmax(halves * (kept - c->scene.friction * pressing * time), 0.0);
 }
 
-/* A scene that ends at its second gauge, or dying, has no whole crater to be judged by; what left none until then is still
- * `none`. */
+/* A scene that ends at its second gauge, or dying, has no whole crater to be judged by; what left none until then is
+ * still `none`. */
 static void judge_by_growth(const run *r, scene_result *out)
 {
     const double scatter = r->job->c->scene.growth_scatter;
-    const double folds = growth_folds(out->groove_growth, r->job->spec.particle_radius, r->job->scene.follow_speed);
+    const double folds =
+        gouge_growth_folds(out->groove_growth, r->job->spec.particle_radius, r->job->scene.follow_speed);
     const bool decided = fabs(folds) >= scatter;
     const damage_class below = out->class == DAMAGE_NONE ? DAMAGE_NONE : DAMAGE_SCRATCH;
     out->class = !decided ? DAMAGE_UNDECIDED : folds > 0.0 ? DAMAGE_GOUGE : below;
@@ -358,7 +360,7 @@ static void judge_by_growth(const run *r, scene_result *out)
 static status finish(run *r, const armature_metal *before, impact *out)
 {
     const scene_host *h = r->host;
-    const double since = wall_clock();
+    const double since = host_wall_clock();
     armature_metal after;
     crater found;
     TRY(armature_now(r, &after));
@@ -372,14 +374,14 @@ static status finish(run *r, const armature_metal *before, impact *out)
                               .wall_seconds = wall_spent(r),
                               .threads = h->threads,
                               .mirrored = r->job->c->scene.half_model };
-    out->result = scene_result_of(&o);
-    if (scene_is_gauged(r->job->c)) judge_by_growth(r, &out->result);
+    out->result = output_scene_result(&o);
+    if (gouge_is_gauged(r->job->c)) judge_by_growth(r, &out->result);
     book_losses(r, before, &after, out);
     status s = measure_carried(r, &out->result);
-    const bool whole = !scene_is_gauged(r->job->c);
-    if (s.code == STATUS_OK && h->history && whole) s = history_crater(h->history, r->job->name, &found);
-    crater_free(&found);
-    if (s.code == STATUS_OK && r->series >= 0) s = history_end(h->history, r->series);
+    const bool whole = !gouge_is_gauged(r->job->c);
+    if (s.code == STATUS_OK && h->history && whole) s = output_history_crater(h->history, r->job->name, &found);
+    gouge_crater_free(&found);
+    if (s.code == STATUS_OK && r->series >= 0) s = output_history_end(h->history, r->series);
     book(h, "crater", since);
     return s;
 }
@@ -393,14 +395,14 @@ static status shelve(run *r)
         .twin = r->job->twin, .pieces = r->pieces, .time = r->reached, .before = r->before, .wall = wall_spent(r)
     };
     TRY(mpm_save(r->m, &item.image, &item.bytes));
-    status s = h->history ? h5_create(&item.rows) : status_ok();
-    if (s.code == STATUS_OK && h->history) s = history_export(h->history, r->job->name, item.rows);
+    status s = h->history ? host_h5_create(&item.rows) : status_ok();
+    if (s.code == STATUS_OK && h->history) s = output_history_export(h->history, r->job->name, item.rows);
     scene_shelf_put(h->shelf, &item);
     return s;
 }
 
-/* What a whole scene would have written up to there must be what the one to its gauge has: the same rows, and no snapshot but
- * the first. */
+/* What a whole scene would have written up to there must be what the one to its gauge has: the same rows, and no
+ * snapshot but the first. */
 static bool goes_on_from(const run *r, const shelved_scene *item)
 {
     const int over = pieces_over(r, item->time);
@@ -410,7 +412,7 @@ static bool goes_on_from(const run *r, const shelved_scene *item)
 
 static const shelved_scene *find_shelved(const run *r)
 {
-    if (!r->host->shelf || r->job->resume.image || scene_is_gauged(r->job->c)) return NULL;
+    if (!r->host->shelf || r->job->resume.image || gouge_is_gauged(r->job->c)) return NULL;
     const shelved_scene *item = scene_shelf_find(r->host->shelf, r->job->twin);
     return item && goes_on_from(r, item) ? item : NULL;
 }
@@ -435,10 +437,10 @@ static status open_snapshots(run *r, double reached)
     if (!r->per_snapshot) return status_ok();
     if (r->host->sink) {
         snprintf(dir, sizeof dir, "scenes/%s", r->job->name);
-        return snapshots_open_sink(dir, r->host->sink, &r->shots);
+        return output_snapshots_open_sink(dir, r->host->sink, &r->shots);
     }
-    TRY(outdir_scene(r->host->dir, r->job->name, dir, sizeof dir));
-    return snapshots_open(dir, reached, &r->shots);
+    TRY(host_outdir_scene(r->host->dir, r->job->name, dir, sizeof dir));
+    return output_snapshots_open(dir, reached, &r->shots);
 }
 
 static status open_output(run *r)
@@ -447,20 +449,20 @@ static status open_output(run *r)
     const double reached =
         r->from.image ? r->from.time * (1.0 - 1e-9) : -1.0; /* what stands at that instant is redone */
     if (h->history) {
-        TRY(history_scene(h->history, r->job->name, &r->series));
-        TRY(history_rewind(h->history, r->series, reached));
+        TRY(output_history_scene(h->history, r->job->name, &r->series));
+        TRY(output_history_rewind(h->history, r->series, reached));
     }
     return open_snapshots(r, r->job->resume.image ? reached : -1.0);
 }
 
-/* From the start, from where it was stopped, or from where the one to its gauge has ended; then its first snapshot, of the start,
- * is still to be written. */
+/* From the start, from where it was stopped, or from where the one to its gauge has ended; then its first snapshot, of
+ * the start, is still to be written. */
 static status take_up(run *r)
 {
     const shelved_scene *shelved = find_shelved(r);
     if (shelved) {
         r->from = (scene_resume){ shelved->image, shelved->bytes, shelved->time, shelved->wall };
-        if (r->host->history) TRY(history_import(r->host->history, r->job->name, shelved->rows));
+        if (r->host->history) TRY(output_history_import(r->host->history, r->job->name, shelved->rows));
     }
     TRY(open_output(r));
     if (shelved) TRY(write_snapshot(r));
@@ -474,11 +476,12 @@ static status run_made(run *r, impact *out)
     TRY(take_up(r));
     const mpm_report state = mpm_glance(r->m);
     r->reached = state.time;
-    if (r->host->progress) progress_task(r->host->progress, r->job->task, progress_of(r, &state), state.particle_steps);
+    if (r->host->progress)
+        host_progress_task(r->host->progress, r->job->task, progress_of(r, &state), state.particle_steps);
     TRY(advance(r));
     TRY(finish(r, &before, out));
     const bool goes_on =
-        r->host->shelf && r->job->twin && scene_is_gauged(r->job->c) && out->result.groove_growth > 0.0;
+        r->host->shelf && r->job->twin && gouge_is_gauged(r->job->c) && out->result.groove_growth > 0.0;
     return goes_on && r->reached < r->piece_end ? shelve(r) : status_ok();
 }
 
@@ -486,13 +489,13 @@ status scene_run(const scene_job *job, const scene_host *host, impact *out)
 {
     run r = { .job = job, .host = host, .from = job->resume, .series = -1, .error = status_ok() };
     memset(out, 0, sizeof *out);
-    r.started = r.looked = wall_clock();
+    r.started = r.looked = host_wall_clock();
     r.save_at = r.started + r.job->c->output.checkpoint_interval;
     plan_pieces(&r);
     status s = mpm_create(&job->scene, host->threads, &r.m);
     book(host, "scene making", r.started);
     if (s.code == STATUS_OK) s = run_made(&r, out);
-    snapshots_close(r.shots);
+    output_snapshots_close(r.shots);
     mpm_free(r.m);
     return s;
 }

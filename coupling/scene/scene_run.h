@@ -1,10 +1,10 @@
 /* One impact scene from its making to its crater, with everything a run writes on the way.
  *
- * Its time is cut into equal pieces; after the step that ends one stand the history's row, a snapshot that is due and the
- * question whether the crater is settled.  No step is shortened for them: what a run writes changes nothing of what it
- * computes, and one that was stopped and resumed gives the same bits.  Settled (scene.stop_when_settled): the armature's contact face has crossed the fine zone at its first speed, and
- * no intact rail point in the crater's map could still move a tenth of the measuring depth until the end at its present
- * speed. */
+ * Its time is cut into equal pieces; after the step that ends one stand the history's row, a snapshot that is due and
+ * the question whether the crater is settled.  No step is shortened for them: what a run writes changes nothing of what
+ * it computes, and one that was stopped and resumed gives the same bits.  Settled (scene.stop_when_settled): the
+ * armature's contact face has crossed the fine zone at its first speed, and no intact rail point in the crater's map
+ * could still move a tenth of the measuring depth until the end at its present speed. */
 #ifndef BREECH_COUPLING_SCENE_RUN_H
 #define BREECH_COUPLING_SCENE_RUN_H
 
@@ -53,8 +53,8 @@ typedef struct {
 
 typedef struct {
     scene_result result;
-    /* What the impact took from the armature, full model: its momentum along the rail at the start less that of its sound
-     * metal at the end and less what smooth friction would have taken [N s]; 0 if less. */
+    /* What the impact took from the armature, full model: its momentum along the rail at the start less that of its
+     * sound metal at the end and less what smooth friction would have taken [N s]; 0 if less. */
     double impulse;
     double mass_loss; /* armature metal that failed, or was left behind slower than half the armature's speed [kg] */
 } impact;

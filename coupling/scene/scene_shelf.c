@@ -5,7 +5,7 @@
 static void clear(shelved_scene *item)
 {
     free(item->image);
-    h5_close(item->rows);
+    host_h5_close(item->rows);
     *item = (shelved_scene){ .twin = 0 };
 }
 

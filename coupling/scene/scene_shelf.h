@@ -1,5 +1,5 @@
-/* A shelf of scenes that ended at their second gauge, to go on from: where the whole crater is wanted too, the same scene need
- * not be computed twice.  To the same bits as from the start; what is not on the shelf is computed. */
+/* A shelf of scenes that ended at their second gauge, to go on from: where the whole crater is wanted too, the same
+ * scene need not be computed twice.  To the same bits as from the start; what is not on the shelf is computed. */
 #ifndef BREECH_COUPLING_SCENE_SHELF_H
 #define BREECH_COUPLING_SCENE_SHELF_H
 

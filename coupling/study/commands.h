@@ -1,6 +1,6 @@
 /* What the commands of the program do, one function a command; main.c says which, with what, and prints.
  *
- * A command fills its part of the summary; what it borrows stays valid until command_free. */
+ * A command fills its part of the summary; what it borrows stays valid until study_command_free. */
 #ifndef BREECH_COUPLING_COMMANDS_H
 #define BREECH_COUPLING_COMMANDS_H
 
@@ -19,15 +19,15 @@ typedef struct {
     inductance_surface surface; /* likewise */
 } command_result;
 
-status command_shot(session *s, command_result *out);
-status command_scene(session *s, command_result *out);
-status command_onset(session *s, command_result *out);
-status command_compare(session *s, command_result *out);
-status command_inductance(session *s, command_result *out);
-void command_free(command_result *r);
+status study_command_shot(session *s, command_result *out);
+status study_command_scene(session *s, command_result *out);
+status study_command_onset(session *s, command_result *out);
+status study_command_compare(session *s, command_result *out);
+status study_command_inductance(session *s, command_result *out);
+void study_command_free(command_result *r);
 
 /* What only making the scenes can tell: STATUS_BAD_INPUT before anything is written.  needs: sum of CASE_FOR_... */
-status command_possible(const breech_case *c, unsigned needs);
+status study_command_possible(const breech_case *c, unsigned needs);
 
 /* `breech check`: what each scene the case leads to would take. */
 typedef struct {
@@ -40,6 +40,6 @@ enum { CHECK_MAX_ESTIMATES = 3 };
 #define CHECK_SECONDS_A_STEP 200e-9 /* one thread */
 
 /* The scene of the case, and of its first site the slowest and finest of the search; *n of them. */
-status command_check(const breech_case *c, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n);
+status study_command_check(const breech_case *c, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n);
 
 #endif

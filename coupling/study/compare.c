@@ -12,13 +12,13 @@ static const double SIGNIFICANT = 0.95;
 static const double SUFFERED =
     0.1; /* share of the layers over the crater that failed or was carried off, from which it counts */
 
-void compare_answer_free(compare_answer *a)
+void study_compare_answer_free(compare_answer *a)
 {
     for (int i = 0; i < a->n; i++) {
-        onset_answer_free(&a->answer[i]);
-        treated_free(&a->treated[i]);
+        study_onset_answer_free(&a->answer[i]);
+        case_treated_free(&a->treated[i]);
     }
-    mc_free(&a->drawn);
+    study_mc_free(&a->drawn);
     free(a->treated);
     free(a->answer);
     free(a->entry);
@@ -59,8 +59,8 @@ static status begin(session *s, compare_answer *a, char (*prefix)[PREFIX_SIZE])
     for (int i = 0; i < a->n; i++) {
         const case_treatment *t = treatment_of(s, i);
         prefix_of(i, prefix[i]);
-        TRY(treated_case(s->c, t, &a->treated[i]));
-        const status begun = onset_begin(s, i ? &a->treated[i] : s->c, prefix[i], &a->answer[i]);
+        TRY(case_treat(s->c, t, &a->treated[i]));
+        const status begun = study_onset_begin(s, i ? &a->treated[i] : s->c, prefix[i], &a->answer[i]);
         CHECK(begun.code == STATUS_OK, begun.code, "%s%s%s%.400s", t ? "treatment `" : "", t ? t->name : "",
               t ? "`: " : "", begun.text);
     }
@@ -72,10 +72,10 @@ static status search(session *s, compare_answer *a)
     grain_families **all = malloc((size_t)a->n * sizeof *all);
     CHECK(all, STATUS_MEMORY, "no memory for %d surfaces", a->n);
     for (int i = 0; i < a->n; i++) all[i] = &a->answer[i].grains;
-    const status done = families_search(s, all, a->n);
+    const status done = study_families_search(s, all, a->n);
     free(all);
     TRY(done);
-    for (int i = 0; i < a->n; i++) TRY(onset_judge(s, &a->answer[i]));
+    for (int i = 0; i < a->n; i++) TRY(study_onset_judge(s, &a->answer[i]));
     return status_ok();
 }
 
@@ -91,15 +91,15 @@ static status draw(const session *s, compare_answer *a)
                            .length = s->c->barrel.length,
                            .n = a->n,
                            .surface = surface };
-    const status done = mc_run(&plan, &a->drawn);
+    const status done = study_mc_run(&plan, &a->drawn);
     free(surface);
     return done;
 }
 
 /* ---- what the layers suffer ---- */
 
-/* The fastest scene of the search that does not gouge: what a layer must bear where it is meant to help; else the slowest
- * of all. */
+/* The fastest scene of the search that does not gouge: what a layer must bear where it is meant to help; else the
+ * slowest of all. */
 static const family_scene *telling_scene(const grain_families *g)
 {
     const family_scene *best = NULL;
@@ -107,7 +107,7 @@ static const family_scene *telling_scene(const grain_families *g)
     const grain_family *f = &g->family[0];
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *a = &f->scene[i];
-        if (a->cells != f->surface.reference.cells || !family_searched(f, a)) continue;
+        if (a->cells != f->surface.reference.cells || !study_family_searched(f, a)) continue;
         const bool gouged = a->record->entry.result.class == DAMAGE_GOUGE;
         const bool best_gouged = best && best->record->entry.result.class == DAMAGE_GOUGE;
         if (!best || (best_gouged && !gouged) || (gouged == best_gouged && (a->velocity > best->velocity) != gouged))
@@ -239,7 +239,7 @@ static status compare(session *s, compare_answer *a, char (*prefix)[PREFIX_SIZE]
     return rank(s, a);
 }
 
-status compare_run(session *s, compare_answer *out)
+status study_compare_run(session *s, compare_answer *out)
 {
     memset(out, 0, sizeof *out);
     TRY(make_room(s, out));
@@ -247,9 +247,9 @@ status compare_run(session *s, compare_answer *out)
     CHECK(prefix, STATUS_MEMORY, "no memory for %d surfaces", out->n);
     const status done = compare(s, out, prefix);
     compare_result *r = &out->result;
-    const status listed = onset_list_scenes(s, &out->scene, &r->n_scenes, &r->scenes_run, &r->scenes_reused);
+    const status listed = study_onset_list_scenes(s, &out->scene, &r->n_scenes, &r->scenes_run, &r->scenes_reused);
     r->scene = out->scene;
-    r->wall_seconds = session_wall(s);
+    r->wall_seconds = run_session_wall(s);
     for (int i = 0; i < out->n; i++) out->answer[i].grains.prefix = "";
     free(prefix);
     return done.code == STATUS_OK ? listed : done;

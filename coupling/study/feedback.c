@@ -14,7 +14,7 @@ enum { PIECES = 20 }; /* of the barrel, for gouges of populations */
 static site_jump taken_by(const onset_answer *a, const grain_family *f, double v, double volume)
 {
     gouge_mark mark;
-    const bool known = gouge_mark_at(f, a->grains.c->scene.limit_severity, v, &mark) && mark.volume > 0.0;
+    const bool known = study_gouge_mark_at(f, a->grains.c->scene.limit_severity, v, &mark) && mark.volume > 0.0;
     const double share = known ? volume / mark.volume : 0.0;
     return (site_jump){ share * mark.impulse, share * mark.metal };
 }
@@ -47,7 +47,8 @@ static const grain_family *strewn_family(const grain_families *g)
     return NULL;
 }
 
-/* What populations are expected to take, piece by piece, as sites behind those of the list; nothing where no crater was computed. */
+/* What populations are expected to take, piece by piece, as sites behind those of the list; nothing where no crater was
+ * computed. */
 static int strewn_jumps(const onset_answer *a, case_site *site, site_jump *jump)
 {
     const grain_family *f = strewn_family(&a->grains);
@@ -72,19 +73,19 @@ static status fly_with(session *s, const onset_answer *a, const case_sites *site
     shot_outcome again;
     shot_record record;
     c.sites = *sites;
-    const status done = session_shot(s, &c, jump, false, &again, &record);
+    const status done = run_session_shot(s, &c, jump, false, &again, &record);
     *muzzle = record.is.muzzle_velocity;
-    shot_outcome_free(&again);
+    gouge_shot_outcome_free(&again);
     return done;
 }
 
-status feedback_shot(session *s, onset_answer *a)
+status study_feedback_shot(session *s, onset_answer *a)
 {
     const int n = a->result.n_sites;
     if (!a->grains.c->study.feedback) return status_ok();
     site_jump *jump = calloc((size_t)n + PIECES, sizeof *jump);
     case_site *site = calloc((size_t)n + PIECES, sizeof *site);
-    status done = jump && site ? status_ok() : status_error(STATUS_MEMORY, "no memory for %d sites", n);
+    status done = jump && site ? status_ok() : base_status_error(STATUS_MEMORY, "no memory for %d sites", n);
     if (done.code == STATUS_OK) {
         for (int i = 0; i < n; i++) site[i] = a->grains.c->sites.item[i];
         const int listed = list_jumps(a, jump), strewn = strewn_jumps(a, site + n, jump + n);

@@ -6,6 +6,6 @@
 
 /* The shot again with what gouges take: sites of the list that gouge, and what populations are expected to.  Sets
  * result.muzzle_velocity_feedback; NaN where nothing is taken or study.feedback is off. */
-status feedback_shot(session *s, onset_answer *a);
+status study_feedback_shot(session *s, onset_answer *a);
 
 #endif

@@ -15,13 +15,13 @@
 static const double TRUSTED_CELLS = 3.0; /* a radius: below, the threshold hangs on the resolution (docs/onset.md) */
 static const double SURE = 0.95;         /* probability from which a population's verdict is given */
 
-void onset_answer_free(onset_answer *a)
+void study_onset_answer_free(onset_answer *a)
 {
-    repeated_free(&a->rail);
-    uncertain_free(&a->uncertain);
-    families_free(&a->grains);
-    shot_outcome_free(&a->flown);
-    mc_free(&a->drawn);
+    study_repeated_free(&a->rail);
+    study_uncertain_free(&a->uncertain);
+    study_families_free(&a->grains);
+    gouge_shot_outcome_free(&a->flown);
+    study_mc_free(&a->drawn);
     void *const owned[] = { a->site, a->scene, a->size, a->skip, a->sensitivity, a->repeated, a->along };
     for (size_t k = 0; k < sizeof owned / sizeof owned[0]; k++) free(owned[k]);
     memset(a, 0, sizeof *a);
@@ -32,7 +32,7 @@ void onset_answer_free(onset_answer *a)
 static status fill_site(const breech_case *c, const site_state *from, onset_site *to)
 {
     screen hit = { NAN, NAN, false, false };
-    if (from->reached) TRY(screen_impact(c, from->velocity, &hit));
+    if (from->reached) TRY(gouge_screen_impact(c, from->velocity, &hit));
     *to = (onset_site){ .position = from->grain.position,
                         .radius = from->grain.radius,
                         .time = from->time,
@@ -74,13 +74,13 @@ static void unknown_all(onset_result *r)
     }
 }
 
-status onset_begin(session *s, const breech_case *c, const char *prefix, onset_answer *out)
+status study_onset_begin(session *s, const breech_case *c, const char *prefix, onset_answer *out)
 {
     memset(out, 0, sizeof *out);
     unknown_all(&out->result);
-    TRY(session_shot(s, c, NULL, c == s->c, &out->flown, &out->shot));
+    TRY(run_session_shot(s, c, NULL, c == s->c, &out->flown, &out->shot));
     TRY(list_sites(c, out));
-    return families_sort(c, &out->flown, prefix, &out->grains);
+    return study_families_sort(c, &out->flown, prefix, &out->grains);
 }
 
 /* ---- judging the sites ---- */
@@ -109,7 +109,7 @@ static const grain_family *family_of(const onset_answer *a, int site)
 
 static surface_size threshold_of(const onset_answer *a, int site)
 {
-    return surface_at(&family_of(a, site)->surface, a->grains.c->sites.item[site].radius);
+    return study_surface_at(&family_of(a, site)->surface, a->grains.c->sites.item[site].radius);
 }
 
 static void judge_sites(onset_answer *a)
@@ -119,7 +119,7 @@ static void judge_sites(onset_answer *a)
         const grain_family *f = family_of(a, i);
         if (!f) continue;
         const surface_size t = threshold_of(a, i);
-        const family_scene *near = family_nearest(f, site->radius, site->velocity);
+        const family_scene *near = study_family_nearest(f, site->radius, site->velocity);
         gouge_mark mark;
         site->threshold_velocity = t.velocity;
         memcpy(site->threshold_interval, t.interval, sizeof t.interval);
@@ -127,7 +127,7 @@ static void judge_sites(onset_answer *a)
         if (near) memcpy(site->scene, near->record->entry.name, sizeof site->scene);
         if (site->outcome != SITE_GOUGE) continue;
         a->result.gouges++;
-        if (gouge_mark_at(f, a->grains.c->scene.limit_severity, site->velocity, &mark))
+        if (study_gouge_mark_at(f, a->grains.c->scene.limit_severity, site->velocity, &mark))
             site->gouged_volume = mark.volume * pow(site->radius, 3.0);
     }
 }
@@ -181,7 +181,7 @@ static void conclude_list(onset_answer *a)
 
 /* ---- the threshold that speaks for the case ---- */
 
-const grain_family *onset_leading_grain(const onset_answer *a, double *radius)
+const grain_family *study_onset_leading_grain(const onset_answer *a, double *radius)
 {
     const breech_case *c = a->grains.c;
     const int site = first_site(a, 2);
@@ -189,7 +189,7 @@ const grain_family *onset_leading_grain(const onset_answer *a, double *radius)
     double v = NAN;
     for (int k = 0; k < c->populations.n; k++) {
         if (a->grains.of_population[k] < 0) continue;
-        *radius = population_quantile(&c->populations.item[k], 0.5);
+        *radius = study_population_quantile(&c->populations.item[k], 0.5);
         return &a->grains.family[a->grains.of_population[k]];
     }
     if (site >= 0) {
@@ -210,16 +210,16 @@ const grain_family *onset_leading_grain(const onset_answer *a, double *radius)
 static double place_of(const shot_outcome *flown, double v)
 {
     trace_point at;
-    return v > 0.0 && trace_at_velocity(flown, v, &at) ? at.x : NAN;
+    return v > 0.0 && gouge_trace_at_velocity(flown, v, &at) ? at.x : NAN;
 }
 
 static void set_threshold(onset_answer *a)
 {
     onset_result *r = &a->result;
     double radius;
-    const grain_family *f = onset_leading_grain(a, &radius);
+    const grain_family *f = study_onset_leading_grain(a, &radius);
     if (!f) return;
-    const surface_size t = surface_at(&f->surface, radius);
+    const surface_size t = study_surface_at(&f->surface, radius);
     r->threshold_velocity = t.velocity;
     r->threshold_position = place_of(&a->flown, t.velocity);
     for (int k = 0; k < 2; k++) {
@@ -297,9 +297,9 @@ static void warn_of_films(session *s, const onset_answer *a)
         const double cell = p->size[p->reference] / p->search.fine;
         for (int i = 0; i < c->rail.layers.n; i++)
             if (c->rail.layers.item[i].thickness < cell)
-                session_warn(s, "%srail.layers[%d]: %g um of %s in cells of %g um: a film, strained as its cell is",
-                             a->grains.prefix, i, 1e6 * c->rail.layers.item[i].thickness,
-                             c->rail.layers.item[i].material, 1e6 * cell);
+                run_session_warn(s, "%srail.layers[%d]: %g um of %s in cells of %g um: a film, strained as its cell is",
+                                 a->grains.prefix, i, 1e6 * c->rail.layers.item[i].thickness,
+                                 c->rail.layers.item[i].material, 1e6 * cell);
     }
 }
 
@@ -308,16 +308,16 @@ static void warn_of_thresholds(session *s, const onset_answer *a)
     const case_study *y = &a->grains.c->study;
     for (int k = 0; k < a->grains.n; k++)
         if (a->grains.family[k].surface.warning[0])
-            session_warn(s, "%s%s", a->grains.prefix, a->grains.family[k].surface.warning);
+            run_session_warn(s, "%s%s", a->grains.prefix, a->grains.family[k].surface.warning);
     if (a->grains.n && y->fine_cells_per_radius < TRUSTED_CELLS && !a->grains.prefix[0])
-        session_warn(
+        run_session_warn(
             s,
             "thresholds at %g cells a radius: below %g they come out up to twice too high, by more than the interval "
             "allows for (docs/onset.md)",
             y->fine_cells_per_radius, TRUSTED_CELLS);
 }
 
-status onset_judge(session *s, onset_answer *a)
+status study_onset_judge(session *s, onset_answer *a)
 {
     warn_of_thresholds(s, a);
     warn_of_films(s, a);
@@ -335,11 +335,11 @@ static double threshold_of_shot(const onset_answer *a, int k)
 {
     const repeated_rail *rail = &a->rail;
     double radius;
-    const grain_family *f = onset_leading_grain(a, &radius),
-                       *hot = f && rail->warm.n ? family_alike(&rail->warm, f) : NULL;
+    const grain_family *f = study_onset_leading_grain(a, &radius),
+                       *hot = f && rail->warm.n ? study_family_alike(&rail->warm, f) : NULL;
     const double cold = a->result.threshold_velocity;
     if (!hot) return cold;
-    return cold + rail->shot[k].rise / rail->rise * (surface_at(&hot->surface, radius).velocity - cold);
+    return cold + rail->shot[k].rise / rail->rise * (study_surface_at(&hot->surface, radius).velocity - cold);
 }
 
 static status list_shots(onset_answer *a)
@@ -397,7 +397,7 @@ static status draw_shots(onset_answer *a)
                            .length = c->barrel.length,
                            .n = 1,
                            .surface = &one };
-    TRY(mc_run(&plan, &a->drawn));
+    TRY(study_mc_run(&plan, &a->drawn));
     const mc_shot *first = &a->drawn.of[0];
     r->histories = a->drawn.histories;
     r->monte_carlo_seconds = a->drawn.seconds;
@@ -448,7 +448,7 @@ static void explain(onset_answer *a)
     onset_result *r = &a->result;
     const double *x = r->threshold_position_interval;
     double radius;
-    const grain_family *f = onset_leading_grain(a, &radius);
+    const grain_family *f = study_onset_leading_grain(a, &radius);
     const double allowance = f ? f->surface.reference.allowance : 0.0;
     if (a->grains.n == 0)
         say(r, "no site is reached fast enough to gouge (screen)");
@@ -482,7 +482,7 @@ static int in_order(const void *left, const void *right)
     return strcmp(a->name, b->name);
 }
 
-status onset_list_scenes(session *s, onset_scene **out, int *n, int *run, int *reused)
+status study_onset_list_scenes(session *s, onset_scene **out, int *n, int *run, int *reused)
 {
     *n = *run = *reused = 0;
     *out = calloc((size_t)s->n_records + 1, sizeof **out);
@@ -492,35 +492,35 @@ status onset_list_scenes(session *s, onset_scene **out, int *n, int *run, int *r
         *(s->record[*n]->entry.reused ? reused : run) += 1;
     }
     qsort(*out, (size_t)*n, sizeof **out, in_order);
-    for (int i = 0; i < *n; i++) scenes_warn_of(s, &(*out)[i]);
+    for (int i = 0; i < *n; i++) run_scenes_warn_of(s, &(*out)[i]);
     return status_ok();
 }
 
 static status study(session *s, onset_answer *a)
 {
     grain_families *const all[] = { &a->grains };
-    TRY(onset_begin(s, s->c, "", a));
-    TRY(repeated_fly(s, &a->grains, &a->shot, &a->rail));
-    TRY(families_search(s, all, 1));
-    TRY(uncertain_run(s, &a->grains, &a->uncertain));
-    TRY(onset_judge(s, a));
-    TRY(repeated_search(s, &a->grains, &a->rail));
-    uncertain_widen(&a->uncertain, &a->grains, &a->rail.warm);
-    uncertain_widen(&a->uncertain, &a->grains, &a->rail.bare);
+    TRY(study_onset_begin(s, s->c, "", a));
+    TRY(study_repeated_fly(s, &a->grains, &a->shot, &a->rail));
+    TRY(study_families_search(s, all, 1));
+    TRY(study_uncertain_run(s, &a->grains, &a->uncertain));
+    TRY(study_onset_judge(s, a));
+    TRY(study_repeated_search(s, &a->grains, &a->rail));
+    study_uncertain_widen(&a->uncertain, &a->grains, &a->rail.warm);
+    study_uncertain_widen(&a->uncertain, &a->grains, &a->rail.bare);
     TRY(draw_shots(a));
     conclude_population(a);
-    TRY(feedback_shot(s, a));
-    TRY(sensitivities_run(s, a));
+    TRY(study_feedback_shot(s, a));
+    TRY(study_sensitivities_run(s, a));
     explain(a);
     return status_ok();
 }
 
-status onset_run(session *s, onset_answer *out)
+status study_onset_run(session *s, onset_answer *out)
 {
     const status done = study(s, out);
     onset_result *r = &out->result;
-    const status listed = onset_list_scenes(s, &out->scene, &r->n_scenes, &r->scenes_run, &r->scenes_reused);
+    const status listed = study_onset_list_scenes(s, &out->scene, &r->n_scenes, &r->scenes_run, &r->scenes_reused);
     r->scene = out->scene;
-    r->wall_seconds = session_wall(s);
+    r->wall_seconds = run_session_wall(s);
     return done.code == STATUS_OK ? listed : done;
 }

@@ -10,10 +10,10 @@ static const double LEAST_RISE = 10.0; /* below, a threshold moves by less than 
 static const double RISE_STEP = 25.0;  /* so that scenes are shared [K] */
 static const double SAME_FLIGHT = 1.0; /* of the rails' mean temperature [K] */
 
-void repeated_free(repeated_rail *r)
+void study_repeated_free(repeated_rail *r)
 {
-    families_free(&r->warm);
-    families_free(&r->bare);
+    study_families_free(&r->warm);
+    study_families_free(&r->bare);
     free(r->warm_case);
     free(r->bare_case);
     free(r->shot);
@@ -67,7 +67,8 @@ static status no_melting(const breech_case *c, int number, const rises rise)
     return status_ok();
 }
 
-/* The shot of this number, from 1, through rails that are warmer in the mean; the same flight as the last where they hardly are. */
+/* The shot of this number, from 1, through rails that are warmer in the mean; the same flight as the last where they
+ * hardly are. */
 static status fly(session *s, const breech_case *c, int number, const rises rise, double *flown_at, rises left,
                   repeated_rail *out)
 {
@@ -79,14 +80,14 @@ static status fly(session *s, const breech_case *c, int number, const rises rise
     shot_outcome flown;
     shot_record record;
     warm.rails.temperature += mean;
-    const status done = session_shot(s, &warm, NULL, false, &flown, &record);
+    const status done = run_session_shot(s, &warm, NULL, false, &flown, &record);
     if (done.code == STATUS_OK) {
-        mc_velocities(&flown, c->barrel.length, out->along[number].v);
+        study_mc_velocities(&flown, c->barrel.length, out->along[number].v);
         out->shot[number].muzzle_velocity = record.is.muzzle_velocity;
         memcpy(left, flown.rail_rise, sizeof(rises));
         *flown_at = mean;
     }
-    shot_outcome_free(&flown);
+    gouge_shot_outcome_free(&flown);
     return done;
 }
 
@@ -96,7 +97,7 @@ static status fly_all(session *s, const grain_families *first, const shot_record
     rises rise = { 0.0 }, left;
     double flown_at = 0.0;
     memcpy(left, first->flown->rail_rise, sizeof left);
-    mc_velocities(first->flown, c->barrel.length, out->along[0].v);
+    study_mc_velocities(first->flown, c->barrel.length, out->along[0].v);
     out->shot[0].muzzle_velocity = flight->is.muzzle_velocity;
     for (int n = 1; n < out->shots; n++) {
         for (int k = 0; k < SHOT_PIECES; k++) rise[k] = c->study.heat_kept * (rise[k] + left[k]);
@@ -109,7 +110,7 @@ static status fly_all(session *s, const grain_families *first, const shot_record
     return status_ok();
 }
 
-status repeated_fly(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out)
+status study_repeated_fly(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out)
 {
     const int shots = first->c->study.shots;
     memset(out, 0, sizeof *out);
@@ -134,7 +135,8 @@ static bool is_renewed(const grain_families *f)
 static double deepest_gouge(const grain_families *f)
 {
     double depth = 0.0;
-    for (int k = 0; k < f->n; k++) depth = fmax(depth, gouge_law_depth(&f->family[k], f->c->scene.limit_severity));
+    for (int k = 0; k < f->n; k++)
+        depth = fmax(depth, study_gouge_law_depth(&f->family[k], f->c->scene.limit_severity));
     return depth;
 }
 
@@ -147,7 +149,7 @@ static status copy_case(const grain_families *first, breech_case **out)
     return status_ok();
 }
 
-status repeated_search(session *s, const grain_families *first, repeated_rail *out)
+status study_repeated_search(session *s, const grain_families *first, repeated_rail *out)
 {
     if (out->shots == 0) return status_ok();
     const double depth = deepest_gouge(first);
@@ -160,14 +162,14 @@ status repeated_search(session *s, const grain_families *first, repeated_rail *o
     if (warm) {
         TRY(copy_case(first, &out->warm_case));
         out->warm_case->rail.temperature += out->rise;
-        TRY(families_sort(out->warm_case, first->flown, "warm-", &out->warm));
+        TRY(study_families_sort(out->warm_case, first->flown, "warm-", &out->warm));
         all[n++] = &out->warm;
     }
     if (bare) {
         TRY(copy_case(first, &out->bare_case));
         out->bare_case->rail.layers.n = 0;
-        TRY(families_sort(out->bare_case, first->flown, "bare-", &out->bare));
+        TRY(study_families_sort(out->bare_case, first->flown, "bare-", &out->bare));
         all[n++] = &out->bare;
     }
-    return n > 0 ? families_search(s, all, n) : status_ok();
+    return n > 0 ? study_families_search(s, all, n) : status_ok();
 }

@@ -1,10 +1,10 @@
 /* Shots fired one after the other at the same rail (study.shots): what each finds there of those before it.
  *
- * Heat: what the shots before have left (shot_rail_rise), of which study.heat_kept is still there, even over the section.  Each shot
- * flies through rails of that mean temperature.  If the rail is warm where grains may gouge, their thresholds are searched for once more
- * at the warmest of all places and shots (in steps of 25 K); in between they go linearly with temperature.
- * A bare rail: where a gouge is deeper than the layers, the rim that it leaves stands on the rail's own metal; thresholds
- * for that are searched for too.
+ * Heat: what the shots before have left (circuit_shot_rail_rise), of which study.heat_kept is still there, even over
+ * the section.  Each shot flies through rails of that mean temperature.  If the rail is warm where grains may gouge,
+ * their thresholds are searched for once more at the warmest of all places and shots (in steps of 25 K); in between
+ * they go linearly with temperature. A bare rail: where a gouge is deeper than the layers, the rim that it leaves
+ * stands on the rail's own metal; thresholds for that are searched for too.
  * Rims themselves are drawn: montecarlo.h.  Nothing is searched for that no later shot can meet. */
 #ifndef BREECH_COUPLING_REPEATED_H
 #define BREECH_COUPLING_REPEATED_H
@@ -26,10 +26,11 @@ typedef struct {
     grain_families warm, bare;          /* owned */
 } repeated_rail;
 
-/* The flights.  *out needs repeated_free even on error, before `first` goes.  STATUS_BAD_INPUT: the rail would melt. */
-status repeated_fly(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out);
+/* The flights.  *out needs study_repeated_free even on error, before `first` goes.  STATUS_BAD_INPUT: the rail would
+ * melt. */
+status study_repeated_fly(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out);
 /* After the first shot's search: those of what further shots find, as far as any of them can meet it. */
-status repeated_search(session *s, const grain_families *first, repeated_rail *out);
-void repeated_free(repeated_rail *r);
+status study_repeated_search(session *s, const grain_families *first, repeated_rail *out);
+void study_repeated_free(repeated_rail *r);
 
 #endif

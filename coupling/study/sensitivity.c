@@ -76,10 +76,11 @@ static status fly_changed(session *s, const onset_answer *a, const changed_input
     if (!input->change) return status_ok();
     const status done = own_supplies(a->grains.c, &c);
     if (done.code == STATUS_OK) input->change(&c, 1.0 + CHANGE);
-    const status shot_done = done.code == STATUS_OK ? session_shot(s, &c, NULL, false, flown, record) : done;
+    const status circuit_shot_done =
+        done.code == STATUS_OK ? run_session_shot(s, &c, NULL, false, flown, record) : done;
     for (int k = 0; k < SUPPLY_KINDS; k++)
         if (charges[k].size) free(c.supplies[k].item);
-    return shot_done;
+    return circuit_shot_done;
 }
 
 /* An input changed: of the shot (the same grains in another one), or of the scenes (other thresholds). */
@@ -97,14 +98,14 @@ static void conclude(const onset_answer *a, const changed *with, const mc_result
     onset_sensitivity *out = &a->sensitivity[k];
     double radius;
     trace_point at;
-    const grain_family *leading = onset_leading_grain(a, &radius);
-    const grain_family *f = leading ? family_alike(&with->grains, leading) : NULL;
-    const double v = f ? surface_at(&f->surface, radius).velocity : NAN;
+    const grain_family *leading = study_onset_leading_grain(a, &radius);
+    const grain_family *f = leading ? study_family_alike(&with->grains, leading) : NULL;
+    const double v = f ? study_surface_at(&f->surface, radius).velocity : NAN;
     snprintf(out->input, sizeof out->input, "%s", with->input);
     out->change = with->change;
     out->muzzle_velocity = with->record.is.muzzle_velocity;
     out->threshold_velocity = v;
-    out->threshold_position = v > 0.0 && trace_at_velocity(with->grains.flown, v, &at) ? at.x : NAN;
+    out->threshold_position = v > 0.0 && gouge_trace_at_velocity(with->grains.flown, v, &at) ? at.x : NAN;
     /* of both the mean over the same random numbers: what differs is the input's doing */
     out->expected_gouges = a->result.expected_gouges + (drawn->of[k + 1].gouges - drawn->of[0].gouges);
 }
@@ -121,7 +122,7 @@ static status draw_all(const onset_answer *a, const changed *with, int n, mc_res
                            .length = c->barrel.length,
                            .n = n + 1,
                            .surface = surface };
-    return mc_run(&plan, drawn);
+    return study_mc_run(&plan, drawn);
 }
 
 /* The shots with each input changed, then the searches with each uncertain one. */
@@ -145,7 +146,7 @@ static status change_all(session *s, onset_answer *a, changed *with)
     return status_ok();
 }
 
-status sensitivities_run(session *s, onset_answer *a)
+status study_sensitivities_run(session *s, onset_answer *a)
 {
     const int n = INPUTS + a->uncertain.n;
     changed with[MOST] = { { .input = NULL } };
@@ -160,7 +161,7 @@ status sensitivities_run(session *s, onset_answer *a)
         a->result.sensitivities = a->sensitivity;
         a->result.n_sensitivities = n;
     }
-    for (int k = 0; k < n; k++) shot_outcome_free(&with[k].flown);
-    mc_free(&drawn);
+    for (int k = 0; k < n; k++) gouge_shot_outcome_free(&with[k].flown);
+    study_mc_free(&drawn);
     return done;
 }

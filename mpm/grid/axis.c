@@ -6,8 +6,8 @@
 
 enum { MAX_NODES = 20000 };
 
-/* Of a cell: the longest domain it bears before a point is split.  In the fine zone a stretched point is halved before it
- * spans its cell; outside it may: one or two points a cell and axis, so that eight lanes of a block hold a cell. */
+/* Of a cell: the longest domain it bears before a point is split.  In the fine zone a stretched point is halved before
+ * it spans its cell; outside it may: one or two points a cell and axis, so that eight lanes of a block hold a cell. */
 static const double LONGEST_FINE = 0.8, LONGEST_COARSE = 1.0;
 
 /* Spacings from the fine zone outwards until they cover `length`, then scaled to end on it.  Returns their number. */
@@ -82,12 +82,12 @@ static void bear(axis *a, double fine)
     }
 }
 
-void axis_bear_long(axis *a)
+void mpm_axis_allow_long(axis *a)
 {
     bear(a, 0);
 }
 
-status axis_make(const mpm_axis *spec, char letter, axis *out)
+status mpm_axis_make(const mpm_axis *spec, char letter, axis *out)
 {
     memset(out, 0, sizeof *out);
     TRY(check(spec, letter));
@@ -108,19 +108,19 @@ status axis_make(const mpm_axis *spec, char letter, axis *out)
         finish(out);
         bear(out, spec->fine);
     } else {
-        axis_free(out);
+        mpm_axis_free(out);
     }
     free(below);
     return s;
 }
 
-status axis_bisect(const axis *coarse, int lo, int hi, const bool seam[2], axis *out)
+status mpm_axis_bisect(const axis *coarse, int lo, int hi, const bool seam[2], axis *out)
 {
     memset(out, 0, sizeof *out);
     out->last = 1 + 2 * (hi - lo);
     const status s = allocate(out);
     if (s.code != STATUS_OK) {
-        axis_free(out);
+        mpm_axis_free(out);
         return s;
     }
     for (int i = lo; i <= hi; i++) out->node[1 + 2 * (i - lo)] = coarse->node[i];
@@ -135,7 +135,7 @@ status axis_bisect(const axis *coarse, int lo, int hi, const bool seam[2], axis 
     return s;
 }
 
-void axis_free(axis *a)
+void mpm_axis_free(axis *a)
 {
     free(a->node);
     free(a->edge);
@@ -143,7 +143,7 @@ void axis_free(axis *a)
     a->node = a->edge = a->longest = NULL;
 }
 
-int axis_locate(const axis *a, double x)
+int mpm_axis_locate(const axis *a, double x)
 {
     if (!(x >= a->edge[1])) return 0;
     if (x >= a->edge[a->last + 1]) return a->last + 1;
@@ -158,9 +158,9 @@ int axis_locate(const axis *a, double x)
     return lo;
 }
 
-double axis_spacing(const axis *a, double x)
+double mpm_axis_spacing(const axis *a, double x)
 {
-    int i = axis_locate(a, x);
+    int i = mpm_axis_locate(a, x);
     if (i < 1) i = 1;
     if (i > a->last) i = a->last;
     return x >= a->node[i] ? axis_right(a, i < a->last ? i : a->last - 1) : axis_left(a, i > 1 ? i : 2);

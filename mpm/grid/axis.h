@@ -16,16 +16,16 @@ typedef struct {
     double smallest; /* smallest spacing [m] */
 } axis;
 
-status axis_make(const mpm_axis *spec, char letter, axis *out);
-/* Cells half as wide between the nodes lo and hi of `coarse`: its nodes there and the middles between them.  An end that lies
- * inside (seam[0] at lo, seam[1] at hi) cuts the cell of its node in half; the ghost beyond it is the middle of the coarse
- * element there. */
-status axis_bisect(const axis *coarse, int lo, int hi, const bool seam[2], axis *out);
-void axis_bear_long(axis *a); /* no zone of fine cells: a point may be as long as its cell */
-void axis_free(axis *a);
+status mpm_axis_make(const mpm_axis *spec, char letter, axis *out);
+/* Cells half as wide between the nodes lo and hi of `coarse`: its nodes there and the middles between them.  An end
+ * that lies inside (seam[0] at lo, seam[1] at hi) cuts the cell of its node in half; the ghost beyond it is the middle
+ * of the coarse element there. */
+status mpm_axis_bisect(const axis *coarse, int lo, int hi, const bool seam[2], axis *out);
+void mpm_axis_allow_long(axis *a); /* no zone of fine cells: a point may be as long as its cell */
+void mpm_axis_free(axis *a);
 
 /* The node whose cell holds x (1 .. last), or 0 below and last + 1 above the window's cells. */
-int axis_locate(const axis *a, double x);
+int mpm_axis_locate(const axis *a, double x);
 
 /* Element sizes beside node i. */
 static inline double axis_left(const axis *a, int i)
@@ -38,6 +38,6 @@ static inline double axis_right(const axis *a, int i)
 }
 
 /* Grid spacing at x [m]. */
-double axis_spacing(const axis *a, double x);
+double mpm_axis_spacing(const axis *a, double x);
 
 #endif

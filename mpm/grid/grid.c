@@ -13,8 +13,8 @@ typedef struct {
     double lo, hi;
 } span;
 
-/* The box of cells `cell` around the one inside it, its ends on every `pitch` of that lattice: PAD cells or more beyond each end,
- * but no further than the window. */
+/* The box of cells `cell` around the one inside it, its ends on every `pitch` of that lattice: PAD cells or more beyond
+ * each end, but no further than the window. */
 static span around(span inner, double cell, double pitch, double origin, const mpm_axis *s)
 {
     static const double ROUND = 1e-6;
@@ -31,7 +31,7 @@ static span around(span inner, double cell, double pitch, double origin, const m
                    r.hi > s->hi - tiny ? s->hi : fmax(r.hi, inner.hi) };
 }
 
-double grids_margin(int levels, double fine)
+double mpm_grids_margin(int levels, double fine)
 {
     double margin = levels > 1 ? (1 << (levels - 1)) * fine : 0; /* one cell of the window's */
     for (int i = 1; i < levels - 1; i++)
@@ -65,10 +65,11 @@ static status add_box(grid_level *fine, const grid_level *coarse, int k, span bo
           "three levels a multiple of four where it fills the window",
           axis_letters[k], s->fine_lo, s->fine_hi, s->fine);
     fine->seam[k][0] = fine->lo[k] > 1, fine->seam[k][1] = fine->hi[k] < from->last;
-    return axis_bisect(from, fine->lo[k], fine->hi[k], fine->seam[k], &fine->axes[k]);
+    return mpm_axis_bisect(from, fine->lo[k], fine->hi[k], fine->seam[k], &fine->axes[k]);
 }
 
-/* A node of all levels: an end of the window that the fine zone reaches, else zero if that fits, else the zone's lower end. */
+/* A node of all levels: an end of the window that the fine zone reaches, else zero if that fits, else the zone's lower
+ * end. */
 static double origin_of(const mpm_axis *s)
 {
     const double pair = 2 * s->fine, tiny = 1e-6 * s->fine, off = s->fine_lo / pair;
@@ -90,21 +91,21 @@ static status make_axis(const mpm_scene *s, int k, grids *g)
               "levels along %c: no room for %d levels between the fine zone, %g to %g m, and the window's ends, %g and "
               "%g m: at least %g m, or none",
               axis_letters[k], g->levels, spec->fine_lo, spec->fine_hi, spec->lo, spec->hi,
-              grids_margin(g->levels, spec->fine));
+              mpm_grids_margin(g->levels, spec->fine));
     }
     window.fine_lo = box[g->levels - 1].lo, window.fine_hi = box[g->levels - 1].hi;
     window.coarse = fmax(window.coarse, window.fine);
     axis *coarsest = &g->level[g->levels - 1].axes[k];
-    TRY(axis_make(&window, axis_letters[k], coarsest));
-    if (g->levels > 1) axis_bear_long(coarsest);
+    TRY(mpm_axis_make(&window, axis_letters[k], coarsest));
+    if (g->levels > 1) mpm_axis_allow_long(coarsest);
     for (int i = g->levels - 2; i >= 0; i--) {
         TRY(add_box(&g->level[i], &g->level[i + 1], k, box[i], spec));
-        if (i > 0) axis_bear_long(&g->level[i].axes[k]);
+        if (i > 0) mpm_axis_allow_long(&g->level[i].axes[k]);
     }
     return status_ok();
 }
 
-status grids_make(const mpm_scene *s, grids *out)
+status mpm_grids_make(const mpm_scene *s, grids *out)
 {
     memset(out, 0, sizeof *out);
     CHECK(s->levels >= 1 && s->levels <= MPM_MAX_LEVELS, STATUS_BAD_INPUT, "levels = %d: must be 1 .. %d", s->levels,
@@ -119,17 +120,17 @@ status grids_make(const mpm_scene *s, grids *out)
         out->level[i].first_site = out->sites;
         out->sites += a[0].bricks * a[1].bricks * a[2].bricks;
     }
-    if (r.code != STATUS_OK) grids_free(out);
+    if (r.code != STATUS_OK) mpm_grids_free(out);
     return r;
 }
 
-void grids_free(grids *g)
+void mpm_grids_free(grids *g)
 {
     for (int i = 0; i < g->levels; i++)
-        for (int k = 0; k < 3; k++) axis_free(&g->level[i].axes[k]);
+        for (int k = 0; k < 3; k++) mpm_axis_free(&g->level[i].axes[k]);
 }
 
-int grids_level(const grids *g, const double x[3])
+int mpm_grids_level(const grids *g, const double x[3])
 {
     int i = 0;
     while (i < g->levels - 1 && !grid_holds(&g->level[i], x)) i++;

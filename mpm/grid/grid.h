@@ -1,8 +1,9 @@
-/* Nested grids: the window's, graded along each axis, and inside it boxes of cells half as wide each, level 0 the finest.
+/* Nested grids: the window's, graded along each axis, and inside it boxes of cells half as wide each, level 0 the
+ * finest.
  *
- * A particle belongs to the finest level whose box holds it.  Nodes of a level that its neighbour level answers for follow that
- * neighbour (seams.c): those on and beyond the faces of its own box, and those inside the box of the next finer level.  A face of
- * a box that lies on the window's end is no seam: there the boundary acts. */
+ * A particle belongs to the finest level whose box holds it.  Nodes of a level that its neighbour level answers for
+ * follow that neighbour (seams.c): those on and beyond the faces of its own box, and those inside the box of the next
+ * finer level.  A face of a box that lies on the window's end is no seam: there the boundary acts. */
 #ifndef BREECH_MPM_GRID_H
 #define BREECH_MPM_GRID_H
 
@@ -21,8 +22,8 @@ typedef struct {
 } grids;
 
 /* For the scene's axes as they are now.  STATUS_BAD_INPUT where the levels do not fit into the window. */
-status grids_make(const mpm_scene *s, grids *out);
-void grids_free(grids *g);
+status mpm_grids_make(const mpm_scene *s, grids *out);
+void mpm_grids_free(grids *g);
 
 static inline const grid_level *grids_window(const grids *g)
 {
@@ -30,10 +31,10 @@ static inline const grid_level *grids_window(const grids *g)
 }
 
 /* What the levels need between a fine zone of cells `fine` and an end of the window that it does not reach [m]. */
-double grids_margin(int levels, double fine);
+double mpm_grids_margin(int levels, double fine);
 
 /* Finest level whose box holds x. */
-int grids_level(const grids *g, const double x[3]);
+int mpm_grids_level(const grids *g, const double x[3]);
 
 static inline bool grid_holds(const grid_level *g, const double x[3])
 {

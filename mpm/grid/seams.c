@@ -1,16 +1,18 @@
 /* Where grids of two levels meet: nodes that follow the other level (grid.h).
  *
  * A fine node f on or beyond the face of its box, and a coarse node inside the box, are no freedoms of their own:
- *   v_f = sum_c P_fc v_c,   P the coarse hat functions at f's place: 1, or 1/2, 1/4, 1/8 of the two, four, eight nodes around it;
- *   v_c = v_f of the fine node at c's place.
- * What particles have given to such a node goes to those it follows with the same weights: m_c += P_fc m_f and likewise force. Momentum
- * is that of the motion at c's place, p_c += P_fc m_f [v_f + G_f (x_c - x_f)], G_f by differences of the fine nodes around, as
- * the particles' own gradient is in P2G; else a shear would be smoothed out at every step. The energy goes with it,
+ *   v_f = sum_c P_fc v_c,   P the coarse hat functions at f's place: 1, or 1/2, 1/4, 1/8 of the two, four, eight nodes
+ *   around it; v_c = v_f of the fine node at c's place.
+ * What particles have given to such a node goes to those it follows with the same weights: m_c += P_fc m_f and likewise
+ * force. Momentum is that of the motion at c's place, p_c += P_fc m_f [v_f + G_f (x_c - x_f)], G_f by differences of
+ * the fine nodes around, as the particles' own gradient is in P2G; else a shear would be smoothed out at every step.
+ * The energy goes with it,
  *   K_c += P_fc [K_f + (p_f + dt/2 f_f) . G_f (x_c - x_f)].
- * As sum_c P_fc = 1 and sum_c P_fc (x_c - x_f) = 0, mass, momentum and energy stay to rounding; a linear motion is exact.
- * A node that is followed follows nobody: boxes are far enough apart (grid.c, PAD).
+ * As sum_c P_fc = 1 and sum_c P_fc (x_c - x_f) = 0, mass, momentum and energy stay to rounding; a linear motion is
+ * exact. A node that is followed follows nobody: boxes are far enough apart (grid.c, PAD).
  *
- * Each node's sums are added to by the thread that works on its site, from the other level's sums, which nobody changes then. */
+ * Each node's sums are added to by the thread that works on its site, from the other level's sums, which nobody changes
+ * then. */
 #include "mpm/memory/store.h"
 
 #include <string.h>
@@ -121,7 +123,7 @@ static uint64_t any_of(unsigned x, unsigned y, unsigned z)
     return ~all_of(~x, ~y, ~z);
 }
 
-seam_nodes seams_of(const mpm *m, int level, const int at[3])
+seam_nodes mpm_interface_nodes(const mpm *m, int level, const int at[3])
 {
     const grid_level *g = &m->grids.level[level], *finer = level_at(m, level - 1), *finest = level_at(m, level - 2);
     axis_nodes a[3];
@@ -143,14 +145,14 @@ static status make_bricks(mpm *m, int field, int level, const node_box *r)
         for (int y = r->lo[1] / BRICK; y <= r->hi[1] / BRICK; y++)
             for (int x = r->lo[0] / BRICK; x <= r->hi[0] / BRICK; x++) {
                 const int at[3] = { x, y, z };
-                const seam_nodes s = seams_of(m, level, at);
+                const seam_nodes s = mpm_interface_nodes(m, level, at);
                 int found;
-                if (seam_any(&s)) TRY(store_brick(m, field, level, at, &found));
+                if (seam_any(&s)) TRY(mpm_store_brick(m, field, level, at, &found));
             }
     return status_ok();
 }
 
-status seams_answer(mpm *m, const brick *b)
+status mpm_interface_make_bricks(mpm *m, const brick *b)
 {
     const node_box reach = nodes_of(b->at, 1); /* of its particles */
     const grid_level *g = &m->grids.level[b->level], *coarser = level_at(m, b->level + 1),
@@ -180,8 +182,9 @@ static bool others_in(const mpm *m, int field, int level, const node_box *r)
     return false;
 }
 
-/* Nodes of particles in the brick are followed by, or follow, nodes up to two further of their level; so are the others'. */
-bool seams_meet(const mpm *m, const brick *b)
+/* Nodes of particles in the brick are followed by, or follow, nodes up to two further of their level; so are the
+ * others'. */
+bool mpm_interface_in_contact(const mpm *m, const brick *b)
 {
     enum { REACH = 6 };
     const grid_level *g = &m->grids.level[b->level], *coarser = level_at(m, b->level + 1),
@@ -225,8 +228,8 @@ static int next_node(const brick *b, uint64_t *set, int node[3])
 
 /* ---- sums go to the nodes that are followed ---- */
 
-/* Adds share x the sums of another level's node, which lies `off` from this one; `change` is that of the motion from there to
- * here [m/s]. */
+/* Adds share x the sums of another level's node, which lies `off` from this one; `change` is that of the motion from
+ * there to here [m/s]. */
 static void add_from(brick *b, int cell, const brick *from, int from_cell, double share, const double off[3],
                      const double change[3], double dt)
 {
@@ -256,7 +259,7 @@ static const double *line_beside(const mpm *m, const brick *b, int cell, int k, 
 }
 
 /* The mean of the differences on both sides, that of one side where the other is too light. */
-void seams_slope(const mpm *m, const brick *b, int cell, int k, double least, double slope[3])
+void mpm_interface_slope(const mpm *m, const brick *b, int cell, int k, double least, double slope[3])
 {
     const double *here = b->line[cell], *before = line_beside(m, b, cell, k, -1, least),
                  *after = line_beside(m, b, cell, k, 1, least);
@@ -274,7 +277,7 @@ static void hand_on(const mpm *m, const brick *from, int from_cell, const int f[
     if (is_empty(&c)) return;
     double share = 1, slope[3][3] = { { 0 } };
     for (int k = 0; k < 3; k++)
-        if (followed.lo[k] < followed.hi[k]) share *= 0.5, seams_slope(m, from, from_cell, k, 0, slope[k]);
+        if (followed.lo[k] < followed.hi[k]) share *= 0.5, mpm_interface_slope(m, from, from_cell, k, 0, slope[k]);
     for (int z = c.lo[2]; z <= c.hi[2]; z++)
         for (int y = c.lo[1]; y <= c.hi[1]; y++)
             for (int x = c.lo[0]; x <= c.hi[0]; x++) {
@@ -315,7 +318,7 @@ static void receive_from_coarser(const mpm *m, brick *b)
 {
     static const double none[3] = { 0 };
     const grid_level *g = &m->grids.level[b->level];
-    for (uint64_t set = b->seam.lead_coarser & shares_due(m, b); set;) {
+    for (uint64_t set = b->seam.lead_coarser & mpm_substep_due(m, b); set;) {
         int node[3];
         const int cell = next_node(b, &set, node);
         const int c[3] = { g->lo[0] + node[0] / 2, g->lo[1] + node[1] / 2, g->lo[2] + node[2] / 2 };
@@ -324,7 +327,7 @@ static void receive_from_coarser(const mpm *m, brick *b)
     }
 }
 
-void seams_receive(mpm *m, int site)
+void mpm_interface_add_sums(mpm *m, int site)
 {
     for (int f = 0; f < m->fields; f++) {
         const int i = m->directory[f * m->grids.sites + site];
@@ -363,13 +366,13 @@ static void follow_coarser(const mpm *m, brick *b, int cell, const int node[3])
                 add_node(brick_nodes(m, b)[cell], m, b, b->level + 1, (const int[3]){ x, y, z }, share);
 }
 
-void seams_follow(mpm *m, int site)
+void mpm_interface_constrain(mpm *m, int site)
 {
     for (int f = 0; f < m->fields; f++) {
         const int i = m->directory[f * m->grids.sites + site];
         if (i < 0) continue;
         brick *b = &m->bricks[i];
-        for (uint64_t set = (b->seam.follow_finer | b->seam.follow_coarser) & shares_due(m, b); set;) {
+        for (uint64_t set = (b->seam.follow_finer | b->seam.follow_coarser) & mpm_substep_due(m, b); set;) {
             int node[3];
             const int cell = next_node(b, &set, node);
             memset(brick_nodes(m, b)[cell], 0, NODE * sizeof(double));

@@ -1,7 +1,9 @@
 /* Grid to particles, and the material law: one brick, the particles of a cell a part of a block at a time.
  *
- *   v = sum S_i v_i,   L = sum v_i grad S_i,   de = sum S_i (v_i^2/2 + Q_i/m_i) - v^2/2 - ka     (transfer and contact heat)
- *   ka = 1/2 sum_k D_k |L e_k|^2,  D_k = sum S_i (x_i - x_p)_k^2                                  (TPIC's gradient part)   */
+ *   v = sum S_i v_i,   L = sum v_i grad S_i,   de = sum S_i (v_i^2/2 + Q_i/m_i) - v^2/2 - ka     (transfer and contact
+ *   heat)
+ *   ka = 1/2 sum_k D_k |L e_k|^2,  D_k = sum S_i (x_i - x_p)_k^2                                  (TPIC's gradient
+ *   part)   */
 #include "mpm/kernel/kernels.h"
 #include "mpm/law/law_lanes.h"
 
@@ -10,8 +12,8 @@
 
 typedef double halo_nodes[HALO_NODES][NODE] __attribute__((aligned(64)));
 
-/* The velocities of 6 x 6 x 6 nodes, row by row along x: one node of the brick before, four of its own or of one beside it,
- * one of the brick after; zero where there is none. */
+/* The velocities of 6 x 6 x 6 nodes, row by row along x: one node of the brick before, four of its own or of one beside
+ * it, one of the brick after; zero where there is none. */
 static void gather_halo(const mpm *m, const brick *b, halo_nodes halo)
 {
     static double none[BRICK_CELLS][NODE]; /* zero */
@@ -28,8 +30,8 @@ static void gather_halo(const mpm *m, const brick *b, halo_nodes halo)
 }
 
 /* Ghost velocities.  A ghost gives its particles the mirror of what its node holds: the difference is the mirror's
- * impulse, with the ghost's own mass from P2G.  A ghost of several mirrors counts in the first; the others find its mass
- * where fold() has put it. */
+ * impulse, with the ghost's own mass from P2G.  A ghost of several mirrors counts in the first; the others find its
+ * mass where fold() has put it. */
 static void mirror_ghosts(const mpm *m, brick *b, halo_nodes halo)
 {
     mirror_plane plane[6];
@@ -154,9 +156,10 @@ LANE_INLINE void leave_holes(gathered *r, vm here)
     r->ka = vd_where(here, r->ka);
 }
 
-/* A failed or molten point has nothing that resists its gradient: lone debris that is drawn out steepens it without bound (F^-1,
- * motion_lanes.h), and what that motion needs came out of its heat, far below none.  So such a point's gradient part holds no more than
- * the mixing has left, `budget` [J/kg].  Returns the factor on the gradient that this leaves. */
+/* A failed or molten point has nothing that resists its gradient: lone debris that is drawn out steepens it without
+ * bound (F^-1, motion_lanes.h), and what that motion needs came out of its heat, far below none.  So such a point's
+ * gradient part holds no more than the mixing has left, `budget` [J/kg].  Returns the factor on the gradient that this
+ * leaves. */
 LANE_INLINE vd bound_gradient(const law *k, const block *q, int lane, vd budget, vd *ka)
 {
     const vm over = loose_points(k, q, lane) & vd_less(budget, *ka);
@@ -355,7 +358,7 @@ static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const h
         }
         b->sum.particles += (uint64_t)__builtin_popcount(m->links[i].mask);
         const int leaving = one_block(m, b, i, &g, &limits, nodes, run);
-        if (leaving && movers_reserve(movers, 2 * LANES)) movers_take(m, b, cell, i, leaving);
+        if (leaving && mpm_movers_reserve(movers, 2 * LANES)) mpm_movers_take(m, b, cell, i, leaving);
     }
 }
 

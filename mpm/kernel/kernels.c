@@ -3,11 +3,11 @@
 
 #include <string.h>
 
-#define KERNELS_OF(isa)                  \
-    void p2g_##isa(mpm *m, brick *b);    \
-    void gather_##isa(mpm *m, int site); \
-    void nodes_##isa(mpm *m, int site);  \
-    void g2p_##isa(mpm *m, brick *b, int thread);
+#define KERNELS_OF(isa)                      \
+    void mpm_p2g_##isa(mpm *m, brick *b);    \
+    void mpm_gather_##isa(mpm *m, int site); \
+    void mpm_nodes_##isa(mpm *m, int site);  \
+    void mpm_g2p_##isa(mpm *m, brick *b, int thread);
 
 #ifdef BREECH_ISA_V4
 KERNELS_OF(v4)
@@ -19,12 +19,12 @@ KERNELS_OF(portable)
 
 static const kernels table[] = {
 #ifdef BREECH_ISA_V4
-    { "x86-64-v4", p2g_v4, gather_v4, nodes_v4, g2p_v4 },
+    { "x86-64-v4", mpm_p2g_v4, mpm_gather_v4, mpm_nodes_v4, mpm_g2p_v4 },
 #endif
 #ifdef BREECH_ISA_V3
-    { "x86-64-v3", p2g_v3, gather_v3, nodes_v3, g2p_v3 },
+    { "x86-64-v3", mpm_p2g_v3, mpm_gather_v3, mpm_nodes_v3, mpm_g2p_v3 },
 #endif
-    { "portable", p2g_portable, gather_portable, nodes_portable, g2p_portable },
+    { "portable", mpm_p2g_portable, mpm_gather_portable, mpm_nodes_portable, mpm_g2p_portable },
 };
 
 static bool runs_here(const char *name)
@@ -41,7 +41,7 @@ static bool runs_here(const char *name)
     return strcmp(name, "portable") == 0;
 }
 
-const kernels *kernels_choose(const char *name)
+const kernels *mpm_kernels_choose(const char *name)
 {
     for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
         if ((!name || !name[0] || strcmp(name, table[i].name) == 0) && runs_here(table[i].name)) return &table[i];

@@ -7,7 +7,7 @@
 #ifndef BREECH_ISA
 #define BREECH_ISA portable
 #endif
-#define ISA_JOIN2(name, isa) name##_##isa
+#define ISA_JOIN2(name, isa) mpm_##name##_##isa
 #define ISA_JOIN(name, isa) ISA_JOIN2(name, isa)
 #define ISA(name) ISA_JOIN(name, BREECH_ISA)
 
@@ -66,8 +66,8 @@ LANE_INLINE weights weights_gimp(const cell_axis *c, vd x, vd half)
 }
 
 /* Quadratic B-spline whose knots are the cell's edges, on unequal cells: the three functions that do not vanish
- * between the knots e1 < e2 (de Boor).  A function's place is the middle of its cell, not the node: then linear fields are
- * exact on any grading, sum w d = 0, and the affine part adds no momentum. */
+ * between the knots e1 < e2 (de Boor).  A function's place is the middle of its cell, not the node: then linear fields
+ * are exact on any grading, sum w d = 0, and the affine part adds no momentum. */
 typedef struct {
     double e[4];         /* knots around the cell: two below, two above [m] */
     double below, above; /* one over the cell's size times the distance of the knots around the function [1/m2] */
@@ -93,9 +93,9 @@ LANE_INLINE weights weights_bspline(const knots *q, vd x)
     return r;
 }
 
-/* Blocks lie in the order of cells (store_compact), so the one after next is most likely needed after next.  Its first
- * `fields` fields, a cache line each, are asked for a share at a time between the parts of a block's work: a core keeps a
- * dozen or so requests under way, and stands still where more are made at once. */
+/* Blocks lie in the order of cells (mpm_store_compact), so the one after next is most likely needed after next.  Its
+ * first `fields` fields, a cache line each, are asked for a share at a time between the parts of a block's work: a core
+ * keeps a dozen or so requests under way, and stands still where more are made at once. */
 typedef struct {
     const char *next, *end;
     int share; /* lines */
@@ -113,10 +113,10 @@ LANE_INLINE void prefetch_share(ahead *a)
 }
 
 /* Least half length in cells that keeps a point stable which shares its nodes with no other.  Its forces change its own
- * velocity gradient by dt sigma/rho sum_i |grad S_i|^2 / S_i, and that sum is up to 2/(l h) an axis where the domain just
- * reaches over a node: with one axis strained it is stable for C^2 2 h/l <= 4, with three about a third of that.  l = C^2 h
- * lies between, and docs/scene-solver.md has the scenes that blew up with less.  Without the affine part the last step's
- * gradient is forgotten, which halves the limit. */
+ * velocity gradient by dt sigma/rho sum_i |grad S_i|^2 / S_i, and that sum is up to 2/(l h) an axis where the domain
+ * just reaches over a node: with one axis strained it is stable for C^2 2 h/l <= 4, with three about a third of that.
+ * l = C^2 h lies between, and docs/scene-solver.md has the scenes that blew up with less.  Without the affine part the
+ * last step's gradient is forgotten, which halves the limit. */
 LANE_INLINE double stable_half_length(const mpm_scene *s)
 {
     return (s->transfer == TRANSFER_TPIC ? 1 : 2) * s->courant * s->courant;
@@ -186,8 +186,9 @@ static inline int halo_at(const int at[3])
     return (at[2] * HALO + at[1]) * HALO + at[0];
 }
 
-/* Where the sums of a node of the 6 x 6 x 6 lie in brick.out: nodes that go to one neighbour lie together, in the order of its
- * cells, so that it reads them in one piece (nodes.c: add_lines).  First the six times six below along z, and so on inwards. */
+/* Where the sums of a node of the 6 x 6 x 6 lie in brick.out: nodes that go to one neighbour lie together, in the order
+ * of its cells, so that it reads them in one piece (nodes.c: add_lines).  First the six times six below along z, and so
+ * on inwards. */
 #define HALO_SIDE(i) ((i) == 0 ? 0 : (i) == HALO - 1 ? 2 : 1)
 #define HALO_START(i, rest) ((i) == 0 ? 0 : (i) == HALO - 1 ? (HALO - 1) * (rest) : (rest))
 #define HALO_COUNT(i) (HALO_SIDE(i) == 1 ? BRICK : 1)

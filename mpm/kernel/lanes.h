@@ -1,7 +1,7 @@
-/* Lanes: particles that are worked on together.  A block has eight; an instruction set takes them WIDTH at a time, as many
- * as its vectors have doubles, so a block is eight, four or two `vd` wide parts of one, two or four.  The same source for
- * all: gcc and clang turn comparisons and selects of a machine's own width into its compare and blend, but take wider
- * vectors apart into single numbers. */
+/* Lanes: particles that are worked on together.  A block has eight; an instruction set takes them WIDTH at a time, as
+ * many as its vectors have doubles, so a block is eight, four or two `vd` wide parts of one, two or four.  The same
+ * source for all: gcc and clang turn comparisons and selects of a machine's own width into its compare and blend, but
+ * take wider vectors apart into single numbers. */
 #ifndef BREECH_MPM_LANES_H
 #define BREECH_MPM_LANES_H
 
@@ -62,7 +62,8 @@ LANE_INLINE vd vd_where(vm mask, vd yes) /* else zero */
     return (vd)((vm)yes & mask);
 }
 
-/* a < b ? a : b and a > b ? a : b, so b where one is not a number: the machine's own, which gcc does not see in the selects. */
+/* a < b ? a : b and a > b ? a : b, so b where one is not a number: the machine's own, which gcc does not see in the
+ * selects. */
 LANE_INLINE vd vd_min(vd a, vd b)
 {
 #if defined(__AVX512DQ__)

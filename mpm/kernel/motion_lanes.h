@@ -1,5 +1,5 @@
-/* Kinematics of a step.  Over it the places near a point move by x' = F x, F = 1 + dt L, with L the velocity gradient over
- * the places at the start of the step (the weights' places).  The law needs it to second order:
+/* Kinematics of a step.  Over it the places near a point move by x' = F x, F = 1 + dt L, with L the velocity gradient
+ * over the places at the start of the step (the weights' places).  The law needs it to second order:
  *   at the end      L F^-1, which the points around have then too, and which goes on as the point's affine part,
  *   in the middle   L (1 + dt L / 2)^-1 = (L + L F^-1)/2 + O(dt^2),
  *   volume          rho = rho / det F.
@@ -14,7 +14,8 @@ typedef struct {
     vd growth;                      /* det F, volume after over before [1] */
 } motion;
 
-/* A point that would turn inside out is held at a fifth of its volume: what is so far gone is bounded, not described. */
+/* A point that would turn inside out is held at a fifth of its volume: what is so far gone is bounded, not described.
+ */
 #define MOTION_LEAST_GROWTH 0.2
 
 /* inverse x determinant */

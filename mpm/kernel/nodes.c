@@ -1,8 +1,9 @@
 /* The grid phase at one site: sums of all bricks that reach its nodes, momentum update, boundaries, contact (M-6).
  *
  *   m dv/dt = f;   what the mixing of particle velocities and the contacts take from the kinetic energy stays at the
- *   node as heat and goes to the particles in G2P:  E_i = v_i^2/2 + Q_i/m_i.  So does the work of the forces on the velocities
- *   before them, dt/2 f . v, less what the particles had booked of it (p2g.c); that on those after them is the particles'. */
+ *   node as heat and goes to the particles in G2P:  E_i = v_i^2/2 + Q_i/m_i.  So does the work of the forces on the
+ *   velocities before them, dt/2 f . v, less what the particles had booked of it (p2g.c); that on those after them is
+ *   the particles'. */
 #include "mpm/kernel/kernels.h"
 
 #include <math.h>
@@ -24,7 +25,8 @@ typedef struct {
     const double *extra;
 } node_state;
 
-/* Nodes of a brick that the particles of its neighbour at a step reach: a box, and where the neighbour has its sums of them. */
+/* Nodes of a brick that the particles of its neighbour at a step reach: a box, and where the neighbour has its sums of
+ * them. */
 typedef struct {
     int first[3], count[3], there;
 } shared_box;
@@ -169,7 +171,8 @@ static void hold(node_state *n, int k, double velocity, double dt, tally *sum)
     n->f[k] = 0;
 }
 
-/* Viscous boundary of Lysmer and Kuhlemeyer (1969), implicit in v: the node's mass is rho A h/2, so rho c A = 2 c m/h. */
+/* Viscous boundary of Lysmer and Kuhlemeyer (1969), implicit in v: the node's mass is rho A h/2, so rho c A = 2 c m/h.
+ */
 static void absorb(node_state *n, const wall *w, const law *k, double dt, tally *sum)
 {
     const double cp = sqrt((k->K0 + 4.0 / 3.0 * k->G) / k->rho0), cs = sqrt(k->G / k->rho0);
@@ -212,8 +215,8 @@ static double dot(const double *a, const double *b)
 }
 
 /* The normal is the volume gradient of the lower field alone (the rail's, the particle's): behind the edge of the lead
- * face a difference of gradients tilts and reads sliding as approach.  Where that field has no surface at the node (deep
- * overlap) the difference must serve. */
+ * face a difference of gradients tilts and reads sliding as approach.  Where that field has no surface at the node
+ * (deep overlap) the difference must serve. */
 static contact_geometry geometry(const mpm *m, const node_state *a, const node_state *b, const wall *w, int walls,
                                  const double h[3])
 {
@@ -239,8 +242,8 @@ static contact_geometry geometry(const mpm *m, const node_state *a, const node_s
     return g;
 }
 
-/* Impulse on b (minus it on a) that ends the approach; friction by Coulomb, but never more than the weaker side bears in
- * shear: a molten or failed layer slides freely.  Zero where they part. */
+/* Impulse on b (minus it on a) that ends the approach; friction by Coulomb, but never more than the weaker side bears
+ * in shear: a molten or failed layer slides freely.  Zero where they part. */
 static bool contact_impulse(const contact_law *c, const contact_geometry *g, double reduced, const double rel[3],
                             double dt, double J[3])
 {
@@ -442,7 +445,8 @@ void ISA(nodes)(mpm *m, int site)
     tally *sum = &m->site_sum[site];
     memset(sum, 0, sizeof *sum);
     const brick *b = first_at(m, site);
-    const uint64_t due = shares_due(m, b) & ~(b->seam.follow_coarser | b->seam.follow_finer); /* seams_follow */
+    const uint64_t due =
+        mpm_substep_due(m, b) & ~(b->seam.follow_coarser | b->seam.follow_finer); /* mpm_interface_constrain */
     if (!due) return;
     const int count = fields_at(m, site, own, fields);
     if (count == 0) return;
@@ -451,7 +455,7 @@ void ISA(nodes)(mpm *m, int site)
         const int index[3] = { BRICK * b->at[0] + cell % BRICK, BRICK * b->at[1] + cell / BRICK % BRICK,
                                BRICK * b->at[2] + cell / (BRICK * BRICK) };
         if (!(due >> cell & 1)) continue;
-        const double dt = shares_dt(m, b, cell);
+        const double dt = mpm_substep_dt(m, b, cell);
         if (is_inside(axes, index) && !is_shared(fields, count, cell)) {
             for (int s = 0; s < count; s++) free_node(fields[s].line[cell], dt, brick_nodes(m, fields[s].brick)[cell]);
             continue;

@@ -1,14 +1,17 @@
 /* Particles to grid: the node sums of one brick.
  *
- *   line_i = sum_p S_ip { m, m [v + L (x_i - x_p)], m [v^2/2 + ka + v . L (x_i - x_p)] },   f_i = -sum_p V sigma grad S_ip
+ *   line_i = sum_p S_ip { m, m [v + L (x_i - x_p)], m [v^2/2 + ka + v . L (x_i - x_p)] },   f_i = -sum_p V sigma grad
+ *   S_ip
  *
  * and, with the energy, the other side of the work that the forces do before they change the nodes (nodes.c takes
- * dt/2 f_i . v_i from it): what they would do if the nodes moved as the particles do, dt/2 sum_p f_ip . [v + L (x_i - x_p)].
- * Its sum is what the particles have booked at the end of the last step, dt/2 V sigma:L, so the two together are the work that
- * the transfer's smoothing takes or makes.  Of L only the parts along the axes are told apart by node: those across sum to zero.
+ * dt/2 f_i . v_i from it): what they would do if the nodes moved as the particles do, dt/2 sum_p f_ip . [v + L (x_i -
+ * x_p)]. Its sum is what the particles have booked at the end of the last step, dt/2 V sigma:L, so the two together are
+ * the work that the transfer's smoothing takes or makes.  Of L only the parts along the axes are told apart by node:
+ * those across sum to zero.
  *
  * With S = wx wy wz every term is a product over the axes, so a particle's line at node (a, b, c) is
- *   wy_b wz_c A_a + wx_a B_bc,   A_a = wx_a base + qx_a CX,   B_bc = wz_c Y_b + wy_b Z_c,   Y_b = qy_b CY,   Z_c = qz_c CZ,
+ *   wy_b wz_c A_a + wx_a B_bc,   A_a = wx_a base + qx_a CX,   B_bc = wz_c Y_b + wy_b Z_c,   Y_b = qy_b CY,   Z_c = qz_c
+ *   CZ,
  * where q is w (x_i - x_p) in the lanes of momentum and energy and grad w in the lanes of force.
  *
  * Weights sum to one, the q to zero: instead of the middle one of an axis' three nodes the sum of all three is
@@ -33,7 +36,8 @@ typedef struct {
     double yz[2][2][LANES]; /* weights' product, [z][y] */
 } __attribute__((aligned(64))) factors;
 
-/* What a block gives to contact lines, [axis][first or last node][particle]: V grad w, m w (x_p - x_i); m flow stress. */
+/* What a block gives to contact lines, [axis][first or last node][particle]: V grad w, m w (x_p - x_i); m flow stress.
+ */
 typedef struct {
     double gradient[3][2][LANES], moment[3][2][LANES], flow[LANES];
 } __attribute__((aligned(64))) contact_factors;
@@ -230,7 +234,8 @@ typedef struct {
     bool meets;    /* are contact lines wanted? */
 } cell_work;
 
-/* A block's lines into the sums of its cell, which begin with its `first`.  A call, not inlined: gcc then takes the sums as begun. */
+/* A block's lines into the sums of its cell, which begin with its `first`.  A call, not inlined: gcc then takes the
+ * sums as begun. */
 static __attribute__((noinline)) void one_block(const mpm *m, int index, const cell_work *c, bool first,
                                                 part_sums motion[PARTS], part_sums contact[PARTS])
 {
@@ -269,7 +274,8 @@ static void one_cell(const mpm *m, brick *b, int cell, const cell_work *c)
     if (c->meets) add_to_brick(b->out_contact, halo_index(cell), contact);
 }
 
-/* Adds a ghost's line, mirrored across axis k, to the node it mirrors; the momentum that turns is the mirror's impulse. */
+/* Adds a ghost's line, mirrored across axis k, to the node it mirrors; the momentum that turns is the mirror's impulse.
+ */
 static void fold_line(brick *b, int k, const int ghost[3], const int mirror[3], double dt)
 {
     const int source = halo_place[halo_at(ghost)], target = halo_place[halo_at(mirror)];
@@ -300,7 +306,7 @@ void ISA(p2g)(mpm *m, brick *b)
     memset(&b->sum, 0, sizeof b->sum);
     b->sum.bad_block = -1;
     memset(b->out, 0, HALO_NODES * sizeof *b->out);
-    b->meets = b->across ? ~0ull : b->contact ? meeting_cells(m, b) : 0;
+    b->meets = b->across ? ~0ull : b->contact ? mpm_contact_cells(m, b) : 0;
     if (b->meets) memset(b->out_contact, 0, HALO_NODES * sizeof *b->out_contact);
     const brick_grid grid = brick_grid_at(m, b);
     cell_grid at;

@@ -195,11 +195,11 @@ static void strength(law *k, const material *m, const mpm_body *body)
     }
 }
 
-status law_make(const mpm_body *body, const mpm_scene *scene, law *out)
+status mpm_law_make(const mpm_body *body, const mpm_scene *scene, law *out)
 {
     const material *m = body->material;
     CHECK(m, STATUS_BAD_INPUT, "body `%s` has no material", body->name);
-    TRY(material_check(m, MATERIAL_FOR_SCENE | (body->damage ? MATERIAL_FOR_DAMAGE : 0u)));
+    TRY(mpm_material_check(m, MATERIAL_FOR_SCENE | (body->damage ? MATERIAL_FOR_DAMAGE : 0u)));
     law k = { .rho0 = m->density, .c0 = m->sound_speed, .g = m->gruneisen, .s1 = m->hugoniot_slope - 1 };
     k.K0 = k.rho0 * k.c0 * k.c0;
     k.K_slope = 4 * m->hugoniot_slope - 1;

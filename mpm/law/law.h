@@ -1,6 +1,6 @@
-/* The material law of one body, constants derived once (law_make) for the kernels: strength by Johnson-Cook (M-1) or
- * Preston-Tonks-Wallace (M-23), damage (M-2), Mie-Grueneisen pressure (M-3), temperature from energy (M-4), viscosity
- * (M-5).  See docs/scene-solver.md. */
+/* The material law of one body, constants derived once (mpm_law_make) for the kernels: strength by Johnson-Cook (M-1)
+ * or Preston-Tonks-Wallace (M-23), damage (M-2), Mie-Grueneisen pressure (M-3), temperature from energy (M-4),
+ * viscosity (M-5).  See docs/scene-solver.md. */
 #ifndef BREECH_MPM_LAW_H
 #define BREECH_MPM_LAW_H
 
@@ -43,6 +43,6 @@ typedef struct {
 } law;
 
 /* Refuses a material that lacks a constant the scene needs. */
-status law_make(const mpm_body *body, const mpm_scene *scene, law *out);
+status mpm_law_make(const mpm_body *body, const mpm_scene *scene, law *out);
 
 #endif

@@ -1,6 +1,7 @@
 /* The material law of some particles of one body over one step: strength (M-1), (M-23), damage (M-2), pressure (M-3),
- * temperature (M-4), viscosity (M-5).  Constants are derived in law.c; the kernels include this once an instruction set.
- * To change a law: its function here, its constants in law.h and law.c, its closed answer in tests/test_mpm_material.c. */
+ * temperature (M-4), viscosity (M-5).  Constants are derived in law.c; the kernels include this once an instruction
+ * set. To change a law: its function here, its constants in law.h and law.c, its closed answer in
+ * tests/test_mpm_material.c. */
 #ifndef BREECH_MPM_LAW_LANES_H
 #define BREECH_MPM_LAW_LANES_H
 
@@ -68,7 +69,8 @@ static __attribute__((noinline)) vd flow_stress_ptw(const ptw *k, vd e, vd log_r
     return vd_where(vd_less(T_star, one), stress);
 }
 
-/*   e_f = (D1 + D2 exp(D3 s*)) (1 + D4 ln e*) (1 + D5 T*)                            (M-2); s* capped at 1.5, e_f floored */
+/*   e_f = (D1 + D2 exp(D3 s*)) (1 + D4 ln e*) (1 + D5 T*)                            (M-2); s* capped at 1.5, e_f
+ *   floored */
 LANE_INLINE vd failure_strain(const law *k, vd triaxiality, vd log_rate, vd T_star)
 {
     const vd x = vd_max(vd_min(triaxiality, vd_set(1.5)), vd_set(-5));
@@ -76,7 +78,8 @@ LANE_INLINE vd failure_strain(const law *k, vd triaxiality, vd log_rate, vd T_st
     return vd_max(f, vd_set(0.01));
 }
 
-/* e_r = e_s - c_v (T_s - T_r) with T_s, e_s on the isentrope through rest at T_r: mu x a polynomial either side of rest (law.c) */
+/* e_r = e_s - c_v (T_s - T_r) with T_s, e_s on the isentrope through rest at T_r: mu x a polynomial either side of rest
+ * (law.c) */
 LANE_INLINE vd reference_energy(const law *k, vd mu)
 {
     const vd zero = vd_set(0), x = vd_min(vd_max(mu, vd_set(k->mu_least)), vd_set(k->mu_most));
@@ -97,7 +100,8 @@ LANE_INLINE vd temperature(const law *k, vd e, vd reference, vd stored)
     return vd_max(k->T_r + (vd_min(thermal, vd_set(melt)) + beyond) * k->inv_c, vd_set(1));
 }
 
-/*   p_H = rho0 c0^2 mu [1 + (1 - g0/2) mu] / [1 - (s-1) mu]^2, mu >= 0;   rho0 c0^2 mu below;   p = p_H + g0 rho_e e   (M-3)
+/*   p_H = rho0 c0^2 mu [1 + (1 - g0/2) mu] / [1 - (s-1) mu]^2, mu >= 0;   rho0 c0^2 mu below;   p = p_H + g0 rho_e e
+ *   (M-3)
  * rho_e = rho0 in compression, rho in expansion: with rho0 there too, hot debris would keep its full thermal pressure
  * however thin it has become, and burst.  Solved with the energy e - half p that p itself changes, in one division. */
 LANE_INLINE vd pressure(const law *k, vd mu, vd rho, vd e, vd half)
@@ -109,7 +113,8 @@ LANE_INLINE vd pressure(const law *k, vd mu, vd rho, vd e, vd half)
     return (above + slope * e * below) / (below * (1 + slope * half));
 }
 
-/* Longitudinal wave speed: K = K0 + K' p in compression, c0 in expansion; a failed point has no shear stiffness [m/s] */
+/* Longitudinal wave speed: K = K0 + K' p in compression, c0 in expansion; a failed point has no shear stiffness [m/s]
+ */
 LANE_INLINE vd sound_speed(const law *k, vd volume, vd p, vm failed)
 {
     const vd bulk = (k->K0 + k->K_slope * vd_max(p, vd_set(0))) * vd_min(volume, vd_set(k->volume0));
@@ -177,7 +182,8 @@ typedef struct {
     vd log_rate, T_star;    /* ln(edot/edot0) and homologous temperature */
 } yielding;
 
-/* Radial return of the trial deviator s.  Where all particles lie below the least stress at which their metal could flow,
+/* Radial return of the trial deviator s.  Where all particles lie below the least stress at which their metal could
+ * flow,
  *   sigma_y >= least (1 - T*),   least = A for m >= 1 in (M-1), found by law.c for (M-23),
  * there is nothing to do; their flow stress stays that of the step in which it was last needed, unless a contact asks.
  * (By a tenth below: where the fine zone goes is decided by what comes within a tenth of yielding, zone.c.) */
@@ -219,13 +225,14 @@ LANE_INLINE vm loose_points(const law *k, const block *q, int lane)
     return ~(vd_less(vd_load(&q->damage[0][lane]), vd_set(1)) & vd_less(vd_load(&q->T[0][lane]), vd_set(k->T_m)));
 }
 
-/* A melt torn further apart than this share of K0 would hold has failed: were it to freeze again, it would pull with what
- * nothing had stored. */
+/* A melt torn further apart than this share of K0 would hold has failed: were it to freeze again, it would pull with
+ * what nothing had stored. */
 #define LAW_MELT_TENSION 1e-4
 
-/* Stress, energy and temperature of the part of a block that begins with `lane`, over a step.  The stress power is the mean
- * of its values at the start and at the end, each with the gradient and the volume there; the pressure is solved with the
- * energy it changes, and a loose point's tension is removed before that energy.  `contact`: the flow stress is needed even where nothing flows. */
+/* Stress, energy and temperature of the part of a block that begins with `lane`, over a step.  The stress power is the
+ * mean of its values at the start and at the end, each with the gradient and the volume there; the pressure is solved
+ * with the energy it changes, and a loose point's tension is removed before that energy.  `contact`: the flow stress is
+ * needed even where nothing flows. */
 LANE_INLINE void law_step(const law *k, const step_of *step, const motion *move, block *q, int lane, bool contact,
                           lane_sums *sum)
 {

@@ -1,4 +1,5 @@
-/* Bricks and blocks: making, finding, linking.  One thread at a time, but for store_insert and store_release. */
+/* Bricks and blocks: making, finding, linking.  One thread at a time, but for mpm_store_insert and mpm_store_release.
+ */
 #include "mpm/memory/store.h"
 
 #include <assert.h>
@@ -7,7 +8,8 @@
 #include <string.h>
 #include <sys/mman.h>
 
-/* Large arrays start on a huge page and ask for them: points and nodes are reached in no order that small pages like. */
+/* Large arrays start on a huge page and ask for them: points and nodes are reached in no order that small pages like.
+ */
 static void *aligned(size_t bytes)
 {
     enum { LINE_BYTES = 64, HUGE_BYTES = 1 << 21 };
@@ -67,7 +69,7 @@ static void free_places(mpm *m)
     free(m->site_sum);
 }
 
-status store_new_grid(mpm *m)
+status mpm_store_new_grid(mpm *m)
 {
     const size_t sites = (size_t)m->grids.sites;
     free_places(m);
@@ -83,14 +85,14 @@ status store_new_grid(mpm *m)
     return status_ok();
 }
 
-status store_make(mpm *m, int blocks)
+status mpm_store_make(mpm *m, int blocks)
 {
     m->free_head = -1;
-    TRY(store_new_grid(m));
+    TRY(mpm_store_new_grid(m));
     return grow_blocks(m, blocks);
 }
 
-void store_free_brick(brick *b)
+void mpm_store_free_brick(brick *b)
 {
     free(b->out);
     free(b->out_contact);
@@ -98,9 +100,9 @@ void store_free_brick(brick *b)
     free(b->held);
 }
 
-void store_free(mpm *m)
+void mpm_store_free(mpm *m)
 {
-    for (int i = 0; i < m->bricks_used; i++) store_free_brick(&m->bricks[i]);
+    for (int i = 0; i < m->bricks_used; i++) mpm_store_free_brick(&m->bricks[i]);
     for (int t = 0; t < MPM_MAX_THREADS; t++) {
         free(m->movers[t].head);
         free(m->movers[t].data);
@@ -126,7 +128,7 @@ static status grow_bricks(mpm *m)
     return status_ok();
 }
 
-status store_brick(mpm *m, int field, int level, const int at[3], int *out)
+status mpm_store_brick(mpm *m, int field, int level, const int at[3], int *out)
 {
     const int site = site_index(m, level, at);
     int *slot = &m->directory[field * m->grids.sites + site];
@@ -136,7 +138,7 @@ status store_brick(mpm *m, int field, int level, const int at[3], int *out)
         memset(b, 0, sizeof *b);
         b->field = field, b->level = level;
         b->site = site;
-        b->seam = seams_of(m, level, at);
+        b->seam = mpm_interface_nodes(m, level, at);
         b->at_seam = seam_any(&b->seam);
         memcpy(b->at, at, sizeof b->at);
         for (int c = 0; c < BRICK_CELLS; c++) b->head[c] = -1;
@@ -157,16 +159,16 @@ static bool step_inside(const mpm *m, const brick *b, int step, int to[3])
     return true;
 }
 
-status store_open(brick *b)
+status mpm_store_open(brick *b)
 {
     if (!b->out) b->out = cleared(HALO_NODES * sizeof *b->out);
     CHECK(b->out, STATUS_MEMORY, "no memory for a brick");
     return status_ok();
 }
 
-status store_empty(mpm *m, int blocks)
+status mpm_store_empty(mpm *m, int blocks)
 {
-    for (int i = 0; i < m->bricks_used; i++) store_free_brick(&m->bricks[i]);
+    for (int i = 0; i < m->bricks_used; i++) mpm_store_free_brick(&m->bricks[i]);
     m->bricks_used = 0;
     for (int i = 0; i < m->fields * m->grids.sites; i++) m->directory[i] = -1;
     m->free_head = -1, m->blocks_free = 0;
@@ -174,18 +176,18 @@ status store_empty(mpm *m, int blocks)
     return blocks > m->blocks_capacity ? grow_blocks(m, blocks + blocks / 8) : status_ok();
 }
 
-status store_surround(mpm *m, int brick_index)
+status mpm_store_surround(mpm *m, int brick_index)
 {
     for (int step = 0; step < NEIGHBOURS; step++) {
         int to[3], found;
         const brick *b = &m->bricks[brick_index];
-        if (step_inside(m, b, step, to)) TRY(store_brick(m, b->field, b->level, to, &found));
+        if (step_inside(m, b, step, to)) TRY(mpm_store_brick(m, b->field, b->level, to, &found));
     }
     if (m->bricks[brick_index].at_seam) {
         const brick b = m->bricks[brick_index]; /* the array may move */
-        TRY(seams_answer(m, &b));
+        TRY(mpm_interface_make_bricks(m, &b));
     }
-    return store_open(&m->bricks[brick_index]);
+    return mpm_store_open(&m->bricks[brick_index]);
 }
 
 /* Does another field have particles at this place or next door? */
@@ -209,9 +211,9 @@ static bool link_brick(mpm *m, brick *b)
         int to[3];
         b->neighbour[step] = step_inside(m, b, step, to) ? brick_at(m, b->field, b->level, to) : -1;
     }
-    b->across = b->at_seam && seams_meet(m, b);
+    b->across = b->at_seam && mpm_interface_in_contact(m, b);
     b->contact = b->across || meets_other(m, b);
-    b->occupied = meeting_occupied(b);
+    b->occupied = mpm_occupied_cells(b);
     if (b->contact && b->out && !b->out_contact) b->out_contact = aligned(HALO_NODES * sizeof *b->out_contact);
     if (b->at_seam && !b->line) b->line = cleared(2 * BRICK_CELLS * sizeof *b->line);
     if (seam_shared(&b->seam) && !b->held) b->held = cleared(sizeof *b->held);
@@ -219,7 +221,7 @@ static bool link_brick(mpm *m, brick *b)
            (b->held || !seam_shared(&b->seam));
 }
 
-status store_relink(mpm *m)
+status mpm_store_relink(mpm *m)
 {
     bool enough = true;
 #pragma omp parallel for schedule(dynamic, 16) num_threads(m->threads) reduction(&& : enough)
@@ -237,7 +239,7 @@ status store_relink(mpm *m)
     return status_ok();
 }
 
-status store_reserve(mpm *m, int blocks)
+status mpm_store_reserve(mpm *m, int blocks)
 {
     const int step = 64 + m->blocks_capacity / 16, wanted = blocks > step ? blocks : step;
     if (m->blocks_free >= wanted) return status_ok();
@@ -276,7 +278,7 @@ static int take_free_block(mpm *m)
     return i;
 }
 
-void store_release(mpm *m, int i)
+void mpm_store_release(mpm *m, int i)
 {
 #pragma omp critical(breech_blocks)
     {
@@ -286,13 +288,13 @@ void store_release(mpm *m, int i)
     }
 }
 
-void store_release_cell(mpm *m, brick *b, int cell)
+void mpm_store_release_cell(mpm *m, brick *b, int cell)
 {
     while (b->head[cell] >= 0) {
         const int i = b->head[cell];
         b->head[cell] = m->links[i].next;
         b->blocks--;
-        store_release(m, i);
+        mpm_store_release(m, i);
     }
 }
 
@@ -337,8 +339,8 @@ static void put(mpm *m, int i, const held_block *h)
     m->blocks[i] = h->points, m->links[i] = h->link;
 }
 
-/* This thread's part of the moves.  What other threads overwrite is held before any of them begins: the first block of the cycle
- * that the part begins in, and the one after the part. */
+/* This thread's part of the moves.  What other threads overwrite is held before any of them begins: the first block of
+ * the cycle that the part begins in, and the one after the part. */
 static void make_moves(mpm *m, const moves *c)
 {
     const int me = omp_get_thread_num(), threads = omp_get_num_threads();
@@ -374,7 +376,7 @@ static int compact_order(const mpm *m, int *to)
     return used;
 }
 
-status store_compact(mpm *m)
+status mpm_store_compact(mpm *m)
 {
     const size_t blocks = (size_t)m->blocks_capacity;
     int *to = malloc(3 * blocks * sizeof *to);
@@ -395,7 +397,7 @@ status store_compact(mpm *m)
     return status_ok();
 }
 
-int store_insert(mpm *m, brick *b, int cell, int body, const double *particle)
+int mpm_store_insert(mpm *m, brick *b, int cell, int body, const double *particle)
 {
     int *link = &b->head[cell];
     while (*link >= 0 && (m->links[*link].body != body || m->links[*link].mask == 0xff)) link = &m->links[*link].next;
@@ -415,12 +417,12 @@ int store_insert(mpm *m, brick *b, int cell, int body, const double *particle)
     return *link;
 }
 
-int store_cell_at(const mpm *m, int level, const double x[3], int at[3])
+int mpm_store_cell_at(const mpm *m, int level, const double x[3], int at[3])
 {
     int place[3];
     for (int k = 0; k < 3; k++) {
         const axis *a = &m->grids.level[level].axes[k];
-        const int node = axis_locate(a, x[k]);
+        const int node = mpm_axis_locate(a, x[k]);
         if (node < 1 || node > a->last) return -1;
         at[k] = node / BRICK;
         place[k] = node % BRICK;
@@ -428,30 +430,31 @@ int store_cell_at(const mpm *m, int level, const double x[3], int at[3])
     return cell_index(place[0], place[1], place[2]);
 }
 
-status store_place(mpm *m, int body, const double *particle)
+status mpm_store_place(mpm *m, int body, const double *particle)
 {
     int at[3], index;
-    const int level = grids_level(&m->grids, particle + FIRST_x);
-    const int cell = store_cell_at(m, level, particle + FIRST_x, at);
+    const int level = mpm_grids_level(&m->grids, particle + FIRST_x);
+    const int cell = mpm_store_cell_at(m, level, particle + FIRST_x, at);
     assert(cell >= 0);
-    TRY(store_brick(m, m->scene.body[body].field, level, at, &index));
-    if (m->blocks_free == 0) TRY(store_reserve(m, 0));
-    CHECK(store_insert(m, &m->bricks[index], cell, body, particle) >= 0, STATUS_MEMORY, "no memory for the particles");
+    TRY(mpm_store_brick(m, m->scene.body[body].field, level, at, &index));
+    if (m->blocks_free == 0) TRY(mpm_store_reserve(m, 0));
+    CHECK(mpm_store_insert(m, &m->bricks[index], cell, body, particle) >= 0, STATUS_MEMORY,
+          "no memory for the particles");
     return status_ok();
 }
 
-status store_surround_all(mpm *m)
+status mpm_store_surround_all(mpm *m)
 {
     const int filled = m->bricks_used;
     for (int i = 0; i < filled; i++)
-        if (!m->bricks[i].out) TRY(store_surround(m, i));
+        if (!m->bricks[i].out) TRY(mpm_store_surround(m, i));
     return status_ok();
 }
 
-status store_settle(mpm *m)
+status mpm_store_settle(mpm *m)
 {
-    TRY(store_surround_all(m));
-    TRY(store_relink(m));
-    TRY(store_reserve(m, 0));
-    return store_compact(m);
+    TRY(mpm_store_surround_all(m));
+    TRY(mpm_store_relink(m));
+    TRY(mpm_store_reserve(m, 0));
+    return mpm_store_compact(m);
 }

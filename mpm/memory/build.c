@@ -16,14 +16,14 @@ static status ladder_make(const axis *a, double lo, double hi, int per_cell, lad
 {
     int n = 0;
     for (double x = lo; x < hi * (1 + 1e-12) - 1e-12 && n < 1000000; n++)
-        x += axis_spacing(a, x + 1e-9 * (hi - lo)) / per_cell;
+        x += mpm_axis_spacing(a, x + 1e-9 * (hi - lo)) / per_cell;
     out->edge = malloc(((size_t)n + 2) * sizeof(double));
     CHECK(out->edge, STATUS_MEMORY, "no memory for a lattice of %d planes", n);
     double x = lo;
     int k = 0;
     out->edge[0] = lo;
-    while (x < hi - 1e-6 * axis_spacing(a, x)) {
-        x += axis_spacing(a, x + 1e-9 * (hi - lo)) / per_cell;
+    while (x < hi - 1e-6 * mpm_axis_spacing(a, x)) {
+        x += mpm_axis_spacing(a, x + 1e-9 * (hi - lo)) / per_cell;
         out->edge[++k] = x;
         if (k > n) break;
     }
@@ -54,9 +54,9 @@ typedef struct {
     double x[3], size[3], share; /* centroid and lengths [m]; of the box's volume [1] */
 } piece;
 
-/* A box that the surface passes through is cut: its part inside is a point at its centroid, with the part's variance along
- * each axis.  Whole boxes or none would make a staircase of every face that does not lie along the lattice, and contact
- * normals would follow the steps (docs/scene-solver.md, V7b). */
+/* A box that the surface passes through is cut: its part inside is a point at its centroid, with the part's variance
+ * along each axis.  Whole boxes or none would make a staircase of every face that does not lie along the lattice, and
+ * contact normals would follow the steps (docs/scene-solver.md, V7b). */
 static void cut(const mpm_scene *s, int body, piece *p)
 {
     enum { PARTS = 4, ALL = PARTS * PARTS * PARTS };         /* an axis; in all */
@@ -111,7 +111,7 @@ static status one_box(const mpm_scene *s, int body, const law *k, const grids *g
                       const build_sink *sink)
 {
     static const double SLIVER = 0.02; /* of a box: left out */
-    const int n = 1 << (g->levels - 1 - grids_level(g, window->x));
+    const int n = 1 << (g->levels - 1 - mpm_grids_level(g, window->x));
     for (int i = 0; i < n * n * n; i++) {
         const int at[3] = { i % n, i / n % n, i / (n * n) };
         piece box = *window;
@@ -145,9 +145,10 @@ static status walk(const mpm_scene *s, int body, const law *k, const grids *g, c
     return status_ok();
 }
 
-const double build_everywhere[2] = { -INFINITY, INFINITY };
+const double mpm_build_everywhere[2] = { -INFINITY, INFINITY };
 
-status build_body(const mpm_scene *s, int body, const law *k, const grids *g, const double x[2], const build_sink *sink)
+status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g, const double x[2],
+                      const build_sink *sink)
 {
     const mpm_body *b = &s->body[body];
     const axis *axes = grids_window(g)->axes;
@@ -160,7 +161,7 @@ status build_body(const mpm_scene *s, int body, const law *k, const grids *g, co
         lo[q] = fmax(lo[q], axes[q].node[1]);
         hi[q] = fmin(hi[q], axes[q].node[axes[q].last]);
         if (hi[q] <= lo[q])
-            r = status_error(STATUS_BAD_INPUT, "body `%s` lies outside the window along axis %d", b->name, q);
+            r = base_status_error(STATUS_BAD_INPUT, "body `%s` lies outside the window along axis %d", b->name, q);
         else
             r = ladder_make(&axes[q], lo[q], hi[q], s->particles_per_axis, &l[q]);
     }

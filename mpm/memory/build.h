@@ -18,10 +18,10 @@ typedef struct {
 
 /* Calls the sink for every material point of one body between two places along x (-INFINITY, INFINITY: all that lies in
  * the window), in a fixed order. */
-status build_body(const mpm_scene *s, int body, const law *k, const grids *g, const double x[2],
-                  const build_sink *sink);
+status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g, const double x[2],
+                      const build_sink *sink);
 
-extern const double build_everywhere[2];
+extern const double mpm_build_everywhere[2];
 
 /* What the solver makes of a point (mpm.c): q has BLOCK_DOUBLES. */
 void mpm_point_of(const mpm *m, int body, const build_point *p, double *q);

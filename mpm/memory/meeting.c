@@ -1,17 +1,18 @@
-/* Where fields may meet.  A particle's nodes are those of its cell and of the cells beside it, so two fields can share a node
- * only where their cells lie within two of each other along every axis. */
+/* Where fields may meet.  A particle's nodes are those of its cell and of the cells beside it, so two fields can share
+ * a node only where their cells lie within two of each other along every axis. */
 #include "mpm/memory/store.h"
 
 enum { REACH = 2 }; /* cells */
 
-uint64_t meeting_occupied(const brick *b)
+uint64_t mpm_occupied_cells(const brick *b)
 {
     uint64_t cells = 0;
     for (int c = 0; c < BRICK_CELLS; c++) cells |= (uint64_t)(b->head[c] >= 0) << c;
     return cells;
 }
 
-/* A brick's cells (bits) that lie within REACH of the given ones along axis k, those of the bricks before and after included. */
+/* A brick's cells (bits) that lie within REACH of the given ones along axis k, those of the bricks before and after
+ * included. */
 static uint64_t spread(int k, uint64_t before, uint64_t here, uint64_t after)
 {
     static const uint64_t first_layer[3] = { 0x1111111111111111, 0x000f000f000f000f, 0xffff };
@@ -41,7 +42,7 @@ static uint64_t others_at(const mpm *m, const brick *b, const int step[3])
     return cells;
 }
 
-uint64_t meeting_cells(const mpm *m, const brick *b)
+uint64_t mpm_contact_cells(const mpm *m, const brick *b)
 {
     uint64_t plane[3];
     for (int z = 0; z < 3; z++) {

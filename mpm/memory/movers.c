@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool movers_reserve(mover_list *list, int more)
+bool mpm_movers_reserve(mover_list *list, int more)
 {
     if (list->count + more <= list->capacity) return true;
     const int capacity = 2 * list->capacity + more + 1024;
@@ -21,17 +21,18 @@ bool movers_reserve(mover_list *list, int more)
     return true;
 }
 
-/* New cell of a particle near (ci, cj, ck); false when it has left the window.  One that comes to a level that is amid a step stays in
- * the last cell of its own: by less than half a cell it is beyond, and has the weights of that cell there. */
+/* New cell of a particle near (ci, cj, ck); false when it has left the window.  One that comes to a level that is amid
+ * a step stays in the last cell of its own: by less than half a cell it is beyond, and has the weights of that cell
+ * there. */
 static bool find_cell(const mpm *m, const brick *b, const int cell[3], const double *x, mover_head *h)
 {
     int step = 0, place[3];
-    h->level = b->at_seam ? grids_level(&m->grids, x) : b->level;
+    h->level = b->at_seam ? mpm_grids_level(&m->grids, x) : b->level;
     const bool stays = h->level > m->ends;
     if (stays) h->level = b->level;
     if (h->level != b->level) {
         h->brick_step = CROSSES;
-        h->cell = store_cell_at(m, h->level, x, h->at);
+        h->cell = mpm_store_cell_at(m, h->level, x, h->at);
         return h->cell >= 0;
     }
     for (int k = 0, scale = 1; k < 3; k++, scale *= 3) {
@@ -50,7 +51,8 @@ static bool find_cell(const mpm *m, const brick *b, const int cell[3], const dou
     return true;
 }
 
-/* Vapour and dust: what no law here describes is taken out and booked, not kept as a hot, thin film between the bodies. */
+/* Vapour and dust: what no law here describes is taken out and booked, not kept as a hot, thin film between the bodies.
+ */
 static bool erodes(const law *k, const double *q)
 {
     const bool loose = q[FIRST_damage] >= 1 || q[FIRST_T] >= k->T_m;
@@ -62,12 +64,13 @@ static void send(mpm *m, brick *b, const int cell[3], int body, const double *q)
     mover_list *list = &m->movers[b->movers_thread];
     mover_head h = { .body = body };
     if (!find_cell(m, b, cell, q + FIRST_x, &h)) {
-        particle_leave(q, level_dt(m, b->level), &b->sum.left);
+        mpm_point_departure(q, level_dt(m, b->level), &b->sum.left);
         return;
     }
     list->head[list->count] = h;
     memcpy(list->data[list->count], q, sizeof list->data[0]);
-    if (h.brick_step == CROSSES) particle_restep(list->data[list->count], level_dt(m, b->level), level_dt(m, h.level));
+    if (h.brick_step == CROSSES)
+        mpm_point_rescale_step(list->data[list->count], level_dt(m, b->level), level_dt(m, h.level));
     list->count++;
     b->movers++;
     b->mover_steps |= 1u << h.brick_step;
@@ -90,7 +93,7 @@ static void drop_lane(block *q, block_link *link, brick *b, int lane)
     b->particles--;
 }
 
-void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving)
+void mpm_movers_take(mpm *m, brick *b, int cell, int block_index, int leaving)
 {
     const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
     block *q = &m->blocks[block_index];
@@ -102,14 +105,14 @@ void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving)
         for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][lane];
         const int k = axis_to_split(m, b, at, one);
         if (erodes(&m->laws[link->body], one)) {
-            particle_leave(one, level_dt(m, b->level), &b->sum.left);
+            mpm_point_departure(one, level_dt(m, b->level), &b->sum.left);
             b->sum.eroded++;
             b->sum.eroded_mass += one[FIRST_mass];
             drop_lane(q, link, b, lane);
             continue;
         }
         if (k >= 0) {
-            particle_halve(one, other, k);
+            mpm_point_halve(one, other, k);
             send(m, b, at, link->body, other);
             b->sum.splits++;
         }
@@ -125,7 +128,7 @@ static void tidy_cell(mpm *m, brick *b, int cell)
         const int i = *link;
         if (m->links[i].mask == 0) {
             *link = m->links[i].next;
-            store_release(m, i);
+            mpm_store_release(m, i);
             b->blocks--;
         } else {
             link = &m->links[i].next;
@@ -153,9 +156,9 @@ static void merge_cell(mpm *m, brick *b, int cell)
         double one[BLOCK_DOUBLES];
         for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][lane];
         b->particles--;
-        store_insert(m, b, cell, m->links[last].body, one);
+        mpm_store_insert(m, b, cell, m->links[last].body, one);
     }
-    store_release(m, last);
+    mpm_store_release(m, last);
 }
 
 /* Takes this brick's arrivals from its neighbours; false when the blocks ran out. */
@@ -172,7 +175,7 @@ static bool arrive(mpm *m, brick *b)
         for (int i = from->movers_first; i < from->movers_first + from->movers; i++) {
             const mover_head *h = &list->head[i];
             if (h->brick_step != towards) continue;
-            if (store_insert(m, b, h->cell, h->body, list->data[i]) < 0) enough = false;
+            if (mpm_store_insert(m, b, h->cell, h->body, list->data[i]) < 0) enough = false;
             dirty |= 1ull << h->cell;
         }
     }
@@ -200,17 +203,17 @@ static status each_crossing(mpm *m, crosser *each, bool *changed)
 static status open_across(mpm *m, const mover_list *list, int i, int field, bool *changed)
 {
     int to;
-    TRY(store_brick(m, field, list->head[i].level, list->head[i].at, &to));
+    TRY(mpm_store_brick(m, field, list->head[i].level, list->head[i].at, &to));
     if (m->bricks[to].out) return status_ok();
     *changed = true;
-    return store_surround(m, to);
+    return mpm_store_surround(m, to);
 }
 
 static status arrive_across(mpm *m, const mover_list *list, int i, int field, bool *changed)
 {
     brick *b = &m->bricks[brick_at(m, field, list->head[i].level, list->head[i].at)];
     *changed = *changed || b->particles == 0;
-    const int q = store_insert(m, b, list->head[i].cell, list->head[i].body, list->data[i]);
+    const int q = mpm_store_insert(m, b, list->head[i].cell, list->head[i].body, list->data[i]);
     CHECK(q >= 0, STATUS_MEMORY, "the particle blocks ran out where the grids' levels meet: use larger cells");
     b->occupied |= 1ull << list->head[i].cell;
     return status_ok();
@@ -227,19 +230,19 @@ static status open_bricks(mpm *m, bool *changed)
             if (!(m->bricks[i].mover_steps >> step & 1)) continue;
             const int to = m->bricks[i].neighbour[step];
             if (m->bricks[to].out) continue;
-            TRY(store_surround(m, to));
+            TRY(mpm_store_surround(m, to));
             *changed = true;
         }
     }
     return status_ok();
 }
 
-status movers_exchange(mpm *m)
+status mpm_movers_exchange(mpm *m)
 {
     bool changed = false, enough = true, relink = false;
     TRY(open_bricks(m, &changed));
-    if (changed) TRY(store_relink(m));
-    TRY(store_reserve(m, 0));
+    if (changed) TRY(mpm_store_relink(m));
+    TRY(mpm_store_reserve(m, 0));
 #pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads) reduction(&& : enough) reduction(|| : relink)
     for (int i = 0; i < m->bricks_used; i++) {
         brick *b = &m->bricks[i];
@@ -247,11 +250,11 @@ status movers_exchange(mpm *m)
         if (b->mover_steps || b->sum.left.count)
             for (int c = 0; c < BRICK_CELLS; c++) tidy_cell(m, b, c);
         enough = arrive(m, b) && enough;
-        b->occupied = meeting_occupied(b);
+        b->occupied = mpm_occupied_cells(b);
         relink = relink || (b->sum.particles > 0) != (b->particles > 0); /* filled or emptied by this step */
     }
     TRY(each_crossing(m, arrive_across, &relink));
-    if (relink) TRY(store_relink(m));
+    if (relink) TRY(mpm_store_relink(m));
     CHECK(enough, STATUS_MEMORY,
           "the particle blocks ran out within one step at t = %g s; this is a limit of the solver: use larger cells",
           m->time);

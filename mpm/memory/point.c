@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Two halves along axis k: mass, momentum and energy as before (what the gradient part lacks comes out of e). */
-void particle_halve(double *q, double *other, int k)
+void mpm_point_halve(double *q, double *other, int k)
 {
     const double d = 0.5 * q[FIRST_half + k];
     double square = 0;
@@ -32,8 +32,8 @@ static double ahead_of(const double *q, double dt)
 }
 
 /* Means by mass, but stresses by volume; lengths along k add up, and the energy of the relative motion goes where
- * particle_halve takes it from.  The mean stress does other work ahead than the two: the rest of it is heat. */
-void particle_merge(double *q, const double *other, int k, double dt)
+ * mpm_point_halve takes it from.  The mean stress does other work ahead than the two: the rest of it is heat. */
+void mpm_point_merge(double *q, const double *other, int k, double dt)
 {
     const double m = q[FIRST_mass] + other[FIRST_mass], share = other[FIRST_mass] / m;
     const double v0 = q[FIRST_mass] / q[FIRST_rho], v1 = other[FIRST_mass] / other[FIRST_rho];
@@ -53,12 +53,12 @@ void particle_merge(double *q, const double *other, int k, double dt)
     q[FIRST_e] += ahead_of(q, dt) - ahead;
 }
 
-void particle_restep(double *q, double dt, double other)
+void mpm_point_rescale_step(double *q, double dt, double other)
 {
     q[FIRST_e] += ahead_of(q, other) - ahead_of(q, dt);
 }
 
-void particle_leave(const double *q, double dt, departure *sum)
+void mpm_point_departure(const double *q, double dt, departure *sum)
 {
     const double m = q[FIRST_mass], *v = q + FIRST_v;
     sum->count++;

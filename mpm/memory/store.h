@@ -1,12 +1,13 @@
 /* The solver's memory: particles in blocks of eight, blocks chained by cell, cells in bricks of 4 x 4 x 4.
  *
  *   block   8 particles of one body and one cell, array of structures of arrays; holes have mass 0
- *   brick   64 cells of one velocity field; `out` are the node sums of its own particles on its 6 x 6 x 6 nodes (own nodes
+ *   brick   64 cells of one velocity field; `out` are the node sums of its own particles on its 6 x 6 x 6 nodes (own
+ *   nodes
  *           and one layer around), `mpm.nodes` the velocities of its own 4 x 4 x 4 nodes
  *   site    the bricks of all fields at one place of one level of the nested grids (grid.h)
- * A step (mpm.c) of a level: P2G over bricks -> sums over sites, contact, boundaries -> G2P over bricks -> movers change cells.
- * Every phase reads what the last one wrote and writes only its own brick, in an order that no thread changes: the
- * same bits on any number of threads. */
+ * A step (mpm.c) of a level: P2G over bricks -> sums over sites, contact, boundaries -> G2P over bricks -> movers
+ * change cells. Every phase reads what the last one wrote and writes only its own brick, in an order that no thread
+ * changes: the same bits on any number of threads. */
 #ifndef BREECH_MPM_STORE_H
 #define BREECH_MPM_STORE_H
 
@@ -34,7 +35,8 @@ static inline int share_begin(int bricks, int share)
     return (int)((int64_t)bricks * share / SHARES);
 }
 
-/* One list makes the block, the copies of single particles and the checkpoint.  P2G reads what comes before e, G2P all before start. */
+/* One list makes the block, the copies of single particles and the checkpoint.  P2G reads what comes before e, G2P all
+ * before start. */
 #define BLOCK_FIELDS(FIELD)                                                    \
     FIELD(x, 3)      /* position [m] */                                        \
     FIELD(v, 3)      /* velocity [m/s] */                                      \
@@ -111,7 +113,8 @@ typedef struct {
     uint64_t twice_finer; /* those of follow_finer where the node that they follow leads a still finer level */
 } seam_nodes;
 
-/* What a brick's particles gave to its nodes, while a finer level makes several steps with those that both share (shares.c). */
+/* What a brick's particles gave to its nodes, while a finer level makes several steps with those that both share
+ * (shares.c). */
 typedef struct {
     double line[2 * BRICK_CELLS][LINE]; /* as brick.line; of shared nodes as their last step left it */
     double drift[BRICK_CELLS][3];       /* velocity that is still to be added for the particles [m/s] */
@@ -200,60 +203,63 @@ struct kernels {
 };
 
 /* The kernels for this machine, or those named (NULL = best); NULL if it cannot run them. */
-const kernels *kernels_choose(const char *name);
+const kernels *mpm_kernels_choose(const char *name);
 
 /* bricks.c */
-status store_make(mpm *m, int blocks);
+status mpm_store_make(mpm *m, int blocks);
 /* An empty directory for the axes as they are now; forgets the bricks, keeps the blocks. */
-status store_new_grid(mpm *m);
-status store_settle(mpm *m); /* after filling: neighbours, order in memory, room for the next step */
-void store_free_brick(brick *b);
-void store_release(mpm *m, int block_index);         /* back to the free blocks */
-void store_release_cell(mpm *m, brick *b, int cell); /* all blocks of a cell */
-void store_free(mpm *m);
-status store_brick(mpm *m, int field, int level, const int at[3], int *out); /* finds or makes it */
-status store_open(brick *b);                                                 /* memory for the sums of its particles */
-status store_empty(mpm *m, int blocks);                                      /* no bricks, room for so many blocks */
-status store_surround(mpm *m, int brick_index); /* makes its 26 neighbours inside the window */
-status store_relink(mpm *m);                    /* neighbours, contact flags, site list */
-status store_surround_all(mpm *m);
-status store_reserve(mpm *m, int blocks); /* so many free blocks, and those for the next step */
-status store_compact(mpm *m);             /* blocks into the order of bricks and cells */
-int store_insert(mpm *m, brick *b, int cell, int body, const double *particle); /* block, or -1 when none is free */
+status mpm_store_new_grid(mpm *m);
+status mpm_store_settle(mpm *m); /* after filling: neighbours, order in memory, room for the next step */
+void mpm_store_free_brick(brick *b);
+void mpm_store_release(mpm *m, int block_index);         /* back to the free blocks */
+void mpm_store_release_cell(mpm *m, brick *b, int cell); /* all blocks of a cell */
+void mpm_store_free(mpm *m);
+status mpm_store_brick(mpm *m, int field, int level, const int at[3], int *out); /* finds or makes it */
+status mpm_store_open(brick *b);                    /* memory for the sums of its particles */
+status mpm_store_empty(mpm *m, int blocks);         /* no bricks, room for so many blocks */
+status mpm_store_surround(mpm *m, int brick_index); /* makes its 26 neighbours inside the window */
+status mpm_store_relink(mpm *m);                    /* neighbours, contact flags, site list */
+status mpm_store_surround_all(mpm *m);
+status mpm_store_reserve(mpm *m, int blocks); /* so many free blocks, and those for the next step */
+status mpm_store_compact(mpm *m);             /* blocks into the order of bricks and cells */
+int mpm_store_insert(mpm *m, brick *b, int cell, int body, const double *particle); /* block, or -1 when none is free */
 
-status store_place(mpm *m, int body, const double *particle); /* makes its brick if need be; outside any step */
-int store_cell_at(const mpm *m, int level, const double x[3], int at[3]); /* cell and its brick's place; -1: outside */
+status mpm_store_place(mpm *m, int body, const double *particle); /* makes its brick if need be; outside any step */
+int mpm_store_cell_at(const mpm *m, int level, const double x[3],
+                      int at[3]); /* cell and its brick's place; -1: outside */
 
 /* seams.c: nodes that two levels share */
-seam_nodes seams_of(const mpm *m, int level, const int at[3]); /* of a brick at this place */
-status seams_answer(mpm *m, const brick *b);   /* makes the bricks that a brick's particles need in other levels */
-bool seams_meet(const mpm *m, const brick *b); /* brick.across */
-void seams_receive(mpm *m, int site);          /* adds to brick.line what nodes of other levels hand on */
-void seams_follow(mpm *m, int site);           /* velocities of the nodes that follow another level */
+seam_nodes mpm_interface_nodes(const mpm *m, int level, const int at[3]); /* of a brick at this place */
+status mpm_interface_make_bricks(mpm *m,
+                                 const brick *b); /* makes the bricks that a brick's particles need in other levels */
+bool mpm_interface_in_contact(const mpm *m, const brick *b); /* brick.across */
+void mpm_interface_add_sums(mpm *m, int site);               /* adds to brick.line what nodes of other levels hand on */
+void mpm_interface_constrain(mpm *m, int site);              /* velocities of the nodes that follow another level */
 /* Change of the motion from one node to the next along axis k, from nodes of more mass than `least` [kg]. */
-void seams_slope(const mpm *m, const brick *b, int cell, int k, double least, double slope[3]);
+void mpm_interface_slope(const mpm *m, const brick *b, int cell, int k, double least, double slope[3]);
 
 /* shares.c: nodes that a level shares with a finer one make the steps of that */
-uint64_t shares_due(const mpm *m, const brick *b); /* nodes that end a step with the finest level's that is under way */
-double shares_dt(const mpm *m, const brick *b, int cell); /* of a node's step [s] */
-void shares_lay_out(mpm *m, int site);                    /* brick.line as brick.held has it */
-void shares_take_back(mpm *m, int site); /* into brick.held, or for its particles, what a step has made of it */
+uint64_t mpm_substep_due(const mpm *m,
+                         const brick *b); /* nodes that end a step with the finest level's that is under way */
+double mpm_substep_dt(const mpm *m, const brick *b, int cell); /* of a node's step [s] */
+void mpm_substep_restore(mpm *m, int site);                    /* brick.line as brick.held has it */
+void mpm_substep_store(mpm *m, int site); /* into brick.held, or for its particles, what a step has made of it */
 
 /* meeting.c */
-uint64_t meeting_occupied(const brick *b);
-uint64_t meeting_cells(const mpm *m, const brick *b); /* brick.meets from what is occupied around */
+uint64_t mpm_occupied_cells(const brick *b);
+uint64_t mpm_contact_cells(const mpm *m, const brick *b); /* brick.meets from what is occupied around */
 
 /* image.c */
-uint64_t image_scene_key(const mpm *m); /* before the fine zone has moved */
+uint64_t mpm_scene_key(const mpm *m); /* before the fine zone has moved */
 
 /* particle.c: one particle's BLOCK_DOUBLES */
-void particle_halve(double *q, double *other, int k);
-void particle_merge(double *q, const double *other, int k, double dt); /* the inverse: q takes other in */
-void particle_leave(const double *q, double dt, departure *sum);       /* dt: of the last step [s] */
-void particle_restep(double *q, double dt, double other);              /* its last step counts as one of `other` [s] */
+void mpm_point_halve(double *q, double *other, int k);
+void mpm_point_merge(double *q, const double *other, int k, double dt); /* the inverse: q takes other in */
+void mpm_point_departure(const double *q, double dt, departure *sum);   /* dt: of the last step [s] */
+void mpm_point_rescale_step(double *q, double dt, double other);        /* its last step counts as one of `other` [s] */
 
-/* Work of the stress that a particle has booked at the end of a step and the nodes will do before the next forces (p2g.c):
- * dt/2 sigma:L / rho [J/kg]. */
+/* Work of the stress that a particle has booked at the end of a step and the nodes will do before the next forces
+ * (p2g.c): dt/2 sigma:L / rho [J/kg]. */
 static inline double work_ahead(const double s[6], double p, const double L[9], double rho, double dt)
 {
     const double deviator =
@@ -264,31 +270,31 @@ static inline double work_ahead(const double s[6], double p, const double L[9], 
 /* mpm.c */
 void mpm_book_departure(mpm *m, const departure *d);
 
-/* front.c: the power that ploughs the followed bodies; all but a twentieth of it lies behind the front, and all but a twentieth
- * within the half width of the fine zone's middle */
+/* front.c: the power that ploughs the followed bodies; all but a twentieth of it lies behind the front, and all but a
+ * twentieth within the half width of the fine zone's middle */
 typedef struct {
     double front, power, half_width; /* [m, W, m] */
 } plough;
-plough plough_find(const mpm *m);
+plough mpm_plastic_front_find(const mpm *m);
 
 /* zone.c */
-zone zone_of(const mpm *m);
+zone mpm_zone_of(const mpm *m);
 /* Of the fine zone across: its middle, and how far it reaches [m] */
-void zone_across(const mpm_scene *s, double *middle, double *half);
+void mpm_zone_across(const mpm_scene *s, double *middle, double *half);
 /* Its ends with at most `more` on either side, and no more than follow_width and the window allow [m] */
-void zone_widen(const mpm_scene *s, double more, double *lo, double *hi);
-status zone_follow(mpm *m); /* goes after the plastic front, if it has come near the fine zone's end */
+void mpm_zone_widen(const mpm_scene *s, double more, double *lo, double *hi);
+status mpm_zone_follow(mpm *m); /* goes after the plastic front, if it has come near the fine zone's end */
 /* New grids; all particles into their bricks, split and merged to fit; to be settled. */
-status zone_regrid(mpm *m, zone z);
+status mpm_zone_regrid(mpm *m, zone z);
 
 /* read.c */
 void mpm_sample_percentiles(mpm *m);
 size_t mpm_histogram_bytes(void);
 
 /* movers.c */
-status movers_exchange(mpm *m); /* all movers into their new cells; makes bricks as needed */
-void movers_take(mpm *m, brick *b, int cell, int block_index, int leaving);
-bool movers_reserve(mover_list *list, int more);
+status mpm_movers_exchange(mpm *m); /* all movers into their new cells; makes bricks as needed */
+void mpm_movers_take(mpm *m, brick *b, int cell, int block_index, int leaving);
+bool mpm_movers_reserve(mover_list *list, int more);
 
 static inline int site_index(const mpm *m, int level, const int at[3])
 {
@@ -296,7 +302,8 @@ static inline int site_index(const mpm *m, int level, const int at[3])
     return g->first_site + (at[2] * g->axes[1].bricks + at[1]) * g->axes[0].bricks + at[0];
 }
 
-/* Velocities and energies of a brick's own nodes.  In one array, so that those of 27 bricks are found without reading the bricks. */
+/* Velocities and energies of a brick's own nodes.  In one array, so that those of 27 bricks are found without reading
+ * the bricks. */
 static inline double (*brick_nodes(const mpm *m, const brick *b))[NODE]
 {
     return m->nodes[b - m->bricks];

@@ -1,7 +1,7 @@
 /* Checkpoints and estimates.
  *
- * An image is one flat run of bytes: a header, the books, then every brick in its order with its chains of blocks as they
- * lie, holes included: a restored solver goes on with the same bits. */
+ * An image is one flat run of bytes: a header, the books, then every brick in its order with its chains of blocks as
+ * they lie, holes included: a restored solver goes on with the same bits. */
 #include "mpm/memory/build.h"
 #include "mpm/memory/store.h"
 
@@ -57,7 +57,7 @@ static uint64_t hash_axis(uint64_t h, const mpm_axis *s, const axis *a)
     return hash(h, numbers, sizeof numbers);
 }
 
-uint64_t image_scene_key(const mpm *m)
+uint64_t mpm_scene_key(const mpm *m)
 {
     const mpm_scene *s = &m->scene;
     uint64_t h = 14695981039346656037ull;
@@ -121,7 +121,7 @@ status mpm_save(const mpm *m, void **image, size_t *bytes)
     head.steps = m->steps;
     memcpy(head.force_sum, m->force_sum, sizeof head.force_sum);
     head.wake = m->wake.n, head.wake_until = m->wake.until;
-    memcpy(head.zone, zone_of(m).at, sizeof head.zone);
+    memcpy(head.zone, mpm_zone_of(m).at, sizeof head.zone);
     head.bricks = m->bricks_used, head.blocks = blocks;
     to = put(to, &head, sizeof head);
     to = put(to, &m->ledger, sizeof m->ledger);
@@ -147,7 +147,7 @@ static bool get(reader *r, void *to, size_t bytes)
 
 static status cut_short(void)
 {
-    return status_error(STATUS_IO, "the checkpoint is cut short or damaged");
+    return base_status_error(STATUS_IO, "the checkpoint is cut short or damaged");
 }
 
 static status get_cell(mpm *m, brick *b, int cell, int blocks, reader *r)
@@ -180,10 +180,10 @@ static status get_brick(mpm *m, reader *r)
         CHECK(head.at[k] >= 0 && head.at[k] < m->grids.level[head.level].axes[k].bricks, STATUS_IO,
               "the checkpoint holds a place outside the window");
     CHECK(head.field >= 0 && head.field < m->fields, STATUS_IO, "the checkpoint holds a field that the scene lacks");
-    TRY(store_brick(m, head.field, head.level, head.at, &index));
+    TRY(mpm_store_brick(m, head.field, head.level, head.at, &index));
     brick *b = &m->bricks[index];
     b->particles = head.particles;
-    if (head.has_out) TRY(store_open(b));
+    if (head.has_out) TRY(mpm_store_open(b));
     for (int c = 0; c < BRICK_CELLS; c++) TRY(get_cell(m, b, c, head.blocks[c], r));
     return status_ok();
 }
@@ -218,18 +218,18 @@ status mpm_restore(mpm *m, const void *image, size_t bytes)
     image_head head;
     if (!get(&r, &head, sizeof head)) return cut_short();
     TRY(check_head(m, &head, bytes));
-    TRY(store_empty(m, head.blocks));
+    TRY(mpm_store_empty(m, head.blocks));
     zone z;
     memcpy(z.at, head.zone, sizeof z.at);
-    TRY(zone_regrid(m, z));
+    TRY(mpm_zone_regrid(m, z));
     if (!get(&r, &m->ledger, sizeof m->ledger) || !get(&r, &m->report, sizeof m->report)) return cut_short();
     TRY(get_wake(m, &head, &r));
     for (int i = 0; i < head.bricks; i++) TRY(get_brick(m, &r));
     m->time = head.time, m->dt = head.dt, m->dt_last = head.dt_last, m->dense_steps = head.dense_steps,
     m->steps = head.steps;
     memcpy(m->force_sum, head.force_sum, sizeof head.force_sum);
-    TRY(store_relink(m));
-    return store_reserve(m, 0);
+    TRY(mpm_store_relink(m));
+    return mpm_store_reserve(m, 0);
 }
 
 /* ---- estimate ---- */
@@ -245,7 +245,7 @@ static status count_point(void *user, int body, const build_point *p)
     (void)body;
     counting *c = user;
     c->particles++;
-    c->work += 1.0 / (1 << grids_level(c->grids, p->x));
+    c->work += 1.0 / (1 << mpm_grids_level(c->grids, p->x));
     return status_ok();
 }
 
@@ -256,8 +256,8 @@ static status count(const mpm_scene *s, const grids *g, counting *c, double *dt)
     const build_sink sink = { count_point, c };
     for (int i = 0; i < s->bodies; i++) {
         law k;
-        TRY(law_make(&s->body[i], s, &k));
-        TRY(build_body(s, i, &k, g, build_everywhere, &sink));
+        TRY(mpm_law_make(&s->body[i], s, &k));
+        TRY(mpm_build_body(s, i, &k, g, mpm_build_everywhere, &sink));
         const double sound = sqrt((k.K0 + 4.0 / 3.0 * k.G) / k.rho0);
         for (int q = 0; q < 3; q++)
             fastest = fmax(fastest, (sound + fabs(s->body[i].velocity[q])) / g->level[0].axes[q].smallest);
@@ -269,13 +269,13 @@ static status count(const mpm_scene *s, const grids *g, counting *c, double *dt)
 status mpm_estimate(const mpm_scene *scene, mpm_needs *needs)
 {
     mpm_scene at[2] = { *scene, *scene };
-    zone_widen(scene, HUGE_VAL, &at[1].axis[2].fine_lo, &at[1].axis[2].fine_hi);
+    mpm_zone_widen(scene, HUGE_VAL, &at[1].axis[2].fine_lo, &at[1].axis[2].fine_hi);
     for (int i = 0; i < 2; i++) {
         grids g;
         counting c;
-        TRY(grids_make(&at[i], &g));
+        TRY(mpm_grids_make(&at[i], &g));
         const status s = count(&at[i], &g, &c, &needs->dt);
-        grids_free(&g);
+        mpm_grids_free(&g);
         TRY(s);
         needs->particles[i] = c.particles, needs->work[i] = c.work;
         needs->bytes[i] = MPM_BYTES + c.particles * MPM_BYTES_A_PARTICLE;

@@ -25,7 +25,8 @@ static void visit(const mpm *m, block_visitor *each, void *user)
     visit_bricks(m, 0, m->bricks_used, each, user);
 }
 
-/* Each share of the bricks on its own, by all threads: `sums` are SHARES of `bytes`, for the caller to add up in order. */
+/* Each share of the bricks on its own, by all threads: `sums` are SHARES of `bytes`, for the caller to add up in order.
+ */
 static void visit_shares(const mpm *m, block_visitor *each, void *sums, size_t bytes)
 {
 #pragma omp parallel for schedule(dynamic) num_threads(m->threads)
@@ -34,7 +35,8 @@ static void visit_shares(const mpm *m, block_visitor *each, void *sums, size_t b
                      (char *)sums + (size_t)i * bytes);
 }
 
-/* Sums of the books.  Millions of equal terms round the same way each time: what is lost is carried along (Neumaier 1974). */
+/* Sums of the books.  Millions of equal terms round the same way each time: what is lost is carried along (Neumaier
+ * 1974). */
 enum { BOOK_MASS, BOOK_KINETIC, BOOK_INTERNAL, BOOK_AHEAD, BOOK_MOMENTUM, BOOKS = BOOK_MOMENTUM + 3 };
 
 typedef struct {
@@ -164,7 +166,7 @@ const mpm_wake *mpm_wake_of(const mpm *m)
 
 const char *mpm_instruction_set(void)
 {
-    return kernels_choose(NULL)->name;
+    return mpm_kernels_choose(NULL)->name;
 }
 
 size_t mpm_particles(const mpm *m)

@@ -1,7 +1,8 @@
-/* Where the rail is ploughed: the plastic power of the followed bodies in the fine zone, slice by slice along x and across.
+/* Where the rail is ploughed: the plastic power of the followed bodies in the fine zone, slice by slice along x and
+ * across.
  *
- * The edge of a slider that is pressed on ploughs over the whole width, a groove does not: what counts is the power beyond
- * what the same metal takes in the zone's rim, its outer quarter on either side, in cells of the same size. */
+ * The edge of a slider that is pressed on ploughs over the whole width, a groove does not: what counts is the power
+ * beyond what the same metal takes in the zone's rim, its outer quarter on either side, in cells of the same size. */
 #include "mpm/memory/store.h"
 
 #include <math.h>
@@ -129,12 +130,12 @@ static double find_width(const profile *p)
     return (i + 1.0) / ACROSS;
 }
 
-plough plough_find(const mpm *m)
+plough mpm_plastic_front_find(const mpm *m)
 {
     const mpm_axis *s = &m->scene.axis[0];
     plough r = { .front = s->lo };
     profile p = { .lo = s->lo, .width = 2 * s->fine, .n = (int)((s->hi - s->lo) / (2 * s->fine)) + 1 };
-    zone_across(&m->scene, &p.middle, &p.half);
+    mpm_zone_across(&m->scene, &p.middle, &p.half);
     p.sums = calloc((size_t)sums_of(&p) * SHARES, sizeof *p.sums);
     if (!p.sums) return r;
     add_bodies(m, &p);

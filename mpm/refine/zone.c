@@ -92,7 +92,7 @@ static void merge_along(gathering *g, int along, double longest, double dt)
         for (int i = 0; i < g->n; i++) {
             const int j = partner(g, i, along, longest);
             if (j < 0) continue;
-            particle_merge(g->data[i], g->data[j], along, dt);
+            mpm_point_merge(g->data[i], g->data[j], along, dt);
             g->n--;
             g->body[j] = g->body[g->n];
             memcpy(g->data[j], g->data[g->n], sizeof g->data[j]);
@@ -118,12 +118,14 @@ static bool merge_cell(mpm *m, brick *b, int cell, const double longest[3], gath
     if (!gather_cell(m, b, cell, true, g)) return false;
     for (int k = 0; k < 3; k++) merge_along(g, k, longest[k], level_dt_last(m, b->level));
     b->particles -= g->n + g->merged;
-    store_release_cell(m, b, cell);
-    for (int i = 0; i < g->n; i++) store_insert(m, b, cell, g->body[i], g->data[i]); /* fits: less than was released */
+    mpm_store_release_cell(m, b, cell);
+    for (int i = 0; i < g->n; i++)
+        mpm_store_insert(m, b, cell, g->body[i], g->data[i]); /* fits: less than was released */
     return true;
 }
 
-/* How long points may become by merging in a brick's cells along each axis; 0 where cells are no larger than fine ones. */
+/* How long points may become by merging in a brick's cells along each axis; 0 where cells are no larger than fine ones.
+ */
 static bool merge_lengths(const mpm *m, const brick *b, double longest[3][BRICK])
 {
     bool any = false;
@@ -193,7 +195,8 @@ static status wake_point(mpm *m, const block *q, int lane, int body, double x)
     return status_ok();
 }
 
-/* What lies beyond x moves on for a while: without the overlap a crack would open there, as deep as that motion goes. */
+/* What lies beyond x moves on for a while: without the overlap a crack would open there, as deep as that motion goes.
+ */
 static void reach_over_seam(const mpm *m, size_t first, double x)
 {
     const double cell = m->scene.axis[0].fine;
@@ -245,22 +248,22 @@ static int too_long(const mpm *m, const mover_head *h, const double *q)
     return -1;
 }
 
-/* Notes where a point goes, halved until its new cell bears it.  What the new window leaves out is gone, and so is what lies
- * beyond the cells of its level: no cell.  False: no memory. */
+/* Notes where a point goes, halved until its new cell bears it.  What the new window leaves out is gone, and so is what
+ * lies beyond the cells of its level: no cell.  False: no memory. */
 static bool send_off(mpm *m, brick *old, int body, double *q)
 {
     mover_list *to = &m->movers[old->movers_thread];
-    mover_head h = { .body = body, .level = grids_level(&m->grids, q + FIRST_x) };
-    h.cell = store_cell_at(m, h.level, q + FIRST_x, h.at);
+    mover_head h = { .body = body, .level = mpm_grids_level(&m->grids, q + FIRST_x) };
+    h.cell = mpm_store_cell_at(m, h.level, q + FIRST_x, h.at);
     const int k = h.cell >= 0 ? too_long(m, &h, q) : -1;
     if (k >= 0) {
         double other[BLOCK_DOUBLES];
-        particle_halve(q, other, k);
+        mpm_point_halve(q, other, k);
         old->sum.splits++;
         return send_off(m, old, body, other) && send_off(m, old, body, q);
     }
-    if (!movers_reserve(to, 1)) return false;
-    if (h.cell >= 0) particle_restep(q, level_dt_last(m, old->level), level_dt_last(m, h.level));
+    if (!mpm_movers_reserve(to, 1)) return false;
+    if (h.cell >= 0) mpm_point_rescale_step(q, level_dt_last(m, old->level), level_dt_last(m, h.level));
     to->head[to->count] = h;
     memcpy(to->data[to->count++], q, sizeof to->data[0]);
     old->movers++;
@@ -282,13 +285,13 @@ static bool empty_brick(mpm *m, brick *old)
                 enough = send_off(m, old, m->links[q].body, one) && enough;
             }
         }
-        store_release_cell(m, old, c);
+        mpm_store_release_cell(m, old, c);
     }
     return enough;
 }
 
-/* Bricks for the points that come from an old one, and a bound on the blocks they take: each run of points to one cell its own.
- * Points that have no cell are booked as gone. */
+/* Bricks for the points that come from an old one, and a bound on the blocks they take: each run of points to one cell
+ * its own. Points that have no cell are booked as gone. */
 static status receive(mpm *m, const brick *old, int *blocks)
 {
     const mover_list *list = &m->movers[old->movers_thread];
@@ -299,17 +302,18 @@ static status receive(mpm *m, const brick *old, int *blocks)
         if (h->cell >= 0) {
             run = i > old->movers_first && memcmp(h, h - 1, sizeof *h) == 0 ? run + 1 : 0;
             *blocks += run % LANES == 0;
-            if (run == 0) TRY(store_brick(m, old->field, h->level, h->at, &found));
+            if (run == 0) TRY(mpm_store_brick(m, old->field, h->level, h->at, &found));
             continue;
         }
         departure d = { .count = 0 };
-        particle_leave(list->data[i], level_dt_last(m, old->level), &d);
+        mpm_point_departure(list->data[i], level_dt_last(m, old->level), &d);
         mpm_book_departure(m, &d);
     }
     return status_ok();
 }
 
-/* Every thread looks at all points and takes those of its own bricks: in each brick they come in the order of the old ones. */
+/* Every thread looks at all points and takes those of its own bricks: in each brick they come in the order of the old
+ * ones. */
 static bool fill_bricks(mpm *m, const brick *old, int n)
 {
     const int me = omp_get_thread_num(), threads = omp_get_num_threads();
@@ -320,7 +324,7 @@ static bool fill_bricks(mpm *m, const brick *old, int n)
             const mover_head *h = &list->head[i];
             const int to = h->cell >= 0 ? brick_at(m, old[b].field, h->level, h->at) : -1;
             if (to < 0 || to % threads != me) continue;
-            enough = store_insert(m, &m->bricks[to], h->cell, h->body, list->data[i]) >= 0 && enough;
+            enough = mpm_store_insert(m, &m->bricks[to], h->cell, h->body, list->data[i]) >= 0 && enough;
         }
     }
     return enough;
@@ -335,7 +339,7 @@ static status move_over(mpm *m, brick *old, int n)
     for (int i = 0; i < n; i++) enough = empty_brick(m, &old[i]) && enough;
     CHECK(enough, STATUS_MEMORY, "no memory to move the fine zone");
     for (int i = 0; i < n; i++) TRY(receive(m, &old[i], &blocks));
-    TRY(store_reserve(m, blocks));
+    TRY(mpm_store_reserve(m, blocks));
 #pragma omp parallel num_threads(m->threads) reduction(&& : enough)
     enough = fill_bricks(m, old, n);
     CHECK(enough, STATUS_MEMORY, "no memory for the particles");
@@ -348,10 +352,10 @@ static status refill(mpm *m)
     enum { TOGETHER = 128 };
     brick *old = m->bricks;
     const int n = m->bricks_used;
-    status s = store_new_grid(m);
+    status s = mpm_store_new_grid(m);
     for (int i = 0; i < n && s.code == STATUS_OK; i += TOGETHER)
         s = move_over(m, &old[i], n - i < TOGETHER ? n - i : TOGETHER);
-    for (int i = 0; i < n; i++) store_free_brick(&old[i]);
+    for (int i = 0; i < n; i++) mpm_store_free_brick(&old[i]);
     free(old);
     return s;
 }
@@ -367,8 +371,8 @@ static status grow_point(void *user, int body, const build_point *p)
     growth *g = user;
     double q[BLOCK_DOUBLES];
     mpm_point_of(g->m, body, p, q);
-    particle_leave(q, 0, &g->brought);
-    return store_place(g->m, body, q);
+    mpm_point_departure(q, 0, &g->brought);
+    return mpm_store_place(g->m, body, q);
 }
 
 /* Fresh metal of the followed bodies, from the old window's upper end on. */
@@ -379,14 +383,14 @@ static status grow_in(mpm *m, double from)
     growth g = { .m = m };
     const build_sink sink = { grow_point, &g };
     for (int i = 0; i < m->scene.bodies; i++)
-        if (m->scene.follow_bodies >> i & 1) TRY(build_body(&m->scene, i, &m->laws[i], &m->grids, x, &sink));
+        if (m->scene.follow_bodies >> i & 1) TRY(mpm_build_body(&m->scene, i, &m->laws[i], &m->grids, x, &sink));
     m->ledger.mass_start += g.brought.mass;
     m->ledger.energy_start += g.brought.energy;
     for (int k = 0; k < 3; k++) m->ledger.momentum_start[k] += g.brought.momentum[k];
     return status_ok();
 }
 
-zone zone_of(const mpm *m)
+zone mpm_zone_of(const mpm *m)
 {
     const mpm_axis *s = &m->scene.axis[0];
     const mpm_axis *across = &m->scene.axis[2];
@@ -398,36 +402,36 @@ static bool is_half_model(const mpm_axis *across)
     return across->boundary[0] == BOUNDARY_SYMMETRY && across->fine_lo <= across->lo;
 }
 
-void zone_across(const mpm_scene *s, double *middle, double *half)
+void mpm_zone_across(const mpm_scene *s, double *middle, double *half)
 {
     const mpm_axis *z = &s->axis[2];
     *middle = is_half_model(z) ? z->fine_lo : 0.5 * (z->fine_lo + z->fine_hi); /* a half model's begins at its mirror */
     *half = z->fine_hi - *middle;
 }
 
-void zone_widen(const mpm_scene *s, double more, double *lo, double *hi)
+void mpm_zone_widen(const mpm_scene *s, double more, double *lo, double *hi)
 {
     const mpm_axis *z = &s->axis[2];
     const bool half_model = is_half_model(z);
     const double pair = (s->levels > 1 ? 2 : 1) * z->fine; /* of the cells around it the zone takes whole ones */
     const double end = half_model ? z->hi - z->fine_hi : fmin(z->hi - z->fine_hi, z->fine_lo - z->lo);
     double middle, half;
-    zone_across(s, &middle, &half);
-    const double room = fmin(s->follow_width - half, end - grids_margin(s->levels, z->fine));
+    mpm_zone_across(s, &middle, &half);
+    const double room = fmin(s->follow_width - half, end - mpm_grids_margin(s->levels, z->fine));
     const double wider = fmax(fmin(more, floor(room / pair + 1e-6) * pair), 0);
     *hi = z->fine_hi + wider;
     *lo = z->fine_lo - (half_model ? 0 : wider);
 }
 
-status zone_regrid(mpm *m, zone z)
+status mpm_zone_regrid(mpm *m, zone z)
 {
     mpm_axis *s = &m->scene.axis[0];
     grids made;
     s->fine_lo = z.at[0], s->fine_hi = z.at[0] + m->zone_length;
     s->lo = z.at[1], s->hi = z.at[2];
     m->scene.axis[2].fine_lo = z.at[3], m->scene.axis[2].fine_hi = z.at[4];
-    TRY(grids_make(&m->scene, &made));
-    grids_free(&m->grids);
+    TRY(mpm_grids_make(&m->scene, &made));
+    mpm_grids_free(&m->grids);
     m->grids = made;
     TRY(refill(m));
     return merge_coarse(m);
@@ -438,10 +442,10 @@ static void widen(const mpm *m, const plough *p, zone *z)
 {
     static const double NEAR = 0.6, WIDER = 1.25;
     double middle, half;
-    zone_across(&m->scene, &middle, &half);
+    mpm_zone_across(&m->scene, &middle, &half);
     if (!(p->half_width > NEAR * half) || !(half < m->scene.follow_width * (1 - 1e-9))) return;
     const double together = (1 << (m->scene.levels - 1)) * m->scene.axis[2].fine;
-    zone_widen(&m->scene, ceil((WIDER - 1) * half / together) * together, &z->at[3], &z->at[4]);
+    mpm_zone_widen(&m->scene, ceil((WIDER - 1) * half / together) * together, &z->at[3], &z->at[4]);
 }
 
 /* Where the window ought to be now; the fine zone stays inside it. */
@@ -449,13 +453,13 @@ static zone zone_wanted(const mpm *m, const plough *p)
 {
     const mpm_axis *s = &m->scene.axis[0];
     const double end = p->power > 0 ? p->front + m->scene.follow_lead : s->lo;
-    const double room = fmax(2 * s->coarse, grids_margin(m->scene.levels, s->fine)),
+    const double room = fmax(2 * s->coarse, mpm_grids_margin(m->scene.levels, s->fine)),
                  way = m->scene.follow_speed * m->time;
     const double hi = m->zone_start.at[2] + way;
     const double fine_hi = fmin(end, hi - room);
     const double together = 1 << (m->scene.levels - 1); /* cells of the coarsest level keep their places */
     const double cells = fmax(floor((fine_hi - s->fine_hi) / s->fine / together), 0) * together;
-    zone z = zone_of(m);
+    zone z = mpm_zone_of(m);
     z.at[0] += cells * s->fine, z.at[1] = m->zone_start.at[1] + way, z.at[2] = hi;
     z.at[1] = fmin(z.at[1], z.at[0] - room);
     if (p->power > 0) widen(m, p, &z);
@@ -471,12 +475,13 @@ static void note_gauges(mpm *m)
             r->gauge_at[i] = m->time, r->gauge_power[i] = r->plastic_power;
 }
 
-status zone_follow(mpm *m)
+status mpm_zone_follow(mpm *m)
 {
-    const zone now = zone_of(m);
+    const zone now = mpm_zone_of(m);
     if (!m->scene.follow_bodies) return status_ok();
-    plough p = plough_find(m);
-    /* no groove goes faster than the slider: what its edge takes far ahead must not draw the zone off a groove that dies */
+    plough p = mpm_plastic_front_find(m);
+    /* no groove goes faster than the slider: what its edge takes far ahead must not draw the zone off a groove that
+     * dies */
     const double passed = m->scene.follow_speed * (m->time - m->report.plastic_time);
     if (m->report.peak_plastic_power > 0 && m->scene.follow_speed > 0)
         p.front = fmin(p.front, m->report.plastic_front + passed);
@@ -489,10 +494,10 @@ status zone_follow(mpm *m)
         if (m->scene.levels > 1) TRY(merge_coarse(m));
     } else {
         TRY(leave_wake(m, next.at[0] + m->scene.axis[0].fine)); /* the cell at the zone's end merges already */
-        TRY(zone_regrid(m, next));
-        TRY(store_surround_all(m));
+        TRY(mpm_zone_regrid(m, next));
+        TRY(mpm_store_surround_all(m));
         TRY(grow_in(m, now.at[2]));
-        TRY(store_settle(m));
+        TRY(mpm_store_settle(m));
     }
     m->report.particles = mpm_particles(m);
     return status_ok();

@@ -9,26 +9,26 @@ typedef struct {
 } shape_entry;
 
 static const shape_entry shape_table[] = {
-#define SHAPE(name) { &shape_##name, shape_##name##_check },
+#define SHAPE(name) { &mpm_shape_##name, mpm_shape_##name##_check },
 #include "mpm/shape/shape.def"
 #undef SHAPE
 };
 
 enum { SHAPES = sizeof shape_table / sizeof shape_table[0] };
 
-const shape_kind *shape_at(int i)
+const shape_kind *mpm_shape_at(int i)
 {
     return i >= 0 && i < (int)SHAPES ? shape_table[i].kind : NULL;
 }
 
-const shape_kind *shape_find(const char *name)
+const shape_kind *mpm_shape_find(const char *name)
 {
     for (int i = 0; i < (int)SHAPES; i++)
         if (strcmp(shape_table[i].kind->name, name) == 0) return shape_table[i].kind;
     return NULL;
 }
 
-status shape_check(const shape_kind *kind, const shape_values *values)
+status mpm_shape_check(const shape_kind *kind, const shape_values *values)
 {
     for (int i = 0; kind->value_names[i]; i++)
         CHECK(isfinite(values->value[i]), STATUS_BAD_INPUT, "%s.%s is not a finite number", kind->name,
@@ -38,7 +38,7 @@ status shape_check(const shape_kind *kind, const shape_values *values)
     return status_ok();
 }
 
-status shape_positive(const shape_kind *kind, const shape_values *s, int i)
+status mpm_shape_positive(const shape_kind *kind, const shape_values *s, int i)
 {
     CHECK(s->value[i] > 0.0, STATUS_BAD_INPUT, "%s.%s = %g: must be positive", kind->name, kind->value_names[i],
           s->value[i]);
@@ -46,7 +46,7 @@ status shape_positive(const shape_kind *kind, const shape_values *s, int i)
 }
 
 /* Distance to the nearest edge; inside by the parity of the edges that a ray towards +x crosses. */
-double shape_polygon(int n, const double *corner, double x, double y)
+double mpm_shape_polygon(int n, const double *corner, double x, double y)
 {
     double nearest2 = INFINITY;
     int inside = 0;
@@ -64,15 +64,15 @@ double shape_polygon(int n, const double *corner, double x, double y)
     return inside ? sqrt(nearest2) : -sqrt(nearest2);
 }
 
-double shape_prism(double profile, double slab)
+double mpm_shape_prism(double profile, double slab)
 {
     if (profile > 0.0 && slab > 0.0) return fmin(profile, slab);
     return -hypot(fmin(profile, 0.0), fmin(slab, 0.0));
 }
 
-/* With k = |(r / radius, y / height)|, the curved side is k = 1 and (1 - k) k / |grad(k^2 / 2)| the distance to first order;
- * below the flat side the nearest point is on it or at its corner. */
-double shape_dome(double radius, double height, double r, double y)
+/* With k = |(r / radius, y / height)|, the curved side is k = 1 and (1 - k) k / |grad(k^2 / 2)| the distance to first
+ * order; below the flat side the nearest point is on it or at its corner. */
+double mpm_shape_dome(double radius, double height, double r, double y)
 {
     if (y < 0.0) return r <= radius ? y : -hypot(y, r - radius);
     const double k = hypot(r / radius, y / height);

@@ -1,7 +1,7 @@
 /* Shapes: the volume a body fills at the start.
  *
- * To add one: write mpm/shape/shape_<name>.c with `const shape_kind shape_<name>` and `shape_<name>_check`, and one line in
- * shape.def.  Every shape satisfies, for values that its check accepts,
+ * To add one: write mpm/shape/shape_<name>.c with `const shape_kind mpm_shape_<name>` and `mpm_shape_<name>_check`, and
+ * one line in shape.def.  Every shape satisfies, for values that its check accepts,
  *   inside > 0 in the shape, < 0 outside, and near the surface |inside| is the distance to it [m];
  *   bounds is the smallest box that holds the shape;
  *   the shape is one piece, and inside is continuous everywhere.
@@ -12,11 +12,11 @@
 #include "mpm/scene.h"
 
 /* STATUS_BAD_INPUT naming the value, its size and what it must be, unless the values make a shape of this kind. */
-status shape_check(const shape_kind *kind, const shape_values *values);
+status mpm_shape_check(const shape_kind *kind, const shape_values *values);
 
-#define SHAPE(name)                       \
-    extern const shape_kind shape_##name; \
-    status shape_##name##_check(const shape_values *s);
+#define SHAPE(name)                           \
+    extern const shape_kind mpm_shape_##name; \
+    status mpm_shape_##name##_check(const shape_values *s);
 #include "mpm/shape/shape.def"
 #undef SHAPE
 
@@ -43,16 +43,17 @@ enum {
 /* ---- helpers for writing a shape ---- */
 
 /* Signed distance to a simple polygon of n corners (x, y pairs, either sense), > 0 inside; exact. */
-double shape_polygon(int n, const double *corner, double x, double y);
+double mpm_shape_polygon(int n, const double *corner, double x, double y);
 
-/* Of a prism: `profile` is the signed distance to its section, `slab` to the slab between its ends; exact if both are. */
-double shape_prism(double profile, double slab);
+/* Of a prism: `profile` is the signed distance to its section, `slab` to the slab between its ends; exact if both are.
+ */
+double mpm_shape_prism(double profile, double slab);
 
 /* Of half an ellipse with its flat side down on y = 0, r >= 0 from its middle: exact for height = radius, else right to
  * first order at the curved side. */
-double shape_dome(double radius, double height, double r, double y);
+double mpm_shape_dome(double radius, double height, double r, double y);
 
 /* Checks that value[i] > 0; the text names it. */
-status shape_positive(const shape_kind *kind, const shape_values *s, int i);
+status mpm_shape_positive(const shape_kind *kind, const shape_values *s, int i);
 
 #endif

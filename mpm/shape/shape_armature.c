@@ -45,7 +45,7 @@ static double inside(const shape_values *s, const double x[3])
 {
     double corner[2 * CORNERS];
     section(s, corner);
-    return shape_prism(shape_polygon(CORNERS, corner, x[0], x[1]), s->value[ARMATURE_HALF_WIDTH] - fabs(x[2]));
+    return mpm_shape_prism(mpm_shape_polygon(CORNERS, corner, x[0], x[1]), s->value[ARMATURE_HALF_WIDTH] - fabs(x[2]));
 }
 
 static void bounds(const shape_values *s, double lo[3], double hi[3])
@@ -58,11 +58,11 @@ static void bounds(const shape_values *s, double lo[3], double hi[3])
     hi[2] = s->value[ARMATURE_HALF_WIDTH];
 }
 
-status shape_armature_check(const shape_values *s)
+status mpm_shape_armature_check(const shape_values *s)
 {
     const double *v = s->value;
-    for (int i = ARMATURE_LENGTH; i <= ARMATURE_HALF_BORE; i++) TRY(shape_positive(&shape_armature, s, i));
-    TRY(shape_positive(&shape_armature, s, ARMATURE_HALF_WIDTH));
+    for (int i = ARMATURE_LENGTH; i <= ARMATURE_HALF_BORE; i++) TRY(mpm_shape_positive(&mpm_shape_armature, s, i));
+    TRY(mpm_shape_positive(&mpm_shape_armature, s, ARMATURE_HALF_WIDTH));
     CHECK(v[ARMATURE_LEAD_ANGLE] > 0.0 && v[ARMATURE_LEAD_ANGLE] <= acos(0.0) * (1.0 + 1e-12), STATUS_BAD_INPUT,
           "armature.lead_angle = %g rad: must be above 0 and at most pi/2", v[ARMATURE_LEAD_ANGLE]);
     CHECK(v[ARMATURE_LEG_THICKNESS] <= v[ARMATURE_HALF_BORE], STATUS_BAD_INPUT,
@@ -84,5 +84,5 @@ status shape_armature_check(const shape_values *s)
     return status_ok();
 }
 
-const shape_kind shape_armature = { "armature", "half of a U-shaped solid armature on one rail, nose towards +x", names,
-                                    inside, bounds };
+const shape_kind mpm_shape_armature = { "armature", "half of a U-shaped solid armature on one rail, nose towards +x",
+                                        names, inside, bounds };

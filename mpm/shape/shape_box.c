@@ -24,7 +24,7 @@ static void bounds(const shape_values *s, double lo[3], double hi[3])
     }
 }
 
-status shape_box_check(const shape_values *s)
+status mpm_shape_box_check(const shape_values *s)
 {
     for (int k = 0; k < 3; k++)
         CHECK(s->value[BOX_LO + k] < s->value[BOX_HI + k], STATUS_BAD_INPUT, "box.%s = %g m must lie above %s = %g m",
@@ -32,4 +32,4 @@ status shape_box_check(const shape_values *s)
     return status_ok();
 }
 
-const shape_kind shape_box = { "box", "box between two corners [m]", names, inside, bounds };
+const shape_kind mpm_shape_box = { "box", "box between two corners [m]", names, inside, bounds };

@@ -10,7 +10,7 @@ static double inside(const shape_values *s, const double x[3])
     const double radius = s->value[CONE_RADIUS], height = s->value[CONE_HEIGHT];
     const double section[] = { -radius, 0.0, radius, 0.0, 0.0, height };
     const double r = hypot(x[0] - s->value[CONE_X], x[2] - s->value[CONE_Z]);
-    return shape_polygon(3, section, r, x[1] - s->value[CONE_Y]);
+    return mpm_shape_polygon(3, section, r, x[1] - s->value[CONE_Y]);
 }
 
 static void bounds(const shape_values *s, double lo[3], double hi[3])
@@ -21,10 +21,10 @@ static void bounds(const shape_values *s, double lo[3], double hi[3])
     }
 }
 
-status shape_cone_check(const shape_values *s)
+status mpm_shape_cone_check(const shape_values *s)
 {
-    TRY(shape_positive(&shape_cone, s, CONE_RADIUS));
-    return shape_positive(&shape_cone, s, CONE_HEIGHT);
+    TRY(mpm_shape_positive(&mpm_shape_cone, s, CONE_RADIUS));
+    return mpm_shape_positive(&mpm_shape_cone, s, CONE_HEIGHT);
 }
 
-const shape_kind shape_cone = { "cone", "cone on its base, tip up [m]", names, inside, bounds };
+const shape_kind mpm_shape_cone = { "cone", "cone on its base, tip up [m]", names, inside, bounds };

@@ -9,7 +9,7 @@ static double inside(const shape_values *s, const double x[3])
 {
     const double r = hypot(x[0] - s->value[CYLINDER_X], x[2] - s->value[CYLINDER_Z]);
     const double y = x[1] - s->value[CYLINDER_Y];
-    return shape_prism(s->value[CYLINDER_RADIUS] - r, fmin(y, s->value[CYLINDER_HEIGHT] - y));
+    return mpm_shape_prism(s->value[CYLINDER_RADIUS] - r, fmin(y, s->value[CYLINDER_HEIGHT] - y));
 }
 
 static void bounds(const shape_values *s, double lo[3], double hi[3])
@@ -20,10 +20,10 @@ static void bounds(const shape_values *s, double lo[3], double hi[3])
     }
 }
 
-status shape_cylinder_check(const shape_values *s)
+status mpm_shape_cylinder_check(const shape_values *s)
 {
-    TRY(shape_positive(&shape_cylinder, s, CYLINDER_RADIUS));
-    return shape_positive(&shape_cylinder, s, CYLINDER_HEIGHT);
+    TRY(mpm_shape_positive(&mpm_shape_cylinder, s, CYLINDER_RADIUS));
+    return mpm_shape_positive(&mpm_shape_cylinder, s, CYLINDER_HEIGHT);
 }
 
-const shape_kind shape_cylinder = { "cylinder", "cylinder along y on its lower face [m]", names, inside, bounds };
+const shape_kind mpm_shape_cylinder = { "cylinder", "cylinder along y on its lower face [m]", names, inside, bounds };

@@ -1,6 +1,6 @@
-/* Hemisphere: flat face down in the plane y, centre of the face at (x, y, z); with height != radius the upper half of an
- * ellipsoid of revolution about y.
- * Signed distance as shape_dome. */
+/* Hemisphere: flat face down in the plane y, centre of the face at (x, y, z); with height != radius the upper half of
+ * an ellipsoid of revolution about y.
+ * Signed distance as mpm_shape_dome. */
 #include "mpm/shape/shape.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@ static const char *const names[] = { "x", "y", "z", "radius", "height", NULL };
 static double inside(const shape_values *s, const double x[3])
 {
     const double r = hypot(x[0] - s->value[HEMISPHERE_X], x[2] - s->value[HEMISPHERE_Z]);
-    return shape_dome(s->value[HEMISPHERE_RADIUS], s->value[HEMISPHERE_HEIGHT], r, x[1] - s->value[HEMISPHERE_Y]);
+    return mpm_shape_dome(s->value[HEMISPHERE_RADIUS], s->value[HEMISPHERE_HEIGHT], r, x[1] - s->value[HEMISPHERE_Y]);
 }
 
 static void bounds(const shape_values *s, double lo[3], double hi[3])
@@ -21,11 +21,11 @@ static void bounds(const shape_values *s, double lo[3], double hi[3])
     }
 }
 
-status shape_hemisphere_check(const shape_values *s)
+status mpm_shape_hemisphere_check(const shape_values *s)
 {
-    TRY(shape_positive(&shape_hemisphere, s, HEMISPHERE_RADIUS));
-    return shape_positive(&shape_hemisphere, s, HEMISPHERE_HEIGHT);
+    TRY(mpm_shape_positive(&mpm_shape_hemisphere, s, HEMISPHERE_RADIUS));
+    return mpm_shape_positive(&mpm_shape_hemisphere, s, HEMISPHERE_HEIGHT);
 }
 
-const shape_kind shape_hemisphere = { "hemisphere", "half an ellipsoid of revolution, flat face down [m]", names,
-                                      inside, bounds };
+const shape_kind mpm_shape_hemisphere = { "hemisphere", "half an ellipsoid of revolution, flat face down [m]", names,
+                                          inside, bounds };

@@ -1,5 +1,5 @@
 /* Pit: hemisphere upside down, its flat face up in the plane y, centre of the face at (x, y, z); height is its depth.
- * Signed distance as shape_dome. */
+ * Signed distance as mpm_shape_dome. */
 #include "mpm/shape/shape.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@ static const char *const names[] = { "x", "y", "z", "radius", "height", NULL };
 static double inside(const shape_values *s, const double x[3])
 {
     const double r = hypot(x[0] - s->value[PIT_X], x[2] - s->value[PIT_Z]);
-    return shape_dome(s->value[PIT_RADIUS], s->value[PIT_HEIGHT], r, s->value[PIT_Y] - x[1]);
+    return mpm_shape_dome(s->value[PIT_RADIUS], s->value[PIT_HEIGHT], r, s->value[PIT_Y] - x[1]);
 }
 
 static void bounds(const shape_values *s, double lo[3], double hi[3])
@@ -20,10 +20,10 @@ static void bounds(const shape_values *s, double lo[3], double hi[3])
     }
 }
 
-status shape_pit_check(const shape_values *s)
+status mpm_shape_pit_check(const shape_values *s)
 {
-    TRY(shape_positive(&shape_pit, s, PIT_RADIUS));
-    return shape_positive(&shape_pit, s, PIT_HEIGHT);
+    TRY(mpm_shape_positive(&mpm_shape_pit, s, PIT_RADIUS));
+    return mpm_shape_positive(&mpm_shape_pit, s, PIT_HEIGHT);
 }
 
-const shape_kind shape_pit = { "pit", "half an ellipsoid of revolution, flat face up [m]", names, inside, bounds };
+const shape_kind mpm_shape_pit = { "pit", "half an ellipsoid of revolution, flat face up [m]", names, inside, bounds };

@@ -1,6 +1,6 @@
-/* Ridge across the rail: half a cylinder along z, flat face down in the plane y, centre of the face at (x, y, z); radius
- * is half its width along x.  With height != radius its section is half an ellipse.
- * Signed distance as shape_dome. */
+/* Ridge across the rail: half a cylinder along z, flat face down in the plane y, centre of the face at (x, y, z);
+ * radius is half its width along x.  With height != radius its section is half an ellipse.
+ * Signed distance as mpm_shape_dome. */
 #include "mpm/shape/shape.h"
 
 #include <math.h>
@@ -10,8 +10,8 @@ static const char *const names[] = { "x", "y", "z", "radius", "height", "half_le
 static double inside(const shape_values *s, const double x[3])
 {
     const double r = fabs(x[0] - s->value[RIDGE_X]), y = x[1] - s->value[RIDGE_Y];
-    const double profile = shape_dome(s->value[RIDGE_RADIUS], s->value[RIDGE_HEIGHT], r, y);
-    return shape_prism(profile, s->value[RIDGE_HALF_LENGTH] - fabs(x[2] - s->value[RIDGE_Z]));
+    const double profile = mpm_shape_dome(s->value[RIDGE_RADIUS], s->value[RIDGE_HEIGHT], r, y);
+    return mpm_shape_prism(profile, s->value[RIDGE_HALF_LENGTH] - fabs(x[2] - s->value[RIDGE_Z]));
 }
 
 static void bounds(const shape_values *s, double lo[3], double hi[3])
@@ -24,12 +24,12 @@ static void bounds(const shape_values *s, double lo[3], double hi[3])
     hi[2] = s->value[RIDGE_Z] + s->value[RIDGE_HALF_LENGTH];
 }
 
-status shape_ridge_check(const shape_values *s)
+status mpm_shape_ridge_check(const shape_values *s)
 {
-    TRY(shape_positive(&shape_ridge, s, RIDGE_RADIUS));
-    TRY(shape_positive(&shape_ridge, s, RIDGE_HEIGHT));
-    return shape_positive(&shape_ridge, s, RIDGE_HALF_LENGTH);
+    TRY(mpm_shape_positive(&mpm_shape_ridge, s, RIDGE_RADIUS));
+    TRY(mpm_shape_positive(&mpm_shape_ridge, s, RIDGE_HEIGHT));
+    return mpm_shape_positive(&mpm_shape_ridge, s, RIDGE_HALF_LENGTH);
 }
 
-const shape_kind shape_ridge = { "ridge", "half a cylinder across the rail, flat face down [m]", names, inside,
-                                 bounds };
+const shape_kind mpm_shape_ridge = { "ridge", "half a cylinder across the rail, flat face down [m]", names, inside,
+                                     bounds };

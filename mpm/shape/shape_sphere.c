@@ -19,9 +19,9 @@ static void bounds(const shape_values *s, double lo[3], double hi[3])
     }
 }
 
-status shape_sphere_check(const shape_values *s)
+status mpm_shape_sphere_check(const shape_values *s)
 {
-    return shape_positive(&shape_sphere, s, SPHERE_RADIUS);
+    return mpm_shape_positive(&mpm_shape_sphere, s, SPHERE_RADIUS);
 }
 
-const shape_kind shape_sphere = { "sphere", "sphere about a centre [m]", names, inside, bounds };
+const shape_kind mpm_shape_sphere = { "sphere", "sphere about a centre [m]", names, inside, bounds };

@@ -10,8 +10,8 @@ static double inside(const shape_values *s, const double x[3])
 {
     const double radius = s->value[RIDGE_RADIUS], height = s->value[RIDGE_HEIGHT];
     const double section[] = { -radius, 0.0, radius, 0.0, 0.0, height };
-    const double profile = shape_polygon(3, section, x[0] - s->value[RIDGE_X], x[1] - s->value[RIDGE_Y]);
-    return shape_prism(profile, s->value[RIDGE_HALF_LENGTH] - fabs(x[2] - s->value[RIDGE_Z]));
+    const double profile = mpm_shape_polygon(3, section, x[0] - s->value[RIDGE_X], x[1] - s->value[RIDGE_Y]);
+    return mpm_shape_prism(profile, s->value[RIDGE_HALF_LENGTH] - fabs(x[2] - s->value[RIDGE_Z]));
 }
 
 static void bounds(const shape_values *s, double lo[3], double hi[3])
@@ -24,11 +24,12 @@ static void bounds(const shape_values *s, double lo[3], double hi[3])
     hi[2] = s->value[RIDGE_Z] + s->value[RIDGE_HALF_LENGTH];
 }
 
-status shape_wedge_check(const shape_values *s)
+status mpm_shape_wedge_check(const shape_values *s)
 {
-    TRY(shape_positive(&shape_wedge, s, RIDGE_RADIUS));
-    TRY(shape_positive(&shape_wedge, s, RIDGE_HEIGHT));
-    return shape_positive(&shape_wedge, s, RIDGE_HALF_LENGTH);
+    TRY(mpm_shape_positive(&mpm_shape_wedge, s, RIDGE_RADIUS));
+    TRY(mpm_shape_positive(&mpm_shape_wedge, s, RIDGE_HEIGHT));
+    return mpm_shape_positive(&mpm_shape_wedge, s, RIDGE_HALF_LENGTH);
 }
 
-const shape_kind shape_wedge = { "wedge", "triangular prism across the rail, base down [m]", names, inside, bounds };
+const shape_kind mpm_shape_wedge = { "wedge", "triangular prism across the rail, base down [m]", names, inside,
+                                     bounds };

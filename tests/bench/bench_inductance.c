@@ -1,7 +1,8 @@
 /* Rail sections: error against run time over the mesh, all frequencies up to 20 kHz from one solution.
  *
- * Error: the largest over 1 Hz .. 20 kHz of L' and R', against the same section at the finest mesh.  Time: processor time of
- * one solution, least of three.  The last column is Kerrisk's formula against the perfect conductor, where it applies. */
+ * Error: the largest over 1 Hz .. 20 kHz of L' and R', against the same section at the finest mesh.  Time: processor
+ * time of one solution, least of three.  The last column is Kerrisk's formula against the perfect conductor, where it
+ * applies. */
 #include "circuit/rails/inductance.h"
 
 #include <complex.h>
@@ -59,16 +60,16 @@ static curve solve(const rail_section *s, double fineness, int repetitions)
     for (int k = 0; k < repetitions; k++) {
         impedance z;
         const double since = processor_time();
-        must(inductance_response(s, TOP, fineness, &z));
+        must(circuit_inductance_response(s, TOP, fineness, &z));
         for (int i = 0; i < POINTS; i++) {
             const double omega = 6.28318530717958648 * pow(TOP, i / (POINTS - 1.0));
-            const double complex Z = impedance_at(&z, _Complex_I * omega);
+            const double complex Z = circuit_impedance_at(&z, _Complex_I * omega);
             c.L[i] = cimag(Z) / omega;
             c.R[i] = creal(Z);
         }
         c.seconds = fmin(c.seconds, processor_time() - since);
         c.filaments = z.n;
-        impedance_free(&z);
+        circuit_impedance_free(&z);
     }
     return c;
 }
@@ -88,11 +89,11 @@ int main(int argc, char **argv)
         const rail_section *s = &samples[k].section;
         const curve best = solve(s, finest, 1);
         double limit = 0.0;
-        must(inductance_limit(s, &limit));
+        must(circuit_inductance_limit(s, &limit));
         printf("%s: L'(inf) %.4f uH/m, finest mesh %d filaments", samples[k].name, 1e6 * limit, best.filaments);
         if (s->rails == 2 && s->face_crown == 0.0 && s->back_crown == 0.0)
             printf(", Kerrisk %+.2f %%",
-                   100.0 * (inductance_kerrisk(s->height, s->thickness, s->separation) / limit - 1.0));
+                   100.0 * (circuit_inductance_kerrisk(s->height, s->thickness, s->separation) / limit - 1.0));
         printf("\n  fineness filaments    ms   L' off   R' off\n");
         for (double fineness = 1.5; fineness < finest - 1.0; fineness *= sqrt(2.0)) {
             const curve c = solve(s, fineness, tiny ? 1 : 3);

@@ -41,8 +41,8 @@ static bool note(void *user, const shot *s, const shot_state *now)
 static shot *shoot(const shot_config *c, const shot_sink *sink)
 {
     shot *s = NULL;
-    must(shot_create(c, &s));
-    must(shot_advance(s, INFINITY, sink));
+    must(circuit_shot_create(c, &s));
+    must(circuit_shot_advance(s, INFINITY, sink));
     return s;
 }
 
@@ -51,8 +51,8 @@ static void row(const char *name, const shot_config *c)
     passage p;
     memset(&p, 0, sizeof p);
     shot *s = shoot(c, &(shot_sink){ NULL, note, &p });
-    const shot_summary r = shot_result(s);
-    const shot_ledger l = shot_now(s).ledger;
+    const shot_summary r = circuit_shot_result(s);
+    const shot_ledger l = circuit_shot_now(s).ledger;
     printf("%-28s %8.1f %8.2f %7.3f %7.1f %6.4f %9.1f", name, 1e-3 * r.peak_current, r.muzzle_velocity,
            1e3 * r.muzzle_time, 1e-3 * r.exit_current, r.efficiency, 1e-3 * l.rails_heat);
     for (int k = 0; k < SPEEDS; k++) printf(" %6.3f", p.x[k]);
@@ -61,14 +61,14 @@ static void row(const char *name, const shot_config *c)
         for (int k = 0; k < SPEEDS; k++)
             printf("   %.0f m/s: x %.3f m, %.0f kA, %.1f MPa\n", speeds[k], p.x[k], 1e-3 * p.I[k], 1e-6 * p.p[k]);
     }
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
 /* What a slice holds at birth and what pushes there (C-12), over speed: of all rungs together, by their inductances. */
 static void births(const shot_config *c)
 {
     rails_load r;
-    must(shot_rails_fit(c, &r));
+    must(circuit_shot_rails_fit(c, &r));
     printf("%-10s share at birth, share of force, 2 F/I^2 [uH/m], heat under the contact over motion\n", "v [m/s]");
     static const double at[] = { 0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 2000.0, 3000.0 };
     for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
@@ -76,13 +76,13 @@ static void births(const shot_config *c)
         double all = 0.0, born = 0.0, pushes = 0.0, heat = 0.0;
         for (int k = 0; k < r.ladder.n; k++) {
             const double L = r.ladder.L[k], theta = v * L / (r.ladder.R[k] * r.contact.length);
-            const double a = rails_share_at_birth(theta), f = rails_share_of_force(theta);
+            const double a = circuit_rails_share_at_birth(theta), f = circuit_rails_share_of_force(theta);
             all += L;
             born += L * a;
             pushes += L * f;
             heat += L * (a * (2.0 - a) - f);
         }
-        const double L = rails_force_gradient(&r, v, 1.0);
+        const double L = circuit_rails_force_gradient(&r, v, 1.0);
         printf("%-10.4g %7.4f %7.4f %8.4f %8.4f\n", v, born / all, pushes / all, 1e6 * L, heat / L);
     }
 }
@@ -100,13 +100,13 @@ static void contact_row(const char *name, const shot_config *c)
     shot_state e;
     memset(&e, 0, sizeof e);
     shot *s = shoot(c, &(shot_sink){ NULL, note_moving, &e });
-    const shot_summary r = shot_result(s);
-    const shot_limits l = shot_limits_of(s);
+    const shot_summary r = circuit_shot_result(s);
+    const shot_limits l = circuit_shot_limits_of(s);
     printf("%-34s %8.2f %8.2f %9.4f %8.2f %7.1f %7.3f %8.4f %6.0f %7.2f\n", name, r.muzzle_velocity,
            1e-3 * e.ledger.friction, e.friction_coefficient, 1e6 * e.film_thickness, 1e3 * e.contact_spread,
            1e3 * l.wear_share * c->armature.leg_thickness, l.melt_position, e.film_temperature,
            1e3 * (c->armature.mass - e.mass));
-    shot_free(s);
+    circuit_shot_free(s);
 }
 
 /* What the armature's contact does to the default shot: the two laws of friction, the velocity skin effect. */
@@ -120,7 +120,8 @@ static void contacts(shot_config c, bool tiny)
     for (int film = 0; film < 2; film++) {
         c.armature.friction_law = film;
         for (int k = 0; k < (tiny ? 1 : 4); k++) {
-            snprintf(name, sizeof name, "friction %s, wear fraction %g", shot_friction_law_names[film], wear[k]);
+            snprintf(name, sizeof name, "friction %s, wear fraction %g", circuit_shot_friction_law_names[film],
+                     wear[k]);
             c.armature.wear_fraction = wear[k];
             contact_row(name, &c);
         }
@@ -165,7 +166,7 @@ int main(int argc, char **argv)
     ladder l;
     shot_rails rails = c.rails;
     rails.level = SHOT_RAILS_DIFFUSING;
-    must(rails_ladder(&rails, 5e4, &l));
+    must(circuit_rails_ladder(&rails, 5e4, &l));
     c.rails.inductance_gradient = l.L_inf;
     c.rails.resistance_gradient = l.R_dc;
     row("constant, L_inf and R_dc", &c);

@@ -2,13 +2,13 @@
  *
  *   breech_bench_scene [--tiny] [--only WORD]... [steps [repetitions]]
  *
- * `cached` is `single` so small that it stays in the second-level cache.  `contact` is the paper's base case (an armature ploughing over a grain on a rail, friction, graded grid); `single` is a
- * block of the same number of points, one body and one field, sheared so that it yields.  Each line: median, least and
- * largest of the repetitions, each a run of so many steps of one solver that goes on.  Nothing is judged here: what is
- * printed holds for this machine and whatever else ran on it.  `cpu` is the least processor time of all threads together:
- * beside a busy neighbour it says more than the wall; so do the phases, the least of each over the repetitions, best with one
- * step a repetition.  --only leaves out what lacks the word: a scene's name, an instruction
- * set or a number of threads. */
+ * `cached` is `single` so small that it stays in the second-level cache.  `contact` is the paper's base case (an
+ * armature ploughing over a grain on a rail, friction, graded grid); `single` is a block of the same number of points,
+ * one body and one field, sheared so that it yields.  Each line: median, least and largest of the repetitions, each a
+ * run of so many steps of one solver that goes on.  Nothing is judged here: what is printed holds for this machine and
+ * whatever else ran on it.  `cpu` is the least processor time of all threads together: beside a busy neighbour it says
+ * more than the wall; so do the phases, the least of each over the repetitions, best with one step a repetition.
+ * --only leaves out what lacks the word: a scene's name, an instruction set or a number of threads. */
 #include "mpm/mpm.h"
 #include "mpm/shape/shape.h"
 
@@ -52,8 +52,8 @@ static void die(status s)
 static void set_materials(bench_scene *b)
 {
     material *c = &b->copper, *a = &b->aluminium;
-    params_default(material_params, c);
-    params_default(material_params, a);
+    base_params_default(mpm_material_params, c);
+    base_params_default(mpm_material_params, a);
     strcpy(c->name, "ofhc_copper"), strcpy(a->name, "w17_al7075");
     c->density = 8960, c->youngs_modulus = 124e9, c->poisson = 0.34, c->specific_heat = 383, c->conductivity = 386;
     c->yield_A = 90e6, c->hardening_B = 292e6, c->hardening_n = 0.31, c->rate_C = 0.025, c->softening_m = 1.09;
@@ -71,7 +71,7 @@ static mpm_body *add_body(mpm_scene *s, const char *shape, const double *values,
 {
     mpm_body *b = &s->body[s->bodies++];
     snprintf(b->name, sizeof b->name, "%s", shape);
-    b->shape = shape_find(shape), b->material = m;
+    b->shape = mpm_shape_find(shape), b->material = m;
     for (int i = 0; i < n; i++) b->shape_value.value[i] = values[i];
     b->temperature = 293, b->yield_scale = 1, b->damage = true;
     return b;

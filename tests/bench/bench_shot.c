@@ -2,9 +2,10 @@
  *
  *   breech_bench_shot [--tiny] [repetitions]
  *
- * Error: of the muzzle velocity, against the same shot at rtol 1e-13; atol = rtol.  Time: the processor's, of shot_advance from start to exit,
- * one thread, the least of the repetitions; the ladder is fitted once, beforehand (its time is the first line's).  Nothing is judged
- * here: what is printed holds for this machine and whatever else ran on it. */
+ * Error: of the muzzle velocity, against the same shot at rtol 1e-13; atol = rtol.  Time: the processor's, of
+ * circuit_shot_advance from start to exit, one thread, the least of the repetitions; the ladder is fitted once,
+ * beforehand (its time is the first line's).  Nothing is judged here: what is printed holds for this machine and
+ * whatever else ran on it. */
 #include "circuit/shot_model.h"
 #include "tests/circuit_common.h"
 
@@ -80,13 +81,13 @@ static double run(const bench_shot *b, double rtol, int repetitions, shot_summar
     c.options.atol = rtol;
     for (int r = 0; r < repetitions; r++) {
         shot *s = NULL;
-        die(shot_create(&c, &s));
+        die(circuit_shot_create(&c, &s));
         const double since = seconds();
-        const status done = shot_advance(s, INFINITY, &sink);
+        const status done = circuit_shot_advance(s, INFINITY, &sink);
         if (done.code != STATUS_STOPPED) die(done);
         least = fmin(least, seconds() - since);
-        *out = shot_result(s);
-        shot_free(s);
+        *out = circuit_shot_result(s);
+        circuit_shot_free(s);
     }
     return least;
 }
@@ -97,7 +98,7 @@ static void curve(bench_shot *b, bool tiny, int repetitions)
     shot_summary exact, got;
     double since = seconds();
     rails_load load;
-    die(shot_rails_fit(&b->config, &load));
+    die(circuit_shot_rails_fit(&b->config, &load));
     fitted = load.ladder;
     printf("%s: %s; %d rungs, fitted in %.0f ms\n", b->name, b->text, fitted.n, 1e3 * (seconds() - since));
     b->config.fitted = &fitted;

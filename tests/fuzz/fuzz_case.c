@@ -77,12 +77,12 @@ static void read_material(const units *u, const uint8_t *data, size_t size)
 {
     material_sheet sheet;
     char *errors = NULL;
-    const status s = material_sheet_parse(u, (const char *)data, size, "nowhere/x.yaml", &sheet, &errors);
+    const status s = case_material_sheet_parse(u, (const char *)data, size, "nowhere/x.yaml", &sheet, &errors);
     fail_unless((s.code == STATUS_OK) == (errors == NULL));
     char warning[MATERIAL_WARNING_SIZE];
     if (s.code == STATUS_OK) {
-        material_sheet_warning(&sheet, warning);
-        material_sheet_free(&sheet);
+        case_material_sheet_warning(&sheet, warning);
+        case_material_sheet_free(&sheet);
     }
     free(errors);
 }
@@ -90,7 +90,7 @@ static void read_material(const units *u, const uint8_t *data, size_t size)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static units *u; /* one unit system for all inputs: it is only read */
-    if (!u) fail_unless(units_open(&u).code == STATUS_OK);
+    if (!u) fail_unless(host_units_open(&u).code == STATUS_OK);
     const uint8_t *cut = size > 0 ? memchr(data, 1, size) : NULL;
     char *sets = NULL;
     if (cut) {

@@ -2,15 +2,15 @@
  *
  *   breech-stress [--scenes N] [--first K] [--seed S] [--verbose]
  *
- * Scene i of a seed is always the same, so `--first i --scenes 1` repeats a single one.  Every scene must end with a class
- * or be refused with a text; a scene that ends is judged by what no physics may break, at every tenth step: nothing that is
- * not finite, energy, momentum and mass to rounding, no motion out of nothing.  The worst ten are printed; exit 1 when one
- * fails.
+ * Scene i of a seed is always the same, so `--first i --scenes 1` repeats a single one.  Every scene must end with a
+ * class or be refused with a text; a scene that ends is judged by what no physics may break, at every tenth step:
+ * nothing that is not finite, energy, momentum and mass to rounding, no motion out of nothing.  The worst ten are
+ * printed; exit 1 when one fails.
  *
- * Materials are those of cases/materials; speeds 0.1 .. 5 km/s, grain radii 0.05 .. 2 mm, lead angles 5 .. 90 degrees, Courant
- * numbers 0.1 .. 0.6 (some more, to be refused), 1 .. 1.5 cells a radius, temperatures up to melting; with layers as thin as a twentieth of a cell, loose,
- * bonded and welded grains, fragments that fly through the scene, and armature, grains and fragments that leave the window; on one
- * to three nested grids. */
+ * Materials are those of cases/materials; speeds 0.1 .. 5 km/s, grain radii 0.05 .. 2 mm, lead angles 5 .. 90 degrees,
+ * Courant numbers 0.1 .. 0.6 (some more, to be refused), 1 .. 1.5 cells a radius, temperatures up to melting; with
+ * layers as thin as a twentieth of a cell, loose, bonded and welded grains, fragments that fly through the scene, and
+ * armature, grains and fragments that leave the window; on one to three nested grids. */
 #include "coupling/case/case.h"
 #include "coupling/case/material_file.h"
 #include "coupling/scene/scene_run.h"
@@ -28,8 +28,8 @@
 enum { TEXT_SIZE = 6000, WORST = 10, MAX_STEPS = 700, LOOK_EVERY = 10 };
 
 static const double ENERGY_LIMIT = 1e-9; /* of the kinetic energy at the start: rounding, 1e-12 was measured */
-/* Bodies that start unstressed can gain no motion but by work from outside; where the scheme is not stable they do, out of
- * their heat, though the books close. */
+/* Bodies that start unstressed can gain no motion but by work from outside; where the scheme is not stable they do, out
+ * of their heat, though the books close. */
 static const double GAIN_LIMIT = 0.02;      /* of the kinetic energy at the start */
 static const double MOMENTUM_LIMIT = 1e-10; /* of mass times the fastest body's speed: what the product promises */
 static const double MASS_LIMIT = 1e-12;     /* rounding */
@@ -198,8 +198,8 @@ static void write_recipe(recipe *r, chance *c, const stock *s)
              1e3 * r->radius, r->courant, r->levels, s->names[armature], s->names[rail]);
 }
 
-/* Spheres that fly about: they hit the armature, or leave by the free side and the ends.  The armature stays the last body, so
- * that it keeps the points they share. */
+/* Spheres that fly about: they hit the armature, or leave by the free side and the ends.  The armature stays the last
+ * body, so that it keeps the points they share. */
 static void add_fragments(mpm_scene *s, chance *c, const recipe *r)
 {
     const int wanted = one_in(c, 3) ? 1 + below(c, 2) : 0;
@@ -208,7 +208,7 @@ static void add_fragments(mpm_scene *s, chance *c, const recipe *r)
         const int field = b->field + 1 < MPM_MAX_FIELDS ? b->field + 1 : b->field;
         s->body[s->bodies++] = *b;
         memset(&b->shape_value, 0, sizeof b->shape_value);
-        b->shape = shape_find("sphere");
+        b->shape = mpm_shape_find("sphere");
         snprintf(b->name, sizeof b->name, "particle");
         b->field = field;
         double *v = b->shape_value.value, a = r->radius;
@@ -262,10 +262,10 @@ static void judge(outcome *o)
     o->verdict = ENDED;
     if (!(o->energy < ENERGY_LIMIT) || !(o->momentum < MOMENTUM_LIMIT) || !(o->mass < MASS_LIMIT)) {
         o->verdict = FAILED;
-        o->why = status_error(STATUS_NUMERICAL, "books do not close");
+        o->why = base_status_error(STATUS_NUMERICAL, "books do not close");
     } else if (!(o->gain < GAIN_LIMIT)) {
         o->verdict = FAILED;
-        o->why = status_error(STATUS_NUMERICAL, "motion out of nothing");
+        o->why = base_status_error(STATUS_NUMERICAL, "motion out of nothing");
     }
 }
 
@@ -280,7 +280,7 @@ static void run_case(breech_case *c, const recipe *r, chance *luck, outcome *o)
 {
     scene_job job;
     impact hit;
-    const site_state state = state_of_case(c);
+    const site_state state = gouge_state_of_case(c);
     c->output.checkpoint_interval = 0;
     status s = scene_job_make(c, &state, c->scene.cells_per_radius, &job);
     if (s.code == STATUS_OK) {
@@ -296,7 +296,7 @@ static void run_case(breech_case *c, const recipe *r, chance *luck, outcome *o)
     const scene_result *e = &hit.result;
     if (!(fabs(e->energy_error) <= o->energy)) o->energy = fabs(e->energy_error);
     if (!(e->momentum_error <= o->momentum)) o->momentum = e->momentum_error;
-    snprintf(o->class, sizeof o->class, "%s", damage_class_names[e->class]);
+    snprintf(o->class, sizeof o->class, "%s", gouge_class_names[e->class]);
     judge(o);
 }
 
@@ -358,21 +358,22 @@ static int report(outcome *all, int n)
     return count[FAILED] > 0;
 }
 
-/* Into which groups a material goes; its melting temperature, 900 K where that is not known and the scene is refused anyway. */
+/* Into which groups a material goes; its melting temperature, 900 K where that is not known and the scene is refused
+ * anyway. */
 static void take_material(stock *s, int i)
 {
     material_sheet sheet;
     char *errors = NULL;
     s->melting[i] = 900;
     s->group[ANY][s->count[ANY]++] = i;
-    if (material_sheet_open(s->names[i], s->at.dir, s->at.n, &sheet, &errors).code == STATUS_OK) {
+    if (case_material_sheet_open(s->names[i], s->at.dir, s->at.n, &sheet, &errors).code == STATUS_OK) {
         const material *m = &sheet.material;
         if (m->melting_temperature > 0) s->melting[i] = m->melting_temperature;
-        const bool scene = material_check(m, MATERIAL_FOR_SCENE).code == STATUS_OK;
+        const bool scene = mpm_material_check(m, MATERIAL_FOR_SCENE).code == STATUS_OK;
         if (scene) s->group[WITHOUT_DAMAGE][s->count[WITHOUT_DAMAGE]++] = i;
-        if (scene && material_check(m, MATERIAL_FOR_DAMAGE).code == STATUS_OK)
+        if (scene && mpm_material_check(m, MATERIAL_FOR_DAMAGE).code == STATUS_OK)
             s->group[WITH_DAMAGE][s->count[WITH_DAMAGE]++] = i;
-        material_sheet_free(&sheet);
+        case_material_sheet_free(&sheet);
     }
     free(errors);
 }
@@ -380,8 +381,9 @@ static void take_material(stock *s, int i)
 static bool open_stock(stock *s)
 {
     memset(s, 0, sizeof *s);
-    material_places_find(&s->at);
-    if (s->at.n == 0 || material_names(s->at.dir[0], &s->names, &s->n).code != STATUS_OK || s->n == 0) return false;
+    case_material_places_find(&s->at);
+    if (s->at.n == 0 || case_material_names(s->at.dir[0], &s->names, &s->n).code != STATUS_OK || s->n == 0)
+        return false;
     s->melting = calloc((size_t)s->n, sizeof *s->melting);
     for (int g = 0; g < GROUPS; g++) s->group[g] = calloc((size_t)s->n, sizeof *s->group[g]);
     if (!s->melting || !s->group[0] || !s->group[1] || !s->group[2]) return false;
@@ -393,7 +395,7 @@ static void close_stock(stock *s)
 {
     free(s->melting);
     for (int g = 0; g < GROUPS; g++) free(s->group[g]);
-    material_names_free(s->names, s->n);
+    case_material_names_free(s->names, s->n);
 }
 
 typedef struct {

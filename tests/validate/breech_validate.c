@@ -2,8 +2,9 @@
  *
  *   breech-validate [--quick] [--basis gimp|bspline] [--transfer tpic|pic] [--courant C] [-o DIR] [NAME ...]
  *
- * Each line: resolution, the case's figures, books, particle-steps and processor time (one thread).  With -o DIR the same
- * goes to DIR/<name>.dat and a gnuplot picture of all, DIR/validation.svg: error against cell size and against time. */
+ * Each line: resolution, the case's figures, books, particle-steps and processor time (one thread).  With -o DIR the
+ * same goes to DIR/<name>.dat and a gnuplot picture of all, DIR/validation.svg: error against cell size and against
+ * time. */
 #include "valid.h"
 
 typedef struct {

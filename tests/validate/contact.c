@@ -1,4 +1,5 @@
-/* V7: a block that slides down an incline, in line with the grid and across it; fast across the grid; a ball that rolls.
+/* V7: a block that slides down an incline, in line with the grid and across it; fast across the grid; a ball that
+ * rolls.
  * V8: Hertz. */
 #include "valid.h"
 
@@ -158,9 +159,10 @@ void valid_rolling(double cells, const valid_scheme *scheme, valid_result *out)
     valid_finish(solver, out);
 }
 
-/* ---- V8: two equal balls meet slowly.  Hertz's approach 3 P/(4 E' a) is that of points far away, and a ball has none: its
- * middle comes nearer by three quarters of a/R less (point force on a half space), 10 % here.  What holds near the contact, to
- * (a/R)^2, is the way that points on the axis at depth z come nearer to the face under p0 sqrt(1 - r^2/a^2),
+/* ---- V8: two equal balls meet slowly.  Hertz's approach 3 P/(4 E' a) is that of points far away, and a ball has none:
+ * its middle comes nearer by three quarters of a/R less (point force on a half space), 10 % here.  What holds near the
+ * contact, to (a/R)^2, is the way that points on the axis at depth z come nearer to the face under p0 sqrt(1 -
+ * r^2/a^2),
  *   u(0) - u(z) = (1 + nu) p0 a/E {atan Z - 2 nu [Z - Z^2/2 acot Z - (Z - atan Z)/2]},   Z = z/a,
  *   a^3 = 3 P R'/(4 E'),   p0 = 3 P/(2 pi a^2),   E' = E/(2 (1 - nu^2)),   R' = R/2.
  * Where the contact begins depends on the cells; how fast the points come nearer with this way must not. ---- */

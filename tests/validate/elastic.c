@@ -32,7 +32,7 @@ static void ring(double cells, double viscosity, const valid_scheme *scheme, dou
                  valid_result *out)
 {
     const material m = valid_solid(1.2e9, 0.3, 1000);
-    const double h = BAR_LENGTH / cells, c = material_longitudinal_speed(&m), period = 4 * BAR_LENGTH / c;
+    const double h = BAR_LENGTH / cells, c = mpm_material_longitudinal_speed(&m), period = 4 * BAR_LENGTH / c;
     mpm_scene s;
     scene_bar(&s, 0, BAR_LENGTH + 4 * h, h, 1);
     valid_apply(scheme, &s);
@@ -95,7 +95,7 @@ static double collide(double cells, bool contact, const valid_scheme *scheme, va
     }
     mpm *solver = scene_make(&s, 1);
     /* they fly to each other, press for about 6 R / c, and part by as much again */
-    const double end = gap / DISK_SPEED + 10 * R / material_longitudinal_speed(&m);
+    const double end = gap / DISK_SPEED + 10 * R / mpm_material_longitudinal_speed(&m);
     assert_ok(mpm_advance(solver, end, NULL));
     const mpm_ledger l = mpm_balance(solver);
     assert_true(scene_mean(solver, MPM_velocity, 0, 0) < 0); /* they did turn */

@@ -1,7 +1,7 @@
-/* V5: Sod's tube and Noh's wall.  Below rho0 the pressure law (M-3) is p = c0^2 (rho - rho0) + g0 rho e, a stiffened gas with
- * gamma = g0 + 1 and p_inf = rho0 c0^2 / gamma, whose Riemann problem is that of an ideal gas with p + p_inf for p
- * (Harlow and Amsden 1971; Toro, chapter 4).  So a material without strength, c0 as low as a material may have, and points that
- * are given their density and energy at the start, are a tube of gas. */
+/* V5: Sod's tube and Noh's wall.  Below rho0 the pressure law (M-3) is p = c0^2 (rho - rho0) + g0 rho e, a stiffened
+ * gas with gamma = g0 + 1 and p_inf = rho0 c0^2 / gamma, whose Riemann problem is that of an ideal gas with p + p_inf
+ * for p (Harlow and Amsden 1971; Toro, chapter 4).  So a material without strength, c0 as low as a material may have,
+ * and points that are given their density and energy at the start, are a tube of gas. */
 #include "valid.h"
 
 static const double LENGTH = 1; /* [m] */
@@ -158,8 +158,8 @@ void valid_sod(double cells, const valid_scheme *scheme, valid_result *out)
     run_tube(cells, 1.4, &t, 0.2e-3, scheme, out);
 }
 
-/* Noh: cold gas runs into a wall at 1 km/s, gamma 5/3; the shock leaves it at a third of that, four times as dense.  The gas is a
- * fifth as dense as the solid, so that it stays below rho0; the free end comes up to 0.4 by t = 0.6. */
+/* Noh: cold gas runs into a wall at 1 km/s, gamma 5/3; the shock leaves it at a third of that, four times as dense.
+ * The gas is a fifth as dense as the solid, so that it stays below rho0; the free end comes up to 0.4 by t = 0.6. */
 void valid_noh(double cells, const valid_scheme *scheme, valid_result *out)
 {
     riemann r = { .left = { 200, 1000, 0 }, .right = { 200, -1000, 0 } };

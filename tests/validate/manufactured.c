@@ -1,7 +1,7 @@
-/* V1: manufactured solutions.  The motion is given, the body force that makes it a solution follows from the law in closed
- * form (Kamojjala, Brannon, Sadeghirad, Guilkey 2015: the axis-aligned cube and the vortex), and is given to the points
- * step by step: v += dt b(X, t), what a body force on the nodes would do.  Both motions go with sin(w t), so that neither has
- * an acceleration at t = 0 and the velocities may stand half a step behind. */
+/* V1: manufactured solutions.  The motion is given, the body force that makes it a solution follows from the law in
+ * closed form (Kamojjala, Brannon, Sadeghirad, Guilkey 2015: the axis-aligned cube and the vortex), and is given to the
+ * points step by step: v += dt b(X, t), what a body force on the nodes would do.  Both motions go with sin(w t), so
+ * that neither has an acceleration at t = 0 and the velocities may stand half a step behind. */
 #include "valid.h"
 
 typedef struct {
@@ -15,8 +15,8 @@ typedef struct {
 static motion motion_of(const material *m, double omega, double size)
 {
     return (motion){ .m = m,
-                     .K = material_bulk_modulus(m),
-                     .G = material_shear_modulus(m),
+                     .K = mpm_material_bulk_modulus(m),
+                     .G = mpm_material_shear_modulus(m),
                      .rho = m->density,
                      .omega = omega,
                      .size = size };
@@ -108,7 +108,7 @@ void valid_cube(double cells, const valid_scheme *scheme, valid_result *out)
     s.viscosity_linear = s.viscosity_quadratic = 0;
     for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 1, 1 / cells, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
     scene_box(&s, -1, -1, -1, 2, 2, 2, &m);
-    const double omega = SCENE_PI * material_longitudinal_speed(&m);
+    const double omega = SCENE_PI * mpm_material_longitudinal_speed(&m);
     motion w = motion_of(&m, omega, 1);
     mpm *solver = scene_make(&s, 1);
     valid_each(solver, cube_start, &w);
@@ -185,7 +185,7 @@ static void vortex(double turn, double cells, const valid_scheme *scheme, valid_
     s.axis[0] = s.axis[2] = scene_axis(-1.3, 1.3, h, BOUNDARY_FREE, BOUNDARY_FREE);
     s.axis[1] = scene_axis(0, h, h, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
     scene_box(&s, -2, -1, -2, 2, 1, 2, &m);
-    const double omega = 2 * SCENE_PI * material_shear_speed(&m);
+    const double omega = 2 * SCENE_PI * mpm_material_shear_speed(&m);
     motion w = motion_of(&m, omega, 1);
     w.turn = turn;
     mpm *solver = scene_make(&s, 1);

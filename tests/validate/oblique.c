@@ -1,8 +1,9 @@
-/* V12: two elastic plates meet obliquely while both are carried through the grid along all three axes: translation, shock and
- * shear at once, in three dimensions; what a transfer scheme must bear in a scene.
+/* V12: two elastic plates meet obliquely while both are carried through the grid along all three axes: translation,
+ * shock and shear at once, in three dimensions; what a transfer scheme must bear in a scene.
  *
- * In one field, so welded at once.  Behind the fronts that run from the plane of impact at c_l and c_s the relative velocity is
- * zero, normal and tangential; before them it is as at the start.  Compared along the middle, where no edge has been heard of. */
+ * In one field, so welded at once.  Behind the fronts that run from the plane of impact at c_l and c_s the relative
+ * velocity is zero, normal and tangential; before them it is as at the start.  Compared along the middle, where no edge
+ * has been heard of. */
 #include "valid.h"
 
 static const double HALF_WIDTH = 0.8;             /* of the plates across, in thicknesses */
@@ -38,8 +39,8 @@ static void compare(void *user, block *q, int lane)
 static mpm *impact(double cells, const valid_scheme *scheme, double carried, valid_result *out, int first)
 {
     const material m = valid_solid(1e9, 0.3, 1000);
-    const double fast = material_longitudinal_speed(&m), end = TRAVEL / fast, h = 1 / cells, B = HALF_WIDTH;
-    core c = { .front = { TRAVEL, TRAVEL * material_shear_speed(&m) / fast } };
+    const double fast = mpm_material_longitudinal_speed(&m), end = TRAVEL / fast, h = 1 / cells, B = HALF_WIDTH;
+    core c = { .front = { TRAVEL, TRAVEL * mpm_material_shear_speed(&m) / fast } };
     mpm_scene s;
     mpm_scene_default(&s);
     valid_apply(scheme, &s);

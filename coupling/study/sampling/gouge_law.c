@@ -14,10 +14,11 @@ static int step_of(double x, double first, double per, int n, double *f)
 
 /* ---- thresholds ---- */
 
-/* A band without the allowance for the resolution; beyond the search it gouges from the lowest velocity on, or never. */
+/* A band without the allowance for the resolution; beyond the search it gouges from the lowest velocity on, or never.
+ */
 static void band_at(const grain_family *f, double radius, double allowance, double *low, double *high)
 {
-    const surface_size at = surface_at(&f->surface, radius);
+    const surface_size at = study_surface_at(&f->surface, radius);
     const threshold_plan *p = &f->plan.search;
     *low = isnan(at.interval[0]) ? p->low : at.interval[0] + allowance;
     *high = isnan(at.interval[1]) ? INFINITY : at.interval[1] - allowance;
@@ -38,7 +39,7 @@ static void tabulate_thresholds(const grain_family *f, gouge_law *out)
     }
 }
 
-double gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_allowance)
+double study_gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_allowance)
 {
     double f;
     const int i = step_of(ln_radius, l->ln_first, l->per_ln, LAW_SIZES, &f);
@@ -48,7 +49,7 @@ double gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band,
     return low + in_band * (high - low) + of_allowance * l->allowance;
 }
 
-double gouge_law_lowest(const gouge_law *l)
+double study_gouge_law_lowest(const gouge_law *l)
 {
     double lowest = INFINITY;
     for (int i = 0; i <= LAW_SIZES; i++) lowest = fmin(lowest, l->low[i]);
@@ -107,7 +108,7 @@ static int collect(const grain_family *f, double limit_severity, marked *out)
     return n;
 }
 
-gouge_mark gouge_mark_between(const gouge_mark *a, const gouge_mark *b, double f)
+gouge_mark study_gouge_mark_between(const gouge_mark *a, const gouge_mark *b, double f)
 {
     return (gouge_mark){ a->volume + f * (b->volume - a->volume),    a->rim + f * (b->rim - a->rim),
                          a->along + f * (b->along - a->along),       a->depth + f * (b->depth - a->depth),
@@ -120,10 +121,10 @@ static gouge_mark mark_at(const marked *m, int n, double v)
     int k = 0;
     while (k + 1 < n && m[k + 1].v < v) k++;
     if (k + 1 == n || v <= m[k].v || m[k + 1].v <= m[k].v) return m[k].is;
-    return gouge_mark_between(&m[k].is, &m[k + 1].is, (v - m[k].v) / (m[k + 1].v - m[k].v));
+    return study_gouge_mark_between(&m[k].is, &m[k + 1].is, (v - m[k].v) / (m[k + 1].v - m[k].v));
 }
 
-bool gouge_mark_at(const grain_family *f, double limit_severity, double velocity, gouge_mark *out)
+bool study_gouge_mark_at(const grain_family *f, double limit_severity, double velocity, gouge_mark *out)
 {
     marked m[THRESHOLD_MAX_SAMPLES];
     const int n = collect(f, limit_severity, m);
@@ -143,14 +144,14 @@ static void tabulate_marks(const grain_family *f, double limit_severity, gouge_l
         out->mark[i] = mark_at(m, n, out->per_v > 0.0 ? first + i / out->per_v : first);
 }
 
-gouge_mark gouge_law_mark(const gouge_law *l, double velocity)
+gouge_mark study_gouge_law_mark(const gouge_law *l, double velocity)
 {
     double f;
     const int i = step_of(velocity, l->v_first, l->per_v, LAW_VELOCITIES, &f);
-    return gouge_mark_between(&l->mark[i], &l->mark[i + 1], f);
+    return study_gouge_mark_between(&l->mark[i], &l->mark[i + 1], f);
 }
 
-double gouge_law_depth(const grain_family *f, double limit_severity)
+double study_gouge_law_depth(const grain_family *f, double limit_severity)
 {
     double depth = 0.0;
     for (int i = 0; i < f->n_scenes; i++)
@@ -159,13 +160,13 @@ double gouge_law_depth(const grain_family *f, double limit_severity)
     return depth;
 }
 
-void gouge_law_none(gouge_law *out)
+void study_gouge_law_none(gouge_law *out)
 {
     *out = (gouge_law){ .v_first = 1.0 };
     for (int i = 0; i <= LAW_SIZES; i++) out->low[i] = out->high[i] = INFINITY;
 }
 
-void gouge_law_make(const grain_family *f, double limit_severity, gouge_law *out)
+void study_gouge_law_make(const grain_family *f, double limit_severity, gouge_law *out)
 {
     tabulate_thresholds(f, out);
     tabulate_marks(f, limit_severity, out);

@@ -25,19 +25,20 @@ typedef struct {
 } gouge_law;
 
 /* Of a family that no scene was run for: it never gouges. */
-void gouge_law_none(gouge_law *out);
-void gouge_law_make(const grain_family *f, double limit_severity, gouge_law *out);
+void study_gouge_law_none(gouge_law *out);
+void study_gouge_law_make(const grain_family *f, double limit_severity, gouge_law *out);
 
 /* By the scenes themselves, for one grain; false: none of them gouges. */
-bool gouge_mark_at(const grain_family *f, double limit_severity, double velocity, gouge_mark *out);
+bool study_gouge_mark_at(const grain_family *f, double limit_severity, double velocity, gouge_mark *out);
 
 /* low + in_band (high - low) + of_allowance x allowance, in_band 0 .. 1, of_allowance -1 .. 1 [m/s] */
-double gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_allowance);
-gouge_mark gouge_law_mark(const gouge_law *l, double velocity);
-gouge_mark gouge_mark_between(const gouge_mark *a, const gouge_mark *b, double share); /* 0: a, 1: b */
-double gouge_law_depth(const grain_family *f, double limit_severity); /* of the deepest crater; 0: nothing gouges [m] */
+double study_gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_allowance);
+gouge_mark study_gouge_law_mark(const gouge_law *l, double velocity);
+gouge_mark study_gouge_mark_between(const gouge_mark *a, const gouge_mark *b, double share); /* 0: a, 1: b */
+double study_gouge_law_depth(const grain_family *f,
+                             double limit_severity); /* of the deepest crater; 0: nothing gouges [m] */
 
 /* The lowest any size can have [m/s]. */
-double gouge_law_lowest(const gouge_law *l);
+double study_gouge_law_lowest(const gouge_law *l);
 
 #endif

@@ -98,8 +98,8 @@ static double velocity_at(const lane *l, double x)
     return value_at(l, l->along->v, x);
 }
 
-/* A threshold on a rail that is warmer by a share of what `hot` is warmer than `cold`; where one of the two never gouges, the
- * nearer one says. */
+/* A threshold on a rail that is warmer by a share of what `hot` is warmer than `cold`; where one of the two never
+ * gouges, the nearer one says. */
 static double warmed(double threshold, double cold, double hot, double share)
 {
     if (isfinite(cold) && isfinite(hot)) return threshold * (1.0 + share * (hot / cold - 1.0));
@@ -109,19 +109,19 @@ static double warmed(double threshold, double cold, double hot, double share)
 static double threshold_at(const mc *m, const lane *l, const grain *g, double warm)
 {
     const double in_band = l->in_band[g->family], allowed = m->of_allowance;
-    const double cold = gouge_law_threshold(&l->law[g->family], g->ln_r, in_band, allowed);
-    const double here = g->bare ? gouge_law_threshold(&l->bare[g->family], g->ln_r, in_band, allowed) : cold;
+    const double cold = study_gouge_law_threshold(&l->law[g->family], g->ln_r, in_band, allowed);
+    const double here = g->bare ? study_gouge_law_threshold(&l->bare[g->family], g->ln_r, in_band, allowed) : cold;
     if (!(warm > 0.0)) return here;
-    return warmed(here, cold, gouge_law_threshold(&l->warm[g->family], g->ln_r, in_band, allowed), warm);
+    return warmed(here, cold, study_gouge_law_threshold(&l->warm[g->family], g->ln_r, in_band, allowed), warm);
 }
 
 static gouge_mark mark_at(const lane *l, const grain *g, double v, double warm)
 {
     const gouge_law *cold = g->bare ? &l->bare[g->family] : &l->law[g->family];
     const gouge_law *hot = warm > 0.0 ? &l->warm[g->family] : cold;
-    if (!cold->marked || !hot->marked) return gouge_law_mark(cold->marked ? cold : hot, v);
-    const gouge_mark a = gouge_law_mark(cold, v), b = gouge_law_mark(hot, v);
-    return gouge_mark_between(&a, &b, warm);
+    if (!cold->marked || !hot->marked) return study_gouge_law_mark(cold->marked ? cold : hot, v);
+    const gouge_mark a = study_gouge_law_mark(cold, v), b = study_gouge_law_mark(hot, v);
+    return study_gouge_mark_between(&a, &b, warm);
 }
 
 /* Where the gouge ends; on the rail's own metal if it goes through the layers, or is in such a place itself. */
@@ -295,7 +295,7 @@ static void conclude(const mc *m, mc_result *out)
 
 /* ---- setting up ---- */
 
-void mc_velocities(const shot_outcome *flown, double length, double v[MC_PLACES + 1])
+void study_mc_velocities(const shot_outcome *flown, double length, double v[MC_PLACES + 1])
 {
     int k = 0;
     const trace_point *t = flown->trace;
@@ -316,7 +316,7 @@ static status make_along(const mc_plan *plan, const mc_surface *s, lane *l)
     if (s->along) return status_ok();
     l->along = l->own = calloc(1, sizeof *l->own);
     CHECK(l->own, STATUS_MEMORY, "no memory for the Monte Carlo");
-    mc_velocities(s->grains->flown, plan->length, l->own->v);
+    study_mc_velocities(s->grains->flown, plan->length, l->own->v);
     return status_ok();
 }
 
@@ -327,11 +327,11 @@ static status make_laws(const mc_surface *s, const grain_families *from, gouge_l
     *out = calloc((size_t)s->grains->n + 1, sizeof **out);
     CHECK(*out, STATUS_MEMORY, "no memory for the Monte Carlo");
     for (int k = 0; k < s->grains->n; k++) {
-        const grain_family *f = family_alike(from, &s->grains->family[k]);
+        const grain_family *f = study_family_alike(from, &s->grains->family[k]);
         if (f)
-            gouge_law_make(f, from->c->scene.limit_severity, &(*out)[k]);
+            study_gouge_law_make(f, from->c->scene.limit_severity, &(*out)[k]);
         else
-            gouge_law_none(&(*out)[k]);
+            study_gouge_law_none(&(*out)[k]);
     }
     return status_ok();
 }
@@ -372,8 +372,8 @@ static double first_place(const mc *m, int index)
         const lane *l = &m->lane[i];
         const int family = l->grains->of_population[index], shots = l->own ? 1 : m->plan->shots;
         if (family < 0) continue;
-        double lowest = gouge_law_lowest(&l->law[family]);
-        if (l->warm) lowest = fmin(lowest, gouge_law_lowest(&l->warm[family]));
+        double lowest = study_gouge_law_lowest(&l->law[family]);
+        if (l->warm) lowest = fmin(lowest, study_gouge_law_lowest(&l->warm[family]));
         for (int number = 0; number < shots; number++) {
             int k = 0;
             while (k <= MC_PLACES && l->along[number].v[k] < lowest) k++;
@@ -472,10 +472,10 @@ static void run_all(mc *m, mc_result *out)
     }
 }
 
-status mc_run(const mc_plan *plan, mc_result *out)
+status study_mc_run(const mc_plan *plan, mc_result *out)
 {
     mc m = { .plan = plan };
-    const double since = wall_clock();
+    const double since = host_wall_clock();
     memset(out, 0, sizeof *out);
     out->n = plan->n;
     out->shots = plan->shots;
@@ -486,11 +486,11 @@ status mc_run(const mc_plan *plan, mc_result *out)
         conclude(&m, out);
     }
     tear_down(&m);
-    out->seconds = wall_clock() - since;
+    out->seconds = host_wall_clock() - since;
     return s;
 }
 
-void mc_free(mc_result *r)
+void study_mc_free(mc_result *r)
 {
     free(r->of);
     free(r->world_gouges);
@@ -510,18 +510,18 @@ static double gouging_density(const lane *l, int index, double x)
     double sum = 0.0;
     for (int i = 0; i < p->sizes.n; i++) {
         const double r = p->sizes.item[i].radius;
-        if (r < smallest || v < gouge_law_threshold(law, log(r), 0.5, 0.0)) continue;
-        sum += population_share_from(p, r) - population_share_from(p, r * (1.0 + 1e-12));
+        if (r < smallest || v < study_gouge_law_threshold(law, log(r), 0.5, 0.0)) continue;
+        sum += study_population_share_from(p, r) - study_population_share_from(p, r * (1.0 + 1e-12));
     }
     for (int i = 0; p->sizes.n == 0 && i < SIZES; i++) { /* equal shares above the smallest */
-        const double all = population_share_from(p, smallest), share = 1.0 - all * (1.0 - (i + 0.5) / SIZES);
+        const double all = study_population_share_from(p, smallest), share = 1.0 - all * (1.0 - (i + 0.5) / SIZES);
         const double ln_r = log(p->radius_median) + p->radius_spread * gsl_cdf_ugaussian_Pinv(share);
-        if (v >= gouge_law_threshold(law, ln_r, 0.5, 0.0)) sum += all / SIZES;
+        if (v >= study_gouge_law_threshold(law, ln_r, 0.5, 0.0)) sum += all / SIZES;
     }
     return p->density * sum;
 }
 
-double mc_expected(const grain_families *grains, double length)
+double study_mc_expected(const grain_families *grains, double length)
 {
     const mc_surface one = { .grains = grains, .size_factor = 1.0 };
     const mc_plan plan = { .length = length, .n = 1, .surface = &one };
@@ -532,8 +532,8 @@ double mc_expected(const grain_families *grains, double length)
         for (int i = 0; i < grains->c->sites.n; i++) {
             const case_site *site = &grains->c->sites.item[i];
             const int family = grains->of_site[i];
-            sum += family >= 0 &&
-                   velocity_at(l, site->position) >= gouge_law_threshold(&l->law[family], log(site->radius), 0.5, 0.0);
+            sum += family >= 0 && velocity_at(l, site->position) >=
+                                      study_gouge_law_threshold(&l->law[family], log(site->radius), 0.5, 0.0);
         }
         for (int k = 0; k < grains->c->populations.n; k++) {
             const case_population *p = &grains->c->populations.item[k];

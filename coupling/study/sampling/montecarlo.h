@@ -1,14 +1,15 @@
 /* Random shots over threshold surfaces: how many grains gouge, where first, how much.
  *
- * Surfaces (a rail under a treatment, or one with a changed input) meet the same grains: every random number is drawn once
- * and used by all, so differences between surfaces are not blurred by chance.
- * What is not known is drawn too, once a world: where in its band a family's threshold lies (uniform, u_b, its own number
- * for every surface and family) and how far cells have moved it (a share u_s of what is allowed for the resolution, threshold.h;
- * one number for all: cells err alike on all surfaces):  v_th(r) = low(r) + u_b (high(r) - low(r)) + u_s allowance,  u_s in -1 .. 1.
- * A history is a rail under `shots` shots.  A gouge leaves a rim downstream, which is a grain of the same family to
- * the next shot: its place and height, in radii of the grain that made it, by the scenes that gouged (gouge_law.h).  What else the shots
- * leave for those after them is the caller's to say (repeated.h): `along`, `warm`, `bare`.
- * Populations are a Poisson process; grains that no surface could gouge with are not drawn. */
+ * Surfaces (a rail under a treatment, or one with a changed input) meet the same grains: every random number is drawn
+ * once and used by all, so differences between surfaces are not blurred by chance.
+ * What is not known is drawn too, once a world: where in its band a family's threshold lies (uniform, u_b, its own
+ * number for every surface and family) and how far cells have moved it (a share u_s of what is allowed for the
+ * resolution, threshold.h; one number for all: cells err alike on all surfaces):  v_th(r) = low(r) + u_b (high(r) -
+ * low(r)) + u_s allowance,  u_s in -1 .. 1. A history is a rail under `shots` shots.  A gouge leaves a rim downstream,
+ * which is a grain of the same family to the next shot: its place and height, in radii of the grain that made it, by
+ * the scenes that gouged (gouge_law.h).  What else the shots leave for those after them is the caller's to say
+ * (repeated.h): `along`, `warm`, `bare`. Populations are a Poisson process; grains that no surface could gouge with are
+ * not drawn. */
 #ifndef BREECH_COUPLING_MONTECARLO_H
 #define BREECH_COUPLING_MONTECARLO_H
 
@@ -59,13 +60,13 @@ typedef struct {
 } mc_result;
 
 /* v of an mc_along, no more of it. */
-void mc_velocities(const shot_outcome *flown, double length, double v[MC_PLACES + 1]);
+void study_mc_velocities(const shot_outcome *flown, double length, double v[MC_PLACES + 1]);
 
-/* *out needs mc_free even on error. */
-status mc_run(const mc_plan *plan, mc_result *out);
-void mc_free(mc_result *r);
+/* *out needs study_mc_free even on error. */
+status study_mc_run(const mc_plan *plan, mc_result *out);
+void study_mc_free(mc_result *r);
 
 /* Of one surface in the middle of its bands, by quadrature: expected number of gouges [1]. */
-double mc_expected(const grain_families *grains, double length);
+double study_mc_expected(const grain_families *grains, double length);
 
 #endif

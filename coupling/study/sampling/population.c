@@ -18,7 +18,7 @@ static double sum_of_shares(const case_sizes *s, int from)
     return sum;
 }
 
-double population_share_from(const case_population *p, double radius)
+double study_population_share_from(const case_population *p, double radius)
 {
     int k = 0;
     if (p->sizes.n == 0 && !(p->radius_spread > 0.0)) return radius <= p->radius_median ? 1.0 : 0.0;
@@ -27,7 +27,7 @@ double population_share_from(const case_population *p, double radius)
     return sum_of_shares(&p->sizes, k) / sum_of_shares(&p->sizes, 0);
 }
 
-double population_quantile(const case_population *p, double share)
+double study_population_quantile(const case_population *p, double share)
 {
     if (p->sizes.n == 0) return p->radius_median * exp(p->radius_spread * gsl_cdf_ugaussian_Pinv(share));
     int k = 0;
@@ -54,12 +54,13 @@ static double series(double i)
     return pow(10.0, i / PER_DECADE);
 }
 
-int population_sizes(const case_population *p, double smallest, int room, double *size, double *number)
+int study_population_sizes(const case_population *p, double smallest, int room, double *size, double *number)
 {
     const double grains = p->density * (p->to - p->from);
     if (p->sizes.n > 0) return tabulated(p, smallest, grains, room, size, number);
-    if (!(population_share_from(p, smallest) > 0.0)) return 0;
-    const double low = fmax(smallest, population_quantile(p, TAIL)), high = population_quantile(p, 1.0 - TAIL);
+    if (!(study_population_share_from(p, smallest) > 0.0)) return 0;
+    const double low = fmax(smallest, study_population_quantile(p, TAIL)),
+                 high = study_population_quantile(p, 1.0 - TAIL);
     const int first = (int)ceil(PER_DECADE * log10(low) - 1e-6);
     const int last = (int)fmax(floor(PER_DECADE * log10(high) + 1e-6), first);
     int n = 0;
@@ -67,8 +68,8 @@ int population_sizes(const case_population *p, double smallest, int room, double
         const bool open = i == last || n + 1 == room;
         const double from = i == first ? smallest : series(i - 0.5);
         size[n] = series(i);
-        number[n] =
-            grains * (population_share_from(p, from) - (open ? 0.0 : population_share_from(p, series(i + 0.5))));
+        number[n] = grains * (study_population_share_from(p, from) -
+                              (open ? 0.0 : study_population_share_from(p, series(i + 0.5))));
     }
     return n;
 }

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void families_free(grain_families *f)
+void study_families_free(grain_families *f)
 {
     free(f->family);
     free(f->of_site);
@@ -17,10 +17,10 @@ void families_free(grain_families *f)
     memset(f, 0, sizeof *f);
 }
 
-double flown_place(const shot_outcome *flown, double barrel, double v)
+double study_flown_place(const shot_outcome *flown, double barrel, double v)
 {
     trace_point at;
-    return trace_at_velocity(flown, v, &at) ? at.x : barrel;
+    return gouge_trace_at_velocity(flown, v, &at) ? at.x : barrel;
 }
 
 /* ---- who belongs together ---- */
@@ -71,7 +71,7 @@ static status sort_sites(grain_families *f)
         screen hit;
         f->of_site[i] = -1;
         if (!site->reached) continue;
-        TRY(screen_impact(f->c, site->velocity, &hit));
+        TRY(gouge_screen_impact(f->c, site->velocity, &hit));
         if (hit.skip) {
             f->screened++;
             continue;
@@ -83,7 +83,7 @@ static status sort_sites(grain_families *f)
     return status_ok();
 }
 
-double flown_fastest(const shot_outcome *flown)
+double study_flown_fastest(const shot_outcome *flown)
 {
     double v = 0.0;
     for (int i = 0; i < flown->n_trace; i++) v = fmax(v, flown->trace[i].v);
@@ -100,8 +100,8 @@ static status sort_populations(grain_families *f)
         case_site grain = { .position = NAN, .bond_strength = p->bond_strength };
         memcpy(grain.shape, p->shape, sizeof grain.shape);
         memcpy(grain.material, p->material, sizeof grain.material);
-        const int n = population_sizes(p, c->study.smallest_radius, SURFACE_MAX_SIZES / 2, size, number);
-        TRY(screen_impact(c, flown_fastest(f->flown), &hit));
+        const int n = study_population_sizes(p, c->study.smallest_radius, SURFACE_MAX_SIZES / 2, size, number);
+        TRY(gouge_screen_impact(c, study_flown_fastest(f->flown), &hit));
         f->of_population[i] = -1;
         f->screened += hit.skip;
         f->too_small += !hit.skip && n == 0;
@@ -117,7 +117,7 @@ static status sort_populations(grain_families *f)
 static double place_of(const void *user, double v)
 {
     const grain_families *f = user;
-    return flown_place(f->flown, f->c->barrel.length, v);
+    return study_flown_place(f->flown, f->c->barrel.length, v);
 }
 
 /* The size in the middle of the weights. */
@@ -135,10 +135,10 @@ static int middle_size(const surface_plan *p)
 static status plan_searches(grain_families *f)
 {
     const case_study *y = &f->c->study;
-    const bool by_growth = scene_is_gauged(f->probe);
+    const bool by_growth = gouge_is_gauged(f->probe);
     const int craters = by_growth ? y->craters * f->n : 0;
     double sure;
-    TRY(screen_velocity(f->c, y->screen_low, &sure));
+    TRY(gouge_screen_velocity(f->c, y->screen_low, &sure));
     CHECK(f->n + craters <= y->max_scenes, STATUS_BAD_INPUT,
           "study.max_scenes = %d: for %d kinds of grain, %d whole craters; allow more or make the grains alike",
           y->max_scenes, f->n, craters);
@@ -149,7 +149,7 @@ static status plan_searches(grain_families *f)
         p->search = (threshold_plan){ .low = fmax(y->velocity_low, fmin(sure, 0.5 * y->velocity_high)),
                                       .high = y->velocity_high,
                                       .interval = y->velocity_interval,
-                                      .step = threshold_step(y->velocity_interval),
+                                      .step = study_threshold_step(y->velocity_interval),
                                       .coarse = y->coarse_cells_per_radius,
                                       .fine = y->fine_cells_per_radius,
                                       .scatter = by_growth ? f->c->scene.growth_scatter : 0.0,
@@ -162,11 +162,11 @@ static status plan_searches(grain_families *f)
     return status_ok();
 }
 
-void family_probe(const breech_case *c, breech_case *out)
+void study_family_probe(const breech_case *c, breech_case *out)
 {
     *out = *c;
     out->scene.stop_when_gauged = c->study.judge == JUDGE_GROWTH;
-    if (scene_is_gauged(out)) out->output.snapshots = 0;
+    if (gouge_is_gauged(out)) out->output.snapshots = 0;
 }
 
 static status make_cases(grain_families *f)
@@ -174,13 +174,13 @@ static status make_cases(grain_families *f)
     f->probe = malloc(sizeof *f->probe);
     f->whole = malloc(sizeof *f->whole);
     CHECK(f->probe && f->whole, STATUS_MEMORY, "no memory for two cases");
-    family_probe(f->c, f->probe);
+    study_family_probe(f->c, f->probe);
     *f->whole = *f->c;
     f->whole->scene.stop_when_gauged = false;
     return status_ok();
 }
 
-status families_sort(const breech_case *c, const shot_outcome *flown, const char *prefix, grain_families *out)
+status study_families_sort(const breech_case *c, const shot_outcome *flown, const char *prefix, grain_families *out)
 {
     const size_t sites = (size_t)c->sites.n, populations = (size_t)c->populations.n;
     *out = (grain_families){ .c = c, .flown = flown, .prefix = prefix };
@@ -194,24 +194,24 @@ status families_sort(const breech_case *c, const shot_outcome *flown, const char
     return plan_searches(out);
 }
 
-const grain_family *family_alike(const grain_families *in, const grain_family *f)
+const grain_family *study_family_alike(const grain_families *in, const grain_family *f)
 {
     for (int k = 0; k < in->n; k++)
         if (same_family(&in->family[k], &f->grain, f->aspect)) return &in->family[k];
     return NULL;
 }
 
-bool family_searched(const grain_family *f, const family_scene *scene)
+bool study_family_searched(const grain_family *f, const family_scene *scene)
 {
     return !(f->by_growth && scene->whole);
 }
 
-const family_scene *family_nearest(const grain_family *f, double radius, double velocity)
+const family_scene *study_family_nearest(const grain_family *f, double radius, double velocity)
 {
     const family_scene *best = NULL;
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *a = &f->scene[i];
-        if (!family_searched(f, a)) continue;
+        if (!study_family_searched(f, a)) continue;
         if (!best) best = a;
         const double far = fabs(log(a->radius / radius)), best_far = fabs(log(best->radius / radius));
         const bool nearer = fabs(a->velocity - velocity) < fabs(best->velocity - velocity);

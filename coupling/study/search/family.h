@@ -1,11 +1,12 @@
 /* Families of grains and the search of their thresholds, by scenes (scenes.h).
  *
- * A family is what surface.h means by it: the grains of a case - sites of its list and populations - that are alike in shape,
- * material, bond and height over radius.  All searches of a study, over families and over cases (rail surfaces), go on
- * together: each runs on what is known and asks for one scene more, the first two at once, the scenes of all are computed as
- * they come.  With study.judge growth the searches' scenes end once the growth of their groove is known; where something
- * gouges, one or two more at fine cells (study.craters), in the middle of what gouges and at the fastest grain, go on to their
- * whole craters.  A groove that is not followed (scene.follow) has no growth: such a study is judged by severity. */
+ * A family is what surface.h means by it: the grains of a case - sites of its list and populations - that are alike in
+ * shape, material, bond and height over radius.  All searches of a study, over families and over cases (rail surfaces),
+ * go on together: each runs on what is known and asks for one scene more, the first two at once, the scenes of all are
+ * computed as they come.  With study.judge growth the searches' scenes end once the growth of their groove is known;
+ * where something gouges, one or two more at fine cells (study.craters), in the middle of what gouges and at the
+ * fastest grain, go on to their whole craters.  A groove that is not followed (scene.follow) has no growth: such a
+ * study is judged by severity. */
 #ifndef BREECH_COUPLING_FAMILY_H
 #define BREECH_COUPLING_FAMILY_H
 
@@ -21,7 +22,7 @@ typedef struct {
 typedef struct {
     case_site grain; /* of its first site or population; the size is the scene's */
     double aspect;   /* height over radius */
-    bool by_growth;  /* else by severity: family_probe */
+    bool by_growth;  /* else by severity: study_family_probe */
     surface_plan plan;
     surface_result surface;
     int n_scenes;
@@ -41,28 +42,28 @@ typedef struct {
     int screened, too_small;      /* sites and populations without a scene: by the screen, by study.smallest_radius */
 } grain_families;
 
-/* Sorts sites and populations into families and plans their searches.  families_free even on error. */
-status families_sort(const breech_case *c, const shot_outcome *flown, const char *prefix, grain_families *out);
-void families_free(grain_families *f);
+/* Sorts sites and populations into families and plans their searches.  study_families_free even on error. */
+status study_families_sort(const breech_case *c, const shot_outcome *flown, const char *prefix, grain_families *out);
+void study_families_free(grain_families *f);
 
-/* A copy of c, which it borrows from, as a search's scenes are made of: they end at their second gauge where the study is
- * judged by growth, and else go to their end. */
-void family_probe(const breech_case *c, breech_case *out);
+/* A copy of c, which it borrows from, as a search's scenes are made of: they end at their second gauge where the study
+ * is judged by growth, and else go to their end. */
+void study_family_probe(const breech_case *c, breech_case *out);
 
 /* Searches all families of n cases to their end. */
-status families_search(session *s, grain_families *const *f, int n);
+status study_families_search(session *s, grain_families *const *f, int n);
 
 /* Its family in another case of the same grains; NULL: none of them is fast enough there (screen). */
-const grain_family *family_alike(const grain_families *in, const grain_family *f);
+const grain_family *study_family_alike(const grain_families *in, const grain_family *f);
 
 /* Is it of the search?  Judged by growth, whole scenes are not: their class is that of their severity. */
-bool family_searched(const grain_family *f, const family_scene *scene);
+bool study_family_searched(const grain_family *f, const family_scene *scene);
 
 /* Of the search's that of the best resolution nearest in velocity, of those nearest in size; NULL if there is none. */
-const family_scene *family_nearest(const grain_family *f, double radius, double velocity);
+const family_scene *study_family_nearest(const grain_family *f, double radius, double velocity);
 
 /* First place where the armature has the velocity v; the barrel's end if it never has [m]. */
-double flown_place(const shot_outcome *flown, double barrel, double v);
-double flown_fastest(const shot_outcome *flown); /* largest velocity that the armature has [m/s] */
+double study_flown_place(const shot_outcome *flown, double barrel, double v);
+double study_flown_fastest(const shot_outcome *flown); /* largest velocity that the armature has [m/s] */
 
 #endif

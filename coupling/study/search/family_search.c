@@ -1,4 +1,5 @@
-/* The searches of families: each runs on what is known and says what it wants; what it may want next is found by guessing. */
+/* The searches of families: each runs on what is known and says what it wants; what it may want next is found by
+ * guessing. */
 #include "coupling/study/search/family.h"
 
 #include <math.h>
@@ -40,7 +41,7 @@ static double contact_pressure_at(const grain_families *f, double v)
     const double given = f->c->scene.contact_pressure;
     trace_point at = flown->n_trace > 0 ? flown->trace[flown->n_trace - 1] : (trace_point){ .contact_pressure = 0.0 };
     if (!isnan(given)) return given;
-    trace_at_velocity(flown, v, &at);
+    gouge_trace_at_velocity(flown, v, &at);
     return PRESSURE_STEP * round(at.contact_pressure / PRESSURE_STEP);
 }
 
@@ -59,7 +60,7 @@ static scene_query query_of(const asker *a, bool whole, double radius, double ve
     char size[32] = "";
     if (a->family->plan.sizes > 1) snprintf(size, sizeof size, "-r%.6g", 1e3 * radius);
     snprintf(q.name, sizeof q.name, "%.40sg%d%s-v%g-c%g%s", a->of->prefix, a->number, size, velocity, cells,
-             scene_is_gauged(c) ? "-growth" : "");
+             gouge_is_gauged(c) ? "-growth" : "");
     return q;
 }
 
@@ -68,23 +69,23 @@ static const scene_record *known(const grain_family *f, const scene_query *q)
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *k = &f->scene[i];
         if (k->radius == q->state.grain.radius && k->velocity == q->state.velocity && k->cells == q->cells_per_radius &&
-            k->whole == !scene_is_gauged(q->c))
+            k->whole == !gouge_is_gauged(q->c))
             return k->record;
     }
     return NULL;
 }
 
-/* From the session, kept for the next round; NULL in *out: it is not known yet.  A guess takes nothing from the session: what
- * was computed ahead is nobody's until a search asks for it. */
+/* From the session, kept for the next round; NULL in *out: it is not known yet.  A guess takes nothing from the
+ * session: what was computed ahead is nobody's until a search asks for it. */
 static status find(asker *a, const scene_query *q, const scene_record **out)
 {
     grain_family *f = a->family;
     *out = known(f, q);
     if (*out || a->ahead) return status_ok();
-    TRY(scenes_find(a->session, q, out));
+    TRY(run_scenes_find(a->session, q, out));
     if (*out && f->n_scenes < THRESHOLD_MAX_SAMPLES)
         f->scene[f->n_scenes++] = (family_scene){ q->state.grain.radius, q->state.velocity, q->cells_per_radius,
-                                                  !scene_is_gauged(q->c), *out };
+                                                  !gouge_is_gauged(q->c), *out };
     return status_ok();
 }
 
@@ -116,7 +117,8 @@ static void note(prospect *p, const scene_query *q)
 static double excess_of(const breech_case *c, const onset_scene *e)
 {
     const scene_result *r = &e->result;
-    return e->gauged ? growth_folds(r->groove_growth, e->radius, e->velocity) : r->severity - c->scene.limit_severity;
+    return e->gauged ? gouge_growth_folds(r->groove_growth, e->radius, e->velocity)
+                     : r->severity - c->scene.limit_severity;
 }
 
 /* Linear, an e-fold in 100 m/s. */
@@ -143,7 +145,7 @@ static status outcome_at(void *user, double radius, double velocity, double cell
     }
     want(a, &q);
     if (a->has_promised) want(a, &a->promised);
-    return status_error(STATUS_STOPPED, "a scene is wanted"); /* ends this round of the search */
+    return base_status_error(STATUS_STOPPED, "a scene is wanted"); /* ends this round of the search */
 }
 
 static void together(void *user, double radius, double velocity, double cells)
@@ -166,7 +168,8 @@ static double fastest_grain(const grain_families *f, const grain_family *family)
     for (int i = 0; i < f->c->sites.n; i++)
         if (f->of_site[i] >= 0 && &f->family[f->of_site[i]] == family) v = fmax(v, f->flown->site[i].velocity);
     for (int i = 0; i < f->c->populations.n; i++)
-        if (f->of_population[i] >= 0 && &f->family[f->of_population[i]] == family) v = fmax(v, flown_fastest(f->flown));
+        if (f->of_population[i] >= 0 && &f->family[f->of_population[i]] == family)
+            v = fmax(v, study_flown_fastest(f->flown));
     return v;
 }
 
@@ -185,8 +188,8 @@ static int size_of_craters(const surface_plan *p, const surface_result *s, doubl
     return k;
 }
 
-/* The scene of the search nearest to the middle of the velocities that gouge for sure; of none in their inner two thirds, the
- * middle; where no grain is fast enough for sure, the slowest that gouges. */
+/* The scene of the search nearest to the middle of the velocities that gouge for sure; of none in their inner two
+ * thirds, the middle; where no grain is fast enough for sure, the slowest that gouges. */
 static double middle_gouge(const surface_plan *p, const surface_result *s, int k, double fastest)
 {
     const double step = p->search.step, low = s->size[k].interval[1], middle = 0.5 * (low + fastest);
@@ -195,16 +198,16 @@ static double middle_gouge(const surface_plan *p, const surface_result *s, int k
     for (int i = 0; i < s->samples; i++) {
         const surface_sample *a = &s->sample[i];
         const double v = a->is.velocity;
-        if (a->radius != p->size[k] || a->is.cells_per_radius != s->reference.cells || !threshold_is_upper(&a->is) ||
-            fabs(v - middle) > off)
+        if (a->radius != p->size[k] || a->is.cells_per_radius != s->reference.cells ||
+            !study_threshold_is_upper(&a->is) || fabs(v - middle) > off)
             continue;
         best = v, off = fabs(v - middle);
     }
     return isnan(best) ? step * ceil(middle / step) : best;
 }
 
-/* Once the thresholds are known: whole craters of what gouges, in the middle of its velocities and at the fastest grain.  Where
- * gouging begins a groove is longest, costs most, and hangs on the resolution. */
+/* Once the thresholds are known: whole craters of what gouges, in the middle of its velocities and at the fastest
+ * grain.  Where gouging begins a groove is longest, costs most, and hangs on the resolution. */
 static status round_of_craters(asker *a, const surface_result *s)
 {
     const surface_plan *p = &a->family->plan;
@@ -233,7 +236,7 @@ static status round_of(asker *a, surface_result *out)
     const surface_source source = { outcome_at, together, a };
     a->n = 0;
     a->has_promised = false;
-    const status done = surface_search(&a->family->plan, &source, out);
+    const status done = study_surface_search(&a->family->plan, &source, out);
     if (a->n > 0) return status_ok();
     TRY(done);
     return round_of_craters(a, out);
@@ -251,8 +254,8 @@ typedef struct {
     surface_result scratch;
 } requests;
 
-/* The search run to its end with the threshold on both sides of its wanted scenes and at the ends of the range: what it asks for
- * then.  *guesses: how many there were. */
+/* The search run to its end with the threshold on both sides of its wanted scenes and at the ends of the range: what it
+ * asks for then.  *guesses: how many there were. */
 static status guess_on(const asker *now, requests *r, int *guesses)
 {
     const threshold_plan *p = &now->family->plan.search;
@@ -273,7 +276,7 @@ static status guess_on(const asker *now, requests *r, int *guesses)
 
 static bool is_longer(const scene_query *a, const scene_query *b)
 {
-    const bool whole[2] = { !scene_is_gauged(a->c), !scene_is_gauged(b->c) };
+    const bool whole[2] = { !gouge_is_gauged(a->c), !gouge_is_gauged(b->c) };
     return whole[0] != whole[1] ? whole[0] : a->cells_per_radius > b->cells_per_radius;
 }
 
@@ -287,9 +290,9 @@ static void sort_longest_first(scene_query *list, int n)
         }
 }
 
-/* What the search will ask for after its wanted scenes, first what it asks for in every case, nothing that it asks for in less than
- * two cases of three: lent to a wanted scene, the threads are worth 0.6 of themselves.  Where that is all, nothing hangs
- * on the wanted ones, and they stand among the others: the longest first. */
+/* What the search will ask for after its wanted scenes, first what it asks for in every case, nothing that it asks for
+ * in less than two cases of three: lent to a wanted scene, the threads are worth 0.6 of themselves.  Where that is all,
+ * nothing hangs on the wanted ones, and they stand among the others: the longest first. */
 static status look_ahead(const asker *now, requests *r)
 {
     const prospect *p = &r->ahead;
@@ -326,13 +329,13 @@ static status search(session *s, grain_families *const *f, int n, requests *r)
 {
     do {
         TRY(gather(s, f, n, r));
-        TRY(scenes_ahead(s, r->next, r->n_next, r->level));
-        TRY(scenes_some(s, r->query, r->n));
+        TRY(run_scenes_ahead(s, r->next, r->n_next, r->level));
+        TRY(run_scenes_some(s, r->query, r->n));
     } while (r->n > 0);
     return status_ok();
 }
 
-status families_search(session *s, grain_families *const *f, int n)
+status study_families_search(session *s, grain_families *const *f, int n)
 {
     requests *r = malloc(sizeof *r);
     CHECK(r, STATUS_MEMORY, "no memory for the searches of %d surfaces", n);

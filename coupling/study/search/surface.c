@@ -65,7 +65,7 @@ static double grid_high(const surface_plan *p)
 /* One sample into a band: its own always, another size's where it does not contradict the band's own ends. */
 static void take(band *b, const surface_sample *a, double radius)
 {
-    const bool upper = threshold_is_upper(&a->is), own = a->radius == radius;
+    const bool upper = study_threshold_is_upper(&a->is), own = a->radius == radius;
     const double v = a->is.velocity;
     if (upper && (own || (a->radius < radius && !(b->own_low && v <= b->low))) && v < b->high)
         b->high = v, b->high_known = true, b->own_high = own ? &a->is : NULL;
@@ -274,7 +274,7 @@ static void check_sizes(surface_result *r)
             const surface_sample *small = &r->sample[i], *large = &r->sample[j];
             if (small->is.cells_per_radius != r->reference.cells || large->is.cells_per_radius != r->reference.cells ||
                 !(small->radius < large->radius) || small->is.velocity > large->is.velocity ||
-                !threshold_is_upper(&small->is) || threshold_is_upper(&large->is))
+                !study_threshold_is_upper(&small->is) || study_threshold_is_upper(&large->is))
                 continue;
             r->monotone = false;
             if (!r->warning[0])
@@ -345,14 +345,14 @@ static status check_plan(const surface_plan *p)
     return status_ok();
 }
 
-status surface_search(const surface_plan *plan, const surface_source *source, surface_result *out)
+status study_surface_search(const surface_plan *plan, const surface_source *source, surface_result *out)
 {
     memset(out, 0, sizeof *out);
     out->monotone = true;
     TRY(check_plan(plan));
     search s = { plan, source, out, plan->size[plan->reference] };
     const threshold_source at_reference = { ask_reference, reference_together, &s };
-    TRY(threshold_search(&plan->search, &at_reference, &out->reference));
+    TRY(study_threshold_search(&plan->search, &at_reference, &out->reference));
     memcpy(out->warning, out->reference.warning, sizeof out->warning);
     out->monotone = out->reference.monotone;
     TRY(narrow_sizes(&s));
@@ -360,7 +360,7 @@ status surface_search(const surface_plan *plan, const surface_source *source, su
     return status_ok();
 }
 
-surface_size surface_at(const surface_result *s, double radius)
+surface_size study_surface_at(const surface_result *s, double radius)
 {
     const surface_size *first = &s->size[0], *last = &s->size[s->sizes - 1];
     if (radius <= first->radius) return *first;

@@ -3,17 +3,17 @@
  * A family: grains alike in all but size - shape, material, bond, height over radius - on one surface, in one shot.  A
  * scene's contact pressure follows from its velocity, so size and velocity are the axes.
  *   1. At the reference size the whole search of threshold.h, coarse and fine.
- *   2. At the other sizes scenes of the last resolution, under two assumptions that are checked, not taken on faith: what
- *      gouges at v gouges at more than v, and where a grain gouges a larger one does.  So one scene that gouges bounds the
- *      threshold of its size and all larger ones from above, one that does not bounds all smaller ones from below:
- *      low(r) <= v_th(r) <= high(r), both falling with r.
+ *   2. At the other sizes scenes of the last resolution, under two assumptions that are checked, not taken on faith:
+ *      what gouges at v gouges at more than v, and where a grain gouges a larger one does.  So one scene that gouges
+ *      bounds the threshold of its size and all larger ones from above, one that does not bounds all smaller ones from
+ *      below: low(r) <= v_th(r) <= high(r), both falling with r.
  *      The bands of the smallest and the largest size end at scenes of their own, so that a
  *      threshold that rises with size shows; a size's own scenes count before those of others.
  *      Each scene is placed where it is expected to take most off the bands: sum over sizes of weight x width of the
  *      band, as velocity and as place along the barrel.  What it expects (a threshold that falls slowly with size)
  *      decides which scene comes next, never the answer.
- *   3. The search ends when the bands' weighted mean width is the wanted one in velocity and in place, when no size has a
- *      band wider than the grid, or with the budget.  A flat threshold takes four scenes beyond the reference.
+ *   3. The search ends when the bands' weighted mean width is the wanted one in velocity and in place, when no size has
+ *      a band wider than the grid, or with the budget.  A flat threshold takes four scenes beyond the reference.
  * Interval of a size: its band and on both sides the reference's allowance for the resolution. */
 #ifndef BREECH_COUPLING_SURFACE_H
 #define BREECH_COUPLING_SURFACE_H
@@ -61,9 +61,9 @@ typedef struct {
     surface_sample sample[THRESHOLD_MAX_SAMPLES]; /* in the order they were asked for */
 } surface_result;
 
-status surface_search(const surface_plan *plan, const surface_source *source, surface_result *out);
+status study_surface_search(const surface_plan *plan, const surface_source *source, surface_result *out);
 
 /* At any size: linear in ln r between sizes, that of the last size beyond the ends. */
-surface_size surface_at(const surface_result *s, double radius);
+surface_size study_surface_at(const surface_result *s, double radius);
 
 #endif

@@ -11,7 +11,7 @@ static const double BEYOND_GAP =
     0.15;                  /* of the threshold: a narrower stretch beside the bracket is not looked at [1] */
 enum { FINE_RESERVE = 6 }; /* scenes left for the fine stage, one beyond included */
 
-double threshold_step(double interval)
+double study_threshold_step(double interval)
 {
     static const double nice[] = { 5.0, 2.5, 1.0 };
     const double wanted = 0.5 * interval * TYPICAL, decade = pow(10.0, floor(log10(wanted)));
@@ -36,7 +36,7 @@ typedef struct {
     bool has_lo, has_hi;
 } bracket;
 
-bool threshold_is_upper(const threshold_sample *s)
+bool study_threshold_is_upper(const threshold_sample *s)
 {
     return s->class == DAMAGE_GOUGE || (s->class == DAMAGE_UNDECIDED && s->excess >= 0.0);
 }
@@ -81,7 +81,7 @@ static status ask(search *s, double v, threshold_sample *out)
 /* The bracket takes a value where that narrows or moves it. */
 static void take(bracket *b, const threshold_sample *a)
 {
-    if (threshold_is_upper(a)) {
+    if (study_threshold_is_upper(a)) {
         b->hi = *a;
         b->has_hi = true;
     } else {
@@ -98,8 +98,8 @@ static status probe(search *s, double v, bracket *b)
     return status_ok();
 }
 
-/* Two at a time; one where they are the same on the grid, or the budget is short.  If the slower gouges the faster says nothing
- * of the bracket: the lowest change of side counts, and check_monotone sees the rest. */
+/* Two at a time; one where they are the same on the grid, or the budget is short.  If the slower gouges the faster says
+ * nothing of the bracket: the lowest change of side counts, and check_monotone sees the rest. */
 static status probe_two(search *s, double first, double second, bracket *b)
 {
     const double v[2] = { on_grid(s, fmin(first, second)), on_grid(s, fmax(first, second)) };
@@ -108,7 +108,7 @@ static status probe_two(search *s, double first, double second, bracket *b)
     if (s->source->together && !known(s, v[0]) && !known(s, v[1])) s->source->together(s->source->user, v[1], s->cells);
     for (int i = 0; i < 2; i++) TRY(ask(s, v[i], &a[i]));
     take(b, &a[0]);
-    if (!threshold_is_upper(&a[0])) take(b, &a[1]);
+    if (!study_threshold_is_upper(&a[0])) take(b, &a[1]);
     return status_ok();
 }
 
@@ -146,7 +146,8 @@ static bool too_wide(const search *s, widths wanted, double lo, double hi)
            (p->place && p->place(p->place_user, hi) - p->place(p->place_user, lo) > wanted.place);
 }
 
-/* The velocity of the grid furthest from one end of a bracket towards the other that leaves no more than the wanted width. */
+/* The velocity of the grid furthest from one end of a bracket towards the other that leaves no more than the wanted
+ * width. */
 static double reach(const search *s, widths wanted, double end, double other)
 {
     const double step = end < other ? s->plan->step : -s->plan->step;
@@ -156,8 +157,8 @@ static double reach(const search *s, widths wanted, double end, double other)
     return v;
 }
 
-/* Where one scene is enough, there.  Else the secant's root, but where an end is within reach of it, at the end's reach: then the
- * likelier side is narrow enough. */
+/* Where one scene is enough, there.  Else the secant's root, but where an end is within reach of it, at the end's
+ * reach: then the likelier side is narrow enough. */
 static double next_within(const search *s, widths wanted, const bracket *b)
 {
     const double up = reach(s, wanted, b->lo.velocity, b->hi.velocity);
@@ -179,7 +180,8 @@ static bool complete(const bracket *b)
     return b->has_lo && b->has_hi;
 }
 
-/* Away from the side that is known, a step and then as far again as it has come, to a change of side or the end of the range. */
+/* Away from the side that is known, a step and then as far again as it has come, to a change of side or the end of the
+ * range. */
 static status widen(search *s, double step, bracket *b)
 {
     double gone = 0.0;
@@ -203,9 +205,9 @@ static status coarse_stage(search *s, widths wanted, bracket *b)
     return complete(b) ? narrow(s, wanted, b) : status_ok();
 }
 
-/* The search itself never looks beyond its bracket, so it cannot see a function that turns back: one coarse scene on each
- * side, half way to the end of the range, looks there, unless one of the search's lies far enough out.  Planned when the coarse
- * bracket is known, asked for last. */
+/* The search itself never looks beyond its bracket, so it cannot see a function that turns back: one coarse scene on
+ * each side, half way to the end of the range, looks there, unless one of the search's lies far enough out.  Planned
+ * when the coarse bracket is known, asked for last. */
 typedef struct {
     int n;
     double at[2]; /* [m/s] */
@@ -266,23 +268,23 @@ static double crossing(const threshold_sample *a, const threshold_sample *b, dou
 /* The next scene of the stage and of the same side, away from the bracket; NULL: none. */
 static const threshold_sample *further_out(const search *s, const threshold_sample *from)
 {
-    const bool upper = threshold_is_upper(from);
+    const bool upper = study_threshold_is_upper(from);
     const threshold_sample *next = NULL;
     for (int i = 0; i < s->out->samples; i++) {
         const threshold_sample *a = &s->out->sample[i];
         const double way = upper ? a->velocity - from->velocity : from->velocity - a->velocity;
-        if (a->cells_per_radius != s->cells || threshold_is_upper(a) != upper || !(way > 0.0)) continue;
+        if (a->cells_per_radius != s->cells || study_threshold_is_upper(a) != upper || !(way > 0.0)) continue;
         if (!next || way < fabs(next->velocity - from->velocity)) next = a;
     }
     return next;
 }
 
-/* From an end of the bracket outwards to the first decided scene of its side; where the scatter of the excess is known, only to
- * where the line from the last undecided one leaves it. */
+/* From an end of the bracket outwards to the first decided scene of its side; where the scatter of the excess is known,
+ * only to where the line from the last undecided one leaves it. */
 static double decided_end(const search *s, const threshold_sample *end)
 {
     const threshold_sample *decided = end, *undecided = end;
-    const double scatter = threshold_is_upper(end) ? s->plan->scatter : -s->plan->scatter;
+    const double scatter = study_threshold_is_upper(end) ? s->plan->scatter : -s->plan->scatter;
     while (decided && decided->class == DAMAGE_UNDECIDED) {
         undecided = decided;
         decided = further_out(s, decided);
@@ -309,7 +311,7 @@ static void check_monotone(threshold_result *r, double cells)
     for (int i = 0; i < r->samples; i++) {
         const threshold_sample *a = &r->sample[i];
         if (a->cells_per_radius != cells) continue;
-        if (threshold_is_upper(a))
+        if (study_threshold_is_upper(a))
             lowest_upper = fmin(lowest_upper, a->velocity);
         else
             highest_lower = fmax(highest_lower, a->velocity);
@@ -393,7 +395,7 @@ static void conclude_short(const search *s, const bracket *coarse, const bracket
          out->shift < 0.0 ? "still gouge" : "do not gouge yet");
 }
 
-status threshold_search(const threshold_plan *plan, const threshold_source *source, threshold_result *out)
+status study_threshold_search(const threshold_plan *plan, const threshold_source *source, threshold_result *out)
 {
     memset(out, 0, sizeof *out);
     out->velocity = out->shift = NAN;

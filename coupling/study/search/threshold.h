@@ -1,20 +1,22 @@
 /* The search for a threshold velocity: where the growth of an impact's groove, or its severity, crosses its limit.
  *
  * What is known of the function: nothing but values at velocities we pay for, each at a resolution, each with a class.
- *   1. Coarse: a quarter of the range from both its ends, both in any case (so the other side is looked at once); from there
- *      outwards by a fifth, then as far again as it has come, to a change of side; in between until the bracket is a fifth of
- *      its middle or the wanted interval, whichever is more.  Where there is one resolution only, to the wanted interval.
- *   2. Fine: one wanted half interval below the coarse root, from there by a wanted interval, then as far again as it has
- *      come, to a change of side; in between to the wanted interval, in velocity and in place, or the grid's step.
- *      In between one scene at a time: where one is enough, there; else at the secant's root, or, where an end is within a
- *      wanted width of it, that width from the end.  (Two at a time took a fifth more scenes.)
+ *   1. Coarse: a quarter of the range from both its ends, both in any case (so the other side is looked at once); from
+ *      there outwards by a fifth, then as far again as it has come, to a change of side; in between until the bracket
+ *      is a fifth of its middle or the wanted interval, whichever is more.  Where there is one resolution only, to the
+ *      wanted interval.
+ *   2. Fine: one wanted half interval below the coarse root, from there by a wanted interval, then as far again as it
+ *      has come, to a change of side; in between to the wanted interval, in velocity and in place, or the grid's step.
+ *      In between one scene at a time: where one is enough, there; else at the secant's root, or, where an end is
+ *      within a wanted width of it, that width from the end.  (Two at a time took a fifth more scenes.)
  *      No bracket is made narrower than what the resolution leaves open (`resolution`).
- *      Last a coarse scene half way to each end of the range, where that is far and nothing was asked: does the function turn
- *      back?  If scenes run out before it has both sides: the coarse root, moved as far as the fine scenes' one side drove it.
- *   3. Interval: the fine bracket, by decided scenes (an `undecided` one takes the side of its excess, but does not end the
- *      interval: that ends at the next decided one, or where the line to it leaves the scatter), widened by what the
- *      resolution may change: the shift of the root from coarse to fine, or the plan's share of the threshold if more; of
- *      a threshold outside of the range that share of the end where it was looked for.
+ *      Last a coarse scene half way to each end of the range, where that is far and nothing was asked: does the
+ *      function turn back?  If scenes run out before it has both sides: the coarse root, moved as far as the fine
+ *      scenes' one side drove it.
+ *   3. Interval: the fine bracket, by decided scenes (an `undecided` one takes the side of its excess, but does not end
+ *      the interval: that ends at the next decided one, or where the line to it leaves the scatter), widened by what
+ *      the resolution may change: the shift of the root from coarse to fine, or the plan's share of the threshold if
+ *      more; of a threshold outside of the range that share of the end where it was looked for.
  * Monotonicity is checked: a higher velocity on the lower side of a lower one widens the interval over both and warns.
  * Velocities lie on the grid k * step, so that scenes are shared, and none is asked for twice. */
 #ifndef BREECH_COUPLING_THRESHOLD_H
@@ -77,12 +79,13 @@ typedef struct {
     threshold_sample sample[THRESHOLD_MAX_SAMPLES]; /* in the order they were asked for */
 } threshold_result;
 
-status threshold_search(const threshold_plan *plan, const threshold_source *source, threshold_result *out);
+status study_threshold_search(const threshold_plan *plan, const threshold_source *source, threshold_result *out);
 
 /* Does a sample speak for a gouge?  An undecided one by its excess. */
-bool threshold_is_upper(const threshold_sample *s);
+bool study_threshold_is_upper(const threshold_sample *s);
 
-/* Grid step for a wanted interval around 1.5 km/s: half of it, rounded down to 1, 2.5 or 5 times a power of ten [m/s]. */
-double threshold_step(double interval);
+/* Grid step for a wanted interval around 1.5 km/s: half of it, rounded down to 1, 2.5 or 5 times a power of ten [m/s].
+ */
+double study_threshold_step(double interval);
 
 #endif

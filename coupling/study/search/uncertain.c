@@ -6,10 +6,10 @@
 
 static const double NEAR[2] = { 0.6, 1.6 }; /* of the threshold */
 
-void uncertain_free(uncertain_inputs *u)
+void study_uncertain_free(uncertain_inputs *u)
 {
     for (int k = 0; k < u->n; k++) {
-        families_free(&u->of[k].grains);
+        study_families_free(&u->of[k].grains);
         free(u->of[k].c);
     }
     memset(u, 0, sizeof *u);
@@ -65,15 +65,16 @@ static status plan(const grain_families *g, const raised *from, double error, un
         c->study.velocity_low = fmax(NEAR[0] * low, c->study.velocity_low);
         c->study.velocity_high = fmin(NEAR[1] * high, c->study.velocity_high);
     }
-    return families_sort(c, g->flown, from->prefix, &out->grains);
+    return study_families_sort(c, g->flown, from->prefix, &out->grains);
 }
 
 /* ---- what they move ---- */
 
-/* To where the raised input moves the threshold of a family; where its search saw one side alone, as far as that reached. */
+/* To where the raised input moves the threshold of a family; where its search saw one side alone, as far as that
+ * reached. */
 static double moved_to(const uncertain_input *u, const grain_family *f)
 {
-    const grain_family *as = family_alike(&u->grains, f);
+    const grain_family *as = study_family_alike(&u->grains, f);
     if (!as) return NAN;
     const threshold_result *r = &as->surface.reference;
     if (!isnan(r->velocity)) return r->velocity;
@@ -92,11 +93,11 @@ static void widen(surface_result *s, double allowance)
     }
 }
 
-void uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other)
+void study_uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other)
 {
     for (int k = 0; k < other->n; k++) {
         surface_result *s = &other->family[k].surface;
-        const grain_family *f = family_alike(first, &other->family[k]);
+        const grain_family *f = study_family_alike(first, &other->family[k]);
         double squares = s->reference.allowance * s->reference.allowance;
         for (int i = 0; f && i < u->n; i++) {
             const double off = moved_to(&u->of[i], f) - f->surface.reference.velocity;
@@ -106,7 +107,7 @@ void uncertain_widen(const uncertain_inputs *u, const grain_families *first, gra
     }
 }
 
-status uncertain_run(session *s, grain_families *grains, uncertain_inputs *out)
+status study_uncertain_run(session *s, grain_families *grains, uncertain_inputs *out)
 {
     grain_families *all[UNCERTAIN_MAX];
     memset(out, 0, sizeof *out);
@@ -117,7 +118,7 @@ status uncertain_run(session *s, grain_families *grains, uncertain_inputs *out)
         TRY(plan(grains, &inputs[k], error, &out->of[out->n++]));
     }
     if (out->n == 0) return status_ok();
-    TRY(families_search(s, all, out->n));
-    uncertain_widen(out, grains, grains);
+    TRY(study_families_search(s, all, out->n));
+    study_uncertain_widen(out, grains, grains);
     return status_ok();
 }

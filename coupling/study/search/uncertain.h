@@ -1,8 +1,8 @@
-/* What a threshold owes to inputs of its scenes that are not well known: the search once more with each of them raised by its stated
- * uncertainty (study.strength_error, friction_error; 0: not asked for).
+/* What a threshold owes to inputs of its scenes that are not well known: the search once more with each of them raised
+ * by its stated uncertainty (study.strength_error, friction_error; 0: not asked for).
  *
- * By as much as the threshold of the reference size then moves, the intervals of all sizes are widened on both sides: the allowance is the
- * root of the sum of squares of what cells may change (threshold.h) and of all these.
+ * By as much as the threshold of the reference size then moves, the intervals of all sizes are widened on both sides:
+ * the allowance is the root of the sum of squares of what cells may change (threshold.h) and of all these.
  * The searches are looked for from 0.6 to 1.6 of the threshold, have no whole craters, and go on side by side. */
 #ifndef BREECH_COUPLING_UNCERTAIN_H
 #define BREECH_COUPLING_UNCERTAIN_H
@@ -23,10 +23,11 @@ typedef struct {
     uncertain_input of[UNCERTAIN_MAX];
 } uncertain_inputs;
 
-/* After the search of `grains`, whose intervals it widens.  *out needs uncertain_free even on error, before `grains` goes. */
-status uncertain_run(session *s, grain_families *grains, uncertain_inputs *out);
+/* After the search of `grains`, whose intervals it widens.  *out needs study_uncertain_free even on error, before
+ * `grains` goes. */
+status study_uncertain_run(session *s, grain_families *grains, uncertain_inputs *out);
 /* The same for the families of another rail (repeated.h), by as much as the thresholds of `first` have moved. */
-void uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other);
-void uncertain_free(uncertain_inputs *u);
+void study_uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other);
+void study_uncertain_free(uncertain_inputs *u);
 
 #endif

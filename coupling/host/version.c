@@ -1,0 +1,10 @@
+#include "coupling/host/version.h"
+
+const char *host_version(void)
+{
+#ifdef BREECH_VERSION
+    return BREECH_VERSION;
+#else
+    return "unknown";
+#endif
+}
