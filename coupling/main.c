@@ -5,6 +5,7 @@
 #include "coupling/host/stop.h"
 #include "coupling/host/table.h"
 #include "coupling/host/version.h"
+#include "coupling/output/expect.h"
 #include "coupling/report/report.h"
 #include "coupling/run/crew.h"
 #include "coupling/run/ranks.h"
@@ -29,6 +30,7 @@ typedef struct {
     const char *sets[MAX_SETS];
     int n_sets, threads;
     lending *lending;
+    const char *expect; /* --expect: a run's output directory; NULL */
     outdir_options how;
     double max_walltime; /* [s], INFINITY: none */
     bool quiet;
@@ -91,6 +93,7 @@ static void print_help(FILE *out)
           "                    output directory; --no-store: none\n"
           "  --max-walltime T  stop with a checkpoint after T (90, 30m, 2h, 1:30:00)\n"
           "  --quiet           no progress, no closing table\n"
+          "  --expect DIR      check: does the run in DIR give what the case's expected.yaml says?\n"
           "  --keys            list every key of a case file\n"
           "  --version, --help [COMMAND]\n\n"
           "exit codes: 0 done, 1 failed while running, 2 bad input or usage, 75 stopped early with a checkpoint\n",
@@ -285,8 +288,36 @@ static status print_check(const breech_case *c, int threads)
     return status_ok();
 }
 
+/* Does a run's summary hold what the case's list of expectations says? */
+static int run_expect(const options *o)
+{
+    breech_case *c = NULL;
+    expectations e;
+    table *t = NULL;
+    const status read = read_case(o, 0, &c);
+    if (read.code != STATUS_OK) return exit_code(read);
+    status s = output_expect(c->path, o->expect, &e);
+    if (s.code == STATUS_OK) s = host_table_create("key|expected|found|deviation|", &t);
+    for (int i = 0; i < e.n && s.code == STATUS_OK; i++) {
+        const expectation *x = &e.item[i];
+        char deviation[30] = "";
+        if (!isnan(x->deviation)) snprintf(deviation, sizeof deviation, "%+.2f %%", 100.0 * x->deviation);
+        s = host_table_row(t, "%s|%s|%s|%s|%s", x->key, x->wanted, x->found, deviation, x->holds ? "holds" : "FAILS");
+    }
+    if (s.code == STATUS_OK) {
+        host_table_print(t, stdout);
+        printf("%d of %d expectations hold\n", e.held, e.n);
+    }
+    const bool all = e.held == e.n;
+    host_table_free(t);
+    output_expect_free(&e);
+    case_free(c);
+    return s.code == STATUS_OK && !all ? EXIT_FAILED : complain(s);
+}
+
 static int run_check(const options *o)
 {
+    if (o->expect) return run_expect(o);
     breech_case *c = NULL;
     status s = read_case(o, 0, &c);
     if (s.code != STATUS_OK) return exit_code(s);
@@ -394,6 +425,9 @@ static status take_value(options *o, const char *name, const char *value)
     } else if (strcmp(name, "--store") == 0) {
         CHECK(value[0], STATUS_BAD_INPUT, "--store: the directory's name is empty; --no-store uses none");
         o->store = value;
+    } else if (strcmp(name, "--expect") == 0) {
+        CHECK(value[0], STATUS_BAD_INPUT, "--expect: the directory's name is empty");
+        o->expect = value;
     } else if (strcmp(name, "--set") == 0) {
         CHECK(o->n_sets < MAX_SETS, STATUS_BAD_INPUT, "--set: more than %d", MAX_SETS);
         o->sets[o->n_sets++] = value;
@@ -409,7 +443,7 @@ static status take_value(options *o, const char *name, const char *value)
 
 static bool takes_value(const char *name)
 {
-    static const char *const names[] = { "-o", "--store", "--set", "--threads", "--max-walltime", NULL };
+    static const char *const names[] = { "-o", "--store", "--expect", "--set", "--threads", "--max-walltime", NULL };
     for (int i = 0; names[i]; i++)
         if (strcmp(names[i], name) == 0) return true;
     return false;

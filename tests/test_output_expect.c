@@ -1,0 +1,105 @@
+/* Expectations beside a case, compared with a summary: what holds, what fails, what is refused. */
+#include "coupling/output/expect.h"
+
+#include "coupling/host/outdir.h"
+#include "tests/output_common.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char SUMMARY[] =
+    "{\"crater_depth\": 0.00055, \"energy_error\": -2e-7, \"class\": \"gouge\", \"none\": null,"
+    " \"probes\": {\"push\": {\"peak\": 4.85e10}},"
+    " \"scenes\": [{\"name\": \"a\", \"v\": 1500}, {\"name\": \"b\", \"v\": 1600}]}";
+
+static status compare(const char *list, expectations *e)
+{
+    assert_int_equal(host_folder_make("run").code, STATUS_OK);
+    assert_int_equal(host_file_write("run/summary.json", SUMMARY, strlen(SUMMARY)).code, STATUS_OK);
+    assert_int_equal(host_file_write("expected.yaml", list, strlen(list)).code, STATUS_OK);
+    return output_expect("case.yaml", "run", e);
+}
+
+/* One expectation: does it hold? */
+static bool holds(const char *entry)
+{
+    expectations e;
+    char list[300];
+    snprintf(list, sizeof list, "- {%s}\n", entry);
+    const status s = compare(list, &e);
+    if (s.code != STATUS_OK) fail_msg("%s", s.text);
+    assert_int_equal(e.n, 1);
+    const bool all = e.held == 1;
+    assert_true(all == e.item[0].holds);
+    output_expect_free(&e);
+    return all;
+}
+
+static void refused(const char *entry, const char *said)
+{
+    expectations e;
+    char list[300];
+    snprintf(list, sizeof list, "- {%s}\n", entry);
+    const status s = compare(list, &e);
+    assert_int_equal(s.code, STATUS_BAD_INPUT);
+    if (!strstr(s.text, said) || !strstr(s.text, "expected.yaml:1:")) fail_msg("%s", s.text);
+    output_expect_free(&e);
+}
+
+static void test_numbers(void **state)
+{
+    (void)state;
+    assert_true(holds("key: crater_depth, value: 0.56 mm, within: 3 %"));
+    assert_false(holds("key: crater_depth, value: 0.56 mm, within: 1 %"));
+    assert_true(holds("key: crater_depth, value: 0.5 mm, within: 51 um"));
+    assert_false(holds("key: crater_depth, value: 0.5 mm, within: 49 um"));
+    assert_true(holds("key: energy_error, at_least: -1e-6, at_most: 1e-6"));
+    assert_false(holds("key: energy_error, at_least: 0"));
+    assert_false(holds("key: energy_error, at_most: -1e-6"));
+    assert_true(holds("key: probes.push.peak, value: 48.48 GPa, within: 0.5 %"));
+    assert_true(holds("key: 'scenes[1].v', value: 1.6 km/s, within: 0 m/s"));
+    assert_true(holds("key: 'scenes[a].v', value: 1.5 km/s, within: 0 m/s"));
+    assert_false(holds("key: 'scenes[c].v', value: 1.5 km/s, within: 1 km/s"));
+}
+
+static void test_words(void **state)
+{
+    (void)state;
+    assert_true(holds("key: class, is: gouge"));
+    assert_false(holds("key: class, is: scratch"));
+    assert_true(holds("key: none, is: none"));
+    assert_false(holds("key: missing, is: none"));
+    assert_false(holds("key: missing, value: 1, within: 1"));
+    assert_false(holds("key: class, value: 1, within: 1"));
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    refused("key: crater_depth", "give a value");
+    refused("value: 1, within: 1", "`key` is missing");
+    refused("key: crater_depth, value: 1 mm", "belong together");
+    refused("key: crater_depth, value: 1 furlongs_of_beer, within: 1", "must be a number with a unit");
+    refused("key: crater_depth, valeu: 1 mm, within: 1 mm", "unknown key `valeu`");
+}
+
+/* NAME.yaml has its list in NAME_expected.yaml; without one there is nothing to compare. */
+static void test_names(void **state)
+{
+    (void)state;
+    expectations e;
+    const char list[] = "- {key: class, is: gouge}\n";
+    assert_int_equal(output_expect("coarse.yaml", "run", &e).code, STATUS_BAD_INPUT);
+    output_expect_free(&e);
+    assert_int_equal(host_file_write("coarse_expected.yaml", list, strlen(list)).code, STATUS_OK);
+    assert_int_equal(output_expect("coarse.yaml", "run", &e).code, STATUS_OK);
+    assert_int_equal(e.held, 1);
+    output_expect_free(&e);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_numbers), cmocka_unit_test(test_words),
+                                        cmocka_unit_test(test_refused), cmocka_unit_test(test_names) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
