@@ -34,19 +34,16 @@ typedef struct {
     double doubt;          /* |excess| below which the class is undecided */
     double dip_at;         /* a stretch of 60 m/s that does not gouge, NaN: none [m/s] */
     int calls, fail_at;    /* 0: never fails */
-    double promised[2];    /* by `together`, to be kept by the second call from then [m/s, cells a radius] */
-    int promised_at, pairs, kept;
+    int pairs;             /* questions of two scenes */
     double asked[THRESHOLD_MAX_SAMPLES][2];
 } function;
 
-static status value_of(void *user, double v, double cells, threshold_sample *out)
+static status value_of(function *f, double v, double cells, threshold_sample *out)
 {
-    function *f = user;
     for (int i = 0; i < f->calls; i++)
         if (f->asked[i][0] == v && f->asked[i][1] == cells) fail_msg("%g m/s at %g cells asked for twice", v, cells);
     f->asked[f->calls][0] = v;
     f->asked[f->calls++][1] = cells;
-    if (f->promised[0] == v && f->promised[1] == cells && f->calls == f->promised_at + 2) f->kept++;
     CHECK(f->calls != f->fail_at, STATUS_STOPPED, "stopped");
     uint64_t seed = (uint64_t)(1000.0 * v) + (uint64_t)cells + f->salt;
     uniform(&seed);
@@ -54,16 +51,8 @@ static status value_of(void *user, double v, double cells, threshold_sample *out
     double excess = f->f((v - zero) / f->scale) + f->noise * (2.0 * uniform(&seed) - 1.0);
     if (fabs(v - f->dip_at) < 30.0) excess = -1.0;
     const damage_class side = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
-    *out = (threshold_sample){ .excess = excess, .class = fabs(excess) < f->doubt ? DAMAGE_UNDECIDED : side };
+    *out = (threshold_sample){ v, cells, excess, fabs(excess) < f->doubt ? DAMAGE_UNDECIDED : side };
     return status_ok();
-}
-
-static void together(void *user, double v, double cells)
-{
-    function *f = user;
-    f->promised[0] = v, f->promised[1] = cells;
-    f->promised_at = f->calls;
-    f->pairs++;
 }
 
 static double line(double u)
@@ -110,11 +99,29 @@ static function plain(double (*f)(double), double zero)
     return (function){ .f = f, .zero = zero, .scale = 200.0, .dip_at = NAN };
 }
 
+/* A question's scenes are told from its last to its first where `backwards`. */
+static status search_told(function *f, const threshold_plan *plan, bool backwards, threshold_search *s)
+{
+    threshold_wanted wanted[THRESHOLD_TOGETHER];
+    int n;
+    TRY(study_threshold_begin(plan, s));
+    while ((n = study_threshold_ask(s, wanted)) > 0) {
+        f->pairs += n == 2;
+        for (int i = 0; i < n; i++) {
+            const threshold_wanted *w = &wanted[backwards ? n - 1 - i : i];
+            threshold_sample answer;
+            TRY(value_of(f, w->velocity, w->cells_per_radius, &answer));
+            TRY(study_threshold_tell(s, &answer));
+        }
+    }
+    return status_ok();
+}
+
 static threshold_result search(function *f, const threshold_plan *plan)
 {
-    threshold_result r;
-    OK(study_threshold_search(plan, &(threshold_source){ value_of, together, f }, &r));
-    assert_int_equal(f->pairs, f->kept);
+    threshold_search s;
+    OK(search_told(f, plan, false, &s));
+    const threshold_result r = s.result;
     for (int i = 0; i < r.samples; i++) {
         const double k = r.sample[i].velocity / plan->step;
         assert_true(fabs(k - round(k)) < 1e-9);
@@ -444,23 +451,73 @@ static void test_driven(void **state)
 static void test_errors(void **state)
 {
     (void)state;
-    threshold_result r;
+    threshold_search s;
     threshold_plan plan = usual();
     for (int at = 1; at <= 4; at++) {
         function f = plain(line, 1400.0);
         f.fail_at = at;
-        assert_int_equal(study_threshold_search(&plan, &(threshold_source){ value_of, NULL, &f }, &r).code,
-                         STATUS_STOPPED);
-        assert_int_equal(r.samples, at - 1); /* what was reached is there */
+        assert_int_equal(search_told(&f, &plan, false, &s).code, STATUS_STOPPED);
+        assert_int_equal(s.result.samples,
+                         at == 2 ? 0 : at - 1); /* what was reached is there; half a question is not */
     }
     function f = plain(line, NAN);
-    assert_int_equal(study_threshold_search(&plan, &(threshold_source){ value_of, NULL, &f }, &r).code,
-                     STATUS_NUMERICAL);
+    assert_int_equal(search_told(&f, &plan, false, &s).code, STATUS_NUMERICAL);
+    threshold_wanted wanted[THRESHOLD_TOGETHER];
+    assert_int_equal(study_threshold_ask(&s, wanted), 2); /* it is where it was */
     plan.high = plan.low + 1.0;
-    assert_int_equal(study_threshold_search(&plan, &(threshold_source){ value_of, NULL, &f }, &r).code,
-                     STATUS_BAD_INPUT);
+    assert_int_equal(study_threshold_begin(&plan, &s).code, STATUS_BAD_INPUT);
+    assert_int_equal(study_threshold_ask(&s, wanted), 0);
     assert_true(study_threshold_step(0.05) == 25.0 && study_threshold_step(0.03) == 10.0 &&
                 study_threshold_step(0.1) == 50.0);
+}
+
+/* ---- the continuation ---- */
+
+/* The same answer whichever of a question's scenes comes first, scene for scene. */
+static void test_any_order(void **state)
+{
+    (void)state;
+    const threshold_plan plan = usual();
+    for (double zero = 1040.0; zero < 1900.0; zero += 7.3) {
+        function f[2] = { plain(cube, zero), plain(cube, zero) };
+        threshold_search s[2];
+        for (int backwards = 0; backwards < 2; backwards++) {
+            f[backwards].shift = 70.0;
+            OK(search_told(&f[backwards], &plan, backwards, &s[backwards]));
+        }
+        assert_true(f[0].asked[0][0] == f[1].asked[1][0] && f[0].asked[1][0] == f[1].asked[0][0]); /* it was tried */
+        assert_int_equal(s[0].result.samples, s[1].result.samples);
+        for (int i = 0; i < s[0].result.samples; i++)
+            assert_true(s[0].result.sample[i].velocity == s[1].result.sample[i].velocity);
+        assert_true(s[0].result.velocity == s[1].result.velocity);
+    }
+}
+
+/* A copy goes on by itself: what it is told the real search never hears. */
+static void test_copy(void **state)
+{
+    (void)state;
+    const threshold_plan plan = usual();
+    function real = plain(line, 1400.0), guessed = plain(line, 1700.0);
+    threshold_search s, copy;
+    threshold_wanted wanted[THRESHOLD_TOGETHER];
+    OK(study_threshold_begin(&plan, &s));
+    for (int n; (n = study_threshold_ask(&s, wanted)) > 0;) {
+        threshold_wanted asked[THRESHOLD_TOGETHER];
+        threshold_sample answer;
+        copy = s;
+        while (study_threshold_ask(&copy, asked) > 0) {
+            guessed.calls = 0;
+            OK(value_of(&guessed, asked[0].velocity, asked[0].cells_per_radius, &answer));
+            OK(study_threshold_tell(&copy, &answer));
+        }
+        assert_int_equal(study_threshold_ask(&s, asked), n);
+        OK(value_of(&real, wanted[0].velocity, wanted[0].cells_per_radius, &answer));
+        OK(study_threshold_tell(&s, &answer));
+    }
+    function alone = plain(line, 1400.0);
+    const threshold_result r = search(&alone, &plan);
+    assert_true(s.result.velocity == r.velocity && s.result.samples == r.samples);
 }
 
 /* ---- the study: the real shot, scenes that cost nothing ---- */
@@ -859,6 +916,8 @@ int main(void)
         cmocka_unit_test(test_budget),
         cmocka_unit_test(test_driven),
         cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_any_order),
+        cmocka_unit_test(test_copy),
         cmocka_unit_test(test_onset),
         cmocka_unit_test(test_moves),
         cmocka_unit_test(test_screened),

@@ -38,16 +38,15 @@ static double truth(const grains *g, double radius)
     return radius < g->knee ? 1e5 : g->base * pow(radius / 0.5e-3, -g->slope);
 }
 
-static status outcome(void *user, double radius, double v, double cells, threshold_sample *out)
+static status outcome(grains *g, double radius, double v, double cells, threshold_sample *out)
 {
-    grains *g = user;
     CHECK(++g->calls != g->fail_at, STATUS_STOPPED, "stopped");
     uint64_t seed = (uint64_t)(1e3 * v) + (uint64_t)(1e9 * radius) + (uint64_t)cells;
     uniform(&seed);
     double far = (v - truth(g, radius) - (cells < 2.5 ? g->shift : 0.0)) / 150.0;
     far += g->noise * (2.0 * uniform(&seed) - 1.0);
     const double excess = g->steep > 0.0 ? tanh(g->steep * far) : far;
-    *out = (threshold_sample){ .excess = excess, .class = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH };
+    *out = (threshold_sample){ v, cells, excess, excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH };
     return status_ok();
 }
 
@@ -78,11 +77,25 @@ static surface_plan plan_of(int sizes, double interval)
     return p;
 }
 
+static status search_told(grains *g, const surface_plan *p, surface_search *s)
+{
+    surface_wanted wanted[THRESHOLD_TOGETHER];
+    TRY(study_surface_begin(p, s));
+    while (study_surface_ask(s, wanted) > 0) {
+        surface_sample answer = { .radius = wanted[0].radius };
+        TRY(outcome(g, wanted[0].radius, wanted[0].velocity, wanted[0].cells_per_radius, &answer.is));
+        TRY(study_surface_tell(s, &answer));
+    }
+    return status_ok();
+}
+
 static surface_result search(grains *g, const surface_plan *p)
 {
-    surface_result r;
+    surface_search s;
     g->calls = 0;
-    OK(study_surface_search(p, &(surface_source){ outcome, NULL, g }, &r));
+    OK(search_told(g, p, &s));
+    assert_true(s.over);
+    const surface_result r = s.result;
     assert_int_equal(r.samples, g->calls); /* none asked for twice */
     assert_true(r.samples <= p->search.max_scenes);
     for (int i = 0; i < r.samples; i++)
@@ -230,16 +243,16 @@ static void test_budget(void **state)
 static void test_errors(void **state)
 {
     (void)state;
-    surface_result r;
+    surface_search s;
     surface_plan p = plan_of(5, 0.05);
     grains g = { .base = 1400.0, .slope = 0.2 };
     const int all = search(&g, &p).samples;
     for (int at = 1; at <= all; at++) {
         g = (grains){ .base = 1400.0, .slope = 0.2, .fail_at = at };
-        assert_int_equal(study_surface_search(&p, &(surface_source){ outcome, NULL, &g }, &r).code, STATUS_STOPPED);
+        assert_int_equal(search_told(&g, &p, &s).code, STATUS_STOPPED);
     }
     p.size[1] = p.size[0];
-    assert_int_equal(study_surface_search(&p, &(surface_source){ outcome, NULL, &g }, &r).code, STATUS_BAD_INPUT);
+    assert_int_equal(study_surface_begin(&p, &s).code, STATUS_BAD_INPUT);
 }
 
 static void test_at(void **state)

@@ -35,7 +35,7 @@ struct crew {
     scene_answer *told; /* members + 1, by rank: the last, for its shelf */
     int n;
     errand **errand; /* n, in the order they came up; owned, one by one */
-    bool level;      /* wanted ones do not go before the others */
+    bool any_order;  /* wanted ones do not go before the others */
     bool aside;      /* rank 0's scene is being laid aside */
     status error;    /* met while rank 0's scene was stepping */
 };
@@ -205,10 +205,10 @@ static bool begun_here(const crew *k, const errand *e)
     return resumable(k, e) || scene_shelf_find(&k->s->shelf, e->twin);
 }
 
-/* Is a to be computed rather than b?  Wanted before ahead, unless all are level, then as they were listed. */
+/* Is a to be computed rather than b?  Wanted before ahead; as they were listed where all may run in any order. */
 static bool goes_first(const crew *k, const errand *a, const errand *b)
 {
-    return !b || (!k->level && a->wanted != b->wanted ? a->wanted : a->order < b->order);
+    return !b || (!k->any_order && a->wanted != b->wanted ? a->wanted : a->order < b->order);
 }
 
 /* The next for a member; what rank 0 has begun stays with rank 0. */
@@ -230,9 +230,10 @@ static errand *next_for_me(const crew *k)
     for (int i = 0; i < k->n; i++) {
         errand *e = k->errand[i];
         if (e->where != WAITING || !(e->wanted || e->ahead) || keeper(k, e)) continue;
-        const bool sooner = best && (k->level || best->wanted == e->wanted) && begun_here(k, e) != begun_here(k, best)
-                                ? begun_here(k, e)
-                                : goes_first(k, e, best);
+        const bool sooner =
+            best && (k->any_order || best->wanted == e->wanted) && begun_here(k, e) != begun_here(k, best)
+                ? begun_here(k, e)
+                : goes_first(k, e, best);
         if (sooner) best = e;
     }
     return best;
@@ -250,7 +251,7 @@ static int idle_member(const crew *k)
 static int member_for(const crew *k, const errand *e)
 {
     const int idle = keeper(k, e) ? keeper(k, e) : idle_member(k);
-    if (idle || !e->wanted || k->level) return idle;
+    if (idle || !e->wanted || k->any_order) return idle;
     for (int r = 1; r <= k->members; r++)
         if (!k->busy[r]->wanted && !k->busy[r]->put_off) return r;
     return 0;
@@ -303,7 +304,7 @@ static bool stop_own(void *user)
     if (k->error.code == STATUS_OK) k->error = hear(k);
     if (k->error.code == STATUS_OK) k->error = hand_out(k);
     if (k->error.code != STATUS_OK || (k->s->stop && k->s->stop())) return true;
-    k->aside = wanted_has_come(k) && ((!own->e->wanted && !k->level) || idle_member(k));
+    k->aside = wanted_has_come(k) && ((!own->e->wanted && !k->any_order) || idle_member(k));
     return k->aside;
 }
 
@@ -432,9 +433,9 @@ void run_crew_free(crew *k)
     free(k);
 }
 
-status run_crew_ahead(crew *k, const scene_query *query, int n, bool level)
+status run_crew_ahead(crew *k, const scene_query *query, int n, bool any_order)
 {
-    k->level = level;
+    k->any_order = any_order;
     for (int i = 0; i < k->n; i++) k->errand[i]->ahead = false;
     for (int i = 0; i < n; i++) {
         errand *e;
@@ -451,7 +452,7 @@ static status want(crew *k, const scene_query *query, int n)
     for (int i = 0; i < n; i++) {
         errand *e;
         TRY(find_or_add(k, &query[i], &e));
-        if (!(k->level && e->ahead)) e->order = i;
+        if (!(k->any_order && e->ahead)) e->order = i;
         e->wanted = true;
     }
     return forget_idle(k);

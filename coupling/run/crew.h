@@ -22,8 +22,8 @@ void run_crew_free(crew *k); /* NULL allowed */
 
 /* Computes these until at least one of them has come; the queries' cases are borrowed until run_crew_free. */
 status run_crew_some(crew *k, const scene_query *query, int n);
-/* These may be wanted next, the likeliest first; level as in scenes.h. */
-status run_crew_ahead(crew *k, const scene_query *query, int n, bool level);
+/* These may be wanted next, the likeliest first; any_order as in scenes.h. */
+status run_crew_ahead(crew *k, const scene_query *query, int n, bool any_order);
 /* *out: the file of a scene that has come, the caller's now; NULL: it has not.  A scene that failed: its status. */
 status run_crew_take(crew *k, const scene_key *key, h5_file **out);
 

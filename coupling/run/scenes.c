@@ -211,7 +211,7 @@ static status is_known(const session *s, const scene_query *q, bool *known)
 }
 
 /* One process has no idle ones. */
-status run_scenes_ahead(session *s, const scene_query *query, int n, bool level)
+status run_scenes_ahead(session *s, const scene_query *query, int n, bool any_order)
 {
     if (!s->crew) return status_ok();
     scene_query *open = malloc(((size_t)n + 1) * sizeof *open);
@@ -223,7 +223,7 @@ status run_scenes_ahead(session *s, const scene_query *query, int n, bool level)
         done = is_known(s, &query[i], &known);
         if (!known) open[left++] = query[i];
     }
-    if (done.code == STATUS_OK) done = run_crew_ahead(s->crew, open, left, level);
+    if (done.code == STATUS_OK) done = run_crew_ahead(s->crew, open, left, any_order);
     free(open);
     return done;
 }

@@ -8,10 +8,10 @@
  *   run_scenes_some   at least one more of these: for a study that can go on with whichever comes first
  *   run_scenes_ahead  these may be asked for next: for processes that would be idle
  * One process computes in the order of the list, one at a time, and nothing ahead; several share the work
- * (docs/onset.md). A study stays sequential in its thinking and parallel in its scenes when it is a function of
- * outcomes: run all its searches on what run_scenes_find knows, gather what each would ask next, run_scenes_some of
- * that, again until none asks. What a search concludes may depend on its own outcomes alone, never on which scene came
- * first or on what else is known: then the answer is the same for any number of processes. */
+ * (docs/onset.md).  A study stays sequential in its thinking and parallel in its scenes where its searches are
+ * continuations (search/threshold.h): tell each what run_scenes_find knows until it needs more, run_scenes_some of what
+ * all of them need, again until none needs any.  What a search concludes may depend on its own outcomes alone, never on
+ * which scene came first or on what else is known: then the answer is the same for any number of processes. */
 #ifndef BREECH_COUPLING_SCENES_H
 #define BREECH_COUPLING_SCENES_H
 
@@ -39,8 +39,9 @@ status run_scenes_some(session *s, const scene_query *query, int n);
  * in another with every number of processes. */
 void run_scenes_warn_of(session *s, const onset_scene *e);
 
-/* Replaces the former list; the likeliest first.  level: nothing hangs on those that run_scenes_some will want sooner
- * than on these; they may stand among them, and all are computed in the order of this list. */
-status run_scenes_ahead(session *s, const scene_query *query, int n, bool level);
+/* Scenes that may be needed next, the likeliest first; replaces the former list.  any_order: these scenes may run in
+ * any order; the search needs all of them before it continues.  Those that run_scenes_some needs may then stand among
+ * them, and all are computed in the order of this list. */
+status run_scenes_ahead(session *s, const scene_query *query, int n, bool any_order);
 
 #endif

@@ -2,11 +2,11 @@
  *
  * A family is what surface.h means by it: the grains of a case - sites of its list and populations - that are alike in
  * shape, material, bond and height over radius.  All searches of a study, over families and over cases (rail surfaces),
- * go on together: each runs on what is known and asks for one scene more, the first two at once, the scenes of all are
- * computed as they come.  With study.judge growth the searches' scenes end once the growth of their groove is known;
- * where something gouges, one or two more at fine cells (study.craters), in the middle of what gouges and at the
- * fastest grain, go on to their whole craters.  A groove that is not followed (scene.follow) has no growth: such a
- * study is judged by severity. */
+ * go on side by side: each says which scenes it needs next, is told them as they come and goes on (surface.h); run/
+ * gets the needed scenes of all, and with more than one process those that may be needed next.
+ * With study.judge growth the searches' scenes end once the growth of their groove is known; where something gouges,
+ * one or two more at fine cells (study.craters), in the middle of what gouges and at the fastest grain, go on to their
+ * whole craters.  A groove that is not followed (scene.follow) has no growth: such a study is judged by severity. */
 #ifndef BREECH_COUPLING_FAMILY_H
 #define BREECH_COUPLING_FAMILY_H
 

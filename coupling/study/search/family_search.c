@@ -1,5 +1,5 @@
-/* The searches of families: each runs on what is known and says what it wants; what it may want next is found by
- * guessing. */
+/* The searches of families, all of them side by side.  Each is told what is known and says what it needs next; what it
+ * may need after that is found by following a copy of it through guesses. */
 #include "coupling/study/search/family.h"
 
 #include <math.h>
@@ -8,32 +8,26 @@
 
 static const double PRESSURE_STEP = 5e6; /* [Pa] */
 
-/* ---- one search on what is known ---- */
+/* ---- one search ---- */
 
-enum { TOGETHER = 2 }; /* scenes that a search asks for at a time */
+enum { TOGETHER = THRESHOLD_TOGETHER }; /* most scenes that a search needs at a time */
 
-/* Scenes that a search may come to ask for, with the guesses of its threshold under which it does. */
+/* A scene that it needs. */
 typedef struct {
-    int n;
-    struct {
-        scene_query query;
-        int guesses;
-    } item[64];
-} prospect;
+    surface_wanted at;
+    bool whole; /* to its end, for its crater */
+} family_wanted;
 
-/* A family's search as a function of outcomes: what it finds unknown stands in `wanted`. */
+/* A family's search: its thresholds, then the whole craters of what gouges.  A copy goes on by itself. */
 typedef struct {
-    session *session;
-    const grain_families *of;
-    grain_family *family;
-    int number;       /* of the family, from 1 */
-    prospect *ahead;  /* NULL: an unknown outcome ends the round; else it is noted here, and guessed by */
-    double threshold; /* [m/s] */
-    int n;
-    scene_query wanted[TOGETHER];
-    bool has_promised; /* another that will be wanted whatever comes of the next */
-    scene_query promised;
-} asker;
+    const grain_families *of; /* borrowed */
+    grain_family *family;     /* borrowed; has its scenes as they come, its thresholds at the end */
+    int number;               /* of the family, from 1 */
+    surface_search surface;
+    bool in_craters;
+    int n_craters; /* not known yet */
+    family_wanted crater[TOGETHER];
+} family_search;
 
 static double contact_pressure_at(const grain_families *f, double v)
 {
@@ -45,73 +39,24 @@ static double contact_pressure_at(const grain_families *f, double v)
     return PRESSURE_STEP * round(at.contact_pressure / PRESSURE_STEP);
 }
 
-static scene_query query_of(const asker *a, bool whole, double radius, double velocity, double cells)
+static scene_query query_of(const family_search *s, const family_wanted *w)
 {
-    const breech_case *c = whole ? a->of->whole : a->of->probe;
+    const breech_case *c = w->whole ? s->of->whole : s->of->probe;
+    const double radius = w->at.radius, velocity = w->at.velocity, cells = w->at.cells_per_radius;
     scene_query q = { .c = c, .cells_per_radius = cells };
-    q.state = (site_state){ .grain = a->family->grain,
+    q.state = (site_state){ .grain = s->family->grain,
                             .reached = true,
                             .velocity = velocity,
-                            .contact_pressure = contact_pressure_at(a->of, velocity),
+                            .contact_pressure = contact_pressure_at(s->of, velocity),
                             .rail_temperature = c->rail.temperature,
                             .armature_temperature = c->projectile.temperature };
     q.state.grain.radius = radius;
-    q.state.grain.height = a->family->aspect * radius;
+    q.state.grain.height = s->family->aspect * radius;
     char size[32] = "";
-    if (a->family->plan.sizes > 1) snprintf(size, sizeof size, "-r%.6g", 1e3 * radius);
-    snprintf(q.name, sizeof q.name, "%.40sg%d%s-v%g-c%g%s", a->of->prefix, a->number, size, velocity, cells,
+    if (s->family->plan.sizes > 1) snprintf(size, sizeof size, "-r%.6g", 1e3 * radius);
+    snprintf(q.name, sizeof q.name, "%.40sg%d%s-v%g-c%g%s", s->of->prefix, s->number, size, velocity, cells,
              gouge_is_gauged(c) ? "-growth" : "");
     return q;
-}
-
-static const scene_record *known(const grain_family *f, const scene_query *q)
-{
-    for (int i = 0; i < f->n_scenes; i++) {
-        const family_scene *k = &f->scene[i];
-        if (k->radius == q->state.grain.radius && k->velocity == q->state.velocity && k->cells == q->cells_per_radius &&
-            k->whole == !gouge_is_gauged(q->c))
-            return k->record;
-    }
-    return NULL;
-}
-
-/* From the session, kept for the next round; NULL in *out: it is not known yet.  A guess takes nothing from the
- * session: what was computed ahead is nobody's until a search asks for it. */
-static status find(asker *a, const scene_query *q, const scene_record **out)
-{
-    grain_family *f = a->family;
-    *out = known(f, q);
-    if (*out || a->ahead) return status_ok();
-    TRY(run_scenes_find(a->session, q, out));
-    if (*out && f->n_scenes < THRESHOLD_MAX_SAMPLES)
-        f->scene[f->n_scenes++] = (family_scene){ q->state.grain.radius, q->state.velocity, q->cells_per_radius,
-                                                  !gouge_is_gauged(q->c), *out };
-    return status_ok();
-}
-
-static bool is_listed(const scene_query *list, int n, const scene_query *q)
-{
-    for (int i = 0; i < n; i++)
-        if (strcmp(list[i].name, q->name) == 0) return true;
-    return false;
-}
-
-static void want(asker *a, const scene_query *q)
-{
-    if (!is_listed(a->wanted, a->n, q) && a->n < TOGETHER) a->wanted[a->n++] = *q;
-}
-
-static void note(prospect *p, const scene_query *q)
-{
-    int i = 0;
-    while (i < p->n && strcmp(p->item[i].query.name, q->name) != 0) i++;
-    if (i == (int)(sizeof p->item / sizeof *p->item)) return;
-    if (i == p->n) {
-        p->item[i].query = *q;
-        p->item[i].guesses = 0;
-        p->n++;
-    }
-    p->item[i].guesses++;
 }
 
 static double excess_of(const breech_case *c, const onset_scene *e)
@@ -119,41 +64,6 @@ static double excess_of(const breech_case *c, const onset_scene *e)
     const scene_result *r = &e->result;
     return e->gauged ? gouge_growth_folds(r->groove_growth, e->radius, e->velocity)
                      : r->severity - c->scene.limit_severity;
-}
-
-/* Linear, an e-fold in 100 m/s. */
-static threshold_sample guess(const asker *a, double velocity)
-{
-    const double excess = 0.01 * (velocity - a->threshold);
-    return (threshold_sample){ .excess = excess, .class = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH };
-}
-
-static status outcome_at(void *user, double radius, double velocity, double cells, threshold_sample *out)
-{
-    asker *a = user;
-    const scene_query q = query_of(a, false, radius, velocity, cells);
-    const scene_record *record;
-    TRY(find(a, &q, &record));
-    if (record) {
-        *out = (threshold_sample){ .excess = excess_of(a->of->c, &record->entry), .class = record->entry.result.class };
-        return status_ok();
-    }
-    if (a->ahead) {
-        note(a->ahead, &q);
-        *out = guess(a, velocity);
-        return status_ok();
-    }
-    want(a, &q);
-    if (a->has_promised) want(a, &a->promised);
-    return base_status_error(STATUS_STOPPED, "a scene is wanted"); /* ends this round of the search */
-}
-
-static void together(void *user, double radius, double velocity, double cells)
-{
-    asker *a = user;
-    const scene_record *record;
-    a->promised = query_of(a, false, radius, velocity, cells);
-    a->has_promised = !a->ahead && find(a, &a->promised, &record).code == STATUS_OK && !record;
 }
 
 static double on_grid_below(const threshold_plan *p, double v)
@@ -208,71 +118,130 @@ static double middle_gouge(const surface_plan *p, const surface_result *s, int k
 
 /* Once the thresholds are known: whole craters of what gouges, in the middle of its velocities and at the fastest
  * grain.  Where gouging begins a groove is longest, costs most, and hangs on the resolution. */
-static status round_of_craters(asker *a, const surface_result *s)
+static void ask_for_craters(family_search *s)
 {
-    const surface_plan *p = &a->family->plan;
-    const double fastest = fastest_grain(a->of, a->family);
-    const int k = size_of_craters(p, s, fastest);
-    if (!a->family->by_growth || k < 0) return status_ok();
+    const surface_plan *p = &s->family->plan;
+    const surface_result *r = &s->surface.result;
+    const double fastest = fastest_grain(s->of, s->family);
+    const int k = size_of_craters(p, r, fastest);
+    s->in_craters = true;
+    if (!s->family->by_growth || k < 0) return;
     const double top = on_grid_below(&p->search, p->search.high);
-    const double slower = fmin(middle_gouge(p, s, k, on_grid_below(&p->search, fastest)), top);
-    const double at[2] = { slower, fmax(slower, on_grid_below(&p->search, fastest)) };
-    for (int i = 0; i < a->of->c->study.craters; i++) {
-        const scene_query q = query_of(a, true, p->size[k], at[i], s->reference.cells);
-        const scene_record *record;
-        TRY(find(a, &q, &record));
-        if (record) continue;
-        if (a->ahead)
-            note(a->ahead, &q);
-        else
-            want(a, &q);
+    const double slower = fmin(middle_gouge(p, r, k, on_grid_below(&p->search, fastest)), top);
+    const double at[TOGETHER] = { slower, fmax(slower, on_grid_below(&p->search, fastest)) };
+    for (int i = 0; i < s->of->c->study.craters; i++)
+        if (i == 0 || at[i] != at[0])
+            s->crater[s->n_craters++] = (family_wanted){ { p->size[k], at[i], r->reference.cells }, true };
+}
+
+static status begin_search(const grain_families *of, int k, family_search *out)
+{
+    *out = (family_search){ .of = of, .family = &of->family[k], .number = k + 1 };
+    return study_surface_begin(&of->family[k].plan, &out->surface);
+}
+
+/* The scenes that the search needs all of before it goes on; how many.  0: it is over. */
+static int ask(const family_search *s, family_wanted out[TOGETHER])
+{
+    surface_wanted at[THRESHOLD_TOGETHER];
+    if (s->in_craters) {
+        memcpy(out, s->crater, sizeof s->crater);
+        return s->n_craters;
     }
+    const int n = study_surface_ask(&s->surface, at);
+    for (int i = 0; i < n; i++) out[i] = (family_wanted){ at[i], false };
+    return n;
+}
+
+static bool same_wanted(const family_wanted *a, const family_wanted *b)
+{
+    return a->whole == b->whole && a->at.radius == b->at.radius && a->at.velocity == b->at.velocity &&
+           a->at.cells_per_radius == b->at.cells_per_radius;
+}
+
+/* One of them is known.  Of a whole crater nothing is asked but that it is there. */
+static status tell(family_search *s, const family_wanted *w, double excess, damage_class class)
+{
+    const threshold_sample is = { w->at.velocity, w->at.cells_per_radius, excess, class };
+    if (!s->in_craters) {
+        TRY(study_surface_tell(&s->surface, &(surface_sample){ w->at.radius, is }));
+        if (s->surface.over) ask_for_craters(s);
+        return status_ok();
+    }
+    int left = 0;
+    for (int i = 0; i < s->n_craters; i++)
+        if (!same_wanted(&s->crater[i], w)) s->crater[left++] = s->crater[i];
+    s->n_craters = left;
     return status_ok();
 }
 
-/* a->n > 0: the search cannot go on without one of a->wanted. */
-static status round_of(asker *a, surface_result *out)
+/* ---- what it may need later ---- */
+
+/* Scenes that a search may come to need, with the guesses of its threshold under which it does. */
+typedef struct {
+    int n;
+    struct {
+        family_wanted is;
+        int guesses;
+    } item[64];
+} prospect;
+
+static void note(prospect *p, const family_wanted *w)
 {
-    const surface_source source = { outcome_at, together, a };
-    a->n = 0;
-    a->has_promised = false;
-    const status done = study_surface_search(&a->family->plan, &source, out);
-    if (a->n > 0) return status_ok();
-    TRY(done);
-    return round_of_craters(a, out);
+    int i = 0;
+    while (i < p->n && !same_wanted(&p->item[i].is, w)) i++;
+    if (i == (int)(sizeof p->item / sizeof *p->item)) return;
+    if (i == p->n) {
+        p->item[i].is = *w;
+        p->item[i].guesses = 0;
+        p->n++;
+    }
+    p->item[i].guesses++;
+}
+
+/* Follows a copy of the search to its end; every scene answers as if the threshold were this, an e-fold in 100 m/s. */
+static status follow_guess(const family_search *now, double threshold, family_search *copy, prospect *out)
+{
+    family_wanted needed[TOGETHER];
+    int n;
+    *copy = *now;
+    while ((n = ask(copy, needed)) > 0)
+        for (int i = 0; i < n; i++) {
+            const double excess = 0.01 * (needed[i].at.velocity - threshold);
+            note(out, &needed[i]);
+            TRY(tell(copy, &needed[i], excess, excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH));
+        }
+    return status_ok();
+}
+
+/* Guesses: the threshold on both sides of every needed scene and at the ends of the range; how many, in *guesses. */
+static status guess_on(const family_search *now, family_search *copy, prospect *out, int *guesses)
+{
+    const threshold_plan *p = &now->family->plan.search;
+    family_wanted needed[TOGETHER];
+    const int n = ask(now, needed);
+    double threshold[2 * TOGETHER + 2] = { p->low, p->high };
+    *guesses = 2;
+    out->n = 0;
+    for (int i = 0; i < n; i++)
+        for (int side = -1; side <= 1; side += 2)
+            threshold[(*guesses)++] = needed[i].at.velocity + 0.5 * side * p->step;
+    for (int i = 0; i < *guesses; i++) TRY(follow_guess(now, threshold[i], copy, out));
+    return status_ok();
 }
 
 /* ---- all searches ---- */
 
 enum { MAX_QUERIES = 256 };
 
+/* What all searches ask of run/ in one round. */
 typedef struct {
-    int n, n_next;
-    bool level; /* nothing hangs on `query`: all in the order of `next` */
-    scene_query query[MAX_QUERIES], next[MAX_QUERIES];
+    int n_needed, n_next;
+    bool any_order; /* as run_scenes_ahead has it */
+    scene_query needed[MAX_QUERIES], next[MAX_QUERIES];
     prospect ahead;
-    surface_result scratch;
+    family_search copy;
 } requests;
-
-/* The search run to its end with the threshold on both sides of its wanted scenes and at the ends of the range: what it
- * asks for then.  *guesses: how many there were. */
-static status guess_on(const asker *now, requests *r, int *guesses)
-{
-    const threshold_plan *p = &now->family->plan.search;
-    double threshold[2 * TOGETHER + 2] = { p->low, p->high };
-    *guesses = 2;
-    r->ahead.n = 0;
-    for (int i = 0; i < now->n; i++)
-        for (int side = -1; side <= 1; side += 2)
-            threshold[(*guesses)++] = now->wanted[i].state.velocity + 0.5 * side * p->step;
-    for (int i = 0; i < *guesses; i++) {
-        asker a = *now;
-        a.ahead = &r->ahead;
-        a.threshold = threshold[i];
-        TRY(round_of(&a, &r->scratch));
-    }
-    return status_ok();
-}
 
 static bool is_longer(const scene_query *a, const scene_query *b)
 {
@@ -290,56 +259,103 @@ static void sort_longest_first(scene_query *list, int n)
         }
 }
 
-/* What the search will ask for after its wanted scenes, first what it asks for in every case, nothing that it asks for
- * in less than two cases of three: lent to a wanted scene, the threads are worth 0.6 of themselves.  Where that is all,
- * nothing hangs on the wanted ones, and they stand among the others: the longest first. */
-static status look_ahead(const asker *now, requests *r)
+static bool is_needed(const family_search *s, const family_wanted *w)
+{
+    family_wanted needed[TOGETHER];
+    const int n = ask(s, needed);
+    for (int i = 0; i < n; i++)
+        if (same_wanted(&needed[i], w)) return true;
+    return false;
+}
+
+/* What the search may need after its needed scenes, first what it needs in every case, nothing that it needs in less
+ * than two cases of three: lent to a needed scene, the threads are worth 0.6 of themselves.  Where every scene to come
+ * is certain, all may run in any order, and the needed ones stand among the others: the longest first. */
+static status look_ahead(const family_search *now, requests *r)
 {
     const prospect *p = &r->ahead;
     scene_query *list = r->next + r->n_next;
     int guesses, certain = 0, n = 0;
-    TRY(guess_on(now, r, &guesses));
+    TRY(guess_on(now, &r->copy, &r->ahead, &guesses));
     for (int i = 0; i < p->n; i++) certain += p->item[i].guesses == guesses;
-    const bool level = certain == p->n;
+    const bool any_order = certain == p->n;
     for (int least = guesses; 3 * least >= 2 * guesses; least--)
         for (int i = 0; i < p->n && r->n_next + n < MAX_QUERIES; i++)
-            if (p->item[i].guesses == least && (level || !is_listed(now->wanted, now->n, &p->item[i].query)))
-                list[n++] = p->item[i].query;
-    if (level) sort_longest_first(list, n);
+            if (p->item[i].guesses == least && (any_order || !is_needed(now, &p->item[i].is)))
+                list[n++] = query_of(now, &p->item[i].is);
+    if (any_order) sort_longest_first(list, n);
     r->n_next += n;
-    r->level = r->level && level;
+    r->any_order = r->any_order && any_order;
     return status_ok();
 }
 
-static status gather(session *s, grain_families *const *f, int n, requests *r)
+static void keep(grain_family *f, const family_wanted *w, const scene_record *record)
 {
-    r->n = r->n_next = 0;
-    r->level = true;
-    for (int i = 0; i < n; i++)
-        for (int k = 0; k < f[i]->n && r->n + TOGETHER <= MAX_QUERIES; k++) {
-            asker a = { .session = s, .of = f[i], .family = &f[i]->family[k], .number = k + 1 };
-            TRY(round_of(&a, &f[i]->family[k].surface));
-            for (int q = 0; q < a.n; q++) r->query[r->n++] = a.wanted[q];
-            if (s->crew && a.n > 0) TRY(look_ahead(&a, r));
-        }
-    return status_ok();
+    if (f->n_scenes < THRESHOLD_MAX_SAMPLES)
+        f->scene[f->n_scenes++] =
+            (family_scene){ w->at.radius, w->at.velocity, w->at.cells_per_radius, w->whole, record };
 }
 
-static status search(session *s, grain_families *const *f, int n, requests *r)
+/* Tells the search all that is known, until it needs what is not: n scenes of needed. */
+static status go_on(session *s, family_search *search, scene_query needed[TOGETHER], int *n)
 {
+    family_wanted wanted[TOGETHER];
+    int asked;
     do {
-        TRY(gather(s, f, n, r));
-        TRY(run_scenes_ahead(s, r->next, r->n_next, r->level));
-        TRY(run_scenes_some(s, r->query, r->n));
-    } while (r->n > 0);
+        asked = ask(search, wanted);
+        *n = 0;
+        for (int i = 0; i < asked; i++) {
+            const scene_record *record;
+            needed[*n] = query_of(search, &wanted[i]);
+            TRY(run_scenes_find(s, &needed[*n], &record));
+            if (!record) {
+                (*n)++;
+                continue;
+            }
+            keep(search->family, &wanted[i], record);
+            TRY(tell(search, &wanted[i], excess_of(search->of->c, &record->entry), record->entry.result.class));
+        }
+    } while (*n < asked);
+    if (*n == 0) search->family->surface = search->surface.result;
+    return status_ok();
+}
+
+/* All searches as far as they come; r: what they need and may need. */
+static status go_on_all(session *s, family_search *search, int n, requests *r)
+{
+    r->n_needed = r->n_next = 0;
+    r->any_order = true;
+    for (int i = 0; i < n && r->n_needed + TOGETHER <= MAX_QUERIES; i++) {
+        int needed;
+        TRY(go_on(s, &search[i], r->needed + r->n_needed, &needed));
+        r->n_needed += needed;
+        if (s->crew && needed > 0) TRY(look_ahead(&search[i], r));
+    }
+    return status_ok();
+}
+
+static status search_all(session *s, grain_families *const *f, int n, family_search *search, requests *r)
+{
+    int searches = 0;
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < f[i]->n; k++) TRY(begin_search(f[i], k, &search[searches++]));
+    do {
+        TRY(go_on_all(s, search, searches, r));
+        TRY(run_scenes_ahead(s, r->next, r->n_next, r->any_order));
+        TRY(run_scenes_some(s, r->needed, r->n_needed));
+    } while (r->n_needed > 0);
     return status_ok();
 }
 
 status study_families_search(session *s, grain_families *const *f, int n)
 {
+    size_t families = 1;
+    for (int i = 0; i < n; i++) families += (size_t)f[i]->n;
     requests *r = malloc(sizeof *r);
-    CHECK(r, STATUS_MEMORY, "no memory for the searches of %d surfaces", n);
-    const status done = search(s, f, n, r);
+    family_search *search = malloc(families * sizeof *search);
+    const status done = r && search ? search_all(s, f, n, search, r)
+                                    : base_status_error(STATUS_MEMORY, "no memory for the searches of %d surfaces", n);
     free(r);
+    free(search);
     return done;
 }

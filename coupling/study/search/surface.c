@@ -1,5 +1,6 @@
 #include "coupling/study/search/surface.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,39 +10,6 @@ static const double TREND = 0.1;
 static const double SECANT_TRUST = 0.5; /* width in which a secant's root is expected, over the band's [1] */
 static const double FAR =
     3.0; /* how far beyond a band's known end its unknown one is expected, in the chance's scale [1] */
-
-typedef struct {
-    const surface_plan *plan;
-    const surface_source *source;
-    surface_result *out;
-    double radius; /* of the reference search under way [m] */
-} search;
-
-/* ---- asking ---- */
-
-static status ask(search *s, double radius, double velocity, double cells, threshold_sample *out)
-{
-    surface_result *r = s->out;
-    TRY(s->source->run(s->source->user, radius, velocity, cells, out));
-    out->velocity = velocity;
-    out->cells_per_radius = cells;
-    CHECK(isfinite(out->excess), STATUS_NUMERICAL,
-          "the impact of a grain of %g m at %g m/s has no severity: its crater was not measured", radius, velocity);
-    if (r->samples < THRESHOLD_MAX_SAMPLES) r->sample[r->samples++] = (surface_sample){ radius, *out };
-    return status_ok();
-}
-
-static status ask_reference(void *user, double velocity, double cells, threshold_sample *out)
-{
-    search *s = user;
-    return ask(s, s->radius, velocity, cells, out);
-}
-
-static void reference_together(void *user, double velocity, double cells)
-{
-    const search *s = user;
-    if (s->source->together) s->source->together(s->source->user, s->radius, velocity, cells);
-}
 
 /* ---- bands ---- */
 
@@ -73,14 +41,15 @@ static void take(band *b, const surface_sample *a, double radius)
         b->low = v, b->low_known = true, b->own_low = own ? &a->is : NULL;
 }
 
-static band band_of(const search *s, double radius)
+static band band_of(const surface_search *s, double radius)
 {
     const surface_plan *p = s->plan;
     band b = { .low = grid_low(p) - p->search.step, .high = grid_high(p) + p->search.step };
     for (int own = 1; own >= 0; own--) /* its own samples first */
-        for (int i = 0; i < s->out->samples; i++) {
-            const surface_sample *a = &s->out->sample[i];
-            if (a->is.cells_per_radius == s->out->reference.cells && (a->radius == radius) == own) take(&b, a, radius);
+        for (int i = 0; i < s->result.samples; i++) {
+            const surface_sample *a = &s->result.sample[i];
+            if (a->is.cells_per_radius == s->result.reference.cells && (a->radius == radius) == own)
+                take(&b, a, radius);
         }
     return b;
 }
@@ -159,7 +128,7 @@ static double expected_high(const surface_plan *p, int k, const band *b)
 }
 
 /* Weighted measure that the bands lose if size k is asked at v, expected. */
-static double gain(const search *s, const band *bands, int k, double v)
+static double gain(const surface_search *s, const band *bands, int k, double v)
 {
     const surface_plan *p = s->plan;
     const double yes = chance(p, k, &bands[k], v), here = measure(p, v);
@@ -173,7 +142,7 @@ static double gain(const search *s, const band *bands, int k, double v)
     return sum;
 }
 
-static bool best_scene(const search *s, const band *bands, int *size, double *velocity)
+static bool best_scene(const surface_search *s, const band *bands, int *size, double *velocity)
 {
     const surface_plan *p = s->plan;
     double best = 0.0;
@@ -205,7 +174,7 @@ static bool narrow_enough(const surface_plan *p, const band *bands)
 
 /* First of all: is the threshold the same from end to end?  The largest size just below the reference's threshold, the
  * smallest just above. */
-static bool flat_to_check(const search *s, const band *bands, int *size, double *velocity)
+static bool flat_to_check(const surface_search *s, const band *bands, int *size, double *velocity)
 {
     const surface_plan *p = s->plan;
     const band *reference = &bands[p->reference];
@@ -215,7 +184,7 @@ static bool flat_to_check(const search *s, const band *bands, int *size, double 
         const bool unknown = e ? !b->high_known && reference->high_known : !b->low_known && reference->low_known;
         if (!unknown || ends[e] == p->reference || is_beyond(p, b) || !(p->weight[ends[e]] > 0.0)) continue;
         bool asked = false;
-        for (int i = 0; i < s->out->samples; i++) asked = asked || s->out->sample[i].radius == p->size[ends[e]];
+        for (int i = 0; i < s->result.samples; i++) asked = asked || s->result.sample[i].radius == p->size[ends[e]];
         if (asked) continue;
         *size = ends[e];
         *velocity = e ? reference->high : reference->low;
@@ -241,27 +210,9 @@ static bool end_to_check(const surface_plan *p, const band *bands, int *size, do
     return false;
 }
 
-static void all_bands(const search *s, band *bands)
+static void all_bands(const surface_search *s, band *bands)
 {
     for (int k = 0; k < s->plan->sizes; k++) bands[k] = band_of(s, s->plan->size[k]);
-}
-
-static status narrow_sizes(search *s)
-{
-    band bands[SURFACE_MAX_SIZES];
-    const surface_plan *p = s->plan;
-    const int most = p->search.max_scenes < THRESHOLD_MAX_SAMPLES ? p->search.max_scenes : THRESHOLD_MAX_SAMPLES;
-    int k;
-    double v;
-    for (;;) {
-        threshold_sample seen;
-        all_bands(s, bands);
-        if (s->out->samples >= most) return status_ok();
-        const bool next = flat_to_check(s, bands, &k, &v) ||
-                          (!narrow_enough(p, bands) && best_scene(s, bands, &k, &v)) || end_to_check(p, bands, &k, &v);
-        if (!next) return status_ok();
-        TRY(ask(s, p->size[k], v, s->out->reference.cells, &seen));
-    }
 }
 
 /* ---- the answer ---- */
@@ -287,10 +238,10 @@ static void check_sizes(surface_result *r)
         }
 }
 
-static surface_size answer_of(search *s, int k)
+static surface_size answer_of(surface_search *s, int k)
 {
     const surface_plan *p = s->plan;
-    surface_result *r = s->out;
+    surface_result *r = &s->result;
     band b = band_of(s, p->size[k]);
     surface_size a = { .radius = p->size[k], .weight = p->weight[k], .velocity = NAN, .interval = { NAN, NAN } };
     const double allowance = r->reference.allowance;
@@ -322,9 +273,9 @@ static void make_monotone(surface_result *r, int reference)
         if (r->size[k].velocity < r->size[k + 1].velocity) r->size[k].velocity = r->size[k + 1].velocity;
 }
 
-static void conclude(search *s)
+static void conclude(surface_search *s)
 {
-    surface_result *r = s->out;
+    surface_result *r = &s->result;
     r->sizes = s->plan->sizes;
     check_sizes(r);
     for (int k = 0; k < r->sizes; k++) {
@@ -332,6 +283,7 @@ static void conclude(search *s)
         r->inferred += r->size[k].scenes == 0;
     }
     if (r->monotone) make_monotone(r, s->plan->reference);
+    s->over = true;
 }
 
 static status check_plan(const surface_plan *p)
@@ -345,18 +297,93 @@ static status check_plan(const surface_plan *p)
     return status_ok();
 }
 
-status study_surface_search(const surface_plan *plan, const surface_source *source, surface_result *out)
+/* ---- the search ---- */
+
+/* The next scene of the sizes beside the reference; none: the search is over. */
+static void ask_sizes(surface_search *s)
+{
+    band bands[SURFACE_MAX_SIZES];
+    const surface_plan *p = s->plan;
+    const int most = p->search.max_scenes < THRESHOLD_MAX_SAMPLES ? p->search.max_scenes : THRESHOLD_MAX_SAMPLES;
+    int k = p->reference;
+    double v = 0.0;
+    all_bands(s, bands);
+    const bool next = s->result.samples < most &&
+                      (flat_to_check(s, bands, &k, &v) || (!narrow_enough(p, bands) && best_scene(s, bands, &k, &v)) ||
+                       end_to_check(p, bands, &k, &v));
+    if (next)
+        s->next = (surface_wanted){ p->size[k], v, s->result.reference.cells };
+    else
+        conclude(s);
+}
+
+static bool at_reference(const surface_search *s)
+{
+    return s->reference.stage != THRESHOLD_OVER;
+}
+
+static void end_reference(surface_search *s)
+{
+    surface_result *r = &s->result;
+    r->reference = s->reference.result;
+    memcpy(r->warning, r->reference.warning, sizeof r->warning);
+    r->monotone = r->reference.monotone;
+    ask_sizes(s);
+}
+
+/* What the reference search has taken up, in its order. */
+static void take_reference(surface_search *s)
+{
+    surface_result *r = &s->result;
+    while (r->samples < s->reference.result.samples) {
+        r->sample[r->samples] =
+            (surface_sample){ s->plan->size[s->plan->reference], s->reference.result.sample[r->samples] };
+        r->samples++;
+    }
+}
+
+status study_surface_begin(const surface_plan *plan, surface_search *out)
 {
     memset(out, 0, sizeof *out);
-    out->monotone = true;
+    out->plan = plan;
+    out->result.monotone = true;
+    out->over = true;
+    out->reference.stage = THRESHOLD_OVER;
     TRY(check_plan(plan));
-    search s = { plan, source, out, plan->size[plan->reference] };
-    const threshold_source at_reference = { ask_reference, reference_together, &s };
-    TRY(study_threshold_search(&plan->search, &at_reference, &out->reference));
-    memcpy(out->warning, out->reference.warning, sizeof out->warning);
-    out->monotone = out->reference.monotone;
-    TRY(narrow_sizes(&s));
-    conclude(&s);
+    TRY(study_threshold_begin(&plan->search, &out->reference));
+    out->over = false;
+    return status_ok();
+}
+
+int study_surface_ask(const surface_search *s, surface_wanted out[THRESHOLD_TOGETHER])
+{
+    if (s->over) return 0;
+    if (!at_reference(s)) {
+        out[0] = s->next;
+        return 1;
+    }
+    threshold_wanted wanted[THRESHOLD_TOGETHER];
+    const int n = study_threshold_ask(&s->reference, wanted);
+    for (int i = 0; i < n; i++)
+        out[i] = (surface_wanted){ s->plan->size[s->plan->reference], wanted[i].velocity, wanted[i].cells_per_radius };
+    return n;
+}
+
+status study_surface_tell(surface_search *s, const surface_sample *answer)
+{
+    surface_result *r = &s->result;
+    CHECK(isfinite(answer->is.excess), STATUS_NUMERICAL,
+          "the impact of a grain of %g m at %g m/s has no severity: its crater was not measured", answer->radius,
+          answer->is.velocity);
+    if (at_reference(s)) {
+        TRY(study_threshold_tell(&s->reference, &answer->is));
+        take_reference(s);
+        if (!at_reference(s)) end_reference(s);
+        return status_ok();
+    }
+    assert(!s->over && answer->radius == s->next.radius && answer->is.velocity == s->next.velocity);
+    r->sample[r->samples++] = *answer;
+    ask_sizes(s);
     return status_ok();
 }
 

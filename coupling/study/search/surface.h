@@ -14,20 +14,14 @@
  *      decides which scene comes next, never the answer.
  *   3. The search ends when the bands' weighted mean width is the wanted one in velocity and in place, when no size has
  *      a band wider than the grid, or with the budget.  A flat threshold takes four scenes beyond the reference.
- * Interval of a size: its band and on both sides the reference's allowance for the resolution. */
+ * Interval of a size: its band and on both sides the reference's allowance for the resolution.
+ * A continuation, begun, asked and told as that of threshold.h. */
 #ifndef BREECH_COUPLING_SURFACE_H
 #define BREECH_COUPLING_SURFACE_H
 
 #include "coupling/study/search/threshold.h"
 
 enum { SURFACE_MAX_SIZES = 48 };
-
-typedef struct {
-    status (*run)(void *user, double radius, double velocity, double cells_per_radius, threshold_sample *out);
-    /* As in threshold_source; NULL: nobody cares. */
-    void (*together)(void *user, double radius, double velocity, double cells_per_radius);
-    void *user; /* borrowed */
-} surface_source;
 
 typedef struct {
     threshold_plan search; /* its max_scenes are those of the whole surface */
@@ -61,7 +55,27 @@ typedef struct {
     surface_sample sample[THRESHOLD_MAX_SAMPLES]; /* in the order they were asked for */
 } surface_result;
 
-status study_surface_search(const surface_plan *plan, const surface_source *source, surface_result *out);
+/* A scene that the search needs. */
+typedef struct {
+    double radius, velocity; /* [m, m/s] */
+    double cells_per_radius; /* [1] */
+} surface_wanted;
+
+/* A search under way.  Others read `result` alone, once the search is over. */
+typedef struct {
+    const surface_plan *plan; /* borrowed */
+    surface_result result;
+    threshold_search reference; /* first of all */
+    surface_wanted next;        /* then one scene at a time */
+    bool over;
+} surface_search;
+
+/* STATUS_BAD_INPUT: the plan makes no sense. */
+status study_surface_begin(const surface_plan *plan, surface_search *out);
+/* The scenes that are needed before the search goes on, without those told already; how many.  0: it is over. */
+int study_surface_ask(const surface_search *s, surface_wanted out[THRESHOLD_TOGETHER]);
+/* The answer of one of them.  STATUS_NUMERICAL: it has no excess; the search is where it was. */
+status study_surface_tell(surface_search *s, const surface_sample *answer);
 
 /* At any size: linear in ln r between sizes, that of the last size beyond the ends. */
 surface_size study_surface_at(const surface_result *s, double radius);

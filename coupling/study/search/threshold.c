@@ -1,5 +1,6 @@
 #include "coupling/study/search/threshold.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -22,64 +23,59 @@ double study_threshold_step(double interval)
 
 /* ---- asking ---- */
 
-typedef struct {
-    const threshold_plan *plan;
-    const threshold_source *source;
-    threshold_result *out;
-    double cells; /* of the stage */
-    int reserved; /* scenes of the budget that are still to be asked beyond the bracket */
-} search;
-
-/* Two ends of a bracket: lo on the lower side, hi on the upper one. */
-typedef struct {
-    threshold_sample lo, hi;
-    bool has_lo, has_hi;
-} bracket;
-
 bool study_threshold_is_upper(const threshold_sample *s)
 {
     return s->class == DAMAGE_GOUGE || (s->class == DAMAGE_UNDECIDED && s->excess >= 0.0);
 }
 
-static double on_grid(const search *s, double v)
+static double on_grid(const threshold_search *s, double v)
 {
     const threshold_plan *p = s->plan;
     const double lowest = ceil(p->low / p->step - 1e-9), highest = floor(p->high / p->step + 1e-9);
     return p->step * fmin(fmax(round(v / p->step), lowest), highest);
 }
 
-static int budget_left(const search *s)
+static int budget_left(const threshold_search *s)
 {
     const int most = s->plan->max_scenes < THRESHOLD_MAX_SAMPLES ? s->plan->max_scenes : THRESHOLD_MAX_SAMPLES;
-    return most - s->out->samples - s->reserved;
+    return most - s->result.samples - s->reserved;
 }
 
-static const threshold_sample *known(const search *s, double v)
+static const threshold_sample *known(const threshold_search *s, double v)
 {
-    const threshold_result *r = s->out;
+    const threshold_result *r = &s->result;
     for (int i = 0; i < r->samples; i++)
         if (r->sample[i].velocity == v && r->sample[i].cells_per_radius == s->cells) return &r->sample[i];
     return NULL;
 }
 
-static status ask(search *s, double v, threshold_sample *out)
+/* One scene of the question, answered already if the search has it. */
+static void need(threshold_search *s, double v)
 {
-    threshold_result *r = s->out;
-    if (known(s, v)) {
-        *out = *known(s, v);
-        return status_ok();
+    const threshold_sample *seen = known(s, v), open = { .velocity = v, .cells_per_radius = s->cells };
+    s->asked[s->n_asked] = seen ? *seen : open;
+    s->told[s->n_asked++] = seen != NULL;
+}
+
+static void need_one(threshold_search *s, double v)
+{
+    need(s, on_grid(s, v));
+}
+
+/* Two at a time; one where they are the same on the grid, or the budget is short. */
+static void need_two(threshold_search *s, double first, double second)
+{
+    const double v[2] = { on_grid(s, fmin(first, second)), on_grid(s, fmax(first, second)) };
+    if (v[0] == v[1] || budget_left(s) < 2) {
+        need_one(s, first);
+        return;
     }
-    TRY(s->source->run(s->source->user, v, s->cells, out));
-    out->velocity = v;
-    out->cells_per_radius = s->cells;
-    CHECK(isfinite(out->excess), STATUS_NUMERICAL, "the impact at %g m/s has no severity: its crater was not measured",
-          v);
-    r->sample[r->samples++] = *out;
-    return status_ok();
+    need(s, v[0]);
+    need(s, v[1]);
 }
 
 /* The bracket takes a value where that narrows or moves it. */
-static void take(bracket *b, const threshold_sample *a)
+static void take(threshold_bracket *b, const threshold_sample *a)
 {
     if (study_threshold_is_upper(a)) {
         b->hi = *a;
@@ -90,42 +86,28 @@ static void take(bracket *b, const threshold_sample *a)
     }
 }
 
-static status probe(search *s, double v, bracket *b)
+/* If the slower of two gouges the faster says nothing of the bracket: the lowest change of side counts, and
+ * check_monotone sees the rest. */
+static void take_all(threshold_bracket *b, const threshold_sample *answer, int n)
 {
-    threshold_sample a;
-    TRY(ask(s, on_grid(s, v), &a));
-    take(b, &a);
-    return status_ok();
-}
-
-/* Two at a time; one where they are the same on the grid, or the budget is short.  If the slower gouges the faster says
- * nothing of the bracket: the lowest change of side counts, and check_monotone sees the rest. */
-static status probe_two(search *s, double first, double second, bracket *b)
-{
-    const double v[2] = { on_grid(s, fmin(first, second)), on_grid(s, fmax(first, second)) };
-    threshold_sample a[2];
-    if (v[0] == v[1] || budget_left(s) < 2) return probe(s, first, b);
-    if (s->source->together && !known(s, v[0]) && !known(s, v[1])) s->source->together(s->source->user, v[1], s->cells);
-    for (int i = 0; i < 2; i++) TRY(ask(s, v[i], &a[i]));
-    take(b, &a[0]);
-    if (!study_threshold_is_upper(&a[0])) take(b, &a[1]);
-    return status_ok();
+    take(b, &answer[0]);
+    if (n == 2 && !study_threshold_is_upper(&answer[0])) take(b, &answer[1]);
 }
 
 /* ---- within a bracket ---- */
 
-static double width(const bracket *b)
+static double width(const threshold_bracket *b)
 {
     return b->hi.velocity - b->lo.velocity;
 }
 
-static double middle(const bracket *b)
+static double middle(const threshold_bracket *b)
 {
     return 0.5 * (b->lo.velocity + b->hi.velocity);
 }
 
 /* Where the severity crosses its limit, by the two ends; the middle where a class contradicts the severity's sign. */
-static double root(const bracket *b)
+static double root(const threshold_bracket *b)
 {
     const double below = -b->lo.excess, above = b->hi.excess;
     if (below <= 0.0 || above < 0.0) return middle(b);
@@ -138,7 +120,7 @@ typedef struct {
 } widths;
 
 /* Never where it is narrower than what the resolution leaves open. */
-static bool too_wide(const search *s, widths wanted, double lo, double hi)
+static bool too_wide(const threshold_search *s, widths wanted, double lo, double hi)
 {
     const threshold_plan *p = s->plan;
     if (hi - lo < 1.5 * p->step || hi - lo <= p->resolution * 0.5 * (lo + hi)) return false;
@@ -148,7 +130,7 @@ static bool too_wide(const search *s, widths wanted, double lo, double hi)
 
 /* The velocity of the grid furthest from one end of a bracket towards the other that leaves no more than the wanted
  * width. */
-static double reach(const search *s, widths wanted, double end, double other)
+static double reach(const threshold_search *s, widths wanted, double end, double other)
 {
     const double step = end < other ? s->plan->step : -s->plan->step;
     double v = end;
@@ -159,101 +141,43 @@ static double reach(const search *s, widths wanted, double end, double other)
 
 /* Where one scene is enough, there.  Else the secant's root, but where an end is within reach of it, at the end's
  * reach: then the likelier side is narrow enough. */
-static double next_within(const search *s, widths wanted, const bracket *b)
+static double next_within(const threshold_search *s, widths wanted, const threshold_bracket *b)
 {
     const double up = reach(s, wanted, b->lo.velocity, b->hi.velocity);
     const double down = reach(s, wanted, b->hi.velocity, b->lo.velocity);
     return fmin(fmax(root(b), fmin(up, down)), fmax(up, down));
 }
 
-static status narrow(search *s, widths wanted, bracket *b)
-{
-    while (too_wide(s, wanted, b->lo.velocity, b->hi.velocity) && budget_left(s) > 0)
-        TRY(probe(s, next_within(s, wanted, b), b));
-    return status_ok();
-}
-
-/* ---- the stages ---- */
-
-static bool complete(const bracket *b)
+static bool complete(const threshold_bracket *b)
 {
     return b->has_lo && b->has_hi;
 }
 
-/* Away from the side that is known, a step and then as far again as it has come, to a change of side or the end of the
- * range. */
-static status widen(search *s, double step, bracket *b)
-{
-    double gone = 0.0;
-    while (!complete(b) && budget_left(s) > 0) {
-        const double from = b->has_hi ? b->hi.velocity : b->lo.velocity, away = fmax(step, gone);
-        const double to = on_grid(s, b->has_hi ? from - away : from + away);
-        if (to == from) return status_ok();
-        TRY(probe(s, to, b));
-        gone += fabs(to - from);
-    }
-    return status_ok();
-}
-
-static status coarse_stage(search *s, widths wanted, bracket *b)
-{
-    const threshold_plan *p = s->plan;
-    const double quarter = 0.25 * (p->high - p->low);
-    s->cells = p->coarse;
-    TRY(probe_two(s, p->low + quarter, p->high - quarter, b));
-    TRY(widen(s, COARSE_WIDTH * (b->has_hi ? b->hi.velocity : b->lo.velocity), b));
-    return complete(b) ? narrow(s, wanted, b) : status_ok();
-}
-
-/* The search itself never looks beyond its bracket, so it cannot see a function that turns back: one coarse scene on
- * each side, half way to the end of the range, looks there, unless one of the search's lies far enough out.  Planned
- * when the coarse bracket is known, asked for last. */
-typedef struct {
-    int n;
-    double at[2]; /* [m/s] */
-} beyond;
-
 /* Has a scene of this resolution been asked so far outside of the bracket, above or below? */
-static bool has_looked(const search *s, const bracket *b, bool above, double far)
+static bool has_looked(const threshold_search *s, const threshold_bracket *b, bool above, double far)
 {
-    for (int i = 0; i < s->out->samples; i++) {
-        const threshold_sample *a = &s->out->sample[i];
+    for (int i = 0; i < s->result.samples; i++) {
+        const threshold_sample *a = &s->result.sample[i];
         if (a->cells_per_radius != s->cells) continue;
         if (above ? a->velocity >= b->hi.velocity + far : a->velocity <= b->lo.velocity - far) return true;
     }
     return false;
 }
 
-static beyond plan_beyond(const search *s, const bracket *b, int reserve)
+/* The search itself never looks beyond its bracket, so it cannot see a function that turns back: one coarse scene on
+ * each side, half way to the end of the range, looks there, unless one of the search's lies far enough out.  Planned
+ * when the coarse bracket is known, asked for last. */
+static void plan_beyond(threshold_search *s, int reserve)
 {
     const threshold_plan *p = s->plan;
+    const threshold_bracket *b = &s->coarse;
     const double at[2] = { 0.5 * (b->lo.velocity + p->low), 0.5 * (b->hi.velocity + p->high) };
     const double gap[2] = { b->lo.velocity - p->low, p->high - b->hi.velocity }, far = BEYOND_GAP * middle(b);
-    beyond r = { .n = 0 };
     for (int above = 0; above < 2; above++) {
-        if (gap[above] < far || has_looked(s, b, above, far) || budget_left(s) < reserve + r.n) continue;
-        r.at[r.n++] = on_grid(s, at[above]);
+        if (gap[above] < far || has_looked(s, b, above, far) || budget_left(s) < reserve + s->n_beyond) continue;
+        s->beyond[s->n_beyond++] = on_grid(s, at[above]);
     }
-    return r;
-}
-
-static status look_beyond(search *s, const beyond *far)
-{
-    bracket seen = { .has_lo = false };
-    s->cells = s->plan->coarse;
-    s->reserved = 0;
-    if (far->n == 1) return probe(s, far->at[0], &seen);
-    return far->n == 2 ? probe_two(s, far->at[0], far->at[1], &seen) : status_ok();
-}
-
-static status fine_stage(search *s, double expected, widths wanted, bracket *b)
-{
-    const threshold_plan *p = s->plan;
-    const double half = fmax(p->step, 0.5 * p->interval * expected);
-    s->cells = p->fine;
-    TRY(probe(s, expected - half, b));
-    TRY(widen(s, 2.0 * half, b));
-    return complete(b) ? narrow(s, wanted, b) : status_ok();
+    s->reserved = s->n_beyond;
 }
 
 /* ---- the answer ---- */
@@ -266,12 +190,12 @@ static double crossing(const threshold_sample *a, const threshold_sample *b, dou
 }
 
 /* The next scene of the stage and of the same side, away from the bracket; NULL: none. */
-static const threshold_sample *further_out(const search *s, const threshold_sample *from)
+static const threshold_sample *further_out(const threshold_search *s, const threshold_sample *from)
 {
     const bool upper = study_threshold_is_upper(from);
     const threshold_sample *next = NULL;
-    for (int i = 0; i < s->out->samples; i++) {
-        const threshold_sample *a = &s->out->sample[i];
+    for (int i = 0; i < s->result.samples; i++) {
+        const threshold_sample *a = &s->result.sample[i];
         const double way = upper ? a->velocity - from->velocity : from->velocity - a->velocity;
         if (a->cells_per_radius != s->cells || study_threshold_is_upper(a) != upper || !(way > 0.0)) continue;
         if (!next || way < fabs(next->velocity - from->velocity)) next = a;
@@ -281,7 +205,7 @@ static const threshold_sample *further_out(const search *s, const threshold_samp
 
 /* From an end of the bracket outwards to the first decided scene of its side; where the scatter of the excess is known,
  * only to where the line from the last undecided one leaves it. */
-static double decided_end(const search *s, const threshold_sample *end)
+static double decided_end(const threshold_search *s, const threshold_sample *end)
 {
     const threshold_sample *decided = end, *undecided = end;
     const double scatter = study_threshold_is_upper(end) ? s->plan->scatter : -s->plan->scatter;
@@ -326,8 +250,9 @@ static void check_monotone(threshold_result *r, double cells)
     r->interval[1] = fmax(r->interval[1], highest_lower);
 }
 
-static void one_sided(const search *s, const bracket *b, threshold_result *r)
+static void one_sided(threshold_search *s, const threshold_bracket *b)
 {
+    threshold_result *r = &s->result;
     const double grid_low = on_grid(s, s->plan->low), grid_high = on_grid(s, s->plan->high);
     r->outcome = THRESHOLD_UNKNOWN;
     if (b->has_hi) r->bracket[1] = b->hi.velocity;
@@ -339,10 +264,11 @@ static void one_sided(const search *s, const bracket *b, threshold_result *r)
     if (b->has_lo && b->lo.velocity == grid_high) r->outcome = THRESHOLD_ABOVE;
 }
 
-static void conclude(const search *s, const bracket *b, threshold_result *r)
+static void conclude(threshold_search *s, const threshold_bracket *b)
 {
+    threshold_result *r = &s->result;
     if (!complete(b)) {
-        one_sided(s, b, r);
+        one_sided(s, b);
         return;
     }
     r->outcome = THRESHOLD_FOUND;
@@ -373,7 +299,7 @@ static status check_plan(const threshold_plan *p)
 }
 
 /* How far the fine scenes of one side have driven the root off the coarse one, at least; NaN: not at all. */
-static double driven(const bracket *coarse, const bracket *fine)
+static double driven(const threshold_bracket *coarse, const threshold_bracket *fine)
 {
     const double from = root(coarse);
     if (fine->has_hi && fine->hi.velocity < from) return fine->hi.velocity - from;
@@ -381,44 +307,197 @@ static double driven(const bracket *coarse, const bracket *fine)
     return NAN;
 }
 
-/* The coarse stage's answer, where the fine one was short of scenes: as far off as that has seen. */
-static void conclude_short(const search *s, const bracket *coarse, const bracket *fine, threshold_result *out)
+/* The coarse pass's answer, where the fine one was short of scenes: as far off as that has seen. */
+static void conclude_short(threshold_search *s)
 {
     const threshold_plan *p = s->plan;
-    out->shift = driven(coarse, fine);
-    conclude(s, coarse, out);
-    warn(out, "study.max_scenes = %d spent before %g cells a radius had a bracket: the threshold is that of %g cells",
+    threshold_result *r = &s->result;
+    r->shift = driven(&s->coarse, &s->refined);
+    conclude(s, &s->coarse);
+    warn(r, "study.max_scenes = %d spent before %g cells a radius had a bracket: the threshold is that of %g cells",
          p->max_scenes, p->fine, p->coarse);
-    if (isnan(out->shift)) return;
-    out->velocity += out->shift;
-    warn(out, "moved to %g m/s, where %g cells %s", out->velocity, p->fine,
-         out->shift < 0.0 ? "still gouge" : "do not gouge yet");
+    if (isnan(r->shift)) return;
+    r->velocity += r->shift;
+    warn(r, "moved to %g m/s, where %g cells %s", r->velocity, p->fine,
+         r->shift < 0.0 ? "still gouge" : "do not gouge yet");
 }
 
-status study_threshold_search(const threshold_plan *plan, const threshold_source *source, threshold_result *out)
+static bool has_two_passes(const threshold_search *s)
+{
+    return s->plan->fine != s->plan->coarse && complete(&s->coarse);
+}
+
+static void conclude_all(threshold_search *s)
+{
+    const bool two = has_two_passes(s), found = complete(&s->refined);
+    const bool short_of_scenes = two && !found && budget_left(s) <= 0;
+    if (found) s->result.shift = root(&s->refined) - root(&s->coarse);
+    s->cells = two && !short_of_scenes ? s->plan->fine : s->plan->coarse;
+    s->result.cells = s->cells;
+    if (short_of_scenes)
+        conclude_short(s);
+    else
+        conclude(s, two ? &s->refined : &s->coarse);
+    s->stage = THRESHOLD_OVER;
+}
+
+/* ---- the search, stage by stage ---- */
+
+static threshold_bracket *bracket_of(threshold_search *s)
+{
+    return s->fine ? &s->refined : &s->coarse;
+}
+
+/* Half of the wanted interval around the coarse root [m/s]. */
+static double half_interval(const threshold_search *s)
+{
+    return fmax(s->plan->step, 0.5 * s->plan->interval * root(&s->coarse));
+}
+
+/* Coarse: a quarter of the range from both its ends.  Fine: half the wanted interval below the coarse root. */
+static void ask_first(threshold_search *s)
+{
+    const threshold_plan *p = s->plan;
+    const double quarter = 0.25 * (p->high - p->low);
+    s->cells = s->fine ? p->fine : p->coarse;
+    if (s->fine)
+        need_one(s, root(&s->coarse) - half_interval(s));
+    else
+        need_two(s, p->low + quarter, p->high - quarter);
+}
+
+static void begin_widening(threshold_search *s)
+{
+    const threshold_bracket *b = bracket_of(s);
+    s->stride = s->fine ? 2.0 * half_interval(s) : COARSE_WIDTH * (b->has_hi ? b->hi.velocity : b->lo.velocity);
+    s->gone = 0.0;
+    s->stage = THRESHOLD_WIDEN;
+}
+
+/* Away from the side that is known, a stride and then as far again as it has come, to a change of side or the end of
+ * the range.  Nothing is asked once that is reached. */
+static void ask_further_out(threshold_search *s)
+{
+    const threshold_bracket *b = bracket_of(s);
+    if (complete(b) || budget_left(s) <= 0) return;
+    const double from = b->has_hi ? b->hi.velocity : b->lo.velocity, away = fmax(s->stride, s->gone);
+    const double to = on_grid(s, b->has_hi ? from - away : from + away);
+    if (to == from) return;
+    need_one(s, to);
+    s->gone += fabs(to - from);
+}
+
+/* To the wanted widths; where a second pass follows, the first need not be as narrow. */
+static void ask_within(threshold_search *s)
+{
+    const threshold_plan *p = s->plan;
+    const threshold_bracket *b = bracket_of(s);
+    const widths rough = { fmax(COARSE_WIDTH, p->interval), INFINITY }, last = { p->interval, p->place_interval };
+    const widths wanted = s->fine || p->fine == p->coarse ? last : rough;
+    if (complete(b) && too_wide(s, wanted, b->lo.velocity, b->hi.velocity) && budget_left(s) > 0)
+        need_one(s, next_within(s, wanted, b));
+}
+
+/* After the coarse pass comes the fine one, after the last the scenes beyond the bracket. */
+static void end_pass(threshold_search *s)
+{
+    const bool two = has_two_passes(s);
+    if (!s->fine && complete(&s->coarse)) plan_beyond(s, two ? FINE_RESERVE : 1);
+    s->stage = THRESHOLD_BEYOND;
+    if (s->fine || !two || budget_left(s) <= 0) return;
+    s->fine = true;
+    s->stage = THRESHOLD_START;
+}
+
+static void ask_beyond(threshold_search *s)
+{
+    s->cells = s->plan->coarse;
+    s->reserved = 0;
+    if (s->n_beyond == 1) need_one(s, s->beyond[0]);
+    if (s->n_beyond == 2) need_two(s, s->beyond[0], s->beyond[1]);
+}
+
+/* The next question, or the next stage where this one has none left. */
+static void ask_next(threshold_search *s)
+{
+    switch (s->stage) {
+    case THRESHOLD_START: ask_first(s); break;
+    case THRESHOLD_WIDEN:
+        ask_further_out(s);
+        if (s->n_asked == 0) s->stage = THRESHOLD_NARROW;
+        break;
+    case THRESHOLD_NARROW:
+        ask_within(s);
+        if (s->n_asked == 0) end_pass(s);
+        break;
+    case THRESHOLD_BEYOND:
+        ask_beyond(s);
+        if (s->n_asked == 0) conclude_all(s);
+        break;
+    case THRESHOLD_OVER: break;
+    }
+}
+
+/* The whole question is answered: its scenes in the order in which they were asked for, and what they say. */
+static void take_answers(threshold_search *s)
+{
+    threshold_result *r = &s->result;
+    for (int i = 0; i < s->n_asked; i++)
+        if (!known(s, s->asked[i].velocity)) r->sample[r->samples++] = s->asked[i];
+    if (s->stage != THRESHOLD_BEYOND) take_all(bracket_of(s), s->asked, s->n_asked);
+    s->n_asked = 0;
+    if (s->stage == THRESHOLD_START) begin_widening(s);
+    if (s->stage == THRESHOLD_BEYOND) conclude_all(s);
+}
+
+static bool all_told(const threshold_search *s)
+{
+    for (int i = 0; i < s->n_asked; i++)
+        if (!s->told[i]) return false;
+    return true;
+}
+
+/* To the next question that is open, or to the end. */
+static void go_on(threshold_search *s)
+{
+    while (s->stage != THRESHOLD_OVER && all_told(s)) {
+        if (s->n_asked > 0) take_answers(s);
+        if (s->n_asked == 0) ask_next(s);
+    }
+}
+
+status study_threshold_begin(const threshold_plan *plan, threshold_search *out)
 {
     memset(out, 0, sizeof *out);
-    out->velocity = out->shift = NAN;
-    out->interval[0] = out->interval[1] = out->bracket[0] = out->bracket[1] = NAN;
-    out->monotone = true;
+    threshold_result *r = &out->result;
+    r->velocity = r->shift = NAN;
+    r->interval[0] = r->interval[1] = r->bracket[0] = r->bracket[1] = NAN;
+    r->monotone = true;
+    out->plan = plan;
+    out->stage = THRESHOLD_OVER;
     TRY(check_plan(plan));
-    search s = { .plan = plan, .source = source, .out = out };
-    bracket coarse = { .has_lo = false }, fine = { .has_lo = false };
-    const widths wanted = { plan->interval, plan->place_interval },
-                 rough = { fmax(COARSE_WIDTH, plan->interval), INFINITY };
-    TRY(coarse_stage(&s, plan->fine != plan->coarse ? rough : wanted, &coarse));
-    const bool two_stages = plan->fine != plan->coarse && complete(&coarse);
-    const beyond far = complete(&coarse) ? plan_beyond(&s, &coarse, two_stages ? FINE_RESERVE : 1) : (beyond){ .n = 0 };
-    s.reserved = far.n;
-    if (two_stages && budget_left(&s) > 0) TRY(fine_stage(&s, root(&coarse), wanted, &fine));
-    TRY(look_beyond(&s, &far));
-    const bool short_of_scenes = two_stages && !complete(&fine) && budget_left(&s) <= 0;
-    if (complete(&fine)) out->shift = root(&fine) - root(&coarse);
-    s.cells = two_stages && !short_of_scenes ? plan->fine : plan->coarse;
-    out->cells = s.cells;
-    if (short_of_scenes)
-        conclude_short(&s, &coarse, &fine, out);
-    else
-        conclude(&s, two_stages ? &fine : &coarse, out);
+    out->stage = THRESHOLD_START;
+    go_on(out);
+    return status_ok();
+}
+
+int study_threshold_ask(const threshold_search *s, threshold_wanted out[THRESHOLD_TOGETHER])
+{
+    int n = 0;
+    for (int i = 0; i < s->n_asked; i++)
+        if (!s->told[i]) out[n++] = (threshold_wanted){ s->asked[i].velocity, s->asked[i].cells_per_radius };
+    return n;
+}
+
+status study_threshold_tell(threshold_search *s, const threshold_sample *answer)
+{
+    int i = 0;
+    while (i < s->n_asked && (s->told[i] || s->asked[i].velocity != answer->velocity)) i++;
+    assert(i < s->n_asked && s->cells == answer->cells_per_radius);
+    CHECK(isfinite(answer->excess), STATUS_NUMERICAL,
+          "the impact at %g m/s has no severity: its crater was not measured", answer->velocity);
+    s->asked[i] = *answer;
+    s->told[i] = true;
+    go_on(s);
     return status_ok();
 }

@@ -18,7 +18,15 @@
  *      the resolution may change: the shift of the root from coarse to fine, or the plan's share of the threshold if
  *      more; of a threshold outside of the range that share of the end where it was looked for.
  * Monotonicity is checked: a higher velocity on the lower side of a lower one widens the interval over both and warns.
- * Velocities lie on the grid k * step, so that scenes are shared, and none is asked for twice. */
+ * Velocities lie on the grid k * step, so that scenes are shared, and none is asked for twice.
+ *
+ * The search is a continuation.  It begins with a plan, says which scenes it needs, is told their answers in any order
+ * and goes on once it has all of them:
+ *   study_threshold_begin(&plan, &s);
+ *   while ((n = study_threshold_ask(&s, wanted)) > 0) ... study_threshold_tell(&s, &answer of one of them) ...
+ *   s.result is the answer
+ * A search owns nothing: a copy of the struct is a second search that goes on by itself, so a caller can follow a guess
+ * (family_search.c) without touching the real one. */
 #ifndef BREECH_COUPLING_THRESHOLD_H
 #define BREECH_COUPLING_THRESHOLD_H
 
@@ -27,7 +35,11 @@
 
 #include <stdbool.h>
 
-enum { THRESHOLD_MAX_SAMPLES = 256, THRESHOLD_WARNING_SIZE = 400 };
+enum {
+    THRESHOLD_MAX_SAMPLES = 256,
+    THRESHOLD_WARNING_SIZE = 400,
+    THRESHOLD_TOGETHER = 2 /* most scenes that a search needs at a time */
+};
 
 /* One scene's answer. */
 typedef struct {
@@ -36,14 +48,6 @@ typedef struct {
     double excess;           /* severity less its limit, or growth in e-folds: crosses zero at the threshold [1] */
     damage_class class;
 } threshold_sample;
-
-/* Gives the answer at a velocity of the grid.  STATUS_STOPPED or an error ends the search. */
-typedef struct {
-    status (*run)(void *user, double velocity, double cells_per_radius, threshold_sample *out);
-    /* Said before the first of two is asked: the second will be, whatever the first answers.  NULL: nobody cares. */
-    void (*together)(void *user, double velocity, double cells_per_radius);
-    void *user; /* borrowed */
-} threshold_source;
 
 typedef struct {
     double low, high;    /* where to look [m/s] */
@@ -79,7 +83,49 @@ typedef struct {
     threshold_sample sample[THRESHOLD_MAX_SAMPLES]; /* in the order they were asked for */
 } threshold_result;
 
-status study_threshold_search(const threshold_plan *plan, const threshold_source *source, threshold_result *out);
+/* Two ends of a bracket: lo on the lower side, hi on the upper one. */
+typedef struct {
+    threshold_sample lo, hi;
+    bool has_lo, has_hi;
+} threshold_bracket;
+
+/* A scene that the search needs. */
+typedef struct {
+    double velocity;         /* [m/s] */
+    double cells_per_radius; /* [1] */
+} threshold_wanted;
+
+typedef enum {
+    THRESHOLD_START,  /* the first scenes of a pass: coarse two, fine one */
+    THRESHOLD_WIDEN,  /* outwards to a change of side */
+    THRESHOLD_NARROW, /* within the bracket */
+    THRESHOLD_BEYOND, /* far outside of it: does the function turn back? */
+    THRESHOLD_OVER
+} threshold_stage;
+
+/* A search under way.  Others read `result` alone, once the search is over. */
+typedef struct {
+    const threshold_plan *plan; /* borrowed */
+    threshold_result result;
+    threshold_stage stage;
+    bool fine;                         /* the second pass, at the plan's fine cells */
+    double cells;                      /* of the pass, a radius [1] */
+    threshold_bracket coarse, refined; /* of the first pass and of the second */
+    double stride, gone;               /* of THRESHOLD_WIDEN: its first step, how far it has come [m/s] */
+    int reserved;                      /* scenes of the budget that are still to be asked beyond the bracket */
+    int n_beyond;
+    double beyond[2];                           /* [m/s] */
+    int n_asked;                                /* of the question that is open; 0: the search is over */
+    threshold_sample asked[THRESHOLD_TOGETHER]; /* rising in velocity; an answer where it was told */
+    bool told[THRESHOLD_TOGETHER];
+} threshold_search;
+
+/* STATUS_BAD_INPUT: the plan makes no sense. */
+status study_threshold_begin(const threshold_plan *plan, threshold_search *out);
+/* The scenes that are needed before the search goes on, without those told already; how many.  0: it is over. */
+int study_threshold_ask(const threshold_search *s, threshold_wanted out[THRESHOLD_TOGETHER]);
+/* The answer of one of them.  STATUS_NUMERICAL: it has no excess; the search is where it was. */
+status study_threshold_tell(threshold_search *s, const threshold_sample *answer);
 
 /* Does a sample speak for a gouge?  An undecided one by its excess. */
 bool study_threshold_is_upper(const threshold_sample *s);
