@@ -1,5 +1,6 @@
 /* Treatments and their comparison, on scenes that cost nothing. */
 #include "coupling/case/treatment.h"
+#include "coupling/gouge/growth.h"
 #include "coupling/study/commands.h"
 #include "mpm/shape/shape.h"
 
@@ -23,42 +24,42 @@ static int scenes;
 
 /* Severity of a made-up scene: a line in velocity; a harder, colder or layered rail and a steeper lead face gouge
  * later. */
-static double made_up_threshold(const scene_job *job)
+static double made_up_threshold(const gouge_job *job)
 {
-    const mpm_body *rail = &job->scene.body[0], *armature = &job->scene.body[gouge_body_of_armature(&job->scene)];
+    const gouge_scene *s = &job->scene;
+    const mpm_body *rail = &s->scene.body[s->rail], *armature = &s->scene.body[s->armature];
     double v = 1400.0 + 100.0 * (rail->yield_scale - 1.5) - 0.5 * (rail->temperature - 293.0);
     v += 10.0 * (armature->shape_value.value[ARMATURE_LEAD_ANGLE] * 180.0 / 3.14159265358979 - 30.0);
-    for (int b = 0; b < job->scene.bodies; b++) {
-        const mpm_body *layer = &job->scene.body[b];
-        if (strncmp(layer->name, "layer_", 6) == 0)
+    for (int b = 0; b < s->scene.bodies; b++) {
+        const mpm_body *layer = &s->scene.body[b];
+        if (gouge_is_layer(s, b))
             v += 80.0 * layer->yield_scale + (strcmp(layer->material->name, "steel_4340") == 0 ? 200.0 : 0.0);
     }
     return v;
 }
 
-static status fake_scene(const scene_job *job, const scene_host *host, impact *out)
+static status fake_scene(const gouge_job *job, const scene_host *host, impact *out)
 {
     (void)host;
     memset(out, 0, sizeof *out);
     scenes++;
-    const double v = job->scene.body[gouge_body_of_armature(&job->scene)].velocity[0], r = job->spec.particle_radius;
-    const double cells = r / job->scene.axis[0].fine;
+    const double v = job->scene.velocity, r = job->scene.crater.particle_radius;
+    const double cells = r / job->scene.scene.axis[0].fine;
     const double excess = (v - made_up_threshold(job) - (cells < 2.5 ? 20.0 : 0.0)) / 150.0;
     scene_result *hit = &out->result;
-    hit->severity = excess + job->spec.limit_severity;
+    hit->severity = excess + job->scene.crater.limit_severity;
     hit->groove_growth = excess / gouge_growth_folds(1.0, r, v);
     /* a groove must have grown for a while before its crater is a gouge */
-    hit->class = excess >= (gouge_is_gauged(job->c) ? 0.0 : 0.4) ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
+    hit->class = excess >= (job->scene.gauged ? 0.0 : 0.4) ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
     hit->crater_volume = 10.0 * r * r * r;
     hit->crater_depth = 0.2 * r;
     hit->crater_length = 6.0 * r;
     hit->crater_width = 2.0 * r;
-    hit->bodies = job->scene.bodies;
+    hit->bodies = job->scene.scene.bodies;
     for (int b = 0; b < hit->bodies; b++) {
-        snprintf(hit->body[b], sizeof hit->body[b], "%s", job->scene.body[b].name);
-        if (strncmp(hit->body[b], "layer_", 6) != 0) continue;
-        hit->failed_volume[b] = 1e-3 * r * r * r;
-        if (job->scene.body[b].field > 0) hit->carried_volume[b] = 9.0 * r * r * r; /* its bond gave way */
+        if (!gouge_is_layer(&job->scene, b)) continue;
+        hit->layers_failed_volume += 1e-3 * r * r * r;
+        if (job->scene.scene.body[b].field > 0) hit->layers_carried_volume += 9.0 * r * r * r; /* its bond gave way */
     }
     out->impulse = 0.02;
     return status_ok();

@@ -333,13 +333,13 @@ static bool comes_to(const scene_host *host, int threads)
 static int borrowed; /* the runs in which this was seen */
 
 /* The first waits until both others compute, and until both have done. */
-static status run_and_look(const scene_job *job, const scene_host *host, impact *out)
+static status run_and_look(const gouge_job *job, const scene_host *host, impact *out)
 {
     if (!borrowed++) {
         assert_true(comes_to(host, 1));
         assert_true(comes_to(host, PROCESSES));
     }
-    return scene_run(job, host, out);
+    return gouge_run(job, host, out);
 }
 
 /* Who computes lends nothing, and lends again when it has done. */
@@ -435,10 +435,10 @@ static scene_query grown_query(const breech_case *c, double velocity)
 
 static int own_runs; /* begun: one that was laid aside goes on */
 
-static status count_run(const scene_job *job, const scene_host *host, impact *out)
+static status count_run(const gouge_job *job, const scene_host *host, impact *out)
 {
     own_runs += !job->resume.image;
-    return scene_run(job, host, out);
+    return gouge_run(job, host, out);
 }
 
 /* A whole scene is computed by the one that has computed it to its gauge. */

@@ -1,7 +1,9 @@
 /* From the shot to the scene: states at the sites, the screen, the geometry and the forces of the scenes. */
+#include "coupling/gouge/growth.h"
+#include "coupling/gouge/impact.h"
+#include "coupling/gouge/result.h"
 #include "coupling/gouge/screen.h"
 #include "coupling/gouge/site_state.h"
-#include "coupling/scene/scene_run.h"
 #include "mpm/grid/grid.h"
 #include "mpm/mpm.h"
 #include "mpm/shape/shape.h"
@@ -219,8 +221,7 @@ enum { VARIANTS = sizeof variants / sizeof variants[0] };
 typedef struct {
     breech_case *c;
     site_state state;
-    mpm_scene scene;
-    crater_spec spec;
+    gouge_scene gouge;
 } made;
 
 /* A layer of 0.3 mm, bonded with 80 MPa, where the title asks for it. */
@@ -240,7 +241,7 @@ static made make(const char *const *sets)
     add_layer(m.c);
     m.state = gouge_state_of_case(m.c);
     m.state.contact_pressure = 60e6;
-    const status s = gouge_scene_from_state(m.c, &m.state, m.c->scene.cells_per_radius, &m.scene, &m.spec);
+    const status s = gouge_scene_from_state(m.c, &m.state, m.c->scene.cells_per_radius, &m.gouge);
     if (s.code != STATUS_OK) fail_msg("%s ...: %s", sets[0] ? sets[0] : "default", s.text);
     return m;
 }
@@ -248,14 +249,6 @@ static made make(const char *const *sets)
 static double inside(const mpm_body *b, const double x[3])
 {
     return b->shape->inside(&b->shape_value, x);
-}
-
-static const mpm_body *named(const mpm_scene *s, const char *name)
-{
-    for (int i = 0; i < s->bodies; i++)
-        if (strcmp(s->body[i].name, name) == 0) return &s->body[i];
-    fail_msg("no body %s", name);
-    return NULL;
 }
 
 static double uniform(uint64_t *seed)
@@ -268,18 +261,17 @@ static double uniform(uint64_t *seed)
 #define ROUNDING 1e-12
 
 /* A sphere is a grain embedded in the rail, which takes its place from it. */
-static bool may_share(const mpm_body *a, const mpm_body *b)
+static bool may_share(const gouge_scene *g, int a, int b)
 {
-    return strcmp(b->name, "particle") == 0 && strcmp(b->shape->name, "sphere") == 0 &&
-           strcmp(a->name, "armature") != 0;
+    return b == g->grain && strcmp(g->scene.body[b].shape->name, "sphere") == 0 && a != g->armature;
 }
 
-static void check_overlap(const mpm_scene *s, const double x[3])
+static void check_overlap(const gouge_scene *g, const double x[3])
 {
+    const mpm_scene *s = &g->scene;
     for (int a = 0; a < s->bodies; a++)
         for (int b = a + 1; b < s->bodies; b++)
-            if (inside(&s->body[a], x) > ROUNDING && inside(&s->body[b], x) > ROUNDING &&
-                !may_share(&s->body[a], &s->body[b]))
+            if (inside(&s->body[a], x) > ROUNDING && inside(&s->body[b], x) > ROUNDING && !may_share(g, a, b))
                 fail_msg("%s and %s overlap at %g %g %g", s->body[a].name, s->body[b].name, x[0], x[1], x[2]);
 }
 
@@ -295,7 +287,7 @@ static void test_no_overlap(void **state)
             const double x[3] = { reach * (2.0 * uniform(&seed) - 1.0),
                                   (i % 2 ? 2.0 * r : 12e-3) * (2.0 * uniform(&seed) - 1.0),
                                   reach * (2.0 * uniform(&seed) - 1.0) };
-            check_overlap(&m.scene, x);
+            check_overlap(&m.gouge, x);
         }
         case_free(m.c);
     }
@@ -309,24 +301,25 @@ static void test_places(void **state)
     for (int k = 0; k < VARIANTS; k++) {
         made m = make(variants[k]);
         double lo[3], hi[3];
-        const mpm_body *grain = named(&m.scene, "particle"), *armature = named(&m.scene, "armature");
+        const mpm_body *grain = &m.gouge.scene.body[m.gouge.grain], *armature = &m.gouge.scene.body[m.gouge.armature];
         const bool sphere = strcmp(grain->shape->name, "sphere") == 0;
         grain->shape->bounds(&grain->shape_value, lo, hi);
         assert_true(fabs(hi[1] - m.state.grain.height) < ROUNDING);
         assert_true(sphere ? lo[1] < 0.0 : fabs(lo[1]) < ROUNDING);
         armature->shape->bounds(&armature->shape_value, lo, hi);
         assert_true(fabs(lo[1]) < ROUNDING && fabs(hi[1] - m.c->projectile.half_bore) < ROUNDING);
-        assert_true(lo[0] > m.scene.axis[0].lo && hi[0] < m.scene.axis[0].hi);
+        assert_true(lo[0] > m.gouge.scene.axis[0].lo && hi[0] < m.gouge.scene.axis[0].hi);
         double top = -INFINITY;
-        for (int i = 0; i < m.scene.bodies; i++) {
-            if (!gouge_body_is_rail(&m.scene, i)) continue;
-            m.scene.body[i].shape->bounds(&m.scene.body[i].shape_value, lo, hi);
+        for (int i = 0; i < m.gouge.scene.bodies; i++) {
+            if (!gouge_counts_as_rail(&m.gouge, i)) continue;
+            m.gouge.scene.body[i].shape->bounds(&m.gouge.scene.body[i].shape_value, lo, hi);
             top = fmax(top, hi[1]);
-            assert_true(lo[0] <= m.scene.axis[0].lo && hi[0] >= m.scene.axis[0].hi); /* it fills the window */
+            assert_true(lo[0] <= m.gouge.scene.axis[0].lo &&
+                        hi[0] >= m.gouge.scene.axis[0].hi); /* it fills the window */
         }
         assert_true(top == 0.0);
         const double corner[3] = { -m.state.grain.radius, m.state.grain.height, 0.0 };
-        const double gap = -inside(armature, corner), fine = m.scene.axis[0].fine;
+        const double gap = -inside(armature, corner), fine = m.gouge.scene.axis[0].fine;
         assert_true(gap > 0.3 * fine && gap <= fine * (1.0 + 1e-9) + m.state.grain.height);
         case_free(m.c);
     }
@@ -339,16 +332,16 @@ static void test_grid(void **state)
     for (int k = 0; k < VARIANTS; k++) {
         made m = make(variants[k]);
         for (int a = 0; a < 3; a++) {
-            const mpm_axis *x = &m.scene.axis[a];
+            const mpm_axis *x = &m.gouge.scene.axis[a];
             const double below = x->fine_lo / x->fine, above = x->fine_hi / x->fine;
             assert_true(fabs(below - round(below)) < 1e-9 && fabs(above - round(above)) < 1e-9);
             assert_true(x->lo < x->fine_lo || (a == 2 && x->lo == 0.0));
             assert_true(x->fine_hi < x->hi);
         }
-        assert_true(fabs(m.scene.axis[0].fine - m.state.grain.radius / m.c->scene.cells_per_radius) < ROUNDING);
-        const unsigned rail = m.scene.axis[0].boundary_fields[0];
+        assert_true(fabs(m.gouge.scene.axis[0].fine - m.state.grain.radius / m.c->scene.cells_per_radius) < ROUNDING);
+        const unsigned rail = m.gouge.scene.axis[0].boundary_fields[0];
         assert_true(rail & 1u);
-        assert_false(rail >> named(&m.scene, "armature")->field & 1u); /* the armature leaves freely */
+        assert_false(rail >> m.gouge.scene.body[m.gouge.armature].field & 1u); /* the armature leaves freely */
         case_free(m.c);
     }
 }
@@ -362,9 +355,9 @@ static void test_levels(void **state)
         for (int levels = 1; levels <= MPM_MAX_LEVELS; levels++) {
             grids g;
             m.c->scene.levels = levels;
-            OK(gouge_scene_from_state(m.c, &m.state, m.c->scene.cells_per_radius, &m.scene, &m.spec));
-            OK(mpm_grids_make(&m.scene, &g));
-            assert_int_equal(g.levels, m.scene.basis == BASIS_GIMP ? levels : 1);
+            OK(gouge_scene_from_state(m.c, &m.state, m.c->scene.cells_per_radius, &m.gouge));
+            OK(mpm_grids_make(&m.gouge.scene, &g));
+            assert_int_equal(g.levels, m.gouge.scene.basis == BASIS_GIMP ? levels : 1);
             mpm_grids_free(&g);
         }
         case_free(m.c);
@@ -392,7 +385,7 @@ static void test_pressing(void **state)
     (void)state;
     for (int k = 0; k < VARIANTS; k++) {
         made m = make(variants[k]);
-        const mpm_body *b = named(&m.scene, "armature");
+        const mpm_body *b = &m.gouge.scene.body[m.gouge.armature];
         const double mass = section_area(b) * m.c->projectile.width * b->material->density;
         const double run = m.c->projectile.chamfer_height / tan(m.c->projectile.lead_angle);
         const double force = 60e6 * (m.c->projectile.length - run) * m.c->projectile.width;
@@ -420,8 +413,8 @@ static void test_grain_measures(void **state)
         const double r = m.state.grain.radius, plan = acos(-1.0) * r * r;
         /* cells whose middle lies inside, 128 across: the border's cells err both ways; 0.5 % is a tenth of those on it
          * (perimeter pi 128 of area pi 64^2: 3 %), a cone's tip loses a layer of height h/48 */
-        assert_true(fabs(m.spec.particle_area / plan - 1.0) < 5e-3);
-        assert_true(fabs(m.spec.particle_volume / (shapes[k].share * plan * r) - 1.0) < 5e-3);
+        assert_true(fabs(m.gouge.crater.particle_area / plan - 1.0) < 5e-3);
+        assert_true(fabs(m.gouge.crater.particle_volume / (shapes[k].share * plan * r) - 1.0) < 5e-3);
         case_free(m.c);
     }
 }
@@ -430,18 +423,19 @@ static void test_fields(void **state)
 {
     (void)state;
     made m = make(variants[8]); /* a bonded layer, a loose grain */
-    assert_int_equal(named(&m.scene, "rail")->field, 0);
-    assert_int_equal(named(&m.scene, "layer_1")->field, 1);
-    assert_int_equal(named(&m.scene, "particle")->field, 2);
-    assert_int_equal(named(&m.scene, "armature")->field, 3);
-    assert_true(m.scene.contact[0][1].bond_strength == 80e6 && m.scene.contact[1][0].bond_strength == 80e6);
-    assert_true(m.scene.contact[1][2].bond_strength == 0.0 && m.scene.contact[2][3].bond_strength == 0.0);
+    assert_int_equal(m.gouge.scene.body[m.gouge.rail].field, 0);
+    assert_int_equal(m.gouge.scene.body[m.gouge.rail + 1].field, 1);
+    assert_int_equal(m.gouge.scene.body[m.gouge.grain].field, 2);
+    assert_int_equal(m.gouge.scene.body[m.gouge.armature].field, 3);
+    assert_true(m.gouge.scene.contact[0][1].bond_strength == 80e6 && m.gouge.scene.contact[1][0].bond_strength == 80e6);
+    assert_true(m.gouge.scene.contact[1][2].bond_strength == 0.0 && m.gouge.scene.contact[2][3].bond_strength == 0.0);
     for (int a = 0; a < MPM_MAX_FIELDS; a++)
-        for (int b = 0; b < MPM_MAX_FIELDS; b++) assert_true(m.scene.contact[a][b].friction == m.c->scene.friction);
+        for (int b = 0; b < MPM_MAX_FIELDS; b++)
+            assert_true(m.gouge.scene.contact[a][b].friction == m.c->scene.friction);
     case_free(m.c);
     m = make(variants[0]); /* all welded */
-    assert_int_equal(named(&m.scene, "particle")->field, 0);
-    assert_int_equal(named(&m.scene, "armature")->field, 1);
+    assert_int_equal(m.gouge.scene.body[m.gouge.grain].field, 0);
+    assert_int_equal(m.gouge.scene.body[m.gouge.armature].field, 1);
     case_free(m.c);
 }
 
@@ -458,10 +452,10 @@ static void test_masses(void **state)
                                  NULL };
     made m = make(sets);
     mpm *solver = NULL;
-    OK(mpm_create(&m.scene, 1, &solver));
+    OK(mpm_create(&m.gouge.scene, 1, &solver));
     const mpm_ledger l = mpm_balance(solver);
-    const mpm_body *armature = named(&m.scene, "armature"), *rail = named(&m.scene, "rail");
-    const double width = m.scene.axis[0].hi - m.scene.axis[0].lo;
+    const mpm_body *armature = &m.gouge.scene.body[m.gouge.armature], *rail = &m.gouge.scene.body[m.gouge.rail];
+    const double width = m.gouge.scene.axis[0].hi - m.gouge.scene.axis[0].lo;
     const double rail_mass = rail->material->density * width * m.c->scene.rail_depth * 0.5 * m.c->projectile.width;
     const double armature_mass = armature->material->density * section_area(armature) * 0.5 * m.c->projectile.width;
     /* 2 %: the slanted lead face and the ends of the U on a lattice of 1 mm points */
@@ -486,8 +480,8 @@ static double mass_with(const char *shape)
                                  NULL };
     made m = make(sets);
     mpm *solver = NULL;
-    assert_int_equal(m.scene.bodies, strcmp(shape, "pit") == 0 ? 2 : 3);
-    OK(mpm_create(&m.scene, 1, &solver));
+    assert_int_equal(m.gouge.scene.bodies, strcmp(shape, "pit") == 0 ? 2 : 3);
+    OK(mpm_create(&m.gouge.scene, 1, &solver));
     const double mass = mpm_balance(solver).mass;
     mpm_free(solver);
     case_free(m.c);
@@ -501,13 +495,13 @@ static void test_pit(void **state)
     const char *const sets[] = { "particle.shape=pit", NULL };
     made m = make(sets);
     const double r = m.state.grain.radius, ball = 4.0 / 3.0 * PI * r * r * r;
-    const double density = named(&m.scene, "rail")->material->density;
-    assert_non_null(named(&m.scene, "rail")->cut);
-    assert_null(named(&m.scene, "armature")->cut);
-    assert_true(fabs(m.spec.particle_volume / (0.5 * ball) - 1.0) < 5e-3);
-    assert_true(fabs(m.spec.particle_area / (PI * r * r) - 1.0) < 5e-3);
+    const double density = m.gouge.scene.body[m.gouge.rail].material->density;
+    assert_non_null(m.gouge.scene.body[m.gouge.rail].cut);
+    assert_null(m.gouge.scene.body[m.gouge.armature].cut);
+    assert_true(fabs(m.gouge.crater.particle_volume / (0.5 * ball) - 1.0) < 5e-3);
+    assert_true(fabs(m.gouge.crater.particle_area / (PI * r * r) - 1.0) < 5e-3);
     made grain = make((const char *const[]){ NULL });
-    assert_true(gouge_grain_passed(&m.scene) > 0.0 && gouge_grain_passed(&m.scene) == gouge_grain_passed(&grain.scene));
+    assert_true(gouge_grain_passed(&m.gouge) > 0.0 && gouge_grain_passed(&m.gouge) == gouge_grain_passed(&grain.gouge));
     case_free(grain.c);
     case_free(m.c);
     /* eight points a radius: those on the border, one in eight, err both ways */
@@ -515,7 +509,7 @@ static void test_pit(void **state)
     m = make(sets);
     m.c->scene.fine_depth = 1e-3;
     m.state.grain.height = 2.5e-3;
-    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec).code, STATUS_BAD_INPUT);
+    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.gouge).code, STATUS_BAD_INPUT);
     case_free(m.c);
 }
 
@@ -534,17 +528,42 @@ static void test_gauged(void **state)
 {
     (void)state;
     made m = make((const char *const[]){ NULL });
-    const double whole = m.scene.end_time;
+    const double whole = m.gouge.scene.end_time;
     m.c->scene.stop_when_gauged = true;
-    OK(gouge_scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec));
-    assert_true(fabs(m.scene.gauge_time[1] - 28 * m.state.grain.radius / m.state.velocity) < 1e-12);
-    assert_true(m.scene.end_time == whole && gouge_last_time(m.c, &m.scene) == m.scene.gauge_time[1]);
-    m.c->scene.end_time = 0.9 * m.scene.gauge_time[1];
-    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec).code, STATUS_BAD_INPUT);
+    OK(gouge_scene_from_state(m.c, &m.state, 3.0, &m.gouge));
+    assert_true(fabs(m.gouge.gauge_time[1] - 28 * m.state.grain.radius / m.state.velocity) < 1e-12);
+    assert_true(m.gouge.scene.end_time == whole && gouge_last_time(&m.gouge) == m.gouge.gauge_time[1]);
+    m.c->scene.end_time = 0.9 * m.gouge.gauge_time[1];
+    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.gouge).code, STATUS_BAD_INPUT);
     m.c->scene.follow = false; /* has no gauges */
-    OK(gouge_scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec));
-    assert_true(m.scene.end_time == m.c->scene.end_time);
+    OK(gouge_scene_from_state(m.c, &m.state, 3.0, &m.gouge));
+    assert_true(m.gouge.scene.end_time == m.c->scene.end_time);
     case_free(m.c);
+}
+
+/* The growth is that from the first look after one gauge to the first after the other, or as far as the groove has
+ * come. */
+static void test_gauges(void **state)
+{
+    (void)state;
+    const gouge_scene s = { .gauge_time = { 2e-6, 3e-6 } };
+    gouge_gauges g = { .at = { 0.0 } };
+    mpm_report now = { .time = 1e-6, .plastic_time = 1e-6, .plastic_power = 1e5 };
+    gouge_gauges_note(&s, &now, &g);
+    assert_true(g.at[0] == 0.0 && isnan(gouge_growth(&g, &now)));
+    now = (mpm_report){ .time = 2.2e-6, .plastic_time = 2.1e-6, .plastic_power = 3e5 };
+    gouge_gauges_note(&s, &now, &g);
+    now.time = 2.3e-6; /* no new look */
+    gouge_gauges_note(&s, &now, &g);
+    assert_true(g.at[0] == 2.1e-6 && g.power[0] == 3e5 && g.at[1] == 0.0);
+    now = (mpm_report){ .time = 2.9e-6, .plastic_time = 2.6e-6, .plastic_power = 3e5 * exp(-1.0) };
+    assert_true(fabs(gouge_growth(&g, &now) / -2e6 - 1.0) < 1e-9); /* died on its way to the second gauge */
+    now = (mpm_report){ .time = 3.1e-6, .plastic_time = 3.1e-6, .plastic_power = 3e5 * exp(0.25) };
+    gouge_gauges_note(&s, &now, &g);
+    now =
+        (mpm_report){ .time = 4e-6, .plastic_time = 4e-6, .plastic_power = 1e9 }; /* after both: it no longer counts */
+    gouge_gauges_note(&s, &now, &g);
+    assert_true(fabs(gouge_growth(&g, &now) / 0.25e6 - 1.0) < 1e-9);
 }
 
 /* A groove that dies is known half way between its gauges, one that grows or hesitates is not. */
@@ -552,19 +571,20 @@ static void test_dying(void **state)
 {
     (void)state;
     made m = make((const char *const[]){ NULL });
-    const double *gauge = m.scene.gauge_time, half = 0.5 * (gauge[0] + gauge[1]);
-    mpm_report now = { .time = half, .plastic_time = half, .gauge_at = { gauge[0] }, .gauge_power = { 1e5 } };
+    const double *gauge = m.gouge.gauge_time, half = 0.5 * (gauge[0] + gauge[1]);
+    const gouge_gauges at = { .at = { gauge[0] }, .power = { 1e5 } };
+    mpm_report now = { .time = half, .plastic_time = half };
     for (double folds = -2.0; folds <= 2.0; folds += 0.1) {
         now.plastic_power = 1e5 * exp(0.5 * folds);
-        assert_true(gouge_groove_dies(m.c, &m.scene, &now) == (folds < -0.501));
+        assert_true(gouge_groove_dies(&m.gouge, &at, &now) == (folds < -0.501));
     }
     now.plastic_power = 1e5 * exp(0.5 * -0.7);
-    m.c->scene.growth_scatter = 0.3; /* what decides nothing reaches further */
-    assert_false(gouge_groove_dies(m.c, &m.scene, &now));
+    m.gouge.growth_scatter = 0.3; /* what decides nothing reaches further */
+    assert_false(gouge_groove_dies(&m.gouge, &at, &now));
     now.plastic_power = 1e4;
-    assert_true(gouge_groove_dies(m.c, &m.scene, &now));
+    assert_true(gouge_groove_dies(&m.gouge, &at, &now));
     now.time = now.plastic_time = 0.99 * half;
-    assert_false(gouge_groove_dies(m.c, &m.scene, &now));
+    assert_false(gouge_groove_dies(&m.gouge, &at, &now));
     case_free(m.c);
 }
 
@@ -573,12 +593,40 @@ static void test_refused(void **state)
     (void)state;
     made m = make(variants[0]);
     m.c->scene.rail_ahead = 1e-3; /* no room for the grain's fine zone */
-    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec).code, STATUS_BAD_INPUT);
+    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.gouge).code, STATUS_BAD_INPUT);
     case_free(m.c);
     m = make(variants[0]);
     m.state.velocity = 0.0;
-    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.scene, &m.spec).code, STATUS_BAD_INPUT);
+    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.gouge).code, STATUS_BAD_INPUT);
     case_free(m.c);
+}
+
+/* Forces and volumes are the full model's: the mirror doubles what lies in its plane and cancels what lies across.  Of
+ * a body counts what it is, wherever it stands and whatever it is called. */
+static void test_half_model(void **state)
+{
+    (void)state;
+    gouge_scene s = { .scene.bodies = 3, .armature = 0, .rail = 1, .layers = 1, .grain = GOUGE_PIT };
+    for (int b = 0; b < s.scene.bodies; b++) snprintf(s.scene.body[b].name, sizeof s.scene.body[b].name, "body %d", b);
+    const gouge_watch w = { .scene = &s, .growth = NAN, .found = { .class = DAMAGE_SCRATCH } };
+    const scene_outcome o = { .report = { .peak_contact_force = { 1.0, 2.0, 3.0 },
+                                          .peak_mises = { 5.0, 7.0 },
+                                          .failed_volume = { 0.0, 11.0, 13.0 } },
+                              .ledger = { .energy_error = 0.5, .momentum_error = 0.25 },
+                              .wall = 3.0,
+                              .threads = 2 };
+    for (int mirrored = 0; mirrored < 2; mirrored++) {
+        s.crater.mirrored = mirrored;
+        const scene_result r = gouge_result(&s, &w, &o);
+        assert_true(r.peak_force[0] == 1.0 + mirrored && r.peak_force[1] == 2.0 + 2.0 * mirrored);
+        assert_true(r.peak_force[2] == (mirrored ? 0.0 : 3.0));
+        assert_true(r.failed_volume[1] == 11.0 + 11.0 * mirrored);
+        assert_true(r.layers_failed_volume == 13.0 + 13.0 * mirrored);
+        assert_true(r.peak_mises_armature == 5.0 && r.peak_mises_rail == 7.0);
+        assert_true(r.energy_error == 0.5 && r.momentum_error == 0.25);
+        assert_int_equal(r.class, DAMAGE_SCRATCH);
+        assert_true(isnan(r.groove_growth)); /* was not gauged */
+    }
 }
 
 /* ---- the shelf ---- */
@@ -640,8 +688,8 @@ static run_counted run_small(const char *const *speed, bool to_gauge, const char
     breech_case *c = small_case(speed, to_gauge, written);
     const site_state at = gouge_state_of_case(c);
     run_counted r = { .steps = 0 };
-    scene_job job;
-    OK(scene_job_make(c, &at, 1.2, &job));
+    gouge_job job;
+    OK(gouge_job_make(c, &at, 1.2, &job));
     job.name = to_gauge ? "short" : "whole";
     job.twin = 1;
     OK(output_history_open(NULL, false, &r.rows));
@@ -649,7 +697,7 @@ static run_counted run_small(const char *const *speed, bool to_gauge, const char
     const scene_host host = {
         .sink = &sink, .history = r.rows, .shelf = shelf, .threads = 1, .stop = count_step, .user = &r
     };
-    OK(scene_run(&job, &host, &r.hit));
+    OK(gouge_run(&job, &host, &r.hit));
     r.hit.result.wall_seconds = 0.0;
     case_free(c);
     return r;
@@ -657,9 +705,9 @@ static run_counted run_small(const char *const *speed, bool to_gauge, const char
 
 static const double SAVING = 5e-3; /* [s] */
 
-static status save_slowly(void *user, const char *scene, const mpm *m, double wall)
+static status save_slowly(void *user, const char *scene, const scene_now *now)
 {
-    (void)scene, (void)m, (void)wall;
+    (void)scene, (void)now;
     const double until = host_wall_clock() + SAVING;
     while (host_wall_clock() < until) {
     }
@@ -675,14 +723,14 @@ static void test_checkpoints(void **state)
                                          "scene.contact_pressure=300 MPa" };
     breech_case *c = small_case(brief, false, "output.snapshots=0");
     const site_state at = gouge_state_of_case(c);
-    scene_job job;
+    gouge_job job;
     impact hit;
     int saves = 0;
-    OK(scene_job_make(c, &at, 1.2, &job));
-    c->output.checkpoint_interval = 1e-3;
+    OK(gouge_job_make(c, &at, 1.2, &job));
+    job.checkpoint_interval = 1e-3;
     const scene_host host = { .threads = 1, .save = save_slowly, .user = &saves };
     const double start = host_wall_clock();
-    OK(scene_run(&job, &host, &hit));
+    OK(gouge_run(&job, &host, &hit));
     const double wall = host_wall_clock() - start;
     print_message("%d checkpoints of %g ms in %.2f s\n", saves, 1e3 * SAVING, wall);
     assert_true(saves > 1 && (saves - 1) * 20 * SAVING <= wall);
@@ -760,7 +808,8 @@ int main(void)
         cmocka_unit_test(test_refused),        cmocka_unit_test(test_growth),
         cmocka_unit_test(test_gauged),         cmocka_unit_test(test_dying),
         cmocka_unit_test(test_checkpoints),    cmocka_unit_test(test_shelf),
-        cmocka_unit_test(test_dies_early),
+        cmocka_unit_test(test_dies_early),     cmocka_unit_test(test_gauges),
+        cmocka_unit_test(test_half_model),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
  * leaves a file that cannot be read. */
 #include "output_common.h"
 
+#include "coupling/gouge/crater_history.h"
 #include "coupling/host/hdf5_file.h"
 #include "coupling/output/history.h"
 
@@ -89,8 +90,8 @@ static void every_column_has_units_and_description(void **state)
                        .z0 = -1e-4,
                        .dz = 1e-4,
                        .depth_map = map };
-    OK(output_history_crater(h, "v1500", &c));
-    OK(output_history_crater(h, "v1500", &c)); /* a former one is replaced */
+    OK(gouge_crater_record(&c, h, "v1500"));
+    OK(gouge_crater_record(&c, h, "v1500")); /* a former one is replaced */
     OK(output_history_close(h));
 
     size_t n;

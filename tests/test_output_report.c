@@ -1,4 +1,5 @@
 /* report.html: made from the files of the directory alone, whole whatever is missing, with no link to the network. */
+#include "coupling/gouge/crater_history.h"
 #include "coupling/host/version.h"
 #include "output_common.h"
 
@@ -49,7 +50,7 @@ static void write_crater(history *h, const char *scene, double growth)
                        .z0 = -1.95e-3,
                        .dz = 0.1e-3,
                        .depth_map = map };
-    OK(output_history_crater(h, scene, &c));
+    OK(gouge_crater_record(&c, h, scene));
 }
 
 static void write_run(const char *dir, run_kind kind)

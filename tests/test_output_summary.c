@@ -263,47 +263,6 @@ static void file_and_its_status(void **state)
     assert_string_equal(word, "");
 }
 
-/* Forces and volumes are the full model's: the mirror doubles what lies in its plane and cancels what lies across. */
-static void half_model_is_doubled(void **state)
-{
-    (void)state;
-    mpm_scene scene;
-    memset(&scene, 0, sizeof scene);
-    scene.bodies = 2;
-    strcpy(scene.body[0].name, "armature");
-    strcpy(scene.body[1].name, "rail");
-    mpm_report report;
-    memset(&report, 0, sizeof report);
-    report.peak_contact_force[0] = 1.0;
-    report.peak_contact_force[1] = 2.0;
-    report.peak_contact_force[2] = 3.0;
-    report.peak_mises[0] = 5.0;
-    report.peak_mises[1] = 7.0;
-    report.failed_volume[1] = 11.0;
-    const mpm_ledger ledger = { .energy_error = 0.5, .momentum_error = 0.25 };
-    scene_outcome o = { .scene = &scene, .report = &report, .ledger = &ledger, .wall_seconds = 3.0, .threads = 2 };
-    for (int mirrored = 0; mirrored < 2; mirrored++) {
-        o.mirrored = mirrored;
-        const scene_result r = output_scene_result(&o);
-        assert_true(r.peak_force[0] == 1.0 + mirrored && r.peak_force[1] == 2.0 + 2.0 * mirrored);
-        assert_true(r.peak_force[2] == (mirrored ? 0.0 : 3.0));
-        assert_true(r.failed_volume[1] == 11.0 + 11.0 * mirrored);
-        assert_true(r.peak_mises_armature == 5.0 && r.peak_mises_rail == 7.0);
-        assert_true(r.energy_error == 0.5 && r.momentum_error == 0.25);
-        assert_int_equal(r.class, DAMAGE_UNDECIDED); /* no crater was measured */
-        assert_true(isnan(r.severity));
-    }
-    assert_true(isnan(output_scene_result(&o).groove_growth)); /* was not gauged */
-    report.gauge_at[0] = 2e-6, report.gauge_power[0] = 3e5;
-    report.time = 5e-6, report.plastic_time = 4e-6,
-    report.plastic_power = 3e5 * exp(-1.0); /* died on its way to the second gauge */
-    assert_true(fabs(output_scene_result(&o).groove_growth / -0.5e6 - 1.0) < 1e-12);
-    report.gauge_at[1] = 3e-6, report.gauge_power[1] = 3e5 * exp(0.25);
-    assert_true(fabs(output_scene_result(&o).groove_growth / 0.25e6 - 1.0) < 1e-12);
-    strcpy(scene.body[0].name, "flyer");
-    assert_true(isnan(output_scene_result(&o).peak_mises_armature));
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -316,7 +275,6 @@ int main(void)
         cmocka_unit_test(manual_is_up_to_date),
         cmocka_unit_test(closing_table_shows_the_result),
         cmocka_unit_test(file_and_its_status),
-        cmocka_unit_test(half_model_is_doubled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
 /* The search for a threshold on functions that are known, and the whole study on scenes that cost nothing. */
+#include "coupling/gouge/growth.h"
 #include "coupling/study/onset.h"
 
 #include <math.h>
@@ -535,18 +536,18 @@ static double made_up_threshold(double radius)
     return counter.base - 4e5 * (radius - 0.5e-3);
 }
 
-static status fake_scene(const scene_job *job, const scene_host *host, impact *out)
+static status fake_scene(const gouge_job *job, const scene_host *host, impact *out)
 {
     memset(out, 0, sizeof *out);
     CHECK(counter.stop_after == 0 || counter.scenes < counter.stop_after, STATUS_STOPPED, "stopped");
     assert_non_null(host->dir);
-    assert_true((job->c->output.snapshots == 0) == gouge_is_gauged(job->c)); /* those of whole scenes are the case's */
+    assert_true((job->snapshots == 0) == job->scene.gauged); /* those of whole scenes are the case's */
     counter.scenes++;
-    const double v = job->scene.body[gouge_body_of_armature(&job->scene)].velocity[0];
-    const double r = job->spec.particle_radius, cells = r / job->scene.axis[0].fine;
+    const double v = job->scene.velocity;
+    const double r = job->scene.crater.particle_radius, cells = r / job->scene.scene.axis[0].fine;
     const double excess = (v - made_up_threshold(r) - (cells < 2.5 ? 40.0 : 0.0)) / 150.0;
-    const bool gauged = gouge_is_gauged(job->c); /* then severity says nothing, else growth */
-    out->result.severity = gauged ? -9.0 : excess + job->spec.limit_severity;
+    const bool gauged = job->scene.gauged; /* then severity says nothing, else growth */
+    out->result.severity = gauged ? -9.0 : excess + job->scene.crater.limit_severity;
     out->result.groove_growth = gauged ? excess / gouge_growth_folds(1.0, r, v) : NAN;
     out->result.widening = 2.0;
     out->result.class = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;

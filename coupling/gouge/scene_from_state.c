@@ -1,6 +1,6 @@
 #include "coupling/gouge/scene_from_state.h"
 
-#include "coupling/output/summary.h"
+#include "coupling/gouge/growth.h"
 #include "mpm/grid/grid.h"
 #include "mpm/shape/shape.h"
 
@@ -14,14 +14,6 @@ static const double END_FACTOR = 1.1;
 /* Speed of a groove's front over the armature's.  A zone that follows it ends when the contact face has passed it. */
 static const double FRONT_SPEED = 0.7;
 
-/* Where a groove's growth is gauged: the armature's way in grain radii.  Before, the grain itself is still being
- * flattened; later the contact face begins to run out. */
-static const double GROWTH_WAY[2] = { 16.0, 28.0 };
-static const double DEAD_FOLDS = -3.0; /* of a groove that died before the first gauge, and the least of any */
-
-/* A groove that loses so much from gauge to gauge, more than twice what decides nothing, is known to die half way. */
-static const double DYING_FOLDS = -0.5;
-
 /* A fine zone that follows starts so many radii wider than the grain on either side, but no wider than half of its
  * largest; it widens with the groove. */
 static const double BESIDE = 1.5;
@@ -29,35 +21,19 @@ static const double BESIDE = 1.5;
 /* Length across the rail of shapes that have one. */
 #define RIDGE_LENGTH 4.0 /* half of it, in radii */
 
-static const char ARMATURE[] = "armature", GRAIN[] = "particle";
-
-int gouge_body_of_armature(const mpm_scene *scene)
-{
-    return scene->bodies - 1;
-}
-
-bool gouge_body_is_rail(const mpm_scene *scene, int body)
-{
-    return strcmp(scene->body[body].name, ARMATURE) != 0 && strcmp(scene->body[body].name, GRAIN) != 0;
-}
-
 bool gouge_is_gauged(const breech_case *c)
 {
     return c->scene.stop_when_gauged && c->scene.follow;
 }
 
-double gouge_growth_folds(double growth, double radius, double velocity)
+bool gouge_is_layer(const gouge_scene *s, int body)
 {
-    const double folds = growth * (GROWTH_WAY[1] - GROWTH_WAY[0]) * radius / velocity;
-    return folds > DEAD_FOLDS ? folds : DEAD_FOLDS; /* NAN too */
+    return body > s->rail && body <= s->rail + s->layers;
 }
 
-bool gouge_groove_dies(const breech_case *c, const mpm_scene *s, const mpm_report *now)
+bool gouge_counts_as_rail(const gouge_scene *s, int body)
 {
-    if (!(now->gauge_at[0] > 0.0) || now->time < 0.5 * (s->gauge_time[0] + s->gauge_time[1])) return false;
-    const double radius = s->gauge_time[0] * s->follow_speed / GROWTH_WAY[0];
-    const double folds = gouge_growth_folds(output_scene_growth(now), radius, s->follow_speed);
-    return folds < fmin(DYING_FOLDS, -2.5 * c->scene.growth_scatter);
+    return body == s->rail || gouge_is_layer(s, body);
 }
 
 site_state gouge_state_of_case(const breech_case *c)
@@ -210,8 +186,11 @@ static int next_field(mpm_scene *s, int below, double bond_strength)
     return field;
 }
 
-static int add_rail(const breech_case *c, const layout *l, mpm_scene *s)
+static int add_rail(const breech_case *c, const layout *l, gouge_scene *g)
 {
+    mpm_scene *s = &g->scene;
+    g->rail = s->bodies;
+    g->layers = c->rail.layers.n;
     mpm_body *rail = add_body(s, "rail", case_material(c, c->rail.material), 0);
     make_box(rail, l, -c->scene.rail_depth, -l->layers);
     rail->yield_scale = c->rail.yield_scale;
@@ -252,15 +231,30 @@ static void shape_grain(const case_site *g, const shape_kind **shape, shape_valu
     for (int i = 0; *shape && (*shape)->value_names[i]; i++) value->value[i] = grain_value(g, (*shape)->value_names[i]);
 }
 
-/* A pit is a hole in rail and layers, no body. */
-static int add_grain(const breech_case *c, const case_site *g, int below, mpm_scene *s)
+static double grain_end(const case_site *g)
 {
+    const shape_kind *shape;
+    shape_values value;
+    double lo[3], hi[3];
+    memset(&value, 0, sizeof value);
+    shape_grain(g, &shape, &value);
+    if (!shape) return NAN; /* add_bodies complains */
+    shape->bounds(&value, lo, hi);
+    return hi[0];
+}
+
+/* A pit is a hole in rail and layers, no body. */
+static int add_grain(const breech_case *c, const case_site *g, int below, gouge_scene *out)
+{
+    mpm_scene *s = &out->scene;
+    out->grain = is_pit(g) ? GOUGE_PIT : s->bodies;
+    out->grain_end = grain_end(g);
     if (is_pit(g)) {
         for (int i = 0; i < s->bodies; i++) shape_grain(g, &s->body[i].cut, &s->body[i].cut_value);
         return below;
     }
     const int field = next_field(s, below, g->bond_strength);
-    mpm_body *b = add_body(s, GRAIN, case_material(c, g->material), field);
+    mpm_body *b = add_body(s, "particle", case_material(c, g->material), field);
     shape_grain(g, &b->shape, &b->shape_value);
     return field;
 }
@@ -273,10 +267,11 @@ static double armature_mass(const case_projectile *p, const material *m)
     return m->density * section * p->width;
 }
 
-static void add_armature(const breech_case *c, const site_state *state, const layout *l, int field, mpm_scene *s)
+static void add_armature(const breech_case *c, const site_state *state, const layout *l, int field, gouge_scene *g)
 {
     const case_projectile *p = &c->projectile;
-    mpm_body *b = add_body(s, ARMATURE, case_material(c, p->material), field);
+    g->armature = g->scene.bodies;
+    mpm_body *b = add_body(&g->scene, "armature", case_material(c, p->material), field);
     double *v = b->shape_value.value;
     b->shape = mpm_shape_find("armature");
     v[ARMATURE_X_FRONT] = l->x_front;
@@ -289,24 +284,28 @@ static void add_armature(const breech_case *c, const site_state *state, const la
     v[ARMATURE_HALF_WIDTH] = 0.5 * p->width;
     b->velocity[0] = state->velocity;
     b->body_force[1] = -state->contact_pressure * gouge_face_area(p) / armature_mass(p, b->material);
+    g->velocity = state->velocity;
+    g->face_front = l->x_front;
+    g->face_tail = l->x_front + l->run - p->length;
 }
 
-static status add_bodies(const breech_case *c, const site_state *state, const layout *l, mpm_scene *s)
+static status add_bodies(const breech_case *c, const site_state *state, const layout *l, gouge_scene *g)
 {
+    mpm_scene *s = &g->scene;
     const int wanted = c->rail.layers.n + 3;
     CHECK(wanted <= MPM_MAX_BODIES, STATUS_BAD_INPUT, "rail.layers: %d layers, a scene takes at most %d",
           c->rail.layers.n, MPM_MAX_BODIES - 3);
-    const int top = add_rail(c, l, s);
-    const int grain = add_grain(c, &state->grain, top, s);
+    const int top = add_rail(c, l, g);
+    const int grain = add_grain(c, &state->grain, top, g);
     CHECK(grain + 1 < MPM_MAX_FIELDS, STATUS_BAD_INPUT,
           "rail.layers, particle: %d bonds that can break, a scene takes at most %d; weld some (bond_strength: none)",
           grain, MPM_MAX_FIELDS - 2);
-    add_armature(c, state, l, grain + 1, s);
+    add_armature(c, state, l, grain + 1, g);
     for (int i = 0; i < s->bodies; i++) {
         mpm_body *b = &s->body[i];
         CHECK(b->shape && b->material, STATUS_BAD_INPUT, "scene: body `%s` has no shape or no material", b->name);
         TRY(mpm_shape_check(b->shape, &b->shape_value));
-        b->temperature = i == gouge_body_of_armature(s) ? c->projectile.temperature : c->rail.temperature;
+        b->temperature = i == g->armature ? c->projectile.temperature : c->rail.temperature;
         b->damage = c->scene.damage;
     }
     return status_ok();
@@ -325,8 +324,9 @@ static void set_contacts(const breech_case *c, mpm_scene *s)
 
 /* ---- grid ---- */
 
-static void set_axes(const breech_case *c, const layout *l, mpm_scene *s)
+static void set_axes(const breech_case *c, const layout *l, gouge_scene *g)
 {
+    mpm_scene *s = &g->scene;
     const bool half = c->scene.half_model;
     const double lo[3] = { -l->behind, -c->scene.rail_depth, half ? 0.0 : -l->half_width };
     const double hi[3] = { l->ahead, c->projectile.half_bore, l->half_width };
@@ -337,7 +337,7 @@ static void set_axes(const breech_case *c, const layout *l, mpm_scene *s)
                                        { half ? BOUNDARY_SYMMETRY : BOUNDARY_FREE, BOUNDARY_FREE } };
     unsigned rail_fields = 0;
     for (int i = 0; i < s->bodies; i++)
-        if (gouge_body_is_rail(s, i)) rail_fields |= 1u << s->body[i].field;
+        if (gouge_counts_as_rail(g, i)) rail_fields |= 1u << s->body[i].field;
     for (int k = 0; k < 3; k++) {
         mpm_axis *a = &s->axis[k];
         a->lo = lo[k], a->hi = hi[k];
@@ -351,49 +351,43 @@ static void set_axes(const breech_case *c, const layout *l, mpm_scene *s)
     }
 }
 
-double gouge_crossing_time(const mpm_scene *scene)
+double gouge_crossing_time(const gouge_scene *s)
 {
-    const mpm_body *b = &scene->body[gouge_body_of_armature(scene)];
-    return (scene->axis[0].fine_hi - b->shape_value.value[ARMATURE_X_FRONT]) / b->velocity[0];
+    return (s->scene.axis[0].fine_hi - s->face_front) / s->velocity;
 }
 
-double gouge_grain_passed(const mpm_scene *scene)
+double gouge_grain_passed(const gouge_scene *s)
 {
-    const mpm_body *b = &scene->body[gouge_body_of_armature(scene)], *grain = b - 1;
-    const bool pit = gouge_body_is_rail(scene, gouge_body_of_armature(scene) - 1);
-    double lo[3], hi[3];
-    (pit ? grain->cut : grain->shape)->bounds(pit ? &grain->cut_value : &grain->shape_value, lo, hi);
-    return (hi[0] - b->shape_value.value[ARMATURE_X_FRONT]) / b->velocity[0];
+    return (s->grain_end - s->face_front) / s->velocity;
 }
 
-double gouge_face_tail(const mpm_scene *scene, double time)
+double gouge_face_tail(const gouge_scene *s, double time)
 {
-    const mpm_body *b = &scene->body[gouge_body_of_armature(scene)];
-    const double *v = b->shape_value.value;
-    const double lead = v[ARMATURE_CHAMFER_HEIGHT] / tan(v[ARMATURE_LEAD_ANGLE]);
-    return v[ARMATURE_X_FRONT] + lead - v[ARMATURE_LENGTH] + b->velocity[0] * time;
+    return s->face_tail + s->velocity * time;
 }
 
-double gouge_last_time(const breech_case *c, const mpm_scene *scene)
+double gouge_last_time(const gouge_scene *s)
 {
-    return gouge_is_gauged(c) ? scene->gauge_time[1] : scene->end_time;
+    return s->gauged ? s->gauge_time[1] : s->scene.end_time;
 }
 
 /* The fine zone goes with the rail's plastic front. */
-static void set_follow(const breech_case *c, const case_site *g, const layout *l, mpm_scene *s)
+static void set_follow(const breech_case *c, const case_site *grain, const layout *l, gouge_scene *g)
 {
+    mpm_scene *s = &g->scene;
     if (!c->scene.follow) return;
     s->follow_width = l->fine_half_width;
-    s->follow_speed = s->body[gouge_body_of_armature(s)].velocity[0];
-    s->follow_lead = given_or(c->scene.follow_lead, 3.0 * g->radius);
-    for (int i = 0; i < 2; i++) s->gauge_time[i] = GROWTH_WAY[i] * g->radius / s->follow_speed;
+    s->follow_speed = g->velocity;
+    s->follow_lead = given_or(c->scene.follow_lead, 3.0 * grain->radius);
     for (int i = 0; i < s->bodies; i++)
-        if (gouge_body_is_rail(s, i)) s->follow_bodies |= 1u << i;
+        if (gouge_counts_as_rail(g, i)) s->follow_bodies |= 1u << i;
+    gouge_gauge_times(grain->radius, g->velocity, g->gauge_time);
 }
 
-static void set_method(const breech_case *c, const layout *l, mpm_scene *s)
+static void set_method(const breech_case *c, const layout *l, gouge_scene *g)
 {
     const case_scene *from = &c->scene;
+    mpm_scene *s = &g->scene;
     s->particles_per_axis = from->particles_per_axis;
     s->courant = from->courant;
     s->viscosity_linear = from->viscosity_linear;
@@ -402,20 +396,27 @@ static void set_method(const breech_case *c, const layout *l, mpm_scene *s)
     s->basis = (basis_kind)from->basis;
     s->levels = s->basis == BASIS_GIMP ? from->levels : 1;
     s->heat_by_plastic_work = from->heat_by_plastic_work;
-    const double speed = s->body[gouge_body_of_armature(s)].velocity[0];
-    const double passage = gouge_crossing_time(s) + c->projectile.length / speed;
-    s->end_time =
-        given_or(from->end_time, from->follow ? l->travel / speed : fmin(END_FACTOR * gouge_crossing_time(s), passage));
+    const double passage = gouge_crossing_time(g) + c->projectile.length / g->velocity;
+    s->end_time = given_or(from->end_time,
+                           from->follow ? l->travel / g->velocity : fmin(END_FACTOR * gouge_crossing_time(g), passage));
+}
+
+static void set_rules(const breech_case *c, gouge_scene *g)
+{
+    g->friction = c->scene.friction;
+    g->gauged = gouge_is_gauged(c);
+    g->stop_when_settled = c->scene.stop_when_settled;
+    g->growth_scatter = c->scene.growth_scatter;
 }
 
 /* A scene that ends before its second gauge would pass for a groove that died. */
-static status reaches_gauge(const breech_case *c, const mpm_scene *s)
+static status reaches_gauge(const gouge_scene *g)
 {
-    CHECK(!gouge_is_gauged(c) || s->end_time >= s->gauge_time[1], STATUS_BAD_INPUT,
+    CHECK(!g->gauged || g->scene.end_time >= g->gauge_time[1], STATUS_BAD_INPUT,
           "scene: over after %.3g s, before the growth of its groove is known, %.3g s: a longer scene.end_time, a "
-          "contact face "
-          "of more than %.3g grain radii, or study.judge: severity (for `breech scene`, no scene.stop_when_gauged)",
-          s->end_time, s->gauge_time[1], GROWTH_WAY[1] * (1.0 - FRONT_SPEED));
+          "contact face of more than %.3g grain radii, or study.judge: severity (for `breech scene`, no "
+          "scene.stop_when_gauged)",
+          g->scene.end_time, g->gauge_time[1], gouge_gauge_way() * (1.0 - FRONT_SPEED));
     return status_ok();
 }
 
@@ -467,26 +468,27 @@ static crater_spec spec_of(const breech_case *c, const case_site *g, const mpm_s
     return spec;
 }
 
-status gouge_scene_bodies(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out)
+status gouge_scene_bodies(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out)
 {
     CHECK(state->velocity > 0.0 && isfinite(state->velocity), STATUS_BAD_INPUT,
           "scene: the armature's velocity is %g m/s: must be positive", state->velocity);
     const layout l = lay_out(c, &state->grain, cells_per_radius);
     TRY(check_layout(c, &state->grain, &l));
     TRY(check_layers(c, &state->grain, &l));
-    mpm_scene_default(out);
+    memset(out, 0, sizeof *out);
+    mpm_scene_default(&out->scene);
     TRY(add_bodies(c, state, &l, out));
-    set_contacts(c, out);
+    set_contacts(c, &out->scene);
     set_axes(c, &l, out);
     set_follow(c, &state->grain, &l, out);
     set_method(c, &l, out);
-    return reaches_gauge(c, out);
+    set_rules(c, out);
+    return reaches_gauge(out);
 }
 
-status gouge_scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out,
-                              crater_spec *spec)
+status gouge_scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out)
 {
     TRY(gouge_scene_bodies(c, state, cells_per_radius, out));
-    *spec = spec_of(c, &state->grain, out);
+    out->crater = spec_of(c, &state->grain, &out->scene);
     return status_ok();
 }

@@ -22,42 +22,54 @@
 #include "mpm/mpm.h"
 #include "mpm/scene.h"
 
-/* state: grain, velocity and contact pressure are used.  The scene borrows its materials from the case.
- * STATUS_BAD_INPUT names what cannot be built and which key to change. */
-status gouge_scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out,
-                              crater_spec *spec);
+/* A scene, which of its bodies is what, and the numbers by which it is watched and judged.  The roles are said here
+ * alone: nobody looks a body up by its name or counts on its place. */
+typedef struct {
+    mpm_scene scene;      /* borrows its materials from the case */
+    int rail, layers;     /* body of the rail; its layers are the so many bodies after it, from the bottom up */
+    int grain;            /* GOUGE_PIT: none, but a hole in rail and layers */
+    int armature;         /* the body */
+    double velocity;      /* of the armature at the start [m/s] */
+    double friction;      /* Coulomb coefficient between all of them [1] */
+    double face_front;    /* of the armature's contact face at the start: its downstream end, */
+    double face_tail;     /*   its upstream end [m] */
+    double grain_end;     /* downstream end of grain or pit [m] */
+    double gauge_time[2]; /* when the growth of the groove is gauged; 0: never, the zone does not follow it [s] */
+    bool gauged;          /* over, and judged, once that growth is known */
+    bool stop_when_settled;
+    double growth_scatter; /* e-folds between the gauges within which growth decides nothing [1] */
+    crater_spec crater;
+} gouge_scene;
 
-/* The same without the spec, which takes some 20 ms: does this case make a scene? */
-status gouge_scene_bodies(const breech_case *c, const site_state *state, double cells_per_radius, mpm_scene *out);
+enum { GOUGE_PIT = -1 };
+
+/* state: grain, velocity and contact pressure are used.
+ * STATUS_BAD_INPUT names what cannot be built and which key to change. */
+status gouge_scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out);
+
+/* The same without what the crater is measured by, which takes some 20 ms: does this case make a scene? */
+status gouge_scene_bodies(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out);
 
 /* `breech scene`: the case's own particle, velocity and contact pressure (none where it gives none). */
 site_state gouge_state_of_case(const breech_case *c);
-
-/* How long the armature's contact face takes to cross the fine zone, from the scene's start [s]. */
-double gouge_crossing_time(const mpm_scene *scene);
-
-/* When the grain, or the pit, lies behind the front end of the contact face, and upstream end of that face at a time
- * [s, m]. */
-double gouge_grain_passed(const mpm_scene *scene);
-double gouge_face_tail(const mpm_scene *scene, double time);
 
 /* Is such a scene over, and judged, once the growth of its groove is known (scene.stop_when_gauged)?  Only of a groove
  * that is followed. */
 bool gouge_is_gauged(const breech_case *c);
 
+/* Does the crater count this body's points: the rail or one of its layers? */
+bool gouge_counts_as_rail(const gouge_scene *s, int body);
+bool gouge_is_layer(const gouge_scene *s, int body);
+
+/* How long the armature's contact face takes to cross the fine zone, from the scene's start [s]. */
+double gouge_crossing_time(const gouge_scene *s);
+
+/* When the grain, or the pit, lies behind the front end of the contact face, and upstream end of that face at a time
+ * [s, m]. */
+double gouge_grain_passed(const gouge_scene *s);
+double gouge_face_tail(const gouge_scene *s, double time);
+
 /* When it will be over, for all that is known before: at its second gauge, or at its end [s]. */
-double gouge_last_time(const breech_case *c, const mpm_scene *scene);
-
-/* Half way between its gauges or later: does the groove's plastic power fall so fast that the rest of the way would not
- * change the answer? */
-bool gouge_groove_dies(const breech_case *c, const mpm_scene *scene, const mpm_report *now);
-
-/* A growth [1/s] as e-folds over the way between the two gauges [1]; one that died before the first has the growth NAN
- * and counts as -3, and none as less. */
-double gouge_growth_folds(double growth, double radius, double velocity);
-
-/* Does the crater count this body's points (rail and layers; not the grain, not the armature)? */
-bool gouge_body_is_rail(const mpm_scene *scene, int body);
-int gouge_body_of_armature(const mpm_scene *scene); /* its index */
+double gouge_last_time(const gouge_scene *s);
 
 #endif

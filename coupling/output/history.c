@@ -229,52 +229,39 @@ status output_history_import(history *h, const char *scene, const h5_file *from)
     return host_h5_copy(from, STORED_GROUP, h->file, group);
 }
 
-/* ---- the crater ---- */
+/* ---- maps ---- */
 
-static status crater_axis(history *h, const char *path, const double range[2], int n, const char *description)
+static status put_axis(h5_file *file, const char *path, const history_map *map, int k)
 {
-    double *x = malloc((n > 0 ? (size_t)n : 1) * sizeof *x);
-    CHECK(x, STATUS_MEMORY, "no memory for the crater's map");
-    for (int i = 0; i < n; i++) x[i] = range[0] + range[1] * i;
-    const status s = host_h5_write(h->file, &(h5_name){ path, "m", description },
-                                   &(h5_array){ .type = H5_DOUBLE, .rank = 1, .dims = { (size_t)n }, .data = x });
+    const size_t n = (size_t)map->n[k];
+    double *x = malloc((n ? n : 1) * sizeof *x);
+    CHECK(x, STATUS_MEMORY, "no memory for the map `%s`", map->name);
+    for (size_t i = 0; i < n; i++) x[i] = map->first[k] + map->step[k] * (double)i;
+    const status s = host_h5_write(file, &(h5_name){ path, map->across[k].unit, map->across[k].description },
+                                   &(h5_array){ .type = H5_DOUBLE, .rank = 1, .dims = { n }, .data = x });
     free(x);
     return s;
 }
 
-static status crater_numbers(history *h, const char *group, const crater *c)
+status output_history_map(history *h, const char *scene, const history_map *map)
 {
-    const struct {
-        const char *name;
-        double value;
-    } numbers[] = {
-        { "severity", c->severity },     { "widening", c->widening },
-        { "length_m", c->length },       { "width_m", c->width },
-        { "depth_m", c->depth },         { "volume_m3", c->volume },
-        { "rim_x_m", c->rim_x },         { "rim_height_m", c->rim_height },
-        { "deepest_x_m", c->deepest_x }, { "measuring_depth_m", c->measuring_depth },
-    };
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        TRY(host_h5_attribute_double(h->file, group, numbers[i].name, numbers[i].value));
-    TRY(host_h5_attribute_text(h->file, group, "class", gouge_class_names[c->class]));
-    return host_h5_attribute_text(h->file, group, "reason", c->reason);
-}
-
-status output_history_crater(history *h, const char *scene, const crater *c)
-{
-    char group[GROUP_SIZE], path[PATH_SIZE];
+    char group[GROUP_SIZE], all[PATH_SIZE], path[2 * PATH_SIZE];
     TRY(scene_group(scene, group));
-    strcat(group, "/crater");
-    TRY(host_h5_group(h->file, group));
-    snprintf(path, sizeof path, "%s/x", group);
-    TRY(crater_axis(h, path, (const double[2]){ c->x0, c->dx }, c->nx, "along the rail, middle of a map cell"));
-    snprintf(path, sizeof path, "%s/z", group);
-    TRY(crater_axis(h, path, (const double[2]){ c->z0, c->dz }, c->nz, "across the rail, middle of a map cell"));
-    snprintf(path, sizeof path, "%s/depth", group);
-    TRY(host_h5_write(h->file, &(h5_name){ path, "m", "depth below the undamaged surface over (x, z), rim negative" },
-                      &(h5_array){ H5_DOUBLE, 2, { (size_t)c->nx, (size_t)c->nz }, c->depth_map }));
+    snprintf(all, sizeof all, "%s/%s", group, map->name);
+    TRY(host_h5_group(h->file, all));
+    for (int k = 0; k < 2; k++) {
+        snprintf(path, sizeof path, "%s/%s", all, map->across[k].name);
+        TRY(put_axis(h->file, path, map, k));
+    }
+    snprintf(path, sizeof path, "%s/%s", all, map->value.name);
+    TRY(host_h5_write(h->file, &(h5_name){ path, map->value.unit, map->value.description },
+                      &(h5_array){ H5_DOUBLE, 2, { (size_t)map->n[0], (size_t)map->n[1] }, map->values }));
     h->changed = true;
-    return crater_numbers(h, group, c);
+    for (int i = 0; i < map->numbers; i++)
+        TRY(host_h5_attribute_double(h->file, all, map->number[i].name, map->number[i].value));
+    for (int i = 0; i < map->texts; i++)
+        TRY(host_h5_attribute_text(h->file, all, map->text[i].name, map->text[i].text));
+    return status_ok();
 }
 
 /* ---- the rows of Breech's own series: one list makes the columns and the row ---- */

@@ -4,7 +4,7 @@
  *   /shot/modules/<column>          currents and voltages of the bank's groups
  *   /shot/events/<column>           what happened when
  *   /scene/<name>/<column>          one scene, a row a sample
- *   /scene/<name>/crater/depth      the crater's map [m], with x, z, and the crater's numbers as attributes
+ *   /scene/<name>/<map>/<value>     a map, with its axes; its numbers as attributes
  * The file on disk is always complete: rows gather in memory, output_history_flush puts the whole file there at once.
  */
 #ifndef BREECH_COUPLING_HISTORY_H
@@ -12,7 +12,6 @@
 
 #include "base/status.h"
 #include "circuit/shot.h"
-#include "coupling/gouge/crater.h"
 #include "coupling/host/hdf5_file.h"
 #include "mpm/mpm.h"
 
@@ -52,8 +51,27 @@ status output_history_import(history *h, const char *scene, const h5_file *from)
 status output_history_copy_scene(history *from, const char *scene, history *to);
 bool output_history_has(const history *h, const char *scene);
 
-/* The crater of scene `name`; a former one is replaced. */
-status output_history_crater(history *h, const char *scene, const crater *c);
+/* A map over two axes, with numbers and texts as attributes: /scene/<scene>/<name>/{axes, value}.  All borrowed. */
+typedef struct {
+    const char *name;
+    double value;
+} history_number;
+typedef struct {
+    const char *name, *text;
+} history_text;
+typedef struct {
+    const char *name;         /* of the map */
+    history_column across[2]; /* its axes */
+    history_column value;     /* what it holds over them */
+    int n[2];                 /* places along each axis */
+    double first[2], step[2]; /* first place and spacing, in the axis's unit */
+    const double *values;     /* n[0] x n[1] */
+    int numbers, texts;
+    const history_number *number;
+    const history_text *text;
+} history_map;
+/* A former one of that name is replaced. */
+status output_history_map(history *h, const char *scene, const history_map *map);
 
 /* ---- the rows of Breech's own series ---- */
 

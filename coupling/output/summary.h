@@ -52,7 +52,8 @@ typedef struct {
     char body[MPM_MAX_BODIES][PARAM_TEXT_SIZE];
     double failed_volume[MPM_MAX_BODIES];  /* [m3] */
     double carried_volume[MPM_MAX_BODIES]; /* sound and faster than half the armature's speed at the end [m3] */
-    double end_time;                       /* [s] */
+    double layers_failed_volume, layers_carried_volume; /* the same, of the rail's layers together [m3] */
+    double end_time;                                    /* [s] */
     uint64_t particles, steps, particle_steps, particle_steps_dense;
     uint64_t clamps_pressure, clamps_compression;
     double eroded_mass;  /* [kg] */
@@ -248,22 +249,5 @@ void output_summary_status(const char *dir, char *out, size_t size);
 void output_summary_print(const run_summary *s, FILE *out);
 /* The manual's key list, in markdown. */
 void output_summary_print_keys(FILE *out);
-
-/* ---- from what the libraries say ---- */
-
-typedef struct {
-    const mpm_scene *scene;
-    const mpm_report *report;
-    const mpm_ledger *ledger;
-    const crater *crater; /* NULL: not measured; the class is then undecided */
-    double wall_seconds;  /* [s] */
-    int threads;
-    bool mirrored; /* the scene is half of the model */
-} scene_outcome;
-/* The bodies named "rail" and "armature" give the peaks by body; NaN where there is none of that name. */
-scene_result output_scene_result(const scene_outcome *o);
-/* Of the power that ploughs a groove, from its first gauge to its second, or as far as it has come; NAN before [1/s].
- */
-double output_scene_growth(const mpm_report *m);
 
 #endif

@@ -1,7 +1,7 @@
 /* Checkpoint: what a stopped run needs to go on bit for bit, in one file.
  *
  * Holds the study's own bookkeeping (opaque bytes: results so far, which scene is next) and, when stopped inside a
- * scene, the solver's image (mpm_save).  A file made by another version, instruction set or case, or damaged in any
+ * scene, the scene's image (scene_image).  A file made by another version, instruction set or case, or damaged in any
  * byte, is refused with words that say which. */
 #ifndef BREECH_COUPLING_CHECKPOINT_H
 #define BREECH_COUPLING_CHECKPOINT_H
@@ -26,7 +26,7 @@ typedef struct {
     double wall_seconds; /* spent by the run so far [s] */
     const void *study;   /* bookkeeping of the study; borrowed when writing, owned when read */
     size_t study_bytes;
-    const void *image; /* mpm_save's image; borrowed when writing, owned when read */
+    const void *image; /* scene_image's; borrowed when writing, owned when read */
     size_t image_bytes;
 } checkpoint;
 

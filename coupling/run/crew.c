@@ -314,19 +314,19 @@ static int threads_now(void *user)
     return run_lending_threads(own->k->s->lending);
 }
 
-static status save_own(void *user, const char *scene, const mpm *m, double wall)
+static status save_own(void *user, const char *scene, const scene_now *now)
 {
     const own_scene *own = user;
     errand *e = own->e;
     if (!own->k->aside) {
         TRY(output_history_copy_scene(e->rows, scene, own->k->s->history));
-        return run_session_save_inside(own->k->s, scene, m, wall);
+        return run_session_save_inside(own->k->s, scene, now);
     }
     free(e->image);
     e->image = NULL;
     size_t bytes;
-    TRY(mpm_save(m, &e->image, &bytes));
-    e->at = (scene_resume){ e->image, bytes, mpm_state(m).time, wall };
+    TRY(scene_image(now, &e->image, &bytes));
+    e->at = (scene_resume){ e->image, bytes, mpm_glance(now->m).time, now->wall };
     return status_ok();
 }
 

@@ -74,7 +74,7 @@ static status compute(work *w, const scene_query *q, const scene_key *key, h5_fi
                               .threads_now = w->me->lending ? threads_now : NULL,
                               .stop = heard_stop,
                               .user = w };
-    const scene_work_how how = { .run = scene_run, .task = q->name, .host = &host, .lending = w->me->lending };
+    const scene_work_how how = { .run = gouge_run, .task = q->name, .host = &host, .lending = w->me->lending };
     status done = run_scene_work(q, key->hash, &how, &r);
     if (done.code == STATUS_OK) done = run_scene_file_make(&r, key, rows, file);
     output_history_close(rows);

@@ -46,9 +46,9 @@ status run_scene_twin(const scene_query *q, uint64_t *twin)
 
 status run_scene_work(const scene_query *q, uint64_t key, const scene_work_how *how, scene_record *out)
 {
-    scene_job job;
+    gouge_job job;
     impact hit;
-    TRY(scene_job_make(q->c, &q->state, q->cells_per_radius, &job));
+    TRY(gouge_job_make(q->c, &q->state, q->cells_per_radius, &job));
     job.name = q->name;
     job.task = how->task;
     job.resume = how->resume;

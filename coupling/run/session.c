@@ -138,7 +138,7 @@ status run_session_open(const breech_case *c, const session_options *o, session 
     s->threads = o->threads;
     s->lending = o->lending;
     s->stop = o->stop;
-    s->run_scene = scene_run;
+    s->run_scene = gouge_run;
     s->started = host_wall_clock();
     s->warnings = strdup(c->warnings);
     CHECK(s->warnings, STATUS_MEMORY, "no memory for the warnings");
@@ -227,15 +227,15 @@ status run_session_shot(session *s, const breech_case *c, const site_jump *jump,
 
 /* ---- scenes ---- */
 
-status run_session_save_inside(void *user, const char *scene, const mpm *m, double wall)
+status run_session_save_inside(void *user, const char *scene, const scene_now *now)
 {
     const session *s = user;
-    checkpoint c = { .scene_hash = host_hash_bytes(0, scene, strlen(scene)), .scene_time = mpm_glance(m).time };
+    checkpoint c = { .scene_hash = host_hash_bytes(0, scene, strlen(scene)), .scene_time = mpm_glance(now->m).time };
     void *image = NULL;
     snprintf(c.scene, sizeof c.scene, "%s", scene);
-    TRY(mpm_save(m, &image, &c.image_bytes));
+    TRY(scene_image(now, &image, &c.image_bytes));
     c.image = image;
-    const status done = write_checkpoint(s, &c, wall);
+    const status done = write_checkpoint(s, &c, now->wall);
     free(image);
     return done;
 }

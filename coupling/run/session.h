@@ -6,9 +6,9 @@
 #ifndef BREECH_COUPLING_SESSION_H
 #define BREECH_COUPLING_SESSION_H
 
+#include "coupling/gouge/impact.h"
 #include "coupling/host/outdir.h"
 #include "coupling/run/checkpoint.h"
-#include "coupling/scene/scene_run.h"
 
 /* A scene that was computed. */
 typedef struct {
@@ -26,7 +26,7 @@ typedef struct {
     int threads;
     struct lending *lending; /* borrowed; NULL: there is none */
     bool (*stop)(void);
-    status (*run_scene)(const scene_job *, const scene_host *, impact *); /* scene_run; tests put another in */
+    status (*run_scene)(const gouge_job *, const scene_host *, impact *); /* gouge_run; tests put another in */
     checkpoint_key key;
     checkpoint resumed;           /* empty unless the run goes on */
     double started, wall_before;  /* wall clock; spent before this process [s] */
@@ -61,7 +61,7 @@ void run_session_warn(session *s, const char *format, ...) __attribute__((format
 /* Takes a copy of the record, flushes the history, writes the checkpoint. */
 status run_session_keep(session *s, const scene_record *fresh);
 /* A checkpoint inside a scene: the scene_host's save, the session its user. */
-status run_session_save_inside(void *session, const char *scene, const mpm *m, double wall);
+status run_session_save_inside(void *session, const char *scene, const scene_now *now);
 /* Where the scene of this name is to be taken up; from the start unless the run was stopped inside it. */
 scene_resume run_session_resume_of(const session *s, const char *scene);
 

@@ -1,68 +1,88 @@
-/* One impact scene from its making to its crater, with everything a run writes on the way.
+/* One scene from its making to its end, with everything a run writes on the way.  Knows nothing of what the scene is
+ * about: that is the watch's.
  *
- * Its time is cut into equal pieces; after the step that ends one stand the history's row, a snapshot that is due and
- * the question whether the crater is settled.  No step is shortened for them: what a run writes changes nothing of what
- * it computes, and one that was stopped and resumed gives the same bits.  Settled (scene.stop_when_settled): the
- * armature's contact face has crossed the fine zone at its first speed, and no intact rail point in the crater's map
- * could still move a tenth of the measuring depth until the end at its present speed. */
+ * Its time is cut into equal pieces; after the step that ends one stand the watch's question whether the scene is over,
+ * the history's row and a snapshot that is due.  No step is shortened for them: what a run writes changes nothing of
+ * what it computes, and one that was stopped and resumed gives the same bits. */
 #ifndef BREECH_COUPLING_SCENE_RUN_H
 #define BREECH_COUPLING_SCENE_RUN_H
 
-#include "coupling/gouge/scene_from_state.h"
 #include "coupling/host/outdir.h"
 #include "coupling/host/progress.h"
 #include "coupling/output/history.h"
 #include "coupling/output/snapshot.h"
-#include "coupling/output/summary.h"
 #include "coupling/scene/scene_shelf.h"
 
-/* What a run offers its scenes; members that are NULL are not wanted.  All borrowed. */
+/* What a user of the runner does between pieces.  A function that is NULL is not wanted. */
 typedef struct {
-    const outdir *dir;         /* snapshots go to DIR/scenes/<name> */
-    const snapshot_sink *sink; /* or are handed over, as scenes/<name>/... (dir NULL) */
-    history *history;          /* takes /scene/<name> and its crater */
-    progress *progress;
-    timing *timing;
-    scene_shelf
-        *shelf;  /* keeps what ended at its gauge while its groove grew, and is what its whole scene goes on from */
-    int threads; /* 0: as many as there are */
-    int (*threads_now)(void *user); /* asked after every step: how many from here on; NULL: threads */
-    bool (*stop)(void *user);       /* asked after every step; true: save, STATUS_STOPPED */
-    /* A checkpoint: on a stop, and every output.checkpoint_interval.  wall: spent in the scene so far [s]. */
-    status (*save)(void *user, const char *scene, const mpm *m, double wall);
-    void *user;
-} scene_host;
+    /* After every step, and again at the end of a piece, so it must give the same answer twice; cheap.  true: the piece
+     * ends here. */
+    bool (*due)(void *user, const mpm_report *now);
+    /* At the start, and at the end of every piece.  *over: the scene ends here; false when called. */
+    status (*piece)(void *user, const mpm *m, bool *over);
+    /* Once the scene is over.  *keep: worth going on from (scene_job.whole); false when called. */
+    status (*finish)(void *user, const mpm *m, bool *keep);
+    void *user;         /* borrowed */
+    void *state;        /* all that it remembers from step to step, plain bytes: part of every checkpoint; borrowed */
+    size_t state_bytes; /* the same in every process that may go on with the scene */
+} scene_watch;
 
-/* An image to go on from, made by mpm_save of the same scene. */
+/* Where a scene was stopped and can be taken up. */
 typedef struct {
-    const void *image; /* NULL: from the start */
+    const void *image; /* by scene_image of the same scene and watch; NULL: from the start */
     size_t bytes;
     double time; /* reached [s] */
     double wall; /* spent so far [s] */
 } scene_resume;
 
+/* A scene between two steps. */
 typedef struct {
-    const char *name; /* plain (outdir.h) */
-    const char *task; /* for people: "scene 3, 1480 m/s" */
-    const breech_case *c;
-    mpm_scene scene;
-    crater_spec spec;
+    const mpm *m;
+    const scene_watch *watch; /* NULL: none */
+    double wall;              /* spent in it so far [s] */
+} scene_now;
+
+/* What a run offers its scenes; members that are NULL are not wanted.  All borrowed. */
+typedef struct {
+    const outdir *dir;         /* snapshots go to DIR/scenes/<name> */
+    const snapshot_sink *sink; /* or are handed over, as scenes/<name>/... (dir NULL) */
+    history *history;          /* takes /scene/<name> */
+    progress *progress;
+    timing *timing;
+    scene_shelf *shelf;             /* keeps scenes that their watch ended early, and is what whole ones go on from */
+    int threads;                    /* 0: as many as there are */
+    int (*threads_now)(void *user); /* asked after every step: how many from here on; NULL: threads */
+    bool (*stop)(void *user);       /* asked after every step; true: save, STATUS_STOPPED */
+    /* A checkpoint: on a stop, and every checkpoint_interval. */
+    status (*save)(void *user, const char *scene, const scene_now *now);
+    void *user;
+} scene_host;
+
+typedef struct {
+    const char *name;           /* plain (outdir.h) */
+    const char *task;           /* for people: "scene 3, 1480 m/s" */
+    const mpm_scene *scene;     /* borrowed, like all pointers here */
+    const scene_watch *watch;   /* NULL: none */
+    int snapshots;              /* evenly over its time; 0: none */
+    double checkpoint_interval; /* wall time [s]; 0: after every step */
+    double last_time;           /* when it will be over, for all that is known before, for the progress line [s] */
     scene_resume resume;
-    uint64_t twin; /* the same for a scene to its gauge and for the whole one, for no others; 0: not known */
+    uint64_t
+        twin;   /* the same for a scene that its watch ends early and for the whole one, for no others; 0: not known */
+    bool whole; /* goes on from its twin on the shelf; else is put there where its watch keeps it */
 } scene_job;
 
 typedef struct {
-    scene_result result;
-    /* What the impact took from the armature, full model: its momentum along the rail at the start less that of its
-     * sound metal at the end and less what smooth friction would have taken [N s]; 0 if less. */
-    double impulse;
-    double mass_loss; /* armature metal that failed, or was left behind slower than half the armature's speed [kg] */
-} impact;
-
-/* job->scene and spec for this state; name and task are the caller's. */
-status scene_job_make(const breech_case *c, const site_state *state, double cells_per_radius, scene_job *job);
+    mpm_report report;
+    mpm_ledger ledger;
+    double wall; /* spent, stopped parts too [s] */
+    int threads;
+} scene_outcome;
 
 /* STATUS_STOPPED: saved through host->save.  STATUS_NUMERICAL as mpm_advance. */
-status scene_run(const scene_job *job, const scene_host *host, impact *out);
+status scene_run(const scene_job *job, const scene_host *host, scene_outcome *out);
+
+/* To go on from, watch's state included.  *image is malloc'ed, the caller frees it. */
+status scene_image(const scene_now *now, void **image, size_t *bytes);
 
 #endif

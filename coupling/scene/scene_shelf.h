@@ -1,5 +1,5 @@
-/* A shelf of scenes that ended at their second gauge, to go on from: where the whole crater is wanted too, the same
- * scene need not be computed twice.  To the same bits as from the start; what is not on the shelf is computed. */
+/* A shelf of scenes that their watch ended early, to go on from: where the whole scene is wanted too, its beginning
+ * need not be computed twice.  To the same bits as from the start; what is not on the shelf is computed. */
 #ifndef BREECH_COUPLING_SCENE_SHELF_H
 #define BREECH_COUPLING_SCENE_SHELF_H
 
@@ -12,7 +12,7 @@ typedef struct {
     int pieces;          /* that its time was cut into */
     double time, before; /* reached, and a step earlier [s] */
     double wall;         /* spent [s] */
-    void *image;         /* mpm_save's; owned */
+    void *image;         /* scene_image's; owned */
     size_t bytes;
     h5_file *rows; /* its series, as in a stored scene; owned; NULL: none */
 } shelved_scene;

@@ -165,7 +165,7 @@ status study_command_inductance(session *s, command_result *out)
 /* A search's scenes at both resolutions with a grain of this size. */
 static status grain_possible(const breech_case *c, const case_site *grain)
 {
-    mpm_scene scene;
+    gouge_scene scene;
     breech_case probe;
     site_state state = gouge_state_of_case(c);
     study_family_probe(c, &probe);
@@ -208,7 +208,7 @@ static status treatments_possible(const breech_case *c)
 
 status study_command_possible(const breech_case *c, unsigned needs)
 {
-    mpm_scene scene;
+    gouge_scene scene;
     rail_section section;
     const shot_config circuit = gouge_shot_config(c, NULL);
     const site_state state = gouge_state_of_case(c);
@@ -224,10 +224,10 @@ status study_command_possible(const breech_case *c, unsigned needs)
 /* Two levels of thread: memory bandwidth and the serial rest are left out, so this is a lower bound on many threads. */
 static status estimate(const breech_case *c, const site_state *state, double cells, int threads, scene_estimate *out)
 {
-    scene_job job;
-    TRY(scene_job_make(c, state, cells, &job));
-    TRY(mpm_estimate(&job.scene, &out->needs));
-    out->steps = gouge_last_time(c, &job.scene) / out->needs.dt;
+    gouge_scene scene;
+    TRY(gouge_scene_bodies(c, state, cells, &scene));
+    TRY(mpm_estimate(&scene.scene, &out->needs));
+    out->steps = gouge_last_time(&scene) / out->needs.dt;
     for (int i = 0; i < 2; i++) out->seconds[i] = out->steps * out->needs.work[i] * CHECK_SECONDS_A_STEP / threads;
     return status_ok();
 }

@@ -116,15 +116,6 @@ static const family_scene *telling_scene(const grain_families *g)
     return best;
 }
 
-/* Over the layers; volume: by body. */
-static double sum_layers(const scene_result *r, const double *volume)
-{
-    double sum = 0.0;
-    for (int b = 0; b < r->bodies; b++)
-        if (strncmp(r->body[b], "layer_", 6) == 0) sum += volume[b];
-    return sum;
-}
-
 static const char *suffering(const scene_result *r, double thickness, double failed, double carried)
 {
     if (r->crater_depth >= thickness) return "worn through";
@@ -144,9 +135,9 @@ static void judge_layers(const breech_case *c, const grain_families *g, compare_
     const double grain = PI * from->radius * from->radius;
     e->layer_velocity = from->velocity;
     const double over_crater = thickness * fmax(ellipse, grain);
-    e->layer_failed = fmin(sum_layers(r, r->failed_volume) / over_crater, 1.0);
+    e->layer_failed = fmin(r->layers_failed_volume / over_crater, 1.0);
     snprintf(e->layer, sizeof e->layer, "%s",
-             suffering(r, thickness, e->layer_failed, sum_layers(r, r->carried_volume) / over_crater));
+             suffering(r, thickness, e->layer_failed, r->layers_carried_volume / over_crater));
 }
 
 /* ---- ranking ---- */

@@ -13,7 +13,7 @@
  * armature, grains and fragments that leave the window; on one to three nested grids. */
 #include "coupling/case/case.h"
 #include "coupling/case/material_file.h"
-#include "coupling/scene/scene_run.h"
+#include "coupling/gouge/impact.h"
 #include "mpm/mpm.h"
 #include "mpm/shape/shape.h"
 
@@ -200,13 +200,15 @@ static void write_recipe(recipe *r, chance *c, const stock *s)
 
 /* Spheres that fly about: they hit the armature, or leave by the free side and the ends.  The armature stays the last
  * body, so that it keeps the points they share. */
-static void add_fragments(mpm_scene *s, chance *c, const recipe *r)
+static void add_fragments(gouge_scene *g, chance *c, const recipe *r)
 {
+    mpm_scene *s = &g->scene;
     const int wanted = one_in(c, 3) ? 1 + below(c, 2) : 0;
     for (int i = 0; i < wanted && s->bodies >= 1 && s->bodies < MPM_MAX_BODIES; i++) {
-        mpm_body *b = &s->body[s->bodies - 1];
+        mpm_body *b = &s->body[g->armature];
         const int field = b->field + 1 < MPM_MAX_FIELDS ? b->field + 1 : b->field;
-        s->body[s->bodies++] = *b;
+        s->body[++g->armature] = *b; /* the last one, which wins points */
+        s->bodies++;
         memset(&b->shape_value, 0, sizeof b->shape_value);
         b->shape = mpm_shape_find("sphere");
         snprintf(b->name, sizeof b->name, "particle");
@@ -249,11 +251,11 @@ static void look(outcome *o, const mpm *m)
 }
 
 /* The checkpoint's hook, called after every step because the case asks for no time between two. */
-static status on_save(void *user, const char *scene, const mpm *m, double wall)
+static status on_save(void *user, const char *scene, const scene_now *now)
 {
-    (void)scene, (void)wall;
+    (void)scene;
     outcome *o = user;
-    if (o->looks++ % LOOK_EVERY == 0) look(o, m);
+    if (o->looks++ % LOOK_EVERY == 0) look(o, now->m);
     return status_ok();
 }
 
@@ -278,16 +280,16 @@ static void take_status(outcome *o, const status *s)
 
 static void run_case(breech_case *c, const recipe *r, chance *luck, outcome *o)
 {
-    scene_job job;
+    gouge_job job;
     impact hit;
     const site_state state = gouge_state_of_case(c);
     c->output.checkpoint_interval = 0;
-    status s = scene_job_make(c, &state, c->scene.cells_per_radius, &job);
+    status s = gouge_job_make(c, &state, c->scene.cells_per_radius, &job);
     if (s.code == STATUS_OK) {
         job.name = job.task = "stress";
         add_fragments(&job.scene, luck, r);
         const scene_host host = { .threads = 1, .save = on_save, .user = o };
-        s = scene_run(&job, &host, &hit);
+        s = gouge_run(&job, &host, &hit);
     }
     if (s.code != STATUS_OK) {
         take_status(o, &s);

@@ -2,6 +2,7 @@
  * may need after that is found by following a copy of it through guesses. */
 #include "coupling/study/search/family.h"
 
+#include "coupling/gouge/growth.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

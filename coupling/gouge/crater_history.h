@@ -1,0 +1,11 @@
+/* A crater as a map of its scene in the history: /scene/<name>/crater/{x, z, depth}, its numbers as attributes. */
+#ifndef BREECH_COUPLING_CRATER_HISTORY_H
+#define BREECH_COUPLING_CRATER_HISTORY_H
+
+#include "coupling/gouge/crater.h"
+#include "coupling/output/history.h"
+
+/* A former one is replaced. */
+status gouge_crater_record(const crater *c, history *h, const char *scene);
+
+#endif

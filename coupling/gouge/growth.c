@@ -1,0 +1,50 @@
+#include "coupling/gouge/growth.h"
+
+#include <math.h>
+
+/* The gauges: the armature's way in grain radii.  Before, the grain itself is still being flattened; later the contact
+ * face begins to run out. */
+static const double GROWTH_WAY[2] = { 16.0, 28.0 };
+static const double DEAD_FOLDS = -3.0; /* of a groove that died before the first gauge, and the least of any */
+
+/* A groove that loses so much from gauge to gauge, more than twice what decides nothing, is known to die half way. */
+static const double DYING_FOLDS = -0.5;
+
+void gouge_gauge_times(double radius, double velocity, double time[2])
+{
+    for (int i = 0; i < 2; i++) time[i] = GROWTH_WAY[i] * radius / velocity;
+}
+
+double gouge_gauge_way(void)
+{
+    return GROWTH_WAY[1];
+}
+
+void gouge_gauges_note(const gouge_scene *s, const mpm_report *now, gouge_gauges *g)
+{
+    for (int i = 0; i < 2; i++)
+        if (s->gauge_time[i] > 0.0 && !(g->at[i] > 0.0) && now->plastic_time >= s->gauge_time[i])
+            g->at[i] = now->plastic_time, g->power[i] = now->plastic_power;
+}
+
+double gouge_growth(const gouge_gauges *g, const mpm_report *now)
+{
+    const bool whole = g->at[1] > 0.0;
+    const double from = g->at[0], to = whole ? g->at[1] : now->plastic_time;
+    const double power = fmax(whole ? g->power[1] : now->plastic_power, 1e-3 * g->power[0]);
+    if (!(from > 0.0 && to > from && g->power[0] > 0.0)) return NAN;
+    return log(power / g->power[0]) / (to - from);
+}
+
+double gouge_growth_folds(double growth, double radius, double velocity)
+{
+    const double folds = growth * (GROWTH_WAY[1] - GROWTH_WAY[0]) * radius / velocity;
+    return folds > DEAD_FOLDS ? folds : DEAD_FOLDS; /* NAN too */
+}
+
+bool gouge_groove_dies(const gouge_scene *s, const gouge_gauges *g, const mpm_report *now)
+{
+    if (!(g->at[0] > 0.0) || now->time < 0.5 * (s->gauge_time[0] + s->gauge_time[1])) return false;
+    const double radius = s->gauge_time[0] * s->velocity / GROWTH_WAY[0];
+    return gouge_growth_folds(gouge_growth(g, now), radius, s->velocity) < fmin(DYING_FOLDS, -2.5 * s->growth_scatter);
+}

@@ -1,0 +1,57 @@
+#include "coupling/gouge/impact.h"
+
+#include "coupling/gouge/crater_history.h"
+#include "coupling/gouge/result.h"
+#include "coupling/gouge/watch.h"
+
+#include <math.h>
+#include <string.h>
+
+status gouge_job_make(const breech_case *c, const site_state *state, double cells_per_radius, gouge_job *job)
+{
+    memset(job, 0, sizeof *job);
+    job->snapshots = c->output.snapshots;
+    job->checkpoint_interval = c->output.checkpoint_interval;
+    return gouge_scene_from_state(c, state, cells_per_radius, &job->scene);
+}
+
+/* The lost metal keeps its own speed's worth of impulse out of the sum: circuit_shot_jump books it with the mass
+ * (docs/onset.md). */
+static void book_losses(const gouge_scene *s, const gouge_watch *w, double time, impact *out)
+{
+    const gouge_metal *before = &w->state.start, *after = &w->end;
+    const double halves = s->crater.mirrored ? 2.0 : 1.0;
+    const double pressing = -s->scene.body[s->armature].body_force[1] * before->mass;
+    out->mass_loss = halves * fmax(before->mass - after->mass, 0.0);
+    const double kept = after->mass * s->velocity - after->momentum;
+    out->impulse = fmax(halves * (kept - s->friction * pressing * time), 0.0);
+}
+
+static status run_watched(const gouge_job *job, const scene_host *host, gouge_watch *w, impact *out)
+{
+    const scene_watch watch = gouge_watch_of(w);
+    const scene_job run = { .name = job->name,
+                            .task = job->task,
+                            .scene = &job->scene.scene,
+                            .watch = &watch,
+                            .snapshots = job->snapshots,
+                            .checkpoint_interval = job->checkpoint_interval,
+                            .last_time = gouge_last_time(&job->scene),
+                            .resume = job->resume,
+                            .twin = job->twin,
+                            .whole = !job->scene.gauged };
+    scene_outcome o;
+    TRY(scene_run(&run, host, &o));
+    out->result = gouge_result(&job->scene, w, &o);
+    book_losses(&job->scene, w, o.report.time, out);
+    return host->history && !job->scene.gauged ? gouge_crater_record(&w->found, host->history, job->name) : status_ok();
+}
+
+status gouge_run(const gouge_job *job, const scene_host *host, impact *out)
+{
+    gouge_watch w = { .scene = &job->scene, .timing = host->timing };
+    memset(out, 0, sizeof *out);
+    const status done = run_watched(job, host, &w, out);
+    gouge_crater_free(&w.found);
+    return done;
+}

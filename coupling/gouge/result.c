@@ -1,0 +1,82 @@
+#include "coupling/gouge/result.h"
+
+#include <math.h>
+#include <string.h>
+
+static void take_crater(scene_result *r, const crater *c)
+{
+    r->class = c->class;
+    snprintf(r->reason, sizeof r->reason, "%s", c->reason);
+    r->severity = c->severity;
+    r->widening = c->widening;
+    r->crater_length = c->length;
+    r->crater_width = c->width;
+    r->crater_depth = c->depth;
+    r->crater_volume = c->volume;
+    r->rim_height = c->rim_height;
+    r->crater_truncated = c->truncated;
+}
+
+/* The mirror half of a half model doubles what acts in its plane and cancels what acts across it. */
+static void take_bodies(scene_result *r, const gouge_scene *s, const gouge_watch *w, const mpm_report *m)
+{
+    const bool mirrored = s->crater.mirrored;
+    const double halves = mirrored ? 2.0 : 1.0;
+    r->peak_force[0] = halves * m->peak_contact_force[0];
+    r->peak_force[1] = halves * m->peak_contact_force[1];
+    r->peak_force[2] = mirrored ? 0.0 : m->peak_contact_force[2];
+    r->eroded_mass = halves * m->eroded_mass;
+    r->bodies = s->scene.bodies;
+    for (int b = 0; b < r->bodies; b++) {
+        memcpy(r->body[b], s->scene.body[b].name, sizeof r->body[b]);
+        r->failed_volume[b] = halves * m->failed_volume[b];
+        r->carried_volume[b] = w->carried[b];
+        if (!gouge_is_layer(s, b)) continue;
+        r->layers_failed_volume += r->failed_volume[b];
+        r->layers_carried_volume += r->carried_volume[b];
+    }
+    r->peak_mises_armature = m->peak_mises[s->armature];
+    r->peak_mises_rail = m->peak_mises[s->rail];
+    r->peak_mises_armature_999 = m->peak_mises_999[s->armature];
+    r->peak_mises_rail_999 = m->peak_mises_999[s->rail];
+    r->peak_pressure_armature_999 = m->peak_pressure_999[s->armature];
+    r->peak_pressure_rail_999 = m->peak_pressure_999[s->rail];
+}
+
+/* A scene that ends at its second gauge, or dying, has no whole crater to be judged by; what left none until then is
+ * still `none`. */
+static void judge_by_growth(scene_result *r, const gouge_scene *s)
+{
+    const double folds = gouge_growth_folds(r->groove_growth, s->crater.particle_radius, s->velocity);
+    const bool decided = fabs(folds) >= s->growth_scatter;
+    const damage_class below = r->class == DAMAGE_NONE ? DAMAGE_NONE : DAMAGE_SCRATCH;
+    r->class = !decided ? DAMAGE_UNDECIDED : folds > 0.0 ? DAMAGE_GOUGE : below;
+    snprintf(r->reason, sizeof r->reason,
+             "the groove's plastic power changes by %.2f e-folds from gauge to gauge, %s %.2f", folds,
+             decided ? "beyond" : "within", s->growth_scatter);
+}
+
+scene_result gouge_result(const gouge_scene *s, const gouge_watch *w, const scene_outcome *o)
+{
+    const mpm_report *m = &o->report;
+    scene_result r;
+    memset(&r, 0, sizeof r);
+    take_crater(&r, &w->found);
+    take_bodies(&r, s, w, m);
+    r.groove_growth = w->growth;
+    r.peak_pressure = m->peak_pressure;
+    r.peak_temperature = m->peak_temperature;
+    r.momentum_error = o->ledger.momentum_error;
+    r.energy_error = o->ledger.energy_error;
+    r.end_time = m->time;
+    r.particles = m->particles;
+    r.steps = m->steps;
+    r.particle_steps = m->particle_steps;
+    r.particle_steps_dense = m->particle_steps_dense;
+    r.clamps_pressure = m->clamps_pressure;
+    r.clamps_compression = m->clamps_compression;
+    r.wall_seconds = o->wall;
+    r.threads = o->threads;
+    if (s->gauged) judge_by_growth(&r, s);
+    return r;
+}

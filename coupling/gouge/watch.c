@@ -1,0 +1,103 @@
+#include "coupling/gouge/watch.h"
+
+#include <math.h>
+
+static const double SETTLED_SHARE = 0.1; /* of the measuring depth */
+static const double DEAD_SHARE = 0.1;    /* of its largest plastic power, below which a groove is dead */
+
+/* ---- is it over? ---- */
+
+static bool is_gauged(const gouge_watch *w, const mpm_report *now)
+{
+    const gouge_gauges *g = &w->state.gauges;
+    return w->scene->gauged && (g->at[1] > 0.0 || gouge_groove_dies(w->scene, g, now));
+}
+
+static bool due(void *user, const mpm_report *now)
+{
+    gouge_watch *w = user;
+    gouge_gauges_note(w->scene, now, &w->state.gauges);
+    return is_gauged(w, now);
+}
+
+/* A groove that is followed: dead, or the armature's contact face has gone over its front. */
+static bool groove_over(const gouge_scene *s, const mpm_report *now)
+{
+    return now->time > gouge_grain_passed(s) && (now->plastic_power < DEAD_SHARE * now->peak_plastic_power ||
+                                                 gouge_face_tail(s, now->time) > now->plastic_front);
+}
+
+/* Largest distance that a sound rail point of the map would still go until the end [m]. */
+static status distance_left(const gouge_scene *s, const mpm *m, double *distance)
+{
+    gouge_points p;
+    TRY(gouge_points_of_rail(s, m, &p));
+    double fastest2 = 0.0;
+    for (size_t i = 0; i < p.n; i++) {
+        const double *v = p.velocity + 3 * i;
+        if (p.damage[i] < 1.0) fastest2 = fmax(fastest2, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    }
+    gouge_points_free(&p);
+    *distance = sqrt(fastest2) * (s->scene.end_time - mpm_glance(m).time);
+    return status_ok();
+}
+
+static status is_settled(const gouge_scene *s, const mpm *m, const mpm_report *now, bool *settled)
+{
+    const crater_spec *c = &s->crater;
+    double distance;
+    if (!s->stop_when_settled) return status_ok();
+    if (s->scene.follow_bodies) {
+        *settled = groove_over(s, now);
+        return status_ok();
+    }
+    if (now->time < gouge_crossing_time(s)) return status_ok();
+    TRY(distance_left(s, m, &distance));
+    *settled = distance < SETTLED_SHARE * fmax(0.1 * c->particle_radius, 0.5 * c->cell);
+    return status_ok();
+}
+
+static status piece(void *user, const mpm *m, bool *over)
+{
+    gouge_watch *w = user;
+    const mpm_report now = mpm_glance(m);
+    if (now.steps == 0) TRY(gouge_armature_metal(w->scene, m, &w->state.start));
+    *over = is_gauged(w, &now);
+    return *over ? status_ok() : is_settled(w->scene, m, &now, over);
+}
+
+/* ---- what it has come to ---- */
+
+static status measure_crater(const gouge_scene *s, const mpm *m, crater *out)
+{
+    gouge_points p;
+    crater_spec spec = s->crater;
+    spec.x_hi = fmin(spec.x_hi, mpm_scene_of(m)->axis[0].fine_hi); /* a zone that follows has got so far */
+    TRY(gouge_points_of_rail(s, m, &p));
+    const crater_points rail = { .n = p.n, .position = p.position, .size = p.size, .damage = p.damage };
+    const status done = gouge_crater_measure(&rail, &spec, out);
+    gouge_points_free(&p);
+    return done;
+}
+
+/* A groove that grows is worth going on with. */
+static status finish(void *user, const mpm *m, bool *keep)
+{
+    gouge_watch *w = user;
+    const double since = host_wall_clock();
+    const mpm_report now = mpm_glance(m);
+    TRY(gouge_armature_metal(w->scene, m, &w->end));
+    TRY(measure_crater(w->scene, m, &w->found));
+    TRY(gouge_carried_volumes(w->scene, m, w->carried));
+    w->growth = gouge_growth(&w->state.gauges, &now);
+    *keep = w->growth > 0.0;
+    if (w->timing) host_timing_add(w->timing, "crater", host_wall_clock() - since);
+    return status_ok();
+}
+
+scene_watch gouge_watch_of(gouge_watch *w)
+{
+    return (scene_watch){
+        .due = due, .piece = piece, .finish = finish, .user = w, .state = &w->state, .state_bytes = sizeof w->state
+    };
+}
