@@ -83,7 +83,15 @@ static void test_trace(void **state)
         assert_true(fabs(at.x - (0.75 * a->x + 0.25 * b->x)) < 1e-9); /* rounding: a velocity over a small difference */
         assert_true(fabs(at.t - (0.75 * a->t + 0.25 * b->t)) < 1e-9);
     }
+    /* v(x) is x(v) the other way round, and both have one answer for what never is */
+    for (double v = 100.0; v < 0.9 * gouge_trace_fastest(&o); v += 50.0)
+        assert_true(fabs(gouge_trace_velocity(&o, gouge_trace_place(&o, v)) - v) < 1e-6 * v); /* rounding: a place */
+    assert_true(isnan(gouge_trace_place(&o, 1e5)) && gouge_trace_velocity(&o, 1e5) == 0.0);
+    assert_true(gouge_trace_velocity(&o, 0.5 * c->barrel.start) == 0.0 && gouge_trace_velocity(&o, -1.0) == 0.0);
+    assert_false(gouge_trace_at_place(&o, 1e5, &at));
+    assert_true(at.x == o.trace[o.n_trace - 1].x && at.v == o.trace[o.n_trace - 1].v);
     assert_false(gouge_trace_at_velocity(&o, 1e5, &at));
+    assert_true(at.x == o.trace[o.n_trace - 1].x && at.v == o.trace[o.n_trace - 1].v);
     assert_true(gouge_trace_at_velocity(&o, 0.0, &at) && at.x == c->barrel.start);
     gouge_shot_outcome_free(&o);
     case_free(c);

@@ -17,20 +17,64 @@ void gouge_shot_outcome_free(shot_outcome *o)
     memset(o, 0, sizeof *o);
 }
 
+/* Between two steps, a share of the way from a to b. */
+static trace_point between(const trace_point *a, const trace_point *b, double share)
+{
+    return (trace_point){ a->t + share * (b->t - a->t), a->x + share * (b->x - a->x), a->v + share * (b->v - a->v),
+                          a->contact_pressure + share * (b->contact_pressure - a->contact_pressure) };
+}
+
+static bool end_of_trace(const shot_outcome *o, trace_point *at)
+{
+    *at = o->n_trace > 0 ? o->trace[o->n_trace - 1] : (trace_point){ .t = 0.0 };
+    return false;
+}
+
 bool gouge_trace_at_velocity(const shot_outcome *o, double v, trace_point *at)
 {
-    for (int i = 0; i < o->n_trace; i++) {
-        const trace_point *b = &o->trace[i];
-        if (b->v < v) continue;
-        *at = *b;
-        if (i == 0 || b->v == v) return true;
-        const trace_point *a = b - 1;
-        const double f = (v - a->v) / (b->v - a->v);
-        *at = (trace_point){ a->t + f * (b->t - a->t), a->x + f * (b->x - a->x), v,
-                             a->contact_pressure + f * (b->contact_pressure - a->contact_pressure) };
-        return true;
+    int i = 0;
+    while (i < o->n_trace && o->trace[i].v < v) i++;
+    if (i == o->n_trace) return end_of_trace(o, at);
+    const trace_point *b = &o->trace[i];
+    *at = i == 0 ? *b : between(b - 1, b, (v - b[-1].v) / (b->v - b[-1].v));
+    if (i > 0) at->v = v;
+    return true;
+}
+
+/* x never falls along the trace, so the step is found by halving. */
+bool gouge_trace_at_place(const shot_outcome *o, double x, trace_point *at)
+{
+    int low = 0, high = o->n_trace; /* trace[low - 1].x < x <= trace[high].x */
+    while (low < high) {
+        const int half = low + (high - low) / 2;
+        if (o->trace[half].x < x)
+            low = half + 1;
+        else
+            high = half;
     }
-    return false;
+    if (low == o->n_trace || (low == 0 && x < o->trace[0].x)) return end_of_trace(o, at);
+    const trace_point *b = &o->trace[low];
+    *at = low == 0 ? *b : between(b - 1, b, (x - b[-1].x) / (b->x - b[-1].x));
+    return true;
+}
+
+double gouge_trace_place(const shot_outcome *o, double v)
+{
+    trace_point at;
+    return v > 0.0 && gouge_trace_at_velocity(o, v, &at) ? at.x : NAN;
+}
+
+double gouge_trace_velocity(const shot_outcome *o, double x)
+{
+    trace_point at;
+    return gouge_trace_at_place(o, x, &at) ? at.v : 0.0;
+}
+
+double gouge_trace_fastest(const shot_outcome *o)
+{
+    double v = 0.0;
+    for (int i = 0; i < o->n_trace; i++) v = fmax(v, o->trace[i].v);
+    return v;
 }
 
 /* ---- the sinks ---- */

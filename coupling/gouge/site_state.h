@@ -61,8 +61,14 @@ shot_config gouge_shot_config(const breech_case *c, const double *sites);
 status gouge_shot_run(const breech_case *c, const shot_plan *plan, shot_outcome *out);
 void gouge_shot_outcome_free(shot_outcome *o); /* NULL allowed */
 
-/* First instant at which the armature has the velocity v, between two steps linearly; false if it never has. */
-bool gouge_trace_at_velocity(const shot_outcome *o, double v, trace_point *at);
+/* The two ways to ask a shot where it is how fast, both linear between two steps; nobody else reads the trace.
+ * false: the armature never has that velocity, or is never at that place; *at is then the end of the trace. */
+bool gouge_trace_at_velocity(const shot_outcome *o, double v, trace_point *at); /* the first instant */
+bool gouge_trace_at_place(const shot_outcome *o, double x, trace_point *at);
+/* One number of these: x(v) [m], NaN if it never has v; v(x) [m/s], 0 if it is never at x. */
+double gouge_trace_place(const shot_outcome *o, double v);
+double gouge_trace_velocity(const shot_outcome *o, double x);
+double gouge_trace_fastest(const shot_outcome *o); /* [m/s] */
 
 /* Nominal contact face of one leg: its length without the lead face, times its width [m2]. */
 double gouge_face_area(const case_projectile *p);

@@ -32,13 +32,6 @@ static int list_jumps(const onset_answer *a, site_jump *jump)
     return taken;
 }
 
-static double velocity_at(const shot_outcome *flown, double x)
-{
-    int k = 0;
-    while (k + 1 < flown->n_trace && flown->trace[k].x < x) k++;
-    return flown->n_trace > 0 ? flown->trace[k].v : 0.0;
-}
-
 /* The first family of a population that can gouge; NULL if there is none. */
 static const grain_family *strewn_family(const grain_families *g)
 {
@@ -61,7 +54,7 @@ static int strewn_jumps(const onset_answer *a, case_site *site, site_jump *jump)
         const double x = length * (p + 0.5) / PIECES;
         if (!(gouges > 0.0)) continue;
         site[n] = (case_site){ .position = x, .radius = f->plan.size[f->plan.reference] };
-        jump[n++] = taken_by(a, f, velocity_at(&a->flown, x), gouges * drawn->volume / drawn->gouges);
+        jump[n++] = taken_by(a, f, gouge_trace_velocity(&a->flown, x), gouges * drawn->volume / drawn->gouges);
     }
     return n;
 }

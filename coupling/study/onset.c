@@ -207,12 +207,6 @@ const grain_family *study_onset_leading_grain(const onset_answer *a, double *rad
     return lowest;
 }
 
-static double place_of(const shot_outcome *flown, double v)
-{
-    trace_point at;
-    return v > 0.0 && gouge_trace_at_velocity(flown, v, &at) ? at.x : NAN;
-}
-
 static void set_threshold(onset_answer *a)
 {
     onset_result *r = &a->result;
@@ -221,10 +215,10 @@ static void set_threshold(onset_answer *a)
     if (!f) return;
     const surface_size t = study_surface_at(&f->surface, radius);
     r->threshold_velocity = t.velocity;
-    r->threshold_position = place_of(&a->flown, t.velocity);
+    r->threshold_position = gouge_trace_place(&a->flown, t.velocity);
     for (int k = 0; k < 2; k++) {
         r->threshold_interval[k] = t.interval[k];
-        r->threshold_position_interval[k] = place_of(&a->flown, t.interval[k]);
+        r->threshold_position_interval[k] = gouge_trace_place(&a->flown, t.interval[k]);
     }
 }
 

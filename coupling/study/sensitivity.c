@@ -97,7 +97,6 @@ static void conclude(const onset_answer *a, const changed *with, const mc_result
 {
     onset_sensitivity *out = &a->sensitivity[k];
     double radius;
-    trace_point at;
     const grain_family *leading = study_onset_leading_grain(a, &radius);
     const grain_family *f = leading ? study_family_alike(&with->grains, leading) : NULL;
     const double v = f ? study_surface_at(&f->surface, radius).velocity : NAN;
@@ -105,7 +104,7 @@ static void conclude(const onset_answer *a, const changed *with, const mc_result
     out->change = with->change;
     out->muzzle_velocity = with->record.is.muzzle_velocity;
     out->threshold_velocity = v;
-    out->threshold_position = v > 0.0 && gouge_trace_at_velocity(with->grains.flown, v, &at) ? at.x : NAN;
+    out->threshold_position = gouge_trace_place(with->grains.flown, v);
     /* of both the mean over the same random numbers: what differs is the input's doing */
     out->expected_gouges = a->result.expected_gouges + (drawn->of[k + 1].gouges - drawn->of[0].gouges);
 }

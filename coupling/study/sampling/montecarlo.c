@@ -297,16 +297,7 @@ static void conclude(const mc *m, mc_result *out)
 
 void study_mc_velocities(const shot_outcome *flown, double length, double v[MC_PLACES + 1])
 {
-    int k = 0;
-    const trace_point *t = flown->trace;
-    for (int i = 0; i <= MC_PLACES; i++) {
-        const double x = i * length / MC_PLACES;
-        while (k + 1 < flown->n_trace && t[k + 1].x < x) k++;
-        const bool last = k + 1 >= flown->n_trace;
-        v[i] = flown->n_trace == 0 || x < t[0].x || (last && x > t[k].x) ? 0.0 : t[k].v;
-        if (!last && x >= t[k].x && t[k + 1].x > t[k].x)
-            v[i] += (x - t[k].x) / (t[k + 1].x - t[k].x) * (t[k + 1].v - t[k].v);
-    }
+    for (int i = 0; i <= MC_PLACES; i++) v[i] = gouge_trace_velocity(flown, i * length / MC_PLACES);
 }
 
 static status make_along(const mc_plan *plan, const mc_surface *s, lane *l)

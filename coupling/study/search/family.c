@@ -17,12 +17,6 @@ void study_families_free(grain_families *f)
     memset(f, 0, sizeof *f);
 }
 
-double study_flown_place(const shot_outcome *flown, double barrel, double v)
-{
-    trace_point at;
-    return gouge_trace_at_velocity(flown, v, &at) ? at.x : barrel;
-}
-
 /* ---- who belongs together ---- */
 
 static bool same_number(double a, double b)
@@ -83,13 +77,6 @@ static status sort_sites(grain_families *f)
     return status_ok();
 }
 
-double study_flown_fastest(const shot_outcome *flown)
-{
-    double v = 0.0;
-    for (int i = 0; i < flown->n_trace; i++) v = fmax(v, flown->trace[i].v);
-    return v;
-}
-
 static status sort_populations(grain_families *f)
 {
     const breech_case *c = f->c;
@@ -101,7 +88,7 @@ static status sort_populations(grain_families *f)
         memcpy(grain.shape, p->shape, sizeof grain.shape);
         memcpy(grain.material, p->material, sizeof grain.material);
         const int n = study_population_sizes(p, c->study.smallest_radius, SURFACE_MAX_SIZES / 2, size, number);
-        TRY(gouge_screen_impact(c, study_flown_fastest(f->flown), &hit));
+        TRY(gouge_screen_impact(c, gouge_trace_fastest(f->flown), &hit));
         f->of_population[i] = -1;
         f->screened += hit.skip;
         f->too_small += !hit.skip && n == 0;
@@ -117,7 +104,9 @@ static status sort_populations(grain_families *f)
 static double place_of(const void *user, double v)
 {
     const grain_families *f = user;
-    return study_flown_place(f->flown, f->c->barrel.length, v);
+    trace_point at;
+    gouge_trace_at_velocity(f->flown, v, &at); /* a velocity never reached: where the shot ends */
+    return at.x;
 }
 
 /* The size in the middle of the weights. */

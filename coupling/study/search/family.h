@@ -62,8 +62,4 @@ bool study_family_searched(const grain_family *f, const family_scene *scene);
 /* Of the search's that of the best resolution nearest in velocity, of those nearest in size; NULL if there is none. */
 const family_scene *study_family_nearest(const grain_family *f, double radius, double velocity);
 
-/* First place where the armature has the velocity v; the barrel's end if it never has [m]. */
-double study_flown_place(const shot_outcome *flown, double barrel, double v);
-double study_flown_fastest(const shot_outcome *flown); /* largest velocity that the armature has [m/s] */
-
 #endif

@@ -32,11 +32,10 @@ typedef struct {
 
 static double contact_pressure_at(const grain_families *f, double v)
 {
-    const shot_outcome *flown = f->flown;
     const double given = f->c->scene.contact_pressure;
-    trace_point at = flown->n_trace > 0 ? flown->trace[flown->n_trace - 1] : (trace_point){ .contact_pressure = 0.0 };
+    trace_point at;
     if (!isnan(given)) return given;
-    gouge_trace_at_velocity(flown, v, &at);
+    gouge_trace_at_velocity(f->flown, v, &at); /* a velocity never reached: where the shot ends */
     return PRESSURE_STEP * round(at.contact_pressure / PRESSURE_STEP);
 }
 
@@ -80,7 +79,7 @@ static double fastest_grain(const grain_families *f, const grain_family *family)
         if (f->of_site[i] >= 0 && &f->family[f->of_site[i]] == family) v = fmax(v, f->flown->site[i].velocity);
     for (int i = 0; i < f->c->populations.n; i++)
         if (f->of_population[i] >= 0 && &f->family[f->of_population[i]] == family)
-            v = fmax(v, study_flown_fastest(f->flown));
+            v = fmax(v, gouge_trace_fastest(f->flown));
     return v;
 }
 
