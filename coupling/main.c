@@ -335,7 +335,8 @@ static int run_check(const options *o)
 static void print_sheet(const material_sheet *sheet)
 {
     printf("%s: %s\n%s\n", sheet->material.name, sheet->title, sheet->path);
-    if (sheet->material.strength == STRENGTH_PTW) printf("  flow stress of Preston, Tonks and Wallace (M-23)\n");
+    printf("  strength: %s\n  eos: %s\n  failure: %s\n", mpm_material_strength_text(sheet->material.strength),
+           mpm_material_eos_text(sheet->material.eos), mpm_material_failure_text(sheet->material.failure));
     for (int i = 0; i < sheet->n; i++) {
         const material_constant *k = &sheet->constant[i];
         const double value = *(const double *)(const void *)((const char *)&sheet->material + k->constant->offset);

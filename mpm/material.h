@@ -1,54 +1,90 @@
 /* One material's constants, as read from cases/materials/<name>.yaml.  NAN = not known: a feature that needs the
  * constant refuses the material by name (mpm_material_check), it never assumes zero.
- * To add a constant: a member here, one line in material.c's table. */
+ *
+ * A material chooses one law of strength, one equation of state and one law of failure.  Each brings its own constants
+ * (mpm/law/strength.def, eos.def, failure.def); the list below has those of all materials.
+ * To add a constant of all materials: one line of the list. */
 #ifndef BREECH_MPM_MATERIAL_H
 #define BREECH_MPM_MATERIAL_H
 
 #include "base/param.h"
 
-typedef enum { STRENGTH_JOHNSON_COOK, STRENGTH_PTW } material_strength;
-
-typedef struct {
-    char name[PARAM_TEXT_SIZE];
-    int strength;                 /* material_strength: which flow stress; the other's constants are not used */
-    double density;               /* rho0 [kg/m3] at the reference temperature */
-    double youngs_modulus;        /* E [Pa] */
-    double poisson;               /* nu [1] */
-    double specific_heat;         /* c [J/(kg K)] */
-    double conductivity;          /* k [W/(m K)] */
-    double reference_temperature; /* T_r [K] */
-    double melting_temperature;   /* T_m, solidus [K] */
-    double latent_heat;           /* of fusion [J/kg] */
-    double yield_A, hardening_B, hardening_n, rate_C, softening_m,
-        rate_0; /* Johnson-Cook (M-1) [Pa, Pa, 1, 1, 1, 1/s] */
-    double ptw_theta, ptw_p, ptw_s0, ptw_s_inf, ptw_kappa, ptw_gamma, ptw_y0, ptw_y_inf, ptw_y1, ptw_y2,
-        ptw_beta;             /* Preston-Tonks-Wallace (M-23) [1] */
-    double ptw_G0, ptw_alpha; /* shear modulus in (M-23): G0 (1 - alpha T/T_m) [Pa, 1] */
-    double ptw_cold_work;     /* plastic strain the metal has had before (M-23) [1] */
-    double molar_mass;        /* [kg/mol] */
-    double taylor_quinney;    /* chi [1], option `plastic` of (M-4) only */
-    double damage_D1, damage_D2, damage_D3, damage_D4, damage_D5; /* Johnson-Cook failure (M-2) [1] */
-    double spall_strength;                                        /* tension at which it fails [Pa] */
-    double sound_speed;                                           /* c0, bulk, at zero pressure [m/s] */
-    double hugoniot_slope;                                        /* s of us = c0 + s up [1] */
-    double gruneisen;                                             /* g0 [1] */
-    double hardness;                                              /* Vickers hardness as pressure [Pa] */
-    double resistivity;                                           /* [ohm m] at the reference temperature */
-    double resistivity_slope;                                     /* its temperature coefficient [1/K] */
-} material;
-
-extern const param mpm_material_params[];
-
 typedef enum {
-    MATERIAL_FOR_SCENE = 1,   /* density, elastic, equation of state, its own law of strength, specific heat */
-    MATERIAL_FOR_DAMAGE = 2,  /* D1..D5 */
-    MATERIAL_FOR_SCREEN = 4,  /* hardness, equation of state */
+    MATERIAL_FOR_SCENE = 1,   /* what its strength and its equation of state need */
+    MATERIAL_FOR_DAMAGE = 2,  /* what its law of failure needs */
+    MATERIAL_FOR_SCREEN = 4,  /* hardness, impedance match */
     MATERIAL_FOR_MELTING = 8, /* latent heat, melting temperature */
     MATERIAL_FOR_CIRCUIT = 16 /* resistivity */
 } material_need;
 
+/* ROW(member, unit, needs, least, largest, text); needs: a sum of material_need, besides what a law asks for.  The
+ * ranges hold room to spare: they catch a wrong unit or a slip of the decimal point, not a poor value. */
+#define MATERIAL_CONSTANTS(ROW)                                                                                  \
+    ROW(density, "kg/m^3", MATERIAL_FOR_SCENE | MATERIAL_FOR_SCREEN, 0.01, 3e4,                                  \
+        "density at the reference temperature")                                                                  \
+    ROW(youngs_modulus, "Pa", 0, 1e6, 2e12, "Young's modulus")                                                   \
+    ROW(poisson, "1", 0, 0.0, 0.499, "Poisson's ratio")                                                          \
+    ROW(specific_heat, "J/(kg K)", MATERIAL_FOR_SCENE, 10.0, 1e4, "specific heat")                               \
+    ROW(conductivity, "W/(m K)", 0, 1e-2, 5e3, "thermal conductivity")                                           \
+    ROW(reference_temperature, "K", MATERIAL_FOR_SCENE | MATERIAL_FOR_MELTING, 1.0, 2e3,                         \
+        "temperature at which the constants hold")                                                               \
+    ROW(melting_temperature, "K", MATERIAL_FOR_MELTING, 200.0, 5e3, "melting temperature (solidus)")             \
+    ROW(latent_heat, "J/kg", MATERIAL_FOR_MELTING, 1e3, 1e7, "latent heat of fusion")                            \
+    ROW(sound_speed, "m/s", MATERIAL_FOR_SCREEN, 100.0, 2e4, "bulk sound speed c0 of us = c0 + s up")            \
+    ROW(hugoniot_slope, "1", MATERIAL_FOR_SCREEN, 0.0, 5.0, "slope s of us = c0 + s up")                         \
+    ROW(rate_0, "1/s", 0, 1e-6, 1e6, "reference strain rate of strength and failure; slower ones count as this") \
+    ROW(molar_mass, "kg/mol", 0, 1e-3, 0.5, "molar mass")                                                        \
+    ROW(taylor_quinney, "1", 0, 0.0, 1.0, "share of plastic work that becomes heat (heat by plastic work only)") \
+    ROW(spall_strength, "Pa", 0, 0.0, 1e11, "tension at which it fails")                                         \
+    ROW(hardness, "Pa", MATERIAL_FOR_SCREEN, 1e6, 1e11, "Vickers hardness as a pressure")                        \
+    ROW(resistivity, "ohm m", MATERIAL_FOR_CIRCUIT, 1e-10, 1e-3,                                                 \
+        "electrical resistivity at the reference temperature")                                                   \
+    ROW(resistivity_slope, "1/K", 0, -0.1, 0.1, "temperature coefficient of the resistivity")
+
+typedef enum {
+#define STRENGTH(name, shear, text) STRENGTH_##name,
+#include "mpm/law/strength.def"
+} material_strength;
+
+typedef enum {
+#define EOS(name, text) EOS_##name,
+#include "mpm/law/eos.def"
+} material_eos;
+
+typedef enum {
+#define FAILURE(name, text) FAILURE_##name,
+#include "mpm/law/failure.def"
+} material_failure;
+
+typedef struct {
+    char name[PARAM_TEXT_SIZE];
+    int strength; /* material_strength */
+    int eos;      /* material_eos */
+    int failure;  /* material_failure, of a body with damage */
+#define ROW(member, unit, needs, least, largest, text) double member;
+    MATERIAL_CONSTANTS(ROW)
+#undef ROW
+#define CONSTANT(member, unit, fallback, least, largest, text) double member;
+#include "mpm/law/strength.def"
+#define CONSTANT(member, unit, fallback, least, largest, text) double member;
+#include "mpm/law/eos.def"
+#define CONSTANT(member, unit, fallback, least, largest, text) double member;
+#include "mpm/law/failure.def"
+} material;
+
+/* Every constant OPTIONAL: a file may leave out what its author does not know. */
+extern const param mpm_material_params[];
+
 /* STATUS_BAD_INPUT naming the material and every missing constant, unless it has all that `needs` (a sum) asks for. */
 status mpm_material_check(const material *m, unsigned needs);
+
+/* With the constants that its laws supply where they are not given. */
+material mpm_material_complete(const material *m);
+
+/* Text of the law that has this number in `strength`, `eos` or `failure`. */
+const char *mpm_material_strength_text(int kind);
+const char *mpm_material_eos_text(int kind);
+const char *mpm_material_failure_text(int kind);
 
 /* Elastic constants of the solid.  Bulk modulus K = rho0 c0^2 from the equation of state (what the pressure law (M-3)
  * uses), shear modulus G = E / (2 (1 + nu)) from E and nu; so E / (3 (1 - 2 nu)) is not used anywhere and differs from

@@ -130,7 +130,7 @@ static void the_law_of_strength_is_read(void **state)
         char *errors = NULL;
         assert_int_equal(case_material_sheet_find(s->u, s->names[k], dirs, 1, &sheet, &errors).code, STATUS_OK);
         const bool named = strstr(s->names[k], "_ptw") != NULL;
-        assert_int_equal(sheet.material.strength, named ? STRENGTH_PTW : STRENGTH_JOHNSON_COOK);
+        assert_int_equal(sheet.material.strength, named ? STRENGTH_ptw : STRENGTH_johnson_cook);
         if (named) assert_int_equal(mpm_material_check(&sheet.material, MATERIAL_FOR_SCENE).code, STATUS_OK);
         ptw += named;
         case_material_sheet_free(&sheet);
@@ -153,8 +153,9 @@ static void bad_files_say_where(void **state)
         { HEAD "constants:\n  density: 5 kg/m^3\n",
           "x.yaml:4:12: constants.density: must be {value: ..., source: ...}" },
         { HEAD "constants:\n  density: {value: 5 kg}\n", "x.yaml:4:12: constants.density.source is missing" },
-        { HEAD "constants:\n  density: {value: 5 kg/m^3, source: A}\n",
-          "x.yaml:4:20: constants.density.value = 5 kg/m^3: must lie within the range (100 kg/m^3 .. 30000 kg/m^3)" },
+        { HEAD "constants:\n  density: {value: 9e4 kg/m^3, source: A}\n",
+          "x.yaml:4:20: constants.density.value = 9e4 kg/m^3: must lie within the range (0.01 kg/m^3 .. 30000 "
+          "kg/m^3)" },
         { HEAD "constants:\n  density: {value: 8 g/cm^3, source: B}\n",
           "x.yaml:4:38: constants.density.source = B: not in `sources` of this file" },
         { HEAD "constants:\n  densty: {value: 8 g/cm^3, source: A}\n",
@@ -164,6 +165,8 @@ static void bad_files_say_where(void **state)
         { HEAD "constants:\n  poisson: {value: 0.3 Pa, source: A}\n",
           "x.yaml:4:20: constants.poisson.value = 0.3 Pa: is a pure number" },
         { HEAD "strength: wood\nconstants: {}\n", "x.yaml:3:11: strength = wood: must be one of johnson_cook, ptw" },
+        { HEAD "eos: wood\nconstants: {}\n", "x.yaml:3:6: eos = wood: must be one of mie_gruneisen" },
+        { HEAD "failure: wood\nconstants: {}\n", "x.yaml:3:10: failure = wood: must be one of johnson_cook" },
         { "- a\n", "x.yaml:1:1: a material's file has the keys" },
     };
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {

@@ -176,7 +176,7 @@ static void test_yield(void **state)
 static material ptw_copper(void)
 {
     material m = scene_copper();
-    m.strength = STRENGTH_PTW;
+    m.strength = STRENGTH_ptw;
     m.ptw_theta = 0.025, m.ptw_p = 2, m.ptw_s0 = 0.0085, m.ptw_s_inf = 0.00055, m.ptw_kappa = 0.11, m.ptw_gamma = 1e-5;
     m.ptw_y0 = 1e-4, m.ptw_y_inf = 1e-4, m.ptw_y1 = 0.094, m.ptw_y2 = 0.575, m.ptw_beta = 0.25;
     m.ptw_G0 = 51.8e9, m.ptw_alpha = 0.2, m.molar_mass = 0.063546;
@@ -190,7 +190,7 @@ static double ptw_stress(const material *m, double scale, double e, double rate,
 {
     const double dt = 1e-6 / rate, L[9] = { 0, sqrt(3) * rate, 0, 0, 0, 0, 0, 0, 0 };
     specimen p = specimen_make(*m, 293, 0, 0, false);
-    p.k.ptw.G2 *= scale;
+    p.k.strength.ptw.G2 *= scale;
     for (int l = 0; l < LANES; l++) p.q.ep[0][l] = e, p.q.T[0][l] = T, p.q.s[3][l] = 1e10;
     strain(&p, L, dt);
     assert_near(p.q.flow[0][0] - mises_of(&p), 0, 1e-11 * mises_of(&p));
@@ -261,7 +261,7 @@ static void test_ptw_bound(void **state)
         assert_ok(mpm_law_make(&b, &s, &hard));
         assert_near(hard.flow_start / p.k.flow_start, 1.5, EXACT);
         assert_near(hard.least_flow / p.k.least_flow, 1.5, EXACT);
-        assert_near(hard.ptw.G2 / p.k.ptw.G2, 1.5, EXACT);
+        assert_near(hard.strength.ptw.G2 / p.k.strength.ptw.G2, 1.5, EXACT);
     }
 }
 
@@ -316,9 +316,8 @@ static double isentrope(const law *k, double mu_end)
                                     : q == 3 ? d
                                              : d / 2) *
                                        at;
-            const double h = 1 - k->s1 * mu;
-            at = (k->K0 * mu * (1 + (1 - k->g / 2) * mu) / (h * h) + k->g * k->rho0 * now) /
-                 (k->rho0 * (1 + mu) * (1 + mu));
+            const double h = 1 - k->eos.mie_gruneisen.s1 * mu, g = k->eos.mie_gruneisen.g;
+            at = (k->K0 * mu * (1 + (1 - g / 2) * mu) / (h * h) + g * k->rho0 * now) / (k->rho0 * (1 + mu) * (1 + mu));
             slope[q] = at;
         }
         e += d / 6 * (slope[0] + 2 * slope[1] + 2 * slope[2] + slope[3]);

@@ -167,26 +167,26 @@ static void read_head(case_reader *r, const char *path, material_sheet *sheet)
         case_errors_add(r->errors, node, "name = %s: must be the file's name, %.*s", given, (int)stem, file);
 }
 
-/* The law of strength: not a constant, so without a source of its own. */
-static void read_strength(case_reader *r, material_sheet *sheet)
+/* The laws: no constants, so without a source of their own. */
+static void read_laws(case_reader *r, material_sheet *sheet)
 {
-    const tree_node *node = host_tree_find(r->root, "strength");
-    for (const param *p = mpm_material_params; p->key; p++)
-        if (node && strcmp(p->key, "strength") == 0)
-            case_value_read(r, p, node, (char *)&sheet->material + p->offset, p->key);
+    for (const param *p = mpm_material_params; p->key; p++) {
+        const tree_node *node = p->kind == PARAM_CHOICE ? host_tree_find(r->root, p->key) : NULL;
+        if (node) case_value_read(r, p, node, (char *)&sheet->material + p->offset, p->key);
+    }
 }
 
 static void read_sheet(case_reader *r, const char *path, material_sheet *sheet)
 {
-    static const char *const known[] = { "name", "title", "strength", "sources", "constants", NULL };
+    static const char *const known[] = { "name", "title", "strength", "eos", "failure", "sources", "constants", NULL };
     if (r->root->kind != TREE_MAP) {
         case_errors_add(r->errors, r->root,
-                        "a material's file has the keys name, title, strength, sources and constants");
+                        "a material's file has the keys name, title, strength, eos, failure, sources and constants");
         return;
     }
     check_keys(r, r->root, "a material's file", known);
     read_head(r, path, sheet);
-    read_strength(r, sheet);
+    read_laws(r, sheet);
     read_sources(r);
     const tree_node *constants = host_tree_find(r->root, "constants");
     if (!constants || constants->kind != TREE_MAP) {

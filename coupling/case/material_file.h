@@ -8,9 +8,10 @@
  *     density: {value: 8960 kg/m^3, source: JC}
  *     hardness: {value: 725 MPa, source: book, weak: true, note: annealed 0.5 GPa .. half hard 0.95 GPa}
  *
- * The constants are those of mpm_material_params (mpm/material.c), each optional: one that is not there is not known,
+ * The constants are those of mpm_material_params (mpm/material.h), each optional: one that is not there is not known,
  * and what needs it refuses the material.  `weak: true` marks a secondary or unchecked value; whoever uses it is
- * warned. `strength: ptw` after the title: the flow stress is (M-23), not (M-1).
+ * warned.  `strength`, `eos` and `failure` after the title choose the laws by their names in mpm/law/<table>.def; not
+ * given: johnson_cook, mie_gruneisen and johnson_cook.
  * To add a material: add a file; tests/test_materials.c covers it at once. */
 #ifndef BREECH_COUPLING_MATERIAL_FILE_H
 #define BREECH_COUPLING_MATERIAL_FILE_H
@@ -20,7 +21,11 @@
 
 #include <stdbool.h>
 
-enum { MATERIAL_MAX_CONSTANTS = 64, MATERIAL_PATH_SIZE = 512, MATERIAL_WARNING_SIZE = 600 };
+enum {
+    MATERIAL_MAX_CONSTANTS = sizeof(material) / sizeof(double),
+    MATERIAL_PATH_SIZE = 512,
+    MATERIAL_WARNING_SIZE = 600
+};
 
 typedef struct {
     const param *constant; /* borrowed from mpm_material_params */

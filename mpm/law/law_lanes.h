@@ -1,7 +1,6 @@
-/* The material law of some particles of one body over one step: strength (M-1), (M-23), damage (M-2), pressure (M-3),
- * temperature (M-4), viscosity (M-5).  Constants are derived in law.c; the kernels include this once an instruction
- * set. To change a law: its function here, its constants in law.h and law.c, its closed answer in
- * tests/test_mpm_material.c. */
+/* The material law of some particles of one body over one step: the laws that its material chose, put together, with
+ * temperature (M-4) and viscosity (M-5).  Constants are derived in law.c; the kernels include this once an instruction
+ * set.  A block holds one body, so which law it is, is asked once for all its lanes. */
 #ifndef BREECH_MPM_LAW_LANES_H
 #define BREECH_MPM_LAW_LANES_H
 
@@ -34,60 +33,71 @@ LANE_INLINE vd power(vd x, double n)
     return vd_where(some, vd_exp(n * vd_log(vd_max(x, tiny))));
 }
 
-/*   sigma_y = (A + B e^n) (1 + C ln max(edot/edot0, 1)) (1 - T*^m)                  (M-1) [Pa]; zero when molten */
-LANE_INLINE vd flow_stress(const law *k, vd e, vd log_rate, vd T_star)
+/* What a law of strength may look at. */
+typedef struct {
+    vd strain;    /* equivalent plastic strain [1] */
+    vd log_rate;  /* ln(edot/edot0), at least 0 */
+    vd T, T_star; /* [K]; (T - T_r)/(T_m - T_r) in 0 .. 1 */
+} flow_state;
+
+/* What a law of failure may look at. */
+typedef struct {
+    vd plastic;          /* what the step adds to the equivalent plastic strain [1] */
+    vd triaxiality;      /* mean stress / von Mises stress, tension positive [1] */
+    vd log_rate, T_star; /* as above */
+} failure_state;
+
+/* Of a law that few bodies have: a call, so that the kernel of the others stays as it is. */
+#define LAW_CALL static __attribute__((noinline))
+
+#define LAW_LANES
+#include "mpm/law/eos.def"
+#include "mpm/law/failure.def"
+#include "mpm/law/strength.def"
+#undef LAW_LANES
+
+LANE_INLINE vd flow_stress(const law *k, vd strain, vd log_rate, vd T, vd T_star)
 {
-    return (k->A + k->B * power(e, k->n)) * (1 + k->C * log_rate) * (1 - power(T_star, k->m));
+#define STRENGTH(name, shear, text)          \
+    if (k->strength.kind == STRENGTH_##name) \
+        return strength_##name##_flow(&k->strength.name, &(flow_state){ strain, log_rate, T, T_star });
+#include "mpm/law/strength.def"
+    return vd_set(0);
 }
 
-/* Error function: Abramowitz and Stegun, Handbook of Mathematical Functions, 7.1.26; off by at most 1.5e-7. */
-LANE_INLINE vd error_function(vd x)
+LANE_INLINE vd pressure(const law *k, vd mu, vd rho, vd e, vd half)
 {
-    const vd a = vd_max(x, -x), t = 1 / (1 + 0.3275911 * a);
-    const vd sum = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
-    const vd r = 1 - sum * vd_exp(-a * a);
-    return vd_select(vd_less(x, vd_set(0)), -r, r);
+#define EOS(name, text) \
+    if (k->eos.kind == EOS_##name) return eos_##name##_pressure(k, mu, rho, e, half);
+#include "mpm/law/eos.def"
+    return vd_set(0);
 }
 
-/* Preston, Tonks, Wallace, J. Appl. Phys. 93 (2003) 211, at the density of rest:                          (M-23)
- *   sigma_y = 2 G0 (1 - alpha T^) {s + r ln[1 - (1 - 1/D) exp(-theta (e + e_0)/(r (D - 1)))]}  [Pa], zero when molten;
- *   T^ = T/T_m,   x = ln(edot/(gamma xi(T))),   f = erf(-kappa T^ x),   r = (s0 - y)/p,   D = exp((s - y)/r),
- *   s = max(s0 - (s0 - s_inf) f, s0 exp(beta x)),   y = max(y0 - (y0 - y_inf) f, min(y1 exp(y2 x), s0 exp(beta x))).
- * s is what hardening leads to, y where it begins; where no room is left between them, s.  A call, not inlined, so that
- * the kernel of the other metals stays as it is. */
-static __attribute__((noinline)) vd flow_stress_ptw(const ptw *k, vd e, vd log_rate, vd T, vd T_star)
-{
-    const vd one = vd_set(1), T_hat = T * k->inv_T_m, soft = vd_max(1 - k->alpha * T_hat, vd_set(0.01));
-    const vd x = log_rate + k->log_rate - 0.5 * vd_log(soft), f = error_function(-k->kappa * T_hat * x);
-    const vd driven = k->s0 * vd_exp(k->beta * x), s = vd_max(k->s0 - k->s_fall * f, driven);
-    const vd y = vd_max(k->y0 - k->y_fall * f, vd_min(k->y1 * vd_exp(k->y2 * x), driven));
-    const vd room = (k->s0 - y) * k->inv_p;
-    const vm hardens = vd_less(vd_set(1e-6 * k->s0), room) & vd_less(1e-6 * s, s - y);
-    const vd r = vd_select(hardens, room, one), D = vd_exp(vd_select(hardens, vd_min((s - y) / r, vd_set(50)), one));
-    const vd left = (1 - 1 / D) * vd_exp(-k->theta * (e + k->cold_work) / (r * (D - 1)));
-    const vd stress = k->G2 * soft * (s + vd_where(hardens, r * vd_log(1 - left)));
-    return vd_where(vd_less(T_star, one), stress);
-}
-
-/*   e_f = (D1 + D2 exp(D3 s*)) (1 + D4 ln e*) (1 + D5 T*)                            (M-2); s* capped at 1.5, e_f
- *   floored */
-LANE_INLINE vd failure_strain(const law *k, vd triaxiality, vd log_rate, vd T_star)
-{
-    const vd x = vd_max(vd_min(triaxiality, vd_set(1.5)), vd_set(-5));
-    const vd f = (k->D1 + k->D2 * vd_exp(k->D3 * x)) * (1 + k->D4 * log_rate) * (1 + k->D5 * T_star);
-    return vd_max(f, vd_set(0.01));
-}
-
-/* e_r = e_s - c_v (T_s - T_r) with T_s, e_s on the isentrope through rest at T_r: mu x a polynomial either side of rest
- * (law.c) */
 LANE_INLINE vd reference_energy(const law *k, vd mu)
 {
-    const vd zero = vd_set(0), x = vd_min(vd_max(mu, vd_set(k->mu_least)), vd_set(k->mu_most));
-    const vm out = vd_less(x, zero);
-    vd sum = zero;
-    for (int i = LAW_COLD - 1; i >= 0; i--)
-        sum = vd_select(out, vd_set(k->stretched[i]), vd_set(k->squeezed[i])) + x * sum;
-    return x * sum;
+#define EOS(name, text) \
+    if (k->eos.kind == EOS_##name) return eos_##name##_reference(k, mu);
+#include "mpm/law/eos.def"
+    return vd_set(0);
+}
+
+/* The sum is the equation of state's, not made here: a compiler joins the product in it and the sum to one operation
+ * only where no branch lies between. */
+LANE_INLINE vd wave_speed_square(const law *k, vd volume, vd p, vd shear)
+{
+#define EOS(name, text) \
+    if (k->eos.kind == EOS_##name) return eos_##name##_wave(k, volume, p, shear);
+#include "mpm/law/eos.def"
+    return shear;
+}
+
+LANE_INLINE vd damage_growth(const law *k, vd plastic, vd triaxiality, vd log_rate, vd T_star)
+{
+#define FAILURE(name, text)                \
+    if (k->failure.kind == FAILURE_##name) \
+        return failure_##name##_grow(&k->failure.name, &(failure_state){ plastic, triaxiality, log_rate, T_star });
+#include "mpm/law/failure.def"
+    return vd_set(0);
 }
 
 /*   T = T_s + (e - e_s - stored)/c_v = T_r + (e - e_r - stored)/c_v, with a plateau while melting         (M-4) [K] */
@@ -100,25 +110,10 @@ LANE_INLINE vd temperature(const law *k, vd e, vd reference, vd stored)
     return vd_max(k->T_r + (vd_min(thermal, vd_set(melt)) + beyond) * k->inv_c, vd_set(1));
 }
 
-/*   p_H = rho0 c0^2 mu [1 + (1 - g0/2) mu] / [1 - (s-1) mu]^2, mu >= 0;   rho0 c0^2 mu below;   p = p_H + g0 rho_e e
- *   (M-3)
- * rho_e = rho0 in compression, rho in expansion: with rho0 there too, hot debris would keep its full thermal pressure
- * however thin it has become, and burst.  Solved with the energy e - half p that p itself changes, in one division. */
-LANE_INLINE vd pressure(const law *k, vd mu, vd rho, vd e, vd half)
-{
-    const vd d = 1 - k->s1 * mu, one = vd_set(1);
-    const vm compressed = vd_less(vd_set(0), mu);
-    const vd above = k->K0 * mu * vd_select(compressed, 1 + (1 - 0.5 * k->g) * mu, one);
-    const vd below = vd_select(compressed, d * d, one), slope = k->g * vd_min(rho, vd_set(k->rho0));
-    return (above + slope * e * below) / (below * (1 + slope * half));
-}
-
-/* Longitudinal wave speed: K = K0 + K' p in compression, c0 in expansion; a failed point has no shear stiffness [m/s]
- */
+/* Longitudinal wave speed; a failed point has no shear stiffness [m/s] */
 LANE_INLINE vd sound_speed(const law *k, vd volume, vd p, vm failed)
 {
-    const vd bulk = (k->K0 + k->K_slope * vd_max(p, vd_set(0))) * vd_min(volume, vd_set(k->volume0));
-    return vd_sqrt(bulk + vd_where(~failed, 4.0 / 3.0 * k->G * volume));
+    return vd_sqrt(wave_speed_square(k, volume, p, vd_where(~failed, 4.0 / 3.0 * k->G * volume)));
 }
 
 /* Jaumann rate  s' = W s - s W + 2 G dev D */
@@ -184,7 +179,7 @@ typedef struct {
 
 /* Radial return of the trial deviator s.  Where all particles lie below the least stress at which their metal could
  * flow,
- *   sigma_y >= least (1 - T*),   least = A for m >= 1 in (M-1), found by law.c for (M-23),
+ *   sigma_y >= least (1 - T*),   least known to the law of strength, zero where it has no such bound,
  * there is nothing to do; their flow stress stays that of the step in which it was last needed, unless a contact asks.
  * (By a tenth below: where the fine zone goes is decided by what comes within a tenth of yielding, zone.c.) */
 LANE_INLINE yielding radial_return(const law *k, const vd L[9], vd tr, block *q, int lane, bool contact, vd s[6])
@@ -198,8 +193,7 @@ LANE_INLINE yielding radial_return(const law *k, const vd L[9], vd tr, block *q,
     if (!y.any) return y;
     y.log_rate = 0.5 * vd_log(vd_max(rate_square(L, tr) * (k->inv_rate0 * k->inv_rate0), vd_set(1)));
     const vd ep = vd_load(&q->ep[0][lane]), trial = vd_sqrt(square);
-    const vd flow = k->is_ptw ? flow_stress_ptw(&k->ptw, ep, y.log_rate, vd_load(&q->T[0][lane]), y.T_star)
-                              : flow_stress(k, ep, y.log_rate, y.T_star);
+    const vd flow = flow_stress(k, ep, y.log_rate, vd_load(&q->T[0][lane]), y.T_star);
     const vd yield = vd_where(~failed, flow);
     y.mises = vd_min(trial, yield);
     y.mises_square = y.mises * y.mises;
@@ -212,11 +206,10 @@ LANE_INLINE yielding radial_return(const law *k, const vd L[9], vd tr, block *q,
     return y;
 }
 
-/* (M-2) */
 LANE_INLINE void damage(const law *k, const yielding *y, vd p, block *q, int lane)
 {
-    const vd e_f = failure_strain(k, -p / (y->mises + 1e3), y->log_rate, y->T_star);
-    vd_store(&q->damage[0][lane], vd_min(vd_load(&q->damage[0][lane]) + y->plastic / e_f, vd_set(1)));
+    const vd growth = damage_growth(k, y->plastic, -p / (y->mises + 1e3), y->log_rate, y->T_star);
+    vd_store(&q->damage[0][lane], vd_min(vd_load(&q->damage[0][lane]) + growth, vd_set(1)));
 }
 
 /* Failed or molten: no deviator, no tension. */
@@ -260,7 +253,7 @@ LANE_INLINE void law_step(const law *k, const step_of *step, const motion *move,
     const vm torn = loose & vd_less(p_free, zero), parted = loose & vd_less(p_free, vd_set(-LAW_MELT_TENSION * k->K0));
     const vd p = vd_select(torn, zero, p_free);
     e -= half * p;
-    if (k->D1 >= 0 && y.any) damage(k, &y, p, q, lane);
+    if (k->failure.kind != FAILURE_none && y.any) damage(k, &y, p, q, lane);
     if (vm_bits(parted & ~failed)) vd_store(&q->damage[0][lane], vd_select(parted, one, vd_load(&q->damage[0][lane])));
 
     const vd stored = y.mises_square * volume * (1 / (6 * k->G)); /* s:s/(4 G rho) */

@@ -1,0 +1,22 @@
+/* Nothing fails, whatever is given of other laws. */
+FAILURE(none, "none")
+
+#ifdef LAW_STRUCT
+typedef char failure_none; /* keeps nothing */
+#endif
+
+#ifdef LAW_DERIVE
+static status failure_none_derive(law *k, const material *m)
+{
+    (void)k, (void)m;
+    return status_ok();
+}
+#endif
+
+#ifdef LAW_LANES
+LANE_INLINE vd failure_none_grow(const failure_none *k, const failure_state *s)
+{
+    (void)k;
+    return 0 * s->plastic;
+}
+#endif

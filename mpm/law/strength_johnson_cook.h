@@ -1,0 +1,37 @@
+/*   sigma_y = (A + B e^n) (1 + C ln max(edot/edot0, 1)) (1 - T*^m)                  (M-1) [Pa]; zero when molten
+ * Johnson and Cook, 7th International Symposium on Ballistics (1983) 541. */
+STRENGTH(johnson_cook, FIXED, "Johnson-Cook (M-1)")
+CONSTANT(yield_A, "Pa", REQUIRED, 0.0, 1e10, "Johnson-Cook A: yield stress")
+CONSTANT(hardening_B, "Pa", REQUIRED, 0.0, 1e10, "Johnson-Cook B: hardening")
+CONSTANT(hardening_n, "1", REQUIRED, 0.0, 2.0, "Johnson-Cook n: hardening exponent")
+CONSTANT(rate_C, "1", REQUIRED, 0.0, 1.0, "Johnson-Cook C: rate sensitivity")
+CONSTANT(softening_m, "1", REQUIRED, 0.0, 10.0, "Johnson-Cook m: thermal softening exponent")
+NEEDS(rate_0)
+NEEDS(youngs_modulus)
+NEEDS(poisson)
+NEEDS(melting_temperature)
+
+#ifdef LAW_STRUCT
+typedef struct {
+    double A, B, n, C, m;
+} strength_johnson_cook;
+#endif
+
+#ifdef LAW_DERIVE
+static status strength_johnson_cook_derive(law *k, const material *m, double scale)
+{
+    k->strength.johnson_cook = (strength_johnson_cook){
+        .A = scale * m->yield_A, .B = scale * m->hardening_B, .n = m->hardening_n, .C = m->rate_C, .m = m->softening_m
+    };
+    k->flow_start = scale * m->yield_A;
+    k->least_flow = m->softening_m >= 1 ? k->flow_start : 0;
+    return status_ok();
+}
+#endif
+
+#ifdef LAW_LANES
+LANE_INLINE vd strength_johnson_cook_flow(const strength_johnson_cook *k, const flow_state *s)
+{
+    return (k->A + k->B * power(s->strain, k->n)) * (1 + k->C * s->log_rate) * (1 - power(s->T_star, k->m));
+}
+#endif
