@@ -11,6 +11,9 @@ static void set_default(const param *p, char *member)
     case PARAM_VECTOR:
         for (int k = 0; k < 3; k++) ((double *)(void *)member)[k] = number;
         break;
+    case PARAM_POINTS:
+        for (int k = 0; k < 2 * p->room; k++) ((double *)(void *)member)[k] = NAN;
+        break;
     case PARAM_INTEGER:
     case PARAM_CHOICE: *(int *)(void *)member = (int)p->fallback; break;
     case PARAM_FLAG: *(bool *)(void *)member = p->fallback != 0; break;
@@ -48,6 +51,21 @@ static status check_choice(const param *p, int value, const char *section)
     return status_ok();
 }
 
+int base_param_pairs(const double *member, int room)
+{
+    int n = 0;
+    while (n < room && !isnan(member[2 * n])) n++;
+    return n;
+}
+
+static status check_pairs(const param *p, const double *member, const char *section)
+{
+    const int n = base_param_pairs(member, p->room);
+    CHECK(n > 0, STATUS_BAD_INPUT, "%s.%s is required [%s]: %s", section, p->key, p->unit, p->doc);
+    for (int k = 0; k < 2 * n; k++) TRY(check_number(p, member[k], section));
+    return status_ok();
+}
+
 static status check_one(const param *p, const char *member, const char *section)
 {
     switch (p->kind) {
@@ -55,6 +73,7 @@ static status check_one(const param *p, const char *member, const char *section)
     case PARAM_VECTOR:
         for (int k = 0; k < 3; k++) TRY(check_number(p, ((const double *)(const void *)member)[k], section));
         return status_ok();
+    case PARAM_POINTS: return check_pairs(p, (const double *)(const void *)member, section);
     case PARAM_INTEGER: return check_number(p, *(const int *)(const void *)member, section);
     case PARAM_CHOICE: return check_choice(p, *(const int *)(const void *)member, section);
     case PARAM_FLAG: return status_ok();

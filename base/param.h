@@ -21,7 +21,8 @@ typedef enum {
     PARAM_FLAG,    /* bool: true/false, yes/no */
     PARAM_CHOICE,  /* int: index into `choices` */
     PARAM_TEXT,    /* char[PARAM_TEXT_SIZE] */
-    PARAM_VECTOR   /* double[3], in `unit`, written [a, b, c] */
+    PARAM_VECTOR,  /* double[3], in `unit`, written [a, b, c] */
+    PARAM_POINTS   /* double[2 * room], in `unit`, written [[a, b], [c, d], ...]; NAN in the places behind the last */
 } param_kind;
 
 #define REQUIRED INFINITY /* fallback of a number that must be given */
@@ -34,6 +35,7 @@ typedef struct {
     param_kind kind;
     const char *const *choices; /* PARAM_CHOICE: names, NULL at the end */
     const char *fallback_text;  /* PARAM_TEXT: default, NULL = required */
+    int room;                   /* PARAM_POINTS: pairs at most; at least one must be given */
 } param;
 
 /* A table ends with a row whose key is NULL. */
@@ -57,10 +59,17 @@ typedef struct {
 #define PARAM_VEC3(type, member, unit_, fallback_, min_, max_, doc_)                                               \
     { .key = #member, .unit = (unit_), .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_), \
       .min = (min_), .max = (max_), .kind = PARAM_VECTOR }
+#define PARAM_PAIRS(type, member, unit_, min_, max_, doc_)                                                         \
+    { .key = #member, .unit = (unit_), .doc = (doc_), .offset = offsetof(type, member), .fallback = REQUIRED,    \
+      .min = (min_), .max = (max_), .kind = PARAM_POINTS,                                                         \
+      .room = (int)(sizeof(((type *)0)->member) / (2 * sizeof(double))) }
 /* clang-format on */
 
 /* Fills every member of the table with its default; REQUIRED numbers become NAN, required texts "". */
 void base_params_default(const param *table, void *object);
+
+/* How many pairs a PARAM_POINTS member holds. */
+int base_param_pairs(const double *member, int room);
 
 /* Error STATUS_BAD_INPUT naming "<section>.<key>", value, unit and range for the first member that is out of range or
  * required and unset. */

@@ -48,7 +48,10 @@ static status check_scene(const mpm_scene *s)
           "particles_per_axis = %d: must be 1 .. 4", s->particles_per_axis);
     for (int i = 0; i < s->bodies; i++) {
         const mpm_body *b = &s->body[i];
-        CHECK(b->shape && b->material, STATUS_BAD_INPUT, "body `%s` lacks a shape or a material", b->name);
+        CHECK(b->material, STATUS_BAD_INPUT, "body `%s` lacks a material", b->name);
+        CHECK(b->solid >= 0 && b->solid < s->solids, STATUS_BAD_INPUT, "body `%s`: solid %d, the scene has %d", b->name,
+              b->solid, s->solids);
+        TRY(mpm_solid_check(&s->solid[b->solid], b->solid));
         CHECK(b->field >= 0 && b->field < MPM_MAX_FIELDS, STATUS_BAD_INPUT, "body `%s`: field %d must be 0 .. %d",
               b->name, b->field, MPM_MAX_FIELDS - 1);
     }

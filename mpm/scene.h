@@ -8,38 +8,18 @@
 
 #include "base/status.h"
 #include "mpm/material.h"
+#include "mpm/shape/solid.h"
 
 #include <stdbool.h>
 
-enum { MPM_MAX_BODIES = 8, MPM_MAX_FIELDS = 4, MPM_MAX_LEVELS = 3 };
-
-/* ---- shapes: one function table a shape, one line in shape.def ---- */
-
-typedef struct {
-    double value[12]; /* meaning by the shape's own enum; lengths in m, angles in rad */
-} shape_values;
-
-typedef struct shape_kind {
-    const char *name, *doc;
-    const char *const *value_names; /* NULL at the end */
-    double (*inside)(const shape_values *s,
-                     const double x[3]); /* > 0 inside, < 0 outside; a signed distance near the surface [m] */
-    void (*bounds)(const shape_values *s, double lo[3], double hi[3]); /* box that holds the shape [m] */
-} shape_kind;
-
-/* Shape by name, NULL if there is none.  mpm_shape_at(i) walks the table, NULL at its end. */
-const shape_kind *mpm_shape_find(const char *name);
-const shape_kind *mpm_shape_at(int i);
+enum { MPM_MAX_BODIES = 8, MPM_MAX_FIELDS = 4, MPM_MAX_LEVELS = 3, MPM_MAX_SOLIDS = 64 };
 
 /* ---- bodies ---- */
 
 typedef struct {
     char name[PARAM_TEXT_SIZE];
     const material *material;
-    const shape_kind *shape;
-    shape_values shape_value;
-    const shape_kind *cut; /* a hole: no point of the body lies in it; NULL: none */
-    shape_values cut_value;
+    int solid;            /* its volume: root of a tree in mpm_scene.solid */
     int field;            /* velocity field: bodies of one field are welded together, different fields touch by contact.
                                 When several bodies of one field claim a point, the later body gets it. */
     double velocity[3];   /* at the start [m/s] */
@@ -85,6 +65,8 @@ typedef enum { BASIS_GIMP, BASIS_BSPLINE } basis_kind; /* GIMP whose domains fol
 typedef struct {
     int bodies;
     mpm_body body[MPM_MAX_BODIES];
+    int solids;
+    mpm_solid solid[MPM_MAX_SOLIDS]; /* trees of all bodies' volumes (shape/solid.h) */
     mpm_axis axis[3];
     /* Of nested grids (grid.h).  1: the axes' grid.  More: in the box of the three fine zones cells of size `fine`;
      * outside it, for 2, cells twice as large from which the axes grow, for 3 four times, with cells of twice the size
@@ -111,5 +93,9 @@ typedef struct {
 
 /* All members at their defaults, no bodies. */
 void mpm_scene_default(mpm_scene *s);
+
+/* One more node behind the others: of a kind by name, its values at their defaults, made of the nodes a and b (-1:
+ * none).  *added is valid until the next is added; its place is s->solids - 1. */
+status mpm_scene_add_solid(mpm_scene *s, const char *kind, int a, int b, mpm_solid **added);
 
 #endif

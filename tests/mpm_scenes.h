@@ -6,7 +6,6 @@
 #define BREECH_TESTS_MPM_SCENES_H
 
 #include "mpm/mpm.h"
-#include "mpm/shape/shape.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -123,15 +122,29 @@ static inline mpm_axis scene_graded(mpm_axis a, double fine_lo, double fine_hi, 
     return a;
 }
 
+/* One more solid, with values in the order of its kind's table; made of those at a and b (-1: none).  Its place. */
+static inline int scene_solid(mpm_scene *s, const char *kind, const double *values, int n, int a, int b)
+{
+    mpm_solid *solid;
+    assert_ok(mpm_scene_add_solid(s, kind, a, b, &solid));
+    for (int i = 0; i < n; i++) solid->value[i] = values[i];
+    return s->solids - 1;
+}
+
+/* Values of the root of a body's solids. */
+static inline double *scene_values(mpm_scene *s, int body)
+{
+    return s->solid[s->body[body].solid].value;
+}
+
 static inline mpm_body *scene_body(mpm_scene *s, const char *shape, const double *values, int n, const material *m)
 {
+    const int solid = scene_solid(s, shape, values, n, -1, -1);
     mpm_body *b = &s->body[s->bodies++];
     memset(b, 0, sizeof *b);
     snprintf(b->name, sizeof b->name, "body%d", s->bodies - 1);
     b->material = m;
-    b->shape = mpm_shape_find(shape);
-    assert_non_null(b->shape);
-    for (int i = 0; i < n; i++) b->shape_value.value[i] = values[i];
+    b->solid = solid;
     b->temperature = 293;
     b->yield_scale = 1;
     return b;
@@ -159,6 +172,36 @@ static inline void scene_bar(mpm_scene *s, double x0, double x1, double h, int c
     s->axis[2] = s->axis[1];
 }
 
+/* Half a U along x on the plane y = 0 (a leg, a head before it), lead face in front: a prism along z about z = 0. */
+typedef struct {
+    double front, length, leg, head, top, chamfer, lead, half_width;
+} scene_u;
+
+static inline mpm_body *scene_slider(mpm_scene *s, const scene_u *u, const material *m)
+{
+    const double nose = u->front + u->chamfer / tan(u->lead), back = nose - u->length, inner = nose - u->head;
+    const double v[] = { -u->half_width,
+                         u->half_width,
+                         0,
+                         0,
+                         1, /* along z */
+                         back,
+                         0,
+                         u->front,
+                         0,
+                         nose,
+                         u->chamfer,
+                         nose,
+                         u->top,
+                         inner,
+                         u->top,
+                         inner,
+                         u->leg,
+                         back,
+                         u->leg };
+    return scene_body(s, "prism", v, sizeof v / sizeof v[0], m);
+}
+
 /* A small gouge: a rail, a hemispherical grain welded to it, and a slab with a lead face that runs over it. */
 typedef struct {
     material copper, aluminium;
@@ -180,8 +223,8 @@ static inline void scene_gouge(gouge_scene *g, double h, double speed)
     mpm_body *rail = scene_box(s, -8e-3, -2e-3, -1, 8e-3, 0, 1, &g->copper);
     const double grain[] = { 0, 0, 0, 0.5e-3, 0.5e-3 };
     mpm_body *particle = scene_body(s, "hemisphere", grain, 5, &g->copper);
-    const double u[] = { -1e-3, 6e-3, 1.5e-3, 2e-3, 2.5e-3, 1e-3, SCENE_PI / 6, 2e-3, 0 };
-    mpm_body *armature = scene_body(s, "armature", u, 9, &g->aluminium);
+    const scene_u u = { -1e-3, 6e-3, 1.5e-3, 2e-3, 2.5e-3, 1e-3, SCENE_PI / 6, 2e-3 };
+    mpm_body *armature = scene_slider(s, &u, &g->aluminium);
     armature->field = 1;
     armature->velocity[0] = speed;
     rail->damage = particle->damage = armature->damage = true;

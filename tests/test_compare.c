@@ -2,7 +2,6 @@
 #include "coupling/case/treatment.h"
 #include "coupling/gouge/growth.h"
 #include "coupling/study/commands.h"
-#include "mpm/shape/shape.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -29,7 +28,9 @@ static double made_up_threshold(const gouge_job *job)
     const gouge_scene *s = &job->scene;
     const mpm_body *rail = &s->scene.body[s->rail], *armature = &s->scene.body[s->armature];
     double v = 1400.0 + 100.0 * (rail->yield_scale - 1.5) - 0.5 * (rail->temperature - 293.0);
-    v += 10.0 * (armature->shape_value.value[ARMATURE_LEAD_ANGLE] * 180.0 / 3.14159265358979 - 30.0);
+    /* corners 1 and 2 of the prism: the lead face's ends */
+    const double *face = mpm_solid_get(&s->scene.solid[armature->solid], "corners") + 2;
+    v += 10.0 * (atan2(face[3] - face[1], face[2] - face[0]) * 180.0 / 3.14159265358979 - 30.0);
     for (int b = 0; b < s->scene.bodies; b++) {
         const mpm_body *layer = &s->scene.body[b];
         if (gouge_is_layer(s, b))

@@ -162,7 +162,7 @@ static void test_refusals(void **state)
         case 2: other.scene.contact[0][1].friction = 0.21; break;
         case 3: other.scene.courant = 0.39; break;
         case 4: other.scene.axis[2].hi += 1e-6; break;
-        case 5: other.scene.body[1].shape_value.value[HEMISPHERE_RADIUS] *= 1.001; break;
+        case 5: scene_values(&other.scene, 1)[3] *= 1.001; break;
         case 6: other.scene.axis[0].boundary[1] = BOUNDARY_FREE; break;
         default: break;
         }

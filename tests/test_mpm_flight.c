@@ -136,7 +136,8 @@ static void test_splitting(void **state)
     mpm_body *second = &s.body[1];
     *second = s.body[0];
     s.bodies = 2;
-    second->shape_value.value[BOX_LO] = 5.8e-3;
+    s.solid[1] = s.solid[0], s.solids = 2, second->solid = 1;
+    scene_values(&s, 1)[0] = 5.8e-3;
     s.body[0].velocity[0] = 3000;
     second->velocity[0] = 3000, second->velocity[1] = -200;
     mpm *solver = scene_make(&s, 1);

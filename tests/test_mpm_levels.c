@@ -123,7 +123,7 @@ static void test_linear(void **state)
         mpm_scene s;
         cube(&s, &copper, levels);
         s.viscosity_linear = s.viscosity_quadratic = 0; /* else there is stress at once */
-        for (int i = 0; i < 3; i++) s.body[0].shape_value.value[i] = 1e-3, s.body[0].shape_value.value[3 + i] = 19e-3;
+        for (int i = 0; i < 3; i++) scene_values(&s, 0)[i] = 1e-3, scene_values(&s, 0)[3 + i] = 19e-3;
         mpm *m = scene_make(&s, 2);
         double L[9], at_level[MPM_MAX_LEVELS] = { 0 };
         srand(4);
@@ -177,7 +177,7 @@ static void test_paces(void **state)
     for (int levels = 1; levels <= MPM_MAX_LEVELS; levels++) {
         mpm_scene s;
         cube(&s, &copper, levels);
-        for (int i = 0; i < 3; i++) s.body[0].shape_value.value[i] = 1e-3, s.body[0].shape_value.value[3 + i] = 19e-3;
+        for (int i = 0; i < 3; i++) scene_values(&s, 0)[i] = 1e-3, scene_values(&s, 0)[3 + i] = 19e-3;
         mpm *m = scene_make(&s, 2);
         uint64_t want = 0;
         for (int i = 0; i < m->bricks_used; i++)
@@ -248,7 +248,7 @@ static void test_ends(void **state)
                 s.axis[k] = scene_graded(s.axis[k], k == 1 ? 0 : 16e-3, k == 1 ? 4e-3 : 20e-3, 4e-3, 2);
             s.axis[1].boundary[0] = s.axis[2].boundary[1] = ends[i].kind;
             s.axis[1].boundary_fields[0] = s.axis[2].boundary_fields[1] = ends[i].fields;
-            double *box = s.body[0].shape_value.value;
+            double *box = scene_values(&s, 0);
             box[1] = 0, box[4] = 3e-3, box[2] = 15e-3, box[5] = 20e-3;
             s.body[0].velocity[0] = 900, s.body[0].velocity[1] = -100, s.body[0].velocity[2] = 100;
             mpm *m = scene_make(&s, 2);
@@ -276,7 +276,7 @@ static void gouge(gouge_scene *g, int levels)
     s->axis[0] = scene_graded(s->axis[0], -1e-3, 2e-3, 1.5e-3, 1.5);
     s->axis[1] = scene_graded(s->axis[1], -1e-3, 1e-3, 1e-3, 1.5);
     s->axis[2] = scene_graded(scene_axis(0, 6e-3, 0.25e-3, BOUNDARY_SYMMETRY, BOUNDARY_FREE), 0, 1e-3, 1e-3, 1.5);
-    s->body[0].shape_value.value[3] = 40e-3; /* the rail goes on */
+    scene_values(s, 0)[3] = 40e-3; /* the rail goes on */
     s->follow_bodies = 1;
     s->follow_lead = 1.25e-3, s->follow_speed = 1500, s->follow_width = 1.5e-3;
 }
@@ -368,7 +368,7 @@ static void test_contact_sums(void **state)
         mpm_scene s;
         cube(&s, &copper, levels);
         const double low[6] = { 1e-3, 1e-3, 1e-3, 39e-3, y, 19e-3 }, high[6] = { 1e-3, y, 1e-3, 39e-3, 19e-3, 19e-3 };
-        memcpy(s.body[0].shape_value.value, low, sizeof low);
+        memcpy(scene_values(&s, 0), low, sizeof low);
         scene_box(&s, high[0], high[1], high[2], high[3], high[4], high[5], &copper)->field = 1;
         mpm *m = scene_make(&s, 2);
         m->dt = 1e-15; /* so that nothing moves */

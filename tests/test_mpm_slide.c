@@ -30,8 +30,8 @@ static void slide_scene(mpm_scene *s, const material *copper, const material *al
         s->axis[2] = scene_graded(s->axis[2], 0, 4 * H, 4 * H, 2);
     }
     scene_box(s, x0, -3e-3, -1, x1, 0, 1, copper)->damage = true;
-    const double u[] = { -0.5e-3, LENGTH, 2e-3, 4e-3, HALF_BORE, CHAMFER, LEAD, HALF_WIDTH, 0 };
-    mpm_body *b = scene_body(s, "armature", u, 9, aluminium);
+    const scene_u u = { -0.5e-3, LENGTH, 2e-3, 4e-3, HALF_BORE, CHAMFER, LEAD, HALF_WIDTH };
+    mpm_body *b = scene_slider(s, &u, aluminium);
     b->field = 1;
     b->damage = true;
     b->velocity[0] = speed;

@@ -10,7 +10,7 @@ static const double H = 0.25e-3, SPEED = 1500, TIME = 4e-6;
 static void followed(gouge_scene *g)
 {
     scene_gouge(g, H, SPEED);
-    g->scene.body[0].shape_value.value[3] = 40e-3; /* the rail goes on */
+    scene_values(&g->scene, 0)[3] = 40e-3; /* the rail goes on */
     g->scene.axis[0] = scene_graded(g->scene.axis[0], -1e-3, 1.5e-3, 3 * H, 1.25);
     g->scene.follow_bodies = 1;
     g->scene.follow_lead = 1.25e-3;

@@ -118,7 +118,9 @@ static void test_key_is_a_case(void **state)
     assert_int_equal(a.bodies, b.bodies);
     for (int i = 0; i < a.bodies; i++) {
         assert_string_equal(a.body[i].name, b.body[i].name);
-        assert_memory_equal(&a.body[i].shape_value, &b.body[i].shape_value, sizeof a.body[i].shape_value);
+        const mpm_solid *solid_a = &a.solid[a.body[i].solid], *solid_b = &b.solid[b.body[i].solid];
+        assert_ptr_equal(solid_a->kind, solid_b->kind);
+        assert_memory_equal(solid_a->value, solid_b->value, sizeof solid_a->value);
         assert_true(a.body[i].body_force[1] == b.body[i].body_force[1]);
         assert_true(a.body[i].temperature == b.body[i].temperature);
     }

@@ -194,24 +194,26 @@ static void check_materials(case_reader *r)
 
 /* ---- shapes ---- */
 
-/* Shapes of the scene solver that are no grains. */
-static bool is_grain(const char *shape)
+/* A grain's shape stands about its middle and is known by its radius. */
+static bool is_grain(const mpm_solid_kind *kind)
 {
-    return strcmp(shape, "armature") != 0 && strcmp(shape, "box") != 0;
+    const mpm_solid s = mpm_solid_make(kind);
+    return mpm_solid_get(&s, "center") && mpm_solid_get(&s, "radius");
 }
 
 static const char *grain_name(const void *user, int i)
 {
     (void)user;
-    for (int k = 0; mpm_shape_at(k); k++)
-        if (is_grain(mpm_shape_at(k)->name) && i-- == 0) return mpm_shape_at(k)->name;
+    for (int k = 0; mpm_solid_kind_at(k); k++)
+        if (is_grain(mpm_solid_kind_at(k)) && i-- == 0) return mpm_solid_kind_at(k)->name;
     return NULL;
 }
 
 static void check_shape(case_reader *r, const tree_node *map, const char *shape, const char *path)
 {
     const tree_node *node = host_tree_find(map, "shape");
-    if (!node || shape[0] == '\0' || (mpm_shape_find(shape) && is_grain(shape))) return;
+    const mpm_solid_kind *kind = mpm_solid_kind_find(shape);
+    if (!node || shape[0] == '\0' || (kind && is_grain(kind))) return;
     const char *near = host_nearest_name(shape, grain_name, NULL);
     char known[200] = "";
     for (int k = 0; grain_name(NULL, k); k++) {

@@ -154,10 +154,34 @@ static void read_vector(case_reader *r, const param *p, const tree_node *node, d
     }
 }
 
+static void read_points(case_reader *r, const param *p, const tree_node *node, double *member, const char *path)
+{
+    char entry[CASE_KEY_SIZE];
+    if (node->kind != TREE_LIST || node->n < 1 || node->n > p->room) {
+        case_errors_add(r->errors, node, "%s: must be a list of 1 .. %d pairs, [[a, b], ...], in %s", path, p->room,
+                        p->unit);
+        return;
+    }
+    for (int i = 0; i < node->n; i++) {
+        const tree_node *pair = node->item[i];
+        snprintf(entry, sizeof entry, "%s[%d]", path, i);
+        if (pair->kind != TREE_LIST || pair->n != 2 || pair->item[0]->kind != TREE_TEXT ||
+            pair->item[1]->kind != TREE_TEXT) {
+            case_errors_add(r->errors, pair, "%s: must be two values, [a, b], in %s", entry, p->unit);
+            continue;
+        }
+        for (int k = 0; k < 2; k++) read_number(r, p, pair->item[k], &member[2 * i + k], entry);
+    }
+}
+
 void case_value_read(case_reader *r, const param *p, const tree_node *node, void *member, const char *path)
 {
     if (p->kind == PARAM_VECTOR) {
         read_vector(r, p, node, member, path);
+        return;
+    }
+    if (p->kind == PARAM_POINTS) {
+        read_points(r, p, node, member, path);
         return;
     }
     if (node->kind != TREE_TEXT) {
@@ -175,7 +199,8 @@ void case_value_read(case_reader *r, const param *p, const tree_node *node, void
     case PARAM_FLAG: read_flag(r, node, member, path); break;
     case PARAM_CHOICE: read_choice(r, p, node, member, path); break;
     case PARAM_TEXT: read_text(r, p, node, member, path); break;
-    case PARAM_VECTOR: break;
+    case PARAM_VECTOR:
+    case PARAM_POINTS: break;
     }
 }
 

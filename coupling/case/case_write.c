@@ -49,10 +49,22 @@ static void write_vector(FILE *file, const param *p, const double *v)
     fputc(']', file);
 }
 
+static void write_points(FILE *file, const param *p, const double *v)
+{
+    for (int i = 0; i < base_param_pairs(v, p->room); i++) {
+        fputs(i == 0 ? "[[" : ", [", file);
+        write_number(file, p, v[2 * i]);
+        fputs(", ", file);
+        write_number(file, p, v[2 * i + 1]);
+        fputc(']', file);
+    }
+    fputc(']', file);
+}
+
 /* Left out: a text that is empty, and a number that is required but has no value (there is no `none` for it). */
 static bool is_unset(const param *p, const void *member)
 {
-    const bool number = p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR;
+    const bool number = p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR || p->kind == PARAM_POINTS;
     if (number) return isinf(p->fallback) && isnan(*(const double *)member);
     if (p->kind == PARAM_TEXT) return *(const char *)member == '\0';
     return false;
@@ -67,6 +79,7 @@ static void write_value(FILE *file, const param *p, const void *member)
     case PARAM_CHOICE: fputs(p->choices[*(const int *)member], file); break;
     case PARAM_TEXT: write_quoted(file, member); break;
     case PARAM_VECTOR: write_vector(file, p, member); break;
+    case PARAM_POINTS: write_points(file, p, member); break;
     }
 }
 
@@ -156,8 +169,12 @@ static void print_range(FILE *file, const param *p)
     case PARAM_NUMBER:
     case PARAM_INTEGER:
     case PARAM_VECTOR:
+    case PARAM_POINTS:
         host_quantity_limits(NULL, p->min, p->max, p->unit, "", limits);
-        fprintf(file, "%s%s", limits, p->kind == PARAM_VECTOR ? ", three of them" : "");
+        fprintf(file, "%s%s", limits,
+                p->kind == PARAM_VECTOR   ? ", three of them"
+                : p->kind == PARAM_POINTS ? ", in pairs"
+                                          : "");
         break;
     }
 }
@@ -177,7 +194,7 @@ static void print_section(FILE *file, const case_section *section, const char *p
         fprintf(file, "\n## `%s%s%s`\n\n%s\n", parent, parent[0] ? "." : "", section->key, section->doc);
     fputs("\n| key | unit | default | range | meaning |\n|---|---|---|---|---|\n", file);
     for (const param *p = section->table; p->key; p++) {
-        const bool number = p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR;
+        const bool number = p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR || p->kind == PARAM_POINTS;
         fprintf(file, "| `%s` | %s | ", p->key, number && !is_pure(p) ? p->unit : "");
         print_default(file, p);
         fputs(" | ", file);

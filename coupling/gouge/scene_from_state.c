@@ -1,8 +1,9 @@
 #include "coupling/gouge/scene_from_state.h"
 
+#include "coupling/gouge/armature.h"
 #include "coupling/gouge/growth.h"
 #include "mpm/grid/grid.h"
-#include "mpm/shape/shape.h"
+#include "mpm/shape/solid.h"
 
 #include <math.h>
 #include <string.h>
@@ -85,10 +86,10 @@ static double top_of_zone(const breech_case *c, const case_site *g)
 /* Half of the grain's extent across the rail. */
 static double half_across(const case_site *g)
 {
-    const shape_kind *k = mpm_shape_find(g->shape);
-    for (int i = 0; k && k->value_names[i]; i++)
-        if (strcmp(k->value_names[i], "half_length") == 0) return RIDGE_LENGTH * g->radius;
-    return g->radius;
+    const mpm_solid_kind *k = mpm_solid_kind_find(g->shape);
+    if (!k) return g->radius;
+    const mpm_solid s = mpm_solid_make(k);
+    return mpm_solid_get(&s, "half_length") ? RIDGE_LENGTH * g->radius : g->radius;
 }
 
 static layout lay_out(const breech_case *c, const case_site *g, double cells_per_radius)
@@ -162,18 +163,20 @@ static mpm_body *add_body(mpm_scene *s, const char *name, const material *m, int
     b->material = m;
     b->field = field;
     b->yield_scale = 1.0;
+    b->solid = -1;
     return b;
 }
 
-static void make_box(mpm_body *b, const layout *l, double bottom, double top)
+static status make_box(mpm_scene *s, mpm_body *b, const layout *l, double bottom, double top)
 {
     const double lo[3] = { -l->behind, bottom, -l->rail_half_width },
                  hi[3] = { l->ahead + l->travel, top, l->rail_half_width };
-    b->shape = mpm_shape_find("box");
-    for (int k = 0; k < 3; k++) {
-        b->shape_value.value[BOX_LO + k] = lo[k];
-        b->shape_value.value[BOX_HI + k] = hi[k];
-    }
+    mpm_solid *box;
+    TRY(mpm_scene_add_solid(s, "box", -1, -1, &box));
+    memcpy(mpm_solid_value(box, "lo"), lo, sizeof lo);
+    memcpy(mpm_solid_value(box, "hi"), hi, sizeof hi);
+    b->solid = s->solids - 1;
+    return status_ok();
 }
 
 /* Bonded to the field below, or welded into it.  Returns the field. */
@@ -186,13 +189,13 @@ static int next_field(mpm_scene *s, int below, double bond_strength)
     return field;
 }
 
-static int add_rail(const breech_case *c, const layout *l, gouge_scene *g)
+static status add_rail(const breech_case *c, const layout *l, gouge_scene *g, int *top)
 {
     mpm_scene *s = &g->scene;
     g->rail = s->bodies;
     g->layers = c->rail.layers.n;
     mpm_body *rail = add_body(s, "rail", case_material(c, c->rail.material), 0);
-    make_box(rail, l, -c->scene.rail_depth, -l->layers);
+    TRY(make_box(s, rail, l, -c->scene.rail_depth, -l->layers));
     rail->yield_scale = c->rail.yield_scale;
     double bottom = -l->layers;
     int field = 0;
@@ -203,21 +206,12 @@ static int add_rail(const breech_case *c, const layout *l, gouge_scene *g)
         field = next_field(s, field, layer->bond_strength);
         mpm_body *b = add_body(s, name, case_material(c, layer->material), field);
         const bool last = i == c->rail.layers.n - 1;
-        make_box(b, l, bottom, last ? 0.0 : bottom + layer->thickness);
+        TRY(make_box(s, b, l, bottom, last ? 0.0 : bottom + layer->thickness));
         b->yield_scale = layer->yield_scale;
         bottom += layer->thickness;
     }
-    return field;
-}
-
-static double grain_value(const case_site *g, const char *name)
-{
-    if (strcmp(name, "radius") == 0) return g->radius;
-    if (strcmp(name, "height") == 0) return g->height;
-    if (strcmp(name, "half_length") == 0) return RIDGE_LENGTH * g->radius;
-    if (strcmp(name, "y") == 0 && strcmp(g->shape, "sphere") == 0)
-        return g->height - g->radius; /* the rest of it lies in the rail */
-    return 0.0;                       /* x, y, z */
+    *top = field;
+    return status_ok();
 }
 
 static bool is_pit(const case_site *g)
@@ -225,68 +219,69 @@ static bool is_pit(const case_site *g)
     return strcmp(g->shape, "pit") == 0;
 }
 
-static void shape_grain(const case_site *g, const shape_kind **shape, shape_values *value)
+/* Those values of a grain's shape that it has; its middle stays at 0. */
+static void set_grain(const case_site *g, mpm_solid *solid)
 {
-    *shape = mpm_shape_find(g->shape);
-    for (int i = 0; *shape && (*shape)->value_names[i]; i++) value->value[i] = grain_value(g, (*shape)->value_names[i]);
-}
-
-static double grain_end(const case_site *g)
-{
-    const shape_kind *shape;
-    shape_values value;
-    double lo[3], hi[3];
-    memset(&value, 0, sizeof value);
-    shape_grain(g, &shape, &value);
-    if (!shape) return NAN; /* add_bodies complains */
-    shape->bounds(&value, lo, hi);
-    return hi[0];
+    const struct {
+        const char *name;
+        double value;
+    } all[] = { { "radius", g->radius }, { "height", g->height }, { "half_length", RIDGE_LENGTH * g->radius } };
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        double *value = mpm_solid_value(solid, all[i].name);
+        if (value) *value = all[i].value;
+    }
+    if (strcmp(g->shape, "sphere") == 0) /* the rest of it lies in the rail */
+        mpm_solid_value(solid, "center")[1] = g->height - g->radius;
 }
 
 /* A pit is a hole in rail and layers, no body. */
-static int add_grain(const breech_case *c, const case_site *g, int below, gouge_scene *out)
+static status add_grain(const breech_case *c, const case_site *g, int below, gouge_scene *out, int *top)
 {
     mpm_scene *s = &out->scene;
+    mpm_solid *solid;
+    double lo[3], hi[3];
+    TRY(mpm_scene_add_solid(s, g->shape, -1, -1, &solid));
+    set_grain(g, solid);
+    mpm_solid_bounds(solid, lo, hi);
+    const int place = s->solids - 1;
     out->grain = is_pit(g) ? GOUGE_PIT : s->bodies;
-    out->grain_end = grain_end(g);
-    if (is_pit(g)) {
-        for (int i = 0; i < s->bodies; i++) shape_grain(g, &s->body[i].cut, &s->body[i].cut_value);
-        return below;
+    out->grain_end = hi[0];
+    *top = is_pit(g) ? below : next_field(s, below, g->bond_strength);
+    if (!is_pit(g)) add_body(s, "particle", case_material(c, g->material), *top)->solid = place;
+    for (int i = 0; is_pit(g) && i < s->bodies; i++) {
+        TRY(mpm_scene_add_solid(s, "minus", s->body[i].solid, place, &solid));
+        s->body[i].solid = s->solids - 1;
     }
-    const int field = next_field(s, below, g->bond_strength);
-    mpm_body *b = add_body(s, "particle", case_material(c, g->material), field);
-    shape_grain(g, &b->shape, &b->shape_value);
-    return field;
+    return status_ok();
 }
 
-/* Mass of the armature's half U, mpm/shape/shape_armature.c [kg]. */
-static double armature_mass(const case_projectile *p, const material *m)
-{
-    const double section = p->length * p->leg_thickness + p->head_thickness * (p->half_bore - p->leg_thickness) -
-                           0.5 * p->chamfer_height * p->chamfer_height / tan(p->lead_angle);
-    return m->density * section * p->width;
-}
-
-static void add_armature(const breech_case *c, const site_state *state, const layout *l, int field, gouge_scene *g)
+static status add_armature(const breech_case *c, const site_state *state, const layout *l, int field, gouge_scene *g)
 {
     const case_projectile *p = &c->projectile;
-    g->armature = g->scene.bodies;
-    mpm_body *b = add_body(&g->scene, "armature", case_material(c, p->material), field);
-    double *v = b->shape_value.value;
-    b->shape = mpm_shape_find("armature");
-    v[ARMATURE_X_FRONT] = l->x_front;
-    v[ARMATURE_LENGTH] = p->length;
-    v[ARMATURE_LEG_THICKNESS] = p->leg_thickness;
-    v[ARMATURE_HEAD_THICKNESS] = p->head_thickness;
-    v[ARMATURE_HALF_BORE] = p->half_bore;
-    v[ARMATURE_CHAMFER_HEIGHT] = p->chamfer_height;
-    v[ARMATURE_LEAD_ANGLE] = p->lead_angle;
-    v[ARMATURE_HALF_WIDTH] = 0.5 * p->width;
+    mpm_scene *s = &g->scene;
+    g->armature = s->bodies;
+    mpm_body *b = add_body(s, "armature", case_material(c, p->material), field);
+    const gouge_armature shape = { .front = l->x_front,
+                                   .length = p->length,
+                                   .leg_thickness = p->leg_thickness,
+                                   .head_thickness = p->head_thickness,
+                                   .half_bore = p->half_bore,
+                                   .chamfer_height = p->chamfer_height,
+                                   .lead_angle = p->lead_angle,
+                                   .half_width = 0.5 * p->width };
+    CHECK(b->material, STATUS_BAD_INPUT, "scene: body `%s` has no material", b->name);
+    mpm_solid *prism;
+    TRY(gouge_armature_check(&shape));
+    TRY(mpm_scene_add_solid(s, "prism", -1, -1, &prism));
+    gouge_armature_fill(&shape, prism);
+    b->solid = s->solids - 1;
+    const double mass = b->material->density * gouge_armature_section(&shape) * p->width;
     b->velocity[0] = state->velocity;
-    b->body_force[1] = -state->contact_pressure * gouge_face_area(p) / armature_mass(p, b->material);
+    b->body_force[1] = -state->contact_pressure * gouge_face_area(p) / mass;
     g->velocity = state->velocity;
     g->face_front = l->x_front;
     g->face_tail = l->x_front + l->run - p->length;
+    return status_ok();
 }
 
 static status add_bodies(const breech_case *c, const site_state *state, const layout *l, gouge_scene *g)
@@ -295,16 +290,17 @@ static status add_bodies(const breech_case *c, const site_state *state, const la
     const int wanted = c->rail.layers.n + 3;
     CHECK(wanted <= MPM_MAX_BODIES, STATUS_BAD_INPUT, "rail.layers: %d layers, a scene takes at most %d",
           c->rail.layers.n, MPM_MAX_BODIES - 3);
-    const int top = add_rail(c, l, g);
-    const int grain = add_grain(c, &state->grain, top, g);
+    int top, grain;
+    TRY(add_rail(c, l, g, &top));
+    TRY(add_grain(c, &state->grain, top, g, &grain));
     CHECK(grain + 1 < MPM_MAX_FIELDS, STATUS_BAD_INPUT,
           "rail.layers, particle: %d bonds that can break, a scene takes at most %d; weld some (bond_strength: none)",
           grain, MPM_MAX_FIELDS - 2);
-    add_armature(c, state, l, grain + 1, g);
+    TRY(add_armature(c, state, l, grain + 1, g));
     for (int i = 0; i < s->bodies; i++) {
         mpm_body *b = &s->body[i];
-        CHECK(b->shape && b->material, STATUS_BAD_INPUT, "scene: body `%s` has no shape or no material", b->name);
-        TRY(mpm_shape_check(b->shape, &b->shape_value));
+        CHECK(b->material, STATUS_BAD_INPUT, "scene: body `%s` has no material", b->name);
+        TRY(mpm_solid_check(&s->solid[b->solid], b->solid));
         b->temperature = i == g->armature ? c->projectile.temperature : c->rail.temperature;
         b->damage = c->scene.damage;
     }
@@ -427,13 +423,11 @@ static status reaches_gauge(const gouge_scene *g)
 static void measure_grain(const case_site *g, double *area, double *volume)
 {
     enum { N_PLAN = 128, N_UP = 48 };
-    const shape_kind *shape;
-    shape_values value;
+    mpm_solid shape = mpm_solid_make(mpm_solid_kind_find(g->shape));
     double lo[3], hi[3], h[3];
     int columns = 0, cells = 0;
-    memset(&value, 0, sizeof value);
-    shape_grain(g, &shape, &value);
-    shape->bounds(&value, lo, hi);
+    set_grain(g, &shape);
+    mpm_solid_bounds(&shape, lo, hi);
     if (!is_pit(g)) lo[1] = fmax(lo[1], 0.0);
     for (int k = 0; k < 3; k++) h[k] = (hi[k] - lo[k]) / (k == 1 ? N_UP : N_PLAN);
     for (int ix = 0; ix < N_PLAN; ix++)
@@ -442,10 +436,10 @@ static void measure_grain(const case_site *g, double *area, double *volume)
             int within = 0;
             for (int iy = 0; iy < N_UP; iy++) {
                 const double x[3] = { foot[0], lo[1] + (iy + 0.5) * h[1], foot[2] };
-                within += shape->inside(&value, x) > 0.0;
+                within += mpm_solid_inside(&shape, x) > 0.0;
             }
             cells += within;
-            columns += within > 0 || shape->inside(&value, foot) > 0.0;
+            columns += within > 0 || mpm_solid_inside(&shape, foot) > 0.0;
         }
     *area = columns * h[0] * h[2];
     *volume = cells * h[0] * h[1] * h[2];

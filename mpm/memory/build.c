@@ -35,17 +35,16 @@ static status ladder_make(const axis *a, double lo, double hi, int per_cell, lad
     return status_ok();
 }
 
-/* Signed distance to the surface of what is the body's own: its shape, less its cut, less what later bodies claim. */
-static double depth_in(const mpm_body *b, const double x[3])
+static double depth_in(const mpm_scene *s, int body, const double x[3])
 {
-    const double in = b->shape->inside(&b->shape_value, x);
-    return b->cut ? fmin(in, -b->cut->inside(&b->cut_value, x)) : in;
+    return mpm_solid_inside(&s->solid[s->body[body].solid], x);
 }
 
+/* Signed distance to the surface of what is the body's own: its volume less what later bodies claim. */
 static double depth(const mpm_scene *s, int body, const double x[3])
 {
-    double d = depth_in(&s->body[body], x);
-    for (int i = body + 1; i < s->bodies; i++) d = fmin(d, -depth_in(&s->body[i], x));
+    double d = depth_in(s, body, x);
+    for (int i = body + 1; i < s->bodies; i++) d = fmin(d, -depth_in(s, i, x));
     return d;
 }
 
@@ -85,19 +84,21 @@ static void cut(const mpm_scene *s, int body, piece *p)
 }
 
 /* Does the face of the body that the traction acts on lie between this place of the lattice and the next? */
-static double loaded_area(const mpm_body *b, const double x[3], const double size[3])
+static double loaded_area(const mpm_scene *s, int body, const double x[3], const double size[3])
 {
+    const mpm_body *b = &s->body[body];
     if (b->traction[0] == 0 && b->traction[1] == 0 && b->traction[2] == 0) return 0;
     const int k = b->traction_face / 2;
     double next[3] = { x[0], x[1], x[2] };
     next[k] += b->traction_face % 2 ? size[k] : -size[k];
-    return depth_in(b, x) <= 0 || depth_in(b, next) > 0 ? 0 : size[(k + 1) % 3] * size[(k + 2) % 3];
+    return depth_in(s, body, x) <= 0 || depth_in(s, body, next) > 0 ? 0 : size[(k + 1) % 3] * size[(k + 2) % 3];
 }
 
-static build_point point_of(const mpm_body *b, const law *k, const piece *box, const piece *own)
+static build_point point_of(const mpm_scene *s, int body, const law *k, const piece *box, const piece *own)
 {
+    const mpm_body *b = &s->body[body];
     build_point p = { .mass = k->rho_start * own->share * box->size[0] * box->size[1] * box->size[2],
-                      .area = loaded_area(b, box->x, box->size) };
+                      .area = loaded_area(s, body, box->x, box->size) };
     for (int q = 0; q < 3; q++) {
         p.x[q] = own->x[q];
         p.half[q] = 0.5 * own->size[q];
@@ -122,7 +123,7 @@ static status one_box(const mpm_scene *s, int body, const law *k, const grids *g
         piece own = box;
         cut(s, body, &own);
         if (own.share < SLIVER) continue;
-        const build_point p = point_of(&s->body[body], k, &box, &own);
+        const build_point p = point_of(s, body, k, &box, &own);
         TRY(sink->point(sink->user, body, &p));
     }
     return status_ok();
@@ -153,7 +154,7 @@ status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g
     const mpm_body *b = &s->body[body];
     const axis *axes = grids_window(g)->axes;
     double lo[3], hi[3];
-    b->shape->bounds(&b->shape_value, lo, hi);
+    mpm_solid_bounds(&s->solid[b->solid], lo, hi);
     lo[0] = fmax(lo[0], x[0]), hi[0] = fmin(hi[0], x[1]);
     ladder l[3] = { { 0 } };
     status r = status_ok();

@@ -36,12 +36,19 @@ static uint64_t hash(uint64_t h, const void *data, size_t bytes) /* FNV-1a */
     return h;
 }
 
+/* Of the whole tree under a node. */
+static uint64_t hash_solid(uint64_t h, const mpm_solid *s)
+{
+    h = hash(h, s->kind->name, strlen(s->kind->name));
+    h = hash(h, s->value, sizeof s->value);
+    for (int i = 0; i < s->kind->parts; i++) h = hash_solid(h, mpm_solid_part(s, i));
+    return h;
+}
+
 static uint64_t hash_body(uint64_t h, const mpm_body *b, const material *m)
 {
     h = hash(h, &m->strength, sizeof m->strength);
     h = hash(h, &m->density, sizeof *m - offsetof(material, density));
-    h = hash(h, b->shape->name, strlen(b->shape->name));
-    h = hash(h, &b->shape_value, sizeof b->shape_value);
     h = hash(h, b->velocity, sizeof b->velocity);
     h = hash(h, b->body_force, sizeof b->body_force);
     h = hash(h, b->traction, sizeof b->traction);
@@ -61,7 +68,10 @@ uint64_t mpm_scene_key(const mpm *m)
 {
     const mpm_scene *s = &m->scene;
     uint64_t h = 14695981039346656037ull;
-    for (int i = 0; i < s->bodies; i++) h = hash_body(h, &s->body[i], &m->materials[i]);
+    for (int i = 0; i < s->bodies; i++) {
+        h = hash_body(h, &s->body[i], &m->materials[i]);
+        h = hash_solid(h, &s->solid[s->body[i].solid]);
+    }
     for (int i = 0; i < m->grids.levels; i++)
         for (int k = 0; k < 3; k++) h = hash_axis(h, &s->axis[k], &m->grids.level[i].axes[k]);
     for (int a = 0; a < m->fields; a++)

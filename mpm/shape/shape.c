@@ -1,50 +1,5 @@
 #include "mpm/shape/shape.h"
 
-#include <math.h>
-#include <string.h>
-
-typedef struct {
-    const shape_kind *kind;
-    status (*check)(const shape_values *s);
-} shape_entry;
-
-static const shape_entry shape_table[] = {
-#define SHAPE(name) { &mpm_shape_##name, mpm_shape_##name##_check },
-#include "mpm/shape/shape.def"
-#undef SHAPE
-};
-
-enum { SHAPES = sizeof shape_table / sizeof shape_table[0] };
-
-const shape_kind *mpm_shape_at(int i)
-{
-    return i >= 0 && i < (int)SHAPES ? shape_table[i].kind : NULL;
-}
-
-const shape_kind *mpm_shape_find(const char *name)
-{
-    for (int i = 0; i < (int)SHAPES; i++)
-        if (strcmp(shape_table[i].kind->name, name) == 0) return shape_table[i].kind;
-    return NULL;
-}
-
-status mpm_shape_check(const shape_kind *kind, const shape_values *values)
-{
-    for (int i = 0; kind->value_names[i]; i++)
-        CHECK(isfinite(values->value[i]), STATUS_BAD_INPUT, "%s.%s is not a finite number", kind->name,
-              kind->value_names[i]);
-    for (int i = 0; i < (int)SHAPES; i++)
-        if (shape_table[i].kind == kind) return shape_table[i].check(values);
-    return status_ok();
-}
-
-status mpm_shape_positive(const shape_kind *kind, const shape_values *s, int i)
-{
-    CHECK(s->value[i] > 0.0, STATUS_BAD_INPUT, "%s.%s = %g: must be positive", kind->name, kind->value_names[i],
-          s->value[i]);
-    return status_ok();
-}
-
 /* Distance to the nearest edge; inside by the parity of the edges that a ray towards +x crosses. */
 double mpm_shape_polygon(int n, const double *corner, double x, double y)
 {
@@ -64,7 +19,7 @@ double mpm_shape_polygon(int n, const double *corner, double x, double y)
     return inside ? sqrt(nearest2) : -sqrt(nearest2);
 }
 
-double mpm_shape_prism(double profile, double slab)
+double mpm_shape_extrude(double profile, double slab)
 {
     if (profile > 0.0 && slab > 0.0) return fmin(profile, slab);
     return -hypot(fmin(profile, 0.0), fmin(slab, 0.0));
@@ -79,4 +34,9 @@ double mpm_shape_dome(double radius, double height, double r, double y)
     const double slope = hypot(r / (radius * radius), y / (height * height));
     const double curved = slope > 0.0 ? k * (1.0 - k) / slope : fmin(radius, height);
     return fmin(curved, y);
+}
+
+void mpm_shape_box_about(const double middle[3], const double down[3], const double up[3], double lo[3], double hi[3])
+{
+    for (int k = 0; k < 3; k++) lo[k] = middle[k] - down[k], hi[k] = middle[k] + up[k];
 }

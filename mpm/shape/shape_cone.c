@@ -1,30 +1,29 @@
-/* Cone: base down in the plane y, centre of the base at (x, y, z), tip at y + height.  Signed distance exact. */
+/* Cone: base down, its middle at `center`, tip above it.  Signed distance exact. */
 #include "mpm/shape/shape.h"
 
-#include <math.h>
+typedef struct {
+    double center[3], radius, height;
+} cone;
 
-static const char *const names[] = { "x", "y", "z", "radius", "height", NULL };
+static const param params[] = { SHAPE_POINT(cone, center, 0, "middle of its base"),
+                                SHAPE_LENGTH(cone, radius, "of the base"),
+                                SHAPE_LENGTH(cone, height, "from the base to the tip"), PARAMS_END };
 
-static double inside(const shape_values *s, const double x[3])
+static double inside(const mpm_solid *s, const double x[3])
 {
-    const double radius = s->value[CONE_RADIUS], height = s->value[CONE_HEIGHT];
-    const double section[] = { -radius, 0.0, radius, 0.0, 0.0, height };
-    const double r = hypot(x[0] - s->value[CONE_X], x[2] - s->value[CONE_Z]);
-    return mpm_shape_polygon(3, section, r, x[1] - s->value[CONE_Y]);
+    const cone *b = SHAPE_VALUES(cone, s);
+    const double section[] = { -b->radius, 0.0, b->radius, 0.0, 0.0, b->height };
+    const double r = hypot(x[0] - b->center[0], x[2] - b->center[2]);
+    return mpm_shape_polygon(3, section, r, x[1] - b->center[1]);
 }
 
-static void bounds(const shape_values *s, double lo[3], double hi[3])
+static void bounds(const mpm_solid *s, double lo[3], double hi[3])
 {
-    for (int k = 0; k < 3; k++) {
-        lo[k] = s->value[CONE_X + k] - (k == 1 ? 0.0 : s->value[CONE_RADIUS]);
-        hi[k] = s->value[CONE_X + k] + s->value[k == 1 ? CONE_HEIGHT : CONE_RADIUS];
-    }
+    const cone *b = SHAPE_VALUES(cone, s);
+    const double flat[3] = { b->radius, 0.0, b->radius }, round[3] = { b->radius, b->height, b->radius };
+    mpm_shape_box_about(b->center, flat, round, lo, hi);
 }
 
-status mpm_shape_cone_check(const shape_values *s)
-{
-    TRY(mpm_shape_positive(&mpm_shape_cone, s, CONE_RADIUS));
-    return mpm_shape_positive(&mpm_shape_cone, s, CONE_HEIGHT);
-}
-
-const shape_kind mpm_shape_cone = { "cone", "cone on its base, tip up [m]", names, inside, bounds };
+const mpm_solid_kind mpm_shape_cone = {
+    .name = "cone", .doc = "cone about y on its base, tip up", .params = params, .inside = inside, .bounds = bounds
+};

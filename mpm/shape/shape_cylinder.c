@@ -1,29 +1,31 @@
-/* Cylinder: axis along y, centre of its lower face at (x, y, z).  Signed distance exact. */
+/* Cylinder: axis along y, middle of its lower face at `center`.  Signed distance exact. */
 #include "mpm/shape/shape.h"
 
-#include <math.h>
+typedef struct {
+    double center[3], radius, height;
+} cylinder;
 
-static const char *const names[] = { "x", "y", "z", "radius", "height", NULL };
+static const param params[] = { SHAPE_POINT(cylinder, center, 0, "middle of its lower face"),
+                                SHAPE_LENGTH(cylinder, radius, "of the section"),
+                                SHAPE_LENGTH(cylinder, height, "from the lower face to the upper"), PARAMS_END };
 
-static double inside(const shape_values *s, const double x[3])
+static double inside(const mpm_solid *s, const double x[3])
 {
-    const double r = hypot(x[0] - s->value[CYLINDER_X], x[2] - s->value[CYLINDER_Z]);
-    const double y = x[1] - s->value[CYLINDER_Y];
-    return mpm_shape_prism(s->value[CYLINDER_RADIUS] - r, fmin(y, s->value[CYLINDER_HEIGHT] - y));
+    const cylinder *b = SHAPE_VALUES(cylinder, s);
+    const double r = hypot(x[0] - b->center[0], x[2] - b->center[2]);
+    const double y = x[1] - b->center[1];
+    return mpm_shape_extrude(b->radius - r, fmin(y, b->height - y));
 }
 
-static void bounds(const shape_values *s, double lo[3], double hi[3])
+static void bounds(const mpm_solid *s, double lo[3], double hi[3])
 {
-    for (int k = 0; k < 3; k++) {
-        lo[k] = s->value[CYLINDER_X + k] - (k == 1 ? 0.0 : s->value[CYLINDER_RADIUS]);
-        hi[k] = s->value[CYLINDER_X + k] + s->value[k == 1 ? CYLINDER_HEIGHT : CYLINDER_RADIUS];
-    }
+    const cylinder *b = SHAPE_VALUES(cylinder, s);
+    const double flat[3] = { b->radius, 0.0, b->radius }, round[3] = { b->radius, b->height, b->radius };
+    mpm_shape_box_about(b->center, flat, round, lo, hi);
 }
 
-status mpm_shape_cylinder_check(const shape_values *s)
-{
-    TRY(mpm_shape_positive(&mpm_shape_cylinder, s, CYLINDER_RADIUS));
-    return mpm_shape_positive(&mpm_shape_cylinder, s, CYLINDER_HEIGHT);
-}
-
-const shape_kind mpm_shape_cylinder = { "cylinder", "cylinder along y on its lower face [m]", names, inside, bounds };
+const mpm_solid_kind mpm_shape_cylinder = { .name = "cylinder",
+                                            .doc = "cylinder along y on its lower face",
+                                            .params = params,
+                                            .inside = inside,
+                                            .bounds = bounds };

@@ -1,31 +1,31 @@
-/* Hemisphere: flat face down in the plane y, centre of the face at (x, y, z); with height != radius the upper half of
- * an ellipsoid of revolution about y.
- * Signed distance as mpm_shape_dome. */
+/* Hemisphere: flat face down, its middle at `center`; with height != radius the upper half of an ellipsoid of
+ * revolution about y.  Signed distance as mpm_shape_dome. */
 #include "mpm/shape/shape.h"
 
-#include <math.h>
+typedef struct {
+    double center[3], radius, height;
+} hemisphere;
 
-static const char *const names[] = { "x", "y", "z", "radius", "height", NULL };
+static const param params[] = { SHAPE_POINT(hemisphere, center, 0, "middle of its flat face"),
+                                SHAPE_LENGTH(hemisphere, radius, "of the flat face"),
+                                SHAPE_LENGTH(hemisphere, height, "from the flat face to the top"), PARAMS_END };
 
-static double inside(const shape_values *s, const double x[3])
+static double inside(const mpm_solid *s, const double x[3])
 {
-    const double r = hypot(x[0] - s->value[HEMISPHERE_X], x[2] - s->value[HEMISPHERE_Z]);
-    return mpm_shape_dome(s->value[HEMISPHERE_RADIUS], s->value[HEMISPHERE_HEIGHT], r, x[1] - s->value[HEMISPHERE_Y]);
+    const hemisphere *b = SHAPE_VALUES(hemisphere, s);
+    const double r = hypot(x[0] - b->center[0], x[2] - b->center[2]);
+    return mpm_shape_dome(b->radius, b->height, r, x[1] - b->center[1]);
 }
 
-static void bounds(const shape_values *s, double lo[3], double hi[3])
+static void bounds(const mpm_solid *s, double lo[3], double hi[3])
 {
-    for (int k = 0; k < 3; k++) {
-        lo[k] = s->value[HEMISPHERE_X + k] - (k == 1 ? 0.0 : s->value[HEMISPHERE_RADIUS]);
-        hi[k] = s->value[HEMISPHERE_X + k] + s->value[k == 1 ? HEMISPHERE_HEIGHT : HEMISPHERE_RADIUS];
-    }
+    const hemisphere *b = SHAPE_VALUES(hemisphere, s);
+    const double flat[3] = { b->radius, 0.0, b->radius }, round[3] = { b->radius, b->height, b->radius };
+    mpm_shape_box_about(b->center, flat, round, lo, hi);
 }
 
-status mpm_shape_hemisphere_check(const shape_values *s)
-{
-    TRY(mpm_shape_positive(&mpm_shape_hemisphere, s, HEMISPHERE_RADIUS));
-    return mpm_shape_positive(&mpm_shape_hemisphere, s, HEMISPHERE_HEIGHT);
-}
-
-const shape_kind mpm_shape_hemisphere = { "hemisphere", "half an ellipsoid of revolution, flat face down [m]", names,
-                                          inside, bounds };
+const mpm_solid_kind mpm_shape_hemisphere = { .name = "hemisphere",
+                                              .doc = "half an ellipsoid of revolution about y, flat face down",
+                                              .params = params,
+                                              .inside = inside,
+                                              .bounds = bounds };

@@ -1,29 +1,31 @@
-/* Pit: hemisphere upside down, its flat face up in the plane y, centre of the face at (x, y, z); height is its depth.
+/* Pit: a hemisphere upside down, its flat face up, its middle at `center`; height is its depth.
  * Signed distance as mpm_shape_dome. */
 #include "mpm/shape/shape.h"
 
-#include <math.h>
+typedef struct {
+    double center[3], radius, height;
+} pit;
 
-static const char *const names[] = { "x", "y", "z", "radius", "height", NULL };
+static const param params[] = { SHAPE_POINT(pit, center, 0, "middle of its flat face"),
+                                SHAPE_LENGTH(pit, radius, "of the flat face"), SHAPE_LENGTH(pit, height, "its depth"),
+                                PARAMS_END };
 
-static double inside(const shape_values *s, const double x[3])
+static double inside(const mpm_solid *s, const double x[3])
 {
-    const double r = hypot(x[0] - s->value[PIT_X], x[2] - s->value[PIT_Z]);
-    return mpm_shape_dome(s->value[PIT_RADIUS], s->value[PIT_HEIGHT], r, s->value[PIT_Y] - x[1]);
+    const pit *b = SHAPE_VALUES(pit, s);
+    const double r = hypot(x[0] - b->center[0], x[2] - b->center[2]);
+    return mpm_shape_dome(b->radius, b->height, r, b->center[1] - x[1]);
 }
 
-static void bounds(const shape_values *s, double lo[3], double hi[3])
+static void bounds(const mpm_solid *s, double lo[3], double hi[3])
 {
-    for (int k = 0; k < 3; k++) {
-        lo[k] = s->value[PIT_X + k] - s->value[k == 1 ? PIT_HEIGHT : PIT_RADIUS];
-        hi[k] = s->value[PIT_X + k] + (k == 1 ? 0.0 : s->value[PIT_RADIUS]);
-    }
+    const pit *b = SHAPE_VALUES(pit, s);
+    const double flat[3] = { b->radius, 0.0, b->radius }, round[3] = { b->radius, b->height, b->radius };
+    mpm_shape_box_about(b->center, round, flat, lo, hi);
 }
 
-status mpm_shape_pit_check(const shape_values *s)
-{
-    TRY(mpm_shape_positive(&mpm_shape_pit, s, PIT_RADIUS));
-    return mpm_shape_positive(&mpm_shape_pit, s, PIT_HEIGHT);
-}
-
-const shape_kind mpm_shape_pit = { "pit", "half an ellipsoid of revolution, flat face up [m]", names, inside, bounds };
+const mpm_solid_kind mpm_shape_pit = { .name = "pit",
+                                       .doc = "half an ellipsoid of revolution about y, flat face up",
+                                       .params = params,
+                                       .inside = inside,
+                                       .bounds = bounds };

@@ -1,35 +1,33 @@
-/* Ridge across the rail: half a cylinder along z, flat face down in the plane y, centre of the face at (x, y, z);
- * radius is half its width along x.  With height != radius its section is half an ellipse.
- * Signed distance as mpm_shape_dome. */
+/* Ridge: half a cylinder extruded along z, flat face down, its middle at `center`; radius is half its width along x.
+ * With height != radius its section is half an ellipse.  Signed distance as mpm_shape_dome. */
 #include "mpm/shape/shape.h"
 
-#include <math.h>
+typedef struct {
+    double center[3], radius, height, half_length;
+} ridge;
 
-static const char *const names[] = { "x", "y", "z", "radius", "height", "half_length", NULL };
+static const param params[] = { SHAPE_POINT(ridge, center, 0, "middle of its base"),
+                                SHAPE_LENGTH(ridge, radius, "half of its width along x"),
+                                SHAPE_LENGTH(ridge, height, "from the base to the top"),
+                                SHAPE_LENGTH(ridge, half_length, "half of its length along z"), PARAMS_END };
 
-static double inside(const shape_values *s, const double x[3])
+static double inside(const mpm_solid *s, const double x[3])
 {
-    const double r = fabs(x[0] - s->value[RIDGE_X]), y = x[1] - s->value[RIDGE_Y];
-    const double profile = mpm_shape_dome(s->value[RIDGE_RADIUS], s->value[RIDGE_HEIGHT], r, y);
-    return mpm_shape_prism(profile, s->value[RIDGE_HALF_LENGTH] - fabs(x[2] - s->value[RIDGE_Z]));
+    const ridge *b = SHAPE_VALUES(ridge, s);
+    const double r = fabs(x[0] - b->center[0]), y = x[1] - b->center[1];
+    const double profile = mpm_shape_dome(b->radius, b->height, r, y);
+    return mpm_shape_extrude(profile, b->half_length - fabs(x[2] - b->center[2]));
 }
 
-static void bounds(const shape_values *s, double lo[3], double hi[3])
+static void bounds(const mpm_solid *s, double lo[3], double hi[3])
 {
-    lo[0] = s->value[RIDGE_X] - s->value[RIDGE_RADIUS];
-    hi[0] = s->value[RIDGE_X] + s->value[RIDGE_RADIUS];
-    lo[1] = s->value[RIDGE_Y];
-    hi[1] = s->value[RIDGE_Y] + s->value[RIDGE_HEIGHT];
-    lo[2] = s->value[RIDGE_Z] - s->value[RIDGE_HALF_LENGTH];
-    hi[2] = s->value[RIDGE_Z] + s->value[RIDGE_HALF_LENGTH];
+    const ridge *b = SHAPE_VALUES(ridge, s);
+    const double down[3] = { b->radius, 0.0, b->half_length }, up[3] = { b->radius, b->height, b->half_length };
+    mpm_shape_box_about(b->center, down, up, lo, hi);
 }
 
-status mpm_shape_ridge_check(const shape_values *s)
-{
-    TRY(mpm_shape_positive(&mpm_shape_ridge, s, RIDGE_RADIUS));
-    TRY(mpm_shape_positive(&mpm_shape_ridge, s, RIDGE_HEIGHT));
-    return mpm_shape_positive(&mpm_shape_ridge, s, RIDGE_HALF_LENGTH);
-}
-
-const shape_kind mpm_shape_ridge = { "ridge", "half a cylinder across the rail, flat face down [m]", names, inside,
-                                     bounds };
+const mpm_solid_kind mpm_shape_ridge = { .name = "ridge",
+                                         .doc = "half an ellipse extruded along z, flat face down",
+                                         .params = params,
+                                         .inside = inside,
+                                         .bounds = bounds };

@@ -1,27 +1,26 @@
-/* Sphere about (x, y, z).  Signed distance exact. */
+/* Sphere.  Signed distance exact. */
 #include "mpm/shape/shape.h"
 
-#include <math.h>
+typedef struct {
+    double center[3], radius;
+} sphere;
 
-static const char *const names[] = { "x", "y", "z", "radius", NULL };
+static const param params[] = { SHAPE_POINT(sphere, center, 0, "its middle"),
+                                SHAPE_LENGTH(sphere, radius, "its radius"), PARAMS_END };
 
-static double inside(const shape_values *s, const double x[3])
+static double inside(const mpm_solid *s, const double x[3])
 {
-    const double dx = x[0] - s->value[SPHERE_X], dy = x[1] - s->value[SPHERE_Y], dz = x[2] - s->value[SPHERE_Z];
-    return s->value[SPHERE_RADIUS] - sqrt(dx * dx + dy * dy + dz * dz);
+    const sphere *b = SHAPE_VALUES(sphere, s);
+    const double dx = x[0] - b->center[0], dy = x[1] - b->center[1], dz = x[2] - b->center[2];
+    return b->radius - sqrt(dx * dx + dy * dy + dz * dz);
 }
 
-static void bounds(const shape_values *s, double lo[3], double hi[3])
+static void bounds(const mpm_solid *s, double lo[3], double hi[3])
 {
-    for (int k = 0; k < 3; k++) {
-        lo[k] = s->value[SPHERE_X + k] - s->value[SPHERE_RADIUS];
-        hi[k] = s->value[SPHERE_X + k] + s->value[SPHERE_RADIUS];
-    }
+    const sphere *b = SHAPE_VALUES(sphere, s);
+    for (int k = 0; k < 3; k++) lo[k] = b->center[k] - b->radius, hi[k] = b->center[k] + b->radius;
 }
 
-status mpm_shape_sphere_check(const shape_values *s)
-{
-    return mpm_shape_positive(&mpm_shape_sphere, s, SPHERE_RADIUS);
-}
-
-const shape_kind mpm_shape_sphere = { "sphere", "sphere about a centre [m]", names, inside, bounds };
+const mpm_solid_kind mpm_shape_sphere = {
+    .name = "sphere", .doc = "sphere about a middle", .params = params, .inside = inside, .bounds = bounds
+};

@@ -1,35 +1,31 @@
-/* Wedge across the rail: a triangular prism along z, its base down in the plane y, centre of the base at (x, y, z), its
- * edge at y + height; radius is half its width along x.  Values as those of the ridge.  Signed distance exact. */
+/* Wedge: a triangle extruded along z, its base down, the middle of the base at `center`, its edge at height above it;
+ * radius is half its width along x.  Signed distance exact. */
 #include "mpm/shape/shape.h"
 
-#include <math.h>
+typedef struct {
+    double center[3], radius, height, half_length;
+} wedge;
 
-static const char *const names[] = { "x", "y", "z", "radius", "height", "half_length", NULL };
+static const param params[] = { SHAPE_POINT(wedge, center, 0, "middle of its base"),
+                                SHAPE_LENGTH(wedge, radius, "half of its width along x"),
+                                SHAPE_LENGTH(wedge, height, "from the base to the top"),
+                                SHAPE_LENGTH(wedge, half_length, "half of its length along z"), PARAMS_END };
 
-static double inside(const shape_values *s, const double x[3])
+static double inside(const mpm_solid *s, const double x[3])
 {
-    const double radius = s->value[RIDGE_RADIUS], height = s->value[RIDGE_HEIGHT];
-    const double section[] = { -radius, 0.0, radius, 0.0, 0.0, height };
-    const double profile = mpm_shape_polygon(3, section, x[0] - s->value[RIDGE_X], x[1] - s->value[RIDGE_Y]);
-    return mpm_shape_prism(profile, s->value[RIDGE_HALF_LENGTH] - fabs(x[2] - s->value[RIDGE_Z]));
+    const wedge *b = SHAPE_VALUES(wedge, s);
+    const double section[] = { -b->radius, 0.0, b->radius, 0.0, 0.0, b->height };
+    const double profile = mpm_shape_polygon(3, section, x[0] - b->center[0], x[1] - b->center[1]);
+    return mpm_shape_extrude(profile, b->half_length - fabs(x[2] - b->center[2]));
 }
 
-static void bounds(const shape_values *s, double lo[3], double hi[3])
+static void bounds(const mpm_solid *s, double lo[3], double hi[3])
 {
-    lo[0] = s->value[RIDGE_X] - s->value[RIDGE_RADIUS];
-    hi[0] = s->value[RIDGE_X] + s->value[RIDGE_RADIUS];
-    lo[1] = s->value[RIDGE_Y];
-    hi[1] = s->value[RIDGE_Y] + s->value[RIDGE_HEIGHT];
-    lo[2] = s->value[RIDGE_Z] - s->value[RIDGE_HALF_LENGTH];
-    hi[2] = s->value[RIDGE_Z] + s->value[RIDGE_HALF_LENGTH];
+    const wedge *b = SHAPE_VALUES(wedge, s);
+    const double down[3] = { b->radius, 0.0, b->half_length }, up[3] = { b->radius, b->height, b->half_length };
+    mpm_shape_box_about(b->center, down, up, lo, hi);
 }
 
-status mpm_shape_wedge_check(const shape_values *s)
-{
-    TRY(mpm_shape_positive(&mpm_shape_wedge, s, RIDGE_RADIUS));
-    TRY(mpm_shape_positive(&mpm_shape_wedge, s, RIDGE_HEIGHT));
-    return mpm_shape_positive(&mpm_shape_wedge, s, RIDGE_HALF_LENGTH);
-}
-
-const shape_kind mpm_shape_wedge = { "wedge", "triangular prism across the rail, base down [m]", names, inside,
-                                     bounds };
+const mpm_solid_kind mpm_shape_wedge = {
+    .name = "wedge", .doc = "triangle extruded along z, base down", .params = params, .inside = inside, .bounds = bounds
+};

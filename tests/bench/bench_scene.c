@@ -10,7 +10,6 @@
  * more than the wall; so do the phases, the least of each over the repetitions, best with one step a repetition.
  * --only leaves out what lacks the word: a scene's name, an instruction set or a number of threads. */
 #include "mpm/mpm.h"
-#include "mpm/shape/shape.h"
 
 #include <math.h>
 #include <omp.h>
@@ -71,8 +70,11 @@ static mpm_body *add_body(mpm_scene *s, const char *shape, const double *values,
 {
     mpm_body *b = &s->body[s->bodies++];
     snprintf(b->name, sizeof b->name, "%s", shape);
-    b->shape = mpm_shape_find(shape), b->material = m;
-    for (int i = 0; i < n; i++) b->shape_value.value[i] = values[i];
+    b->material = m;
+    mpm_solid *solid;
+    if (mpm_scene_add_solid(s, shape, -1, -1, &solid).code != STATUS_OK) abort();
+    for (int i = 0; i < n; i++) solid->value[i] = values[i];
+    b->solid = s->solids - 1;
     b->temperature = 293, b->yield_scale = 1, b->damage = true;
     return b;
 }
@@ -97,10 +99,13 @@ static void contact_scene(bench_scene *b, bool tiny)
     s->axis[0].boundary_fields[0] = s->axis[0].boundary_fields[1] = 1;
     s->axis[1].boundary[0] = s->axis[1].boundary[1] = s->axis[2].boundary[0] = BOUNDARY_SYMMETRY;
     const double rail[] = { -33e-3, -10e-3, -1, 20e-3, 0, 1 }, grain[] = { 0, 0, 0, 0.5e-3, 0.5e-3 };
-    const double u[] = { -1e-3, 30e-3, 5e-3, 10e-3, 12.5e-3, 2e-3, 0.5236, 10e-3, 0 };
+    /* half a U of 30 mm with a leg of 5 mm, a head of 10 mm and a chamfer of 2 mm at 30 degrees */
+    const double front = -1e-3, nose = front + 2e-3 / tan(0.5236), back = nose - 30e-3, inner = nose - 10e-3;
+    const double u[] = { -10e-3, 10e-3, 0,       0,     1,       back,  0,    front, 0,   nose,
+                         2e-3,   nose,  12.5e-3, inner, 12.5e-3, inner, 5e-3, back,  5e-3 };
     add_body(s, "box", rail, 6, &b->copper);
     add_body(s, "hemisphere", grain, 5, &b->copper);
-    mpm_body *armature = add_body(s, "armature", u, 9, &b->aluminium);
+    mpm_body *armature = add_body(s, "prism", u, 19, &b->aluminium);
     armature->field = 1, armature->velocity[0] = 1500;
     for (int i = 0; i < MPM_MAX_FIELDS; i++)
         for (int j = 0; j < MPM_MAX_FIELDS; j++) s->contact[i][j].friction = 0.2;

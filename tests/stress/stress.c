@@ -15,7 +15,6 @@
 #include "coupling/case/material_file.h"
 #include "coupling/gouge/impact.h"
 #include "mpm/mpm.h"
-#include "mpm/shape/shape.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -209,15 +208,16 @@ static void add_fragments(gouge_scene *g, chance *c, const recipe *r)
         const int field = b->field + 1 < MPM_MAX_FIELDS ? b->field + 1 : b->field;
         s->body[++g->armature] = *b; /* the last one, which wins points */
         s->bodies++;
-        memset(&b->shape_value, 0, sizeof b->shape_value);
-        b->shape = mpm_shape_find("sphere");
+        mpm_solid *ball;
+        if (mpm_scene_add_solid(s, "sphere", -1, -1, &ball).code != STATUS_OK) abort();
+        b->solid = s->solids - 1;
         snprintf(b->name, sizeof b->name, "particle");
         b->field = field;
-        double *v = b->shape_value.value, a = r->radius;
-        v[SPHERE_RADIUS] = a * uniform(c, 0.5, 1);
-        v[SPHERE_X] = uniform(c, 2 * a, 5 * a);
-        v[SPHERE_Y] = uniform(c, 1.2 * a, 4 * a);
-        v[SPHERE_Z] = uniform(c, 0, 3 * a);
+        double *middle = mpm_solid_value(ball, "center"), a = r->radius;
+        *mpm_solid_value(ball, "radius") = a * uniform(c, 0.5, 1);
+        middle[0] = uniform(c, 2 * a, 5 * a);
+        middle[1] = uniform(c, 1.2 * a, 4 * a);
+        middle[2] = uniform(c, 0, 3 * a);
         for (int k = 0; k < 3; k++) b->velocity[k] = uniform(c, -1, 1) * r->velocity, b->body_force[k] = 0;
     }
 }

@@ -20,25 +20,6 @@ static bool watch(void *user, const mpm *m)
 
 static const double LENGTH = 6e-3, HEIGHT = 4e-3;
 
-/* A box turned by `angle` about z: values x, y of the middle of its lower face, half length, height, angle. */
-static double turned_inside(const shape_values *s, const double x[3])
-{
-    const double c = cos(s->value[4]), t = sin(s->value[4]), dx = x[0] - s->value[0], dy = x[1] - s->value[1];
-    const double along = c * dx + t * dy, up = -t * dx + c * dy;
-    return fmin(s->value[2] - fabs(along), fmin(up, s->value[3] - up));
-}
-
-static void turned_bounds(const shape_values *s, double lo[3], double hi[3])
-{
-    const double c = cos(s->value[4]), t = sin(s->value[4]), L = s->value[2], H = s->value[3];
-    lo[0] = s->value[0] - c * L - fmax(t * H, 0), hi[0] = s->value[0] + c * L + fmax(-t * H, 0);
-    lo[1] = s->value[1] - fabs(t) * L + fmin(c * H, 0), hi[1] = s->value[1] + fabs(t) * L + fmax(c * H, 0);
-    lo[2] = -1, hi[2] = 1;
-}
-
-static const char *const turned_names[] = { "x", "y", "half_length", "height", "angle", NULL };
-static const shape_kind turned = { "turned", "a box turned about z", turned_names, turned_inside, turned_bounds };
-
 /* A block on a face that is turned by `turn` from the grid's x axis, pulled along the face and onto it [m/s2]. */
 typedef struct {
     double turn, along, onto, friction, speed, way; /* speed at the start [m/s]; how far the grid reaches [m] */
@@ -58,20 +39,17 @@ static mpm *sliding_make(const sliding *b, double h, const valid_scheme *scheme)
     s.axis[0].boundary[0] = s.axis[0].boundary[1] = BOUNDARY_FIXED;
     s.axis[0].boundary_fields[0] = s.axis[0].boundary_fields[1] = 1;
     s.axis[1].boundary[0] = BOUNDARY_FIXED;
-    const double origin[2] = { x0, -0.37 * h }; /* off the grid planes */
-    for (int i = 0; i < 2; i++) {
-        mpm_body *body = scene_box(&s, 0, 0, 0, 1, 1, 1, &m);
-        body->shape = &turned;
-        const double v[] = { origin[0], origin[1], i ? 0.5 * LENGTH : 1, i ? HEIGHT : -1, -b->turn };
-        memcpy(body->shape_value.value, v, sizeof v);
+    const double origin[3] = { x0, -0.37 * h, 0 }; /* off the grid planes */
+    for (int i = 0; i < 2; i++) {                  /* below: from the face down */
+        const double box[] = { -(i ? 0.5 * LENGTH : 1), i ? 0 : -0.1, -1, i ? 0.5 * LENGTH : 1, i ? HEIGHT : 0, 1 };
+        const double turn[] = { 0, 0, 1, -b->turn, 0, 0, 0 };
+        mpm_body *body = scene_body(&s, "box", box, 6, &m);
+        body->solid = scene_solid(&s, "turn", turn, 7, body->solid, -1);
+        body->solid = scene_solid(&s, "move", origin, 3, body->solid, -1);
         body->field = i;
-        if (i == 0) { /* below: from the face down */
-            body->shape_value.value[0] += -t * 0.1, body->shape_value.value[1] += -c * 0.1;
-            body->shape_value.value[3] = 0.1;
-        } else {
-            body->body_force[0] = b->along * c - b->onto * t, body->body_force[1] = -b->along * t - b->onto * c;
-            body->velocity[0] = b->speed * c, body->velocity[1] = -b->speed * t;
-        }
+        if (i == 0) continue;
+        body->body_force[0] = b->along * c - b->onto * t, body->body_force[1] = -b->along * t - b->onto * c;
+        body->velocity[0] = b->speed * c, body->velocity[1] = -b->speed * t;
     }
     scene_friction(&s, b->friction);
     return scene_make(&s, 1);

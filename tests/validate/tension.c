@@ -25,9 +25,8 @@ void valid_tension(double cells, const valid_scheme *scheme, valid_result *out)
     s.axis[2] = s.axis[1];
     mpm_body *b = scene_box(&s, 0, 0, 0, LENGTH, SIDE, SIDE, &m);
     b->damage = true;
-    b->cut = mpm_shape_find("box");
     const double notch[] = { -NOTCH, SIDE - NOTCH, -1, NOTCH, 1, 1 };
-    memcpy(b->cut_value.value, notch, sizeof notch);
+    b->solid = scene_solid(&s, "minus", NULL, 0, b->solid, scene_solid(&s, "box", notch, 6, -1, -1));
     mpm *solver = scene_make(&s, 1);
     valid_each(solver, pull, NULL);
     valid_reopen(solver);
