@@ -126,22 +126,16 @@ typedef struct {
     int n_sites;
 } shot_config;
 
-/* Where the energy is and went [J]. */
+/* Where the energy is and went [J]: a member for every line of circuit/ledger.def. */
 typedef struct {
-    double start;                                   /* supplies and motion at t = 0 */
-    double supplied;                                /* by batteries and given currents, so far */
-    double capacitors, coils, cables, rotors;       /* stored now */
-    double rails_field;                             /* stored now, the shunt's loop included */
-    double kinetic;                                 /* armature now (at exit once it has left) */
-    double coil_heat, cable_heat, crowbar_heat;     /* so far, as all below */
-    double switch_heat, machine_heat;               /* opening switches; windage */
-    double rails_heat, armature_heat, contact_heat; /* contact_heat = contact voltage x current */
-    double friction, drag, muzzle;                  /* muzzle: shunt or arc after exit */
-    double wear;                                    /* motion of the metal worn off */
-    double jumps;                                   /* taken by circuit_shot_jump */
-    double momentum_jumps;                          /* impulse taken by circuit_shot_jump [N s] */
-    double mass_jumps;                              /* mass taken by circuit_shot_jump [kg] */
-    double energy_error; /* (sum now + so far - start - supplied)/(start + supplied); 0 where those are 0 [1] */
+#define STORED(member, column, text) double member;
+#define SPENT(member, column, text) double member;
+#define GIVEN(place, member, column, text) double member;
+#include "circuit/ledger.def"
+    double start;          /* supplies and motion at t = 0 */
+    double momentum_jumps; /* impulse taken by circuit_shot_jump [N s] */
+    double mass_jumps;     /* mass taken by circuit_shot_jump [kg] */
+    double energy_error;   /* (stored + spent - start - given)/(start + given); 0 where those are 0 [1] */
 } shot_ledger;
 
 typedef enum { SHOT_HELD, SHOT_MOVING, SHOT_LEFT } shot_phase;

@@ -16,21 +16,11 @@
 enum { SHOT_MAX_FEEDS = 64 };
 
 typedef enum {
-    /* integral of the armature's current squared [A^2 s]; what stands here down to Y_WEAR is only summed up */
-    Y_ACTION,
-    Y_COIL, /* heat or work so far [J]; the places of supply_heat in their order */
-    Y_CABLE,
-    Y_CROWBAR,
-    Y_SWITCH,
-    Y_MACHINE,
-    Y_SUPPLIED,
-    Y_RAILS,
-    Y_ARMATURE,
-    Y_CONTACT,
-    Y_FRICTION,
-    Y_DRAG,
-    Y_MUZZLE,
-    Y_WEAR,
+    Y_ACTION, /* integral of the armature's current squared [A^2 s]; from here down to Y_BREECH all is only summed up */
+/* Y_COIL ...: energies so far [J], the supplies' heats in the order of supply_heat. */
+#define INTEGRAL(place, member, column, text) Y_##place,
+#define GIVEN(place, member, column, text) Y_##place,
+#include "circuit/ledger.def"
     Y_BREECH, /* voltage [V], algebraic, as those of the other feeds */
     Y_X,      /* [m] */
     Y_V,      /* [m/s] */

@@ -31,10 +31,8 @@ static void stores_add(const shot *s, shot_ledger *l)
         const supply_group *g = &s->model.groups[k];
         double e[STORE_PLACES] = { 0.0 };
         g->kind->stored(g, circuit_shot_y(s) + g->first, e);
-        l->capacitors += g->n * e[STORE_CAPACITOR];
-        l->coils += g->n * e[STORE_COIL];
-        l->cables += g->n * e[STORE_CABLE];
-        l->rotors += g->n * e[STORE_ROTOR];
+#define SUPPLY_STORED(place, member, column, text) l->member += g->n * e[STORE_##place];
+#include "circuit/ledger.def"
     }
 }
 
@@ -43,29 +41,21 @@ shot_ledger circuit_shot_ledger_now(const shot *s)
     const double *z = circuit_shot_z(s);
     const shot_model *m = &s->model;
     const shot_drive d = circuit_shot_drive_now(s);
-    shot_ledger l = { .start = s->start_energy, .supplied = z[Y_SUPPLIED] };
+    shot_ledger l = { .start = s->start_energy };
     stores_add(s, &l);
     l.rails_field = circuit_shot_rails_field(m, &d, z);
     l.kinetic = m->phase == SHOT_LEFT ? s->exit_kinetic : 0.5 * z[Y_MASS] * z[Y_V] * z[Y_V];
-    l.coil_heat = z[Y_COIL];
-    l.cable_heat = z[Y_CABLE];
-    l.crowbar_heat = z[Y_CROWBAR];
-    l.switch_heat = z[Y_SWITCH];
-    l.machine_heat = z[Y_MACHINE];
-    l.rails_heat = z[Y_RAILS];
-    l.armature_heat = z[Y_ARMATURE];
-    l.contact_heat = z[Y_CONTACT];
-    l.friction = z[Y_FRICTION];
-    l.drag = z[Y_DRAG];
-    l.muzzle = z[Y_MUZZLE];
-    l.wear = z[Y_WEAR];
+#define INTEGRAL(place, member, column, text) l.member = z[Y_##place];
+#define GIVEN(place, member, column, text) l.member = z[Y_##place];
+#include "circuit/ledger.def"
     l.jumps = s->energy_jumps;
     l.momentum_jumps = s->momentum_jumps;
     l.mass_jumps = s->mass_jumps;
-    const double stored = l.capacitors + l.coils + l.cables + l.rotors + l.rails_field + l.kinetic;
-    double spent = l.jumps;
-    for (int j = Y_COIL; j < Y_SUMS; j++) spent += j == Y_SUPPLIED ? 0.0 : z[j];
-    const double given = l.start + l.supplied;
+    double stored = 0.0, spent = 0.0, given = l.start;
+#define STORED(member, column, text) stored += l.member;
+#define SPENT(member, column, text) spent += l.member;
+#define GIVEN(place, member, column, text) given += l.member;
+#include "circuit/ledger.def"
     l.energy_error = given > 0.0 ? (stored + spent - given) / given : 0.0;
     return l;
 }

@@ -1,5 +1,9 @@
-/* The cases of every supply: read as they are, run, energy closed; the published pulse of one unit. */
+/* The cases of every supply: read as they are, run, energy closed, in the report's table too; the published pulse of one
+ * unit. */
 #include "coupling/gouge/site_state.h"
+#include "coupling/host/outdir.h"
+#include "coupling/output/history.h"
+#include "coupling/report/report.h"
 #include "tests/circuit_common.h"
 
 #include <setjmp.h>
@@ -23,11 +27,12 @@ static breech_case *case_of(const char *name)
     return c;
 }
 
+/* Each kind of supply is in one of them. */
+static const char *const names[] = { "inductive_store", "homopolar", "alternator", "current_profile", "distributed" };
+
 static void cases_run(void **state)
 {
     (void)state;
-    static const char *const names[] = { "inductive_store", "homopolar", "alternator", "current_profile",
-                                         "distributed" };
     bool kinds[SUPPLY_KINDS] = { false };
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         breech_case *c = case_of(names[k]);
@@ -46,6 +51,84 @@ static void cases_run(void **state)
         case_free(c);
     }
     for (int i = 0; i < SUPPLY_KINDS; i++) assert_true(kinds[i]); /* a case a kind */
+}
+
+/* ---- the report's table ---- */
+
+typedef struct {
+    history *h;
+    int series;
+} recorder;
+
+static bool record(void *user, const shot *s, const shot_state *state)
+{
+    (void)s;
+    const recorder *r = user;
+    double row[HISTORY_MAX_COLUMNS];
+    output_history_shot_row(state, row);
+    assert_int_equal(output_history_append(r->h, r->series, row).code, STATUS_OK);
+    return true;
+}
+
+/* The table's rows are summed as a reader would; its two last figures [kJ]. */
+static void sum_table(const char *page, double sum[2], double *brought, double stated[2])
+{
+    const char *row = strstr(page, "Where the energy went"), *end = row ? strstr(row, "</table>") : NULL;
+    assert_non_null(end);
+    sum[0] = sum[1] = *brought = 0.0;
+    int totals = 0;
+    for (; (row = strstr(row, "<tr><td")) && row < end; row++) {
+        const char *number = strstr(row, "</td><td>");
+        double a, b;
+        if (number && sscanf(number, "</td><td>%lf</td><td>%lf", &a, &b) == 2 && number < strstr(row, "</tr>")) {
+            if (totals == 0) sum[0] += a, sum[1] += b;
+            if (totals == 1) *brought += b - a;
+        } else {
+            number = strstr(strstr(row, "</b>") + 1, "<b>");
+            assert_int_equal(sscanf(number, "<b>%lf</b></td><td><b>%lf", &a, &b), 2);
+            assert_true(totals < 2);
+            stated[totals++] = b;
+        }
+    }
+    assert_int_equal(totals, 2);
+}
+
+/* What is in the table at the end is what was at the start and what was brought in, whatever the supply: no place of
+ * energy is left out of it. */
+static void table_closes(const char *name)
+{
+    static const char folder[] = "table", summary[] = "{\"kind\": \"shot\", \"status\": \"done\", \"case\": \"a\"}";
+    recorder r;
+    shot *s = NULL;
+    char *page = NULL;
+    double sum[2], brought, stated[2];
+    breech_case *c = case_of(name);
+    const shot_config config = gouge_shot_config(c, NULL);
+    assert_int_equal(system("rm -rf table && mkdir table"), 0);
+    assert_int_equal(output_history_open("table/history.h5", false, &r.h).code, STATUS_OK);
+    assert_int_equal(output_history_shot(r.h, &r.series).code, STATUS_OK);
+    assert_int_equal(circuit_shot_create(&config, &s).code, STATUS_OK);
+    assert_int_equal(circuit_shot_advance(s, INFINITY, &(shot_sink){ .sample = record, .user = &r }).code, STATUS_OK);
+    assert_int_equal(output_history_close(r.h).code, STATUS_OK);
+    assert_int_equal(host_file_write("table/summary.json", summary, sizeof summary - 1).code, STATUS_OK);
+    assert_int_equal(report_write(folder).code, STATUS_OK);
+    assert_int_equal(host_file_read("table/report.html", &page, NULL).code, STATUS_OK);
+    sum_table(page, sum, &brought, stated);
+    print_message("%-16s %.3f kJ at the start, %.3f brought in, %.3f in the table\n", name, sum[0], brought, sum[1]);
+    /* 20 rows, each rounded to half a joule, and 1e-6 of the energy */
+    const double rounding = 20 * 0.5e-3 + 1e-6 * (sum[0] + brought);
+    assert_true(sum[1] > 1.0);
+    assert_true(fabs(sum[1] - sum[0] - brought) < rounding);
+    assert_true(fabs(stated[0] - sum[1]) < rounding && fabs(stated[1] - sum[0] - brought) < rounding);
+    free(page);
+    circuit_shot_free(s);
+    case_free(c);
+}
+
+static void tables_close(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) table_closes(names[k]);
 }
 
 /* 0.6 % of peak everywhere: the fitted values' own distance is 0.55 %. */
@@ -102,6 +185,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cases_run),
+        cmocka_unit_test(tables_close),
         cmocka_unit_test(published_pulse),
         cmocka_unit_test(bad_tables),
     };

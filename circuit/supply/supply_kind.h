@@ -18,8 +18,17 @@ enum { SUPPLY_UNKNOWNS = ARROW_BLOCK, SUPPLY_BYTES = 160 };
 
 typedef enum { GATE_UNFIRED, GATE_WAITING, GATE_ON, GATE_BLOCKED } supply_gate;
 
-typedef enum { HEAT_COIL, HEAT_CABLE, HEAT_CROWBAR, HEAT_SWITCH, HEAT_MACHINE, HEAT_PLACES } supply_heat;
-typedef enum { STORE_CAPACITOR, STORE_COIL, STORE_CABLE, STORE_ROTOR, STORE_PLACES } supply_store;
+/* HEAT_COIL ... and STORE_CAPACITOR ...: the supplies' places of circuit/ledger.def. */
+typedef enum {
+#define SUPPLY_HEAT(place, member, column, text) HEAT_##place,
+#include "circuit/ledger.def"
+    HEAT_PLACES
+} supply_heat;
+typedef enum {
+#define SUPPLY_STORED(place, member, column, text) STORE_##place,
+#include "circuit/ledger.def"
+    STORE_PLACES
+} supply_store;
 
 typedef struct supply_kind supply_kind;
 

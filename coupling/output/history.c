@@ -267,6 +267,7 @@ status output_history_map(history *h, const char *scene, const history_map *map)
 /* ---- the rows of Breech's own series: one list makes the columns and the row ---- */
 
 /* clang-format off */
+/* Behind these come the places of circuit/ledger.def and the ledger's error. */
 #define SHOT_COLUMNS(COLUMN)                                                                            \
     COLUMN(time, "s", "time", s->t)                                                                     \
     COLUMN(position, "m", "armature along the barrel", s->x)                                            \
@@ -289,28 +290,7 @@ status output_history_map(history *h, const char *scene, const history_map *map)
     COLUMN(contact_spread, "m", "of the contact, over which the current enters", s->contact_spread)     \
     COLUMN(friction_coefficient, "1", "of the armature's faces", s->friction_coefficient)               \
     COLUMN(rail_behind_temperature, "K", "rail surface, one contact length behind", s->rail_behind_temperature) \
-    COLUMN(shunt_current, "A", "of the muzzle shunt", s->shunt_current)                                 \
-    COLUMN(energy_capacitors, "J", "stored", s->ledger.capacitors)                                      \
-    COLUMN(energy_coils, "J", "stored", s->ledger.coils)                                                \
-    COLUMN(energy_cables, "J", "stored", s->ledger.cables)                                              \
-    COLUMN(energy_rotors, "J", "stored", s->ledger.rotors)                                              \
-    COLUMN(energy_rails_field, "J", "stored", s->ledger.rails_field)                                    \
-    COLUMN(energy_kinetic, "J", "armature", s->ledger.kinetic)                                          \
-    COLUMN(heat_coils, "J", "so far", s->ledger.coil_heat)                                              \
-    COLUMN(heat_cables, "J", "so far", s->ledger.cable_heat)                                            \
-    COLUMN(heat_crowbars, "J", "so far", s->ledger.crowbar_heat)                                        \
-    COLUMN(heat_switches, "J", "opening switches, so far", s->ledger.switch_heat)                       \
-    COLUMN(heat_machines, "J", "windage, so far", s->ledger.machine_heat)                               \
-    COLUMN(heat_rails, "J", "so far", s->ledger.rails_heat)                                             \
-    COLUMN(heat_armature, "J", "so far", s->ledger.armature_heat)                                       \
-    COLUMN(heat_contact, "J", "contact voltage times current, so far", s->ledger.contact_heat)          \
-    COLUMN(work_friction, "J", "so far", s->ledger.friction)                                            \
-    COLUMN(work_drag, "J", "so far", s->ledger.drag)                                                    \
-    COLUMN(energy_muzzle, "J", "shunt or arc after exit, so far", s->ledger.muzzle)                     \
-    COLUMN(energy_wear, "J", "motion of the metal worn off, so far", s->ledger.wear)                    \
-    COLUMN(energy_jumps, "J", "taken by gouges, so far", s->ledger.jumps)                               \
-    COLUMN(energy_supplied, "J", "by batteries and given currents, so far", s->ledger.supplied)         \
-    COLUMN(energy_error, "1", "ledger's rest over the energy at the start and supplied", s->ledger.energy_error)
+    COLUMN(shunt_current, "A", "of the muzzle shunt", s->shunt_current)
 
 #define SCENE_COLUMNS(COLUMN)                                                                           \
     COLUMN(time, "s", "time", r->time)                                                                  \
@@ -360,7 +340,14 @@ status output_history_map(history *h, const char *scene, const history_map *map)
 #define COLUMN_VALUE(name, unit, description, value) *row++ = (value);
 #define WIDTH(columns) ((int)(sizeof(columns) / sizeof *(columns)))
 
-static const history_column shot_columns[] = { SHOT_COLUMNS(COLUMN_ENTRY) };
+static const history_column shot_columns[] = {
+    SHOT_COLUMNS(COLUMN_ENTRY)
+#define STORED(member, column, text) { #column, "J", text },
+#define SPENT(member, column, text) { #column, "J", text },
+#define GIVEN(place, member, column, text) { #column, "J", text },
+#include "circuit/ledger.def"
+        { "energy_error", "1", "ledger's rest over the energy at the start and supplied" },
+};
 static const history_column scene_columns[] = { SCENE_COLUMNS(COLUMN_ENTRY) };
 static const history_column event_columns[] = { EVENT_COLUMNS(COLUMN_ENTRY) };
 
@@ -369,7 +356,15 @@ status output_history_shot(history *h, int *series)
     return output_history_series(h, "/shot", shot_columns, WIDTH(shot_columns), series);
 }
 
-void output_history_shot_row(const shot_state *s, double *row){ SHOT_COLUMNS(COLUMN_VALUE) }
+void output_history_shot_row(const shot_state *s, double *row)
+{
+    SHOT_COLUMNS(COLUMN_VALUE)
+#define STORED(member, column, text) *row++ = s->ledger.member;
+#define SPENT(member, column, text) *row++ = s->ledger.member;
+#define GIVEN(place, member, column, text) *row++ = s->ledger.member;
+#include "circuit/ledger.def"
+    *row++ = s->ledger.energy_error;
+}
 
 status output_history_events(history *h, int *series)
 {

@@ -132,37 +132,54 @@ static void section_craters(const page *p)
 
 /* ---- books, warnings, inputs ---- */
 
-/* Last value of a column, NaN where there is none. */
-static double last_of(const report_source *r, const char *path)
+/* First and last value of a column, NaN where there is none. */
+static void ends_of(const report_source *r, const char *column, double end[2])
 {
-    double *data, value = NAN;
+    double *data;
     size_t dims[H5_MAX_RANK];
-    if (host_h5_read(r->history, path, &data, dims).code != STATUS_OK) return NAN;
-    if (dims[0] > 0) value = data[dims[0] - 1];
+    char path[100];
+    end[0] = end[1] = NAN;
+    snprintf(path, sizeof path, "/shot/%s", column);
+    if (host_h5_read(r->history, path, &data, dims).code != STATUS_OK) return;
+    if (dims[0] > 0) end[0] = data[0], end[1] = data[dims[0] - 1];
     free(data);
-    return value;
 }
 
+/* A row a place; adds its values at the start and at the end to the sums. */
+static void ledger_place(const page *p, const char *column, const char *text, double sum[2])
+{
+    double end[2];
+    ends_of(p->source, column, end);
+    for (int k = 0; k < 2; k++) sum[k] += isfinite(end[k]) ? end[k] : 0.0;
+    if (end[0] == 0.0 && end[1] == 0.0) return; /* not in this shot */
+    fprintf(p->out, "<tr><td class=\"text\">%s</td><td class=\"text\">", column);
+    report_page_escaped(p->out, text);
+    fprintf(p->out, "</td><td>%.3f</td><td>%.3f</td></tr>\n", 1e-3 * end[0], 1e-3 * end[1]);
+}
+
+static void ledger_total(const page *p, const char *text, const double value[2])
+{
+    fprintf(p->out, "<tr><td class=\"text\"></td><td class=\"text\"><b>%s</b></td>", text);
+    fprintf(p->out, "<td><b>%.3f</b></td><td><b>%.3f</b></td></tr>\n", 1e-3 * value[0], 1e-3 * value[1]);
+}
+
+/* Every place of circuit/ledger.def.  What is there at the end is what was there at the start and what was brought in. */
 static void section_ledger(const page *p)
 {
-    static const char *const columns[] = { "energy_capacitors", "energy_coils",  "energy_cables", "energy_rails_field",
-                                           "energy_kinetic",    "heat_coils",    "heat_cables",   "heat_crowbars",
-                                           "heat_rails",        "heat_armature", "heat_contact",  "work_friction",
-                                           "work_drag",         "energy_muzzle", "energy_wear",   "energy_jumps" };
     if (!p->source->history || !host_h5_exists(p->source->history, "/shot/energy_error")) return;
     report_page_heading(p, "Where the energy went");
-    fputs("<div class=\"wide\"><table><tr><th>place</th><th>[kJ]</th></tr>\n", p->out);
-    double sum = 0.0;
-    for (int i = 0; i < PAGE_COUNT(columns); i++) {
-        char path[100];
-        snprintf(path, sizeof path, "/shot/%s", columns[i]);
-        const double value = last_of(p->source, path);
-        if (isfinite(value)) sum += value;
-        fprintf(p->out, "<tr><td class=\"text\">%s</td><td>%.3f</td></tr>\n", columns[i], 1e-3 * value);
-    }
-    fprintf(p->out, "<tr><td class=\"text\"><b>sum</b></td><td><b>%.3f</b></td></tr>\n", 1e-3 * sum);
-    fprintf(p->out, "<tr><td class=\"text\">error over the start</td><td>%.2e</td></tr>\n</table></div>\n",
-            last_of(p->source, "/shot/energy_error"));
+    fputs("<div class=\"wide\"><table><tr><th>column</th><th>place</th><th>start [kJ]</th><th>end [kJ]</th></tr>\n",
+          p->out);
+    double sum[2] = { 0.0, 0.0 }, given[2] = { 0.0, 0.0 }, error[2];
+#define STORED(member, column, text) ledger_place(p, #column, text, sum);
+#define SPENT(member, column, text) ledger_place(p, #column, text, sum);
+#include "circuit/ledger.def"
+    ledger_total(p, "sum", sum);
+#define GIVEN(place, member, column, text) ledger_place(p, #column, text, given);
+#include "circuit/ledger.def"
+    ledger_total(p, "at the start and brought in", (double[2]){ sum[0], sum[0] + given[1] - given[0] });
+    ends_of(p->source, "energy_error", error);
+    fprintf(p->out, "</table></div><p>The sums differ by %.2e of the whole.</p>\n", error[1]);
 }
 
 static void section_rest(const page *p)
