@@ -163,7 +163,7 @@ static void ledger_total(const page *p, const char *text, const double value[2])
     fprintf(p->out, "<td><b>%.3f</b></td><td><b>%.3f</b></td></tr>\n", 1e-3 * value[0], 1e-3 * value[1]);
 }
 
-/* Every place of circuit/ledger.def.  What is there at the end is what was there at the start and what was brought in. */
+/* Every place of circuit/ledger.def.  At the end there is what was there at the start and what was brought in. */
 static void section_ledger(const page *p)
 {
     if (!p->source->history || !host_h5_exists(p->source->history, "/shot/energy_error")) return;
