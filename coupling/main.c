@@ -1,6 +1,6 @@
 /* breech: the program.  Options in, exit code out; the only place that prints and exits.
  *
- * To add a command: a line in `commands`, its function here or in study/commands.c, its text in the line. */
+ * To add a command that runs a case: a study (study/study.h); any other: a line in `others`, its function here. */
 #include "coupling/case/material_file.h"
 #include "coupling/host/stop.h"
 #include "coupling/host/table.h"
@@ -9,7 +9,8 @@
 #include "coupling/report/report.h"
 #include "coupling/run/crew.h"
 #include "coupling/run/ranks.h"
-#include "coupling/study/commands.h"
+#include "coupling/study/check.h"
+#include "coupling/study/study.h"
 
 #include <errno.h>
 #include <math.h>
@@ -20,10 +21,18 @@
 
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_STOPPED = 75, MAX_SETS = 200 };
 
-typedef struct command command;
+typedef struct options options;
 
+/* What the program does: its studies (study/study.def), then what is no run. */
 typedef struct {
-    const command *command;
+    const char *name, *subject, *doc, *more;
+    int (*run)(const options *o);
+    bool subject_required;
+    const study *study; /* NULL: not a run */
+} command;
+
+struct options {
+    command command;
     const char *subject; /* CASE, NAME or DIR; NULL */
     const char *dir;     /* -o */
     const char *store;   /* --store; NULL: in the output directory, "": none */
@@ -34,15 +43,6 @@ typedef struct {
     outdir_options how;
     double max_walltime; /* [s], INFINITY: none */
     bool quiet;
-} options;
-
-struct command {
-    const char *name, *subject, *doc, *more;
-    int (*run)(const options *o);
-    bool subject_required;
-    unsigned needs;                                     /* of the case */
-    run_kind kind;                                      /* of its summary */
-    status (*work)(session *s, command_result *result); /* NULL: not a run */
 };
 
 static int run_case(const options *o);
@@ -50,39 +50,31 @@ static int run_check(const options *o);
 static int run_materials(const options *o);
 static int run_report(const options *o);
 
-static const command commands[] = {
-    { "shot", "CASE", "the electromechanical shot alone",
-      "Needs the sections bank (or another supply), rails, barrel and armature.  Writes the shot's history.", run_case,
-      true, CASE_FOR_SHOT, RUN_SHOT, study_command_shot },
-    { "scene", "CASE", "one embedded impact at a given velocity",
-      "Needs rail, projectile, particle and scene, with scene.velocity and particle.radius.", run_case, true,
-      CASE_FOR_SCENE, RUN_SCENE, study_command_scene },
-    { "onset", "CASE", "the main job: shot and sites, where gouging begins",
-      "Runs the shot, then as many impact scenes as the threshold velocity needs (study.max_scenes at most).", run_case,
-      true, CASE_FOR_ONSET, RUN_ONSET, study_command_onset },
-    { "compare", "CASE", "the same for several rail surfaces, ranked",
-      "As onset, for the case as it is and for each of its treatments; study.max_scenes holds for each surface.",
-      run_case, true, CASE_FOR_ONSET | CASE_FOR_COMPARE, RUN_COMPARE, study_command_compare },
-    { "inductance", "CASE", "L', R' of a rail cross-section, over frequency",
-      "Needs the section rails.  Direct current, 1 Hz to 100 kHz, the perfect conductor; the surface at "
-      "rails.frequency.",
-      run_case, true, CASE_FOR_INDUCTANCE, RUN_INDUCTANCE, study_command_inductance },
+static const command others[] = {
     { "check", "CASE", "read and validate only; memory and time estimate",
-      "Writes nothing.  Checks the case for every command whose sections it has.", run_check, true, 0, RUN_KINDS,
+      "Writes nothing.  Checks the case for every command whose sections it has.", run_check, true, NULL },
+    { "materials", "[NAME]", "materials at hand; the constants of one, with their sources", "", run_materials, false,
       NULL },
-    { "materials", "[NAME]", "materials at hand; the constants of one, with their sources", "", run_materials, false, 0,
-      RUN_KINDS, NULL },
-    { "report", "DIR", "make report.html of an output directory anew", "", run_report, true, 0, RUN_KINDS, NULL },
+    { "report", "DIR", "make report.html of an output directory anew", "", run_report, true, NULL },
 };
-enum { COMMANDS = sizeof commands / sizeof commands[0] };
+enum { OTHERS = sizeof others / sizeof others[0], COMMANDS = STUDIES + OTHERS };
+
+static command command_at(int i)
+{
+    if (i >= STUDIES) return others[i - STUDIES];
+    const study *y = study_list[i];
+    return (command){ y->name, "CASE", y->doc, y->more, run_case, true, y };
+}
 
 /* ---- words ---- */
 
 static void print_help(FILE *out)
 {
     fputs("usage: breech COMMAND CASE [options]        CASE: a case.yaml, or a folder that holds one\n\n", out);
-    for (int i = 0; i < COMMANDS; i++)
-        fprintf(out, "  breech %-10s %-7s %s\n", commands[i].name, commands[i].subject, commands[i].doc);
+    for (int i = 0; i < COMMANDS; i++) {
+        const command c = command_at(i);
+        fprintf(out, "  breech %-10s %-7s %s\n", c.name, c.subject, c.doc);
+    }
     fputs("\n"
           "  -o DIR            output directory, default out/<case>\n"
           "  --set KEY=VALUE   change a value of the case, --set bank.charge=\"9 kV\"; repeatable\n"
@@ -100,25 +92,26 @@ static void print_help(FILE *out)
           out);
 }
 
-static const command *command_find(const char *name)
+/* Its name is NULL where there is none. */
+static command command_find(const char *name)
 {
     for (int i = 0; i < COMMANDS; i++)
-        if (strcmp(commands[i].name, name) == 0) return &commands[i];
-    return NULL;
+        if (strcmp(command_at(i).name, name) == 0) return command_at(i);
+    return (command){ .name = NULL };
 }
 
 static int help(const char *name)
 {
-    const command *c = name ? command_find(name) : NULL;
-    if (name && !c) {
+    const command c = name ? command_find(name) : (command){ .name = NULL };
+    if (name && !c.name) {
         fprintf(stderr, "breech: no command `%s`; breech --help lists them\n", name);
         return EXIT_USAGE;
     }
-    if (!c)
+    if (!c.name)
         print_help(stdout);
     else
-        printf("breech %s %s: %s\n%s%sOptions: breech --help\n", c->name, c->subject, c->doc, c->more,
-               c->more[0] ? "\n" : "");
+        printf("breech %s %s: %s\n%s%sOptions: breech --help\n", c.name, c.subject, c.doc, c.more,
+               c.more[0] ? "\n" : "");
     return EXIT_DONE;
 }
 
@@ -140,6 +133,11 @@ static int complain(status s)
 
 /* ---- the case ---- */
 
+static study_case study_case_of(const options *o, const breech_case *c)
+{
+    return (study_case){ .c = c, .prefix = "", .sets = o->sets, .n_sets = o->n_sets };
+}
+
 static status read_case(const options *o, unsigned needs, breech_case **c)
 {
     material_places at;
@@ -148,7 +146,12 @@ static status read_case(const options *o, unsigned needs, breech_case **c)
     char *errors = NULL;
     status s = case_read(o->subject, o->sets, o->n_sets, &how, c, &errors);
     if (s.code == STATUS_OK) {
-        s = study_command_possible(*c, needs);
+        const study *y = o->command.study;
+        s = study_possible(*c, needs);
+        if (s.code == STATUS_OK && y && y->possible) {
+            const study_case of = study_case_of(o, *c);
+            s = y->possible(&of);
+        }
         if (s.code != STATUS_OK) case_free(*c);
     }
     if (errors)
@@ -166,11 +169,10 @@ static run_status status_of(status s)
     return s.code == STATUS_OK ? RUN_DONE : s.code == STATUS_STOPPED ? RUN_STOPPED : RUN_FAILED;
 }
 
-static status write_results(const options *o, session *s, command_result *r, status work)
+static status write_results(const options *o, session *s, const study_answer *a, status work)
 {
     char error[600];
-    run_summary *summary = &r->summary;
-    summary->kind = o->command->kind;
+    run_summary made = study_summary(o->command.study, a), *summary = &made;
     summary->case_name = s->c->name;
     summary->instruction_set = mpm_instruction_set();
     summary->status = status_of(work);
@@ -196,26 +198,26 @@ static void say_where(const options *o, const session *s, status work)
 {
     if (work.code == STATUS_STOPPED)
         fprintf(stderr, "breech: stopped (%s); --resume goes on: breech %s %s -o %s --resume\n", host_stop_reason(),
-                o->command->name, o->subject, s->dir.path);
+                o->command.name, o->subject, s->dir.path);
     else if (!o->quiet)
         printf("\nresults: %s\n", s->dir.path);
 }
 
 static int carry_out(const options *o, session *s)
 {
-    command_result result;
-    memset(&result, 0, sizeof result);
+    const study_case of = study_case_of(o, s->c);
+    study_answer answer = { .result = NULL };
     host_stop_install(o->max_walltime);
-    status work = o->command->work(s, &result);
-    const status written = write_results(o, s, &result, work);
+    status work = o->command.study->run(s, &of, &answer);
+    const status written = write_results(o, s, &answer, work);
     char path[OUTDIR_PATH_SIZE];
     snprintf(path, sizeof path, "%s", s->dir.path);
     const bool report = s->c->output.report && written.code == STATUS_OK && work.code == STATUS_OK;
     say_where(o, s, work);
     const status closed = run_session_close(s, work.code == STATUS_OK && written.code == STATUS_OK);
-    study_command_free(&result); /* scenes of others may be made of its cases until then */
+    if (o->command.study->free) o->command.study->free(answer.owned); /* scenes may be made of its cases until then */
     if (report) {
-        const status drawn = report_write(path);
+        const status drawn = report_write(path, study_report_part);
         if (drawn.code != STATUS_OK) fprintf(stderr, "breech: no report: %s\n", drawn.text);
     }
     if (work.code != STATUS_OK) return work.code == STATUS_STOPPED ? EXIT_STOPPED : complain(work);
@@ -226,7 +228,7 @@ static int run_case(const options *o)
 {
     breech_case *c = NULL;
     session s;
-    const status got = read_case(o, o->command->needs, &c);
+    const status got = read_case(o, o->command.study->needs, &c);
     if (got.code != STATUS_OK) return exit_code(got);
     const session_options how = { .dir = o->dir,
                                   .store = o->store,
@@ -271,7 +273,7 @@ static status print_check(const breech_case *c, int threads)
     scene_estimate e[CHECK_MAX_ESTIMATES];
     int n = 0;
     table *t;
-    TRY(study_command_check(c, threads, e, &n));
+    TRY(study_check(c, threads, e, &n));
     printf("%s: %s\n", c->path, c->title[0] ? c->title : c->name);
     fputs(c->warnings, stdout);
     TRY(host_table_create("scene|points|memory [GB]|steps|time, estimated", &t));
@@ -380,7 +382,7 @@ static int run_materials(const options *o)
 
 static int run_report(const options *o)
 {
-    const status s = report_write(o->subject);
+    const status s = report_write(o->subject, study_report_part);
     if (s.code == STATUS_OK && !o->quiet) printf("%s/%s\n", o->subject, OUTDIR_REPORT);
     return complain(s);
 }
@@ -477,13 +479,13 @@ static status take_word(options *o, int argc, char **argv, int *i)
     CHECK(!equals, STATUS_BAD_INPUT, "%.80s takes no value, or is no option; breech --help lists them", word);
     if (take_flag(o, word)) return status_ok();
     CHECK(word[0] != '-' || word[1] == '\0', STATUS_BAD_INPUT, "no option %.80s; breech --help lists them", word);
-    if (!o->command) {
+    if (!o->command.name) {
         o->command = command_find(word);
-        CHECK(o->command, STATUS_BAD_INPUT, "no command `%.80s`; breech --help lists them", word);
+        CHECK(o->command.name, STATUS_BAD_INPUT, "no command `%.80s`; breech --help lists them", word);
         return status_ok();
     }
-    CHECK(!o->subject, STATUS_BAD_INPUT, "%s takes one %s: `%.80s` is one too many", o->command->name,
-          o->command->subject, word);
+    CHECK(!o->subject, STATUS_BAD_INPUT, "%s takes one %s: `%.80s` is one too many", o->command.name,
+          o->command.subject, word);
     o->subject = word;
     return status_ok();
 }
@@ -491,9 +493,9 @@ static status take_word(options *o, int argc, char **argv, int *i)
 static status parse(int argc, char **argv, options *o)
 {
     for (int i = 1; i < argc; i++) TRY(take_word(o, argc, argv, &i));
-    CHECK(o->command, STATUS_BAD_INPUT, "no command given; breech --help lists them");
-    CHECK(o->subject || !o->command->subject_required, STATUS_BAD_INPUT, "%s needs a %s: breech %s %s",
-          o->command->name, o->command->subject, o->command->name, o->command->subject);
+    CHECK(o->command.name, STATUS_BAD_INPUT, "no command given; breech --help lists them");
+    CHECK(o->subject || !o->command.subject_required, STATUS_BAD_INPUT, "%s needs a %s: breech %s %s", o->command.name,
+          o->command.subject, o->command.name, o->command.subject);
     return status_ok();
 }
 
@@ -543,7 +545,7 @@ static int lead(int argc, char **argv, int threads, lending *l)
     const status s = parse(argc, argv, &o);
     if (s.code != STATUS_OK) return complain(s);
     run_lending_own(l, o.threads);
-    return o.command->run(&o);
+    return o.command.run(&o);
 }
 
 /* The other processes read their number of threads only; what is wrong with the words, rank 0 says. */

@@ -2,7 +2,9 @@
 #ifndef BREECH_TESTS_OUTPUT_COMMON_H
 #define BREECH_TESTS_OUTPUT_COMMON_H
 
-#include "coupling/output/summary.h"
+#include "coupling/study/compare.h"
+#include "coupling/study/inductance.h"
+#include "coupling/study/study.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -184,6 +186,50 @@ static inline void example_onset(example_study *e)
                                 .site = e->site,
                                 .scene = e->scene,
                                 .wall_seconds = 200.0 };
+}
+
+/* What a run of each study may leave, in study.def's order; whoever adds a study adds its example here. */
+typedef struct {
+    shot_record shot;
+    scene_result scene;
+    example_study study;
+    compare_result compare;
+    inductance_result inductance;
+    study_answer answer[STUDIES];
+} example_results;
+
+static inline void example_fill(example_results *e)
+{
+    static const double frequency[] = { 10.0, 1e3, 1e5 }, gradient[] = { 0.6e-6, 0.55e-6, 0.5e-6 };
+    static const compare_entry ranking[] = { { .surface = "hardened",
+                                               .threshold_velocity = 1700.0,
+                                               .threshold_interval = { 1650.0, 1750.0 },
+                                               .onset_position = NAN,
+                                               .gouged_volume = 0.0 },
+                                             { .surface = "bare",
+                                               .threshold_velocity = 1480.0,
+                                               .threshold_interval = { 1450.0, 1510.0 },
+                                               .onset_position = 2.5,
+                                               .gouged_volume = 3e-9 } };
+    memset(e, 0, sizeof *e);
+    e->shot = example_shot();
+    e->scene = example_scene(0.4);
+    example_onset(&e->study);
+    e->compare = (compare_result){ .n = 2, .ranking = ranking };
+    e->inductance = (inductance_result){ .n = 3,
+                                         .frequency = frequency,
+                                         .L_gradient = gradient,
+                                         .R_gradient = gradient,
+                                         .L_gradient_high_frequency = 0.49e-6,
+                                         .n_perimeter = 3,
+                                         .perimeter = frequency,
+                                         .perimeter_current = gradient,
+                                         .perimeter_heat = gradient };
+    e->answer[STUDY_shot].result = &e->shot;
+    e->answer[STUDY_scene].result = &e->scene;
+    e->answer[STUDY_onset] = (study_answer){ .result = &e->study.result, .shot = &e->shot };
+    e->answer[STUDY_compare] = (study_answer){ .result = &e->compare, .shot = &e->shot };
+    e->answer[STUDY_inductance].result = &e->inductance;
 }
 
 #endif

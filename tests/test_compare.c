@@ -1,7 +1,8 @@
 /* Treatments and their comparison, on scenes that cost nothing. */
 #include "coupling/case/treatment.h"
 #include "coupling/gouge/growth.h"
-#include "coupling/study/commands.h"
+#include "coupling/study/compare.h"
+#include "coupling/study/study.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -163,7 +164,7 @@ static void test_every_kind(void **state)
         assert_true(case_treatment_given(&back->treatments.item[0], k));
         char *again = used_text(back);
         assert_string_equal(before, again);
-        OK(study_command_possible(c, ALL)); /* its scenes can be made */
+        OK(study_possible(c, ALL)); /* its scenes can be made */
         case_free(back);
         free(before), free(untouched), free(after), free(still), free(again);
         case_treated_free(&treated);
@@ -230,7 +231,7 @@ static void test_refusals(void **state)
         free(errors);
     }
     breech_case *c = read(HEAD GRAINS "treatments: [{name: flat, lead_angle: {angle: 2 deg}}]\n", ALL);
-    const status s = study_command_possible(c, ALL);
+    const status s = study_possible(c, ALL);
     assert_int_equal(s.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(s.text, "treatment `flat`"));
     case_free(c);
@@ -241,7 +242,7 @@ static void test_refusals(void **state)
                  HEAD GRAINS "treatments: [{name: thin, coating: [{material: steel_4340, thickness: 20 um%s}]}]\n",
                  welded ? "" : ", bond_strength: 100 MPa");
         c = read(text, ALL);
-        const status thin = study_command_possible(c, ALL);
+        const status thin = study_possible(c, ALL);
         assert_int_equal(thin.code, welded ? STATUS_OK : STATUS_BAD_INPUT);
         if (!welded) assert_non_null(strstr(thin.text, "at least one cell across"));
         case_free(c);
@@ -262,7 +263,7 @@ static void test_presets(void **state)
         assert_true(p->density > 0.0 && p->radius_median > 0.0 && p->radius_spread > 0.0 && p->aspect > 0.0);
         assert_true(p->from == 1.0 && p->to == 3.0);
         assert_non_null(case_material(c, p->material));
-        OK(study_command_possible(c, ALL));
+        OK(study_possible(c, ALL));
         case_free(c);
     }
     breech_case *c = read(

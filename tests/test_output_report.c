@@ -53,59 +53,34 @@ static void write_crater(history *h, const char *scene, double growth)
     OK(gouge_crater_record(&c, h, scene));
 }
 
-static void write_run(const char *dir, run_kind kind)
+static void write_run(const char *dir, int kind)
 {
-    fresh_folder(dir);
+    static example_results e;
     char path[200];
-    static example_study study;
-    static shot_record fired;
-    static scene_result scene;
-    example_onset(&study);
-    fired = example_shot();
-    scene = example_scene(0.4);
-    static const double frequency[] = { 10.0, 1e3, 1e5 }, gradient[] = { 0.6e-6, 0.55e-6, 0.5e-6 };
-    static const compare_entry entries[] = { { .surface = "hardened",
-                                               .threshold_velocity = 1700.0,
-                                               .threshold_interval = { 1650.0, 1750.0 },
-                                               .onset_position = NAN,
-                                               .gouged_volume = 0.0 } };
-    static const compare_result compare = { .n = 1, .ranking = entries };
-    static const inductance_result inductance = { .n = 3,
-                                                  .frequency = frequency,
-                                                  .L_gradient = gradient,
-                                                  .R_gradient = gradient,
-                                                  .L_gradient_high_frequency = 0.49e-6,
-                                                  .n_perimeter = 3,
-                                                  .perimeter = frequency,
-                                                  .perimeter_current = gradient,
-                                                  .perimeter_heat = gradient };
-    const run_summary s = { .kind = kind,
-                            .case_name = "case <1> & \"two\"",
-                            .instruction_set = "x86-64-v3",
-                            .warnings = "copper <weak>\nclamped 3 times",
-                            .shot = &fired,
-                            .scene = &scene,
-                            .onset = &study.result,
-                            .compare = &compare,
-                            .inductance = &inductance };
+    fresh_folder(dir);
+    example_fill(&e);
+    run_summary s = study_summary(study_list[kind], &e.answer[kind]);
+    s.case_name = "case <1> & \"two\"";
+    s.instruction_set = "x86-64-v3";
+    s.warnings = "copper <weak>\nclamped 3 times";
     OK(output_summary_write(dir, &s));
     snprintf(path, sizeof path, "%s/used.yaml", dir);
     OK(host_file_write(path, "name: a <b>\n", 12));
-    if (kind == RUN_INDUCTANCE) return;
+    if (kind == STUDY_inductance) return;
     history *h;
     snprintf(path, sizeof path, "%s/history.h5", dir);
     OK(output_history_open(path, false, &h));
-    if (kind != RUN_SCENE) write_shot(h);
-    if (kind == RUN_ONSET)
-        for (int i = 0; i < EXAMPLE_SCENES; i++) write_crater(h, study.scene[i].name, 0.2 * i);
-    if (kind == RUN_SCENE) write_crater(h, "scene", 0.5);
+    if (kind != STUDY_scene) write_shot(h);
+    if (kind == STUDY_onset)
+        for (int i = 0; i < EXAMPLE_SCENES; i++) write_crater(h, e.study.scene[i].name, 0.2 * i);
+    if (kind == STUDY_scene) write_crater(h, "scene", 0.5);
     OK(output_history_close(h));
 }
 
 static char *page_of(const char *dir)
 {
     char path[200], *text;
-    OK(report_write(dir));
+    OK(report_write(dir, study_report_part));
     snprintf(path, sizeof path, "%s/report.html", dir);
     OK(host_file_read(path, &text, NULL));
     assert_int_equal(files_in(dir, ".part"), 0);
@@ -139,8 +114,8 @@ static void is_self_contained(const char *text)
 static void page_for_every_kind(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < RUN_KINDS; kind++) {
-        write_run("report", (run_kind)kind);
+    for (int kind = 0; kind < STUDIES; kind++) {
+        write_run("report", kind);
         char *text = page_of("report");
         is_self_contained(text);
         assert_non_null(strstr(text, "case &lt;1&gt; &amp; &quot;two&quot;"));
@@ -154,7 +129,7 @@ static void page_for_every_kind(void **state)
 static void onset_page_shows_everything(void **state)
 {
     (void)state;
-    write_run("report", RUN_ONSET);
+    write_run("report", STUDY_onset);
     char *text = page_of("report");
     assert_non_null(strstr(text, "Gouging begins 2.5"));
     assert_non_null(strstr(text, "v1650"));
@@ -202,7 +177,7 @@ static void write_study(const char *dir)
         { "shots", "[{\"shot\":1,\"probability_gouge\":0.5,\"expected_gouges\":1,\"expected_gouged_volume\":1e-9,"
                    "\"onset_position\":2.0,\"onset_interval\":[1.5,2.5]}]" },
     };
-    write_run(dir, RUN_ONSET);
+    write_run(dir, STUDY_onset);
     add_to_summary(dir, more, sizeof more / sizeof *more);
 }
 
@@ -217,7 +192,7 @@ static void write_comparison(const char *dir)
           "\"significant\":false,\"tied\":2,\"threshold_velocity\":1500,\"threshold_interval\":[1450,1550],"
           "\"onset_position\":1.2,\"gouged_volume\":2e-9,\"layer\":\"none\",\"scenes\":5}]" },
     };
-    write_run(dir, RUN_COMPARE);
+    write_run(dir, STUDY_compare);
     add_to_summary(dir, more, 1);
 }
 
@@ -338,7 +313,7 @@ static void a_browser_reads_it(void **state)
 static void same_files_same_page(void **state)
 {
     (void)state;
-    write_run("report", RUN_ONSET);
+    write_run("report", STUDY_onset);
     char *first = page_of("report"), *second = page_of("report");
     assert_string_equal(first, second);
     free(first);
@@ -348,7 +323,7 @@ static void same_files_same_page(void **state)
 static void without_gnuplot_it_says_so(void **state)
 {
     (void)state;
-    write_run("report", RUN_ONSET);
+    write_run("report", STUDY_onset);
     char *kept = strdup(getenv("PATH"));
     setenv("PATH", "/nowhere", 1);
     char *text = page_of("report");
@@ -363,8 +338,11 @@ static void failed_run_has_a_page_too(void **state)
 {
     (void)state;
     fresh_folder("report");
-    OK(output_summary_write(
-        "report", &(run_summary){ .kind = RUN_ONSET, .case_name = "x", .status = RUN_FAILED, .error = "it broke" }));
+    run_summary failed = study_summary(&study_onset, &(study_answer){ .result = NULL });
+    failed.case_name = "x";
+    failed.status = RUN_FAILED;
+    failed.error = "it broke";
+    OK(output_summary_write("report", &failed));
     char *text = page_of("report");
     assert_non_null(strstr(text, "it broke"));
     assert_non_null(strstr(text, "history.h5 is not there"));
@@ -376,16 +354,16 @@ static void what_is_no_run_is_refused(void **state)
 {
     (void)state;
     fresh_folder("report");
-    const status s = report_write("report");
+    const status s = report_write("report", study_report_part);
     assert_int_equal(s.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(s.text, "summary.json"));
     OK(host_file_write("report/summary.json", "{ \"kind\": [", 11));
-    assert_int_equal(report_write("report").code, STATUS_BAD_INPUT);
+    assert_int_equal(report_write("report", study_report_part).code, STATUS_BAD_INPUT);
     OK(host_file_write("report/summary.json", "{}", 2));
     OK(host_file_write("report/history.h5", "damaged", 7));
-    assert_int_equal(report_write("report").code, STATUS_IO);
+    assert_int_equal(report_write("report", study_report_part).code, STATUS_IO);
     assert_false(host_file_exists("report/report.html"));
-    assert_int_equal(report_write("report/nowhere").code, STATUS_BAD_INPUT);
+    assert_int_equal(report_write("report/nowhere", study_report_part).code, STATUS_BAD_INPUT);
 }
 
 int main(void)

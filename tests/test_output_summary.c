@@ -9,68 +9,35 @@
 
 /* The design's list, typed here once more on purpose: a key renamed in the table must make this test fail. */
 static const char *const all_keys[] = { "case", "version", "instruction_set", "status", "error", "warnings", NULL };
-static const char *const kind_keys[RUN_KINDS][32] = {
-    { "peak_current", "muzzle_velocity", "muzzle_time", "muzzle_energy", "efficiency", "action", "peak_acceleration",
-      "exit_current", "energy_error", "steps", "wall_seconds" },
-    { "class",           "severity",       "crater_length",    "crater_width",
-      "crater_depth",    "crater_volume",  "rim_height",       "widening",
-      "peak_pressure",   "peak_force",     "peak_temperature", "peak_mises_armature",
-      "peak_mises_rail", "momentum_error", "energy_error",     "failed_volume",
-      "particles",       "steps",          "particle_steps",   "particle_steps_dense",
-      "wall_seconds",    "threads" },
-    { "verdict", "probability_gouge", "threshold_velocity", "threshold_interval", "onset_position", "onset_interval",
-      "scenes_run", "scenes_skipped", "sites", "wall_seconds" },
-    { "ranking" },
-    { "L_gradient", "R_gradient", "frequency", "L_gradient_high_frequency" },
+static const char *const kind_keys[STUDIES][32] = {
+    [STUDY_shot] = { "peak_current", "muzzle_velocity", "muzzle_time", "muzzle_energy", "efficiency", "action",
+                     "peak_acceleration", "exit_current", "energy_error", "steps", "wall_seconds" },
+    [STUDY_scene] = { "class",           "severity",       "crater_length",    "crater_width",
+                      "crater_depth",    "crater_volume",  "rim_height",       "widening",
+                      "peak_pressure",   "peak_force",     "peak_temperature", "peak_mises_armature",
+                      "peak_mises_rail", "momentum_error", "energy_error",     "failed_volume",
+                      "particles",       "steps",          "particle_steps",   "particle_steps_dense",
+                      "wall_seconds",    "threads" },
+    [STUDY_onset] = { "verdict", "probability_gouge", "threshold_velocity", "threshold_interval", "onset_position",
+                      "onset_interval", "scenes_run", "scenes_skipped", "sites", "wall_seconds" },
+    [STUDY_compare] = { "ranking" },
+    [STUDY_inductance] = { "L_gradient", "R_gradient", "frequency", "L_gradient_high_frequency" },
 };
-
-static const double frequency[] = { 10.0, 1e3, 1e5 }, gradient[] = { 0.6e-6, 0.55e-6, 0.5e-6 };
-static const compare_entry ranking[] = { { .surface = "hardened",
-                                           .threshold_velocity = 1700.0,
-                                           .threshold_interval = { 1650.0, 1750.0 },
-                                           .onset_position = NAN,
-                                           .gouged_volume = 0.0 },
-                                         { .surface = "bare",
-                                           .threshold_velocity = 1480.0,
-                                           .threshold_interval = { 1450.0, 1510.0 },
-                                           .onset_position = 2.5,
-                                           .gouged_volume = 3e-9 } };
 
 /* Everything that a run of the kind may have. */
 typedef struct {
-    shot_record shot;
-    scene_result scene;
-    example_study study;
-    compare_result compare;
-    inductance_result inductance;
+    example_results from;
     run_summary summary;
 } example;
 
-static void fill(example *e, run_kind kind)
+static void fill(example *e, int kind)
 {
-    e->shot = example_shot();
-    e->scene = example_scene(0.4);
-    example_onset(&e->study);
-    e->compare = (compare_result){ .n = 2, .ranking = ranking };
-    e->inductance = (inductance_result){ .n = 3,
-                                         .frequency = frequency,
-                                         .L_gradient = gradient,
-                                         .R_gradient = gradient,
-                                         .L_gradient_high_frequency = 0.49e-6,
-                                         .n_perimeter = 3,
-                                         .perimeter = frequency,
-                                         .perimeter_current = gradient,
-                                         .perimeter_heat = gradient };
-    e->summary = (run_summary){ .kind = kind,
-                                .case_name = "a \"case\"",
-                                .instruction_set = "x86-64-v3",
-                                .status = RUN_DONE,
-                                .warnings = "first\nsecond\n",
-                                .shot = &e->shot,
-                                .scene = &e->scene,
-                                .onset = &e->study.result,
-                                .compare = &e->compare,
-                                .inductance = &e->inductance };
+    example_fill(&e->from);
+    e->summary = study_summary(study_list[kind], &e->from.answer[kind]);
+    e->summary.case_name = "a \"case\"";
+    e->summary.instruction_set = "x86-64-v3";
+    e->summary.status = RUN_DONE;
+    e->summary.warnings = "first\nsecond\n";
 }
 
 static cJSON *parsed(const run_summary *s)
@@ -99,9 +66,9 @@ static double number_of(const cJSON *object, const char *key)
 static void every_key_for_every_kind(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < RUN_KINDS; kind++) {
+    for (int kind = 0; kind < STUDIES; kind++) {
         example e;
-        fill(&e, (run_kind)kind);
+        fill(&e, kind);
         cJSON *root = parsed(&e.summary);
         has_keys(root, all_keys);
         has_keys(root, kind_keys[kind]);
@@ -115,8 +82,10 @@ static void every_key_for_every_kind(void **state)
 static void every_key_on_failure_too(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < RUN_KINDS; kind++) {
-        const run_summary s = { .kind = (run_kind)kind, .status = RUN_FAILED, .error = "it \"broke\"\nat 1 us" };
+    for (int kind = 0; kind < STUDIES; kind++) {
+        run_summary s = study_summary(study_list[kind], &(study_answer){ .result = NULL });
+        s.status = RUN_FAILED;
+        s.error = "it \"broke\"\nat 1 us";
         cJSON *root = parsed(&s);
         has_keys(root, all_keys);
         has_keys(root, kind_keys[kind]);
@@ -132,15 +101,15 @@ static void numbers_come_back_exactly(void **state)
 {
     (void)state;
     example e;
-    fill(&e, RUN_SHOT);
-    e.shot.is.peak_current = 1.0 / 3.0 * 1e6;
+    fill(&e, STUDY_shot);
+    e.from.shot.is.peak_current = 1.0 / 3.0 * 1e6;
     cJSON *root = parsed(&e.summary);
-    assert_true(number_of(root, "peak_current") == e.shot.is.peak_current);
+    assert_true(number_of(root, "peak_current") == e.from.shot.is.peak_current);
     assert_true(number_of(root, "steps") == 1234.0);
     assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(root, "case")), "a \"case\"");
     cJSON_Delete(root);
 
-    fill(&e, RUN_SCENE);
+    fill(&e, STUDY_scene);
     root = parsed(&e.summary);
     assert_true(number_of(root, "severity") == 0.4);
     assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(root, "class")), "gouge");
@@ -153,11 +122,11 @@ static void what_is_not_there_is_null(void **state)
 {
     (void)state;
     example e;
-    fill(&e, RUN_ONSET);
-    e.study.result.verdict = VERDICT_NO_GOUGING;
-    e.study.result.onset_position = NAN;
-    e.study.result.onset_interval[0] = e.study.result.onset_interval[1] = NAN;
-    e.study.result.threshold_interval[1] = INFINITY;
+    fill(&e, STUDY_onset);
+    e.from.study.result.verdict = VERDICT_NO_GOUGING;
+    e.from.study.result.onset_position = NAN;
+    e.from.study.result.onset_interval[0] = e.from.study.result.onset_interval[1] = NAN;
+    e.from.study.result.threshold_interval[1] = INFINITY;
     cJSON *root = parsed(&e.summary);
     assert_true(cJSON_IsNull(cJSON_GetObjectItem(root, "onset_position")));
     assert_true(cJSON_IsNull(cJSON_GetObjectItem(root, "onset_interval")));
@@ -172,17 +141,17 @@ static void onset_carries_shot_sites_and_scenes(void **state)
 {
     (void)state;
     example e;
-    fill(&e, RUN_ONSET);
+    fill(&e, STUDY_onset);
     cJSON *root = parsed(&e.summary);
-    has_keys(cJSON_GetObjectItem(root, "shot"), kind_keys[RUN_SHOT]);
+    has_keys(cJSON_GetObjectItem(root, "shot"), kind_keys[STUDY_shot]);
     const cJSON *sites = cJSON_GetObjectItem(root, "sites"), *scenes = cJSON_GetObjectItem(root, "scenes");
     assert_int_equal(cJSON_GetArraySize(sites), EXAMPLE_SITES);
     assert_int_equal(cJSON_GetArraySize(scenes), EXAMPLE_SCENES);
     for (int i = 0; i < EXAMPLE_SITES; i++)
         assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(cJSON_GetArrayItem(sites, i), "outcome")),
-                            output_site_outcome_names[i]);
+                            study_site_outcome_names[i]);
     assert_true(cJSON_IsNull(cJSON_GetObjectItem(cJSON_GetArrayItem(sites, 0), "velocity")));
-    has_keys(cJSON_GetArrayItem(scenes, 2), kind_keys[RUN_SCENE]);
+    has_keys(cJSON_GetArrayItem(scenes, 2), kind_keys[STUDY_scene]);
     assert_true(number_of(cJSON_GetArrayItem(scenes, 2), "velocity") == 1500.0);
     cJSON_Delete(root);
 }
@@ -194,9 +163,9 @@ static void manual_lists_every_key(void **state)
     char *text = NULL;
     size_t bytes;
     FILE *out = open_memstream(&text, &bytes);
-    output_summary_print_keys(out);
+    study_print_keys(out);
     fclose(out);
-    for (int kind = 0; kind < RUN_KINDS; kind++)
+    for (int kind = 0; kind < STUDIES; kind++)
         for (const char *const *key = kind_keys[kind]; *key; key++) {
             char quoted[64];
             snprintf(quoted, sizeof quoted, "`%s`", *key);
@@ -212,7 +181,7 @@ static void manual_is_up_to_date(void **state)
     char *text = NULL, *columns = NULL, *page;
     size_t bytes;
     FILE *out = open_memstream(&text, &bytes);
-    output_summary_print_keys(out);
+    study_print_keys(out);
     fclose(out);
     out = open_memstream(&columns, &bytes);
     output_history_print_columns(out);
@@ -231,7 +200,7 @@ static void closing_table_shows_the_result(void **state)
     char *text = NULL;
     size_t bytes;
     example e;
-    fill(&e, RUN_ONSET);
+    fill(&e, STUDY_onset);
     FILE *out = open_memstream(&text, &bytes);
     output_summary_print(&e.summary, out);
     fclose(out);
@@ -247,19 +216,19 @@ static void file_and_its_status(void **state)
     (void)state;
     char word[16];
     const char *dir = fresh_folder("summary");
-    output_summary_status(dir, word, sizeof word);
+    host_outdir_status(dir, word, sizeof word);
     assert_string_equal(word, "");
     for (int status_of = 0; status_of < 3; status_of++) {
         example e;
-        fill(&e, RUN_SCENE);
+        fill(&e, STUDY_scene);
         e.summary.status = (run_status)status_of;
         OK(output_summary_write(dir, &e.summary));
-        output_summary_status(dir, word, sizeof word);
+        host_outdir_status(dir, word, sizeof word);
         assert_string_equal(word, output_run_status_names[status_of]);
         assert_int_equal(files_in(dir, ""), 1);
     }
     OK(host_file_write("summary/summary.json", "{ \"status\": ", 12));
-    output_summary_status(dir, word, sizeof word);
+    host_outdir_status(dir, word, sizeof word);
     assert_string_equal(word, "");
 }
 

@@ -290,11 +290,11 @@ static void test_paraview_crater(void **state)
 
 /* Starts it and ends it with the signal once the folder holds a snapshot more; its exit code.  Snapshots come at fixed
  * times of the scene: how far it has come does not depend on how busy the machine is. */
-static int signalled(const char *arguments, int number_of_signal, const char *snapshots)
+static int signalled(const char *arguments, int number_of_signal, const char *snapshot_folder)
 {
     char command[2000];
     snprintf(command, sizeof command, "exec %s %s >out.txt 2>err.txt", BREECH_PROGRAM, arguments);
-    const int before = exists(snapshots) ? files_in(snapshots, ".hdf") : 0;
+    const int before = exists(snapshot_folder) ? files_in(snapshot_folder, ".hdf") : 0;
     const pid_t child = fork();
     assert_true(child >= 0);
     if (child == 0) {
@@ -303,7 +303,7 @@ static int signalled(const char *arguments, int number_of_signal, const char *sn
     }
     int result;
     pid_t ended = 0;
-    while (ended == 0 && !(exists(snapshots) && files_in(snapshots, ".hdf") > before)) {
+    while (ended == 0 && !(exists(snapshot_folder) && files_in(snapshot_folder, ".hdf") > before)) {
         const struct timespec wait = { 0, 1000000 };
         nanosleep(&wait, NULL);
         ended = waitpid(child, &result, WNOHANG);

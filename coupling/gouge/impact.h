@@ -2,8 +2,8 @@
 #ifndef BREECH_COUPLING_GOUGE_IMPACT_H
 #define BREECH_COUPLING_GOUGE_IMPACT_H
 
+#include "coupling/gouge/result.h"
 #include "coupling/gouge/scene_from_state.h"
-#include "coupling/output/summary.h"
 #include "coupling/scene/scene_run.h"
 
 typedef struct {

@@ -1,7 +1,6 @@
 #include "coupling/host/outdir.h"
 
-#include "coupling/output/summary.h"
-
+#include <cJSON.h>
 #include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
@@ -187,10 +186,24 @@ static void remove_ours(const char *dir, int depth)
     closedir(d);
 }
 
+void host_outdir_status(const char *dir, char *out, size_t size)
+{
+    char path[OUTDIR_PATH_SIZE], *text;
+    out[0] = '\0';
+    if (path_join(dir, OUTDIR_SUMMARY, path, sizeof path).code != STATUS_OK ||
+        host_file_read(path, &text, NULL).code != STATUS_OK)
+        return;
+    cJSON *root = cJSON_Parse(text);
+    const char *word = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(root, "status"));
+    if (word) snprintf(out, size, "%s", word);
+    cJSON_Delete(root);
+    free(text);
+}
+
 static status decide(outdir *d, outdir_options options)
 {
     char state[16], checkpoint[OUTDIR_PATH_SIZE];
-    output_summary_status(d->path, state, sizeof state);
+    host_outdir_status(d->path, state, sizeof state);
     TRY(host_outdir_file(d, OUTDIR_CHECKPOINT, checkpoint, sizeof checkpoint));
     const bool finished = strcmp(state, "done") == 0, stopped = host_file_exists(checkpoint);
     d->state = OUTDIR_NEW;

@@ -75,4 +75,7 @@ status host_file_end(file_writer *w, bool keep);
 /* The whole file, a 0 byte after it; *data is malloc'ed.  bytes may be NULL. */
 status host_file_read(const char *path, char **data, size_t *bytes);
 
+/* The word `status` of the summary.json in dir; "" when there is none or it cannot be read. */
+void host_outdir_status(const char *dir, char *out, size_t size);
+
 #endif

@@ -1,16 +1,14 @@
-#include "coupling/host/version.h"
-#include "coupling/output/summary_keys.h"
+#include "coupling/output/summary.h"
 
 #include "coupling/host/outdir.h"
+#include "coupling/host/table.h"
+#include "coupling/host/version.h"
 
+#include <cJSON.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-const char *const output_site_outcome_names[] = { "not_reached", "skipped",   "none", "scratch",
-                                                  "gouge",       "undecided", NULL };
-const char *const output_onset_verdict_names[] = { "gouges", "no_gouging", "undecided", NULL };
-const char *const output_run_kind_names[] = { "shot", "scene", "onset", "compare", "inductance", NULL };
 const char *const output_run_status_names[] = { "done", "stopped", "failed", NULL };
 
 /* ---- JSON ---- */
@@ -35,37 +33,46 @@ static cJSON *vector_or_null(const double *value, int n)
     return any ? vector_json(value, n) : cJSON_CreateNull();
 }
 
-static cJSON *by_body_json(const scene_result *r, const double *value)
+static int count_of(const summary_key *k, const char *base)
+{
+    return *(const int *)(const void *)(base + k->n_offset);
+}
+
+static cJSON *by_name_json(const summary_key *k, const char *base)
 {
     cJSON *object = cJSON_CreateObject();
-    for (int b = 0; b < r->bodies && b < MPM_MAX_BODIES; b++)
-        cJSON_AddItemToObject(object, r->body[b], number_json(value[b]));
+    const double *value = (const double *)(const void *)(base + k->offset);
+    for (int i = 0; i < count_of(k, base); i++)
+        cJSON_AddItemToObject(object, base + k->names_offset + (size_t)i * k->item_size, number_json(value[i]));
+    return object;
+}
+
+static cJSON *pairs_json(const summary_key *k, const char *base)
+{
+    cJSON *object = cJSON_CreateObject();
+    const summary_pair *pair = *(const summary_pair *const *)(const void *)(base + k->offset);
+    for (int i = 0; i < count_of(k, base); i++)
+        cJSON_AddItemToObject(object, pair[i].name,
+                              pair[i].text ? cJSON_CreateString(pair[i].text) : number_json(pair[i].value));
     return object;
 }
 
 static void add_keys(cJSON *object, const summary_key *keys, const void *from);
 
-static const scene_result *result_of(const void *scene)
-{
-    return &((const onset_scene *)scene)->result;
-}
-
 static cJSON *list_json(const summary_key *k, const char *base)
 {
-    const int n = *(const int *)(base + k->n_offset);
-    const char *items = *(const char *const *)(base + k->offset);
+    const char *items = *(const char *const *)(const void *)(base + k->offset);
     cJSON *list = cJSON_CreateArray();
-    for (int i = 0; i < n; i++) {
-        const char *item = items + (size_t)i * k->item_size;
+    for (int i = 0; i < count_of(k, base); i++) {
         cJSON *object = cJSON_CreateObject();
-        add_keys(object, k->item, item);
-        if (k->item == output_summary_study_scene_keys) add_keys(object, output_summary_scene_keys, result_of(item));
+        add_keys(object, k->item, items + (size_t)i * k->item_size);
         cJSON_AddItemToArray(list, object);
     }
     return list;
 }
 
-cJSON *output_summary_value_json(const summary_key *k, const void *from)
+/* A key's value of the struct it belongs to; the caller frees. */
+static cJSON *value_json(const summary_key *k, const void *from)
 {
     const char *base = from;
     const void *member = base + k->offset;
@@ -76,10 +83,11 @@ cJSON *output_summary_value_json(const summary_key *k, const void *from)
     case KEY_FLAG: return cJSON_CreateBool(*(const bool *)member);
     case KEY_TEXT: return cJSON_CreateString(member);
     case KEY_NAME: return cJSON_CreateString(k->names[*(const int *)member]);
-    case KEY_BY_BODY: return by_body_json(from, (const double *)member);
+    case KEY_BY_NAME: return by_name_json(k, base);
+    case KEY_PAIRS: return pairs_json(k, base);
     case KEY_LIST: return list_json(k, base);
-    case KEY_ARRAY:
-        return vector_json(*(const double *const *)member, *(const int *)(const void *)(base + k->n_offset));
+    case KEY_ARRAY: return vector_json(*(const double *const *)member, count_of(k, base));
+    case KEY_PART: break;
     }
     return NULL;
 }
@@ -88,7 +96,10 @@ cJSON *output_summary_value_json(const summary_key *k, const void *from)
 static void add_keys(cJSON *object, const summary_key *keys, const void *from)
 {
     for (const summary_key *k = keys; k->name; k++)
-        cJSON_AddItemToObject(object, k->name, from ? output_summary_value_json(k, from) : cJSON_CreateNull());
+        if (k->kind == KEY_PART)
+            add_keys(object, k->item, from ? (const char *)from + k->offset : NULL);
+        else
+            cJSON_AddItemToObject(object, k->name, from ? value_json(k, from) : cJSON_CreateNull());
 }
 
 static cJSON *warnings_json(const char *warnings)
@@ -106,7 +117,7 @@ static cJSON *warnings_json(const char *warnings)
 
 static void add_common(cJSON *root, const run_summary *s)
 {
-    cJSON_AddStringToObject(root, "kind", output_run_kind_names[s->kind]);
+    cJSON_AddStringToObject(root, "kind", s->kind);
     cJSON_AddStringToObject(root, "case", s->case_name ? s->case_name : "");
     cJSON_AddStringToObject(root, "version", host_version());
     cJSON_AddStringToObject(root, "instruction_set", s->instruction_set ? s->instruction_set : "");
@@ -142,10 +153,10 @@ char *output_summary_text(const run_summary *s)
     cJSON *root = cJSON_CreateObject();
     if (!root) return NULL;
     add_common(root, s);
-    add_keys(root, output_summary_keys_of_kind[s->kind], output_summary_object_of_kind(s));
-    if (s->kind == RUN_ONSET || s->kind == RUN_COMPARE) {
+    add_keys(root, s->result.keys, s->result.of);
+    if (s->shot.keys) {
         cJSON *shot_json = cJSON_CreateObject();
-        add_keys(shot_json, output_summary_shot_keys, s->shot);
+        add_keys(shot_json, s->shot.keys, s->shot.of);
         cJSON_AddItemToObject(root, "shot", shot_json);
     }
     make_exact(root);
@@ -171,26 +182,12 @@ status output_summary_write(const char *dir, const run_summary *s)
     return result;
 }
 
-void output_summary_status(const char *dir, char *out, size_t size)
-{
-    out[0] = '\0';
-    char path[OUTDIR_PATH_SIZE], *text;
-    const int n = snprintf(path, sizeof path, "%s/%s", dir, OUTDIR_SUMMARY);
-    if (n < 0 || (size_t)n >= sizeof path || host_file_read(path, &text, NULL).code != STATUS_OK) return;
-    cJSON *root = cJSON_Parse(text);
-    const char *word = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(root, "status"));
-    if (word) snprintf(out, size, "%s", word);
-    cJSON_Delete(root);
-    free(text);
-}
+/* ---- objects by themselves ---- */
 
-/* ---- one scene as text, and back ---- */
-
-char *output_summary_scene_text(const onset_scene *s)
+char *output_object_text(const summary_object *o)
 {
     cJSON *object = cJSON_CreateObject();
-    add_keys(object, output_summary_study_scene_keys, s);
-    add_keys(object, output_summary_scene_keys, result_of(s));
+    add_keys(object, o->keys, o->of);
     make_exact(object);
     char *text = cJSON_PrintUnformatted(object);
     cJSON_Delete(object);
@@ -209,23 +206,26 @@ static double number_of(const cJSON *value)
     return cJSON_IsNumber(value) ? value->valuedouble : NAN;
 }
 
-static bool read_by_body(const cJSON *object, scene_result *r, double *out)
+/* Names and values by the object's own order; as many as the struct has room for by its key. */
+static bool read_by_name(const summary_key *k, const cJSON *object, char *base)
 {
     const cJSON *value;
-    r->bodies = 0;
+    double *number = (double *)(void *)(base + k->offset);
+    int n = 0;
     cJSON_ArrayForEach(value, object)
     {
-        if (r->bodies == MPM_MAX_BODIES) return false;
-        snprintf(r->body[r->bodies], sizeof r->body[0], "%s", value->string);
-        out[r->bodies++] = number_of(value);
+        if (n == k->n) return false;
+        snprintf(base + k->names_offset + (size_t)n * k->item_size, k->item_size, "%s", value->string);
+        number[n++] = number_of(value);
     }
+    *(int *)(void *)(base + k->n_offset) = n;
     return cJSON_IsObject(object);
 }
 
-/* The kinds a scene's result has; value_json the other way round. */
-static bool read_value(const summary_key *k, const cJSON *value, scene_result *r)
+/* value_json the other way round. */
+static bool read_value(const summary_key *k, const cJSON *value, void *to)
 {
-    void *member = (char *)r + k->offset;
+    void *member = (char *)to + k->offset;
     double *number = member;
     switch (k->kind) {
     case KEY_NUMBER:
@@ -234,25 +234,118 @@ static bool read_value(const summary_key *k, const cJSON *value, scene_result *r
     case KEY_COUNT: *(uint64_t *)member = (uint64_t)cJSON_GetNumberValue(value); return cJSON_IsNumber(value);
     case KEY_INTEGER: *(int *)member = (int)cJSON_GetNumberValue(value); return cJSON_IsNumber(value);
     case KEY_FLAG: *(bool *)member = cJSON_IsTrue(value); return cJSON_IsBool(value);
-    case KEY_TEXT: /* the only one of a result is its reason */
-        snprintf(member, sizeof r->reason, "%s", cJSON_IsString(value) ? value->valuestring : "");
+    case KEY_TEXT:
+        snprintf(member, (size_t)k->n, "%s", cJSON_IsString(value) ? value->valuestring : "");
         return cJSON_IsString(value);
     case KEY_NAME: *(int *)member = name_index(k->names, cJSON_GetStringValue(value)); return *(int *)member >= 0;
-    case KEY_BY_BODY: return read_by_body(value, r, member);
+    case KEY_BY_NAME: return read_by_name(k, value, to);
+    case KEY_PAIRS:
     case KEY_LIST:
-    case KEY_ARRAY: break;
+    case KEY_ARRAY:
+    case KEY_PART: break;
     }
     return false;
 }
 
-status output_summary_scene_result(const char *text, scene_result *out)
+status output_object_read(const char *text, const summary_key *keys, void *out)
 {
-    memset(out, 0, sizeof *out);
     cJSON *root = cJSON_Parse(text);
     const char *missing = NULL;
-    for (const summary_key *k = output_summary_scene_keys; k->name && !missing; k++)
+    for (const summary_key *k = keys; k->name && !missing; k++)
         if (!read_value(k, cJSON_GetObjectItemCaseSensitive(root, k->name), out)) missing = k->name;
     cJSON_Delete(root);
     CHECK(!missing, STATUS_IO, "the result of a scene has no `%s`", missing);
     return status_ok();
+}
+
+/* ---- one number ---- */
+
+const summary_key *output_number_key(const summary_key *keys, const char *name)
+{
+    for (const summary_key *k = keys; k->name; k++) {
+        const bool one = (k->kind == KEY_NUMBER && k->n == 1) || k->kind == KEY_COUNT || k->kind == KEY_INTEGER;
+        if (one && strcmp(k->name, name) == 0) return k;
+    }
+    return NULL;
+}
+
+double output_number_of(const summary_key *key, const void *of)
+{
+    cJSON *value = value_json(key, of);
+    const double x = number_of(value);
+    cJSON_Delete(value);
+    return x;
+}
+
+/* ---- for people ---- */
+
+static void value_text(const summary_key *k, const void *from, char *out, size_t size)
+{
+    cJSON *value = value_json(k, from);
+    char *json = value ? cJSON_PrintUnformatted(value) : NULL;
+    if (cJSON_IsNumber(value))
+        snprintf(out, size, "%.6g", value->valuedouble);
+    else if (cJSON_IsString(value))
+        snprintf(out, size, "%s", value->valuestring);
+    else if (!value || cJSON_IsNull(value))
+        snprintf(out, size, "-");
+    else
+        snprintf(out, size, "%s", json ? json : "-");
+    free(json);
+    cJSON_Delete(value);
+}
+
+static bool is_short(const summary_key *k)
+{
+    return k->kind <= KEY_NAME && strcmp(k->name, "reason") != 0;
+}
+
+void output_keys_print(const summary_object *o, FILE *out)
+{
+    table *t;
+    if (!o->of || host_table_create("result|value|unit", &t).code != STATUS_OK) return;
+    for (const summary_key *k = o->keys; k->name; k++) {
+        char value[400];
+        if (!is_short(k)) continue;
+        value_text(k, o->of, value, sizeof value);
+        for (char *c = value; *c; c++)
+            if (*c == '|') *c = '/';
+        host_table_row(t, "%s|%.90s|%s", k->name, value, strcmp(k->unit, "1") == 0 ? "" : k->unit);
+    }
+    host_table_print(t, out);
+    host_table_free(t);
+}
+
+const char *output_cell(double x, double unit, const char *format, char text[24])
+{
+    if (isfinite(x))
+        snprintf(text, 24, format, x / unit);
+    else
+        snprintf(text, 24, "-");
+    return text;
+}
+
+void output_summary_print(const run_summary *s, FILE *out)
+{
+    if (s->shot.keys) {
+        output_keys_print(&s->shot, out);
+        fputc('\n', out);
+    }
+    if (!s->print)
+        output_keys_print(&s->result, out);
+    else if (s->result.of)
+        s->print(s->result.of, out);
+    if (s->error) fprintf(out, "\n%s: %s\n", output_run_status_names[s->status], s->error);
+}
+
+void output_keys_manual(const char *title, const summary_key *keys, FILE *out)
+{
+    fprintf(out, "\n### %s\n\n| key | unit | what |\n|---|---|---|\n", title);
+    for (const summary_key *k = keys; k->name; k++) {
+        char size[16] = "";
+        if (k->kind == KEY_PART) continue;
+        if (k->kind == KEY_NUMBER && k->n > 1) snprintf(size, sizeof size, " [%d]", k->n);
+        if (k->kind == KEY_LIST || k->kind == KEY_ARRAY) snprintf(size, sizeof size, " [...]");
+        fprintf(out, "| `%s`%s | %s | %s |\n", k->name, size, k->unit, k->doc);
+    }
 }

@@ -12,21 +12,7 @@ enum { MAX_CRATERS = 24 };
 
 /* ---- verdict ---- */
 
-static void scene_sentence(const page *p, const cJSON *s)
-{
-    const char *class = report_text(s, "class");
-    fprintf(p->out, "<p class=\"verdict\" style=\"border-color:%s\">Damage class: %s.</p>\n", report_colour(class),
-            class[0] ? class : "not measured");
-    if (report_text(s, "reason")[0]) report_page_paragraph(p, "reason", report_text(s, "reason"));
-}
-
 /* clang-format off */
-static const page_column onset_cards[] = { { "threshold_velocity", "threshold velocity", 1.0, "m/s" },
-                                     { "onset_position", "onset position", 1.0, "m" },
-                                     { "probability_gouge", "probability of a gouge", 1.0, "" },
-                                     { "scenes_run", "scenes run", 1.0, "" },
-                                     { "scenes_skipped", "scenes skipped", 1.0, "" },
-                                     { "wall_seconds", "wall time", 1.0, "s" } };
 static const page_column shot_cards[] = { { "peak_current", "peak current", 1e3, "kA" },
                                     { "muzzle_velocity", "muzzle velocity", 1.0, "m/s" },
                                     { "muzzle_time", "muzzle time", 1e-3, "ms" },
@@ -35,22 +21,14 @@ static const page_column shot_cards[] = { { "peak_current", "peak current", 1e3,
                                     { "peak_acceleration", "peak acceleration", 9806.65, "&times; 1000 g" },
                                     { "exit_current", "exit current", 1e3, "kA" },
                                     { "energy_error", "energy error", 1.0, "" } };
-static const page_column scene_cards[] = { { "severity", "severity", 1.0, "" },
-                                     { "groove_growth", "growth of the groove", 1e6, "1/&micro;s" },
-                                     { "widening", "widening", 1.0, "" },
-                                     { "crater_length", "length", 1e-3, "mm" },
-                                     { "crater_width", "width", 1e-3, "mm" },
-                                     { "crater_depth", "depth", 1e-3, "mm" },
-                                     { "crater_volume", "volume", 1e-9, "mm&sup3;" },
-                                     { "rim_height", "rim", 1e-3, "mm" },
-                                     { "peak_pressure", "peak pressure", 1e9, "GPa" },
-                                     { "peak_temperature", "peak temperature", 1.0, "K" },
-                                     { "energy_error", "energy error", 1.0, "" },
-                                     { "momentum_error", "momentum error", 1.0, "" },
-                                     { "wall_seconds", "wall time", 1.0, "s" } };
 /* clang-format on */
 
-static void section_verdict(const page *p)
+void report_shot_verdict(const page *p)
+{
+    report_page_cards(p, p->source->summary, shot_cards, PAGE_COUNT(shot_cards));
+}
+
+static void section_verdict(const page *p, report_part part)
 {
     const cJSON *s = p->source->summary;
     const char *kind = report_text(s, "kind"), *state = report_text(s, "status");
@@ -64,16 +42,8 @@ static void section_verdict(const page *p)
         report_page_escaped(p->out, report_text(s, "error"));
         fputs("</p>\n", p->out);
     }
-    if (strcmp(kind, "onset") == 0) {
-        if (strcmp(state, "done") == 0) report_section_onset_sentence(p);
-        report_page_cards(p, s, onset_cards, PAGE_COUNT(onset_cards));
-    }
-    if (strcmp(kind, "scene") == 0) {
-        if (strcmp(state, "done") == 0) scene_sentence(p, s);
-        report_page_cards(p, s, scene_cards, PAGE_COUNT(scene_cards));
-    }
+    if (part.verdict) part.verdict(p);
     const cJSON *shot = cJSON_GetObjectItemCaseSensitive(s, "shot");
-    if (strcmp(kind, "shot") == 0) shot = s;
     if (shot) report_page_cards(p, shot, shot_cards, PAGE_COUNT(shot_cards));
 }
 
@@ -227,7 +197,7 @@ static const char style[] =
     "@media print{body{max-width:none;font-size:11pt}figure,.card,tr{break-inside:avoid}h2{break-after:avoid}"
     ".wide{overflow:visible}table{font-size:7.5pt}th,td{padding:.1rem .3rem}}";
 
-static void write_page(const page *p)
+static void write_page(const page *p, report_part part)
 {
     const report_source *r = p->source;
     fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
@@ -235,13 +205,12 @@ static void write_page(const page *p)
           p->out);
     report_page_escaped(p->out, report_text(r->summary, "case"));
     fprintf(p->out, " &ndash; Breech</title><style>%s</style></head><body>\n", style);
-    section_verdict(p);
+    section_verdict(p, part);
     if (!r->gnuplot)
         report_page_paragraph(p, "missing",
                               "gnuplot is not installed: the curves are left out; breech report draws them later.");
     if (!r->history) report_page_paragraph(p, "missing", "history.h5 is not there: no curves and no craters.");
-    report_section_compare(p);
-    report_section_onset(p);
+    if (part.section) part.section(p);
     section_craters(p);
     section_shot(p);
     section_ledger(p);
@@ -249,19 +218,19 @@ static void write_page(const page *p)
     fputs("</body></html>\n", p->out);
 }
 
-static status report_page(const report_source *r)
+static status report_page(const report_source *r, report_part part)
 {
     char path[OUTDIR_PATH_SIZE];
     const int n = snprintf(path, sizeof path, "%s/%s", r->dir, OUTDIR_REPORT);
     CHECK(n > 0 && n < OUTDIR_PATH_SIZE, STATUS_IO, "%.300s: path too long", r->dir);
     file_writer w;
     TRY(host_file_begin(&w, path));
-    write_page(&(page){ r, w.stream });
+    write_page(&(page){ r, w.stream }, part);
     return host_file_end(&w, true);
 }
 
 /* The files beside the summary may be missing; the page says so. */
-static status report_with(const outdir *d, const cJSON *summary)
+static status report_with(const outdir *d, const cJSON *summary, report_part part)
 {
     char path[OUTDIR_PATH_SIZE], *used = NULL;
     h5_file *history = NULL;
@@ -270,13 +239,13 @@ static status report_with(const outdir *d, const cJSON *summary)
     if (host_outdir_file(d, OUTDIR_USED, path, sizeof path).code == STATUS_OK && host_file_exists(path))
         (void)host_file_read(path, &used, NULL);
     const report_source source = { d->path, summary, history, used, report_gnuplot_exists() };
-    const status s = report_page(&source);
+    const status s = report_page(&source, part);
     host_h5_close(history);
     free(used);
     return s;
 }
 
-status report_write(const char *dir)
+status report_write(const char *dir, report_part (*part_of)(const char *kind))
 {
     outdir d = { .lock = -1 };
     const int n = snprintf(d.path, sizeof d.path, "%s", dir);
@@ -289,7 +258,7 @@ status report_write(const char *dir)
     cJSON *summary = cJSON_Parse(text);
     free(text);
     CHECK(summary, STATUS_BAD_INPUT, "%.300s: is no JSON", path);
-    const status s = report_with(&d, summary);
+    const status s = report_with(&d, summary, part_of(report_text(summary, "kind")));
     cJSON_Delete(summary);
     return s;
 }

@@ -117,3 +117,16 @@ void report_page_draw(const page *p, status (*draw)(const report_source *, bool 
     else if (s.code != STATUS_OK)
         report_page_paragraph(p, "missing", s.text);
 }
+
+void report_page_listed(const page *p, const char *key, const char *title, const page_column *columns, int n)
+{
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(p->source->summary, key);
+    if (cJSON_GetArraySize(list) == 0) return;
+    report_page_heading(p, title);
+    report_page_list_table(p, list, columns, n);
+}
+
+bool report_page_is_done(const page *p)
+{
+    return strcmp(report_text(p->source->summary, "status"), "done") == 0;
+}

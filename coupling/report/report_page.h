@@ -4,7 +4,7 @@
 
 #include "coupling/report/report_plots.h"
 
-typedef struct {
+typedef struct page {
     const report_source *source;
     FILE *out;
 } page;
@@ -33,10 +33,17 @@ void report_page_plot(const page *p, const char *name, const char *caption);
 void report_page_draw(const page *p, status (*draw)(const report_source *, bool *), const char *name,
                       const char *caption);
 
-/* ---- sections in files of their own ---- */
+/* A heading and a table of a list of the summary; nothing where the list is empty. */
+void report_page_listed(const page *p, const char *key, const char *title, const page_column *columns, int n);
+bool report_page_is_done(const page *p); /* the run is, by its summary */
 
-void report_section_onset_sentence(const page *p);
+/* ---- parts of the studies (report.h) ---- */
+
+void report_shot_verdict(const page *p);
+void report_scene_verdict(const page *p);
+void report_onset_verdict(const page *p);
 void report_section_onset(const page *p);
 void report_section_compare(const page *p);
+void report_section_inductance(const page *p);
 
 #endif

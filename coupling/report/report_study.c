@@ -1,9 +1,43 @@
-/* The report's sections on where gouging begins and which surface helps. */
+/* What the studies add to the report. */
 #include "coupling/report/report_page.h"
 
 #include <string.h>
 
-void report_section_onset_sentence(const page *p)
+/* ---- a scene ---- */
+
+static void scene_sentence(const page *p, const cJSON *s)
+{
+    const char *class = report_text(s, "class");
+    fprintf(p->out, "<p class=\"verdict\" style=\"border-color:%s\">Damage class: %s.</p>\n", report_colour(class),
+            class[0] ? class : "not measured");
+    if (report_text(s, "reason")[0]) report_page_paragraph(p, "reason", report_text(s, "reason"));
+}
+
+/* clang-format off */
+static const page_column scene_cards[] = { { "severity", "severity", 1.0, "" },
+                                     { "groove_growth", "growth of the groove", 1e6, "1/&micro;s" },
+                                     { "widening", "widening", 1.0, "" },
+                                     { "crater_length", "length", 1e-3, "mm" },
+                                     { "crater_width", "width", 1e-3, "mm" },
+                                     { "crater_depth", "depth", 1e-3, "mm" },
+                                     { "crater_volume", "volume", 1e-9, "mm&sup3;" },
+                                     { "rim_height", "rim", 1e-3, "mm" },
+                                     { "peak_pressure", "peak pressure", 1e9, "GPa" },
+                                     { "peak_temperature", "peak temperature", 1.0, "K" },
+                                     { "energy_error", "energy error", 1.0, "" },
+                                     { "momentum_error", "momentum error", 1.0, "" },
+                                     { "wall_seconds", "wall time", 1.0, "s" } };
+/* clang-format on */
+
+void report_scene_verdict(const page *p)
+{
+    if (report_page_is_done(p)) scene_sentence(p, p->source->summary);
+    report_page_cards(p, p->source->summary, scene_cards, PAGE_COUNT(scene_cards));
+}
+
+/* ---- where gouging begins ---- */
+
+static void onset_sentence(const page *p)
 {
     const cJSON *s = p->source->summary;
     const char *verdict = report_text(s, "verdict");
@@ -29,6 +63,21 @@ void report_section_onset_sentence(const page *p)
         fprintf(out, "<p class=\"verdict\" style=\"border-color:%s\">Undecided.</p>\n", report_colour("undecided"));
     }
     if (report_text(s, "reason")[0]) report_page_paragraph(p, "reason", report_text(s, "reason"));
+}
+
+/* clang-format off */
+static const page_column onset_cards[] = { { "threshold_velocity", "threshold velocity", 1.0, "m/s" },
+                                     { "onset_position", "onset position", 1.0, "m" },
+                                     { "probability_gouge", "probability of a gouge", 1.0, "" },
+                                     { "scenes_run", "scenes run", 1.0, "" },
+                                     { "scenes_skipped", "scenes skipped", 1.0, "" },
+                                     { "wall_seconds", "wall time", 1.0, "s" } };
+/* clang-format on */
+
+void report_onset_verdict(const page *p)
+{
+    if (report_page_is_done(p)) onset_sentence(p);
+    report_page_cards(p, p->source->summary, onset_cards, PAGE_COUNT(onset_cards));
 }
 
 /* clang-format off */
@@ -90,23 +139,6 @@ static const cJSON *list_of(const page *p, const char *key)
     return cJSON_GetObjectItemCaseSensitive(p->source->summary, key);
 }
 
-/* A heading and a table; nothing where the list is empty. */
-static void listed(const page *p, const char *key, const char *title, const page_column *columns, int n)
-{
-    const cJSON *list = list_of(p, key);
-    if (cJSON_GetArraySize(list) == 0) return;
-    report_page_heading(p, title);
-    report_page_list_table(p, list, columns, n);
-}
-
-void report_section_compare(const page *p)
-{
-    if (cJSON_GetArraySize(list_of(p, "ranking")) == 0) return;
-    report_page_heading(p, "Surfaces, best first");
-    report_page_draw(p, report_plot_ranking, "ranking", "");
-    report_page_list_table(p, list_of(p, "ranking"), ranking_columns, PAGE_COUNT(ranking_columns));
-}
-
 static void section_threshold(const page *p)
 {
     if (cJSON_GetArraySize(list_of(p, "scenes")) == 0) return;
@@ -130,11 +162,24 @@ void report_section_onset(const page *p)
         report_page_list_table(p, list_of(p, "sites"), site_columns, PAGE_COUNT(site_columns));
     }
     section_threshold(p);
-    listed(p, "skips", "Scenes that were not needed", skip_columns, PAGE_COUNT(skip_columns));
-    listed(p, "sensitivities", "What moves the answer", sensitivity_columns, PAGE_COUNT(sensitivity_columns));
-    listed(p, "shots", "Shot after shot on the same rail", repeated_columns, PAGE_COUNT(repeated_columns));
-    if (strcmp(report_text(p->source->summary, "kind"), "inductance") == 0) {
-        report_page_heading(p, "Inductance and resistance gradients");
-        report_page_draw(p, report_plot_inductance, "inductance", "");
+    report_page_listed(p, "skips", "Scenes that were not needed", skip_columns, PAGE_COUNT(skip_columns));
+    report_page_listed(p, "sensitivities", "What moves the answer", sensitivity_columns,
+                       PAGE_COUNT(sensitivity_columns));
+    report_page_listed(p, "shots", "Shot after shot on the same rail", repeated_columns, PAGE_COUNT(repeated_columns));
+}
+
+void report_section_compare(const page *p)
+{
+    if (cJSON_GetArraySize(list_of(p, "ranking")) > 0) {
+        report_page_heading(p, "Surfaces, best first");
+        report_page_draw(p, report_plot_ranking, "ranking", "");
+        report_page_list_table(p, list_of(p, "ranking"), ranking_columns, PAGE_COUNT(ranking_columns));
     }
+    report_section_onset(p);
+}
+
+void report_section_inductance(const page *p)
+{
+    report_page_heading(p, "Inductance and resistance gradients");
+    report_page_draw(p, report_plot_inductance, "inductance", "");
 }

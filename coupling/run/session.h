@@ -9,6 +9,8 @@
 #include "coupling/gouge/impact.h"
 #include "coupling/host/outdir.h"
 #include "coupling/run/checkpoint.h"
+#include "coupling/run/scene_entry.h"
+#include "coupling/run/shot_record.h"
 
 /* A scene that was computed. */
 typedef struct {

@@ -14,7 +14,7 @@ enum { TEXT_SIZE = 1 << 16 }; /* an attribute holds no more */
 
 static status put_texts(h5_file *f, const scene_record *r, const scene_key *key)
 {
-    char *outcome = output_summary_scene_text(&r->entry);
+    char *outcome = output_object_text(&(summary_object){ run_scene_keys, &r->entry });
     CHECK(outcome, STATUS_MEMORY, "no memory for a scene's outcome");
     const char *const texts[][2] = {
         { "format", FORMAT },          { "version", host_version() }, { "instruction_set", mpm_instruction_set() },
@@ -52,7 +52,7 @@ static status read_with(const h5_file *f, const scene_key *key, scene_record *ou
     CHECK(strcmp(text, key->text) == 0, STATUS_IO, "the store's scene %016llx has other inputs",
           (unsigned long long)key->hash);
     TRY(host_h5_read_attribute_text(f, "/", "outcome", text, TEXT_SIZE));
-    TRY(output_summary_scene_result(text, &out->entry.result));
+    TRY(output_object_read(text, gouge_result_keys, &out->entry.result));
     TRY(host_h5_read_attribute_double(f, "/", "impulse_N_s", &out->impulse));
     TRY(host_h5_read_attribute_double(f, "/", "mass_loss_kg", &out->mass_loss));
     out->key = key->hash;

@@ -11,6 +11,36 @@
 #include "coupling/study/onset.h"
 
 typedef struct {
+    char surface[SUMMARY_NAME_SIZE];
+    double threshold_velocity, threshold_interval[2]; /* [m/s] */
+    double onset_position;                            /* [m] */
+    double gouged_volume;                             /* [m3] */
+    double gouged_volume_interval[2];                 /* [m3] */
+    double threshold_position;                        /* [m] */
+    double gouges, gouges_interval[2];                /* a shot, expected [1] */
+    double probability_gouge;                         /* [1] */
+    double better_than_next; /* share of what may be true in which it gouges less than the next one [1] */
+    bool significant;        /* that share is at least 0.95; of the last: the former one's */
+    int tied;                /* surfaces from the same `tied` on cannot be told apart; from 1 */
+    int scenes;              /* its own, those shared with surfaces before it not counted */
+    char layer[24];          /* what its layers suffer: "none", "intact", "spalled", "sheared off", "worn through" */
+    double layer_failed;     /* share of the layers under the crater that failed [1] */
+    double layer_velocity;   /* of the scene that says so [m/s] */
+} compare_entry;
+
+typedef struct {
+    int n;
+    const compare_entry *ranking; /* n, best first, borrowed */
+    int n_scenes;
+    const onset_scene *scene; /* n_scenes, borrowed */
+    int scenes_run, scenes_skipped, scenes_reused;
+    int histories;
+    double wall_seconds; /* [s] */
+} compare_result;
+
+extern const summary_key study_compare_keys[]; /* of compare_result */
+
+typedef struct {
     compare_result result; /* borrows entry and scene */
     int n;
     breech_case *treated; /* n, each owned; the first is the case as it is */
@@ -22,6 +52,7 @@ typedef struct {
 
 /* *out needs study_compare_answer_free even on error; what was reached by then is in it. */
 status study_compare_run(session *s, compare_answer *out);
+void study_compare_print(const void *result, FILE *out); /* of a compare_result */
 void study_compare_answer_free(compare_answer *a);
 
 #endif

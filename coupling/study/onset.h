@@ -11,6 +11,100 @@
 #include "coupling/study/repeated.h"
 #include "coupling/study/search/uncertain.h"
 
+typedef enum {
+    SITE_NOT_REACHED, /* the armature never came there */
+    SITE_SKIPPED,     /* the screen says it cannot gouge */
+    SITE_NONE,        /* as damage_class: from a scene of its own or from the threshold */
+    SITE_SCRATCH,
+    SITE_GOUGE,
+    SITE_UNDECIDED
+} site_outcome;
+extern const char *const study_site_outcome_names[]; /* "not_reached", "skipped", "none", ..., NULL */
+
+typedef struct {
+    double position;                                  /* along the barrel [m] */
+    double radius;                                    /* [m] */
+    double time, velocity, current;                   /* at arrival [s, m/s, A]; NaN: not reached */
+    double contact_pressure;                          /* [Pa] */
+    double impact_pressure;                           /* impedance match [Pa] */
+    double screen;                                    /* impact pressure over the hardness of the harder partner [1] */
+    double threshold_velocity, threshold_interval[2]; /* for its grain [m/s]; NaN: not looked for */
+    double gouged_volume;                             /* [m3]; NaN: unknown */
+    site_outcome outcome;
+    char scene[SUMMARY_NAME_SIZE]; /* the scene that decided, "" if none */
+} onset_site;
+
+/* The threshold at one size of one family of grains. */
+typedef struct {
+    int family; /* from 1 */
+    char shape[PARAM_TEXT_SIZE], material[PARAM_TEXT_SIZE];
+    double radius;                /* [m] */
+    double grains;                /* it stands for */
+    double threshold_velocity;    /* [m/s] */
+    double threshold_interval[2]; /* [m/s] */
+    int scenes;                   /* of this size; 0: bounded by other sizes */
+} onset_size;
+
+/* Scenes that were not needed. */
+typedef struct {
+    char rests_on[120];
+    int scenes;
+} onset_skip;
+
+/* What a change of one input does, all else as it was. */
+typedef struct {
+    char input[40];
+    double change;             /* of the input, relative [1] */
+    double muzzle_velocity;    /* [m/s] */
+    double threshold_velocity; /* [m/s] */
+    double threshold_position; /* [m] */
+    double expected_gouges;    /* [1] */
+} onset_sensitivity;
+
+/* One of several shots on the same rail. */
+typedef struct {
+    int shot;                                                          /* from 1 */
+    double probability_gouge, expected_gouges, expected_gouged_volume; /* [1, 1, m3] */
+    double onset_position, onset_interval[2];                          /* median, 5 .. 95 % [m] */
+    double muzzle_velocity;                                            /* [m/s] */
+    double rail_rise; /* left by the shots before, where the armature is fast enough to be looked at: the largest [K] */
+    double threshold_velocity; /* as the study's, where the rail is that warm [m/s] */
+} onset_shot;
+
+typedef enum { VERDICT_GOUGES, VERDICT_NO_GOUGING, VERDICT_UNDECIDED } onset_verdict;
+extern const char *const study_verdict_names[]; /* "gouges", "no_gouging", "undecided", NULL */
+
+typedef struct {
+    onset_verdict verdict;
+    char reason[300];                                                  /* of the verdict, in words */
+    double probability_gouge;                                          /* [1] */
+    double threshold_velocity;                                         /* at the median size for a population [m/s] */
+    double threshold_interval[2];                                      /* [m/s] */
+    double onset_position;                                             /* along the barrel [m] */
+    double onset_interval[2];                                          /* [m] */
+    double threshold_position, threshold_position_interval[2];         /* where the threshold velocity is passed [m] */
+    double muzzle_velocity_feedback;                                   /* with what the gouges take [m/s] */
+    int gouges;                                                        /* sites of the list that gouge */
+    double expected_gouges, expected_gouges_interval[2];               /* a shot, sites and populations [1] */
+    double expected_gouged_volume, expected_gouged_volume_interval[2]; /* [m3] */
+    int histories;                                                     /* of the Monte Carlo */
+    double monte_carlo_seconds;                                        /* [s] */
+    int n_along;
+    const double *along, *probability_along; /* n_along: P(gouge before x) at x [m, 1], borrowed */
+    int n_surface, n_skips, n_sensitivities, n_shots;
+    const onset_size *surface;              /* borrowed */
+    const onset_skip *skip;                 /* borrowed */
+    const onset_sensitivity *sensitivities; /* borrowed */
+    const onset_shot *shot;                 /* borrowed */
+    int scenes_run, scenes_skipped, scenes_reused;
+    int n_sites, n_scenes;
+    const onset_site *site;   /* n_sites, borrowed */
+    const onset_scene *scene; /* n_scenes, borrowed */
+    double wall_seconds;      /* [s] */
+} onset_result;
+
+extern const summary_key study_onset_keys[]; /* of onset_result */
+
 typedef struct {
     onset_result result; /* borrows the arrays below */
     shot_record shot;
@@ -30,6 +124,7 @@ typedef struct {
 
 /* *out needs study_onset_answer_free even on error; what was reached by then is in it. */
 status study_onset_run(session *s, onset_answer *out);
+void study_onset_print(const void *result, FILE *out); /* of an onset_result */
 void study_onset_answer_free(onset_answer *a);
 
 /* The shot of a case, its sites and families; c may be the session's case under a treatment, prefix names its scenes.

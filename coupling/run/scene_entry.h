@@ -1,0 +1,23 @@
+/* A scene as a study lists it: what it was given and what came of it. */
+#ifndef BREECH_COUPLING_SCENE_ENTRY_H
+#define BREECH_COUPLING_SCENE_ENTRY_H
+
+#include "coupling/gouge/result.h"
+
+/* One scene of a study. */
+typedef struct {
+    char name[SUMMARY_NAME_SIZE]; /* its folder under scenes/ and its group under /scene */
+    double velocity;              /* [m/s] */
+    double radius, height;        /* of the grain [m] */
+    char shape[PARAM_TEXT_SIZE], material[PARAM_TEXT_SIZE], surface[SUMMARY_NAME_SIZE];
+    double contact_pressure; /* [Pa] */
+    double temperature;      /* of the rail [K] */
+    double cells_per_radius; /* [1] */
+    bool gauged; /* over once its groove's growth was known: the class is by that, the crater as far as it was */
+    bool reused; /* taken from the store, not computed by this run */
+    scene_result result;
+} onset_scene;
+
+extern const summary_key run_scene_keys[]; /* of onset_scene: what it was given, then those of its result */
+
+#endif

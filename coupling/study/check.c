@@ -1,0 +1,106 @@
+#include "coupling/study/check.h"
+
+#include "coupling/case/treatment.h"
+#include "coupling/study/sampling/population.h"
+#include "coupling/study/search/family.h"
+#include "coupling/study/study.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- can its scenes be made? ---- */
+
+/* A search's scenes at both resolutions with a grain of this size. */
+static status grain_possible(const breech_case *c, const case_site *grain)
+{
+    gouge_scene scene;
+    breech_case probe;
+    site_state state = gouge_state_of_case(c);
+    study_family_probe(c, &probe);
+    state.velocity = c->study.velocity_low;
+    state.grain = *grain;
+    TRY(gouge_scene_bodies(&probe, &state, c->study.coarse_cells_per_radius, &scene));
+    return gouge_scene_bodies(&probe, &state, c->study.fine_cells_per_radius, &scene);
+}
+
+static status grains_possible(const breech_case *c)
+{
+    for (int i = 0; i < c->sites.n; i++) TRY(grain_possible(c, &c->sites.item[i]));
+    for (int i = 0; i < c->populations.n; i++) {
+        const case_population *p = &c->populations.item[i];
+        double size[SURFACE_MAX_SIZES], number[SURFACE_MAX_SIZES];
+        const int n = study_population_sizes(p, c->study.smallest_radius, SURFACE_MAX_SIZES, size, number);
+        for (int k = 0; k<n; k += n> 1 ? n - 1 : 1) { /* the smallest and the largest */
+            case_site grain = { .radius = size[k], .height = p->aspect * size[k], .bond_strength = p->bond_strength };
+            memcpy(grain.shape, p->shape, sizeof grain.shape);
+            memcpy(grain.material, p->material, sizeof grain.material);
+            TRY(grain_possible(c, &grain));
+        }
+    }
+    return status_ok();
+}
+
+static status treatments_possible(const breech_case *c)
+{
+    for (int i = 0; i < c->treatments.n; i++) {
+        breech_case treated;
+        status s = case_treat(c, &c->treatments.item[i], &treated);
+        const bool made = s.code == STATUS_OK; /* its error names the treatment already */
+        if (made) s = grains_possible(&treated);
+        case_treated_free(&treated);
+        CHECK(s.code == STATUS_OK, s.code, "%s%s%s%.400s", made ? "treatment `" : "",
+              made ? c->treatments.item[i].name : "", made ? "`: " : "", s.text);
+    }
+    return status_ok();
+}
+
+status study_possible(const breech_case *c, unsigned needs)
+{
+    gouge_scene scene;
+    rail_section section;
+    const shot_config circuit = gouge_shot_config(c, NULL);
+    const site_state state = gouge_state_of_case(c);
+    if ((needs & CASE_FOR_INDUCTANCE) ||
+        ((needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) && c->rails.level != SHOT_RAILS_CONSTANT))
+        TRY(circuit_rails_section(&c->rails, &section));
+    if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_shot_check(&circuit));
+    if (needs & CASE_FOR_SCENE) TRY(gouge_scene_bodies(c, &state, c->scene.cells_per_radius, &scene));
+    if (needs & CASE_FOR_ONSET) TRY(grains_possible(c));
+    return needs & CASE_FOR_COMPARE ? treatments_possible(c) : status_ok();
+}
+
+/* ---- what would they take? ---- */
+
+/* Two levels of thread: memory bandwidth and the serial rest are left out, so this is a lower bound on many threads. */
+static status estimate(const breech_case *c, const site_state *state, double cells, int threads, scene_estimate *out)
+{
+    gouge_scene scene;
+    TRY(gouge_scene_bodies(c, state, cells, &scene));
+    TRY(mpm_estimate(&scene.scene, &out->needs));
+    out->steps = gouge_last_time(&scene) / out->needs.dt;
+    for (int i = 0; i < 2; i++) out->seconds[i] = out->steps * out->needs.work[i] * CHECK_SECONDS_A_STEP / threads;
+    return status_ok();
+}
+
+status study_check(const breech_case *c, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n)
+{
+    *n = 0;
+    if (c->given.projectile && !isnan(c->scene.velocity) && !isnan(c->particle.radius)) {
+        const site_state state = gouge_state_of_case(c);
+        snprintf(out[*n].what, sizeof out->what, "scene, %g m/s, %g cells a radius", state.velocity,
+                 c->scene.cells_per_radius);
+        TRY(estimate(c, &state, c->scene.cells_per_radius, threads, &out[(*n)++]));
+    }
+    if (!c->given.projectile || c->sites.n == 0) return status_ok();
+    const double cells[] = { c->study.coarse_cells_per_radius, c->study.fine_cells_per_radius };
+    breech_case probe;
+    study_family_probe(c, &probe);
+    for (int k = 0; k < (cells[0] < cells[1] ? 2 : 1); k++) {
+        site_state state = gouge_state_of_case(c);
+        state.grain = c->sites.item[0];
+        state.velocity = c->study.velocity_low;
+        snprintf(out[*n].what, sizeof out->what, "onset, %g m/s, %g cells a radius", state.velocity, cells[k]);
+        TRY(estimate(&probe, &state, cells[k], threads, &out[(*n)++]));
+    }
+    return status_ok();
+}

@@ -1,0 +1,20 @@
+/* `breech check`: what each scene the case leads to would take. */
+#ifndef BREECH_COUPLING_STUDY_CHECK_H
+#define BREECH_COUPLING_STUDY_CHECK_H
+
+#include "coupling/case/case.h"
+#include "mpm/mpm.h"
+
+typedef struct {
+    char what[80];
+    mpm_needs needs;
+    double steps;      /* of the finest level */
+    double seconds[2]; /* at CHECK_SECONDS_A_STEP on this machine's threads; [2] everywhere: as mpm_needs */
+} scene_estimate;
+enum { CHECK_MAX_ESTIMATES = 3 };
+#define CHECK_SECONDS_A_STEP 200e-9 /* one thread */
+
+/* The scene of the case, and of its first site the slowest and finest of the search; *n of them. */
+status study_check(const breech_case *c, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n);
+
+#endif

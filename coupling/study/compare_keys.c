@@ -1,0 +1,65 @@
+/* How a comparison's result is written and printed. */
+#include "coupling/study/compare.h"
+#include "coupling/host/table.h"
+
+static const summary_key entry_keys[] = {
+    SUMMARY_TEXT(compare_entry, "surface", surface, "of the rail"),
+    SUMMARY_NUMBER(compare_entry, "threshold_velocity", threshold_velocity, "m/s", ""),
+    SUMMARY_VECTOR(compare_entry, "threshold_interval", threshold_interval, 2, "m/s", ""),
+    SUMMARY_NUMBER(compare_entry, "onset_position", onset_position, "m", "along the barrel; null: no gouging"),
+    SUMMARY_NUMBER(compare_entry, "gouged_volume", gouged_volume, "m3", "of the whole shot"),
+    SUMMARY_VECTOR(compare_entry, "gouged_volume_interval", gouged_volume_interval, 2, "m3",
+                   "5 and 95 % of what may be true"),
+    SUMMARY_NUMBER(compare_entry, "threshold_position", threshold_position, "m",
+                   "where the threshold velocity is passed"),
+    SUMMARY_NUMBER(compare_entry, "gouges", gouges, "1", "a shot, expected: what ranks"),
+    SUMMARY_VECTOR(compare_entry, "gouges_interval", gouges_interval, 2, "1", "5 and 95 % of what may be true"),
+    SUMMARY_NUMBER(compare_entry, "probability_gouge", probability_gouge, "1", "that a shot gouges"),
+    SUMMARY_NUMBER(compare_entry, "better_than_next", better_than_next, "1",
+                   "share of what may be true in which it gouges less than the next"),
+    SUMMARY_VALUE(compare_entry, KEY_FLAG, "significant", significant, "", "better_than_next is at least 0.95"),
+    SUMMARY_VALUE(compare_entry, KEY_INTEGER, "tied", tied, "1",
+                  "rank of the group of surfaces it cannot be told apart from"),
+    SUMMARY_VALUE(compare_entry, KEY_INTEGER, "scenes", scenes, "1", "its own, shared ones not counted twice"),
+    SUMMARY_TEXT(compare_entry, "layer", layer,
+                 "what its layers suffer: none, intact, spalled, sheared off, worn through"),
+    SUMMARY_NUMBER(compare_entry, "layer_failed", layer_failed, "1",
+                   "share of the layers under the crater that failed"),
+    SUMMARY_NUMBER(compare_entry, "layer_velocity", layer_velocity, "m/s", "of the scene that says so"),
+    SUMMARY_END
+};
+
+const summary_key study_compare_keys[] = {
+    SUMMARY_LIST(compare_result, "ranking", ranking, n, entry_keys, sizeof(compare_entry),
+                 "a surface each, best first"),
+    SUMMARY_LIST(compare_result, "scenes", scene, n_scenes, run_scene_keys, sizeof(onset_scene),
+                 "a scene each, keys as in onset"),
+    SUMMARY_VALUE(compare_result, KEY_INTEGER, "scenes_run", scenes_run, "1", "computed"),
+    SUMMARY_VALUE(compare_result, KEY_INTEGER, "scenes_skipped", scenes_skipped, "1",
+                  "by the screen, shared or bounded by others"),
+    SUMMARY_VALUE(compare_result, KEY_INTEGER, "scenes_reused", scenes_reused, "1", "taken from the store"),
+    SUMMARY_VALUE(compare_result, KEY_INTEGER, "histories", histories, "1", "of the Monte Carlo"),
+    SUMMARY_NUMBER(compare_result, "wall_seconds", wall_seconds, "s", "time it took"),
+    SUMMARY_END
+};
+
+void study_compare_print(const void *result, FILE *out)
+{
+    const compare_result *c = result;
+    table *t;
+    const char *titles = "rank|surface|v_th [m/s]|from|to|x [m]|gouges|from|to|gouged [mm3]|better|layer";
+    if (host_table_create(titles, &t).code != STATUS_OK) return;
+    for (int i = 0; i < c->n; i++) {
+        const compare_entry *e = &c->ranking[i];
+        char v[24], lo[24], hi[24], x[24], volume[24], n[24], few[24], many[24], better[24];
+        host_table_row(
+            t, "%d|%s|%s|%s|%s|%s|%s|%s|%s|%s|%s|%s", e->tied ? e->tied : i + 1, e->surface,
+            output_cell(e->threshold_velocity, 1.0, "%.0f", v), output_cell(e->threshold_interval[0], 1.0, "%.0f", lo),
+            output_cell(e->threshold_interval[1], 1.0, "%.0f", hi), output_cell(e->threshold_position, 1.0, "%.3f", x),
+            output_cell(e->gouges, 1.0, "%.3g", n), output_cell(e->gouges_interval[0], 1.0, "%.3g", few),
+            output_cell(e->gouges_interval[1], 1.0, "%.3g", many), output_cell(e->gouged_volume, 1e-9, "%.3g", volume),
+            output_cell(e->better_than_next, 0.01, "%.0f %%", better), e->layer);
+    }
+    host_table_print(t, out);
+    host_table_free(t);
+}

@@ -1,0 +1,193 @@
+/* How an onset's result is written and printed. */
+#include "coupling/study/onset.h"
+#include "coupling/host/table.h"
+
+#include <math.h>
+
+const char *const study_site_outcome_names[] = {
+    "not_reached", "skipped", "none", "scratch", "gouge", "undecided", NULL
+};
+const char *const study_verdict_names[] = { "gouges", "no_gouging", "undecided", NULL };
+
+static const summary_key site_keys[] = {
+    SUMMARY_NUMBER(onset_site, "position", position, "m", "along the barrel"),
+    SUMMARY_NUMBER(onset_site, "radius", radius, "m", "of the grain"),
+    SUMMARY_NUMBER(onset_site, "time", time, "s", "of the armature's arrival; null: not reached"),
+    SUMMARY_NUMBER(onset_site, "velocity", velocity, "m/s", "at arrival"),
+    SUMMARY_NUMBER(onset_site, "current", current, "A", "at arrival"),
+    SUMMARY_NUMBER(onset_site, "contact_pressure", contact_pressure, "Pa", "at arrival"),
+    SUMMARY_NUMBER(onset_site, "impact_pressure", impact_pressure, "Pa", "by impedance match"),
+    SUMMARY_NUMBER(onset_site, "screen", screen, "1", "impact pressure over hardness"),
+    SUMMARY_NUMBER(onset_site, "threshold_velocity", threshold_velocity, "m/s", "for its grain"),
+    SUMMARY_VECTOR(onset_site, "threshold_interval", threshold_interval, 2, "m/s", "for its grain"),
+    SUMMARY_NUMBER(onset_site, "gouged_volume", gouged_volume, "m3", "of its crater"),
+    SUMMARY_CHOICE(onset_site, "outcome", outcome, study_site_outcome_names,
+                   "not_reached, skipped, none, scratch, gouge, undecided"),
+    SUMMARY_TEXT(onset_site, "scene", scene, "that decided, empty if none"),
+    SUMMARY_END
+};
+
+static const summary_key surface_keys[] = {
+    SUMMARY_VALUE(onset_size, KEY_INTEGER, "family", family, "1", "of grains alike in all but size"),
+    SUMMARY_TEXT(onset_size, "shape", shape, "of its grains"),
+    SUMMARY_TEXT(onset_size, "material", material, "of its grains"),
+    SUMMARY_NUMBER(onset_size, "radius", radius, "m", "of the grain"),
+    SUMMARY_NUMBER(onset_size, "grains", grains, "1", "this size stands for"),
+    SUMMARY_NUMBER(onset_size, "threshold_velocity", threshold_velocity, "m/s", "null: outside of the search"),
+    SUMMARY_VECTOR(onset_size, "threshold_interval", threshold_interval, 2, "m/s",
+                   "its band, and the shift from coarse to fine"),
+    SUMMARY_VALUE(onset_size, KEY_INTEGER, "scenes", scenes, "1", "of this size; 0: bounded by those of other sizes"),
+    SUMMARY_END
+};
+
+static const summary_key skip_keys[] = { SUMMARY_TEXT(onset_skip, "rests_on", rests_on, "why no scene was needed"),
+                                         SUMMARY_VALUE(onset_skip, KEY_INTEGER, "scenes", scenes, "1",
+                                                       "sites, sizes or populations skipped for it"),
+                                         SUMMARY_END };
+
+static const summary_key sensitivity_keys[] = {
+    SUMMARY_TEXT(onset_sensitivity, "input", input, "what is changed, all else as it was"),
+    SUMMARY_NUMBER(onset_sensitivity, "change", change, "1", "relative"),
+    SUMMARY_NUMBER(onset_sensitivity, "muzzle_velocity", muzzle_velocity, "m/s", ""),
+    SUMMARY_NUMBER(onset_sensitivity, "threshold_velocity", threshold_velocity, "m/s",
+                   "of the grain that speaks for the case"),
+    SUMMARY_NUMBER(onset_sensitivity, "threshold_position", threshold_position, "m", "along the barrel"),
+    SUMMARY_NUMBER(onset_sensitivity, "expected_gouges", expected_gouges, "1", "a shot"),
+    SUMMARY_END
+};
+
+static const summary_key shot_keys[] = {
+    SUMMARY_VALUE(onset_shot, KEY_INTEGER, "shot", shot, "1", "from 1, on the same rail"),
+    SUMMARY_NUMBER(onset_shot, "probability_gouge", probability_gouge, "1", "that it gouges"),
+    SUMMARY_NUMBER(onset_shot, "expected_gouges", expected_gouges, "1", ""),
+    SUMMARY_NUMBER(onset_shot, "expected_gouged_volume", expected_gouged_volume, "m3", ""),
+    SUMMARY_NUMBER(onset_shot, "onset_position", onset_position, "m",
+                   "median of the first gouge; null: less than half gouge"),
+    SUMMARY_VECTOR(onset_shot, "onset_interval", onset_interval, 2, "m", "5 and 95 % of the shots"),
+    SUMMARY_NUMBER(onset_shot, "muzzle_velocity", muzzle_velocity, "m/s",
+                   "through rails as warm as they are in the mean"),
+    SUMMARY_NUMBER(onset_shot, "rail_rise", rail_rise, "K",
+                   "of the rail before it: the largest from study.velocity_low on"),
+    SUMMARY_NUMBER(onset_shot, "threshold_velocity", threshold_velocity, "m/s",
+                   "as the study's, where the rail is that warm"),
+    SUMMARY_END
+};
+
+const summary_key study_onset_keys[] = {
+    SUMMARY_CHOICE(onset_result, "verdict", verdict, study_verdict_names, "gouges, no_gouging, undecided"),
+    SUMMARY_TEXT(onset_result, "reason", reason, "of the verdict"),
+    SUMMARY_NUMBER(onset_result, "probability_gouge", probability_gouge, "1", "that the shot gouges"),
+    SUMMARY_NUMBER(onset_result, "threshold_velocity", threshold_velocity, "m/s",
+                   "at the population's median size for a population"),
+    SUMMARY_VECTOR(onset_result, "threshold_interval", threshold_interval, 2, "m/s",
+                   "bracket, resolution and input uncertainty"),
+    SUMMARY_NUMBER(onset_result, "onset_position", onset_position, "m", "along the barrel"),
+    SUMMARY_VECTOR(onset_result, "onset_interval", onset_interval, 2, "m", "of the position"),
+    SUMMARY_NUMBER(onset_result, "threshold_position", threshold_position, "m",
+                   "where the threshold velocity is passed"),
+    SUMMARY_VECTOR(onset_result, "threshold_position_interval", threshold_position_interval, 2, "m",
+                   "where its ends are"),
+    SUMMARY_NUMBER(onset_result, "muzzle_velocity_feedback", muzzle_velocity_feedback, "m/s",
+                   "with what the gouges take; null: nothing taken"),
+    SUMMARY_VALUE(onset_result, KEY_INTEGER, "gouges", gouges, "1", "sites of the list that gouge"),
+    SUMMARY_NUMBER(onset_result, "expected_gouges", expected_gouges, "1", "a shot, sites and populations"),
+    SUMMARY_VECTOR(onset_result, "expected_gouges_interval", expected_gouges_interval, 2, "1",
+                   "5 and 95 % of what may be true"),
+    SUMMARY_NUMBER(onset_result, "expected_gouged_volume", expected_gouged_volume, "m3", "a shot"),
+    SUMMARY_VECTOR(onset_result, "expected_gouged_volume_interval", expected_gouged_volume_interval, 2, "m3",
+                   "5 and 95 %"),
+    SUMMARY_VALUE(onset_result, KEY_INTEGER, "histories", histories, "1", "of the Monte Carlo"),
+    SUMMARY_NUMBER(onset_result, "monte_carlo_seconds", monte_carlo_seconds, "s", "time they took"),
+    SUMMARY_ARRAY(onset_result, "along", along, n_along, "m", "along the barrel"),
+    SUMMARY_ARRAY(onset_result, "probability_along", probability_along, n_along, "1", "that a gouge lies before it"),
+    SUMMARY_LIST(onset_result, "surface", surface, n_surface, surface_keys, sizeof(onset_size),
+                 "a family and size each, keys below"),
+    SUMMARY_LIST(onset_result, "skips", skip, n_skips, skip_keys, sizeof(onset_skip),
+                 "why scenes were not needed, keys below"),
+    SUMMARY_LIST(onset_result, "sensitivities", sensitivities, n_sensitivities, sensitivity_keys,
+                 sizeof(onset_sensitivity), "keys below"),
+    SUMMARY_LIST(onset_result, "shots", shot, n_shots, shot_keys, sizeof(onset_shot), "on the same rail, keys below"),
+    SUMMARY_VALUE(onset_result, KEY_INTEGER, "scenes_reused", scenes_reused, "1", "taken from the store"),
+    SUMMARY_VALUE(onset_result, KEY_INTEGER, "scenes_run", scenes_run, "1", "computed"),
+    SUMMARY_VALUE(onset_result, KEY_INTEGER, "scenes_skipped", scenes_skipped, "1", "by the screen or shared"),
+    SUMMARY_LIST(onset_result, "sites", site, n_sites, site_keys, sizeof(onset_site), "a site each, keys below"),
+    SUMMARY_LIST(onset_result, "scenes", scene, n_scenes, run_scene_keys, sizeof(onset_scene),
+                 "a scene each, keys below"),
+    SUMMARY_NUMBER(onset_result, "wall_seconds", wall_seconds, "s", "time it took"),
+    SUMMARY_END
+};
+
+/* ---- for people ---- */
+
+/* A blank line, the table, and its end. */
+static void close_table(table *t, FILE *out)
+{
+    fputc('\n', out);
+    host_table_print(t, out);
+    host_table_free(t);
+}
+
+static void print_sites(const onset_result *o, FILE *out)
+{
+    table *t;
+    if (o->n_sites == 0 ||
+        host_table_create("site|x [m]|v [m/s]|I [kA]|p [GPa]|p/H|outcome|scene", &t).code != STATUS_OK)
+        return;
+    for (int i = 0; i < o->n_sites; i++) {
+        const onset_site *s = &o->site[i];
+        char x[24], v[24], current[24], p[24], h[24];
+        host_table_row(t, "%d|%s|%s|%s|%s|%s|%s|%s", i + 1, output_cell(s->position, 1.0, "%.3f", x),
+                       output_cell(s->velocity, 1.0, "%.0f", v), output_cell(s->current, 1e3, "%.0f", current),
+                       output_cell(s->impact_pressure, 1e9, "%.2f", p), output_cell(s->screen, 1.0, "%.1f", h),
+                       study_site_outcome_names[s->outcome], s->scene);
+    }
+    close_table(t, out);
+}
+
+static void print_scenes(const onset_result *o, FILE *out)
+{
+    table *t;
+    const char *titles = "scene|v [m/s]|r [mm]|cells/r|severity|growth [1/us]|widening|depth [mm]|class|time [s]";
+    if (o->n_scenes == 0 || host_table_create(titles, &t).code != STATUS_OK) return;
+    for (int i = 0; i < o->n_scenes; i++) {
+        const onset_scene *s = &o->scene[i];
+        char v[24], r[24], c[24], severity[24], growth[24], widening[24], d[24], w[24];
+        host_table_row(t, "%s|%s|%s|%s|%s|%s|%s|%s|%s|%s", s->name, output_cell(s->velocity, 1.0, "%.0f", v),
+                       output_cell(s->radius, 1e-3, "%.3g", r), output_cell(s->cells_per_radius, 1.0, "%.3g", c),
+                       output_cell(s->gauged ? NAN : s->result.severity, 1.0, "%.3f", severity),
+                       output_cell(s->result.groove_growth, 1e6, "%.3f", growth),
+                       output_cell(s->gauged ? NAN : s->result.widening, 1.0, "%.2f", widening),
+                       output_cell(s->gauged ? NAN : s->result.crater_depth, 1e-3, "%.3f", d),
+                       gouge_class_names[s->result.class],
+                       s->reused ? "reused" : output_cell(s->result.wall_seconds, 1.0, "%.1f", w));
+    }
+    close_table(t, out);
+}
+
+static void print_shots(const onset_result *o, FILE *out)
+{
+    table *t;
+    const char *titles = "shot|rail +[K]|muzzle [m/s]|v_th [m/s]|gouges|gouged [mm3]|onset [m]";
+    if (o->n_shots < 2 || host_table_create(titles, &t).code != STATUS_OK) return;
+    for (int i = 0; i < o->n_shots; i++) {
+        const onset_shot *s = &o->shot[i];
+        char rise[24], muzzle[24], v[24], n[24], volume[24], x[24];
+        host_table_row(t, "%d|%s|%s|%s|%s|%s|%s", s->shot, output_cell(s->rail_rise, 1.0, "%.0f", rise),
+                       output_cell(s->muzzle_velocity, 1.0, "%.0f", muzzle),
+                       output_cell(s->threshold_velocity, 1.0, "%.0f", v),
+                       output_cell(s->expected_gouges, 1.0, "%.3g", n),
+                       output_cell(s->expected_gouged_volume, 1e-9, "%.3g", volume),
+                       output_cell(s->onset_position, 1.0, "%.3f", x));
+    }
+    close_table(t, out);
+}
+
+void study_onset_print(const void *result, FILE *out)
+{
+    const onset_result *o = result;
+    output_keys_print(&(summary_object){ study_onset_keys, o }, out);
+    print_sites(o, out);
+    print_scenes(o, out);
+    print_shots(o, out);
+    if (o->reason[0]) fprintf(out, "\n%s: %s\n", study_verdict_names[o->verdict], o->reason);
+}

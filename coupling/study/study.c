@@ -1,0 +1,65 @@
+#include "coupling/study/study.h"
+
+#include <string.h>
+
+const study *const study_list[STUDIES] = {
+#define STUDY(name) &study_##name,
+#include "coupling/study/study.def"
+#undef STUDY
+};
+
+const study *study_find(const char *name)
+{
+    for (int k = 0; k < STUDIES; k++)
+        if (strcmp(study_list[k]->name, name) == 0) return study_list[k];
+    return NULL;
+}
+
+report_part study_report_part(const char *name)
+{
+    const study *y = study_find(name);
+    return y ? y->report : (report_part){ NULL, NULL };
+}
+
+run_summary study_summary(const study *y, const study_answer *a)
+{
+    run_summary s = { .kind = y->name, .result = { y->keys, a->result }, .print = y->print };
+    if (y->shows_shot) s.shot = (summary_object){ run_shot_keys, a->shot };
+    return s;
+}
+
+/* ---- for the manual ---- */
+
+/* Was the table of this list's entries printed by an earlier study? */
+static bool printed_before(int study_number, const summary_key *item)
+{
+    for (int k = 0; k < study_number; k++)
+        for (const summary_key *key = study_list[k]->keys; key->name; key++)
+            if (key->kind == KEY_LIST && key->item == item) return true;
+    return false;
+}
+
+static void print_entries(int study_number, FILE *out)
+{
+    const study *y = study_list[study_number];
+    for (const summary_key *key = y->keys; key->name; key++) {
+        char title[120];
+        if (key->kind != KEY_LIST || printed_before(study_number, key->item)) continue;
+        int n = snprintf(title, sizeof title, "%s: an entry of `%s`", y->name, key->name);
+        for (const summary_key *part = key->item; part->name; part++)
+            if (part->kind == KEY_PART)
+                n += snprintf(title + n, sizeof title - (size_t)n, ", with all keys of `%s`", part->name);
+        output_keys_manual(title, key->item, out);
+    }
+}
+
+void study_print_keys(FILE *out)
+{
+    fputs("### all\n\n| key | what |\n|---|---|\n| `kind` |", out);
+    for (int k = 0; k < STUDIES; k++) fprintf(out, "%s %s", k ? "," : "", study_list[k]->name);
+    fputs(" |\n| `case` | its name |\n| `version` | of Breech |\n| `instruction_set` | of the scenes |\n"
+          "| `status` | done, stopped, failed |\n| `error` | null when there is none |\n| `warnings` | a text each |\n",
+          out);
+    for (int k = 0; k < STUDIES; k++) output_keys_manual(study_list[k]->name, study_list[k]->keys, out);
+    for (int k = 0; k < STUDIES; k++) print_entries(k, out);
+}

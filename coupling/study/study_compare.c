@@ -1,0 +1,36 @@
+/* breech compare: compare.h as a study. */
+#include "coupling/study/study.h"
+#include "coupling/report/report_page.h"
+#include "coupling/study/compare.h"
+
+#include <stdlib.h>
+
+static void answer_free(void *owned)
+{
+    if (owned) study_compare_answer_free(owned);
+    free(owned);
+}
+
+static status run(session *s, const study_case *of, study_answer *out)
+{
+    (void)of; /* the session's */
+    compare_answer *a = out->owned = calloc(1, sizeof *a);
+    CHECK(a, STATUS_MEMORY, "no memory for an answer");
+    const status done = study_compare_run(s, a);
+    out->result = &a->result;
+    if (a->n > 0 && a->answer[0].shot.is.steps > 0) out->shot = &a->answer[0].shot;
+    return done;
+}
+
+const study study_compare = {
+    .name = "compare",
+    .doc = "the same for several rail surfaces, ranked",
+    .more = "As onset, for the case as it is and for each of its treatments; study.max_scenes holds for each surface.",
+    .needs = CASE_FOR_ONSET | CASE_FOR_COMPARE,
+    .keys = study_compare_keys,
+    .shows_shot = true,
+    .report = { NULL, report_section_compare },
+    .print = study_compare_print,
+    .run = run,
+    .free = answer_free,
+};

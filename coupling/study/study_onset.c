@@ -1,0 +1,36 @@
+/* breech onset: onset.h as a study. */
+#include "coupling/study/study.h"
+#include "coupling/report/report_page.h"
+#include "coupling/study/onset.h"
+
+#include <stdlib.h>
+
+static void answer_free(void *owned)
+{
+    if (owned) study_onset_answer_free(owned);
+    free(owned);
+}
+
+static status run(session *s, const study_case *of, study_answer *out)
+{
+    (void)of; /* the session's */
+    onset_answer *a = out->owned = calloc(1, sizeof *a);
+    CHECK(a, STATUS_MEMORY, "no memory for an answer");
+    const status done = study_onset_run(s, a);
+    out->result = &a->result;
+    if (a->shot.is.steps > 0) out->shot = &a->shot;
+    return done;
+}
+
+const study study_onset = {
+    .name = "onset",
+    .doc = "the main job: shot and sites, where gouging begins",
+    .more = "Runs the shot, then as many impact scenes as the threshold velocity needs (study.max_scenes at most).",
+    .needs = CASE_FOR_ONSET,
+    .keys = study_onset_keys,
+    .shows_shot = true,
+    .report = { report_onset_verdict, report_section_onset },
+    .print = study_onset_print,
+    .run = run,
+    .free = answer_free,
+};

@@ -1,0 +1,43 @@
+/* breech scene: one embedded impact at a given velocity. */
+#include "coupling/study/study.h"
+#include "coupling/report/report_page.h"
+
+static int scenes(const study_case *of, scene_query *out)
+{
+    *out = (scene_query){ .c = of->c,
+                          .state = gouge_state_of_case(of->c),
+                          .cells_per_radius = of->c->scene.cells_per_radius,
+                          .anew = !of->prefix[0] };
+    snprintf(out->name, sizeof out->name, "%.60sscene", of->prefix);
+    return 1;
+}
+
+static status run(session *s, const study_case *of, study_answer *out)
+{
+    scene_query query;
+    const scene_record *done;
+    TRY(run_scenes_all(s, &query, scenes(of, &query), &done));
+    run_scenes_warn_of(s, &done->entry);
+    out->result = &done->entry.result;
+    return status_ok();
+}
+
+static void print(const void *result, FILE *out)
+{
+    const scene_result *r = result;
+    output_keys_print(&(summary_object){ gouge_result_keys, r }, out);
+    if (r->reason[0]) fprintf(out, "\n%s: %s\n", gouge_class_names[r->class], r->reason);
+}
+
+const study study_scene = {
+    .name = "scene",
+    .doc = "one embedded impact at a given velocity",
+    .more = "Needs rail, projectile, particle and scene, with scene.velocity and particle.radius.",
+    .needs = CASE_FOR_SCENE,
+    .keys = gouge_result_keys,
+    .can_vary = true,
+    .report = { report_scene_verdict, NULL },
+    .print = print,
+    .scenes = scenes,
+    .run = run,
+};
