@@ -36,7 +36,7 @@ typedef struct {
     double cladding_resistivity;    /* [ohm m] */
     double resistivity;             /* at 293.15 K [ohm m] */
     double resistivity_coefficient; /* [1/K] */
-    double temperature;             /* before the shot [K] */
+    double initial_temperature;     /* before the shot [K] */
     double inductance_gradient;     /* level constant [H/m] */
     double resistance_gradient;     /* level constant, both rails together [ohm/m] */
     double frequency;               /* level skin [Hz]; NAN = from the pulse, equation (C-6) */
@@ -88,7 +88,7 @@ typedef struct {
     double specific_heat;       /* [J/kg/K] */
     double melting_temperature; /* [K] */
     double latent_heat;         /* [J/kg] */
-    double temperature;         /* before the shot [K] */
+    double initial_temperature; /* before the shot [K] */
     double density;             /* [kg/m^3] */
     double thermal_conductivity;    /* [W/m/K] */
     double contact_length;          /* along the rail, one face [m] */
@@ -97,7 +97,7 @@ typedef struct {
     double resistivity;             /* at 293.15 K [ohm m] */
     double resistivity_coefficient; /* [1/K] */
     double leg_area, throat_area; /* the current's cross-section in one leg, in the throat; NAN = not asked for [m^2] */
-    double leg_thickness;         /* that wear may take; NAN = not asked for [m] */
+    double wear_thickness;        /* that wear may take; NAN = not asked for [m] */
 } shot_armature;
 
 typedef struct {

@@ -120,6 +120,6 @@ double circuit_shot_face_rise(const shot_model *m, const shot_forces *f, const d
 double circuit_shot_melting(const shot_model *m, const shot_forces *f, const double *z)
 {
     static const double CREEP = 1e-3; /* [m/s] */
-    const double to_melting = m->armature.melting_temperature - m->armature.temperature;
+    const double to_melting = m->armature.melting_temperature - m->armature.initial_temperature;
     return fmin(circuit_shot_face_rise(m, f, z) / to_melting - 1.0, z[Y_V] / CREEP - 1.0);
 }

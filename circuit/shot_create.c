@@ -57,9 +57,9 @@ status circuit_shot_check(const shot_config *c)
           "film");
     CHECK(!c->armature.velocity_skin || c->armature.contact_voltage > 0.0, STATUS_BAD_INPUT,
           "armature.velocity_skin needs armature.contact_voltage above 0 V: nothing else spreads the current");
-    CHECK(c->armature.wear_fraction == 0.0 || c->armature.melting_temperature > c->armature.temperature,
-          STATUS_BAD_INPUT, "armature.temperature = %g K: must be below melting_temperature = %g K",
-          c->armature.temperature, c->armature.melting_temperature);
+    CHECK(c->armature.wear_fraction == 0.0 || c->armature.melting_temperature > c->armature.initial_temperature,
+          STATUS_BAD_INPUT, "armature.initial_temperature = %g K: must be below melting_temperature = %g K",
+          c->armature.initial_temperature, c->armature.melting_temperature);
     TRY(supplies_check(c));
     for (int k = 0; k < c->n_sites; k++) {
         CHECK(c->sites[k] > c->barrel.start && c->sites[k] < c->barrel.length, STATUS_BAD_INPUT,
@@ -78,7 +78,7 @@ static status feed_at(shot_model *m, double position)
     while (f < m->feeds && m->feed[f] < position) f++;
     if (f < m->feeds && m->feed[f] == position) return status_ok();
     CHECK(m->feeds < SHOT_MAX_FEEDS, STATUS_BAD_INPUT,
-          "supplies join the rails, and rails.slices end, at more than %d positions", SHOT_MAX_FEEDS);
+          "supplies join the rails, and rail.slices end, at more than %d positions", SHOT_MAX_FEEDS);
     memmove(m->feed + f + 1, m->feed + f, (size_t)(m->feeds - f) * sizeof *m->feed);
     m->feed[f] = position;
     m->feeds++;
@@ -134,7 +134,7 @@ static void model_fill(shot *s, const shot_config *c)
     m->contact_area = a->contact_length * (isnan(a->contact_width) ? c->rails.height : a->contact_width);
     m->bore_area = isnan(a->bore_area) ? c->rails.separation * c->rails.height : a->bore_area;
     m->sound_speed = a->gas_density > 0.0 ? sqrt(a->gas_gamma * a->gas_pressure / a->gas_density) : 0.0;
-    m->wear_heat = a->specific_heat * (a->melting_temperature - a->temperature) + a->latent_heat;
+    m->wear_heat = a->specific_heat * (a->melting_temperature - a->initial_temperature) + a->latent_heat;
     m->film = (melt_film){ .viscosity = a->film_viscosity,
                            .density = a->density,
                            .melting = a->density * m->wear_heat,
@@ -248,8 +248,8 @@ static void state_fill(shot *s, const shot_config *c)
     z[Y_V] = c->armature.velocity;
     z[Y_MASS] = c->armature.mass;
     s->rails = c->rails;
-    s->rail_temperature = c->rails.temperature;
-    s->armature_temperature = c->armature.temperature;
+    s->rail_temperature = c->rails.initial_temperature;
+    s->armature_temperature = c->armature.initial_temperature;
     /* Free at once where nothing holds it: friction then starts at zero with the current, below the force. */
     const bool loose = c->armature.friction_dry * c->armature.preload == 0.0 &&
                        circuit_shot_push(m, 0.0, 1.0) > 2.0 * c->armature.friction_dry * c->armature.spreading;

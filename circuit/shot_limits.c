@@ -66,8 +66,8 @@ double circuit_shot_rail_behind_temperature(const shot *s, const shot_forces *f,
  * rho c/(rho_e alpha) ln(1 + alpha (T_m - T_0)), rho_e and alpha at T_0                     (C-18) [A^2 s/m^4] */
 static double melt_action(const shot_armature *a)
 {
-    const double warm = 1.0 + a->resistivity_coefficient * (a->temperature - 293.15);
-    const double alpha = a->resistivity_coefficient / warm, rise = a->melting_temperature - a->temperature;
+    const double warm = 1.0 + a->resistivity_coefficient * (a->initial_temperature - 293.15);
+    const double alpha = a->resistivity_coefficient / warm, rise = a->melting_temperature - a->initial_temperature;
     const double span = alpha > 0.0 ? log1p(alpha * rise) / alpha : rise;
     return a->density * a->specific_heat * span / (a->resistivity * warm);
 }
@@ -130,7 +130,7 @@ void circuit_shot_limits_update(shot *s, const shot_forces *f)
     const double melting = melt_action(a);
     l->leg_action = z[Y_ACTION] / (melting * a->leg_area * a->leg_area);
     l->throat_action = z[Y_ACTION] / (melting * a->throat_area * a->throat_area);
-    l->wear_share = worn_thickness(s, f) / a->leg_thickness;
+    l->wear_share = worn_thickness(s, f) / a->wear_thickness;
     const bool over = l->contact_ratio < 1.0 || l->leg_action > 1.0 || l->throat_action > 1.0 || l->wear_share > 1.0;
     first_place(&l->transition_position, over, x);
     first_place(&l->critical_position, z[Y_V] > l->critical_velocity, x);

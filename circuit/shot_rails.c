@@ -22,9 +22,10 @@ const param circuit_shot_rails_params[] = {
     RAILS(back_crown, "m", 0.0, 0.0, 10.0, "sagitta of the back's arc; half the height makes a D; 0 = flat"),
     RAILS(cladding, "m", 0.0, 0.0, 10.0, "thickness of a layer of another metal on the bore face; 0 = none"),
     RAILS(cladding_resistivity, "ohm m", 1.72e-8, 1e-10, 1e-3, "of that layer, at the rails' temperature"),
-    RAILS(resistivity, "ohm m", 1.72e-8, 1e-10, 1e-3, "resistivity at 293.15 K"),
+    RAILS(resistivity, "ohm m", 1.72e-8, 1e-10, 1e-3, "resistivity at 293.15 K; not given: the material's"),
     RAILS(resistivity_coefficient, "1/K", 3.93e-3, 0.0, 0.1, "relative rise of the resistivity"),
-    RAILS(temperature, "K", 293.15, 200.0, 3000.0, "temperature before the shot"),
+    RAILS(initial_temperature, "K", 293.15, 200.0, 3000.0,
+          "before the shot, for the circuit; a case takes `temperature` where it gives that alone"),
     RAILS(inductance_gradient, "H/m", OPTIONAL, 0.0, 1e-4, "inductance gradient of the pair (level constant)"),
     RAILS(resistance_gradient, "ohm/m", OPTIONAL, 0.0, 10.0, "resistance gradient of the pair (level constant)"),
     RAILS(frequency, "Hz", OPTIONAL, 1e-3, 1e9, "frequency of the gradients (level skin); from the pulse if not given"),
@@ -82,10 +83,10 @@ static double supplies_energy(const shot_config *c)
 
 status circuit_rails_section(const shot_rails *rails, rail_section *out)
 {
-    TRY(base_params_check(circuit_shot_rails_params, rails, "rails"));
-    const double warm = 1.0 + rails->resistivity_coefficient * (rails->temperature - 293.15);
-    CHECK(warm > 0.0, STATUS_BAD_INPUT, "rails.temperature = %g K makes rails.resistivity negative",
-          rails->temperature);
+    TRY(base_params_check(circuit_shot_rails_params, rails, "rail"));
+    const double warm = 1.0 + rails->resistivity_coefficient * (rails->initial_temperature - 293.15);
+    CHECK(warm > 0.0, STATUS_BAD_INPUT, "rail.initial_temperature = %g K makes rail.resistivity negative",
+          rails->initial_temperature);
     *out = (rail_section){ .height = rails->height,
                            .thickness = rails->thickness,
                            .separation = rails->separation,
@@ -101,10 +102,10 @@ status circuit_rails_section(const shot_rails *rails, rail_section *out)
 status circuit_rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance)
 {
     CHECK(f >= 0.0, STATUS_BAD_INPUT, "frequency %g Hz: must be 0 or more", f);
-    TRY(base_params_check(circuit_shot_rails_params, rails, "rails"));
+    TRY(base_params_check(circuit_shot_rails_params, rails, "rail"));
     if (rails->level == SHOT_RAILS_CONSTANT) {
         CHECK(!isnan(rails->inductance_gradient) && !isnan(rails->resistance_gradient), STATUS_BAD_INPUT,
-              "rails.level constant needs rails.inductance_gradient [H/m] and rails.resistance_gradient [ohm/m]");
+              "rail.level constant needs rail.inductance_gradient [H/m] and rail.resistance_gradient [ohm/m]");
         *inductance = rails->inductance_gradient;
         *resistance = rails->resistance_gradient;
         return status_ok();
@@ -150,7 +151,7 @@ static status warming_fit(const shot_rails *rails, rails_load *out)
     TRY(circuit_rails_section(rails, &section));
     out->heat_capacity = rails->heat_capacity * section.rails * circuit_section_metal_area(&section);
     out->coefficient =
-        rails->resistivity_coefficient / (1.0 + rails->resistivity_coefficient * (rails->temperature - 293.15));
+        rails->resistivity_coefficient / (1.0 + rails->resistivity_coefficient * (rails->initial_temperature - 293.15));
     return status_ok();
 }
 
@@ -160,7 +161,7 @@ static void contact_fit(const shot_config *c, sliding_contact *out)
     const shot_armature *a = &c->armature;
     const shot_rails *r = &c->rails;
     const double width = isnan(a->contact_width) ? r->height : a->contact_width;
-    const double warm = 1.0 + r->resistivity_coefficient * (r->temperature - 293.15);
+    const double warm = 1.0 + r->resistivity_coefficient * (r->initial_temperature - 293.15);
     out->length = a->contact_length;
     out->interface = a->velocity_skin ? 0.5 * a->contact_voltage * a->contact_length * width : 0.0;
     out->resistivity = r->cladding > 0.0 ? r->cladding_resistivity : r->resistivity * warm;

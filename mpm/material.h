@@ -37,8 +37,7 @@ typedef enum {
     ROW(taylor_quinney, "1", 0, 0.0, 1.0, "share of plastic work that becomes heat (heat by plastic work only)") \
     ROW(spall_strength, "Pa", 0, 0.0, 1e11, "tension at which it fails")                                         \
     ROW(hardness, "Pa", MATERIAL_FOR_SCREEN, 1e6, 1e11, "Vickers hardness as a pressure")                        \
-    ROW(resistivity, "ohm m", MATERIAL_FOR_CIRCUIT, 1e-10, 1e-3,                                                 \
-        "electrical resistivity at the reference temperature")                                                   \
+    ROW(resistivity, "ohm m", MATERIAL_FOR_CIRCUIT, 1e-10, 1e-3, "electrical resistivity at 293.15 K")           \
     ROW(resistivity_slope, "1/K", 0, -0.1, 0.1, "temperature coefficient of the resistivity")
 
 typedef enum {

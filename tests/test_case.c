@@ -12,6 +12,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #define SMALL_CASE BREECH_TESTS "/data/case_small.yaml"
 
@@ -92,7 +93,7 @@ static void values_are_si(void **state)
     assert_true(bank_of(c)[0].capacitance == 3.594e-3);
     assert_true(bank_of(c)[0].inductance == 12.56e-6);
     assert_true(bank_of(c)[1].fire_at == 0.4e-3);
-    assert_true(c->rails.temperature == 293.15);
+    assert_true(c->rails.initial_temperature == 293.15);
     assert_int_equal(c->rails.level, SHOT_RAILS_CONSTANT);
     assert_true(c->armature.friction_melted == 0.05);
     assert_true(c->options.rtol == 1e-7);
@@ -161,36 +162,38 @@ static void missing_sections_hold_defaults(void **state)
 static void all_errors_at_once(void **state)
 {
     (void)state;
-    const char text[] = "name: bad\n"
-                        "bank:\n"
-                        "  capacitance: -5 mF\n"
-                        "  charge: 9\n"
-                        "  inductence: 3 uH\n"
-                        "rails: {height: 25 mm, thickness: 20 kV, separation: 25 mmm, level: skim}\n"
-                        "projectile: {leadangle: 30 deg, material: al7075_t651}\n"
-                        "scene: {friction: 0.2 mm, velocity: 20 km/s, damage: maybe, particles_per_axis: 2.5}\n"
-                        "rail: {material: ofhc_coper, temperature: 5000 degC}\n"
-                        "sites: [{position: 3 m, shape: hemisfere}, text]\n"
-                        "velocity: 3 m/s\n";
+    const char text[] =
+        "name: bad\n"
+        "bank:\n"
+        "  capacitance: -5 mF\n"
+        "  charge: 9\n"
+        "  inductence: 3 uH\n"
+        "rail: {height: 25 mm, thickness: 20 kV, separation: 25 mmm, level: skim, material: ofhc_coper, temperature: "
+        "5000 degC}\n"
+        "armature: {leadangle: 30 deg, material: al7075_t651}\n"
+        "scene: {friction: 0.2 mm, velocity: 20 km/s, damage: maybe, particles_per_axis: 2.5}\n"
+        "sites: [{position: 3 m, shape: hemisfere}, text]\n"
+        "velocity: 3 m/s\n";
     char *e = errors_of(text, NULL, 0, 0);
     has_line(e, "case.yaml:3:16: bank.capacitance = -5 mF: must be positive (1 pF .. 1 kF)\n");
     has_line(e, "case.yaml:4:11: bank.charge = 9: needs a unit, such as `9 V`\n");
     has_line(e, "case.yaml:5:3: unknown key `inductence` in bank; did you mean `inductance`?\n");
-    has_line(e, "case.yaml:6:35: rails.thickness = 20 kV: `kV` is not a unit of m\n");
-    has_line(e, "case.yaml:6:54: rails.separation = 25 mmm: `mmm` is not a known unit");
-    has_line(e, "case.yaml:6:69: rails.level = skim: must be one of constant, skin, diffusing; did you mean `skin`?\n");
-    has_line(e, "case.yaml:7:14: unknown key `leadangle` in projectile; did you mean `lead_angle`?\n");
-    has_line(e, "case.yaml:7:13: projectile.half_bore is missing [m]");
+    has_line(e, "case.yaml:6:34: rail.thickness = 20 kV: `kV` is not a unit of m\n");
+    has_line(e, "case.yaml:6:53: rail.separation = 25 mmm: `mmm` is not a known unit");
+    has_line(e, "case.yaml:6:68: rail.level = skim: must be one of constant, skin, diffusing; did you mean `skin`?\n");
+    has_line(e, "case.yaml:7:12: unknown key `leadangle` in armature; did you mean `lead_angle`?\n");
+    has_line(e, "case.yaml:7:11: armature.leg_thickness is missing [m]");
+    has_line(e, "case.yaml:7:11: armature.chamfer_height is missing [m]");
     has_line(e, "case.yaml:8:19: scene.friction = 0.2 mm: is a pure number");
     has_line(e, "case.yaml:8:37: scene.velocity = 20 km/s: must lie within the range (0.001 km/s .. 10 km/s)\n");
     has_line(e, "case.yaml:8:54: scene.damage = maybe: must be yes or no\n");
     has_line(e, "case.yaml:8:81: scene.particles_per_axis = 2.5: must be a whole number\n");
-    has_line(e, "case.yaml:9:18: rail.material = ofhc_coper: no material of this name in ");
+    has_line(e, "case.yaml:6:84: rail.material = ofhc_coper: no material of this name in ");
     has_line(
-        e, "case.yaml:9:43: rail.temperature = 5000 degC: must lie within the range (-269.15 degC .. 1726.85 degC)\n");
-    has_line(e, "case.yaml:10:32: sites[0].shape = hemisfere: must be one of ");
-    has_line(e, "case.yaml:10:44: sites[1] must be a section");
-    has_line(e, "case.yaml:11:1: unknown key `velocity`; `armature` has one\n");
+        e, "case.yaml:6:109: rail.temperature = 5000 degC: must lie within the range (-269.15 degC .. 1726.85 degC)\n");
+    has_line(e, "case.yaml:9:32: sites[0].shape = hemisfere: must be one of ");
+    has_line(e, "case.yaml:9:44: sites[1] must be a section");
+    has_line(e, "case.yaml:10:1: unknown key `velocity`; `armature` has one\n");
     assert_null(strstr(e, "lead_angle is missing")); /* a mistyped key is one error, not two */
     free(e);
 }
@@ -199,10 +202,10 @@ static void all_errors_at_once(void **state)
 static void limits_hold_in_any_unit(void **state)
 {
     (void)state;
-    char *e = errors_of("name: a\nprojectile: {lead_angle: 90 deg}\n", NULL, 0, 0);
+    char *e = errors_of("name: a\narmature: {lead_angle: 90 deg}\n", NULL, 0, 0);
     assert_null(strstr(e, "within the range"));
     free(e);
-    e = errors_of("name: a\nprojectile: {lead_angle: 90.0001 deg}\n", NULL, 0, 0);
+    e = errors_of("name: a\narmature: {lead_angle: 90.0001 deg}\n", NULL, 0, 0);
     assert_non_null(strstr(e, "within the range"));
     free(e);
 }
@@ -280,13 +283,13 @@ static void commands_say_what_they_need(void **state)
 static void what_must_fit_is_checked(void **state)
 {
     (void)state;
-    const char *sets[] = { "sites[1].position=5 m", "projectile.leg_thickness=20 mm", "study.velocity_low=3 km/s",
+    const char *sets[] = { "sites[1].position=5 m", "armature.leg_thickness=20 mm", "study.velocity_low=3 km/s",
                            "particle.height=20 mm", "scene.coarse_cell=0.1 mm" };
     char *text = read_file(SMALL_CASE), *e = errors_of(text, sets, 5, 0);
     has_line(e, "--set sites[1].position=5 m: sites[1].position = 5 m: must lie between barrel.start = 0.1 m");
-    has_line(e, "--set projectile.leg_thickness=20 mm: projectile.leg_thickness = 20 mm: must not exceed half_bore\n");
+    has_line(e, "--set armature.leg_thickness=20 mm: armature.leg_thickness = 20 mm: must not exceed half_bore\n");
     has_line(e, "--set study.velocity_low=3 km/s: study.velocity_low = 3 km/s: must lie below velocity_high\n");
-    has_line(e, "--set particle.height=20 mm: particle.height = 20 mm: must not exceed projectile.half_bore\n");
+    has_line(e, "--set particle.height=20 mm: particle.height = 20 mm: must not exceed armature.half_bore\n");
     has_line(e, "--set scene.coarse_cell=0.1 mm: scene.coarse_cell = 0.1 mm: must not be smaller than the fine cell");
     free(e);
     free(text);
@@ -328,11 +331,11 @@ static void set_can_give_a_whole_list(void **state)
 static void set_errors_name_the_set(void **state)
 {
     (void)state;
-    const char *sets[] = { "bank.charg=3", "rails.height=2 kV", "bank[2].charge=3 V", "name.x=3", "scene=[1,{",
-                           "=3",           "bank[x].charge=3",  "study.max_scenes=0", "nothing",  "bank.charge=9" };
+    const char *sets[] = { "bank.charg=3", "rail.height=2 kV", "bank[2].charge=3 V", "name.x=3", "scene=[1,{",
+                           "=3",           "bank[x].charge=3", "study.max_scenes=0", "nothing",  "bank.charge=9" };
     char *text = read_file(SMALL_CASE), *e = errors_of(text, sets, 10, 0);
     has_line(e, "--set bank.charg=3: unknown key `charg` in bank[0]; did you mean `charge`?\n");
-    has_line(e, "--set rails.height=2 kV: rails.height = 2 kV: `kV` is not a unit of m\n");
+    has_line(e, "--set rail.height=2 kV: rail.height = 2 kV: `kV` is not a unit of m\n");
     has_line(e, "--set bank[2].charge=3 V: bank has 2 entries: bank[0] .. bank[1]\n");
     has_line(e, "--set name.x=3: x is not inside a section");
     has_line(e, "--set scene=[1,{: not valid YAML");
@@ -346,17 +349,206 @@ static void set_errors_name_the_set(void **state)
     free(text);
 }
 
-/* ---- writing ---- */
+/* ---- a case that builds on another ---- */
 
-static char *used_text(const breech_case *c)
+static void write_file(const char *path, const char *text)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
+    FILE *file = fopen(path, "w");
     assert_non_null(file);
-    assert_int_equal(case_write_used(c, file).code, STATUS_OK);
-    fclose(file);
-    return text;
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* base/case.yaml <- middle.yaml <- top.yaml, each with its changes. */
+static void write_chain(void)
+{
+    mkdir("base", 0777);
+    mkdir("base/far", 0777);
+    write_file("base/case.yaml",
+               "name: below\ntitle: from below\n"
+               "bank: [{capacitance: 3 mF, charge: 10 kV, inductance: 12 uH}]\n"
+               "rail: {height: 25 mm, thickness: 20 mm, separation: 30 mm, face_crown: 1 mm}\n"
+               "sites: [{position: 1 m}, {position: 2 m}]\nparticle: {radius: 0.5 mm, bond_strength: 50 MPa}\n"
+               "output: {snapshots: 3}\n"
+               "current_profiles: {file: far/current.csv}\n");
+    write_file("base/far/current.csv", "0,0\n1e-3,5e5\n2e-3,0\n");
+    write_file("middle.yaml", "base: base\nname: middle\nrail: {thickness: 10 mm, face_crown: ~}\noutput:\n");
+    write_file("top.yaml",
+               "base: ./middle.yaml\nname: top\nsites: [{position: 3 m}]\nparticle: {bond_strength: none}\n");
+}
+
+static breech_case *read_path(const char *path, const char *const *sets, int n, char **errors)
+{
+    breech_case *c = NULL;
+    const case_options o = options_for(0);
+    const status s = case_read(path, sets, n, &o, &c, errors);
+    assert_true((s.code == STATUS_OK) == (c != NULL));
+    return c;
+}
+
+/* Maps merge key by key, lists and values replace, ~ takes out, `none` is a value; paths belong to their file. */
+static void a_base_is_changed(void **state)
+{
+    (void)state;
+    write_chain();
+    char *errors = NULL;
+    breech_case *c = read_path("top.yaml", (const char *const[]){ "rail.height=26 mm" }, 1, &errors);
+    if (errors) print_error("%s", errors);
+    assert_non_null(c);
+    assert_string_equal(c->name, "top");
+    assert_string_equal(c->title, "from below");
+    assert_true(c->rails.height == 0.026 && c->rails.thickness == 0.01 && c->rails.separation == 0.03);
+    assert_true(c->rails.face_crown == 0.0); /* taken out: the default */
+    assert_false(c->given.output);           /* the whole section too */
+    assert_int_equal(c->output.snapshots, 20);
+    assert_int_equal(c->sites.n, 1);
+    assert_true(c->sites.item[0].position == 3.0 && c->sites.item[0].radius == 0.5e-3);
+    assert_true(isnan(c->particle.bond_strength));
+    assert_true(bank_of(c)->charge == 10e3);
+    assert_int_equal(((const supply_profile *)c->supplies[SUPPLY_profile].item)->points.n, 3);
+    case_free(c);
+}
+
+/* An error stands where the fault is, in whatever file of the chain. */
+static void errors_name_the_file_of_the_chain(void **state)
+{
+    (void)state;
+    write_chain();
+    write_file("wrong.yaml", "base: base\nname: wrong\nrail: {heigth: 3 mm, thickness: 20 kV}\n");
+    char *errors = NULL;
+    assert_null(read_path("wrong.yaml", NULL, 0, &errors));
+    has_line(errors, "wrong.yaml:3:8: unknown key `heigth` in rail; did you mean `height`?\n");
+    has_line(errors, "wrong.yaml:3:33: rail.thickness = 20 kV: `kV` is not a unit of m\n");
+    free(errors);
+    write_file("base/case.yaml", "name: below\nparticle: {radius: 3 kg}\nrail: {height: 25 mm}\n");
+    assert_null(read_path("top.yaml", NULL, 0, &errors));
+    has_line(errors, "base/case.yaml:2:20: particle.radius = 3 kg: `kg` is not a unit of m\n");
+    has_line(errors, "./middle.yaml:3:7: rail.separation is missing [m]");
+    free(errors);
+    write_file("base/case.yaml", "name: [below\n");
+    assert_null(read_path("top.yaml", NULL, 0, &errors));
+    has_line(errors, "base/case.yaml:2:1: not valid YAML");
+    assert_int_equal(lines_of(errors), 1); /* nothing else can be said */
+    free(errors);
+}
+
+static void chains_end(void **state)
+{
+    (void)state;
+    char *errors = NULL, name[20], text[60];
+    write_file("one.yaml", "name: one\nbase: two.yaml\n");
+    write_file("two.yaml", "base: ./one.yaml\nname: two\n");
+    assert_null(read_path("one.yaml", NULL, 0, &errors));
+    has_line(errors, "two.yaml:1:7: base = ./one.yaml: leads back to one.yaml, which builds on this file\n");
+    free(errors);
+    for (int k = 0; k < CASE_MAX_FILES; k++) {
+        snprintf(name, sizeof name, "chain%d.yaml", k);
+        snprintf(text, sizeof text, "name: n%d\nbase: chain%d.yaml\n", k, k + 1);
+        write_file(name, text);
+    }
+    write_file("chain9.yaml", "title: the end\n");
+    breech_case *c = read_path("chain1.yaml", NULL, 0, &errors);
+    assert_non_null(c);
+    assert_string_equal(c->title, "the end");
+    case_free(c);
+    assert_null(read_path("chain0.yaml", NULL, 0, &errors));
+    has_line(errors, "chain8.yaml:2:7: base = chain9.yaml: a chain of more than 8 bases\n");
+    free(errors);
+    write_file("none.yaml", "name: none\nbase: nowhere\n");
+    assert_null(read_path("none.yaml", NULL, 0, &errors));
+    has_line(errors, "none.yaml:2:7: base = nowhere: there is no such case\n");
+    free(errors);
+}
+
+/* ---- one entry for several groups ---- */
+
+static void lists_of_values_are_groups(void **state)
+{
+    (void)state;
+    const char *sets[] = { "bank=[{capacitance: 3 mF, charge: 10 kV, inductance: 12 uH, count: [3, 1, 1],"
+                           " fire_at: [0 ms, 0.5 ms, never]}, {capacitance: 1 mF, charge: 9 kV, inductance: 1 uH}]",
+                           "bank[1].charge=8 kV" };
+    breech_case *c = small_case(sets, 2);
+    const shot_module *m = bank_of(c);
+    assert_int_equal(c->supplies[SUPPLY_capacitor].n, 4);
+    for (int k = 0; k < 3; k++) assert_true(m[k].capacitance == 3e-3 && m[k].count == (k == 0 ? 3 : 1));
+    assert_true(m[0].fire_at == 0.0 && m[1].fire_at == 0.5e-3 && isinf(m[2].fire_at));
+    assert_true(m[3].charge == 8e3 && m[3].fire_at == 0.0); /* --set counts the entries of the file */
+    case_free(c);
+    char *e = errors_of(
+        "name: a\nbank: {capacitance: -3 mF, charge: [], inductance: [1 uH, 2 kV], fire_at: [1 s, 2 s, 3 s]}\n"
+        "sites: {position: [1 m, 2 m], radius: 1 mm}\n",
+        NULL, 0, 0);
+    has_line(e, "case.yaml:2:36: bank.charge: 0 values where 1 are wanted");
+    free(e);
+    e = errors_of(
+        "name: a\nbank: {capacitance: -3 mF, charge: 1 kV, inductance: [1 uH, 2 kV], fire_at: [1 s, 2 s, 3 s]}\n"
+        "sites: {position: [1 m, 2 m], radius: 1 mm}\n",
+        NULL, 0, 0);
+    has_line(e, "case.yaml:2:21: bank.capacitance = -3 mF: must be positive");
+    has_line(e, "case.yaml:2:61: bank.inductance[1] = 2 kV: `kV` is not a unit of H\n");
+    has_line(e, "case.yaml:2:77: bank.fire_at: 3 values where 2 are wanted");
+    has_line(e, "case.yaml:3:19: sites.position: must be one value, not a list\n");
+    assert_int_equal(lines_of(e), 4); /* what two groups share is said once */
+    free(e);
+}
+
+/* ---- one section for circuit and scene ---- */
+
+#define BOTH                                                                                                          \
+    "name: a\nrail: {height: 20 mm, thickness: 10 mm, separation: 18 mm, material: steel_4340, temperature: 400 K}\n" \
+    "armature: {mass: 1 kg, material: al6061_t6, lead_angle: 45 deg, length: 20 mm, leg_thickness: 5 mm,\n"           \
+    "  head_thickness: 10 mm, chamfer_height: 2 mm"
+
+static breech_case *read_text(const char *text)
+{
+    breech_case *c = NULL;
+    char *errors = NULL;
+    const case_options o = options_for(0);
+    const status s = case_read_memory(&(case_text){ text, strlen(text), "case.yaml", NULL, 0 }, &o, &c, &errors);
+    if (errors) print_error("%s", errors);
+    assert_int_equal(s.code, STATUS_OK);
+    return c;
+}
+
+/* What the geometry and the metals say need not be said again, and may be. */
+static void what_follows_is_not_asked_for(void **state)
+{
+    (void)state;
+    breech_case *c = read_text(BOTH "}\n");
+    const material *steel = case_material(c, "steel_4340"), *alloy = case_material(c, "al6061_t6");
+    assert_true(c->projectile.half_bore == 0.009 && c->projectile.width == 0.02);
+    assert_true(fabs(c->armature.contact_length - 0.018) < 1e-15); /* 20 mm less a face of 2 mm at 45 deg */
+    assert_true(c->armature.contact_width == 0.02);
+    assert_true(isnan(c->armature.wear_thickness)); /* nothing wears */
+    assert_true(c->rails.resistivity == steel->resistivity && c->rails.density == steel->density);
+    assert_true(c->rails.resistivity_coefficient == 3.93e-3); /* the metal's is not known */
+    assert_true(c->armature.melting_temperature == alloy->melting_temperature);
+    assert_true(c->rails.initial_temperature == 400.0 && c->armature.initial_temperature == 293.15);
+    case_free(c);
+    c = read_text(BOTH
+                  ", half_bore: 8 mm, width: 19 mm, contact_length: 7 mm, contact_width: 6 mm, wear_fraction: 0.1,\n"
+                  "  density: 3000 kg/m^3}\n");
+    assert_true(c->projectile.half_bore == 0.008 && c->projectile.width == 0.019);
+    assert_true(c->armature.contact_length == 0.007 && c->armature.contact_width == 0.006);
+    assert_true(c->armature.wear_thickness == 0.005 && c->armature.density == 3000.0);
+    case_free(c);
+}
+
+/* Neither half of a section, the circuit's and the scene's, needs the other; a command says what is missing. */
+static void halves_of_a_section(void **state)
+{
+    (void)state;
+    breech_case *c =
+        read_text("name: a\nrail: {height: 20 mm, thickness: 10 mm, separation: 18 mm}\narmature: {mass: 1 kg}\n");
+    assert_true(c->given.rails && !c->given.rail && c->given.armature && !c->given.projectile);
+    case_free(c);
+    c = read_text("name: a\nrail: {material: ofhc_copper}\n");
+    assert_true(!c->given.rails && c->given.rail);
+    case_free(c);
+    char *e = errors_of("name: a\nrail: {material: ofhc_copper}\n", NULL, 0, CASE_FOR_INDUCTANCE);
+    has_line(e, "case.yaml:2:7: rail.height is missing [m]");
+    free(e);
 }
 
 /* Every member of every table, by the tables: equal bits, NAN equal to NAN. */
@@ -373,15 +565,65 @@ static void same_objects(const case_section *section, const void *a, const void 
         assert_true(u == v || (isnan(u) && isnan(v)));
     }
     for (const case_section *s = section->children; s && s->key; s++) {
-        if (!s->list) {
-            same_objects(s, (const char *)a + s->offset, (const char *)b + s->offset);
-            continue;
-        }
+        for (const case_section *part = s; part && !s->list; part = part->also)
+            same_objects(part, (const char *)a + part->offset, (const char *)b + part->offset);
+        if (!s->list) continue;
         const case_list l = case_list_get(a, s), m = case_list_get(b, s);
         assert_int_equal(l.n, m.n);
         for (int k = 0; k < l.n; k++)
             same_objects(s, (const char *)l.item + (size_t)k * s->size, (const char *)m.item + (size_t)k * s->size);
     }
+}
+
+/* One version reads the old names: the same case, and a warning for each. */
+static void old_names_are_read(void **state)
+{
+    (void)state;
+    const char was[] = "name: a\nrails: {height: 20 mm, thickness: 10 mm, separation: 18 mm, temperature: 300 K}\n"
+                       "rail: {material: ofhc_copper, temperature: 310 K}\n"
+                       "armature: {mass: 1 kg, temperature: 320 K, leg_thickness: 1 mm}\n"
+                       "projectile: {material: al6061_t6, lead_angle: 45 deg, length: 20 mm, leg_thickness: 5 mm,\n"
+                       "  head_thickness: 10 mm, chamfer_height: 2 mm, half_bore: 9 mm, width: 20 mm}\n"
+                       "study: {screen_high: 4}\n";
+    const char now[] =
+        "name: a\nrail: {height: 20 mm, thickness: 10 mm, separation: 18 mm, initial_temperature: 300 K,\n"
+        "  material: ofhc_copper, temperature: 310 K}\n"
+        "armature: {mass: 1 kg, initial_temperature: 320 K, wear_thickness: 1 mm,\n"
+        "  material: al6061_t6, lead_angle: 45 deg, length: 20 mm, leg_thickness: 5 mm,\n"
+        "  head_thickness: 10 mm, chamfer_height: 2 mm, half_bore: 9 mm, width: 20 mm}\nstudy: {}\n";
+    static const char *const warnings[] = {
+        "case.yaml:2:1: `rails` is now `rail`;",
+        "case.yaml:2:61: `rails.temperature` is now `rail.initial_temperature`;",
+        "case.yaml:4:24: `armature.temperature` is now `armature.initial_temperature`;",
+        "case.yaml:5:1: `projectile` is now `armature`;",
+        "case.yaml:7:9: `study.screen_high` is no longer read by anything: leave it out\n",
+    };
+    breech_case *a = read_text(was), *b = read_text(now);
+    same_objects(&case_root, a, b);
+    assert_memory_equal(&a->given, &b->given, sizeof a->given);
+
+    for (size_t k = 0; k < sizeof warnings / sizeof *warnings; k++) assert_non_null(strstr(a->warnings, warnings[k]));
+    assert_null(strstr(b->warnings, "is now"));
+    case_free(a);
+    case_free(b);
+    const char *sets[] = { "rails.temperature=350 K", "projectile.width=21 mm", "study.screen_high=5" };
+    a = small_case(sets, 3);
+    assert_true(a->rails.initial_temperature == 350.0 && a->projectile.width == 0.021);
+    assert_non_null(strstr(a->warnings, "--set projectile.width=21 mm: `projectile` is now `armature`;"));
+    case_free(a);
+}
+
+/* ---- writing ---- */
+
+static char *used_text(const breech_case *c)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    assert_non_null(file);
+    assert_int_equal(case_write_used(c, file).code, STATUS_OK);
+    fclose(file);
+    return text;
 }
 
 static void used_reads_back(void **state)
@@ -471,7 +713,11 @@ static void check_section(const units *u, const case_section *section)
         assert_int_equal(host_quantity_read(u, text, p->unit, &value, user_unit).code, STATUS_OK);
         assert_true(value == 2.0);
     }
-    for (const case_section *s = section->children; s && s->key; s++) check_section(u, s);
+    for (const case_section *s = section->children; s && s->key; s++)
+        for (const case_section *part = s; part; part = part->also) check_section(u, part);
+    for (const case_section *part = section->also; part; part = part->also) /* one section of the file: no key twice */
+        for (const param *p = section->table; p->key; p++)
+            for (const param *q = part->table; q->key; q++) assert_string_not_equal(p->key, q->key);
 }
 
 static void tables_are_sound(void **state)
@@ -578,6 +824,13 @@ int main(void)
         cmocka_unit_test(set_reaches_every_place),
         cmocka_unit_test(set_can_give_a_whole_list),
         cmocka_unit_test(set_errors_name_the_set),
+        cmocka_unit_test(a_base_is_changed),
+        cmocka_unit_test(errors_name_the_file_of_the_chain),
+        cmocka_unit_test(chains_end),
+        cmocka_unit_test(lists_of_values_are_groups),
+        cmocka_unit_test(what_follows_is_not_asked_for),
+        cmocka_unit_test(halves_of_a_section),
+        cmocka_unit_test(old_names_are_read),
         cmocka_unit_test(used_reads_back),
         cmocka_unit_test(texts_survive_quoting),
         cmocka_unit_test(manual_is_up_to_date),

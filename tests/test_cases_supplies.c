@@ -161,7 +161,7 @@ static void bad_tables(void **state)
         fputs(tables[k][0], f);
         fclose(f);
         const char text[] =
-            "name: t\ncurrent_profiles: {file: bad.csv}\nrails: {height: 25 mm, thickness: 20 mm, separation: "
+            "name: t\ncurrent_profiles: {file: bad.csv}\nrail: {height: 25 mm, thickness: 20 mm, separation: "
             "25 mm}\nbarrel: {length: 1 m}\narmature: {mass: 1 kg}\n";
         const case_text in = { text, sizeof text - 1, "t.yaml", NULL, 0 };
         char *errors = NULL;

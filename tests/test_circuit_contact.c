@@ -195,7 +195,7 @@ static shot_config launcher(void)
     c.supplies[SUPPLY_capacitor] = (supply_list){ 1, &bank };
     c.barrel.length = 2.0;
     c.armature.wear_fraction = 0.01;
-    c.armature.leg_thickness = 1e-3;
+    c.armature.wear_thickness = 1e-3;
     return c;
 }
 
@@ -236,12 +236,13 @@ static void melting_changes_friction(void **state)
     shot *s = watched(&c, &n);
     const shot_armature *a = &c.armature;
     const double area = a->contact_length * c.rails.height;
-    const melt_film f = { .viscosity = a->film_viscosity,
-                          .density = a->density,
-                          .melting = a->density *
-                                     (a->specific_heat * (a->melting_temperature - a->temperature) + a->latent_heat),
-                          .length = a->contact_length,
-                          .share = a->wear_fraction };
+    const melt_film f = {
+        .viscosity = a->film_viscosity,
+        .density = a->density,
+        .melting = a->density * (a->specific_heat * (a->melting_temperature - a->initial_temperature) + a->latent_heat),
+        .length = a->contact_length,
+        .share = a->wear_fraction
+    };
     const shot_state *e = &n.last;
     const double P = e->contact_force / area;
     const melt_flow m = circuit_melt_film_at(&f, e->v, P, a->contact_voltage * e->current / (2.0 * area));
@@ -263,7 +264,7 @@ static void melting_changes_friction(void **state)
     contact_notes sooner;
     circuit_shot_free(watched(&c, &sooner));
     assert_true(sooner.melted.x < n.melted.x);
-    const double rise = a->melting_temperature - a->temperature;
+    const double rise = a->melting_temperature - a->initial_temperature;
     assert_near(rise_at_melting(a, &n.melted, area), rise, 1e-4 * rise);
     assert_near(rise_at_melting(a, &sooner.melted, area), rise, 1e-4 * rise);
     c.armature.velocity_skin = false;

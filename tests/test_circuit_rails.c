@@ -276,12 +276,12 @@ static void bad_sections(void **state)
         double h, w, s, face, back, cladding;
         int rails;
         const char *says;
-    } bad[] = { { 0.02, 0.01, -1.0, 0, 0, 0, 2, "rails.separation" },
-                { 0.02, 0.01, 0.02, 0.011, 0, 0, 2, "rails.face_crown" },
-                { 0.02, 0.01, 0.02, 0, -1e-3, 0, 2, "rails.back_crown" },
-                { 0.02, 0.01, 0.02, 0.006, 0.006, 0, 2, "rails.thickness" },
-                { 0.02, 0.01, 0.02, 0, 0, 0.01, 2, "rails.cladding" },
-                { 0.02, 0.01, 0.02, 0, 0, 0, 3, "rails.count" },
+    } bad[] = { { 0.02, 0.01, -1.0, 0, 0, 0, 2, "rail.separation" },
+                { 0.02, 0.01, 0.02, 0.011, 0, 0, 2, "rail.face_crown" },
+                { 0.02, 0.01, 0.02, 0, -1e-3, 0, 2, "rail.back_crown" },
+                { 0.02, 0.01, 0.02, 0.006, 0.006, 0, 2, "rail.thickness" },
+                { 0.02, 0.01, 0.02, 0, 0, 0.01, 2, "rail.cladding" },
+                { 0.02, 0.01, 0.02, 0, 0, 0, 3, "rail.count" },
                 { 0.02, 0.01, 0.02, 0, 0, 0, 4, "overlap" } };
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
         rail_section s = pair(bad[k].h, bad[k].w, bad[k].s);
@@ -310,7 +310,7 @@ static void levels_of_rails(void **state)
     section.resistivity = rails.resistivity;
     assert_ok(circuit_inductance_at(&section, 500.0, rails.fineness, &L0, &R0));
     assert_true(L == L0 && R == R0);
-    rails.temperature = 393.15; /* 39.3 % more resistive: R' between its root and its first power */
+    rails.initial_temperature = 393.15; /* 39.3 % more resistive: R' between its root and its first power */
     double R_hot = 0.0;
     assert_ok(circuit_rails_impedance(&rails, 500.0, &L, &R_hot));
     assert_true(R_hot > R * sqrt(1.39) && R_hot < R * 1.40);

@@ -580,7 +580,7 @@ static void limits(void **state)
     c.armature.leg_area = 3e-4;
     c.armature.throat_area = 6e-4;
     c.armature.wear_fraction = 0.3;
-    c.armature.leg_thickness = 1e-4;
+    c.armature.wear_thickness = 1e-4;
     c.rails.backing_stiffness = 1e9;
     s = run(&c);
     l = circuit_shot_limits_of(s);

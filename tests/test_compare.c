@@ -92,24 +92,22 @@ static char *errors_of(const char *text, unsigned needs)
     return errors;
 }
 
-#define HEAD                                                                                                          \
-    "name: test\n"                                                                                                    \
-    "bank: {count: 15, capacitance: 3.594 mF, charge: 10.55 kV, inductance: 12.56 uH, resistance: 4.1 mohm,\n"        \
-    "  crowbar_drop: 1.48 V, crowbar_resistance: 0.43 mohm}\n"                                                        \
-    "rails: {level: constant, height: 25 mm, thickness: 20 mm, separation: 25 mm, resistivity: 1.72e-8 ohm m,\n"      \
-    "  inductance_gradient: 0.42 uH/m, resistance_gradient: 0.1 mohm/m}\n"                                            \
-    "barrel: {length: 3 m, start: 0.1 m}\n"                                                                           \
-    "armature: {mass: 0.18 kg, contact_length: 16 mm, contact_width: 25 mm, preload: 5 kN, spreading: 3e-8 N/A^2, "   \
-    "friction_dry: 0.3, friction_melted: "                                                                            \
-    "0.05}\n"                                                                                                         \
-    "rail: {material: ofhc_copper, yield_scale: 1.5}\n"                                                               \
-    "projectile: {material: al7075_t651, lead_angle: 30 deg, length: 20 mm, leg_thickness: 5 mm, head_thickness: 10 " \
-    "mm,\n"                                                                                                           \
-    "  half_bore: 12.5 mm, width: 25 mm, chamfer_height: 2 mm}\n"                                                     \
-    "particle: {radius: 0.5 mm}\n"                                                                                    \
-    "scene: {friction: 0.05, coarse_cell: 2 mm, growth: 1.3, contact_pressure: 75 MPa}\n"                             \
-    "study: {coarse_cells_per_radius: 2, fine_cells_per_radius: 3, max_scenes: 40, sampled: 10000,\n"                 \
-    "  sensitivities: no, feedback: no}\n"                                                                            \
+#define HEAD                                                                                                        \
+    "name: test\n"                                                                                                  \
+    "bank: {count: 15, capacitance: 3.594 mF, charge: 10.55 kV, inductance: 12.56 uH, resistance: 4.1 mohm,\n"      \
+    "  crowbar_drop: 1.48 V, crowbar_resistance: 0.43 mohm}\n"                                                      \
+    "rail: {level: constant, height: 25 mm, thickness: 20 mm, separation: 25 mm, resistivity: 1.72e-8 ohm m,\n"     \
+    "  inductance_gradient: 0.42 uH/m, resistance_gradient: 0.1 mohm/m, material: ofhc_copper, yield_scale: 1.5,\n" \
+    "  specific_heat: 385 J/kg/K, thermal_conductivity: 391 W/m/K}\n"                                               \
+    "barrel: {length: 3 m, start: 0.1 m}\n"                                                                         \
+    "armature: {mass: 0.18 kg, contact_length: 16 mm, contact_width: 25 mm, preload: 5 kN, spreading: 3e-8 N/A^2, " \
+    "friction_dry: 0.3, friction_melted: 0.05,\n"                                                                   \
+    "  material: al7075_t651, lead_angle: 30 deg, length: 20 mm, leg_thickness: 5 mm, head_thickness: 10 mm,\n"     \
+    "  chamfer_height: 2 mm}\n"                                                                                     \
+    "particle: {radius: 0.5 mm}\n"                                                                                  \
+    "scene: {friction: 0.05, coarse_cell: 2 mm, growth: 1.3, contact_pressure: 75 MPa}\n"                           \
+    "study: {coarse_cells_per_radius: 2, fine_cells_per_radius: 3, max_scenes: 40, sampled: 10000,\n"               \
+    "  sensitivities: no, feedback: no}\n"                                                                          \
     "output: {snapshots: 0, report: no}\n"
 #define GRAINS "populations:\n  - {density: 3 1/m, radius_median: 0.3 mm, radius_spread: 0.3}\n"
 

@@ -49,11 +49,11 @@ static breech_case *small_case(const char *end_time)
                                  "scene.rail_ahead=6 mm",
                                  "scene.rail_behind=1 mm",
                                  "scene.rail_depth=5 mm",
-                                 "projectile.length=8 mm",
-                                 "projectile.half_bore=5 mm",
-                                 "projectile.width=8 mm",
-                                 "projectile.head_thickness=5 mm",
-                                 "projectile.leg_thickness=3 mm",
+                                 "armature.length=8 mm",
+                                 "armature.half_bore=5 mm",
+                                 "armature.width=8 mm",
+                                 "armature.head_thickness=5 mm",
+                                 "armature.leg_thickness=3 mm",
                                  "output.snapshots=2" };
     breech_case *c = NULL;
     char *errors = NULL;

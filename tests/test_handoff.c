@@ -161,7 +161,7 @@ static void test_screen_table(void **state)
         char flyer[40], target[40], armature[80], rail[80];
         double v, p, u;
         if (sscanf(line, "%39[^,],%39[^,],%lf,%lf,%lf", flyer, target, &v, &p, &u) != 5) continue;
-        snprintf(armature, sizeof armature, "projectile.material=%s", flyer);
+        snprintf(armature, sizeof armature, "armature.material=%s", flyer);
         snprintf(rail, sizeof rail, "rail.material=%s", target);
         const char *const sets[] = { armature, rail, "scene.damage=no", NULL };
         if (strcmp(flyer, "al7075_t651") != 0 || strcmp(target, "ofhc_copper") != 0) continue;
@@ -195,9 +195,6 @@ static void test_screen_band(void **state)
         OK(gouge_screen_impact(c, v - 0.01, &below));
         OK(gouge_screen_impact(c, v + 0.01, &above));
         assert_true(below.skip && !above.skip);
-        c->study.screen_high = ratio;
-        OK(gouge_screen_impact(c, v + 0.01, &above));
-        assert_true(above.expected && !above.skip);
     }
     /* a rail hardened beyond the armature lowers the ratio by its factor */
     screen soft, hard;
@@ -214,13 +211,13 @@ static const char *const variants[][MAX_SETS] = {
     { NULL },
     { "particle.radius=0.2 mm", NULL },
     { "particle.radius=1 mm", "particle.height=0.4 mm", "scene.rail_ahead=40 mm", NULL },
-    { "particle.shape=cone", "projectile.lead_angle=20 deg", NULL },
-    { "particle.shape=ridge", "projectile.lead_angle=45 deg", "projectile.chamfer_height=0.2 mm", NULL },
-    { "particle.shape=cylinder", "projectile.chamfer_height=0 mm", NULL },
+    { "particle.shape=cone", "armature.lead_angle=20 deg", NULL },
+    { "particle.shape=ridge", "armature.lead_angle=45 deg", "armature.chamfer_height=0.2 mm", NULL },
+    { "particle.shape=cylinder", "armature.chamfer_height=0 mm", NULL },
     { "particle.shape=wedge", "particle.bond_strength=50 MPa", NULL },
     { "particle.shape=sphere", "scene.half_model=no", NULL },
     { "particle.bond_strength=0 Pa", "title=layered", NULL },
-    { "projectile.width=20 mm", "scene.rail_width=40 mm", "projectile.lead_angle=80 deg", NULL },
+    { "armature.width=20 mm", "scene.rail_width=40 mm", "armature.lead_angle=80 deg", NULL },
     { "scene.cells_per_radius=3.7", "scene.coarse_cell=0.9 mm", "scene.fine_depth=1.234 mm", NULL },
 };
 enum { VARIANTS = sizeof variants / sizeof variants[0] };
@@ -692,10 +689,10 @@ static breech_case *small_case(const char *const *speed, bool to_gauge, const ch
                                  "scene.fine_depth=0.6 mm",
                                  "scene.fine_above=0.5 mm",
                                  "scene.fine_behind=0.8 mm",
-                                 "projectile.length=10 mm",
-                                 "projectile.width=10 mm",
-                                 "projectile.half_bore=6 mm",
-                                 "projectile.head_thickness=6 mm",
+                                 "armature.length=10 mm",
+                                 "armature.width=10 mm",
+                                 "armature.half_bore=6 mm",
+                                 "armature.head_thickness=6 mm",
                                  NULL };
     return changed_case(sets);
 }

@@ -14,12 +14,12 @@
 #define SHOT CASES "/default_shot"
 
 /* A scene of a second or two: a stub of an armature over a short rail, one or two cells a radius. */
-#define TINY                                                                                                    \
-    SHOT " --set scene.cells_per_radius=1.5 --set scene.levels=2 --set scene.coarse_cell='0.8 mm' --set "       \
-         "scene.growth=1.3 --set output.report=no"                                                              \
-         " --set scene.fine_ahead='3 mm' --set scene.fine_width='3 mm' --set scene.rail_ahead='8 mm' --set "    \
-         "projectile.length='10 mm' --set projectile.half_bore='6 mm' --set projectile.width='10 mm' --set "    \
-         "projectile.head_thickness='6 mm' --set scene.rail_behind='1 mm' --set scene.rail_depth='4 mm' --set " \
+#define TINY                                                                                                  \
+    SHOT " --set scene.cells_per_radius=1.5 --set scene.levels=2 --set scene.coarse_cell='0.8 mm' --set "     \
+         "scene.growth=1.3 --set output.report=no"                                                            \
+         " --set scene.fine_ahead='3 mm' --set scene.fine_width='3 mm' --set scene.rail_ahead='8 mm' --set "  \
+         "armature.length='10 mm' --set armature.half_bore='6 mm' --set armature.width='10 mm' --set "        \
+         "armature.head_thickness='6 mm' --set scene.rail_behind='1 mm' --set scene.rail_depth='4 mm' --set " \
          "scene.end_time='4 us'"
 
 static int run(const char *arguments)
@@ -192,7 +192,7 @@ static void test_inductance(void **state)
     const int places = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(s, "perimeter"));
     assert_true(places > 10 && places == cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(s, "perimeter_heat")));
     cJSON_Delete(s);
-    assert_int_equal(run("inductance " SHOT " -o inductance/b --set rails.cladding=\"30 mm\""),
+    assert_int_equal(run("inductance " SHOT " -o inductance/b --set rail.cladding=\"30 mm\""),
                      2); /* thicker than the rail */
 }
 

@@ -63,17 +63,10 @@ static void test_key_parts(void **state)
     assert_true(key_at(c, 1500.0, 3.0) == base);
     assert_true(key_at(c, 1510.0, 3.0) != base);
     assert_true(key_at(c, 1500.0, 3.5) != base);
-    const char *const decides[] = { "scene.friction=0.19",
-                                    "scene.courant=0.3",
-                                    "rail.yield_scale=1.01",
-                                    "rail.temperature=294 K",
-                                    "projectile.length=0.03 m",
-                                    "scene.limit_severity=0.1",
-                                    "output.snapshots=7",
-                                    "sites[0].radius=0.6 mm",
-                                    "scene.damage=no",
-                                    "sites[0].shape=cone",
-                                    "projectile.lead_angle=0.5 rad" };
+    const char *const decides[] = { "scene.friction=0.19",    "scene.courant=0.3",          "rail.yield_scale=1.01",
+                                    "rail.temperature=294 K", "armature.length=0.03 m",     "scene.limit_severity=0.1",
+                                    "output.snapshots=7",     "sites[0].radius=0.6 mm",     "scene.damage=no",
+                                    "sites[0].shape=cone",    "armature.lead_angle=0.5 rad" };
     for (size_t i = 0; i < sizeof decides / sizeof *decides; i++) {
         breech_case *other = read_case((const char *const[]){ decides[i], NULL });
         if (key_at(other, 1500.0, 3.0) == base) fail_msg("%s does not change the key", decides[i]);

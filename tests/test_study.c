@@ -569,7 +569,7 @@ static breech_case *changed_case(const char *const *sets)
         "study.velocity_interval=5 %",
         "study.velocity_low=1 km/s",
         "study.velocity_high=2 km/s",
-        "rails.level=skin",
+        "rail.level=skin",
         "study.position_interval=1",
         "study.sensitivities=no",
         "study.resolution_error=0",
@@ -823,7 +823,7 @@ static void test_moves(void **state)
 static void test_screened(void **state)
 {
     (void)state;
-    const char *const sets[] = { "study.screen_low=100", "study.screen_high=200", NULL };
+    const char *const sets[] = { "study.screen_low=100", NULL };
     breech_case *c = changed_case(sets);
     onset_answer a;
     OK(study(c, "screened", FORCE, &a));

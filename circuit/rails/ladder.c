@@ -150,7 +150,7 @@ status circuit_ladder_fit(const impedance *z, double omega_top, double error, la
     }
     free(p.U);
     CHECK(out->error <= error, STATUS_NUMERICAL,
-          "the rails' ladder is off by %.2g with %d rungs: allow a larger rails.ladder_error than %g", out->error,
+          "the rails' ladder is off by %.2g with %d rungs: allow a larger rail.ladder_error than %g", out->error,
           out->n, error);
     return status_ok();
 }

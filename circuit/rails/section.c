@@ -43,24 +43,24 @@ status circuit_section_check(const rail_section *s)
 {
     const double h = s->height, w = s->thickness, edge = w - s->face_crown - s->back_crown;
     CHECK(h > 0.0 && w > 0.0 && s->separation > 0.0, STATUS_BAD_INPUT,
-          "rails.height = %g m, rails.thickness = %g m, rails.separation = %g m: all must be positive", h, w,
+          "rail.height = %g m, rail.thickness = %g m, rail.separation = %g m: all must be positive", h, w,
           s->separation);
     CHECK(s->face_crown >= 0.0 && s->face_crown <= 0.5 * h, STATUS_BAD_INPUT,
-          "rails.face_crown = %g m: must be from 0 to half of rails.height, %g m", s->face_crown, 0.5 * h);
+          "rail.face_crown = %g m: must be from 0 to half of rail.height, %g m", s->face_crown, 0.5 * h);
     CHECK(s->back_crown >= 0.0 && s->back_crown <= 0.5 * h, STATUS_BAD_INPUT,
-          "rails.back_crown = %g m: must be from 0 to half of rails.height, %g m", s->back_crown, 0.5 * h);
+          "rail.back_crown = %g m: must be from 0 to half of rail.height, %g m", s->back_crown, 0.5 * h);
     CHECK(edge >= -1e-12 * w, STATUS_BAD_INPUT,
-          "rails.face_crown + rails.back_crown = %g m: must be at most rails.thickness, %g m",
+          "rail.face_crown + rail.back_crown = %g m: must be at most rail.thickness, %g m",
           s->face_crown + s->back_crown, w);
     CHECK(s->cladding == 0.0 || (s->cladding > 0.0 && s->cladding < edge), STATUS_BAD_INPUT,
-          "rails.cladding = %g m: must be 0 or less than the rail's thickness at its edge, %g m", s->cladding, edge);
+          "rail.cladding = %g m: must be 0 or less than the rail's thickness at its edge, %g m", s->cladding, edge);
     CHECK(s->resistivity > 0.0 && isfinite(s->resistivity), STATUS_BAD_INPUT,
-          "rails.resistivity = %g ohm m: must be positive and finite", s->resistivity);
+          "rail.resistivity = %g ohm m: must be positive and finite", s->resistivity);
     CHECK(s->cladding == 0.0 || (s->cladding_resistivity > 0.0 && isfinite(s->cladding_resistivity)), STATUS_BAD_INPUT,
-          "rails.cladding_resistivity = %g ohm m: must be positive and finite", s->cladding_resistivity);
-    CHECK(s->rails == 2 || s->rails == 4, STATUS_BAD_INPUT, "rails.count = %d: must be 2 or 4", s->rails);
+          "rail.cladding_resistivity = %g ohm m: must be positive and finite", s->cladding_resistivity);
+    CHECK(s->rails == 2 || s->rails == 4, STATUS_BAD_INPUT, "rail.count = %d: must be 2 or 4", s->rails);
     CHECK(s->rails == 2 || circuit_section_face(s, 0.5 * h) > 0.5 * h, STATUS_BAD_INPUT,
-          "four rails of height %g m, %g m apart, overlap: rails.height must be less than the bore at their edges", h,
+          "four rails of height %g m, %g m apart, overlap: rail.height must be less than the bore at their edges", h,
           s->separation);
     return status_ok();
 }

@@ -32,7 +32,7 @@ const material *case_material(const breech_case *c, const char *name)
 
 /* ---- materials ---- */
 
-static void warn(case_reader *r, const char *line)
+void case_warn(case_reader *r, const char *line)
 {
     const size_t old = strlen(r->out->warnings), more = strlen(line);
     if (more == 0) return;
@@ -85,7 +85,7 @@ static void load_one(case_reader *r, const material_use *use, const char *const 
     } else {
         keep_material(r, &sheet.material);
         case_material_sheet_warning(&sheet, warning);
-        warn(r, warning);
+        case_warn(r, warning);
         case_material_sheet_free(&sheet);
     }
     free(errors);
@@ -102,7 +102,7 @@ static void check_own(case_reader *r)
             if (name[0] && strcmp(name, list->item[i].name) == 0)
                 case_errors_add(r->errors, node, "materials[%d].name = %s: the same as materials[%d]", k, name, i);
         snprintf(line, sizeof line, "material %s: constants as given in the case itself, without their sources", name);
-        warn(r, line);
+        case_warn(r, line);
     }
 }
 
@@ -114,25 +114,17 @@ static bool seen(const case_reader *r, int k)
     return false;
 }
 
-/* Where the case lies, without the slash at the end. */
-static void case_folder(const case_reader *r, char folder[CASE_PATH_SIZE])
-{
-    snprintf(folder, CASE_PATH_SIZE, "%s", r->out->path);
-    char *slash = strrchr(folder, '/');
-    if (slash)
-        *slash = '\0';
-    else
-        snprintf(folder, CASE_PATH_SIZE, ".");
-}
-
+/* Materials are looked for beside the case, beside what it builds on, and where the options say. */
 void case_materials_load(case_reader *r)
 {
-    enum { MAX_DIRS = 16 };
+    enum { MAX_DIRS = 16 + CASE_MAX_FILES };
     const char *dirs[MAX_DIRS];
-    char folder[CASE_PATH_SIZE];
+    char folder[CASE_MAX_FILES][CASE_PATH_SIZE];
     int n_dirs = 0;
-    case_folder(r, folder);
-    dirs[n_dirs++] = folder[0] ? folder : "/";
+    for (int k = 0; k < r->n_files; k++) {
+        case_folder_of(r->file[k], folder[k]);
+        dirs[n_dirs++] = folder[k];
+    }
     for (int k = 0; k < r->options->n_material_dirs && n_dirs < MAX_DIRS; k++)
         dirs[n_dirs++] = r->options->material_dirs[k];
 
@@ -143,15 +135,17 @@ void case_materials_load(case_reader *r)
 
 /* ---- current profiles ---- */
 
-static void profile_load(case_reader *r, supply_profile *p, const tree_node *where)
+static void profile_load(case_reader *r, supply_profile *p, const tree_node *entry)
 {
     char path[CASE_PATH_SIZE + PARAM_TEXT_SIZE + 2], folder[CASE_PATH_SIZE];
+    const tree_node *where = host_tree_find(entry, "file");
+    if (!where) where = entry;
     if (p->file[0] == '\0') return;
     if (p->points.n > 0) {
         case_errors_add(r->errors, where, "a current profile with both file and points: give one of them");
         return;
     }
-    case_folder(r, folder);
+    case_folder_of(r->file[where->file], folder);
     snprintf(path, sizeof path, "%s%s%s", p->file[0] == '/' ? "" : folder, p->file[0] == '/' ? "" : "/", p->file);
     const status s = case_profile_read(path, &p->points.item, &p->points.n);
     if (s.code != STATUS_OK) case_errors_add(r->errors, where, "%.400s", s.text);
@@ -161,22 +155,14 @@ static void profile_load(case_reader *r, supply_profile *p, const tree_node *whe
 void case_profiles_load(case_reader *r)
 {
     case_supplies *list = &r->out->supplies[SUPPLY_profile];
-    for (int k = 0; k < list->n; k++)
-        profile_load(r, (supply_profile *)list->item + k,
-                     host_tree_find(r->root, circuit_supply_sections[SUPPLY_profile]));
+    const case_section *section = case_section_find(circuit_supply_sections[SUPPLY_profile]);
+    const tree_node *node = host_tree_find(r->root, section->key), *from = NULL;
+    for (int k = 0, i = 0; i < list->n && (from = case_entry_node(node, k)); k++)
+        for (int pick = 0; pick < case_entry_values(section, from) && i < list->n; pick++)
+            profile_load(r, (supply_profile *)list->item + i++, from);
 }
 
 /* ---- the whole way ---- */
-
-static status set_all(case_errors *e, tree_node **root, const char *const *sets, int n_sets)
-{
-    for (int k = 0; k < n_sets; k++) {
-        const status s = host_tree_set(root, sets[k], k);
-        CHECK(s.code == STATUS_OK || s.code == STATUS_BAD_INPUT, s.code, "%s", s.text);
-        if (s.code != STATUS_OK) case_errors_add(e, &(tree_node){ .set = k }, "%s", s.text);
-    }
-    return status_ok();
-}
 
 static status read_tree(case_reader *r)
 {
@@ -195,21 +181,9 @@ static status read_tree(case_reader *r)
 
 static status build(case_reader *r, const case_text *text, tree_node **root)
 {
-    int line, column;
-    const status s = host_tree_parse(text->bytes, text->length, root, &line, &column);
-    CHECK(s.code != STATUS_MEMORY, s.code, "%s", s.text);
-    if (s.code != STATUS_OK) {
-        case_errors_add_at(r->errors, line, column, "%s", s.text);
-        return status_ok();
-    }
-    if ((*root)->kind != TREE_MAP) {
-        case_errors_add(r->errors, *root, "%s is no case: it must hold sections, such as `bank:` and `rails:`",
-                        text->path);
-        return status_ok();
-    }
-    TRY(set_all(r->errors, root, text->sets, text->n_sets));
+    TRY(case_tree_read(r, text, root));
     r->root = *root;
-    return read_tree(r);
+    return r->root ? read_tree(r) : status_ok();
 }
 
 status case_build(const units *u, const case_text *text, const case_options *options, breech_case **out, char **errors)
@@ -226,8 +200,6 @@ status case_build(const units *u, const case_text *text, const case_options *opt
     if (c && found) {
         c->warnings = strdup("");
         snprintf(c->path, sizeof c->path, "%s", text->path);
-        found->file = c->path;
-        found->sets = text->sets;
         if (c->warnings) s = build(&r, text, &root);
         if (s.code == STATUS_OK) s = case_errors_finish(found, errors);
         case_errors_free(found);
@@ -261,11 +233,7 @@ status case_read(const char *path, const char *const *sets, int n_sets, const ca
     size_t length = 0;
     *out = NULL;
     *errors = NULL;
-    const size_t end = strlen(path);
-    const char *slash = end > 0 && path[end - 1] == '/' ? "" : "/";
-    const int used = host_folder_exists(path) ? snprintf(file, sizeof file, "%s%scase.yaml", path, slash)
-                                              : snprintf(file, sizeof file, "%s", path);
-    CHECK(used < (int)sizeof file, STATUS_BAD_INPUT, "the case's path is longer than %d bytes", CASE_PATH_SIZE - 1);
+    TRY(case_file_of(path, file));
     TRY(host_file_text(file, TREE_MAX_BYTES, &bytes, &length));
     const case_text text = { bytes, length, file, sets, n_sets };
     const status s = case_read_memory(&text, options, out, errors);

@@ -200,8 +200,8 @@ typedef struct {
     double velocity_low, velocity_high; /* where the search may look [m/s] */
     int judge;                          /* study_judge */
     int max_scenes;
-    int craters;                    /* whole scenes of a family of grains that gouges, judged by growth: 0 .. 2 */
-    double screen_low, screen_high; /* band of impact pressure over hardness: below no scene is needed [1] */
+    int craters;       /* whole scenes of a family of grains that gouges, judged by growth: 0 .. 2 */
+    double screen_low; /* impact pressure over hardness below which no scene is needed [1] */
     double coarse_cells_per_radius, fine_cells_per_radius; /* [1] */
     double resolution_error;                               /* share that finer cells may move a threshold by [1] */
     double strength_error, friction_error;                 /* of rail.yield_scale, of scene.friction, relative [1] */

@@ -42,9 +42,86 @@ const tree_node *case_entry_node(const tree_node *list, int k)
     return k < list->n ? list->item[k] : NULL;
 }
 
+/* ---- what follows from other keys ---- */
+
+static const param *row_of(const param *table, const char *key)
+{
+    while (table->key && strcmp(table->key, key) != 0) table++;
+    return table->key ? table : NULL;
+}
+
+/* `value` for a key that was not given, if there is a value and the key's range holds it. */
+static void follow(const tree_node *map, const param *table, void *object, const char *key, double value)
+{
+    const param *p = row_of(table, key);
+    if (!is_given(map, key) && value >= p->min && value <= p->max) *(double *)((char *)object + p->offset) = value;
+}
+
+/* A key of the circuit and the constant of the metal that it is. */
+typedef struct {
+    const char *key, *constant;
+} metal_key;
+
+static const metal_key rail_keys[] = {
+    { "resistivity", "resistivity" },
+    { "resistivity_coefficient", "resistivity_slope" },
+    { "density", "density" },
+    { "specific_heat", "specific_heat" },
+    { "youngs_modulus", "youngs_modulus" },
+    { "thermal_conductivity", "conductivity" },
+    { NULL, NULL },
+};
+
+static const metal_key armature_keys[] = {
+    { "resistivity", "resistivity" },
+    { "resistivity_coefficient", "resistivity_slope" },
+    { "density", "density" },
+    { "specific_heat", "specific_heat" },
+    { "thermal_conductivity", "conductivity" },
+    { "melting_temperature", "melting_temperature" },
+    { "latent_heat", "latent_heat" },
+    { NULL, NULL },
+};
+
+/* m NULL: no metal is named. */
+static void follow_metal(const tree_node *map, const param *table, void *object, const metal_key *keys,
+                         const material *m)
+{
+    for (; m && keys->key; keys++)
+        follow(map, table, object, keys->key,
+               *(const double *)((const char *)m + row_of(mpm_material_params, keys->constant)->offset));
+}
+
+/* Lengths of the scene's bodies that the circuit's section gives, then those of the circuit that the bodies give. */
+static void follow_lengths(breech_case *c, const tree_node *armature)
+{
+    case_projectile *p = &c->projectile;
+    if (!is_given(armature, "half_bore") && isnan(p->half_bore)) p->half_bore = 0.5 * c->rails.separation;
+    if (!is_given(armature, "width") && isnan(p->width)) p->width = c->rails.height;
+    if (!c->given.projectile) return;
+    const param *table = circuit_shot_armature_params;
+    const bool wears = c->armature.wear_fraction > 0.0 || c->armature.friction_law == SHOT_FRICTION_FILM;
+    follow(armature, table, &c->armature, "contact_length", p->length - p->chamfer_height / tan(p->lead_angle));
+    follow(armature, table, &c->armature, "contact_width", p->width);
+    follow(armature, table, &c->armature, "wear_thickness", wears ? p->leg_thickness : NAN);
+}
+
+/* A rail or an armature that is warm for the scene is so for the circuit. */
+static void follow_temperature(const tree_node *map, const param *table, void *object, double temperature)
+{
+    if (is_given(map, "temperature")) follow(map, table, object, "initial_temperature", temperature);
+}
+
 void case_resolve(breech_case *c, const tree_node *root)
 {
-    const tree_node *sites = host_tree_find(root, "sites");
+    const tree_node *sites = host_tree_find(root, "sites"), *rail = host_tree_find(root, "rail");
+    const tree_node *armature = host_tree_find(root, "armature");
+    follow_lengths(c, armature);
+    follow_metal(rail, circuit_shot_rails_params, &c->rails, rail_keys, case_material(c, c->rail.material));
+    follow_metal(armature, circuit_shot_armature_params, &c->armature, armature_keys,
+                 case_material(c, c->projectile.material));
+    follow_temperature(rail, circuit_shot_rails_params, &c->rails, c->rail.temperature);
+    follow_temperature(armature, circuit_shot_armature_params, &c->armature, c->projectile.temperature);
     resolve_text(c->particle.material, c->rail.material);
     if (isnan(c->particle.height)) c->particle.height = c->particle.radius;
     for (int k = 0; k < c->sites.n; k++) resolve_site(&c->sites.item[k], &c->particle, case_entry_node(sites, k));
@@ -79,9 +156,10 @@ static void check_sections(case_reader *r)
         const tree_node *node = host_tree_find(r->root, s->key);
         const bool empty_list =
             s->list && node && ((node->kind == TREE_LIST && node->n == 0) || host_tree_is_empty(node));
-        if (!(s->needed_for & needs) || (node && !empty_list)) continue;
+        const unsigned needed_for = (s->needed_for | (s->also ? s->also->needed_for : 0u)) & needs;
+        if (!needed_for || (node && !empty_list)) continue;
         case_errors_add(r->errors, node ? node : r->root, "section `%s` is %s: `%s` needs it", s->key,
-                        node ? "empty" : "missing", command_of(s->needed_for & needs));
+                        node ? "empty" : "missing", command_of(needed_for));
     }
     if ((needs & CASE_FOR_ONSET) && r->out->sites.n == 0 && r->out->populations.n == 0)
         case_errors_add(r->errors, r->root, "section `sites` is missing: `%s` needs it, or `populations`",
@@ -122,24 +200,34 @@ static void must(case_reader *r, bool ok, const char *section, const char *key, 
                     CASE_SHOWN, node && node->text ? node->text : "", text);
 }
 
+/* A length of the armature's body that was neither given nor follows from the rail's key `from`. */
+static void need_length(case_reader *r, double value, const char *key, const char *from)
+{
+    const tree_node *map = host_tree_find(r->root, "armature"), *node = host_tree_find(map, key);
+    const bool wrong = has_value(map, key) || has_value(host_tree_find(r->root, "rail"), from); /* an error already */
+    if (!r->out->given.projectile || !isnan(value) || wrong) return;
+    case_errors_add(r->errors, node ? node : map, "armature.%s is missing [m]: give it, or rail.%s", key, from);
+}
+
 /* Comparisons are written so that a NAN, not given or already an error, passes. */
 static void check_lengths(case_reader *r)
 {
     const breech_case *c = r->out;
     const case_projectile *p = &c->projectile;
-    must(r, !(p->leg_thickness > p->half_bore), "projectile", "leg_thickness", "must not exceed half_bore");
-    must(r, !(p->head_thickness > p->length), "projectile", "head_thickness", "must not exceed length");
-    must(r, !(p->chamfer_height > p->half_bore), "projectile", "chamfer_height", "must not exceed half_bore");
-    must(r, !(p->chamfer_height > p->length * tan(p->lead_angle)), "projectile", "chamfer_height",
+    need_length(r, p->half_bore, "half_bore", "separation");
+    need_length(r, p->width, "width", "height");
+    must(r, !(p->leg_thickness > p->half_bore), "armature", "leg_thickness", "must not exceed half_bore");
+    must(r, !(p->head_thickness > p->length), "armature", "head_thickness", "must not exceed length");
+    must(r, !(p->chamfer_height > p->half_bore), "armature", "chamfer_height", "must not exceed half_bore");
+    must(r, !(p->chamfer_height > p->length * tan(p->lead_angle)), "armature", "chamfer_height",
          "the lead face would be longer than the armature (chamfer_height / tan(lead_angle) > length)");
     must(r, !(c->study.velocity_low >= c->study.velocity_high), "study", "velocity_low",
          "must lie below velocity_high");
-    must(r, !(c->study.screen_low >= c->study.screen_high), "study", "screen_low", "must lie below screen_high");
     must(r, !(c->study.coarse_cells_per_radius > c->study.fine_cells_per_radius), "study", "coarse_cells_per_radius",
          "must not exceed fine_cells_per_radius");
     must(r, !(c->particle.radius / c->scene.cells_per_radius > c->scene.coarse_cell), "scene", "coarse_cell",
          "must not be smaller than the fine cell, particle.radius / cells_per_radius");
-    must(r, !(c->particle.height > p->half_bore), "particle", "height", "must not exceed projectile.half_bore");
+    must(r, !(c->particle.height > p->half_bore), "particle", "height", "must not exceed armature.half_bore");
     must(r, !(c->barrel.start >= c->barrel.length), "barrel", "start", "must lie before the barrel's length");
     must(r, !(c->given.barrel && c->study.velocity_high <= c->armature.velocity), "study", "velocity_high",
          "must lie above the armature's initial velocity");
@@ -158,7 +246,7 @@ static void check_site(case_reader *r, const case_site *site, const tree_node *n
         case_errors_add(r->errors, node,
                         "sites[%d].radius is missing [m]: give it here, or once for all as particle.radius", k);
     if (site->height > r->out->projectile.half_bore)
-        case_errors_add(r->errors, node, "sites[%d].height = %g m: must not exceed projectile.half_bore", k,
+        case_errors_add(r->errors, node, "sites[%d].height = %g m: must not exceed armature.half_bore", k,
                         site->height);
 }
 
@@ -170,7 +258,7 @@ static unsigned material_needs(const case_reader *r, const material_use *use)
     unsigned wanted = 0;
     if (needs & (CASE_FOR_SCENE | CASE_FOR_ONSET)) wanted |= MATERIAL_FOR_SCENE;
     if (wanted && r->out->scene.damage) wanted |= MATERIAL_FOR_DAMAGE;
-    static const char *const meeting[] = { "rail.material", "projectile.material", ".rail_metal.", ".armature_metal." };
+    static const char *const meeting[] = { "rail.material", "armature.material", ".rail_metal.", ".armature_metal." };
     for (size_t k = 0; k < sizeof meeting / sizeof meeting[0]; k++)
         if ((needs & CASE_FOR_ONSET) && strstr(use->key, meeting[k])) wanted |= MATERIAL_FOR_SCREEN;
     return wanted;

@@ -12,17 +12,19 @@ static void add(case_errors *e, const case_error *at, const char *format, va_lis
     int used = 0;
     for (int k = 0; at->set >= 0 && k < e->n; k++)
         if (e->item[k].set == at->set) return;
+    if (at->set >= 0 && e->sets)
+        used = snprintf(line, sizeof line, "--set %.120s: ", e->sets[at->set]);
+    else if (at->line > 0)
+        used = snprintf(line, sizeof line, "%.200s:%d:%d: ", e->file[at->file], at->line, at->column);
+    else
+        used = snprintf(line, sizeof line, "%.200s: ", e->file[at->file]);
+    vsnprintf(line + used, sizeof line - (size_t)used, format, args);
+    for (int k = 0; k < e->n; k++)
+        if (strcmp(e->item[k].text, line) == 0) return;
     if (e->n == CASE_MAX_ERRORS) {
         e->more++;
         return;
     }
-    if (at->set >= 0 && e->sets)
-        used = snprintf(line, sizeof line, "--set %.120s: ", e->sets[at->set]);
-    else if (at->line > 0)
-        used = snprintf(line, sizeof line, "%.200s:%d:%d: ", e->file, at->line, at->column);
-    else
-        used = snprintf(line, sizeof line, "%.200s: ", e->file);
-    vsnprintf(line + used, sizeof line - (size_t)used, format, args);
 
     e->item[e->n] = *at;
     e->item[e->n].order = e->n;
@@ -36,16 +38,17 @@ static void add(case_errors *e, const case_error *at, const char *format, va_lis
 void case_errors_add(case_errors *e, const tree_node *where, const char *format, ...)
 {
     case_error at = { .set = -1 };
-    if (where) at = (case_error){ .set = where->set, .line = where->line, .column = where->column };
+    if (where)
+        at = (case_error){ .set = where->set, .file = where->file, .line = where->line, .column = where->column };
     va_list args;
     va_start(args, format);
     add(e, &at, format, args);
     va_end(args);
 }
 
-void case_errors_add_at(case_errors *e, int line, int column, const char *format, ...)
+void case_errors_add_at(case_errors *e, int file, int line, int column, const char *format, ...)
 {
-    const case_error at = { .set = -1, .line = line, .column = column };
+    const case_error at = { .set = -1, .file = file, .line = line, .column = column };
     va_list args;
     va_start(args, format);
     add(e, &at, format, args);
@@ -56,6 +59,7 @@ static int by_place(const void *a, const void *b)
 {
     const case_error *p = a, *q = b;
     if (p->set != q->set) return p->set < q->set ? -1 : 1;
+    if (p->file != q->file) return p->file < q->file ? -1 : 1;
     if (p->line != q->line) return p->line < q->line ? -1 : 1;
     if (p->column != q->column) return p->column < q->column ? -1 : 1;
     return p->order < q->order ? -1 : p->order > q->order;
@@ -64,13 +68,13 @@ static int by_place(const void *a, const void *b)
 status case_errors_finish(case_errors *e, char **text)
 {
     *text = NULL;
-    CHECK(!e->out_of_memory, STATUS_MEMORY, "out of memory while collecting the errors of %.200s", e->file);
+    CHECK(!e->out_of_memory, STATUS_MEMORY, "out of memory while collecting the errors of %.200s", e->file[0]);
     if (e->n == 0) return status_ok();
     qsort(e->item, (size_t)e->n, sizeof e->item[0], by_place);
     size_t size = 100;
     for (int k = 0; k < e->n; k++) size += strlen(e->item[k].text) + 1;
     char *all = malloc(size), *end = all;
-    CHECK(all, STATUS_MEMORY, "out of memory while collecting the errors of %.200s", e->file);
+    CHECK(all, STATUS_MEMORY, "out of memory while collecting the errors of %.200s", e->file[0]);
     for (int k = 0; k < e->n; k++) end += snprintf(end, size - (size_t)(end - all), "%s\n", e->item[k].text);
     if (e->more > 0) snprintf(end, size - (size_t)(end - all), "... and %d more\n", e->more);
     *text = all;

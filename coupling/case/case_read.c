@@ -208,11 +208,12 @@ void case_value_read(case_reader *r, const param *p, const tree_node *node, void
 
 static const char *known_key(const void *user, int i)
 {
-    const case_section *section = user;
-    for (const param *p = section->table; p->key; p++)
-        if (i-- == 0) return p->key;
-    for (const case_section *s = section->children; s && s->key; s++)
-        if (i-- == 0) return s->key;
+    for (const case_section *part = user; part; part = part->also) {
+        for (const param *p = part->table; p->key; p++)
+            if (i-- == 0) return p->key;
+        for (const case_section *s = part->children; s && s->key; s++)
+            if (i-- == 0) return s->key;
+    }
     return NULL;
 }
 
@@ -285,13 +286,20 @@ static const case_section *child_of(const case_section *section, const char *key
     return NULL;
 }
 
+/* The part of a section that has this key, of a value or of a section inside; NULL: none has. */
+static const case_section *part_of(const case_section *section, const char *key)
+{
+    while (section && !param_of(section, key) && !child_of(section, key)) section = section->also;
+    return section;
+}
+
 /* Was the key given, but mistyped?  Then that is the error, not its absence. */
 static bool is_mistyped(const case_reader *r, const case_section *section, const tree_node *map, const char *key)
 {
     if (r->errors->n >= CASE_MAX_ERRORS) return true;
     for (int k = 0; map->kind == TREE_MAP && k < map->n; k++) {
         const char *given = map->key[k]->text;
-        if (param_of(section, given) || child_of(section, given)) continue;
+        if (part_of(section, given)) continue;
         const char *near = host_nearest_name(given, known_key, section);
         if (near && strcmp(near, key) == 0) return true;
     }
@@ -300,35 +308,102 @@ static bool is_mistyped(const case_reader *r, const case_section *section, const
 
 /* ---- sections ---- */
 
-/* One mapping (NULL: nothing given) into one struct. */
-static void read_map(case_reader *r, const case_section *section, const tree_node *map, void *object, const char *path)
+/* Does a list of values stand for this key of an entry? */
+static bool is_spread(const case_section *section, const tree_node *value, const param *p)
+{
+    return section->spread && value->kind == TREE_LIST && p && p->kind != PARAM_VECTOR && p->kind != PARAM_POINTS;
+}
+
+int case_entry_values(const case_section *section, const tree_node *entry)
+{
+    for (int k = 0; entry->kind == TREE_MAP && k < entry->n; k++)
+        if (is_spread(section, entry->item[k], param_of(section, entry->key[k]->text))) return entry->item[k]->n;
+    return 1;
+}
+
+/* All lists of an entry must have as many values as the first. */
+static void check_spread(case_reader *r, const case_section *section, const tree_node *entry, const char *path)
+{
+    const int n = case_entry_values(section, entry);
+    for (int k = 0; entry->kind == TREE_MAP && k < entry->n; k++) {
+        const tree_node *value = entry->item[k];
+        const char *key = entry->key[k]->text;
+        if (!is_spread(section, value, param_of(section, key)) || (value->n == n && n > 0)) continue;
+        case_errors_add(r->errors, value, "%s.%s: %d values where %d are wanted: an entry's lists are of one length",
+                        path, key, value->n, n > 0 ? n : 1);
+    }
+}
+
+/* The value of one key: that of place `pick` where a list of values is given. */
+static void read_key(case_reader *r, const case_section *section, const param *p, const tree_node *node, void *member,
+                     const char *path, int pick)
+{
+    char entry[CASE_KEY_SIZE + 16];
+    if (!is_spread(section, node, p)) {
+        case_value_read(r, p, node, member, path);
+        return;
+    }
+    if (pick >= node->n) return; /* an error of its own */
+    snprintf(entry, sizeof entry, "%s[%d]", path, pick);
+    case_value_read(r, p, node->item[pick], member, entry);
+}
+
+/* Does the map (NULL: no) hold a key of this part? */
+static bool has_part(const case_section *part, const tree_node *map)
+{
+    for (int k = 0; map && map->kind == TREE_MAP && k < map->n; k++)
+        if (param_of(part, map->key[k]->text) || child_of(part, map->key[k]->text)) return true;
+    return false;
+}
+
+/* Defaults of one part, the sections inside it, and whether it is given. */
+static void read_part(case_reader *r, const case_section *section, const case_section *part, const tree_node *map,
+                      void *object, const char *path)
 {
     char inner[CASE_KEY_SIZE];
-    base_params_default(section->table, object);
-    for (const case_section *s = section->children; s && s->key; s++) {
+    void *own = case_part_object(section, part, object);
+    base_params_default(part->table, own);
+    for (const case_section *s = part->children; s && s->key; s++) {
         join(inner, path, s->key);
-        case_section_read(r, s, map ? host_tree_find(map, s->key) : NULL, object, inner);
+        case_section_read(r, s, map ? host_tree_find(map, s->key) : NULL, own, inner);
     }
+    if (part->given != NO_FLAG)
+        *(bool *)((char *)r->out + part->given) = section->also ? has_part(part, map) : map != NULL;
+}
+
+static void check_required(case_reader *r, const case_section *section, const tree_node *map, const char *path)
+{
+    for (const case_section *part = section; part; part = part->also) {
+        if (section->also && !has_part(part, map) && !(part->needed_for & r->options->needs)) continue;
+        for (const param *p = part->table; p->key; p++)
+            if (is_required(p) && !host_tree_find(map, p->key) && !is_mistyped(r, section, map, p->key))
+                missing_key(r, p, map, path);
+    }
+}
+
+/* One mapping (NULL: nothing given) into one struct, or those of its parts; pick: which value of several. */
+static void read_map(case_reader *r, const case_section *section, const tree_node *map, void *object, const char *path,
+                     int pick)
+{
+    for (const case_section *part = section; part; part = part->also) read_part(r, section, part, map, object, path);
     if (!map) return;
     if (map->kind != TREE_MAP && !host_tree_is_empty(map)) {
         case_errors_add(r->errors, map, "%s must be a section: key and value, one a line", path[0] ? path : "the case");
         return;
     }
     for (int k = 0; map->kind == TREE_MAP && k < map->n; k++) {
-        const param *p = param_of(section, map->key[k]->text);
-        if (!p && child_of(section, map->key[k]->text)) continue;
-        if (!p) {
-            unknown_key(r, section, map->key[k], path);
-            continue;
-        }
+        char inner[CASE_KEY_SIZE];
+        const case_section *part = part_of(section, map->key[k]->text);
+        const param *p = part ? param_of(part, map->key[k]->text) : NULL;
+        if (!part) unknown_key(r, section, map->key[k], path);
+        if (!p) continue;
         join(inner, path, p->key);
-        case_value_read(r, p, map->item[k], (char *)object + p->offset, inner);
+        read_key(r, section, p, map->item[k], (char *)case_part_object(section, part, object) + p->offset, inner, pick);
     }
-    for (const param *p = section->table; p->key; p++)
-        if (is_required(p) && !host_tree_find(map, p->key) && !is_mistyped(r, section, map, p->key))
-            missing_key(r, p, map, path);
+    check_required(r, section, map, path);
 }
 
+/* The entries, in the order of the file; one with lists of values stands for several. */
 static void read_list(case_reader *r, const case_section *section, const tree_node *node, void *parent,
                       const char *path)
 {
@@ -336,42 +411,55 @@ static void read_list(case_reader *r, const case_section *section, const tree_no
     case_list list = { 0, NULL };
     case_list_put(parent, section, list);
     if (!node || (lone && host_tree_is_empty(node))) return;
-    const int n = lone ? 1 : node->n;
-    if (n == 0) return;
+    const int nodes = lone ? 1 : node->n;
+    long n = 0;
+    for (int k = 0; k < nodes; k++) n += case_entry_values(section, lone ? node : node->item[k]);
     if (n > CASE_MAX_ENTRIES) {
-        case_errors_add(r->errors, node, "%s has %d entries: at most %d", path, n, CASE_MAX_ENTRIES);
+        case_errors_add(r->errors, node, "%s has %ld entries: at most %d", path, n, CASE_MAX_ENTRIES);
         return;
     }
-    list.item = calloc((size_t)n, section->size);
+    list.item = calloc((size_t)n + 1, section->size);
     if (!list.item) {
         r->out_of_memory = true;
         return;
     }
-    list.n = n;
+    list.n = (int)n;
     case_list_put(parent, section, list);
-    for (int k = 0; k < n; k++) {
+    char *object = list.item;
+    for (int k = 0; k < nodes; k++) {
         char entry[CASE_KEY_SIZE];
+        const tree_node *from = lone ? node : node->item[k];
         if (lone)
             snprintf(entry, sizeof entry, "%s", path);
         else
             snprintf(entry, sizeof entry, "%s[%d]", path, k);
-        read_map(r, section, lone ? node : node->item[k], (char *)list.item + (size_t)k * section->size, entry);
+        check_spread(r, section, from, entry);
+        for (int pick = 0; pick < case_entry_values(section, from); pick++, object += section->size)
+            read_map(r, section, from, object, entry, pick);
     }
 }
 
 void case_section_read(case_reader *r, const case_section *section, const tree_node *node, void *parent,
                        const char *path)
 {
-    if (section->given != NO_FLAG) *(bool *)((char *)r->out + section->given) = node != NULL;
-    if (section->list)
+    if (section->list) {
+        if (section->given != NO_FLAG) *(bool *)((char *)r->out + section->given) = node != NULL;
         read_list(r, section, node, parent, path);
-    else
-        read_map(r, section, node, (char *)parent + section->offset, path);
+    } else {
+        read_map(r, section, node, (char *)parent + section->offset, path, 0);
+    }
+}
+
+const case_section *case_section_find(const char *key)
+{
+    return child_of(&case_root, key);
 }
 
 static void free_children(const case_section *section, void *object)
 {
-    for (const case_section *s = section->children; s && s->key; s++) case_section_free(s, object);
+    for (const case_section *part = section; part; part = part->also)
+        for (const case_section *s = part->children; s && s->key; s++)
+            case_section_free(s, case_part_object(section, part, object));
 }
 
 void case_section_free(const case_section *section, void *parent)

@@ -21,12 +21,29 @@ typedef struct {
     const units *u;
     const case_options *options;
     case_errors *errors;
+    char file[CASE_MAX_FILES][CASE_PATH_SIZE]; /* the case's own, its base, that one's base, ... */
+    int n_files;
     const tree_node *root;
     breech_case *out;
     material_use *use; /* owned */
     int n_use;
     bool out_of_memory;
 } case_reader;
+
+/* The files of a case as one tree, changed by --set.  *root NULL: errors were found that leave nothing to read. */
+status case_tree_read(case_reader *r, const case_text *text, tree_node **root);
+
+/* Sections and keys of one file that have an old name get the new one; and so does the path of a --set (*now is the
+ * caller's, "" where nothing reads the key any more).  Each is a warning. */
+status case_old_names(case_reader *r, tree_node *root);
+status case_old_name_of_set(case_reader *r, const char *assignment, char **now);
+
+/* A line for the user. */
+void case_warn(case_reader *r, const char *line);
+
+/* The case file that a path means: itself, or case.yaml in the folder. */
+status case_file_of(const char *path, char file[CASE_PATH_SIZE]);
+void case_folder_of(const char *file, char folder[CASE_PATH_SIZE]);
 
 /* A section, or all entries of a list, into its place in `parent`; path is "" for the root.  node NULL: defaults only.
  */
@@ -48,6 +65,10 @@ void case_populations_check(case_reader *r);
 
 /* Entry k of a list section in the tree (a lone mapping is entry 0); NULL if it is not there. */
 const tree_node *case_entry_node(const tree_node *list, int k);
+
+/* How many entries of the list this one in the tree stands for: as many as its lists of values have (1 without). */
+int case_entry_values(const case_section *section, const tree_node *entry);
+const case_section *case_section_find(const char *key); /* of the case; NULL if there is none */
 
 /* Loads what the case names, in the order of the naming, after the case's own materials. */
 void case_materials_load(case_reader *r);

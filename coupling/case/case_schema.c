@@ -42,9 +42,10 @@ static const param projectile_params[] = {
     PARAM_DOUBLE(case_projectile, leg_thickness, "m", REQUIRED, 1e-5, 0.5, "of one leg, normal to the rail"),
     PARAM_DOUBLE(case_projectile, head_thickness, "m", REQUIRED, 1e-5, 1.0,
                  "of the head that joins the legs, along the rail"),
-    PARAM_DOUBLE(case_projectile, half_bore, "m", REQUIRED, 1e-4, 1.0,
-                 "from the rail's surface to the middle of the bore"),
-    PARAM_DOUBLE(case_projectile, width, "m", REQUIRED, 1e-4, 1.0, "full width across the rail"),
+    PARAM_DOUBLE(case_projectile, half_bore, "m", OPTIONAL, 1e-4, 1.0,
+                 "from the rail's surface to the middle of the bore; not given: half of rail.separation"),
+    PARAM_DOUBLE(case_projectile, width, "m", OPTIONAL, 1e-4, 1.0,
+                 "full width across the rail; not given: rail.height"),
     PARAM_DOUBLE(case_projectile, chamfer_height, "m", REQUIRED, 0.0, 1.0,
                  "height of the lead face, normal to the rail; 0 = a square front"),
     PARAM_DOUBLE(case_projectile, temperature, "K", 293.0, 4.0, 2000.0, "of the armature in the scene"),
@@ -140,8 +141,7 @@ static const param scene_params[] = {
     PARAM_DOUBLE(case_scene, rail_ahead, "m", 2e-2, 1e-4, 10.0, "rail modelled downstream of the grain's middle"),
     PARAM_DOUBLE(case_scene, rail_behind, "m", 1e-2, 1e-4, 10.0, "rail modelled upstream of it"),
     PARAM_DOUBLE(case_scene, rail_depth, "m", 1e-2, 1e-4, 1.0, "thickness of the rail modelled"),
-    PARAM_DOUBLE(case_scene, rail_width, "m", OPTIONAL, 1e-4, 1.0,
-                 "full width of the rail; not given: the projectile's"),
+    PARAM_DOUBLE(case_scene, rail_width, "m", OPTIONAL, 1e-4, 1.0, "full width of the rail; not given: the armature's"),
     PARAM_DOUBLE(case_scene, end_time, "s", OPTIONAL, 1e-9, 1.0, "not given: from the lengths and the velocity"),
     PARAM_BOOL(case_scene, stop_when_settled, 1, "stop once the crater no longer changes"),
     PARAM_BOOL(case_scene, stop_when_gauged, 0,
@@ -178,7 +178,6 @@ static const param study_params[] = {
               "gouge; and at the fastest grain; 0: none, so no volumes, rims and feedback"),
     PARAM_DOUBLE(case_study, screen_low, "1", 3.0, 0.0, 1e4,
                  "impact pressure over hardness of the harder partner below which no scene is run"),
-    PARAM_DOUBLE(case_study, screen_high, "1", 30.0, 0.0, 1e4, "the same ratio above which a gouge is expected"),
     PARAM_DOUBLE(case_study, coarse_cells_per_radius, "1", 3.0, 1.0, 100.0, "resolution the bracketing starts with"),
     PARAM_DOUBLE(case_study, fine_cells_per_radius, "1", 5.0, 1.0, 100.0, "resolution near the threshold"),
     PARAM_DOUBLE(case_study, resolution_error, "1", 0.1, 0.0, 1.0,
@@ -257,9 +256,10 @@ static const case_section treatment_children[] = {
     END_OF_SECTIONS,
 };
 
-#define SECTION(member, table_, needed_, doc_)                                                 \
-    .key = #member, .doc = (doc_), .table = (table_), .offset = offsetof(breech_case, member), \
+#define PART(key_, member, table_, needed_, doc_)                                             \
+    .key = (key_), .doc = (doc_), .table = (table_), .offset = offsetof(breech_case, member), \
     .given = offsetof(breech_case, given.member), .needed_for = (needed_)
+#define SECTION(member, table_, needed_, doc_) PART(#member, member, table_, needed_, doc_)
 
 enum { NEED_SHOT = CASE_FOR_SHOT | CASE_FOR_ONSET, NEED_SCENE = CASE_FOR_SCENE | CASE_FOR_ONSET };
 
@@ -282,27 +282,32 @@ static const case_section profile_children[] = {
       .offset = offsetof(breech_case, supplies[SUPPLY_##kind]),      \
       .size = sizeof(type),                                          \
       .given = offsetof(breech_case, given.supplies[SUPPLY_##kind]), \
-      .list = true },
+      .list = true,                                                  \
+      .spread = true },
+
+/* What the impact scene takes from sections that the circuit reads too. */
+static const case_section rail_in_scene = { PART("rail", rail, rail_params, NEED_SCENE, "As the impact scene sees it."),
+                                            .children = rail_children, .size = sizeof(case_rail) };
+static const case_section armature_in_scene = {
+    PART("armature", projectile, projectile_params, NEED_SCENE,
+         "The body in the impact scene: half a U, one leg on one rail, the head in front."),
+    .size = sizeof(case_projectile)
+};
 
 static const case_section sections[] = {
 #include "circuit/supply/supply.def"
 #undef SUPPLY
-    { SECTION(rails, circuit_shot_rails_params, NEED_SHOT | CASE_FOR_INDUCTANCE,
-              "The pair of rails as the circuit sees it."),
-      .size = sizeof(shot_rails) },
+    { PART("rail", rails, circuit_shot_rails_params, NEED_SHOT | CASE_FOR_INDUCTANCE,
+           "The rails: two or four equal ones in the circuit, one of them in the impact scene."),
+      .also = &rail_in_scene, .size = sizeof(shot_rails) },
     { SECTION(barrel, circuit_shot_barrel_params, NEED_SHOT, "The barrel."), .size = sizeof(shot_barrel) },
-    { SECTION(armature, circuit_shot_armature_params, NEED_SHOT, "The armature as the circuit sees it."),
-      .size = sizeof(shot_armature) },
+    { SECTION(armature, circuit_shot_armature_params, NEED_SHOT, "The armature: what the circuit drives."),
+      .also = &armature_in_scene, .size = sizeof(shot_armature) },
     { SECTION(options, circuit_shot_options_params, 0, "Tolerances of the shot's integration."),
       .size = sizeof(shot_options) },
     { SECTION(optimise, circuit_firing_wish_params, 0,
               "Firing times of the bank that `breech shot` looks for before it shoots."),
       .size = sizeof(firing_wish) },
-    { SECTION(rail, rail_params, NEED_SCENE, "The rail as the impact scene sees it."), .children = rail_children,
-      .size = sizeof(case_rail) },
-    { SECTION(projectile, projectile_params, NEED_SCENE,
-              "The armature's body in the impact scene: half a U, one leg on one rail, the head in front."),
-      .size = sizeof(case_projectile) },
     { SECTION(particle, particle_params, CASE_FOR_SCENE, "The grain of `breech scene`, and what a site leaves out."),
       .size = sizeof(case_particle) },
     { SECTION(sites, site_params, 0, "Grains along the barrel, a list; `breech onset` needs these or populations."),
@@ -332,6 +337,11 @@ const case_section case_root = { .key = "",
                                  .children = sections,
                                  .size = sizeof(breech_case),
                                  .given = NO_FLAG };
+
+void *case_part_object(const case_section *section, const case_section *part, void *object)
+{
+    return (char *)object + ((ptrdiff_t)part->offset - (ptrdiff_t)section->offset);
+}
 
 case_list case_list_get(const void *parent, const case_section *section)
 {

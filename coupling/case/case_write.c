@@ -83,13 +83,21 @@ static void write_value(FILE *file, const param *p, const void *member)
     }
 }
 
-static void write_section(FILE *file, const case_section *section, const void *parent, int indent);
+static void write_section(FILE *file, const breech_case *c, const case_section *section, const void *parent,
+                          int indent);
 
-/* The keys of one struct; `first` stands before the first of them ("- " in a list). */
-static void write_keys(FILE *file, const case_section *section, const void *object, int indent, bool in_list)
+/* Was this part of a section given?  What is left out is not written: its required keys have no value. */
+static bool is_given(const breech_case *c, const case_section *part)
+{
+    return part->given == NO_FLAG || *(const bool *)((const char *)c + part->given);
+}
+
+/* The keys of one part; `first` stands before the first of them ("- " in a list). */
+static void write_keys(FILE *file, const breech_case *c, const case_section *part, const void *object, int indent,
+                       bool in_list)
 {
     bool first = in_list;
-    for (const param *p = section->table; p->key; p++) {
+    for (const param *p = part->table; p->key; p++) {
         const void *member = (const char *)object + p->offset;
         if (is_unset(p, member)) continue;
         fprintf(file, "%*s%s%s: ", first ? indent - 2 : indent, "", first ? "- " : "", p->key);
@@ -97,7 +105,7 @@ static void write_keys(FILE *file, const case_section *section, const void *obje
         fputc('\n', file);
         first = false;
     }
-    for (const case_section *s = section->children; s && s->key; s++) write_section(file, s, object, indent);
+    for (const case_section *s = part->children; s && s->key; s++) write_section(file, c, s, object, indent);
 }
 
 /* A section inside another, not given: its first key must be given, and is not. */
@@ -108,30 +116,25 @@ static bool is_absent(const case_section *section, const void *object)
     return section->given == NO_FLAG && required && is_unset(first, (const char *)object + first->offset);
 }
 
-static void write_section(FILE *file, const case_section *section, const void *parent, int indent)
+static void write_section(FILE *file, const breech_case *c, const case_section *section, const void *parent, int indent)
 {
     if (!section->list && is_absent(section, (const char *)parent + section->offset)) return;
-    if (!section->list) {
-        fprintf(file, "%*s%s:\n", indent, "", section->key);
-        write_keys(file, section, (const char *)parent + section->offset, indent + 2, false);
-        return;
-    }
-    const case_list list = case_list_get(parent, section);
-    if (list.n == 0) return;
+    const case_list list = section->list ? case_list_get(parent, section) : (case_list){ 0, NULL };
+    if (section->list && list.n == 0) return;
     fprintf(file, "%*s%s:\n", indent, "", section->key);
     for (int k = 0; k < list.n; k++)
-        write_keys(file, section, (const char *)list.item + (size_t)k * section->size, indent + 4, true);
+        write_keys(file, c, section, (const char *)list.item + (size_t)k * section->size, indent + 4, true);
+    for (const case_section *part = section; part && !section->list; part = part->also)
+        if (is_given(c, part)) write_keys(file, c, part, (const char *)parent + part->offset, indent + 2, false);
 }
 
 status case_write_used(const breech_case *c, FILE *file)
 {
     const case_section head = { .key = "", .table = case_root.table, .given = NO_FLAG };
     fputs("# The case as it was run: every value resolved, in SI units.\n", file);
-    write_keys(file, &head, c, 0, false);
-    for (const case_section *s = case_root.children; s->key; s++) {
-        const bool given = s->given == NO_FLAG || *(const bool *)((const char *)c + s->given);
-        if (given) write_section(file, s, c, 0);
-    }
+    write_keys(file, c, &head, c, 0, false);
+    for (const case_section *s = case_root.children; s->key; s++)
+        if (is_given(c, s) || (s->also && is_given(c, s->also))) write_section(file, c, s, c, 0);
     CHECK(!ferror(file), STATUS_IO, "used.yaml cannot be written");
     return status_ok();
 }
@@ -188,12 +191,10 @@ static void print_cell(FILE *file, const char *text)
     }
 }
 
-static void print_section(FILE *file, const case_section *section, const char *parent)
+static void print_table(FILE *file, const param *table)
 {
-    if (section->key[0])
-        fprintf(file, "\n## `%s%s%s`\n\n%s\n", parent, parent[0] ? "." : "", section->key, section->doc);
     fputs("\n| key | unit | default | range | meaning |\n|---|---|---|---|---|\n", file);
-    for (const param *p = section->table; p->key; p++) {
+    for (const param *p = table; p->key; p++) {
         const bool number = p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR || p->kind == PARAM_POINTS;
         fprintf(file, "| `%s` | %s | ", p->key, number && !is_pure(p) ? p->unit : "");
         print_default(file, p);
@@ -203,7 +204,17 @@ static void print_section(FILE *file, const case_section *section, const char *p
         print_cell(file, p->doc);
         fputs(" |\n", file);
     }
-    for (const case_section *s = section->children; s && s->key; s++) print_section(file, s, section->key);
+}
+
+static void print_section(FILE *file, const case_section *section, const char *parent)
+{
+    if (section->key[0]) fprintf(file, "\n## `%s%s%s`\n", parent, parent[0] ? "." : "", section->key);
+    for (const case_section *part = section; part; part = part->also) {
+        if (part->key[0]) fprintf(file, "\n%s\n", part->doc);
+        print_table(file, part->table);
+    }
+    for (const case_section *part = section; part; part = part->also)
+        for (const case_section *s = part->children; s && s->key; s++) print_section(file, s, section->key);
 }
 
 void case_print_keys(FILE *file)

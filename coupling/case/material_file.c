@@ -207,14 +207,14 @@ status case_material_sheet_parse(const units *u, const char *bytes, size_t lengt
     snprintf(out->path, sizeof out->path, "%s", path);
     case_errors *found = calloc(1, sizeof *found);
     CHECK(found, STATUS_MEMORY, "out of memory while reading %s", path);
-    found->file = path;
+    found->file[0] = path;
     case_reader r = { .u = u, .errors = found };
     status s = host_tree_parse(bytes, length, &root, &line, &column);
     r.root = root;
     if (s.code == STATUS_OK)
         read_sheet(&r, path, out);
     else if (s.code == STATUS_BAD_INPUT)
-        case_errors_add_at(found, line, column, "%s", s.text);
+        case_errors_add_at(found, 0, line, column, "%s", s.text);
     if (s.code != STATUS_MEMORY) s = case_errors_finish(found, errors);
     if (r.out_of_memory) s = base_status_error(STATUS_MEMORY, "out of memory while reading %s", path);
     if (s.code != STATUS_OK) case_material_sheet_free(out);

@@ -16,7 +16,7 @@ status case_treatment_lead_angle_apply(const treatment_settings *t, breech_case 
     CHECK(run < p->length, STATUS_BAD_INPUT,
           "lead_angle.angle = %g deg: the lead face would be %g m long, the armature is %g m: a larger angle, or a "
           "smaller "
-          "projectile.chamfer_height",
+          "armature.chamfer_height",
           t->value[ANGLE] * 180.0 / PI, run, p->length);
     p->lead_angle = t->value[ANGLE];
     return status_ok();

@@ -128,7 +128,7 @@ static status check_layout(const breech_case *c, const case_site *g, const layou
           l->fine_behind, l->fine_ahead, g->radius);
     CHECK(l->fine_above > 0.0 && l->fine_depth > 0.0 && l->narrow_half_width > g->radius, STATUS_BAD_INPUT,
           "scene: no room for a fine zone of %g m above, %g m below and %g m beside the grain: smaller "
-          "scene.coarse_cell, or larger rail_depth, rail_width, projectile.half_bore",
+          "scene.coarse_cell, or larger rail_depth, rail_width, armature.half_bore",
           l->fine_above, l->fine_depth, l->fine_half_width);
     CHECK(l->layers < c->scene.rail_depth - l->coarse, STATUS_BAD_INPUT,
           "scene.rail_depth = %g m: must exceed the layers' thickness of %g m by more than a coarse cell",

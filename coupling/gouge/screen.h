@@ -1,9 +1,9 @@
 /* The screen: can this site gouge at all?
  *
  * Planar impact pressure of the armature on the rail's surface (impedance match, M-22) over the hardness of the harder
- * partner, against the band study.screen_low .. screen_high.  It knows nothing of size, shape and lead angle, so it
- * only orders and skips: below the band no scene is needed, above it a gouge is expected but never said without a
- * scene. Stefani and Parker (1999): 7075 on copper gouges from 1.4 km/s, 17.7 GPa, a ratio of about 10. */
+ * partner.  It knows nothing of size, shape and lead angle, so it only skips: below study.screen_low no scene is
+ * needed, above it nothing is said without one.  Stefani and Parker (1999): 7075 on copper gouges from 1.4 km/s,
+ * 17.7 GPa, a ratio of about 10. */
 #ifndef BREECH_COUPLING_SCREEN_H
 #define BREECH_COUPLING_SCREEN_H
 
@@ -12,8 +12,7 @@
 typedef struct {
     double impact_pressure; /* [Pa] */
     double ratio;           /* over the hardness of the harder partner [1] */
-    bool skip;              /* below the band */
-    bool expected;          /* above the band */
+    bool skip;              /* below study.screen_low */
 } screen;
 
 /* The surface is the top layer where there are layers.  STATUS_BAD_INPUT names a material that lacks what it needs. */

@@ -27,12 +27,18 @@ void host_tree_free(tree_node *node)
     free(node);
 }
 
+/* Place of `key` in a map; -1 if it is not there. */
+static int place_of(const tree_node *map, const char *key)
+{
+    for (int k = 0; k < map->n; k++)
+        if (strcmp(map->key[k]->text, key) == 0) return k;
+    return -1;
+}
+
 const tree_node *host_tree_find(const tree_node *map, const char *key)
 {
-    if (!map || map->kind != TREE_MAP) return NULL;
-    for (int k = 0; k < map->n; k++)
-        if (strcmp(map->key[k]->text, key) == 0) return map->item[k];
-    return NULL;
+    const int k = map && map->kind == TREE_MAP ? place_of(map, key) : -1;
+    return k < 0 ? NULL : map->item[k];
 }
 
 bool host_tree_is_empty(const tree_node *node)
@@ -233,6 +239,66 @@ status host_tree_parse(const char *bytes, size_t length, tree_node **out, int *l
     return parse(bytes, length, -1, out, line, column);
 }
 
+void host_tree_number(tree_node *root, int file)
+{
+    root->file = file;
+    for (int k = 0; k < root->n; k++) {
+        if (root->key) root->key[k]->file = file;
+        host_tree_number(root->item[k], file);
+    }
+}
+
+/* ---- one tree over another ---- */
+
+tree_node *host_tree_take(tree_node *map, const char *key)
+{
+    const int k = map->kind == TREE_MAP ? place_of(map, key) : -1;
+    if (k < 0) return NULL;
+    tree_node *item = map->item[k];
+    const size_t after = (size_t)(map->n - k - 1);
+    host_tree_free(map->key[k]);
+    memmove(&map->key[k], &map->key[k + 1], after * sizeof(tree_node *));
+    memmove(&map->item[k], &map->item[k + 1], after * sizeof(tree_node *));
+    map->n--;
+    return item;
+}
+
+/* One key of the changes and its value, both taken over. */
+static status merge_key(tree_node *below, tree_node *key, tree_node *item)
+{
+    const int k = place_of(below, key->text);
+    if (k < 0) return node_append(below, key, item);
+    if (host_tree_is_empty(item)) {
+        host_tree_free(host_tree_take(below, key->text));
+        host_tree_free(item);
+        host_tree_free(key);
+        return status_ok();
+    }
+    host_tree_free(below->key[k]);
+    below->key[k] = key;
+    return host_tree_merge(&below->item[k], item);
+}
+
+status host_tree_merge(tree_node **below, tree_node *changes)
+{
+    status s = status_ok();
+    if ((*below)->kind != TREE_MAP || changes->kind != TREE_MAP) {
+        host_tree_free(*below);
+        *below = changes;
+        return s;
+    }
+    for (int k = 0; k < changes->n && s.code == STATUS_OK; k++) {
+        tree_node *key = changes->key[k], *item = changes->item[k];
+        changes->key[k] = changes->item[k] = NULL;
+        s = merge_key(*below, key, item);
+    }
+    (*below)->file = changes->file;
+    (*below)->line = changes->line;
+    (*below)->column = changes->column;
+    host_tree_free(changes);
+    return s;
+}
+
 /* ---- --set ---- */
 
 enum { SET_MAX_STEPS = TREE_MAX_DEPTH, SET_NAME_SIZE = 64 };
@@ -309,9 +375,8 @@ static status put(tree_node **slot, const set_path *path)
 
 static tree_node **slot_of(tree_node *map, const char *key)
 {
-    for (int k = 0; k < map->n; k++)
-        if (strcmp(map->key[k]->text, key) == 0) return &map->item[k];
-    return NULL;
+    const int k = place_of(map, key);
+    return k < 0 ? NULL : &map->item[k];
 }
 
 static status set_in(tree_node **slot, const set_path *path, int i);

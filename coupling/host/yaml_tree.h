@@ -23,6 +23,7 @@ typedef enum { TREE_TEXT, TREE_MAP, TREE_LIST } tree_kind;
 
 typedef struct tree_node {
     tree_kind kind;
+    int file;                /* number that host_tree_number has given; 0 before */
     int line, column;        /* from 1 */
     int set;                 /* the --set it comes from, -1: the file */
     bool quoted;             /* TREE_TEXT */
@@ -35,11 +36,22 @@ typedef struct tree_node {
 /* On STATUS_BAD_INPUT the text has no position: *line and *column hold it. */
 status host_tree_parse(const char *bytes, size_t length, tree_node **out, int *line, int *column);
 
+/* Notes in every node which of several files it comes from. */
+void host_tree_number(tree_node *root, int file);
+
 /* "path.to.key=value": path through lists as bank[1].charge (from 0), bank.charge = all entries.  A value that begins
  * with [ { or a quote is YAML, any other is taken as it stands.  Sections that are missing on the way are made. */
 status host_tree_set(tree_node **root, const char *assignment, int set);
 
+/* *below changed by `changes`, which is taken over, also on error.  Maps merge key by key; any other value replaces the
+ * one below; an empty one (`key: ~`) takes the key out, where there is one.  A merged map stands where its changes
+ * stand. */
+status host_tree_merge(tree_node **below, tree_node *changes);
+
 void host_tree_free(tree_node *node); /* NULL allowed */
+
+/* Takes `key` out of a map: its value is then the caller's; NULL if it is not there. */
+tree_node *host_tree_take(tree_node *map, const char *key);
 
 /* Value of `key` in a map; NULL if it is not there or `map` is NULL or no map. */
 const tree_node *host_tree_find(const tree_node *map, const char *key);

@@ -195,7 +195,7 @@ static void warn_of_limits(session *s, const shot_limits *l)
             l->leg_action, l->throat_action, x);
     if (l->wear_share > 1.0)
         run_session_warn(
-            s, "transition: wear takes %.2f times armature.leg_thickness, all of it by x = %.3g m at the earliest",
+            s, "transition: wear takes %.2f times armature.wear_thickness, all of it by x = %.3g m at the earliest",
             l->wear_share, x);
     if (!isnan(l->critical_position))
         run_session_warn(s, "rail: from x = %.3g m on the armature outruns the rail's bending waves, %.0f m/s",

@@ -79,7 +79,7 @@ static status fly(session *s, const breech_case *c, int number, const rises rise
     breech_case warm = *c; /* borrows all */
     shot_outcome flown;
     shot_record record;
-    warm.rails.temperature += mean;
+    warm.rails.initial_temperature += mean;
     const status done = run_session_shot(s, &warm, NULL, false, &flown, &record);
     if (done.code == STATUS_OK) {
         study_mc_velocities(&flown, c->barrel.length, out->along[number].v);

@@ -123,8 +123,8 @@ static void print(const void *result, FILE *out)
 const study study_inductance = {
     .name = "inductance",
     .doc = "L', R' of a rail cross-section, over frequency",
-    .more = "Needs the section rails.  Direct current, 1 Hz to 100 kHz, the perfect conductor; the surface at "
-            "rails.frequency.",
+    .more = "Needs the section rail.  Direct current, 1 Hz to 100 kHz, the perfect conductor; the surface at "
+            "rail.frequency.",
     .needs = CASE_FOR_INDUCTANCE,
     .keys = study_inductance_keys,
     .can_vary = true,

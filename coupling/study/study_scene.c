@@ -32,7 +32,7 @@ static void print(const void *result, FILE *out)
 const study study_scene = {
     .name = "scene",
     .doc = "one embedded impact at a given velocity",
-    .more = "Needs rail, projectile, particle and scene, with scene.velocity and particle.radius.",
+    .more = "Needs rail, armature, particle and scene, with scene.velocity and particle.radius.",
     .needs = CASE_FOR_SCENE,
     .keys = gouge_result_keys,
     .can_vary = true,

@@ -66,7 +66,7 @@ static status run(session *s, const study_case *of, study_answer *out)
 const study study_shot = {
     .name = "shot",
     .doc = "the electromechanical shot alone",
-    .more = "Needs the sections bank (or another supply), rails, barrel and armature.  Writes the shot's history.",
+    .more = "Needs the sections bank (or another supply), rail, barrel and armature.  Writes the shot's history.",
     .needs = CASE_FOR_SHOT,
     .keys = run_shot_keys,
     .can_vary = true,

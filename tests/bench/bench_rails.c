@@ -104,7 +104,7 @@ static void contact_row(const char *name, const shot_config *c)
     const shot_limits l = circuit_shot_limits_of(s);
     printf("%-34s %8.2f %8.2f %9.4f %8.2f %7.1f %7.3f %8.4f %6.0f %7.2f\n", name, r.muzzle_velocity,
            1e-3 * e.ledger.friction, e.friction_coefficient, 1e6 * e.film_thickness, 1e3 * e.contact_spread,
-           1e3 * l.wear_share * c->armature.leg_thickness, l.melt_position, e.film_temperature,
+           1e3 * l.wear_share * c->armature.wear_thickness, l.melt_position, e.film_temperature,
            1e3 * (c->armature.mass - e.mass));
     circuit_shot_free(s);
 }
@@ -115,7 +115,7 @@ static void contacts(shot_config c, bool tiny)
     const double wear[] = { 0.01, 0.03, 0.1, 0.3 }, volts[] = { 30.0, 10.0, 3.0 };
     char name[60];
     c.rails.level = SHOT_RAILS_DIFFUSING;
-    c.armature.leg_thickness = 1e-3;
+    c.armature.wear_thickness = 1e-3;
     printf("%-34s exit[m/s] lost[kJ] mu film[um] spread[mm] worn[mm] melts at x[m] T[K] mass lost[g]\n", "contact");
     for (int film = 0; film < 2; film++) {
         c.armature.friction_law = film;

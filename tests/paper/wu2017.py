@@ -24,7 +24,7 @@ RUNS = {  # name: what differs from the base case
     # small grains on two nested grids: a quarter of the particle-steps and less
     "r 0.2 mm": {"particle.radius": "0.2 mm", "scene.fine_width": "4 mm", "scene.end_time": "20 us", "scene.levels": "2"},
     # the contact face keeps the length that W1 was calibrated with
-    "30 deg": {"projectile.lead_angle": "30 deg", "projectile.length": "22 mm"},
+    "30 deg": {"armature.lead_angle": "30 deg", "armature.length": "22 mm"},
     "r 0.08 mm": {"particle.radius": "0.08 mm", "scene.fine_width": "2 mm", "scene.end_time": "8 us", "scene.levels": "2"},
 }
 ZONE = {"fine_ahead": 8, "fine_behind": 4, "fine_depth": 3, "fine_above": 2.5, "follow_lead": 4}  # radii: the zone W1 was calibrated with

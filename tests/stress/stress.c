@@ -133,7 +133,7 @@ static int add_projectile(recipe *r, chance *c, const stock *s)
     const double a = r->radius;
     const double leg = a * uniform(c, 1.5, 3), lead = uniform(c, 5, 90), chamfer = leg * uniform(c, 0, 0.9);
     add(r,
-        "projectile:\n  material: %s\n  lead_angle: %.6g deg\n  length: %.6g m\n  leg_thickness: %.6g m\n"
+        "armature:\n  material: %s\n  lead_angle: %.6g deg\n  length: %.6g m\n  leg_thickness: %.6g m\n"
         "  head_thickness: %.6g m\n  half_bore: %.6g m\n  width: %.6g m\n  chamfer_height: %.6g m\n  temperature: %.6g "
         "K\n",
         s->names[armature], lead, a * uniform(c, 4, 9) + chamfer / tan(lead * 3.14159265358979 / 180), leg,
