@@ -37,7 +37,7 @@ stored = breech.store(run.directory / "store")
 assert len(stored) == 1
 one = stored[0]
 assert one.outcome["severity"] == run.summary["severity"] and one.outcome["particle_steps"] == run.summary["particle_steps"]
-assert "projectile:" in one.case and one.instruction_set == run.summary["instruction_set"]
+assert "armature:" in one.case and one.instruction_set == run.summary["instruction_set"]
 assert (one.crater.depth == crater.depth).all() and (one.columns["time"] == columns["time"]).all()
 
 text = subprocess.run([sys.executable, f"{tools}/breech.py", directory], capture_output=True, text=True, check=True).stdout

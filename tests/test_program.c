@@ -1,74 +1,5 @@
-/* The program from outside: exit codes, refusals that write nothing, --set, summaries, stop and resume. */
-#include "output_common.h"
-
-#include "coupling/host/hdf5_file.h"
-#include "coupling/host/outdir.h"
-#include "coupling/host/progress.h"
-
-#include <cJSON.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <time.h>
-
-#define CASES BREECH_TESTS "/../cases"
-#define SHOT CASES "/default_shot"
-
-/* A scene of a second or two: a stub of an armature over a short rail, one or two cells a radius. */
-#define TINY                                                                                                  \
-    SHOT " --set scene.cells_per_radius=1.5 --set scene.levels=2 --set scene.coarse_cell='0.8 mm' --set "     \
-         "scene.growth=1.3 --set output.report=no"                                                            \
-         " --set scene.fine_ahead='3 mm' --set scene.fine_width='3 mm' --set scene.rail_ahead='8 mm' --set "  \
-         "armature.length='10 mm' --set armature.half_bore='6 mm' --set armature.width='10 mm' --set "        \
-         "armature.head_thickness='6 mm' --set scene.rail_behind='1 mm' --set scene.rail_depth='4 mm' --set " \
-         "scene.end_time='4 us'"
-
-static int run(const char *arguments)
-{
-    char command[2000];
-    snprintf(command, sizeof command, "BREECH_MATERIALS= %s %s >out.txt 2>err.txt", BREECH_PROGRAM, arguments);
-    const int state = system(command);
-    return WIFEXITED(state) ? WEXITSTATUS(state) : 1000;
-}
-
-static bool contains(const char *file, const char *text)
-{
-    char *all = NULL;
-    OK(host_file_read(file, &all, NULL));
-    const bool found = strstr(all, text) != NULL;
-    free(all);
-    return found;
-}
-
-static bool exists(const char *path)
-{
-    struct stat s;
-    return stat(path, &s) == 0;
-}
-
-static cJSON *summary_of(const char *dir)
-{
-    char path[200], *text = NULL;
-    snprintf(path, sizeof path, "%s/summary.json", dir);
-    OK(host_file_read(path, &text, NULL));
-    cJSON *s = cJSON_Parse(text);
-    free(text);
-    assert_non_null(s);
-    return s;
-}
-
-static void assert_text(const cJSON *s, const char *key, const char *want)
-{
-    const cJSON *item = cJSON_GetObjectItemCaseSensitive(s, key);
-    assert_true(cJSON_IsString(item));
-    assert_string_equal(item->valuestring, want);
-}
-
-static double number(const cJSON *s, const char *key)
-{
-    const cJSON *item = cJSON_GetObjectItemCaseSensitive(s, key);
-    if (!item) fail_msg("no key %s", key);
-    return cJSON_IsNumber(item) ? item->valuedouble : NAN;
-}
+/* The program from outside: exit codes, refusals that write nothing, --set, summaries. */
+#include "program_common.h"
 
 /* ---- usage ---- */
 
@@ -196,18 +127,6 @@ static void test_inductance(void **state)
                      2); /* thicker than the rail */
 }
 
-/* The same results whatever took them: all numbers but the times. */
-static void assert_same(const cJSON *a, const cJSON *b)
-{
-    for (const cJSON *item = a->child; item; item = item->next) {
-        if (!item->string || strcmp(item->string, "wall_seconds") == 0 || strcmp(item->string, "threads") == 0)
-            continue;
-        const cJSON *other = cJSON_GetObjectItemCaseSensitive(b, item->string);
-        if (!cJSON_Compare(item, other, true)) fail_msg("%s differs", item->string);
-        if (cJSON_IsNumber(item) && item->valuedouble != other->valuedouble) fail_msg("%s differs", item->string);
-    }
-}
-
 static void test_scene(void **state)
 {
     (void)state;
@@ -229,6 +148,11 @@ static void test_scene(void **state)
 
 /* A scene that ends at its second gauge, 28 radii of way: the class is that of the growth, beyond its scatter or not.
  */
+#define GAUGED                                                                                                   \
+    TINY " --set particle.radius='0.2 mm' --set scene.velocity='2 km/s' --set scene.cells_per_radius=1.2 --set " \
+         "scene.coarse_cell='1.2 mm' --set scene.fine_depth='0.6 mm' --set scene.fine_above='0.5 mm' --set "     \
+         "scene.fine_behind='0.8 mm' --set scene.fine_width='2 mm' --set scene.end_time='3.4 us' "
+
 static void test_gauged(void **state)
 {
     (void)state;
@@ -237,8 +161,8 @@ static void test_gauged(void **state)
     for (int i = 0; i < 2; i++) {
         char command[1500];
         snprintf(command, sizeof command,
-                 "scene " TINY " -o scene/gauged%d --set output.snapshots=0 --set particle.radius='0.2 mm' --set "
-                 "scene.velocity='2 km/s' --set scene.stop_when_gauged=yes --set scene.growth_scatter=%s",
+                 "scene " GAUGED "-o scene/gauged%d --set output.snapshots=0 --set scene.stop_when_gauged=yes --set "
+                 "scene.growth_scatter=%s",
                  i, scatter[i]);
         assert_int_equal(run(command), 0);
         char dir[40];
@@ -250,9 +174,7 @@ static void test_gauged(void **state)
         cJSON_Delete(a);
     }
     /* the whole scene, whatever it writes on the way, has the same growth, and goes on */
-    assert_int_equal(run("scene " TINY " -o scene/whole --set output.snapshots=3 --set particle.radius='0.2 mm' --set "
-                         "scene.velocity='2 km/s'"),
-                     0);
+    assert_int_equal(run("scene " GAUGED "-o scene/whole --set output.snapshots=3"), 0);
     cJSON *whole = summary_of("scene/whole"), *gauged = summary_of("scene/gauged0");
     assert_true(number(whole, "groove_growth") == number(gauged, "groove_growth"));
     assert_true(number(whole, "steps") > number(gauged, "steps"));
@@ -288,98 +210,6 @@ static void test_paraview_crater(void **state)
     assert_true(exists("scene/crater.png"));
 }
 
-/* Starts it and ends it with the signal once the folder holds a snapshot more; its exit code.  Snapshots come at fixed
- * times of the scene: how far it has come does not depend on how busy the machine is. */
-static int signalled(const char *arguments, int number_of_signal, const char *snapshot_folder)
-{
-    char command[2000];
-    snprintf(command, sizeof command, "exec %s %s >out.txt 2>err.txt", BREECH_PROGRAM, arguments);
-    const int before = exists(snapshot_folder) ? files_in(snapshot_folder, ".hdf") : 0;
-    const pid_t child = fork();
-    assert_true(child >= 0);
-    if (child == 0) {
-        execl("/bin/sh", "sh", "-c", command, (char *)NULL);
-        _exit(127);
-    }
-    int result;
-    pid_t ended = 0;
-    while (ended == 0 && !(exists(snapshot_folder) && files_in(snapshot_folder, ".hdf") > before)) {
-        const struct timespec wait = { 0, 1000000 };
-        nanosleep(&wait, NULL);
-        ended = waitpid(child, &result, WNOHANG);
-    }
-    if (ended == 0) {
-        kill(child, number_of_signal);
-        ended = waitpid(child, &result, 0);
-    }
-    assert_int_equal(ended, child);
-    return WIFEXITED(result) ? WEXITSTATUS(result) : 1000;
-}
-
-/* Every row once, to the bit. */
-static void assert_same_history(const char *dataset)
-{
-    static const char *const files[2] = { "stop/whole/history.h5", "stop/part/history.h5" };
-    double *data[2];
-    size_t dims[2][H5_MAX_RANK];
-    for (int k = 0; k < 2; k++) {
-        h5_file *f = NULL;
-        OK(host_h5_open(files[k], &f));
-        OK(host_h5_read(f, dataset, &data[k], dims[k]));
-        host_h5_close(f);
-    }
-    const size_t n = dims[0][0] * (strstr(dataset, "depth") ? dims[0][1] : 1);
-    assert_int_equal(dims[0][0], dims[1][0]);
-    assert_memory_equal(data[0], data[1], n * sizeof *data[0]);
-    free(data[0]);
-    free(data[1]);
-}
-
-/* SIGTERM, SIGINT and --max-walltime: checkpoint, 75; resumed as often as it takes, the same bits as in one go. */
-static void test_stop_and_resume(void **state)
-{
-    (void)state;
-    fresh_folder("stop");
-    assert_int_equal(run("scene " TINY " -o stop/whole --quiet --set output.snapshots=6"), 0);
-    const char *const arguments = "scene " TINY " -o stop/part --quiet --resume --set output.snapshots=6";
-    int code = 75, stops = 0;
-    while (code == 75 && stops < 20) {
-        /* a snapshot at a time: only a run that goes on from its checkpoint gets to the end */
-        code = signalled(arguments, stops % 2 ? SIGINT : SIGTERM, "stop/part/scenes/scene");
-        if (code != 75) break;
-        stops++;
-        assert_true(exists("stop/part/checkpoint.bin"));
-        cJSON *s = summary_of("stop/part");
-        assert_text(s, "status", "stopped");
-        cJSON_Delete(s);
-        assert_int_equal(run("scene " TINY " -o stop/part --set output.snapshots=6"),
-                         2); /* neither resumed nor forced */
-    }
-    assert_int_equal(code, 0);
-    print_message("stopped %d times\n", stops);
-    assert_true(stops >= 2);
-    cJSON *whole = summary_of("stop/whole"), *part = summary_of("stop/part");
-    assert_text(part, "status", "done");
-    assert_same(whole, part);
-    assert_int_equal(files_in("stop/part/scenes/scene", ".hdf"), files_in("stop/whole/scenes/scene", ".hdf"));
-    assert_same_history("/scene/scene/time");
-    assert_same_history("/scene/scene/internal");
-    assert_same_history("/scene/scene/crater/depth");
-    cJSON_Delete(whole);
-    cJSON_Delete(part);
-}
-
-static void test_max_walltime(void **state)
-{
-    (void)state;
-    fresh_folder("walltime");
-    assert_int_equal(run("scene " TINY " -o walltime/a --max-walltime 0.3 --set output.snapshots=0"), 75);
-    assert_true(contains("err.txt", "--max-walltime"));
-    assert_int_equal(run("scene " TINY " -o walltime/a --max-walltime 1h --resume --set output.snapshots=0"), 0);
-    assert_int_equal(run("scene " TINY " -o walltime/a --resume --set output.snapshots=0"), 0); /* nothing to do */
-    assert_true(contains("out.txt", "finished already"));
-}
-
 /* A run that fails says so in its summary and with 1. */
 static void test_failed(void **state)
 {
@@ -393,17 +223,9 @@ static void test_failed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_usage),
-        cmocka_unit_test(test_bad_case),
-        cmocka_unit_test(test_check_and_materials),
-        cmocka_unit_test(test_shot),
-        cmocka_unit_test(test_inductance),
-        cmocka_unit_test(test_scene),
-        cmocka_unit_test(test_gauged),
-        cmocka_unit_test(test_reader),
-        cmocka_unit_test(test_paraview_crater),
-        cmocka_unit_test(test_stop_and_resume),
-        cmocka_unit_test(test_max_walltime),
+        cmocka_unit_test(test_usage),  cmocka_unit_test(test_bad_case),   cmocka_unit_test(test_check_and_materials),
+        cmocka_unit_test(test_shot),   cmocka_unit_test(test_inductance), cmocka_unit_test(test_scene),
+        cmocka_unit_test(test_gauged), cmocka_unit_test(test_reader),     cmocka_unit_test(test_paraview_crater),
         cmocka_unit_test(test_failed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,84 @@
+/* Running the program from a test, and reading what it wrote. */
+#ifndef BREECH_TESTS_PROGRAM_COMMON_H
+#define BREECH_TESTS_PROGRAM_COMMON_H
+
+#include "output_common.h"
+
+#include "coupling/host/outdir.h"
+
+#include <cJSON.h>
+#include <sys/wait.h>
+
+#define CASES BREECH_TESTS "/../cases"
+#define SHOT CASES "/default_shot"
+
+/* A scene of a second or two: a stub of an armature over a short rail, one or two cells a radius. */
+#define TINY                                                                                                  \
+    SHOT " --set scene.cells_per_radius=1.5 --set scene.levels=2 --set scene.coarse_cell='0.8 mm' --set "     \
+         "scene.growth=1.3 --set output.report=no"                                                            \
+         " --set scene.fine_ahead='3 mm' --set scene.fine_width='3 mm' --set scene.rail_ahead='8 mm' --set "  \
+         "armature.length='10 mm' --set armature.half_bore='6 mm' --set armature.width='10 mm' --set "        \
+         "armature.head_thickness='6 mm' --set scene.rail_behind='1 mm' --set scene.rail_depth='4 mm' --set " \
+         "scene.end_time='4 us'"
+
+static inline int run(const char *arguments)
+{
+    char command[2000];
+    snprintf(command, sizeof command, "BREECH_MATERIALS= %s %s >out.txt 2>err.txt", BREECH_PROGRAM, arguments);
+    const int state = system(command);
+    return WIFEXITED(state) ? WEXITSTATUS(state) : 1000;
+}
+
+static inline bool contains(const char *file, const char *text)
+{
+    char *all = NULL;
+    OK(host_file_read(file, &all, NULL));
+    const bool found = strstr(all, text) != NULL;
+    free(all);
+    return found;
+}
+
+static inline bool exists(const char *path)
+{
+    struct stat s;
+    return stat(path, &s) == 0;
+}
+
+static inline cJSON *summary_of(const char *dir)
+{
+    char path[200], *text = NULL;
+    snprintf(path, sizeof path, "%s/summary.json", dir);
+    OK(host_file_read(path, &text, NULL));
+    cJSON *s = cJSON_Parse(text);
+    free(text);
+    assert_non_null(s);
+    return s;
+}
+
+static inline void assert_text(const cJSON *s, const char *key, const char *want)
+{
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(s, key);
+    assert_true(cJSON_IsString(item));
+    assert_string_equal(item->valuestring, want);
+}
+
+static inline double number(const cJSON *s, const char *key)
+{
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(s, key);
+    if (!item) fail_msg("no key %s", key);
+    return cJSON_IsNumber(item) ? item->valuedouble : NAN;
+}
+
+/* The same results whatever took them: all numbers but the times. */
+static inline void assert_same(const cJSON *a, const cJSON *b)
+{
+    for (const cJSON *item = a->child; item; item = item->next) {
+        if (!item->string || strcmp(item->string, "wall_seconds") == 0 || strcmp(item->string, "threads") == 0)
+            continue;
+        const cJSON *other = cJSON_GetObjectItemCaseSensitive(b, item->string);
+        if (!cJSON_Compare(item, other, true)) fail_msg("%s differs", item->string);
+        if (cJSON_IsNumber(item) && item->valuedouble != other->valuedouble) fail_msg("%s differs", item->string);
+    }
+}
+
+#endif

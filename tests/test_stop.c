@@ -1,0 +1,108 @@
+/* The program stopped and resumed: SIGTERM, SIGINT, --max-walltime. */
+#include "program_common.h"
+
+#include "coupling/host/hdf5_file.h"
+
+#include <signal.h>
+#include <time.h>
+
+/* Starts it and ends it with the signal once the folder holds a snapshot more; its exit code.  Snapshots come at fixed
+ * times of the scene: how far it has come does not depend on how busy the machine is. */
+static int signalled(const char *arguments, int number_of_signal, const char *snapshot_folder)
+{
+    char command[2000];
+    snprintf(command, sizeof command, "exec %s %s >out.txt 2>err.txt", BREECH_PROGRAM, arguments);
+    const int before = exists(snapshot_folder) ? files_in(snapshot_folder, ".hdf") : 0;
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        execl("/bin/sh", "sh", "-c", command, (char *)NULL);
+        _exit(127);
+    }
+    int result;
+    pid_t ended = 0;
+    while (ended == 0 && !(exists(snapshot_folder) && files_in(snapshot_folder, ".hdf") > before)) {
+        const struct timespec wait = { 0, 1000000 };
+        nanosleep(&wait, NULL);
+        ended = waitpid(child, &result, WNOHANG);
+    }
+    if (ended == 0) {
+        kill(child, number_of_signal);
+        ended = waitpid(child, &result, 0);
+    }
+    assert_int_equal(ended, child);
+    return WIFEXITED(result) ? WEXITSTATUS(result) : 1000;
+}
+
+/* Every row once, to the bit. */
+static void assert_same_history(const char *dataset)
+{
+    static const char *const files[2] = { "stop/whole/history.h5", "stop/part/history.h5" };
+    double *data[2];
+    size_t dims[2][H5_MAX_RANK];
+    for (int k = 0; k < 2; k++) {
+        h5_file *f = NULL;
+        OK(host_h5_open(files[k], &f));
+        OK(host_h5_read(f, dataset, &data[k], dims[k]));
+        host_h5_close(f);
+    }
+    const size_t n = dims[0][0] * (strstr(dataset, "depth") ? dims[0][1] : 1);
+    assert_int_equal(dims[0][0], dims[1][0]);
+    assert_memory_equal(data[0], data[1], n * sizeof *data[0]);
+    free(data[0]);
+    free(data[1]);
+}
+
+/* SIGTERM, SIGINT and --max-walltime: checkpoint, 75; resumed as often as it takes, the same bits as in one go. */
+static void test_stop_and_resume(void **state)
+{
+    (void)state;
+    fresh_folder("stop");
+    assert_int_equal(run("scene " TINY " -o stop/whole --quiet --set output.snapshots=6"), 0);
+    const char *const arguments = "scene " TINY " -o stop/part --quiet --resume --set output.snapshots=6";
+    int code = 75, stops = 0;
+    while (code == 75 && stops < 20) {
+        /* a snapshot at a time: only a run that goes on from its checkpoint gets to the end */
+        code = signalled(arguments, stops % 2 ? SIGINT : SIGTERM, "stop/part/scenes/scene");
+        if (code != 75) break;
+        stops++;
+        assert_true(exists("stop/part/checkpoint.bin"));
+        cJSON *s = summary_of("stop/part");
+        assert_text(s, "status", "stopped");
+        cJSON_Delete(s);
+        assert_int_equal(run("scene " TINY " -o stop/part --set output.snapshots=6"),
+                         2); /* neither resumed nor forced */
+    }
+    assert_int_equal(code, 0);
+    print_message("stopped %d times\n", stops);
+    assert_true(stops >= 2);
+    cJSON *whole = summary_of("stop/whole"), *part = summary_of("stop/part");
+    assert_text(part, "status", "done");
+    assert_same(whole, part);
+    assert_int_equal(files_in("stop/part/scenes/scene", ".hdf"), files_in("stop/whole/scenes/scene", ".hdf"));
+    assert_same_history("/scene/scene/time");
+    assert_same_history("/scene/scene/internal");
+    assert_same_history("/scene/scene/crater/depth");
+    cJSON_Delete(whole);
+    cJSON_Delete(part);
+}
+
+static void test_max_walltime(void **state)
+{
+    (void)state;
+    fresh_folder("walltime");
+    assert_int_equal(run("scene " TINY " -o walltime/a --max-walltime 0.3 --set output.snapshots=0"), 75);
+    assert_true(contains("err.txt", "--max-walltime"));
+    assert_int_equal(run("scene " TINY " -o walltime/a --max-walltime 1h --resume --set output.snapshots=0"), 0);
+    assert_int_equal(run("scene " TINY " -o walltime/a --resume --set output.snapshots=0"), 0); /* nothing to do */
+    assert_true(contains("out.txt", "finished already"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_stop_and_resume),
+        cmocka_unit_test(test_max_walltime),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
