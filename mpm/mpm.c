@@ -1,4 +1,5 @@
 /* The solver's step and its books. */
+#include "mpm/law/contact.h"
 #include "mpm/memory/build.h"
 #include "mpm/memory/store.h"
 
@@ -14,19 +15,6 @@ enum { START_BLOCKS = 1 << 15 };      /* room at the start: memory that nobody t
 static const double DT_GROWTH = 1.05; /* a step of the coarsest level */
 static const double FORCE_SMOOTHING = 0.2e-6; /* [s] */
 
-void mpm_scene_default(mpm_scene *s)
-{
-    memset(s, 0, sizeof *s);
-    s->levels = 1;
-    s->particles_per_axis = 2;
-    s->courant = 0.4;
-    s->viscosity_linear = 0.2;
-    s->viscosity_quadratic = 2.0;
-    s->contact_gap = 0.9;
-    for (int a = 0; a < MPM_MAX_FIELDS; a++)
-        for (int b = 0; b < MPM_MAX_FIELDS; b++) s->contact[a][b].shear_limit = INFINITY;
-}
-
 /* ---- making ---- */
 
 /* Where breech-stress and the sweep of docs/scene-solver.md saw scenes blow up. */
@@ -35,10 +23,48 @@ static double courant_limit(const mpm_scene *s)
     return s->transfer == TRANSFER_PIC ? 0.5 : 0.6;
 }
 
+static status check_body(const mpm_scene *s, int i, int groups)
+{
+    const mpm_body *b = &s->body[i];
+    CHECK(b->material, STATUS_BAD_INPUT, "body `%s` lacks a material", b->name);
+    CHECK(b->solid >= 0 && b->solid < s->solids, STATUS_BAD_INPUT, "body `%s`: solid %d, the scene has %d", b->name,
+          b->solid, s->solids);
+    TRY(mpm_solid_check(&s->solid[b->solid], b->solid));
+    CHECK(b->group >= 0, STATUS_BAD_INPUT, "body `%s`: group %d must not be negative", b->name, b->group);
+    CHECK(groups <= s->bodies, STATUS_BAD_INPUT, "%d groups of %d bodies: number them from 0 without gaps", groups,
+          s->bodies);
+    CHECK(b->traction_face >= 0 && b->traction_face < MPM_FACES, STATUS_BAD_INPUT,
+          "body `%s`: traction_face %d must be 0 .. 5", b->name, b->traction_face);
+    for (int k = 0; k < i; k++)
+        CHECK(s->body[k].group != b->group || memcmp(s->body[k].passes, b->passes, sizeof b->passes) == 0,
+              STATUS_BAD_INPUT, "bodies `%s` and `%s` are one group, but different boundaries act on them",
+              s->body[k].name, b->name);
+    return status_ok();
+}
+
+static status check_pairs(const mpm_scene *s, int groups)
+{
+    TRY(mpm_contact_check(&s->contact));
+    for (int i = 0; i < s->pairs; i++) {
+        const mpm_pair *p = &s->pair[i];
+        CHECK(p->a >= 0 && p->a < groups && p->b >= 0 && p->b < groups && p->a != p->b, STATUS_BAD_INPUT,
+              "pair %d: groups %d and %d must be two of 0 .. %d", i, p->a, p->b, groups - 1);
+        CHECK(p->normal_of == p->a || p->normal_of == p->b, STATUS_BAD_INPUT,
+              "pair %d: the normal of group %d, which is neither %d nor %d", i, p->normal_of, p->a, p->b);
+        TRY(mpm_contact_check(&p->contact));
+        for (int k = 0; k < i; k++)
+            CHECK(s->pair[k].a + s->pair[k].b != p->a + p->b || (s->pair[k].a != p->a && s->pair[k].a != p->b),
+                  STATUS_BAD_INPUT, "pairs %d and %d name the same two groups", k, i);
+    }
+    return status_ok();
+}
+
 static status check_scene(const mpm_scene *s)
 {
-    CHECK(s->bodies >= 1 && s->bodies <= MPM_MAX_BODIES, STATUS_BAD_INPUT, "%d bodies: must be 1 .. %d", s->bodies,
-          MPM_MAX_BODIES);
+    const int groups = mpm_scene_groups(s);
+    CHECK(s->bodies >= 1 && s->bodies <= MPM_MAX_BODIES && groups <= MPM_MAX_GROUPS, STATUS_BAD_INPUT,
+          "%d bodies in %d groups: must be 1 .. %d, and %d groups at most", s->bodies, groups, MPM_MAX_BODIES,
+          MPM_MAX_GROUPS);
     CHECK(s->courant > 0 && s->courant <= courant_limit(s), STATUS_BAD_INPUT,
           "courant = %g: must be in (0, %g], beyond which %s is not stable", s->courant, courant_limit(s),
           s->transfer == TRANSFER_PIC ? "pic"
@@ -46,16 +72,11 @@ static status check_scene(const mpm_scene *s)
                                       : "no scheme");
     CHECK(s->particles_per_axis >= 1 && s->particles_per_axis <= 4, STATUS_BAD_INPUT,
           "particles_per_axis = %d: must be 1 .. 4", s->particles_per_axis);
-    for (int i = 0; i < s->bodies; i++) {
-        const mpm_body *b = &s->body[i];
-        CHECK(b->material, STATUS_BAD_INPUT, "body `%s` lacks a material", b->name);
-        CHECK(b->solid >= 0 && b->solid < s->solids, STATUS_BAD_INPUT, "body `%s`: solid %d, the scene has %d", b->name,
-              b->solid, s->solids);
-        TRY(mpm_solid_check(&s->solid[b->solid], b->solid));
-        CHECK(b->field >= 0 && b->field < MPM_MAX_FIELDS, STATUS_BAD_INPUT, "body `%s`: field %d must be 0 .. %d",
-              b->name, b->field, MPM_MAX_FIELDS - 1);
-    }
-    return status_ok();
+    CHECK(s->follow.along >= 0 && s->follow.along < 3 && s->follow.across >= 0 && s->follow.across < 3 &&
+              s->follow.along != s->follow.across,
+          STATUS_BAD_INPUT, "follow: axes %d and %d must be two of 0 .. 2", s->follow.along, s->follow.across);
+    for (int i = 0; i < s->bodies; i++) TRY(check_body(s, i, groups));
+    return check_pairs(s, groups);
 }
 
 static void particle_make(double *q, const build_point *p, const law *k, double temperature)
@@ -89,11 +110,43 @@ static status insert_point(void *user, int body, const build_point *p)
 static status make_laws(mpm *m)
 {
     mpm_scene *s = &m->scene;
+    m->materials = malloc((size_t)s->bodies * sizeof *m->materials);
+    m->laws = aligned_alloc(64, ((size_t)s->bodies * sizeof *m->laws + 63) / 64 * 64);
+    CHECK(m->materials && m->laws, STATUS_MEMORY, "no memory for %d bodies", s->bodies);
     for (int i = 0; i < s->bodies; i++) {
         m->materials[i] = *s->body[i].material;
         s->body[i].material = &m->materials[i];
         TRY(mpm_law_make(&s->body[i], s, &m->laws[i]));
-        if (s->body[i].field + 1 > m->fields) m->fields = s->body[i].field + 1;
+    }
+    return status_ok();
+}
+
+static touch_rule rule_from(const mpm_pair *p)
+{
+    touch_rule r = { .law = mpm_contact_index(p->contact.law),
+                     .normal_of_higher = p->normal_of > p->a || p->normal_of > p->b };
+    memcpy(r.value, p->contact.value, sizeof r.value);
+    return r;
+}
+
+static status make_groups(mpm *m)
+{
+    const mpm_scene *s = &m->scene;
+    const size_t n = (size_t)(m->groups = mpm_scene_groups(s));
+    m->group = calloc(n, sizeof *m->group);
+    m->rule = malloc(((size_t)s->pairs + 1) * sizeof *m->rule);
+    m->rule_of = calloc(n * n, sizeof *m->rule_of);
+    CHECK(m->group && m->rule && m->rule_of, STATUS_MEMORY, "no memory for %zu groups", n);
+    for (int i = s->bodies - 1; i >= 0; i--) {
+        group_info *g = &m->group[s->body[i].group];
+        g->first = i;
+        memcpy(g->passes, s->body[i].passes, sizeof g->passes);
+    }
+    m->rule[0] = rule_from(&(mpm_pair){ .a = 0, .b = 1, .contact = s->contact, .normal_of = 0 });
+    for (int i = 0; i < s->pairs; i++) {
+        const mpm_pair *p = &s->pair[i];
+        m->rule[i + 1] = rule_from(p);
+        m->rule_of[p->a * m->groups + p->b] = m->rule_of[p->b * m->groups + p->a] = i + 1;
     }
     return status_ok();
 }
@@ -101,13 +154,14 @@ static status make_laws(mpm *m)
 static status fill(mpm *m)
 {
     TRY(make_laws(m));
+    TRY(make_groups(m));
     TRY(mpm_grids_make(&m->scene, &m->grids));
     TRY(mpm_store_make(m, START_BLOCKS));
     m->histogram = malloc(mpm_histogram_bytes());
     CHECK(m->histogram, STATUS_MEMORY, "no memory for the percentiles");
     const build_sink sink = { insert_point, m };
     for (int i = 0; i < m->scene.bodies; i++)
-        TRY(mpm_build_body(&m->scene, i, &m->laws[i], &m->grids, mpm_build_everywhere, &sink));
+        TRY(mpm_build_body(&m->scene, i, &m->laws[i], &m->grids, &mpm_build_everywhere, &sink));
     return mpm_store_settle(m);
 }
 
@@ -162,19 +216,17 @@ status mpm_create(const mpm_scene *scene, int threads, mpm **out)
 {
     *out = NULL;
     TRY(check_scene(scene));
+    const kernels *kernel = mpm_kernels_choose(scene->instruction_set);
+    CHECK(kernel, STATUS_BAD_INPUT,
+          "instruction set `%s` is unknown or this machine lacks it: use x86-64-v4, x86-64-v3 or portable",
+          scene->instruction_set);
     mpm *m = aligned_alloc(64, (sizeof *m + 63) / 64 * 64);
     CHECK(m, STATUS_MEMORY, "no memory for the solver");
     memset(m, 0, sizeof *m);
-    m->scene = *scene;
     mpm_set_threads(m, threads);
-    m->kernel = mpm_kernels_choose(scene->instruction_set);
-    status s =
-        m->kernel
-            ? fill(m)
-            : base_status_error(
-                  STATUS_BAD_INPUT,
-                  "instruction set `%s` is unknown or this machine lacks it: use x86-64-v4, x86-64-v3 or portable",
-                  scene->instruction_set);
+    m->kernel = kernel;
+    status s = mpm_scene_copy(scene, &m->scene);
+    if (s.code == STATUS_OK) s = fill(m);
     if (s.code != STATUS_OK) {
         mpm_free(m);
         return s;
@@ -182,8 +234,9 @@ status mpm_create(const mpm_scene *scene, int threads, mpm **out)
     start_books(m);
     m->scene_key = mpm_scene_key(m);
     m->zone_start = mpm_zone_of(m);
-    m->zone_length = m->scene.axis[0].fine_hi - m->scene.axis[0].fine_lo;
-    m->wake.until = m->scene.axis[0].lo;
+    const mpm_axis *along = &m->scene.axis[m->scene.follow.along];
+    m->zone_length = along->fine_hi - along->fine_lo;
+    m->wake.until = along->lo;
     m->dense = dense_particles(m);
     *out = m;
     return s;
@@ -195,7 +248,10 @@ void mpm_free(mpm *m)
     mpm_store_free(m);
     free(m->histogram);
     free(m->wake.point);
+    free(m->materials), free(m->laws);
+    free(m->group), free(m->rule), free(m->rule_of);
     mpm_grids_free(&m->grids);
+    mpm_scene_free(&m->scene);
     free(m);
 }
 
@@ -279,7 +335,7 @@ static void add_nodes(tally *a, const tally *b)
 {
     a->heat_friction += b->heat_friction, a->work_boundary += b->work_boundary;
     add_vector(a->impulse_boundary, b->impulse_boundary);
-    for (int f = 0; f < MPM_MAX_FIELDS; f++) add_vector(a->contact[f], b->contact[f]);
+    for (int f = 0; f < MPM_MAX_GROUPS; f++) add_vector(a->contact[f], b->contact[f]);
 }
 
 static void collect_share(const mpm *m, int share, tally *sum)
@@ -342,7 +398,7 @@ static void book(mpm *m, const tally *t)
     for (int k = 0; k < 3; k++) {
         l->impulse_boundary[k] += t->impulse_boundary[k];
         l->impulse_external[k] += t->impulse_external[k];
-        for (int f = 0; f < m->fields; f++) r->contact_force[f][k] = t->contact[f][k] / m->dt;
+        for (int f = 0; f < m->groups; f++) r->contact_force[f][k] = t->contact[f][k] / m->dt;
     }
     for (int i = 0; i < m->scene.bodies; i++) {
         r->peak_mises[i] = fmax(r->peak_mises[i], t->peak_mises[i]);

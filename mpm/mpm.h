@@ -37,9 +37,7 @@ typedef struct {
     uint64_t clamps_pressure, clamps_compression; /* counted, never silent */
     uint64_t splits, merges, ejected, eroded;     /* ejected holds the eroded points too */
     double plastic_time;                          /* of the last look at the plastic power [s] */
-    double plastic_front; /* where the bodies followed are ploughed (mpm_scene.follow_bodies) [m] */
-    double gauge_power[2],
-        gauge_at[2]; /* plastic power at the first look after gauge_time, and when; 0: not yet [W, s] */
+    double plastic_front; /* where the plastic power of the bodies followed ends (mpm_scene.follow) [m] */
     double plastic_power, peak_plastic_power; /* that goes into it: now, and the largest so far [W] */
     double eroded_mass;                       /* vapour and dust taken out so far [kg] */
     double peak_pressure, peak_temperature;   /* any intact particle, any time so far [Pa, K] */
@@ -48,11 +46,11 @@ typedef struct {
         peak_pressure_999[MPM_MAX_BODIES]; /* peak over time of the 99.9th percentile by mass */
     double peak_plastic_strain[MPM_MAX_BODIES];
     double failed_volume[MPM_MAX_BODIES];    /* now [m3] */
-    double contact_force[MPM_MAX_FIELDS][3]; /* on each field from all others, mean of the last step [N] */
-    double peak_contact_force[3];            /* on field 0 (the rail), largest |component|, smoothed over 0.2 us [N] */
+    double contact_force[MPM_MAX_GROUPS][3]; /* on each group from all others, mean of the last step [N] */
+    double peak_contact_force[3];            /* on group 0, largest |component|, smoothed over 0.2 us [N] */
 } mpm_report;
 
-/* Points of the followed bodies (mpm_scene.follow_bodies) as they were when the fine zone left them, or their parts at
+/* Points of the followed bodies (mpm_body.followed) as they were when the fine zone left them, or their parts at
  * x < until: behind it the points are merged, and a crater is read from these and the parts of points at x > until
  * (mpm_cut_at).  The last before `until` are lengthened by a fine cell or half of themselves, so that no crack opens
  * where the rail moves on beyond it. */
@@ -121,8 +119,8 @@ double mpm_phase_seconds(const mpm *m, mpm_phase phase);
 
 mpm_report mpm_glance(const mpm *m);         /* the same but failed_volume, zero, which takes a walk over all points */
 const mpm_scene *mpm_scene_of(const mpm *m); /* borrowed; its fine zone along x is where it is now */
-/* The part of a point's domain above x, or below it, with its share of the mass; false: there is none. */
-bool mpm_cut_at(double x, bool above, double position[3], double size[3], double *mass);
+/* The part of a point's domain above a place on an axis, or below it, with its share of the mass; false: none. */
+bool mpm_cut_at(int along, double place, bool above, double position[3], double size[3], double *mass);
 const mpm_wake *mpm_wake_of(const mpm *m); /* borrowed, until the next mpm_advance */
 
 size_t mpm_particles(const mpm *m);

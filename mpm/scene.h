@@ -1,8 +1,13 @@
 /* A scene: what the material-point solver is given.  Bodies with shapes and materials, a graded grid, boundaries,
- * contact laws.  SI units.  x = launch direction, y = normal to the contact face (rail below, armature above), z =
- * across.
+ * contact laws.  SI units.
  *
- * The scene borrows its materials; mpm_create copies all it needs. */
+ *   mpm_scene s;                                   mpm_body *b;
+ *   mpm_scene_default(&s);                         TRY(mpm_scene_add_body(&s, &b));
+ *   s.axis[0] = ...                                b->solid = ..., b->material = ..., b->velocity[0] = 1500;
+ *   mpm_create(&s, threads, &m), mpm_scene_free(&s);
+ *
+ * The scene owns its arrays and borrows its materials; mpm_create copies all it needs.  An assignment `a = b` copies
+ * no array: use mpm_scene_copy where both go on.  How many bodies, groups and pairs there may be is memory's to say. */
 #ifndef BREECH_MPM_SCENE_H
 #define BREECH_MPM_SCENE_H
 
@@ -12,16 +17,17 @@
 
 #include <stdbool.h>
 
-enum { MPM_MAX_BODIES = 8, MPM_MAX_FIELDS = 4, MPM_MAX_LEVELS = 3, MPM_MAX_SOLIDS = 64 };
+enum { MPM_MAX_BODIES = 8, MPM_MAX_GROUPS = 4, MPM_MAX_LEVELS = 3, MPM_FACES = 6, MPM_CONTACT_VALUES = 8 };
 
 /* ---- bodies ---- */
 
 typedef struct {
     char name[PARAM_TEXT_SIZE];
     const material *material;
-    int solid;            /* its volume: root of a tree in mpm_scene.solid */
-    int field;            /* velocity field: bodies of one field are welded together, different fields touch by contact.
-                                When several bodies of one field claim a point, the later body gets it. */
+    int solid;            /* its volume: root of a tree in mpm_scene.solid; -1 at first */
+    int group;            /* bodies of one group have one velocity field and are welded; groups touch by contact.
+                           Numbered from 0 without gaps.  Where bodies of any group overlap, the later body has the
+                           points. */
     double velocity[3];   /* at the start [m/s] */
     double temperature;   /* at the start [K] */
     double body_force[3]; /* acceleration on the whole body (J x B, pressing) [m/s2] */
@@ -29,6 +35,10 @@ typedef struct {
     int traction_face;    /* 0..5 = -x +x -y +y -z +z */
     double yield_scale;   /* factor on the yield stress (hardened skin), 1 = none */
     bool damage;          /* Johnson-Cook damage on */
+    bool
+        passes[MPM_FACES]; /* the window's ends -x +x -y +y -z +z whose boundary does not act on this body; the same for
+                               all bodies of a group */
+    bool followed;         /* its plastic front moves the fine zone and the window (mpm_follow) */
 } mpm_body;
 
 /* ---- grid: rectilinear, each axis graded on its own ---- */
@@ -48,39 +58,54 @@ typedef struct {
     double growth;                  /* ratio of neighbouring cells outside the zone, 1 .. 2 */
     boundary_kind boundary[2];      /* at lo, at hi */
     double boundary_velocity[2][3]; /* BOUNDARY_PRESCRIBED [m/s] */
-    unsigned boundary_fields[2];    /* bit f set: the boundary acts on field f; 0 = on all */
 } mpm_axis;
 
-/* ---- contact between two fields ---- */
+/* ---- contact between two groups: one file a law, one line in law/contact.def (law/contact.h) ---- */
+
+typedef struct mpm_contact_law mpm_contact_law;
 
 typedef struct {
-    double friction;      /* Coulomb coefficient [1] */
-    double shear_limit;   /* upper limit of the friction stress [Pa], INFINITY = none */
-    double bond_strength; /* welded until the traction exceeds it [Pa], 0 = never bonded */
-} contact_law;
+    const mpm_contact_law *law;
+    double value[MPM_CONTACT_VALUES]; /* meaning, units, defaults and ranges: the law's parameter table */
+} mpm_contact;
+
+/* How two groups touch.  The contact normal is that of the surface of `normal_of`, one of the two.  Take the body that
+ * keeps its shape: at the edge of the other a mean of both normals tilts, and sliding reads as approach. */
+typedef struct {
+    int a, b;
+    mpm_contact contact;
+    int normal_of;
+} mpm_pair;
+
+/* ---- a fine zone and a window that follow ---- */
+
+/* The fine zone goes along an axis, upwards, with the plastic front of the bodies that are `followed`. */
+typedef struct {
+    int along;   /* axis of the motion: 0 x, 1 y, 2 z */
+    int across;  /* axis on which the fine zone widens with what is deformed; another than `along` */
+    double lead; /* from the front to the zone's upper end [m] */
+    double
+        speed; /* of the window along the axis: the followed bodies grow in at its upper end, as they were at the start,
+                     and what falls behind is booked as ejected [m/s] */
+    double width; /* half width that the fine zone may grow to across; 0: it stays [m] */
+} mpm_follow;
 
 typedef enum { TRANSFER_TPIC, TRANSFER_PIC } transfer_kind; /* with and without the velocity gradient */
 typedef enum { BASIS_GIMP, BASIS_BSPLINE } basis_kind; /* GIMP whose domains follow the stretch; quadratic B-spline */
 
 typedef struct {
-    int bodies;
-    mpm_body body[MPM_MAX_BODIES];
-    int solids;
-    mpm_solid solid[MPM_MAX_SOLIDS]; /* trees of all bodies' volumes (shape/solid.h) */
+    int bodies, solids, pairs;
+    mpm_body *body;      /* [bodies] owned; later bodies have the points that several claim */
+    mpm_solid *solid;    /* [solids] owned; trees of the bodies\' volumes (shape/solid.h) */
+    mpm_pair *pair;      /* [pairs] owned; each two groups at most once */
+    mpm_contact contact; /* of two groups that no pair names, with the normal of the lower one */
     mpm_axis axis[3];
     /* Of nested grids (grid.h).  1: the axes' grid.  More: in the box of the three fine zones cells of size `fine`;
      * outside it, for 2, cells twice as large from which the axes grow, for 3 four times, with cells of twice the size
      * between. */
     int levels;
-    unsigned follow_bodies; /* bit i: the fine zone along x goes with the plastic front of body i; 0: it stays */
-    double follow_lead;     /* from that front to the zone's upper end [m] */
-    double
-        follow_speed; /* of the window along x while it follows: the bodies followed grow in at its upper end, as they
-                               were at the start, and what falls behind is booked as ejected [m/s] */
-    double follow_width;  /* half width that the fine zone across may grow to with the groove [m]; 0: it stays */
-    double gauge_time[2]; /* when the plastic power of the bodies followed is noted, in order; 0: not [s] */
-    contact_law contact[MPM_MAX_FIELDS][MPM_MAX_FIELDS]; /* symmetric */
-    double contact_gap;     /* fields touch when the distance of their points' means at a node is below this [cells] */
+    mpm_follow follow;
+    double contact_gap;     /* groups touch when the distance of their points' means at a node is below this [cells] */
     int particles_per_axis; /* material points a cell and axis, 2 or 3 */
     double courant;         /* of c + |v|, on each level by its own steps and cells */
     double end_time;        /* [s] */
@@ -91,11 +116,22 @@ typedef struct {
     char instruction_set[PARAM_TEXT_SIZE]; /* "" = the best this machine has */
 } mpm_scene;
 
-/* All members at their defaults, no bodies. */
+/* All members at their defaults, frictionless contact, no bodies.  What `s` held before is not freed. */
 void mpm_scene_default(mpm_scene *s);
 
-/* One more node behind the others: of a kind by name, its values at their defaults, made of the nodes a and b (-1:
- * none).  *added is valid until the next is added; its place is s->solids - 1. */
+/* One more body, solid or pair, at its defaults, behind the others.  *added is valid until the next of its kind.
+ * A solid is made of those at the places a and b (-1: none); its own place is s->solids - 1. */
+status mpm_scene_add_body(mpm_scene *s, mpm_body **added);
 status mpm_scene_add_solid(mpm_scene *s, const char *kind, int a, int b, mpm_solid **added);
+status mpm_scene_add_pair(mpm_scene *s, int a, int b, mpm_pair **added); /* as the scene's default contact */
+
+/* How these two groups touch: the scene's pair, or what holds for those without one. */
+mpm_pair mpm_scene_contact(const mpm_scene *s, int a, int b);
+
+int mpm_scene_groups(const mpm_scene *s);   /* one more than the highest group of a body */
+bool mpm_scene_follows(const mpm_scene *s); /* is any body followed? */
+
+status mpm_scene_copy(const mpm_scene *from, mpm_scene *to); /* arrays of its own; the same borrowed materials */
+void mpm_scene_free(mpm_scene *s); /* of one that mpm_scene_default began or of zero bytes; leaves an empty one */
 
 #endif

@@ -5,6 +5,7 @@
 #ifndef BREECH_TESTS_MPM_SCENES_H
 #define BREECH_TESTS_MPM_SCENES_H
 
+#include "mpm/law/contact.h"
 #include "mpm/mpm.h"
 
 #include <math.h>
@@ -137,16 +138,15 @@ static inline double *scene_values(mpm_scene *s, int body)
     return s->solid[s->body[body].solid].value;
 }
 
+/* Valid until the next body is added. */
 static inline mpm_body *scene_body(mpm_scene *s, const char *shape, const double *values, int n, const material *m)
 {
     const int solid = scene_solid(s, shape, values, n, -1, -1);
-    mpm_body *b = &s->body[s->bodies++];
-    memset(b, 0, sizeof *b);
+    mpm_body *b;
+    assert_ok(mpm_scene_add_body(s, &b));
     snprintf(b->name, sizeof b->name, "body%d", s->bodies - 1);
     b->material = m;
     b->solid = solid;
-    b->temperature = 293;
-    b->yield_scale = 1;
     return b;
 }
 
@@ -157,15 +157,33 @@ static inline mpm_body *scene_box(mpm_scene *s, double x0, double y0, double z0,
     return scene_body(s, "box", v, 6, m);
 }
 
+/* Of all groups without a pair of their own. */
 static inline void scene_friction(mpm_scene *s, double mu)
 {
-    for (int a = 0; a < MPM_MAX_FIELDS; a++)
-        for (int b = 0; b < MPM_MAX_FIELDS; b++) s->contact[a][b].friction = mu;
+    s->contact.value[COULOMB_FRICTION] = mu;
 }
+
+/* How two groups touch, to be changed. */
+static inline double *scene_pair(mpm_scene *s, int a, int b)
+{
+    mpm_pair *p;
+    assert_ok(mpm_scene_add_pair(s, a, b, &p));
+    return p->contact.value;
+}
+
+/* The boundaries at these ends of axis k do not act on the body. */
+static inline void scene_pass(mpm_body *b, int k, bool lo, bool hi)
+{
+    b->passes[2 * k] = lo, b->passes[2 * k + 1] = hi;
+}
+
+/* Freed where its block ends. */
+#define SCENE_LOCAL(s) __attribute__((cleanup(mpm_scene_free))) mpm_scene s = { 0 }
 
 /* A bar along x, `cells` of size h across, mirrors on its four sides: one-dimensional. */
 static inline void scene_bar(mpm_scene *s, double x0, double x1, double h, int cells)
 {
+    mpm_scene_free(s); /* of one that a test uses again */
     mpm_scene_default(s);
     s->axis[0] = scene_axis(x0, x1, h, BOUNDARY_FREE, BOUNDARY_FREE);
     s->axis[1] = scene_axis(0, cells * h, h, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
@@ -208,26 +226,34 @@ typedef struct {
     mpm_scene scene;
 } gouge_scene;
 
+static inline void scene_gouge_free(gouge_scene *g)
+{
+    mpm_scene_free(&g->scene);
+}
+
+#define GOUGE_LOCAL(g) __attribute__((cleanup(scene_gouge_free))) gouge_scene g = { .scene = { 0 } }
+
 static inline void scene_gouge(gouge_scene *g, double h, double speed)
 {
     g->copper = scene_copper(), g->aluminium = scene_aluminium();
     mpm_scene *s = &g->scene;
+    mpm_scene_free(s); /* of one that a test uses again */
     mpm_scene_default(s);
     s->axis[0] = scene_axis(-8e-3, 8e-3, h, BOUNDARY_ABSORBING, BOUNDARY_ABSORBING);
     s->axis[0] = scene_graded(s->axis[0], -1e-3, 4e-3, 3 * h, 1.25);
-    s->axis[0].boundary_fields[0] = s->axis[0].boundary_fields[1] = 1;
     s->axis[1] = scene_axis(-2e-3, 2.5e-3, h, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
     s->axis[1] = scene_graded(s->axis[1], -0.8e-3, 0.8e-3, 3 * h, 1.25);
     s->axis[2] = scene_axis(0, 2.5e-3, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
     s->axis[2] = scene_graded(s->axis[2], 0, 1e-3, 3 * h, 1.25);
-    mpm_body *rail = scene_box(s, -8e-3, -2e-3, -1, 8e-3, 0, 1, &g->copper);
+    scene_box(s, -8e-3, -2e-3, -1, 8e-3, 0, 1, &g->copper);
     const double grain[] = { 0, 0, 0, 0.5e-3, 0.5e-3 };
-    mpm_body *particle = scene_body(s, "hemisphere", grain, 5, &g->copper);
+    scene_body(s, "hemisphere", grain, 5, &g->copper);
     const scene_u u = { -1e-3, 6e-3, 1.5e-3, 2e-3, 2.5e-3, 1e-3, SCENE_PI / 6, 2e-3 };
     mpm_body *armature = scene_slider(s, &u, &g->aluminium);
-    armature->field = 1;
+    armature->group = 1;
     armature->velocity[0] = speed;
-    rail->damage = particle->damage = armature->damage = true;
+    scene_pass(armature, 0, true, true);
+    for (int i = 0; i < 3; i++) s->body[i].damage = true;
     scene_friction(s, 0.2);
 }
 

@@ -61,7 +61,7 @@ static status fake_scene(const gouge_job *job, const scene_host *host, impact *o
     for (int b = 0; b < hit->bodies; b++) {
         if (!gouge_is_layer(&job->scene, b)) continue;
         hit->layers_failed_volume += 1e-3 * r * r * r;
-        if (job->scene.scene.body[b].field > 0) hit->layers_carried_volume += 9.0 * r * r * r; /* its bond gave way */
+        if (job->scene.scene.body[b].group > 0) hit->layers_carried_volume += 9.0 * r * r * r; /* its bond gave way */
     }
     out->impulse = 0.02;
     return status_ok();

@@ -5,6 +5,7 @@
 #include "coupling/gouge/screen.h"
 #include "coupling/gouge/site_state.h"
 #include "mpm/grid/grid.h"
+#include "mpm/law/contact.h"
 #include "mpm/mpm.h"
 
 #include "tests/case_common.h"
@@ -226,6 +227,19 @@ static made make(const char *const *sets)
     return m;
 }
 
+static void unmake(made *m)
+{
+    gouge_scene_free(&m->gouge);
+    case_free(m->c);
+}
+
+/* The same case's scene anew, at so many cells a radius; its status. */
+static status make_again(made *m, double cells)
+{
+    gouge_scene_free(&m->gouge);
+    return gouge_scene_from_state(m->c, &m->state, cells, &m->gouge);
+}
+
 static double inside(const mpm_scene *s, const mpm_body *b, const double x[3])
 {
     return mpm_solid_inside(&s->solid[b->solid], x);
@@ -279,7 +293,7 @@ static void test_no_overlap(void **state)
                                   reach * (2.0 * uniform(&seed) - 1.0) };
             check_overlap(&m.gouge, x);
         }
-        case_free(m.c);
+        unmake(&m);
     }
 }
 
@@ -311,7 +325,7 @@ static void test_places(void **state)
         const double corner[3] = { -m.state.grain.radius, m.state.grain.height, 0.0 };
         const double gap = -inside(&m.gouge.scene, armature, corner), fine = m.gouge.scene.axis[0].fine;
         assert_true(gap > 0.3 * fine && gap <= fine * (1.0 + 1e-9) + m.state.grain.height);
-        case_free(m.c);
+        unmake(&m);
     }
 }
 
@@ -329,10 +343,10 @@ static void test_grid(void **state)
             assert_true(x->fine_hi < x->hi);
         }
         assert_true(fabs(m.gouge.scene.axis[0].fine - m.state.grain.radius / m.c->scene.cells_per_radius) < ROUNDING);
-        const unsigned rail = m.gouge.scene.axis[0].boundary_fields[0];
-        assert_true(rail & 1u);
-        assert_false(rail >> m.gouge.scene.body[m.gouge.armature].field & 1u); /* the armature leaves freely */
-        case_free(m.c);
+        const mpm_body *armature = &m.gouge.scene.body[m.gouge.armature];
+        assert_false(m.gouge.scene.body[m.gouge.rail].passes[0]);
+        assert_true(armature->passes[0] && armature->passes[1]); /* it leaves freely */
+        unmake(&m);
     }
 }
 
@@ -345,12 +359,12 @@ static void test_levels(void **state)
         for (int levels = 1; levels <= MPM_MAX_LEVELS; levels++) {
             grids g;
             m.c->scene.levels = levels;
-            OK(gouge_scene_from_state(m.c, &m.state, m.c->scene.cells_per_radius, &m.gouge));
+            OK(make_again(&m, m.c->scene.cells_per_radius));
             OK(mpm_grids_make(&m.gouge.scene, &g));
             assert_int_equal(g.levels, m.gouge.scene.basis == BASIS_GIMP ? levels : 1);
             mpm_grids_free(&g);
         }
-        case_free(m.c);
+        unmake(&m);
     }
 }
 
@@ -383,7 +397,7 @@ static void test_pressing(void **state)
         assert_true(fabs(-b->body_force[1] * mass / force - 1.0) < 0.01);
         assert_true(b->body_force[0] == 0.0 && b->body_force[2] == 0.0);
         assert_true(b->velocity[0] == m.c->scene.velocity);
-        case_free(m.c);
+        unmake(&m);
     }
 }
 
@@ -405,7 +419,7 @@ static void test_grain_measures(void **state)
          * (perimeter pi 128 of area pi 64^2: 3 %), a cone's tip loses a layer of height h/48 */
         assert_true(fabs(m.gouge.crater.particle_area / plan - 1.0) < 5e-3);
         assert_true(fabs(m.gouge.crater.particle_volume / (shapes[k].share * plan * r) - 1.0) < 5e-3);
-        case_free(m.c);
+        unmake(&m);
     }
 }
 
@@ -413,20 +427,23 @@ static void test_fields(void **state)
 {
     (void)state;
     made m = make(variants[8]); /* a bonded layer, a loose grain */
-    assert_int_equal(m.gouge.scene.body[m.gouge.rail].field, 0);
-    assert_int_equal(m.gouge.scene.body[m.gouge.rail + 1].field, 1);
-    assert_int_equal(m.gouge.scene.body[m.gouge.grain].field, 2);
-    assert_int_equal(m.gouge.scene.body[m.gouge.armature].field, 3);
-    assert_true(m.gouge.scene.contact[0][1].bond_strength == 80e6 && m.gouge.scene.contact[1][0].bond_strength == 80e6);
-    assert_true(m.gouge.scene.contact[1][2].bond_strength == 0.0 && m.gouge.scene.contact[2][3].bond_strength == 0.0);
-    for (int a = 0; a < MPM_MAX_FIELDS; a++)
-        for (int b = 0; b < MPM_MAX_FIELDS; b++)
-            assert_true(m.gouge.scene.contact[a][b].friction == m.c->scene.friction);
-    case_free(m.c);
+    assert_int_equal(m.gouge.scene.body[m.gouge.rail].group, 0);
+    assert_int_equal(m.gouge.scene.body[m.gouge.rail + 1].group, 1);
+    assert_int_equal(m.gouge.scene.body[m.gouge.grain].group, 2);
+    assert_int_equal(m.gouge.scene.body[m.gouge.armature].group, 3);
+    const double bond[4] = { 80e6, 0.0, 0.0 }; /* of a group with the next */
+    for (int a = 0; a < 4; a++)
+        for (int b = a + 1; b < 4; b++) {
+            const mpm_pair p = mpm_scene_contact(&m.gouge.scene, b, a);
+            assert_true(p.contact.value[COULOMB_BOND_STRENGTH] == (b == a + 1 ? bond[a] : 0.0));
+            assert_true(p.contact.value[COULOMB_FRICTION] == m.c->scene.friction);
+            assert_int_equal(p.normal_of, a);
+        }
+    unmake(&m);
     m = make(variants[0]); /* all welded */
-    assert_int_equal(m.gouge.scene.body[m.gouge.grain].field, 0);
-    assert_int_equal(m.gouge.scene.body[m.gouge.armature].field, 1);
-    case_free(m.c);
+    assert_int_equal(m.gouge.scene.body[m.gouge.grain].group, 0);
+    assert_int_equal(m.gouge.scene.body[m.gouge.armature].group, 1);
+    unmake(&m);
 }
 
 /* What the solver makes of it: masses of the bodies; nothing moves but the armature. */
@@ -454,7 +471,7 @@ static void test_masses(void **state)
     assert_true(fabs(l.momentum[0] / (armature_mass * m.c->scene.velocity) - 1.0) < 0.04);
     assert_true(fabs(l.momentum[1]) < 1e-12 && fabs(l.momentum[2]) < 1e-12);
     mpm_free(solver);
-    case_free(m.c);
+    unmake(&m);
 }
 
 static double mass_with(const char *shape)
@@ -475,7 +492,7 @@ static double mass_with(const char *shape)
     OK(mpm_create(&m.gouge.scene, 1, &solver));
     const double mass = mpm_balance(solver).mass;
     mpm_free(solver);
-    case_free(m.c);
+    unmake(&m);
     return mass;
 }
 
@@ -493,15 +510,15 @@ static void test_pit(void **state)
     assert_true(fabs(m.gouge.crater.particle_area / (PI * r * r) - 1.0) < 5e-3);
     made grain = make((const char *const[]){ NULL });
     assert_true(gouge_grain_passed(&m.gouge) > 0.0 && gouge_grain_passed(&m.gouge) == gouge_grain_passed(&grain.gouge));
-    case_free(grain.c);
-    case_free(m.c);
+    unmake(&grain);
+    unmake(&m);
     /* eight points a radius: those on the border, one in eight, err both ways */
     assert_true(fabs((mass_with("hemisphere") - mass_with("pit")) / (0.5 * density * ball) - 1.0) < 0.05);
     m = make(sets);
     m.c->scene.fine_depth = 1e-3;
     m.state.grain.height = 2.5e-3;
-    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.gouge).code, STATUS_BAD_INPUT);
-    case_free(m.c);
+    assert_int_equal(make_again(&m, 3.0).code, STATUS_BAD_INPUT);
+    unmake(&m);
 }
 
 /* 12 radii of way lie between the gauges. */
@@ -521,15 +538,15 @@ static void test_gauged(void **state)
     made m = make((const char *const[]){ NULL });
     const double whole = m.gouge.scene.end_time;
     m.c->scene.stop_when_gauged = true;
-    OK(gouge_scene_from_state(m.c, &m.state, 3.0, &m.gouge));
+    OK(make_again(&m, 3.0));
     assert_true(fabs(m.gouge.gauge_time[1] - 28 * m.state.grain.radius / m.state.velocity) < 1e-12);
     assert_true(m.gouge.scene.end_time == whole && gouge_last_time(&m.gouge) == m.gouge.gauge_time[1]);
     m.c->scene.end_time = 0.9 * m.gouge.gauge_time[1];
-    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.gouge).code, STATUS_BAD_INPUT);
+    assert_int_equal(make_again(&m, 3.0).code, STATUS_BAD_INPUT);
     m.c->scene.follow = false; /* has no gauges */
-    OK(gouge_scene_from_state(m.c, &m.state, 3.0, &m.gouge));
+    OK(make_again(&m, 3.0));
     assert_true(m.gouge.scene.end_time == m.c->scene.end_time);
-    case_free(m.c);
+    unmake(&m);
 }
 
 /* The growth is that from the first look after one gauge to the first after the other, or as far as the groove has
@@ -576,7 +593,7 @@ static void test_dying(void **state)
     assert_true(gouge_groove_dies(&m.gouge, &at, &now));
     now.time = now.plastic_time = 0.99 * half;
     assert_false(gouge_groove_dies(&m.gouge, &at, &now));
-    case_free(m.c);
+    unmake(&m);
 }
 
 static void test_refused(void **state)
@@ -584,12 +601,12 @@ static void test_refused(void **state)
     (void)state;
     made m = make(variants[0]);
     m.c->scene.rail_ahead = 1e-3; /* no room for the grain's fine zone */
-    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.gouge).code, STATUS_BAD_INPUT);
-    case_free(m.c);
+    assert_int_equal(make_again(&m, 3.0).code, STATUS_BAD_INPUT);
+    unmake(&m);
     m = make(variants[0]);
     m.state.velocity = 0.0;
-    assert_int_equal(gouge_scene_from_state(m.c, &m.state, 3.0, &m.gouge).code, STATUS_BAD_INPUT);
-    case_free(m.c);
+    assert_int_equal(make_again(&m, 3.0).code, STATUS_BAD_INPUT);
+    unmake(&m);
 }
 
 /* Forces and volumes are the full model's: the mirror doubles what lies in its plane and cancels what lies across.  Of
@@ -597,7 +614,10 @@ static void test_refused(void **state)
 static void test_half_model(void **state)
 {
     (void)state;
-    gouge_scene s = { .scene.bodies = 3, .armature = 0, .rail = 1, .layers = 1, .grain = GOUGE_PIT };
+    mpm_body bodies[3] = { { .name = "" } };
+    gouge_scene s = {
+        .scene = { .bodies = 3, .body = bodies }, .armature = 0, .rail = 1, .layers = 1, .grain = GOUGE_PIT
+    };
     for (int b = 0; b < s.scene.bodies; b++) snprintf(s.scene.body[b].name, sizeof s.scene.body[b].name, "body %d", b);
     const gouge_watch w = { .scene = &s, .growth = NAN, .found = { .class = DAMAGE_SCRATCH } };
     const scene_outcome o = { .report = { .peak_contact_force = { 1.0, 2.0, 3.0 },

@@ -250,14 +250,14 @@ static void test_meeting(void **state)
     static int directory[2 * 27];
     static mpm m;
     for (int k = 0; k < 3; k++) m.grids.level[0].axes[k].bricks = 3;
-    m.fields = 2, m.grids.levels = 1, m.grids.sites = 27, m.directory = directory, m.bricks = bricks[0];
+    m.groups = 2, m.grids.levels = 1, m.grids.sites = 27, m.directory = directory, m.bricks = bricks[0];
     srand(12);
     for (int trial = 0; trial < 200; trial++) {
         memset(bricks, 0, sizeof bricks);
         for (int i = 0; i < 54; i++) {
             directory[i] = rand() % 8 ? i : -1;
             brick *b = &m.bricks[i];
-            *b = (brick){ .field = i / 27, .at = { i % 3, i / 3 % 3, i / 9 % 3 } };
+            *b = (brick){ .group = i / 27, .at = { i % 3, i / 3 % 3, i / 9 % 3 } };
             for (int c = 0; c < BRICK_CELLS; c++) b->head[c] = rand() % 128 ? -1 : c;
             b->occupied = mpm_occupied_cells(b);
         }
@@ -270,7 +270,7 @@ static void test_meeting(void **state)
             for (int other = 0; other < N * N * N; other++) {
                 const int to[3] = { other % N, other / N % N, other / (N * N) };
                 const int from[3] = { c % BRICK, c / BRICK % BRICK, c / (BRICK * BRICK) };
-                const int i = (to[2] / BRICK * 3 + to[1] / BRICK) * 3 + to[0] / BRICK + 27 * (1 - b->field);
+                const int i = (to[2] / BRICK * 3 + to[1] / BRICK) * 3 + to[0] / BRICK + 27 * (1 - b->group);
                 const int cell = cell_index(to[0] % BRICK, to[1] % BRICK, to[2] % BRICK);
                 bool near = directory[i] >= 0 && m.bricks[i].head[cell] >= 0;
                 for (int k = 0; k < 3; k++) near = near && abs(to[k] - BRICK * b->at[k] - from[k]) <= 2;

@@ -8,7 +8,7 @@ static const double H = 0.3e-3, SPEED = 1500;
 static void test_threads(void **state)
 {
     (void)state;
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     scene_gouge(&g, H, SPEED);
     scene_picture one = { 0, NULL };
     for (int threads = 1; threads <= 3; threads++) {
@@ -49,7 +49,7 @@ static bool change_threads(void *user, const mpm *m)
 static void test_threads_change(void **state)
 {
     (void)state;
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     scene_gouge(&g, H, SPEED);
     scene_picture p[2];
     for (int i = 0; i < 2; i++) {
@@ -67,7 +67,7 @@ static void test_threads_change(void **state)
 static void test_picture_sees(void **state)
 {
     (void)state;
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     scene_gouge(&g, H, SPEED);
     scene_picture p[2];
     for (int i = 0; i < 2; i++) {
@@ -91,7 +91,7 @@ static void test_restart(void **state)
     static const int few[] = { 17, 148, 199, 200, 201 }, many[] = { 0, 1, 17, 83, 119, 148, 199, 200, 201 };
     enum { FEW = sizeof few / sizeof few[0], STOPS = sizeof many / sizeof many[0], LAST = 220 };
     const int *const stops = scene_full() ? many : few, count = scene_full() ? STOPS : FEW;
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     scene_gouge(&g, H, SPEED);
     mpm *m = scene_make(&g.scene, 1);
     void *image[STOPS];
@@ -127,7 +127,7 @@ static void test_restart(void **state)
 static void test_stops_between(void **state)
 {
     (void)state;
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     scene_gouge(&g, H, SPEED);
     mpm *m = scene_make(&g.scene, 1);
     assert_ok(mpm_advance(m, 0.5e-6, NULL));
@@ -147,7 +147,8 @@ static void refused(mpm *m, const void *image, size_t bytes, const char *what, c
 static void test_refusals(void **state)
 {
     (void)state;
-    gouge_scene g, other;
+    GOUGE_LOCAL(g);
+    GOUGE_LOCAL(other);
     scene_gouge(&g, 2 * H, SPEED);
     mpm *m = scene_make(&g.scene, 1);
     scene_steps(m, 10);
@@ -160,7 +161,7 @@ static void test_refusals(void **state)
         scene_gouge(&other, 2 * H, change == 0 ? 1501 : SPEED);
         switch (change) {
         case 1: other.copper.yield_A *= 1.01; break;
-        case 2: other.scene.contact[0][1].friction = 0.21; break;
+        case 2: other.scene.contact.value[COULOMB_FRICTION] = 0.21; break;
         case 3: other.scene.courant = 0.39; break;
         case 4: other.scene.axis[2].hi += 1e-6; break;
         case 5: scene_values(&other.scene, 1)[3] *= 1.001; break;
@@ -197,7 +198,7 @@ static void test_refusals(void **state)
 static void test_instruction_sets(void **state)
 {
     (void)state;
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     scene_gouge(&g, 2 * H, SPEED);
     mpm *m = scene_make(&g.scene, 1);
     void *image;

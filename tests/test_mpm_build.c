@@ -29,7 +29,7 @@ static void check_shape(const char *shape, const double *value, int n, double vo
 {
     const material copper = scene_copper();
     for (double cells = 4; cells <= 8; cells *= 2) {
-        mpm_scene s;
+        SCENE_LOCAL(s);
         window(&s, cells);
         scene_body(&s, shape, value, n, &copper);
         mpm *m = scene_make(&s, 1);
@@ -59,7 +59,7 @@ static void test_neighbours(void **state)
     (void)state;
     const material copper = scene_copper();
     const double ball[] = { 0.03e-3, 0.05e-3, -0.02e-3, 0.7e-3 };
-    mpm_scene s;
+    SCENE_LOCAL(s);
     window(&s, 6);
     scene_box(&s, -1e-3, -1e-3, -1e-3, 1e-3, 1e-3, 1e-3, &copper);
     scene_body(&s, "sphere", ball, 4, &copper);
@@ -74,7 +74,7 @@ static void test_box(void **state)
 {
     (void)state;
     const material copper = scene_copper();
-    mpm_scene s;
+    SCENE_LOCAL(s);
     window(&s, 4);
     scene_box(&s, -0.37e-3, -1e-3, -0.5e-3, 0.44e-3, 0.21e-3, 1.1e-3, &copper);
     mpm *m = scene_make(&s, 1);

@@ -22,7 +22,7 @@ static void cube(mpm_scene *s, const material *m, double h, bool graded)
 static void thousand_steps(basis_kind basis, bool graded, transfer_kind transfer)
 {
     const material m = scene_copper();
-    mpm_scene s;
+    SCENE_LOCAL(s);
     cube(&s, &m, 1e-3, graded);
     s.basis = basis, s.transfer = transfer;
     mpm *solver = scene_make(&s, 1);
@@ -71,7 +71,7 @@ static void test_leaving(void **state)
 {
     (void)state;
     const material m = scene_copper();
-    mpm_scene s;
+    SCENE_LOCAL(s);
     cube(&s, &m, 1e-3, false);
     s.axis[0] = scene_axis(0, 12e-3, 1e-3, BOUNDARY_FREE, BOUNDARY_FREE);
     s.body[0].velocity[0] = 2000;
@@ -130,13 +130,15 @@ static void test_splitting(void **state)
 {
     (void)state;
     const material m = scene_dust();
-    mpm_scene s;
+    SCENE_LOCAL(s);
     cube(&s, &m, 0.5e-3, true);
     s.viscosity_linear = s.viscosity_quadratic = 0;
-    mpm_body *second = &s.body[1];
+    mpm_body *second;
+    assert_ok(mpm_scene_add_body(&s, &second));
     *second = s.body[0];
-    s.bodies = 2;
-    s.solid[1] = s.solid[0], s.solids = 2, second->solid = 1;
+    mpm_solid *part;
+    assert_ok(mpm_scene_add_solid(&s, "box", -1, -1, &part));
+    *part = s.solid[0], second->solid = 1;
     scene_values(&s, 1)[0] = 5.8e-3;
     s.body[0].velocity[0] = 3000;
     second->velocity[0] = 3000, second->velocity[1] = -200;
@@ -165,7 +167,7 @@ static void test_debris(void **state)
 {
     (void)state;
     const material m = scene_copper();
-    mpm_scene s;
+    SCENE_LOCAL(s);
     mpm_scene_default(&s);
     for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 40e-3, 1e-3, BOUNDARY_FREE, BOUNDARY_FREE);
     scene_box(&s, 5e-3, 5e-3, 5e-3, 5.5e-3, 5.5e-3, 5.5e-3, &m);

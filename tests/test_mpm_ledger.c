@@ -36,7 +36,7 @@ static mpm_ledger run(const mpm_scene *s, const char *name)
 static void test_base(void **state)
 {
     (void)state;
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     scene_gouge(&g, H, SPEED);
     const mpm_ledger l = run(&g.scene, "absorbing ends, mirrors");
     /* absorbing ends take energy out, mirrors and fixed walls do no work */
@@ -56,7 +56,7 @@ static void test_boundaries(void **state)
         { BOUNDARY_ABSORBING, BOUNDARY_SYMMETRY, "absorbing, rollers" },
         { BOUNDARY_PRESCRIBED, BOUNDARY_PRESCRIBED, "prescribed velocity" },
     };
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         scene_gouge(&g, H, SPEED);
         mpm_scene *s = &g.scene;
@@ -72,7 +72,7 @@ static void test_boundaries(void **state)
 static void test_loads(void **state)
 {
     (void)state;
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     scene_gouge(&g, H, SPEED);
     g.scene.body[2].traction[0] = 300e6;
     g.scene.body[2].traction_face = 0;
@@ -91,7 +91,7 @@ static void test_loads(void **state)
 static void test_options(void **state)
 {
     (void)state;
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     scene_gouge(&g, H, SPEED);
     g.scene.transfer = TRANSFER_PIC;
     run(&g.scene, "PIC");
@@ -102,11 +102,11 @@ static void test_options(void **state)
     g.scene.heat_by_plastic_work = true;
     run(&g.scene, "heat by plastic work");
     scene_gouge(&g, H, SPEED);
-    g.scene.body[1].field = 2;
-    run(&g.scene, "loose grain, three fields");
+    g.scene.body[1].group = 2;
+    run(&g.scene, "loose grain, three groups");
     scene_gouge(&g, H, SPEED);
-    g.scene.body[1].field = 2;
-    g.scene.contact[0][2].bond_strength = g.scene.contact[2][0].bond_strength = 300e6;
+    g.scene.body[1].group = 2;
+    scene_pair(&g.scene, 0, 2)[COULOMB_BOND_STRENGTH] = 300e6;
     run(&g.scene, "bonded grain");
     if (!scene_full()) return;
     scene_gouge(&g, 0.6 * H, SPEED);
@@ -122,7 +122,7 @@ static void test_vapour(void **state)
 {
     (void)state;
     const material m = scene_copper();
-    mpm_scene s;
+    SCENE_LOCAL(s);
     mpm_scene_default(&s);
     for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 10e-3, 0.5e-3, BOUNDARY_FREE, BOUNDARY_FREE);
     scene_box(&s, 1e-3, 1e-3, 1e-3, 3e-3, 3e-3, 3e-3, &m)->velocity[0] = 500;
@@ -197,7 +197,7 @@ static bool sample(void *user, const mpm *m)
 static void test_percentiles(void **state)
 {
     (void)state;
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     scene_gouge(&g, H, SPEED);
     mpm *m = scene_make(&g.scene, 2);
     percentiles want = { { { 0 } } };

@@ -48,7 +48,7 @@ static void test_nodes(void **state)
     (void)state;
     srand(3);
     for (int trial = 0; trial < 2000; trial++) {
-        mpm_scene s;
+        SCENE_LOCAL(s);
         grids g;
         mpm_scene_default(&s);
         s.levels = whole(2, MPM_MAX_LEVELS);
@@ -84,7 +84,7 @@ static void test_nodes(void **state)
 static void test_refused(void **state)
 {
     (void)state;
-    mpm_scene s;
+    SCENE_LOCAL(s);
     grids g;
     mpm_scene_default(&s);
     for (int k = 0; k < 3; k++)
@@ -120,7 +120,7 @@ static void test_linear(void **state)
     static const double CARRIED = 1000, RATE = 1e3, STEP = 3e-13; /* [m/s, 1/s, s]: it turns and stretches by 3e-10 */
     const material copper = scene_copper();
     for (int levels = 2; levels <= MPM_MAX_LEVELS; levels++) {
-        mpm_scene s;
+        SCENE_LOCAL(s);
         cube(&s, &copper, levels);
         s.viscosity_linear = s.viscosity_quadratic = 0; /* else there is stress at once */
         for (int i = 0; i < 3; i++) scene_values(&s, 0)[i] = 1e-3, scene_values(&s, 0)[3 + i] = 19e-3;
@@ -175,7 +175,7 @@ static void test_paces(void **state)
     const material copper = scene_copper();
     double dt[MPM_MAX_LEVELS];
     for (int levels = 1; levels <= MPM_MAX_LEVELS; levels++) {
-        mpm_scene s;
+        SCENE_LOCAL(s);
         cube(&s, &copper, levels);
         for (int i = 0; i < 3; i++) scene_values(&s, 0)[i] = 1e-3, scene_values(&s, 0)[3 + i] = 19e-3;
         mpm *m = scene_make(&s, 2);
@@ -201,7 +201,7 @@ static void test_flight(void **state)
     (void)state;
     const material copper = scene_copper();
     for (int levels = 2; levels <= MPM_MAX_LEVELS; levels++) {
-        mpm_scene s;
+        SCENE_LOCAL(s);
         cube(&s, &copper, levels);
         mpm_body *b = &s.body[0];
         b->velocity[0] = 900, b->velocity[1] = 200, b->velocity[2] = -100;
@@ -227,27 +227,27 @@ static void test_flight(void **state)
 }
 
 /* Past an end of the window that the boxes reach: what goes out there, out of cells of any size, is booked, and so is
- * what the end does to the rest.  A mirror that acts on another field than the cube's does nothing to it. */
+ * what the end does to the rest.  A mirror that does not act on the cube does nothing to it. */
 static void test_ends(void **state)
 {
     (void)state;
     static const struct {
         boundary_kind kind;
-        unsigned fields;
-    } ends[] = { { BOUNDARY_FREE, 0 },
-                 { BOUNDARY_ABSORBING, 0 },
-                 { BOUNDARY_FIXED, 0 },
-                 { BOUNDARY_SYMMETRY, 0 },
-                 { BOUNDARY_SYMMETRY, 2 } };
+        bool passes;
+    } ends[] = { { BOUNDARY_FREE, false },
+                 { BOUNDARY_ABSORBING, false },
+                 { BOUNDARY_FIXED, false },
+                 { BOUNDARY_SYMMETRY, false },
+                 { BOUNDARY_SYMMETRY, true } };
     const material copper = scene_copper();
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++)
         for (int levels = 2; levels <= MPM_MAX_LEVELS; levels++) {
-            mpm_scene s;
+            SCENE_LOCAL(s);
             cube(&s, &copper, levels);
             for (int k = 1; k < 3; k++)
                 s.axis[k] = scene_graded(s.axis[k], k == 1 ? 0 : 16e-3, k == 1 ? 4e-3 : 20e-3, 4e-3, 2);
             s.axis[1].boundary[0] = s.axis[2].boundary[1] = ends[i].kind;
-            s.axis[1].boundary_fields[0] = s.axis[2].boundary_fields[1] = ends[i].fields;
+            s.body[0].passes[2] = s.body[0].passes[5] = ends[i].passes;
             double *box = scene_values(&s, 0);
             box[1] = 0, box[4] = 3e-3, box[2] = 15e-3, box[5] = 20e-3;
             s.body[0].velocity[0] = 900, s.body[0].velocity[1] = -100, s.body[0].velocity[2] = 100;
@@ -257,7 +257,7 @@ static void test_ends(void **state)
             print_message("end %zu, %d levels: %.1e of the mass left, mass %.1e, energy %.1e, momentum %.1e\n", i,
                           levels, l.ejected_mass / l.mass_start, (l.mass + l.ejected_mass) / l.mass_start - 1,
                           l.energy_error, l.momentum_error);
-            const bool open = ends[i].kind == BOUNDARY_FREE || ends[i].fields != 0;
+            const bool open = ends[i].kind == BOUNDARY_FREE || ends[i].passes;
             assert_int_equal(l.ejected_mass > 0.01 * l.mass_start, open);
             assert_near((l.mass + l.ejected_mass) / l.mass_start, 1, ROUNDING);
             assert_below(l.momentum_error, ROUNDING);
@@ -277,8 +277,8 @@ static void gouge(gouge_scene *g, int levels)
     s->axis[1] = scene_graded(s->axis[1], -1e-3, 1e-3, 1e-3, 1.5);
     s->axis[2] = scene_graded(scene_axis(0, 6e-3, 0.25e-3, BOUNDARY_SYMMETRY, BOUNDARY_FREE), 0, 1e-3, 1e-3, 1.5);
     scene_values(s, 0)[3] = 40e-3; /* the rail goes on */
-    s->follow_bodies = 1;
-    s->follow_lead = 1.25e-3, s->follow_speed = 1500, s->follow_width = 1.5e-3;
+    s->body[0].followed = true;
+    s->follow.lead = 1.25e-3, s->follow.speed = 1500, s->follow.width = 1.5e-3;
 }
 
 /* The zone follows and widens, points go from level to level, are split and merged: the books close. */
@@ -286,7 +286,7 @@ static void test_books(void **state)
 {
     (void)state;
     for (int levels = 2; levels <= MPM_MAX_LEVELS; levels++) {
-        gouge_scene g;
+        GOUGE_LOCAL(g);
         gouge(&g, levels);
         mpm *m = scene_make(&g.scene, 2);
         const mpm_axis across = mpm_scene_of(m)->axis[2];
@@ -319,11 +319,11 @@ static void test_widening(void **state)
         { -6e-3, 1.5e-3, 1.5e-3 }, { -6e-3, 1.4e-3, 1e-3 }, { -1.3e-3, 1.5e-3, 1e-3 }, { -2e-3, 1.5e-3, 1.5e-3 }
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        gouge_scene g;
+        GOUGE_LOCAL(g);
         gouge(&g, 2);
         mpm_axis *z = &g.scene.axis[2];
         z->lo = cases[i].lo, z->fine_lo = -z->fine_hi, z->boundary[0] = BOUNDARY_FREE;
-        g.scene.follow_width = cases[i].widest;
+        g.scene.follow.width = cases[i].widest;
         mpm_needs needs;
         assert_ok(mpm_estimate(&g.scene, &needs));
         mpm_scene wide = g.scene;
@@ -365,11 +365,11 @@ static void test_contact_sums(void **state)
     for (int i = 0; i < 12; i++) {
         const int levels = 2 + i % 2;
         const double y = 7.25e-3 + 0.3e-3 * i; /* where they meet, among the cells and bricks of the boxes */
-        mpm_scene s;
+        SCENE_LOCAL(s);
         cube(&s, &copper, levels);
         const double low[6] = { 1e-3, 1e-3, 1e-3, 39e-3, y, 19e-3 }, high[6] = { 1e-3, y, 1e-3, 39e-3, 19e-3, 19e-3 };
         memcpy(scene_values(&s, 0), low, sizeof low);
-        scene_box(&s, high[0], high[1], high[2], high[3], high[4], high[5], &copper)->field = 1;
+        scene_box(&s, high[0], high[1], high[2], high[3], high[4], high[5], &copper)->group = 1;
         mpm *m = scene_make(&s, 2);
         m->dt = 1e-15; /* so that nothing moves */
         assert_ok(mpm_advance(m, 1e-15, NULL));
@@ -377,7 +377,7 @@ static void test_contact_sums(void **state)
         double worst = 0;
         for (int k = 0; k < m->bricks_used; k++) {
             const brick *b = &m->bricks[k], *other = NULL;
-            const int o = brick_at(m, !b->field, b->level, b->at);
+            const int o = brick_at(m, !b->group, b->level, b->at);
             if (o >= 0) other = &m->bricks[o];
             for (int c = 0; c < BRICK_CELLS && b->at_seam && other; c++) {
                 const double *line = b->line[c], *extra = b->line[BRICK_CELLS + c];
@@ -385,7 +385,7 @@ static void test_contact_sums(void **state)
                     continue;
                 shared++;
                 assert_true(b->across && other->across);
-                worst = fmax(worst, fabs(extra[6] / (line[0] * m->laws[b->field].flow_start) - 1));
+                worst = fmax(worst, fabs(extra[6] / (line[0] * m->laws[b->group].flow_start) - 1));
             }
         }
         print_message("%d levels, meeting at %.2f mm: %d nodes of both, flow stress to %.1e\n", levels, 1e3 * y, shared,
@@ -413,7 +413,7 @@ static void hold_known(mpm *m)
     free(was);
 }
 
-/* What a brick knows of the other fields around it follows from where particles are now, or a run that goes on from a
+/* What a brick knows of the other groups around it follows from where particles are now, or a run that goes on from a
  * checkpoint would know other things than one without a stop.  A slab flies past a cube, into its bricks' neighbours
  * and out of them. */
 static void test_known(void **state)
@@ -421,10 +421,10 @@ static void test_known(void **state)
     (void)state;
     const material copper = scene_copper();
     for (int levels = 1; levels <= MPM_MAX_LEVELS; levels++) {
-        mpm_scene s;
+        SCENE_LOCAL(s);
         cube(&s, &copper, levels);
         mpm_body *slab = scene_box(&s, 2e-3, 9.6e-3, 4e-3, 4e-3, 11e-3, 8e-3, &copper);
-        slab->field = 1, slab->velocity[0] = 4000;
+        slab->group = 1, slab->velocity[0] = 4000;
         mpm *m = scene_make(&s, 2);
         for (int step = 0; step < 120; step++) {
             scene_steps(m, 1);
@@ -440,7 +440,7 @@ static void test_known(void **state)
 static void test_bits(void **state)
 {
     (void)state;
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     gouge(&g, 3);
     mpm *m = scene_same_bits(&g.scene, 230, 90);
     assert_true(mpm_wake_of(m)->n > 0);
@@ -453,7 +453,7 @@ static void test_same_groove(void **state)
     (void)state;
     double power[MPM_MAX_LEVELS], lost[MPM_MAX_LEVELS];
     for (int levels = 1; levels <= MPM_MAX_LEVELS; levels++) {
-        gouge_scene g;
+        GOUGE_LOCAL(g);
         gouge(&g, levels);
         mpm *m = scene_make(&g.scene, 2);
         assert_ok(mpm_advance(m, 3e-6, NULL));

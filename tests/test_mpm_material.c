@@ -24,7 +24,7 @@ static specimen specimen_make(material m, double temperature, double q1, double 
     specimen p;
     memset(&p, 0, sizeof p);
     p.material = m;
-    mpm_scene s;
+    SCENE_LOCAL(s);
     mpm_scene_default(&s);
     s.viscosity_linear = q1, s.viscosity_quadratic = q2;
     mpm_body b = { .material = &p.material, .temperature = temperature, .yield_scale = 1, .damage = damage };
@@ -254,7 +254,7 @@ static void test_ptw_bound(void **state)
         assert_near(p.k.flow_start / ptw_stress(&m, 1, 0, 1, 293), 1, 1e-6);
         assert_true(p.k.least_flow > p.k.flow_start / 3);
 
-        mpm_scene s;
+        SCENE_LOCAL(s);
         mpm_scene_default(&s);
         law hard;
         const mpm_body b = { .material = &m, .temperature = 293, .yield_scale = 1.5 };
@@ -366,7 +366,7 @@ static void test_hot_start(void **state)
     (void)state;
     static const double none[9] = { 0 };
     const material m = scene_copper();
-    mpm_scene s;
+    SCENE_LOCAL(s);
     mpm_scene_default(&s);
     mpm_body b = { .material = &m, .temperature = 700, .yield_scale = 1 };
     specimen p = specimen_of(m, 0, 0, false);

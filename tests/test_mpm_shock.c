@@ -47,7 +47,7 @@ static shock_error shock(int cells, double drift, basis_kind basis)
 {
     const material m = scene_hydro();
     const double length = 40e-3, h = length / cells, middle = length / 2, end = 2.4e-6;
-    mpm_scene s;
+    SCENE_LOCAL(s);
     scene_bar(&s, -2e-3, length + (2000 + drift) * end + 4e-3, h, 2);
     s.basis = basis;
     scene_box(&s, 0, -1, -1, middle, 1, 1, &m)->velocity[0] = 2000 + drift;
@@ -114,7 +114,7 @@ static size_t pulse(double growth, int levels, double **pressure, double *incide
 {
     static const double fine = 0.15e-3, length = 50e-3, speed[] = { 2.5, 7.5, 10, 7.5, 2.5 };
     const material m = scene_elastic();
-    mpm_scene s;
+    SCENE_LOCAL(s);
     scene_bar(&s, 0, length, fine, levels > 1 ? 8 : 2);
     s.levels = levels;
     if (growth > 1) s.axis[0] = scene_graded(s.axis[0], 0, levels > 1 ? 132 * fine : 20e-3, 4 * fine, growth);

@@ -18,7 +18,6 @@ static void slide_scene(mpm_scene *s, const material *copper, const material *al
     s->levels = levels;
     const double x0 = -LENGTH - 4e-3, x1 = travel + 6e-3, off = 0.37 * H;
     s->axis[0] = scene_axis(x0, x1, H, BOUNDARY_ABSORBING, BOUNDARY_ABSORBING);
-    s->axis[0].boundary_fields[0] = s->axis[0].boundary_fields[1] = 1;
     /* free above: a mirror there would hold the head up and bear part of the load */
     s->axis[1] = scene_axis(-3e-3, HALF_BORE + 1e-3, H, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
     s->axis[1] = scene_graded(s->axis[1], -3 * H + off, 3 * H + off, 2 * H, 1.2);
@@ -32,7 +31,8 @@ static void slide_scene(mpm_scene *s, const material *copper, const material *al
     scene_box(s, x0, -3e-3, -1, x1, 0, 1, copper)->damage = true;
     const scene_u u = { -0.5e-3, LENGTH, 2e-3, 4e-3, HALF_BORE, CHAMFER, LEAD, HALF_WIDTH };
     mpm_body *b = scene_slider(s, &u, aluminium);
-    b->field = 1;
+    b->group = 1;
+    scene_pass(b, 0, true, true);
     b->damage = true;
     b->velocity[0] = speed;
     /* pressed by a body force: contact area times 50 MPa over the mass */
@@ -58,7 +58,7 @@ static bool watch_step(void *user, const mpm *m)
 static slide_result slide(double speed, double travel, int levels)
 {
     const material copper = scene_copper(), aluminium = scene_aluminium();
-    mpm_scene s;
+    SCENE_LOCAL(s);
     slide_scene(&s, &copper, &aluminium, speed, travel, levels);
     mpm *m = scene_make(&s, 1);
     const double end = travel / speed, pressed = 50e6 * (LENGTH - CHAMFER / tan(LEAD)) * HALF_WIDTH;

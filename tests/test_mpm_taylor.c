@@ -13,7 +13,7 @@ typedef struct {
 static bar_shape bar(double h, basis_kind basis)
 {
     const material m = scene_copper();
-    mpm_scene s;
+    SCENE_LOCAL(s);
     mpm_scene_default(&s);
     s.basis = basis;
     s.axis[0] = scene_axis(0, 2.4 * RADIUS, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE);

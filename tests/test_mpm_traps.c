@@ -13,11 +13,11 @@ enum { TRAPS = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW };
 /* Split points, contact with friction, failure and a loose grain. */
 static void run(const char *set, double speed, double cells)
 {
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     mpm *m;
     scene_gouge(&g, 0.5e-3 / cells, speed);
     strcpy(g.scene.instruction_set, set);
-    g.scene.body[1].field = 2;
+    g.scene.body[1].group = 2;
     if (mpm_create(&g.scene, 1, &m).code != STATUS_OK) return; /* a set that this machine lacks */
     feclearexcept(FE_ALL_EXCEPT);
     feenableexcept(TRAPS);

@@ -12,10 +12,9 @@ static void followed(gouge_scene *g)
     scene_gouge(g, H, SPEED);
     scene_values(&g->scene, 0)[3] = 40e-3; /* the rail goes on */
     g->scene.axis[0] = scene_graded(g->scene.axis[0], -1e-3, 1.5e-3, 3 * H, 1.25);
-    g->scene.follow_bodies = 1;
-    g->scene.follow_lead = 1.25e-3;
-    g->scene.follow_speed = SPEED;
-    g->scene.gauge_time[0] = TIME / 2, g->scene.gauge_time[1] = 0.95 * TIME;
+    g->scene.body[0].followed = true;
+    g->scene.follow.lead = 1.25e-3;
+    g->scene.follow.speed = SPEED;
 }
 
 /* Any two neighbours in one: mass, volume, momentum and energy stay. */
@@ -63,7 +62,7 @@ static void test_merge_undoes_halve(void **state)
 static void test_books(void **state)
 {
     (void)state;
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     followed(&g);
     mpm *m = scene_make(&g.scene, 2);
     const double mass = mpm_balance(m).mass, fine_lo = mpm_scene_of(m)->axis[0].fine_lo;
@@ -80,11 +79,8 @@ static void test_books(void **state)
     assert_below(l.momentum_error, 1e-12);
     assert_below(fabs(l.energy_error), 1e-12);
     assert_int_equal(r.particles, mpm_particles(m));
-    for (int i = 0; i < 2; i++) { /* looked at every 20 steps */
-        assert_true(r.gauge_at[i] >= g.scene.gauge_time[i] && r.gauge_at[i] < g.scene.gauge_time[i] + 25 * r.dt);
-        assert_true(r.gauge_power[i] > 0.1 * r.plastic_power);
-    }
-    assert_true(r.gauge_power[0] != r.gauge_power[1]);
+    assert_true(r.plastic_time > r.time - 25 * r.dt && r.plastic_time <= r.time); /* looked at every 20 steps */
+    assert_true(r.plastic_power > 0 && r.plastic_power <= r.peak_plastic_power);
     const mpm_wake *w = mpm_wake_of(m);
     for (size_t i = 0; i < w->n; i++) assert_true(w->point[i].position[0] - w->point[i].size[0] < w->until);
     mpm_free(m);
@@ -93,7 +89,7 @@ static void test_books(void **state)
 static void test_bits(void **state)
 {
     (void)state;
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     followed(&g);
     mpm *m = scene_same_bits(&g.scene, 230, 90);
     assert_true(mpm_wake_of(m)->n > 0); /* the zone has moved */
@@ -106,13 +102,13 @@ static void test_same_groove(void **state)
     (void)state;
     double lost[2], power[2], front[2];
     for (int i = 0; i < 2; i++) {
-        gouge_scene g;
+        GOUGE_LOCAL(g);
         followed(&g);
         if (i == 1) {
             g.scene.axis[0].hi = 14e-3;
             g.scene.axis[0].fine_hi = 9e-3;
-            g.scene.follow_lead = -20e-3; /* looks at the front and stays */
-            g.scene.follow_speed = 0;
+            g.scene.follow.lead = -20e-3; /* looks at the front and stays */
+            g.scene.follow.speed = 0;
         }
         mpm *m = scene_make(&g.scene, 2);
         assert_ok(mpm_advance(m, TIME, NULL));
@@ -150,7 +146,7 @@ static crater_points rail_points(const mpm *m)
     }
     for (size_t i = 0; i < live; i++) {
         double mass = 1;
-        if (body[i] != 0 || !mpm_cut_at(w->until, true, x + 3 * i, size + 3 * i, &mass)) continue;
+        if (body[i] != 0 || !mpm_cut_at(0, w->until, true, x + 3 * i, size + 3 * i, &mass)) continue;
         memcpy(all[0] + 3 * n, x + 3 * i, 3 * sizeof *x);
         memcpy(all[1] + 3 * n, size + 3 * i, 3 * sizeof *x);
         all[2][n++] = damage[i];
@@ -165,7 +161,7 @@ static crater_points rail_points(const mpm *m)
 static void test_seams(void **state)
 {
     (void)state;
-    gouge_scene g;
+    GOUGE_LOCAL(g);
     followed(&g);
     mpm *m = scene_make(&g.scene, 2);
     assert_ok(mpm_advance(m, TIME, NULL));

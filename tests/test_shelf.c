@@ -78,6 +78,7 @@ static run_counted run_small(const char *const *speed, bool to_gauge, const char
         .sink = &sink, .history = r.rows, .shelf = shelf, .threads = 1, .stop = count_step, .user = &r
     };
     OK(gouge_run(&job, &host, &r.hit));
+    gouge_job_free(&job);
     r.hit.result.wall_seconds = 0.0;
     case_free(c);
     return r;
@@ -111,6 +112,7 @@ static void test_checkpoints(void **state)
     const scene_host host = { .threads = 1, .save = save_slowly, .user = &saves };
     const double start = host_wall_clock();
     OK(gouge_run(&job, &host, &hit));
+    gouge_job_free(&job);
     const double wall = host_wall_clock() - start;
     print_message("%d checkpoints of %g ms in %.2f s\n", saves, 1e3 * SAVING, wall);
     assert_true(saves > 1 && (saves - 1) * 20 * SAVING <= wall);

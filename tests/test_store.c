@@ -119,6 +119,7 @@ static void test_key_is_a_case(void **state)
     }
     assert_true(a.end_time == b.end_time && a.axis[0].fine_hi == b.axis[0].fine_hi);
     assert_true(of_a.crater.particle_volume == of_b.crater.particle_volume);
+    gouge_scene_free(&of_a), gouge_scene_free(&of_b);
     run_scene_key_free(&key);
     run_scene_key_free(&again);
     case_free(back);

@@ -15,6 +15,11 @@ status gouge_job_make(const breech_case *c, const site_state *state, double cell
     return gouge_scene_from_state(c, state, cells_per_radius, &job->scene);
 }
 
+void gouge_job_free(gouge_job *job)
+{
+    gouge_scene_free(&job->scene);
+}
+
 /* The lost metal keeps its own speed's worth of impulse out of the sum: circuit_shot_jump books it with the mass
  * (docs/onset.md). */
 static void book_losses(const gouge_scene *s, const gouge_watch *w, double time, impact *out)

@@ -59,7 +59,7 @@ status gouge_points_of_rail(const gouge_scene *s, const mpm *m, gouge_points *p)
     TRY(gouge_points_read(m, p));
     for (size_t i = 0; i < p->n; i++) {
         double *x = p->position + 3 * i, *half = p->size + 3 * i;
-        if (!gouge_counts_as_rail(s, (int)p->body[i]) || !mpm_cut_at(wake->until, true, x, half, &p->mass[i]) ||
+        if (!gouge_counts_as_rail(s, (int)p->body[i]) || !mpm_cut_at(0, wake->until, true, x, half, &p->mass[i]) ||
             !over_map(&s->crater, x, half))
             continue;
         memmove(p->position + 3 * kept, x, 3 * sizeof *x);

@@ -3,6 +3,7 @@
 #include "coupling/gouge/armature.h"
 #include "coupling/gouge/growth.h"
 #include "mpm/grid/grid.h"
+#include "mpm/law/contact.h"
 #include "mpm/shape/solid.h"
 
 #include <math.h>
@@ -155,16 +156,14 @@ static status check_layers(const breech_case *c, const case_site *g, const layou
 
 /* ---- bodies ---- */
 
-static mpm_body *add_body(mpm_scene *s, const char *name, const material *m, int field)
+/* *added is valid until the next is added. */
+static status add_body(mpm_scene *s, const char *name, const material *m, int group, mpm_body **added)
 {
-    mpm_body *b = &s->body[s->bodies++];
-    memset(b, 0, sizeof *b);
-    snprintf(b->name, sizeof b->name, "%s", name);
-    b->material = m;
-    b->field = field;
-    b->yield_scale = 1.0;
-    b->solid = -1;
-    return b;
+    TRY(mpm_scene_add_body(s, added));
+    snprintf((*added)->name, sizeof(*added)->name, "%s", name);
+    (*added)->material = m;
+    (*added)->group = group;
+    return status_ok();
 }
 
 static status make_box(mpm_scene *s, mpm_body *b, const layout *l, double bottom, double top)
@@ -179,38 +178,38 @@ static status make_box(mpm_scene *s, mpm_body *b, const layout *l, double bottom
     return status_ok();
 }
 
-/* Bonded to the field below, or welded into it.  Returns the field. */
-static int next_field(mpm_scene *s, int below, double bond_strength)
+/* *group: that of what lies below; then its own, bonded to it, or the same where it is welded. */
+static status next_group(mpm_scene *s, double bond_strength, int *group)
 {
-    if (isnan(bond_strength)) return below;
-    const int field = below + 1;
-    if (field < MPM_MAX_FIELDS)
-        s->contact[below][field].bond_strength = s->contact[field][below].bond_strength = bond_strength;
-    return field;
+    mpm_pair *bond;
+    if (isnan(bond_strength)) return status_ok();
+    TRY(mpm_scene_add_pair(s, *group, *group + 1, &bond));
+    bond->contact.value[COULOMB_BOND_STRENGTH] = bond_strength;
+    ++*group;
+    return status_ok();
 }
 
-static status add_rail(const breech_case *c, const layout *l, gouge_scene *g, int *top)
+static status add_rail(const breech_case *c, const layout *l, gouge_scene *g, int *group)
 {
+    mpm_body *rail, *b;
     mpm_scene *s = &g->scene;
     g->rail = s->bodies;
     g->layers = c->rail.layers.n;
-    mpm_body *rail = add_body(s, "rail", case_material(c, c->rail.material), 0);
+    TRY(add_body(s, "rail", case_material(c, c->rail.material), *group, &rail));
     TRY(make_box(s, rail, l, -c->scene.rail_depth, -l->layers));
     rail->yield_scale = c->rail.yield_scale;
     double bottom = -l->layers;
-    int field = 0;
     for (int i = 0; i < c->rail.layers.n; i++) {
         const case_layer *layer = &c->rail.layers.item[i];
         char name[PARAM_TEXT_SIZE];
         snprintf(name, sizeof name, "layer_%d", i + 1);
-        field = next_field(s, field, layer->bond_strength);
-        mpm_body *b = add_body(s, name, case_material(c, layer->material), field);
+        TRY(next_group(s, layer->bond_strength, group));
+        TRY(add_body(s, name, case_material(c, layer->material), *group, &b));
         const bool last = i == c->rail.layers.n - 1;
         TRY(make_box(s, b, l, bottom, last ? 0.0 : bottom + layer->thickness));
         b->yield_scale = layer->yield_scale;
         bottom += layer->thickness;
     }
-    *top = field;
     return status_ok();
 }
 
@@ -235,8 +234,9 @@ static void set_grain(const case_site *g, mpm_solid *solid)
 }
 
 /* A pit is a hole in rail and layers, no body. */
-static status add_grain(const breech_case *c, const case_site *g, int below, gouge_scene *out, int *top)
+static status add_grain(const breech_case *c, const case_site *g, gouge_scene *out, int *group)
 {
+    mpm_body *b;
     mpm_scene *s = &out->scene;
     mpm_solid *solid;
     double lo[3], hi[3];
@@ -246,8 +246,11 @@ static status add_grain(const breech_case *c, const case_site *g, int below, gou
     const int place = s->solids - 1;
     out->grain = is_pit(g) ? GOUGE_PIT : s->bodies;
     out->grain_end = hi[0];
-    *top = is_pit(g) ? below : next_field(s, below, g->bond_strength);
-    if (!is_pit(g)) add_body(s, "particle", case_material(c, g->material), *top)->solid = place;
+    if (!is_pit(g)) {
+        TRY(next_group(s, g->bond_strength, group));
+        TRY(add_body(s, "particle", case_material(c, g->material), *group, &b));
+        b->solid = place;
+    }
     for (int i = 0; is_pit(g) && i < s->bodies; i++) {
         TRY(mpm_scene_add_solid(s, "minus", s->body[i].solid, place, &solid));
         s->body[i].solid = s->solids - 1;
@@ -255,12 +258,13 @@ static status add_grain(const breech_case *c, const case_site *g, int below, gou
     return status_ok();
 }
 
-static status add_armature(const breech_case *c, const site_state *state, const layout *l, int field, gouge_scene *g)
+static status add_armature(const breech_case *c, const site_state *state, const layout *l, int group, gouge_scene *g)
 {
+    mpm_body *b;
     const case_projectile *p = &c->projectile;
     mpm_scene *s = &g->scene;
     g->armature = s->bodies;
-    mpm_body *b = add_body(s, "armature", case_material(c, p->material), field);
+    TRY(add_body(s, "armature", case_material(c, p->material), group, &b));
     const gouge_armature shape = { .front = l->x_front,
                                    .length = p->length,
                                    .leg_thickness = p->leg_thickness,
@@ -287,16 +291,15 @@ static status add_armature(const breech_case *c, const site_state *state, const 
 static status add_bodies(const breech_case *c, const site_state *state, const layout *l, gouge_scene *g)
 {
     mpm_scene *s = &g->scene;
-    const int wanted = c->rail.layers.n + 3;
-    CHECK(wanted <= MPM_MAX_BODIES, STATUS_BAD_INPUT, "rail.layers: %d layers, a scene takes at most %d",
+    int group = 0;
+    CHECK(c->rail.layers.n + 3 <= MPM_MAX_BODIES, STATUS_BAD_INPUT, "rail.layers: %d layers, a scene takes at most %d",
           c->rail.layers.n, MPM_MAX_BODIES - 3);
-    int top, grain;
-    TRY(add_rail(c, l, g, &top));
-    TRY(add_grain(c, &state->grain, top, g, &grain));
-    CHECK(grain + 1 < MPM_MAX_FIELDS, STATUS_BAD_INPUT,
+    TRY(add_rail(c, l, g, &group));
+    TRY(add_grain(c, &state->grain, g, &group));
+    CHECK(group + 1 < MPM_MAX_GROUPS, STATUS_BAD_INPUT,
           "rail.layers, particle: %d bonds that can break, a scene takes at most %d; weld some (bond_strength: none)",
-          grain, MPM_MAX_FIELDS - 2);
-    TRY(add_armature(c, state, l, grain + 1, g));
+          group, MPM_MAX_GROUPS - 2);
+    TRY(add_armature(c, state, l, group + 1, g));
     for (int i = 0; i < s->bodies; i++) {
         mpm_body *b = &s->body[i];
         CHECK(b->material, STATUS_BAD_INPUT, "scene: body `%s` has no material", b->name);
@@ -309,16 +312,24 @@ static status add_bodies(const breech_case *c, const site_state *state, const la
 
 static void set_contacts(const breech_case *c, mpm_scene *s)
 {
-    const double limit = given_or(c->scene.shear_limit, INFINITY);
-    for (int a = 0; a < MPM_MAX_FIELDS; a++)
-        for (int b = 0; b < MPM_MAX_FIELDS; b++) {
-            s->contact[a][b].friction = c->scene.friction;
-            s->contact[a][b].shear_limit = limit;
-        }
+    s->contact.value[COULOMB_FRICTION] = c->scene.friction;
+    s->contact.value[COULOMB_SHEAR_LIMIT] = c->scene.shear_limit;
     if (!isnan(c->scene.contact_gap)) s->contact_gap = c->scene.contact_gap;
 }
 
 /* ---- grid ---- */
+
+/* What shares no group with the rail or a layer leaves through the window's ends along x. */
+static void free_ends(gouge_scene *g)
+{
+    mpm_scene *s = &g->scene;
+    for (int i = 0; i < s->bodies; i++) {
+        bool held = false;
+        for (int k = 0; k < s->bodies; k++)
+            held = held || (s->body[k].group == s->body[i].group && gouge_counts_as_rail(g, k));
+        s->body[i].passes[0] = s->body[i].passes[1] = !held;
+    }
+}
 
 static void set_axes(const breech_case *c, const layout *l, gouge_scene *g)
 {
@@ -331,20 +342,15 @@ static void set_axes(const breech_case *c, const layout *l, gouge_scene *g)
     const boundary_kind kind[3][2] = { { BOUNDARY_ABSORBING, BOUNDARY_ABSORBING },
                                        { BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY },
                                        { half ? BOUNDARY_SYMMETRY : BOUNDARY_FREE, BOUNDARY_FREE } };
-    unsigned rail_fields = 0;
-    for (int i = 0; i < s->bodies; i++)
-        if (gouge_counts_as_rail(g, i)) rail_fields |= 1u << s->body[i].field;
     for (int k = 0; k < 3; k++) {
         mpm_axis *a = &s->axis[k];
         a->lo = lo[k], a->hi = hi[k];
         a->fine_lo = fine_lo[k], a->fine_hi = fine_hi[k];
         a->fine = l->fine, a->coarse = l->coarse;
         a->growth = c->scene.growth;
-        for (int e = 0; e < 2; e++) {
-            a->boundary[e] = kind[k][e];
-            a->boundary_fields[e] = k == 0 ? rail_fields : 0;
-        }
+        for (int e = 0; e < 2; e++) a->boundary[e] = kind[k][e];
     }
+    free_ends(g);
 }
 
 double gouge_crossing_time(const gouge_scene *s)
@@ -372,11 +378,10 @@ static void set_follow(const breech_case *c, const case_site *grain, const layou
 {
     mpm_scene *s = &g->scene;
     if (!c->scene.follow) return;
-    s->follow_width = l->fine_half_width;
-    s->follow_speed = g->velocity;
-    s->follow_lead = given_or(c->scene.follow_lead, 3.0 * grain->radius);
-    for (int i = 0; i < s->bodies; i++)
-        if (gouge_counts_as_rail(g, i)) s->follow_bodies |= 1u << i;
+    s->follow.width = l->fine_half_width;
+    s->follow.speed = g->velocity;
+    s->follow.lead = given_or(c->scene.follow_lead, 3.0 * grain->radius);
+    for (int i = 0; i < s->bodies; i++) s->body[i].followed = gouge_counts_as_rail(g, i);
     gouge_gauge_times(grain->radius, g->velocity, g->gauge_time);
 }
 
@@ -449,8 +454,8 @@ static crater_spec spec_of(const breech_case *c, const case_site *g, const mpm_s
 {
     crater_spec spec = { .surface = 0.0,
                          .x_lo = s->axis[0].fine_lo,
-                         .x_hi = s->axis[0].fine_hi + FRONT_SPEED * s->follow_speed * s->end_time,
-                         .z_hi = fmax(s->axis[2].fine_hi, s->follow_width),
+                         .x_hi = s->axis[0].fine_hi + FRONT_SPEED * s->follow.speed * s->end_time,
+                         .z_hi = fmax(s->axis[2].fine_hi, s->follow.width),
                          .mirrored = c->scene.half_model,
                          .cell = s->axis[0].fine,
                          .particle_radius = g->radius,
@@ -462,22 +467,34 @@ static crater_spec spec_of(const breech_case *c, const case_site *g, const mpm_s
     return spec;
 }
 
-status gouge_scene_bodies(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out)
+static status fill_scene(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out)
 {
     CHECK(state->velocity > 0.0 && isfinite(state->velocity), STATUS_BAD_INPUT,
           "scene: the armature's velocity is %g m/s: must be positive", state->velocity);
     const layout l = lay_out(c, &state->grain, cells_per_radius);
     TRY(check_layout(c, &state->grain, &l));
     TRY(check_layers(c, &state->grain, &l));
-    memset(out, 0, sizeof *out);
-    mpm_scene_default(&out->scene);
-    TRY(add_bodies(c, state, &l, out));
     set_contacts(c, &out->scene);
+    TRY(add_bodies(c, state, &l, out));
     set_axes(c, &l, out);
     set_follow(c, &state->grain, &l, out);
     set_method(c, &l, out);
     set_rules(c, out);
     return reaches_gauge(out);
+}
+
+status gouge_scene_bodies(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out)
+{
+    memset(out, 0, sizeof *out);
+    mpm_scene_default(&out->scene);
+    const status s = fill_scene(c, state, cells_per_radius, out);
+    if (s.code != STATUS_OK) gouge_scene_free(out);
+    return s;
+}
+
+void gouge_scene_free(gouge_scene *s)
+{
+    mpm_scene_free(&s->scene);
 }
 
 status gouge_scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out)

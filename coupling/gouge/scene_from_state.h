@@ -2,9 +2,9 @@
  *
  * x = 0, y = 0, z = 0 is the middle of the grain's foot on the undamaged surface; the armature comes from -x.
  * Bodies, in this order, later ones winning points: rail (box), layers (boxes, the last one's top is y = 0), grain,
- * armature; a pit is a hole in rail and layers in place of a grain.  Rail, layers and grain share a velocity field
- * where they are welded for good; a layer or a grain with a bond strength begins a field of its own, bonded to what
- * lies below it; the armature has the last field.
+ * armature; a pit is a hole in rail and layers in place of a grain.  Rail, layers and grain share a group
+ * where they are welded for good; a layer or a grain with a bond strength begins a group of its own, bonded to what
+ * lies below it; the armature has the last group.
  * Window: along x the rail fills it and absorbs waves at both ends (a roller or a free end for the armature, which
  * leaves ahead); below the rail a roller; above the middle of the bore, the mirror plane of the launcher; across, z = 0
  * the mirror of a half model, a free side beyond the edges.
@@ -43,9 +43,11 @@ typedef struct {
 
 enum { GOUGE_PIT = -1 };
 
-/* state: grain, velocity and contact pressure are used.
+/* state: grain, velocity and contact pressure are used.  The caller frees the scene; after an error it is empty.
  * STATUS_BAD_INPUT names what cannot be built and which key to change. */
 status gouge_scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out);
+
+void gouge_scene_free(gouge_scene *s);
 
 /* The same without what the crater is measured by, which takes some 20 ms: does this case make a scene? */
 status gouge_scene_bodies(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out);

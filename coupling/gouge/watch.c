@@ -47,7 +47,7 @@ static status is_settled(const gouge_scene *s, const mpm *m, const mpm_report *n
     const crater_spec *c = &s->crater;
     double distance;
     if (!s->stop_when_settled) return status_ok();
-    if (s->scene.follow_bodies) {
+    if (mpm_scene_follows(&s->scene)) {
         *settled = groove_over(s, now);
         return status_ok();
     }

@@ -52,10 +52,13 @@ status run_scene_work(const scene_query *q, uint64_t key, const scene_work_how *
     job.name = q->name;
     job.task = how->task;
     job.resume = how->resume;
-    TRY(run_scene_twin(q, &job.twin));
-    run_lending_begin(how->lending);
-    const status run = how->run(&job, how->host, &hit);
-    run_lending_end(how->lending);
+    status run = run_scene_twin(q, &job.twin);
+    if (run.code == STATUS_OK) {
+        run_lending_begin(how->lending);
+        run = how->run(&job, how->host, &hit);
+        run_lending_end(how->lending);
+    }
+    gouge_job_free(&job);
     TRY(run);
     memset(out, 0, sizeof *out);
     out->entry = run_scene_entry(q);

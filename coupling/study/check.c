@@ -10,17 +10,25 @@
 
 /* ---- can its scenes be made? ---- */
 
+/* Can this state's scene be built? */
+static status scene_possible(const breech_case *c, const site_state *state, double cells_per_radius)
+{
+    gouge_scene scene;
+    TRY(gouge_scene_bodies(c, state, cells_per_radius, &scene));
+    gouge_scene_free(&scene);
+    return status_ok();
+}
+
 /* A search's scenes at both resolutions with a grain of this size. */
 static status grain_possible(const breech_case *c, const case_site *grain)
 {
-    gouge_scene scene;
     breech_case probe;
     site_state state = gouge_state_of_case(c);
     study_family_probe(c, &probe);
     state.velocity = c->study.velocity_low;
     state.grain = *grain;
-    TRY(gouge_scene_bodies(&probe, &state, c->study.coarse_cells_per_radius, &scene));
-    return gouge_scene_bodies(&probe, &state, c->study.fine_cells_per_radius, &scene);
+    TRY(scene_possible(&probe, &state, c->study.coarse_cells_per_radius));
+    return scene_possible(&probe, &state, c->study.fine_cells_per_radius);
 }
 
 static status grains_possible(const breech_case *c)
@@ -56,7 +64,6 @@ static status treatments_possible(const breech_case *c)
 
 status study_possible(const breech_case *c, unsigned needs)
 {
-    gouge_scene scene;
     rail_section section;
     const shot_config circuit = gouge_shot_config(c, NULL);
     const site_state state = gouge_state_of_case(c);
@@ -64,7 +71,7 @@ status study_possible(const breech_case *c, unsigned needs)
         ((needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) && c->rails.level != SHOT_RAILS_CONSTANT))
         TRY(circuit_rails_section(&c->rails, &section));
     if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_shot_check(&circuit));
-    if (needs & CASE_FOR_SCENE) TRY(gouge_scene_bodies(c, &state, c->scene.cells_per_radius, &scene));
+    if (needs & CASE_FOR_SCENE) TRY(scene_possible(c, &state, c->scene.cells_per_radius));
     if (needs & CASE_FOR_ONSET) TRY(grains_possible(c));
     return needs & CASE_FOR_COMPARE ? treatments_possible(c) : status_ok();
 }
@@ -76,8 +83,11 @@ static status estimate(const breech_case *c, const site_state *state, double cel
 {
     gouge_scene scene;
     TRY(gouge_scene_bodies(c, state, cells, &scene));
-    TRY(mpm_estimate(&scene.scene, &out->needs));
-    out->steps = gouge_last_time(&scene) / out->needs.dt;
+    const double last = gouge_last_time(&scene);
+    const status made = mpm_estimate(&scene.scene, &out->needs);
+    gouge_scene_free(&scene);
+    TRY(made);
+    out->steps = last / out->needs.dt;
     for (int i = 0; i < 2; i++) out->seconds[i] = out->steps * out->needs.work[i] * CHECK_SECONDS_A_STEP / threads;
     return status_ok();
 }

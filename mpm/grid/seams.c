@@ -138,7 +138,7 @@ seam_nodes mpm_interface_nodes(const mpm *m, int level, const int at[3])
     return s;
 }
 
-static status make_bricks(mpm *m, int field, int level, const node_box *r)
+static status make_bricks(mpm *m, int group, int level, const node_box *r)
 {
     if (is_empty(r)) return status_ok();
     for (int z = r->lo[2] / BRICK; z <= r->hi[2] / BRICK; z++)
@@ -147,7 +147,7 @@ static status make_bricks(mpm *m, int field, int level, const node_box *r)
                 const int at[3] = { x, y, z };
                 const seam_nodes s = mpm_interface_nodes(m, level, at);
                 int found;
-                if (seam_any(&s)) TRY(mpm_store_brick(m, field, level, at, &found));
+                if (seam_any(&s)) TRY(mpm_store_brick(m, group, level, at, &found));
             }
     return status_ok();
 }
@@ -159,25 +159,25 @@ status mpm_interface_make_bricks(mpm *m, const brick *b)
                      *finer = level_at(m, b->level - 1);
     if (coarser) {
         const node_box c = to_coarse(g, &reach), there = existing(coarser, c);
-        TRY(make_bricks(m, b->field, b->level + 1, &there));
+        TRY(make_bricks(m, b->group, b->level + 1, &there));
     }
     if (finer) {
         const node_box own = inside(reach, finer->lo, finer->hi), f = to_fine(finer, &own);
-        if (!is_empty(&own)) TRY(make_bricks(m, b->field, b->level - 1, &f));
+        if (!is_empty(&own)) TRY(make_bricks(m, b->group, b->level - 1, &f));
     }
     return status_ok();
 }
 
-/* Does another field have particles in bricks that hold these nodes? */
-static bool others_in(const mpm *m, int field, int level, const node_box *r)
+/* Does another group have particles in bricks that hold these nodes? */
+static bool others_in(const mpm *m, int group, int level, const node_box *r)
 {
     if (is_empty(r)) return false;
     for (int z = r->lo[2] / BRICK; z <= r->hi[2] / BRICK; z++)
         for (int y = r->lo[1] / BRICK; y <= r->hi[1] / BRICK; y++)
             for (int x = r->lo[0] / BRICK; x <= r->hi[0] / BRICK; x++)
-                for (int f = 0; f < m->fields; f++) {
+                for (int f = 0; f < m->groups; f++) {
                     const int i = brick_at(m, f, level, (const int[3]){ x, y, z });
-                    if (f != field && i >= 0 && m->bricks[i].particles > 0) return true;
+                    if (f != group && i >= 0 && m->bricks[i].particles > 0) return true;
                 }
     return false;
 }
@@ -190,24 +190,24 @@ bool mpm_interface_in_contact(const mpm *m, const brick *b)
     const grid_level *g = &m->grids.level[b->level], *coarser = level_at(m, b->level + 1),
                      *finer = level_at(m, b->level - 1);
     const node_box near = nodes_of(b->at, REACH), own = existing(g, near);
-    if (others_in(m, b->field, b->level, &own)) return true;
+    if (others_in(m, b->group, b->level, &own)) return true;
     if (coarser) {
         const node_box c = to_coarse(g, &near), there = existing(coarser, c);
-        if (others_in(m, b->field, b->level + 1, &there)) return true;
+        if (others_in(m, b->group, b->level + 1, &there)) return true;
     }
     if (finer) {
         const node_box f = to_fine(finer, &near), there = existing(finer, f);
-        if (others_in(m, b->field, b->level - 1, &there)) return true;
+        if (others_in(m, b->group, b->level - 1, &there)) return true;
     }
     return false;
 }
 
 /* ---- a node of another level ---- */
 
-static const brick *brick_with(const mpm *m, int field, int level, const int node[3])
+static const brick *brick_with(const mpm *m, int group, int level, const int node[3])
 {
     const int at[3] = { node[0] / BRICK, node[1] / BRICK, node[2] / BRICK };
-    const int i = brick_at(m, field, level, at);
+    const int i = brick_at(m, group, level, at);
     return i >= 0 ? &m->bricks[i] : NULL;
 }
 
@@ -302,7 +302,7 @@ static void receive_from_finer(const mpm *m, brick *b)
     for (int z = r.lo[2] / BRICK; z <= r.hi[2] / BRICK; z++)
         for (int y = r.lo[1] / BRICK; y <= r.hi[1] / BRICK; y++)
             for (int x = r.lo[0] / BRICK; x <= r.hi[0] / BRICK; x++) {
-                const int i = brick_at(m, b->field, b->level - 1, (const int[3]){ x, y, z });
+                const int i = brick_at(m, b->group, b->level - 1, (const int[3]){ x, y, z });
                 if (i < 0) continue;
                 const brick *from = &m->bricks[i];
                 for (uint64_t set = from->seam.follow_coarser; set;) {
@@ -322,14 +322,14 @@ static void receive_from_coarser(const mpm *m, brick *b)
         int node[3];
         const int cell = next_node(b, &set, node);
         const int c[3] = { g->lo[0] + node[0] / 2, g->lo[1] + node[1] / 2, g->lo[2] + node[2] / 2 };
-        const brick *from = brick_with(m, b->field, b->level + 1, c);
+        const brick *from = brick_with(m, b->group, b->level + 1, c);
         if (from && from->line[cell_of(c)][0] > 0) add_from(b, cell, from, cell_of(c), 1, none, none, 0);
     }
 }
 
 void mpm_interface_add_sums(mpm *m, int site)
 {
-    for (int f = 0; f < m->fields; f++) {
+    for (int f = 0; f < m->groups; f++) {
         const int i = m->directory[f * m->grids.sites + site];
         if (i < 0) continue;
         brick *b = &m->bricks[i];
@@ -342,7 +342,7 @@ void mpm_interface_add_sums(mpm *m, int site)
 
 static void add_node(double to[NODE], const mpm *m, const brick *b, int level, const int node[3], double share)
 {
-    const brick *from = brick_with(m, b->field, level, node);
+    const brick *from = brick_with(m, b->group, level, node);
     for (int i = 0; from && i < NODE; i++) to[i] += share * brick_nodes(m, from)[cell_of(node)][i];
 }
 
@@ -368,7 +368,7 @@ static void follow_coarser(const mpm *m, brick *b, int cell, const int node[3])
 
 void mpm_interface_constrain(mpm *m, int site)
 {
-    for (int f = 0; f < m->fields; f++) {
+    for (int f = 0; f < m->groups; f++) {
         const int i = m->directory[f * m->grids.sites + site];
         if (i < 0) continue;
         brick *b = &m->bricks[i];

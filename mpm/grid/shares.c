@@ -63,7 +63,7 @@ static void hold(const mpm *m, brick *b)
 
 void mpm_substep_restore(mpm *m, int site)
 {
-    for (int f = 0; f < m->fields; f++) {
+    for (int f = 0; f < m->groups; f++) {
         const int i = m->directory[f * m->grids.sites + site];
         brick *b = i >= 0 ? &m->bricks[i] : NULL;
         if (!b || !b->held) continue;
@@ -87,7 +87,7 @@ static void drift_of(const mpm *m, const brick *b, int cell, double dt, double d
         h[k] = n > 0 ? axis_left(a, n) : axis_right(a, n);
         v[k] = line[1 + k] / line[0], drift[k] = 0;
     }
-    const double least = THIN * field_law(m, b->field)->rho0 * h[0] * h[1] * h[2];
+    const double least = THIN * group_law(m, b->group)->rho0 * h[0] * h[1] * h[2];
     if (!(line[0] > least)) return;
     for (int k = 0; k < 3; k++) mpm_interface_slope(m, b, cell, k, least, slope[k]);
     for (int pass = 0; pass < 3; pass++) {
@@ -127,7 +127,7 @@ static void pay_node(const mpm *m, brick *b, int cell)
 
 void mpm_substep_store(mpm *m, int site)
 {
-    for (int f = 0; f < m->fields; f++) {
+    for (int f = 0; f < m->groups; f++) {
         const int i = m->directory[f * m->grids.sites + site];
         brick *b = i >= 0 ? &m->bricks[i] : NULL;
         if (!b || !b->held) continue;

@@ -211,12 +211,12 @@ static inline void plane_point(int k, int plane, int n, int at[3])
     at[(k + 2) % 3] = n / HALO;
 }
 
-/* Is this end of the brick's level a mirror to its field? */
+/* Is this end of the brick's level a mirror to its group? */
 static inline bool is_mirror(const mpm *m, const brick *b, int k, int side)
 {
     const mpm_axis *s = &m->scene.axis[k];
     return s->boundary[side] == BOUNDARY_SYMMETRY && !m->grids.level[b->level].seam[k][side] &&
-           (!s->boundary_fields[side] || s->boundary_fields[side] >> b->field & 1);
+           !m->group[b->group].passes[2 * k + side];
 }
 
 /* Mirror planes that the brick's particles reach over; their number, by axis. */

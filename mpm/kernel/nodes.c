@@ -5,6 +5,7 @@
  *   velocities before them, dt/2 f . v, less what the particles had booked of it (p2g.c); that on those after them is
  *   the particles'. */
 #include "mpm/kernel/kernels.h"
+#include "mpm/law/contact.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,9 +16,9 @@ typedef struct {
     const brick *brick;
     double (*line)[LINE];  /* [64] m, p, f, K; borrowed */
     double (*extra)[LINE]; /* [64] V grad S, m (x_p - x_i), m flow stress */
-} field_nodes;
+} group_nodes;
 
-/* One node of one field while it is worked on. */
+/* One node of one group while it is worked on. */
 typedef struct {
     double m, v[3], f[3], heat;
     double v_start[3];  /* before the forces, after the walls [m/s] */
@@ -86,7 +87,7 @@ static void clear_ghosts(const mpm *m, const brick *b, double (*line)[LINE])
 }
 
 /* All sums are asked for before any is added: most come from another core's cache or from memory. */
-static bool gather_field(const mpm *m, const brick *b, bool with_contact, const field_nodes *n)
+static bool gather_group(const mpm *m, const brick *b, bool with_contact, const group_nodes *n)
 {
     const brick *from[NEIGHBOURS];
     shared_box box[NEIGHBOURS];
@@ -113,19 +114,19 @@ static bool gather_field(const mpm *m, const brick *b, bool with_contact, const 
     return count > 0;
 }
 
-static field_nodes seam_lines(const brick *b)
+static group_nodes seam_lines(const brick *b)
 {
-    return (field_nodes){ b, b->line, b->line + BRICK_CELLS };
+    return (group_nodes){ b, b->line, b->line + BRICK_CELLS };
 }
 
 void ISA(gather)(mpm *m, int site)
 {
-    for (int f = 0; f < m->fields; f++) {
+    for (int f = 0; f < m->groups; f++) {
         const int i = m->directory[f * m->grids.sites + site];
         if (i < 0) continue;
         const brick *b = &m->bricks[i];
-        const field_nodes n = seam_lines(b);
-        if (b->level <= m->begins) gather_field(m, b, b->across, &n);
+        const group_nodes n = seam_lines(b);
+        if (b->level <= m->begins) gather_group(m, b, b->across, &n);
     }
 }
 
@@ -145,7 +146,7 @@ typedef struct {
     const double *velocity;
 } wall;
 
-static int walls_at(const mpm *m, const axis axes[3], const int index[3], int field, wall w[3])
+static int walls_at(const mpm *m, const axis axes[3], const int index[3], int group, wall w[3])
 {
     int n = 0;
     for (int k = 0; k < 3; k++) {
@@ -153,7 +154,7 @@ static int walls_at(const mpm *m, const axis axes[3], const int index[3], int fi
         const int hi = index[k] >= a->last;
         if (index[k] > 1 && !hi) continue;
         const mpm_axis *s = &m->scene.axis[k];
-        if (s->boundary_fields[hi] && !(s->boundary_fields[hi] >> field & 1)) continue;
+        if (m->group[group].passes[2 * k + hi]) continue;
         if (s->boundary[hi] == BOUNDARY_FREE) continue;
         w[n++] = (wall){ s->boundary[hi], k, hi ? axis_left(a, a->last) : axis_right(a, 1), s->boundary_velocity[hi] };
     }
@@ -200,66 +201,46 @@ static void apply_walls(const wall *w, int walls, const law *k, double dt, node_
     }
 }
 
-/* ---- contact of two fields at a node ---- */
-
-typedef struct {
-    double n[3];  /* unit normal from a to b */
-    double area;  /* of the surface of a that belongs to this node [m2] */
-    double shear; /* strength in shear of the weaker side there [Pa] */
-    bool touch;
-} contact_geometry;
+/* ---- contact of two groups at a node ---- */
 
 static double dot(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The normal is the volume gradient of the lower field alone (the rail's, the particle's): behind the edge of the lead
- * face a difference of gradients tilts and reads sliding as approach.  Where that field has no surface at the node
- * (deep overlap) the difference must serve. */
-static contact_geometry geometry(const mpm *m, const node_state *a, const node_state *b, const wall *w, int walls,
-                                 const double h[3])
+typedef struct {
+    const double *h;
+    const wall *walls;
+    int wall_count;
+    double dt; /* [s] */
+} node_place;
+
+/* The normal is the volume gradient of one side alone, `of` (mpm_pair.normal_of): behind the edge of the other a
+ * difference of gradients tilts and reads sliding as approach.  Where that side has no surface at the node (deep
+ * overlap) the difference must serve.  False: they do not touch. */
+static bool geometry(const mpm *m, const node_state *a, const node_state *b, bool of_b, const node_place *at,
+                     contact_touch *t)
 {
-    contact_geometry g = { .touch = false };
+    const double *h = at->h;
+    const node_state *of = of_b ? b : a;
     double d[3];
-    for (int k = 0; k < 3; k++) d[k] = a->extra[k];
+    for (int k = 0; k < 3; k++) d[k] = of_b ? -of->extra[k] : of->extra[k];
     const double smallest = fmin(h[0], fmin(h[1], h[2]));
-    if (sqrt(dot(d, d)) * smallest < 0.05 * h[0] * h[1] * h[2] * fmin(1, a->m / (a->m + b->m)))
+    if (sqrt(dot(d, d)) * smallest < 0.05 * h[0] * h[1] * h[2] * fmin(1, of->m / (a->m + b->m)))
         for (int k = 0; k < 3; k++) d[k] = a->extra[k] - b->extra[k];
-    for (int i = 0; i < walls; i++)
-        if (w[i].kind == BOUNDARY_SYMMETRY) d[w[i].axis] = 0;
+    for (int i = 0; i < at->wall_count; i++)
+        if (at->walls[i].kind == BOUNDARY_SYMMETRY) d[at->walls[i].axis] = 0;
     const double length = sqrt(dot(d, d));
-    if (!(length > 0)) return g;
+    if (!(length > 0)) return false;
     double gap = 0, span = 0;
     for (int k = 0; k < 3; k++) {
-        g.n[k] = d[k] / length;
-        gap += g.n[k] * (b->extra[3 + k] / b->m - a->extra[3 + k] / a->m);
-        span += g.n[k] * h[k] * g.n[k] * h[k];
+        t->n[k] = d[k] / length;
+        gap += t->n[k] * (b->extra[3 + k] / b->m - a->extra[3 + k] / a->m);
+        span += t->n[k] * h[k] * t->n[k] * h[k];
     }
-    g.area = length;
-    g.shear = fmin(a->extra[6] / a->m, b->extra[6] / b->m) / sqrt(3);
-    g.touch = gap < m->scene.contact_gap * sqrt(span);
-    return g;
-}
-
-/* Impulse on b (minus it on a) that ends the approach; friction by Coulomb, but never more than the weaker side bears
- * in shear: a molten or failed layer slides freely.  Zero where they part. */
-static bool contact_impulse(const contact_law *c, const contact_geometry *g, double reduced, const double rel[3],
-                            double dt, double J[3])
-{
-    const double vn = dot(rel, g->n), stick2 = dot(rel, rel);
-    if (c->bond_strength > 0 && reduced * sqrt(stick2) <= c->bond_strength * g->area * dt) {
-        for (int k = 0; k < 3; k++) J[k] = -reduced * rel[k];
-        return true;
-    }
-    if (!(vn < 0)) return false;
-    double vt[3], Jn = -reduced * vn;
-    for (int k = 0; k < 3; k++) vt[k] = rel[k] - vn * g->n[k];
-    const double slip = sqrt(dot(vt, vt));
-    const double limit = fmin(c->friction * Jn, fmin(c->shear_limit, g->shear) * g->area * dt);
-    const double Jt = fmin(limit, reduced * slip);
-    for (int k = 0; k < 3; k++) J[k] = Jn * g->n[k] - (slip > 0 ? Jt * vt[k] / slip : 0);
-    return true;
+    t->area = length;
+    t->shear = fmin(a->extra[6] / a->m, b->extra[6] / b->m) / sqrt(3);
+    return gap < m->scene.contact_gap * sqrt(span);
 }
 
 static double kinetic(const node_state *n)
@@ -271,29 +252,34 @@ static double kinetic(const node_state *n)
 static double heat_share(const mpm *m, int a, int b)
 {
     double e[2];
-    const int field[2] = { a, b };
+    const int group[2] = { a, b };
     for (int s = 0; s < 2; s++) {
         e[s] = NAN;
         for (int i = m->scene.bodies - 1; i >= 0; i--)
-            if (m->scene.body[i].field == field[s])
+            if (m->scene.body[i].group == group[s])
                 e[s] = sqrt(m->materials[i].conductivity * m->materials[i].density * m->materials[i].specific_heat);
     }
     return isnan(e[0]) || isnan(e[1]) ? 0.5 : e[0] / (e[0] + e[1]);
 }
 
+/* Two groups that touch at a node: J is the impulse on b, minus it that on a. */
 typedef struct {
-    const double *h;
-    const wall *walls;
-    int wall_count;
-    double dt; /* [s] */
-} node_place;
-
-/* Two fields that touch at a node: J is the impulse on b, minus it that on a. */
-typedef struct {
-    int field[2];
+    int group[2];
     node_state *a, *b;
     double J[3]; /* [N s] */
 } touching;
+
+#define CONTACT_IMPULSE
+#include "mpm/law/contact.def"
+#undef CONTACT_IMPULSE
+
+static bool impulse(const touch_rule *rule, const contact_touch *t, double J[3])
+{
+#define CONTACT_BEGIN(name, text) \
+    if (rule->law == CONTACT_##name) return contact_##name(rule->value, t, J);
+#include "mpm/law/contact.def"
+    return false;
+}
 
 /* Sets the pair's velocities and its J; false where the two do not touch. */
 static bool contact_pair(const mpm *m, touching *t, const node_place *at, tally *sum)
@@ -301,17 +287,16 @@ static bool contact_pair(const mpm *m, touching *t, const node_place *at, tally 
     static const double MASS_SCREEN = 1e-6;
     node_state *a = t->a, *b = t->b;
     if (a->m < MASS_SCREEN * b->m || b->m < MASS_SCREEN * a->m) return false;
-    const contact_geometry g = geometry(m, a, b, at->walls, at->wall_count, at->h);
-    if (!g.touch) return false;
-    const contact_law *c = &m->scene.contact[t->field[0]][t->field[1]];
-    double rel[3];
-    for (int k = 0; k < 3; k++) rel[k] = b->v[k] - a->v[k];
-    if (!contact_impulse(c, &g, a->m * b->m / (a->m + b->m), rel, at->dt, t->J)) return false;
+    const touch_rule *rule = touch_rule_of(m, t->group[0], t->group[1]);
+    contact_touch c = { .reduced = a->m * b->m / (a->m + b->m), .dt = at->dt };
+    if (!geometry(m, a, b, rule->normal_of_higher, at, &c)) return false;
+    for (int k = 0; k < 3; k++) c.apart[k] = b->v[k] - a->v[k];
+    if (!impulse(rule, &c, t->J)) return false;
     for (int k = 0; k < 3; k++) {
         a->v[k] -= t->J[k] / a->m;
         b->v[k] += t->J[k] / b->m;
-        sum->contact[t->field[0]][k] -= t->J[k];
-        sum->contact[t->field[1]][k] += t->J[k];
+        sum->contact[t->group[0]][k] -= t->J[k];
+        sum->contact[t->group[1]][k] += t->J[k];
     }
     return true;
 }
@@ -327,7 +312,7 @@ static void contact_heat(const mpm *m, const touching *t, tally *sum)
         const double slip = t->b->v[k] - t->a->v[k], slip_start = t->b->v_start[k] - t->a->v_start[k];
         Q -= t->J[k] * 0.5 * (slip + slip_start);
     }
-    const double share = heat_share(m, t->field[0], t->field[1]);
+    const double share = heat_share(m, t->group[0], t->group[1]);
     t->a->heat += share * Q;
     t->b->heat += (1 - share) * Q;
     sum->heat_friction += Q;
@@ -342,23 +327,23 @@ static void finish_node(const node_state *n, double node[NODE], tally *sum)
     node[3] = 0.5 * dot(n->v, n->v) + n->heat / n->m;
 }
 
-static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int index[3], const double h[3], double dt,
+static void one_node(mpm *m, group_nodes *groups, int count, int cell, const int index[3], const double h[3], double dt,
                      tally *sum)
 {
-    node_state state[MPM_MAX_FIELDS];
-    wall walls[MPM_MAX_FIELDS][3];
-    int n_walls[MPM_MAX_FIELDS], pairs = 0;
-    touching pair[MPM_MAX_FIELDS * (MPM_MAX_FIELDS - 1) / 2];
+    node_state state[MPM_MAX_GROUPS];
+    wall walls[MPM_MAX_GROUPS][3];
+    int n_walls[MPM_MAX_GROUPS], pairs = 0;
+    touching pair[MPM_MAX_GROUPS * (MPM_MAX_GROUPS - 1) / 2];
     for (int s = 0; s < count; s++) {
-        const double *line = fields[s].line[cell];
-        const int field = fields[s].brick->field;
+        const double *line = groups[s].line[cell];
+        const int group = groups[s].brick->group;
         node_state *n = &state[s];
-        *n = (node_state){ .m = line[0], .extra = fields[s].extra[cell] };
+        *n = (node_state){ .m = line[0], .extra = groups[s].extra[cell] };
         if (!(n->m > 0)) continue;
         for (int k = 0; k < 3; k++) n->v[k] = line[1 + k] / n->m, n->f[k] = line[4 + k];
         n->heat = line[7] - kinetic(n);
-        n_walls[s] = walls_at(m, axes_of(m, fields[s].brick), index, field, walls[s]);
-        apply_walls(walls[s], n_walls[s], field_law(m, field), dt, n, sum);
+        n_walls[s] = walls_at(m, axes_of(m, groups[s].brick), index, group, walls[s]);
+        apply_walls(walls[s], n_walls[s], group_law(m, group), dt, n, sum);
         memcpy(n->v_start, n->v, sizeof n->v_start);
         n->heat -= 0.5 * dt * dot(line + 4, n->v);
         for (int k = 0; k < 3; k++) n->v[k] += dt * n->f[k] / n->m, n->f[k] = 0;
@@ -368,12 +353,12 @@ static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int
             if (state[a].m > 0 && state[b].m > 0) {
                 const node_place at = { h, walls[a], n_walls[a], dt };
                 touching *t = &pair[pairs];
-                *t = (touching){ { fields[a].brick->field, fields[b].brick->field }, &state[a], &state[b], { 0 } };
+                *t = (touching){ { groups[a].brick->group, groups[b].brick->group }, &state[a], &state[b], { 0 } };
                 if (contact_pair(m, t, &at, sum)) pairs++;
             }
     for (int i = 0; i < pairs; i++) contact_heat(m, &pair[i], sum);
     for (int s = 0; s < count; s++) {
-        double *node = brick_nodes(m, fields[s].brick)[cell];
+        double *node = brick_nodes(m, groups[s].brick)[cell];
         memset(node, 0, NODE * sizeof *node);
         if (!(state[s].m > 0)) continue;
         if (count > 1 && n_walls[s] > 0)
@@ -383,7 +368,7 @@ static void one_node(mpm *m, field_nodes *fields, int count, int cell, const int
     }
 }
 
-/* Away from every wall: one_node then only adds the forces, unless fields meet. */
+/* Away from every wall: one_node then only adds the forces, unless groups meet. */
 static bool is_inside(const axis axes[3], const int index[3])
 {
     for (int k = 0; k < 3; k++)
@@ -391,14 +376,14 @@ static bool is_inside(const axis axes[3], const int index[3])
     return true;
 }
 
-static bool is_shared(const field_nodes *fields, int count, int cell)
+static bool is_shared(const group_nodes *groups, int count, int cell)
 {
     int n = 0;
-    for (int s = 0; s < count; s++) n += fields[s].line[cell][0] > 0;
+    for (int s = 0; s < count; s++) n += groups[s].line[cell][0] > 0;
     return n > 1;
 }
 
-/* one_node for a single field away from the walls; zero where it has no mass. */
+/* one_node for a single group away from the walls; zero where it has no mass. */
 static void free_node(const double line[LINE], double dt, double node[NODE])
 {
     const double inverse = line[0] > 0 ? 1 / line[0] : 0;
@@ -413,17 +398,17 @@ static void free_node(const double line[LINE], double dt, double node[NODE])
     node[3] = 0.5 * after + (line[7] - 0.5 * dt * power) * inverse - 0.5 * before;
 }
 
-/* The fields that have mass at a site, a seam's already gathered; their number. */
-static int fields_at(mpm *m, int site, node_lines own[][2], field_nodes *fields)
+/* The groups that have mass at a site, a seam's already gathered; their number. */
+static int groups_at(mpm *m, int site, node_lines own[][2], group_nodes *groups)
 {
     int count = 0, present = 0;
-    for (int f = 0; f < m->fields; f++) present += m->directory[f * m->grids.sites + site] >= 0;
-    for (int f = 0; f < m->fields; f++) {
+    for (int f = 0; f < m->groups; f++) present += m->directory[f * m->grids.sites + site] >= 0;
+    for (int f = 0; f < m->groups; f++) {
         const int i = m->directory[f * m->grids.sites + site];
         if (i < 0) continue;
         const brick *b = &m->bricks[i];
-        fields[count] = b->at_seam ? seam_lines(b) : (field_nodes){ b, own[count][0], own[count][1] };
-        if (b->at_seam ? has_mass(b->line) : gather_field(m, b, present > 1, &fields[count]))
+        groups[count] = b->at_seam ? seam_lines(b) : (group_nodes){ b, own[count][0], own[count][1] };
+        if (b->at_seam ? has_mass(b->line) : gather_group(m, b, present > 1, &groups[count]))
             count++;
         else
             memset(brick_nodes(m, b), 0, sizeof *m->nodes);
@@ -440,15 +425,15 @@ static const brick *first_at(const mpm *m, int site)
 
 void ISA(nodes)(mpm *m, int site)
 {
-    node_lines own[MPM_MAX_FIELDS][2];
-    field_nodes fields[MPM_MAX_FIELDS];
+    node_lines own[MPM_MAX_GROUPS][2];
+    group_nodes groups[MPM_MAX_GROUPS];
     tally *sum = &m->site_sum[site];
     memset(sum, 0, sizeof *sum);
     const brick *b = first_at(m, site);
     const uint64_t due =
         mpm_substep_due(m, b) & ~(b->seam.follow_coarser | b->seam.follow_finer); /* mpm_interface_constrain */
     if (!due) return;
-    const int count = fields_at(m, site, own, fields);
+    const int count = groups_at(m, site, own, groups);
     if (count == 0) return;
     const axis *axes = axes_of(m, b);
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
@@ -456,12 +441,12 @@ void ISA(nodes)(mpm *m, int site)
                                BRICK * b->at[2] + cell / (BRICK * BRICK) };
         if (!(due >> cell & 1)) continue;
         const double dt = mpm_substep_dt(m, b, cell);
-        if (is_inside(axes, index) && !is_shared(fields, count, cell)) {
-            for (int s = 0; s < count; s++) free_node(fields[s].line[cell], dt, brick_nodes(m, fields[s].brick)[cell]);
+        if (is_inside(axes, index) && !is_shared(groups, count, cell)) {
+            for (int s = 0; s < count; s++) free_node(groups[s].line[cell], dt, brick_nodes(m, groups[s].brick)[cell]);
             continue;
         }
         double h[3];
         for (int k = 0; k < 3; k++) h[k] = axes[k].edge[index[k] + 1] - axes[k].edge[index[k]];
-        one_node(m, fields, count, cell, index, h, dt, sum);
+        one_node(m, groups, count, cell, index, h, dt, sum);
     }
 }

@@ -75,13 +75,13 @@ status mpm_store_new_grid(mpm *m)
     free_places(m);
     m->bricks = NULL;
     m->bricks_used = m->bricks_capacity = 0;
-    m->directory = malloc((size_t)m->fields * sites * sizeof(int));
+    m->directory = malloc((size_t)m->groups * sites * sizeof(int));
     m->site_list = malloc(sites * sizeof(int));
     m->seam_list = malloc(sites * sizeof(int));
     m->site_sum = malloc(sites * sizeof(tally));
     CHECK(m->directory && m->site_list && m->seam_list && m->site_sum, STATUS_MEMORY,
           "no memory for a window of %zu bricks", sites);
-    for (int i = 0; i < m->fields * m->grids.sites; i++) m->directory[i] = -1;
+    for (int i = 0; i < m->groups * m->grids.sites; i++) m->directory[i] = -1;
     return status_ok();
 }
 
@@ -128,15 +128,15 @@ static status grow_bricks(mpm *m)
     return status_ok();
 }
 
-status mpm_store_brick(mpm *m, int field, int level, const int at[3], int *out)
+status mpm_store_brick(mpm *m, int group, int level, const int at[3], int *out)
 {
     const int site = site_index(m, level, at);
-    int *slot = &m->directory[field * m->grids.sites + site];
+    int *slot = &m->directory[group * m->grids.sites + site];
     if (*slot < 0) {
         TRY(grow_bricks(m));
         brick *b = &m->bricks[m->bricks_used];
         memset(b, 0, sizeof *b);
-        b->field = field, b->level = level;
+        b->group = group, b->level = level;
         b->site = site;
         b->seam = mpm_interface_nodes(m, level, at);
         b->at_seam = seam_any(&b->seam);
@@ -170,7 +170,7 @@ status mpm_store_empty(mpm *m, int blocks)
 {
     for (int i = 0; i < m->bricks_used; i++) mpm_store_free_brick(&m->bricks[i]);
     m->bricks_used = 0;
-    for (int i = 0; i < m->fields * m->grids.sites; i++) m->directory[i] = -1;
+    for (int i = 0; i < m->groups * m->grids.sites; i++) m->directory[i] = -1;
     m->free_head = -1, m->blocks_free = 0;
     chain_free_blocks(m, 0);
     return blocks > m->blocks_capacity ? grow_blocks(m, blocks + blocks / 8) : status_ok();
@@ -181,7 +181,7 @@ status mpm_store_surround(mpm *m, int brick_index)
     for (int step = 0; step < NEIGHBOURS; step++) {
         int to[3], found;
         const brick *b = &m->bricks[brick_index];
-        if (step_inside(m, b, step, to)) TRY(mpm_store_brick(m, b->field, b->level, to, &found));
+        if (step_inside(m, b, step, to)) TRY(mpm_store_brick(m, b->group, b->level, to, &found));
     }
     if (m->bricks[brick_index].at_seam) {
         const brick b = m->bricks[brick_index]; /* the array may move */
@@ -190,15 +190,15 @@ status mpm_store_surround(mpm *m, int brick_index)
     return mpm_store_open(&m->bricks[brick_index]);
 }
 
-/* Does another field have particles at this place or next door? */
+/* Does another group have particles at this place or next door? */
 static bool meets_other(const mpm *m, const brick *b)
 {
     for (int step = 0; step < NEIGHBOURS; step++) {
         int to[3];
         if (!step_inside(m, b, step, to)) continue;
-        for (int f = 0; f < m->fields; f++) {
+        for (int f = 0; f < m->groups; f++) {
             const int other = brick_at(m, f, b->level, to);
-            if (f != b->field && other >= 0 && m->bricks[other].particles > 0) return true;
+            if (f != b->group && other >= 0 && m->bricks[other].particles > 0) return true;
         }
     }
     return false;
@@ -209,7 +209,7 @@ static bool link_brick(mpm *m, brick *b)
 {
     for (int step = 0; step < NEIGHBOURS; step++) {
         int to[3];
-        b->neighbour[step] = step_inside(m, b, step, to) ? brick_at(m, b->field, b->level, to) : -1;
+        b->neighbour[step] = step_inside(m, b, step, to) ? brick_at(m, b->group, b->level, to) : -1;
     }
     b->across = b->at_seam && mpm_interface_in_contact(m, b);
     b->contact = b->across || meets_other(m, b);
@@ -229,7 +229,7 @@ status mpm_store_relink(mpm *m)
     CHECK(enough, STATUS_MEMORY, "no memory for a brick");
     m->site_count = m->seam_count = 0;
     for (int s = 0; s < m->grids.sites; s++)
-        for (int f = 0; f < m->fields; f++) {
+        for (int f = 0; f < m->groups; f++) {
             const int i = m->directory[f * m->grids.sites + s];
             if (i < 0) continue;
             m->site_list[m->site_count++] = s;
@@ -363,7 +363,7 @@ static int compact_order(const mpm *m, int *to)
     int used = 0;
     for (int i = 0; i < m->blocks_capacity; i++) to[i] = -1;
     for (int s = 0; s < m->site_count; s++)
-        for (int f = 0; f < m->fields; f++) {
+        for (int f = 0; f < m->groups; f++) {
             const int i = m->directory[f * m->grids.sites + m->site_list[s]];
             for (int c = 0; i >= 0 && c < BRICK_CELLS; c++)
                 for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) to[q] = used++;
@@ -436,7 +436,7 @@ status mpm_store_place(mpm *m, int body, const double *particle)
     const int level = mpm_grids_level(&m->grids, particle + FIRST_x);
     const int cell = mpm_store_cell_at(m, level, particle + FIRST_x, at);
     assert(cell >= 0);
-    TRY(mpm_store_brick(m, m->scene.body[body].field, level, at, &index));
+    TRY(mpm_store_brick(m, m->scene.body[body].group, level, at, &index));
     if (m->blocks_free == 0) TRY(mpm_store_reserve(m, 0));
     CHECK(mpm_store_insert(m, &m->bricks[index], cell, body, particle) >= 0, STATUS_MEMORY,
           "no memory for the particles");

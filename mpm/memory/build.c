@@ -146,16 +146,16 @@ static status walk(const mpm_scene *s, int body, const law *k, const grids *g, c
     return status_ok();
 }
 
-const double mpm_build_everywhere[2] = { -INFINITY, INFINITY };
+const build_range mpm_build_everywhere = { 0, -INFINITY, INFINITY };
 
-status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g, const double x[2],
+status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g, const build_range *range,
                       const build_sink *sink)
 {
     const mpm_body *b = &s->body[body];
     const axis *axes = grids_window(g)->axes;
     double lo[3], hi[3];
     mpm_solid_bounds(&s->solid[b->solid], lo, hi);
-    lo[0] = fmax(lo[0], x[0]), hi[0] = fmin(hi[0], x[1]);
+    lo[range->along] = fmax(lo[range->along], range->lo), hi[range->along] = fmin(hi[range->along], range->hi);
     ladder l[3] = { { 0 } };
     status r = status_ok();
     for (int q = 0; q < 3 && r.code == STATUS_OK; q++) {

@@ -16,12 +16,17 @@ typedef struct {
     void *user; /* borrowed */
 } build_sink;
 
-/* Calls the sink for every material point of one body between two places along x (-INFINITY, INFINITY: all that lies in
- * the window), in a fixed order. */
-status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g, const double x[2],
-                      const build_sink *sink);
+/* Between two places on an axis [m]. */
+typedef struct {
+    int along;
+    double lo, hi;
+} build_range;
 
-extern const double mpm_build_everywhere[2];
+extern const build_range mpm_build_everywhere; /* all that lies in the window */
+
+/* Calls the sink for every material point of one body in a range, in a fixed order. */
+status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g, const build_range *range,
+                      const build_sink *sink);
 
 /* What the solver makes of a point (mpm.c): q has BLOCK_DOUBLES. */
 void mpm_point_of(const mpm *m, int body, const build_point *p, double *q);

@@ -1,4 +1,4 @@
-/* Where fields may meet.  A particle's nodes are those of its cell and of the cells beside it, so two fields can share
+/* Where groups may meet.  A particle's nodes are those of its cell and of the cells beside it, so two groups can share
  * a node only where their cells lie within two of each other along every axis. */
 #include "mpm/memory/store.h"
 
@@ -35,9 +35,9 @@ static uint64_t others_at(const mpm *m, const brick *b, const int step[3])
         at[k] = b->at[k] + step[k];
         if (at[k] < 0 || at[k] >= axes_of(m, b)[k].bricks) return 0;
     }
-    for (int f = 0; f < m->fields; f++) {
+    for (int f = 0; f < m->groups; f++) {
         const int other = brick_at(m, f, b->level, at);
-        if (f != b->field && other >= 0) cells |= m->bricks[other].occupied;
+        if (f != b->group && other >= 0) cells |= m->bricks[other].occupied;
     }
     return cells;
 }

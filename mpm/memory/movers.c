@@ -185,7 +185,7 @@ static bool arrive(mpm *m, brick *b)
 }
 
 /* Calls `each` for every mover to another level, in the order of bricks. */
-typedef status crosser(mpm *m, const mover_list *list, int i, int field, bool *changed);
+typedef status crosser(mpm *m, const mover_list *list, int i, int group, bool *changed);
 
 static status each_crossing(mpm *m, crosser *each, bool *changed)
 {
@@ -195,23 +195,23 @@ static status each_crossing(mpm *m, crosser *each, bool *changed)
         const brick b = m->bricks[i]; /* the array may move */
         const mover_list *list = &m->movers[b.movers_thread];
         for (int k = b.movers_first; k < b.movers_first + b.movers; k++)
-            if (list->head[k].brick_step == CROSSES) TRY(each(m, list, k, b.field, changed));
+            if (list->head[k].brick_step == CROSSES) TRY(each(m, list, k, b.group, changed));
     }
     return status_ok();
 }
 
-static status open_across(mpm *m, const mover_list *list, int i, int field, bool *changed)
+static status open_across(mpm *m, const mover_list *list, int i, int group, bool *changed)
 {
     int to;
-    TRY(mpm_store_brick(m, field, list->head[i].level, list->head[i].at, &to));
+    TRY(mpm_store_brick(m, group, list->head[i].level, list->head[i].at, &to));
     if (m->bricks[to].out) return status_ok();
     *changed = true;
     return mpm_store_surround(m, to);
 }
 
-static status arrive_across(mpm *m, const mover_list *list, int i, int field, bool *changed)
+static status arrive_across(mpm *m, const mover_list *list, int i, int group, bool *changed)
 {
-    brick *b = &m->bricks[brick_at(m, field, list->head[i].level, list->head[i].at)];
+    brick *b = &m->bricks[brick_at(m, group, list->head[i].level, list->head[i].at)];
     *changed = *changed || b->particles == 0;
     const int q = mpm_store_insert(m, b, list->head[i].cell, list->head[i].body, list->data[i]);
     CHECK(q >= 0, STATUS_MEMORY, "the particle blocks ran out where the grids' levels meet: use larger cells");

@@ -1,10 +1,10 @@
 /* The solver's memory: particles in blocks of eight, blocks chained by cell, cells in bricks of 4 x 4 x 4.
  *
  *   block   8 particles of one body and one cell, array of structures of arrays; holes have mass 0
- *   brick   64 cells of one velocity field; `out` are the node sums of its own particles on its 6 x 6 x 6 nodes (own
+ *   brick   64 cells of one group; `out` are the node sums of its own particles on its 6 x 6 x 6 nodes (own
  *   nodes
  *           and one layer around), `mpm.nodes` the velocities of its own 4 x 4 x 4 nodes
- *   site    the bricks of all fields at one place of one level of the nested grids (grid.h)
+ *   site    the bricks of all groups at one place of one level of the nested grids (grid.h)
  * A step (mpm.c) of a level: P2G over bricks -> sums over sites, contact, boundaries -> G2P over bricks -> movers
  * change cells. Every phase reads what the last one wrote and writes only its own brick, in an order that no thread
  * changes: the same bits on any number of threads. */
@@ -96,7 +96,7 @@ typedef struct {
     double heat_friction, heat_transfer, heat_viscous;
     double work_boundary, work_external;
     double impulse_boundary[3], impulse_external[3];
-    double contact[MPM_MAX_FIELDS][3];
+    double contact[MPM_MAX_GROUPS][3];
     departure left;
     double rate; /* largest (c + |v|) / h, times the share of m.dt that the level's steps are [1/s] */
     double peak_temperature;
@@ -122,17 +122,17 @@ typedef struct {
 } node_shares;
 
 typedef struct {
-    int field, level;
+    int group, level;
     int at[3]; /* brick coordinates */
     int site;
     seam_nodes seam;       /* of its nodes */
     bool at_seam;          /* there are any */
-    bool across;           /* another field has particles near a node that this brick shares with another level */
+    bool across;           /* another group has particles near a node that this brick shares with another level */
     int head[BRICK_CELLS]; /* first block of each cell, -1 = none */
     int particles, blocks;
-    bool contact;                /* another field has particles here or next door */
-    uint64_t occupied, meets;    /* bit c: cell c has particles; it may share nodes with another field */
-    int neighbour[NEIGHBOURS];   /* bricks of the same field around, -1 = none */
+    bool contact;                /* another group has particles here or next door */
+    uint64_t occupied, meets;    /* bit c: cell c has particles; it may share nodes with another group */
+    int neighbour[NEIGHBOURS];   /* bricks of the same group around, -1 = none */
     double (*out)[LINE];         /* [216] m, px, py, pz, fx, fy, fz, kinetic energy; halo_place (kernels.h) */
     double (*out_contact)[LINE]; /* [216] V grad S (3), -m (x_i - x_p) (3), m flow, 0 */
     double (*line)[LINE];        /* of a seam brick: [64] sums as in `out`, then [64] as in `out_contact` */
@@ -148,21 +148,36 @@ typedef struct {
     uint8_t mask; /* lanes in use */
 } block_link;
 
-/* The window and its fine zone along x, and the zone across. */
+/* The window and its fine zone along the axis that they follow (mpm_follow), and the zone across. */
 typedef struct {
     double at[5]; /* lower end of the fine zone, ends of the window; ends of the zone across [m] */
 } zone;
 
 typedef struct kernels kernels;
 
+typedef struct {
+    int first;              /* body */
+    bool passes[MPM_FACES]; /* mpm_body.passes */
+} group_info;
+
+/* A contact as the kernels want it. */
+typedef struct {
+    int law; /* index in contact.def */
+    double value[MPM_CONTACT_VALUES];
+    bool normal_of_higher; /* of the two groups; else the surface of the lower gives the normal */
+} touch_rule;
+
 struct mpm {
     mpm_scene scene;
-    material materials[MPM_MAX_BODIES];
-    law laws[MPM_MAX_BODIES];
+    material *materials; /* [scene.bodies] */
+    law *laws;           /* [scene.bodies] */
     grids grids;
-    int fields;
-    int *directory;  /* [fields][grids.sites] brick or -1 */
-    tally *site_sum; /* [grids.sites] */
+    int groups;
+    group_info *group; /* [groups] */
+    touch_rule *rule;  /* [1 + scene.pairs] the first for two groups that no pair names */
+    int *rule_of;      /* [groups x groups] */
+    int *directory;    /* [groups][grids.sites] brick or -1 */
+    tally *site_sum;   /* [grids.sites] */
 
     brick *bricks;
     double (*nodes)[BRICK_CELLS][NODE]; /* of each brick: vx, vy, vz, specific energy that is left to the particles */
@@ -190,8 +205,8 @@ struct mpm {
     mpm_wake wake;
     size_t wake_capacity;
     zone zone_start;
-    double zone_length;  /* of the fine zone along x [m] */
-    double force_sum[3]; /* smoothing of the contact force on field 0 */
+    double zone_length;  /* of the fine zone along the axis that it follows [m] */
+    double force_sum[3]; /* smoothing of the contact force on group 0 */
 };
 
 struct kernels {
@@ -214,7 +229,7 @@ void mpm_store_free_brick(brick *b);
 void mpm_store_release(mpm *m, int block_index);         /* back to the free blocks */
 void mpm_store_release_cell(mpm *m, brick *b, int cell); /* all blocks of a cell */
 void mpm_store_free(mpm *m);
-status mpm_store_brick(mpm *m, int field, int level, const int at[3], int *out); /* finds or makes it */
+status mpm_store_brick(mpm *m, int group, int level, const int at[3], int *out); /* finds or makes it */
 status mpm_store_open(brick *b);                    /* memory for the sums of its particles */
 status mpm_store_empty(mpm *m, int blocks);         /* no bricks, room for so many blocks */
 status mpm_store_surround(mpm *m, int brick_index); /* makes its 26 neighbours inside the window */
@@ -309,10 +324,10 @@ static inline double (*brick_nodes(const mpm *m, const brick *b))[NODE]
     return m->nodes[b - m->bricks];
 }
 
-/* Brick of a field at a place of a level, -1 = none. */
-static inline int brick_at(const mpm *m, int field, int level, const int at[3])
+/* Brick of a group at a place of a level, -1 = none. */
+static inline int brick_at(const mpm *m, int group, int level, const int at[3])
 {
-    return m->directory[field * m->grids.sites + site_index(m, level, at)];
+    return m->directory[group * m->grids.sites + site_index(m, level, at)];
 }
 
 /* Steps that a level makes in one of the coarsest. */
@@ -342,12 +357,16 @@ static inline bool seam_any(const seam_nodes *s)
     return (s->follow_coarser | s->follow_finer | s->lead_coarser | s->lead_finer) != 0;
 }
 
-/* Of the field's first body. */
-static inline const law *field_law(const mpm *m, int field)
+/* Of the group's first body. */
+static inline const law *group_law(const mpm *m, int group)
 {
-    for (int i = 0; i < m->scene.bodies; i++)
-        if (m->scene.body[i].field == field) return &m->laws[i];
-    return &m->laws[0];
+    return &m->laws[m->group[group].first];
+}
+
+/* How two groups touch. */
+static inline const touch_rule *touch_rule_of(const mpm *m, int a, int b)
+{
+    return &m->rule[m->rule_of[a * m->groups + b]];
 }
 
 static inline const axis *axes_of(const mpm *m, const brick *b)

@@ -23,7 +23,7 @@ typedef struct {
 } image_head;
 
 typedef struct {
-    int field, level, at[3], particles, has_out;
+    int group, level, at[3], particles, has_out;
     int blocks[BRICK_CELLS];
 } image_brick;
 
@@ -52,7 +52,8 @@ static uint64_t hash_body(uint64_t h, const mpm_body *b, const material *m)
     h = hash(h, b->velocity, sizeof b->velocity);
     h = hash(h, b->body_force, sizeof b->body_force);
     h = hash(h, b->traction, sizeof b->traction);
-    const double numbers[] = { b->field, b->temperature, b->traction_face, b->yield_scale, b->damage };
+    const double numbers[] = { b->group, b->temperature, b->traction_face, b->yield_scale, b->damage, b->followed };
+    h = hash(h, b->passes, sizeof b->passes);
     return hash(h, numbers, sizeof numbers);
 }
 
@@ -60,8 +61,15 @@ static uint64_t hash_axis(uint64_t h, const mpm_axis *s, const axis *a)
 {
     h = hash(h, a->node, (size_t)(a->last + 2) * sizeof *a->node);
     h = hash(h, s->boundary_velocity, sizeof s->boundary_velocity);
-    const double numbers[] = { s->boundary[0], s->boundary[1], s->boundary_fields[0], s->boundary_fields[1] };
+    const double numbers[] = { s->boundary[0], s->boundary[1] };
     return hash(h, numbers, sizeof numbers);
+}
+
+static uint64_t hash_rule(uint64_t h, const touch_rule *r)
+{
+    h = hash(h, &r->law, sizeof r->law);
+    h = hash(h, r->value, sizeof r->value);
+    return hash(h, &r->normal_of_higher, sizeof r->normal_of_higher);
 }
 
 uint64_t mpm_scene_key(const mpm *m)
@@ -74,12 +82,12 @@ uint64_t mpm_scene_key(const mpm *m)
     }
     for (int i = 0; i < m->grids.levels; i++)
         for (int k = 0; k < 3; k++) h = hash_axis(h, &s->axis[k], &m->grids.level[i].axes[k]);
-    for (int a = 0; a < m->fields; a++)
-        for (int b = 0; b < m->fields; b++) h = hash(h, &s->contact[a][b], sizeof s->contact[a][b]);
-    const double numbers[] = { s->contact_gap,         s->particles_per_axis, s->courant,      s->viscosity_linear,
-                               s->viscosity_quadratic, s->transfer,           s->basis,        s->heat_by_plastic_work,
-                               s->follow_bodies,       s->follow_lead,        s->follow_speed, s->follow_width,
-                               s->gauge_time[0],       s->gauge_time[1] };
+    for (int a = 0; a < m->groups; a++)
+        for (int b = 0; b < m->groups; b++) h = hash_rule(h, touch_rule_of(m, a, b));
+    const double numbers[] = { s->contact_gap,         s->particles_per_axis, s->courant,     s->viscosity_linear,
+                               s->viscosity_quadratic, s->transfer,           s->basis,       s->heat_by_plastic_work,
+                               s->follow.along,        s->follow.across,      s->follow.lead, s->follow.speed,
+                               s->follow.width };
     return hash(h, numbers, sizeof numbers);
 }
 
@@ -101,7 +109,7 @@ static char *put_brick(char *to, const mpm *m, const brick *b)
 {
     image_brick head;
     memset(&head, 0, sizeof head);
-    head.field = b->field, head.level = b->level, head.particles = b->particles, head.has_out = b->out != NULL;
+    head.group = b->group, head.level = b->level, head.particles = b->particles, head.has_out = b->out != NULL;
     memcpy(head.at, b->at, sizeof head.at);
     for (int c = 0; c < BRICK_CELLS; c++)
         for (int q = b->head[c]; q >= 0; q = m->links[q].next) head.blocks[c]++;
@@ -189,8 +197,8 @@ static status get_brick(mpm *m, reader *r)
     for (int k = 0; k < 3; k++)
         CHECK(head.at[k] >= 0 && head.at[k] < m->grids.level[head.level].axes[k].bricks, STATUS_IO,
               "the checkpoint holds a place outside the window");
-    CHECK(head.field >= 0 && head.field < m->fields, STATUS_IO, "the checkpoint holds a field that the scene lacks");
-    TRY(mpm_store_brick(m, head.field, head.level, head.at, &index));
+    CHECK(head.group >= 0 && head.group < m->groups, STATUS_IO, "the checkpoint holds a group that the scene lacks");
+    TRY(mpm_store_brick(m, head.group, head.level, head.at, &index));
     brick *b = &m->bricks[index];
     b->particles = head.particles;
     if (head.has_out) TRY(mpm_store_open(b));
@@ -267,7 +275,7 @@ static status count(const mpm_scene *s, const grids *g, counting *c, double *dt)
     for (int i = 0; i < s->bodies; i++) {
         law k;
         TRY(mpm_law_make(&s->body[i], s, &k));
-        TRY(mpm_build_body(s, i, &k, g, mpm_build_everywhere, &sink));
+        TRY(mpm_build_body(s, i, &k, g, &mpm_build_everywhere, &sink));
         const double sound = sqrt((k.K0 + 4.0 / 3.0 * k.G) / k.rho0);
         for (int q = 0; q < 3; q++)
             fastest = fmax(fastest, (sound + fabs(s->body[i].velocity[q])) / g->level[0].axes[q].smallest);
@@ -278,8 +286,9 @@ static status count(const mpm_scene *s, const grids *g, counting *c, double *dt)
 
 status mpm_estimate(const mpm_scene *scene, mpm_needs *needs)
 {
-    mpm_scene at[2] = { *scene, *scene };
-    mpm_zone_widen(scene, HUGE_VAL, &at[1].axis[2].fine_lo, &at[1].axis[2].fine_hi);
+    mpm_scene at[2] = { *scene, *scene }; /* the same bodies, borrowed */
+    mpm_axis *across = &at[1].axis[scene->follow.across];
+    mpm_zone_widen(scene, HUGE_VAL, &across->fine_lo, &across->fine_hi);
     for (int i = 0; i < 2; i++) {
         grids g;
         counting c;

@@ -20,10 +20,11 @@ typedef struct {
 } taken;
 
 typedef struct {
-    double lo, width;    /* of a slice along x [m] */
+    int along, across;   /* axes (mpm_follow) */
+    double lo, width;    /* of a slice along [m] */
     double middle, half; /* of the zone across [m] */
     int n;
-    taken *sums; /* [2 n] along x, inside the rim and in it, then [ACROSS]; so many for each share of the bricks */
+    taken *sums; /* [2 n] along, inside the rim and in it, then [ACROSS]; so many for each share of the bricks */
 } profile;
 
 static int sums_of(const profile *p)
@@ -52,19 +53,20 @@ static void add(taken *t, double power, double volume)
 /* A point belongs to all slices along x that its domain covers. */
 static void add_lane(const block *q, int l, double off, const profile *p, taken *to)
 {
-    const double half = q->half[0][l], power = lane_plastic_power(q, l), volume = q->mass[0][l] / q->rho[0][l];
-    const int first = (int)fmax((q->x[0][l] - half - p->lo) / p->width, 0);
-    const int last = (int)fmin((q->x[0][l] + half - p->lo) / p->width, p->n - 1), n = last - first + 1;
+    const double x = q->x[p->along][l], half = q->half[p->along][l], power = lane_plastic_power(q, l),
+                 volume = q->mass[0][l] / q->rho[0][l];
+    const int first = (int)fmax((x - half - p->lo) / p->width, 0);
+    const int last = (int)fmin((x + half - p->lo) / p->width, p->n - 1), n = last - first + 1;
     for (int i = first; i <= last; i++) add(&to[2 * i + (off > RIM)], power / n, volume / n);
     add(&to[2 * p->n + (int)(off * ACROSS)], power, volume);
 }
 
 static void add_block(const mpm *m, int index, const profile *p, taken *to)
 {
-    if (!(m->scene.follow_bodies >> m->links[index].body & 1)) return;
+    if (!m->scene.body[m->links[index].body].followed) return;
     const block *q = &m->blocks[index];
     for (int l = 0; l < LANES; l++) {
-        const double off = fabs(q->x[2][l] - p->middle) / p->half;
+        const double off = fabs(q->x[p->across][l] - p->middle) / p->half;
         if (q->mass[0][l] > 0 && off < 1) add_lane(q, l, off, p, to);
     }
 }
@@ -132,9 +134,10 @@ static double find_width(const profile *p)
 
 plough mpm_plastic_front_find(const mpm *m)
 {
-    const mpm_axis *s = &m->scene.axis[0];
+    const mpm_axis *s = &m->scene.axis[m->scene.follow.along];
     plough r = { .front = s->lo };
-    profile p = { .lo = s->lo, .width = 2 * s->fine, .n = (int)((s->hi - s->lo) / (2 * s->fine)) + 1 };
+    profile p = { m->scene.follow.along, m->scene.follow.across, .lo = s->lo, .width = 2 * s->fine,
+                  .n = (int)((s->hi - s->lo) / (2 * s->fine)) + 1 };
     mpm_zone_across(&m->scene, &p.middle, &p.half);
     p.sums = calloc((size_t)sums_of(&p) * SHARES, sizeof *p.sums);
     if (!p.sums) return r;

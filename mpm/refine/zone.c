@@ -174,7 +174,8 @@ static status merge_coarse(mpm *m)
 
 /* ---- the wake ---- */
 
-/* The part of a point below x; what lies beyond is left to the point itself, however it is split by then. */
+/* The part of a point below x along the axis that the window follows; what lies beyond is left to the point itself,
+ * however it is split by then. */
 static status wake_point(mpm *m, const block *q, int lane, int body, double x)
 {
     mpm_wake *w = &m->wake;
@@ -191,7 +192,7 @@ static status wake_point(mpm *m, const block *q, int lane, int body, double x)
         p->position[k] = q->x[k][lane], p->size[k] = q->half[k][lane], p->velocity[k] = q->v[k][lane];
     }
     p->damage = q->damage[0][lane], p->mass = q->mass[0][lane], p->body = body;
-    mpm_cut_at(x, false, p->position, p->size, &p->mass);
+    mpm_cut_at(m->scene.follow.along, x, false, p->position, p->size, &p->mass);
     return status_ok();
 }
 
@@ -199,22 +200,24 @@ static status wake_point(mpm *m, const block *q, int lane, int body, double x)
  */
 static void reach_over_seam(const mpm *m, size_t first, double x)
 {
-    const double cell = m->scene.axis[0].fine;
+    const int k = m->scene.follow.along;
+    const double cell = m->scene.axis[k].fine;
     for (size_t i = first; i < m->wake.n; i++) {
         mpm_wake_point *p = &m->wake.point[i];
-        if (p->position[0] + p->size[0] <= x - cell) continue;
-        const double more = SEAM * fmax(cell, p->size[0]);
-        p->position[0] += 0.5 * more, p->size[0] += 0.5 * more;
+        if (p->position[k] + p->size[k] <= x - cell) continue;
+        const double more = SEAM * fmax(cell, p->size[k]);
+        p->position[k] += 0.5 * more, p->size[k] += 0.5 * more;
     }
 }
 
-bool mpm_cut_at(double x, bool above, double position[3], double size[3], double *mass)
+bool mpm_cut_at(int along, double place, bool above, double position[3], double size[3], double *mass)
 {
-    const double lo = position[0] - size[0], hi = position[0] + size[0];
-    const double from = above ? fmax(lo, x) : lo, to = above ? hi : fmin(hi, x);
+    const int k = along;
+    const double lo = position[k] - size[k], hi = position[k] + size[k];
+    const double from = above ? fmax(lo, place) : lo, to = above ? hi : fmin(hi, place);
     if (!(to > from)) return false;
     *mass *= (to - from) / (hi - lo);
-    if (from > lo || to < hi) position[0] = 0.5 * (from + to), size[0] = 0.5 * (to - from);
+    if (from > lo || to < hi) position[k] = 0.5 * (from + to), size[k] = 0.5 * (to - from);
     return true;
 }
 
@@ -222,13 +225,14 @@ bool mpm_cut_at(double x, bool above, double position[3], double size[3], double
 static status leave_wake(mpm *m, double x)
 {
     const size_t first = m->wake.n;
+    const int k = m->scene.follow.along;
     for (int i = 0; i < m->bricks_used; i++)
         for (int c = 0; c < BRICK_CELLS; c++)
             for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next)
-                for (int l = 0; l < LANES && m->scene.follow_bodies >> m->links[q].body & 1; l++) {
+                for (int l = 0; l < LANES && m->scene.body[m->links[q].body].followed; l++) {
                     const block *b = &m->blocks[q];
-                    if (m->links[q].mask >> l & 1 && b->x[0][l] + b->half[0][l] > m->wake.until &&
-                        b->x[0][l] - b->half[0][l] < x)
+                    if (m->links[q].mask >> l & 1 && b->x[k][l] + b->half[k][l] > m->wake.until &&
+                        b->x[k][l] - b->half[k][l] < x)
                         TRY(wake_point(m, b, l, m->links[q].body, x));
                 }
     reach_over_seam(m, first, x);
@@ -302,7 +306,7 @@ static status receive(mpm *m, const brick *old, int *blocks)
         if (h->cell >= 0) {
             run = i > old->movers_first && memcmp(h, h - 1, sizeof *h) == 0 ? run + 1 : 0;
             *blocks += run % LANES == 0;
-            if (run == 0) TRY(mpm_store_brick(m, old->field, h->level, h->at, &found));
+            if (run == 0) TRY(mpm_store_brick(m, old->group, h->level, h->at, &found));
             continue;
         }
         departure d = { .count = 0 };
@@ -322,7 +326,7 @@ static bool fill_bricks(mpm *m, const brick *old, int n)
         const mover_list *list = &m->movers[old[b].movers_thread];
         for (int i = old[b].movers_first; i < old[b].movers_first + old[b].movers; i++) {
             const mover_head *h = &list->head[i];
-            const int to = h->cell >= 0 ? brick_at(m, old[b].field, h->level, h->at) : -1;
+            const int to = h->cell >= 0 ? brick_at(m, old[b].group, h->level, h->at) : -1;
             if (to < 0 || to % threads != me) continue;
             enough = mpm_store_insert(m, &m->bricks[to], h->cell, h->body, list->data[i]) >= 0 && enough;
         }
@@ -378,12 +382,12 @@ static status grow_point(void *user, int body, const build_point *p)
 /* Fresh metal of the followed bodies, from the old window's upper end on. */
 static status grow_in(mpm *m, double from)
 {
-    const double x[2] = { from, INFINITY };
-    if (!(m->scene.axis[0].hi > from)) return status_ok();
+    const build_range range = { m->scene.follow.along, from, INFINITY };
+    if (!(m->scene.axis[range.along].hi > from)) return status_ok();
     growth g = { .m = m };
     const build_sink sink = { grow_point, &g };
     for (int i = 0; i < m->scene.bodies; i++)
-        if (m->scene.follow_bodies >> i & 1) TRY(mpm_build_body(&m->scene, i, &m->laws[i], &m->grids, x, &sink));
+        if (m->scene.body[i].followed) TRY(mpm_build_body(&m->scene, i, &m->laws[i], &m->grids, &range, &sink));
     m->ledger.mass_start += g.brought.mass;
     m->ledger.energy_start += g.brought.energy;
     for (int k = 0; k < 3; k++) m->ledger.momentum_start[k] += g.brought.momentum[k];
@@ -392,8 +396,8 @@ static status grow_in(mpm *m, double from)
 
 zone mpm_zone_of(const mpm *m)
 {
-    const mpm_axis *s = &m->scene.axis[0];
-    const mpm_axis *across = &m->scene.axis[2];
+    const mpm_axis *s = &m->scene.axis[m->scene.follow.along];
+    const mpm_axis *across = &m->scene.axis[m->scene.follow.across];
     return (zone){ { s->fine_lo, s->lo, s->hi, across->fine_lo, across->fine_hi } };
 }
 
@@ -404,20 +408,20 @@ static bool is_half_model(const mpm_axis *across)
 
 void mpm_zone_across(const mpm_scene *s, double *middle, double *half)
 {
-    const mpm_axis *z = &s->axis[2];
+    const mpm_axis *z = &s->axis[s->follow.across];
     *middle = is_half_model(z) ? z->fine_lo : 0.5 * (z->fine_lo + z->fine_hi); /* a half model's begins at its mirror */
     *half = z->fine_hi - *middle;
 }
 
 void mpm_zone_widen(const mpm_scene *s, double more, double *lo, double *hi)
 {
-    const mpm_axis *z = &s->axis[2];
+    const mpm_axis *z = &s->axis[s->follow.across];
     const bool half_model = is_half_model(z);
     const double pair = (s->levels > 1 ? 2 : 1) * z->fine; /* of the cells around it the zone takes whole ones */
     const double end = half_model ? z->hi - z->fine_hi : fmin(z->hi - z->fine_hi, z->fine_lo - z->lo);
     double middle, half;
     mpm_zone_across(s, &middle, &half);
-    const double room = fmin(s->follow_width - half, end - mpm_grids_margin(s->levels, z->fine));
+    const double room = fmin(s->follow.width - half, end - mpm_grids_margin(s->levels, z->fine));
     const double wider = fmax(fmin(more, floor(room / pair + 1e-6) * pair), 0);
     *hi = z->fine_hi + wider;
     *lo = z->fine_lo - (half_model ? 0 : wider);
@@ -425,11 +429,11 @@ void mpm_zone_widen(const mpm_scene *s, double more, double *lo, double *hi)
 
 status mpm_zone_regrid(mpm *m, zone z)
 {
-    mpm_axis *s = &m->scene.axis[0];
+    mpm_axis *s = &m->scene.axis[m->scene.follow.along], *across = &m->scene.axis[m->scene.follow.across];
     grids made;
     s->fine_lo = z.at[0], s->fine_hi = z.at[0] + m->zone_length;
     s->lo = z.at[1], s->hi = z.at[2];
-    m->scene.axis[2].fine_lo = z.at[3], m->scene.axis[2].fine_hi = z.at[4];
+    across->fine_lo = z.at[3], across->fine_hi = z.at[4];
     TRY(mpm_grids_make(&m->scene, &made));
     mpm_grids_free(&m->grids);
     m->grids = made;
@@ -443,18 +447,18 @@ static void widen(const mpm *m, const plough *p, zone *z)
     static const double NEAR = 0.6, WIDER = 1.25;
     double middle, half;
     mpm_zone_across(&m->scene, &middle, &half);
-    if (!(p->half_width > NEAR * half) || !(half < m->scene.follow_width * (1 - 1e-9))) return;
-    const double together = (1 << (m->scene.levels - 1)) * m->scene.axis[2].fine;
+    if (!(p->half_width > NEAR * half) || !(half < m->scene.follow.width * (1 - 1e-9))) return;
+    const double together = (1 << (m->scene.levels - 1)) * m->scene.axis[m->scene.follow.across].fine;
     mpm_zone_widen(&m->scene, ceil((WIDER - 1) * half / together) * together, &z->at[3], &z->at[4]);
 }
 
 /* Where the window ought to be now; the fine zone stays inside it. */
 static zone zone_wanted(const mpm *m, const plough *p)
 {
-    const mpm_axis *s = &m->scene.axis[0];
-    const double end = p->power > 0 ? p->front + m->scene.follow_lead : s->lo;
+    const mpm_axis *s = &m->scene.axis[m->scene.follow.along];
+    const double end = p->power > 0 ? p->front + m->scene.follow.lead : s->lo;
     const double room = fmax(2 * s->coarse, mpm_grids_margin(m->scene.levels, s->fine)),
-                 way = m->scene.follow_speed * m->time;
+                 way = m->scene.follow.speed * m->time;
     const double hi = m->zone_start.at[2] + way;
     const double fine_hi = fmin(end, hi - room);
     const double together = 1 << (m->scene.levels - 1); /* cells of the coarsest level keep their places */
@@ -466,34 +470,24 @@ static zone zone_wanted(const mpm *m, const plough *p)
     return z;
 }
 
-/* Plastic power is looked at now and then: the first look at or after a gauge's time counts. */
-static void note_gauges(mpm *m)
-{
-    mpm_report *r = &m->report;
-    for (int i = 0; i < 2; i++)
-        if (m->scene.gauge_time[i] > 0 && !(r->gauge_at[i] > 0) && m->time >= m->scene.gauge_time[i])
-            r->gauge_at[i] = m->time, r->gauge_power[i] = r->plastic_power;
-}
-
 status mpm_zone_follow(mpm *m)
 {
     const zone now = mpm_zone_of(m);
-    if (!m->scene.follow_bodies) return status_ok();
+    if (!mpm_scene_follows(&m->scene)) return status_ok();
     plough p = mpm_plastic_front_find(m);
     /* no groove goes faster than the slider: what its edge takes far ahead must not draw the zone off a groove that
      * dies */
-    const double passed = m->scene.follow_speed * (m->time - m->report.plastic_time);
-    if (m->report.peak_plastic_power > 0 && m->scene.follow_speed > 0)
+    const double passed = m->scene.follow.speed * (m->time - m->report.plastic_time);
+    if (m->report.peak_plastic_power > 0 && m->scene.follow.speed > 0)
         p.front = fmin(p.front, m->report.plastic_front + passed);
     m->report.plastic_front = p.front, m->report.plastic_power = p.power, m->report.plastic_time = m->time;
     m->report.peak_plastic_power = fmax(m->report.peak_plastic_power, p.power);
-    note_gauges(m);
     const zone next = zone_wanted(m, &p);
-    const double step = QUANTUM * m->scene.axis[0].fine;
+    const double fine = m->scene.axis[m->scene.follow.along].fine, step = QUANTUM * fine;
     if (next.at[0] - now.at[0] < 0.999 * step && next.at[2] - now.at[2] < 4 * step && !(next.at[4] > now.at[4])) {
         if (m->scene.levels > 1) TRY(merge_coarse(m));
     } else {
-        TRY(leave_wake(m, next.at[0] + m->scene.axis[0].fine)); /* the cell at the zone's end merges already */
+        TRY(leave_wake(m, next.at[0] + fine)); /* the cell at the zone's end merges already */
         TRY(mpm_zone_regrid(m, next));
         TRY(mpm_store_surround_all(m));
         TRY(grow_in(m, now.at[2]));

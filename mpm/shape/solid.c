@@ -1,4 +1,3 @@
-#include "mpm/scene.h"
 #include "mpm/shape/shape.h"
 
 #include <string.h>
@@ -77,19 +76,5 @@ status mpm_solid_check(const mpm_solid *s, int place)
               "%s: part %d must be one of the %d solids before it", s->kind->name, i + 1, place);
         TRY(mpm_solid_check(mpm_solid_part(s, i), place - s->part[i]));
     }
-    return status_ok();
-}
-
-status mpm_scene_add_solid(mpm_scene *s, const char *kind, int a, int b, mpm_solid **added)
-{
-    const mpm_solid_kind *k = mpm_solid_kind_find(kind);
-    CHECK(k, STATUS_BAD_INPUT, "`%s` is no kind of solid", kind);
-    CHECK(s->solids < MPM_MAX_SOLIDS, STATUS_BAD_INPUT, "a scene takes at most %d solids", MPM_MAX_SOLIDS);
-    *added = &s->solid[s->solids];
-    **added = mpm_solid_make(k);
-    const int part[MPM_SOLID_PARTS] = { a, b };
-    for (int i = 0; i < MPM_SOLID_PARTS; i++)
-        if (part[i] >= 0) (*added)->part[i] = s->solids - part[i];
-    s->solids++;
     return status_ok();
 }

@@ -9,6 +9,7 @@
  * whatever else ran on it.  `cpu` is the least processor time of all threads together: beside a busy neighbour it says
  * more than the wall; so do the phases, the least of each over the repetitions, best with one step a repetition.
  * --only leaves out what lacks the word: a scene's name, an instruction set or a number of threads. */
+#include "mpm/law/contact.h"
 #include "mpm/mpm.h"
 
 #include <math.h>
@@ -68,14 +69,15 @@ static void set_materials(bench_scene *b)
 
 static mpm_body *add_body(mpm_scene *s, const char *shape, const double *values, int n, const material *m)
 {
-    mpm_body *b = &s->body[s->bodies++];
+    mpm_body *b;
+    die(mpm_scene_add_body(s, &b));
     snprintf(b->name, sizeof b->name, "%s", shape);
     b->material = m;
     mpm_solid *solid;
-    if (mpm_scene_add_solid(s, shape, -1, -1, &solid).code != STATUS_OK) abort();
+    die(mpm_scene_add_solid(s, shape, -1, -1, &solid));
     for (int i = 0; i < n; i++) solid->value[i] = values[i];
     b->solid = s->solids - 1;
-    b->temperature = 293, b->yield_scale = 1, b->damage = true;
+    b->damage = true;
     return b;
 }
 
@@ -96,7 +98,6 @@ static void contact_scene(bench_scene *b, bool tiny)
     s->axis[1] = graded(-10e-3, 12.5e-3, -1.5e-3, 1.5e-3, h);
     s->axis[2] = graded(0, 15e-3, 0, 3e-3, h);
     s->axis[0].boundary[0] = s->axis[0].boundary[1] = BOUNDARY_ABSORBING;
-    s->axis[0].boundary_fields[0] = s->axis[0].boundary_fields[1] = 1;
     s->axis[1].boundary[0] = s->axis[1].boundary[1] = s->axis[2].boundary[0] = BOUNDARY_SYMMETRY;
     const double rail[] = { -33e-3, -10e-3, -1, 20e-3, 0, 1 }, grain[] = { 0, 0, 0, 0.5e-3, 0.5e-3 };
     /* half a U of 30 mm with a leg of 5 mm, a head of 10 mm and a chamfer of 2 mm at 30 degrees */
@@ -106,9 +107,9 @@ static void contact_scene(bench_scene *b, bool tiny)
     add_body(s, "box", rail, 6, &b->copper);
     add_body(s, "hemisphere", grain, 5, &b->copper);
     mpm_body *armature = add_body(s, "prism", u, 19, &b->aluminium);
-    armature->field = 1, armature->velocity[0] = 1500;
-    for (int i = 0; i < MPM_MAX_FIELDS; i++)
-        for (int j = 0; j < MPM_MAX_FIELDS; j++) s->contact[i][j].friction = 0.2;
+    armature->group = 1, armature->velocity[0] = 1500;
+    armature->passes[0] = armature->passes[1] = true;
+    s->contact.value[COULOMB_FRICTION] = 0.2;
 }
 
 /* n cells a side */
@@ -145,7 +146,7 @@ static bool wanted(const options *o, const char *name, const char *set, int thre
 static double measure(const char *name, const mpm_scene *base, const char *set, int threads, const options *o)
 {
     if (!wanted(o, name, set, threads)) return 0;
-    mpm_scene s = *base;
+    mpm_scene s = *base; /* the same bodies, borrowed */
     snprintf(s.instruction_set, sizeof s.instruction_set, "%s", set);
     mpm *m;
     if (mpm_create(&s, threads, &m).code != STATUS_OK) return 0;
@@ -219,5 +220,6 @@ int main(int argc, char **argv)
             printf("%-8s  %-10s  two threads over one: single %.2f, contact %.2f; contact over single: %.2f\n", "ratio",
                    sets[i], ns[0][0] / ns[0][1], ns[1][0] / ns[1][1], ns[1][0] / ns[0][0]);
     }
+    mpm_scene_free(&contact.scene), mpm_scene_free(&single.scene), mpm_scene_free(&cached.scene);
     return 0;
 }

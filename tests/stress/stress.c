@@ -199,20 +199,21 @@ static void write_recipe(recipe *r, chance *c, const stock *s)
 
 /* Spheres that fly about: they hit the armature, or leave by the free side and the ends.  The armature stays the last
  * body, so that it keeps the points they share. */
-static void add_fragments(gouge_scene *g, chance *c, const recipe *r)
+static status add_fragments(gouge_scene *g, chance *c, const recipe *r)
 {
     mpm_scene *s = &g->scene;
     const int wanted = one_in(c, 3) ? 1 + below(c, 2) : 0;
-    for (int i = 0; i < wanted && s->bodies >= 1 && s->bodies < MPM_MAX_BODIES; i++) {
-        mpm_body *b = &s->body[g->armature];
-        const int field = b->field + 1 < MPM_MAX_FIELDS ? b->field + 1 : b->field;
-        s->body[++g->armature] = *b; /* the last one, which wins points */
-        s->bodies++;
+    for (int i = 0; i < wanted && s->bodies < MPM_MAX_BODIES; i++) {
+        mpm_body *last;
         mpm_solid *ball;
-        if (mpm_scene_add_solid(s, "sphere", -1, -1, &ball).code != STATUS_OK) abort();
+        TRY(mpm_scene_add_body(s, &last));
+        TRY(mpm_scene_add_solid(s, "sphere", -1, -1, &ball));
+        mpm_body *b = &s->body[g->armature++];
+        const int next = b->group + 1 < MPM_MAX_GROUPS ? b->group + 1 : b->group;
+        *last = *b; /* the last one, which wins points */
         b->solid = s->solids - 1;
         snprintf(b->name, sizeof b->name, "particle");
-        b->field = field;
+        b->group = next;
         double *middle = mpm_solid_value(ball, "center"), a = r->radius;
         *mpm_solid_value(ball, "radius") = a * uniform(c, 0.5, 1);
         middle[0] = uniform(c, 2 * a, 5 * a);
@@ -220,6 +221,7 @@ static void add_fragments(gouge_scene *g, chance *c, const recipe *r)
         middle[2] = uniform(c, 0, 3 * a);
         for (int k = 0; k < 3; k++) b->velocity[k] = uniform(c, -1, 1) * r->velocity, b->body_force[k] = 0;
     }
+    return status_ok();
 }
 
 /* ---- running and judging ---- */
@@ -287,9 +289,10 @@ static void run_case(breech_case *c, const recipe *r, chance *luck, outcome *o)
     status s = gouge_job_make(c, &state, c->scene.cells_per_radius, &job);
     if (s.code == STATUS_OK) {
         job.name = job.task = "stress";
-        add_fragments(&job.scene, luck, r);
         const scene_host host = { .threads = 1, .save = on_save, .user = o };
-        s = gouge_run(&job, &host, &hit);
+        s = add_fragments(&job.scene, luck, r);
+        if (s.code == STATUS_OK) s = gouge_run(&job, &host, &hit);
+        gouge_job_free(&job);
     }
     if (s.code != STATUS_OK) {
         take_status(o, &s);

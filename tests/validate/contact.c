@@ -29,7 +29,7 @@ static mpm *sliding_make(const sliding *b, double h, const valid_scheme *scheme)
 {
     const material m = scene_elastic();
     const double c = cos(b->turn), t = sin(b->turn), x0 = 4e-3, way = b->way;
-    mpm_scene s;
+    SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
     s.axis[0] = scene_axis(-3e-3, 10e-3 + way, h, BOUNDARY_FREE, BOUNDARY_FREE);
@@ -37,7 +37,6 @@ static mpm *sliding_make(const sliding *b, double h, const valid_scheme *scheme)
     s.axis[2] = scene_axis(0, h, h, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
     /* what lies below is far stiffer than what the block does to it in this time; its ends are held */
     s.axis[0].boundary[0] = s.axis[0].boundary[1] = BOUNDARY_FIXED;
-    s.axis[0].boundary_fields[0] = s.axis[0].boundary_fields[1] = 1;
     s.axis[1].boundary[0] = BOUNDARY_FIXED;
     const double origin[3] = { x0, -0.37 * h, 0 }; /* off the grid planes */
     for (int i = 0; i < 2; i++) {                  /* below: from the face down */
@@ -46,7 +45,8 @@ static mpm *sliding_make(const sliding *b, double h, const valid_scheme *scheme)
         mpm_body *body = scene_body(&s, "box", box, 6, &m);
         body->solid = scene_solid(&s, "turn", turn, 7, body->solid, -1);
         body->solid = scene_solid(&s, "move", origin, 3, body->solid, -1);
-        body->field = i;
+        body->group = i;
+        scene_pass(body, 0, i == 1, i == 1);
         if (i == 0) continue;
         body->body_force[0] = b->along * c - b->onto * t, body->body_force[1] = -b->along * t - b->onto * c;
         body->velocity[0] = b->speed * c, body->velocity[1] = -b->speed * t;
@@ -115,7 +115,7 @@ void valid_rolling(double cells, const valid_scheme *scheme, valid_result *out)
 {
     const material m = scene_elastic();
     const double R = BALL_RADIUS, h = R / cells, way = 6e-3, g = 2e5, side = g * sqrt(0.5);
-    mpm_scene s;
+    SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
     s.axis[0] = scene_axis(-1.4 * R, way + 1.4 * R, h, BOUNDARY_FREE, BOUNDARY_FREE);
@@ -124,7 +124,7 @@ void valid_rolling(double cells, const valid_scheme *scheme, valid_result *out)
     scene_box(&s, -1, -1, -1, 1, 0, 1, &m);
     const double ball[] = { 0, R, 0, R };
     mpm_body *b = scene_body(&s, "sphere", ball, 4, &m);
-    b->field = 1;
+    b->group = 1;
     b->body_force[0] = side, b->body_force[1] = -side;
     scene_friction(&s, 0.495);
     mpm *solver = scene_make(&s, 1);
@@ -200,7 +200,7 @@ void valid_hertz(double cells, const valid_scheme *scheme, valid_result *out)
 {
     const double E = BALL_E, nu = BALL_NU, R = BALL_R, h = R / cells, gap = 0.02 * R, speed = 4;
     const material m = valid_solid(E, nu, 1000);
-    mpm_scene s;
+    SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
     s.viscosity_linear = s.viscosity_quadratic = 0;
@@ -213,7 +213,7 @@ void valid_hertz(double cells, const valid_scheme *scheme, valid_result *out)
         const double way = i ? -1 : 1, off = 0.37 * h, ball[] = { 0, off - way * (R + gap / 2), 0, R };
         mpm_body *b = scene_body(&s, "sphere", ball, 4, &m);
         b->velocity[1] = way * speed;
-        b->field = i;
+        b->group = i;
     }
     mpm *solver = scene_make(&s, 1);
     /* Hertz: largest approach and half of the time of contact for a meeting at 2 speed */

@@ -33,7 +33,7 @@ static void ring(double cells, double viscosity, const valid_scheme *scheme, dou
 {
     const material m = valid_solid(1.2e9, 0.3, 1000);
     const double h = BAR_LENGTH / cells, c = mpm_material_longitudinal_speed(&m), period = 4 * BAR_LENGTH / c;
-    mpm_scene s;
+    SCENE_LOCAL(s);
     scene_bar(&s, 0, BAR_LENGTH + 4 * h, h, 1);
     valid_apply(scheme, &s);
     s.viscosity_linear = 0.2 * viscosity, s.viscosity_quadratic = 2.0 * viscosity;
@@ -81,7 +81,7 @@ static double collide(double cells, bool contact, const valid_scheme *scheme, va
 {
     const material m = valid_solid(1e9, 0.33, 1000);
     const double R = DISK_RADIUS, h = 2 * R / cells, gap = 2.5 * h, side = 2.2 * R;
-    mpm_scene s;
+    SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
     s.axis[0] = scene_axis(-side - gap - 8 * h, side + gap + 8 * h, h, BOUNDARY_FREE, BOUNDARY_FREE);
@@ -91,7 +91,7 @@ static double collide(double cells, bool contact, const valid_scheme *scheme, va
         const double way = i ? -1 : 1, disk[] = { -way * (R + gap / 2), -1, 0, R, 2 };
         mpm_body *b = scene_body(&s, "cylinder", disk, 5, &m);
         b->velocity[0] = way * DISK_SPEED;
-        b->field = contact ? i : 0;
+        b->group = contact ? i : 0;
     }
     mpm *solver = scene_make(&s, 1);
     /* they fly to each other, press for about 6 R / c, and part by as much again */

@@ -129,7 +129,7 @@ static void run_tube(double cells, double gamma, tube *t, double end, const vali
     t->c0 = m.sound_speed, t->time = end;
     t->exact->gamma = gamma, t->exact->p_inf = rho0 * m.sound_speed * m.sound_speed / gamma;
     solve(t->exact);
-    mpm_scene s;
+    SCENE_LOCAL(s);
     scene_bar(&s, 0, LENGTH, LENGTH / cells, 1);
     valid_apply(scheme, &s);
     s.axis[0].boundary[0] = BOUNDARY_SYMMETRY;

@@ -102,7 +102,7 @@ static void cube_compare(void *user, block *q, int lane)
 void valid_cube(double cells, const valid_scheme *scheme, valid_result *out)
 {
     const material m = valid_solid(1.2e9, 0.3, 1000);
-    mpm_scene s;
+    SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
     s.viscosity_linear = s.viscosity_quadratic = 0;
@@ -178,7 +178,7 @@ static void vortex(double turn, double cells, const valid_scheme *scheme, valid_
 {
     const material m = valid_solid(1.2e9, 0.3, 1000);
     const double h = 2.6 / cells;
-    mpm_scene s;
+    SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
     s.viscosity_linear = s.viscosity_quadratic = 0;

@@ -41,7 +41,7 @@ static mpm *impact(double cells, const valid_scheme *scheme, double carried, val
     const material m = valid_solid(1e9, 0.3, 1000);
     const double fast = mpm_material_longitudinal_speed(&m), end = TRAVEL / fast, h = 1 / cells, B = HALF_WIDTH;
     core c = { .front = { TRAVEL, TRAVEL * mpm_material_shear_speed(&m) / fast } };
-    mpm_scene s;
+    SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
     for (int k = 0; k < 3; k++) {

@@ -17,7 +17,7 @@ void valid_tension(double cells, const valid_scheme *scheme, valid_result *out)
 {
     const material m = scene_aluminium();
     const double h = SIDE / cells;
-    mpm_scene s;
+    SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
     s.axis[0] = scene_axis(0, LENGTH + 5e-3, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
