@@ -43,6 +43,7 @@ struct options {
     outdir_options how;
     double max_walltime; /* [s], INFINITY: none */
     bool quiet;
+    bool scene; /* check: print the scene */
 };
 
 static int run_case(const options *o);
@@ -86,6 +87,7 @@ static void print_help(FILE *out)
           "  --max-walltime T  stop with a checkpoint after T (90, 30m, 2h, 1:30:00)\n"
           "  --quiet           no progress, no closing table\n"
           "  --expect DIR      check: does the run in DIR give what the case's expected.yaml says?\n"
+          "  --scene           check: print the case's scene as a case of bodies, every value resolved\n"
           "  --keys            list every key of a case file\n"
           "  --version, --help [COMMAND]\n\n"
           "exit codes: 0 done, 1 failed while running, 2 bad input or usage, 75 stopped early with a checkpoint\n",
@@ -146,8 +148,9 @@ static status read_case(const options *o, unsigned needs, breech_case **c)
     char *errors = NULL;
     status s = case_read(o->subject, o->sets, o->n_sets, &how, c, &errors);
     if (s.code == STATUS_OK) {
-        const study *y = o->command.study;
-        s = study_possible(*c, needs);
+        const study *y = o->command.study ? study_for(o->command.study, *c) : NULL;
+        s = study_prepare(*c);
+        if (s.code == STATUS_OK) s = study_possible(*c, needs);
         if (s.code == STATUS_OK && y && y->possible) {
             const study_case of = study_case_of(o, *c);
             s = y->possible(&of);
@@ -172,7 +175,7 @@ static run_status status_of(status s)
 static status write_results(const options *o, session *s, const study_answer *a, status work)
 {
     char error[600];
-    run_summary made = study_summary(o->command.study, a), *summary = &made;
+    run_summary made = study_summary(study_for(o->command.study, s->c), a), *summary = &made;
     summary->case_name = s->c->name;
     summary->instruction_set = mpm_instruction_set();
     summary->status = status_of(work);
@@ -208,14 +211,15 @@ static int carry_out(const options *o, session *s)
     const study_case of = study_case_of(o, s->c);
     study_answer answer = { .result = NULL };
     host_stop_install(o->max_walltime);
-    status work = o->command.study->run(s, &of, &answer);
+    const study *y = study_for(o->command.study, s->c);
+    status work = y->run(s, &of, &answer);
     const status written = write_results(o, s, &answer, work);
     char path[OUTDIR_PATH_SIZE];
     snprintf(path, sizeof path, "%s", s->dir.path);
     const bool report = s->c->output.report && written.code == STATUS_OK && work.code == STATUS_OK;
     say_where(o, s, work);
     const status closed = run_session_close(s, work.code == STATUS_OK && written.code == STATUS_OK);
-    if (o->command.study->free) o->command.study->free(answer.owned); /* scenes may be made of its cases until then */
+    if (y->free) y->free(answer.owned); /* scenes may be made of its cases until then */
     if (report) {
         const status drawn = report_write(path, study_report_part);
         if (drawn.code != STATUS_OK) fprintf(stderr, "breech: no report: %s\n", drawn.text);
@@ -264,6 +268,7 @@ static unsigned needs_of(const breech_case *c)
     if (g->sites || g->populations) needs |= CASE_FOR_ONSET;
     if (g->treatments) needs |= CASE_FOR_COMPARE;
     if (g->projectile && g->scene && (!isnan(c->scene.velocity) || !(needs & CASE_FOR_ONSET))) needs |= CASE_FOR_SCENE;
+    if (g->bodies) needs |= CASE_FOR_SCENE;
     if (g->rails) needs |= CASE_FOR_INDUCTANCE;
     return needs;
 }
@@ -327,7 +332,7 @@ static int run_check(const options *o)
     case_free(c);
     s = read_case(o, needs, &c);
     if (s.code != STATUS_OK) return exit_code(s);
-    s = print_check(c, o->threads);
+    s = o->scene ? study_print_scene(c, stdout) : print_check(c, o->threads);
     case_free(c);
     return complain(s);
 }
@@ -460,6 +465,8 @@ static bool take_flag(options *o, const char *name)
         o->how.force = true;
     else if (strcmp(name, "--quiet") == 0)
         o->quiet = true;
+    else if (strcmp(name, "--scene") == 0)
+        o->scene = true;
     else if (strcmp(name, "--no-store") == 0)
         o->store = "";
     else
@@ -494,6 +501,7 @@ static status parse(int argc, char **argv, options *o)
 {
     for (int i = 1; i < argc; i++) TRY(take_word(o, argc, argv, &i));
     CHECK(o->command.name, STATUS_BAD_INPUT, "no command given; breech --help lists them");
+    CHECK(!o->scene || o->command.run == run_check, STATUS_BAD_INPUT, "--scene goes with `breech check CASE`");
     CHECK(o->subject || !o->command.subject_required, STATUS_BAD_INPUT, "%s needs a %s: breech %s %s", o->command.name,
           o->command.subject, o->command.name, o->command.subject);
     return status_ok();

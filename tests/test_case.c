@@ -248,7 +248,7 @@ static void yaml_errors_have_a_place(void **state)
         { "name: [a\n", "case.yaml:2:1: not valid YAML" },
         { "name: \"a\\0b\"\n", "case.yaml:1:7: a control character" },
         { "- a\n- b\n", "case.yaml:1:1: case.yaml is no case" },
-        { "a: {b: {c: {d: {e: {f: {g: {h: {i: {j: {k: {l: 1}}}}}}}}}}}\n",
+        { "a: [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]\n",
           "case.yaml:1:44: sections nested more than" },
         { "\n", "case.yaml:2:1: the file is empty" },
         { "[a]: b\n", "case.yaml:1:1: a key must be a plain word" },

@@ -1,6 +1,6 @@
 #include "coupling/case/case.h"
 
-#include "coupling/case/case_reader.h"
+#include "coupling/case/case_bodies.h"
 #include "coupling/case/material_file.h"
 #include "coupling/case/profile_file.h"
 #include "coupling/host/file_text.h"
@@ -12,6 +12,7 @@ void case_free(breech_case *c)
 {
     if (!c) return;
     for (const case_section *s = case_root.children; s->key; s++) case_section_free(s, c);
+    mpm_scene_free(&c->bodies.scene);
     free(c->warnings);
     free(c);
 }
@@ -170,10 +171,12 @@ static status read_tree(case_reader *r)
     case_section root = case_root;
     root.offset = 0;
     case_section_read(r, &root, r->root, c, "");
+    case_bodies_read(r);
     case_populations_resolve(r);
     case_materials_load(r);
     case_profiles_load(r);
     case_resolve(c, r->root);
+    case_bodies_resolve(r);
     case_check_whole(r);
     CHECK(!r->out_of_memory, STATUS_MEMORY, "out of memory while reading %.200s", c->path);
     return status_ok();
@@ -183,7 +186,12 @@ static status build(case_reader *r, const case_text *text, tree_node **root)
 {
     TRY(case_tree_read(r, text, root));
     r->root = *root;
-    return r->root ? read_tree(r) : status_ok();
+    if (!r->root) return status_ok();
+    case_options own = *r->options;
+    if ((own.needs & CASE_FOR_SCENE) && host_tree_find(host_tree_find(*root, "scene"), "bodies"))
+        own.needs ^= CASE_FOR_SCENE | CASE_FOR_BODIES;
+    r->options = &own;
+    return read_tree(r);
 }
 
 status case_build(const units *u, const case_text *text, const case_options *options, breech_case **out, char **errors)

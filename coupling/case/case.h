@@ -11,7 +11,7 @@
 #include "base/param.h"
 #include "circuit/firing.h"
 #include "circuit/shot.h"
-#include "mpm/material.h"
+#include "mpm/scene.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -27,7 +27,8 @@ enum {
     CASE_FOR_ONSET =
         4, /* the shot, the scene but for its velocity, sites or populations; materials for screen and scene */
     CASE_FOR_INDUCTANCE = 8, /* rails */
-    CASE_FOR_COMPARE = 16    /* with CASE_FOR_ONSET: treatments */
+    CASE_FOR_COMPARE = 16,   /* with CASE_FOR_ONSET: treatments */
+    CASE_FOR_BODIES = 32     /* takes the place of CASE_FOR_SCENE where `scene` has bodies of its own */
 };
 
 /* A layer of the rail's surface, the first in the list at the bottom. */
@@ -190,6 +191,15 @@ typedef struct {
     double growth_scatter;     /* e-folds between the gauges within which growth decides nothing [1] */
 } case_scene;
 
+/* What becomes of bodies that overlap. */
+typedef enum { OVERLAP_REFUSED, OVERLAP_LATER } case_overlap;
+
+/* A scene whose bodies stand in the case itself (case_bodies.h). */
+typedef struct {
+    mpm_scene scene; /* owned; its materials are the case's.  Window and cells that are left out are NAN: scene_fill */
+    int overlap;     /* case_overlap */
+} case_bodies;
+
 /* What a study takes for the onset of gouging: the groove's growth, or the crater's severity. */
 typedef enum { JUDGE_GROWTH, JUDGE_SEVERITY } study_judge;
 
@@ -237,6 +247,7 @@ typedef struct {
     bool supplies[SUPPLY_KINDS];
     bool rails, barrel, armature, options, optimise, rail, projectile, particle, sites, populations, treatments, scene,
         study, output;
+    bool bodies; /* scene.bodies: then `scene` is not given */
 } case_given;
 
 typedef struct {
@@ -255,6 +266,7 @@ typedef struct {
     case_populations populations;
     case_treatments treatments;
     case_scene scene;
+    case_bodies bodies;
     case_study study;
     case_output output;
     case_materials materials; /* every material the case names, loaded */
@@ -296,6 +308,9 @@ double case_layers_thickness(const case_layers *layers); /* of all together [m] 
 
 /* used.yaml: all values resolved, in SI with units, the materials' constants too.  Read back it gives the same case. */
 status case_write_used(const breech_case *c, FILE *file);
+
+/* A case of this scene, made from c, in the form of scene.bodies: read back it gives the same scene, bit for bit. */
+status case_write_scene(const breech_case *c, const mpm_scene *s, FILE *file);
 
 /* The manual's key list, in markdown. */
 void case_print_keys(FILE *file);

@@ -138,11 +138,39 @@ static void read_text(case_reader *r, const param *p, const tree_node *node, cha
     if (strcmp(p->key, "material") == 0 && node->text[0] != '\0') case_note_material(r, node->text, node, path);
 }
 
+/* "0 -50 50 mm": three numbers and the unit of all. */
+static void read_vector_text(case_reader *r, const param *p, const tree_node *node, double *member, const char *path)
+{
+    const char *number[3];
+    char *end = node->text;
+    int n = 0;
+    for (; n < 3; n++) {
+        number[n] = end;
+        strtod(number[n], &end);
+        if (end == number[n]) break;
+    }
+    if (n < 3) {
+        wrong(r, node, path, "must be three numbers and their unit, `0 -50 50 mm`, or [x, y, z]");
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        char text[TREE_MAX_TEXT + 50];
+        tree_node one = *node;
+        snprintf(text, sizeof text, "%.17g%s", strtod(number[k], NULL), end);
+        one.text = text;
+        read_number(r, p, &one, &member[k], path);
+    }
+}
+
 static void read_vector(case_reader *r, const param *p, const tree_node *node, double *member, const char *path)
 {
     char entry[CASE_KEY_SIZE];
+    if (node->kind == TREE_TEXT) {
+        read_vector_text(r, p, node, member, path);
+        return;
+    }
     if (node->kind != TREE_LIST || node->n != 3) {
-        case_errors_add(r->errors, node, "%s: must be three values, [x, y, z], in %s", path, p->unit);
+        case_errors_add(r->errors, node, "%s: must be three values, [x, y, z] or \"x y z unit\", in %s", path, p->unit);
         return;
     }
     for (int k = 0; k < 3; k++) {
@@ -442,6 +470,7 @@ static void read_list(case_reader *r, const case_section *section, const tree_no
 void case_section_read(case_reader *r, const case_section *section, const tree_node *node, void *parent,
                        const char *path)
 {
+    if (section->unless && host_tree_find(node, section->unless)) node = NULL;
     if (section->list) {
         if (section->given != NO_FLAG) *(bool *)((char *)r->out + section->given) = node != NULL;
         read_list(r, section, node, parent, path);

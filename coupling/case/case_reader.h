@@ -54,6 +54,10 @@ void case_section_free(const case_section *section, void *parent);
 /* One value by its param, with unit and range. */
 void case_value_read(case_reader *r, const param *p, const tree_node *node, void *member, const char *path);
 
+/* One value as it is written; has it one at all? */
+void case_value_write(const param *p, const void *member, FILE *file);
+bool case_value_is_set(const param *p, const void *member);
+
 /* A place that names a material without a key of that name. */
 void case_note_material(case_reader *r, const char *name, const tree_node *where, const char *path);
 

@@ -7,9 +7,9 @@
 
 /* The tables.  Ranges catch a wrong unit or a slipped decimal point; what a value means stands in case.h. */
 
-static const char *const transfer_names[] = { [TRANSFER_TPIC] = "tpic", [TRANSFER_PIC] = "pic", NULL };
+const char *const case_transfer_names[] = { [TRANSFER_TPIC] = "tpic", [TRANSFER_PIC] = "pic", NULL };
 static const char *const judge_names[] = { [JUDGE_GROWTH] = "growth", [JUDGE_SEVERITY] = "severity", NULL };
-static const char *const basis_names[] = { [BASIS_GIMP] = "gimp", [BASIS_BSPLINE] = "bspline", NULL };
+const char *const case_basis_names[] = { [BASIS_GIMP] = "gimp", [BASIS_BSPLINE] = "bspline", NULL };
 
 static const param case_params[] = {
     PARAM_STRING(breech_case, name, NULL, "short name of the case: its output goes to out/<name>"),
@@ -149,8 +149,8 @@ static const param scene_params[] = {
     PARAM_DOUBLE(case_scene, courant, "1", 0.4, 0.01, 0.95, "Courant number of c + |v|"),
     PARAM_DOUBLE(case_scene, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),
     PARAM_DOUBLE(case_scene, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),
-    PARAM_ENUM(case_scene, transfer, transfer_names, TRANSFER_TPIC, "how velocity goes between points and grid"),
-    PARAM_ENUM(case_scene, basis, basis_names, BASIS_GIMP, "shape functions"),
+    PARAM_ENUM(case_scene, transfer, case_transfer_names, TRANSFER_TPIC, "how velocity goes between points and grid"),
+    PARAM_ENUM(case_scene, basis, case_basis_names, BASIS_GIMP, "shape functions"),
     PARAM_INT(case_scene, particles_per_axis, 2, 2, 3, "material points a cell and axis"),
     PARAM_BOOL(case_scene, heat_by_plastic_work, 0, "(M-4) temperature by plastic work; no: by energy"),
     PARAM_BOOL(case_scene, damage, 1, "(M-2) Johnson-Cook damage in all bodies"),
@@ -317,7 +317,8 @@ static const case_section sections[] = {
     { SECTION(treatments, treatment_params, CASE_FOR_COMPARE,
               "Rail surfaces to compare, a list; the untreated one is always compared too."),
       .children = treatment_children, .size = sizeof(case_treatment), .list = true },
-    { SECTION(scene, scene_params, NEED_SCENE, "How an impact scene is built and run."), .size = sizeof(case_scene) },
+    { SECTION(scene, scene_params, NEED_SCENE, "How an impact scene is built and run."), .size = sizeof(case_scene),
+      .unless = "bodies" },
     { SECTION(study, study_params, 0, "The search for where gouging begins."), .size = sizeof(case_study) },
     { SECTION(output, output_params, 0, "What is written."), .size = sizeof(case_output) },
     { .key = "materials",

@@ -20,8 +20,9 @@ typedef struct case_section {
     size_t size;                         /* of the struct, or of one entry of the list */
     size_t given;                        /* offset of the `bool` in breech_case that says it was there; NO_FLAG */
     unsigned needed_for;                 /* sum of CASE_FOR_... that cannot do without */
-    bool list;                           /* the member is a struct { int n; T *item; }; a lone mapping is one entry */
-    bool spread;                         /* a key of the list may have several values: an entry each */
+    const char *unless; /* a mapping with this key is read elsewhere and is not this section; NULL: none */
+    bool list;          /* the member is a struct { int n; T *item; }; a lone mapping is one entry */
+    bool spread;        /* a key of the list may have several values: an entry each */
 } case_section;
 
 /* What every list of a case looks like. */
@@ -34,6 +35,8 @@ extern const case_section case_root;
 
 /* The struct of a part, where the section's first part lies at `object`. */
 void *case_part_object(const case_section *section, const case_section *part, void *object);
+
+extern const char *const case_transfer_names[], *const case_basis_names[];
 
 case_list case_list_get(const void *parent, const case_section *section);
 void case_list_put(void *parent, const case_section *section, case_list list);

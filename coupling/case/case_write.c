@@ -1,5 +1,7 @@
 /* used.yaml and the manual's key list, from the same tables as the reader. */
-#include "coupling/case/case_reader.h"
+#include "coupling/case/case_bodies.h"
+
+#include "mpm/law/contact.h"
 
 #include <math.h>
 #include <string.h>
@@ -62,15 +64,14 @@ static void write_points(FILE *file, const param *p, const double *v)
 }
 
 /* Left out: a text that is empty, and a number that is required but has no value (there is no `none` for it). */
-static bool is_unset(const param *p, const void *member)
+bool case_value_is_set(const param *p, const void *member)
 {
     const bool number = p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR || p->kind == PARAM_POINTS;
-    if (number) return isinf(p->fallback) && isnan(*(const double *)member);
-    if (p->kind == PARAM_TEXT) return *(const char *)member == '\0';
-    return false;
+    if (number) return !isinf(p->fallback) || !isnan(*(const double *)member);
+    return p->kind != PARAM_TEXT || *(const char *)member != '\0';
 }
 
-static void write_value(FILE *file, const param *p, const void *member)
+void case_value_write(const param *p, const void *member, FILE *file)
 {
     switch (p->kind) {
     case PARAM_NUMBER: write_number(file, p, *(const double *)member); break;
@@ -99,9 +100,9 @@ static void write_keys(FILE *file, const breech_case *c, const case_section *par
     bool first = in_list;
     for (const param *p = part->table; p->key; p++) {
         const void *member = (const char *)object + p->offset;
-        if (is_unset(p, member)) continue;
+        if (!case_value_is_set(p, member)) continue;
         fprintf(file, "%*s%s%s: ", first ? indent - 2 : indent, "", first ? "- " : "", p->key);
-        write_value(file, p, member);
+        case_value_write(p, member, file);
         fputc('\n', file);
         first = false;
     }
@@ -113,7 +114,7 @@ static bool is_absent(const case_section *section, const void *object)
 {
     const param *first = section->table;
     const bool required = first->kind == PARAM_TEXT ? !first->fallback_text : isinf(first->fallback);
-    return section->given == NO_FLAG && required && is_unset(first, (const char *)object + first->offset);
+    return section->given == NO_FLAG && required && !case_value_is_set(first, (const char *)object + first->offset);
 }
 
 static void write_section(FILE *file, const breech_case *c, const case_section *section, const void *parent, int indent)
@@ -135,8 +136,18 @@ status case_write_used(const breech_case *c, FILE *file)
     write_keys(file, c, &head, c, 0, false);
     for (const case_section *s = case_root.children; s->key; s++)
         if (is_given(c, s) || (s->also && is_given(c, s->also))) write_section(file, c, s, c, 0);
+    if (c->given.bodies) case_bodies_write(&c->bodies.scene, c->bodies.overlap, file);
     CHECK(!ferror(file), STATUS_IO, "used.yaml cannot be written");
     return status_ok();
+}
+
+status case_write_scene(const breech_case *c, const mpm_scene *s, FILE *file)
+{
+    breech_case one = *c; /* borrows all */
+    memset(&one.given, 0, sizeof one.given);
+    one.given.bodies = one.given.output = true;
+    one.bodies = (case_bodies){ *s, OVERLAP_LATER };
+    return case_write_used(&one, file);
 }
 
 /* ---- the manual ---- */
@@ -219,5 +230,17 @@ static void print_section(FILE *file, const case_section *section, const char *p
 
 void case_print_keys(FILE *file)
 {
+    char key[PARAM_TEXT_SIZE];
     print_section(file, &case_root, "");
+    for (const case_section *s = case_bodies_manual; s->key; s++) print_section(file, s, "");
+    for (int i = 0; mpm_solid_kind_at(i); i++) {
+        const mpm_solid_kind *k = mpm_solid_kind_at(i);
+        snprintf(key, sizeof key, "shape: %s", k->name);
+        print_section(file, &(case_section){ .key = key, .doc = k->doc, .table = k->params }, "");
+    }
+    for (int i = 0; mpm_contact_at(i); i++) {
+        const mpm_contact_law *law = mpm_contact_at(i);
+        snprintf(key, sizeof key, "contact: %s", law->name);
+        print_section(file, &(case_section){ .key = key, .doc = law->doc, .table = law->params }, "");
+    }
 }

@@ -13,7 +13,7 @@
 
 enum {
     TREE_MAX_BYTES = 4 << 20,
-    TREE_MAX_DEPTH = 10,
+    TREE_MAX_DEPTH = 40,
     TREE_MAX_NODES = 400000,
     TREE_MAX_KEYS = 256, /* of one mapping */
     TREE_MAX_TEXT = 1000 /* bytes of one value */

@@ -15,7 +15,7 @@ enum { BUFFER_ROWS = 256, GROUP_SIZE = 200, PATH_SIZE = 300 };
 typedef struct {
     char group[GROUP_SIZE]; /* "" = free */
     int columns;
-    char (*name)[64], (*unit)[32], (*description)[160]; /* columns each, owned */
+    char (*name)[96], (*unit)[32], (*description)[160]; /* columns each, owned */
     double *row;                                        /* BUFFER_ROWS x columns, owned */
     double *column;                                     /* BUFFER_ROWS, owned */
     size_t rows;                                        /* gathered */

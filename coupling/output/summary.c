@@ -71,6 +71,19 @@ static cJSON *list_json(const summary_key *k, const char *base)
     return list;
 }
 
+static cJSON *map_json(const summary_key *k, const char *base)
+{
+    const char *items = *(const char *const *)(const void *)(base + k->offset);
+    cJSON *map = cJSON_CreateObject();
+    for (int i = 0; i < count_of(k, base); i++) {
+        const char *item = items + (size_t)i * k->item_size;
+        cJSON *object = cJSON_CreateObject();
+        add_keys(object, k->item + 1, item);
+        cJSON_AddItemToObject(map, item + k->item->offset, object);
+    }
+    return map;
+}
+
 /* A key's value of the struct it belongs to; the caller frees. */
 static cJSON *value_json(const summary_key *k, const void *from)
 {
@@ -86,6 +99,7 @@ static cJSON *value_json(const summary_key *k, const void *from)
     case KEY_BY_NAME: return by_name_json(k, base);
     case KEY_PAIRS: return pairs_json(k, base);
     case KEY_LIST: return list_json(k, base);
+    case KEY_MAP: return map_json(k, base);
     case KEY_ARRAY: return vector_json(*(const double *const *)member, count_of(k, base));
     case KEY_PART: break;
     }
@@ -241,6 +255,7 @@ static bool read_value(const summary_key *k, const cJSON *value, void *to)
     case KEY_BY_NAME: return read_by_name(k, value, to);
     case KEY_PAIRS:
     case KEY_LIST:
+    case KEY_MAP:
     case KEY_ARRAY:
     case KEY_PART: break;
     }
@@ -345,6 +360,7 @@ void output_keys_manual(const char *title, const summary_key *keys, FILE *out)
         char size[16] = "";
         if (k->kind == KEY_PART) continue;
         if (k->kind == KEY_NUMBER && k->n > 1) snprintf(size, sizeof size, " [%d]", k->n);
+        if (k->kind == KEY_MAP) snprintf(size, sizeof size, " {...}");
         if (k->kind == KEY_LIST || k->kind == KEY_ARRAY) snprintf(size, sizeof size, " [...]");
         fprintf(out, "| `%s`%s | %s | %s |\n", k->name, size, k->unit, k->doc);
     }

@@ -28,6 +28,7 @@ typedef enum {
     KEY_BY_NAME, /* double[] and their names, char[][item_size]: an object */
     KEY_PAIRS,   /* const summary_pair *: an object */
     KEY_LIST,    /* objects by `item` */
+    KEY_MAP,     /* the same, in an object by their names: the first key of `item`, a KEY_TEXT */
     KEY_ARRAY,   /* const double * */
     KEY_PART     /* a struct inside, its keys in the same object */
 } key_kind;
@@ -44,10 +45,10 @@ typedef struct summary_key {
     size_t offset;
     int n;                          /* KEY_NUMBER: 1, or the length of a vector; KEY_TEXT, KEY_BY_NAME: room */
     const char *const *names;       /* KEY_NAME */
-    const struct summary_key *item; /* KEY_LIST, KEY_PART */
-    size_t item_size;               /* KEY_LIST, KEY_BY_NAME */
-    size_t n_offset;                /* where the int stands that counts them: KEY_LIST, _ARRAY, _PAIRS, _BY_NAME */
-    size_t names_offset;            /* KEY_BY_NAME */
+    const struct summary_key *item; /* KEY_LIST, KEY_MAP, KEY_PART */
+    size_t item_size;               /* KEY_LIST, KEY_MAP, KEY_BY_NAME */
+    size_t n_offset;     /* where the int stands that counts them: KEY_LIST, _MAP, _ARRAY, _PAIRS, _BY_NAME */
+    size_t names_offset; /* KEY_BY_NAME */
 } summary_key;
 
 /* One line of a table each: SUMMARY_NUMBER(struct, "key", member, "unit", "what it is"). */
@@ -72,6 +73,9 @@ typedef struct summary_key {
     { SUMMARY_ROW(type, key, member, "", doc), .kind = KEY_PAIRS, .n_offset = offsetof(type, count) }
 #define SUMMARY_LIST(type, key, member, count, item_, item_size_, doc) \
     { SUMMARY_ROW(type, key, member, "", doc), .kind = KEY_LIST, .n_offset = offsetof(type, count), .item = (item_), \
+      .item_size = (item_size_) }
+#define SUMMARY_MAP(type, key, member, count, item_, item_size_, doc) \
+    { SUMMARY_ROW(type, key, member, "", doc), .kind = KEY_MAP, .n_offset = offsetof(type, count), .item = (item_), \
       .item_size = (item_size_) }
 #define SUMMARY_ARRAY(type, key, member, count, unit, doc) \
     { SUMMARY_ROW(type, key, member, unit, doc), .kind = KEY_ARRAY, .n_offset = offsetof(type, count) }

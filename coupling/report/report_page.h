@@ -41,6 +41,8 @@ bool report_page_is_done(const page *p); /* the run is, by its summary */
 
 void report_shot_verdict(const page *p);
 void report_scene_verdict(const page *p);
+void report_bodies_verdict(const page *p);
+void report_section_bodies(const page *p);
 void report_onset_verdict(const page *p);
 void report_section_onset(const page *p);
 void report_section_compare(const page *p);

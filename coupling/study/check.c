@@ -1,6 +1,7 @@
 #include "coupling/study/check.h"
 
 #include "coupling/case/treatment.h"
+#include "coupling/scene/scene_fill.h"
 #include "coupling/study/sampling/population.h"
 #include "coupling/study/search/family.h"
 #include "coupling/study/study.h"
@@ -62,8 +63,21 @@ static status treatments_possible(const breech_case *c)
     return status_ok();
 }
 
+status study_prepare(breech_case *c)
+{
+    return c->given.bodies ? scene_fill(&c->bodies.scene) : status_ok();
+}
+
+/* A scene of bodies: its grid and its materials, as far as they show without its points. */
+static status bodies_possible(const breech_case *c)
+{
+    mpm_needs needs;
+    return mpm_estimate(&c->bodies.scene, &needs);
+}
+
 status study_possible(const breech_case *c, unsigned needs)
 {
+    if (c->given.bodies) TRY(bodies_possible(c));
     rail_section section;
     const shot_config circuit = gouge_shot_config(c, NULL);
     const site_state state = gouge_state_of_case(c);
@@ -71,7 +85,7 @@ status study_possible(const breech_case *c, unsigned needs)
         ((needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) && c->rails.level != SHOT_RAILS_CONSTANT))
         TRY(circuit_rails_section(&c->rails, &section));
     if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_shot_check(&circuit));
-    if (needs & CASE_FOR_SCENE) TRY(scene_possible(c, &state, c->scene.cells_per_radius));
+    if ((needs & CASE_FOR_SCENE) && !c->given.bodies) TRY(scene_possible(c, &state, c->scene.cells_per_radius));
     if (needs & CASE_FOR_ONSET) TRY(grains_possible(c));
     return needs & CASE_FOR_COMPARE ? treatments_possible(c) : status_ok();
 }
@@ -79,22 +93,30 @@ status study_possible(const breech_case *c, unsigned needs)
 /* ---- what would they take? ---- */
 
 /* Two levels of thread: memory bandwidth and the serial rest are left out, so this is a lower bound on many threads. */
-static status estimate(const breech_case *c, const site_state *state, double cells, int threads, scene_estimate *out)
+static status estimate_scene(const mpm_scene *s, double last, int threads, scene_estimate *out)
 {
-    gouge_scene scene;
-    TRY(gouge_scene_bodies(c, state, cells, &scene));
-    const double last = gouge_last_time(&scene);
-    const status made = mpm_estimate(&scene.scene, &out->needs);
-    gouge_scene_free(&scene);
-    TRY(made);
+    TRY(mpm_estimate(s, &out->needs));
     out->steps = last / out->needs.dt;
     for (int i = 0; i < 2; i++) out->seconds[i] = out->steps * out->needs.work[i] * CHECK_SECONDS_A_STEP / threads;
     return status_ok();
 }
 
+static status estimate(const breech_case *c, const site_state *state, double cells, int threads, scene_estimate *out)
+{
+    gouge_scene scene;
+    TRY(gouge_scene_bodies(c, state, cells, &scene));
+    const status made = estimate_scene(&scene.scene, gouge_last_time(&scene), threads, out);
+    gouge_scene_free(&scene);
+    return made;
+}
+
 status study_check(const breech_case *c, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n)
 {
     *n = 0;
+    if (c->given.bodies) {
+        snprintf(out[*n].what, sizeof out->what, "scene, %d bodies", c->bodies.scene.bodies);
+        TRY(estimate_scene(&c->bodies.scene, c->bodies.scene.end_time, threads, &out[(*n)++]));
+    }
     if (c->given.projectile && !isnan(c->scene.velocity) && !isnan(c->particle.radius)) {
         const site_state state = gouge_state_of_case(c);
         snprintf(out[*n].what, sizeof out->what, "scene, %g m/s, %g cells a radius", state.velocity,
@@ -113,4 +135,17 @@ status study_check(const breech_case *c, int threads, scene_estimate out[CHECK_M
         TRY(estimate(&probe, &state, cells[k], threads, &out[(*n)++]));
     }
     return status_ok();
+}
+
+status study_print_scene(const breech_case *c, FILE *out)
+{
+    gouge_scene scene;
+    const site_state state = gouge_state_of_case(c);
+    if (c->given.bodies) return case_write_used(c, out);
+    CHECK(c->given.projectile && !isnan(c->scene.velocity) && !isnan(c->particle.radius), STATUS_BAD_INPUT,
+          "the case has no scene of its own: give scene.velocity and particle.radius, or a scene with bodies");
+    TRY(gouge_scene_bodies(c, &state, c->scene.cells_per_radius, &scene));
+    const status written = case_write_scene(c, &scene.scene, out);
+    gouge_scene_free(&scene);
+    return written;
 }

@@ -14,6 +14,9 @@ typedef struct {
 enum { CHECK_MAX_ESTIMATES = 3 };
 #define CHECK_SECONDS_A_STEP 200e-9 /* one thread */
 
+/* The scene of the case as a case of bodies, with every value resolved.  STATUS_BAD_INPUT: it has none. */
+status study_print_scene(const breech_case *c, FILE *out);
+
 /* The scene of the case, and of its first site the slowest and finest of the search; *n of them. */
 status study_check(const breech_case *c, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n);
 

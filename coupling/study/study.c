@@ -8,10 +8,16 @@ const study *const study_list[STUDIES] = {
 #undef STUDY
 };
 
+const study *study_for(const study *y, const breech_case *c)
+{
+    return y->of_bodies && c->given.bodies ? y->of_bodies : y;
+}
+
 const study *study_find(const char *name)
 {
     for (int k = 0; k < STUDIES; k++)
-        if (strcmp(study_list[k]->name, name) == 0) return study_list[k];
+        for (const study *y = study_list[k]; y; y = y->of_bodies)
+            if (strcmp(y->name, name) == 0) return y;
     return NULL;
 }
 
@@ -39,12 +45,11 @@ static bool printed_before(int study_number, const summary_key *item)
     return false;
 }
 
-static void print_entries(int study_number, FILE *out)
+static void print_entries(const study *y, int study_number, FILE *out)
 {
-    const study *y = study_list[study_number];
     for (const summary_key *key = y->keys; key->name; key++) {
         char title[120];
-        if (key->kind != KEY_LIST || printed_before(study_number, key->item)) continue;
+        if ((key->kind != KEY_LIST && key->kind != KEY_MAP) || printed_before(study_number, key->item)) continue;
         int n = snprintf(title, sizeof title, "%s: an entry of `%s`", y->name, key->name);
         for (const summary_key *part = key->item; part->name; part++)
             if (part->kind == KEY_PART)
@@ -56,10 +61,14 @@ static void print_entries(int study_number, FILE *out)
 void study_print_keys(FILE *out)
 {
     fputs("### all\n\n| key | what |\n|---|---|\n| `kind` |", out);
-    for (int k = 0; k < STUDIES; k++) fprintf(out, "%s %s", k ? "," : "", study_list[k]->name);
+    for (int k = 0; k < STUDIES; k++)
+        for (const study *y = study_list[k]; y; y = y->of_bodies)
+            fprintf(out, "%s %s", k || y != study_list[k] ? "," : "", y->name);
     fputs(" |\n| `case` | its name |\n| `version` | of Breech |\n| `instruction_set` | of the scenes |\n"
           "| `status` | done, stopped, failed |\n| `error` | null when there is none |\n| `warnings` | a text each |\n",
           out);
-    for (int k = 0; k < STUDIES; k++) output_keys_manual(study_list[k]->name, study_list[k]->keys, out);
-    for (int k = 0; k < STUDIES; k++) print_entries(k, out);
+    for (int k = 0; k < STUDIES; k++)
+        for (const study *y = study_list[k]; y; y = y->of_bodies) output_keys_manual(y->name, y->keys, out);
+    for (int k = 0; k < STUDIES; k++)
+        for (const study *y = study_list[k]; y; y = y->of_bodies) print_entries(y, k, out);
 }

@@ -24,13 +24,14 @@ typedef struct {
     void *owned;             /* by the caller: study.free, after run_session_close */
 } study_answer;
 
-typedef struct {
+typedef struct study {
     const char *name, *doc, *more;
-    unsigned needs;          /* of the case, sum of CASE_FOR_... */
-    const summary_key *keys; /* of its result */
-    bool shows_shot;         /* its summary has the shot too, under "shot" */
-    bool can_vary;           /* runs any case, not the session's alone: `breech sweep` may call it */
-    report_part report;      /* of report.html */
+    const struct study *of_bodies; /* takes its place for a case with scene.bodies; NULL: none does */
+    unsigned needs;                /* of the case, sum of CASE_FOR_... */
+    const summary_key *keys;       /* of its result */
+    bool shows_shot;               /* its summary has the shot too, under "shot" */
+    bool can_vary;                 /* runs any case, not the session's alone: `breech sweep` may call it */
+    report_part report;            /* of report.html */
     void (*print)(const void *result, FILE *out); /* its closing table; NULL: its keys */
     /* STATUS_BAD_INPUT before anything is written: what reading the case cannot tell.  NULL: nothing. */
     status (*possible)(const study_case *of);
@@ -53,7 +54,13 @@ enum {
 #undef STUDY
 extern const study *const study_list[STUDIES];
 
+/* This one, or what takes its place for such a case. */
+const study *study_for(const study *y, const breech_case *c);
+
 const study *study_find(const char *name); /* NULL: there is none */
+
+/* Decides what the case leaves to the program; before all that follows. */
+status study_prepare(breech_case *c);
 
 /* Before anything is written: what only making the scenes can tell, then the study's own.  STATUS_BAD_INPUT. */
 status study_possible(const breech_case *c, unsigned needs);

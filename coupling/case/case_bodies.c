@@ -1,0 +1,559 @@
+#include "coupling/case/case_bodies.h"
+
+#include "coupling/host/outdir.h"
+#include "mpm/law/contact.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the tables ---- */
+
+static const char *const letters[] = { "x", "y", "z", NULL };
+static const char *const boundary_names[] = {
+    [BOUNDARY_FREE] = "free",           [BOUNDARY_SYMMETRY] = "symmetry",     [BOUNDARY_FIXED] = "fixed",
+    [BOUNDARY_ABSORBING] = "absorbing", [BOUNDARY_PRESCRIBED] = "prescribed", NULL
+};
+static const char *const face_names[] = { "-x", "+x", "-y", "+y", "-z", "+z", NULL };
+static const char *const overlap_names[] = { [OVERLAP_REFUSED] = "refused", [OVERLAP_LATER] = "later", NULL };
+
+const param case_method_params[] = {
+    PARAM_DOUBLE(mpm_scene, end_time, "s", REQUIRED, 1e-12, 1e3, "time that is simulated"),
+    PARAM_INT(mpm_scene, levels, 1, 1, MPM_MAX_LEVELS,
+              "nested grids: around the fine zone cells twice, with 3 four times as large"),
+    PARAM_DOUBLE(mpm_scene, courant, "1", 0.4, 0.01, 0.95, "Courant number of c + |v|"),
+    PARAM_DOUBLE(mpm_scene, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),
+    PARAM_DOUBLE(mpm_scene, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),
+    PARAM_INT(mpm_scene, particles_per_axis, 2, 2, 3, "material points a cell and axis"),
+    PARAM_DOUBLE(mpm_scene, contact_gap, "1", 0.9, 0.0, 3.0, "groups touch when nearer than this, in cells"),
+    PARAM_ENUM(mpm_scene, transfer, case_transfer_names, TRANSFER_TPIC, "how velocity goes between points and grid"),
+    PARAM_ENUM(mpm_scene, basis, case_basis_names, BASIS_GIMP, "shape functions"),
+    PARAM_BOOL(mpm_scene, heat_by_plastic_work, 0, "(M-4) temperature by plastic work; no: by energy"),
+    PARAMS_END,
+};
+
+/* One axis of the window; what is left out is chosen by scene_fill. */
+#define AXIS(name, member_, unit_, least, largest, text)                                                            \
+    {                                                                                                               \
+        .key = (name), .unit = (unit_), .doc = (text), .offset = offsetof(mpm_axis, member_), .fallback = OPTIONAL, \
+        .min = (least), .max = (largest), .kind = PARAM_NUMBER                                                      \
+    }
+static const param axis_params[] = {
+    AXIS("lo", lo, "m", -1e3, 1e3, "lower end of the window"),
+    AXIS("hi", hi, "m", -1e3, 1e3, "upper end of the window"),
+    AXIS("fine_lo", fine_lo, "m", -1e3, 1e3, "lower end of the zone of fine cells"),
+    AXIS("fine_hi", fine_hi, "m", -1e3, 1e3, "upper end of it"),
+    AXIS("cell", fine, "m", 1e-9, 1e2, "cells in that zone"),
+    AXIS("coarse_cell", coarse, "m", 1e-9, 1e2, "largest cells outside it"),
+    AXIS("growth", growth, "1", 1.0, 2.0, "ratio of neighbouring cells outside it"),
+    PARAMS_END,
+};
+
+const param case_body_params[] = {
+    PARAM_STRING(mpm_body, name, NULL, "its name: letters, digits, - _ ."),
+    PARAM_VEC3(mpm_body, velocity, "m/s", 0.0, -1e5, 1e5, "at the start"),
+    PARAM_DOUBLE(mpm_body, temperature, "K", 293.0, 0.1, 1e5, "at the start"),
+    PARAM_VEC3(mpm_body, body_force, "m/s^2", 0.0, -1e15, 1e15, "acceleration of all of it"),
+    PARAM_VEC3(mpm_body, traction, "Pa", 0.0, -1e13, 1e13, "on all of its surface that looks towards traction_face"),
+    PARAM_ENUM(mpm_body, traction_face, face_names, 0, "where that surface looks"),
+    PARAM_DOUBLE(mpm_body, yield_scale, "1", 1.0, 1e-3, 1e3, "factor on the yield stress: hardening"),
+    PARAM_BOOL(mpm_body, damage, 0, "its material's law of failure acts"),
+    PARAM_BOOL(mpm_body, followed, 0, "its plastic front moves the fine zone (`follow`)"),
+    PARAMS_END,
+};
+
+static const param follow_params[] = {
+    PARAM_ENUM(mpm_follow, along, letters, 0, "axis along which the fine zone goes"),
+    PARAM_ENUM(mpm_follow, across, letters, 2, "axis on which it widens with what is deformed"),
+    PARAM_DOUBLE(mpm_follow, lead, "m", 0.0, 0.0, 1e3, "from the plastic front to the zone's upper end"),
+    PARAM_DOUBLE(mpm_follow, speed, "m/s", 0.0, 0.0, 1e5, "of the window while it follows"),
+    PARAM_DOUBLE(mpm_follow, width, "m", 0.0, 0.0, 1e3, "half width that the zone may grow to across; 0: it stays"),
+    PARAMS_END,
+};
+
+typedef struct {
+    int overlap;
+    double cell, coarse_cell, growth; /* of all axes that do not say it themselves; NAN: not given */
+} shared_keys;
+
+static const param shared_params[] = {
+    PARAM_ENUM(shared_keys, overlap, overlap_names, OVERLAP_REFUSED,
+               "bodies that overlap: refused, or the later one has what both claim"),
+    PARAM_DOUBLE(shared_keys, cell, "m", OPTIONAL, 1e-9, 1e2,
+                 "cells in the fine zone; not given: a twentieth of the smallest extent of any body"),
+    PARAM_DOUBLE(shared_keys, coarse_cell, "m", OPTIONAL, 1e-9, 1e2,
+                 "largest cells outside it; not given: four times as large"),
+    PARAM_DOUBLE(shared_keys, growth, "1", OPTIONAL, 1.0, 2.0,
+                 "ratio of neighbouring cells outside it; not given: 1.2"),
+    PARAMS_END,
+};
+
+typedef struct {
+    double within, cell;
+} refine_keys;
+
+static const param refine_params[] = {
+    PARAM_DOUBLE(refine_keys, within, "m", REQUIRED, 0.0, 1e3, "so far around the body's bounding box"),
+    PARAM_DOUBLE(refine_keys, cell, "m", REQUIRED, 1e-9, 1e2, "cells there"),
+    PARAMS_END,
+};
+
+#define MANUAL(key_, table_, text)                                        \
+    {                                                                     \
+        .key = (key_), .doc = (text), .table = (table_), .given = NO_FLAG \
+    }
+const case_section case_bodies_manual[] = {
+    MANUAL("scene with bodies", case_method_params, "A scene of one's own: `scene` with `bodies` (scenes.md)."),
+    MANUAL("scene with bodies, cells", shared_params, "Of the same section."),
+    MANUAL("scene.bodies", case_body_params,
+           "A list. Besides these keys: `material`; `shape`, a solid; `group`, any word: bodies of one group are "
+           "welded, a "
+           "body without one is a group by itself; `passes`, ends of the window whose boundary does not act on it."),
+    MANUAL("scene.window", axis_params,
+           "`x`, `y` and `z`, each with these keys; what is left out follows from the bodies."),
+    MANUAL("scene.follow", follow_params, "The fine zone and the window go with the bodies that are `followed`."),
+    MANUAL("scene.refine", refine_params, "A list: fine cells `around` a body."),
+    { .key = NULL },
+};
+
+/* ---- names ---- */
+
+static const char *body_name(const void *user, int i)
+{
+    const mpm_scene *s = user;
+    return i < s->bodies ? s->body[i].name : NULL;
+}
+
+static int find_body(const mpm_scene *s, const char *name)
+{
+    for (int i = 0; i < s->bodies; i++)
+        if (strcmp(s->body[i].name, name) == 0) return i;
+    return -1;
+}
+
+/* The body that a key names, -1 after an error. */
+static int named_body(case_reader *r, const tree_node *map, const char *key, const char *path)
+{
+    const mpm_scene *s = &r->out->bodies.scene;
+    const tree_node *node = host_tree_find(map, key);
+    if (!node || node->kind != TREE_TEXT) {
+        case_errors_add(r->errors, node ? node : map, "%s.%s must name a body", path, key);
+        return -1;
+    }
+    const int body = find_body(s, node->text);
+    if (body < 0) case_unknown_name(r, node, "body", path, body_name, s);
+    return body;
+}
+
+static const char *text_of(const tree_node *map, const char *key)
+{
+    const tree_node *node = host_tree_find(map, key);
+    return node && node->kind == TREE_TEXT ? node->text : "";
+}
+
+/* ---- bodies ---- */
+
+/* Numbered as they are met; a body without one has its own. */
+static int group_of(const mpm_scene *s, const tree_node *list, int k)
+{
+    const char *name = text_of(case_entry_node(list, k), "group");
+    int next = 0;
+    for (int i = 0; i < k; i++) {
+        if (name[0] && strcmp(text_of(case_entry_node(list, i), "group"), name) == 0) return s->body[i].group;
+        if (s->body[i].group >= next) next = s->body[i].group + 1;
+    }
+    return next;
+}
+
+static void read_passes(case_reader *r, const tree_node *node, const char *path, mpm_body *b)
+{
+    if (node->kind != TREE_LIST) {
+        case_errors_add(r->errors, node, "%s.passes must be a list of ends of the window, such as [-x, +x]", path);
+        return;
+    }
+    for (int i = 0; i < node->n; i++) {
+        int face = 0;
+        const char *text = node->item[i]->kind == TREE_TEXT ? node->item[i]->text : "";
+        while (face_names[face] && strcmp(face_names[face], text) != 0) face++;
+        if (face_names[face])
+            b->passes[face] = true;
+        else
+            case_errors_add(r->errors, node->item[i], "%s.passes[%d] must be one of -x, +x, -y, +y, -z, +z", path, i);
+    }
+}
+
+static void check_name(case_reader *r, const tree_node *map, const char *path, const mpm_body *b)
+{
+    const mpm_scene *s = &r->out->bodies.scene;
+    const tree_node *node = host_tree_find(map, "name");
+    if (!node || !b->name[0]) return; /* an error already */
+    if (!host_name_is_plain(b->name))
+        case_errors_add(r->errors, node, "%s.name = %s: letters, digits, - _ . only", path, b->name);
+    for (int i = 0; &s->body[i] != b; i++)
+        if (strcmp(s->body[i].name, b->name) == 0)
+            case_errors_add(r->errors, node, "%s.name = %s: the same as scene.bodies[%d]", path, b->name, i);
+}
+
+static void read_body(case_reader *r, const tree_node *list, int k, const char *path)
+{
+    static const char *const others[] = { "material", "group", "shape", "passes", NULL };
+    const tree_node *map = case_entry_node(list, k);
+    mpm_scene *s = &r->out->bodies.scene;
+    mpm_body *b;
+    if (mpm_scene_add_body(s, &b).code != STATUS_OK) {
+        r->out_of_memory = true;
+        return;
+    }
+    const case_keys keys = { case_body_params, b };
+    case_keys_read(r, map, path, &keys, 1, others);
+    check_name(r, map, path, b);
+    b->group = group_of(s, list, k);
+    const tree_node *metal = host_tree_find(map, "material"), *shape = host_tree_find(map, "shape");
+    char inner[CASE_KEY_SIZE];
+    snprintf(inner, sizeof inner, "%s.material", path);
+    if (metal && metal->kind == TREE_TEXT && metal->text[0])
+        case_note_material(r, metal->text, metal, inner);
+    else
+        case_errors_add(r->errors, metal ? metal : map, "%s is missing: name of a material", inner);
+    snprintf(inner, sizeof inner, "%s.shape", path);
+    if (shape)
+        case_solid_read(r, shape, inner, s, &b->solid);
+    else
+        case_errors_add(r->errors, map, "%s is missing: the volume it fills", inner);
+    const tree_node *passes = host_tree_find(map, "passes");
+    if (passes) read_passes(r, passes, path, b);
+}
+
+static void read_bodies(case_reader *r, const tree_node *list)
+{
+    if (list->kind != TREE_LIST || list->n == 0) {
+        case_errors_add(r->errors, list, "scene.bodies must be a list of bodies, at least one");
+        return;
+    }
+    for (int k = 0; k < list->n; k++) {
+        char path[40];
+        snprintf(path, sizeof path, "scene.bodies[%d]", k);
+        read_body(r, list, k, path);
+    }
+}
+
+/* ---- contacts ---- */
+
+static const char *law_name(const void *user, int i)
+{
+    (void)user;
+    const mpm_contact_law *law = mpm_contact_at(i);
+    return law ? law->name : NULL;
+}
+
+/* By the law's own table; key: the one that names the law. */
+static bool read_contact(case_reader *r, const tree_node *map, const char *key, const char *path, mpm_contact *out)
+{
+    static const char *const others[] = { "default", "between", "law", "normal_of", NULL };
+    const tree_node *node = host_tree_find(map, key);
+    if (!node || node->kind != TREE_TEXT) {
+        case_errors_add(r->errors, node ? node : map, "%s.%s must name a law of contact", path, key);
+        return false;
+    }
+    const mpm_contact_law *law = mpm_contact_find(node->text);
+    if (!law) {
+        case_unknown_name(r, node, "law of contact", path, law_name, NULL);
+        return false;
+    }
+    *out = mpm_contact_of(law);
+    const case_keys keys = { law->params, out };
+    case_keys_read(r, map, path, &keys, 1, others);
+    return true;
+}
+
+static void read_pair(case_reader *r, const tree_node *map, const tree_node *between, const char *path)
+{
+    mpm_scene *s = &r->out->bodies.scene;
+    int group[2];
+    if (between->kind != TREE_LIST || between->n != 2) {
+        case_errors_add(r->errors, between, "%s.between must name two bodies: [a, b]", path);
+        return;
+    }
+    for (int i = 0; i < 2; i++) {
+        const tree_node *node = between->item[i];
+        const int body = node->kind == TREE_TEXT ? find_body(s, node->text) : -1;
+        if (body < 0) {
+            if (node->kind == TREE_TEXT) case_unknown_name(r, node, "body", path, body_name, s);
+            return;
+        }
+        group[i] = s->body[body].group;
+    }
+    if (group[0] == group[1]) {
+        case_errors_add(r->errors, between, "%s.between: both are of one group, which is welded", path);
+        return;
+    }
+    mpm_pair *p;
+    if (mpm_scene_add_pair(s, group[0], group[1], &p).code != STATUS_OK) {
+        r->out_of_memory = true;
+        return;
+    }
+    read_contact(r, map, "law", path, &p->contact);
+    if (!host_tree_find(map, "normal_of")) return;
+    const int body = named_body(r, map, "normal_of", path);
+    if (body < 0) return;
+    p->normal_of = s->body[body].group;
+    if (p->normal_of != group[0] && p->normal_of != group[1])
+        case_errors_add(r->errors, host_tree_find(map, "normal_of"), "%s.normal_of must be one of the two", path);
+}
+
+/* The default first, whatever its place in the list: pairs begin as it. */
+static void read_contacts(case_reader *r, const tree_node *list)
+{
+    for (int pass = 0; pass < 2; pass++)
+        for (int k = 0; case_entry_node(list, k); k++) {
+            char path[CASE_KEY_SIZE];
+            const tree_node *map = case_entry_node(list, k);
+            const tree_node *between = host_tree_find(map, "between");
+            snprintf(path, sizeof path, "scene.contacts[%d]", k);
+            if (pass == 0 && !between) read_contact(r, map, "default", path, &r->out->bodies.scene.contact);
+            if (pass == 1 && between) read_pair(r, map, between, path);
+        }
+}
+
+/* ---- the window ---- */
+
+static void read_window(case_reader *r, const tree_node *window)
+{
+    static const char *const none[] = { NULL };
+    mpm_scene *s = &r->out->bodies.scene;
+    if (window) case_keys_read(r, window, "scene.window", NULL, 0, letters);
+    for (int k = 0; k < 3; k++) {
+        char path[CASE_KEY_SIZE];
+        const tree_node *map = host_tree_find(window, letters[k]);
+        const case_keys keys = { axis_params, &s->axis[k] };
+        snprintf(path, sizeof path, "scene.window.%s", letters[k]);
+        if (map)
+            case_keys_read(r, map, path, &keys, 1, none);
+        else
+            base_params_default(axis_params, &s->axis[k]);
+    }
+}
+
+/* One end of the window: the name of a boundary, or {prescribed: velocity}. */
+static void read_end(case_reader *r, const tree_node *node, const char *path, mpm_axis *a, int end)
+{
+    static const param velocity[] = { { .key = "prescribed",
+                                        .unit = "m/s",
+                                        .doc = "velocity",
+                                        .fallback = REQUIRED,
+                                        .min = -1e5,
+                                        .max = 1e5,
+                                        .kind = PARAM_VECTOR },
+                                      PARAMS_END };
+    static const char *const none[] = { NULL };
+    if (node->kind == TREE_MAP) {
+        const case_keys keys = { velocity, a->boundary_velocity[end] };
+        case_keys_read(r, node, path, &keys, 1, none);
+        a->boundary[end] = BOUNDARY_PRESCRIBED;
+        return;
+    }
+    int kind = 0;
+    const char *text = node->kind == TREE_TEXT ? node->text : "";
+    while (kind < BOUNDARY_PRESCRIBED && strcmp(boundary_names[kind], text) != 0) kind++;
+    a->boundary[end] = (boundary_kind)kind;
+    if (kind == BOUNDARY_PRESCRIBED)
+        case_errors_add(r->errors, node,
+                        "%s = %.*s: must be one of free, symmetry, fixed, absorbing, or {prescribed: "
+                        "velocity}",
+                        path, CASE_SHOWN, text);
+}
+
+static void read_boundary(case_reader *r, const tree_node *map)
+{
+    case_keys_read(r, map, "scene.boundary", NULL, 0, letters);
+    for (int k = 0; k < 3; k++) {
+        const tree_node *ends = host_tree_find(map, letters[k]);
+        if (!ends) continue;
+        if (ends->kind != TREE_LIST || ends->n != 2) {
+            case_errors_add(r->errors, ends,
+                            "scene.boundary.%s must be two boundaries, at the lower and at the upper "
+                            "end: [free, symmetry]",
+                            letters[k]);
+            continue;
+        }
+        for (int e = 0; e < 2; e++) {
+            char path[CASE_KEY_SIZE];
+            snprintf(path, sizeof path, "scene.boundary.%s[%d]", letters[k], e);
+            read_end(r, ends->item[e], path, &r->out->bodies.scene.axis[k], e);
+        }
+    }
+}
+
+/* One fine zone holds all that is to be refined, in the smallest of the cells asked for. */
+static void read_refine(case_reader *r, const tree_node *list)
+{
+    static const char *const others[] = { "around", NULL };
+    mpm_scene *s = &r->out->bodies.scene;
+    for (int k = 0; case_entry_node(list, k); k++) {
+        char path[CASE_KEY_SIZE];
+        const tree_node *map = case_entry_node(list, k);
+        refine_keys wanted;
+        const case_keys keys = { refine_params, &wanted };
+        const int errors = r->errors->n;
+        snprintf(path, sizeof path, "scene.refine[%d]", k);
+        case_keys_read(r, map, path, &keys, 1, others);
+        const int body = named_body(r, map, "around", path);
+        if (body < 0 || r->errors->n > errors) continue;
+        double lo[3], hi[3];
+        mpm_solid_bounds(&s->solid[s->body[body].solid], lo, hi);
+        for (int q = 0; q < 3; q++) {
+            mpm_axis *a = &s->axis[q];
+            a->fine_lo = fmin(a->fine_lo, lo[q] - wanted.within); /* fmin and fmax leave out a NAN */
+            a->fine_hi = fmax(a->fine_hi, hi[q] + wanted.within);
+            a->fine = fmin(a->fine, wanted.cell);
+        }
+    }
+}
+
+/* What is said once for all axes. */
+static void share(const shared_keys *keys, mpm_scene *s)
+{
+    for (int k = 0; k < 3; k++) {
+        mpm_axis *a = &s->axis[k];
+        if (isnan(a->fine)) a->fine = keys->cell;
+        if (isnan(a->coarse)) a->coarse = keys->coarse_cell;
+        if (isnan(a->growth)) a->growth = keys->growth;
+    }
+}
+
+/* ---- the section ---- */
+
+void case_bodies_read(case_reader *r)
+{
+    static const char *const others[] = { "bodies", "contacts", "refine", "window", "boundary", "follow", NULL };
+    static const char *const none[] = { NULL };
+    const tree_node *scene = host_tree_find(r->root, "scene"), *bodies = host_tree_find(scene, "bodies");
+    mpm_scene *s = &r->out->bodies.scene;
+    shared_keys shared;
+    if (!bodies) return;
+    r->out->given.bodies = true;
+    if (r->options->needs & (CASE_FOR_ONSET | CASE_FOR_COMPARE))
+        case_errors_add(r->errors, bodies,
+                        "scene.bodies: a study makes its scenes from rail, armature and grains; "
+                        "`breech scene` runs this one");
+    mpm_scene_default(s);
+    const case_keys keys[] = { { case_method_params, s }, { shared_params, &shared } };
+    case_keys_read(r, scene, "scene", keys, 2, others);
+    r->out->bodies.overlap = shared.overlap;
+    read_window(r, host_tree_find(scene, "window"));
+    const int errors = r->errors->n;
+    read_bodies(r, bodies);
+    if (r->errors->n > errors) return; /* what follows names bodies */
+    if (shared.overlap == OVERLAP_REFUSED) case_overlap_check(r, bodies);
+    if (host_tree_find(scene, "contacts")) read_contacts(r, host_tree_find(scene, "contacts"));
+    if (host_tree_find(scene, "boundary")) read_boundary(r, host_tree_find(scene, "boundary"));
+    if (host_tree_find(scene, "refine")) read_refine(r, host_tree_find(scene, "refine"));
+    share(&shared, s);
+    if (host_tree_find(scene, "follow")) {
+        const case_keys follow = { follow_params, &s->follow };
+        case_keys_read(r, host_tree_find(scene, "follow"), "scene.follow", &follow, 1, none);
+    }
+}
+
+void case_bodies_resolve(case_reader *r)
+{
+    const tree_node *list = host_tree_find(host_tree_find(r->root, "scene"), "bodies");
+    mpm_scene *s = &r->out->bodies.scene;
+    for (int k = 0; k < s->bodies; k++) {
+        mpm_body *b = &s->body[k];
+        const tree_node *node = host_tree_find(case_entry_node(list, k), "material");
+        b->material = case_material(r->out, text_of(case_entry_node(list, k), "material"));
+        if (!b->material) continue; /* an error already */
+        const unsigned needs = MATERIAL_FOR_SCENE | (b->damage ? MATERIAL_FOR_DAMAGE : 0);
+        const status enough = mpm_material_check(b->material, needs);
+        const bool failure = b->damage && mpm_material_check(b->material, MATERIAL_FOR_SCENE).code == STATUS_OK;
+        if (enough.code != STATUS_OK)
+            case_errors_add(r->errors, node, "scene.bodies[%d].material = %s: %.400s%s", k, b->material->name,
+                            enough.text, failure ? " (or set damage: no)" : "");
+    }
+}
+
+/* ---- writing ---- */
+
+static void write_body(const mpm_scene *s, const mpm_body *b, FILE *file)
+{
+    fputs("    - {", file);
+    case_keys_write(case_body_params, b, true, file);
+    fprintf(file, ",\n       material: %s, group: %d", b->material->name, b->group);
+    bool first = true;
+    for (int face = 0; face_names[face]; face++) {
+        if (!b->passes[face]) continue;
+        fprintf(file, "%s%s", first ? ", passes: [" : ", ", face_names[face]);
+        first = false;
+    }
+    fprintf(file, "%s,\n       shape: ", first ? "" : "]");
+    case_solid_write(&s->solid[b->solid], file);
+    fputs("}\n", file);
+}
+
+static int first_of(const mpm_scene *s, int group)
+{
+    int i = 0;
+    while (i < s->bodies - 1 && s->body[i].group != group) i++;
+    return i;
+}
+
+static void write_contact(const mpm_contact *c, FILE *file)
+{
+    fputs(c->law->name, file);
+    case_keys_write(c->law->params, c, false, file);
+    fputs("}\n", file);
+}
+
+static void write_contacts(const mpm_scene *s, FILE *file)
+{
+    fputs("  contacts:\n    - {default: ", file);
+    write_contact(&s->contact, file);
+    for (int i = 0; i < s->pairs; i++) {
+        const mpm_pair *p = &s->pair[i];
+        fprintf(file, "    - {between: [%s, %s], normal_of: %s, law: ", s->body[first_of(s, p->a)].name,
+                s->body[first_of(s, p->b)].name, s->body[first_of(s, p->normal_of)].name);
+        write_contact(&p->contact, file);
+    }
+}
+
+static void write_window(const mpm_scene *s, FILE *file)
+{
+    static const param velocity = { .unit = "m/s", .kind = PARAM_VECTOR };
+    fputs("  window:\n", file);
+    for (int k = 0; k < 3; k++) {
+        fprintf(file, "    %s: {", letters[k]);
+        case_keys_write(axis_params, &s->axis[k], true, file);
+        fputs("}\n", file);
+    }
+    fputs("  boundary:\n", file);
+    for (int k = 0; k < 3; k++) {
+        const mpm_axis *a = &s->axis[k];
+        fprintf(file, "    %s: [", letters[k]);
+        for (int e = 0; e < 2; e++) {
+            const bool moved = a->boundary[e] == BOUNDARY_PRESCRIBED;
+            fprintf(file, "%s%s%s", e ? ", " : "", moved ? "{" : "", boundary_names[a->boundary[e]]);
+            if (!moved) continue;
+            fputs(": ", file);
+            case_value_write(&velocity, a->boundary_velocity[e], file);
+            fputc('}', file);
+        }
+        fputs("]\n", file);
+    }
+}
+
+void case_bodies_write(const mpm_scene *s, int overlap, FILE *file)
+{
+    fputs("scene:\n", file);
+    for (const param *p = case_method_params; p->key; p++) {
+        fprintf(file, "  %s: ", p->key);
+        case_value_write(p, (const char *)s + p->offset, file);
+        fputc('\n', file);
+    }
+    fprintf(file, "  overlap: %s\n", overlap_names[overlap]);
+    write_window(s, file);
+    fputs("  follow: {", file);
+    case_keys_write(follow_params, &s->follow, true, file);
+    fputs("}\n  bodies:\n", file);
+    for (int i = 0; i < s->bodies; i++) write_body(s, &s->body[i], file);
+    write_contacts(s, file);
+}

@@ -1,0 +1,196 @@
+#include "coupling/scene/scene_bodies.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the bodies now ---- */
+
+static void add_point(scene_body *b, double mass, const double x[3], const double v[3], double energy)
+{
+    b->mass += mass;
+    b->internal += mass * energy;
+    for (int k = 0; k < 3; k++) {
+        b->position[k] += mass * x[k];
+        b->velocity[k] += mass * v[k];
+        b->kinetic += 0.5 * mass * v[k] * v[k];
+    }
+}
+
+static status add_points(const mpm *m, scene_body *out)
+{
+    enum { COLUMNS = 9 };
+    const size_t n = mpm_particles(m);
+    double *all = malloc((n ? n : 1) * COLUMNS * sizeof *all);
+    CHECK(all, STATUS_MEMORY, "no memory to read %zu material points", n);
+    double *x = all, *v = all + 3 * n, *mass = all + 6 * n, *energy = all + 7 * n, *body = all + 8 * n;
+    mpm_read(m, MPM_position, x);
+    mpm_read(m, MPM_velocity, v);
+    mpm_read(m, MPM_mass, mass);
+    mpm_read(m, MPM_energy, energy);
+    mpm_read(m, MPM_body, body);
+    for (size_t i = 0; i < n; i++) add_point(&out[(int)body[i]], mass[i], x + 3 * i, v + 3 * i, energy[i]);
+    free(all);
+    return status_ok();
+}
+
+status scene_bodies_now(const mpm_scene *scene, const mpm *m, scene_body *out)
+{
+    const mpm_report now = mpm_state(m);
+    memset(out, 0, (size_t)scene->bodies * sizeof *out);
+    TRY(add_points(m, out));
+    for (int i = 0; i < scene->bodies; i++) {
+        scene_body *b = &out[i];
+        snprintf(b->name, sizeof b->name, "%s", scene->body[i].name);
+        for (int k = 0; k < 3; k++) b->position[k] /= b->mass, b->velocity[k] /= b->mass; /* NAN: nothing is left */
+        b->failed_volume = now.failed_volume[i];
+        b->peak_pressure = now.peak_pressure_body[i];
+        b->peak_mises = now.peak_mises[i];
+    }
+    return status_ok();
+}
+
+/* ---- their series ---- */
+
+/* clang-format off */
+#define BODY_COLUMNS(COLUMN)                                               \
+    COLUMN("mass", "kg", "in the window", b->mass)                         \
+    COLUMN("position_x", "m", "mean over its mass", b->position[0])        \
+    COLUMN("position_y", "m", "mean over its mass", b->position[1])        \
+    COLUMN("position_z", "m", "mean over its mass", b->position[2])        \
+    COLUMN("velocity_x", "m/s", "mean over its mass", b->velocity[0])      \
+    COLUMN("velocity_y", "m/s", "mean over its mass", b->velocity[1])      \
+    COLUMN("velocity_z", "m/s", "mean over its mass", b->velocity[2])      \
+    COLUMN("kinetic", "J", "as computed: half a model is half", b->kinetic) \
+    COLUMN("internal", "J", "as computed", b->internal)                    \
+    COLUMN("failed_volume", "m^3", "as computed", b->failed_volume)
+/* clang-format on */
+
+static const history_column columns[] = {
+#define COLUMN(name, unit, description, value) { name, unit, description },
+    BODY_COLUMNS(COLUMN)
+#undef COLUMN
+};
+enum { COLUMNS = sizeof columns / sizeof *columns };
+
+static void row_of(const scene_body *b, double row[COLUMNS])
+{
+#define COLUMN(name, unit, description, value) *row++ = (value);
+    BODY_COLUMNS(COLUMN)
+#undef COLUMN
+}
+
+typedef struct {
+    const mpm_scene *scene;
+    history *history; /* NULL: none */
+    int series;
+    scene_body *body; /* as they were last; [scene->bodies] */
+    double *row;      /* [1 + COLUMNS x bodies] */
+} recorder;
+
+typedef struct {
+    char text[PARAM_TEXT_SIZE + 20]; /* "ball/velocity_x" */
+} column_name;
+
+static status open_named(recorder *r, const char *group, history_column *column, column_name *name)
+{
+    int n = 0;
+    column[n++] = (history_column){ "time", "s", "time" };
+    for (int i = 0; i < r->scene->bodies; i++)
+        for (int c = 0; c < COLUMNS; c++, n++) {
+            snprintf(name[n].text, sizeof name[n].text, "%s/%s", r->scene->body[i].name, columns[c].name);
+            column[n] = (history_column){ name[n].text, columns[c].unit, columns[c].description };
+        }
+    return output_history_series(r->history, group, column, n, &r->series);
+}
+
+/* Rows later than the time reached are written anew. */
+static status open_series(recorder *r, const scene_job *job)
+{
+    char group[200];
+    const size_t n = 1 + (size_t)COLUMNS * (size_t)r->scene->bodies;
+    if (!r->history) return status_ok();
+    snprintf(group, sizeof group, "/scene/%.150s/bodies", job->name);
+    history_column *column = calloc(n, sizeof *column);
+    column_name *name = calloc(n, sizeof *name);
+    status done = column && name ? open_named(r, group, column, name)
+                                 : base_status_error(STATUS_MEMORY, "no memory for %zu columns", n);
+    free(column);
+    free(name);
+    TRY(done);
+    return output_history_rewind(r->history, r->series, job->resume.image ? job->resume.time * (1.0 - 1e-9) : -1.0);
+}
+
+/* A row of all bodies: the watch's part after every piece. */
+static status record(void *user, const mpm *m, bool *over)
+{
+    recorder *r = user;
+    (void)over; /* it goes to its end */
+    TRY(scene_bodies_now(r->scene, m, r->body));
+    if (!r->history) return status_ok();
+    r->row[0] = mpm_glance(m).time;
+    for (int i = 0; i < r->scene->bodies; i++) row_of(&r->body[i], r->row + 1 + i * COLUMNS);
+    return output_history_append(r->history, r->series, r->row);
+}
+
+/* ---- the run ---- */
+
+static void take(const scene_outcome *o, scene_bodies_result *r)
+{
+    const mpm_report *m = &o->report;
+    const mpm_ledger *l = &o->ledger;
+    r->end_time = m->time;
+    r->peak_pressure = m->peak_pressure;
+    r->peak_temperature = m->peak_temperature;
+    r->kinetic = l->kinetic;
+    r->internal = l->internal;
+    r->heat_friction = l->heat_friction;
+    r->work_boundary = l->work_boundary;
+    r->work_external = l->work_external;
+    r->ejected_mass = l->ejected_mass;
+    r->eroded_mass = m->eroded_mass;
+    r->momentum_error = l->momentum_error;
+    r->energy_error = l->energy_error;
+    r->particles = m->particles;
+    r->steps = m->steps;
+    r->particle_steps = m->particle_steps;
+    r->particle_steps_dense = m->particle_steps_dense;
+    r->clamps_pressure = m->clamps_pressure;
+    r->clamps_compression = m->clamps_compression;
+    r->wall_seconds = o->wall;
+    r->threads = o->threads;
+}
+
+static status run_recorded(const scene_job *job, const scene_host *host, recorder *r, scene_bodies_result *out)
+{
+    const scene_watch watch = { .piece = record, .user = r };
+    scene_job watched = *job;
+    scene_outcome o;
+    watched.watch = &watch;
+    watched.whole = true;
+    TRY(open_series(r, job));
+    TRY(scene_run(&watched, host, &o));
+    take(&o, out);
+    return r->history ? output_history_end(r->history, r->series) : status_ok();
+}
+
+status scene_bodies_run(const scene_job *job, const scene_host *host, scene_bodies_result *out)
+{
+    const size_t n = (size_t)job->scene->bodies;
+    memset(out, 0, sizeof *out);
+    out->bodies = job->scene->bodies;
+    out->body = calloc(n, sizeof *out->body);
+    recorder r = {
+        .scene = job->scene, .history = host->history, .body = out->body, .row = calloc(1 + COLUMNS * n, sizeof *r.row)
+    };
+    const status done = out->body && r.row ? run_recorded(job, host, &r, out)
+                                           : base_status_error(STATUS_MEMORY, "no memory for %zu bodies", n);
+    free(r.row);
+    return done;
+}
+
+void scene_bodies_free(scene_bodies_result *r)
+{
+    free(r->body);
+    r->body = NULL;
+}

@@ -1,0 +1,45 @@
+/* Any scene by itself: run with the motion of each of its bodies on record, and its result.
+ *
+ * History: /scene/<name> as scene_run writes it, and /scene/<name>/bodies/<body>/{mass, position_x, ...}, a row a
+ * piece.  All sums as computed: of a model that is cut by a mirror plane, its part. */
+#ifndef BREECH_COUPLING_SCENE_BODIES_H
+#define BREECH_COUPLING_SCENE_BODIES_H
+
+#include "coupling/output/summary.h"
+#include "coupling/scene/scene_run.h"
+
+typedef struct {
+    char name[PARAM_TEXT_SIZE];
+    double mass;                      /* in the window [kg] */
+    double position[3], velocity[3];  /* means over its mass [m, m/s]; NAN where nothing is left */
+    double kinetic, internal;         /* [J] */
+    double failed_volume;             /* [m3] */
+    double peak_pressure, peak_mises; /* of any intact point so far [Pa] */
+} scene_body;
+
+typedef struct {
+    int bodies;
+    scene_body *body;                       /* at the end; owned */
+    double end_time;                        /* [s] */
+    double peak_pressure, peak_temperature; /* of any intact point so far [Pa, K] */
+    double kinetic, internal;               /* [J] */
+    double heat_friction;                   /* part of internal [J] */
+    double work_boundary, work_external;    /* [J] */
+    double ejected_mass, eroded_mass;       /* [kg] */
+    double momentum_error, energy_error;    /* [1] */
+    uint64_t particles, steps, particle_steps, particle_steps_dense;
+    uint64_t clamps_pressure, clamps_compression;
+    double wall_seconds; /* [s] */
+    int threads;
+} scene_bodies_result;
+
+extern const summary_key scene_bodies_keys[]; /* of scene_bodies_result */
+
+/* job->watch must be NULL.  *out is for scene_bodies_free in any case.  STATUS_STOPPED as scene_run. */
+status scene_bodies_run(const scene_job *job, const scene_host *host, scene_bodies_result *out);
+void scene_bodies_free(scene_bodies_result *r);
+
+/* All bodies as they are now, into out[scene->bodies]. */
+status scene_bodies_now(const mpm_scene *scene, const mpm *m, scene_body *out);
+
+#endif

@@ -1,0 +1,100 @@
+#include "coupling/scene/scene_fill.h"
+
+#include "mpm/grid/grid.h"
+
+#include <math.h>
+
+static const double CELLS_ACROSS = 20.0; /* of the smallest extent of any body */
+static const double COARSE = 4.0;        /* largest cells over the fine ones */
+static const double GROWTH = 1.2;
+static const double MARGIN = 0.25; /* of the bodies' box, beyond them where the window ends freely */
+static const double ROOM = 4.0;    /* and at least so many coarse cells */
+static const double AROUND = 0.5;  /* of the smallest body, on either side of it, in fine cells too */
+
+typedef struct {
+    double lo[3], hi[3];
+} box;
+
+static box box_of(const mpm_scene *s, int body)
+{
+    box b;
+    mpm_solid_bounds(&s->solid[s->body[body].solid], b.lo, b.hi);
+    return b;
+}
+
+static double extent(const box *b)
+{
+    return fmin(b->hi[0] - b->lo[0], fmin(b->hi[1] - b->lo[1], b->hi[2] - b->lo[2]));
+}
+
+static double volume(const box *b)
+{
+    return (b->hi[0] - b->lo[0]) * (b->hi[1] - b->lo[1]) * (b->hi[2] - b->lo[2]);
+}
+
+/* What the bodies say of the window. */
+typedef struct {
+    box all, smallest;
+    double extent; /* least of any body [m] */
+} survey;
+
+static survey look(const mpm_scene *s)
+{
+    survey r = { .all = box_of(s, 0), .smallest = box_of(s, 0) };
+    box *all = &r.all;
+    r.extent = extent(all);
+    for (int i = 1; i < s->bodies; i++) {
+        const box b = box_of(s, i);
+        r.extent = fmin(r.extent, extent(&b));
+        if (volume(&b) < volume(&r.smallest)) r.smallest = b;
+        for (int k = 0; k < 3; k++) {
+            all->lo[k] = fmin(all->lo[k], b.lo[k]);
+            all->hi[k] = fmax(all->hi[k], b.hi[k]);
+        }
+    }
+    return r;
+}
+
+static double or_else(double value, double fallback)
+{
+    return isnan(value) ? fallback : value;
+}
+
+static double margin_at(const mpm_axis *a, int end, double length)
+{
+    return a->boundary[end] == BOUNDARY_FREE ? fmax(MARGIN * length, ROOM * a->coarse) : 0.0;
+}
+
+/* Whole cells, in multiples of what the levels want; an end that comes near the window's is laid to it. */
+static void lay_zone(mpm_axis *a, int levels)
+{
+    const double step = a->fine * (1 << (levels - 1)), room = fmax(a->coarse, mpm_grids_margin(levels, a->fine));
+    a->fine_lo = fmax(a->fine_lo, a->lo), a->fine_hi = fmin(a->fine_hi, a->hi);
+    if (a->fine_lo - a->lo < room) a->fine_lo = a->lo;
+    const double cells = fmax(ceil((a->fine_hi - a->fine_lo) / step * (1.0 - 1e-9)), 2.0);
+    a->fine_hi = a->fine_lo + cells * step;
+    if (a->hi - a->fine_hi < room) a->fine_hi = a->hi;
+}
+
+static void fill_axis(const survey *bodies, int k, int levels, mpm_axis *a)
+{
+    const box *all = &bodies->all, *smallest = &bodies->smallest;
+    const double length = all->hi[k] - all->lo[k], around = AROUND * (smallest->hi[k] - smallest->lo[k]);
+    a->fine = or_else(a->fine, bodies->extent / CELLS_ACROSS);
+    a->coarse = or_else(a->coarse, COARSE * a->fine);
+    a->growth = or_else(a->growth, GROWTH);
+    a->lo = or_else(a->lo, all->lo[k] - margin_at(a, 0, length));
+    a->hi = or_else(a->hi, all->hi[k] + margin_at(a, 1, length));
+    const bool given = !isnan(a->fine_lo) && !isnan(a->fine_hi);
+    a->fine_lo = or_else(a->fine_lo, smallest->lo[k] - around);
+    a->fine_hi = or_else(a->fine_hi, smallest->hi[k] + around);
+    if (!given || a->fine_lo < a->lo || a->fine_hi > a->hi) lay_zone(a, levels);
+}
+
+status scene_fill(mpm_scene *s)
+{
+    CHECK(s->bodies > 0, STATUS_BAD_INPUT, "scene.bodies: there are none");
+    const survey bodies = look(s);
+    for (int k = 0; k < 3; k++) fill_axis(&bodies, k, s->levels, &s->axis[k]);
+    return status_ok();
+}

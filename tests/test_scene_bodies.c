@@ -1,0 +1,426 @@
+/* Scenes whose bodies stand in the case: every table of the solver is read, what cannot be is refused with its place,
+ * what is left out is chosen, any scene written as text gives the same bits, and a run keeps its books body by body. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "coupling/case/case_bodies.h"
+#include "coupling/gouge/scene_from_state.h"
+#include "coupling/scene/scene_bodies.h"
+#include "coupling/scene/scene_fill.h"
+#include "mpm/law/contact.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define OK(call)                                                        \
+    do {                                                                \
+        const status ok_ = (call);                                      \
+        if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
+    } while (0)
+
+static const char *const dirs[] = { BREECH_TESTS "/../cases/materials" };
+
+static status read_text(const char *text, unsigned needs, breech_case **c, char **errors)
+{
+    const case_options how = { dirs, 1, needs };
+    return case_read_memory(&(case_text){ text, strlen(text), "case.yaml", NULL, 0 }, &how, c, errors);
+}
+
+static breech_case *read_good(const char *text)
+{
+    breech_case *c = NULL;
+    char *errors = NULL;
+    const status s = read_text(text, CASE_FOR_SCENE, &c, &errors);
+    if (s.code != STATUS_OK) fail_msg("%s\n%s", errors ? errors : s.text, text);
+    return c;
+}
+
+static char *used_text(const breech_case *c)
+{
+    char *text = NULL;
+    size_t bytes;
+    FILE *f = open_memstream(&text, &bytes);
+    OK(case_write_used(c, f));
+    fclose(f);
+    return text;
+}
+
+#define HEAD "name: a\nscene:\n  end_time: 1 us\n"
+#define BOX "{name: wall, material: ofhc_copper, shape: {box: {lo: 0 0 0 mm, hi: 2 4 4 mm}}}"
+#define BALL \
+    "{name: ball, material: ofhc_copper, shape: {sphere: {center: -1 2 2 mm, radius: 1 mm}}, velocity: 300 0 0 m/s}"
+#define TWO HEAD "  bodies:\n    - " BOX "\n    - " BALL "\n"
+
+/* ---- reading ---- */
+
+static void test_minimal(void **state)
+{
+    (void)state;
+    breech_case *c = read_good(TWO);
+    mpm_scene *s = &c->bodies.scene;
+    assert_true(c->given.bodies && !c->given.scene);
+    assert_int_equal(s->bodies, 2);
+    assert_true(s->body[0].group == 0 && s->body[1].group == 1);
+    assert_true(s->body[1].velocity[0] == 300.0 && s->body[1].temperature == 293.0);
+    assert_string_equal(s->body[1].material->name, "ofhc_copper");
+    assert_string_equal(s->solid[s->body[1].solid].kind->name, "sphere");
+    OK(scene_fill(s));
+    for (int k = 0; k < 3; k++) {
+        const mpm_axis *a = &s->axis[k];
+        assert_true(fabs(a->fine / 0.1e-3 - 1.0) < 1e-12); /* a twentieth of 2 mm */
+        assert_true(a->lo < a->fine_lo && a->fine_hi < a->hi && a->coarse == 4.0 * a->fine);
+        assert_true(a->fine_lo < -1e-3 + (k > 0) * 2e-3 && a->fine_hi > (k > 0) * 3e-3); /* holds the ball */
+    }
+    mpm_needs needs;
+    OK(mpm_estimate(s, &needs));
+    assert_true(needs.particles[0] > 1000);
+    case_free(c);
+}
+
+/* What the tables call the default is the solver's own. */
+static void test_defaults(void **state)
+{
+    (void)state;
+    mpm_scene own, read;
+    mpm_body *body;
+    mpm_scene_default(&own);
+    read = own;
+    base_params_default(case_method_params, &read);
+    read.end_time = own.end_time;
+    assert_memory_equal(&own, &read, sizeof own);
+    OK(mpm_scene_add_body(&own, &body));
+    mpm_body again = *body;
+    base_params_default(case_body_params, &again);
+    assert_memory_equal(body, &again, sizeof again);
+    mpm_scene_free(&own);
+}
+
+static void test_groups(void **state)
+{
+    (void)state;
+    breech_case *c = read_good(
+        HEAD "  bodies:\n"
+             "    - {name: a, material: nickel, group: left, shape: {box: {lo: 0 0 0 mm, hi: 1 1 1 mm}}}\n"
+             "    - {name: b, material: nickel, shape: {box: {lo: 1 0 0 mm, hi: 2 1 1 mm}}}\n"
+             "    - {name: c, material: nickel, group: left, shape: {box: {lo: 2 0 0 mm, hi: 3 1 1 mm}}}\n"
+             "    - {name: d, material: nickel, shape: {box: {lo: 3 0 0 mm, hi: 4 1 1 mm}}, passes: [-x, +z]}\n"
+             "  contacts:\n"
+             "    - {between: [b, c], law: coulomb, friction: 0.4, normal_of: b}\n"
+             "    - {default: coulomb, friction: 0.2}\n"
+             "  boundary: {x: [fixed, {prescribed: 0 5 0 m/s}]}\n");
+    const mpm_scene *s = &c->bodies.scene;
+    const int group[] = { 0, 1, 0, 2 };
+    for (int i = 0; i < 4; i++) assert_int_equal(s->body[i].group, group[i]);
+    assert_true(s->body[3].passes[0] && s->body[3].passes[5] && !s->body[3].passes[1]);
+    assert_true(mpm_scene_contact(s, 0, 1).contact.value[COULOMB_FRICTION] == 0.4);
+    assert_int_equal(mpm_scene_contact(s, 0, 1).normal_of, 1);
+    assert_true(mpm_scene_contact(s, 1, 2).contact.value[COULOMB_FRICTION] == 0.2);
+    assert_true(s->axis[0].boundary[0] == BOUNDARY_FIXED && s->axis[0].boundary[1] == BOUNDARY_PRESCRIBED);
+    assert_true(s->axis[0].boundary_velocity[1][1] == 5.0);
+    case_free(c);
+}
+
+/* Every kind of solid asks for the required values of its own table, and takes its parts. */
+static void test_every_shape(void **state)
+{
+    (void)state;
+    for (int i = 0; mpm_solid_kind_at(i); i++) {
+        const mpm_solid_kind *k = mpm_solid_kind_at(i);
+        char text[800];
+        breech_case *c = NULL;
+        char *errors = NULL;
+        snprintf(text, sizeof text, HEAD "  bodies: [{name: a, material: nickel, shape: {%s: {}}}]\n", k->name);
+        const status s = read_text(text, CASE_FOR_SCENE, &c, &errors);
+        assert_int_equal(s.code, STATUS_BAD_INPUT); /* none is whole without a value or a part */
+        for (const param *p = k->params; p->key; p++) {
+            char missing[200];
+            snprintf(missing, sizeof missing, "scene.bodies[0].shape.%s.%s is missing", k->name, p->key);
+            assert_int_equal(strstr(errors, missing) != NULL, isinf(p->fallback));
+        }
+        free(errors);
+    }
+}
+
+static void test_every_contact(void **state)
+{
+    (void)state;
+    for (int i = 0; mpm_contact_at(i); i++) {
+        char text[1500];
+        snprintf(text, sizeof text, TWO "  contacts: [{default: %s}, {between: [wall, ball], law: %s}]\n",
+                 mpm_contact_at(i)->name, mpm_contact_at(i)->name);
+        breech_case *c = read_good(text);
+        const mpm_contact want = mpm_contact_of(mpm_contact_at(i));
+        assert_memory_equal(&c->bodies.scene.contact, &want, sizeof want);
+        assert_memory_equal(&c->bodies.scene.pair[0].contact, &want, sizeof want);
+        case_free(c);
+    }
+}
+
+/* Operations nest, and one on two solids takes more from left to right. */
+static void test_tree(void **state)
+{
+    (void)state;
+    breech_case *c = read_good(
+        HEAD "  bodies:\n"
+             "    - name: a\n"
+             "      material: nickel\n"
+             "      shape:\n"
+             "        minus:\n"
+             "          - {box: {lo: 0 0 0 mm, hi: 4 4 4 mm}}\n"
+             "          - {sphere: {center: 0 0 0 mm, radius: 1 mm}}\n"
+             "          - {move: {offset: [4 mm, 4 mm, 4 mm], of: {sphere: {center: 0 0 0 mm, radius: 1 mm}}}}\n");
+    const mpm_scene *s = &c->bodies.scene;
+    const mpm_solid *root = &s->solid[s->body[0].solid];
+    assert_true(mpm_solid_inside(root, (const double[]){ 2e-3, 2e-3, 2e-3 }) > 0.0);
+    assert_true(mpm_solid_inside(root, (const double[]){ 0.3e-3, 0.3e-3, 0.3e-3 }) < 0.0);
+    assert_true(mpm_solid_inside(root, (const double[]){ 3.7e-3, 3.7e-3, 3.7e-3 }) < 0.0);
+    char *text = used_text(c);
+    breech_case *back = read_good(text);
+    char *again = used_text(back);
+    assert_string_equal(text, again);
+    free(text), free(again);
+    case_free(back), case_free(c);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *error;
+    } cases[] = {
+        { HEAD "  bodies: []\n", "case.yaml:4:11: scene.bodies must be a list of bodies, at least one" },
+        { HEAD "  bodies: [{name: a, material: nickel}]\n", "scene.bodies[0].shape is missing" },
+        { HEAD "  bodies: [{name: a, material: nickel, shape: {bal: {}}}]\n", "case.yaml:4:48: unknown shape `bal`" },
+        { HEAD "  bodies: [{name: a, material: nickel, shape: {sphere: {center: 0 0 mm, radius: 1 mm}}}]\n",
+          "center = 0 0 mm: must be three numbers and their unit" },
+        { HEAD "  bodies: [{name: a, material: nickel, shape: {sphere: {center: 0 0 0 mm, radius: -1 mm}}}]\n",
+          "scene.bodies[0].shape.sphere.radius = -1 mm: must be positive" },
+        { HEAD "  bodies: [{name: a, material: nickel, shape: {box: {lo: 0 0 0 mm, hi: 1 0 1 mm}}}]\n", "hi along y" },
+        { HEAD
+          "  bodies: [{name: a, material: nickel, shape: {minus: [{sphere: {center: 0 0 0 mm, radius: 1 mm}}]}}]\n",
+          "is made of at least 2 solids" },
+        { HEAD "  bodies: [{name: a b, material: nickel, shape: {sphere: {center: 0 0 0 mm, radius: 1 mm}}}]\n",
+          "letters, digits" },
+        { TWO "  contacts: [{default: glue}]\n", "case.yaml:7:24: unknown law of contact `glue`" },
+        { TWO "  contacts: [{between: [wall, bal], law: coulomb}]\n",
+          "unknown body `bal` in scene.contacts[0]; did you mean `ball`?" },
+        { TWO "  contacts: [{between: [wall, wall], law: coulomb}]\n", "both are of one group" },
+        { TWO "  boundary: {x: [free]}\n", "scene.boundary.x must be two boundaries" },
+        { TWO "  boundary: {x: [free, absorbin]}\n", "scene.boundary.x[1] = absorbin: must be one of free" },
+        { TWO "  window: {w: {lo: 0 mm}}\n", "unknown key `w` in scene.window" },
+        { TWO "  friction: 0.1\n", "unknown key `friction` in scene" },
+        { TWO "  refine: [{around: bal, within: 1 mm, cell: 0.1 mm}]\n", "did you mean `ball`?" },
+        { HEAD "  bodies:\n    - " BOX "\n    - " BOX "\n",
+          "case.yaml:6:14: scene.bodies[1].name = wall: the same as" },
+        { HEAD "  bodies:\n    - " BOX
+               "\n    - {name: b, material: nickel, shape: {box: {lo: 1.9 0 0 mm, hi: 3 4 4 mm}}}\n",
+          "case.yaml:6:42: scene.bodies[1].shape: b overlaps wall by 4.9e-05 m" },
+        { HEAD
+          "  bodies: [{name: a, material: w_alloy, damage: yes, shape: {sphere: {center: 0 0 0 mm, radius: 1 mm}}}]\n",
+          "(or set damage: no)" },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        breech_case *c = NULL;
+        char *errors = NULL;
+        assert_int_equal(read_text(cases[i].text, CASE_FOR_SCENE, &c, &errors).code, STATUS_BAD_INPUT);
+        if (!strstr(errors, cases[i].error)) fail_msg("case %zu: %s\nnot: %s", i, cases[i].error, errors);
+        free(errors);
+    }
+    breech_case *c = NULL;
+    char *errors = NULL;
+    assert_int_equal(read_text(TWO, CASE_FOR_ONSET, &c, &errors).code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(errors, "scene.bodies: a study makes its scenes"));
+    free(errors);
+}
+
+/* ---- any scene as text ---- */
+
+static mpm *made(const mpm_scene *s)
+{
+    mpm *m = NULL;
+    OK(mpm_create(s, 2, &m));
+    OK(mpm_advance(m, s->end_time, NULL));
+    return m;
+}
+
+static void assert_same_state(const mpm *a, const mpm *b)
+{
+    const size_t n = mpm_particles(a);
+    assert_int_equal(n, mpm_particles(b));
+    double *x = malloc(2 * 6 * n * sizeof *x), *y = x + 6 * n;
+    assert_non_null(x);
+    static const mpm_field fields[] = { MPM_position, MPM_velocity, MPM_stress, MPM_energy, MPM_body };
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) {
+        mpm_read(a, fields[f], x);
+        mpm_read(b, fields[f], y);
+        assert_memory_equal(x, y, n * (size_t)mpm_field_table[fields[f]].width * sizeof *x);
+    }
+    free(x);
+}
+
+/* The armature over its grain, written as bodies and read back, computes the same bits; so do a pit and a layer. */
+static void test_gouging_as_text(void **state)
+{
+    (void)state;
+    static const char *const variants[][2] = {
+        { "scene.levels=2", "particle.shape=hemisphere" },
+        { "scene.levels=1", "particle.shape=sphere" },
+        { "rail.layers=[{material: steel_4340, thickness: 0.4 mm, bond_strength: 1 GPa}]", "particle.shape=pit" }
+    };
+    for (int k = 0; k < 3; k++) {
+        const char *const sets[] = { variants[k][0],
+                                     variants[k][1],
+                                     "scene.velocity=1.6 km/s",
+                                     "scene.end_time=0.3 us",
+                                     "scene.contact_pressure=50 MPa",
+                                     "scene.cells_per_radius=1.5" };
+        const case_options how = { dirs, 1, CASE_FOR_SCENE };
+        breech_case *c = NULL;
+        char *errors = NULL, *text = NULL;
+        size_t bytes;
+        gouge_scene g;
+        const status s = case_read(BREECH_TESTS "/../cases/default_shot", sets, 6, &how, &c, &errors);
+        if (s.code != STATUS_OK) fail_msg("%s", errors ? errors : s.text);
+        const site_state at = gouge_state_of_case(c);
+        OK(gouge_scene_bodies(c, &at, c->scene.cells_per_radius, &g));
+        FILE *f = open_memstream(&text, &bytes);
+        OK(case_write_scene(c, &g.scene, f));
+        fclose(f);
+        breech_case *back = read_good(text);
+        OK(scene_fill(&back->bodies.scene));
+        mpm *a = made(&g.scene), *b = made(&back->bodies.scene);
+        assert_same_state(a, b);
+        mpm_free(a), mpm_free(b);
+        free(text);
+        mpm_scene_free(&g.scene);
+        case_free(back), case_free(c);
+    }
+}
+
+/* ---- running ---- */
+
+typedef struct {
+    int left; /* steps until it is asked to stop; below 0: never */
+    void *image;
+    size_t bytes;
+    double time;
+} stopping;
+
+static bool stop_soon(void *user)
+{
+    stopping *s = user;
+    return s->left >= 0 && s->left-- == 0;
+}
+
+static status keep(void *user, const char *scene, const scene_now *now)
+{
+    (void)scene;
+    stopping *s = user;
+    s->time = mpm_glance(now->m).time;
+    return scene_image(now, &s->image, &s->bytes);
+}
+
+static status run(const mpm_scene *s, history *h, stopping *stop, const scene_resume *from, scene_bodies_result *out)
+{
+    const scene_job job = { .name = "scene",
+                            .task = "test",
+                            .scene = s,
+                            .checkpoint_interval = 1e6,
+                            .last_time = s->end_time,
+                            .resume = from ? *from : (scene_resume){ .image = NULL } };
+    const scene_host host = { .history = h, .threads = 2, .stop = stop_soon, .save = keep, .user = stop };
+    return scene_bodies_run(&job, &host, out);
+}
+
+static double *column(history *h, const char *name, size_t *n)
+{
+    h5_file *file;
+    double *data;
+    size_t dims[H5_MAX_RANK];
+    char path[100];
+    snprintf(path, sizeof path, "/scene/%s", name);
+    OK(host_h5_create(&file));
+    OK(output_history_export(h, "scene", file));
+    OK(host_h5_read(file, path, &data, dims));
+    host_h5_close(file);
+    *n = dims[0];
+    return data;
+}
+
+/* Motion of the bodies adds up to the model's, in every row; a run that was stopped and resumed has the same rows and
+ * the same result. */
+static void test_run(void **state)
+{
+    (void)state;
+    breech_case *c = read_good(TWO "  cell: 0.4 mm\n  contacts: [{default: coulomb, friction: 0.1}]\n");
+    mpm_scene *s = &c->bodies.scene;
+    s->end_time = 3e-6;
+    OK(scene_fill(s));
+    history *h[2];
+    scene_bodies_result r[2], none;
+    for (int i = 0; i < 2; i++) OK(output_history_open(NULL, false, &h[i]));
+    stopping never = { .left = -1 }, soon = { .left = 7 };
+    OK(run(s, h[0], &never, NULL, &r[0]));
+    assert_int_equal(run(s, h[1], &soon, NULL, &none).code, STATUS_STOPPED);
+    scene_bodies_free(&none);
+    const scene_resume from = { soon.image, soon.bytes, soon.time, 0.0 };
+    OK(run(s, h[1], &never, &from, &r[1]));
+    assert_int_equal(r[0].bodies, 2);
+    assert_string_equal(r[0].body[1].name, "ball");
+    assert_true(r[0].body[0].velocity[0] > 0.0 && r[0].body[1].velocity[0] < 300.0); /* it pushed the wall */
+    assert_true(fabs(r[0].energy_error) < 0.01 && r[0].momentum_error < 1e-9);
+    assert_memory_equal(r[0].body, r[1].body, 2 * sizeof *r[0].body);
+    size_t n, m;
+    double *total = column(h[0], "momentum_x", &n), *sum = calloc(n, sizeof *sum);
+    static const char *const names[] = { "wall", "ball" };
+    for (int b = 0; b < 2; b++) {
+        char path[60];
+        snprintf(path, sizeof path, "bodies/%s/mass", names[b]);
+        double *mass = column(h[0], path, &m);
+        snprintf(path, sizeof path, "bodies/%s/velocity_x", names[b]);
+        double *v = column(h[0], path, &m), *again = column(h[1], path, &m);
+        assert_int_equal(m, n);
+        assert_memory_equal(v, again, n * sizeof *v);
+        for (size_t i = 0; i < n; i++) sum[i] += mass[i] * v[i];
+        free(mass), free(v), free(again);
+    }
+    assert_true(n > 30);
+    for (size_t i = 0; i < n; i++) assert_true(fabs(sum[i] / total[i] - 1.0) < 1e-9);
+    free(total), free(sum), free(soon.image);
+    for (int i = 0; i < 2; i++) {
+        scene_bodies_free(&r[i]);
+        OK(output_history_close(h[i]));
+    }
+    case_free(c);
+}
+
+/* The case that the manual shows. */
+static void test_example(void **state)
+{
+    (void)state;
+    const case_options how = { dirs, 1, CASE_FOR_SCENE };
+    breech_case *c = NULL;
+    char *errors = NULL;
+    const status s = case_read(BREECH_TESTS "/../cases/sphere_plate", NULL, 0, &how, &c, &errors);
+    if (s.code != STATUS_OK) fail_msg("%s", errors ? errors : s.text);
+    mpm_needs needs;
+    OK(scene_fill(&c->bodies.scene));
+    OK(mpm_estimate(&c->bodies.scene, &needs));
+    assert_true(needs.particles[0] > 1e4 && needs.particles[0] < 5e5);
+    case_free(c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_minimal),     cmocka_unit_test(test_defaults),        cmocka_unit_test(test_groups),
+        cmocka_unit_test(test_every_shape), cmocka_unit_test(test_every_contact),   cmocka_unit_test(test_tree),
+        cmocka_unit_test(test_refused),     cmocka_unit_test(test_gouging_as_text), cmocka_unit_test(test_run),
+        cmocka_unit_test(test_example),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
