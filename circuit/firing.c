@@ -13,10 +13,10 @@ static const double NOT_LEFT = 10.0;       /* measure of a shot that does not le
 static const double SEARCH_RTOL = 1e-6;    /* of the shots on the way, good to some 1e-6 of the velocity */
 static const double VELOCITY_CLOSE = 1e-5; /* how near the velocity must come [1] */
 
-const char *const circuit_firing_goal_names[] = { "flat", "velocity", NULL };
+static const char *const goal_names[] = { "flat", "velocity", NULL };
 
 const param circuit_firing_wish_params[] = {
-    PARAM_ENUM(firing_wish, goal, circuit_firing_goal_names, FIRING_FLAT,
+    PARAM_ENUM(firing_wish, goal, goal_names, FIRING_FLAT,
                "flat: the flattest current below peak_current; velocity: muzzle_velocity at the least stored energy"),
     PARAM_DOUBLE(firing_wish, peak_current, "A", OPTIONAL, 1.0, 1e9, "peak the rails' current should keep to"),
     PARAM_DOUBLE(firing_wish, muzzle_velocity, "m/s", OPTIONAL, 1.0, 1e5, "wanted muzzle velocity (goal velocity)"),

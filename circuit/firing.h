@@ -22,7 +22,6 @@ typedef struct {
     int evaluations;        /* at most, of the wish's measure */
 } firing_wish;
 
-extern const char *const circuit_firing_goal_names[]; /* "flat", "velocity", NULL */
 extern const param circuit_firing_wish_params[];
 
 typedef struct {

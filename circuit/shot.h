@@ -20,7 +20,6 @@
 #include <stdint.h>
 
 typedef enum { SHOT_RAILS_CONSTANT, SHOT_RAILS_SKIN, SHOT_RAILS_DIFFUSING } shot_rail_level;
-extern const char *const circuit_shot_rail_level_names[]; /* "constant", "skin", "diffusing", NULL */
 
 /* Equal rails (circuit/rails/section.h).  constant: the gradients are given; skin: those of the section at one
  * frequency; diffusing: every slice of rail has its own history since the armature exposed it (circuit/rails/rails.h).
@@ -180,7 +179,6 @@ typedef enum {
     SHOT_MELTED,     /* the armature's face has melted: it slides on a film (friction_law film) */
     SHOT_EVENT_COUNT
 } shot_event_kind;
-extern const char *const circuit_shot_event_names[]; /* "fired", "waiting", ..., NULL */
 
 typedef struct {
     shot_event_kind kind;

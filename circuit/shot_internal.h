@@ -81,8 +81,6 @@ void circuit_shot_heat_update(shot *s, const shot_drive *d); /* after every acce
 /* All that is due now: `found` as circuit_dae_found, NULL where no root was reported.  Asks for a restart where
  * something switched. */
 void circuit_shot_settle(shot *s, const int *found);
-void circuit_shot_announce(shot *s, shot_event_kind kind, int index);
-void circuit_shot_switched(shot *s, shot_event_kind kind, int index);
 bool circuit_shot_any_current(const shot *s);
 double circuit_shot_next_firing(const shot *s); /* infinite: none */
 /* At rest after a stop: held where the current's push is too weak, else free again. */

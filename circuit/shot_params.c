@@ -1,9 +1,6 @@
 /* Parameter tables of the shot: every key, unit, default, range and text stands here once. */
 #include "circuit/shot.h"
 
-const char *const circuit_shot_event_names[] = { "fired", "waiting", "crowbar",    "blocked",   "released", "stopped",
-                                                 "site",  "muzzle",  "commutated", "recharged", "melted",   NULL };
-
 const char *const circuit_shot_friction_law_names[] = { "speed", "film", NULL };
 
 #define BARREL(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_barrel, member, unit, fallback, min, max, doc)

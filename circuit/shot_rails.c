@@ -4,13 +4,13 @@
 
 static const double TURN = 6.28318530717958648;
 
-const char *const circuit_shot_rail_level_names[] = { "constant", "skin", "diffusing", NULL };
+static const char *const level_names[] = { "constant", "skin", "diffusing", NULL };
 
 #define RAILS(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_rails, member, unit, fallback, min, max, doc)
 
 const param circuit_shot_rails_params[] = {
     PARAM_ENUM(
-        shot_rails, level, circuit_shot_rail_level_names, SHOT_RAILS_DIFFUSING,
+        shot_rails, level, level_names, SHOT_RAILS_DIFFUSING,
         "constant: gradients as given; skin: of the cross-section at one frequency; diffusing: of every slice by its "
         "own history"),
     RAILS(height, "m", REQUIRED, 1e-4, 10.0, "height of a rail, across the bore"),

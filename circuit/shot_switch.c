@@ -4,17 +4,17 @@
 #include <assert.h>
 #include <math.h>
 
-void circuit_shot_announce(shot *s, shot_event_kind kind, int index)
+static void announce(shot *s, shot_event_kind kind, int index)
 {
     assert(s->tail < s->capacity);
     s->queue[s->tail++] = (pending){ kind, index };
 }
 
-void circuit_shot_switched(shot *s, shot_event_kind kind, int index)
+static void switched(shot *s, shot_event_kind kind, int index)
 {
     s->switchings++;
     s->restart = true;
-    circuit_shot_announce(s, kind, index);
+    announce(s, kind, index);
 }
 
 bool circuit_shot_any_current(const shot *s)
@@ -48,7 +48,7 @@ static void group_block(shot *s, int k)
     circuit_shot_y(s)[g->first] = 0.0;
     const bool again = g->pulses-- > 0;
     g->gate = again ? GATE_WAITING : GATE_BLOCKED;
-    circuit_shot_switched(s, again ? SHOT_WAITING : SHOT_BLOCKED, k);
+    switched(s, again ? SHOT_WAITING : SHOT_BLOCKED, k);
 }
 
 /* Groups that are due try to conduct together; whichever would carry a negative current then waits.  Taking one away
@@ -89,8 +89,8 @@ static void groups_fire(shot *s)
     if (some) groups_try(s, before);
     for (int k = 0; k < m->n; k++) {
         const supply_gate now = m->groups[k].gate;
-        if (now == GATE_ON && !before[k]) circuit_shot_switched(s, SHOT_FIRED, k);
-        if (now == GATE_WAITING && !waiting[k]) circuit_shot_switched(s, SHOT_WAITING, k);
+        if (now == GATE_ON && !before[k]) switched(s, SHOT_FIRED, k);
+        if (now == GATE_WAITING && !waiting[k]) switched(s, SHOT_WAITING, k);
         s->forced[k] = false;
     }
 }
@@ -108,7 +108,7 @@ static void groups_settle(shot *s, const int *found)
         if (circuit_supply_conducts(g) && !g->reverses && ((root && root[1]) || ends)) group_block(s, k);
         if (g->gate == GATE_BLOCKED || !g->kind->next) continue;
         const bool over = circuit_supply_stage_root(g, s->t, y) <= 1e-12;
-        if ((root && root[0]) || over) circuit_shot_switched(s, g->kind->next(g, y), k);
+        if ((root && root[0]) || over) switched(s, g->kind->next(g, y), k);
     }
 }
 
@@ -128,7 +128,7 @@ static void armature_leave(shot *s)
     s->result.efficiency = spent > 0.0 ? s->exit_kinetic / spent : 0.0;
     s->result.exit_current = f.I;
     s->model.phase = SHOT_LEFT;
-    circuit_shot_switched(s, SHOT_MUZZLE, -1);
+    switched(s, SHOT_MUZZLE, -1);
 }
 
 static void sites_pass(shot *s, bool root)
@@ -137,7 +137,7 @@ static void sites_pass(shot *s, bool root)
     const double x = circuit_shot_z(s)[Y_X];
     while (s->passed < s->n_sites &&
            (s->sites[s->passed].position <= x || (root && m->next_site == s->sites[s->passed].position)))
-        circuit_shot_announce(s, SHOT_SITE, s->sites[s->passed++].index);
+        announce(s, SHOT_SITE, s->sites[s->passed++].index);
     m->next_site = s->passed < s->n_sites ? s->sites[s->passed].position : INFINITY;
 }
 
@@ -160,7 +160,7 @@ void circuit_shot_come_to_rest(shot *s)
     if (f.force > circuit_shot_hold_force(m, f.I - f.shunt)) return;
     m->melted = false;
     m->phase = SHOT_HELD;
-    circuit_shot_switched(s, SHOT_STOPPED, -1);
+    switched(s, SHOT_STOPPED, -1);
 }
 
 static void face_melts(shot *s, bool root)
@@ -171,7 +171,7 @@ static void face_melts(shot *s, bool root)
     if (!root && circuit_shot_melting(m, &f, circuit_shot_z(s)) < 0.0) return;
     m->melted = true;
     if (isnan(s->limits.melt_position)) s->limits.melt_position = circuit_shot_z(s)[Y_X];
-    circuit_shot_switched(s, SHOT_MELTED, -1);
+    switched(s, SHOT_MELTED, -1);
 }
 
 static void armature_settle(shot *s, const int *found)
@@ -182,7 +182,7 @@ static void armature_settle(shot *s, const int *found)
         m->phase = SHOT_MOVING;
         s->worn_until = s->t;
         s->wear_rate = 0.0;
-        circuit_shot_switched(s, SHOT_RELEASED, -1);
+        switched(s, SHOT_RELEASED, -1);
     }
     if (m->phase != SHOT_MOVING) return;
     face_melts(s, found && found[ROOT_MELT]);

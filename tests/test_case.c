@@ -359,20 +359,20 @@ static void write_file(const char *path, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-/* base/case.yaml <- middle.yaml <- top.yaml, each with its changes. */
+/* below/case.yaml <- middle.yaml <- top.yaml, each with its changes. */
 static void write_chain(void)
 {
-    mkdir("base", 0777);
-    mkdir("base/far", 0777);
-    write_file("base/case.yaml",
+    mkdir("below", 0777);
+    mkdir("below/far", 0777);
+    write_file("below/case.yaml",
                "name: below\ntitle: from below\n"
                "bank: [{capacitance: 3 mF, charge: 10 kV, inductance: 12 uH}]\n"
                "rail: {height: 25 mm, thickness: 20 mm, separation: 30 mm, face_crown: 1 mm}\n"
                "sites: [{position: 1 m}, {position: 2 m}]\nparticle: {radius: 0.5 mm, bond_strength: 50 MPa}\n"
                "output: {snapshots: 3}\n"
                "current_profiles: {file: far/current.csv}\n");
-    write_file("base/far/current.csv", "0,0\n1e-3,5e5\n2e-3,0\n");
-    write_file("middle.yaml", "base: base\nname: middle\nrail: {thickness: 10 mm, face_crown: ~}\noutput:\n");
+    write_file("below/far/current.csv", "0,0\n1e-3,5e5\n2e-3,0\n");
+    write_file("middle.yaml", "base: below\nname: middle\nrail: {thickness: 10 mm, face_crown: ~}\noutput:\n");
     write_file("top.yaml",
                "base: ./middle.yaml\nname: top\nsites: [{position: 3 m}]\nparticle: {bond_strength: none}\n");
 }
@@ -414,20 +414,20 @@ static void errors_name_the_file_of_the_chain(void **state)
 {
     (void)state;
     write_chain();
-    write_file("wrong.yaml", "base: base\nname: wrong\nrail: {heigth: 3 mm, thickness: 20 kV}\n");
+    write_file("wrong.yaml", "base: below\nname: wrong\nrail: {heigth: 3 mm, thickness: 20 kV}\n");
     char *errors = NULL;
     assert_null(read_path("wrong.yaml", NULL, 0, &errors));
     has_line(errors, "wrong.yaml:3:8: unknown key `heigth` in rail; did you mean `height`?\n");
     has_line(errors, "wrong.yaml:3:33: rail.thickness = 20 kV: `kV` is not a unit of m\n");
     free(errors);
-    write_file("base/case.yaml", "name: below\nparticle: {radius: 3 kg}\nrail: {height: 25 mm}\n");
+    write_file("below/case.yaml", "name: below\nparticle: {radius: 3 kg}\nrail: {height: 25 mm}\n");
     assert_null(read_path("top.yaml", NULL, 0, &errors));
-    has_line(errors, "base/case.yaml:2:20: particle.radius = 3 kg: `kg` is not a unit of m\n");
+    has_line(errors, "below/case.yaml:2:20: particle.radius = 3 kg: `kg` is not a unit of m\n");
     has_line(errors, "./middle.yaml:3:7: rail.separation is missing [m]");
     free(errors);
-    write_file("base/case.yaml", "name: [below\n");
+    write_file("below/case.yaml", "name: [below\n");
     assert_null(read_path("top.yaml", NULL, 0, &errors));
-    has_line(errors, "base/case.yaml:2:1: not valid YAML");
+    has_line(errors, "below/case.yaml:2:1: not valid YAML");
     assert_int_equal(lines_of(errors), 1); /* nothing else can be said */
     free(errors);
 }

@@ -18,8 +18,8 @@ static int whole(int lo, int hi)
 
 /* ---- the grids ---- */
 
-/* Room between the fine zone and an end of the window that it does not reach: as little as grids.h says, or more; a
- * whole number of cells or not. */
+/* Room between the fine zone and an end of the window that it does not reach: as little as mpm/grid/grid.h says, or
+ * more; a whole number of cells or not. */
 static double any_room(int levels, double h)
 {
     const double least = mpm_grids_margin(levels, h);

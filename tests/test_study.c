@@ -792,7 +792,7 @@ static void test_craters(void **state)
     study_onset_answer_free(&a);
 }
 
-/* Moves of the case move the answer the right way (wu2017.md, W7 to W11). */
+/* Moves of the case move the answer the right way (Wu et al. 2017). */
 static void test_moves(void **state)
 {
     (void)state;

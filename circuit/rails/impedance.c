@@ -31,7 +31,8 @@ double complex circuit_impedance_at(const impedance *z, double complex s)
 }
 
 /* The same fraction over s, in the limit. */
-double circuit_impedance_fast_inductance(const impedance *z)
+/* L' as s -> infinity, on these filaments [H/m]. */
+static double fast_inductance(const impedance *z)
 {
     double d = z->diagonal[z->m - 1];
     for (int k = z->m - 2; k >= 0; k--) d = z->diagonal[k] - z->coupling[k] * z->coupling[k] / d;
@@ -114,8 +115,7 @@ status circuit_impedance_create(int n, double *L, const double *R, double omega_
         for (size_t j = 0; j < size; j++) L[i * size + j] *= out->conductance[i] * out->conductance[j];
     }
     lanczos(out, L);
-    CHECK(isfinite(creal(circuit_impedance_at(out, omega_top))) && circuit_impedance_fast_inductance(out) > 0.0,
-          STATUS_NUMERICAL,
+    CHECK(isfinite(creal(circuit_impedance_at(out, omega_top))) && fast_inductance(out) > 0.0, STATUS_NUMERICAL,
           "the rail section's inductances are not positive definite: the filament mesh of %d is too fine", n);
     return status_ok();
 }

@@ -25,7 +25,6 @@ status circuit_impedance_create(int n, double *L, const double *R, double omega_
 void circuit_impedance_free(impedance *z);
 
 double _Complex circuit_impedance_at(const impedance *z, double _Complex s); /* Re s >= 0 [1/s] -> [ohm/m] */
-double circuit_impedance_fast_inductance(const impedance *z); /* L' as s -> infinity, on these filaments [H/m] */
 
 /* Share of each filament in a total current of 1 at the frequency s; `share` has n places. */
 status circuit_impedance_currents(const impedance *z, double _Complex s, double _Complex *share);

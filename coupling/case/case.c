@@ -115,8 +115,9 @@ static bool seen(const case_reader *r, int k)
     return false;
 }
 
-/* Materials are looked for beside the case, beside what it builds on, and where the options say. */
-void case_materials_load(case_reader *r)
+/* Loads what the case names, in the order of the naming, after the case's own materials: from beside the case, beside
+ * what it builds on, and where the options say. */
+static void load_materials(case_reader *r)
 {
     enum { MAX_DIRS = 16 + CASE_MAX_FILES };
     const char *dirs[MAX_DIRS];
@@ -153,7 +154,8 @@ static void profile_load(case_reader *r, supply_profile *p, const tree_node *ent
     p->file[0] = '\0'; /* used.yaml then has the points themselves */
 }
 
-void case_profiles_load(case_reader *r)
+/* Current profiles given as files. */
+static void load_profiles(case_reader *r)
 {
     case_supplies *list = &r->out->supplies[SUPPLY_profile];
     const case_section *section = case_section_find(circuit_supply_sections[SUPPLY_profile]);
@@ -173,8 +175,8 @@ static status read_tree(case_reader *r)
     case_section_read(r, &root, r->root, c, "");
     case_bodies_read(r);
     case_populations_resolve(r);
-    case_materials_load(r);
-    case_profiles_load(r);
+    load_materials(r);
+    load_profiles(r);
     case_resolve(c, r->root);
     case_bodies_resolve(r);
     case_check_whole(r);

@@ -74,12 +74,6 @@ const tree_node *case_entry_node(const tree_node *list, int k);
 int case_entry_values(const case_section *section, const tree_node *entry);
 const case_section *case_section_find(const char *key); /* of the case; NULL if there is none */
 
-/* Loads what the case names, in the order of the naming, after the case's own materials. */
-void case_materials_load(case_reader *r);
-
-/* Current profiles given as files, beside the case. */
-void case_profiles_load(case_reader *r);
-
 /* What sites leave out, from `particle`; what `particle` leaves out. */
 void case_resolve(breech_case *c, const tree_node *root);
 

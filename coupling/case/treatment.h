@@ -6,8 +6,8 @@
  *   REQUIRED
  *     (a kind is given if its first key is);
  *   status case_treatment_<kind>_apply(settings, case): changes the case; STATUS_BAD_INPUT names what cannot be;
- * and one line in treatment.def, the file in case_sources.cmake.  tests/test_treatments.c checks every kind: applied,
- * the case differs and its scenes can be built. */
+ * and one line in treatment.def.  tests/test_compare.c checks every kind: applied, the case differs and its scenes can
+ * be built. */
 #ifndef BREECH_COUPLING_TREATMENT_H
 #define BREECH_COUPLING_TREATMENT_H
 

@@ -8,7 +8,7 @@
 
 enum { COLUMNS = 12 }; /* doubles a point */
 
-status gouge_points_read(const mpm *m, gouge_points *p)
+static status points_read(const mpm *m, gouge_points *p)
 {
     const size_t live = mpm_particles(m), room = live + mpm_wake_of(m)->n;
     double *all = malloc((room ? room : 1) * COLUMNS * sizeof *all);
@@ -35,7 +35,7 @@ void gouge_points_free(gouge_points *p)
     *p = (gouge_points){ .n = 0 };
 }
 
-/* gouge_points_read has left room for them. */
+/* points_read has left room for them. */
 static void append_wake(const mpm_wake *w, gouge_points *p)
 {
     for (size_t i = 0; i < w->n; i++, p->n++) {
@@ -56,7 +56,7 @@ status gouge_points_of_rail(const gouge_scene *s, const mpm *m, gouge_points *p)
 {
     const mpm_wake *wake = mpm_wake_of(m);
     size_t kept = 0;
-    TRY(gouge_points_read(m, p));
+    TRY(points_read(m, p));
     for (size_t i = 0; i < p->n; i++) {
         double *x = p->position + 3 * i, *half = p->size + 3 * i;
         if (!gouge_counts_as_rail(s, (int)p->body[i]) || !mpm_cut_at(0, wake->until, true, x, half, &p->mass[i]) ||
@@ -81,7 +81,7 @@ status gouge_armature_metal(const gouge_scene *s, const mpm *m, gouge_metal *out
     const double slow = 0.5 * s->velocity;
     gouge_points p;
     *out = (gouge_metal){ 0.0, 0.0 };
-    TRY(gouge_points_read(m, &p));
+    TRY(points_read(m, &p));
     for (size_t i = 0; i < p.n; i++) {
         const double vx = p.velocity[3 * i];
         if ((int)p.body[i] != s->armature || !(p.damage[i] < 1.0) || vx < slow) continue;
@@ -96,7 +96,7 @@ status gouge_carried_volumes(const gouge_scene *s, const mpm *m, double *volume)
 {
     const double fast = 0.5 * s->velocity, halves = s->crater.mirrored ? 2.0 : 1.0;
     gouge_points p;
-    TRY(gouge_points_read(m, &p));
+    TRY(points_read(m, &p));
     for (int b = 0; b < s->scene.bodies; b++) volume[b] = 0.0;
     for (size_t i = 0; i < p.n; i++) {
         const int body = (int)p.body[i];

@@ -13,8 +13,6 @@ typedef struct {
     double *damage, *mass, *body;       /* n [1, kg, index] */
 } gouge_points;
 
-/* All of the solver's points. */
-status gouge_points_read(const mpm *m, gouge_points *p);
 /* Those of rail and layers over the crater's map, in their order, then the wake's; of these `body` means nothing. */
 status gouge_points_of_rail(const gouge_scene *s, const mpm *m, gouge_points *p);
 void gouge_points_free(gouge_points *p);

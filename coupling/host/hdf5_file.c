@@ -165,7 +165,8 @@ status host_h5_group(h5_file *f, const char *path)
     return status_ok();
 }
 
-void host_h5_remove(h5_file *f, const char *path)
+/* A group or dataset; nothing when it is not there.  Its room in the file is not given back. */
+static void remove_path(h5_file *f, const char *path)
 {
     if (host_h5_exists(f, path)) H5Ldelete(f->id, path, H5P_DEFAULT);
 }
@@ -173,7 +174,7 @@ void host_h5_remove(h5_file *f, const char *path)
 status host_h5_copy(const h5_file *from, const char *path, h5_file *to, const char *to_path)
 {
     CHECK(host_h5_exists(from, path), STATUS_IO, "%.150s: holds no %.150s", from->name, path);
-    host_h5_remove(to, to_path);
+    remove_path(to, to_path);
     const hid_t links = link_with_parents();
     const herr_t done = H5Ocopy(from->id, path, to->id, to_path, H5P_DEFAULT, links);
     H5Pclose(links);
@@ -335,7 +336,7 @@ static hid_t creation_for(const h5_array *a, const hsize_t *dims)
 
 status host_h5_write(h5_file *f, const h5_name *name, const h5_array *a)
 {
-    host_h5_remove(f, name->path);
+    remove_path(f, name->path);
     const hsize_t dims[H5_MAX_RANK] = { a->dims[0], a->rank > 1 ? a->dims[1] : 1 };
     const hid_t space = H5Screate_simple(a->rank, dims, NULL), links = link_with_parents(),
                 kind = creation_for(a, dims);

@@ -45,8 +45,6 @@ status host_h5_group(h5_file *f, const char *path);
 
 /* Copies a group or dataset with all below it into another file; what was there under the new path goes. */
 status host_h5_copy(const h5_file *from, const char *path, h5_file *to, const char *to_path);
-/* Removes a group or dataset; nothing when it is not there.  Its room in the file is not given back. */
-void host_h5_remove(h5_file *f, const char *path);
 
 /* Writes a whole dataset (an older one of that name goes); deflate 1 + shuffle from 1 KiB on. */
 status host_h5_write(h5_file *f, const h5_name *name, const h5_array *array);

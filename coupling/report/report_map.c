@@ -13,7 +13,6 @@ typedef struct {
     size_t nx, nz;
     double x0, x1, z0, z1;   /* middles of the outer cells [m] */
     double deepest, highest; /* [m], >= 0 */
-    double px;               /* pixels a metre */
 } map;
 
 /* Level -LEVELS .. LEVELS: 0 is the surface, positive is depth. */

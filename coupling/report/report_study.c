@@ -182,4 +182,5 @@ void report_section_inductance(const page *p)
 {
     report_page_heading(p, "Inductance and resistance gradients");
     report_page_draw(p, report_plot_inductance, "inductance", "");
+    report_page_draw(p, report_plot_perimeter, "perimeter", "Current and heating along the rail's surface.");
 }

@@ -21,6 +21,4 @@ typedef struct {
     const double *perimeter_heat;    /* n_perimeter [W/m^3 per A^2], borrowed */
 } inductance_result;
 
-extern const summary_key study_inductance_keys[]; /* of inductance_result */
-
 #endif

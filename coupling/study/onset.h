@@ -72,7 +72,6 @@ typedef struct {
 } onset_shot;
 
 typedef enum { VERDICT_GOUGES, VERDICT_NO_GOUGING, VERDICT_UNDECIDED } onset_verdict;
-extern const char *const study_verdict_names[]; /* "gouges", "no_gouging", "undecided", NULL */
 
 typedef struct {
     onset_verdict verdict;

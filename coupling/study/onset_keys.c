@@ -7,7 +7,7 @@
 const char *const study_site_outcome_names[] = {
     "not_reached", "skipped", "none", "scratch", "gouge", "undecided", NULL
 };
-const char *const study_verdict_names[] = { "gouges", "no_gouging", "undecided", NULL };
+static const char *const verdict_names[] = { "gouges", "no_gouging", "undecided", NULL };
 
 static const summary_key site_keys[] = {
     SUMMARY_NUMBER(onset_site, "position", position, "m", "along the barrel"),
@@ -74,7 +74,7 @@ static const summary_key shot_keys[] = {
 };
 
 const summary_key study_onset_keys[] = {
-    SUMMARY_CHOICE(onset_result, "verdict", verdict, study_verdict_names, "gouges, no_gouging, undecided"),
+    SUMMARY_CHOICE(onset_result, "verdict", verdict, verdict_names, "gouges, no_gouging, undecided"),
     SUMMARY_TEXT(onset_result, "reason", reason, "of the verdict"),
     SUMMARY_NUMBER(onset_result, "probability_gouge", probability_gouge, "1", "that the shot gouges"),
     SUMMARY_NUMBER(onset_result, "threshold_velocity", threshold_velocity, "m/s",
@@ -189,5 +189,5 @@ void study_onset_print(const void *result, FILE *out)
     print_sites(o, out);
     print_scenes(o, out);
     print_shots(o, out);
-    if (o->reason[0]) fprintf(out, "\n%s: %s\n", study_verdict_names[o->verdict], o->reason);
+    if (o->reason[0]) fprintf(out, "\n%s: %s\n", verdict_names[o->verdict], o->reason);
 }

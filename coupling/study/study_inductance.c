@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-const summary_key study_inductance_keys[] = {
+static const summary_key keys[] = {
     SUMMARY_ARRAY(inductance_result, "frequency", frequency, n, "Hz", ""),
     SUMMARY_ARRAY(inductance_result, "L_gradient", L_gradient, n, "H/m", "of the pair, over frequency"),
     SUMMARY_ARRAY(inductance_result, "R_gradient", R_gradient, n, "ohm/m", "of the pair, over frequency"),
@@ -112,7 +112,7 @@ static void print(const void *result, FILE *out)
 {
     const inductance_result *r = result;
     table *t;
-    output_keys_print(&(summary_object){ study_inductance_keys, r }, out);
+    output_keys_print(&(summary_object){ keys, r }, out);
     if (host_table_create("f [Hz]|L' [uH/m]|R' [mohm/m]", &t).code != STATUS_OK) return;
     for (int i = 0; i < r->n; i++)
         host_table_row(t, "%.4g|%.4f|%.5g", r->frequency[i], 1e6 * r->L_gradient[i], 1e3 * r->R_gradient[i]);
@@ -126,7 +126,7 @@ const study study_inductance = {
     .more = "Needs the section rail.  Direct current, 1 Hz to 100 kHz, the perfect conductor; the surface at "
             "rail.frequency.",
     .needs = CASE_FOR_INDUCTANCE,
-    .keys = study_inductance_keys,
+    .keys = keys,
     .can_vary = true,
     .report = { NULL, report_section_inductance },
     .print = print,

@@ -267,7 +267,7 @@ uint64_t mpm_contact_cells(const mpm *m, const brick *b); /* brick.meets from wh
 /* image.c */
 uint64_t mpm_scene_key(const mpm *m); /* before the fine zone has moved */
 
-/* particle.c: one particle's BLOCK_DOUBLES */
+/* point.c: one particle's BLOCK_DOUBLES */
 void mpm_point_halve(double *q, double *other, int k);
 void mpm_point_merge(double *q, const double *other, int k, double dt); /* the inverse: q takes other in */
 void mpm_point_departure(const double *q, double dt, departure *sum);   /* dt: of the last step [s] */

@@ -67,7 +67,6 @@ typedef struct {
     strewn *strewn; /* one a population, owned */
     int populations;
     double *sum;         /* [n x shots x SUMS], owned */
-    double world_sum[2]; /* of the shot and surface under way */
     double of_allowance; /* u_s of this world */
 } mc;
 

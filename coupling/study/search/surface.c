@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Expected slope -d ln v_th / d ln r: sets which scene comes next (wu2017.md, W7 to W11, from 0.5 to 0.1 mm: small). */
+/* Expected slope -d ln v_th / d ln r: sets which scene comes next (Wu et al. 2017, from 0.5 to 0.1 mm: small). */
 static const double TREND = 0.1;
 static const double SECANT_TRUST = 0.5; /* width in which a secant's root is expected, over the band's [1] */
 static const double FAR =
