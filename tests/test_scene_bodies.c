@@ -212,6 +212,10 @@ static void test_refused(void **state)
         { TWO "  boundary: {x: [free]}\n", "scene.boundary.x must be two boundaries" },
         { TWO "  boundary: {x: [free, absorbin]}\n", "scene.boundary.x[1] = absorbin: must be one of free" },
         { TWO "  window: {w: {lo: 0 mm}}\n", "unknown key `w` in scene.window" },
+        { TWO "  probes: [{name: push, force_on: wal}]\n",
+          "unknown body `wal` in scene.probes[0]; did you mean `wall`?" },
+        { TWO "  probes: [{name: p, force_on: wall}, {name: p, force_on: ball}]\n",
+          "scene.probes[1].name = p: the same as" },
         { TWO "  friction: 0.1\n", "unknown key `friction` in scene" },
         { TWO "  refine: [{around: bal, within: 1 mm, cell: 0.1 mm}]\n", "did you mean `ball`?" },
         { HEAD "  bodies:\n    - " BOX "\n    - " BOX "\n",
@@ -333,7 +337,8 @@ static status run(const mpm_scene *s, history *h, stopping *stop, const scene_re
                             .last_time = s->end_time,
                             .resume = from ? *from : (scene_resume){ .image = NULL } };
     const scene_host host = { .history = h, .threads = 2, .stop = stop_soon, .save = keep, .user = stop };
-    return scene_bodies_run(&job, &host, out);
+    static const scene_probe push = { "push", 0 };
+    return scene_bodies_run(&job, &(scene_probes){ 1, &push }, &host, out);
 }
 
 static double *column(history *h, const char *name, size_t *n)
@@ -374,7 +379,18 @@ static void test_run(void **state)
     assert_true(r[0].body[0].velocity[0] > 0.0 && r[0].body[1].velocity[0] < 300.0); /* it pushed the wall */
     assert_true(fabs(r[0].energy_error) < 0.01 && r[0].momentum_error < 1e-9);
     assert_memory_equal(r[0].body, r[1].body, 2 * sizeof *r[0].body);
+    const scene_probe_state *felt = &r[0].probe[0].is;
+    assert_memory_equal(felt, &r[1].probe[0].is, sizeof *felt);
+    assert_true(felt->arrival > 0.0 && felt->arrival <= felt->peak_time && felt->peak > 0.0);
+    print_message("impulse %.17g, momentum %.17g\n", felt->impulse[0], r[0].body[0].mass * r[0].body[0].velocity[0]);
+    /* what the wall got by contact is its momentum: no other force acts on it, nothing of it has left */
+    assert_true(fabs(felt->impulse[0] / (r[0].body[0].mass * r[0].body[0].velocity[0]) - 1.0) < 1e-6);
     size_t n, m;
+    double *pushed = column(h[0], "probes/push/force_x", &n), *pushed_again = column(h[1], "probes/push/force_x", &m);
+    assert_int_equal(n, m);
+    assert_int_equal(n, r[0].steps);
+    assert_memory_equal(pushed, pushed_again, n * sizeof *pushed);
+    free(pushed), free(pushed_again);
     double *total = column(h[0], "momentum_x", &n), *sum = calloc(n, sizeof *sum);
     static const char *const names[] = { "wall", "ball" };
     for (int b = 0; b < 2; b++) {

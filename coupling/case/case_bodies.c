@@ -91,6 +91,11 @@ typedef struct {
     double within, cell;
 } refine_keys;
 
+static const param probe_params[] = {
+    PARAM_STRING(case_probe, name, NULL, "its name: letters, digits, - _ ."),
+    PARAMS_END,
+};
+
 static const param refine_params[] = {
     PARAM_DOUBLE(refine_keys, within, "m", REQUIRED, 0.0, 1e3, "so far around the body's bounding box"),
     PARAM_DOUBLE(refine_keys, cell, "m", REQUIRED, 1e-9, 1e2, "cells there"),
@@ -111,6 +116,7 @@ const case_section case_bodies_manual[] = {
     MANUAL("scene.window", axis_params,
            "`x`, `y` and `z`, each with these keys; what is left out follows from the bodies."),
     MANUAL("scene.follow", follow_params, "The fine zone and the window go with the bodies that are `followed`."),
+    MANUAL("scene.probes", probe_params, "A list: `force_on` names the body whose group's contact force is followed."),
     MANUAL("scene.refine", refine_params, "A list: fine cells `around` a body."),
     { .key = NULL },
 };
@@ -314,6 +320,42 @@ static void read_contacts(case_reader *r, const tree_node *list)
         }
 }
 
+/* ---- probes ---- */
+
+static void read_probe(case_reader *r, const tree_node *list, int k)
+{
+    static const char *const others[] = { "force_on", NULL };
+    char path[40];
+    const tree_node *map = case_entry_node(list, k);
+    case_bodies *b = &r->out->bodies;
+    case_probe *p = &b->probe[k];
+    const case_keys keys = { probe_params, p };
+    snprintf(path, sizeof path, "scene.probes[%d]", k);
+    case_keys_read(r, map, path, &keys, 1, others);
+    if (p->name[0] && !host_name_is_plain(p->name))
+        case_errors_add(r->errors, host_tree_find(map, "name"), "%s.name = %s: letters, digits, - _ . only", path,
+                        p->name);
+    for (int i = 0; i < k; i++)
+        if (p->name[0] && strcmp(b->probe[i].name, p->name) == 0)
+            case_errors_add(r->errors, host_tree_find(map, "name"), "%s.name = %s: the same as scene.probes[%d]", path,
+                            p->name, i);
+    p->body = named_body(r, map, "force_on", path);
+}
+
+static void read_probes(case_reader *r, const tree_node *list)
+{
+    case_bodies *b = &r->out->bodies;
+    int n = 0;
+    while (case_entry_node(list, n)) n++;
+    b->probe = calloc((size_t)n + 1, sizeof *b->probe);
+    if (!b->probe) {
+        r->out_of_memory = true;
+        return;
+    }
+    b->probes = n;
+    for (int k = 0; k < n; k++) read_probe(r, list, k);
+}
+
 /* ---- the window ---- */
 
 static void read_window(case_reader *r, const tree_node *window)
@@ -424,7 +466,9 @@ static void share(const shared_keys *keys, mpm_scene *s)
 
 void case_bodies_read(case_reader *r)
 {
-    static const char *const others[] = { "bodies", "contacts", "refine", "window", "boundary", "follow", NULL };
+    static const char *const others[] = {
+        "bodies", "contacts", "refine", "window", "boundary", "follow", "probes", NULL
+    };
     static const char *const none[] = { NULL };
     const tree_node *scene = host_tree_find(r->root, "scene"), *bodies = host_tree_find(scene, "bodies");
     mpm_scene *s = &r->out->bodies.scene;
@@ -445,6 +489,7 @@ void case_bodies_read(case_reader *r)
     if (r->errors->n > errors) return; /* what follows names bodies */
     if (shared.overlap == OVERLAP_REFUSED) case_overlap_check(r, bodies);
     if (host_tree_find(scene, "contacts")) read_contacts(r, host_tree_find(scene, "contacts"));
+    if (host_tree_find(scene, "probes")) read_probes(r, host_tree_find(scene, "probes"));
     if (host_tree_find(scene, "boundary")) read_boundary(r, host_tree_find(scene, "boundary"));
     if (host_tree_find(scene, "refine")) read_refine(r, host_tree_find(scene, "refine"));
     share(&shared, s);
@@ -541,19 +586,23 @@ static void write_window(const mpm_scene *s, FILE *file)
     }
 }
 
-void case_bodies_write(const mpm_scene *s, int overlap, FILE *file)
+void case_bodies_write(const case_bodies *b, FILE *file)
 {
+    const mpm_scene *s = &b->scene;
     fputs("scene:\n", file);
     for (const param *p = case_method_params; p->key; p++) {
         fprintf(file, "  %s: ", p->key);
         case_value_write(p, (const char *)s + p->offset, file);
         fputc('\n', file);
     }
-    fprintf(file, "  overlap: %s\n", overlap_names[overlap]);
+    fprintf(file, "  overlap: %s\n", overlap_names[b->overlap]);
     write_window(s, file);
     fputs("  follow: {", file);
     case_keys_write(follow_params, &s->follow, true, file);
     fputs("}\n  bodies:\n", file);
     for (int i = 0; i < s->bodies; i++) write_body(s, &s->body[i], file);
     write_contacts(s, file);
+    if (b->probes > 0) fputs("  probes:\n", file);
+    for (int i = 0; i < b->probes; i++)
+        fprintf(file, "    - {name: %s, force_on: %s}\n", b->probe[i].name, s->body[b->probe[i].body].name);
 }

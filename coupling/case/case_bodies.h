@@ -22,9 +22,8 @@ void case_bodies_read(case_reader *r);
 /* Once the materials are loaded. */
 void case_bodies_resolve(case_reader *r);
 
-/* The section's text; read back it gives the same scene, bit for bit.  Of a scene that lacks nothing; overlap as in
- * case_bodies. */
-void case_bodies_write(const mpm_scene *s, int overlap, FILE *file);
+/* The section's text; read back it gives the same scene, bit for bit. */
+void case_bodies_write(const case_bodies *b, FILE *file);
 
 /* ---- solids (case_solid.c) ---- */
 

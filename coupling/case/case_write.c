@@ -136,7 +136,7 @@ status case_write_used(const breech_case *c, FILE *file)
     write_keys(file, c, &head, c, 0, false);
     for (const case_section *s = case_root.children; s->key; s++)
         if (is_given(c, s) || (s->also && is_given(c, s->also))) write_section(file, c, s, c, 0);
-    if (c->given.bodies) case_bodies_write(&c->bodies.scene, c->bodies.overlap, file);
+    if (c->given.bodies) case_bodies_write(&c->bodies, file);
     CHECK(!ferror(file), STATUS_IO, "used.yaml cannot be written");
     return status_ok();
 }
@@ -146,7 +146,7 @@ status case_write_scene(const breech_case *c, const mpm_scene *s, FILE *file)
     breech_case one = *c; /* borrows all */
     memset(&one.given, 0, sizeof one.given);
     one.given.bodies = one.given.output = true;
-    one.bodies = (case_bodies){ *s, OVERLAP_LATER };
+    one.bodies = (case_bodies){ .scene = *s, .overlap = OVERLAP_LATER };
     return case_write_used(&one, file);
 }
 

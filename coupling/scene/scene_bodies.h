@@ -6,6 +6,7 @@
 #define BREECH_COUPLING_SCENE_BODIES_H
 
 #include "coupling/output/summary.h"
+#include "coupling/scene/scene_probe.h"
 #include "coupling/scene/scene_run.h"
 
 typedef struct {
@@ -19,7 +20,9 @@ typedef struct {
 
 typedef struct {
     int bodies;
-    scene_body *body;                       /* at the end; owned */
+    scene_body *body; /* at the end; owned */
+    int probes;
+    scene_probe_result *probe;              /* owned */
     double end_time;                        /* [s] */
     double peak_pressure, peak_temperature; /* of any intact point so far [Pa, K] */
     double kinetic, internal;               /* [J] */
@@ -36,7 +39,8 @@ typedef struct {
 extern const summary_key scene_bodies_keys[]; /* of scene_bodies_result */
 
 /* job->watch must be NULL.  *out is for scene_bodies_free in any case.  STATUS_STOPPED as scene_run. */
-status scene_bodies_run(const scene_job *job, const scene_host *host, scene_bodies_result *out);
+status scene_bodies_run(const scene_job *job, const scene_probes *probes, const scene_host *host,
+                        scene_bodies_result *out);
 void scene_bodies_free(scene_bodies_result *r);
 
 /* All bodies as they are now, into out[scene->bodies]. */

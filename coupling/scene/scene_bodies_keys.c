@@ -29,6 +29,8 @@ const summary_key scene_bodies_keys[] = {
     SUMMARY_NUMBER(scene_bodies_result, "energy_error", energy_error, "1",
                    "over the kinetic energy the scene starts with"),
     SUMMARY_MAP(scene_bodies_result, "bodies", body, bodies, body_keys, sizeof(scene_body), "each by its name"),
+    SUMMARY_MAP(scene_bodies_result, "probes", probe, probes, scene_probe_keys, sizeof(scene_probe_result),
+                "each by its name"),
     SUMMARY_VALUE(scene_bodies_result, KEY_COUNT, "particles", particles, "1", "at the end"),
     SUMMARY_VALUE(scene_bodies_result, KEY_COUNT, "steps", steps, "1", "of the solver"),
     SUMMARY_VALUE(scene_bodies_result, KEY_COUNT, "particle_steps", particle_steps, "1", "done"),

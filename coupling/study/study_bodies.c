@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double ENERGY_ERROR_LIMIT = 0.01; /* above it the scene is warned about */
 
@@ -38,6 +39,12 @@ static status run(session *s, const study_case *of, study_answer *out)
     scene_bodies_result *r = calloc(1, sizeof *r);
     CHECK(r, STATUS_MEMORY, "no memory for a scene's result");
     out->owned = r;
+    scene_probe *probe = calloc((size_t)c->bodies.probes + 1, sizeof *probe);
+    CHECK(probe, STATUS_MEMORY, "no memory for %d probes", c->bodies.probes);
+    for (int i = 0; i < c->bodies.probes; i++) {
+        memcpy(probe[i].name, c->bodies.probe[i].name, sizeof probe[i].name);
+        probe[i].group = c->bodies.scene.body[c->bodies.probe[i].body].group;
+    }
     const scene_job job = { .name = "scene",
                             .task = "scene",
                             .scene = &c->bodies.scene,
@@ -56,7 +63,9 @@ static status run(session *s, const study_case *of, study_answer *out)
                               .save = run_session_save_inside,
                               .user = s };
     run_lending_begin(s->lending);
-    const status done = scene_bodies_run(&job, &host, r);
+    const scene_probes probes = { c->bodies.probes, probe };
+    const status done = scene_bodies_run(&job, &probes, &host, r);
+    free(probe);
     run_lending_end(s->lending);
     TRY(done);
     warn(s, r);
