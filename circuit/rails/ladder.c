@@ -94,16 +94,15 @@ static void rungs_of(const projection *p, ladder *out)
     *out = (ladder){ .R_dc = p->z->R_dc, .L_inf = p->z->R_dc * p->T[0][0] };
     if (n == 0) return;
     double C[MAX_BASIS * MAX_BASIS], G[MAX_BASIS * MAX_BASIS], tau[MAX_BASIS];
+    double d[MAX_BASIS], sd[MAX_BASIS], gc[MAX_BASIS], gs[MAX_BASIS]; /* GSL's work space, with nothing to run out of */
+    gsl_eigen_symmv_workspace w = { .size = n, .d = d, .sd = sd, .gc = gc, .gs = gs };
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < n; j++) C[i * n + j] = p->T[i + 1][j + 1];
     }
     gsl_matrix_view matrix = gsl_matrix_view_array(C, n, n), vectors = gsl_matrix_view_array(G, n, n);
     gsl_vector_view values = gsl_vector_view_array(tau, n);
-    gsl_eigen_symmv_workspace *w = gsl_eigen_symmv_alloc(n);
-    if (!w) return;
-    gsl_eigen_symmv(&matrix.matrix, &values.vector, &vectors.matrix, w);
+    gsl_eigen_symmv(&matrix.matrix, &values.vector, &vectors.matrix, &w);
     gsl_eigen_symmv_sort(&values.vector, &vectors.matrix, GSL_EIGEN_SORT_VAL_DESC);
-    gsl_eigen_symmv_free(w);
     for (size_t k = 0; k < n; k++) {
         double share = 0.0;
         for (size_t i = 0; i < n; i++) share += G[i * n + k] * p->T[i + 1][0];

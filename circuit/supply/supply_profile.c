@@ -72,7 +72,9 @@ static status prepare(supply_group *g)
     c->n = p->points.n;
     c->peak = peak_of(p);
     c->t = malloc(2 * n * sizeof *c->t);
+    gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* GSL's own ends the program */
     c->interp = gsl_interp_alloc(gsl_interp_steffen, n);
+    gsl_set_error_handler(handler);
     CHECK(c->t && c->interp, STATUS_MEMORY, "out of memory for a current profile of %d points", c->n);
     c->i = c->t + n;
     for (size_t k = 0; k < n; k++) {

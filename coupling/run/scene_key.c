@@ -2,7 +2,7 @@
 
 #include "coupling/output/summary.h"
 #include "coupling/run/checkpoint.h"
-#include "coupling/solver_id.h" /* made by cmake/solver_id.cmake */
+#include "coupling/run/solver_id.h" /* made by cmake/solver_id.cmake */
 
 #include <math.h>
 #include <stdlib.h>

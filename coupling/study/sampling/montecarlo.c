@@ -5,6 +5,7 @@
 #include "coupling/study/sampling/population.h"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_errno.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <math.h>
@@ -470,7 +471,9 @@ status study_mc_run(const mc_plan *plan, mc_result *out)
     out->n = plan->n;
     out->shots = plan->shots;
     out->histories = MC_WORLDS * (plan->histories / MC_WORLDS + (plan->histories % MC_WORLDS != 0));
+    gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* GSL's own ends the program */
     const status s = set_up(&m, out);
+    gsl_set_error_handler(handler);
     if (s.code == STATUS_OK) {
         run_all(&m, out);
         conclude(&m, out);
