@@ -4,39 +4,29 @@
 
 #define FASTEST 2e4 /* [m/s] no launcher comes near */
 
-/* What the armature meets, and the factor of its hardening. */
-static const material *surface_of(const breech_case *c, double *scale)
+status gouge_screen_impact(case_surface s, double velocity, screen *out)
 {
-    const case_layers *layers = &c->rail.layers;
-    const bool layered = layers->n > 0;
-    *scale = layered ? layers->item[layers->n - 1].yield_scale : c->rail.yield_scale;
-    return case_material(c, layered ? layers->item[layers->n - 1].material : c->rail.material);
-}
-
-status gouge_screen_impact(const breech_case *c, double velocity, screen *out)
-{
-    double scale, u;
-    const material *rail = surface_of(c, &scale), *armature = case_material(c, c->projectile.material);
-    TRY(mpm_material_check(rail, MATERIAL_FOR_SCREEN));
-    TRY(mpm_material_check(armature, MATERIAL_FOR_SCREEN));
-    TRY(mpm_impedance_match(armature, rail, velocity, &out->impact_pressure, &u));
-    out->ratio = out->impact_pressure / fmax(armature->hardness, scale * rail->hardness);
-    out->skip = out->ratio < c->study.screen_low;
+    double u;
+    TRY(mpm_material_check(s.rail, MATERIAL_FOR_SCREEN));
+    TRY(mpm_material_check(s.armature, MATERIAL_FOR_SCREEN));
+    TRY(mpm_impedance_match(s.armature, s.rail, velocity, &out->impact_pressure, &u));
+    out->ratio = out->impact_pressure / fmax(s.armature->hardness, s.yield_scale * s.rail->hardness);
+    out->skip = out->ratio < s.screen_low;
     return status_ok();
 }
 
 /* The pressure rises with the velocity, so halving finds the one place. */
-status gouge_screen_velocity(const breech_case *c, double ratio, double *velocity)
+status gouge_screen_velocity(case_surface s, double ratio, double *velocity)
 {
     double lo = 0.0, hi = FASTEST;
-    screen s;
-    TRY(gouge_screen_impact(c, hi, &s));
+    screen now;
+    TRY(gouge_screen_impact(s, hi, &now));
     *velocity = INFINITY;
-    if (s.ratio < ratio) return status_ok();
+    if (now.ratio < ratio) return status_ok();
     while (hi - lo > 1e-3) {
         const double mid = 0.5 * (lo + hi);
-        TRY(gouge_screen_impact(c, mid, &s));
-        if (s.ratio < ratio)
+        TRY(gouge_screen_impact(s, mid, &now));
+        if (now.ratio < ratio)
             lo = mid;
         else
             hi = mid;

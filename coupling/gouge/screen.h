@@ -7,7 +7,7 @@
 #ifndef BREECH_COUPLING_SCREEN_H
 #define BREECH_COUPLING_SCREEN_H
 
-#include "coupling/case/case.h"
+#include "coupling/case/case_plain.h"
 
 typedef struct {
     double impact_pressure; /* [Pa] */
@@ -15,10 +15,10 @@ typedef struct {
     bool skip;              /* below study.screen_low */
 } screen;
 
-/* The surface is the top layer where there are layers.  STATUS_BAD_INPUT names a material that lacks what it needs. */
-status gouge_screen_impact(const breech_case *c, double velocity, screen *out);
+/* STATUS_BAD_INPUT names a material that lacks what it needs. */
+status gouge_screen_impact(case_surface s, double velocity, screen *out);
 
 /* The velocity at which the ratio is `ratio` [m/s]; INFINITY if not below 20 km/s. */
-status gouge_screen_velocity(const breech_case *c, double ratio, double *velocity);
+status gouge_screen_velocity(case_surface s, double ratio, double *velocity);
 
 #endif

@@ -80,7 +80,7 @@ double gouge_trace_fastest(const shot_outcome *o)
 /* ---- the sinks ---- */
 
 typedef struct {
-    const breech_case *c;
+    const case_flight *flight;
     const shot_plan *plan;
     shot_outcome *out;
     double face_area;   /* [m2] */
@@ -144,7 +144,7 @@ static status keep_trace(recorder *r, const shot_state *s)
 static status write_rows(recorder *r, const shot *s, const shot_state *state)
 {
     double row[HISTORY_MAX_COLUMNS];
-    const double interval = r->c->output.history_interval;
+    const double interval = r->flight->history_interval;
     if (!r->plan->history || (interval > 0.0 && state->t < r->last_sample + interval)) return status_ok();
     r->last_sample = state->t;
     output_history_shot_row(state, row);
@@ -156,7 +156,7 @@ static status write_rows(recorder *r, const shot *s, const shot_state *state)
 static bool on_sample(void *user, const shot *s, const shot_state *state)
 {
     recorder *r = user;
-    const double length = r->c->barrel.length, start = r->c->barrel.start;
+    const double length = r->flight->launcher.barrel.length, start = r->flight->launcher.barrel.start;
     if (r->plan->progress) host_progress_update(r->plan->progress, (state->x - start) / (length - start), 0);
     if (r->plan->stop && r->plan->stop()) keep(r, base_status_error(STATUS_STOPPED, "stopped at t = %g s", state->t));
     return keep(r, keep_trace(r, state)) && keep(r, write_rows(r, s, state));
@@ -195,44 +195,40 @@ static status run(recorder *r, shot *s)
     return close_series(r);
 }
 
-static status prepare(const breech_case *c, shot_outcome *out, double **positions)
+static status prepare(const case_flight *f, shot_outcome *out, double **positions)
 {
-    const size_t n = c->sites.n > 0 ? (size_t)c->sites.n : 1;
+    const size_t n = f->n_sites > 0 ? (size_t)f->n_sites : 1;
     out->site = malloc(n * sizeof *out->site);
     *positions = malloc(n * sizeof **positions);
-    CHECK(out->site && *positions, STATUS_MEMORY, "no memory for %d sites", c->sites.n);
-    out->n_sites = c->sites.n;
-    for (int i = 0; i < c->sites.n; i++) {
-        (*positions)[i] = c->sites.item[i].position;
-        out->site[i] = (site_state){ c->sites.item[i], false, NAN, NAN, NAN, NAN, NAN, NAN };
+    CHECK(out->site && *positions, STATUS_MEMORY, "no memory for %d sites", f->n_sites);
+    out->n_sites = f->n_sites;
+    for (int i = 0; i < f->n_sites; i++) {
+        (*positions)[i] = f->site[i].position;
+        out->site[i] = (site_state){ f->site[i], false, NAN, NAN, NAN, NAN, NAN, NAN };
     }
     return status_ok();
 }
 
-shot_config gouge_shot_config(const breech_case *c, const double *sites)
+/* Of the face that is pressed on the rail [m2]. */
+static double face_area(const case_flight *f)
 {
-    shot_config config = { .rails = c->rails,
-                           .barrel = c->barrel,
-                           .armature = c->armature,
-                           .options = c->options,
-                           .sites = sites,
-                           .n_sites = sites ? c->sites.n : 0 };
-    for (int k = 0; k < SUPPLY_KINDS; k++) config.supplies[k] = (supply_list){ c->supplies[k].n, c->supplies[k].item };
-    return config;
+    const shot_armature *a = &f->launcher.armature;
+    const double width = isnan(a->contact_width) ? f->launcher.rails.height : a->contact_width;
+    return f->body ? gouge_face_area(f->body) : a->contact_length * width;
 }
 
-status gouge_shot_run(const breech_case *c, const shot_plan *plan, shot_outcome *out)
+status gouge_shot_run(const case_flight *f, const shot_plan *plan, shot_outcome *out)
 {
     memset(out, 0, sizeof *out);
     double *positions = NULL;
     shot *s = NULL;
-    recorder r = { .c = c, .plan = plan, .out = out, .last_sample = -INFINITY, .error = status_ok() };
-    const double nominal =
-        c->armature.contact_length * (isnan(c->armature.contact_width) ? c->rails.height : c->armature.contact_width);
-    r.face_area = c->given.projectile ? gouge_face_area(&c->projectile) : nominal;
-    status done = prepare(c, out, &positions);
+    recorder r = { .flight = f, .plan = plan, .out = out, .last_sample = -INFINITY, .error = status_ok() };
+    r.face_area = face_area(f);
+    status done = prepare(f, out, &positions);
     if (done.code == STATUS_OK) {
-        const shot_config config = gouge_shot_config(c, positions);
+        shot_config config = f->launcher;
+        config.sites = positions;
+        config.n_sites = f->n_sites;
         done = circuit_shot_create(&config, &s);
     }
     if (done.code == STATUS_OK) done = run(&r, s);

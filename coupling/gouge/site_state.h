@@ -6,7 +6,7 @@
 #define BREECH_COUPLING_SITE_STATE_H
 
 #include "circuit/shot.h"
-#include "coupling/case/case.h"
+#include "coupling/case/case_plain.h"
 #include "coupling/host/progress.h"
 #include "coupling/output/history.h"
 
@@ -53,12 +53,9 @@ typedef struct {
     bool (*stop)(void);    /* true: stop after the step, STATUS_STOPPED */
 } shot_plan;
 
-/* What circuit/ is given; sites: positions of the case's sites, NULL for none; all borrowed. */
-shot_config gouge_shot_config(const breech_case *c, const double *sites);
-
-/* The case's bank, rails, barrel and armature; its sites too when there are any.  *out needs gouge_shot_outcome_free
- * even on error.  STATUS_NUMERICAL, STATUS_BAD_INPUT as circuit_shot_create and circuit_shot_advance. */
-status gouge_shot_run(const breech_case *c, const shot_plan *plan, shot_outcome *out);
+/* One shot, past the flight's sites where there are any.  *out needs gouge_shot_outcome_free even on error.
+ * STATUS_NUMERICAL, STATUS_BAD_INPUT as circuit_shot_create and circuit_shot_advance. */
+status gouge_shot_run(const case_flight *f, const shot_plan *plan, shot_outcome *out);
 void gouge_shot_outcome_free(shot_outcome *o); /* NULL allowed */
 
 /* The two ways to ask a shot where it is how fast, both linear between two steps; nobody else reads the trace.

@@ -210,7 +210,8 @@ status run_session_shot(session *s, const breech_case *c, const site_jump *jump,
     const shot_plan plan = {
         .history = with_history ? s->history : NULL, .progress = &s->progress, .jump = jump, .stop = s->stop
     };
-    const status done = gouge_shot_run(c, &plan, out);
+    const case_flight flight = case_flight_of(c);
+    const status done = gouge_shot_run(&flight, &plan, out);
     if (s->history && done.code == STATUS_OK) TRY(output_history_tick(s->history));
     host_timing_add(&s->timing, "shot", host_wall_clock() - since);
     int warmest = 0;

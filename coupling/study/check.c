@@ -79,7 +79,7 @@ status study_possible(const breech_case *c, unsigned needs)
 {
     if (c->given.bodies) TRY(bodies_possible(c));
     rail_section section;
-    const shot_config circuit = gouge_shot_config(c, NULL);
+    const shot_config circuit = case_launcher(c);
     const site_state state = gouge_state_of_case(c);
     if ((needs & CASE_FOR_INDUCTANCE) ||
         ((needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) && c->rails.level != SHOT_RAILS_CONSTANT))

@@ -32,7 +32,7 @@ void study_onset_answer_free(onset_answer *a)
 static status fill_site(const breech_case *c, const site_state *from, onset_site *to)
 {
     screen hit = { NAN, NAN, false };
-    if (from->reached) TRY(gouge_screen_impact(c, from->velocity, &hit));
+    if (from->reached) TRY(gouge_screen_impact(case_surface_of(c), from->velocity, &hit));
     *to = (onset_site){ .position = from->grain.position,
                         .radius = from->grain.radius,
                         .time = from->time,

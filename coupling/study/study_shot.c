@@ -33,7 +33,7 @@ static status shoot_optimised(session *s, const study_case *of, shot_module *mod
     shot_answer *a = out->owned;
     const breech_case *given = of->c;
     const int n = given->supplies[SUPPLY_capacitor].n;
-    const shot_config config = gouge_shot_config(given, NULL);
+    const shot_config config = case_launcher(given);
     const double since = host_wall_clock();
     firing_result found;
     host_progress_task(&s->progress, "search for firing times", 0.0, 0);

@@ -65,7 +65,7 @@ static status sort_sites(grain_families *f)
         screen hit;
         f->of_site[i] = -1;
         if (!site->reached) continue;
-        TRY(gouge_screen_impact(f->c, site->velocity, &hit));
+        TRY(gouge_screen_impact(case_surface_of(f->c), site->velocity, &hit));
         if (hit.skip) {
             f->screened++;
             continue;
@@ -88,7 +88,7 @@ static status sort_populations(grain_families *f)
         memcpy(grain.shape, p->shape, sizeof grain.shape);
         memcpy(grain.material, p->material, sizeof grain.material);
         const int n = study_population_sizes(p, c->study.smallest_radius, SURFACE_MAX_SIZES / 2, size, number);
-        TRY(gouge_screen_impact(c, gouge_trace_fastest(f->flown), &hit));
+        TRY(gouge_screen_impact(case_surface_of(c), gouge_trace_fastest(f->flown), &hit));
         f->of_population[i] = -1;
         f->screened += hit.skip;
         f->too_small += !hit.skip && n == 0;
@@ -127,7 +127,7 @@ static status plan_searches(grain_families *f)
     const bool by_growth = gouge_is_gauged(f->probe);
     const int craters = by_growth ? y->craters * f->n : 0;
     double sure;
-    TRY(gouge_screen_velocity(f->c, y->screen_low, &sure));
+    TRY(gouge_screen_velocity(case_surface_of(f->c), y->screen_low, &sure));
     CHECK(f->n + craters <= y->max_scenes, STATUS_BAD_INPUT,
           "study.max_scenes = %d: for %d kinds of grain, %d whole craters; allow more or make the grains alike",
           y->max_scenes, f->n, craters);
