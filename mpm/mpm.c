@@ -26,15 +26,13 @@ static double courant_limit(const mpm_scene *s)
 static status check_body(const mpm_scene *s, int i, int groups)
 {
     const mpm_body *b = &s->body[i];
+    TRY(base_params_check(mpm_body_params, b, b->name));
     CHECK(b->material, STATUS_BAD_INPUT, "body `%s` lacks a material", b->name);
     CHECK(b->solid >= 0 && b->solid < s->solids, STATUS_BAD_INPUT, "body `%s`: solid %d, the scene has %d", b->name,
           b->solid, s->solids);
     TRY(mpm_solid_check(&s->solid[b->solid], b->solid));
-    CHECK(b->group >= 0, STATUS_BAD_INPUT, "body `%s`: group %d must not be negative", b->name, b->group);
     CHECK(groups <= s->bodies, STATUS_BAD_INPUT, "%d groups of %d bodies: number them from 0 without gaps", groups,
           s->bodies);
-    CHECK(b->traction_face >= 0 && b->traction_face < MPM_FACES, STATUS_BAD_INPUT,
-          "body `%s`: traction_face %d must be 0 .. 5", b->name, b->traction_face);
     for (int k = 0; k < i; k++)
         CHECK(s->body[k].group != b->group || memcmp(s->body[k].passes, b->passes, sizeof b->passes) == 0,
               STATUS_BAD_INPUT, "bodies `%s` and `%s` are one group, but different boundaries act on them",
@@ -70,11 +68,9 @@ static status check_scene(const mpm_scene *s)
           s->transfer == TRANSFER_PIC ? "pic"
           : s->basis == BASIS_BSPLINE ? "bspline"
                                       : "no scheme");
-    CHECK(s->particles_per_axis >= 1 && s->particles_per_axis <= 4, STATUS_BAD_INPUT,
-          "particles_per_axis = %d: must be 1 .. 4", s->particles_per_axis);
-    CHECK(s->follow.along >= 0 && s->follow.along < 3 && s->follow.across >= 0 && s->follow.across < 3 &&
-              s->follow.along != s->follow.across,
-          STATUS_BAD_INPUT, "follow: axes %d and %d must be two of 0 .. 2", s->follow.along, s->follow.across);
+    TRY(base_params_check(mpm_scene_params, s, "scene"));
+    TRY(base_params_check(mpm_follow_params, &s->follow, "follow"));
+    CHECK(s->follow.along != s->follow.across, STATUS_BAD_INPUT, "follow: along and across are the same axis");
     for (int i = 0; i < s->bodies; i++) TRY(check_body(s, i, groups));
     return check_pairs(s, groups);
 }
@@ -232,7 +228,7 @@ status mpm_create(const mpm_scene *scene, int threads, mpm **out)
         return s;
     }
     start_books(m);
-    m->scene_key = mpm_scene_key(m);
+    m->scene_key = mpm_scene_hash(&m->scene);
     m->zone_start = mpm_zone_of(m);
     const mpm_axis *along = &m->scene.axis[m->scene.follow.along];
     m->zone_length = along->fine_hi - along->fine_lo;
@@ -345,6 +341,7 @@ static void collect_share(const mpm *m, int share, tally *sum)
     for (int i = share_begin(m->bricks_used, share); i < share_begin(m->bricks_used, share + 1); i++) {
         const tally *t = &m->bricks[i].sum;
         if (t->particles == 0 || m->bricks[i].level > m->ends) continue;
+        sum->stranded = sum->stranded || t->stranded;
         if (sum->bad_block < 0) sum->bad_block = t->bad_block, sum->bad_lane = t->bad_lane;
         add_points(sum, t);
         add_vector(sum->impulse_boundary, t->impulse_boundary);
@@ -353,8 +350,9 @@ static void collect_share(const mpm *m, int share, tally *sum)
         add_nodes(sum, &m->site_sum[m->site_list[i]]);
 }
 
-static status check_finite(const mpm *m, const tally *t)
+static status check_share(const mpm *m, const tally *t)
 {
+    CHECK(!t->stranded, STATUS_MEMORY, "t = %g s: no memory for the points that change their cells", m->time);
     if (t->bad_block < 0) return status_ok();
     const block *q = &m->blocks[t->bad_block];
     const int l = t->bad_lane;
@@ -372,7 +370,7 @@ static status collect(mpm *m, tally *sum)
 #pragma omp parallel for schedule(static) num_threads(m->threads)
     for (int i = 0; i < SHARES; i++) collect_share(m, i, &share[i]);
     for (int i = 0; i < SHARES; i++) {
-        TRY(check_finite(m, &share[i]));
+        TRY(check_share(m, &share[i]));
         add_points(sum, &share[i]);
         add_nodes(sum, &share[i]);
     }

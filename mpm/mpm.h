@@ -51,9 +51,9 @@ typedef struct {
 } mpm_report;
 
 /* Points of the followed bodies (mpm_body.followed) as they were when the fine zone left them, or their parts at
- * x < until: behind it the points are merged, and a crater is read from these and the parts of points at x > until
+ * x < until: behind it the points are merged, and a surface is read from these and the parts of points at x > until
  * (mpm_cut_at).  The last before `until` are lengthened by a fine cell or half of themselves, so that no crack opens
- * where the rail moves on beyond it. */
+ * where the body moves on beyond it. */
 typedef struct {
     double position[3], size[3], velocity[3]; /* [m]; half lengths [m]; [m/s] */
     double damage, mass;                      /* [1, kg] */

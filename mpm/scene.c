@@ -9,13 +9,9 @@ void mpm_scene_default(mpm_scene *s)
 {
     memset(s, 0, sizeof *s);
     s->contact = mpm_contact_of(mpm_contact_find("coulomb"));
-    s->levels = 1;
-    s->follow.across = 2;
-    s->particles_per_axis = 2;
-    s->courant = 0.4;
-    s->viscosity_linear = 0.2;
-    s->viscosity_quadratic = 2.0;
-    s->contact_gap = 0.9;
+    base_params_default(mpm_scene_params, s);
+    base_params_default(mpm_scene_run_params, s);
+    base_params_default(mpm_follow_params, &s->follow);
 }
 
 /* Room for one more element behind n; the memory is a power of two of them, so n says when it is full. */
@@ -35,9 +31,7 @@ status mpm_scene_add_body(mpm_scene *s, mpm_body **added)
     s->body = array;
     *added = &s->body[s->bodies++];
     memset(*added, 0, sizeof **added);
-    (*added)->solid = -1;
-    (*added)->temperature = 293.0;
-    (*added)->yield_scale = 1.0;
+    base_params_default(mpm_body_params, *added);
     return status_ok();
 }
 

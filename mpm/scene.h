@@ -16,6 +16,7 @@
 #include "mpm/shape/solid.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 enum { MPM_MAX_BODIES = 8, MPM_MAX_GROUPS = 4, MPM_MAX_LEVELS = 3, MPM_FACES = 6, MPM_CONTACT_VALUES = 8 };
 
@@ -127,6 +128,14 @@ status mpm_scene_add_pair(mpm_scene *s, int a, int b, mpm_pair **added); /* as t
 
 /* How these two groups touch: the scene's pair, or what holds for those without one. */
 mpm_pair mpm_scene_contact(const mpm_scene *s, int a, int b);
+
+/* Every member of a scene's structs once: name, unit, default, range, offset.  The run's members, and only they, change
+ * nothing of what a scene is at a time, and no key.  Solids' values and contacts' are in their kinds' and laws' tables,
+ * materials in mpm_material_params. */
+extern const param mpm_body_params[], mpm_axis_params[], mpm_pair_params[], mpm_follow_params[], mpm_scene_params[],
+    mpm_scene_run_params[];
+
+uint64_t mpm_scene_hash(const mpm_scene *s); /* of every member but the run's; needs all materials, kinds and laws */
 
 int mpm_scene_groups(const mpm_scene *s);   /* one more than the highest group of a body */
 bool mpm_scene_follows(const mpm_scene *s); /* is any body followed? */

@@ -358,7 +358,11 @@ static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const h
         }
         b->sum.particles += (uint64_t)__builtin_popcount(m->links[i].mask);
         const int leaving = one_block(m, b, i, &g, &limits, nodes, run);
-        if (leaving && mpm_movers_reserve(movers, 2 * LANES)) mpm_movers_take(m, b, cell, i, leaving);
+        if (!leaving) continue;
+        if (mpm_movers_reserve(movers, 2 * LANES))
+            mpm_movers_take(m, b, cell, i, leaving);
+        else
+            b->sum.stranded = true;
     }
 }
 

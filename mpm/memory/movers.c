@@ -4,6 +4,7 @@
  * neighbours in a fixed order, so the order in the cells depends on no thread. */
 #include "mpm/memory/store.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,13 +12,14 @@
 bool mpm_movers_reserve(mover_list *list, int more)
 {
     if (list->count + more <= list->capacity) return true;
-    const int capacity = 2 * list->capacity + more + 1024;
+    const int64_t capacity = 2 * (int64_t)list->capacity + more + 1024;
+    if (capacity > INT_MAX || capacity < list->count + more) return false;
     mover_head *head = realloc(list->head, (size_t)capacity * sizeof *head);
     if (head) list->head = head;
     double(*data)[BLOCK_DOUBLES] = realloc(list->data, (size_t)capacity * sizeof *data);
     if (data) list->data = data;
     if (!head || !data) return false;
-    list->capacity = capacity;
+    list->capacity = (int)capacity;
     return true;
 }
 

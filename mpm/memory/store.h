@@ -103,6 +103,7 @@ typedef struct {
     double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES], peak_strain[MPM_MAX_BODIES];
     uint64_t clamps_pressure, clamps_compression, splits, eroded, particles;
     double eroded_mass;
+    bool stranded;           /* no memory for points that left their cells: the step cannot go on */
     int bad_lane, bad_block; /* first particle that is not finite, bad_block = -1: none */
 } tally;
 
@@ -264,9 +265,6 @@ void mpm_substep_store(mpm *m, int site); /* into brick.held, or for its particl
 uint64_t mpm_occupied_cells(const brick *b);
 uint64_t mpm_contact_cells(const mpm *m, const brick *b); /* brick.meets from what is occupied around */
 
-/* image.c */
-uint64_t mpm_scene_key(const mpm *m); /* before the fine zone has moved */
-
 /* point.c: one particle's BLOCK_DOUBLES */
 void mpm_point_halve(double *q, double *other, int k);
 void mpm_point_merge(double *q, const double *other, int k, double dt); /* the inverse: q takes other in */
@@ -290,7 +288,7 @@ void mpm_book_departure(mpm *m, const departure *d);
 typedef struct {
     double front, power, half_width; /* [m, W, m] */
 } plough;
-plough mpm_plastic_front_find(const mpm *m);
+status mpm_plastic_front_find(const mpm *m, plough *out);
 
 /* zone.c */
 zone mpm_zone_of(const mpm *m);

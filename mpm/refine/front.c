@@ -1,15 +1,15 @@
-/* Where the rail is ploughed: the plastic power of the followed bodies in the fine zone, slice by slice along x and
- * across.
+/* Where the followed bodies are ploughed: their plastic power in the fine zone, slice by slice along the axis that the
+ * zone follows and across it.
  *
- * The edge of a slider that is pressed on ploughs over the whole width, a groove does not: what counts is the power
- * beyond what the same metal takes in the zone's rim, its outer quarter on either side, in cells of the same size. */
+ * The edge of a slider that is pressed on ploughs over the whole width, a local damage does not: what counts is the
+ * power beyond what the same metal takes in the zone's rim, its outer quarter on either side, in cells of one size. */
 #include "mpm/memory/store.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 
-/* Of the power lies ahead of the front, and as much beyond the groove's half width. */
+/* Of the power lies ahead of the front, and as much beyond the half width. */
 static const double POWER_AHEAD = 0.05;
 static const double RIM = 0.75; /* of the zone's half width; beyond it lies the rim */
 
@@ -132,18 +132,18 @@ static double find_width(const profile *p)
     return (i + 1.0) / ACROSS;
 }
 
-plough mpm_plastic_front_find(const mpm *m)
+status mpm_plastic_front_find(const mpm *m, plough *out)
 {
     const mpm_axis *s = &m->scene.axis[m->scene.follow.along];
-    plough r = { .front = s->lo };
+    *out = (plough){ .front = s->lo };
     profile p = { m->scene.follow.along, m->scene.follow.across, .lo = s->lo, .width = 2 * s->fine,
                   .n = (int)((s->hi - s->lo) / (2 * s->fine)) + 1 };
     mpm_zone_across(&m->scene, &p.middle, &p.half);
     p.sums = calloc((size_t)sums_of(&p) * SHARES, sizeof *p.sums);
-    if (!p.sums) return r;
+    CHECK(p.sums, STATUS_MEMORY, "no memory to find the plastic front in %d slices", p.n);
     add_bodies(m, &p);
-    find_front(&p, &r);
-    r.half_width = find_width(&p) * p.half;
+    find_front(&p, out);
+    out->half_width = find_width(&p) * p.half;
     free(p.sums);
-    return r;
+    return status_ok();
 }

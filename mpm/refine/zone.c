@@ -441,7 +441,7 @@ status mpm_zone_regrid(mpm *m, zone z)
     return merge_coarse(m);
 }
 
-/* Across, the zone widens by a quarter or more of itself when the groove comes near its rim (front.c). */
+/* Across, the zone widens by a quarter or more of itself when the plastic power comes near its rim (front.c). */
 static void widen(const mpm *m, const plough *p, zone *z)
 {
     static const double NEAR = 0.6, WIDER = 1.25;
@@ -474,9 +474,10 @@ status mpm_zone_follow(mpm *m)
 {
     const zone now = mpm_zone_of(m);
     if (!mpm_scene_follows(&m->scene)) return status_ok();
-    plough p = mpm_plastic_front_find(m);
-    /* no groove goes faster than the slider: what its edge takes far ahead must not draw the zone off a groove that
-     * dies */
+    plough p;
+    TRY(mpm_plastic_front_find(m, &p));
+    /* no front goes faster than what makes it: power that a slider's edge takes far ahead must not draw the zone off a
+     * front that dies */
     const double passed = m->scene.follow.speed * (m->time - m->report.plastic_time);
     if (m->report.peak_plastic_power > 0 && m->scene.follow.speed > 0)
         p.front = fmin(p.front, m->report.plastic_front + passed);

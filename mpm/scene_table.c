@@ -1,0 +1,160 @@
+/* The members of a scene's structs, each once: defaults, ranges, units and names for those who read or print scenes,
+ * and the key that says whether two scenes are the same. */
+#include "mpm/scene.h"
+#include "mpm/law/contact.h"
+
+#include <stdint.h>
+#include <string.h>
+
+static const char *const faces[] = { "-x", "+x", "-y", "+y", "-z", "+z", NULL };
+static const char *const axes[] = { "x", "y", "z", NULL };
+static const char *const boundaries[] = { "free", "symmetry", "fixed", "absorbing", "prescribed", NULL };
+static const char *const transfers[] = { "tpic", "pic", NULL };
+static const char *const bases[] = { "gimp", "bspline", NULL };
+
+/* A row whose key is not its member's name. */
+#define ROW(type, key_, member, unit_, kind_, fallback_, min_, max_, doc_)                                        \
+    {                                                                                                             \
+        .key = (key_), .unit = (unit_), .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_), \
+        .min = (min_), .max = (max_), .kind = (kind_)                                                             \
+    }
+#define PASSES(face, key_) ROW(mpm_body, key_, passes[face], "1", PARAM_FLAG, 0, 0, 1, "that end does not act on it")
+#define BOUNDARY(end, key_)                                                                                  \
+    {                                                                                                        \
+        .key = (key_), .unit = "1", .doc = "what acts at that end of the window",                            \
+        .offset = offsetof(mpm_axis, boundary[end]), .max = 1e9, .kind = PARAM_CHOICE, .choices = boundaries \
+    }
+
+const param mpm_body_params[] = {
+    PARAM_STRING(mpm_body, name, "", "for people"),
+    PARAM_INT(mpm_body, solid, -1, 0, 1e9, "root of its volume among the scene's solids"),
+    PARAM_INT(mpm_body, group, 0, 0, 1e9, "bodies of one group have one velocity field"),
+    PARAM_VEC3(mpm_body, velocity, "m/s", 0.0, -1e6, 1e6, "at the start"),
+    PARAM_DOUBLE(mpm_body, temperature, "K", 293.0, 0.0, 1e5, "at the start"),
+    PARAM_VEC3(mpm_body, body_force, "m/s^2", 0.0, -1e15, 1e15, "acceleration of the whole body"),
+    PARAM_VEC3(mpm_body, traction, "Pa", 0.0, -1e15, 1e15, "on its surface towards traction_face"),
+    PARAM_ENUM(mpm_body, traction_face, faces, 0, "where the traction acts"),
+    PARAM_DOUBLE(mpm_body, yield_scale, "1", 1.0, 0.0, 1e6, "factor on the yield stress"),
+    PARAM_BOOL(mpm_body, damage, 0, "does its material's law of failure act?"),
+    PASSES(0, "passes_x_lo"),
+    PASSES(1, "passes_x_hi"),
+    PASSES(2, "passes_y_lo"),
+    PASSES(3, "passes_y_hi"),
+    PASSES(4, "passes_z_lo"),
+    PASSES(5, "passes_z_hi"),
+    PARAM_BOOL(mpm_body, followed, 0, "its plastic front moves the fine zone"),
+    PARAMS_END,
+};
+
+const param mpm_axis_params[] = {
+    PARAM_DOUBLE(mpm_axis, lo, "m", REQUIRED, -1e6, 1e6, "lower end of the window"),
+    PARAM_DOUBLE(mpm_axis, hi, "m", REQUIRED, -1e6, 1e6, "upper end of the window"),
+    PARAM_DOUBLE(mpm_axis, fine_lo, "m", REQUIRED, -1e6, 1e6, "lower end of the fine zone"),
+    PARAM_DOUBLE(mpm_axis, fine_hi, "m", REQUIRED, -1e6, 1e6, "upper end of the fine zone"),
+    PARAM_DOUBLE(mpm_axis, fine, "m", REQUIRED, 1e-9, 1e6, "size of its cells"),
+    PARAM_DOUBLE(mpm_axis, coarse, "m", REQUIRED, 1e-9, 1e6, "largest cell outside it"),
+    PARAM_DOUBLE(mpm_axis, growth, "1", 1.2, 1.0, 2.0, "ratio of neighbouring cells outside it"),
+    BOUNDARY(0, "boundary_lo"),
+    BOUNDARY(1, "boundary_hi"),
+    ROW(mpm_axis, "boundary_velocity_lo", boundary_velocity[0], "m/s", PARAM_VECTOR, 0, -1e6, 1e6, "if prescribed"),
+    ROW(mpm_axis, "boundary_velocity_hi", boundary_velocity[1], "m/s", PARAM_VECTOR, 0, -1e6, 1e6, "if prescribed"),
+    PARAMS_END,
+};
+
+const param mpm_pair_params[] = {
+    PARAM_INT(mpm_pair, a, 0, 0, 1e9, "group"),
+    PARAM_INT(mpm_pair, b, 1, 0, 1e9, "group"),
+    PARAM_INT(mpm_pair, normal_of, 0, 0, 1e9, "group whose surface gives the contact normal"),
+    PARAMS_END,
+};
+
+const param mpm_follow_params[] = {
+    PARAM_ENUM(mpm_follow, along, axes, 0, "axis along which the fine zone follows"),
+    PARAM_ENUM(mpm_follow, across, axes, 2, "axis on which it widens"),
+    PARAM_DOUBLE(mpm_follow, lead, "m", 0.0, 0.0, 1e3, "from the plastic front to the zone's upper end"),
+    PARAM_DOUBLE(mpm_follow, speed, "m/s", 0.0, 0.0, 1e6, "of the window"),
+    PARAM_DOUBLE(mpm_follow, width, "m", 0.0, 0.0, 1e3, "half width that the zone may grow to; 0: it stays"),
+    PARAMS_END,
+};
+
+const param mpm_scene_params[] = {
+    PARAM_INT(mpm_scene, levels, 1, 1, MPM_MAX_LEVELS, "nested grids"),
+    PARAM_DOUBLE(mpm_scene, contact_gap, "1", 0.9, 0.0, 10.0, "in cells: nearer groups touch"),
+    PARAM_INT(mpm_scene, particles_per_axis, 2, 1, 4, "material points a cell and axis"),
+    PARAM_DOUBLE(mpm_scene, courant, "1", 0.4, 0.0, 0.6, "of sound speed and velocity"),
+    PARAM_DOUBLE(mpm_scene, viscosity_linear, "1", 0.2, 0.0, 10.0, "artificial viscosity"),
+    PARAM_DOUBLE(mpm_scene, viscosity_quadratic, "1", 2.0, 0.0, 100.0, "artificial viscosity"),
+    PARAM_ENUM(mpm_scene, transfer, transfers, TRANSFER_TPIC, "with or without the velocity gradient"),
+    PARAM_ENUM(mpm_scene, basis, bases, BASIS_GIMP, "shape functions"),
+    PARAM_BOOL(mpm_scene, heat_by_plastic_work, 0, "temperature from a share of the plastic work"),
+    PARAMS_END,
+};
+
+const param mpm_scene_run_params[] = {
+    PARAM_DOUBLE(mpm_scene, end_time, "s", 0.0, 0.0, 1e6, "end of the scene"),
+    PARAM_STRING(mpm_scene, instruction_set, "", "that the kernels run in; empty: the best of this machine"),
+    PARAMS_END,
+};
+
+/* ---- the key ---- */
+
+static uint64_t hash(uint64_t h, const void *data, size_t bytes) /* FNV-1a */
+{
+    const unsigned char *p = data;
+    for (size_t i = 0; i < bytes; i++) h = (h ^ p[i]) * 1099511628211ull;
+    return h;
+}
+
+static size_t size_of(const param *p, const char *member)
+{
+    switch (p->kind) {
+    case PARAM_NUMBER: return sizeof(double);
+    case PARAM_VECTOR: return 3 * sizeof(double);
+    case PARAM_POINTS: return 2 * (size_t)p->room * sizeof(double);
+    case PARAM_FLAG: return sizeof(bool);
+    case PARAM_TEXT: return strnlen(member, PARAM_TEXT_SIZE);
+    case PARAM_INTEGER:
+    case PARAM_CHOICE: return sizeof(int);
+    }
+    return 0;
+}
+
+static uint64_t hash_members(uint64_t h, const param *table, const void *object)
+{
+    for (const param *p = table; p->key; p++) {
+        const char *member = (const char *)object + p->offset;
+        h = hash(h, member, size_of(p, member));
+    }
+    return h;
+}
+
+static uint64_t hash_contact(uint64_t h, const mpm_contact *c)
+{
+    h = hash(h, c->law->name, strlen(c->law->name));
+    return hash_members(h, c->law->params, c);
+}
+
+static uint64_t hash_solid(uint64_t h, const mpm_solid *s)
+{
+    h = hash(h, s->kind->name, strlen(s->kind->name));
+    h = hash(h, s->part, sizeof s->part);
+    return hash(h, s->value, sizeof s->value);
+}
+
+uint64_t mpm_scene_hash(const mpm_scene *s)
+{
+    uint64_t h = hash_members(14695981039346656037ull, mpm_scene_params, s);
+    h = hash_members(h, mpm_follow_params, &s->follow);
+    h = hash_contact(h, &s->contact);
+    for (int k = 0; k < 3; k++) h = hash_members(h, mpm_axis_params, &s->axis[k]);
+    for (int i = 0; i < s->solids; i++) h = hash_solid(h, &s->solid[i]);
+    for (int i = 0; i < s->bodies; i++) {
+        h = hash_members(h, mpm_body_params, &s->body[i]);
+        h = hash_members(h, mpm_material_params, s->body[i].material);
+    }
+    for (int i = 0; i < s->pairs; i++) {
+        h = hash_members(h, mpm_pair_params, &s->pair[i]);
+        h = hash_contact(h, &s->pair[i].contact);
+    }
+    return h;
+}
