@@ -130,7 +130,7 @@ static void plot_probes(FILE *script, const report_source *r)
     fputs(n ? "\n" : "0 notitle\n", script);
 }
 
-status report_plot_bodies(const report_source *r, bool *drawn)
+static status plot_bodies(const report_source *r, bool *drawn)
 {
     *drawn = false;
     if (!r->history || !r->gnuplot || !host_h5_exists(r->history, SCENE "/bodies/time")) return status_ok();
@@ -191,5 +191,5 @@ void report_section_bodies(const page *p)
           p->out);
     cJSON_ArrayForEach(body, bodies) body_row(p, body);
     fputs("</table></div>\n", p->out);
-    report_page_draw(p, report_plot_bodies, "bodies", "Means over each body; energies of the model as computed.");
+    report_page_draw(p, plot_bodies, "bodies", "Means over each body; energies of the model as computed.");
 }

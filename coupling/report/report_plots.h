@@ -37,7 +37,6 @@ status report_plot_threshold(const report_source *r, bool *drawn);
 /* Threshold velocity over size, with the scenes; the ranking of surfaces with its intervals. */
 status report_plot_surface(const report_source *r, bool *drawn);
 status report_plot_ranking(const report_source *r, bool *drawn);
-status report_plot_bodies(const report_source *r, bool *drawn);
 status report_plot_inductance(const report_source *r, bool *drawn);
 status report_plot_perimeter(const report_source *r, bool *drawn);
 status report_plot_crater_profile(const report_source *r, const char *scene, bool *drawn);

@@ -34,7 +34,8 @@ static status add_points(const mpm *m, scene_body *out)
     return status_ok();
 }
 
-status scene_bodies_now(const mpm_scene *scene, const mpm *m, scene_body *out)
+/* All bodies as they are now, into out[scene->bodies]. */
+static status bodies_now(const mpm_scene *scene, const mpm *m, scene_body *out)
 {
     const mpm_report now = mpm_state(m);
     memset(out, 0, (size_t)scene->bodies * sizeof *out);
@@ -150,7 +151,7 @@ static status record(void *user, const mpm *m, bool *over)
     recorder *r = user;
     (void)over; /* it goes to its end */
     TRY(r->error);
-    TRY(scene_bodies_now(r->scene, m, r->body));
+    TRY(bodies_now(r->scene, m, r->body));
     if (!r->history) return status_ok();
     r->row[0] = mpm_glance(m).time;
     for (int i = 0; i < r->scene->bodies; i++) row_of(&r->body[i], r->row + 1 + i * COLUMNS);

@@ -43,7 +43,4 @@ status scene_bodies_run(const scene_job *job, const scene_probes *probes, const 
                         scene_bodies_result *out);
 void scene_bodies_free(scene_bodies_result *r);
 
-/* All bodies as they are now, into out[scene->bodies]. */
-status scene_bodies_now(const mpm_scene *scene, const mpm *m, scene_body *out);
-
 #endif
