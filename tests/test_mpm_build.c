@@ -85,9 +85,28 @@ static void test_box(void **state)
     mpm_free(m);
 }
 
+/* Where bodies overlap the later one has the points, of one group or of two (mpm/scene.h). */
+static void test_overlap(void **state)
+{
+    (void)state;
+    const material copper = scene_copper();
+    for (int groups = 1; groups <= 2; groups++) {
+        SCENE_LOCAL(s);
+        window(&s, 8);
+        scene_box(&s, -1e-3, -1e-3, -1e-3, 0.5e-3, 1e-3, 1e-3, &copper);
+        scene_box(&s, -0.5e-3, -1e-3, -1e-3, 1e-3, 1e-3, 1e-3, &copper)->group = groups - 1;
+        mpm *m = scene_make(&s, 1);
+        const double width = 2e-3 * 2e-3 * copper.density; /* mass a length along x */
+        /* boxes are counted over the thickness of a part, a quarter of a 1/16 mm box: 1 % of the half millimetre */
+        assert_near(sum_of(m, 0).mass / (width * 0.5e-3), 1, 0.01);
+        assert_near(sum_of(m, 1).mass / (width * 1.5e-3), 1, 0.01);
+        mpm_free(m);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_mass), cmocka_unit_test(test_neighbours),
-                                        cmocka_unit_test(test_box) };
+                                        cmocka_unit_test(test_box), cmocka_unit_test(test_overlap) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
