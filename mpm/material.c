@@ -1,5 +1,6 @@
 #include "mpm/material.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -83,6 +84,15 @@ static const law_row *law_find(const law_row *row, int kind)
     return row;
 }
 
+material_shear mpm_material_shear(const material *m)
+{
+    static const material_shear of[] = {
+#define STRENGTH(name, shear, text) SHEAR_##shear,
+#include "mpm/law/strength.def"
+    };
+    return of[m->strength];
+}
+
 const char *mpm_material_strength_text(int kind)
 {
     return law_find(strength_rows, kind)->law;
@@ -146,10 +156,13 @@ status mpm_material_check(const material *m, unsigned needs)
             list_add(&missing, common_rows[i].key);
     if (needs & MATERIAL_FOR_SCENE) list_missing(&missing, m, strength_rows, m->strength);
     if (needs & MATERIAL_FOR_SCENE) list_missing(&missing, m, eos_rows, m->eos);
-    if (needs & MATERIAL_FOR_DAMAGE) list_missing(&missing, m, failure_rows, m->failure);
+    const bool fluid = mpm_material_shear(m) == SHEAR_NONE;
+    if (needs & MATERIAL_FOR_DAMAGE && !fluid) list_missing(&missing, m, failure_rows, m->failure);
     CHECK(missing.length == 0, STATUS_BAD_INPUT, "material %.40s lacks what this study needs: %s", m->name,
           missing.text);
     TRY(base_params_check(mpm_material_params, m, m->name));
+    CHECK(!(needs & MATERIAL_FOR_SCENE) || fluid || m->density >= 100, STATUS_BAD_INPUT,
+          "material %.40s: density = %g kg/m^3: a solid has at least 100 kg/m^3", m->name, m->density);
     CHECK(!(m->melting_temperature <= m->reference_temperature), STATUS_BAD_INPUT,
           "material %.40s: melting_temperature = %g K must lie above reference_temperature = %g K", m->name,
           m->melting_temperature, m->reference_temperature);

@@ -35,10 +35,13 @@ typedef enum {
     ROW(rate_0, "1/s", 0, 1e-6, 1e6, "reference strain rate of strength and failure; slower ones count as this") \
     ROW(molar_mass, "kg/mol", 0, 1e-3, 0.5, "molar mass")                                                        \
     ROW(taylor_quinney, "1", 0, 0.0, 1.0, "share of plastic work that becomes heat (heat by plastic work only)") \
-    ROW(spall_strength, "Pa", 0, 0.0, 1e11, "tension at which it fails")                                         \
+    ROW(spall_strength, "Pa", 0, 1e5, 1e11, "tension at which it fails")                                         \
     ROW(hardness, "Pa", MATERIAL_FOR_SCREEN, 1e6, 1e11, "Vickers hardness as a pressure")                        \
     ROW(resistivity, "ohm m", MATERIAL_FOR_CIRCUIT, 1e-10, 1e-3, "electrical resistivity at 293.15 K")           \
     ROW(resistivity_slope, "1/K", 0, -0.1, 0.1, "temperature coefficient of the resistivity")
+
+/* What a law of strength has for a shear modulus: none, one from E and nu, its own for every point. */
+typedef enum { SHEAR_NONE, SHEAR_FIXED, SHEAR_VARIES } material_shear;
 
 typedef enum {
 #define STRENGTH(name, shear, text) STRENGTH_##name,
@@ -79,6 +82,9 @@ status mpm_material_check(const material *m, unsigned needs);
 
 /* With the constants that its laws supply where they are not given. */
 material mpm_material_complete(const material *m);
+
+/* Of its law of strength; SHEAR_NONE: it is a fluid, which does not fail. */
+material_shear mpm_material_shear(const material *m);
 
 /* Text of the law that has this number in `strength`, `eos` or `failure`. */
 const char *mpm_material_strength_text(int kind);

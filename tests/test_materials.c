@@ -120,22 +120,37 @@ static void the_papers_sets_are_kept(void **state)
     case_material_sheet_free(&sheet);
 }
 
-/* Johnson-Cook unless the file says otherwise; either is complete for its own law. */
-static void the_law_of_strength_is_read(void **state)
+/* The laws that the files choose: those of a metal unless the file says otherwise, and each file that chooses one is
+ * complete for it. */
+static void the_laws_are_read(void **state)
 {
+    static const struct {
+        const char *name;
+        int strength, eos;
+    } other[] = { { "ofhc_copper_ptw", STRENGTH_ptw, EOS_mie_gruneisen },
+                  { "ofhc_copper_sg", STRENGTH_steinberg_guinan, EOS_mie_gruneisen },
+                  { "water", STRENGTH_none, EOS_mie_gruneisen },
+                  { "water_stiffened", STRENGTH_none, EOS_stiffened_gas },
+                  { "air", STRENGTH_none, EOS_stiffened_gas } };
     shelf *s = *state;
-    int ptw = 0;
+    int found = 0;
     for (int k = 0; k < s->n; k++) {
         material_sheet sheet;
         char *errors = NULL;
+        int strength = STRENGTH_johnson_cook, eos = EOS_mie_gruneisen;
         assert_int_equal(case_material_sheet_find(s->u, s->names[k], dirs, 1, &sheet, &errors).code, STATUS_OK);
-        const bool named = strstr(s->names[k], "_ptw") != NULL;
-        assert_int_equal(sheet.material.strength, named ? STRENGTH_ptw : STRENGTH_johnson_cook);
-        if (named) assert_int_equal(mpm_material_check(&sheet.material, MATERIAL_FOR_SCENE).code, STATUS_OK);
-        ptw += named;
+        for (size_t i = 0; i < sizeof other / sizeof other[0]; i++) {
+            if (strcmp(other[i].name, s->names[k]) != 0) continue;
+            strength = other[i].strength, eos = other[i].eos, found++;
+            assert_int_equal(mpm_material_check(&sheet.material, MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE).code,
+                             STATUS_OK);
+        }
+        assert_int_equal(sheet.material.strength, strength);
+        assert_int_equal(sheet.material.eos, eos);
+        assert_int_equal(sheet.material.failure, FAILURE_johnson_cook);
         case_material_sheet_free(&sheet);
     }
-    assert_int_equal(ptw, 1);
+    assert_int_equal(found, 5);
 }
 
 typedef struct {
@@ -165,7 +180,8 @@ static void bad_files_say_where(void **state)
         { HEAD "constants:\n  poisson: {value: 0.3 Pa, source: A}\n",
           "x.yaml:4:20: constants.poisson.value = 0.3 Pa: is a pure number" },
         { HEAD "strength: wood\nconstants: {}\n", "x.yaml:3:11: strength = wood: must be one of johnson_cook, ptw" },
-        { HEAD "eos: wood\nconstants: {}\n", "x.yaml:3:6: eos = wood: must be one of mie_gruneisen" },
+        { HEAD "eos: wood\nconstants: {}\n",
+          "x.yaml:3:6: eos = wood: must be one of mie_gruneisen, stiffened_gas, tait" },
         { HEAD "failure: wood\nconstants: {}\n", "x.yaml:3:10: failure = wood: must be one of johnson_cook" },
         { "- a\n", "x.yaml:1:1: a material's file has the keys" },
     };
@@ -211,10 +227,13 @@ static void folders_are_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_file_reads_and_has_sources), cmocka_unit_test(unchecked_constants_are_weak),
-        cmocka_unit_test(the_papers_sets_are_kept),         cmocka_unit_test(bad_files_say_where),
-        cmocka_unit_test(names_cannot_leave_the_folder),    cmocka_unit_test(folders_are_found),
-        cmocka_unit_test(the_law_of_strength_is_read),
+        cmocka_unit_test(every_file_reads_and_has_sources),
+        cmocka_unit_test(unchecked_constants_are_weak),
+        cmocka_unit_test(the_papers_sets_are_kept),
+        cmocka_unit_test(bad_files_say_where),
+        cmocka_unit_test(names_cannot_leave_the_folder),
+        cmocka_unit_test(folders_are_found),
+        cmocka_unit_test(the_laws_are_read),
     };
     return cmocka_run_group_tests(tests, open_shelf, close_shelf);
 }

@@ -156,13 +156,13 @@ LANE_INLINE void leave_holes(gathered *r, vm here)
     r->ka = vd_where(here, r->ka);
 }
 
-/* A failed or molten point has nothing that resists its gradient: lone debris that is drawn out steepens it without
- * bound (F^-1, motion_lanes.h), and what that motion needs came out of its heat, far below none.  So such a point's
- * gradient part holds no more than the mixing has left, `budget` [J/kg].  Returns the factor on the gradient that this
- * leaves. */
-LANE_INLINE vd bound_gradient(const law *k, const block *q, int lane, vd budget, vd *ka)
+/* A fluid, failed or molten point has nothing that resists its gradient: lone debris that is drawn out steepens it
+ * without bound (F^-1, motion_lanes.h), and what that motion needs came out of its heat, far below none.  So such a
+ * point's gradient part holds no more than the mixing has left, `budget` [J/kg].  Returns the factor on the gradient
+ * that this leaves. */
+LANE_INLINE vd bound_gradient(const law *k, law_form f, const block *q, int lane, vd budget, vd *ka)
 {
-    const vm over = loose_points(k, q, lane) & vd_less(budget, *ka);
+    const vm large = vd_less(budget, *ka), over = f.shear == SHEAR_NONE ? large : loose_points(k, q, lane) & large;
     if (!vm_bits(over)) return vd_set(1);
     const vd wanted = *ka, kept = vd_select(over, vd_max(budget, vd_set(0)), wanted);
     *ka = kept;
@@ -304,12 +304,14 @@ typedef struct {
     books books;
 } block_run;
 
-/* Advances a block by a step; the lanes that leave it. */
-static __attribute__((noinline)) int one_block(mpm *m, brick *b, int index, const cell_grid *g,
-                                               const cell_limits *limits, const cell_nodes nodes, block_run *run)
+/* Advances a block by a step; the lanes that leave it.  `kernel`: that of the body's law, a constant where this is
+ * called, so that the compiler makes a kernel of each. */
+LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const cell_limits *limits,
+                          const cell_nodes nodes, block_run *run, int kernel)
 {
     block *q = &m->blocks[index];
     const law *k = &m->laws[run->body];
+    const law_form f = law_form_of(k, kernel);
     int leaving = 0;
     ahead next = ahead_of(m, index, FIRST_start, 1 + 5 * LANES / WIDTH);
     prefetch_share(&next);
@@ -322,7 +324,7 @@ static __attribute__((noinline)) int one_block(mpm *m, brick *b, int index, cons
         if (m->scene.transfer != TRANSFER_TPIC) r.ka = vd_set(0);
         leave_holes(&r, vd_less(vd_set(0), vd_load(&q->mass[0][lane])));
         const vd budget = r.E - 0.5 * (r.v[0] * r.v[0] + r.v[1] * r.v[1] + r.v[2] * r.v[2]);
-        const vd share = bound_gradient(k, q, lane, budget, &r.ka);
+        const vd share = bound_gradient(k, f, q, lane, budget, &r.ka);
         sum.heat = budget - r.ka;
         vd_store(&q->ka[0][lane], r.ka);
         motion moved = motion_of(r.L, run->step.dt);
@@ -332,7 +334,7 @@ static __attribute__((noinline)) int one_block(mpm *m, brick *b, int index, cons
         }
         prefetch_share(&next);
         sum.work_external = move(q, lane, &r, &run->step);
-        law_step(k, &run->step, &moved, q, lane, b->contact, &sum);
+        law_step(k, f, &run->step, &moved, q, lane, b->contact, &sum);
         prefetch_share(&next);
         book(&run->books, q, lane, &sum);
         find_bad(&b->sum, q, lane, sum.rate, index);
@@ -340,6 +342,19 @@ static __attribute__((noinline)) int one_block(mpm *m, brick *b, int index, cons
     }
     return leaving & m->links[index].mask;
 }
+
+#define BLOCK_KERNEL(name, kernel)                                                                               \
+    static __attribute__((noinline)) int name(mpm *m, brick *b, int index, const cell_grid *g,                   \
+                                              const cell_limits *limits, const cell_nodes nodes, block_run *run) \
+    {                                                                                                            \
+        return one_block(m, b, index, g, limits, nodes, run, kernel);                                            \
+    }
+BLOCK_KERNEL(fluid_block, LAW_FLUID)
+BLOCK_KERNEL(metal_block, LAW_METAL)
+BLOCK_KERNEL(solid_block, LAW_SOLID)
+
+typedef int block_kernel(mpm *, brick *, int, const cell_grid *, const cell_limits *, const cell_nodes, block_run *);
+static block_kernel *const block_kernels[LAW_KERNELS] = { fluid_block, metal_block, solid_block };
 
 static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const halo_nodes halo, block_run *run)
 {
@@ -357,7 +372,7 @@ static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const h
             *run = (block_run){ .body = body, .step = step_for(m, b, &g, body) };
         }
         b->sum.particles += (uint64_t)__builtin_popcount(m->links[i].mask);
-        const int leaving = one_block(m, b, i, &g, &limits, nodes, run);
+        const int leaving = block_kernels[m->laws[body].kernel](m, b, i, &g, &limits, nodes, run);
         if (!leaving) continue;
         if (mpm_movers_reserve(movers, 2 * LANES))
             mpm_movers_take(m, b, cell, i, leaving);

@@ -61,6 +61,13 @@ static void start_at(law *k, double temperature)
         mu = fmin(fmax(mu - pressure_at(k, mu, k->e_start) / k->K0, k->mu_least), k->mu_most);
         k->e_start = thermal + reference_at(k, mu);
     }
+    /* K0 for the slope will not do for a hot gas. */
+    double lo = k->mu_least, hi = k->mu_most;
+    for (int i = 0; i < ITERATIONS && fabs(pressure_at(k, mu, k->e_start)) > 1e-9 * k->K0; i++) {
+        mu = 0.5 * (lo + hi);
+        k->e_start = thermal + reference_at(k, mu);
+        *(pressure_at(k, mu, k->e_start) > 0 ? &hi : &lo) = mu;
+    }
     k->rho_start = k->rho0 * (1 + mu);
 }
 
@@ -85,8 +92,13 @@ status mpm_law_make(const mpm_body *body, const mpm_scene *scene, law *out)
     TRY(mpm_material_check(body->material, MATERIAL_FOR_SCENE | (body->damage ? MATERIAL_FOR_DAMAGE : 0u)));
     const material m = mpm_material_complete(body->material);
     law k = { .rho0 = m.density, .volume0 = 1 / m.density };
-    k.strength.kind = m.strength, k.eos.kind = m.eos, k.failure.kind = body->damage ? m.failure : FAILURE_none;
-    k.G = mpm_material_shear_modulus(&m);
+    k.strength.kind = m.strength, k.eos.kind = m.eos, k.shear = mpm_material_shear(&m);
+    k.kernel = k.shear == SHEAR_NONE                                  ? LAW_FLUID
+               : k.shear == SHEAR_FIXED && m.eos == EOS_mie_gruneisen ? LAW_METAL
+                                                                      : LAW_SOLID;
+    k.failure.kind = body->damage && k.shear != SHEAR_NONE ? m.failure : FAILURE_none;
+    k.G = k.shear == SHEAR_FIXED ? mpm_material_shear_modulus(&m) : 0;
+    k.spall = HUGE_VAL;
     k.volume_max = 20 * k.volume0;
     k.q1 = scene->viscosity_linear, k.q2 = scene->viscosity_quadratic;
     k.plastic_heat = scene->heat_by_plastic_work;
@@ -96,6 +108,7 @@ status mpm_law_make(const mpm_body *body, const mpm_scene *scene, law *out)
     TRY(derive_eos(&k, &m));
     TRY(derive_strength(&k, &m, body->yield_scale > 0 ? body->yield_scale : 1));
     TRY(derive_failure(&k, &m));
+    k.least_flow *= 1 - k.softening;
     start_at(&k, body->temperature);
     *out = k;
     return status_ok();

@@ -1,6 +1,7 @@
 /* The material law of some particles of one body over one step: the laws that its material chose, put together, with
  * temperature (M-4) and viscosity (M-5).  Constants are derived in law.c; the kernels include this once an instruction
- * set.  A block holds one body, so which law it is, is asked once for all its lanes. */
+ * set.  A block holds one body, so which law it is, is asked once for all its lanes; of the most frequent ones
+ * (law_form) the compiler knows. */
 #ifndef BREECH_MPM_LAW_LANES_H
 #define BREECH_MPM_LAW_LANES_H
 
@@ -38,12 +39,14 @@ typedef struct {
     vd strain;    /* equivalent plastic strain [1] */
     vd log_rate;  /* ln(edot/edot0), at least 0 */
     vd T, T_star; /* [K]; (T - T_r)/(T_m - T_r) in 0 .. 1 */
+    vd p, rho;    /* without viscosity [Pa], [kg/m3]; only for a law whose shear VARIES */
 } flow_state;
 
 /* What a law of failure may look at. */
 typedef struct {
-    vd plastic;          /* what the step adds to the equivalent plastic strain [1] */
+    vd plastic, strain;  /* what the step adds to the equivalent plastic strain, and that after it [1] */
     vd triaxiality;      /* mean stress / von Mises stress, tension positive [1] */
+    vd rate_square;      /* (edot/edot0)^2 [1] */
     vd log_rate, T_star; /* as above */
 } failure_state;
 
@@ -56,46 +59,71 @@ typedef struct {
 #include "mpm/law/strength.def"
 #undef LAW_LANES
 
-LANE_INLINE vd flow_stress(const law *k, vd strain, vd log_rate, vd T, vd T_star)
+/* Which laws a kernel is made for: constants where the compiler knows, else the body's. */
+typedef struct {
+    int shear; /* material_shear */
+    int eos;   /* material_eos */
+} law_form;
+
+LANE_INLINE law_form law_form_of(const law *k, int kernel)
 {
-#define STRENGTH(name, shear, text)          \
-    if (k->strength.kind == STRENGTH_##name) \
-        return strength_##name##_flow(&k->strength.name, &(flow_state){ strain, log_rate, T, T_star });
+    if (kernel == LAW_FLUID) return (law_form){ SHEAR_NONE, k->eos.kind };
+    if (kernel == LAW_METAL) return (law_form){ SHEAR_FIXED, EOS_mie_gruneisen };
+    return (law_form){ k->shear, k->eos.kind };
+}
+
+LANE_INLINE vd flow_stress(const law *k, law_form f, const flow_state *s)
+{
+#define STRENGTH(name, shear_, text)                                      \
+    if (f.shear == SHEAR_##shear_ && k->strength.kind == STRENGTH_##name) \
+        return strength_##name##_flow(&k->strength.name,                  \
+                                      &(flow_state){ s->strain, s->log_rate, s->T, s->T_star, s->p, s->rho });
 #include "mpm/law/strength.def"
     return vd_set(0);
 }
 
-LANE_INLINE vd pressure(const law *k, vd mu, vd rho, vd e, vd half)
+/* Of a law whose shear VARIES */
+LANE_INLINE vd shear_modulus(const law *k, vd p, vd rho, vd T)
+{
+#define SHEAR_OF_NONE(name)
+#define SHEAR_OF_FIXED(name)
+#define SHEAR_OF_VARIES(name) \
+    if (k->strength.kind == STRENGTH_##name) return strength_##name##_shear(&k->strength.name, p, rho, T);
+#define STRENGTH(name, shear, text) SHEAR_OF_##shear(name)
+#include "mpm/law/strength.def"
+    return vd_set(k->G);
+}
+
+LANE_INLINE vd pressure(const law *k, law_form f, vd mu, vd rho, vd e, vd half)
 {
 #define EOS(name, text) \
-    if (k->eos.kind == EOS_##name) return eos_##name##_pressure(k, mu, rho, e, half);
+    if (f.eos == EOS_##name) return eos_##name##_pressure(k, mu, rho, e, half);
 #include "mpm/law/eos.def"
     return vd_set(0);
 }
 
-LANE_INLINE vd reference_energy(const law *k, vd mu)
+LANE_INLINE vd reference_energy(const law *k, law_form f, vd mu)
 {
 #define EOS(name, text) \
-    if (k->eos.kind == EOS_##name) return eos_##name##_reference(k, mu);
+    if (f.eos == EOS_##name) return eos_##name##_reference(k, mu);
 #include "mpm/law/eos.def"
     return vd_set(0);
 }
 
 /* The sum is the equation of state's, not made here: a compiler joins the product in it and the sum to one operation
  * only where no branch lies between. */
-LANE_INLINE vd wave_speed_square(const law *k, vd volume, vd p, vd shear)
+LANE_INLINE vd wave_speed_square(const law *k, law_form f, vd volume, vd p, vd shear)
 {
 #define EOS(name, text) \
-    if (k->eos.kind == EOS_##name) return eos_##name##_wave(k, volume, p, shear);
+    if (f.eos == EOS_##name) return eos_##name##_wave(k, volume, p, shear);
 #include "mpm/law/eos.def"
     return shear;
 }
 
-LANE_INLINE vd damage_growth(const law *k, vd plastic, vd triaxiality, vd log_rate, vd T_star)
+LANE_INLINE vd damage_growth(const law *k, const failure_state *s)
 {
-#define FAILURE(name, text)                \
-    if (k->failure.kind == FAILURE_##name) \
-        return failure_##name##_grow(&k->failure.name, &(failure_state){ plastic, triaxiality, log_rate, T_star });
+#define FAILURE(name, text) \
+    if (k->failure.kind == FAILURE_##name) return failure_##name##_grow(&k->failure.name, s);
 #include "mpm/law/failure.def"
     return vd_set(0);
 }
@@ -110,33 +138,48 @@ LANE_INLINE vd temperature(const law *k, vd e, vd reference, vd stored)
     return vd_max(k->T_r + (vd_min(thermal, vd_set(melt)) + beyond) * k->inv_c, vd_set(1));
 }
 
-/* Longitudinal wave speed; a failed point has no shear stiffness [m/s] */
-LANE_INLINE vd sound_speed(const law *k, vd volume, vd p, vm failed)
+/* Moduli of some particles: the body's, or their own where the law's shear VARIES. */
+typedef struct {
+    vd G, inv_3G, inv_6G; /* shear modulus [Pa], 1/(3 G), 1/(6 G) [1/Pa] */
+    vd p, rho;            /* that it was taken at [Pa, kg/m3]; 0 where it does not vary */
+} elastic;
+
+LANE_INLINE elastic elastic_of(const law *k, law_form f, const block *q, int lane, vd mu, vd rho)
 {
-    return vd_sqrt(wave_speed_square(k, volume, p, vd_where(~failed, 4.0 / 3.0 * k->G * volume)));
+    const vd zero = vd_set(0);
+    if (f.shear != SHEAR_VARIES)
+        return (elastic){ vd_set(k->G), vd_set(1 / (3 * k->G)), vd_set(1 / (6 * k->G)), zero, zero };
+    const vd p = pressure(k, f, mu, rho, vd_load(&q->e[0][lane]), zero);
+    const vd G = shear_modulus(k, p, rho, vd_load(&q->T[0][lane]));
+    return (elastic){ G, 1 / (3 * G), 1 / (6 * G), p, rho };
+}
+
+/* Longitudinal wave speed; a failed point has no shear stiffness [m/s] */
+LANE_INLINE vd sound_speed(const law *k, law_form f, vd G, vd volume, vd p, vm failed)
+{
+    return vd_sqrt(wave_speed_square(k, f, volume, p, vd_where(~failed, 4.0 / 3.0 * G * volume)));
 }
 
 /* Jaumann rate  s' = W s - s W + 2 G dev D */
-LANE_INLINE void stress_rate(const law *k, const vd L[9], const vd s[6], vd r[6])
+LANE_INLINE void stress_rate(vd G, const vd L[9], const vd s[6], vd r[6])
 {
     const vd w_xy = 0.5 * (L[1] - L[3]), w_xz = 0.5 * (L[2] - L[6]), w_yz = 0.5 * (L[5] - L[7]);
-    const vd third = (1 / 3.0) * trace(L);
-    const double G2 = 2 * k->G;
+    const vd third = (1 / 3.0) * trace(L), G2 = 2 * G;
     r[0] = 2 * (w_xy * s[3] + w_xz * s[4]) + G2 * (L[0] - third);
     r[1] = 2 * (w_yz * s[5] - w_xy * s[3]) + G2 * (L[4] - third);
     r[2] = G2 * (L[8] - third) - 2 * (w_xz * s[4] + w_yz * s[5]);
-    r[3] = w_xy * (s[1] - s[0]) + w_xz * s[5] + w_yz * s[4] + k->G * (L[1] + L[3]);
-    r[4] = w_xz * (s[2] - s[0]) + w_xy * s[5] - w_yz * s[3] + k->G * (L[2] + L[6]);
-    r[5] = w_yz * (s[2] - s[1]) - w_xy * s[4] - w_xz * s[3] + k->G * (L[5] + L[7]);
+    r[3] = w_xy * (s[1] - s[0]) + w_xz * s[5] + w_yz * s[4] + G * (L[1] + L[3]);
+    r[4] = w_xz * (s[2] - s[0]) + w_xy * s[5] - w_yz * s[3] + G * (L[2] + L[6]);
+    r[5] = w_yz * (s[2] - s[1]) - w_xy * s[4] - w_xz * s[3] + G * (L[5] + L[7]);
 }
 
 /* Elastic predictor by the midpoint rule */
-LANE_INLINE void predict(const law *k, double dt, const vd L[9], vd s[6])
+LANE_INLINE void predict(vd G, double dt, const vd L[9], vd s[6])
 {
     vd rate[6], middle[6];
-    stress_rate(k, L, s, rate);
+    stress_rate(G, L, s, rate);
     for (int i = 0; i < 6; i++) middle[i] = s[i] + 0.5 * dt * rate[i];
-    stress_rate(k, L, middle, rate);
+    stress_rate(G, L, middle, rate);
     for (int i = 0; i < 6; i++) s[i] += dt * rate[i];
 }
 
@@ -174,7 +217,8 @@ typedef struct {
     bool any;               /* did one flow or has one failed? If not, only mises_square holds something */
     vd mises_square, mises; /* von Mises stress after it, squared and plain [Pa^2, Pa] */
     vd plastic;             /* increment of the equivalent plastic strain */
-    vd log_rate, T_star;    /* ln(edot/edot0) and homologous temperature */
+    vd rate_square;         /* (edot/edot0)^2 */
+    vd log_rate, T_star;    /* ln(edot/edot0), at least 0, and homologous temperature */
 } yielding;
 
 /* Radial return of the trial deviator s.  Where all particles lie below the least stress at which their metal could
@@ -182,7 +226,8 @@ typedef struct {
  *   sigma_y >= least (1 - T*),   least known to the law of strength, zero where it has no such bound,
  * there is nothing to do; their flow stress stays that of the step in which it was last needed, unless a contact asks.
  * (By a tenth below: where the fine zone goes is decided by what comes within a tenth of yielding, zone.c.) */
-LANE_INLINE yielding radial_return(const law *k, const vd L[9], vd tr, block *q, int lane, bool contact, vd s[6])
+LANE_INLINE yielding radial_return(const law *k, law_form f, const elastic *m, const vd L[9], vd tr, block *q, int lane,
+                                   bool contact, vd s[6])
 {
     const vd zero = vd_set(0), square = 1.5 * square_norm(s);
     const vm failed = ~vd_less(vd_load(&q->damage[0][lane]), vd_set(1));
@@ -191,13 +236,16 @@ LANE_INLINE yielding radial_return(const law *k, const vd L[9], vd tr, block *q,
     const vd least = 0.9 * k->least_flow * (1 - y.T_star);
     y.any = contact || vm_bits(failed | ~vd_less(square, least * least));
     if (!y.any) return y;
-    y.log_rate = 0.5 * vd_log(vd_max(rate_square(L, tr) * (k->inv_rate0 * k->inv_rate0), vd_set(1)));
+    y.rate_square = rate_square(L, tr) * (k->inv_rate0 * k->inv_rate0);
+    y.log_rate = 0.5 * vd_log(vd_max(y.rate_square, vd_set(1)));
     const vd ep = vd_load(&q->ep[0][lane]), trial = vd_sqrt(square);
-    const vd flow = flow_stress(k, ep, y.log_rate, vd_load(&q->T[0][lane]), y.T_star);
+    const flow_state at = { ep, y.log_rate, vd_load(&q->T[0][lane]), y.T_star, m->p, m->rho };
+    vd flow = flow_stress(k, f, &at);
+    if (k->softening > 0) flow *= 1 - k->softening * vd_load(&q->damage[0][lane]);
     const vd yield = vd_where(~failed, flow);
     y.mises = vd_min(trial, yield);
     y.mises_square = y.mises * y.mises;
-    y.plastic = vd_where(~failed, (trial - y.mises) * (1 / (3 * k->G)));
+    y.plastic = vd_where(~failed, (trial - y.mises) * m->inv_3G);
     vd_store(&q->flow[0][lane], yield);
     vd_store(&q->ep[0][lane], ep + y.plastic);
     const vd scale = y.mises / vd_max(trial, vd_set(1e-30));
@@ -208,8 +256,14 @@ LANE_INLINE yielding radial_return(const law *k, const vd L[9], vd tr, block *q,
 
 LANE_INLINE void damage(const law *k, const yielding *y, vd p, block *q, int lane)
 {
-    const vd growth = damage_growth(k, y->plastic, -p / (y->mises + 1e3), y->log_rate, y->T_star);
-    vd_store(&q->damage[0][lane], vd_min(vd_load(&q->damage[0][lane]) + growth, vd_set(1)));
+    const failure_state state = { .plastic = y->plastic,
+                                  .strain = vd_load(&q->ep[0][lane]),
+                                  .triaxiality = -p / (y->mises + 1e3),
+                                  .rate_square = y->rate_square,
+                                  .log_rate = y->log_rate,
+                                  .T_star = y->T_star };
+    const vd grown = vd_load(&q->damage[0][lane]) + damage_growth(k, &state);
+    vd_store(&q->damage[0][lane], vd_min(grown, vd_set(1)));
 }
 
 /* Failed or molten: no deviator, no tension. */
@@ -222,60 +276,109 @@ LANE_INLINE vm loose_points(const law *k, const block *q, int lane)
  * what nothing had stored. */
 #define LAW_MELT_TENSION 1e-4
 
-/* Stress, energy and temperature of the part of a block that begins with `lane`, over a step.  The stress power is the
- * mean of its values at the start and at the end, each with the gradient and the volume there; the pressure is solved
- * with the energy it changes, and a loose point's tension is removed before that energy.  `contact`: the flow stress is
- * needed even where nothing flows. */
-LANE_INLINE void law_step(const law *k, const step_of *step, const motion *move, block *q, int lane, bool contact,
-                          lane_sums *sum)
+/* What a step leaves of some particles. */
+typedef struct {
+    vd e, T, rho, volume, p, q_v, sound; /* q_v: viscosity [Pa] */
+    vd wanted;                           /* volume that the motion gives [m3/kg] */
+    vm torn;                             /* tension was removed */
+} step_end;
+
+LANE_INLINE void step_store(const step_of *step, vd tr, const step_end *r, block *q, int lane, lane_sums *sum)
+{
+    const vd one = vd_set(1);
+    vd_store(&q->T[0][lane], r->T);
+    vd_store(&q->e[0][lane], r->e);
+    vd_store(&q->rho[0][lane], r->rho);
+    vd_store(&q->p[0][lane], r->p + r->q_v);
+    sum->rate = vd_set(0);
+    for (int i = 0; i < 3; i++) {
+        const vd v = vd_load(&q->v[i][lane]);
+        sum->rate = vd_max(sum->rate, (r->sound + vd_max(v, -v)) * step->inv_h[i]);
+    }
+    sum->heat_viscous = -step->dt * tr * r->volume * r->q_v;
+    sum->clamp_p = vd_where(r->torn, one);
+    sum->clamp_rho = vd_where(vd_less(r->wanted, r->volume) | vd_less(r->volume, r->wanted), one);
+}
+
+/* Of a fluid: nothing but pressure.  It cavitates where its law gives less than its least pressure; what it is
+ * stretched to then costs nothing, so its temperature is that of its energy at rest. */
+LANE_INLINE void fluid_step(const law *k, law_form f, const step_of *step, const motion *move, block *q, int lane,
+                            lane_sums *sum)
+{
+    const vd *L = move->middle, tr = trace(L), volume0 = 1 / vd_load(&q->rho[0][lane]);
+    const vd p0 = vd_load(&q->p[0][lane]), least = vd_set(k->strength.none.least_pressure);
+    const double dt = step->dt;
+    step_end r = { .wanted = volume0 * move->growth };
+    r.volume = vd_min(vd_max(r.wanted, vd_set(k->volume_min)), vd_set(k->volume_max)), r.rho = 1 / r.volume;
+    const vd mu = r.rho * k->volume0 - 1, half = 0.5 * dt * trace(move->end) * r.volume;
+    r.sound = vd_sqrt(wave_speed_square(k, f, r.volume, p0, vd_set(0)));
+    r.q_v = viscosity(k, step, L, tr, r.rho, r.sound);
+    r.e = vd_load(&q->e[0][lane]) + sum->heat - 0.5 * dt * p0 * trace(move->start) * volume0 - half * r.q_v;
+    const vd p_free = pressure(k, f, mu, r.rho, r.e, half);
+    r.torn = vd_less(p_free, least);
+    r.p = vd_max(p_free, least);
+    r.e -= half * r.p;
+    r.T = temperature(k, r.e, vd_where(~(r.torn & vd_less(mu, vd_set(0))), reference_energy(k, f, mu)), vd_set(0));
+    sum->mises_square = vd_set(0);
+    step_store(step, tr, &r, q, lane, sum);
+}
+
+/* Of a solid, which may melt or fail.  The stress power is the mean of its values at the start and at the end, each
+ * with the gradient and the volume there; the pressure is solved with the energy it changes, and a loose point's
+ * tension is removed before that energy; so is the tension in which a point spalls. */
+LANE_INLINE void solid_step(const law *k, law_form f, const step_of *step, const motion *move, block *q, int lane,
+                            bool contact, lane_sums *sum)
 {
     const vd zero = vd_set(0), one = vd_set(1), *L = move->middle, tr = trace(L);
     const double dt = step->dt;
     const vd p0 = vd_load(&q->p[0][lane]), volume0 = 1 / vd_load(&q->rho[0][lane]);
     const vm failed = ~vd_less(vd_load(&q->damage[0][lane]), one), loose = loose_points(k, q, lane);
-    const vd wanted = volume0 * move->growth;
-    const vd volume = vd_min(vd_max(wanted, vd_set(k->volume_min)), vd_set(k->volume_max)), rho = 1 / volume;
+    step_end r = { .wanted = volume0 * move->growth };
+    r.volume = vd_min(vd_max(r.wanted, vd_set(k->volume_min)), vd_set(k->volume_max)), r.rho = 1 / r.volume;
     vd s[6];
     for (int i = 0; i < 6; i++) s[i] = vd_load(&q->s[i][lane]);
 
-    const vd mu = rho * k->volume0 - 1, reference = reference_energy(k, mu);
-    const vd sound = sound_speed(k, volume, p0, failed);
-    const vd q_v = viscosity(k, step, L, tr, rho, sound);
+    const vd mu = r.rho * k->volume0 - 1, reference = reference_energy(k, f, mu);
+    const elastic m = elastic_of(k, f, q, lane, mu, r.rho);
+    r.sound = sound_speed(k, f, m.G, r.volume, p0, failed);
+    r.q_v = viscosity(k, step, L, tr, r.rho, r.sound);
     const vd power_before = (stress_power(s, move->start) - p0 * trace(move->start)) * volume0;
-    predict(k, dt, L, s);
-    const yielding y = radial_return(k, L, tr, q, lane, contact, s);
+    predict(m.G, dt, L, s);
+    const yielding y = radial_return(k, f, &m, L, tr, q, lane, contact, s);
     for (int i = 0; i < 6; i++) vd_store(&q->s[i][lane], s[i]);
 
-    const vd half = 0.5 * dt * trace(move->end) * volume;
-    vd e = vd_load(&q->e[0][lane]) + sum->heat + 0.5 * dt * (power_before + stress_power(s, move->end) * volume) -
-           half * q_v;
-    const vd p_free = pressure(k, mu, rho, e, half);
-    const vm torn = loose & vd_less(p_free, zero), parted = loose & vd_less(p_free, vd_set(-LAW_MELT_TENSION * k->K0));
-    const vd p = vd_select(torn, zero, p_free);
-    e -= half * p;
-    if (k->failure.kind != FAILURE_none && y.any) damage(k, &y, p, q, lane);
+    const vd half = 0.5 * dt * trace(move->end) * r.volume;
+    r.e = vd_load(&q->e[0][lane]) + sum->heat + 0.5 * dt * (power_before + stress_power(s, move->end) * r.volume) -
+          half * r.q_v;
+    const vd p_free = pressure(k, f, mu, r.rho, r.e, half);
+    const vm spalls = vd_less(p_free, vd_set(-k->spall));
+    const vm parted = (loose & vd_less(p_free, vd_set(-LAW_MELT_TENSION * k->K0))) | spalls;
+    r.torn = (loose & vd_less(p_free, zero)) | spalls;
+    r.p = vd_select(r.torn, zero, p_free);
+    r.e -= half * r.p;
+    if (k->failure.kind != FAILURE_none && y.any) damage(k, &y, r.p, q, lane);
     if (vm_bits(parted & ~failed)) vd_store(&q->damage[0][lane], vd_select(parted, one, vd_load(&q->damage[0][lane])));
 
-    const vd stored = y.mises_square * volume * (1 / (6 * k->G)); /* s:s/(4 G rho) */
-    vd T = vd_load(&q->T[0][lane]);
-    const vm dust = (failed | parted) & vd_less(mu, zero); /* was stretched at no cost */
+    const vd stored = y.mises_square * r.volume * m.inv_6G; /* s:s/(4 G rho) */
+    const vm dust = (failed | parted) & vd_less(mu, zero);  /* was stretched at no cost */
+    r.T = vd_load(&q->T[0][lane]);
     if (!k->plastic_heat)
-        T = temperature(k, e, vd_where(~dust, reference), stored);
+        r.T = temperature(k, r.e, vd_where(~dust, reference), stored);
     else if (y.any)
-        T += k->chi * y.mises * y.plastic * volume * k->inv_c;
-    vd_store(&q->T[0][lane], T);
-    vd_store(&q->e[0][lane], e);
-    vd_store(&q->rho[0][lane], rho);
-    vd_store(&q->p[0][lane], p + q_v);
-    sum->rate = zero;
-    for (int i = 0; i < 3; i++) {
-        const vd v = vd_load(&q->v[i][lane]);
-        sum->rate = vd_max(sum->rate, (sound + vd_max(v, -v)) * step->inv_h[i]);
-    }
+        r.T += k->chi * y.mises * y.plastic * r.volume * k->inv_c;
     sum->mises_square = y.mises_square;
-    sum->heat_viscous = -dt * tr * volume * q_v;
-    sum->clamp_p = vd_where(torn, one);
-    sum->clamp_rho = vd_where(vd_less(wanted, volume) | vd_less(volume, wanted), one);
+    step_store(step, tr, &r, q, lane, sum);
+}
+
+/* Stress, energy and temperature of the part of a block that begins with `lane`, over a step.  `contact`: the flow
+ * stress is needed even where nothing flows.  `f`: law_form_of(k, k->kernel). */
+LANE_INLINE void law_step(const law *k, law_form f, const step_of *step, const motion *move, block *q, int lane,
+                          bool contact, lane_sums *sum)
+{
+    if (f.shear == SHEAR_NONE)
+        fluid_step(k, f, step, move, q, lane, sum);
+    else
+        solid_step(k, f, step, move, q, lane, contact, sum);
 }
 
 #endif
