@@ -148,13 +148,9 @@ static status read_case(const options *o, unsigned needs, breech_case **c)
     char *errors = NULL;
     status s = case_read(o->subject, o->sets, o->n_sets, &how, c, &errors);
     if (s.code == STATUS_OK) {
-        const study *y = o->command.study ? study_for(o->command.study, *c) : NULL;
         s = study_prepare(*c);
-        if (s.code == STATUS_OK) s = study_possible(*c, needs);
-        if (s.code == STATUS_OK && y && y->possible) {
-            const study_case of = study_case_of(o, *c);
-            s = y->possible(&of);
-        }
+        const study_case of = study_case_of(o, *c);
+        if (s.code == STATUS_OK) s = study_possible_all(&of, needs);
         if (s.code != STATUS_OK) case_free(*c);
     }
     if (errors)
@@ -270,6 +266,7 @@ static unsigned needs_of(const breech_case *c)
     if (g->projectile && g->scene && (!isnan(c->scene.velocity) || !(needs & CASE_FOR_ONSET))) needs |= CASE_FOR_SCENE;
     if (g->bodies) needs |= CASE_FOR_SCENE;
     if (g->rails) needs |= CASE_FOR_INDUCTANCE;
+    if (g->sweep) needs |= CASE_FOR_SWEEP;
     return needs;
 }
 

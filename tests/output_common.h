@@ -5,6 +5,7 @@
 #include "coupling/study/compare.h"
 #include "coupling/study/inductance.h"
 #include "coupling/study/study.h"
+#include "coupling/study/sweep.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -195,6 +196,7 @@ typedef struct {
     example_study study;
     compare_result compare;
     inductance_result inductance;
+    sweep_result sweep;
     study_answer answer[STUDIES];
 } example_results;
 
@@ -229,6 +231,17 @@ static inline void example_fill(example_results *e)
     e->answer[STUDY_scene].result = &e->scene;
     e->answer[STUDY_onset] = (study_answer){ .result = &e->study.result, .shot = &e->shot };
     e->answer[STUDY_compare] = (study_answer){ .result = &e->compare, .shot = &e->shot };
+    static const summary_pair unit[] = { { "scene.cells_per_radius", "1", NAN }, { "severity", "1", NAN } },
+                              inputs[2][1] = { { { "scene.cells_per_radius", NULL, 2.0 } },
+                                               { { "scene.cells_per_radius", NULL, 3.0 } } },
+                              outputs[2][1] = { { { "severity", NULL, 0.5 } }, { { "severity", NULL, 0.4 } } },
+                              errors[2][1] = { { { "severity", NULL, 0.25 } }, { { "severity", NULL, 0.0 } } };
+    static const sweep_run runs[] = { { 1, 1, 1, inputs[0], outputs[0], errors[0], 2.0 },
+                                      { 1, 1, 1, inputs[1], outputs[1], errors[1], 7.0 } };
+    e->sweep = (sweep_result){
+        .of = "scene", .resolution = "scene.cells_per_radius", .n_units = 2, .n_runs = 2, .units = unit, .run = runs
+    };
+    e->answer[STUDY_sweep].result = &e->sweep;
     e->answer[STUDY_inductance].result = &e->inductance;
 }
 

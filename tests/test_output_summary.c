@@ -21,6 +21,7 @@ static const char *const kind_keys[STUDIES][32] = {
     [STUDY_onset] = { "verdict", "probability_gouge", "threshold_velocity", "threshold_interval", "onset_position",
                       "onset_interval", "scenes_run", "scenes_skipped", "sites", "wall_seconds" },
     [STUDY_compare] = { "ranking" },
+    [STUDY_sweep] = { "of", "resolution", "units", "sweep", "wall_seconds" },
     [STUDY_inductance] = { "L_gradient", "R_gradient", "frequency", "L_gradient_high_frequency" },
 };
 

@@ -28,7 +28,8 @@ enum {
         4, /* the shot, the scene but for its velocity, sites or populations; materials for screen and scene */
     CASE_FOR_INDUCTANCE = 8, /* rails */
     CASE_FOR_COMPARE = 16,   /* with CASE_FOR_ONSET: treatments */
-    CASE_FOR_BODIES = 32     /* takes the place of CASE_FOR_SCENE where `scene` has bodies of its own */
+    CASE_FOR_BODIES = 32,    /* takes the place of CASE_FOR_SCENE where `scene` has bodies of its own */
+    CASE_FOR_SWEEP = 64      /* sweep, and what it runs needs */
 };
 
 /* A layer of the rail's surface, the first in the list at the bottom. */
@@ -232,6 +233,35 @@ typedef struct {
     double smallest_radius; /* grains of a population below it are taken not to gouge [m] */
 } case_study;
 
+/* What `breech sweep` runs (study/study_sweep.c): another study with other values of some keys. */
+enum { CASE_SWEEP_KEYS = 8 };
+
+typedef struct {
+    char value[PARAM_TEXT_SIZE]; /* as written */
+} case_word;
+
+typedef struct {
+    int n;
+    case_word *item; /* n, owned by the case */
+} case_words;
+
+typedef struct {
+    char key[PARAM_TEXT_SIZE]; /* path.to.key, as --set has it */
+    case_words values;
+} case_varied;
+
+typedef struct {
+    int n;
+    case_varied *item; /* n, owned by the case */
+} case_varied_list;
+
+typedef struct {
+    char of[PARAM_TEXT_SIZE]; /* the study that is run */
+    bool together;            /* the lists go on together; else all combinations */
+    case_varied_list vary;
+    case_words read; /* keys of its summary */
+} case_sweep;
+
 typedef struct {
     int snapshots;              /* of one scene, evenly over its time; 0 = none */
     double history_interval;    /* least time between two samples of the shot's history [s]; NAN: every step */
@@ -254,7 +284,7 @@ typedef struct {
 typedef struct {
     bool supplies[SUPPLY_KINDS];
     bool rails, barrel, armature, options, optimise, rail, projectile, particle, sites, populations, treatments, scene,
-        study, output;
+        study, sweep, output;
     bool bodies; /* scene.bodies: then `scene` is not given */
 } case_given;
 
@@ -276,6 +306,7 @@ typedef struct {
     case_scene scene;
     case_bodies bodies;
     case_study study;
+    case_sweep sweep;
     case_output output;
     case_materials materials; /* every material the case names, loaded */
     case_given given;

@@ -140,6 +140,7 @@ static const command_name commands[] = {
     { CASE_FOR_SHOT, "breech shot" },
     { CASE_FOR_SCENE, "breech scene" },
     { CASE_FOR_INDUCTANCE, "breech inductance" },
+    { CASE_FOR_SWEEP, "breech sweep" },
 };
 
 static const char *command_of(unsigned needs)

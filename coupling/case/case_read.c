@@ -336,6 +336,12 @@ static bool is_mistyped(const case_reader *r, const case_section *section, const
 
 /* ---- sections ---- */
 
+/* An entry of a list of words: [a, b] stands for [{value: a}, {value: b}]. */
+static bool is_bare_value(const case_section *section, const tree_node *node)
+{
+    return section->list && node->kind == TREE_TEXT && section->table->key && strcmp(section->table->key, "value") == 0;
+}
+
 /* Does a list of values stand for this key of an entry? */
 static bool is_spread(const case_section *section, const tree_node *value, const param *p)
 {
@@ -415,6 +421,10 @@ static void read_map(case_reader *r, const case_section *section, const tree_nod
 {
     for (const case_section *part = section; part; part = part->also) read_part(r, section, part, map, object, path);
     if (!map) return;
+    if (is_bare_value(section, map)) {
+        case_value_read(r, section->table, map, (char *)object + section->table->offset, path);
+        return;
+    }
     if (map->kind != TREE_MAP && !host_tree_is_empty(map)) {
         case_errors_add(r->errors, map, "%s must be a section: key and value, one a line", path[0] ? path : "the case");
         return;

@@ -256,6 +256,53 @@ static const case_section treatment_children[] = {
     END_OF_SECTIONS,
 };
 
+static const param sweep_params[] = {
+    PARAM_STRING(case_sweep, of, "scene", "the study to run: scene, shot, inductance"),
+    PARAM_BOOL(case_sweep, together, 0, "the lists of values go on together; no: all combinations"),
+    PARAMS_END,
+};
+
+static const param varied_params[] = {
+    PARAM_STRING(case_varied, key, NULL, "key of the case to vary, as --set names it: particle.radius"),
+    PARAMS_END,
+};
+
+/* A list of words: an entry may stand as the value alone. */
+static const param word_params[] = {
+    PARAM_STRING(case_word, value, NULL, "as in a case file; a list in quotes, \"[1, 0, 0]\""),
+    PARAMS_END,
+};
+
+static const case_section varied_children[] = {
+    { .key = "values",
+      .doc = "Its values, a list.",
+      .table = word_params,
+      .offset = offsetof(case_varied, values),
+      .size = sizeof(case_word),
+      .given = NO_FLAG,
+      .list = true },
+    END_OF_SECTIONS,
+};
+
+static const case_section sweep_children[] = {
+    { .key = "vary",
+      .doc = "What is varied, a list of keys with their values.",
+      .table = varied_params,
+      .children = varied_children,
+      .offset = offsetof(case_sweep, vary),
+      .size = sizeof(case_varied),
+      .given = NO_FLAG,
+      .list = true },
+    { .key = "read",
+      .doc = "Numbers of the run's summary to tabulate, a list; not given: its first six.",
+      .table = word_params,
+      .offset = offsetof(case_sweep, read),
+      .size = sizeof(case_word),
+      .given = NO_FLAG,
+      .list = true },
+    END_OF_SECTIONS,
+};
+
 #define PART(key_, member, table_, needed_, doc_)                                             \
     .key = (key_), .doc = (doc_), .table = (table_), .offset = offsetof(breech_case, member), \
     .given = offsetof(breech_case, given.member), .needed_for = (needed_)
@@ -320,6 +367,8 @@ static const case_section sections[] = {
     { SECTION(scene, scene_params, NEED_SCENE, "How an impact scene is built and run."), .size = sizeof(case_scene),
       .unless = "bodies" },
     { SECTION(study, study_params, 0, "The search for where gouging begins."), .size = sizeof(case_study) },
+    { SECTION(sweep, sweep_params, CASE_FOR_SWEEP, "Runs of another study with other values of some keys."),
+      .children = sweep_children, .size = sizeof(case_sweep) },
     { SECTION(output, output_params, 0, "What is written."), .size = sizeof(case_output) },
     { .key = "materials",
       .doc = "Materials given in the case itself, a list: used.yaml has them. They come before the files of "

@@ -161,8 +161,8 @@ static bool has_suffix(const char *name, const char *suffix)
 
 static bool is_ours(const char *name)
 {
-    static const char *const names[] = { OUTDIR_SUMMARY, OUTDIR_HISTORY, OUTDIR_USED, OUTDIR_CHECKPOINT,
-                                         OUTDIR_REPORT };
+    static const char *const names[] = { OUTDIR_SUMMARY,    OUTDIR_HISTORY, OUTDIR_USED,
+                                         OUTDIR_CHECKPOINT, OUTDIR_REPORT,  OUTDIR_SWEEP };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(name, names[i]) == 0) return true;
     return has_suffix(name, ".part") || (strncmp(name, "plot-", 5) == 0 && has_suffix(name, ".svg")) ||

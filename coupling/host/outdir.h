@@ -20,7 +20,8 @@
 #define OUTDIR_USED "used.yaml"
 #define OUTDIR_CHECKPOINT "checkpoint.bin"
 #define OUTDIR_REPORT "report.html"
-#define OUTDIR_STORE "store" /* scenes by key (run/store.h); stays when a run is overwritten */
+#define OUTDIR_SWEEP "sweep.csv" /* of `breech sweep`: its runs, in SI units */
+#define OUTDIR_STORE "store"     /* scenes by key (run/store.h); stays when a run is overwritten */
 
 enum { OUTDIR_PATH_SIZE = 1024 };
 

@@ -32,20 +32,24 @@ static const char *const si_units[] = { "1",   "m",     "s",     "kg",    "m/s",
                                         "N s", "m^2",   "m^3",   "A",     "V",   "W",   "ohm",    "H/m",  "1/s",
                                         "Hz",  "m/s^2", "A^2 s", "ohm/m", "1/m", "rad", "kg/m^3", "J/kg", "rad/s" };
 
-static bool number_in_si(const units *u, const char *text, double *value)
+bool output_number_in_si(const units *u, const char *text, double *value, const char **unit)
 {
-    char unit[UNIT_SIZE];
+    char own[UNIT_SIZE];
     for (size_t i = 0; i < sizeof si_units / sizeof si_units[0]; i++)
-        if (host_quantity_read(u, text, si_units[i], value, unit).code == STATUS_OK) return true;
+        if (host_quantity_read(u, text, si_units[i], value, own).code == STATUS_OK) {
+            *unit = si_units[i];
+            return true;
+        }
     return false;
 }
 
 static status read_number(const comparison *c, const tree_node *entry, const char *key, double *value)
 {
     const tree_node *node = host_tree_find(entry, key);
+    const char *unit;
     *value = NAN;
     if (!node) return status_ok();
-    CHECK(node->kind == TREE_TEXT && number_in_si(c->u, node->text, value), STATUS_BAD_INPUT,
+    CHECK(node->kind == TREE_TEXT && output_number_in_si(c->u, node->text, value, &unit), STATUS_BAD_INPUT,
           "%.200s:%d:%d: %s = %.60s: must be a number with a unit", c->path, node->line, node->column, key,
           node->kind == TREE_TEXT ? node->text : "a list");
     return status_ok();

@@ -14,6 +14,7 @@
 #define BREECH_COUPLING_OUTPUT_EXPECT_H
 
 #include "base/status.h"
+#include "coupling/host/units.h"
 
 #include <stdbool.h>
 
@@ -36,5 +37,8 @@ typedef struct {
  * the list is wrong or not there.  output_expect_free(out) even on error. */
 status output_expect(const char *case_file, const char *dir, expectations *out);
 void output_expect_free(expectations *e);
+
+/* A number with a unit of any of a summary's kinds, in SI; *unit: that.  false: it is none. */
+bool output_number_in_si(const units *u, const char *text, double *value, const char **unit);
 
 #endif

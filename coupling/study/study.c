@@ -21,6 +21,16 @@ const study *study_find(const char *name)
     return NULL;
 }
 
+status study_possible_all(const study_case *of, unsigned needs)
+{
+    TRY(study_possible(of->c, needs));
+    for (int k = 0; k < STUDIES; k++) {
+        const study *y = study_for(study_list[k], of->c);
+        if (y->possible && (needs & y->needs) == y->needs) TRY(y->possible(of));
+    }
+    return status_ok();
+}
+
 report_part study_report_part(const char *name)
 {
     const study *y = study_find(name);

@@ -62,8 +62,10 @@ const study *study_find(const char *name); /* NULL: there is none */
 /* Decides what the case leaves to the program; before all that follows. */
 status study_prepare(breech_case *c);
 
-/* Before anything is written: what only making the scenes can tell, then the study's own.  STATUS_BAD_INPUT. */
+/* Before anything is written: what only making the scenes can tell.  STATUS_BAD_INPUT. */
 status study_possible(const breech_case *c, unsigned needs);
+/* That, and what the studies whose needs are among these say themselves. */
+status study_possible_all(const study_case *of, unsigned needs);
 
 /* The report's part of the study of that name; empty where there is none. */
 report_part study_report_part(const char *name);

@@ -45,13 +45,15 @@ static status run(session *s, const study_case *of, study_answer *out)
         memcpy(probe[i].name, c->bodies.probe[i].name, sizeof probe[i].name);
         probe[i].group = c->bodies.scene.body[c->bodies.probe[i].body].group;
     }
-    const scene_job job = { .name = "scene",
-                            .task = "scene",
+    char name[24];
+    snprintf(name, sizeof name, "%sscene", of->prefix);
+    const scene_job job = { .name = name,
+                            .task = name,
                             .scene = &c->bodies.scene,
                             .snapshots = c->output.snapshots,
                             .checkpoint_interval = c->output.checkpoint_interval,
                             .last_time = c->bodies.scene.end_time,
-                            .resume = run_session_resume_of(s, "scene"),
+                            .resume = run_session_resume_of(s, name),
                             .whole = true };
     const scene_host host = { .dir = &s->dir,
                               .history = s->history,
@@ -101,6 +103,7 @@ const study study_bodies = {
     .more = "",
     .needs = CASE_FOR_SCENE,
     .keys = scene_bodies_keys,
+    .can_vary = true,
     .report = { report_bodies_verdict, report_section_bodies },
     .print = print,
     .run = run,

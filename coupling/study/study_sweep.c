@@ -1,0 +1,651 @@
+/* breech sweep: another study for every combination of values of some keys of the case (section `sweep`).
+ *
+ * A combination is the case file read again with its values set, as --set does it: units, ranges and what follows from
+ * other keys are those of a case file, and every error is told before anything is written.  Scenes of all combinations
+ * are asked for at once, so that they come from the store or run side by side.  Where a varied key is a resolution, the
+ * error of every output against the finest run is listed over the time that the run took. */
+#include "coupling/case/material_file.h"
+#include "coupling/host/table.h"
+#include "coupling/host/words.h"
+#include "coupling/output/expect.h"
+#include "coupling/report/report_gnuplot.h"
+#include "coupling/report/report_page.h"
+#include "coupling/study/sweep.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_RUNS = 2000, MOST_OUTPUTS = 24, USUAL_OUTPUTS = 6, MOST_SETS = 300, SET_SIZE = 2 * PARAM_TEXT_SIZE + 2 };
+
+/* ---- keys ---- */
+
+static const summary_key run_keys[] = {
+    SUMMARY_PAIRS(sweep_run, "inputs", inputs, n_inputs, "varied key: its value, in SI where it is a quantity"),
+    SUMMARY_PAIRS(sweep_run, "outputs", outputs, n_outputs, "key of the run's summary: its value"),
+    SUMMARY_PAIRS(sweep_run, "errors", errors, n_errors,
+                  "of the outputs over those of the finest run; empty: no resolution is varied"),
+    SUMMARY_NUMBER(sweep_run, "wall_seconds", wall_seconds, "s",
+                   "time the run took, in the store's run if it is from there"),
+    SUMMARY_END,
+};
+
+const summary_key study_sweep_keys[] = {
+    SUMMARY_TEXT(sweep_result, "of", of, "the study that was run for every combination"),
+    SUMMARY_TEXT(sweep_result, "resolution", resolution, "the varied key that is a resolution; empty: none is"),
+    SUMMARY_PAIRS(sweep_result, "units", units, n_units, "of inputs and outputs"),
+    SUMMARY_LIST(sweep_result, "sweep", run, n_runs, run_keys, sizeof(sweep_run), "a combination each, keys below"),
+    SUMMARY_NUMBER(sweep_result, "wall_seconds", wall_seconds, "s", "time it took"),
+    SUMMARY_END,
+};
+
+/* ---- the combinations ---- */
+
+static int runs_of(const case_sweep *w)
+{
+    double n = 1.0;
+    if (w->together) return w->vary.item[0].values.n;
+    for (int k = 0; k < w->vary.n; k++) n *= w->vary.item[k].values.n;
+    return n > MOST_RUNS ? MOST_RUNS + 1 : (int)n;
+}
+
+/* Which value the key has in a run; of all combinations the last key changes fastest. */
+static int value_index(const case_sweep *w, int run, int key)
+{
+    if (w->together) return run;
+    for (int k = w->vary.n - 1; k > key; k--) run /= w->vary.item[k].values.n;
+    return run % w->vary.item[key].values.n;
+}
+
+static const char *value_text(const case_sweep *w, int run, int key)
+{
+    return w->vary.item[key].values.item[value_index(w, run, key)].value;
+}
+
+/* "particle.radius = 0.5 mm, scene.friction = 0.1" */
+static void describe(const case_sweep *w, int run, char *out, size_t size)
+{
+    size_t used = 0;
+    out[0] = '\0';
+    for (int k = 0; k < w->vary.n && used < size; k++)
+        used += (size_t)snprintf(out + used, size - used, "%s%s = %s", k ? ", " : "", w->vary.item[k].key,
+                                 value_text(w, run, k));
+}
+
+/* The case with the values of one run. */
+static status read_run(const study_case *of, const study *y, int run, breech_case **out)
+{
+    const case_sweep *w = &of->c->sweep;
+    const char *set[MOST_SETS];
+    char own[CASE_SWEEP_KEYS][SET_SIZE], which[300], *errors = NULL;
+    material_places at;
+    *out = NULL;
+    CHECK(of->n_sets + w->vary.n <= MOST_SETS, STATUS_BAD_INPUT, "sweep: more than %d --set", MOST_SETS - w->vary.n);
+    for (int k = 0; k < of->n_sets; k++) set[k] = of->sets[k];
+    for (int k = 0; k < w->vary.n; k++) {
+        snprintf(own[k], sizeof own[k], "%s=%s", w->vary.item[k].key, value_text(w, run, k));
+        set[of->n_sets + k] = own[k];
+    }
+    case_material_places_find(&at);
+    const case_options how = { .material_dirs = at.dir, .n_material_dirs = at.n, .needs = y->needs };
+    status s = case_read(of->c->path, set, of->n_sets + w->vary.n, &how, out, &errors);
+    free(errors);
+    if (s.code == STATUS_OK) s = study_prepare(*out);
+    if (s.code == STATUS_OK) s = study_possible(*out, y->needs);
+    describe(w, run, which, sizeof which);
+    CHECK(s.code == STATUS_OK, s.code, "sweep, run %d (%s): %.500s", run + 1, which, s.text);
+    return s;
+}
+
+/* ---- before anything is written ---- */
+
+static const char *output_name(const void *keys, int i)
+{
+    for (const summary_key *k = keys; k->name; k++)
+        if (output_number_key(k, k->name) == k && i-- == 0) return k->name;
+    return NULL;
+}
+
+static status check_outputs(const case_sweep *w, const study *y)
+{
+    CHECK(w->read.n <= MOST_OUTPUTS, STATUS_BAD_INPUT, "sweep.read: more than %d keys", MOST_OUTPUTS);
+    for (int k = 0; k < w->read.n; k++) {
+        const char *name = w->read.item[k].value, *near = host_nearest_name(name, output_name, y->keys);
+        CHECK(output_number_key(y->keys, name), STATUS_BAD_INPUT,
+              "sweep.read[%d] = %s: no number of the summary of `breech %s`%s%s%s", k, name, y->name,
+              near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
+    }
+    return status_ok();
+}
+
+static status check_values(const case_sweep *w)
+{
+    CHECK(w->vary.n > 0, STATUS_BAD_INPUT, "sweep.vary is empty: a list of {key: path.to.key, values: [..]}");
+    CHECK(w->vary.n <= CASE_SWEEP_KEYS, STATUS_BAD_INPUT, "sweep.vary: more than %d keys", CASE_SWEEP_KEYS);
+    for (int k = 0; k < w->vary.n; k++) {
+        const case_varied *v = &w->vary.item[k];
+        CHECK(v->values.n > 0, STATUS_BAD_INPUT, "sweep.vary[%d].values is empty: the values of %s", k, v->key);
+        CHECK(strncmp(v->key, "sweep.", 6) != 0, STATUS_BAD_INPUT,
+              "sweep.vary[%d].key = %s: a sweep cannot vary itself", k, v->key);
+        CHECK(!w->together || v->values.n == w->vary.item[0].values.n, STATUS_BAD_INPUT,
+              "sweep.vary[%d].values: %d values, vary[0] has %d; with `together: yes` all have as many", k, v->values.n,
+              w->vary.item[0].values.n);
+    }
+    CHECK(runs_of(w) <= MOST_RUNS, STATUS_BAD_INPUT, "sweep.vary: more than %d combinations", MOST_RUNS);
+    return status_ok();
+}
+
+static status find_study(const breech_case *c, const study **out)
+{
+    const case_sweep *w = &c->sweep;
+    char known[200] = "";
+    *out = study_find(w->of);
+    if (*out) *out = study_for(*out, c);
+    for (int k = 0; k < STUDIES; k++)
+        if (study_list[k]->can_vary)
+            snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", known[0] ? ", " : "",
+                     study_list[k]->name);
+    CHECK(*out && (*out)->can_vary, STATUS_BAD_INPUT, "sweep.of = %s: must be one of %s", w->of, known);
+    return status_ok();
+}
+
+static status possible(const study_case *of)
+{
+    const case_sweep *w = &of->c->sweep;
+    const study *y;
+    TRY(find_study(of->c, &y));
+    TRY(check_values(w));
+    TRY(check_outputs(w, y));
+    for (int i = 0; i < runs_of(w); i++) {
+        breech_case *c;
+        const status s = read_run(of, y, i, &c);
+        case_free(c);
+        TRY(s);
+    }
+    return status_ok();
+}
+
+/* ---- the runs ---- */
+
+typedef struct {
+    sweep_result result; /* borrows the rest */
+    const study *of;
+    int runs, keys, outputs;
+    const summary_key *output[MOST_OUTPUTS];
+    breech_case **c;      /* [runs], owned one by one, as all that follows */
+    study_answer *answer; /* [runs] */
+    char (*prefix)[16];   /* [runs] */
+    sweep_run *run;       /* [runs] */
+    summary_pair *input, *value, *error, *unit;
+} sweep_answer;
+
+static void answer_free(void *owned)
+{
+    sweep_answer *a = owned;
+    if (!a) return;
+    for (int i = 0; a->answer && i < a->runs; i++)
+        if (a->of->free) a->of->free(a->answer[i].owned);
+    for (int i = 0; a->c && i < a->runs; i++) case_free(a->c[i]);
+    void *const all[] = { a->c, a->answer, a->prefix, a->run, a->input, a->value, a->error, a->unit, a };
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) free(all[k]);
+}
+
+/* What `read` names; else the first numbers of the study. */
+static void choose_outputs(const case_sweep *w, sweep_answer *a)
+{
+    for (int k = 0; k < w->read.n; k++) a->output[a->outputs++] = output_number_key(a->of->keys, w->read.item[k].value);
+    for (int k = 0; w->read.n == 0 && k < USUAL_OUTPUTS && output_name(a->of->keys, k); k++)
+        a->output[a->outputs++] = output_number_key(a->of->keys, output_name(a->of->keys, k));
+}
+
+static status make_room(const case_sweep *w, sweep_answer *a)
+{
+    const size_t runs = (size_t)runs_of(w), keys = (size_t)w->vary.n, outputs = (size_t)a->outputs;
+    a->c = calloc(runs, sizeof *a->c);
+    a->answer = calloc(runs, sizeof *a->answer);
+    a->prefix = calloc(runs, sizeof *a->prefix);
+    a->run = calloc(runs, sizeof *a->run);
+    a->input = calloc(runs * keys, sizeof *a->input);
+    a->value = calloc(runs * outputs + 1, sizeof *a->value);
+    a->error = calloc(runs * outputs + 1, sizeof *a->error);
+    a->unit = calloc(keys + outputs, sizeof *a->unit);
+    CHECK(a->c && a->answer && a->prefix && a->run && a->input && a->value && a->error && a->unit, STATUS_MEMORY,
+          "no memory for %zu runs", runs);
+    a->runs = (int)runs;
+    a->keys = (int)keys;
+    return status_ok();
+}
+
+static study_case case_of_run(const sweep_answer *a, int i)
+{
+    return (study_case){ .c = a->c[i], .prefix = a->prefix[i] };
+}
+
+/* The scenes that are certain, of all runs at once: any process may take any of them. */
+static status run_scenes(session *s, const sweep_answer *a)
+{
+    scene_query *query = malloc((size_t)a->runs * sizeof *query);
+    const scene_record **record = malloc((size_t)a->runs * sizeof *record);
+    status done = query && record ? status_ok() : base_status_error(STATUS_MEMORY, "no memory for %d runs", a->runs);
+    int n = 0;
+    for (int i = 0; done.code == STATUS_OK && a->of->scenes && i < a->runs; i++) {
+        const study_case of = case_of_run(a, i);
+        n += a->of->scenes(&of, &query[n]);
+    }
+    if (done.code == STATUS_OK) done = run_scenes_all(s, query, n, record);
+    free(query);
+    free(record);
+    return done;
+}
+
+/* ---- what came out ---- */
+
+static void fill_inputs(const units *u, const case_sweep *w, sweep_answer *a)
+{
+    for (int k = 0; k < a->keys; k++) {
+        const char *unit = NULL;
+        for (int i = 0; i < a->runs; i++) {
+            summary_pair *p = &a->input[i * a->keys + k];
+            *p = (summary_pair){ .name = w->vary.item[k].key, .text = value_text(w, i, k) };
+            if (output_number_in_si(u, p->text, &p->value, &unit)) p->text = NULL;
+        }
+        a->unit[k] = (summary_pair){ .name = w->vary.item[k].key, .text = unit ? unit : "" };
+    }
+    for (int k = 0; k < a->outputs; k++)
+        a->unit[a->keys + k] = (summary_pair){ .name = a->output[k]->name, .text = a->output[k]->unit };
+}
+
+static void fill_run(sweep_answer *a, int i)
+{
+    const summary_key *time = output_number_key(a->of->keys, "wall_seconds");
+    const void *result = a->answer[i].result;
+    for (int k = 0; k < a->outputs; k++)
+        a->value[i * a->outputs + k] =
+            (summary_pair){ .name = a->output[k]->name, .value = output_number_of(a->output[k], result) };
+    a->run[i] = (sweep_run){ .n_inputs = a->keys,
+                             .inputs = a->input + i * a->keys,
+                             .n_outputs = a->outputs,
+                             .outputs = a->value + i * a->outputs,
+                             .errors = a->error + i * a->outputs,
+                             .wall_seconds = time ? output_number_of(time, result) : NAN };
+    a->result.n_runs = i + 1;
+}
+
+/* 1: a larger value is finer, -1: a smaller one, 0: not a resolution. */
+static int finer_by(const char *key)
+{
+    static const struct {
+        const char *end;
+        int by;
+    } ends[] = { { "cells_per_radius", 1 }, { "fineness", 1 }, { "cell", -1 } };
+    for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
+        const size_t n = strlen(key), m = strlen(ends[k].end);
+        if (n >= m && strcmp(key + n - m, ends[k].end) == 0) return ends[k].by;
+    }
+    return 0;
+}
+
+/* The finest run with the other inputs of run i. */
+static int finest_run(const case_sweep *w, const sweep_answer *a, int key, int i)
+{
+    const int by = finer_by(w->vary.item[key].key);
+    int best = i;
+    for (int j = 0; j < a->runs; j++) {
+        bool alike = true;
+        for (int k = 0; k < a->keys && !w->together; k++)
+            alike = alike && (k == key || value_index(w, i, k) == value_index(w, j, k));
+        const double now = a->input[j * a->keys + key].value, then = a->input[best * a->keys + key].value;
+        if (alike && by * now > by * then) best = j;
+    }
+    return best;
+}
+
+static void fill_errors(const case_sweep *w, sweep_answer *a)
+{
+    int key = 0;
+    while (key < a->keys && !finer_by(w->vary.item[key].key)) key++;
+    if (key == a->keys) return;
+    snprintf(a->result.resolution, sizeof a->result.resolution, "%s", w->vary.item[key].key);
+    for (int i = 0; i < a->runs; i++) {
+        const int finest = finest_run(w, a, key, i);
+        for (int k = 0; k < a->outputs; k++) {
+            const double exact = a->value[finest * a->outputs + k].value;
+            a->error[i * a->outputs + k] =
+                (summary_pair){ .name = a->output[k]->name,
+                                .value = fabs(a->value[i * a->outputs + k].value - exact) / fabs(exact) };
+        }
+        a->run[i].n_errors = a->outputs;
+    }
+}
+
+/* ---- sweep.csv ---- */
+
+static void csv_title(FILE *out, const summary_pair *unit, bool first)
+{
+    const bool bare = !unit->text[0] || strcmp(unit->text, "1") == 0;
+    fprintf(out, "%s%s%s%s%s", first ? "" : ",", unit->name, bare ? "" : " [", bare ? "" : unit->text, bare ? "" : "]");
+}
+
+static void csv_value(FILE *out, const summary_pair *p, bool first)
+{
+    if (!first) fputc(',', out);
+    if (p->text)
+        fprintf(out, "\"%s\"", p->text);
+    else if (isfinite(p->value))
+        fprintf(out, "%.15g", p->value);
+}
+
+static status write_csv(const session *s, const sweep_answer *a)
+{
+    char path[OUTDIR_PATH_SIZE];
+    file_writer w;
+    TRY(host_outdir_file(&s->dir, OUTDIR_SWEEP, path, sizeof path));
+    TRY(host_file_begin(&w, path));
+    for (int k = 0; k < a->result.n_units; k++) csv_title(w.stream, &a->result.units[k], k == 0);
+    fputs(",wall_seconds [s]\n", w.stream);
+    for (int i = 0; i < a->result.n_runs; i++) {
+        for (int k = 0; k < a->keys; k++) csv_value(w.stream, &a->run[i].inputs[k], k == 0);
+        for (int k = 0; k < a->outputs; k++) csv_value(w.stream, &a->run[i].outputs[k], false);
+        csv_value(w.stream, &(summary_pair){ .value = a->run[i].wall_seconds }, false);
+        fputc('\n', w.stream);
+    }
+    return host_file_end(&w, true);
+}
+
+/* ---- the whole ---- */
+
+static status sweep(session *s, const study_case *of, sweep_answer *a)
+{
+    const case_sweep *w = &of->c->sweep;
+    units *u;
+    TRY(find_study(of->c, &a->of));
+    choose_outputs(w, a);
+    TRY(make_room(w, a));
+    TRY(host_units_open(&u));
+    fill_inputs(u, w, a);
+    host_units_close(u);
+    a->result.n_units = a->keys + a->outputs;
+    a->result.units = a->unit;
+    a->result.run = a->run;
+    snprintf(a->result.of, sizeof a->result.of, "%s", a->of->name);
+    for (int i = 0; i < a->runs; i++) {
+        snprintf(a->prefix[i], sizeof a->prefix[i], "s%d-", i + 1);
+        TRY(read_run(of, a->of, i, &a->c[i]));
+    }
+    TRY(run_scenes(s, a));
+    for (int i = 0; i < a->runs; i++) {
+        const study_case one = case_of_run(a, i);
+        TRY(a->of->run(s, &one, &a->answer[i]));
+        fill_run(a, i);
+    }
+    fill_errors(w, a);
+    return status_ok();
+}
+
+static status run(session *s, const study_case *of, study_answer *out)
+{
+    sweep_answer *a = out->owned = calloc(1, sizeof *a);
+    CHECK(a, STATUS_MEMORY, "no memory for a sweep");
+    const status done = sweep(s, of, a);
+    a->result.wall_seconds = run_session_wall(s);
+    out->result = &a->result;
+    const status written = write_csv(s, a);
+    return done.code == STATUS_OK ? written : done;
+}
+
+/* ---- for people ---- */
+
+static void add_cell(char *row, size_t size, const summary_pair *p)
+{
+    char number[24];
+    snprintf(row + strlen(row), size - strlen(row), "%s%s", row[0] ? "|" : "",
+             p->text ? p->text : output_cell(p->value, 1.0, "%.5g", number));
+}
+
+static void add_title(char *row, size_t size, const summary_pair *unit)
+{
+    const bool bare = !unit->text[0] || strcmp(unit->text, "1") == 0;
+    snprintf(row + strlen(row), size - strlen(row), "%s%s%s%s%s", row[0] ? "|" : "", unit->name, bare ? "" : " [",
+             bare ? "" : unit->text, bare ? "" : "]");
+}
+
+enum { ROW_SIZE = 64 * (CASE_SWEEP_KEYS + MOST_OUTPUTS + 2) };
+
+/* A run a line: its inputs, its outputs or their errors, its time. */
+static void print_runs(const sweep_result *r, bool errors, FILE *out)
+{
+    char row[ROW_SIZE] = "";
+    table *t;
+    const int inputs = r->n_runs > 0 ? r->run[0].n_inputs : 0;
+    for (int k = 0; k < r->n_units; k++)
+        add_title(row, sizeof row, errors && k >= inputs ? &(summary_pair){ r->units[k].name, "", NAN } : &r->units[k]);
+    add_title(row, sizeof row, &(summary_pair){ "time", "s", NAN });
+    if (r->n_runs == 0 || host_table_create(row, &t).code != STATUS_OK) return;
+    for (int i = 0; i < r->n_runs; i++) {
+        const sweep_run *run = &r->run[i];
+        row[0] = '\0';
+        for (int k = 0; k < run->n_inputs; k++) add_cell(row, sizeof row, &run->inputs[k]);
+        for (int k = 0; k < run->n_outputs; k++) add_cell(row, sizeof row, errors ? &run->errors[k] : &run->outputs[k]);
+        add_cell(row, sizeof row, &(summary_pair){ .value = run->wall_seconds });
+        host_table_row(t, "%s", row);
+    }
+    host_table_print(t, out);
+    host_table_free(t);
+}
+
+static void print(const void *result, FILE *out)
+{
+    const sweep_result *r = result;
+    print_runs(r, false, out);
+    if (!r->resolution[0]) return;
+    fprintf(out, "\nerror against the finest %s:\n", r->resolution);
+    print_runs(r, true, out);
+}
+
+/* ---- the report's part ---- */
+
+static const cJSON *member(const cJSON *object, const char *key)
+{
+    return cJSON_GetObjectItemCaseSensitive(object, key);
+}
+
+static void html_value(FILE *out, const cJSON *value)
+{
+    if (cJSON_IsString(value)) {
+        fputs("<td class=\"text\">", out);
+        report_page_escaped(out, value->valuestring);
+    } else {
+        fputs("<td>", out);
+        report_page_number(out, cJSON_IsNumber(value) ? value->valuedouble : NAN, 1.0, "");
+    }
+    fputs("</td>", out);
+}
+
+/* A run a row: its inputs, the object `what`, its time. */
+static void html_table(const page *p, const char *what)
+{
+    const cJSON *run, *item, *runs = member(p->source->summary, "sweep");
+    fputs("<div class=\"wide\"><table><tr>", p->out);
+    cJSON_ArrayForEach(item, member(p->source->summary, "units"))
+    {
+        fputs("<th>", p->out);
+        report_page_escaped(p->out, item->string);
+        const bool bare = !cJSON_IsString(item) || !item->valuestring[0] || strcmp(item->valuestring, "1") == 0;
+        const bool error = strcmp(what, "errors") == 0 && !member(member(runs->child, "inputs"), item->string);
+        if (!bare && !error) {
+            fputs(" [", p->out);
+            report_page_escaped(p->out, item->valuestring);
+            fputs("]", p->out);
+        }
+        fputs("</th>", p->out);
+    }
+    fputs("<th>time [s]</th></tr>\n", p->out);
+    cJSON_ArrayForEach(run, runs)
+    {
+        fputs("<tr>", p->out);
+        cJSON_ArrayForEach(item, member(run, "inputs")) html_value(p->out, item);
+        cJSON_ArrayForEach(item, member(run, what)) html_value(p->out, item);
+        html_value(p->out, member(run, "wall_seconds"));
+        fputs("</tr>\n", p->out);
+    }
+    fputs("</table></div>\n", p->out);
+}
+
+/* One curve: what is drawn over what, of the runs whose other inputs are those of `alike`; NULL: of all. */
+typedef struct {
+    const char *object, *key; /* y; x is the time, or the first input where over_time is not set */
+    bool over_time;
+} curve;
+
+static double x_of(const cJSON *run, const curve *c)
+{
+    const cJSON *x = c->over_time ? member(run, "wall_seconds") : member(run, "inputs")->child;
+    return cJSON_IsNumber(x) ? x->valuedouble : NAN;
+}
+
+static bool same_others(const cJSON *a, const cJSON *b)
+{
+    const cJSON *x = member(a, "inputs")->child->next, *y = member(b, "inputs")->child->next;
+    for (; x && y; x = x->next, y = y->next)
+        if (!cJSON_Compare(x, y, true)) return false;
+    return true;
+}
+
+static void print_words(FILE *script, const char *text)
+{
+    for (; *text; text++)
+        if (*text != '\'' && *text != '\\' && (unsigned char)*text >= ' ') fputc(*text, script);
+}
+
+/* What sets a curve apart from the others: its further inputs. */
+static void print_others(FILE *script, const cJSON *run)
+{
+    for (const cJSON *x = member(run, "inputs")->child->next; x; x = x->next) {
+        print_words(script, x->string);
+        if (cJSON_IsNumber(x))
+            fprintf(script, " %.4g ", x->valuedouble);
+        else
+            fputs(" ", script), print_words(script, x->valuestring ? x->valuestring : "");
+    }
+}
+
+/* The data blocks of all curves; how many there are, *points in all. */
+static int curve_data(FILE *script, const cJSON *runs, const curve *c, int *points, const cJSON *first[], int most)
+{
+    const cJSON *run;
+    int n = 0;
+    *points = 0;
+    cJSON_ArrayForEach(run, runs)
+    {
+        int k = 0;
+        while (k < n && !same_others(first[k], run)) k++;
+        if (k == n && n < most) first[n++] = run;
+    }
+    for (int k = 0; k < n; k++) {
+        fprintf(script, "$curve%d << EOD\n", k);
+        cJSON_ArrayForEach(run, runs)
+        {
+            const double x = x_of(run, c), y = report_number(member(run, c->object), c->key);
+            if (!same_others(first[k], run) || !isfinite(x) || !isfinite(y) || (c->over_time && y <= 0.0)) continue;
+            fprintf(script, "%.9g %.9g\n", x, y);
+            (*points)++;
+        }
+        fputs("EOD\n", script);
+    }
+    return n;
+}
+
+static const char *unit_of(const report_source *r, const char *key)
+{
+    return report_text(member(r->summary, "units"), key);
+}
+
+static void axis_label(const report_source *r, FILE *script, const char *axis, const char *key)
+{
+    const char *unit = unit_of(r, key);
+    fprintf(script, "set %slabel '", axis);
+    print_words(script, key);
+    if (unit[0] && strcmp(unit, "1") != 0) {
+        fputs(" [", script);
+        print_words(script, unit);
+        fputs("]", script);
+    }
+    fputs("'\n", script);
+}
+
+static status plot_curve(const report_source *r, const char *name, const curve *c, bool *drawn)
+{
+    enum { MOST_CURVES = 12 };
+    const cJSON *runs = member(r->summary, "sweep"), *first[MOST_CURVES];
+    const char *input = member(runs->child, "inputs")->child->string;
+    plot p;
+    int points;
+    *drawn = false;
+    if (!r->gnuplot) return status_ok();
+    TRY(report_plot_begin(&p, r, name, 560, 380));
+    const int n = curve_data(p.script, runs, c, &points, first, MOST_CURVES);
+    if (c->over_time) {
+        fputs("set logscale xy\nset xlabel 'time of the run [s]'\nset ylabel 'error of ", p.script);
+        print_words(p.script, c->key);
+        fputs("'\n", p.script);
+    } else {
+        axis_label(r, p.script, "x", input);
+        axis_label(r, p.script, "y", c->key);
+    }
+    fputs("set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n", p.script);
+    for (int k = 0; k < n && points > 0; k++) {
+        fprintf(p.script, "%s$curve%d using 1:2 with linespoints pt 7 ps 0.7 lw 1.5 title '", k ? ", " : "plot ", k);
+        print_others(p.script, first[k]);
+        fputs("'", p.script);
+    }
+    fputs("\n", p.script);
+    TRY(report_plot_end(&p));
+    *drawn = points > 0;
+    return status_ok();
+}
+
+static void draw_curves(const page *p, const char *object, bool over_time, const char *prefix)
+{
+    enum { MOST_PLOTS = 8 };
+    const cJSON *item;
+    int n = 0;
+    fputs("<div class=\"plots\">\n", p->out);
+    cJSON_ArrayForEach(item, member(member(p->source->summary, "sweep")->child, object))
+    {
+        char name[32];
+        bool drawn;
+        if (n++ == MOST_PLOTS) break;
+        snprintf(name, sizeof name, "%s-%d", prefix, n);
+        const status s = plot_curve(p->source, name, &(curve){ object, item->string, over_time }, &drawn);
+        if (drawn) report_page_plot(p, name, "");
+        if (s.code != STATUS_OK) report_page_paragraph(p, "missing", s.text);
+    }
+    fputs("</div>\n", p->out);
+}
+
+static void section(const page *p)
+{
+    const cJSON *summary = p->source->summary;
+    if (cJSON_GetArraySize(member(summary, "sweep")) == 0) return;
+    report_page_heading(p, "The sweep");
+    draw_curves(p, "outputs", false, "sweep");
+    html_table(p, "outputs");
+    if (!report_text(summary, "resolution")[0]) return;
+    report_page_heading(p, "Error against run time");
+    draw_curves(p, "errors", true, "error");
+    html_table(p, "errors");
+}
+
+const study study_sweep = {
+    .name = "sweep",
+    .doc = "a scene or a shot for many values of some keys",
+    .more =
+        "Needs the section sweep, and what the study that it runs needs.  All errors are told before anything runs.",
+    .needs = CASE_FOR_SWEEP,
+    .keys = study_sweep_keys,
+    .report = { NULL, section },
+    .print = print,
+    .possible = possible,
+    .run = run,
+    .free = answer_free,
+};

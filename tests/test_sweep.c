@@ -1,0 +1,187 @@
+/* breech sweep: every combination of the varied keys, each the same as a run of its own; errors before anything is
+ * written; the error against the finest run. */
+#include "coupling/host/file_text.h"
+#include "coupling/host/outdir.h"
+#include "coupling/study/study.h"
+#include "tests/output_common.h"
+
+#include <cJSON.h>
+#include <sys/wait.h>
+
+#define SHOT_CASE BREECH_TESTS "/../cases/pulse_unit_200kJ"
+#define SCENE_CASE BREECH_TESTS "/../cases/sweep"
+/* The shipped case made as short as it can be: what is tested is the sweep, not the scene. */
+#define SHORT "--set scene.end_time='0.2 us' --set 'sweep.vary[0].values=[1, 1.2]' "
+
+static int run(const char *arguments)
+{
+    char command[2000];
+    snprintf(command, sizeof command, "%s %s >out.txt 2>err.txt", BREECH_PROGRAM, arguments);
+    const int code = system(command);
+    return WIFEXITED(code) ? WEXITSTATUS(code) : -1;
+}
+
+static cJSON *summary_of(const char *dir)
+{
+    char path[300], *text;
+    snprintf(path, sizeof path, "%s/summary.json", dir);
+    OK(host_file_read(path, &text, NULL));
+    cJSON *root = cJSON_Parse(text);
+    assert_non_null(root);
+    free(text);
+    return root;
+}
+
+static double number_in(const cJSON *object, const char *key)
+{
+    const cJSON *value = cJSON_GetObjectItemCaseSensitive(object, key);
+    if (!cJSON_IsNumber(value)) fail_msg("no number `%s`", key);
+    return value->valuedouble;
+}
+
+static const cJSON *run_at(const cJSON *summary, int i, const char *object)
+{
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(summary, "sweep");
+    return cJSON_GetObjectItemCaseSensitive(cJSON_GetArrayItem(list, i), object);
+}
+
+/* Each output is, to the last bit, that of a run of its own. */
+static void test_as_runs_of_their_own(void **state)
+{
+    (void)state;
+    static const char *const charge[] = { "8 kV", "9.5 kV" }, *const mass[] = { "1 kg", "2000 g", "3 kg" };
+    assert_int_equal(
+        run("sweep " SHOT_CASE " -o sweep --force --quiet --set sweep=\"{of: shot, vary: ["
+            "{key: bank.charge, values: [8 kV, 9.5 kV]}, {key: armature.mass, values: [1 kg, 2000 g, 3 kg]}],"
+            " read: [peak_current, action, steps]}\""),
+        0);
+    cJSON *all = summary_of("sweep");
+    assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItem(all, "sweep")), 6);
+    for (int i = 0; i < 6; i++) {
+        char arguments[400];
+        snprintf(arguments, sizeof arguments,
+                 "shot " SHOT_CASE " -o one --force --quiet --set bank.charge='%s' --set armature.mass='%s'",
+                 charge[i / 3], mass[i % 3]); /* the last key changes fastest */
+        assert_int_equal(run(arguments), 0);
+        cJSON *one = summary_of("one");
+        const cJSON *output;
+        assert_int_equal(cJSON_GetArraySize(run_at(all, i, "outputs")), 3);
+        cJSON_ArrayForEach(output, run_at(all, i, "outputs"))
+            assert_true(output->valuedouble == number_in(one, output->string));
+        assert_true(number_in(run_at(all, i, "inputs"), "bank.charge") == (i < 3 ? 8000.0 : 9500.0));
+        assert_true(number_in(run_at(all, i, "inputs"), "armature.mass") == 1.0 + i % 3); /* in SI: 2000 g too */
+        assert_int_equal(cJSON_GetArraySize(run_at(all, i, "errors")), 0);                /* no resolution is varied */
+        cJSON_Delete(one);
+    }
+    assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(cJSON_GetObjectItem(all, "units"), "bank.charge")),
+                        "V");
+    cJSON_Delete(all);
+}
+
+/* The lists side by side; a text stays a text; without `read` the first numbers of the study. */
+static void test_together(void **state)
+{
+    (void)state;
+    assert_int_equal(run("sweep " SHOT_CASE " -o sweep --force --quiet --set sweep=\"{of: shot, together: yes, vary: ["
+                         "{key: bank.charge, values: [8 kV, 9 kV]}, {key: name, values: [low, high]}]}\""),
+                     0);
+    cJSON *all = summary_of("sweep");
+    assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItem(all, "sweep")), 2);
+    assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(run_at(all, 1, "inputs"), "name")), "high");
+    assert_true(number_in(run_at(all, 1, "inputs"), "bank.charge") == 9000.0);
+    assert_int_equal(cJSON_GetArraySize(run_at(all, 0, "outputs")), 6);
+    assert_non_null(cJSON_GetObjectItem(run_at(all, 0, "outputs"), "peak_current"));
+    cJSON_Delete(all);
+}
+
+/* What is wrong is said, with its value, before there is a folder. */
+static void test_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *sweep, *says;
+    } wrong[] = {
+        { "{of: shot, vary: [{key: bank.charge, values: [8 kV, -1 kV]}]}", "run 2 (bank.charge = -1 kV)" },
+        { "{of: shot, vary: [{key: bank.charge, values: [8 kg]}]}", "is not a unit of V" },
+        { "{of: shot, vary: [{key: bank.charg, values: [8 kV]}]}", "did you mean `charge`?" },
+        { "{of: shot, vary: [{key: bank.charge, values: [8 kV]}], read: [peak_curent]}",
+          "did you mean `peak_current`?" },
+        { "{of: onset, vary: [{key: bank.charge, values: [8 kV]}]}", "must be one of shot, scene, inductance" },
+        { "{of: shot, together: yes, vary: [{key: bank.charge, values: [1 kV, 2 kV]}, {key: armature.mass, values: "
+          "[1 kg]}]}",
+          "1 values, vary[0] has 2" },
+        { "{of: shot, vary: [{key: bank.charge, values: []}]}", "values is empty" },
+        { "{of: shot}", "sweep.vary is empty" },
+        { "{of: shot, vary: [{key: sweep.of, values: [scene]}]}", "cannot vary itself" },
+        { "{of: shot, vary: [{values: [1]}]}", "sweep.vary[0].key is missing" },
+        { "{of: scene, vary: [{key: bank.charge, values: [8 kV]}]}", "`breech scene` needs it" },
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        char arguments[600], *text;
+        snprintf(arguments, sizeof arguments, "sweep " SHOT_CASE " -o nothing --set sweep=\"%s\"", wrong[i].sweep);
+        assert_int_equal(run(arguments), 2);
+        OK(host_file_read("err.txt", &text, NULL));
+        if (!strstr(text, wrong[i].says)) fail_msg("%s: %s", wrong[i].sweep, text);
+        free(text);
+        assert_int_equal(access("nothing", F_OK), -1);
+        snprintf(arguments, sizeof arguments, "check " SHOT_CASE " --set sweep=\"%s\"", wrong[i].sweep);
+        assert_int_equal(run(arguments), 2); /* check says the same */
+    }
+    assert_int_equal(run("sweep " SHOT_CASE " -o nothing"), 2);
+    char *text;
+    OK(host_file_read("err.txt", &text, NULL));
+    assert_non_null(strstr(text, "section `sweep` is missing"));
+    free(text);
+}
+
+/* The varied key is a resolution: errors are those against the finest run of the same other inputs. */
+static void test_resolution(void **state)
+{
+    (void)state;
+    fresh_folder("cells_store");
+    assert_int_equal(run("sweep " SCENE_CASE " " SHORT "-o cells --force --store cells_store"), 0);
+    cJSON *all = summary_of("cells");
+    assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(all, "resolution")), "scene.cells_per_radius");
+    for (int i = 0; i < 4; i++) {
+        const int finest = i % 2 + 2; /* the speed changes fastest */
+        const double y = number_in(run_at(all, i, "outputs"), "peak_pressure"),
+                     exact = number_in(run_at(all, finest, "outputs"), "peak_pressure");
+        assert_true(number_in(run_at(all, i, "errors"), "peak_pressure") == fabs(y - exact) / fabs(exact));
+        assert_true((number_in(run_at(all, i, "errors"), "peak_pressure") == 0.0) == (i >= 2));
+    }
+    char *text;
+    OK(host_file_read("out.txt", &text, NULL));
+    assert_non_null(strstr(text, "error against the finest scene.cells_per_radius"));
+    free(text);
+    OK(host_file_read("cells/report.html", &text, NULL));
+    assert_non_null(strstr(text, "Error against run time"));
+    assert_non_null(strstr(text, "scene.velocity [m/s]"));
+    free(text);
+    OK(host_file_read("cells/sweep.csv", &text, NULL));
+    assert_int_equal(strncmp(text, "scene.cells_per_radius,scene.velocity [m/s],peak_pressure [Pa],", 63), 0);
+    int lines = 0;
+    for (const char *c = text; *c; c++) lines += *c == '\n';
+    assert_int_equal(lines, 1 + 4);
+    free(text);
+    /* again, from the store: the same numbers, and no scene is computed */
+    assert_int_equal(files_in("cells_store", ".h5"), 4);
+    assert_int_equal(run("sweep " SCENE_CASE " " SHORT "-o again --force --store cells_store"), 0);
+    OK(host_file_read("out.txt", &text, NULL));
+    assert_null(strstr(text, "scene steps"));
+    free(text);
+    cJSON *again = summary_of("again");
+    assert_true(cJSON_Compare(cJSON_GetObjectItem(all, "sweep"), cJSON_GetObjectItem(again, "sweep"), true));
+    cJSON_Delete(all);
+    cJSON_Delete(again);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_as_runs_of_their_own),
+        cmocka_unit_test(test_together),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_resolution),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
