@@ -57,6 +57,17 @@ static status check_pairs(const mpm_scene *s, int groups)
     return status_ok();
 }
 
+static status check_probes(const mpm_scene *s)
+{
+    for (int i = 0; i < s->probes; i++) {
+        TRY(mpm_probe_check(&s->probe[i], s->bodies));
+        for (int j = 0; j < i; j++)
+            CHECK(strcmp(s->probe[i].name, s->probe[j].name) != 0, STATUS_BAD_INPUT, "two probes are named `%s`",
+                  s->probe[i].name);
+    }
+    return status_ok();
+}
+
 static status check_scene(const mpm_scene *s)
 {
     const int groups = mpm_scene_groups(s);
@@ -72,7 +83,8 @@ static status check_scene(const mpm_scene *s)
     TRY(base_params_check(mpm_follow_params, &s->follow, "follow"));
     CHECK(s->follow.along != s->follow.across, STATUS_BAD_INPUT, "follow: along and across are the same axis");
     for (int i = 0; i < s->bodies; i++) TRY(check_body(s, i, groups));
-    return check_pairs(s, groups);
+    TRY(check_pairs(s, groups));
+    return check_probes(s);
 }
 
 static void particle_make(double *q, const build_point *p, const law *k, double temperature)
@@ -82,6 +94,8 @@ static void particle_make(double *q, const build_point *p, const law *k, double 
         q[FIRST_v + i] = p->v[i];
         q[FIRST_half + i] = p->half[i];
     }
+    memcpy(q + FIRST_L, p->L, sizeof p->L);
+    q[FIRST_ka] = p->ka;
     q[FIRST_rho] = k->rho_start;
     q[FIRST_e] = k->e_start;
     q[FIRST_flow] = k->flow_start;
@@ -168,8 +182,9 @@ static double first_rate(const mpm *m)
     for (int i = 0; i < m->scene.bodies; i++) {
         const law *k = &m->laws[i];
         const double sound = sqrt((k->K0 + 4.0 / 3.0 * k->G) / k->rho0);
+        const double spin = mpm_build_spin_speed(&m->scene, i), *v = m->scene.body[i].velocity;
         for (int q = 0; q < 3; q++)
-            fastest = fmax(fastest, (sound + fabs(m->scene.body[i].velocity[q])) / m->grids.level[0].axes[q].smallest);
+            fastest = fmax(fastest, (sound + fabs(v[q]) + spin) / m->grids.level[0].axes[q].smallest);
     }
     return fastest;
 }

@@ -19,7 +19,7 @@ static status grow(void **array, int n, size_t size)
 {
     if (n & (n - 1)) return status_ok(); /* n is no power of two, nor 0 */
     void *more = realloc(*array, (n ? 2 * (size_t)n : 1) * size);
-    CHECK(more, STATUS_MEMORY, "no memory for a scene of more than %d bodies, solids or pairs", n);
+    CHECK(more, STATUS_MEMORY, "no memory for a scene of more than %d bodies, solids, pairs or probes", n);
     *array = more;
     return status_ok();
 }
@@ -48,6 +48,18 @@ status mpm_scene_add_solid(mpm_scene *s, const char *kind, int a, int b, mpm_sol
     for (int i = 0; i < MPM_SOLID_PARTS; i++)
         if (part[i] >= 0) (*added)->part[i] = s->solids - part[i];
     s->solids++;
+    return status_ok();
+}
+
+status mpm_scene_add_probe(mpm_scene *s, const char *kind, const char *name, mpm_probe **added)
+{
+    void *array = s->probe;
+    const mpm_probe_kind *k = mpm_probe_kind_find(kind);
+    CHECK(k, STATUS_BAD_INPUT, "probe `%s`: `%s` is no kind of probe", name, kind);
+    TRY(grow(&array, s->probes, sizeof *s->probe));
+    s->probe = array;
+    *added = &s->probe[s->probes++];
+    **added = mpm_probe_make(k, name);
     return status_ok();
 }
 
@@ -100,16 +112,17 @@ static status duplicate(const void *from, int n, size_t size, void **to)
 
 status mpm_scene_copy(const mpm_scene *from, mpm_scene *to)
 {
-    void *body = NULL, *solid = NULL, *pair = NULL;
+    void *body = NULL, *solid = NULL, *pair = NULL, *probe = NULL;
     status s = duplicate(from->body, from->bodies, sizeof *from->body, &body);
     if (s.code == STATUS_OK) s = duplicate(from->solid, from->solids, sizeof *from->solid, &solid);
     if (s.code == STATUS_OK) s = duplicate(from->pair, from->pairs, sizeof *from->pair, &pair);
+    if (s.code == STATUS_OK) s = duplicate(from->probe, from->probes, sizeof *from->probe, &probe);
     if (s.code != STATUS_OK) {
-        free(body), free(solid);
+        free(body), free(solid), free(pair);
         return s;
     }
     *to = *from;
-    to->body = body, to->solid = solid, to->pair = pair;
+    to->body = body, to->solid = solid, to->pair = pair, to->probe = probe;
     return s;
 }
 
@@ -118,5 +131,6 @@ void mpm_scene_free(mpm_scene *s)
     free(s->body);
     free(s->solid);
     free(s->pair);
+    free(s->probe);
     memset(s, 0, sizeof *s);
 }

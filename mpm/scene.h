@@ -13,6 +13,7 @@
 
 #include "base/status.h"
 #include "mpm/material.h"
+#include "mpm/read/probe.h"
 #include "mpm/shape/solid.h"
 
 #include <stdbool.h>
@@ -29,7 +30,8 @@ typedef struct {
     int group;            /* bodies of one group have one velocity field and are welded; groups touch by contact.
                            Numbered from 0 without gaps.  Where bodies of any group overlap, the later body has the
                            points. */
-    double velocity[3];   /* at the start [m/s] */
+    double velocity[3];   /* of its centre of mass at the start [m/s] */
+    double spin[3];       /* at the start: v = velocity + spin x (x - centre of mass) [rad/s] */
     double temperature;   /* at the start [K] */
     double body_force[3]; /* acceleration on the whole body (J x B, pressing) [m/s2] */
     double traction[3];   /* on all of its surface that looks towards `traction_face` [Pa]; zero = none */
@@ -95,10 +97,11 @@ typedef enum { TRANSFER_TPIC, TRANSFER_PIC } transfer_kind; /* with and without 
 typedef enum { BASIS_GIMP, BASIS_BSPLINE } basis_kind; /* GIMP whose domains follow the stretch; quadratic B-spline */
 
 typedef struct {
-    int bodies, solids, pairs;
+    int bodies, solids, pairs, probes;
     mpm_body *body;      /* [bodies] owned; later bodies have the points that several claim */
-    mpm_solid *solid;    /* [solids] owned; trees of the bodies\' volumes (shape/solid.h) */
+    mpm_solid *solid;    /* [solids] owned; trees of the bodies' volumes (shape/solid.h) */
     mpm_pair *pair;      /* [pairs] owned; each two groups at most once */
+    mpm_probe *probe;    /* [probes] owned; what is read while the scene runs, which changes nothing of it */
     mpm_contact contact; /* of two groups that no pair names, with the normal of the lower one */
     mpm_axis axis[3];
     /* Of nested grids (grid.h).  1: the axes' grid.  More: in the box of the three fine zones cells of size `fine`;
@@ -124,6 +127,8 @@ void mpm_scene_default(mpm_scene *s);
  * A solid is made of those at the places a and b (-1: none); its own place is s->solids - 1. */
 status mpm_scene_add_body(mpm_scene *s, mpm_body **added);
 status mpm_scene_add_solid(mpm_scene *s, const char *kind, int a, int b, mpm_solid **added);
+/* One more probe, with its values at their defaults, of no body. */
+status mpm_scene_add_probe(mpm_scene *s, const char *kind, const char *name, mpm_probe **added);
 status mpm_scene_add_pair(mpm_scene *s, int a, int b, mpm_pair **added); /* as the scene's default contact */
 
 /* How these two groups touch: the scene's pair, or what holds for those without one. */

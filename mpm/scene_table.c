@@ -30,6 +30,7 @@ const param mpm_body_params[] = {
     PARAM_INT(mpm_body, solid, -1, 0, 1e9, "root of its volume among the scene's solids"),
     PARAM_INT(mpm_body, group, 0, 0, 1e9, "bodies of one group have one velocity field"),
     PARAM_VEC3(mpm_body, velocity, "m/s", 0.0, -1e6, 1e6, "at the start"),
+    PARAM_VEC3(mpm_body, spin, "rad/s", 0.0, -1e9, 1e9, "at the start, about its centre of mass"),
     PARAM_DOUBLE(mpm_body, temperature, "K", 293.0, 0.0, 1e5, "at the start"),
     PARAM_VEC3(mpm_body, body_force, "m/s^2", 0.0, -1e15, 1e15, "acceleration of the whole body"),
     PARAM_VEC3(mpm_body, traction, "Pa", 0.0, -1e15, 1e15, "on its surface towards traction_face"),

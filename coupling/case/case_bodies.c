@@ -51,6 +51,7 @@ static const param axis_params[] = {
 const param case_body_params[] = {
     PARAM_STRING(mpm_body, name, NULL, "its name: letters, digits, - _ ."),
     PARAM_VEC3(mpm_body, velocity, "m/s", 0.0, -1e5, 1e5, "at the start"),
+    PARAM_VEC3(mpm_body, spin, "rad/s", 0.0, -1e9, 1e9, "at the start, about its centre of mass"),
     PARAM_DOUBLE(mpm_body, temperature, "K", 293.0, 0.1, 1e5, "at the start"),
     PARAM_VEC3(mpm_body, body_force, "m/s^2", 0.0, -1e15, 1e15, "acceleration of all of it"),
     PARAM_VEC3(mpm_body, traction, "Pa", 0.0, -1e13, 1e13, "on all of its surface that looks towards traction_face"),

@@ -165,3 +165,33 @@ double mpm_axis_spacing(const axis *a, double x)
     if (i > a->last) i = a->last;
     return x >= a->node[i] ? axis_right(a, i < a->last ? i : a->last - 1) : axis_left(a, i > 1 ? i : 2);
 }
+
+/* The weights of kernels.h, of one point. */
+static void gimp_weights(const axis *a, int i, double x, double half, double w[3], double d[3])
+{
+    const double left = axis_left(a, i), right = axis_right(a, i), widest = 0.5 * fmin(left, right);
+    const double l = fmax(fmin(half, widest), 0.05 * widest), from = x - a->node[i] - l, to = x - a->node[i] + l;
+    const double below[2] = { fmin(from, 0), fmin(to, 0) }, above[2] = { fmax(from, 0), fmax(to, 0) };
+    w[0] = (below[0] * below[0] - below[1] * below[1]) / (4 * l * left);
+    w[2] = (above[1] * above[1] - above[0] * above[0]) / (4 * l * right);
+    for (int k = 0; k < 3; k++) d[k] = a->node[i - 1 + k] - x;
+}
+
+static void bspline_weights(const axis *a, int i, double x, double w[3], double d[3])
+{
+    const double *e = &a->edge[i - 1], h = e[2] - e[1];
+    w[0] = (e[2] - x) * (e[2] - x) / (h * (e[2] - e[0]));
+    w[2] = (x - e[1]) * (x - e[1]) / (h * (e[3] - e[1]));
+    for (int k = 0; k < 3; k++) d[k] = 0.5 * (e[k] + e[k + 1]) - x;
+}
+
+double mpm_axis_spread(const axis *a, double x, double half, basis_kind basis)
+{
+    const int at = mpm_axis_locate(a, x), i = at < 1 ? 1 : at > a->last ? a->last : at;
+    double w[3], d[3];
+    if (basis == BASIS_BSPLINE)
+        bspline_weights(a, i, x, w, d);
+    else
+        gimp_weights(a, i, x, half, w, d);
+    return w[0] * d[0] * d[0] + (1 - w[0] - w[2]) * d[1] * d[1] + w[2] * d[2] * d[2];
+}

@@ -94,25 +94,58 @@ static double loaded_area(const mpm_scene *s, int body, const double x[3], const
     return depth_in(s, body, x) <= 0 || depth_in(s, body, next) > 0 ? 0 : size[(k + 1) % 3] * size[(k + 2) % 3];
 }
 
-static build_point point_of(const mpm_scene *s, int body, const law *k, const piece *box, const piece *own)
+/* A body under way. */
+typedef struct {
+    const mpm_scene *s;
+    int body;
+    const law *k;
+    const grids *g;
+    double middle[3]; /* its centre of mass; 0 where it does not spin [m] */
+    const build_sink *sink;
+} building;
+
+static bool spins(const mpm_body *b)
 {
+    return b->spin[0] != 0 || b->spin[1] != 0 || b->spin[2] != 0;
+}
+
+/* v = velocity + spin x (x - middle),  L = grad v,  ka = 1/2 sum_k D_k |L e_k|^2 */
+static void set_spin(const building *w, build_point *p)
+{
+    const mpm_body *b = &w->s->body[w->body];
+    const axis *axes = w->g->level[mpm_grids_level(w->g, p->x)].axes;
+    for (int k = 0; k < 3; k++) {
+        const int u = (k + 1) % 3, v = (k + 2) % 3;
+        p->v[k] += b->spin[u] * (p->x[v] - w->middle[v]) - b->spin[v] * (p->x[u] - w->middle[u]);
+        p->L[3 * k + u] = -b->spin[v];
+        p->L[3 * k + v] = b->spin[u];
+        const double square = b->spin[u] * b->spin[u] + b->spin[v] * b->spin[v];
+        if (w->s->transfer == TRANSFER_TPIC)
+            p->ka += 0.5 * mpm_axis_spread(&axes[k], p->x[k], p->half[k], w->s->basis) * square;
+    }
+}
+
+static build_point point_of(const building *w, const piece *box, const piece *own)
+{
+    const mpm_scene *s = w->s;
+    const int body = w->body;
     const mpm_body *b = &s->body[body];
-    build_point p = { .mass = k->rho_start * own->share * box->size[0] * box->size[1] * box->size[2],
+    build_point p = { .mass = w->k->rho_start * own->share * box->size[0] * box->size[1] * box->size[2],
                       .area = loaded_area(s, body, box->x, box->size) };
     for (int q = 0; q < 3; q++) {
         p.x[q] = own->x[q];
         p.half[q] = 0.5 * own->size[q];
         p.v[q] = b->velocity[q];
     }
+    if (spins(b)) set_spin(w, &p);
     return p;
 }
 
 /* A box of the window's lattice, halved along each axis once for every level that it lies in. */
-static status one_box(const mpm_scene *s, int body, const law *k, const grids *g, const piece *window,
-                      const build_sink *sink)
+static status one_box(const building *w, const piece *window)
 {
     static const double SLIVER = 0.02; /* of a box: left out */
-    const int n = 1 << (g->levels - 1 - mpm_grids_level(g, window->x));
+    const int n = 1 << (w->g->levels - 1 - mpm_grids_level(w->g, window->x));
     for (int i = 0; i < n * n * n; i++) {
         const int at[3] = { i % n, i / n % n, i / (n * n) };
         piece box = *window;
@@ -121,16 +154,15 @@ static status one_box(const mpm_scene *s, int body, const law *k, const grids *g
             box.x[q] += box.size[q] * (at[q] - 0.5 * (n - 1));
         }
         piece own = box;
-        cut(s, body, &own);
+        cut(w->s, w->body, &own);
         if (own.share < SLIVER) continue;
-        const build_point p = point_of(s, body, k, &box, &own);
-        TRY(sink->point(sink->user, body, &p));
+        const build_point p = point_of(w, &box, &own);
+        TRY(w->sink->point(w->sink->user, w->body, &p));
     }
     return status_ok();
 }
 
-static status walk(const mpm_scene *s, int body, const law *k, const grids *g, const ladder l[3],
-                   const build_sink *sink)
+static status walk(const building *w, const ladder l[3])
 {
     for (int iz = 0; iz < l[2].n; iz++)
         for (int iy = 0; iy < l[1].n; iy++)
@@ -141,20 +173,20 @@ static status walk(const mpm_scene *s, int body, const law *k, const grids *g, c
                     box.size[q] = l[q].edge[at[q] + 1] - l[q].edge[at[q]];
                     box.x[q] = l[q].edge[at[q]] + 0.5 * box.size[q];
                 }
-                TRY(one_box(s, body, k, g, &box, sink));
+                TRY(one_box(w, &box));
             }
     return status_ok();
 }
 
 const build_range mpm_build_everywhere = { 0, -INFINITY, INFINITY };
 
-status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g, const build_range *range,
-                      const build_sink *sink)
+/* The body's points in a range. */
+static status build_between(const building *w, const build_range *range)
 {
-    const mpm_body *b = &s->body[body];
-    const axis *axes = grids_window(g)->axes;
+    const mpm_body *b = &w->s->body[w->body];
+    const axis *axes = grids_window(w->g)->axes;
     double lo[3], hi[3];
-    mpm_solid_bounds(&s->solid[b->solid], lo, hi);
+    mpm_solid_bounds(&w->s->solid[b->solid], lo, hi);
     lo[range->along] = fmax(lo[range->along], range->lo), hi[range->along] = fmin(hi[range->along], range->hi);
     ladder l[3] = { { 0 } };
     status r = status_ok();
@@ -164,9 +196,46 @@ status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g
         if (hi[q] <= lo[q])
             r = base_status_error(STATUS_BAD_INPUT, "body `%s` lies outside the window along axis %d", b->name, q);
         else
-            r = ladder_make(&axes[q], lo[q], hi[q], s->particles_per_axis, &l[q]);
+            r = ladder_make(&axes[q], lo[q], hi[q], w->s->particles_per_axis, &l[q]);
     }
-    if (r.code == STATUS_OK) r = walk(s, body, k, g, l, sink);
+    if (r.code == STATUS_OK) r = walk(w, l);
     for (int q = 0; q < 3; q++) free(l[q].edge);
     return r;
+}
+
+typedef struct {
+    double mass, first[3]; /* [kg, kg m] */
+} moments;
+
+static status add_moments(void *user, int body, const build_point *p)
+{
+    (void)body;
+    moments *sum = user;
+    sum->mass += p->mass;
+    for (int k = 0; k < 3; k++) sum->first[k] += p->mass * p->x[k];
+    return status_ok();
+}
+
+status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g, const build_range *range,
+                      const build_sink *sink)
+{
+    building w = { .s = s, .body = body, .k = k, .g = g };
+    if (spins(&s->body[body])) {
+        moments sum = { 0 };
+        w.sink = &(build_sink){ add_moments, &sum };
+        TRY(build_between(&w, &mpm_build_everywhere));
+        for (int q = 0; q < 3 && sum.mass > 0; q++) w.middle[q] = sum.first[q] / sum.mass;
+    }
+    w.sink = sink;
+    return build_between(&w, range);
+}
+
+double mpm_build_spin_speed(const mpm_scene *s, int body)
+{
+    const mpm_body *b = &s->body[body];
+    double lo[3], hi[3];
+    if (!spins(b)) return 0;
+    mpm_solid_bounds(&s->solid[b->solid], lo, hi);
+    const double rate = sqrt(b->spin[0] * b->spin[0] + b->spin[1] * b->spin[1] + b->spin[2] * b->spin[2]);
+    return 0.5 * rate * hypot(hypot(hi[0] - lo[0], hi[1] - lo[1]), hi[2] - lo[2]);
 }

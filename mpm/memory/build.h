@@ -8,6 +8,7 @@
 
 typedef struct {
     double x[3], v[3], half[3]; /* [m, m/s, m] */
+    double L[9], ka;            /* velocity gradient dv_i/dx_k at 3 i + k, and its kinetic energy [1/s, J/kg] */
     double mass, area;          /* [kg]; face under the body's traction [m2] */
 } build_point;
 
@@ -27,6 +28,9 @@ extern const build_range mpm_build_everywhere; /* all that lies in the window */
 /* Calls the sink for every material point of one body in a range, in a fixed order. */
 status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g, const build_range *range,
                       const build_sink *sink);
+
+/* Largest speed of a body's points at the start that its spin gives [m/s]. */
+double mpm_build_spin_speed(const mpm_scene *s, int body);
 
 /* What the solver makes of a point (mpm.c): q has BLOCK_DOUBLES. */
 void mpm_point_of(const mpm *m, int body, const build_point *p, double *q);

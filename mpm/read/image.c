@@ -213,8 +213,9 @@ static status count(const mpm_scene *s, const grids *g, counting *c, double *dt)
         TRY(mpm_law_make(&s->body[i], s, &k));
         TRY(mpm_build_body(s, i, &k, g, &mpm_build_everywhere, &sink));
         const double sound = sqrt((k.K0 + 4.0 / 3.0 * k.G) / k.rho0);
+        const double spin = mpm_build_spin_speed(s, i);
         for (int q = 0; q < 3; q++)
-            fastest = fmax(fastest, (sound + fabs(s->body[i].velocity[q])) / g->level[0].axes[q].smallest);
+            fastest = fmax(fastest, (sound + fabs(s->body[i].velocity[q]) + spin) / g->level[0].axes[q].smallest);
     }
     *dt = s->courant / fastest;
     return status_ok();

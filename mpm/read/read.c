@@ -1,5 +1,7 @@
 /* Reading the solver's state: balance, report, particle fields. */
-#include "mpm/memory/store.h"
+#include "mpm/read/visit.h"
+
+#include "mpm/memory/build.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,24 +12,19 @@ const mpm_field_info mpm_field_table[MPM_FIELD_COUNT] = {
 #undef INFO
 };
 
-/* Calls `each` for every block of some bricks in the fixed order of bricks, cells and chains. */
-typedef void block_visitor(void *user, const mpm *m, const brick *b, int index);
-
-static void visit_bricks(const mpm *m, int from, int to, block_visitor *each, void *user)
+static void visit_bricks(const mpm *m, int from, int to, mpm_block_visitor *each, void *user)
 {
     for (int i = from; i < to; i++)
         for (int c = 0; c < BRICK_CELLS; c++)
             for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) each(user, m, &m->bricks[i], q);
 }
 
-static void visit(const mpm *m, block_visitor *each, void *user)
+static void visit(const mpm *m, mpm_block_visitor *each, void *user)
 {
     visit_bricks(m, 0, m->bricks_used, each, user);
 }
 
-/* Each share of the bricks on its own, by all threads: `sums` are SHARES of `bytes`, for the caller to add up in order.
- */
-static void visit_shares(const mpm *m, block_visitor *each, void *sums, size_t bytes)
+void mpm_visit_shares(const mpm *m, mpm_block_visitor *each, void *sums, size_t bytes)
 {
 #pragma omp parallel for schedule(dynamic) num_threads(m->threads)
     for (int i = 0; i < SHARES; i++)
@@ -83,7 +80,7 @@ static void balance_block(void *user, const mpm *m, const brick *b, int index)
 static books all_books(const mpm *m)
 {
     books share[SHARES] = { { .sum = { 0 } } }, all = { .sum = { 0 } };
-    visit_shares(m, balance_block, share, sizeof *share);
+    mpm_visit_shares(m, balance_block, share, sizeof *share);
     for (int i = 0; i < SHARES; i++) books_add(&all, share[i].sum), books_add(&all, share[i].rest);
     return all;
 }
@@ -96,7 +93,8 @@ static double norm(const double *a)
 static double start_speed(const mpm *m)
 {
     double largest = 0;
-    for (int i = 0; i < m->scene.bodies; i++) largest = fmax(largest, norm(m->scene.body[i].velocity));
+    for (int i = 0; i < m->scene.bodies; i++)
+        largest = fmax(largest, norm(m->scene.body[i].velocity) + mpm_build_spin_speed(&m->scene, i));
     return largest;
 }
 
@@ -148,7 +146,7 @@ mpm_report mpm_state(const mpm *m)
 {
     mpm_report r = mpm_glance(m);
     failures share[SHARES] = { { .volume = { 0 } } };
-    visit_shares(m, failed_block, share, sizeof *share);
+    mpm_visit_shares(m, failed_block, share, sizeof *share);
     for (int i = 0; i < SHARES; i++)
         for (int body = 0; body < MPM_MAX_BODIES; body++) r.failed_volume[body] += share[i].volume[body];
     return r;
@@ -245,7 +243,7 @@ static tops find_tops(const mpm *m)
         all.passed[PRESSURE][body] = m->report.peak_pressure_999[body] * exp(0.5 / BINS_AN_E);
     }
     for (int i = 0; i < SHARES; i++) share[i] = all;
-    visit_shares(m, tops_block, share, sizeof *share);
+    mpm_visit_shares(m, tops_block, share, sizeof *share);
     for (int i = 0; i < SHARES; i++) add_tops(&all, &share[i]);
     return all;
 }

@@ -52,10 +52,10 @@ static status check(const mpm_solid *s, const char *name)
 {
     const repeat *r = SHAPE_VALUES(repeat, s);
     for (int k = 0; k < 3; k++) {
-        CHECK(r->count[k] == floor(r->count[k]), STATUS_BAD_INPUT, "%s.count along %c = %g: must be a whole number",
-              name, "xyz"[k], r -> count[k]);
-        CHECK(r->count[k] == 1.0 || r->pitch[k] != 0.0, STATUS_BAD_INPUT,
-              "%s.pitch along %c = 0 m: %g copies must stand apart", name, "xyz"[k], r -> count[k]);
+        const double n = r->count[k];
+        CHECK(n == floor(n), STATUS_BAD_INPUT, "%s.count along %c = %g: must be a whole number", name, "xyz"[k], n);
+        CHECK(n == 1.0 || r->pitch[k] != 0.0, STATUS_BAD_INPUT, "%s.pitch along %c = 0 m: %g copies must stand apart",
+              name, "xyz"[k], n);
     }
     return status_ok();
 }
