@@ -17,19 +17,34 @@ static void add_point(scene_body *b, double mass, const double x[3], const doubl
     }
 }
 
+static void add_extent(scene_body *b, const double x[3], const double half[3])
+{
+    for (int k = 0; k < 3; k++) {
+        b->lo[k] = fmin(b->lo[k], x[k] - half[k]); /* NAN: none so far */
+        b->hi[k] = fmax(b->hi[k], x[k] + half[k]);
+    }
+}
+
 static status add_points(const mpm *m, scene_body *out)
 {
-    enum { COLUMNS = 9 };
+    enum { COLUMNS = 13 };
     const size_t n = mpm_particles(m);
     double *all = malloc((n ? n : 1) * COLUMNS * sizeof *all);
     CHECK(all, STATUS_MEMORY, "no memory to read %zu material points", n);
     double *x = all, *v = all + 3 * n, *mass = all + 6 * n, *energy = all + 7 * n, *body = all + 8 * n;
+    double *half = all + 9 * n, *damage = all + 12 * n;
     mpm_read(m, MPM_position, x);
     mpm_read(m, MPM_velocity, v);
     mpm_read(m, MPM_mass, mass);
     mpm_read(m, MPM_energy, energy);
     mpm_read(m, MPM_body, body);
-    for (size_t i = 0; i < n; i++) add_point(&out[(int)body[i]], mass[i], x + 3 * i, v + 3 * i, energy[i]);
+    mpm_read(m, MPM_size, half);
+    mpm_read(m, MPM_damage, damage);
+    for (size_t i = 0; i < n; i++) {
+        scene_body *b = &out[(int)body[i]];
+        add_point(b, mass[i], x + 3 * i, v + 3 * i, energy[i]);
+        if (damage[i] < 1.0) add_extent(b, x + 3 * i, half + 3 * i);
+    }
     free(all);
     return status_ok();
 }
@@ -39,6 +54,8 @@ static status bodies_now(const mpm_scene *scene, const mpm *m, scene_body *out)
 {
     const mpm_report now = mpm_state(m);
     memset(out, 0, (size_t)scene->bodies * sizeof *out);
+    for (int i = 0; i < scene->bodies; i++)
+        for (int k = 0; k < 3; k++) out[i].lo[k] = out[i].hi[k] = NAN;
     TRY(add_points(m, out));
     for (int i = 0; i < scene->bodies; i++) {
         scene_body *b = &out[i];

@@ -13,6 +13,7 @@ typedef struct {
     char name[PARAM_TEXT_SIZE];
     double mass;                      /* in the window [kg] */
     double position[3], velocity[3];  /* means over its mass [m, m/s]; NAN where nothing is left */
+    double lo[3], hi[3];              /* how far its intact material reaches [m]; NAN where there is none */
     double kinetic, internal;         /* [J] */
     double failed_volume;             /* [m3] */
     double peak_pressure, peak_mises; /* of any intact point so far [Pa] */

@@ -5,6 +5,8 @@ static const summary_key body_keys[] = {
     SUMMARY_NUMBER(scene_body, "mass", mass, "kg", "in the window at the end"),
     SUMMARY_VECTOR(scene_body, "position", position, 3, "m", "mean over its mass"),
     SUMMARY_VECTOR(scene_body, "velocity", velocity, 3, "m/s", "mean over its mass"),
+    SUMMARY_VECTOR(scene_body, "lo", lo, 3, "m", "lower ends of its intact material, null: there is none"),
+    SUMMARY_VECTOR(scene_body, "hi", hi, 3, "m", "upper ends of it"),
     SUMMARY_NUMBER(scene_body, "kinetic", kinetic, "J", "energy of its motion"),
     SUMMARY_NUMBER(scene_body, "internal", internal, "J", "work of stress and heat"),
     SUMMARY_NUMBER(scene_body, "failed_volume", failed_volume, "m3", "that has failed"),
