@@ -72,7 +72,7 @@ const param mpm_pair_params[] = {
 const param mpm_follow_params[] = {
     PARAM_ENUM(mpm_follow, along, axes, 0, "axis along which the fine zone follows"),
     PARAM_ENUM(mpm_follow, across, axes, 2, "axis on which it widens"),
-    PARAM_DOUBLE(mpm_follow, lead, "m", 0.0, 0.0, 1e3, "from the plastic front to the zone's upper end"),
+    PARAM_DOUBLE(mpm_follow, lead, "m", 0.0, -1e3, 1e3, "from the plastic front to the zone's upper end"),
     PARAM_DOUBLE(mpm_follow, speed, "m/s", 0.0, 0.0, 1e6, "of the window"),
     PARAM_DOUBLE(mpm_follow, width, "m", 0.0, 0.0, 1e3, "half width that the zone may grow to; 0: it stays"),
     PARAMS_END,

@@ -31,7 +31,7 @@ cat >user.c <<'END'
 #include "base/status.h"
 int main(void)
 {
-    return status_error(STATUS_IO, "%d", 7).text[0] == '7' ? 0 : 1;
+    return base_status_error(STATUS_IO, "%d", 7).text[0] == '7' ? 0 : 1;
 }
 END
 compiler=$(sed -n 's/^CMAKE_C_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")

@@ -114,11 +114,10 @@ static void test_tables(void **state)
     static const size_t of_body[][2] = { PLACE(mpm_body, material), { 0, 0 } };
     static const size_t of_axis[][2] = { { 0, 0 } };
     static const size_t of_pair[][2] = { PLACE(mpm_pair, contact), { 0, 0 } };
-    static const size_t of_scene[][2] = { PLACE(mpm_scene, bodies), PLACE(mpm_scene, solids),
-                                          PLACE(mpm_scene, pairs),  PLACE(mpm_scene, body),
-                                          PLACE(mpm_scene, solid),  PLACE(mpm_scene, pair),
-                                          PLACE(mpm_scene, axis),   PLACE(mpm_scene, contact),
-                                          PLACE(mpm_scene, follow), { 0, 0 } };
+    static const size_t of_scene[][2] = { PLACE(mpm_scene, bodies), PLACE(mpm_scene, solids),  PLACE(mpm_scene, pairs),
+                                          PLACE(mpm_scene, body),   PLACE(mpm_scene, solid),   PLACE(mpm_scene, pair),
+                                          PLACE(mpm_scene, axis),   PLACE(mpm_scene, contact), PLACE(mpm_scene, follow),
+                                          PLACE(mpm_scene, probes), PLACE(mpm_scene, probe),   { 0, 0 } };
     covered("mpm_body", (const param *const[]){ mpm_body_params, NULL }, sizeof(mpm_body), of_body);
     covered("mpm_axis", (const param *const[]){ mpm_axis_params, NULL }, sizeof(mpm_axis), of_axis);
     covered("mpm_follow", (const param *const[]){ mpm_follow_params, NULL }, sizeof(mpm_follow), of_axis);

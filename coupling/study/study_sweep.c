@@ -30,7 +30,7 @@ static const summary_key run_keys[] = {
     SUMMARY_END,
 };
 
-const summary_key study_sweep_keys[] = {
+static const summary_key result_keys[] = {
     SUMMARY_TEXT(sweep_result, "of", of, "the study that was run for every combination"),
     SUMMARY_TEXT(sweep_result, "resolution", resolution, "the varied key that is a resolution; empty: none is"),
     SUMMARY_PAIRS(sweep_result, "units", units, n_units, "of inputs and outputs"),
@@ -642,7 +642,7 @@ const study study_sweep = {
     .more =
         "Needs the section sweep, and what the study that it runs needs.  All errors are told before anything runs.",
     .needs = CASE_FOR_SWEEP,
-    .keys = study_sweep_keys,
+    .keys = result_keys,
     .report = { NULL, section },
     .print = print,
     .possible = possible,

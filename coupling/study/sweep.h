@@ -22,6 +22,4 @@ typedef struct {
     double wall_seconds;       /* [s] */
 } sweep_result;
 
-extern const summary_key study_sweep_keys[]; /* of sweep_result */
-
 #endif
