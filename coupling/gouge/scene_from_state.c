@@ -313,7 +313,7 @@ static status add_bodies(const breech_case *c, const site_state *state, const la
 static void set_contacts(const breech_case *c, mpm_scene *s)
 {
     s->contact.value[COULOMB_FRICTION] = c->scene.friction;
-    s->contact.value[COULOMB_SHEAR_LIMIT] = c->scene.shear_limit;
+    s->contact.value[COULOMB_SHEAR_LIMIT] = given_or(c->scene.shear_limit, CONTACT_NO_LIMIT);
     if (!isnan(c->scene.contact_gap)) s->contact_gap = c->scene.contact_gap;
 }
 

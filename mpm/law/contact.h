@@ -7,6 +7,10 @@
 #include "base/param.h"
 #include "mpm/scene.h"
 
+/* Of a stress: more than any material has.  A number and not NAN, which a minimum would raise a floating-point trap on
+ * [Pa]. */
+#define CONTACT_NO_LIMIT 1e30
+
 /* Two groups a and b at a node where their surfaces touch. */
 typedef struct {
     double n[3];     /* unit normal from a to b */

@@ -5,7 +5,7 @@
  * freely.  Surfaces with a bond move together, in tension too, while m |v| <= sigma_bond A dt. */
 CONTACT_BEGIN(coulomb, "Coulomb friction, limited in shear, and a bond that can break")
 CONTACT_VALUE(COULOMB_FRICTION, "friction", "1", 0.0, 0.0, 10.0, "Coulomb coefficient")
-CONTACT_VALUE(COULOMB_SHEAR_LIMIT, "shear_limit", "Pa", OPTIONAL, 0.0, INFINITY,
+CONTACT_VALUE(COULOMB_SHEAR_LIMIT, "shear_limit", "Pa", CONTACT_NO_LIMIT, 0.0, CONTACT_NO_LIMIT,
               "upper limit of the friction stress; left out: none but the weaker side's strength")
 CONTACT_VALUE(COULOMB_BOND_STRENGTH, "bond_strength", "Pa", 0.0, 0.0, 1e12,
               "welded until the traction exceeds it; 0: never bonded")
