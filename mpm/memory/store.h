@@ -41,7 +41,7 @@ static inline int share_begin(int bricks, int share)
     FIELD(x, 3)      /* position [m] */                                        \
     FIELD(v, 3)      /* velocity [m/s] */                                      \
     FIELD(L, 9)      /* velocity gradient, L[3 i + k] = dv_i/dx_k [1/s] */     \
-    FIELD(s, 6)      /* stress deviator xx yy zz xy yz xz [Pa] */              \
+    FIELD(s, 6)      /* stress deviator xx yy zz xy xz yz [Pa] */              \
     FIELD(p, 1)      /* pressure with viscosity [Pa] */                        \
     FIELD(rho, 1)    /* density [kg/m3] */                                     \
     FIELD(mass, 1)   /* [kg], 0 in a hole */                                   \

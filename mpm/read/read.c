@@ -316,9 +316,11 @@ size_t mpm_histogram_bytes(void)
 
 /* ---- particle fields ---- */
 
+/* In the order that ParaView reads a symmetric tensor in: the last two of a block's are the other way round. */
 static void get_stress(const block *q, int l, double *out)
 {
-    for (int i = 0; i < 6; i++) out[i] = q->s[i][l] - (i < 3 ? q->p[0][l] : 0);
+    static const int from[6] = { 0, 1, 2, 3, 5, 4 };
+    for (int i = 0; i < 6; i++) out[i] = q->s[from[i]][l] - (i < 3 ? q->p[0][l] : 0);
 }
 
 static void get_lane(const mpm *m, int index, int l, mpm_field field, double *out)
