@@ -89,6 +89,7 @@ static void test_names(void **state)
     (void)state;
     expectations e;
     const char list[] = "- {key: class, is: gouge}\n";
+    remove("coarse_expected.yaml"); /* of an earlier run of this test */
     assert_int_equal(output_expect("coarse.yaml", "run", &e).code, STATUS_BAD_INPUT);
     output_expect_free(&e);
     assert_int_equal(host_file_write("coarse_expected.yaml", list, strlen(list)).code, STATUS_OK);
