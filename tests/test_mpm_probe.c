@@ -211,19 +211,23 @@ static void shear(block *q, int l)
     q->L[row[sheared]][l] = 3e4, q->L[column[sheared]][l] = 1e4;
 }
 
-/* s_ij (L_ij + L_ji) V, for each pair. */
+/* s_ij (L_ij + L_ji) V, for each pair; the plastic front of a followed body adds up the same power. */
 static void test_plastic(void **state)
 {
     (void)state;
     const material m = scene_copper();
     mpm *solver = cubes(&m);
     double out;
+    plough front;
+    solver->scene.body[0].followed = true;
     mpm_probe plastic = probe("plastic", 0);
     for (sheared = 0; sheared < 3; sheared++) {
         each_point(solver, shear);
         plastic.body = 0;
         look(solver, &plastic, &out);
         assert_near(out / (1e8 * 4e4 * 8e-9), 1, 1e-12);
+        assert_ok(mpm_plastic_front_find(solver, &front));
+        assert_near(front.power / out, 1, 1e-12);
         plastic.body = 1;
         look(solver, &plastic, &out);
         assert_true(out == 0);

@@ -16,6 +16,8 @@
 #include "mpm/law/law.h"
 #include "mpm/mpm.h"
 
+#include <math.h>
+
 enum {
     BRICK = 4,                           /* cells a brick and axis */
     BRICK_CELLS = BRICK * BRICK * BRICK, /* 64 */
@@ -278,6 +280,22 @@ static inline double work_ahead(const double s[6], double p, const double L[9], 
     const double deviator =
         s[0] * L[0] + s[1] * L[4] + s[2] * L[8] + s[3] * (L[1] + L[3]) + s[4] * (L[2] + L[6]) + s[5] * (L[5] + L[7]);
     return 0.5 * dt * (deviator - p * (L[0] + L[4] + L[8])) / rho;
+}
+
+/* Plastic power of a point: V s : D where it is intact and its Mises stress has reached 0.9 of its flow stress, else
+ * 0 [W].  s in the order xx yy zz xy xz yz. */
+static inline double lane_plastic_power(const block *q, int lane)
+{
+    static const double YIELDS = 0.9;
+    const double limit = YIELDS * q->flow[0][lane];
+    double square = 0, power = 0;
+    if (q->damage[0][lane] >= 1) return 0;
+    for (int i = 0; i < 6; i++) square += (i < 3 ? 1 : 2) * q->s[i][lane] * q->s[i][lane];
+    if (1.5 * square < limit * limit) return 0;
+    for (int i = 0; i < 3; i++) power += q->s[i][lane] * q->L[4 * i][lane];
+    power += q->s[3][lane] * (q->L[1][lane] + q->L[3][lane]) + q->s[4][lane] * (q->L[2][lane] + q->L[6][lane]) +
+             q->s[5][lane] * (q->L[5][lane] + q->L[7][lane]);
+    return fmax(power, 0) * q->mass[0][lane] / q->rho[0][lane];
 }
 
 /* mpm.c */

@@ -4,28 +4,12 @@
 
 static const param params[] = { PARAMS_END };
 
-static const double YIELDS = 0.9;
-
 static const mpm_column columns[] = { { "power", "W", "plastic power" }, { NULL, NULL, NULL } };
 
 typedef struct {
     int body;
     double sum;
 } power;
-
-/* s : D, s in the order xx yy zz xy xz yz [W/m3] */
-static double lane_power(const block *q, int l)
-{
-    double square = 0, sum = 0;
-    if (q->damage[0][l] >= 1) return 0;
-    for (int i = 0; i < 6; i++) square += (i < 3 ? 1 : 2) * q->s[i][l] * q->s[i][l];
-    const double limit = YIELDS * q->flow[0][l];
-    if (1.5 * square < limit * limit) return 0;
-    for (int i = 0; i < 3; i++) sum += q->s[i][l] * q->L[4 * i][l];
-    sum += q->s[3][l] * (q->L[1][l] + q->L[3][l]) + q->s[4][l] * (q->L[2][l] + q->L[6][l]) +
-           q->s[5][l] * (q->L[5][l] + q->L[7][l]);
-    return fmax(sum, 0);
-}
 
 static void add_block(void *user, const mpm *m, const brick *b, int index)
 {
@@ -34,7 +18,7 @@ static void add_block(void *user, const mpm *m, const brick *b, int index)
     const block *q = &m->blocks[index];
     if (!visit_wants(m, index, s->body)) return;
     for (int l = 0; l < LANES; l++)
-        if (q->mass[0][l] > 0) s->sum += lane_power(q, l) * q->mass[0][l] / q->rho[0][l];
+        if (q->mass[0][l] > 0) s->sum += lane_plastic_power(q, l);
 }
 
 static status read(const mpm *m, const mpm_probe *p, double *out)

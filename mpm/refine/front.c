@@ -32,19 +32,6 @@ static int sums_of(const profile *p)
     return 2 * p->n + ACROSS;
 }
 
-/* V s : D of a lane that yields, else 0. */
-static double lane_plastic_power(const block *q, int l)
-{
-    double square = 0, power = 0;
-    if (q->damage[0][l] >= 1) return 0;
-    for (int i = 0; i < 6; i++) square += (i < 3 ? 1 : 2) * q->s[i][l] * q->s[i][l];
-    if (1.5 * square < 0.81 * q->flow[0][l] * q->flow[0][l]) return 0;
-    for (int i = 0; i < 3; i++) power += q->s[i][l] * q->L[4 * i][l];
-    power += q->s[3][l] * (q->L[1][l] + q->L[3][l]) + q->s[4][l] * (q->L[5][l] + q->L[7][l]) +
-             q->s[5][l] * (q->L[2][l] + q->L[6][l]);
-    return fmax(power, 0) * q->mass[0][l] / q->rho[0][l];
-}
-
 static void add(taken *t, double power, double volume)
 {
     t->power += power, t->volume += volume;
