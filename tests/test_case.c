@@ -132,11 +132,11 @@ static void materials_are_loaded(void **state)
     (void)state;
     breech_case *c = small_case(NULL, 0);
     assert_int_equal(c->materials.n, 2);
-    const material *copper = case_material(c, "ofhc_copper");
+    const material *copper = case_material(&c->materials, "ofhc_copper");
     assert_non_null(copper);
     assert_true(copper->density == 8960.0 && copper->yield_A == 90e6);
     assert_true(isnan(copper->spall_strength)); /* a blank constant stays unknown */
-    assert_null(case_material(c, "unobtainium"));
+    assert_null(case_material(&c->materials, "unobtainium"));
     assert_non_null(strstr(c->warnings, "material ofhc_copper: from secondary or unchecked sources"));
     case_free(c);
 }
@@ -516,7 +516,8 @@ static void what_follows_is_not_asked_for(void **state)
 {
     (void)state;
     breech_case *c = read_text(BOTH "}\n");
-    const material *steel = case_material(c, "steel_4340"), *alloy = case_material(c, "al6061_t6");
+    const material *steel = case_material(&c->materials, "steel_4340");
+    const material *alloy = case_material(&c->materials, "al6061_t6");
     assert_true(c->projectile.half_bore == 0.009 && c->projectile.width == 0.02);
     assert_true(fabs(c->armature.contact_length - 0.018) < 1e-15); /* 20 mm less a face of 2 mm at 45 deg */
     assert_true(c->armature.contact_width == 0.02);

@@ -260,7 +260,7 @@ static void test_presets(void **state)
         const case_population *p = &c->populations.item[0];
         assert_true(p->density > 0.0 && p->radius_median > 0.0 && p->radius_spread > 0.0 && p->aspect > 0.0);
         assert_true(p->from == 1.0 && p->to == 3.0);
-        assert_non_null(case_material(c, p->material));
+        assert_non_null(case_material(&c->materials, p->material));
         OK(study_possible(c, ALL));
         case_free(c);
     }

@@ -64,9 +64,11 @@ static breech_case *small_case(const char *end_time)
 
 static scene_query query_at(const breech_case *c, double velocity)
 {
-    scene_query q = { .c = c, .cells_per_radius = 1.2 };
-    q.state =
-        (site_state){ .grain = c->sites.item[0], .reached = true, .velocity = velocity, .contact_pressure = 75e6 };
+    const case_impact from = case_impact_of(c);
+    const site_state state = {
+        .grain = c->sites.item[0], .reached = true, .velocity = velocity, .contact_pressure = 75e6
+    };
+    scene_query q = { .impact = gouge_impact_at(&from, &state, 1.2) };
     snprintf(q.name, sizeof q.name, "v%g-%p", velocity, (const void *)c);
     return q;
 }
@@ -167,7 +169,7 @@ static void test_laid_aside(void **state)
         if (++rounds == 1) assert_null(out[0]);
     }
     assert_true(rounds >= 2);
-    for (int i = 0; i < 3; i++) assert_same(*out[i], alone(q[i].c, &q[i]));
+    for (int i = 0; i < 3; i++) assert_same(*out[i], alone(c, &q[i]));
     OK(run_session_close(&s, true));
     case_free(c);
     case_free(longer);
@@ -221,7 +223,7 @@ static void test_put_off(void **state)
     OK(run_scenes_ahead(&s, ahead, 2, false));
     OK(run_scenes_all(&s, &first, 1, out)); /* by rank 0, while the others have begun what may come */
     OK(run_scenes_all(&s, two, 2, out));    /* rank 0 takes the long one, a member the other at once */
-    for (int i = 0; i < 2; i++) assert_same(*out[i], alone(two[i].c, &two[i]));
+    for (int i = 0; i < 2; i++) assert_same(*out[i], alone(c, &two[i]));
     assert_true(written_at("put-off", two[1].name, "scene-000001.hdf") <
                 written_at("put-off", two[0].name, "scene-000001.hdf"));
     OK(run_scenes_ahead(&s, &ahead[1], 1, false));
@@ -230,7 +232,7 @@ static void test_put_off(void **state)
     const scene_query last = query_at(c, 1350.0);
     OK(run_scenes_all(&s, &last, 1, out)); /* nobody wants the long ones: given up where they are */
     OK(run_scenes_all(&s, ahead, 2, out)); /* or does: from the start */
-    for (int i = 0; i < 2; i++) assert_same(*out[i], alone(ahead[i].c, &ahead[i]));
+    for (int i = 0; i < 2; i++) assert_same(*out[i], alone(c, &ahead[i]));
     OK(run_session_close(&s, true));
     case_free(c);
     case_free(longer);
@@ -428,8 +430,8 @@ static breech_case *grown_case(bool to_gauge)
 static scene_query grown_query(const breech_case *c, double velocity)
 {
     scene_query q = query_at(c, velocity);
-    q.state.grain.radius = q.state.grain.height = 0.2e-3;
-    q.state.contact_pressure = 300e6;
+    q.impact.particle.radius = q.impact.particle.height = 0.2e-3;
+    q.impact.scene.contact_pressure = 300e6;
     return q;
 }
 

@@ -207,6 +207,7 @@ enum { VARIANTS = sizeof variants / sizeof variants[0] };
 
 typedef struct {
     breech_case *c;
+    case_impact impact;
     site_state state;
     gouge_scene gouge;
 } made;
@@ -226,9 +227,10 @@ static made make(const char *const *sets)
 {
     made m = { .c = changed_case(sets) };
     add_layer(m.c);
-    m.state = gouge_state_of_case(m.c);
+    m.impact = case_impact_of(m.c);
+    m.state = gouge_state_of_case(&m.impact);
     m.state.contact_pressure = 60e6;
-    const status s = gouge_scene_from_state(m.c, &m.state, m.c->scene.cells_per_radius, &m.gouge);
+    const status s = gouge_scene_from_state(&m.impact, &m.state, m.impact.scene.cells_per_radius, &m.gouge);
     if (s.code != STATUS_OK) fail_msg("%s ...: %s", sets[0] ? sets[0] : "default", s.text);
     return m;
 }
@@ -243,7 +245,8 @@ static void unmake(made *m)
 static status make_again(made *m, double cells)
 {
     gouge_scene_free(&m->gouge);
-    return gouge_scene_from_state(m->c, &m->state, cells, &m->gouge);
+    m->impact = case_impact_of(m->c);
+    return gouge_scene_from_state(&m->impact, &m->state, cells, &m->gouge);
 }
 
 static double inside(const mpm_scene *s, const mpm_body *b, const double x[3])

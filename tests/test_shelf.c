@@ -66,10 +66,11 @@ static breech_case *small_case(const char *const *speed, bool to_gauge, const ch
 static run_counted run_small(const char *const *speed, bool to_gauge, const char *written, scene_shelf *shelf)
 {
     breech_case *c = small_case(speed, to_gauge, written);
-    const site_state at = gouge_state_of_case(c);
+    const case_impact one = case_impact_of(c);
+    const site_state at = gouge_state_of_case(&one);
     run_counted r = { .steps = 0 };
     gouge_job job;
-    OK(gouge_job_make(c, &at, 1.2, &job));
+    OK(gouge_job_make(&one, &at, 1.2, &job));
     job.name = to_gauge ? "short" : "whole";
     job.twin = 1;
     OK(output_history_open(NULL, false, &r.rows));
@@ -103,11 +104,12 @@ static void test_checkpoints(void **state)
     static const char *const brief[] = { "scene.velocity=2 km/s", "scene.end_time=1 us",
                                          "scene.contact_pressure=300 MPa", "scene.courant=0.2" };
     breech_case *c = small_case(brief, false, "output.snapshots=0");
-    const site_state at = gouge_state_of_case(c);
+    const case_impact one = case_impact_of(c);
+    const site_state at = gouge_state_of_case(&one);
     gouge_job job;
     impact hit;
     int saves = 0;
-    OK(gouge_job_make(c, &at, 1.2, &job));
+    OK(gouge_job_make(&one, &at, 1.2, &job));
     job.checkpoint_interval = 1e-3;
     const scene_host host = { .threads = 1, .save = save_slowly, .user = &saves };
     const double start = host_wall_clock();

@@ -42,11 +42,18 @@ static site_state state_at(const breech_case *c, double velocity)
     return (site_state){ .grain = c->sites.item[0], .reached = true, .velocity = velocity, .contact_pressure = 75e6 };
 }
 
+static case_impact impact_at(const breech_case *c, double velocity, double cells)
+{
+    const case_impact from = case_impact_of(c);
+    const site_state state = state_at(c, velocity);
+    return gouge_impact_at(&from, &state, cells);
+}
+
 static uint64_t key_at(const breech_case *c, double velocity, double cells)
 {
-    const site_state state = state_at(c, velocity);
+    const case_impact one = impact_at(c, velocity, cells);
     scene_key key;
-    OK(run_scene_key_of(c, &state, cells, &key));
+    OK(run_scene_key_of(&one, &key));
     const uint64_t hash = key.hash;
     run_scene_key_free(&key);
     return hash;
@@ -80,7 +87,7 @@ static void test_key_parts(void **state)
         if (key_at(other, 1500.0, 3.0) != base) fail_msg("%s changes the key", idle[i]);
         case_free(other);
     }
-    material *copper = (material *)case_material(c, c->rail.material);
+    material *copper = (material *)case_material(&c->materials, c->rail.material);
     copper->damage_D1 = nextafter(copper->damage_D1, INFINITY); /* the last bit of one constant */
     assert_true(key_at(c, 1500.0, 3.0) != base);
     case_free(c);
@@ -92,21 +99,22 @@ static void test_key_is_a_case(void **state)
     (void)state;
     const char *const sets[] = { "rail.temperature=311.3 K", "sites[0].bond_strength=123.4 MPa", NULL };
     breech_case *c = read_case(sets), *back = NULL;
-    const site_state at = state_at(c, 1480.0 / 3.0 * 3.1);
+    const case_impact one = impact_at(c, 1480.0 / 3.0 * 3.1, 3.7);
     scene_key key, again;
     char *errors = NULL;
-    OK(run_scene_key_of(c, &at, 3.7, &key));
+    OK(run_scene_key_of(&one, &key));
     const case_text text = { .bytes = key.text, .length = key.bytes, .path = "key" };
     const status read = case_read_memory(&text, &(case_options){ .needs = CASE_FOR_SCENE }, &back, &errors);
     if (read.code != STATUS_OK) fail_msg("%s", errors ? errors : read.text);
-    const site_state state_back = gouge_state_of_case(back);
-    OK(run_scene_key_of(back, &state_back, back->scene.cells_per_radius, &again));
+    const case_impact one_back = case_impact_of(back);
+    const site_state at = gouge_state_of_case(&one), at_back = gouge_state_of_case(&one_back);
+    OK(run_scene_key_of(&one_back, &again));
     assert_string_equal(key.text, again.text);
     assert_true(key.hash == again.hash);
 
     gouge_scene of_a, of_b;
-    OK(gouge_scene_from_state(c, &at, 3.7, &of_a));
-    OK(gouge_scene_from_state(back, &state_back, back->scene.cells_per_radius, &of_b));
+    OK(gouge_scene_from_state(&one, &at, 3.7, &of_a));
+    OK(gouge_scene_from_state(&one_back, &at_back, one_back.scene.cells_per_radius, &of_b));
     const mpm_scene a = of_a.scene, b = of_b.scene;
     assert_int_equal(a.bodies, b.bodies);
     for (int i = 0; i < a.bodies; i++) {
@@ -157,11 +165,11 @@ static void test_file(void **state)
 {
     (void)state;
     breech_case *c = read_case(NULL);
-    const site_state at = state_at(c, 1500.0);
+    const case_impact one = impact_at(c, 1500.0, 3.0), finer = impact_at(c, 1500.0, 4.0);
     scene_record r = some_record(), back;
     scene_key key, other;
-    OK(run_scene_key_of(c, &at, 3.0, &key));
-    OK(run_scene_key_of(c, &at, 4.0, &other));
+    OK(run_scene_key_of(&one, &key));
+    OK(run_scene_key_of(&finer, &other));
     r.key = key.hash;
     h5_file *f;
     void *image;
@@ -220,7 +228,7 @@ static session opened(const breech_case *c, const char *dir, const char *store)
 
 static scene_query query_at(const breech_case *c, double velocity, const char *name)
 {
-    scene_query q = { .c = c, .state = state_at(c, velocity), .cells_per_radius = 3.0 };
+    scene_query q = { .impact = impact_at(c, velocity, 3.0) };
     snprintf(q.name, sizeof q.name, "%s", name);
     return q;
 }
@@ -307,7 +315,7 @@ static void test_damaged(void **state)
     const scene_record *out;
     const scene_query q[] = { query_at(c, 1400.0, "a"), query_at(c, 1600.0, "b") };
     char path[2][300];
-    for (int k = 0; k < 2; k++) path_in("damaged/store", key_at(c, q[k].state.velocity, 3.0), path[k]);
+    for (int k = 0; k < 2; k++) path_in("damaged/store", key_at(c, q[k].impact.scene.velocity, 3.0), path[k]);
     for (int kind = 0; kind < 3; kind++) {
         fresh_folder("damaged");
         session s = opened(c, "damaged/one", "damaged/store");
@@ -346,10 +354,10 @@ static void test_killed_writers(void **state)
     fresh_folder("killed");
     OK(run_store_open("killed"));
     breech_case *c = read_case(NULL);
-    const site_state at = state_at(c, 1500.0);
+    const case_impact one = impact_at(c, 1500.0, 3.0);
     scene_record r = some_record(), back;
     scene_key key;
-    OK(run_scene_key_of(c, &at, 3.0, &key));
+    OK(run_scene_key_of(&one, &key));
     int reads = 0;
     for (int round = 0; round < 12; round++) {
         pid_t child[2];

@@ -25,10 +25,10 @@ double case_layers_thickness(const case_layers *layers)
     return sum;
 }
 
-const material *case_material(const breech_case *c, const char *name)
+const material *case_material(const case_materials *list, const char *name)
 {
-    for (int k = 0; k < c->materials.n; k++)
-        if (strcmp(c->materials.item[k].name, name) == 0) return &c->materials.item[k];
+    for (int k = 0; k < list->n; k++)
+        if (strcmp(list->item[k].name, name) == 0) return &list->item[k];
     return NULL;
 }
 
@@ -133,7 +133,7 @@ static void load_materials(case_reader *r)
 
     check_own(r);
     for (int k = 0; k < r->n_use; k++)
-        if (!case_material(r->out, r->use[k].name) && !seen(r, k)) load_one(r, &r->use[k], dirs, n_dirs);
+        if (!case_material(&r->out->materials, r->use[k].name) && !seen(r, k)) load_one(r, &r->use[k], dirs, n_dirs);
 }
 
 /* ---- current profiles ---- */

@@ -340,8 +340,8 @@ status case_read_memory(const case_text *text, const case_options *options, bree
 
 void case_free(breech_case *c); /* NULL allowed */
 
-/* A material the case names (never NULL for those); NULL for any other name.  Borrowed from the case. */
-const material *case_material(const breech_case *c, const char *name);
+/* The material of that name; a case has all that it names.  NULL: it is not among them.  Borrowed from the list. */
+const material *case_material(const case_materials *list, const char *name);
 
 double case_layers_thickness(const case_layers *layers); /* of all together [m] */
 

@@ -507,7 +507,7 @@ void case_bodies_resolve(case_reader *r)
     for (int k = 0; k < s->bodies; k++) {
         mpm_body *b = &s->body[k];
         const tree_node *node = host_tree_find(case_entry_node(list, k), "material");
-        b->material = case_material(r->out, text_of(case_entry_node(list, k), "material"));
+        b->material = case_material(&r->out->materials, text_of(case_entry_node(list, k), "material"));
         if (!b->material) continue; /* an error already */
         const unsigned needs = MATERIAL_FOR_SCENE | (b->damage ? MATERIAL_FOR_DAMAGE : 0);
         const status enough = mpm_material_check(b->material, needs);

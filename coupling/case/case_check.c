@@ -117,9 +117,9 @@ void case_resolve(breech_case *c, const tree_node *root)
     const tree_node *sites = host_tree_find(root, "sites"), *rail = host_tree_find(root, "rail");
     const tree_node *armature = host_tree_find(root, "armature");
     follow_lengths(c, armature);
-    follow_metal(rail, circuit_shot_rails_params, &c->rails, rail_keys, case_material(c, c->rail.material));
+    follow_metal(rail, circuit_shot_rails_params, &c->rails, rail_keys, case_material(&c->materials, c->rail.material));
     follow_metal(armature, circuit_shot_armature_params, &c->armature, armature_keys,
-                 case_material(c, c->projectile.material));
+                 case_material(&c->materials, c->projectile.material));
     follow_temperature(rail, circuit_shot_rails_params, &c->rails, c->rail.temperature);
     follow_temperature(armature, circuit_shot_armature_params, &c->armature, c->projectile.temperature);
     resolve_text(c->particle.material, c->rail.material);
@@ -269,7 +269,7 @@ static void check_materials(case_reader *r)
 {
     for (int k = 0; k < r->n_use; k++) {
         const material_use *use = &r->use[k];
-        const material *m = case_material(r->out, use->name);
+        const material *m = case_material(&r->out->materials, use->name);
         const unsigned needs = material_needs(r, use);
         if (!m || needs == 0) continue; /* one that could not be loaded is an error already */
         const status s = mpm_material_check(m, needs);

@@ -20,6 +20,23 @@ typedef struct {
 } case_flight;
 case_flight case_flight_of(const breech_case *c);
 
+/* The armature over a grain on the rail: all that decides such a scene.  Of one that a study varies, grain, velocity,
+ * contact pressure and resolution are set anew for every scene (gouge_impact_at). */
+typedef struct {
+    case_rail rail;
+    case_projectile armature;
+    case_particle particle;
+    case_scene scene;
+    case_materials materials;   /* all that rail, layers, armature and grains may name */
+    int snapshots;              /* of the scene, evenly over its time; where they lie it may end */
+    double checkpoint_interval; /* wall time; decides nothing [s] */
+} case_impact;
+case_impact case_impact_of(const breech_case *c);
+
+/* The case file that `breech scene` computes just this scene from: every value resolved, the constants of the materials
+ * named.  Read back it is the same impact, bit for bit. */
+status case_impact_write(const case_impact *i, FILE *file);
+
 /* What meets at the rail's surface. */
 typedef struct {
     const material *rail, *armature; /* rail: the top layer where there are layers */

@@ -7,11 +7,11 @@
 #include <math.h>
 #include <string.h>
 
-status gouge_job_make(const breech_case *c, const site_state *state, double cells_per_radius, gouge_job *job)
+status gouge_job_make(const case_impact *c, const site_state *state, double cells_per_radius, gouge_job *job)
 {
     memset(job, 0, sizeof *job);
-    job->snapshots = c->output.snapshots;
-    job->checkpoint_interval = c->output.checkpoint_interval;
+    job->snapshots = c->snapshots;
+    job->checkpoint_interval = c->checkpoint_interval;
     return gouge_scene_from_state(c, state, cells_per_radius, &job->scene);
 }
 

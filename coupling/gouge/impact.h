@@ -24,9 +24,9 @@ typedef struct {
     double mass_loss; /* armature metal that failed, or was left behind slower than half the armature's speed [kg] */
 } impact;
 
-/* The job's scene for this state, and what the case says of output; name and task are the caller's, who frees the
+/* The job's scene for this state, and what the impact says of output; name and task are the caller's, who frees the
  * job; after an error it is empty. */
-status gouge_job_make(const breech_case *c, const site_state *state, double cells_per_radius, gouge_job *job);
+status gouge_job_make(const case_impact *c, const site_state *state, double cells_per_radius, gouge_job *job);
 void gouge_job_free(gouge_job *job);
 
 /* The crater goes into the host's history, unless the scene ends before it is whole.

@@ -23,7 +23,7 @@ static const double BESIDE = 1.5;
 /* Length across the rail of shapes that have one. */
 #define RIDGE_LENGTH 4.0 /* half of it, in radii */
 
-bool gouge_is_gauged(const breech_case *c)
+bool gouge_is_gauged(const case_impact *c)
 {
     return c->scene.stop_when_gauged && c->scene.follow;
 }
@@ -38,7 +38,7 @@ bool gouge_counts_as_rail(const gouge_scene *s, int body)
     return body == s->rail || gouge_is_layer(s, body);
 }
 
-site_state gouge_state_of_case(const breech_case *c)
+site_state gouge_state_of_case(const case_impact *c)
 {
     const case_particle *p = &c->particle;
     site_state s = { .reached = true, .time = 0.0, .velocity = c->scene.velocity, .current = NAN };
@@ -48,8 +48,21 @@ site_state gouge_state_of_case(const breech_case *c)
     memcpy(s.grain.material, p->material, sizeof s.grain.material);
     s.contact_pressure = isnan(c->scene.contact_pressure) ? 0.0 : c->scene.contact_pressure;
     s.rail_temperature = c->rail.temperature;
-    s.armature_temperature = c->projectile.temperature;
+    s.armature_temperature = c->armature.temperature;
     return s;
+}
+
+case_impact gouge_impact_at(const case_impact *from, const site_state *state, double cells_per_radius)
+{
+    const case_site *g = &state->grain;
+    case_impact at = *from;
+    at.particle = (case_particle){ .radius = g->radius, .height = g->height, .bond_strength = g->bond_strength };
+    memcpy(at.particle.shape, g->shape, sizeof g->shape);
+    memcpy(at.particle.material, g->material, sizeof g->material);
+    at.scene.velocity = state->velocity;
+    at.scene.contact_pressure = state->contact_pressure;
+    at.scene.cells_per_radius = cells_per_radius;
+    return at;
 }
 
 /* ---- lengths ---- */
@@ -79,7 +92,7 @@ static double cells_over(double length, double cell)
     return cell * ceil(length / cell * (1.0 - 1e-9));
 }
 
-static double top_of_zone(const breech_case *c, const case_site *g)
+static double top_of_zone(const case_impact *c, const case_site *g)
 {
     return given_or(c->scene.fine_above, fmax(1.5 * g->radius, g->height + 0.5 * g->radius));
 }
@@ -93,10 +106,10 @@ static double half_across(const case_site *g)
     return mpm_solid_get(&s, "half_length") ? RIDGE_LENGTH * g->radius : g->radius;
 }
 
-static layout lay_out(const breech_case *c, const case_site *g, double cells_per_radius)
+static layout lay_out(const case_impact *c, const case_site *g, double cells_per_radius)
 {
     const case_scene *s = &c->scene;
-    const case_projectile *p = &c->projectile;
+    const case_projectile *p = &c->armature;
     layout l = { .fine = g->radius / cells_per_radius };
     l.coarse = fmax(s->coarse_cell, (1 << (s->levels - 1)) * l.fine);
     l.run = p->chamfer_height / tan(p->lead_angle);
@@ -121,7 +134,7 @@ static layout lay_out(const breech_case *c, const case_site *g, double cells_per
     return l;
 }
 
-static status check_layout(const breech_case *c, const case_site *g, const layout *l)
+static status check_layout(const case_impact *c, const case_site *g, const layout *l)
 {
     CHECK(l->fine_ahead > g->radius && l->fine_behind > g->radius, STATUS_BAD_INPUT,
           "scene: the fine zone, %g m behind to %g m ahead of the grain, must hold the grain of radius %g m: lengthen "
@@ -141,7 +154,7 @@ static status check_layout(const breech_case *c, const case_site *g, const layou
 }
 
 /* A layer that may come off touches what lies below it: a body of less than a cell cannot. */
-static status check_layers(const breech_case *c, const case_site *g, const layout *l)
+static status check_layers(const case_impact *c, const case_site *g, const layout *l)
 {
     for (int i = 0; i < c->rail.layers.n; i++) {
         const case_layer *layer = &c->rail.layers.item[i];
@@ -189,13 +202,13 @@ static status next_group(mpm_scene *s, double bond_strength, int *group)
     return status_ok();
 }
 
-static status add_rail(const breech_case *c, const layout *l, gouge_scene *g, int *group)
+static status add_rail(const case_impact *c, const layout *l, gouge_scene *g, int *group)
 {
     mpm_body *rail, *b;
     mpm_scene *s = &g->scene;
     g->rail = s->bodies;
     g->layers = c->rail.layers.n;
-    TRY(add_body(s, "rail", case_material(c, c->rail.material), *group, &rail));
+    TRY(add_body(s, "rail", case_material(&c->materials, c->rail.material), *group, &rail));
     TRY(make_box(s, rail, l, -c->scene.rail_depth, -l->layers));
     rail->yield_scale = c->rail.yield_scale;
     double bottom = -l->layers;
@@ -204,7 +217,7 @@ static status add_rail(const breech_case *c, const layout *l, gouge_scene *g, in
         char name[PARAM_TEXT_SIZE];
         snprintf(name, sizeof name, "layer_%d", i + 1);
         TRY(next_group(s, layer->bond_strength, group));
-        TRY(add_body(s, name, case_material(c, layer->material), *group, &b));
+        TRY(add_body(s, name, case_material(&c->materials, layer->material), *group, &b));
         const bool last = i == c->rail.layers.n - 1;
         TRY(make_box(s, b, l, bottom, last ? 0.0 : bottom + layer->thickness));
         b->yield_scale = layer->yield_scale;
@@ -234,7 +247,7 @@ static void set_grain(const case_site *g, mpm_solid *solid)
 }
 
 /* A pit is a hole in rail and layers, no body. */
-static status add_grain(const breech_case *c, const case_site *g, gouge_scene *out, int *group)
+static status add_grain(const case_impact *c, const case_site *g, gouge_scene *out, int *group)
 {
     mpm_body *b;
     mpm_scene *s = &out->scene;
@@ -248,7 +261,7 @@ static status add_grain(const breech_case *c, const case_site *g, gouge_scene *o
     out->grain_end = hi[0];
     if (!is_pit(g)) {
         TRY(next_group(s, g->bond_strength, group));
-        TRY(add_body(s, "particle", case_material(c, g->material), *group, &b));
+        TRY(add_body(s, "particle", case_material(&c->materials, g->material), *group, &b));
         b->solid = place;
     }
     for (int i = 0; is_pit(g) && i < s->bodies; i++) {
@@ -258,13 +271,13 @@ static status add_grain(const breech_case *c, const case_site *g, gouge_scene *o
     return status_ok();
 }
 
-static status add_armature(const breech_case *c, const site_state *state, const layout *l, int group, gouge_scene *g)
+static status add_armature(const case_impact *c, const site_state *state, const layout *l, int group, gouge_scene *g)
 {
     mpm_body *b;
-    const case_projectile *p = &c->projectile;
+    const case_projectile *p = &c->armature;
     mpm_scene *s = &g->scene;
     g->armature = s->bodies;
-    TRY(add_body(s, "armature", case_material(c, p->material), group, &b));
+    TRY(add_body(s, "armature", case_material(&c->materials, p->material), group, &b));
     const gouge_armature shape = { .front = l->x_front,
                                    .length = p->length,
                                    .leg_thickness = p->leg_thickness,
@@ -288,7 +301,7 @@ static status add_armature(const breech_case *c, const site_state *state, const 
     return status_ok();
 }
 
-static status add_bodies(const breech_case *c, const site_state *state, const layout *l, gouge_scene *g)
+static status add_bodies(const case_impact *c, const site_state *state, const layout *l, gouge_scene *g)
 {
     mpm_scene *s = &g->scene;
     int group = 0;
@@ -304,13 +317,13 @@ static status add_bodies(const breech_case *c, const site_state *state, const la
         mpm_body *b = &s->body[i];
         CHECK(b->material, STATUS_BAD_INPUT, "scene: body `%s` has no material", b->name);
         TRY(mpm_solid_check(&s->solid[b->solid], b->solid));
-        b->temperature = i == g->armature ? c->projectile.temperature : c->rail.temperature;
+        b->temperature = i == g->armature ? c->armature.temperature : c->rail.temperature;
         b->damage = c->scene.damage;
     }
     return status_ok();
 }
 
-static void set_contacts(const breech_case *c, mpm_scene *s)
+static void set_contacts(const case_impact *c, mpm_scene *s)
 {
     s->contact.value[COULOMB_FRICTION] = c->scene.friction;
     s->contact.value[COULOMB_SHEAR_LIMIT] = given_or(c->scene.shear_limit, CONTACT_NO_LIMIT);
@@ -331,12 +344,12 @@ static void free_ends(gouge_scene *g)
     }
 }
 
-static void set_axes(const breech_case *c, const layout *l, gouge_scene *g)
+static void set_axes(const case_impact *c, const layout *l, gouge_scene *g)
 {
     mpm_scene *s = &g->scene;
     const bool half = c->scene.half_model;
     const double lo[3] = { -l->behind, -c->scene.rail_depth, half ? 0.0 : -l->half_width };
-    const double hi[3] = { l->ahead, c->projectile.half_bore, l->half_width };
+    const double hi[3] = { l->ahead, c->armature.half_bore, l->half_width };
     const double fine_lo[3] = { -l->fine_behind, -l->fine_depth, half ? 0.0 : -l->narrow_half_width };
     const double fine_hi[3] = { l->fine_ahead, l->fine_above, l->narrow_half_width };
     const boundary_kind kind[3][2] = { { BOUNDARY_ABSORBING, BOUNDARY_ABSORBING },
@@ -374,7 +387,7 @@ double gouge_last_time(const gouge_scene *s)
 }
 
 /* The fine zone goes with the rail's plastic front. */
-static void set_follow(const breech_case *c, const case_site *grain, const layout *l, gouge_scene *g)
+static void set_follow(const case_impact *c, const case_site *grain, const layout *l, gouge_scene *g)
 {
     mpm_scene *s = &g->scene;
     if (!c->scene.follow) return;
@@ -385,7 +398,7 @@ static void set_follow(const breech_case *c, const case_site *grain, const layou
     gouge_gauge_times(grain->radius, g->velocity, g->gauge_time);
 }
 
-static void set_method(const breech_case *c, const layout *l, gouge_scene *g)
+static void set_method(const case_impact *c, const layout *l, gouge_scene *g)
 {
     const case_scene *from = &c->scene;
     mpm_scene *s = &g->scene;
@@ -397,12 +410,12 @@ static void set_method(const breech_case *c, const layout *l, gouge_scene *g)
     s->basis = (basis_kind)from->basis;
     s->levels = s->basis == BASIS_GIMP ? from->levels : 1;
     s->heat_by_plastic_work = from->heat_by_plastic_work;
-    const double passage = gouge_crossing_time(g) + c->projectile.length / g->velocity;
+    const double passage = gouge_crossing_time(g) + c->armature.length / g->velocity;
     s->end_time = given_or(from->end_time,
                            from->follow ? l->travel / g->velocity : fmin(END_FACTOR * gouge_crossing_time(g), passage));
 }
 
-static void set_rules(const breech_case *c, gouge_scene *g)
+static void set_rules(const case_impact *c, gouge_scene *g)
 {
     g->friction = c->scene.friction;
     g->gauged = gouge_is_gauged(c);
@@ -450,7 +463,7 @@ static void measure_grain(const case_site *g, double *area, double *volume)
     *volume = cells * h[0] * h[1] * h[2];
 }
 
-static crater_spec spec_of(const breech_case *c, const case_site *g, const mpm_scene *s)
+static crater_spec spec_of(const case_impact *c, const case_site *g, const mpm_scene *s)
 {
     crater_spec spec = { .surface = 0.0,
                          .x_lo = s->axis[0].fine_lo,
@@ -467,7 +480,7 @@ static crater_spec spec_of(const breech_case *c, const case_site *g, const mpm_s
     return spec;
 }
 
-static status fill_scene(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out)
+static status fill_scene(const case_impact *c, const site_state *state, double cells_per_radius, gouge_scene *out)
 {
     CHECK(state->velocity > 0.0 && isfinite(state->velocity), STATUS_BAD_INPUT,
           "scene: the armature's velocity is %g m/s: must be positive", state->velocity);
@@ -483,7 +496,7 @@ static status fill_scene(const breech_case *c, const site_state *state, double c
     return reaches_gauge(out);
 }
 
-status gouge_scene_bodies(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out)
+status gouge_scene_bodies(const case_impact *c, const site_state *state, double cells_per_radius, gouge_scene *out)
 {
     memset(out, 0, sizeof *out);
     mpm_scene_default(&out->scene);
@@ -497,7 +510,7 @@ void gouge_scene_free(gouge_scene *s)
     mpm_scene_free(&s->scene);
 }
 
-status gouge_scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out)
+status gouge_scene_from_state(const case_impact *c, const site_state *state, double cells_per_radius, gouge_scene *out)
 {
     TRY(gouge_scene_bodies(c, state, cells_per_radius, out));
     out->crater = spec_of(c, &state->grain, &out->scene);

@@ -16,7 +16,6 @@
 #ifndef BREECH_COUPLING_SCENE_FROM_STATE_H
 #define BREECH_COUPLING_SCENE_FROM_STATE_H
 
-#include "coupling/case/case.h"
 #include "coupling/gouge/crater.h"
 #include "coupling/gouge/site_state.h"
 #include "mpm/mpm.h"
@@ -45,19 +44,22 @@ enum { GOUGE_PIT = -1 };
 
 /* state: grain, velocity and contact pressure are used.  The caller frees the scene; after an error it is empty.
  * STATUS_BAD_INPUT names what cannot be built and which key to change. */
-status gouge_scene_from_state(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out);
+status gouge_scene_from_state(const case_impact *c, const site_state *state, double cells_per_radius, gouge_scene *out);
 
 void gouge_scene_free(gouge_scene *s);
 
 /* The same without what the crater is measured by, which takes some 20 ms: does this case make a scene? */
-status gouge_scene_bodies(const breech_case *c, const site_state *state, double cells_per_radius, gouge_scene *out);
+status gouge_scene_bodies(const case_impact *c, const site_state *state, double cells_per_radius, gouge_scene *out);
 
-/* `breech scene`: the case's own particle, velocity and contact pressure (none where it gives none). */
-site_state gouge_state_of_case(const breech_case *c);
+/* What the impact itself says: its particle, velocity and contact pressure (none where it gives none). */
+site_state gouge_state_of_case(const case_impact *c);
+
+/* The impact with this state's grain, velocity and contact pressure, at that resolution: its scene is decided. */
+case_impact gouge_impact_at(const case_impact *from, const site_state *state, double cells_per_radius);
 
 /* Is such a scene over, and judged, once the growth of its groove is known (scene.stop_when_gauged)?  Only of a groove
  * that is followed. */
-bool gouge_is_gauged(const breech_case *c);
+bool gouge_is_gauged(const case_impact *c);
 
 /* Does the crater count this body's points: the rail or one of its layers? */
 bool gouge_counts_as_rail(const gouge_scene *s, int body);

@@ -84,11 +84,11 @@ static status add(crew *k, const scene_query *q, errand **out)
 static status find_or_add(crew *k, const scene_query *q, errand **out)
 {
     scene_key key = { .text = NULL };
-    status done = run_scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
+    status done = run_scene_key_of(&q->impact, &key);
     *out = find(k, key.hash);
     if (done.code == STATUS_OK && !*out) {
         uint64_t twin = 0;
-        if (!gouge_is_gauged(q->c)) done = run_scene_twin(q, &twin);
+        if (!gouge_is_gauged(&q->impact)) done = run_scene_twin(q, &twin);
         if (done.code == STATUS_OK) done = add(k, q, out);
         if (done.code == STATUS_OK) {
             (*out)->key = key;

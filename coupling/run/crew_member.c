@@ -91,12 +91,12 @@ static status check_key(const scene_order *order, const scene_key *key)
     return status_ok();
 }
 
-static status compute_case(work *w, const scene_order *order, const breech_case *c, h5_file **file)
+static status compute_impact(work *w, const scene_order *order, const case_impact *one, h5_file **file)
 {
-    scene_query q = { .c = c, .state = gouge_state_of_case(c), .cells_per_radius = c->scene.cells_per_radius };
+    scene_query q = { .impact = *one };
     scene_key key = { .text = NULL };
     snprintf(q.name, sizeof q.name, "%s", order->name);
-    status done = run_scene_key_of(c, &q.state, q.cells_per_radius, &key);
+    status done = run_scene_key_of(one, &key);
     if (done.code == STATUS_OK) done = check_key(order, &key);
     if (done.code == STATUS_OK) done = compute(w, &q, &key, file);
     run_scene_key_free(&key);
@@ -129,7 +129,10 @@ static status take_order(member *me, const message *m)
                              .length = m->bytes - sizeof order,
                              .path = "rank 0's case" };
     status done = case_read_memory(&text, &(case_options){ .needs = CASE_FOR_SCENE }, &c, &errors);
-    if (done.code == STATUS_OK) done = compute_case(&w, &order, c, &file);
+    if (done.code == STATUS_OK) {
+        const case_impact one = case_impact_of(c);
+        done = compute_impact(&w, &order, &one, &file);
+    }
     me->top = w.put_off;
     done = answer(me, order.key, done, file);
     host_h5_close(file);

@@ -1,14 +1,13 @@
-/* What decides a scene, as text: the case file that `breech scene` would compute just this scene from.
+/* What decides a scene, as text: the case file that `breech scene` would compute just this scene from
+ * (case_impact_write).
  *
- * Rail, projectile, grain, scene settings, the constants of the materials named, every value resolved; written by the
- * tables of the case's schema, so that a new key of these sections is in it from the start.  Read back
- * (case_read_memory) it gives the same scene, bit for bit.  Of `output` the number of snapshots counts: it sets where a
- * scene looks whether it is settled. The key is the hash of this text, the version, the instruction set and the
- * solver's id. */
+ * It is written by the tables of the case's schema, so that a new key of its sections is in it from the start.  Of
+ * `output` the number of snapshots counts: it sets where a scene looks whether it is settled.  The key is the hash of
+ * this text, the version, the instruction set and the solver's id. */
 #ifndef BREECH_COUPLING_SCENE_KEY_H
 #define BREECH_COUPLING_SCENE_KEY_H
 
-#include "coupling/gouge/site_state.h"
+#include "coupling/case/case_plain.h"
 
 #include <stdint.h>
 
@@ -19,7 +18,7 @@ typedef struct {
 } scene_key;
 
 /* *out needs run_scene_key_free even on error. */
-status run_scene_key_of(const breech_case *c, const site_state *state, double cells_per_radius, scene_key *out);
+status run_scene_key_of(const case_impact *one, scene_key *out);
 void run_scene_key_free(scene_key *k);
 
 /* Of the solver's sources, the compiler and its flags (cmake/solver_id.cmake). */

@@ -43,8 +43,8 @@ static bool stop_asked(void *user)
 static status run_here(session *s, const scene_query *q, const scene_key *key, scene_record *out)
 {
     char task[120];
-    snprintf(task, sizeof task, "scene %d, %g m/s, %g cells a radius", s->n_records + 1, q->state.velocity,
-             q->cells_per_radius);
+    snprintf(task, sizeof task, "scene %d, %g m/s, %g cells a radius", s->n_records + 1, q->impact.scene.velocity,
+             q->impact.scene.cells_per_radius);
     const scene_host host = { .dir = &s->dir,
                               .history = s->history,
                               .progress = &s->progress,
@@ -135,7 +135,7 @@ static const scene_record *record_of(const session *s, uint64_t key)
 static status look_up(session *s, const scene_query *q, scene_key *key, const scene_record **out)
 {
     *out = NULL;
-    TRY(run_scene_key_of(q->c, &q->state, q->cells_per_radius, key));
+    TRY(run_scene_key_of(&q->impact, key));
     *out = record_of(s, key->hash);
     if (*out) return status_ok();
     TRY(take_come(s, q, key));
@@ -157,7 +157,7 @@ status run_scenes_find(session *s, const scene_query *query, const scene_record 
 static status compute_here(session *s, const scene_query *q)
 {
     scene_key key = { .text = NULL };
-    status done = run_scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
+    status done = run_scene_key_of(&q->impact, &key);
     if (done.code == STATUS_OK) done = compute(s, q, &key);
     run_scene_key_free(&key);
     return done;
@@ -204,7 +204,7 @@ status run_scenes_all(session *s, const scene_query *query, int n, const scene_r
 static status is_known(const session *s, const scene_query *q, bool *known)
 {
     scene_key key = { .text = NULL };
-    const status done = run_scene_key_of(q->c, &q->state, q->cells_per_radius, &key);
+    const status done = run_scene_key_of(&q->impact, &key);
     *known = record_of(s, key.hash) || (s->store[0] && run_store_has(s->store, &key));
     run_scene_key_free(&key);
     return done;

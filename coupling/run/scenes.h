@@ -18,9 +18,7 @@
 #include "coupling/run/session.h"
 
 typedef struct {
-    const breech_case *c;         /* rail, projectile, scene, materials, snapshots; borrowed until run_session_close */
-    site_state state;             /* its grain, velocity and contact pressure count; the temperatures are the case's */
-    double cells_per_radius;      /* [1] */
+    case_impact impact;           /* what it borrows stays until run_session_close */
     char name[SUMMARY_NAME_SIZE]; /* plain (outdir.h); a scene of this run keeps the name it has */
     bool anew;                    /* for its snapshots and live history: do not take it from the store */
 } scene_query;

@@ -12,7 +12,7 @@
 /* ---- can its scenes be made? ---- */
 
 /* Can this state's scene be built? */
-static status scene_possible(const breech_case *c, const site_state *state, double cells_per_radius)
+static status scene_possible(const case_impact *c, const site_state *state, double cells_per_radius)
 {
     gouge_scene scene;
     TRY(gouge_scene_bodies(c, state, cells_per_radius, &scene));
@@ -23,9 +23,8 @@ static status scene_possible(const breech_case *c, const site_state *state, doub
 /* A search's scenes at both resolutions with a grain of this size. */
 static status grain_possible(const breech_case *c, const case_site *grain)
 {
-    breech_case probe;
-    site_state state = gouge_state_of_case(c);
-    study_family_probe(c, &probe);
+    const case_impact probe = study_family_probe(c);
+    site_state state = gouge_state_of_case(&probe);
     state.velocity = c->study.velocity_low;
     state.grain = *grain;
     TRY(scene_possible(&probe, &state, c->study.coarse_cells_per_radius));
@@ -80,12 +79,13 @@ status study_possible(const breech_case *c, unsigned needs)
     if (c->given.bodies) TRY(bodies_possible(c));
     rail_section section;
     const shot_config circuit = case_launcher(c);
-    const site_state state = gouge_state_of_case(c);
+    const case_impact own = case_impact_of(c);
+    const site_state state = gouge_state_of_case(&own);
     if ((needs & CASE_FOR_INDUCTANCE) ||
         ((needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) && c->rails.level != SHOT_RAILS_CONSTANT))
         TRY(circuit_rails_section(&c->rails, &section));
     if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_shot_check(&circuit));
-    if ((needs & CASE_FOR_SCENE) && !c->given.bodies) TRY(scene_possible(c, &state, c->scene.cells_per_radius));
+    if ((needs & CASE_FOR_SCENE) && !c->given.bodies) TRY(scene_possible(&own, &state, c->scene.cells_per_radius));
     if (needs & CASE_FOR_ONSET) TRY(grains_possible(c));
     return needs & CASE_FOR_COMPARE ? treatments_possible(c) : status_ok();
 }
@@ -101,7 +101,7 @@ static status estimate_scene(const mpm_scene *s, double last, int threads, scene
     return status_ok();
 }
 
-static status estimate(const breech_case *c, const site_state *state, double cells, int threads, scene_estimate *out)
+static status estimate(const case_impact *c, const site_state *state, double cells, int threads, scene_estimate *out)
 {
     gouge_scene scene;
     TRY(gouge_scene_bodies(c, state, cells, &scene));
@@ -112,23 +112,22 @@ static status estimate(const breech_case *c, const site_state *state, double cel
 
 status study_check(const breech_case *c, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n)
 {
+    const case_impact own = case_impact_of(c), probe = study_family_probe(c);
     *n = 0;
     if (c->given.bodies) {
         snprintf(out[*n].what, sizeof out->what, "scene, %d bodies", c->bodies.scene.bodies);
         TRY(estimate_scene(&c->bodies.scene, c->bodies.scene.end_time, threads, &out[(*n)++]));
     }
     if (c->given.projectile && !isnan(c->scene.velocity) && !isnan(c->particle.radius)) {
-        const site_state state = gouge_state_of_case(c);
+        const site_state state = gouge_state_of_case(&own);
         snprintf(out[*n].what, sizeof out->what, "scene, %g m/s, %g cells a radius", state.velocity,
                  c->scene.cells_per_radius);
-        TRY(estimate(c, &state, c->scene.cells_per_radius, threads, &out[(*n)++]));
+        TRY(estimate(&own, &state, c->scene.cells_per_radius, threads, &out[(*n)++]));
     }
     if (!c->given.projectile || c->sites.n == 0) return status_ok();
     const double cells[] = { c->study.coarse_cells_per_radius, c->study.fine_cells_per_radius };
-    breech_case probe;
-    study_family_probe(c, &probe);
     for (int k = 0; k < (cells[0] < cells[1] ? 2 : 1); k++) {
-        site_state state = gouge_state_of_case(c);
+        site_state state = gouge_state_of_case(&probe);
         state.grain = c->sites.item[0];
         state.velocity = c->study.velocity_low;
         snprintf(out[*n].what, sizeof out->what, "onset, %g m/s, %g cells a radius", state.velocity, cells[k]);
@@ -140,11 +139,12 @@ status study_check(const breech_case *c, int threads, scene_estimate out[CHECK_M
 status study_print_scene(const breech_case *c, FILE *out)
 {
     gouge_scene scene;
-    const site_state state = gouge_state_of_case(c);
+    const case_impact own = case_impact_of(c);
+    const site_state state = gouge_state_of_case(&own);
     if (c->given.bodies) return case_write_used(c, out);
     CHECK(c->given.projectile && !isnan(c->scene.velocity) && !isnan(c->particle.radius), STATUS_BAD_INPUT,
           "the case has no scene of its own: give scene.velocity and particle.radius, or a scene with bodies");
-    TRY(gouge_scene_bodies(c, &state, c->scene.cells_per_radius, &scene));
+    TRY(gouge_scene_bodies(&own, &state, c->scene.cells_per_radius, &scene));
     const status written = case_write_scene(c, &scene.scene, out);
     gouge_scene_free(&scene);
     return written;

@@ -52,7 +52,7 @@ static double warmest(const mc_along *a, double slowest)
 /* Rise at which the rail melts. */
 static double melting_rise(const breech_case *c)
 {
-    return case_material(c, c->rail.material)->melting_temperature - c->rail.temperature;
+    return case_material(&c->materials, c->rail.material)->melting_temperature - c->rail.temperature;
 }
 
 static status no_melting(const breech_case *c, int number, const rises rise)

@@ -280,13 +280,14 @@ static void take_status(outcome *o, const status *s)
     o->why = *s;
 }
 
-static void run_case(breech_case *c, const recipe *r, chance *luck, outcome *o)
+static void run_case(const breech_case *c, const recipe *r, chance *luck, outcome *o)
 {
     gouge_job job;
     impact hit;
-    const site_state state = gouge_state_of_case(c);
-    c->output.checkpoint_interval = 0;
-    status s = gouge_job_make(c, &state, c->scene.cells_per_radius, &job);
+    case_impact one = case_impact_of(c);
+    const site_state state = gouge_state_of_case(&one);
+    one.checkpoint_interval = 0;
+    status s = gouge_job_make(&one, &state, one.scene.cells_per_radius, &job);
     if (s.code == STATUS_OK) {
         job.name = job.task = "stress";
         const scene_host host = { .threads = 1, .save = on_save, .user = o };

@@ -12,8 +12,6 @@ void study_families_free(grain_families *f)
     free(f->family);
     free(f->of_site);
     free(f->of_population);
-    free(f->probe);
-    free(f->whole);
     memset(f, 0, sizeof *f);
 }
 
@@ -124,7 +122,7 @@ static int middle_size(const surface_plan *p)
 static status plan_searches(grain_families *f)
 {
     const case_study *y = &f->c->study;
-    const bool by_growth = gouge_is_gauged(f->probe);
+    const bool by_growth = gouge_is_gauged(&f->probe);
     const int craters = by_growth ? y->craters * f->n : 0;
     double sure;
     TRY(gouge_screen_velocity(case_surface_of(f->c), y->screen_low, &sure));
@@ -151,33 +149,25 @@ static status plan_searches(grain_families *f)
     return status_ok();
 }
 
-void study_family_probe(const breech_case *c, breech_case *out)
+case_impact study_family_probe(const breech_case *c)
 {
-    *out = *c;
-    out->scene.stop_when_gauged = c->study.judge == JUDGE_GROWTH;
-    if (gouge_is_gauged(out)) out->output.snapshots = 0;
-}
-
-static status make_cases(grain_families *f)
-{
-    f->probe = malloc(sizeof *f->probe);
-    f->whole = malloc(sizeof *f->whole);
-    CHECK(f->probe && f->whole, STATUS_MEMORY, "no memory for two cases");
-    study_family_probe(f->c, f->probe);
-    *f->whole = *f->c;
-    f->whole->scene.stop_when_gauged = false;
-    return status_ok();
+    case_impact probe = case_impact_of(c);
+    probe.scene.stop_when_gauged = c->study.judge == JUDGE_GROWTH;
+    if (gouge_is_gauged(&probe)) probe.snapshots = 0;
+    return probe;
 }
 
 status study_families_sort(const breech_case *c, const shot_outcome *flown, const char *prefix, grain_families *out)
 {
     const size_t sites = (size_t)c->sites.n, populations = (size_t)c->populations.n;
-    *out = (grain_families){ .c = c, .flown = flown, .prefix = prefix };
+    *out = (grain_families){
+        .c = c, .probe = study_family_probe(c), .whole = case_impact_of(c), .flown = flown, .prefix = prefix
+    };
+    out->whole.scene.stop_when_gauged = false;
     out->family = calloc(sites + populations + 1, sizeof *out->family);
     out->of_site = calloc(sites + 1, sizeof *out->of_site);
     out->of_population = calloc(populations + 1, sizeof *out->of_population);
     CHECK(out->family && out->of_site && out->of_population, STATUS_MEMORY, "no memory for %zu sites", sites);
-    TRY(make_cases(out));
     TRY(sort_sites(out));
     TRY(sort_populations(out));
     return plan_searches(out);

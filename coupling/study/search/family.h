@@ -31,9 +31,8 @@ typedef struct {
 
 /* The grains of one case in one shot. */
 typedef struct {
-    const breech_case *c; /* borrowed */
-    breech_case *probe,
-        *whole; /* what the searches' scenes are made of, and those that go to their end; owned, borrow */
+    const breech_case *c;      /* borrowed */
+    case_impact probe, whole;  /* what the searches' scenes are made of, and those that go to their end */
     const shot_outcome *flown; /* borrowed */
     const char *prefix;        /* of its scenes' names, "" for the case as it is; borrowed */
     int n;
@@ -46,9 +45,9 @@ typedef struct {
 status study_families_sort(const breech_case *c, const shot_outcome *flown, const char *prefix, grain_families *out);
 void study_families_free(grain_families *f);
 
-/* A copy of c, which it borrows from, as a search's scenes are made of: they end at their second gauge where the study
- * is judged by growth, and else go to their end. */
-void study_family_probe(const breech_case *c, breech_case *out);
+/* What a search's scenes are made of: they end at their second gauge where the study is judged by growth, and else go
+ * to their end. */
+case_impact study_family_probe(const breech_case *c);
 
 /* Searches all families of n cases to their end. */
 status study_families_search(session *s, grain_families *const *f, int n);

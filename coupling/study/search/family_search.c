@@ -41,21 +41,19 @@ static double contact_pressure_at(const grain_families *f, double v)
 
 static scene_query query_of(const family_search *s, const family_wanted *w)
 {
-    const breech_case *c = w->whole ? s->of->whole : s->of->probe;
+    const case_impact *from = w->whole ? &s->of->whole : &s->of->probe;
     const double radius = w->at.radius, velocity = w->at.velocity, cells = w->at.cells_per_radius;
-    scene_query q = { .c = c, .cells_per_radius = cells };
-    q.state = (site_state){ .grain = s->family->grain,
-                            .reached = true,
-                            .velocity = velocity,
-                            .contact_pressure = contact_pressure_at(s->of, velocity),
-                            .rail_temperature = c->rail.temperature,
-                            .armature_temperature = c->projectile.temperature };
-    q.state.grain.radius = radius;
-    q.state.grain.height = s->family->aspect * radius;
+    site_state state = { .grain = s->family->grain,
+                         .reached = true,
+                         .velocity = velocity,
+                         .contact_pressure = contact_pressure_at(s->of, velocity) };
+    state.grain.radius = radius;
+    state.grain.height = s->family->aspect * radius;
+    scene_query q = { .impact = gouge_impact_at(from, &state, cells) };
     char size[32] = "";
     if (s->family->plan.sizes > 1) snprintf(size, sizeof size, "-r%.6g", 1e3 * radius);
     snprintf(q.name, sizeof q.name, "%.40sg%d%s-v%g-c%g%s", s->of->prefix, s->number, size, velocity, cells,
-             gouge_is_gauged(c) ? "-growth" : "");
+             gouge_is_gauged(from) ? "-growth" : "");
     return q;
 }
 
@@ -245,8 +243,8 @@ typedef struct {
 
 static bool is_longer(const scene_query *a, const scene_query *b)
 {
-    const bool whole[2] = { !gouge_is_gauged(a->c), !gouge_is_gauged(b->c) };
-    return whole[0] != whole[1] ? whole[0] : a->cells_per_radius > b->cells_per_radius;
+    const bool whole[2] = { !gouge_is_gauged(&a->impact), !gouge_is_gauged(&b->impact) };
+    return whole[0] != whole[1] ? whole[0] : a->impact.scene.cells_per_radius > b->impact.scene.cells_per_radius;
 }
 
 static void sort_longest_first(scene_query *list, int n)
