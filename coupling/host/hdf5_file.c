@@ -351,10 +351,15 @@ status host_h5_write(h5_file *f, const h5_name *name, const h5_array *a)
     return put_names(f, name);
 }
 
-static status make_series(h5_file *f, const h5_name *name)
+/* Rows of one value: a line; of more: two dimensions. */
+static status make_series(h5_file *f, const h5_name *name, size_t width)
 {
-    const hsize_t none = 0, any = H5S_UNLIMITED, chunk = CHUNK_ROWS;
-    const hid_t space = H5Screate_simple(1, &none, &any), links = link_with_parents(), kind = chunked(1, &chunk, true);
+    const int rank = width > 1 ? 2 : 1;
+    const hsize_t none[H5_MAX_RANK] = { 0, width }, any[H5_MAX_RANK] = { H5S_UNLIMITED, width };
+    const hsize_t rows = width > 1 && CHUNK_VALUES / width < CHUNK_ROWS ? CHUNK_VALUES / width : CHUNK_ROWS;
+    const hsize_t chunk[H5_MAX_RANK] = { rows > 0 ? rows : 1, width };
+    const hid_t space = H5Screate_simple(rank, none, any), links = link_with_parents(),
+                kind = chunked(rank, chunk, true);
     const hid_t set = H5Dcreate2(f->id, name->path, H5T_NATIVE_DOUBLE, space, links, kind, H5P_DEFAULT);
     if (set >= 0) H5Dclose(set);
     H5Pclose(kind);
@@ -364,34 +369,37 @@ static status make_series(h5_file *f, const h5_name *name)
     return put_names(f, name);
 }
 
-/* Length of an open one-dimensional dataset; false when it is none. */
-static bool length_of(hid_t set, hsize_t *length)
+/* Rows and width of an open dataset; false when it has more dimensions. */
+static bool extent_of(hid_t set, hsize_t extent[H5_MAX_RANK])
 {
     const hid_t space = H5Dget_space(set);
-    const bool line = H5Sget_simple_extent_ndims(space) == 1 && H5Sget_simple_extent_dims(space, length, NULL) == 1;
+    const int rank = H5Sget_simple_extent_ndims(space);
+    extent[1] = 1;
+    const bool plain = rank >= 1 && rank <= H5_MAX_RANK && H5Sget_simple_extent_dims(space, extent, NULL) == rank;
     H5Sclose(space);
-    return line;
+    return plain;
 }
 
-static herr_t extend(hid_t set, const double *values, hsize_t rows)
+static herr_t extend(hid_t set, const double *values, hsize_t rows, hsize_t width)
 {
-    hsize_t old;
-    if (!length_of(set, &old)) return -1;
-    const hsize_t grown = old + rows;
-    if (H5Dset_extent(set, &grown) < 0) return -1;
-    const hid_t where = H5Dget_space(set), what = H5Screate_simple(1, &rows, NULL);
-    H5Sselect_hyperslab(where, H5S_SELECT_SET, &old, NULL, &rows, NULL);
+    hsize_t grown[H5_MAX_RANK];
+    if (!extent_of(set, grown) || grown[1] != width) return -1;
+    const hsize_t from[H5_MAX_RANK] = { grown[0], 0 }, added[H5_MAX_RANK] = { rows, width };
+    grown[0] += rows;
+    if (H5Dset_extent(set, grown) < 0) return -1;
+    const hid_t where = H5Dget_space(set), what = H5Screate_simple(width > 1 ? 2 : 1, added, NULL);
+    H5Sselect_hyperslab(where, H5S_SELECT_SET, from, NULL, added, NULL);
     const herr_t done = H5Dwrite(set, H5T_NATIVE_DOUBLE, what, where, H5P_DEFAULT, values);
     H5Sclose(what);
     H5Sclose(where);
     return done;
 }
 
-status host_h5_append(h5_file *f, const h5_name *name, const double *values, size_t rows)
+status host_h5_append(h5_file *f, const h5_name *name, const double *values, size_t rows, size_t width)
 {
-    if (!host_h5_exists(f, name->path)) TRY(make_series(f, name));
+    if (!host_h5_exists(f, name->path)) TRY(make_series(f, name, width));
     const hid_t set = H5Dopen2(f->id, name->path, H5P_DEFAULT);
-    herr_t done = set < 0 ? -1 : rows == 0 ? 0 : extend(set, values, rows);
+    herr_t done = set < 0 ? -1 : rows == 0 ? 0 : extend(set, values, rows, width);
     if (set >= 0 && H5Dclose(set) < 0) done = -1;
     CHECK(done >= 0, STATUS_IO, "%.150s: %.150s cannot be appended to", f->name, name->path);
     return status_ok();
@@ -400,10 +408,10 @@ status host_h5_append(h5_file *f, const h5_name *name, const double *values, siz
 status host_h5_truncate(h5_file *f, const char *path, size_t rows)
 {
     const hid_t set = host_h5_exists(f, path) ? H5Dopen2(f->id, path, H5P_DEFAULT) : -1;
-    hsize_t length = 0;
-    const hsize_t wanted = rows;
-    const bool line = set >= 0 && length_of(set, &length);
-    const bool done = line && (wanted >= length || H5Dset_extent(set, &wanted) >= 0);
+    hsize_t extent[H5_MAX_RANK] = { 0 };
+    const bool plain = set >= 0 && extent_of(set, extent), enough = rows >= extent[0];
+    if (!enough) extent[0] = rows;
+    const bool done = plain && (enough || H5Dset_extent(set, extent) >= 0);
     if (set >= 0) H5Dclose(set);
     CHECK(done, STATUS_IO, "%.150s: %.150s cannot be cut to %zu rows", f->name, path, rows);
     return status_ok();

@@ -49,9 +49,10 @@ status host_h5_copy(const h5_file *from, const char *path, h5_file *to, const ch
 /* Writes a whole dataset (an older one of that name goes); deflate 1 + shuffle from 1 KiB on. */
 status host_h5_write(h5_file *f, const h5_name *name, const h5_array *array);
 
-/* Appends `rows` values to a one-dimensional dataset of doubles, made when missing. */
-status host_h5_append(h5_file *f, const h5_name *name, const double *values, size_t rows);
-/* Cuts a one-dimensional dataset to its first `rows` values. */
+/* Appends `rows` rows of `width` values to a dataset of doubles, made when missing; of one dimension where width is 1.
+ */
+status host_h5_append(h5_file *f, const h5_name *name, const double *values, size_t rows, size_t width);
+/* Cuts a dataset that was appended to to its first rows. */
 status host_h5_truncate(h5_file *f, const char *path, size_t rows);
 
 /* Reads a dataset as doubles; *data is malloc'ed, the caller frees it; dims past the rank are 1. */

@@ -10,14 +10,16 @@
 #define TICK_INTERVAL 5.0 /* between two flushes by output_history_tick [s] */
 #define TICK_SHARE 20.0   /* and at least this many times what the last one took */
 
-enum { BUFFER_ROWS = 256, GROUP_SIZE = 200, PATH_SIZE = 300 };
+enum { BUFFER_ROWS = 256, BUFFER_VALUES = 1 << 20, GROUP_SIZE = 200, PATH_SIZE = 300 };
 
 typedef struct {
     char group[GROUP_SIZE]; /* "" = free */
     int columns;
     char (*name)[96], (*unit)[32], (*description)[160]; /* columns each, owned */
-    double *row;                                        /* BUFFER_ROWS x columns, owned */
-    double *column;                                     /* BUFFER_ROWS, owned */
+    size_t *width;                                      /* of each column, owned */
+    size_t row_width, room;                             /* values a row; rows that there is room for */
+    double *row;                                        /* room x row_width, owned */
+    double *column;                                     /* room x the widest column, owned */
     size_t rows;                                        /* gathered */
 } series_buffer;
 
@@ -54,31 +56,46 @@ static void series_free(series_buffer *b)
     free(b->name);
     free(b->unit);
     free(b->description);
+    free(b->width);
     free(b->row);
     free(b->column);
     memset(b, 0, sizeof *b);
 }
 
-static bool series_allocate(series_buffer *b, int n)
+static bool series_allocate(series_buffer *b, const int *width, int n)
 {
     const size_t columns = (size_t)n;
+    size_t widest = 1;
     b->columns = n;
     b->name = calloc(columns, sizeof *b->name);
     b->unit = calloc(columns, sizeof *b->unit);
     b->description = calloc(columns, sizeof *b->description);
-    b->row = calloc(columns * BUFFER_ROWS, sizeof *b->row);
-    b->column = calloc(BUFFER_ROWS, sizeof *b->column);
-    return b->name && b->unit && b->description && b->row && b->column;
+    b->width = calloc(columns, sizeof *b->width);
+    if (!b->name || !b->unit || !b->description || !b->width) return false;
+    for (int c = 0; c < n; c++) {
+        b->width[c] = width ? (size_t)width[c] : 1;
+        if (b->width[c] > widest) widest = b->width[c];
+        b->row_width += b->width[c];
+    }
+    b->room = BUFFER_VALUES / b->row_width;
+    b->room = b->room < 1 ? 1 : b->room > BUFFER_ROWS ? BUFFER_ROWS : b->room;
+    b->row = calloc(b->row_width * b->room, sizeof *b->row);
+    b->column = calloc(widest * b->room, sizeof *b->column);
+    return b->row && b->column;
 }
 
 /* Moves the gathered rows into the file in memory; makes the columns on first use. */
 static status gather(history *h, series_buffer *b)
 {
+    size_t at = 0; /* of the column in a row */
     for (int c = 0; c < b->columns; c++) {
         char path[PATH_SIZE];
+        const size_t width = b->width[c];
         snprintf(path, sizeof path, "%s/%s", b->group, b->name[c]);
-        for (size_t i = 0; i < b->rows; i++) b->column[i] = b->row[i * (size_t)b->columns + (size_t)c];
-        TRY(host_h5_append(h->file, &(h5_name){ path, b->unit[c], b->description[c] }, b->column, b->rows));
+        for (size_t i = 0; i < b->rows; i++)
+            memcpy(b->column + i * width, b->row + i * b->row_width + at, width * sizeof *b->row);
+        TRY(host_h5_append(h->file, &(h5_name){ path, b->unit[c], b->description[c] }, b->column, b->rows, width));
+        at += width;
     }
     b->rows = 0;
     return status_ok();
@@ -100,6 +117,12 @@ static int find_series(const history *h, const char *group)
 
 status output_history_series(history *h, const char *group, const history_column *columns, int n, int *series)
 {
+    return output_history_arrays(h, group, columns, NULL, n, series);
+}
+
+status output_history_arrays(history *h, const char *group, const history_column *columns, const int *width, int n,
+                             int *series)
+{
     CHECK(n > 0 && n <= HISTORY_MAX_COLUMNS, STATUS_BAD_INPUT, "history %.100s: %d columns, 1 to %d", group, n,
           HISTORY_MAX_COLUMNS);
     CHECK(group[0] == '/' && strlen(group) < GROUP_SIZE, STATUS_BAD_INPUT, "history: %.100s is no group's name", group);
@@ -108,7 +131,7 @@ status output_history_series(history *h, const char *group, const history_column
     *series = find_series(h, "");
     CHECK(*series < HISTORY_MAX_SERIES, STATUS_BAD_INPUT, "history: more than %d series open", HISTORY_MAX_SERIES);
     series_buffer *b = &h->series[*series];
-    if (!series_allocate(b, n)) {
+    if (!series_allocate(b, width, n)) {
         series_free(b);
         return base_status_error(STATUS_MEMORY, "no memory for the history of %.100s", group);
     }
@@ -125,10 +148,10 @@ status output_history_series(history *h, const char *group, const history_column
 status output_history_append(history *h, int series, const double *row)
 {
     series_buffer *b = &h->series[series];
-    memcpy(b->row + b->rows * (size_t)b->columns, row, (size_t)b->columns * sizeof *row);
+    memcpy(b->row + b->rows * b->row_width, row, b->row_width * sizeof *row);
     b->rows++;
     h->changed = true;
-    return b->rows < BUFFER_ROWS ? status_ok() : gather(h, b);
+    return b->rows < b->room ? status_ok() : gather(h, b);
 }
 
 status output_history_rewind(history *h, int series, double time)
@@ -201,6 +224,16 @@ bool output_history_has(const history *h, const char *scene)
 {
     char group[GROUP_SIZE];
     return scene_group(scene, group).code == STATUS_OK && host_h5_exists(h->file, group);
+}
+
+status output_history_read(history *h, const char *scene, const char *name, double **data, size_t dims[H5_MAX_RANK])
+{
+    char group[GROUP_SIZE], path[2 * PATH_SIZE];
+    *data = NULL;
+    TRY(scene_group(scene, group));
+    TRY(gather_all(h));
+    snprintf(path, sizeof path, "%s/%s", group, name);
+    return host_h5_read(h->file, path, data, dims);
 }
 
 status output_history_export(history *h, const char *scene, h5_file *to)

@@ -32,6 +32,10 @@ status output_history_open(const char *path, bool resume, history **out);
 /* A group of columns ("/shot", "/scene/a"); appended to when it is there.  columns: n, copied.  The first column is the
  * time.  At most HISTORY_MAX_SERIES are open at once; opening the same group again gives the same series. */
 status output_history_series(history *h, const char *group, const history_column *columns, int n, int *series);
+/* The same of arrays: column c has width[c] values in every row, a dataset of two dimensions; the time has one. */
+status output_history_arrays(history *h, const char *group, const history_column *columns, const int *width, int n,
+                             int *series);
+/* row: the columns' values, one column after the other. */
 status output_history_append(history *h, int series, const double *row);
 /* Drops the rows later than `time`: for a run that goes on from a checkpoint. */
 status output_history_rewind(history *h, int series, double time);
@@ -50,6 +54,8 @@ status output_history_import(history *h, const char *scene, const h5_file *from)
 /* The same from one history to another; nothing where there is none. */
 status output_history_copy_scene(history *from, const char *scene, history *to);
 bool output_history_has(const history *h, const char *scene);
+/* A dataset of a scene, "probes/push/force_x", rows not yet written included; as host_h5_read. */
+status output_history_read(history *h, const char *scene, const char *name, double **data, size_t dims[H5_MAX_RANK]);
 
 /* A map over two axes, with numbers and texts as attributes: /scene/<scene>/<name>/{axes, value}.  All borrowed. */
 typedef struct {
@@ -75,7 +81,7 @@ status output_history_map(history *h, const char *scene, const history_map *map)
 
 /* ---- the rows of Breech's own series ---- */
 
-enum { HISTORY_MAX_COLUMNS = 4096, HISTORY_MAX_SERIES = 32 };
+enum { HISTORY_MAX_COLUMNS = 4096, HISTORY_MAX_SERIES = 512 };
 
 status output_history_shot(history *h, int *series); /* /shot */
 void output_history_shot_row(const shot_state *s, double *row);
