@@ -13,8 +13,9 @@ static bool is_gauged(const gouge_watch *w, const mpm_report *now)
     return w->scene->gauged && (g->at[1] > 0.0 || gouge_groove_dies(w->scene, g, now));
 }
 
-static bool due(void *user, const mpm_report *now)
+static bool due(void *user, const mpm *m, const mpm_report *now)
 {
+    (void)m;
     gouge_watch *w = user;
     gouge_gauges_note(w->scene, now, &w->state.gauges);
     return is_gauged(w, now);

@@ -45,9 +45,9 @@ static status save(run *r)
     enum { SHARE = 20 };
     const scene_host *h = r->host;
     const double since = host_wall_clock();
-    if (h->save) {
-        TRY(h->save(h->user, r->job->name, &(scene_now){ r->m, r->job->watch, wall_spent(r) }));
+    if (h->save) { /* the series first: rows that are later than the checkpoint are dropped, missing ones are lost */
         if (h->history) TRY(output_history_flush(h->history));
+        TRY(h->save(h->user, r->job->name, &(scene_now){ r->m, r->job->watch, wall_spent(r) }));
         book(h, "checkpoints", since);
     }
     const double now = host_wall_clock(), interval = r->job->checkpoint_interval;
@@ -59,7 +59,7 @@ static status save(run *r)
 static bool is_due(const run *r, const mpm_report *now)
 {
     const scene_watch *w = r->job->watch;
-    const bool due = w && w->due && w->due(w->user, now); /* asked after every step: it may note what it sees */
+    const bool due = w && w->due && w->due(w->user, r->m, now); /* asked after every step: it may note what it sees */
     return due || now->time >= r->piece_end;
 }
 

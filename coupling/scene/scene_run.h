@@ -17,7 +17,7 @@
 typedef struct {
     /* After every step, and again at the end of a piece, so it must give the same answer twice; cheap.  true: the piece
      * ends here. */
-    bool (*due)(void *user, const mpm_report *now);
+    bool (*due)(void *user, const mpm *m, const mpm_report *now);
     /* At the start, and at the end of every piece.  *over: the scene ends here; false when called. */
     status (*piece)(void *user, const mpm *m, bool *over);
     /* Once the scene is over.  *keep: worth going on from (scene_job.whole); false when called. */
