@@ -305,6 +305,11 @@ static void test_table(void **state)
             assert_ptr_equal((char *)mpm_probe_value(&p, q->key), (char *)p.value + q->offset);
         }
         for (const mpm_column *c = k->columns; c->name; c++) assert_true(c->unit && c->unit[0] && c->doc && c->doc[0]);
+        const int columns = mpm_probe_columns(&p);
+        assert_true(k->mains == 0 || k->mains == 1 || k->mains == 3);
+        assert_true((k->mains == 0) == (k->rows != NULL)); /* a map has none */
+        assert_true(k->main >= 0 && k->main + k->mains <= columns);
+        for (int i = 1; i < k->mains; i++) assert_string_equal(k->columns[k->main + i].unit, k->columns[k->main].unit);
         bool found = false;
         for (size_t i = 0; i < sizeof tested / sizeof tested[0]; i++) found = found || strcmp(tested[i], k->name) == 0;
         if (!found) fail_msg("%s has no closed answer in tests/test_mpm_probe.c", k->name);

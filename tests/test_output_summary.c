@@ -4,6 +4,7 @@
 
 #include "coupling/host/outdir.h"
 #include "coupling/output/history.h"
+#include "coupling/scene/scene_probe.h"
 
 #include <cJSON.h>
 
@@ -186,7 +187,10 @@ static void manual_is_up_to_date(void **state)
     fclose(out);
     out = open_memstream(&columns, &bytes);
     output_history_print_columns(out);
+    scene_probe_print_columns(out);
     fclose(out);
+    OK(host_file_write("output-keys.md", text, strlen(text))); /* to paste from */
+    OK(host_file_write("output-columns.md", columns, strlen(columns)));
     OK(host_file_read(BREECH_TESTS "/../docs/output.md", &page, NULL));
     assert_non_null(strstr(page, text));
     assert_non_null(strstr(page, columns));

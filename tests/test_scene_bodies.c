@@ -8,9 +8,12 @@
 
 #include "coupling/case/case_bodies.h"
 #include "coupling/gouge/scene_from_state.h"
+#include "coupling/host/outdir.h"
 #include "coupling/scene/scene_bodies.h"
 #include "coupling/scene/scene_fill.h"
+#include "coupling/study/study.h"
 #include "mpm/law/contact.h"
+#include "mpm/read/probe.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -213,7 +216,16 @@ static void test_refused(void **state)
         { TWO "  boundary: {x: [free, absorbin]}\n", "scene.boundary.x[1] = absorbin: must be one of free" },
         { TWO "  window: {w: {lo: 0 mm}}\n", "unknown key `w` in scene.window" },
         { TWO "  probes: [{name: push, force_on: wal}]\n",
-          "unknown body `wal` in scene.probes[0]; did you mean `wall`?" },
+          "unknown body `wal` in scene.probes[0].force; did you mean `wall`?" },
+        { TWO "  probes: [{name: push, force: {body: wal}}]\n", "did you mean `wall`?" },
+        { TWO "  probes: [{name: push, forc: wall}]\n",
+          "unknown kind of probe `forc` in scene.probes[0]; did you mean `force`?" },
+        { TWO "  probes: [{name: push, force: {}}]\n", "scene.probes[0].force.body must name a body" },
+        { TWO "  probes: [{name: push}]\n", "scene.probes[0] must name a kind of probe" },
+        { TWO "  probes: [{name: push, force: wall, energy: wall}]\n", "a probe of two kinds, force and energy" },
+        { TWO "  probes: [{energy: wall}]\n", "scene.probes[0].name is missing" },
+        { TWO "  probes: [{name: a b, energy: wall}]\n", "letters, digits, - _ . only" },
+        { TWO "  probes: [{name: p, face: {lo: 0 0 0 mm, hi: 1 0 1 mm}}]\n", "scene.probes[0].face: hi along y" },
         { TWO "  probes: [{name: p, force_on: wall}, {name: p, force_on: ball}]\n",
           "scene.probes[1].name = p: the same as" },
         { TWO "  friction: 0.1\n", "unknown key `friction` in scene" },
@@ -239,6 +251,80 @@ static void test_refused(void **state)
     assert_int_equal(read_text(TWO, CASE_FOR_ONSET, &c, &errors).code, STATUS_BAD_INPUT);
     assert_non_null(strstr(errors, "scene.bodies: a study makes its scenes"));
     free(errors);
+}
+
+/* ---- probes: one of every kind, by its table ---- */
+
+/* A value that any kind should take: corners in the lower and the upper half of the scene, an axis, a length. */
+static const char *any_value(const param *p)
+{
+    if (p->kind != PARAM_VECTOR) return "0.5 mm";
+    if (p->unit[0] == '1') return "0 1 0";
+    return strcmp(p->key, "lo") == 0 ? "-3 -1 -1 mm" : strcmp(p->key, "hi") == 0 ? "3 5 5 mm" : "0.1 2 2 mm";
+}
+
+static void add_probe(char *text, size_t size, const mpm_probe_kind *k)
+{
+    size_t at = strlen(text);
+    at += (size_t)snprintf(text + at, size - at, "    - {name: a_%s, %s: {body: wall", k->name, k->name);
+    for (const param *p = k->params; p->key; p++)
+        if (isinf(p->fallback)) at += (size_t)snprintf(text + at, size - at, ", %s: %s", p->key, any_value(p));
+    snprintf(text + at, size - at, "}}\n");
+}
+
+#define EVERY_PROBE_SIZE 6000
+static void every_probe(char text[EVERY_PROBE_SIZE])
+{
+    snprintf(text, EVERY_PROBE_SIZE, "%s",
+             TWO "  cell: 0.4 mm\n  contacts: [{default: coulomb, friction: 0.1}]\n  probes:\n");
+    for (int i = 0; mpm_probe_kind_at(i); i++) add_probe(text, EVERY_PROBE_SIZE, mpm_probe_kind_at(i));
+}
+
+/* Every kind is read with what its own table asks for, and printed so that the same comes back. */
+static void test_every_probe(void **state)
+{
+    (void)state;
+    char text[EVERY_PROBE_SIZE];
+    every_probe(text);
+    breech_case *c = read_good(text);
+    OK(scene_fill(&c->bodies.scene));
+    char *used = used_text(c);
+    breech_case *back = read_good(used);
+    char *again = used_text(back);
+    assert_string_equal(used, again);
+    int n = 0;
+    for (; mpm_probe_kind_at(n); n++) {
+        const mpm_probe *a = &c->bodies.scene.probe[n], *b = &back->bodies.scene.probe[n];
+        const mpm_probe_kind *k = mpm_probe_kind_at(n);
+        assert_true(a->kind == k && b->kind == k && a->body == 0 && b->body == 0);
+        assert_string_equal(a->name, b->name);
+        assert_memory_equal(a->value, b->value, sizeof a->value);
+        for (const param *p = k->params; p->key; p++)
+            if (isinf(p->fallback)) {
+                char missing[200], *errors = NULL;
+                breech_case *bad = NULL;
+                snprintf(text, sizeof text, TWO "  probes: [{name: a, %s: {body: wall}}]\n", k->name);
+                assert_int_equal(read_text(text, CASE_FOR_SCENE, &bad, &errors).code, STATUS_BAD_INPUT);
+                snprintf(missing, sizeof missing, "scene.probes[0].%s.%s is missing", k->name, p->key);
+                assert_non_null(strstr(errors, missing));
+                free(errors);
+            }
+    }
+    assert_int_equal(c->bodies.scene.probes, n);
+    free(used), free(again);
+    case_free(back), case_free(c);
+}
+
+/* The other ways to say it. */
+static void test_probe_forms(void **state)
+{
+    (void)state;
+    breech_case *c = read_good(TWO "  probes: [{name: a, force_on: ball}, {name: b, force: ball}, {name: c, energy: }, "
+                                   "{name: d, energy: {}}]\n");
+    const mpm_probe *p = c->bodies.scene.probe;
+    for (int i = 0; i < 2; i++) assert_true(strcmp(p[i].kind->name, "force") == 0 && p[i].body == 1);
+    for (int i = 2; i < 4; i++) assert_true(strcmp(p[i].kind->name, "energy") == 0 && p[i].body == -1);
+    case_free(c);
 }
 
 /* ---- any scene as text ---- */
@@ -338,8 +424,7 @@ static status run(const mpm_scene *s, history *h, stopping *stop, const scene_re
                             .last_time = s->end_time,
                             .resume = from ? *from : (scene_resume){ .image = NULL } };
     const scene_host host = { .history = h, .threads = 2, .stop = stop_soon, .save = keep, .user = stop };
-    static const scene_probe push = { "push", 0 };
-    return scene_bodies_run(&job, &(scene_probes){ 1, &push }, &host, out);
+    return scene_bodies_run(&job, &host, out);
 }
 
 static double *column(history *h, const char *name, size_t *n)
@@ -357,12 +442,103 @@ static double *column(history *h, const char *name, size_t *n)
     return data;
 }
 
+static void assert_same_column(history *a, history *b, const char *name, size_t rows)
+{
+    size_t n, m;
+    double *x = column(a, name, &n), *y = column(b, name, &m);
+    assert_int_equal(n, rows);
+    assert_int_equal(m, rows);
+    assert_memory_equal(x, y, n * sizeof *x);
+    free(x), free(y);
+}
+
+/* All that the probes wrote is there, as often as it should be, and the same of both runs. */
+static void check_probes(const mpm_scene *s, history *const h[2], const scene_bodies_result r[2], size_t pieces)
+{
+    for (int i = 0; i < s->probes; i++) {
+        const mpm_probe *p = &s->probe[i];
+        const bool map = mpm_probe_rows(p) > 1;
+        const size_t rows = map ? pieces : r[0].steps + 1; /* a step is longer than a thousandth of this scene's time */
+        char name[200];
+        snprintf(name, sizeof name, "probes/%s/time", p->name);
+        assert_same_column(h[0], h[1], name, rows);
+        for (const mpm_column *k = p->kind->columns; k->name; k++) {
+            snprintf(name, sizeof name, "probes/%s/%s", p->name, k->name);
+            assert_same_column(h[0], h[1], name, rows);
+        }
+        const scene_probe_result *is = &r[0].probe[i];
+        assert_string_equal(is->name, p->name);
+        assert_string_equal(is->kind, p->kind->name);
+        assert_int_equal(is->columns, map ? 0 : mpm_probe_columns(p));
+        assert_int_equal(isnan(is->peak), p->kind->mains == 0);
+        for (int c = 0; c < is->columns; c++) assert_false(isnan(is->last[c]));
+        assert_memory_equal(is, &r[1].probe[i], sizeof *is);
+    }
+}
+
+static const scene_probe_result *result_named(const scene_bodies_result *r, const char *name)
+{
+    for (int i = 0; i < r->probes; i++)
+        if (strcmp(r->probe[i].name, name) == 0) return &r->probe[i];
+    fail_msg("no probe %s", name);
+    return NULL;
+}
+
+/* Each kind's summary against what the bodies' own sums say at the end. */
+static void check_sums(const scene_bodies_result *r)
+{
+    const scene_body *wall = &r->body[0];
+    const scene_probe_result *force = result_named(r, "a_force"), *motion = result_named(r, "a_motion");
+    const scene_probe_result *energy = result_named(r, "a_energy"), *plastic = result_named(r, "a_plastic");
+    assert_true(force->arrival > 0.0 && force->arrival <= force->peak_time && force->peak > 0.0);
+    assert_string_equal(force->quantity, "force");
+    assert_string_equal(force->unit, "N");
+    /* what the wall got by contact is its momentum: no other force acts on it, nothing of it has left */
+    assert_true(fabs(force->impulse[0] / (wall->mass * wall->velocity[0]) - 1.0) < 1e-6);
+    assert_string_equal(motion->quantity, "velocity");
+    assert_true(fabs(motion->last[4] / wall->velocity[0] - 1.0) < 1e-9);
+    assert_true(motion->peak >= motion->last[4]);
+    assert_true(fabs(energy->last[1] / wall->internal - 1.0) < 1e-9);
+    assert_true(plastic->peak > 0.0 && plastic->impulse[0] > 0.0 && isnan(plastic->impulse[1]));
+    assert_true(plastic->impulse[0] < 1.2 * wall->internal); /* plastic work is part of it */
+}
+
+/* In a scene of more than a thousand steps only what is about a step has a row for each: force; the others are read at
+ * most a thousand times and at the ends of pieces. */
+static void test_samples(void **state)
+{
+    (void)state;
+    breech_case *c =
+        read_good(TWO "  cell: 0.4 mm\n  probes: [{name: push, force: wall}, {name: heat, energy: wall}]\n");
+    mpm_scene *s = &c->bodies.scene;
+    s->end_time = 1.5e-6, s->courant = 0.01;
+    OK(scene_fill(s));
+    history *h;
+    scene_bodies_result r;
+    stopping never = { .left = -1 };
+    size_t n, m;
+    OK(output_history_open(NULL, false, &h));
+    OK(run(s, h, &never, NULL, &r));
+    double *time = column(h, "probes/heat/time", &n);
+    free(column(h, "probes/push/time", &m));
+    assert_true(r.steps > 1500);
+    assert_int_equal(m, r.steps + 1);
+    assert_true(n > 500 && n <= 1061);
+    assert_true(time[0] == 0.0 && time[n - 1] == r.end_time);
+    free(time);
+    scene_bodies_free(&r);
+    OK(output_history_close(h));
+    case_free(c);
+}
+
 /* Motion of the bodies adds up to the model's, in every row; a run that was stopped and resumed has the same rows and
  * the same result. */
 static void test_run(void **state)
 {
     (void)state;
-    breech_case *c = read_good(TWO "  cell: 0.4 mm\n  contacts: [{default: coulomb, friction: 0.1}]\n");
+    char text[EVERY_PROBE_SIZE];
+    every_probe(text);
+    breech_case *c = read_good(text);
     mpm_scene *s = &c->bodies.scene;
     s->end_time = 3e-6;
     OK(scene_fill(s));
@@ -380,19 +556,10 @@ static void test_run(void **state)
     assert_true(r[0].body[0].velocity[0] > 0.0 && r[0].body[1].velocity[0] < 300.0); /* it pushed the wall */
     assert_true(fabs(r[0].energy_error) < 0.01 && r[0].momentum_error < 1e-9);
     assert_memory_equal(r[0].body, r[1].body, 2 * sizeof *r[0].body);
-    const scene_probe_state *felt = &r[0].probe[0].is;
-    assert_memory_equal(felt, &r[1].probe[0].is, sizeof *felt);
-    assert_true(felt->arrival > 0.0 && felt->arrival <= felt->peak_time && felt->peak > 0.0);
-    print_message("impulse %.17g, momentum %.17g\n", felt->impulse[0], r[0].body[0].mass * r[0].body[0].velocity[0]);
-    /* what the wall got by contact is its momentum: no other force acts on it, nothing of it has left */
-    assert_true(fabs(felt->impulse[0] / (r[0].body[0].mass * r[0].body[0].velocity[0]) - 1.0) < 1e-6);
+    check_sums(&r[0]);
     size_t n, m;
-    double *pushed = column(h[0], "probes/push/force_x", &n), *pushed_again = column(h[1], "probes/push/force_x", &m);
-    assert_int_equal(n, m);
-    assert_int_equal(n, r[0].steps);
-    assert_memory_equal(pushed, pushed_again, n * sizeof *pushed);
-    free(pushed), free(pushed_again);
     double *total = column(h[0], "momentum_x", &n), *sum = calloc(n, sizeof *sum);
+    check_probes(s, h, r, n);
     static const char *const names[] = { "wall", "ball" };
     for (int b = 0; b < 2; b++) {
         char path[60];
@@ -415,6 +582,63 @@ static void test_run(void **state)
     case_free(c);
 }
 
+static int count(const char *text, const char *what)
+{
+    int n = 0;
+    for (; (text = strstr(text, what)); text++) n++;
+    return n;
+}
+
+extern const study study_bodies;
+
+/* The page of a scene with every kind of probe: its bodies in a table, the curves of each quantity, the map. */
+static void test_report(void **state)
+{
+    (void)state;
+    char text[EVERY_PROBE_SIZE], *page, row[100];
+    every_probe(text);
+    breech_case *c = read_good(text);
+    mpm_scene *s = &c->bodies.scene;
+    OK(scene_fill(s));
+    history *h;
+    scene_bodies_result r;
+    stopping never = { .left = -1 };
+    assert_int_equal(system("rm -rf page && mkdir page"), 0);
+    OK(output_history_open("page/history.h5", false, &h));
+    OK(run(s, h, &never, NULL, &r));
+    OK(output_history_close(h));
+    run_summary summary = study_summary(&study_bodies, &(study_answer){ .result = &r });
+    summary.case_name = "page";
+    OK(output_summary_write("page", &summary));
+    char *used = used_text(c);
+    OK(host_file_write("page/used.yaml", used, strlen(used)));
+    OK(report_write("page", study_report_part));
+    OK(host_file_read("page/report.html", &page, NULL));
+    assert_int_equal(count(page, "<h2>Bodies at the end</h2>"), 1);
+    assert_int_equal(count(page, "<h2>Probes</h2>"), 1);
+    for (int i = 0; i < s->bodies; i++) {
+        snprintf(row, sizeof row, "<tr><td class=\"text\">%s</td>", s->body[i].name);
+        assert_int_equal(count(page, row), 1);
+    }
+    int quantities = 0, maps = 0;
+    for (int i = 0; i < r.probes; i++) {
+        snprintf(row, sizeof row, "<tr><td class=\"text\">%s</td>", r.probe[i].name);
+        assert_int_equal(count(page, row), 1);
+        bool met = false;
+        for (int k = 0; k < i; k++)
+            met = met || (strcmp(r.probe[k].quantity, r.probe[i].quantity) == 0 &&
+                          strcmp(r.probe[k].unit, r.probe[i].unit) == 0);
+        maps += r.probe[i].columns == 0;
+        quantities += r.probe[i].columns > 0 && !met;
+    }
+    const bool gnuplot = system("gnuplot --version > /dev/null 2>&1") == 0;
+    assert_int_equal(count(page, "<svg"), gnuplot ? 1 + quantities + maps : 0); /* 1: speeds and energies */
+    assert_int_equal(count(page, "class=\"missing\""), gnuplot ? 0 : 1);
+    free(page), free(used);
+    scene_bodies_free(&r);
+    case_free(c);
+}
+
 /* The case that the manual shows. */
 static void test_example(void **state)
 {
@@ -434,10 +658,13 @@ static void test_example(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_minimal),     cmocka_unit_test(test_defaults),        cmocka_unit_test(test_groups),
-        cmocka_unit_test(test_every_shape), cmocka_unit_test(test_every_contact),   cmocka_unit_test(test_tree),
-        cmocka_unit_test(test_refused),     cmocka_unit_test(test_gouging_as_text), cmocka_unit_test(test_run),
-        cmocka_unit_test(test_example),
+        cmocka_unit_test(test_minimal),       cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_groups),        cmocka_unit_test(test_every_shape),
+        cmocka_unit_test(test_every_contact), cmocka_unit_test(test_tree),
+        cmocka_unit_test(test_refused),       cmocka_unit_test(test_every_probe),
+        cmocka_unit_test(test_probe_forms),   cmocka_unit_test(test_gouging_as_text),
+        cmocka_unit_test(test_run),           cmocka_unit_test(test_samples),
+        cmocka_unit_test(test_report),        cmocka_unit_test(test_example),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

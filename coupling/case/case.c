@@ -13,7 +13,6 @@ void case_free(breech_case *c)
     if (!c) return;
     for (const case_section *s = case_root.children; s->key; s++) case_section_free(s, c);
     mpm_scene_free(&c->bodies.scene);
-    free(c->bodies.probe);
     free(c->warnings);
     free(c);
 }

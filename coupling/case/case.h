@@ -195,18 +195,10 @@ typedef struct {
 /* What becomes of bodies that overlap. */
 typedef enum { OVERLAP_REFUSED, OVERLAP_LATER } case_overlap;
 
-/* What is followed step by step: the force on a body's group. */
-typedef struct {
-    char name[PARAM_TEXT_SIZE];
-    int body;
-} case_probe;
-
 /* A scene whose bodies stand in the case itself (case_bodies.h). */
 typedef struct {
     mpm_scene scene; /* owned; its materials are the case's.  Window and cells that are left out are NAN: scene_fill */
     int overlap;     /* case_overlap */
-    int probes;
-    case_probe *probe; /* owned */
 } case_bodies;
 
 /* What a study takes for the onset of gouging: the groove's growth, or the crater's severity. */

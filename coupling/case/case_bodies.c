@@ -2,6 +2,7 @@
 
 #include "coupling/host/outdir.h"
 #include "mpm/law/contact.h"
+#include "mpm/read/probe.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -92,8 +93,12 @@ typedef struct {
     double within, cell;
 } refine_keys;
 
+typedef struct {
+    char name[PARAM_TEXT_SIZE];
+} probe_keys;
+
 static const param probe_params[] = {
-    PARAM_STRING(case_probe, name, NULL, "its name: letters, digits, - _ ."),
+    PARAM_STRING(probe_keys, name, NULL, "its name: letters, digits, - _ ."),
     PARAMS_END,
 };
 
@@ -117,7 +122,9 @@ const case_section case_bodies_manual[] = {
     MANUAL("scene.window", axis_params,
            "`x`, `y` and `z`, each with these keys; what is left out follows from the bodies."),
     MANUAL("scene.follow", follow_params, "The fine zone and the window go with the bodies that are `followed`."),
-    MANUAL("scene.probes", probe_params, "A list: `force_on` names the body whose group's contact force is followed."),
+    MANUAL("scene.probes", probe_params,
+           "A list. Besides its name one key, the kind of probe (below): its values and `body`, or the name of a body "
+           "alone; without a body it reads all of them. `force_on: a` stands for `force: {body: a}`."),
     MANUAL("scene.refine", refine_params, "A list: fine cells `around` a body."),
     { .key = NULL },
 };
@@ -323,38 +330,88 @@ static void read_contacts(case_reader *r, const tree_node *list)
 
 /* ---- probes ---- */
 
-static void read_probe(case_reader *r, const tree_node *list, int k)
+static const char *probe_kind_name(const void *user, int i)
 {
-    static const char *const others[] = { "force_on", NULL };
-    char path[40];
-    const tree_node *map = case_entry_node(list, k);
-    case_bodies *b = &r->out->bodies;
-    case_probe *p = &b->probe[k];
-    const case_keys keys = { probe_params, p };
-    snprintf(path, sizeof path, "scene.probes[%d]", k);
-    case_keys_read(r, map, path, &keys, 1, others);
-    if (p->name[0] && !host_name_is_plain(p->name))
-        case_errors_add(r->errors, host_tree_find(map, "name"), "%s.name = %s: letters, digits, - _ . only", path,
-                        p->name);
-    for (int i = 0; i < k; i++)
-        if (p->name[0] && strcmp(b->probe[i].name, p->name) == 0)
-            case_errors_add(r->errors, host_tree_find(map, "name"), "%s.name = %s: the same as scene.probes[%d]", path,
-                            p->name, i);
-    p->body = named_body(r, map, "force_on", path);
+    (void)user;
+    const mpm_probe_kind *k = mpm_probe_kind_at(i);
+    return k ? k->name : NULL;
 }
 
-static void read_probes(case_reader *r, const tree_node *list)
+static void check_probe_name(case_reader *r, const tree_node *node, const char *path, const char *name)
 {
-    case_bodies *b = &r->out->bodies;
-    int n = 0;
-    while (case_entry_node(list, n)) n++;
-    b->probe = calloc((size_t)n + 1, sizeof *b->probe);
-    if (!b->probe) {
+    const mpm_scene *s = &r->out->bodies.scene;
+    if (!name[0]) return; /* an error already */
+    if (!host_name_is_plain(name))
+        case_errors_add(r->errors, node, "%s.name = %s: letters, digits, - _ . only", path, name);
+    for (int i = 0; i < s->probes; i++)
+        if (strcmp(s->probe[i].name, name) == 0)
+            case_errors_add(r->errors, node, "%s.name = %s: the same as scene.probes[%d]", path, name, i);
+}
+
+/* The only key beside the name; NULL after an error. */
+static const mpm_probe_kind *read_probe_kind(case_reader *r, const tree_node *map, const char *path,
+                                             const tree_node **value)
+{
+    const mpm_probe_kind *kind = NULL;
+    for (int i = 0; map->kind == TREE_MAP && i < map->n; i++) {
+        const char *key = map->key[i]->text;
+        const mpm_probe_kind *found = mpm_probe_kind_find(strcmp(key, "force_on") == 0 ? "force" : key);
+        if (strcmp(key, "name") == 0) continue;
+        if (!found)
+            case_unknown_name(r, map->key[i], "kind of probe", path, probe_kind_name, NULL);
+        else if (kind)
+            case_errors_add(r->errors, map->key[i], "%s is a probe of two kinds, %s and %s", path, kind->name, key);
+        if (!found || kind) return NULL;
+        kind = found;
+        *value = map->item[i];
+    }
+    if (!kind)
+        case_errors_add(r->errors, map, "%s must name a kind of probe, such as {name: push, force: {body: plate}}",
+                        path);
+    return kind;
+}
+
+/* Its values by the kind's own table; a text is the name of a body. */
+static void read_probe_values(case_reader *r, const tree_node *value, const char *path, mpm_probe *p)
+{
+    static const char *const body[] = { "body", NULL };
+    const mpm_scene *s = &r->out->bodies.scene;
+    const int errors = r->errors->n;
+    const case_keys keys = { p->kind->params, p->value };
+    const bool name_alone = value->kind == TREE_TEXT && value->text[0];
+    tree_node nothing = *value; /* its place, without its parts */
+    nothing.kind = TREE_MAP, nothing.n = 0;
+    case_keys_read(r, name_alone ? &nothing : value, path, &keys, 1, body);
+    if (name_alone && (p->body = find_body(s, value->text)) < 0)
+        case_unknown_name(r, value, "body", path, body_name, s);
+    if (!name_alone && host_tree_find(value, "body")) p->body = named_body(r, value, "body", path);
+    if (r->errors->n > errors) return;
+    if (p->kind->of_body && p->body < 0) case_errors_add(r->errors, value, "%s.body must name a body", path);
+    const status fits = p->kind->check ? p->kind->check(p, path) : status_ok();
+    if (fits.code != STATUS_OK) case_errors_add(r->errors, value, "%.400s", fits.text);
+}
+
+static void read_probe(case_reader *r, const tree_node *list, int k)
+{
+    char path[40], inner[CASE_KEY_SIZE];
+    const tree_node *map = case_entry_node(list, k), *value = NULL, *name = host_tree_find(map, "name");
+    mpm_probe *p;
+    snprintf(path, sizeof path, "scene.probes[%d]", k);
+    const mpm_probe_kind *kind = read_probe_kind(r, map, path, &value);
+    if (!kind) return;
+    snprintf(inner, sizeof inner, "%s.name", path);
+    probe_keys keys = { .name = "" };
+    if (name)
+        case_value_read(r, probe_params, name, keys.name, inner);
+    else
+        case_errors_add(r->errors, map, "%s is missing: %s", inner, probe_params[0].doc);
+    check_probe_name(r, name, path, keys.name);
+    if (mpm_scene_add_probe(&r->out->bodies.scene, kind->name, keys.name, &p).code != STATUS_OK) {
         r->out_of_memory = true;
         return;
     }
-    b->probes = n;
-    for (int k = 0; k < n; k++) read_probe(r, list, k);
+    snprintf(inner, sizeof inner, "%s.%s", path, kind->name);
+    read_probe_values(r, value, inner, p);
 }
 
 /* ---- the window ---- */
@@ -490,7 +547,8 @@ void case_bodies_read(case_reader *r)
     if (r->errors->n > errors) return; /* what follows names bodies */
     if (shared.overlap == OVERLAP_REFUSED) case_overlap_check(r, bodies);
     if (host_tree_find(scene, "contacts")) read_contacts(r, host_tree_find(scene, "contacts"));
-    if (host_tree_find(scene, "probes")) read_probes(r, host_tree_find(scene, "probes"));
+    for (int k = 0; case_entry_node(host_tree_find(scene, "probes"), k); k++)
+        read_probe(r, host_tree_find(scene, "probes"), k);
     if (host_tree_find(scene, "boundary")) read_boundary(r, host_tree_find(scene, "boundary"));
     if (host_tree_find(scene, "refine")) read_refine(r, host_tree_find(scene, "refine"));
     share(&shared, s);
@@ -587,6 +645,14 @@ static void write_window(const mpm_scene *s, FILE *file)
     }
 }
 
+static void write_probe(const mpm_scene *s, const mpm_probe *p, FILE *file)
+{
+    fprintf(file, "    - {name: %s, %s: {", p->name, p->kind->name);
+    if (p->body >= 0) fprintf(file, "body: %s", s->body[p->body].name);
+    case_keys_write(p->kind->params, p->value, p->body < 0, file);
+    fputs("}}\n", file);
+}
+
 void case_bodies_write(const case_bodies *b, FILE *file)
 {
     const mpm_scene *s = &b->scene;
@@ -603,7 +669,6 @@ void case_bodies_write(const case_bodies *b, FILE *file)
     fputs("}\n  bodies:\n", file);
     for (int i = 0; i < s->bodies; i++) write_body(s, &s->body[i], file);
     write_contacts(s, file);
-    if (b->probes > 0) fputs("  probes:\n", file);
-    for (int i = 0; i < b->probes; i++)
-        fprintf(file, "    - {name: %s, force_on: %s}\n", b->probe[i].name, s->body[b->probe[i].body].name);
+    if (s->probes > 0) fputs("  probes:\n", file);
+    for (int i = 0; i < s->probes; i++) write_probe(s, &s->probe[i], file);
 }

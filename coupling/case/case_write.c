@@ -2,6 +2,7 @@
 #include "coupling/case/case_bodies.h"
 
 #include "mpm/law/contact.h"
+#include "mpm/read/probe.h"
 
 #include <math.h>
 #include <string.h>
@@ -242,5 +243,10 @@ void case_print_keys(FILE *file)
         const mpm_contact_law *law = mpm_contact_at(i);
         snprintf(key, sizeof key, "contact: %s", law->name);
         print_section(file, &(case_section){ .key = key, .doc = law->doc, .table = law->params }, "");
+    }
+    for (int i = 0; mpm_probe_kind_at(i); i++) {
+        const mpm_probe_kind *k = mpm_probe_kind_at(i);
+        snprintf(key, sizeof key, "probe: %s", k->name);
+        print_section(file, &(case_section){ .key = key, .doc = k->doc, .table = k->params }, "");
     }
 }

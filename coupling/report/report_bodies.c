@@ -94,52 +94,15 @@ static void plot_energies(FILE *script, const report_source *r)
     fputs(n ? "\n" : "0 notitle\n", script);
 }
 
-/* The size of the force on each probe in kN over time in us. */
-static void plot_probes(FILE *script, const report_source *r)
-{
-    const cJSON *probe;
-    int n = 0;
-    fputs("set ylabel 'force by contact, as computed [kN]'\n", script);
-    cJSON_ArrayForEach(probe, cJSON_GetObjectItemCaseSensitive(r->summary, "probes"))
-    {
-        char path[3][200], block[24];
-        column t = column_read(r, SCENE "/probes/time"), f[3];
-        bool whole = t.n > 1;
-        for (int k = 0; k < 3; k++) {
-            snprintf(path[k], sizeof path[k], SCENE "/probes/%.100s/force_%c", probe->string, "xyz"[k]);
-            f[k] = column_read(r, path[k]);
-            whole = whole && f[k].n == t.n;
-        }
-        for (size_t q = 0; whole && q < t.n; q++) {
-            const double x = f[0].value[q], y = f[1].value[q], z = f[2].value[q];
-            t.value[q] *= 1e6, f[0].value[q] = 1e-3 * sqrt(x * x + y * y + z * z);
-        }
-        snprintf(block, sizeof block, "probe%d", n);
-        if (whole) report_plot_data(script, block, t.value, f[0].value, t.n), n++;
-        for (int k = 0; k < 3; k++) free(f[k].value);
-        free(t.value);
-    }
-    fputs("plot ", script);
-    int i = 0;
-    cJSON_ArrayForEach(probe, cJSON_GetObjectItemCaseSensitive(r->summary, "probes"))
-    {
-        if (i >= n) break;
-        fprintf(script, "%s$probe%d with lines lw 1.5 title '%s' noenhanced", i ? ", " : "", i, probe->string);
-        i++;
-    }
-    fputs(n ? "\n" : "0 notitle\n", script);
-}
-
 static status plot_bodies(const report_source *r, bool *drawn)
 {
     *drawn = false;
     if (!r->history || !r->gnuplot || !host_h5_exists(r->history, SCENE "/bodies/time")) return status_ok();
     plot p;
-    TRY(report_plot_begin(&p, r, "bodies", 760, 1100));
-    fputs("set multiplot layout 3,1\n", p.script);
+    TRY(report_plot_begin(&p, r, "bodies", 760, 740));
+    fputs("set multiplot layout 2,1\n", p.script);
     plot_speeds(p.script, r);
     plot_energies(p.script, r);
-    plot_probes(p.script, r);
     fputs("unset multiplot\n", p.script);
     TRY(report_plot_end(&p));
     *drawn = true;
@@ -192,4 +155,5 @@ void report_section_bodies(const page *p)
     cJSON_ArrayForEach(body, bodies) body_row(p, body);
     fputs("</table></div>\n", p->out);
     report_page_draw(p, plot_bodies, "bodies", "Means over each body; energies of the model as computed.");
+    report_section_probes(p);
 }

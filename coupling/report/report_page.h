@@ -43,6 +43,7 @@ void report_shot_verdict(const page *p);
 void report_scene_verdict(const page *p);
 void report_bodies_verdict(const page *p);
 void report_section_bodies(const page *p);
+void report_section_probes(const page *p); /* of a scene of bodies; nothing where it has none */
 void report_onset_verdict(const page *p);
 void report_section_onset(const page *p);
 void report_section_compare(const page *p);

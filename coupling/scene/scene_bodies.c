@@ -100,17 +100,12 @@ static void row_of(const scene_body *b, double row[COLUMNS])
 
 typedef struct {
     const mpm_scene *scene;
-    history *history; /* NULL: none */
+    history *history;
     int series;
-    scene_body *body; /* as they were last; [scene->bodies] */
-    double *row;      /* [1 + COLUMNS x bodies] */
-    const scene_probes *probes;
-    int probe_series;
-    double *probe_row; /* [1 + 3 x probes] */
-    /* One block, part of every checkpoint: time of the last step seen, then the probes. */
-    double *last;
-    scene_probe_state *felt;
-    status error; /* of a row between two pieces */
+    scene_body *body;     /* as they were last; [scene->bodies] */
+    double *row;          /* [1 + COLUMNS x bodies] */
+    scene_probes *probes; /* owned */
+    status error;         /* of a row between two pieces */
 } recorder;
 
 typedef struct {
@@ -134,7 +129,6 @@ static status open_series(recorder *r, const scene_job *job)
 {
     char group[200];
     const size_t n = 1 + (size_t)COLUMNS * (size_t)r->scene->bodies;
-    if (!r->history) return status_ok();
     snprintf(group, sizeof group, "/scene/%.150s/bodies", job->name);
     history_column *column = calloc(n, sizeof *column);
     column_name *name = calloc(n, sizeof *name);
@@ -145,21 +139,16 @@ static status open_series(recorder *r, const scene_job *job)
     TRY(done);
     const double reached = job->resume.image ? job->resume.time * (1.0 - 1e-9) : -1.0;
     TRY(output_history_rewind(r->history, r->series, reached));
-    if (r->probes->n == 0) return status_ok();
-    /* the step that ended at the time reached is in the checkpoint, and is not seen again */
-    const double kept = job->resume.image ? job->resume.time * (1.0 + 1e-9) : -1.0;
-    return scene_probe_series(r->history, job->name, r->probes, kept, &r->probe_series);
+    return scene_probes_open(r->history, job->name, r->scene, job->resume.image ? job->resume.time : -1.0, &r->probes);
 }
 
-/* A row of the probes: the watch's part after every step, which it may be shown twice. */
-static bool feel(void *user, const mpm_report *now)
+/* A row of the probes: the watch's part after every step.  true, which ends the piece: there was an error. */
+static bool read_probes(void *user, const mpm *m, const mpm_report *now)
 {
     recorder *r = user;
-    if (!(now->time > *r->last) || r->error.code != STATUS_OK) return false;
-    scene_probe_step(r->probes, *r->last, now, r->felt, r->probe_row);
-    *r->last = now->time;
-    if (r->history) r->error = output_history_append(r->history, r->probe_series, r->probe_row);
-    return false;
+    (void)now;
+    if (r->error.code == STATUS_OK) r->error = scene_probes_step(r->probes, m);
+    return r->error.code != STATUS_OK;
 }
 
 /* A row of all bodies: the watch's part after every piece. */
@@ -169,7 +158,7 @@ static status record(void *user, const mpm *m, bool *over)
     (void)over; /* it goes to its end */
     TRY(r->error);
     TRY(bodies_now(r->scene, m, r->body));
-    if (!r->history) return status_ok();
+    TRY(scene_probes_piece(r->probes, m));
     r->row[0] = mpm_glance(m).time;
     for (int i = 0; i < r->scene->bodies; i++) row_of(&r->body[i], r->row + 1 + i * COLUMNS);
     return output_history_append(r->history, r->series, r->row);
@@ -205,12 +194,7 @@ static void take(const scene_outcome *o, scene_bodies_result *r)
 
 static status run_recorded(const scene_job *job, const scene_host *host, recorder *r, scene_bodies_result *out)
 {
-    const size_t probes = (size_t)r->probes->n;
-    const scene_watch watch = { .due = probes ? feel : NULL,
-                                .piece = record,
-                                .user = r,
-                                .state = r->last,
-                                .state_bytes = sizeof *r->last + probes * sizeof *r->felt };
+    const scene_watch watch = { .due = job->scene->probes > 0 ? read_probes : NULL, .piece = record, .user = r };
     scene_job watched = *job;
     scene_outcome o;
     watched.watch = &watch;
@@ -218,44 +202,29 @@ static status run_recorded(const scene_job *job, const scene_host *host, recorde
     TRY(open_series(r, job));
     TRY(scene_run(&watched, host, &o));
     take(&o, out);
-    for (int i = 0; i < r->probes->n; i++) {
-        snprintf(out->probe[i].name, sizeof out->probe[i].name, "%s", r->probes->item[i].name);
-        out->probe[i].is = r->felt[i];
-    }
-    if (r->history && probes) TRY(output_history_end(r->history, r->probe_series));
-    return r->history ? output_history_end(r->history, r->series) : status_ok();
+    TRY(scene_probes_end(r->probes, out->probe));
+    return output_history_end(r->history, r->series);
 }
 
-static void begin_state(recorder *r, void *block)
+status scene_bodies_run(const scene_job *job, const scene_host *host, scene_bodies_result *out)
 {
-    r->last = block;
-    r->felt = (scene_probe_state *)(void *)(r->last + 1);
-    for (int i = 0; i < r->probes->n; i++) r->felt[i].arrival = NAN;
-}
-
-status scene_bodies_run(const scene_job *job, const scene_probes *probes, const scene_host *host,
-                        scene_bodies_result *out)
-{
-    const size_t n = (size_t)job->scene->bodies, felt = (size_t)probes->n;
+    const size_t n = (size_t)job->scene->bodies, probes = (size_t)job->scene->probes;
+    history *own = NULL;
     memset(out, 0, sizeof *out);
-    out->bodies = job->scene->bodies, out->probes = probes->n;
+    out->bodies = job->scene->bodies, out->probes = job->scene->probes;
     out->body = calloc(n, sizeof *out->body);
-    out->probe = calloc(felt + 1, sizeof *out->probe);
+    out->probe = calloc(probes + 1, sizeof *out->probe);
     recorder r = { .scene = job->scene,
                    .history = host->history,
                    .body = out->body,
-                   .probes = probes,
                    .row = calloc(1 + COLUMNS * n, sizeof *r.row),
-                   .probe_row = calloc(1 + 3 * felt, sizeof *r.probe_row),
                    .error = status_ok() };
-    void *state = calloc(1, sizeof *r.last + felt * sizeof *r.felt);
-    status done = base_status_error(STATUS_MEMORY, "no memory for %zu bodies and %zu probes", n, felt);
-    if (out->body && out->probe && r.row && r.probe_row && state) {
-        begin_state(&r, state);
-        done = run_recorded(job, host, &r, out);
-    }
-    free(state);
-    free(r.probe_row);
+    status done = base_status_error(STATUS_MEMORY, "no memory for %zu bodies and %zu probes", n, probes);
+    if (out->body && out->probe && r.row) done = r.history ? status_ok() : output_history_open(NULL, false, &own);
+    if (own) r.history = own;
+    if (done.code == STATUS_OK) done = run_recorded(job, host, &r, out);
+    scene_probes_free(r.probes);
+    output_history_close(own);
     free(r.row);
     return done;
 }

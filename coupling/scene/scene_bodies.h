@@ -1,7 +1,8 @@
 /* Any scene by itself: run with the motion of each of its bodies on record, and its result.
  *
- * History: /scene/<name> as scene_run writes it, and /scene/<name>/bodies/<body>/{mass, position_x, ...}, a row a
- * piece.  All sums as computed: of a model that is cut by a mirror plane, its part. */
+ * History: /scene/<name> as scene_run writes it, what scene_probe.h says, and
+ * /scene/<name>/bodies/<body>/{mass, position_x, ...}, a row a piece.
+ * All sums as computed: of a model that is cut by a mirror plane, its part. */
 #ifndef BREECH_COUPLING_SCENE_BODIES_H
 #define BREECH_COUPLING_SCENE_BODIES_H
 
@@ -40,8 +41,7 @@ typedef struct {
 extern const summary_key scene_bodies_keys[]; /* of scene_bodies_result */
 
 /* job->watch must be NULL.  *out is for scene_bodies_free in any case.  STATUS_STOPPED as scene_run. */
-status scene_bodies_run(const scene_job *job, const scene_probes *probes, const scene_host *host,
-                        scene_bodies_result *out);
+status scene_bodies_run(const scene_job *job, const scene_host *host, scene_bodies_result *out);
 void scene_bodies_free(scene_bodies_result *r);
 
 #endif

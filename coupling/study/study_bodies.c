@@ -39,12 +39,6 @@ static status run(session *s, const study_case *of, study_answer *out)
     scene_bodies_result *r = calloc(1, sizeof *r);
     CHECK(r, STATUS_MEMORY, "no memory for a scene's result");
     out->owned = r;
-    scene_probe *probe = calloc((size_t)c->bodies.probes + 1, sizeof *probe);
-    CHECK(probe, STATUS_MEMORY, "no memory for %d probes", c->bodies.probes);
-    for (int i = 0; i < c->bodies.probes; i++) {
-        memcpy(probe[i].name, c->bodies.probe[i].name, sizeof probe[i].name);
-        probe[i].group = c->bodies.scene.body[c->bodies.probe[i].body].group;
-    }
     char name[24];
     snprintf(name, sizeof name, "%sscene", of->prefix);
     const scene_job job = { .name = name,
@@ -65,9 +59,7 @@ static status run(session *s, const study_case *of, study_answer *out)
                               .save = run_session_save_inside,
                               .user = s };
     run_lending_begin(s->lending);
-    const scene_probes probes = { c->bodies.probes, probe };
-    const status done = scene_bodies_run(&job, &probes, &host, r);
-    free(probe);
+    const status done = scene_bodies_run(&job, &host, r);
     run_lending_end(s->lending);
     TRY(done);
     warn(s, r);

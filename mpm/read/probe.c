@@ -87,12 +87,21 @@ static double part_inside(const block *q, int l, const double lo[3], const doubl
     return part;
 }
 
+/* Is the box so far from the brick that no domain of a point in it can reach there?  As far as the brick is wide. */
+static bool is_far(const mpm *m, const brick *b, const double lo[3], const double hi[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const double *edge = &axes_of(m, b)[k].edge[BRICK * b->at[k]], width = edge[BRICK] - edge[0];
+        if (hi[k] < edge[0] - width || lo[k] > edge[BRICK] + width) return true;
+    }
+    return false;
+}
+
 static void add_box(void *user, const mpm *m, const brick *b, int index)
 {
-    (void)b;
     box_sum *s = user;
     const block *q = &m->blocks[index];
-    if (!visit_wants(m, index, s->body)) return;
+    if (!visit_wants(m, index, s->body) || is_far(m, b, s->lo, s->hi)) return;
     for (int l = 0; l < LANES; l++) {
         if (!(q->mass[0][l] > 0)) continue;
         const double volume = part_inside(q, l, s->lo, s->hi) * q->mass[0][l] / q->rho[0][l], p = q->p[0][l];

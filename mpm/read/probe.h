@@ -27,10 +27,12 @@ typedef struct mpm_probe mpm_probe;
 
 typedef struct {
     const char *name, *doc;
-    const param *params;             /* of the values, offsets from mpm_probe.value; m, rad or 1 */
-    const mpm_column *columns;       /* of every row; NULL name at the end */
-    bool of_body;                    /* reads one body, which must be given; else all bodies where none is */
-    int (*rows)(const mpm_probe *p); /* NULL: one */
+    const param *params;       /* of the values, offsets from mpm_probe.value; m, rad or 1 */
+    const mpm_column *columns; /* of every row; NULL name at the end */
+    int main, mains;           /* which columns stand for it: one, or 3 of a vector's size; mains 0: none, a map */
+    bool of_step;              /* about the last step alone: a series wants every step */
+    bool of_body;              /* reads one body, which must be given; else all bodies where none is */
+    int (*rows)(const mpm_probe *p);                                      /* NULL: one */
     status (*check)(const mpm_probe *p, const char *name);                /* what the table cannot say; NULL: nothing */
     status (*read)(const struct mpm *m, const mpm_probe *p, double *out); /* STATUS_MEMORY alone */
 } mpm_probe_kind;

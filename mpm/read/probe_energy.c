@@ -50,4 +50,5 @@ const mpm_probe_kind mpm_probe_energy = { .name = "energy",
                                           .doc = "kinetic and internal energy and failed volume of a body",
                                           .params = params,
                                           .columns = columns,
+                                          .mains = 1,
                                           .read = read };

@@ -29,5 +29,6 @@ const mpm_probe_kind mpm_probe_face = { .name = "face",
                                         .doc = "mean pressure and normal stresses over a face or a box",
                                         .params = params,
                                         .columns = mpm_probe_box_columns,
+                                        .mains = 1,
                                         .check = check,
                                         .read = read };

@@ -20,5 +20,7 @@ const mpm_probe_kind mpm_probe_force = { .name = "force",
                                          .doc = "contact force on a body's group",
                                          .params = params,
                                          .columns = columns,
+                                         .mains = 3,
+                                         .of_step = true,
                                          .of_body = true,
                                          .read = read };

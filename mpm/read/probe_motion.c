@@ -73,4 +73,6 @@ const mpm_probe_kind mpm_probe_motion = { .name = "motion",
                                           .doc = "mass, place, velocity and angular momentum of a body",
                                           .params = params,
                                           .columns = columns,
+                                          .main = SPEED,
+                                          .mains = 3,
                                           .read = read };

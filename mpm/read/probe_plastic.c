@@ -32,5 +32,5 @@ static status read(const mpm *m, const mpm_probe *p, double *out)
 }
 
 const mpm_probe_kind mpm_probe_plastic = {
-    .name = "plastic", .doc = "plastic power of a body", .params = params, .columns = columns, .read = read
+    .name = "plastic", .doc = "plastic power of a body", .params = params, .columns = columns, .mains = 1, .read = read
 };

@@ -27,4 +27,5 @@ const mpm_probe_kind mpm_probe_pressure = { .name = "pressure",
                                             .doc = "pressure and normal stresses at a point",
                                             .params = params,
                                             .columns = mpm_probe_box_columns,
+                                            .mains = 1,
                                             .read = read };
