@@ -135,23 +135,23 @@ static int complain(status s)
 
 /* ---- the case ---- */
 
-static study_case study_case_of(const options *o, const breech_case *c)
+static study_case study_case_of(const options *o, const case_inputs *in)
 {
-    return (study_case){ .c = c, .prefix = "", .sets = o->sets, .n_sets = o->n_sets };
+    return (study_case){ .in = in, .prefix = "", .sets = o->sets, .n_sets = o->n_sets };
 }
 
-static status read_case(const options *o, unsigned needs, breech_case **c)
+static status read_case(const options *o, unsigned needs, case_inputs **in)
 {
     material_places at;
     case_material_places_find(&at);
     const case_options how = { .material_dirs = at.dir, .n_material_dirs = at.n, .needs = needs };
     char *errors = NULL;
-    status s = case_read(o->subject, o->sets, o->n_sets, &how, c, &errors);
+    status s = case_inputs_read(o->subject, o->sets, o->n_sets, &how, in, &errors);
     if (s.code == STATUS_OK) {
-        s = study_prepare(*c);
-        const study_case of = study_case_of(o, *c);
+        s = study_prepare(*in);
+        const study_case of = study_case_of(o, *in);
         if (s.code == STATUS_OK) s = study_possible_all(&of, needs);
-        if (s.code != STATUS_OK) case_free(*c);
+        if (s.code != STATUS_OK) case_inputs_free(*in);
     }
     if (errors)
         fputs(errors, stderr);
@@ -168,11 +168,11 @@ static run_status status_of(status s)
     return s.code == STATUS_OK ? RUN_DONE : s.code == STATUS_STOPPED ? RUN_STOPPED : RUN_FAILED;
 }
 
-static status write_results(const options *o, session *s, const study_answer *a, status work)
+static status write_results(const options *o, const case_inputs *in, session *s, const study_answer *a, status work)
 {
     char error[600];
-    run_summary made = study_summary(study_for(o->command.study, s->c), a), *summary = &made;
-    summary->case_name = s->c->name;
+    run_summary made = study_summary(study_for(o->command.study, in), a), *summary = &made;
+    summary->case_name = in->name;
     summary->instruction_set = mpm_instruction_set();
     summary->status = status_of(work);
     if (work.code == STATUS_STOPPED)
@@ -202,17 +202,17 @@ static void say_where(const options *o, const session *s, status work)
         printf("\nresults: %s\n", s->dir.path);
 }
 
-static int carry_out(const options *o, session *s)
+static int carry_out(const options *o, const case_inputs *in, session *s)
 {
-    const study_case of = study_case_of(o, s->c);
+    const study_case of = study_case_of(o, in);
     study_answer answer = { .result = NULL };
     host_stop_install(o->max_walltime);
-    const study *y = study_for(o->command.study, s->c);
+    const study *y = study_for(o->command.study, in);
     status work = y->run(s, &of, &answer);
-    const status written = write_results(o, s, &answer, work);
+    const status written = write_results(o, in, s, &answer, work);
     char path[OUTDIR_PATH_SIZE];
     snprintf(path, sizeof path, "%s", s->dir.path);
-    const bool report = s->c->output.report && written.code == STATUS_OK && work.code == STATUS_OK;
+    const bool report = in->output.report && written.code == STATUS_OK && work.code == STATUS_OK;
     say_where(o, s, work);
     const status closed = run_session_close(s, work.code == STATUS_OK && written.code == STATUS_OK);
     if (y->free) y->free(answer.owned); /* scenes may be made of its cases until then */
@@ -226,9 +226,9 @@ static int carry_out(const options *o, session *s)
 
 static int run_case(const options *o)
 {
-    breech_case *c = NULL;
+    case_inputs *in = NULL;
     session s;
-    const status got = read_case(o, o->command.study->needs, &c);
+    const status got = read_case(o, o->command.study->needs, &in);
     if (got.code != STATUS_OK) return exit_code(got);
     const session_options how = { .dir = o->dir,
                                   .store = o->store,
@@ -238,46 +238,47 @@ static int run_case(const options *o)
                                   .progress_to = stderr,
                                   .quiet = o->quiet,
                                   .stop = host_stop_requested };
-    const status opened = run_session_open(c, &how, &s);
+    const status opened = run_session_open(in, &how, &s);
     int code;
     if (opened.code == STATUS_OK && s.dir.state != OUTDIR_FINISHED) {
-        if (!o->quiet && c->warnings[0]) fputs(c->warnings, stderr);
-        code = carry_out(o, &s);
+        if (!o->quiet && in->warnings[0]) fputs(in->warnings, stderr);
+        code = carry_out(o, in, &s);
     } else {
         if (opened.code == STATUS_OK && !o->quiet) printf("%s: finished already\n", s.dir.path);
         code = complain(opened);
         run_session_close(&s, false);
     }
-    case_free(c);
+    case_inputs_free(in);
     return code;
 }
 
 /* ---- check ---- */
 
 /* The commands whose sections the case has. */
-static unsigned needs_of(const breech_case *c)
+static unsigned needs_of(const case_inputs *in)
 {
-    const case_given *g = &c->given;
+    const case_given *g = &in->given;
     unsigned needs = 0;
     for (int k = 0; k < SUPPLY_KINDS; k++)
         if (g->supplies[k]) needs |= CASE_FOR_SHOT;
     if (g->sites || g->populations) needs |= CASE_FOR_ONSET;
     if (g->treatments) needs |= CASE_FOR_COMPARE;
-    if (g->projectile && g->scene && (!isnan(c->scene.velocity) || !(needs & CASE_FOR_ONSET))) needs |= CASE_FOR_SCENE;
+    if (g->projectile && g->scene && (!isnan(in->onset.impact.scene.velocity) || !(needs & CASE_FOR_ONSET)))
+        needs |= CASE_FOR_SCENE;
     if (g->bodies) needs |= CASE_FOR_SCENE;
     if (g->rails) needs |= CASE_FOR_INDUCTANCE;
     if (g->sweep) needs |= CASE_FOR_SWEEP;
     return needs;
 }
 
-static status print_check(const breech_case *c, int threads)
+static status print_check(const case_inputs *in, int threads)
 {
     scene_estimate e[CHECK_MAX_ESTIMATES];
     int n = 0;
     table *t;
-    TRY(study_check(c, threads, e, &n));
-    printf("%s: %s\n", c->path, c->title[0] ? c->title : c->name);
-    fputs(c->warnings, stdout);
+    TRY(study_check(in, threads, e, &n));
+    printf("%s: %s\n", in->path, in->title[0] ? in->title : in->name);
+    fputs(in->warnings, stdout);
     TRY(host_table_create("scene|points|memory [GB]|steps|time, estimated", &t));
     for (int i = 0; i < n; i++) {
         const mpm_needs *at = &e[i].needs;
@@ -288,6 +289,7 @@ static status print_check(const breech_case *c, int threads)
     }
     if (n > 0) host_table_print(t, stdout);
     host_table_free(t);
+    const case_onset *c = &in->onset;
     if (c->sites.n > 0) printf("onset: %d sites, at most %d scenes\n", c->sites.n, c->study.max_scenes);
     return status_ok();
 }
@@ -295,12 +297,12 @@ static status print_check(const breech_case *c, int threads)
 /* Does a run's summary hold what the case's list of expectations says? */
 static int run_expect(const options *o)
 {
-    breech_case *c = NULL;
+    case_inputs *in = NULL;
     expectations e;
     table *t = NULL;
-    const status read = read_case(o, 0, &c);
+    const status read = read_case(o, 0, &in);
     if (read.code != STATUS_OK) return exit_code(read);
-    status s = output_expect(c->path, o->expect, &e);
+    status s = output_expect(in->path, o->expect, &e);
     if (s.code == STATUS_OK) s = host_table_create("key|expected|found|deviation|", &t);
     for (int i = 0; i < e.n && s.code == STATUS_OK; i++) {
         const expectation *x = &e.item[i];
@@ -315,22 +317,22 @@ static int run_expect(const options *o)
     const bool all = e.held == e.n;
     host_table_free(t);
     output_expect_free(&e);
-    case_free(c);
+    case_inputs_free(in);
     return s.code == STATUS_OK && !all ? EXIT_FAILED : complain(s);
 }
 
 static int run_check(const options *o)
 {
     if (o->expect) return run_expect(o);
-    breech_case *c = NULL;
-    status s = read_case(o, 0, &c);
+    case_inputs *in = NULL;
+    status s = read_case(o, 0, &in);
     if (s.code != STATUS_OK) return exit_code(s);
-    const unsigned needs = needs_of(c);
-    case_free(c);
-    s = read_case(o, needs, &c);
+    const unsigned needs = needs_of(in);
+    case_inputs_free(in);
+    s = read_case(o, needs, &in);
     if (s.code != STATUS_OK) return exit_code(s);
-    s = o->scene ? study_print_scene(c, stdout) : print_check(c, o->threads);
-    case_free(c);
+    s = o->scene ? study_print_scene(in, stdout) : print_check(in, o->threads);
+    case_inputs_free(in);
     return complain(s);
 }
 

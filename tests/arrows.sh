@@ -115,6 +115,10 @@ for k in "${!exceptions[@]}"; do
     if [ -z "${used[k]:-}" ]; then complain "no include needs this exception: ${exceptions[k]}"; fi
 done
 
+# The file's struct stays in coupling/case; the others get the plain structs that it makes (case_plain.h).
+hits=$(sources '^coupling/.*\.(c|h|def)$' | grep -v '^coupling/case/' | xargs -r grep -nw breech_case /dev/null || true)
+if [ -n "$hits" ]; then complain 'breech_case belongs to coupling/case/:' "$hits"; fi
+
 calls='v?f?printf|puts|fputs|putchar|putc|fputc|fwrite|perror|fopen|freopen|open|exit|_exit|quick_exit|abort|system|popen'
 silent circuit "$calls"
 silent mpm "$calls"

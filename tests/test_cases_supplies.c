@@ -36,7 +36,7 @@ static void cases_run(void **state)
     bool kinds[SUPPLY_KINDS] = { false };
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         breech_case *c = case_of(names[k]);
-        const shot_config config = case_launcher(c);
+        const shot_config config = case_inputs_of(c).onset.launcher;
         shot_notes notes;
         shot *s = NULL;
         const shot_sink sink = notes_sink(&notes);
@@ -103,7 +103,7 @@ static void table_closes(const char *name)
     char *page = NULL;
     double sum[2], brought, stated[2];
     breech_case *c = case_of(name);
-    const shot_config config = case_launcher(c);
+    const shot_config config = case_inputs_of(c).onset.launcher;
     assert_int_equal(system("rm -rf table && mkdir table"), 0);
     assert_int_equal(output_history_open("table/history.h5", false, &r.h).code, STATUS_OK);
     assert_int_equal(output_history_shot(r.h, &r.series).code, STATUS_OK);
@@ -136,7 +136,7 @@ static void published_pulse(void **state)
 {
     (void)state;
     breech_case *c = case_of("pulse_unit_200kJ");
-    const shot_config config = case_launcher(c);
+    const shot_config config = case_inputs_of(c).onset.launcher;
     shot *s = NULL;
     assert_int_equal(circuit_shot_create(&config, &s).code, STATUS_OK);
     int rows;
@@ -169,7 +169,7 @@ static void bad_tables(void **state)
         shot *s = NULL;
         const status read = case_read_memory(&in, &(case_options){ .needs = CASE_FOR_SHOT }, &c, &errors);
         if (read.code == STATUS_OK) {
-            const shot_config config = case_launcher(c);
+            const shot_config config = case_inputs_of(c).onset.launcher;
             const status made = circuit_shot_create(&config, &s);
             assert_int_equal(made.code, STATUS_BAD_INPUT);
             assert_non_null(strstr(made.text, tables[k][1]));

@@ -138,12 +138,35 @@ static char *used_text(const breech_case *c)
     return text;
 }
 
+/* All that a treatment may change, as text: what scenes are made of, and the grains. */
+static char *onset_text(const case_onset *c)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *f = open_memstream(&text, &size);
+    assert_non_null(f);
+    OK(case_impact_write(&c->impact, f));
+    for (int i = 0; i < c->sites.n; i++)
+        fprintf(f, "%g %g %s\n", c->sites.item[i].radius, c->sites.item[i].height, c->sites.item[i].material);
+    for (int i = 0; i < c->populations.n; i++)
+        fprintf(f, "%g %g %s\n", c->populations.item[i].density, c->populations.item[i].radius_median,
+                c->populations.item[i].material);
+    fclose(f);
+    return text;
+}
+
+static status possible(const breech_case *c)
+{
+    const case_inputs in = case_inputs_of(c);
+    return study_possible(&in, ALL);
+}
+
 static void test_every_kind(void **state)
 {
     (void)state;
     for (int k = 0; k < TREATMENT_KINDS; k++) {
         char text[4000];
-        breech_case treated, same;
+        case_onset treated, same;
         assert_non_null(example[k]);
         assert_int_equal(strncmp(example[k], case_treatment_kinds[k].name, strlen(case_treatment_kinds[k].name)), 0);
         snprintf(text, sizeof text, HEAD GRAINS "sites: [{position: 1 m}]\ntreatments:\n  - name: tried\n    %s\n",
@@ -151,20 +174,22 @@ static void test_every_kind(void **state)
         breech_case *c = read(text, ALL);
         const case_treatment *t = &c->treatments.item[0];
         for (int j = 0; j < TREATMENT_KINDS; j++) assert_int_equal(case_treatment_given(t, j), j == k);
-        OK(case_treat(c, NULL, &same));
-        OK(case_treat(c, t, &treated));
-        char *before = used_text(c), *untouched = used_text(&same), *after = used_text(&treated);
+        const case_onset given = case_inputs_of(c).onset;
+        char *before = onset_text(&given), *used = used_text(c);
+        OK(case_treat(&given, NULL, &same));
+        OK(case_treat(&given, t, &treated));
+        char *untouched = onset_text(&same), *after = onset_text(&treated);
         assert_string_equal(before, untouched);
         assert_string_not_equal(before, after);
         char *still = used_text(c); /* the case itself is left alone */
-        assert_string_equal(before, still);
-        breech_case *back = read(before, ALL); /* used.yaml says the same treatment */
+        assert_string_equal(used, still);
+        breech_case *back = read(used, ALL); /* used.yaml says the same treatment */
         assert_true(case_treatment_given(&back->treatments.item[0], k));
         char *again = used_text(back);
-        assert_string_equal(before, again);
-        OK(study_possible(c, ALL)); /* its scenes can be made */
+        assert_string_equal(used, again);
+        OK(possible(c)); /* its scenes can be made */
         case_free(back);
-        free(before), free(untouched), free(after), free(still), free(again);
+        free(before), free(used), free(untouched), free(after), free(still), free(again);
         case_treated_free(&treated);
         case_treated_free(&same);
         case_free(c);
@@ -178,20 +203,23 @@ static void test_what_they_do(void **state)
     int n = snprintf(text, sizeof text, HEAD GRAINS "sites: [{position: 1 m, material: steel_4340}]\ntreatments:\n");
     for (int k = 0; k < TREATMENT_KINDS; k++)
         n += snprintf(text + n, sizeof text - (size_t)n, "  - name: t%d\n    %s\n", k, example[k]);
-    breech_case *c = read(text, ALL), treated;
-    OK(case_treat(c, &c->treatments.item[TREATMENT_coating], &treated));
-    assert_int_equal(treated.rail.layers.n, 2);
-    assert_string_equal(treated.rail.layers.item[1].material, "ofhc_copper"); /* the last is on top */
+    breech_case *c = read(text, ALL);
+    const case_onset given = case_inputs_of(c).onset;
+    case_onset treated;
+    OK(case_treat(&given, &c->treatments.item[TREATMENT_coating], &treated));
+    assert_int_equal(treated.impact.rail.layers.n, 2);
+    assert_string_equal(treated.impact.rail.layers.item[1].material, "ofhc_copper"); /* the last is on top */
     case_treated_free(&treated);
-    OK(case_treat(c, &c->treatments.item[TREATMENT_hardening], &treated));
-    assert_int_equal(treated.rail.layers.n, 1);
-    assert_true(treated.rail.layers.item[0].yield_scale == 3.0 && isnan(treated.rail.layers.item[0].bond_strength));
+    OK(case_treat(&given, &c->treatments.item[TREATMENT_hardening], &treated));
+    assert_int_equal(treated.impact.rail.layers.n, 1);
+    assert_true(treated.impact.rail.layers.item[0].yield_scale == 3.0 &&
+                isnan(treated.impact.rail.layers.item[0].bond_strength));
     case_treated_free(&treated);
-    OK(case_treat(c, &c->treatments.item[TREATMENT_rail_metal], &treated));
+    OK(case_treat(&given, &c->treatments.item[TREATMENT_rail_metal], &treated));
     assert_string_equal(treated.populations.item[0].material, "steel_4340"); /* was the rail's */
-    assert_true(treated.rail.yield_scale == 1.0);
+    assert_true(treated.impact.rail.yield_scale == 1.0);
     case_treated_free(&treated);
-    OK(case_treat(c, &c->treatments.item[TREATMENT_polish], &treated));
+    OK(case_treat(&given, &c->treatments.item[TREATMENT_polish], &treated));
     assert_true(fabs(treated.populations.item[0].radius_median - 0.18e-3) < 1e-12);
     assert_true(fabs(treated.populations.item[0].density - 1.5) < 1e-12);
     assert_true(fabs(treated.sites.item[0].radius - 0.3e-3) < 1e-12 &&
@@ -229,7 +257,7 @@ static void test_refusals(void **state)
         free(errors);
     }
     breech_case *c = read(HEAD GRAINS "treatments: [{name: flat, lead_angle: {angle: 2 deg}}]\n", ALL);
-    const status s = study_possible(c, ALL);
+    const status s = possible(c);
     assert_int_equal(s.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(s.text, "treatment `flat`"));
     case_free(c);
@@ -240,7 +268,7 @@ static void test_refusals(void **state)
                  HEAD GRAINS "treatments: [{name: thin, coating: [{material: steel_4340, thickness: 20 um%s}]}]\n",
                  welded ? "" : ", bond_strength: 100 MPa");
         c = read(text, ALL);
-        const status thin = study_possible(c, ALL);
+        const status thin = possible(c);
         assert_int_equal(thin.code, welded ? STATUS_OK : STATUS_BAD_INPUT);
         if (!welded) assert_non_null(strstr(thin.text, "at least one cell across"));
         case_free(c);
@@ -261,7 +289,7 @@ static void test_presets(void **state)
         assert_true(p->density > 0.0 && p->radius_median > 0.0 && p->radius_spread > 0.0 && p->aspect > 0.0);
         assert_true(p->from == 1.0 && p->to == 3.0);
         assert_non_null(case_material(&c->materials, p->material));
-        OK(study_possible(c, ALL));
+        OK(possible(c));
         case_free(c);
     }
     breech_case *c = read(
@@ -286,10 +314,11 @@ static status run_compare(breech_case *c, const char *dir, compare_answer *out)
     const session_options options = {
         .dir = dir, .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
     };
-    OK(run_session_open(c, &options, &s));
+    const case_inputs in = case_inputs_of(c);
+    OK(run_session_open(&in, &options, &s));
     s.run_scene = fake_scene;
     scenes = 0;
-    const status done = study_compare_run(&s, out);
+    const status done = study_compare_run(&s, &in.onset, &in.treatments, out);
     OK(run_session_close(&s, done.code == STATUS_OK));
     return done;
 }
@@ -315,6 +344,9 @@ static void test_ranking(void **state)
     OK(run_compare(c, "compare", &a));
     assert_int_equal(a.result.n, 6);
     assert_int_equal(a.result.scenes_run, scenes);
+    int own = 0; /* every scene is one surface's */
+    for (int i = 0; i < a.result.n; i++) own += a.result.ranking[i].scenes;
+    assert_int_equal(own, scenes);
     print_message("%d scenes for six surfaces\n", scenes);
     /* coated 1400 + 80 + 200, hardened 1400 + 240, warm 1400 - 103 */
     assert_int_equal(rank_of(&a, "coated"), 0);
@@ -404,10 +436,11 @@ static void test_population_onset(void **state)
     const session_options options = {
         .dir = "population", .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
     };
-    OK(run_session_open(c, &options, &s));
+    const case_inputs in = case_inputs_of(c);
+    OK(run_session_open(&in, &options, &s));
     s.run_scene = fake_scene;
     scenes = 0;
-    OK(study_onset_run(&s, &a));
+    OK(study_onset_run(&s, &in.onset, &a));
     const double expected = study_mc_expected(&a.grains, 3.0); /* looks into the session's scenes */
     OK(run_session_close(&s, true));
     const onset_result *r = &a.result;
@@ -445,14 +478,17 @@ static void test_population_onset(void **state)
 
 static onset_answer studied(breech_case *c, const char *dir, status want)
 {
+    static case_onset given; /* the answer borrows it */
     onset_answer a;
     session s;
     const session_options options = {
         .dir = dir, .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
     };
-    OK(run_session_open(c, &options, &s));
+    const case_inputs in = case_inputs_of(c);
+    OK(run_session_open(&in, &options, &s));
     s.run_scene = fake_scene;
-    const status done = study_onset_run(&s, &a);
+    given = in.onset;
+    const status done = study_onset_run(&s, &given, &a);
     assert_int_equal(done.code, want.code);
     if (want.code != STATUS_OK && !strstr(done.text, want.text)) fail_msg("%s", done.text);
     OK(run_session_close(&s, true));

@@ -64,7 +64,7 @@ static breech_case *small_case(const char *end_time)
 
 static scene_query query_at(const breech_case *c, double velocity)
 {
-    const case_impact from = case_impact_of(c);
+    const case_impact from = case_inputs_of(c).onset.impact;
     const site_state state = {
         .grain = c->sites.item[0], .reached = true, .velocity = velocity, .contact_pressure = 75e6
     };
@@ -82,7 +82,8 @@ static void open_session(const breech_case *c, const char *dir, session *s)
                                       .lending = lent,
                                       .progress_to = stderr,
                                       .quiet = true };
-    OK(run_session_open(c, &options, s));
+    const case_inputs in = case_inputs_of(c);
+    OK(run_session_open(&in, &options, s));
     assert_non_null(s->crew);
 }
 

@@ -20,9 +20,16 @@ enum { MAX_SETS = 12 };
 
 /* ---- sites ---- */
 
+static case_surface surface_of(const breech_case *c)
+{
+    const case_onset all = case_inputs_of(c).onset;
+    return case_surface_of(&all);
+}
+
 static status fly(const breech_case *c, const shot_plan *plan, shot_outcome *out)
 {
-    const case_flight flight = case_flight_of(c);
+    const case_onset all = case_inputs_of(c).onset;
+    const case_flight flight = case_flight_of(&all);
     return gouge_shot_run(&flight, plan, out);
 }
 
@@ -150,7 +157,7 @@ static void test_screen_table(void **state)
         if (strcmp(flyer, "al7075_t651") != 0 || strcmp(target, "ofhc_copper") != 0) continue;
         breech_case *c = changed_case(sets);
         screen s;
-        OK(gouge_screen_impact(case_surface_of(c), v, &s));
+        OK(gouge_screen_impact(surface_of(c), v, &s));
         /* the table has copper of 8930 kg/m3, the material's file 8960, 0.34 % more, which moves a copper-aluminium
          * pressure by less than 0.15 %; and its rounding of 0.005 GPa */
         assert_true(fabs(s.impact_pressure / 1e9 - p) <= 0.0015 * p + 0.005);
@@ -170,20 +177,20 @@ static void test_screen_band(void **state)
     for (double ratio = 2.0; ratio < 40.0; ratio *= 1.7) {
         double v;
         screen below, above;
-        OK(gouge_screen_velocity(case_surface_of(c), ratio, &v));
-        OK(gouge_screen_impact(case_surface_of(c), v - 0.01, &below));
-        OK(gouge_screen_impact(case_surface_of(c), v + 0.01, &above));
+        OK(gouge_screen_velocity(surface_of(c), ratio, &v));
+        OK(gouge_screen_impact(surface_of(c), v - 0.01, &below));
+        OK(gouge_screen_impact(surface_of(c), v + 0.01, &above));
         assert_true(below.ratio < ratio && above.ratio > ratio);
         c->study.screen_low = ratio;
-        OK(gouge_screen_impact(case_surface_of(c), v - 0.01, &below));
-        OK(gouge_screen_impact(case_surface_of(c), v + 0.01, &above));
+        OK(gouge_screen_impact(surface_of(c), v - 0.01, &below));
+        OK(gouge_screen_impact(surface_of(c), v + 0.01, &above));
         assert_true(below.skip && !above.skip);
     }
     /* a rail hardened beyond the armature lowers the ratio by its factor */
     screen soft, hard;
-    OK(gouge_screen_impact(case_surface_of(c), 1400.0, &soft));
+    OK(gouge_screen_impact(surface_of(c), 1400.0, &soft));
     c->rail.yield_scale = 2.0 * 1.7 / 0.725;
-    OK(gouge_screen_impact(case_surface_of(c), 1400.0, &hard));
+    OK(gouge_screen_impact(surface_of(c), 1400.0, &hard));
     assert_true(fabs(hard.ratio - 0.5 * soft.ratio) < 1e-9);
     case_free(c);
 }
@@ -227,7 +234,7 @@ static made make(const char *const *sets)
 {
     made m = { .c = changed_case(sets) };
     add_layer(m.c);
-    m.impact = case_impact_of(m.c);
+    m.impact = case_inputs_of(m.c).onset.impact;
     m.state = gouge_state_of_case(&m.impact);
     m.state.contact_pressure = 60e6;
     const status s = gouge_scene_from_state(&m.impact, &m.state, m.impact.scene.cells_per_radius, &m.gouge);
@@ -245,7 +252,7 @@ static void unmake(made *m)
 static status make_again(made *m, double cells)
 {
     gouge_scene_free(&m->gouge);
-    m->impact = case_impact_of(m->c);
+    m->impact = case_inputs_of(m->c).onset.impact;
     return gouge_scene_from_state(&m->impact, &m->state, cells, &m->gouge);
 }
 

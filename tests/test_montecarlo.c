@@ -26,7 +26,7 @@ static const double LENGTH = 3.0, MUZZLE = 2100.0;
 
 /* v = MUZZLE x / LENGTH; one population, one family: the threshold v_th (r / 0.5 mm)^-slope in a band +- half. */
 typedef struct {
-    breech_case c;
+    case_onset c;
     case_population population;
     case_site site[3];
     trace_point trace[TRACE];
@@ -388,7 +388,7 @@ static void test_bare(void **state)
         make(&bare, 1e-9, 2e-4, 0.5, 1900.0, 0.0, 0.0);
         covered.site[0] = (case_site){ .position = 2.1, .radius = 1e-3 };
         covered.c.sites = (case_sites){ 1, covered.site };
-        covered.c.rail.layers = (case_layers){ 1, &layer };
+        covered.c.impact.rail.layers = (case_layers){ 1, &layer };
         for (int k = 0; k < 2; k++) covered.record[k].entry.result.crater_depth = 0.3e-3;
         mc_surface one = as_new(&covered, 0, 1.0);
         one.bare = &bare.grains;

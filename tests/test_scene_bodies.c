@@ -375,7 +375,7 @@ static void test_gouging_as_text(void **state)
         gouge_scene g;
         const status s = case_read(BREECH_TESTS "/../cases/default_shot", sets, 6, &how, &c, &errors);
         if (s.code != STATUS_OK) fail_msg("%s", errors ? errors : s.text);
-        const case_impact one = case_impact_of(c);
+        const case_impact one = case_inputs_of(c).onset.impact;
         const site_state at = gouge_state_of_case(&one);
         OK(gouge_scene_bodies(&one, &at, one.scene.cells_per_radius, &g));
         FILE *f = open_memstream(&text, &bytes);

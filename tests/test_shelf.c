@@ -66,7 +66,7 @@ static breech_case *small_case(const char *const *speed, bool to_gauge, const ch
 static run_counted run_small(const char *const *speed, bool to_gauge, const char *written, scene_shelf *shelf)
 {
     breech_case *c = small_case(speed, to_gauge, written);
-    const case_impact one = case_impact_of(c);
+    const case_impact one = case_inputs_of(c).onset.impact;
     const site_state at = gouge_state_of_case(&one);
     run_counted r = { .steps = 0 };
     gouge_job job;
@@ -104,7 +104,7 @@ static void test_checkpoints(void **state)
     static const char *const brief[] = { "scene.velocity=2 km/s", "scene.end_time=1 us",
                                          "scene.contact_pressure=300 MPa", "scene.courant=0.2" };
     breech_case *c = small_case(brief, false, "output.snapshots=0");
-    const case_impact one = case_impact_of(c);
+    const case_impact one = case_inputs_of(c).onset.impact;
     const site_state at = gouge_state_of_case(&one);
     gouge_job job;
     impact hit;

@@ -44,7 +44,7 @@ static site_state state_at(const breech_case *c, double velocity)
 
 static case_impact impact_at(const breech_case *c, double velocity, double cells)
 {
-    const case_impact from = case_impact_of(c);
+    const case_impact from = case_inputs_of(c).onset.impact;
     const site_state state = state_at(c, velocity);
     return gouge_impact_at(&from, &state, cells);
 }
@@ -106,7 +106,7 @@ static void test_key_is_a_case(void **state)
     const case_text text = { .bytes = key.text, .length = key.bytes, .path = "key" };
     const status read = case_read_memory(&text, &(case_options){ .needs = CASE_FOR_SCENE }, &back, &errors);
     if (read.code != STATUS_OK) fail_msg("%s", errors ? errors : read.text);
-    const case_impact one_back = case_impact_of(back);
+    const case_impact one_back = case_inputs_of(back).onset.impact;
     const site_state at = gouge_state_of_case(&one), at_back = gouge_state_of_case(&one_back);
     OK(run_scene_key_of(&one_back, &again));
     assert_string_equal(key.text, again.text);
@@ -220,7 +220,8 @@ static session opened(const breech_case *c, const char *dir, const char *store)
     const session_options options = {
         .dir = dir, .store = store, .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
     };
-    OK(run_session_open(c, &options, &s));
+    const case_inputs in = case_inputs_of(c);
+    OK(run_session_open(&in, &options, &s));
     s.run_scene = fake_scene;
     ran.scenes = 0;
     return s;

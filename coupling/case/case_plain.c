@@ -4,35 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-shot_config case_launcher(const breech_case *c)
-{
-    shot_config config = { .rails = c->rails, .barrel = c->barrel, .armature = c->armature, .options = c->options };
-    for (int k = 0; k < SUPPLY_KINDS; k++) config.supplies[k] = (supply_list){ c->supplies[k].n, c->supplies[k].item };
-    return config;
-}
-
-case_flight case_flight_of(const breech_case *c)
-{
-    return (case_flight){ .launcher = case_launcher(c),
-                          .body = c->given.projectile ? &c->projectile : NULL,
-                          .site = c->sites.item,
-                          .n_sites = c->sites.n,
-                          .history_interval = c->output.history_interval };
-}
-
-case_surface case_surface_of(const breech_case *c)
-{
-    const case_layers *layers = &c->rail.layers;
-    const case_layer *top = layers->n > 0 ? &layers->item[layers->n - 1] : NULL;
-    return (case_surface){ .rail = case_material(&c->materials, top ? top->material : c->rail.material),
-                           .armature = case_material(&c->materials, c->projectile.material),
-                           .yield_scale = top ? top->yield_scale : c->rail.yield_scale,
-                           .screen_low = c->study.screen_low };
-}
-
 /* ---- an impact ---- */
 
-case_impact case_impact_of(const breech_case *c)
+static case_impact impact_of(const breech_case *c)
 {
     return (case_impact){ .rail = c->rail,
                           .armature = c->projectile,
@@ -83,4 +57,106 @@ status case_impact_write(const case_impact *i, FILE *file)
     const status done = case_write_used(&one, file);
     free(one.materials.item);
     return done;
+}
+
+/* ---- a shot over grains ---- */
+
+static shot_config launcher_of(const breech_case *c)
+{
+    shot_config config = { .rails = c->rails, .barrel = c->barrel, .armature = c->armature, .options = c->options };
+    for (int k = 0; k < SUPPLY_KINDS; k++) config.supplies[k] = (supply_list){ c->supplies[k].n, c->supplies[k].item };
+    return config;
+}
+
+static case_onset onset_of(const breech_case *c)
+{
+    return (case_onset){ .launcher = launcher_of(c),
+                         .history_interval = c->output.history_interval,
+                         .sites = c->sites,
+                         .populations = c->populations,
+                         .has_body = c->given.projectile,
+                         .impact = impact_of(c),
+                         .study = c->study };
+}
+
+case_flight case_flight_of(const case_onset *c)
+{
+    return (case_flight){ .launcher = c->launcher,
+                          .body = c->has_body ? &c->impact.armature : NULL,
+                          .site = c->sites.item,
+                          .n_sites = c->sites.n,
+                          .history_interval = c->history_interval };
+}
+
+case_surface case_surface_of(const case_onset *c)
+{
+    const case_rail *rail = &c->impact.rail;
+    const case_layer *top = rail->layers.n > 0 ? &rail->layers.item[rail->layers.n - 1] : NULL;
+    return (case_surface){ .rail = case_material(&c->impact.materials, top ? top->material : rail->material),
+                           .armature = case_material(&c->impact.materials, c->impact.armature.material),
+                           .yield_scale = top ? top->yield_scale : rail->yield_scale,
+                           .screen_low = c->study.screen_low };
+}
+
+/* ---- the whole ---- */
+
+case_inputs case_inputs_of(const breech_case *c)
+{
+    return (case_inputs){ .name = c->name,
+                          .title = c->title,
+                          .path = c->path,
+                          .warnings = c->warnings,
+                          .given = c->given,
+                          .onset = onset_of(c),
+                          .optimise = c->optimise,
+                          .treatments = c->treatments,
+                          .bodies = c->bodies,
+                          .sweep = c->sweep,
+                          .output = c->output,
+                          .file = c };
+}
+
+/* Takes over what was read. */
+static status wrap(status read, breech_case *c, case_inputs **out)
+{
+    *out = NULL;
+    TRY(read);
+    *out = malloc(sizeof **out);
+    if (!*out) case_free(c);
+    CHECK(*out, STATUS_MEMORY, "no memory for a case");
+    **out = case_inputs_of(c);
+    return status_ok();
+}
+
+status case_inputs_read(const char *path, const char *const *sets, int n_sets, const case_options *options,
+                        case_inputs **out, char **errors)
+{
+    breech_case *c;
+    const status read = case_read(path, sets, n_sets, options, &c, errors);
+    return wrap(read, c, out);
+}
+
+status case_inputs_read_memory(const case_text *text, const case_options *options, case_inputs **out, char **errors)
+{
+    breech_case *c;
+    const status read = case_read_memory(text, options, &c, errors);
+    return wrap(read, c, out);
+}
+
+void case_inputs_free(case_inputs *in)
+{
+    if (in) case_free((breech_case *)in->file); /* made by wrap */
+    free(in);
+}
+
+status case_inputs_write(const case_inputs *in, FILE *file)
+{
+    breech_case one = *in->file; /* borrows all */
+    one.bodies = in->bodies;
+    return case_write_used(&one, file);
+}
+
+status case_inputs_write_scene(const case_inputs *in, const mpm_scene *s, FILE *file)
+{
+    return case_write_scene(in->file, s, file);
 }

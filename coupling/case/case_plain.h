@@ -7,19 +7,6 @@
 
 #include "coupling/case/case.h"
 
-/* Supplies, rails, barrel, armature and tolerances, as the circuit takes them; no sites. */
-shot_config case_launcher(const breech_case *c);
-
-/* A shot past the grains of the rail. */
-typedef struct {
-    shot_config launcher;
-    const case_projectile *body; /* whose face is pressed on the rail; NULL: the circuit's contact is all there is */
-    const case_site *site;       /* n_sites */
-    int n_sites;
-    double history_interval; /* least time between two samples [s]; NaN: every step */
-} case_flight;
-case_flight case_flight_of(const breech_case *c);
-
 /* The armature over a grain on the rail: all that decides such a scene.  Of one that a study varies, grain, velocity,
  * contact pressure and resolution are set anew for every scene (gouge_impact_at). */
 typedef struct {
@@ -31,11 +18,32 @@ typedef struct {
     int snapshots;              /* of the scene, evenly over its time; where they lie it may end */
     double checkpoint_interval; /* wall time; decides nothing [s] */
 } case_impact;
-case_impact case_impact_of(const breech_case *c);
 
 /* The case file that `breech scene` computes just this scene from: every value resolved, the constants of the materials
  * named.  Read back it is the same impact, bit for bit. */
 status case_impact_write(const case_impact *i, FILE *file);
+
+/* A shot over grains on the rail: the launcher, the grains, what their scenes are made of, how thresholds are looked
+ * for.  What studies of onset vary. */
+typedef struct {
+    shot_config launcher;    /* supplies, rails, barrel, armature and tolerances; no sites */
+    double history_interval; /* of the shot: least time between two samples [s]; NaN: every step */
+    case_sites sites;
+    case_populations populations;
+    bool has_body; /* impact.armature is given; else the circuit's contact is all there is */
+    case_impact impact;
+    case_study study;
+} case_onset;
+
+/* A shot past the grains of the rail. */
+typedef struct {
+    shot_config launcher;
+    const case_projectile *body; /* whose face is pressed on the rail; NULL: the circuit's contact is all there is */
+    const case_site *site;       /* n_sites */
+    int n_sites;
+    double history_interval; /* as case_onset has it */
+} case_flight;
+case_flight case_flight_of(const case_onset *c);
 
 /* What meets at the rail's surface. */
 typedef struct {
@@ -43,6 +51,33 @@ typedef struct {
     double yield_scale;              /* of the rail's strength and hardness [1] */
     double screen_low;               /* impact pressure over hardness below which no scene is needed [1] */
 } case_surface;
-case_surface case_surface_of(const breech_case *c);
+case_surface case_surface_of(const case_onset *c);
+
+/* All that a case gives. */
+typedef struct {
+    const char *name, *title, *path;
+    const char *warnings; /* a line each */
+    case_given given;
+    case_onset onset;
+    firing_wish optimise;
+    case_treatments treatments;
+    case_bodies bodies;
+    case_sweep sweep;
+    case_output output;
+    const breech_case *file; /* what it was made from; for this folder alone */
+} case_inputs;
+case_inputs case_inputs_of(const breech_case *c);
+
+/* As case_read and case_read_memory; case_inputs_free frees *out and all that it borrows. */
+status case_inputs_read(const char *path, const char *const *sets, int n_sets, const case_options *options,
+                        case_inputs **out, char **errors);
+status case_inputs_read_memory(const case_text *text, const case_options *options, case_inputs **out, char **errors);
+void case_inputs_free(case_inputs *in); /* NULL allowed */
+
+/* used.yaml: case_write_used, with what the program has decided of the bodies' scene since. */
+status case_inputs_write(const case_inputs *in, FILE *file);
+
+/* A case of this scene: case_write_scene. */
+status case_inputs_write_scene(const case_inputs *in, const mpm_scene *s, FILE *file);
 
 #endif

@@ -41,15 +41,15 @@ static status own_sizes(case_populations *list)
     return status_ok();
 }
 
-status case_treat(const breech_case *c, const case_treatment *t, breech_case *out)
+status case_treat(const case_onset *c, const case_treatment *t, case_onset *out)
 {
     *out = *c;
-    out->rail.layers = (case_layers){ 0, NULL };
+    out->impact.rail.layers = (case_layers){ 0, NULL };
     out->sites = (case_sites){ 0, NULL };
     out->populations = (case_populations){ 0, NULL };
-    case_layers layers = c->rail.layers;
+    case_layers layers = c->impact.rail.layers;
     TRY(own((void **)&layers.item, layers.n, sizeof *layers.item));
-    out->rail.layers = layers;
+    out->impact.rail.layers = layers;
     case_sites sites = c->sites;
     TRY(own((void **)&sites.item, sites.n, sizeof *sites.item));
     out->sites = sites;
@@ -65,18 +65,18 @@ status case_treat(const breech_case *c, const case_treatment *t, breech_case *ou
     return status_ok();
 }
 
-void case_treated_free(breech_case *c)
+void case_treated_free(case_onset *c)
 {
-    free(c->rail.layers.item);
+    free(c->impact.rail.layers.item);
     free(c->sites.item);
     for (int i = 0; i < c->populations.n; i++) free(c->populations.item[i].sizes.item);
     free(c->populations.item);
     memset(c, 0, sizeof *c);
 }
 
-status case_treatment_add_layer(breech_case *c, int at, const case_layer *layer)
+status case_treatment_add_layer(case_onset *c, int at, const case_layer *layer)
 {
-    case_layers *l = &c->rail.layers;
+    case_layers *l = &c->impact.rail.layers;
     case_layer *more = realloc(l->item, ((size_t)l->n + 1) * sizeof *more);
     CHECK(more, STATUS_MEMORY, "no memory for a layer");
     l->item = more;

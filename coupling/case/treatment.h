@@ -1,29 +1,29 @@
-/* Treatments: what can be done to a rail's surface, as a change of the case.
+/* Treatments: what can be done to a rail's surface, as a change of what the case gives (case_onset).
  *
  * A case lists surfaces to compare, each a name and the kinds of treatment on it.  To add a kind: treatment_<kind>.c
  * with
  *   const param case_treatment_<kind>_params[]: the keys of the case file, members of treatment_settings, the first
  *   REQUIRED
  *     (a kind is given if its first key is);
- *   status case_treatment_<kind>_apply(settings, case): changes the case; STATUS_BAD_INPUT names what cannot be;
+ *   status case_treatment_<kind>_apply(settings, inputs): changes them; STATUS_BAD_INPUT names what cannot be;
  * and one line in treatment.def.  tests/test_compare.c checks every kind: applied, the case differs and its scenes can
  * be built. */
 #ifndef BREECH_COUPLING_TREATMENT_H
 #define BREECH_COUPLING_TREATMENT_H
 
-#include "coupling/case/case.h"
+#include "coupling/case/case_plain.h"
 
 typedef struct {
     const char *name, *doc;
     const param *params; /* NULL: a list of layers */
-    status (*apply)(const treatment_settings *t, breech_case *c);
+    status (*apply)(const treatment_settings *t, case_onset *c);
 } treatment_kind;
 extern const treatment_kind case_treatment_kinds[TREATMENT_KINDS];
 
-#define TREATMENT_LAYERS(name, doc) status case_treatment_##name##_apply(const treatment_settings *t, breech_case *c);
+#define TREATMENT_LAYERS(name, doc) status case_treatment_##name##_apply(const treatment_settings *t, case_onset *c);
 #define TREATMENT(name, doc)                             \
     extern const param case_treatment_##name##_params[]; \
-    status case_treatment_##name##_apply(const treatment_settings *t, breech_case *c);
+    status case_treatment_##name##_apply(const treatment_settings *t, case_onset *c);
 #include "coupling/case/treatment.def"
 #undef TREATMENT
 
@@ -39,10 +39,10 @@ bool case_treatment_given(const case_treatment *t, int kind);
 
 /* The case under a treatment (NULL: as it is): a copy that borrows what it does not change.  It owns its layers, sites
  * and populations; case_treated_free, even on error. */
-status case_treat(const breech_case *c, const case_treatment *t, breech_case *out);
-void case_treated_free(breech_case *c);
+status case_treat(const case_onset *c, const case_treatment *t, case_onset *out);
+void case_treated_free(case_onset *c);
 
 /* A layer more, at place `at` from below. */
-status case_treatment_add_layer(breech_case *c, int at, const case_layer *layer);
+status case_treatment_add_layer(case_onset *c, int at, const case_layer *layer);
 
 #endif

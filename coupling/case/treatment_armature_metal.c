@@ -8,12 +8,12 @@ const param case_treatment_armature_metal_params[] = {
     PARAMS_END,
 };
 
-status case_treatment_armature_metal_apply(const treatment_settings *t, breech_case *c)
+status case_treatment_armature_metal_apply(const treatment_settings *t, case_onset *c)
 {
     for (int i = 0; i < c->populations.n; i++) {
         char *grain = c->populations.item[i].material;
-        if (strcmp(grain, c->projectile.material) == 0) snprintf(grain, PARAM_TEXT_SIZE, "%s", t->material);
+        if (strcmp(grain, c->impact.armature.material) == 0) snprintf(grain, PARAM_TEXT_SIZE, "%s", t->material);
     }
-    snprintf(c->projectile.material, sizeof c->projectile.material, "%s", t->material);
+    snprintf(c->impact.armature.material, sizeof c->impact.armature.material, "%s", t->material);
     return status_ok();
 }

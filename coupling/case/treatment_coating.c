@@ -1,8 +1,8 @@
 /* One or several layers on what the rail has already. */
 #include "coupling/case/treatment.h"
 
-status case_treatment_coating_apply(const treatment_settings *t, breech_case *c)
+status case_treatment_coating_apply(const treatment_settings *t, case_onset *c)
 {
-    for (int i = 0; i < t->layers.n; i++) TRY(case_treatment_add_layer(c, c->rail.layers.n, &t->layers.item[i]));
+    for (int i = 0; i < t->layers.n; i++) TRY(case_treatment_add_layer(c, c->impact.rail.layers.n, &t->layers.item[i]));
     return status_ok();
 }

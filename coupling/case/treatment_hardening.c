@@ -12,11 +12,11 @@ const param case_treatment_hardening_params[] = {
     PARAMS_END,
 };
 
-status case_treatment_hardening_apply(const treatment_settings *t, breech_case *c)
+status case_treatment_hardening_apply(const treatment_settings *t, case_onset *c)
 {
     case_layer skin = { .thickness = t->value[DEPTH],
                         .bond_strength = NAN,
-                        .yield_scale = c->rail.yield_scale * t->value[FACTOR] };
-    memcpy(skin.material, c->rail.material, sizeof skin.material);
+                        .yield_scale = c->impact.rail.yield_scale * t->value[FACTOR] };
+    memcpy(skin.material, c->impact.rail.material, sizeof skin.material);
     return case_treatment_add_layer(c, 0, &skin);
 }

@@ -9,9 +9,9 @@ const param case_treatment_lead_angle_params[] = {
     PARAMS_END,
 };
 
-status case_treatment_lead_angle_apply(const treatment_settings *t, breech_case *c)
+status case_treatment_lead_angle_apply(const treatment_settings *t, case_onset *c)
 {
-    case_projectile *p = &c->projectile;
+    case_projectile *p = &c->impact.armature;
     const double run = p->chamfer_height / tan(t->value[ANGLE]);
     CHECK(run < p->length, STATUS_BAD_INPUT,
           "lead_angle.angle = %g deg: the lead face would be %g m long, the armature is %g m: a larger angle, or a "

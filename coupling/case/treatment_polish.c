@@ -9,7 +9,7 @@ const param case_treatment_polish_params[] = {
     PARAMS_END,
 };
 
-status case_treatment_polish_apply(const treatment_settings *t, breech_case *c)
+status case_treatment_polish_apply(const treatment_settings *t, case_onset *c)
 {
     for (int i = 0; i < c->sites.n; i++) {
         c->sites.item[i].radius *= t->value[SIZE];

@@ -8,8 +8,8 @@ const param case_treatment_preheat_params[] = {
     PARAMS_END,
 };
 
-status case_treatment_preheat_apply(const treatment_settings *t, breech_case *c)
+status case_treatment_preheat_apply(const treatment_settings *t, case_onset *c)
 {
-    c->rail.temperature = t->value[TEMPERATURE];
+    c->impact.rail.temperature = t->value[TEMPERATURE];
     return status_ok();
 }

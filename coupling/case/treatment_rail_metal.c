@@ -16,14 +16,14 @@ static void exchange(char *metal, const char *former, const char *now)
     if (strcmp(metal, former) == 0) snprintf(metal, PARAM_TEXT_SIZE, "%s", now);
 }
 
-status case_treatment_rail_metal_apply(const treatment_settings *t, breech_case *c)
+status case_treatment_rail_metal_apply(const treatment_settings *t, case_onset *c)
 {
     char former[PARAM_TEXT_SIZE];
-    memcpy(former, c->rail.material, sizeof former);
+    memcpy(former, c->impact.rail.material, sizeof former);
     for (int i = 0; i < c->sites.n; i++) exchange(c->sites.item[i].material, former, t->material);
     for (int i = 0; i < c->populations.n; i++) exchange(c->populations.item[i].material, former, t->material);
-    exchange(c->particle.material, former, t->material);
-    exchange(c->rail.material, former, t->material);
-    c->rail.yield_scale = t->value[YIELD_SCALE];
+    exchange(c->impact.particle.material, former, t->material);
+    exchange(c->impact.rail.material, former, t->material);
+    c->impact.rail.yield_scale = t->value[YIELD_SCALE];
     return status_ok();
 }

@@ -119,7 +119,7 @@ static status answer(const member *me, uint64_t key, status done, h5_file *file)
 static status take_order(member *me, const message *m)
 {
     scene_order order;
-    breech_case *c = NULL;
+    case_inputs *in = NULL;
     char *errors = NULL;
     h5_file *file = NULL;
     memcpy(&order, m->data, sizeof order);
@@ -128,15 +128,12 @@ static status take_order(member *me, const message *m)
     const case_text text = { .bytes = m->data + sizeof order,
                              .length = m->bytes - sizeof order,
                              .path = "rank 0's case" };
-    status done = case_read_memory(&text, &(case_options){ .needs = CASE_FOR_SCENE }, &c, &errors);
-    if (done.code == STATUS_OK) {
-        const case_impact one = case_impact_of(c);
-        done = compute_impact(&w, &order, &one, &file);
-    }
+    status done = case_inputs_read_memory(&text, &(case_options){ .needs = CASE_FOR_SCENE }, &in, &errors);
+    if (done.code == STATUS_OK) done = compute_impact(&w, &order, &in->onset.impact, &file);
     me->top = w.put_off;
     done = answer(me, order.key, done, file);
     host_h5_close(file);
-    case_free(c);
+    case_inputs_free(in);
     free(errors);
     return done;
 }

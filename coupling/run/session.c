@@ -104,13 +104,13 @@ static double resumed_scene_wall(const session *s)
 /* ---- opening and closing ---- */
 
 /* used.yaml into the directory, its hash into the key. */
-static status write_used(session *s)
+static status write_used(const case_inputs *in, session *s)
 {
     char *text = NULL, path[OUTDIR_PATH_SIZE];
     size_t bytes = 0;
     FILE *f = open_memstream(&text, &bytes);
     CHECK(f, STATUS_MEMORY, "no memory for used.yaml");
-    status done = case_write_used(s->c, f);
+    status done = case_inputs_write(in, f);
     if (fclose(f) != 0 && done.code == STATUS_OK) done = base_status_error(STATUS_MEMORY, "no memory for used.yaml");
     s->key = run_checkpoint_key_of(mpm_instruction_set(), host_hash_bytes(0, text, bytes));
     if (done.code == STATUS_OK) done = host_outdir_file(&s->dir, OUTDIR_USED, path, sizeof path);
@@ -129,29 +129,28 @@ static status find_store(session *s, const char *wanted)
     return status_ok();
 }
 
-status run_session_open(const breech_case *c, const session_options *o, session *s)
+status run_session_open(const case_inputs *in, const session_options *o, session *s)
 {
     char dir[OUTDIR_PATH_SIZE];
     memset(s, 0, sizeof *s);
-    s->c = c;
     s->dir.lock = -1;
     s->threads = o->threads;
     s->lending = o->lending;
     s->stop = o->stop;
     s->run_scene = gouge_run;
     s->started = host_wall_clock();
-    s->warnings = strdup(c->warnings);
+    s->warnings = strdup(in->warnings);
     CHECK(s->warnings, STATUS_MEMORY, "no memory for the warnings");
     host_progress_open(&s->progress, o->progress_to, o->quiet);
     host_timing_open(&s->timing);
     if (o->dir)
         CHECK(snprintf(dir, sizeof dir, "%s", o->dir) < (int)sizeof dir, STATUS_BAD_INPUT, "-o: the path is too long");
     else
-        TRY(host_outdir_default(c->name, dir, sizeof dir));
+        TRY(host_outdir_default(in->name, dir, sizeof dir));
     TRY(host_outdir_open(dir, o->how, &s->dir));
     if (s->dir.state == OUTDIR_FINISHED) return status_ok();
     TRY(find_store(s, o->store));
-    TRY(write_used(s));
+    TRY(write_used(in, s));
     if (s->dir.state == OUTDIR_RESUMED) TRY(take_up(s));
     TRY(host_outdir_file(&s->dir, OUTDIR_HISTORY, dir, sizeof dir));
     TRY(output_history_open(dir, s->dir.state == OUTDIR_RESUMED, &s->history));
@@ -202,16 +201,15 @@ static void warn_of_limits(session *s, const shot_limits *l)
                          l->critical_position, l->critical_velocity);
 }
 
-status run_session_shot(session *s, const breech_case *c, const site_jump *jump, bool with_history, shot_outcome *out,
-                        shot_record *record)
+status run_session_shot(session *s, const case_flight *flight, const site_jump *jump, bool with_history,
+                        shot_outcome *out, shot_record *record)
 {
     const double since = host_wall_clock();
     host_progress_task(&s->progress, jump ? "shot with gouges" : "shot", 0.0, 0);
     const shot_plan plan = {
         .history = with_history ? s->history : NULL, .progress = &s->progress, .jump = jump, .stop = s->stop
     };
-    const case_flight flight = case_flight_of(c);
-    const status done = gouge_shot_run(&flight, &plan, out);
+    const status done = gouge_shot_run(flight, &plan, out);
     if (s->history && done.code == STATUS_OK) TRY(output_history_tick(s->history));
     host_timing_add(&s->timing, "shot", host_wall_clock() - since);
     int warmest = 0;
@@ -220,7 +218,7 @@ status run_session_shot(session *s, const breech_case *c, const site_jump *jump,
     *record = (shot_record){ .is = out->summary,
                              .limits = out->limits,
                              .rail_rise = out->rail_rise[warmest],
-                             .rail_rise_position = (warmest + 0.5) * c->barrel.length / SHOT_PIECES,
+                             .rail_rise_position = (warmest + 0.5) * flight->launcher.barrel.length / SHOT_PIECES,
                              .wall_seconds = host_wall_clock() - since };
     if (done.code == STATUS_OK && with_history) warn_of_limits(s, &out->limits);
     return done;

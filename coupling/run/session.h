@@ -20,7 +20,6 @@ typedef struct {
 } scene_record;
 
 typedef struct {
-    const breech_case *c; /* borrowed */
     outdir dir;
     history *history;
     progress progress;
@@ -53,7 +52,7 @@ typedef struct {
 
 /* Opens the output directory, writes used.yaml, takes up the checkpoint.  *s stays where it is until run_session_close.
  * s->dir.state OUTDIR_FINISHED: nothing to do. run_session_close is due in any case. */
-status run_session_open(const breech_case *c, const session_options *o, session *s);
+status run_session_open(const case_inputs *in, const session_options *o, session *s);
 /* Flushes the history, frees all.  finished: the checkpoint has served. */
 status run_session_close(session *s, bool finished);
 
@@ -67,9 +66,8 @@ status run_session_save_inside(void *session, const char *scene, const scene_now
 /* Where the scene of this name is to be taken up; from the start unless the run was stopped inside it. */
 scene_resume run_session_resume_of(const session *s, const char *scene);
 
-/* The shot of a case, the session's or one derived from it, with what is asked for in jumps (NULL: none); only the
- * first one of a run writes history. */
-status run_session_shot(session *s, const breech_case *c, const site_jump *jump, bool with_history, shot_outcome *out,
-                        shot_record *record);
+/* A shot, with what is asked for in jumps (NULL: none); only the first one of a run writes history. */
+status run_session_shot(session *s, const case_flight *flight, const site_jump *jump, bool with_history,
+                        shot_outcome *out, shot_record *record);
 
 #endif

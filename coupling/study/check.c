@@ -21,7 +21,7 @@ static status scene_possible(const case_impact *c, const site_state *state, doub
 }
 
 /* A search's scenes at both resolutions with a grain of this size. */
-static status grain_possible(const breech_case *c, const case_site *grain)
+static status grain_possible(const case_onset *c, const case_site *grain)
 {
     const case_impact probe = study_family_probe(c);
     site_state state = gouge_state_of_case(&probe);
@@ -31,7 +31,7 @@ static status grain_possible(const breech_case *c, const case_site *grain)
     return scene_possible(&probe, &state, c->study.fine_cells_per_radius);
 }
 
-static status grains_possible(const breech_case *c)
+static status grains_possible(const case_onset *c)
 {
     for (int i = 0; i < c->sites.n; i++) TRY(grain_possible(c, &c->sites.item[i]));
     for (int i = 0; i < c->populations.n; i++) {
@@ -48,46 +48,46 @@ static status grains_possible(const breech_case *c)
     return status_ok();
 }
 
-static status treatments_possible(const breech_case *c)
+static status treatments_possible(const case_onset *c, const case_treatments *all)
 {
-    for (int i = 0; i < c->treatments.n; i++) {
-        breech_case treated;
-        status s = case_treat(c, &c->treatments.item[i], &treated);
+    for (int i = 0; i < all->n; i++) {
+        case_onset treated;
+        status s = case_treat(c, &all->item[i], &treated);
         const bool made = s.code == STATUS_OK; /* its error names the treatment already */
         if (made) s = grains_possible(&treated);
         case_treated_free(&treated);
-        CHECK(s.code == STATUS_OK, s.code, "%s%s%s%.400s", made ? "treatment `" : "",
-              made ? c->treatments.item[i].name : "", made ? "`: " : "", s.text);
+        CHECK(s.code == STATUS_OK, s.code, "%s%s%s%.400s", made ? "treatment `" : "", made ? all->item[i].name : "",
+              made ? "`: " : "", s.text);
     }
     return status_ok();
 }
 
-status study_prepare(breech_case *c)
+status study_prepare(case_inputs *in)
 {
-    return c->given.bodies ? scene_fill(&c->bodies.scene) : status_ok();
+    return in->given.bodies ? scene_fill(&in->bodies.scene) : status_ok();
 }
 
 /* A scene of bodies: its grid and its materials, as far as they show without its points. */
-static status bodies_possible(const breech_case *c)
+static status bodies_possible(const mpm_scene *s)
 {
     mpm_needs needs;
-    return mpm_estimate(&c->bodies.scene, &needs);
+    return mpm_estimate(s, &needs);
 }
 
-status study_possible(const breech_case *c, unsigned needs)
+status study_possible(const case_inputs *in, unsigned needs)
 {
-    if (c->given.bodies) TRY(bodies_possible(c));
+    if (in->given.bodies) TRY(bodies_possible(&in->bodies.scene));
     rail_section section;
-    const shot_config circuit = case_launcher(c);
-    const case_impact own = case_impact_of(c);
-    const site_state state = gouge_state_of_case(&own);
+    const case_onset *c = &in->onset;
+    const site_state state = gouge_state_of_case(&c->impact);
     if ((needs & CASE_FOR_INDUCTANCE) ||
-        ((needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) && c->rails.level != SHOT_RAILS_CONSTANT))
-        TRY(circuit_rails_section(&c->rails, &section));
-    if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_shot_check(&circuit));
-    if ((needs & CASE_FOR_SCENE) && !c->given.bodies) TRY(scene_possible(&own, &state, c->scene.cells_per_radius));
+        ((needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) && c->launcher.rails.level != SHOT_RAILS_CONSTANT))
+        TRY(circuit_rails_section(&c->launcher.rails, &section));
+    if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_shot_check(&c->launcher));
+    if ((needs & CASE_FOR_SCENE) && !in->given.bodies)
+        TRY(scene_possible(&c->impact, &state, c->impact.scene.cells_per_radius));
     if (needs & CASE_FOR_ONSET) TRY(grains_possible(c));
-    return needs & CASE_FOR_COMPARE ? treatments_possible(c) : status_ok();
+    return needs & CASE_FOR_COMPARE ? treatments_possible(c, &in->treatments) : status_ok();
 }
 
 /* ---- what would they take? ---- */
@@ -110,21 +110,29 @@ static status estimate(const case_impact *c, const site_state *state, double cel
     return made;
 }
 
-status study_check(const breech_case *c, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n)
+/* Is there a scene of armature over grain of the case's own? */
+static bool has_scene(const case_inputs *in)
 {
-    const case_impact own = case_impact_of(c), probe = study_family_probe(c);
+    const case_impact *own = &in->onset.impact;
+    return in->onset.has_body && !isnan(own->scene.velocity) && !isnan(own->particle.radius);
+}
+
+status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n)
+{
+    const case_onset *c = &in->onset;
+    const case_impact probe = study_family_probe(c);
     *n = 0;
-    if (c->given.bodies) {
-        snprintf(out[*n].what, sizeof out->what, "scene, %d bodies", c->bodies.scene.bodies);
-        TRY(estimate_scene(&c->bodies.scene, c->bodies.scene.end_time, threads, &out[(*n)++]));
+    if (in->given.bodies) {
+        snprintf(out[*n].what, sizeof out->what, "scene, %d bodies", in->bodies.scene.bodies);
+        TRY(estimate_scene(&in->bodies.scene, in->bodies.scene.end_time, threads, &out[(*n)++]));
     }
-    if (c->given.projectile && !isnan(c->scene.velocity) && !isnan(c->particle.radius)) {
-        const site_state state = gouge_state_of_case(&own);
-        snprintf(out[*n].what, sizeof out->what, "scene, %g m/s, %g cells a radius", state.velocity,
-                 c->scene.cells_per_radius);
-        TRY(estimate(&own, &state, c->scene.cells_per_radius, threads, &out[(*n)++]));
+    if (has_scene(in)) {
+        const site_state state = gouge_state_of_case(&c->impact);
+        const double cells = c->impact.scene.cells_per_radius;
+        snprintf(out[*n].what, sizeof out->what, "scene, %g m/s, %g cells a radius", state.velocity, cells);
+        TRY(estimate(&c->impact, &state, cells, threads, &out[(*n)++]));
     }
-    if (!c->given.projectile || c->sites.n == 0) return status_ok();
+    if (!c->has_body || c->sites.n == 0) return status_ok();
     const double cells[] = { c->study.coarse_cells_per_radius, c->study.fine_cells_per_radius };
     for (int k = 0; k < (cells[0] < cells[1] ? 2 : 1); k++) {
         site_state state = gouge_state_of_case(&probe);
@@ -136,16 +144,16 @@ status study_check(const breech_case *c, int threads, scene_estimate out[CHECK_M
     return status_ok();
 }
 
-status study_print_scene(const breech_case *c, FILE *out)
+status study_print_scene(const case_inputs *in, FILE *out)
 {
     gouge_scene scene;
-    const case_impact own = case_impact_of(c);
-    const site_state state = gouge_state_of_case(&own);
-    if (c->given.bodies) return case_write_used(c, out);
-    CHECK(c->given.projectile && !isnan(c->scene.velocity) && !isnan(c->particle.radius), STATUS_BAD_INPUT,
+    const case_impact *own = &in->onset.impact;
+    const site_state state = gouge_state_of_case(own);
+    if (in->given.bodies) return case_inputs_write(in, out);
+    CHECK(has_scene(in), STATUS_BAD_INPUT,
           "the case has no scene of its own: give scene.velocity and particle.radius, or a scene with bodies");
-    TRY(gouge_scene_bodies(&own, &state, c->scene.cells_per_radius, &scene));
-    const status written = case_write_scene(c, &scene.scene, out);
+    TRY(gouge_scene_bodies(own, &state, own->scene.cells_per_radius, &scene));
+    const status written = case_inputs_write_scene(in, &scene.scene, out);
     gouge_scene_free(&scene);
     return written;
 }

@@ -2,7 +2,7 @@
 #ifndef BREECH_COUPLING_STUDY_CHECK_H
 #define BREECH_COUPLING_STUDY_CHECK_H
 
-#include "coupling/case/case.h"
+#include "coupling/case/case_plain.h"
 #include "mpm/mpm.h"
 
 typedef struct {
@@ -15,9 +15,9 @@ enum { CHECK_MAX_ESTIMATES = 3 };
 #define CHECK_SECONDS_A_STEP 200e-9 /* one thread */
 
 /* The scene of the case as a case of bodies, with every value resolved.  STATUS_BAD_INPUT: it has none. */
-status study_print_scene(const breech_case *c, FILE *out);
+status study_print_scene(const case_inputs *in, FILE *out);
 
 /* The scene of the case, and of its first site the slowest and finest of the search; *n of them. */
-status study_check(const breech_case *c, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n);
+status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n);
 
 #endif

@@ -30,9 +30,10 @@ void study_compare_answer_free(compare_answer *a)
 
 enum { PREFIX_SIZE = 16 };
 
-static const case_treatment *treatment_of(const session *s, int surface)
+/* NULL: untreated. */
+static const case_treatment *treatment_of(const case_treatments *all, int surface)
 {
-    return surface == 0 ? NULL : &s->c->treatments.item[surface - 1];
+    return surface == 0 ? NULL : &all->item[surface - 1];
 }
 
 static void prefix_of(int surface, char out[PREFIX_SIZE])
@@ -43,9 +44,9 @@ static void prefix_of(int surface, char out[PREFIX_SIZE])
         out[0] = '\0';
 }
 
-static status make_room(const session *s, compare_answer *a)
+static status make_room(int surfaces, compare_answer *a)
 {
-    const size_t n = (size_t)s->c->treatments.n + 1;
+    const size_t n = (size_t)surfaces;
     a->treated = calloc(n, sizeof *a->treated);
     a->answer = calloc(n, sizeof *a->answer);
     a->entry = calloc(n, sizeof *a->entry);
@@ -54,13 +55,14 @@ static status make_room(const session *s, compare_answer *a)
     return status_ok();
 }
 
-static status begin(session *s, compare_answer *a, char (*prefix)[PREFIX_SIZE])
+static status begin(session *s, const case_onset *c, const case_treatments *treatments, compare_answer *a,
+                    char (*prefix)[PREFIX_SIZE])
 {
     for (int i = 0; i < a->n; i++) {
-        const case_treatment *t = treatment_of(s, i);
+        const case_treatment *t = treatment_of(treatments, i);
         prefix_of(i, prefix[i]);
-        TRY(case_treat(s->c, t, &a->treated[i]));
-        const status begun = study_onset_begin(s, i ? &a->treated[i] : s->c, prefix[i], &a->answer[i]);
+        TRY(case_treat(c, t, &a->treated[i]));
+        const status begun = study_onset_begin(s, &a->treated[i], prefix[i], i == 0, &a->answer[i]);
         CHECK(begun.code == STATUS_OK, begun.code, "%s%s%s%.400s", t ? "treatment `" : "", t ? t->name : "",
               t ? "`: " : "", begun.text);
     }
@@ -79,16 +81,16 @@ static status search(session *s, compare_answer *a)
     return status_ok();
 }
 
-static status draw(const session *s, compare_answer *a)
+static status draw(const case_onset *c, compare_answer *a)
 {
     mc_surface *surface = malloc((size_t)a->n * sizeof *surface);
     CHECK(surface, STATUS_MEMORY, "no memory for %d surfaces", a->n);
     for (int i = 0; i < a->n; i++)
         surface[i] = (mc_surface){ .grains = &a->answer[i].grains, .draws = i, .size_factor = 1.0 };
-    const mc_plan plan = { .histories = s->c->study.sampled,
+    const mc_plan plan = { .histories = c->study.sampled,
                            .shots = 1,
-                           .seed = s->c->study.seed,
-                           .length = s->c->barrel.length,
+                           .seed = c->study.seed,
+                           .length = c->launcher.barrel.length,
                            .n = a->n,
                            .surface = surface };
     const status done = study_mc_run(&plan, &a->drawn);
@@ -123,9 +125,9 @@ static const char *suffering(const scene_result *r, double thickness, double fai
     return failed >= SUFFERED ? "spalled" : "intact";
 }
 
-static void judge_layers(const breech_case *c, const grain_families *g, compare_entry *e)
+static void judge_layers(const case_onset *c, const grain_families *g, compare_entry *e)
 {
-    const double thickness = case_layers_thickness(&c->rail.layers);
+    const double thickness = case_layers_thickness(&c->impact.rail.layers);
     const family_scene *from = telling_scene(g);
     snprintf(e->layer, sizeof e->layer, "none");
     e->layer_failed = e->layer_velocity = NAN;
@@ -142,33 +144,44 @@ static void judge_layers(const breech_case *c, const grain_families *g, compare_
 
 /* ---- ranking ---- */
 
-static int scenes_of(const session *s, const char *prefix)
+static bool has_scene(const grain_families *g, const scene_record *record)
 {
+    for (int k = 0; k < g->n; k++)
+        for (int i = 0; i < g->family[k].n_scenes; i++)
+            if (g->family[k].scene[i].record == record) return true;
+    return false;
+}
+
+/* Scenes of a surface that none before it has. */
+static int own_scenes(const compare_answer *a, int surface)
+{
+    const grain_families *g = &a->answer[surface].grains;
     int n = 0;
-    const bool treated = prefix[0] != '\0';
-    for (int i = 0; i < s->n_records; i++) {
-        const char *name = s->record[i]->entry.name;
-        n += treated ? strncmp(name, prefix, strlen(prefix)) == 0 : name[0] != 't';
-    }
+    for (int k = 0; k < g->n; k++)
+        for (int i = 0; i < g->family[k].n_scenes; i++) {
+            int before = 0;
+            while (before < surface && !has_scene(&a->answer[before].grains, g->family[k].scene[i].record)) before++;
+            n += before == surface;
+        }
     return n;
 }
 
-static void fill_entry(const session *s, const compare_answer *a, int i, compare_entry *e)
+static void fill_entry(const case_treatments *treatments, const compare_answer *a, int i, compare_entry *e)
 {
     const onset_result *r = &a->answer[i].result;
     const mc_shot *shot_drawn = &a->drawn.of[i];
-    const case_treatment *t = treatment_of(s, i);
+    const case_treatment *t = treatment_of(treatments, i);
     snprintf(e->surface, sizeof e->surface, "%s", t ? t->name : "untreated");
     e->threshold_velocity = r->threshold_velocity;
     memcpy(e->threshold_interval, r->threshold_interval, sizeof e->threshold_interval);
     e->threshold_position = r->threshold_position;
-    e->onset_position = s->c->populations.n > 0 ? shot_drawn->first[1] : r->onset_position;
+    e->onset_position = a->treated[i].populations.n > 0 ? shot_drawn->first[1] : r->onset_position;
     e->gouges = shot_drawn->gouges;
     memcpy(e->gouges_interval, shot_drawn->gouges_interval, sizeof e->gouges_interval);
     e->gouged_volume = shot_drawn->volume;
     memcpy(e->gouged_volume_interval, shot_drawn->volume_interval, sizeof e->gouged_volume_interval);
     e->probability_gouge = shot_drawn->probability;
-    e->scenes = scenes_of(s, a->answer[i].grains.prefix);
+    e->scenes = own_scenes(a, i);
     judge_layers(&a->treated[i], &a->answer[i].grains, e);
 }
 
@@ -200,14 +213,14 @@ static void order_of(const compare_answer *a, int *order)
     }
 }
 
-static status rank(const session *s, compare_answer *a)
+static status rank(const case_treatments *treatments, compare_answer *a)
 {
     int *order = malloc((size_t)a->n * sizeof *order);
     CHECK(order, STATUS_MEMORY, "no memory for %d surfaces", a->n);
     order_of(a, order);
     for (int k = 0; k < a->n; k++) {
         compare_entry *e = &a->entry[k];
-        fill_entry(s, a, order[k], e);
+        fill_entry(treatments, a, order[k], e);
         e->better_than_next = k + 1 < a->n ? share_better(&a->drawn, order[k], order[k + 1]) : NAN;
         e->significant = e->better_than_next >= SIGNIFICANT;
         e->tied = k == 0 || a->entry[k - 1].significant ? k + 1 : a->entry[k - 1].tied;
@@ -221,22 +234,23 @@ static status rank(const session *s, compare_answer *a)
 
 /* ---- the whole ---- */
 
-static status compare(session *s, compare_answer *a, char (*prefix)[PREFIX_SIZE])
+static status compare(session *s, const case_onset *c, const case_treatments *treatments, compare_answer *a,
+                      char (*prefix)[PREFIX_SIZE])
 {
-    TRY(begin(s, a, prefix));
+    TRY(begin(s, c, treatments, a, prefix));
     TRY(search(s, a));
-    TRY(draw(s, a));
+    TRY(draw(c, a));
     for (int i = 0; i < a->n; i++) a->result.scenes_skipped += a->answer[i].result.scenes_skipped;
-    return rank(s, a);
+    return rank(treatments, a);
 }
 
-status study_compare_run(session *s, compare_answer *out)
+status study_compare_run(session *s, const case_onset *c, const case_treatments *treatments, compare_answer *out)
 {
     memset(out, 0, sizeof *out);
-    TRY(make_room(s, out));
+    TRY(make_room(treatments->n + 1, out));
     char(*prefix)[PREFIX_SIZE] = calloc((size_t)out->n, sizeof *prefix);
     CHECK(prefix, STATUS_MEMORY, "no memory for %d surfaces", out->n);
-    const status done = compare(s, out, prefix);
+    const status done = compare(s, c, treatments, out, prefix);
     compare_result *r = &out->result;
     const status listed = study_onset_list_scenes(s, &out->scene, &r->n_scenes, &r->scenes_run, &r->scenes_reused);
     r->scene = out->scene;

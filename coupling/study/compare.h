@@ -43,7 +43,7 @@ extern const summary_key study_compare_keys[]; /* of compare_result */
 typedef struct {
     compare_result result; /* borrows entry and scene */
     int n;
-    breech_case *treated; /* n, each owned; the first is the case as it is */
+    case_onset *treated;  /* n, each owned; the first is untreated */
     onset_answer *answer; /* n, each owned */
     mc_result drawn;      /* owned */
     compare_entry *entry; /* owned */
@@ -51,7 +51,7 @@ typedef struct {
 } compare_answer;
 
 /* *out needs study_compare_answer_free even on error; what was reached by then is in it. */
-status study_compare_run(session *s, compare_answer *out);
+status study_compare_run(session *s, const case_onset *c, const case_treatments *treatments, compare_answer *out);
 void study_compare_print(const void *result, FILE *out); /* of a compare_result */
 void study_compare_answer_free(compare_answer *a);
 

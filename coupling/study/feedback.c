@@ -14,7 +14,7 @@ enum { PIECES = 20 }; /* of the barrel, for gouges of populations */
 static site_jump taken_by(const onset_answer *a, const grain_family *f, double v, double volume)
 {
     gouge_mark mark;
-    const bool known = study_gouge_mark_at(f, a->grains.c->scene.limit_severity, v, &mark) && mark.volume > 0.0;
+    const bool known = study_gouge_mark_at(f, a->grains.c->impact.scene.limit_severity, v, &mark) && mark.volume > 0.0;
     const double share = known ? volume / mark.volume : 0.0;
     return (site_jump){ share * mark.impulse, share * mark.metal };
 }
@@ -46,7 +46,7 @@ static int strewn_jumps(const onset_answer *a, case_site *site, site_jump *jump)
 {
     const grain_family *f = strewn_family(&a->grains);
     const mc_shot *drawn = &a->drawn.of[0];
-    const double length = a->grains.c->barrel.length;
+    const double length = a->grains.c->launcher.barrel.length;
     int n = 0;
     for (int p = 0; f && !isnan(drawn->volume) && p < PIECES; p++) {
         double gouges = 0.0;
@@ -62,11 +62,12 @@ static int strewn_jumps(const onset_answer *a, case_site *site, site_jump *jump)
 static status fly_with(session *s, const onset_answer *a, const case_sites *sites, const site_jump *jump,
                        double *muzzle)
 {
-    breech_case c = *a->grains.c; /* borrows all but the sites */
+    case_flight flight = case_flight_of(a->grains.c);
     shot_outcome again;
     shot_record record;
-    c.sites = *sites;
-    const status done = run_session_shot(s, &c, jump, false, &again, &record);
+    flight.site = sites->item;
+    flight.n_sites = sites->n;
+    const status done = run_session_shot(s, &flight, jump, false, &again, &record);
     *muzzle = record.is.muzzle_velocity;
     gouge_shot_outcome_free(&again);
     return done;

@@ -29,7 +29,7 @@ void study_onset_answer_free(onset_answer *a)
 
 /* ---- the shot and its sites ---- */
 
-static status fill_site(const breech_case *c, const site_state *from, onset_site *to)
+static status fill_site(const case_onset *c, const site_state *from, onset_site *to)
 {
     screen hit = { NAN, NAN, false };
     if (from->reached) TRY(gouge_screen_impact(case_surface_of(c), from->velocity, &hit));
@@ -52,7 +52,7 @@ static status fill_site(const breech_case *c, const site_state *from, onset_site
     return status_ok();
 }
 
-static status list_sites(const breech_case *c, onset_answer *a)
+static status list_sites(const case_onset *c, onset_answer *a)
 {
     const int n = a->flown.n_sites;
     a->site = calloc((size_t)n + 1, sizeof *a->site);
@@ -74,11 +74,12 @@ static void unknown_all(onset_result *r)
     }
 }
 
-status study_onset_begin(session *s, const breech_case *c, const char *prefix, onset_answer *out)
+status study_onset_begin(session *s, const case_onset *c, const char *prefix, bool with_history, onset_answer *out)
 {
+    const case_flight flight = case_flight_of(c);
     memset(out, 0, sizeof *out);
     unknown_all(&out->result);
-    TRY(run_session_shot(s, c, NULL, c == s->c, &out->flown, &out->shot));
+    TRY(run_session_shot(s, &flight, NULL, with_history, &out->flown, &out->shot));
     TRY(list_sites(c, out));
     return study_families_sort(c, &out->flown, prefix, &out->grains);
 }
@@ -127,7 +128,7 @@ static void judge_sites(onset_answer *a)
         if (near) memcpy(site->scene, near->record->entry.name, sizeof site->scene);
         if (site->outcome != SITE_GOUGE) continue;
         a->result.gouges++;
-        if (study_gouge_mark_at(f, a->grains.c->scene.limit_severity, site->velocity, &mark))
+        if (study_gouge_mark_at(f, a->grains.c->impact.scene.limit_severity, site->velocity, &mark))
             site->gouged_volume = mark.volume * pow(site->radius, 3.0);
     }
 }
@@ -183,7 +184,7 @@ static void conclude_list(onset_answer *a)
 
 const grain_family *study_onset_leading_grain(const onset_answer *a, double *radius)
 {
-    const breech_case *c = a->grains.c;
+    const case_onset *c = a->grains.c;
     const int site = first_site(a, 2);
     const grain_family *lowest = NULL;
     double v = NAN;
@@ -285,15 +286,15 @@ static status list_surface(onset_answer *a)
 /* A layer thinner than a cell is a film (docs/onset.md). */
 static void warn_of_films(session *s, const onset_answer *a)
 {
-    const breech_case *c = a->grains.c;
+    const case_onset *c = a->grains.c;
     for (int k = 0; k < a->grains.n; k++) {
         const surface_plan *p = &a->grains.family[k].plan;
         const double cell = p->size[p->reference] / p->search.fine;
-        for (int i = 0; i < c->rail.layers.n; i++)
-            if (c->rail.layers.item[i].thickness < cell)
+        for (int i = 0; i < c->impact.rail.layers.n; i++)
+            if (c->impact.rail.layers.item[i].thickness < cell)
                 run_session_warn(s, "%srail.layers[%d]: %g um of %s in cells of %g um: a film, strained as its cell is",
-                                 a->grains.prefix, i, 1e6 * c->rail.layers.item[i].thickness,
-                                 c->rail.layers.item[i].material, 1e6 * cell);
+                                 a->grains.prefix, i, 1e6 * c->impact.rail.layers.item[i].thickness,
+                                 c->impact.rail.layers.item[i].material, 1e6 * cell);
     }
 }
 
@@ -377,7 +378,7 @@ static status list_along(onset_answer *a, double length)
 
 static status draw_shots(onset_answer *a)
 {
-    const breech_case *c = a->grains.c;
+    const case_onset *c = a->grains.c;
     onset_result *r = &a->result;
     const mc_surface one = { .grains = &a->grains,
                              .size_factor = 1.0,
@@ -388,7 +389,7 @@ static status draw_shots(onset_answer *a)
     const mc_plan plan = { .histories = c->study.sampled,
                            .shots = c->study.shots,
                            .seed = c->study.seed,
-                           .length = c->barrel.length,
+                           .length = c->launcher.barrel.length,
                            .n = 1,
                            .surface = &one };
     TRY(study_mc_run(&plan, &a->drawn));
@@ -400,7 +401,7 @@ static status draw_shots(onset_answer *a)
     memcpy(r->expected_gouges_interval, first->gouges_interval, sizeof first->gouges_interval);
     memcpy(r->expected_gouged_volume_interval, first->volume_interval, sizeof first->volume_interval);
     TRY(list_shots(a));
-    return list_along(a, c->barrel.length);
+    return list_along(a, c->launcher.barrel.length);
 }
 
 /* With a population the answer is that of the random shots. */
@@ -490,10 +491,10 @@ status study_onset_list_scenes(session *s, onset_scene **out, int *n, int *run, 
     return status_ok();
 }
 
-static status study(session *s, onset_answer *a)
+static status study(session *s, const case_onset *c, onset_answer *a)
 {
     grain_families *const all[] = { &a->grains };
-    TRY(study_onset_begin(s, s->c, "", a));
+    TRY(study_onset_begin(s, c, "", true, a));
     TRY(study_repeated_fly(s, &a->grains, &a->shot, &a->rail));
     TRY(study_families_search(s, all, 1));
     TRY(study_uncertain_run(s, &a->grains, &a->uncertain));
@@ -509,9 +510,9 @@ static status study(session *s, onset_answer *a)
     return status_ok();
 }
 
-status study_onset_run(session *s, onset_answer *out)
+status study_onset_run(session *s, const case_onset *c, onset_answer *out)
 {
-    const status done = study(s, out);
+    const status done = study(s, c, out);
     onset_result *r = &out->result;
     const status listed = study_onset_list_scenes(s, &out->scene, &r->n_scenes, &r->scenes_run, &r->scenes_reused);
     r->scene = out->scene;

@@ -121,14 +121,13 @@ typedef struct {
     double *along;
 } onset_answer;
 
-/* *out needs study_onset_answer_free even on error; what was reached by then is in it. */
-status study_onset_run(session *s, onset_answer *out);
+/* *out needs study_onset_answer_free even on error, before c goes; what was reached by then is in it. */
+status study_onset_run(session *s, const case_onset *c, onset_answer *out);
 void study_onset_print(const void *result, FILE *out); /* of an onset_result */
 void study_onset_answer_free(onset_answer *a);
 
-/* The shot of a case, its sites and families; c may be the session's case under a treatment, prefix names its scenes.
- */
-status study_onset_begin(session *s, const breech_case *c, const char *prefix, onset_answer *out);
+/* The shot, its sites and families; prefix names the scenes.  Of all shots of a run one alone writes history. */
+status study_onset_begin(session *s, const case_onset *c, const char *prefix, bool with_history, onset_answer *out);
 
 /* After study_families_search: every site's outcome, verdict, threshold. */
 status study_onset_judge(session *s, onset_answer *a);

@@ -50,39 +50,40 @@ static double warmest(const mc_along *a, double slowest)
 }
 
 /* Rise at which the rail melts. */
-static double melting_rise(const breech_case *c)
+static double melting_rise(const case_onset *c)
 {
-    return case_material(&c->materials, c->rail.material)->melting_temperature - c->rail.temperature;
+    return case_material(&c->impact.materials, c->impact.rail.material)->melting_temperature -
+           c->impact.rail.temperature;
 }
 
-static status no_melting(const breech_case *c, int number, const rises rise)
+static status no_melting(const case_onset *c, int number, const rises rise)
 {
     const double melting = melting_rise(c);
     for (int k = 0; k < SHOT_PIECES; k++)
         CHECK(rise[k] < melting, STATUS_BAD_INPUT,
               "study.shots: shot %d would find the rail at %.0f K %.3g m from the breech, %s melts at %.0f K; lower "
               "study.shots or study.heat_kept = %g",
-              number, c->rail.temperature + rise[k], (k + 0.5) * c->barrel.length / SHOT_PIECES, c->rail.material,
-              c->rail.temperature + melting, c->study.heat_kept);
+              number, c->impact.rail.temperature + rise[k], (k + 0.5) * c->launcher.barrel.length / SHOT_PIECES,
+              c->impact.rail.material, c->impact.rail.temperature + melting, c->study.heat_kept);
     return status_ok();
 }
 
 /* The shot of this number, from 1, through rails that are warmer in the mean; the same flight as the last where they
  * hardly are. */
-static status fly(session *s, const breech_case *c, int number, const rises rise, double *flown_at, rises left,
+static status fly(session *s, const case_onset *c, int number, const rises rise, double *flown_at, rises left,
                   repeated_rail *out)
 {
     const double mean = mean_of(rise);
     out->along[number] = out->along[number - 1];
     out->shot[number].muzzle_velocity = out->shot[number - 1].muzzle_velocity;
     if (fabs(mean - *flown_at) < SAME_FLIGHT) return status_ok();
-    breech_case warm = *c; /* borrows all */
+    case_flight warm = case_flight_of(c);
     shot_outcome flown;
     shot_record record;
-    warm.rails.initial_temperature += mean;
+    warm.launcher.rails.initial_temperature += mean;
     const status done = run_session_shot(s, &warm, NULL, false, &flown, &record);
     if (done.code == STATUS_OK) {
-        study_mc_velocities(&flown, c->barrel.length, out->along[number].v);
+        study_mc_velocities(&flown, c->launcher.barrel.length, out->along[number].v);
         out->shot[number].muzzle_velocity = record.is.muzzle_velocity;
         memcpy(left, flown.rail_rise, sizeof(rises));
         *flown_at = mean;
@@ -93,11 +94,11 @@ static status fly(session *s, const breech_case *c, int number, const rises rise
 
 static status fly_all(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out)
 {
-    const breech_case *c = first->c;
+    const case_onset *c = first->c;
     rises rise = { 0.0 }, left;
     double flown_at = 0.0;
     memcpy(left, first->flown->rail_rise, sizeof left);
-    study_mc_velocities(first->flown, c->barrel.length, out->along[0].v);
+    study_mc_velocities(first->flown, c->launcher.barrel.length, out->along[0].v);
     out->shot[0].muzzle_velocity = flight->is.muzzle_velocity;
     for (int n = 1; n < out->shots; n++) {
         for (int k = 0; k < SHOT_PIECES; k++) rise[k] = c->study.heat_kept * (rise[k] + left[k]);
@@ -136,12 +137,12 @@ static double deepest_gouge(const grain_families *f)
 {
     double depth = 0.0;
     for (int k = 0; k < f->n; k++)
-        depth = fmax(depth, study_gouge_law_depth(&f->family[k], f->c->scene.limit_severity));
+        depth = fmax(depth, study_gouge_law_depth(&f->family[k], f->c->impact.scene.limit_severity));
     return depth;
 }
 
-/* A copy of the first shot's case, to be changed. */
-static status copy_case(const grain_families *first, breech_case **out)
+/* A copy of what the first shot was given, to be changed. */
+static status copy_case(const grain_families *first, case_onset **out)
 {
     *out = malloc(sizeof **out);
     CHECK(*out, STATUS_MEMORY, "no memory for a case");
@@ -154,20 +155,21 @@ status study_repeated_search(session *s, const grain_families *first, repeated_r
     if (out->shots == 0) return status_ok();
     const double depth = deepest_gouge(first);
     const bool warm = out->rise >= LEAST_RISE && (depth > 0.0 || is_renewed(first));
-    const bool bare = first->c->rail.layers.n > 0 && depth > case_layers_thickness(&first->c->rail.layers);
+    const bool bare =
+        first->c->impact.rail.layers.n > 0 && depth > case_layers_thickness(&first->c->impact.rail.layers);
     grain_families *all[2];
     int n = 0;
     const double rounded = RISE_STEP * ceil(out->rise / RISE_STEP);
     if (!warm || rounded < melting_rise(first->c)) out->rise = warm ? rounded : 0.0;
     if (warm) {
         TRY(copy_case(first, &out->warm_case));
-        out->warm_case->rail.temperature += out->rise;
+        out->warm_case->impact.rail.temperature += out->rise;
         TRY(study_families_sort(out->warm_case, first->flown, "warm-", &out->warm));
         all[n++] = &out->warm;
     }
     if (bare) {
         TRY(copy_case(first, &out->bare_case));
-        out->bare_case->rail.layers.n = 0;
+        out->bare_case->impact.rail.layers.n = 0;
         TRY(study_families_sort(out->bare_case, first->flown, "bare-", &out->bare));
         all[n++] = &out->bare;
     }

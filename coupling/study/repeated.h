@@ -18,12 +18,12 @@ typedef struct {
 } repeated_shot;
 
 typedef struct {
-    int shots;                          /* 0: there is but one, all below is empty */
-    repeated_shot *shot;                /* [shots], owned */
-    mc_along *along;                    /* [shots], owned */
-    double rise;                        /* that the warm search is for; 0: there is none [K] */
-    breech_case *warm_case, *bare_case; /* owned, borrow from the first's; NULL: not needed */
-    grain_families warm, bare;          /* owned */
+    int shots;                         /* 0: there is but one, all below is empty */
+    repeated_shot *shot;               /* [shots], owned */
+    mc_along *along;                   /* [shots], owned */
+    double rise;                       /* that the warm search is for; 0: there is none [K] */
+    case_onset *warm_case, *bare_case; /* owned, borrow from the first's; NULL: not needed */
+    grain_families warm, bare;         /* owned */
 } repeated_rail;
 
 /* The flights.  *out needs study_repeated_free even on error, before `first` goes.  STATUS_BAD_INPUT: the rail would

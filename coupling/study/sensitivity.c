@@ -9,7 +9,7 @@ static const double CHANGE = 0.05; /* relative */
 
 typedef struct {
     const char *input;
-    void (*change)(breech_case *c, double factor); /* of a copy that owns its supplies; NULL: the grains' size */
+    void (*change)(shot_config *c, double factor); /* of a copy; NULL: the grains' size */
 } changed_input;
 
 /* What a kind of supply is charged to; a given current is not charged. */
@@ -24,7 +24,8 @@ static const supply_charge charges[SUPPLY_KINDS] = {
     [SUPPLY_alternator] = { sizeof(supply_alternator), offsetof(supply_alternator, speed) },
 };
 
-static void change_charge(breech_case *c, double factor)
+/* Of a launcher whose supplies are copies (own_supplies). */
+static void change_charge(shot_config *c, double factor)
 {
     for (int k = 0; k < SUPPLY_KINDS; k++)
         for (int i = 0; charges[k].size && i < c->supplies[k].n; i++) {
@@ -33,12 +34,12 @@ static void change_charge(breech_case *c, double factor)
         }
 }
 
-static void change_mass(breech_case *c, double factor)
+static void change_mass(shot_config *c, double factor)
 {
     c->armature.mass *= factor;
 }
 
-static void change_friction(breech_case *c, double factor)
+static void change_friction(shot_config *c, double factor)
 {
     c->armature.friction_dry *= factor;
     c->armature.friction_melted *= factor;
@@ -53,16 +54,16 @@ static const changed_input inputs[] = {
 };
 enum { INPUTS = sizeof inputs / sizeof inputs[0], MOST = INPUTS + UNCERTAIN_MAX };
 
-static status own_supplies(const breech_case *from, breech_case *c)
+/* Copies of the supplies that can be changed; copy[] is owned. */
+static status own_supplies(shot_config *c, void *copy[SUPPLY_KINDS])
 {
-    for (int k = 0; k < SUPPLY_KINDS; k++)
-        if (charges[k].size) c->supplies[k].item = NULL;
     for (int k = 0; k < SUPPLY_KINDS; k++) {
-        const size_t bytes = (size_t)from->supplies[k].n * charges[k].size;
+        const size_t bytes = (size_t)c->supplies[k].n * charges[k].size;
         if (bytes == 0) continue;
-        c->supplies[k].item = malloc(bytes);
-        CHECK(c->supplies[k].item, STATUS_MEMORY, "no memory for the supplies");
-        memcpy(c->supplies[k].item, from->supplies[k].item, bytes);
+        copy[k] = malloc(bytes);
+        CHECK(copy[k], STATUS_MEMORY, "no memory for the supplies");
+        memcpy(copy[k], c->supplies[k].item, bytes);
+        c->supplies[k].item = copy[k];
     }
     return status_ok();
 }
@@ -71,16 +72,17 @@ static status own_supplies(const breech_case *from, breech_case *c)
 static status fly_changed(session *s, const onset_answer *a, const changed_input *input, shot_outcome *flown,
                           shot_record *record)
 {
-    breech_case c = *a->grains.c;
+    case_flight flight = case_flight_of(a->grains.c);
+    void *copy[SUPPLY_KINDS] = { NULL };
     *record = a->shot;
     if (!input->change) return status_ok();
-    const status done = own_supplies(a->grains.c, &c);
-    if (done.code == STATUS_OK) input->change(&c, 1.0 + CHANGE);
-    const status circuit_shot_done =
-        done.code == STATUS_OK ? run_session_shot(s, &c, NULL, false, flown, record) : done;
-    for (int k = 0; k < SUPPLY_KINDS; k++)
-        if (charges[k].size) free(c.supplies[k].item);
-    return circuit_shot_done;
+    status done = own_supplies(&flight.launcher, copy);
+    if (done.code == STATUS_OK) {
+        input->change(&flight.launcher, 1.0 + CHANGE);
+        done = run_session_shot(s, &flight, NULL, false, flown, record);
+    }
+    for (int k = 0; k < SUPPLY_KINDS; k++) free(copy[k]);
+    return done;
 }
 
 /* An input changed: of the shot (the same grains in another one), or of the scenes (other thresholds). */
@@ -111,14 +113,14 @@ static void conclude(const onset_answer *a, const changed *with, const mc_result
 
 static status draw_all(const onset_answer *a, const changed *with, int n, mc_result *drawn)
 {
-    const breech_case *c = a->grains.c;
+    const case_onset *c = a->grains.c;
     mc_surface surface[MOST + 1] = { { .grains = &a->grains, .size_factor = 1.0 } };
     for (int k = 0; k < n; k++)
         surface[k + 1] = (mc_surface){ .grains = &with[k].grains, .size_factor = with[k].size_factor };
     const mc_plan plan = { .histories = c->study.sampled / 10 + 1,
                            .shots = 1,
                            .seed = c->study.seed,
-                           .length = c->barrel.length,
+                           .length = c->launcher.barrel.length,
                            .n = n + 1,
                            .surface = surface };
     return study_mc_run(&plan, drawn);

@@ -8,9 +8,9 @@ const study *const study_list[STUDIES] = {
 #undef STUDY
 };
 
-const study *study_for(const study *y, const breech_case *c)
+const study *study_for(const study *y, const case_inputs *in)
 {
-    return y->of_bodies && c->given.bodies ? y->of_bodies : y;
+    return y->of_bodies && in->given.bodies ? y->of_bodies : y;
 }
 
 const study *study_find(const char *name)
@@ -23,9 +23,9 @@ const study *study_find(const char *name)
 
 status study_possible_all(const study_case *of, unsigned needs)
 {
-    TRY(study_possible(of->c, needs));
+    TRY(study_possible(of->in, needs));
     for (int k = 0; k < STUDIES; k++) {
-        const study *y = study_for(study_list[k], of->c);
+        const study *y = study_for(study_list[k], of->in);
         if (y->possible && (needs & y->needs) == y->needs) TRY(y->possible(of));
     }
     return status_ok();

@@ -12,7 +12,7 @@
 
 /* How the case was read, so that a study can read it again with other values.  Borrowed. */
 typedef struct {
-    const breech_case *c;
+    const case_inputs *in;
     const char *prefix;      /* of its scenes' names: "" for the case of the command line, else one of several */
     const char *const *sets; /* of the command line, as case_read takes them */
     int n_sets;
@@ -55,15 +55,15 @@ enum {
 extern const study *const study_list[STUDIES];
 
 /* This one, or what takes its place for such a case. */
-const study *study_for(const study *y, const breech_case *c);
+const study *study_for(const study *y, const case_inputs *in);
 
 const study *study_find(const char *name); /* NULL: there is none */
 
 /* Decides what the case leaves to the program; before all that follows. */
-status study_prepare(breech_case *c);
+status study_prepare(case_inputs *in);
 
 /* Before anything is written: what only making the scenes can tell.  STATUS_BAD_INPUT. */
-status study_possible(const breech_case *c, unsigned needs);
+status study_possible(const case_inputs *in, unsigned needs);
 /* That, and what the studies whose needs are among these say themselves. */
 status study_possible_all(const study_case *of, unsigned needs);
 

@@ -35,7 +35,8 @@ static void warn(session *s, const scene_bodies_result *r)
 
 static status run(session *s, const study_case *of, study_answer *out)
 {
-    const breech_case *c = of->c;
+    const case_bodies *b = &of->in->bodies;
+    const case_output *output = &of->in->output;
     scene_bodies_result *r = calloc(1, sizeof *r);
     CHECK(r, STATUS_MEMORY, "no memory for a scene's result");
     out->owned = r;
@@ -43,10 +44,10 @@ static status run(session *s, const study_case *of, study_answer *out)
     snprintf(name, sizeof name, "%sscene", of->prefix);
     const scene_job job = { .name = name,
                             .task = name,
-                            .scene = &c->bodies.scene,
-                            .snapshots = c->output.snapshots,
-                            .checkpoint_interval = c->output.checkpoint_interval,
-                            .last_time = c->bodies.scene.end_time,
+                            .scene = &b->scene,
+                            .snapshots = output->snapshots,
+                            .checkpoint_interval = output->checkpoint_interval,
+                            .last_time = b->scene.end_time,
                             .resume = run_session_resume_of(s, name),
                             .whole = true };
     const scene_host host = { .dir = &s->dir,

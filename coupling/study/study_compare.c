@@ -13,10 +13,9 @@ static void answer_free(void *owned)
 
 static status run(session *s, const study_case *of, study_answer *out)
 {
-    (void)of; /* the session's */
     compare_answer *a = out->owned = calloc(1, sizeof *a);
     CHECK(a, STATUS_MEMORY, "no memory for an answer");
-    const status done = study_compare_run(s, a);
+    const status done = study_compare_run(s, &of->in->onset, &of->in->treatments, a);
     out->result = &a->result;
     if (a->n > 0 && a->answer[0].shot.is.steps > 0) out->shot = &a->answer[0].shot;
     return done;

@@ -75,18 +75,17 @@ static status gradients_fill(const shot_rails *rails, inductance_answer *out)
 }
 
 /* The surface at rails.frequency; else at what the pulse says, at 1 kHz without supplies. */
-static double surface_frequency(const breech_case *c)
+static double surface_frequency(const shot_config *launcher)
 {
-    if (!isnan(c->rails.frequency)) return c->rails.frequency;
-    supply_list supplies[SUPPLY_KINDS];
-    for (int k = 0; k < SUPPLY_KINDS; k++) supplies[k] = (supply_list){ c->supplies[k].n, c->supplies[k].item };
-    const double f = circuit_shot_effective_frequency(supplies);
+    if (!isnan(launcher->rails.frequency)) return launcher->rails.frequency;
+    const double f = circuit_shot_effective_frequency(launcher->supplies);
     return isnan(f) ? 1000.0 : f;
 }
 
 static status run(session *s, const study_case *of, study_answer *out)
 {
     const double since = host_wall_clock();
+    const shot_config *launcher = &of->in->onset.launcher;
     inductance_answer *a = out->owned = calloc(1, sizeof *a);
     CHECK(a, STATUS_MEMORY, "no memory for an answer");
     inductance_result *r = &a->result;
@@ -97,8 +96,8 @@ static status run(session *s, const study_case *of, study_answer *out)
                               .frequency = frequencies,
                               .L_gradient = a->gradients,
                               .R_gradient = a->gradients + FREQUENCIES,
-                              .perimeter_frequency = surface_frequency(of->c) };
-    TRY(gradients_fill(&of->c->rails, a));
+                              .perimeter_frequency = surface_frequency(launcher) };
+    TRY(gradients_fill(&launcher->rails, a));
     r->n_perimeter = a->surface.n;
     r->perimeter = a->surface.place;
     r->perimeter_current = a->surface.current;

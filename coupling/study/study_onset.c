@@ -13,10 +13,9 @@ static void answer_free(void *owned)
 
 static status run(session *s, const study_case *of, study_answer *out)
 {
-    (void)of; /* the session's */
     onset_answer *a = out->owned = calloc(1, sizeof *a);
     CHECK(a, STATUS_MEMORY, "no memory for an answer");
-    const status done = study_onset_run(s, a);
+    const status done = study_onset_run(s, &of->in->onset, a);
     out->result = &a->result;
     if (a->shot.is.steps > 0) out->shot = &a->shot;
     return done;

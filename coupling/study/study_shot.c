@@ -17,35 +17,33 @@ static void answer_free(void *owned)
     free(a);
 }
 
-static status shoot(session *s, const breech_case *c, bool with_history, study_answer *out)
+static status shoot(session *s, const case_flight *flight, bool with_history, study_answer *out)
 {
     shot_answer *a = out->owned;
     shot_outcome o;
-    const status done = run_session_shot(s, c, NULL, with_history, &o, &a->record);
+    const status done = run_session_shot(s, flight, NULL, with_history, &o, &a->record);
     gouge_shot_outcome_free(&o);
     if (done.code == STATUS_OK) out->result = &a->record;
     return done;
 }
 
-/* Shoots the case with the firing times found for it. */
+/* Shoots with the firing times that are found. */
 static status shoot_optimised(session *s, const study_case *of, shot_module *modules, study_answer *out)
 {
     shot_answer *a = out->owned;
-    const breech_case *given = of->c;
-    const int n = given->supplies[SUPPLY_capacitor].n;
-    const shot_config config = case_launcher(given);
+    case_flight flight = case_flight_of(&of->in->onset);
+    supply_list *bank = &flight.launcher.supplies[SUPPLY_capacitor];
     const double since = host_wall_clock();
     firing_result found;
     host_progress_task(&s->progress, "search for firing times", 0.0, 0);
-    TRY(circuit_firing_optimise(&config, &given->optimise, s->stop, modules, &found));
+    TRY(circuit_firing_optimise(&flight.launcher, &of->in->optimise, s->stop, modules, &found));
     host_timing_add(&s->timing, "firing times", host_wall_clock() - since);
-    breech_case tuned = *given;
-    tuned.supplies[SUPPLY_capacitor].item = modules;
-    const status done = shoot(s, &tuned, !of->prefix[0], out);
+    bank->item = modules;
+    const status done = shoot(s, &flight, !of->prefix[0], out);
     a->record.firing = found;
-    a->record.n_fire_at = n;
+    a->record.n_fire_at = bank->n;
     a->record.fire_at = a->fire_at;
-    for (int k = 0; k < n; k++) a->fire_at[k] = modules[k].fire_at;
+    for (int k = 0; k < bank->n; k++) a->fire_at[k] = modules[k].fire_at;
     return done;
 }
 
@@ -53,8 +51,9 @@ static status run(session *s, const study_case *of, study_answer *out)
 {
     shot_answer *a = out->owned = calloc(1, sizeof *a);
     CHECK(a, STATUS_MEMORY, "no memory for a shot");
-    if (!of->c->given.optimise) return shoot(s, of->c, !of->prefix[0], out);
-    const size_t n = (size_t)of->c->supplies[SUPPLY_capacitor].n;
+    const case_flight flight = case_flight_of(&of->in->onset);
+    if (!of->in->given.optimise) return shoot(s, &flight, !of->prefix[0], out);
+    const size_t n = (size_t)flight.launcher.supplies[SUPPLY_capacitor].n;
     shot_module *modules = malloc((n + 1) * sizeof *modules);
     a->fire_at = malloc((n + 1) * sizeof *a->fire_at);
     const status done = modules && a->fire_at ? shoot_optimised(s, of, modules, out)

@@ -73,9 +73,9 @@ static void describe(const case_sweep *w, int run, char *out, size_t size)
 }
 
 /* The case with the values of one run. */
-static status read_run(const study_case *of, const study *y, int run, breech_case **out)
+static status read_run(const study_case *of, const study *y, int run, case_inputs **out)
 {
-    const case_sweep *w = &of->c->sweep;
+    const case_sweep *w = &of->in->sweep;
     const char *set[MOST_SETS];
     char own[CASE_SWEEP_KEYS][SET_SIZE], which[300], *errors = NULL;
     material_places at;
@@ -88,7 +88,7 @@ static status read_run(const study_case *of, const study *y, int run, breech_cas
     }
     case_material_places_find(&at);
     const case_options how = { .material_dirs = at.dir, .n_material_dirs = at.n, .needs = y->needs };
-    status s = case_read(of->c->path, set, of->n_sets + w->vary.n, &how, out, &errors);
+    status s = case_inputs_read(of->in->path, set, of->n_sets + w->vary.n, &how, out, &errors);
     free(errors);
     if (s.code == STATUS_OK) s = study_prepare(*out);
     if (s.code == STATUS_OK) s = study_possible(*out, y->needs);
@@ -135,12 +135,12 @@ static status check_values(const case_sweep *w)
     return status_ok();
 }
 
-static status find_study(const breech_case *c, const study **out)
+static status find_study(const case_inputs *in, const study **out)
 {
-    const case_sweep *w = &c->sweep;
+    const case_sweep *w = &in->sweep;
     char known[200] = "";
     *out = study_find(w->of);
-    if (*out) *out = study_for(*out, c);
+    if (*out) *out = study_for(*out, in);
     for (int k = 0; k < STUDIES; k++)
         if (study_list[k]->can_vary)
             snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", known[0] ? ", " : "",
@@ -151,15 +151,15 @@ static status find_study(const breech_case *c, const study **out)
 
 static status possible(const study_case *of)
 {
-    const case_sweep *w = &of->c->sweep;
+    const case_sweep *w = &of->in->sweep;
     const study *y;
-    TRY(find_study(of->c, &y));
+    TRY(find_study(of->in, &y));
     TRY(check_values(w));
     TRY(check_outputs(w, y));
     for (int i = 0; i < runs_of(w); i++) {
-        breech_case *c;
-        const status s = read_run(of, y, i, &c);
-        case_free(c);
+        case_inputs *in;
+        const status s = read_run(of, y, i, &in);
+        case_inputs_free(in);
         TRY(s);
     }
     return status_ok();
@@ -172,7 +172,7 @@ typedef struct {
     const study *of;
     int runs, keys, outputs;
     const summary_key *output[MOST_OUTPUTS];
-    breech_case **c;      /* [runs], owned one by one, as all that follows */
+    case_inputs **in;     /* [runs], owned one by one, as all that follows */
     study_answer *answer; /* [runs] */
     char (*prefix)[16];   /* [runs] */
     sweep_run *run;       /* [runs] */
@@ -185,8 +185,8 @@ static void answer_free(void *owned)
     if (!a) return;
     for (int i = 0; a->answer && i < a->runs; i++)
         if (a->of->free) a->of->free(a->answer[i].owned);
-    for (int i = 0; a->c && i < a->runs; i++) case_free(a->c[i]);
-    void *const all[] = { a->c, a->answer, a->prefix, a->run, a->input, a->value, a->error, a->unit, a };
+    for (int i = 0; a->in && i < a->runs; i++) case_inputs_free(a->in[i]);
+    void *const all[] = { a->in, a->answer, a->prefix, a->run, a->input, a->value, a->error, a->unit, a };
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) free(all[k]);
 }
 
@@ -201,7 +201,7 @@ static void choose_outputs(const case_sweep *w, sweep_answer *a)
 static status make_room(const case_sweep *w, sweep_answer *a)
 {
     const size_t runs = (size_t)runs_of(w), keys = (size_t)w->vary.n, outputs = (size_t)a->outputs;
-    a->c = calloc(runs, sizeof *a->c);
+    a->in = calloc(runs, sizeof *a->in);
     a->answer = calloc(runs, sizeof *a->answer);
     a->prefix = calloc(runs, sizeof *a->prefix);
     a->run = calloc(runs, sizeof *a->run);
@@ -209,7 +209,7 @@ static status make_room(const case_sweep *w, sweep_answer *a)
     a->value = calloc(runs * outputs + 1, sizeof *a->value);
     a->error = calloc(runs * outputs + 1, sizeof *a->error);
     a->unit = calloc(keys + outputs, sizeof *a->unit);
-    CHECK(a->c && a->answer && a->prefix && a->run && a->input && a->value && a->error && a->unit, STATUS_MEMORY,
+    CHECK(a->in && a->answer && a->prefix && a->run && a->input && a->value && a->error && a->unit, STATUS_MEMORY,
           "no memory for %zu runs", runs);
     a->runs = (int)runs;
     a->keys = (int)keys;
@@ -218,7 +218,7 @@ static status make_room(const case_sweep *w, sweep_answer *a)
 
 static study_case case_of_run(const sweep_answer *a, int i)
 {
-    return (study_case){ .c = a->c[i], .prefix = a->prefix[i] };
+    return (study_case){ .in = a->in[i], .prefix = a->prefix[i] };
 }
 
 /* The scenes that are certain, of all runs at once: any process may take any of them. */
@@ -356,9 +356,9 @@ static status write_csv(const session *s, const sweep_answer *a)
 
 static status sweep(session *s, const study_case *of, sweep_answer *a)
 {
-    const case_sweep *w = &of->c->sweep;
+    const case_sweep *w = &of->in->sweep;
     units *u;
-    TRY(find_study(of->c, &a->of));
+    TRY(find_study(of->in, &a->of));
     choose_outputs(w, a);
     TRY(make_room(w, a));
     TRY(host_units_open(&u));
@@ -370,7 +370,7 @@ static status sweep(session *s, const study_case *of, sweep_answer *a)
     snprintf(a->result.of, sizeof a->result.of, "%s", a->of->name);
     for (int i = 0; i < a->runs; i++) {
         snprintf(a->prefix[i], sizeof a->prefix[i], "s%d-", i + 1);
-        TRY(read_run(of, a->of, i, &a->c[i]));
+        TRY(read_run(of, a->of, i, &a->in[i]));
     }
     TRY(run_scenes(s, a));
     for (int i = 0; i < a->runs; i++) {

@@ -151,7 +151,7 @@ static bool meet(const mc *m, lane *l, const grain *g)
 
 static void meet_sites(const mc *m, lane *l)
 {
-    const breech_case *c = l->grains->c;
+    const case_onset *c = l->grains->c;
     for (int i = 0; i < c->sites.n; i++) {
         const case_site *site = &c->sites.item[i];
         const grain g = { site->position, log(site->radius) + l->ln_factor, l->grains->of_site[i], false };
@@ -320,7 +320,7 @@ static status make_laws(const mc_surface *s, const grain_families *from, gouge_l
     for (int k = 0; k < s->grains->n; k++) {
         const grain_family *f = study_family_alike(from, &s->grains->family[k]);
         if (f)
-            study_gouge_law_make(f, from->c->scene.limit_severity, &(*out)[k]);
+            study_gouge_law_make(f, from->c->impact.scene.limit_severity, &(*out)[k]);
         else
             study_gouge_law_none(&(*out)[k]);
     }
@@ -348,7 +348,7 @@ static status make_lane(const mc_plan *plan, int i, lane *l)
     l->strewn = calloc((size_t)s->grains->c->populations.n + 1, sizeof *l->strewn);
     CHECK(l->in_band && l->strewn, STATUS_MEMORY, "no memory for the Monte Carlo");
     place_populations(plan, l);
-    l->layers = case_layers_thickness(&s->grains->c->rail.layers);
+    l->layers = case_layers_thickness(&s->grains->c->impact.rail.layers);
     TRY(make_laws(s, s->grains, &l->law));
     TRY(make_laws(s, s->warm, &l->warm));
     TRY(make_laws(s, s->bare, &l->bare));

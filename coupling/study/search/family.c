@@ -77,7 +77,7 @@ static status sort_sites(grain_families *f)
 
 static status sort_populations(grain_families *f)
 {
-    const breech_case *c = f->c;
+    const case_onset *c = f->c;
     screen hit;
     for (int i = 0; i < c->populations.n; i++) {
         const case_population *p = &c->populations.item[i];
@@ -139,29 +139,29 @@ static status plan_searches(grain_families *f)
                                       .step = study_threshold_step(y->velocity_interval),
                                       .coarse = y->coarse_cells_per_radius,
                                       .fine = y->fine_cells_per_radius,
-                                      .scatter = by_growth ? f->c->scene.growth_scatter : 0.0,
+                                      .scatter = by_growth ? f->c->impact.scene.growth_scatter : 0.0,
                                       .resolution = y->resolution_error,
                                       .max_scenes = (y->max_scenes - craters) / f->n,
                                       .place = place_of,
                                       .place_user = f,
-                                      .place_interval = y->position_interval * f->c->barrel.length };
+                                      .place_interval = y->position_interval * f->c->launcher.barrel.length };
     }
     return status_ok();
 }
 
-case_impact study_family_probe(const breech_case *c)
+case_impact study_family_probe(const case_onset *c)
 {
-    case_impact probe = case_impact_of(c);
+    case_impact probe = c->impact;
     probe.scene.stop_when_gauged = c->study.judge == JUDGE_GROWTH;
     if (gouge_is_gauged(&probe)) probe.snapshots = 0;
     return probe;
 }
 
-status study_families_sort(const breech_case *c, const shot_outcome *flown, const char *prefix, grain_families *out)
+status study_families_sort(const case_onset *c, const shot_outcome *flown, const char *prefix, grain_families *out)
 {
     const size_t sites = (size_t)c->sites.n, populations = (size_t)c->populations.n;
     *out = (grain_families){
-        .c = c, .probe = study_family_probe(c), .whole = case_impact_of(c), .flown = flown, .prefix = prefix
+        .c = c, .probe = study_family_probe(c), .whole = c->impact, .flown = flown, .prefix = prefix
     };
     out->whole.scene.stop_when_gauged = false;
     out->family = calloc(sites + populations + 1, sizeof *out->family);

@@ -31,7 +31,7 @@ typedef struct {
 
 /* The grains of one case in one shot. */
 typedef struct {
-    const breech_case *c;      /* borrowed */
+    const case_onset *c;       /* borrowed */
     case_impact probe, whole;  /* what the searches' scenes are made of, and those that go to their end */
     const shot_outcome *flown; /* borrowed */
     const char *prefix;        /* of its scenes' names, "" for the case as it is; borrowed */
@@ -42,12 +42,12 @@ typedef struct {
 } grain_families;
 
 /* Sorts sites and populations into families and plans their searches.  study_families_free even on error. */
-status study_families_sort(const breech_case *c, const shot_outcome *flown, const char *prefix, grain_families *out);
+status study_families_sort(const case_onset *c, const shot_outcome *flown, const char *prefix, grain_families *out);
 void study_families_free(grain_families *f);
 
 /* What a search's scenes are made of: they end at their second gauge where the study is judged by growth, and else go
  * to their end. */
-case_impact study_family_probe(const breech_case *c);
+case_impact study_family_probe(const case_onset *c);
 
 /* Searches all families of n cases to their end. */
 status study_families_search(session *s, grain_families *const *f, int n);

@@ -32,7 +32,7 @@ typedef struct {
 
 static double contact_pressure_at(const grain_families *f, double v)
 {
-    const double given = f->c->scene.contact_pressure;
+    const double given = f->c->impact.scene.contact_pressure;
     trace_point at;
     if (!isnan(given)) return given;
     gouge_trace_at_velocity(f->flown, v, &at); /* a velocity never reached: where the shot ends */
@@ -57,11 +57,11 @@ static scene_query query_of(const family_search *s, const family_wanted *w)
     return q;
 }
 
-static double excess_of(const breech_case *c, const onset_scene *e)
+static double excess_of(const case_onset *c, const onset_scene *e)
 {
     const scene_result *r = &e->result;
     return e->gauged ? gouge_growth_folds(r->groove_growth, e->radius, e->velocity)
-                     : r->severity - c->scene.limit_severity;
+                     : r->severity - c->impact.scene.limit_severity;
 }
 
 static double on_grid_below(const threshold_plan *p, double v)

@@ -17,20 +17,20 @@ void study_uncertain_free(uncertain_inputs *u)
 
 /* ---- the inputs ---- */
 
-static void raise_strength(breech_case *c, double factor)
+static void raise_strength(case_onset *c, double factor)
 {
-    c->rail.yield_scale *= factor;
+    c->impact.rail.yield_scale *= factor;
 }
 
-static void raise_friction(breech_case *c, double factor)
+static void raise_friction(case_onset *c, double factor)
 {
-    c->scene.friction *= factor;
+    c->impact.scene.friction *= factor;
 }
 
 typedef struct {
     const char *input, *prefix;
     size_t error; /* offset of its relative uncertainty in case_study */
-    void (*raise)(breech_case *c, double factor);
+    void (*raise)(case_onset *c, double factor);
 } raised;
 
 static const raised inputs[UNCERTAIN_MAX] = {
@@ -55,7 +55,7 @@ static bool thresholds_of(const grain_families *g, double *low, double *high)
 static status plan(const grain_families *g, const raised *from, double error, uncertain_input *out)
 {
     double low, high;
-    breech_case *c = malloc(sizeof *c);
+    case_onset *c = malloc(sizeof *c);
     CHECK(c, STATUS_MEMORY, "no memory for a case");
     *c = *g->c;
     *out = (uncertain_input){ .input = from->input, .change = error, .c = c };

@@ -14,7 +14,7 @@ enum { UNCERTAIN_MAX = 2 };
 typedef struct {
     const char *input; /* its key */
     double change;     /* relative [1] */
-    breech_case *c;    /* owned, borrows from the study's */
+    case_onset *c;     /* owned, borrows from the study's */
     grain_families grains;
 } uncertain_input;
 
