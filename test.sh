@@ -22,7 +22,7 @@ packages_install "${packages[@]}"
 export OMP_WAIT_POLICY=passive # tests share the machine
 export UBSAN_OPTIONS=print_stacktrace=1
 export ASAN_OPTIONS=intercept_tls_get_addr=0 # clang 14's leak check may die of the threads' storage otherwise (llvm D147459)
-limit=$([ $full = 1 ] && echo 14400 || echo 1800) # seconds: only a test that hangs takes so long
+limit=$([ $full = 1 ] && echo 14400 || echo 1800) # [s] only a test that hangs takes so long
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 closing='' failed=0
@@ -33,20 +33,30 @@ finish() # name, 0 or 1, text
     if [ "$2" != 0 ]; then failed=1; fi
 }
 
-# Configure, build, test one preset, long parts 0 or 1; further arguments go to ctest.
+# The five slowest tests of the ctest run in $log.  Nothing fails by the clock: a short part of more than a minute is
+# marked, to be split or made smaller.
+slowest()
+{
+    printf 'slowest:\n'
+    sed -nE 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) .* ([0-9.]+) sec.*/\2 \1/p' "$log" | sort -rn | head -5 |
+        awk -v full="$BREECH_FULL" '{ printf "%8.1f s  %s%s\n", $1, $2, $1 > 60 && full == 0 ? "   LONG: more than a minute" : "" }'
+}
+
+# Configure, build, test one preset, long parts 0 or 1; without the tests whose label matches the third argument.
+# What checks the tree and not a build (label `tree`) runs with the first preset alone.
 stage()
 {
-    local preset=$1 bad=0
+    local preset=$1 without=$3 bad=0
     export BREECH_FULL=$2
-    shift 2
     printf '\n==== %s ====\n' "$preset"
     if ! { cmake --preset "$preset" >"$log" 2>&1 || { cat "$log" && false; }; } ||
         ! cmake --build --preset "$preset" --parallel "$(nproc)"; then
         finish "$preset" 1 'does not build'
         return 0
     fi
-    ctest --test-dir "build/$preset" --output-on-failure --no-tests=error --timeout "$limit" --parallel "$(nproc)" "$@" |
-        tee "$log" || bad=1
+    ctest --test-dir "build/$preset" --output-on-failure --no-tests=error --timeout "$limit" --parallel "$(nproc)" \
+        --label-exclude "$without" | tee "$log" || bad=1
+    slowest
     finish "$preset" $bad "$(grep -E 'tests passed|No tests' "$log" || echo 'ctest did not finish')"
 }
 
@@ -59,17 +69,17 @@ check()
     if "$@"; then finish "$name" 0 passed; else finish "$name" 1 FAILED; fi
 }
 
-stage release $full
-stage clang-release 0
+stage release $full none
+stage clang-release 0 tree
 if [ $full = 1 ]; then
-    stage debug 0
-    stage clang-debug 0
-    stage portable 0
+    stage debug 0 tree
+    stage clang-debug 0 tree
+    stage portable 0 tree
     check fuzz tests/fuzz.sh 1000000
     commit=$(git rev-parse --short=7 HEAD 2>/dev/null || echo 0)
     check mutants tests/mutants/run.sh --part $((16#$commit % 12))/12
 else
-    stage debug 0 --label-exclude slow
+    stage debug 0 'tree|slow'
 fi
 
 printf '\n==== closing lines, after %d s ====\n%s' $SECONDS "$closing"

@@ -149,43 +149,6 @@ static void test_scene(void **state)
     cJSON_Delete(b);
 }
 
-/* A scene that ends at its second gauge, 28 radii of way: the class is that of the growth, beyond its scatter or not.
- */
-#define GAUGED                                                                                                   \
-    TINY " --set particle.radius='0.2 mm' --set scene.velocity='2 km/s' --set scene.cells_per_radius=1.2 --set " \
-         "scene.coarse_cell='1.2 mm' --set scene.fine_depth='0.6 mm' --set scene.fine_above='0.5 mm' --set "     \
-         "scene.fine_behind='0.8 mm' --set scene.fine_width='2 mm' --set scene.end_time='3.4 us' "
-
-static void test_gauged(void **state)
-{
-    (void)state;
-    const double gauge = 28 * 0.2e-3 / 2000.0;
-    const char *const scatter[] = { "0", "10" };
-    for (int i = 0; i < 2; i++) {
-        char command[1500];
-        snprintf(command, sizeof command,
-                 "scene " GAUGED "-o scene/gauged%d --set output.snapshots=0 --set scene.stop_when_gauged=yes --set "
-                 "scene.growth_scatter=%s",
-                 i, scatter[i]);
-        assert_int_equal(run(command), 0);
-        char dir[40];
-        snprintf(dir, sizeof dir, "scene/gauged%d", i);
-        cJSON *a = summary_of(dir);
-        const double growth = number(a, "groove_growth");
-        assert_true(number(a, "end_time") >= gauge && number(a, "end_time") < 1.1 * gauge);
-        assert_text(a, "class", i ? "undecided" : growth > 0.0 ? "gouge" : "scratch");
-        cJSON_Delete(a);
-    }
-    /* the whole scene, whatever it writes on the way, has the same growth, and goes on */
-    assert_int_equal(run("scene " GAUGED "-o scene/whole --set output.snapshots=3"), 0);
-    cJSON *whole = summary_of("scene/whole"), *gauged = summary_of("scene/gauged0");
-    assert_true(number(whole, "groove_growth") == number(gauged, "groove_growth"));
-    assert_true(number(whole, "steps") > number(gauged, "steps"));
-    cJSON_Delete(whole);
-    cJSON_Delete(gauged);
-    run_script("read_gauged.py", BREECH_TESTS "/../coupling/tools scene/gauged0");
-}
-
 /* The Python reader and the ParaView script of coupling/tools, on what test_scene left. */
 static void test_reader(void **state)
 {
@@ -226,9 +189,14 @@ static void test_failed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_usage),  cmocka_unit_test(test_bad_case),   cmocka_unit_test(test_check_and_materials),
-        cmocka_unit_test(test_shot),   cmocka_unit_test(test_inductance), cmocka_unit_test(test_scene),
-        cmocka_unit_test(test_gauged), cmocka_unit_test(test_reader),     cmocka_unit_test(test_paraview_crater),
+        cmocka_unit_test(test_usage),
+        cmocka_unit_test(test_bad_case),
+        cmocka_unit_test(test_check_and_materials),
+        cmocka_unit_test(test_shot),
+        cmocka_unit_test(test_inductance),
+        cmocka_unit_test(test_scene),
+        cmocka_unit_test(test_reader),
+        cmocka_unit_test(test_paraview_crater),
         cmocka_unit_test(test_failed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
