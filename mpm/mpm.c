@@ -71,9 +71,8 @@ static status check_probes(const mpm_scene *s)
 static status check_scene(const mpm_scene *s)
 {
     const int groups = mpm_scene_groups(s);
-    CHECK(s->bodies >= 1 && s->bodies <= MPM_MAX_BODIES && groups <= MPM_MAX_GROUPS, STATUS_BAD_INPUT,
-          "%d bodies in %d groups: must be 1 .. %d, and %d groups at most", s->bodies, groups, MPM_MAX_BODIES,
-          MPM_MAX_GROUPS);
+    CHECK(s->bodies >= 1 && s->bodies <= MPM_BODIES_COUNTED, STATUS_BAD_INPUT, "%d bodies: must be 1 .. %d", s->bodies,
+          MPM_BODIES_COUNTED);
     CHECK(s->courant > 0 && s->courant <= courant_limit(s), STATUS_BAD_INPUT,
           "courant = %g: must be in (0, %g], beyond which %s is not stable", s->courant, courant_limit(s),
           s->transfer == TRANSFER_PIC ? "pic"
@@ -122,7 +121,10 @@ static status make_laws(mpm *m)
     mpm_scene *s = &m->scene;
     m->materials = malloc((size_t)s->bodies * sizeof *m->materials);
     m->laws = aligned_alloc(64, ((size_t)s->bodies * sizeof *m->laws + 63) / 64 * 64);
-    CHECK(m->materials && m->laws, STATUS_MEMORY, "no memory for %d bodies", s->bodies);
+    m->body_report = calloc((size_t)s->bodies, sizeof *m->body_report);
+    m->peaks_row = ((size_t)s->bodies + 15) / 8 * 8; /* a line of the cache lies between two threads' */
+    m->peaks = calloc(MPM_MAX_THREADS * m->peaks_row, sizeof *m->peaks);
+    CHECK(m->materials && m->laws && m->body_report && m->peaks, STATUS_MEMORY, "no memory for %d bodies", s->bodies);
     for (int i = 0; i < s->bodies; i++) {
         m->materials[i] = *s->body[i].material;
         s->body[i].material = &m->materials[i];
@@ -146,7 +148,10 @@ static status make_groups(mpm *m)
     m->group = calloc(n, sizeof *m->group);
     m->rule = malloc(((size_t)s->pairs + 1) * sizeof *m->rule);
     m->rule_of = calloc(n * n, sizeof *m->rule_of);
-    CHECK(m->group && m->rule && m->rule_of, STATUS_MEMORY, "no memory for %zu groups", n);
+    m->contact = calloc((1 + SHARES) * n, sizeof *m->contact);
+    m->contact_force = calloc(n, sizeof *m->contact_force);
+    CHECK(m->group && m->rule && m->rule_of && m->contact && m->contact_force, STATUS_MEMORY,
+          "no memory for %zu groups", n);
     for (int i = s->bodies - 1; i >= 0; i--) {
         group_info *g = &m->group[s->body[i].group];
         g->first = i;
@@ -167,8 +172,7 @@ static status fill(mpm *m)
     TRY(make_groups(m));
     TRY(mpm_grids_make(&m->scene, &m->grids));
     TRY(mpm_store_make(m, START_BLOCKS));
-    m->histogram = malloc(mpm_histogram_bytes());
-    CHECK(m->histogram, STATUS_MEMORY, "no memory for the percentiles");
+    TRY(mpm_reading_make(m));
     const build_sink sink = { insert_point, m };
     for (int i = 0; i < m->scene.bodies; i++)
         TRY(mpm_build_body(&m->scene, i, &m->laws[i], &m->grids, &mpm_build_everywhere, &sink));
@@ -257,10 +261,12 @@ void mpm_free(mpm *m)
 {
     if (!m) return;
     mpm_store_free(m);
-    free(m->histogram);
+    mpm_reading_free(m);
     free(m->wake.point);
     free(m->materials), free(m->laws);
+    free(m->body_report), free(m->peaks);
     free(m->group), free(m->rule), free(m->rule_of);
+    free(m->contact), free(m->contact_force), free(m->scratch);
     mpm_grids_free(&m->grids);
     mpm_scene_free(&m->scene);
     free(m);
@@ -273,6 +279,18 @@ static void phase_p2g(mpm *m)
 #pragma omp parallel for schedule(dynamic, 4) num_threads(m->threads)
     for (int i = 0; i < m->bricks_used; i++)
         if (m->bricks[i].particles > 0 && m->bricks[i].level <= m->begins) m->kernel->p2g(m, &m->bricks[i]);
+}
+
+/* Scratch memory for the groups at a site, for as many threads as there are now. */
+static status reserve_scratch(mpm *m)
+{
+    if (m->crowd <= m->scratch_groups && m->threads <= m->scratch_threads) return status_ok();
+    free(m->scratch);
+    m->scratch_bytes = m->kernel->node_bytes(m->crowd);
+    m->scratch = aligned_alloc(64, (size_t)m->threads * m->scratch_bytes);
+    m->scratch_groups = m->scratch ? m->crowd : 0, m->scratch_threads = m->threads;
+    CHECK(m->scratch, STATUS_MEMORY, "no memory for %d groups that meet in a brick", m->crowd);
+    return status_ok();
 }
 
 /* Nodes that two levels share: sums there first, velocities of those that follow last. */
@@ -288,7 +306,7 @@ static void phase_nodes(mpm *m)
 #pragma omp for schedule(dynamic, 8)
         for (int i = 0; i < m->seam_count; i++) mpm_interface_add_sums(m, m->seam_list[i]);
 #pragma omp for schedule(dynamic, 16)
-        for (int i = 0; i < m->site_count; i++) m->kernel->nodes(m, m->site_list[i]);
+        for (int i = 0; i < m->site_count; i++) m->kernel->nodes(m, m->site_list[i], omp_get_thread_num());
 #pragma omp for schedule(dynamic, 8)
         for (int i = 0; i < m->seam_count; i++) mpm_interface_constrain(m, m->seam_list[i]);
 #pragma omp for schedule(dynamic, 8)
@@ -331,11 +349,6 @@ static void add_points(tally *a, const tally *b)
     add_vector(a->left.momentum, b->left.momentum);
     a->rate = larger(a->rate, b->rate);
     a->peak_temperature = larger(a->peak_temperature, b->peak_temperature);
-    for (int i = 0; i < MPM_MAX_BODIES; i++) {
-        a->peak_mises[i] = larger(a->peak_mises[i], b->peak_mises[i]);
-        a->peak_pressure_body[i] = larger(a->peak_pressure_body[i], b->peak_pressure_body[i]);
-        a->peak_strain[i] = larger(a->peak_strain[i], b->peak_strain[i]);
-    }
     a->clamps_pressure += b->clamps_pressure, a->clamps_compression += b->clamps_compression;
     a->splits += b->splits, a->eroded += b->eroded, a->eroded_mass += b->eroded_mass;
     a->particles += b->particles;
@@ -346,7 +359,20 @@ static void add_nodes(tally *a, const tally *b)
 {
     a->heat_friction += b->heat_friction, a->work_boundary += b->work_boundary;
     add_vector(a->impulse_boundary, b->impulse_boundary);
-    for (int f = 0; f < MPM_MAX_GROUPS; f++) add_vector(a->contact[f], b->contact[f]);
+}
+
+/* Contact impulses: of a share of the sites; of all. */
+static double (*share_contact(const mpm *m, int share))[3]
+{
+    return m->contact + (ptrdiff_t)(1 + share) * m->groups;
+}
+
+static void add_contact(const mpm *m, int site, double (*to)[3])
+{
+    for (int f = 0; f < m->groups; f++) {
+        const int i = m->directory[f * m->grids.sites + site];
+        if (i >= 0) add_vector(to[f], m->bricks[i].contact_impulse);
+    }
 }
 
 static void collect_share(const mpm *m, int share, tally *sum)
@@ -361,8 +387,30 @@ static void collect_share(const mpm *m, int share, tally *sum)
         add_points(sum, t);
         add_vector(sum->impulse_boundary, t->impulse_boundary);
     }
-    for (int i = share_begin(m->site_count, share); i < share_begin(m->site_count, share + 1); i++)
-        add_nodes(sum, &m->site_sum[m->site_list[i]]);
+    double(*contact)[3] = share_contact(m, share);
+    memset(contact, 0, (size_t)m->groups * sizeof *contact);
+    for (int i = share_begin(m->site_count, share); i < share_begin(m->site_count, share + 1); i++) {
+        const tally *t = &m->site_sum[m->site_list[i]];
+        add_nodes(sum, t);
+        if (t->shared) add_contact(m, m->site_list[i], contact);
+    }
+}
+
+/* What the threads' points reached in a step, into the bodies' peaks; the threads begin anew. */
+static void take_peaks(mpm *m)
+{
+    mpm_report *r = &m->report;
+    for (int t = 0; t < m->threads; t++) {
+        body_peaks *p = peaks_of_thread(m, t);
+        for (int i = 0; i < m->scene.bodies; i++) {
+            mpm_body_report *b = &m->body_report[i];
+            b->peak_mises = fmax(b->peak_mises, p[i].mises);
+            b->peak_pressure = fmax(b->peak_pressure, p[i].pressure);
+            b->peak_plastic_strain = fmax(b->peak_plastic_strain, p[i].strain);
+            r->peak_pressure = fmax(r->peak_pressure, p[i].pressure);
+        }
+        memset(p, 0, (size_t)m->scene.bodies * sizeof *p);
+    }
 }
 
 static status check_share(const mpm *m, const tally *t)
@@ -388,7 +436,9 @@ static status collect(mpm *m, tally *sum)
         TRY(check_share(m, &share[i]));
         add_points(sum, &share[i]);
         add_nodes(sum, &share[i]);
+        for (int f = 0; f < m->groups; f++) add_vector(m->contact[f], share_contact(m, i)[f]);
     }
+    take_peaks(m);
     return status_ok();
 }
 
@@ -411,13 +461,8 @@ static void book(mpm *m, const tally *t)
     for (int k = 0; k < 3; k++) {
         l->impulse_boundary[k] += t->impulse_boundary[k];
         l->impulse_external[k] += t->impulse_external[k];
-        for (int f = 0; f < m->groups; f++) r->contact_force[f][k] = t->contact[f][k] / m->dt;
-    }
-    for (int i = 0; i < m->scene.bodies; i++) {
-        r->peak_mises[i] = fmax(r->peak_mises[i], t->peak_mises[i]);
-        r->peak_pressure_body[i] = fmax(r->peak_pressure_body[i], t->peak_pressure_body[i]);
-        r->peak_plastic_strain[i] = fmax(r->peak_plastic_strain[i], t->peak_strain[i]);
-        r->peak_pressure = fmax(r->peak_pressure, t->peak_pressure_body[i]);
+        for (int f = 0; f < m->groups; f++) m->contact_force[f][k] = m->contact[f][k] / m->dt;
+        r->contact_force[k] = m->contact_force[0][k];
     }
     r->peak_temperature = fmax(r->peak_temperature, t->peak_temperature);
     r->clamps_pressure += t->clamps_pressure, r->clamps_compression += t->clamps_compression;
@@ -431,7 +476,7 @@ static void smooth_force(mpm *m)
 {
     const double share = 1 - exp(-m->dt / FORCE_SMOOTHING);
     for (int k = 0; k < 3; k++) {
-        m->force_sum[k] += share * (m->report.contact_force[0][k] - m->force_sum[k]);
+        m->force_sum[k] += share * (m->report.contact_force[k] - m->force_sum[k]);
         m->report.peak_contact_force[k] = fmax(m->report.peak_contact_force[k], fabs(m->force_sum[k]));
     }
 }
@@ -461,6 +506,7 @@ static status one_substep(mpm *m, int n, tally *sum)
 {
     double clock = omp_get_wtime();
     m->begins = coarsest_at(m, n), m->ends = coarsest_at(m, n + 1);
+    TRY(reserve_scratch(m));
     phase_p2g(m), lap(m, PHASE_P2G, &clock);
     phase_nodes(m), lap(m, PHASE_NODES, &clock);
     phase_g2p(m), lap(m, PHASE_G2P, &clock);
@@ -482,6 +528,7 @@ static bool is_due(const mpm *m, int every)
 static status one_step(mpm *m, double until)
 {
     tally sum = { .rate = 0 };
+    memset(m->contact, 0, (size_t)m->groups * sizeof *m->contact);
     const double wanted = m->dt, left = until - m->time;
     if (left < 2 * wanted) m->dt = left <= wanted * (1 + 1e-9) ? left : 0.5 * left; /* no tiny last step */
     for (int n = 0; n < level_steps(m, 0); n++) TRY(one_substep(m, n, &sum));

@@ -41,14 +41,17 @@ typedef struct {
     double plastic_power, peak_plastic_power; /* that goes into it: now, and the largest so far [W] */
     double eroded_mass;                       /* vapour and dust taken out so far [kg] */
     double peak_pressure, peak_temperature;   /* any intact particle, any time so far [Pa, K] */
-    double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES]; /* so far [Pa] */
-    double peak_mises_999[MPM_MAX_BODIES],
-        peak_pressure_999[MPM_MAX_BODIES]; /* peak over time of the 99.9th percentile by mass */
-    double peak_plastic_strain[MPM_MAX_BODIES];
-    double failed_volume[MPM_MAX_BODIES];    /* now [m3] */
-    double contact_force[MPM_MAX_GROUPS][3]; /* on each group from all others, mean of the last step [N] */
-    double peak_contact_force[3];            /* on group 0, largest |component|, smoothed over 0.2 us [N] */
+    double failed_volume;                     /* of all bodies, now [m3] */
+    double contact_force[3];      /* on group 0 from all others, mean of the last step [N]: mpm_contact_force */
+    double peak_contact_force[3]; /* on group 0, largest |component|, smoothed over 0.2 us [N] */
 } mpm_report;
+
+/* Of one body, so far. */
+typedef struct {
+    double peak_pressure, peak_mises;         /* any point; pressure: any intact one [Pa] */
+    double peak_pressure_999, peak_mises_999; /* peak over time of the 99.9th percentile by mass [Pa] */
+    double peak_plastic_strain;               /* any point [1] */
+} mpm_body_report;
 
 /* Points of the followed bodies (mpm_body.followed) as they were when the fine zone left them, or their parts at
  * x < until: behind it the points are merged, and a surface is read from these and the parts of points at x > until
@@ -117,8 +120,11 @@ mpm_report mpm_state(const mpm *m);
 typedef enum { PHASE_P2G, PHASE_NODES, PHASE_G2P, PHASE_MOVERS, PHASE_REST, MPM_PHASES } mpm_phase;
 double mpm_phase_seconds(const mpm *m, mpm_phase phase);
 
-mpm_report mpm_glance(const mpm *m);         /* the same but failed_volume, zero, which takes a walk over all points */
-const mpm_scene *mpm_scene_of(const mpm *m); /* borrowed; its fine zone along x is where it is now */
+mpm_report mpm_glance(const mpm *m); /* as mpm_state but failed_volume, zero, which takes a walk over all points */
+mpm_body_report mpm_body_state(const mpm *m, int body);
+void mpm_failed_volumes(const mpm *m, double *volume);    /* of each body, now [m3]; a walk over all points */
+const double *mpm_contact_force(const mpm *m, int group); /* [3] on a group, mean of the last step [N]; borrowed */
+const mpm_scene *mpm_scene_of(const mpm *m);              /* borrowed; its fine zone along x is where it is now */
 /* The part of a point's domain above a place on an axis, or below it, with its share of the mass; false: none. */
 bool mpm_cut_at(int along, double place, bool above, double position[3], double size[3], double *mass);
 const mpm_wake *mpm_wake_of(const mpm *m); /* borrowed, until the next mpm_advance */
@@ -137,13 +143,13 @@ status mpm_restore(mpm *m, const void *image, size_t bytes);
 typedef struct {
     size_t particles[2];
     double work[2];  /* particle-steps in a step of the finest level: coarser levels make fewer */
-    size_t bytes[2]; /* MPM_BYTES and MPM_BYTES_A_PARTICLE each */
+    size_t bytes[2]; /* MPM_BYTES, _A_PARTICLE each, _A_BODY each */
     double dt;       /* first step of the finest level [s] */
 } mpm_needs;
 
 /* Blocks five eighths full, a quarter in reserve, sums of their bricks, copies of what the zone leaves behind;
- * measured, docs/scene-solver.md, Memory. */
-enum { MPM_BYTES = 20000000, MPM_BYTES_A_PARTICLE = 1600 };
+ * measured, docs/scene-solver.md, Memory.  A body's bins for percentiles. */
+enum { MPM_BYTES = 20000000, MPM_BYTES_A_PARTICLE = 1600, MPM_BYTES_A_BODY = 50000 };
 status mpm_estimate(const mpm_scene *scene, mpm_needs *needs);
 
 const char *mpm_instruction_set(void); /* "x86-64-v4", "x86-64-v3", "portable" */

@@ -19,7 +19,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { MPM_MAX_BODIES = 8, MPM_MAX_GROUPS = 4, MPM_MAX_LEVELS = 3, MPM_FACES = 6, MPM_CONTACT_VALUES = 8 };
+enum { MPM_MAX_LEVELS = 3, MPM_FACES = 6, MPM_CONTACT_VALUES = 8 };
 
 /* ---- bodies ---- */
 

@@ -304,20 +304,30 @@ static inline double scene_mean(const mpm *m, mpm_field field, int component, in
 
 /* ---- bits ---- */
 
-/* Every readable field of every particle, then the books and the wake. */
+/* Every readable field of every particle, then the books, those of bodies and groups, and the wake. */
 typedef struct {
     size_t bytes;
     char *data;
 } scene_picture;
+
+static inline char *scene_put(char *to, const void *from, size_t bytes)
+{
+    if (bytes) memcpy(to, from, bytes);
+    return to + bytes;
+}
 
 static inline scene_picture scene_picture_of(const mpm *m)
 {
     const mpm_ledger l = mpm_balance(m);
     const mpm_report r = mpm_state(m);
     const mpm_wake *w = mpm_wake_of(m);
-    size_t doubles = 0;
+    const mpm_scene *s = mpm_scene_of(m);
+    const size_t bodies = (size_t)s->bodies, groups = (size_t)mpm_scene_groups(s);
+    size_t doubles = bodies + 3 * groups;
     for (int f = 0; f < MPM_FIELD_COUNT; f++) doubles += mpm_particles(m) * (size_t)mpm_field_table[f].width;
-    scene_picture p = { doubles * sizeof(double) + sizeof l + sizeof r + w->n * sizeof *w->point, NULL };
+    scene_picture p = { doubles * sizeof(double) + sizeof l + sizeof r + bodies * sizeof(mpm_body_report) +
+                            w->n * sizeof *w->point,
+                        NULL };
     p.data = malloc(p.bytes);
     assert_non_null(p.data);
     double *to = (double *)(void *)p.data;
@@ -325,9 +335,14 @@ static inline scene_picture scene_picture_of(const mpm *m)
         mpm_read(m, (mpm_field)f, to);
         to += mpm_particles(m) * (size_t)mpm_field_table[f].width;
     }
-    memcpy(to, &l, sizeof l);
-    memcpy((char *)to + sizeof l, &r, sizeof r);
-    if (w->n) memcpy((char *)to + sizeof l + sizeof r, w->point, w->n * sizeof *w->point);
+    mpm_failed_volumes(m, to);
+    char *at = scene_put(scene_put((char *)(to + bodies), &l, sizeof l), &r, sizeof r);
+    for (int i = 0; i < s->bodies; i++) {
+        const mpm_body_report b = mpm_body_state(m, i);
+        at = scene_put(at, &b, sizeof b);
+    }
+    at = scene_put(at, mpm_contact_force(m, 0), 3 * groups * sizeof(double));
+    scene_put(at, w->point, w->n * sizeof *w->point);
     return p;
 }
 

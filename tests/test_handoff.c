@@ -219,21 +219,23 @@ typedef struct {
     gouge_scene gouge;
 } made;
 
-/* A layer of 0.3 mm, bonded with 80 MPa, where the title asks for it. */
-static void add_layer(breech_case *c)
+/* Layers of 0.3 mm, bonded with 80 MPa, where the title asks for them: one, or as many as it says. */
+static void add_layers(breech_case *c)
 {
-    if (strcmp(c->title, "layered") != 0) return;
-    c->rail.layers.item = calloc(1, sizeof *c->rail.layers.item);
+    const int n = strcmp(c->title, "layered") == 0 ? 1 : strstr(c->title, " layers") ? atoi(c->title) : 0;
+    if (n == 0) return;
+    c->rail.layers.item = calloc((size_t)n, sizeof *c->rail.layers.item);
     assert_non_null(c->rail.layers.item);
-    c->rail.layers.n = 1;
-    *c->rail.layers.item =
-        (case_layer){ .material = "al7075_t651", .thickness = 0.3e-3, .bond_strength = 80e6, .yield_scale = 1.0 };
+    c->rail.layers.n = n;
+    for (int i = 0; i < n; i++)
+        c->rail.layers.item[i] =
+            (case_layer){ .material = "al7075_t651", .thickness = 0.3e-3, .bond_strength = 80e6, .yield_scale = 1.0 };
 }
 
 static made make(const char *const *sets)
 {
     made m = { .c = changed_case(sets) };
-    add_layer(m.c);
+    add_layers(m.c);
     m.impact = case_inputs_of(m.c).onset.impact;
     m.state = gouge_state_of_case(&m.impact);
     m.state.contact_pressure = 60e6;
@@ -462,6 +464,31 @@ static void test_fields(void **state)
     unmake(&m);
 }
 
+/* Six layers that can come off each from the next make nine bodies in eight groups. */
+static void test_many_layers(void **state)
+{
+    (void)state;
+    const char *const sets[] = { "title=6 layers", "scene.cells_per_radius=2", "scene.coarse_cell=2 mm",
+                                 "particle.bond_strength=none", NULL };
+    made m = make(sets);
+    mpm *solver = NULL;
+    assert_int_equal(m.gouge.scene.bodies, 9);
+    assert_int_equal(mpm_scene_groups(&m.gouge.scene), 8);
+    assert_int_equal(m.gouge.scene.body[m.gouge.armature].group, 7);
+    OK(mpm_create(&m.gouge.scene, 1, &solver));
+    OK(mpm_advance(solver, 2e-9, NULL));
+    mpm_free(solver);
+    unmake(&m);
+    m.c = changed_case((const char *const[]){ "title=30 layers", NULL });
+    add_layers(m.c);
+    for (int i = 0; i < m.c->rail.layers.n; i++) m.c->rail.layers.item[i].bond_strength = NAN;
+    m.impact = case_inputs_of(m.c).onset.impact;
+    m.state = gouge_state_of_case(&m.impact);
+    assert_int_equal(gouge_scene_from_state(&m.impact, &m.state, 2.0, &m.gouge).code,
+                     STATUS_BAD_INPUT); /* GOUGE_BODIES */
+    case_free(m.c);
+}
+
 /* What the solver makes of it: masses of the bodies; nothing moves but the armature. */
 static void test_masses(void **state)
 {
@@ -635,10 +662,13 @@ static void test_half_model(void **state)
         .scene = { .bodies = 3, .body = bodies }, .armature = 0, .rail = 1, .layers = 1, .grain = GOUGE_PIT
     };
     for (int b = 0; b < s.scene.bodies; b++) snprintf(s.scene.body[b].name, sizeof s.scene.body[b].name, "body %d", b);
-    const gouge_watch w = { .scene = &s, .growth = NAN, .found = { .class = DAMAGE_SCRATCH } };
-    const scene_outcome o = { .report = { .peak_contact_force = { 1.0, 2.0, 3.0 },
-                                          .peak_mises = { 5.0, 7.0 },
-                                          .failed_volume = { 0.0, 11.0, 13.0 } },
+    const gouge_watch w = { .scene = &s,
+                            .growth = NAN,
+                            .found = { .class = DAMAGE_SCRATCH },
+                            .failed = { 0.0, 11.0, 13.0 },
+                            .armature = { .peak_mises = 5.0 },
+                            .rail = { .peak_mises = 7.0 } };
+    const scene_outcome o = { .report = { .peak_contact_force = { 1.0, 2.0, 3.0 } },
                               .ledger = { .energy_error = 0.5, .momentum_error = 0.25 },
                               .wall = 3.0,
                               .threads = 2 };
@@ -659,16 +689,13 @@ static void test_half_model(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_states),         cmocka_unit_test(test_trace),
-        cmocka_unit_test(test_not_reached),    cmocka_unit_test(test_jumps),
-        cmocka_unit_test(test_stopped),        cmocka_unit_test(test_screen_table),
-        cmocka_unit_test(test_screen_band),    cmocka_unit_test(test_no_overlap),
-        cmocka_unit_test(test_places),         cmocka_unit_test(test_grid),
-        cmocka_unit_test(test_levels),         cmocka_unit_test(test_pressing),
-        cmocka_unit_test(test_grain_measures), cmocka_unit_test(test_fields),
-        cmocka_unit_test(test_masses),         cmocka_unit_test(test_pit),
-        cmocka_unit_test(test_refused),        cmocka_unit_test(test_growth),
-        cmocka_unit_test(test_gauged),         cmocka_unit_test(test_dying),
+        cmocka_unit_test(test_states),         cmocka_unit_test(test_trace),      cmocka_unit_test(test_not_reached),
+        cmocka_unit_test(test_jumps),          cmocka_unit_test(test_stopped),    cmocka_unit_test(test_screen_table),
+        cmocka_unit_test(test_screen_band),    cmocka_unit_test(test_no_overlap), cmocka_unit_test(test_places),
+        cmocka_unit_test(test_grid),           cmocka_unit_test(test_levels),     cmocka_unit_test(test_pressing),
+        cmocka_unit_test(test_grain_measures), cmocka_unit_test(test_fields),     cmocka_unit_test(test_many_layers),
+        cmocka_unit_test(test_masses),         cmocka_unit_test(test_pit),        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_growth),         cmocka_unit_test(test_gauged),     cmocka_unit_test(test_dying),
         cmocka_unit_test(test_gauges),         cmocka_unit_test(test_half_model),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

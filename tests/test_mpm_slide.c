@@ -50,7 +50,7 @@ static bool watch_step(void *user, const mpm *m)
 {
     load *w = user;
     const mpm_report r = mpm_state(m);
-    if (r.time > w->from) w->impulse -= (r.time - fmax(w->last, w->from)) * r.contact_force[0][1];
+    if (r.time > w->from) w->impulse -= (r.time - fmax(w->last, w->from)) * r.contact_force[1];
     w->last = r.time;
     return true;
 }
@@ -71,7 +71,7 @@ static slide_result slide(double speed, double travel, int levels)
     for (size_t i = 0; i < mpm_particles(m); i++)
         if (x[3 * i] > s.axis[0].lo + 3e-3 && x[3 * i] < s.axis[0].hi - 3e-3) out.strain = fmax(out.strain, ep[i]);
     free(x), free(ep);
-    for (int i = 0; i < s.bodies; i++) out.failed += r.failed_volume[i];
+    out.failed = r.failed_volume;
     out.pressure = r.peak_pressure;
     print_message("%d levels, %.1f km/s over %.0f mm, %zu points, %llu steps: plastic strain %.2e, failed %.2g mm3, "
                   "energy %+.1e, "

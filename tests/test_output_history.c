@@ -75,7 +75,7 @@ static void every_column_has_units_and_description(void **state)
     mpm_ledger ledger;
     memset(&report, 0, sizeof report);
     memset(&ledger, 0, sizeof ledger);
-    report.failed_volume[2] = 5.0;
+    report.failed_volume = 5.0;
     output_history_scene_row(&report, &ledger, row);
     OK(output_history_append(h, series, row));
     double map[12];

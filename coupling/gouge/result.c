@@ -29,18 +29,18 @@ static void take_bodies(scene_result *r, const gouge_scene *s, const gouge_watch
     r->bodies = s->scene.bodies;
     for (int b = 0; b < r->bodies; b++) {
         memcpy(r->body[b], s->scene.body[b].name, sizeof r->body[b]);
-        r->failed_volume[b] = halves * m->failed_volume[b];
+        r->failed_volume[b] = halves * w->failed[b];
         r->carried_volume[b] = w->carried[b];
         if (!gouge_is_layer(s, b)) continue;
         r->layers_failed_volume += r->failed_volume[b];
         r->layers_carried_volume += r->carried_volume[b];
     }
-    r->peak_mises_armature = m->peak_mises[s->armature];
-    r->peak_mises_rail = m->peak_mises[s->rail];
-    r->peak_mises_armature_999 = m->peak_mises_999[s->armature];
-    r->peak_mises_rail_999 = m->peak_mises_999[s->rail];
-    r->peak_pressure_armature_999 = m->peak_pressure_999[s->armature];
-    r->peak_pressure_rail_999 = m->peak_pressure_999[s->rail];
+    r->peak_mises_armature = w->armature.peak_mises;
+    r->peak_mises_rail = w->rail.peak_mises;
+    r->peak_mises_armature_999 = w->armature.peak_mises_999;
+    r->peak_mises_rail_999 = w->rail.peak_mises_999;
+    r->peak_pressure_armature_999 = w->armature.peak_pressure_999;
+    r->peak_pressure_rail_999 = w->rail.peak_pressure_999;
 }
 
 /* A scene that ends at its second gauge, or dying, has no whole crater to be judged by; what left none until then is

@@ -22,9 +22,9 @@ typedef struct {
     bool crater_truncated; /* the crater reaches the edge of its map: length and volume are lower bounds */
     double momentum_error, energy_error; /* [1] */
     int bodies;
-    char body[MPM_MAX_BODIES][PARAM_TEXT_SIZE];
-    double failed_volume[MPM_MAX_BODIES];  /* [m3] */
-    double carried_volume[MPM_MAX_BODIES]; /* sound and faster than half the armature's speed at the end [m3] */
+    char body[GOUGE_BODIES][PARAM_TEXT_SIZE];
+    double failed_volume[GOUGE_BODIES];  /* [m3] */
+    double carried_volume[GOUGE_BODIES]; /* sound and faster than half the armature's speed at the end [m3] */
     double layers_failed_volume, layers_carried_volume; /* the same, of the rail's layers together [m3] */
     double end_time;                                    /* [s] */
     uint64_t particles, steps, particle_steps, particle_steps_dense;

@@ -305,13 +305,10 @@ static status add_bodies(const case_impact *c, const site_state *state, const la
 {
     mpm_scene *s = &g->scene;
     int group = 0;
-    CHECK(c->rail.layers.n + 3 <= MPM_MAX_BODIES, STATUS_BAD_INPUT, "rail.layers: %d layers, a scene takes at most %d",
-          c->rail.layers.n, MPM_MAX_BODIES - 3);
+    CHECK(c->rail.layers.n + 3 <= GOUGE_BODIES, STATUS_BAD_INPUT, "rail.layers: %d layers, must be %d at most",
+          c->rail.layers.n, GOUGE_BODIES - 3);
     TRY(add_rail(c, l, g, &group));
     TRY(add_grain(c, &state->grain, g, &group));
-    CHECK(group + 1 < MPM_MAX_GROUPS, STATUS_BAD_INPUT,
-          "rail.layers, particle: %d bonds that can break, a scene takes at most %d; weld some (bond_strength: none)",
-          group, MPM_MAX_GROUPS - 2);
     TRY(add_armature(c, state, l, group + 1, g));
     for (int i = 0; i < s->bodies; i++) {
         mpm_body *b = &s->body[i];

@@ -40,7 +40,10 @@ typedef struct {
     crater_spec crater;
 } gouge_scene;
 
-enum { GOUGE_PIT = -1 };
+enum {
+    GOUGE_PIT = -1,
+    GOUGE_BODIES = 32 /* at most: a scene's record, plain bytes in checkpoints, has room for so many */
+};
 
 /* state: grain, velocity and contact pressure are used.  The caller frees the scene; after an error it is empty.
  * STATUS_BAD_INPUT names what cannot be built and which key to change. */

@@ -90,6 +90,9 @@ static status finish(void *user, const mpm *m, bool *keep)
     TRY(gouge_armature_metal(w->scene, m, &w->end));
     TRY(measure_crater(w->scene, m, &w->found));
     TRY(gouge_carried_volumes(w->scene, m, w->carried));
+    mpm_failed_volumes(m, w->failed);
+    w->rail = mpm_body_state(m, w->scene->rail);
+    w->armature = mpm_body_state(m, w->scene->armature);
     w->growth = gouge_growth(&w->state.gauges, &now);
     *keep = w->growth > 0.0;
     if (w->timing) host_timing_add(w->timing, "crater", host_wall_clock() - since);

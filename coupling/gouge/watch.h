@@ -23,10 +23,12 @@ typedef struct {
     const gouge_scene *scene; /* borrowed */
     timing *timing;           /* borrowed; NULL: none */
     gouge_watched state;
-    gouge_metal end;                /* the rest is filled when the scene is over; the armature's then */
-    crater found;                   /* owned */
-    double growth;                  /* gouge_growth [1/s] */
-    double carried[MPM_MAX_BODIES]; /* gouge_carried_volumes [m3] */
+    gouge_metal end;              /* the rest is filled when the scene is over; the armature's then */
+    crater found;                 /* owned */
+    double growth;                /* gouge_growth [1/s] */
+    double carried[GOUGE_BODIES]; /* gouge_carried_volumes [m3] */
+    double failed[GOUGE_BODIES];  /* of each body, as computed [m3] */
+    mpm_body_report rail, armature;
 } gouge_watch;
 
 scene_watch gouge_watch_of(gouge_watch *w);

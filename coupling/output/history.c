@@ -346,12 +346,12 @@ status output_history_map(history *h, const char *scene, const history_map *map)
     COLUMN(ejected_energy, "J", "left the window so far", l->ejected_energy)                            \
     COLUMN(energy_error, "1", "ledger's rest over the kinetic energy at the start", l->energy_error)    \
     COLUMN(momentum_error, "1", "over mass times the largest initial speed", l->momentum_error)         \
-    COLUMN(contact_force_x, "N", "on the rail's field, as computed", r->contact_force[0][0])            \
-    COLUMN(contact_force_y, "N", "on the rail's field, as computed", r->contact_force[0][1])            \
-    COLUMN(contact_force_z, "N", "on the rail's field, as computed", r->contact_force[0][2])            \
+    COLUMN(contact_force_x, "N", "on the rail's field, as computed", r->contact_force[0])            \
+    COLUMN(contact_force_y, "N", "on the rail's field, as computed", r->contact_force[1])            \
+    COLUMN(contact_force_z, "N", "on the rail's field, as computed", r->contact_force[2])            \
     COLUMN(peak_pressure, "Pa", "of any particle so far", r->peak_pressure)                             \
     COLUMN(peak_temperature, "K", "of any particle so far", r->peak_temperature)                        \
-    COLUMN(failed_volume, "m^3", "of all bodies now, as computed", failed_volume(r))                    \
+    COLUMN(failed_volume, "m^3", "of all bodies now, as computed", r->failed_volume)                    \
     COLUMN(clamps_pressure, "1", "so far", (double)r->clamps_pressure)                                  \
     COLUMN(clamps_compression, "1", "so far", (double)r->clamps_compression)                            \
     COLUMN(splits, "1", "particles split so far", (double)r->splits)                                    \
@@ -411,13 +411,6 @@ status output_history_scene(history *h, const char *scene, int *series)
     char group[GROUP_SIZE];
     TRY(scene_group(scene, group));
     return output_history_series(h, group, scene_columns, WIDTH(scene_columns), series);
-}
-
-static double failed_volume(const mpm_report *r)
-{
-    double sum = 0.0;
-    for (int b = 0; b < MPM_MAX_BODIES; b++) sum += r->failed_volume[b];
-    return sum;
 }
 
 void output_history_scene_row(const mpm_report *r, const mpm_ledger *l, double *row)

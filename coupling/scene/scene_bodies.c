@@ -52,19 +52,23 @@ static status add_points(const mpm *m, scene_body *out)
 /* All bodies as they are now, into out[scene->bodies]. */
 static status bodies_now(const mpm_scene *scene, const mpm *m, scene_body *out)
 {
-    const mpm_report now = mpm_state(m);
     memset(out, 0, (size_t)scene->bodies * sizeof *out);
     for (int i = 0; i < scene->bodies; i++)
         for (int k = 0; k < 3; k++) out[i].lo[k] = out[i].hi[k] = NAN;
     TRY(add_points(m, out));
+    double *failed = malloc((size_t)scene->bodies * sizeof *failed);
+    CHECK(failed, STATUS_MEMORY, "no memory for %d bodies", scene->bodies);
+    mpm_failed_volumes(m, failed);
     for (int i = 0; i < scene->bodies; i++) {
+        const mpm_body_report so_far = mpm_body_state(m, i);
         scene_body *b = &out[i];
         snprintf(b->name, sizeof b->name, "%s", scene->body[i].name);
         for (int k = 0; k < 3; k++) b->position[k] /= b->mass, b->velocity[k] /= b->mass; /* NAN: nothing is left */
-        b->failed_volume = now.failed_volume[i];
-        b->peak_pressure = now.peak_pressure_body[i];
-        b->peak_mises = now.peak_mises[i];
+        b->failed_volume = failed[i];
+        b->peak_pressure = so_far.peak_pressure;
+        b->peak_mises = so_far.peak_mises;
     }
+    free(failed);
     return status_ok();
 }
 

@@ -211,17 +211,27 @@ LANE_INLINE void book(books *t, const block *q, int lane, const lane_sums *w)
     t->clamp_rho += vd_where(here, w->clamp_rho);
 }
 
-static void add_books(tally *t, const books *s, int body, const step_of *step)
+/* A run of blocks of one body, in a cell: what their kernels need to know, and what is booked of them. */
+typedef struct {
+    int body;
+    step_of step;
+    books books;
+} block_run;
+
+/* `peaks`: of the run's body. */
+static void add_books(tally *t, const block_run *run, body_peaks *peaks)
 {
+    const books *s = &run->books;
+    const step_of *step = &run->step;
     t->heat_transfer += vd_sum(s->heat_transfer);
     t->heat_viscous += vd_sum(s->heat_viscous);
     t->work_external += vd_sum(s->work_external);
     for (int k = 0; k < 3; k++)
         t->impulse_external[k] += step->dt * (step->force[k] * vd_sum(s->mass) + step->traction[k] * vd_sum(s->area));
     t->rate = fmax(t->rate, vd_largest(s->rate));
-    t->peak_pressure_body[body] = fmax(t->peak_pressure_body[body], vd_largest(s->pressure));
-    t->peak_mises[body] = fmax(t->peak_mises[body], sqrt(vd_largest(s->mises_square)));
-    t->peak_strain[body] = fmax(t->peak_strain[body], vd_largest(s->strain));
+    peaks->pressure = fmax(peaks->pressure, vd_largest(s->pressure));
+    peaks->mises = fmax(peaks->mises, sqrt(vd_largest(s->mises_square)));
+    peaks->strain = fmax(peaks->strain, vd_largest(s->strain));
     t->peak_temperature = fmax(t->peak_temperature, vd_largest(s->temperature));
     t->clamps_pressure += (uint64_t)vd_sum(s->clamp_p);
     t->clamps_compression += (uint64_t)vd_sum(s->clamp_rho);
@@ -297,13 +307,6 @@ static step_of step_for(const mpm *m, const brick *b, const cell_grid *g, int bo
     return step;
 }
 
-/* A run of blocks of one body, in a cell: what their kernels need to know, and what is booked of them. */
-typedef struct {
-    int body;
-    step_of step;
-    books books;
-} block_run;
-
 /* Advances a block by a step; the lanes that leave it.  `kernel`: that of the body's law, a constant where this is
  * called, so that the compiler makes a kernel of each. */
 LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const cell_limits *limits,
@@ -368,7 +371,7 @@ static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const h
     for (int i = b->head[cell]; i >= 0; i = m->links[i].next) {
         const int body = m->links[i].body;
         if (body != run->body) {
-            add_books(&b->sum, &run->books, run->body, &run->step);
+            add_books(&b->sum, run, &peaks_of_thread(m, b->movers_thread)[run->body]);
             *run = (block_run){ .body = body, .step = step_for(m, b, &g, body) };
         }
         b->sum.particles += (uint64_t)__builtin_popcount(m->links[i].mask);
@@ -391,6 +394,6 @@ void ISA(g2p)(mpm *m, brick *b, int thread)
     block_run run = { .body = 0 };
     for (int cell = 0; cell < BRICK_CELLS; cell++)
         if (b->head[cell] >= 0) one_cell(m, b, cell, &grid, halo, &run);
-    add_books(&b->sum, &run.books, run.body, &run.step);
+    add_books(&b->sum, &run, &peaks_of_thread(m, thread)[run.body]);
     b->sum.rate /= level_steps(m, b->level);
 }

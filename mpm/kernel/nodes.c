@@ -13,7 +13,7 @@
 typedef double node_lines[BRICK_CELLS][LINE] __attribute__((aligned(64)));
 
 typedef struct {
-    const brick *brick;
+    brick *brick;
     double (*line)[LINE];  /* [64] m, p, f, K; borrowed */
     double (*extra)[LINE]; /* [64] V grad S, m (x_p - x_i), m flow stress */
 } group_nodes;
@@ -114,7 +114,7 @@ static bool gather_group(const mpm *m, const brick *b, bool with_contact, const 
     return count > 0;
 }
 
-static group_nodes seam_lines(const brick *b)
+static group_nodes seam_lines(brick *b)
 {
     return (group_nodes){ b, b->line, b->line + BRICK_CELLS };
 }
@@ -124,7 +124,7 @@ void ISA(gather)(mpm *m, int site)
     for (int f = 0; f < m->groups; f++) {
         const int i = m->directory[f * m->grids.sites + site];
         if (i < 0) continue;
-        const brick *b = &m->bricks[i];
+        brick *b = &m->bricks[i];
         const group_nodes n = seam_lines(b);
         if (b->level <= m->begins) gather_group(m, b, b->across, &n);
     }
@@ -262,10 +262,17 @@ static double heat_share(const mpm *m, int a, int b)
     return isnan(e[0]) || isnan(e[1]) ? 0.5 : e[0] / (e[0] + e[1]);
 }
 
+/* A group at a node, and the walls that act on it there. */
+typedef struct {
+    brick *brick;
+    node_state state;
+    wall walls[3];
+    int n_walls;
+} node_side;
+
 /* Two groups that touch at a node: J is the impulse on b, minus it that on a. */
 typedef struct {
-    int group[2];
-    node_state *a, *b;
+    node_side *a, *b;
     double J[3]; /* [N s] */
 } touching;
 
@@ -282,12 +289,12 @@ static bool impulse(const touch_rule *rule, const contact_touch *t, double J[3])
 }
 
 /* Sets the pair's velocities and its J; false where the two do not touch. */
-static bool contact_pair(const mpm *m, touching *t, const node_place *at, tally *sum)
+static bool contact_pair(const mpm *m, touching *t, const node_place *at)
 {
     static const double MASS_SCREEN = 1e-6;
-    node_state *a = t->a, *b = t->b;
+    node_state *a = &t->a->state, *b = &t->b->state;
     if (a->m < MASS_SCREEN * b->m || b->m < MASS_SCREEN * a->m) return false;
-    const touch_rule *rule = touch_rule_of(m, t->group[0], t->group[1]);
+    const touch_rule *rule = touch_rule_of(m, t->a->brick->group, t->b->brick->group);
     contact_touch c = { .reduced = a->m * b->m / (a->m + b->m), .dt = at->dt };
     if (!geometry(m, a, b, rule->normal_of_higher, at, &c)) return false;
     for (int k = 0; k < 3; k++) c.apart[k] = b->v[k] - a->v[k];
@@ -295,8 +302,8 @@ static bool contact_pair(const mpm *m, touching *t, const node_place *at, tally 
     for (int k = 0; k < 3; k++) {
         a->v[k] -= t->J[k] / a->m;
         b->v[k] += t->J[k] / b->m;
-        sum->contact[t->group[0]][k] -= t->J[k];
-        sum->contact[t->group[1]][k] += t->J[k];
+        t->a->brick->contact_impulse[k] -= t->J[k];
+        t->b->brick->contact_impulse[k] += t->J[k];
     }
     return true;
 }
@@ -307,14 +314,15 @@ static bool contact_pair(const mpm *m, touching *t, const node_place *at, tally 
  * contact takes back: heat from bodies that only press on each other. */
 static void contact_heat(const mpm *m, const touching *t, tally *sum)
 {
+    node_state *a = &t->a->state, *b = &t->b->state;
     double Q = 0;
     for (int k = 0; k < 3; k++) {
-        const double slip = t->b->v[k] - t->a->v[k], slip_start = t->b->v_start[k] - t->a->v_start[k];
+        const double slip = b->v[k] - a->v[k], slip_start = b->v_start[k] - a->v_start[k];
         Q -= t->J[k] * 0.5 * (slip + slip_start);
     }
-    const double share = heat_share(m, t->group[0], t->group[1]);
-    t->a->heat += share * Q;
-    t->b->heat += (1 - share) * Q;
+    const double share = heat_share(m, t->a->brick->group, t->b->brick->group);
+    a->heat += share * Q;
+    b->heat += (1 - share) * Q;
     sum->heat_friction += Q;
 }
 
@@ -327,44 +335,76 @@ static void finish_node(const node_state *n, double node[NODE], tally *sum)
     node[3] = 0.5 * dot(n->v, n->v) + n->heat / n->m;
 }
 
-static void one_node(mpm *m, group_nodes *groups, int count, int cell, const int index[3], const double h[3], double dt,
+/* The group's part of the node before any contact: walls, then the forces. */
+static void begin_side(const mpm *m, const group_nodes *group, int cell, const int index[3], double dt, node_side *side,
+                       tally *sum)
+{
+    const double *line = group->line[cell];
+    node_state *n = &side->state;
+    side->brick = group->brick;
+    *n = (node_state){ .m = line[0], .extra = group->extra[cell] };
+    for (int k = 0; k < 3; k++) n->v[k] = line[1 + k] / n->m, n->f[k] = line[4 + k];
+    n->heat = line[7] - kinetic(n);
+    side->n_walls = walls_at(m, axes_of(m, side->brick), index, side->brick->group, side->walls);
+    apply_walls(side->walls, side->n_walls, group_law(m, side->brick->group), dt, n, sum);
+    memcpy(n->v_start, n->v, sizeof n->v_start);
+    n->heat -= 0.5 * dt * dot(line + 4, n->v);
+    for (int k = 0; k < 3; k++) n->v[k] += dt * n->f[k] / n->m, n->f[k] = 0;
+}
+
+/* Memory of a thread for the groups at a site: `groups` of all but pair, which has one for every two. */
+typedef struct {
+    node_lines (*own)[2];
+    group_nodes *group;
+    node_side *side;
+    touching *pair;
+} scratch;
+
+static size_t whole_lines(size_t bytes)
+{
+    return (bytes + 63) / 64 * 64;
+}
+
+size_t ISA(node_bytes)(int groups)
+{
+    const size_t n = (size_t)groups;
+    return whole_lines(n * sizeof(node_lines[2])) + whole_lines(n * sizeof(group_nodes)) +
+           whole_lines(n * sizeof(node_side)) + whole_lines(n * (n - 1) / 2 * sizeof(touching));
+}
+
+static scratch scratch_of(const mpm *m, int thread)
+{
+    const size_t n = (size_t)m->scratch_groups;
+    char *p = m->scratch + (size_t)thread * m->scratch_bytes;
+    scratch s = { .own = (void *)p };
+    s.group = (void *)(p += whole_lines(n * sizeof(node_lines[2])));
+    s.side = (void *)(p += whole_lines(n * sizeof(group_nodes)));
+    s.pair = (void *)(p + whole_lines(n * sizeof(node_side)));
+    return s;
+}
+
+static void one_node(mpm *m, const scratch *at, int count, int cell, const int index[3], const double h[3], double dt,
                      tally *sum)
 {
-    node_state state[MPM_MAX_GROUPS];
-    wall walls[MPM_MAX_GROUPS][3];
-    int n_walls[MPM_MAX_GROUPS], pairs = 0;
-    touching pair[MPM_MAX_GROUPS * (MPM_MAX_GROUPS - 1) / 2];
-    for (int s = 0; s < count; s++) {
-        const double *line = groups[s].line[cell];
-        const int group = groups[s].brick->group;
-        node_state *n = &state[s];
-        *n = (node_state){ .m = line[0], .extra = groups[s].extra[cell] };
-        if (!(n->m > 0)) continue;
-        for (int k = 0; k < 3; k++) n->v[k] = line[1 + k] / n->m, n->f[k] = line[4 + k];
-        n->heat = line[7] - kinetic(n);
-        n_walls[s] = walls_at(m, axes_of(m, groups[s].brick), index, group, walls[s]);
-        apply_walls(walls[s], n_walls[s], group_law(m, group), dt, n, sum);
-        memcpy(n->v_start, n->v, sizeof n->v_start);
-        n->heat -= 0.5 * dt * dot(line + 4, n->v);
-        for (int k = 0; k < 3; k++) n->v[k] += dt * n->f[k] / n->m, n->f[k] = 0;
-    }
-    for (int a = 0; a < count; a++)
-        for (int b = a + 1; b < count; b++)
-            if (state[a].m > 0 && state[b].m > 0) {
-                const node_place at = { h, walls[a], n_walls[a], dt };
-                touching *t = &pair[pairs];
-                *t = (touching){ { groups[a].brick->group, groups[b].brick->group }, &state[a], &state[b], { 0 } };
-                if (contact_pair(m, t, &at, sum)) pairs++;
-            }
-    for (int i = 0; i < pairs; i++) contact_heat(m, &pair[i], sum);
-    for (int s = 0; s < count; s++) {
-        double *node = brick_nodes(m, groups[s].brick)[cell];
-        memset(node, 0, NODE * sizeof *node);
-        if (!(state[s].m > 0)) continue;
-        if (count > 1 && n_walls[s] > 0)
-            for (int i = 0; i < n_walls[s]; i++)
-                if (walls[s][i].kind == BOUNDARY_SYMMETRY) hold(&state[s], walls[s][i].axis, 0, dt, sum);
-        finish_node(&state[s], node, sum);
+    node_side *side = at->side;
+    int here = 0, pairs = 0;
+    for (int s = 0; s < count; s++)
+        if (at->group[s].line[cell][0] > 0)
+            begin_side(m, &at->group[s], cell, index, dt, &side[here++], sum);
+        else
+            memset(brick_nodes(m, at->group[s].brick)[cell], 0, NODE * sizeof(double));
+    for (int a = 0; a < here; a++)
+        for (int b = a + 1; b < here; b++) {
+            const node_place place = { h, side[a].walls, side[a].n_walls, dt };
+            touching *t = &at->pair[pairs];
+            *t = (touching){ &side[a], &side[b], { 0 } };
+            if (contact_pair(m, t, &place)) pairs++;
+        }
+    for (int i = 0; i < pairs; i++) contact_heat(m, &at->pair[i], sum);
+    for (int s = 0; s < here; s++) {
+        for (int i = 0; count > 1 && i < side[s].n_walls; i++)
+            if (side[s].walls[i].kind == BOUNDARY_SYMMETRY) hold(&side[s].state, side[s].walls[i].axis, 0, dt, sum);
+        finish_node(&side[s].state, brick_nodes(m, side[s].brick)[cell], sum);
     }
 }
 
@@ -399,16 +439,19 @@ static void free_node(const double line[LINE], double dt, double node[NODE])
 }
 
 /* The groups that have mass at a site, a seam's already gathered; their number. */
-static int groups_at(mpm *m, int site, node_lines own[][2], group_nodes *groups)
+static int groups_at(mpm *m, int site, const scratch *to, tally *sum)
 {
     int count = 0, present = 0;
     for (int f = 0; f < m->groups; f++) present += m->directory[f * m->grids.sites + site] >= 0;
+    sum->shared = present > 1;
     for (int f = 0; f < m->groups; f++) {
         const int i = m->directory[f * m->grids.sites + site];
         if (i < 0) continue;
-        const brick *b = &m->bricks[i];
-        groups[count] = b->at_seam ? seam_lines(b) : (group_nodes){ b, own[count][0], own[count][1] };
-        if (b->at_seam ? has_mass(b->line) : gather_group(m, b, present > 1, &groups[count]))
+        brick *b = &m->bricks[i];
+        group_nodes *n = &to->group[count];
+        *n = b->at_seam ? seam_lines(b) : (group_nodes){ b, to->own[count][0], to->own[count][1] };
+        if (present > 1) memset(b->contact_impulse, 0, sizeof b->contact_impulse);
+        if (b->at_seam ? has_mass(b->line) : gather_group(m, b, present > 1, n))
             count++;
         else
             memset(brick_nodes(m, b), 0, sizeof *m->nodes);
@@ -423,17 +466,16 @@ static const brick *first_at(const mpm *m, int site)
     return &m->bricks[m->directory[f * m->grids.sites + site]];
 }
 
-void ISA(nodes)(mpm *m, int site)
+void ISA(nodes)(mpm *m, int site, int thread)
 {
-    node_lines own[MPM_MAX_GROUPS][2];
-    group_nodes groups[MPM_MAX_GROUPS];
+    const scratch at = scratch_of(m, thread);
     tally *sum = &m->site_sum[site];
     memset(sum, 0, sizeof *sum);
     const brick *b = first_at(m, site);
     const uint64_t due =
         mpm_substep_due(m, b) & ~(b->seam.follow_coarser | b->seam.follow_finer); /* mpm_interface_constrain */
     if (!due) return;
-    const int count = groups_at(m, site, own, groups);
+    const int count = groups_at(m, site, &at, sum);
     if (count == 0) return;
     const axis *axes = axes_of(m, b);
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
@@ -441,12 +483,13 @@ void ISA(nodes)(mpm *m, int site)
                                BRICK * b->at[2] + cell / (BRICK * BRICK) };
         if (!(due >> cell & 1)) continue;
         const double dt = mpm_substep_dt(m, b, cell);
-        if (is_inside(axes, index) && !is_shared(groups, count, cell)) {
-            for (int s = 0; s < count; s++) free_node(groups[s].line[cell], dt, brick_nodes(m, groups[s].brick)[cell]);
+        if (is_inside(axes, index) && !is_shared(at.group, count, cell)) {
+            for (int s = 0; s < count; s++)
+                free_node(at.group[s].line[cell], dt, brick_nodes(m, at.group[s].brick)[cell]);
             continue;
         }
         double h[3];
         for (int k = 0; k < 3; k++) h[k] = axes[k].edge[index[k] + 1] - axes[k].edge[index[k]];
-        one_node(m, groups, count, cell, index, h, dt, sum);
+        one_node(m, &at, count, cell, index, h, dt, sum);
     }
 }

@@ -221,21 +221,28 @@ static bool link_brick(mpm *m, brick *b)
            (b->held || !seam_shared(&b->seam));
 }
 
+static void list_sites(mpm *m)
+{
+    m->site_count = m->seam_count = m->crowd = 0;
+    for (int s = 0; s < m->grids.sites; s++) {
+        int groups = 0;
+        for (int f = 0; f < m->groups; f++) {
+            const int i = m->directory[f * m->grids.sites + s];
+            if (i < 0 || groups++ > 0) continue;
+            m->site_list[m->site_count++] = s;
+            if (m->bricks[i].at_seam) m->seam_list[m->seam_count++] = s;
+        }
+        if (groups > m->crowd) m->crowd = groups;
+    }
+}
+
 status mpm_store_relink(mpm *m)
 {
     bool enough = true;
 #pragma omp parallel for schedule(dynamic, 16) num_threads(m->threads) reduction(&& : enough)
     for (int i = 0; i < m->bricks_used; i++) enough = link_brick(m, &m->bricks[i]) && enough;
     CHECK(enough, STATUS_MEMORY, "no memory for a brick");
-    m->site_count = m->seam_count = 0;
-    for (int s = 0; s < m->grids.sites; s++)
-        for (int f = 0; f < m->groups; f++) {
-            const int i = m->directory[f * m->grids.sites + s];
-            if (i < 0) continue;
-            m->site_list[m->site_count++] = s;
-            if (m->bricks[i].at_seam) m->seam_list[m->seam_count++] = s;
-            break;
-        }
+    list_sites(m);
     return status_ok();
 }
 
@@ -404,7 +411,7 @@ int mpm_store_insert(mpm *m, brick *b, int cell, int body, const double *particl
     if (*link < 0) {
         const int fresh = take_free_block(m);
         if (fresh < 0) return -1;
-        m->links[fresh] = (block_link){ .next = -1, .body = (uint8_t)body };
+        m->links[fresh] = (block_link){ .next = -1, .body = (uint16_t)body };
         block_clear(m, &m->blocks[fresh], body, particle);
         *link = fresh;
         b->blocks++;

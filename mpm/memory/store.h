@@ -98,14 +98,13 @@ typedef struct {
     double heat_friction, heat_transfer, heat_viscous;
     double work_boundary, work_external;
     double impulse_boundary[3], impulse_external[3];
-    double contact[MPM_MAX_GROUPS][3];
     departure left;
     double rate; /* largest (c + |v|) / h, times the share of m.dt that the level's steps are [1/s] */
     double peak_temperature;
-    double peak_mises[MPM_MAX_BODIES], peak_pressure_body[MPM_MAX_BODIES], peak_strain[MPM_MAX_BODIES];
     uint64_t clamps_pressure, clamps_compression, splits, eroded, particles;
     double eroded_mass;
     bool stranded;           /* no memory for points that left their cells: the step cannot go on */
+    bool shared;             /* of a site: its bricks' contact_impulse counts */
     int bad_lane, bad_block; /* first particle that is not finite, bad_block = -1: none */
 } tally;
 
@@ -142,14 +141,25 @@ typedef struct {
     node_shares *held;           /* of a brick that shares nodes with a finer level */
     int movers, movers_first, movers_thread; /* its part of the thread's mover list */
     uint32_t mover_steps;                    /* bit k: a mover goes to neighbour k */
+    double contact_impulse[3];               /* of the step on its nodes, where tally.shared of its site [N s] */
     tally sum;
 } brick;
 
 typedef struct {
     int next; /* block of the same cell, -1 = none; also chains the free blocks */
-    uint8_t body;
+    uint16_t body;
     uint8_t mask; /* lanes in use */
 } block_link;
+
+enum { MPM_BODIES_COUNTED = UINT16_MAX + 1 }; /* what block_link.body can tell apart */
+
+/* Largest of a body's points in a step, by the thread that moved them. */
+typedef struct {
+    double pressure, mises, strain; /* [Pa, Pa, 1] */
+} body_peaks;
+
+/* What of a body lies above its largest percentiles so far, lane by lane (read.c). */
+typedef struct body_tops body_tops;
 
 /* The window and its fine zone along the axis that they follow (mpm_follow), and the zone across. */
 typedef struct {
@@ -194,14 +204,25 @@ struct mpm {
 
     mover_list movers[MPM_MAX_THREADS];
     int threads;
+    int crowd;     /* groups at the site that has the most */
+    char *scratch; /* of the kernel of nodes: scratch_bytes for each of scratch_threads, for scratch_groups at a site */
+    size_t scratch_bytes;
+    int scratch_groups, scratch_threads;
     const kernels *kernel;
 
     double time, dt, dt_last; /* steps of the coarsest level; dt_last: the last that began, 0 before the first [s] */
     int begins, ends; /* levels 0 .. begins begin a step with the finest level's that is under way, 0 .. ends end one */
     uint64_t steps;
     double dense, dense_steps; /* particles, and particle-steps so far, of the finest cells everywhere */
-    void *histogram;           /* of percentiles (read.c) */
+    double *histogram;         /* of percentiles (read.c) */
+    body_tops *tops;           /* [1 + SHARES][scene.bodies] of percentiles */
+    double *failed;            /* [1 + SHARES][scene.bodies] for mpm_failed_volumes [m3] */
+    body_peaks *peaks;         /* [MPM_MAX_THREADS][peaks_row] */
+    size_t peaks_row;          /* bodies, and what keeps threads apart in memory */
+    double (*contact)[3]; /* [1 + SHARES][groups] contact impulses of a step: all, then shares of the sites [N s] */
     mpm_report report;
+    mpm_body_report *body_report; /* [scene.bodies] */
+    double (*contact_force)[3];   /* [groups] mean of the last step [N] */
     mpm_ledger ledger;
     double phase_seconds[MPM_PHASES];
     uint64_t scene_key; /* of everything that determines a scene */
@@ -216,7 +237,8 @@ struct kernels {
     const char *name;
     void (*p2g)(mpm *m, brick *b);
     void (*gather)(mpm *m, int site); /* a seam's sums into brick.line */
-    void (*nodes)(mpm *m, int site);
+    void (*nodes)(mpm *m, int site, int thread);
+    size_t (*node_bytes)(int groups); /* of scratch memory, for a thread and that many groups at a site */
     void (*g2p)(mpm *m, brick *b, int thread);
 };
 
@@ -320,7 +342,8 @@ status mpm_zone_regrid(mpm *m, zone z);
 
 /* read.c */
 void mpm_sample_percentiles(mpm *m);
-size_t mpm_histogram_bytes(void);
+status mpm_reading_make(mpm *m); /* memory for the percentiles and the failed volumes */
+void mpm_reading_free(mpm *m);
 
 /* movers.c */
 status mpm_movers_exchange(mpm *m); /* all movers into their new cells; makes bricks as needed */
@@ -371,6 +394,11 @@ static inline uint64_t seam_shared(const seam_nodes *s)
 static inline bool seam_any(const seam_nodes *s)
 {
     return (s->follow_coarser | s->follow_finer | s->lead_coarser | s->lead_finer) != 0;
+}
+
+static inline body_peaks *peaks_of_thread(const mpm *m, int thread)
+{
+    return m->peaks + (size_t)thread * m->peaks_row;
 }
 
 /* Of the group's first body. */

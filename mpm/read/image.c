@@ -1,7 +1,7 @@
 /* Checkpoints and estimates.
  *
- * An image is one flat run of bytes: a header, the books, then every brick in its order with its chains of blocks as
- * they lie, holes included: a restored solver goes on with the same bits. */
+ * An image is one flat run of bytes: a header, the books, those of bodies and groups, then every brick in its order
+ * with its chains of blocks as they lie, holes included: a restored solver goes on with the same bits. */
 #include "mpm/memory/build.h"
 #include "mpm/memory/store.h"
 
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char MAGIC[8] = "BREECH6";
+static const char MAGIC[8] = "BREECH7";
 
 typedef struct {
     char magic[8];
@@ -31,8 +31,10 @@ typedef struct {
 
 static size_t image_bytes(const mpm *m, int blocks)
 {
-    return sizeof(image_head) + sizeof(mpm_ledger) + sizeof(mpm_report) + (size_t)m->bricks_used * sizeof(image_brick) +
-           (size_t)blocks * (sizeof(block) + sizeof(block_link)) + m->wake.n * sizeof *m->wake.point;
+    return sizeof(image_head) + sizeof(mpm_ledger) + sizeof(mpm_report) +
+           (size_t)m->scene.bodies * sizeof *m->body_report + (size_t)m->groups * sizeof *m->contact_force +
+           (size_t)m->bricks_used * sizeof(image_brick) + (size_t)blocks * (sizeof(block) + sizeof(block_link)) +
+           m->wake.n * sizeof *m->wake.point;
 }
 
 static char *put(char *to, const void *from, size_t bytes)
@@ -80,6 +82,8 @@ status mpm_save(const mpm *m, void **image, size_t *bytes)
     to = put(to, &head, sizeof head);
     to = put(to, &m->ledger, sizeof m->ledger);
     to = put(to, &m->report, sizeof m->report);
+    to = put(to, m->body_report, (size_t)m->scene.bodies * sizeof *m->body_report);
+    to = put(to, m->contact_force, (size_t)m->groups * sizeof *m->contact_force);
     if (m->wake.n) to = put(to, m->wake.point, m->wake.n * sizeof *m->wake.point);
     for (int i = 0; i < m->bricks_used; i++) to = put_brick(to, m, &m->bricks[i]);
     return status_ok();
@@ -176,7 +180,10 @@ status mpm_restore(mpm *m, const void *image, size_t bytes)
     zone z;
     memcpy(z.at, head.zone, sizeof z.at);
     TRY(mpm_zone_regrid(m, z));
-    if (!get(&r, &m->ledger, sizeof m->ledger) || !get(&r, &m->report, sizeof m->report)) return cut_short();
+    if (!get(&r, &m->ledger, sizeof m->ledger) || !get(&r, &m->report, sizeof m->report) ||
+        !get(&r, m->body_report, (size_t)m->scene.bodies * sizeof *m->body_report) ||
+        !get(&r, m->contact_force, (size_t)m->groups * sizeof *m->contact_force))
+        return cut_short();
     TRY(get_wake(m, &head, &r));
     for (int i = 0; i < head.bricks; i++) TRY(get_brick(m, &r));
     m->time = head.time, m->dt = head.dt, m->dt_last = head.dt_last, m->dense_steps = head.dense_steps,
@@ -234,7 +241,7 @@ status mpm_estimate(const mpm_scene *scene, mpm_needs *needs)
         mpm_grids_free(&g);
         TRY(s);
         needs->particles[i] = c.particles, needs->work[i] = c.work;
-        needs->bytes[i] = MPM_BYTES + c.particles * MPM_BYTES_A_PARTICLE;
+        needs->bytes[i] = MPM_BYTES + c.particles * MPM_BYTES_A_PARTICLE + (size_t)scene->bodies * MPM_BYTES_A_BODY;
     }
     return status_ok();
 }

@@ -11,7 +11,7 @@ static const mpm_column columns[] = { { "force_x", "N", "contact force on the bo
 
 static status read(const mpm *m, const mpm_probe *p, double *out)
 {
-    const double *force = m->report.contact_force[m->scene.body[p->body].group];
+    const double *force = mpm_contact_force(m, m->scene.body[p->body].group);
     for (int k = 0; k < 3; k++) out[k] = force[k];
     return status_ok();
 }

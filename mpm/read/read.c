@@ -4,6 +4,7 @@
 #include "mpm/memory/build.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 const mpm_field_info mpm_field_table[MPM_FIELD_COUNT] = {
@@ -118,17 +119,39 @@ mpm_ledger mpm_balance(const mpm *m)
     return l;
 }
 
-typedef struct {
-    double volume[MPM_MAX_BODIES];
-} failures;
-
 static void failed_block(void *user, const mpm *m, const brick *b, int index)
 {
     (void)b;
-    failures *f = user;
+    double *volume = user;
     const block *q = &m->blocks[index];
     for (int l = 0; l < LANES; l++)
-        if (q->mass[0][l] > 0 && q->damage[0][l] >= 1) f->volume[m->links[index].body] += q->mass[0][l] / q->rho[0][l];
+        if (q->mass[0][l] > 0 && q->damage[0][l] >= 1) volume[m->links[index].body] += q->mass[0][l] / q->rho[0][l];
+}
+
+/* Into m->failed, where shares come after the sums. */
+static const double *find_failed(const mpm *m)
+{
+    const size_t bodies = (size_t)m->scene.bodies;
+    double *all = m->failed, *share = all + bodies;
+    memset(all, 0, (1 + SHARES) * bodies * sizeof *all);
+    mpm_visit_shares(m, failed_block, share, bodies * sizeof *share);
+    for (size_t i = 0; i < SHARES * bodies; i++) all[i % bodies] += share[i];
+    return all;
+}
+
+void mpm_failed_volumes(const mpm *m, double *volume)
+{
+    memcpy(volume, find_failed(m), (size_t)m->scene.bodies * sizeof *volume);
+}
+
+mpm_body_report mpm_body_state(const mpm *m, int body)
+{
+    return m->body_report[body];
+}
+
+const double *mpm_contact_force(const mpm *m, int group)
+{
+    return m->contact_force[group];
 }
 
 mpm_report mpm_glance(const mpm *m)
@@ -138,17 +161,14 @@ mpm_report mpm_glance(const mpm *m)
     r.dt = m->dt;
     r.steps = m->steps;
     r.particle_steps_dense = (uint64_t)m->dense_steps;
-    memset(r.failed_volume, 0, sizeof r.failed_volume);
     return r;
 }
 
 mpm_report mpm_state(const mpm *m)
 {
     mpm_report r = mpm_glance(m);
-    failures share[SHARES] = { { .volume = { 0 } } };
-    mpm_visit_shares(m, failed_block, share, sizeof *share);
-    for (int i = 0; i < SHARES; i++)
-        for (int body = 0; body < MPM_MAX_BODIES; body++) r.failed_volume[body] += share[i].volume[body];
+    const double *volume = find_failed(m);
+    for (int body = 0; body < m->scene.bodies; body++) r.failed_volume += volume[body];
     return r;
 }
 
@@ -183,15 +203,34 @@ enum { BINS = 2400, BINS_AN_E = 100 }; /* bins of 1 % */
 /* What percentiles are taken of: Mises stress, pressure [Pa]. */
 enum { MISES, PRESSURE, STRESSES };
 
-typedef struct {
-    double of[STRESSES][MPM_MAX_BODIES][BINS]; /* [kg] */
-} histogram;
+/* Bins of a body [kg]; STRESSES x bodies of them. */
+static double *histogram_of(const mpm *m, int stress, int body)
+{
+    return m->histogram + ((size_t)stress * (size_t)m->scene.bodies + (size_t)body) * BINS;
+}
 
-/* Bodies' metal, and what of it lies above their largest percentiles so far, lane by lane [kg]. */
-typedef struct {
-    double passed[STRESSES][MPM_MAX_BODIES]; /* ends of the bins that hold those percentiles [Pa] */
-    double mass[MPM_MAX_BODIES][LANES], above[STRESSES][MPM_MAX_BODIES][LANES];
-} tops;
+/* A body's metal, and what of it lies above its largest percentiles so far, lane by lane [kg]. */
+struct body_tops {
+    double passed[STRESSES]; /* ends of the bins that hold those percentiles [Pa] */
+    double mass[LANES], above[STRESSES][LANES];
+};
+
+status mpm_reading_make(mpm *m)
+{
+    const size_t bodies = (size_t)m->scene.bodies;
+    m->histogram = malloc(STRESSES * bodies * BINS * sizeof *m->histogram);
+    m->tops = malloc((1 + SHARES) * bodies * sizeof *m->tops);
+    m->failed = malloc((1 + SHARES) * bodies * sizeof *m->failed);
+    CHECK(m->histogram && m->tops && m->failed, STATUS_MEMORY, "no memory for the percentiles of %zu bodies", bodies);
+    return status_ok();
+}
+
+void mpm_reading_free(mpm *m)
+{
+    free(m->histogram);
+    free(m->tops);
+    free(m->failed);
+}
 
 static int bin_of(double pascal)
 {
@@ -214,38 +253,36 @@ static double lane_mises(const block *q, int l)
 static void tops_block(void *user, const mpm *m, const brick *b, int index)
 {
     (void)b;
-    tops *t = user;
+    body_tops *t = (body_tops *)user + m->links[index].body;
     const block *q = &m->blocks[index];
-    const int body = m->links[index].body;
-    const double mises2 = t->passed[MISES][body] * t->passed[MISES][body], pressure = t->passed[PRESSURE][body];
+    const double mises2 = t->passed[MISES] * t->passed[MISES], pressure = t->passed[PRESSURE];
     for (int l = 0; l < LANES; l++) {
         const double mass = q->mass[0][l];
-        t->mass[body][l] += mass;
-        t->above[MISES][body][l] += lane_mises_square(q, l) > mises2 ? mass : 0;
-        t->above[PRESSURE][body][l] += q->p[0][l] > pressure ? mass : 0;
+        t->mass[l] += mass;
+        t->above[MISES][l] += lane_mises_square(q, l) > mises2 ? mass : 0;
+        t->above[PRESSURE][l] += q->p[0][l] > pressure ? mass : 0;
     }
 }
 
-static void add_tops(tops *a, const tops *b)
+static void add_tops(body_tops *a, const body_tops *b)
 {
-    for (int body = 0; body < MPM_MAX_BODIES; body++)
-        for (int l = 0; l < LANES; l++) {
-            a->mass[body][l] += b->mass[body][l];
-            for (int k = 0; k < STRESSES; k++) a->above[k][body][l] += b->above[k][body][l];
-        }
+    for (int l = 0; l < LANES; l++) {
+        a->mass[l] += b->mass[l];
+        for (int k = 0; k < STRESSES; k++) a->above[k][l] += b->above[k][l];
+    }
 }
 
-static tops find_tops(const mpm *m)
+/* Into m->tops, where shares come after the sums. */
+static void find_tops(mpm *m)
 {
-    tops share[SHARES], all = { .mass = { { 0 } } };
-    for (int body = 0; body < m->scene.bodies; body++) {
-        all.passed[MISES][body] = m->report.peak_mises_999[body] * exp(0.5 / BINS_AN_E);
-        all.passed[PRESSURE][body] = m->report.peak_pressure_999[body] * exp(0.5 / BINS_AN_E);
-    }
-    for (int i = 0; i < SHARES; i++) share[i] = all;
-    mpm_visit_shares(m, tops_block, share, sizeof *share);
-    for (int i = 0; i < SHARES; i++) add_tops(&all, &share[i]);
-    return all;
+    const size_t bodies = (size_t)m->scene.bodies;
+    body_tops *all = m->tops, *share = all + bodies;
+    for (size_t i = 0; i < bodies; i++)
+        all[i] = (body_tops){ .passed = { [MISES] = m->body_report[i].peak_mises_999 * exp(0.5 / BINS_AN_E),
+                                          [PRESSURE] = m->body_report[i].peak_pressure_999 * exp(0.5 / BINS_AN_E) } };
+    for (size_t i = 0; i < SHARES; i++) memcpy(share + i * bodies, all, bodies * sizeof *all);
+    mpm_visit_shares(m, tops_block, share, bodies * sizeof *share);
+    for (size_t i = 0; i < SHARES * bodies; i++) add_tops(&all[i % bodies], &share[i]);
 }
 
 static double lanes_sum(const double a[LANES])
@@ -255,31 +292,25 @@ static double lanes_sum(const double a[LANES])
     return sum;
 }
 
-static bool percentiles_rise(const tops *t, int stress)
+static bool percentiles_rise(const mpm *m, int stress)
 {
     bool rise = false;
-    for (int body = 0; body < MPM_MAX_BODIES; body++)
-        rise = rise || lanes_sum(t->above[stress][body]) > TOP * lanes_sum(t->mass[body]);
+    for (int body = 0; body < m->scene.bodies; body++)
+        rise = rise || lanes_sum(m->tops[body].above[stress]) > TOP * lanes_sum(m->tops[body].mass);
     return rise;
 }
 
-/* Of the points above the percentile so far; the others cannot raise it. */
-typedef struct {
-    histogram *bins;
-    const tops *tops;
-    int stress;
-} histogram_of_tops;
-
+/* Of the points above the percentile of the stress *user so far; the others cannot raise it. */
 static void histogram_block(void *user, const mpm *m, const brick *b, int index)
 {
     (void)b;
-    const histogram_of_tops *h = user;
+    const int kind = *(const int *)user, body = m->links[index].body;
     const block *q = &m->blocks[index];
-    const int body = m->links[index].body;
-    const double passed = h->tops->passed[h->stress][body];
+    const double passed = m->tops[body].passed[kind];
+    double *bins = histogram_of(m, kind, body);
     for (int l = 0; l < LANES; l++) {
-        const double stress = h->stress == MISES ? lane_mises(q, l) : q->p[0][l];
-        if (stress > passed) h->bins->of[h->stress][body][bin_of(stress)] += q->mass[0][l];
+        const double stress = kind == MISES ? lane_mises(q, l) : q->p[0][l];
+        if (stress > passed) bins[bin_of(stress)] += q->mass[0][l];
     }
 }
 
@@ -297,21 +328,17 @@ static double percentile_999(const double *bins, const double mass[LANES])
 
 void mpm_sample_percentiles(mpm *m)
 {
-    const tops t = find_tops(m);
-    histogram *h = m->histogram;
-    double *const largest[STRESSES] = { m->report.peak_mises_999, m->report.peak_pressure_999 };
-    memset(h, 0, sizeof *h);
+    find_tops(m);
+    memset(m->histogram, 0, STRESSES * (size_t)m->scene.bodies * BINS * sizeof *m->histogram);
 #pragma omp parallel for num_threads(m->threads)
     for (int k = 0; k < STRESSES; k++)
-        if (percentiles_rise(&t, k)) visit(m, histogram_block, &(histogram_of_tops){ h, &t, k });
-    for (int k = 0; k < STRESSES; k++)
-        for (int i = 0; i < m->scene.bodies; i++)
-            largest[k][i] = fmax(largest[k][i], percentile_999(h->of[k][i], t.mass[i]));
-}
-
-size_t mpm_histogram_bytes(void)
-{
-    return sizeof(histogram);
+        if (percentiles_rise(m, k)) visit(m, histogram_block, &k);
+    for (int i = 0; i < m->scene.bodies; i++) {
+        mpm_body_report *b = &m->body_report[i];
+        const double *mass = m->tops[i].mass;
+        b->peak_mises_999 = fmax(b->peak_mises_999, percentile_999(histogram_of(m, MISES, i), mass));
+        b->peak_pressure_999 = fmax(b->peak_pressure_999, percentile_999(histogram_of(m, PRESSURE, i), mass));
+    }
 }
 
 /* ---- particle fields ---- */

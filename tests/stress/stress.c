@@ -203,13 +203,13 @@ static status add_fragments(gouge_scene *g, chance *c, const recipe *r)
 {
     mpm_scene *s = &g->scene;
     const int wanted = one_in(c, 3) ? 1 + below(c, 2) : 0;
-    for (int i = 0; i < wanted && s->bodies < MPM_MAX_BODIES; i++) {
+    for (int i = 0; i < wanted; i++) {
         mpm_body *last;
         mpm_solid *ball;
         TRY(mpm_scene_add_body(s, &last));
         TRY(mpm_scene_add_solid(s, "sphere", -1, -1, &ball));
         mpm_body *b = &s->body[g->armature++];
-        const int next = b->group + 1 < MPM_MAX_GROUPS ? b->group + 1 : b->group;
+        const int next = b->group + 1;
         *last = *b; /* the last one, which wins points */
         b->solid = s->solids - 1;
         snprintf(b->name, sizeof b->name, "particle");

@@ -11,7 +11,7 @@ static bool watch(void *user, const mpm *m)
 {
     pushing *w = user;
     const mpm_report r = mpm_state(m);
-    for (int k = 0; k < 3; k++) w->impulse[k] += (r.time - w->last) * r.contact_force[1][k];
+    for (int k = 0; k < 3; k++) w->impulse[k] += (r.time - w->last) * mpm_contact_force(m, 1)[k];
     w->last = r.time;
     return true;
 }
@@ -76,7 +76,7 @@ static double incline(double cells, double turn, const valid_scheme *scheme, val
     turn_to_face(&b, mean, &speed, &rise);
     turn_to_face(&b, w.impulse, &along, &normal);
     out->figure[1] = -along / normal / mu - 1;
-    out->figure[2] = mpm_state(solver).peak_plastic_strain[1];
+    out->figure[2] = mpm_body_state(solver, 1).peak_plastic_strain;
     valid_finish(solver, out);
     return speed / (want * end) - 1;
 }
@@ -187,7 +187,7 @@ static bool press_step(void *user, const mpm *m)
     const mpm_report r = mpm_state(m);
     const double share = 1 - exp(-(r.time - w->last) / w->smooth);
     w->last = r.time;
-    w->force += share * (4 * r.contact_force[1][1] - w->force); /* a quarter of it is computed */
+    w->force += share * (4 * mpm_contact_force(m, 1)[1] - w->force); /* a quarter of it is computed */
     if (w->force > w->largest) w->largest = w->force;
     if (w->force == w->largest && w->force > 0 && r.steps % 10 == 0) {
         const double x = hertz_way(w->force), y = -tracer_distance(m, w);

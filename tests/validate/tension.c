@@ -34,7 +34,7 @@ void valid_tension(double cells, const valid_scheme *scheme, valid_result *out)
     const mpm_report r = mpm_state(solver);
     const mpm_ledger l = mpm_balance(solver);
     out->figure[0] = 1 - l.kinetic / l.kinetic_start;
-    out->figure[1] = 1e9 * r.failed_volume[0];
-    out->figure[2] = r.failed_volume[0] / (SIDE * (SIDE - NOTCH) * h);
+    out->figure[1] = 1e9 * r.failed_volume;
+    out->figure[2] = r.failed_volume / (SIDE * (SIDE - NOTCH) * h);
     valid_finish(solver, out);
 }
