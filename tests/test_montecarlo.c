@@ -204,9 +204,13 @@ static void test_table_and_sites(void **state)
     assert_true(fabs(out.of[0].gouges - 2.0 - strewn) < four_sigma(strewn, out.histories)); /* two sites always */
     assert_true(out.of[0].probability == 1.0);
     assert_true(fabs(study_mc_expected(&r.grains, LENGTH) - 2.0 - strewn) < 0.01);
-    double sum = 0.0;
-    for (int k = 0; k < MC_BINS; k++) sum += out.of[0].strewn[k];
+    double sum = 0.0, volume = 0.0;
+    for (int k = 0; k < MC_PIECES; k++) sum += out.strewn[k].gouges, volume += out.strewn[k].volume;
     assert_true(fabs(sum - strewn) < four_sigma(strewn, out.histories)); /* those of the list are not among them */
+    study_mc_free(&out);
+    r.c.sites.n = 0;
+    out = run(&one, 1, 50000, 1); /* the same draws */
+    assert_true(fabs(volume / out.of[0].volume - 1.0) < 1e-9);
     study_mc_free(&out);
     free(r.family);
 }

@@ -8,8 +8,6 @@
 
 /* ---- the shot with what the gouges take ---- */
 
-enum { PIECES = 20 }; /* of the barrel, for gouges of populations */
-
 /* What gouges of this volume in all take at v; nothing where no scene left a crater. */
 static site_jump taken_by(const onset_answer *a, const grain_family *f, double v, double volume)
 {
@@ -32,29 +30,33 @@ static int list_jumps(const onset_answer *a, site_jump *jump)
     return taken;
 }
 
-/* The first family of a population that can gouge; NULL if there is none. */
-static const grain_family *strewn_family(const grain_families *g)
+/* What the grains of all populations in a piece of the barrel are expected to take, each population by its own family;
+ * nothing where no crater of that was computed. */
+static site_jump strewn_jump(const onset_answer *a, int piece, double v)
 {
-    for (int k = 0; k < g->c->populations.n; k++)
-        if (g->of_population[k] >= 0) return &g->family[g->of_population[k]];
-    return NULL;
+    const mc_result *drawn = &a->drawn;
+    site_jump all = { 0.0, 0.0 };
+    for (int k = 0; k < drawn->populations; k++) {
+        const mc_strewn *of = &drawn->strewn[k * MC_PIECES + piece]; /* the first shot on the first surface */
+        const int family = a->grains.of_population[k];
+        if (family < 0 || !(of->volume > 0.0)) continue;
+        const site_jump one = taken_by(a, &a->grains.family[family], v, of->volume);
+        all.impulse += one.impulse;
+        all.mass_loss += one.mass_loss;
+    }
+    return all;
 }
 
-/* What populations are expected to take, piece by piece, as sites behind those of the list; nothing where no crater was
- * computed. */
+/* What populations are expected to take, piece by piece, as sites behind those of the list. */
 static int strewn_jumps(const onset_answer *a, case_site *site, site_jump *jump)
 {
-    const grain_family *f = strewn_family(&a->grains);
-    const mc_shot *drawn = &a->drawn.of[0];
-    const double length = a->grains.c->launcher.barrel.length;
     int n = 0;
-    for (int p = 0; f && !isnan(drawn->volume) && p < PIECES; p++) {
-        double gouges = 0.0;
-        for (int k = 0; k < MC_BINS / PIECES; k++) gouges += drawn->strewn[p * (MC_BINS / PIECES) + k];
-        const double x = length * (p + 0.5) / PIECES;
-        if (!(gouges > 0.0)) continue;
-        site[n] = (case_site){ .position = x, .radius = f->plan.size[f->plan.reference] };
-        jump[n++] = taken_by(a, f, gouge_trace_velocity(&a->flown, x), gouges * drawn->volume / drawn->gouges);
+    for (int p = 0; p < MC_PIECES; p++) {
+        const double x = a->grains.c->launcher.barrel.length * (p + 0.5) / MC_PIECES;
+        const site_jump taken = strewn_jump(a, p, gouge_trace_velocity(&a->flown, x));
+        if (!(taken.impulse > 0.0 || taken.mass_loss > 0.0)) continue;
+        site[n] = (case_site){ .position = x };
+        jump[n++] = taken;
     }
     return n;
 }
@@ -77,8 +79,8 @@ status study_feedback_shot(session *s, onset_answer *a)
 {
     const int n = a->result.n_sites;
     if (!a->grains.c->study.feedback) return status_ok();
-    site_jump *jump = calloc((size_t)n + PIECES, sizeof *jump);
-    case_site *site = calloc((size_t)n + PIECES, sizeof *site);
+    site_jump *jump = calloc((size_t)n + MC_PIECES, sizeof *jump);
+    case_site *site = calloc((size_t)n + MC_PIECES, sizeof *site);
     status done = jump && site ? status_ok() : base_status_error(STATUS_MEMORY, "no memory for %d sites", n);
     if (done.code == STATUS_OK) {
         for (int i = 0; i < n; i++) site[i] = a->grains.c->sites.item[i];

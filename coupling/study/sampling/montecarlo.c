@@ -15,7 +15,7 @@
 enum { MAX_RIMS = 256 };
 
 /* What is added up over all histories, for each surface and shot. */
-enum { GOUGES, VOLUME, FIRSTS, STREWN = FIRSTS + MC_BINS, SUMS = STREWN + MC_BINS };
+enum { GOUGES, VOLUME, FIRSTS, SUMS = FIRSTS + MC_BINS };
 
 /* A grain; of those that gouges leave, rims, as the next shot finds them. */
 typedef struct {
@@ -50,6 +50,7 @@ typedef struct {
     grain rim[MAX_RIMS], next[MAX_RIMS];
     int gouges; /* of the shot under way */
     double volume, first;
+    double latest; /* volume of the gouge that was made last [m3] */
 } lane;
 
 /* What all surfaces draw of one population of the first surface. */
@@ -64,10 +65,10 @@ typedef struct {
 typedef struct {
     const mc_plan *plan;
     gsl_rng *rng;
-    lane *lane;     /* owned */
-    strewn *strewn; /* one a population, owned */
-    int populations;
+    lane *lane;          /* owned */
+    strewn *strewn;      /* one a population, owned */
     double *sum;         /* [n x shots x SUMS], owned */
+    mc_result *out;      /* sums of what is strewn until they are means */
     double of_allowance; /* u_s of this world */
 } mc;
 
@@ -76,6 +77,14 @@ typedef struct {
 static double *sums_of(const mc *m, int surface, int number)
 {
     return m->sum + ((size_t)surface * (size_t)m->plan->shots + (size_t)number) * SUMS;
+}
+
+/* Of the piece of the barrel around x. */
+static mc_strewn *strewn_of(const mc *m, int surface, int number, int population, double x)
+{
+    const int piece = (int)(MC_PIECES * x / m->plan->length), fired = surface * m->plan->shots + number;
+    return &m->out->strewn[(fired * m->out->populations + population) * MC_PIECES +
+                           (piece < MC_PIECES ? piece : MC_PIECES - 1)];
 }
 
 static int bin_of(const mc *m, double x)
@@ -141,7 +150,8 @@ static bool meet(const mc *m, lane *l, const grain *g)
     const double radius = exp(g->ln_r);
     const gouge_mark mark = mark_at(l, g, v, warm);
     l->gouges++;
-    l->volume += mark.volume * radius * radius * radius;
+    l->latest = mark.volume * radius * radius * radius;
+    l->volume += l->latest;
     l->first = fmin(l->first, g->x);
     leave_rim(l, g, radius, &mark);
     return true;
@@ -189,7 +199,10 @@ static void strew(mc *m, int index, int number)
             const case_sizes *sizes = &l->grains->c->populations.item[index].sizes;
             const double ln_r = l->ln_factor + (s->table ? log(sizes->item[line].radius) : here->ln_median + spread);
             const grain g = { x, ln_r, here->family, false };
-            if (ln_r >= l->ln_smallest && meet(m, l, &g)) sums_of(m, i, number)[STREWN + bin_of(m, x)] += 1.0;
+            if (!(ln_r >= l->ln_smallest) || !meet(m, l, &g)) continue;
+            mc_strewn *sum = strewn_of(m, i, number, index, x);
+            sum->gouges += 1.0;
+            sum->volume += l->latest;
         }
     }
 }
@@ -206,7 +219,7 @@ static void fire(mc *m, int number)
         if (number == 0) meet_sites(m, l);
         meet_rims(m, l);
     }
-    for (int k = 0; k < m->populations; k++)
+    for (int k = 0; k < m->out->populations; k++)
         if (number == 0 || m->strewn[k].p->renewed) strew(m, k, number);
     for (int i = 0; i < m->plan->n; i++) {
         lane *l = &m->lane[i];
@@ -287,10 +300,11 @@ static void conclude(const mc *m, mc_result *out)
             middle_of(volumes, s->volume_interval);
         double gouged = 0.0; /* histories: a whole number, so that certainty is 1 */
         for (int k = 0; k < MC_BINS; k++) s->before[k] = (gouged += sum[FIRSTS + k]) / out->histories;
-        for (int k = 0; k < MC_BINS; k++) s->strewn[k] = sum[STREWN + k] * each;
         s->probability = s->before[MC_BINS - 1];
         for (int k = 0; k < 3; k++) s->first[k] = place_of_share(s, shares[k], m->plan->length);
     }
+    for (int i = 0; i < out->n * out->shots * out->populations * MC_PIECES; i++)
+        out->strewn[i].gouges *= each, out->strewn[i].volume *= each;
 }
 
 /* ---- setting up ---- */
@@ -411,19 +425,20 @@ static status set_up(mc *m, mc_result *out)
 {
     const mc_plan *p = m->plan;
     const size_t n = (size_t)p->n, cells = n * (size_t)p->shots;
-    m->populations = p->surface[0].grains->c->populations.n;
+    out->populations = p->surface[0].grains->c->populations.n;
     m->rng = gsl_rng_alloc(gsl_rng_mt19937);
     m->lane = calloc(n, sizeof *m->lane);
-    m->strewn = calloc((size_t)m->populations + 1, sizeof *m->strewn);
+    m->strewn = calloc((size_t)out->populations + 1, sizeof *m->strewn);
     m->sum = calloc(cells * SUMS, sizeof *m->sum);
     out->of = calloc(cells, sizeof *out->of);
+    out->strewn = calloc(cells * (size_t)out->populations * MC_PIECES + 1, sizeof *out->strewn);
     out->world_gouges = calloc(cells * MC_WORLDS, sizeof(double));
     out->world_volumes = calloc(cells * MC_WORLDS, sizeof(double));
-    CHECK(m->rng && m->lane && m->strewn && m->sum && out->of && out->world_gouges && out->world_volumes, STATUS_MEMORY,
-          "no memory for the Monte Carlo");
+    CHECK(m->rng && m->lane && m->strewn && m->sum && out->of && out->strewn && out->world_gouges && out->world_volumes,
+          STATUS_MEMORY, "no memory for the Monte Carlo");
     gsl_rng_set(m->rng, (unsigned long)p->seed);
     for (int i = 0; i < p->n; i++) TRY(make_lane(p, i, &m->lane[i]));
-    for (int k = 0; k < m->populations; k++) TRY(make_strewn(m, k));
+    for (int k = 0; k < out->populations; k++) TRY(make_strewn(m, k));
     return status_ok();
 }
 
@@ -440,7 +455,7 @@ static void lane_free(lane *l)
 static void tear_down(mc *m)
 {
     for (int i = 0; m->lane && i < m->plan->n; i++) lane_free(&m->lane[i]);
-    for (int k = 0; m->strewn && k < m->populations; k++)
+    for (int k = 0; m->strewn && k < m->out->populations; k++)
         if (m->strewn[k].table) gsl_ran_discrete_free(m->strewn[k].table);
     if (m->rng) gsl_rng_free(m->rng);
     free(m->lane);
@@ -465,7 +480,7 @@ static void run_all(mc *m, mc_result *out)
 
 status study_mc_run(const mc_plan *plan, mc_result *out)
 {
-    mc m = { .plan = plan };
+    mc m = { .plan = plan, .out = out };
     const double since = host_wall_clock();
     memset(out, 0, sizeof *out);
     out->n = plan->n;
@@ -486,6 +501,7 @@ status study_mc_run(const mc_plan *plan, mc_result *out)
 void study_mc_free(mc_result *r)
 {
     free(r->of);
+    free(r->strewn);
     free(r->world_gouges);
     free(r->world_volumes);
     memset(r, 0, sizeof *r);

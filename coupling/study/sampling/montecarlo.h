@@ -15,7 +15,7 @@
 
 #include "coupling/study/search/family.h"
 
-enum { MC_WORLDS = 200, MC_BINS = 1000, MC_PLACES = 1024 };
+enum { MC_WORLDS = 200, MC_BINS = 1000, MC_PLACES = 1024, MC_PIECES = 20 };
 
 /* What a shot of one number finds along the barrel, at MC_PLACES equal steps. */
 typedef struct {
@@ -48,12 +48,18 @@ typedef struct {
     double probability;                            /* that it gouges at all */
     double first[3];        /* place of the first gouge: 5, 50, 95 % of all shots; NaN where so many do not gouge [m] */
     double before[MC_BINS]; /* P(gouge before (k + 1) / MC_BINS of the barrel) */
-    double strewn[MC_BINS]; /* mean number of a population's grains that gouge in that piece of the barrel */
 } mc_shot;
+
+/* Of a population's grains that gouge in one of MC_PIECES equal pieces of the barrel. */
+typedef struct {
+    double gouges, volume; /* mean number, mean volume in all, NaN: not known [1, m3] */
+} mc_strewn;
 
 typedef struct {
     int n, shots, histories;
-    mc_shot *of;           /* [n x shots], owned */
+    mc_shot *of; /* [n x shots], owned */
+    int populations;
+    mc_strewn *strewn;     /* [n x shots x populations x MC_PIECES], owned */
     double *world_gouges;  /* [n x MC_WORLDS] means of the first shot, owned */
     double *world_volumes; /* the same for the volume [m3], owned */
     double seconds;        /* that it took */
