@@ -2,6 +2,7 @@
  *
  * To add a command that runs a case: a study (study/study.h); any other: a line in `others`, its function here. */
 #include "coupling/case/material_file.h"
+#include "coupling/gouge/impact.h"
 #include "coupling/host/stop.h"
 #include "coupling/host/table.h"
 #include "coupling/host/version.h"
@@ -235,6 +236,7 @@ static int run_case(const options *o)
                                   .how = o->how,
                                   .threads = o->threads,
                                   .lending = o->lending,
+                                  .run_scene = gouge_run,
                                   .progress_to = stderr,
                                   .quiet = o->quiet,
                                   .stop = host_stop_requested };
@@ -561,7 +563,7 @@ static int follow(int argc, char **argv, int threads, lending *l)
     options o = { .threads = threads };
     (void)parse(argc, argv, &o);
     run_lending_own(l, o.threads);
-    run_crew_serve(o.threads, l);
+    run_crew_serve(o.threads, l, gouge_run);
     return EXIT_DONE;
 }
 

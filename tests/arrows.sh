@@ -8,32 +8,10 @@ cd "$(dirname "$0")/.."
 source tests/files.sh
 
 bad=0
-left=$(mktemp)
-trap 'rm -f "$left"' EXIT
 complain()
 {
     printf '%s\n' "$@"
     bad=1
-}
-
-# Includes against the arrows that stand until their reason is gone: a regex of `file:line:include`, one a line.  One
-# that no include needs any more is an error.
-exceptions=(
-    # a query of the scene store asks for a gouging scene and its record is a gouging result
-    'coupling/run/(scene_entry|scene_key|session)\.h:.*"coupling/gouge/'
-)
-used=()
-
-# hits of `arrow`: those that no exception allows
-unexcepted()
-{
-    local hit k
-    while IFS= read -r hit; do
-        for k in "${!exceptions[@]}"; do
-            if [[ $hit =~ ${exceptions[k]} ]]; then used[k]=1 && continue 2; fi
-        done
-        printf '%s\n' "$hit"
-    done
 }
 
 # folder, what it may include with quotes
@@ -42,10 +20,7 @@ arrow()
     local hits
     hits=$(sources "^$1/.*\.(c|h|def)$" | xargs -r grep -nE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' /dev/null |
         grep -vE "include[[:space:]]*\"($2)/" || true)
-    if [ -n "$hits" ]; then
-        unexcepted <<<"$hits" >"$left"
-        if [ -s "$left" ]; then complain "$1/ may include only $2 (written from the root):" "$(<"$left")"; fi
-    fi
+    if [ -n "$hits" ]; then complain "$1/ may include only $2 (written from the root):" "$hits"; fi
 }
 
 # room of coupling, the rooms of coupling that it may include beside itself
@@ -110,9 +85,6 @@ room study 'gouge|strike|life|run|scene|case|output|report|host'
 for folder in coupling/*/; do
     folder=$(basename "$folder")
     if [[ " $rooms tools " != *" $folder "* ]]; then complain "coupling/$folder/ is no room of this script"; fi
-done
-for k in "${!exceptions[@]}"; do
-    if [ -z "${used[k]:-}" ]; then complain "no include needs this exception: ${exceptions[k]}"; fi
 done
 
 # The file's struct stays in coupling/case; the others get the plain structs that it makes (case_plain.h).

@@ -75,7 +75,7 @@ static inline run_counted run_small(const char *const *speed, bool to_gauge, con
     const scene_host host = {
         .sink = &sink, .history = r.rows, .shelf = shelf, .threads = 1, .stop = count_step, .user = &r
     };
-    OK(gouge_run(&job, &host, &r.hit));
+    OK(gouge_job_run(&job, &host, &r.hit));
     gouge_job_free(&job);
     r.hit.result.wall_seconds = 0.0;
     case_free(c);

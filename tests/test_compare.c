@@ -24,47 +24,42 @@ static int scenes;
 
 /* Severity of a made-up scene: a line in velocity; a harder, colder or layered rail and a steeper lead face gouge
  * later. */
-static double made_up_threshold(const gouge_job *job)
+static double made_up_threshold(const case_impact *of)
 {
-    const gouge_scene *s = &job->scene;
-    const mpm_body *rail = &s->scene.body[s->rail], *armature = &s->scene.body[s->armature];
-    double v = 1400.0 + 100.0 * (rail->yield_scale - 1.5) - 0.5 * (rail->temperature - 293.0);
-    /* corners 1 and 2 of the prism: the lead face's ends */
-    const double *face = mpm_solid_get(&s->scene.solid[armature->solid], "corners") + 2;
-    v += 10.0 * (atan2(face[3] - face[1], face[2] - face[0]) * 180.0 / 3.14159265358979 - 30.0);
-    for (int b = 0; b < s->scene.bodies; b++) {
-        const mpm_body *layer = &s->scene.body[b];
-        if (gouge_is_layer(s, b))
-            v += 80.0 * layer->yield_scale + (strcmp(layer->material->name, "steel_4340") == 0 ? 200.0 : 0.0);
+    double v = 1400.0 + 100.0 * (of->rail.yield_scale - 1.5) - 0.5 * (of->rail.temperature - 293.0);
+    v += 10.0 * (of->armature.lead_angle * 180.0 / 3.14159265358979 - 30.0);
+    for (int i = 0; i < of->rail.layers.n; i++) {
+        const case_layer *layer = &of->rail.layers.item[i];
+        v += 80.0 * layer->yield_scale + (strcmp(layer->material, "steel_4340") == 0 ? 200.0 : 0.0);
     }
     return v;
 }
 
-static status fake_scene(const gouge_job *job, const scene_host *host, impact *out)
+static status fake_scene(const impact_job *job, const scene_host *host, impact *out)
 {
     (void)host;
     memset(out, 0, sizeof *out);
     scenes++;
-    const double v = job->scene.velocity, r = job->scene.crater.particle_radius;
-    const double cells = r / job->scene.scene.axis[0].fine;
-    const double excess = (v - made_up_threshold(job) - (cells < 2.5 ? 20.0 : 0.0)) / 150.0;
+    const case_impact *of = &job->of;
+    const double v = of->scene.velocity, r = of->particle.radius;
+    const double excess = (v - made_up_threshold(of) - (of->scene.cells_per_radius < 2.5 ? 20.0 : 0.0)) / 150.0;
     scene_result *hit = &out->result;
-    hit->severity = excess + job->scene.crater.limit_severity;
+    hit->severity = excess + of->scene.limit_severity;
     hit->groove_growth = excess / gouge_growth_folds(1.0, r, v);
     /* a groove must have grown for a while before its crater is a gouge */
-    hit->class = excess >= (job->scene.gauged ? 0.0 : 0.4) ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
+    hit->class = excess >= (case_impact_is_gauged(of) ? 0.0 : 0.4) ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
     hit->crater_volume = 10.0 * r * r * r;
     hit->crater_depth = 0.2 * r;
     hit->crater_length = 6.0 * r;
     hit->crater_width = 2.0 * r;
-    hit->bodies = job->scene.scene.bodies;
-    for (int b = 0; b < hit->bodies; b++) {
-        if (!gouge_is_layer(&job->scene, b)) continue;
+    hit->bodies = of->rail.layers.n + 3;
+    bool loose = false; /* its bond gave way, or that of a layer below */
+    for (int i = 0; i < of->rail.layers.n; i++) {
+        loose = loose || !isnan(of->rail.layers.item[i].bond_strength);
         hit->layers_failed_volume += 1e-3 * r * r * r;
-        if (job->scene.scene.body[b].group > 0) hit->layers_carried_volume += 9.0 * r * r * r; /* its bond gave way */
+        if (loose) hit->layers_carried_volume += 9.0 * r * r * r;
     }
-    const bool hard =
-        job->scene.grain >= 0 && strcmp(job->scene.scene.body[job->scene.grain].material->name, "steel_4340") == 0;
+    const bool hard = strcmp(of->particle.material, "steel_4340") == 0;
     out->impulse = hard ? 0.2 : 0.02;
     return status_ok();
 }

@@ -3,6 +3,7 @@
  * Started by ctest as one process, it starts itself again as three under mpirun; rank 0 tests, the others serve. */
 #define _GNU_SOURCE /* sched_setaffinity */
 
+#include "coupling/gouge/impact.h"
 #include "coupling/run/crew.h"
 #include "coupling/run/lending.h"
 #include "coupling/run/ranks.h"
@@ -80,6 +81,7 @@ static void open_session(const breech_case *c, const char *dir, session *s)
                                       .how = { .force = true },
                                       .threads = 1,
                                       .lending = lent,
+                                      .run_scene = gouge_run,
                                       .progress_to = stderr,
                                       .quiet = true };
     const case_inputs in = case_inputs_of(c);
@@ -336,7 +338,7 @@ static bool comes_to(const scene_host *host, int threads)
 static int borrowed; /* the runs in which this was seen */
 
 /* The first waits until both others compute, and until both have done. */
-static status run_and_look(const gouge_job *job, const scene_host *host, impact *out)
+static status run_and_look(const impact_job *job, const scene_host *host, impact *out)
 {
     if (!borrowed++) {
         assert_true(comes_to(host, 1));
@@ -438,7 +440,7 @@ static scene_query grown_query(const breech_case *c, double velocity)
 
 static int own_runs; /* begun: one that was laid aside goes on */
 
-static status count_run(const gouge_job *job, const scene_host *host, impact *out)
+static status count_run(const impact_job *job, const scene_host *host, impact *out)
 {
     own_runs += !job->resume.image;
     return gouge_run(job, host, out);
@@ -500,7 +502,7 @@ int main(int argc, char **argv)
         failed = cmocka_run_group_tests(tests, NULL, NULL);
         run_crew_dismiss();
     } else {
-        run_crew_serve(1, lent);
+        run_crew_serve(1, lent, gouge_run);
     }
     run_lending_close(lent);
     run_ranks_finish();

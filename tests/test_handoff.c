@@ -485,7 +485,7 @@ static void test_many_layers(void **state)
     m.impact = case_inputs_of(m.c).onset.impact;
     m.state = gouge_state_of_case(&m.impact);
     assert_int_equal(gouge_scene_from_state(&m.impact, &m.state, 2.0, &m.gouge).code,
-                     STATUS_BAD_INPUT); /* GOUGE_BODIES */
+                     STATUS_BAD_INPUT); /* RESULT_BODIES */
     case_free(m.c);
 }
 

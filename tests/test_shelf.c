@@ -33,7 +33,7 @@ static void test_checkpoints(void **state)
     job.checkpoint_interval = 1e-3;
     const scene_host host = { .threads = 1, .save = save_slowly, .user = &saves };
     const double start = host_wall_clock();
-    OK(gouge_run(&job, &host, &hit));
+    OK(gouge_job_run(&job, &host, &hit));
     gouge_job_free(&job);
     const double wall = host_wall_clock() - start;
     print_message("%d checkpoints of %g ms in %.2f s\n", saves, 1e3 * SAVING, wall);

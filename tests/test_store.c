@@ -1,4 +1,5 @@
 /* The scene store: what decides a scene, its file, and that no scene is computed twice, whoever else is at it. */
+#include "coupling/gouge/scene_from_state.h"
 #include "coupling/run/scenes.h"
 #include "coupling/run/store.h"
 
@@ -198,11 +199,11 @@ static struct {
     int scenes;
 } ran; /* the runner has no place for it */
 
-static status fake_scene(const gouge_job *job, const scene_host *host, impact *out)
+static status fake_scene(const impact_job *job, const scene_host *host, impact *out)
 {
     memset(out, 0, sizeof *out);
     ran.scenes++;
-    const double v = job->scene.velocity;
+    const double v = job->of.scene.velocity;
     double row[HISTORY_MAX_COLUMNS] = { 0.0, v };
     int series;
     OK(output_history_scene(host->history, job->name, &series));

@@ -536,18 +536,17 @@ static double made_up_threshold(double radius)
     return counter.base - 4e5 * (radius - 0.5e-3);
 }
 
-static status fake_scene(const gouge_job *job, const scene_host *host, impact *out)
+static status fake_scene(const impact_job *job, const scene_host *host, impact *out)
 {
     memset(out, 0, sizeof *out);
     CHECK(counter.stop_after == 0 || counter.scenes < counter.stop_after, STATUS_STOPPED, "stopped");
     assert_non_null(host->dir);
-    assert_true((job->snapshots == 0) == job->scene.gauged); /* those of whole scenes are the case's */
+    const bool gauged = case_impact_is_gauged(&job->of); /* then severity says nothing, else growth */
+    assert_true((job->of.snapshots == 0) == gauged);     /* those of whole scenes are the case's */
     counter.scenes++;
-    const double v = job->scene.velocity;
-    const double r = job->scene.crater.particle_radius, cells = r / job->scene.scene.axis[0].fine;
+    const double v = job->of.scene.velocity, r = job->of.particle.radius, cells = job->of.scene.cells_per_radius;
     const double excess = (v - made_up_threshold(r) - (cells < 2.5 ? 40.0 : 0.0)) / 150.0;
-    const bool gauged = job->scene.gauged; /* then severity says nothing, else growth */
-    out->result.severity = gauged ? -9.0 : excess + job->scene.crater.limit_severity;
+    out->result.severity = gauged ? -9.0 : excess + job->of.scene.limit_severity;
     out->result.groove_growth = gauged ? excess / gouge_growth_folds(1.0, r, v) : NAN;
     out->result.widening = 2.0;
     out->result.class = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;

@@ -17,6 +17,11 @@ static case_impact impact_of(const breech_case *c)
                           .checkpoint_interval = c->output.checkpoint_interval };
 }
 
+bool case_impact_is_gauged(const case_impact *i)
+{
+    return i->scene.stop_when_gauged && i->scene.follow;
+}
+
 static bool names_material(const case_impact *i, const char *name)
 {
     for (int k = 0; k < i->rail.layers.n; k++)

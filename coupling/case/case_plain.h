@@ -19,6 +19,9 @@ typedef struct {
     double checkpoint_interval; /* wall time; decides nothing [s] */
 } case_impact;
 
+/* Is its scene over, and judged, once the growth of its groove is known?  Only a groove that is followed has one. */
+bool case_impact_is_gauged(const case_impact *i);
+
 /* The case file that `breech scene` computes just this scene from: every value resolved, the constants of the materials
  * named.  Read back it is the same impact, bit for bit. */
 status case_impact_write(const case_impact *i, FILE *file);

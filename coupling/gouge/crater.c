@@ -8,8 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-const char *const gouge_class_names[] = { "none", "scratch", "gouge", "undecided", NULL };
-
 static const double SMOOTH_TO = 1.5; /* (M-20): full weight from this multiple of d_m */
 
 /* ---- measures ---- */

@@ -38,12 +38,10 @@
 #define BREECH_MPM_CRATER_H
 
 #include "base/status.h"
+#include "coupling/run/damage_class.h"
 
 #include <stdbool.h>
 #include <stddef.h>
-
-typedef enum { DAMAGE_NONE, DAMAGE_SCRATCH, DAMAGE_GOUGE, DAMAGE_UNDECIDED } damage_class;
-extern const char *const gouge_class_names[]; /* "none", "scratch", "gouge", "undecided", NULL */
 
 /* The material points of the rail (and welded layers) down to well below the crater; arrays of n, borrowed. */
 typedef struct {

@@ -9,7 +9,7 @@ status gouge_crater_record(const crater *c, history *h, const char *scene)
         { "rim_x_m", c->rim_x },         { "rim_height_m", c->rim_height },
         { "deepest_x_m", c->deepest_x }, { "measuring_depth_m", c->measuring_depth },
     };
-    const history_text texts[] = { { "class", gouge_class_names[c->class] }, { "reason", c->reason } };
+    const history_text texts[] = { { "class", run_damage_names[c->class] }, { "reason", c->reason } };
     const history_map map = { .name = "crater",
                               .across = { { "x", "m", "along the rail, middle of a map cell" },
                                           { "z", "m", "across the rail, middle of a map cell" } },

@@ -52,11 +52,25 @@ static status run_watched(const gouge_job *job, const scene_host *host, gouge_wa
     return host->history && !job->scene.gauged ? gouge_crater_record(&w->found, host->history, job->name) : status_ok();
 }
 
-status gouge_run(const gouge_job *job, const scene_host *host, impact *out)
+status gouge_job_run(const gouge_job *job, const scene_host *host, impact *out)
 {
     gouge_watch w = { .scene = &job->scene, .timing = host->timing };
     memset(out, 0, sizeof *out);
     const status done = run_watched(job, host, &w, out);
     gouge_crater_free(&w.found);
+    return done;
+}
+
+status gouge_run(const impact_job *job, const scene_host *host, impact *out)
+{
+    const site_state state = gouge_state_of_case(&job->of);
+    gouge_job made;
+    TRY(gouge_job_make(&job->of, &state, job->of.scene.cells_per_radius, &made));
+    made.name = job->name;
+    made.task = job->task;
+    made.resume = job->resume;
+    made.twin = job->twin;
+    const status done = gouge_job_run(&made, host, out);
+    gouge_job_free(&made);
     return done;
 }

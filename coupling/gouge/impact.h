@@ -4,7 +4,7 @@
 
 #include "coupling/gouge/result.h"
 #include "coupling/gouge/scene_from_state.h"
-#include "coupling/scene/scene_run.h"
+#include "coupling/run/impact_job.h"
 
 typedef struct {
     const char *name; /* plain (outdir.h) */
@@ -16,14 +16,6 @@ typedef struct {
     uint64_t twin;
 } gouge_job;
 
-typedef struct {
-    scene_result result;
-    /* What the impact took from the armature, full model: its momentum along the rail at the start less that of its
-     * sound metal at the end and less what smooth friction would have taken [N s]; 0 if less. */
-    double impulse;
-    double mass_loss; /* armature metal that failed, or was left behind slower than half the armature's speed [kg] */
-} impact;
-
 /* The job's scene for this state, and what the impact says of output; name and task are the caller's, who frees the
  * job; after an error it is empty. */
 status gouge_job_make(const case_impact *c, const site_state *state, double cells_per_radius, gouge_job *job);
@@ -31,6 +23,9 @@ void gouge_job_free(gouge_job *job);
 
 /* The crater goes into the host's history, unless the scene ends before it is whole.
  * STATUS_STOPPED: saved through host->save.  STATUS_NUMERICAL as mpm_advance. */
-status gouge_run(const gouge_job *job, const scene_host *host, impact *out);
+status gouge_job_run(const gouge_job *job, const scene_host *host, impact *out);
+
+/* The impact_runner: makes the scene and runs it. */
+status gouge_run(const impact_job *job, const scene_host *host, impact *out);
 
 #endif

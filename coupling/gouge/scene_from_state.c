@@ -2,6 +2,7 @@
 
 #include "coupling/gouge/armature.h"
 #include "coupling/gouge/growth.h"
+#include "coupling/run/scene_result.h"
 #include "mpm/grid/grid.h"
 #include "mpm/law/contact.h"
 #include "mpm/shape/solid.h"
@@ -22,11 +23,6 @@ static const double BESIDE = 1.5;
 
 /* Length across the rail of shapes that have one. */
 #define RIDGE_LENGTH 4.0 /* half of it, in radii */
-
-bool gouge_is_gauged(const case_impact *c)
-{
-    return c->scene.stop_when_gauged && c->scene.follow;
-}
 
 bool gouge_is_layer(const gouge_scene *s, int body)
 {
@@ -305,8 +301,8 @@ static status add_bodies(const case_impact *c, const site_state *state, const la
 {
     mpm_scene *s = &g->scene;
     int group = 0;
-    CHECK(c->rail.layers.n + 3 <= GOUGE_BODIES, STATUS_BAD_INPUT, "rail.layers: %d layers, must be %d at most",
-          c->rail.layers.n, GOUGE_BODIES - 3);
+    CHECK(c->rail.layers.n + 3 <= RESULT_BODIES, STATUS_BAD_INPUT, "rail.layers: %d layers, must be %d at most",
+          c->rail.layers.n, RESULT_BODIES - 3);
     TRY(add_rail(c, l, g, &group));
     TRY(add_grain(c, &state->grain, g, &group));
     TRY(add_armature(c, state, l, group + 1, g));
@@ -415,7 +411,7 @@ static void set_method(const case_impact *c, const layout *l, gouge_scene *g)
 static void set_rules(const case_impact *c, gouge_scene *g)
 {
     g->friction = c->scene.friction;
-    g->gauged = gouge_is_gauged(c);
+    g->gauged = case_impact_is_gauged(c);
     g->stop_when_settled = c->scene.stop_when_settled;
     g->growth_scatter = c->scene.growth_scatter;
 }

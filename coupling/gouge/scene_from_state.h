@@ -40,10 +40,7 @@ typedef struct {
     crater_spec crater;
 } gouge_scene;
 
-enum {
-    GOUGE_PIT = -1,
-    GOUGE_BODIES = 32 /* at most: a scene's record, plain bytes in checkpoints, has room for so many */
-};
+enum { GOUGE_PIT = -1 };
 
 /* state: grain, velocity and contact pressure are used.  The caller frees the scene; after an error it is empty.
  * STATUS_BAD_INPUT names what cannot be built and which key to change. */
@@ -59,10 +56,6 @@ site_state gouge_state_of_case(const case_impact *c);
 
 /* The impact with this state's grain, velocity and contact pressure, at that resolution: its scene is decided. */
 case_impact gouge_impact_at(const case_impact *from, const site_state *state, double cells_per_radius);
-
-/* Is such a scene over, and judged, once the growth of its groove is known (scene.stop_when_gauged)?  Only of a groove
- * that is followed. */
-bool gouge_is_gauged(const case_impact *c);
 
 /* Does the crater count this body's points: the rail or one of its layers? */
 bool gouge_counts_as_rail(const gouge_scene *s, int body);

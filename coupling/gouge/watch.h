@@ -10,6 +10,7 @@
 
 #include "coupling/gouge/growth.h"
 #include "coupling/gouge/metal.h"
+#include "coupling/run/scene_result.h"
 #include "coupling/scene/scene_run.h"
 
 /* From step to step; plain bytes, part of every checkpoint. */
@@ -23,11 +24,11 @@ typedef struct {
     const gouge_scene *scene; /* borrowed */
     timing *timing;           /* borrowed; NULL: none */
     gouge_watched state;
-    gouge_metal end;              /* the rest is filled when the scene is over; the armature's then */
-    crater found;                 /* owned */
-    double growth;                /* gouge_growth [1/s] */
-    double carried[GOUGE_BODIES]; /* gouge_carried_volumes [m3] */
-    double failed[GOUGE_BODIES];  /* of each body, as computed [m3] */
+    gouge_metal end;               /* the rest is filled when the scene is over; the armature's then */
+    crater found;                  /* owned */
+    double growth;                 /* gouge_growth [1/s] */
+    double carried[RESULT_BODIES]; /* gouge_carried_volumes [m3] */
+    double failed[RESULT_BODIES];  /* of each body, as computed [m3] */
     mpm_body_report rail, armature;
 } gouge_watch;
 

@@ -88,7 +88,7 @@ static status find_or_add(crew *k, const scene_query *q, errand **out)
     *out = find(k, key.hash);
     if (done.code == STATUS_OK && !*out) {
         uint64_t twin = 0;
-        if (!gouge_is_gauged(&q->impact)) done = run_scene_twin(q, &twin);
+        if (!case_impact_is_gauged(&q->impact)) done = run_scene_twin(q, &twin);
         if (done.code == STATUS_OK) done = add(k, q, out);
         if (done.code == STATUS_OK) {
             (*out)->key = key;

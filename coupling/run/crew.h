@@ -28,7 +28,7 @@ status run_crew_ahead(crew *k, const scene_query *query, int n, bool any_order);
 status run_crew_take(crew *k, const scene_key *key, h5_file **out);
 
 /* The others: compute until rank 0 says it is over. */
-void run_crew_serve(int threads, lending *l);
+void run_crew_serve(int threads, lending *l, impact_runner run);
 /* Rank 0, last: says so and waits until all have heard. */
 void run_crew_dismiss(void);
 

@@ -30,6 +30,7 @@ typedef struct work {
 struct member {
     int threads;
     lending *lending;
+    impact_runner run;
     work *top;
     scene_shelf shelf;
     bool over; /* nothing more comes */
@@ -74,7 +75,7 @@ static status compute(work *w, const scene_query *q, const scene_key *key, h5_fi
                               .threads_now = w->me->lending ? threads_now : NULL,
                               .stop = heard_stop,
                               .user = w };
-    const scene_work_how how = { .run = gouge_run, .task = q->name, .host = &host, .lending = w->me->lending };
+    const scene_work_how how = { .run = w->me->run, .task = q->name, .host = &host, .lending = w->me->lending };
     status done = run_scene_work(q, key->hash, &how, &r);
     if (done.code == STATUS_OK) done = run_scene_file_make(&r, key, rows, file);
     output_history_close(rows);
@@ -160,9 +161,9 @@ static bool listen(member *me)
     return any;
 }
 
-void run_crew_serve(int threads, lending *l)
+void run_crew_serve(int threads, lending *l, impact_runner run)
 {
-    member me = { .threads = threads, .lending = l };
+    member me = { .threads = threads, .lending = l, .run = run };
     signal(SIGINT, SIG_IGN); /* rank 0 hears them and says what to do */
     signal(SIGTERM, SIG_IGN);
     while (!me.over)

@@ -15,6 +15,6 @@ const summary_key run_scene_keys[] = {
     SUMMARY_VALUE(onset_scene, KEY_FLAG, "gauged", gauged, "",
                   "over once its groove's growth was known: class by that, crater as far as it was"),
     SUMMARY_VALUE(onset_scene, KEY_FLAG, "reused", reused, "", "not computed by this run"),
-    SUMMARY_PART(onset_scene, "scene", result, gouge_result_keys),
+    SUMMARY_PART(onset_scene, "scene", result, run_result_keys),
     SUMMARY_END
 };

@@ -2,7 +2,7 @@
 #ifndef BREECH_COUPLING_SCENE_ENTRY_H
 #define BREECH_COUPLING_SCENE_ENTRY_H
 
-#include "coupling/gouge/result.h"
+#include "coupling/run/scene_result.h"
 
 /* One scene of a study. */
 typedef struct {

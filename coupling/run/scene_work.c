@@ -25,7 +25,7 @@ onset_scene run_scene_entry(const scene_query *q)
     e.contact_pressure = of->scene.contact_pressure;
     e.temperature = of->rail.temperature;
     e.cells_per_radius = of->scene.cells_per_radius;
-    e.gauged = gouge_is_gauged(of);
+    e.gauged = case_impact_is_gauged(of);
     return e;
 }
 
@@ -46,20 +46,12 @@ status run_scene_twin(const scene_query *q, uint64_t *twin)
 
 status run_scene_work(const scene_query *q, uint64_t key, const scene_work_how *how, scene_record *out)
 {
-    gouge_job job;
+    impact_job job = { .name = q->name, .task = how->task, .of = q->impact, .resume = how->resume };
     impact hit;
-    const site_state state = gouge_state_of_case(&q->impact);
-    TRY(gouge_job_make(&q->impact, &state, q->impact.scene.cells_per_radius, &job));
-    job.name = q->name;
-    job.task = how->task;
-    job.resume = how->resume;
-    status run = run_scene_twin(q, &job.twin);
-    if (run.code == STATUS_OK) {
-        run_lending_begin(how->lending);
-        run = how->run(&job, how->host, &hit);
-        run_lending_end(how->lending);
-    }
-    gouge_job_free(&job);
+    TRY(run_scene_twin(q, &job.twin));
+    run_lending_begin(how->lending);
+    const status run = how->run(&job, how->host, &hit);
+    run_lending_end(how->lending);
     TRY(run);
     memset(out, 0, sizeof *out);
     out->entry = run_scene_entry(q);

@@ -6,10 +6,8 @@
 #include "coupling/run/scenes.h"
 #include "coupling/run/store.h"
 
-typedef status (*scene_runner)(const gouge_job *, const scene_host *, impact *); /* gouge_run, or a test's */
-
 typedef struct {
-    scene_runner run;
+    impact_runner run;
     const char *task; /* for people */
     const scene_host *host;
     lending *lending; /* NULL: none */
@@ -18,9 +16,9 @@ typedef struct {
 
 /* What the query says of its scene; the result is empty. */
 onset_scene run_scene_entry(const scene_query *q);
-/* The same for a scene to its gauge and for the whole one (gouge_job); 0: it has no gauges. */
+/* The same for a scene to its gauge and for the whole one (impact_job); 0: it has no gauges. */
 status run_scene_twin(const scene_query *q, uint64_t *twin);
-/* STATUS_STOPPED and errors as gouge_run. */
+/* STATUS_STOPPED and errors as the runner. */
 status run_scene_work(const scene_query *q, uint64_t key, const scene_work_how *how, scene_record *out);
 
 #endif

@@ -28,10 +28,10 @@ static void say_outcome(session *s, const onset_scene *e)
     const scene_result *r = &e->result;
     if (e->gauged)
         host_progress_say(&s->progress, "%-22s %s, growth %.2f a microsecond (%.0f s)", e->name,
-                          gouge_class_names[r->class], 1e-6 * r->groove_growth, r->wall_seconds);
+                          run_damage_names[r->class], 1e-6 * r->groove_growth, r->wall_seconds);
     else
         host_progress_say(&s->progress, "%-22s %s, severity %.2f, widening %.2f (%.0f s)", e->name,
-                          gouge_class_names[r->class], r->severity, r->widening, r->wall_seconds);
+                          run_damage_names[r->class], r->severity, r->widening, r->wall_seconds);
 }
 
 static bool stop_asked(void *user)

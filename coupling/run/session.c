@@ -137,7 +137,7 @@ status run_session_open(const case_inputs *in, const session_options *o, session
     s->threads = o->threads;
     s->lending = o->lending;
     s->stop = o->stop;
-    s->run_scene = gouge_run;
+    s->run_scene = o->run_scene;
     s->started = host_wall_clock();
     s->warnings = strdup(in->warnings);
     CHECK(s->warnings, STATUS_MEMORY, "no memory for the warnings");
@@ -175,52 +175,6 @@ status run_session_close(session *s, bool finished)
     s->record = NULL;
     s->n_records = 0;
     s->warnings = NULL;
-    return done;
-}
-
-/* ---- the shot ---- */
-
-static void warn_of_limits(session *s, const shot_limits *l)
-{
-    const double x = l->transition_position;
-    if (l->contact_ratio < 1.0)
-        run_session_warn(
-            s, "transition: from x = %.3g m on the contact force is below 1 gram-force per ampere (least %.2f)",
-            l->contact_position, l->contact_ratio);
-    if (l->leg_action > 1.0 || l->throat_action > 1.0)
-        run_session_warn(
-            s,
-            "transition: the action melts the armature (leg %.2f, throat %.2f of what melts them), from x = %.3g m on",
-            l->leg_action, l->throat_action, x);
-    if (l->wear_share > 1.0)
-        run_session_warn(
-            s, "transition: wear takes %.2f times armature.wear_thickness, all of it by x = %.3g m at the earliest",
-            l->wear_share, x);
-    if (!isnan(l->critical_position))
-        run_session_warn(s, "rail: from x = %.3g m on the armature outruns the rail's bending waves, %.0f m/s",
-                         l->critical_position, l->critical_velocity);
-}
-
-status run_session_shot(session *s, const case_flight *flight, const site_jump *jump, bool with_history,
-                        shot_outcome *out, shot_record *record)
-{
-    const double since = host_wall_clock();
-    host_progress_task(&s->progress, jump ? "shot with gouges" : "shot", 0.0, 0);
-    const shot_plan plan = {
-        .history = with_history ? s->history : NULL, .progress = &s->progress, .jump = jump, .stop = s->stop
-    };
-    const status done = gouge_shot_run(flight, &plan, out);
-    if (s->history && done.code == STATUS_OK) TRY(output_history_tick(s->history));
-    host_timing_add(&s->timing, "shot", host_wall_clock() - since);
-    int warmest = 0;
-    for (int k = 1; k < SHOT_PIECES; k++)
-        if (out->rail_rise[k] > out->rail_rise[warmest]) warmest = k;
-    *record = (shot_record){ .is = out->summary,
-                             .limits = out->limits,
-                             .rail_rise = out->rail_rise[warmest],
-                             .rail_rise_position = (warmest + 0.5) * flight->launcher.barrel.length / SHOT_PIECES,
-                             .wall_seconds = host_wall_clock() - since };
-    if (done.code == STATUS_OK && with_history) warn_of_limits(s, &out->limits);
     return done;
 }
 

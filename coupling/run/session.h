@@ -6,11 +6,10 @@
 #ifndef BREECH_COUPLING_SESSION_H
 #define BREECH_COUPLING_SESSION_H
 
-#include "coupling/gouge/impact.h"
 #include "coupling/host/outdir.h"
 #include "coupling/run/checkpoint.h"
+#include "coupling/run/impact_job.h"
 #include "coupling/run/scene_entry.h"
-#include "coupling/run/shot_record.h"
 
 /* A scene that was computed. */
 typedef struct {
@@ -27,7 +26,7 @@ typedef struct {
     int threads;
     struct lending *lending; /* borrowed; NULL: there is none */
     bool (*stop)(void);
-    status (*run_scene)(const gouge_job *, const scene_host *, impact *); /* gouge_run; tests put another in */
+    impact_runner run_scene;
     checkpoint_key key;
     checkpoint resumed;           /* empty unless the run goes on */
     double started, wall_before;  /* wall clock; spent before this process [s] */
@@ -45,6 +44,7 @@ typedef struct {
     outdir_options how; /* --force, --resume */
     int threads;
     struct lending *lending; /* between processes (lending.h), borrowed; NULL: none */
+    impact_runner run_scene; /* gouge_run, or a test's; the same in all processes */
     FILE *progress_to;
     bool quiet;
     bool (*stop)(void);
@@ -65,9 +65,5 @@ status run_session_keep(session *s, const scene_record *fresh);
 status run_session_save_inside(void *session, const char *scene, const scene_now *now);
 /* Where the scene of this name is to be taken up; from the start unless the run was stopped inside it. */
 scene_resume run_session_resume_of(const session *s, const char *scene);
-
-/* A shot, with what is asked for in jumps (NULL: none); only the first one of a run writes history. */
-status run_session_shot(session *s, const case_flight *flight, const site_jump *jump, bool with_history,
-                        shot_outcome *out, shot_record *record);
 
 #endif

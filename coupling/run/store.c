@@ -52,7 +52,7 @@ static status read_with(const h5_file *f, const scene_key *key, scene_record *ou
     CHECK(strcmp(text, key->text) == 0, STATUS_IO, "the store's scene %016llx has other inputs",
           (unsigned long long)key->hash);
     TRY(host_h5_read_attribute_text(f, "/", "outcome", text, TEXT_SIZE));
-    TRY(output_object_read(text, gouge_result_keys, &out->entry.result));
+    TRY(output_object_read(text, run_result_keys, &out->entry.result));
     TRY(host_h5_read_attribute_double(f, "/", "impulse_N_s", &out->impulse));
     TRY(host_h5_read_attribute_double(f, "/", "mass_loss_kg", &out->mass_loss));
     out->key = key->hash;

@@ -1,6 +1,7 @@
 #include "coupling/study/check.h"
 
 #include "coupling/case/treatment.h"
+#include "coupling/gouge/scene_from_state.h"
 #include "coupling/scene/scene_fill.h"
 #include "coupling/study/sampling/population.h"
 #include "coupling/study/search/family.h"

@@ -69,7 +69,7 @@ static status fly_with(session *s, const onset_answer *a, const case_sites *site
     shot_record record;
     flight.site = sites->item;
     flight.n_sites = sites->n;
-    const status done = run_session_shot(s, &flight, jump, false, &again, &record);
+    const status done = gouge_session_shot(s, &flight, jump, false, &again, &record);
     *muzzle = record.is.muzzle_velocity;
     gouge_shot_outcome_free(&again);
     return done;

@@ -79,7 +79,7 @@ status study_onset_begin(session *s, const case_onset *c, const char *prefix, bo
     const case_flight flight = case_flight_of(c);
     memset(out, 0, sizeof *out);
     unknown_all(&out->result);
-    TRY(run_session_shot(s, &flight, NULL, with_history, &out->flown, &out->shot));
+    TRY(gouge_session_shot(s, &flight, NULL, with_history, &out->flown, &out->shot));
     TRY(list_sites(c, out));
     return study_families_sort(c, &out->flown, prefix, &out->grains);
 }

@@ -8,6 +8,7 @@
 #ifndef BREECH_COUPLING_ONSET_H
 #define BREECH_COUPLING_ONSET_H
 
+#include "coupling/gouge/session_shot.h"
 #include "coupling/study/repeated.h"
 #include "coupling/study/search/uncertain.h"
 

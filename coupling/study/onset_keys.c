@@ -158,7 +158,7 @@ static void print_scenes(const onset_result *o, FILE *out)
                        output_cell(s->result.groove_growth, 1e6, "%.3f", growth),
                        output_cell(s->gauged ? NAN : s->result.widening, 1.0, "%.2f", widening),
                        output_cell(s->gauged ? NAN : s->result.crater_depth, 1e-3, "%.3f", d),
-                       gouge_class_names[s->result.class],
+                       run_damage_names[s->result.class],
                        s->reused ? "reused" : output_cell(s->result.wall_seconds, 1.0, "%.1f", w));
     }
     close_table(t, out);

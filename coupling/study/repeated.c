@@ -1,4 +1,5 @@
 #include "coupling/study/repeated.h"
+#include "coupling/gouge/session_shot.h"
 
 #include "coupling/study/sampling/gouge_law.h"
 
@@ -81,7 +82,7 @@ static status fly(session *s, const case_onset *c, int number, const rises rise,
     shot_outcome flown;
     shot_record record;
     warm.launcher.rails.initial_temperature += mean;
-    const status done = run_session_shot(s, &warm, NULL, false, &flown, &record);
+    const status done = gouge_session_shot(s, &warm, NULL, false, &flown, &record);
     if (done.code == STATUS_OK) {
         study_mc_velocities(&flown, c->launcher.barrel.length, out->along[number].v);
         out->shot[number].muzzle_velocity = record.is.muzzle_velocity;

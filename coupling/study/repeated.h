@@ -9,6 +9,7 @@
 #ifndef BREECH_COUPLING_REPEATED_H
 #define BREECH_COUPLING_REPEATED_H
 
+#include "coupling/run/shot_record.h"
 #include "coupling/study/sampling/montecarlo.h"
 
 /* One shot. */

@@ -79,7 +79,7 @@ static status fly_changed(session *s, const onset_answer *a, const changed_input
     status done = own_supplies(&flight.launcher, copy);
     if (done.code == STATUS_OK) {
         input->change(&flight.launcher, 1.0 + CHANGE);
-        done = run_session_shot(s, &flight, NULL, false, flown, record);
+        done = gouge_session_shot(s, &flight, NULL, false, flown, record);
     }
     for (int k = 0; k < SUPPLY_KINDS; k++) free(copy[k]);
     return done;

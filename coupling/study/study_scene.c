@@ -1,5 +1,6 @@
 /* breech scene: one embedded impact at a given velocity. */
 #include "coupling/study/study.h"
+#include "coupling/gouge/scene_from_state.h"
 #include "coupling/report/report_page.h"
 
 static int scenes(const study_case *of, scene_query *out)
@@ -25,8 +26,8 @@ static status run(session *s, const study_case *of, study_answer *out)
 static void print(const void *result, FILE *out)
 {
     const scene_result *r = result;
-    output_keys_print(&(summary_object){ gouge_result_keys, r }, out);
-    if (r->reason[0]) fprintf(out, "\n%s: %s\n", gouge_class_names[r->class], r->reason);
+    output_keys_print(&(summary_object){ run_result_keys, r }, out);
+    if (r->reason[0]) fprintf(out, "\n%s: %s\n", run_damage_names[r->class], r->reason);
 }
 
 extern const study study_bodies; /* study_bodies.c: no line of study.def, no command of its own */
@@ -38,7 +39,7 @@ const study study_scene = {
         "Needs rail, armature, particle and scene, with scene.velocity and particle.radius; or a scene with bodies.",
     .of_bodies = &study_bodies,
     .needs = CASE_FOR_SCENE,
-    .keys = gouge_result_keys,
+    .keys = run_result_keys,
     .can_vary = true,
     .report = { report_scene_verdict, NULL },
     .print = print,

@@ -1,5 +1,6 @@
 /* breech shot: the electromechanical shot alone, with the firing times that the case wishes to be found. */
 #include "coupling/study/study.h"
+#include "coupling/gouge/session_shot.h"
 #include "coupling/report/report_page.h"
 
 #include <stdlib.h>
@@ -21,7 +22,7 @@ static status shoot(session *s, const case_flight *flight, bool with_history, st
 {
     shot_answer *a = out->owned;
     shot_outcome o;
-    const status done = run_session_shot(s, flight, NULL, with_history, &o, &a->record);
+    const status done = gouge_session_shot(s, flight, NULL, with_history, &o, &a->record);
     gouge_shot_outcome_free(&o);
     if (done.code == STATUS_OK) out->result = &a->record;
     return done;

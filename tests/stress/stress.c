@@ -292,7 +292,7 @@ static void run_case(const breech_case *c, const recipe *r, chance *luck, outcom
         job.name = job.task = "stress";
         const scene_host host = { .threads = 1, .save = on_save, .user = o };
         s = add_fragments(&job.scene, luck, r);
-        if (s.code == STATUS_OK) s = gouge_run(&job, &host, &hit);
+        if (s.code == STATUS_OK) s = gouge_job_run(&job, &host, &hit);
         gouge_job_free(&job);
     }
     if (s.code != STATUS_OK) {
@@ -302,7 +302,7 @@ static void run_case(const breech_case *c, const recipe *r, chance *luck, outcom
     const scene_result *e = &hit.result;
     if (!(fabs(e->energy_error) <= o->energy)) o->energy = fabs(e->energy_error);
     if (!(e->momentum_error <= o->momentum)) o->momentum = e->momentum_error;
-    snprintf(o->class, sizeof o->class, "%s", gouge_class_names[e->class]);
+    snprintf(o->class, sizeof o->class, "%s", run_damage_names[e->class]);
     judge(o);
 }
 

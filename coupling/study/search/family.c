@@ -122,7 +122,7 @@ static int middle_size(const surface_plan *p)
 static status plan_searches(grain_families *f)
 {
     const case_study *y = &f->c->study;
-    const bool by_growth = gouge_is_gauged(&f->probe);
+    const bool by_growth = case_impact_is_gauged(&f->probe);
     const int craters = by_growth ? y->craters * f->n : 0;
     double sure;
     TRY(gouge_screen_velocity(case_surface_of(f->c), y->screen_low, &sure));
@@ -153,7 +153,7 @@ case_impact study_family_probe(const case_onset *c)
 {
     case_impact probe = c->impact;
     probe.scene.stop_when_gauged = c->study.judge == JUDGE_GROWTH;
-    if (gouge_is_gauged(&probe)) probe.snapshots = 0;
+    if (case_impact_is_gauged(&probe)) probe.snapshots = 0;
     return probe;
 }
 

@@ -10,6 +10,7 @@
 #ifndef BREECH_COUPLING_FAMILY_H
 #define BREECH_COUPLING_FAMILY_H
 
+#include "coupling/gouge/site_state.h"
 #include "coupling/run/scenes.h"
 #include "coupling/study/search/surface.h"
 

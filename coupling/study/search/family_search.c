@@ -3,6 +3,8 @@
 #include "coupling/study/search/family.h"
 
 #include "coupling/gouge/growth.h"
+#include "coupling/gouge/scene_from_state.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,7 +55,7 @@ static scene_query query_of(const family_search *s, const family_wanted *w)
     char size[32] = "";
     if (s->family->plan.sizes > 1) snprintf(size, sizeof size, "-r%.6g", 1e3 * radius);
     snprintf(q.name, sizeof q.name, "%.40sg%d%s-v%g-c%g%s", s->of->prefix, s->number, size, velocity, cells,
-             gouge_is_gauged(from) ? "-growth" : "");
+             case_impact_is_gauged(from) ? "-growth" : "");
     return q;
 }
 
@@ -243,7 +245,7 @@ typedef struct {
 
 static bool is_longer(const scene_query *a, const scene_query *b)
 {
-    const bool whole[2] = { !gouge_is_gauged(&a->impact), !gouge_is_gauged(&b->impact) };
+    const bool whole[2] = { !case_impact_is_gauged(&a->impact), !case_impact_is_gauged(&b->impact) };
     return whole[0] != whole[1] ? whole[0] : a->impact.scene.cells_per_radius > b->impact.scene.cells_per_radius;
 }
 

@@ -31,7 +31,7 @@
 #define BREECH_COUPLING_THRESHOLD_H
 
 #include "base/status.h"
-#include "coupling/gouge/crater.h"
+#include "coupling/run/damage_class.h"
 
 #include <stdbool.h>
 

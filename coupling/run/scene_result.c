@@ -1,7 +1,7 @@
-#include "coupling/gouge/result.h"
+#include "coupling/run/scene_result.h"
 
-const summary_key gouge_result_keys[] = {
-    SUMMARY_CHOICE(scene_result, "class", class, gouge_class_names, "none, scratch, gouge, undecided"),
+const summary_key run_result_keys[] = {
+    SUMMARY_CHOICE(scene_result, "class", class, run_damage_names, "none, scratch, gouge, undecided"),
     SUMMARY_TEXT(scene_result, "reason", reason, "the numbers behind the class"),
     SUMMARY_NUMBER(scene_result, "severity", severity, "1",
                    "(lean x volume - plan area x height of the grain) / its volume; gouging grows above 0"),
