@@ -97,6 +97,7 @@ static void particle_make(double *q, const build_point *p, const law *k, double 
     q[FIRST_ka] = p->ka;
     q[FIRST_rho] = k->rho_start;
     q[FIRST_e] = k->e_start;
+    q[FIRST_p] = k->p_start;
     q[FIRST_flow] = k->flow_start;
     q[FIRST_T] = temperature;
     q[FIRST_mass] = p->mass;

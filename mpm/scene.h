@@ -33,6 +33,7 @@ typedef struct {
     double velocity[3];   /* of its centre of mass at the start [m/s] */
     double spin[3];       /* at the start: v = velocity + spin x (x - centre of mass) [rad/s] */
     double temperature;   /* at the start [K] */
+    double pressure;      /* at the start, from that of the surroundings; NAN: that at rest [Pa] */
     double body_force[3]; /* acceleration on the whole body (J x B, pressing) [m/s2] */
     double traction[3];   /* on all of its surface that looks towards `traction_face` [Pa]; zero = none */
     int traction_face;    /* 0..5 = -x +x -y +y -z +z */
@@ -114,6 +115,7 @@ typedef struct {
     double courant;         /* of c + |v|, on each level by its own steps and cells */
     double end_time;        /* [s] */
     double viscosity_linear, viscosity_quadratic; /* (M-5) [1] */
+    double surroundings; /* absolute pressure around the bodies; NAN: that at which each gas is at rest [Pa] */
     transfer_kind transfer;
     basis_kind basis;
     bool heat_by_plastic_work;             /* option `plastic` of (M-4); default false: by energy */

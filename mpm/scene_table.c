@@ -32,6 +32,7 @@ const param mpm_body_params[] = {
     PARAM_VEC3(mpm_body, velocity, "m/s", 0.0, -1e6, 1e6, "at the start"),
     PARAM_VEC3(mpm_body, spin, "rad/s", 0.0, -1e9, 1e9, "at the start, about its centre of mass"),
     PARAM_DOUBLE(mpm_body, temperature, "K", 293.0, 0.0, 1e5, "at the start"),
+    PARAM_DOUBLE(mpm_body, pressure, "Pa", OPTIONAL, -1e13, 1e13, "at the start; not given: at rest"),
     PARAM_VEC3(mpm_body, body_force, "m/s^2", 0.0, -1e15, 1e15, "acceleration of the whole body"),
     PARAM_VEC3(mpm_body, traction, "Pa", 0.0, -1e15, 1e15, "on its surface towards traction_face"),
     PARAM_ENUM(mpm_body, traction_face, faces, 0, "where the traction acts"),
@@ -80,6 +81,7 @@ const param mpm_follow_params[] = {
 
 const param mpm_scene_params[] = {
     PARAM_INT(mpm_scene, levels, 1, 1, MPM_MAX_LEVELS, "nested grids"),
+    PARAM_DOUBLE(mpm_scene, surroundings, "Pa", OPTIONAL, 0.0, 1e12, "absolute pressure around the bodies"),
     PARAM_DOUBLE(mpm_scene, contact_gap, "1", 0.9, 0.0, 10.0, "in cells: nearer groups touch"),
     PARAM_INT(mpm_scene, particles_per_axis, 2, 1, 4, "material points a cell and axis"),
     PARAM_DOUBLE(mpm_scene, courant, "1", 0.4, 0.0, 0.6, "of sound speed and velocity"),

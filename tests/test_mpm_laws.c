@@ -221,6 +221,62 @@ static void test_warm(void **state)
     for_every(*state, offsetof(material, eos), sizeof names / sizeof names[0], MATERIAL_FOR_SCENE, check_warm);
 }
 
+static law gas_in(const material *m, double surroundings, double temperature, double pressure)
+{
+    mpm_scene s;
+    mpm_scene_default(&s);
+    s.surroundings = surroundings;
+    const mpm_body b = { .material = m, .temperature = temperature, .pressure = pressure, .yield_scale = 1 };
+    law k;
+    assert_ok(mpm_law_make(&b, &s, &k));
+    return k;
+}
+
+/* The same gas with pressures that count from elsewhere, e from rest with the work of that difference:
+ *   p' = p + A,   e' = e + A (1/rho0 - 1/rho),   A = P0 - Pa;   c and T are the same.
+ * A body that begins at a pressure of its own has that and its temperature, whatever surrounds it. */
+static void check_surroundings(const material *m)
+{
+    if (m->eos != EOS_stiffened_gas) return;
+    const double A = m->gas_pressure, T = m->reference_temperature;
+    const law rest = gas_in(m, NAN, T, NAN), same = gas_in(m, A, T, NAN), empty = gas_in(m, 0, T, NAN);
+    const double scale = rest.K0 * rest.volume0;
+    assert_near(empty.p_start, A, 0);
+    assert_near(empty.rho_start / m->density, 1, 1e-12);
+    for (double mu = -0.8; mu < 2; mu += 0.1) {
+        const double e = 0.1 * mu * scale, work = A * rest.volume0 * mu / (1 + mu);
+        const double p = p_at(&rest, mu, e, 0), p_empty = p_at(&empty, mu, e + work, 0);
+        assert_near(p_at(&same, mu, e, 0), p, 1e-12 * rest.K0);
+        assert_near(p_empty, p + A, 1e-9 * rest.K0);
+        const vd volume = vd_set(rest.volume0 / (1 + mu)), none = vd_set(0);
+        assert_near(wave_speed_square(&empty, form(&empty), volume, vd_set(p_empty), none)[0] /
+                        wave_speed_square(&rest, form(&rest), volume, vd_set(p), none)[0],
+                    1, 1e-9);
+        const vd ref[2] = { reference_energy(&rest, form(&rest), vd_set(mu)),
+                            reference_energy(&empty, form(&empty), vd_set(mu)) };
+        assert_near(temperature(&empty, vd_set(e + work), ref[1], none)[0] /
+                        temperature(&rest, vd_set(e), ref[0], none)[0],
+                    1, 1e-6);
+    }
+    const law thin = gas_in(m, 0, 0.8 * T, 0.1 * A);
+    const double mu = thin.rho_start / thin.rho0 - 1;
+    assert_near(p_at(&thin, mu, thin.e_start, 0), 0.1 * A, 2e-9 * thin.K0);
+    assert_near(
+        temperature(&thin, vd_set(thin.e_start), reference_energy(&thin, form(&thin), vd_set(mu)), vd_set(0))[0],
+        0.8 * T, 1e-5 * T);
+    if (m->gas_stiffness <= 0) assert_near(thin.rho_start / m->density, 0.125, 0.02 * 0.125); /* P = rho R T */
+    assert_near(thin.p_start, 0.1 * A, 0);
+}
+
+static void test_surroundings(void **state)
+{
+    const char *const names[] = {
+#define EOS(name, text) #name,
+#include "mpm/law/eos.def"
+    };
+    for_every(*state, offsetof(material, eos), sizeof names / sizeof names[0], MATERIAL_FOR_SCENE, check_surroundings);
+}
+
 /* ---- failure ---- */
 
 static void check_failure(const material *m)
@@ -256,10 +312,8 @@ static void test_failure(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_strength),
-        cmocka_unit_test(test_eos),
-        cmocka_unit_test(test_warm),
-        cmocka_unit_test(test_failure),
+        cmocka_unit_test(test_strength),     cmocka_unit_test(test_eos),     cmocka_unit_test(test_warm),
+        cmocka_unit_test(test_surroundings), cmocka_unit_test(test_failure),
     };
     return cmocka_run_group_tests(tests, open_shelf, close_shelf);
 }

@@ -71,7 +71,7 @@ static void test_pressure(void **state)
     (void)state;
     const material m = scene_copper();
     mpm *solver = cubes(&m);
-    double out[5];
+    double out[6];
     each_point(solver, hydrostatic);
     mpm_probe at = probe("pressure", -1), box = probe("face", -1);
     set(&at, "at", 0, 0.5e-3, 0);
@@ -80,6 +80,7 @@ static void test_pressure(void **state)
     assert_near(out[1] - out[2], -1e8, 1);
     assert_near(out[3] + out[0], -3e8, 1);
     assert_near(out[4], 0.25e-3 * 0.25e-3 * 0.25e-3, 1e-22); /* a cell of the grid */
+    assert_near(out[5] / m.density, 1, 1e-12);
     set(&at, "at", 0, 0.53e-3, 0);
     look(solver, &at, out);
     assert_near(out[0], P0 + DPDY * 0.53e-3, DPDY * 0.25 * 0.125e-3);
@@ -118,7 +119,7 @@ static void test_force(void **state)
     scene_box(&s, 0, -1, -1, 8e-3, 1, 1, &m)->group = 1;
     mpm *solver = scene_make(&s, 1);
     assert_ok(mpm_advance(solver, 0.9e-6, NULL));
-    double push[3], pull[3], p[5], mean[3] = { 0 };
+    double push[3], pull[3], p[6], mean[3] = { 0 };
     mpm_probe on = probe("force", 1), by = probe("force", 0), face = probe("face", -1);
     for (int i = 0; i < 20; i++) { /* of some steps: points that cross cells make it tremble */
         scene_steps(solver, 1);

@@ -25,6 +25,10 @@ const param case_method_params[] = {
     PARAM_DOUBLE(mpm_scene, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),
     PARAM_DOUBLE(mpm_scene, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),
     PARAM_INT(mpm_scene, particles_per_axis, 2, 2, 3, "material points a cell and axis"),
+    PARAM_DOUBLE(
+        mpm_scene, surroundings, "Pa", OPTIONAL, 0.0, 1e12,
+        "absolute pressure around the bodies, from which pressures count; not given: that at which each gas is "
+        "at rest"),
     PARAM_DOUBLE(mpm_scene, contact_gap, "1", 0.9, 0.0, 3.0, "groups touch when nearer than this, in cells"),
     PARAM_ENUM(mpm_scene, transfer, case_transfer_names, TRANSFER_TPIC, "how velocity goes between points and grid"),
     PARAM_ENUM(mpm_scene, basis, case_basis_names, BASIS_GIMP, "shape functions"),
@@ -54,6 +58,8 @@ const param case_body_params[] = {
     PARAM_VEC3(mpm_body, velocity, "m/s", 0.0, -1e5, 1e5, "at the start"),
     PARAM_VEC3(mpm_body, spin, "rad/s", 0.0, -1e9, 1e9, "at the start, about its centre of mass"),
     PARAM_DOUBLE(mpm_body, temperature, "K", 293.0, 0.1, 1e5, "at the start"),
+    PARAM_DOUBLE(mpm_body, pressure, "Pa", OPTIONAL, -1e12, 1e12,
+                 "at the start, from that of the surroundings; not given: that at which its material is at rest"),
     PARAM_VEC3(mpm_body, body_force, "m/s^2", 0.0, -1e15, 1e15, "acceleration of all of it"),
     PARAM_VEC3(mpm_body, traction, "Pa", 0.0, -1e13, 1e13, "on all of its surface that looks towards traction_face"),
     PARAM_ENUM(mpm_body, traction_face, face_names, 0, "where that surface looks"),
@@ -658,6 +664,7 @@ void case_bodies_write(const case_bodies *b, FILE *file)
     const mpm_scene *s = &b->scene;
     fputs("scene:\n", file);
     for (const param *p = case_method_params; p->key; p++) {
+        if (!case_value_is_set(p, (const char *)s + p->offset)) continue;
         fprintf(file, "  %s: ", p->key);
         case_value_write(p, (const char *)s + p->offset, file);
         fputc('\n', file);

@@ -50,25 +50,26 @@ static double reference_at(const law *k, double mu)
     return NAN;
 }
 
-/* Energy and density at which the temperature is the body's and the pressure zero. */
-static void start_at(law *k, double temperature)
+/* Energy and density at which temperature and pressure are the body's. */
+static void start_at(law *k, double temperature, double pressure)
 {
     enum { ITERATIONS = 200 };
     const double thermal = k->c_v * (temperature - k->T_r) + (temperature > k->T_m ? k->latent : 0);
     double mu = 0;
     k->e_start = thermal;
     for (int i = 0; i < ITERATIONS; i++) {
-        mu = fmin(fmax(mu - pressure_at(k, mu, k->e_start) / k->K0, k->mu_least), k->mu_most);
+        mu = fmin(fmax(mu - (pressure_at(k, mu, k->e_start) - pressure) / k->K0, k->mu_least), k->mu_most);
         k->e_start = thermal + reference_at(k, mu);
     }
     /* K0 for the slope will not do for a hot gas. */
     double lo = k->mu_least, hi = k->mu_most;
-    for (int i = 0; i < ITERATIONS && fabs(pressure_at(k, mu, k->e_start)) > 1e-9 * k->K0; i++) {
+    for (int i = 0; i < ITERATIONS && fabs(pressure_at(k, mu, k->e_start) - pressure) > 1e-9 * k->K0; i++) {
         mu = 0.5 * (lo + hi);
         k->e_start = thermal + reference_at(k, mu);
-        *(pressure_at(k, mu, k->e_start) > 0 ? &hi : &lo) = mu;
+        *(pressure_at(k, mu, k->e_start) > pressure ? &hi : &lo) = mu;
     }
     k->rho_start = k->rho0 * (1 + mu);
+    k->p_start = pressure;
 }
 
 static void thermal(law *k, const material *m)
@@ -100,6 +101,7 @@ status mpm_law_make(const mpm_body *body, const mpm_scene *scene, law *out)
     k.G = k.shear == SHEAR_FIXED ? mpm_material_shear_modulus(&m) : 0;
     k.spall = HUGE_VAL;
     k.volume_max = 20 * k.volume0;
+    k.surroundings = scene->surroundings;
     k.q1 = scene->viscosity_linear, k.q2 = scene->viscosity_quadratic;
     k.plastic_heat = scene->heat_by_plastic_work;
     k.chi = isnan(m.taylor_quinney) ? 0.9 : m.taylor_quinney;
@@ -109,7 +111,7 @@ status mpm_law_make(const mpm_body *body, const mpm_scene *scene, law *out)
     TRY(derive_strength(&k, &m, body->yield_scale > 0 ? body->yield_scale : 1));
     TRY(derive_failure(&k, &m));
     k.least_flow *= 1 - k.softening;
-    start_at(&k, body->temperature);
+    start_at(&k, body->temperature, isnan(body->pressure) ? k.p_rest : body->pressure);
     *out = k;
     return status_ok();
 }

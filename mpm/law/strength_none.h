@@ -2,7 +2,7 @@
  * pressure it cavitates: it holds that pressure at any volume, without loss, and closes again when it is squeezed. */
 STRENGTH(none, NONE, "none: a fluid")
 CONSTANT(cavitation_pressure, "Pa", OPTIONAL, -1e9, 0.0,
-         "least pressure of a fluid, from that of the surroundings; not given: 0, of an ideal gas: vacuum")
+         "least pressure of a fluid, from that at rest; not given: 0, of an ideal gas: vacuum")
 CONSTANT(viscosity_linear, "1", OPTIONAL, 0.0, 10.0, "of a fluid, in place of the scene's linear viscosity (M-5)")
 CONSTANT(viscosity_quadratic, "1", OPTIONAL, 0.0, 10.0, "of a fluid, in place of the scene's quadratic viscosity (M-5)")
 
@@ -16,7 +16,7 @@ typedef struct {
 static status strength_none_derive(law *k, const material *m, double scale)
 {
     (void)scale;
-    k->strength.none.least_pressure = isnan(m->cavitation_pressure) ? k->vacuum : m->cavitation_pressure;
+    k->strength.none.least_pressure = k->p_rest + (isnan(m->cavitation_pressure) ? k->vacuum : m->cavitation_pressure);
     k->flow_start = k->least_flow = 0;
     k->rho_dust = 0; /* spray and vapour are a fluid too */
     if (!isnan(m->viscosity_linear)) k->q1 = m->viscosity_linear;

@@ -72,7 +72,7 @@ status mpm_probe_read(const mpm *m, const mpm_probe *p, double *out)
 typedef struct {
     const double *lo, *hi;
     int body;
-    double sum[PROBE_BOX_COLUMNS]; /* volume-weighted, last the volume itself */
+    double sum[PROBE_BOX_COLUMNS]; /* volume-weighted; the volume itself; mass */
 } box_sum;
 
 /* Part of a point's domain that lies in the box [1]. */
@@ -105,7 +105,7 @@ static void add_box(void *user, const mpm *m, const brick *b, int index)
     for (int l = 0; l < LANES; l++) {
         if (!(q->mass[0][l] > 0)) continue;
         const double volume = part_inside(q, l, s->lo, s->hi) * q->mass[0][l] / q->rho[0][l], p = q->p[0][l];
-        const double add[PROBE_BOX_COLUMNS] = { p, q->s[0][l] - p, q->s[1][l] - p, q->s[2][l] - p, 1 };
+        const double add[PROBE_BOX_COLUMNS] = { p, q->s[0][l] - p, q->s[1][l] - p, q->s[2][l] - p, 1, q->rho[0][l] };
         for (int i = 0; i < PROBE_BOX_COLUMNS; i++) s->sum[i] += volume * add[i];
     }
 }
@@ -116,12 +116,13 @@ void mpm_probe_box_mean(const mpm *m, int body, const double lo[3], const double
     const box_sum none = { .lo = lo, .hi = hi, .body = body };
     for (int i = 0; i < SHARES; i++) share[i] = none;
     mpm_visit_shares(m, add_box, share, sizeof *share);
-    double *volume = &out[PROBE_BOX_COLUMNS - 1];
+    const double *volume = &out[PROBE_BOX_VOLUME];
     for (int k = 0; k < PROBE_BOX_COLUMNS; k++) {
         out[k] = 0;
         for (int i = 0; i < SHARES; i++) out[k] += share[i].sum[k];
     }
-    for (int k = 0; k < PROBE_BOX_COLUMNS - 1; k++) out[k] = *volume > 0 ? out[k] / *volume : NAN;
+    for (int k = 0; k < PROBE_BOX_COLUMNS; k++)
+        if (k != PROBE_BOX_VOLUME) out[k] = *volume > 0 ? out[k] / *volume : NAN;
 }
 
 const mpm_column mpm_probe_box_columns[PROBE_BOX_COLUMNS + 1] = {
@@ -130,6 +131,7 @@ const mpm_column mpm_probe_box_columns[PROBE_BOX_COLUMNS + 1] = {
     { "stress_yy", "Pa", "the same along y" },
     { "stress_zz", "Pa", "the same along z" },
     { "volume", "m^3", "of the points there" },
+    { "density", "kg/m^3", "mean density of the points there" },
     { NULL, NULL, NULL },
 };
 
