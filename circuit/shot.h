@@ -160,7 +160,6 @@ typedef struct {
     double film_thickness;          /* of that melt, one face [m] */
     double contact_spread;          /* length of the contact over which the current enters, (C-22) [m] */
     double rail_behind_temperature; /* rail surface one contact length behind, estimate (C-17) [K] */
-    double inductance_gradient, resistance_gradient; /* 2 F/I^2 and the rails' heat over x I^2 [H/m, ohm/m] */
     shot_phase phase;
     shot_ledger ledger;
 } shot_state;

@@ -122,13 +122,6 @@ double circuit_shot_rails_warming(const shot_model *m, int f, const double *z)
     return circuit_rails_warming(&m->rails, segment_length(m, f, z), z + memory_unknown(m, f));
 }
 
-double circuit_shot_rails_heat(const shot_model *m, const shot_drive *d, const double *z)
-{
-    double heat = 0.0, I = 0.0, len, v;
-    for (int f = 0; f < m->reached; f++) heat += segment_flow(m, f, I += d->I[f], z, &len, &v).heat;
-    return heat;
-}
-
 /* Loop ahead of the armature, through the shunt: its inductance. */
 static double shunt_inductance(const shot_model *m, const double *z)
 {

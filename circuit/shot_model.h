@@ -80,7 +80,6 @@ double circuit_shot_current_slope(const shot_model *m, const shot_drive *d, cons
 int circuit_shot_feed_unknown(int feed);                              /* of its voltage, in the tail */
 status circuit_shot_rails_fit(const shot_config *c, rails_load *out); /* circuit/shot_rails.c */
 double circuit_shot_rails_field(const shot_model *m, const shot_drive *d, const double *z); /* [J] */
-double circuit_shot_rails_heat(const shot_model *m, const shot_drive *d, const double *z);  /* [W] */
 double circuit_shot_rails_warming(const shot_model *m, int f, const double *z);             /* of segment f [1] */
 
 /* ---- the armature: circuit/shot_armature.c ---- */

@@ -60,13 +60,6 @@ shot_ledger circuit_shot_ledger_now(const shot *s)
     return l;
 }
 
-/* The rails' heat over x I^2, direct current's where there is none to see. */
-static double resistance_gradient(const shot *s, const shot_drive *d, double I)
-{
-    const double *z = circuit_shot_z(s), loss = z[Y_X] * I * I;
-    return loss > 0.0 ? circuit_shot_rails_heat(&s->model, d, z) / loss : s->model.rails.ladder.R_dc;
-}
-
 shot_state circuit_shot_now(const shot *s)
 {
     const double *z = circuit_shot_z(s);
@@ -86,8 +79,6 @@ shot_state circuit_shot_now(const shot *s)
     st.mass = z[Y_MASS];
     st.phase = m->phase;
     st.muzzle_voltage = f.voltage;
-    st.inductance_gradient = circuit_rails_force_gradient(&m->rails, st.phase == SHOT_HELD ? 0.0 : st.v, f.I);
-    st.resistance_gradient = resistance_gradient(s, &d, f.I);
     st.rail_temperature = s->rail_temperature;
     st.ledger = circuit_shot_ledger_now(s);
     st.armature_temperature = circuit_shot_face_temperature(s, &f);

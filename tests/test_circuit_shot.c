@@ -667,8 +667,7 @@ static void shot_of_default_case(void **state)
     const shot_summary r = circuit_shot_result(s);
     const shot_state now = circuit_shot_now(s);
     const double frequency = circuit_shot_effective_frequency(c.supplies);
-    print_message("f %.1f Hz, L' %.4f uH/m, R' %.1f uohm/m\n", frequency, 1e6 * now.inductance_gradient,
-                  1e6 * now.resistance_gradient);
+    print_message("f %.1f Hz\n", frequency);
     print_message(
         "peak %.1f kA, muzzle %.1f m/s at %.3f ms, efficiency %.3f, energy error %.1e, worst %.1e, %llu steps\n",
         1e-3 * r.peak_current, r.muzzle_velocity, 1e3 * r.muzzle_time, r.efficiency, r.energy_error, rec.worst_energy,

@@ -117,7 +117,7 @@ static int cells_across(double length, double first, double growth)
 
 status circuit_filaments_create(const rail_section *s, double depth, double fineness, filaments *out)
 {
-    *out = (filaments){ .fineness = fineness };
+    *out = (filaments){ .n = 0 };
     const double first = depth / fineness, growth = 1.0 + 1.5 / fineness, half = 0.5 * s->height;
     const double longest = fmax(s->thickness, half),
                  least = fmin(first, 0.25 * fmin(s->thickness - s->cladding, half) / fineness);

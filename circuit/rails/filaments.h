@@ -17,7 +17,6 @@ typedef struct {
 
 typedef struct {
     int n, nx, ny;
-    double fineness; /* cells over the skin depth that was asked for */
     filament *cell;
     double *R; /* of each, times circuit_section_weight [ohm/m] */
 } filaments;

@@ -25,8 +25,6 @@ typedef struct {
     double x, y; /* [m] */
 } section_point;
 
-enum { SECTION_MAX_IMAGES = 8 };
-
 status circuit_section_check(const rail_section *s); /* STATUS_BAD_INPUT names the key, its value and range */
 
 double circuit_section_face(const rail_section *s, double y); /* x of the bore face at |y| <= h/2 [m] */

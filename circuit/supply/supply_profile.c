@@ -26,7 +26,6 @@ const param circuit_supply_point_params[] = {
 typedef struct {
     gsl_interp *interp;
     int n;
-    double peak;
     double *t, *i; /* n each, in one piece */
 } profile_curve;
 
@@ -70,7 +69,6 @@ static status prepare(supply_group *g)
     profile_curve *c = g->curve = calloc(1, sizeof *c);
     CHECK(c, STATUS_MEMORY, "out of memory for a current profile");
     c->n = p->points.n;
-    c->peak = peak_of(p);
     c->t = malloc(2 * n * sizeof *c->t);
     gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* GSL's own ends the program */
     c->interp = gsl_interp_alloc(gsl_interp_steffen, n);

@@ -50,18 +50,15 @@ static double highest(const crater *c, const crater_outline *o, double margin, d
     return height;
 }
 
-/* (M-20) of the cells with |z| > beside; a cell across that line counts by its share outside. */
-static double volume_of(const crater *c, double beside)
+/* (M-20) */
+static double volume_of(const crater *c)
 {
     double volume = 0.0;
-    for (int j = 0; j < c->nz; j++) {
-        const double z = fabs(c->z0 + c->dz * j);
-        const double share = beside > 0.0 ? fmin(fmax((z - beside) / c->dz + 0.5, 0.0), 1.0) : 1.0;
-        for (int i = 0; share > 0.0 && i < c->nx; i++) {
+    for (int j = 0; j < c->nz; j++)
+        for (int i = 0; i < c->nx; i++) {
             const double d = c->depth_map[(size_t)i * (size_t)c->nz + (size_t)j];
-            volume += share * d * weight(d, c->measuring_depth);
+            volume += d * weight(d, c->measuring_depth);
         }
-    }
     return volume * c->dx * c->dz;
 }
 
@@ -117,8 +114,7 @@ static void classify(const crater_spec *spec, double rim_downstream, crater *c)
 
 static void measure(const crater_spec *spec, const crater_outline *o, crater *c)
 {
-    c->volume = volume_of(c, 0.0);
-    c->volume_beside = volume_of(c, spec->particle_radius);
+    c->volume = volume_of(c);
     c->severity = -spec->particle_area * spec->particle_height / spec->particle_volume; /* (M-21) of no crater */
     if (o->first < 0) {
         c->class = DAMAGE_NONE;

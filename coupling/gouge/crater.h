@@ -17,7 +17,7 @@
  *   length, width     extents of the outline along x, and across z at its widest
  *   depth, deepest_x  largest d and where
  *   volume     V = sum of d w(d) over all cells, w rising smoothly from 0 at d_m to 1 at 1.5 d_m              (M-20)
- *   [m3] volume_beside  the part of V beside the particle's own track, |z| > particle_radius
+ *   [m3]
  *   lean       6 <x - x_middle> / length, the mean over V: 0 for a groove of constant section, 1 for a wedge that
  *   begins at
  *              a point, negative for a groove that dies out
@@ -49,8 +49,6 @@ typedef struct {
     const double *position; /* n x 3 [m] */
     const double *size;     /* n x 3 half lengths [m] */
     const double *damage;   /* n, failed at 1 */
-    const double *mass;     /* n [kg]; not used, may be NULL */
-    const double *start;    /* n x 3 [m]; not used, may be NULL */
 } crater_points;
 
 typedef struct {
@@ -60,18 +58,17 @@ typedef struct {
     double cell;                             /* size of a map cell [m] */
     double particle_radius, particle_height; /* of the grain, which sat at z = 0 [m] */
     double particle_volume, particle_area;   /* of the whole grain [m3, m2] */
-    double particle_x;                       /* where it sat [m]; not used: the crater need not begin there */
     double limit_widening;                   /* 1.5 */
     double limit_severity;                   /* 0 */
 } crater_spec;
 
 typedef struct {
     damage_class class;
-    char reason[200];                                               /* the numbers behind the class, in words */
-    double severity, widening, lean;                                /* [1]; without a crater all but severity is 0 */
-    double length, width, depth, volume, volume_beside, rim_height; /* [m, m3] */
-    double rim_x, deepest_x;                                        /* [m] */
-    double measuring_depth;                                         /* d_m [m] */
+    char reason[200];                                /* the numbers behind the class, in words */
+    double severity, widening, lean;                 /* [1]; without a crater all but severity is 0 */
+    double length, width, depth, volume, rim_height; /* [m, m3] */
+    double rim_x, deepest_x;                         /* [m] */
+    double measuring_depth;                          /* d_m [m] */
     bool truncated;        /* the crater reaches the map's edge: length and volume are lower bounds */
     int nx, nz;            /* the map, full width */
     double x0, z0, dx, dz; /* first map cell's centre and spacing [m] */

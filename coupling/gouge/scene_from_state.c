@@ -466,7 +466,6 @@ static crater_spec spec_of(const case_impact *c, const case_site *g, const mpm_s
                          .cell = s->axis[0].fine,
                          .particle_radius = g->radius,
                          .particle_height = g->height,
-                         .particle_x = 0.0,
                          .limit_widening = c->scene.limit_widening,
                          .limit_severity = c->scene.limit_severity };
     measure_grain(g, &spec.particle_area, &spec.particle_volume);

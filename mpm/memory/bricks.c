@@ -130,14 +130,12 @@ static status grow_bricks(mpm *m)
 
 status mpm_store_brick(mpm *m, int group, int level, const int at[3], int *out)
 {
-    const int site = site_index(m, level, at);
-    int *slot = &m->directory[group * m->grids.sites + site];
+    int *slot = &m->directory[group * m->grids.sites + site_index(m, level, at)];
     if (*slot < 0) {
         TRY(grow_bricks(m));
         brick *b = &m->bricks[m->bricks_used];
         memset(b, 0, sizeof *b);
         b->group = group, b->level = level;
-        b->site = site;
         b->seam = mpm_interface_nodes(m, level, at);
         b->at_seam = seam_any(&b->seam);
         memcpy(b->at, at, sizeof b->at);

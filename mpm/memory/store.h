@@ -125,8 +125,7 @@ typedef struct {
 
 typedef struct {
     int group, level;
-    int at[3]; /* brick coordinates */
-    int site;
+    int at[3];             /* brick coordinates */
     seam_nodes seam;       /* of its nodes */
     bool at_seam;          /* there are any */
     bool across;           /* another group has particles near a node that this brick shares with another level */

@@ -20,7 +20,7 @@
 
 /* Means by volume over what points of a body (-1: all) have in a box: pressure, normal stresses; then that volume, and
  * its density. */
-enum { PROBE_BOX_MEANS = 4, PROBE_BOX_VOLUME = PROBE_BOX_MEANS, PROBE_BOX_DENSITY, PROBE_BOX_COLUMNS };
+enum { PROBE_BOX_MEANS = 4, PROBE_BOX_VOLUME = PROBE_BOX_MEANS, PROBE_BOX_COLUMNS = PROBE_BOX_VOLUME + 2 };
 extern const mpm_column mpm_probe_box_columns[PROBE_BOX_COLUMNS + 1];
 void mpm_probe_box_mean(const mpm *m, int body, const double lo[3], const double hi[3], double out[PROBE_BOX_COLUMNS]);
 
