@@ -150,9 +150,8 @@ static status make_groups(mpm *m)
     m->rule = malloc(((size_t)s->pairs + 1) * sizeof *m->rule);
     m->rule_of = calloc(n * n, sizeof *m->rule_of);
     m->contact = calloc((1 + SHARES) * n, sizeof *m->contact);
-    m->contact_force = calloc(n, sizeof *m->contact_force);
-    CHECK(m->group && m->rule && m->rule_of && m->contact && m->contact_force, STATUS_MEMORY,
-          "no memory for %zu groups", n);
+    m->force = calloc(n, sizeof *m->force);
+    CHECK(m->group && m->rule && m->rule_of && m->contact && m->force, STATUS_MEMORY, "no memory for %zu groups", n);
     for (int i = s->bodies - 1; i >= 0; i--) {
         group_info *g = &m->group[s->body[i].group];
         g->first = i;
@@ -267,7 +266,7 @@ void mpm_free(mpm *m)
     free(m->materials), free(m->laws);
     free(m->body_report), free(m->peaks);
     free(m->group), free(m->rule), free(m->rule_of);
-    free(m->contact), free(m->contact_force), free(m->scratch);
+    free(m->contact), free(m->force), free(m->scratch);
     mpm_grids_free(&m->grids);
     mpm_scene_free(&m->scene);
     free(m);
@@ -462,8 +461,7 @@ static void book(mpm *m, const tally *t)
     for (int k = 0; k < 3; k++) {
         l->impulse_boundary[k] += t->impulse_boundary[k];
         l->impulse_external[k] += t->impulse_external[k];
-        for (int f = 0; f < m->groups; f++) m->contact_force[f][k] = m->contact[f][k] / m->dt;
-        r->contact_force[k] = m->contact_force[0][k];
+        for (int g = 0; g < m->groups; g++) m->force[g].last[k] = m->contact[g][k] / m->dt;
     }
     r->peak_temperature = fmax(r->peak_temperature, t->peak_temperature);
     r->clamps_pressure += t->clamps_pressure, r->clamps_compression += t->clamps_compression;
@@ -472,14 +470,15 @@ static void book(mpm *m, const tally *t)
     r->particles = mpm_particles(m);
 }
 
-/* First-order low pass, so that the peak does not hang on one step's noise. */
-static void smooth_force(mpm *m)
+/* First-order low pass, so that the peaks do not hang on one step's noise. */
+static void smooth_forces(mpm *m)
 {
     const double share = 1 - exp(-m->dt / FORCE_SMOOTHING);
-    for (int k = 0; k < 3; k++) {
-        m->force_sum[k] += share * (m->report.contact_force[k] - m->force_sum[k]);
-        m->report.peak_contact_force[k] = fmax(m->report.peak_contact_force[k], fabs(m->force_sum[k]));
-    }
+    for (group_force *g = m->force; g < m->force + m->groups; g++)
+        for (int k = 0; k < 3; k++) {
+            g->smooth[k] += share * (g->last[k] - g->smooth[k]);
+            g->peak[k] = fmax(g->peak[k], fabs(g->smooth[k]));
+        }
 }
 
 static void lap(mpm *m, mpm_phase phase, double *since)
@@ -535,7 +534,7 @@ static status one_step(mpm *m, double until)
     for (int n = 0; n < level_steps(m, 0); n++) TRY(one_substep(m, n, &sum));
     double clock = omp_get_wtime();
     book(m, &sum);
-    smooth_force(m);
+    smooth_forces(m);
     m->time += m->dt;
     m->steps++;
     m->dense_steps += m->dense * level_steps(m, 0);

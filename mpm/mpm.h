@@ -42,8 +42,6 @@ typedef struct {
     double eroded_mass;                       /* vapour and dust taken out so far [kg] */
     double peak_pressure, peak_temperature;   /* any intact particle, any time so far [Pa, K] */
     double failed_volume;                     /* of all bodies, now [m3] */
-    double contact_force[3];      /* on group 0 from all others, mean of the last step [N]: mpm_contact_force */
-    double peak_contact_force[3]; /* on group 0, largest |component|, smoothed over 0.2 us [N] */
 } mpm_report;
 
 /* Of one body, so far. */
@@ -122,9 +120,12 @@ double mpm_phase_seconds(const mpm *m, mpm_phase phase);
 
 mpm_report mpm_glance(const mpm *m); /* as mpm_state but failed_volume, zero, which takes a walk over all points */
 mpm_body_report mpm_body_state(const mpm *m, int body);
-void mpm_failed_volumes(const mpm *m, double *volume);    /* of each body, now [m3]; a walk over all points */
-const double *mpm_contact_force(const mpm *m, int group); /* [3] on a group, mean of the last step [N]; borrowed */
-const mpm_scene *mpm_scene_of(const mpm *m);              /* borrowed; its fine zone along x is where it is now */
+void mpm_failed_volumes(const mpm *m, double *volume); /* of each body, now [m3]; a walk over all points */
+/* [3] on a group from all others; borrowed: mean of the last step; largest |component| so far, smoothed over 0.2 us
+ * [N]. */
+const double *mpm_contact_force(const mpm *m, int group);
+const double *mpm_peak_contact_force(const mpm *m, int group);
+const mpm_scene *mpm_scene_of(const mpm *m); /* borrowed; its fine zone along x is where it is now */
 /* The part of a point's domain above a place on an axis, or below it, with its share of the mass; false: none. */
 bool mpm_cut_at(int along, double place, bool above, double position[3], double size[3], double *mass);
 const mpm_wake *mpm_wake_of(const mpm *m); /* borrowed, until the next mpm_advance */

@@ -323,7 +323,7 @@ static inline scene_picture scene_picture_of(const mpm *m)
     const mpm_wake *w = mpm_wake_of(m);
     const mpm_scene *s = mpm_scene_of(m);
     const size_t bodies = (size_t)s->bodies, groups = (size_t)mpm_scene_groups(s);
-    size_t doubles = bodies + 3 * groups;
+    size_t doubles = bodies + 6 * groups;
     for (int f = 0; f < MPM_FIELD_COUNT; f++) doubles += mpm_particles(m) * (size_t)mpm_field_table[f].width;
     scene_picture p = { doubles * sizeof(double) + sizeof l + sizeof r + bodies * sizeof(mpm_body_report) +
                             w->n * sizeof *w->point,
@@ -341,7 +341,10 @@ static inline scene_picture scene_picture_of(const mpm *m)
         const mpm_body_report b = mpm_body_state(m, i);
         at = scene_put(at, &b, sizeof b);
     }
-    at = scene_put(at, mpm_contact_force(m, 0), 3 * groups * sizeof(double));
+    for (int g = 0; g < (int)groups; g++) {
+        at = scene_put(at, mpm_contact_force(m, g), 3 * sizeof(double));
+        at = scene_put(at, mpm_peak_contact_force(m, g), 3 * sizeof(double));
+    }
     scene_put(at, w->point, w->n * sizeof *w->point);
     return p;
 }

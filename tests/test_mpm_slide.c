@@ -50,7 +50,7 @@ static bool watch_step(void *user, const mpm *m)
 {
     load *w = user;
     const mpm_report r = mpm_state(m);
-    if (r.time > w->from) w->impulse -= (r.time - fmax(w->last, w->from)) * r.contact_force[1];
+    if (r.time > w->from) w->impulse -= (r.time - fmax(w->last, w->from)) * mpm_contact_force(m, 0)[1];
     w->last = r.time;
     return true;
 }

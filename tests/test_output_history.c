@@ -76,7 +76,7 @@ static void every_column_has_units_and_description(void **state)
     memset(&report, 0, sizeof report);
     memset(&ledger, 0, sizeof ledger);
     report.failed_volume = 5.0;
-    output_history_scene_row(&report, &ledger, row);
+    output_history_scene_row(&report, &ledger, (const double[3]){ 7.0, 8.0, 9.0 }, row);
     OK(output_history_append(h, series, row));
     double map[12];
     for (int i = 0; i < 12; i++) map[i] = 1e-4 * i;
@@ -103,6 +103,9 @@ static void every_column_has_units_and_description(void **state)
     free(v);
     v = read_series("history/a.h5", "/scene/v1500/failed_volume", &n);
     assert_true(n == 1 && v[0] == 5.0);
+    free(v);
+    v = read_series("history/a.h5", "/scene/v1500/contact_force_y", &n);
+    assert_true(n == 1 && v[0] == 8.0);
     free(v);
     v = read_series("history/a.h5", "/scene/v1500/crater/depth", &n);
     assert_true(n == 4 && v[11] == map[11]);

@@ -41,6 +41,7 @@ static status run_watched(const gouge_job *job, const scene_host *host, gouge_wa
                             .watch = &watch,
                             .snapshots = job->snapshots,
                             .checkpoint_interval = job->checkpoint_interval,
+                            .force_on = job->scene.scene.body[job->scene.rail].group,
                             .last_time = gouge_last_time(&job->scene),
                             .resume = job->resume,
                             .twin = job->twin,

@@ -22,9 +22,9 @@ static void take_bodies(scene_result *r, const gouge_scene *s, const gouge_watch
 {
     const bool mirrored = s->crater.mirrored;
     const double halves = mirrored ? 2.0 : 1.0;
-    r->peak_force[0] = halves * m->peak_contact_force[0];
-    r->peak_force[1] = halves * m->peak_contact_force[1];
-    r->peak_force[2] = mirrored ? 0.0 : m->peak_contact_force[2];
+    r->peak_force[0] = halves * w->peak_force[0];
+    r->peak_force[1] = halves * w->peak_force[1];
+    r->peak_force[2] = mirrored ? 0.0 : w->peak_force[2];
     r->eroded_mass = halves * m->eroded_mass;
     r->bodies = s->scene.bodies;
     for (int b = 0; b < r->bodies; b++) {

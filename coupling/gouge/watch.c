@@ -1,6 +1,7 @@
 #include "coupling/gouge/watch.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double SETTLED_SHARE = 0.1; /* of the measuring depth */
 static const double DEAD_SHARE = 0.1;    /* of its largest plastic power, below which a groove is dead */
@@ -93,6 +94,7 @@ static status finish(void *user, const mpm *m, bool *keep)
     mpm_failed_volumes(m, w->failed);
     w->rail = mpm_body_state(m, w->scene->rail);
     w->armature = mpm_body_state(m, w->scene->armature);
+    memcpy(w->peak_force, mpm_peak_contact_force(m, w->scene->scene.body[w->scene->rail].group), sizeof w->peak_force);
     w->growth = gouge_growth(&w->state.gauges, &now);
     *keep = w->growth > 0.0;
     if (w->timing) host_timing_add(w->timing, "crater", host_wall_clock() - since);

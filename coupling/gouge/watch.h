@@ -30,6 +30,7 @@ typedef struct {
     double carried[RESULT_BODIES]; /* gouge_carried_volumes [m3] */
     double failed[RESULT_BODIES];  /* of each body, as computed [m3] */
     mpm_body_report rail, armature;
+    double peak_force[3]; /* on the rail and what is welded to it, as computed [N] */
 } gouge_watch;
 
 scene_watch gouge_watch_of(gouge_watch *w);

@@ -346,9 +346,9 @@ status output_history_map(history *h, const char *scene, const history_map *map)
     COLUMN(ejected_energy, "J", "left the window so far", l->ejected_energy)                            \
     COLUMN(energy_error, "1", "ledger's rest over the kinetic energy at the start", l->energy_error)    \
     COLUMN(momentum_error, "1", "over mass times the largest initial speed", l->momentum_error)         \
-    COLUMN(contact_force_x, "N", "on the rail's field, as computed", r->contact_force[0])            \
-    COLUMN(contact_force_y, "N", "on the rail's field, as computed", r->contact_force[1])            \
-    COLUMN(contact_force_z, "N", "on the rail's field, as computed", r->contact_force[2])            \
+    COLUMN(contact_force_x, "N", "on the rail, or the first body, and what is welded to it; as computed", force[0]) \
+    COLUMN(contact_force_y, "N", "on the rail, or the first body, and what is welded to it; as computed", force[1]) \
+    COLUMN(contact_force_z, "N", "on the rail, or the first body, and what is welded to it; as computed", force[2]) \
     COLUMN(peak_pressure, "Pa", "of any particle so far", r->peak_pressure)                             \
     COLUMN(peak_temperature, "K", "of any particle so far", r->peak_temperature)                        \
     COLUMN(failed_volume, "m^3", "of all bodies now, as computed", r->failed_volume)                    \
@@ -413,7 +413,7 @@ status output_history_scene(history *h, const char *scene, int *series)
     return output_history_series(h, group, scene_columns, WIDTH(scene_columns), series);
 }
 
-void output_history_scene_row(const mpm_report *r, const mpm_ledger *l, double *row)
+void output_history_scene_row(const mpm_report *r, const mpm_ledger *l, const double *force, double *row)
 {
     SCENE_COLUMNS(COLUMN_VALUE)
 }

@@ -90,7 +90,8 @@ void output_history_event_row(const shot_event *e, double *row);
 status output_history_modules(history *h, const shot *s, int *series); /* /shot/modules: as many groups as fit */
 void output_history_modules_row(const shot *s, double *row);
 status output_history_scene(history *h, const char *scene, int *series); /* /scene/<name> */
-void output_history_scene_row(const mpm_report *r, const mpm_ledger *l, double *row);
+/* force: [3] of contact, on the group that scene_job names [N] */
+void output_history_scene_row(const mpm_report *r, const mpm_ledger *l, const double *force, double *row);
 
 /* The manual's list of columns, in markdown. */
 void output_history_print_columns(FILE *out);

@@ -87,7 +87,7 @@ static status write_row(run *r)
     const double since = host_wall_clock();
     const mpm_report state = mpm_state(r->m);
     const mpm_ledger balance = mpm_balance(r->m);
-    output_history_scene_row(&state, &balance, row);
+    output_history_scene_row(&state, &balance, mpm_contact_force(r->m, r->job->force_on), row);
     TRY(output_history_append(r->host->history, r->series, row));
     TRY(output_history_tick(r->host->history));
     book(r->host, "history", since);

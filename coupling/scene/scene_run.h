@@ -65,6 +65,7 @@ typedef struct {
     const scene_watch *watch;   /* NULL: none */
     int snapshots;              /* evenly over its time; 0: none */
     double checkpoint_interval; /* wall time [s]; 0: after every step */
+    int force_on;               /* group whose contact force the history has */
     double last_time;           /* when it will be over, for all that is known before, for the progress line [s] */
     scene_resume resume;
     uint64_t

@@ -47,6 +47,7 @@ static status run(session *s, const study_case *of, study_answer *out)
                             .scene = &b->scene,
                             .snapshots = output->snapshots,
                             .checkpoint_interval = output->checkpoint_interval,
+                            .force_on = b->scene.body[0].group,
                             .last_time = b->scene.end_time,
                             .resume = run_session_resume_of(s, name),
                             .whole = true };

@@ -179,6 +179,13 @@ typedef struct {
     bool normal_of_higher; /* of the two groups; else the surface of the lower gives the normal */
 } touch_rule;
 
+/* Contact force on a group from all others. */
+typedef struct {
+    double last[3];   /* mean of the last step [N] */
+    double smooth[3]; /* its first-order low pass [N] */
+    double peak[3];   /* largest |component| of that so far [N] */
+} group_force;
+
 struct mpm {
     mpm_scene scene;
     material *materials; /* [scene.bodies] */
@@ -221,15 +228,14 @@ struct mpm {
     double (*contact)[3]; /* [1 + SHARES][groups] contact impulses of a step: all, then shares of the sites [N s] */
     mpm_report report;
     mpm_body_report *body_report; /* [scene.bodies] */
-    double (*contact_force)[3];   /* [groups] mean of the last step [N] */
+    group_force *force;           /* [groups] */
     mpm_ledger ledger;
     double phase_seconds[MPM_PHASES];
     uint64_t scene_key; /* of everything that determines a scene */
     mpm_wake wake;
     size_t wake_capacity;
     zone zone_start;
-    double zone_length;  /* of the fine zone along the axis that it follows [m] */
-    double force_sum[3]; /* smoothing of the contact force on group 0 */
+    double zone_length; /* of the fine zone along the axis that it follows [m] */
 };
 
 struct kernels {

@@ -15,7 +15,7 @@ typedef struct {
     char magic[8];
     char instruction_set[16];
     uint64_t scene, bytes;
-    double time, dt, dt_last, dense_steps, force_sum[3], zone[5];
+    double time, dt, dt_last, dense_steps, zone[5];
     uint64_t steps;
     int bricks, blocks;
     uint64_t wake;
@@ -32,7 +32,7 @@ typedef struct {
 static size_t image_bytes(const mpm *m, int blocks)
 {
     return sizeof(image_head) + sizeof(mpm_ledger) + sizeof(mpm_report) +
-           (size_t)m->scene.bodies * sizeof *m->body_report + (size_t)m->groups * sizeof *m->contact_force +
+           (size_t)m->scene.bodies * sizeof *m->body_report + (size_t)m->groups * sizeof *m->force +
            (size_t)m->bricks_used * sizeof(image_brick) + (size_t)blocks * (sizeof(block) + sizeof(block_link)) +
            m->wake.n * sizeof *m->wake.point;
 }
@@ -75,7 +75,6 @@ status mpm_save(const mpm *m, void **image, size_t *bytes)
     head.scene = m->scene_key, head.bytes = *bytes;
     head.time = m->time, head.dt = m->dt, head.dt_last = m->dt_last, head.dense_steps = m->dense_steps,
     head.steps = m->steps;
-    memcpy(head.force_sum, m->force_sum, sizeof head.force_sum);
     head.wake = m->wake.n, head.wake_until = m->wake.until;
     memcpy(head.zone, mpm_zone_of(m).at, sizeof head.zone);
     head.bricks = m->bricks_used, head.blocks = blocks;
@@ -83,7 +82,7 @@ status mpm_save(const mpm *m, void **image, size_t *bytes)
     to = put(to, &m->ledger, sizeof m->ledger);
     to = put(to, &m->report, sizeof m->report);
     to = put(to, m->body_report, (size_t)m->scene.bodies * sizeof *m->body_report);
-    to = put(to, m->contact_force, (size_t)m->groups * sizeof *m->contact_force);
+    to = put(to, m->force, (size_t)m->groups * sizeof *m->force);
     if (m->wake.n) to = put(to, m->wake.point, m->wake.n * sizeof *m->wake.point);
     for (int i = 0; i < m->bricks_used; i++) to = put_brick(to, m, &m->bricks[i]);
     return status_ok();
@@ -182,13 +181,12 @@ status mpm_restore(mpm *m, const void *image, size_t bytes)
     TRY(mpm_zone_regrid(m, z));
     if (!get(&r, &m->ledger, sizeof m->ledger) || !get(&r, &m->report, sizeof m->report) ||
         !get(&r, m->body_report, (size_t)m->scene.bodies * sizeof *m->body_report) ||
-        !get(&r, m->contact_force, (size_t)m->groups * sizeof *m->contact_force))
+        !get(&r, m->force, (size_t)m->groups * sizeof *m->force))
         return cut_short();
     TRY(get_wake(m, &head, &r));
     for (int i = 0; i < head.bricks; i++) TRY(get_brick(m, &r));
     m->time = head.time, m->dt = head.dt, m->dt_last = head.dt_last, m->dense_steps = head.dense_steps,
     m->steps = head.steps;
-    memcpy(m->force_sum, head.force_sum, sizeof head.force_sum);
     TRY(mpm_store_relink(m));
     return mpm_store_reserve(m, 0);
 }

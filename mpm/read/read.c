@@ -151,7 +151,12 @@ mpm_body_report mpm_body_state(const mpm *m, int body)
 
 const double *mpm_contact_force(const mpm *m, int group)
 {
-    return m->contact_force[group];
+    return m->force[group].last;
+}
+
+const double *mpm_peak_contact_force(const mpm *m, int group)
+{
+    return m->force[group].peak;
 }
 
 mpm_report mpm_glance(const mpm *m)
