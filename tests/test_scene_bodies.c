@@ -471,7 +471,7 @@ static void check_probes(const mpm_scene *s, history *const h[2], const scene_bo
         assert_string_equal(is->kind, p->kind->name);
         assert_int_equal(is->columns, map ? 0 : mpm_probe_columns(p));
         assert_int_equal(isnan(is->peak), p->kind->mains == 0);
-        for (int c = 0; c < is->columns; c++) assert_false(isnan(is->last[c]));
+        for (int c = 0; c < is->columns; c++) assert_false(isnan(is->last[c]) || isnan(is->mean[c]));
         assert_memory_equal(is, &r[1].probe[i], sizeof *is);
     }
 }
@@ -499,6 +499,9 @@ static void check_sums(const scene_bodies_result *r)
     assert_true(fabs(motion->last[4] / wall->velocity[0] - 1.0) < 1e-9);
     assert_true(motion->peak >= motion->last[4]);
     assert_true(fabs(energy->last[1] / wall->internal - 1.0) < 1e-9);
+    assert_true(fabs(force->mean[0] * r->end_time / force->impulse[0] - 1.0) < 1e-9);
+    assert_true(r->peak_pressure > 0.0 && r->peak_pressure <= 1.01 * r->max_pressure); /* 1 %: the histogram's bins */
+    assert_true(r->peak_pressure == fmax(wall->peak_pressure, r->body[1].peak_pressure));
     assert_true(plastic->peak > 0.0 && plastic->impulse[0] > 0.0 && isnan(plastic->impulse[1]));
     assert_true(plastic->impulse[0] < 1.2 * wall->internal); /* plastic work is part of it */
 }

@@ -65,7 +65,8 @@ static status bodies_now(const mpm_scene *scene, const mpm *m, scene_body *out)
         snprintf(b->name, sizeof b->name, "%s", scene->body[i].name);
         for (int k = 0; k < 3; k++) b->position[k] /= b->mass, b->velocity[k] /= b->mass; /* NAN: nothing is left */
         b->failed_volume = failed[i];
-        b->peak_pressure = so_far.peak_pressure;
+        b->peak_pressure = so_far.peak_pressure_999;
+        b->max_pressure = so_far.peak_pressure;
         b->peak_mises = so_far.peak_mises;
     }
     free(failed);
@@ -175,7 +176,8 @@ static void take(const scene_outcome *o, scene_bodies_result *r)
     const mpm_report *m = &o->report;
     const mpm_ledger *l = &o->ledger;
     r->end_time = m->time;
-    r->peak_pressure = m->peak_pressure;
+    r->max_pressure = m->peak_pressure;
+    for (int i = 0; i < r->bodies; i++) r->peak_pressure = fmax(r->peak_pressure, r->body[i].peak_pressure);
     r->peak_temperature = m->peak_temperature;
     r->kinetic = l->kinetic;
     r->internal = l->internal;

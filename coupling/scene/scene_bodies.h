@@ -12,26 +12,28 @@
 
 typedef struct {
     char name[PARAM_TEXT_SIZE];
-    double mass;                      /* in the window [kg] */
-    double position[3], velocity[3];  /* means over its mass [m, m/s]; NAN where nothing is left */
-    double lo[3], hi[3];              /* how far its intact material reaches [m]; NAN where there is none */
-    double kinetic, internal;         /* [J] */
-    double failed_volume;             /* [m3] */
-    double peak_pressure, peak_mises; /* of any intact point so far [Pa] */
+    double mass;                     /* in the window [kg] */
+    double position[3], velocity[3]; /* means over its mass [m, m/s]; NAN where nothing is left */
+    double lo[3], hi[3];             /* how far its intact material reaches [m]; NAN where there is none */
+    double kinetic, internal;        /* [J] */
+    double failed_volume;            /* [m3] */
+    double peak_pressure;            /* largest so far of the 99.9th percentile by mass, of intact points [Pa] */
+    double max_pressure, peak_mises; /* of any intact point so far [Pa] */
 } scene_body;
 
 typedef struct {
     int bodies;
     scene_body *body; /* at the end; owned */
     int probes;
-    scene_probe_result *probe;              /* owned */
-    double end_time;                        /* [s] */
-    double peak_pressure, peak_temperature; /* of any intact point so far [Pa, K] */
-    double kinetic, internal;               /* [J] */
-    double heat_friction;                   /* part of internal [J] */
-    double work_boundary, work_external;    /* [J] */
-    double ejected_mass, eroded_mass;       /* [kg] */
-    double momentum_error, energy_error;    /* [1] */
+    scene_probe_result *probe;             /* owned */
+    double end_time;                       /* [s] */
+    double peak_pressure;                  /* the largest of the bodies' [Pa] */
+    double max_pressure, peak_temperature; /* of any intact point so far [Pa, K] */
+    double kinetic, internal;              /* [J] */
+    double heat_friction;                  /* part of internal [J] */
+    double work_boundary, work_external;   /* [J] */
+    double ejected_mass, eroded_mass;      /* [kg] */
+    double momentum_error, energy_error;   /* [1] */
     uint64_t particles, steps, particle_steps, particle_steps_dense;
     uint64_t clamps_pressure, clamps_compression;
     double wall_seconds; /* [s] */

@@ -10,14 +10,19 @@ static const summary_key body_keys[] = {
     SUMMARY_NUMBER(scene_body, "kinetic", kinetic, "J", "energy of its motion"),
     SUMMARY_NUMBER(scene_body, "internal", internal, "J", "work of stress and heat"),
     SUMMARY_NUMBER(scene_body, "failed_volume", failed_volume, "m3", "that has failed"),
-    SUMMARY_NUMBER(scene_body, "peak_pressure", peak_pressure, "Pa", "of any intact point at any time"),
+    SUMMARY_NUMBER(scene_body, "peak_pressure", peak_pressure, "Pa",
+                   "that a thousandth of its mass had at once, of intact points"),
+    SUMMARY_NUMBER(scene_body, "max_pressure", max_pressure, "Pa",
+                   "of any intact point at any time: molten debris may set it"),
     SUMMARY_NUMBER(scene_body, "peak_mises", peak_mises, "Pa", "von Mises stress of any point at any time"),
     SUMMARY_END,
 };
 
 const summary_key scene_bodies_keys[] = {
     SUMMARY_NUMBER(scene_bodies_result, "end_time", end_time, "s", "simulated"),
-    SUMMARY_NUMBER(scene_bodies_result, "peak_pressure", peak_pressure, "Pa", "of any intact point at any time"),
+    SUMMARY_NUMBER(scene_bodies_result, "peak_pressure", peak_pressure, "Pa", "the largest of the bodies'"),
+    SUMMARY_NUMBER(scene_bodies_result, "max_pressure", max_pressure, "Pa",
+                   "of any intact point at any time: molten debris may set it"),
     SUMMARY_NUMBER(scene_bodies_result, "peak_temperature", peak_temperature, "K", "of any intact point at any time"),
     SUMMARY_NUMBER(scene_bodies_result, "kinetic", kinetic, "J", "energy of motion at the end, as computed"),
     SUMMARY_NUMBER(scene_bodies_result, "internal", internal, "J", "work of stress and heat, as computed"),

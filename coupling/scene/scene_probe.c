@@ -19,6 +19,7 @@ const summary_key scene_probe_keys[] = {
     SUMMARY_VECTOR(scene_probe_result, "impulse", impulse, 3, "",
                    "integral over time, of each component of a vector; null beside that of one number"),
     SUMMARY_BY_NAME(scene_probe_result, "last", last, column, columns, "", "all columns at the end"),
+    SUMMARY_BY_NAME(scene_probe_result, "mean", mean, column, columns, "", "all columns, mean over the time"),
     SUMMARY_END,
 };
 
@@ -166,6 +167,18 @@ static void sum_up(const double *t, double *const value[3], int mains, size_t n,
     }
 }
 
+/* While there was something to read, each value for the time up to it. */
+static double mean_over_time(const double *t, const double *value, size_t n)
+{
+    double sum = 0.0, time = 0.0;
+    for (size_t i = 1; i < n; i++) {
+        if (isnan(value[i])) continue;
+        sum += value[i] * (t[i] - t[i - 1]);
+        time += t[i] - t[i - 1];
+    }
+    return time > 0.0 ? sum / time : NAN;
+}
+
 static status sum_up_series(const scene_probes *p, const mpm_probe *probe, scene_probe_result *out)
 {
     const mpm_probe_kind *kind = probe->kind;
@@ -179,6 +192,7 @@ static status sum_up_series(const scene_probes *p, const mpm_probe *probe, scene
         double *all;
         done = read_column(p, probe->name, kind->columns[c].name, &all, &m);
         if (done.code == STATUS_OK && m > 0) out->last[c] = all[m - 1];
+        if (done.code == STATUS_OK && m == n) out->mean[c] = mean_over_time(t, all, n);
         if (done.code == STATUS_OK) free(all);
     }
     free(t);
@@ -207,7 +221,7 @@ static status result_of(const scene_probes *p, const mpm_probe *probe, scene_pro
     out->columns = mpm_probe_columns(probe);
     for (int c = 0; c < out->columns; c++) {
         snprintf(out->column[c], sizeof out->column[c], "%s", probe->kind->columns[c].name);
-        out->last[c] = NAN;
+        out->last[c] = out->mean[c] = NAN;
     }
     return sum_up_series(p, probe, out);
 }

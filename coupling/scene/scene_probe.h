@@ -24,6 +24,7 @@ typedef struct {
     int columns;
     char column[SCENE_PROBE_COLUMNS][PARAM_TEXT_SIZE];
     double last[SCENE_PROBE_COLUMNS]; /* at the end, in the columns' units */
+    double mean[SCENE_PROBE_COLUMNS]; /* over the scene's time */
 } scene_probe_result;
 
 extern const summary_key scene_probe_keys[]; /* of scene_probe_result */
