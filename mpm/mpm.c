@@ -122,16 +122,28 @@ static status make_laws(mpm *m)
     mpm_scene *s = &m->scene;
     m->materials = malloc((size_t)s->bodies * sizeof *m->materials);
     m->laws = aligned_alloc(64, ((size_t)s->bodies * sizeof *m->laws + 63) / 64 * 64);
+    m->effusivity = malloc((size_t)s->bodies * sizeof *m->effusivity);
     m->body_report = calloc((size_t)s->bodies, sizeof *m->body_report);
     m->peaks_row = ((size_t)s->bodies + 15) / 8 * 8; /* a line of the cache lies between two threads' */
     m->peaks = calloc(MPM_MAX_THREADS * m->peaks_row, sizeof *m->peaks);
-    CHECK(m->materials && m->laws && m->body_report && m->peaks, STATUS_MEMORY, "no memory for %d bodies", s->bodies);
+    CHECK(m->materials && m->laws && m->effusivity && m->body_report && m->peaks, STATUS_MEMORY,
+          "no memory for %d bodies", s->bodies);
     for (int i = 0; i < s->bodies; i++) {
         m->materials[i] = *s->body[i].material;
         s->body[i].material = &m->materials[i];
         TRY(mpm_law_make(&s->body[i], s, &m->laws[i]));
+        const material *k = &m->materials[i];
+        m->effusivity[i] = sqrt(k->conductivity * k->density * k->specific_heat);
     }
     return status_ok();
+}
+
+/* Would a node of one of them have another share of contact heat, or another absorbing wall, than one of the other? */
+static bool unlike(const mpm *m, int a, int b)
+{
+    const law *k = &m->laws[a], *l = &m->laws[b];
+    const double e[2] = { m->effusivity[a], m->effusivity[b] };
+    return !(e[0] == e[1] || (isnan(e[0]) && isnan(e[1]))) || k->K0 != l->K0 || k->G != l->G || k->rho0 != l->rho0;
 }
 
 static touch_rule rule_from(const mpm_pair *p)
@@ -156,6 +168,10 @@ static status make_groups(mpm *m)
         group_info *g = &m->group[s->body[i].group];
         g->first = i;
         memcpy(g->passes, s->body[i].passes, sizeof g->passes);
+    }
+    for (int i = 0; i < s->bodies; i++) {
+        group_info *g = &m->group[s->body[i].group];
+        g->mixed = g->mixed || unlike(m, g->first, i);
     }
     m->rule[0] = rule_from(&(mpm_pair){ .a = 0, .b = 1, .contact = s->contact, .normal_of = 0 });
     for (int i = 0; i < s->pairs; i++) {
@@ -263,7 +279,7 @@ void mpm_free(mpm *m)
     mpm_store_free(m);
     mpm_reading_free(m);
     free(m->wake.point);
-    free(m->materials), free(m->laws);
+    free(m->materials), free(m->laws), free(m->effusivity);
     free(m->body_report), free(m->peaks);
     free(m->group), free(m->rule), free(m->rule_of);
     free(m->contact), free(m->force), free(m->scratch);

@@ -145,6 +145,107 @@ static void test_row(void **state)
     mpm_free(solver);
 }
 
+/* ---- several materials in one group ---- */
+
+/* Heat of a contact that changes no motion: no Grueneisen coefficient. */
+static material conductor(double conductivity)
+{
+    material m = scene_elastic();
+    m.gruneisen = 0, m.conductivity = conductivity;
+    return m;
+}
+
+/* A block slides over a plate whose sides, z < 0 and z > 0, are of two metals. */
+static mpm *rubbed(const material *left, const material *right, const material *slider)
+{
+    SCENE_LOCAL(s);
+    mpm_scene_default(&s);
+    s.axis[0] = scene_axis(0, 8e-3, H, BOUNDARY_FREE, BOUNDARY_FREE);
+    s.axis[1] = scene_axis(-1e-3, 2e-3, H, BOUNDARY_FIXED, BOUNDARY_FREE);
+    s.axis[2] = scene_axis(-3e-3, 3e-3, H, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    scene_box(&s, 0, -1e-3, -4e-3, 8e-3, 0, 0, left);
+    scene_box(&s, 0, -1e-3, 0, 8e-3, 0, 4e-3, right);
+    mpm_body *b = scene_box(&s, 2e-3, 0, -4e-3, 5e-3, 1.5e-3, 4e-3, slider);
+    b->group = 1;
+    b->velocity[0] = 50;
+    b->body_force[1] = -1e7;
+    scene_friction(&s, 0.3);
+    mpm *m = scene_make(&s, 2);
+    scene_steps(m, 40);
+    return m;
+}
+
+/* Internal energy of the point that started there [J/kg]. */
+static double energy_of(const mpm *m, const double start[3])
+{
+    double *x = scene_read(m, MPM_start), *e = scene_read(m, MPM_energy), found = NAN;
+    for (size_t i = 0; i < mpm_particles(m); i++)
+        if (fabs(x[3 * i] - start[0]) + fabs(x[3 * i + 1] - start[1]) + fabs(x[3 * i + 2] - start[2]) < 1e-9)
+            found = e[i];
+    free(x), free(e);
+    return found;
+}
+
+/* Two cells and more from where they meet, each metal has the share of the heat, and leaves the block that, as where
+ * the whole plate is of it. */
+static void test_heat_by_material(void **state)
+{
+    (void)state;
+    const material good = conductor(400), poor = conductor(4), slider = conductor(100);
+    mpm *mixed = rubbed(&good, &poor, &slider), *all_good = rubbed(&good, &good, &slider),
+        *all_poor = rubbed(&poor, &poor, &slider);
+    const double n = 0.5 * H; /* points' distance */
+    double apart = 0, largest = 0;
+    for (int side = 0; side < 2; side++)
+        for (int above = 0; above < 2; above++) {
+            const double start[3] = { 3e-3 + 0.5 * n, (above ? 0.5 : -0.5) * n, (side ? 1 : -1) * (2e-3 + 0.5 * n) };
+            const double e[3] = { energy_of(mixed, start), energy_of(all_good, start), energy_of(all_poor, start) };
+            print_message("%s of the %s plate: %.6g J/kg; all good %.6g, all poor %.6g\n", above ? "block" : "plate",
+                          side ? "poor" : "good", e[0], e[1], e[2]);
+            assert_near(e[0], e[1 + side], 1e-9 * fabs(e[1 + side]));
+            apart = fmax(apart, fabs(e[1] - e[2])), largest = fmax(largest, fabs(e[1]));
+        }
+    assert_true(apart > 0.2 * largest); /* or nothing was tried */
+    mpm_free(mixed), mpm_free(all_good), mpm_free(all_poor);
+}
+
+/* Bars of two metals that fly against an absorbing wall, in one group or in two. */
+static void against_wall(mpm_scene *s, const material *copper, const material *aluminium, bool together)
+{
+    mpm_scene_default(s);
+    s->axis[0] = scene_axis(-6e-3, 6e-3, H, BOUNDARY_FREE, BOUNDARY_ABSORBING);
+    s->axis[1] = scene_axis(-2e-3, 10e-3, H, BOUNDARY_FREE, BOUNDARY_FREE);
+    s->axis[2] = scene_axis(-1e-3, 1e-3, H, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    scene_box(s, 0, 0, -2e-3, 6e-3, 1e-3, 2e-3, copper)->velocity[0] = 1;
+    mpm_body *b = scene_box(s, 0, 7e-3, -2e-3, 6e-3, 8e-3, 2e-3, aluminium);
+    b->velocity[0] = 1;
+    b->group = !together;
+}
+
+/* The wall takes from each bar what it takes where the other is of another group. */
+static void test_wall_by_material(void **state)
+{
+    (void)state;
+    const material copper = scene_elastic();
+    material aluminium = scene_aluminium();
+    aluminium.yield_A = 1e10, aluminium.hardening_B = 0, aluminium.rate_C = 0;
+    double v[2][2];
+    for (int together = 0; together < 2; together++) {
+        SCENE_LOCAL(s);
+        against_wall(&s, &copper, &aluminium, together);
+        mpm *m = scene_make(&s, 2);
+        scene_steps(m, 60);
+        for (int i = 0; i < 2; i++) v[together][i] = scene_mean(m, MPM_velocity, 0, i);
+        mpm_free(m);
+    }
+    print_message("after the wall: %.4f, %.4f m/s apart, %.4f, %.4f in one group\n", v[0][0], v[0][1], v[1][0],
+                  v[1][1]);
+    for (int i = 0; i < 2; i++) {
+        assert_true(fabs(v[0][i]) < 0.7); /* it was felt */
+        assert_near(v[1][i], v[0][i], 1e-12);
+    }
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -169,6 +270,8 @@ int main(void)
         cmocka_unit_test(test_flight),
         cmocka_unit_test(test_cradle),
         cmocka_unit_test(test_row),
+        cmocka_unit_test(test_heat_by_material),
+        cmocka_unit_test(test_wall_by_material),
         cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,7 +15,7 @@ typedef double node_lines[BRICK_CELLS][LINE] __attribute__((aligned(64)));
 typedef struct {
     brick *brick;
     double (*line)[LINE];  /* [64] m, p, f, K; borrowed */
-    double (*extra)[LINE]; /* [64] V grad S, m (x_p - x_i), m flow stress */
+    double (*extra)[LINE]; /* [64] V grad S, m (x_p - x_i), m flow stress, m effusivity */
 } group_nodes;
 
 /* One node of one group while it is worked on. */
@@ -161,6 +161,14 @@ static int walls_at(const mpm *m, const axis axes[3], const int index[3], int gr
     return n;
 }
 
+/* A group at a node, and the walls that act on it there. */
+typedef struct {
+    brick *brick;
+    node_state state;
+    wall walls[3];
+    int n_walls;
+} node_side;
+
 /* The wall's velocity in component k; what the mixing with it takes is heat, its reaction's work is booked. */
 static void hold(node_state *n, int k, double velocity, double dt, tally *sum)
 {
@@ -172,13 +180,61 @@ static void hold(node_state *n, int k, double velocity, double dt, tally *sum)
     n->f[k] = 0;
 }
 
+typedef struct {
+    double p, s; /* of pressure and of shear waves [m/s] */
+} wave_speeds;
+
+static wave_speeds speeds_of(const law *k)
+{
+    return (wave_speeds){ sqrt((k->K0 + 4.0 / 3.0 * k->G) / k->rho0), sqrt(k->G / k->rho0) };
+}
+
+typedef struct {
+    wave_speeds speeds; /* times mass */
+    double mass;
+} wave_sums;
+
+static void add_chain(const mpm *m, int head, wave_sums *sum)
+{
+    for (int i = head; i >= 0; i = m->links[i].next) {
+        const wave_speeds of = speeds_of(&m->laws[m->links[i].body]);
+        for (int l = 0; l < LANES; l++) {
+            const double more = m->blocks[i].mass[0][l];
+            sum->mass += more, sum->speeds.p += more * of.p, sum->speeds.s += more * of.s;
+        }
+    }
+}
+
+/* First block of one of the 27 cells around a brick's cell, -1: none. */
+static int head_beside(const mpm *m, const brick *b, int cell, int which)
+{
+    int at[3], step = 0;
+    for (int k = 0, scale = 1; k < 3; k++, scale *= 3, which /= 3) {
+        const int i = (cell >> 2 * k) % BRICK + which % 3 - 1;
+        at[k] = (i + BRICK) % BRICK;
+        step += scale * (i < 0 ? 0 : i < BRICK ? 1 : 2);
+    }
+    return b->neighbour[step] < 0 ? -1 : m->bricks[b->neighbour[step]].head[cell_index(at[0], at[1], at[2])];
+}
+
+/* At a node of a group with several materials: means by mass over the points of the node's own cell, of those around
+ * it where it has none. */
+static wave_speeds speeds_at(const mpm *m, const brick *b, int cell)
+{
+    wave_sums sum = { .mass = 0 };
+    if (!m->group[b->group].mixed) return speeds_of(group_law(m, b->group));
+    add_chain(m, b->head[cell], &sum);
+    for (int i = 0; i < NEIGHBOURS && b->head[cell] < 0; i++) add_chain(m, head_beside(m, b, cell, i), &sum);
+    if (!(sum.mass > 0)) return speeds_of(group_law(m, b->group));
+    return (wave_speeds){ sum.speeds.p / sum.mass, sum.speeds.s / sum.mass };
+}
+
 /* Viscous boundary of Lysmer and Kuhlemeyer (1969), implicit in v: the node's mass is rho A h/2, so rho c A = 2 c m/h.
  */
-static void absorb(node_state *n, const wall *w, const law *k, double dt, tally *sum)
+static void absorb(node_state *n, const wall *w, wave_speeds c, double dt, tally *sum)
 {
-    const double cp = sqrt((k->K0 + 4.0 / 3.0 * k->G) / k->rho0), cs = sqrt(k->G / k->rho0);
     for (int q = 0; q < 3; q++) {
-        const double rate = 2 * (q == w->axis ? cp : cs) / w->size;
+        const double rate = 2 * (q == w->axis ? c.p : c.s) / w->size;
         const double v = (n->v[q] + dt * n->f[q] / n->m) / (1 + dt * rate);
         const double J = -n->m * dt * rate * v;
         sum->impulse_boundary[q] += J;
@@ -187,15 +243,16 @@ static void absorb(node_state *n, const wall *w, const law *k, double dt, tally 
     }
 }
 
-static void apply_walls(const wall *w, int walls, const law *k, double dt, node_state *n, tally *sum)
+static void apply_walls(const mpm *m, const node_side *side, int cell, double dt, node_state *n, tally *sum)
 {
+    const wall *w = side->walls;
     static const double rest[3] = { 0, 0, 0 };
-    for (int i = 0; i < walls; i++) {
+    for (int i = 0; i < side->n_walls; i++) {
         const double *velocity = w[i].kind == BOUNDARY_PRESCRIBED ? w[i].velocity : rest;
         if (w[i].kind == BOUNDARY_SYMMETRY)
             hold(n, w[i].axis, 0, dt, sum);
         else if (w[i].kind == BOUNDARY_ABSORBING)
-            absorb(n, &w[i], k, dt, sum);
+            absorb(n, &w[i], speeds_at(m, side->brick, cell), dt, sum);
         else
             for (int q = 0; q < 3; q++) hold(n, q, velocity[q], dt, sum);
     }
@@ -248,27 +305,19 @@ static double kinetic(const node_state *n)
     return 0.5 * n->m * dot(n->v, n->v);
 }
 
-/* Share of the contact heat that goes to a: by effusivity sqrt(k rho c) where both are known, else half. */
-static double heat_share(const mpm *m, int a, int b)
+/* At a node, the mean by mass where the group has several materials. */
+static double effusivity_at(const mpm *m, const node_side *s)
 {
-    double e[2];
-    const int group[2] = { a, b };
-    for (int s = 0; s < 2; s++) {
-        e[s] = NAN;
-        for (int i = m->scene.bodies - 1; i >= 0; i--)
-            if (m->scene.body[i].group == group[s])
-                e[s] = sqrt(m->materials[i].conductivity * m->materials[i].density * m->materials[i].specific_heat);
-    }
-    return isnan(e[0]) || isnan(e[1]) ? 0.5 : e[0] / (e[0] + e[1]);
+    const group_info *g = &m->group[s->brick->group];
+    return g->mixed ? s->state.extra[7] / s->state.m : m->effusivity[g->first];
 }
 
-/* A group at a node, and the walls that act on it there. */
-typedef struct {
-    brick *brick;
-    node_state state;
-    wall walls[3];
-    int n_walls;
-} node_side;
+/* Share of the contact heat that goes to a: by effusivity sqrt(k rho c) where both are known, else half. */
+static double heat_share(const mpm *m, const node_side *a, const node_side *b)
+{
+    const double e[2] = { effusivity_at(m, a), effusivity_at(m, b) };
+    return isnan(e[0]) || isnan(e[1]) ? 0.5 : e[0] / (e[0] + e[1]);
+}
 
 /* Two groups that touch at a node: J is the impulse on b, minus it that on a. */
 typedef struct {
@@ -320,7 +369,7 @@ static void contact_heat(const mpm *m, const touching *t, tally *sum)
         const double slip = b->v[k] - a->v[k], slip_start = b->v_start[k] - a->v_start[k];
         Q -= t->J[k] * 0.5 * (slip + slip_start);
     }
-    const double share = heat_share(m, t->a->brick->group, t->b->brick->group);
+    const double share = heat_share(m, t->a, t->b);
     a->heat += share * Q;
     b->heat += (1 - share) * Q;
     sum->heat_friction += Q;
@@ -346,7 +395,7 @@ static void begin_side(const mpm *m, const group_nodes *group, int cell, const i
     for (int k = 0; k < 3; k++) n->v[k] = line[1 + k] / n->m, n->f[k] = line[4 + k];
     n->heat = line[7] - kinetic(n);
     side->n_walls = walls_at(m, axes_of(m, side->brick), index, side->brick->group, side->walls);
-    apply_walls(side->walls, side->n_walls, group_law(m, side->brick->group), dt, n, sum);
+    apply_walls(m, side, cell, dt, n, sum);
     memcpy(n->v_start, n->v, sizeof n->v_start);
     n->heat -= 0.5 * dt * dot(line + 4, n->v);
     for (int k = 0; k < 3; k++) n->v[k] += dt * n->f[k] / n->m, n->f[k] = 0;

@@ -36,10 +36,11 @@ typedef struct {
     double yz[2][2][LANES]; /* weights' product, [z][y] */
 } __attribute__((aligned(64))) factors;
 
-/* What a block gives to contact lines, [axis][first or last node][particle]: V grad w, m w (x_p - x_i); m flow stress.
+/* What a block gives to contact lines, [axis][first or last node][particle]: V grad w, m w (x_p - x_i); m flow stress;
+ * m effusivity, in a group whose bodies differ in that.
  */
 typedef struct {
-    double gradient[3][2][LANES], moment[3][2][LANES], flow[LANES];
+    double gradient[3][2][LANES], moment[3][2][LANES], flow[LANES], heat[LANES];
 } __attribute__((aligned(64))) contact_factors;
 
 LANE_INLINE void store_factors(factors *f, const weights w[3], int lane)
@@ -61,12 +62,13 @@ LANE_INLINE void store_lines(double (*to)[LINE], const vd row[LINE], int lane)
     }
 }
 
-/* Lanes of a contact line, all bits set: V grad S and m (x_p - x_i) along each axis, m flow stress. */
+/* Lanes of a contact line, all bits set: V grad S and m (x_p - x_i) along each axis, m flow stress, m effusivity. */
 static const struct {
-    int64_t gradient[3][LINE], moment[3][LINE], flow[LINE];
+    int64_t gradient[3][LINE], moment[3][LINE], flow[LINE], heat[LINE];
 } contact_kinds __attribute__((aligned(64))) = { { { -1 }, { 0, -1 }, { 0, 0, -1 } },
                                                  { { 0, 0, 0, -1 }, { 0, 0, 0, 0, -1 }, { 0, 0, 0, 0, 0, -1 } },
-                                                 { 0, 0, 0, 0, 0, 0, -1 } };
+                                                 { 0, 0, 0, 0, 0, 0, -1 },
+                                                 { 0, 0, 0, 0, 0, 0, 0, -1 } };
 
 LANE_INLINE vm kind_at(const int64_t *kind, int part)
 {
@@ -187,9 +189,10 @@ LANE_INLINE void surface_of(const block *q, int lane, const weights w[3], contac
 }
 
 /* A part of particle l's contact lines: each lane is one number, so nothing need be transposed. */
-LANE_INLINE void contact_lines(const contact_factors *s, const factors *f, int part, int l, lines *n)
+LANE_INLINE void contact_lines(const contact_factors *s, const factors *f, int part, int l, bool mixed, lines *n)
 {
-    const vd base = vd_where(kind_at(contact_kinds.flow, part), vd_set(s->flow[l]));
+    vd base = vd_where(kind_at(contact_kinds.flow, part), vd_set(s->flow[l]));
+    if (mixed) base = vd_select(kind_at(contact_kinds.heat, part), vd_set(s->heat[l]), base);
     vd_store(&n->base[l][part], base);
     for (int a = 0; a < 2; a++) {
         vd q[3];
@@ -232,6 +235,7 @@ typedef struct {
     half_steps dt;
     double affine; /* 1, or 0 without the affine part */
     bool meets;    /* are contact lines wanted? */
+    bool mixed;    /* group_info.mixed */
 } cell_work;
 
 /* A block's lines into the sums of its cell, which begin with its `first`.  A call, not inlined: gcc then takes the
@@ -254,6 +258,8 @@ static __attribute__((noinline)) void one_block(const mpm *m, int index, const c
         store_factors(&f, w, lane);
         motion_lines(q, lane, c->affine, body, c->dt, w, &n);
         if (c->meets) surface_of(q, lane, w, &s);
+        if (c->meets && c->mixed)
+            vd_store(&s.heat[lane], vd_load(&q->mass[0][lane]) * m->effusivity[m->links[index].body]);
     }
 #pragma GCC unroll 4
     for (int part = 0; part < PARTS; part++) {
@@ -261,7 +267,7 @@ static __attribute__((noinline)) void one_block(const mpm *m, int index, const c
         if (!c->meets) continue;
         lines on_surface;
         for (int left = mask; left; left &= left - 1)
-            contact_lines(&s, &f, part * WIDTH, __builtin_ctz((unsigned)left), &on_surface);
+            contact_lines(&s, &f, part * WIDTH, __builtin_ctz((unsigned)left), c->mixed, &on_surface);
         accumulate(contact[part], &on_surface, part * WIDTH, &f, mask, first, &none);
     }
 }
@@ -285,7 +291,7 @@ static void fold_line(brick *b, int k, const int ghost[3], const int mirror[3], 
     b->sum.impulse_boundary[k] -= 2 * (from[1 + k] + dt * from[4 + k]);
     if (!b->meets) return;
     const double *surface = b->out_contact[source];
-    for (int i = 0; i < 7; i++) b->out_contact[target][i] += i == k || i == 3 + k ? -surface[i] : surface[i];
+    for (int i = 0; i < LINE; i++) b->out_contact[target][i] += i == k || i == 3 + k ? -surface[i] : surface[i];
 }
 
 static void fold(const mpm *m, brick *b)
@@ -312,7 +318,8 @@ void ISA(p2g)(mpm *m, brick *b)
     cell_grid at;
     cell_work work = { .grid = &at,
                        .dt = { 0.5 * level_dt(m, b->level), 0.5 * level_dt_last(m, b->level) },
-                       .affine = m->scene.transfer == TRANSFER_TPIC ? 1 : 0 };
+                       .affine = m->scene.transfer == TRANSFER_TPIC ? 1 : 0,
+                       .mixed = m->group[b->group].mixed };
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
         if (b->head[cell] < 0) continue;
         cell_grid_set(&at, &grid, cell);

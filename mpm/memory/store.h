@@ -135,7 +135,7 @@ typedef struct {
     uint64_t occupied, meets;    /* bit c: cell c has particles; it may share nodes with another group */
     int neighbour[NEIGHBOURS];   /* bricks of the same group around, -1 = none */
     double (*out)[LINE];         /* [216] m, px, py, pz, fx, fy, fz, kinetic energy; halo_place (kernels.h) */
-    double (*out_contact)[LINE]; /* [216] V grad S (3), -m (x_i - x_p) (3), m flow, 0 */
+    double (*out_contact)[LINE]; /* [216] V grad S (3), -m (x_i - x_p) (3), m flow, m effusivity (mixed) */
     double (*line)[LINE];        /* of a seam brick: [64] sums as in `out`, then [64] as in `out_contact` */
     node_shares *held;           /* of a brick that shares nodes with a finer level */
     int movers, movers_first, movers_thread; /* its part of the thread's mover list */
@@ -170,6 +170,7 @@ typedef struct kernels kernels;
 typedef struct {
     int first;              /* body */
     bool passes[MPM_FACES]; /* mpm_body.passes */
+    bool mixed;             /* its bodies differ in what a node asks of its material: effusivity, wave speeds */
 } group_info;
 
 /* A contact as the kernels want it. */
@@ -190,6 +191,7 @@ struct mpm {
     mpm_scene scene;
     material *materials; /* [scene.bodies] */
     law *laws;           /* [scene.bodies] */
+    double *effusivity;  /* [scene.bodies] sqrt(k rho c), NAN: not known [W s^1/2/m2/K] */
     grids grids;
     int groups;
     group_info *group; /* [groups] */
