@@ -62,6 +62,13 @@ static void film_friction(const shot_model *m, double v, shot_forces *f)
     f->mu = fmin(f->mu, melt.shear / P);
 }
 
+double circuit_shot_total_current(const shot_drive *d, const shot_model *m)
+{
+    double I = 0.0;
+    for (int f = 0; f < m->reached; f++) I += d->I[f];
+    return I;
+}
+
 /* m dv/dt = F - 2 mu(v) N - drag,  N = preload + k I^2                                     (C-3)
  * with a shunt F = F(I) - 1/2 L_inf i_m^2: its current i_m flows ahead of the armature, which carries I - i_m
  * (C-15) */

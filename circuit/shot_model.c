@@ -82,13 +82,6 @@ shot_drive circuit_shot_drive_at(const shot_model *m, double t, const double *y)
     return d;
 }
 
-double circuit_shot_total_current(const shot_drive *d, const shot_model *m)
-{
-    double I = 0.0;
-    for (int f = 0; f < m->reached; f++) I += d->I[f];
-    return I;
-}
-
 double circuit_shot_current_slope(const shot_model *m, const shot_drive *d, const double *z)
 {
     double slope = 0.0;

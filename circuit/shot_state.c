@@ -4,16 +4,6 @@
 #include <assert.h>
 #include <math.h>
 
-double *circuit_shot_y(const shot *s)
-{
-    return circuit_dae_y(s->solver);
-}
-
-double *circuit_shot_z(const shot *s)
-{
-    return circuit_dae_y(s->solver) + s->model.start;
-}
-
 shot_drive circuit_shot_drive_now(const shot *s)
 {
     return circuit_shot_drive_at(&s->model, s->t, circuit_shot_y(s));

@@ -17,34 +17,7 @@ void case_free(breech_case *c)
     free(c);
 }
 
-double case_layers_thickness(const case_layers *layers)
-{
-    double sum = 0.0;
-    for (int i = 0; i < layers->n; i++) sum += layers->item[i].thickness;
-    return sum;
-}
-
-const material *case_material(const case_materials *list, const char *name)
-{
-    for (int k = 0; k < list->n; k++)
-        if (strcmp(list->item[k].name, name) == 0) return &list->item[k];
-    return NULL;
-}
-
 /* ---- materials ---- */
-
-void case_warn(case_reader *r, const char *line)
-{
-    const size_t old = strlen(r->out->warnings), more = strlen(line);
-    if (more == 0) return;
-    char *all = realloc(r->out->warnings, old + more + 2);
-    if (!all) {
-        r->out_of_memory = true;
-        return;
-    }
-    snprintf(all + old, more + 2, "%s\n", line);
-    r->out->warnings = all;
-}
 
 static void keep_material(case_reader *r, const material *m)
 {

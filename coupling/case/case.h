@@ -336,6 +336,8 @@ void case_free(breech_case *c); /* NULL allowed */
 const material *case_material(const case_materials *list, const char *name);
 
 double case_layers_thickness(const case_layers *layers); /* of all together [m] */
+/* A layer more, at place `at` from below. */
+status case_layers_add(case_layers *layers, int at, const case_layer *layer);
 
 /* used.yaml: all values resolved, in SI with units, the materials' constants too.  Read back it gives the same case. */
 status case_write_used(const breech_case *c, FILE *file);

@@ -35,13 +35,6 @@ static void resolve_site(case_site *site, const case_particle *shared, const tre
     if (!is_given(node, "bond_strength")) site->bond_strength = shared->bond_strength;
 }
 
-const tree_node *case_entry_node(const tree_node *list, int k)
-{
-    if (!list) return NULL;
-    if (list->kind != TREE_LIST) return k == 0 ? list : NULL;
-    return k < list->n ? list->item[k] : NULL;
-}
-
 /* ---- what follows from other keys ---- */
 
 static const param *row_of(const param *table, const char *key)

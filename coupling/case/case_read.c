@@ -348,6 +348,13 @@ static bool is_spread(const case_section *section, const tree_node *value, const
     return section->spread && value->kind == TREE_LIST && p && p->kind != PARAM_VECTOR && p->kind != PARAM_POINTS;
 }
 
+const tree_node *case_entry_node(const tree_node *list, int k)
+{
+    if (!list) return NULL;
+    if (list->kind != TREE_LIST) return k == 0 ? list : NULL;
+    return k < list->n ? list->item[k] : NULL;
+}
+
 int case_entry_values(const case_section *section, const tree_node *entry)
 {
     for (int k = 0; entry->kind == TREE_MAP && k < entry->n; k++)
@@ -511,4 +518,17 @@ void case_section_free(const case_section *section, void *parent)
     for (int k = 0; k < list.n; k++) free_children(section, (char *)list.item + (size_t)k * section->size);
     free(list.item);
     case_list_put(parent, section, (case_list){ 0, NULL });
+}
+
+void case_warn(case_reader *r, const char *line)
+{
+    const size_t old = strlen(r->out->warnings), more = strlen(line);
+    if (more == 0) return;
+    char *all = realloc(r->out->warnings, old + more + 2);
+    if (!all) {
+        r->out_of_memory = true;
+        return;
+    }
+    snprintf(all + old, more + 2, "%s\n", line);
+    r->out->warnings = all;
 }

@@ -73,15 +73,3 @@ void case_treated_free(case_onset *c)
     free(c->populations.item);
     memset(c, 0, sizeof *c);
 }
-
-status case_treatment_add_layer(case_onset *c, int at, const case_layer *layer)
-{
-    case_layers *l = &c->impact.rail.layers;
-    case_layer *more = realloc(l->item, ((size_t)l->n + 1) * sizeof *more);
-    CHECK(more, STATUS_MEMORY, "no memory for a layer");
-    l->item = more;
-    memmove(more + at + 1, more + at, (size_t)(l->n - at) * sizeof *more);
-    more[at] = *layer;
-    l->n++;
-    return status_ok();
-}

@@ -42,7 +42,4 @@ bool case_treatment_given(const case_treatment *t, int kind);
 status case_treat(const case_onset *c, const case_treatment *t, case_onset *out);
 void case_treated_free(case_onset *c);
 
-/* A layer more, at place `at` from below. */
-status case_treatment_add_layer(case_onset *c, int at, const case_layer *layer);
-
 #endif

@@ -3,6 +3,7 @@
 
 status case_treatment_coating_apply(const treatment_settings *t, case_onset *c)
 {
-    for (int i = 0; i < t->layers.n; i++) TRY(case_treatment_add_layer(c, c->impact.rail.layers.n, &t->layers.item[i]));
+    for (int i = 0; i < t->layers.n; i++)
+        TRY(case_layers_add(&c->impact.rail.layers, c->impact.rail.layers.n, &t->layers.item[i]));
     return status_ok();
 }

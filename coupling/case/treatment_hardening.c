@@ -18,5 +18,5 @@ status case_treatment_hardening_apply(const treatment_settings *t, case_onset *c
                         .bond_strength = NAN,
                         .yield_scale = c->impact.rail.yield_scale * t->value[FACTOR] };
     memcpy(skin.material, c->impact.rail.material, sizeof skin.material);
-    return case_treatment_add_layer(c, 0, &skin);
+    return case_layers_add(&c->impact.rail.layers, 0, &skin);
 }

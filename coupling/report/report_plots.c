@@ -4,26 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- what the summary says ---- */
-
-double report_number(const cJSON *object, const char *key)
-{
-    const cJSON *value = cJSON_GetObjectItemCaseSensitive(object, key);
-    return cJSON_IsNumber(value) ? value->valuedouble : NAN;
-}
-
-double report_element(const cJSON *object, const char *key, int i)
-{
-    const cJSON *value = cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(object, key), i);
-    return cJSON_IsNumber(value) ? value->valuedouble : NAN;
-}
-
-const char *report_text(const cJSON *object, const char *key)
-{
-    const char *text = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(object, key));
-    return text ? text : "";
-}
-
 /* Two columns of a group, of equal length; frees nothing on failure.  n = 0 where they are missing. */
 typedef struct {
     double *x, *y;

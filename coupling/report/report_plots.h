@@ -6,6 +6,7 @@
 
 #include "base/status.h"
 #include "coupling/host/hdf5_file.h"
+#include "coupling/report/report_value.h"
 
 #include <cJSON.h>
 #include <stdbool.h>
@@ -22,11 +23,6 @@ typedef struct {
 
 bool report_gnuplot_exists(void);
 
-/* A number of the object, NaN where it is null or missing; a text, "" where missing. */
-double report_number(const cJSON *object, const char *key);
-const char *report_text(const cJSON *object, const char *key);
-/* Element i of a vector, NaN where it is null or missing. */
-double report_element(const cJSON *object, const char *key, int i);
 /* Colour of an outcome or class: "#c0392b" for a gouge. */
 const char *report_colour(const char *outcome);
 

@@ -59,6 +59,10 @@ status run_session_close(session *s, bool finished);
 double run_session_wall(const session *s); /* spent by the run, the stopped parts too [s] */
 void run_session_warn(session *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* For run_session_open and _close: where the checkpoint lies; takes up what it holds. */
+status run_session_checkpoint_path(const session *s, char path[OUTDIR_PATH_SIZE]);
+status run_session_take_up(session *s);
+
 /* Takes a copy of the record, flushes the history, writes the checkpoint. */
 status run_session_keep(session *s, const scene_record *fresh);
 /* A checkpoint inside a scene: the scene_host's save, the session its user. */

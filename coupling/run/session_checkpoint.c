@@ -1,0 +1,111 @@
+/* What a session keeps in its checkpoint, and takes up from one. */
+#include "coupling/run/session.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+double run_session_wall(const session *s)
+{
+    return s->wall_before + host_wall_clock() - s->started;
+}
+
+/* ---- checkpoints: the records one after the other, after a head that says how many ---- */
+
+typedef struct {
+    uint64_t scenes, scene_bytes;
+    double scene_wall; /* spent in the scene under way [s] */
+} store_head;
+
+status run_session_checkpoint_path(const session *s, char path[OUTDIR_PATH_SIZE])
+{
+    return host_outdir_file(&s->dir, OUTDIR_CHECKPOINT, path, OUTDIR_PATH_SIZE);
+}
+
+static status write_checkpoint(const session *s, checkpoint *c, double scene_wall)
+{
+    char path[OUTDIR_PATH_SIZE];
+    const store_head head = { (uint64_t)s->n_records, sizeof(scene_record), scene_wall };
+    const size_t bytes = (size_t)s->n_records * sizeof(scene_record);
+    TRY(run_session_checkpoint_path(s, path));
+    char *study = malloc(sizeof head + bytes);
+    CHECK(study, STATUS_MEMORY, "no memory for a checkpoint of %d scenes", s->n_records);
+    memcpy(study, &head, sizeof head);
+    for (int i = 0; i < s->n_records; i++)
+        memcpy(study + sizeof head + (size_t)i * sizeof(scene_record), s->record[i], sizeof(scene_record));
+    c->study = study;
+    c->study_bytes = sizeof head + bytes;
+    c->wall_seconds = run_session_wall(s);
+    const status done = run_checkpoint_write(path, &s->key, c);
+    free(study);
+    return done;
+}
+
+static status add_record(session *s, const scene_record *from)
+{
+    scene_record *copy = malloc(sizeof *copy);
+    scene_record **more = realloc(s->record, ((size_t)s->n_records + 1) * sizeof *more);
+    if (more) s->record = more;
+    if (!copy || !more) {
+        free(copy);
+        return base_status_error(STATUS_MEMORY, "no memory for %d scenes", s->n_records + 1);
+    }
+    memcpy(copy, from, sizeof *copy);
+    s->record[s->n_records++] = copy;
+    return status_ok();
+}
+
+status run_session_take_up(session *s)
+{
+    char path[OUTDIR_PATH_SIZE];
+    store_head head;
+    TRY(run_session_checkpoint_path(s, path));
+    TRY(run_checkpoint_read(path, &s->key, &s->resumed));
+    CHECK(s->resumed.study_bytes >= sizeof head, STATUS_IO, "%.300s: holds no study; start over with --force", path);
+    memcpy(&head, s->resumed.study, sizeof head);
+    CHECK(head.scene_bytes == sizeof(scene_record) &&
+              s->resumed.study_bytes == sizeof head + head.scenes * sizeof(scene_record),
+          STATUS_IO, "%.300s: its scenes are of another build; start over with --force", path);
+    for (size_t i = 0; i < head.scenes; i++) {
+        scene_record one;
+        memcpy(&one, (const char *)s->resumed.study + sizeof head + i * sizeof one, sizeof one);
+        TRY(add_record(s, &one));
+    }
+    s->wall_before = s->resumed.wall_seconds;
+    return status_ok();
+}
+
+static double resumed_scene_wall(const session *s)
+{
+    store_head head;
+    memcpy(&head, s->resumed.study, sizeof head);
+    return head.scene_wall;
+}
+
+/* ---- inside a scene, and after one ---- */
+
+status run_session_save_inside(void *user, const char *scene, const scene_now *now)
+{
+    const session *s = user;
+    checkpoint c = { .scene_hash = host_hash_bytes(0, scene, strlen(scene)), .scene_time = mpm_glance(now->m).time };
+    void *image = NULL;
+    snprintf(c.scene, sizeof c.scene, "%s", scene);
+    TRY(scene_image(now, &image, &c.image_bytes));
+    c.image = image;
+    const status done = write_checkpoint(s, &c, now->wall);
+    free(image);
+    return done;
+}
+
+scene_resume run_session_resume_of(const session *s, const char *scene)
+{
+    if (!s->resumed.image || strcmp(s->resumed.scene, scene) != 0) return (scene_resume){ .image = NULL };
+    return (scene_resume){ s->resumed.image, s->resumed.image_bytes, s->resumed.scene_time, resumed_scene_wall(s) };
+}
+
+status run_session_keep(session *s, const scene_record *fresh)
+{
+    checkpoint between = { .scene = "" };
+    TRY(add_record(s, fresh));
+    TRY(output_history_flush(s->history));
+    return write_checkpoint(s, &between, 0.0);
+}

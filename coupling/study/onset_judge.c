@@ -1,0 +1,249 @@
+/* What a study's thresholds say of its sites, and of the case. */
+#include "coupling/study/onset.h"
+#include "coupling/study/sampling/gouge_law.h"
+#include "coupling/study/sampling/population.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double TRUSTED_CELLS = 3.0; /* a radius: below, the threshold hangs on the resolution (docs/onset.md) */
+
+/* ---- judging the sites ---- */
+
+static site_outcome outcome_at(const surface_size *t, double v, const family_scene *near)
+{
+    if (!isnan(t->interval[1]) && v >= t->interval[1]) return SITE_GOUGE;
+    if (isnan(t->interval[0]) || v > t->interval[0]) return SITE_UNDECIDED;
+    return near && near->record->entry.result.class == DAMAGE_NONE ? SITE_NONE : SITE_SCRATCH;
+}
+
+/* Where v lies in the interval, 0 below, 1 above; NaN where an end is unknown and v beyond the known one. */
+static double probability_at(const surface_size *t, double v)
+{
+    const double lo = t->interval[0], hi = t->interval[1];
+    if (!isnan(hi) && v >= hi) return 1.0;
+    if (!isnan(lo) && v <= lo) return 0.0;
+    return (v - lo) / (hi - lo);
+}
+
+static const grain_family *family_of(const onset_answer *a, int site)
+{
+    const int k = a->grains.of_site[site];
+    return k < 0 ? NULL : &a->grains.family[k];
+}
+
+static surface_size threshold_of(const onset_answer *a, int site)
+{
+    return study_surface_at(&family_of(a, site)->surface, a->grains.c->sites.item[site].radius);
+}
+
+static void judge_sites(onset_answer *a)
+{
+    for (int i = 0; i < a->result.n_sites; i++) {
+        onset_site *site = &a->site[i];
+        const grain_family *f = family_of(a, i);
+        if (!f) continue;
+        const surface_size t = threshold_of(a, i);
+        const family_scene *near = study_family_nearest(f, site->radius, site->velocity);
+        gouge_mark mark;
+        site->threshold_velocity = t.velocity;
+        memcpy(site->threshold_interval, t.interval, sizeof t.interval);
+        site->outcome = outcome_at(&t, site->velocity, near);
+        if (near) memcpy(site->scene, near->record->entry.name, sizeof site->scene);
+        if (site->outcome != SITE_GOUGE) continue;
+        a->result.gouges++;
+        if (study_gouge_mark_at(f, a->grains.c->impact.scene.limit_severity, site->velocity, &mark))
+            site->gouged_volume = mark.volume * pow(site->radius, 3.0);
+    }
+}
+
+/* ---- the verdict of a list ---- */
+
+/* First site along the barrel, of those with an answer to be had, whose velocity has passed `end` of its threshold:
+ * 0, 1 the interval's ends, 2 the threshold itself.  -1 if none. */
+static int first_site(const onset_answer *a, int end)
+{
+    int first = -1;
+    for (int i = 0; i < a->result.n_sites; i++) {
+        if (!family_of(a, i)) continue;
+        const surface_size t = threshold_of(a, i);
+        const double v = a->site[i].velocity, at = end < 2 ? t.interval[end] : t.velocity;
+        const bool passed = end == 0 ? !(v <= at) : v >= (isnan(at) ? t.interval[1] : at);
+        if (passed && (first < 0 || a->site[i].position < a->site[first].position)) first = i;
+    }
+    return first;
+}
+
+static double position_of(const onset_answer *a, int site)
+{
+    return site < 0 ? NAN : a->site[site].position;
+}
+
+static double largest_probability(const onset_answer *a)
+{
+    double p = 0.0;
+    bool unknown = false;
+    for (int i = 0; i < a->result.n_sites; i++) {
+        if (!family_of(a, i)) continue;
+        const surface_size t = threshold_of(a, i);
+        const double here = probability_at(&t, a->site[i].velocity);
+        unknown = unknown || isnan(here);
+        if (here > p) p = here;
+    }
+    return unknown && p < 1.0 ? NAN : p;
+}
+
+static void conclude_list(onset_answer *a)
+{
+    onset_result *r = &a->result;
+    const int at = first_site(a, 2), possible = first_site(a, 0), sure = first_site(a, 1);
+    r->verdict = sure >= 0 ? VERDICT_GOUGES : possible >= 0 ? VERDICT_UNDECIDED : VERDICT_NO_GOUGING;
+    r->probability_gouge = largest_probability(a);
+    r->onset_position = position_of(a, at);
+    r->onset_interval[0] = position_of(a, possible);
+    r->onset_interval[1] = position_of(a, sure);
+}
+
+/* ---- the threshold that speaks for the case ---- */
+
+const grain_family *study_onset_leading_grain(const onset_answer *a, double *radius)
+{
+    const case_onset *c = a->grains.c;
+    const int site = first_site(a, 2);
+    const grain_family *lowest = NULL;
+    double v = NAN;
+    for (int k = 0; k < c->populations.n; k++) {
+        if (a->grains.of_population[k] < 0) continue;
+        *radius = study_population_quantile(&c->populations.item[k], 0.5);
+        return &a->grains.family[a->grains.of_population[k]];
+    }
+    if (site >= 0) {
+        *radius = c->sites.item[site].radius;
+        return family_of(a, site);
+    }
+    for (int k = 0; k < a->grains.n; k++) {
+        const surface_result *s = &a->grains.family[k].surface;
+        const surface_size *largest = &s->size[s->sizes - 1];
+        if (lowest && !(largest->velocity < v)) continue;
+        lowest = &a->grains.family[k];
+        v = largest->velocity;
+        *radius = largest->radius;
+    }
+    return lowest;
+}
+
+static void set_threshold(onset_answer *a)
+{
+    onset_result *r = &a->result;
+    double radius;
+    const grain_family *f = study_onset_leading_grain(a, &radius);
+    if (!f) return;
+    const surface_size t = study_surface_at(&f->surface, radius);
+    r->threshold_velocity = t.velocity;
+    r->threshold_position = gouge_trace_place(&a->flown, t.velocity);
+    for (int k = 0; k < 2; k++) {
+        r->threshold_interval[k] = t.interval[k];
+        r->threshold_position_interval[k] = gouge_trace_place(&a->flown, t.interval[k]);
+    }
+}
+
+/* ---- what was skipped, and why ---- */
+
+static status add_skip(onset_answer *a, int scenes, const char *rests_on)
+{
+    onset_result *r = &a->result;
+    if (scenes == 0) return status_ok();
+    onset_skip *more = realloc(a->skip, ((size_t)r->n_skips + 1) * sizeof *more);
+    CHECK(more, STATUS_MEMORY, "no memory for a summary");
+    a->skip = more;
+    r->skip = more;
+    r->scenes_skipped += scenes;
+    more[r->n_skips].scenes = scenes;
+    snprintf(more[r->n_skips++].rests_on, sizeof more->rests_on, "%s", rests_on);
+    return status_ok();
+}
+
+static status count_skips(onset_answer *a)
+{
+    int shared = 0, inferred = 0;
+    for (int i = 0; i < a->result.n_sites; i++) shared += a->grains.of_site[i] >= 0;
+    for (int k = 0; k < a->grains.n; k++) {
+        const grain_family *f = &a->grains.family[k];
+        inferred += f->surface.inferred;
+        for (int j = 0; j < f->surface.sizes; j++)
+            for (int i = 0; i < a->result.n_sites; i++)
+                if (a->grains.of_site[i] == k && a->grains.c->sites.item[i].radius == f->surface.size[j].radius) {
+                    shared--; /* one site of each size is what the search is for */
+                    break;
+                }
+    }
+    TRY(add_skip(a, a->grains.screened, "screen: impact pressure over hardness below study.screen_low"));
+    TRY(add_skip(a, shared, "shared: a site of the same grain has them"));
+    TRY(add_skip(a, inferred, "monotone: a size bounded by the scenes of smaller and larger ones"));
+    return add_skip(a, a->grains.too_small, "size: a population below study.smallest_radius");
+}
+
+static status list_surface(onset_answer *a)
+{
+    int n = 0;
+    for (int k = 0; k < a->grains.n; k++) n += a->grains.family[k].surface.sizes;
+    a->size = calloc((size_t)n + 1, sizeof *a->size);
+    CHECK(a->size, STATUS_MEMORY, "no memory for %d sizes", n);
+    a->result.surface = a->size;
+    for (int k = 0; k < a->grains.n; k++)
+        for (int j = 0; j < a->grains.family[k].surface.sizes; j++) {
+            const grain_family *f = &a->grains.family[k];
+            const surface_size *from = &f->surface.size[j];
+            onset_size *to = &a->size[a->result.n_surface++];
+            *to = (onset_size){ .family = k + 1,
+                                .radius = from->radius,
+                                .grains = from->weight,
+                                .threshold_velocity = from->velocity,
+                                .threshold_interval = { from->interval[0], from->interval[1] },
+                                .scenes = from->scenes };
+            memcpy(to->shape, f->grain.shape, sizeof to->shape);
+            memcpy(to->material, f->grain.material, sizeof to->material);
+        }
+    return status_ok();
+}
+
+/* A layer thinner than a cell is a film (docs/onset.md). */
+static void warn_of_films(session *s, const onset_answer *a)
+{
+    const case_onset *c = a->grains.c;
+    for (int k = 0; k < a->grains.n; k++) {
+        const surface_plan *p = &a->grains.family[k].plan;
+        const double cell = p->size[p->reference] / p->search.fine;
+        for (int i = 0; i < c->impact.rail.layers.n; i++)
+            if (c->impact.rail.layers.item[i].thickness < cell)
+                run_session_warn(s, "%srail.layers[%d]: %g um of %s in cells of %g um: a film, strained as its cell is",
+                                 a->grains.prefix, i, 1e6 * c->impact.rail.layers.item[i].thickness,
+                                 c->impact.rail.layers.item[i].material, 1e6 * cell);
+    }
+}
+
+static void warn_of_thresholds(session *s, const onset_answer *a)
+{
+    const case_study *y = &a->grains.c->study;
+    for (int k = 0; k < a->grains.n; k++)
+        if (a->grains.family[k].surface.warning[0])
+            run_session_warn(s, "%s%s", a->grains.prefix, a->grains.family[k].surface.warning);
+    if (a->grains.n && y->fine_cells_per_radius < TRUSTED_CELLS && !a->grains.prefix[0])
+        run_session_warn(
+            s,
+            "thresholds at %g cells a radius: below %g they come out up to twice too high, by more than the interval "
+            "allows for (docs/onset.md)",
+            y->fine_cells_per_radius, TRUSTED_CELLS);
+}
+
+status study_onset_judge(session *s, onset_answer *a)
+{
+    warn_of_thresholds(s, a);
+    warn_of_films(s, a);
+    judge_sites(a);
+    conclude_list(a);
+    set_threshold(a);
+    TRY(list_surface(a));
+    return count_skips(a);
+}
