@@ -139,6 +139,8 @@ mpm_pair mpm_scene_contact(const mpm_scene *s, int a, int b);
 /* Every member of a scene's structs once: name, unit, default, range, offset.  The run's members, and only they, change
  * nothing of what a scene is at a time, and no key.  Solids' values and contacts' are in their kinds' and laws' tables,
  * materials in mpm_material_params. */
+enum { MPM_BODY_KEYED = 8 }; /* rows of mpm_body_params from here on are keys of a body in a case file too */
+extern const char *const mpm_face_names[]; /* -x +x -y +y -z +z, NULL */
 extern const param mpm_body_params[], mpm_axis_params[], mpm_pair_params[], mpm_follow_params[], mpm_scene_params[],
     mpm_scene_run_params[];
 

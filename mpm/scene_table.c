@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-static const char *const faces[] = { "-x", "+x", "-y", "+y", "-z", "+z", NULL };
+const char *const mpm_face_names[] = { "-x", "+x", "-y", "+y", "-z", "+z", NULL };
 static const char *const axes[] = { "x", "y", "z", NULL };
 static const char *const boundaries[] = { "free", "symmetry", "fixed", "absorbing", "prescribed", NULL };
 static const char *const transfers[] = { "tpic", "pic", NULL };
@@ -26,25 +26,27 @@ static const char *const bases[] = { "gimp", "bspline", NULL };
     }
 
 const param mpm_body_params[] = {
-    PARAM_STRING(mpm_body, name, "", "for people"),
     PARAM_INT(mpm_body, solid, -1, 0, 1e9, "root of its volume among the scene's solids"),
     PARAM_INT(mpm_body, group, 0, 0, 1e9, "bodies of one group have one velocity field"),
-    PARAM_VEC3(mpm_body, velocity, "m/s", 0.0, -1e6, 1e6, "at the start"),
-    PARAM_VEC3(mpm_body, spin, "rad/s", 0.0, -1e9, 1e9, "at the start, about its centre of mass"),
-    PARAM_DOUBLE(mpm_body, temperature, "K", 293.0, 0.0, 1e5, "at the start"),
-    PARAM_DOUBLE(mpm_body, pressure, "Pa", OPTIONAL, -1e13, 1e13, "at the start; not given: at rest"),
-    PARAM_VEC3(mpm_body, body_force, "m/s^2", 0.0, -1e15, 1e15, "acceleration of the whole body"),
-    PARAM_VEC3(mpm_body, traction, "Pa", 0.0, -1e15, 1e15, "on its surface towards traction_face"),
-    PARAM_ENUM(mpm_body, traction_face, faces, 0, "where the traction acts"),
-    PARAM_DOUBLE(mpm_body, yield_scale, "1", 1.0, 0.0, 1e6, "factor on the yield stress"),
-    PARAM_BOOL(mpm_body, damage, 0, "does its material's law of failure act?"),
     PASSES(0, "passes_x_lo"),
     PASSES(1, "passes_x_hi"),
     PASSES(2, "passes_y_lo"),
     PASSES(3, "passes_y_hi"),
     PASSES(4, "passes_z_lo"),
     PASSES(5, "passes_z_hi"),
-    PARAM_BOOL(mpm_body, followed, 0, "its plastic front moves the fine zone"),
+    /* MPM_BODY_KEYED */
+    PARAM_STRING(mpm_body, name, NULL, "its name: letters, digits, - _ ."),
+    PARAM_VEC3(mpm_body, velocity, "m/s", 0.0, -1e5, 1e5, "at the start"),
+    PARAM_VEC3(mpm_body, spin, "rad/s", 0.0, -1e9, 1e9, "at the start, about its centre of mass"),
+    PARAM_DOUBLE(mpm_body, temperature, "K", 293.0, 0.1, 1e5, "at the start"),
+    PARAM_DOUBLE(mpm_body, pressure, "Pa", OPTIONAL, -1e12, 1e12,
+                 "at the start, from that of the surroundings; not given: that at which its material is at rest"),
+    PARAM_VEC3(mpm_body, body_force, "m/s^2", 0.0, -1e15, 1e15, "acceleration of all of it"),
+    PARAM_VEC3(mpm_body, traction, "Pa", 0.0, -1e13, 1e13, "on all of its surface that looks towards traction_face"),
+    PARAM_ENUM(mpm_body, traction_face, mpm_face_names, 0, "where that surface looks"),
+    PARAM_DOUBLE(mpm_body, yield_scale, "1", 1.0, 1e-3, 1e3, "factor on the yield stress: hardening"),
+    PARAM_BOOL(mpm_body, damage, 0, "its material's law of failure acts"),
+    PARAM_BOOL(mpm_body, followed, 0, "its plastic front moves the fine zone (`follow`)"),
     PARAMS_END,
 };
 

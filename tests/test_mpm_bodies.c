@@ -259,6 +259,7 @@ static void test_refused(void **state)
     for (int i = 0; i <= MPM_BODIES_COUNTED; i++) {
         mpm_body *b;
         assert_ok(mpm_scene_add_body(&s, &b));
+        strcpy(b->name, "one");
         b->material = &m, b->solid = solid;
     }
     assert_int_equal(mpm_create(&s, 1, &solver).code, STATUS_BAD_INPUT); /* one more than are told apart */

@@ -14,7 +14,6 @@ static const char *const boundary_names[] = {
     [BOUNDARY_FREE] = "free",           [BOUNDARY_SYMMETRY] = "symmetry",     [BOUNDARY_FIXED] = "fixed",
     [BOUNDARY_ABSORBING] = "absorbing", [BOUNDARY_PRESCRIBED] = "prescribed", NULL
 };
-static const char *const face_names[] = { "-x", "+x", "-y", "+y", "-z", "+z", NULL };
 static const char *const overlap_names[] = { [OVERLAP_REFUSED] = "refused", [OVERLAP_LATER] = "later", NULL };
 
 const param case_method_params[] = {
@@ -53,21 +52,8 @@ static const param axis_params[] = {
     PARAMS_END,
 };
 
-const param case_body_params[] = {
-    PARAM_STRING(mpm_body, name, NULL, "its name: letters, digits, - _ ."),
-    PARAM_VEC3(mpm_body, velocity, "m/s", 0.0, -1e5, 1e5, "at the start"),
-    PARAM_VEC3(mpm_body, spin, "rad/s", 0.0, -1e9, 1e9, "at the start, about its centre of mass"),
-    PARAM_DOUBLE(mpm_body, temperature, "K", 293.0, 0.1, 1e5, "at the start"),
-    PARAM_DOUBLE(mpm_body, pressure, "Pa", OPTIONAL, -1e12, 1e12,
-                 "at the start, from that of the surroundings; not given: that at which its material is at rest"),
-    PARAM_VEC3(mpm_body, body_force, "m/s^2", 0.0, -1e15, 1e15, "acceleration of all of it"),
-    PARAM_VEC3(mpm_body, traction, "Pa", 0.0, -1e13, 1e13, "on all of its surface that looks towards traction_face"),
-    PARAM_ENUM(mpm_body, traction_face, face_names, 0, "where that surface looks"),
-    PARAM_DOUBLE(mpm_body, yield_scale, "1", 1.0, 1e-3, 1e3, "factor on the yield stress: hardening"),
-    PARAM_BOOL(mpm_body, damage, 0, "its material's law of failure acts"),
-    PARAM_BOOL(mpm_body, followed, 0, "its plastic front moves the fine zone (`follow`)"),
-    PARAMS_END,
-};
+/* What the solver's own table says of a body, but for its volume, its group and the ends that it passes. */
+static const param *const body_params = &mpm_body_params[MPM_BODY_KEYED];
 
 static const param follow_params[] = {
     PARAM_ENUM(mpm_follow, along, letters, 0, "axis along which the fine zone goes"),
@@ -121,7 +107,7 @@ static const param refine_params[] = {
 const case_section case_bodies_manual[] = {
     MANUAL("scene with bodies", case_method_params, "A scene of one's own: `scene` with `bodies` (scenes.md)."),
     MANUAL("scene with bodies, cells", shared_params, "Of the same section."),
-    MANUAL("scene.bodies", case_body_params,
+    MANUAL("scene.bodies", &mpm_body_params[MPM_BODY_KEYED],
            "A list. Besides these keys: `material`; `shape`, a solid; `group`, any word: bodies of one group are "
            "welded, a "
            "body without one is a group by itself; `passes`, ends of the window whose boundary does not act on it."),
@@ -193,8 +179,8 @@ static void read_passes(case_reader *r, const tree_node *node, const char *path,
     for (int i = 0; i < node->n; i++) {
         int face = 0;
         const char *text = node->item[i]->kind == TREE_TEXT ? node->item[i]->text : "";
-        while (face_names[face] && strcmp(face_names[face], text) != 0) face++;
-        if (face_names[face])
+        while (mpm_face_names[face] && strcmp(mpm_face_names[face], text) != 0) face++;
+        if (mpm_face_names[face])
             b->passes[face] = true;
         else
             case_errors_add(r->errors, node->item[i], "%s.passes[%d] must be one of -x, +x, -y, +y, -z, +z", path, i);
@@ -223,7 +209,7 @@ static void read_body(case_reader *r, const tree_node *list, int k, const char *
         r->out_of_memory = true;
         return;
     }
-    const case_keys keys = { case_body_params, b };
+    const case_keys keys = { body_params, b };
     case_keys_read(r, map, path, &keys, 1, others);
     check_name(r, map, path, b);
     b->group = group_of(s, list, k);
@@ -587,12 +573,12 @@ void case_bodies_resolve(case_reader *r)
 static void write_body(const mpm_scene *s, const mpm_body *b, FILE *file)
 {
     fputs("    - {", file);
-    case_keys_write(case_body_params, b, true, file);
+    case_keys_write(body_params, b, true, file);
     fprintf(file, ",\n       material: %s, group: %d", b->material->name, b->group);
     bool first = true;
-    for (int face = 0; face_names[face]; face++) {
+    for (int face = 0; mpm_face_names[face]; face++) {
         if (!b->passes[face]) continue;
-        fprintf(file, "%s%s", first ? ", passes: [" : ", ", face_names[face]);
+        fprintf(file, "%s%s", first ? ", passes: [" : ", ", mpm_face_names[face]);
         first = false;
     }
     fprintf(file, "%s,\n       shape: ", first ? "" : "]");

@@ -53,7 +53,6 @@ void case_unknown_name(case_reader *r, const tree_node *where, const char *what,
                        const char *(*names)(const void *user, int i), const void *user);
 
 extern const param case_method_params[]; /* of mpm_scene */
-extern const param case_body_params[];   /* of mpm_body */
 
 /* For the manual: the tables of the section as sections of their own; ends with a NULL key. */
 extern const case_section case_bodies_manual[];
