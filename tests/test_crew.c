@@ -28,6 +28,8 @@
         if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
     } while (0)
 
+#include "body_scenes.h"
+
 #define CASES BREECH_TESTS "/../cases"
 enum { PROCESSES = 3, SKIPPED = 77, SUBSETS = 1 << PROCESSES };
 
@@ -306,6 +308,50 @@ static int tasks(void)
     return n;
 }
 
+/* Scenes of bodies in a batch: whoever computes them, result, series and snapshots are those of one process. */
+static void test_bodies(void **state)
+{
+    (void)state;
+    enum { N = 4 };
+    static const char *const cells[N] = { "scene.cell=0.4 mm", "scene.cell=0.35 mm", "scene.cell=0.3 mm",
+                                          "scene.cell=0.25 mm" };
+    breech_case *c = small_case("scene.end_time=1 us");
+    case_inputs *in[N];
+    scene_query q[N];
+    const scene_record *out[N], *own;
+    session s, single;
+    for (int i = 0; i < N; i++) {
+        char name[20];
+        snprintf(name, sizeof name, "cell%d", i);
+        in[i] = body_scene(cells[i]);
+        q[i] = body_scene_query(in[i], name);
+    }
+    open_session(c, "bodies", &s);
+    OK(run_scenes_all(&s, q, N, out));
+    assert_int_equal(s.n_records, N);
+    char *have[N];
+    for (int i = 0; i < N; i++) have[i] = body_scene_result(s.history, q[i].name);
+    for (int i = 0; i < N; i++)
+        assert_true(is_there("bodies", q[i].name, "scene-000000.hdf") &&
+                    is_there("bodies", q[i].name, "scene.hdf.series"));
+    open_session(c, "bodies_alone", &single);
+    crew *others = single.crew;
+    single.crew = NULL;
+    for (int i = 0; i < N; i++) {
+        OK(run_scenes_all(&single, &q[i], 1, &own));
+        assert_true(own->key == out[i]->key);
+        char *want = body_scene_result(single.history, q[i].name);
+        assert_string_equal(have[i], want);
+        assert_same_body_series(s.history, q[i].name, single.history, q[i].name);
+        free(want), free(have[i]);
+    }
+    single.crew = others;
+    OK(run_session_close(&single, true));
+    OK(run_session_close(&s, true));
+    for (int i = 0; i < N; i++) case_inputs_free(in[i]);
+    case_free(c);
+}
+
 /* One scene while the others idle: on everybody's threads, to the bits of one. */
 static void test_lent(void **state)
 {
@@ -491,9 +537,10 @@ int main(int argc, char **argv)
     if (argc == 1) return as_crew(argv[0]);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lent), /* first: no other has made threads yet */
-        cmocka_unit_test(test_shares), cmocka_unit_test(test_given_back), cmocka_unit_test(test_keeper),
-        cmocka_unit_test(test_batch),  cmocka_unit_test(test_laid_aside), cmocka_unit_test(test_ahead),
-        cmocka_unit_test(test_failed), cmocka_unit_test(test_stopped),    cmocka_unit_test(test_put_off),
+        cmocka_unit_test(test_shares),  cmocka_unit_test(test_given_back), cmocka_unit_test(test_keeper),
+        cmocka_unit_test(test_batch),   cmocka_unit_test(test_bodies),     cmocka_unit_test(test_laid_aside),
+        cmocka_unit_test(test_ahead),   cmocka_unit_test(test_failed),     cmocka_unit_test(test_stopped),
+        cmocka_unit_test(test_put_off),
     };
     int failed = 0;
     if (run_ranks_start().code != STATUS_OK) return SKIPPED; /* built without MPI */

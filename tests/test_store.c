@@ -23,6 +23,8 @@
         if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
     } while (0)
 
+#include "body_scenes.h"
+
 #define CASES BREECH_TESTS "/../cases"
 
 static breech_case *read_case(const char *const *sets)
@@ -287,6 +289,61 @@ static void test_shared(void **state)
     case_free(c);
 }
 
+static void path_in(const char *dir, uint64_t key, char path[300])
+{
+    snprintf(path, 300, "%s/%016llx.h5", dir, (unsigned long long)key);
+}
+
+/* Scenes of bodies: computed once, whatever run asks; result and series come from the store as they were; another
+ * value, or another number of snapshots, is another scene. */
+static void test_bodies(void **state)
+{
+    (void)state;
+    fresh_folder("bodies");
+    breech_case *c = read_case(NULL);
+    case_inputs *coarse = body_scene("scene.cell=0.4 mm"), *again = body_scene("scene.cell=0.0004 m");
+    case_inputs *other[] = { body_scene("scene.cell=0.5 mm"), body_scene("output.snapshots=3") };
+    const scene_query q[] = { body_scene_query(coarse, "a"), body_scene_query(again, "b") };
+    const scene_record *out[2];
+    session one = opened(c, "bodies/one", "bodies/store");
+    OK(run_scenes_all(&one, q, 2, out));
+    assert_ptr_equal(out[0], out[1]); /* two cases, one scene */
+    assert_true(out[0]->of_bodies && !out[0]->entry.reused);
+    assert_string_equal(out[0]->entry.name, "a");
+    assert_int_equal(one.n_records, 1);
+    char *want = body_scene_result(one.history, "a");
+    for (int i = 0; i < 2; i++) {
+        const scene_query different = body_scene_query(other[i], "d");
+        OK(run_scenes_find(&one, &different, &out[1]));
+        assert_null(out[1]);
+    }
+
+    session two = opened(c, "bodies/two", "bodies/store");
+    OK(run_scenes_all(&two, &q[1], 1, out));
+    assert_true(out[0]->entry.reused);
+    char *have = body_scene_result(two.history, "b");
+    assert_string_equal(have, want);
+    assert_same_body_series(one.history, "a", two.history, "b");
+    free(have);
+
+    const uint64_t key = out[0]->key; /* a damaged file is computed anew */
+    OK(run_session_close(&two, true));
+    char path[300];
+    path_in("bodies/store", key, path);
+    assert_int_equal(truncate(path, 1000), 0);
+    session three = opened(c, "bodies/three", "bodies/store");
+    OK(run_scenes_all(&three, q, 1, out));
+    assert_false(out[0]->entry.reused);
+    have = body_scene_result(three.history, "a");
+    assert_string_equal(have, want);
+    free(have), free(want);
+    OK(run_session_close(&three, true));
+    OK(run_session_close(&one, true));
+    case_inputs_free(coarse), case_inputs_free(again);
+    for (int i = 0; i < 2; i++) case_inputs_free(other[i]);
+    case_free(c);
+}
+
 /* A run that is overwritten keeps its store. */
 static void test_force_keeps_it(void **state)
 {
@@ -302,11 +359,6 @@ static void test_force_keeps_it(void **state)
         OK(run_session_close(&s, true));
     }
     case_free(c);
-}
-
-static void path_in(const char *dir, uint64_t key, char path[300])
-{
-    snprintf(path, 300, "%s/%016llx.h5", dir, (unsigned long long)key);
 }
 
 /* A damaged file, and one of another scene under this one's name: computed anew, and mended. */
@@ -424,9 +476,9 @@ static void test_full_disk(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_key_parts),      cmocka_unit_test(test_key_is_a_case),  cmocka_unit_test(test_file),
-        cmocka_unit_test(test_shared),         cmocka_unit_test(test_force_keeps_it), cmocka_unit_test(test_damaged),
-        cmocka_unit_test(test_killed_writers), cmocka_unit_test(test_full_disk),
+        cmocka_unit_test(test_key_parts), cmocka_unit_test(test_key_is_a_case),  cmocka_unit_test(test_file),
+        cmocka_unit_test(test_shared),    cmocka_unit_test(test_bodies),         cmocka_unit_test(test_force_keeps_it),
+        cmocka_unit_test(test_damaged),   cmocka_unit_test(test_killed_writers), cmocka_unit_test(test_full_disk),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

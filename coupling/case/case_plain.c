@@ -22,8 +22,9 @@ bool case_impact_is_gauged(const case_impact *i)
     return i->scene.stop_when_gauged && i->scene.follow;
 }
 
-static bool names_material(const case_impact *i, const char *name)
+static bool names_material(const void *of, const char *name)
 {
+    const case_impact *i = of;
     for (int k = 0; k < i->rail.layers.n; k++)
         if (strcmp(i->rail.layers.item[k].material, name) == 0) return true;
     return strcmp(i->rail.material, name) == 0 || strcmp(i->armature.material, name) == 0 ||
@@ -36,32 +37,67 @@ static int by_name(const void *a, const void *b)
     return strcmp(((const material *)a)->name, ((const material *)b)->name);
 }
 
-/* The materials named; out->item is owned. */
-static status named_materials(const case_impact *i, case_materials *out)
+/* Those of all that are named; out->item is owned. */
+static status named_materials(const case_materials *all, bool (*named)(const void *of, const char *name),
+                              const void *of, case_materials *out)
 {
-    *out = (case_materials){ 0, calloc((size_t)i->materials.n + 1, sizeof *out->item) };
-    CHECK(out->item, STATUS_MEMORY, "no memory for %d materials", i->materials.n);
-    for (int k = 0; k < i->materials.n; k++)
-        if (names_material(i, i->materials.item[k].name)) out->item[out->n++] = i->materials.item[k];
+    *out = (case_materials){ 0, calloc((size_t)all->n + 1, sizeof *out->item) };
+    CHECK(out->item, STATUS_MEMORY, "no memory for %d materials", all->n);
+    for (int k = 0; k < all->n; k++)
+        if (named(of, all->item[k].name)) out->item[out->n++] = all->item[k];
     qsort(out->item, (size_t)out->n, sizeof *out->item, by_name);
     return status_ok();
 }
 
+static case_output output_of(int snapshots)
+{
+    return (case_output){ .snapshots = snapshots, .history_interval = NAN, .checkpoint_interval = 60.0 };
+}
+
 status case_impact_write(const case_impact *i, FILE *file)
 {
-    const case_output plain = { .snapshots = i->snapshots, .history_interval = NAN, .checkpoint_interval = 60.0 };
     breech_case one = { .name = "scene",
                         .rail = i->rail,
                         .projectile = i->armature,
                         .particle = i->particle,
                         .scene = i->scene,
-                        .output = plain,
+                        .output = output_of(i->snapshots),
                         .given = {
                             .rail = true, .projectile = true, .particle = true, .scene = true, .output = true } };
-    TRY(named_materials(i, &one.materials));
+    TRY(named_materials(&i->materials, names_material, i, &one.materials));
     const status done = case_write_used(&one, file);
     free(one.materials.item);
     return done;
+}
+
+/* ---- a scene of bodies ---- */
+
+static bool is_of_a_body(const void *of, const char *name)
+{
+    const mpm_scene *s = of;
+    for (int i = 0; i < s->bodies; i++)
+        if (strcmp(s->body[i].material->name, name) == 0) return true;
+    return false;
+}
+
+status case_body_scene_write(const case_body_scene *s, FILE *file)
+{
+    breech_case one = { .name = "scene",
+                        .bodies = *s->bodies,
+                        .output = output_of(s->snapshots),
+                        .given = { .bodies = true, .output = true } };
+    TRY(named_materials(s->materials, is_of_a_body, &s->bodies->scene, &one.materials));
+    const status done = case_write_used(&one, file);
+    free(one.materials.item);
+    return done;
+}
+
+case_body_scene case_body_scene_of(const case_inputs *in)
+{
+    return (case_body_scene){ .bodies = &in->bodies,
+                              .materials = &in->onset.impact.materials,
+                              .snapshots = in->output.snapshots,
+                              .checkpoint_interval = in->output.checkpoint_interval };
 }
 
 /* ---- a shot over grains ---- */

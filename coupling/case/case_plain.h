@@ -26,6 +26,16 @@ bool case_impact_is_gauged(const case_impact *i);
  * named.  Read back it is the same impact, bit for bit. */
 status case_impact_write(const case_impact *i, FILE *file);
 
+/* A scene whose bodies stand in the case: all that decides it. */
+typedef struct {
+    const case_bodies *bodies; /* NULL: none */
+    const case_materials *materials;
+    int snapshots;
+    double checkpoint_interval; /* wall time; decides nothing [s] */
+} case_body_scene;
+/* The same as case_impact_write for it: with a window that is chosen (scene_fill). */
+status case_body_scene_write(const case_body_scene *s, FILE *file);
+
 /* A shot over grains on the rail: the launcher, the grains, what their scenes are made of, how thresholds are looked
  * for.  What studies of onset vary. */
 typedef struct {
@@ -70,6 +80,7 @@ typedef struct {
     const breech_case *file; /* what it was made from; for this folder alone */
 } case_inputs;
 case_inputs case_inputs_of(const breech_case *c);
+case_body_scene case_body_scene_of(const case_inputs *in); /* borrows of *in */
 
 /* As case_read and case_read_memory; case_inputs_free frees *out and all that it borrows. */
 status case_inputs_read(const char *path, const char *const *sets, int n_sets, const case_options *options,

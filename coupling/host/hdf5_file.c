@@ -448,3 +448,23 @@ status host_h5_read(const h5_file *f, const char *path, double **data, size_t di
     CHECK(s.code == STATUS_OK, s.code, "%.100s: %.100s: %.200s", f->name, path, s.text);
     return s;
 }
+
+status host_h5_write_text(h5_file *f, const char *path, const char *description, const char *text)
+{
+    return host_h5_write(f, &(h5_name){ path, "1", description },
+                         &(h5_array){ .type = H5_UINT8, .rank = 1, .dims = { strlen(text) }, .data = text });
+}
+
+status host_h5_read_text(const h5_file *f, const char *path, char **text)
+{
+    double *bytes;
+    size_t dims[H5_MAX_RANK];
+    *text = NULL;
+    TRY(host_h5_read(f, path, &bytes, dims));
+    *text = malloc(dims[0] + 1);
+    for (size_t i = 0; *text && i < dims[0]; i++) (*text)[i] = (char)(unsigned char)bytes[i];
+    if (*text) (*text)[dims[0]] = '\0';
+    free(bytes);
+    CHECK(*text, STATUS_MEMORY, "no memory for a text of %zu bytes", dims[0]);
+    return status_ok();
+}

@@ -61,6 +61,10 @@ status host_h5_read(const h5_file *f, const char *path, double **data, size_t di
 /* Names in a group, sorted, '\n' after each; malloc'ed, the caller frees it. "" when there is no such group. */
 status host_h5_list(const h5_file *f, const char *group, char **names);
 
+/* A text of any length as a dataset of bytes; *text is malloc'ed, the caller frees it. */
+status host_h5_write_text(h5_file *f, const char *path, const char *description, const char *text);
+status host_h5_read_text(const h5_file *f, const char *path, char **text);
+
 status host_h5_attribute_text(h5_file *f, const char *path, const char *name,
                               const char *text); /* fixed length, ASCII */
 status host_h5_attribute_double(h5_file *f, const char *path, const char *name, double value);

@@ -262,6 +262,24 @@ status output_history_import(history *h, const char *scene, const h5_file *from)
     return host_h5_copy(from, STORED_GROUP, h->file, group);
 }
 
+status output_history_text(history *h, const char *scene, const char *name, const char *description, const char *text)
+{
+    char group[GROUP_SIZE], path[2 * PATH_SIZE];
+    TRY(scene_group(scene, group));
+    snprintf(path, sizeof path, "%s/%s", group, name);
+    h->changed = true;
+    return host_h5_write_text(h->file, path, description, text);
+}
+
+status output_history_read_text(const history *h, const char *scene, const char *name, char **text)
+{
+    char group[GROUP_SIZE], path[2 * PATH_SIZE];
+    *text = NULL;
+    TRY(scene_group(scene, group));
+    snprintf(path, sizeof path, "%s/%s", group, name);
+    return host_h5_read_text(h->file, path, text);
+}
+
 /* ---- maps ---- */
 
 static status put_axis(h5_file *file, const char *path, const history_map *map, int k)

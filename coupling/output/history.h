@@ -57,6 +57,10 @@ bool output_history_has(const history *h, const char *scene);
 /* A dataset of a scene, "probes/push/force_x", rows not yet written included; as host_h5_read. */
 status output_history_read(history *h, const char *scene, const char *name, double **data, size_t dims[H5_MAX_RANK]);
 
+/* A text of a scene, /scene/<scene>/<name>, a former one replaced; *text is malloc'ed, the caller frees it. */
+status output_history_text(history *h, const char *scene, const char *name, const char *description, const char *text);
+status output_history_read_text(const history *h, const char *scene, const char *name, char **text);
+
 /* A map over two axes, with numbers and texts as attributes: /scene/<scene>/<name>/{axes, value}.  All borrowed. */
 typedef struct {
     const char *name;

@@ -236,6 +236,29 @@ static bool read_by_name(const summary_key *k, const cJSON *object, char *base)
     return cJSON_IsObject(object);
 }
 
+static bool read_keys(const summary_key *keys, const cJSON *object, void *out, const char **missing);
+
+/* Objects of a list, or of a map by their names, into an array of their own. */
+static bool read_items(const summary_key *k, const cJSON *list, char *base)
+{
+    const cJSON *value;
+    const size_t n = (size_t)cJSON_GetArraySize(list);
+    const char *missing = NULL;
+    char *item = calloc(n + 1, k->item_size);
+    *(void **)(void *)(base + k->offset) = item;
+    *(int *)(void *)(base + k->n_offset) = item ? (int)n : 0;
+    if (!item) return false;
+    cJSON_ArrayForEach(value, list)
+    {
+        const summary_key *name = k->item;
+        const bool map = k->kind == KEY_MAP;
+        if (map) snprintf(item + name->offset, (size_t)name->n, "%s", value->string);
+        if (!read_keys(name + map, value, item, &missing)) return false;
+        item += k->item_size;
+    }
+    return k->kind == KEY_MAP ? cJSON_IsObject(list) : cJSON_IsArray(list);
+}
+
 /* value_json the other way round. */
 static bool read_value(const summary_key *k, const cJSON *value, void *to)
 {
@@ -253,21 +276,28 @@ static bool read_value(const summary_key *k, const cJSON *value, void *to)
         return cJSON_IsString(value);
     case KEY_NAME: *(int *)member = name_index(k->names, cJSON_GetStringValue(value)); return *(int *)member >= 0;
     case KEY_BY_NAME: return read_by_name(k, value, to);
-    case KEY_PAIRS:
     case KEY_LIST:
-    case KEY_MAP:
+    case KEY_MAP: return read_items(k, value, to);
+    case KEY_PAIRS:
     case KEY_ARRAY:
     case KEY_PART: break;
     }
     return false;
 }
 
+/* *missing: the first key that is not there, or is of another kind. */
+static bool read_keys(const summary_key *keys, const cJSON *object, void *out, const char **missing)
+{
+    for (const summary_key *k = keys; k->name && !*missing; k++)
+        if (!read_value(k, cJSON_GetObjectItemCaseSensitive(object, k->name), out)) *missing = k->name;
+    return !*missing;
+}
+
 status output_object_read(const char *text, const summary_key *keys, void *out)
 {
     cJSON *root = cJSON_Parse(text);
     const char *missing = NULL;
-    for (const summary_key *k = keys; k->name && !missing; k++)
-        if (!read_value(k, cJSON_GetObjectItemCaseSensitive(root, k->name), out)) missing = k->name;
+    read_keys(keys, root, out, &missing);
     cJSON_Delete(root);
     CHECK(!missing, STATUS_IO, "the result of a scene has no `%s`", missing);
     return status_ok();

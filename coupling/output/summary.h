@@ -119,7 +119,8 @@ void output_summary_print(const run_summary *s, FILE *out);
 
 /* One line of JSON; numbers survive exactly.  malloc'ed, the caller frees it; NULL when out of memory. */
 char *output_object_text(const summary_object *o);
-/* The struct back from it.  STATUS_IO: not such a text, or keys are missing.  Not for KEY_PAIRS, _LIST, _ARRAY. */
+/* The struct back from it.  STATUS_IO: not such a text, or keys are missing.  Lists and maps are malloc'ed, the caller
+ * frees them, on error too; *out is all zero at first where there are any.  Not for KEY_PAIRS, _ARRAY. */
 status output_object_read(const char *text, const summary_key *keys, void *out);
 /* The key of that name that is one number; NULL: none is. */
 const summary_key *output_number_key(const summary_key *keys, const char *name);

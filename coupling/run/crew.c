@@ -84,7 +84,7 @@ static status add(crew *k, const scene_query *q, errand **out)
 static status find_or_add(crew *k, const scene_query *q, errand **out)
 {
     scene_key key = { .text = NULL };
-    status done = run_scene_key_of(&q->impact, &key);
+    status done = run_scene_query_key(q, &key);
     *out = find(k, key.hash);
     if (done.code == STATUS_OK && !*out) {
         uint64_t twin = 0;

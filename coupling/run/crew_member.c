@@ -92,12 +92,13 @@ static status check_key(const scene_order *order, const scene_key *key)
     return status_ok();
 }
 
-static status compute_impact(work *w, const scene_order *order, const case_impact *one, h5_file **file)
+static status compute_case(work *w, const scene_order *order, const case_inputs *in, h5_file **file)
 {
-    scene_query q = { .impact = *one };
+    scene_query q = { .impact = in->onset.impact };
     scene_key key = { .text = NULL };
+    if (in->given.bodies) q.bodies = case_body_scene_of(in);
     snprintf(q.name, sizeof q.name, "%s", order->name);
-    status done = run_scene_key_of(one, &key);
+    status done = run_scene_query_key(&q, &key);
     if (done.code == STATUS_OK) done = check_key(order, &key);
     if (done.code == STATUS_OK) done = compute(w, &q, &key, file);
     run_scene_key_free(&key);
@@ -130,7 +131,7 @@ static status take_order(member *me, const message *m)
                              .length = m->bytes - sizeof order,
                              .path = "rank 0's case" };
     status done = case_inputs_read_memory(&text, &(case_options){ .needs = CASE_FOR_SCENE }, &in, &errors);
-    if (done.code == STATUS_OK) done = compute_impact(&w, &order, &in->onset.impact, &file);
+    if (done.code == STATUS_OK) done = compute_case(&w, &order, in, &file);
     me->top = w.put_off;
     done = answer(me, order.key, done, file);
     host_h5_close(file);

@@ -15,16 +15,26 @@ static uint64_t hash_of(const char *text, size_t bytes)
     return host_hash_bytes(0, &who, sizeof who);
 }
 
-status run_scene_key_of(const case_impact *one, scene_key *out)
+static status key_of(const case_impact *impact, const case_body_scene *bodies, scene_key *out)
 {
     *out = (scene_key){ .text = NULL };
     FILE *f = open_memstream(&out->text, &out->bytes);
     CHECK(f, STATUS_MEMORY, "no memory for a scene's key");
-    status done = case_impact_write(one, f);
+    status done = impact ? case_impact_write(impact, f) : case_body_scene_write(bodies, f);
     if (fclose(f) != 0 && done.code == STATUS_OK)
         done = base_status_error(STATUS_MEMORY, "no memory for a scene's key");
     if (done.code == STATUS_OK) out->hash = hash_of(out->text, out->bytes);
     return done;
+}
+
+status run_scene_key_of(const case_impact *one, scene_key *out)
+{
+    return key_of(one, NULL, out);
+}
+
+status run_scene_key_of_bodies(const case_body_scene *one, scene_key *out)
+{
+    return key_of(NULL, one, out);
 }
 
 void run_scene_key_free(scene_key *k)

@@ -19,6 +19,7 @@ typedef struct {
 
 /* *out needs run_scene_key_free even on error. */
 status run_scene_key_of(const case_impact *one, scene_key *out);
+status run_scene_key_of_bodies(const case_body_scene *one, scene_key *out);
 void run_scene_key_free(scene_key *k);
 
 /* Of the solver's sources, the compiler and its flags (cmake/solver_id.cmake). */

@@ -14,8 +14,9 @@ typedef struct {
     scene_resume resume;
 } scene_work_how;
 
+status run_scene_query_key(const scene_query *q, scene_key *out); /* *out needs run_scene_key_free even on error */
 /* What the query says of its scene; the result is empty. */
-onset_scene run_scene_entry(const scene_query *q);
+scene_record run_scene_record(const scene_query *q);
 /* The same for a scene to its gauge and for the whole one (impact_job); 0: it has no gauges. */
 status run_scene_twin(const scene_query *q, uint64_t *twin);
 /* STATUS_STOPPED and errors as the runner. */

@@ -43,8 +43,11 @@ static bool stop_asked(void *user)
 static status run_here(session *s, const scene_query *q, const scene_key *key, scene_record *out)
 {
     char task[120];
-    snprintf(task, sizeof task, "scene %d, %g m/s, %g cells a radius", s->n_records + 1, q->impact.scene.velocity,
-             q->impact.scene.cells_per_radius);
+    if (q->bodies.bodies)
+        snprintf(task, sizeof task, "%s", q->name);
+    else
+        snprintf(task, sizeof task, "scene %d, %g m/s, %g cells a radius", s->n_records + 1, q->impact.scene.velocity,
+                 q->impact.scene.cells_per_radius);
     const scene_host host = { .dir = &s->dir,
                               .history = s->history,
                               .progress = &s->progress,
@@ -72,7 +75,7 @@ static status into_store(session *s, const scene_record *r, const scene_key *key
 static status keep(session *s, const scene_record *fresh)
 {
     TRY(run_session_keep(s, fresh));
-    say_outcome(s, &fresh->entry);
+    if (!fresh->of_bodies) say_outcome(s, &fresh->entry);
     return status_ok();
 }
 
@@ -89,9 +92,7 @@ static status compute(session *s, const scene_query *q, const scene_key *key)
 /* The scene's series and crater come along where its file has them. */
 static status take_file(session *s, const scene_query *q, const scene_key *key, const h5_file *file, bool reused)
 {
-    scene_record r;
-    memset(&r, 0, sizeof r);
-    r.entry = run_scene_entry(q);
+    scene_record r = run_scene_record(q);
     r.entry.reused = reused;
     TRY(run_scene_file_read(file, key, &r));
     if (host_h5_exists(file, "/scene")) TRY(output_history_import(s->history, q->name, file));
@@ -135,7 +136,7 @@ static const scene_record *record_of(const session *s, uint64_t key)
 static status look_up(session *s, const scene_query *q, scene_key *key, const scene_record **out)
 {
     *out = NULL;
-    TRY(run_scene_key_of(&q->impact, key));
+    TRY(run_scene_query_key(q, key));
     *out = record_of(s, key->hash);
     if (*out) return status_ok();
     TRY(take_come(s, q, key));
@@ -157,7 +158,7 @@ status run_scenes_find(session *s, const scene_query *query, const scene_record 
 static status compute_here(session *s, const scene_query *q)
 {
     scene_key key = { .text = NULL };
-    status done = run_scene_key_of(&q->impact, &key);
+    status done = run_scene_query_key(q, &key);
     if (done.code == STATUS_OK) done = compute(s, q, &key);
     run_scene_key_free(&key);
     return done;
@@ -204,7 +205,7 @@ status run_scenes_all(session *s, const scene_query *query, int n, const scene_r
 static status is_known(const session *s, const scene_query *q, bool *known)
 {
     scene_key key = { .text = NULL };
-    const status done = run_scene_key_of(&q->impact, &key);
+    const status done = run_scene_query_key(q, &key);
     *known = record_of(s, key.hash) || (s->store[0] && run_store_has(s->store, &key));
     run_scene_key_free(&key);
     return done;

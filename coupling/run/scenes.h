@@ -19,6 +19,7 @@
 
 typedef struct {
     case_impact impact;           /* what it borrows stays until run_session_close */
+    case_body_scene bodies;       /* the same; or a scene of bodies, where it has any */
     char name[SUMMARY_NAME_SIZE]; /* plain (outdir.h); a scene of this run keeps the name it has */
     bool anew;                    /* for its snapshots and live history: do not take it from the store */
 } scene_query;

@@ -16,6 +16,7 @@ typedef struct {
     onset_scene entry;
     double impulse, mass_loss; /* as impact */
     uint64_t key;              /* hash of all that decides it, scene_key.h */
+    bool of_bodies;            /* no more of the entry than its name; the result lies by its series (scene_bodies.h) */
 } scene_record;
 
 typedef struct {

@@ -12,26 +12,35 @@ enum { TEXT_SIZE = 1 << 16 }; /* an attribute holds no more */
 
 /* ---- the file of one scene ---- */
 
-static status put_texts(h5_file *f, const scene_record *r, const scene_key *key)
+/* Of any scene; of one of bodies the result lies by its series. */
+static status put_names(h5_file *f)
+{
+    const char *const texts[][2] = { { "format", FORMAT },
+                                     { "version", host_version() },
+                                     { "instruction_set", mpm_instruction_set() },
+                                     { "solver", run_solver_id() } };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        TRY(host_h5_attribute_text(f, "/", texts[i][0], texts[i][1]));
+    return status_ok();
+}
+
+static status put_outcome(h5_file *f, const scene_record *r, const scene_key *key)
 {
     char *outcome = output_object_text(&(summary_object){ run_scene_keys, &r->entry });
     CHECK(outcome, STATUS_MEMORY, "no memory for a scene's outcome");
-    const char *const texts[][2] = {
-        { "format", FORMAT },          { "version", host_version() }, { "instruction_set", mpm_instruction_set() },
-        { "solver", run_solver_id() }, { "case", key->text },         { "outcome", outcome }
-    };
-    status done = status_ok();
-    for (size_t i = 0; i < sizeof texts / sizeof *texts && done.code == STATUS_OK; i++)
-        done = host_h5_attribute_text(f, "/", texts[i][0], texts[i][1]);
+    status done = host_h5_attribute_text(f, "/", "case", key->text);
+    if (done.code == STATUS_OK) done = host_h5_attribute_text(f, "/", "outcome", outcome);
     free(outcome);
-    return done;
+    TRY(done);
+    TRY(host_h5_attribute_double(f, "/", "impulse_N_s", r->impulse));
+    return host_h5_attribute_double(f, "/", "mass_loss_kg", r->mass_loss);
 }
 
 static status fill(h5_file *f, const scene_record *r, const scene_key *key, history *h)
 {
-    TRY(put_texts(f, r, key));
-    TRY(host_h5_attribute_double(f, "/", "impulse_N_s", r->impulse));
-    TRY(host_h5_attribute_double(f, "/", "mass_loss_kg", r->mass_loss));
+    TRY(put_names(f));
+    TRY(r->of_bodies ? host_h5_write_text(f, "/case", "the key: a case file of this scene", key->text)
+                     : put_outcome(f, r, key));
     return h && output_history_has(h, r->entry.name) ? output_history_export(h, r->entry.name, f) : status_ok();
 }
 
@@ -59,8 +68,21 @@ static status read_with(const h5_file *f, const scene_key *key, scene_record *ou
     return status_ok();
 }
 
+static status read_bodies(const h5_file *f, const scene_key *key, scene_record *out)
+{
+    char *text;
+    TRY(host_h5_read_text(f, "/case", &text));
+    const bool same = strcmp(text, key->text) == 0;
+    free(text);
+    CHECK(same && host_h5_exists(f, "/scene/result"), STATUS_IO, "the store's scene %016llx has other inputs",
+          (unsigned long long)key->hash);
+    out->key = key->hash;
+    return status_ok();
+}
+
 status run_scene_file_read(const h5_file *f, const scene_key *key, scene_record *out)
 {
+    if (host_h5_exists(f, "/case")) return read_bodies(f, key, out);
     char *text = malloc(TEXT_SIZE);
     CHECK(text, STATUS_MEMORY, "no memory to read a scene");
     const status done = read_with(f, key, out, text);

@@ -6,6 +6,7 @@
  *   scene),
  *                outcome (JSON, an entry of `scenes` of summary.json), impulse_N_s, mass_loss_kg
  *   /scene       its time series and crater, as in history.h5 (only what was recorded)
+ * Of a scene of bodies the text is a dataset, /case, and the outcome lies by the series, /scene/result.
  * A file that is damaged or of another scene (a hash met twice) counts as none and is replaced. */
 #ifndef BREECH_COUPLING_STORE_H
 #define BREECH_COUPLING_STORE_H
@@ -16,7 +17,8 @@
 
 /* The file of a scene in memory; its series are taken from h where h has them (NULL: none).  host_h5_close it. */
 status run_scene_file_make(const scene_record *r, const scene_key *key, history *h, h5_file **out);
-/* What it says: result, impulse, mass_loss; out->key is key->hash, the rest of the entry is left alone.
+/* What it says: result, impulse, mass_loss; out->key is key->hash, the rest of the entry is left alone.  Of a scene of
+ * bodies the result stays with the series.
  * STATUS_IO: not the file of this scene. */
 status run_scene_file_read(const h5_file *f, const scene_key *key, scene_record *out);
 

@@ -198,6 +198,26 @@ static void take(const scene_outcome *o, scene_bodies_result *r)
     r->threads = o->threads;
 }
 
+static status write_result(history *h, const char *name, const scene_bodies_result *r)
+{
+    char *text = output_object_text(&(summary_object){ scene_bodies_keys, r });
+    CHECK(text, STATUS_MEMORY, "no memory for a scene's result");
+    const status done =
+        output_history_text(h, name, "result", "the scene's result: JSON, keys as in summary.json", text);
+    free(text);
+    return done;
+}
+
+status scene_bodies_read(const history *h, const char *name, scene_bodies_result *out)
+{
+    char *text;
+    memset(out, 0, sizeof *out);
+    TRY(output_history_read_text(h, name, "result", &text));
+    const status done = output_object_read(text, scene_bodies_keys, out);
+    free(text);
+    return done;
+}
+
 static status run_recorded(const scene_job *job, const scene_host *host, recorder *r, scene_bodies_result *out)
 {
     const scene_watch watch = { .due = job->scene->probes > 0 ? read_probes : NULL, .piece = record, .user = r };
@@ -209,7 +229,8 @@ static status run_recorded(const scene_job *job, const scene_host *host, recorde
     TRY(scene_run(&watched, host, &o));
     take(&o, out);
     TRY(scene_probes_end(r->probes, out->probe));
-    return output_history_end(r->history, r->series);
+    TRY(output_history_end(r->history, r->series));
+    return write_result(r->history, job->name, out);
 }
 
 status scene_bodies_run(const scene_job *job, const scene_host *host, scene_bodies_result *out)

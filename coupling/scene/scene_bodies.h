@@ -44,6 +44,9 @@ extern const summary_key scene_bodies_keys[]; /* of scene_bodies_result */
 
 /* job->watch must be NULL.  *out is for scene_bodies_free in any case.  STATUS_STOPPED as scene_run. */
 status scene_bodies_run(const scene_job *job, const scene_host *host, scene_bodies_result *out);
+/* The result of a scene that has ended, from /scene/<name>/result of the history it was run or taken up in: one object
+ * of scene_bodies_keys.  STATUS_IO: there is none.  *out is for scene_bodies_free in any case. */
+status scene_bodies_read(const history *h, const char *name, scene_bodies_result *out);
 void scene_bodies_free(scene_bodies_result *r);
 
 #endif

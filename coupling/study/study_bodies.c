@@ -2,26 +2,12 @@
 #include "coupling/study/study.h"
 #include "coupling/host/table.h"
 #include "coupling/report/report_page.h"
-#include "coupling/run/lending.h"
 #include "coupling/scene/scene_bodies.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const double ENERGY_ERROR_LIMIT = 0.01; /* above it the scene is warned about */
-
-static bool stop_asked(void *user)
-{
-    const session *s = user;
-    return s->stop && s->stop();
-}
-
-static int threads_now(void *user)
-{
-    const session *s = user;
-    return run_lending_threads(s->lending);
-}
 
 static void warn(session *s, const scene_bodies_result *r)
 {
@@ -33,37 +19,23 @@ static void warn(session *s, const scene_bodies_result *r)
             run_session_warn(s, "body %s: nothing of it is in the window at the end", r->body[i].name);
 }
 
+/* One that is wanted with its snapshots is computed where they are to lie. */
+static int scenes(const study_case *of, scene_query *out)
+{
+    *out =
+        (scene_query){ .bodies = case_body_scene_of(of->in), .anew = !of->prefix[0] && of->in->output.snapshots > 0 };
+    snprintf(out->name, sizeof out->name, "%.60sscene", of->prefix);
+    return 1;
+}
+
 static status run(session *s, const study_case *of, study_answer *out)
 {
-    const case_bodies *b = &of->in->bodies;
-    const case_output *output = &of->in->output;
-    scene_bodies_result *r = calloc(1, sizeof *r);
+    scene_query query;
+    const scene_record *done;
+    scene_bodies_result *r = out->owned = calloc(1, sizeof *r);
     CHECK(r, STATUS_MEMORY, "no memory for a scene's result");
-    out->owned = r;
-    char name[24];
-    snprintf(name, sizeof name, "%sscene", of->prefix);
-    const scene_job job = { .name = name,
-                            .task = name,
-                            .scene = &b->scene,
-                            .snapshots = output->snapshots,
-                            .checkpoint_interval = output->checkpoint_interval,
-                            .force_on = b->scene.body[0].group,
-                            .last_time = b->scene.end_time,
-                            .resume = run_session_resume_of(s, name),
-                            .whole = true };
-    const scene_host host = { .dir = &s->dir,
-                              .history = s->history,
-                              .progress = &s->progress,
-                              .timing = &s->timing,
-                              .threads = s->threads,
-                              .threads_now = s->lending ? threads_now : NULL,
-                              .stop = stop_asked,
-                              .save = run_session_save_inside,
-                              .user = s };
-    run_lending_begin(s->lending);
-    const status done = scene_bodies_run(&job, &host, r);
-    run_lending_end(s->lending);
-    TRY(done);
+    TRY(run_scenes_all(s, &query, scenes(of, &query), &done));
+    TRY(scene_bodies_read(s->history, done->entry.name, r));
     warn(s, r);
     out->result = r;
     return status_ok();
@@ -100,6 +72,7 @@ const study study_bodies = {
     .can_vary = true,
     .report = { report_bodies_verdict, report_section_bodies },
     .print = print,
+    .scenes = scenes,
     .run = run,
     .free = free_owned,
 };
