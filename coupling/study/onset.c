@@ -71,12 +71,13 @@ static void unknown_all(onset_result *r)
     }
 }
 
-status study_onset_begin(session *s, const case_onset *c, const char *prefix, bool with_history, onset_answer *out)
+status study_onset_begin(session *s, const case_onset *c, const char *prefix, bool first, onset_answer *out)
 {
     const case_flight flight = case_flight_of(c);
     memset(out, 0, sizeof *out);
     unknown_all(&out->result);
-    TRY(gouge_session_shot(s, &flight, NULL, with_history, &out->flown, &out->shot));
+    out->first = first;
+    TRY(gouge_session_shot(s, &flight, NULL, first, &out->flown, &out->shot));
     TRY(list_sites(c, out));
     return study_families_sort(c, &out->flown, prefix, &out->grains);
 }

@@ -107,6 +107,7 @@ extern const summary_key study_onset_keys[]; /* of onset_result */
 
 typedef struct {
     onset_result result; /* borrows the arrays below */
+    bool first;          /* of the run's surfaces */
     shot_record shot;
     shot_outcome flown;         /* owned */
     grain_families grains;      /* owned; borrows flown, so an answer stays where it is */
@@ -127,8 +128,9 @@ status study_onset_run(session *s, const case_onset *c, onset_answer *out);
 void study_onset_print(const void *result, FILE *out); /* of an onset_result */
 void study_onset_answer_free(onset_answer *a);
 
-/* The shot, its sites and families; prefix names the scenes.  Of all shots of a run one alone writes history. */
-status study_onset_begin(session *s, const case_onset *c, const char *prefix, bool with_history, onset_answer *out);
+/* The shot, its sites and families; prefix names the scenes.  first: of the run's surfaces, the one whose shot writes
+ * history and that warns of what holds for all. */
+status study_onset_begin(session *s, const case_onset *c, const char *prefix, bool first, onset_answer *out);
 
 /* After study_families_search: every site's outcome, verdict, threshold. */
 status study_onset_judge(session *s, onset_answer *a);

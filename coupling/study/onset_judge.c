@@ -229,7 +229,7 @@ static void warn_of_thresholds(session *s, const onset_answer *a)
     for (int k = 0; k < a->grains.n; k++)
         if (a->grains.family[k].surface.warning[0])
             run_session_warn(s, "%s%s", a->grains.prefix, a->grains.family[k].surface.warning);
-    if (a->grains.n && y->fine_cells_per_radius < TRUSTED_CELLS && !a->grains.prefix[0])
+    if (a->grains.n && y->fine_cells_per_radius < TRUSTED_CELLS && a->first)
         run_session_warn(
             s,
             "thresholds at %g cells a radius: below %g they come out up to twice too high, by more than the interval "

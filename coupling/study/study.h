@@ -13,7 +13,8 @@
 /* How the case was read, so that a study can read it again with other values.  Borrowed. */
 typedef struct {
     const case_inputs *in;
-    const char *prefix;      /* of its scenes' names: "" for the case of the command line, else one of several */
+    bool one_of_several;     /* made by another study, not the case of the command line */
+    const char *prefix;      /* of its scenes' names, so that those of several cases differ */
     const char *const *sets; /* of the command line, as case_read takes them */
     int n_sets;
 } study_case;

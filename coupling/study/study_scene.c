@@ -8,7 +8,7 @@ static int scenes(const study_case *of, scene_query *out)
     const case_impact *given = &of->in->onset.impact;
     const site_state state = gouge_state_of_case(given);
     *out = (scene_query){ .impact = gouge_impact_at(given, &state, given->scene.cells_per_radius),
-                          .anew = !of->prefix[0] };
+                          .anew = !of->one_of_several };
     snprintf(out->name, sizeof out->name, "%.60sscene", of->prefix);
     return 1;
 }

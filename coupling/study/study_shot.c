@@ -40,7 +40,7 @@ static status shoot_optimised(session *s, const study_case *of, shot_module *mod
     TRY(circuit_firing_optimise(&flight.launcher, &of->in->optimise, s->stop, modules, &found));
     host_timing_add(&s->timing, "firing times", host_wall_clock() - since);
     bank->item = modules;
-    const status done = shoot(s, &flight, !of->prefix[0], out);
+    const status done = shoot(s, &flight, !of->one_of_several, out);
     a->record.firing = found;
     a->record.n_fire_at = bank->n;
     a->record.fire_at = a->fire_at;
@@ -53,7 +53,7 @@ static status run(session *s, const study_case *of, study_answer *out)
     shot_answer *a = out->owned = calloc(1, sizeof *a);
     CHECK(a, STATUS_MEMORY, "no memory for a shot");
     const case_flight flight = case_flight_of(&of->in->onset);
-    if (!of->in->given.optimise) return shoot(s, &flight, !of->prefix[0], out);
+    if (!of->in->given.optimise) return shoot(s, &flight, !of->one_of_several, out);
     const size_t n = (size_t)flight.launcher.supplies[SUPPLY_capacitor].n;
     shot_module *modules = malloc((n + 1) * sizeof *modules);
     a->fire_at = malloc((n + 1) * sizeof *a->fire_at);

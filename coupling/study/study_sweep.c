@@ -218,7 +218,7 @@ static status make_room(const case_sweep *w, sweep_answer *a)
 
 static study_case case_of_run(const sweep_answer *a, int i)
 {
-    return (study_case){ .in = a->in[i], .prefix = a->prefix[i] };
+    return (study_case){ .in = a->in[i], .one_of_several = true, .prefix = a->prefix[i] };
 }
 
 /* The scenes that are certain, of all runs at once: any process may take any of them. */
