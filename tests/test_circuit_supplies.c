@@ -121,6 +121,35 @@ static void balance(const supply_group *g, const double *y0, double V)
                 1e-7 * (fabs(given) + lost + fabs(rate)) + 4e-16 * stored_energy(g, y) / h); /* and its own round-off */
 }
 
+/* Of every kind, charged by a tenth more: a fifth and a hundredth more energy, all of them being quadratic. */
+static void recharged(void **state)
+{
+    (void)state;
+    const one_of_each s = samples();
+    for (int kind = 0; kind < SUPPLY_KINDS; kind++) {
+        const size_t size = circuit_supply_size((supply_kind_index)kind);
+        _Alignas(max_align_t) char units[2 * (sizeof(shot_module) + sizeof(supply_alternator))];
+        double e[2];
+        assert_true(2 * size <= sizeof units);
+        for (int i = 0; i < 2; i++) memcpy(units + (size_t)i * size, sample_of(&s, kind), size);
+        circuit_supply_recharge((supply_kind_index)kind, units, 2, 1.1);
+        assert_memory_equal(units, units + size, size);
+        if (circuit_supply_kinds[kind]->source) {
+            assert_memory_equal(units, sample_of(&s, kind), size);
+            continue;
+        }
+        for (int i = 0; i < 2; i++) {
+            supply_group g = { .kind = circuit_supply_kinds[kind], .p = i ? units : sample_of(&s, kind), .n = 1.0 };
+            double y[SUPPLY_UNKNOWNS] = { 0.0 };
+            supply_scale scale;
+            g.at = circuit_supply_common_of(g.p);
+            g.kind->start(g.p, y, &scale);
+            e[i] = stored_energy(&g, y);
+        }
+        assert_near(e[1], 1.21 * e[0], 1e-12 * e[0]);
+    }
+}
+
 static void law_of_the_table(void **state)
 {
     (void)state;
@@ -633,6 +662,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(law_of_the_table),
+        cmocka_unit_test(recharged),
         cmocka_unit_test(every_kind_shoots),
         cmocka_unit_test(all_kinds_together),
         cmocka_unit_test(homopolar_is_a_capacitor),

@@ -25,6 +25,18 @@ const char *const circuit_supply_sections[] = {
 };
 #undef SUPPLY
 
+size_t circuit_supply_size(supply_kind_index kind)
+{
+    return circuit_supply_kinds[kind]->size;
+}
+
+void circuit_supply_recharge(supply_kind_index kind, void *item, int n, double factor)
+{
+    const supply_kind *k = circuit_supply_kinds[kind];
+    for (int i = 0; k->charge && i < n; i++)
+        *(double *)(void *)((char *)item + (size_t)i * k->size + k->charge) *= factor;
+}
+
 supply_common circuit_supply_common_of(const void *p)
 {
     supply_common at;

@@ -115,4 +115,8 @@ extern const param circuit_supply_point_params[];
 
 extern const char *const circuit_supply_sections[]; /* of the case file, by kind, NULL at the end */
 
+size_t circuit_supply_size(supply_kind_index kind); /* of the kind's struct */
+/* What n units of a kind are charged to (voltage, current, speed) times `factor`; a given current stays. */
+void circuit_supply_recharge(supply_kind_index kind, void *item, int n, double factor);
+
 #endif

@@ -84,6 +84,7 @@ const supply_kind circuit_kind_alternator = {
     .name = "alternator",
     .params = circuit_supply_alternator_params,
     .size = sizeof(supply_alternator),
+    .charge = offsetof(supply_alternator, speed),
     .unknowns = unknowns,
     .pulses = pulses,
     .rise = rise,

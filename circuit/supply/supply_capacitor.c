@@ -167,6 +167,7 @@ const supply_kind circuit_kind_capacitor = {
     .name = "capacitor",
     .params = circuit_supply_capacitor_params,
     .size = sizeof(shot_module),
+    .charge = offsetof(shot_module, charge),
     .check = check,
     .unknowns = unknowns,
     .reverses = reverses,

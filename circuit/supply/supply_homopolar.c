@@ -69,6 +69,7 @@ const supply_kind circuit_kind_homopolar = {
     .name = "homopolar",
     .params = circuit_supply_homopolar_params,
     .size = sizeof(supply_homopolar),
+    .charge = offsetof(supply_homopolar, speed),
     .unknowns = unknowns,
     .rise = rise,
     .start = start,

@@ -109,6 +109,7 @@ const supply_kind circuit_kind_inductor = {
     .name = "inductor",
     .params = circuit_supply_inductor_params,
     .size = sizeof(supply_inductor),
+    .charge = offsetof(supply_inductor, current),
     .unknowns = unknowns,
     .rise = rise,
     .start = start,

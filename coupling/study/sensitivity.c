@@ -12,26 +12,11 @@ typedef struct {
     void (*change)(shot_config *c, double factor); /* of a copy; NULL: the grains' size */
 } changed_input;
 
-/* What a kind of supply is charged to; a given current is not charged. */
-typedef struct {
-    size_t size, charge; /* of the kind's struct; offset of the double in it */
-} supply_charge;
-
-static const supply_charge charges[SUPPLY_KINDS] = {
-    [SUPPLY_capacitor] = { sizeof(shot_module), offsetof(shot_module, charge) },
-    [SUPPLY_inductor] = { sizeof(supply_inductor), offsetof(supply_inductor, current) },
-    [SUPPLY_homopolar] = { sizeof(supply_homopolar), offsetof(supply_homopolar, speed) },
-    [SUPPLY_alternator] = { sizeof(supply_alternator), offsetof(supply_alternator, speed) },
-};
-
 /* Of a launcher whose supplies are copies (own_supplies). */
 static void change_charge(shot_config *c, double factor)
 {
     for (int k = 0; k < SUPPLY_KINDS; k++)
-        for (int i = 0; charges[k].size && i < c->supplies[k].n; i++) {
-            char *group = (char *)c->supplies[k].item + (size_t)i * charges[k].size;
-            *(double *)(void *)(group + charges[k].charge) *= factor;
-        }
+        circuit_supply_recharge((supply_kind_index)k, (void *)c->supplies[k].item, c->supplies[k].n, factor);
 }
 
 static void change_mass(shot_config *c, double factor)
@@ -58,7 +43,7 @@ enum { INPUTS = sizeof inputs / sizeof inputs[0], MOST = INPUTS + UNCERTAIN_MAX 
 static status own_supplies(shot_config *c, void *copy[SUPPLY_KINDS])
 {
     for (int k = 0; k < SUPPLY_KINDS; k++) {
-        const size_t bytes = (size_t)c->supplies[k].n * charges[k].size;
+        const size_t bytes = (size_t)c->supplies[k].n * circuit_supply_size((supply_kind_index)k);
         if (bytes == 0) continue;
         copy[k] = malloc(bytes);
         CHECK(copy[k], STATUS_MEMORY, "no memory for the supplies");
