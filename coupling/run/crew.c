@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef enum { WAITING, AWAY, HERE, COME } place;
+typedef enum { WAITING, AWAY, HERE, FINISHED } place;
 
 /* One scene on its way. */
 typedef struct errand {
@@ -20,8 +20,8 @@ typedef struct errand {
     int member;             /* AWAY: who has it */
     bool dropped;           /* AWAY: that one was told to give it up */
     struct errand *put_off; /* AWAY: by the member that has it, for this one */
-    h5_file *file;          /* COME and not failed */
-    status failed;          /* COME: STATUS_OK if not */
+    h5_file *file;          /* FINISHED and not failed */
+    status failed;          /* FINISHED: STATUS_OK if not */
     history *rows;          /* of rank 0's own scenes */
     void *image;            /* laid aside by rank 0, to go on from; owned */
     scene_resume at;        /* image, when there is one */
@@ -58,7 +58,7 @@ static void errand_free(errand *e)
     free(e);
 }
 
-static void strike(crew *k, const errand *e)
+static void errand_unlist(crew *k, const errand *e)
 {
     int kept = 0;
     for (int i = 0; i < k->n; i++)
@@ -100,14 +100,14 @@ static status find_or_add(crew *k, const scene_query *q, errand **out)
     return done;
 }
 
-/* What is no longer asked for: what waits is forgotten, what others compute they may give up. */
+/* Scenes that nobody asks for any more: those that wait are forgotten, members are told to drop those they compute. */
 static status forget_idle(crew *k)
 {
     for (int i = k->n - 1; i >= 0; i--) {
         errand *e = k->errand[i];
         if (e->wanted || e->ahead) continue;
         if (e->where == WAITING) {
-            strike(k, e);
+            errand_unlist(k, e);
             errand_free(e);
         } else if (e->where == AWAY && !e->dropped) {
             e->dropped = true;
@@ -119,9 +119,9 @@ static status forget_idle(crew *k)
 
 /* ---- messages ---- */
 
-static status come(crew *k, errand *e, h5_file *file)
+static status errand_finish(crew *k, errand *e, h5_file *file)
 {
-    e->where = COME;
+    e->where = FINISHED;
     e->file = file;
     if (!k->s->store[0]) return status_ok();
     TRY(run_store_open(k->s->store));
@@ -139,8 +139,9 @@ static status write_file(const crew *k, const message *m)
     return host_file_write(path, m->data + name, m->bytes - name);
 }
 
-/* It need not be the last that was given: an outcome and an order may have crossed. */
-static void off_the_stack(crew *k, errand *e)
+/* Takes a scene off its member's stack.  It need not be the last one handed out: a message with an outcome and one with
+ * a new scene may have crossed. */
+static void remove_from_member(crew *k, errand *e)
 {
     errand **at = &k->busy[e->member];
     while (*at != e) at = &(*at)->put_off;
@@ -148,7 +149,7 @@ static void off_the_stack(crew *k, errand *e)
     e->put_off = NULL;
 }
 
-static status hear_outcome(crew *k, const message *m)
+static status read_outcome(crew *k, const message *m)
 {
     scene_answer *told = &k->told[m->from];
     memcpy(told, m->data, sizeof *told);
@@ -156,30 +157,30 @@ static status hear_outcome(crew *k, const message *m)
     const char *body = m->data + sizeof *told;
     const size_t bytes = m->bytes - sizeof *told;
     if (!e || e->where != AWAY) return status_ok();
-    off_the_stack(k, e);
-    if (m->kind == SAY_FAILED && e->dropped) { /* for good, unless somebody has thought better of it */
+    remove_from_member(k, e);
+    if (m->kind == SAY_FAILED && e->dropped) { /* unless it has been asked for again */
         e->where = WAITING;
         e->dropped = false;
         return status_ok();
     }
     if (m->kind == SAY_FAILED) {
-        e->where = COME;
+        e->where = FINISHED;
         memcpy(&e->failed, body, sizeof e->failed);
         return status_ok();
     }
     h5_file *file;
     TRY(host_h5_open_image(e->query.name, body, bytes, &file));
-    return come(k, e, file);
+    return errand_finish(k, e, file);
 }
 
-static status hear(crew *k)
+static status read_messages(crew *k)
 {
     for (;;) {
         message m;
         bool any;
         TRY(run_ranks_receive(&m, &any));
         if (!any) return status_ok();
-        const status done = m.kind == SAY_FILE ? write_file(k, &m) : hear_outcome(k, &m);
+        const status done = m.kind == SAY_FILE ? write_file(k, &m) : read_outcome(k, &m);
         run_message_free(&m);
         TRY(done);
     }
@@ -191,7 +192,7 @@ static bool resumable(const crew *k, const errand *e)
 }
 
 /* An idle member that can go on to it from the scene to its gauge; 0: none, or rank 0 has begun it. */
-static int keeper(const crew *k, const errand *e)
+static int idle_member_with_gauge(const crew *k, const errand *e)
 {
     if (!e->twin || resumable(k, e)) return 0;
     for (int r = 1; r <= k->members; r++)
@@ -229,7 +230,7 @@ static errand *next_for_me(const crew *k)
     errand *best = NULL;
     for (int i = 0; i < k->n; i++) {
         errand *e = k->errand[i];
-        if (e->where != WAITING || !(e->wanted || e->ahead) || keeper(k, e)) continue;
+        if (e->where != WAITING || !(e->wanted || e->ahead) || idle_member_with_gauge(k, e)) continue;
         const bool sooner =
             best && (k->any_order || best->wanted == e->wanted) && begun_here(k, e) != begun_here(k, best)
                 ? begun_here(k, e)
@@ -250,7 +251,7 @@ static int idle_member(const crew *k)
  * nothing yet: two solvers take the memory of two.  0: nobody. */
 static int member_for(const crew *k, const errand *e)
 {
-    const int idle = keeper(k, e) ? keeper(k, e) : idle_member(k);
+    const int idle = idle_member_with_gauge(k, e) ? idle_member_with_gauge(k, e) : idle_member(k);
     if (idle || !e->wanted || k->any_order) return idle;
     for (int r = 1; r <= k->members; r++)
         if (!k->busy[r]->wanted && !k->busy[r]->put_off) return r;
@@ -289,10 +290,10 @@ typedef struct {
     errand *e;
 } own_scene;
 
-static bool wanted_has_come(const crew *k)
+static bool wanted_is_finished(const crew *k)
 {
     for (int i = 0; i < k->n; i++)
-        if (k->errand[i]->wanted && k->errand[i]->where == COME) return true;
+        if (k->errand[i]->wanted && k->errand[i]->where == FINISHED) return true;
     return false;
 }
 
@@ -301,10 +302,10 @@ static bool stop_own(void *user)
 {
     const own_scene *own = user;
     crew *k = own->k;
-    if (k->error.code == STATUS_OK) k->error = hear(k);
+    if (k->error.code == STATUS_OK) k->error = read_messages(k);
     if (k->error.code == STATUS_OK) k->error = hand_out(k);
     if (k->error.code != STATUS_OK || (k->s->stop && k->s->stop())) return true;
-    k->aside = wanted_has_come(k) && ((!own->e->wanted && !k->any_order) || idle_member(k));
+    k->aside = wanted_is_finished(k) && ((!own->e->wanted && !k->any_order) || idle_member(k));
     return k->aside;
 }
 
@@ -359,7 +360,7 @@ static status run_own(crew *k, errand *e)
     const scene_work_how how = { s->run_scene, task, &host, s->lending, e->at };
     TRY(run_scene_work(&e->query, e->key.hash, &how, &r));
     TRY(run_scene_file_make(&r, &e->key, e->rows, &file));
-    return come(k, e, file);
+    return errand_finish(k, e, file);
 }
 
 static status compute_own(crew *k, errand *e)
@@ -370,10 +371,10 @@ static status compute_own(crew *k, errand *e)
     k->aside = false;
     const status done = run_own(k, e);
     if (k->error.code != STATUS_OK) return k->error;
-    if (e->where == COME) return done;
+    if (e->where == FINISHED) return done;
     e->where = WAITING;
     if (done.code == STATUS_STOPPED) return k->aside ? status_ok() : done;
-    e->where = COME;
+    e->where = FINISHED;
     e->failed = done;
     return status_ok();
 }
@@ -446,7 +447,7 @@ status run_crew_ahead(crew *k, const scene_query *query, int n, bool any_order)
     return status_ok();
 }
 
-static status want(crew *k, const scene_query *query, int n)
+static status mark_wanted(crew *k, const scene_query *query, int n)
 {
     for (int i = 0; i < k->n; i++) k->errand[i]->wanted = false;
     for (int i = 0; i < n; i++) {
@@ -460,13 +461,13 @@ static status want(crew *k, const scene_query *query, int n)
 
 status run_crew_some(crew *k, const scene_query *query, int n)
 {
-    TRY(want(k, query, n));
+    TRY(mark_wanted(k, query, n));
     for (;;) {
-        TRY(hear(k));
-        errand *mine = wanted_has_come(k) ? NULL : next_for_me(k);
+        TRY(read_messages(k));
+        errand *mine = wanted_is_finished(k) ? NULL : next_for_me(k);
         if (mine) mine->where = HERE;
         TRY(hand_out(k));
-        if (wanted_has_come(k)) return status_ok();
+        if (wanted_is_finished(k)) return status_ok();
         if (k->s->stop && k->s->stop()) return base_status_error(STATUS_STOPPED, "stopped while others computed");
         if (mine)
             TRY(compute_own(k, mine));
@@ -479,12 +480,12 @@ status run_crew_take(crew *k, const scene_key *key, h5_file **out)
 {
     errand *e = find(k, key->hash);
     *out = NULL;
-    if (!e || e->where != COME) return status_ok();
+    if (!e || e->where != FINISHED) return status_ok();
     const status failed = e->failed;
     if (failed.code != STATUS_OK) return failed;
     *out = e->file;
     e->file = NULL;
-    strike(k, e);
+    errand_unlist(k, e);
     errand_free(e);
     return status_ok();
 }

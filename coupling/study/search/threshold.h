@@ -1,32 +1,35 @@
 /* The search for a threshold velocity: where the growth of an impact's groove, or its severity, crosses its limit.
  *
- * What is known of the function: nothing but values at velocities we pay for, each at a resolution, each with a class.
- *   1. Coarse: a quarter of the range from both its ends, both in any case (so the other side is looked at once); from
- *      there outwards by a fifth, then as far again as it has come, to a change of side; in between until the bracket
- *      is a fifth of its middle or the wanted interval, whichever is more.  Where there is one resolution only, to the
- *      wanted interval.
- *   2. Fine: one wanted half interval below the coarse root, from there by a wanted interval, then as far again as it
- *      has come, to a change of side; in between to the wanted interval, in velocity and in place, or the grid's step.
- *      In between one scene at a time: where one is enough, there; else at the secant's root, or, where an end is
- *      within a wanted width of it, that width from the end.  (Two at a time took a fifth more scenes.)
- *      No bracket is made narrower than what the resolution leaves open (`resolution`).
- *      Last a coarse scene half way to each end of the range, where that is far and nothing was asked: does the
- *      function turn back?  If scenes run out before it has both sides: the coarse root, moved as far as the fine
- *      scenes' one side drove it.
- *   3. Interval: the fine bracket, by decided scenes (an `undecided` one takes the side of its excess, but does not end
- *      the interval: that ends at the next decided one, or where the line to it leaves the scatter), widened by what
- *      the resolution may change: the shift of the root from coarse to fine, or the plan's share of the threshold if
- *      more; of a threshold outside of the range that share of the end where it was looked for.
- * Monotonicity is checked: a higher velocity on the lower side of a lower one widens the interval over both and warns.
- * Velocities lie on the grid k * step, so that scenes are shared, and none is asked for twice.
+ * The function is known only at velocities where a scene was computed: its value, at a resolution, and the class.
+ *   1. Coarse scenes.  Start a quarter of the range from both its ends; compute both, so that the other side is seen at
+ *      once.  If both give the same side, step outwards by a fifth, doubling the step, until the side changes.  Then
+ *      narrow the bracket to a fifth of its middle or to the wanted interval, whichever is more; with one resolution
+ *      only, to the wanted interval.
+ *   2. Fine scenes.  Start half a wanted interval below the coarse root and step by a wanted interval, doubling the
+ *      step, until the side changes.  Then narrow the bracket to the wanted interval, in velocity and in place, or to
+ *      the grid's step.  Narrowing computes one scene at a time: at a velocity that alone is enough, if there is one;
+ *      else at the secant's root or, where an end is within a wanted width of the root, that width from the end.  (Two
+ *      scenes at a time took a fifth more of them.)  No bracket is made narrower than the resolution allows
+ *      (`resolution`).
+ *      At the end, a coarse scene half way to each end of the range that is far away and was not looked at: does the
+ *      function turn back?  If scenes run out before both sides are known, the answer is the coarse root, moved as far
+ *      as the fine scenes on one side require.
+ *   3. Interval: the fine bracket, between decided scenes.  An `undecided` scene counts on the side of its excess but
+ *      does not end the interval; that ends at the next decided scene, or where the line to it leaves the scatter.
+ *      The interval is widened by what the resolution may change: the shift of the root from coarse to fine, or the
+ *      plan's fraction of the threshold if that is more.  For a threshold outside of the range, it is that fraction of
+ *      the end where it was looked for.
+ * Monotonicity is checked: a scene on the lower side at a higher velocity than one on the upper side widens the
+ * interval over both and warns.  Velocities lie on the grid k * step, so that searches share scenes, and none is
+ * computed twice.
  *
- * The search is a continuation.  It begins with a plan, says which scenes it needs, is told their answers in any order
- * and goes on once it has all of them:
+ * The search is a continuation.  It begins with a plan, names the scenes it needs, is told their answers in any order
+ * and continues once it has all of them:
  *   study_threshold_begin(&plan, &s);
  *   while ((n = study_threshold_ask(&s, wanted)) > 0) ... study_threshold_tell(&s, &answer of one of them) ...
  *   s.result is the answer
- * A search owns nothing: a copy of the struct is a second search that goes on by itself, so a caller can follow a guess
- * (family_search.c) without touching the real one. */
+ * A search owns nothing: a copy of the struct is an independent search, so a caller can try a guess on it
+ * (family_search.c) without changing the original. */
 #ifndef BREECH_COUPLING_THRESHOLD_H
 #define BREECH_COUPLING_THRESHOLD_H
 
