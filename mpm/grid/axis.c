@@ -91,8 +91,9 @@ status mpm_axis_make(const mpm_axis *spec, char letter, axis *out)
 {
     memset(out, 0, sizeof *out);
     TRY(check(spec, letter));
-    double *below = malloc(2 * MAX_NODES * sizeof *below), *above = below + MAX_NODES;
+    double *below = malloc(2 * MAX_NODES * sizeof *below);
     CHECK(below, STATUS_MEMORY, "no memory for a grid axis");
+    double *above = below + MAX_NODES;
     const int n_below = grade(spec, spec->fine_lo - spec->lo, below);
     const int n_above = grade(spec, spec->hi - spec->fine_hi, above);
     const int n_fine = (int)fmax(1, round((spec->fine_hi - spec->fine_lo) / spec->fine));
