@@ -550,9 +550,9 @@ static void test_samples(void **state)
     mpm_scene *s = &c->bodies.scene;
     s->end_time = 1.5e-6, s->courant = 0.01;
     OK(scene_fill(s));
-    history *h;
-    scene_bodies_result r;
-    stopping never = { .left = -1 };
+    history *h, *resumed;
+    scene_bodies_result r, again;
+    stopping never = { .left = -1 }, soon = { .left = 702 };
     size_t n, m;
     OK(output_history_open(NULL, false, &h));
     OK(run(s, h, &never, NULL, &r));
@@ -563,8 +563,16 @@ static void test_samples(void **state)
     assert_true(n > 500 && n <= 1061);
     assert_true(time[0] == 0.0 && time[n - 1] == r.end_time);
     free(time);
-    scene_bodies_free(&r);
+    OK(output_history_open(NULL, false, &resumed)); /* stopped between two readings, it goes on with the same ones */
+    assert_int_equal(run(s, resumed, &soon, NULL, &again).code, STATUS_STOPPED);
+    scene_bodies_free(&again);
+    OK(run(s, resumed, &never, &(scene_resume){ soon.image, soon.bytes, soon.time, 0.0 }, &again));
+    assert_same_column(h, resumed, "probes/heat/time", n);
+    assert_same_column(h, resumed, "probes/push/time", m);
+    scene_bodies_free(&r), scene_bodies_free(&again);
+    free(soon.image);
     OK(output_history_close(h));
+    OK(output_history_close(resumed));
     case_free(c);
 }
 
