@@ -281,13 +281,12 @@ static status print_check(const case_inputs *in, int threads)
     TRY(study_check(in, threads, e, &n));
     printf("%s: %s\n", in->path, in->title[0] ? in->title : in->name);
     fputs(in->warnings, stdout);
-    TRY(host_table_create("scene|points|memory [GB]|steps|time, estimated", &t));
+    TRY(host_table_create("scene|points at the start|memory [GB]|steps|time, at least", &t));
     for (int i = 0; i < n; i++) {
         const mpm_needs *at = &e[i].needs;
-        char time[2][40];
-        for (int k = 0; k < 2; k++) host_duration_text(e[i].seconds[k], time[k], sizeof time[k]);
-        host_table_row(t, "%s|%zu .. %zu|%.2f .. %.2f|%.0f|%s .. %s", e[i].what, at->particles[0], at->particles[1],
-                       1e-9 * (double)at->bytes[0], 1e-9 * (double)at->bytes[1], e[i].steps, time[0], time[1]);
+        char time[40];
+        host_duration_text(e[i].seconds, time, sizeof time);
+        host_table_row(t, "%s|%zu|%.2f|%.0f|%s", e[i].what, at->particles, 1e-9 * (double)at->bytes, e[i].steps, time);
     }
     if (n > 0) host_table_print(t, stdout);
     host_table_free(t);

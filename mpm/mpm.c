@@ -10,7 +10,7 @@
 
 static const int COMPACT_EVERY = 200; /* steps of the finest level between restorings of the blocks' order in memory */
 static const int SAMPLE_EVERY = 20;   /* the same between percentile samples */
-static const int FOLLOW_EVERY = 20;   /* the same between looks at the plastic front */
+static const int LOOK_EVERY = 16;     /* the same between looks at where cells should be small, at the plastic front */
 enum { START_BLOCKS = 1 << 15 };      /* room at the start: memory that nobody touches costs nothing, growing does */
 static const double DT_GROWTH = 1.05; /* a step of the coarsest level */
 static const double FORCE_SMOOTHING = 0.2e-6; /* [s] */
@@ -83,6 +83,7 @@ static status check_scene(const mpm_scene *s)
     CHECK(s->follow.along != s->follow.across, STATUS_BAD_INPUT, "follow: along and across are the same axis");
     for (int i = 0; i < s->bodies; i++) TRY(check_body(s, i, groups));
     TRY(check_pairs(s, groups));
+    for (int i = 0; i < s->refines; i++) TRY(mpm_refine_check(&s->refine[i], s->bodies));
     return check_probes(s);
 }
 
@@ -104,7 +105,8 @@ static void particle_make(double *q, const build_point *p, const law *k, double 
     q[FIRST_area] = p->area;
 }
 
-void mpm_point_of(const mpm *m, int body, const build_point *p, double *q)
+/* What the solver makes of a point: q has BLOCK_DOUBLES. */
+static void point_of(const mpm *m, int body, const build_point *p, double *q)
 {
     memset(q, 0, BLOCK_DOUBLES * sizeof *q);
     particle_make(q, p, &m->laws[body], m->scene.body[body].temperature);
@@ -113,7 +115,7 @@ void mpm_point_of(const mpm *m, int body, const build_point *p, double *q)
 static status insert_point(void *user, int body, const build_point *p)
 {
     double q[BLOCK_DOUBLES];
-    mpm_point_of(user, body, p, q);
+    point_of(user, body, p, q);
     return mpm_store_place(user, body, q);
 }
 
@@ -182,6 +184,14 @@ static status make_groups(mpm *m)
     return status_ok();
 }
 
+static status build_bodies(mpm *m)
+{
+    const build_sink sink = { insert_point, m };
+    for (int i = 0; i < m->scene.bodies; i++)
+        TRY(mpm_build_body(&m->scene, i, &m->laws[i], &m->grids, &mpm_build_everywhere, &sink));
+    return status_ok();
+}
+
 static status fill(mpm *m)
 {
     TRY(make_laws(m));
@@ -189,9 +199,13 @@ static status fill(mpm *m)
     TRY(mpm_grids_make(&m->scene, &m->grids));
     TRY(mpm_store_make(m, START_BLOCKS));
     TRY(mpm_reading_make(m));
-    const build_sink sink = { insert_point, m };
-    for (int i = 0; i < m->scene.bodies; i++)
-        TRY(mpm_build_body(&m->scene, i, &m->laws[i], &m->grids, &mpm_build_everywhere, &sink));
+    bool again = true;
+    for (int i = 0; again; i++) {
+        TRY(mpm_store_empty(m, 0));
+        TRY(build_bodies(m));
+        TRY(mpm_refine_flags(m, &again)); /* as fine as the rules want it from the start */
+        again = again && i < m->grids.levels;
+    }
     return mpm_store_settle(m);
 }
 
@@ -226,8 +240,8 @@ static void start_books(mpm *m)
 static double dense_particles(const mpm *m)
 {
     const double n = m->scene.particles_per_axis;
-    const axis *a = m->grids.level[0].axes;
-    const double v = a[0].smallest * a[1].smallest * a[2].smallest / (n * n * n);
+    const mpm_axis *fine = m->scene.axis;
+    const double v = fine[0].fine * fine[1].fine * fine[2].fine / (n * n * n);
     double volume = 0;
     for (int i = 0; i < m->bricks_used; i++)
         for (int c = 0; c < BRICK_CELLS; c++)
@@ -264,10 +278,6 @@ status mpm_create(const mpm_scene *scene, int threads, mpm **out)
     }
     start_books(m);
     m->scene_key = mpm_scene_hash(&m->scene);
-    m->zone_start = mpm_zone_of(m);
-    const mpm_axis *along = &m->scene.axis[m->scene.follow.along];
-    m->zone_length = along->fine_hi - along->fine_lo;
-    m->wake.until = along->lo;
     m->dense = dense_particles(m);
     *out = m;
     return s;
@@ -278,7 +288,6 @@ void mpm_free(mpm *m)
     if (!m) return;
     mpm_store_free(m);
     mpm_reading_free(m);
-    free(m->wake.point);
     free(m->materials), free(m->laws), free(m->effusivity);
     free(m->body_report), free(m->peaks);
     free(m->group), free(m->rule), free(m->rule_of);
@@ -315,18 +324,18 @@ static void phase_nodes(mpm *m)
 #pragma omp parallel num_threads(m->threads)
     {
 #pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < m->seam_count; i++) {
-            m->kernel->gather(m, m->seam_list[i]);
-            mpm_substep_restore(m, m->seam_list[i]);
+        for (int i = 0; i < m->interface_count; i++) {
+            m->kernel->gather(m, m->interface_list[i]);
+            mpm_substep_restore(m, m->interface_list[i]);
         }
 #pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < m->seam_count; i++) mpm_interface_add_sums(m, m->seam_list[i]);
+        for (int i = 0; i < m->interface_count; i++) mpm_interface_add_sums(m, m->interface_list[i]);
 #pragma omp for schedule(dynamic, 16)
         for (int i = 0; i < m->site_count; i++) m->kernel->nodes(m, m->site_list[i], omp_get_thread_num());
 #pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < m->seam_count; i++) mpm_interface_constrain(m, m->seam_list[i]);
+        for (int i = 0; i < m->interface_count; i++) mpm_interface_constrain(m, m->interface_list[i]);
 #pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < m->seam_count; i++) mpm_substep_store(m, m->seam_list[i]);
+        for (int i = 0; i < m->interface_count; i++) mpm_substep_store(m, m->interface_list[i]);
     }
 }
 
@@ -386,7 +395,7 @@ static double (*share_contact(const mpm *m, int share))[3]
 static void add_contact(const mpm *m, int site, double (*to)[3])
 {
     for (int f = 0; f < m->groups; f++) {
-        const int i = m->directory[f * m->grids.sites + site];
+        const int i = brick_of_site(m, site, f);
         if (i >= 0) add_vector(to[f], m->bricks[i].contact_impulse);
     }
 }
@@ -537,7 +546,8 @@ static status one_substep(mpm *m, int n, tally *sum)
 /* Is it time for what is done every so many steps of the finest level, when all are in step? */
 static bool is_due(const mpm *m, int every)
 {
-    return m->steps % (uint64_t)(every / level_steps(m, 0)) == 0;
+    const int steps = every / level_steps(m, 0);
+    return m->steps % (uint64_t)(steps > 1 ? steps : 1) == 0;
 }
 
 /* From one moment at which all levels are in step to the next. */
@@ -559,7 +569,10 @@ static status one_step(mpm *m, double until)
           m->time, m->dt);
     if (is_due(m, SAMPLE_EVERY)) mpm_sample_percentiles(m);
     if (is_due(m, COMPACT_EVERY)) TRY(mpm_store_compact(m));
-    if (is_due(m, FOLLOW_EVERY)) TRY(mpm_zone_follow(m));
+    if (is_due(m, LOOK_EVERY)) {
+        TRY(mpm_refine_look(m));
+        TRY(mpm_plastic_front_look(m));
+    }
     lap(m, PHASE_REST, &clock);
     return status_ok();
 }

@@ -1,6 +1,6 @@
 /* The material-point solver: a scene in, its state at a later time out.
  *
- * A step is one of the coarsest level; the finer ones make two or four in it (shares.c), and after it all are in step.
+ * A step is one of the coarsest level; finer ones make two, four, .. in it (substeps.c), and after it all are in step.
  * mpm_create copies the scene; mpm_advance steps until a time; everything else reads.  No files, no printing.
  * One binary and one instruction set give the same bits on any number of threads and across save and restore. */
 #ifndef BREECH_MPM_MPM_H
@@ -50,21 +50,6 @@ typedef struct {
     double peak_pressure_999, peak_mises_999; /* peak over time of the 99.9th percentile by mass [Pa] */
     double peak_plastic_strain;               /* any point [1] */
 } mpm_body_report;
-
-/* Points of the followed bodies (mpm_body.followed) as they were when the fine zone left them, or their parts at
- * x < until: behind it the points are merged, and a surface is read from these and the parts of points at x > until
- * (mpm_cut_at).  The last before `until` are lengthened by a fine cell or half of themselves, so that no crack opens
- * where the body moves on beyond it. */
-typedef struct {
-    double position[3], size[3], velocity[3]; /* [m]; half lengths [m]; [m/s] */
-    double damage, mass;                      /* [1, kg] */
-    int body;
-} mpm_wake_point;
-typedef struct {
-    size_t n;
-    mpm_wake_point *point;
-    double until; /* [m] */
-} mpm_wake;
 
 /* What mpm_read can fill; one double or three or six a particle, in a fixed order that any restart keeps. */
 #define PARTICLE_FIELDS(FIELD)                                                  \
@@ -125,11 +110,7 @@ void mpm_failed_volumes(const mpm *m, double *volume); /* of each body, now [m3]
  * [N]. */
 const double *mpm_contact_force(const mpm *m, int group);
 const double *mpm_peak_contact_force(const mpm *m, int group);
-const mpm_scene *mpm_scene_of(const mpm *m); /* borrowed; its fine zone along x is where it is now */
-/* The part of a point's domain above a place on an axis, or below it, with its share of the mass; false: none. */
-bool mpm_cut_at(int along, double place, bool above, double position[3], double size[3], double *mass);
-const mpm_wake *mpm_wake_of(const mpm *m); /* borrowed, until the next mpm_advance */
-
+const mpm_scene *mpm_scene_of(const mpm *m); /* borrowed */
 size_t mpm_particles(const mpm *m);
 /* out: mpm_particles() x width doubles, owned by the caller. */
 void mpm_read(const mpm *m, mpm_field field, double *out);
@@ -140,15 +121,15 @@ status mpm_save(const mpm *m, void **image, size_t *bytes);
  */
 status mpm_restore(mpm *m, const void *image, size_t bytes);
 
-/* What a scene will take, without building it: at the start, and with the fine zone as wide as it may grow. */
+/* What a scene will take at its start, without building it.  Rules of refinement add cells while it runs. */
 typedef struct {
-    size_t particles[2];
-    double work[2];  /* particle-steps in a step of the finest level: coarser levels make fewer */
-    size_t bytes[2]; /* MPM_BYTES, _A_PARTICLE each, _A_BODY each */
-    double dt;       /* first step of the finest level [s] */
+    size_t particles;
+    double work;  /* particle-steps in a step of the finest level: coarser levels make fewer */
+    size_t bytes; /* MPM_BYTES and MPM_BYTES_A_PARTICLE each */
+    double dt;    /* first step of the finest level [s] */
 } mpm_needs;
 
-/* Blocks five eighths full, a quarter in reserve, sums of their bricks, copies of what the zone leaves behind;
+/* Blocks five eighths full, a quarter in reserve, sums of their bricks;
  * measured, docs/scene-solver.md, Memory.  A body's bins for percentiles. */
 enum { MPM_BYTES = 20000000, MPM_BYTES_A_PARTICLE = 1600, MPM_BYTES_A_BODY = 50000 };
 status mpm_estimate(const mpm_scene *scene, mpm_needs *needs);

@@ -63,6 +63,18 @@ status mpm_scene_add_probe(mpm_scene *s, const char *kind, const char *name, mpm
     return status_ok();
 }
 
+status mpm_scene_add_refine(mpm_scene *s, const char *kind, mpm_refine **added)
+{
+    void *array = s->refine;
+    const mpm_refine_kind *k = mpm_refine_kind_find(kind);
+    CHECK(k, STATUS_BAD_INPUT, "refine: `%s` is no kind of rule", kind);
+    TRY(grow(&array, s->refines, sizeof *s->refine));
+    s->refine = array;
+    *added = &s->refine[s->refines++];
+    **added = mpm_refine_make(k);
+    return status_ok();
+}
+
 status mpm_scene_add_pair(mpm_scene *s, int a, int b, mpm_pair **added)
 {
     void *array = s->pair;
@@ -112,17 +124,18 @@ static status duplicate(const void *from, int n, size_t size, void **to)
 
 status mpm_scene_copy(const mpm_scene *from, mpm_scene *to)
 {
-    void *body = NULL, *solid = NULL, *pair = NULL, *probe = NULL;
+    void *body = NULL, *solid = NULL, *pair = NULL, *probe = NULL, *refine = NULL;
     status s = duplicate(from->body, from->bodies, sizeof *from->body, &body);
     if (s.code == STATUS_OK) s = duplicate(from->solid, from->solids, sizeof *from->solid, &solid);
     if (s.code == STATUS_OK) s = duplicate(from->pair, from->pairs, sizeof *from->pair, &pair);
     if (s.code == STATUS_OK) s = duplicate(from->probe, from->probes, sizeof *from->probe, &probe);
+    if (s.code == STATUS_OK) s = duplicate(from->refine, from->refines, sizeof *from->refine, &refine);
     if (s.code != STATUS_OK) {
-        free(body), free(solid), free(pair);
+        free(body), free(solid), free(pair), free(probe);
         return s;
     }
     *to = *from;
-    to->body = body, to->solid = solid, to->pair = pair, to->probe = probe;
+    to->body = body, to->solid = solid, to->pair = pair, to->probe = probe, to->refine = refine;
     return s;
 }
 
@@ -132,5 +145,6 @@ void mpm_scene_free(mpm_scene *s)
     free(s->solid);
     free(s->pair);
     free(s->probe);
+    free(s->refine);
     memset(s, 0, sizeof *s);
 }

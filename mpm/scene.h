@@ -14,12 +14,13 @@
 #include "base/status.h"
 #include "mpm/material.h"
 #include "mpm/read/probe.h"
+#include "mpm/refine/refine.h"
 #include "mpm/shape/solid.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { MPM_MAX_LEVELS = 3, MPM_FACES = 6, MPM_CONTACT_VALUES = 8 };
+enum { MPM_MAX_LEVELS = 8, MPM_FACES = 6, MPM_CONTACT_VALUES = 8 };
 
 /* ---- bodies ---- */
 
@@ -42,7 +43,7 @@ typedef struct {
     bool
         passes[MPM_FACES]; /* the window's ends -x +x -y +y -z +z whose boundary does not act on this body; the same for
                                all bodies of a group */
-    bool followed;         /* its plastic front moves the fine zone and the window (mpm_follow) */
+    bool followed;         /* its plastic front is looked for (mpm_follow) */
 } mpm_body;
 
 /* ---- grid: rectilinear, each axis graded on its own ---- */
@@ -81,34 +82,30 @@ typedef struct {
     int normal_of;
 } mpm_pair;
 
-/* ---- a fine zone and a window that follow ---- */
+/* ---- a front that is followed ---- */
 
-/* The fine zone goes along an axis, upwards, with the plastic front of the bodies that are `followed`. */
+/* The plastic front of the bodies that are `followed` is looked for along an axis, upwards. */
 typedef struct {
-    int along;   /* axis of the motion: 0 x, 1 y, 2 z */
-    int across;  /* axis on which the fine zone widens with what is deformed; another than `along` */
-    double lead; /* from the front to the zone's upper end [m] */
-    double
-        speed; /* of the window along the axis: the followed bodies grow in at its upper end, as they were at the start,
-                     and what falls behind is booked as ejected [m/s] */
-    double width; /* half width that the fine zone may grow to across; 0: it stays [m] */
+    int along;  /* axis of the motion: 0 x, 1 y, 2 z */
+    int across; /* another axis: power beyond what the metal of its ends takes is the front's */
 } mpm_follow;
 
 typedef enum { TRANSFER_TPIC, TRANSFER_PIC } transfer_kind; /* with and without the velocity gradient */
 typedef enum { BASIS_GIMP, BASIS_BSPLINE } basis_kind; /* GIMP whose domains follow the stretch; quadratic B-spline */
 
 typedef struct {
-    int bodies, solids, pairs, probes;
+    int bodies, solids, pairs, probes, refines;
     mpm_body *body;      /* [bodies] owned; later bodies have the points that several claim */
     mpm_solid *solid;    /* [solids] owned; trees of the bodies' volumes (shape/solid.h) */
     mpm_pair *pair;      /* [pairs] owned; each two groups at most once */
     mpm_probe *probe;    /* [probes] owned; what is read while the scene runs, which changes nothing of it */
+    mpm_refine *refine;  /* [refines] owned; rules that say where cells are small, with several levels */
     mpm_contact contact; /* of two groups that no pair names, with the normal of the lower one */
     mpm_axis axis[3];
-    /* Of nested grids (grid.h).  1: the axes' grid.  More: in the box of the three fine zones cells of size `fine`;
-     * outside it, for 2, cells twice as large from which the axes grow, for 3 four times, with cells of twice the size
-     * between. */
+    /* Of the grid (grid/grid.h).  1: the axes' grid.  More: cells of `fine` where the fine zones of all axes meet,
+     * until `zone_until`, and where the rules ask for them; elsewhere cells twice, four times, ... as large. */
     int levels;
+    double zone_until; /* [s] */
     mpm_follow follow;
     double contact_gap;     /* groups touch when the distance of their points' means at a node is below this [cells] */
     int particles_per_axis; /* material points a cell and axis, 2 or 3 */
@@ -131,6 +128,8 @@ status mpm_scene_add_body(mpm_scene *s, mpm_body **added);
 status mpm_scene_add_solid(mpm_scene *s, const char *kind, int a, int b, mpm_solid **added);
 /* One more probe, with its values at their defaults, of no body. */
 status mpm_scene_add_probe(mpm_scene *s, const char *kind, const char *name, mpm_probe **added);
+/* One more rule of refinement, with its values at their defaults, of no body. */
+status mpm_scene_add_refine(mpm_scene *s, const char *kind, mpm_refine **added);
 status mpm_scene_add_pair(mpm_scene *s, int a, int b, mpm_pair **added); /* as the scene's default contact */
 
 /* How these two groups touch: the scene's pair, or what holds for those without one. */

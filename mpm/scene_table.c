@@ -46,7 +46,7 @@ const param mpm_body_params[] = {
     PARAM_ENUM(mpm_body, traction_face, mpm_face_names, 0, "where that surface looks"),
     PARAM_DOUBLE(mpm_body, yield_scale, "1", 1.0, 1e-3, 1e3, "factor on the yield stress: hardening"),
     PARAM_BOOL(mpm_body, damage, 0, "its material's law of failure acts"),
-    PARAM_BOOL(mpm_body, followed, 0, "its plastic front moves the fine zone (`follow`)"),
+    PARAM_BOOL(mpm_body, followed, 0, "its plastic front is looked for (`follow`)"),
     PARAMS_END,
 };
 
@@ -73,16 +73,14 @@ const param mpm_pair_params[] = {
 };
 
 const param mpm_follow_params[] = {
-    PARAM_ENUM(mpm_follow, along, axes, 0, "axis along which the fine zone follows"),
-    PARAM_ENUM(mpm_follow, across, axes, 2, "axis on which it widens"),
-    PARAM_DOUBLE(mpm_follow, lead, "m", 0.0, -1e3, 1e3, "from the plastic front to the zone's upper end"),
-    PARAM_DOUBLE(mpm_follow, speed, "m/s", 0.0, 0.0, 1e6, "of the window"),
-    PARAM_DOUBLE(mpm_follow, width, "m", 0.0, 0.0, 1e3, "half width that the zone may grow to; 0: it stays"),
+    PARAM_ENUM(mpm_follow, along, axes, 0, "axis along which a plastic front is looked for"),
+    PARAM_ENUM(mpm_follow, across, axes, 2, "axis across it"),
     PARAMS_END,
 };
 
 const param mpm_scene_params[] = {
-    PARAM_INT(mpm_scene, levels, 1, 1, MPM_MAX_LEVELS, "nested grids"),
+    PARAM_INT(mpm_scene, levels, 1, 1, MPM_MAX_LEVELS, "of the grid, each with cells twice as large"),
+    PARAM_DOUBLE(mpm_scene, zone_until, "s", 1e6, 0.0, 1e6, "until then the fine zones' cells stay small, with levels"),
     PARAM_DOUBLE(mpm_scene, surroundings, "Pa", OPTIONAL, 0.0, 1e12, "absolute pressure around the bodies"),
     PARAM_DOUBLE(mpm_scene, contact_gap, "1", 0.9, 0.0, 10.0, "in cells: nearer groups touch"),
     PARAM_INT(mpm_scene, particles_per_axis, 2, 1, 4, "material points a cell and axis"),
@@ -146,6 +144,14 @@ static uint64_t hash_solid(uint64_t h, const mpm_solid *s)
     return hash(h, s->value, sizeof s->value);
 }
 
+static uint64_t hash_refine(uint64_t h, const mpm_refine *r)
+{
+    h = hash(h, r->kind->name, strlen(r->kind->name));
+    h = hash(h, &r->body, sizeof r->body);
+    h = hash(h, &r->cell, sizeof r->cell);
+    return hash(h, r->value, sizeof r->value);
+}
+
 uint64_t mpm_scene_hash(const mpm_scene *s)
 {
     uint64_t h = hash_members(14695981039346656037ull, mpm_scene_params, s);
@@ -153,6 +159,7 @@ uint64_t mpm_scene_hash(const mpm_scene *s)
     h = hash_contact(h, &s->contact);
     for (int k = 0; k < 3; k++) h = hash_members(h, mpm_axis_params, &s->axis[k]);
     for (int i = 0; i < s->solids; i++) h = hash_solid(h, &s->solid[i]);
+    for (int i = 0; i < s->refines; i++) h = hash_refine(h, &s->refine[i]);
     for (int i = 0; i < s->bodies; i++) {
         h = hash_members(h, mpm_body_params, &s->body[i]);
         h = hash_members(h, mpm_material_params, s->body[i].material);

@@ -12,8 +12,8 @@ import sys
 
 LIBRARIES = ("base", "circuit", "mpm", "coupling")
 ARGUED = (
-    {"mpm/grid/seams", "mpm/grid/shares", "mpm/memory/bricks"},
-    {"mpm/mpm", "mpm/refine/front", "mpm/refine/zone"},
+    {"mpm/grid/interface", "mpm/grid/substeps", "mpm/memory/bricks"},
+    {"mpm/mpm", "mpm/refine/adapt"},
 )
 
 

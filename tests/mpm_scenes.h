@@ -304,7 +304,7 @@ static inline double scene_mean(const mpm *m, mpm_field field, int component, in
 
 /* ---- bits ---- */
 
-/* Every readable field of every particle, then the books, those of bodies and groups, and the wake. */
+/* Every readable field of every particle, then the books, and those of bodies and groups. */
 typedef struct {
     size_t bytes;
     char *data;
@@ -320,14 +320,11 @@ static inline scene_picture scene_picture_of(const mpm *m)
 {
     const mpm_ledger l = mpm_balance(m);
     const mpm_report r = mpm_state(m);
-    const mpm_wake *w = mpm_wake_of(m);
     const mpm_scene *s = mpm_scene_of(m);
     const size_t bodies = (size_t)s->bodies, groups = (size_t)mpm_scene_groups(s);
     size_t doubles = bodies + 6 * groups;
     for (int f = 0; f < MPM_FIELD_COUNT; f++) doubles += mpm_particles(m) * (size_t)mpm_field_table[f].width;
-    scene_picture p = { doubles * sizeof(double) + sizeof l + sizeof r + bodies * sizeof(mpm_body_report) +
-                            w->n * sizeof *w->point,
-                        NULL };
+    scene_picture p = { doubles * sizeof(double) + sizeof l + sizeof r + bodies * sizeof(mpm_body_report), NULL };
     p.data = malloc(p.bytes);
     assert_non_null(p.data);
     double *to = (double *)(void *)p.data;
@@ -345,7 +342,6 @@ static inline scene_picture scene_picture_of(const mpm *m)
         at = scene_put(at, mpm_contact_force(m, g), 3 * sizeof(double));
         at = scene_put(at, mpm_peak_contact_force(m, g), 3 * sizeof(double));
     }
-    scene_put(at, w->point, w->n * sizeof *w->point);
     return p;
 }
 

@@ -16,7 +16,7 @@
 #define TINY                                                                                                  \
     SHOT " --set scene.cells_per_radius=1.5 --set scene.levels=2 --set scene.coarse_cell='0.8 mm' --set "     \
          "scene.growth=1.3 --set output.report=no"                                                            \
-         " --set scene.fine_ahead='3 mm' --set scene.fine_width='3 mm' --set scene.rail_ahead='8 mm' --set "  \
+         " --set scene.rail_ahead='8 mm' --set "                                                              \
          "armature.length='10 mm' --set armature.half_bore='6 mm' --set armature.width='10 mm' --set "        \
          "armature.head_thickness='6 mm' --set scene.rail_behind='1 mm' --set scene.rail_depth='4 mm' --set " \
          "scene.end_time='4 us'"

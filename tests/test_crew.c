@@ -47,8 +47,6 @@ static breech_case *small_case(const char *end_time)
                                  "scene.coarse_cell=1.2 mm",
                                  "scene.levels=1",
                                  "scene.growth=1.3",
-                                 "scene.fine_ahead=2 mm",
-                                 "scene.fine_width=2 mm",
                                  "scene.rail_ahead=6 mm",
                                  "scene.rail_behind=1 mm",
                                  "scene.rail_depth=5 mm",
@@ -465,12 +463,9 @@ static status start_lending(void)
 
 static breech_case *grown_case(bool to_gauge)
 {
-    breech_case *c = small_case("scene.end_time=2.6 us");
+    breech_case *c = small_case("scene.end_time=2.85 us");
     c->scene.courant = 0.2; /* more steps than pieces: none ends with the gauge's */
     c->scene.levels = 2;
-    c->scene.fine_depth = 0.6e-3;
-    c->scene.fine_above = 0.5e-3;
-    c->scene.fine_behind = 0.8e-3;
     c->scene.stop_when_gauged = to_gauge;
     c->output.snapshots = 0;
     return c;

@@ -5,8 +5,8 @@
  */
 #define GAUGED                                                                                                   \
     TINY " --set particle.radius='0.2 mm' --set scene.velocity='2 km/s' --set scene.cells_per_radius=1.2 --set " \
-         "scene.coarse_cell='1.2 mm' --set scene.fine_depth='0.6 mm' --set scene.fine_above='0.5 mm' --set "     \
-         "scene.fine_behind='0.8 mm' --set scene.fine_width='2 mm' --set scene.end_time='3.4 us' "
+         "scene.coarse_cell='1.2 mm' --set "                                                                     \
+         "scene.end_time='3.4 us' "
 
 static void test_gauged(void **state)
 {

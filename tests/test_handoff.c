@@ -208,7 +208,7 @@ static const char *const variants[][MAX_SETS] = {
     { "particle.shape=sphere", "scene.half_model=no", NULL },
     { "particle.bond_strength=0 Pa", "title=layered", NULL },
     { "armature.width=20 mm", "scene.rail_width=40 mm", "armature.lead_angle=80 deg", NULL },
-    { "scene.cells_per_radius=3.7", "scene.coarse_cell=0.9 mm", "scene.fine_depth=1.234 mm", NULL },
+    { "scene.cells_per_radius=3.7", "scene.coarse_cell=0.9 mm", "scene.rail_depth=7.234 mm", NULL },
 };
 enum { VARIANTS = sizeof variants / sizeof variants[0] };
 
@@ -374,7 +374,7 @@ static void test_levels(void **state)
     (void)state;
     for (int k = 0; k < VARIANTS; k++) {
         made m = make(variants[k]);
-        for (int levels = 1; levels <= MPM_MAX_LEVELS; levels++) {
+        for (int levels = 1; levels <= 4; levels++) {
             grids g;
             m.c->scene.levels = levels;
             OK(make_again(&m, m.c->scene.cells_per_radius));
@@ -493,13 +493,7 @@ static void test_many_layers(void **state)
 static void test_masses(void **state)
 {
     (void)state;
-    const char *const sets[] = { "scene.cells_per_radius=2",
-                                 "scene.coarse_cell=2 mm",
-                                 "scene.growth=1.3",
-                                 "scene.fine_ahead=2 mm",
-                                 "scene.fine_behind=1 mm",
-                                 "scene.fine_width=3 mm",
-                                 NULL };
+    const char *const sets[] = { "scene.cells_per_radius=2", "scene.coarse_cell=2 mm", "scene.growth=1.3", NULL };
     made m = make(sets);
     mpm *solver = NULL;
     OK(mpm_create(&m.gouge.scene, 1, &solver));
@@ -521,13 +515,7 @@ static double mass_with(const char *shape)
 {
     char grain[40];
     snprintf(grain, sizeof grain, "particle.shape=%s", shape);
-    const char *const sets[] = { grain,
-                                 "scene.cells_per_radius=4",
-                                 "scene.coarse_cell=2 mm",
-                                 "scene.growth=1.3",
-                                 "scene.fine_ahead=1 mm",
-                                 "scene.fine_behind=1 mm",
-                                 "scene.fine_width=3 mm",
+    const char *const sets[] = { grain, "scene.cells_per_radius=4", "scene.coarse_cell=2 mm", "scene.growth=1.3",
                                  NULL };
     made m = make(sets);
     mpm *solver = NULL;
@@ -558,7 +546,6 @@ static void test_pit(void **state)
     /* eight points a radius: those on the border, one in eight, err both ways */
     assert_true(fabs((mass_with("hemisphere") - mass_with("pit")) / (0.5 * density * ball) - 1.0) < 0.05);
     m = make(sets);
-    m.c->scene.fine_depth = 1e-3;
     m.state.grain.height = 2.5e-3;
     assert_int_equal(make_again(&m, 3.0).code, STATUS_BAD_INPUT);
     unmake(&m);
@@ -643,7 +630,7 @@ static void test_refused(void **state)
 {
     (void)state;
     made m = make(variants[0]);
-    m.c->scene.rail_ahead = 1e-3; /* no room for the grain's fine zone */
+    m.c->scene.rail_ahead = 0.6e-3, m.c->scene.follow = false; /* no room for fine cells around the grain */
     assert_int_equal(make_again(&m, 3.0).code, STATUS_BAD_INPUT);
     unmake(&m);
     m = make(variants[0]);

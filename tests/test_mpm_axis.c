@@ -247,19 +247,25 @@ static void test_meeting(void **state)
     (void)state;
     enum { N = 3 * BRICK };
     static brick bricks[2][27];
-    static int directory[2 * 27];
+    static int directory[2 * PAGE_PLACES];
+    static bool there[2 * 27];
     static mpm m;
-    for (int k = 0; k < 3; k++) m.grids.level[0].axes[k].bricks = 3;
-    m.groups = 2, m.grids.levels = 1, m.grids.sites = 27, m.directory = directory, m.bricks = bricks[0];
+    int page = 1; /* all bricks in one */
+    grid_level *level = &m.grids.level[0];
+    for (int k = 0; k < 3; k++) level->axes[k].bricks = 3, level->pages[k] = 1;
+    level->page = &page, m.grids.pages = 1, m.places = PAGE_PLACES;
+    m.groups = 2, m.grids.levels = 1, m.directory = directory, m.bricks = bricks[0];
+    for (int i = 0; i < 2 * PAGE_PLACES; i++) directory[i] = -1;
     srand(12);
     for (int trial = 0; trial < 200; trial++) {
         memset(bricks, 0, sizeof bricks);
         for (int i = 0; i < 54; i++) {
-            directory[i] = rand() % 8 ? i : -1;
+            there[i] = rand() % 8;
             brick *b = &m.bricks[i];
             *b = (brick){ .group = i / 27, .at = { i % 3, i / 3 % 3, i / 9 % 3 } };
             for (int c = 0; c < BRICK_CELLS; c++) b->head[c] = rand() % 128 ? -1 : c;
             b->occupied = mpm_occupied_cells(b);
+            directory[2 * grids_place(&m.grids, 0, b->at) + b->group] = there[i] ? i : -1;
         }
         const int mine = 13 + 27 * (trial % 2),
                   at = trial % 5 ? 13 : rand() % 27; /* the middle one, or one at the rim */
@@ -272,7 +278,7 @@ static void test_meeting(void **state)
                 const int from[3] = { c % BRICK, c / BRICK % BRICK, c / (BRICK * BRICK) };
                 const int i = (to[2] / BRICK * 3 + to[1] / BRICK) * 3 + to[0] / BRICK + 27 * (1 - b->group);
                 const int cell = cell_index(to[0] % BRICK, to[1] % BRICK, to[2] % BRICK);
-                bool near = directory[i] >= 0 && m.bricks[i].head[cell] >= 0;
+                bool near = there[i] && m.bricks[i].head[cell] >= 0;
                 for (int k = 0; k < 3; k++) near = near && abs(to[k] - BRICK * b->at[k] - from[k]) <= 2;
                 if (near) want |= 1ull << c;
             }

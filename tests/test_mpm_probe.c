@@ -219,7 +219,6 @@ static void test_plastic(void **state)
     const material m = scene_copper();
     mpm *solver = cubes(&m);
     double out;
-    plough front;
     solver->scene.body[0].followed = true;
     mpm_probe plastic = probe("plastic", 0);
     for (sheared = 0; sheared < 3; sheared++) {
@@ -227,8 +226,8 @@ static void test_plastic(void **state)
         plastic.body = 0;
         look(solver, &plastic, &out);
         assert_near(out / (1e8 * 4e4 * 8e-9), 1, 1e-12);
-        assert_ok(mpm_plastic_front_find(solver, &front));
-        assert_near(front.power / out, 1, 1e-12);
+        assert_ok(mpm_plastic_front_look(solver));
+        assert_near(mpm_glance(solver).plastic_power / out, 1, 1e-12);
         plastic.body = 1;
         look(solver, &plastic, &out);
         assert_true(out == 0);

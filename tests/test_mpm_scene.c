@@ -9,6 +9,11 @@ static void some_scene(mpm_scene *s, const material *m)
     scene_box(s, 2e-3, -1, -1, 6e-3, 1, 1, m);
     scene_box(s, 6e-3, -1, -1, 10e-3, 1, 1, m)->group = 1;
     scene_pair(s, 0, 1)[COULOMB_FRICTION] = 0.3;
+    for (int i = 0; mpm_refine_kind_at(i); i++) {
+        mpm_refine *r;
+        assert_ok(mpm_scene_add_refine(s, mpm_refine_kind_at(i)->name, &r));
+        r->body = 0;
+    }
 }
 
 /* ---- the key ---- */
@@ -67,6 +72,8 @@ static void test_key(void **state)
     }
     for (int i = 0; i < s.solids; i++)
         n += walk(&s, s.solid[i].kind->params, s.solid[i].value, sizeof s.solid[i].value, true);
+    for (int i = 0; i < s.refines; i++)
+        n += walk(&s, s.refine[i].kind->params, s.refine[i].value, sizeof s.refine[i].value, true);
     walk(&s, mpm_scene_run_params, &s, sizeof s, false);
     const uint64_t key = mpm_scene_hash(&s);
     const mpm_contact stuck = mpm_contact_of(mpm_contact_find("stick")), kept = s.pair[0].contact;
@@ -114,10 +121,13 @@ static void test_tables(void **state)
     static const size_t of_body[][2] = { PLACE(mpm_body, material), { 0, 0 } };
     static const size_t of_axis[][2] = { { 0, 0 } };
     static const size_t of_pair[][2] = { PLACE(mpm_pair, contact), { 0, 0 } };
-    static const size_t of_scene[][2] = { PLACE(mpm_scene, bodies), PLACE(mpm_scene, solids),  PLACE(mpm_scene, pairs),
-                                          PLACE(mpm_scene, body),   PLACE(mpm_scene, solid),   PLACE(mpm_scene, pair),
-                                          PLACE(mpm_scene, axis),   PLACE(mpm_scene, contact), PLACE(mpm_scene, follow),
-                                          PLACE(mpm_scene, probes), PLACE(mpm_scene, probe),   { 0, 0 } };
+    static const size_t of_scene[][2] = { PLACE(mpm_scene, bodies), PLACE(mpm_scene, solids),
+                                          PLACE(mpm_scene, pairs),  PLACE(mpm_scene, body),
+                                          PLACE(mpm_scene, solid),  PLACE(mpm_scene, pair),
+                                          PLACE(mpm_scene, axis),   PLACE(mpm_scene, contact),
+                                          PLACE(mpm_scene, follow), PLACE(mpm_scene, probes),
+                                          PLACE(mpm_scene, probe),  PLACE(mpm_scene, refines),
+                                          PLACE(mpm_scene, refine), { 0, 0 } };
     covered("mpm_body", (const param *const[]){ mpm_body_params, NULL }, sizeof(mpm_body), of_body);
     covered("mpm_axis", (const param *const[]){ mpm_axis_params, NULL }, sizeof(mpm_axis), of_axis);
     covered("mpm_follow", (const param *const[]){ mpm_follow_params, NULL }, sizeof(mpm_follow), of_axis);

@@ -181,8 +181,7 @@ static void test_failed(void **state)
 {
     (void)state;
     fresh_folder("failed");
-    assert_int_equal(
-        run("scene " TINY " -o failed/a --set scene.fine_depth='0.0001 mm' --set scene.rail_depth='2.1 mm'"), 2);
+    assert_int_equal(run("scene " TINY " -o failed/a --set scene.rail_depth='0.3 mm'"), 2);
     assert_int_equal(run("scene " TINY " -o /proc/nowhere/a"), 1);
 }
 

@@ -167,12 +167,9 @@ typedef struct {
     double cells_per_radius;        /* fine cell = radius / this [1] */
     double coarse_cell;             /* largest cell [m] */
     int levels;                     /* of nested grids: 1 .. 3 [1] */
+    double refine_tolerance;        /* share of the velocity that plastic flow may change across a cell [1] */
     double growth;                  /* ratio of neighbouring cells outside the fine zone [1] */
-    double fine_ahead, fine_behind; /* ends of the fine zone, from the grain's middle along x [m] */
-    bool follow;                    /* the fine zone goes with the ploughing; else it stays */
-    double follow_lead;             /* from the front of the ploughing to the zone's end [m] */
-    double fine_depth, fine_above;  /* below and above the rail's surface [m] */
-    double fine_width;              /* of the full fine zone across the rail [m] */
+    bool follow;                    /* the groove's growth past the grain is gauged */
     double rail_ahead, rail_behind; /* ends of the rail modelled, from the grain's middle [m] */
     double rail_depth;              /* [m] */
     double rail_width;              /* full; NAN: the projectile's [m] */

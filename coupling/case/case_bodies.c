@@ -18,8 +18,10 @@ static const char *const overlap_names[] = { [OVERLAP_REFUSED] = "refused", [OVE
 
 const param case_method_params[] = {
     PARAM_DOUBLE(mpm_scene, end_time, "s", REQUIRED, 1e-12, 1e3, "time that is simulated"),
-    PARAM_INT(mpm_scene, levels, 1, 1, MPM_MAX_LEVELS,
-              "nested grids: around the fine zone cells twice, with 3 four times as large"),
+    PARAM_INT(mpm_scene, levels, 0, 0, MPM_MAX_LEVELS,
+              "of the grid, each with cells twice as large; 0: 1 without `refine`, else as coarse_cell allows"),
+    PARAM_DOUBLE(mpm_scene, zone_until, "s", OPTIONAL, 0.0, 1e6,
+                 "until then cells are small in the zone of the window, with levels; not given: 0 with `refine`"),
     PARAM_DOUBLE(mpm_scene, courant, "1", 0.4, 0.01, 0.95, "Courant number of c + |v|"),
     PARAM_DOUBLE(mpm_scene, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),
     PARAM_DOUBLE(mpm_scene, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),
@@ -56,11 +58,8 @@ static const param axis_params[] = {
 static const param *const body_params = &mpm_body_params[MPM_BODY_KEYED];
 
 static const param follow_params[] = {
-    PARAM_ENUM(mpm_follow, along, letters, 0, "axis along which the fine zone goes"),
-    PARAM_ENUM(mpm_follow, across, letters, 2, "axis on which it widens with what is deformed"),
-    PARAM_DOUBLE(mpm_follow, lead, "m", 0.0, 0.0, 1e3, "from the plastic front to the zone's upper end"),
-    PARAM_DOUBLE(mpm_follow, speed, "m/s", 0.0, 0.0, 1e5, "of the window while it follows"),
-    PARAM_DOUBLE(mpm_follow, width, "m", 0.0, 0.0, 1e3, "half width that the zone may grow to across; 0: it stays"),
+    PARAM_ENUM(mpm_follow, along, letters, 0, "axis along which a plastic front is looked for"),
+    PARAM_ENUM(mpm_follow, across, letters, 2, "axis across it: what the ends of the window take there does not count"),
     PARAMS_END,
 };
 
@@ -72,18 +71,15 @@ typedef struct {
 static const param shared_params[] = {
     PARAM_ENUM(shared_keys, overlap, overlap_names, OVERLAP_REFUSED,
                "bodies that overlap: refused, or the later one has what both claim"),
-    PARAM_DOUBLE(shared_keys, cell, "m", OPTIONAL, 1e-9, 1e2,
-                 "cells in the fine zone; not given: a twentieth of the smallest extent of any body"),
+    PARAM_DOUBLE(
+        shared_keys, cell, "m", OPTIONAL, 1e-9, 1e2,
+        "smallest cells; not given: that of a rule of `refine`, else a twentieth of the smallest extent of any body"),
     PARAM_DOUBLE(shared_keys, coarse_cell, "m", OPTIONAL, 1e-9, 1e2,
-                 "largest cells outside it; not given: four times as large"),
+                 "largest cells; not given: four times as large, eight times with `refine`"),
     PARAM_DOUBLE(shared_keys, growth, "1", OPTIONAL, 1.0, 2.0,
                  "ratio of neighbouring cells outside it; not given: 1.2"),
     PARAMS_END,
 };
-
-typedef struct {
-    double within, cell;
-} refine_keys;
 
 typedef struct {
     char name[PARAM_TEXT_SIZE];
@@ -95,8 +91,8 @@ static const param probe_params[] = {
 };
 
 static const param refine_params[] = {
-    PARAM_DOUBLE(refine_keys, within, "m", REQUIRED, 0.0, 1e3, "so far around the body's bounding box"),
-    PARAM_DOUBLE(refine_keys, cell, "m", REQUIRED, 1e-9, 1e2, "cells there"),
+    PARAM_DOUBLE(mpm_refine, cell, "m", 0.0, 0.0, 1e2,
+                 "the smallest cells that the rule asks for; 0: the scene's `cell`"),
     PARAMS_END,
 };
 
@@ -113,11 +109,13 @@ const case_section case_bodies_manual[] = {
            "body without one is a group by itself; `passes`, ends of the window whose boundary does not act on it."),
     MANUAL("scene.window", axis_params,
            "`x`, `y` and `z`, each with these keys; what is left out follows from the bodies."),
-    MANUAL("scene.follow", follow_params, "The fine zone and the window go with the bodies that are `followed`."),
+    MANUAL("scene.follow", follow_params, "Where the plastic front of bodies that are `followed` is looked for."),
     MANUAL("scene.probes", probe_params,
            "A list. Besides its name one key, the kind of probe (below): its values and `body`, or the name of a body "
            "alone; without a body it reads all of them. `force_on: a` stands for `force: {body: a}`."),
-    MANUAL("scene.refine", refine_params, "A list: fine cells `around` a body."),
+    MANUAL("scene.refine", refine_params,
+           "A list of rules that say where cells are small. Besides `cell` one key, the kind of rule (below), with the "
+           "name of a body or `all`, and the kind's own keys."),
     { .key = NULL },
 };
 
@@ -475,30 +473,48 @@ static void read_boundary(case_reader *r, const tree_node *map)
     }
 }
 
-/* One fine zone holds all that is to be refined, in the smallest of the cells asked for. */
-static void read_refine(case_reader *r, const tree_node *list)
+static const char *refine_kind_name(const void *user, int i)
 {
-    static const char *const others[] = { "around", NULL };
-    mpm_scene *s = &r->out->bodies.scene;
-    for (int k = 0; case_entry_node(list, k); k++) {
-        char path[CASE_KEY_SIZE];
-        const tree_node *map = case_entry_node(list, k);
-        refine_keys wanted;
-        const case_keys keys = { refine_params, &wanted };
-        const int errors = r->errors->n;
-        snprintf(path, sizeof path, "scene.refine[%d]", k);
-        case_keys_read(r, map, path, &keys, 1, others);
-        const int body = named_body(r, map, "around", path);
-        if (body < 0 || r->errors->n > errors) continue;
-        double lo[3], hi[3];
-        mpm_solid_bounds(&s->solid[s->body[body].solid], lo, hi);
-        for (int q = 0; q < 3; q++) {
-            mpm_axis *a = &s->axis[q];
-            a->fine_lo = fmin(a->fine_lo, lo[q] - wanted.within); /* fmin and fmax leave out a NAN */
-            a->fine_hi = fmax(a->fine_hi, hi[q] + wanted.within);
-            a->fine = fmin(a->fine, wanted.cell);
-        }
+    (void)user;
+    const mpm_refine_kind *k = mpm_refine_kind_at(i);
+    return k ? k->name : NULL;
+}
+
+/* The first key that is a kind of rule; NULL after an error. */
+static const mpm_refine_kind *read_refine_kind(case_reader *r, const tree_node *map, const char *path)
+{
+    for (int i = 0; map->kind == TREE_MAP && i < map->n; i++) {
+        const mpm_refine_kind *kind = mpm_refine_kind_find(map->key[i]->text);
+        if (kind) return kind;
     }
+    if (map->kind == TREE_MAP && map->n > 0 && strcmp(map->key[0]->text, "cell") != 0)
+        case_unknown_name(r, map->key[0], "rule of refinement", path, refine_kind_name, NULL);
+    else
+        case_errors_add(r->errors, map, "%s must name a rule, such as {around: ball, within: 1 mm, cell: 0.1 mm}",
+                        path);
+    return NULL;
+}
+
+static void read_refine(case_reader *r, const tree_node *map, int k)
+{
+    mpm_scene *s = &r->out->bodies.scene;
+    char path[CASE_KEY_SIZE];
+    mpm_refine *rule;
+    snprintf(path, sizeof path, "scene.refine[%d]", k);
+    const mpm_refine_kind *kind = read_refine_kind(r, map, path);
+    if (!kind) return;
+    if (mpm_scene_add_refine(s, kind->name, &rule).code != STATUS_OK) {
+        r->out_of_memory = true;
+        return;
+    }
+    const char *const others[] = { kind->name, NULL };
+    const case_keys keys[] = { { kind->params, rule->value }, { refine_params, rule } };
+    case_keys_read(r, map, path, keys, 2, others);
+    if (strcmp(text_of(map, kind->name), "all") != 0)
+        rule->body = named_body(r, map, kind->name, path);
+    else if (kind->of_body)
+        case_errors_add(r->errors, host_tree_find(map, kind->name), "%s.%s must name a body", path, kind->name);
+    for (int q = 0; q < 3 && rule->cell > 0.0; q++) s->axis[q].fine = fmin(s->axis[q].fine, rule->cell); /* NAN: none */
 }
 
 /* What is said once for all axes. */
@@ -542,7 +558,8 @@ void case_bodies_read(case_reader *r)
     for (int k = 0; case_entry_node(host_tree_find(scene, "probes"), k); k++)
         read_probe(r, host_tree_find(scene, "probes"), k);
     if (host_tree_find(scene, "boundary")) read_boundary(r, host_tree_find(scene, "boundary"));
-    if (host_tree_find(scene, "refine")) read_refine(r, host_tree_find(scene, "refine"));
+    for (int k = 0; case_entry_node(host_tree_find(scene, "refine"), k); k++)
+        read_refine(r, case_entry_node(host_tree_find(scene, "refine"), k), k);
     share(&shared, s);
     if (host_tree_find(scene, "follow")) {
         const case_keys follow = { follow_params, &s->follow };
@@ -645,6 +662,14 @@ static void write_probe(const mpm_scene *s, const mpm_probe *p, FILE *file)
     fputs("}}\n", file);
 }
 
+static void write_refine(const mpm_scene *s, const mpm_refine *r, FILE *file)
+{
+    fprintf(file, "    - {%s: %s", r->kind->name, r->body < 0 ? "all" : s->body[r->body].name);
+    case_keys_write(r->kind->params, r->value, false, file);
+    case_keys_write(refine_params, r, false, file);
+    fputs("}\n", file);
+}
+
 void case_bodies_write(const case_bodies *b, FILE *file)
 {
     const mpm_scene *s = &b->scene;
@@ -662,6 +687,8 @@ void case_bodies_write(const case_bodies *b, FILE *file)
     fputs("}\n  bodies:\n", file);
     for (int i = 0; i < s->bodies; i++) write_body(s, &s->body[i], file);
     write_contacts(s, file);
+    if (s->refines > 0) fputs("  refine:\n", file);
+    for (int i = 0; i < s->refines; i++) write_refine(s, &s->refine[i], file);
     if (s->probes > 0) fputs("  probes:\n", file);
     for (int i = 0; i < s->probes; i++) write_probe(s, &s->probe[i], file);
 }

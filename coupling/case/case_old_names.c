@@ -20,6 +20,12 @@ static const old_name old_names[] = {
     { "rails", NULL, "rail", NULL, NULL },
     { "projectile", NULL, "armature", NULL, NULL },
     { "study", "screen_high", NULL, NULL, NULL },
+    { "scene", "fine_ahead", NULL, NULL, NULL },
+    { "scene", "fine_behind", NULL, NULL, NULL },
+    { "scene", "fine_above", NULL, NULL, NULL },
+    { "scene", "fine_depth", NULL, NULL, NULL },
+    { "scene", "fine_width", NULL, NULL, NULL },
+    { "scene", "follow_lead", NULL, NULL, NULL },
 };
 enum { OLD_NAMES = sizeof old_names / sizeof old_names[0] };
 

@@ -166,6 +166,11 @@ void case_print_keys(FILE *file)
         snprintf(key, sizeof key, "contact: %s", law->name);
         print_section(file, &(case_section){ .key = key, .doc = law->doc, .table = law->params }, "");
     }
+    for (int i = 0; mpm_refine_kind_at(i); i++) {
+        const mpm_refine_kind *k = mpm_refine_kind_at(i);
+        snprintf(key, sizeof key, "refine: %s", k->name);
+        print_section(file, &(case_section){ .key = key, .doc = k->doc, .table = k->params }, "");
+    }
     for (int i = 0; mpm_probe_kind_at(i); i++) {
         const mpm_probe_kind *k = mpm_probe_kind_at(i);
         snprintf(key, sizeof key, "probe: %s", k->name);

@@ -10,10 +10,10 @@ enum { COLUMNS = 12 }; /* doubles a point */
 
 static status points_read(const mpm *m, gouge_points *p)
 {
-    const size_t live = mpm_particles(m), room = live + mpm_wake_of(m)->n;
-    double *all = malloc((room ? room : 1) * COLUMNS * sizeof *all);
-    CHECK(all, STATUS_MEMORY, "no memory to read %zu material points", room);
-    *p = (gouge_points){ .n = live,
+    const size_t n = mpm_particles(m), room = n ? n : 1;
+    double *all = malloc(room * COLUMNS * sizeof *all);
+    CHECK(all, STATUS_MEMORY, "no memory to read %zu material points", n);
+    *p = (gouge_points){ .n = n,
                          .position = all,
                          .velocity = all + 3 * room,
                          .size = all + 6 * room,
@@ -35,18 +35,6 @@ void gouge_points_free(gouge_points *p)
     *p = (gouge_points){ .n = 0 };
 }
 
-/* points_read has left room for them. */
-static void append_wake(const mpm_wake *w, gouge_points *p)
-{
-    for (size_t i = 0; i < w->n; i++, p->n++) {
-        const mpm_wake_point *q = &w->point[i];
-        memcpy(p->position + 3 * p->n, q->position, sizeof q->position);
-        memcpy(p->velocity + 3 * p->n, q->velocity, sizeof q->velocity);
-        memcpy(p->size + 3 * p->n, q->size, sizeof q->size);
-        p->damage[p->n] = q->damage, p->mass[p->n] = q->mass, p->body[p->n] = q->body;
-    }
-}
-
 static bool over_map(const crater_spec *s, const double x[3], const double half[3])
 {
     return x[0] + half[0] >= s->x_lo && x[0] - half[0] <= s->x_hi && fabs(x[2]) - half[2] <= s->z_hi;
@@ -54,14 +42,11 @@ static bool over_map(const crater_spec *s, const double x[3], const double half[
 
 status gouge_points_of_rail(const gouge_scene *s, const mpm *m, gouge_points *p)
 {
-    const mpm_wake *wake = mpm_wake_of(m);
     size_t kept = 0;
     TRY(points_read(m, p));
     for (size_t i = 0; i < p->n; i++) {
         double *x = p->position + 3 * i, *half = p->size + 3 * i;
-        if (!gouge_counts_as_rail(s, (int)p->body[i]) || !mpm_cut_at(0, wake->until, true, x, half, &p->mass[i]) ||
-            !over_map(&s->crater, x, half))
-            continue;
+        if (!gouge_counts_as_rail(s, (int)p->body[i]) || !over_map(&s->crater, x, half)) continue;
         memmove(p->position + 3 * kept, x, 3 * sizeof *x);
         memmove(p->velocity + 3 * kept, p->velocity + 3 * i, 3 * sizeof *x);
         memmove(p->size + 3 * kept, half, 3 * sizeof *x);
@@ -70,7 +55,6 @@ status gouge_points_of_rail(const gouge_scene *s, const mpm *m, gouge_points *p)
         kept++;
     }
     p->n = kept;
-    append_wake(wake, p);
     return status_ok();
 }
 

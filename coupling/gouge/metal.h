@@ -1,6 +1,4 @@
-/* The material points of a gouging scene, read for those who look at the rail's surface and at the armature's metal.
- *
- * Behind the fine zone the rail's points are those of the wake (mpm_wake), as fine as they were there. */
+/* The material points of a gouging scene, read for those who look at the rail's surface and at the armature's metal. */
 #ifndef BREECH_COUPLING_METAL_H
 #define BREECH_COUPLING_METAL_H
 
@@ -13,7 +11,7 @@ typedef struct {
     double *damage, *mass, *body;       /* n [1, kg, index] */
 } gouge_points;
 
-/* Those of rail and layers over the crater's map, in their order, then the wake's; of these `body` means nothing. */
+/* Those of rail and layers over the crater's map, in their order. */
 status gouge_points_of_rail(const gouge_scene *s, const mpm *m, gouge_points *p);
 void gouge_points_free(gouge_points *p);
 

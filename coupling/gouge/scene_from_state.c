@@ -10,16 +10,17 @@
 #include <math.h>
 #include <string.h>
 
-/* Of the time in which the contact face crosses the fine zone.  The groove's front goes at about 0.7 of the armature's
- * speed, so a groove that would die out late is still growing then: what that changes is in docs/onset.md. */
+/* Of the time in which the contact face crosses what is looked at, where the groove's growth is not. */
 static const double END_FACTOR = 1.1;
 
-/* Speed of a groove's front over the armature's.  A zone that follows it ends when the contact face has passed it. */
+/* Speed of a groove's front over the armature's, at most: a scene ends when the contact face has passed it. */
 static const double FRONT_SPEED = 0.7;
 
-/* A fine zone that follows starts so many radii wider than the grain on either side, but no wider than half of its
- * largest; it widens with the groove. */
-static const double BESIDE = 1.5;
+/* The finest cells at the start, around the grain, in its radii; later the metal's flow asks for them. */
+static const double START_BEHIND = 3.0, START_AHEAD = 3.0, START_DEPTH = 2.0, START_BESIDE = 1.5;
+/* On one level: how far ahead of the grain's middle and beside it all cells are fine, in radii. */
+static const double ZONE_AHEAD = 26.0, ZONE_BESIDE = 8.0;
+static const double MAP_BESIDE = 24.0; /* half width of the crater's map in radii, at most */
 
 /* Length across the rail of shapes that have one. */
 #define RIDGE_LENGTH 4.0 /* half of it, in radii */
@@ -65,14 +66,14 @@ case_impact gouge_impact_at(const case_impact *from, const site_state *state, do
 
 /* Everything along x, y, z that more than one part of the scene needs [m]. */
 typedef struct {
-    double fine, coarse;
-    double x_front;                 /* front end of the armature's contact face at the start */
-    double run;                     /* length of the lead face along x */
-    double fine_behind, fine_ahead; /* ends of the fine zone, both positive */
-    double fine_depth, fine_above, fine_half_width;
-    double narrow_half_width;           /* of the fine zone at the start */
-    double behind, ahead;               /* ends of the window, both positive; at the start, if it follows */
-    double travel;                      /* of the window, at most */
+    int levels;
+    double fine, coarse;                /* smallest and largest cell */
+    double x_front;                     /* front end of the armature's contact face at the start */
+    double run;                         /* length of the lead face along x */
+    double zone_lo[3], zone_hi[3];      /* of the finest cells at the start */
+    double behind, ahead;               /* ends of the window, both positive */
+    double reach;                       /* downstream end of what is looked at */
+    double passage;                     /* way of the armature until the scene is over, where the groove is followed */
     double rail_half_width, half_width; /* of the rail, of the window */
     double layers;                      /* thickness of all layers */
 } layout;
@@ -88,11 +89,6 @@ static double cells_over(double length, double cell)
     return cell * ceil(length / cell * (1.0 - 1e-9));
 }
 
-static double top_of_zone(const case_impact *c, const case_site *g)
-{
-    return given_or(c->scene.fine_above, fmax(1.5 * g->radius, g->height + 0.5 * g->radius));
-}
-
 /* Half of the grain's extent across the rail. */
 static double half_across(const case_site *g)
 {
@@ -102,49 +98,69 @@ static double half_across(const case_site *g)
     return mpm_solid_get(&s, "half_length") ? RIDGE_LENGTH * g->radius : g->radius;
 }
 
+/* As many as a doubling of the finest cells makes of the coarsest, or as the case says. */
+static int levels_of(const case_scene *s, double fine)
+{
+    int levels = s->levels;
+    if (s->basis != BASIS_GIMP) return 1;
+    if (levels == 0)
+        for (levels = 1; levels < MPM_MAX_LEVELS && fine * (1 << levels) <= s->coarse_cell * (1.0 + 1e-9);) levels++;
+    return levels;
+}
+
+/* On one level the zone of fine cells must hold all that happens. */
+static void lay_zone(const case_impact *c, const case_site *g, layout *l)
+{
+    const bool one = l->levels == 1;
+    const double radius = g->radius, across = half_across(g) + START_BESIDE * radius;
+    const double room = one ? 3.0 * l->coarse : 2.0 * l->fine;
+    const double to[5] = { START_BEHIND * radius, (one ? ZONE_AHEAD : START_AHEAD) * radius, START_DEPTH * radius,
+                           fmax(1.5 * radius, g->height + 0.5 * radius),
+                           one ? fmax(across, ZONE_BESIDE * radius) : across };
+    const double most[5] = { l->behind, l->ahead, c->scene.rail_depth, c->armature.half_bore, l->half_width };
+    double end[5];
+    for (int i = 0; i < 5; i++) end[i] = cells_over(fmin(to[i], most[i] - room), l->fine);
+    for (int k = 0; k < 3; k++) l->zone_lo[k] = -end[k < 2 ? 2 * k : 4], l->zone_hi[k] = end[k < 2 ? 2 * k + 1 : 4];
+    if (c->scene.half_model) l->zone_lo[2] = 0.0;
+}
+
 static layout lay_out(const case_impact *c, const case_site *g, double cells_per_radius)
 {
     const case_scene *s = &c->scene;
     const case_projectile *p = &c->armature;
     layout l = { .fine = g->radius / cells_per_radius };
-    l.coarse = fmax(s->coarse_cell, (1 << (s->levels - 1)) * l.fine);
+    l.levels = levels_of(s, l.fine);
+    l.coarse = l.levels > 1 ? l.fine * (1 << (l.levels - 1)) : fmax(s->coarse_cell, l.fine);
     l.run = p->chamfer_height / tan(p->lead_angle);
     l.x_front = -g->radius - fmin(g->height, p->chamfer_height) / tan(p->lead_angle) - l.fine;
     l.behind = fmax(s->rail_behind, p->length - l.run - l.x_front + 2.0 * l.coarse);
-    l.ahead = s->rail_ahead;
-    const double room = fmax(3.0 * l.coarse, mpm_grids_margin(s->levels, l.fine));
-    const double pair = (s->levels > 1 ? 2 : 1) * l.fine; /* of the cells around it the zone takes whole ones */
-    l.fine_behind = cells_over(fmin(given_or(s->fine_behind, 3.0 * g->radius), l.behind - room), pair);
-    const double ahead = (s->follow ? 4.0 : 26.0) * g->radius;
-    l.fine_ahead = cells_over(fmin(given_or(s->fine_ahead, ahead), l.ahead - room), pair);
-    l.fine_depth = cells_over(fmin(given_or(s->fine_depth, 2.0 * g->radius), s->rail_depth - room), pair);
-    l.fine_above = cells_over(fmin(top_of_zone(c, g), p->half_bore - room), pair);
+    l.passage = s->follow ? (p->length - l.run) / (1.0 - FRONT_SPEED) : 0.0;
+    l.ahead = s->rail_ahead + FRONT_SPEED * l.passage; /* the same whether it is over at a gauge or not */
+    l.reach = s->follow && l.levels > 1 ? l.ahead - 3.0 * l.coarse : fmin(ZONE_AHEAD * g->radius, 0.8 * l.ahead);
     l.rail_half_width = 0.5 * given_or(s->rail_width, p->width);
-    l.half_width = fmax(l.rail_half_width, 0.5 * p->width) + room;
-    l.fine_half_width = cells_over(fmin(given_or(0.5 * s->fine_width, 8.0 * g->radius), l.half_width - room), pair);
-    const double start = fmin(half_across(g) + BESIDE * g->radius, 0.5 * l.fine_half_width);
-    const double narrow = fmax(start, s->levels > 1 ? 2.0 * pair : 0.0); /* as mpm_grids_make wants */
-    l.narrow_half_width = s->follow ? fmin(cells_over(narrow, pair), l.fine_half_width) : l.fine_half_width;
+    l.half_width = fmax(l.rail_half_width, 0.5 * p->width) + (l.levels > 1 ? l.coarse : 3.0 * l.coarse);
     l.layers = case_layers_thickness(&c->rail.layers);
-    l.travel = s->follow ? (p->length - l.run) / (1.0 - FRONT_SPEED) : 0.0;
+    lay_zone(c, g, &l);
     return l;
 }
 
 static status check_layout(const case_impact *c, const case_site *g, const layout *l)
 {
-    CHECK(l->fine_ahead > g->radius && l->fine_behind > g->radius, STATUS_BAD_INPUT,
-          "scene: the fine zone, %g m behind to %g m ahead of the grain, must hold the grain of radius %g m: lengthen "
-          "scene.rail_ahead, rail_behind or fine_ahead, fine_behind",
-          l->fine_behind, l->fine_ahead, g->radius);
-    CHECK(l->fine_above > 0.0 && l->fine_depth > 0.0 && l->narrow_half_width > g->radius, STATUS_BAD_INPUT,
-          "scene: no room for a fine zone of %g m above, %g m below and %g m beside the grain: smaller "
-          "scene.coarse_cell, or larger rail_depth, rail_width, armature.half_bore",
-          l->fine_above, l->fine_depth, l->fine_half_width);
+    CHECK(
+        l->zone_hi[0] > g->radius && -l->zone_lo[0] > g->radius, STATUS_BAD_INPUT,
+        "scene: the window, %g m behind to %g m ahead of the grain, must hold the grain of radius %g m and fine cells "
+        "around it: lengthen scene.rail_ahead or rail_behind",
+        l->behind, l->ahead, g->radius);
+    CHECK(
+        l->zone_hi[1] > 0.0 && l->zone_lo[1] < 0.0 && l->zone_hi[2] > g->radius, STATUS_BAD_INPUT,
+        "scene: no room for fine cells %g m above, %g m below and %g m beside the grain: smaller scene.coarse_cell, or "
+        "larger rail_depth, rail_width, armature.half_bore",
+        l->zone_hi[1], -l->zone_lo[1], l->zone_hi[2]);
     CHECK(l->layers < c->scene.rail_depth - l->coarse, STATUS_BAD_INPUT,
           "scene.rail_depth = %g m: must exceed the layers' thickness of %g m by more than a coarse cell",
           c->scene.rail_depth, l->layers);
-    CHECK(strcmp(g->shape, "pit") != 0 || g->height < l->fine_depth, STATUS_BAD_INPUT,
-          "scene.fine_depth = %g m: must exceed the depth of the pit, %g m", l->fine_depth, g->height);
+    CHECK(strcmp(g->shape, "pit") != 0 || g->height < -l->zone_lo[1], STATUS_BAD_INPUT,
+          "particle.height = %g m: a pit may be %g m deep, %g radii", g->height, -l->zone_lo[1], START_DEPTH);
     CHECK(-l->x_front < l->behind, STATUS_BAD_INPUT, "scene: the armature would start outside the window");
     return status_ok();
 }
@@ -177,8 +193,7 @@ static status add_body(mpm_scene *s, const char *name, const material *m, int gr
 
 static status make_box(mpm_scene *s, mpm_body *b, const layout *l, double bottom, double top)
 {
-    const double lo[3] = { -l->behind, bottom, -l->rail_half_width },
-                 hi[3] = { l->ahead + l->travel, top, l->rail_half_width };
+    const double lo[3] = { -l->behind, bottom, -l->rail_half_width }, hi[3] = { l->ahead, top, l->rail_half_width };
     mpm_solid *box;
     TRY(mpm_scene_add_solid(s, "box", -1, -1, &box));
     memcpy(mpm_solid_value(box, "lo"), lo, sizeof lo);
@@ -343,25 +358,24 @@ static void set_axes(const case_impact *c, const layout *l, gouge_scene *g)
     const bool half = c->scene.half_model;
     const double lo[3] = { -l->behind, -c->scene.rail_depth, half ? 0.0 : -l->half_width };
     const double hi[3] = { l->ahead, c->armature.half_bore, l->half_width };
-    const double fine_lo[3] = { -l->fine_behind, -l->fine_depth, half ? 0.0 : -l->narrow_half_width };
-    const double fine_hi[3] = { l->fine_ahead, l->fine_above, l->narrow_half_width };
     const boundary_kind kind[3][2] = { { BOUNDARY_ABSORBING, BOUNDARY_ABSORBING },
                                        { BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY },
                                        { half ? BOUNDARY_SYMMETRY : BOUNDARY_FREE, BOUNDARY_FREE } };
     for (int k = 0; k < 3; k++) {
         mpm_axis *a = &s->axis[k];
         a->lo = lo[k], a->hi = hi[k];
-        a->fine_lo = fine_lo[k], a->fine_hi = fine_hi[k];
+        a->fine_lo = l->zone_lo[k], a->fine_hi = l->zone_hi[k];
         a->fine = l->fine, a->coarse = l->coarse;
         a->growth = c->scene.growth;
         for (int e = 0; e < 2; e++) a->boundary[e] = kind[k][e];
     }
+    g->reach = l->reach, g->beside = l->rail_half_width;
     free_ends(g);
 }
 
 double gouge_crossing_time(const gouge_scene *s)
 {
-    return (s->scene.axis[0].fine_hi - s->face_front) / s->velocity;
+    return (s->reach - s->face_front) / s->velocity;
 }
 
 double gouge_grain_passed(const gouge_scene *s)
@@ -379,16 +393,18 @@ double gouge_last_time(const gouge_scene *s)
     return s->gauged ? s->gauge_time[1] : s->scene.end_time;
 }
 
-/* The fine zone goes with the rail's plastic front. */
-static void set_follow(const case_impact *c, const case_site *grain, const layout *l, gouge_scene *g)
+/* Fine cells around the grain until it has been passed, then where metal flows. */
+static status set_refinement(const case_impact *c, const case_site *grain, gouge_scene *g)
 {
     mpm_scene *s = &g->scene;
-    if (!c->scene.follow) return;
-    s->follow.width = l->fine_half_width;
-    s->follow.speed = g->velocity;
-    s->follow.lead = given_or(c->scene.follow_lead, 3.0 * grain->radius);
-    for (int i = 0; i < s->bodies; i++) s->body[i].followed = gouge_counts_as_rail(g, i);
-    gouge_gauge_times(grain->radius, g->velocity, g->gauge_time);
+    mpm_refine *plastic;
+    for (int i = 0; c->scene.follow && i < s->bodies; i++) s->body[i].followed = gouge_counts_as_rail(g, i);
+    if (c->scene.follow) gouge_gauge_times(grain->radius, g->velocity, g->gauge_time);
+    if (s->levels == 1) return status_ok();
+    s->zone_until = gouge_grain_passed(g) + grain->radius / g->velocity;
+    TRY(mpm_scene_add_refine(s, "plastic", &plastic));
+    *mpm_refine_value(plastic, "jump") = c->scene.refine_tolerance * g->velocity;
+    return status_ok();
 }
 
 static void set_method(const case_impact *c, const layout *l, gouge_scene *g)
@@ -401,11 +417,11 @@ static void set_method(const case_impact *c, const layout *l, gouge_scene *g)
     s->viscosity_quadratic = from->viscosity_quadratic;
     s->transfer = (transfer_kind)from->transfer;
     s->basis = (basis_kind)from->basis;
-    s->levels = s->basis == BASIS_GIMP ? from->levels : 1;
+    s->levels = l->levels;
     s->heat_by_plastic_work = from->heat_by_plastic_work;
     const double passage = gouge_crossing_time(g) + c->armature.length / g->velocity;
-    s->end_time = given_or(from->end_time,
-                           from->follow ? l->travel / g->velocity : fmin(END_FACTOR * gouge_crossing_time(g), passage));
+    s->end_time = given_or(from->end_time, from->follow ? l->passage / g->velocity
+                                                        : fmin(END_FACTOR * gouge_crossing_time(g), passage));
 }
 
 static void set_rules(const case_impact *c, gouge_scene *g)
@@ -456,12 +472,13 @@ static void measure_grain(const case_site *g, double *area, double *volume)
     *volume = cells * h[0] * h[1] * h[2];
 }
 
-static crater_spec spec_of(const case_impact *c, const case_site *g, const mpm_scene *s)
+static crater_spec spec_of(const case_impact *c, const case_site *g, const gouge_scene *of)
 {
+    const mpm_scene *s = &of->scene;
     crater_spec spec = { .surface = 0.0,
                          .x_lo = s->axis[0].fine_lo,
-                         .x_hi = s->axis[0].fine_hi + FRONT_SPEED * s->follow.speed * s->end_time,
-                         .z_hi = fmax(s->axis[2].fine_hi, s->follow.width),
+                         .x_hi = of->reach,
+                         .z_hi = fmin(of->beside, MAP_BESIDE * g->radius),
                          .mirrored = c->scene.half_model,
                          .cell = s->axis[0].fine,
                          .particle_radius = g->radius,
@@ -482,8 +499,8 @@ static status fill_scene(const case_impact *c, const site_state *state, double c
     set_contacts(c, &out->scene);
     TRY(add_bodies(c, state, &l, out));
     set_axes(c, &l, out);
-    set_follow(c, &state->grain, &l, out);
     set_method(c, &l, out);
+    TRY(set_refinement(c, &state->grain, out));
     set_rules(c, out);
     return reaches_gauge(out);
 }
@@ -505,6 +522,6 @@ void gouge_scene_free(gouge_scene *s)
 status gouge_scene_from_state(const case_impact *c, const site_state *state, double cells_per_radius, gouge_scene *out)
 {
     TRY(gouge_scene_bodies(c, state, cells_per_radius, out));
-    out->crater = spec_of(c, &state->grain, &out->scene);
+    out->crater = spec_of(c, &state->grain, out);
     return status_ok();
 }

@@ -33,7 +33,8 @@ typedef struct {
     double face_front;    /* of the armature's contact face at the start: its downstream end, */
     double face_tail;     /*   its upstream end [m] */
     double grain_end;     /* downstream end of grain or pit [m] */
-    double gauge_time[2]; /* when the growth of the groove is gauged; 0: never, the zone does not follow it [s] */
+    double reach, beside; /* downstream end of what is looked at; half width of the rail [m] */
+    double gauge_time[2]; /* when the growth of the groove is gauged; 0: never, it is not followed [s] */
     bool gauged;          /* over, and judged, once that growth is known */
     bool stop_when_settled;
     double growth_scatter; /* e-folds between the gauges within which growth decides nothing [1] */
@@ -61,7 +62,7 @@ case_impact gouge_impact_at(const case_impact *from, const site_state *state, do
 bool gouge_counts_as_rail(const gouge_scene *s, int body);
 bool gouge_is_layer(const gouge_scene *s, int body);
 
-/* How long the armature's contact face takes to cross the fine zone, from the scene's start [s]. */
+/* How long the armature's contact face takes to cross what is looked at, from the scene's start [s]. */
 double gouge_crossing_time(const gouge_scene *s);
 
 /* When the grain, or the pit, lies behind the front end of the contact face, and upstream end of that face at a time

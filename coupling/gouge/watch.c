@@ -74,7 +74,6 @@ static status measure_crater(const gouge_scene *s, const mpm *m, crater *out)
 {
     gouge_points p;
     crater_spec spec = s->crater;
-    spec.x_hi = fmin(spec.x_hi, mpm_scene_of(m)->axis[0].fine_hi); /* a zone that follows has got so far */
     TRY(gouge_points_of_rail(s, m, &p));
     const crater_points rail = { .n = p.n, .position = p.position, .size = p.size, .damage = p.damage };
     const status done = gouge_crater_measure(&rail, &spec, out);

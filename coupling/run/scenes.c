@@ -18,9 +18,8 @@ void run_scenes_warn_of(session *s, const onset_scene *e)
                          "scene %s: energy error %.2f %%, above %.0f %%: lower scene.courant or raise the resolution",
                          e->name, 100.0 * r->energy_error, 100.0 * ENERGY_ERROR_LIMIT);
     if (r->crater_truncated)
-        run_session_warn(
-            s, "scene %s: the crater reaches the edge of the fine zone: enlarge scene.fine_ahead or fine_width",
-            e->name);
+        run_session_warn(s, "scene %s: the crater reaches the edge of its map: enlarge scene.rail_ahead or rail_width",
+                         e->name);
 }
 
 static void say_outcome(session *s, const onset_scene *e)

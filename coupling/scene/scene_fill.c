@@ -1,11 +1,10 @@
 #include "coupling/scene/scene_fill.h"
 
-#include "mpm/grid/grid.h"
-
 #include <math.h>
 
-static const double CELLS_ACROSS = 20.0; /* of the smallest extent of any body */
-static const double COARSE = 4.0;        /* largest cells over the fine ones */
+static const double CELLS_ACROSS = 20.0;                 /* of the smallest extent of any body */
+static const double COARSE = 4.0, COARSE_BY_RULES = 8.0; /* largest cells over the fine ones */
+static const double ALWAYS = 1e6;                        /* [s] */
 static const double GROWTH = 1.2;
 static const double MARGIN = 0.25; /* of the bodies' box, beyond them where the window ends freely */
 static const double ROOM = 4.0;    /* and at least so many coarse cells */
@@ -68,7 +67,7 @@ static double margin_at(const mpm_axis *a, int end, double length)
 /* Whole cells, in multiples of what the levels want; an end that comes near the window's is laid to it. */
 static void lay_zone(mpm_axis *a, int levels)
 {
-    const double step = a->fine * (1 << (levels - 1)), room = fmax(a->coarse, mpm_grids_margin(levels, a->fine));
+    const double step = a->fine * (1 << (levels - 1)), room = levels > 1 ? step : a->coarse;
     a->fine_lo = fmax(a->fine_lo, a->lo), a->fine_hi = fmin(a->fine_hi, a->hi);
     if (a->fine_lo - a->lo < room) a->fine_lo = a->lo;
     const double cells = fmax(ceil((a->fine_hi - a->fine_lo) / step * (1.0 - 1e-9)), 2.0);
@@ -76,13 +75,26 @@ static void lay_zone(mpm_axis *a, int levels)
     if (a->hi - a->fine_hi < room) a->fine_hi = a->hi;
 }
 
+static void fill_cells(const survey *bodies, bool rules, mpm_axis *a)
+{
+    a->fine = or_else(a->fine, bodies->extent / CELLS_ACROSS);
+    a->coarse = or_else(a->coarse, (rules ? COARSE_BY_RULES : COARSE) * a->fine);
+    a->growth = or_else(a->growth, GROWTH);
+}
+
+/* As many as a doubling of the finest cells makes of the coarsest. */
+static int levels_for(const mpm_scene *s)
+{
+    int levels = 1;
+    if (s->levels > 0 || s->refines == 0 || s->basis != BASIS_GIMP) return s->levels > 0 ? s->levels : 1;
+    while (levels < MPM_MAX_LEVELS && s->axis[0].fine * (1 << levels) <= s->axis[0].coarse * (1.0 + 1e-9)) levels++;
+    return levels;
+}
+
 static void fill_axis(const survey *bodies, int k, int levels, mpm_axis *a)
 {
     const box *all = &bodies->all, *smallest = &bodies->smallest;
     const double length = all->hi[k] - all->lo[k], around = AROUND * (smallest->hi[k] - smallest->lo[k]);
-    a->fine = or_else(a->fine, bodies->extent / CELLS_ACROSS);
-    a->coarse = or_else(a->coarse, COARSE * a->fine);
-    a->growth = or_else(a->growth, GROWTH);
     a->lo = or_else(a->lo, all->lo[k] - margin_at(a, 0, length));
     a->hi = or_else(a->hi, all->hi[k] + margin_at(a, 1, length));
     const bool given = !isnan(a->fine_lo) && !isnan(a->fine_hi);
@@ -95,6 +107,9 @@ status scene_fill(mpm_scene *s)
 {
     CHECK(s->bodies > 0, STATUS_BAD_INPUT, "scene.bodies: there are none");
     const survey bodies = look(s);
+    for (int k = 0; k < 3; k++) fill_cells(&bodies, s->refines > 0, &s->axis[k]);
+    s->levels = levels_for(s);
+    s->zone_until = or_else(s->zone_until, s->refines > 0 ? 0.0 : ALWAYS);
     for (int k = 0; k < 3; k++) fill_axis(&bodies, k, s->levels, &s->axis[k]);
     return status_ok();
 }

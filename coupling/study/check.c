@@ -98,7 +98,7 @@ static status estimate_scene(const mpm_scene *s, double last, int threads, scene
 {
     TRY(mpm_estimate(s, &out->needs));
     out->steps = last / out->needs.dt;
-    for (int i = 0; i < 2; i++) out->seconds[i] = out->steps * out->needs.work[i] * CHECK_SECONDS_A_STEP / threads;
+    out->seconds = out->steps * out->needs.work * CHECK_SECONDS_A_STEP / threads;
     return status_ok();
 }
 

@@ -8,8 +8,8 @@
 typedef struct {
     char what[80];
     mpm_needs needs;
-    double steps;      /* of the finest level */
-    double seconds[2]; /* at CHECK_SECONDS_A_STEP on this machine's threads; [2] everywhere: as mpm_needs */
+    double steps;   /* of the finest level */
+    double seconds; /* at CHECK_SECONDS_A_STEP on this machine's threads, with the points of the start */
 } scene_estimate;
 enum { CHECK_MAX_ESTIMATES = 3 };
 #define CHECK_SECONDS_A_STEP 200e-9 /* one thread */

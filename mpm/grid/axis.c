@@ -115,24 +115,19 @@ status mpm_axis_make(const mpm_axis *spec, char letter, axis *out)
     return s;
 }
 
-status mpm_axis_bisect(const axis *coarse, int lo, int hi, const bool seam[2], axis *out)
+status mpm_axis_bisect(const axis *coarse, axis *out)
 {
     memset(out, 0, sizeof *out);
-    out->last = 1 + 2 * (hi - lo);
+    out->last = 2 * coarse->last - 1;
     const status s = allocate(out);
     if (s.code != STATUS_OK) {
         mpm_axis_free(out);
         return s;
     }
-    for (int i = lo; i <= hi; i++) out->node[1 + 2 * (i - lo)] = coarse->node[i];
+    for (int i = 1; i <= coarse->last; i++) out->node[2 * i - 1] = coarse->node[i];
     for (int i = 2; i < out->last; i += 2) out->node[i] = 0.5 * (out->node[i - 1] + out->node[i + 1]);
     finish(out);
     bear(out, HUGE_VAL);
-    if (seam[0]) out->node[0] = 0.5 * (coarse->node[lo - 1] + coarse->node[lo]), out->edge[1] = out->node[1];
-    if (seam[1]) {
-        out->node[out->last + 1] = 0.5 * (coarse->node[hi] + coarse->node[hi + 1]);
-        out->edge[out->last + 1] = out->node[out->last];
-    }
     return s;
 }
 

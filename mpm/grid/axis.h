@@ -17,10 +17,8 @@ typedef struct {
 } axis;
 
 status mpm_axis_make(const mpm_axis *spec, char letter, axis *out);
-/* Cells half as wide between the nodes lo and hi of `coarse`: its nodes there and the middles between them.  An end
- * that lies inside (seam[0] at lo, seam[1] at hi) cuts the cell of its node in half; the ghost beyond it is the middle
- * of the coarse element there. */
-status mpm_axis_bisect(const axis *coarse, int lo, int hi, const bool seam[2], axis *out);
+/* Cells half as wide: the nodes of `coarse` and the middles between them. */
+status mpm_axis_bisect(const axis *coarse, axis *out);
 void mpm_axis_allow_long(axis *a); /* no zone of fine cells: a point may be as long as its cell */
 void mpm_axis_free(axis *a);
 

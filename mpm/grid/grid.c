@@ -1,108 +1,203 @@
 #include "mpm/grid/grid.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-/* Cells of a level between the next finer box and its own faces, or where its cells begin to grow. */
-static const int PAD = 2;
 static const char axis_letters[3] = { 'x', 'y', 'z' };
+static const double ROUND = 1e-6;    /* of a cell */
+static const double MAX_PAGES = 2e8; /* of a level; those that nothing happens in take four bytes at most */
+static const double LEAST = 0.7;     /* the shortest cell at an end of the window, of the others: it sets their step */
 
-/* ---- boxes along one axis ---- */
+/* ---- axes ---- */
 
-typedef struct {
-    double lo, hi;
-} span;
-
-/* The box of cells `cell` around the one inside it, its ends on every `pitch` of that lattice: PAD cells or more beyond
- * each end, but no further than the window. */
-static span around(span inner, double cell, double pitch, double origin, const mpm_axis *s)
-{
-    static const double ROUND = 1e-6;
-    const double below = floor((inner.lo - PAD * cell - origin) / pitch + ROUND),
-                 above = ceil((inner.hi + PAD * cell - origin) / pitch - ROUND);
-    double first = ceil((s->lo - origin) / pitch - ROUND), last = floor((s->hi - origin) / pitch + ROUND);
-    /* no sliver of a cell at the window's end */
-    const double left = first - (s->lo - origin) / pitch, right = (s->hi - origin) / pitch - last;
-    if (left > ROUND && left < 0.5) first++;
-    if (right > ROUND && right < 0.5) last--;
-    const span r = { origin + fmax(below, first) * pitch, origin + fmin(above, last) * pitch };
-    const double tiny = ROUND * cell; /* an end of the window is exact */
-    return (span){ r.lo < s->lo + tiny ? s->lo : fmin(r.lo, inner.lo),
-                   r.hi > s->hi - tiny ? s->hi : fmax(r.hi, inner.hi) };
-}
-
-double mpm_grids_margin(int levels, double fine)
-{
-    double margin = levels > 1 ? (1 << (levels - 1)) * fine : 0; /* one cell of the window's */
-    for (int i = 1; i < levels - 1; i++)
-        margin += (PAD + 1) * (1 << i) * fine; /* one more: ends lie on the next level's nodes */
-    return margin;
-}
-
-/* Is there an end of the box between the one inside it and the window's, too near to the one inside? */
-static bool is_crowded(span box, span inner, double cell, const mpm_axis *s)
-{
-    const double room = PAD * cell * (1 - 1e-6), end = 1e-6 * cell;
-    return (box.lo > s->lo + end && inner.lo - box.lo < room) || (box.hi < s->hi - end && box.hi - inner.hi < room);
-}
-
-static int node_at(const axis *a, double x)
-{
-    int best = 1;
-    for (int i = 2; i <= a->last; i++)
-        if (fabs(a->node[i] - x) < fabs(a->node[best] - x)) best = i;
-    return best;
-}
-
-/* Bisects the coarse grid along axis k over the span. */
-static status add_box(grid_level *fine, const grid_level *coarse, int k, span box, const mpm_axis *s)
-{
-    const axis *from = &coarse->axes[k];
-    fine->lo[k] = node_at(from, box.lo), fine->hi[k] = node_at(from, box.hi);
-    const double off = fmax(fabs(from->node[fine->lo[k]] - box.lo), fabs(from->node[fine->hi[k]] - box.hi)) / s->fine;
-    CHECK(fine->hi[k] - fine->lo[k] >= 2 && off < 0.25, STATUS_BAD_INPUT,
-          "levels along %c: a fine zone from %g to %g m, cells of %g m: at least four of them, an even number, with "
-          "three levels a multiple of four where it fills the window",
-          axis_letters[k], s->fine_lo, s->fine_hi, s->fine);
-    fine->seam[k][0] = fine->lo[k] > 1, fine->seam[k][1] = fine->hi[k] < from->last;
-    return mpm_axis_bisect(from, fine->lo[k], fine->hi[k], fine->seam[k], &fine->axes[k]);
-}
-
-/* A node of all levels: an end of the window that the fine zone reaches, else zero if that fits, else the zone's lower
- * end. */
+/* A node of all levels: an end of the window that the fine zone reaches, else zero if that lies on the finest cells,
+ * else the zone's lower end. */
 static double origin_of(const mpm_axis *s)
 {
-    const double pair = 2 * s->fine, tiny = 1e-6 * s->fine, off = s->fine_lo / pair;
+    const double tiny = ROUND * s->fine, off = s->fine_lo / s->fine;
     if (s->fine_lo <= s->lo + tiny) return s->fine_lo;
     if (s->fine_hi >= s->hi - tiny) return s->fine_hi;
-    return fabs(off - round(off)) < 1e-6 ? 0 : s->fine_lo;
+    return fabs(off - round(off)) < ROUND ? 0 : s->fine_lo;
 }
 
-static status make_axis(const mpm_scene *s, int k, grids *g)
+/* The window in cells of the coarsest level, all of one size but those at its ends, which take what is left over. */
+static status make_coarsest(const mpm_scene *s, int k, axis *out)
 {
     const mpm_axis *spec = &s->axis[k];
+    const double cell = spec->fine * (1 << (s->levels - 1)), origin = origin_of(spec);
+    double first = ceil((spec->lo - origin) / cell - ROUND), last = floor((spec->hi - origin) / cell + ROUND);
+    const double below = first - (spec->lo - origin) / cell, above = (spec->hi - origin) / cell - last;
+    CHECK(spec->fine > 0 && spec->hi > spec->lo && last - first >= 2, STATUS_BAD_INPUT,
+          "levels along %c: cells of %g m, the largest of %d levels, do not fit into the window, %g to %g m: at least "
+          "two of them, or fewer levels",
+          axis_letters[k], cell, s->levels, spec->lo, spec->hi);
+    if (below > ROUND && below < LEAST) first++;
+    if (above > ROUND && above < LEAST) last--;
     mpm_axis window = *spec;
-    span box[MPM_MAX_LEVELS] = { { spec->fine_lo, spec->fine_hi } };
-    const double origin = origin_of(spec);
-    for (int i = 1; i < g->levels; i++) {
-        window.fine *= 2;
-        box[i] = around(box[i - 1], window.fine, (i < g->levels - 1 ? 2 : 1) * window.fine, origin, spec);
-        CHECK(i == g->levels - 1 || !is_crowded(box[i], box[i - 1], window.fine, spec), STATUS_BAD_INPUT,
-              "levels along %c: no room for %d levels between the fine zone, %g to %g m, and the window's ends, %g and "
-              "%g m: at least %g m, or none",
-              axis_letters[k], g->levels, spec->fine_lo, spec->fine_hi, spec->lo, spec->hi,
-              mpm_grids_margin(g->levels, spec->fine));
-    }
-    window.fine_lo = box[g->levels - 1].lo, window.fine_hi = box[g->levels - 1].hi;
-    window.coarse = fmax(window.coarse, window.fine);
-    axis *coarsest = &g->level[g->levels - 1].axes[k];
-    TRY(mpm_axis_make(&window, axis_letters[k], coarsest));
-    if (g->levels > 1) mpm_axis_allow_long(coarsest);
+    window.fine = cell, window.coarse = 2 * cell, window.growth = 2;
+    window.fine_lo = below > ROUND ? origin + first * cell : spec->lo;
+    window.fine_hi = above > ROUND ? origin + last * cell : spec->hi;
+    TRY(mpm_axis_make(&window, axis_letters[k], out));
+    mpm_axis_allow_long(out);
+    return status_ok();
+}
+
+static status make_axes(const mpm_scene *s, int k, grids *g)
+{
+    if (g->levels == 1) return mpm_axis_make(&s->axis[k], axis_letters[k], &g->level[0].axes[k]);
+    TRY(make_coarsest(s, k, &g->level[g->levels - 1].axes[k]));
     for (int i = g->levels - 2; i >= 0; i--) {
-        TRY(add_box(&g->level[i], &g->level[i + 1], k, box[i], spec));
+        TRY(mpm_axis_bisect(&g->level[i + 1].axes[k], &g->level[i].axes[k]));
         if (i > 0) mpm_axis_allow_long(&g->level[i].axes[k]);
     }
     return status_ok();
+}
+
+/* ---- granules ---- */
+
+static status make_tables(grids *g)
+{
+    for (int i = 0; i < g->levels; i++) {
+        grid_level *level = &g->level[i];
+        double all = 1;
+        for (int k = 0; k < 3; k++) {
+            level->granules[k] = (grid_elements(level, k) + GRANULE - 1) / GRANULE;
+            level->pages[k] = (level->axes[k].bricks + PAGE - 1) / PAGE;
+            all *= level->pages[k];
+        }
+        CHECK(all < MAX_PAGES, STATUS_BAD_INPUT,
+              "a window of %d x %d x %d cells of %g m: too many; use larger cells or a smaller window",
+              grid_elements(level, 0), grid_elements(level, 1), grid_elements(level, 2), level->axes[0].smallest);
+        level->page = calloc((size_t)all, sizeof *level->page);
+        CHECK(level->page, STATUS_MEMORY, "no memory for a window of %g pages", all);
+    }
+    return status_ok();
+}
+
+static status make_page(grids *g, int level, int index)
+{
+    if (g->pages == g->room) {
+        const int room = 2 * g->room + 64;
+        uint8_t *active = realloc(g->active, (size_t)room * PAGE_PLACES);
+        if (active) g->active = active;
+        uint8_t *before = realloc(g->before, (size_t)room * PAGE_PLACES);
+        if (before) g->before = before;
+        grid_page *page = realloc(g->page, (size_t)room * sizeof *page);
+        if (page) g->page = page;
+        CHECK(active && before && page, STATUS_MEMORY, "no memory for %d pages of the grid", room);
+        g->room = room;
+    }
+    memset(g->active + (size_t)g->pages * PAGE_PLACES, 0, PAGE_PLACES);
+    memset(g->before + (size_t)g->pages * PAGE_PLACES, 0, PAGE_PLACES);
+    g->page[g->pages] = (grid_page){ level, index };
+    g->level[level].page[index] = ++g->pages;
+    return status_ok();
+}
+
+status mpm_grids_add_place(grids *g, int level, const int at[3], int *place)
+{
+    const grid_level *l = &g->level[level];
+    const int index = (at[2] / PAGE * l->pages[1] + at[1] / PAGE) * l->pages[0] + at[0] / PAGE;
+    if (!l->page[index]) TRY(make_page(g, level, index));
+    *place = grids_place(g, level, at);
+    return status_ok();
+}
+
+status mpm_grids_take_pages(grids *g, const grid_page *page, int pages)
+{
+    for (int i = 0; i < g->pages; i++) g->level[g->page[i].level].page[g->page[i].index] = 0;
+    g->pages = 0;
+    for (int i = 0; i < pages; i++) {
+        const grid_level *l = page[i].level >= 0 && page[i].level < g->levels ? &g->level[page[i].level] : NULL;
+        CHECK(l && page[i].index >= 0 && page[i].index < l->pages[0] * l->pages[1] * l->pages[2] &&
+                  !l->page[page[i].index],
+              STATUS_IO, "the checkpoint holds a page of the grid that the scene lacks");
+        TRY(make_page(g, page[i].level, page[i].index));
+    }
+    return status_ok();
+}
+
+static int element_at(const axis *a, double x)
+{
+    const int node = mpm_axis_locate(a, x);
+    if (node < 1) return 0;
+    const int element = node > a->last || x < a->node[node] ? node - 2 : node - 1;
+    return grid_clamp(element, a->last - 1);
+}
+
+static status activate(grids *g, int level, const int lo[3], const int hi[3])
+{
+    for (int z = lo[2]; z <= hi[2]; z++)
+        for (int y = lo[1]; y <= hi[1]; y++)
+            for (int x = lo[0]; x <= hi[0]; x++) {
+                int place;
+                TRY(mpm_grids_add_place(g, level, (const int[3]){ x, y, z }, &place));
+                g->active[place] = GRANULE_LIFE;
+            }
+    return status_ok();
+}
+
+status mpm_grids_activate(grids *g, int level, const double lo[3], const double hi[3])
+{
+    int first[3], last[3];
+    if (level == g->levels - 1) return status_ok();
+    for (int k = 0; k < 3; k++) {
+        const axis *a = &g->level[level].axes[k];
+        const double tiny = ROUND * a->smallest;
+        if (!(hi[k] > a->node[1] && lo[k] < a->node[a->last])) return status_ok();
+        first[k] = element_at(a, lo[k] + tiny) / GRANULE, last[k] = element_at(a, hi[k] - tiny) / GRANULE;
+    }
+    return activate(g, level, first, last);
+}
+
+/* A granule's parents and those beside them: two elements of its level. */
+static status activate_around(grids *g, int level, const int at[3])
+{
+    int lo[3], hi[3];
+    for (int k = 0; k < 3; k++) {
+        const int parents = grid_elements(&g->level[level + 1], k), parent = at[k] * GRANULE / 2;
+        lo[k] = grid_clamp(parent - 1, parents) / GRANULE;
+        hi[k] = grid_clamp(parent + GRANULE / 2, parents) / GRANULE;
+    }
+    return activate(g, level + 1, lo, hi);
+}
+
+static status nest_page(grids *g, int level, const int page_at[3], int number)
+{
+    for (int i = 0; i < PAGE_PLACES; i++) {
+        const int at[3] = { PAGE * page_at[0] + i % PAGE, PAGE * page_at[1] + i / PAGE % PAGE,
+                            PAGE * page_at[2] + i / (PAGE * PAGE) };
+        if (g->active[(number - 1) * PAGE_PLACES + i]) TRY(activate_around(g, level, at));
+    }
+    return status_ok();
+}
+
+status mpm_grids_nest(grids *g)
+{
+    for (int i = 0; i + 2 < g->levels; i++) {
+        const grid_level *l = &g->level[i];
+        int at[3], n = 0;
+        for (at[2] = 0; at[2] < l->pages[2]; at[2]++)
+            for (at[1] = 0; at[1] < l->pages[1]; at[1]++)
+                for (at[0] = 0; at[0] < l->pages[0]; at[0]++, n++)
+                    if (l->page[n]) TRY(nest_page(g, i, at, l->page[n]));
+    }
+    return status_ok();
+}
+
+/* ---- */
+
+static status make(const mpm_scene *s, grids *out)
+{
+    double lo[3], hi[3];
+    for (int k = 0; k < 3; k++) {
+        TRY(make_axes(s, k, out));
+        lo[k] = s->axis[k].fine_lo, hi[k] = s->axis[k].fine_hi;
+    }
+    TRY(make_tables(out));
+    if (s->zone_until > 0) TRY(mpm_grids_activate(out, 0, lo, hi));
+    return mpm_grids_nest(out);
 }
 
 status mpm_grids_make(const mpm_scene *s, grids *out)
@@ -110,29 +205,34 @@ status mpm_grids_make(const mpm_scene *s, grids *out)
     memset(out, 0, sizeof *out);
     CHECK(s->levels >= 1 && s->levels <= MPM_MAX_LEVELS, STATUS_BAD_INPUT, "levels = %d: must be 1 .. %d", s->levels,
           MPM_MAX_LEVELS);
-    CHECK(s->levels == 1 || s->basis == BASIS_GIMP, STATUS_BAD_INPUT, "levels = %d: nested grids need the basis gimp",
+    CHECK(s->levels == 1 || s->basis == BASIS_GIMP, STATUS_BAD_INPUT, "levels = %d: several need the basis gimp",
           s->levels);
     out->levels = s->levels;
-    status r = status_ok();
-    for (int k = 0; k < 3 && r.code == STATUS_OK; k++) r = make_axis(s, k, out);
-    for (int i = 0; i < out->levels && r.code == STATUS_OK; i++) {
-        const axis *a = out->level[i].axes;
-        out->level[i].first_site = out->sites;
-        out->sites += a[0].bricks * a[1].bricks * a[2].bricks;
-    }
+    const status r = make(s, out);
     if (r.code != STATUS_OK) mpm_grids_free(out);
     return r;
 }
 
 void mpm_grids_free(grids *g)
 {
-    for (int i = 0; i < g->levels; i++)
+    for (int i = 0; i < g->levels; i++) {
         for (int k = 0; k < 3; k++) mpm_axis_free(&g->level[i].axes[k]);
+        free(g->level[i].page);
+        g->level[i].page = NULL;
+    }
+    free(g->active), free(g->before), free(g->page);
+    g->active = g->before = NULL, g->page = NULL;
+    g->pages = g->room = 0;
 }
 
 int mpm_grids_level(const grids *g, const double x[3])
 {
-    int i = 0;
-    while (i < g->levels - 1 && !grid_holds(&g->level[i], x)) i++;
+    int element[3], i = 0;
+    if (g->levels == 1) return 0;
+    for (int k = 0; k < 3; k++) element[k] = element_at(&g->level[0].axes[k], x[k]);
+    for (; i < g->levels - 1; i++) {
+        const int shift = i + 2; /* an element's granule of its level: a quarter of its number */
+        if (granule_is_active(g, i, element[0] >> shift, element[1] >> shift, element[2] >> shift)) break;
+    }
     return i;
 }

@@ -1,64 +1,117 @@
-/* Nested grids: the window's, graded along each axis, and inside it boxes of cells half as wide each, level 0 the
- * finest.
+/* Levels of the grid: the same window in cells of h, 2h, 4h, ..., level 0 the finest.  Where which level rules is
+ * decided granule by granule.
  *
- * A particle belongs to the finest level whose box holds it.  Nodes of a level that its neighbour level answers for
- * follow that neighbour (seams.c): those on and beyond the faces of its own box, and those inside the box of the next
- * finer level.  A face of a box that lies on the window's end is no seam: there the boundary acts. */
+ *   element   the box between eight nodes of a level; element e of an axis lies between nodes e + 1 and e + 2
+ *   granule   4 x 4 x 4 elements of a level, the children of 2 x 2 x 2 of the next coarser one
+ *
+ * A granule of a level is active, or it is not: then its elements are left to the coarser levels.  The coarsest level
+ * is active everywhere.  A point belongs to the finest level that is active where the point is.
+ *
+ *   +-------+---+---+     A row of elements of three levels.  Two elements beside an active granule, of its own
+ *   |       | +-+-+-+     level, the next coarser level is active too (mpm_grids_nest): so two changes of level lie
+ *   +-------+-+-+-+-+     apart, and no node takes its motion from a node that takes it from another (interface.c).
+ */
 #ifndef BREECH_MPM_GRID_H
 #define BREECH_MPM_GRID_H
 
 #include "mpm/grid/axis.h"
 
+enum {
+    GRANULE = 4,      /* elements an axis; brick (k) of nodes 4k .. 4k + 3 has the same place */
+    GRANULE_LIFE = 5, /* looks after the last that asked for it (refine/adapt.c) */
+    PAGE = 8,         /* granules an axis */
+    PAGE_PLACES = PAGE * PAGE * PAGE
+};
+
 typedef struct {
     axis axes[3];
-    bool seam[3][2];  /* the box's face lies inside the next coarser level */
-    int lo[3], hi[3]; /* nodes of that level which the box's first and last node lie on */
-    int first_site;   /* of its bricks' places among those of all levels (store.h) */
+    int granules[3];
+    int pages[3]; /* along each axis */
+    int *page;    /* [pages] owned: number of the page there plus one, 0: none so far */
 } grid_level;
 
+/* Which page: of a level, number in its table. */
 typedef struct {
-    int levels, sites; /* brick places in all */
+    int level, index;
+} grid_page;
+
+/* What is known of a granule's or a brick's place is kept in pages that are made where they are needed, so an empty
+ * window of any size costs next to nothing.  A place: PAGE_PLACES page + the granule's number in it. */
+typedef struct {
+    int levels;
     grid_level level[MPM_MAX_LEVELS];
+    int pages, room;
+    grid_page *page; /* [pages] owned */
+    uint8_t *
+        active; /* [places] owned: looks that the granule stays active, 0: it is not.  Of the coarsest level: all are */
+    uint8_t *before; /* [places] owned: was it active before the last look? */
 } grids;
 
-/* For the scene's axes as they are now.  STATUS_BAD_INPUT where the levels do not fit into the window. */
+/* For the scene's axes as they are now, the finer levels active where the fine zones of all three axes meet. */
 status mpm_grids_make(const mpm_scene *s, grids *out);
 void mpm_grids_free(grids *g);
+
+/* Makes every level active that those finer than it need around them. */
+status mpm_grids_nest(grids *g);
+
+/* Makes a level active in all granules that hold a part of the box [m]. */
+status mpm_grids_activate(grids *g, int level, const double lo[3], const double hi[3]);
+
+/* The pages of another grid of the same axes, with their numbers; nothing is active.  STATUS_IO: not of these axes. */
+status mpm_grids_take_pages(grids *g, const grid_page *page, int pages);
+
+/* The place of a granule or brick, with its page. */
+status mpm_grids_add_place(grids *g, int level, const int at[3], int *place);
 
 static inline const grid_level *grids_window(const grids *g)
 {
     return &g->level[g->levels - 1];
 }
 
-/* What the levels need between a fine zone of cells `fine` and an end of the window that it does not reach [m]. */
-double mpm_grids_margin(int levels, double fine);
+static inline int grids_places(const grids *g)
+{
+    return g->pages * PAGE_PLACES;
+}
 
-/* Finest level whose box holds x. */
+/* Finest level that is active at x; beyond the window as at its end. */
 int mpm_grids_level(const grids *g, const double x[3]);
 
-static inline bool grid_holds(const grid_level *g, const double x[3])
+static inline int grid_elements(const grid_level *g, int k)
 {
-    for (int k = 0; k < 3; k++) {
-        const axis *a = &g->axes[k];
-        if ((g->seam[k][0] && x[k] < a->node[1]) || (g->seam[k][1] && !(x[k] < a->node[a->last]))) return false;
-    }
-    return true;
+    return g->axes[k].last - 1;
 }
 
-/* Does a node of this grid follow the next coarser level? */
-static inline bool grid_follows_coarser(const grid_level *g, const int node[3])
+static inline int grid_clamp(int i, int n)
 {
-    for (int k = 0; k < 3; k++)
-        if ((g->seam[k][0] && node[k] <= 1) || (g->seam[k][1] && node[k] >= g->axes[k].last)) return true;
-    return false;
+    return i < 0 ? 0 : i < n ? i : n - 1;
 }
 
-/* Does a node of the next coarser grid follow `finer`? */
-static inline bool grid_follows_finer(const grid_level *finer, const int node[3])
+/* -1 where no page has been made. */
+static inline int grids_place(const grids *g, int level, const int at[3])
 {
-    for (int k = 0; k < 3; k++)
-        if (node[k] < finer->lo[k] + finer->seam[k][0] || node[k] > finer->hi[k] - finer->seam[k][1]) return false;
-    return true;
+    const grid_level *l = &g->level[level];
+    const int page = l->page[(at[2] / PAGE * l->pages[1] + at[1] / PAGE) * l->pages[0] + at[0] / PAGE];
+    const int in = (at[2] % PAGE * PAGE + at[1] % PAGE) * PAGE + at[0] % PAGE;
+    return page ? (page - 1) * PAGE_PLACES + in : -1;
+}
+
+/* Is a granule active?  Beyond the window as the one at its end. */
+static inline bool granule_is_active(const grids *g, int level, int x, int y, int z)
+{
+    const grid_level *l = &g->level[level];
+    const int at[3] = { grid_clamp(x, l->granules[0]), grid_clamp(y, l->granules[1]), grid_clamp(z, l->granules[2]) };
+    if (level == g->levels - 1) return true;
+    const int place = grids_place(g, level, at);
+    return place >= 0 && g->active[place] > 0;
+}
+
+/* Has the last look made it active or ended that? */
+static inline bool granule_has_changed(const grids *g, int level, int x, int y, int z)
+{
+    const grid_level *l = &g->level[level];
+    const int at[3] = { grid_clamp(x, l->granules[0]), grid_clamp(y, l->granules[1]), grid_clamp(z, l->granules[2]) };
+    const int place = level < g->levels - 1 ? grids_place(g, level, at) : -1;
+    return place >= 0 && g->before[place] != (g->active[place] > 0);
 }
 
 #endif

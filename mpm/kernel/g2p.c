@@ -255,17 +255,21 @@ LANE_INLINE void find_bad(tally *t, const block *q, int lane, vd rate, int index
  * eroded; movers.c looks at each. */
 typedef struct {
     double lo[3], hi[3], longest[3]; /* edges of the cell, half length of a domain to be split [m] */
-    const grid_level *finer;         /* whose box may reach into the cell, or NULL */
+    double node[3];                  /* between the cell's octants [m] */
+    unsigned foreign;                /* brick.foreign */
 } cell_limits;
 
-/* As grid_holds. */
-LANE_INLINE vm inside_box(const grid_level *g, const block *q, int lane)
+/* Points in octants that another level has. */
+LANE_INLINE vm in_foreign_octant(const cell_limits *c, const block *q, int lane)
 {
-    vm in = vd_set(0) == vd_set(0);
-    for (int k = 0; k < 3; k++) {
-        const vd x = vd_load(&q->x[k][lane]);
-        if (g->seam[k][0]) in &= x >= g->axes[k].node[1];
-        if (g->seam[k][1]) in &= x < g->axes[k].node[g->axes[k].last];
+    vm upper[3], in = vd_set(0) != vd_set(0);
+    for (int k = 0; k < 3; k++) upper[k] = vd_load(&q->x[k][lane]) >= c->node[k];
+    for (unsigned left = c->foreign; left; left &= left - 1) {
+        const int o = __builtin_ctz(left);
+        vm here = o & 1 ? upper[0] : ~upper[0];
+        here &= o & 2 ? upper[1] : ~upper[1];
+        here &= o & 4 ? upper[2] : ~upper[2];
+        in |= here;
     }
     return in;
 }
@@ -279,18 +283,18 @@ LANE_INLINE int leaving_lanes(const block *q, int lane, const cell_limits *c, co
         const vd x = vd_load(&q->x[i][lane]), half = vd_load(&q->half[i][lane]);
         leave |= (x < c->lo[i]) | (x >= c->hi[i]) | (whole & (half > c->longest[i]));
     }
-    if (c->finer) leave |= inside_box(c->finer, q, lane);
+    if (c->foreign) leave |= in_foreign_octant(c, q, lane);
     return vm_bits(leave) << lane;
 }
 
 static cell_limits limits_of(const mpm *m, const brick *b, int cell)
 {
     const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
-    cell_limits c = { .finer = b->at_seam && b->level > 0 ? &m->grids.level[b->level - 1] : NULL };
+    cell_limits c = { .foreign = b->foreign[cell] };
     for (int k = 0; k < 3; k++) {
         const axis *a = &axes_of(m, b)[k];
         const double *edge = &a->edge[BRICK * b->at[k] + at[k]];
-        c.lo[k] = edge[0], c.hi[k] = edge[1];
+        c.lo[k] = edge[0], c.hi[k] = edge[1], c.node[k] = a->node[BRICK * b->at[k] + at[k]];
         c.longest[k] = 0.5 * a->longest[BRICK * b->at[k] + at[k]];
     }
     return c;

@@ -216,8 +216,7 @@ static inline void plane_point(int k, int plane, int n, int at[3])
 static inline bool is_mirror(const mpm *m, const brick *b, int k, int side)
 {
     const mpm_axis *s = &m->scene.axis[k];
-    return s->boundary[side] == BOUNDARY_SYMMETRY && !m->grids.level[b->level].seam[k][side] &&
-           !m->group[b->group].passes[2 * k + side];
+    return s->boundary[side] == BOUNDARY_SYMMETRY && !m->group[b->group].passes[2 * k + side];
 }
 
 /* Mirror planes that the brick's particles reach over; their number, by axis. */

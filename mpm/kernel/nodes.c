@@ -114,7 +114,7 @@ static bool gather_group(const mpm *m, const brick *b, bool with_contact, const 
     return count > 0;
 }
 
-static group_nodes seam_lines(brick *b)
+static group_nodes interface_lines(brick *b)
 {
     return (group_nodes){ b, b->line, b->line + BRICK_CELLS };
 }
@@ -122,10 +122,10 @@ static group_nodes seam_lines(brick *b)
 void ISA(gather)(mpm *m, int site)
 {
     for (int f = 0; f < m->groups; f++) {
-        const int i = m->directory[f * m->grids.sites + site];
+        const int i = brick_of_site(m, site, f);
         if (i < 0) continue;
         brick *b = &m->bricks[i];
-        const group_nodes n = seam_lines(b);
+        const group_nodes n = interface_lines(b);
         if (b->level <= m->begins) gather_group(m, b, b->across, &n);
     }
 }
@@ -491,16 +491,16 @@ static void free_node(const double line[LINE], double dt, double node[NODE])
 static int groups_at(mpm *m, int site, const scratch *to, tally *sum)
 {
     int count = 0, present = 0;
-    for (int f = 0; f < m->groups; f++) present += m->directory[f * m->grids.sites + site] >= 0;
+    for (int f = 0; f < m->groups; f++) present += brick_of_site(m, site, f) >= 0;
     sum->shared = present > 1;
     for (int f = 0; f < m->groups; f++) {
-        const int i = m->directory[f * m->grids.sites + site];
+        const int i = brick_of_site(m, site, f);
         if (i < 0) continue;
         brick *b = &m->bricks[i];
         group_nodes *n = &to->group[count];
-        *n = b->at_seam ? seam_lines(b) : (group_nodes){ b, to->own[count][0], to->own[count][1] };
+        *n = b->at_interface ? interface_lines(b) : (group_nodes){ b, to->own[count][0], to->own[count][1] };
         if (present > 1) memset(b->contact_impulse, 0, sizeof b->contact_impulse);
-        if (b->at_seam ? has_mass(b->line) : gather_group(m, b, present > 1, n))
+        if (b->at_interface ? has_mass(b->line) : gather_group(m, b, present > 1, n))
             count++;
         else
             memset(brick_nodes(m, b), 0, sizeof *m->nodes);
@@ -511,8 +511,8 @@ static int groups_at(mpm *m, int site, const scratch *to, tally *sum)
 static const brick *first_at(const mpm *m, int site)
 {
     int f = 0;
-    while (m->directory[f * m->grids.sites + site] < 0) f++;
-    return &m->bricks[m->directory[f * m->grids.sites + site]];
+    while (brick_of_site(m, site, f) < 0) f++;
+    return &m->bricks[brick_of_site(m, site, f)];
 }
 
 void ISA(nodes)(mpm *m, int site, int thread)
@@ -521,8 +521,8 @@ void ISA(nodes)(mpm *m, int site, int thread)
     tally *sum = &m->site_sum[site];
     memset(sum, 0, sizeof *sum);
     const brick *b = first_at(m, site);
-    const uint64_t due =
-        mpm_substep_due(m, b) & ~(b->seam.follow_coarser | b->seam.follow_finer); /* mpm_interface_constrain */
+    const uint64_t due = mpm_substep_due(m, b) &
+                         ~(b->interface.follow_coarser | b->interface.follow_finer); /* mpm_interface_constrain */
     if (!due) return;
     const int count = groups_at(m, site, &at, sum);
     if (count == 0) return;

@@ -225,7 +225,7 @@ typedef struct {
  * flow,
  *   sigma_y >= least (1 - T*),   least known to the law of strength, zero where it has no such bound,
  * there is nothing to do; their flow stress stays that of the step in which it was last needed, unless a contact asks.
- * (By a tenth below: where the fine zone goes is decided by what comes within a tenth of yielding, zone.c.) */
+ * (By a tenth below: where cells are small is decided by what comes within a tenth of yielding, refine_plastic.c.) */
 LANE_INLINE yielding radial_return(const law *k, law_form f, const elastic *m, const vd L[9], vd tr, block *q, int lane,
                                    bool contact, vd s[6])
 {

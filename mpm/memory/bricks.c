@@ -65,34 +65,38 @@ static void free_places(mpm *m)
 {
     free(m->directory);
     free(m->site_list);
-    free(m->seam_list);
+    free(m->interface_list);
     free(m->site_sum);
 }
 
-status mpm_store_new_grid(mpm *m)
+/* Room for the bricks of all places that there are. */
+static status grow_places(mpm *m)
 {
-    const size_t sites = (size_t)m->grids.sites;
-    free_places(m);
-    m->bricks = NULL;
-    m->bricks_used = m->bricks_capacity = 0;
-    m->directory = malloc((size_t)m->groups * sites * sizeof(int));
-    m->site_list = malloc(sites * sizeof(int));
-    m->seam_list = malloc(sites * sizeof(int));
-    m->site_sum = malloc(sites * sizeof(tally));
-    CHECK(m->directory && m->site_list && m->seam_list && m->site_sum, STATUS_MEMORY,
-          "no memory for a window of %zu bricks", sites);
-    for (int i = 0; i < m->groups * m->grids.sites; i++) m->directory[i] = -1;
+    const int places = grids_places(&m->grids);
+    if (places <= m->places) return status_ok();
+    const int room = places > 2 * m->places ? places : 2 * m->places;
+    int *directory = realloc(m->directory, (size_t)m->groups * (size_t)room * sizeof *directory);
+    if (directory) m->directory = directory;
+    free(m->site_list), free(m->interface_list), free(m->site_sum);
+    m->site_list = malloc((size_t)room * sizeof(int));
+    m->interface_list = malloc((size_t)room * sizeof(int));
+    m->site_sum = malloc((size_t)room * sizeof(tally));
+    m->site_count = m->interface_count = 0;
+    CHECK(directory && m->site_list && m->interface_list && m->site_sum, STATUS_MEMORY,
+          "no memory for %d places of bricks", room);
+    for (int i = m->groups * m->places; i < m->groups * room; i++) m->directory[i] = -1;
+    m->places = room;
     return status_ok();
 }
 
 status mpm_store_make(mpm *m, int blocks)
 {
     m->free_head = -1;
-    TRY(mpm_store_new_grid(m));
+    TRY(grow_places(m));
     return grow_blocks(m, blocks);
 }
 
-void mpm_store_free_brick(brick *b)
+static void free_brick(brick *b)
 {
     free(b->out);
     free(b->out_contact);
@@ -102,7 +106,7 @@ void mpm_store_free_brick(brick *b)
 
 void mpm_store_free(mpm *m)
 {
-    for (int i = 0; i < m->bricks_used; i++) mpm_store_free_brick(&m->bricks[i]);
+    for (int i = 0; i < m->bricks_used; i++) free_brick(&m->bricks[i]);
     for (int t = 0; t < MPM_MAX_THREADS; t++) {
         free(m->movers[t].head);
         free(m->movers[t].data);
@@ -130,14 +134,17 @@ static status grow_bricks(mpm *m)
 
 status mpm_store_brick(mpm *m, int group, int level, const int at[3], int *out)
 {
-    int *slot = &m->directory[group * m->grids.sites + site_index(m, level, at)];
+    int site;
+    TRY(mpm_grids_add_place(&m->grids, level, at, &site));
+    TRY(grow_places(m));
+    int *slot = &m->directory[site * m->groups + group];
     if (*slot < 0) {
         TRY(grow_bricks(m));
         brick *b = &m->bricks[m->bricks_used];
         memset(b, 0, sizeof *b);
         b->group = group, b->level = level;
-        b->seam = mpm_interface_nodes(m, level, at);
-        b->at_seam = seam_any(&b->seam);
+        b->interface = mpm_interface_nodes(m, level, at, b->foreign);
+        b->at_interface = interface_any(&b->interface);
         memcpy(b->at, at, sizeof b->at);
         for (int c = 0; c < BRICK_CELLS; c++) b->head[c] = -1;
         memset(m->nodes[m->bricks_used], 0, sizeof *m->nodes);
@@ -166,9 +173,9 @@ status mpm_store_open(brick *b)
 
 status mpm_store_empty(mpm *m, int blocks)
 {
-    for (int i = 0; i < m->bricks_used; i++) mpm_store_free_brick(&m->bricks[i]);
+    for (int i = 0; i < m->bricks_used; i++) free_brick(&m->bricks[i]);
     m->bricks_used = 0;
-    for (int i = 0; i < m->groups * m->grids.sites; i++) m->directory[i] = -1;
+    for (int i = 0; i < m->groups * m->places; i++) m->directory[i] = -1;
     m->free_head = -1, m->blocks_free = 0;
     chain_free_blocks(m, 0);
     return blocks > m->blocks_capacity ? grow_blocks(m, blocks + blocks / 8) : status_ok();
@@ -181,7 +188,7 @@ status mpm_store_surround(mpm *m, int brick_index)
         const brick *b = &m->bricks[brick_index];
         if (step_inside(m, b, step, to)) TRY(mpm_store_brick(m, b->group, b->level, to, &found));
     }
-    if (m->bricks[brick_index].at_seam) {
+    if (m->bricks[brick_index].at_interface) {
         const brick b = m->bricks[brick_index]; /* the array may move */
         TRY(mpm_interface_make_bricks(m, &b));
     }
@@ -209,26 +216,26 @@ static bool link_brick(mpm *m, brick *b)
         int to[3];
         b->neighbour[step] = step_inside(m, b, step, to) ? brick_at(m, b->group, b->level, to) : -1;
     }
-    b->across = b->at_seam && mpm_interface_in_contact(m, b);
+    b->across = b->at_interface && mpm_interface_in_contact(m, b);
     b->contact = b->across || meets_other(m, b);
     b->occupied = mpm_occupied_cells(b);
     if (b->contact && b->out && !b->out_contact) b->out_contact = aligned(HALO_NODES * sizeof *b->out_contact);
-    if (b->at_seam && !b->line) b->line = cleared(2 * BRICK_CELLS * sizeof *b->line);
-    if (seam_shared(&b->seam) && !b->held) b->held = cleared(sizeof *b->held);
-    return (b->out_contact || !b->contact || !b->out) && (b->line || !b->at_seam) &&
-           (b->held || !seam_shared(&b->seam));
+    if (b->at_interface && !b->line) b->line = cleared(2 * BRICK_CELLS * sizeof *b->line);
+    if (interface_shared(&b->interface) && !b->held) b->held = cleared(sizeof *b->held);
+    return (b->out_contact || !b->contact || !b->out) && (b->line || !b->at_interface) &&
+           (b->held || !interface_shared(&b->interface));
 }
 
 static void list_sites(mpm *m)
 {
-    m->site_count = m->seam_count = m->crowd = 0;
-    for (int s = 0; s < m->grids.sites; s++) {
+    m->site_count = m->interface_count = m->crowd = 0;
+    for (int s = 0; s < m->places; s++) {
         int groups = 0;
         for (int f = 0; f < m->groups; f++) {
-            const int i = m->directory[f * m->grids.sites + s];
+            const int i = brick_of_site(m, s, f);
             if (i < 0 || groups++ > 0) continue;
             m->site_list[m->site_count++] = s;
-            if (m->bricks[i].at_seam) m->seam_list[m->seam_count++] = s;
+            if (m->bricks[i].at_interface) m->interface_list[m->interface_count++] = s;
         }
         if (groups > m->crowd) m->crowd = groups;
     }
@@ -303,6 +310,28 @@ void mpm_store_release_cell(mpm *m, brick *b, int cell)
     }
 }
 
+void mpm_store_drop_lane(mpm *m, brick *b, int block_index, int lane)
+{
+    block *q = &m->blocks[block_index];
+    m->links[block_index].mask &= (uint8_t) ~(1u << lane);
+    q->mass[0][lane] = q->area[0][lane] = 0;
+    b->particles--;
+}
+
+void mpm_store_tidy_cell(mpm *m, brick *b, int cell)
+{
+    for (int *link = &b->head[cell]; *link >= 0;) {
+        const int i = *link;
+        if (m->links[i].mask == 0) {
+            *link = m->links[i].next;
+            mpm_store_release(m, i);
+            b->blocks--;
+        } else {
+            link = &m->links[i].next;
+        }
+    }
+}
+
 /* Places that take the block at the next one, cycle by cycle; the last of a cycle takes that at the first. */
 typedef struct {
     int n, *place, *first; /* index of the cycle's first place */
@@ -369,7 +398,7 @@ static int compact_order(const mpm *m, int *to)
     for (int i = 0; i < m->blocks_capacity; i++) to[i] = -1;
     for (int s = 0; s < m->site_count; s++)
         for (int f = 0; f < m->groups; f++) {
-            const int i = m->directory[f * m->grids.sites + m->site_list[s]];
+            const int i = brick_of_site(m, m->site_list[s], f);
             for (int c = 0; i >= 0 && c < BRICK_CELLS; c++)
                 for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) to[q] = used++;
         }
@@ -448,7 +477,7 @@ status mpm_store_place(mpm *m, int body, const double *particle)
     return status_ok();
 }
 
-status mpm_store_surround_all(mpm *m)
+static status surround_all(mpm *m)
 {
     const int filled = m->bricks_used;
     for (int i = 0; i < filled; i++)
@@ -456,9 +485,26 @@ status mpm_store_surround_all(mpm *m)
     return status_ok();
 }
 
+status mpm_store_prune(mpm *m)
+{
+    int n = 0;
+    for (int i = 0; i < m->bricks_used; i++) {
+        brick *b = &m->bricks[i];
+        int *slot = &m->directory[grids_place(&m->grids, b->level, b->at) * m->groups + b->group];
+        *slot = b->particles > 0 ? n : -1;
+        if (*slot < 0)
+            free_brick(b);
+        else
+            m->bricks[n++] = *b;
+    }
+    m->bricks_used = n;
+    for (int i = 0; i < n; i++) TRY(mpm_store_surround(m, i));
+    return mpm_store_relink(m);
+}
+
 status mpm_store_settle(mpm *m)
 {
-    TRY(mpm_store_surround_all(m));
+    TRY(surround_all(m));
     TRY(mpm_store_relink(m));
     TRY(mpm_store_reserve(m, 0));
     return mpm_store_compact(m);

@@ -32,7 +32,4 @@ status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g
 /* Largest speed of a body's points at the start that its spin gives [m/s]. */
 double mpm_build_spin_speed(const mpm_scene *s, int body);
 
-/* What the solver makes of a point (mpm.c): q has BLOCK_DOUBLES. */
-void mpm_point_of(const mpm *m, int body, const build_point *p, double *q);
-
 #endif

@@ -24,12 +24,11 @@ bool mpm_movers_reserve(mover_list *list, int more)
 }
 
 /* New cell of a particle near (ci, cj, ck); false when it has left the window.  One that comes to a level that is amid
- * a step stays in the last cell of its own: by less than half a cell it is beyond, and has the weights of that cell
- * there. */
+ * a step stays on its own until that ends: the nodes there are constrained, so it moves with the coarser level. */
 static bool find_cell(const mpm *m, const brick *b, const int cell[3], const double *x, mover_head *h)
 {
     int step = 0, place[3];
-    h->level = b->at_seam ? mpm_grids_level(&m->grids, x) : b->level;
+    h->level = b->at_interface ? mpm_grids_level(&m->grids, x) : b->level;
     const bool stays = h->level > m->ends;
     if (stays) h->level = b->level;
     if (h->level != b->level) {
@@ -42,7 +41,6 @@ static bool find_cell(const mpm *m, const brick *b, const int cell[3], const dou
         int i = BRICK * b->at[k] + cell[k];
         while (i >= 1 && x[k] < a->edge[i]) i--;
         while (i <= a->last && x[k] >= a->edge[i + 1]) i++;
-        if (stays) i = i < 1 ? 1 : i > a->last ? a->last : i;
         if (i < 1 || i > a->last) return false;
         int d = i / BRICK - b->at[k];
         step += scale * (d + 1);
@@ -88,13 +86,6 @@ static int axis_to_split(const mpm *m, const brick *b, const int cell[3], const 
     return -1;
 }
 
-static void drop_lane(block *q, block_link *link, brick *b, int lane)
-{
-    link->mask &= (uint8_t) ~(1u << lane);
-    q->mass[0][lane] = q->area[0][lane] = 0;
-    b->particles--;
-}
-
 void mpm_movers_take(mpm *m, brick *b, int cell, int block_index, int leaving)
 {
     const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
@@ -110,7 +101,7 @@ void mpm_movers_take(mpm *m, brick *b, int cell, int block_index, int leaving)
             mpm_point_departure(one, level_dt(m, b->level), &b->sum.left);
             b->sum.eroded++;
             b->sum.eroded_mass += one[FIRST_mass];
-            drop_lane(q, link, b, lane);
+            mpm_store_drop_lane(m, b, block_index, lane);
             continue;
         }
         if (k >= 0) {
@@ -119,25 +110,11 @@ void mpm_movers_take(mpm *m, brick *b, int cell, int block_index, int leaving)
             b->sum.splits++;
         }
         send(m, b, at, link->body, one);
-        drop_lane(q, link, b, lane);
+        mpm_store_drop_lane(m, b, block_index, lane);
     }
 }
 
-/* Cells give back empty blocks, and close ranks when their last block fits into the holes of the others. */
-static void tidy_cell(mpm *m, brick *b, int cell)
-{
-    for (int *link = &b->head[cell]; *link >= 0;) {
-        const int i = *link;
-        if (m->links[i].mask == 0) {
-            *link = m->links[i].next;
-            mpm_store_release(m, i);
-            b->blocks--;
-        } else {
-            link = &m->links[i].next;
-        }
-    }
-}
-
+/* A cell closes ranks when its last block fits into the holes of the others. */
 static void merge_cell(mpm *m, brick *b, int cell)
 {
     int holes = 0, last = -1, *last_link = NULL;
@@ -218,6 +195,7 @@ static status arrive_across(mpm *m, const mover_list *list, int i, int group, bo
     const int q = mpm_store_insert(m, b, list->head[i].cell, list->head[i].body, list->data[i]);
     CHECK(q >= 0, STATUS_MEMORY, "the particle blocks ran out where the grids' levels meet: use larger cells");
     b->occupied |= 1ull << list->head[i].cell;
+    b->fresh = true;
     return status_ok();
 }
 
@@ -250,7 +228,7 @@ status mpm_movers_exchange(mpm *m)
         brick *b = &m->bricks[i];
         if (!b->out || b->level > m->ends) continue;
         if (b->mover_steps || b->sum.left.count)
-            for (int c = 0; c < BRICK_CELLS; c++) tidy_cell(m, b, c);
+            for (int c = 0; c < BRICK_CELLS; c++) mpm_store_tidy_cell(m, b, c);
         enough = arrive(m, b) && enough;
         b->occupied = mpm_occupied_cells(b);
         relink = relink || (b->sum.particles > 0) != (b->particles > 0); /* filled or emptied by this step */

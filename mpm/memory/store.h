@@ -108,15 +108,15 @@ typedef struct {
     int bad_lane, bad_block; /* first particle that is not finite, bad_block = -1: none */
 } tally;
 
-/* Nodes of a brick (bits) that two levels share (seams.c). */
+/* Nodes of a brick (bits) that two levels share (interface.c). */
 typedef struct {
     uint64_t follow_coarser, follow_finer; /* have their velocity from there */
     uint64_t lead_coarser, lead_finer;     /* receive sums of nodes that follow them there */
     uint64_t twice_finer; /* those of follow_finer where the node that they follow leads a still finer level */
-} seam_nodes;
+} interface_nodes;
 
 /* What a brick's particles gave to its nodes, while a finer level makes several steps with those that both share
- * (shares.c). */
+ * (substeps.c). */
 typedef struct {
     double line[2 * BRICK_CELLS][LINE]; /* as brick.line; of shared nodes as their last step left it */
     double drift[BRICK_CELLS][3];       /* velocity that is still to be added for the particles [m/s] */
@@ -125,12 +125,14 @@ typedef struct {
 
 typedef struct {
     int group, level;
-    int at[3];             /* brick coordinates */
-    seam_nodes seam;       /* of its nodes */
-    bool at_seam;          /* there are any */
+    int at[3];                    /* brick coordinates */
+    interface_nodes interface;    /* of its nodes */
+    bool at_interface;            /* there are any */
+    uint8_t foreign[BRICK_CELLS]; /* octants of each cell (bit 0: upper half along x) that another level has */
     bool across;           /* another group has particles near a node that this brick shares with another level */
     int head[BRICK_CELLS]; /* first block of each cell, -1 = none */
     int particles, blocks;
+    bool fresh;                  /* points have come from another level since the last look (refine/merge.c) */
     bool contact;                /* another group has particles here or next door */
     uint64_t occupied, meets;    /* bit c: cell c has particles; it may share nodes with another group */
     int neighbour[NEIGHBOURS];   /* bricks of the same group around, -1 = none */
@@ -159,11 +161,6 @@ typedef struct {
 
 /* What of a body lies above its largest percentiles so far, lane by lane (read.c). */
 typedef struct body_tops body_tops;
-
-/* The window and its fine zone along the axis that they follow (mpm_follow), and the zone across. */
-typedef struct {
-    double at[5]; /* lower end of the fine zone, ends of the window; ends of the zone across [m] */
-} zone;
 
 typedef struct kernels kernels;
 
@@ -197,14 +194,15 @@ struct mpm {
     group_info *group; /* [groups] */
     touch_rule *rule;  /* [1 + scene.pairs] the first for two groups that no pair names */
     int *rule_of;      /* [groups x groups] */
-    int *directory;    /* [groups][grids.sites] brick or -1 */
-    tally *site_sum;   /* [grids.sites] */
+    int *directory;    /* [places][groups] brick or -1 */
+    tally *site_sum;   /* [places] */
+    int places;        /* that the four arrays of places have room for */
 
     brick *bricks;
     double (*nodes)[BRICK_CELLS][NODE]; /* of each brick: vx, vy, vz, specific energy that is left to the particles */
     int bricks_used, bricks_capacity;
-    int *site_list, site_count; /* sites that have a brick */
-    int *seam_list, seam_count; /* those of them at seams */
+    int *site_list, site_count;           /* sites that have a brick */
+    int *interface_list, interface_count; /* those of them at seams */
 
     block *blocks;
     block_link *links;
@@ -234,10 +232,6 @@ struct mpm {
     mpm_ledger ledger;
     double phase_seconds[MPM_PHASES];
     uint64_t scene_key; /* of everything that determines a scene */
-    mpm_wake wake;
-    size_t wake_capacity;
-    zone zone_start;
-    double zone_length; /* of the fine zone along the axis that it follows [m] */
 };
 
 struct kernels {
@@ -254,10 +248,7 @@ const kernels *mpm_kernels_choose(const char *name);
 
 /* bricks.c */
 status mpm_store_make(mpm *m, int blocks);
-/* An empty directory for the axes as they are now; forgets the bricks, keeps the blocks. */
-status mpm_store_new_grid(mpm *m);
 status mpm_store_settle(mpm *m); /* after filling: neighbours, order in memory, room for the next step */
-void mpm_store_free_brick(brick *b);
 void mpm_store_release(mpm *m, int block_index);         /* back to the free blocks */
 void mpm_store_release_cell(mpm *m, brick *b, int cell); /* all blocks of a cell */
 void mpm_store_free(mpm *m);
@@ -266,7 +257,10 @@ status mpm_store_open(brick *b);                    /* memory for the sums of it
 status mpm_store_empty(mpm *m, int blocks);         /* no bricks, room for so many blocks */
 status mpm_store_surround(mpm *m, int brick_index); /* makes its 26 neighbours inside the window */
 status mpm_store_relink(mpm *m);                    /* neighbours, contact flags, site list */
-status mpm_store_surround_all(mpm *m);
+/* Forgets bricks that neither hold particles nor lie beside such; between two steps of the coarsest level. */
+status mpm_store_prune(mpm *m);
+void mpm_store_drop_lane(mpm *m, brick *b, int block_index, int lane); /* a point has left */
+void mpm_store_tidy_cell(mpm *m, brick *b, int cell);                  /* gives back its empty blocks */
 status mpm_store_reserve(mpm *m, int blocks); /* so many free blocks, and those for the next step */
 status mpm_store_compact(mpm *m);             /* blocks into the order of bricks and cells */
 int mpm_store_insert(mpm *m, brick *b, int cell, int body, const double *particle); /* block, or -1 when none is free */
@@ -275,8 +269,10 @@ status mpm_store_place(mpm *m, int body, const double *particle); /* makes its b
 int mpm_store_cell_at(const mpm *m, int level, const double x[3],
                       int at[3]); /* cell and its brick's place; -1: outside */
 
-/* seams.c: nodes that two levels share */
-seam_nodes mpm_interface_nodes(const mpm *m, int level, const int at[3]); /* of a brick at this place */
+/* interface.c: nodes that two levels share */
+bool mpm_interface_changed(const mpm *m, const brick *b); /* may they be others since the last look (adapt.c)? */
+/* Of a brick at this place, and of its cells the octants that other levels have (brick.foreign). */
+interface_nodes mpm_interface_nodes(const mpm *m, int level, const int at[3], uint8_t foreign[BRICK_CELLS]);
 status mpm_interface_make_bricks(mpm *m,
                                  const brick *b); /* makes the bricks that a brick's particles need in other levels */
 bool mpm_interface_in_contact(const mpm *m, const brick *b); /* brick.across */
@@ -285,14 +281,14 @@ void mpm_interface_constrain(mpm *m, int site);              /* velocities of th
 /* Change of the motion from one node to the next along axis k, from nodes of more mass than `least` [kg]. */
 void mpm_interface_slope(const mpm *m, const brick *b, int cell, int k, double least, double slope[3]);
 
-/* shares.c: nodes that a level shares with a finer one make the steps of that */
+/* substeps.c: nodes that a level shares with a finer one make the steps of that */
 uint64_t mpm_substep_due(const mpm *m,
                          const brick *b); /* nodes that end a step with the finest level's that is under way */
 double mpm_substep_dt(const mpm *m, const brick *b, int cell); /* of a node's step [s] */
 void mpm_substep_restore(mpm *m, int site);                    /* brick.line as brick.held has it */
 void mpm_substep_store(mpm *m, int site); /* into brick.held, or for its particles, what a step has made of it */
 
-/* meeting.c */
+/* contact_cells.c */
 uint64_t mpm_occupied_cells(const brick *b);
 uint64_t mpm_contact_cells(const mpm *m, const brick *b); /* brick.meets from what is occupied around */
 
@@ -330,22 +326,15 @@ static inline double lane_plastic_power(const block *q, int lane)
 /* mpm.c */
 void mpm_book_departure(mpm *m, const departure *d);
 
-/* front.c: the power that ploughs the followed bodies; all but a twentieth of it lies behind the front, and all but a
- * twentieth within the half width of the fine zone's middle */
-typedef struct {
-    double front, power, half_width; /* [m, W, m] */
-} plough;
-status mpm_plastic_front_find(const mpm *m, plough *out);
+/* front.c: power that the followed bodies' plastic flow takes, and where it ends, into the report */
+status mpm_plastic_front_look(mpm *m);
 
-/* zone.c */
-zone mpm_zone_of(const mpm *m);
-/* Of the fine zone across: its middle, and how far it reaches [m] */
-void mpm_zone_across(const mpm_scene *s, double *middle, double *half);
-/* Its ends with at most `more` on either side, and no more than follow_width and the window allow [m] */
-void mpm_zone_widen(const mpm_scene *s, double more, double *lo, double *hi);
-status mpm_zone_follow(mpm *m); /* goes after the plastic front, if it has come near the fine zone's end */
-/* New grids; all particles into their bricks, split and merged to fit; to be settled. */
-status mpm_zone_regrid(mpm *m, zone z);
+/* adapt.c: levels where the scene's rules want them, points to their levels.  flags: without moving a point; has any
+ * place changed? */
+status mpm_refine_flags(mpm *m, bool *changed);
+status mpm_refine_look(mpm *m);
+/* merge.c: joins points that lie in coarser cells than they need, deep in a sound body */
+status mpm_merge_points(mpm *m);
 
 /* read.c */
 void mpm_sample_percentiles(mpm *m);
@@ -357,12 +346,6 @@ status mpm_movers_exchange(mpm *m); /* all movers into their new cells; makes br
 void mpm_movers_take(mpm *m, brick *b, int cell, int block_index, int leaving);
 bool mpm_movers_reserve(mover_list *list, int more);
 
-static inline int site_index(const mpm *m, int level, const int at[3])
-{
-    const grid_level *g = &m->grids.level[level];
-    return g->first_site + (at[2] * g->axes[1].bricks + at[1]) * g->axes[0].bricks + at[0];
-}
-
 /* Velocities and energies of a brick's own nodes.  In one array, so that those of 27 bricks are found without reading
  * the bricks. */
 static inline double (*brick_nodes(const mpm *m, const brick *b))[NODE]
@@ -370,10 +353,17 @@ static inline double (*brick_nodes(const mpm *m, const brick *b))[NODE]
     return m->nodes[b - m->bricks];
 }
 
-/* Brick of a group at a place of a level, -1 = none. */
+/* Brick of a group at a site, -1 = none. */
+static inline int brick_of_site(const mpm *m, int site, int group)
+{
+    return m->directory[site * m->groups + group];
+}
+
+/* The same at a place of a level. */
 static inline int brick_at(const mpm *m, int group, int level, const int at[3])
 {
-    return m->directory[group * m->grids.sites + site_index(m, level, at)];
+    const int site = grids_place(&m->grids, level, at);
+    return site >= 0 && site < m->places ? brick_of_site(m, site, group) : -1;
 }
 
 /* Steps that a level makes in one of the coarsest. */
@@ -393,12 +383,12 @@ static inline double level_dt_last(const mpm *m, int level)
 }
 
 /* Nodes that make the steps of a finer level. */
-static inline uint64_t seam_shared(const seam_nodes *s)
+static inline uint64_t interface_shared(const interface_nodes *s)
 {
     return s->lead_finer | s->follow_finer;
 }
 
-static inline bool seam_any(const seam_nodes *s)
+static inline bool interface_any(const interface_nodes *s)
 {
     return (s->follow_coarser | s->follow_finer | s->lead_coarser | s->lead_finer) != 0;
 }

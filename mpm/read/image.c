@@ -9,21 +9,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char MAGIC[8] = "BREECH7";
+static const char MAGIC[8] = "BREECH8";
 
 typedef struct {
     char magic[8];
     char instruction_set[16];
     uint64_t scene, bytes;
-    double time, dt, dt_last, dense_steps, zone[5];
+    double time, dt, dt_last, dense_steps;
     uint64_t steps;
-    int bricks, blocks;
-    uint64_t wake;
-    double wake_until;
+    int bricks, blocks, pages;
 } image_head;
 
 typedef struct {
-    int group, level, at[3], particles, has_out;
+    int group, level, at[3], particles, has_out, fresh;
     int blocks[BRICK_CELLS];
 } image_brick;
 
@@ -34,7 +32,7 @@ static size_t image_bytes(const mpm *m, int blocks)
     return sizeof(image_head) + sizeof(mpm_ledger) + sizeof(mpm_report) +
            (size_t)m->scene.bodies * sizeof *m->body_report + (size_t)m->groups * sizeof *m->force +
            (size_t)m->bricks_used * sizeof(image_brick) + (size_t)blocks * (sizeof(block) + sizeof(block_link)) +
-           m->wake.n * sizeof *m->wake.point;
+           (size_t)m->grids.pages * (sizeof(grid_page) + PAGE_PLACES);
 }
 
 static char *put(char *to, const void *from, size_t bytes)
@@ -47,7 +45,8 @@ static char *put_brick(char *to, const mpm *m, const brick *b)
 {
     image_brick head;
     memset(&head, 0, sizeof head);
-    head.group = b->group, head.level = b->level, head.particles = b->particles, head.has_out = b->out != NULL;
+    head.group = b->group, head.level = b->level, head.particles = b->particles, head.has_out = b->out != NULL,
+    head.fresh = b->fresh;
     memcpy(head.at, b->at, sizeof head.at);
     for (int c = 0; c < BRICK_CELLS; c++)
         for (int q = b->head[c]; q >= 0; q = m->links[q].next) head.blocks[c]++;
@@ -75,15 +74,14 @@ status mpm_save(const mpm *m, void **image, size_t *bytes)
     head.scene = m->scene_key, head.bytes = *bytes;
     head.time = m->time, head.dt = m->dt, head.dt_last = m->dt_last, head.dense_steps = m->dense_steps,
     head.steps = m->steps;
-    head.wake = m->wake.n, head.wake_until = m->wake.until;
-    memcpy(head.zone, mpm_zone_of(m).at, sizeof head.zone);
-    head.bricks = m->bricks_used, head.blocks = blocks;
+    head.bricks = m->bricks_used, head.blocks = blocks, head.pages = m->grids.pages;
     to = put(to, &head, sizeof head);
     to = put(to, &m->ledger, sizeof m->ledger);
     to = put(to, &m->report, sizeof m->report);
     to = put(to, m->body_report, (size_t)m->scene.bodies * sizeof *m->body_report);
     to = put(to, m->force, (size_t)m->groups * sizeof *m->force);
-    if (m->wake.n) to = put(to, m->wake.point, m->wake.n * sizeof *m->wake.point);
+    to = put(to, m->grids.page, (size_t)m->grids.pages * sizeof(grid_page));
+    to = put(to, m->grids.active, (size_t)grids_places(&m->grids));
     for (int i = 0; i < m->bricks_used; i++) to = put_brick(to, m, &m->bricks[i]);
     return status_ok();
 }
@@ -139,21 +137,23 @@ static status get_brick(mpm *m, reader *r)
     CHECK(head.group >= 0 && head.group < m->groups, STATUS_IO, "the checkpoint holds a group that the scene lacks");
     TRY(mpm_store_brick(m, head.group, head.level, head.at, &index));
     brick *b = &m->bricks[index];
-    b->particles = head.particles;
+    b->particles = head.particles, b->fresh = head.fresh;
     if (head.has_out) TRY(mpm_store_open(b));
     for (int c = 0; c < BRICK_CELLS; c++) TRY(get_cell(m, b, c, head.blocks[c], r));
     return status_ok();
 }
 
-static status get_wake(mpm *m, const image_head *h, reader *r)
+static status get_pages(mpm *m, const image_head *h, reader *r)
 {
-    const size_t bytes = h->wake * sizeof *m->wake.point;
-    if (h->wake > (size_t)(r->end - r->at) / sizeof *m->wake.point) return cut_short();
-    mpm_wake_point *p = realloc(m->wake.point, bytes ? bytes : 1);
-    CHECK(p, STATUS_MEMORY, "no memory for a wake of %llu points", (unsigned long long)h->wake);
-    m->wake = (mpm_wake){ h->wake, p, h->wake_until };
-    m->wake_capacity = h->wake;
-    return get(r, p, bytes) ? status_ok() : cut_short();
+    const size_t bytes = (size_t)h->pages * sizeof(grid_page);
+    if (h->pages < 0 || bytes > (size_t)(r->end - r->at)) return cut_short();
+    grid_page *page = malloc(bytes + 1);
+    CHECK(page, STATUS_MEMORY, "no memory for %d pages of the grid", h->pages);
+    const bool whole = get(r, page, bytes);
+    const status s = whole ? mpm_grids_take_pages(&m->grids, page, h->pages) : cut_short();
+    free(page);
+    TRY(s);
+    return get(r, m->grids.active, (size_t)grids_places(&m->grids)) ? status_ok() : cut_short();
 }
 
 static status check_head(const mpm *m, const image_head *h, size_t bytes)
@@ -176,14 +176,11 @@ status mpm_restore(mpm *m, const void *image, size_t bytes)
     if (!get(&r, &head, sizeof head)) return cut_short();
     TRY(check_head(m, &head, bytes));
     TRY(mpm_store_empty(m, head.blocks));
-    zone z;
-    memcpy(z.at, head.zone, sizeof z.at);
-    TRY(mpm_zone_regrid(m, z));
     if (!get(&r, &m->ledger, sizeof m->ledger) || !get(&r, &m->report, sizeof m->report) ||
         !get(&r, m->body_report, (size_t)m->scene.bodies * sizeof *m->body_report) ||
         !get(&r, m->force, (size_t)m->groups * sizeof *m->force))
         return cut_short();
-    TRY(get_wake(m, &head, &r));
+    TRY(get_pages(m, &head, &r));
     for (int i = 0; i < head.bricks; i++) TRY(get_brick(m, &r));
     m->time = head.time, m->dt = head.dt, m->dt_last = head.dt_last, m->dense_steps = head.dense_steps,
     m->steps = head.steps;
@@ -228,18 +225,13 @@ static status count(const mpm_scene *s, const grids *g, counting *c, double *dt)
 
 status mpm_estimate(const mpm_scene *scene, mpm_needs *needs)
 {
-    mpm_scene at[2] = { *scene, *scene }; /* the same bodies, borrowed */
-    mpm_axis *across = &at[1].axis[scene->follow.across];
-    mpm_zone_widen(scene, HUGE_VAL, &across->fine_lo, &across->fine_hi);
-    for (int i = 0; i < 2; i++) {
-        grids g;
-        counting c;
-        TRY(mpm_grids_make(&at[i], &g));
-        const status s = count(&at[i], &g, &c, &needs->dt);
-        mpm_grids_free(&g);
-        TRY(s);
-        needs->particles[i] = c.particles, needs->work[i] = c.work;
-        needs->bytes[i] = MPM_BYTES + c.particles * MPM_BYTES_A_PARTICLE + (size_t)scene->bodies * MPM_BYTES_A_BODY;
-    }
+    grids g;
+    counting c;
+    TRY(mpm_grids_make(scene, &g));
+    const status s = count(scene, &g, &c, &needs->dt);
+    mpm_grids_free(&g);
+    TRY(s);
+    needs->particles = c.particles, needs->work = c.work;
+    needs->bytes = MPM_BYTES + c.particles * MPM_BYTES_A_PARTICLE + (size_t)scene->bodies * MPM_BYTES_A_BODY;
     return status_ok();
 }

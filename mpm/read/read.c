@@ -182,11 +182,6 @@ const mpm_scene *mpm_scene_of(const mpm *m)
     return &m->scene;
 }
 
-const mpm_wake *mpm_wake_of(const mpm *m)
-{
-    return &m->wake;
-}
-
 const char *mpm_instruction_set(void)
 {
     return mpm_kernels_choose(NULL)->name;

@@ -1,19 +1,15 @@
-/* Where the followed bodies are ploughed: their plastic power in the fine zone, slice by slice along the axis that the
- * zone follows and across it.
+/* Where the followed bodies are ploughed: their plastic power, slice by slice along an axis (mpm_follow).
  *
  * The edge of a slider that is pressed on ploughs over the whole width, a local damage does not: what counts is the
- * power beyond what the same metal takes in the zone's rim, its outer quarter on either side, in cells of one size. */
+ * power beyond what the same metal takes in the window's rim, its outer quarter across the axis. */
 #include "mpm/memory/store.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 
-/* Of the power lies ahead of the front, and as much beyond the half width. */
-static const double POWER_AHEAD = 0.05;
-static const double RIM = 0.75; /* of the zone's half width; beyond it lies the rim */
-
-enum { ACROSS = 64 }; /* slices of the zone's half width */
+static const double POWER_AHEAD = 0.05; /* of the power lies ahead of the front */
+static const double RIM = 0.75;         /* of the window's half width; beyond it lies the rim */
 
 typedef struct {
     double power, volume; /* [W, m3] */
@@ -22,14 +18,18 @@ typedef struct {
 typedef struct {
     int along, across;   /* axes (mpm_follow) */
     double lo, width;    /* of a slice along [m] */
-    double middle, half; /* of the zone across [m] */
+    double middle, half; /* of the window across [m] */
     int n;
-    taken *sums; /* [2 n] along, inside the rim and in it, then [ACROSS]; so many for each share of the bricks */
+    taken *sums; /* [2 n] inside the rim and in it; so many for each share of the bricks */
 } profile;
+
+typedef struct {
+    double front, power; /* [m, W] */
+} plough;
 
 static int sums_of(const profile *p)
 {
-    return 2 * p->n + ACROSS;
+    return 2 * p->n;
 }
 
 static void add(taken *t, double power, double volume)
@@ -45,7 +45,6 @@ static void add_lane(const block *q, int l, double off, const profile *p, taken 
     const int first = (int)fmax((x - half - p->lo) / p->width, 0);
     const int last = (int)fmin((x + half - p->lo) / p->width, p->n - 1), n = last - first + 1;
     for (int i = first; i <= last; i++) add(&to[2 * i + (off > RIM)], power / n, volume / n);
-    add(&to[2 * p->n + (int)(off * ACROSS)], power, volume);
 }
 
 static void add_block(const mpm *m, int index, const profile *p, taken *to)
@@ -101,36 +100,36 @@ static void find_front(const profile *p, plough *out)
     out->front = p->lo + p->width * (front + 1);
 }
 
-/* Share of the zone's half width. */
-static double find_width(const profile *p)
+/* The window's extent across: of a half model from its mirror on. */
+static void set_across(const mpm_axis *across, profile *p)
 {
-    const taken *across = p->sums + 2 * p->n;
-    const int rim_from = (int)(RIM * ACROSS);
-    taken rim = { 0, 0 };
-    double all = 0, beyond = 0;
-    int i = rim_from - 1;
-    for (int k = rim_from; k < ACROSS; k++) add(&rim, across[k].power, across[k].volume);
-    for (int k = 0; k < rim_from; k++) all += excess(&across[k], &rim);
-    for (; i > 0; i--) {
-        const double here = excess(&across[i], &rim);
-        if (beyond + here >= POWER_AHEAD * all) break;
-        beyond += here;
-    }
-    return (i + 1.0) / ACROSS;
+    const bool half_model = across->boundary[0] == BOUNDARY_SYMMETRY;
+    p->middle = half_model ? across->lo : 0.5 * (across->lo + across->hi);
+    p->half = across->hi - p->middle;
 }
 
-status mpm_plastic_front_find(const mpm *m, plough *out)
+static status find(const mpm *m, plough *out)
 {
     const mpm_axis *s = &m->scene.axis[m->scene.follow.along];
     *out = (plough){ .front = s->lo };
     profile p = { m->scene.follow.along, m->scene.follow.across, .lo = s->lo, .width = 2 * s->fine,
                   .n = (int)((s->hi - s->lo) / (2 * s->fine)) + 1 };
-    mpm_zone_across(&m->scene, &p.middle, &p.half);
+    set_across(&m->scene.axis[m->scene.follow.across], &p);
     p.sums = calloc((size_t)sums_of(&p) * SHARES, sizeof *p.sums);
     CHECK(p.sums, STATUS_MEMORY, "no memory to find the plastic front in %d slices", p.n);
     add_bodies(m, &p);
     find_front(&p, out);
-    out->half_width = find_width(&p) * p.half;
     free(p.sums);
+    return status_ok();
+}
+
+status mpm_plastic_front_look(mpm *m)
+{
+    plough p;
+    mpm_report *r = &m->report;
+    if (!mpm_scene_follows(&m->scene)) return status_ok();
+    TRY(find(m, &p));
+    r->plastic_front = p.front, r->plastic_power = p.power, r->plastic_time = m->time;
+    r->peak_plastic_power = fmax(r->peak_plastic_power, p.power);
     return status_ok();
 }

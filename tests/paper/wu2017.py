@@ -21,13 +21,11 @@ RUNS = {  # name: what differs from the base case
     "1.2 km/s": {"scene.velocity": "1.2 km/s"},
     "1.35 km/s": {"scene.velocity": "1.35 km/s"},
     "2.0 km/s": {"scene.velocity": "2.0 km/s"},
-    # small grains on two nested grids: a quarter of the particle-steps and less
-    "r 0.2 mm": {"particle.radius": "0.2 mm", "scene.fine_width": "4 mm", "scene.end_time": "20 us", "scene.levels": "2"},
+    "r 0.2 mm": {"particle.radius": "0.2 mm", "scene.end_time": "20 us"},
     # the contact face keeps the length that W1 was calibrated with
     "30 deg": {"armature.lead_angle": "30 deg", "armature.length": "22 mm"},
-    "r 0.08 mm": {"particle.radius": "0.08 mm", "scene.fine_width": "2 mm", "scene.end_time": "8 us", "scene.levels": "2"},
+    "r 0.08 mm": {"particle.radius": "0.08 mm", "scene.end_time": "8 us"},
 }
-ZONE = {"fine_ahead": 8, "fine_behind": 4, "fine_depth": 3, "fine_above": 2.5, "follow_lead": 4}  # radii: the zone W1 was calibrated with
 COARSER = {"r 0.08 mm": 0.7}  # of the cells a radius: an hour otherwise
 
 
@@ -38,9 +36,6 @@ def scene(breech, out, name, cells, changes):
     if not os.path.exists(file):
         command = [breech, "scene", CASE, "-o", folder, "--quiet", "--set", f"scene.cells_per_radius={cells:g}"]
         command += ["--set", "output.snapshots=0", "--set", "output.report=no"]
-        radius = float(changes.get("particle.radius", "0.5 mm").split()[0])
-        for key, radii in ZONE.items():
-            command += ["--set", f"scene.{key}={radii * radius:g} mm"]
         for key, value in changes.items():
             command += ["--set", f"{key}={value}"]
         subprocess.run(command, check=True)

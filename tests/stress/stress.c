@@ -158,11 +158,9 @@ static void add_scene(recipe *r, chance *c)
         r->velocity, r->courant, cells, coarse);
     add(r, "  friction: %.4g\n  growth: %.4g\n  contact_pressure: %.6g Pa\n", one_in(c, 4) ? 0 : uniform(c, 0, 1),
         uniform(c, 1.05, 1.3), one_in(c, 2) ? 0 : log_uniform(c, 1e6, 1e9));
-    add(r, "  rail_ahead: %.6g m\n  rail_behind: %.6g m\n  rail_depth: %.6g m\n  fine_ahead: %.6g m\n",
-        a * uniform(c, 7, 12) + r->wider, a * uniform(c, 6, 9) + r->wider, a * uniform(c, 7, 9) + r->wider,
-        a * uniform(c, 2, 5));
-    add(r, "  fine_behind: %.6g m\n  fine_depth: %.6g m\n  fine_width: %.6g m\n", 1.5 * a, 1.3 * a,
-        (r->levels > 1 ? 8 : 4) * a);
+    add(r, "  rail_ahead: %.6g m\n  rail_behind: %.6g m\n  rail_depth: %.6g m\n", a * uniform(c, 7, 12) + r->wider,
+        a * uniform(c, 6, 9) + r->wider, a * uniform(c, 7, 9) + r->wider);
+    add(r, "  refine_tolerance: %.4g\n", log_uniform(c, 0.01, 0.5));
     /* no longer than MAX_STEPS of a metal whose waves run at 6 km/s */
     const double crossing = 12 * a / r->velocity;
     add(r, "  end_time: %.6g s\n", fmin(crossing, MAX_STEPS * r->courant * a / cells / (6000 + r->velocity)));

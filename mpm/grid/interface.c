@@ -1,15 +1,23 @@
-/* Where grids of two levels meet: nodes that follow the other level (grid.h).
+/* Where two levels meet: nodes that take their motion from the other level (grid.h).
  *
- * A fine node f on or beyond the face of its box, and a coarse node inside the box, are no freedoms of their own:
+ * Of the elements around a node some are active on its level, some on the next coarser one:
+ *
+ *   f---f---f---c-------c     A fine node of which not all eight elements are fine, and a coarse node all of whose
+ *   |   |   |   |       |     elements are fine, are constrained: they are no freedoms of their own.  A fine node on
+ *   f---f---f---+       |     the border (+, or c of the fine level) moves as the coarse nodes around it say, a coarse
+ *   |   |   |   |       |     node inside the fine cells as the fine node at its place.
+ *   f---f---f---c-------c
+ *
  *   v_f = sum_c P_fc v_c,   P the coarse hat functions at f's place: 1, or 1/2, 1/4, 1/8 of the two, four, eight nodes
  *   around it; v_c = v_f of the fine node at c's place.
- * What particles have given to such a node goes to those it follows with the same weights: m_c += P_fc m_f and likewise
+ * What points have given to such a node goes to those it follows with the same weights: m_c += P_fc m_f and likewise
  * force. Momentum is that of the motion at c's place, p_c += P_fc m_f [v_f + G_f (x_c - x_f)], G_f by differences of
- * the fine nodes around, as the particles' own gradient is in P2G; else a shear would be smoothed out at every step.
+ * the fine nodes around, as the points' own gradient is in P2G; else a shear would be smoothed out at every step.
  * The energy goes with it,
  *   K_c += P_fc [K_f + (p_f + dt/2 f_f) . G_f (x_c - x_f)].
  * As sum_c P_fc = 1 and sum_c P_fc (x_c - x_f) = 0, mass, momentum and energy stay to rounding; a linear motion is
- * exact. A node that is followed follows nobody: boxes are far enough apart (grid.c, PAD).
+ * exact.  Constrained nodes never depend on other constrained nodes: the coarse nodes around a fine one that has a
+ * coarse element have that element too, and changes of level lie two elements apart (grid.h).
  *
  * Each node's sums are added to by the thread that works on its site, from the other level's sums, which nobody changes
  * then. */
@@ -48,18 +56,17 @@ static node_box nodes_of(const int at[3], int around)
 }
 
 /* Nodes of the coarse grid around fine ones, and the other way round those from one coarse node to the last. */
-static node_box to_coarse(const grid_level *fine, const node_box *f)
+static node_box to_coarse(const node_box *f)
 {
     node_box r;
-    for (int k = 0; k < 3; k++)
-        r.lo[k] = fine->lo[k] + half_down(f->lo[k] - 1), r.hi[k] = fine->lo[k] + half_down(f->hi[k]);
+    for (int k = 0; k < 3; k++) r.lo[k] = 1 + half_down(f->lo[k] - 1), r.hi[k] = 1 + half_down(f->hi[k]);
     return r;
 }
 
-static node_box to_fine(const grid_level *fine, const node_box *c)
+static node_box to_fine(const node_box *c)
 {
     node_box r;
-    for (int k = 0; k < 3; k++) r.lo[k] = 2 * (c->lo[k] - fine->lo[k]) + 1, r.hi[k] = 2 * (c->hi[k] - fine->lo[k]) + 1;
+    for (int k = 0; k < 3; k++) r.lo[k] = 2 * c->lo[k] - 1, r.hi[k] = 2 * c->hi[k] - 1;
     return r;
 }
 
@@ -81,60 +88,169 @@ static node_box existing(const grid_level *g, node_box r)
 
 /* ---- which nodes, which bricks ---- */
 
-/* Nodes of a brick along one axis, a bit each. */
+/* The elements around a brick's nodes, a bit each: element 4 at + j - FIRST of x is bit j of a row.  Node i of the
+ * brick along an axis lies between elements i + FIRST - 2 and i + FIRST - 1. */
+enum { FIRST = 5, PATCH = 11 };
 typedef struct {
-    unsigned beyond;        /* on or beyond a seam of this level's box */
-    unsigned in, rim, near; /* inside the finer level's box; next to a seam of it; inside, on or next to it outside */
-    unsigned at, at_rim;    /* at the place of a coarser node that is inside this level's box; next to a seam */
-    unsigned near_finest;   /* at the place of a finer node that is near the box of the level after that */
-} axis_nodes;
+    uint16_t row[PATCH][PATCH]; /* [z][y] */
+} element_patch;
 
-static axis_nodes nodes_along(const grid_level *g, const grid_level *finer, const grid_level *finest, int k, int first)
+/* Which of the elements around a brick lie in active granules of `level`, granules of `elements` of them. */
+static element_patch patch_of(const grids *g, int level, const int at[3], int elements)
 {
-    axis_nodes r = { 0 };
-    for (int i = 0; i < BRICK; i++) {
-        const int n = first + i, last = g->axes[k].last;
-        const unsigned bit = 1u << i;
-        if (n > last + 1) break;
-        if ((g->seam[k][0] && n <= 1) || (g->seam[k][1] && n >= last)) r.beyond |= bit;
-        if (n % 2 && n >= 1 + 2 * g->seam[k][0] && n <= last - 2 * g->seam[k][1]) r.at |= bit;
-        if ((g->seam[k][0] && n == 3) || (g->seam[k][1] && n == last - 2)) r.at_rim |= bit;
-        if (!finer) continue;
-        const int lo = finer->lo[k], hi = finer->hi[k], below = finer->seam[k][0], above = finer->seam[k][1];
-        if (n >= lo + below && n <= hi - above) r.in |= bit;
-        if ((below && n == lo + 1) || (above && n == hi - 1)) r.rim |= bit;
-        if (n >= lo - 1 && n <= hi + 1) r.near |= bit;
-        const int there = 2 * (n - lo) + 1;
-        if (finest && there >= finest->lo[k] - 1 && there <= finest->hi[k] + 1) r.near_finest |= bit;
+    element_patch p;
+    int granule[3][PATCH];
+    for (int k = 0; k < 3; k++)
+        for (int j = 0; j < PATCH; j++) {
+            const int e = BRICK * at[k] + j - FIRST;
+            granule[k][j] = e >= 0 ? e / elements : -1;
+        }
+    for (int z = 0; z < PATCH; z++)
+        for (int y = 0; y < PATCH; y++) {
+            const bool as_below = z > 0 && granule[2][z] == granule[2][z - 1],
+                       as_before = y > 0 && granule[1][y] == granule[1][y - 1];
+            unsigned row = 0, bit = 0;
+            for (int x = 0; x < PATCH && !as_below && !as_before; x++) {
+                if (x == 0 || granule[0][x] != granule[0][x - 1])
+                    bit = granule_is_active(g, level, granule[0][x], granule[1][y], granule[2][z]);
+                row |= bit << x;
+            }
+            p.row[z][y] = as_below ? p.row[z - 1][y] : as_before ? p.row[z][y - 1] : (uint16_t)row;
+        }
+    return p;
+}
+
+static element_patch inverse(const element_patch *p)
+{
+    element_patch r;
+    for (int z = 0; z < PATCH; z++)
+        for (int y = 0; y < PATCH; y++) r.row[z][y] = (uint16_t)~p->row[z][y];
+    return r;
+}
+
+/* Nodes (bits) with a bit set among the elements `from` to `to` of each axis, counted from the node's FIRST. */
+static uint64_t any_around(const element_patch *p, int from, int to)
+{
+    uint64_t r = 0;
+    for (int z = 0; z < BRICK; z++)
+        for (int y = 0; y < BRICK; y++) {
+            unsigned row = 0, found = 0;
+            for (int k = z + from; k <= z + to; k++)
+                for (int j = y + from; j <= y + to; j++) row |= p->row[k][j];
+            for (int i = from; i <= to; i++) found |= row >> i;
+            r |= (uint64_t)(found & 0xf) << cell_index(0, y, z);
+        }
+    return r;
+}
+
+/* Elements that adjoin a node, those within two, and those within two of the next coarser level. */
+static uint64_t any_beside(const element_patch *p)
+{
+    return any_around(p, FIRST - 2, FIRST - 1);
+}
+static uint64_t any_near(const element_patch *p)
+{
+    return any_around(p, FIRST - 3, FIRST);
+}
+static uint64_t any_near_coarse(const element_patch *p)
+{
+    return any_around(p, FIRST - 5, FIRST + 2);
+}
+
+/* Which of a brick's nodes: all that exist, those but the ghosts, those at the place of a coarser node. */
+typedef enum { NODES_ALL, NODES_NO_GHOSTS, NODES_AT_COARSE } node_choice;
+
+static uint64_t nodes_there(const grid_level *g, const int at[3], node_choice which)
+{
+    uint64_t r = 0;
+    for (int c = 0; c < BRICK_CELLS; c++) {
+        const int in[3] = { c % BRICK, c / BRICK % BRICK, c / (BRICK * BRICK) };
+        bool there = true;
+        for (int k = 0; k < 3; k++) {
+            const int n = BRICK * at[k] + in[k];
+            there = there && n <= g->axes[k].last + 1;
+            if (which == NODES_NO_GHOSTS) there = there && n >= 1 && n <= g->axes[k].last;
+            if (which == NODES_AT_COARSE) there = there && n % 2;
+        }
+        r |= (uint64_t)there << c;
     }
     return r;
 }
 
-static uint64_t all_of(unsigned x, unsigned y, unsigned z)
+/* Of each cell the octants (bit 0: the upper half along x) that lie in elements of `p`. */
+static void mark_octants(const element_patch *p, uint8_t octants[BRICK_CELLS])
 {
-    uint64_t r = 0;
-    for (int c = 0; c < BRICK_CELLS; c++)
-        r |= (uint64_t)(x >> c % BRICK & y >> c / BRICK % BRICK & z >> c / (BRICK * BRICK) & 1) << c;
-    return r;
+    for (int c = 0; c < BRICK_CELLS; c++) {
+        const int x = c % BRICK + FIRST - 2, y = c / BRICK % BRICK + FIRST - 2, z = c / (BRICK * BRICK) + FIRST - 2;
+        for (int o = 0; o < 8; o++)
+            if (p->row[z + o / 4][y + o / 2 % 2] >> (x + o % 2) & 1) octants[c] |= (uint8_t)(1u << o);
+    }
 }
 
-static uint64_t any_of(unsigned x, unsigned y, unsigned z)
+/* Are granules of a level around a brick all active (1), none (0), or some (-1)?  As far as its elements reach. */
+static int all_alike(const grids *g, int level, const int at[3], int elements)
 {
-    return ~all_of(~x, ~y, ~z);
+    int lo[3], hi[3];
+    for (int k = 0; k < 3; k++) {
+        lo[k] = (BRICK * at[k] - FIRST + 64 * elements) / elements - 64;
+        hi[k] = (BRICK * at[k] + PATCH - 1 - FIRST) / elements;
+    }
+    const bool first = granule_is_active(g, level, lo[0], lo[1], lo[2]);
+    for (int z = lo[2]; z <= hi[2]; z++)
+        for (int y = lo[1]; y <= hi[1]; y++)
+            for (int x = lo[0]; x <= hi[0]; x++)
+                if (granule_is_active(g, level, x, y, z) != first) return -1;
+    return first;
 }
 
-seam_nodes mpm_interface_nodes(const mpm *m, int level, const int at[3])
+/* Has any granule of a level changed that holds elements `lo` to `hi` around a brick, counted from its first node's? */
+static bool any_changed(const grids *g, int level, const int at[3], int elements, int lo, int hi)
 {
-    const grid_level *g = &m->grids.level[level], *finer = level_at(m, level - 1), *finest = level_at(m, level - 2);
-    axis_nodes a[3];
-    for (int k = 0; k < 3; k++) a[k] = nodes_along(g, finer, finest, k, BRICK * at[k]);
-    seam_nodes s;
-    s.follow_coarser = any_of(a[0].beyond, a[1].beyond, a[2].beyond);
-    s.follow_finer = all_of(a[0].in, a[1].in, a[2].in);
-    s.lead_coarser = all_of(a[0].at, a[1].at, a[2].at) & any_of(a[0].at_rim, a[1].at_rim, a[2].at_rim);
-    s.lead_finer = all_of(a[0].near, a[1].near, a[2].near) & ~s.follow_finer;
-    s.follow_finer &= any_of(a[0].rim, a[1].rim, a[2].rim); /* no particle reaches further in */
-    s.twice_finer = s.follow_finer & all_of(a[0].near_finest, a[1].near_finest, a[2].near_finest);
+    int from[3], to[3];
+    for (int k = 0; k < 3; k++) {
+        from[k] = (BRICK * at[k] + lo + 64 * elements) / elements - 64;
+        to[k] = (BRICK * at[k] + hi) / elements;
+    }
+    for (int z = from[2]; z <= to[2]; z++)
+        for (int y = from[1]; y <= to[1]; y++)
+            for (int x = from[0]; x <= to[0]; x++)
+                if (granule_has_changed(g, level, x, y, z)) return true;
+    return false;
+}
+
+bool mpm_interface_changed(const mpm *m, const brick *b)
+{
+    const grids *g = &m->grids;
+    const int last = PATCH - 1 - FIRST;
+    return any_changed(g, b->level, b->at, GRANULE, -FIRST, last) ||
+           (b->level > 0 && any_changed(g, b->level - 1, b->at, GRANULE / 2, -FIRST, last)) ||
+           (b->level > 1 && any_changed(g, b->level - 2, b->at, 1, -2, BRICK - 1));
+}
+
+interface_nodes mpm_interface_nodes(const mpm *m, int level, const int at[3], uint8_t foreign[BRICK_CELLS])
+{
+    const grids *all = &m->grids;
+    const grid_level *g = &all->level[level];
+    interface_nodes s = { 0 };
+    const int here = all_alike(all, level, at, GRANULE),
+              there = level > 0 ? all_alike(all, level - 1, at, GRANULE / 2) : 0;
+    memset(foreign, 0, BRICK_CELLS);
+    if (here == 1 && there == 0) return s;
+    const uint64_t exist = nodes_there(g, at, NODES_ALL), at_coarse = nodes_there(g, at, NODES_AT_COARSE);
+    const element_patch active = patch_of(all, level, at, GRANULE), left = inverse(&active);
+    s.follow_coarser = any_beside(&left) & exist;
+    s.lead_coarser = at_coarse & ~any_beside(&left) & any_near_coarse(&left);
+    mark_octants(&left, foreign);
+    if (level == 0) return s;
+    const element_patch fine = patch_of(all, level - 1, at, GRANULE / 2), own = inverse(&fine);
+    /* a ghost lies a cell beyond the window, where the finer level has no node */
+    const uint64_t inside = ~any_beside(&own) & nodes_there(g, at, NODES_NO_GHOSTS);
+    s.lead_finer = any_near(&fine) & ~inside & exist;
+    s.follow_finer = inside & any_near(&own); /* no point of this level reaches further in */
+    mark_octants(&fine, foreign);
+    if (level == 1 || !s.follow_finer) return s;
+    const element_patch twice = patch_of(all, level - 2, at, 1);
+    s.twice_finer = s.follow_finer & any_beside(&twice);
     return s;
 }
 
@@ -145,9 +261,11 @@ static status make_bricks(mpm *m, int group, int level, const node_box *r)
         for (int y = r->lo[1] / BRICK; y <= r->hi[1] / BRICK; y++)
             for (int x = r->lo[0] / BRICK; x <= r->hi[0] / BRICK; x++) {
                 const int at[3] = { x, y, z };
-                const seam_nodes s = mpm_interface_nodes(m, level, at);
+                if (brick_at(m, group, level, at) >= 0) continue;
+                uint8_t foreign[BRICK_CELLS];
+                const interface_nodes s = mpm_interface_nodes(m, level, at, foreign);
                 int found;
-                if (seam_any(&s)) TRY(mpm_store_brick(m, group, level, at, &found));
+                if (interface_any(&s)) TRY(mpm_store_brick(m, group, level, at, &found));
             }
     return status_ok();
 }
@@ -155,15 +273,14 @@ static status make_bricks(mpm *m, int group, int level, const node_box *r)
 status mpm_interface_make_bricks(mpm *m, const brick *b)
 {
     const node_box reach = nodes_of(b->at, 1); /* of its particles */
-    const grid_level *g = &m->grids.level[b->level], *coarser = level_at(m, b->level + 1),
-                     *finer = level_at(m, b->level - 1);
+    const grid_level *coarser = level_at(m, b->level + 1), *finer = level_at(m, b->level - 1);
     if (coarser) {
-        const node_box c = to_coarse(g, &reach), there = existing(coarser, c);
+        const node_box c = to_coarse(&reach), there = existing(coarser, c);
         TRY(make_bricks(m, b->group, b->level + 1, &there));
     }
     if (finer) {
-        const node_box own = inside(reach, finer->lo, finer->hi), f = to_fine(finer, &own);
-        if (!is_empty(&own)) TRY(make_bricks(m, b->group, b->level - 1, &f));
+        const node_box f = to_fine(&reach), there = existing(finer, f);
+        TRY(make_bricks(m, b->group, b->level - 1, &there));
     }
     return status_ok();
 }
@@ -192,11 +309,11 @@ bool mpm_interface_in_contact(const mpm *m, const brick *b)
     const node_box near = nodes_of(b->at, REACH), own = existing(g, near);
     if (others_in(m, b->group, b->level, &own)) return true;
     if (coarser) {
-        const node_box c = to_coarse(g, &near), there = existing(coarser, c);
+        const node_box c = to_coarse(&near), there = existing(coarser, c);
         if (others_in(m, b->group, b->level + 1, &there)) return true;
     }
     if (finer) {
-        const node_box f = to_fine(finer, &near), there = existing(finer, f);
+        const node_box f = to_fine(&near), there = existing(finer, f);
         if (others_in(m, b->group, b->level - 1, &there)) return true;
     }
     return false;
@@ -273,7 +390,7 @@ static void hand_on(const mpm *m, const brick *from, int from_cell, const int f[
 {
     const grid_level *g = &m->grids.level[b->level], *finer = g - 1;
     const node_box own = nodes_of(b->at, 0), one = { { f[0], f[1], f[2] }, { f[0], f[1], f[2] } };
-    const node_box followed = to_coarse(finer, &one), c = inside(followed, own.lo, own.hi);
+    const node_box followed = to_coarse(&one), c = inside(followed, own.lo, own.hi);
     if (is_empty(&c)) return;
     double share = 1, slope[3][3] = { { 0 } };
     for (int k = 0; k < 3; k++)
@@ -296,7 +413,7 @@ static void hand_on(const mpm *m, const brick *from, int from_cell, const int f[
 static void receive_from_finer(const mpm *m, brick *b)
 {
     const grid_level *finer = &m->grids.level[b->level - 1];
-    node_box own = nodes_of(b->at, 0), r = to_fine(finer, &own);
+    node_box own = nodes_of(b->at, 0), r = to_fine(&own);
     for (int k = 0; k < 3; k++) r.lo[k]--, r.hi[k]++;
     r = existing(finer, r);
     for (int z = r.lo[2] / BRICK; z <= r.hi[2] / BRICK; z++)
@@ -305,7 +422,7 @@ static void receive_from_finer(const mpm *m, brick *b)
                 const int i = brick_at(m, b->group, b->level - 1, (const int[3]){ x, y, z });
                 if (i < 0) continue;
                 const brick *from = &m->bricks[i];
-                for (uint64_t set = from->seam.follow_coarser; set;) {
+                for (uint64_t set = from->interface.follow_coarser; set;) {
                     int node[3];
                     const int cell = next_node(from, &set, node);
                     if (from->line[cell][0] > 0) hand_on(m, from, cell, node, b);
@@ -317,11 +434,10 @@ static void receive_from_finer(const mpm *m, brick *b)
 static void receive_from_coarser(const mpm *m, brick *b)
 {
     static const double none[3] = { 0 };
-    const grid_level *g = &m->grids.level[b->level];
-    for (uint64_t set = b->seam.lead_coarser & mpm_substep_due(m, b); set;) {
+    for (uint64_t set = b->interface.lead_coarser & mpm_substep_due(m, b); set;) {
         int node[3];
         const int cell = next_node(b, &set, node);
-        const int c[3] = { g->lo[0] + node[0] / 2, g->lo[1] + node[1] / 2, g->lo[2] + node[2] / 2 };
+        const int c[3] = { 1 + node[0] / 2, 1 + node[1] / 2, 1 + node[2] / 2 };
         const brick *from = brick_with(m, b->group, b->level + 1, c);
         if (from && from->line[cell_of(c)][0] > 0) add_from(b, cell, from, cell_of(c), 1, none, none, 0);
     }
@@ -330,10 +446,10 @@ static void receive_from_coarser(const mpm *m, brick *b)
 void mpm_interface_add_sums(mpm *m, int site)
 {
     for (int f = 0; f < m->groups; f++) {
-        const int i = m->directory[f * m->grids.sites + site];
+        const int i = brick_of_site(m, site, f);
         if (i < 0) continue;
         brick *b = &m->bricks[i];
-        if (b->seam.lead_finer && b->level <= m->ends + 1) receive_from_finer(m, b);
+        if (b->interface.lead_finer && b->level <= m->ends + 1) receive_from_finer(m, b);
         receive_from_coarser(m, b);
     }
 }
@@ -348,16 +464,14 @@ static void add_node(double to[NODE], const mpm *m, const brick *b, int level, c
 
 static void follow_finer(const mpm *m, brick *b, int cell, const int node[3])
 {
-    const grid_level *finer = &m->grids.level[b->level - 1];
-    const int f[3] = { 2 * (node[0] - finer->lo[0]) + 1, 2 * (node[1] - finer->lo[1]) + 1,
-                       2 * (node[2] - finer->lo[2]) + 1 };
+    const int f[3] = { 2 * node[0] - 1, 2 * node[1] - 1, 2 * node[2] - 1 };
     add_node(brick_nodes(m, b)[cell], m, b, b->level - 1, f, 1);
 }
 
 static void follow_coarser(const mpm *m, brick *b, int cell, const int node[3])
 {
     const node_box f = { { node[0], node[1], node[2] }, { node[0], node[1], node[2] } };
-    const node_box c = to_coarse(&m->grids.level[b->level], &f);
+    const node_box c = to_coarse(&f);
     double share = 1;
     for (int k = 0; k < 3; k++) share *= c.lo[k] < c.hi[k] ? 0.5 : 1;
     for (int z = c.lo[2]; z <= c.hi[2]; z++)
@@ -369,15 +483,15 @@ static void follow_coarser(const mpm *m, brick *b, int cell, const int node[3])
 void mpm_interface_constrain(mpm *m, int site)
 {
     for (int f = 0; f < m->groups; f++) {
-        const int i = m->directory[f * m->grids.sites + site];
+        const int i = brick_of_site(m, site, f);
         if (i < 0) continue;
         brick *b = &m->bricks[i];
-        for (uint64_t set = (b->seam.follow_finer | b->seam.follow_coarser) & mpm_substep_due(m, b); set;) {
+        for (uint64_t set = (b->interface.follow_finer | b->interface.follow_coarser) & mpm_substep_due(m, b); set;) {
             int node[3];
             const int cell = next_node(b, &set, node);
             memset(brick_nodes(m, b)[cell], 0, NODE * sizeof(double));
             if (!(b->line[cell][0] > 0)) continue;
-            if (b->seam.follow_finer >> cell & 1)
+            if (b->interface.follow_finer >> cell & 1)
                 follow_finer(m, b, cell, node);
             else
                 follow_coarser(m, b, cell, node);

@@ -1,8 +1,8 @@
 /* Steps of levels.  Cells of a level are twice as wide as those of the next finer one, and so its steps are twice as
  * long: particles give to the grid at the start of their level's step and take from it at the end.  Nodes that two
- * levels share (seams.c) make the finer one's steps d, and in each have what the finer particles give anew, and what
- * the coarser ones gave at the start of theirs, D: m, p, f, K.  Of that, mass and force stay; momentum and energy go
- * with the node,
+ * levels share (interface.c) make the finer one's steps d, and in each have what the finer particles give anew, and
+ * what the coarser ones gave at the start of theirs, D: m, p, f, K.  Of that, mass and force stay; momentum and energy
+ * go with the node,
  *   p <- m u,   K <- m [E - (v^2 - u^2)/2],   u = v - b,   b = d (u . grad) v,
  * v and E the node's after its step.  b: the coarser particles' nodes have gone on by d v since, the finer ones' are
  * made anew at their places, and a motion that is linear in space must look the same to both.  At the end the coarser
@@ -19,13 +19,13 @@
 uint64_t mpm_substep_due(const mpm *m, const brick *b)
 {
     if (b->level <= m->ends) return ~0ull;
-    if (b->level == m->ends + 1) return seam_shared(&b->seam);
-    return b->level == m->ends + 2 ? b->seam.twice_finer : 0;
+    if (b->level == m->ends + 1) return interface_shared(&b->interface);
+    return b->level == m->ends + 2 ? b->interface.twice_finer : 0;
 }
 
 double mpm_substep_dt(const mpm *m, const brick *b, int cell)
 {
-    const int finer = (seam_shared(&b->seam) >> cell & 1) + (b->seam.twice_finer >> cell & 1);
+    const int finer = (interface_shared(&b->interface) >> cell & 1) + (b->interface.twice_finer >> cell & 1);
     return level_dt(m, b->level - finer);
 }
 
@@ -58,13 +58,13 @@ static void hold(const mpm *m, brick *b)
     if (!b->across) memset(b->held->line[BRICK_CELLS], 0, BRICK_CELLS * sizeof b->held->line[0]);
     memset(b->held->drift, 0, sizeof b->held->drift);
     memset(b->held->owed, 0, sizeof b->held->owed);
-    for (uint64_t set = seam_shared(&b->seam); set; set &= set - 1) hold_node(m, b, __builtin_ctzll(set));
+    for (uint64_t set = interface_shared(&b->interface); set; set &= set - 1) hold_node(m, b, __builtin_ctzll(set));
 }
 
 void mpm_substep_restore(mpm *m, int site)
 {
     for (int f = 0; f < m->groups; f++) {
-        const int i = m->directory[f * m->grids.sites + site];
+        const int i = brick_of_site(m, site, f);
         brick *b = i >= 0 ? &m->bricks[i] : NULL;
         if (!b || !b->held) continue;
         if (b->level <= m->begins) hold(m, b);
@@ -128,10 +128,10 @@ static void pay_node(const mpm *m, brick *b, int cell)
 void mpm_substep_store(mpm *m, int site)
 {
     for (int f = 0; f < m->groups; f++) {
-        const int i = m->directory[f * m->grids.sites + site];
+        const int i = brick_of_site(m, site, f);
         brick *b = i >= 0 ? &m->bricks[i] : NULL;
         if (!b || !b->held) continue;
-        for (uint64_t set = seam_shared(&b->seam) & mpm_substep_due(m, b); set; set &= set - 1) {
+        for (uint64_t set = interface_shared(&b->interface) & mpm_substep_due(m, b); set; set &= set - 1) {
             const int cell = __builtin_ctzll(set);
             if (!(b->held->line[cell][0] > 0)) continue;
             if (b->level <= m->ends)
