@@ -106,6 +106,9 @@ typedef struct {
      * until `zone_until`, and where the rules ask for them; elsewhere cells twice, four times, ... as large. */
     int levels;
     double zone_until; /* [s] */
+    /* The planes of the grid, of all levels, moved along each axis by a share of the finest cell; the window's ends and
+     * the bodies stay where they are [1] */
+    double grid_shift[3];
     mpm_follow follow;
     double contact_gap;     /* groups touch when the distance of their points' means at a node is below this [cells] */
     int particles_per_axis; /* material points a cell and axis, 2 or 3 */

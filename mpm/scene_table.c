@@ -81,6 +81,7 @@ const param mpm_follow_params[] = {
 const param mpm_scene_params[] = {
     PARAM_INT(mpm_scene, levels, 1, 1, MPM_MAX_LEVELS, "of the grid, each with cells twice as large"),
     PARAM_DOUBLE(mpm_scene, zone_until, "s", 1e6, 0.0, 1e6, "until then the fine zones' cells stay small, with levels"),
+    PARAM_VEC3(mpm_scene, grid_shift, "1", 0.0, 0.0, 1.0, "of the grid's planes along x, y, z, in finest cells"),
     PARAM_DOUBLE(mpm_scene, surroundings, "Pa", OPTIONAL, 0.0, 1e12, "absolute pressure around the bodies"),
     PARAM_DOUBLE(mpm_scene, contact_gap, "1", 0.9, 0.0, 10.0, "in cells: nearer groups touch"),
     PARAM_INT(mpm_scene, particles_per_axis, 2, 1, 4, "material points a cell and axis"),

@@ -368,18 +368,24 @@ static void test_grid(void **state)
     }
 }
 
-/* The layout leaves room for all levels asked for. */
+/* The layout leaves room for all levels asked for, shifted or not, with the mirror where it was. */
 static void test_levels(void **state)
 {
     (void)state;
+    static const double shift[3] = { 0.3, 0.6, 0.9 };
     for (int k = 0; k < VARIANTS; k++) {
         made m = make(variants[k]);
-        for (int levels = 1; levels <= 4; levels++) {
+        for (int trial = 0; trial < 8; trial++) {
             grids g;
+            const int levels = 1 + trial / 2;
             m.c->scene.levels = levels;
+            for (int a = 0; a < 3; a++) m.c->scene.grid_shift[a] = trial % 2 ? shift[a] : 0.0;
             OK(make_again(&m, m.c->scene.cells_per_radius));
             OK(mpm_grids_make(&m.gouge.scene, &g));
             assert_int_equal(g.levels, m.gouge.scene.basis == BASIS_GIMP ? levels : 1);
+            assert_memory_equal(m.gouge.scene.grid_shift, m.c->scene.grid_shift, sizeof shift);
+            for (int a = 0; a < 3; a++)
+                for (int i = 0; i < g.levels; i++) assert_true(g.level[i].axes[a].node[1] == m.gouge.scene.axis[a].lo);
             mpm_grids_free(&g);
         }
         unmake(&m);

@@ -168,6 +168,7 @@ typedef struct {
     double coarse_cell;             /* largest cell [m] */
     int levels;                     /* of nested grids: 1 .. 3 [1] */
     double refine_tolerance;        /* share of the velocity that plastic flow may change across a cell [1] */
+    double grid_shift[3];           /* of the grid's planes along x, y, z, in finest cells [1] */
     double growth;                  /* ratio of neighbouring cells outside the fine zone [1] */
     bool follow;                    /* the groove's growth past the grain is gauged */
     double rail_ahead, rail_behind; /* ends of the rail modelled, from the grain's middle [m] */

@@ -22,6 +22,8 @@ const param case_method_params[] = {
               "of the grid, each with cells twice as large; 0: 1 without `refine`, else as coarse_cell allows"),
     PARAM_DOUBLE(mpm_scene, zone_until, "s", OPTIONAL, 0.0, 1e6,
                  "until then cells are small in the zone of the window, with levels; not given: 0 with `refine`"),
+    PARAM_VEC3(mpm_scene, grid_shift, "1", 0.0, 0.0, 1.0,
+               "of the grid's planes along x, y, z, in finest cells; the window's ends and the bodies stay"),
     PARAM_DOUBLE(mpm_scene, courant, "1", 0.4, 0.01, 0.95, "Courant number of c + |v|"),
     PARAM_DOUBLE(mpm_scene, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),
     PARAM_DOUBLE(mpm_scene, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),

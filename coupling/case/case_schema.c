@@ -127,6 +127,8 @@ static const param scene_params[] = {
               "of the grid, each with cells twice as large, the finest where metal flows; 0: as coarse_cell allows"),
     PARAM_DOUBLE(case_scene, refine_tolerance, "1", 0.1, 1e-4, 1.0,
                  "share of the armature's velocity that plastic flow may change across a cell"),
+    PARAM_VEC3(case_scene, grid_shift, "1", 0.0, 0.0, 1.0,
+               "of the grid's planes along x, y, z, in finest cells; the window's ends and the bodies stay"),
     PARAM_DOUBLE(case_scene, growth, "1", 1.2, 1.0, 2.0,
                  "ratio of neighbouring cells outside the fine zone, one level"),
     PARAM_BOOL(case_scene, follow, 1, "the groove is followed: its growth past the grain is gauged"),

@@ -418,6 +418,7 @@ static void set_method(const case_impact *c, const layout *l, gouge_scene *g)
     s->transfer = (transfer_kind)from->transfer;
     s->basis = (basis_kind)from->basis;
     s->levels = l->levels;
+    memcpy(s->grid_shift, from->grid_shift, sizeof s->grid_shift);
     s->heat_by_plastic_work = from->heat_by_plastic_work;
     const double passage = gouge_crossing_time(g) + c->armature.length / g->velocity;
     s->end_time = given_or(from->end_time, from->follow ? l->passage / g->velocity

@@ -10,6 +10,8 @@ enum { MAX_NODES = 20000 };
  * it spans its cell; outside it may: one or two points a cell and axis, so that eight lanes of a block hold a cell. */
 static const double LONGEST_FINE = 0.8, LONGEST_COARSE = 1.0;
 
+static const double LEAST = 0.7; /* the shortest element between a shifted zone and the window's end, of its cells */
+
 /* Spacings from the fine zone outwards until they cover `length`, then scaled to end on it.  Returns their number. */
 static int grade(const mpm_axis *s, double length, double *spacing)
 {
@@ -87,16 +89,27 @@ void mpm_axis_allow_long(axis *a)
     bear(a, 0);
 }
 
-status mpm_axis_make(const mpm_axis *spec, char letter, axis *out)
+/* As grade, of a zone that may be shifted: what lies between it and an end that it reached is one element. */
+static int grade_to_end(const mpm_axis *s, bool shifted, double length, double *spacing)
 {
-    memset(out, 0, sizeof *out);
-    TRY(check(spec, letter));
+    if (!shifted || length >= (1 + LEAST) * s->fine) return grade(s, length, spacing);
+    spacing[0] = length;
+    return 1;
+}
+
+static int fine_cells(const mpm_axis *s)
+{
+    return (int)fmax(1, round((s->fine_hi - s->fine_lo) / s->fine));
+}
+
+static status make(const mpm_axis *spec, bool shifted, axis *out)
+{
     double *below = malloc(2 * MAX_NODES * sizeof *below);
     CHECK(below, STATUS_MEMORY, "no memory for a grid axis");
     double *above = below + MAX_NODES;
-    const int n_below = grade(spec, spec->fine_lo - spec->lo, below);
-    const int n_above = grade(spec, spec->hi - spec->fine_hi, above);
-    const int n_fine = (int)fmax(1, round((spec->fine_hi - spec->fine_lo) / spec->fine));
+    const int n_below = grade_to_end(spec, shifted, spec->fine_lo - spec->lo, below);
+    const int n_above = grade_to_end(spec, shifted, spec->hi - spec->fine_hi, above);
+    const int n_fine = fine_cells(spec);
     out->last = 1 + n_below + n_fine + n_above;
     const status s = allocate(out);
     if (s.code == STATUS_OK) {
@@ -113,6 +126,30 @@ status mpm_axis_make(const mpm_axis *spec, char letter, axis *out)
     }
     free(below);
     return s;
+}
+
+status mpm_axis_make(const mpm_axis *spec, char letter, axis *out)
+{
+    memset(out, 0, sizeof *out);
+    TRY(check(spec, letter));
+    return make(spec, false, out);
+}
+
+status mpm_axis_make_shifted(const mpm_axis *spec, double shift, char letter, axis *out)
+{
+    TRY(mpm_axis_make(spec, letter, out)); /* the errors of the case's own zone come first */
+    if (!(shift > 0)) return status_ok();
+    mpm_axis_free(out);
+    mpm_axis moved = *spec;
+    moved.fine = (spec->fine_hi - spec->fine_lo) / fine_cells(spec);
+    moved.coarse = fmax(spec->coarse, moved.fine);
+    moved.fine_lo += shift * moved.fine, moved.fine_hi += shift * moved.fine;
+    while (moved.fine_lo - spec->lo < LEAST * moved.fine) moved.fine_lo += moved.fine;
+    while (spec->hi - moved.fine_hi < LEAST * moved.fine) moved.fine_hi -= moved.fine;
+    CHECK(moved.fine_hi - moved.fine_lo > 0.5 * moved.fine, STATUS_BAD_INPUT,
+          "cells along %c: %g m of window are too few of %g m for a grid that is shifted", letter, spec->hi - spec->lo,
+          moved.fine);
+    return make(&moved, true, out);
 }
 
 status mpm_axis_bisect(const axis *coarse, axis *out)

@@ -17,6 +17,9 @@ typedef struct {
 } axis;
 
 status mpm_axis_make(const mpm_axis *spec, char letter, axis *out);
+/* The same with the fine zone, and so all planes but the ends, moved up by `shift` (0 .. 1) of its cells.  An end that
+ * the zone reaches stays where it is; the element beside it is 0.7 to 1.7 cells wide. */
+status mpm_axis_make_shifted(const mpm_axis *spec, double shift, char letter, axis *out);
 /* Cells half as wide: the nodes of `coarse` and the middles between them. */
 status mpm_axis_bisect(const axis *coarse, axis *out);
 void mpm_axis_allow_long(axis *a); /* no zone of fine cells: a point may be as long as its cell */

@@ -25,7 +25,8 @@ static double origin_of(const mpm_axis *s)
 static status make_coarsest(const mpm_scene *s, int k, axis *out)
 {
     const mpm_axis *spec = &s->axis[k];
-    const double cell = spec->fine * (1 << (s->levels - 1)), origin = origin_of(spec);
+    const double cell = spec->fine * (1 << (s->levels - 1));
+    const double origin = origin_of(spec) + s->grid_shift[k] * spec->fine;
     double first = ceil((spec->lo - origin) / cell - ROUND), last = floor((spec->hi - origin) / cell + ROUND);
     const double below = first - (spec->lo - origin) / cell, above = (spec->hi - origin) / cell - last;
     CHECK(spec->fine > 0 && spec->hi > spec->lo && last - first >= 2, STATUS_BAD_INPUT,
@@ -45,7 +46,8 @@ static status make_coarsest(const mpm_scene *s, int k, axis *out)
 
 static status make_axes(const mpm_scene *s, int k, grids *g)
 {
-    if (g->levels == 1) return mpm_axis_make(&s->axis[k], axis_letters[k], &g->level[0].axes[k]);
+    if (g->levels == 1)
+        return mpm_axis_make_shifted(&s->axis[k], s->grid_shift[k], axis_letters[k], &g->level[0].axes[k]);
     TRY(make_coarsest(s, k, &g->level[g->levels - 1].axes[k]));
     for (int i = g->levels - 2; i >= 0; i--) {
         TRY(mpm_axis_bisect(&g->level[i + 1].axes[k], &g->level[i].axes[k]));
@@ -188,15 +190,21 @@ status mpm_grids_nest(grids *g)
 
 /* ---- */
 
-static status make(const mpm_scene *s, grids *out)
+status mpm_grids_activate_zone(grids *g, const mpm_scene *s)
 {
     double lo[3], hi[3];
     for (int k = 0; k < 3; k++) {
-        TRY(make_axes(s, k, out));
-        lo[k] = s->axis[k].fine_lo, hi[k] = s->axis[k].fine_hi;
+        const mpm_axis *a = &s->axis[k];
+        lo[k] = a->fine_lo + s->grid_shift[k] * a->fine, hi[k] = a->fine_hi + s->grid_shift[k] * a->fine;
     }
+    return mpm_grids_activate(g, 0, lo, hi);
+}
+
+static status make(const mpm_scene *s, grids *out)
+{
+    for (int k = 0; k < 3; k++) TRY(make_axes(s, k, out));
     TRY(make_tables(out));
-    if (s->zone_until > 0) TRY(mpm_grids_activate(out, 0, lo, hi));
+    if (s->zone_until > 0) TRY(mpm_grids_activate_zone(out, s));
     return mpm_grids_nest(out);
 }
 

@@ -56,6 +56,8 @@ status mpm_grids_nest(grids *g);
 
 /* Makes a level active in all granules that hold a part of the box [m]. */
 status mpm_grids_activate(grids *g, int level, const double lo[3], const double hi[3]);
+/* The finest level where the fine zones of all three axes meet, moved with the grid. */
+status mpm_grids_activate_zone(grids *g, const mpm_scene *s);
 
 /* The pages of another grid of the same axes, with their numbers; nothing is active.  STATUS_IO: not of these axes. */
 status mpm_grids_take_pages(grids *g, const grid_page *page, int pages);

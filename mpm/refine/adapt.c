@@ -89,10 +89,7 @@ static status ask_rules(mpm *m)
 
 static status ask_zone(mpm *m)
 {
-    double lo[3], hi[3];
-    if (m->time >= m->scene.zone_until) return status_ok();
-    for (int k = 0; k < 3; k++) lo[k] = m->scene.axis[k].fine_lo, hi[k] = m->scene.axis[k].fine_hi;
-    return mpm_grids_activate(&m->grids, 0, lo, hi);
+    return m->time < m->scene.zone_until ? mpm_grids_activate_zone(&m->grids, &m->scene) : status_ok();
 }
 
 /* ---- points to their levels ---- */
