@@ -78,7 +78,7 @@ static status check_scene(const mpm_scene *s)
           s->transfer == TRANSFER_PIC ? "pic"
           : s->basis == BASIS_BSPLINE ? "bspline"
                                       : "no scheme");
-    TRY(base_params_check(mpm_scene_params, s, "scene"));
+    TRY(base_params_check(&mpm_scene_params[MPM_SCENE_HASHED], s, "scene"));
     TRY(base_params_check(mpm_follow_params, &s->follow, "follow"));
     CHECK(s->follow.along != s->follow.across, STATUS_BAD_INPUT, "follow: along and across are the same axis");
     for (int i = 0; i < s->bodies; i++) TRY(check_body(s, i, groups));
@@ -271,6 +271,7 @@ status mpm_create(const mpm_scene *scene, int threads, mpm **out)
     mpm_set_threads(m, threads);
     m->kernel = kernel;
     status s = mpm_scene_copy(scene, &m->scene);
+    mpm_scene_levels_fill(&m->scene);
     if (s.code == STATUS_OK) s = fill(m);
     if (s.code != STATUS_OK) {
         mpm_free(m);

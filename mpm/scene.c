@@ -10,7 +10,6 @@ void mpm_scene_default(mpm_scene *s)
     memset(s, 0, sizeof *s);
     s->contact = mpm_contact_of(mpm_contact_find("coulomb"));
     base_params_default(mpm_scene_params, s);
-    base_params_default(mpm_scene_run_params, s);
     base_params_default(mpm_follow_params, &s->follow);
 }
 
@@ -108,6 +107,18 @@ bool mpm_scene_follows(const mpm_scene *s)
     for (int i = 0; i < s->bodies; i++)
         if (s->body[i].followed) return true;
     return false;
+}
+
+static const double ALWAYS = 1e6; /* [s] */
+
+void mpm_scene_levels_fill(mpm_scene *s)
+{
+    const double fine = s->axis[0].fine, coarse = s->axis[0].coarse * (1.0 + 1e-9);
+    if (isnan(s->zone_until)) s->zone_until = s->refines > 0 ? 0.0 : ALWAYS;
+    if (s->levels > 0) return;
+    s->levels = 1;
+    if (s->refines == 0 || s->basis != BASIS_GIMP) return;
+    while (s->levels < MPM_MAX_LEVELS && fine * (1 << s->levels) <= coarse) s->levels++;
 }
 
 static status duplicate(const void *from, int n, size_t size, void **to)

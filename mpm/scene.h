@@ -103,9 +103,10 @@ typedef struct {
     mpm_contact contact; /* of two groups that no pair names, with the normal of the lower one */
     mpm_axis axis[3];
     /* Of the grid (grid/grid.h).  1: the axes' grid.  More: cells of `fine` where the fine zones of all axes meet,
-     * until `zone_until`, and where the rules ask for them; elsewhere cells twice, four times, ... as large. */
+     * until `zone_until`, and where the rules ask for them; elsewhere cells twice, four times, ... as large.
+     * 0: mpm_scene_levels_fill says how many. */
     int levels;
-    double zone_until; /* [s] */
+    double zone_until; /* NAN: 0 with rules, else for good [s] */
     /* The planes of the grid, of all levels, moved along each axis by a share of the finest cell; the window's ends and
      * the bodies stay where they are [1] */
     double grid_shift[3];
@@ -113,7 +114,7 @@ typedef struct {
     double contact_gap;     /* groups touch when the distance of their points' means at a node is below this [cells] */
     int particles_per_axis; /* material points a cell and axis, 2 or 3 */
     double courant;         /* of c + |v|, on each level by its own steps and cells */
-    double end_time;        /* [s] */
+    double end_time;        /* of the run, for whoever calls mpm_advance; NAN: not said [s] */
     double viscosity_linear, viscosity_quadratic; /* (M-5) [1] */
     double surroundings; /* absolute pressure around the bodies; NAN: that at which each gas is at rest [Pa] */
     transfer_kind transfer;
@@ -124,6 +125,10 @@ typedef struct {
 
 /* All members at their defaults, frictionless contact, no bodies.  What `s` held before is not freed. */
 void mpm_scene_default(mpm_scene *s);
+
+/* The grid's levels, and until when the zone keeps its cells, where the scene leaves them open: as many levels as a
+ * doubling of the finest cells makes of the coarsest where there are rules, else one. */
+void mpm_scene_levels_fill(mpm_scene *s);
 
 /* One more body, solid or pair, at its defaults, behind the others.  *added is valid until the next of its kind.
  * A solid is made of those at the places a and b (-1: none); its own place is s->solids - 1. */
@@ -138,13 +143,15 @@ status mpm_scene_add_pair(mpm_scene *s, int a, int b, mpm_pair **added); /* as t
 /* How these two groups touch: the scene's pair, or what holds for those without one. */
 mpm_pair mpm_scene_contact(const mpm_scene *s, int a, int b);
 
-/* Every member of a scene's structs once: name, unit, default, range, offset.  The run's members, and only they, change
- * nothing of what a scene is at a time, and no key.  Solids' values and contacts' are in their kinds' and laws' tables,
- * materials in mpm_material_params. */
-enum { MPM_BODY_KEYED = 8 }; /* rows of mpm_body_params from here on are keys of a body in a case file too */
-extern const char *const mpm_face_names[]; /* -x +x -y +y -z +z, NULL */
-extern const param mpm_body_params[], mpm_axis_params[], mpm_pair_params[], mpm_follow_params[], mpm_scene_params[],
-    mpm_scene_run_params[];
+/* Every member of a scene's structs once: name, unit, default, range, offset.  Solids' values and contacts' are in
+ * their kinds' and laws' tables, materials in mpm_material_params.  From row MPM_.._KEYED on, the rows are the keys of
+ * a case file too.  The members before MPM_SCENE_HASHED change nothing of what a scene is at a time: they are not in
+ * its hash. */
+enum { MPM_BODY_KEYED = 8, MPM_AXIS_KEYED = 4, MPM_SCENE_KEYED = 1, MPM_SCENE_HASHED = 2 };
+extern const param mpm_body_params[], mpm_axis_params[], mpm_pair_params[], mpm_follow_params[], mpm_scene_params[];
+/* Names of choices, NULL at the end: -x +x -y +y -z +z; x y z; and of the enumerators above. */
+extern const char *const mpm_face_names[], *const mpm_axis_names[];
+extern const char *const mpm_boundary_names[], *const mpm_transfer_names[], *const mpm_basis_names[];
 
 uint64_t mpm_scene_hash(const mpm_scene *s); /* of every member but the run's; needs all materials, kinds and laws */
 

@@ -7,10 +7,13 @@
 #include <string.h>
 
 const char *const mpm_face_names[] = { "-x", "+x", "-y", "+y", "-z", "+z", NULL };
-static const char *const axes[] = { "x", "y", "z", NULL };
-static const char *const boundaries[] = { "free", "symmetry", "fixed", "absorbing", "prescribed", NULL };
-static const char *const transfers[] = { "tpic", "pic", NULL };
-static const char *const bases[] = { "gimp", "bspline", NULL };
+const char *const mpm_axis_names[] = { "x", "y", "z", NULL };
+const char *const mpm_boundary_names[] = {
+    [BOUNDARY_FREE] = "free",           [BOUNDARY_SYMMETRY] = "symmetry",     [BOUNDARY_FIXED] = "fixed",
+    [BOUNDARY_ABSORBING] = "absorbing", [BOUNDARY_PRESCRIBED] = "prescribed", NULL
+};
+const char *const mpm_transfer_names[] = { [TRANSFER_TPIC] = "tpic", [TRANSFER_PIC] = "pic", NULL };
+const char *const mpm_basis_names[] = { [BASIS_GIMP] = "gimp", [BASIS_BSPLINE] = "bspline", NULL };
 
 /* A row whose key is not its member's name. */
 #define ROW(type, key_, member, unit_, kind_, fallback_, min_, max_, doc_)                                        \
@@ -19,11 +22,13 @@ static const char *const bases[] = { "gimp", "bspline", NULL };
         .min = (min_), .max = (max_), .kind = (kind_)                                                             \
     }
 #define PASSES(face, key_) ROW(mpm_body, key_, passes[face], "1", PARAM_FLAG, 0, 0, 1, "that end does not act on it")
-#define BOUNDARY(end, key_)                                                                                  \
-    {                                                                                                        \
-        .key = (key_), .unit = "1", .doc = "what acts at that end of the window",                            \
-        .offset = offsetof(mpm_axis, boundary[end]), .max = 1e9, .kind = PARAM_CHOICE, .choices = boundaries \
+#define BOUNDARY(end, key_)                                                                                          \
+    {                                                                                                                \
+        .key = (key_), .unit = "1", .doc = "what acts at that end of the window",                                    \
+        .offset = offsetof(mpm_axis, boundary[end]), .max = 1e9, .kind = PARAM_CHOICE, .choices = mpm_boundary_names \
     }
+#define CELLS(key_, member, unit_, min_, max_, doc_) \
+    ROW(mpm_axis, key_, member, unit_, PARAM_NUMBER, OPTIONAL, min_, max_, doc_)
 
 const param mpm_body_params[] = {
     PARAM_INT(mpm_body, solid, -1, 0, 1e9, "root of its volume among the scene's solids"),
@@ -51,17 +56,18 @@ const param mpm_body_params[] = {
 };
 
 const param mpm_axis_params[] = {
-    PARAM_DOUBLE(mpm_axis, lo, "m", REQUIRED, -1e6, 1e6, "lower end of the window"),
-    PARAM_DOUBLE(mpm_axis, hi, "m", REQUIRED, -1e6, 1e6, "upper end of the window"),
-    PARAM_DOUBLE(mpm_axis, fine_lo, "m", REQUIRED, -1e6, 1e6, "lower end of the fine zone"),
-    PARAM_DOUBLE(mpm_axis, fine_hi, "m", REQUIRED, -1e6, 1e6, "upper end of the fine zone"),
-    PARAM_DOUBLE(mpm_axis, fine, "m", REQUIRED, 1e-9, 1e6, "size of its cells"),
-    PARAM_DOUBLE(mpm_axis, coarse, "m", REQUIRED, 1e-9, 1e6, "largest cell outside it"),
-    PARAM_DOUBLE(mpm_axis, growth, "1", 1.2, 1.0, 2.0, "ratio of neighbouring cells outside it"),
     BOUNDARY(0, "boundary_lo"),
     BOUNDARY(1, "boundary_hi"),
-    ROW(mpm_axis, "boundary_velocity_lo", boundary_velocity[0], "m/s", PARAM_VECTOR, 0, -1e6, 1e6, "if prescribed"),
-    ROW(mpm_axis, "boundary_velocity_hi", boundary_velocity[1], "m/s", PARAM_VECTOR, 0, -1e6, 1e6, "if prescribed"),
+    ROW(mpm_axis, "boundary_velocity_lo", boundary_velocity[0], "m/s", PARAM_VECTOR, 0, -1e5, 1e5, "if prescribed"),
+    ROW(mpm_axis, "boundary_velocity_hi", boundary_velocity[1], "m/s", PARAM_VECTOR, 0, -1e5, 1e5, "if prescribed"),
+    /* MPM_AXIS_KEYED */
+    CELLS("lo", lo, "m", -1e3, 1e3, "lower end of the window"),
+    CELLS("hi", hi, "m", -1e3, 1e3, "upper end of the window"),
+    CELLS("fine_lo", fine_lo, "m", -1e3, 1e3, "lower end of the zone of fine cells"),
+    CELLS("fine_hi", fine_hi, "m", -1e3, 1e3, "upper end of it"),
+    CELLS("cell", fine, "m", 1e-9, 1e2, "cells in that zone"),
+    CELLS("coarse_cell", coarse, "m", 1e-9, 1e2, "largest cells outside it"),
+    CELLS("growth", growth, "1", 1.0, 2.0, "ratio of neighbouring cells outside it"),
     PARAMS_END,
 };
 
@@ -73,30 +79,34 @@ const param mpm_pair_params[] = {
 };
 
 const param mpm_follow_params[] = {
-    PARAM_ENUM(mpm_follow, along, axes, 0, "axis along which a plastic front is looked for"),
-    PARAM_ENUM(mpm_follow, across, axes, 2, "axis across it"),
+    PARAM_ENUM(mpm_follow, along, mpm_axis_names, 0, "axis along which a plastic front is looked for"),
+    PARAM_ENUM(mpm_follow, across, mpm_axis_names, 2,
+               "axis across it: what the ends of the window take there does not count"),
     PARAMS_END,
 };
 
 const param mpm_scene_params[] = {
-    PARAM_INT(mpm_scene, levels, 1, 1, MPM_MAX_LEVELS, "of the grid, each with cells twice as large"),
-    PARAM_DOUBLE(mpm_scene, zone_until, "s", 1e6, 0.0, 1e6, "until then the fine zones' cells stay small, with levels"),
-    PARAM_VEC3(mpm_scene, grid_shift, "1", 0.0, 0.0, 1.0, "of the grid's planes along x, y, z, in finest cells"),
-    PARAM_DOUBLE(mpm_scene, surroundings, "Pa", OPTIONAL, 0.0, 1e12, "absolute pressure around the bodies"),
-    PARAM_DOUBLE(mpm_scene, contact_gap, "1", 0.9, 0.0, 10.0, "in cells: nearer groups touch"),
-    PARAM_INT(mpm_scene, particles_per_axis, 2, 1, 4, "material points a cell and axis"),
-    PARAM_DOUBLE(mpm_scene, courant, "1", 0.4, 0.0, 0.6, "of sound speed and velocity"),
-    PARAM_DOUBLE(mpm_scene, viscosity_linear, "1", 0.2, 0.0, 10.0, "artificial viscosity"),
-    PARAM_DOUBLE(mpm_scene, viscosity_quadratic, "1", 2.0, 0.0, 100.0, "artificial viscosity"),
-    PARAM_ENUM(mpm_scene, transfer, transfers, TRANSFER_TPIC, "with or without the velocity gradient"),
-    PARAM_ENUM(mpm_scene, basis, bases, BASIS_GIMP, "shape functions"),
-    PARAM_BOOL(mpm_scene, heat_by_plastic_work, 0, "temperature from a share of the plastic work"),
-    PARAMS_END,
-};
-
-const param mpm_scene_run_params[] = {
-    PARAM_DOUBLE(mpm_scene, end_time, "s", 0.0, 0.0, 1e6, "end of the scene"),
     PARAM_STRING(mpm_scene, instruction_set, "", "that the kernels run in; empty: the best of this machine"),
+    /* MPM_SCENE_KEYED */
+    PARAM_DOUBLE(mpm_scene, end_time, "s", REQUIRED, 1e-12, 1e3, "time that is simulated"),
+    /* MPM_SCENE_HASHED */
+    PARAM_INT(mpm_scene, levels, 0, 0, MPM_MAX_LEVELS,
+              "of the grid, each with cells twice as large; 0: 1 without `refine`, else as coarse_cell allows"),
+    PARAM_DOUBLE(mpm_scene, zone_until, "s", OPTIONAL, 0.0, 1e6,
+                 "until then cells are small in the zone of the window, with levels; not given: 0 with `refine`"),
+    PARAM_VEC3(mpm_scene, grid_shift, "1", 0.0, 0.0, 1.0,
+               "of the grid's planes along x, y, z, in finest cells; the window's ends and the bodies stay"),
+    PARAM_DOUBLE(mpm_scene, courant, "1", 0.4, 0.01, 0.6, "Courant number of c + |v|"),
+    PARAM_DOUBLE(mpm_scene, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),
+    PARAM_DOUBLE(mpm_scene, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),
+    PARAM_INT(mpm_scene, particles_per_axis, 2, 2, 3, "material points a cell and axis"),
+    PARAM_DOUBLE(mpm_scene, surroundings, "Pa", OPTIONAL, 0.0, 1e12,
+                 "absolute pressure around the bodies, from which pressures count; not given: that at which each gas "
+                 "is at rest"),
+    PARAM_DOUBLE(mpm_scene, contact_gap, "1", 0.9, 0.0, 3.0, "groups touch when nearer than this, in cells"),
+    PARAM_ENUM(mpm_scene, transfer, mpm_transfer_names, TRANSFER_TPIC, "how velocity goes between points and grid"),
+    PARAM_ENUM(mpm_scene, basis, mpm_basis_names, BASIS_GIMP, "shape functions"),
+    PARAM_BOOL(mpm_scene, heat_by_plastic_work, 0, "(M-4) temperature by plastic work; no: by energy"),
     PARAMS_END,
 };
 
@@ -155,7 +165,7 @@ static uint64_t hash_refine(uint64_t h, const mpm_refine *r)
 
 uint64_t mpm_scene_hash(const mpm_scene *s)
 {
-    uint64_t h = hash_members(14695981039346656037ull, mpm_scene_params, s);
+    uint64_t h = hash_members(14695981039346656037ull, &mpm_scene_params[MPM_SCENE_HASHED], s);
     h = hash_members(h, mpm_follow_params, &s->follow);
     h = hash_contact(h, &s->contact);
     for (int k = 0; k < 3; k++) h = hash_members(h, mpm_axis_params, &s->axis[k]);

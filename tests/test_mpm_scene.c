@@ -36,8 +36,8 @@ static void change(const param *p, char *member)
     }
 }
 
-/* Each member of a struct of the scene by itself: the key changes, or not, and is again what it was. */
-static int walk(const mpm_scene *s, const param *table, void *object, size_t size, bool counts)
+/* Each member of a struct of the scene by itself: the key changes, from row `hashed` on, and is again what it was. */
+static int walk_from(int hashed, const mpm_scene *s, const param *table, void *object, size_t size)
 {
     char *kept = malloc(size);
     const uint64_t key = mpm_scene_hash(s);
@@ -45,6 +45,7 @@ static int walk(const mpm_scene *s, const param *table, void *object, size_t siz
     assert_non_null(kept);
     memcpy(kept, object, size);
     for (const param *p = table; p->key; p++, n++) {
+        const bool counts = n >= hashed;
         change(p, (char *)object + p->offset);
         if ((mpm_scene_hash(s) != key) != counts) fail_msg("%s: the key %s", p->key, counts ? "stays" : "changes");
         memcpy(object, kept, size);
@@ -54,27 +55,32 @@ static int walk(const mpm_scene *s, const param *table, void *object, size_t siz
     return n;
 }
 
+static int walk(const mpm_scene *s, const param *table, void *object, size_t size)
+{
+    return walk_from(0, s, table, object, size);
+}
+
 static void test_key(void **state)
 {
     (void)state;
     material m = scene_copper();
     SCENE_LOCAL(s);
     some_scene(&s, &m);
-    int n = walk(&s, mpm_scene_params, &s, sizeof s, true);
-    n += walk(&s, mpm_follow_params, &s.follow, sizeof s.follow, true);
-    n += walk(&s, s.contact.law->params, &s.contact, sizeof s.contact, true);
-    n += walk(&s, mpm_material_params, &m, sizeof m, true);
-    for (int k = 0; k < 3; k++) n += walk(&s, mpm_axis_params, &s.axis[k], sizeof s.axis[k], true);
-    for (int i = 0; i < s.bodies; i++) n += walk(&s, mpm_body_params, &s.body[i], sizeof s.body[i], true);
+    assert_string_equal(mpm_scene_params[MPM_SCENE_HASHED - 1].key, "end_time");
+    int n = walk_from(MPM_SCENE_HASHED, &s, mpm_scene_params, &s, sizeof s);
+    n += walk(&s, mpm_follow_params, &s.follow, sizeof s.follow);
+    n += walk(&s, s.contact.law->params, &s.contact, sizeof s.contact);
+    n += walk(&s, mpm_material_params, &m, sizeof m);
+    for (int k = 0; k < 3; k++) n += walk(&s, mpm_axis_params, &s.axis[k], sizeof s.axis[k]);
+    for (int i = 0; i < s.bodies; i++) n += walk(&s, mpm_body_params, &s.body[i], sizeof s.body[i]);
     for (int i = 0; i < s.pairs; i++) {
-        n += walk(&s, mpm_pair_params, &s.pair[i], sizeof s.pair[i], true);
-        n += walk(&s, s.pair[i].contact.law->params, &s.pair[i].contact, sizeof s.pair[i].contact, true);
+        n += walk(&s, mpm_pair_params, &s.pair[i], sizeof s.pair[i]);
+        n += walk(&s, s.pair[i].contact.law->params, &s.pair[i].contact, sizeof s.pair[i].contact);
     }
     for (int i = 0; i < s.solids; i++)
-        n += walk(&s, s.solid[i].kind->params, s.solid[i].value, sizeof s.solid[i].value, true);
+        n += walk(&s, s.solid[i].kind->params, s.solid[i].value, sizeof s.solid[i].value);
     for (int i = 0; i < s.refines; i++)
-        n += walk(&s, s.refine[i].kind->params, s.refine[i].value, sizeof s.refine[i].value, true);
-    walk(&s, mpm_scene_run_params, &s, sizeof s, false);
+        n += walk(&s, s.refine[i].kind->params, s.refine[i].value, sizeof s.refine[i].value);
     const uint64_t key = mpm_scene_hash(&s);
     const mpm_contact stuck = mpm_contact_of(mpm_contact_find("stick")), kept = s.pair[0].contact;
     s.pair[0].contact = stuck;
@@ -132,8 +138,39 @@ static void test_tables(void **state)
     covered("mpm_axis", (const param *const[]){ mpm_axis_params, NULL }, sizeof(mpm_axis), of_axis);
     covered("mpm_follow", (const param *const[]){ mpm_follow_params, NULL }, sizeof(mpm_follow), of_axis);
     covered("mpm_pair", (const param *const[]){ mpm_pair_params, NULL }, sizeof(mpm_pair), of_pair);
-    covered("mpm_scene", (const param *const[]){ mpm_scene_params, mpm_scene_run_params, NULL }, sizeof(mpm_scene),
-            of_scene);
+    covered("mpm_scene", (const param *const[]){ mpm_scene_params, NULL }, sizeof(mpm_scene), of_scene);
+}
+
+/* ---- levels that the scene leaves open ---- */
+
+static void test_levels(void **state)
+{
+    (void)state;
+    const material m = scene_copper();
+    SCENE_LOCAL(s);
+    mpm *solver;
+    scene_bar(&s, 0, 12e-3, 0.5e-3, 2);
+    scene_box(&s, 2e-3, -1, -1, 6e-3, 1, 1, &m);
+    for (int k = 0; k < 3; k++) s.axis[k].coarse = 4.1 * s.axis[k].fine;
+    const mpm_scene open = s; /* borrows its arrays */
+    assert_true(open.levels == 0 && isnan(open.zone_until));
+    mpm_scene_levels_fill(&s);
+    assert_true(s.levels == 1 && s.zone_until > 1e3); /* no rules: one grid */
+    assert_ok(mpm_create(&open, 1, &solver));
+    assert_true(mpm_scene_of(solver)->levels == 1);
+    mpm_free(solver);
+    s.levels = open.levels, s.zone_until = open.zone_until;
+    mpm_refine *rule;
+    assert_ok(mpm_scene_add_refine(&s, "plastic", &rule));
+    mpm_scene filled = s;
+    mpm_scene_levels_fill(&filled);
+    assert_true(filled.levels == 3 && filled.zone_until == 0); /* fine, 2 and 4 times as large */
+    filled = s, filled.basis = BASIS_BSPLINE;
+    mpm_scene_levels_fill(&filled);
+    assert_int_equal(filled.levels, 1); /* which has no levels */
+    filled = s, filled.levels = 2, filled.zone_until = 1e-6;
+    mpm_scene_levels_fill(&filled);
+    assert_true(filled.levels == 2 && filled.zone_until == 1e-6);
 }
 
 /* ---- arrays ---- */
@@ -181,10 +218,8 @@ static void test_no_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_key),
-        cmocka_unit_test(test_tables),
-        cmocka_unit_test(test_copy),
-        cmocka_unit_test(test_no_memory),
+        cmocka_unit_test(test_key),  cmocka_unit_test(test_tables),    cmocka_unit_test(test_levels),
+        cmocka_unit_test(test_copy), cmocka_unit_test(test_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,61 +9,12 @@
 
 /* ---- the tables ---- */
 
-static const char *const letters[] = { "x", "y", "z", NULL };
-static const char *const boundary_names[] = {
-    [BOUNDARY_FREE] = "free",           [BOUNDARY_SYMMETRY] = "symmetry",     [BOUNDARY_FIXED] = "fixed",
-    [BOUNDARY_ABSORBING] = "absorbing", [BOUNDARY_PRESCRIBED] = "prescribed", NULL
-};
 static const char *const overlap_names[] = { [OVERLAP_REFUSED] = "refused", [OVERLAP_LATER] = "later", NULL };
 
-const param case_method_params[] = {
-    PARAM_DOUBLE(mpm_scene, end_time, "s", REQUIRED, 1e-12, 1e3, "time that is simulated"),
-    PARAM_INT(mpm_scene, levels, 0, 0, MPM_MAX_LEVELS,
-              "of the grid, each with cells twice as large; 0: 1 without `refine`, else as coarse_cell allows"),
-    PARAM_DOUBLE(mpm_scene, zone_until, "s", OPTIONAL, 0.0, 1e6,
-                 "until then cells are small in the zone of the window, with levels; not given: 0 with `refine`"),
-    PARAM_VEC3(mpm_scene, grid_shift, "1", 0.0, 0.0, 1.0,
-               "of the grid's planes along x, y, z, in finest cells; the window's ends and the bodies stay"),
-    PARAM_DOUBLE(mpm_scene, courant, "1", 0.4, 0.01, 0.95, "Courant number of c + |v|"),
-    PARAM_DOUBLE(mpm_scene, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),
-    PARAM_DOUBLE(mpm_scene, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),
-    PARAM_INT(mpm_scene, particles_per_axis, 2, 2, 3, "material points a cell and axis"),
-    PARAM_DOUBLE(
-        mpm_scene, surroundings, "Pa", OPTIONAL, 0.0, 1e12,
-        "absolute pressure around the bodies, from which pressures count; not given: that at which each gas is "
-        "at rest"),
-    PARAM_DOUBLE(mpm_scene, contact_gap, "1", 0.9, 0.0, 3.0, "groups touch when nearer than this, in cells"),
-    PARAM_ENUM(mpm_scene, transfer, case_transfer_names, TRANSFER_TPIC, "how velocity goes between points and grid"),
-    PARAM_ENUM(mpm_scene, basis, case_basis_names, BASIS_GIMP, "shape functions"),
-    PARAM_BOOL(mpm_scene, heat_by_plastic_work, 0, "(M-4) temperature by plastic work; no: by energy"),
-    PARAMS_END,
-};
-
-/* One axis of the window; what is left out is chosen by scene_fill. */
-#define AXIS(name, member_, unit_, least, largest, text)                                                            \
-    {                                                                                                               \
-        .key = (name), .unit = (unit_), .doc = (text), .offset = offsetof(mpm_axis, member_), .fallback = OPTIONAL, \
-        .min = (least), .max = (largest), .kind = PARAM_NUMBER                                                      \
-    }
-static const param axis_params[] = {
-    AXIS("lo", lo, "m", -1e3, 1e3, "lower end of the window"),
-    AXIS("hi", hi, "m", -1e3, 1e3, "upper end of the window"),
-    AXIS("fine_lo", fine_lo, "m", -1e3, 1e3, "lower end of the zone of fine cells"),
-    AXIS("fine_hi", fine_hi, "m", -1e3, 1e3, "upper end of it"),
-    AXIS("cell", fine, "m", 1e-9, 1e2, "cells in that zone"),
-    AXIS("coarse_cell", coarse, "m", 1e-9, 1e2, "largest cells outside it"),
-    AXIS("growth", growth, "1", 1.0, 2.0, "ratio of neighbouring cells outside it"),
-    PARAMS_END,
-};
-
-/* What the solver's own table says of a body, but for its volume, its group and the ends that it passes. */
+/* The solver's own tables, from their first row that is a key; what is left out of an axis is chosen by scene_fill. */
+static const param *const method_params = &mpm_scene_params[MPM_SCENE_KEYED];
+static const param *const axis_params = &mpm_axis_params[MPM_AXIS_KEYED];
 static const param *const body_params = &mpm_body_params[MPM_BODY_KEYED];
-
-static const param follow_params[] = {
-    PARAM_ENUM(mpm_follow, along, letters, 0, "axis along which a plastic front is looked for"),
-    PARAM_ENUM(mpm_follow, across, letters, 2, "axis across it: what the ends of the window take there does not count"),
-    PARAMS_END,
-};
 
 typedef struct {
     int overlap;
@@ -103,15 +54,16 @@ static const param refine_params[] = {
         .key = (key_), .doc = (text), .table = (table_), .given = NO_FLAG \
     }
 const case_section case_bodies_manual[] = {
-    MANUAL("scene with bodies", case_method_params, "A scene of one's own: `scene` with `bodies` (scenes.md)."),
+    MANUAL("scene with bodies", &mpm_scene_params[MPM_SCENE_KEYED],
+           "A scene of one's own: `scene` with `bodies` (scenes.md)."),
     MANUAL("scene with bodies, cells", shared_params, "Of the same section."),
     MANUAL("scene.bodies", &mpm_body_params[MPM_BODY_KEYED],
            "A list. Besides these keys: `material`; `shape`, a solid; `group`, any word: bodies of one group are "
            "welded, a "
            "body without one is a group by itself; `passes`, ends of the window whose boundary does not act on it."),
-    MANUAL("scene.window", axis_params,
+    MANUAL("scene.window", &mpm_axis_params[MPM_AXIS_KEYED],
            "`x`, `y` and `z`, each with these keys; what is left out follows from the bodies."),
-    MANUAL("scene.follow", follow_params, "Where the plastic front of bodies that are `followed` is looked for."),
+    MANUAL("scene.follow", mpm_follow_params, "Where the plastic front of bodies that are `followed` is looked for."),
     MANUAL("scene.probes", probe_params,
            "A list. Besides its name one key, the kind of probe (below): its values and `body`, or the name of a body "
            "alone; without a body it reads all of them. `force_on: a` stands for `force: {body: a}`."),
@@ -412,12 +364,12 @@ static void read_window(case_reader *r, const tree_node *window)
 {
     static const char *const none[] = { NULL };
     mpm_scene *s = &r->out->bodies.scene;
-    if (window) case_keys_read(r, window, "scene.window", NULL, 0, letters);
+    if (window) case_keys_read(r, window, "scene.window", NULL, 0, mpm_axis_names);
     for (int k = 0; k < 3; k++) {
         char path[CASE_KEY_SIZE];
-        const tree_node *map = host_tree_find(window, letters[k]);
+        const tree_node *map = host_tree_find(window, mpm_axis_names[k]);
         const case_keys keys = { axis_params, &s->axis[k] };
-        snprintf(path, sizeof path, "scene.window.%s", letters[k]);
+        snprintf(path, sizeof path, "scene.window.%s", mpm_axis_names[k]);
         if (map)
             case_keys_read(r, map, path, &keys, 1, none);
         else
@@ -445,7 +397,7 @@ static void read_end(case_reader *r, const tree_node *node, const char *path, mp
     }
     int kind = 0;
     const char *text = node->kind == TREE_TEXT ? node->text : "";
-    while (kind < BOUNDARY_PRESCRIBED && strcmp(boundary_names[kind], text) != 0) kind++;
+    while (kind < BOUNDARY_PRESCRIBED && strcmp(mpm_boundary_names[kind], text) != 0) kind++;
     a->boundary[end] = (boundary_kind)kind;
     if (kind == BOUNDARY_PRESCRIBED)
         case_errors_add(r->errors, node,
@@ -456,20 +408,20 @@ static void read_end(case_reader *r, const tree_node *node, const char *path, mp
 
 static void read_boundary(case_reader *r, const tree_node *map)
 {
-    case_keys_read(r, map, "scene.boundary", NULL, 0, letters);
+    case_keys_read(r, map, "scene.boundary", NULL, 0, mpm_axis_names);
     for (int k = 0; k < 3; k++) {
-        const tree_node *ends = host_tree_find(map, letters[k]);
+        const tree_node *ends = host_tree_find(map, mpm_axis_names[k]);
         if (!ends) continue;
         if (ends->kind != TREE_LIST || ends->n != 2) {
             case_errors_add(r->errors, ends,
                             "scene.boundary.%s must be two boundaries, at the lower and at the upper "
                             "end: [free, symmetry]",
-                            letters[k]);
+                            mpm_axis_names[k]);
             continue;
         }
         for (int e = 0; e < 2; e++) {
             char path[CASE_KEY_SIZE];
-            snprintf(path, sizeof path, "scene.boundary.%s[%d]", letters[k], e);
+            snprintf(path, sizeof path, "scene.boundary.%s[%d]", mpm_axis_names[k], e);
             read_end(r, ends->item[e], path, &r->out->bodies.scene.axis[k], e);
         }
     }
@@ -548,7 +500,7 @@ void case_bodies_read(case_reader *r)
                         "scene.bodies: a study makes its scenes from rail, armature and grains; "
                         "`breech scene` runs this one");
     mpm_scene_default(s);
-    const case_keys keys[] = { { case_method_params, s }, { shared_params, &shared } };
+    const case_keys keys[] = { { method_params, s }, { shared_params, &shared } };
     case_keys_read(r, scene, "scene", keys, 2, others);
     r->out->bodies.overlap = shared.overlap;
     read_window(r, host_tree_find(scene, "window"));
@@ -564,7 +516,7 @@ void case_bodies_read(case_reader *r)
         read_refine(r, case_entry_node(host_tree_find(scene, "refine"), k), k);
     share(&shared, s);
     if (host_tree_find(scene, "follow")) {
-        const case_keys follow = { follow_params, &s->follow };
+        const case_keys follow = { mpm_follow_params, &s->follow };
         case_keys_read(r, host_tree_find(scene, "follow"), "scene.follow", &follow, 1, none);
     }
 }
@@ -636,17 +588,17 @@ static void write_window(const mpm_scene *s, FILE *file)
     static const param velocity = { .unit = "m/s", .kind = PARAM_VECTOR };
     fputs("  window:\n", file);
     for (int k = 0; k < 3; k++) {
-        fprintf(file, "    %s: {", letters[k]);
+        fprintf(file, "    %s: {", mpm_axis_names[k]);
         case_keys_write(axis_params, &s->axis[k], true, file);
         fputs("}\n", file);
     }
     fputs("  boundary:\n", file);
     for (int k = 0; k < 3; k++) {
         const mpm_axis *a = &s->axis[k];
-        fprintf(file, "    %s: [", letters[k]);
+        fprintf(file, "    %s: [", mpm_axis_names[k]);
         for (int e = 0; e < 2; e++) {
             const bool moved = a->boundary[e] == BOUNDARY_PRESCRIBED;
-            fprintf(file, "%s%s%s", e ? ", " : "", moved ? "{" : "", boundary_names[a->boundary[e]]);
+            fprintf(file, "%s%s%s", e ? ", " : "", moved ? "{" : "", mpm_boundary_names[a->boundary[e]]);
             if (!moved) continue;
             fputs(": ", file);
             case_value_write(&velocity, a->boundary_velocity[e], file);
@@ -676,7 +628,7 @@ void case_bodies_write(const case_bodies *b, FILE *file)
 {
     const mpm_scene *s = &b->scene;
     fputs("scene:\n", file);
-    for (const param *p = case_method_params; p->key; p++) {
+    for (const param *p = method_params; p->key; p++) {
         if (!case_value_is_set(p, (const char *)s + p->offset)) continue;
         fprintf(file, "  %s: ", p->key);
         case_value_write(p, (const char *)s + p->offset, file);
@@ -685,7 +637,7 @@ void case_bodies_write(const case_bodies *b, FILE *file)
     fprintf(file, "  overlap: %s\n", overlap_names[b->overlap]);
     write_window(s, file);
     fputs("  follow: {", file);
-    case_keys_write(follow_params, &s->follow, true, file);
+    case_keys_write(mpm_follow_params, &s->follow, true, file);
     fputs("}\n  bodies:\n", file);
     for (int i = 0; i < s->bodies; i++) write_body(s, &s->body[i], file);
     write_contacts(s, file);

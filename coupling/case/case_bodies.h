@@ -52,8 +52,6 @@ void case_keys_write(const param *table, const void *object, bool first, FILE *f
 void case_unknown_name(case_reader *r, const tree_node *where, const char *what, const char *path,
                        const char *(*names)(const void *user, int i), const void *user);
 
-extern const param case_method_params[]; /* of mpm_scene */
-
 /* For the manual: the tables of the section as sections of their own; ends with a NULL key. */
 extern const case_section case_bodies_manual[];
 

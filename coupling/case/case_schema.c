@@ -7,9 +7,7 @@
 
 /* The tables.  Ranges catch a wrong unit or a slipped decimal point; what a value means stands in case.h. */
 
-const char *const case_transfer_names[] = { [TRANSFER_TPIC] = "tpic", [TRANSFER_PIC] = "pic", NULL };
 static const char *const judge_names[] = { [JUDGE_GROWTH] = "growth", [JUDGE_SEVERITY] = "severity", NULL };
-const char *const case_basis_names[] = { [BASIS_GIMP] = "gimp", [BASIS_BSPLINE] = "bspline", NULL };
 
 static const param case_params[] = {
     PARAM_STRING(breech_case, name, NULL, "short name of the case: its output goes to out/<name>"),
@@ -140,11 +138,11 @@ static const param scene_params[] = {
     PARAM_BOOL(case_scene, stop_when_settled, 1, "stop once the crater no longer changes"),
     PARAM_BOOL(case_scene, stop_when_gauged, 0,
                "stop once the growth of a groove that is followed is known; its class is then that of the growth"),
-    PARAM_DOUBLE(case_scene, courant, "1", 0.4, 0.01, 0.95, "Courant number of c + |v|"),
+    PARAM_DOUBLE(case_scene, courant, "1", 0.4, 0.01, 0.6, "Courant number of c + |v|"),
     PARAM_DOUBLE(case_scene, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),
     PARAM_DOUBLE(case_scene, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),
-    PARAM_ENUM(case_scene, transfer, case_transfer_names, TRANSFER_TPIC, "how velocity goes between points and grid"),
-    PARAM_ENUM(case_scene, basis, case_basis_names, BASIS_GIMP, "shape functions"),
+    PARAM_ENUM(case_scene, transfer, mpm_transfer_names, TRANSFER_TPIC, "how velocity goes between points and grid"),
+    PARAM_ENUM(case_scene, basis, mpm_basis_names, BASIS_GIMP, "shape functions"),
     PARAM_INT(case_scene, particles_per_axis, 2, 2, 3, "material points a cell and axis"),
     PARAM_BOOL(case_scene, heat_by_plastic_work, 0, "(M-4) temperature by plastic work; no: by energy"),
     PARAM_BOOL(case_scene, damage, 1, "(M-2) Johnson-Cook damage in all bodies"),

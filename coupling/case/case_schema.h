@@ -36,8 +36,6 @@ extern const case_section case_root;
 /* The struct of a part, where the section's first part lies at `object`. */
 void *case_part_object(const case_section *section, const case_section *part, void *object);
 
-extern const char *const case_transfer_names[], *const case_basis_names[];
-
 case_list case_list_get(const void *parent, const case_section *section);
 void case_list_put(void *parent, const case_section *section, case_list list);
 

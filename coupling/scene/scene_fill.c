@@ -4,7 +4,6 @@
 
 static const double CELLS_ACROSS = 20.0;                 /* of the smallest extent of any body */
 static const double COARSE = 4.0, COARSE_BY_RULES = 8.0; /* largest cells over the fine ones */
-static const double ALWAYS = 1e6;                        /* [s] */
 static const double GROWTH = 1.2;
 static const double MARGIN = 0.25; /* of the bodies' box, beyond them where the window ends freely */
 static const double ROOM = 4.0;    /* and at least so many coarse cells */
@@ -82,15 +81,6 @@ static void fill_cells(const survey *bodies, bool rules, mpm_axis *a)
     a->growth = or_else(a->growth, GROWTH);
 }
 
-/* As many as a doubling of the finest cells makes of the coarsest. */
-static int levels_for(const mpm_scene *s)
-{
-    int levels = 1;
-    if (s->levels > 0 || s->refines == 0 || s->basis != BASIS_GIMP) return s->levels > 0 ? s->levels : 1;
-    while (levels < MPM_MAX_LEVELS && s->axis[0].fine * (1 << levels) <= s->axis[0].coarse * (1.0 + 1e-9)) levels++;
-    return levels;
-}
-
 static void fill_axis(const survey *bodies, int k, int levels, mpm_axis *a)
 {
     const box *all = &bodies->all, *smallest = &bodies->smallest;
@@ -108,8 +98,7 @@ status scene_fill(mpm_scene *s)
     CHECK(s->bodies > 0, STATUS_BAD_INPUT, "scene.bodies: there are none");
     const survey bodies = look(s);
     for (int k = 0; k < 3; k++) fill_cells(&bodies, s->refines > 0, &s->axis[k]);
-    s->levels = levels_for(s);
-    s->zone_until = or_else(s->zone_until, s->refines > 0 ? 0.0 : ALWAYS);
+    mpm_scene_levels_fill(s);
     for (int k = 0; k < 3; k++) fill_axis(&bodies, k, s->levels, &s->axis[k]);
     return status_ok();
 }

@@ -227,8 +227,10 @@ status mpm_estimate(const mpm_scene *scene, mpm_needs *needs)
 {
     grids g;
     counting c;
-    TRY(mpm_grids_make(scene, &g));
-    const status s = count(scene, &g, &c, &needs->dt);
+    mpm_scene whole = *scene; /* borrows its arrays */
+    mpm_scene_levels_fill(&whole);
+    TRY(mpm_grids_make(&whole, &g));
+    const status s = count(&whole, &g, &c, &needs->dt);
     mpm_grids_free(&g);
     TRY(s);
     needs->particles = c.particles, needs->work = c.work;
