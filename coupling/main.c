@@ -40,6 +40,7 @@ struct options {
     const char *sets[MAX_SETS];
     int n_sets, threads;
     lending *lending;
+    char ensemble[40];  /* --ensemble as one of sets, "" without it */
     const char *expect; /* --expect: a run's output directory; NULL */
     outdir_options how;
     double max_walltime; /* [s], INFINITY: none */
@@ -81,6 +82,7 @@ static void print_help(FILE *out)
           "  -o DIR            output directory, default out/<case>\n"
           "  --set KEY=VALUE   change a value of the case, --set bank.charge=\"9 kV\"; repeatable\n"
           "  --threads N       default: all of the machine\n"
+          "  --ensemble N      scene: on N grids, each shifted by another part of a cell; sets study.ensemble\n"
           "  --resume          go on with a stopped run; starts anew where there is none\n"
           "  --force           overwrite what a former run left\n"
           "  --store DIR       scenes computed before are taken from there and left there; default: store/ in the\n"
@@ -291,6 +293,7 @@ static status print_check(const case_inputs *in, int threads)
     if (n > 0) host_table_print(t, stdout);
     host_table_free(t);
     const case_onset *c = &in->onset;
+    if (c->study.ensemble > 0) printf("scene: on %d grids, each as above\n", c->study.ensemble);
     if (c->sites.n > 0) printf("onset: %d sites, at most %d scenes\n", c->sites.n, c->study.max_scenes);
     return status_ok();
 }
@@ -423,6 +426,22 @@ static bool whole_number(const char *text, int low, int high, int *out)
     return true;
 }
 
+static status take_set(options *o, const char *set)
+{
+    CHECK(o->n_sets < MAX_SETS, STATUS_BAD_INPUT, "--set: more than %d", MAX_SETS);
+    o->sets[o->n_sets++] = set;
+    return status_ok();
+}
+
+static status take_ensemble(options *o, const char *value)
+{
+    int scenes;
+    CHECK(whole_number(value, 2, 1000, &scenes), STATUS_BAD_INPUT, "--ensemble %.40s: must be 2 .. 1000", value);
+    CHECK(!o->ensemble[0], STATUS_BAD_INPUT, "--ensemble is given twice");
+    snprintf(o->ensemble, sizeof o->ensemble, "study.ensemble=%d", scenes);
+    return take_set(o, o->ensemble);
+}
+
 /* An option with a value.  STATUS_BAD_INPUT says what is wrong with it. */
 static status take_value(options *o, const char *name, const char *value)
 {
@@ -437,8 +456,9 @@ static status take_value(options *o, const char *name, const char *value)
         CHECK(value[0], STATUS_BAD_INPUT, "--expect: the directory's name is empty");
         o->expect = value;
     } else if (strcmp(name, "--set") == 0) {
-        CHECK(o->n_sets < MAX_SETS, STATUS_BAD_INPUT, "--set: more than %d", MAX_SETS);
-        o->sets[o->n_sets++] = value;
+        TRY(take_set(o, value));
+    } else if (strcmp(name, "--ensemble") == 0) {
+        TRY(take_ensemble(o, value));
     } else if (strcmp(name, "--threads") == 0) {
         CHECK(whole_number(value, 1, 4096, &o->threads), STATUS_BAD_INPUT, "--threads %.40s: must be 1 .. 4096", value);
     } else {
@@ -451,7 +471,8 @@ static status take_value(options *o, const char *name, const char *value)
 
 static bool takes_value(const char *name)
 {
-    static const char *const names[] = { "-o", "--store", "--expect", "--set", "--threads", "--max-walltime", NULL };
+    static const char *const names[] = { "-o",        "--store",    "--expect",       "--set",
+                                         "--threads", "--ensemble", "--max-walltime", NULL };
     for (int i = 0; names[i]; i++)
         if (strcmp(names[i], name) == 0) return true;
     return false;
@@ -502,6 +523,8 @@ static status parse(int argc, char **argv, options *o)
     for (int i = 1; i < argc; i++) TRY(take_word(o, argc, argv, &i));
     CHECK(o->command.name, STATUS_BAD_INPUT, "no command given; breech --help lists them");
     CHECK(!o->scene || o->command.run == run_check, STATUS_BAD_INPUT, "--scene goes with `breech check CASE`");
+    CHECK(!o->ensemble[0] || o->command.study == &study_scene, STATUS_BAD_INPUT,
+          "--ensemble goes with `breech scene CASE`; elsewhere it is --set study.ensemble=N");
     CHECK(o->subject || !o->command.subject_required, STATUS_BAD_INPUT, "%s needs a %s: breech %s %s", o->command.name,
           o->command.subject, o->command.name, o->command.subject);
     return status_ok();

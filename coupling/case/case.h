@@ -209,6 +209,7 @@ typedef struct {
     double velocity_low, velocity_high; /* where the search may look [m/s] */
     int judge;                          /* study_judge */
     int max_scenes;
+    int ensemble;      /* grids, each shifted by another part of a cell, on which a scene is computed; 0: its own */
     int craters;       /* whole scenes of a family of grains that gouges, judged by growth: 0 .. 2 */
     double screen_low; /* impact pressure over hardness below which no scene is needed [1] */
     double coarse_cells_per_radius, fine_cells_per_radius; /* [1] */

@@ -165,6 +165,9 @@ static const param study_params[] = {
                "a threshold is where the groove's growth past the grain (if scene.follow), or the crater's severity, "
                "passes its limit"),
     PARAM_INT(case_study, max_scenes, 16, 1, 100000, "scenes the study may run"),
+    PARAM_INT(case_study, ensemble, 0, 0, 1000,
+              "grids on which `breech scene` computes its scene, each shifted by another part of a cell: means and "
+              "scatter of its answers; 0: on its own alone"),
     PARAM_INT(case_study, craters, 2, 0, 2,
               "whole craters of each kind of grain that gouges, judge: growth: in the middle of the velocities that "
               "gouge; and at the fastest grain; 0: none, so no volumes, rims and feedback"),

@@ -322,6 +322,64 @@ double output_number_of(const summary_key *key, const void *of)
     return x;
 }
 
+/* ---- all numbers ---- */
+
+typedef struct {
+    output_number_visitor *visit;
+    void *user;
+} visitor;
+
+/* The text of the key that is called `unit`, "" where there is none. */
+static const char *own_unit(const summary_key *keys, const char *base)
+{
+    for (const summary_key *k = keys; k->name; k++)
+        if (k->kind == KEY_TEXT && strcmp(k->name, "unit") == 0) return base + k->offset;
+    return "";
+}
+
+static void visit_number(const summary_key *k, const char *base, const char *own, const char *path, const visitor *v)
+{
+    const double *value = (const double *)(const void *)(base + k->offset);
+    char unit[SUMMARY_NAME_SIZE], part[SUMMARY_PATH_SIZE];
+    snprintf(unit, sizeof unit, "%s%s", k->unit[0] ? k->unit : own, !k->unit[0] && own[0] && k->n > 1 ? " s" : "");
+    for (int i = 0; i < k->n; i++) {
+        snprintf(part, sizeof part, "%.220s[%d]", path, i);
+        v->visit(v->user, k->n == 1 ? path : part, unit, value[i]);
+    }
+}
+
+static void visit_by_name(const summary_key *k, const char *base, const char *path, const visitor *v)
+{
+    const double *value = (const double *)(const void *)(base + k->offset);
+    char part[SUMMARY_PATH_SIZE];
+    for (int i = 0; i < count_of(k, base); i++) {
+        snprintf(part, sizeof part, "%.150s.%.80s", path, base + k->names_offset + (size_t)i * k->item_size);
+        v->visit(v->user, part, k->unit, value[i]);
+    }
+}
+
+static void visit_numbers(const summary_key *keys, const char *base, const char *before, const visitor *v)
+{
+    const char *own = own_unit(keys, base);
+    for (const summary_key *k = keys; k->name; k++) {
+        char path[SUMMARY_PATH_SIZE], inner[SUMMARY_PATH_SIZE];
+        snprintf(path, sizeof path, "%.120s%.100s", before, k->name);
+        if (k->kind == KEY_NUMBER) visit_number(k, base, own, path, v);
+        if (k->kind == KEY_BY_NAME) visit_by_name(k, base, path, v);
+        if (k->kind == KEY_PART) visit_numbers(k->item, base + k->offset, before, v);
+        for (int i = 0; k->kind == KEY_MAP && i < count_of(k, base); i++) {
+            const char *item = *(const char *const *)(const void *)(base + k->offset) + (size_t)i * k->item_size;
+            snprintf(inner, sizeof inner, "%.100s.%.100s.", path, item + k->item->offset);
+            visit_numbers(k->item + 1, item, inner, v);
+        }
+    }
+}
+
+void output_numbers_visit(const summary_object *o, output_number_visitor *visit, void *user)
+{
+    if (o->of) visit_numbers(o->keys, o->of, "", &(visitor){ visit, user });
+}
+
 /* ---- for people ---- */
 
 static void value_text(const summary_key *k, const void *from, char *out, size_t size)

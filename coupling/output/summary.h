@@ -14,7 +14,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-enum { SUMMARY_NAME_SIZE = 96 };
+enum { SUMMARY_NAME_SIZE = 96, SUMMARY_PATH_SIZE = 240 };
 
 /* ---- tables of keys ---- */
 
@@ -125,6 +125,12 @@ status output_object_read(const char *text, const summary_key *keys, void *out);
 /* The key of that name that is one number; NULL: none is. */
 const summary_key *output_number_key(const summary_key *keys, const char *name);
 double output_number_of(const summary_key *key, const void *of); /* NaN: null */
+
+/* Every number of the object that is no count, in the order of the keys: of a vector each component as `key[0]`, of
+ * maps and of what has names of its own as `key.name.key`.  A key without a unit, beside one that is called `unit`, has
+ * that; its vectors are over time [unit s]. */
+typedef void output_number_visitor(void *user, const char *path, const char *unit, double value);
+void output_numbers_visit(const summary_object *o, output_number_visitor *visit, void *user);
 
 /* Key, value and unit of what is short: no lists, no `reason`. */
 void output_keys_print(const summary_object *o, FILE *out);

@@ -10,13 +10,15 @@ const study *const study_list[STUDIES] = {
 
 const study *study_for(const study *y, const case_inputs *in)
 {
-    return y->of_bodies && in->given.bodies ? y->of_bodies : y;
+    for (const study *other = y->instead; other; other = other->instead)
+        if (other->takes(in)) return other;
+    return y;
 }
 
 const study *study_find(const char *name)
 {
     for (int k = 0; k < STUDIES; k++)
-        for (const study *y = study_list[k]; y; y = y->of_bodies)
+        for (const study *y = study_list[k]; y; y = y->instead)
             if (strcmp(y->name, name) == 0) return y;
     return NULL;
 }
@@ -72,13 +74,13 @@ void study_print_keys(FILE *out)
 {
     fputs("### all\n\n| key | what |\n|---|---|\n| `kind` |", out);
     for (int k = 0; k < STUDIES; k++)
-        for (const study *y = study_list[k]; y; y = y->of_bodies)
+        for (const study *y = study_list[k]; y; y = y->instead)
             fprintf(out, "%s %s", k || y != study_list[k] ? "," : "", y->name);
     fputs(" |\n| `case` | its name |\n| `version` | of Breech |\n| `instruction_set` | of the scenes |\n"
           "| `status` | done, stopped, failed |\n| `error` | null when there is none |\n| `warnings` | a text each |\n",
           out);
     for (int k = 0; k < STUDIES; k++)
-        for (const study *y = study_list[k]; y; y = y->of_bodies) output_keys_manual(y->name, y->keys, out);
+        for (const study *y = study_list[k]; y; y = y->instead) output_keys_manual(y->name, y->keys, out);
     for (int k = 0; k < STUDIES; k++)
-        for (const study *y = study_list[k]; y; y = y->of_bodies) print_entries(y, k, out);
+        for (const study *y = study_list[k]; y; y = y->instead) print_entries(y, k, out);
 }

@@ -27,12 +27,15 @@ typedef struct {
 
 typedef struct study {
     const char *name, *doc, *more;
-    const struct study *of_bodies; /* takes its place for a case with scene.bodies; NULL: none does */
-    unsigned needs;                /* of the case, sum of CASE_FOR_... */
-    const summary_key *keys;       /* of its result */
-    bool shows_shot;               /* its summary has the shot too, under "shot" */
-    bool can_vary;                 /* runs any case, not the session's alone: `breech sweep` may call it */
-    report_part report;            /* of report.html */
+    /* The next study that may take the place of one of study.def, for cases for which its `takes` says so; it has no
+     * command of its own.  NULL: none. */
+    const struct study *instead;
+    bool (*takes)(const case_inputs *in);
+    unsigned needs;          /* of the case, sum of CASE_FOR_... */
+    const summary_key *keys; /* of its result */
+    bool shows_shot;         /* its summary has the shot too, under "shot" */
+    bool can_vary;           /* runs any case, not the session's alone: `breech sweep` may call it */
+    report_part report;      /* of report.html */
     void (*print)(const void *result, FILE *out); /* its closing table; NULL: its keys */
     /* STATUS_BAD_INPUT before anything is written: what reading the case cannot tell.  NULL: nothing. */
     status (*possible)(const study_case *of);
@@ -54,6 +57,7 @@ enum {
 };
 #undef STUDY
 extern const study *const study_list[STUDIES];
+extern const study study_ensemble, study_bodies; /* that take a place */
 
 /* This one, or what takes its place for such a case. */
 const study *study_for(const study *y, const case_inputs *in);

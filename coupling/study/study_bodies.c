@@ -63,10 +63,16 @@ static void free_owned(void *owned)
     free(owned);
 }
 
+static bool has_bodies(const case_inputs *in)
+{
+    return in->given.bodies;
+}
+
 const study study_bodies = {
     .name = "bodies",
     .doc = "breech scene of a case with scene.bodies",
     .more = "",
+    .takes = has_bodies,
     .needs = CASE_FOR_SCENE,
     .keys = scene_bodies_keys,
     .can_vary = true,

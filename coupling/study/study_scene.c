@@ -30,14 +30,12 @@ static void print(const void *result, FILE *out)
     if (r->reason[0]) fprintf(out, "\n%s: %s\n", run_damage_names[r->class], r->reason);
 }
 
-extern const study study_bodies; /* study_bodies.c: no line of study.def, no command of its own */
-
 const study study_scene = {
     .name = "scene",
     .doc = "one embedded impact at a given velocity",
     .more =
         "Needs rail, armature, particle and scene, with scene.velocity and particle.radius; or a scene with bodies.",
-    .of_bodies = &study_bodies,
+    .instead = &study_ensemble,
     .needs = CASE_FOR_SCENE,
     .keys = run_result_keys,
     .can_vary = true,

@@ -139,6 +139,8 @@ static status find_study(const case_inputs *in, const study **out)
 {
     const case_sweep *w = &in->sweep;
     char known[200] = "";
+    CHECK(in->onset.study.ensemble == 0, STATUS_BAD_INPUT,
+          "study.ensemble = %d: a sweep runs single scenes; 0, or vary scene.grid_shift", in->onset.study.ensemble);
     *out = study_find(w->of);
     if (*out) *out = study_for(*out, in);
     for (int k = 0; k < STUDIES; k++)
