@@ -22,8 +22,8 @@ static void warn(session *s, const scene_bodies_result *r)
 /* One that is wanted with its snapshots is computed where they are to lie. */
 static int scenes(const study_case *of, scene_query *out)
 {
-    *out =
-        (scene_query){ .bodies = case_body_scene_of(of->in), .anew = !of->prefix[0] && of->in->output.snapshots > 0 };
+    *out = (scene_query){ .bodies = case_body_scene_of(of->in),
+                          .anew = !of->one_of_several && of->in->output.snapshots > 0 };
     snprintf(out->name, sizeof out->name, "%.60sscene", of->prefix);
     return 1;
 }
