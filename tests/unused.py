@@ -21,32 +21,24 @@ import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
-LIBRARIES = ("base", "circuit", "mpm", "coupling")
+from objects import LIBRARIES, root, sources, symbols
+
 build = os.path.abspath(sys.argv[1])
-root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 # ---- external names ----
 
-def objects():
-    for library in LIBRARIES:
-        for folder, _, files in os.walk(os.path.join(build, library)):
-            for name in files:
-                source = re.sub(r"CMakeFiles/[^/]*\.dir/", "", os.path.relpath(os.path.join(folder, name), build))
-                if name.endswith(".c.o") and os.path.exists(os.path.join(root, source[:-2])):
-                    yield source[:-2], os.path.join(folder, name)
-
-
 def functions():
-    """Name -> what is wrong, of external names that no other file of the libraries or the program uses."""
+    """Name -> what is wrong, of external names that no other file of the libraries or the program uses; None: nothing is
+    built."""
     defined, wanted = {}, set()
-    for source, file in objects():
-        for line in subprocess.run(["nm", "-g", file], capture_output=True, text=True, check=True).stdout.splitlines():
-            words = line.split()
-            if words[-2] == "U":
-                wanted.add(words[-1])
-            elif words[-2] in "TDRB" and "." not in words[-1]:
-                defined[words[-1]] = source
+    for source, letter, name in symbols(build):
+        if letter == "U":
+            wanted.add(name)
+        elif letter in "TDRB" and "." not in name:
+            defined[name] = source
+    if not defined:
+        return None
     defined.pop("main", None)
     return {name: f"{file}: {name} has no caller outside its file" for name, file in defined.items() if name not in wanted}
 
@@ -152,17 +144,13 @@ def marked(path):
 
 def copy_marked(scratch):
     names = set()
-    for library in LIBRARIES:
-        for folder, _, files in os.walk(os.path.join(root, library)):
-            for name in files:
-                if name.endswith((".c", ".h", ".def")):
-                    path = os.path.join(folder, name)
-                    to = os.path.join(scratch, os.path.relpath(path, root))
-                    os.makedirs(os.path.dirname(to), exist_ok=True)
-                    text, found = marked(path)
-                    names |= found
-                    with open(to, "w", encoding="utf-8") as file:
-                        file.write(text)
+    for path in sources((".c", ".h", ".def")):
+        to = os.path.join(scratch, path)
+        os.makedirs(os.path.dirname(to), exist_ok=True)
+        text, found = marked(os.path.join(root, path))
+        names |= found
+        with open(to, "w", encoding="utf-8") as file:
+            file.write(text)
     return names
 
 
@@ -232,13 +220,10 @@ def uses(scratch):
 
 def texts():
     """File -> its code without comments, literals and directives, and its text without comments alone."""
-    for library in LIBRARIES:
-        for folder, _, files in os.walk(os.path.join(root, library)):
-            for name in files:
-                if name.endswith((".c", ".h", ".def")):
-                    with open(os.path.join(folder, name), encoding="utf-8") as file:
-                        text = file.read()
-                    yield re.sub(r"/\*.*?\*/", "", text, flags=re.S), blank(text)[1]
+    for path in sources((".c", ".h", ".def")):
+        with open(os.path.join(root, path), encoding="utf-8") as file:
+            text = file.read()
+        yield re.sub(r"/\*.*?\*/", "", text, flags=re.S), blank(text)[1]
 
 
 def summary_rows(text):
@@ -308,11 +293,12 @@ def allowed():
     return {line[0]: line[1].strip() if len(line) == 2 else "" for line in lines}
 
 
-if not shutil.which("nm") or not shutil.which("clang") or not any(True for _ in objects()):
+external = functions()
+if external is None or not shutil.which("clang"):
     print("skipped: nothing is built, or there is no nm or clang")
     sys.exit(77)
 unread, broken, count = members()
-idle = {**functions(), **unread, **enumerators()}
+idle = {**external, **unread, **enumerators()}
 reasons = allowed()
 faults = sorted(text for name, text in idle.items() if name not in reasons) + broken
 faults += [f"tests/unused.txt: {name} has no reason" for name, reason in reasons.items() if not reason]
