@@ -1,8 +1,11 @@
 #!/usr/bin/env bash
-# Tries the deliberate faults of list.txt in a scratch copy: each must build, and its test must fail.
+# Tries deliberate faults in a scratch copy: each must build, and its test must fail, or that test proves less than it
+# seems to.  They stand in one list a room, mpm-grid.txt those of mpm/grid, one a line:
+#   file :: test of ctest :: sed -E expression that puts the fault in
 #   tests/mutants/run.sh [PATTERN]   all (hours), or those whose line matches the pattern
 #   tests/mutants/run.sh --part K/N  every Nth, from the Kth on (K = 0 .. N - 1)
-#   tests/mutants/run.sh --check     only that every line applies and names a test (seconds; part of ctest)
+#   tests/mutants/run.sh --check     only that every line stands in its room's list, applies and names a test (seconds;
+#                                    part of ctest)
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source tests/files.sh
@@ -15,7 +18,7 @@ case "${1:-}" in
 ?*) pattern=$1 ;;
 esac
 
-list=$(grep -vE '^[[:space:]]*(#|$)' tests/mutants/list.txt | grep -E -- "$pattern") ||
+list=$(cat tests/mutants/*.txt | grep -vE '^[[:space:]]*(#|$)' | grep -E -- "$pattern") ||
     { echo "no fault matches $pattern" && exit 1; }
 list=$(awk -v k="${part%/*}" -v n="${part#*/}" 'NR % n == k % n' <<<"$list")
 scratch=$(mktemp -d)
@@ -27,6 +30,20 @@ split() # one line of the list -> file, test, fault
     local rest=${1#* :: }
     test=${rest%% :: *}
     fault=${rest#* :: }
+}
+
+# Every line stands in the list of its file's room.
+check_rooms()
+{
+    local list line room bad=0
+    for list in tests/mutants/*.txt; do
+        while read -r line; do
+            split "$line"
+            room=${file%/*} room=${room//\//-}
+            if [ "$room.txt" != "${list##*/}" ]; then echo "belongs in tests/mutants/$room.txt: $line" && bad=1; fi
+        done < <(grep -vE '^[[:space:]]*(#|$)' "$list")
+    done
+    return $bad
 }
 
 check_list()
@@ -54,6 +71,7 @@ run_test()
     ctest --test-dir "$copy/build" --no-tests=error --timeout 600 -R "^$1\$" </dev/null >"$scratch/log" 2>&1
 }
 
+check_rooms
 check_list
 if [ $dry = 1 ]; then echo "$(wc -l <<<"$list") faults, all apply" && exit 0; fi
 
