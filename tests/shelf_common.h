@@ -58,11 +58,11 @@ static inline breech_case *small_case(const char *const *speed, bool to_gauge, c
 static inline run_counted run_small(const char *const *speed, bool to_gauge, const char *written, scene_shelf *shelf)
 {
     breech_case *c = small_case(speed, to_gauge, written);
-    const case_impact one = case_inputs_of(c).onset.impact;
-    const site_state at = gouge_state_of_case(&one);
+    case_impact one = case_inputs_of(c).onset.impact;
+    one.scene.cells_per_radius = 1.2;
     run_counted r = { .steps = 0 };
     gouge_job job;
-    OK(gouge_job_make(&one, &at, 1.2, &job));
+    OK(gouge_job_make(&one, &job));
     job.name = to_gauge ? "short" : "whole";
     job.twin = 1;
     OK(output_history_open(NULL, false, &r.rows));

@@ -215,7 +215,6 @@ enum { VARIANTS = sizeof variants / sizeof variants[0] };
 typedef struct {
     breech_case *c;
     case_impact impact;
-    site_state state;
     gouge_scene gouge;
 } made;
 
@@ -237,9 +236,8 @@ static made make(const char *const *sets)
     made m = { .c = changed_case(sets) };
     add_layers(m.c);
     m.impact = case_inputs_of(m.c).onset.impact;
-    m.state = gouge_state_of_case(&m.impact);
-    m.state.contact_pressure = 60e6;
-    const status s = gouge_scene_from_state(&m.impact, &m.state, m.impact.scene.cells_per_radius, &m.gouge);
+    m.impact.scene.contact_pressure = 60e6;
+    const status s = gouge_scene_make(&m.impact, &m.gouge);
     if (s.code != STATUS_OK) fail_msg("%s ...: %s", sets[0] ? sets[0] : "default", s.text);
     return m;
 }
@@ -254,8 +252,12 @@ static void unmake(made *m)
 static status make_again(made *m, double cells)
 {
     gouge_scene_free(&m->gouge);
+    const case_impact last = m->impact;
     m->impact = case_inputs_of(m->c).onset.impact;
-    return gouge_scene_from_state(&m->impact, &m->state, cells, &m->gouge);
+    m->impact.particle = last.particle;
+    m->impact.scene.velocity = last.scene.velocity, m->impact.scene.contact_pressure = last.scene.contact_pressure;
+    m->impact.scene.cells_per_radius = cells;
+    return gouge_scene_make(&m->impact, &m->gouge);
 }
 
 static double inside(const mpm_scene *s, const mpm_body *b, const double x[3])
@@ -303,7 +305,7 @@ static void test_no_overlap(void **state)
     uint64_t seed = 1;
     for (int k = 0; k < VARIANTS; k++) {
         made m = make(variants[k]);
-        const double r = m.state.grain.radius;
+        const double r = m.impact.particle.radius;
         for (int i = 0; i < 20000; i++) { /* around the grain, and anywhere */
             const double reach = i % 2 ? 3.0 * r : 30e-3;
             const double x[3] = { reach * (2.0 * uniform(&seed) - 1.0),
@@ -326,7 +328,7 @@ static void test_places(void **state)
         const mpm_body *grain = &m.gouge.scene.body[m.gouge.grain], *armature = &m.gouge.scene.body[m.gouge.armature];
         const bool sphere = is_of_kind(&m.gouge.scene, grain, "sphere");
         bounds(&m.gouge.scene, grain, lo, hi);
-        assert_true(fabs(hi[1] - m.state.grain.height) < ROUNDING);
+        assert_true(fabs(hi[1] - m.impact.particle.height) < ROUNDING);
         assert_true(sphere ? lo[1] < 0.0 : fabs(lo[1]) < ROUNDING);
         bounds(&m.gouge.scene, armature, lo, hi);
         assert_true(fabs(lo[1]) < ROUNDING && fabs(hi[1] - m.c->projectile.half_bore) < ROUNDING);
@@ -340,9 +342,9 @@ static void test_places(void **state)
                         hi[0] >= m.gouge.scene.axis[0].hi); /* it fills the window */
         }
         assert_true(top == 0.0);
-        const double corner[3] = { -m.state.grain.radius, m.state.grain.height, 0.0 };
+        const double corner[3] = { -m.impact.particle.radius, m.impact.particle.height, 0.0 };
         const double gap = -inside(&m.gouge.scene, armature, corner), fine = m.gouge.scene.axis[0].fine;
-        assert_true(gap > 0.3 * fine && gap <= fine * (1.0 + 1e-9) + m.state.grain.height);
+        assert_true(gap > 0.3 * fine && gap <= fine * (1.0 + 1e-9) + m.impact.particle.height);
         unmake(&m);
     }
 }
@@ -360,7 +362,8 @@ static void test_grid(void **state)
             assert_true(x->lo < x->fine_lo || (a == 2 && x->lo == 0.0));
             assert_true(x->fine_hi < x->hi);
         }
-        assert_true(fabs(m.gouge.scene.axis[0].fine - m.state.grain.radius / m.c->scene.cells_per_radius) < ROUNDING);
+        assert_true(fabs(m.gouge.scene.axis[0].fine - m.impact.particle.radius / m.c->scene.cells_per_radius) <
+                    ROUNDING);
         const mpm_body *armature = &m.gouge.scene.body[m.gouge.armature];
         assert_false(m.gouge.scene.body[m.gouge.rail].passes[0]);
         assert_true(armature->passes[0] && armature->passes[1]); /* it leaves freely */
@@ -438,7 +441,7 @@ static void test_grain_measures(void **state)
         snprintf(set, sizeof set, "particle.shape=%s", shapes[k].shape);
         const char *const sets[] = { set, NULL };
         made m = make(sets);
-        const double r = m.state.grain.radius, plan = acos(-1.0) * r * r;
+        const double r = m.impact.particle.radius, plan = acos(-1.0) * r * r;
         /* cells whose middle lies inside, 128 across: the border's cells err both ways; 0.5 % is a tenth of those on it
          * (perimeter pi 128 of area pi 64^2: 3 %), a cone's tip loses a layer of height h/48 */
         assert_true(fabs(m.gouge.crater.particle_area / plan - 1.0) < 5e-3);
@@ -489,9 +492,8 @@ static void test_many_layers(void **state)
     add_layers(m.c);
     for (int i = 0; i < m.c->rail.layers.n; i++) m.c->rail.layers.item[i].bond_strength = NAN;
     m.impact = case_inputs_of(m.c).onset.impact;
-    m.state = gouge_state_of_case(&m.impact);
-    assert_int_equal(gouge_scene_from_state(&m.impact, &m.state, 2.0, &m.gouge).code,
-                     STATUS_BAD_INPUT); /* RESULT_BODIES */
+    m.impact.scene.cells_per_radius = 2.0;
+    assert_int_equal(gouge_scene_make(&m.impact, &m.gouge).code, STATUS_BAD_INPUT); /* RESULT_BODIES */
     case_free(m.c);
 }
 
@@ -539,7 +541,7 @@ static void test_pit(void **state)
     (void)state;
     const char *const sets[] = { "particle.shape=pit", NULL };
     made m = make(sets);
-    const double r = m.state.grain.radius, ball = 4.0 / 3.0 * PI * r * r * r;
+    const double r = m.impact.particle.radius, ball = 4.0 / 3.0 * PI * r * r * r;
     const double density = m.gouge.scene.body[m.gouge.rail].material->density;
     assert_true(is_of_kind(&m.gouge.scene, &m.gouge.scene.body[m.gouge.rail], "minus"));
     assert_true(is_of_kind(&m.gouge.scene, &m.gouge.scene.body[m.gouge.armature], "prism"));
@@ -552,7 +554,7 @@ static void test_pit(void **state)
     /* eight points a radius: those on the border, one in eight, err both ways */
     assert_true(fabs((mass_with("hemisphere") - mass_with("pit")) / (0.5 * density * ball) - 1.0) < 0.05);
     m = make(sets);
-    m.state.grain.height = 2.5e-3;
+    m.impact.particle.height = 2.5e-3;
     assert_int_equal(make_again(&m, 3.0).code, STATUS_BAD_INPUT);
     unmake(&m);
 }
@@ -575,7 +577,7 @@ static void test_gauged(void **state)
     const double whole = m.gouge.scene.end_time;
     m.c->scene.stop_when_gauged = true;
     OK(make_again(&m, 3.0));
-    assert_true(fabs(m.gouge.gauge_time[1] - 28 * m.state.grain.radius / m.state.velocity) < 1e-12);
+    assert_true(fabs(m.gouge.gauge_time[1] - 28 * m.impact.particle.radius / m.impact.scene.velocity) < 1e-12);
     assert_true(m.gouge.scene.end_time == whole && gouge_last_time(&m.gouge) == m.gouge.gauge_time[1]);
     m.c->scene.end_time = 0.9 * m.gouge.gauge_time[1];
     assert_int_equal(make_again(&m, 3.0).code, STATUS_BAD_INPUT);
@@ -640,7 +642,7 @@ static void test_refused(void **state)
     assert_int_equal(make_again(&m, 3.0).code, STATUS_BAD_INPUT);
     unmake(&m);
     m = make(variants[0]);
-    m.state.velocity = 0.0;
+    m.impact.scene.velocity = 0.0;
     assert_int_equal(make_again(&m, 3.0).code, STATUS_BAD_INPUT);
     unmake(&m);
 }

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "coupling/case/case_bodies.h"
-#include "coupling/gouge/scene_from_state.h"
+#include "coupling/gouge/impact_scene.h"
 #include "coupling/host/outdir.h"
 #include "coupling/scene/scene_bodies.h"
 #include "coupling/scene/scene_fill.h"
@@ -435,8 +435,7 @@ static void test_gouging_as_text(void **state)
         const status s = case_read(BREECH_TESTS "/../cases/default_shot", sets, 6, &how, &c, &errors);
         if (s.code != STATUS_OK) fail_msg("%s", errors ? errors : s.text);
         const case_impact one = case_inputs_of(c).onset.impact;
-        const site_state at = gouge_state_of_case(&one);
-        OK(gouge_scene_bodies(&one, &at, one.scene.cells_per_radius, &g));
+        OK(gouge_scene_bodies(&one, &g));
         FILE *f = open_memstream(&text, &bytes);
         OK(case_write_scene(c, &g.scene, f));
         fclose(f);

@@ -24,12 +24,12 @@ static void test_checkpoints(void **state)
     static const char *const brief[] = { "scene.velocity=2 km/s", "scene.end_time=1 us",
                                          "scene.contact_pressure=300 MPa", "scene.courant=0.2" };
     breech_case *c = small_case(brief, false, "output.snapshots=0");
-    const case_impact one = case_inputs_of(c).onset.impact;
-    const site_state at = gouge_state_of_case(&one);
+    case_impact one = case_inputs_of(c).onset.impact;
+    one.scene.cells_per_radius = 1.2;
     gouge_job job;
     impact hit;
     int saves = 0;
-    OK(gouge_job_make(&one, &at, 1.2, &job));
+    OK(gouge_job_make(&one, &job));
     job.checkpoint_interval = 1e-3;
     const scene_host host = { .threads = 1, .save = save_slowly, .user = &saves };
     const double start = host_wall_clock();

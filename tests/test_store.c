@@ -1,5 +1,5 @@
 /* The scene store: what decides a scene, its file, and that no scene is computed twice, whoever else is at it. */
-#include "coupling/gouge/scene_from_state.h"
+#include "coupling/gouge/impact_scene.h"
 #include "coupling/run/scenes.h"
 #include "coupling/run/store.h"
 
@@ -110,14 +110,13 @@ static void test_key_is_a_case(void **state)
     const status read = case_read_memory(&text, &(case_options){ .needs = CASE_FOR_SCENE }, &back, &errors);
     if (read.code != STATUS_OK) fail_msg("%s", errors ? errors : read.text);
     const case_impact one_back = case_inputs_of(back).onset.impact;
-    const site_state at = gouge_state_of_case(&one), at_back = gouge_state_of_case(&one_back);
     OK(run_scene_key_of(&one_back, &again));
     assert_string_equal(key.text, again.text);
     assert_true(key.hash == again.hash);
 
     gouge_scene of_a, of_b;
-    OK(gouge_scene_from_state(&one, &at, 3.7, &of_a));
-    OK(gouge_scene_from_state(&one_back, &at_back, one_back.scene.cells_per_radius, &of_b));
+    OK(gouge_scene_make(&one, &of_a));
+    OK(gouge_scene_make(&one_back, &of_b));
     const mpm_scene a = of_a.scene, b = of_b.scene;
     assert_int_equal(a.bodies, b.bodies);
     for (int i = 0; i < a.bodies; i++) {

@@ -6,7 +6,7 @@
 #ifndef BREECH_COUPLING_GROWTH_H
 #define BREECH_COUPLING_GROWTH_H
 
-#include "coupling/gouge/scene_from_state.h"
+#include "coupling/gouge/impact_scene.h"
 
 /* What was noted; all zero at a scene's start.  Plain bytes: part of a checkpoint. */
 typedef struct {

@@ -7,12 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-status gouge_job_make(const case_impact *c, const site_state *state, double cells_per_radius, gouge_job *job)
+status gouge_job_make(const case_impact *c, gouge_job *job)
 {
     memset(job, 0, sizeof *job);
     job->snapshots = c->snapshots;
     job->checkpoint_interval = c->checkpoint_interval;
-    return gouge_scene_from_state(c, state, cells_per_radius, &job->scene);
+    return gouge_scene_make(c, &job->scene);
 }
 
 void gouge_job_free(gouge_job *job)
@@ -64,9 +64,8 @@ status gouge_job_run(const gouge_job *job, const scene_host *host, impact *out)
 
 status gouge_run(const impact_job *job, const scene_host *host, impact *out)
 {
-    const site_state state = gouge_state_of_case(&job->of);
     gouge_job made;
-    TRY(gouge_job_make(&job->of, &state, job->of.scene.cells_per_radius, &made));
+    TRY(gouge_job_make(&job->of, &made));
     made.name = job->name;
     made.task = job->task;
     made.resume = job->resume;

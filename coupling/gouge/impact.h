@@ -2,8 +2,8 @@
 #ifndef BREECH_COUPLING_GOUGE_IMPACT_H
 #define BREECH_COUPLING_GOUGE_IMPACT_H
 
+#include "coupling/gouge/impact_scene.h"
 #include "coupling/gouge/result.h"
-#include "coupling/gouge/scene_from_state.h"
 #include "coupling/run/impact_job.h"
 
 typedef struct {
@@ -16,9 +16,9 @@ typedef struct {
     uint64_t twin;
 } gouge_job;
 
-/* The job's scene for this state, and what the impact says of output; name and task are the caller's, who frees the
- * job; after an error it is empty. */
-status gouge_job_make(const case_impact *c, const site_state *state, double cells_per_radius, gouge_job *job);
+/* The impact's scene, and what it says of output; name and task are the caller's, who frees the job; after an error it
+ * is empty. */
+status gouge_job_make(const case_impact *c, gouge_job *job);
 void gouge_job_free(gouge_job *job);
 
 /* The crater goes into the host's history, unless the scene ends before it is whole.

@@ -2,7 +2,7 @@
 #ifndef BREECH_COUPLING_METAL_H
 #define BREECH_COUPLING_METAL_H
 
-#include "coupling/gouge/scene_from_state.h"
+#include "coupling/gouge/impact_scene.h"
 
 /* Arrays of n; one block of memory, owned by `position`. */
 typedef struct {

@@ -1,7 +1,7 @@
 #include "coupling/study/check.h"
 
 #include "coupling/case/treatment.h"
-#include "coupling/gouge/scene_from_state.h"
+#include "coupling/gouge/impact_scene.h"
 #include "coupling/scene/scene_fill.h"
 #include "coupling/study/sampling/population.h"
 #include "coupling/study/search/family.h"
@@ -12,24 +12,32 @@
 
 /* ---- can its scenes be made? ---- */
 
-/* Can this state's scene be built? */
-static status scene_possible(const case_impact *c, const site_state *state, double cells_per_radius)
+/* Can its scene be built? */
+static status scene_possible(const case_impact *c)
 {
     gouge_scene scene;
-    TRY(gouge_scene_bodies(c, state, cells_per_radius, &scene));
+    TRY(gouge_scene_bodies(c, &scene));
     gouge_scene_free(&scene);
     return status_ok();
+}
+
+/* A search's slowest scene with this grain. */
+static case_impact slowest(const case_onset *c, const case_site *grain, double cells_per_radius)
+{
+    const case_impact probe = study_family_probe(c);
+    const site_state state = { .grain = *grain,
+                               .velocity = c->study.velocity_low,
+                               .contact_pressure = probe.scene.contact_pressure };
+    return gouge_impact_at(&probe, &state, cells_per_radius);
 }
 
 /* A search's scenes at both resolutions with a grain of this size. */
 static status grain_possible(const case_onset *c, const case_site *grain)
 {
-    const case_impact probe = study_family_probe(c);
-    site_state state = gouge_state_of_case(&probe);
-    state.velocity = c->study.velocity_low;
-    state.grain = *grain;
-    TRY(scene_possible(&probe, &state, c->study.coarse_cells_per_radius));
-    return scene_possible(&probe, &state, c->study.fine_cells_per_radius);
+    const case_impact coarse = slowest(c, grain, c->study.coarse_cells_per_radius),
+                      fine = slowest(c, grain, c->study.fine_cells_per_radius);
+    TRY(scene_possible(&coarse));
+    return scene_possible(&fine);
 }
 
 static status grains_possible(const case_onset *c)
@@ -80,13 +88,11 @@ status study_possible(const case_inputs *in, unsigned needs)
     if (in->given.bodies) TRY(bodies_possible(&in->bodies.scene));
     rail_section section;
     const case_onset *c = &in->onset;
-    const site_state state = gouge_state_of_case(&c->impact);
     if ((needs & CASE_FOR_INDUCTANCE) ||
         ((needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) && c->launcher.rails.level != SHOT_RAILS_CONSTANT))
         TRY(circuit_rails_section(&c->launcher.rails, &section));
     if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_shot_check(&c->launcher));
-    if ((needs & CASE_FOR_SCENE) && !in->given.bodies)
-        TRY(scene_possible(&c->impact, &state, c->impact.scene.cells_per_radius));
+    if ((needs & CASE_FOR_SCENE) && !in->given.bodies) TRY(scene_possible(&c->impact));
     if (needs & CASE_FOR_ONSET) TRY(grains_possible(c));
     return needs & CASE_FOR_COMPARE ? treatments_possible(c, &in->treatments) : status_ok();
 }
@@ -102,10 +108,12 @@ static status estimate_scene(const mpm_scene *s, double last, int threads, scene
     return status_ok();
 }
 
-static status estimate(const case_impact *c, const site_state *state, double cells, int threads, scene_estimate *out)
+static status estimate(const case_impact *c, const char *what, int threads, scene_estimate *out)
 {
     gouge_scene scene;
-    TRY(gouge_scene_bodies(c, state, cells, &scene));
+    snprintf(out->what, sizeof out->what, "%s, %g m/s, %g cells a radius", what, c->scene.velocity,
+             c->scene.cells_per_radius);
+    TRY(gouge_scene_bodies(c, &scene));
     const status made = estimate_scene(&scene.scene, gouge_last_time(&scene), threads, out);
     gouge_scene_free(&scene);
     return made;
@@ -121,26 +129,17 @@ static bool has_scene(const case_inputs *in)
 status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n)
 {
     const case_onset *c = &in->onset;
-    const case_impact probe = study_family_probe(c);
     *n = 0;
     if (in->given.bodies) {
         snprintf(out[*n].what, sizeof out->what, "scene, %d bodies", in->bodies.scene.bodies);
         TRY(estimate_scene(&in->bodies.scene, in->bodies.scene.end_time, threads, &out[(*n)++]));
     }
-    if (has_scene(in)) {
-        const site_state state = gouge_state_of_case(&c->impact);
-        const double cells = c->impact.scene.cells_per_radius;
-        snprintf(out[*n].what, sizeof out->what, "scene, %g m/s, %g cells a radius", state.velocity, cells);
-        TRY(estimate(&c->impact, &state, cells, threads, &out[(*n)++]));
-    }
+    if (has_scene(in)) TRY(estimate(&c->impact, "scene", threads, &out[(*n)++]));
     if (!c->has_body || c->sites.n == 0) return status_ok();
     const double cells[] = { c->study.coarse_cells_per_radius, c->study.fine_cells_per_radius };
     for (int k = 0; k < (cells[0] < cells[1] ? 2 : 1); k++) {
-        site_state state = gouge_state_of_case(&probe);
-        state.grain = c->sites.item[0];
-        state.velocity = c->study.velocity_low;
-        snprintf(out[*n].what, sizeof out->what, "onset, %g m/s, %g cells a radius", state.velocity, cells[k]);
-        TRY(estimate(&probe, &state, cells[k], threads, &out[(*n)++]));
+        const case_impact one = slowest(c, &c->sites.item[0], cells[k]);
+        TRY(estimate(&one, "onset", threads, &out[(*n)++]));
     }
     return status_ok();
 }
@@ -149,11 +148,10 @@ status study_print_scene(const case_inputs *in, FILE *out)
 {
     gouge_scene scene;
     const case_impact *own = &in->onset.impact;
-    const site_state state = gouge_state_of_case(own);
     if (in->given.bodies) return case_inputs_write(in, out);
     CHECK(has_scene(in), STATUS_BAD_INPUT,
           "the case has no scene of its own: give scene.velocity and particle.radius, or a scene with bodies");
-    TRY(gouge_scene_bodies(own, &state, own->scene.cells_per_radius, &scene));
+    TRY(gouge_scene_bodies(own, &scene));
     const status written = case_inputs_write_scene(in, &scene.scene, out);
     gouge_scene_free(&scene);
     return written;

@@ -283,9 +283,8 @@ static void run_case(const breech_case *c, const recipe *r, chance *luck, outcom
     gouge_job job;
     impact hit;
     case_impact one = case_inputs_of(c).onset.impact;
-    const site_state state = gouge_state_of_case(&one);
     one.checkpoint_interval = 0;
-    status s = gouge_job_make(&one, &state, one.scene.cells_per_radius, &job);
+    status s = gouge_job_make(&one, &job);
     if (s.code == STATUS_OK) {
         job.name = job.task = "stress";
         const scene_host host = { .threads = 1, .save = on_save, .user = o };

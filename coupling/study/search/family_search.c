@@ -3,7 +3,7 @@
 #include "coupling/study/search/family.h"
 
 #include "coupling/gouge/growth.h"
-#include "coupling/gouge/scene_from_state.h"
+#include "coupling/gouge/impact_scene.h"
 
 #include <math.h>
 #include <stdlib.h>

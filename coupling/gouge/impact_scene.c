@@ -1,4 +1,4 @@
-#include "coupling/gouge/scene_from_state.h"
+#include "coupling/gouge/impact_scene.h"
 
 #include "coupling/gouge/armature.h"
 #include "coupling/gouge/growth.h"
@@ -33,20 +33,6 @@ bool gouge_is_layer(const gouge_scene *s, int body)
 bool gouge_counts_as_rail(const gouge_scene *s, int body)
 {
     return body == s->rail || gouge_is_layer(s, body);
-}
-
-site_state gouge_state_of_case(const case_impact *c)
-{
-    const case_particle *p = &c->particle;
-    site_state s = { .reached = true, .time = 0.0, .velocity = c->scene.velocity, .current = NAN };
-    s.grain =
-        (case_site){ .position = NAN, .radius = p->radius, .height = p->height, .bond_strength = p->bond_strength };
-    memcpy(s.grain.shape, p->shape, sizeof s.grain.shape);
-    memcpy(s.grain.material, p->material, sizeof s.grain.material);
-    s.contact_pressure = isnan(c->scene.contact_pressure) ? 0.0 : c->scene.contact_pressure;
-    s.rail_temperature = c->rail.temperature;
-    s.armature_temperature = c->armature.temperature;
-    return s;
 }
 
 case_impact gouge_impact_at(const case_impact *from, const site_state *state, double cells_per_radius)
@@ -90,7 +76,7 @@ static double cells_over(double length, double cell)
 }
 
 /* Half of the grain's extent across the rail. */
-static double half_across(const case_site *g)
+static double half_across(const case_particle *g)
 {
     const mpm_solid_kind *k = mpm_solid_kind_find(g->shape);
     if (!k) return g->radius;
@@ -109,8 +95,9 @@ static int levels_of(const case_scene *s, double fine)
 }
 
 /* On one level the zone of fine cells must hold all that happens. */
-static void lay_zone(const case_impact *c, const case_site *g, layout *l)
+static void lay_zone(const case_impact *c, layout *l)
 {
+    const case_particle *g = &c->particle;
     const bool one = l->levels == 1;
     const double radius = g->radius, across = half_across(g) + START_BESIDE * radius;
     const double room = one ? 3.0 * l->coarse : 2.0 * l->fine;
@@ -124,11 +111,12 @@ static void lay_zone(const case_impact *c, const case_site *g, layout *l)
     if (c->scene.half_model) l->zone_lo[2] = 0.0;
 }
 
-static layout lay_out(const case_impact *c, const case_site *g, double cells_per_radius)
+static layout lay_out(const case_impact *c)
 {
     const case_scene *s = &c->scene;
+    const case_particle *g = &c->particle;
     const case_projectile *p = &c->armature;
-    layout l = { .fine = g->radius / cells_per_radius };
+    layout l = { .fine = g->radius / s->cells_per_radius };
     l.levels = levels_of(s, l.fine);
     l.coarse = l.levels > 1 ? l.fine * (1 << (l.levels - 1)) : fmax(s->coarse_cell, l.fine);
     l.run = p->chamfer_height / tan(p->lead_angle);
@@ -140,12 +128,13 @@ static layout lay_out(const case_impact *c, const case_site *g, double cells_per
     l.rail_half_width = 0.5 * given_or(s->rail_width, p->width);
     l.half_width = fmax(l.rail_half_width, 0.5 * p->width) + (l.levels > 1 ? l.coarse : 3.0 * l.coarse);
     l.layers = case_layers_thickness(&c->rail.layers);
-    lay_zone(c, g, &l);
+    lay_zone(c, &l);
     return l;
 }
 
-static status check_layout(const case_impact *c, const case_site *g, const layout *l)
+static status check_layout(const case_impact *c, const layout *l)
 {
+    const case_particle *g = &c->particle;
     CHECK(
         l->zone_hi[0] > g->radius && -l->zone_lo[0] > g->radius, STATUS_BAD_INPUT,
         "scene: the window, %g m behind to %g m ahead of the grain, must hold the grain of radius %g m and fine cells "
@@ -166,7 +155,7 @@ static status check_layout(const case_impact *c, const case_site *g, const layou
 }
 
 /* A layer that may come off touches what lies below it: a body of less than a cell cannot. */
-static status check_layers(const case_impact *c, const case_site *g, const layout *l)
+static status check_layers(const case_impact *c, const layout *l)
 {
     for (int i = 0; i < c->rail.layers.n; i++) {
         const case_layer *layer = &c->rail.layers.item[i];
@@ -174,7 +163,7 @@ static status check_layers(const case_impact *c, const case_site *g, const layou
             isnan(layer->bond_strength) || layer->thickness >= l->fine * (1.0 - 1e-9), STATUS_BAD_INPUT,
             "rail.layers[%d]: %g m of %s with a bond of its own, in cells of %g m: at least one cell across; take %.3g "
             "cells a radius, or weld it (bond_strength: none)",
-            i, layer->thickness, layer->material, l->fine, g->radius / layer->thickness);
+            i, layer->thickness, layer->material, l->fine, c->particle.radius / layer->thickness);
     }
     return status_ok();
 }
@@ -237,13 +226,13 @@ static status add_rail(const case_impact *c, const layout *l, gouge_scene *g, in
     return status_ok();
 }
 
-static bool is_pit(const case_site *g)
+static bool is_pit(const case_particle *g)
 {
     return strcmp(g->shape, "pit") == 0;
 }
 
 /* Those values of a grain's shape that it has; its middle stays at 0. */
-static void set_grain(const case_site *g, mpm_solid *solid)
+static void set_grain(const case_particle *g, mpm_solid *solid)
 {
     const struct {
         const char *name;
@@ -258,9 +247,10 @@ static void set_grain(const case_site *g, mpm_solid *solid)
 }
 
 /* A pit is a hole in rail and layers, no body. */
-static status add_grain(const case_impact *c, const case_site *g, gouge_scene *out, int *group)
+static status add_grain(const case_impact *c, gouge_scene *out, int *group)
 {
     mpm_body *b;
+    const case_particle *g = &c->particle;
     mpm_scene *s = &out->scene;
     mpm_solid *solid;
     double lo[3], hi[3];
@@ -282,7 +272,7 @@ static status add_grain(const case_impact *c, const case_site *g, gouge_scene *o
     return status_ok();
 }
 
-static status add_armature(const case_impact *c, const site_state *state, const layout *l, int group, gouge_scene *g)
+static status add_armature(const case_impact *c, const layout *l, int group, gouge_scene *g)
 {
     mpm_body *b;
     const case_projectile *p = &c->armature;
@@ -304,23 +294,23 @@ static status add_armature(const case_impact *c, const site_state *state, const 
     gouge_armature_fill(&shape, prism);
     b->solid = s->solids - 1;
     const double mass = b->material->density * gouge_armature_section(&shape) * p->width;
-    b->velocity[0] = state->velocity;
-    b->body_force[1] = -state->contact_pressure * gouge_face_area(p) / mass;
-    g->velocity = state->velocity;
+    b->velocity[0] = c->scene.velocity;
+    b->body_force[1] = -given_or(c->scene.contact_pressure, 0.0) * gouge_face_area(p) / mass;
+    g->velocity = c->scene.velocity;
     g->face_front = l->x_front;
     g->face_tail = l->x_front + l->run - p->length;
     return status_ok();
 }
 
-static status add_bodies(const case_impact *c, const site_state *state, const layout *l, gouge_scene *g)
+static status add_bodies(const case_impact *c, const layout *l, gouge_scene *g)
 {
     mpm_scene *s = &g->scene;
     int group = 0;
     CHECK(c->rail.layers.n + 3 <= RESULT_BODIES, STATUS_BAD_INPUT, "rail.layers: %d layers, must be %d at most",
           c->rail.layers.n, RESULT_BODIES - 3);
     TRY(add_rail(c, l, g, &group));
-    TRY(add_grain(c, &state->grain, g, &group));
-    TRY(add_armature(c, state, l, group + 1, g));
+    TRY(add_grain(c, g, &group));
+    TRY(add_armature(c, l, group + 1, g));
     for (int i = 0; i < s->bodies; i++) {
         mpm_body *b = &s->body[i];
         CHECK(b->material, STATUS_BAD_INPUT, "scene: body `%s` has no material", b->name);
@@ -394,14 +384,15 @@ double gouge_last_time(const gouge_scene *s)
 }
 
 /* Fine cells around the grain until it has been passed, then where metal flows. */
-static status set_refinement(const case_impact *c, const case_site *grain, gouge_scene *g)
+static status set_refinement(const case_impact *c, gouge_scene *g)
 {
+    const double radius = c->particle.radius;
     mpm_scene *s = &g->scene;
     mpm_refine *plastic;
     for (int i = 0; c->scene.follow && i < s->bodies; i++) s->body[i].followed = gouge_counts_as_rail(g, i);
-    if (c->scene.follow) gouge_gauge_times(grain->radius, g->velocity, g->gauge_time);
+    if (c->scene.follow) gouge_gauge_times(radius, g->velocity, g->gauge_time);
     if (s->levels == 1) return status_ok();
-    s->zone_until = gouge_grain_passed(g) + grain->radius / g->velocity;
+    s->zone_until = gouge_grain_passed(g) + radius / g->velocity;
     TRY(mpm_scene_add_refine(s, "plastic", &plastic));
     *mpm_refine_value(plastic, "jump") = c->scene.refine_tolerance * g->velocity;
     return status_ok();
@@ -448,7 +439,7 @@ static status reaches_gauge(const gouge_scene *g)
 
 /* Plan area and volume of the part above y = 0, of a pit of all of it, by the middles of N_PLAN x N_UP x N_PLAN cells
  * of its box. */
-static void measure_grain(const case_site *g, double *area, double *volume)
+static void measure_grain(const case_particle *g, double *area, double *volume)
 {
     enum { N_PLAN = 128, N_UP = 48 };
     mpm_solid shape = mpm_solid_make(mpm_solid_kind_find(g->shape));
@@ -473,8 +464,9 @@ static void measure_grain(const case_site *g, double *area, double *volume)
     *volume = cells * h[0] * h[1] * h[2];
 }
 
-static crater_spec spec_of(const case_impact *c, const case_site *g, const gouge_scene *of)
+static crater_spec spec_of(const case_impact *c, const gouge_scene *of)
 {
+    const case_particle *g = &c->particle;
     const mpm_scene *s = &of->scene;
     crater_spec spec = { .surface = 0.0,
                          .x_lo = s->axis[0].fine_lo,
@@ -490,27 +482,27 @@ static crater_spec spec_of(const case_impact *c, const case_site *g, const gouge
     return spec;
 }
 
-static status fill_scene(const case_impact *c, const site_state *state, double cells_per_radius, gouge_scene *out)
+static status fill_scene(const case_impact *c, gouge_scene *out)
 {
-    CHECK(state->velocity > 0.0 && isfinite(state->velocity), STATUS_BAD_INPUT,
-          "scene: the armature's velocity is %g m/s: must be positive", state->velocity);
-    const layout l = lay_out(c, &state->grain, cells_per_radius);
-    TRY(check_layout(c, &state->grain, &l));
-    TRY(check_layers(c, &state->grain, &l));
+    CHECK(c->scene.velocity > 0.0 && isfinite(c->scene.velocity), STATUS_BAD_INPUT,
+          "scene: the armature's velocity is %g m/s: must be positive", c->scene.velocity);
+    const layout l = lay_out(c);
+    TRY(check_layout(c, &l));
+    TRY(check_layers(c, &l));
     set_contacts(c, &out->scene);
-    TRY(add_bodies(c, state, &l, out));
+    TRY(add_bodies(c, &l, out));
     set_axes(c, &l, out);
     set_method(c, &l, out);
-    TRY(set_refinement(c, &state->grain, out));
+    TRY(set_refinement(c, out));
     set_rules(c, out);
     return reaches_gauge(out);
 }
 
-status gouge_scene_bodies(const case_impact *c, const site_state *state, double cells_per_radius, gouge_scene *out)
+status gouge_scene_bodies(const case_impact *c, gouge_scene *out)
 {
     memset(out, 0, sizeof *out);
     mpm_scene_default(&out->scene);
-    const status s = fill_scene(c, state, cells_per_radius, out);
+    const status s = fill_scene(c, out);
     if (s.code != STATUS_OK) gouge_scene_free(out);
     return s;
 }
@@ -520,9 +512,9 @@ void gouge_scene_free(gouge_scene *s)
     mpm_scene_free(&s->scene);
 }
 
-status gouge_scene_from_state(const case_impact *c, const site_state *state, double cells_per_radius, gouge_scene *out)
+status gouge_scene_make(const case_impact *c, gouge_scene *out)
 {
-    TRY(gouge_scene_bodies(c, state, cells_per_radius, out));
-    out->crater = spec_of(c, &state->grain, out);
+    TRY(gouge_scene_bodies(c, out));
+    out->crater = spec_of(c, out);
     return status_ok();
 }

@@ -1,4 +1,4 @@
-/* From a site's state to the scene: bodies, contact laws, grid, end time, and what the crater is measured by.
+/* From an impact to its scene: bodies, contact laws, grid, end time, and what the crater is measured by.
  *
  * x = 0, y = 0, z = 0 is the middle of the grain's foot on the undamaged surface; the armature comes from -x.
  * Bodies, in this order, later ones winning points: rail (box), layers (boxes, the last one's top is y = 0), grain,
@@ -13,8 +13,8 @@
  * The armature starts with its lead face a fine cell short of the grain's upper upstream edge.  It is pressed on by a
  * body force: contact pressure x contact face / mass.  Laws that tests/test_handoff.c checks: no two bodies overlap,
  * the grain's foot is on the surface, masses and the pressing force are those of the case, whatever the case. */
-#ifndef BREECH_COUPLING_SCENE_FROM_STATE_H
-#define BREECH_COUPLING_SCENE_FROM_STATE_H
+#ifndef BREECH_COUPLING_IMPACT_SCENE_H
+#define BREECH_COUPLING_IMPACT_SCENE_H
 
 #include "coupling/gouge/crater.h"
 #include "coupling/gouge/site_state.h"
@@ -43,19 +43,16 @@ typedef struct {
 
 enum { GOUGE_PIT = -1 };
 
-/* state: grain, velocity and contact pressure are used.  The caller frees the scene; after an error it is empty.
- * STATUS_BAD_INPUT names what cannot be built and which key to change. */
-status gouge_scene_from_state(const case_impact *c, const site_state *state, double cells_per_radius, gouge_scene *out);
+/* An impact decides its scene; a contact pressure that it does not give is none.  The caller frees the scene; after an
+ * error it is empty.  STATUS_BAD_INPUT names what cannot be built and which key to change. */
+status gouge_scene_make(const case_impact *c, gouge_scene *out);
 
 void gouge_scene_free(gouge_scene *s);
 
 /* The same without what the crater is measured by, which takes some 20 ms: does this case make a scene? */
-status gouge_scene_bodies(const case_impact *c, const site_state *state, double cells_per_radius, gouge_scene *out);
+status gouge_scene_bodies(const case_impact *c, gouge_scene *out);
 
-/* What the impact itself says: its particle, velocity and contact pressure (none where it gives none). */
-site_state gouge_state_of_case(const case_impact *c);
-
-/* The impact with this state's grain, velocity and contact pressure, at that resolution: its scene is decided. */
+/* The impact with this state's grain, velocity and contact pressure, at that resolution. */
 case_impact gouge_impact_at(const case_impact *from, const site_state *state, double cells_per_radius);
 
 /* Does the crater count this body's points: the rail or one of its layers? */
