@@ -2,6 +2,7 @@
 #include "coupling/case/treatment.h"
 #include "coupling/gouge/growth.h"
 #include "coupling/study/compare.h"
+#include "coupling/study/sampling/shifts.h"
 #include "coupling/study/study.h"
 
 #include <math.h>
@@ -21,13 +22,15 @@
     } while (0)
 
 static int scenes;
+static double growth_rises = 1.0; /* with velocity; -1: it falls, whatever the class */
 
-/* Severity of a made-up scene: a line in velocity; a harder, colder or layered rail and a steeper lead face gouge
- * later. */
+/* Severity of a made-up scene: a line in velocity; a harder, colder or layered rail, a steeper lead face and a grid
+ * that is shifted gouge later. */
 static double made_up_threshold(const case_impact *of)
 {
     double v = 1400.0 + 100.0 * (of->rail.yield_scale - 1.5) - 0.5 * (of->rail.temperature - 293.0);
     v += 10.0 * (of->armature.lead_angle * 180.0 / 3.14159265358979 - 30.0);
+    v += 400.0 * of->scene.grid_shift[0];
     for (int i = 0; i < of->rail.layers.n; i++) {
         const case_layer *layer = &of->rail.layers.item[i];
         v += 80.0 * layer->yield_scale + (strcmp(layer->material, "steel_4340") == 0 ? 200.0 : 0.0);
@@ -45,7 +48,7 @@ static status fake_scene(const impact_job *job, const scene_host *host, impact *
     const double excess = (v - made_up_threshold(of) - (of->scene.cells_per_radius < 2.5 ? 20.0 : 0.0)) / 150.0;
     scene_result *hit = &out->result;
     hit->severity = excess + of->scene.limit_severity;
-    hit->groove_growth = excess / gouge_growth_folds(1.0, r, v);
+    hit->groove_growth = growth_rises * excess / gouge_growth_folds(1.0, r, v);
     /* a groove must have grown for a while before its crater is a gouge */
     hit->class = excess >= (case_impact_is_gauged(of) ? 0.0 : 0.4) ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
     hit->crater_volume = 10.0 * r * r * r;
@@ -584,6 +587,57 @@ static void test_uncertain_inputs(void **state)
     case_free(c);
 }
 
+/* The made-up threshold moves by 400 m/s with a cell's shift along x; growth by an e-fold in 150 m/s. */
+static void test_scatter(void **state)
+{
+    (void)state;
+    enum { GRIDS = 5 };
+    breech_case *c = read(HEAD GRAINS "sites: [{position: 2.9 m}]\n", CASE_FOR_ONSET);
+    c->study.velocity_low = 500.0;
+    c->study.velocity_high = 3000.0;
+    c->study.velocity_interval = 0.02;
+    onset_answer sure = studied(c, "still", status_ok());
+    assert_true(isnan(sure.result.growth_deviation) && isnan(sure.result.threshold_deviation));
+    c->study.ensemble = GRIDS;
+    c->study.shots = 2; /* on the warm rail too */
+    onset_answer a = studied(c, "shifted", status_ok());
+    const double none[3] = { 0.0 };
+    double moved[GRIDS], shift[3];
+    for (int i = 0; i < GRIDS; i++) {
+        study_shift_of(i, none, shift);
+        moved[i] = 400.0 * shift[0];
+    }
+    const double want = study_shift_spread(moved, GRIDS).deviation;
+    const onset_result *r = &a.result;
+    assert_true(want > 100.0);
+    assert_true(r->threshold_velocity == sure.result.threshold_velocity);
+    assert_true(fabs(r->growth_deviation - want / 150.0) < 1e-9 && fabs(r->threshold_deviation - want) < 1e-6);
+    const double resolution = 0.1 * r->threshold_velocity, both = hypot(resolution, want);
+    for (int e = 0; e < 2; e++)
+        assert_true(fabs(fabs(r->threshold_interval[e] - sure.result.threshold_interval[e]) - (both - resolution)) <
+                    6.0);
+    assert_true(r->threshold_interval[0] < sure.result.threshold_interval[0] &&
+                r->threshold_interval[1] > sure.result.threshold_interval[1]);
+    const threshold_result *warm = &a.rail.warm.family[0].surface.reference;
+    assert_true(fabs(warm->allowance - hypot(0.1 * warm->velocity, want)) < 6.0);
+    int shifted = 0;
+    for (int i = 0; i < r->n_scenes; i++) shifted += strstr(r->scene[i].name, "-growth-e") != NULL;
+    assert_int_equal(shifted, GRIDS - 1);
+    study_onset_answer_free(&sure);
+    study_onset_answer_free(&a);
+    growth_rises = -1.0; /* no slope: the scatter is told, and the interval is as without it */
+    c->study.shots = 1;
+    a = studied(c, "falling", status_ok());
+    c->study.ensemble = 0;
+    sure = studied(c, "falling-still", status_ok());
+    growth_rises = 1.0;
+    assert_true(fabs(a.result.growth_deviation - want / 150.0) < 1e-9 && isnan(a.result.threshold_deviation));
+    for (int e = 0; e < 2; e++) assert_true(a.result.threshold_interval[e] == sure.result.threshold_interval[e]);
+    study_onset_answer_free(&sure);
+    study_onset_answer_free(&a);
+    case_free(c);
+}
+
 /* No whole craters: numbers of gouges as with them, volumes and what the gouges take unknown. */
 static void test_no_craters(void **state)
 {
@@ -688,6 +742,7 @@ int main(void)
         cmocka_unit_test(test_feedback_of_populations),
         cmocka_unit_test(test_no_craters),
         cmocka_unit_test(test_uncertain_inputs),
+        cmocka_unit_test(test_scatter),
         cmocka_unit_test(test_shots_warm_the_rail),
         cmocka_unit_test(test_shots_strip_the_rail),
     };

@@ -3,7 +3,7 @@
 #include "program_common.h"
 
 #include "body_scenes.h"
-#include "coupling/study/ensemble.h"
+#include "coupling/study/sampling/shifts.h"
 
 #define ENSEMBLE TINY " --set output.snapshots=0 --set scene.end_time='2 us'"
 
@@ -16,10 +16,10 @@ static void test_shifts(void **state)
     const double own[3] = { 0.0, 0.25, 1.0 };
     double at[3];
     int in[8] = { 0 };
-    study_ensemble_shift(0, own, at);
+    study_shift_of(0, own, at);
     assert_memory_equal(at, own, sizeof own);
     for (int i = 1; i <= 64; i++) {
-        study_ensemble_shift(i, own, at);
+        study_shift_of(i, own, at);
         for (int k = 0; k < 3; k++) assert_true(at[k] >= 0.0 && at[k] < 1.0);
         in[(at[0] >= 0.5) + 2 * (at[1] >= 0.5) + 4 * (at[2] >= 0.5)]++;
     }
@@ -32,8 +32,8 @@ static void test_spread(void **state)
 {
     (void)state;
     const double value[] = { 3.0, NAN, 5.0, 10.0 }, none[] = { NAN, NAN };
-    const ensemble_spread s = study_ensemble_spread(value, 4), one = study_ensemble_spread(value, 2),
-                          no = study_ensemble_spread(none, 2);
+    const shift_spread s = study_shift_spread(value, 4), one = study_shift_spread(value, 2),
+                       no = study_shift_spread(none, 2);
     assert_int_equal(s.scenes, 3);
     assert_true(s.mean == 6.0 && s.least == 3.0 && s.largest == 10.0);
     assert_true(fabs(s.deviation - sqrt((9.0 + 1.0 + 16.0) / 2.0)) < 1e-15);

@@ -1,27 +1,15 @@
 /* An ensemble: one scene on several grids, each shifted against the bodies by another part of a cell (study.ensemble).
- *
- * What then differs is what the scene's answers owe to where the cells happen to lie: their scatter.  The first grid
- * is the case's own, the next ones move by a sequence that fills the unit cube evenly whatever its length, so that a
- * larger ensemble takes up the scenes of a smaller one. */
+ * sampling/shifts.h has the shifts. */
 #ifndef BREECH_COUPLING_STUDY_ENSEMBLE_H
 #define BREECH_COUPLING_STUDY_ENSEMBLE_H
 
+#include "coupling/study/sampling/shifts.h"
 #include "coupling/study/study.h"
-
-/* The shift of the i-th grid, from 0, of a scene whose own shift is `own`: in 0 .. 1 along each axis [cells]. */
-void study_ensemble_shift(int i, const double own[3], double out[3]);
-
-/* Of the numbers that are there; how many of n.  deviation: by one less than these, NAN of fewer than two. */
-typedef struct {
-    int scenes;
-    double mean, deviation, least, largest;
-} ensemble_spread;
-ensemble_spread study_ensemble_spread(const double *value, int n);
 
 /* A number of the scene's summary. */
 typedef struct {
     char name[SUMMARY_PATH_SIZE], unit[PARAM_TEXT_SIZE];
-    ensemble_spread spread; /* [unit] */
+    shift_spread spread; /* [unit] */
 } ensemble_number;
 
 typedef struct {

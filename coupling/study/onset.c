@@ -64,6 +64,7 @@ static void unknown_all(onset_result *r)
 {
     r->verdict = VERDICT_UNDECIDED;
     r->probability_gouge = r->threshold_velocity = r->threshold_position = r->onset_position = NAN;
+    r->growth_deviation = r->threshold_deviation = NAN;
     r->muzzle_velocity_feedback = r->expected_gouges = r->expected_gouged_volume = NAN;
     for (int k = 0; k < 2; k++) {
         r->threshold_interval[k] = r->threshold_position_interval[k] = r->onset_interval[k] = NAN;
@@ -256,6 +257,7 @@ static status study(session *s, const case_onset *c, onset_answer *a)
     TRY(study_onset_begin(s, c, "", true, a));
     TRY(study_repeated_fly(s, &a->grains, &a->shot, &a->rail));
     TRY(study_families_search(s, all, 1));
+    TRY(study_scatter_run(s, &a->grains));
     TRY(study_uncertain_run(s, &a->grains, &a->uncertain));
     TRY(study_onset_judge(s, a));
     TRY(study_repeated_search(s, &a->grains, &a->rail));

@@ -1,8 +1,8 @@
 /* The main job: where along the rail does gouging begin?
  *
  *   shot -> every site's state at arrival -> screen -> for each family of grains (family.h) the threshold velocity over
- *   size, by scenes -> what else its interval has to hold (uncertain.h) -> sites judged -> what further shots find
- *   (repeated.h) -> populations drawn (montecarlo.h) -> gouges handed back to the shot.
+ *   size, by scenes -> what else its interval has to hold (scatter.h, uncertain.h) -> sites judged -> what further
+ *   shots find (repeated.h) -> populations drawn (montecarlo.h) -> gouges handed back to the shot.
  * A site at v gouges from its interval's upper end on, does not up to its lower end, and is undecided between.
  * `breech compare` does the same for several surfaces with study_onset_begin and study_onset_judge. */
 #ifndef BREECH_COUPLING_ONSET_H
@@ -10,6 +10,7 @@
 
 #include "coupling/gouge/session_shot.h"
 #include "coupling/study/repeated.h"
+#include "coupling/study/search/scatter.h"
 #include "coupling/study/search/uncertain.h"
 
 typedef enum {
@@ -80,6 +81,7 @@ typedef struct {
     double probability_gouge;                                          /* [1] */
     double threshold_velocity;                                         /* at the median size for a population [m/s] */
     double threshold_interval[2];                                      /* [m/s] */
+    double growth_deviation, threshold_deviation;                      /* with the place of the grid [1, m/s] */
     double onset_position;                                             /* along the barrel [m] */
     double onset_interval[2];                                          /* [m] */
     double threshold_position, threshold_position_interval[2];         /* where the threshold velocity is passed [m] */

@@ -141,6 +141,10 @@ static void set_threshold(onset_answer *a)
     if (!f) return;
     const surface_size t = study_surface_at(&f->surface, radius);
     r->threshold_velocity = t.velocity;
+    if (f->scatter.growth > 0.0) {
+        r->growth_deviation = f->scatter.growth;
+        r->threshold_deviation = f->scatter.threshold;
+    }
     r->threshold_position = gouge_trace_place(&a->flown, t.velocity);
     for (int k = 0; k < 2; k++) {
         r->threshold_interval[k] = t.interval[k];

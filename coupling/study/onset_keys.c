@@ -80,7 +80,12 @@ const summary_key study_onset_keys[] = {
     SUMMARY_NUMBER(onset_result, "threshold_velocity", threshold_velocity, "m/s",
                    "at the population's median size for a population"),
     SUMMARY_VECTOR(onset_result, "threshold_interval", threshold_interval, 2, "m/s",
-                   "bracket, resolution and input uncertainty"),
+                   "bracket, resolution, scatter with the grid and input uncertainty"),
+    SUMMARY_NUMBER(onset_result, "growth_deviation", growth_deviation, "1",
+                   "standard deviation of the growth over study.ensemble grids, nearest the threshold, e-folds; null: "
+                   "not asked for"),
+    SUMMARY_NUMBER(onset_result, "threshold_deviation", threshold_deviation, "m/s",
+                   "what that makes of the threshold; its interval holds it"),
     SUMMARY_NUMBER(onset_result, "onset_position", onset_position, "m", "along the barrel"),
     SUMMARY_VECTOR(onset_result, "onset_interval", onset_interval, 2, "m", "of the position"),
     SUMMARY_NUMBER(onset_result, "threshold_position", threshold_position, "m",

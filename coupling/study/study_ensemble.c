@@ -43,36 +43,6 @@ static const summary_key result_keys[] = {
     SUMMARY_END,
 };
 
-/* ---- shifts and spreads ---- */
-
-/* g^-1, g^-2, g^-3 with g^4 = g + 1: multiples of them, less their whole parts, lie evenly in the unit cube. */
-static const double STEP[3] = { 0.8191725133961644, 0.671043606703789, 0.5497004779019701 };
-
-void study_ensemble_shift(int i, const double own[3], double out[3])
-{
-    for (int k = 0; k < 3; k++) {
-        const double at = own[k] + i * STEP[k];
-        out[k] = i == 0 ? own[k] : at - floor(at);
-    }
-}
-
-ensemble_spread study_ensemble_spread(const double *value, int n)
-{
-    ensemble_spread s = { .mean = NAN, .deviation = NAN, .least = NAN, .largest = NAN };
-    double sum = 0.0, squares = 0.0;
-    for (int i = 0; i < n; i++) {
-        if (!isfinite(value[i])) continue;
-        s.scenes++;
-        sum += value[i];
-        s.least = fmin(s.least, value[i]), s.largest = fmax(s.largest, value[i]); /* NAN gives way */
-    }
-    if (s.scenes > 0) s.mean = sum / s.scenes;
-    for (int i = 0; i < n; i++)
-        if (isfinite(value[i])) squares += (value[i] - s.mean) * (value[i] - s.mean);
-    if (s.scenes > 1) s.deviation = sqrt(squares / (s.scenes - 1));
-    return s;
-}
-
 /* ---- the answer ---- */
 
 enum { MOST_CLASSES = 8 };
@@ -130,7 +100,7 @@ static void fill_cases(const study_case *of, ensemble_answer *a)
         case_inputs own = *of->in;
         a->in[i] = own;
         a->in[i].onset.study.ensemble = 0;
-        study_ensemble_shift(i, shift_of(&own), shift_of(&a->in[i]));
+        study_shift_of(i, shift_of(&own), shift_of(&a->in[i]));
         memcpy(a->scene[i].shift, shift_of(&a->in[i]), sizeof a->scene[i].shift);
         snprintf(a->prefix[i], sizeof a->prefix[i], "e%d-", i + 1);
     }
@@ -232,7 +202,7 @@ static status fill_numbers(ensemble_answer *a)
         a->scene[i].value = a->pair + i * numbers;
         a->scene[i].wall_seconds = time ? output_number_of(time, a->answer[i].result) : NAN;
     }
-    for (int k = 0; k < numbers; k++) number[k].spread = study_ensemble_spread(a->value + k * a->scenes, a->scenes);
+    for (int k = 0; k < numbers; k++) number[k].spread = study_shift_spread(a->value + k * a->scenes, a->scenes);
     count_classes(a);
     return status_ok();
 }
@@ -290,7 +260,7 @@ static void print(const void *result, FILE *out)
     if (host_table_create("number|mean|deviation|smallest|largest|unit|scenes", &t).code != STATUS_OK) return;
     for (int k = 0; k < r->n_numbers; k++) {
         const ensemble_number *n = &r->number[k];
-        const ensemble_spread *s = &n->spread;
+        const shift_spread *s = &n->spread;
         char mean[24], deviation[24], least[24], largest[24];
         if (s->scenes == 0) continue;
         host_table_row(t, "%s|%s|%s|%s|%s|%s|%d", n->name, output_cell(s->mean, 1.0, "%.5g", mean),

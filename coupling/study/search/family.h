@@ -26,6 +26,11 @@ typedef struct {
     bool by_growth;  /* else by severity: study_family_probe */
     surface_plan plan;
     surface_result surface;
+    /* With the place of the grid, standard deviations: of the growth [e-folds], of the threshold by that [m/s]; 0: not
+     * asked for, or there is no threshold; NAN: the second one is not known. */
+    struct {
+        double growth, threshold;
+    } scatter;
     int n_scenes;
     family_scene scene[THRESHOLD_MAX_SAMPLES];
 } grain_family;
@@ -55,6 +60,11 @@ status study_families_search(session *s, grain_families *const *f, int n);
 
 /* Its family in another case of the same grains; NULL: none of them is fast enough there (screen). */
 const grain_family *study_family_alike(const grain_families *in, const grain_family *f);
+
+/* The scene as the searches ask for it; k: of its family. */
+scene_query study_family_query(const grain_families *f, int k, const family_scene *scene);
+/* What crosses zero at the threshold: growth in e-folds, or severity less its limit [1]. */
+double study_family_excess(const case_onset *c, const onset_scene *e);
 
 /* Is it of the search?  Judged by growth, whole scenes are not: their class is that of their severity. */
 bool study_family_searched(const grain_family *f, const family_scene *scene);

@@ -41,25 +41,31 @@ static double contact_pressure_at(const grain_families *f, double v)
     return PRESSURE_STEP * round(at.contact_pressure / PRESSURE_STEP);
 }
 
-static scene_query query_of(const family_search *s, const family_wanted *w)
+scene_query study_family_query(const grain_families *f, int k, const family_scene *scene)
 {
-    const case_impact *from = w->whole ? &s->of->whole : &s->of->probe;
-    const double radius = w->at.radius, velocity = w->at.velocity, cells = w->at.cells_per_radius;
-    site_state state = { .grain = s->family->grain,
+    const case_impact *from = scene->whole ? &f->whole : &f->probe;
+    const grain_family *family = &f->family[k];
+    site_state state = { .grain = family->grain,
                          .reached = true,
-                         .velocity = velocity,
-                         .contact_pressure = contact_pressure_at(s->of, velocity) };
-    state.grain.radius = radius;
-    state.grain.height = s->family->aspect * radius;
-    scene_query q = { .impact = gouge_impact_at(from, &state, cells) };
+                         .velocity = scene->velocity,
+                         .contact_pressure = contact_pressure_at(f, scene->velocity) };
+    state.grain.radius = scene->radius;
+    state.grain.height = family->aspect * scene->radius;
+    scene_query q = { .impact = gouge_impact_at(from, &state, scene->cells) };
     char size[32] = "";
-    if (s->family->plan.sizes > 1) snprintf(size, sizeof size, "-r%.6g", 1e3 * radius);
-    snprintf(q.name, sizeof q.name, "%.40sg%d%s-v%g-c%g%s", s->of->prefix, s->number, size, velocity, cells,
+    if (family->plan.sizes > 1) snprintf(size, sizeof size, "-r%.6g", 1e3 * scene->radius);
+    snprintf(q.name, sizeof q.name, "%.40sg%d%s-v%g-c%g%s", f->prefix, k + 1, size, scene->velocity, scene->cells,
              case_impact_is_gauged(from) ? "-growth" : "");
     return q;
 }
 
-static double excess_of(const case_onset *c, const onset_scene *e)
+static scene_query query_of(const family_search *s, const family_wanted *w)
+{
+    const family_scene scene = { w->at.radius, w->at.velocity, w->at.cells_per_radius, w->whole, NULL };
+    return study_family_query(s->of, s->number - 1, &scene);
+}
+
+double study_family_excess(const case_onset *c, const onset_scene *e)
 {
     const scene_result *r = &e->result;
     return e->gauged ? gouge_growth_folds(r->groove_growth, e->radius, e->velocity)
@@ -313,7 +319,8 @@ static status go_on(session *s, family_search *search, scene_query needed[TOGETH
                 continue;
             }
             keep(search->family, &wanted[i], record);
-            TRY(tell(search, &wanted[i], excess_of(search->of->c, &record->entry), record->entry.result.class));
+            TRY(tell(search, &wanted[i], study_family_excess(search->of->c, &record->entry),
+                     record->entry.result.class));
         }
     } while (*n < asked);
     if (*n == 0) search->family->surface = search->surface.result;

@@ -103,6 +103,7 @@ void study_uncertain_widen(const uncertain_inputs *u, const grain_families *firs
             const double off = moved_to(&u->of[i], f) - f->surface.reference.velocity;
             if (isfinite(off)) squares += off * off;
         }
+        if (f && isfinite(f->scatter.threshold)) squares += f->scatter.threshold * f->scatter.threshold;
         widen(s, sqrt(squares));
     }
 }
@@ -117,8 +118,7 @@ status study_uncertain_run(session *s, grain_families *grains, uncertain_inputs 
         all[out->n] = &out->of[out->n].grains;
         TRY(plan(grains, &inputs[k], error, &out->of[out->n++]));
     }
-    if (out->n == 0) return status_ok();
-    TRY(study_families_search(s, all, out->n));
+    if (out->n > 0) TRY(study_families_search(s, all, out->n));
     study_uncertain_widen(out, grains, grains);
     return status_ok();
 }

@@ -2,7 +2,8 @@
  * by its stated uncertainty (study.strength_error, friction_error; 0: not asked for).
  *
  * By as much as the threshold of the reference size then moves, the intervals of all sizes are widened on both sides:
- * the allowance is the root of the sum of squares of what cells may change (threshold.h) and of all these.
+ * the allowance is the root of the sum of squares of what cells may change (threshold.h), of what the place of the grid
+ * does (scatter.h) and of all these.
  * The searches are looked for from 0.6 to 1.6 of the threshold, have no whole craters, and go on side by side. */
 #ifndef BREECH_COUPLING_UNCERTAIN_H
 #define BREECH_COUPLING_UNCERTAIN_H

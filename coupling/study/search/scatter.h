@@ -1,0 +1,15 @@
+/* What thresholds owe to where the cells happen to lie (study.ensemble, judged by growth).
+ *
+ * Of each family the search's scene nearest to its threshold is computed on further grids, each shifted by another part
+ * of a cell (sampling/shifts.h).  The standard deviation s of the groove's growth over them [e-folds], and the slope b
+ * of the growth over velocity by the search's own scenes, make a standard deviation s/b of the threshold [m/s]. */
+#ifndef BREECH_COUPLING_SCATTER_H
+#define BREECH_COUPLING_SCATTER_H
+
+#include "coupling/study/search/family.h"
+
+/* After the search of `grains`; into grain_family.scatter of those that have a threshold.  What they move is
+ * study_uncertain_run's to do. */
+status study_scatter_run(session *s, grain_families *grains);
+
+#endif
