@@ -300,6 +300,18 @@ void mpm_free(mpm *m)
 
 /* ---- the step ---- */
 
+/* How many of the sites in a list by level are of this one or a finer one. */
+static int sites_up_to(const mpm *m, const int to[MPM_MAX_LEVELS], int level)
+{
+    return to[level < m->grids.levels ? level : m->grids.levels - 1];
+}
+
+/* The coarsest level that has nodes with a step that ends now (substeps.c). */
+static int coarsest_due(const mpm *m)
+{
+    return m->ends + 2;
+}
+
 static void phase_p2g(mpm *m)
 {
 #pragma omp parallel for schedule(dynamic, 4) num_threads(m->threads)
@@ -322,21 +334,24 @@ static status reserve_scratch(mpm *m)
 /* Nodes that two levels share: sums there first, velocities of those that follow last. */
 static void phase_nodes(mpm *m)
 {
+    const int due = coarsest_due(m), gathered = m->begins > due ? m->begins : due;
+    const int nodes = sites_up_to(m, m->sites_to, due), interfaces = sites_up_to(m, m->interfaces_to, due);
+    const int lines = sites_up_to(m, m->interfaces_to, gathered);
 #pragma omp parallel num_threads(m->threads)
     {
 #pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < m->interface_count; i++) {
+        for (int i = 0; i < lines; i++) {
             m->kernel->gather(m, m->interface_list[i]);
             mpm_substep_restore(m, m->interface_list[i]);
         }
 #pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < m->interface_count; i++) mpm_interface_add_sums(m, m->interface_list[i]);
+        for (int i = 0; i < interfaces; i++) mpm_interface_add_sums(m, m->interface_list[i]);
 #pragma omp for schedule(dynamic, 16)
-        for (int i = 0; i < m->site_count; i++) m->kernel->nodes(m, m->site_list[i], omp_get_thread_num());
+        for (int i = 0; i < nodes; i++) m->kernel->nodes(m, m->site_list[i], omp_get_thread_num());
 #pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < m->interface_count; i++) mpm_interface_constrain(m, m->interface_list[i]);
+        for (int i = 0; i < interfaces; i++) mpm_interface_constrain(m, m->interface_list[i]);
 #pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < m->interface_count; i++) mpm_substep_store(m, m->interface_list[i]);
+        for (int i = 0; i < interfaces; i++) mpm_substep_store(m, m->interface_list[i]);
     }
 }
 
@@ -415,7 +430,8 @@ static void collect_share(const mpm *m, int share, tally *sum)
     }
     double(*contact)[3] = share_contact(m, share);
     memset(contact, 0, (size_t)m->groups * sizeof *contact);
-    for (int i = share_begin(m->site_count, share); i < share_begin(m->site_count, share + 1); i++) {
+    const int sites = sites_up_to(m, m->sites_to, coarsest_due(m));
+    for (int i = share_begin(sites, share); i < share_begin(sites, share + 1); i++) {
         const tally *t = &m->site_sum[m->site_list[i]];
         add_nodes(sum, t);
         if (t->shared) add_contact(m, m->site_list[i], contact);

@@ -18,7 +18,7 @@
 
 enum {
     GRANULE = 4,      /* elements an axis; brick (k) of nodes 4k .. 4k + 3 has the same place */
-    GRANULE_LIFE = 5, /* looks after the last that asked for it (refine/adapt.c) */
+    GRANULE_LIFE = 2, /* looks after the last that asked for it (refine/adapt.c) */
     PAGE = 8,         /* granules an axis */
     PAGE_PLACES = PAGE * PAGE * PAGE
 };

@@ -254,38 +254,46 @@ interface_nodes mpm_interface_nodes(const mpm *m, int level, const int at[3], ui
     return s;
 }
 
-static status make_bricks(mpm *m, int group, int level, const node_box *r)
+/* Takes the first of a brick's nodes out of the set: its cell, and the node. */
+static int next_node(const brick *b, uint64_t *set, int node[3])
 {
-    if (is_empty(r)) return status_ok();
+    const int c = __builtin_ctzll(*set);
+    const int in[3] = { c % BRICK, c / BRICK % BRICK, c / (BRICK * BRICK) };
+    for (int k = 0; k < 3; k++) node[k] = BRICK * b->at[k] + in[k];
+    *set &= *set - 1;
+    return c;
+}
+
+/* Makes the bricks of a level that hold these nodes. */
+static status want_nodes(mpm *m, int group, int level, const node_box *r)
+{
     for (int z = r->lo[2] / BRICK; z <= r->hi[2] / BRICK; z++)
         for (int y = r->lo[1] / BRICK; y <= r->hi[1] / BRICK; y++)
             for (int x = r->lo[0] / BRICK; x <= r->hi[0] / BRICK; x++) {
-                const int at[3] = { x, y, z };
-                if (brick_at(m, group, level, at) >= 0) continue;
-                uint8_t foreign[BRICK_CELLS];
-                const interface_nodes s = mpm_interface_nodes(m, level, at, foreign);
                 int found;
-                if (interface_any(&s)) TRY(mpm_store_brick(m, group, level, at, &found));
+                TRY(mpm_store_brick(m, group, level, (const int[3]){ x, y, z }, &found));
+                m->bricks[found].wanted = true;
             }
     return status_ok();
 }
 
-status mpm_interface_make_bricks(mpm *m, const brick *b)
+status mpm_interface_want_bricks(mpm *m, int index)
 {
-    const node_box reach = nodes_of(b->at, 1); /* of its particles */
-    const grid_level *coarser = level_at(m, b->level + 1), *finer = level_at(m, b->level - 1);
-    if (coarser) {
-        const node_box c = to_coarse(&reach), there = existing(coarser, c);
-        TRY(make_bricks(m, b->group, b->level + 1, &there));
-    }
-    if (finer) {
-        const node_box f = to_fine(&reach), there = existing(finer, f);
-        TRY(make_bricks(m, b->group, b->level - 1, &there));
+    const brick b = m->bricks[index]; /* the array may move */
+    for (uint64_t set = (b.interface.follow_coarser | b.interface.follow_finer) & b.reached; set;) {
+        node_box n;
+        const int cell = next_node(&b, &set, n.lo);
+        memcpy(n.hi, n.lo, sizeof n.hi);
+        const bool up = b.interface.follow_finer >> cell & 1;
+        const node_box followed = up ? to_fine(&n) : to_coarse(&n);
+        const int level = b.level + (up ? -1 : 1);
+        const node_box there = existing(&m->grids.level[level], followed);
+        if (!is_empty(&there)) TRY(want_nodes(m, b.group, level, &there));
     }
     return status_ok();
 }
 
-/* Does another group have particles in bricks that hold these nodes? */
+/* May another group have particles in bricks that hold these nodes? */
 static bool others_in(const mpm *m, int group, int level, const node_box *r)
 {
     if (is_empty(r)) return false;
@@ -294,7 +302,7 @@ static bool others_in(const mpm *m, int group, int level, const node_box *r)
             for (int x = r->lo[0] / BRICK; x <= r->hi[0] / BRICK; x++)
                 for (int f = 0; f < m->groups; f++) {
                     const int i = brick_at(m, f, level, (const int[3]){ x, y, z });
-                    if (f != group && i >= 0 && m->bricks[i].particles > 0) return true;
+                    if (f != group && i >= 0 && m->bricks[i].covered) return true;
                 }
     return false;
 }
@@ -331,16 +339,6 @@ static const brick *brick_with(const mpm *m, int group, int level, const int nod
 static int cell_of(const int node[3])
 {
     return cell_index(node[0] % BRICK, node[1] % BRICK, node[2] % BRICK);
-}
-
-/* Takes the first of a brick's nodes out of the set: its cell, and the node. */
-static int next_node(const brick *b, uint64_t *set, int node[3])
-{
-    const int c = __builtin_ctzll(*set);
-    const int in[3] = { c % BRICK, c / BRICK % BRICK, c / (BRICK * BRICK) };
-    for (int k = 0; k < 3; k++) node[k] = BRICK * b->at[k] + in[k];
-    *set &= *set - 1;
-    return c;
 }
 
 /* ---- sums go to the nodes that are followed ---- */
@@ -486,7 +484,9 @@ void mpm_interface_constrain(mpm *m, int site)
         const int i = brick_of_site(m, site, f);
         if (i < 0) continue;
         brick *b = &m->bricks[i];
-        for (uint64_t set = (b->interface.follow_finer | b->interface.follow_coarser) & mpm_substep_due(m, b); set;) {
+        for (uint64_t set =
+                 (b->interface.follow_finer | b->interface.follow_coarser) & mpm_substep_due(m, b) & b->reached;
+             set;) {
             int node[3];
             const int cell = next_node(b, &set, node);
             memset(brick_nodes(m, b)[cell], 0, NODE * sizeof(double));

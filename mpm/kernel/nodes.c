@@ -26,34 +26,27 @@ typedef struct {
     const double *extra;
 } node_state;
 
-/* Nodes of a brick that the particles of its neighbour at a step reach: a box, and where the neighbour has its sums of
- * them. */
+/* Nodes of a brick that the particles of its neighbour at a step reach: a box, where the neighbour has its sums of
+ * them, and its cells whose particles those are. */
 typedef struct {
     int first[3], count[3], there;
+    uint64_t cells;
 } shared_box;
 
-static shared_box box_towards(int step)
-{
-    shared_box b;
-    int there[3];
-    for (int k = 0, s = step; k < 3; k++, s /= 3) {
-        const int d = s % 3 - 1;
-        b.first[k] = d > 0 ? BRICK - 1 : 0;
-        b.count[k] = d == 0 ? BRICK : 1;
-        there[k] = d > 0 ? 0 : d < 0 ? HALO - 1 : 1;
+#define FIRST_OF(d) ((d) > 0 ? BRICK - 1 : 0)
+#define COUNT_OF(d) ((d) == 0 ? BRICK : 1)
+#define THERE_OF(d) ((d) > 0 ? 0 : (d) < 0 ? HALO - 1 : 1)
+#define CELLS_OF(d, before, after) ((d) < 0 ? (before) : (d) > 0 ? (after) : ~0ull)
+#define SHARED_BOX(x, y, z)                                                                                \
+    {                                                                                                      \
+        { FIRST_OF(x), FIRST_OF(y), FIRST_OF(z) }, { COUNT_OF(x), COUNT_OF(y), COUNT_OF(z) },              \
+            HALO_PLACE(THERE_OF(x), THERE_OF(y), THERE_OF(z)),                                             \
+            CELLS_OF(x, 0x8888888888888888, 0x1111111111111111) &                                          \
+                CELLS_OF(y, 0xf000f000f000f000, 0x000f000f000f000f) & CELLS_OF(z, 0xffffull << 48, 0xffff) \
     }
-    b.there = halo_place[halo_at(there)];
-    return b;
-}
-
-/* Cells of a neighbour whose particles reach this brick's nodes. */
-static uint64_t cells_towards(int step)
-{
-    static const uint64_t cells[3][3] = { { 0x8888888888888888, ~0ull, 0x1111111111111111 },
-                                          { 0xf000f000f000f000, ~0ull, 0x000f000f000f000f },
-                                          { 0xffff000000000000, ~0ull, 0x000000000000ffff } };
-    return cells[0][step % 3] & cells[1][step / 3 % 3] & cells[2][step / 9];
-}
+#define SHARED_ROW(y, z) SHARED_BOX(-1, y, z), SHARED_BOX(0, y, z), SHARED_BOX(1, y, z)
+#define SHARED_PLANE(z) SHARED_ROW(-1, z), SHARED_ROW(0, z), SHARED_ROW(1, z)
+static const shared_box shared_boxes[NEIGHBOURS] = { SHARED_PLANE(-1), SHARED_PLANE(0), SHARED_PLANE(1) };
 
 static void add_lines(double (*to)[LINE], double (*const out)[LINE], const shared_box *b)
 {
@@ -90,25 +83,25 @@ static void clear_ghosts(const mpm *m, const brick *b, double (*line)[LINE])
 static bool gather_group(const mpm *m, const brick *b, bool with_contact, const group_nodes *n)
 {
     const brick *from[NEIGHBOURS];
-    shared_box box[NEIGHBOURS];
+    const shared_box *box[NEIGHBOURS];
     bool meets[NEIGHBOURS];
     int count = 0;
     for (int step = 0; step < NEIGHBOURS; step++) {
         if (b->neighbour[step] < 0) continue;
         from[count] = &m->bricks[b->neighbour[step]];
-        const uint64_t near = from[count]->occupied & cells_towards(step);
+        box[count] = &shared_boxes[step];
+        const uint64_t near = from[count]->occupied & box[count]->cells;
         if (!near) continue;
-        box[count] = box_towards(step);
         meets[count] = with_contact && from[count]->meets & near;
-        prefetch_lines(from[count]->out, &box[count]);
-        if (meets[count]) prefetch_lines(from[count]->out_contact, &box[count]);
+        prefetch_lines(from[count]->out, box[count]);
+        if (meets[count]) prefetch_lines(from[count]->out_contact, box[count]);
         count++;
     }
     memset(n->line, 0, sizeof(node_lines));
     if (with_contact) memset(n->extra, 0, sizeof(node_lines));
     for (int i = 0; i < count; i++) {
-        add_lines(n->line, from[i]->out, &box[i]);
-        if (meets[i]) add_lines(n->extra, from[i]->out_contact, &box[i]);
+        add_lines(n->line, from[i]->out, box[i]);
+        if (meets[i]) add_lines(n->extra, from[i]->out_contact, box[i]);
     }
     clear_ghosts(m, b, n->line);
     return count > 0;

@@ -147,21 +147,12 @@ status mpm_store_brick(mpm *m, int group, int level, const int at[3], int *out)
         b->at_interface = interface_any(&b->interface);
         memcpy(b->at, at, sizeof b->at);
         for (int c = 0; c < BRICK_CELLS; c++) b->head[c] = -1;
+        for (int k = 0; k < NEIGHBOURS; k++) b->neighbour[k] = -1;
         memset(m->nodes[m->bricks_used], 0, sizeof *m->nodes);
         *slot = m->bricks_used++;
     }
     *out = *slot;
     return status_ok();
-}
-
-static bool step_inside(const mpm *m, const brick *b, int step, int to[3])
-{
-    const int d[3] = { step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1 };
-    for (int k = 0; k < 3; k++) {
-        to[k] = b->at[k] + d[k];
-        if (to[k] < 0 || to[k] >= axes_of(m, b)[k].bricks) return false;
-    }
-    return true;
 }
 
 status mpm_store_open(brick *b)
@@ -181,29 +172,15 @@ status mpm_store_empty(mpm *m, int blocks)
     return blocks > m->blocks_capacity ? grow_blocks(m, blocks + blocks / 8) : status_ok();
 }
 
-status mpm_store_surround(mpm *m, int brick_index)
-{
-    for (int step = 0; step < NEIGHBOURS; step++) {
-        int to[3], found;
-        const brick *b = &m->bricks[brick_index];
-        if (step_inside(m, b, step, to)) TRY(mpm_store_brick(m, b->group, b->level, to, &found));
-    }
-    if (m->bricks[brick_index].at_interface) {
-        const brick b = m->bricks[brick_index]; /* the array may move */
-        TRY(mpm_interface_make_bricks(m, &b));
-    }
-    return mpm_store_open(&m->bricks[brick_index]);
-}
-
-/* Does another group have particles at this place or next door? */
+/* May another group have particles at this place or next door? */
 static bool meets_other(const mpm *m, const brick *b)
 {
     for (int step = 0; step < NEIGHBOURS; step++) {
         int to[3];
-        if (!step_inside(m, b, step, to)) continue;
+        if (!brick_step_inside(m, b, step, to)) continue;
         for (int f = 0; f < m->groups; f++) {
             const int other = brick_at(m, f, b->level, to);
-            if (f != b->group && other >= 0 && m->bricks[other].particles > 0) return true;
+            if (f != b->group && other >= 0 && m->bricks[other].covered) return true;
         }
     }
     return false;
@@ -214,11 +191,10 @@ static bool link_brick(mpm *m, brick *b)
 {
     for (int step = 0; step < NEIGHBOURS; step++) {
         int to[3];
-        b->neighbour[step] = step_inside(m, b, step, to) ? brick_at(m, b->group, b->level, to) : -1;
+        b->neighbour[step] = brick_step_inside(m, b, step, to) ? brick_at(m, b->group, b->level, to) : -1;
     }
     b->across = b->at_interface && mpm_interface_in_contact(m, b);
     b->contact = b->across || meets_other(m, b);
-    b->occupied = mpm_occupied_cells(b);
     if (b->contact && b->out && !b->out_contact) b->out_contact = aligned(HALO_NODES * sizeof *b->out_contact);
     if (b->at_interface && !b->line) b->line = cleared(2 * BRICK_CELLS * sizeof *b->line);
     if (interface_shared(&b->interface) && !b->held) b->held = cleared(sizeof *b->held);
@@ -226,19 +202,26 @@ static bool link_brick(mpm *m, brick *b)
            (b->held || !interface_shared(&b->interface));
 }
 
+static void list_sites_of_level(mpm *m, int level)
+{
+    for (int p = 0; p < m->grids.pages; p++)
+        for (int s = p * PAGE_PLACES; m->grids.page[p].level == level && s < (p + 1) * PAGE_PLACES; s++) {
+            int groups = 0;
+            for (int f = 0; s < m->places && f < m->groups; f++) {
+                const int i = brick_of_site(m, s, f);
+                if (i < 0 || groups++ > 0) continue;
+                m->site_list[m->site_count++] = s;
+                if (m->bricks[i].at_interface) m->interface_list[m->interface_count++] = s;
+            }
+            if (groups > m->crowd) m->crowd = groups;
+        }
+    m->sites_to[level] = m->site_count, m->interfaces_to[level] = m->interface_count;
+}
+
 static void list_sites(mpm *m)
 {
     m->site_count = m->interface_count = m->crowd = 0;
-    for (int s = 0; s < m->places; s++) {
-        int groups = 0;
-        for (int f = 0; f < m->groups; f++) {
-            const int i = brick_of_site(m, s, f);
-            if (i < 0 || groups++ > 0) continue;
-            m->site_list[m->site_count++] = s;
-            if (m->bricks[i].at_interface) m->interface_list[m->interface_count++] = s;
-        }
-        if (groups > m->crowd) m->crowd = groups;
-    }
+    for (int level = 0; level < m->grids.levels; level++) list_sites_of_level(m, level);
 }
 
 status mpm_store_relink(mpm *m)
@@ -249,6 +232,76 @@ status mpm_store_relink(mpm *m)
     CHECK(enough, STATUS_MEMORY, "no memory for a brick");
     list_sites(m);
     return status_ok();
+}
+
+/* ---- the bricks that particles need ---- */
+
+enum { SLACK = 1 }; /* cells that they may go on before bricks are made anew */
+
+/* Those with nodes that they reach. */
+static status want_neighbours(mpm *m, int index)
+{
+    for (int step = 0; step < NEIGHBOURS; step++) {
+        const brick *b = &m->bricks[index]; /* the array may move */
+        int to[3], found;
+        if (!(b->occupied & mpm_cells_towards(step, SLACK + 1)) || !brick_step_inside(m, b, step, to)) continue;
+        TRY(mpm_store_brick(m, b->group, b->level, to, &found));
+        m->bricks[found].wanted = true;
+    }
+    return status_ok();
+}
+
+static status want_bricks(mpm *m)
+{
+    int n = m->bricks_used;
+#pragma omp parallel for schedule(static) num_threads(m->threads)
+    for (int i = 0; i < n; i++) {
+        brick *b = &m->bricks[i];
+        b->occupied = mpm_occupied_cells(b);
+        b->wanted = b->occupied != 0;
+    }
+    for (int i = 0; i < n; i++)
+        if (m->bricks[i].occupied) TRY(want_neighbours(m, i));
+    n = m->bricks_used;
+#pragma omp parallel for schedule(dynamic, 16) num_threads(m->threads)
+    for (int i = 0; i < n; i++) {
+        brick *b = &m->bricks[i];
+        b->covered = b->wanted ? mpm_cells_around(m, b, SLACK) : 0;
+        b->reached = b->wanted ? mpm_cells_around(m, b, SLACK + 1) : 0;
+    }
+    for (int i = 0; i < n; i++)
+        if (m->bricks[i].at_interface && m->bricks[i].reached) TRY(mpm_interface_want_bricks(m, i));
+    for (int i = 0; i < m->bricks_used; i++)
+        if (m->bricks[i].covered) TRY(mpm_store_open(&m->bricks[i]));
+    return status_ok();
+}
+
+static void forget_unwanted(mpm *m)
+{
+    int n = 0;
+    for (int i = 0; i < m->bricks_used; i++) {
+        brick *b = &m->bricks[i];
+        int *slot = &m->directory[grids_place(&m->grids, b->level, b->at) * m->groups + b->group];
+        *slot = b->wanted ? n : -1;
+        if (b->wanted)
+            m->bricks[n++] = *b;
+        else
+            free_brick(b);
+    }
+    m->bricks_used = n;
+}
+
+status mpm_store_cover(mpm *m)
+{
+    TRY(want_bricks(m));
+    return mpm_store_relink(m);
+}
+
+status mpm_store_prune(mpm *m)
+{
+    TRY(want_bricks(m));
+    forget_unwanted(m);
+    return mpm_store_relink(m);
 }
 
 status mpm_store_reserve(mpm *m, int blocks)
@@ -477,35 +530,9 @@ status mpm_store_place(mpm *m, int body, const double *particle)
     return status_ok();
 }
 
-static status surround_all(mpm *m)
-{
-    const int filled = m->bricks_used;
-    for (int i = 0; i < filled; i++)
-        if (!m->bricks[i].out) TRY(mpm_store_surround(m, i));
-    return status_ok();
-}
-
-status mpm_store_prune(mpm *m)
-{
-    int n = 0;
-    for (int i = 0; i < m->bricks_used; i++) {
-        brick *b = &m->bricks[i];
-        int *slot = &m->directory[grids_place(&m->grids, b->level, b->at) * m->groups + b->group];
-        *slot = b->particles > 0 ? n : -1;
-        if (*slot < 0)
-            free_brick(b);
-        else
-            m->bricks[n++] = *b;
-    }
-    m->bricks_used = n;
-    for (int i = 0; i < n; i++) TRY(mpm_store_surround(m, i));
-    return mpm_store_relink(m);
-}
-
 status mpm_store_settle(mpm *m)
 {
-    TRY(surround_all(m));
-    TRY(mpm_store_relink(m));
+    TRY(mpm_store_cover(m));
     TRY(mpm_store_reserve(m, 0));
     return mpm_store_compact(m);
 }

@@ -164,9 +164,9 @@ static bool arrive(mpm *m, brick *b)
 }
 
 /* Calls `each` for every mover to another level, in the order of bricks. */
-typedef status crosser(mpm *m, const mover_list *list, int i, int group, bool *changed);
+typedef status crosser(mpm *m, const mover_list *list, int i, int group);
 
-static status each_crossing(mpm *m, crosser *each, bool *changed)
+static status each_crossing(mpm *m, crosser *each)
 {
     const int before = m->bricks_used;
     for (int i = 0; i < before; i++) {
@@ -174,24 +174,20 @@ static status each_crossing(mpm *m, crosser *each, bool *changed)
         const brick b = m->bricks[i]; /* the array may move */
         const mover_list *list = &m->movers[b.movers_thread];
         for (int k = b.movers_first; k < b.movers_first + b.movers; k++)
-            if (list->head[k].brick_step == CROSSES) TRY(each(m, list, k, b.group, changed));
+            if (list->head[k].brick_step == CROSSES) TRY(each(m, list, k, b.group));
     }
     return status_ok();
 }
 
-static status open_across(mpm *m, const mover_list *list, int i, int group, bool *changed)
+static status make_across(mpm *m, const mover_list *list, int i, int group)
 {
     int to;
-    TRY(mpm_store_brick(m, group, list->head[i].level, list->head[i].at, &to));
-    if (m->bricks[to].out) return status_ok();
-    *changed = true;
-    return mpm_store_surround(m, to);
+    return mpm_store_brick(m, group, list->head[i].level, list->head[i].at, &to);
 }
 
-static status arrive_across(mpm *m, const mover_list *list, int i, int group, bool *changed)
+static status arrive_across(mpm *m, const mover_list *list, int i, int group)
 {
     brick *b = &m->bricks[brick_at(m, group, list->head[i].level, list->head[i].at)];
-    *changed = *changed || b->particles == 0;
     const int q = mpm_store_insert(m, b, list->head[i].cell, list->head[i].body, list->data[i]);
     CHECK(q >= 0, STATUS_MEMORY, "the particle blocks ran out where the grids' levels meet: use larger cells");
     b->occupied |= 1ull << list->head[i].cell;
@@ -199,42 +195,30 @@ static status arrive_across(mpm *m, const mover_list *list, int i, int group, bo
     return status_ok();
 }
 
-/* Bricks that receive their first particle get memory and neighbours. */
-static status open_bricks(mpm *m, bool *changed)
+/* Do all particles lie where the bricks around them have been made? */
+static bool all_covered(const mpm *m)
 {
-    TRY(each_crossing(m, open_across, changed));
-    const int before = m->bricks_used;
-    for (int i = 0; i < before; i++) {
-        if (!m->bricks[i].mover_steps) continue;
-        for (int step = 0; step < NEIGHBOURS; step++) {
-            if (!(m->bricks[i].mover_steps >> step & 1)) continue;
-            const int to = m->bricks[i].neighbour[step];
-            if (m->bricks[to].out) continue;
-            TRY(mpm_store_surround(m, to));
-            *changed = true;
-        }
-    }
-    return status_ok();
+    for (int i = 0; i < m->bricks_used; i++)
+        if (m->bricks[i].occupied & ~m->bricks[i].covered) return false;
+    return true;
 }
 
 status mpm_movers_exchange(mpm *m)
 {
-    bool changed = false, enough = true, relink = false;
-    TRY(open_bricks(m, &changed));
-    if (changed) TRY(mpm_store_relink(m));
+    bool enough = true;
+    TRY(each_crossing(m, make_across));
     TRY(mpm_store_reserve(m, 0));
-#pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads) reduction(&& : enough) reduction(|| : relink)
+#pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads) reduction(&& : enough)
     for (int i = 0; i < m->bricks_used; i++) {
         brick *b = &m->bricks[i];
-        if (!b->out || b->level > m->ends) continue;
+        if (!b->reached || b->level > m->ends) continue;
         if (b->mover_steps || b->sum.left.count)
             for (int c = 0; c < BRICK_CELLS; c++) mpm_store_tidy_cell(m, b, c);
         enough = arrive(m, b) && enough;
         b->occupied = mpm_occupied_cells(b);
-        relink = relink || (b->sum.particles > 0) != (b->particles > 0); /* filled or emptied by this step */
     }
-    TRY(each_crossing(m, arrive_across, &relink));
-    if (relink) TRY(mpm_store_relink(m));
+    TRY(each_crossing(m, arrive_across));
+    if (!all_covered(m)) TRY(m->ends == m->grids.levels - 1 ? mpm_store_prune(m) : mpm_store_cover(m));
     CHECK(enough, STATUS_MEMORY,
           "the particle blocks ran out within one step at t = %g s; this is a limit of the solver: use larger cells",
           m->time);

@@ -135,6 +135,9 @@ typedef struct {
     bool fresh;                  /* points have come from another level since the last look (refine/merge.c) */
     bool contact;                /* another group has particles here or next door */
     uint64_t occupied, meets;    /* bit c: cell c has particles; it may share nodes with another group */
+    uint64_t covered;            /* cells that may come to be occupied until bricks are made anew around them */
+    uint64_t reached;            /* nodes that particles in covered cells give to */
+    bool wanted;                 /* those need this brick: it has them, their nodes, or nodes that these follow */
     int neighbour[NEIGHBOURS];   /* bricks of the same group around, -1 = none */
     double (*out)[LINE];         /* [216] m, px, py, pz, fx, fy, fz, kinetic energy; halo_place (kernels.h) */
     double (*out_contact)[LINE]; /* [216] V grad S (3), -m (x_i - x_p) (3), m flow, m effusivity (mixed) */
@@ -201,8 +204,9 @@ struct mpm {
     brick *bricks;
     double (*nodes)[BRICK_CELLS][NODE]; /* of each brick: vx, vy, vz, specific energy that is left to the particles */
     int bricks_used, bricks_capacity;
-    int *site_list, site_count;           /* sites that have a brick */
-    int *interface_list, interface_count; /* those of them at seams */
+    int *site_list, site_count;                                  /* sites that have a brick, by level */
+    int *interface_list, interface_count;                        /* those of them where levels meet */
+    int sites_to[MPM_MAX_LEVELS], interfaces_to[MPM_MAX_LEVELS]; /* how many of each are of a level or a finer one */
 
     block *blocks;
     block_link *links;
@@ -253,12 +257,13 @@ void mpm_store_release(mpm *m, int block_index);         /* back to the free blo
 void mpm_store_release_cell(mpm *m, brick *b, int cell); /* all blocks of a cell */
 void mpm_store_free(mpm *m);
 status mpm_store_brick(mpm *m, int group, int level, const int at[3], int *out); /* finds or makes it */
-status mpm_store_open(brick *b);                    /* memory for the sums of its particles */
-status mpm_store_empty(mpm *m, int blocks);         /* no bricks, room for so many blocks */
-status mpm_store_surround(mpm *m, int brick_index); /* makes its 26 neighbours inside the window */
-status mpm_store_relink(mpm *m);                    /* neighbours, contact flags, site list */
-/* Forgets bricks that neither hold particles nor lie beside such; between two steps of the coarsest level. */
-status mpm_store_prune(mpm *m);
+status mpm_store_open(brick *b);            /* memory for the sums of its particles */
+status mpm_store_empty(mpm *m, int blocks); /* no bricks, room for so many blocks */
+/* Makes the bricks whose nodes particles reach, or will within a cell's way, and finds them again: neighbours, contact
+ * flags, site list.  Due when a cell is occupied that is not covered. */
+status mpm_store_cover(mpm *m);
+status mpm_store_relink(mpm *m); /* neighbours, contact flags, site list alone */
+status mpm_store_prune(mpm *m); /* covers, without bricks that nothing wants; between two steps of the coarsest level */
 void mpm_store_drop_lane(mpm *m, brick *b, int block_index, int lane); /* a point has left */
 void mpm_store_tidy_cell(mpm *m, brick *b, int cell);                  /* gives back its empty blocks */
 status mpm_store_reserve(mpm *m, int blocks); /* so many free blocks, and those for the next step */
@@ -273,8 +278,7 @@ int mpm_store_cell_at(const mpm *m, int level, const double x[3],
 bool mpm_interface_changed(const mpm *m, const brick *b); /* may they be others since the last look (adapt.c)? */
 /* Of a brick at this place, and of its cells the octants that other levels have (brick.foreign). */
 interface_nodes mpm_interface_nodes(const mpm *m, int level, const int at[3], uint8_t foreign[BRICK_CELLS]);
-status mpm_interface_make_bricks(mpm *m,
-                                 const brick *b); /* makes the bricks that a brick's particles need in other levels */
+status mpm_interface_want_bricks(mpm *m, int brick_index);   /* makes those of other levels that its nodes follow */
 bool mpm_interface_in_contact(const mpm *m, const brick *b); /* brick.across */
 void mpm_interface_add_sums(mpm *m, int site);               /* adds to brick.line what nodes of other levels hand on */
 void mpm_interface_constrain(mpm *m, int site);              /* velocities of the nodes that follow another level */
@@ -288,9 +292,11 @@ double mpm_substep_dt(const mpm *m, const brick *b, int cell); /* of a node's st
 void mpm_substep_restore(mpm *m, int site);                    /* brick.line as brick.held has it */
 void mpm_substep_store(mpm *m, int site); /* into brick.held, or for its particles, what a step has made of it */
 
-/* contact_cells.c */
+/* cells_around.c: bits of a brick's cells */
 uint64_t mpm_occupied_cells(const brick *b);
-uint64_t mpm_contact_cells(const mpm *m, const brick *b); /* brick.meets from what is occupied around */
+uint64_t mpm_contact_cells(const mpm *m, const brick *b);           /* brick.meets from what is occupied around */
+uint64_t mpm_cells_around(const mpm *m, const brick *b, int reach); /* within `reach` (1, 2) of the group's occupied */
+uint64_t mpm_cells_towards(int step, int layers); /* so many layers of cells beside the neighbour at a step */
 
 /* point.c: one particle's BLOCK_DOUBLES */
 void mpm_point_halve(double *q, double *other, int k);
@@ -413,6 +419,17 @@ static inline const touch_rule *touch_rule_of(const mpm *m, int a, int b)
 static inline const axis *axes_of(const mpm *m, const brick *b)
 {
     return m->grids.level[b->level].axes;
+}
+
+/* Place of a brick's neighbour; false: beyond the window. */
+static inline bool brick_step_inside(const mpm *m, const brick *b, int step, int to[3])
+{
+    const int d[3] = { step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1 };
+    for (int k = 0; k < 3; k++) {
+        to[k] = b->at[k] + d[k];
+        if (to[k] < 0 || to[k] >= axes_of(m, b)[k].bricks) return false;
+    }
+    return true;
 }
 
 static inline int cell_index(int i, int j, int k)

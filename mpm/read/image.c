@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char MAGIC[8] = "BREECH8";
+static const char MAGIC[8] = "BREECH9";
 
 typedef struct {
     char magic[8];
@@ -22,6 +22,7 @@ typedef struct {
 
 typedef struct {
     int group, level, at[3], particles, has_out, fresh;
+    uint64_t covered, reached;
     int blocks[BRICK_CELLS];
 } image_brick;
 
@@ -46,7 +47,7 @@ static char *put_brick(char *to, const mpm *m, const brick *b)
     image_brick head;
     memset(&head, 0, sizeof head);
     head.group = b->group, head.level = b->level, head.particles = b->particles, head.has_out = b->out != NULL,
-    head.fresh = b->fresh;
+    head.fresh = b->fresh, head.covered = b->covered, head.reached = b->reached;
     memcpy(head.at, b->at, sizeof head.at);
     for (int c = 0; c < BRICK_CELLS; c++)
         for (int q = b->head[c]; q >= 0; q = m->links[q].next) head.blocks[c]++;
@@ -138,8 +139,10 @@ static status get_brick(mpm *m, reader *r)
     TRY(mpm_store_brick(m, head.group, head.level, head.at, &index));
     brick *b = &m->bricks[index];
     b->particles = head.particles, b->fresh = head.fresh;
+    b->covered = head.covered, b->reached = head.reached;
     if (head.has_out) TRY(mpm_store_open(b));
     for (int c = 0; c < BRICK_CELLS; c++) TRY(get_cell(m, b, c, head.blocks[c], r));
+    b->occupied = mpm_occupied_cells(b);
     return status_ok();
 }
 
