@@ -8,6 +8,8 @@
 
 static const double DEAD = -2.999; /* growth of a groove that died before its first gauge, or less [e-folds] */
 
+static const double NEAR = 0.3; /* of the threshold: scenes so near it make the slope */
+
 /* Of the search at the reference size, at the cells of its answer. */
 static bool counts(const grain_family *f, const family_scene *scene)
 {
@@ -27,20 +29,28 @@ static const family_scene *nearest(const grain_family *f)
     return best;
 }
 
-/* Of the growth over velocity, the least squares of all grooves that lived; NAN: it does not rise, or there are fewer
- * than two [1/(m/s)]. */
-static double slope(const case_onset *c, const grain_family *f)
+/* Of the growth over velocity, the least squares of the grooves that lived, so far from the threshold at most [m/s];
+ * NAN: it does not rise, or there are fewer than two [1/(m/s)]. */
+static double slope_within(const case_onset *c, const grain_family *f, double far)
 {
     double n = 0, v = 0, g = 0, vv = 0, vg = 0;
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *a = &f->scene[i];
-        const double growth = study_family_excess(c, &a->record->entry),
-                     off = a->velocity - f->surface.reference.velocity;
-        if (!counts(f, a) || growth < DEAD) continue;
+        const double off = a->velocity - f->surface.reference.velocity;
+        const double growth = study_family_excess(c, &a->record->entry);
+        if (!counts(f, a) || growth < DEAD || fabs(off) > far) continue;
         n++, v += off, g += growth, vv += off * off, vg += off * growth;
     }
     const double spread = n * vv - v * v, b = (n * vg - v * g) / spread;
     return n > 1 && spread > 0 && b > 0 ? b : NAN;
+}
+
+/* Near the threshold, where growth is nearly a straight line in velocity; where the search has too few scenes there, by
+ * all of them. */
+static double slope(const case_onset *c, const grain_family *f)
+{
+    const double near = slope_within(c, f, NEAR * f->surface.reference.velocity);
+    return isnan(near) ? slope_within(c, f, INFINITY) : near;
 }
 
 /* The scene on the i-th grid. */

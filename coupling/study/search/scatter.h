@@ -2,7 +2,8 @@
  *
  * Of each family the search's scene nearest to its threshold is computed on further grids, each shifted by another part
  * of a cell (sampling/shifts.h).  The standard deviation s of the groove's growth over them [e-folds], and the slope b
- * of the growth over velocity by the search's own scenes, make a standard deviation s/b of the threshold [m/s]. */
+ * of the growth over velocity by the search's own scenes near the threshold, make a standard deviation s/b of the
+ * threshold [m/s]. */
 #ifndef BREECH_COUPLING_SCATTER_H
 #define BREECH_COUPLING_SCATTER_H
 
