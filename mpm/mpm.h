@@ -47,7 +47,8 @@ typedef struct {
 /* Of one body, so far. */
 typedef struct {
     double peak_pressure, peak_mises;         /* any point; pressure: any intact one [Pa] */
-    double peak_pressure_999, peak_mises_999; /* peak over time of the 99.9th percentile by mass [Pa] */
+    double peak_pressure_999, peak_mises_999; /* peak over time of the 99.9th percentile by mass; pressure: that intact
+                                                 points make of it [Pa] */
     double peak_plastic_strain;               /* any point [1] */
 } mpm_body_report;
 

@@ -108,7 +108,8 @@ static inline scene_result example_scene(double severity)
     r.crater_depth = 0.45e-3;
     r.rim_height = 0.2e-3;
     r.crater_volume = 4e-9;
-    r.peak_pressure = 21e9;
+    r.peak_pressure = 12e9;
+    r.max_pressure = 21e9;
     r.peak_force[0] = 3e3;
     r.peak_force[1] = -9e3;
     r.peak_temperature = 900.0;

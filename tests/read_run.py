@@ -18,7 +18,7 @@ assert name in run.scenes
 columns, crater = run.scene(name), run.crater(name)
 assert columns.units["time"] == "s" and columns.units["peak_pressure"] == "Pa"
 assert (np.diff(columns["time"]) > 0).all() and len(set(map(len, columns.values()))) == 1
-assert columns["peak_pressure"][-1] == run.summary["peak_pressure"]
+assert columns["peak_pressure"][-1] == run.summary["max_pressure"]
 assert crater.depth.shape == (len(crater.x), len(crater.z)) and len(crater.profile()) == len(crater.x)
 assert crater.texts["class"] == run.summary["class"]
 assert crater.numbers["depth_m"] == run.summary["crater_depth"]

@@ -158,21 +158,25 @@ static int falling(const void *a, const void *b)
     return (p->stress < q->stress) - (p->stress > q->stress);
 }
 
-/* The stress that more than a thousandth of the body's mass reaches, by sorting. */
+/* The stress that more than a thousandth of the body's mass reaches, by sorting; a pressure counts of intact points. */
 static double percentile_now(const mpm *m, mpm_field field, int body)
 {
-    double *stress = scene_read(m, field), *mass = scene_read(m, MPM_mass), *of = scene_read(m, MPM_body);
+    double *stress = scene_read(m, field), *mass = scene_read(m, MPM_mass), *of = scene_read(m, MPM_body),
+           *damage = scene_read(m, MPM_damage);
     loaded_point *p = malloc(mpm_particles(m) * sizeof *p);
     assert_non_null(p);
     size_t n = 0;
     double all = 0, above = 0;
     for (size_t i = 0; i < mpm_particles(m); i++)
-        if ((int)of[i] == body) p[n++] = (loaded_point){ stress[i], mass[i] }, all += mass[i];
+        if ((int)of[i] == body) {
+            all += mass[i];
+            if (field == MPM_mises || damage[i] < 1) p[n++] = (loaded_point){ stress[i], mass[i] };
+        }
     qsort(p, n, sizeof *p, falling);
     size_t k = 0;
-    while ((above += p[k].mass) <= 1e-3 * all) k++;
-    const double found = p[k].stress;
-    free(stress), free(mass), free(of), free(p);
+    while (k < n && (above += p[k].mass) <= 1e-3 * all) k++;
+    const double found = k < n ? p[k].stress : 0;
+    free(stress), free(mass), free(of), free(damage), free(p);
     return found;
 }
 

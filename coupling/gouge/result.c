@@ -64,7 +64,8 @@ scene_result gouge_result(const gouge_scene *s, const gouge_watch *w, const scen
     take_crater(&r, &w->found);
     take_bodies(&r, s, w, m);
     r.groove_growth = w->growth;
-    r.peak_pressure = m->peak_pressure;
+    r.peak_pressure = fmax(r.peak_pressure_armature_999, r.peak_pressure_rail_999);
+    r.max_pressure = m->peak_pressure;
     r.peak_temperature = m->peak_temperature;
     r.momentum_error = o->ledger.momentum_error;
     r.energy_error = o->ledger.energy_error;

@@ -18,12 +18,13 @@ typedef struct {
     double groove_growth;      /* of the plastic power in a groove that is followed, NaN if it was not gauged [1/s] */
     double crater_length, crater_width, crater_depth, rim_height; /* [m] */
     double crater_volume;                                         /* [m3] */
-    double peak_pressure;                                         /* of any particle [Pa] */
-    double peak_force[3];                                         /* on the rail [N] */
-    double peak_temperature;                                      /* [K] */
-    double peak_mises_armature, peak_mises_rail;                  /* [Pa] */
-    double peak_mises_armature_999, peak_mises_rail_999;          /* 99.9th percentiles by mass [Pa] */
-    double peak_pressure_armature_999, peak_pressure_rail_999;    /* [Pa] */
+    double peak_pressure;    /* the larger of the 99.9th percentiles by mass of armature and rail, intact points [Pa] */
+    double max_pressure;     /* of any intact point [Pa] */
+    double peak_force[3];    /* on the rail [N] */
+    double peak_temperature; /* [K] */
+    double peak_mises_armature, peak_mises_rail;               /* [Pa] */
+    double peak_mises_armature_999, peak_mises_rail_999;       /* 99.9th percentiles by mass [Pa] */
+    double peak_pressure_armature_999, peak_pressure_rail_999; /* [Pa] */
     bool crater_truncated; /* the crater reaches the edge of its map: length and volume are lower bounds */
     double momentum_error, energy_error; /* [1] */
     int bodies;

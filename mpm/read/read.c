@@ -250,6 +250,11 @@ static double lane_mises(const block *q, int l)
     return sqrt(lane_mises_square(q, l));
 }
 
+static bool is_intact(const block *q, int l)
+{
+    return q->damage[0][l] < 1;
+}
+
 static void tops_block(void *user, const mpm *m, const brick *b, int index)
 {
     (void)b;
@@ -260,7 +265,7 @@ static void tops_block(void *user, const mpm *m, const brick *b, int index)
         const double mass = q->mass[0][l];
         t->mass[l] += mass;
         t->above[MISES][l] += lane_mises_square(q, l) > mises2 ? mass : 0;
-        t->above[PRESSURE][l] += q->p[0][l] > pressure ? mass : 0;
+        t->above[PRESSURE][l] += q->p[0][l] > pressure && is_intact(q, l) ? mass : 0;
     }
 }
 
@@ -310,7 +315,7 @@ static void histogram_block(void *user, const mpm *m, const brick *b, int index)
     double *bins = histogram_of(m, kind, body);
     for (int l = 0; l < LANES; l++) {
         const double stress = kind == MISES ? lane_mises(q, l) : q->p[0][l];
-        if (stress > passed) bins[bin_of(stress)] += q->mass[0][l];
+        if (stress > passed && (kind == MISES || is_intact(q, l))) bins[bin_of(stress)] += q->mass[0][l];
     }
 }
 
