@@ -129,6 +129,7 @@ void mpm_scene_default(mpm_scene *s);
 /* The grid's levels, and until when the zone keeps its cells, where the scene leaves them open: as many levels as a
  * doubling of the finest cells makes of the coarsest where there are rules, else one. */
 void mpm_scene_levels_fill(mpm_scene *s);
+int mpm_scene_level_for(const mpm_scene *s, double cell); /* the coarsest level whose cells are no larger */
 
 /* One more body, solid or pair, at its defaults, behind the others.  *added is valid until the next of its kind.
  * A solid is made of those at the places a and b (-1: none); its own place is s->solids - 1. */

@@ -250,6 +250,31 @@ static void test_linear(void **state)
     mpm_free(m);
 }
 
+/* What a scene takes is told with the small cells that a rule asks for around a body at the start. */
+static void test_estimate(void **state)
+{
+    (void)state;
+    const material copper = scene_copper();
+    SCENE_LOCAL(s);
+    mpm_refine *r;
+    mpm_needs needs, large;
+    mpm_scene_default(&s);
+    s.levels = 3, s.zone_until = 0;
+    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 16e-3, 0.25e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+    scene_box(&s, 1e-3, 1e-3, 1e-3, 15e-3, 9e-3, 15e-3, &copper);
+    scene_box(&s, 7e-3, 9e-3, 7e-3, 9e-3, 11e-3, 9e-3, &copper);
+    assert_ok(mpm_estimate(&s, &large));
+    assert_ok(mpm_scene_add_refine(&s, "around", &r));
+    r->body = 1, *mpm_refine_value(r, "within") = 0.5e-3;
+    assert_ok(mpm_estimate(&s, &needs));
+    mpm *m = scene_make(&s, 2);
+    print_message("%zu points told, %zu made, %zu in large cells\n", needs.particles, mpm_particles(m),
+                  large.particles);
+    assert_true(needs.particles > 1.5 * (double)large.particles && needs.work > large.work);
+    assert_near((double)needs.particles / (double)mpm_particles(m), 1, 0.02); /* levels are asked for in passes there */
+    mpm_free(m);
+}
+
 static void gouge(gouge_scene *g, double jump)
 {
     scene_gouge(g, 0.25e-3, 1500);
@@ -316,10 +341,10 @@ static void test_surface(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_merge),   cmocka_unit_test(test_merge_undoes_halve),
-        cmocka_unit_test(test_kinds),   cmocka_unit_test(test_nesting),
-        cmocka_unit_test(test_linear),  cmocka_unit_test(test_bits),
-        cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_merge),    cmocka_unit_test(test_merge_undoes_halve),
+        cmocka_unit_test(test_kinds),    cmocka_unit_test(test_nesting),
+        cmocka_unit_test(test_estimate), cmocka_unit_test(test_linear),
+        cmocka_unit_test(test_bits),     cmocka_unit_test(test_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

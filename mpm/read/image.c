@@ -226,6 +226,56 @@ static status count(const mpm_scene *s, const grids *g, counting *c, double *dt)
     return status_ok();
 }
 
+/* What a rule asks for near a body whatever happens there. */
+typedef struct {
+    const mpm_scene *s;
+    const grids *at_start;
+    grids *refined;
+    int level;
+    double reach; /* [m] */
+} asking;
+
+static status ask_point(void *user, int body, const build_point *p)
+{
+    (void)body;
+    const asking *a = user;
+    const axis *axes = a->at_start->level[mpm_grids_level(a->at_start, p->x)].axes;
+    double lo[3], hi[3];
+    for (int k = 0; k < 3; k++) {
+        const double *edge = &axes[k].edge[mpm_axis_locate(&axes[k], p->x[k])];
+        const double more = a->reach + MPM_REFINE_BUFFER * a->s->axis[k].fine * (1 << a->level);
+        lo[k] = edge[0] - more, hi[k] = edge[1] + more;
+    }
+    return mpm_grids_activate(a->refined, a->level, lo, hi);
+}
+
+static status ask_rules(const mpm_scene *s, const grids *at_start, grids *refined)
+{
+    for (int i = 0; i < s->refines && s->levels > 1; i++) {
+        const mpm_refine *r = &s->refine[i];
+        asking a = { .s = s, .at_start = at_start, .refined = refined };
+        if (!r->kind->reach) continue;
+        a.reach = r->kind->reach(r), a.level = mpm_scene_level_for(s, r->cell);
+        const build_sink sink = { ask_point, &a };
+        for (int body = 0; body < s->bodies; body++) {
+            law k;
+            if (r->body >= 0 && body != r->body) continue;
+            TRY(mpm_law_make(&s->body[body], s, &k));
+            TRY(mpm_build_body(s, body, &k, at_start, &mpm_build_everywhere, &sink));
+        }
+    }
+    return mpm_grids_nest(refined);
+}
+
+static status refine(const mpm_scene *s, grids *g)
+{
+    grids at_start;
+    TRY(mpm_grids_make(s, &at_start));
+    const status asked = ask_rules(s, &at_start, g);
+    mpm_grids_free(&at_start);
+    return asked;
+}
+
 status mpm_estimate(const mpm_scene *scene, mpm_needs *needs)
 {
     grids g;
@@ -233,7 +283,8 @@ status mpm_estimate(const mpm_scene *scene, mpm_needs *needs)
     mpm_scene whole = *scene; /* borrows its arrays */
     mpm_scene_levels_fill(&whole);
     TRY(mpm_grids_make(&whole, &g));
-    const status s = count(&whole, &g, &c, &needs->dt);
+    status s = refine(&whole, &g);
+    if (s.code == STATUS_OK) s = count(&whole, &g, &c, &needs->dt);
     mpm_grids_free(&g);
     TRY(s);
     needs->particles = c.particles, needs->work = c.work;

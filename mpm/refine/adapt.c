@@ -13,17 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BUFFER = 2 /* cells of the level around a point that asks for them */ };
-
 /* ---- what the rules ask for ---- */
-
-/* The coarsest level whose cells are no larger. */
-static int level_for(const mpm *m, double cell)
-{
-    int level = 0;
-    for (double h = 2 * m->scene.axis[0].fine; h <= cell * (1 + 1e-9) && level < m->grids.levels - 1; h *= 2) level++;
-    return level;
-}
 
 /* The finest level that points of a block ask for by a rule. */
 static int level_of_block(const mpm *m, const mpm_refine *r, int index)
@@ -33,7 +23,7 @@ static int level_of_block(const mpm *m, const mpm_refine *r, int index)
     r->kind->cells(m, r, index, cell);
     for (int l = 0; l < LANES; l++)
         if (q->mass[0][l] > 0) smallest = fmin(smallest, cell[l]);
-    return level_for(m, fmax(smallest, r->cell));
+    return mpm_scene_level_for(&m->scene, fmax(smallest, r->cell));
 }
 
 /* The level active over a brick's cell and so far around it. */
@@ -42,7 +32,7 @@ static status activate_cell(mpm *m, const brick *b, int cell, int level, double 
     double lo[3], hi[3];
     for (int k = 0; k < 3; k++) {
         const double *edge = &axes_of(m, b)[k].edge[BRICK * b->at[k] + (cell >> 2 * k) % BRICK];
-        const double more = reach + BUFFER * m->scene.axis[k].fine * (1 << level);
+        const double more = reach + MPM_REFINE_BUFFER * m->scene.axis[k].fine * (1 << level);
         lo[k] = edge[0] - more, hi[k] = edge[1] + more;
     }
     return mpm_grids_activate(&m->grids, level, lo, hi);

@@ -15,7 +15,10 @@
 
 struct mpm; /* mpm.h */
 
-enum { MPM_REFINE_VALUES = 8 };
+enum {
+    MPM_REFINE_VALUES = 8,
+    MPM_REFINE_BUFFER = 2 /* cells of a level around a point that asks for them */
+};
 
 typedef struct mpm_refine mpm_refine;
 
