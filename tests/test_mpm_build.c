@@ -105,6 +105,88 @@ static void test_overlap(void **state)
     }
 }
 
+/* ---- a lattice: four struts along the diagonals of a cell, cut off at its faces; cells side by side ---- */
+
+/* What lies within r of a diagonal of a cell of edge 1.  In each octant that is the cylinder about half a diagonal; at
+ * the distance w from it the cube leaves a length of sqrt(3) (1/2 - largest + smallest component of w); over the disk
+ *   V = 8 sqrt(3) (pi r^2 / 2 - 2 sqrt(2) r^3). */
+static double diagonals_volume(double r)
+{
+    return 8 * sqrt(3) * (0.5 * SCENE_PI - 2 * sqrt(2) * r) * r * r;
+}
+
+/* One cell of edge e: struts that end beyond its corners, in the box that cuts them.  Returns its place. */
+static int diagonals(mpm_scene *s, double e, double r)
+{
+    mpm_solid *solid;
+    int joined = -1;
+    for (int k = 0; k < 4; k++) {
+        assert_ok(mpm_scene_add_solid(s, "strut", -1, -1, &solid));
+        for (int q = 0; q < 3; q++) {
+            const double way = k > 0 && q == k - 1 ? -0.9 : 0.9;
+            mpm_solid_value(solid, "from")[q] = (0.5 - way) * e, mpm_solid_value(solid, "to")[q] = (0.5 + way) * e;
+        }
+        *mpm_solid_value(solid, "radius") = r;
+        if (joined >= 0) assert_ok(mpm_scene_add_solid(s, "union", joined, s->solids - 1, &solid));
+        joined = s->solids - 1;
+    }
+    assert_ok(mpm_scene_add_solid(s, "box", -1, -1, &solid));
+    for (int q = 0; q < 3; q++) mpm_solid_value(solid, "lo")[q] = 0, mpm_solid_value(solid, "hi")[q] = e;
+    assert_ok(mpm_scene_add_solid(s, "intersect", joined, s->solids - 1, &solid));
+    return s->solids - 1;
+}
+
+/* A body of so many copies of a solid along x, in cells of size h; its mass over its density. */
+static double row_volume(mpm_scene *s, int of, int copies, double e, double h)
+{
+    const material copper = scene_copper();
+    mpm_solid *solid;
+    mpm_body *b;
+    for (int k = 0; k < 3; k++)
+        s->axis[k] = scene_axis(-e, (k == 0 ? copies + 1 : 2) * e, h, BOUNDARY_FREE, BOUNDARY_FREE);
+    assert_ok(mpm_scene_add_solid(s, "repeat", of, -1, &solid));
+    mpm_solid_value(solid, "pitch")[0] = e, mpm_solid_value(solid, "count")[0] = copies;
+    assert_ok(mpm_scene_add_body(s, &b));
+    b->solid = s->solids - 1, b->material = &copper;
+    strcpy(b->name, "row");
+    mpm *m = scene_make(s, 1);
+    const double volume = sum_of(m, 0).mass / copper.density;
+    mpm_free(m);
+    return volume;
+}
+
+/* Measured +0.11, -0.00, -0.03 %.  Slivers, which build.c leaves out, took 0.03 % at 22.6 cells an edge. */
+static void test_lattice(void **state)
+{
+    (void)state;
+    enum { COPIES = 3 };
+    const double e = 0.8e-3, r = 0.15, volume = diagonals_volume(r);
+    static const double cells[] = { 4.7, 9.4, 18.8 }, limit[] = { 2e-3, 1e-3, 1e-3 }; /* along the edge of one */
+    for (int i = 0; i < 3; i++) {
+        SCENE_LOCAL(s);
+        mpm_scene_default(&s);
+        const double got = row_volume(&s, diagonals(&s, e, r * e), COPIES, e, e / cells[i]);
+        const double error = got / (COPIES * e * e * e * volume) - 1;
+        print_message("lattice, %g cells an edge: volume %+.2e\n", cells[i], error);
+        assert_near(error, 0, limit[i]);
+    }
+}
+
+/* Boxes side by side are one box: no point is cut where they touch, wherever the cells lie. */
+static void test_seams(void **state)
+{
+    (void)state;
+    const double e = 0.8e-3;
+    for (double cells = 2; cells < 6; cells += 0.37) {
+        SCENE_LOCAL(s);
+        mpm_solid *box;
+        mpm_scene_default(&s);
+        assert_ok(mpm_scene_add_solid(&s, "box", -1, -1, &box));
+        for (int q = 0; q < 3; q++) mpm_solid_value(box, "lo")[q] = 0, mpm_solid_value(box, "hi")[q] = e;
+        assert_near(row_volume(&s, 0, 3, e, e / cells) / (3 * e * e * e), 1, 1e-12);
+    }
+}
+
 /* The stress that is read is xx yy zz xy yz xz, as said; a block's has xz before yz, as the work of a shear shows. */
 static void test_stress_order(void **state)
 {
@@ -130,7 +212,8 @@ static void test_stress_order(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_stress_order), cmocka_unit_test(test_mass),
-                                        cmocka_unit_test(test_neighbours), cmocka_unit_test(test_box),
-                                        cmocka_unit_test(test_overlap) };
+                                        cmocka_unit_test(test_neighbours),   cmocka_unit_test(test_box),
+                                        cmocka_unit_test(test_overlap),      cmocka_unit_test(test_lattice),
+                                        cmocka_unit_test(test_seams) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

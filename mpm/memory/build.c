@@ -48,6 +48,20 @@ static double depth(const mpm_scene *s, int body, const double x[3])
     return d;
 }
 
+static const double ROUNDING = 1e-9; /* of a length */
+
+/* Are all corners of a cube inside?  Then no surface passes through it, however near `depth` says that one is: where
+ * parts of a solid touch (copies of a cell, two boxes side by side), it is 0 on the face that they share. */
+static bool holds_no_surface(const mpm_scene *s, int body, const double x[3], double edge)
+{
+    for (int i = 0; i < 8; i++) {
+        const double corner[3] = { x[0] + edge * ((i & 1) - 0.5), x[1] + edge * ((i >> 1 & 1) - 0.5),
+                                   x[2] + edge * ((i >> 2) - 0.5) };
+        if (!(depth(s, body, corner) >= -ROUNDING * edge)) return false;
+    }
+    return true;
+}
+
 /* A box of a body's lattice, or of it the part that is the body's. */
 typedef struct {
     double x[3], size[3], share; /* centroid and lengths [m]; of the box's volume [1] */
@@ -70,7 +84,9 @@ static void cut(const mpm_scene *s, int body, piece *p)
         const int at[3] = { i % PARTS, i / PARTS % PARTS, i / (PARTS * PARTS) };
         double u[3], x[3];
         for (int q = 0; q < 3; q++) u[q] = p->size[q] * ((at[q] + 0.5) / PARTS - 0.5), x[q] = p->x[q] + u[q];
-        const double w = fmin(1, fmax(0, 0.5 + depth(s, body, x) / part));
+        const double in = depth(s, body, x) / part;
+        const bool seam = in > -ROUNDING && in < 0.5 - ROUNDING && holds_no_surface(s, body, x, part);
+        const double w = seam ? 1 : fmin(1, fmax(0, 0.5 + in));
         sum += w;
         for (int q = 0; q < 3; q++) first[q] += w * u[q], second[q] += w * u[q] * u[q];
     }
