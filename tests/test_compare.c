@@ -597,9 +597,10 @@ static void test_scatter(void **state)
     c->study.velocity_low = 500.0;
     c->study.velocity_high = 3000.0;
     c->study.velocity_interval = 0.02;
+    growth_most = 3.0; /* far from the threshold, where the search of one resolution has been */
+    c->study.coarse_cells_per_radius = c->study.fine_cells_per_radius;
     onset_answer sure = studied(c, "still", status_ok());
     assert_true(isnan(sure.result.growth_deviation) && isnan(sure.result.threshold_deviation));
-    growth_most = 3.0; /* far from the threshold */
     c->study.ensemble = GRIDS;
     c->study.shots = 2; /* on the warm rail too */
     onset_answer a = studied(c, "shifted", status_ok());

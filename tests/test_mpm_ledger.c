@@ -197,12 +197,14 @@ static bool sample(void *user, const mpm *m)
     return true;
 }
 
-/* The solver's percentiles are those of a sort, to half a bin of 1 %. */
+/* The solver's percentiles are those of a sort, to half a bin of 1 %, in metal that fails soon: the largest pressures
+ * are those of failed points, which do not count. */
 static void test_percentiles(void **state)
 {
     (void)state;
     GOUGE_LOCAL(g);
     scene_gouge(&g, H, SPEED);
+    g.copper.damage_D1 = 0.1, g.copper.damage_D2 = 0;
     mpm *m = scene_make(&g.scene, 2);
     percentiles want = { { { 0 } } };
     const mpm_sink sink = { sample, &want };
