@@ -7,11 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double EXCESS = 1e4; /* weight of what lies above the peak allowed */
+static const double EXCESS = 1e4; /* weight of current above the allowed peak */
 static const double CHARGE_LIMITS[2] = { 0.02, 5.0 };
-static const double NOT_LEFT = 10.0;       /* measure of a shot that does not leave the barrel, the way left on top */
-static const double SEARCH_RTOL = 1e-6;    /* of the shots on the way, good to some 1e-6 of the velocity */
-static const double VELOCITY_CLOSE = 1e-5; /* how near the velocity must come [1] */
+static const double NOT_LEFT = 10.0;    /* objective of a shot that stays in the barrel; the distance left is added */
+static const double SEARCH_RTOL = 1e-6; /* of the trial shots: their velocity is good to about 1e-6 */
+static const double VELOCITY_CLOSE = 1e-5; /* accepted relative error of the velocity [1] */
 
 static const char *const goal_names[] = { "flat", "velocity", NULL };
 
@@ -29,8 +29,8 @@ const param circuit_firing_wish_params[] = {
 typedef struct {
     shot_config config;
     firing_wish wish;
-    const shot_module *given; /* as they came */
-    shot_module *modules;     /* on trial */
+    const shot_module *given; /* before the search */
+    shot_module *modules;     /* of the trial under way */
     int n, *moved, n_moved;   /* groups; those whose time is moved */
     bool (*stop)(void);
     firing_result *out;
@@ -62,7 +62,7 @@ static bool on_sample(void *user, const shot *s, const shot_state *st)
     return st->phase != SHOT_LEFT;
 }
 
-/* STATUS_STOPPED is the muzzle.  *travel: share of the way that was made. */
+/* Ends with STATUS_STOPPED at the muzzle.  *travel: fraction of the barrel that was covered. */
 static status run(search *q, double scale, flatness *f, shot_summary *result, double *travel)
 {
     const shot_barrel *b = &q->config.barrel;
@@ -80,7 +80,7 @@ static status run(search *q, double scale, flatness *f, shot_summary *result, do
     return done.code == STATUS_STOPPED ? status_ok() : done;
 }
 
-/* ---- the measures ---- */
+/* ---- objectives ---- */
 
 static status measure_flat(search *q, double *value)
 {
@@ -92,11 +92,12 @@ static status measure_flat(search *q, double *value)
     return status_ok();
 }
 
-/* The next factor to try, from the last two tries: the velocity is nearly proportional to the charge, then secants;
- * inside what is known to be too low and too high. */
+/* The next factor to try.  The first step takes velocity as proportional to charge, later ones are secants through the
+ * last two trials; all stay inside the bracket. */
 static double next_factor(const double at[2], const double off[2], double wanted, double lo, double hi)
 {
-    double next = at[1] * (off[1] > -wanted ? wanted / (wanted + off[1]) : 1.2); /* -wanted: stayed in the barrel */
+    const bool stayed = !(off[1] > -wanted); /* the armature did not leave the barrel */
+    double next = at[1] * (stayed ? 1.2 : wanted / (wanted + off[1]));
     if (off[0] > -wanted && off[1] > -wanted && off[0] != off[1])
         next = at[1] - off[1] * (at[1] - at[0]) / (off[1] - off[0]);
     return next > lo && next < hi ? next : 0.5 * (lo + hi);
@@ -147,7 +148,8 @@ static status measure_velocity(search *q, double *value)
         return status_ok();
     }
     double excess = 0.0;
-    if (!isnan(q->wish.peak_current)) { /* f.badness holds the unevenness too: only the excess is wanted */
+    if (!isnan(
+            q->wish.peak_current)) { /* f.badness also counts currents below the peak; only the excess matters here */
         shot_summary r;
         double travel;
         TRY(run(q, q->scale, &f, &r, &travel));
@@ -171,7 +173,7 @@ static double measure(const gsl_vector *times, void *user)
     for (int k = 0; k < q->n_moved; k++) q->modules[q->moved[k]].fire_at = fabs(gsl_vector_get(times, (size_t)k));
     q->out->evaluations++;
     q->failed = q->wish.goal == FIRING_FLAT ? measure_flat(q, &value) : measure_velocity(q, &value);
-    return isfinite(value) ? value : 1e300; /* GSL takes no infinities */
+    return isfinite(value) ? value : 1e300; /* GSL does not accept infinities */
 }
 
 static status minimise(search *q, gsl_multimin_fminimizer *simplex, gsl_vector *times, gsl_vector *steps)
@@ -190,7 +192,8 @@ static status minimise(search *q, gsl_multimin_fminimizer *simplex, gsl_vector *
         if (gsl_multimin_fminimizer_size(simplex) < q->wish.tolerance) break;
     }
     TRY(q->failed);
-    q->out->after = measure(gsl_multimin_fminimizer_x(simplex), q); /* leaves the best in modules */
+    q->out->after =
+        measure(gsl_multimin_fminimizer_x(simplex), q); /* evaluated last, so that modules hold the best times */
     q->out->charge_scale = q->scale;
     q->out->stored_energy = stored_energy(q);
     return q->failed;
@@ -210,7 +213,7 @@ static status search_run(search *q)
     return done;
 }
 
-/* The first to fire stays; which others are moved. */
+/* Which groups are moved: all but the first to fire. */
 static void choose_moved(search *q)
 {
     int first = -1;
