@@ -8,7 +8,7 @@
 
 typedef enum { WAITING, AWAY, HERE, FINISHED } place;
 
-/* One scene on its way. */
+/* A scene that is waiting, being computed or finished. */
 typedef struct errand {
     scene_query query;
     scene_key key;
@@ -191,7 +191,7 @@ static bool resumable(const crew *k, const errand *e)
     return e->image || run_session_resume_of(k->s, e->query.name).image;
 }
 
-/* An idle member that can go on to it from the scene to its gauge; 0: none, or rank 0 has begun it. */
+/* An idle member that has computed this scene up to its gauge and can continue it; 0: none, or rank 0 has begun it. */
 static int idle_member_with_gauge(const crew *k, const errand *e)
 {
     if (!e->twin || resumable(k, e)) return 0;
@@ -206,13 +206,13 @@ static bool begun_here(const crew *k, const errand *e)
     return resumable(k, e) || scene_shelf_find(&k->s->shelf, e->twin);
 }
 
-/* Is a to be computed rather than b?  Wanted before ahead; as they were listed where all may run in any order. */
+/* Should a be computed before b?  Wanted scenes come before those ahead; if any order is allowed, list order counts. */
 static bool goes_first(const crew *k, const errand *a, const errand *b)
 {
     return !b || (!k->any_order && a->wanted != b->wanted ? a->wanted : a->order < b->order);
 }
 
-/* The next for a member; what rank 0 has begun stays with rank 0. */
+/* The next scene for a member.  A scene that rank 0 has begun stays with rank 0. */
 static errand *next_for_member(const crew *k)
 {
     errand *best = NULL;
@@ -223,8 +223,8 @@ static errand *next_for_member(const crew *k)
     return best;
 }
 
-/* The next for rank 0: of those that are wanted, or of the others, what it has begun before the rest, and nothing that
- * an idle member has. */
+/* The next scene for rank 0: wanted ones first, among equals those that it has begun.  Scenes that an idle member can
+ * continue are left to that member. */
 static errand *next_for_me(const crew *k)
 {
     errand *best = NULL;
@@ -247,8 +247,8 @@ static int idle_member(const crew *k)
     return 0;
 }
 
-/* An idle one, best one that has begun it; for a wanted scene one that computes what nobody waits for, and has put off
- * nothing yet: two solvers take the memory of two.  0: nobody. */
+/* The member to compute this scene: an idle one, if possible one that has begun it.  For a wanted scene also one that
+ * computes a scene nobody waits for, if it has put off none yet, as each scene put off keeps its memory.  0: nobody. */
 static int member_for(const crew *k, const errand *e)
 {
     const int idle = idle_member_with_gauge(k, e) ? idle_member_with_gauge(k, e) : idle_member(k);
@@ -402,7 +402,7 @@ status run_crew_create(session *s, crew **out)
     return status_ok();
 }
 
-/* Every member that computes is told to give up and heard out, so that the next crew finds all of them idle. */
+/* Tells every computing member to give up and waits for its answer, so that the next crew finds all of them idle. */
 static void stop_members(crew *k)
 {
     int left = 0;

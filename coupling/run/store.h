@@ -1,13 +1,13 @@
-/* The scene store: one HDF5 file a scene, in one folder, named by the scene's key.
+/* The scene store: a folder with one HDF5 file for each scene, named by the scene's key.
  *
- * DIR/<key>.h5 appears at once or not at all, complete; whoever computes the same scene writes the same file.  So any
- * number of programs may share a folder, and what is killed loses the scene it was in.
- *   /            attributes: format, version, instruction_set, solver, case (the key's text: a case file of this
- *   scene),
+ * DIR/<key>.h5 is written under another name and renamed, so a reader finds a complete file or none.  Every program
+ * that computes a scene writes the same file for it.  So any number of programs may share a folder; a program that is
+ * killed loses only the scene that it was computing.
+ *   /            attributes: format, version, instruction_set, solver, case (the key's text: a case file of the scene),
  *                outcome (JSON, an entry of `scenes` of summary.json), impulse_N_s, mass_loss_kg
- *   /scene       its time series and crater, as in history.h5 (only what was recorded)
- * Of a scene of bodies the text is a dataset, /case, and the outcome lies by the series, /scene/result.
- * A file that is damaged or of another scene (a hash met twice) counts as none and is replaced. */
+ *   /scene       the scene's time series and crater, as in history.h5 (only what was recorded)
+ * For a scene of bodies the key's text is a dataset, /case, and the outcome is a text beside the series, /scene/result.
+ * A damaged file, or one of another scene with the same hash, is treated as missing and replaced. */
 #ifndef BREECH_COUPLING_STORE_H
 #define BREECH_COUPLING_STORE_H
 
@@ -15,16 +15,16 @@
 #include "coupling/run/scene_key.h"
 #include "coupling/run/session.h"
 
-/* The file of a scene in memory; its series are taken from h where h has them (NULL: none).  host_h5_close it. */
+/* Makes a scene's file in memory, with the series that h has of it (NULL: none).  The caller closes it with
+ * host_h5_close. */
 status run_scene_file_make(const scene_record *r, const scene_key *key, history *h, h5_file **out);
-/* What it says: result, impulse, mass_loss; out->key is key->hash, the rest of the entry is left alone.  Of a scene of
- * bodies the result stays with the series.
- * STATUS_IO: not the file of this scene. */
+/* Reads result, impulse and mass_loss into *out and sets out->key to key->hash; other members do not change.  For a
+ * scene of bodies the result stays with the series.  STATUS_IO: the file is not of this scene. */
 status run_scene_file_read(const h5_file *f, const scene_key *key, scene_record *out);
 
-/* Makes the folder.  dir: borrowed for the call. */
+/* Makes the folder. */
 status run_store_open(const char *dir);
-/* *out is NULL when there is none; run_scene_file_read has the last word. */
+/* *out is NULL if the store has no such file.  Only run_scene_file_read says whether the file is of this scene. */
 status run_store_get(const char *dir, const scene_key *key, h5_file **out);
 bool run_store_has(const char *dir, const scene_key *key);
 status run_store_put(const char *dir, const scene_key *key, h5_file *file);
