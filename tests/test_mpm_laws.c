@@ -63,7 +63,8 @@ static law_form form(const law *k)
 typedef void material_test(const material *m);
 
 /* Each material with each law of a table that it has the constants for. */
-static void for_every(const shelf *s, size_t kind, int laws, unsigned needs, material_test *test)
+static void for_every(const shelf *s, size_t kind, const char *const *name, int laws, unsigned needs,
+                      material_test *test)
 {
     for (int chosen = 0; chosen < laws; chosen++) {
         int met = 0;
@@ -74,7 +75,7 @@ static void for_every(const shelf *s, size_t kind, int laws, unsigned needs, mat
             test(&m);
             met++;
         }
-        if (!met) fail_msg("no material of cases/materials has what law %d of this table needs", chosen);
+        if (!met) fail_msg("no material of cases/materials has the constants of `%s`: add them to one", name[chosen]);
     }
 }
 
@@ -123,7 +124,8 @@ static void test_strength(void **state)
 #define STRENGTH(name, shear, text) #name,
 #include "mpm/law/strength.def"
     };
-    for_every(*state, offsetof(material, strength), sizeof names / sizeof names[0], MATERIAL_FOR_SCENE, check_strength);
+    for_every(*state, offsetof(material, strength), names, sizeof names / sizeof names[0], MATERIAL_FOR_SCENE,
+              check_strength);
 }
 
 /* ---- equation of state ---- */
@@ -193,7 +195,7 @@ static void test_eos(void **state)
 #define EOS(name, text) #name,
 #include "mpm/law/eos.def"
     };
-    for_every(*state, offsetof(material, eos), sizeof names / sizeof names[0], MATERIAL_FOR_SCENE, check_eos);
+    for_every(*state, offsetof(material, eos), names, sizeof names / sizeof names[0], MATERIAL_FOR_SCENE, check_eos);
 }
 
 /* A body that starts warm has no pressure and the temperature it was given: the two forms of pressure and of reference
@@ -218,7 +220,7 @@ static void test_warm(void **state)
 #define EOS(name, text) #name,
 #include "mpm/law/eos.def"
     };
-    for_every(*state, offsetof(material, eos), sizeof names / sizeof names[0], MATERIAL_FOR_SCENE, check_warm);
+    for_every(*state, offsetof(material, eos), names, sizeof names / sizeof names[0], MATERIAL_FOR_SCENE, check_warm);
 }
 
 static law gas_in(const material *m, double surroundings, double temperature, double pressure)
@@ -274,7 +276,8 @@ static void test_surroundings(void **state)
 #define EOS(name, text) #name,
 #include "mpm/law/eos.def"
     };
-    for_every(*state, offsetof(material, eos), sizeof names / sizeof names[0], MATERIAL_FOR_SCENE, check_surroundings);
+    for_every(*state, offsetof(material, eos), names, sizeof names / sizeof names[0], MATERIAL_FOR_SCENE,
+              check_surroundings);
 }
 
 /* ---- failure ---- */
@@ -305,7 +308,7 @@ static void test_failure(void **state)
 #define FAILURE(name, text) #name,
 #include "mpm/law/failure.def"
     };
-    for_every(*state, offsetof(material, failure), sizeof names / sizeof names[0],
+    for_every(*state, offsetof(material, failure), names, sizeof names / sizeof names[0],
               MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE, check_failure);
 }
 
