@@ -88,8 +88,8 @@ for folder in coupling/*/; do
 done
 
 # The file's struct stays in coupling/case; the others get the plain structs that it makes (case_plain.h).
-hits=$(sources '^coupling/.*\.(c|h|def)$' | grep -v '^coupling/case/' | xargs -r grep -nw breech_case /dev/null || true)
-if [ -n "$hits" ]; then complain 'breech_case belongs to coupling/case/:' "$hits"; fi
+hits=$(sources '^coupling/.*\.(c|h|def)$' | grep -v '^coupling/case/' | xargs -r grep -nwE 'breech_case|case/case\.h' /dev/null || true)
+if [ -n "$hits" ]; then complain 'breech_case and case.h belong to coupling/case/:' "$hits"; fi
 
 calls='v?f?printf|puts|fputs|putchar|putc|fputc|fwrite|perror|fopen|freopen|open|exit|_exit|quick_exit|abort|system|popen'
 silent circuit "$calls"

@@ -2,6 +2,7 @@
 #ifndef BREECH_TESTS_SHELF_COMMON_H
 #define BREECH_TESTS_SHELF_COMMON_H
 
+#include "coupling/case/case.h"
 #include "coupling/gouge/growth.h"
 #include "coupling/gouge/impact.h"
 #include "coupling/gouge/result.h"

@@ -7,6 +7,7 @@
 
 #include "coupling/case/case.h"
 #include "coupling/case/case_errors.h"
+#include "coupling/case/case_plain.h"
 #include "coupling/case/case_schema.h"
 #include "coupling/host/units.h"
 

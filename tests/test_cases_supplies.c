@@ -1,5 +1,6 @@
 /* The cases of every supply: read as they are, run, energy closed, in the report's table too; the published pulse of
  * one unit. */
+#include "coupling/case/case.h"
 #include "coupling/gouge/site_state.h"
 #include "coupling/host/outdir.h"
 #include "coupling/output/history.h"

@@ -1,4 +1,5 @@
 /* Treatments and their comparison, on scenes that cost nothing. */
+#include "coupling/case/case.h"
 #include "coupling/case/treatment.h"
 #include "coupling/gouge/growth.h"
 #include "coupling/study/compare.h"

@@ -3,6 +3,7 @@
  * Started by ctest as one process, it starts itself again as three under mpirun; rank 0 tests, the others serve. */
 #define _GNU_SOURCE /* sched_setaffinity */
 
+#include "coupling/case/case.h"
 #include "coupling/gouge/impact.h"
 #include "coupling/run/crew.h"
 #include "coupling/run/lending.h"

@@ -1,4 +1,5 @@
 /* From the shot to the scene: states at the sites, the screen, the geometry and the forces of the scenes. */
+#include "coupling/case/case.h"
 #include "coupling/gouge/growth.h"
 #include "coupling/gouge/impact.h"
 #include "coupling/gouge/result.h"

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "coupling/case/case.h"
 #include "coupling/case/case_bodies.h"
 #include "coupling/gouge/impact_scene.h"
 #include "coupling/host/outdir.h"

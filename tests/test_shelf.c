@@ -1,5 +1,6 @@
 /* Small scenes through the runner: checkpoints come no oftener than they may, a whole scene goes on from the one that
  * ended at its gauge. */
+#include "coupling/case/case.h"
 #include "shelf_common.h"
 
 static const char *const FAST[] = { "scene.velocity=2 km/s", "scene.end_time=3.4 us", "scene.contact_pressure=300 MPa",

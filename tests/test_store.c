@@ -1,4 +1,5 @@
 /* The scene store: what decides a scene, its file, and that no scene is computed twice, whoever else is at it. */
+#include "coupling/case/case.h"
 #include "coupling/gouge/impact_scene.h"
 #include "coupling/run/scenes.h"
 #include "coupling/run/store.h"

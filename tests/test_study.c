@@ -1,4 +1,5 @@
 /* The search for a threshold on functions that are known, and the whole study on scenes that cost nothing. */
+#include "coupling/case/case.h"
 #include "coupling/gouge/growth.h"
 #include "coupling/study/onset.h"
 

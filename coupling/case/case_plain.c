@@ -1,5 +1,7 @@
 #include "coupling/case/case_plain.h"
 
+#include "coupling/case/case.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

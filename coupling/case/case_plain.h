@@ -5,7 +5,11 @@
 #ifndef BREECH_COUPLING_CASE_PLAIN_H
 #define BREECH_COUPLING_CASE_PLAIN_H
 
-#include "coupling/case/case.h"
+#include "coupling/case/case_sections.h"
+
+#include <stdio.h>
+
+struct breech_case; /* case.h */
 
 /* The armature over a grain on the rail: all that decides such a scene.  Of one that a study varies, grain, velocity,
  * contact pressure and resolution are set anew for every scene (gouge_impact_at). */
@@ -77,9 +81,9 @@ typedef struct {
     case_bodies bodies;
     case_sweep sweep;
     case_output output;
-    const breech_case *file; /* what it was made from; for this folder alone */
+    const struct breech_case *file; /* what it was made from; for this folder alone */
 } case_inputs;
-case_inputs case_inputs_of(const breech_case *c);
+case_inputs case_inputs_of(const struct breech_case *c);
 case_body_scene case_body_scene_of(const case_inputs *in); /* borrows of *in */
 
 /* As case_read and case_read_memory; case_inputs_free frees *out and all that it borrows. */
@@ -93,5 +97,8 @@ status case_inputs_write(const case_inputs *in, FILE *file);
 
 /* A case of this scene: case_write_scene. */
 status case_inputs_write_scene(const case_inputs *in, const mpm_scene *s, FILE *file);
+
+/* The manual's key list, in markdown. */
+void case_print_keys(FILE *file);
 
 #endif

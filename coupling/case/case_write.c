@@ -1,5 +1,6 @@
 /* used.yaml and the manual's key list, from the same tables as the reader. */
 #include "coupling/case/case_bodies.h"
+#include "coupling/case/case_plain.h"
 
 #include "mpm/law/contact.h"
 #include "mpm/read/probe.h"

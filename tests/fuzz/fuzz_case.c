@@ -4,6 +4,7 @@
  * accepted is written as used.yaml, and that reads back and is written the same.
  * An input that holds the byte 0x01 is cut there: what follows is given as --set, one a line.
  * Run by tests/fuzz.sh; tests/test_case_seeds.c replays the seeds in the ordinary tests. */
+#include "coupling/case/case.h"
 #include "coupling/case/case_reader.h"
 #include "coupling/case/material_file.h"
 

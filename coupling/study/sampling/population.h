@@ -2,7 +2,7 @@
 #ifndef BREECH_COUPLING_POPULATION_H
 #define BREECH_COUPLING_POPULATION_H
 
-#include "coupling/case/case.h"
+#include "coupling/case/case_sections.h"
 
 /* Share of the grains with at least this radius [1]. */
 double study_population_share_from(const case_population *p, double radius);

@@ -1,0 +1,305 @@
+/* The sections of a case file as structs, in SI units: what every room may know of a case.
+ *
+ * Every key stands once, in a param table (this folder's case_schema.c; circuit/ and mpm/ for their own sections).
+ * To add a key: a member below and one line in its table.  To add a section: a struct, a table, one line in the schema.
+ * A section that the file leaves out holds the table's defaults, required numbers NAN; `needs` says which must be
+ * there.  Numbers that are OPTIONAL and not given hold NAN. */
+#ifndef BREECH_COUPLING_CASE_SECTIONS_H
+#define BREECH_COUPLING_CASE_SECTIONS_H
+
+#include "base/param.h"
+#include "circuit/firing.h"
+#include "circuit/shot.h"
+#include "mpm/scene.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { CASE_PATH_SIZE = 512 };
+
+/* What a command does with the case (a sum): sections and material constants it needs must be there. */
+enum {
+    CASE_FOR_SHOT = 1, /* a supply, rails, barrel, armature */
+    CASE_FOR_SCENE =
+        2, /* rail, projectile, particle, scene; scene.velocity, particle.radius; the materials for a scene */
+    CASE_FOR_ONSET =
+        4, /* the shot, the scene but for its velocity, sites or populations; materials for screen and scene */
+    CASE_FOR_INDUCTANCE = 8, /* rails */
+    CASE_FOR_COMPARE = 16,   /* with CASE_FOR_ONSET: treatments */
+    CASE_FOR_BODIES = 32,    /* takes the place of CASE_FOR_SCENE where `scene` has bodies of its own */
+    CASE_FOR_SWEEP = 64      /* sweep, and what it runs needs */
+};
+
+/* A layer of the rail's surface, the first in the list at the bottom. */
+typedef struct {
+    char material[PARAM_TEXT_SIZE];
+    double thickness;     /* [m] */
+    double bond_strength; /* to what lies below [Pa]; NAN: welded for good */
+    double yield_scale;   /* factor on the yield stress [1] */
+} case_layer;
+
+typedef struct {
+    int n;
+    case_layer *item; /* n, owned by the case */
+} case_layers;
+
+/* The rail as the scene sees it. */
+typedef struct {
+    char material[PARAM_TEXT_SIZE];
+    double temperature; /* ahead of the armature [K] */
+    double yield_scale; /* hardening: factor on the yield stress, and on the hardness in the screen [1] */
+    case_layers layers;
+} case_rail;
+
+/* The armature's body in the scene: half a U, one leg on one rail. */
+typedef struct {
+    char material[PARAM_TEXT_SIZE];
+    double lead_angle;     /* between the lead face and the rail's surface [rad] */
+    double length;         /* along the rail [m] */
+    double leg_thickness;  /* normal to the rail [m] */
+    double head_thickness; /* along the rail [m] */
+    double half_bore;      /* from the rail's surface to the middle of the bore [m] */
+    double width;          /* full width across the rail [m] */
+    double chamfer_height; /* of the lead face, normal to the rail [m] */
+    double temperature;    /* [K] */
+} case_projectile;
+
+/* What a site does not say itself; the grain of `breech scene`. */
+typedef struct {
+    double radius; /* [m], NAN: not given */
+    double height; /* [m], resolved to the radius when not given */
+    char shape[PARAM_TEXT_SIZE];
+    char material[PARAM_TEXT_SIZE]; /* resolved to the rail's when not given */
+    double bond_strength;           /* to the rail [Pa]; NAN: welded for good */
+} case_particle;
+
+/* A grain on the rail; all but the position resolved from `particle` where not given. */
+typedef struct {
+    double position; /* along the barrel, from the breech [m] */
+    double radius;   /* [m] */
+    double height;   /* [m] */
+    char shape[PARAM_TEXT_SIZE];
+    char material[PARAM_TEXT_SIZE];
+    double bond_strength; /* [Pa]; NAN: welded for good */
+} case_site;
+
+typedef struct {
+    int n;
+    case_site *item; /* n, owned by the case, in the file's order */
+} case_sites;
+
+/* A size of a tabulated population. */
+typedef struct {
+    double radius; /* [m] */
+    double share;  /* of the grains; need not add up to 1 [1] */
+} case_size;
+
+typedef struct {
+    int n;
+    case_size *item; /* n, owned by the case */
+} case_sizes;
+
+/* Grains strewn at random: a Poisson process along the barrel, sizes log-normal or tabulated.  What a preset says is
+ * resolved where not given. */
+typedef struct {
+    int preset;           /* population_preset */
+    double density;       /* grains on a metre of the rail [1/m] */
+    double radius_median; /* [m]; NAN with `sizes` */
+    double radius_spread; /* standard deviation of ln radius [1] */
+    double aspect;        /* height over radius [1] */
+    double from, to;      /* stretch of the barrel they lie on; NAN: its ends [m] */
+    char shape[PARAM_TEXT_SIZE];
+    char material[PARAM_TEXT_SIZE]; /* resolved to the rail's when not given */
+    double bond_strength;           /* [Pa]; NAN: welded for good */
+    bool renewed;                   /* strewn anew before every shot; no: what one shot passed is gone */
+    case_sizes sizes;
+} case_population;
+
+typedef struct {
+    int n;
+    case_population *item; /* n, owned by the case */
+} case_populations;
+
+/* Where grains come from; what each assumes stands in its line of population.def. */
+typedef enum {
+    POPULATION_NONE,
+#define POPULATION(name, ...) POPULATION_##name,
+#include "coupling/case/population.def"
+#undef POPULATION
+    POPULATION_PRESETS
+} population_preset;
+
+/* The settings of one kind of treatment; what they mean says its table, treatment_<kind>.c. */
+enum { TREATMENT_VALUES = 3 };
+typedef struct {
+    double value[TREATMENT_VALUES];
+    char material[PARAM_TEXT_SIZE];
+    case_layers layers;
+} treatment_settings;
+
+enum {
+#define TREATMENT(name, doc) TREATMENT_##name,
+#include "coupling/case/treatment.def"
+#undef TREATMENT
+    TREATMENT_KINDS
+};
+
+/* A rail surface to compare: all that is changed on the case (treatment.h). */
+typedef struct {
+    char name[PARAM_TEXT_SIZE];
+    treatment_settings kind[TREATMENT_KINDS];
+} case_treatment;
+
+typedef struct {
+    int n;
+    case_treatment *item; /* n, owned by the case */
+} case_treatments;
+
+/* How a scene is built and run.  Extents that are NAN are chosen by the hand-off from the grain's radius. */
+typedef struct {
+    double velocity;                /* of `breech scene`; onset takes the shot's [m/s] */
+    double contact_pressure;        /* NAN: the shot's, or zero in `breech scene` [Pa] */
+    double friction;                /* Coulomb coefficient between armature, grain and rail [1] */
+    double shear_limit;             /* upper limit of the friction stress [Pa], NAN: none */
+    double contact_gap;             /* bodies touch when nearer than this, NAN: the solver's own [cells] */
+    double cells_per_radius;        /* fine cell = radius / this [1] */
+    double coarse_cell;             /* largest cell [m] */
+    int levels;                     /* of nested grids: 1 .. 3 [1] */
+    double refine_tolerance;        /* share of the velocity that plastic flow may change across a cell [1] */
+    double grid_shift[3];           /* of the grid's planes along x, y, z, in finest cells [1] */
+    double growth;                  /* ratio of neighbouring cells outside the fine zone [1] */
+    bool follow;                    /* the groove's growth past the grain is gauged */
+    double rail_ahead, rail_behind; /* ends of the rail modelled, from the grain's middle [m] */
+    double rail_depth;              /* [m] */
+    double rail_width;              /* full; NAN: the projectile's [m] */
+    double end_time;                /* NAN: from the lengths and the velocity [s] */
+    bool stop_when_settled;         /* stop once the crater no longer changes */
+    bool stop_when_gauged;          /* stop once the groove's growth is known, and take the class from it */
+    double courant;                 /* of c + |v| [1] */
+    double viscosity_linear, viscosity_quadratic; /* (M-5) [1] */
+    int transfer;                                 /* transfer_kind of mpm/scene.h */
+    int basis;                                    /* basis_kind of mpm/scene.h */
+    int particles_per_axis;
+    bool heat_by_plastic_work; /* (M-4) option `plastic` */
+    bool damage;               /* Johnson-Cook damage in all bodies */
+    bool half_model;           /* only z >= 0, mirrored */
+    double limit_widening;     /* of the class gouge [1] */
+    double limit_severity;     /* of the class gouge [1] */
+    double growth_scatter;     /* e-folds between the gauges within which growth decides nothing [1] */
+} case_scene;
+
+/* What becomes of bodies that overlap. */
+typedef enum { OVERLAP_REFUSED, OVERLAP_LATER } case_overlap;
+
+/* A scene whose bodies stand in the case itself (case_bodies.h). */
+typedef struct {
+    mpm_scene scene; /* owned; its materials are the case's.  Window and cells that are left out are NAN: scene_fill */
+    int overlap;     /* case_overlap */
+} case_bodies;
+
+/* What a study takes for the onset of gouging: the groove's growth, or the crater's severity. */
+typedef enum { JUDGE_GROWTH, JUDGE_SEVERITY } study_judge;
+
+/* The search for where gouging begins. */
+typedef struct {
+    double velocity_interval;           /* wanted width of the threshold's interval over its middle [1] */
+    double position_interval;           /* wanted width of the onset's interval over the barrel's length [1] */
+    double velocity_low, velocity_high; /* where the search may look [m/s] */
+    int judge;                          /* study_judge */
+    int max_scenes;
+    int ensemble;      /* grids, each shifted by another part of a cell, on which a scene is computed; 0: its own */
+    int craters;       /* whole scenes of a family of grains that gouges, judged by growth: 0 .. 2 */
+    double screen_low; /* impact pressure over hardness below which no scene is needed [1] */
+    double coarse_cells_per_radius, fine_cells_per_radius; /* [1] */
+    double resolution_error;                               /* share that finer cells may move a threshold by [1] */
+    double strength_error, friction_error;                 /* of rail.yield_scale, of scene.friction, relative [1] */
+    bool feedback;                                         /* a gouge's impulse and mass loss go back into the shot */
+    bool sensitivities;                                    /* the shot again with changed inputs */
+    int shots;                                             /* fired one after the other on the same rail */
+    double heat_kept;                                      /* in the rails from shot to shot [1] */
+    int sampled;                                           /* histories of the Monte Carlo */
+    int seed;                                              /* of its random numbers */
+    double smallest_radius; /* grains of a population below it are taken not to gouge [m] */
+} case_study;
+
+/* What `breech sweep` runs (study/study_sweep.c): another study with other values of some keys. */
+enum { CASE_SWEEP_KEYS = 8 };
+
+typedef struct {
+    char value[PARAM_TEXT_SIZE]; /* as written */
+} case_word;
+
+typedef struct {
+    int n;
+    case_word *item; /* n, owned by the case */
+} case_words;
+
+typedef struct {
+    char key[PARAM_TEXT_SIZE]; /* path.to.key, as --set has it */
+    case_words values;
+} case_varied;
+
+typedef struct {
+    int n;
+    case_varied *item; /* n, owned by the case */
+} case_varied_list;
+
+typedef struct {
+    char of[PARAM_TEXT_SIZE]; /* the study that is run */
+    bool together;            /* the lists go on together; else all combinations */
+    case_varied_list vary;
+    case_words read; /* keys of its summary */
+} case_sweep;
+
+typedef struct {
+    int snapshots;              /* of one scene, evenly over its time; 0 = none */
+    double history_interval;    /* least time between two samples of the shot's history [s]; NAN: every step */
+    double checkpoint_interval; /* wall time between two checkpoints [s] */
+    bool report;                /* write report.html */
+} case_output;
+
+/* The groups of one kind of supply (circuit/supply/supply.h). */
+typedef struct {
+    int n;
+    void *item; /* n structs of the kind, owned by the case */
+} case_supplies;
+
+typedef struct {
+    int n;
+    material *item; /* n, owned by the case */
+} case_materials;
+
+/* Sections given in the file (or by --set). */
+typedef struct {
+    bool supplies[SUPPLY_KINDS];
+    bool rails, barrel, armature, options, optimise, rail, projectile, particle, sites, populations, treatments, scene,
+        study, sweep, output;
+    bool bodies; /* scene.bodies: then `scene` is not given */
+} case_given;
+
+/* ---- reading and looking up ---- */
+
+typedef struct {
+    const char *const
+        *material_dirs; /* looked through in order, after the case's own `materials` and its folder; borrowed */
+    int n_material_dirs;
+    unsigned needs; /* sum of CASE_FOR_... */
+} case_options;
+
+/* A case file in memory; all borrowed. */
+typedef struct {
+    const char *bytes;
+    size_t length;
+    const char *path;        /* names it in the messages; materials are looked for in its folder */
+    const char *const *sets; /* as in case_read */
+    int n_sets;
+} case_text;
+
+/* The material of that name; a case has all that it names.  NULL: it is not among them.  Borrowed from the list. */
+const material *case_material(const case_materials *list, const char *name);
+
+double case_layers_thickness(const case_layers *layers); /* of all together [m] */
+/* A layer more, at place `at` from below. */
+status case_layers_add(case_layers *layers, int at, const case_layer *layer);
+
+#endif
