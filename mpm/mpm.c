@@ -392,7 +392,7 @@ static void add_points(tally *a, const tally *b)
     a->peak_temperature = larger(a->peak_temperature, b->peak_temperature);
     a->clamps_pressure += b->clamps_pressure, a->clamps_compression += b->clamps_compression;
     a->splits += b->splits, a->eroded += b->eroded, a->eroded_mass += b->eroded_mass;
-    a->particles += b->particles;
+    a->particles += b->particles, a->asleep += b->asleep;
 }
 
 /* What sites book: contact and boundaries. */
@@ -422,7 +422,7 @@ static void collect_share(const mpm *m, int share, tally *sum)
     sum->bad_block = -1;
     for (int i = share_begin(m->bricks_used, share); i < share_begin(m->bricks_used, share + 1); i++) {
         const tally *t = &m->bricks[i].sum;
-        if (t->particles == 0 || m->bricks[i].level > m->ends) continue;
+        if (t->particles + t->asleep == 0 || m->bricks[i].level > m->ends) continue;
         sum->stranded = sum->stranded || t->stranded;
         if (sum->bad_block < 0) sum->bad_block = t->bad_block, sum->bad_lane = t->bad_lane;
         add_points(sum, t);
@@ -508,7 +508,7 @@ static void book(mpm *m, const tally *t)
     r->peak_temperature = fmax(r->peak_temperature, t->peak_temperature);
     r->clamps_pressure += t->clamps_pressure, r->clamps_compression += t->clamps_compression;
     r->splits += t->splits, r->eroded += t->eroded, r->eroded_mass += t->eroded_mass;
-    r->particle_steps += t->particles;
+    r->particle_steps += t->particles, r->particle_steps_asleep += t->asleep;
     r->particles = mpm_particles(m);
 }
 

@@ -33,6 +33,7 @@ typedef struct {
 typedef struct {
     double time, dt; /* dt: of a step of the coarsest level [s] */
     uint64_t steps, particle_steps, particle_steps_dense;
+    uint64_t particle_steps_asleep; /* that points at rest did not take */
     size_t particles;
     uint64_t clamps_pressure, clamps_compression; /* counted, never silent */
     uint64_t splits, merges, ejected, eroded;     /* ejected holds the eroded points too */

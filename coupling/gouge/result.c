@@ -73,6 +73,7 @@ scene_result gouge_result(const gouge_scene *s, const gouge_watch *w, const scen
     r.particles = m->particles;
     r.steps = m->steps;
     r.particle_steps = m->particle_steps;
+    r.particle_steps_asleep = m->particle_steps_asleep;
     r.particle_steps_dense = m->particle_steps_dense;
     r.clamps_pressure = m->clamps_pressure;
     r.clamps_compression = m->clamps_compression;

@@ -191,6 +191,7 @@ static void take(const scene_outcome *o, scene_bodies_result *r)
     r->particles = m->particles;
     r->steps = m->steps;
     r->particle_steps = m->particle_steps;
+    r->particle_steps_asleep = m->particle_steps_asleep;
     r->particle_steps_dense = m->particle_steps_dense;
     r->clamps_pressure = m->clamps_pressure;
     r->clamps_compression = m->clamps_compression;

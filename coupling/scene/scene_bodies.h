@@ -34,7 +34,7 @@ typedef struct {
     double work_boundary, work_external;   /* [J] */
     double ejected_mass, eroded_mass;      /* [kg] */
     double momentum_error, energy_error;   /* [1] */
-    uint64_t particles, steps, particle_steps, particle_steps_dense;
+    uint64_t particles, steps, particle_steps, particle_steps_asleep, particle_steps_dense;
     uint64_t clamps_pressure, clamps_compression;
     double wall_seconds; /* [s] */
     int threads;

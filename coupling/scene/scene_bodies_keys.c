@@ -41,6 +41,8 @@ const summary_key scene_bodies_keys[] = {
     SUMMARY_VALUE(scene_bodies_result, KEY_COUNT, "particles", particles, "1", "at the end"),
     SUMMARY_VALUE(scene_bodies_result, KEY_COUNT, "steps", steps, "1", "of the solver"),
     SUMMARY_VALUE(scene_bodies_result, KEY_COUNT, "particle_steps", particle_steps, "1", "done"),
+    SUMMARY_VALUE(scene_bodies_result, KEY_COUNT, "particle_steps_asleep", particle_steps_asleep, "1",
+                  "that points at rest did not take"),
     SUMMARY_VALUE(scene_bodies_result, KEY_COUNT, "particle_steps_dense", particle_steps_dense, "1",
                   "if nothing had been skipped"),
     SUMMARY_VALUE(scene_bodies_result, KEY_COUNT, "clamps_pressure", clamps_pressure, "1", "pressures held at a limit"),

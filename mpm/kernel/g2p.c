@@ -388,6 +388,44 @@ static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const h
     }
 }
 
+/* ---- sleep ----
+ *
+ * Points whose nodes have been slow for two steps are laid to rest and left as they are: without motion the law gives
+ * them the same stress again, and they give their nodes the same again (p2g.c).  They wake when one of these nodes is
+ * no longer slow.  The head of a wave in the numbers goes on by a cell a step and grows manifold with each, so it is
+ * slow for some steps; what points do not take in each of them is less than SLOW m c of momentum and SLOW m c^2 of
+ * energy, a rounding error of what sends the wave.  Points at a mirror stay awake: it books their impulse with every
+ * step. */
+
+static const double SLOW = 1e-14; /* of the velocity of sound */
+
+static bool nodes_are_slow(const mpm *m, const brick *b, const halo_nodes halo)
+{
+    const law *k = group_law(m, b->group);
+    const double c2 = k->K0 / k->rho0, limit = SLOW * sqrt(c2);
+    for (int n = 0; n < HALO_NODES; n++) {
+        const double *v = halo[n];
+        if (!(b->out[halo_place[n]][0] > 0)) continue;
+        if (fabs(v[0]) > limit || fabs(v[1]) > limit || fabs(v[2]) > limit || fabs(v[3]) > SLOW * c2) return false;
+    }
+    return true;
+}
+
+static bool is_at_mirror(const mpm *m, const brick *b)
+{
+    mirror_plane plane[6];
+    return mirror_planes(m, b, plane) > 0;
+}
+
+static void lay_to_rest(mpm *m, const brick *b)
+{
+    for (int cell = 0; cell < BRICK_CELLS; cell++)
+        for (int i = b->head[cell]; i >= 0; i = m->links[i].next) {
+            block *q = &m->blocks[i];
+            memset(q->v, 0, sizeof q->v), memset(q->L, 0, sizeof q->L), memset(q->ka, 0, sizeof q->ka);
+        }
+}
+
 void ISA(g2p)(mpm *m, brick *b, int thread)
 {
     const brick_grid grid = brick_grid_at(m, b);
@@ -395,9 +433,18 @@ void ISA(g2p)(mpm *m, brick *b, int thread)
     gather_halo(m, b, halo);
     mirror_ghosts(m, b, halo);
     b->movers = 0, b->mover_steps = 0, b->movers_thread = thread, b->movers_first = m->movers[thread].count;
+    const bool slow = nodes_are_slow(m, b, halo);
+    if (slow && b->still == BRICK_ASLEEP) {
+        b->sum.asleep = (uint64_t)b->particles, b->sum.rate = b->still_rate;
+        return;
+    }
+    b->still = slow && !is_at_mirror(m, b) ? b->still + 1 : 0;
+    b->given = false;
     block_run run = { .body = 0 };
     for (int cell = 0; cell < BRICK_CELLS; cell++)
         if (b->head[cell] >= 0) one_cell(m, b, cell, &grid, halo, &run);
     add_books(&b->sum, &run, &peaks_of_thread(m, thread)[run.body]);
     b->sum.rate /= level_steps(m, b->level);
+    b->still_rate = b->sum.rate;
+    if (b->still == BRICK_ASLEEP) lay_to_rest(m, b);
 }

@@ -309,10 +309,13 @@ static void fold(const mpm *m, brick *b)
 
 void ISA(p2g)(mpm *m, brick *b)
 {
+    const uint64_t meets = b->across ? ~0ull : b->contact ? mpm_contact_cells(m, b) : 0;
+    const bool as_before = b->given && b->still == BRICK_ASLEEP && meets == b->meets;
     memset(&b->sum, 0, sizeof b->sum);
     b->sum.bad_block = -1;
+    if (as_before) return;
     memset(b->out, 0, HALO_NODES * sizeof *b->out);
-    b->meets = b->across ? ~0ull : b->contact ? mpm_contact_cells(m, b) : 0;
+    b->meets = meets, b->given = true;
     if (b->meets) memset(b->out_contact, 0, HALO_NODES * sizeof *b->out_contact);
     const brick_grid grid = brick_grid_at(m, b);
     cell_grid at;

@@ -355,6 +355,7 @@ void mpm_store_release(mpm *m, int i)
 
 void mpm_store_release_cell(mpm *m, brick *b, int cell)
 {
+    b->still = 0;
     while (b->head[cell] >= 0) {
         const int i = b->head[cell];
         b->head[cell] = m->links[i].next;
@@ -366,6 +367,7 @@ void mpm_store_release_cell(mpm *m, brick *b, int cell)
 void mpm_store_drop_lane(mpm *m, brick *b, int block_index, int lane)
 {
     block *q = &m->blocks[block_index];
+    b->still = 0;
     m->links[block_index].mask &= (uint8_t) ~(1u << lane);
     q->mass[0][lane] = q->area[0][lane] = 0;
     b->particles--;
@@ -487,6 +489,7 @@ status mpm_store_compact(mpm *m)
 int mpm_store_insert(mpm *m, brick *b, int cell, int body, const double *particle)
 {
     int *link = &b->head[cell];
+    b->still = 0;
     while (*link >= 0 && (m->links[*link].body != body || m->links[*link].mask == 0xff)) link = &m->links[*link].next;
     if (*link < 0) {
         const int fresh = take_free_block(m);

@@ -26,8 +26,9 @@ enum {
     LINE = 8,                            /* doubles of a node line */
     NODE = 4,                            /* vx vy vz E of a finished node */
     NEIGHBOURS = 27,
-    SELF = 13,    /* index of the brick itself among them */
-    CROSSES = 27, /* of a mover: to another level */
+    SELF = 13,        /* index of the brick itself among them */
+    BRICK_ASLEEP = 2, /* steps at rest after which a brick's particles are left as they are */
+    CROSSES = 27,     /* of a mover: to another level */
     MPM_MAX_THREADS = 256,
     SHARES = 32 /* of the bricks: what is summed over all of them is summed share by share, on any number of threads */
 };
@@ -102,6 +103,7 @@ typedef struct {
     double rate; /* largest (c + |v|) / h, times the share of m.dt that the level's steps are [1/s] */
     double peak_temperature;
     uint64_t clamps_pressure, clamps_compression, splits, eroded, particles;
+    uint64_t asleep; /* particles that were left as they are */
     double eroded_mass;
     bool stranded;           /* no memory for points that left their cells: the step cannot go on */
     bool shared;             /* of a site: its bricks' contact_impulse counts */
@@ -133,6 +135,9 @@ typedef struct {
     int head[BRICK_CELLS]; /* first block of each cell, -1 = none */
     int particles, blocks;
     bool fresh;                  /* points have come from another level since the last look (refine/merge.c) */
+    int still;                   /* steps since a node of its particles was not slow, up to BRICK_ASLEEP (g2p.c) */
+    double still_rate;           /* sum.rate of the last of them [1/s] */
+    bool given;                  /* `out` holds what its particles give as they are */
     bool contact;                /* another group has particles here or next door */
     uint64_t occupied, meets;    /* bit c: cell c has particles; it may share nodes with another group */
     uint64_t covered;            /* cells that may come to be occupied until bricks are made anew around them */

@@ -23,6 +23,8 @@ typedef struct {
 typedef struct {
     int group, level, at[3], particles, has_out, fresh;
     uint64_t covered, reached;
+    int still;
+    double still_rate;
     int blocks[BRICK_CELLS];
 } image_brick;
 
@@ -48,6 +50,7 @@ static char *put_brick(char *to, const mpm *m, const brick *b)
     memset(&head, 0, sizeof head);
     head.group = b->group, head.level = b->level, head.particles = b->particles, head.has_out = b->out != NULL,
     head.fresh = b->fresh, head.covered = b->covered, head.reached = b->reached;
+    head.still = b->still, head.still_rate = b->still_rate;
     memcpy(head.at, b->at, sizeof head.at);
     for (int c = 0; c < BRICK_CELLS; c++)
         for (int q = b->head[c]; q >= 0; q = m->links[q].next) head.blocks[c]++;
@@ -142,6 +145,7 @@ static status get_brick(mpm *m, reader *r)
     b->covered = head.covered, b->reached = head.reached;
     if (head.has_out) TRY(mpm_store_open(b));
     for (int c = 0; c < BRICK_CELLS; c++) TRY(get_cell(m, b, c, head.blocks[c], r));
+    b->still = head.still, b->still_rate = head.still_rate;
     b->occupied = mpm_occupied_cells(b);
     return status_ok();
 }
