@@ -39,7 +39,8 @@ slowest()
 {
     printf 'slowest:\n'
     sed -nE 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) .* ([0-9.]+) sec.*/\2 \1/p' "$log" | sort -rn | head -5 |
-        awk -v full="$BREECH_FULL" '{ printf "%8.1f s  %s%s\n", $1, $2, $1 > 60 && full == 0 ? "   LONG: more than a minute" : "" }'
+        awk -v full="$BREECH_FULL" '{ mark = ($1 > 60 && full == 0) ? "   LONG: more than a minute" : ""
+            printf "%8.1f s  %s%s\n", $1, $2, mark }'
 }
 
 # Configure, build, test one preset, long parts 0 or 1; without the tests whose label matches the third argument.
