@@ -46,7 +46,7 @@ static inline breech_case *small_case(const char *const *speed, bool to_gauge, c
                                  "scene.rail_ahead=8 mm",
                                  "scene.rail_behind=1 mm",
                                  "scene.rail_depth=4 mm",
-                                 "scene.levels=2",
+                                 "scene.levels=3",
                                  "armature.length=10 mm",
                                  "armature.width=6 mm",
                                  "armature.half_bore=6 mm",

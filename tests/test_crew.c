@@ -46,7 +46,7 @@ static breech_case *small_case(const char *end_time)
     const case_options how = { dirs, 1, CASE_FOR_ONSET };
     const char *const sets[] = { end_time,
                                  "scene.coarse_cell=1.2 mm",
-                                 "scene.levels=1",
+                                 "scene.levels=2",
                                  "scene.growth=1.3",
                                  "scene.rail_ahead=6 mm",
                                  "scene.rail_behind=1 mm",

@@ -5,7 +5,7 @@
  */
 #define GAUGED                                                                                                   \
     TINY " --set particle.radius='0.2 mm' --set scene.velocity='2 km/s' --set scene.cells_per_radius=1.2 --set " \
-         "scene.coarse_cell='1.2 mm' --set "                                                                     \
+         "scene.coarse_cell='1.2 mm' --set scene.levels=3 --set "                                                \
          "scene.end_time='3.4 us' "
 
 static void test_gauged(void **state)
