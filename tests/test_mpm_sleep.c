@@ -78,6 +78,21 @@ static void test_wakes(void **state)
     }
 }
 
+/* A force from outside adds up, however small: a block that one acts on does not sleep. */
+static void test_force(void **state)
+{
+    (void)state;
+    const material copper = scene_copper();
+    SCENE_LOCAL(s);
+    target(&s, &copper, 0, 1);
+    const double a = 1e-5; /* [m/s2]: a step's gain is a hundredth of what counts as slow */
+    s.body[0].body_force[1] = a;
+    mpm *m = after(&s, 0.5e-6);
+    assert_int_equal(mpm_state(m).particle_steps_asleep, 0);
+    assert_near(scene_mean(m, MPM_velocity, 1, 0) / (a * mpm_state(m).time), 1, 1e-6);
+    mpm_free(m);
+}
+
 /* Same bits on any number of threads and on from a checkpoint while part of it sleeps. */
 static void test_bits(void **state)
 {
@@ -93,6 +108,6 @@ static void test_bits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_waits), cmocka_unit_test(test_wakes),
-                                        cmocka_unit_test(test_bits) };
+                                        cmocka_unit_test(test_force), cmocka_unit_test(test_bits) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -394,8 +394,8 @@ static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const h
  * them the same stress again, and they give their nodes the same again (p2g.c).  They wake when one of these nodes is
  * no longer slow.  The head of a wave in the numbers goes on by a cell a step and grows manifold with each, so it is
  * slow for some steps; what points do not take in each of them is less than SLOW m c of momentum and SLOW m c^2 of
- * energy, a rounding error of what sends the wave.  Points at a mirror stay awake: it books their impulse with every
- * step. */
+ * energy, a rounding error of what sends the wave.  Points at a mirror stay awake, for it books their impulse with
+ * every step, and so do those of a group that a force acts on from outside. */
 
 static const double SLOW = 1e-14; /* of the velocity of sound */
 
@@ -415,6 +415,17 @@ static bool is_at_mirror(const mpm *m, const brick *b)
 {
     mirror_plane plane[6];
     return mirror_planes(m, b, plane) > 0;
+}
+
+/* Does a force act on the group from outside?  However small, it adds up. */
+static bool is_loaded(const mpm *m, int group)
+{
+    for (int i = 0; i < m->scene.bodies; i++) {
+        const mpm_body *of = &m->scene.body[i];
+        for (int k = 0; k < 3 && of->group == group; k++)
+            if (of->body_force[k] != 0 || of->traction[k] != 0) return true;
+    }
+    return false;
 }
 
 static void lay_to_rest(mpm *m, const brick *b)
@@ -438,7 +449,7 @@ void ISA(g2p)(mpm *m, brick *b, int thread)
         b->sum.asleep = (uint64_t)b->particles, b->sum.rate = b->still_rate;
         return;
     }
-    b->still = slow && !is_at_mirror(m, b) ? b->still + 1 : 0;
+    b->still = slow && !is_at_mirror(m, b) && !is_loaded(m, b->group) ? b->still + 1 : 0;
     b->given = false;
     block_run run = { .body = 0 };
     for (int cell = 0; cell < BRICK_CELLS; cell++)

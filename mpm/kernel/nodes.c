@@ -480,7 +480,7 @@ static void free_node(const double line[LINE], double dt, double node[NODE])
     node[3] = 0.5 * after + (line[7] - 0.5 * dt * power) * inverse - 0.5 * before;
 }
 
-/* The groups that have mass at a site, a seam's already gathered; their number. */
+/* The groups that have mass at a site, an interface's already gathered; their number. */
 static int groups_at(mpm *m, int site, const scratch *to, tally *sum)
 {
     int count = 0, present = 0;

@@ -146,7 +146,7 @@ typedef struct {
     int neighbour[NEIGHBOURS];   /* bricks of the same group around, -1 = none */
     double (*out)[LINE];         /* [216] m, px, py, pz, fx, fy, fz, kinetic energy; halo_place (kernels.h) */
     double (*out_contact)[LINE]; /* [216] V grad S (3), -m (x_i - x_p) (3), m flow, m effusivity (mixed) */
-    double (*line)[LINE];        /* of a seam brick: [64] sums as in `out`, then [64] as in `out_contact` */
+    double (*line)[LINE];        /* of a brick at an interface: [64] sums as in `out`, then [64] as in `out_contact` */
     node_shares *held;           /* of a brick that shares nodes with a finer level */
     int movers, movers_first, movers_thread; /* its part of the thread's mover list */
     uint32_t mover_steps;                    /* bit k: a mover goes to neighbour k */
@@ -246,7 +246,7 @@ struct mpm {
 struct kernels {
     const char *name;
     void (*p2g)(mpm *m, brick *b);
-    void (*gather)(mpm *m, int site); /* a seam's sums into brick.line */
+    void (*gather)(mpm *m, int site); /* an interface's sums into brick.line */
     void (*nodes)(mpm *m, int site, int thread);
     size_t (*node_bytes)(int groups); /* of scratch memory, for a thread and that many groups at a site */
     void (*g2p)(mpm *m, brick *b, int thread);
