@@ -205,13 +205,19 @@ static double tidy(double value)
     return strtod(text, NULL);
 }
 
+/* udunits also turns a unit into its inverse, 5 kHz into 0.2 ms: that is no unit of a time. */
+static bool is_inverse(cv_converter *converter)
+{
+    return !isfinite(cv_convert_double(converter, 0.0));
+}
+
 static status convert(const units *u, double number, const char *from, const char *to, double *value)
 {
     ut_unit *a = unit_parse(u, from), *b = unit_parse(u, to);
     cv_converter *converter = a && b && ut_are_convertible(a, b) ? ut_get_converter(a, b) : NULL;
     const bool known = a != NULL;
-    if (converter) *value = same(from, to) ? number : tidy(cv_convert_double(converter, number));
-    const bool done = converter != NULL;
+    const bool done = converter && !is_inverse(converter);
+    if (done) *value = same(from, to) ? number : tidy(cv_convert_double(converter, number));
     if (converter) cv_free(converter);
     ut_free(a);
     ut_free(b);
