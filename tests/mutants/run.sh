@@ -64,7 +64,9 @@ check_list()
 # Builds what a test needs and runs it; output in $scratch/log.  Nothing to read for them: mpirun would take the list's rest.
 build_test()
 {
-    if [ -f "$copy/tests/$1.c" ]; then cmake --build "$copy/build" --target "$1" --parallel "$(nproc)" </dev/null >"$scratch/log" 2>&1; fi
+    local target=breech # what a test that is a script runs
+    if [ -f "$copy/tests/$1.c" ]; then target=$1; fi
+    cmake --build "$copy/build" --target "$target" --parallel "$(nproc)" </dev/null >"$scratch/log" 2>&1
 }
 run_test()
 {

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""Figures about a case in README.md, docs/ and cases/, against runs of the commands that stand beside them.
+
+  figures.py BREECH OUT [PAGE ...]   runs each command once and compares; exit 1 with a list of what differs
+  figures.py --text [PAGE ...]       runs nothing: is every figure of a list in the prose before it?
+  --threads N                        of each run; --only TEXT: commands that contain it
+
+Behind the paragraph or table that states figures stands a comment: the command, then a list as in expected.yaml
+(docs/output.md, "What a case expects").  PAGE: README.md, docs/onset.md ..; default all.
+
+  <!-- figures: breech onset cases/default_shot
+  - {key: threshold_velocity, value: 697 m/s, within: 5 %}
+  - {key: verdict, is: gouges}
+  -->
+
+The number of every `value` must stand in the text between the heading, or the comment, before and this one.  OUT keeps the
+runs, as for tables.py."""
+import glob
+import os
+import re
+import shlex
+import subprocess
+import sys
+
+from runs import ROOT, Runs
+
+COMMENT = re.compile(r"<!-- figures: (?P<command>breech [^\n]*(?:\\\n[^\n]*)*)\n(?P<list>.*?)-->", flags=re.S)
+VALUE = re.compile(r"\bvalue: *['\"]?(-?[\d.]+)")  # without its power of ten: 216e6 is 216 M in a text
+ENTRY = re.compile(r"^- \{.*\}$")
+
+
+class Claim:
+    """One comment: page, line, the words of its command, the list, and the text before it."""
+
+    def __init__(self, page, line, command, entries, before):
+        self.page, self.line, self.entries, self.before = page, line, entries, before
+        self.words = shlex.split(command.replace("\\\n", " "))[1:]
+
+    def command(self):
+        return "breech " + " ".join(self.words)
+
+    def where(self):
+        return "%s:%d" % (self.page, self.line)
+
+    def unsaid(self):
+        """Values of the list that the text before does not state, and lines that are no entries."""
+        faults = ["%s: no entry of a list: %s" % (self.where(), entry) for entry in self.entries if not ENTRY.match(entry)]
+        for entry in self.entries:
+            for number in VALUE.findall(entry):
+                if not re.search(r"(?<![\d.])%s(?!\d|\.\d)" % re.escape(number), self.before):
+                    faults.append("%s: %s of the list is not in the text before it" % (self.where(), number))
+        return faults
+
+
+def claims_of(page):
+    with open(os.path.join(ROOT, page), encoding="utf-8") as file:
+        text = file.read()
+    found, end = [], 0
+    for comment in COMMENT.finditer(text):
+        heading = max((h.start() for h in re.finditer(r"^#+ ", text[:comment.start()], flags=re.M)), default=0)
+        found.append(Claim(page, text.count("\n", 0, comment.start()) + 1, comment["command"],
+                           [line for line in comment["list"].splitlines() if line.strip()], text[max(heading, end):comment.start()]))
+        end = comment.end()
+    if text.count("<!-- figures:") != len(found):
+        sys.exit("%s: a comment `figures:` that is none: give a command `breech ..` and a list" % page)
+    return found
+
+
+def all_pages():
+    pages = ["README.md"] + glob.glob("docs/**/*.md", root_dir=ROOT, recursive=True) + glob.glob("cases/**/*.md", root_dir=ROOT,
+                                                                                               recursive=True)
+    return sorted(pages)
+
+
+def folder_of(words):
+    """Name of a command's run: its words without what a file name cannot hold."""
+    return "figures_" + re.sub(r"[^\w.=-]+", "_", "_".join(words))
+
+
+def case_of(words):
+    return next(word for word in words[1:] if not word.startswith("-"))
+
+
+def compare(runs, claim):
+    """What of a claim does not hold, as `breech check --expect` says it of the run."""
+    name = folder_of(claim.words)
+    run, _ = runs.run(name, claim.words)
+    case = os.path.join(ROOT, case_of(claim.words))
+    lists = os.path.join(runs.out, name + ".claim")
+    os.makedirs(lists, exist_ok=True)
+    with open(os.path.join(lists, "case.yaml"), "w", encoding="utf-8") as file:
+        file.write("base: %s\n" % case)
+    with open(os.path.join(lists, "expected.yaml"), "w", encoding="utf-8") as file:
+        file.write("\n".join(claim.entries) + "\n")
+    told = subprocess.run([runs.breech, "check", lists, "--expect", run], capture_output=True, text=True, check=False)
+    if told.returncode == 0:
+        return []
+    lines = [line for line in told.stdout.splitlines() if line.endswith("FAILS")] or [told.stdout + told.stderr]
+    return ["%s: %s: %s" % (claim.where(), claim.command(), line) for line in lines]
+
+
+def taken(words, option):
+    """Value of an option, taken out of the words; None: not given."""
+    if option not in words:
+        return None
+    at = words.index(option)
+    value = words[at + 1]
+    del words[at:at + 2]
+    return value
+
+
+def main():
+    words = sys.argv[1:]
+    threads, only = int(taken(words, "--threads") or 0), taken(words, "--only") or ""
+    text_alone = "--text" in words
+    words = [word for word in words if word != "--text"]
+    if not text_alone and len(words) < 2:
+        sys.exit(__doc__)
+    claims = [claim for page in (words[0 if text_alone else 2:] or all_pages()) for claim in claims_of(page)
+              if only in claim.command()]
+    faults = [fault for claim in claims for fault in claim.unsaid()]
+    if not text_alone:
+        runs = Runs(words[0], words[1], threads)
+        faults += [fault for claim in claims for fault in compare(runs, claim)]
+    print("%d figures of %d commands" % (sum(len(claim.entries) for claim in claims),
+                                         len({claim.command() for claim in claims})))
+    if faults:
+        sys.exit("figures that do not hold:\n  " + "\n  ".join(faults))
+
+
+if __name__ == "__main__":
+    main()
