@@ -14,12 +14,13 @@ static bool is_gauged(const gouge_watch *w, const mpm_report *now)
     return w->scene->gauged && (g->at[1] > 0.0 || gouge_groove_dies(w->scene, g, now));
 }
 
-static bool due(void *user, const mpm *m, const mpm_report *now)
+static status due(void *user, const mpm *m, const mpm_report *now, bool *ends)
 {
     (void)m;
     gouge_watch *w = user;
     gouge_gauges_note(w->scene, now, &w->state.gauges);
-    return is_gauged(w, now);
+    *ends = is_gauged(w, now);
+    return status_ok();
 }
 
 /* A groove that is followed: dead, or the armature's contact face has gone over its front. */

@@ -110,7 +110,6 @@ typedef struct {
     scene_body *body;     /* as they were last; [scene->bodies] */
     double *row;          /* [1 + COLUMNS x bodies] */
     scene_probes *probes; /* owned */
-    status error;         /* of a row between two pieces */
 } recorder;
 
 typedef struct {
@@ -147,13 +146,12 @@ static status open_series(recorder *r, const scene_job *job)
     return scene_probes_open(r->history, job->name, r->scene, job->resume.image ? job->resume.time : -1.0, &r->probes);
 }
 
-/* A row of the probes: the watch's part after every step.  true, which ends the piece: there was an error. */
-static bool read_probes(void *user, const mpm *m, const mpm_report *now)
+/* A row of the probes: the watch's part after every step. */
+static status read_probes(void *user, const mpm *m, const mpm_report *now, bool *ends)
 {
-    recorder *r = user;
-    (void)now;
-    if (r->error.code == STATUS_OK) r->error = scene_probes_step(r->probes, m);
-    return r->error.code != STATUS_OK;
+    const recorder *r = user;
+    (void)now, (void)ends;
+    return scene_probes_step(r->probes, m);
 }
 
 /* A row of all bodies: the watch's part after every piece. */
@@ -161,7 +159,6 @@ static status record(void *user, const mpm *m, bool *over)
 {
     recorder *r = user;
     (void)over; /* it goes to its end */
-    TRY(r->error);
     TRY(bodies_now(r->scene, m, r->body));
     TRY(scene_probes_piece(r->probes, m));
     r->row[0] = mpm_glance(m).time;
@@ -245,8 +242,7 @@ status scene_bodies_run(const scene_job *job, const scene_host *host, scene_bodi
     recorder r = { .scene = job->scene,
                    .history = host->history,
                    .body = out->body,
-                   .row = calloc(1 + COLUMNS * n, sizeof *r.row),
-                   .error = status_ok() };
+                   .row = calloc(1 + COLUMNS * n, sizeof *r.row) };
     status done = base_status_error(STATUS_MEMORY, "no memory for %zu bodies and %zu probes", n, probes);
     if (out->body && out->probe && r.row) done = r.history ? status_ok() : output_history_open(NULL, false, &own);
     if (own) r.history = own;

@@ -21,7 +21,7 @@ typedef struct {
     int series;                      /* of the history, -1: none */
     int pieces, per_snapshot;        /* pieces; pieces from one snapshot to the next, 0: no snapshots */
     double started, save_at, looked; /* wall clock [s] */
-    status error;                    /* of the sink */
+    status error;                    /* of what was done after a step */
 } run;
 
 static void book(const scene_host *h, const char *phase, double since)
@@ -55,12 +55,14 @@ static status save(run *r)
     return status_ok();
 }
 
-/* Has the step ended a piece, or the scene? */
-static bool is_due(const run *r, const mpm_report *now)
+/* Has the step ended a piece, or the scene?  The watch is asked after every step: it may note what it sees. */
+static status ends_piece(const run *r, const mpm_report *now, bool *ends)
 {
     const scene_watch *w = r->job->watch;
-    const bool due = w && w->due && w->due(w->user, r->m, now); /* asked after every step: it may note what it sees */
-    return due || now->time >= r->piece_end;
+    *ends = false;
+    if (w && w->due) TRY(w->due(w->user, r->m, now, ends));
+    *ends = *ends || now->time >= r->piece_end;
+    return status_ok();
 }
 
 /* After every step: cheap unless something is due.  What a piece's end asks for comes before a stop or a checkpoint. */
@@ -69,13 +71,15 @@ static bool on_step(void *user, const mpm *m)
     run *r = user;
     const double now = host_wall_clock();
     const mpm_report state = mpm_glance(m);
+    bool ends;
     r->before = r->reached, r->reached = state.time;
     if (r->host->threads_now) mpm_set_threads(r->m, r->host->threads_now(r->host->user));
     if (r->host->progress && now - r->looked >= LIVE_INTERVAL) {
         r->looked = now;
         host_progress_update(r->host->progress, progress_of(r, &state), state.particle_steps);
     }
-    if (is_due(r, &state)) return false;
+    r->error = ends_piece(r, &state, &ends);
+    if (r->error.code != STATUS_OK || ends) return false;
     if (now >= r->save_at) r->error = save(r);
     return r->error.code == STATUS_OK && !(r->host->stop && r->host->stop(r->host->user));
 }
@@ -135,7 +139,9 @@ static status advance_piece(run *r, int piece)
     if (r->error.code != STATUS_OK) return r->error;
     const mpm_report now = mpm_glance(r->m);
     if (s.code != STATUS_STOPPED) return s;
-    if (is_due(r, &now)) return status_ok();
+    bool ends;
+    TRY(ends_piece(r, &now, &ends));
+    if (ends) return status_ok();
     TRY(save(r));
     return s;
 }

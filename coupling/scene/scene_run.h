@@ -15,9 +15,9 @@
 
 /* What a user of the runner does between pieces.  A function that is NULL is not wanted. */
 typedef struct {
-    /* After every step, and again at the end of a piece, so it must give the same answer twice; cheap.  true: the piece
-     * ends here. */
-    bool (*due)(void *user, const mpm *m, const mpm_report *now);
+    /* After every step, and again at the end of a piece, so it must give the same answer twice; cheap.  *ends: the piece
+     * ends here; false when called. */
+    status (*due)(void *user, const mpm *m, const mpm_report *now, bool *ends);
     /* At the start, and at the end of every piece.  *over: the scene ends here; false when called. */
     status (*piece)(void *user, const mpm *m, bool *over);
     /* Once the scene is over.  *keep: worth going on from (scene_job.whole); false when called. */
