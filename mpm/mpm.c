@@ -10,7 +10,7 @@
 
 static const int COMPACT_EVERY = 200; /* steps of the finest level between restorings of the blocks' order in memory */
 static const int SAMPLE_EVERY = 20;   /* the same between percentile samples */
-static const int LOOK_EVERY = 16;     /* the same between looks at where cells should be small, at the plastic front */
+static const int LOOK_EVERY = 16;     /* the same between looks at where cells should be small */
 enum { START_BLOCKS = 1 << 15 };      /* room at the start: memory that nobody touches costs nothing, growing does */
 static const double DT_GROWTH = 1.05; /* a step of the coarsest level */
 static const double FORCE_SMOOTHING = 0.2e-6; /* [s] */
@@ -79,8 +79,6 @@ static status check_scene(const mpm_scene *s)
           : s->basis == BASIS_BSPLINE ? "bspline"
                                       : "no scheme");
     TRY(base_params_check(&mpm_scene_params[MPM_SCENE_HASHED], s, "scene"));
-    TRY(base_params_check(mpm_follow_params, &s->follow, "follow"));
-    CHECK(s->follow.along != s->follow.across, STATUS_BAD_INPUT, "follow: along and across are the same axis");
     for (int i = 0; i < s->bodies; i++) TRY(check_body(s, i, groups));
     TRY(check_pairs(s, groups));
     for (int i = 0; i < s->refines; i++) TRY(mpm_refine_check(&s->refine[i], s->bodies));
@@ -586,10 +584,7 @@ static status one_step(mpm *m, double until)
           m->time, m->dt);
     if (is_due(m, SAMPLE_EVERY)) mpm_sample_percentiles(m);
     if (is_due(m, COMPACT_EVERY)) TRY(mpm_store_compact(m));
-    if (is_due(m, LOOK_EVERY)) {
-        TRY(mpm_refine_look(m));
-        TRY(mpm_plastic_front_look(m));
-    }
+    if (is_due(m, LOOK_EVERY)) TRY(mpm_refine_look(m));
     lap(m, PHASE_REST, &clock);
     return status_ok();
 }

@@ -37,12 +37,9 @@ typedef struct {
     size_t particles;
     uint64_t clamps_pressure, clamps_compression; /* counted, never silent */
     uint64_t splits, merges, ejected, eroded;     /* ejected holds the eroded points too */
-    double plastic_time;                          /* of the last look at the plastic power [s] */
-    double plastic_front; /* where the plastic power of the bodies followed ends (mpm_scene.follow) [m] */
-    double plastic_power, peak_plastic_power; /* that goes into it: now, and the largest so far [W] */
-    double eroded_mass;                       /* vapour and dust taken out so far [kg] */
-    double peak_pressure, peak_temperature;   /* any intact particle, any time so far [Pa, K] */
-    double failed_volume;                     /* of all bodies, now [m3] */
+    double eroded_mass;                           /* vapour and dust taken out so far [kg] */
+    double peak_pressure, peak_temperature;       /* any intact particle, any time so far [Pa, K] */
+    double failed_volume;                         /* of all bodies, now [m3] */
 } mpm_report;
 
 /* Of one body, so far. */
@@ -116,6 +113,25 @@ const mpm_scene *mpm_scene_of(const mpm *m); /* borrowed */
 size_t mpm_particles(const mpm *m);
 /* out: mpm_particles() x width doubles, owned by the caller. */
 void mpm_read(const mpm *m, mpm_field field, double *out);
+
+/* Slices of equal width along an axis, each in two parts: its middle, and its sides beyond a part of the half width
+ * across.  What lies beyond the half width is in none. */
+typedef struct {
+    int along, across;   /* axes: 0 x, 1 y, 2 z */
+    int n;               /* slices */
+    double lo, width;    /* where the first begins; of each [m] */
+    double middle, half; /* across: the middle, the half width [m] */
+    double sides;        /* the sides begin at this part of the half width [1] */
+} mpm_slices;
+
+typedef struct {
+    double power, volume; /* [W, m3] */
+} mpm_plastic_sum;
+
+/* Plastic power (as of the probe `plastic`) and volume of bodies, slice by slice; a point belongs evenly to all slices
+ * that its domain covers.  counts: of each body, is it read?  sums: 2 n, of each slice its middle and its sides; the
+ * caller's. */
+status mpm_plastic_profile(const mpm *m, const bool *counts, const mpm_slices *slices, mpm_plastic_sum *sums);
 
 /* Checkpoint: a flat image of everything, order included.  *image is malloc'ed, the caller frees it. */
 status mpm_save(const mpm *m, void **image, size_t *bytes);

@@ -10,7 +10,6 @@ void mpm_scene_default(mpm_scene *s)
     memset(s, 0, sizeof *s);
     s->contact = mpm_contact_of(mpm_contact_find("coulomb"));
     base_params_default(mpm_scene_params, s);
-    base_params_default(mpm_follow_params, &s->follow);
 }
 
 /* Room for one more element behind n; the memory is a power of two of them, so n says when it is full. */
@@ -100,13 +99,6 @@ int mpm_scene_groups(const mpm_scene *s)
     for (int i = 0; i < s->bodies; i++)
         if (s->body[i].group >= groups) groups = s->body[i].group + 1;
     return groups;
-}
-
-bool mpm_scene_follows(const mpm_scene *s)
-{
-    for (int i = 0; i < s->bodies; i++)
-        if (s->body[i].followed) return true;
-    return false;
 }
 
 static const double ALWAYS = 1e6; /* [s] */

@@ -43,7 +43,6 @@ typedef struct {
     bool
         passes[MPM_FACES]; /* the window's ends -x +x -y +y -z +z whose boundary does not act on this body; the same for
                                all bodies of a group */
-    bool followed;         /* its plastic front is looked for (mpm_follow) */
 } mpm_body;
 
 /* ---- grid: rectilinear, each axis graded on its own ---- */
@@ -82,14 +81,6 @@ typedef struct {
     int normal_of;
 } mpm_pair;
 
-/* ---- a front that is followed ---- */
-
-/* The plastic front of the bodies that are `followed` is looked for along an axis, upwards. */
-typedef struct {
-    int along;  /* axis of the motion: 0 x, 1 y, 2 z */
-    int across; /* another axis: power beyond what the metal of its ends takes is the front's */
-} mpm_follow;
-
 typedef enum { TRANSFER_TPIC, TRANSFER_PIC } transfer_kind; /* with and without the velocity gradient */
 typedef enum { BASIS_GIMP, BASIS_BSPLINE } basis_kind; /* GIMP whose domains follow the stretch; quadratic B-spline */
 
@@ -110,7 +101,6 @@ typedef struct {
     /* The planes of the grid, of all levels, moved along each axis by a share of the finest cell; the window's ends and
      * the bodies stay where they are [1] */
     double grid_shift[3];
-    mpm_follow follow;
     double contact_gap;     /* groups touch when the distance of their points' means at a node is below this [cells] */
     int particles_per_axis; /* material points a cell and axis, 2 or 3 */
     double courant;         /* of c + |v|, on each level by its own steps and cells */
@@ -149,15 +139,14 @@ mpm_pair mpm_scene_contact(const mpm_scene *s, int a, int b);
  * a case file too.  The members before MPM_SCENE_HASHED change nothing of what a scene is at a time: they are not in
  * its hash. */
 enum { MPM_BODY_KEYED = 8, MPM_AXIS_KEYED = 4, MPM_SCENE_KEYED = 1, MPM_SCENE_HASHED = 2 };
-extern const param mpm_body_params[], mpm_axis_params[], mpm_pair_params[], mpm_follow_params[], mpm_scene_params[];
+extern const param mpm_body_params[], mpm_axis_params[], mpm_pair_params[], mpm_scene_params[];
 /* Names of choices, NULL at the end: -x +x -y +y -z +z; x y z; and of the enumerators above. */
 extern const char *const mpm_face_names[], *const mpm_axis_names[];
 extern const char *const mpm_boundary_names[], *const mpm_transfer_names[], *const mpm_basis_names[];
 
 uint64_t mpm_scene_hash(const mpm_scene *s); /* of every member but the run's; needs all materials, kinds and laws */
 
-int mpm_scene_groups(const mpm_scene *s);   /* one more than the highest group of a body */
-bool mpm_scene_follows(const mpm_scene *s); /* is any body followed? */
+int mpm_scene_groups(const mpm_scene *s); /* one more than the highest group of a body */
 
 status mpm_scene_copy(const mpm_scene *from, mpm_scene *to); /* arrays of its own; the same borrowed materials */
 void mpm_scene_free(mpm_scene *s); /* of one that mpm_scene_default began or of zero bytes; leaves an empty one */

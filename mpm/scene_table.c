@@ -51,7 +51,6 @@ const param mpm_body_params[] = {
     PARAM_ENUM(mpm_body, traction_face, mpm_face_names, 0, "where that surface looks"),
     PARAM_DOUBLE(mpm_body, yield_scale, "1", 1.0, 1e-3, 1e3, "factor on the yield stress: hardening"),
     PARAM_BOOL(mpm_body, damage, 0, "its material's law of failure acts"),
-    PARAM_BOOL(mpm_body, followed, 0, "its plastic front is looked for (`follow`)"),
     PARAMS_END,
 };
 
@@ -75,13 +74,6 @@ const param mpm_pair_params[] = {
     PARAM_INT(mpm_pair, a, 0, 0, 1e9, "group"),
     PARAM_INT(mpm_pair, b, 1, 0, 1e9, "group"),
     PARAM_INT(mpm_pair, normal_of, 0, 0, 1e9, "group whose surface gives the contact normal"),
-    PARAMS_END,
-};
-
-const param mpm_follow_params[] = {
-    PARAM_ENUM(mpm_follow, along, mpm_axis_names, 0, "axis along which a plastic front is looked for"),
-    PARAM_ENUM(mpm_follow, across, mpm_axis_names, 2,
-               "axis across it: what the ends of the window take there does not count"),
     PARAMS_END,
 };
 
@@ -166,7 +158,6 @@ static uint64_t hash_refine(uint64_t h, const mpm_refine *r)
 uint64_t mpm_scene_hash(const mpm_scene *s)
 {
     uint64_t h = hash_members(14695981039346656037ull, &mpm_scene_params[MPM_SCENE_HASHED], s);
-    h = hash_members(h, mpm_follow_params, &s->follow);
     h = hash_contact(h, &s->contact);
     for (int k = 0; k < 3; k++) h = hash_members(h, mpm_axis_params, &s->axis[k]);
     for (int i = 0; i < s->solids; i++) h = hash_solid(h, &s->solid[i]);

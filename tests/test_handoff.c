@@ -595,20 +595,19 @@ static void test_gauges(void **state)
     (void)state;
     const gouge_scene s = { .gauge_time = { 2e-6, 3e-6 } };
     gouge_gauges g = { .at = { 0.0 } };
-    mpm_report now = { .time = 1e-6, .plastic_time = 1e-6, .plastic_power = 1e5 };
+    gouge_front now = { .time = 1e-6, .power = 1e5 };
     gouge_gauges_note(&s, &now, &g);
     assert_true(g.at[0] == 0.0 && isnan(gouge_growth(&g, &now)));
-    now = (mpm_report){ .time = 2.2e-6, .plastic_time = 2.1e-6, .plastic_power = 3e5 };
+    now = (gouge_front){ .time = 2.1e-6, .power = 3e5 };
     gouge_gauges_note(&s, &now, &g);
-    now.time = 2.3e-6; /* no new look */
+    now = (gouge_front){ .time = 2.2e-6, .power = 4e5 }; /* a later look is not the first */
     gouge_gauges_note(&s, &now, &g);
     assert_true(g.at[0] == 2.1e-6 && g.power[0] == 3e5 && g.at[1] == 0.0);
-    now = (mpm_report){ .time = 2.9e-6, .plastic_time = 2.6e-6, .plastic_power = 3e5 * exp(-1.0) };
+    now = (gouge_front){ .time = 2.6e-6, .power = 3e5 * exp(-1.0) };
     assert_true(fabs(gouge_growth(&g, &now) / -2e6 - 1.0) < 1e-9); /* died on its way to the second gauge */
-    now = (mpm_report){ .time = 3.1e-6, .plastic_time = 3.1e-6, .plastic_power = 3e5 * exp(0.25) };
+    now = (gouge_front){ .time = 3.1e-6, .power = 3e5 * exp(0.25) };
     gouge_gauges_note(&s, &now, &g);
-    now =
-        (mpm_report){ .time = 4e-6, .plastic_time = 4e-6, .plastic_power = 1e9 }; /* after both: it no longer counts */
+    now = (gouge_front){ .time = 4e-6, .power = 1e9 }; /* after both: it no longer counts */
     gouge_gauges_note(&s, &now, &g);
     assert_true(fabs(gouge_growth(&g, &now) / 0.25e6 - 1.0) < 1e-9);
 }
@@ -620,18 +619,18 @@ static void test_dying(void **state)
     made m = make((const char *const[]){ NULL });
     const double *gauge = m.gouge.gauge_time, half = 0.5 * (gauge[0] + gauge[1]);
     const gouge_gauges at = { .at = { gauge[0] }, .power = { 1e5 } };
-    mpm_report now = { .time = half, .plastic_time = half };
+    gouge_front now = { .time = half };
     for (double folds = -2.0; folds <= 2.0; folds += 0.1) {
-        now.plastic_power = 1e5 * exp(0.5 * folds);
-        assert_true(gouge_groove_dies(&m.gouge, &at, &now) == (folds < -0.501));
+        now.power = 1e5 * exp(0.5 * folds);
+        assert_true(gouge_groove_dies(&m.gouge, &at, &now, half) == (folds < -0.501));
     }
-    now.plastic_power = 1e5 * exp(0.5 * -0.7);
+    now.power = 1e5 * exp(0.5 * -0.7);
     m.gouge.growth_scatter = 0.3; /* what decides nothing reaches further */
-    assert_false(gouge_groove_dies(&m.gouge, &at, &now));
-    now.plastic_power = 1e4;
-    assert_true(gouge_groove_dies(&m.gouge, &at, &now));
-    now.time = now.plastic_time = 0.99 * half;
-    assert_false(gouge_groove_dies(&m.gouge, &at, &now));
+    assert_false(gouge_groove_dies(&m.gouge, &at, &now, half));
+    now.power = 1e4;
+    assert_true(gouge_groove_dies(&m.gouge, &at, &now, half));
+    now.time = 0.99 * half;
+    assert_false(gouge_groove_dies(&m.gouge, &at, &now, now.time));
     unmake(&m);
 }
 

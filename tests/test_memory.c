@@ -186,7 +186,6 @@ static void prepare_scene(void)
     s->axis[1] = scene_graded(s->axis[1], -1e-3, 1e-3, 6 * h, 1.6);
     s->axis[2] = scene_graded(s->axis[2], 0, 1e-3, 6 * h, 1.6);
     s->levels = 2;
-    s->body[0].followed = true;
     mpm_refine *plastic;
     assert_ok(mpm_scene_add_refine(s, "plastic", &plastic));
     s->zone_until = 0.3 * END;
@@ -202,10 +201,16 @@ static struct {
     uint64_t splits, merges, steps;
 } seen;
 
-/* A solver to the end of the scene, the probe read on the way. */
+/* A solver to the end of the scene, then what is read. */
 static status run_on(mpm *m, double *map)
 {
+    static const bool counts[] = { true, true, false };
+    const mpm_slices slices = {
+        .along = 0, .across = 2, .n = 4, .lo = -1e-3, .width = 1e-3, .half = 2e-3, .sides = 0.75
+    };
+    mpm_plastic_sum sums[2 * 4];
     TRY(mpm_advance(m, END, NULL));
+    TRY(mpm_plastic_profile(m, counts, &slices, sums));
     return mpm_probe_read(m, &mpm_scene_of(m)->probe[0], map);
 }
 

@@ -212,25 +212,53 @@ static void shear(block *q, int l)
     q->L[row[sheared]][l] = 3e4, q->L[column[sheared]][l] = 1e4;
 }
 
-/* s_ij (L_ij + L_ji) V, for each pair; the plastic front of a followed body adds up the same power. */
+/* s_ij (L_ij + L_ji) V, for each pair. */
 static void test_plastic(void **state)
 {
     (void)state;
     const material m = scene_copper();
     mpm *solver = cubes(&m);
     double out;
-    solver->scene.body[0].followed = true;
     mpm_probe plastic = probe("plastic", 0);
     for (sheared = 0; sheared < 3; sheared++) {
         each_point(solver, shear);
         plastic.body = 0;
         look(solver, &plastic, &out);
         assert_near(out / (1e8 * 4e4 * 8e-9), 1, 1e-12);
-        assert_ok(mpm_plastic_front_look(solver));
-        assert_near(mpm_glance(solver).plastic_power / out, 1, 1e-12);
         plastic.body = 1;
         look(solver, &plastic, &out);
         assert_true(out == 0);
+    }
+    mpm_free(solver);
+}
+
+/* Slices of 0.5 mm that begin in the middle of points of 0.125 mm: such a point belongs to two, half to each.  Across
+ * z, 1.5 mm are read, the outer third of them apart; body 1 has volume, but takes no power. */
+static void test_profile(void **state)
+{
+    (void)state;
+    enum { N = 12 };
+    const material m = scene_copper();
+    const mpm_slices slices = {
+        .along = 0, .across = 2, .n = N, .lo = -3.0625e-3, .width = 0.5e-3, .half = 0.75e-3, .sides = 2.0 / 3
+    };
+    mpm *solver = cubes(&m);
+    sheared = 0, each_point(solver, shear);
+    for (int body = 0; body < 2; body++) {
+        const bool counts[2] = { body == 0, body == 1 };
+        mpm_plastic_sum one[2 * N], three[2 * N];
+        assert_ok(mpm_plastic_profile(solver, counts, &slices, one));
+        for (int i = 0; i < N; i++)
+            for (int part = 0; part < 2; part++) {
+                const double from = fmax(slices.lo + i * slices.width, body == 0 ? -2e-3 : 0),
+                             to = fmin(slices.lo + (i + 1) * slices.width, body == 0 ? 0 : 2e-3),
+                             volume = fmax(to - from, 0) * 2e-3 * (part == 0 ? 1e-3 : 0.5e-3);
+                assert_near(one[2 * i + part].volume, volume, 1e-12 * 8e-9);
+                assert_near(one[2 * i + part].power, body == 0 ? 1e8 * 4e4 * volume : 0, 1e-12 * 1e8 * 4e4 * 8e-9);
+            }
+        mpm_set_threads(solver, 3);
+        assert_ok(mpm_plastic_profile(solver, counts, &slices, three));
+        assert_memory_equal(one, three, sizeof one);
     }
     mpm_free(solver);
 }
@@ -402,8 +430,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_table),   cmocka_unit_test(test_scene),   cmocka_unit_test(test_pressure),
         cmocka_unit_test(test_force),   cmocka_unit_test(test_motion),  cmocka_unit_test(test_failed),
-        cmocka_unit_test(test_plastic), cmocka_unit_test(test_surface), cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_plastic), cmocka_unit_test(test_profile), cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_refused), cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,7 +68,6 @@ static void test_key(void **state)
     some_scene(&s, &m);
     assert_string_equal(mpm_scene_params[MPM_SCENE_HASHED - 1].key, "end_time");
     int n = walk_from(MPM_SCENE_HASHED, &s, mpm_scene_params, &s, sizeof s);
-    n += walk(&s, mpm_follow_params, &s.follow, sizeof s.follow);
     n += walk(&s, s.contact.law->params, &s.contact, sizeof s.contact);
     n += walk(&s, mpm_material_params, &m, sizeof m);
     for (int k = 0; k < 3; k++) n += walk(&s, mpm_axis_params, &s.axis[k], sizeof s.axis[k]);
@@ -127,16 +126,21 @@ static void test_tables(void **state)
     static const size_t of_body[][2] = { PLACE(mpm_body, material), { 0, 0 } };
     static const size_t of_axis[][2] = { { 0, 0 } };
     static const size_t of_pair[][2] = { PLACE(mpm_pair, contact), { 0, 0 } };
-    static const size_t of_scene[][2] = { PLACE(mpm_scene, bodies), PLACE(mpm_scene, solids),
-                                          PLACE(mpm_scene, pairs),  PLACE(mpm_scene, body),
-                                          PLACE(mpm_scene, solid),  PLACE(mpm_scene, pair),
-                                          PLACE(mpm_scene, axis),   PLACE(mpm_scene, contact),
-                                          PLACE(mpm_scene, follow), PLACE(mpm_scene, probes),
-                                          PLACE(mpm_scene, probe),  PLACE(mpm_scene, refines),
-                                          PLACE(mpm_scene, refine), { 0, 0 } };
+    static const size_t of_scene[][2] = { PLACE(mpm_scene, bodies),
+                                          PLACE(mpm_scene, solids),
+                                          PLACE(mpm_scene, pairs),
+                                          PLACE(mpm_scene, body),
+                                          PLACE(mpm_scene, solid),
+                                          PLACE(mpm_scene, pair),
+                                          PLACE(mpm_scene, axis),
+                                          PLACE(mpm_scene, contact),
+                                          PLACE(mpm_scene, probes),
+                                          PLACE(mpm_scene, probe),
+                                          PLACE(mpm_scene, refines),
+                                          PLACE(mpm_scene, refine),
+                                          { 0, 0 } };
     covered("mpm_body", (const param *const[]){ mpm_body_params, NULL }, sizeof(mpm_body), of_body);
     covered("mpm_axis", (const param *const[]){ mpm_axis_params, NULL }, sizeof(mpm_axis), of_axis);
-    covered("mpm_follow", (const param *const[]){ mpm_follow_params, NULL }, sizeof(mpm_follow), of_axis);
     covered("mpm_pair", (const param *const[]){ mpm_pair_params, NULL }, sizeof(mpm_pair), of_pair);
     covered("mpm_scene", (const param *const[]){ mpm_scene_params, NULL }, sizeof(mpm_scene), of_scene);
 }

@@ -70,13 +70,14 @@ static void every_column_has_units_and_description(void **state)
     const shot_event e = { SHOT_SITE, 3, s };
     output_history_event_row(&e, row);
     OK(output_history_append(h, series, row));
-    OK(output_history_scene(h, "v1500", &series));
+    const history_column more = { "speed", "m/s", "of the caller's" };
+    OK(output_history_scene(h, "v1500", &more, 1, &series));
     mpm_report report;
     mpm_ledger ledger;
     memset(&report, 0, sizeof report);
     memset(&ledger, 0, sizeof ledger);
     report.failed_volume = 5.0;
-    output_history_scene_row(&report, &ledger, (const double[3]){ 7.0, 8.0, 9.0 }, row);
+    *output_history_scene_row(&report, &ledger, (const double[3]){ 7.0, 8.0, 9.0 }, row) = 11.0;
     OK(output_history_append(h, series, row));
     double map[12];
     for (int i = 0; i < 12; i++) map[i] = 1e-4 * i;
@@ -106,6 +107,9 @@ static void every_column_has_units_and_description(void **state)
     free(v);
     v = read_series("history/a.h5", "/scene/v1500/contact_force_y", &n);
     assert_true(n == 1 && v[0] == 8.0);
+    free(v);
+    v = read_series("history/a.h5", "/scene/v1500/speed", &n);
+    assert_true(n == 1 && v[0] == 11.0);
     free(v);
     v = read_series("history/a.h5", "/scene/v1500/crater/depth", &n);
     assert_true(n == 4 && v[11] == map[11]);
@@ -204,7 +208,7 @@ static void names_that_are_no_names(void **state)
     history *h;
     int series;
     OK(output_history_open("history/a.h5", false, &h));
-    assert_int_equal(output_history_scene(h, "a/b", &series).code, STATUS_BAD_INPUT);
+    assert_int_equal(output_history_scene(h, "a/b", NULL, 0, &series).code, STATUS_BAD_INPUT);
     assert_int_equal(output_history_series(h, "/a", two, 0, &series).code, STATUS_BAD_INPUT);
     assert_int_equal(output_history_series(h, "a", two, 2, &series).code, STATUS_BAD_INPUT);
     char name[16];

@@ -2,6 +2,7 @@
  */
 #include "output_common.h"
 
+#include "coupling/gouge/watch.h"
 #include "coupling/host/outdir.h"
 #include "coupling/output/history.h"
 #include "coupling/scene/scene_probe.h"
@@ -203,7 +204,8 @@ static void manual_is_up_to_date(void **state)
     study_print_keys(out);
     fclose(out);
     out = open_memstream(&columns, &bytes);
-    output_history_print_columns(out);
+    output_history_print_all_columns(out);
+    gouge_watch_print_columns(out);
     scene_probe_print_columns(out);
     fclose(out);
     OK(host_file_write("output-keys.md", text, strlen(text))); /* to paste from */

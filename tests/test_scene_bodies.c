@@ -127,10 +127,6 @@ static void *second_body(mpm_scene *s)
 {
     return &s->body[1];
 }
-static void *followed_front(mpm_scene *s)
-{
-    return &s->follow;
-}
 
 /* Every row of one of the solver's tables is read, written and read back. */
 static int keys_come_back(const param *table, part_of_scene *part)
@@ -159,7 +155,6 @@ static void test_keys(void **state)
     assert_true(keys_come_back(&mpm_body_params[MPM_BODY_KEYED], second_body) > 8);
     assert_true(keys_come_back(&mpm_axis_params[MPM_AXIS_KEYED], second_axis) > 5);
     assert_true(keys_come_back(&mpm_scene_params[MPM_SCENE_KEYED], whole_scene) > 10);
-    assert_true(keys_come_back(mpm_follow_params, followed_front) > 1);
 }
 
 static void test_groups(void **state)
@@ -221,6 +216,32 @@ static void test_every_contact(void **state)
         assert_memory_equal(&c->bodies.scene.pair[0].contact, &want, sizeof want);
         case_free(c);
     }
+}
+
+/* The plastic front belongs to the watch over an impact on a rail: what asked for it in a scene of bodies does nothing.
+ */
+static void test_old_keys(void **state)
+{
+    (void)state;
+    const char *const set = "scene.bodies[1].followed=yes";
+    const case_options how = { dirs, 1, CASE_FOR_SCENE };
+    const char was[] = HEAD "  follow: {along: y, across: z}\n  bodies:\n    - {name: wall, followed: yes, "
+                            "material: ofhc_copper, shape: {box: {lo: 0 0 0 mm, hi: 2 4 4 mm}}}\n    - " BALL "\n";
+    breech_case *old = NULL, *now = read_good(TWO);
+    char *errors = NULL;
+    OK(case_read_memory(&(case_text){ was, strlen(was), "case.yaml", &set, 1 }, &how, &old, &errors));
+    assert_non_null(
+        strstr(old->warnings, "case.yaml:4:3: `scene.follow` is no longer read by anything: leave it out\n"));
+    assert_non_null(strstr(old->warnings, "case.yaml:6:20: `scene.bodies[0].followed` is no longer read"));
+    assert_non_null(
+        strstr(old->warnings, "--set scene.bodies[1].followed=yes: `scene.bodies[1].followed` is no longer"));
+    assert_null(strstr(now->warnings, "no longer"));
+    assert_true(mpm_scene_hash(&old->bodies.scene) == mpm_scene_hash(&now->bodies.scene));
+    case_free(old), case_free(now);
+    OK(read_text("name: a\nscene: {follow: no, friction: 0}\n", 0, &old, &errors)); /* there it is a key */
+    assert_false(old->scene.follow);
+    assert_null(strstr(old->warnings, "no longer"));
+    case_free(old);
 }
 
 /* Operations nest, and one on two solids takes more from left to right. */
@@ -728,13 +749,21 @@ static void test_example(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_minimal),       cmocka_unit_test(test_keys),
-        cmocka_unit_test(test_groups),        cmocka_unit_test(test_every_shape),
-        cmocka_unit_test(test_every_contact), cmocka_unit_test(test_tree),
-        cmocka_unit_test(test_refused),       cmocka_unit_test(test_every_probe),
-        cmocka_unit_test(test_probe_forms),   cmocka_unit_test(test_gouging_as_text),
-        cmocka_unit_test(test_run),           cmocka_unit_test(test_samples),
-        cmocka_unit_test(test_report),        cmocka_unit_test(test_example),
+        cmocka_unit_test(test_minimal),
+        cmocka_unit_test(test_keys),
+        cmocka_unit_test(test_groups),
+        cmocka_unit_test(test_every_shape),
+        cmocka_unit_test(test_every_contact),
+        cmocka_unit_test(test_old_keys),
+        cmocka_unit_test(test_tree),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_every_probe),
+        cmocka_unit_test(test_probe_forms),
+        cmocka_unit_test(test_gouging_as_text),
+        cmocka_unit_test(test_run),
+        cmocka_unit_test(test_samples),
+        cmocka_unit_test(test_report),
+        cmocka_unit_test(test_example),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -208,7 +208,7 @@ static status fake_scene(const impact_job *job, const scene_host *host, impact *
     const double v = job->of.scene.velocity;
     double row[HISTORY_MAX_COLUMNS] = { 0.0, v };
     int series;
-    OK(output_history_scene(host->history, job->name, &series));
+    OK(output_history_scene(host->history, job->name, NULL, 0, &series));
     OK(output_history_append(host->history, series, row));
     OK(output_history_end(host->history, series));
     out->result.severity = v - 1500.0;

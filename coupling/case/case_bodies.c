@@ -63,7 +63,6 @@ const case_section case_bodies_manual[] = {
            "body without one is a group by itself; `passes`, ends of the window whose boundary does not act on it."),
     MANUAL("scene.window", &mpm_axis_params[MPM_AXIS_KEYED],
            "`x`, `y` and `z`, each with these keys; what is left out follows from the bodies."),
-    MANUAL("scene.follow", mpm_follow_params, "Where the plastic front of bodies that are `followed` is looked for."),
     MANUAL("scene.probes", probe_params,
            "A list. Besides its name one key, the kind of probe (below): its values and `body`, or the name of a body "
            "alone; without a body it reads all of them. `force_on: a` stands for `force: {body: a}`."),
@@ -486,10 +485,7 @@ static void share(const shared_keys *keys, mpm_scene *s)
 
 void case_bodies_read(case_reader *r)
 {
-    static const char *const others[] = {
-        "bodies", "contacts", "refine", "window", "boundary", "follow", "probes", NULL
-    };
-    static const char *const none[] = { NULL };
+    static const char *const others[] = { "bodies", "contacts", "refine", "window", "boundary", "probes", NULL };
     const tree_node *scene = host_tree_find(r->root, "scene"), *bodies = host_tree_find(scene, "bodies");
     mpm_scene *s = &r->out->bodies.scene;
     shared_keys shared;
@@ -515,10 +511,6 @@ void case_bodies_read(case_reader *r)
     for (int k = 0; case_entry_node(host_tree_find(scene, "refine"), k); k++)
         read_refine(r, case_entry_node(host_tree_find(scene, "refine"), k), k);
     share(&shared, s);
-    if (host_tree_find(scene, "follow")) {
-        const case_keys follow = { mpm_follow_params, &s->follow };
-        case_keys_read(r, host_tree_find(scene, "follow"), "scene.follow", &follow, 1, none);
-    }
 }
 
 void case_bodies_resolve(case_reader *r)
@@ -636,9 +628,7 @@ void case_bodies_write(const case_bodies *b, FILE *file)
     }
     fprintf(file, "  overlap: %s\n", overlap_names[b->overlap]);
     write_window(s, file);
-    fputs("  follow: {", file);
-    case_keys_write(mpm_follow_params, &s->follow, true, file);
-    fputs("}\n  bodies:\n", file);
+    fputs("  bodies:\n", file);
     for (int i = 0; i < s->bodies; i++) write_body(s, &s->body[i], file);
     write_contacts(s, file);
     if (s->refines > 0) fputs("  refine:\n", file);

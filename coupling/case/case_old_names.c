@@ -49,10 +49,17 @@ static void warn(case_reader *r, const old_name *o, const char *where)
     case_warn(r, line);
 }
 
+enum { PLACE_SIZE = CASE_PATH_SIZE + 40 };
+
+static void place_of(const case_reader *r, const tree_node *node, char where[PLACE_SIZE])
+{
+    snprintf(where, PLACE_SIZE, "%s:%d:%d", r->file[node->file], node->line, node->column);
+}
+
 static void warn_at(case_reader *r, const old_name *o, const tree_node *node)
 {
-    char where[CASE_PATH_SIZE + 40];
-    snprintf(where, sizeof where, "%s:%d:%d", r->file[node->file], node->line, node->column);
+    char where[PLACE_SIZE];
+    place_of(r, node, where);
     warn(r, o, where);
 }
 
@@ -137,4 +144,39 @@ status case_old_name_of_set(case_reader *r, const char *assignment, char **now)
         return status_ok();
     }
     return status_ok();
+}
+
+/* ---- a scene of bodies ---- */
+
+static tree_node *value_node(const tree_node *map, const char *key)
+{
+    for (int k = 0; map && map->kind == TREE_MAP && k < map->n; k++)
+        if (strcmp(map->key[k]->text, key) == 0) return map->item[k];
+    return NULL;
+}
+
+static void drop(case_reader *r, tree_node *map, const char *path, const char *key)
+{
+    const tree_node *node = key_node(map, key);
+    char where[PLACE_SIZE];
+    if (!node) return;
+    if (node->set >= 0)
+        snprintf(where, sizeof where, "--set %.120s", r->errors->sets[node->set]);
+    else
+        place_of(r, node, where);
+    warn(r, &(old_name){ .section = path, .key = key }, where);
+    host_tree_free(host_tree_take(map, key));
+}
+
+/* `scene.follow` is a key of an impact's scene too. */
+void case_old_keys_of_bodies(case_reader *r, tree_node *root)
+{
+    tree_node *scene = value_node(root, "scene"), *bodies = value_node(scene, "bodies");
+    if (!bodies) return;
+    drop(r, scene, "scene", "follow");
+    for (int k = 0; bodies->kind == TREE_LIST && k < bodies->n; k++) {
+        char path[CASE_KEY_SIZE];
+        snprintf(path, sizeof path, "scene.bodies[%d]", k);
+        drop(r, bodies->item[k], path, "followed");
+    }
 }

@@ -37,6 +37,8 @@ status case_tree_read(case_reader *r, const case_text *text, tree_node **root);
  * caller's, "" where nothing reads the key any more).  Each is a warning. */
 status case_old_names(case_reader *r, tree_node *root);
 status case_old_name_of_set(case_reader *r, const char *assignment, char **now);
+/* The whole tree, --set included: keys of `scene.bodies` that nothing reads any more go, each with a warning. */
+void case_old_keys_of_bodies(case_reader *r, tree_node *root);
 
 /* A line for the user. */
 void case_warn(case_reader *r, const char *line);

@@ -146,5 +146,8 @@ status case_tree_read(case_reader *r, const case_text *text, tree_node **root)
     r->errors->file[0] = r->file[0];
     r->errors->sets = text->sets;
     TRY(tree_of(r, text->bytes, text->length, 0, root));
-    return *root ? set_all(r, text, root) : status_ok();
+    if (!*root) return status_ok();
+    TRY(set_all(r, text, root));
+    case_old_keys_of_bodies(r, *root);
+    return status_ok();
 }

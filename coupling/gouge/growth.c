@@ -20,18 +20,18 @@ double gouge_gauge_way(void)
     return GROWTH_WAY[1];
 }
 
-void gouge_gauges_note(const gouge_scene *s, const mpm_report *now, gouge_gauges *g)
+void gouge_gauges_note(const gouge_scene *s, const gouge_front *now, gouge_gauges *g)
 {
     for (int i = 0; i < 2; i++)
-        if (s->gauge_time[i] > 0.0 && !(g->at[i] > 0.0) && now->plastic_time >= s->gauge_time[i])
-            g->at[i] = now->plastic_time, g->power[i] = now->plastic_power;
+        if (s->gauge_time[i] > 0.0 && !(g->at[i] > 0.0) && now->time >= s->gauge_time[i])
+            g->at[i] = now->time, g->power[i] = now->power;
 }
 
-double gouge_growth(const gouge_gauges *g, const mpm_report *now)
+double gouge_growth(const gouge_gauges *g, const gouge_front *now)
 {
     const bool whole = g->at[1] > 0.0;
-    const double from = g->at[0], to = whole ? g->at[1] : now->plastic_time;
-    const double power = fmax(whole ? g->power[1] : now->plastic_power, 1e-3 * g->power[0]);
+    const double from = g->at[0], to = whole ? g->at[1] : now->time;
+    const double power = fmax(whole ? g->power[1] : now->power, 1e-3 * g->power[0]);
     if (!(from > 0.0 && to > from && g->power[0] > 0.0)) return NAN;
     return log(power / g->power[0]) / (to - from);
 }
@@ -42,9 +42,9 @@ double gouge_growth_folds(double growth, double radius, double velocity)
     return folds > DEAD_FOLDS ? folds : DEAD_FOLDS; /* NAN too */
 }
 
-bool gouge_groove_dies(const gouge_scene *s, const gouge_gauges *g, const mpm_report *now)
+bool gouge_groove_dies(const gouge_scene *s, const gouge_gauges *g, const gouge_front *now, double time)
 {
-    if (!(g->at[0] > 0.0) || now->time < 0.5 * (s->gauge_time[0] + s->gauge_time[1])) return false;
+    if (!(g->at[0] > 0.0) || time < 0.5 * (s->gauge_time[0] + s->gauge_time[1])) return false;
     const double radius = s->gauge_time[0] * s->velocity / GROWTH_WAY[0];
     return gouge_growth_folds(gouge_growth(g, now), radius, s->velocity) < fmin(DYING_FOLDS, -2.5 * s->growth_scatter);
 }

@@ -1,12 +1,11 @@
-/* How fast a groove grows: the plastic power that ploughs it, as the solver finds it between steps, noted at two times,
- * the gauges.
+/* How fast a groove grows: the plastic power that ploughs it (front.h), noted at two times, the gauges.
  *
  * growth = ln(P2 / P1) / (t2 - t1), P the power at the first look after each gauge.  Positive: the groove would go on
  * as long as the armature presses on it. */
 #ifndef BREECH_COUPLING_GROWTH_H
 #define BREECH_COUPLING_GROWTH_H
 
-#include "coupling/gouge/impact_scene.h"
+#include "coupling/gouge/front.h"
 
 /* What was noted; all zero at a scene's start.  Plain bytes: part of a checkpoint. */
 typedef struct {
@@ -19,17 +18,17 @@ void gouge_gauge_times(double radius, double velocity, double time[2]);
 double gouge_gauge_way(void);
 
 /* After every step. */
-void gouge_gauges_note(const gouge_scene *s, const mpm_report *now, gouge_gauges *g);
+void gouge_gauges_note(const gouge_scene *s, const gouge_front *now, gouge_gauges *g);
 
 /* From the first gauge to the second, or as far as it has come; NAN before [1/s]. */
-double gouge_growth(const gouge_gauges *g, const mpm_report *now);
+double gouge_growth(const gouge_gauges *g, const gouge_front *now);
 
 /* A growth [1/s] as e-folds over the way between the two gauges [1]; one that died before the first has the growth NAN
  * and counts as -3, and none as less. */
 double gouge_growth_folds(double growth, double radius, double velocity);
 
-/* Half way between its gauges or later: does the groove's plastic power fall so fast that the rest of the way would not
- * change the answer? */
-bool gouge_groove_dies(const gouge_scene *s, const gouge_gauges *g, const mpm_report *now);
+/* At that time, half way between its gauges or later: does the groove's plastic power fall so fast that the rest of the
+ * way would not change the answer? */
+bool gouge_groove_dies(const gouge_scene *s, const gouge_gauges *g, const gouge_front *now, double time);
 
 #endif

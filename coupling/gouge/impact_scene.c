@@ -363,6 +363,11 @@ static void set_axes(const case_impact *c, const layout *l, gouge_scene *g)
     free_ends(g);
 }
 
+bool gouge_is_followed(const gouge_scene *s)
+{
+    return s->gauge_time[1] > 0.0;
+}
+
 double gouge_crossing_time(const gouge_scene *s)
 {
     return (s->reach - s->face_front) / s->velocity;
@@ -389,7 +394,6 @@ static status set_refinement(const case_impact *c, gouge_scene *g)
     const double radius = c->particle.radius;
     mpm_scene *s = &g->scene;
     mpm_refine *plastic;
-    for (int i = 0; c->scene.follow && i < s->bodies; i++) s->body[i].followed = gouge_counts_as_rail(g, i);
     if (c->scene.follow) gouge_gauge_times(radius, g->velocity, g->gauge_time);
     if (s->levels == 1) return status_ok();
     s->zone_until = gouge_grain_passed(g) + radius / g->velocity;

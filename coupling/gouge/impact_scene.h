@@ -59,6 +59,9 @@ case_impact gouge_impact_at(const case_impact *from, const site_state *state, do
 bool gouge_counts_as_rail(const gouge_scene *s, int body);
 bool gouge_is_layer(const gouge_scene *s, int body);
 
+/* Is its groove followed: its plastic front looked for, its growth gauged? */
+bool gouge_is_followed(const gouge_scene *s);
+
 /* How long the armature's contact face takes to cross what is looked at, from the scene's start [s]. */
 double gouge_crossing_time(const gouge_scene *s);
 

@@ -11,23 +11,23 @@ static const double DEAD_SHARE = 0.1;    /* of its largest plastic power, below 
 static bool is_gauged(const gouge_watch *w, const mpm_report *now)
 {
     const gouge_gauges *g = &w->state.gauges;
-    return w->scene->gauged && (g->at[1] > 0.0 || gouge_groove_dies(w->scene, g, now));
+    return w->scene->gauged && (g->at[1] > 0.0 || gouge_groove_dies(w->scene, g, &w->state.front, now->time));
 }
 
 static status due(void *user, const mpm *m, const mpm_report *now, bool *ends)
 {
-    (void)m;
     gouge_watch *w = user;
-    gouge_gauges_note(w->scene, now, &w->state.gauges);
+    gouge_watched *seen = &w->state;
+    if (gouge_front_is_due(w->scene, now, &seen->front)) TRY(gouge_front_look(w->scene, m, &seen->front));
+    gouge_gauges_note(w->scene, &seen->front, &seen->gauges);
     *ends = is_gauged(w, now);
     return status_ok();
 }
 
 /* A groove that is followed: dead, or the armature's contact face has gone over its front. */
-static bool groove_over(const gouge_scene *s, const mpm_report *now)
+static bool groove_over(const gouge_scene *s, const gouge_front *f, double time)
 {
-    return now->time > gouge_grain_passed(s) && (now->plastic_power < DEAD_SHARE * now->peak_plastic_power ||
-                                                 gouge_face_tail(s, now->time) > now->plastic_front);
+    return time > gouge_grain_passed(s) && (f->power < DEAD_SHARE * f->peak || gouge_face_tail(s, time) > f->front);
 }
 
 /* Largest distance that a sound rail point of the map would still go until the end [m]. */
@@ -45,13 +45,14 @@ static status distance_left(const gouge_scene *s, const mpm *m, double *distance
     return status_ok();
 }
 
-static status is_settled(const gouge_scene *s, const mpm *m, const mpm_report *now, bool *settled)
+static status is_settled(const gouge_watch *w, const mpm *m, const mpm_report *now, bool *settled)
 {
+    const gouge_scene *s = w->scene;
     const crater_spec *c = &s->crater;
     double distance;
     if (!s->stop_when_settled) return status_ok();
-    if (mpm_scene_follows(&s->scene)) {
-        *settled = groove_over(s, now);
+    if (gouge_is_followed(s)) {
+        *settled = groove_over(s, &w->state.front, now->time);
         return status_ok();
     }
     if (now->time < gouge_crossing_time(s)) return status_ok();
@@ -66,7 +67,7 @@ static status piece(void *user, const mpm *m, bool *over)
     const mpm_report now = mpm_glance(m);
     if (now.steps == 0) TRY(gouge_armature_metal(w->scene, m, &w->state.start));
     *over = is_gauged(w, &now);
-    return *over ? status_ok() : is_settled(w->scene, m, &now, over);
+    return *over ? status_ok() : is_settled(w, m, &now, over);
 }
 
 /* ---- what it has come to ---- */
@@ -87,7 +88,6 @@ static status finish(void *user, const mpm *m, bool *keep)
 {
     gouge_watch *w = user;
     const double since = host_wall_clock();
-    const mpm_report now = mpm_glance(m);
     TRY(gouge_armature_metal(w->scene, m, &w->end));
     TRY(measure_crater(w->scene, m, &w->found));
     TRY(gouge_carried_volumes(w->scene, m, w->carried));
@@ -95,15 +95,40 @@ static status finish(void *user, const mpm *m, bool *keep)
     w->rail = mpm_body_state(m, w->scene->rail);
     w->armature = mpm_body_state(m, w->scene->armature);
     memcpy(w->peak_force, mpm_peak_contact_force(m, w->scene->scene.body[w->scene->rail].group), sizeof w->peak_force);
-    w->growth = gouge_growth(&w->state.gauges, &now);
+    w->growth = gouge_growth(&w->state.gauges, &w->state.front);
     *keep = w->growth > 0.0;
     if (w->timing) host_timing_add(w->timing, "crater", host_wall_clock() - since);
     return status_ok();
 }
 
+/* ---- what it adds to the history ---- */
+
+static const history_column columns[] = {
+    { "plastic_front", "m", "rail deforms plastically behind it" },
+    { "plastic_power", "W", "of the rail, as computed" },
+};
+enum { COLUMNS = sizeof columns / sizeof *columns };
+
+static void row(void *user, double *to)
+{
+    const gouge_watch *w = user;
+    to[0] = w->state.front.front, to[1] = w->state.front.power;
+}
+
+void gouge_watch_print_columns(FILE *out)
+{
+    output_history_print_columns("/scene/<name> of an impact on the rail, also", columns, COLUMNS, out);
+}
+
 scene_watch gouge_watch_of(gouge_watch *w)
 {
-    return (scene_watch){
-        .due = due, .piece = piece, .finish = finish, .user = w, .state = &w->state, .state_bytes = sizeof w->state
-    };
+    return (scene_watch){ .due = due,
+                          .piece = piece,
+                          .finish = finish,
+                          .user = w,
+                          .state = &w->state,
+                          .state_bytes = sizeof w->state,
+                          .column = columns,
+                          .columns = COLUMNS,
+                          .row = row };
 }

@@ -1,7 +1,7 @@
 /* The watch over a gouging scene: what is looked at between its pieces, when it is over, what it has come to.
  *
  * Over, before its end time, is a scene whose growth is known where that judges it (gouge_scene.gauged), and one that
- * is settled (stop_when_settled).  Settled where the zone follows the groove: the groove is dead, or the contact face
+ * is settled (stop_when_settled).  Settled where the groove is followed: the groove is dead, or the contact face
  * has gone over its front.  Settled else: the contact face has crossed the fine zone at its first speed, and no intact
  * rail point in the crater's map could still move a tenth of the measuring depth until the end at its present speed.
  */
@@ -15,6 +15,7 @@
 
 /* From step to step; plain bytes, part of every checkpoint. */
 typedef struct {
+    gouge_front front;
     gouge_gauges gauges;
     gouge_metal start; /* the armature's at the start */
 } gouge_watched;
@@ -34,5 +35,8 @@ typedef struct {
 } gouge_watch;
 
 scene_watch gouge_watch_of(gouge_watch *w);
+
+/* The manual's list of what it adds to a scene's history, in markdown. */
+void gouge_watch_print_columns(FILE *out);
 
 #endif

@@ -373,9 +373,7 @@ status output_history_map(history *h, const char *scene, const history_map *map)
     COLUMN(clamps_pressure, "1", "so far", (double)r->clamps_pressure)                                  \
     COLUMN(clamps_compression, "1", "so far", (double)r->clamps_compression)                            \
     COLUMN(splits, "1", "particles split so far", (double)r->splits)                                    \
-    COLUMN(merges, "1", "particles merged so far", (double)r->merges)                                   \
-    COLUMN(plastic_front, "m", "rail deforms plastically behind it", r->plastic_front)                  \
-    COLUMN(plastic_power, "W", "of the rail, as computed", r->plastic_power)
+    COLUMN(merges, "1", "particles merged so far", (double)r->merges)
 
 #define EVENT_COLUMNS(COLUMN)                                                                           \
     COLUMN(time, "s", "time", e->state.t)                                                               \
@@ -424,16 +422,24 @@ status output_history_events(history *h, int *series)
 
 void output_history_event_row(const shot_event *e, double *row){ EVENT_COLUMNS(COLUMN_VALUE) }
 
-status output_history_scene(history *h, const char *scene, int *series)
+status output_history_scene(history *h, const char *scene, const history_column *more, int n, int *series)
 {
     char group[GROUP_SIZE];
     TRY(scene_group(scene, group));
-    return output_history_series(h, group, scene_columns, WIDTH(scene_columns), series);
+    const size_t own = WIDTH(scene_columns);
+    history_column *all = calloc(own + (size_t)n, sizeof *all);
+    CHECK(all, STATUS_MEMORY, "no memory for %zu columns of a scene's history", own + (size_t)n);
+    memcpy(all, scene_columns, sizeof scene_columns);
+    for (int c = 0; c < n; c++) all[own + (size_t)c] = more[c];
+    const status done = output_history_series(h, group, all, (int)own + n, series);
+    free(all);
+    return done;
 }
 
-void output_history_scene_row(const mpm_report *r, const mpm_ledger *l, const double *force, double *row)
+double *output_history_scene_row(const mpm_report *r, const mpm_ledger *l, const double *force, double *row)
 {
     SCENE_COLUMNS(COLUMN_VALUE)
+    return row;
 }
 
 /* ---- the bank's groups: as many columns as the bank has ---- */
@@ -481,16 +487,16 @@ void output_history_modules_row(const shot *s, double *row)
     }
 }
 
-static void print_columns(const char *group, const history_column *columns, int n, FILE *out)
+void output_history_print_columns(const char *group, const history_column *columns, int n, FILE *out)
 {
     fprintf(out, "\n### %s\n\n| dataset | units | what |\n|---|---|---|\n", group);
     for (int c = 0; c < n; c++)
         fprintf(out, "| `%s` | %s | %s |\n", columns[c].name, columns[c].unit, columns[c].description);
 }
 
-void output_history_print_columns(FILE *out)
+void output_history_print_all_columns(FILE *out)
 {
-    print_columns("/shot", shot_columns, WIDTH(shot_columns), out);
-    print_columns("/shot/events", event_columns, WIDTH(event_columns), out);
-    print_columns("/scene/<name>", scene_columns, WIDTH(scene_columns), out);
+    output_history_print_columns("/shot", shot_columns, WIDTH(shot_columns), out);
+    output_history_print_columns("/shot/events", event_columns, WIDTH(event_columns), out);
+    output_history_print_columns("/scene/<name>", scene_columns, WIDTH(scene_columns), out);
 }

@@ -93,11 +93,13 @@ status output_history_events(history *h, int *series); /* /shot/events */
 void output_history_event_row(const shot_event *e, double *row);
 status output_history_modules(history *h, const shot *s, int *series); /* /shot/modules: as many groups as fit */
 void output_history_modules_row(const shot *s, double *row);
-status output_history_scene(history *h, const char *scene, int *series); /* /scene/<name> */
-/* force: [3] of contact, on the group that scene_job names [N] */
-void output_history_scene_row(const mpm_report *r, const mpm_ledger *l, const double *force, double *row);
+/* /scene/<name>, with n more columns of the caller's behind those that every scene has. */
+status output_history_scene(history *h, const char *scene, const history_column *more, int n, int *series);
+/* force: [3] of contact, on the group that scene_job names [N].  Returns where the caller's values go. */
+double *output_history_scene_row(const mpm_report *r, const mpm_ledger *l, const double *force, double *row);
 
-/* The manual's list of columns, in markdown. */
-void output_history_print_columns(FILE *out);
+/* The manual's lists of columns, in markdown: one, and those of the series above. */
+void output_history_print_columns(const char *group, const history_column *columns, int n, FILE *out);
+void output_history_print_all_columns(FILE *out);
 
 #endif

@@ -239,10 +239,9 @@ status scene_bodies_run(const scene_job *job, const scene_host *host, scene_bodi
     out->bodies = job->scene->bodies, out->probes = job->scene->probes;
     out->body = calloc(n, sizeof *out->body);
     out->probe = calloc(probes + 1, sizeof *out->probe);
-    recorder r = { .scene = job->scene,
-                   .history = host->history,
-                   .body = out->body,
-                   .row = calloc(1 + COLUMNS * n, sizeof *r.row) };
+    recorder r = {
+        .scene = job->scene, .history = host->history, .body = out->body, .row = calloc(1 + COLUMNS * n, sizeof *r.row)
+    };
     status done = base_status_error(STATUS_MEMORY, "no memory for %zu bodies and %zu probes", n, probes);
     if (out->body && out->probe && r.row) done = r.history ? status_ok() : output_history_open(NULL, false, &own);
     if (own) r.history = own;

@@ -91,7 +91,9 @@ static status write_row(run *r)
     const double since = host_wall_clock();
     const mpm_report state = mpm_state(r->m);
     const mpm_ledger balance = mpm_balance(r->m);
-    output_history_scene_row(&state, &balance, mpm_contact_force(r->m, r->job->force_on), row);
+    const scene_watch *w = r->job->watch;
+    double *more = output_history_scene_row(&state, &balance, mpm_contact_force(r->m, r->job->force_on), row);
+    if (w && w->columns > 0) w->row(w->user, more);
     TRY(output_history_append(r->host->history, r->series, row));
     TRY(output_history_tick(r->host->history));
     book(r->host, "history", since);
@@ -238,10 +240,11 @@ static status open_snapshots(run *r, double reached)
 static status open_output(run *r)
 {
     const scene_host *h = r->host;
+    const scene_watch *w = r->job->watch;
     const double reached =
         r->from.image ? r->from.time * (1.0 - 1e-9) : -1.0; /* what stands at that instant is redone */
     if (h->history) {
-        TRY(output_history_scene(h->history, r->job->name, &r->series));
+        TRY(output_history_scene(h->history, r->job->name, w ? w->column : NULL, w ? w->columns : 0, &r->series));
         TRY(output_history_rewind(h->history, r->series, reached));
     }
     return open_snapshots(r, r->job->resume.image ? reached : -1.0);

@@ -15,8 +15,8 @@
 
 /* What a user of the runner does between pieces.  A function that is NULL is not wanted. */
 typedef struct {
-    /* After every step, and again at the end of a piece, so it must give the same answer twice; cheap.  *ends: the piece
-     * ends here; false when called. */
+    /* After every step, and again at the end of a piece, so it must give the same answer twice; cheap.  *ends: the
+     * piece ends here; false when called. */
     status (*due)(void *user, const mpm *m, const mpm_report *now, bool *ends);
     /* At the start, and at the end of every piece.  *over: the scene ends here; false when called. */
     status (*piece)(void *user, const mpm *m, bool *over);
@@ -25,6 +25,9 @@ typedef struct {
     void *user;         /* borrowed */
     void *state;        /* all that it remembers from step to step, plain bytes: part of every checkpoint; borrowed */
     size_t state_bytes; /* the same in every process that may go on with the scene */
+    const history_column *column; /* [columns] what it adds to the rows of the scene's history; borrowed */
+    int columns;
+    void (*row)(void *user, double *row); /* their values, as it saw them last; wanted where there are columns */
 } scene_watch;
 
 /* Where a scene was stopped and can be taken up. */

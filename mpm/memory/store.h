@@ -337,9 +337,6 @@ static inline double lane_plastic_power(const block *q, int lane)
 /* mpm.c */
 void mpm_book_departure(mpm *m, const departure *d);
 
-/* front.c: power that the followed bodies' plastic flow takes, and where it ends, into the report */
-status mpm_plastic_front_look(mpm *m);
-
 /* adapt.c: levels where the scene's rules want them, points to their levels.  flags: without moving a point; has any
  * place changed? */
 status mpm_refine_flags(mpm *m, bool *changed);

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char MAGIC[8] = "BREECH9";
+static const char MAGIC[8] = "BREECHA";
 
 typedef struct {
     char magic[8];
