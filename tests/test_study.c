@@ -563,27 +563,17 @@ static breech_case *changed_case(const char *const *sets)
     const case_options how = { dirs, 1, CASE_FOR_ONSET };
     /* what the made-up scenes and the numbers below count on, whatever the case says */
     const char *all[40] = {
-        "study.coarse_cells_per_radius=2",
-        "study.fine_cells_per_radius=3",
-        "study.max_scenes=14",
-        "study.velocity_interval=5 %",
-        "study.velocity_low=1 km/s",
-        "study.velocity_high=2 km/s",
-        "rail.level=skin",
-        "study.position_interval=1",
-        "study.sensitivities=no",
-        "study.resolution_error=0",
-        "sites[0].position=0.60 m",
-        "sites[1].position=0.75 m",
-        "sites[2].position=0.90 m",
-        "sites[3].position=1.05 m",
-        "sites[4].position=1.20 m",
-        "sites[5].position=1.35 m",
-        "sites[6].position=1.50 m",
-        "sites[7].position=1.65 m",
-        "sites[8].position=1.85 m",
-        "sites[9].position=2.10 m",
-        "sites[10].position=2.40 m",
+        "study.coarse_cells_per_radius=2",    "study.fine_cells_per_radius=3",
+        "study.crater_cells_per_radius=none", "study.max_scenes=14",
+        "study.velocity_interval=5 %",        "study.velocity_low=1 km/s",
+        "study.velocity_high=2 km/s",         "rail.level=skin",
+        "study.position_interval=1",          "study.sensitivities=no",
+        "study.resolution_error=0",           "sites[0].position=0.60 m",
+        "sites[1].position=0.75 m",           "sites[2].position=0.90 m",
+        "sites[3].position=1.05 m",           "sites[4].position=1.20 m",
+        "sites[5].position=1.35 m",           "sites[6].position=1.50 m",
+        "sites[7].position=1.65 m",           "sites[8].position=1.85 m",
+        "sites[9].position=2.10 m",           "sites[10].position=2.40 m",
         "sites[11].position=2.70 m",
     };
     breech_case *c = NULL;
@@ -759,6 +749,7 @@ static void test_craters(void **state)
 {
     (void)state;
     const char *const slow[] = { "armature.mass=0.3 kg", NULL };
+    const char *const finer[] = { "armature.mass=0.3 kg", "study.crater_cells_per_radius=4", NULL };
     const char *const large[] = { "sites[11].radius=1 mm", "sites[11].height=1 mm", "particle.height=0.5 mm",
                                   "study.max_scenes=30", NULL };
     onset_answer a;
@@ -774,6 +765,10 @@ static void test_craters(void **state)
     w = whole_at(slow, 1500.0, &a);
     const double fastest = a.site[a.result.n_sites - 1].velocity;
     assert_true(w.n == 2 && w.slowest == crater_between(&a));
+    study_onset_answer_free(&a);
+    w = whole_at(finer, 1500.0, &a); /* cells of their own: the search is the same, and sites show its scenes */
+    assert_true(w.n == 2 && w.slowest == crater_between(&a));
+    for (int i = 0; i < a.result.n_scenes; i++) assert_true((a.scene[i].cells_per_radius == 4.0) == !a.scene[i].gauged);
     study_onset_answer_free(&a);
     w = whole_at((const char *const[]){ "study.resolution_error=0.1", "study.coarse_cells_per_radius=3", NULL }, 1390.0,
                  &a);

@@ -176,6 +176,8 @@ static const param study_params[] = {
                  "impact pressure over hardness of the harder partner below which no scene is run"),
     PARAM_DOUBLE(case_study, coarse_cells_per_radius, "1", 3.0, 1.0, 100.0, "resolution the bracketing starts with"),
     PARAM_DOUBLE(case_study, fine_cells_per_radius, "1", 5.0, 1.0, 100.0, "resolution near the threshold"),
+    PARAM_DOUBLE(case_study, crater_cells_per_radius, "1", OPTIONAL, 1.0, 100.0,
+                 "resolution of whole craters; not given: that of the search"),
     PARAM_DOUBLE(case_study, resolution_error, "1", 0.1, 0.0, 1.0,
                  "share of a threshold that finer cells may move it by: its interval allows for that, or for the shift "
                  "from coarse to fine cells where that is more"),

@@ -211,6 +211,7 @@ typedef struct {
     int craters;       /* whole scenes of a family of grains that gouges, judged by growth: 0 .. 2 */
     double screen_low; /* impact pressure over hardness below which no scene is needed [1] */
     double coarse_cells_per_radius, fine_cells_per_radius; /* [1] */
+    double crater_cells_per_radius;                        /* of whole craters; NAN: those of the search [1] */
     double resolution_error;                               /* share that finer cells may move a threshold by [1] */
     double strength_error, friction_error;                 /* of rail.yield_scale, of scene.friction, relative [1] */
     bool feedback;                                         /* a gouge's impulse and mass loss go back into the shot */

@@ -128,7 +128,8 @@ static void ask_for_craters(family_search *s)
 {
     const surface_plan *p = &s->family->plan;
     const surface_result *r = &s->surface.result;
-    const double fastest = fastest_grain(s->of, s->family);
+    const double fastest = fastest_grain(s->of, s->family), own = s->of->c->study.crater_cells_per_radius,
+                 cells = isnan(own) ? r->reference.cells : own;
     const int k = size_of_craters(p, r, fastest);
     s->in_craters = true;
     if (!s->family->by_growth || k < 0) return;
@@ -136,8 +137,7 @@ static void ask_for_craters(family_search *s)
     const double slower = fmin(middle_gouge(p, r, k, on_grid_below(&p->search, fastest)), top);
     const double at[TOGETHER] = { slower, fmax(slower, on_grid_below(&p->search, fastest)) };
     for (int i = 0; i < s->of->c->study.craters; i++)
-        if (i == 0 || at[i] != at[0])
-            s->crater[s->n_craters++] = (family_wanted){ { p->size[k], at[i], r->reference.cells }, true };
+        if (i == 0 || at[i] != at[0]) s->crater[s->n_craters++] = (family_wanted){ { p->size[k], at[i], cells }, true };
 }
 
 static status begin_search(const grain_families *of, int k, family_search *out)
