@@ -139,6 +139,24 @@ mpm_pair mpm_scene_contact(const mpm_scene *s, int a, int b);
  * a case file too.  The members before MPM_SCENE_HASHED change nothing of what a scene is at a time: they are not in
  * its hash. */
 enum { MPM_BODY_KEYED = 8, MPM_AXIS_KEYED = 4, MPM_SCENE_KEYED = 1, MPM_SCENE_HASHED = 2 };
+/* The rows of the numerical method, for every struct that has members of these names: a scene, and whatever a scene is
+ * made from. */
+/* clang-format off */
+#define MPM_METHOD_PARAMS(type)                                                                                   \
+    PARAM_INT(type, levels, 0, 0, MPM_MAX_LEVELS,                                                                 \
+              "of the grid, each with cells twice as large; 0: as coarse_cell allows, without rules of `refine` 1"), \
+    PARAM_VEC3(type, grid_shift, "1", 0.0, 0.0, 1.0,                                                              \
+               "of the grid's planes along x, y, z, in finest cells; the window's ends and the bodies stay"),     \
+    PARAM_DOUBLE(type, courant, "1", 0.4, 0.01, 0.6, "Courant number of c + |v|"),                                \
+    PARAM_DOUBLE(type, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),                         \
+    PARAM_DOUBLE(type, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),                  \
+    PARAM_INT(type, particles_per_axis, 2, 2, 3, "material points a cell and axis"),                              \
+    PARAM_DOUBLE(type, contact_gap, "1", 0.9, 0.0, 3.0, "bodies touch when nearer than this, in cells"),          \
+    PARAM_ENUM(type, transfer, mpm_transfer_names, TRANSFER_TPIC, "how velocity goes between points and grid"),   \
+    PARAM_ENUM(type, basis, mpm_basis_names, BASIS_GIMP, "shape functions"),                                      \
+    PARAM_BOOL(type, heat_by_plastic_work, 0, "(M-4) temperature by plastic work; no: by energy")
+/* clang-format on */
+
 extern const param mpm_body_params[], mpm_axis_params[], mpm_pair_params[], mpm_scene_params[];
 /* Names of choices, NULL at the end: -x +x -y +y -z +z; x y z; and of the enumerators above. */
 extern const char *const mpm_face_names[], *const mpm_axis_names[];

@@ -82,23 +82,12 @@ const param mpm_scene_params[] = {
     /* MPM_SCENE_KEYED */
     PARAM_DOUBLE(mpm_scene, end_time, "s", REQUIRED, 1e-12, 1e3, "time that is simulated"),
     /* MPM_SCENE_HASHED */
-    PARAM_INT(mpm_scene, levels, 0, 0, MPM_MAX_LEVELS,
-              "of the grid, each with cells twice as large; 0: 1 without `refine`, else as coarse_cell allows"),
     PARAM_DOUBLE(mpm_scene, zone_until, "s", OPTIONAL, 0.0, 1e6,
                  "until then cells are small in the zone of the window, with levels; not given: 0 with `refine`"),
-    PARAM_VEC3(mpm_scene, grid_shift, "1", 0.0, 0.0, 1.0,
-               "of the grid's planes along x, y, z, in finest cells; the window's ends and the bodies stay"),
-    PARAM_DOUBLE(mpm_scene, courant, "1", 0.4, 0.01, 0.6, "Courant number of c + |v|"),
-    PARAM_DOUBLE(mpm_scene, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),
-    PARAM_DOUBLE(mpm_scene, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),
-    PARAM_INT(mpm_scene, particles_per_axis, 2, 2, 3, "material points a cell and axis"),
     PARAM_DOUBLE(mpm_scene, surroundings, "Pa", OPTIONAL, 0.0, 1e12,
                  "absolute pressure around the bodies, from which pressures count; not given: that at which each gas "
                  "is at rest"),
-    PARAM_DOUBLE(mpm_scene, contact_gap, "1", 0.9, 0.0, 3.0, "groups touch when nearer than this, in cells"),
-    PARAM_ENUM(mpm_scene, transfer, mpm_transfer_names, TRANSFER_TPIC, "how velocity goes between points and grid"),
-    PARAM_ENUM(mpm_scene, basis, mpm_basis_names, BASIS_GIMP, "shape functions"),
-    PARAM_BOOL(mpm_scene, heat_by_plastic_work, 0, "(M-4) temperature by plastic work; no: by energy"),
+    MPM_METHOD_PARAMS(mpm_scene),
     PARAMS_END,
 };
 

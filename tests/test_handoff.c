@@ -396,6 +396,37 @@ static void test_levels(void **state)
     }
 }
 
+/* What the case says of the numerical method, one key at a time, is what its scene has. */
+static void test_method(void **state)
+{
+    (void)state;
+    static const param of_case[] = { MPM_METHOD_PARAMS(case_scene), PARAMS_END };
+    static const param of_scene[] = { MPM_METHOD_PARAMS(mpm_scene), PARAMS_END };
+    for (int i = 0; of_case[i].key; i++) {
+        made m = make((const char *const[]){ NULL });
+        const param *p = &of_case[i];
+        char *value = (char *)&m.c->scene + p->offset;
+        const double number = p->min + 0.6 * (p->max - p->min), vector[3] = { number, 0.9 * number, 0.8 * number };
+        const int whole = p->kind == PARAM_CHOICE ? 1 : (int)fmin(p->max, 3);
+        const size_t bytes = p->kind == PARAM_NUMBER   ? sizeof number
+                             : p->kind == PARAM_VECTOR ? sizeof vector
+                             : p->kind == PARAM_FLAG   ? sizeof(bool)
+                                                       : sizeof whole;
+        const bool yes = true;
+        const void *all[] = { [PARAM_NUMBER] = &number,
+                              [PARAM_VECTOR] = vector,
+                              [PARAM_FLAG] = &yes,
+                              [PARAM_INTEGER] = &whole,
+                              [PARAM_CHOICE] = &whole };
+        assert_memory_not_equal(value, all[p->kind], bytes);
+        memcpy(value, all[p->kind], bytes);
+        OK(make_again(&m, 3.0));
+        if (memcmp((char *)&m.gouge.scene + of_scene[i].offset, all[p->kind], bytes) != 0)
+            fail_msg("the scene has another `%s` than the case", p->key);
+        unmake(&m);
+    }
+}
+
 /* Volume inside a body by midpoints of 400 x 400 cells of its section; the armature is a prism. */
 static double section_area(const mpm_scene *s, const mpm_body *b)
 {
@@ -682,14 +713,14 @@ static void test_half_model(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_states),         cmocka_unit_test(test_trace),      cmocka_unit_test(test_not_reached),
-        cmocka_unit_test(test_jumps),          cmocka_unit_test(test_stopped),    cmocka_unit_test(test_screen_table),
-        cmocka_unit_test(test_screen_band),    cmocka_unit_test(test_no_overlap), cmocka_unit_test(test_places),
-        cmocka_unit_test(test_grid),           cmocka_unit_test(test_levels),     cmocka_unit_test(test_pressing),
-        cmocka_unit_test(test_grain_measures), cmocka_unit_test(test_fields),     cmocka_unit_test(test_many_layers),
-        cmocka_unit_test(test_masses),         cmocka_unit_test(test_pit),        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_growth),         cmocka_unit_test(test_gauged),     cmocka_unit_test(test_dying),
-        cmocka_unit_test(test_gauges),         cmocka_unit_test(test_half_model),
+        cmocka_unit_test(test_states),      cmocka_unit_test(test_trace),          cmocka_unit_test(test_not_reached),
+        cmocka_unit_test(test_jumps),       cmocka_unit_test(test_stopped),        cmocka_unit_test(test_screen_table),
+        cmocka_unit_test(test_screen_band), cmocka_unit_test(test_no_overlap),     cmocka_unit_test(test_places),
+        cmocka_unit_test(test_grid),        cmocka_unit_test(test_levels),         cmocka_unit_test(test_method),
+        cmocka_unit_test(test_pressing),    cmocka_unit_test(test_grain_measures), cmocka_unit_test(test_fields),
+        cmocka_unit_test(test_many_layers), cmocka_unit_test(test_masses),         cmocka_unit_test(test_pit),
+        cmocka_unit_test(test_refused),     cmocka_unit_test(test_growth),         cmocka_unit_test(test_gauged),
+        cmocka_unit_test(test_dying),       cmocka_unit_test(test_gauges),         cmocka_unit_test(test_half_model),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

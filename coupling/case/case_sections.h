@@ -161,12 +161,9 @@ typedef struct {
     double contact_pressure;        /* NAN: the shot's, or zero in `breech scene` [Pa] */
     double friction;                /* Coulomb coefficient between armature, grain and rail [1] */
     double shear_limit;             /* upper limit of the friction stress [Pa], NAN: none */
-    double contact_gap;             /* bodies touch when nearer than this, NAN: the solver's own [cells] */
     double cells_per_radius;        /* fine cell = radius / this [1] */
     double coarse_cell;             /* largest cell [m] */
-    int levels;                     /* of nested grids: 1 .. 3 [1] */
     double refine_tolerance;        /* share of the velocity that plastic flow may change across a cell [1] */
-    double grid_shift[3];           /* of the grid's planes along x, y, z, in finest cells [1] */
     double growth;                  /* ratio of neighbouring cells outside the fine zone [1] */
     bool follow;                    /* the groove's growth past the grain is gauged */
     double rail_ahead, rail_behind; /* ends of the rail modelled, from the grain's middle [m] */
@@ -175,12 +172,15 @@ typedef struct {
     double end_time;                /* NAN: from the lengths and the velocity [s] */
     bool stop_when_settled;         /* stop once the crater no longer changes */
     bool stop_when_gauged;          /* stop once the groove's growth is known, and take the class from it */
+    int levels;                     /* from here on as in mpm_scene (MPM_METHOD_PARAMS): 0: as coarse_cell allows */
+    double grid_shift[3];           /* [finest cells] */
     double courant;                 /* of c + |v| [1] */
     double viscosity_linear, viscosity_quadratic; /* (M-5) [1] */
-    int transfer;                                 /* transfer_kind of mpm/scene.h */
-    int basis;                                    /* basis_kind of mpm/scene.h */
     int particles_per_axis;
-    bool heat_by_plastic_work; /* (M-4) option `plastic` */
+    double contact_gap; /* [cells] */
+    transfer_kind transfer;
+    basis_kind basis;
+    bool heat_by_plastic_work; /* (M-4); to here */
     bool damage;               /* Johnson-Cook damage in all bodies */
     bool half_model;           /* only z >= 0, mirrored */
     double limit_widening;     /* of the class gouge [1] */

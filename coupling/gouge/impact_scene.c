@@ -325,7 +325,6 @@ static void set_contacts(const case_impact *c, mpm_scene *s)
 {
     s->contact.value[COULOMB_FRICTION] = c->scene.friction;
     s->contact.value[COULOMB_SHEAR_LIMIT] = given_or(c->scene.shear_limit, CONTACT_NO_LIMIT);
-    if (!isnan(c->scene.contact_gap)) s->contact_gap = c->scene.contact_gap;
 }
 
 /* ---- grid ---- */
@@ -410,8 +409,9 @@ static void set_method(const case_impact *c, const layout *l, gouge_scene *g)
     s->courant = from->courant;
     s->viscosity_linear = from->viscosity_linear;
     s->viscosity_quadratic = from->viscosity_quadratic;
-    s->transfer = (transfer_kind)from->transfer;
-    s->basis = (basis_kind)from->basis;
+    s->contact_gap = from->contact_gap;
+    s->transfer = from->transfer;
+    s->basis = from->basis;
     s->levels = l->levels;
     memcpy(s->grid_shift, from->grid_shift, sizeof s->grid_shift);
     s->heat_by_plastic_work = from->heat_by_plastic_work;
