@@ -306,8 +306,9 @@ static status add_bodies(const case_impact *c, const layout *l, gouge_scene *g)
 {
     mpm_scene *s = &g->scene;
     int group = 0;
-    CHECK(c->rail.layers.n + 3 <= RESULT_BODIES, STATUS_BAD_INPUT, "rail.layers: %d layers, must be %d at most",
-          c->rail.layers.n, RESULT_BODIES - 3);
+    CHECK(c->rail.layers.n + 3 <= RESULT_BODIES, STATUS_BAD_INPUT,
+          "rail.layers: %d layers, a scene takes %d at most: make one of neighbours that are alike", c->rail.layers.n,
+          RESULT_BODIES - 3);
     TRY(add_rail(c, l, g, &group));
     TRY(add_grain(c, g, &group));
     TRY(add_armature(c, l, group + 1, g));

@@ -8,7 +8,11 @@
 
 #include <stdint.h>
 
-enum { RESULT_BODIES = 32 }; /* at most, of an impact's scene */
+/* Bodies of an impact's scene, at most: rail, grain, armature and 29 layers.  A number, not memory: records go as plain
+ * bytes into checkpoints and from process to process.  A stack of coatings has a handful of layers, and each body must
+ * be a cell thick to be more than a film; more are refused before the scene is made (gouge_scene_make).  Scenes of
+ * bodies have results of their own, without a limit (scene_bodies.h). */
+enum { RESULT_BODIES = 32 };
 
 /* One scene, full model: forces and volumes with the mirror half. */
 typedef struct {
