@@ -160,7 +160,7 @@ static build_point point_of(const building *w, const piece *box, const piece *ow
 /* A box of the window's lattice, halved along each axis once for every level that it lies in. */
 static status one_box(const building *w, const piece *window)
 {
-    static const double SLIVER = 0.02; /* of a box: left out */
+    static const double SLIVER = 0.02; /* of a box: left out (docs/scene-solver.md, Points of a body) */
     const int n = 1 << (w->g->levels - 1 - mpm_grids_level(w->g, window->x));
     for (int i = 0; i < n * n * n; i++) {
         const int at[3] = { i % n, i / n % n, i / (n * n) };
