@@ -38,7 +38,7 @@ typedef struct {
     uint64_t clamps_pressure, clamps_compression; /* counted, never silent */
     uint64_t splits, merges, ejected, eroded;     /* ejected holds the eroded points too */
     double eroded_mass;                           /* vapour and dust taken out so far [kg] */
-    double peak_pressure, peak_temperature;       /* any intact particle, any time so far [Pa, K] */
+    double peak_pressure, peak_temperature;       /* any intact point, any time so far [Pa, K] */
     double failed_volume;                         /* of all bodies, now [m3] */
 } mpm_report;
 
@@ -50,7 +50,7 @@ typedef struct {
     double peak_plastic_strain;               /* any point [1] */
 } mpm_body_report;
 
-/* What mpm_read can fill; one double or three or six a particle, in a fixed order that any restart keeps. */
+/* What mpm_read can fill; one double or three or six a point, in a fixed order that any restart keeps. */
 #define PARTICLE_FIELDS(FIELD)                                                  \
     FIELD(position, 3, "m", "position")                                         \
     FIELD(velocity, 3, "m/s", "velocity")                                       \
@@ -92,7 +92,7 @@ void mpm_free(mpm *m); /* NULL allowed */
 /* Between steps: in mpm_sink too.  Changes no bit of what comes out; 0: as many as OpenMP gives. */
 void mpm_set_threads(mpm *m, int threads);
 
-/* Steps until time >= until [s].  STATUS_NUMERICAL names the particle, the time and what to try. */
+/* Steps until time >= until [s].  STATUS_NUMERICAL names the point, the time and what to try. */
 status mpm_advance(mpm *m, double until, const mpm_sink *sink);
 
 mpm_ledger mpm_balance(const mpm *m);

@@ -46,7 +46,7 @@ static void add_box(mpm_scene *s, const material *m, const double lo[3], const d
 }
 
 /* A rail from x = 0 to 8 mm, y = -2 to -1 mm, a layer on it to y = 0, an armature above; all of z = 0 to 4 mm, of which
- * 3 to 4 mm are the rim.  The armature is body 0. */
+ * 3 to 4 mm are the window's side.  The armature is body 0. */
 static gouge_scene launcher(const material *m, bool half_model)
 {
     static const double lo[3] = { 0, -2e-3, -4e-3 }, hi[3] = { 8e-3, 2e-3, 4e-3 };

@@ -365,8 +365,8 @@ static double groove_power(const mpm *m)
                                                  .sides = 0.75 },
                                   sums));
     for (int i = 0; i < N; i++) {
-        const mpm_plastic_sum *middle = &sums[2 * i], *rim = &sums[2 * i + 1];
-        power += fmax(middle->power - (rim->volume > 0 ? rim->power * middle->volume / rim->volume : 0), 0);
+        const mpm_plastic_sum *middle = &sums[2 * i], *sides = &sums[2 * i + 1];
+        power += fmax(middle->power - (sides->volume > 0 ? sides->power * middle->volume / sides->volume : 0), 0);
     }
     return power;
 }

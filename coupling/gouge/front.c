@@ -5,7 +5,7 @@
 
 enum { ALONG = 0, ACROSS = 2, LOOK_EVERY = 16 }; /* axes; steps of the finest level between two looks */
 static const double POWER_AHEAD = 0.05;          /* of the power lies ahead of the front */
-static const double RIM = 0.75;                  /* of the window's half width; beyond it lies the rim */
+static const double SIDES = 0.75;                /* of the window's half width; beyond it lie its sides */
 static const double SLICE = 2.0;                 /* width of a slice along the rail, in the finest cells */
 
 bool gouge_front_is_due(const gouge_scene *s, const mpm_report *now, const gouge_front *f)
@@ -19,18 +19,18 @@ static mpm_slices slices_of(const mpm_scene *s)
 {
     const mpm_axis *along = &s->axis[ALONG], *across = &s->axis[ACROSS];
     const bool half_model = across->boundary[0] == BOUNDARY_SYMMETRY;
-    mpm_slices p = { .along = ALONG, .across = ACROSS, .lo = along->lo, .width = SLICE * along->fine, .sides = RIM };
+    mpm_slices p = { .along = ALONG, .across = ACROSS, .lo = along->lo, .width = SLICE * along->fine, .sides = SIDES };
     p.n = (int)((along->hi - along->lo) / p.width) + 1;
     p.middle = half_model ? across->lo : 0.5 * (across->lo + across->hi);
     p.half = across->hi - p.middle;
     return p;
 }
 
-/* Of a slice, beyond what the rim's metal takes. */
+/* Of a slice, beyond what metal takes at the window's sides. */
 static double excess(const mpm_plastic_sum slice[2])
 {
-    const mpm_plastic_sum *middle = &slice[0], *rim = &slice[1];
-    return fmax(middle->power - (rim->volume > 0.0 ? rim->power * middle->volume / rim->volume : 0.0), 0.0);
+    const mpm_plastic_sum *middle = &slice[0], *sides = &slice[1];
+    return fmax(middle->power - (sides->volume > 0.0 ? sides->power * middle->volume / sides->volume : 0.0), 0.0);
 }
 
 static void find_front(const mpm_slices *p, const mpm_plastic_sum *sums, gouge_front *f)

@@ -1,7 +1,7 @@
 /* The plastic front: how far along the rail metal is ploughed, and with what power.
  *
  * The armature's edge, pressed on, ploughs the rail over the whole width, a groove does not: what counts is the power
- * beyond what the same metal takes in the rim, the outer quarter of the window across the rail. */
+ * beyond what the same metal takes at the window's sides, its outer quarter across the rail. */
 #ifndef BREECH_COUPLING_FRONT_H
 #define BREECH_COUPLING_FRONT_H
 
@@ -11,7 +11,7 @@
 typedef struct {
     double time;        /* of that look [s] */
     double front;       /* 5 % of the power lies ahead of it [m] */
-    double power, peak; /* of the model as computed, without the rim's: then, and the largest of all looks [W] */
+    double power, peak; /* of the model as computed, beyond that of the sides: then, and the largest of all looks [W] */
 } gouge_front;
 
 /* Is it time for a look, after this step?  Every few steps, whether they are large or small; false where the groove is

@@ -7,8 +7,8 @@
 #include "base/param.h"
 #include "mpm/scene.h"
 
-/* Of a stress: more than any material has.  A number and not NAN, which a minimum would raise a floating-point trap on
- * [Pa]. */
+/* No limit on a stress: above any material's strength.  A number, since a minimum with NAN raises a floating-point
+ * exception [Pa]. */
 #define CONTACT_NO_LIMIT 1e30
 
 /* Two groups a and b at a node where their surfaces touch. */

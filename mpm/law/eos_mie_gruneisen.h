@@ -1,8 +1,8 @@
 /* Mie-Grueneisen with the Hugoniot us = c0 + s up:
  *   p = rho0 c0^2 mu [1 + (1 - g0/2) mu] / [1 - (s-1) mu]^2 + g0 rho0 e for mu >= 0,                      (M-3)
  *   p = rho0 c0^2 mu + g0 rho e below.
- * With rho0 below too, hot debris would keep its full thermal pressure however thin it has become, and burst.  So the
- * Grueneisen coefficient is g0 rho0/rho in compression and g0 in expansion. */
+ * With rho0 in the second line too, the thermal pressure of expanded hot debris would not fall with its density, and
+ * the debris would fly apart.  So the Grueneisen coefficient is g0 rho0/rho in compression and g0 in expansion. */
 EOS(mie_gruneisen, "Mie-Grueneisen with us = c0 + s up (M-3)")
 CONSTANT(gruneisen, "1", REQUIRED, 0.0, 10.0, "Grueneisen coefficient at the reference density")
 NEEDS(sound_speed)
@@ -107,7 +107,7 @@ static void fit_reference(const law *k, double mu_end, double out[EOS_TERMS])
     for (int r = 0; r < EOS_TERMS; r++) out[r] /= pow(mu_end, r + 1);
 }
 
-/* The pole at mu = 1/(s - 1) is kept away from, in the density and, further, in the fit. */
+/* The density is limited below the pole at mu = 1/(s - 1); the fit ends further below it. */
 static status eos_mie_gruneisen_derive(law *k, const material *m)
 {
     eos_mie_gruneisen *c = &k->eos.mie_gruneisen;

@@ -1,4 +1,4 @@
-/* Nothing fails, whatever is given of other laws. */
+/* The material never fails; constants of other laws of failure are ignored. */
 FAILURE(none, "none")
 
 #ifdef LAW_STRUCT

@@ -1,4 +1,5 @@
-/* Tension beyond the spall strength, and nothing else: law_lanes.h looks at that of any law with a k->spall. */
+/* Spall alone: a point fails when its tension exceeds the spall strength.  law_lanes.h tests that for every law of
+ * failure that sets k->spall. */
 FAILURE(spall, "tension beyond spall_strength")
 NEEDS(spall_strength)
 

@@ -50,7 +50,7 @@ static double reference_at(const law *k, double mu)
     return NAN;
 }
 
-/* Energy and density at which temperature and pressure are the body's. */
+/* Energy and density of the body at its temperature and pressure: simple iteration with the slope K0. */
 static void start_at(law *k, double temperature, double pressure)
 {
     enum { ITERATIONS = 200 };
@@ -61,7 +61,7 @@ static void start_at(law *k, double temperature, double pressure)
         mu = fmin(fmax(mu - (pressure_at(k, mu, k->e_start) - pressure) / k->K0, k->mu_least), k->mu_most);
         k->e_start = thermal + reference_at(k, mu);
     }
-    /* K0 for the slope will not do for a hot gas. */
+    /* Of a hot gas that does not converge: bisection. */
     double lo = k->mu_least, hi = k->mu_most;
     for (int i = 0; i < ITERATIONS && fabs(pressure_at(k, mu, k->e_start) - pressure) > 1e-9 * k->K0; i++) {
         mu = 0.5 * (lo + hi);
@@ -81,8 +81,8 @@ static void thermal(law *k, const material *m)
     const bool never_melts = isnan(m->melting_temperature);
     k->T_m = never_melts ? 1e9 : m->melting_temperature;
     k->inv_T_range = 1 / (k->T_m - k->T_r);
-    /* vapour: beyond five times the melting temperature the law is void (copper and aluminium boil at two to three
-     * times); dust: failed or molten and four times as thin as the solid */
+    /* Limits of validity.  Vapour: more energy than at five times the melting temperature (copper and aluminium boil at
+     * two to three times).  Dust: failed or molten, at a quarter of the solid's density. */
     k->e_vapour = never_melts ? HUGE_VAL : k->c_v * (5 * k->T_m - k->T_r) + k->latent;
     k->rho_dust = 0.25 * k->rho0;
 }

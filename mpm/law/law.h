@@ -37,8 +37,7 @@ typedef struct {
     };
 } law_failure;
 
-/* The kernels that there are of the law, by what is known of it: a fluid; a metal of fixed shear modulus with (M-3),
- * the fastest; any other solid. */
+/* Kernels of the material law: a fluid; a metal with a fixed shear modulus and (M-3), the fastest; any other solid. */
 enum { LAW_FLUID, LAW_METAL, LAW_SOLID, LAW_KERNELS };
 
 typedef struct law {
@@ -51,21 +50,21 @@ typedef struct law {
     double volume_min, volume_max; /* guards of the specific volume [m3/kg] */
     double mu_least, mu_most;      /* range in which the equation of state holds [1] */
     double K0, G;                  /* bulk and shear modulus at rest [Pa] */
-    double vacuum;                 /* least pressure of a fluid that gives none, from that at rest [Pa] */
-    double surroundings;           /* absolute pressure from which pressures count; NAN: that at rest [Pa] */
-    double p_rest;                 /* pressure at rest, counted so; not 0 of a gas alone [Pa] */
-    double inv_rate0;              /* [s] */
-    double least_flow;             /* flow stress >= least_flow (1 - T*); 0: no bound is known [Pa] */
-    double flow_start;             /* first flow stress [Pa] */
-    double softening;              /* share of the flow stress that damage has taken when a point fails [1] */
-    double spall;                  /* tension at which a point fails [Pa], HUGE_VAL: none */
-    double T_r, T_m, inv_T_range;  /* [K, K, 1/K] */
-    double inv_c, c_v;             /* specific heat [kg K/J, J/(kg K)] */
-    double latent;                 /* [J/kg] */
-    double chi;                    /* heat_by_plastic_work: share of plastic work */
-    double q1, q2;                 /* viscosity, linear and quadratic */
+    double vacuum;       /* least pressure of a fluid without a cavitation pressure, counted from that at rest [Pa] */
+    double surroundings; /* absolute pressure from which pressures count; NAN: that at rest [Pa] */
+    double p_rest;       /* pressure at rest above the surroundings'; 0 but for a gas [Pa] */
+    double inv_rate0;    /* [s] */
+    double least_flow;   /* flow stress >= least_flow (1 - T*); 0: no bound is known [Pa] */
+    double flow_start;   /* first flow stress [Pa] */
+    double softening;    /* fraction of the flow stress lost to damage when a point fails [1] */
+    double spall;        /* tension at which a point fails [Pa], HUGE_VAL: none */
+    double T_r, T_m, inv_T_range; /* [K, K, 1/K] */
+    double inv_c, c_v;            /* specific heat [kg K/J, J/(kg K)] */
+    double latent;                /* [J/kg] */
+    double chi;                   /* heat_by_plastic_work: fraction of plastic work */
+    double q1, q2;                /* viscosity, linear and quadratic */
     bool plastic_heat;
-    double e_vapour, rho_dust; /* a point with more energy, or a failed or molten one that is thinner, is eroded */
+    double e_vapour, rho_dust; /* points of more energy, and failed or molten points of less density, are eroded */
     double e_start, rho_start, p_start; /* of a body at rest at its temperature and its pressure */
 } law;
 

@@ -1,7 +1,7 @@
-/* The material law of some particles of one body over one step: the laws that its material chose, put together, with
- * temperature (M-4) and viscosity (M-5).  Constants are derived in law.c; the kernels include this once an instruction
- * set.  A block holds one body, so which law it is, is asked once for all its lanes; of the most frequent ones
- * (law_form) the compiler knows. */
+/* The material law of some points of one body over one step: the strength, equation of state and failure that its
+ * material names, with temperature (M-4) and viscosity (M-5).  Constants are derived in law.c; the kernels include this
+ * file once for every instruction set.  A block holds one body, so the law is chosen once for all its lanes; for the
+ * most frequent combinations (law_form) it is chosen when the kernel is compiled. */
 #ifndef BREECH_MPM_LAW_LANES_H
 #define BREECH_MPM_LAW_LANES_H
 
@@ -15,7 +15,7 @@ typedef struct {
     double traction[3];
 } step_of;
 
-/* What is booked of some particles, a lane each. */
+/* Sums for the ledger, a lane for each point. */
 typedef struct {
     vd heat, heat_viscous, work_external, rate, mises_square, clamp_p, clamp_rho;
 } lane_sums;
@@ -34,7 +34,7 @@ LANE_INLINE vd power(vd x, double n)
     return vd_where(some, vd_exp(n * vd_log(vd_max(x, tiny))));
 }
 
-/* What a law of strength may look at. */
+/* Arguments of a law of strength. */
 typedef struct {
     vd strain;    /* equivalent plastic strain [1] */
     vd log_rate;  /* ln(edot/edot0), at least 0 */
@@ -42,7 +42,7 @@ typedef struct {
     vd p, rho;    /* without viscosity [Pa], [kg/m3]; only for a law whose shear VARIES */
 } flow_state;
 
-/* What a law of failure may look at. */
+/* Arguments of a law of failure. */
 typedef struct {
     vd plastic, strain;  /* what the step adds to the equivalent plastic strain, and that after it [1] */
     vd triaxiality;      /* mean stress / von Mises stress, tension positive [1] */
@@ -50,7 +50,7 @@ typedef struct {
     vd log_rate, T_star; /* as above */
 } failure_state;
 
-/* Of a law that few bodies have: a call, so that the kernel of the others stays as it is. */
+/* For rarely used laws: a function call, which leaves the code of the other kernels unchanged. */
 #define LAW_CALL static __attribute__((noinline))
 
 #define LAW_LANES
@@ -59,7 +59,7 @@ typedef struct {
 #include "mpm/law/strength.def"
 #undef LAW_LANES
 
-/* Which laws a kernel is made for: constants where the compiler knows, else the body's. */
+/* The laws of a kernel: constants at compile time where it is made for one combination, else the body's. */
 typedef struct {
     int shear; /* material_shear */
     int eos;   /* material_eos */
@@ -110,8 +110,8 @@ LANE_INLINE vd reference_energy(const law *k, law_form f, vd mu)
     return vd_set(0);
 }
 
-/* The sum is the equation of state's, not made here: a compiler joins the product in it and the sum to one operation
- * only where no branch lies between. */
+/* The equation of state adds `shear` itself: the compiler contracts its last product and this sum to one operation
+ * (FMA) only where no branch lies between them. */
 LANE_INLINE vd wave_speed_square(const law *k, law_form f, vd volume, vd p, vd shear)
 {
 #define EOS(name, text) \
@@ -138,10 +138,10 @@ LANE_INLINE vd temperature(const law *k, vd e, vd reference, vd stored)
     return vd_max(k->T_r + (vd_min(thermal, vd_set(melt)) + beyond) * k->inv_c, vd_set(1));
 }
 
-/* Moduli of some particles: the body's, or their own where the law's shear VARIES. */
+/* Elastic moduli: the body's, or each point's own where the law's shear VARIES. */
 typedef struct {
     vd G, inv_3G, inv_6G; /* shear modulus [Pa], 1/(3 G), 1/(6 G) [1/Pa] */
-    vd p, rho;            /* that it was taken at [Pa, kg/m3]; 0 where it does not vary */
+    vd p, rho;            /* at which it was computed [Pa, kg/m3]; 0 where it does not vary */
 } elastic;
 
 LANE_INLINE elastic elastic_of(const law *k, law_form f, const block *q, int lane, vd mu, vd rho)
@@ -212,20 +212,20 @@ LANE_INLINE vd viscosity(const law *k, const step_of *step, const vd L[9], vd tr
     return rho * squeeze * (k->q1 * sound + k->q2 * squeeze);
 }
 
-/* What plastic flow did to some particles. */
+/* Result of the plastic corrector. */
 typedef struct {
-    bool any;               /* did one flow or has one failed? If not, only mises_square holds something */
-    vd mises_square, mises; /* von Mises stress after it, squared and plain [Pa^2, Pa] */
+    bool any;               /* has any point yielded or failed? If not, only mises_square is set */
+    vd mises_square, mises; /* von Mises stress after it: its square, and itself [Pa^2, Pa] */
     vd plastic;             /* increment of the equivalent plastic strain */
     vd rate_square;         /* (edot/edot0)^2 */
     vd log_rate, T_star;    /* ln(edot/edot0), at least 0, and homologous temperature */
 } yielding;
 
-/* Radial return of the trial deviator s.  Where all particles lie below the least stress at which their metal could
- * flow,
- *   sigma_y >= least (1 - T*),   least known to the law of strength, zero where it has no such bound,
- * there is nothing to do; their flow stress stays that of the step in which it was last needed, unless a contact asks.
- * (By a tenth below: where cells are small is decided by what comes within a tenth of yielding, refine_plastic.c.) */
+/* Radial return of the trial deviator s.  The law of strength may give a lower bound of the flow stress,
+ *   sigma_y >= least (1 - T*),   least = 0: no bound.
+ * Where all points of the block stay a tenth below it, none can yield: the flow stress is not computed and keeps its
+ * last value, unless a contact needs it.  (A tenth, because refine_plastic.c counts points within a tenth of yielding.)
+ */
 LANE_INLINE yielding radial_return(const law *k, law_form f, const elastic *m, const vd L[9], vd tr, block *q, int lane,
                                    bool contact, vd s[6])
 {
@@ -266,17 +266,17 @@ LANE_INLINE void damage(const law *k, const yielding *y, vd p, block *q, int lan
     vd_store(&q->damage[0][lane], vd_min(grown, vd_set(1)));
 }
 
-/* Failed or molten: no deviator, no tension. */
+/* Failed or molten points carry no deviator and no tension. */
 LANE_INLINE vm loose_points(const law *k, const block *q, int lane)
 {
     return ~(vd_less(vd_load(&q->damage[0][lane]), vd_set(1)) & vd_less(vd_load(&q->T[0][lane]), vd_set(k->T_m)));
 }
 
-/* A melt torn further apart than this share of K0 would hold has failed: were it to freeze again, it would pull with
- * what nothing had stored. */
+/* A melt whose tension would exceed this fraction of K0 counts as failed.  Else it could freeze again in the stretched
+ * state and pull with an energy that was never stored. */
 #define LAW_MELT_TENSION 1e-4
 
-/* What a step leaves of some particles. */
+/* State of the points at the end of the step. */
 typedef struct {
     vd e, T, rho, volume, p, q_v, sound; /* q_v: viscosity [Pa] */
     vd wanted;                           /* volume that the motion gives [m3/kg] */
@@ -300,8 +300,8 @@ LANE_INLINE void step_store(const step_of *step, vd tr, const step_end *r, block
     sum->clamp_rho = vd_where(vd_less(r->wanted, r->volume) | vd_less(r->volume, r->wanted), one);
 }
 
-/* Of a fluid: nothing but pressure.  It cavitates where its law gives less than its least pressure; what it is
- * stretched to then costs nothing, so its temperature is that of its energy at rest. */
+/* A fluid carries pressure alone.  Where its equation of state gives less than the cavitation pressure, it cavitates:
+ * further stretching does no work, and its temperature follows from its energy at the density of rest. */
 LANE_INLINE void fluid_step(const law *k, law_form f, const step_of *step, const motion *move, block *q, int lane,
                             lane_sums *sum)
 {
@@ -323,9 +323,9 @@ LANE_INLINE void fluid_step(const law *k, law_form f, const step_of *step, const
     step_store(step, tr, &r, q, lane, sum);
 }
 
-/* Of a solid, which may melt or fail.  The stress power is the mean of its values at the start and at the end, each
- * with the gradient and the volume there; the pressure is solved with the energy it changes, and a loose point's
- * tension is removed before that energy; so is the tension in which a point spalls. */
+/* A solid, which may melt or fail.  The stress power is the mean of its values at the start and at the end of the step,
+ * each with its own velocity gradient and volume.  Pressure and energy are solved together.  Tension of loose points,
+ * and the tension at which a point spalls, is removed before the energy is computed. */
 LANE_INLINE void solid_step(const law *k, law_form f, const step_of *step, const motion *move, block *q, int lane,
                             bool contact, lane_sums *sum)
 {

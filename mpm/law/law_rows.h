@@ -1,4 +1,5 @@
-/* What an includer of the three .def files does not ask for is nothing.  Included again and again. */
+/* Empty definitions of those macros of the three .def files that the includer has not defined.  Without an include
+ * guard: it is included several times. */
 #ifndef CONSTANT
 #define CONSTANT(member, unit, fallback, least, largest, text)
 #endif

@@ -1,5 +1,6 @@
-/* A fluid: no stress but pressure, and what goes with that.  Where its equation of state gives less than the cavitation
- * pressure it cavitates: it holds that pressure at any volume, without loss, and closes again when it is squeezed. */
+/* A fluid: no stress but pressure, and no constants of a solid.  Where its equation of state gives less than the
+ * cavitation pressure it cavitates: it holds that pressure at any volume, without loss, and closes again when it is
+ * squeezed. */
 STRENGTH(none, NONE, "none: a fluid")
 CONSTANT(cavitation_pressure, "Pa", OPTIONAL, -1e9, 0.0,
          "least pressure of a fluid, from that at rest; not given: 0, of an ideal gas: vacuum")

@@ -2,7 +2,7 @@
  *   sigma_y = 2 G0 (1 - alpha T^) {s + r ln[1 - (1 - 1/D) exp(-theta (e + e_0)/(r (D - 1)))]}  [Pa], zero when molten;
  *   T^ = T/T_m,   x = ln(edot/(gamma xi(T))),   f = erf(-kappa T^ x),   r = (s0 - y)/p,   D = exp((s - y)/r),
  *   s = max(s0 - (s0 - s_inf) f, s0 exp(beta x)),   y = max(y0 - (y0 - y_inf) f, min(y1 exp(y2 x), s0 exp(beta x))).
- * s is what hardening leads to, y where it begins; where no room is left between them, s. */
+ * y is the stress at which hardening begins, s the one at which it saturates; sigma_y = s where y >= s. */
 STRENGTH(ptw, FIXED, "Preston-Tonks-Wallace (M-23)")
 CONSTANT(ptw_theta, "1", REQUIRED, 0.0, 10.0, "Preston-Tonks-Wallace theta: first rate of hardening")
 CONSTANT(ptw_p, "1", REQUIRED, 0.0, 20.0, "Preston-Tonks-Wallace p: hardening")
@@ -48,7 +48,7 @@ static double strength_ptw_flow_at(const strength_ptw *k, double e, double log_r
     return k->G2 * soft * (s + room * log(1 - (1 - 1 / D) * exp(-k->theta * (e + k->cold_work) / (room * (D - 1)))));
 }
 
-/* Least of sigma_y/(1 - T*) over temperature, at the strain and the rate at which a metal is weakest. */
+/* Minimum of sigma_y/(1 - T*) over temperature, at the strain and the strain rate with the lowest flow stress. */
 static double strength_ptw_least(const law *k)
 {
     enum { STEPS = 200 };

@@ -2,8 +2,8 @@
  *   G = G0 [1 + A p/eta^(1/3) - B (T - 300 K)],   eta = rho/rho0
  *   sigma_y = min(Y0 [1 + beta (e + e_0)]^n, Y_max) G/G0  [Pa]
  *   zero beyond T_m = T_m0 exp[2 a (1 - 1/eta)] eta^(2 (g0 - a - 1/3))
- * Without a rate: meant for more than 1e5/s.  G keeps 5 % of G0 where the law leaves less, so that what flows there has
- * a finite plastic strain; a melt has no deviator by sigma_y = 0. */
+ * Without a rate: meant for more than 1e5/s.  G is at least 5 % of G0, so that plastic strain stays finite; a melt has
+ * no deviator because sigma_y = 0. */
 STRENGTH(steinberg_guinan, VARIES, "Steinberg-Guinan (M-24)")
 CONSTANT(sg_G0, "Pa", REQUIRED, 1e6, 1e12, "Steinberg-Guinan shear modulus at 300 K without pressure")
 CONSTANT(sg_A, "1/Pa", REQUIRED, 0.0, 1e-8, "Steinberg-Guinan A: growth of the shear modulus with pressure")

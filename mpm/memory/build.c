@@ -40,7 +40,7 @@ static double depth_in(const mpm_scene *s, int body, const double x[3])
     return mpm_solid_inside(&s->solid[s->body[body].solid], x);
 }
 
-/* Signed distance to the surface of what is the body's own: its volume less what later bodies claim. */
+/* Signed distance to the surface of a body's own volume: its solid less the solids of later bodies. */
 static double depth(const mpm_scene *s, int body, const double x[3])
 {
     double d = depth_in(s, body, x);
@@ -62,14 +62,14 @@ static bool holds_no_surface(const mpm_scene *s, int body, const double x[3], do
     return true;
 }
 
-/* A box of a body's lattice, or of it the part that is the body's. */
+/* A box of a body's lattice, or the part of one that lies in the body. */
 typedef struct {
     double x[3], size[3], share; /* centroid and lengths [m]; of the box's volume [1] */
 } piece;
 
 /* A box that the surface passes through is cut: its part inside is a point at its centroid, with the part's variance
- * along each axis.  Whole boxes or none would make a staircase of every face that does not lie along the lattice, and
- * contact normals would follow the steps (docs/scene-solver.md, V7b). */
+ * along each axis.  With whole boxes alone every face that is oblique to the lattice would be a staircase, and contact
+ * normals would be those of its steps (docs/scene-solver.md, V7b). */
 static void cut(const mpm_scene *s, int body, piece *p)
 {
     enum { PARTS = 4, ALL = PARTS * PARTS * PARTS };         /* an axis; in all */
@@ -77,7 +77,8 @@ static void cut(const mpm_scene *s, int body, piece *p)
     const double d = depth(s, body, p->x);
     p->share = d > 0;
     if (fabs(d) >= 0.5 * sqrt(p->size[0] * p->size[0] + p->size[1] * p->size[1] + p->size[2] * p->size[2])) return;
-    /* the surface counts over the thickness of a part: no more, or a box with a face on the surface would lose of it */
+    /* the fraction inside is linear in the depth over the thickness of a part; over more, a box with a face on the
+     * surface would lose mass */
     const double part = fmin(p->size[0], fmin(p->size[1], p->size[2])) / PARTS;
     double sum = 0, first[3] = { 0 }, second[3] = { 0 };
     for (int i = 0; i < ALL; i++) {

@@ -1,6 +1,6 @@
-/* Cells and nodes around those that hold particles, as bits of bricks.
+/* Cells and nodes around cells that hold points, as bits of bricks.
  *
- * A particle's nodes are those of its cell and of the cells beside it.  So two groups can share a node only where their
+ * A point's nodes are those of its cell and of the cells beside it.  So two groups can share a node only where their
  * cells lie within two of each other along every axis, and nodes within one of a group's cells have mass. */
 #include "mpm/memory/store.h"
 
@@ -27,7 +27,7 @@ static uint64_t spread(int k, int reach, uint64_t before, uint64_t here, uint64_
     return r;
 }
 
-/* Which particles count: the brick's own group's, or all others'. */
+/* Whose points count: those of the brick's own group, or of all others. */
 typedef enum { OWN, OTHERS } whose;
 
 static uint64_t occupied_at(const mpm *m, const brick *b, whose which, int step)

@@ -1,7 +1,7 @@
-/* Particles that change cells: out of their block after G2P, into the new cell before the next P2G.
+/* Points that change cells: they leave their block after G2P and enter the new cell before the next P2G.
  *
- * Each brick's movers lie together in the list of the thread that worked on it; a brick takes its arrivals from its 27
- * neighbours in a fixed order, so the order in the cells depends on no thread. */
+ * Each brick's movers lie together in the list of the thread that worked on it.  A brick reads its arrivals from its 27
+ * neighbours in a fixed order, so the order of points in a cell does not depend on the number of threads. */
 #include "mpm/memory/store.h"
 
 #include <limits.h>
@@ -23,8 +23,9 @@ bool mpm_movers_reserve(mover_list *list, int more)
     return true;
 }
 
-/* New cell of a particle near (ci, cj, ck); false when it has left the window.  One that comes to a level that is amid
- * a step stays on its own until that ends: the nodes there are constrained, so it moves with the coarser level. */
+/* New cell of a point near (ci, cj, ck); false when it has left the window.  A point that reaches a level in the middle
+ * of that level's step stays on its own level until the step ends: the nodes there are constrained, so it moves with
+ * the coarser level. */
 static bool find_cell(const mpm *m, const brick *b, const int cell[3], const double *x, mover_head *h)
 {
     int step = 0, place[3];
@@ -114,7 +115,7 @@ void mpm_movers_take(mpm *m, brick *b, int cell, int block_index, int leaving)
     }
 }
 
-/* A cell closes ranks when its last block fits into the holes of the others. */
+/* Empties the last block of a cell where its points fit into the holes of the others. */
 static void merge_cell(mpm *m, brick *b, int cell)
 {
     int holes = 0, last = -1, *last_link = NULL;
@@ -140,7 +141,7 @@ static void merge_cell(mpm *m, brick *b, int cell)
     mpm_store_release(m, last);
 }
 
-/* Takes this brick's arrivals from its neighbours; false when the blocks ran out. */
+/* Inserts this brick's arrivals from its neighbours; false when no block is free. */
 static bool arrive(mpm *m, brick *b)
 {
     uint64_t dirty = 0;
@@ -195,7 +196,7 @@ static status arrive_across(mpm *m, const mover_list *list, int i, int group)
     return status_ok();
 }
 
-/* Do all particles lie where the bricks around them have been made? */
+/* Do all points lie in cells whose surrounding bricks exist? */
 static bool all_covered(const mpm *m)
 {
     for (int i = 0; i < m->bricks_used; i++)

@@ -1,10 +1,11 @@
-/* One particle in two halves, two neighbours in one, and one that leaves. */
+/* Single points: halving one, merging two neighbours, and the sums of one that leaves. */
 #include "mpm/memory/store.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Two halves along axis k: mass, momentum and energy as before (what the gradient part lacks comes out of e). */
+/* Halves a point along axis k.  Mass, momentum and energy stay: what the kinetic energy of the gradient lacks is taken
+ * from e. */
 void mpm_point_halve(double *q, double *other, int k)
 {
     const double d = 0.5 * q[FIRST_half + k];
@@ -31,8 +32,9 @@ static double ahead_of(const double *q, double dt)
     return work_ahead(q + FIRST_s, q[FIRST_p], q + FIRST_L, q[FIRST_rho], dt);
 }
 
-/* Means by mass, but stresses by volume; lengths along k add up, and the energy of the relative motion goes where
- * mpm_point_halve takes it from.  The mean stress does other work ahead than the two: the rest of it is heat. */
+/* Means by mass, of stresses by volume; lengths along k add up.  The kinetic energy of the relative motion goes to
+ * where mpm_point_halve takes it from.  The work ahead of the mean stress differs from that of the two: the difference
+ * is heat. */
 void mpm_point_merge(double *q, const double *other, int k, double dt)
 {
     const double m = q[FIRST_mass] + other[FIRST_mass], share = other[FIRST_mass] / m;

@@ -1,7 +1,7 @@
 /* Checkpoints and estimates.
  *
- * An image is one flat run of bytes: a header, the books, those of bodies and groups, then every brick in its order
- * with its chains of blocks as they lie, holes included: a restored solver goes on with the same bits. */
+ * An image is a flat array of bytes: a header, the ledger, the reports of bodies and groups, then every brick in its
+ * order with its chains of blocks in theirs, holes included.  A restored solver continues with the same bits. */
 #include "mpm/memory/build.h"
 #include "mpm/memory/store.h"
 
@@ -114,7 +114,7 @@ static status get_cell(mpm *m, brick *b, int cell, int blocks, reader *r)
     int *link = &b->head[cell];
     for (int i = 0; i < blocks; i++) {
         const int q = m->free_head;
-        CHECK(q >= 0, STATUS_IO, "the checkpoint holds more particles than it says");
+        CHECK(q >= 0, STATUS_IO, "the checkpoint holds more points than it says");
         m->free_head = m->links[q].next;
         m->blocks_free--;
         if (!get(r, &m->links[q], sizeof m->links[q]) || !get(r, &m->blocks[q], sizeof m->blocks[q]))
@@ -230,7 +230,7 @@ static status count(const mpm_scene *s, const grids *g, counting *c, double *dt)
     return status_ok();
 }
 
-/* What a rule asks for near a body whatever happens there. */
+/* Small cells that a rule asks for around a body at all times. */
 typedef struct {
     const mpm_scene *s;
     const grids *at_start;

@@ -87,7 +87,7 @@ static double part_inside(const block *q, int l, const double lo[3], const doubl
     return part;
 }
 
-/* Is the box so far from the brick that no domain of a point in it can reach there?  As far as the brick is wide. */
+/* Is the box farther from the brick than the brick is wide?  Then no domain of its points reaches the box. */
 static bool is_far(const mpm *m, const brick *b, const double lo[3], const double hi[3])
 {
     for (int k = 0; k < 3; k++) {

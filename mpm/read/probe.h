@@ -1,8 +1,7 @@
-/* Probes: what a user wants to know about a scene while it runs (mpm_scene.probe), read between steps by whoever runs
- * it.
+/* Probes: quantities of a scene that a user asks for (mpm_scene.probe), read between steps by the caller of the solver.
  *
- * A probe has a kind, which says what it reads, and values, which say where.  It costs nothing until it is read, and
- * reading changes nothing: the same bits on any number of threads.
+ * A probe has a kind, which says what is read, and values, which say where.  Reading changes nothing in the solver and
+ * gives the same bits on any number of threads.
  * To add a kind: write mpm/read/probe_<name>.c with `const mpm_probe_kind mpm_probe_<name>`, and one line in probe.def.
  * Case files, series and tests take it from there.  Every kind satisfies
  *   out holds rows x columns numbers, row by row, in the columns' units; NAN where there is nothing to read;
@@ -32,8 +31,8 @@ typedef struct {
     int main, mains;           /* which columns stand for it: one, or 3 of a vector's size; mains 0: none, a map */
     bool of_step;              /* about the last step alone: a series wants every step */
     bool of_body;              /* reads one body, which must be given; else all bodies where none is */
-    int (*rows)(const mpm_probe *p);                                      /* NULL: one */
-    status (*check)(const mpm_probe *p, const char *name);                /* what the table cannot say; NULL: nothing */
+    int (*rows)(const mpm_probe *p);                       /* NULL: one */
+    status (*check)(const mpm_probe *p, const char *name); /* checks beyond the table's ranges; NULL: none */
     status (*read)(const struct mpm *m, const mpm_probe *p, double *out); /* STATUS_MEMORY alone */
 } mpm_probe_kind;
 

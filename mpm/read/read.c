@@ -1,4 +1,4 @@
-/* Reading the solver's state: balance, report, particle fields. */
+/* Reading the solver's state: balance, report, point fields. */
 #include "mpm/read/visit.h"
 
 #include "mpm/memory/build.h"
@@ -33,8 +33,8 @@ void mpm_visit_shares(const mpm *m, mpm_block_visitor *each, void *sums, size_t 
                      (char *)sums + (size_t)i * bytes);
 }
 
-/* Sums of the books.  Millions of equal terms round the same way each time: what is lost is carried along (Neumaier
- * 1974). */
+/* Sums of the ledger.  Millions of equal terms have equal rounding errors, which add up: compensated summation
+ * (Neumaier 1974). */
 enum { BOOK_MASS, BOOK_KINETIC, BOOK_INTERNAL, BOOK_AHEAD, BOOK_MOMENTUM, BOOKS = BOOK_MOMENTUM + 3 };
 
 typedef struct {
@@ -196,11 +196,11 @@ size_t mpm_particles(const mpm *m)
 
 /* ---- percentiles ---- */
 
-static const double TOP = 1e-3;        /* share of a body's mass above its 99.9th percentile [1] */
+static const double TOP = 1e-3;        /* fraction of a body's mass above its 99.9th percentile [1] */
 static const double BIN_LOWEST = 1e3;  /* [Pa] */
 enum { BINS = 2400, BINS_AN_E = 100 }; /* bins of 1 % */
 
-/* What percentiles are taken of: Mises stress, pressure [Pa]. */
+/* Quantities with percentiles: Mises stress, pressure [Pa]. */
 enum { MISES, PRESSURE, STRESSES };
 
 /* Bins of a body [kg]; STRESSES x bodies of them. */
@@ -209,7 +209,7 @@ static double *histogram_of(const mpm *m, int stress, int body)
     return m->histogram + ((size_t)stress * (size_t)m->scene.bodies + (size_t)body) * BINS;
 }
 
-/* A body's metal, and what of it lies above its largest percentiles so far, lane by lane [kg]. */
+/* Mass of a body, and of its points above the largest percentiles so far, lane by lane [kg]. */
 struct body_tops {
     double passed[STRESSES]; /* ends of the bins that hold those percentiles [Pa] */
     double mass[LANES], above[STRESSES][LANES];
@@ -305,7 +305,7 @@ static bool percentiles_rise(const mpm *m, int stress)
     return rise;
 }
 
-/* Of the points above the percentile of the stress *user so far; the others cannot raise it. */
+/* Points above the percentile so far of the stress *user; only these can raise it. */
 static void histogram_block(void *user, const mpm *m, const brick *b, int index)
 {
     (void)b;
@@ -346,7 +346,7 @@ void mpm_sample_percentiles(mpm *m)
     }
 }
 
-/* ---- particle fields ---- */
+/* ---- point fields ---- */
 
 /* In the order that ParaView reads a symmetric tensor in: the last two of a block's are the other way round. */
 static void get_stress(const block *q, int l, double *out)

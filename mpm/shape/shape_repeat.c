@@ -1,7 +1,7 @@
 /* Repeat: copies of a solid at equal distances along the axes, the first where it stands: lattices.
  *
- * A copy that begins more than a pitch beyond x has one between, nearer at every point: along each axis only copies
- * whose bounds hold x, and the next on either side, are asked. */
+ * A copy that begins more than a pitch beyond x is farther from x than the copy between them.  So only the copies whose
+ * bounds hold x, and the next on either side, are evaluated along each axis. */
 #include "mpm/shape/shape.h"
 
 typedef struct {
@@ -12,7 +12,7 @@ static const param params[] = { SHAPE_POINT(repeat, pitch, 0, "from copy to copy
                                 PARAM_VEC3(repeat, count, "1", 1, 1, 10000, "copies along x, y, z, whole numbers"),
                                 PARAMS_END };
 
-/* The first and the last copy to ask along axis k. */
+/* The first and the last copy to evaluate along axis k. */
 static void range(const repeat *r, int k, double x, double lo, double hi, double ends[2])
 {
     ends[0] = 0.0, ends[1] = r->count[k] - 1.0;

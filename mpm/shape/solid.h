@@ -31,7 +31,7 @@ typedef struct {
     int parts;           /* 0: a shape; else an operation on so many solids */
     double (*inside)(const mpm_solid *s, const double x[3]);        /* signed distance [m] */
     void (*bounds)(const mpm_solid *s, double lo[3], double hi[3]); /* [m] */
-    status (*check)(const mpm_solid *s, const char *name);          /* what the table cannot say; NULL: nothing */
+    status (*check)(const mpm_solid *s, const char *name);          /* checks beyond the table's ranges; NULL: none */
 } mpm_solid_kind;
 
 struct mpm_solid {
