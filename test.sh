@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# All tests.    ./test.sh          gcc, gcc with sanitizers, clang                            (minutes)
+# All tests.    ./test.sh          gcc; clang and gcc with sanitizers, without what is slow        (minutes)
 #               ./test.sh --full   the long parts too; all short parts with clang, both sanitizer builds and the portable
 #                                  one; the reader fuzzed with 10^6 inputs; a twelfth of the deliberate faults,
 #                                  another one for every commit (all: tests/mutants/run.sh)                      (hours)
@@ -71,7 +71,7 @@ check()
 }
 
 stage release $full none
-stage clang-release 0 tree
+stage clang-release 0 "$([ $full = 1 ] && echo tree || echo 'tree|slow')"
 if [ $full = 1 ]; then
     stage debug 0 tree
     stage clang-debug 0 tree

@@ -136,7 +136,9 @@ static void test_bodies(void **state)
     (void)state;
     fresh_folder("ball");
     OK(host_file_write("ball/case.yaml", body_scene_text, strlen(body_scene_text)));
-    assert_int_equal(run("scene ball -o balls --force --quiet --ensemble 2 --set output.snapshots=0"), 0);
+    assert_int_equal(run("scene ball -o balls --force --quiet --no-store --ensemble 2 --set output.snapshots=0 --set "
+                         "'scene.cell=0.25 mm'"),
+                     0);
     cJSON *s = summary_of("balls");
     assert_text(s, "of", "bodies");
     static const char *const names[] = { "probes.push.peak", "probes.push.impulse[0]", "bodies.ball.velocity[0]",
