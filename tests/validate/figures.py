@@ -55,11 +55,13 @@ class Claim:
 def claims_of(page):
     with open(os.path.join(ROOT, page), encoding="utf-8") as file:
         text = file.read()
-    found, end = [], 0
+    found, begin, end = [], 0, 0
     for comment in COMMENT.finditer(text):
-        heading = max((h.start() for h in re.finditer(r"^#+ ", text[:comment.start()], flags=re.M)), default=0)
+        if text[end:comment.start()].strip():  # else two comments belong to one text
+            headings = [h.start() for h in re.finditer(r"^#+ ", text[:comment.start()], flags=re.M)]
+            begin = max([end, *headings])
         found.append(Claim(page, text.count("\n", 0, comment.start()) + 1, comment["command"],
-                           [line for line in comment["list"].splitlines() if line.strip()], text[max(heading, end):comment.start()]))
+                           [line for line in comment["list"].splitlines() if line.strip()], text[begin:comment.start()]))
         end = comment.end()
     if text.count("<!-- figures:") != len(found):
         sys.exit("%s: a comment `figures:` that is none: give a command `breech ..` and a list" % page)

@@ -12,12 +12,14 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 
 
 class Figure:
-    """A number with its standard deviation over several grids; None: of one grid."""
+    """A number, None where the run has none, with its standard deviation over several grids, None of one grid."""
 
     def __init__(self, mean, deviation=None, n=1):
         self.mean, self.deviation, self.n = mean, deviation, n
 
     def text(self, digits, unit=1.0):
+        if self.mean is None:
+            return ""
         mean = "%.*f" % (digits, self.mean / unit)
         return mean if self.deviation is None else "%s ± %.*f" % (mean, digits, self.deviation / unit)
 
@@ -47,14 +49,17 @@ class Scene:
         return self.summary["classes"] if self.several else {self.summary["class"]: 1}
 
     def class_text(self):
-        """Classes and how many grids give them, most frequent first: "2 gouge, 1 undecided"."""
+        """Classes and how many grids give them, most frequent first: "2 gouge, 1 undecided"; of one grid its class."""
+        if not self.several:
+            return self.summary["class"]
         found = sorted((-n, name) for name, n in self.classes().items() if n)
         return ", ".join("%d %s" % (-n, name) for n, name in found)
 
     def mostly(self, name):
-        """Do more than half of the grids give this class?"""
+        """Do more than half of the grids give this class?  None: just half."""
         count = self.classes()
-        return 2 * count.get(name, 0) > sum(count.values())
+        more = 2 * count.get(name, 0) - sum(count.values())
+        return None if more == 0 else more > 0
 
     def largest(self, name):
         """Largest magnitude of a number over the grids."""

@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""The tables of docs/validation, from runs of the program.
+
+  tables.py BREECH OUT [PART ...]          writes these parts anew (no PART: all) into their pages
+  tables.py BREECH OUT --check [PART ...]  compares them with the pages instead (no PART: those of `quick`); exit 1 if any differs
+  tables.py --list                         the parts, their pages and what they take
+
+OUT keeps the runs: a run that is there, of the same program and arguments, is not computed again, so a stopped command goes on.
+--threads N: of each run (default: all of the machine).
+
+To add a part: a function of `Runs` that returns tables and a line that says what was run, a line in PARTS, and in a page
+  <!-- table: NAME -->
+  <!-- end -->"""
+import sys
+
+import pages
+import part_closed
+import part_levels
+import part_wu2017
+from runs import Runs
+
+PARTS = {  # name: page, function, minutes of processor time, quick: compared by ctest with BREECH_FULL=1
+    "wu2017": ("docs/validation/wu2017.md", part_wu2017.two_cells, 35, True),
+    "wu2017-three-cells": ("docs/validation/wu2017.md", part_wu2017.three_cells, 5, False),
+    "wu2017-shipped": ("docs/validation/wu2017.md", part_wu2017.shipped, 2, False),
+    "levels": ("docs/validation/levels.md", part_levels.default_shot, 8, True),
+    "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
+}
+
+
+def options(words):
+    """breech, out, parts, check, threads"""
+    check = "--check" in words
+    threads = 0
+    if "--threads" in words:
+        at = words.index("--threads")
+        threads = int(words[at + 1])
+        del words[at:at + 2]
+    words = [word for word in words if word != "--check"]
+    if len(words) < 2 or any(part not in PARTS for part in words[2:]):
+        sys.exit(__doc__ + "\nparts: " + ", ".join(PARTS))
+    parts = words[2:] or [name for name, part in PARTS.items() if part[3] or not check]
+    return words[0], words[1], parts, check, threads
+
+
+def main():
+    if sys.argv[1:] == ["--list"]:
+        for name, (page, _, minutes, quick) in PARTS.items():
+            print("%-20s %-28s %3d min%s" % (name, page, minutes, ", in --full" if quick else ""))
+        return
+    breech, out, parts, check, threads = options(sys.argv[1:])
+    runs = Runs(breech, out, threads)
+    faults = []
+    for name in parts:
+        page, tables_of, _, _ = PARTS[name]
+        tables, note = tables_of(runs)
+        if check:
+            faults += pages.check_part(page, name, tables)
+        else:
+            pages.write_part(page, name, tables, note)
+        print("%s: %s" % (name, "compared" if check else "written into " + page), flush=True)
+    if faults:
+        sys.exit("pages of docs/validation do not say what comes out now:\n  " + "\n  ".join(faults))
+
+
+if __name__ == "__main__":
+    main()

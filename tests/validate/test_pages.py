@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+"""What a comparison of a page with fresh figures notices, and that every part of tables.py has its place."""
+import pages
+import tables
+from pages import Column, Table
+
+COLUMNS = [Column("scene"), Column("class"), Column("depth [mm]", 0.1), Column("time [s]", words=False)]
+
+
+def differences(*fresh):
+    written = pages.written_tables(Table(COLUMNS, [["slow", "3 gouge", "0.60 ± 0.02", "12"],
+                                                   ["fast", "scratch", "0.300", "9"],
+                                                   ["odd", "1 gouge, 1 none", "", ""]]).markdown())
+    return Table(COLUMNS, [list(row) for row in fresh]).differences(written[0])
+
+
+SLOW, FAST = ("slow", "3 gouge", "0.60 ± 0.02", "12"), ("fast", "scratch", "0.300", "9")
+ODD = ("odd", "1 gouge, 1 none", "", "")
+
+
+def main():
+    for what, fresh, faults in [
+        ("the same", (SLOW, FAST, ODD), 0),
+        ("within a tenth, another ±, another time", (("slow", "3 gouge", "0.65 ± 0.09", "99"), FAST, ODD), 0),
+        ("beyond both a tenth and three times the scatter", (("slow", "3 gouge", "0.67 ± 0.02", "12"), FAST, ODD), 1),
+        ("beyond a tenth, no scatter known", (SLOW, ("fast", "scratch", "0.331", "9"), ODD), 1),
+        ("another class", (SLOW, ("fast", "gouge", "0.300", "9"), ODD), 1),
+        ("grids that did not agree and do now", (SLOW, FAST, ("odd", "3 none", "", "")), 0),
+        ("fewer grids of a class", (("slow", "2 gouge, 1 none", "0.60 ± 0.02", "12"), FAST, ODD), 0),
+        ("a figure less", (SLOW, ("fast", "scratch", "", "9"), ODD), 1),
+        ("a row less", (SLOW,), 1),
+        ("a row of another name", (SLOW, ("faster", "scratch", "0.300", "9")), 1),
+    ]:
+        found = differences(*fresh)
+        assert len(found) == faults, "%s: %s" % (what, found)
+    for name, part in tables.PARTS.items():
+        written = pages.written_tables(pages.part_text(part[0], name)[1])
+        assert written, "%s: part %s is empty" % (part[0], name)
+    print("%d parts in place" % len(tables.PARTS))
+
+
+if __name__ == "__main__":
+    main()
