@@ -331,7 +331,7 @@ static int run_check(const options *o)
     case_inputs *in = NULL;
     status s = read_case(o, 0, &in);
     if (s.code != STATUS_OK) return exit_code(s);
-    const unsigned needs = needs_of(in);
+    const unsigned needs = needs_of(in) & (o->scene ? CASE_FOR_SCENE : ~0u);
     case_inputs_free(in);
     s = read_case(o, needs, &in);
     if (s.code != STATUS_OK) return exit_code(s);

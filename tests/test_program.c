@@ -70,6 +70,9 @@ static void test_check_and_materials(void **state)
     assert_int_equal(run("check " CASES "/wu2017"), 0);
     assert_true(contains("out.txt", "cells a radius"));
     assert_int_equal(run("check " CASES "/wu2017/coarse.yaml"), 0);
+    assert_int_equal(run("check " TINY), 2);            /* ends before its grooves could be gauged */
+    assert_int_equal(run("check " TINY " --scene"), 0); /* which `breech scene` does not ask for */
+    assert_true(contains("out.txt", "bodies:") && contains("out.txt", "armature"));
     assert_int_equal(run("materials"), 0);
     assert_true(contains("out.txt", "ofhc_copper"));
     assert_int_equal(run("materials ofhc_copper"), 0);
