@@ -72,11 +72,11 @@ static gouge_scene launcher(const material *m, bool half_model)
 }
 
 /* Of the rail, over the whole width up to x = 6 mm: what the armature's edge takes; a groove from x = 2 to 5 mm,
- * |z| < 1 mm, takes more.  The armature flows everywhere. */
+ * |z| < 2.5 mm, takes more.  The armature flows everywhere. */
 static double density(const double x[3])
 {
     if (x[1] > 0) return 1e15;
-    return (x[0] < 6e-3 ? EDGE : 0) + (x[0] > 2e-3 && x[0] < 5e-3 && fabs(x[2]) < 1e-3 ? MORE : 0);
+    return (x[0] < 6e-3 ? EDGE : 0) + (x[0] > 2e-3 && x[0] < 5e-3 && fabs(x[2]) < 2.5e-3 ? MORE : 0);
 }
 
 static void give_powers(mpm *m)
@@ -97,7 +97,7 @@ static void test_front(void **state)
 {
     (void)state;
     const material metal = copper();
-    const double groove = MORE * 3e-3 * 2e-3 * 1e-3; /* as long as it is, of rail and layer, as wide as half of it */
+    const double groove = MORE * 3e-3 * 2e-3 * 2.5e-3; /* as long as it is, of rail and layer, as wide as half of it */
     for (int half = 0; half < 2; half++) {
         gouge_scene g = launcher(&metal, half);
         gouge_front one = { .peak = 1.0 }, three = { .peak = 1e9 };
