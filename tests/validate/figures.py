@@ -13,8 +13,8 @@ Behind the paragraph or table that states figures stands a comment: the command,
   - {key: verdict, is: gouges}
   -->
 
-The number of every `value` must stand in the text between the heading, or the comment, before and this one.  OUT keeps the
-runs, as for tables.py."""
+The number of every `value` must stand in the text between the heading, or the comment, before and this one.  OUT keeps
+the runs, as for tables.py."""
 import glob
 import os
 import re
@@ -44,7 +44,8 @@ class Claim:
 
     def unsaid(self):
         """Values of the list that the text before does not state, and lines that are no entries."""
-        faults = ["%s: no entry of a list: %s" % (self.where(), entry) for entry in self.entries if not ENTRY.match(entry)]
+        faults = ["%s: no entry of a list: %s" % (self.where(), entry)
+                  for entry in self.entries if not ENTRY.match(entry)]
         for entry in self.entries:
             for number in VALUE.findall(entry):
                 if not re.search(r"(?<![\d.])%s(?!\d|\.\d)" % re.escape(number), self.before):
@@ -60,8 +61,9 @@ def claims_of(page):
         if text[end:comment.start()].strip():  # else two comments belong to one text
             headings = [h.start() for h in re.finditer(r"^#+ ", text[:comment.start()], flags=re.M)]
             begin = max([end, *headings])
-        found.append(Claim(page, text.count("\n", 0, comment.start()) + 1, comment["command"],
-                           [line for line in comment["list"].splitlines() if line.strip()], text[begin:comment.start()]))
+        entries = [line for line in comment["list"].splitlines() if line.strip()]
+        found.append(Claim(page, text.count("\n", 0, comment.start()) + 1, comment["command"], entries,
+                           text[begin:comment.start()]))
         end = comment.end()
     if text.count("<!-- figures:") != len(found):
         sys.exit("%s: a comment `figures:` that is none: give a command `breech ..` and a list" % page)
@@ -69,9 +71,9 @@ def claims_of(page):
 
 
 def all_pages():
-    pages = ["README.md"] + glob.glob("docs/**/*.md", root_dir=ROOT, recursive=True) + glob.glob("cases/**/*.md", root_dir=ROOT,
-                                                                                               recursive=True)
-    return sorted(pages)
+    pages = [page for folder in ("docs", "cases")
+             for page in glob.glob(folder + "/**/*.md", root_dir=ROOT, recursive=True)]
+    return sorted(["README.md"] + pages)
 
 
 def folder_of(words):

@@ -13,9 +13,9 @@ UNDECIDED = "within the scatter"
 
 
 class Column:
-    """One column.  share: a fresh number may differ from the written one by this share of it; with a ± by three times
-    that, too.  None: its numbers are not compared.  words: what stands beside them is compared as well, unless the grids
-    did not agree: more than one class, or UNDECIDED."""
+    """One column.  share: a fresh number may differ from the written one by this share of it, with a ± by three times
+    that, too; None: its numbers are not compared.  words: what stands beside them is compared as well, unless the
+    grids did not agree (more than one class, or UNDECIDED)."""
 
     def __init__(self, title, share=None, words=True):
         self.title, self.share, self.words = title, share, words
@@ -120,4 +120,5 @@ def check_part(page, name, tables):
     written = written_tables(part_text(page, name)[1])
     if len(written) != len(tables):
         return ["%s, %s: now %d tables, written %d" % (page, name, len(tables), len(written))]
-    return ["%s, %s: %s" % (page, name, fault) for table, rows in zip(tables, written) for fault in table.differences(rows)]
+    faults = [fault for table, rows in zip(tables, written) for fault in table.differences(rows)]
+    return ["%s, %s: %s" % (page, name, fault) for fault in faults]

@@ -14,13 +14,16 @@ def closed(runs):
         case = os.path.join(CASES, name)
         if not os.path.exists(os.path.join(ROOT, case, "expected.yaml")):
             continue
-        scene = runs.run("closed_" + name, ["scene", case, "--set", "output.report=no", "--set", "output.snapshots=0"])[0]
-        told = subprocess.run([runs.breech, "check", case, "--expect", scene], cwd=ROOT, capture_output=True, text=True, check=False)
+        options = ["--set", "output.report=no", "--set", "output.snapshots=0"]
+        scene = runs.run("closed_" + name, ["scene", case, *options])[0]
+        told = subprocess.run([runs.breech, "check", case, "--expect", scene], cwd=ROOT, capture_output=True, text=True,
+                              check=False)
         if told.returncode not in (0, 1):
             raise SystemExit(told.stdout + told.stderr)
         rows += [row(name, line) for line in told.stdout.splitlines()[1:-1]]
     # a deviation near zero differs by much of itself: what decides is whether it holds
-    columns = [Column("case, key"), Column("expected", 0.0), Column("found", words=False), Column("deviation", words=False), Column("holds")]
+    columns = [Column("case, key"), Column("expected", 0.0), Column("found", words=False),
+               Column("deviation", words=False), Column("holds")]
     return [Table(columns, rows)], "`breech scene` and `breech check --expect` of every case; in SI units"
 
 
@@ -29,4 +32,5 @@ def row(name, line):
     cells = [cell for cell in line.replace(" %", "%").split("  ") if cell.strip()]
     key, expected, found = (cell.strip() for cell in cells[:3])
     deviation = cells[3].strip().replace("%", " %") if len(cells) == 5 else ""
-    return ["%s, `%s`" % (name, key), expected.replace("+-", "within"), found, deviation, "yes" if cells[-1].strip() == "holds" else "NO"]
+    holds = "yes" if cells[-1].strip() == "holds" else "NO"
+    return ["%s, `%s`" % (name, key), expected.replace("+-", "within"), found, deviation, holds]

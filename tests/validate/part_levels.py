@@ -1,14 +1,15 @@
 """Do craters hang on how cells are chosen?  Scenes as they are, and with one choice changed at a time."""
 from pages import Column, Table
 
-COLUMNS = [Column("scene"), Column("class"), Column("volume [mm3]", 0.1), Column("length [mm]", 0.1), Column("width [mm]", 0.1),
-           Column("depth [mm]", 0.1)]
+COLUMNS = [Column("scene"), Column("class"), Column("volume [mm3]", 0.1), Column("length [mm]", 0.1),
+           Column("width [mm]", 0.1), Column("depth [mm]", 0.1)]
 CHANGES = {
     "nothing": {},
     "half the tolerance": {"scene__refine_tolerance": 0.05},
     "twice the tolerance": {"scene__refine_tolerance": 0.2},
     "two levels": {"scene__levels": 2},
-    "a window half as large again": {"scene__rail_ahead": "21 mm", "scene__rail_behind": "15 mm", "scene__rail_depth": "12 mm"},
+    "a window half as large again": {"scene__rail_ahead": "21 mm", "scene__rail_behind": "15 mm",
+                                     "scene__rail_depth": "12 mm"},
 }
 DEFAULT_SHOT = {"scene__contact_pressure": "60 MPa", "scene__end_time": "8 us", "scene__cells_per_radius": 2}
 
@@ -25,5 +26,5 @@ def default_shot(runs):
             scene = runs.scene("levels_%d_%s" % (velocity, name.replace(" ", "_")), "cases/default_shot", 3,
                                scene__velocity="%d m/s" % velocity, **{**DEFAULT_SHOT, **change})
             rows.append(row("%d m/s, %s" % (velocity, name), scene))
-    return [Table(COLUMNS, rows)], ("cases/default_shot pressed on with 60 MPa, two cells a radius, the first 8 us; mean ± standard "
-                                    "deviation over three shifted grids")
+    return [Table(COLUMNS, rows)], ("cases/default_shot pressed on with 60 MPa, two cells a radius, the first 8 us; "
+                                    "mean ± standard deviation over three shifted grids")

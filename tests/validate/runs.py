@@ -79,7 +79,7 @@ class Runs:
             self.program = hashlib.sha256(program.read()).hexdigest()[:16]
 
     def run(self, name, arguments):
-        """Path of the output directory of `breech ARGUMENTS`, and what it took: wall and processor time [s], memory [kB]."""
+        """Path of the output directory of `breech ARGUMENTS`, and what it took: times [s], memory [kB]."""
         folder = os.path.join(self.out, name)
         record = folder + ".run.json"
         asked = {"program": self.program, "arguments": arguments}
@@ -89,7 +89,8 @@ class Runs:
             if {key: done.get(key) for key in asked} == asked and os.path.exists(os.path.join(folder, "summary.json")):
                 return folder, done
         shutil.rmtree(folder, ignore_errors=True)
-        command = [self.breech, *arguments, "-o", folder, "--force", "--quiet", "--store", os.path.join(self.out, "store")]
+        command = [self.breech, *arguments, "-o", folder, "--force", "--quiet"]
+        command += ["--store", os.path.join(self.out, "store")]
         if self.threads:
             command += ["--threads", str(self.threads)]
         done = {**asked, **self.timed(name, command)}

@@ -2,19 +2,22 @@
 """The tables of docs/validation, from runs of the program.
 
   tables.py BREECH OUT [PART ...]          writes these parts anew (no PART: all) into their pages
-  tables.py BREECH OUT --check [PART ...]  compares them with the pages instead (no PART: those of `quick`); exit 1 if any differs
+  tables.py BREECH OUT --check [PART ...]  compares them with the pages instead (no PART: the quick ones); exit 1 if any
+                                           differs
   tables.py --list                         the parts, their pages and what they take
 
-OUT keeps the runs: a run that is there, of the same program and arguments, is not computed again, so a stopped command goes on.
+OUT keeps the runs: one that is there, of the same program and arguments, is not computed again, so a stopped command
+goes on.
 --threads N: of each run (default: all of the machine).
 
-To add a part: a function of `Runs` that returns tables and a line that says what was run, a line in PARTS, and in a page
+To add a part: a function of `Runs` that returns tables and a line that says what was run, a line in PARTS, in a page
   <!-- table: NAME -->
   <!-- end -->"""
 import sys
 
 import pages
 import part_closed
+import part_growth
 import part_levels
 import part_wu2017
 from runs import Runs
@@ -24,6 +27,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "wu2017-three-cells": ("docs/validation/wu2017.md", part_wu2017.three_cells, 5, False),
     "wu2017-shipped": ("docs/validation/wu2017.md", part_wu2017.shipped, 2, False),
     "levels": ("docs/validation/levels.md", part_levels.default_shot, 8, True),
+    "cells": ("docs/validation/growth.md", part_growth.cells, 6, False),
     "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
 }
 
