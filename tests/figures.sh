@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Figures about cases in README.md, docs/ and cases/: each stands in the text that its comment belongs to, and a wrong one
-# is noticed.  With BREECH_FULL=1 every command is run and its figures compared (five minutes of two cores).
+# is noticed.  With BREECH_FULL=1 every command is run and its figures compared (some ten minutes of two cores).
 #   tests/figures.sh BREECH
 set -euo pipefail
 breech=$1 figures=$(dirname "$(realpath "$0")")/validate/figures.py python=/usr/bin/python3
