@@ -524,7 +524,7 @@ static status parse(int argc, char **argv, options *o)
     CHECK(o->command.name, STATUS_BAD_INPUT, "no command given; breech --help lists them");
     CHECK(!o->scene || o->command.run == run_check, STATUS_BAD_INPUT, "--scene goes with `breech check CASE`");
     CHECK(!o->ensemble[0] || o->command.study == &study_scene, STATUS_BAD_INPUT,
-          "--ensemble goes with `breech scene CASE`; elsewhere it is --set study.ensemble=N");
+          "--ensemble goes with `breech scene CASE`; for a threshold it is --set study.threshold_ensemble=N");
     CHECK(o->subject || !o->command.subject_required, STATUS_BAD_INPUT, "%s needs a %s: breech %s %s", o->command.name,
           o->command.subject, o->command.name, o->command.subject);
     return status_ok();

@@ -602,7 +602,7 @@ static void test_scatter(void **state)
     c->study.coarse_cells_per_radius = c->study.fine_cells_per_radius;
     onset_answer sure = studied(c, "still", status_ok());
     assert_true(isnan(sure.result.growth_deviation) && isnan(sure.result.threshold_deviation));
-    c->study.ensemble = GRIDS;
+    c->study.threshold_ensemble = GRIDS;
     c->study.shots = 2; /* on the warm rail too */
     onset_answer a = studied(c, "shifted", status_ok());
     const double none[3] = { 0.0 };
@@ -633,7 +633,7 @@ static void test_scatter(void **state)
     growth_rises = -1.0; /* no slope: the scatter is told, and the interval is as without it */
     c->study.shots = 1;
     a = studied(c, "falling", status_ok());
-    c->study.ensemble = 0;
+    c->study.threshold_ensemble = 0;
     sure = studied(c, "falling-still", status_ok());
     growth_rises = 1.0;
     assert_true(fabs(a.result.growth_deviation - want / 150.0) < 1e-9 && isnan(a.result.threshold_deviation));

@@ -563,18 +563,14 @@ static breech_case *changed_case(const char *const *sets)
     const case_options how = { dirs, 1, CASE_FOR_ONSET };
     /* what the made-up scenes and the numbers below count on, whatever the case says */
     const char *all[40] = {
-        "study.coarse_cells_per_radius=2",    "study.fine_cells_per_radius=3",
-        "study.crater_cells_per_radius=none", "study.max_scenes=14",
-        "study.velocity_interval=5 %",        "study.velocity_low=1 km/s",
-        "study.velocity_high=2 km/s",         "rail.level=skin",
-        "study.position_interval=1",          "study.sensitivities=no",
-        "study.resolution_error=0",           "sites[0].position=0.60 m",
-        "sites[1].position=0.75 m",           "sites[2].position=0.90 m",
-        "sites[3].position=1.05 m",           "sites[4].position=1.20 m",
-        "sites[5].position=1.35 m",           "sites[6].position=1.50 m",
-        "sites[7].position=1.65 m",           "sites[8].position=1.85 m",
-        "sites[9].position=2.10 m",           "sites[10].position=2.40 m",
-        "sites[11].position=2.70 m",
+        "study.coarse_cells_per_radius=2", "study.fine_cells_per_radius=3", "study.crater_cells_per_radius=none",
+        "study.threshold_ensemble=0",      "study.max_scenes=14",           "study.velocity_interval=5 %",
+        "study.velocity_low=1 km/s",       "study.velocity_high=2 km/s",    "rail.level=skin",
+        "study.position_interval=1",       "study.sensitivities=no",        "study.resolution_error=0",
+        "sites[0].position=0.60 m",        "sites[1].position=0.75 m",      "sites[2].position=0.90 m",
+        "sites[3].position=1.05 m",        "sites[4].position=1.20 m",      "sites[5].position=1.35 m",
+        "sites[6].position=1.50 m",        "sites[7].position=1.65 m",      "sites[8].position=1.85 m",
+        "sites[9].position=2.10 m",        "sites[10].position=2.40 m",     "sites[11].position=2.70 m",
     };
     breech_case *c = NULL;
     char *errors = NULL;

@@ -218,6 +218,8 @@ static void check_lengths(case_reader *r)
     must(r, !(c->study.velocity_low >= c->study.velocity_high), "study", "velocity_low",
          "must lie below velocity_high");
     must(r, c->study.ensemble != 1, "study", "ensemble", "one grid has no scatter: two at least, or 0");
+    must(r, c->study.threshold_ensemble != 1, "study", "threshold_ensemble",
+         "one grid has no scatter: two at least, or 0");
     must(r, !(c->study.coarse_cells_per_radius > c->study.fine_cells_per_radius), "study", "coarse_cells_per_radius",
          "must not exceed fine_cells_per_radius");
     must(r, !(c->particle.radius / c->scene.cells_per_radius > c->scene.coarse_cell), "scene", "coarse_cell",

@@ -207,9 +207,10 @@ typedef struct {
     double velocity_low, velocity_high; /* where the search may look [m/s] */
     int judge;                          /* study_judge */
     int max_scenes;
-    int ensemble;      /* grids, each shifted by another part of a cell, on which a scene is computed; 0: its own */
-    int craters;       /* whole scenes of a family of grains that gouges, judged by growth: 0 .. 2 */
-    double screen_low; /* impact pressure over hardness below which no scene is needed [1] */
+    int ensemble; /* grids, each shifted by another part of a cell, on which `breech scene` computes; 0: its own */
+    int threshold_ensemble; /* the same of the scene nearest a threshold; 0: its own, and its scatter is not known */
+    int craters;            /* whole scenes of a family of grains that gouges, judged by growth: 0 .. 2 */
+    double screen_low;      /* impact pressure over hardness below which no scene is needed [1] */
     double coarse_cells_per_radius, fine_cells_per_radius; /* [1] */
     double crater_cells_per_radius;                        /* of whole craters; NAN: those of the search [1] */
     double resolution_error;                               /* share that finer cells may move a threshold by [1] */

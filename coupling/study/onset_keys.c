@@ -82,7 +82,8 @@ const summary_key study_onset_keys[] = {
     SUMMARY_VECTOR(onset_result, "threshold_interval", threshold_interval, 2, "m/s",
                    "bracket, resolution, scatter with the grid and input uncertainty"),
     SUMMARY_NUMBER(onset_result, "growth_deviation", growth_deviation, "1",
-                   "standard deviation of the growth over study.ensemble grids, nearest the threshold, e-folds; null: "
+                   "standard deviation of the growth over study.threshold_ensemble grids, nearest the threshold, "
+                   "e-folds; null: "
                    "not asked for"),
     SUMMARY_NUMBER(onset_result, "threshold_deviation", threshold_deviation, "m/s",
                    "what that makes of the threshold; its interval holds it"),

@@ -67,7 +67,7 @@ static scene_query query_of(const grain_families *g, int family, const family_sc
 static status conclude(session *s, const grain_families *g, grain_family *f, const family_scene *near,
                        const scene_record *const *record, double *growth)
 {
-    const int n = g->c->study.ensemble;
+    const int n = g->c->study.threshold_ensemble;
     growth[0] = study_family_excess(g->c, &near->record->entry);
     for (int i = 1; i < n; i++) growth[i] = study_family_excess(g->c, &record[i - 1]->entry);
     f->scatter.growth = study_shift_spread(growth, n).deviation;
@@ -82,7 +82,7 @@ static status conclude(session *s, const grain_families *g, grain_family *f, con
 
 static status measure(session *s, grain_families *g, scene_query *query, const scene_record **record, double *growth)
 {
-    const int more = g->c->study.ensemble - 1;
+    const int more = g->c->study.threshold_ensemble - 1;
     int n = 0;
     for (int k = 0; k < g->n; k++) {
         const family_scene *near = nearest(&g->family[k]);
@@ -100,7 +100,7 @@ static status measure(session *s, grain_families *g, scene_query *query, const s
 
 status study_scatter_run(session *s, grain_families *grains)
 {
-    const size_t scenes = (size_t)grains->c->study.ensemble, all = scenes * (size_t)grains->n;
+    const size_t scenes = (size_t)grains->c->study.threshold_ensemble, all = scenes * (size_t)grains->n;
     if (all == 0) return status_ok();
     scene_query *query = malloc(all * sizeof *query);
     const scene_record **record = malloc(all * sizeof *record);

@@ -1,4 +1,4 @@
-/* What thresholds owe to where the cells happen to lie (study.ensemble, judged by growth).
+/* What thresholds owe to where the cells happen to lie (study.threshold_ensemble, judged by growth).
  *
  * Of each family the search's scene nearest to its threshold is computed on further grids, each shifted by another part
  * of a cell (sampling/shifts.h).  The standard deviation s of the groove's growth over them [e-folds], and the slope b
