@@ -10,7 +10,8 @@
 static const char SUMMARY[] =
     "{\"crater_depth\": 0.00055, \"energy_error\": -2e-7, \"class\": \"gouge\", \"none\": null,"
     " \"probes\": {\"push\": {\"peak\": 4.85e10}},"
-    " \"scenes\": [{\"name\": \"a\", \"v\": 1500}, {\"name\": \"b\", \"v\": 1600}]}";
+    " \"scenes\": [{\"name\": \"a\", \"v\": 1500}, {\"name\": \"b\", \"v\": 1600}],"
+    " \"ranking\": [{\"surface\": \"as it is\", \"v\": 700}, {\"surface\": \"warm rail\", \"v\": 640}]}";
 
 static status compare(const char *list, expectations *e)
 {
@@ -59,6 +60,7 @@ static void test_numbers(void **state)
     assert_true(holds("key: probes.push.peak, value: 48.48 GPa, within: 0.5 %"));
     assert_true(holds("key: 'scenes[1].v', value: 1.6 km/s, within: 0 m/s"));
     assert_true(holds("key: 'scenes[a].v', value: 1.5 km/s, within: 0 m/s"));
+    assert_true(holds("key: 'ranking[warm rail].v', value: 640 m/s, within: 0 m/s"));
     assert_false(holds("key: 'scenes[c].v', value: 1.5 km/s, within: 1 km/s"));
 }
 

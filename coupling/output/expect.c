@@ -57,7 +57,14 @@ static status read_number(const comparison *c, const tree_node *entry, const cha
 
 /* ---- the way to a number of the summary ---- */
 
-/* Entry of a list by its number or by its `name`. */
+/* What an entry of a list is called: its `name`, of a ranking its `surface`. */
+static const char *name_of(const cJSON *entry)
+{
+    const char *name = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(entry, "name"));
+    return name ? name : cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(entry, "surface"));
+}
+
+/* Entry of a list by its number or by its name. */
 static const cJSON *entry_of(const cJSON *list, const char *which, size_t length)
 {
     char word[EXPECT_TEXT_SIZE], *end;
@@ -67,8 +74,8 @@ static const cJSON *entry_of(const cJSON *list, const char *which, size_t length
     const cJSON *item;
     cJSON_ArrayForEach(item, list)
     {
-        const cJSON *name = cJSON_GetObjectItemCaseSensitive(item, "name");
-        if (cJSON_IsString(name) && strcmp(name->valuestring, word) == 0) return item;
+        const char *name = name_of(item);
+        if (name && strcmp(name, word) == 0) return item;
     }
     return NULL;
 }
