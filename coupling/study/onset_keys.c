@@ -83,8 +83,7 @@ const summary_key study_onset_keys[] = {
                    "bracket, resolution, scatter with the grid and input uncertainty"),
     SUMMARY_NUMBER(onset_result, "growth_deviation", growth_deviation, "1",
                    "standard deviation of the growth over study.threshold_ensemble grids, nearest the threshold, "
-                   "e-folds; null: "
-                   "not asked for"),
+                   "e-folds; null: not asked for"),
     SUMMARY_NUMBER(onset_result, "threshold_deviation", threshold_deviation, "m/s",
                    "what that makes of the threshold; its interval holds it"),
     SUMMARY_NUMBER(onset_result, "onset_position", onset_position, "m", "along the barrel"),
