@@ -389,6 +389,63 @@ static void test_damaged(void **state)
     case_free(c);
 }
 
+static void put_bytes(const char *path, const char *bytes, size_t n)
+{
+    FILE *f = fopen(path, "wb");
+    assert_non_null(f);
+    assert_int_equal(fwrite(bytes, 1, n, f), n);
+    assert_int_equal(fclose(f), 0);
+}
+
+/* One bit changed anywhere in a file of the store: it is never used, neither its result nor its series. */
+static void test_flipped_bits(void **state)
+{
+    (void)state;
+    enum { PLACES = 500, LAST = 40 };
+    fresh_folder("flipped");
+    breech_case *c = read_case(NULL);
+    const scene_record *out;
+    const scene_query q = query_at(c, 1400.0, "a");
+    scene_key key;
+    char path[300], *whole;
+    size_t bytes;
+    h5_file *f;
+    OK(run_scene_key_of(&q.impact, &key));
+    path_in("flipped/store", key.hash, path);
+    session s = opened(c, "flipped/one", "flipped/store");
+    OK(run_scenes_all(&s, &q, 1, &out));
+    OK(run_session_close(&s, true));
+    OK(host_file_read(path, &whole, &bytes));
+    assert_true(bytes > 2 * PLACES);
+    for (size_t i = 0; i < PLACES + LAST; i++) {
+        const size_t at = i < PLACES ? i * bytes / PLACES : bytes - (PLACES + LAST - i);
+        whole[at] ^= (char)(1 << i % 8);
+        put_bytes(path, whole, bytes);
+        const status got = run_store_get("flipped/store", &key, &f);
+        if (got.code != STATUS_IO || f) fail_msg("bit %zu of byte %zu of %zu is not missed", i % 8, at, bytes);
+        assert_non_null(strstr(got.text, path));
+        if (i % 100 == 0) { /* a run: warned of, computed anew, the file mended */
+            s = opened(c, "flipped/two", "flipped/store");
+            OK(run_scenes_all(&s, &q, 1, &out));
+            assert_int_equal(ran.scenes, 1);
+            assert_false(out->entry.reused);
+            assert_non_null(strstr(s.warnings, path));
+            OK(run_session_close(&s, true));
+            OK(run_store_get("flipped/store", &key, &f));
+            host_h5_close(f);
+        }
+        whole[at] ^= (char)(1 << i % 8);
+    }
+    put_bytes(path, whole, bytes);
+    s = opened(c, "flipped/three", "flipped/store");
+    OK(run_scenes_all(&s, &q, 1, &out));
+    assert_int_equal(ran.scenes, 0);
+    OK(run_session_close(&s, true));
+    free(whole);
+    run_scene_key_free(&key);
+    case_free(c);
+}
+
 /* ---- others at it ---- */
 
 static void write_again_and_again(const char *dir, const scene_record *r, const scene_key *key)
@@ -476,9 +533,10 @@ static void test_full_disk(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_key_parts), cmocka_unit_test(test_key_is_a_case),  cmocka_unit_test(test_file),
-        cmocka_unit_test(test_shared),    cmocka_unit_test(test_bodies),         cmocka_unit_test(test_force_keeps_it),
-        cmocka_unit_test(test_damaged),   cmocka_unit_test(test_killed_writers), cmocka_unit_test(test_full_disk),
+        cmocka_unit_test(test_key_parts), cmocka_unit_test(test_key_is_a_case), cmocka_unit_test(test_file),
+        cmocka_unit_test(test_shared),    cmocka_unit_test(test_bodies),        cmocka_unit_test(test_force_keeps_it),
+        cmocka_unit_test(test_damaged),   cmocka_unit_test(test_flipped_bits),  cmocka_unit_test(test_killed_writers),
+        cmocka_unit_test(test_full_disk),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

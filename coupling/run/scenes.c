@@ -114,9 +114,8 @@ static status take_stored(session *s, const scene_query *q, const scene_key *key
 {
     h5_file *file = NULL;
     if (!s->store[0] || q->anew) return status_ok();
-    TRY(run_store_get(s->store, key, &file));
-    if (!file) return status_ok();
-    const status taken = take_file(s, q, key, file, true);
+    status taken = run_store_get(s->store, key, &file);
+    if (file) taken = take_file(s, q, key, file, true);
     host_h5_close(file);
     if (taken.code == STATUS_IO) run_session_warn(s, "%s; computed anew", taken.text);
     return taken.code == STATUS_IO ? status_ok() : taken;

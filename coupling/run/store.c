@@ -1,4 +1,5 @@
 #include "coupling/run/store.h"
+#include "coupling/host/hash.h"
 #include "coupling/host/version.h"
 
 #include <errno.h>
@@ -6,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define FORMAT "breech scene 1"
+#define FORMAT "breech scene 2"
 
 enum { TEXT_SIZE = 1 << 16 }; /* an attribute holds no more */
 
@@ -106,13 +107,56 @@ status run_store_open(const char *dir)
     return status_ok();
 }
 
+/* ---- the seal: the file's last bytes, a hash over all bytes before them.  HDF5 does not look behind its own end. */
+
+#define MAGIC UINT64_C(0x4c41455348434252) /* "RBCHSEAL" */
+
+typedef struct {
+    uint64_t magic, sum;
+} seal;
+
+static seal seal_of(const void *image, size_t bytes)
+{
+    return (seal){ MAGIC, host_hash_bytes(MAGIC, image, bytes) };
+}
+
+static status write_sealed(const char *path, h5_file *file)
+{
+    void *image;
+    size_t bytes;
+    TRY(host_h5_image(file, &image, &bytes));
+    char *all = realloc(image, bytes + sizeof(seal));
+    if (!all) {
+        free(image);
+        return base_status_error(STATUS_MEMORY, "%.300s: no memory for %zu bytes", path, bytes);
+    }
+    const seal last = seal_of(all, bytes);
+    memcpy(all + bytes, &last, sizeof last);
+    const status done = host_file_write(path, all, bytes + sizeof last);
+    free(all);
+    return done;
+}
+
+static status open_sealed(const char *path, const char *all, size_t bytes, h5_file **out)
+{
+    seal last = { 0, 0 };
+    if (bytes > sizeof last) memcpy(&last, all + bytes - sizeof last, sizeof last);
+    CHECK(last.magic == MAGIC && last.sum == seal_of(all, bytes - sizeof last).sum, STATUS_IO,
+          "%.300s: is damaged: its checksum is wrong", path);
+    return host_h5_open_image(path, all, bytes - sizeof last, out);
+}
+
 status run_store_get(const char *dir, const scene_key *key, h5_file **out)
 {
-    char path[OUTDIR_PATH_SIZE];
+    char path[OUTDIR_PATH_SIZE], *all;
+    size_t bytes;
     *out = NULL;
     TRY(path_of(dir, key, path));
-    if (host_file_exists(path) && host_h5_open(path, out).code != STATUS_OK) *out = NULL;
-    return status_ok();
+    if (!host_file_exists(path)) return status_ok();
+    TRY(host_file_read(path, &all, &bytes));
+    const status done = open_sealed(path, all, bytes, out);
+    free(all);
+    return done;
 }
 
 bool run_store_has(const char *dir, const scene_key *key)
@@ -128,7 +172,7 @@ status run_store_put(const char *dir, const scene_key *key, h5_file *file)
     TRY(path_of(dir, key, path));
     gethostname(host, sizeof host - 1);
     snprintf(own, sizeof own, "%.900s.%.60s-%ld", path, host, (long)getpid());
-    TRY(host_h5_save(file, own));
+    TRY(write_sealed(own, file));
     if (rename(own, path) == 0) return status_ok();
     const int error = errno;
     unlink(own);

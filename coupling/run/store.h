@@ -7,7 +7,9 @@
  *                outcome (JSON, an entry of `scenes` of summary.json), impulse_N_s, mass_loss_kg
  *   /scene       the scene's time series and crater, as in history.h5 (only what was recorded)
  * For a scene of bodies the key's text is a dataset, /case, and the outcome is a text beside the series, /scene/result.
- * A damaged file, or one of another scene with the same hash, is treated as missing and replaced. */
+ * Behind the end of the HDF5 file stand 16 bytes more: a magic number and a hash over all bytes before them.  So a file
+ * that was changed in any bit is noticed before anything of it is read.
+ * A damaged file, or one of another scene with the same hash, is warned of, computed anew and replaced. */
 #ifndef BREECH_COUPLING_STORE_H
 #define BREECH_COUPLING_STORE_H
 
@@ -24,7 +26,8 @@ status run_scene_file_read(const h5_file *f, const scene_key *key, scene_record 
 
 /* Makes the folder. */
 status run_store_open(const char *dir);
-/* *out is NULL if the store has no such file.  Only run_scene_file_read says whether the file is of this scene. */
+/* *out is NULL if the store has no such file.  STATUS_IO: it is damaged.  Only run_scene_file_read says whether it is
+ * of this scene. */
 status run_store_get(const char *dir, const scene_key *key, h5_file **out);
 bool run_store_has(const char *dir, const scene_key *key);
 status run_store_put(const char *dir, const scene_key *key, h5_file *file);
