@@ -315,12 +315,62 @@ static void test_surface(void **state)
     mpm_free(solver);
 }
 
+/* ---- passage ---- */
+
+static void fly(block *q, int l)
+{
+    const bool ball = q->x[0][l]<0, beside = q->x[2][l]> 0, far = q->x[0][l] > 1e-3;
+    q->v[0][l] = ball ? 300 : beside ? 0 : far ? 140 : 160; /* slower and faster than half of it */
+    q->v[1][l] = ball || !beside ? 0 : 60;
+    q->damage[0][l] = !ball && far && q->x[1][l] > 0 ? 1 : 0;
+    q->start[0][l] = q->x[0][l] - (far ? 0.3e-3 : 0.1e-3);
+}
+
+/* Body 0 goes along x through body 1, whose quarters are all that metal may be: intact or failed, slower or faster.
+ * Points of 0.125 mm lie within the reach as a whole or not at all, so that the masses are exact. */
+static void test_passage(void **state)
+{
+    (void)state;
+    const material m = scene_copper();
+    mpm *solver = cubes(&m);
+    double out[6];
+    const double kg = m.density * 1e-9; /* of a cubic millimetre */
+    each_point(solver, fly);
+    mpm_probe p = probe("passage", 0);
+    set(&p, "along", 0.5, 0, 0), set(&p, "from", -5e-3, 0, 0);
+    *mpm_probe_value(&p, "reach") = 2e-3, *mpm_probe_value(&p, "slower") = 50;
+    look(solver, &p, out);
+    assert_near(out[0], -1e-3, 1e-12); /* its middle */
+    assert_near(out[1], 300, 1e-9);
+    assert_near(out[2] / 4, kg, 1e-9 * kg);      /* beside: 4 less 1 that failed; far: 2 less 1 that failed */
+    assert_true(isnan(out[3]) && isnan(out[4])); /* nothing is slower than 50 m/s */
+    assert_near(out[5] / 8, kg, 1e-9 * kg);
+
+    *mpm_probe_value(&p, "slower") = 100; /* what lies beside is */
+    look(solver, &p, out);
+    assert_near(out[3], 0, 1e-9);
+    assert_near(out[4], 0.3e-3, 1e-12);
+    assert_near(out[5] / 4, kg, 1e-9 * kg);
+    *mpm_probe_value(&p, "reach") =
+        0.15e-3; /* four points about the line, which is not that of the other body's middle */
+    set(&p, "from", 0, -0.5e-3, -0.5e-3);
+    look(solver, &p, out);
+    assert_near(out[2], 0.25 * 0.25 * kg, 1e-9 * kg); /* far, z below 0: all of it intact */
+
+    set(&p, "along", -1, 0, 0); /* backwards there is nothing, and all is slower than what flies away */
+    look(solver, &p, out);
+    assert_near(out[1], -300, 1e-9);
+    assert_true(out[2] == 0);
+    mpm_free(solver);
+}
+
 /* ---- the table ---- */
 
 static void test_table(void **state)
 {
     (void)state;
-    static const char *const tested[] = { "pressure", "face", "force", "motion", "energy", "plastic", "surface" };
+    static const char *const tested[] = { "pressure", "face",    "force",   "motion",
+                                          "energy",   "plastic", "surface", "passage" };
     int n = 0;
     for (const mpm_probe_kind *k; (k = mpm_probe_kind_at(n)); n++) {
         assert_ptr_equal(mpm_probe_kind_find(k->name), k);
@@ -397,6 +447,10 @@ static void test_refused(void **state)
     refused(&p, "must be an axis");
     set(&p, "along", 0, 1, 0), *mpm_probe_value(&p, "cell") = 1e-4;
     refused(&p, "columns");
+    p = probe("passage", 0);
+    set(&p, "along", 0, 0, 0), set(&p, "from", 0, 0, 0);
+    *mpm_probe_value(&p, "reach") = *mpm_probe_value(&p, "slower") = 1;
+    refused(&p, "must be a direction");
 }
 
 /* All kinds of all bodies on one thread and on three, after some steps of a gouge. */
@@ -414,7 +468,11 @@ static void test_threads(void **state)
             double *at = mpm_probe_value(&p, "at"), *lo = mpm_probe_value(&p, "lo"), *hi = mpm_probe_value(&p, "hi");
             if (at) set(&p, "at", 0, 0.1e-3, 0.1e-3);
             if (lo && hi) set(&p, "lo", -2e-3, -1e-3, 0), set(&p, "hi", 2e-3, 2e-3, 2e-3);
-            if (mpm_probe_value(&p, "along")) set(&p, "along", 0, 1, 0), *mpm_probe_value(&p, "cell") = 0.1e-3;
+            if (mpm_probe_value(&p, "along")) set(&p, "along", 0, 1, 0);
+            if (mpm_probe_value(&p, "cell")) *mpm_probe_value(&p, "cell") = 0.1e-3;
+            if (mpm_probe_value(&p, "from")) set(&p, "from", 0, 0, 0);
+            if (mpm_probe_value(&p, "slower"))
+                *mpm_probe_value(&p, "slower") = 200, *mpm_probe_value(&p, "reach") = 1e-3;
             const size_t bytes = (size_t)(mpm_probe_rows(&p) * mpm_probe_columns(&p)) * sizeof(double);
             for (int k = 0; k < 2; k++) {
                 mpm_set_threads(solver, 1 + 2 * k);
@@ -431,7 +489,8 @@ int main(void)
         cmocka_unit_test(test_table),   cmocka_unit_test(test_scene),   cmocka_unit_test(test_pressure),
         cmocka_unit_test(test_force),   cmocka_unit_test(test_motion),  cmocka_unit_test(test_failed),
         cmocka_unit_test(test_plastic), cmocka_unit_test(test_profile), cmocka_unit_test(test_surface),
-        cmocka_unit_test(test_refused), cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_passage), cmocka_unit_test(test_passage), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

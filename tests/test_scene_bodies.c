@@ -336,10 +336,11 @@ static void test_refused(void **state)
 
 /* ---- probes: one of every kind, by its table ---- */
 
-/* A value that any kind should take: corners in the lower and the upper half of the scene, an axis, a length. */
+/* A value that any kind should take: corners in the lower and the upper half of the scene, an axis, a length, a
+ * velocity. */
 static const char *any_value(const param *p)
 {
-    if (p->kind != PARAM_VECTOR) return "0.5 mm";
+    if (p->kind != PARAM_VECTOR) return strcmp(p->unit, "m/s") == 0 ? "500 m/s" : "0.5 mm";
     if (p->unit[0] == '1') return "0 1 0";
     return strcmp(p->key, "lo") == 0 ? "-3 -1 -1 mm" : strcmp(p->key, "hi") == 0 ? "3 5 5 mm" : "0.1 2 2 mm";
 }

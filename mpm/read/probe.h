@@ -26,7 +26,7 @@ typedef struct mpm_probe mpm_probe;
 
 typedef struct {
     const char *name, *doc;
-    const param *params;       /* of the values, offsets from mpm_probe.value; m, rad or 1 */
+    const param *params;       /* of the values, offsets from mpm_probe.value; m, m/s, rad or 1 */
     const mpm_column *columns; /* of every row; NULL name at the end */
     int main, mains;           /* which columns stand for it: one, or 3 of a vector's size; mains 0: none, a map */
     bool of_step;              /* about the last step alone: a series wants every step */
