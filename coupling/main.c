@@ -233,7 +233,8 @@ static int run_case(const options *o)
     session s;
     const status got = read_case(o, o->command.study->needs, &in);
     if (got.code != STATUS_OK) return exit_code(got);
-    const session_options how = { .dir = o->dir,
+    const session_options how = { .command = o->command.name,
+                                  .dir = o->dir,
                                   .store = o->store,
                                   .how = o->how,
                                   .threads = o->threads,

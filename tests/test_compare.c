@@ -313,9 +313,13 @@ static const char FIVE[] = HEAD GRAINS "treatments:\n"
 static status run_compare(breech_case *c, const char *dir, compare_answer *out)
 {
     session s;
-    const session_options options = {
-        .dir = dir, .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
-    };
+    const session_options options = { .command = "onset",
+                                      .dir = dir,
+                                      .store = "",
+                                      .how = { .force = true },
+                                      .threads = 1,
+                                      .progress_to = stderr,
+                                      .quiet = true };
     const case_inputs in = case_inputs_of(c);
     OK(run_session_open(&in, &options, &s));
     s.run_scene = fake_scene;
@@ -436,9 +440,13 @@ static double taken_off(const char *populations)
     c->study.feedback = true;
     onset_answer a;
     session s;
-    const session_options options = {
-        .dir = "populations", .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
-    };
+    const session_options options = { .command = "onset",
+                                      .dir = "populations",
+                                      .store = "",
+                                      .how = { .force = true },
+                                      .threads = 1,
+                                      .progress_to = stderr,
+                                      .quiet = true };
     const case_inputs in = case_inputs_of(c);
     OK(run_session_open(&in, &options, &s));
     s.run_scene = fake_scene;
@@ -472,9 +480,13 @@ static void test_population_onset(void **state)
     c->study.shots = 3;
     onset_answer a;
     session s;
-    const session_options options = {
-        .dir = "population", .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
-    };
+    const session_options options = { .command = "onset",
+                                      .dir = "population",
+                                      .store = "",
+                                      .how = { .force = true },
+                                      .threads = 1,
+                                      .progress_to = stderr,
+                                      .quiet = true };
     const case_inputs in = case_inputs_of(c);
     OK(run_session_open(&in, &options, &s));
     s.run_scene = fake_scene;
@@ -520,9 +532,13 @@ static onset_answer studied(breech_case *c, const char *dir, status want)
     static case_onset given; /* the answer borrows it */
     onset_answer a;
     session s;
-    const session_options options = {
-        .dir = dir, .store = "", .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
-    };
+    const session_options options = { .command = "onset",
+                                      .dir = dir,
+                                      .store = "",
+                                      .how = { .force = true },
+                                      .threads = 1,
+                                      .progress_to = stderr,
+                                      .quiet = true };
     const case_inputs in = case_inputs_of(c);
     OK(run_session_open(&in, &options, &s));
     s.run_scene = fake_scene;

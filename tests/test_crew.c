@@ -77,7 +77,8 @@ static scene_query query_at(const breech_case *c, double velocity)
 
 static void open_session(const breech_case *c, const char *dir, session *s)
 {
-    const session_options options = { .dir = dir,
+    const session_options options = { .command = "onset",
+                                      .dir = dir,
                                       .store = "",
                                       .how = { .force = true },
                                       .threads = 1,

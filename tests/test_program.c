@@ -93,7 +93,7 @@ static void test_shot(void **state)
     assert_true(fabs(number(a, "energy_error")) < 1e-6);
     assert_true(exists("shot/a/history.h5") && exists("shot/a/used.yaml"));
     assert_int_equal(run("shot " SHOT " -o shot/a"), 2); /* finished results stay */
-    assert_int_equal(run("shot " SHOT " -o shot/a --resume"), 0);
+    assert_int_equal(run("shot " SHOT " -o shot/a --resume --set output.report=no"), 0);
     assert_int_equal(run("shot " SHOT " -o shot/b --quiet --set output.report=no --set bank.charge='9 kV'"), 0);
     cJSON *b = summary_of("shot/b");
     assert_true(number(b, "muzzle_velocity") < number(a, "muzzle_velocity"));
@@ -104,6 +104,35 @@ static void test_shot(void **state)
     cJSON_Delete(a);
     cJSON_Delete(b);
     cJSON_Delete(c);
+}
+
+/* --resume of what another command, case or value left: refused with the difference, and nothing changes. */
+static void test_resume_of_another(void **state)
+{
+    (void)state;
+    fresh_folder("other");
+    assert_int_equal(run("shot " SHOT " -o other/done --quiet --set output.report=no"), 0);
+    const struct {
+        const char *arguments, *says;
+    } refused[] = {
+        { "shot " SHOT " --set output.report=no --set armature.mass='0.2 kg'", "mass: 0.25 kg" },
+        { "shot " CASES "/alternator --set output.report=no", "now it would be `name: \"alternator\"`" },
+        { "inductance " SHOT " --set output.report=no", "`# Run by: breech shot`" },
+    };
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        char arguments[500];
+        snprintf(arguments, sizeof arguments, "%s -o other/done --resume", refused[i].arguments);
+        assert_int_equal(run(arguments), 2);
+        if (!contains("err.txt", refused[i].says)) fail_msg("%s: does not say %s", arguments, refused[i].says);
+    }
+    assert_int_equal(run("shot " SHOT " -o other/done --resume --set output.report=no"), 0);
+    assert_true(contains("out.txt", "finished already"));
+
+    assert_int_equal(run("scene " TINY " -o other/part --quiet --no-store --max-walltime 0.3"), 75);
+    assert_int_equal(run("shot " TINY " -o other/part --resume"), 2);
+    assert_true(contains("err.txt", "`# Run by: breech scene`"));
+    assert_true(exists("other/part/checkpoint.bin"));
+    assert_int_equal(run("scene " TINY " -o other/part --quiet --no-store --resume"), 0);
 }
 
 static void test_inductance(void **state)
@@ -198,6 +227,7 @@ int main(void)
         cmocka_unit_test(test_bad_case),
         cmocka_unit_test(test_check_and_materials),
         cmocka_unit_test(test_shot),
+        cmocka_unit_test(test_resume_of_another),
         cmocka_unit_test(test_inductance),
         cmocka_unit_test(test_scene),
         cmocka_unit_test(test_reader),

@@ -220,9 +220,13 @@ static status fake_scene(const impact_job *job, const scene_host *host, impact *
 static session opened(const breech_case *c, const char *dir, const char *store)
 {
     session s;
-    const session_options options = {
-        .dir = dir, .store = store, .how = { .force = true }, .threads = 1, .progress_to = stderr, .quiet = true
-    };
+    const session_options options = { .command = "onset",
+                                      .dir = dir,
+                                      .store = store,
+                                      .how = { .force = true },
+                                      .threads = 1,
+                                      .progress_to = stderr,
+                                      .quiet = true };
     const case_inputs in = case_inputs_of(c);
     OK(run_session_open(&in, &options, &s));
     s.run_scene = fake_scene;

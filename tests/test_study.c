@@ -587,7 +587,7 @@ static status study(const breech_case *c, const char *dir, outdir_options how, o
     static case_onset given; /* the answer borrows it */
     session s;
     const session_options options = {
-        .dir = dir, .store = "", .how = how, .threads = 1, .progress_to = stderr, .quiet = true
+        .command = "onset", .dir = dir, .store = "", .how = how, .threads = 1, .progress_to = stderr, .quiet = true
     };
     const case_inputs in = case_inputs_of(c);
     OK(run_session_open(&in, &options, &s));
@@ -883,9 +883,12 @@ static void test_other_case(void **state)
     assert_int_equal(study(c, "other", FORCE, &a).code, STATUS_STOPPED);
     counter.stop_after = 0;
     study_onset_answer_free(&a);
-    const session_options options = {
-        .dir = "other", .how = { .resume = true }, .threads = 1, .progress_to = stderr, .quiet = true
-    };
+    const session_options options = { .command = "onset",
+                                      .dir = "other",
+                                      .how = { .resume = true },
+                                      .threads = 1,
+                                      .progress_to = stderr,
+                                      .quiet = true };
     const case_inputs in = case_inputs_of(other);
     assert_int_not_equal(run_session_open(&in, &options, &s).code, STATUS_OK);
     run_session_close(&s, false);

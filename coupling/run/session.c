@@ -25,18 +25,60 @@ void run_session_warn(session *s, const char *format, ...)
 
 /* ---- opening and closing ---- */
 
-/* used.yaml into the directory, its hash into the key. */
-static status write_used(const case_inputs *in, session *s)
+/* The text of used.yaml: the command, then the case with its values. */
+static status used_text(const case_inputs *in, const char *command, char **text, size_t *bytes)
+{
+    FILE *f = open_memstream(text, bytes);
+    CHECK(f, STATUS_MEMORY, "no memory for used.yaml");
+    fprintf(f, "# Run by: breech %s\n", command);
+    const status done = case_inputs_write(in, f);
+    const bool closed = fclose(f) == 0;
+    TRY(done);
+    CHECK(closed, STATUS_MEMORY, "no memory for used.yaml");
+    return status_ok();
+}
+
+static const char *line_of(const char *text, size_t at, int *length)
+{
+    const char *from = text + at;
+    while (from > text && from[-1] != '\n') from--;
+    *length = (int)strcspn(from, "\n");
+    return from;
+}
+
+/* A run goes on with, or takes for done, only what the same command left of the same case. */
+static status check_same(const session *s, const char *path, const char *text)
+{
+    char *had;
+    TRY(host_file_read(path, &had, NULL));
+    size_t at = 0;
+    int old_length, new_length, line = 1;
+    while (had[at] && had[at] == text[at]) line += had[at++] == '\n';
+    const char *old = line_of(had, at, &old_length), *new = line_of(text, at, &new_length);
+    const status same = had[at] == text[at]
+                            ? status_ok()
+                            : base_status_error(STATUS_BAD_INPUT,
+                                                "%.150s: holds a run of another command, case or values: line %d of "
+                                                "its used.yaml is `%.*s`, now it would be `%.*s`; -o names another "
+                                                "directory, --force starts over",
+                                                s->dir.path, line, old_length < 80 ? old_length : 80, old,
+                                                new_length < 80 ? new_length : 80, new);
+    free(had);
+    return same;
+}
+
+/* used.yaml into the directory, or compared with what is there; its hash into the key. */
+static status put_used(const case_inputs *in, const char *command, session *s)
 {
     char *text = NULL, path[OUTDIR_PATH_SIZE];
     size_t bytes = 0;
-    FILE *f = open_memstream(&text, &bytes);
-    CHECK(f, STATUS_MEMORY, "no memory for used.yaml");
-    status done = case_inputs_write(in, f);
-    if (fclose(f) != 0 && done.code == STATUS_OK) done = base_status_error(STATUS_MEMORY, "no memory for used.yaml");
-    s->key = run_checkpoint_key_of(mpm_instruction_set(), host_hash_bytes(0, text, bytes));
-    if (done.code == STATUS_OK) done = host_outdir_file(&s->dir, OUTDIR_USED, path, sizeof path);
-    if (done.code == STATUS_OK && s->dir.state == OUTDIR_NEW) done = host_file_write(path, text, bytes);
+    status done = used_text(in, command, &text, &bytes);
+    if (done.code == STATUS_OK) {
+        s->key = run_checkpoint_key_of(mpm_instruction_set(), host_hash_bytes(0, text, bytes));
+        done = host_outdir_file(&s->dir, OUTDIR_USED, path, sizeof path);
+    }
+    if (done.code == STATUS_OK)
+        done = s->dir.state == OUTDIR_NEW ? host_file_write(path, text, bytes) : check_same(s, path, text);
     free(text);
     return done;
 }
@@ -70,9 +112,9 @@ status run_session_open(const case_inputs *in, const session_options *o, session
     else
         TRY(host_outdir_default(in->name, dir, sizeof dir));
     TRY(host_outdir_open(dir, o->how, &s->dir));
+    TRY(put_used(in, o->command, s));
     if (s->dir.state == OUTDIR_FINISHED) return status_ok();
     TRY(find_store(s, o->store));
-    TRY(write_used(in, s));
     if (s->dir.state == OUTDIR_RESUMED) TRY(run_session_take_up(s));
     TRY(host_outdir_file(&s->dir, OUTDIR_HISTORY, dir, sizeof dir));
     TRY(output_history_open(dir, s->dir.state == OUTDIR_RESUMED, &s->history));

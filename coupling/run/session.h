@@ -40,9 +40,10 @@ typedef struct {
 } session;
 
 typedef struct {
-    const char *dir;    /* NULL: out/<case> */
-    const char *store;  /* NULL: <dir>/store; "": none */
-    outdir_options how; /* --force, --resume */
+    const char *command; /* its name: a run is resumed by the same command only */
+    const char *dir;     /* NULL: out/<case> */
+    const char *store;   /* NULL: <dir>/store; "": none */
+    outdir_options how;  /* --force, --resume */
     int threads;
     struct lending *lending; /* between processes (lending.h), borrowed; NULL: none */
     impact_runner run_scene; /* gouge_run, or a test's; the same in all processes */
@@ -52,7 +53,8 @@ typedef struct {
 } session_options;
 
 /* Opens the output directory, writes used.yaml, takes up the checkpoint.  *s stays where it is until run_session_close.
- * s->dir.state OUTDIR_FINISHED: nothing to do. run_session_close is due in any case. */
+ * s->dir.state OUTDIR_FINISHED: nothing to do.  STATUS_BAD_INPUT: what is to be resumed is of another command, case or
+ * values; it stays as it is.  run_session_close is due in any case. */
 status run_session_open(const case_inputs *in, const session_options *o, session *s);
 /* Flushes the history, frees all.  finished: the checkpoint has served. */
 status run_session_close(session *s, bool finished);
