@@ -27,12 +27,18 @@ static void test_gauged(void **state)
         const double growth = number(a, "groove_growth");
         assert_true(number(a, "end_time") >= gauge && number(a, "end_time") < 1.1 * gauge);
         assert_text(a, "class", i ? "undecided" : growth > 0.0 ? "gouge" : "scratch");
+        /* what tells furrow from tear-drop, of the crater as it was then */
+        assert_true(fabs(number(a, "growth_per_way") / (growth / 2000.0) - 1.0) < 1e-9);
+        assert_true(number(a, "front_speed_ratio") > 0.1 && number(a, "front_speed_ratio") < 1.2);
+        assert_true(
+            fabs(number(a, "length_over_width") * number(a, "crater_width") / number(a, "crater_length") - 1.0) < 1e-9);
         cJSON_Delete(a);
     }
     /* the whole scene, whatever it writes on the way, has the same growth, and goes on */
     assert_int_equal(run("scene " GAUGED "-o scene/whole --set output.snapshots=3"), 0);
     cJSON *whole = summary_of("scene/whole"), *gauged = summary_of("scene/gauged0");
     assert_true(number(whole, "groove_growth") == number(gauged, "groove_growth"));
+    assert_true(number(whole, "front_speed_ratio") == number(gauged, "front_speed_ratio"));
     assert_true(number(whole, "steps") > number(gauged, "steps"));
     cJSON_Delete(whole);
     cJSON_Delete(gauged);

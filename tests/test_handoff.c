@@ -651,6 +651,28 @@ static void test_gauges(void **state)
     assert_true(fabs(gouge_growth(&g, &now) / 0.25e6 - 1.0) < 1e-9);
 }
 
+/* The front's speed is the slope through all looks between the gauges, whatever came before and comes after. */
+static void test_front_speed(void **state)
+{
+    (void)state;
+    const gouge_scene s = { .gauge_time = { 2e-6, 3e-6 } };
+    const double slice = 0.3e-3, speed = 600.0, start = 5e-3;
+    gouge_gauges g = { .at = { 0.0 } };
+    assert_true(isnan(gouge_front_speed(&g)));
+    for (int i = 0; i <= 60; i++) {
+        const double t = 1e-6 + 0.05e-6 * i, x = start + speed * t;
+        const bool counts = t > 1.99e-6 && t < 3.01e-6;
+        /* known to a slice alone, and somewhere else where it does not count */
+        const gouge_front now = { .time = t, .front = counts ? slice * ceil(x / slice) : 0.0, .power = 1e5 };
+        for (int twice = 0; twice < 2; twice++) gouge_gauges_note(&s, &now, &g);
+        if (t < 2.03e-6) assert_true(isnan(gouge_front_speed(&g)));
+    }
+    /* 21 looks: a slice is even to its twelfth's root, 87 um of 600 in each, so the slope to 62 m/s of one deviation */
+    print_message("front %.0f m/s of %.0f\n", gouge_front_speed(&g), speed);
+    assert_true(fabs(gouge_front_speed(&g) - speed) < 2 * 62.0);
+    assert_true(g.looks == 21.0);
+}
+
 /* A groove that dies is known half way between its gauges, one that grows or hesitates is not. */
 static void test_dying(void **state)
 {
@@ -714,7 +736,8 @@ static void test_half_model(void **state)
         assert_true(r.peak_mises_armature == 5.0 && r.peak_mises_rail == 7.0);
         assert_true(r.energy_error == 0.5 && r.momentum_error == 0.25);
         assert_int_equal(r.class, DAMAGE_SCRATCH);
-        assert_true(isnan(r.groove_growth)); /* was not gauged */
+        assert_true(isnan(r.groove_growth));     /* was not gauged */
+        assert_true(isnan(r.length_over_width)); /* has no crater */
     }
 }
 
@@ -728,7 +751,8 @@ int main(void)
         cmocka_unit_test(test_pressing),    cmocka_unit_test(test_grain_measures), cmocka_unit_test(test_fields),
         cmocka_unit_test(test_many_layers), cmocka_unit_test(test_masses),         cmocka_unit_test(test_pit),
         cmocka_unit_test(test_refused),     cmocka_unit_test(test_growth),         cmocka_unit_test(test_gauged),
-        cmocka_unit_test(test_dying),       cmocka_unit_test(test_gauges),         cmocka_unit_test(test_half_model),
+        cmocka_unit_test(test_dying),       cmocka_unit_test(test_gauges),         cmocka_unit_test(test_front_speed),
+        cmocka_unit_test(test_half_model),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,11 +20,22 @@ double gouge_gauge_way(void)
     return GROWTH_WAY[1];
 }
 
+static void note_place(const gouge_front *now, gouge_gauges *g)
+{
+    if (g->looks > 0.0 && !(now->time > g->last)) return; /* the same look again */
+    if (!(g->looks > 0.0)) g->from = now->front;
+    const double t = now->time - g->at[0], x = now->front - g->from;
+    g->looks += 1.0, g->last = now->time;
+    g->t += t, g->x += x, g->tt += t * t, g->tx += t * x;
+}
+
 void gouge_gauges_note(const gouge_scene *s, const gouge_front *now, gouge_gauges *g)
 {
+    const bool before_second = !(g->at[1] > 0.0);
     for (int i = 0; i < 2; i++)
         if (s->gauge_time[i] > 0.0 && !(g->at[i] > 0.0) && now->time >= s->gauge_time[i])
             g->at[i] = now->time, g->power[i] = now->power;
+    if (g->at[0] > 0.0 && before_second) note_place(now, g);
 }
 
 double gouge_growth(const gouge_gauges *g, const gouge_front *now)
@@ -34,6 +45,12 @@ double gouge_growth(const gouge_gauges *g, const gouge_front *now)
     const double power = fmax(whole ? g->power[1] : now->power, 1e-3 * g->power[0]);
     if (!(from > 0.0 && to > from && g->power[0] > 0.0)) return NAN;
     return log(power / g->power[0]) / (to - from);
+}
+
+double gouge_front_speed(const gouge_gauges *g)
+{
+    const double spread = g->looks * g->tt - g->t * g->t;
+    return spread > 0.0 ? (g->looks * g->tx - g->t * g->x) / spread : NAN;
 }
 
 double gouge_growth_folds(double growth, double radius, double velocity)

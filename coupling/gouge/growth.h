@@ -1,7 +1,10 @@
-/* How fast a groove grows: the plastic power that ploughs it (front.h), noted at two times, the gauges.
+/* How fast a groove grows and how fast its front runs: plastic power and front (front.h), noted at the gauges.
  *
  * growth = ln(P2 / P1) / (t2 - t1), P the power at the first look after each gauge.  Positive: the groove would go on
- * as long as the armature presses on it. */
+ * as long as the armature presses on it.
+ * front speed = slope of the least-squares line through the front's place over time, all looks from the first one after
+ * the first gauge to the first one after the second.  The front is known to a slice of two cells, so two looks alone
+ * would be too coarse. */
 #ifndef BREECH_COUPLING_GROWTH_H
 #define BREECH_COUPLING_GROWTH_H
 
@@ -10,6 +13,9 @@
 /* What was noted; all zero at a scene's start.  Plain bytes: part of a checkpoint. */
 typedef struct {
     double at[2], power[2]; /* first look at or after each gauge; 0: not yet [s, W] */
+    /* Sums over the looks between the gauges, both ends included; t from at[0], x from `from`. */
+    double looks, from, last; /* number of them, front at the first [m], time of the last [s] */
+    double t, x, tt, tx;      /* [s, m, s2, m s] */
 } gouge_gauges;
 
 /* The two times for a grain of that radius under an armature of that speed [s]. */
@@ -22,6 +28,8 @@ void gouge_gauges_note(const gouge_scene *s, const gouge_front *now, gouge_gauge
 
 /* From the first gauge to the second, or as far as it has come; NAN before [1/s]. */
 double gouge_growth(const gouge_gauges *g, const gouge_front *now);
+/* Of the front, over the same way; NAN before its second look [m/s]. */
+double gouge_front_speed(const gouge_gauges *g);
 
 /* A growth [1/s] as e-folds over the way between the two gauges [1]; one that died before the first has the growth NAN
  * and counts as -3, and none as less. */

@@ -96,6 +96,7 @@ static status finish(void *user, const mpm *m, bool *keep)
     w->armature = mpm_body_state(m, w->scene->armature);
     memcpy(w->peak_force, mpm_peak_contact_force(m, w->scene->scene.body[w->scene->rail].group), sizeof w->peak_force);
     w->growth = gouge_growth(&w->state.gauges, &w->state.front);
+    w->front_speed = gouge_front_speed(&w->state.gauges);
     *keep = w->growth > 0.0;
     if (w->timing) host_timing_add(w->timing, "crater", host_wall_clock() - since);
     return status_ok();

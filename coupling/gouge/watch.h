@@ -28,6 +28,7 @@ typedef struct {
     gouge_metal end;               /* the rest is filled when the scene is over; the armature's then */
     crater found;                  /* owned */
     double growth;                 /* gouge_growth [1/s] */
+    double front_speed;            /* gouge_front_speed [m/s] */
     double carried[RESULT_BODIES]; /* gouge_carried_volumes [m3] */
     double failed[RESULT_BODIES];  /* of each body, as computed [m3] */
     mpm_body_report rail, armature;

@@ -19,7 +19,11 @@ typedef struct {
     damage_class class;
     char reason[200];
     double severity, widening; /* [1] */
-    double groove_growth;      /* of the plastic power in a groove that is followed, NaN if it was not gauged [1/s] */
+    /* Of the plastic power in a groove that is followed, in time and over the armature's way; NaN if it was not gauged
+     * [1/s, 1/m]. */
+    double groove_growth, growth_per_way;
+    double front_speed_ratio; /* speed of its front between the gauges over the armature's, NaN as before [1] */
+    double length_over_width; /* of the crater, NaN without one [1] */
     double crater_length, crater_width, crater_depth, rim_height; /* [m] */
     double crater_volume;                                         /* [m3] */
     double peak_pressure;    /* the larger of the 99.9th percentiles by mass of armature and rail, intact points [Pa] */

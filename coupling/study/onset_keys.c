@@ -152,15 +152,19 @@ static void print_sites(const onset_result *o, FILE *out)
 static void print_scenes(const onset_result *o, FILE *out)
 {
     table *t;
-    const char *titles = "scene|v [m/s]|r [mm]|cells/r|severity|growth [1/us]|widening|depth [mm]|class|time [s]";
+    const char *titles = "scene|v [m/s]|r [mm]|cells/r|severity|growth [1/us]|[1/mm]|front/v|length/width|widening|"
+                         "depth [mm]|class|time [s]";
     if (o->n_scenes == 0 || host_table_create(titles, &t).code != STATUS_OK) return;
     for (int i = 0; i < o->n_scenes; i++) {
         const onset_scene *s = &o->scene[i];
-        char v[24], r[24], c[24], severity[24], growth[24], widening[24], d[24], w[24];
-        host_table_row(t, "%s|%s|%s|%s|%s|%s|%s|%s|%s|%s", s->name, output_cell(s->velocity, 1.0, "%.0f", v),
+        char v[24], r[24], c[24], severity[24], growth[24], way[24], front[24], shape[24], widening[24], d[24], w[24];
+        host_table_row(t, "%s|%s|%s|%s|%s|%s|%s|%s|%s|%s|%s|%s|%s", s->name, output_cell(s->velocity, 1.0, "%.0f", v),
                        output_cell(s->radius, 1e-3, "%.3g", r), output_cell(s->cells_per_radius, 1.0, "%.3g", c),
                        output_cell(s->gauged ? NAN : s->result.severity, 1.0, "%.3f", severity),
                        output_cell(s->result.groove_growth, 1e6, "%.3f", growth),
+                       output_cell(s->result.growth_per_way, 1e3, "%.3f", way),
+                       output_cell(s->result.front_speed_ratio, 1.0, "%.2f", front),
+                       output_cell(s->result.length_over_width, 1.0, "%.1f", shape),
                        output_cell(s->gauged ? NAN : s->result.widening, 1.0, "%.2f", widening),
                        output_cell(s->gauged ? NAN : s->result.crater_depth, 1e-3, "%.3f", d),
                        run_damage_names[s->result.class],
