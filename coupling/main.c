@@ -205,6 +205,22 @@ static void say_where(const options *o, const session *s, status work)
         printf("\nresults: %s\n", s->dir.path);
 }
 
+static void draw_report(const char *dir)
+{
+    const status drawn = report_write(dir, study_report_part);
+    if (drawn.code != STATUS_OK) fprintf(stderr, "breech: no report: %s\n", drawn.text);
+}
+
+/* --resume of a finished run; one that was killed while it drew its report gets that. */
+static void say_finished(const options *o, const case_inputs *in, const session *s)
+{
+    char path[OUTDIR_PATH_SIZE];
+    if (!o->quiet) printf("%s: finished already\n", s->dir.path);
+    if (in->output.report && host_outdir_file(&s->dir, OUTDIR_REPORT, path, sizeof path).code == STATUS_OK &&
+        !host_file_exists(path))
+        draw_report(s->dir.path);
+}
+
 static int carry_out(const options *o, const case_inputs *in, session *s)
 {
     const study_case of = study_case_of(o, in);
@@ -219,10 +235,7 @@ static int carry_out(const options *o, const case_inputs *in, session *s)
     say_where(o, s, work);
     const status closed = run_session_close(s, work.code == STATUS_OK && written.code == STATUS_OK);
     if (y->free) y->free(answer.owned); /* scenes may be made of its cases until then */
-    if (report) {
-        const status drawn = report_write(path, study_report_part);
-        if (drawn.code != STATUS_OK) fprintf(stderr, "breech: no report: %s\n", drawn.text);
-    }
+    if (report) draw_report(path);
     if (work.code != STATUS_OK) return work.code == STATUS_STOPPED ? EXIT_STOPPED : complain(work);
     return complain(written.code != STATUS_OK ? written : closed);
 }
@@ -249,7 +262,7 @@ static int run_case(const options *o)
         if (!o->quiet && in->warnings[0]) fputs(in->warnings, stderr);
         code = carry_out(o, in, &s);
     } else {
-        if (opened.code == STATUS_OK && !o->quiet) printf("%s: finished already\n", s.dir.path);
+        if (opened.code == STATUS_OK) say_finished(o, in, &s);
         code = complain(opened);
         run_session_close(&s, false);
     }

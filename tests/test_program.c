@@ -127,12 +127,25 @@ static void test_resume_of_another(void **state)
     }
     assert_int_equal(run("shot " SHOT " -o other/done --resume --set output.report=no"), 0);
     assert_true(contains("out.txt", "finished already"));
+    assert_false(exists("other/done/report.html"));
 
     assert_int_equal(run("scene " TINY " -o other/part --quiet --no-store --max-walltime 0.3"), 75);
     assert_int_equal(run("shot " TINY " -o other/part --resume"), 2);
     assert_true(contains("err.txt", "`# Run by: breech scene`"));
     assert_true(exists("other/part/checkpoint.bin"));
     assert_int_equal(run("scene " TINY " -o other/part --quiet --no-store --resume"), 0);
+}
+
+/* Killed while it drew its report, a run is finished; --resume draws it. */
+static void test_resume_without_report(void **state)
+{
+    (void)state;
+    fresh_folder("drawn");
+    assert_int_equal(run("shot " SHOT " -o drawn --quiet"), 0);
+    assert_int_equal(unlink("drawn/report.html"), 0);
+    assert_int_equal(run("shot " SHOT " -o drawn --resume"), 0);
+    assert_true(contains("out.txt", "finished already"));
+    assert_true(exists("drawn/report.html"));
 }
 
 static void test_inductance(void **state)
@@ -228,6 +241,7 @@ int main(void)
         cmocka_unit_test(test_check_and_materials),
         cmocka_unit_test(test_shot),
         cmocka_unit_test(test_resume_of_another),
+        cmocka_unit_test(test_resume_without_report),
         cmocka_unit_test(test_inductance),
         cmocka_unit_test(test_scene),
         cmocka_unit_test(test_reader),
