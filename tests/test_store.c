@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -534,13 +535,98 @@ static void test_full_disk(void **state)
     case_free(c);
 }
 
+/* A checkpoint never runs ahead of the history: rows before it would be lost for good. */
+static void test_history_first(void **state)
+{
+    (void)state;
+    fresh_folder("first");
+    breech_case *c = read_case(NULL);
+    case_inputs *in = body_scene("scene.cell=0.5 mm");
+    session s = opened(c, "first", "");
+    mpm *m;
+    int series;
+    const double row[HISTORY_MAX_COLUMNS] = { 1e-6 };
+    OK(mpm_create(&in->bodies.scene, 1, &m));
+    const scene_now now = { m, NULL, 0.0 };
+    OK(output_history_scene(s.history, "a", NULL, 0, &series));
+    OK(output_history_append(s.history, series, row));
+    assert_int_equal(symlink("/dev/full", "first/history.h5.part"), 0);
+    assert_int_equal(run_session_save_inside(&s, "a", &now).code, STATUS_IO);
+    assert_int_not_equal(access("first/checkpoint.bin", F_OK), 0);
+    OK(run_session_save_inside(&s, "a", &now));
+    assert_int_equal(access("first/checkpoint.bin", F_OK), 0);
+    h5_file *f;
+    OK(host_h5_open("first/history.h5", &f));
+    assert_true(host_h5_exists(f, "/scene/a/time"));
+    host_h5_close(f);
+    mpm_free(m);
+    OK(run_session_close(&s, false));
+    case_inputs_free(in);
+    case_free(c);
+}
+
+static void touch_named(const char *host, long pid, const char *end, char path[300])
+{
+    snprintf(path, 300, "left/0123456789abcdef.h5.%s-%ld%s", host, pid, end);
+    put_bytes(path, "x", 1);
+}
+
+/* What killed processes of this machine have left half written goes; what others are writing stays. */
+static void test_left_over(void **state)
+{
+    (void)state;
+    fresh_folder("left");
+    assert_int_equal(mkdir("left", 0777), 0);
+    char host[64] = "", gone[2][300], kept[3][300];
+    gethostname(host, sizeof host - 1);
+    const pid_t child = fork();
+    if (child == 0) _exit(0);
+    assert_int_equal(waitpid(child, NULL, 0), child);
+    touch_named(host, child, "", gone[0]);
+    touch_named(host, child, ".part", gone[1]);
+    touch_named(host, getpid(), ".part", kept[0]);
+    touch_named("another-machine", child, "", kept[1]);
+    snprintf(kept[2], sizeof kept[2], "left/mine.h5.%s-%ld", host, (long)child);
+    put_bytes(kept[2], "x", 1);
+    OK(run_store_open("left"));
+    for (int i = 0; i < 2; i++) assert_int_not_equal(access(gone[i], F_OK), 0);
+    for (int i = 0; i < 3; i++) assert_int_equal(access(kept[i], F_OK), 0);
+}
+
+/* A store that cannot be used is found before anything is computed or written. */
+static void test_unusable(void **state)
+{
+    (void)state;
+    fresh_folder("unusable");
+    breech_case *c = read_case(NULL);
+    const char *const stores[] = { "/proc/breech", "unusable_file" };
+    put_bytes(stores[1], "x", 1);
+    for (int i = 0; i < 2; i++) {
+        session s;
+        const session_options options = { .command = "onset",
+                                          .dir = "unusable",
+                                          .store = stores[i],
+                                          .threads = 1,
+                                          .progress_to = stderr,
+                                          .quiet = true };
+        const case_inputs in = case_inputs_of(c);
+        const status opened_at_all = run_session_open(&in, &options, &s);
+        assert_int_equal(opened_at_all.code, STATUS_IO);
+        assert_non_null(strstr(opened_at_all.text, stores[i]));
+        assert_int_not_equal(access("unusable", F_OK), 0);
+        run_session_close(&s, false);
+    }
+    case_free(c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_key_parts), cmocka_unit_test(test_key_is_a_case), cmocka_unit_test(test_file),
         cmocka_unit_test(test_shared),    cmocka_unit_test(test_bodies),        cmocka_unit_test(test_force_keeps_it),
         cmocka_unit_test(test_damaged),   cmocka_unit_test(test_flipped_bits),  cmocka_unit_test(test_killed_writers),
-        cmocka_unit_test(test_full_disk),
+        cmocka_unit_test(test_full_disk), cmocka_unit_test(test_history_first), cmocka_unit_test(test_left_over),
+        cmocka_unit_test(test_unusable),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

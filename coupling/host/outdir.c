@@ -130,7 +130,7 @@ status host_folder_make(const char *path)
     }
 }
 
-static status probe_writable(const char *dir)
+status host_folder_probe(const char *dir)
 {
     char probe[OUTDIR_PATH_SIZE];
     TRY(path_join(dir, ".probe.part", probe, sizeof probe));
@@ -227,7 +227,7 @@ status host_outdir_open(const char *path, outdir_options options, outdir *out)
     outdir d = { .lock = -1 };
     TRY(host_folder_make(path));
     snprintf(d.path, sizeof d.path, "%s", path);
-    TRY(probe_writable(path));
+    TRY(host_folder_probe(path));
     TRY(lock_directory(path, &d.lock));
     const status s = decide(&d, options);
     if (s.code != STATUS_OK) {

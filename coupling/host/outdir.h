@@ -52,6 +52,8 @@ void host_outdir_close(outdir *d);
 
 /* With its parents; fine when it is there. */
 status host_folder_make(const char *path);
+/* Can files be made in it?  STATUS_IO: no. */
+status host_folder_probe(const char *path);
 /* DIR/name into path. */
 status host_outdir_file(const outdir *d, const char *name, char *path, size_t size);
 /* A name that files, HDF5 groups and scripts take as it is: letters, digits, - _ . and no leading dot. */

@@ -124,7 +124,6 @@ static status errand_finish(crew *k, errand *e, h5_file *file)
     e->where = FINISHED;
     e->file = file;
     if (!k->s->store[0]) return status_ok();
-    TRY(run_store_open(k->s->store));
     return run_store_put(k->s->store, &e->key, file);
 }
 

@@ -64,7 +64,6 @@ static status into_store(session *s, const scene_record *r, const scene_key *key
 {
     h5_file *file;
     if (!s->store[0]) return status_ok();
-    TRY(run_store_open(s->store));
     TRY(run_scene_file_make(r, key, s->history, &file));
     const status done = run_store_put(s->store, key, file);
     host_h5_close(file);

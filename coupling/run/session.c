@@ -2,6 +2,7 @@
 
 #include "coupling/run/crew.h"
 #include "coupling/run/ranks.h"
+#include "coupling/run/store.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
@@ -83,14 +84,16 @@ static status put_used(const case_inputs *in, const char *command, session *s)
     return done;
 }
 
+/* One that is named is tried before anything is written; that of the output directory is made with its first scene. */
 static status find_store(session *s, const char *wanted)
 {
-    if (!wanted)
-        TRY(host_outdir_file(&s->dir, OUTDIR_STORE, s->store, sizeof s->store));
-    else
+    if (wanted) {
         CHECK(snprintf(s->store, sizeof s->store, "%s", wanted) < (int)sizeof s->store, STATUS_BAD_INPUT,
               "--store: the path is too long");
-    return status_ok();
+        return wanted[0] ? run_store_open(wanted) : status_ok();
+    }
+    TRY(host_outdir_file(&s->dir, OUTDIR_STORE, s->store, sizeof s->store));
+    return host_folder_exists(s->store) ? run_store_open(s->store) : status_ok();
 }
 
 status run_session_open(const case_inputs *in, const session_options *o, session *s)
@@ -111,10 +114,11 @@ status run_session_open(const case_inputs *in, const session_options *o, session
         CHECK(snprintf(dir, sizeof dir, "%s", o->dir) < (int)sizeof dir, STATUS_BAD_INPUT, "-o: the path is too long");
     else
         TRY(host_outdir_default(in->name, dir, sizeof dir));
+    if (o->store) TRY(find_store(s, o->store));
     TRY(host_outdir_open(dir, o->how, &s->dir));
     TRY(put_used(in, o->command, s));
     if (s->dir.state == OUTDIR_FINISHED) return status_ok();
-    TRY(find_store(s, o->store));
+    if (!o->store) TRY(find_store(s, NULL));
     if (s->dir.state == OUTDIR_RESUMED) TRY(run_session_take_up(s));
     TRY(host_outdir_file(&s->dir, OUTDIR_HISTORY, dir, sizeof dir));
     TRY(output_history_open(dir, s->dir.state == OUTDIR_RESUMED, &s->history));

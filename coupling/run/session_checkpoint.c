@@ -21,12 +21,14 @@ status run_session_checkpoint_path(const session *s, char path[OUTDIR_PATH_SIZE]
     return host_outdir_file(&s->dir, OUTDIR_CHECKPOINT, path, OUTDIR_PATH_SIZE);
 }
 
+/* The history first: rows later than the checkpoint are dropped by the run that goes on, missing ones would be lost. */
 static status write_checkpoint(const session *s, checkpoint *c, double scene_wall)
 {
     char path[OUTDIR_PATH_SIZE];
     const store_head head = { (uint64_t)s->n_records, sizeof(scene_record), scene_wall };
     const size_t bytes = (size_t)s->n_records * sizeof(scene_record);
     TRY(run_session_checkpoint_path(s, path));
+    TRY(output_history_flush(s->history));
     char *study = malloc(sizeof head + bytes);
     CHECK(study, STATUS_MEMORY, "no memory for a checkpoint of %d scenes", s->n_records);
     memcpy(study, &head, sizeof head);
@@ -106,6 +108,5 @@ status run_session_keep(session *s, const scene_record *fresh)
 {
     checkpoint between = { .scene = "" };
     TRY(add_record(s, fresh));
-    TRY(output_history_flush(s->history));
     return write_checkpoint(s, &between, 0.0);
 }

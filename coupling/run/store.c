@@ -2,7 +2,9 @@
 #include "coupling/host/hash.h"
 #include "coupling/host/version.h"
 
+#include <dirent.h>
 #include <errno.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -96,14 +98,45 @@ status run_scene_file_read(const h5_file *f, const scene_key *key, scene_record 
 static status path_of(const char *dir, const scene_key *key, char path[OUTDIR_PATH_SIZE])
 {
     const int n = snprintf(path, OUTDIR_PATH_SIZE, "%s/%016llx.h5", dir, (unsigned long long)key->hash);
-    CHECK(n > 0 && n < OUTDIR_PATH_SIZE - 40, STATUS_BAD_INPUT, "store %.200s...: the path is too long", dir);
+    CHECK(n > 0 && n < OUTDIR_PATH_SIZE - 100, STATUS_BAD_INPUT, "store %.200s...: the path is too long", dir);
     return status_ok();
+}
+
+/* What this process calls a file until it is whole: path.<host>-<pid>. */
+static void host_of(char name[64])
+{
+    memset(name, 0, 64);
+    gethostname(name, 63);
+}
+
+/* Of a process of this machine that was killed while it wrote. */
+static bool is_left_over(const char *name, const char *host)
+{
+    enum { KEY = 16 };
+    const size_t length = strlen(host);
+    if (strlen(name) < KEY + 4 + length || strspn(name, "0123456789abcdef") != KEY) return false;
+    if (strncmp(name + KEY, ".h5.", 4) != 0 || strncmp(name + KEY + 4, host, length) != 0) return false;
+    const char *pid = name + KEY + 4 + length;
+    return pid[0] == '-' && pid[1] >= '1' && pid[1] <= '9' && kill((pid_t)atol(pid + 1), 0) != 0 && errno == ESRCH;
+}
+
+static void remove_left_over(const char *dir)
+{
+    char host[64], path[OUTDIR_PATH_SIZE];
+    DIR *d = opendir(dir);
+    if (!d) return;
+    host_of(host);
+    for (const struct dirent *e; (e = readdir(d));)
+        if (is_left_over(e->d_name, host) && snprintf(path, sizeof path, "%s/%s", dir, e->d_name) < (int)sizeof path)
+            unlink(path);
+    closedir(d);
 }
 
 status run_store_open(const char *dir)
 {
     TRY(host_folder_make(dir));
-    CHECK(access(dir, R_OK | W_OK | X_OK) == 0, STATUS_IO, "store %.300s: cannot be used: %s", dir, strerror(errno));
+    TRY(host_folder_probe(dir));
+    remove_left_over(dir);
     return status_ok();
 }
 
@@ -168,10 +201,11 @@ bool run_store_has(const char *dir, const scene_key *key)
 /* Under a name of its own first: another program may be writing the same scene. */
 status run_store_put(const char *dir, const scene_key *key, h5_file *file)
 {
-    char path[OUTDIR_PATH_SIZE], own[OUTDIR_PATH_SIZE], host[64] = "";
+    char path[OUTDIR_PATH_SIZE], own[OUTDIR_PATH_SIZE + 100], host[64];
     TRY(path_of(dir, key, path));
-    gethostname(host, sizeof host - 1);
-    snprintf(own, sizeof own, "%.900s.%.60s-%ld", path, host, (long)getpid());
+    TRY(host_folder_make(dir));
+    host_of(host);
+    snprintf(own, sizeof own, "%s.%s-%ld", path, host, (long)getpid());
     TRY(write_sealed(own, file));
     if (rename(own, path) == 0) return status_ok();
     const int error = errno;

@@ -24,12 +24,14 @@ status run_scene_file_make(const scene_record *r, const scene_key *key, history 
  * scene of bodies the result stays with the series.  STATUS_IO: the file is not of this scene. */
 status run_scene_file_read(const h5_file *f, const scene_key *key, scene_record *out);
 
-/* Makes the folder. */
+/* Before the first scene: makes the folder, tries whether it can be written to, removes what killed processes of this
+ * machine have left half written. */
 status run_store_open(const char *dir);
 /* *out is NULL if the store has no such file.  STATUS_IO: it is damaged.  Only run_scene_file_read says whether it is
  * of this scene. */
 status run_store_get(const char *dir, const scene_key *key, h5_file **out);
 bool run_store_has(const char *dir, const scene_key *key);
+/* Makes the folder where there is none. */
 status run_store_put(const char *dir, const scene_key *key, h5_file *file);
 
 #endif

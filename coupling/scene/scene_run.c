@@ -45,8 +45,7 @@ static status save(run *r)
     enum { SHARE = 20 };
     const scene_host *h = r->host;
     const double since = host_wall_clock();
-    if (h->save) { /* the series first: rows that are later than the checkpoint are dropped, missing ones are lost */
-        if (h->history) TRY(output_history_flush(h->history));
+    if (h->save) {
         TRY(h->save(h->user, r->job->name, &(scene_now){ r->m, r->job->watch, wall_spent(r) }));
         book(h, "checkpoints", since);
     }

@@ -56,7 +56,7 @@ typedef struct {
     int threads;                    /* 0: as many as there are */
     int (*threads_now)(void *user); /* asked after every step: how many from here on; NULL: threads */
     bool (*stop)(void *user);       /* asked after every step; true: save, STATUS_STOPPED */
-    /* A checkpoint: on a stop, and every checkpoint_interval. */
+    /* A checkpoint: on a stop, and every checkpoint_interval.  The history's rows must be safe before it. */
     status (*save)(void *user, const char *scene, const scene_now *now);
     void *user;
 } scene_host;
