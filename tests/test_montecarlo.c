@@ -285,6 +285,31 @@ static void test_seed(void **state)
     free(r.family);
 }
 
+static int asked;
+
+static bool stop_soon(void)
+{
+    return ++asked >= 3;
+}
+
+/* Hours of grains end where that is asked for, some ten thousand grains on. */
+static void test_stop(void **state)
+{
+    (void)state;
+    rail r;
+    make(&r, 1e6, 2e-4, 0.5, 1400.0, 0.1, 30.0);
+    const mc_surface one = as_new(&r, 0, 1.0);
+    const mc_plan plan = {
+        .histories = 100000, .shots = 1, .seed = 7, .length = LENGTH, .n = 1, .surface = &one, .stop = stop_soon
+    };
+    mc_result out;
+    asked = 0;
+    assert_int_equal(study_mc_run(&plan, &out).code, STATUS_STOPPED);
+    assert_int_equal(asked, 3);
+    study_mc_free(&out);
+    free(r.family);
+}
+
 /* ---- several shots ---- */
 
 /* One grain of 1 mm at 2.1 m gouges and leaves a rim of half its size 8 radii on: it gouges the second shot there, its
@@ -412,10 +437,12 @@ static void test_bare(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sizes),  cmocka_unit_test(test_closed),          cmocka_unit_test(test_band),
-        cmocka_unit_test(test_beyond), cmocka_unit_test(test_common_numbers),  cmocka_unit_test(test_seed),
-        cmocka_unit_test(test_rims),   cmocka_unit_test(test_table_and_sites), cmocka_unit_test(test_warm),
-        cmocka_unit_test(test_bare),
+        cmocka_unit_test(test_sizes),          cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_band),           cmocka_unit_test(test_beyond),
+        cmocka_unit_test(test_common_numbers), cmocka_unit_test(test_seed),
+        cmocka_unit_test(test_rims),           cmocka_unit_test(test_table_and_sites),
+        cmocka_unit_test(test_warm),           cmocka_unit_test(test_bare),
+        cmocka_unit_test(test_stop),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

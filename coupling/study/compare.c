@@ -81,7 +81,7 @@ static status search(session *s, compare_answer *a)
     return status_ok();
 }
 
-static status draw(const case_onset *c, compare_answer *a)
+static status draw(session *s, const case_onset *c, compare_answer *a)
 {
     mc_surface *surface = malloc((size_t)a->n * sizeof *surface);
     CHECK(surface, STATUS_MEMORY, "no memory for %d surfaces", a->n);
@@ -92,7 +92,9 @@ static status draw(const case_onset *c, compare_answer *a)
                            .seed = c->study.seed,
                            .length = c->launcher.barrel.length,
                            .n = a->n,
-                           .surface = surface };
+                           .surface = surface,
+                           .stop = s->stop,
+                           .progress = &s->progress };
     const status done = study_mc_run(&plan, &a->drawn);
     free(surface);
     return done;
@@ -239,7 +241,7 @@ static status compare(session *s, const case_onset *c, const case_treatments *tr
 {
     TRY(begin(s, c, treatments, a, prefix));
     TRY(search(s, a));
-    TRY(draw(c, a));
+    TRY(draw(s, c, a));
     for (int i = 0; i < a->n; i++) a->result.scenes_skipped += a->answer[i].result.scenes_skipped;
     return rank(treatments, a);
 }

@@ -136,7 +136,7 @@ static status list_along(onset_answer *a, double length)
     return status_ok();
 }
 
-static status draw_shots(onset_answer *a)
+static status draw_shots(session *s, onset_answer *a)
 {
     const case_onset *c = a->grains.c;
     onset_result *r = &a->result;
@@ -151,7 +151,9 @@ static status draw_shots(onset_answer *a)
                            .seed = c->study.seed,
                            .length = c->launcher.barrel.length,
                            .n = 1,
-                           .surface = &one };
+                           .surface = &one,
+                           .stop = s->stop,
+                           .progress = &s->progress };
     TRY(study_mc_run(&plan, &a->drawn));
     const mc_shot *first = &a->drawn.of[0];
     r->histories = a->drawn.histories;
@@ -263,7 +265,7 @@ static status study(session *s, const case_onset *c, onset_answer *a)
     TRY(study_repeated_search(s, &a->grains, &a->rail));
     study_uncertain_widen(&a->uncertain, &a->grains, &a->rail.warm);
     study_uncertain_widen(&a->uncertain, &a->grains, &a->rail.bare);
-    TRY(draw_shots(a));
+    TRY(draw_shots(s, a));
     conclude_population(a);
     TRY(study_feedback_shot(s, a));
     TRY(study_sensitivities_run(s, a));

@@ -96,7 +96,7 @@ static void conclude(const onset_answer *a, const changed *with, const mc_result
     out->expected_gouges = a->result.expected_gouges + (drawn->of[k + 1].gouges - drawn->of[0].gouges);
 }
 
-static status draw_all(const onset_answer *a, const changed *with, int n, mc_result *drawn)
+static status draw_all(session *s, const onset_answer *a, const changed *with, int n, mc_result *drawn)
 {
     const case_onset *c = a->grains.c;
     mc_surface surface[MOST + 1] = { { .grains = &a->grains, .size_factor = 1.0 } };
@@ -107,7 +107,9 @@ static status draw_all(const onset_answer *a, const changed *with, int n, mc_res
                            .seed = c->study.seed,
                            .length = c->launcher.barrel.length,
                            .n = n + 1,
-                           .surface = surface };
+                           .surface = surface,
+                           .stop = s->stop,
+                           .progress = &s->progress };
     return study_mc_run(&plan, drawn);
 }
 
@@ -141,7 +143,7 @@ status study_sensitivities_run(session *s, onset_answer *a)
     a->sensitivity = calloc((size_t)n, sizeof *a->sensitivity);
     CHECK(a->sensitivity, STATUS_MEMORY, "no memory for the sensitivities");
     status done = change_all(s, a, with);
-    if (done.code == STATUS_OK) done = draw_all(a, with, n, &drawn);
+    if (done.code == STATUS_OK) done = draw_all(s, a, with, n, &drawn);
     if (done.code == STATUS_OK) {
         for (int k = 0; k < n; k++) conclude(a, &with[k], &drawn, k);
         a->result.sensitivities = a->sensitivity;

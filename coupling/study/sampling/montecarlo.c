@@ -1,6 +1,5 @@
 #include "coupling/study/sampling/montecarlo.h"
 
-#include "coupling/host/progress.h"
 #include "coupling/study/sampling/gouge_law.h"
 #include "coupling/study/sampling/population.h"
 
@@ -70,6 +69,8 @@ typedef struct {
     double *sum;         /* [n x shots x SUMS], owned */
     mc_result *out;      /* sums of what is strewn until they are means */
     double of_allowance; /* u_s of this world */
+    uint64_t drawn;      /* grains so far */
+    bool stopped;
 } mc;
 
 /* ---- counting ---- */
@@ -184,10 +185,18 @@ static double draw_deviate(const mc *m, const strewn *s)
     return z;
 }
 
+/* Between two grains; what was counted is lost then. */
+static bool stop_asked(mc *m)
+{
+    enum { EVERY = 1 << 16 };
+    if (m->drawn++ % EVERY == 0) m->stopped = m->plan->stop && m->plan->stop();
+    return m->stopped;
+}
+
 static void strew(mc *m, int index, int number)
 {
     const strewn *s = &m->strewn[index];
-    for (unsigned k = gsl_ran_poisson(m->rng, s->mean); k > 0; k--) {
+    for (unsigned k = gsl_ran_poisson(m->rng, s->mean); k > 0 && !stop_asked(m); k--) {
         const double x = s->from + (s->to - s->from) * gsl_rng_uniform(m->rng);
         const double kept = gsl_rng_uniform(m->rng);
         const size_t line = s->table ? gsl_ran_discrete(m->rng, s->table) : 0;
@@ -463,12 +472,15 @@ static void tear_down(mc *m)
     free(m->sum);
 }
 
-static void run_all(mc *m, mc_result *out)
+static status run_all(mc *m, mc_result *out)
 {
     const int in_world = out->histories / MC_WORLDS;
-    for (int w = 0; w < MC_WORLDS; w++) {
+    progress *shown = m->plan->progress;
+    if (shown) host_progress_task(shown, "random shots", 0.0, 0);
+    for (int w = 0; w < MC_WORLDS && !m->stopped; w++) {
         new_world(m);
-        for (int h = 0; h < in_world; h++) {
+        if (shown) host_progress_update(shown, (double)w / MC_WORLDS, 0);
+        for (int h = 0; h < in_world && !stop_asked(m); h++) {
             for (int i = 0; i < m->plan->n; i++) m->lane[i].rims = 0;
             for (int k = 0; k < m->plan->shots; k++) {
                 fire(m, k);
@@ -476,6 +488,8 @@ static void run_all(mc *m, mc_result *out)
             }
         }
     }
+    CHECK(!m->stopped, STATUS_STOPPED, "stopped in the random shots");
+    return status_ok();
 }
 
 status study_mc_run(const mc_plan *plan, mc_result *out)
@@ -487,12 +501,10 @@ status study_mc_run(const mc_plan *plan, mc_result *out)
     out->shots = plan->shots;
     out->histories = MC_WORLDS * (plan->histories / MC_WORLDS + (plan->histories % MC_WORLDS != 0));
     gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* GSL's own ends the program */
-    const status s = set_up(&m, out);
+    status s = set_up(&m, out);
     gsl_set_error_handler(handler);
-    if (s.code == STATUS_OK) {
-        run_all(&m, out);
-        conclude(&m, out);
-    }
+    if (s.code == STATUS_OK) s = run_all(&m, out);
+    if (s.code == STATUS_OK) conclude(&m, out);
     tear_down(&m);
     out->seconds = host_wall_clock() - since;
     return s;

@@ -13,6 +13,7 @@
 #ifndef BREECH_COUPLING_MONTECARLO_H
 #define BREECH_COUPLING_MONTECARLO_H
 
+#include "coupling/host/progress.h"
 #include "coupling/study/search/family.h"
 
 enum { MC_WORLDS = 200, MC_BINS = 1000, MC_PLACES = 1024, MC_PIECES = 20 };
@@ -39,6 +40,8 @@ typedef struct {
     double length; /* of the barrel [m] */
     int n;
     const mc_surface *surface; /* n; the first says what populations and sites there are; borrowed */
+    bool (*stop)(void);        /* asked while grains are drawn; NULL: never */
+    progress *progress;        /* borrowed; NULL: none */
 } mc_plan;
 
 /* Of one shot number on one surface, over all histories. */
@@ -68,7 +71,7 @@ typedef struct {
 /* v of an mc_along, no more of it. */
 void study_mc_velocities(const shot_outcome *flown, double length, double v[MC_PLACES + 1]);
 
-/* *out needs study_mc_free even on error. */
+/* *out needs study_mc_free even on error.  STATUS_STOPPED: nothing of it can be used. */
 status study_mc_run(const mc_plan *plan, mc_result *out);
 void study_mc_free(mc_result *r);
 
