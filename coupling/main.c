@@ -284,6 +284,7 @@ static unsigned needs_of(const case_inputs *in)
     if (g->projectile && g->scene && (!isnan(in->onset.impact.scene.velocity) || !(needs & CASE_FOR_ONSET)))
         needs |= CASE_FOR_SCENE;
     if (g->bodies) needs |= CASE_FOR_SCENE;
+    if (g->strike) needs |= CASE_FOR_STRIKE;
     if (g->rails) needs |= CASE_FOR_INDUCTANCE;
     if (g->sweep) needs |= CASE_FOR_SWEEP;
     return needs;

@@ -4,6 +4,7 @@
 
 #include "coupling/study/compare.h"
 #include "coupling/study/inductance.h"
+#include "coupling/study/strike.h"
 #include "coupling/study/study.h"
 #include "coupling/study/sweep.h"
 
@@ -198,6 +199,7 @@ typedef struct {
     compare_result compare;
     inductance_result inductance;
     sweep_result sweep;
+    strike_result strike;
     study_answer answer[STUDIES];
 } example_results;
 
@@ -244,6 +246,13 @@ static inline void example_fill(example_results *e)
     };
     e->answer[STUDY_sweep].result = &e->sweep;
     e->answer[STUDY_inductance].result = &e->inductance;
+    e->strike.is = (strike_outcome){ .muzzle_velocity = 1950.0,
+                                     .impact_velocity = 1930.0,
+                                     .class = STRIKE_PIERCED,
+                                     .residual_velocity = 1500.0,
+                                     .hole_diameter = NAN,
+                                     .gone = true };
+    e->answer[STUDY_strike] = (study_answer){ .result = &e->strike, .shot = &e->shot };
 }
 
 #endif

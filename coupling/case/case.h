@@ -26,6 +26,7 @@ typedef struct breech_case {
     case_bodies bodies;
     case_study study;
     case_sweep sweep;
+    case_strike strike;
     case_output output;
     case_materials materials; /* every material the case names, loaded */
     case_given given;

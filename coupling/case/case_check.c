@@ -128,11 +128,9 @@ typedef struct {
 } command_name;
 
 static const command_name commands[] = {
-    { CASE_FOR_COMPARE, "breech compare" },
-    { CASE_FOR_ONSET, "breech onset" },
-    { CASE_FOR_SHOT, "breech shot" },
-    { CASE_FOR_SCENE, "breech scene" },
-    { CASE_FOR_INDUCTANCE, "breech inductance" },
+    { CASE_FOR_COMPARE, "breech compare" }, { CASE_FOR_ONSET, "breech onset" },
+    { CASE_FOR_STRIKE, "breech strike" },   { CASE_FOR_SHOT, "breech shot" },
+    { CASE_FOR_SCENE, "breech scene" },     { CASE_FOR_INDUCTANCE, "breech inductance" },
     { CASE_FOR_SWEEP, "breech sweep" },
 };
 
@@ -333,5 +331,6 @@ void case_check_whole(case_reader *r)
         check_shape(r, case_entry_node(populations, k), r->out->populations.item[k].shape, path);
     }
     case_populations_check(r);
+    case_strike_check(r);
     check_materials(r);
 }

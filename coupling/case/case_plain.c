@@ -155,6 +155,7 @@ case_inputs case_inputs_of(const breech_case *c)
                           .treatments = c->treatments,
                           .bodies = c->bodies,
                           .sweep = c->sweep,
+                          .strike = c->strike,
                           .output = c->output,
                           .file = c };
 }

@@ -80,6 +80,7 @@ typedef struct {
     case_treatments treatments;
     case_bodies bodies;
     case_sweep sweep;
+    case_strike strike;
     case_output output;
     const struct breech_case *file; /* what it was made from; for this folder alone */
 } case_inputs;

@@ -186,6 +186,26 @@ static const param study_params[] = {
     PARAMS_END,
 };
 
+/* Air: ISO 2533, the standard atmosphere at sea level. */
+static const param strike_params[] = {
+    PARAM_STRING(case_strike, projectile, NULL, "the body of scene.bodies that flies, with all of its group"),
+    PARAM_STRING(case_strike, plate, "", "a body of the target whose holes are looked for; not given: none"),
+    PARAM_DOUBLE(
+        case_strike, velocity, "m/s", OPTIONAL, 0.1, 1e5,
+        "of the projectile at arrival; not given: the shot's after its flight, without a supply the body's own"),
+    PARAM_DOUBLE(case_strike, distance, "m", 0.0, 0.0, 1e5, "from the muzzle to the target"),
+    PARAM_DOUBLE(case_strike, drag_coefficient, "1", OPTIONAL, 0.0, 10.0, "of the flight over that distance"),
+    PARAM_DOUBLE(case_strike, drag_area, "m^2", OPTIONAL, 0.0, 10.0, "of the projectile, across its flight"),
+    PARAM_DOUBLE(case_strike, air_density, "kg/m^3", 1.225, 0.0, 1e4, "what it flies through"),
+    PARAM_DOUBLE(case_strike, discarded_mass, "kg", 0.0, 0.0, 1e3,
+                 "of the package that the shot launches, stays behind at the muzzle: armature, sabot"),
+    PARAM_DOUBLE(case_strike, travel, "m", OPTIONAL, 1e-6, 1e3,
+                 "the scene ends when the projectile would have come so far at its arrival velocity; not given: "
+                 "scene.end_time"),
+    PARAM_DOUBLE(case_strike, filter, "s", 1e-6, 1e-9, 1.0, "time over which forces are averaged"),
+    PARAMS_END,
+};
+
 static const param output_params[] = {
     PARAM_INT(case_output, snapshots, 20, 0, 10000, "of a scene, evenly over its time; 0 = none"),
     PARAM_DOUBLE(case_output, history_interval, "s", OPTIONAL, 1e-9, 1.0,
@@ -245,7 +265,7 @@ static const case_section treatment_children[] = {
 };
 
 static const param sweep_params[] = {
-    PARAM_STRING(case_sweep, of, "scene", "the study to run: scene, shot, inductance"),
+    PARAM_STRING(case_sweep, of, "scene", "the study to run: scene, shot, strike, inductance"),
     PARAM_BOOL(case_sweep, together, 0, "the lists of values go on together; no: all combinations"),
     PARAMS_END,
 };
@@ -357,6 +377,9 @@ static const case_section sections[] = {
     { SECTION(study, study_params, 0, "The search for where gouging begins."), .size = sizeof(case_study) },
     { SECTION(sweep, sweep_params, CASE_FOR_SWEEP, "Runs of another study with other values of some keys."),
       .children = sweep_children, .size = sizeof(case_sweep) },
+    { SECTION(strike, strike_params, CASE_FOR_STRIKE,
+              "What a launched projectile does to its target, the other bodies of the scene."),
+      .size = sizeof(case_strike) },
     { SECTION(output, output_params, 0, "What is written."), .size = sizeof(case_output) },
     { .key = "materials",
       .doc = "Materials given in the case itself, a list: used.yaml has them. They come before the files of "

@@ -27,7 +27,8 @@ enum {
     CASE_FOR_INDUCTANCE = 8, /* rails */
     CASE_FOR_COMPARE = 16,   /* with CASE_FOR_ONSET: treatments */
     CASE_FOR_BODIES = 32,    /* takes the place of CASE_FOR_SCENE where `scene` has bodies of its own */
-    CASE_FOR_SWEEP = 64      /* sweep, and what it runs needs */
+    CASE_FOR_SWEEP = 64,     /* sweep, and what it runs needs */
+    CASE_FOR_STRIKE = 128    /* strike, a scene with bodies; without strike.velocity the shot, if there is a supply */
 };
 
 /* A layer of the rail's surface, the first in the list at the bottom. */
@@ -197,6 +198,20 @@ typedef struct {
     int overlap;     /* case_overlap */
 } case_bodies;
 
+/* A projectile's arrival at its target, the other bodies of the scene. */
+typedef struct {
+    char projectile[PARAM_TEXT_SIZE]; /* body of scene.bodies; those of its group fly with it */
+    char plate[PARAM_TEXT_SIZE];      /* body of the target whose holes are looked for; "": none */
+    double velocity;                  /* at arrival; NAN: the shot's, or what the body has in the scene [m/s] */
+    double distance;                  /* from the muzzle to the target [m] */
+    double drag_coefficient;          /* NAN: not given [1] */
+    double drag_area;                 /* NAN: not given [m2] */
+    double air_density;               /* [kg/m3] */
+    double discarded_mass;            /* of the package, stays behind at the muzzle [kg] */
+    double travel;                    /* its way in the scene, at its arrival velocity; NAN: scene.end_time [m] */
+    double filter;                    /* over which forces are averaged [s] */
+} case_strike;
+
 /* What a study takes for the onset of gouging: the groove's growth, or the crater's severity. */
 typedef enum { JUDGE_GROWTH, JUDGE_SEVERITY } study_judge;
 
@@ -275,7 +290,7 @@ typedef struct {
 typedef struct {
     bool supplies[SUPPLY_KINDS];
     bool rails, barrel, armature, options, optimise, rail, projectile, particle, sites, populations, treatments, scene,
-        study, sweep, output;
+        study, sweep, strike, output;
     bool bodies; /* scene.bodies: then `scene` is not given */
 } case_given;
 

@@ -305,18 +305,31 @@ status output_object_read(const char *text, const summary_key *keys, void *out)
 
 /* ---- one number ---- */
 
-const summary_key *output_number_key(const summary_key *keys, const char *name)
+/* *base: moves to the struct that the key is of. */
+static const summary_key *find_number(const summary_key *keys, const char *name, const char **base)
 {
     for (const summary_key *k = keys; k->name; k++) {
         const bool one = (k->kind == KEY_NUMBER && k->n == 1) || k->kind == KEY_COUNT || k->kind == KEY_INTEGER;
+        const char *inner = *base ? *base + k->offset : NULL;
+        const summary_key *part = k->kind == KEY_PART ? find_number(k->item, name, &inner) : NULL;
         if (one && strcmp(k->name, name) == 0) return k;
+        if (part) *base = inner;
+        if (part) return part;
     }
     return NULL;
 }
 
-double output_number_of(const summary_key *key, const void *of)
+const summary_key *output_number_key(const summary_key *keys, const char *name)
 {
-    cJSON *value = value_json(key, of);
+    const char *none = NULL;
+    return find_number(keys, name, &none);
+}
+
+double output_number_of(const summary_key *keys, const char *name, const void *of)
+{
+    const char *base = of;
+    const summary_key *key = find_number(keys, name, &base);
+    cJSON *value = key && of ? value_json(key, base) : NULL;
     const double x = number_of(value);
     cJSON_Delete(value);
     return x;

@@ -122,9 +122,10 @@ char *output_object_text(const summary_object *o);
 /* The struct back from it.  STATUS_IO: not such a text, or keys are missing.  Lists and maps are malloc'ed, the caller
  * frees them, on error too; *out is all zero at first where there are any.  Not for KEY_PAIRS, _ARRAY. */
 status output_object_read(const char *text, const summary_key *keys, void *out);
-/* The key of that name that is one number; NULL: none is. */
+/* The key of that name that is one number, of a part too; NULL: none is.  Its value in a struct of `keys`; NaN: null,
+ * or there is none. */
 const summary_key *output_number_key(const summary_key *keys, const char *name);
-double output_number_of(const summary_key *key, const void *of); /* NaN: null */
+double output_number_of(const summary_key *keys, const char *name, const void *of);
 
 /* Every number of the object that is no count, in the order of the keys: of a vector each component as `key[0]`, of
  * maps and of what has names of its own as `key.name.key`.  A key without a unit, beside one that is called `unit`, has

@@ -93,6 +93,22 @@ static void fill_axis(const survey *bodies, int k, int levels, mpm_axis *a)
     if (!given || a->fine_lo < a->lo || a->fine_hi > a->hi) lay_zone(a, levels);
 }
 
+/* Where the window was given, a body may lie beside it. */
+static status in_window(const mpm_scene *s)
+{
+    for (int i = 0; i < s->bodies; i++) {
+        const box b = box_of(s, i);
+        for (int k = 0; k < 3; k++)
+            CHECK(b.hi[k] > s->axis[k].lo && b.lo[k] < s->axis[k].hi, STATUS_BAD_INPUT,
+                  "scene.bodies[%d]: %s lies at %s = %.4g .. %.4g m, out of the window, scene.window.%s = %.4g .. %.4g "
+                  "m: "
+                  "move it, or widen the window",
+                  i, s->body[i].name, mpm_axis_names[k], b.lo[k], b.hi[k], mpm_axis_names[k], s->axis[k].lo,
+                  s->axis[k].hi);
+    }
+    return status_ok();
+}
+
 status scene_fill(mpm_scene *s)
 {
     CHECK(s->bodies > 0, STATUS_BAD_INPUT, "scene.bodies: there are none");
@@ -100,5 +116,5 @@ status scene_fill(mpm_scene *s)
     for (int k = 0; k < 3; k++) fill_cells(&bodies, s->refines > 0, &s->axis[k]);
     mpm_scene_levels_fill(s);
     for (int k = 0; k < 3; k++) fill_axis(&bodies, k, s->levels, &s->axis[k]);
-    return status_ok();
+    return in_window(s);
 }

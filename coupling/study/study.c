@@ -57,16 +57,24 @@ static bool printed_before(int study_number, const summary_key *item)
     return false;
 }
 
+/* A table of keys, with what its parts are in the title. */
+static void print_table(const summary_key *keys, const char *what, FILE *out)
+{
+    char title[120];
+    int n = snprintf(title, sizeof title, "%s", what);
+    for (const summary_key *part = keys; part->name; part++)
+        if (part->kind == KEY_PART)
+            n += snprintf(title + n, sizeof title - (size_t)n, ", with all keys of `%s`", part->name);
+    output_keys_manual(title, keys, out);
+}
+
 static void print_entries(const study *y, int study_number, FILE *out)
 {
     for (const summary_key *key = y->keys; key->name; key++) {
-        char title[120];
+        char what[90];
         if ((key->kind != KEY_LIST && key->kind != KEY_MAP) || printed_before(study_number, key->item)) continue;
-        int n = snprintf(title, sizeof title, "%s: an entry of `%s`", y->name, key->name);
-        for (const summary_key *part = key->item; part->name; part++)
-            if (part->kind == KEY_PART)
-                n += snprintf(title + n, sizeof title - (size_t)n, ", with all keys of `%s`", part->name);
-        output_keys_manual(title, key->item, out);
+        snprintf(what, sizeof what, "%.30s: an entry of `%.40s`", y->name, key->name);
+        print_table(key->item, what, out);
     }
 }
 
@@ -80,7 +88,7 @@ void study_print_keys(FILE *out)
           "| `status` | done, stopped, failed |\n| `error` | null when there is none |\n| `warnings` | a text each |\n",
           out);
     for (int k = 0; k < STUDIES; k++)
-        for (const study *y = study_list[k]; y; y = y->instead) output_keys_manual(y->name, y->keys, out);
+        for (const study *y = study_list[k]; y; y = y->instead) print_table(y->keys, y->name, out);
     for (int k = 0; k < STUDIES; k++)
         for (const study *y = study_list[k]; y; y = y->instead) print_entries(y, k, out);
 }

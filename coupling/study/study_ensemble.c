@@ -185,7 +185,6 @@ static void count_classes(ensemble_answer *a)
 
 static status fill_numbers(ensemble_answer *a)
 {
-    const summary_key *time = output_number_key(a->of->keys, "wall_seconds");
     const int numbers = collect_scene(a, 0);
     const size_t n = (size_t)numbers, scenes = (size_t)a->scenes;
     ensemble_number *number = calloc(n + 1, sizeof *number);
@@ -200,7 +199,7 @@ static status fill_numbers(ensemble_answer *a)
               found, numbers);
         a->scene[i].n_values = numbers;
         a->scene[i].value = a->pair + i * numbers;
-        a->scene[i].wall_seconds = time ? output_number_of(time, a->answer[i].result) : NAN;
+        a->scene[i].wall_seconds = output_number_of(a->of->keys, "wall_seconds", a->answer[i].result);
     }
     for (int k = 0; k < numbers; k++) number[k].spread = study_shift_spread(a->value + k * a->scenes, a->scenes);
     count_classes(a);

@@ -259,17 +259,17 @@ static void fill_inputs(const units *u, const case_sweep *w, sweep_answer *a)
 
 static void fill_run(sweep_answer *a, int i)
 {
-    const summary_key *time = output_number_key(a->of->keys, "wall_seconds");
+    const summary_key *keys = a->of->keys;
     const void *result = a->answer[i].result;
     for (int k = 0; k < a->outputs; k++)
         a->value[i * a->outputs + k] =
-            (summary_pair){ .name = a->output[k]->name, .value = output_number_of(a->output[k], result) };
+            (summary_pair){ .name = a->output[k]->name, .value = output_number_of(keys, a->output[k]->name, result) };
     a->run[i] = (sweep_run){ .n_inputs = a->keys,
                              .inputs = a->input + i * a->keys,
                              .n_outputs = a->outputs,
                              .outputs = a->value + i * a->outputs,
                              .errors = a->error + i * a->outputs,
-                             .wall_seconds = time ? output_number_of(time, result) : NAN };
+                             .wall_seconds = output_number_of(keys, "wall_seconds", result) };
     a->result.n_runs = i + 1;
 }
 

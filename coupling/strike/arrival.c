@@ -1,0 +1,200 @@
+#include "coupling/strike/arrival.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double PACKAGE_TOLERANCE = 0.01; /* of the package: how far the masses may differ */
+static const double AT_PLANE = 1e-6; /* of the body's extent: nearer than this to a window's end it lies there */
+
+static const char *const end_names[2] = { "lo", "hi" };
+
+/* ---- the projectile ---- */
+
+typedef struct {
+    double lo[3], hi[3];
+} box;
+
+static bool is_in(const mpm_scene *s, int body, const strike_projectile *p)
+{
+    return s->body[body].group == p->group;
+}
+
+static box box_of(const mpm_scene *s, const strike_projectile *p)
+{
+    box all = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
+    for (int i = 0; i < s->bodies; i++) {
+        double lo[3], hi[3];
+        if (!is_in(s, i, p)) continue;
+        mpm_solid_bounds(&s->solid[s->body[i].solid], lo, hi);
+        for (int k = 0; k < 3; k++) all.lo[k] = fmin(all.lo[k], lo[k]), all.hi[k] = fmax(all.hi[k], hi[k]);
+    }
+    return all;
+}
+
+/* Its volume inside the window, by the share of each of N^3 cells that lies on this side of the surface. */
+static double volume_of(const mpm_solid *solid, const mpm_axis axis[3])
+{
+    enum { N = 96 };
+    double lo[3], hi[3], h[3], sum = 0.0;
+    mpm_solid_bounds(solid, lo, hi);
+    for (int k = 0; k < 3; k++) {
+        lo[k] = fmax(lo[k], axis[k].lo), hi[k] = fmin(hi[k], axis[k].hi);
+        if (!(lo[k] < hi[k])) return 0.0;
+        h[k] = (hi[k] - lo[k]) / N;
+    }
+    const double width = cbrt(h[0] * h[1] * h[2]);
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++)
+            for (int k = 0; k < N; k++) {
+                const double x[3] = { lo[0] + (i + 0.5) * h[0], lo[1] + (j + 0.5) * h[1], lo[2] + (k + 0.5) * h[2] };
+                sum += fmin(fmax(0.5 + mpm_solid_inside(solid, x) / width, 0.0), 1.0);
+            }
+    return sum * h[0] * h[1] * h[2];
+}
+
+static void set_direction(const mpm_body *b, strike_projectile *p)
+{
+    p->speed =
+        sqrt(b->velocity[0] * b->velocity[0] + b->velocity[1] * b->velocity[1] + b->velocity[2] * b->velocity[2]);
+    for (int k = 0; k < 3; k++) p->n[k] = p->speed > 0.0 ? b->velocity[k] / p->speed : k == 0;
+}
+
+/* One end of one axis: is the projectile mirrored there, or does it reach out? */
+static status meet_end(const mpm_scene *s, const box *b, int k, int end, strike_projectile *p)
+{
+    const mpm_axis *a = &s->axis[k];
+    const double at = end ? a->hi : a->lo, out = end ? b->hi[k] - at : at - b->lo[k];
+    const double tolerance = AT_PLANE * (b->hi[k] - b->lo[k]);
+    if (out < -tolerance) return status_ok();
+    const char *name = s->body[p->body].name;
+    if (a->boundary[end] != BOUNDARY_SYMMETRY) {
+        CHECK(out <= tolerance, STATUS_BAD_INPUT,
+              "strike.projectile: %s reaches %.4g m out of the window at scene.window.%s.%s = %g m: move it, or widen "
+              "the window",
+              name, out, mpm_axis_names[k], end_names[end], at);
+        return status_ok();
+    }
+    CHECK(fabs(p->n[k]) < 1e-9, STATUS_BAD_INPUT,
+          "strike.projectile: %s flies into the mirror plane at scene.window.%s.%s = %g m, at which it lies: its "
+          "velocity must lie in that plane",
+          name, mpm_axis_names[k], end_names[end], at);
+    p->parts *= 2.0;
+    p->from[k] = at;
+    return status_ok();
+}
+
+status strike_projectile_of(const case_inputs *in, strike_projectile *out)
+{
+    const mpm_scene *s = &in->bodies.scene;
+    *out = (strike_projectile){ .plate = -1, .parts = 1.0 };
+    for (int i = 0; i < s->bodies; i++) {
+        if (strcmp(s->body[i].name, in->strike.projectile) == 0) out->body = i;
+        if (strcmp(s->body[i].name, in->strike.plate) == 0) out->plate = i;
+    }
+    out->group = s->body[out->body].group;
+    set_direction(&s->body[out->body], out);
+    const box b = box_of(s, out);
+    for (int k = 0; k < 3; k++) out->from[k] = 0.5 * (b.lo[k] + b.hi[k]);
+    for (int k = 0; k < 3; k++)
+        for (int end = 0; end < 2; end++) TRY(meet_end(s, &b, k, end, out));
+    for (int k = 0; k < 3; k++) {
+        const double reach = fmax(b.hi[k] - out->from[k], out->from[k] - b.lo[k]);
+        out->half_width = fmax(out->half_width, reach * sqrt(fmax(0.0, 1.0 - out->n[k] * out->n[k])));
+    }
+    for (int i = 0; i < s->bodies; i++)
+        if (is_in(s, i, out))
+            out->mass += out->parts * s->body[i].material->density * volume_of(&s->solid[s->body[i].solid], s->axis);
+    return status_ok();
+}
+
+/* ---- flight ---- */
+
+status strike_package_check(const case_strike *s, double mass, double package)
+{
+    const double launched = mass + s->discarded_mass;
+    CHECK(mass <= package * (1.0 + PACKAGE_TOLERANCE), STATUS_BAD_INPUT,
+          "strike.projectile: %s of the scene weighs %.4g g, the package that the shot launches %.4g g "
+          "(armature.mass): make it lighter, or launch a heavier package",
+          s->projectile, 1e3 * mass, 1e3 * package);
+    CHECK(fabs(launched - package) <= PACKAGE_TOLERANCE * package, STATUS_BAD_INPUT,
+          "strike: %s of the scene, %.4g g, and strike.discarded_mass, %.4g g, make %.4g g, the package that the shot "
+          "launches weighs %.4g g (armature.mass): discarded_mass, what stays behind at the muzzle, would be %.4g g",
+          s->projectile, 1e3 * mass, 1e3 * s->discarded_mass, 1e3 * launched, 1e3 * package, 1e3 * (package - mass));
+    return status_ok();
+}
+
+strike_flight strike_fly(const case_strike *s, double mass, double muzzle_velocity)
+{
+    const double L = s->distance, v0 = muzzle_velocity;
+    if (!(L > 0.0)) return (strike_flight){ v0, 0.0 };
+    const double k = 0.5 * s->air_density * s->drag_coefficient * s->drag_area / mass;
+    return (strike_flight){ v0 * exp(-k * L), k > 0.0 ? expm1(k * L) / (k * v0) : L / v0 };
+}
+
+/* ---- the scene ---- */
+
+static status add_probe(mpm_scene *s, const char *kind, const char *name, int body, mpm_probe **out)
+{
+    for (int i = 0; i < s->probes; i++)
+        CHECK(strcmp(s->probe[i].name, name) != 0, STATUS_BAD_INPUT,
+              "scene.probes[%d].name = %s: `breech strike` adds a probe of that name; take another one", i, name);
+    TRY(mpm_scene_add_probe(s, kind, name, out));
+    (*out)->body = body;
+    return status_ok();
+}
+
+static status add_way(mpm_scene *s, const strike_projectile *p, double velocity)
+{
+    mpm_probe *way;
+    TRY(add_probe(s, "passage", STRIKE_WAY_PROBE, p->body, &way));
+    memcpy(mpm_probe_value(way, "along"), p->n, sizeof p->n);
+    memcpy(mpm_probe_value(way, "from"), p->from, sizeof p->from);
+    *mpm_probe_value(way, "reach") = 0.5 * p->half_width;
+    *mpm_probe_value(way, "slower") = STRIKE_SLOW * velocity;
+    return status_ok();
+}
+
+/* The plate seen from where the projectile comes from, beside its way; along the flight as far as the projectile is
+ * wide, so that a plug that has flown off closes no hole.  Columns of two cells, so that points that are stretched
+ * leave no gaps. */
+static status add_plate(mpm_scene *s, const strike_projectile *p)
+{
+    enum { WIDTHS = 3, CELLS = 2 };
+    mpm_probe *map;
+    double plate[2][3];
+    TRY(add_probe(s, "surface", STRIKE_PLATE_PROBE, p->plate, &map));
+    mpm_solid_bounds(&s->solid[s->body[p->plate].solid], plate[0], plate[1]);
+    double *lo = mpm_probe_value(map, "lo"), *hi = mpm_probe_value(map, "hi"), *along = mpm_probe_value(map, "along");
+    for (int k = 0; k < 3; k++) {
+        const bool flight = fabs(p->n[k]) == 1.0;
+        CHECK(flight || p->n[k] == 0.0, STATUS_BAD_INPUT,
+              "strike.plate: holes are looked for along an axis; the projectile flies along [%g, %g, %g]", p->n[0],
+              p->n[1], p->n[2]);
+        const double side = WIDTHS * p->half_width, beyond = 2.0 * p->half_width;
+        along[k] = -p->n[k];
+        lo[k] = flight ? plate[0][k] - beyond : fmax(fmax(plate[0][k], s->axis[k].lo), p->from[k] - side);
+        hi[k] = flight ? plate[1][k] + beyond : fmin(fmin(plate[1][k], s->axis[k].hi), p->from[k] + side);
+        CHECK(lo[k] < hi[k], STATUS_BAD_INPUT,
+              "strike.plate: %s does not stand in the way of %s along %s: %g .. %g m, the way is %g .. %g m",
+              s->body[p->plate].name, s->body[p->body].name, mpm_axis_names[k], plate[0][k], plate[1][k],
+              p->from[k] - side, p->from[k] + side);
+    }
+    *mpm_probe_value(map, "cell") = CELLS * fmin(s->axis[0].fine, fmin(s->axis[1].fine, s->axis[2].fine));
+    return status_ok();
+}
+
+status strike_scene(const case_inputs *in, const strike_projectile *p, double velocity, case_bodies *out)
+{
+    const case_strike *k = &in->strike;
+    *out = in->bodies;
+    mpm_scene_default(&out->scene); /* of no arrays, lest an error leaves those of the case */
+    TRY(mpm_scene_copy(&in->bodies.scene, &out->scene));
+    mpm_scene *s = &out->scene;
+    mpm_probe *force;
+    for (int i = 0; i < s->bodies; i++)
+        for (int q = 0; q < 3 && is_in(s, i, p); q++) s->body[i].velocity[q] = velocity * p->n[q];
+    if (!isnan(k->travel)) s->end_time = k->travel / velocity;
+    TRY(add_probe(s, "force", STRIKE_FORCE_PROBE, p->body, &force));
+    TRY(add_way(s, p, velocity));
+    return p->plate >= 0 ? add_plate(s, p) : status_ok();
+}

@@ -1,0 +1,52 @@
+/* From the muzzle to the target: the projectile of a scene of bodies, its flight, the scene that it arrives in.
+ *
+ * The projectile is all bodies of the group of `strike.projectile`; all others are its target.  It flies along its own
+ * velocity in scene.bodies, along +x where that is zero, and arrives with
+ *   strike.velocity, where that is given;
+ *   else what drag leaves of the shot's muzzle velocity, where the case has a shot;
+ *   else the speed it has in scene.bodies.
+ * Flight with a constant drag coefficient, straight, without gravity:
+ *   dv/dx = - rho Cd A v / (2 m)    v(L) = v0 exp(-k L)    t = (exp(k L) - 1) / (k v0)    k = rho Cd A / (2 m)   (S-1)
+ * A scene may be cut by mirror planes: masses and energies here are those of the whole. */
+#ifndef BREECH_COUPLING_STRIKE_ARRIVAL_H
+#define BREECH_COUPLING_STRIKE_ARRIVAL_H
+
+#include "coupling/case/case_plain.h"
+
+/* Names of the probes that are added to the scene. */
+#define STRIKE_FORCE_PROBE "projectile_force"
+#define STRIKE_WAY_PROBE "projectile_way"
+#define STRIKE_PLATE_PROBE "plate_surface"
+
+/* Metal of the target that is slower than this part of the arrival velocity stays where it is. */
+#define STRIKE_SLOW 0.1
+
+typedef struct {
+    int body, group, plate; /* of scene.bodies; plate -1: none */
+    double n[3];            /* direction of flight */
+    double from[3];         /* its middle at the start, on the mirror planes that cut it [m] */
+    double half_width;      /* how far it reaches to the side of the line through there [m] */
+    double parts;           /* the whole over what is computed: 2 for each mirror plane that it lies at */
+    double mass;            /* of the whole [kg] */
+    double speed;           /* that it has in scene.bodies [m/s] */
+} strike_projectile;
+
+/* STATUS_BAD_INPUT: it reaches out of the window, or flies into a mirror plane. */
+status strike_projectile_of(const case_inputs *in, strike_projectile *out);
+
+/* What flies on and what stays behind at the muzzle must be what the shot launches, `package` [kg].  STATUS_BAD_INPUT
+ * names all three. */
+status strike_package_check(const case_strike *s, double mass, double package);
+
+typedef struct {
+    double velocity; /* at arrival [m/s] */
+    double time;     /* [s] */
+} strike_flight;
+/* (S-1) of a projectile of so much mass. */
+strike_flight strike_fly(const case_strike *s, double mass, double muzzle_velocity);
+
+/* The case's scene with the projectile at this speed, its probes and its end; out->scene is for mpm_scene_free.
+ * STATUS_BAD_INPUT: a probe has one of the names above; the plate is not seen along an axis. */
+status strike_scene(const case_inputs *in, const strike_projectile *p, double velocity, case_bodies *out);
+
+#endif

@@ -1,0 +1,253 @@
+#include "coupling/strike/outcome.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double AT_REST = 0.02; /* of the arrival velocity: slower is no motion */
+static const double CLEAR = 1e-3;   /* of the projectile's mass: less in its way does not hold it */
+static const double LATE = 0.1;     /* of the scene's time: its last part */
+static const double STEADY = 0.1;   /* of its speed: it changes by less in that part once nothing holds it */
+enum { LEAST_COLUMNS = 4 };         /* of the plate's map that make a hole */
+
+const char *const strike_class_names[] = { [STRIKE_REBOUND] = "rebound",
+                                           [STRIKE_STOPPED] = "stopped",
+                                           [STRIKE_PIERCED] = "pierced",
+                                           [STRIKE_BULGED] = "bulged",
+                                           [STRIKE_TORN] = "torn",
+                                           [STRIKE_UNFINISHED] = "unfinished",
+                                           NULL };
+
+strike_class strike_class_of(const strike_state *s)
+{
+    const double u = s->speed - (isnan(s->rest_speed) ? 0.0 : s->rest_speed), slow = AT_REST * s->arrival;
+    if (!s->touched || isnan(u)) return STRIKE_UNFINISHED;
+    if (u > slow && s->ahead < CLEAR * s->mass && s->change < STEADY * u) return STRIKE_PIERCED;
+    if (u > slow || s->change > slow) return STRIKE_UNFINISHED;
+    if (s->plate) return s->hole >= s->least_hole ? STRIKE_TORN : STRIKE_BULGED;
+    return u < -slow ? STRIKE_REBOUND : STRIKE_STOPPED;
+}
+
+/* ---- series ---- */
+
+typedef struct {
+    double *value;
+    size_t n;
+} column;
+
+static status read_column(history *h, const char *scene, const char *group, const char *name, column *out)
+{
+    char path[200];
+    size_t dims[H5_MAX_RANK];
+    snprintf(path, sizeof path, "%.120s/%.70s", group, name);
+    TRY(output_history_read(h, scene, path, &out->value, dims));
+    out->n = dims[0];
+    return status_ok();
+}
+
+/* The columns of one series, its time first. */
+enum { MOST_COLUMNS = 8 };
+typedef struct {
+    column of[MOST_COLUMNS];
+    size_t rows;
+} series;
+
+static void series_free(series *s)
+{
+    for (int i = 0; i < MOST_COLUMNS; i++) free(s->of[i].value);
+}
+
+static status series_read(history *h, const char *scene, const char *group, const char *const *names, series *out)
+{
+    memset(out, 0, sizeof *out);
+    for (int i = 0; names[i]; i++) {
+        TRY(read_column(h, scene, group, names[i], &out->of[i]));
+        CHECK(out->of[i].n > 0 && out->of[i].n == out->of[0].n, STATUS_NUMERICAL,
+              "the scene `%s` has no whole series %s/%s", scene, group, names[i]);
+    }
+    out->rows = out->of[0].n;
+    return status_ok();
+}
+
+/* ---- force ---- */
+
+/* Impulse that has been given by the time t, by that at the ends of all steps: linear within a step. */
+static double impulse_by(const double *time, const double *sum, size_t n, double t)
+{
+    size_t i = 1;
+    if (t <= time[0]) return 0.0;
+    while (i < n - 1 && time[i] < t) i++;
+    return sum[i - 1] + (sum[i] - sum[i - 1]) * (t - time[i - 1]) / (time[i] - time[i - 1]);
+}
+
+/* A row's force is the mean over the step that ended then. */
+static status take_force(const series *force, const strike_projectile *p, double filter, strike_outcome *out)
+{
+    const double *time = force->of[0].value;
+    double *sum = calloc(force->rows, sizeof *sum);
+    CHECK(sum, STATUS_MEMORY, "no memory for %zu rows of force", force->rows);
+    for (size_t i = 1; i < force->rows; i++) {
+        double against = 0.0;
+        for (int k = 0; k < 3; k++) against -= p->n[k] * force->of[1 + k].value[i];
+        sum[i] = sum[i - 1] + p->parts * against * (time[i] - time[i - 1]);
+    }
+    out->peak_force = 0.0, out->peak_time = NAN;
+    for (size_t i = 1; i < force->rows; i++) {
+        const double mean = (sum[i] - impulse_by(time, sum, force->rows, time[i] - filter)) / filter;
+        if (mean > out->peak_force) out->peak_force = mean, out->peak_time = time[i];
+    }
+    out->impulse = sum[force->rows - 1];
+    free(sum);
+    return status_ok();
+}
+
+static status read_force(history *h, const char *scene, const strike_projectile *p, double filter, strike_outcome *out)
+{
+    static const char *const names[] = { "time", "force_x", "force_y", "force_z", NULL };
+    series force;
+    status done = series_read(h, scene, "probes/" STRIKE_FORCE_PROBE, names, &force);
+    if (done.code == STATUS_OK) done = take_force(&force, p, filter, out);
+    series_free(&force);
+    return done;
+}
+
+/* ---- the way ---- */
+
+enum { WAY_TIME, WAY_SPEED, WAY_AHEAD, WAY_REST, WAY_DEFLECTION, WAY_FLYING };
+
+/* seen: until when all of the projectile was in the window [s]. */
+static void take_way(const series *way, const strike_projectile *p, double seen, strike_state *state,
+                     strike_outcome *out)
+{
+    const double *time = way->of[WAY_TIME].value, *speed = way->of[WAY_SPEED].value;
+    const size_t end = way->rows - 1;
+    size_t last = end;
+    while (last > 0 && (time[last] > seen || isnan(speed[last]))) last--;
+    size_t late = last;
+    while (late > 0 && time[late] > (1.0 - LATE) * time[last]) late--;
+    state->speed = speed[last];
+    state->rest_speed = way->of[WAY_REST].value[last];
+    state->change = fabs(speed[last] - speed[late]);
+    state->ahead = p->parts * way->of[WAY_AHEAD].value[last];
+    out->gone = last < end;
+    out->residual_velocity = state->speed;
+    out->speed_change = state->change;
+    out->ahead = state->ahead;
+    out->deflection = way->of[WAY_DEFLECTION].value[end];
+    out->debris_mass = p->parts * way->of[WAY_FLYING].value[end];
+}
+
+/* The time of the last row of its bodies in which none of its mass is missing. */
+static status last_whole(history *h, const char *scene, const strike_projectile *p, const mpm_scene *s, double *seen)
+{
+    const double most_missing = 1e-3;
+    column time, mass;
+    TRY(read_column(h, scene, "bodies", "time", &time));
+    *seen = time.value[time.n - 1];
+    status done = status_ok();
+    for (int i = 0; i < s->bodies && done.code == STATUS_OK; i++) {
+        char group[200];
+        if (s->body[i].group != p->group) continue;
+        snprintf(group, sizeof group, "bodies/%s", s->body[i].name);
+        done = read_column(h, scene, group, "mass", &mass);
+        if (done.code != STATUS_OK) break;
+        for (size_t q = mass.n; q-- > 1 && mass.value[q] < (1.0 - most_missing) * mass.value[0];)
+            *seen = fmin(*seen, time.value[q - 1]);
+        free(mass.value);
+    }
+    free(time.value);
+    return done;
+}
+
+static status read_way(history *h, const char *scene, const strike_projectile *p, const mpm_scene *s,
+                       strike_state *state, strike_outcome *out)
+{
+    static const char *const names[] = { "time", "speed", "ahead", "rest_speed", "deflection", "flying", NULL };
+    series way;
+    double seen;
+    TRY(last_whole(h, scene, p, s, &seen));
+    const status done = series_read(h, scene, "probes/" STRIKE_WAY_PROBE, names, &way);
+    if (done.code == STATUS_OK) take_way(&way, p, seen, state, out);
+    series_free(&way);
+    return done;
+}
+
+/* ---- the plate ---- */
+
+/* Columns of the last map without intact metal; the map covers the plate alone. */
+static status read_plate(history *h, const char *scene, const strike_projectile *p, const mpm_scene *s,
+                         strike_state *state, strike_outcome *out)
+{
+    size_t dims[H5_MAX_RANK];
+    double *x, area = 1.0;
+    int k = 0, open = 0;
+    const mpm_probe *map = NULL;
+    while (p->n[k] == 0.0) k++;
+    for (int i = 0; i < s->probes; i++)
+        if (strcmp(s->probe[i].name, STRIKE_PLATE_PROBE) == 0) map = &s->probe[i];
+    char path[100];
+    snprintf(path, sizeof path, "probes/" STRIKE_PLATE_PROBE "/%s", mpm_axis_names[k]);
+    TRY(output_history_read(h, scene, path, &x, dims));
+    for (size_t i = 0; i < dims[1]; i++) open += isnan(x[(dims[0] - 1) * dims[1] + i]);
+    free(x);
+    mpm_probe own = *map;
+    for (int q = 0; q < 3; q++)
+        if (q != k) area *= mpm_probe_value(&own, "hi")[q] - mpm_probe_value(&own, "lo")[q];
+    const double one = p->parts * area / (double)dims[1];
+    state->plate = true;
+    state->hole = open * one;
+    state->least_hole = LEAST_COLUMNS * one;
+    out->hole_diameter = sqrt(4.0 * state->hole / 3.14159265358979323846);
+    return status_ok();
+}
+
+/* ---- bodies ---- */
+
+static status add_start(history *h, const char *scene, const char *body, double *mass, double *kinetic)
+{
+    static const char *const names[] = { "mass", "kinetic", NULL };
+    char group[200];
+    series s;
+    snprintf(group, sizeof group, "bodies/%s", body);
+    const status done = series_read(h, scene, group, names, &s);
+    if (done.code == STATUS_OK) *mass += s.of[0].value[0], *kinetic += s.of[1].value[0];
+    series_free(&s);
+    return done;
+}
+
+static status read_bodies(history *h, const char *scene, const strike_projectile *p, const mpm_scene *s,
+                          const scene_bodies_result *r, strike_outcome *out)
+{
+    double kinetic = 0.0, target_kinetic = 0.0, mass = 0.0, target_mass = 0.0, left = 0.0, kept = 0.0;
+    for (int i = 0; i < r->bodies; i++) {
+        const scene_body *b = &r->body[i];
+        const bool own = s->body[i].group == p->group;
+        TRY(add_start(h, scene, b->name, own ? &mass : &target_mass, own ? &kinetic : &target_kinetic));
+        if (own) left += b->kinetic;
+        if (!own) kept += b->mass, out->failed_volume += p->parts * b->failed_volume;
+    }
+    if (out->gone) left = 0.5 * mass * out->residual_velocity * out->residual_velocity;
+    out->projectile_mass = p->parts * mass;
+    out->energy_arrival = p->parts * kinetic;
+    out->energy_absorbed = p->parts * (kinetic - left);
+    out->energy_share = out->energy_absorbed / out->energy_arrival;
+    out->debris_mass += p->parts * fmax(0.0, target_mass - kept); /* below 0 by rounding */
+    return status_ok();
+}
+
+status strike_outcome_read(history *h, const char *scene, const strike_projectile *p, const case_bodies *bodies,
+                           double filter, double velocity, const scene_bodies_result *r, strike_outcome *out)
+{
+    strike_state state = { .arrival = velocity };
+    *out = (strike_outcome){
+        .muzzle_velocity = NAN, .flight_time = NAN, .impact_velocity = velocity, .hole_diameter = NAN
+    };
+    TRY(read_way(h, scene, p, &bodies->scene, &state, out));
+    TRY(read_force(h, scene, p, filter, out));
+    TRY(read_bodies(h, scene, p, &bodies->scene, r, out));
+    if (p->plate >= 0) TRY(read_plate(h, scene, p, &bodies->scene, &state, out));
+    state.mass = out->projectile_mass;
+    state.touched = out->peak_force > 0.0;
+    out->class = strike_class_of(&state);
+    return status_ok();
+}

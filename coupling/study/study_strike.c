@@ -1,0 +1,205 @@
+/* breech strike: what the projectile does to its target, at a given velocity or at that of the case's shot. */
+#include "coupling/gouge/session_shot.h"
+#include "coupling/report/report_page.h"
+#include "coupling/study/strike.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double ENERGY_ERROR_LIMIT = 0.01; /* above it the scene is warned about */
+
+static const summary_key result_keys[] = {
+    SUMMARY_NUMBER(strike_result, "muzzle_velocity", is.muzzle_velocity, "m/s",
+                   "of the case's shot; null: none was fired"),
+    SUMMARY_NUMBER(strike_result, "flight_time", is.flight_time, "s", "from the muzzle to the target; null: no shot"),
+    SUMMARY_NUMBER(strike_result, "impact_velocity", is.impact_velocity, "m/s", "of the projectile at arrival"),
+    SUMMARY_NUMBER(strike_result, "projectile_mass", is.projectile_mass, "kg", "of the whole projectile"),
+    SUMMARY_CHOICE(strike_result, "class", is.class, strike_class_names,
+                   "what became of it: rebound, stopped, pierced; with strike.plate bulged or torn for the first two; "
+                   "unfinished: the scene is too short to tell"),
+    SUMMARY_NUMBER(strike_result, "residual_velocity", is.residual_velocity, "m/s",
+                   "along the flight, of the projectile's intact metal at the end"),
+    SUMMARY_NUMBER(strike_result, "energy_arrival", is.energy_arrival, "J", "of the projectile's motion at arrival"),
+    SUMMARY_NUMBER(strike_result, "energy_absorbed", is.energy_absorbed, "J", "of that, what it has lost at the end"),
+    SUMMARY_NUMBER(strike_result, "energy_share", is.energy_share, "1", "energy_absorbed over energy_arrival"),
+    SUMMARY_NUMBER(strike_result, "peak_force", is.peak_force, "N",
+                   "on the projectile, against its flight: largest mean over strike.filter"),
+    SUMMARY_NUMBER(strike_result, "time_of_peak", is.peak_time, "s", "when that ended"),
+    SUMMARY_NUMBER(strike_result, "impulse", is.impulse, "N s", "of contact on the projectile, against its flight"),
+    SUMMARY_NUMBER(strike_result, "deflection", is.deflection, "m",
+                   "farthest along the flight that intact metal of the target has gone that is slower than a tenth of "
+                   "impact_velocity; null: there is none"),
+    SUMMARY_NUMBER(strike_result, "hole_diameter", is.hole_diameter, "m",
+                   "of a circle with the area of the holes in strike.plate; null: no plate is named"),
+    SUMMARY_NUMBER(strike_result, "failed_volume", is.failed_volume, "m3", "of the target"),
+    SUMMARY_NUMBER(strike_result, "debris_mass", is.debris_mass, "kg",
+                   "of the target: faster than a tenth of impact_velocity, out of the window, or eroded"),
+    SUMMARY_NUMBER(strike_result, "ahead", is.ahead, "kg",
+                   "intact metal of the target in the projectile's way at the end"),
+    SUMMARY_NUMBER(strike_result, "speed_change", is.speed_change, "m/s",
+                   "of the projectile in the last tenth of the scene"),
+    SUMMARY_VALUE(strike_result, KEY_FLAG, "gone", is.gone, "",
+                  "the projectile left the window, or failed as a whole: judged by when it was last seen"),
+    SUMMARY_PART(strike_result, "bodies", scene, scene_bodies_keys),
+    SUMMARY_END,
+};
+
+typedef struct {
+    strike_result result;
+    strike_projectile projectile;
+    shot_record shot;
+    case_bodies bodies; /* of the scene; owned */
+} strike_answer;
+
+static bool takes_shot(const case_inputs *in)
+{
+    bool supply = false;
+    for (int k = 0; k < SUPPLY_KINDS; k++) supply = supply || in->given.supplies[k];
+    return supply && isnan(in->strike.velocity);
+}
+
+/* ---- before anything is written ---- */
+
+static status possible(const study_case *of)
+{
+    const case_inputs *in = of->in;
+    strike_projectile p;
+    case_bodies bodies;
+    TRY(strike_projectile_of(in, &p));
+    const bool fired = takes_shot(in);
+    CHECK(fired || in->strike.velocity > 0.0 || p.speed > 0.0, STATUS_BAD_INPUT,
+          "strike.velocity is missing [m/s]: %s is at rest in scene.bodies, and the case has no shot",
+          in->strike.projectile);
+    if (fired) TRY(study_possible(in, CASE_FOR_SHOT));
+    if (fired) TRY(strike_package_check(&in->strike, p.mass, in->onset.launcher.armature.mass));
+    const status made = strike_scene(in, &p, 1.0, &bodies);
+    mpm_scene_free(&bodies.scene);
+    return made;
+}
+
+/* ---- the run ---- */
+
+/* The velocity of arrival; of a shot its record too. */
+static status arrive(session *s, const study_case *of, strike_answer *a, strike_flight *flight, double *muzzle)
+{
+    const case_inputs *in = of->in;
+    *muzzle = NAN;
+    if (!takes_shot(in)) {
+        *flight = (strike_flight){ isnan(in->strike.velocity) ? a->projectile.speed : in->strike.velocity, NAN };
+        return status_ok();
+    }
+    const case_flight launched = case_flight_of(&in->onset);
+    shot_outcome o;
+    const status done = gouge_session_shot(s, &launched, NULL, !of->one_of_several, &o, &a->shot);
+    gouge_shot_outcome_free(&o);
+    TRY(done);
+    *muzzle = a->shot.is.muzzle_velocity;
+    CHECK(*muzzle > 0.0, STATUS_NUMERICAL, "the shot does not leave the muzzle: there is nothing to strike with");
+    *flight = strike_fly(&in->strike, a->projectile.mass, *muzzle);
+    return status_ok();
+}
+
+static void warn(session *s, const strike_result *r)
+{
+    const strike_outcome *o = &r->is;
+    if (o->class == STRIKE_UNFINISHED && !(o->peak_force > 0.0))
+        run_session_warn(s, "the projectile has not met its target: a longer scene (strike.travel, scene.end_time), or "
+                            "a nearer one");
+    else if (o->class == STRIKE_UNFINISHED)
+        run_session_warn(s,
+                         "unfinished: the projectile goes on at %.4g m/s, %.4g m/s less than a tenth of the scene "
+                         "before, with %.3g g of intact metal in its way: a longer scene (strike.travel, "
+                         "scene.end_time)",
+                         o->residual_velocity, o->speed_change, 1e3 * o->ahead);
+    if (o->gone)
+        run_session_warn(s,
+                         "the projectile left the window before the scene's end, or failed as a whole: judged by when "
+                         "it was last seen");
+    if (fabs(r->scene.energy_error) > ENERGY_ERROR_LIMIT)
+        run_session_warn(s, "energy error %.2f %%, above %.0f %%: lower scene.courant or take smaller cells",
+                         100.0 * r->scene.energy_error, 100.0 * ENERGY_ERROR_LIMIT);
+}
+
+/* One that is wanted with its snapshots is computed where they are to lie. */
+static scene_query query_of(const study_case *of, const case_bodies *bodies, const char *name)
+{
+    scene_query q = { .bodies = case_body_scene_of(of->in),
+                      .anew = !of->one_of_several && of->in->output.snapshots > 0 };
+    q.bodies.bodies = bodies;
+    snprintf(q.name, sizeof q.name, "%.60s%.30s", of->prefix, name);
+    return q;
+}
+
+static status run(session *s, const study_case *of, study_answer *out)
+{
+    const case_inputs *in = of->in;
+    const scene_record *done;
+    strike_flight flight = { NAN, NAN };
+    double muzzle;
+    strike_answer *a = out->owned = calloc(1, sizeof *a);
+    CHECK(a, STATUS_MEMORY, "no memory for an answer");
+    strike_result *r = &a->result;
+    TRY(strike_projectile_of(in, &a->projectile));
+    TRY(arrive(s, of, a, &flight, &muzzle));
+    if (!isnan(muzzle)) out->shot = &a->shot;
+    TRY(strike_scene(in, &a->projectile, flight.velocity, &a->bodies));
+    const scene_query query = query_of(of, &a->bodies, "scene");
+    TRY(run_scenes_all(s, &query, 1, &done));
+    TRY(scene_bodies_read(s->history, done->entry.name, &r->scene));
+    TRY(strike_outcome_read(s->history, done->entry.name, &a->projectile, &a->bodies, in->strike.filter,
+                            flight.velocity, &r->scene, &r->is));
+    r->is.muzzle_velocity = muzzle;
+    r->is.flight_time = flight.time;
+    warn(s, r);
+    out->result = r;
+    return status_ok();
+}
+
+static void free_owned(void *owned)
+{
+    strike_answer *a = owned;
+    if (!a) return;
+    scene_bodies_free(&a->result.scene);
+    mpm_scene_free(&a->bodies.scene);
+    free(a);
+}
+
+/* ---- for people ---- */
+
+static void print(const void *result, FILE *out)
+{
+    const strike_result *r = result;
+    output_keys_print(&(summary_object){ result_keys, r }, out);
+    fputc('\n', out);
+    study_bodies.print(&r->scene, out);
+}
+
+static void verdict(const page *p)
+{
+    static const page_column cards[] = { { "impact_velocity", "arrives at", 1.0, "m/s" },
+                                         { "residual_velocity", "goes on at", 1.0, "m/s" },
+                                         { "energy_absorbed", "energy absorbed", 1.0, "J" },
+                                         { "peak_force", "peak force", 1e3, "kN" },
+                                         { "impulse", "impulse", 1.0, "N s" },
+                                         { "deflection", "deflection", 1e-3, "mm" },
+                                         { "hole_diameter", "hole", 1e-3, "mm" },
+                                         { "debris_mass", "debris", 1e-3, "g" },
+                                         { "wall_seconds", "took", 1.0, "s" } };
+    report_page_paragraph(p, "verdict", report_text(p->source->summary, "class"));
+    report_page_cards(p, p->source->summary, cards, PAGE_COUNT(cards));
+}
+
+const study study_strike = {
+    .name = "strike",
+    .doc = "what the launched projectile does to its target",
+    .more = "Needs the sections strike and scene, with bodies; without strike.velocity, what `breech shot` needs.",
+    .needs = CASE_FOR_STRIKE,
+    .keys = result_keys,
+    .shows_shot = true,
+    .can_vary = true,
+    .report = { verdict, report_section_bodies },
+    .print = print,
+    .possible = possible,
+    .run = run,
+    .free = free_owned,
+};

@@ -1,0 +1,280 @@
+/* What a projectile does to its target: its flight, how the class is decided, what a case is refused for, and small
+ * scenes that are known to rebound, to stop and to pierce. */
+#include "coupling/strike/outcome.h"
+#include "program_common.h"
+
+#define PI 3.14159265358979323846
+
+/* ---- flight ---- */
+
+/* (S-1) against its own equation, m v' = - rho Cd A v^2 / 2, by the fourth-order Runge-Kutta method in 2000 steps,
+ * whose error is below rounding here. */
+static void test_flight(void **state)
+{
+    (void)state;
+    const case_strike s = { .distance = 40.0, .drag_coefficient = 0.95, .drag_area = 7.854e-5, .air_density = 1.225 };
+    const double mass = 4.11e-3, v0 = 1900.0, k = 0.5 * 1.225 * 0.95 * 7.854e-5 / mass;
+    double x = 0.0, v = v0, t = 0.0;
+    const strike_flight f = strike_fly(&s, mass, v0);
+    const int steps = 2000;
+    for (const double h = f.time / steps; t < f.time - 0.5 * h; t += h) {
+        const double a1 = -k * v * v, v1 = v + 0.5 * h * a1, a2 = -k * v1 * v1, v2 = v + 0.5 * h * a2,
+                     a3 = -k * v2 * v2, v3 = v + h * a3, a4 = -k * v3 * v3;
+        x += h * (v + 2.0 * v1 + 2.0 * v2 + v3) / 6.0;
+        v += h * (a1 + 2.0 * a2 + 2.0 * a3 + a4) / 6.0;
+    }
+    assert_true(fabs(x / s.distance - 1.0) < 1e-9);
+    assert_true(fabs(v / f.velocity - 1.0) < 1e-9);
+    assert_true(f.velocity < 0.7 * v0);
+    const case_strike vacuum = { .distance = 40.0, .drag_coefficient = 0.0, .drag_area = 1.0, .air_density = 1.225 };
+    assert_true(strike_fly(&vacuum, mass, v0).velocity == v0 && strike_fly(&vacuum, mass, v0).time == 40.0 / v0);
+    const case_strike near = { .distance = 0.0, .drag_coefficient = NAN, .drag_area = NAN, .air_density = 1.225 };
+    assert_true(strike_fly(&near, mass, v0).velocity == v0 && strike_fly(&near, mass, v0).time == 0.0);
+}
+
+static void test_package(void **state)
+{
+    (void)state;
+    const case_strike s = { .projectile = "ball", .discarded_mass = 0.24 };
+    OK(strike_package_check(&s, 0.010, 0.25));
+    OK(strike_package_check(&s, 0.012, 0.25)); /* 1 % of the package */
+    const status heavy = strike_package_check(&s, 0.30, 0.25), missing = strike_package_check(&s, 0.004, 0.25);
+    assert_int_equal(heavy.code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(heavy.text, "300 g"));
+    assert_non_null(strstr(heavy.text, "250 g"));
+    assert_int_equal(missing.code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(missing.text, "4 g"));
+    assert_non_null(strstr(missing.text, "would be 246 g"));
+}
+
+/* ---- the class ---- */
+
+static void test_class(void **state)
+{
+    (void)state;
+    const strike_state through = { .arrival = 1000.0,
+                                   .mass = 4e-3,
+                                   .speed = 600.0,
+                                   .rest_speed = 5.0,
+                                   .change = 20.0,
+                                   .ahead = 3e-6,
+                                   .touched = true };
+    strike_state s = through;
+    assert_int_equal(strike_class_of(&s), STRIKE_PIERCED);
+    s.rest_speed = NAN; /* nothing of the target is left at rest */
+    assert_int_equal(strike_class_of(&s), STRIKE_PIERCED);
+    s = through, s.ahead = 5e-6; /* a thousandth of its mass is in the way */
+    assert_int_equal(strike_class_of(&s), STRIKE_UNFINISHED);
+    s = through, s.change = 70.0; /* something is slowing it down */
+    assert_int_equal(strike_class_of(&s), STRIKE_UNFINISHED);
+    s = through, s.touched = false;
+    assert_int_equal(strike_class_of(&s), STRIKE_UNFINISHED);
+    s = through, s.speed = NAN;
+    assert_int_equal(strike_class_of(&s), STRIKE_UNFINISHED);
+    s = through, s.speed = 24.0, s.change = 1.0; /* 19 m/s over what is left: no motion */
+    assert_int_equal(strike_class_of(&s), STRIKE_STOPPED);
+    s.speed = -14.0;
+    assert_int_equal(strike_class_of(&s), STRIKE_STOPPED);
+    s.speed = -16.0;
+    assert_int_equal(strike_class_of(&s), STRIKE_REBOUND);
+    s.change = 21.0; /* it is being thrown back */
+    assert_int_equal(strike_class_of(&s), STRIKE_UNFINISHED);
+    s.change = 1.0, s.plate = true, s.least_hole = 1e-6;
+    assert_int_equal(strike_class_of(&s), STRIKE_BULGED);
+    s.hole = 1e-6;
+    assert_int_equal(strike_class_of(&s), STRIKE_TORN);
+    s = through, s.plate = true, s.hole = 1e-4;
+    assert_int_equal(strike_class_of(&s), STRIKE_PIERCED);
+}
+
+/* ---- cases ---- */
+
+/* An elastic steel ball in front of a plate of `metal`, so many millimetres thick; a quarter of them. */
+#define BODIES(metal, thick)                                                                                       \
+    "  bodies:\n"                                                                                                  \
+    "    - {name: plate, material: " metal ", damage: " thick " -5 -5 mm, hi: 2 5 5 mm}}}\n"                       \
+    "    - {name: ball, material: hard, shape: {sphere: {center: -1.05 0 0 mm, radius: 1 mm}}, velocity: 100 0 0 " \
+    "m/s}\n"                                                                                                       \
+    "  contacts: [{between: [plate, ball], law: coulomb, friction: 0.1, normal_of: ball}]\n"                       \
+    "  window: {x: {lo: -4 mm, hi: 8 mm}, y: {lo: 0 mm, hi: 5 mm}, z: {lo: 0 mm, hi: 5 mm}}\n"                     \
+    "  boundary: {y: [symmetry, absorbing], z: [symmetry, absorbing]}\n"
+#define HARD                                                                                                       \
+    "materials:\n"                                                                                                 \
+    "  - {name: hard, density: 7850 kg/m3, youngs_modulus: 210 GPa, poisson: 0.3, specific_heat: 460 J/(kg K),\n"  \
+    "     reference_temperature: 293 K, melting_temperature: 1790 K, yield_A: 10 GPa, hardening_B: 0 Pa,\n"        \
+    "     hardening_n: 1, rate_C: 0, softening_m: 1, rate_0: 1 1/s, sound_speed: 4570 m/s, hugoniot_slope: 1.5,\n" \
+    "     gruneisen: 1.7}\n"
+#define HEAD(strike, end)                                                                         \
+    "name: t\n" HARD "strike: {projectile: ball" strike "}\noutput: {snapshots: 0, report: no}\n" \
+    "scene:\n  end_time: " end "\n  cell: 0.25 mm\n  coarse_cell: 0.5 mm\n"
+#define PLATE "yes, shape: {box: {lo: 0"   /* 2 mm */
+#define SHEET "yes, shape: {box: {lo: 1.5" /* 0.5 mm */
+
+static void write_case(const char *folder, const char *text)
+{
+    char path[200];
+    fresh_folder(folder);
+    snprintf(path, sizeof path, "%s/case.yaml", folder);
+    OK(host_file_write(path, text, strlen(text)));
+}
+
+static cJSON *struck(const char *folder, const char *text, const char *more)
+{
+    char command[600];
+    write_case(folder, text);
+    snprintf(command, sizeof command, "strike %s -o %s/out --quiet --threads 1 %s", folder, folder, more);
+    if (run(command) != 0) {
+        char *errors;
+        OK(host_file_read("err.txt", &errors, NULL));
+        fail_msg("breech %s: %s", command, errors);
+    }
+    char out[100];
+    snprintf(out, sizeof out, "%.80s/out", folder);
+    return summary_of(out);
+}
+
+/* What contact gave the ball is the momentum that it has lost: no other force acts on it.  1e-9: rounding of some
+ * hundred steps. */
+static void assert_momentum(const cJSON *s)
+{
+    const cJSON *ball = cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(s, "bodies"), "ball");
+    const double v = cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(ball, "velocity"), 0)->valuedouble;
+    const double lost = number(s, "projectile_mass") * (number(s, "impact_velocity") - v);
+    assert_true(fabs(number(s, "impulse") / lost - 1.0) < 1e-9);
+    assert_true(fabs(number(s, "residual_velocity") - v) < 1e-5 * number(s, "impact_velocity")); /* some of it melted */
+    assert_true(number(s, "energy_absorbed") < number(s, "energy_arrival"));
+    assert_true(number(s, "peak_force") > 0.0 && fabs(number(s, "energy_error")) < 1e-9);
+}
+
+/* The ball of the quarter weighs what a whole one does: to 0.1 %, what points of a quarter of a millimetre miss at its
+ * surface. */
+static void test_classes(void **state)
+{
+    (void)state;
+    const double whole = 7850.0 * 4.0 / 3.0 * PI * 1e-9;
+    cJSON *rebound = struck("rebound", HEAD("", "3 us") BODIES("hard", "no, shape: {box: {lo: 0"), "");
+    assert_text(rebound, "class", "rebound");
+    assert_text(rebound, "kind", "strike");
+    assert_true(number(rebound, "impact_velocity") == 100.0); /* its own in the scene */
+    assert_true(isnan(number(rebound, "muzzle_velocity")) && isnan(number(rebound, "hole_diameter")));
+    assert_true(fabs(number(rebound, "projectile_mass") / whole - 1.0) < 1e-3);
+    assert_true(number(rebound, "residual_velocity") < -20.0 && number(rebound, "failed_volume") == 0.0);
+    assert_momentum(rebound);
+
+    cJSON *bulged =
+        struck("bulged", HEAD(", plate: plate, velocity: 150 m/s", "12 us") BODIES("ofhc_copper", PLATE), "");
+    assert_text(bulged, "class", "bulged");
+    assert_true(number(bulged, "hole_diameter") == 0.0 && number(bulged, "deflection") > 1e-4);
+    assert_true(number(bulged, "residual_velocity") < 5.0);
+    assert_momentum(bulged);
+    cJSON *pierced = struck(
+        "pierced", HEAD(", plate: plate, velocity: 1.5 km/s, travel: 8 mm", "1 us") BODIES("ofhc_copper", SHEET), "");
+    assert_text(pierced, "class", "pierced");
+    assert_true(fabs(number(pierced, "end_time") / (8e-3 / 1500.0) - 1.0) < 0.01); /* of strike.travel */
+    assert_true(number(pierced, "hole_diameter") > 1.8e-3 && number(pierced, "hole_diameter") < 6e-3);
+    assert_true(number(pierced, "residual_velocity") > 750.0 && number(pierced, "debris_mass") > 0.0);
+    assert_momentum(pierced);
+    cJSON_Delete(rebound), cJSON_Delete(bulged), cJSON_Delete(pierced);
+}
+
+/* The half model and the quarter of it are the same whole: every answer, to the rounding that grows in 200 steps. */
+static void test_parts(void **state)
+{
+    (void)state;
+    static const char *const keys[] = { "projectile_mass", "residual_velocity", "energy_arrival", "energy_absorbed",
+                                        "peak_force",      "impulse",           "deflection" };
+    const char *text = HEAD(", velocity: 200 m/s", "1.5 us") BODIES("ofhc_copper", PLATE);
+    cJSON *quarter = struck("quarter", text, "");
+    cJSON *half = struck(
+        "half", text, "--set scene.window.y='{lo: -5 mm, hi: 5 mm}' --set 'scene.boundary.y=[absorbing, absorbing]'");
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (!(fabs(number(half, keys[i]) / number(quarter, keys[i]) - 1.0) < 1e-6))
+            fail_msg("%s: %.12g and %.12g", keys[i], number(half, keys[i]), number(quarter, keys[i]));
+    cJSON_Delete(quarter), cJSON_Delete(half);
+}
+
+/* ---- from the shot ---- */
+
+#define LAUNCHER                                                                                                   \
+    "current_profiles: [{points: [{time: 0 s, current: 0 A}, {time: 0.5 ms, current: 300 kA}, "                    \
+    "{time: 3 ms, current: 300 kA}, {time: 3.1 ms, current: 0 A}]}]\n"                                             \
+    "rail: {height: 25 mm, thickness: 20 mm, separation: 25 mm, level: constant, inductance_gradient: 0.45 uH/m, " \
+    "resistance_gradient: 0.1 mohm/m}\n"                                                                           \
+    "barrel: {length: 1 m, start: 0.1 m}\n"                                                                        \
+    "armature: {mass: 32.883 g, preload: 0 N, friction_dry: 0, friction_melted: 0, contact_length: 16 mm, "        \
+    "contact_width: 25 mm}\n"
+
+/* A ball of 32.9 mg from a package of 32.9 g flies ten metres: the summary has the shot, the muzzle velocity is its,
+ * and (S-1) makes the arrival velocity of it. */
+static void test_from_shot(void **state)
+{
+    (void)state;
+    const double mass = 7850.0 * 4.0 / 3.0 * PI * 1e-9, area = PI * 1e-6;
+    const char *text = LAUNCHER HEAD(", distance: 10 m, drag_coefficient: 1, drag_area: 3.14159265 mm2, "
+                                     "discarded_mass: 32.85 g",
+                                     "0.5 us") BODIES("ofhc_copper", PLATE);
+    cJSON *s = struck("shot", text, "");
+    const cJSON *launched = cJSON_GetObjectItemCaseSensitive(s, "shot");
+    const double muzzle = number(s, "muzzle_velocity");
+    assert_true(muzzle > 300.0 && muzzle == number(launched, "muzzle_velocity"));
+    const double k = 0.5 * 1.225 * area / mass;
+    assert_true(fabs(number(s, "impact_velocity") / (muzzle * exp(-10.0 * k)) - 1.0) < 1e-3);
+    assert_true(number(s, "flight_time") > 10.0 / muzzle);
+    assert_text(s, "class", "unfinished"); /* half a microsecond */
+    assert_true(exists("shot/out/history.h5"));
+    cJSON_Delete(s);
+    assert_int_equal(run("strike shot -o shot/b --quiet --set strike.discarded_mass='0 g'"), 2);
+    assert_true(contains("err.txt", "0.03288 g") && contains("err.txt", "weighs 32.88 g"));
+    assert_int_equal(run("strike shot -o shot/b --quiet --set armature.mass='30 mg'"), 2);
+    assert_true(contains("err.txt", "weighs 0.03288 g, the package that the shot launches 0.03 g"));
+    assert_int_equal(run("strike shot -o shot/b --quiet --set strike.drag_area=none"), 2);
+    assert_true(contains("err.txt", "strike.drag_area is missing"));
+    assert_false(exists("shot/b"));
+}
+
+/* ---- refused ---- */
+
+static void refused(const char *set, const char *words)
+{
+    char command[600];
+    snprintf(command, sizeof command, "strike bad -o bad/out --quiet --set %s", set);
+    assert_int_equal(run(command), 2);
+    if (!contains("err.txt", words)) {
+        char *errors;
+        OK(host_file_read("err.txt", &errors, NULL));
+        fail_msg("%s: not `%s` but %s", set, words, errors);
+    }
+    assert_false(exists("bad/out"));
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    write_case("bad", HEAD("", "1 us") BODIES("ofhc_copper", PLATE));
+    refused("strike.projectile=bal", "did you mean `ball`");
+    refused("strike.plate=ball", "that is the projectile");
+    refused("strike.plate=disk", "unknown body `disk` in strike");
+    refused("strike.distance='3 m'", "strike.drag_coefficient is missing");
+    refused("'scene.bodies[1].velocity=0 0 0 m/s'", "strike.velocity is missing");
+    refused("'scene.bodies[1].velocity=100 100 0 m/s'", "flies into the mirror plane at scene.window.y.lo");
+    refused("'scene.window.x={lo: -1.9 mm, hi: 8 mm}'", "reaches 0.00015 m out of the window at scene.window.x.lo");
+    refused("'scene.window.x={lo: -4 mm, hi: -0.01 mm}'", "plate lies at x = 0 .. 0.002 m, out of the window");
+    refused("'scene.bodies[1].shape={sphere: {center: -0.5 0 0 mm, radius: 1 mm}}'", "ball overlaps plate");
+    refused("'scene.probes=[{name: projectile_way, energy: ball}]'", "adds a probe of that name");
+    refused("'scene.bodies[1].group=one' --set 'scene.bodies[0].group=one' --set scene.contacts=[]",
+            "there is no target");
+    assert_int_equal(run("strike " SHOT " -o bad/out --quiet"), 2);
+    assert_true(contains("err.txt", "section `strike` is missing: `breech strike` needs it"));
+    assert_int_equal(run("strike " SHOT " -o bad/out --quiet --set strike.projectile=ball"), 2);
+    assert_true(contains("err.txt", "scene.bodies is missing: `breech strike` needs"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_flight),  cmocka_unit_test(test_package), cmocka_unit_test(test_class),
+        cmocka_unit_test(test_classes), cmocka_unit_test(test_parts),   cmocka_unit_test(test_from_shot),
+        cmocka_unit_test(test_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
