@@ -342,6 +342,31 @@ static int rank_of(const compare_answer *a, const char *surface)
     return (int)(entry_of(a, surface) - a->result.ranking);
 }
 
+/* A skin a hundred times as hard as the rail: under grains lower than it is deep the screen skips everything, and no
+ * scene shows that it helps.  As a film of a micrometre it has scenes. */
+static void test_screened_surface(void **state)
+{
+    (void)state;
+    static const char *const skins[] = { "1 mm", "1 um" };
+    for (int k = 0; k < 2; k++) {
+        char text[4000];
+        snprintf(text, sizeof text, HEAD GRAINS "treatments:\n  - {name: skin, hardening: {depth: %s, factor: 60}}\n",
+                 skins[k]);
+        breech_case *c = read(text, ALL);
+        compare_answer a;
+        OK(run_compare(c, "screened", &a));
+        const compare_entry *skin = entry_of(&a, "skin");
+        assert_true((skin->scenes == 0) == (k == 0));
+        if (k == 0) {
+            assert_true(rank_of(&a, "skin") == 0 && skin->gouges == 0.0 && skin->better_than_next == 1.0);
+            assert_true(!skin->significant && a.result.ranking[1].tied == 1); /* by the screen's word alone */
+            assert_true(skin->probability_gouge == 0.01);
+        }
+        study_compare_answer_free(&a);
+        case_free(c);
+    }
+}
+
 static void test_ranking(void **state)
 {
     (void)state;
@@ -757,6 +782,7 @@ int main(void)
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_presets),
         cmocka_unit_test(test_ranking),
+        cmocka_unit_test(test_screened_surface),
         cmocka_unit_test(test_sheared_off),
         cmocka_unit_test(test_seed),
         cmocka_unit_test(test_population_onset),

@@ -158,7 +158,8 @@ static void test_screen_table(void **state)
         if (strcmp(flyer, "al7075_t651") != 0 || strcmp(target, "ofhc_copper") != 0) continue;
         breech_case *c = changed_case(sets);
         screen s;
-        OK(gouge_screen_impact(surface_of(c), v, &s));
+        const case_surface surface = surface_of(c);
+        OK(gouge_screen_impact(&surface, 0.5e-3, v, &s));
         /* the table has copper of 8930 kg/m3, the material's file 8960, 0.34 % more, which moves a copper-aluminium
          * pressure by less than 0.15 %; and its rounding of 0.005 GPa */
         assert_true(fabs(s.impact_pressure / 1e9 - p) <= 0.0015 * p + 0.005);
@@ -178,21 +179,76 @@ static void test_screen_band(void **state)
     for (double ratio = 2.0; ratio < 40.0; ratio *= 1.7) {
         double v;
         screen below, above;
-        OK(gouge_screen_velocity(surface_of(c), ratio, &v));
-        OK(gouge_screen_impact(surface_of(c), v - 0.01, &below));
-        OK(gouge_screen_impact(surface_of(c), v + 0.01, &above));
+        case_surface surface = surface_of(c);
+        OK(gouge_screen_velocity(&surface, 0.5e-3, ratio, &v));
+        OK(gouge_screen_impact(&surface, 0.5e-3, v - 0.01, &below));
+        OK(gouge_screen_impact(&surface, 0.5e-3, v + 0.01, &above));
         assert_true(below.ratio < ratio && above.ratio > ratio);
         c->study.screen_low = ratio;
-        OK(gouge_screen_impact(surface_of(c), v - 0.01, &below));
-        OK(gouge_screen_impact(surface_of(c), v + 0.01, &above));
+        surface = surface_of(c);
+        OK(gouge_screen_impact(&surface, 0.5e-3, v - 0.01, &below));
+        OK(gouge_screen_impact(&surface, 0.5e-3, v + 0.01, &above));
         assert_true(below.skip && !above.skip);
     }
     /* a rail hardened beyond the armature lowers the ratio by its factor */
     screen soft, hard;
-    OK(gouge_screen_impact(surface_of(c), 1400.0, &soft));
+    case_surface surface = surface_of(c);
+    OK(gouge_screen_impact(&surface, 0.5e-3, 1400.0, &soft));
     c->rail.yield_scale = 2.0 * 1.7 / 0.725;
-    OK(gouge_screen_impact(surface_of(c), 1400.0, &hard));
+    surface = surface_of(c);
+    OK(gouge_screen_impact(&surface, 0.5e-3, 1400.0, &hard));
     assert_true(fabs(hard.ratio - 0.5 * soft.ratio) < 1e-9);
+    case_free(c);
+}
+
+/* A layer counts by its part of the depth that the grain is high: a hard film of a micrometre does not stop half a
+ * millimetre, the same metal as thick as the grain is high counts alone. */
+static void test_screen_layers(void **state)
+{
+    (void)state;
+    breech_case *c = changed_case((const char *const[]){ "armature.material=steel_4340", "scene.damage=no", NULL });
+    case_layer layer[2] = { { .material = "ofhc_copper", .yield_scale = 10.0, .bond_strength = NAN },
+                            { .material = "ofhc_copper", .yield_scale = 40.0, .bond_strength = NAN } };
+    const case_layers none = c->rail.layers;
+    const double own = c->rail.yield_scale * 0.725e9, hard = 40.0 * 0.725e9, under = 10.0 * 0.725e9; /* [Pa] */
+    const double height = 0.5e-3;
+    screen bare, under_film, thick;
+    case_surface surface = surface_of(c);
+    OK(gouge_screen_impact(&surface, height, 1400.0, &bare));
+    c->rail.layers = (case_layers){ 2, layer };
+    layer[0].thickness = 2e-6, layer[1].thickness = 1e-6;
+    surface = surface_of(c);
+    OK(gouge_screen_impact(&surface, height, 1400.0, &under_film));
+    assert_true(fabs(bare.hardness / own - 1.0) < 1e-9);
+    const double mean = (497e-6 * own + 2e-6 * under + 1e-6 * hard) / height;
+    assert_true(fabs(under_film.hardness / mean - 1.0) < 1e-9);
+    assert_true(fabs(under_film.ratio / bare.ratio - 1.0) < 1e-12); /* the armature is harder than either */
+    OK(gouge_screen_impact(&surface, 1e-6, 1400.0, &thick));        /* a grain as high as the film is thick */
+    assert_true(fabs(thick.hardness / hard - 1.0) < 1e-9 && thick.ratio < 0.2 * bare.ratio);
+    assert_true(fabs(thick.density / 8960.0 - 1.0) < 1e-9);
+    assert_int_equal(gouge_screen_impact(&surface, 0.0, 1400.0, &thick).code, STATUS_BAD_INPUT);
+    c->rail.layers = none;
+    case_free(c);
+}
+
+/* 5 and 95 % at the two ratios it was calibrated with, rising, and nowhere a sharp 0. */
+static void test_screen_probability(void **state)
+{
+    (void)state;
+    assert_true(fabs(gouge_screen_probability(3.35) - 0.05) < 1e-4);
+    assert_true(fabs(gouge_screen_probability(10.4) - 0.95) < 1e-4);
+    for (double ratio = 0.01; ratio < 100.0; ratio *= 1.1)
+        assert_true(gouge_screen_probability(ratio) >= 0.01 &&
+                    gouge_screen_probability(1.1 * ratio) >= gouge_screen_probability(ratio));
+    assert_true(gouge_screen_probability(0.0) == 0.01);
+    /* the two are those of 7075 on copper at 0.51 and 1.40 km/s */
+    breech_case *c = changed_case(NULL);
+    const case_surface surface = surface_of(c);
+    screen s;
+    OK(gouge_screen_impact(&surface, 0.5e-3, 510.0, &s));
+    assert_true(fabs(s.ratio - 3.35) < 0.005);
+    OK(gouge_screen_impact(&surface, 0.5e-3, 1400.0, &s));
+    assert_true(fabs(s.ratio - 10.4) < 0.05);
     case_free(c);
 }
 
@@ -744,14 +800,32 @@ static void test_half_model(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_states),      cmocka_unit_test(test_trace),          cmocka_unit_test(test_not_reached),
-        cmocka_unit_test(test_jumps),       cmocka_unit_test(test_stopped),        cmocka_unit_test(test_screen_table),
-        cmocka_unit_test(test_screen_band), cmocka_unit_test(test_no_overlap),     cmocka_unit_test(test_places),
-        cmocka_unit_test(test_grid),        cmocka_unit_test(test_levels),         cmocka_unit_test(test_method),
-        cmocka_unit_test(test_pressing),    cmocka_unit_test(test_grain_measures), cmocka_unit_test(test_fields),
-        cmocka_unit_test(test_many_layers), cmocka_unit_test(test_masses),         cmocka_unit_test(test_pit),
-        cmocka_unit_test(test_refused),     cmocka_unit_test(test_growth),         cmocka_unit_test(test_gauged),
-        cmocka_unit_test(test_dying),       cmocka_unit_test(test_gauges),         cmocka_unit_test(test_front_speed),
+        cmocka_unit_test(test_states),
+        cmocka_unit_test(test_trace),
+        cmocka_unit_test(test_not_reached),
+        cmocka_unit_test(test_jumps),
+        cmocka_unit_test(test_stopped),
+        cmocka_unit_test(test_screen_table),
+        cmocka_unit_test(test_screen_band),
+        cmocka_unit_test(test_screen_layers),
+        cmocka_unit_test(test_screen_probability),
+        cmocka_unit_test(test_no_overlap),
+        cmocka_unit_test(test_places),
+        cmocka_unit_test(test_grid),
+        cmocka_unit_test(test_levels),
+        cmocka_unit_test(test_method),
+        cmocka_unit_test(test_pressing),
+        cmocka_unit_test(test_grain_measures),
+        cmocka_unit_test(test_fields),
+        cmocka_unit_test(test_many_layers),
+        cmocka_unit_test(test_masses),
+        cmocka_unit_test(test_pit),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_growth),
+        cmocka_unit_test(test_gauged),
+        cmocka_unit_test(test_dying),
+        cmocka_unit_test(test_gauges),
+        cmocka_unit_test(test_front_speed),
         cmocka_unit_test(test_half_model),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -528,9 +528,10 @@ static void test_copy(void **state)
  * m/s later. */
 typedef struct {
     int scenes, stop_after; /* of this process; 0: never */
+    int whole_scratches;    /* the next so many whole scenes are scratches, whatever their severity */
     double base;            /* threshold of a 0.5 mm grain [m/s] */
 } fake;
-static fake counter = { 0, 0, 1430.0 }; /* the runner has no place for it */
+static fake counter = { 0, 0, 0, 1430.0 }; /* the runner has no place for it */
 
 static double made_up_threshold(double radius)
 {
@@ -551,6 +552,10 @@ static status fake_scene(const impact_job *job, const scene_host *host, impact *
     out->result.groove_growth = gauged ? excess / gouge_growth_folds(1.0, r, v) : NAN;
     out->result.widening = 2.0;
     out->result.class = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
+    if (!gauged && counter.whole_scratches > 0) {
+        counter.whole_scratches--;
+        out->result.class = DAMAGE_SCRATCH;
+    }
     out->result.crater_volume = (gauged ? 0.3e-9 : 1e-9) * v; /* as far as it was */
     out->impulse = 0.02;
     out->mass_loss = 1e-6;
@@ -806,7 +811,7 @@ static void test_moves(void **state)
     OK(study(c, "moves", FORCE, &a));
     assert_int_equal(a.result.verdict, VERDICT_NO_GOUGING);
     assert_true(isnan(a.result.onset_position) && isnan(a.result.onset_interval[1]));
-    assert_true(a.result.probability_gouge == 0.0);
+    assert_true(a.result.probability_gouge == 0.01); /* too slow for a scene: the screen alone says no */
     assert_int_equal(a.result.gouges, 0);
     assert_true(isnan(a.result.muzzle_velocity_feedback));
     study_onset_answer_free(&a);
@@ -822,10 +827,64 @@ static void test_screened(void **state)
     onset_answer a;
     OK(study(c, "screened", FORCE, &a));
     assert_int_equal(counter.scenes, 0);
-    assert_int_equal(a.result.verdict, VERDICT_NO_GOUGING);
+    /* a screen set higher than what it was calibrated with decides nothing: the fastest site has a ratio of 14 */
+    assert_int_equal(a.result.verdict, VERDICT_UNDECIDED);
+    assert_true(a.result.probability_gouge > 0.95 && a.result.onset_interval[0] == a.site[0].position);
+    assert_non_null(strstr(a.result.reason, "no scene was run"));
     assert_int_equal(a.result.scenes_skipped, c->sites.n);
     for (int i = 0; i < a.result.n_sites; i++) assert_int_equal(a.site[i].outcome, SITE_SKIPPED);
     study_onset_answer_free(&a);
+    case_free(c);
+    /* a slow shot does not gouge, but the screen alone is no proof */
+    c = changed_case((const char *const[]){ "bank[0].charge=2 kV", "bank[0].count=1", "armature.mass=1 kg",
+                                            "sites[0].position=0.11 m", NULL });
+    OK(study(c, "screened", FORCE, &a));
+    assert_int_equal(counter.scenes, 0);
+    assert_int_equal(a.result.verdict, VERDICT_NO_GOUGING);
+    assert_true(a.result.probability_gouge == 0.01);
+    study_onset_answer_free(&a);
+    case_free(c);
+}
+
+/* A film or a hardened skin of a micrometre, 29 GPa hard, must not keep grains of half a millimetre from being looked
+ * at; of grains alike one that is too slow has the threshold of the others. */
+static void test_hard_film(void **state)
+{
+    (void)state;
+    breech_case *c = changed_case((const char *const[]){ "sites[0].position=0.2 m", NULL });
+    case_layer film = { .thickness = 1e-6, .material = "ofhc_copper", .yield_scale = 40.0, .bond_strength = NAN };
+    const case_layers none = c->rail.layers;
+    onset_answer a;
+    c->rail.layers = (case_layers){ 1, &film };
+    OK(study(c, "film", FORCE, &a));
+    assert_true(counter.scenes > 0);
+    assert_int_equal(a.result.verdict, VERDICT_GOUGES);
+    assert_true(a.result.probability_gouge == 1.0);
+    assert_int_equal(a.site[0].outcome, SITE_SKIPPED);
+    assert_int_equal(a.grains.unbacked, 0);
+    c->rail.layers = none;
+    study_onset_answer_free(&a);
+    case_free(c);
+}
+
+/* Where growth says that grains gouge for sure but their whole scenes are scratches, nothing is decided. */
+static void test_contradicted(void **state)
+{
+    (void)state;
+    breech_case *c = changed_case(NULL);
+    onset_answer a;
+    for (int scratches = 0; scratches <= 2; scratches++) {
+        counter.whole_scratches = scratches;
+        OK(study(c, "contradicted", FORCE, &a));
+        const bool contradicted = scratches == 2; /* both of them: one gouge is enough */
+        assert_int_equal(a.result.verdict, contradicted ? VERDICT_UNDECIDED : VERDICT_GOUGES);
+        assert_true(contradicted ? isnan(a.result.probability_gouge) : a.result.probability_gouge == 1.0);
+        assert_true((a.result.gouges == 0) == contradicted);
+        assert_true((strstr(a.result.reason, "whole scenes contradict: scratch at") != NULL) == contradicted);
+        assert_int_equal(a.site[a.result.n_sites - 1].outcome, contradicted ? SITE_UNDECIDED : SITE_GOUGE);
+        assert_true(!isnan(a.result.threshold_velocity));
+        study_onset_answer_free(&a);
+    }
     case_free(c);
 }
 
@@ -920,6 +979,8 @@ int main(void)
         cmocka_unit_test(test_onset),
         cmocka_unit_test(test_moves),
         cmocka_unit_test(test_screened),
+        cmocka_unit_test(test_hard_film),
+        cmocka_unit_test(test_contradicted),
         cmocka_unit_test(test_two_kinds),
         cmocka_unit_test(test_resume),
         cmocka_unit_test(test_other_case),

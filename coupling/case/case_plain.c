@@ -133,11 +133,9 @@ case_flight case_flight_of(const case_onset *c)
 
 case_surface case_surface_of(const case_onset *c)
 {
-    const case_rail *rail = &c->impact.rail;
-    const case_layer *top = rail->layers.n > 0 ? &rail->layers.item[rail->layers.n - 1] : NULL;
-    return (case_surface){ .rail = case_material(&c->impact.materials, top ? top->material : rail->material),
-                           .armature = case_material(&c->impact.materials, c->impact.armature.material),
-                           .yield_scale = top ? top->yield_scale : rail->yield_scale,
+    return (case_surface){ .armature = case_material(&c->impact.materials, c->impact.armature.material),
+                           .rail = c->impact.rail,
+                           .materials = c->impact.materials,
                            .screen_low = c->study.screen_low };
 }
 

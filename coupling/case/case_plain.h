@@ -62,11 +62,12 @@ typedef struct {
 } case_flight;
 case_flight case_flight_of(const case_onset *c);
 
-/* What meets at the rail's surface. */
+/* What meets at the rail's surface: the armature, and the rail with its layers.  What it points to is borrowed. */
 typedef struct {
-    const material *rail, *armature; /* rail: the top layer where there are layers */
-    double yield_scale;              /* of the rail's strength and hardness [1] */
-    double screen_low;               /* impact pressure over hardness below which no scene is needed [1] */
+    const material *armature;
+    case_rail rail;
+    case_materials materials;
+    double screen_low; /* impact pressure over hardness below which no scene is needed [1] */
 } case_surface;
 case_surface case_surface_of(const case_onset *c);
 

@@ -182,7 +182,7 @@ static void fill_entry(const case_treatments *treatments, const compare_answer *
     memcpy(e->gouges_interval, shot_drawn->gouges_interval, sizeof e->gouges_interval);
     e->gouged_volume = shot_drawn->volume;
     memcpy(e->gouged_volume_interval, shot_drawn->volume_interval, sizeof e->gouged_volume_interval);
-    e->probability_gouge = shot_drawn->probability;
+    e->probability_gouge = fmax(shot_drawn->probability, a->answer[i].grains.screen_probability);
     e->scenes = own_scenes(a, i);
     judge_layers(&a->treated[i], &a->answer[i].grains, e);
 }
@@ -215,6 +215,12 @@ static void order_of(const compare_answer *a, int *order)
     }
 }
 
+/* Grains that no scene was run for are not drawn: such a surface has fewer gouges by the screen's word alone. */
+static bool rests_on_screen(const compare_answer *a, int surface)
+{
+    return a->answer[surface].grains.unbacked > 0;
+}
+
 static status rank(const case_treatments *treatments, compare_answer *a)
 {
     int *order = malloc((size_t)a->n * sizeof *order);
@@ -224,7 +230,7 @@ static status rank(const case_treatments *treatments, compare_answer *a)
         compare_entry *e = &a->entry[k];
         fill_entry(treatments, a, order[k], e);
         e->better_than_next = k + 1 < a->n ? share_better(&a->drawn, order[k], order[k + 1]) : NAN;
-        e->significant = e->better_than_next >= SIGNIFICANT;
+        e->significant = e->better_than_next >= SIGNIFICANT && !rests_on_screen(a, order[k]);
         e->tied = k == 0 || a->entry[k - 1].significant ? k + 1 : a->entry[k - 1].tied;
     }
     free(order);

@@ -20,7 +20,7 @@ typedef struct {
     double gouges, gouges_interval[2];                /* a shot, expected [1] */
     double probability_gouge;                         /* [1] */
     double better_than_next; /* share of what may be true in which it gouges less than the next one [1] */
-    bool significant;        /* that share is at least 0.95; of the last: the former one's */
+    bool significant;        /* that share is at least 0.95, not by the screen alone; of the last: the former one's */
     int tied;                /* surfaces from the same `tied` on cannot be told apart; from 1 */
     int scenes;              /* its own, those shared with surfaces before it not counted */
     char layer[24];          /* what its layers suffer: "none", "intact", "spalled", "sheared off", "worn through" */

@@ -26,10 +26,11 @@ void study_onset_answer_free(onset_answer *a)
 
 /* ---- the shot and its sites ---- */
 
-static status fill_site(const case_onset *c, const site_state *from, onset_site *to)
+static status fill_site(const case_onset *c, int i, const site_state *from, onset_site *to)
 {
-    screen hit = { NAN, NAN, false };
-    if (from->reached) TRY(gouge_screen_impact(case_surface_of(c), from->velocity, &hit));
+    const case_surface surface = case_surface_of(c);
+    screen hit = { .impact_pressure = NAN, .ratio = NAN, .probability = NAN };
+    if (from->reached) TRY(gouge_screen_impact(&surface, c->sites.item[i].height, from->velocity, &hit));
     *to = (onset_site){ .position = from->grain.position,
                         .radius = from->grain.radius,
                         .time = from->time,
@@ -38,6 +39,7 @@ static status fill_site(const case_onset *c, const site_state *from, onset_site 
                         .contact_pressure = from->contact_pressure,
                         .impact_pressure = hit.impact_pressure,
                         .screen = hit.ratio,
+                        .screen_probability = hit.probability,
                         .threshold_velocity = NAN,
                         .threshold_interval = { NAN, NAN },
                         .gouged_volume = NAN,
@@ -54,7 +56,7 @@ static status list_sites(const case_onset *c, onset_answer *a)
     const int n = a->flown.n_sites;
     a->site = calloc((size_t)n + 1, sizeof *a->site);
     CHECK(a->site, STATUS_MEMORY, "no memory for %d sites", n);
-    for (int i = 0; i < n; i++) TRY(fill_site(c, &a->flown.site[i], &a->site[i]));
+    for (int i = 0; i < n; i++) TRY(fill_site(c, i, &a->flown.site[i], &a->site[i]));
     a->result.n_sites = n;
     a->result.site = a->site;
     return status_ok();
@@ -171,11 +173,14 @@ static void conclude_population(onset_answer *a)
 {
     onset_result *r = &a->result;
     const mc_shot *first = &a->drawn.of[0];
+    const bool contradicted = study_onset_contradiction(a) != NULL;
     if (a->grains.c->populations.n == 0) return;
-    r->probability_gouge = first->probability;
-    r->verdict = first->probability >= SURE        ? VERDICT_GOUGES
-                 : first->probability < 1.0 - SURE ? VERDICT_NO_GOUGING
-                                                   : VERDICT_UNDECIDED;
+    /* grains of which the screen alone speaks are not drawn; those that scenes contradict have no probability */
+    const double p = fmax(first->probability, a->grains.screen_probability);
+    r->probability_gouge = contradicted && p > 0.0 ? NAN : p;
+    r->verdict = p < 1.0 - SURE                                ? VERDICT_NO_GOUGING
+                 : first->probability >= SURE && !contradicted ? VERDICT_GOUGES
+                                                               : VERDICT_UNDECIDED;
     r->onset_position = first->first[1];
     r->onset_interval[0] = first->first[0];
     r->onset_interval[1] = first->first[2];
@@ -207,8 +212,13 @@ static void explain(onset_answer *a)
     double radius;
     const grain_family *f = study_onset_leading_grain(a, &radius);
     const double allowance = f ? f->surface.reference.allowance : 0.0;
-    if (a->grains.n == 0)
-        say(r, "no site is reached fast enough to gouge (screen)");
+    if (a->grains.n == 0 && a->grains.unbacked == 0)
+        say(r, "no grain is reached that could be looked at");
+    else if (a->grains.n == 0)
+        say(r,
+            "no scene was run: impact pressure over hardness lies below study.screen_low = %g everywhere, which alone "
+            "gives a probability of %.2g",
+            a->grains.c->study.screen_low, a->grains.screen_probability);
     else if (isfinite(r->threshold_velocity))
         say(r, "threshold %.0f m/s (%.0f .. %.0f) is passed at x = %.3f m (%.3f .. %.3f)", r->threshold_velocity,
             r->threshold_interval[0], r->threshold_interval[1], r->threshold_position, x[0], x[1]);
@@ -216,6 +226,7 @@ static void explain(onset_answer *a)
         say(r, "threshold at or below %.0f m/s, where the search began", r->threshold_interval[1] - allowance);
     else
         say(r, "threshold above %.0f m/s, where the search ended", r->threshold_interval[0] + allowance);
+    if (study_onset_contradiction(a)) say(r, "; but whole scenes contradict: %s", study_onset_contradiction(a));
     if (a->result.n_sites > 0) say(r, "; fastest site %.0f m/s", fastest_site(a));
     if (a->grains.c->populations.n > 0)
         say(r, "; %.3g gouges a shot (%.3g .. %.3g)", r->expected_gouges, r->expected_gouges_interval[0],

@@ -30,6 +30,7 @@ typedef struct {
     double contact_pressure;                          /* [Pa] */
     double impact_pressure;                           /* impedance match [Pa] */
     double screen;                                    /* impact pressure over the hardness of the harder partner [1] */
+    double screen_probability;                        /* that it gouges, by that number alone [1] */
     double threshold_velocity, threshold_interval[2]; /* for its grain [m/s]; NaN: not looked for */
     double gouged_volume;                             /* [m3]; NaN: unknown */
     site_outcome outcome;
@@ -77,7 +78,7 @@ typedef enum { VERDICT_GOUGES, VERDICT_NO_GOUGING, VERDICT_UNDECIDED } onset_ver
 
 typedef struct {
     onset_verdict verdict;
-    char reason[300];                                                  /* of the verdict, in words */
+    char reason[500];                                                  /* of the verdict, in words */
     double probability_gouge;                                          /* [1] */
     double threshold_velocity;                                         /* at the median size for a population [m/s] */
     double threshold_interval[2];                                      /* [m/s] */
@@ -140,6 +141,10 @@ status study_onset_judge(session *s, onset_answer *a);
 /* The grain that speaks for the case: of the median size of the first population with a family, else the onset's site,
  * else the one with the lowest threshold.  NULL: there is none. */
 const grain_family *study_onset_leading_grain(const onset_answer *a, double *radius);
+
+/* Where growth says that grains gouge for sure but none of their whole scenes is a gouge: what those are, in words;
+ * NULL: nowhere. */
+const char *study_onset_contradiction(const onset_answer *a);
 
 /* The scenes of the session, as a summary lists them, and what is to be warned of in them; *n of them, the caller
  * frees. */

@@ -7,9 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const double DOUBT = 0.05;        /* probability from which the screen alone leaves it open */
 static const double TRUSTED_CELLS = 3.0; /* a radius: below, the threshold hangs on the resolution (docs/onset.md) */
 
-/* ---- judging the sites ---- */
+/* ---- a grain's threshold at a velocity ---- */
 
 static site_outcome outcome_at(const surface_size *t, double v, const family_scene *near)
 {
@@ -38,6 +39,53 @@ static surface_size threshold_of(const onset_answer *a, int site)
     return study_surface_at(&family_of(a, site)->surface, a->grains.c->sites.item[site].radius);
 }
 
+/* ---- do whole scenes agree? ---- */
+
+/* Does growth say that this whole scene gouges for sure? */
+static bool is_sure(const grain_family *f, const family_scene *s)
+{
+    const surface_size t = study_surface_at(&f->surface, s->radius);
+    return f->by_growth && s->whole && !isnan(t.interval[1]) && s->velocity >= t.interval[1];
+}
+
+/* One of them left no gouge, and none left one: the end of a groove decides as much as its growth. */
+static void find_contradiction(grain_family *f)
+{
+    int gouges = 0, others = 0;
+    f->contradicted[0] = '\0';
+    for (int i = 0; i < f->n_scenes; i++) {
+        const family_scene *s = &f->scene[i];
+        if (!is_sure(f, s)) continue;
+        const damage_class class = s->record->entry.result.class;
+        const size_t used = strlen(f->contradicted);
+        gouges += class == DAMAGE_GOUGE;
+        others += class == DAMAGE_NONE || class == DAMAGE_SCRATCH;
+        snprintf(f->contradicted + used, sizeof f->contradicted - used, "%s%s at %g m/s", used ? ", " : "",
+                 run_damage_names[class], s->velocity);
+    }
+    if (gouges > 0 || others == 0) f->contradicted[0] = '\0';
+}
+
+const char *study_onset_contradiction(const onset_answer *a)
+{
+    for (int k = 0; k < a->grains.n; k++)
+        if (a->grains.family[k].contradicted[0]) return a->grains.family[k].contradicted;
+    return NULL;
+}
+
+static void find_contradictions(session *s, onset_answer *a)
+{
+    for (int k = 0; k < a->grains.n; k++) {
+        grain_family *f = &a->grains.family[k];
+        find_contradiction(f);
+        if (f->contradicted[0])
+            run_session_warn(s, "%sgrains of kind %d gouge by the growth of their grooves, but not by whole scenes: %s",
+                             a->grains.prefix, k + 1, f->contradicted);
+    }
+}
+
+/* ---- judging the sites ---- */
+
 static void judge_sites(onset_answer *a)
 {
     for (int i = 0; i < a->result.n_sites; i++) {
@@ -51,6 +99,7 @@ static void judge_sites(onset_answer *a)
         memcpy(site->threshold_interval, t.interval, sizeof t.interval);
         site->outcome = outcome_at(&t, site->velocity, near);
         if (near) memcpy(site->scene, near->record->entry.name, sizeof site->scene);
+        if (site->outcome == SITE_GOUGE && f->contradicted[0]) site->outcome = SITE_UNDECIDED;
         if (site->outcome != SITE_GOUGE) continue;
         a->result.gouges++;
         if (study_gouge_mark_at(f, a->grains.c->impact.scene.limit_severity, site->velocity, &mark))
@@ -60,16 +109,32 @@ static void judge_sites(onset_answer *a)
 
 /* ---- the verdict of a list ---- */
 
+/* Skipped, with no scenes of grains alike: the screen alone speaks for it. */
+static bool is_unbacked(const onset_answer *a, int site)
+{
+    const case_site *grain = &a->grains.c->sites.item[site];
+    return a->site[site].outcome == SITE_SKIPPED &&
+           !study_family_of_grain(&a->grains, grain, grain->height / grain->radius);
+}
+
+static bool may_gouge_by_screen(const onset_answer *a, int site)
+{
+    return is_unbacked(a, site) && a->site[site].screen_probability >= DOUBT;
+}
+
 /* First site along the barrel, of those with an answer to be had, whose velocity has passed `end` of its threshold:
  * 0, 1 the interval's ends, 2 the threshold itself.  -1 if none. */
 static int first_site(const onset_answer *a, int end)
 {
     int first = -1;
     for (int i = 0; i < a->result.n_sites; i++) {
-        if (!family_of(a, i)) continue;
-        const surface_size t = threshold_of(a, i);
-        const double v = a->site[i].velocity, at = end < 2 ? t.interval[end] : t.velocity;
-        const bool passed = end == 0 ? !(v <= at) : v >= (isnan(at) ? t.interval[1] : at);
+        bool passed = may_gouge_by_screen(a, i) && end == 0;
+        if (family_of(a, i)) {
+            const surface_size t = threshold_of(a, i);
+            const double v = a->site[i].velocity, at = end < 2 ? t.interval[end] : t.velocity;
+            passed = end == 0 ? !(v <= at) : v >= (isnan(at) ? t.interval[1] : at);
+            if (end == 1 && family_of(a, i)->contradicted[0]) passed = false;
+        }
         if (passed && (first < 0 || a->site[i].position < a->site[first].position)) first = i;
     }
     return first;
@@ -80,14 +145,24 @@ static double position_of(const onset_answer *a, int site)
     return site < 0 ? NAN : a->site[site].position;
 }
 
+/* That it gouges; NaN: not known, also where whole scenes contradict its threshold. */
+static double site_probability(const onset_answer *a, int site)
+{
+    const case_site *grain = &a->grains.c->sites.item[site];
+    const grain_family *f = study_family_of_grain(&a->grains, grain, grain->height / grain->radius);
+    if (a->site[site].outcome == SITE_NOT_REACHED) return 0.0;
+    if (!f) return a->site[site].screen_probability;
+    const surface_size t = study_surface_at(&f->surface, grain->radius);
+    const double p = probability_at(&t, a->site[site].velocity);
+    return f->contradicted[0] && p > 0.0 ? NAN : p;
+}
+
 static double largest_probability(const onset_answer *a)
 {
     double p = 0.0;
     bool unknown = false;
     for (int i = 0; i < a->result.n_sites; i++) {
-        if (!family_of(a, i)) continue;
-        const surface_size t = threshold_of(a, i);
-        const double here = probability_at(&t, a->site[i].velocity);
+        const double here = site_probability(a, i);
         unknown = unknown || isnan(here);
         if (here > p) p = here;
     }
@@ -241,10 +316,21 @@ static void warn_of_thresholds(session *s, const onset_answer *a)
             y->fine_cells_per_radius, TRUSTED_CELLS);
 }
 
+static void warn_of_screen(session *s, const onset_answer *a)
+{
+    if (a->grains.unbacked == 0) return;
+    run_session_warn(s,
+                     "%s%d sites and populations rest on the screen alone, impact pressure over hardness below "
+                     "study.screen_low = %g: no scene was run for their grains (study.screen_low: 0 runs them)",
+                     a->grains.prefix, a->grains.unbacked, a->grains.c->study.screen_low);
+}
+
 status study_onset_judge(session *s, onset_answer *a)
 {
     warn_of_thresholds(s, a);
     warn_of_films(s, a);
+    warn_of_screen(s, a);
+    find_contradictions(s, a);
     judge_sites(a);
     conclude_list(a);
     set_threshold(a);

@@ -56,43 +56,111 @@ static status add_size(surface_plan *p, double size, double weight)
     return status_ok();
 }
 
+/* Of grains of that height over radius, the size under which the rail resists least [m]. */
+static status softest_under(const case_surface *s, double aspect, const double *size, int n, double velocity,
+                            screen *out)
+{
+    for (int k = 0; k < n; k++) {
+        screen hit;
+        TRY(gouge_screen_impact(s, aspect * size[k], velocity, &hit));
+        if (k == 0 || hit.ratio > out->ratio) *out = hit;
+    }
+    return status_ok();
+}
+
 static status sort_sites(grain_families *f)
 {
+    const case_surface surface = case_surface_of(f->c);
     for (int i = 0; i < f->c->sites.n; i++) {
         const site_state *site = &f->flown->site[i];
+        const case_site *grain = &f->c->sites.item[i]; /* a treatment may have changed it */
         screen hit;
         f->of_site[i] = -1;
         if (!site->reached) continue;
-        TRY(gouge_screen_impact(case_surface_of(f->c), site->velocity, &hit));
+        TRY(gouge_screen_impact(&surface, grain->height, site->velocity, &hit));
         if (hit.skip) {
             f->screened++;
             continue;
         }
-        const case_site *grain = &f->c->sites.item[i]; /* a treatment may have changed it */
         f->of_site[i] = family_for(f, grain, grain->height / grain->radius);
         TRY(add_size(&f->family[f->of_site[i]].plan, grain->radius, 1.0));
     }
     return status_ok();
 }
 
+/* One of a population; its size is the family's to say. */
+static case_site grain_of(const case_population *p)
+{
+    case_site grain = { .position = NAN, .bond_strength = p->bond_strength };
+    memcpy(grain.shape, p->shape, sizeof grain.shape);
+    memcpy(grain.material, p->material, sizeof grain.material);
+    return grain;
+}
+
 static status sort_populations(grain_families *f)
 {
     const case_onset *c = f->c;
-    screen hit;
+    const case_surface surface = case_surface_of(c);
+    screen hit = { .skip = false };
     for (int i = 0; i < c->populations.n; i++) {
         const case_population *p = &c->populations.item[i];
         double size[SURFACE_MAX_SIZES], number[SURFACE_MAX_SIZES];
-        case_site grain = { .position = NAN, .bond_strength = p->bond_strength };
-        memcpy(grain.shape, p->shape, sizeof grain.shape);
-        memcpy(grain.material, p->material, sizeof grain.material);
+        const case_site grain = grain_of(p);
         const int n = study_population_sizes(p, c->study.smallest_radius, SURFACE_MAX_SIZES / 2, size, number);
-        TRY(gouge_screen_impact(case_surface_of(c), gouge_trace_fastest(f->flown), &hit));
         f->of_population[i] = -1;
-        f->screened += hit.skip;
-        f->too_small += !hit.skip && n == 0;
-        if (hit.skip || n == 0) continue;
+        f->too_small += n == 0;
+        if (n == 0) continue;
+        TRY(softest_under(&surface, p->aspect, size, n, gouge_trace_fastest(f->flown), &hit));
+        if (hit.skip) {
+            f->screened++;
+            continue;
+        }
         f->of_population[i] = family_for(f, &grain, p->aspect);
         for (int k = 0; k < n; k++) TRY(add_size(&f->family[f->of_population[i]].plan, size[k], number[k]));
+    }
+    return status_ok();
+}
+
+/* ---- what the screen alone decides ---- */
+
+const grain_family *study_family_of_grain(const grain_families *f, const case_site *grain, double aspect)
+{
+    for (int k = 0; k < f->n; k++)
+        if (same_family(&f->family[k], grain, aspect)) return &f->family[k];
+    return NULL;
+}
+
+static void note_unbacked(grain_families *f, const screen *hit)
+{
+    f->unbacked++;
+    f->screen_probability = fmax(f->screen_probability, hit->probability);
+}
+
+static status find_unbacked_sites(grain_families *f, const case_surface *surface)
+{
+    for (int i = 0; i < f->c->sites.n; i++) {
+        const case_site *grain = &f->c->sites.item[i];
+        const site_state *site = &f->flown->site[i];
+        screen hit;
+        if (!site->reached || f->of_site[i] >= 0) continue;
+        if (study_family_of_grain(f, grain, grain->height / grain->radius)) continue;
+        TRY(gouge_screen_impact(surface, grain->height, site->velocity, &hit));
+        note_unbacked(f, &hit);
+    }
+    return status_ok();
+}
+
+static status find_unbacked_populations(grain_families *f, const case_surface *surface)
+{
+    for (int i = 0; i < f->c->populations.n; i++) {
+        const case_population *p = &f->c->populations.item[i];
+        double size[SURFACE_MAX_SIZES], number[SURFACE_MAX_SIZES];
+        const case_site grain = grain_of(p);
+        const int n = study_population_sizes(p, f->c->study.smallest_radius, SURFACE_MAX_SIZES / 2, size, number);
+        screen hit;
+        if (n == 0 || f->of_population[i] >= 0 || study_family_of_grain(f, &grain, p->aspect)) continue;
+        TRY(softest_under(surface, p->aspect, size, n, gouge_trace_fastest(f->flown), &hit));
+        note_unbacked(f, &hit);
     }
     return status_ok();
 }
@@ -119,18 +187,31 @@ static int middle_size(const surface_plan *p)
     return 0;
 }
 
+/* The velocity below which the screen skips every size of a family [m/s]. */
+static status slowest_above(const case_surface *s, double aspect, const surface_plan *p, double ratio, double *velocity)
+{
+    *velocity = INFINITY;
+    for (int k = 0; k < p->sizes; k++) {
+        double v;
+        TRY(gouge_screen_velocity(s, aspect * p->size[k], ratio, &v));
+        *velocity = fmin(*velocity, v);
+    }
+    return status_ok();
+}
+
 static status plan_searches(grain_families *f)
 {
     const case_study *y = &f->c->study;
     const bool by_growth = case_impact_is_gauged(&f->probe);
     const int craters = by_growth ? y->craters * f->n : 0;
-    double sure;
-    TRY(gouge_screen_velocity(case_surface_of(f->c), y->screen_low, &sure));
+    const case_surface surface = case_surface_of(f->c);
     CHECK(f->n + craters <= y->max_scenes, STATUS_BAD_INPUT,
           "study.max_scenes = %d: for %d kinds of grain, %d whole craters; allow more or make the grains alike",
           y->max_scenes, f->n, craters);
     for (int k = 0; k < f->n; k++) {
         surface_plan *p = &f->family[k].plan;
+        double sure;
+        TRY(slowest_above(&surface, f->family[k].aspect, p, y->screen_low, &sure));
         p->reference = middle_size(p);
         f->family[k].by_growth = by_growth;
         p->search = (threshold_plan){ .low = fmax(y->velocity_low, fmin(sure, 0.5 * y->velocity_high)),
@@ -170,6 +251,9 @@ status study_families_sort(const case_onset *c, const shot_outcome *flown, const
     CHECK(out->family && out->of_site && out->of_population, STATUS_MEMORY, "no memory for %zu sites", sites);
     TRY(sort_sites(out));
     TRY(sort_populations(out));
+    const case_surface surface = case_surface_of(c);
+    TRY(find_unbacked_sites(out, &surface));
+    TRY(find_unbacked_populations(out, &surface));
     return plan_searches(out);
 }
 

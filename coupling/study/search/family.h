@@ -31,6 +31,7 @@ typedef struct {
     struct {
         double growth, threshold;
     } scatter;
+    char contradicted[120]; /* what whole scenes are where growth says that it gouges for sure; "": they agree */
     int n_scenes;
     family_scene scene[THRESHOLD_MAX_SAMPLES];
 } grain_family;
@@ -45,6 +46,8 @@ typedef struct {
     grain_family *family;         /* owned */
     int *of_site, *of_population; /* index of the family, -1: needs no scene; owned */
     int screened, too_small;      /* sites and populations without a scene: by the screen, by study.smallest_radius */
+    int unbacked; /* of the screened: no scene was run for grains alike either, the screen alone speaks for them */
+    double screen_probability; /* that one of the unbacked gouges: the largest; 0: there are none [1] */
 } grain_families;
 
 /* Sorts sites and populations into families and plans their searches.  study_families_free even on error. */
@@ -57,6 +60,9 @@ case_impact study_family_probe(const case_onset *c);
 
 /* Searches all families of n cases to their end. */
 status study_families_search(session *s, grain_families *const *f, int n);
+
+/* The family that this grain belongs to, whether the screen skips it or not; NULL: no grain alike has scenes. */
+const grain_family *study_family_of_grain(const grain_families *f, const case_site *grain, double aspect);
 
 /* Its family in another case of the same grains; NULL: none of them is fast enough there (screen). */
 const grain_family *study_family_alike(const grain_families *in, const grain_family *f);
