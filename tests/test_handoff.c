@@ -2,8 +2,8 @@
 #include "coupling/case/case.h"
 #include "coupling/gouge/growth.h"
 #include "coupling/gouge/impact.h"
+#include "coupling/gouge/null_model.h"
 #include "coupling/gouge/result.h"
-#include "coupling/gouge/screen.h"
 #include "coupling/gouge/site_state.h"
 #include "mpm/grid/grid.h"
 #include "mpm/law/contact.h"
@@ -228,6 +228,31 @@ static void test_screen_layers(void **state)
     assert_true(fabs(thick.density / 8960.0 - 1.0) < 1e-9);
     assert_int_equal(gouge_screen_impact(&surface, 0.0, 1400.0, &thick).code, STATUS_BAD_INPUT);
     c->rail.layers = none;
+    case_free(c);
+}
+
+/* The null models give the pair they are calibrated on back, move with hardness as they say, and hold the constants of
+ * the materials' files. */
+static void test_null_models(void **state)
+{
+    (void)state;
+    null_model of[NULL_MODELS], hard[NULL_MODELS];
+    breech_case *c = changed_case((const char *const[]){ "rail.yield_scale=1", NULL });
+    case_surface surface = surface_of(c);
+    OK(gouge_null_models(&surface, 0.5e-3, of));
+    for (int i = 0; i < NULL_MODELS; i++) {
+        assert_true(fabs(of[i].threshold_velocity - 1325.0) < 0.01);
+        assert_true(fabs(of[i].threshold_interval[0] - 1300.0) < 0.01 &&
+                    fabs(of[i].threshold_interval[1] - 1350.0) < 0.01);
+    }
+    c->rail.yield_scale = 4.0 * 1.7 / 0.725; /* four times as hard as the armature was, now the harder partner */
+    surface = surface_of(c);
+    OK(gouge_null_models(&surface, 0.5e-3, hard));
+    screen s;
+    OK(gouge_screen_impact(&surface, 0.5e-3, hard[0].threshold_velocity, &s));
+    assert_true(fabs(s.impact_pressure / 6.8e9 - 9.760) < 0.001); /* 16.592 GPa over 1.7 GPa */
+    assert_true(fabs(hard[1].threshold_velocity / 1325.0 - 2.0) < 1e-9);
+    assert_true(fabs(hard[2].threshold_velocity / 1325.0 - sqrt((1.7 + 6.8) / (1.7 + 0.725))) < 1e-9);
     case_free(c);
 }
 
@@ -809,6 +834,7 @@ int main(void)
         cmocka_unit_test(test_screen_band),
         cmocka_unit_test(test_screen_layers),
         cmocka_unit_test(test_screen_probability),
+        cmocka_unit_test(test_null_models),
         cmocka_unit_test(test_no_overlap),
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_grid),

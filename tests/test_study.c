@@ -860,6 +860,9 @@ static void test_hard_film(void **state)
     assert_true(counter.scenes > 0);
     assert_int_equal(a.result.verdict, VERDICT_GOUGES);
     assert_true(a.result.probability_gouge == 1.0);
+    assert_int_equal(a.result.n_null_models, 3); /* the armature is harder than the rail with its film */
+    assert_true(fabs(a.result.null_model[0].threshold_velocity - 1325.0) < 0.1);
+    assert_true(first_position_at(&a, 1325.0) > a.result.null_model[0].threshold_position);
     assert_int_equal(a.site[0].outcome, SITE_SKIPPED);
     assert_int_equal(a.grains.unbacked, 0);
     c->rail.layers = none;

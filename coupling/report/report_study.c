@@ -121,6 +121,10 @@ static const page_column sensitivity_columns[] = {
     { "input", "changed", 1.0, "" },                      { "change", "by", 0.01, "%" },
     { "muzzle_velocity", "muzzle velocity", 1.0, "m/s" }, { "threshold_velocity", "threshold", 1.0, "m/s" },
     { "threshold_position", "passed at", 1.0, "m" },      { "expected_gouges", "expected gouges", 1.0, "" } };
+static const page_column null_model_columns[] = {
+    { "name", "null model", 1.0, "" },                 { "says", "the cause it takes", 1.0, "" },
+    { "threshold_velocity", "threshold", 1.0, "m/s" }, { "threshold_interval", "interval", 1.0, "m/s" },
+    { "threshold_position", "passed at", 1.0, "m" } };
 static const page_column repeated_columns[] = {
     { "shot", "shot", 1.0, "" },                       { "probability_gouge", "P(gouge)", 1.0, "" },
     { "expected_gouges", "expected gouges", 1.0, "" }, { "expected_gouged_volume", "gouged volume", 1e-9, "mm&sup3;" },
@@ -167,6 +171,8 @@ void report_section_onset(const page *p)
         report_page_list_table(p, list_of(p, "sites"), site_columns, PAGE_COUNT(site_columns));
     }
     section_threshold(p);
+    report_page_listed(p, "null_models", "What one number of the two metals alone would say (7075 on copper: 1325 m/s)",
+                       null_model_columns, PAGE_COUNT(null_model_columns));
     report_page_listed(p, "skips", "Scenes that were not needed", skip_columns, PAGE_COUNT(skip_columns));
     report_page_listed(p, "sensitivities", "What moves the answer", sensitivity_columns,
                        PAGE_COUNT(sensitivity_columns));

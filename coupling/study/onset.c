@@ -2,6 +2,7 @@
 
 #include "coupling/gouge/screen.h"
 #include "coupling/study/feedback.h"
+#include "coupling/study/sampling/population.h"
 #include "coupling/study/sensitivity.h"
 
 #include <math.h>
@@ -186,6 +187,42 @@ static void conclude_population(onset_answer *a)
     r->onset_interval[1] = first->first[2];
 }
 
+/* ---- beside it: the null models ---- */
+
+/* Height of the grain that speaks for the case; of the first one where none has scenes; 0: there is none [m]. */
+static double leading_height(const onset_answer *a)
+{
+    const case_onset *c = a->grains.c;
+    double radius;
+    const grain_family *f = study_onset_leading_grain(a, &radius);
+    if (f) return f->aspect * radius;
+    if (c->sites.n > 0) return c->sites.item[0].height;
+    if (c->populations.n == 0) return 0.0;
+    return c->populations.item[0].aspect * study_population_quantile(&c->populations.item[0], 0.5);
+}
+
+static status ask_null_models(onset_answer *a)
+{
+    const case_surface surface = case_surface_of(a->grains.c);
+    const double height = leading_height(a);
+    null_model found[NULL_MODELS];
+    if (!(height > 0.0)) return status_ok();
+    TRY(gouge_null_models(&surface, height, found));
+    for (int i = 0; i < NULL_MODELS; i++) {
+        onset_null_model *to = &a->null_model[i];
+        const double v = found[i].threshold_velocity;
+        *to = (onset_null_model){ .threshold_velocity = isfinite(v) ? v : NAN,
+                                  .threshold_interval = { found[i].threshold_interval[0],
+                                                          found[i].threshold_interval[1] },
+                                  .threshold_position = gouge_trace_place(&a->flown, v) };
+        snprintf(to->name, sizeof to->name, "%s", found[i].name);
+        snprintf(to->says, sizeof to->says, "%s", found[i].says);
+    }
+    a->result.n_null_models = NULL_MODELS;
+    a->result.null_model = a->null_model;
+    return status_ok();
+}
+
 /* ---- in words ---- */
 
 static double fastest_site(const onset_answer *a)
@@ -280,6 +317,7 @@ static status study(session *s, const case_onset *c, onset_answer *a)
     conclude_population(a);
     TRY(study_feedback_shot(s, a));
     TRY(study_sensitivities_run(s, a));
+    TRY(ask_null_models(a));
     explain(a);
     return status_ok();
 }

@@ -8,6 +8,7 @@
 #ifndef BREECH_COUPLING_ONSET_H
 #define BREECH_COUPLING_ONSET_H
 
+#include "coupling/gouge/null_model.h"
 #include "coupling/gouge/session_shot.h"
 #include "coupling/study/repeated.h"
 #include "coupling/study/search/scatter.h"
@@ -74,6 +75,14 @@ typedef struct {
     double threshold_velocity; /* as the study's, where the rail is that warm [m/s] */
 } onset_shot;
 
+/* What one number of the two metals alone would say (coupling/gouge/null_model.h). */
+typedef struct {
+    char name[8];
+    char says[80];
+    double threshold_velocity, threshold_interval[2]; /* [m/s] */
+    double threshold_position;                        /* where the shot has that velocity; NAN: nowhere [m] */
+} onset_null_model;
+
 typedef enum { VERDICT_GOUGES, VERDICT_NO_GOUGING, VERDICT_UNDECIDED } onset_verdict;
 
 typedef struct {
@@ -99,6 +108,8 @@ typedef struct {
     const onset_skip *skip;                 /* borrowed */
     const onset_sensitivity *sensitivities; /* borrowed */
     const onset_shot *shot;                 /* borrowed */
+    int n_null_models;
+    const onset_null_model *null_model; /* n_null_models, borrowed */
     int scenes_run, scenes_skipped, scenes_reused;
     int n_sites, n_scenes;
     const onset_site *site;   /* n_sites, borrowed */
@@ -124,6 +135,7 @@ typedef struct {
     onset_sensitivity *sensitivity;
     onset_shot *repeated;
     double *along;
+    onset_null_model null_model[NULL_MODELS];
 } onset_answer;
 
 /* *out needs study_onset_answer_free even on error, before c goes; what was reached by then is in it. */

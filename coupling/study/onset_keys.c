@@ -59,6 +59,18 @@ static const summary_key sensitivity_keys[] = {
     SUMMARY_END
 };
 
+static const summary_key null_model_keys[] = {
+    SUMMARY_TEXT(onset_null_model, "name", name, "N1, N2, N3"),
+    SUMMARY_TEXT(onset_null_model, "says", says, "what it takes for the cause"),
+    SUMMARY_NUMBER(onset_null_model, "threshold_velocity", threshold_velocity, "m/s",
+                   "its constant makes 7075 on copper begin at 1325 m/s"),
+    SUMMARY_VECTOR(onset_null_model, "threshold_interval", threshold_interval, 2, "m/s",
+                   "its constant by the two onsets reported for that pair, 1300 and 1350 m/s"),
+    SUMMARY_NUMBER(onset_null_model, "threshold_position", threshold_position, "m",
+                   "where that velocity is passed; null: nowhere"),
+    SUMMARY_END
+};
+
 static const summary_key shot_keys[] = {
     SUMMARY_VALUE(onset_shot, KEY_INTEGER, "shot", shot, "1", "from 1, on the same rail"),
     SUMMARY_NUMBER(onset_shot, "probability_gouge", probability_gouge, "1", "that it gouges"),
@@ -115,6 +127,8 @@ const summary_key study_onset_keys[] = {
     SUMMARY_LIST(onset_result, "sensitivities", sensitivities, n_sensitivities, sensitivity_keys,
                  sizeof(onset_sensitivity), "keys below"),
     SUMMARY_LIST(onset_result, "shots", shot, n_shots, shot_keys, sizeof(onset_shot), "on the same rail, keys below"),
+    SUMMARY_LIST(onset_result, "null_models", null_model, n_null_models, null_model_keys, sizeof(onset_null_model),
+                 "what one number of the two metals alone would say, keys below"),
     SUMMARY_VALUE(onset_result, KEY_INTEGER, "scenes_reused", scenes_reused, "1", "taken from the store"),
     SUMMARY_VALUE(onset_result, KEY_INTEGER, "scenes_run", scenes_run, "1", "computed"),
     SUMMARY_VALUE(onset_result, KEY_INTEGER, "scenes_skipped", scenes_skipped, "1", "by the screen or shared"),
@@ -176,6 +190,28 @@ static void print_scenes(const onset_result *o, FILE *out)
     close_table(t, out);
 }
 
+/* The scenes' answer among those of one number each. */
+static void print_null_models(const onset_result *o, FILE *out)
+{
+    table *t;
+    const char *titles = "threshold by|v_th [m/s]|from|to|passed at [m]";
+    char v[24], low[24], high[24], x[24];
+    if (o->n_null_models == 0 || host_table_create(titles, &t).code != STATUS_OK) return;
+    host_table_row(t, "scenes|%s|%s|%s|%s", output_cell(o->threshold_velocity, 1.0, "%.0f", v),
+                   output_cell(o->threshold_interval[0], 1.0, "%.0f", low),
+                   output_cell(o->threshold_interval[1], 1.0, "%.0f", high),
+                   output_cell(o->threshold_position, 1.0, "%.3f", x));
+    for (int i = 0; i < o->n_null_models; i++) {
+        const onset_null_model *m = &o->null_model[i];
+        host_table_row(t, "%s, %s|%s|%s|%s|%s", m->name, m->says, output_cell(m->threshold_velocity, 1.0, "%.0f", v),
+                       output_cell(m->threshold_interval[0], 1.0, "%.0f", low),
+                       output_cell(m->threshold_interval[1], 1.0, "%.0f", high),
+                       output_cell(m->threshold_position, 1.0, "%.3f", x));
+    }
+    close_table(t, out);
+    fputs("N1 to N3 have one constant each, by 7075 on copper at 1325 m/s\n", out);
+}
+
 static void print_shots(const onset_result *o, FILE *out)
 {
     table *t;
@@ -200,6 +236,7 @@ void study_onset_print(const void *result, FILE *out)
     output_keys_print(&(summary_object){ study_onset_keys, o }, out);
     print_sites(o, out);
     print_scenes(o, out);
+    print_null_models(o, out);
     print_shots(o, out);
     if (o->reason[0]) fprintf(out, "\n%s: %s\n", verdict_names[o->verdict], o->reason);
 }
