@@ -13,8 +13,9 @@
  *   inside > 0 in the solid, < 0 outside, continuous everywhere;
  *   |inside| is at most the distance to the surface [m] and, near the surface, equal to it;
  *   bounds is a box that holds the solid.
- * Of an operation the distance is right away from the edges that it makes; of a shape everywhere near the surface, and
- * its bounds are the smallest box.  tests/test_shapes.c checks these and the volume for the whole table. */
+ * Of an operation, and of a lattice cut off at its box, the distance is right away from the edges that it makes; of any
+ * other shape everywhere near the surface, and its bounds are the smallest box.  tests/test_shapes.c checks these and
+ * the volume for the whole table. */
 #ifndef BREECH_MPM_SOLID_H
 #define BREECH_MPM_SOLID_H
 
