@@ -17,6 +17,7 @@ import sys
 
 import pages
 import part_closed
+import part_criterion
 import part_growth
 import part_levels
 import part_wu2017
@@ -28,6 +29,8 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "wu2017-shipped": ("docs/validation/wu2017.md", part_wu2017.shipped, 2, False),
     "levels": ("docs/validation/levels.md", part_levels.default_shot, 8, True),
     "cells": ("docs/validation/growth.md", part_growth.cells, 6, False),
+    "criterion-steel": ("docs/validation/criterion.md", part_criterion.steel, 13, False),
+    "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
     "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
 }
 
