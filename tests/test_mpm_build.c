@@ -1,8 +1,11 @@
 /* Bodies as points: cut at their surfaces, so that mass and centroid are the shape's and neighbours share every box
  * between them.  Limits are two to four times what was measured; whole boxes or none, 0.4 - 1.9 % of the mass, miss
  * them all. */
+#include "mpm/memory/build.h"
 #include "mpm/memory/store.h"
 #include "mpm_scenes.h"
+
+#include <time.h>
 
 typedef struct {
     double mass, centre[3];
@@ -187,6 +190,60 @@ static void test_seams(void **state)
     }
 }
 
+static status add_one(void *user, int body, const build_point *p)
+{
+    (void)body, (void)p;
+    ++*(int *)user;
+    return status_ok();
+}
+
+/* A sample of a body's boxes tells how many points there are, within four standard errors; small cells too, which fill
+ * an eighth of the ball and have most of its points. */
+static void test_sample(void **state)
+{
+    (void)state;
+    enum { MOST = 8000 };
+    const material copper = scene_copper();
+    const double ball[] = { 0, 0, 0, 1e-3 };
+    for (int levels = 1; levels <= 2; levels++) {
+        SCENE_LOCAL(s);
+        grids g;
+        law k;
+        window(&s, levels == 1 ? 12 : 20);
+        s.levels = levels;
+        for (int q = 0; q < 3 && levels > 1; q++) s.axis[q] = scene_graded(s.axis[q], 0, 1.3e-3, 0.1e-3, 1.2);
+        scene_body(&s, "sphere", ball, 4, &copper);
+        assert_ok(mpm_grids_make(&s, &g));
+        assert_ok(mpm_law_make(&s.body[0], &s, &k));
+        int all = 0, sampled = 0;
+        double share;
+        assert_ok(mpm_build_body(&s, 0, &k, &g, &mpm_build_everywhere, &(build_sink){ add_one, &all }));
+        assert_ok(mpm_build_sample(&s, 0, &k, &g, MOST, &(build_sink){ add_one, &sampled }, &share));
+        print_message("%d levels: %d points, %d in a share of %.3f\n", levels, all, sampled, share);
+        assert_true(share < 0.5 && sampled < 1.1 * MOST);
+        assert_near(sampled / share / all, 1, 4 / sqrt(sampled));
+        mpm_grids_free(&g);
+    }
+}
+
+/* However many points there are, what they need is told soon; one by one these would take half a minute. */
+static void test_estimate_of_many(void **state)
+{
+    (void)state;
+    const material copper = scene_copper();
+    const double ball[] = { 0, 0, 0, 1e-3 };
+    SCENE_LOCAL(s);
+    mpm_needs needs;
+    window(&s, 100);
+    scene_body(&s, "sphere", ball, 4, &copper);
+    const clock_t since = clock();
+    assert_ok(mpm_estimate(&s, &needs));
+    const double seconds = (double)(clock() - since) / CLOCKS_PER_SEC;
+    print_message("%zu points told in %.1f s\n", needs.particles, seconds);
+    assert_near((double)needs.particles / (4.0 / 3.0 * SCENE_PI * 8e6), 1, 0.03); /* cut ones more */
+    assert_true(seconds < 15);
+}
+
 /* The stress that is read is xx yy zz xy yz xz, as said; a block's has xz before yz, as the work of a shear shows. */
 static void test_stress_order(void **state)
 {
@@ -211,9 +268,10 @@ static void test_stress_order(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_stress_order), cmocka_unit_test(test_mass),
-                                        cmocka_unit_test(test_neighbours),   cmocka_unit_test(test_box),
-                                        cmocka_unit_test(test_overlap),      cmocka_unit_test(test_lattice),
-                                        cmocka_unit_test(test_seams) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_stress_order),    cmocka_unit_test(test_mass),
+                                        cmocka_unit_test(test_neighbours),      cmocka_unit_test(test_box),
+                                        cmocka_unit_test(test_overlap),         cmocka_unit_test(test_lattice),
+                                        cmocka_unit_test(test_seams),           cmocka_unit_test(test_sample),
+                                        cmocka_unit_test(test_estimate_of_many) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -119,6 +119,7 @@ typedef struct {
     const grids *g;
     double middle[3]; /* its centre of mass; 0 where it does not spin [m] */
     const build_sink *sink;
+    double windows, parts; /* shares that are looked at: of the window's boxes, and of the parts of each */
 } building;
 
 static bool spins(const mpm_body *b)
@@ -158,13 +159,40 @@ static build_point point_of(const building *w, const piece *box, const piece *ow
     return p;
 }
 
-/* A box of the window's lattice, halved along each axis once for every level that it lies in. */
-static status one_box(const building *w, const piece *window)
+/* A box of the window's lattice is halved along each axis once for every level that it lies in: parts along each. */
+static int parts_of(const building *w, const piece *window)
+{
+    return 1 << (w->g->levels - 1 - mpm_grids_level(w->g, window->x));
+}
+
+/* Evenly distributed from 0 up to 1, the same for the same number. */
+static double chance(uint64_t number)
+{
+    number = (number ^ number >> 31) * UINT64_C(0x9E3779B97F4A7C15);
+    number = (number ^ number >> 29) * UINT64_C(0xBF58476D1CE4E5B9);
+    return (double)(number >> 32) / 4294967296.0;
+}
+
+/* Number k of a sample of n out of `all`: one at random from each of n equal stretches.  A fixed step could fall on one
+ * plane of boxes again and again. */
+static uint64_t sampled(uint64_t k, uint64_t n, uint64_t all, uint64_t seed)
+{
+    if (n >= all) return k;
+    const uint64_t number = (uint64_t)(((double)k + chance(seed + k)) * ((double)all / (double)n));
+    return number < all ? number : all - 1;
+}
+
+typedef status box_function(const building *w, const piece *window, uint64_t number, void *user);
+
+static status one_box(const building *w, const piece *window, uint64_t number, void *user)
 {
     static const double SLIVER = 0.02; /* of a box: left out (docs/scene-solver.md, Points of a body) */
-    const int n = 1 << (w->g->levels - 1 - mpm_grids_level(w->g, window->x));
-    for (int i = 0; i < n * n * n; i++) {
-        const int at[3] = { i % n, i / n % n, i / (n * n) };
+    const int n = parts_of(w, window);
+    (void)user;
+    const uint64_t all = (uint64_t)n * (uint64_t)n * (uint64_t)n;
+    const uint64_t looked_at = w->parts == 1 ? all : (uint64_t)(w->parts * (double)all + chance(number));
+    for (uint64_t k = 0; k < looked_at; k++) {
+        const int i = (int)sampled(k, looked_at, all, number << 20), at[3] = { i % n, i / n % n, i / (n * n) };
         piece box = *window;
         for (int q = 0; q < 3; q++) {
             box.size[q] /= n;
@@ -179,26 +207,47 @@ static status one_box(const building *w, const piece *window)
     return status_ok();
 }
 
-static status walk(const building *w, const ladder l[3])
+static status walk(const building *w, const ladder l[3], box_function *call, void *user)
 {
-    for (int iz = 0; iz < l[2].n; iz++)
-        for (int iy = 0; iy < l[1].n; iy++)
-            for (int ix = 0; ix < l[0].n; ix++) {
-                const int at[3] = { ix, iy, iz };
-                piece box;
-                for (int q = 0; q < 3; q++) {
-                    box.size[q] = l[q].edge[at[q] + 1] - l[q].edge[at[q]];
-                    box.x[q] = l[q].edge[at[q]] + 0.5 * box.size[q];
-                }
-                TRY(one_box(w, &box));
-            }
+    const uint64_t nx = (uint64_t)l[0].n, ny = (uint64_t)l[1].n, all = nx * ny * (uint64_t)l[2].n;
+    const uint64_t looked_at = w->windows == 1 ? all : (uint64_t)(w->windows * (double)all);
+    for (uint64_t k = 0; k < looked_at; k++) {
+        const uint64_t number = sampled(k, looked_at, all, 0);
+        const int at[3] = { (int)(number % nx), (int)(number / nx % ny), (int)(number / (nx * ny)) };
+        piece box;
+        for (int q = 0; q < 3; q++) {
+            box.size[q] = l[q].edge[at[q] + 1] - l[q].edge[at[q]];
+            box.x[q] = l[q].edge[at[q]] + 0.5 * box.size[q];
+        }
+        TRY(call(w, &box, number, user));
+    }
+    return status_ok();
+}
+
+static status add_parts(const building *w, const piece *window, uint64_t number, void *user)
+{
+    const double n = parts_of(w, window);
+    (void)number;
+    *(double *)user += n * n * n;
+    return status_ok();
+}
+
+/* The shares of which about `most` boxes are the sample. */
+static status set_shares(building *w, const ladder l[3], double most)
+{
+    double parts = 0;
+    w->windows = w->parts = 1;
+    if (isinf(most)) return status_ok();
+    w->windows = fmin(1, most / ((double)l[0].n * l[1].n * l[2].n));
+    TRY(walk(w, l, add_parts, &parts));
+    w->parts = fmin(1, most / fmax(parts, 1));
     return status_ok();
 }
 
 const build_range mpm_build_everywhere = { 0, -INFINITY, INFINITY };
 
 /* The body's points in a range. */
-static status build_between(const building *w, const build_range *range)
+static status build_between(building *w, const build_range *range, double most)
 {
     const mpm_body *b = &w->s->body[w->body];
     const axis *axes = grids_window(w->g)->axes;
@@ -215,7 +264,8 @@ static status build_between(const building *w, const build_range *range)
         else
             r = ladder_make(&axes[q], lo[q], hi[q], w->s->particles_per_axis, &l[q]);
     }
-    if (r.code == STATUS_OK) r = walk(w, l);
+    if (r.code == STATUS_OK) r = set_shares(w, l, most);
+    if (r.code == STATUS_OK) r = walk(w, l, one_box, NULL);
     for (int q = 0; q < 3; q++) free(l[q].edge);
     return r;
 }
@@ -240,11 +290,20 @@ status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g
     if (spins(&s->body[body])) {
         moments sum = { 0 };
         w.sink = &(build_sink){ add_moments, &sum };
-        TRY(build_between(&w, &mpm_build_everywhere));
+        TRY(build_between(&w, &mpm_build_everywhere, INFINITY));
         for (int q = 0; q < 3 && sum.mass > 0; q++) w.middle[q] = sum.first[q] / sum.mass;
     }
     w.sink = sink;
-    return build_between(&w, range);
+    return build_between(&w, range, INFINITY);
+}
+
+status mpm_build_sample(const mpm_scene *s, int body, const law *k, const grids *g, double most, const build_sink *sink,
+                        double *share)
+{
+    building w = { .s = s, .body = body, .k = k, .g = g, .sink = sink };
+    const status done = build_between(&w, &mpm_build_everywhere, most);
+    *share = w.windows * w.parts;
+    return done;
 }
 
 double mpm_build_spin_speed(const mpm_scene *s, int body)

@@ -29,6 +29,11 @@ extern const build_range mpm_build_everywhere; /* all that lies in the window */
 status mpm_build_body(const mpm_scene *s, int body, const law *k, const grids *g, const build_range *range,
                       const build_sink *sink);
 
+/* The same in a sample of about `most` boxes of the body's lattice, evenly at random and always the same ones; *share:
+ * of all of them, 1 where they are fewer.  Of a body that spins the points have the velocity of its middle. */
+status mpm_build_sample(const mpm_scene *s, int body, const law *k, const grids *g, double most, const build_sink *sink,
+                        double *share);
+
 /* Largest speed of a body's points at the start that its spin gives [m/s]. */
 double mpm_build_spin_speed(const mpm_scene *s, int body);
 

@@ -199,8 +199,7 @@ status mpm_restore(mpm *m, const void *image, size_t bytes)
 
 typedef struct {
     const grids *grids;
-    size_t particles;
-    double work;
+    double particles, work;
 } counting;
 
 static status count_point(void *user, int body, const build_point *p)
@@ -212,15 +211,27 @@ static status count_point(void *user, int body, const build_point *p)
     return status_ok();
 }
 
+/* A large body's points are counted in a sample of its boxes. */
+static status count_body(const mpm_scene *s, int body, const law *k, counting *c)
+{
+    static const double MOST = 5e5; /* boxes: some tenths of a second's work */
+    counting own = { .grids = c->grids };
+    const build_sink sink = { count_point, &own };
+    double share;
+    TRY(mpm_build_sample(s, body, k, c->grids, MOST, &sink, &share));
+    c->particles += own.particles / share;
+    c->work += own.work / share;
+    return status_ok();
+}
+
 static status count(const mpm_scene *s, const grids *g, counting *c, double *dt)
 {
     double fastest = 0;
     *c = (counting){ .grids = g };
-    const build_sink sink = { count_point, c };
     for (int i = 0; i < s->bodies; i++) {
         law k;
         TRY(mpm_law_make(&s->body[i], s, &k));
-        TRY(mpm_build_body(s, i, &k, g, &mpm_build_everywhere, &sink));
+        TRY(count_body(s, i, &k, c));
         const double sound = sqrt((k.K0 + 4.0 / 3.0 * k.G) / k.rho0);
         const double spin = mpm_build_spin_speed(s, i);
         for (int q = 0; q < 3; q++)
@@ -291,7 +302,7 @@ status mpm_estimate(const mpm_scene *scene, mpm_needs *needs)
     if (s.code == STATUS_OK) s = count(&whole, &g, &c, &needs->dt);
     mpm_grids_free(&g);
     TRY(s);
-    needs->particles = c.particles, needs->work = c.work;
-    needs->bytes = MPM_BYTES + c.particles * MPM_BYTES_A_PARTICLE + (size_t)scene->bodies * MPM_BYTES_A_BODY;
+    needs->particles = (size_t)(c.particles + 0.5), needs->work = c.work;
+    needs->bytes = MPM_BYTES + needs->particles * MPM_BYTES_A_PARTICLE + (size_t)scene->bodies * MPM_BYTES_A_BODY;
     return status_ok();
 }
