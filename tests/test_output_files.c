@@ -1,6 +1,7 @@
 /* Output directory, files that appear at once, checkpoints, progress, stop requests. */
 #include "output_common.h"
 
+#include "coupling/host/machine.h"
 #include "coupling/host/outdir.h"
 #include "coupling/host/progress.h"
 #include "coupling/host/stop.h"
@@ -184,6 +185,39 @@ static void scene_folders(void **state)
     assert_int_equal(host_outdir_scene(&d, "../a", path, sizeof path).code, STATUS_BAD_INPUT);
     assert_int_equal(host_outdir_scene(&d, "a b", path, sizeof path).code, STATUS_BAD_INPUT);
     host_outdir_close(&d);
+}
+
+/* ---- the machine ---- */
+
+static void put_deep(const char *path, const char *text)
+{
+    char command[300];
+    snprintf(command, sizeof command, "mkdir -p \"$(dirname '%s')\"", path);
+    assert_int_equal(system(command), 0);
+    put(path, text);
+}
+
+/* The least of what the machine, the group and all groups above it have, in both ways in which Linux says that. */
+static void memory_of_machine_and_groups(void **state)
+{
+    (void)state;
+    assert_true(host_memory("") > 1e8); /* this machine's */
+    fresh_folder("root");
+    assert_true(isinf(host_memory("root")));
+    put_deep("root/proc/meminfo", "MemTotal:       16000000 kB\nMemFree:        1 kB\n");
+    assert_true(host_memory("root") == 16000000.0 * 1024.0);
+    put_deep("root/proc/self/cgroup", "0::/slice/job/step\n");
+    put_deep("root/sys/fs/cgroup/slice/job/step/memory.max", "max\n");
+    assert_true(host_memory("root") == 16000000.0 * 1024.0);
+    put_deep("root/sys/fs/cgroup/slice/job/memory.max", "4000000000\n");
+    assert_true(host_memory("root") == 4e9);
+    put_deep("root/sys/fs/cgroup/memory.max", "3000000000\n"); /* as inside a container */
+    assert_true(host_memory("root") == 3e9);
+    put_deep("root/proc/self/cgroup", "9:name=systemd:/\n4:memory:/job\n0::/\n");
+    put_deep("root/sys/fs/cgroup/memory/job/memory.limit_in_bytes", "2000000000\n");
+    assert_true(host_memory("root") == 2e9);
+    put_deep("root/sys/fs/cgroup/memory/job/memory.limit_in_bytes", "9223372036854771712\n"); /* none */
+    assert_true(host_memory("root") == 3e9);
 }
 
 /* ---- checkpoint ---- */
@@ -497,6 +531,7 @@ int main(void)
         cmocka_unit_test(one_run_at_a_time),
         cmocka_unit_test(directory_that_cannot_be),
         cmocka_unit_test(scene_folders),
+        cmocka_unit_test(memory_of_machine_and_groups),
         cmocka_unit_test(checkpoint_comes_back),
         cmocka_unit_test(foreign_checkpoint_is_refused),
         cmocka_unit_test(damage_is_found_in_every_byte),

@@ -73,6 +73,12 @@ static void test_check_and_materials(void **state)
     assert_int_equal(run("check " TINY), 2);            /* ends before its grooves could be gauged */
     assert_int_equal(run("check " TINY " --scene"), 0); /* which `breech scene` does not ask for */
     assert_true(contains("out.txt", "bodies:") && contains("out.txt", "armature"));
+    assert_int_equal(run("check " CASES "/sphere_plate --set scene.cell='0.005 mm'"), 2); /* 30 TB */
+    assert_true(contains("err.txt", "take larger cells"));
+    assert_int_equal(run("scene " CASES "/sphere_plate --set scene.cell='0.005 mm' -o too_large"), 2);
+    assert_false(exists("too_large"));
+    assert_int_equal(run("check " SHOT " --set study.fine_cells_per_radius=100"), 2);
+    assert_true(contains("err.txt", "100 cells a radius") && contains("err.txt", " GB"));
     assert_int_equal(run("materials"), 0);
     assert_true(contains("out.txt", "ofhc_copper"));
     assert_int_equal(run("materials ofhc_copper"), 0);

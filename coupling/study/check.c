@@ -2,6 +2,7 @@
 
 #include "coupling/case/treatment.h"
 #include "coupling/gouge/impact_scene.h"
+#include "coupling/host/machine.h"
 #include "coupling/scene/scene_fill.h"
 #include "coupling/study/sampling/population.h"
 #include "coupling/study/search/family.h"
@@ -12,12 +13,27 @@
 
 /* ---- can its scenes be made? ---- */
 
+/* A scene's grid and its materials, as far as they show without its points; and can it be held in memory? */
+static status needs_of(const mpm_scene *s, mpm_needs *needs)
+{
+    TRY(mpm_estimate(s, needs));
+    const double has = host_memory("");
+    CHECK((double)needs->bytes <= has, STATUS_BAD_INPUT,
+          "its %.3g million points need %.1f GB, this machine or its control group has %.1f GB: take larger cells",
+          1e-6 * (double)needs->particles, 1e-9 * (double)needs->bytes, 1e-9 * has);
+    return status_ok();
+}
+
 /* Can its scene be built? */
 static status scene_possible(const case_impact *c)
 {
     gouge_scene scene;
+    mpm_needs needs;
     TRY(gouge_scene_bodies(c, &scene));
+    const status fits = needs_of(&scene.scene, &needs);
     gouge_scene_free(&scene);
+    CHECK(fits.code == STATUS_OK, fits.code, "scene of %g mm at %g m/s with %g cells a radius: %.350s",
+          1e3 * c->particle.radius, c->scene.velocity, c->scene.cells_per_radius, fits.text);
     return status_ok();
 }
 
@@ -37,12 +53,31 @@ static status grain_possible(const case_onset *c, const case_site *grain)
     const case_impact coarse = slowest(c, grain, c->study.coarse_cells_per_radius),
                       fine = slowest(c, grain, c->study.fine_cells_per_radius);
     TRY(scene_possible(&coarse));
-    return scene_possible(&fine);
+    return fine.scene.cells_per_radius == coarse.scene.cells_per_radius ? status_ok() : scene_possible(&fine);
+}
+
+static bool same(double a, double b)
+{
+    return a == b || (isnan(a) && isnan(b));
+}
+
+/* Is there a site before this one with the same grain?  Then its scenes are the same but for their velocities. */
+static bool has_grain_before(const case_sites *sites, int i)
+{
+    const case_site *b = &sites->item[i];
+    for (int k = 0; k < i; k++) {
+        const case_site *a = &sites->item[k];
+        if (same(a->radius, b->radius) && same(a->height, b->height) && same(a->bond_strength, b->bond_strength) &&
+            strcmp(a->shape, b->shape) == 0 && strcmp(a->material, b->material) == 0)
+            return true;
+    }
+    return false;
 }
 
 static status grains_possible(const case_onset *c)
 {
-    for (int i = 0; i < c->sites.n; i++) TRY(grain_possible(c, &c->sites.item[i]));
+    for (int i = 0; i < c->sites.n; i++)
+        if (!has_grain_before(&c->sites, i)) TRY(grain_possible(c, &c->sites.item[i]));
     for (int i = 0; i < c->populations.n; i++) {
         const case_population *p = &c->populations.item[i];
         double size[SURFACE_MAX_SIZES], number[SURFACE_MAX_SIZES];
@@ -76,16 +111,10 @@ status study_prepare(case_inputs *in)
     return in->given.bodies ? scene_fill(&in->bodies.scene) : status_ok();
 }
 
-/* A scene of bodies: its grid and its materials, as far as they show without its points. */
-static status bodies_possible(const mpm_scene *s)
-{
-    mpm_needs needs;
-    return mpm_estimate(s, &needs);
-}
-
 status study_possible(const case_inputs *in, unsigned needs)
 {
-    if (in->given.bodies) TRY(bodies_possible(&in->bodies.scene));
+    mpm_needs bodies;
+    if (in->given.bodies) TRY(needs_of(&in->bodies.scene, &bodies));
     rail_section section;
     const case_onset *c = &in->onset;
     if ((needs & CASE_FOR_INDUCTANCE) ||
@@ -102,7 +131,7 @@ status study_possible(const case_inputs *in, unsigned needs)
 /* Two levels of thread: memory bandwidth and the serial rest are left out, so this is a lower bound on many threads. */
 static status estimate_scene(const mpm_scene *s, double last, int threads, scene_estimate *out)
 {
-    TRY(mpm_estimate(s, &out->needs));
+    TRY(needs_of(s, &out->needs));
     out->steps = last / out->needs.dt;
     out->seconds = out->steps * out->needs.work * CHECK_SECONDS_A_STEP / threads;
     return status_ok();
