@@ -203,6 +203,8 @@ static const param strike_params[] = {
                  "the scene ends when the projectile would have come so far at its arrival velocity; not given: "
                  "scene.end_time"),
     PARAM_DOUBLE(case_strike, filter, "s", 1e-6, 1e-9, 1.0, "time over which forces are averaged"),
+    PARAM_BOOL(case_strike, limit, 0,
+               "look for the limit velocity too, in study.velocity_low .. velocity_high, to study.velocity_interval"),
     PARAMS_END,
 };
 

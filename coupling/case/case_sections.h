@@ -210,6 +210,7 @@ typedef struct {
     double discarded_mass;            /* of the package, stays behind at the muzzle [kg] */
     double travel;                    /* its way in the scene, at its arrival velocity; NAN: scene.end_time [m] */
     double filter;                    /* over which forces are averaged [s] */
+    bool limit;                       /* the limit velocity is looked for, in the range of `study` */
 } case_strike;
 
 /* What a study takes for the onset of gouging: the groove's growth, or the crater's severity. */

@@ -2,12 +2,12 @@
 #ifndef BREECH_COUPLING_STUDY_STRIKE_H
 #define BREECH_COUPLING_STUDY_STRIKE_H
 
-#include "coupling/strike/outcome.h"
-#include "coupling/study/study.h"
+#include "coupling/study/strike_limit.h"
 
 typedef struct {
     strike_outcome is;
     scene_bodies_result scene; /* that it arrived in */
+    strike_limit limit;        /* with strike.limit */
 } strike_result;
 
 #endif

@@ -1,12 +1,25 @@
 /* breech strike: what the projectile does to its target, at a given velocity or at that of the case's shot. */
 #include "coupling/gouge/session_shot.h"
+#include "coupling/host/table.h"
+#include "coupling/report/report_gnuplot.h"
 #include "coupling/report/report_page.h"
 #include "coupling/study/strike.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double ENERGY_ERROR_LIMIT = 0.01; /* above it the scene is warned about */
+
+static const summary_key arrival_keys[] = {
+    SUMMARY_TEXT(strike_arrival, "scene", scene, "its name"),
+    SUMMARY_NUMBER(strike_arrival, "impact_velocity", is.impact_velocity, "m/s", "of arrival"),
+    SUMMARY_CHOICE(strike_arrival, "class", is.class, strike_class_names, "as that of `strike`"),
+    SUMMARY_NUMBER(strike_arrival, "residual_velocity", is.residual_velocity, "m/s", "as that of `strike`"),
+    SUMMARY_NUMBER(strike_arrival, "energy_absorbed", is.energy_absorbed, "J", "as that of `strike`"),
+    SUMMARY_NUMBER(strike_arrival, "peak_force", is.peak_force, "N", "as that of `strike`"),
+    SUMMARY_END,
+};
 
 static const summary_key result_keys[] = {
     SUMMARY_NUMBER(strike_result, "muzzle_velocity", is.muzzle_velocity, "m/s",
@@ -40,6 +53,17 @@ static const summary_key result_keys[] = {
                    "of the projectile in the last tenth of the scene"),
     SUMMARY_VALUE(strike_result, KEY_FLAG, "gone", is.gone, "",
                   "the projectile left the window, or failed as a whole: judged by when it was last seen"),
+    SUMMARY_NUMBER(strike_result, "limit_velocity", limit.velocity, "m/s",
+                   "middle between the fastest arrival that is stopped and the slowest that pierces; null: not asked "
+                   "for, or not in the range of the search"),
+    SUMMARY_VECTOR(strike_result, "limit_interval", limit.interval, 2, "m/s", "those two; null: not known"),
+    SUMMARY_NUMBER(strike_result, "recht_ipson_factor", limit.fit.factor, "1", "k in (S-2), of all that pierced"),
+    SUMMARY_NUMBER(strike_result, "recht_ipson_limit", limit.fit.limit, "m/s", "v50 in (S-2)"),
+    SUMMARY_NUMBER(strike_result, "recht_ipson_error", limit.fit.error, "1",
+                   "largest deviation of a residual velocity from (S-2), over itself; null: fewer than three pierced"),
+    SUMMARY_LIST(strike_result, "arrivals", limit.arrival, limit.arrivals, arrival_keys, sizeof(strike_arrival),
+                 "of the search and of the strike itself, rising in velocity, keys below; empty: no limit was asked "
+                 "for"),
     SUMMARY_PART(strike_result, "bodies", scene, scene_bodies_keys),
     SUMMARY_END,
 };
@@ -72,6 +96,7 @@ static status possible(const study_case *of)
           in->strike.projectile);
     if (fired) TRY(study_possible(in, CASE_FOR_SHOT));
     if (fired) TRY(strike_package_check(&in->strike, p.mass, in->onset.launcher.armature.mass));
+    if (in->strike.limit) TRY(study_strike_limit_possible(&in->onset.study));
     const status made = strike_scene(in, &p, 1.0, &bodies);
     mpm_scene_free(&bodies.scene);
     return made;
@@ -139,6 +164,8 @@ static status run(session *s, const study_case *of, study_answer *out)
     strike_answer *a = out->owned = calloc(1, sizeof *a);
     CHECK(a, STATUS_MEMORY, "no memory for an answer");
     strike_result *r = &a->result;
+    r->limit.velocity = r->limit.interval[0] = r->limit.interval[1] = NAN;
+    r->limit.fit = (strike_fit){ NAN, NAN, NAN };
     TRY(strike_projectile_of(in, &a->projectile));
     TRY(arrive(s, of, a, &flight, &muzzle));
     if (!isnan(muzzle)) out->shot = &a->shot;
@@ -152,7 +179,10 @@ static status run(session *s, const study_case *of, study_answer *out)
     r->is.flight_time = flight.time;
     warn(s, r);
     out->result = r;
-    return status_ok();
+    if (!in->strike.limit) return status_ok();
+    strike_arrival first = { .is = r->is };
+    snprintf(first.scene, sizeof first.scene, "%s", done->entry.name);
+    return study_strike_limit_search(s, of, &a->projectile, &first, &r->limit);
 }
 
 static void free_owned(void *owned)
@@ -160,17 +190,35 @@ static void free_owned(void *owned)
     strike_answer *a = owned;
     if (!a) return;
     scene_bodies_free(&a->result.scene);
+    study_strike_limit_free(&a->result.limit);
     mpm_scene_free(&a->bodies.scene);
     free(a);
 }
 
 /* ---- for people ---- */
 
+static void print_arrivals(const strike_limit *l, FILE *out)
+{
+    table *t;
+    if (l->arrivals == 0 ||
+        host_table_create("arrival [m/s]|class|residual [m/s]|absorbed [J]|peak force [kN]", &t).code != STATUS_OK)
+        return;
+    for (int i = 0; i < l->arrivals; i++) {
+        const strike_outcome *o = &l->arrival[i].is;
+        host_table_row(t, "%.5g|%s|%.4g|%.4g|%.4g", o->impact_velocity, strike_class_names[o->class],
+                       o->residual_velocity, o->energy_absorbed, 1e-3 * o->peak_force);
+    }
+    host_table_print(t, out);
+    host_table_free(t);
+    fputc('\n', out);
+}
+
 static void print(const void *result, FILE *out)
 {
     const strike_result *r = result;
     output_keys_print(&(summary_object){ result_keys, r }, out);
     fputc('\n', out);
+    print_arrivals(&r->limit, out);
     study_bodies.print(&r->scene, out);
 }
 
@@ -184,9 +232,65 @@ static void verdict(const page *p)
                                          { "deflection", "deflection", 1e-3, "mm" },
                                          { "hole_diameter", "hole", 1e-3, "mm" },
                                          { "debris_mass", "debris", 1e-3, "g" },
+                                         { "limit_velocity", "limit velocity", 1.0, "m/s" },
                                          { "wall_seconds", "took", 1.0, "s" } };
     report_page_paragraph(p, "verdict", report_text(p->source->summary, "class"));
     report_page_cards(p, p->source->summary, cards, PAGE_COUNT(cards));
+}
+
+/* Data block of arrivals that pierced, or of those that did not; how many. */
+static int arrival_block(FILE *script, const cJSON *list, bool pierced)
+{
+    const cJSON *a;
+    int n = 0;
+    fprintf(script, "$%s << EOD\n", pierced ? "pierced" : "held");
+    cJSON_ArrayForEach(a, list)
+    {
+        const bool is = strcmp(report_text(a, "class"), strike_class_names[STRIKE_PIERCED]) == 0;
+        if (is != pierced) continue;
+        fprintf(script, "%.9g %.9g\n", report_number(a, "impact_velocity"), report_number(a, "residual_velocity"));
+        n++;
+    }
+    fputs("EOD\n", script);
+    return n;
+}
+
+static status plot_limit(const report_source *r, bool *drawn)
+{
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(r->summary, "arrivals");
+    const double k = report_number(r->summary, "recht_ipson_factor"),
+                 v50 = report_number(r->summary, "recht_ipson_limit");
+    plot p;
+    if (!r->gnuplot) return status_ok();
+    TRY(report_plot_begin(&p, r, "limit", 560, 380));
+    const int pierced = arrival_block(p.script, list, true), held = arrival_block(p.script, list, false);
+    report_plot_band(p.script, 1, r->summary, "limit_interval", true);
+    fputs("set xlabel 'arrival [m/s]'\nset ylabel 'residual velocity [m/s]'\nset key left top\n"
+          "set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nplot ",
+          p.script);
+    if (isfinite(k))
+        fprintf(p.script, "x > %g ? %g*sqrt(x*x - %g) : NaN with lines lw 2 title 'Recht, Ipson', ", v50, k, v50 * v50);
+    if (pierced > 0) fputs("$pierced with points pt 7 title 'pierced', ", p.script);
+    if (held > 0) fputs("$held with points pt 6 title 'not pierced', ", p.script);
+    fputs("0 notitle\n", p.script);
+    TRY(report_plot_end(&p));
+    *drawn = true;
+    return status_ok();
+}
+
+static void section(const page *p)
+{
+    static const page_column columns[] = {
+        { "impact_velocity", "arrival [m/s]", 1.0, "" },    { "class", "class", 1.0, "" },
+        { "residual_velocity", "residual [m/s]", 1.0, "" }, { "energy_absorbed", "absorbed [J]", 1.0, "" },
+        { "peak_force", "peak force [kN]", 1e3, "" },       { "scene", "scene", 1.0, "" }
+    };
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(p->source->summary, "arrivals");
+    if (cJSON_GetArraySize(list) > 0) {
+        report_page_listed(p, "arrivals", "Limit velocity", columns, PAGE_COUNT(columns));
+        report_page_draw(p, plot_limit, "limit", "Arrivals of the search; the band is limit_interval.");
+    }
+    report_section_bodies(p);
 }
 
 const study study_strike = {
@@ -197,7 +301,7 @@ const study study_strike = {
     .keys = result_keys,
     .shows_shot = true,
     .can_vary = true,
-    .report = { verdict, report_section_bodies },
+    .report = { verdict, section },
     .print = print,
     .possible = possible,
     .run = run,
