@@ -2,6 +2,7 @@
 #include "mpm/law/contact.h"
 #include "mpm/memory/build.h"
 #include "mpm/memory/store.h"
+#include "mpm/refine/refine.h"
 
 #include <math.h>
 #include <omp.h>
@@ -10,7 +11,6 @@
 
 static const int COMPACT_EVERY = 200; /* steps of the finest level between restorings of the blocks' order in memory */
 static const int SAMPLE_EVERY = 20;   /* the same between percentile samples */
-static const int LOOK_EVERY = 16;     /* the same between looks at where cells should be small */
 enum { START_BLOCKS = 1 << 15 };      /* room at the start: memory that nobody touches costs nothing, growing does */
 static const double DT_GROWTH = 1.05; /* a step of the coarsest level */
 static const double FORCE_SMOOTHING = 0.2e-6; /* [s] */
@@ -584,7 +584,7 @@ static status one_step(mpm *m, double until)
           m->time, m->dt);
     if (is_due(m, SAMPLE_EVERY)) mpm_sample_percentiles(m);
     if (is_due(m, COMPACT_EVERY)) TRY(mpm_store_compact(m));
-    if (is_due(m, LOOK_EVERY)) TRY(mpm_refine_look(m));
+    if (is_due(m, mpm_refine_every(m->scene.refine, m->scene.refines))) TRY(mpm_refine_look(m));
     lap(m, PHASE_REST, &clock);
     return status_ok();
 }

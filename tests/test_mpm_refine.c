@@ -115,6 +115,80 @@ static void test_kinds(void **state)
     mpm_free(m);
 }
 
+/* A block of copper at rest in cells of 1 mm with finer levels for a rule, and all its points elastic. */
+static mpm *quiet(const material *copper, mpm_scene *s, double jump, bool fine)
+{
+    mpm_refine *plastic;
+    mpm_scene_default(s);
+    s->levels = 3, s->zone_until = fine ? 1 : 0;
+    for (int k = 0; k < 3; k++) s->axis[k] = scene_axis(0, 64e-3, 1e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+    scene_box(s, 8e-3, 8e-3, 8e-3, 56e-3, 56e-3, 56e-3, copper);
+    assert_ok(mpm_scene_add_refine(s, "plastic", &plastic));
+    *mpm_refine_value(plastic, "jump") = jump;
+    return scene_make(s, 1);
+}
+
+/* Every n-th of the points of a brick's cells lo .. hi along each axis flows with a rate [1/s]. */
+static void flow(mpm *m, brick *b, int lo, int hi, int n, double rate)
+{
+    int i = 0;
+    for (int c = 0; c < BRICK_CELLS; c++) {
+        const int at[3] = { c % BRICK, c / BRICK % BRICK, c / (BRICK * BRICK) };
+        bool in = true;
+        for (int k = 0; k < 3; k++) in = in && at[k] >= lo && at[k] <= hi;
+        for (int q = b->head[c]; in && q >= 0; q = m->links[q].next)
+            for (int l = 0; l < LANES; l++) {
+                block *p = &m->blocks[q];
+                if (!(p->mass[0][l] > 0) || i++ % n) continue;
+                p->s[3][l] = p->flow[0][l]; /* s : D = s L_xy */
+                p->L[1][l] = rate;
+            }
+    }
+}
+
+/* How many granules of a level are active after a look at which points of one brick flow: from large cells, or from
+ * small ones of which nothing asks for any more but that brick. */
+static int active_after(bool fine, int lo, int hi, int n, double rate)
+{
+    static const double JUMP = 10; /* [m/s] so 1e4/s asks for 1 mm, 5e3/s for 2 mm */
+    const material copper = scene_copper();
+    SCENE_LOCAL(s);
+    mpm *m = quiet(&copper, &s, JUMP, fine);
+    int active = 0, chosen = -1;
+    bool changed;
+    m->scene.zone_until = 0;
+    for (int i = 0; i < m->bricks_used && chosen < 0; i++) /* one that is full, deep in the block */
+        if (m->bricks[i].level == (fine ? 0 : 2) && m->bricks[i].particles == 512) chosen = i;
+    assert_true(chosen >= 0);
+    for (int look = 0; look < 1 + GRANULE_LIFE; look++) {
+        flow(m, &m->bricks[chosen], lo, hi, n, rate);
+        assert_ok(mpm_refine_flags(m, &changed));
+    }
+    for (int i = 0; i < grids_places(&m->grids); i++)
+        active += m->grids.active[i] > 0 && m->grids.page[i / PAGE_PLACES].level == 0;
+    mpm_free(m);
+    return active;
+}
+
+/* Where points flow now and then it is their mean that counts: one of the 64 of a cell twice as wide keeps nothing
+ * small, all of a cell do, though they are an eighth of it, if they flow fast enough; a large cell asks by itself. */
+static void test_mean(void **state)
+{
+    (void)state;
+    const int one = active_after(true, 0, 0, 64, 5e4), all = active_after(true, 0, 3, 1, 1.1e4 / 2);
+    const int slow = active_after(true, 0, 3, 1, 0.9e4 / 2), cell = active_after(true, 1, 1, 1, 8 * 1.1e4 / 2);
+    const int less = active_after(true, 1, 1, 1, 8 * 0.9e4 / 2), large = active_after(false, 1, 1, 1, 1.1e4 / 2);
+    print_message(
+        "granules that stay: %d for a point, %d and %d for all points, %d and %d for a cell's; that come: %d\n", one,
+        all, slow, cell, less, large);
+    assert_int_equal(one, 0);
+    assert_int_equal(slow, 0);
+    assert_int_equal(less, 0);
+    assert_true(all >= 1 && all <= 27);
+    assert_true(cell >= 1 && cell <= 8);
+    assert_true(large >= 8); /* one of 4 mm and what is around it */
+}
+
 /* ---- levels that nest ---- */
 
 static double uniform(double lo, double hi)
@@ -341,10 +415,11 @@ static void test_surface(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_merge),    cmocka_unit_test(test_merge_undoes_halve),
-        cmocka_unit_test(test_kinds),    cmocka_unit_test(test_nesting),
-        cmocka_unit_test(test_estimate), cmocka_unit_test(test_linear),
-        cmocka_unit_test(test_bits),     cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_merge),   cmocka_unit_test(test_merge_undoes_halve),
+        cmocka_unit_test(test_kinds),   cmocka_unit_test(test_mean),
+        cmocka_unit_test(test_nesting), cmocka_unit_test(test_estimate),
+        cmocka_unit_test(test_linear),  cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

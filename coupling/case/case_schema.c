@@ -119,7 +119,7 @@ static const param scene_params[] = {
                  "upper limit of the friction stress; not given: none"),
     PARAM_DOUBLE(case_scene, cells_per_radius, "1", 5.0, 1.0, 100.0, "fine cell = grain's radius / this"),
     PARAM_DOUBLE(case_scene, coarse_cell, "m", 8e-4, 1e-6, 0.1, "largest cell, far from the grain"),
-    PARAM_DOUBLE(case_scene, refine_tolerance, "1", 0.1, 1e-4, 1.0,
+    PARAM_DOUBLE(case_scene, refine_tolerance, "1", 0.05, 1e-4, 1.0,
                  "share of the armature's velocity that plastic flow may change across a cell"),
     PARAM_DOUBLE(case_scene, growth, "1", 1.2, 1.0, 2.0,
                  "ratio of neighbouring cells outside the fine zone, one level"),

@@ -248,6 +248,7 @@ typedef struct {
     grids *refined;
     int level;
     double reach; /* [m] */
+    int buffer;   /* cells */
 } asking;
 
 static status ask_point(void *user, int body, const build_point *p)
@@ -258,7 +259,7 @@ static status ask_point(void *user, int body, const build_point *p)
     double lo[3], hi[3];
     for (int k = 0; k < 3; k++) {
         const double *edge = &axes[k].edge[mpm_axis_locate(&axes[k], p->x[k])];
-        const double more = a->reach + MPM_REFINE_BUFFER * a->s->axis[k].fine * (1 << a->level);
+        const double more = a->reach + a->buffer * a->s->axis[k].fine * (1 << a->level);
         lo[k] = edge[0] - more, hi[k] = edge[1] + more;
     }
     return mpm_grids_activate(a->refined, a->level, lo, hi);
@@ -268,7 +269,7 @@ static status ask_rules(const mpm_scene *s, const grids *at_start, grids *refine
 {
     for (int i = 0; i < s->refines && s->levels > 1; i++) {
         const mpm_refine *r = &s->refine[i];
-        asking a = { .s = s, .at_start = at_start, .refined = refined };
+        asking a = { .s = s, .at_start = at_start, .refined = refined, .buffer = r->kind->buffer };
         if (!r->kind->reach) continue;
         a.reach = r->kind->reach(r), a.level = mpm_scene_level_for(s, r->cell);
         const build_sink sink = { ask_point, &a };

@@ -15,55 +15,100 @@
 
 /* ---- what the rules ask for ---- */
 
-/* The finest level that points of a block ask for by a rule. */
-static int level_of_block(const mpm *m, const mpm_refine *r, int index)
-{
-    const block *q = &m->blocks[index];
-    double cell[LANES], smallest = INFINITY;
-    r->kind->cells(m, r, index, cell);
-    for (int l = 0; l < LANES; l++)
-        if (q->mass[0][l] > 0) smallest = fmin(smallest, cell[l]);
-    return mpm_scene_level_for(&m->scene, fmax(smallest, r->cell));
-}
-
-/* The level active over a brick's cell and so far around it. */
-static status activate_cell(mpm *m, const brick *b, int cell, int level, double reach)
-{
-    double lo[3], hi[3];
-    for (int k = 0; k < 3; k++) {
-        const double *edge = &axes_of(m, b)[k].edge[BRICK * b->at[k] + (cell >> 2 * k) % BRICK];
-        const double more = reach + MPM_REFINE_BUFFER * m->scene.axis[k].fine * (1 << level);
-        lo[k] = edge[0] - more, hi[k] = edge[1] + more;
-    }
-    return mpm_grids_activate(&m->grids, level, lo, hi);
-}
-
-static int level_of_cell(const mpm *m, const brick *b, int cell, const mpm_refine *r)
-{
-    int level = m->grids.levels - 1;
-    for (int q = b->head[cell]; q >= 0 && level > 0; q = m->links[q].next) {
-        if (r->body >= 0 && r->body != m->links[q].body) continue;
-        const int wanted = level_of_block(m, r, q);
-        if (wanted < level) level = wanted;
-    }
-    return level;
-}
-
 /* What a rule asks for in each cell of a brick. */
 typedef struct {
     uint8_t level[BRICK_CELLS];
 } brick_levels;
 
+/* What points ask of a cell: its size, and what that is a mean or the least of. */
+typedef struct {
+    double mass, mass_over_size; /* [kg, kg/m] */
+    double smallest;             /* [m] */
+} wish;
+
+static wish wish_of_cell(const mpm *m, const brick *b, int cell, const mpm_refine *r)
+{
+    wish w = { .smallest = INFINITY };
+    for (int q = b->head[cell]; q >= 0; q = m->links[q].next) {
+        double size[LANES];
+        if (r->body >= 0 && r->body != m->links[q].body) continue;
+        r->kind->cells(m, r, q, size);
+        for (unsigned left = m->links[q].mask; left; left &= left - 1) {
+            const int l = __builtin_ctz(left);
+            const double mass = m->blocks[q].mass[0][l];
+            w.smallest = fmin(w.smallest, size[l]);
+            w.mass += mass, w.mass_over_size += mass / size[l];
+        }
+    }
+    return w;
+}
+
+static int level_of(const mpm *m, const mpm_refine *r, double size)
+{
+    return mpm_scene_level_for(&m->scene, fmax(size, r->cell));
+}
+
+/* The mean of what points ask for; no points ask for nothing. */
+static int level_of_mean(const mpm *m, const mpm_refine *r, const wish *w)
+{
+    return level_of(m, r, w->mass_over_size > 0 ? w->mass / w->mass_over_size : INFINITY);
+}
+
+/* Of the eight cells twice as wide that a brick's make, the one that holds cell c. */
+static int wide_cell(int c)
+{
+    return c % BRICK / 2 + 2 * (c / BRICK % BRICK / 2) + 4 * (c / (BRICK * BRICK) / 2);
+}
+
+/* By the mean, a cell asks for smaller ones than itself on its own.  For its own size it asks where the cell that would
+ * take its place, twice as wide, would be too large: the mean over 2 x 2 x 2 cells, in which one noisy point is little.
+ */
+static void ask_mean(const mpm *m, const brick *b, const mpm_refine *r, const wish own[BRICK_CELLS],
+                     brick_levels *asked)
+{
+    wish wide[8] = { { 0 } };
+    for (int c = 0; c < BRICK_CELLS; c++) {
+        wish *w = &wide[wide_cell(c)];
+        w->mass += own[c].mass, w->mass_over_size += own[c].mass_over_size;
+    }
+    for (int c = 0; c < BRICK_CELLS; c++) {
+        const int finer = level_of_mean(m, r, &own[c]), here = level_of_mean(m, r, &wide[wide_cell(c)]);
+        asked->level[c] = (uint8_t)(finer < b->level ? finer : here < b->level ? b->level : here);
+        if (own[c].mass == 0) asked->level[c] = (uint8_t)(m->grids.levels - 1);
+    }
+}
+
+static void ask_brick(const mpm *m, const brick *b, const mpm_refine *r, brick_levels *asked)
+{
+    wish own[BRICK_CELLS];
+    for (int c = 0; c < BRICK_CELLS; c++) own[c] = wish_of_cell(m, b, c, r);
+    if (r->kind->mean)
+        ask_mean(m, b, r, own, asked);
+    else
+        for (int c = 0; c < BRICK_CELLS; c++) asked->level[c] = (uint8_t)level_of(m, r, own[c].smallest);
+}
+
+/* The level active over a brick's cell and so far around it. */
+static status activate_cell(mpm *m, const brick *b, int cell, int level, const mpm_refine *r)
+{
+    double lo[3], hi[3];
+    const double reach = r->kind->reach ? r->kind->reach(r) : 0;
+    for (int k = 0; k < 3; k++) {
+        const double *edge = &axes_of(m, b)[k].edge[BRICK * b->at[k] + (cell >> 2 * k) % BRICK];
+        const double more = reach + r->kind->buffer * m->scene.axis[k].fine * (1 << level);
+        lo[k] = edge[0] - more, hi[k] = edge[1] + more;
+    }
+    return mpm_grids_activate(&m->grids, level, lo, hi);
+}
+
 static status ask_rule(mpm *m, const mpm_refine *r, brick_levels *asked)
 {
-    const double reach = r->kind->reach ? r->kind->reach(r) : 0;
     const int coarsest = m->grids.levels - 1;
 #pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads)
-    for (int i = 0; i < m->bricks_used; i++)
-        for (int c = 0; c < BRICK_CELLS; c++) asked[i].level[c] = (uint8_t)level_of_cell(m, &m->bricks[i], c, r);
+    for (int i = 0; i < m->bricks_used; i++) ask_brick(m, &m->bricks[i], r, &asked[i]);
     for (int i = 0; i < m->bricks_used; i++)
         for (int c = 0; c < BRICK_CELLS && m->bricks[i].particles > 0; c++)
-            if (asked[i].level[c] < coarsest) TRY(activate_cell(m, &m->bricks[i], c, asked[i].level[c], reach));
+            if (asked[i].level[c] < coarsest) TRY(activate_cell(m, &m->bricks[i], c, asked[i].level[c], r));
     return status_ok();
 }
 

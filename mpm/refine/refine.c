@@ -39,6 +39,14 @@ double *mpm_refine_value(mpm_refine *r, const char *name)
     return NULL;
 }
 
+int mpm_refine_every(const mpm_refine *rules, int n)
+{
+    int every = n > 0 ? rules[0].kind->every : MPM_REFINE_EVERY;
+    for (int i = 1; i < n; i++)
+        if (rules[i].kind->every < every) every = rules[i].kind->every;
+    return every;
+}
+
 status mpm_refine_check(const mpm_refine *r, int bodies)
 {
     CHECK(r->kind, STATUS_BAD_INPUT, "a rule of refinement is of no kind");

@@ -19,6 +19,11 @@ static void cells(const mpm *m, const mpm_refine *r, int index, double *cell)
     for (int l = 0; l < LANES; l++) cell[l] = r->cell;
 }
 
-const mpm_refine_kind mpm_refine_around = {
-    .name = "around", .doc = "around a body", .params = params, .of_body = true, .reach = reach, .cells = cells
-};
+const mpm_refine_kind mpm_refine_around = { .name = "around",
+                                            .doc = "around a body",
+                                            .params = params,
+                                            .of_body = true,
+                                            .buffer = 2,
+                                            .every = MPM_REFINE_EVERY,
+                                            .reach = reach,
+                                            .cells = cells };

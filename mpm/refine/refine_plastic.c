@@ -1,5 +1,8 @@
 /* Plastic flow: no cell may be so large that the velocity changes by more than `jump` across it,
- *   h <= jump / edot_p,   edot_p = s : D / sigma_y of a point that yields, 0 of another. */
+ *   h <= jump / edot_p,   edot_p = s : D / sigma_y of a point that yields, 0 of another.
+ * Points at their yield stress flow now and then in the noise of a contact, so their mean is what counts.  Flow goes on
+ * with the velocity of the metal, a fraction of a wave's: it is looked at half as often as a wave, and one cell around
+ * it is enough. */
 #include "mpm/refine/refine_kinds.h"
 
 typedef struct {
@@ -30,6 +33,10 @@ static void cells(const mpm *m, const mpm_refine *r, int index, double *cell)
     for (int l = 0; l < LANES; l++) cell[l] = jump / rate_of(&m->blocks[index], l);
 }
 
-const mpm_refine_kind mpm_refine_plastic = {
-    .name = "plastic", .doc = "where metal flows plastically", .params = params, .cells = cells
-};
+const mpm_refine_kind mpm_refine_plastic = { .name = "plastic",
+                                             .doc = "where metal flows plastically",
+                                             .params = params,
+                                             .mean = true,
+                                             .buffer = 1,
+                                             .every = 2 * MPM_REFINE_EVERY,
+                                             .cells = cells };

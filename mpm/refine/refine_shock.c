@@ -17,6 +17,9 @@ static void cells(const mpm *m, const mpm_refine *r, int index, double *cell)
     for (int l = 0; l < LANES; l++) cell[l] = jump / fmax(-(L[0][l] + L[4][l] + L[8][l]), 0);
 }
 
-const mpm_refine_kind mpm_refine_shock = {
-    .name = "shock", .doc = "where a pressure jump passes", .params = params, .cells = cells
-};
+const mpm_refine_kind mpm_refine_shock = { .name = "shock",
+                                           .doc = "where a pressure jump passes",
+                                           .params = params,
+                                           .buffer = 2,
+                                           .every = MPM_REFINE_EVERY,
+                                           .cells = cells };

@@ -5,8 +5,8 @@ COLUMNS = [Column("scene"), Column("class"), Column("volume [mm3]", 0.1), Column
            Column("width [mm]", 0.1), Column("depth [mm]", 0.1)]
 CHANGES = {
     "nothing": {},
-    "half the tolerance": {"scene__refine_tolerance": 0.05},
-    "twice the tolerance": {"scene__refine_tolerance": 0.2},
+    "half the tolerance": {"scene__refine_tolerance": 0.025},
+    "twice the tolerance": {"scene__refine_tolerance": 0.1},
     "two levels": {"scene__levels": 2},
     "a window half as large again": {"scene__rail_ahead": "21 mm", "scene__rail_behind": "15 mm",
                                      "scene__rail_depth": "12 mm"},
