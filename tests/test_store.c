@@ -218,13 +218,13 @@ static status fake_scene(const impact_job *job, const scene_host *host, impact *
     return status_ok();
 }
 
-static session opened(const breech_case *c, const char *dir, const char *store)
+static session opened_with(const breech_case *c, const char *dir, const char *store, bool force)
 {
     session s;
     const session_options options = { .command = "onset",
                                       .dir = dir,
                                       .store = store,
-                                      .how = { .force = true },
+                                      .how = { .force = force },
                                       .threads = 1,
                                       .progress_to = stderr,
                                       .quiet = true };
@@ -233,6 +233,11 @@ static session opened(const breech_case *c, const char *dir, const char *store)
     s.run_scene = fake_scene;
     ran.scenes = 0;
     return s;
+}
+
+static session opened(const breech_case *c, const char *dir, const char *store)
+{
+    return opened_with(c, dir, store, false);
 }
 
 static scene_query query_at(const breech_case *c, double velocity, const char *name)
@@ -349,18 +354,21 @@ static void test_bodies(void **state)
     case_free(c);
 }
 
-/* A run that is overwritten keeps its store. */
+/* A run that is overwritten keeps its store; scenes with snapshots, which are not in it, are computed again. */
 static void test_force_keeps_it(void **state)
 {
     (void)state;
     fresh_folder("force");
     breech_case *c = read_case(NULL);
-    const scene_record *out;
-    const scene_query q = query_at(c, 1400.0, "a");
-    for (int k = 0; k < 2; k++) {
-        session s = opened(c, "force", NULL);
-        OK(run_scenes_all(&s, &q, 1, &out));
-        assert_int_equal(ran.scenes, k == 0);
+    const scene_record *out[2];
+    scene_query q[] = { query_at(c, 1400.0, "a"), query_at(c, 1600.0, "b") };
+    q[0].impact.snapshots = 0;
+    assert_true(q[1].impact.snapshots > 0);
+    for (int k = 0; k < 3; k++) {
+        session s = opened_with(c, "force", NULL, k == 1);
+        OK(run_scenes_all(&s, q, 2, out));
+        assert_int_equal(ran.scenes, k == 0 ? 2 : k == 1 ? 1 : 0);
+        assert_int_equal(out[0]->entry.reused, k > 0);
         OK(run_session_close(&s, true));
     }
     case_free(c);

@@ -108,11 +108,18 @@ static status take_come(session *s, const scene_query *q, const scene_key *key)
     return taken;
 }
 
+/* Snapshots are not stored: a run that was started over makes those that it has removed again. */
+static bool may_be_stored(const session *s, const scene_query *q)
+{
+    const bool shows = (q->bodies.bodies ? q->bodies.snapshots : q->impact.snapshots) > 0;
+    return s->store[0] && !q->anew && !(s->started_over && shows);
+}
+
 /* A file that cannot be used is none: its scene is computed and replaces it. */
 static status take_stored(session *s, const scene_query *q, const scene_key *key)
 {
     h5_file *file = NULL;
-    if (!s->store[0] || q->anew) return status_ok();
+    if (!may_be_stored(s, q)) return status_ok();
     status taken = run_store_get(s->store, key, &file);
     if (file) taken = take_file(s, q, key, file, true);
     host_h5_close(file);
@@ -203,7 +210,7 @@ static status is_known(const session *s, const scene_query *q, bool *known)
 {
     scene_key key = { .text = NULL };
     const status done = run_scene_query_key(q, &key);
-    *known = record_of(s, key.hash) || (s->store[0] && run_store_has(s->store, &key));
+    *known = record_of(s, key.hash) || (may_be_stored(s, q) && run_store_has(s->store, &key));
     run_scene_key_free(&key);
     return done;
 }

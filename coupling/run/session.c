@@ -105,6 +105,7 @@ status run_session_open(const case_inputs *in, const session_options *o, session
     s->lending = o->lending;
     s->stop = o->stop;
     s->run_scene = o->run_scene;
+    s->started_over = o->how.force;
     s->started = host_wall_clock();
     s->warnings = strdup(in->warnings);
     CHECK(s->warnings, STATUS_MEMORY, "no memory for the warnings");

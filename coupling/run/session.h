@@ -32,6 +32,7 @@ typedef struct {
     checkpoint resumed;           /* empty unless the run goes on */
     double started, wall_before;  /* wall clock; spent before this process [s] */
     char store[OUTDIR_PATH_SIZE]; /* folder of the scene store, "": none */
+    bool started_over;            /* by --force: the snapshots of the former run are gone */
     struct crew *crew;            /* the other processes (crew.h), owned; NULL: there are none */
     scene_shelf shelf;            /* of this process */
     int n_records;
