@@ -154,8 +154,13 @@ static void bad_tables(void **state)
 {
     (void)state;
     static const char *const tables[][2] = { { "0,0\n1e-3,x\n", "bad.csv:2" },
-                                             { "0,0\n1e-3,5\n1e-3,0\n", "times must ascend" },
-                                             { "time,current\n0,0\n1e-3,5\n2e-3,1\n", "the last 0 A" } };
+                                             { "0,0\n1e-3,5\n1e-3,0\n", "bad.csv:3: 0.001 s comes after" },
+                                             { "0,0\n1e-3,nan\n2e-3,0\n", "bad.csv:2" },
+                                             { "t,i,v\n0,0,1\n1e-3,5,1\n2e-3,0,1\n", "bad.csv:2" },
+                                             { "t [ms], i [kA]\n0,0\n1,5\n2,0\n", "column 1 in ms" },
+                                             { "t [s], i [kA]\n0,0\n1,5\n2,0\n", "column 2 in kA" },
+                                             { "time,current\n0,0\n1e-3,5\n2e-3,1\n",
+                                               "the last within 5 % of the peak" } };
     for (size_t k = 0; k < sizeof tables / sizeof *tables; k++) {
         FILE *f = fopen("bad.csv", "w");
         assert_non_null(f);

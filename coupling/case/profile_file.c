@@ -2,6 +2,9 @@
 
 #include "coupling/host/file_text.h"
 
+#include <ctype.h>
+#include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,6 +27,25 @@ static bool keep(point_list *list, supply_point p)
     return true;
 }
 
+static bool is_heading(const char *line)
+{
+    line += strspn(line, " \t,;\"'");
+    return isalpha((unsigned char)line[0]) || line[0] == '[' || line[0] == '(';
+}
+
+/* The units that a heading names in brackets must be those that are read. */
+static status check_heading(const char *path, int number, const char *line)
+{
+    static const char *const wanted[] = { "s", "A" };
+    for (int k = 0; k < 2 && (line = strpbrk(line, "[(")); k++) {
+        const size_t n = strcspn(++line, "])");
+        CHECK(n == strlen(wanted[k]) && strncmp(line, wanted[k], n) == 0, STATUS_BAD_INPUT,
+              "%.300s:%d: column %d in %.*s: wanted time [s] and current [A]", path, number, k + 1,
+              n < 20 ? (int)n : 20, line);
+    }
+    return status_ok();
+}
+
 static status read_line(const char *path, int number, char *line, point_list *list)
 {
     supply_point p;
@@ -31,8 +53,11 @@ static status read_line(const char *path, int number, char *line, point_list *li
     line[strcspn(line, "#\r")] = '\0';
     if (line[strspn(line, " \t,;")] == '\0') return status_ok();
     const bool row = sscanf(line, " %lf%*[ \t,;]%lf %c", &p.time, &p.current, &rest) == 2;
-    if (!row && list->n == 0) return status_ok(); /* a heading */
-    CHECK(row, STATUS_BAD_INPUT, "%.300s:%d: `%.60s`: wanted time [s] and current [A]", path, number, line);
+    if (!row && list->n == 0 && is_heading(line)) return check_heading(path, number, line);
+    CHECK(row && isfinite(p.time) && isfinite(p.current), STATUS_BAD_INPUT,
+          "%.300s:%d: `%.60s`: wanted time [s] and current [A]", path, number, line);
+    CHECK(list->n == 0 || p.time > list->item[list->n - 1].time, STATUS_BAD_INPUT,
+          "%.300s:%d: %g s comes after %g s: times must ascend", path, number, p.time, list->item[list->n - 1].time);
     CHECK(keep(list, p), STATUS_MEMORY, "no memory for the rows of %.300s", path);
     return status_ok();
 }
