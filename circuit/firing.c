@@ -213,28 +213,34 @@ static status search_run(search *q)
     return done;
 }
 
-/* Which groups are moved: all but the first to fire. */
-static void choose_moved(search *q)
+/* Which groups are moved: all that fire at the breech but the first to fire.  moved: [n] of room, or NULL; how many. */
+static int choose_moved(const shot_config *c, int *moved)
 {
-    int first = -1;
-    for (int k = 0; k < q->n; k++) {
-        const shot_module *m = &q->modules[k];
-        if (!(m->fire_at <= q->config.options.max_time) || m->position > 0.0) continue;
-        if (first < 0 || m->fire_at < q->modules[first].fire_at) first = k;
+    const supply_list *bank = &c->supplies[SUPPLY_capacitor];
+    const shot_module *modules = bank->item;
+    int first = -1, n = 0;
+    for (int k = 0; k < bank->n; k++) {
+        const shot_module *m = &modules[k];
+        if (!(m->fire_at <= c->options.max_time) || m->position > 0.0) continue;
+        if (first < 0 || m->fire_at < modules[first].fire_at) first = k;
     }
-    for (int k = 0; k < q->n; k++) {
-        const shot_module *m = &q->modules[k];
-        if (k != first && m->fire_at <= q->config.options.max_time && m->position == 0.0) q->moved[q->n_moved++] = k;
+    for (int k = 0; k < bank->n; k++) {
+        const shot_module *m = &modules[k];
+        if (k == first || !(m->fire_at <= c->options.max_time) || m->position != 0.0) continue;
+        if (moved) moved[n] = k;
+        n++;
     }
+    return n;
 }
 
-static status wish_check(const search *q)
+status circuit_firing_check(const shot_config *c, const firing_wish *wish)
 {
-    TRY(base_params_check(circuit_firing_wish_params, &q->wish, "optimise"));
-    CHECK(q->n_moved > 0, STATUS_BAD_INPUT, "optimise: needs at least two capacitor groups that fire at the breech");
-    CHECK(q->wish.goal != FIRING_FLAT || !isnan(q->wish.peak_current), STATUS_BAD_INPUT,
+    TRY(base_params_check(circuit_firing_wish_params, wish, "optimise"));
+    CHECK(choose_moved(c, NULL) > 0, STATUS_BAD_INPUT,
+          "optimise: needs at least two capacitor groups that fire at the breech");
+    CHECK(wish->goal != FIRING_FLAT || !isnan(wish->peak_current), STATUS_BAD_INPUT,
           "optimise.peak_current is missing [A]: goal flat needs it");
-    CHECK(q->wish.goal != FIRING_VELOCITY || !isnan(q->wish.muzzle_velocity), STATUS_BAD_INPUT,
+    CHECK(wish->goal != FIRING_VELOCITY || !isnan(wish->muzzle_velocity), STATUS_BAD_INPUT,
           "optimise.muzzle_velocity is missing [m/s]: goal velocity needs it");
     return status_ok();
 }
@@ -246,6 +252,7 @@ status circuit_firing_optimise(const shot_config *c, const firing_wish *wish, bo
     const size_t n = bank->n > 0 ? (size_t)bank->n : 1;
     rails_load load;
     *out = (firing_result){ .before = NAN, .after = NAN };
+    TRY(circuit_firing_check(c, wish));
     search q = { .config = *c,
                  .wish = *wish,
                  .given = bank->item,
@@ -264,10 +271,9 @@ status circuit_firing_optimise(const shot_config *c, const firing_wish *wish, bo
     q.config.fitted = &load.ladder;
     q.moved = malloc(n * sizeof *q.moved);
     CHECK(q.moved, STATUS_MEMORY, "out of memory for %zu groups", n);
-    choose_moved(&q);
+    q.n_moved = choose_moved(c, q.moved);
     gsl_error_handler_t *old = gsl_set_error_handler_off();
-    status done = wish_check(&q);
-    if (done.code == STATUS_OK) done = search_run(&q);
+    const status done = search_run(&q);
     gsl_set_error_handler(old);
     free(q.moved);
     return done;

@@ -32,9 +32,11 @@ typedef struct {
     int evaluations, shots; /* of the objective; shots that were run for them */
 } firing_result;
 
+/* STATUS_BAD_INPUT: no group's time can move, or the goal's number is missing. */
+status circuit_firing_check(const shot_config *c, const firing_wish *wish);
+
 /* Times and charges are written into `modules`, a copy of the configuration's capacitor groups that the caller owns.
- * STATUS_BAD_INPUT: no group's time can move, or the goal's number is missing.  STATUS_NUMERICAL: no charge reaches the
- * velocity.
+ * STATUS_BAD_INPUT as circuit_firing_check.  STATUS_NUMERICAL: no charge reaches the velocity.
  * stop (may be NULL): true ends the search, STATUS_STOPPED. */
 status circuit_firing_optimise(const shot_config *c, const firing_wish *wish, bool (*stop)(void), shot_module *modules,
                                firing_result *out);

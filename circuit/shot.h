@@ -224,7 +224,7 @@ typedef struct {
 } shot_limits;
 
 /* What a single value cannot say: STATUS_BAD_INPUT names the parameter, its value, unit and range.  The rails:
- * circuit_rails_section. */
+ * circuit_rails_check. */
 status circuit_shot_check(const shot_config *config);
 /* As circuit_shot_check, and the rails.  Caller frees *out with circuit_shot_free. */
 status circuit_shot_create(const shot_config *config, shot **out);
@@ -262,6 +262,8 @@ status circuit_rails_impedance(const shot_rails *rails, double f, double *induct
 
 /* The cross-section at the temperature before the shot. */
 status circuit_rails_section(const shot_rails *rails, rail_section *out);
+/* What a shot needs of its rails: the numbers of level constant, else the section. */
+status circuit_rails_check(const shot_rails *rails);
 
 /* The ladder that stands for the rails: at level diffusing fitted up to f_top [Hz], else L', R' at f_top and no rungs.
  */

@@ -99,13 +99,20 @@ status circuit_rails_section(const shot_rails *rails, rail_section *out)
     return circuit_section_check(out);
 }
 
+status circuit_rails_check(const shot_rails *rails)
+{
+    rail_section section;
+    if (rails->level != SHOT_RAILS_CONSTANT) return circuit_rails_section(rails, &section);
+    CHECK(!isnan(rails->inductance_gradient) && !isnan(rails->resistance_gradient), STATUS_BAD_INPUT,
+          "rail.level constant needs rail.inductance_gradient [H/m] and rail.resistance_gradient [ohm/m]");
+    return base_params_check(circuit_shot_rails_params, rails, "rail");
+}
+
 status circuit_rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance)
 {
     CHECK(f >= 0.0, STATUS_BAD_INPUT, "frequency %g Hz: must be 0 or more", f);
-    TRY(base_params_check(circuit_shot_rails_params, rails, "rail"));
+    TRY(circuit_rails_check(rails));
     if (rails->level == SHOT_RAILS_CONSTANT) {
-        CHECK(!isnan(rails->inductance_gradient) && !isnan(rails->resistance_gradient), STATUS_BAD_INPUT,
-              "rail.level constant needs rail.inductance_gradient [H/m] and rail.resistance_gradient [ohm/m]");
         *inductance = rails->inductance_gradient;
         *resistance = rails->resistance_gradient;
         return status_ok();

@@ -143,6 +143,17 @@ static study_case study_case_of(const options *o, const case_inputs *in)
     return (study_case){ .in = in, .prefix = "", .sets = o->sets, .n_sets = o->n_sets };
 }
 
+/* With the place in the case of what it is about, where that can be told. */
+static int complain_of(const case_inputs *in, status s)
+{
+    char place[400];
+    if (s.code == STATUS_OK) return EXIT_DONE;
+    case_inputs_place(in, s.text, place, sizeof place);
+    if (!place[0]) return complain(s);
+    fprintf(stderr, "%s%s\n", place, s.text);
+    return exit_code(s);
+}
+
 static status read_case(const options *o, unsigned needs, case_inputs **in)
 {
     material_places at;
@@ -154,12 +165,13 @@ static status read_case(const options *o, unsigned needs, case_inputs **in)
         s = study_prepare(*in);
         const study_case of = study_case_of(o, *in);
         if (s.code == STATUS_OK) s = study_possible_all(&of, needs);
+        complain_of(*in, s);
         if (s.code != STATUS_OK) case_inputs_free(*in);
-    }
-    if (errors)
+    } else if (errors) {
         fputs(errors, stderr);
-    else
+    } else {
         complain(s);
+    }
     free(errors);
     return s;
 }

@@ -62,6 +62,45 @@ static void test_bad_case(void **state)
     assert_false(exists("bad_out"));
 }
 
+/* What only the whole tells, said by rooms that know no file: before anything is written, by check as by a run, with
+ * its place. */
+static void test_places(void **state)
+{
+    (void)state;
+    const struct {
+        const char *set, *yaml, *says;
+    } wrong[] = {
+        { "rail.level=constant", "rail: {level: constant}", "3:15: rail.level constant needs" },
+        { "rail.face_crown=90 mm", "rail: {face_crown: 90 mm}", "3:20: rail.face_crown" },
+        { "rail.cladding=30 mm", "rail: {cladding: 30 mm}", "3:18: rail.cladding" },
+        { "bank[1].position=5 m", "bank: {position: [0 m, 0 m, 5 m], count: 1, fire_at: 0 s}",
+          "3:18: bank[2].position" },
+        { "optimise.goal=flat", "optimise: {goal: flat}", "3:11: optimise.peak_current is missing" },
+        { "rail.layers=[{material: steel_4340, thickness: 12 mm}]",
+          "rail: {layers: [{material: steel_4340, thickness: 12 mm}]}", "73:15: scene.rail_depth" },
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        char arguments[600], place[200];
+        const char *command = strstr(wrong[i].set, "layers") ? "scene" : "shot";
+        fresh_folder("placed");
+        FILE *f = fopen("placed/case.yaml", "w");
+        fprintf(f, "base: %s\nname: placed\n%s\n", SHOT, wrong[i].yaml);
+        fclose(f);
+        for (int check = 0; check < 2; check++) {
+            snprintf(arguments, sizeof arguments, "%s placed%s", check ? "check" : command,
+                     check ? "" : " -o placed/out");
+            assert_int_equal(run(arguments), 2);
+            snprintf(place, sizeof place, ".yaml:%s", wrong[i].says);
+            if (!contains("err.txt", place)) fail_msg("%s: not `%s`", arguments, place);
+        }
+        assert_false(exists("placed/out"));
+        snprintf(arguments, sizeof arguments, "%s " SHOT " --set '%s' -o placed/out", command, wrong[i].set);
+        assert_int_equal(run(arguments), 2);
+        if (command[1] == 'h' && !contains("err.txt", "--set ")) fail_msg("%s: no place", arguments);
+        assert_false(exists("placed/out"));
+    }
+}
+
 static void test_check_and_materials(void **state)
 {
     (void)state;
@@ -244,6 +283,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_usage),
         cmocka_unit_test(test_bad_case),
+        cmocka_unit_test(test_places),
         cmocka_unit_test(test_check_and_materials),
         cmocka_unit_test(test_shot),
         cmocka_unit_test(test_resume_of_another),

@@ -1,6 +1,7 @@
 #include "coupling/case/case.h"
 
 #include "coupling/case/case_bodies.h"
+#include "coupling/case/case_place.h"
 #include "coupling/case/material_file.h"
 #include "coupling/case/profile_file.h"
 #include "coupling/host/file_text.h"
@@ -13,6 +14,7 @@ void case_free(breech_case *c)
     if (!c) return;
     for (const case_section *s = case_root.children; s->key; s++) case_section_free(s, c);
     mpm_scene_free(&c->bodies.scene);
+    case_places_free(c->places);
     free(c->warnings);
     free(c);
 }
@@ -187,6 +189,12 @@ status case_build(const units *u, const case_text *text, const case_options *opt
         if (c->warnings) s = build(&r, text, &root);
         if (s.code == STATUS_OK) s = case_errors_finish(found, errors);
         case_errors_free(found);
+    }
+    if (s.code == STATUS_OK) {
+        const char *files[CASE_MAX_FILES];
+        for (int k = 0; k < r.n_files; k++) files[k] = r.file[k];
+        c->places = case_places_make(root, files, r.n_files, text->sets, text->n_sets);
+        root = NULL;
     }
     free(r.use);
     free(found);

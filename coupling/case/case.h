@@ -30,8 +30,9 @@ typedef struct breech_case {
     case_output output;
     case_materials materials; /* every material the case names, loaded */
     case_given given;
-    char path[CASE_PATH_SIZE]; /* of the file, as given */
-    char *warnings;            /* lines for the user (weak material constants, ...), "" if none; owned */
+    char path[CASE_PATH_SIZE];  /* of the file, as given */
+    struct case_places *places; /* of its keys; owned, NULL: not known */
+    char *warnings;             /* lines for the user (weak material constants, ...), "" if none; owned */
 } breech_case;
 
 /* Reads and checks `path` (a case.yaml, or a folder that holds one); sets are "path.to.key=value", applied first.

@@ -1,6 +1,7 @@
 #include "coupling/case/case_plain.h"
 
 #include "coupling/case/case.h"
+#include "coupling/case/case_place.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -189,6 +190,11 @@ void case_inputs_free(case_inputs *in)
 {
     if (in) case_free((breech_case *)in->file); /* made by wrap */
     free(in);
+}
+
+void case_inputs_place(const case_inputs *in, const char *message, char *out, size_t size)
+{
+    case_places_find(in->file->places, message, out, size);
 }
 
 status case_inputs_write(const case_inputs *in, FILE *file)

@@ -115,11 +115,10 @@ status study_possible(const case_inputs *in, unsigned needs)
 {
     mpm_needs bodies;
     if (in->given.bodies) TRY(needs_of(&in->bodies.scene, &bodies));
-    rail_section section;
     const case_onset *c = &in->onset;
-    if ((needs & CASE_FOR_INDUCTANCE) ||
-        ((needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) && c->launcher.rails.level != SHOT_RAILS_CONSTANT))
-        TRY(circuit_rails_section(&c->launcher.rails, &section));
+    rail_section section;
+    if (needs & CASE_FOR_INDUCTANCE) TRY(circuit_rails_section(&c->launcher.rails, &section));
+    if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_rails_check(&c->launcher.rails));
     if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_shot_check(&c->launcher));
     if ((needs & CASE_FOR_SCENE) && !in->given.bodies) TRY(scene_possible(&c->impact));
     if (needs & CASE_FOR_ONSET) TRY(grains_possible(c));

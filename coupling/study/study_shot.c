@@ -63,6 +63,12 @@ static status run(session *s, const study_case *of, study_answer *out)
     return done;
 }
 
+static status possible(const study_case *of)
+{
+    const case_flight flight = case_flight_of(&of->in->onset);
+    return of->in->given.optimise ? circuit_firing_check(&flight.launcher, &of->in->optimise) : status_ok();
+}
+
 const study study_shot = {
     .name = "shot",
     .doc = "the electromechanical shot alone",
@@ -71,6 +77,7 @@ const study study_shot = {
     .keys = run_shot_keys,
     .can_vary = true,
     .report = { report_shot_verdict, NULL },
+    .possible = possible,
     .run = run,
     .free = answer_free,
 };
