@@ -1,5 +1,6 @@
 /* What a projectile does to its target: its flight, how the class is decided, what a case is refused for, and small
  * scenes that are known to rebound, to stop and to pierce. */
+#include "coupling/scene/scene_fill.h"
 #include "coupling/strike/outcome.h"
 #include "coupling/strike/recht_ipson.h"
 #include "program_common.h"
@@ -132,6 +133,38 @@ static cJSON *struck(const char *folder, const char *text, const char *more)
     char out[100];
     snprintf(out, sizeof out, "%.80s/out", folder);
     return summary_of(out);
+}
+
+/* The scene of a strike: the case's, with the projectile at its speed, and three probes more. */
+static void test_scene(void **state)
+{
+    (void)state;
+    const char *const dirs[] = { BREECH_TESTS "/../cases/materials" };
+    const case_options how = { dirs, 1, CASE_FOR_STRIKE };
+    const char *bytes = HEAD(", plate: plate, travel: 8 mm", "1 us") BODIES("ofhc_copper", PLATE);
+    const case_text text = { bytes, strlen(bytes), "case.yaml", NULL, 0 };
+    case_inputs *in = NULL;
+    char *errors = NULL;
+    if (case_inputs_read_memory(&text, &how, &in, &errors).code != STATUS_OK) fail_msg("%s", errors);
+    OK(scene_fill(&in->bodies.scene));
+    strike_projectile p;
+    OK(strike_projectile_of(in, &p));
+    assert_true(p.body == 1 && p.plate == 0 && p.parts == 4.0 && p.n[0] == 1.0 && p.speed == 100.0);
+    assert_true(fabs(p.half_width - 1e-3) < 1e-12 && p.from[1] == 0.0 && p.from[2] == 0.0);
+    for (int fast = 0; fast < 2; fast++) {
+        const double v = fast ? 1000.0 : 50.0;
+        case_bodies b;
+        OK(strike_scene(in, &p, v, &b));
+        mpm_scene *s = &b.scene;
+        assert_true(s->probes == 3 && s->body[1].velocity[0] == v && s->body[0].velocity[0] == 0.0);
+        assert_true(fabs(s->end_time * v - 8e-3) < 1e-12);
+        assert_true(*mpm_probe_value(&s->probe[1], "reach") == 0.5 * p.half_width);
+        assert_true(*mpm_probe_value(&s->probe[1], "slower") == (fast ? 100.0 : 20.0)); /* a plate that swings */
+        assert_true(mpm_probe_value(&s->probe[2], "along")[0] == -1.0);
+        mpm_scene_free(s);
+    }
+    assert_true(in->bodies.scene.probes == 0 && in->bodies.scene.body[1].velocity[0] == 100.0); /* as it was */
+    case_inputs_free(in);
 }
 
 /* What contact gave the ball is the momentum that it has lost: no other force acts on it.  1e-9: rounding of some
@@ -333,9 +366,10 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flight),  cmocka_unit_test(test_package),   cmocka_unit_test(test_class),
-        cmocka_unit_test(test_classes), cmocka_unit_test(test_parts),     cmocka_unit_test(test_recht_ipson),
-        cmocka_unit_test(test_limit),   cmocka_unit_test(test_from_shot), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_flight),      cmocka_unit_test(test_package), cmocka_unit_test(test_class),
+        cmocka_unit_test(test_scene),       cmocka_unit_test(test_classes), cmocka_unit_test(test_parts),
+        cmocka_unit_test(test_recht_ipson), cmocka_unit_test(test_limit),   cmocka_unit_test(test_from_shot),
+        cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

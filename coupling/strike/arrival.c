@@ -150,7 +150,7 @@ static status add_way(mpm_scene *s, const strike_projectile *p, double velocity)
     memcpy(mpm_probe_value(way, "along"), p->n, sizeof p->n);
     memcpy(mpm_probe_value(way, "from"), p->from, sizeof p->from);
     *mpm_probe_value(way, "reach") = 0.5 * p->half_width;
-    *mpm_probe_value(way, "slower") = STRIKE_SLOW * velocity;
+    *mpm_probe_value(way, "slower") = fmax(STRIKE_SLOW * velocity, STRIKE_SWINGS);
     return status_ok();
 }
 

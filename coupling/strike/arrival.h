@@ -18,8 +18,10 @@
 #define STRIKE_WAY_PROBE "projectile_way"
 #define STRIKE_PLATE_PROBE "plate_surface"
 
-/* Metal of the target that is slower than this part of the arrival velocity stays where it is. */
+/* Metal of the target that is slower than this part of the arrival velocity, or than this velocity where that is more,
+ * stays where it is: a panel that swings after a slow arrival does not fly [1, m/s]. */
 #define STRIKE_SLOW 0.1
+#define STRIKE_SWINGS 20.0
 
 typedef struct {
     int body, group, plate; /* of scene.bodies; plate -1: none */

@@ -2,7 +2,7 @@
  *
  * The class is decided at the scene's end, by intact metal alone (damage below 1).  With v0 the arrival velocity, m the
  * projectile's mass, u its speed along the flight less that of what stays of the target (probe `passage`: metal slower
- * than v0 / 10):
+ * than v0 / 10 or 20 m/s):
  *   pierced     u > v0 / 50; what still stands in its way weighs less than m / 1000; and in the last tenth of the scene
  *               its speed changed by less than u / 10: metal that gives way before it, a bulge or a plug that is still
  *               held, would slow it down

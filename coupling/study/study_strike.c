@@ -40,13 +40,13 @@ static const summary_key result_keys[] = {
     SUMMARY_NUMBER(strike_result, "time_of_peak", is.peak_time, "s", "when that ended"),
     SUMMARY_NUMBER(strike_result, "impulse", is.impulse, "N s", "of contact on the projectile, against its flight"),
     SUMMARY_NUMBER(strike_result, "deflection", is.deflection, "m",
-                   "farthest along the flight that intact metal of the target has gone that is slower than a tenth of "
-                   "impact_velocity; null: there is none"),
+                   "farthest along the flight that intact metal of the target has gone that does not fly: slower than "
+                   "20 m/s, or than a tenth of impact_velocity; null: there is none"),
     SUMMARY_NUMBER(strike_result, "hole_diameter", is.hole_diameter, "m",
                    "of a circle with the area of the holes in strike.plate; null: no plate is named"),
     SUMMARY_NUMBER(strike_result, "failed_volume", is.failed_volume, "m3", "of the target"),
     SUMMARY_NUMBER(strike_result, "debris_mass", is.debris_mass, "kg",
-                   "of the target: faster than a tenth of impact_velocity, out of the window, or eroded"),
+                   "of the target: what flies, has left the window or was eroded"),
     SUMMARY_NUMBER(strike_result, "ahead", is.ahead, "kg",
                    "intact metal of the target in the projectile's way at the end"),
     SUMMARY_NUMBER(strike_result, "speed_change", is.speed_change, "m/s",

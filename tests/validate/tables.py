@@ -19,6 +19,7 @@ import pages
 import part_closed
 import part_criterion
 import part_growth
+import part_lattice
 import part_levels
 import part_wu2017
 from runs import Runs
@@ -31,6 +32,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "cells": ("docs/validation/growth.md", part_growth.cells, 6, False),
     "criterion-steel": ("docs/validation/criterion.md", part_criterion.steel, 13, False),
     "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
+    "lattice": ("docs/validation/lattice.md", part_lattice.through, 8, False),
     "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
 }
 

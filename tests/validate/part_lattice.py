@@ -1,0 +1,78 @@
+"""A steel ball on a lattice sandwich (Chen et al. 2024), at the speeds at which it goes through."""
+import json
+import os
+
+from pages import Column, Table
+
+CASE = "cases/lattice_target"
+TRAVEL = {500: 45, 1000: 36, 1500: 34, 2000: 32}  # velocity [m/s]: travel [mm]
+COLUMNS = [Column("arrival"), Column("class"), Column("residual [m/s]", 0.03),
+           Column("absorbed [J]", 0.05), Column("peak force [kN]", 0.05), Column("deflection [mm]", 0.3),
+           Column("hole [mm]", 0.2), Column("failed, front / core / back [mm3]"), Column("debris [g]", 0.3)]
+ROWS = [Column("row"), Column("the paper says"), Column("comes out"), Column("holds")]
+
+
+def strike(runs, name, **settings):
+    arguments = ["strike", CASE]
+    for key, value in {"output__report": "no", "output__snapshots": 0, **settings}.items():
+        arguments += ["--set", "%s=%s" % (key.replace("__", "."), value)]
+    folder, _ = runs.run(name, arguments)
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+def failed(summary, body):
+    return 4 * summary["bodies"][body]["failed_volume"]  # of the quarter
+
+
+def row(velocity, net, s):
+    parts = " / ".join("%.1f" % (1e9 * failed(s, body)) for body in ("front", "core", "back"))
+    hole = s["hole_diameter"]
+    return ["%d m/s, %s" % (velocity, net), s["class"], "%.1f" % s["residual_velocity"], "%.4g" % s["energy_absorbed"],
+            "%.1f" % (1e-3 * s["peak_force"]), "%.2f" % (1e3 * s["deflection"]),
+            "" if hole is None else "%.1f" % (1e3 * hole), parts, "%.3f" % (1e3 * s["debris_mass"])]
+
+
+def verdict(holds):
+    return "yes" if holds else "no"
+
+
+def recht_ipson(s):
+    """v_r = k sqrt(v0^2 - v50^2) through 1000 and 2000 m/s: k, v50 [m/s], what it says of 1500 m/s over what comes out."""
+    slow, fast = s[1000]["residual_velocity"] ** 2, s[2000]["residual_velocity"] ** 2
+    k2 = (fast - slow) / (2000.0 ** 2 - 1000.0 ** 2)
+    rest = 1000.0 ** 2 - slow / k2
+    between = (k2 * (1500.0 ** 2 - rest)) ** 0.5
+    return k2 ** 0.5, max(rest, 0.0) ** 0.5, between / s[1500]["residual_velocity"]
+
+
+def rows_of_paper(s):
+    k, limit, share = recht_ipson(s)
+    half, one, three, two = s[500], s[1000], s[1500], s[2000]
+    return [
+        ["L5", "0.5 km/s: the ball stays inside, the back sheet bulges", "%s, %.0f m/s left, back sheet %.1f mm3 failed" % (
+            half["class"], half["residual_velocity"], 1e9 * failed(half, "back")),
+         verdict(half["class"] != "pierced" and half["deflection"] > 5e-4)],
+        ["L6", "1 km/s: the back sheet is torn, the ball's velocity settles",
+         "back sheet %.1f mm3 failed; %.1f m/s in the last tenth" % (1e9 * failed(one, "back"), one["speed_change"]),
+         verdict(failed(one, "back") > 0 and one["speed_change"] < 0.01 * 1000)],
+        ["L7", "1.5 km/s: pierced, debris behind", "%s, %.0f m/s left, debris %.2f g" % (
+            three["class"], three["residual_velocity"], 1e3 * three["debris_mass"]),
+         verdict(three["class"] == "pierced" and three["debris_mass"] > 0)],
+        ["L8", "2 km/s: a larger hole and more debris than 1.5 km/s", "holes %.1f, %.1f mm; debris %.2f, %.2f g" % (
+            1e3 * three["hole_diameter"], 1e3 * two["hole_diameter"], 1e3 * three["debris_mass"],
+            1e3 * two["debris_mass"]),
+         verdict(two["hole_diameter"] > three["hole_diameter"] and two["debris_mass"] > three["debris_mass"])],
+        ["5.4", "Recht and Ipson: k 0.65 .. 0.95, a speed left out within 5 %",
+         "k %.3f, limit %.0f m/s, 1.5 km/s %+.1f %%" % (k, limit, 100 * (share - 1)),
+         verdict(0.65 <= k <= 0.95 and abs(share - 1) < 0.05)],
+    ]
+
+
+def through(runs):
+    s = {v: strike(runs, "lattice_open_%d" % v, strike__velocity="%d m/s" % v, strike__travel="%d mm" % travel)
+         for v, travel in TRAVEL.items()}
+    full = "{lattice_full: {lo: 0.5 -30 -30 mm, hi: 15.5 30 30 mm, cell: 5 mm, radius: 0.5 mm}}"
+    t = strike(runs, "lattice_full_2000", **{"scene__bodies[1]__shape": full})
+    rows = [row(v, "open", s[v]) for v in TRAVEL] + [row(2000, "full", t)]
+    return [Table(COLUMNS, rows), Table(ROWS, rows_of_paper(s))], "cases/lattice_target, cells of 0.4 mm"
