@@ -26,6 +26,8 @@ static int scenes;
 static double growth_most = INFINITY; /* it levels out [e-folds] */
 static double growth_rises = 1.0;     /* with velocity; -1: it falls, whatever the class */
 
+static double tear_drops = 0.0; /* [m/s]; 0: shapes are not made up */
+
 /* Severity of a made-up scene: a line in velocity; a harder, colder or layered rail, a steeper lead face and a grid
  * that is shifted gouge later. */
 static double made_up_threshold(const case_impact *of)
@@ -53,6 +55,11 @@ static status fake_scene(const impact_job *job, const scene_host *host, impact *
     hit->groove_growth = growth_rises * fmin(excess, growth_most) / gouge_growth_folds(1.0, r, v);
     /* a groove must have grown for a while before its crater is a gouge */
     hit->class = excess >= (case_impact_is_gauged(of) ? 0.0 : 0.4) ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
+    if (tear_drops > 0.0 && case_impact_is_gauged(of)) { /* tear-drops so far above the threshold, on every grid */
+        const double from = made_up_threshold(of) - 400.0 * of->scene.grid_shift[0] + tear_drops;
+        hit->length_over_width = 4.0 * exp((from - v) / 300.0);
+        if (v < from) hit->class = DAMAGE_SCRATCH;
+    }
     hit->crater_volume = 10.0 * r * r * r;
     hit->crater_depth = 0.2 * r;
     hit->crater_length = 6.0 * r;
@@ -109,7 +116,7 @@ static char *errors_of(const char *text, unsigned needs)
     "particle: {radius: 0.5 mm}\n"                                                                                  \
     "scene: {friction: 0.05, coarse_cell: 2 mm, growth: 1.3, contact_pressure: 75 MPa}\n"                           \
     "study: {coarse_cells_per_radius: 2, fine_cells_per_radius: 3, max_scenes: 40, sampled: 10000,\n"               \
-    "  sensitivities: no, feedback: no}\n"                                                                          \
+    "  sensitivities: no, feedback: no, scratch: no}\n"                                                             \
     "output: {snapshots: 0, report: no}\n"
 #define GRAINS "populations:\n  - {density: 3 1/m, radius_median: 0.3 mm, radius_spread: 0.3}\n"
 
@@ -684,6 +691,42 @@ static void test_scatter(void **state)
     case_free(c);
 }
 
+/* Grooves grow from a velocity on that moves with the grid, and are tear-drops from one on that does not, 100 m/s above
+ * that of the case's own grid: on each grid the later of the two is where it gouges. */
+static void test_scatter_of_two(void **state)
+{
+    (void)state;
+    enum { GRIDS = 5 };
+    breech_case *c = read(HEAD "sites: [{position: 2.9 m}]\n", CASE_FOR_ONSET);
+    c->study.velocity_low = 500.0;
+    c->study.velocity_high = 3000.0;
+    c->study.velocity_interval = 0.02;
+    c->study.coarse_cells_per_radius = c->study.fine_cells_per_radius;
+    c->study.threshold_ensemble = GRIDS;
+    c->study.scratch = true;
+    tear_drops = 100.0;
+    onset_answer a = studied(c, "two", status_ok());
+    tear_drops = 0.0;
+    const double none[3] = { 0.0 };
+    double grows[GRIDS], gouges[GRIDS], shift[3];
+    int later = 0;
+    for (int i = 0; i < GRIDS; i++) {
+        study_shift_of(i, none, shift);
+        grows[i] = 400.0 * shift[0];
+        gouges[i] = fmax(grows[i], 100.0);
+        later += grows[i] > 100.0;
+    }
+    assert_true(later > 0 && later < GRIDS);
+    const onset_result *r = &a.result;
+    print_message("gouge %.0f +- %.1f, scratch %.0f +- %.1f m/s\n", r->threshold_velocity, r->threshold_deviation,
+                  r->scratch_velocity, r->scratch_deviation);
+    assert_true(fabs(r->threshold_velocity - r->scratch_velocity - 100.0) < 1.0);
+    assert_true(fabs(r->scratch_deviation - study_shift_spread(grows, GRIDS).deviation) < 1e-6);
+    assert_true(fabs(r->threshold_deviation - study_shift_spread(gouges, GRIDS).deviation) < 1e-6);
+    study_onset_answer_free(&a);
+    case_free(c);
+}
+
 /* No whole craters: numbers of gouges as with them, volumes and what the gouges take unknown. */
 static void test_no_craters(void **state)
 {
@@ -790,6 +833,7 @@ int main(void)
         cmocka_unit_test(test_no_craters),
         cmocka_unit_test(test_uncertain_inputs),
         cmocka_unit_test(test_scatter),
+        cmocka_unit_test(test_scatter_of_two),
         cmocka_unit_test(test_shots_warm_the_rail),
         cmocka_unit_test(test_shots_strip_the_rail),
     };

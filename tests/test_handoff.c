@@ -688,6 +688,12 @@ static void test_growth(void **state)
     assert_true(gouge_growth_folds(NAN, 0.5e-3, 1500.0) == -3.0);
     assert_true(gouge_growth_folds(-1e7, 0.5e-3, 1500.0) ==
                 -3.0); /* died between the gauges: no less than before the first */
+    /* a gouge grows and is no longer than its limit; without a crater it is dead */
+    assert_true(gouge_tear_drop_excess(0.5, 2.0, 4.0) == 0.5);
+    assert_true(fabs(gouge_tear_drop_excess(1.5, 2.0, 4.0) - log(2.0)) < 1e-12);
+    assert_true(fabs(gouge_tear_drop_excess(0.5, 8.0, 4.0) + log(2.0)) < 1e-12);
+    assert_true(gouge_tear_drop_excess(-0.5, 1.0, 4.0) == -0.5);
+    assert_true(gouge_tear_drop_excess(0.5, NAN, 4.0) == -3.0);
 }
 
 /* A scene that is to be gauged is the whole one as far as it goes, and is refused where it would be over before. */

@@ -530,8 +530,9 @@ typedef struct {
     int scenes, stop_after; /* of this process; 0: never */
     int whole_scratches;    /* the next so many whole scenes are scratches, whatever their severity */
     double base;            /* threshold of a 0.5 mm grain [m/s] */
+    double tear_drop;       /* velocity at which its groove is four times as long as wide; 0: shapes are not made up */
 } fake;
-static fake counter = { 0, 0, 0, 1430.0 }; /* the runner has no place for it */
+static fake counter = { 0, 0, 0, 1430.0, 0.0 }; /* the runner has no place for it */
 
 static double made_up_threshold(double radius)
 {
@@ -552,6 +553,10 @@ static status fake_scene(const impact_job *job, const scene_host *host, impact *
     out->result.groove_growth = gauged ? excess / gouge_growth_folds(1.0, r, v) : NAN;
     out->result.widening = 2.0;
     out->result.class = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
+    if (gauged && counter.tear_drop > 0.0) {
+        out->result.length_over_width = 4.0 * exp((counter.tear_drop - v) / 400.0);
+        if (v < counter.tear_drop) out->result.class = DAMAGE_SCRATCH;
+    }
     if (!gauged && counter.whole_scratches > 0) {
         counter.whole_scratches--;
         out->result.class = DAMAGE_SCRATCH;
@@ -568,14 +573,19 @@ static breech_case *changed_case(const char *const *sets)
     const case_options how = { dirs, 1, CASE_FOR_ONSET };
     /* what the made-up scenes and the numbers below count on, whatever the case says */
     const char *all[40] = {
-        "study.coarse_cells_per_radius=2", "study.fine_cells_per_radius=3", "study.crater_cells_per_radius=none",
-        "study.threshold_ensemble=0",      "study.max_scenes=14",           "study.velocity_interval=5 %",
-        "study.velocity_low=1 km/s",       "study.velocity_high=2 km/s",    "rail.level=skin",
-        "study.position_interval=1",       "study.sensitivities=no",        "study.resolution_error=0",
-        "sites[0].position=0.60 m",        "sites[1].position=0.75 m",      "sites[2].position=0.90 m",
-        "sites[3].position=1.05 m",        "sites[4].position=1.20 m",      "sites[5].position=1.35 m",
-        "sites[6].position=1.50 m",        "sites[7].position=1.65 m",      "sites[8].position=1.85 m",
-        "sites[9].position=2.10 m",        "sites[10].position=2.40 m",     "sites[11].position=2.70 m",
+        "study.coarse_cells_per_radius=2",    "study.fine_cells_per_radius=3",
+        "study.crater_cells_per_radius=none", "study.scratch=no",
+        "study.threshold_ensemble=0",         "study.max_scenes=14",
+        "study.velocity_interval=5 %",        "study.velocity_low=1 km/s",
+        "study.velocity_high=2 km/s",         "rail.level=skin",
+        "study.position_interval=1",          "study.sensitivities=no",
+        "study.resolution_error=0",           "sites[0].position=0.60 m",
+        "sites[1].position=0.75 m",           "sites[2].position=0.90 m",
+        "sites[3].position=1.05 m",           "sites[4].position=1.20 m",
+        "sites[5].position=1.35 m",           "sites[6].position=1.50 m",
+        "sites[7].position=1.65 m",           "sites[8].position=1.85 m",
+        "sites[9].position=2.10 m",           "sites[10].position=2.40 m",
+        "sites[11].position=2.70 m",
     };
     breech_case *c = NULL;
     char *errors = NULL;
@@ -870,6 +880,49 @@ static void test_hard_film(void **state)
     case_free(c);
 }
 
+/* Grooves grow from 1430 m/s on and are tear-drops from 1650 m/s on: both velocities are found, the second search takes
+ * the scenes of the first, and the sites between the two are scratches. */
+static void test_two_speeds(void **state)
+{
+    (void)state;
+    int scenes[3]; /* of gouge alone, of scratch alone, of both */
+    onset_answer a;
+    for (int which = 0; which < 3; which++) {
+        breech_case *c = changed_case((const char *const[]){ which == 2 ? "study.scratch=yes" : "study.scratch=no",
+                                                             "study.max_scenes=30", "study.craters=0",
+                                                             "study.coarse_cells_per_radius=3", NULL });
+        counter.tear_drop = which == 1 ? 0.0 : 1650.0;
+        OK(study(c, "speeds", FORCE, &a));
+        counter.tear_drop = 0.0;
+        scenes[which] = a.result.scenes_run;
+        if (which < 2) {
+            assert_true(isnan(a.result.scratch_velocity) && isnan(a.site[0].scratch_velocity));
+            study_onset_answer_free(&a);
+        }
+        case_free(c);
+    }
+    const onset_result *r = &a.result;
+    print_message("%d scenes for the gouge, %d for the scratch, %d for both\n", scenes[0], scenes[1], scenes[2]);
+    assert_true(scenes[2] < scenes[0] + scenes[1] - 1);
+    assert_true(fabs(r->threshold_velocity - 1650.0) < 40.0 && fabs(r->scratch_velocity - 1430.0) < 40.0);
+    assert_true(r->scratch_interval[0] <= 1430.0 && r->scratch_interval[1] >= 1430.0);
+    assert_true(r->scratch_interval[1] < r->threshold_interval[0]);
+    assert_true(r->scratch_position < r->threshold_position);
+    assert_true(r->surface[0].scratch_velocity == r->scratch_velocity);
+    assert_non_null(strstr(r->reason, "grooves grow from"));
+    int scratches = 0;
+    for (int i = 0; i < r->n_sites; i++) {
+        const double v = a.site[i].velocity;
+        const site_outcome is = a.site[i].outcome;
+        if (is == SITE_SKIPPED) continue;
+        if (v >= r->threshold_interval[1]) assert_int_equal(is, SITE_GOUGE);
+        if (v <= r->threshold_interval[0]) assert_int_equal(is, v >= r->scratch_velocity ? SITE_SCRATCH : SITE_NONE);
+        scratches += is == SITE_SCRATCH;
+    }
+    assert_true(scratches > 0);
+    study_onset_answer_free(&a);
+}
+
 /* Where growth says that grains gouge for sure but their whole scenes are scratches, nothing is decided. */
 static void test_contradicted(void **state)
 {
@@ -984,6 +1037,7 @@ int main(void)
         cmocka_unit_test(test_screened),
         cmocka_unit_test(test_hard_film),
         cmocka_unit_test(test_contradicted),
+        cmocka_unit_test(test_two_speeds),
         cmocka_unit_test(test_two_kinds),
         cmocka_unit_test(test_resume),
         cmocka_unit_test(test_other_case),

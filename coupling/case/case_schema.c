@@ -137,8 +137,11 @@ static const param scene_params[] = {
     PARAM_BOOL(case_scene, half_model, 1, "compute z >= 0 and mirror it"),
     PARAM_DOUBLE(case_scene, limit_widening, "1", 1.5, 1.0, 10.0, "widening from which a crater is a gouge"),
     PARAM_DOUBLE(case_scene, limit_severity, "1", 0.0, -10.0, 1e4, "severity from which a crater is a gouge"),
-    PARAM_DOUBLE(case_scene, growth_scatter, "1", 0.2, 0.0, 10.0,
-                 "growth between the gauges, e-folds either way, that decides nothing"),
+    PARAM_DOUBLE(case_scene, limit_length_over_width, "1", 4.0, 0.1, 1e3,
+                 "length over width up to which a groove that grows is a gouge, stopped at its second gauge"),
+    PARAM_DOUBLE(
+        case_scene, growth_scatter, "1", 0.2, 0.0, 10.0,
+        "growth between the gauges, e-folds either way, that decides nothing; so much of ln(length over width)"),
     PARAMS_END,
 };
 
@@ -162,6 +165,8 @@ static const param study_params[] = {
     PARAM_INT(case_study, craters, 2, 0, 2,
               "whole craters of each kind of grain that gouges, judge: growth: in the middle of the velocities that "
               "gouge; and at the fastest grain; 0: none, so no volumes, rims and feedback"),
+    PARAM_BOOL(case_study, scratch, 1,
+               "look for the scratch velocity too, judge: growth: from which on a groove grows, gouge or not"),
     PARAM_DOUBLE(case_study, screen_low, "1", 3.0, 0.0, 1e4,
                  "impact pressure over hardness of the harder partner below which no scene is run"),
     PARAM_DOUBLE(case_study, coarse_cells_per_radius, "1", 3.0, 1.0, 100.0, "resolution the bracketing starts with"),

@@ -181,12 +181,13 @@ typedef struct {
     double contact_gap; /* [cells] */
     transfer_kind transfer;
     basis_kind basis;
-    bool heat_by_plastic_work; /* (M-4); to here */
-    bool damage;               /* Johnson-Cook damage in all bodies */
-    bool half_model;           /* only z >= 0, mirrored */
-    double limit_widening;     /* of the class gouge [1] */
-    double limit_severity;     /* of the class gouge [1] */
-    double growth_scatter;     /* e-folds between the gauges within which growth decides nothing [1] */
+    bool heat_by_plastic_work;      /* (M-4); to here */
+    bool damage;                    /* Johnson-Cook damage in all bodies */
+    bool half_model;                /* only z >= 0, mirrored */
+    double limit_widening;          /* of the class gouge [1] */
+    double limit_severity;          /* of the class gouge [1] */
+    double limit_length_over_width; /* of a groove that ends at its second gauge: a gouge is not longer [1] */
+    double growth_scatter;          /* e-folds between the gauges within which growth decides nothing [1] */
 } case_scene;
 
 /* What becomes of bodies that overlap. */
@@ -226,6 +227,7 @@ typedef struct {
     int ensemble; /* grids, each shifted by another part of a cell, on which `breech scene` computes; 0: its own */
     int threshold_ensemble; /* the same of the scene nearest a threshold; 0: its own, and its scatter is not known */
     int craters;            /* whole scenes of a family of grains that gouges, judged by growth: 0 .. 2 */
+    bool scratch;           /* the scratch velocity is looked for too, judged by growth */
     double screen_low;      /* impact pressure over hardness below which no scene is needed [1] */
     double coarse_cells_per_radius, fine_cells_per_radius; /* [1] */
     double crater_cells_per_radius;                        /* of whole craters; NAN: those of the search [1] */

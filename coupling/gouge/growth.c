@@ -59,6 +59,11 @@ double gouge_growth_folds(double growth, double radius, double velocity)
     return folds > DEAD_FOLDS ? folds : DEAD_FOLDS; /* NAN too */
 }
 
+double gouge_tear_drop_excess(double folds, double length_over_width, double limit)
+{
+    return isnan(length_over_width) ? DEAD_FOLDS : fmin(folds, log(limit / length_over_width));
+}
+
 bool gouge_groove_dies(const gouge_scene *s, const gouge_gauges *g, const gouge_front *now, double time)
 {
     if (!(g->at[0] > 0.0) || time < 0.5 * (s->gauge_time[0] + s->gauge_time[1])) return false;

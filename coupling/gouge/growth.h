@@ -35,6 +35,10 @@ double gouge_front_speed(const gouge_gauges *g);
  * and counts as -3, and none as less. */
 double gouge_growth_folds(double growth, double radius, double velocity);
 
+/* What passes zero where a groove that grows becomes a gouge, a tear-drop instead of a furrow: the smaller of its
+ * growth in e-folds and of ln(limit / length over width) [1].  A groove without a crater (NAN) counts as dead. */
+double gouge_tear_drop_excess(double folds, double length_over_width, double limit);
+
 /* At that time, half way between its gauges or later: does the groove's plastic power fall so fast that the rest of the
  * way would not change the answer? */
 bool gouge_groove_dies(const gouge_scene *s, const gouge_gauges *g, const gouge_front *now, double time);

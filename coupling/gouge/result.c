@@ -44,17 +44,21 @@ static void take_bodies(scene_result *r, const gouge_scene *s, const gouge_watch
     r->peak_pressure_rail_999 = w->rail.peak_pressure_999;
 }
 
-/* A scene that ends at its second gauge, or dying, has no whole crater to be judged by; what left none until then is
- * still `none`. */
+/* A scene that ends at its second gauge, or dying, has no whole crater to be judged by, but a growth and a shape; what
+ * left none until then is still `none`. */
 static void judge_by_growth(scene_result *r, const gouge_scene *s)
 {
     const double folds = gouge_growth_folds(r->groove_growth, s->crater.particle_radius, s->velocity);
-    const bool decided = fabs(folds) >= s->growth_scatter;
+    const double excess = gouge_tear_drop_excess(folds, r->length_over_width, s->limit_length_over_width);
+    const bool decided = fabs(excess) >= s->growth_scatter;
     const damage_class below = r->class == DAMAGE_NONE ? DAMAGE_NONE : DAMAGE_SCRATCH;
-    r->class = !decided ? DAMAGE_UNDECIDED : folds > 0.0 ? DAMAGE_GOUGE : below;
-    snprintf(r->reason, sizeof r->reason,
-             "the groove's plastic power changes by %.2f e-folds from gauge to gauge, %s %.2f", folds,
-             decided ? "beyond" : "within", s->growth_scatter);
+    r->class = !decided ? DAMAGE_UNDECIDED : excess > 0.0 ? DAMAGE_GOUGE : below;
+    snprintf(
+        r->reason, sizeof r->reason,
+        "the groove's plastic power changes by %.2f e-folds from gauge to gauge, its crater is %.1f times as long as "
+        "wide (limit %g): %.2f, %s %.2f",
+        folds, r->length_over_width, s->limit_length_over_width, excess, decided ? "beyond" : "within",
+        s->growth_scatter);
 }
 
 scene_result gouge_result(const gouge_scene *s, const gouge_watch *w, const scene_outcome *o)

@@ -126,7 +126,9 @@ void report_plot_outcomes(FILE *script, const bool used[OUTCOMES], bool first)
     fputc('\n', script);
 }
 
-void report_plot_band(FILE *script, int object, const cJSON *summary, const char *key, bool along_x)
+const char report_gouge_band[] = "#e58a7f", report_scratch_band[] = "#e9cf8a";
+
+void report_plot_band(FILE *script, int object, const cJSON *summary, const char *key, bool along_x, const char *colour)
 {
     const double lo = report_element(summary, key, 0), hi = report_element(summary, key, 1);
     if (isnan(lo) || isnan(hi)) return;
@@ -134,5 +136,5 @@ void report_plot_band(FILE *script, int object, const cJSON *summary, const char
         fprintf(script, "set object %d rectangle from %.7g,graph 0 to %.7g,graph 1", object, lo, hi);
     else
         fprintf(script, "set object %d rectangle from graph 0,first %.7g to graph 1,first %.7g", object, lo, hi);
-    fputs(" behind fillstyle solid 0.25 noborder fillcolor rgb '#e58a7f'\n", script);
+    fprintf(script, " behind fillstyle solid 0.25 noborder fillcolor rgb '%s'\n", colour);
 }

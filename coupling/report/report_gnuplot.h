@@ -30,6 +30,8 @@ int report_plot_outcome_data(FILE *script, const report_source *r, const point_s
 /* The words that plot them; first: nothing stands before them in the plot command. */
 void report_plot_outcomes(FILE *script, const bool used[OUTCOMES], bool first);
 /* A shaded interval of the summary across the whole plot, along x or along y; none where there is no interval. */
-void report_plot_band(FILE *script, int object, const cJSON *summary, const char *key, bool along_x);
+void report_plot_band(FILE *script, int object, const cJSON *summary, const char *key, bool along_x,
+                      const char *colour);
+extern const char report_gouge_band[], report_scratch_band[]; /* colours */
 
 #endif

@@ -158,8 +158,9 @@ status report_plot_barrel(const report_source *r, bool *drawn)
         bool used[OUTCOMES];
         report_plot_data(p.script, "curve", c.x, c.y, c.n);
         report_plot_outcome_data(p.script, r, &(point_source){ "sites", "outcome", "position", "velocity", 1.0 }, used);
-        report_plot_band(p.script, 1, r->summary, "onset_interval", true);
-        report_plot_band(p.script, 2, r->summary, "threshold_interval", false);
+        report_plot_band(p.script, 1, r->summary, "onset_interval", true, report_gouge_band);
+        report_plot_band(p.script, 2, r->summary, "threshold_interval", false, report_gouge_band);
+        report_plot_band(p.script, 3, r->summary, "scratch_interval", false, report_scratch_band);
         fputs("set xlabel 'position along the barrel [m]'\nset ylabel 'velocity [m/s]'\n"
               "plot $curve with lines lw 2 lc rgb '#1f5fa8' title 'armature'",
               p.script);
@@ -188,7 +189,8 @@ status report_plot_threshold(const report_source *r, bool *drawn)
     bool used[OUTCOMES];
     const char *y = gauged ? "groove_growth" : "severity";
     report_plot_outcome_data(p.script, r, &(point_source){ "scenes", "class", "velocity", y, 1.0 }, used);
-    report_plot_band(p.script, 1, r->summary, "threshold_interval", true);
+    report_plot_band(p.script, 2, r->summary, "scratch_interval", true, report_scratch_band);
+    report_plot_band(p.script, 1, r->summary, "threshold_interval", true, report_gouge_band);
     fprintf(p.script,
             "set xlabel 'velocity [m/s]'\nset ylabel '%s'\nset offsets graph 0.05, graph 0.05, graph 0.1, graph 0.1\n"
             "plot 0 with lines lw 1.5 dt 2 lc rgb '#555555' title 'growth sets in'",

@@ -68,7 +68,8 @@ static void onset_sentence(const page *p)
 }
 
 /* clang-format off */
-static const page_column onset_cards[] = { { "threshold_velocity", "threshold velocity", 1.0, "m/s" },
+static const page_column onset_cards[] = { { "threshold_velocity", "a grain gouges from", 1.0, "m/s" },
+                                     { "scratch_velocity", "a groove grows from", 1.0, "m/s" },
                                      { "onset_position", "onset position", 1.0, "m" },
                                      { "probability_gouge", "probability of a gouge", 1.0, "" },
                                      { "scenes_run", "scenes run", 1.0, "" },
@@ -114,7 +115,8 @@ static const page_column size_columns[] = {
     { "family", "kind", 1.0, "" },        { "shape", "shape", 1.0, "" },
     { "material", "material", 1.0, "" },  { "radius", "radius", 1e-3, "mm" },
     { "grains", "grains", 1.0, "" },      { "threshold_velocity", "threshold", 1.0, "m/s" },
-    { "threshold_interval", "interval", 1.0, "m/s" }, { "scenes", "scenes of this size", 1.0, "" } };
+    { "threshold_interval", "interval", 1.0, "m/s" }, { "scratch_velocity", "scratches from", 1.0, "m/s" },
+    { "scratch_interval", "interval", 1.0, "m/s" },   { "scenes", "scenes of this size", 1.0, "" } };
 static const page_column skip_columns[] = { { "rests_on", "why no scene was needed", 1.0, "" },
                                             { "scenes", "scenes", 1.0, "" } };
 static const page_column sensitivity_columns[] = {
@@ -158,7 +160,7 @@ static void section_threshold(const page *p)
         report_page_list_table(p, list_of(p, "surface"), size_columns, PAGE_COUNT(size_columns));
     }
     report_page_draw(p, report_plot_threshold, "threshold",
-                     "One point a scene that was run. Shaded: the threshold's interval.");
+                     "One point a scene that was run. Shaded: the interval of gouges and, paler, of scratches.");
     report_page_list_table(p, list_of(p, "scenes"), scene_columns, PAGE_COUNT(scene_columns));
 }
 

@@ -43,6 +43,8 @@ static status fill_site(const case_onset *c, int i, const site_state *from, onse
                         .screen_probability = hit.probability,
                         .threshold_velocity = NAN,
                         .threshold_interval = { NAN, NAN },
+                        .scratch_velocity = NAN,
+                        .scratch_interval = { NAN, NAN },
                         .gouged_volume = NAN,
                         .outcome = SITE_UNDECIDED };
     if (!from->reached)
@@ -68,9 +70,11 @@ static void unknown_all(onset_result *r)
     r->verdict = VERDICT_UNDECIDED;
     r->probability_gouge = r->threshold_velocity = r->threshold_position = r->onset_position = NAN;
     r->growth_deviation = r->threshold_deviation = NAN;
+    r->scratch_velocity = r->scratch_position = r->scratch_deviation = NAN;
     r->muzzle_velocity_feedback = r->expected_gouges = r->expected_gouged_volume = NAN;
     for (int k = 0; k < 2; k++) {
         r->threshold_interval[k] = r->threshold_position_interval[k] = r->onset_interval[k] = NAN;
+        r->scratch_interval[k] = r->scratch_position_interval[k] = NAN;
         r->expected_gouges_interval[k] = r->expected_gouged_volume_interval[k] = NAN;
     }
 }
@@ -263,6 +267,9 @@ static void explain(onset_answer *a)
         say(r, "threshold at or below %.0f m/s, where the search began", r->threshold_interval[1] - allowance);
     else
         say(r, "threshold above %.0f m/s, where the search ended", r->threshold_interval[0] + allowance);
+    if (isfinite(r->scratch_velocity))
+        say(r, "; grooves grow from %.0f m/s (%.0f .. %.0f) on", r->scratch_velocity, r->scratch_interval[0],
+            r->scratch_interval[1]);
     if (study_onset_contradiction(a)) say(r, "; but whole scenes contradict: %s", study_onset_contradiction(a));
     if (a->result.n_sites > 0) say(r, "; fastest site %.0f m/s", fastest_site(a));
     if (a->grains.c->populations.n > 0)
@@ -305,6 +312,7 @@ static status study(session *s, const case_onset *c, onset_answer *a)
 {
     grain_families *const all[] = { &a->grains };
     TRY(study_onset_begin(s, c, "", true, a));
+    study_families_want_scratch(&a->grains);
     TRY(study_repeated_fly(s, &a->grains, &a->shot, &a->rail));
     TRY(study_families_search(s, all, 1));
     TRY(study_scatter_run(s, &a->grains));

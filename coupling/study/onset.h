@@ -32,7 +32,8 @@ typedef struct {
     double impact_pressure;                           /* impedance match [Pa] */
     double screen;                                    /* impact pressure over the hardness of the harder partner [1] */
     double screen_probability;                        /* that it gouges, by that number alone [1] */
-    double threshold_velocity, threshold_interval[2]; /* for its grain [m/s]; NaN: not looked for */
+    double threshold_velocity, threshold_interval[2]; /* of a gouge, for its grain [m/s]; NaN: not looked for */
+    double scratch_velocity, scratch_interval[2];     /* of a scratch, the same */
     double gouged_volume;                             /* [m3]; NaN: unknown */
     site_outcome outcome;
     char scene[SUMMARY_NAME_SIZE]; /* the scene that decided, "" if none */
@@ -42,11 +43,12 @@ typedef struct {
 typedef struct {
     int family; /* from 1 */
     char shape[PARAM_TEXT_SIZE], material[PARAM_TEXT_SIZE];
-    double radius;                /* [m] */
-    double grains;                /* it stands for */
-    double threshold_velocity;    /* [m/s] */
-    double threshold_interval[2]; /* [m/s] */
-    int scenes;                   /* of this size; 0: bounded by other sizes */
+    double radius;                                /* [m] */
+    double grains;                                /* it stands for */
+    double threshold_velocity;                    /* [m/s] */
+    double threshold_interval[2];                 /* [m/s] */
+    double scratch_velocity, scratch_interval[2]; /* [m/s]; NaN: not looked for */
+    int scenes;                                   /* of this size; 0: bounded by other sizes */
 } onset_size;
 
 /* Scenes that were not needed. */
@@ -92,6 +94,9 @@ typedef struct {
     double threshold_velocity;                                         /* at the median size for a population [m/s] */
     double threshold_interval[2];                                      /* [m/s] */
     double growth_deviation, threshold_deviation;                      /* with the place of the grid [1, m/s] */
+    double scratch_velocity, scratch_interval[2];                      /* the same of scratches [m/s] */
+    double scratch_deviation;                                          /* [m/s] */
+    double scratch_position, scratch_position_interval[2];             /* [m] */
     double onset_position;                                             /* along the barrel [m] */
     double onset_interval[2];                                          /* [m] */
     double threshold_position, threshold_position_interval[2];         /* where the threshold velocity is passed [m] */

@@ -12,10 +12,16 @@ static const double TRUSTED_CELLS = 3.0; /* a radius: below, the threshold hangs
 
 /* ---- a grain's threshold at a velocity ---- */
 
-static site_outcome outcome_at(const surface_size *t, double v, const family_scene *near)
+/* gouge, scratch: its two thresholds; without the second one what the nearest scene has left is the class below the
+ * first.  A site within the scratch's interval takes the side of the scratch velocity itself. */
+static site_outcome outcome_at(const surface_size *gouge, const surface_size *scratch, double v,
+                               const family_scene *near)
 {
-    if (!isnan(t->interval[1]) && v >= t->interval[1]) return SITE_GOUGE;
-    if (isnan(t->interval[0]) || v > t->interval[0]) return SITE_UNDECIDED;
+    if (!isnan(gouge->interval[1]) && v >= gouge->interval[1]) return SITE_GOUGE;
+    if (isnan(gouge->interval[0]) || v > gouge->interval[0]) return SITE_UNDECIDED;
+    const double from = !scratch ? NAN : isnan(scratch->velocity) ? scratch->interval[1] : scratch->velocity;
+    if (!isnan(from)) return v >= from ? SITE_SCRATCH : SITE_NONE;
+    if (scratch && !isnan(scratch->interval[0])) return SITE_NONE; /* nowhere in the range */
     return near && near->record->entry.result.class == DAMAGE_NONE ? SITE_NONE : SITE_SCRATCH;
 }
 
@@ -37,6 +43,13 @@ static const grain_family *family_of(const onset_answer *a, int site)
 static surface_size threshold_of(const onset_answer *a, int site)
 {
     return study_surface_at(&family_of(a, site)->surface, a->grains.c->sites.item[site].radius);
+}
+
+/* NaN where it was not looked for. */
+static surface_size scratch_at(const grain_family *f, double radius)
+{
+    if (!f->scratch) return (surface_size){ .velocity = NAN, .interval = { NAN, NAN } };
+    return study_surface_at(&f->scratches, radius);
 }
 
 /* ---- do whole scenes agree? ---- */
@@ -92,12 +105,14 @@ static void judge_sites(onset_answer *a)
         onset_site *site = &a->site[i];
         const grain_family *f = family_of(a, i);
         if (!f) continue;
-        const surface_size t = threshold_of(a, i);
+        const surface_size t = threshold_of(a, i), scratch = scratch_at(f, site->radius);
         const family_scene *near = study_family_nearest(f, site->radius, site->velocity);
         gouge_mark mark;
+        site->scratch_velocity = scratch.velocity;
+        memcpy(site->scratch_interval, scratch.interval, sizeof scratch.interval);
         site->threshold_velocity = t.velocity;
         memcpy(site->threshold_interval, t.interval, sizeof t.interval);
-        site->outcome = outcome_at(&t, site->velocity, near);
+        site->outcome = outcome_at(&t, f->scratch ? &scratch : NULL, site->velocity, near);
         if (near) memcpy(site->scene, near->record->entry.name, sizeof site->scene);
         if (site->outcome == SITE_GOUGE && f->contradicted[0]) site->outcome = SITE_UNDECIDED;
         if (site->outcome != SITE_GOUGE) continue;
@@ -216,12 +231,18 @@ static void set_threshold(onset_answer *a)
     if (!f) return;
     const surface_size t = study_surface_at(&f->surface, radius);
     r->threshold_velocity = t.velocity;
-    if (f->scatter.growth > 0.0) {
-        r->growth_deviation = f->scatter.growth;
+    const surface_size scratch = scratch_at(f, radius);
+    if (f->scatter.excess > 0.0) {
+        r->growth_deviation = f->scatter.excess;
         r->threshold_deviation = f->scatter.threshold;
     }
+    if (f->scratch_scatter.excess > 0.0) r->scratch_deviation = f->scratch_scatter.threshold;
     r->threshold_position = gouge_trace_place(&a->flown, t.velocity);
+    r->scratch_velocity = scratch.velocity;
+    r->scratch_position = gouge_trace_place(&a->flown, scratch.velocity);
     for (int k = 0; k < 2; k++) {
+        r->scratch_interval[k] = scratch.interval[k];
+        r->scratch_position_interval[k] = gouge_trace_place(&a->flown, scratch.interval[k]);
         r->threshold_interval[k] = t.interval[k];
         r->threshold_position_interval[k] = gouge_trace_place(&a->flown, t.interval[k]);
     }
@@ -281,6 +302,9 @@ static status list_surface(onset_answer *a)
                                 .threshold_velocity = from->velocity,
                                 .threshold_interval = { from->interval[0], from->interval[1] },
                                 .scenes = from->scenes };
+            const surface_size scratch = scratch_at(f, from->radius);
+            to->scratch_velocity = scratch.velocity;
+            memcpy(to->scratch_interval, scratch.interval, sizeof scratch.interval);
             memcpy(to->shape, f->grain.shape, sizeof to->shape);
             memcpy(to->material, f->grain.material, sizeof to->material);
         }
@@ -305,9 +329,12 @@ static void warn_of_films(session *s, const onset_answer *a)
 static void warn_of_thresholds(session *s, const onset_answer *a)
 {
     const case_study *y = &a->grains.c->study;
-    for (int k = 0; k < a->grains.n; k++)
-        if (a->grains.family[k].surface.warning[0])
-            run_session_warn(s, "%s%s", a->grains.prefix, a->grains.family[k].surface.warning);
+    for (int k = 0; k < a->grains.n; k++) {
+        const grain_family *f = &a->grains.family[k];
+        if (f->surface.warning[0]) run_session_warn(s, "%s%s", a->grains.prefix, f->surface.warning);
+        if (f->scratch && f->scratches.warning[0])
+            run_session_warn(s, "%sscratches: %s", a->grains.prefix, f->scratches.warning);
+    }
     if (a->grains.n && y->fine_cells_per_radius < TRUSTED_CELLS && a->first)
         run_session_warn(
             s,

@@ -21,8 +21,10 @@ static const summary_key site_keys[] = {
                    "impact pressure over hardness of the harder partner, of the rail as deep as the grain is high"),
     SUMMARY_NUMBER(onset_site, "screen_probability", screen_probability, "1",
                    "that it gouges, by that number alone: 5 % at 3.35, 95 % at 10.4, never below 1 %"),
-    SUMMARY_NUMBER(onset_site, "threshold_velocity", threshold_velocity, "m/s", "for its grain"),
-    SUMMARY_VECTOR(onset_site, "threshold_interval", threshold_interval, 2, "m/s", "for its grain"),
+    SUMMARY_NUMBER(onset_site, "threshold_velocity", threshold_velocity, "m/s", "of a gouge, for its grain"),
+    SUMMARY_VECTOR(onset_site, "threshold_interval", threshold_interval, 2, "m/s", "of a gouge, for its grain"),
+    SUMMARY_NUMBER(onset_site, "scratch_velocity", scratch_velocity, "m/s", "of a scratch, for its grain"),
+    SUMMARY_VECTOR(onset_site, "scratch_interval", scratch_interval, 2, "m/s", "of a scratch, for its grain"),
     SUMMARY_NUMBER(onset_site, "gouged_volume", gouged_volume, "m3", "of its crater"),
     SUMMARY_CHOICE(onset_site, "outcome", outcome, study_site_outcome_names,
                    "not_reached, skipped, none, scratch, gouge, undecided"),
@@ -39,6 +41,8 @@ static const summary_key surface_keys[] = {
     SUMMARY_NUMBER(onset_size, "threshold_velocity", threshold_velocity, "m/s", "null: outside of the search"),
     SUMMARY_VECTOR(onset_size, "threshold_interval", threshold_interval, 2, "m/s",
                    "its band, and the shift from coarse to fine"),
+    SUMMARY_NUMBER(onset_size, "scratch_velocity", scratch_velocity, "m/s", "null: not looked for, or outside"),
+    SUMMARY_VECTOR(onset_size, "scratch_interval", scratch_interval, 2, "m/s", "as threshold_interval"),
     SUMMARY_VALUE(onset_size, KEY_INTEGER, "scenes", scenes, "1", "of this size; 0: bounded by those of other sizes"),
     SUMMARY_END
 };
@@ -93,20 +97,26 @@ const summary_key study_onset_keys[] = {
     SUMMARY_TEXT(onset_result, "reason", reason, "of the verdict"),
     SUMMARY_NUMBER(onset_result, "probability_gouge", probability_gouge, "1", "that the shot gouges"),
     SUMMARY_NUMBER(onset_result, "threshold_velocity", threshold_velocity, "m/s",
-                   "at the population's median size for a population"),
+                   "from which a grain gouges, at the population's median size for a population"),
     SUMMARY_VECTOR(onset_result, "threshold_interval", threshold_interval, 2, "m/s",
                    "bracket, resolution, scatter with the grid and input uncertainty"),
     SUMMARY_NUMBER(onset_result, "growth_deviation", growth_deviation, "1",
-                   "standard deviation of the growth over study.threshold_ensemble grids, nearest the threshold, "
-                   "e-folds; null: not asked for"),
+                   "standard deviation of what decides, growth in e-folds or ln of the shape, over "
+                   "study.threshold_ensemble grids, nearest the threshold; null: not asked for"),
     SUMMARY_NUMBER(onset_result, "threshold_deviation", threshold_deviation, "m/s",
                    "what that makes of the threshold; its interval holds it"),
+    SUMMARY_NUMBER(onset_result, "scratch_velocity", scratch_velocity, "m/s",
+                   "from which a groove grows, furrow or gouge; null: not looked for"),
+    SUMMARY_VECTOR(onset_result, "scratch_interval", scratch_interval, 2, "m/s", "as threshold_interval"),
+    SUMMARY_NUMBER(onset_result, "scratch_deviation", scratch_deviation, "m/s", "as threshold_deviation"),
     SUMMARY_NUMBER(onset_result, "onset_position", onset_position, "m", "along the barrel"),
     SUMMARY_VECTOR(onset_result, "onset_interval", onset_interval, 2, "m", "of the position"),
     SUMMARY_NUMBER(onset_result, "threshold_position", threshold_position, "m",
                    "where the threshold velocity is passed"),
     SUMMARY_VECTOR(onset_result, "threshold_position_interval", threshold_position_interval, 2, "m",
                    "where its ends are"),
+    SUMMARY_NUMBER(onset_result, "scratch_position", scratch_position, "m", "where the scratch velocity is passed"),
+    SUMMARY_VECTOR(onset_result, "scratch_position_interval", scratch_position_interval, 2, "m", "where its ends are"),
     SUMMARY_NUMBER(onset_result, "muzzle_velocity_feedback", muzzle_velocity_feedback, "m/s",
                    "with what the gouges take; null: nothing taken"),
     SUMMARY_VALUE(onset_result, KEY_INTEGER, "gouges", gouges, "1", "sites of the list that gouge"),
@@ -197,7 +207,11 @@ static void print_null_models(const onset_result *o, FILE *out)
     const char *titles = "threshold by|v_th [m/s]|from|to|passed at [m]";
     char v[24], low[24], high[24], x[24];
     if (o->n_null_models == 0 || host_table_create(titles, &t).code != STATUS_OK) return;
-    host_table_row(t, "scenes|%s|%s|%s|%s", output_cell(o->threshold_velocity, 1.0, "%.0f", v),
+    host_table_row(t, "scenes, a scratch|%s|%s|%s|%s", output_cell(o->scratch_velocity, 1.0, "%.0f", v),
+                   output_cell(o->scratch_interval[0], 1.0, "%.0f", low),
+                   output_cell(o->scratch_interval[1], 1.0, "%.0f", high),
+                   output_cell(o->scratch_position, 1.0, "%.3f", x));
+    host_table_row(t, "scenes, a gouge|%s|%s|%s|%s", output_cell(o->threshold_velocity, 1.0, "%.0f", v),
                    output_cell(o->threshold_interval[0], 1.0, "%.0f", low),
                    output_cell(o->threshold_interval[1], 1.0, "%.0f", high),
                    output_cell(o->threshold_position, 1.0, "%.3f", x));

@@ -264,7 +264,7 @@ static status plot_limit(const report_source *r, bool *drawn)
     if (!r->gnuplot) return status_ok();
     TRY(report_plot_begin(&p, r, "limit", 560, 380));
     const int pierced = arrival_block(p.script, list, true), held = arrival_block(p.script, list, false);
-    report_plot_band(p.script, 1, r->summary, "limit_interval", true);
+    report_plot_band(p.script, 1, r->summary, "limit_interval", true, report_gouge_band);
     fputs("set xlabel 'arrival [m/s]'\nset ylabel 'residual velocity [m/s]'\nset key left top\n"
           "set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nplot ",
           p.script);

@@ -230,6 +230,26 @@ static status plan_searches(grain_families *f)
     return status_ok();
 }
 
+void study_families_want_scratch(grain_families *f)
+{
+    f->scratch = f->c->study.scratch;
+    for (int k = 0; k < f->n; k++) {
+        grain_family *one = &f->family[k];
+        one->scratch = f->scratch && one->by_growth;
+        one->scratch_plan = one->plan;
+    }
+}
+
+surface_result *study_family_surface(grain_family *f, family_judge judge)
+{
+    return judge == JUDGE_OF_GOUGE ? &f->surface : &f->scratches;
+}
+
+family_scatter *study_family_scatter(grain_family *f, family_judge judge)
+{
+    return judge == JUDGE_OF_GOUGE ? &f->scatter : &f->scratch_scatter;
+}
+
 case_impact study_family_probe(const case_onset *c)
 {
     case_impact probe = c->impact;
@@ -257,7 +277,7 @@ status study_families_sort(const case_onset *c, const shot_outcome *flown, const
     return plan_searches(out);
 }
 
-const grain_family *study_family_alike(const grain_families *in, const grain_family *f)
+grain_family *study_family_alike(const grain_families *in, const grain_family *f)
 {
     for (int k = 0; k < in->n; k++)
         if (same_family(&in->family[k], &f->grain, f->aspect)) return &in->family[k];

@@ -20,17 +20,29 @@ typedef struct {
     const scene_record *record;     /* borrowed from the session */
 } family_scene;
 
+/* Which of a family's two thresholds, each where another number of its scenes passes zero: judges of the same scenes.
+ * Severity knows the first alone. */
+typedef enum {
+    JUDGE_OF_GOUGE,   /* a gouge: growth and shape (gouge_tear_drop_excess), or severity less its limit */
+    JUDGE_OF_SCRATCH, /* a groove that grows, whatever its shape: growth */
+    FAMILY_JUDGES
+} family_judge;
+
+/* With the place of the grid, standard deviations: of what passes zero [1], of the threshold by that [m/s].  0: not
+ * asked for, or there is no threshold; NAN: the second one is not known. */
+typedef struct {
+    double excess, threshold;
+} family_scatter;
+
 typedef struct {
     case_site grain; /* of its first site or population; the size is the scene's */
     double aspect;   /* height over radius */
     bool by_growth;  /* else by severity: study_family_probe */
-    surface_plan plan;
-    surface_result surface;
-    /* With the place of the grid, standard deviations: of the growth [e-folds], of the threshold by that [m/s]; 0: not
-     * asked for, or there is no threshold; NAN: the second one is not known. */
-    struct {
-        double growth, threshold;
-    } scatter;
+    bool scratch;    /* has a scratch velocity too */
+    surface_plan plan, scratch_plan;
+    surface_result surface;   /* of the gouge */
+    surface_result scratches; /* of the scratch; nothing without it */
+    family_scatter scatter, scratch_scatter;
     char contradicted[120]; /* what whole scenes are where growth says that it gouges for sure; "": they agree */
     int n_scenes;
     family_scene scene[THRESHOLD_MAX_SAMPLES];
@@ -42,6 +54,7 @@ typedef struct {
     case_impact probe, whole;  /* what the searches' scenes are made of, and those that go to their end */
     const shot_outcome *flown; /* borrowed */
     const char *prefix;        /* of its scenes' names, "" for the case as it is; borrowed */
+    bool scratch;              /* their searches look for the scratch velocity too */
     int n;
     grain_family *family;         /* owned */
     int *of_site, *of_population; /* index of the family, -1: needs no scene; owned */
@@ -50,9 +63,13 @@ typedef struct {
     double screen_probability; /* that one of the unbacked gouges: the largest; 0: there are none [1] */
 } grain_families;
 
-/* Sorts sites and populations into families and plans their searches.  study_families_free even on error. */
+/* Sorts sites and populations into families and plans their searches, of the gouge alone.  study_families_free even on
+ * error. */
 status study_families_sort(const case_onset *c, const shot_outcome *flown, const char *prefix, grain_families *out);
 void study_families_free(grain_families *f);
+
+/* Before the search: it looks for the scratch velocity too, where the study asks for one and is judged by growth. */
+void study_families_want_scratch(grain_families *f);
 
 /* What a search's scenes are made of: they end at their second gauge where the study is judged by growth, and else go
  * to their end. */
@@ -65,12 +82,16 @@ status study_families_search(session *s, grain_families *const *f, int n);
 const grain_family *study_family_of_grain(const grain_families *f, const case_site *grain, double aspect);
 
 /* Its family in another case of the same grains; NULL: none of them is fast enough there (screen). */
-const grain_family *study_family_alike(const grain_families *in, const grain_family *f);
+grain_family *study_family_alike(const grain_families *in, const grain_family *f);
 
 /* The scene as the searches ask for it; k: of its family. */
 scene_query study_family_query(const grain_families *f, int k, const family_scene *scene);
-/* What crosses zero at the threshold: growth in e-folds, or severity less its limit [1]. */
-double study_family_excess(const case_onset *c, const onset_scene *e);
+/* What a scene says to a judge: its excess passes zero at the threshold [1], its class is `gouge` above. */
+threshold_sample study_family_sample(const case_onset *c, family_judge judge, const onset_scene *e);
+
+/* The answer of a family's search for one of its thresholds, and its scatter. */
+surface_result *study_family_surface(grain_family *f, family_judge judge);
+family_scatter *study_family_scatter(grain_family *f, family_judge judge);
 
 /* Is it of the search?  Judged by growth, whole scenes are not: their class is that of their severity. */
 bool study_family_searched(const grain_family *f, const family_scene *scene);

@@ -21,12 +21,15 @@ typedef struct {
     bool whole; /* to its end, for its crater */
 } family_wanted;
 
-/* A family's search: its thresholds, then the whole craters of what gouges.  A copy goes on by itself. */
+/* A family's search: its thresholds, of the gouge and, where it has one, of the scratch, then the whole craters of what
+ * gouges.  The second search takes the scenes of the first at no cost: velocities lie on one grid.  A copy goes on by
+ * itself. */
 typedef struct {
     const grain_families *of; /* borrowed */
     grain_family *family;     /* borrowed; has its scenes as they come, its thresholds at the end */
     int number;               /* of the family, from 1 */
-    surface_search surface;
+    family_judge judge;       /* whose search is under way */
+    surface_search surface[FAMILY_JUDGES];
     bool in_craters;
     int n_craters; /* not known yet */
     family_wanted crater[TOGETHER];
@@ -65,11 +68,27 @@ static scene_query query_of(const family_search *s, const family_wanted *w)
     return study_family_query(s->of, s->number - 1, &scene);
 }
 
-double study_family_excess(const case_onset *c, const onset_scene *e)
+/* Does the groove grow?  Its shape does not count. */
+static damage_class class_by_growth(double folds, double scatter, damage_class class)
+{
+    if (fabs(folds) < scatter) return DAMAGE_UNDECIDED;
+    return folds > 0.0 ? DAMAGE_GOUGE : class == DAMAGE_NONE ? DAMAGE_NONE : DAMAGE_SCRATCH;
+}
+
+threshold_sample study_family_sample(const case_onset *c, family_judge judge, const onset_scene *e)
 {
     const scene_result *r = &e->result;
-    return e->gauged ? gouge_growth_folds(r->groove_growth, e->radius, e->velocity)
-                     : r->severity - c->impact.scene.limit_severity;
+    const case_scene *limits = &c->impact.scene;
+    threshold_sample is = { e->velocity, e->cells_per_radius, r->severity - limits->limit_severity, r->class };
+    if (!e->gauged) return is;
+    const double folds = gouge_growth_folds(r->groove_growth, e->radius, e->velocity);
+    if (judge == JUDGE_OF_GOUGE) {
+        is.excess = gouge_tear_drop_excess(folds, r->length_over_width, limits->limit_length_over_width);
+    } else {
+        is.excess = folds;
+        is.class = class_by_growth(folds, limits->growth_scatter, r->class);
+    }
+    return is;
 }
 
 static double on_grid_below(const threshold_plan *p, double v)
@@ -127,7 +146,7 @@ static double middle_gouge(const surface_plan *p, const surface_result *s, int k
 static void ask_for_craters(family_search *s)
 {
     const surface_plan *p = &s->family->plan;
-    const surface_result *r = &s->surface.result;
+    const surface_result *r = &s->surface[JUDGE_OF_GOUGE].result;
     const double fastest = fastest_grain(s->of, s->family), own = s->of->c->study.crater_cells_per_radius,
                  cells = isnan(own) ? r->reference.cells : own;
     const int k = size_of_craters(p, r, fastest);
@@ -143,7 +162,25 @@ static void ask_for_craters(family_search *s)
 static status begin_search(const grain_families *of, int k, family_search *out)
 {
     *out = (family_search){ .of = of, .family = &of->family[k], .number = k + 1 };
-    return study_surface_begin(&of->family[k].plan, &out->surface);
+    return study_surface_begin(&of->family[k].plan, &out->surface[JUDGE_OF_GOUGE]);
+}
+
+/* What study.max_scenes leaves to the second search: scenes that it finds computed are given back (go_on). */
+static status begin_scratches(family_search *s)
+{
+    surface_plan *p = &s->family->scratch_plan;
+    const int all = s->family->plan.search.max_scenes, used = s->surface[JUDGE_OF_GOUGE].result.samples;
+    p->search.max_scenes = all > used ? all - used : 1;
+    s->judge = JUDGE_OF_SCRATCH;
+    return study_surface_begin(p, &s->surface[JUDGE_OF_SCRATCH]);
+}
+
+/* The search under way has come to its end: on to the next one, or to the craters. */
+static status next_stage(family_search *s)
+{
+    if (s->judge == JUDGE_OF_GOUGE && s->family->scratch) return begin_scratches(s);
+    ask_for_craters(s);
+    return status_ok();
 }
 
 /* The scenes that the search needs all of before it goes on; how many.  0: it is over. */
@@ -154,7 +191,7 @@ static int ask(const family_search *s, family_wanted out[TOGETHER])
         memcpy(out, s->crater, sizeof s->crater);
         return s->n_craters;
     }
-    const int n = study_surface_ask(&s->surface, at);
+    const int n = study_surface_ask(&s->surface[s->judge], at);
     for (int i = 0; i < n; i++) out[i] = (family_wanted){ at[i], false };
     return n;
 }
@@ -166,13 +203,12 @@ static bool same_wanted(const family_wanted *a, const family_wanted *b)
 }
 
 /* One of them is known.  Of a whole crater nothing is asked but that it is there. */
-static status tell(family_search *s, const family_wanted *w, double excess, damage_class class)
+static status tell(family_search *s, const family_wanted *w, const threshold_sample *is)
 {
-    const threshold_sample is = { w->at.velocity, w->at.cells_per_radius, excess, class };
     if (!s->in_craters) {
-        TRY(study_surface_tell(&s->surface, &(surface_sample){ w->at.radius, is }));
-        if (s->surface.over) ask_for_craters(s);
-        return status_ok();
+        surface_search *now = &s->surface[s->judge];
+        TRY(study_surface_tell(now, &(surface_sample){ w->at.radius, *is }));
+        return now->over ? next_stage(s) : status_ok();
     }
     int left = 0;
     for (int i = 0; i < s->n_craters; i++)
@@ -214,8 +250,10 @@ static status follow_guess(const family_search *now, double threshold, family_se
     while ((n = ask(copy, needed)) > 0)
         for (int i = 0; i < n; i++) {
             const double excess = 0.01 * (needed[i].at.velocity - threshold);
+            const threshold_sample is = { needed[i].at.velocity, needed[i].at.cells_per_radius, excess,
+                                          excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH };
             note(out, &needed[i]);
-            TRY(tell(copy, &needed[i], excess, excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH));
+            TRY(tell(copy, &needed[i], &is));
         }
     return status_ok();
 }
@@ -295,11 +333,15 @@ static status look_ahead(const family_search *now, requests *r)
     return status_ok();
 }
 
-static void keep(grain_family *f, const family_wanted *w, const scene_record *record)
+/* Into the family's list; false: it has that scene. */
+static bool keep(grain_family *f, const family_wanted *w, const scene_record *record)
 {
+    for (int i = 0; i < f->n_scenes; i++)
+        if (f->scene[i].record == record && f->scene[i].whole == w->whole) return false;
     if (f->n_scenes < THRESHOLD_MAX_SAMPLES)
         f->scene[f->n_scenes++] =
             (family_scene){ w->at.radius, w->at.velocity, w->at.cells_per_radius, w->whole, record };
+    return true;
 }
 
 /* Tells the search all that is known, until it needs what is not: n scenes of needed. */
@@ -318,12 +360,15 @@ static status go_on(session *s, family_search *search, scene_query needed[TOGETH
                 (*n)++;
                 continue;
             }
-            keep(search->family, &wanted[i], record);
-            TRY(tell(search, &wanted[i], study_family_excess(search->of->c, &record->entry),
-                     record->entry.result.class));
+            const threshold_sample is = study_family_sample(search->of->c, search->judge, &record->entry);
+            const bool fresh = keep(search->family, &wanted[i], record);
+            if (!fresh && search->judge == JUDGE_OF_SCRATCH) search->family->scratch_plan.search.max_scenes++;
+            TRY(tell(search, &wanted[i], &is));
         }
     } while (*n < asked);
-    if (*n == 0) search->family->surface = search->surface.result;
+    if (*n > 0) return status_ok();
+    search->family->surface = search->surface[JUDGE_OF_GOUGE].result;
+    if (search->family->scratch) search->family->scratches = search->surface[JUDGE_OF_SCRATCH].result;
     return status_ok();
 }
 

@@ -10,36 +10,66 @@ static const double DEAD = -2.999; /* growth of a groove that died before its fi
 
 static const double NEAR = 0.3; /* of the threshold: scenes so near it make the slope */
 
-/* Of the search at the reference size, at the cells of its answer. */
-static bool counts(const grain_family *f, const family_scene *scene)
+/* One threshold of a family. */
+typedef struct {
+    grain_family *of;
+    int number; /* of the family, from 0 */
+    family_judge judge;
+} sought;
+
+static const threshold_result *answer_of(const sought *t)
 {
+    return &study_family_surface(t->of, t->judge)->reference;
+}
+
+/* Of the search at the reference size, at the cells of its answer. */
+static bool counts(const sought *t, const family_scene *scene)
+{
+    const grain_family *f = t->of;
     return study_family_searched(f, scene) && scene->radius == f->plan.size[f->plan.reference] &&
-           scene->cells == f->surface.reference.cells;
+           scene->cells == answer_of(t)->cells;
 }
 
 /* The scene nearest to the threshold; NULL: there is no threshold. */
-static const family_scene *nearest(const grain_family *f)
+static const family_scene *nearest(const sought *t)
 {
-    const double threshold = f->surface.reference.velocity;
+    const grain_family *f = t->of;
+    const double threshold = answer_of(t)->velocity;
     const family_scene *best = NULL;
     for (int i = 0; f->by_growth && !isnan(threshold) && i < f->n_scenes; i++) {
         const family_scene *a = &f->scene[i];
-        if (counts(f, a) && (!best || fabs(a->velocity - threshold) < fabs(best->velocity - threshold))) best = a;
+        if (counts(t, a) && (!best || fabs(a->velocity - threshold) < fabs(best->velocity - threshold))) best = a;
     }
     return best;
 }
 
-/* Of the growth over velocity, the least squares of the grooves that lived, so far from the threshold at most [m/s];
- * NAN: it does not rise, or there are fewer than two [1/(m/s)]. */
-static double slope_within(const case_onset *c, const grain_family *f, double far)
+/* The two numbers that decide on a gouge, each above zero where it speaks for one: growth in e-folds, and the shape. */
+typedef double (*number_of)(const case_onset *c, const onset_scene *e);
+
+static double growth_of(const case_onset *c, const onset_scene *e)
 {
+    return study_family_sample(c, JUDGE_OF_SCRATCH, e).excess;
+}
+
+/* As in gouge_tear_drop_excess; INFINITY: it has none that counts. */
+static double shape_of(const case_onset *c, const onset_scene *e)
+{
+    return log(c->impact.scene.limit_length_over_width / e->result.length_over_width);
+}
+
+/* Of one of them over velocity, the least squares of the grooves that lived, so far from the threshold at most [m/s];
+ * NAN: it does not rise, or there are fewer than two [1/(m/s)]. */
+static double slope_within(const case_onset *c, const sought *t, number_of number, double far)
+{
+    const grain_family *f = t->of;
     double n = 0, v = 0, g = 0, vv = 0, vg = 0;
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *a = &f->scene[i];
-        const double off = a->velocity - f->surface.reference.velocity;
-        const double growth = study_family_excess(c, &a->record->entry);
-        if (!counts(f, a) || growth < DEAD || fabs(off) > far) continue;
-        n++, v += off, g += growth, vv += off * off, vg += off * growth;
+        const double off = a->velocity - answer_of(t)->velocity;
+        const onset_scene *e = &a->record->entry;
+        const double here = number(c, e);
+        if (!counts(t, a) || growth_of(c, e) < DEAD || !isfinite(here) || fabs(off) > far) continue;
+        n++, v += off, g += here, vv += off * off, vg += off * here;
     }
     const double spread = n * vv - v * v, b = (n * vg - v * g) / spread;
     return n > 1 && spread > 0 && b > 0 ? b : NAN;
@@ -47,10 +77,10 @@ static double slope_within(const case_onset *c, const grain_family *f, double fa
 
 /* Near the threshold, where growth is nearly a straight line in velocity; where the search has too few scenes there, by
  * all of them. */
-static double slope(const case_onset *c, const grain_family *f)
+static double slope(const case_onset *c, const sought *t, number_of number)
 {
-    const double near = slope_within(c, f, NEAR * f->surface.reference.velocity);
-    return isnan(near) ? slope_within(c, f, INFINITY) : near;
+    const double near = slope_within(c, t, number, NEAR * answer_of(t)->velocity);
+    return isnan(near) ? slope_within(c, t, number, INFINITY) : near;
 }
 
 /* The scene on the i-th grid. */
@@ -64,35 +94,76 @@ static scene_query query_of(const grain_families *g, int family, const family_sc
     return q;
 }
 
-static status conclude(session *s, const grain_families *g, grain_family *f, const family_scene *near,
-                       const scene_record *const *record, double *growth)
+/* Over velocity: of the growth where grooves begin to grow, of the shape where they become tear-drops [1/(m/s)]. */
+typedef struct {
+    double growth, shape;
+} slopes;
+
+static slopes slopes_of(const case_onset *c, const sought *t)
+{
+    const sought scratch = { t->of, t->number, JUDGE_OF_SCRATCH };
+    const bool known = t->of->scratch && !isnan(answer_of(&scratch)->velocity);
+    return (slopes){ slope(c, known ? &scratch : t, growth_of), slope(c, t, shape_of) };
+}
+
+/* How far above the scene's velocity the threshold of its grid lies, by both numbers and their own slopes: a gouge
+ * needs both, so the later one counts.  Where tear-drops begin growth has levelled off: one slope for the smaller of
+ * both would put a groove that dies there off by half the range [m/s]. */
+static double threshold_off(const case_onset *c, const sought *t, slopes b, const onset_scene *e)
+{
+    const double growth = -growth_of(c, e) / b.growth, shape = shape_of(c, e);
+    if (t->judge == JUDGE_OF_SCRATCH || isinf(shape)) return growth;
+    return isnan(b.shape) || isnan(b.growth) ? NAN : fmax(growth, -shape / b.shape);
+}
+
+static status conclude(session *s, const grain_families *g, const sought *t, const family_scene *near,
+                       const scene_record *const *record, double *value)
 {
     const int n = g->c->study.threshold_ensemble;
-    growth[0] = study_family_excess(g->c, &near->record->entry);
-    for (int i = 1; i < n; i++) growth[i] = study_family_excess(g->c, &record[i - 1]->entry);
-    f->scatter.growth = study_shift_spread(growth, n).deviation;
-    f->scatter.threshold = f->scatter.growth / slope(g->c, f);
-    if (isnan(f->scatter.threshold))
-        run_session_warn(s,
-                         "%sgrowth scatters by %.2g e-folds with the place of the grid at %g m/s, but does not rise "
-                         "with velocity in the search's scenes: the threshold's interval does not hold that",
-                         g->prefix, f->scatter.growth, near->velocity);
+    const slopes b = slopes_of(g->c, t);
+    family_scatter *out = study_family_scatter(t->of, t->judge);
+    for (int i = 0; i < n; i++)
+        value[i] = study_family_sample(g->c, t->judge, &(i ? record[i - 1] : near->record)->entry).excess;
+    out->excess = study_shift_spread(value, n).deviation;
+    for (int i = 0; i < n; i++) value[i] = threshold_off(g->c, t, b, &(i ? record[i - 1] : near->record)->entry);
+    out->threshold = NAN;
+    bool known = true;
+    for (int i = 0; i < n; i++) known = known && isfinite(value[i]);
+    if (known) out->threshold = study_shift_spread(value, n).deviation;
+    if (isnan(out->threshold))
+        run_session_warn(
+            s,
+            "%swhat decides on a %s scatters by %.2g with the place of the grid at %g m/s, but does not rise "
+            "with velocity in the search's scenes: the interval does not hold that",
+            g->prefix, t->judge == JUDGE_OF_GOUGE ? "gouge" : "scratch", out->excess, near->velocity);
     return status_ok();
 }
 
-static status measure(session *s, grain_families *g, scene_query *query, const scene_record **record, double *growth)
+/* All thresholds of all families; how many. */
+static int list_sought(grain_families *g, sought *out)
 {
-    const int more = g->c->study.threshold_ensemble - 1;
     int n = 0;
-    for (int k = 0; k < g->n; k++) {
-        const family_scene *near = nearest(&g->family[k]);
-        for (int i = 0; near && i < more; i++) query[n++] = query_of(g, k, near, i + 1);
+    for (int k = 0; k < g->n; k++)
+        for (int j = 0; j < FAMILY_JUDGES; j++)
+            if (j == JUDGE_OF_GOUGE || g->family[k].scratch)
+                out[n++] = (sought){ .of = &g->family[k], .number = k, .judge = (family_judge)j };
+    return n;
+}
+
+static status measure(session *s, grain_families *g, scene_query *query, const scene_record **record, double *growth,
+                      sought *list)
+{
+    const int more = g->c->study.threshold_ensemble - 1, thresholds = list_sought(g, list);
+    int n = 0;
+    for (int k = 0; k < thresholds; k++) {
+        const family_scene *near = nearest(&list[k]);
+        for (int i = 0; near && i < more; i++) query[n++] = query_of(g, list[k].number, near, i + 1);
     }
     TRY(run_scenes_all(s, query, n, record));
-    for (int k = 0, at = 0; k < g->n; k++) {
-        const family_scene *near = nearest(&g->family[k]);
+    for (int k = 0, at = 0; k < thresholds; k++) {
+        const family_scene *near = nearest(&list[k]);
         if (!near) continue;
-        TRY(conclude(s, g, &g->family[k], near, record + at, growth));
+        TRY(conclude(s, g, &list[k], near, record + at, growth));
         at += more;
     }
     return status_ok();
@@ -100,14 +171,17 @@ static status measure(session *s, grain_families *g, scene_query *query, const s
 
 status study_scatter_run(session *s, grain_families *grains)
 {
-    const size_t scenes = (size_t)grains->c->study.threshold_ensemble, all = scenes * (size_t)grains->n;
+    const size_t scenes = (size_t)grains->c->study.threshold_ensemble, thresholds = (size_t)(FAMILY_JUDGES * grains->n),
+                 all = scenes * thresholds;
     if (all == 0) return status_ok();
-    scene_query *query = malloc(all * sizeof *query);
+    scene_query *query = calloc(all, sizeof *query);
     const scene_record **record = malloc(all * sizeof *record);
     double *growth = malloc(scenes * sizeof *growth);
-    const status done = query && record && growth
-                            ? measure(s, grains, query, record, growth)
+    sought *list = malloc(thresholds * sizeof *list);
+    const status done = query && record && growth && list
+                            ? measure(s, grains, query, record, growth, list)
                             : base_status_error(STATUS_MEMORY, "no memory for %zu scenes on shifted grids", all);
+    free(list);
     free(growth);
     free(record);
     free(query);

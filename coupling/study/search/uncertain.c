@@ -44,11 +44,13 @@ static const raised inputs[UNCERTAIN_MAX] = {
 static bool thresholds_of(const grain_families *g, double *low, double *high)
 {
     *low = INFINITY, *high = 0.0;
-    for (int k = 0; k < g->n; k++) {
-        const double v = g->family[k].surface.reference.velocity;
-        if (isnan(v)) return false;
-        *low = fmin(*low, v), *high = fmax(*high, v);
-    }
+    for (int k = 0; k < g->n; k++)
+        for (int j = 0; j < FAMILY_JUDGES; j++) {
+            if (j == JUDGE_OF_SCRATCH && !g->family[k].scratch) continue;
+            const double v = study_family_surface(&g->family[k], (family_judge)j)->reference.velocity;
+            if (isnan(v)) return false;
+            *low = fmin(*low, v), *high = fmax(*high, v);
+        }
     return g->n > 0;
 }
 
@@ -65,18 +67,20 @@ static status plan(const grain_families *g, const raised *from, double error, un
         c->study.velocity_low = fmax(NEAR[0] * low, c->study.velocity_low);
         c->study.velocity_high = fmin(NEAR[1] * high, c->study.velocity_high);
     }
-    return study_families_sort(c, g->flown, from->prefix, &out->grains);
+    TRY(study_families_sort(c, g->flown, from->prefix, &out->grains));
+    if (g->scratch) study_families_want_scratch(&out->grains);
+    return status_ok();
 }
 
 /* ---- what they move ---- */
 
 /* To where the raised input moves the threshold of a family; where its search saw one side alone, as far as that
  * reached. */
-static double moved_to(const uncertain_input *u, const grain_family *f)
+static double moved_to(const uncertain_input *u, const grain_family *f, family_judge judge)
 {
-    const grain_family *as = study_family_alike(&u->grains, f);
+    grain_family *as = study_family_alike(&u->grains, f);
     if (!as) return NAN;
-    const threshold_result *r = &as->surface.reference;
+    const threshold_result *r = &study_family_surface(as, judge)->reference;
     if (!isnan(r->velocity)) return r->velocity;
     return isnan(r->bracket[0]) ? r->bracket[1] : r->bracket[0];
 }
@@ -93,18 +97,26 @@ static void widen(surface_result *s, double allowance)
     }
 }
 
+/* One threshold of a family by what was measured of those of f, the grains alike in the study itself; NULL: none. */
+static void widen_threshold(const uncertain_inputs *u, grain_family *f, grain_family *other, family_judge judge)
+{
+    surface_result *s = study_family_surface(other, judge);
+    double squares = s->reference.allowance * s->reference.allowance;
+    for (int i = 0; f && i < u->n; i++) {
+        const double off = moved_to(&u->of[i], f, judge) - study_family_surface(f, judge)->reference.velocity;
+        if (isfinite(off)) squares += off * off;
+    }
+    const double scatter = f ? study_family_scatter(f, judge)->threshold : NAN;
+    if (isfinite(scatter)) squares += scatter * scatter;
+    widen(s, sqrt(squares));
+}
+
 void study_uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other)
 {
     for (int k = 0; k < other->n; k++) {
-        surface_result *s = &other->family[k].surface;
-        const grain_family *f = study_family_alike(first, &other->family[k]);
-        double squares = s->reference.allowance * s->reference.allowance;
-        for (int i = 0; f && i < u->n; i++) {
-            const double off = moved_to(&u->of[i], f) - f->surface.reference.velocity;
-            if (isfinite(off)) squares += off * off;
-        }
-        if (f && isfinite(f->scatter.threshold)) squares += f->scatter.threshold * f->scatter.threshold;
-        widen(s, sqrt(squares));
+        grain_family *f = study_family_alike(first, &other->family[k]);
+        widen_threshold(u, f, &other->family[k], JUDGE_OF_GOUGE);
+        if (other->family[k].scratch) widen_threshold(u, f, &other->family[k], JUDGE_OF_SCRATCH);
     }
 }
 
