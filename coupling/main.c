@@ -44,8 +44,10 @@ struct options {
     const char *expect; /* --expect: a run's output directory; NULL */
     outdir_options how;
     double max_walltime; /* [s], INFINITY: none */
-    bool quiet;
-    bool scene; /* check: print the scene */
+    bool quiet, no_store;
+    bool scene;           /* check: print the scene */
+    const char *given[8]; /* options with a value, but --set: as many as there are */
+    int n_given;
 };
 
 static int run_case(const options *o);
@@ -428,10 +430,12 @@ static int run_report(const options *o)
 static double wall_time(const char *text)
 {
     double total = 0.0;
+    bool behind_colon = false;
     for (;;) {
         char *end;
         const double part = strtod(text, &end);
         if (end == text || !(part >= 0.0) || !isfinite(part)) return NAN;
+        if (behind_colon && part >= 60.0) return NAN;
         total = 60.0 * total + part;
         if (*end == '\0') return total;
         if (*end != ':') {
@@ -440,6 +444,7 @@ static double wall_time(const char *text)
             return total * (*end == 's' ? 1.0 : *end == 'm' ? 60.0 : 3600.0);
         }
         text = end + 1;
+        behind_colon = true;
     }
 }
 
@@ -464,7 +469,6 @@ static status take_ensemble(options *o, const char *value)
 {
     int scenes;
     CHECK(whole_number(value, 2, 1000, &scenes), STATUS_BAD_INPUT, "--ensemble %.40s: must be 2 .. 1000", value);
-    CHECK(!o->ensemble[0], STATUS_BAD_INPUT, "--ensemble is given twice");
     snprintf(o->ensemble, sizeof o->ensemble, "study.ensemble=%d", scenes);
     return take_set(o, o->ensemble);
 }
@@ -516,10 +520,20 @@ static bool take_flag(options *o, const char *name)
     else if (strcmp(name, "--scene") == 0)
         o->scene = true;
     else if (strcmp(name, "--no-store") == 0)
-        o->store = "";
+        o->no_store = true;
     else
         return false;
     return true;
+}
+
+/* A value is given once. */
+static status first_time(options *o, const char *name)
+{
+    if (strcmp(name, "--set") == 0) return status_ok();
+    for (int k = 0; k < o->n_given; k++)
+        CHECK(strcmp(o->given[k], name) != 0, STATUS_BAD_INPUT, "%s is given twice", name);
+    o->given[o->n_given++] = name;
+    return status_ok();
 }
 
 /* One word of the command line; *i moves on where the next one is its value.  --name=value is understood too. */
@@ -529,6 +543,7 @@ static status take_word(options *o, int argc, char **argv, int *i)
     if (equals) *equals = '\0';
     if (takes_value(word)) {
         const char *value = equals ? equals + 1 : *i + 1 < argc ? argv[++*i] : NULL;
+        TRY(first_time(o, word));
         return take_value(o, word, value);
     }
     CHECK(!equals, STATUS_BAD_INPUT, "%.80s takes no value, or is no option; breech --help lists them", word);
@@ -549,6 +564,8 @@ static status parse(int argc, char **argv, options *o)
 {
     for (int i = 1; i < argc; i++) TRY(take_word(o, argc, argv, &i));
     CHECK(o->command.name, STATUS_BAD_INPUT, "no command given; breech --help lists them");
+    CHECK(!o->store || !o->no_store, STATUS_BAD_INPUT, "--store and --no-store exclude each other");
+    if (o->no_store) o->store = "";
     CHECK(!o->scene || o->command.run == run_check, STATUS_BAD_INPUT, "--scene goes with `breech check CASE`");
     CHECK(!o->ensemble[0] || o->command.study == &study_scene, STATUS_BAD_INPUT,
           "--ensemble goes with `breech scene CASE`; for a threshold it is --set study.threshold_ensemble=N");
@@ -628,6 +645,10 @@ int main(int argc, char **argv)
     int code;
     if (run_ranks_number() == 0) {
         code = lead(argc, argv, threads, l);
+        if (fflush(stdout) != 0 || ferror(stdout)) {
+            fprintf(stderr, "breech: standard output cannot be written to\n");
+            if (code == EXIT_DONE) code = EXIT_FAILED;
+        }
         run_crew_dismiss();
     } else {
         code = follow(argc, argv, threads, l);

@@ -30,8 +30,11 @@ status host_file_text(const char *path, size_t limit, char **bytes, size_t *leng
 {
     *bytes = NULL;
     *length = 0;
+    struct stat info; /* first: to open a named pipe waits for one who writes */
+    CHECK(stat(path, &info) == 0, STATUS_BAD_INPUT, "%s cannot be opened: %s", path, strerror(errno));
+    CHECK(S_ISREG(info.st_mode), STATUS_BAD_INPUT, "%s is not a file", path);
     FILE *file = fopen(path, "rb");
-    CHECK(file, errno == ENOENT ? STATUS_BAD_INPUT : STATUS_IO, "%s cannot be opened: %s", path, strerror(errno));
+    CHECK(file, STATUS_IO, "%s cannot be opened: %s", path, strerror(errno));
     char *all = malloc(limit + 1);
     if (!all) {
         fclose(file);

@@ -7,8 +7,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* *bytes is malloc'ed, the caller frees it.  STATUS_BAD_INPUT when it is not there or longer than `limit`, STATUS_IO
- * when it cannot be read. */
+/* *bytes is malloc'ed, the caller frees it.  STATUS_BAD_INPUT when it is not there, no file or longer than
+ * `limit`, STATUS_IO when it cannot be read. */
 status host_file_text(const char *path, size_t limit, char **bytes, size_t *length);
 
 /* There is something of this name that is no folder. */
