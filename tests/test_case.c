@@ -252,7 +252,7 @@ static void yaml_errors_have_a_place(void **state)
           "case.yaml:1:44: sections nested more than" },
         { "\n", "case.yaml:2:1: the file is empty" },
         { "[a]: b\n", "case.yaml:1:1: a key must be a plain word" },
-        { "name: \xff\n", "case.yaml:1:1: not valid YAML" },
+        { "name: \xff\n", "case.yaml:1:7: not valid YAML" },
         { "title: x\n", "case.yaml:1:1: name is missing" },
         { "name:\n", "case.yaml:1:6: name has no value" },
     };

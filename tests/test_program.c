@@ -29,13 +29,58 @@ static void test_usage(void **state)
                                          "compare " SHOT,
                                          "--help fire",
                                          "materials unobtainium",
-                                         "report nowhere_at_all" };
+                                         "report nowhere_at_all",
+                                         "shot " SHOT " -o a -o b",
+                                         "shot " SHOT " --threads 1 --threads=1",
+                                         "shot " SHOT " --store a --no-store",
+                                         "shot " SHOT " --max-walltime 1:99",
+                                         "check .",
+                                         "check loop",
+                                         "check pipe" };
+    assert_int_equal(system("ln -sf loop loop; [ -p pipe ] || mkfifo pipe"), 0);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         if (run(wrong[i]) != 2) fail_msg("breech %s: not refused with 2", wrong[i]);
         assert_false(contains("err.txt", "Sanitizer"));
     }
     assert_int_equal(run("compare " SHOT), 2);
     assert_true(contains("err.txt", "section `treatments` is missing"));
+}
+
+/* What was printed into nowhere is no success. */
+static void test_full_output(void **state)
+{
+    (void)state;
+    assert_int_equal(system(BREECH_PROGRAM " --keys > /dev/full 2> err.txt") >> 8, 1);
+    assert_true(contains("err.txt", "standard output"));
+}
+
+/* Taken before: what makes no sense. */
+static void test_senseless(void **state)
+{
+    (void)state;
+    const struct {
+        const char *yaml, *says;
+    } wrong[] = {
+        { "rail: {temperature: 1500 K}", ":3:21: rail.temperature = 1500 K: ofhc_copper melts at 1356 K" },
+        { "armature: {initial_temperature: 1500 K}",
+          ":3:33: armature.initial_temperature = 1500 K: al7075_t651 melts" },
+        { "treatments: [{name: a, preheat: {temperature: 400 K}}, {name: a}]",
+          ":3:63: treatments[1].name = a: the same as treatments[0]" },
+        { "treatments: [{name: untreated, preheat: {temperature: 400 K}}]", ":3:21: treatments[0].name = untreated" },
+        { "treatments: [{name: hot, preheat: {temperature: 1400 K}}]",
+          "preheat.temperature = 1400 K: ofhc_copper melts" },
+        { "title: \"caf\xe9\"", ":3:13: not valid YAML" },
+        { "output: {snapshots: 1.5}", ":3:21: output.snapshots = 1.5: must be a whole number" },
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        fresh_folder("senseless");
+        FILE *f = fopen("senseless/case.yaml", "w");
+        fprintf(f, "base: %s\nname: senseless\n%s\n", SHOT, wrong[i].yaml);
+        fclose(f);
+        assert_int_equal(run("check senseless"), 2);
+        if (!contains("err.txt", wrong[i].says)) fail_msg("%s: not `%s`", wrong[i].yaml, wrong[i].says);
+    }
+    assert_int_equal(run("check " SHOT " --set output.snapshots=1e1"), 0);
 }
 
 /* Every error of the case at once, with its place; nothing is written. */
@@ -282,6 +327,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_usage),
+        cmocka_unit_test(test_full_output),
+        cmocka_unit_test(test_senseless),
         cmocka_unit_test(test_bad_case),
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_check_and_materials),

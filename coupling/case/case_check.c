@@ -275,6 +275,42 @@ static void check_materials(case_reader *r)
     }
 }
 
+/* A temperature that is given must leave the metal solid, where it is known when that melts. */
+static void check_solid(case_reader *r, const char *section, const char *key, double temperature, const char *name)
+{
+    const material *m = case_material(&r->out->materials, name);
+    char text[200];
+    if (!m || !(m->melting_temperature > 0.0) || !is_given(host_tree_find(r->root, section), key)) return;
+    snprintf(text, sizeof text, "%.60s melts at %g K", name, m->melting_temperature);
+    must(r, !(temperature >= m->melting_temperature), section, key, text);
+}
+
+static void check_temperatures(case_reader *r)
+{
+    const breech_case *c = r->out;
+    check_solid(r, "rail", "temperature", c->rail.temperature, c->rail.material);
+    check_solid(r, "rail", "initial_temperature", c->rails.initial_temperature, c->rail.material);
+    check_solid(r, "armature", "temperature", c->projectile.temperature, c->projectile.material);
+    check_solid(r, "armature", "initial_temperature", c->armature.initial_temperature, c->projectile.material);
+}
+
+static void check_treatments(case_reader *r)
+{
+    const tree_node *list = host_tree_find(r->root, "treatments");
+    const case_treatments *all = &r->out->treatments;
+    for (int k = 0; k < all->n; k++) {
+        const char *name = all->item[k].name;
+        const tree_node *entry = case_entry_node(list, k), *where = host_tree_find(entry, "name");
+        if (strcmp(name, "untreated") == 0)
+            case_errors_add(r->errors, where ? where : entry,
+                            "treatments[%d].name = %s: the rail as it is has this name", k, name);
+        for (int i = 0; i < k; i++)
+            if (name[0] && strcmp(name, all->item[i].name) == 0)
+                case_errors_add(r->errors, where ? where : entry,
+                                "treatments[%d].name = %s: the same as treatments[%d]", k, name, i);
+    }
+}
+
 /* ---- shapes ---- */
 
 /* A grain's shape stands about its middle and is known by its radius. */
@@ -333,4 +369,6 @@ void case_check_whole(case_reader *r)
     case_populations_check(r);
     case_strike_check(r);
     check_materials(r);
+    check_temperatures(r);
+    check_treatments(r);
 }

@@ -65,11 +65,12 @@ static void read_number(case_reader *r, const param *p, const tree_node *node, d
 static void read_integer(case_reader *r, const param *p, const tree_node *node, int *member, const char *path)
 {
     char *end = NULL;
-    const long value = strtol(node->text, &end, 10);
-    if (end == node->text || *end != '\0')
+    const double value = strtod(node->text, &end); /* 1e3 is one too */
+    const bool plain = node->text[strspn(node->text, "+-.0123456789eE")] == '\0';
+    if (end == node->text || *end != '\0' || !plain || value != floor(value))
         wrong(r, node, path, "must be a whole number");
-    else if ((double)value < p->min || (double)value > p->max)
-        out_of_range(r, p, node, path, "", (double)value);
+    else if (value < p->min || value > p->max)
+        out_of_range(r, p, node, path, "", value);
     else
         *member = (int)value;
 }

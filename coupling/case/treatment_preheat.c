@@ -10,6 +10,9 @@ const param case_treatment_preheat_params[] = {
 
 status case_treatment_preheat_apply(const treatment_settings *t, case_onset *c)
 {
+    const material *rail = case_material(&c->impact.materials, c->impact.rail.material);
+    CHECK(!rail || !(t->value[TEMPERATURE] >= rail->melting_temperature), STATUS_BAD_INPUT,
+          "preheat.temperature = %g K: %s melts at %g K", t->value[TEMPERATURE], rail->name, rail->melting_temperature);
     c->impact.rail.temperature = t->value[TEMPERATURE];
     return status_ok();
 }

@@ -12,6 +12,8 @@ typedef struct {
     bool has_event;
     int nodes, set;
     int line, column;
+    const char *bytes; /* borrowed */
+    size_t length;
 } reading;
 
 void host_tree_free(tree_node *node)
@@ -105,6 +107,16 @@ static void mark(reading *r, yaml_mark_t at)
     r->column = (int)at.column + 1;
 }
 
+/* The reader of bytes tells no place but an offset. */
+static void mark_offset(reading *r, size_t offset)
+{
+    r->line = r->column = 1;
+    for (size_t k = 0; k < offset && k < r->length; k++) {
+        r->column = r->bytes[k] == '\n' ? 1 : r->column + 1;
+        r->line += r->bytes[k] == '\n';
+    }
+}
+
 static status next_event(reading *r)
 {
     if (r->has_event) yaml_event_delete(&r->event);
@@ -113,6 +125,7 @@ static status next_event(reading *r)
         const yaml_parser_t *p = &r->parser;
         CHECK(p->error != YAML_MEMORY_ERROR, STATUS_MEMORY, "out of memory while reading a case");
         mark(r, p->problem_mark);
+        if (p->error == YAML_READER_ERROR) mark_offset(r, p->problem_offset);
         return base_status_error(STATUS_BAD_INPUT, "not valid YAML: %s%s%s", p->problem ? p->problem : "cannot be read",
                                  p->context ? " " : "", p->context ? p->context : "");
     }
@@ -218,7 +231,7 @@ static status parse(const char *bytes, size_t length, int set, tree_node **out, 
     *out = NULL;
     *line = *column = 1;
     CHECK(length <= TREE_MAX_BYTES, STATUS_BAD_INPUT, "the file is longer than %d bytes", TREE_MAX_BYTES);
-    reading r = { .set = set, .line = 1, .column = 1 };
+    reading r = { .set = set, .line = 1, .column = 1, .bytes = bytes, .length = length };
     CHECK(yaml_parser_initialize(&r.parser), STATUS_MEMORY, "out of memory while reading a case");
     yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&r.parser, (const unsigned char *)bytes, length);
