@@ -304,6 +304,18 @@ static unsigned needs_of(const case_inputs *in)
     return needs;
 }
 
+/* What the random shots draw at most: grains too slow to gouge are not drawn. */
+static void print_random(const case_onset *c)
+{
+    double grains = 0.0;
+    for (int k = 0; k < c->populations.n; k++) {
+        const case_population *p = &c->populations.item[k];
+        grains += p->density * (p->to - p->from) * (p->renewed ? c->study.shots : 1);
+    }
+    if (grains > 0.0)
+        printf("random shots: %d histories, at most %.2g grains\n", c->study.sampled, grains * c->study.sampled);
+}
+
 static status print_check(const case_inputs *in, int threads)
 {
     scene_estimate e[CHECK_MAX_ESTIMATES];
@@ -323,7 +335,12 @@ static status print_check(const case_inputs *in, int threads)
     host_table_free(t);
     const case_onset *c = &in->onset;
     if (c->study.ensemble > 0) printf("scene: on %d grids, each as above\n", c->study.ensemble);
-    if (c->sites.n > 0) printf("onset: %d sites, at most %d scenes\n", c->sites.n, c->study.max_scenes);
+    if (c->sites.n > 0 || c->populations.n > 0)
+        printf("onset: %d sites, %d populations, at most %d scenes\n", c->sites.n, c->populations.n,
+               c->study.max_scenes);
+    if (in->treatments.n > 0)
+        printf("compare: %d surfaces, at most %d scenes each\n", in->treatments.n + 1, c->study.max_scenes);
+    print_random(c);
     return status_ok();
 }
 

@@ -151,6 +151,10 @@ static void test_check_and_materials(void **state)
     (void)state;
     assert_int_equal(run("check " SHOT), 0);
     assert_true(contains("out.txt", "12 sites"));
+    assert_int_equal(run("check " CASES "/treatments"), 0);
+    assert_true(contains("out.txt", "onset, 500 m/s") && contains("out.txt", "1 populations, at most"));
+    assert_true(contains("out.txt", "compare: 6 surfaces, at most 12 scenes each"));
+    assert_true(contains("out.txt", "random shots: 100000 histories, at most 1.2e+06 grains"));
     assert_int_equal(run("check " CASES "/wu2017"), 0);
     assert_true(contains("out.txt", "cells a radius"));
     assert_int_equal(run("check " CASES "/wu2017/coarse.yaml"), 0);

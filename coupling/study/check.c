@@ -74,6 +74,15 @@ static bool has_grain_before(const case_sites *sites, int i)
     return false;
 }
 
+/* A grain of a population, of this size. */
+static case_site grain_of(const case_population *p, double radius)
+{
+    case_site grain = { .radius = radius, .height = p->aspect * radius, .bond_strength = p->bond_strength };
+    memcpy(grain.shape, p->shape, sizeof grain.shape);
+    memcpy(grain.material, p->material, sizeof grain.material);
+    return grain;
+}
+
 static status grains_possible(const case_onset *c)
 {
     for (int i = 0; i < c->sites.n; i++)
@@ -83,9 +92,7 @@ static status grains_possible(const case_onset *c)
         double size[SURFACE_MAX_SIZES], number[SURFACE_MAX_SIZES];
         const int n = study_population_sizes(p, c->study.smallest_radius, SURFACE_MAX_SIZES, size, number);
         for (int k = 0; k<n; k += n> 1 ? n - 1 : 1) { /* the smallest and the largest */
-            case_site grain = { .radius = size[k], .height = p->aspect * size[k], .bond_strength = p->bond_strength };
-            memcpy(grain.shape, p->shape, sizeof grain.shape);
-            memcpy(grain.material, p->material, sizeof grain.material);
+            const case_site grain = grain_of(p, size[k]);
             TRY(grain_possible(c, &grain));
         }
     }
@@ -163,10 +170,12 @@ status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_
         TRY(estimate_scene(&in->bodies.scene, in->bodies.scene.end_time, threads, &out[(*n)++]));
     }
     if (has_scene(in)) TRY(estimate(&c->impact, "scene", threads, &out[(*n)++]));
-    if (!c->has_body || c->sites.n == 0) return status_ok();
+    if (!c->has_body || (c->sites.n == 0 && c->populations.n == 0)) return status_ok();
+    const case_population *p = c->populations.item;
+    const case_site grain = c->sites.n > 0 ? c->sites.item[0] : grain_of(p, study_population_quantile(p, 0.5));
     const double cells[] = { c->study.coarse_cells_per_radius, c->study.fine_cells_per_radius };
     for (int k = 0; k < (cells[0] < cells[1] ? 2 : 1); k++) {
-        const case_impact one = slowest(c, &c->sites.item[0], cells[k]);
+        const case_impact one = slowest(c, &grain, cells[k]);
         TRY(estimate(&one, "onset", threads, &out[(*n)++]));
     }
     return status_ok();

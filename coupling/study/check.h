@@ -17,7 +17,8 @@ enum { CHECK_MAX_ESTIMATES = 3 };
 /* The scene of the case as a case of bodies, with every value resolved.  STATUS_BAD_INPUT: it has none. */
 status study_print_scene(const case_inputs *in, FILE *out);
 
-/* The scene of the case, and of its first site the slowest and finest of the search; *n of them. */
+/* The scene of the case; then of its first site, or of the median grain of its first population, the slowest and finest
+ * of the search; *n of them. */
 status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n);
 
 #endif
