@@ -70,6 +70,8 @@ static void test_senseless(void **state)
         { "treatments: [{name: hot, preheat: {temperature: 1400 K}}]",
           "preheat.temperature = 1400 K: ofhc_copper melts" },
         { "title: \"caf\xe9\"", ":3:13: not valid YAML" },
+        { "populations: [{density: 4 1/m, radius_median: 0.5 mm, radius_spread: 3}]",
+          ":3:15: populations[0], its largest grains, of 200 mm" },
         { "output: {snapshots: 1.5}", ":3:21: output.snapshots = 1.5: must be a whole number" },
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {

@@ -93,7 +93,9 @@ static status grains_possible(const case_onset *c)
         const int n = study_population_sizes(p, c->study.smallest_radius, SURFACE_MAX_SIZES, size, number);
         for (int k = 0; k<n; k += n> 1 ? n - 1 : 1) { /* the smallest and the largest */
             const case_site grain = grain_of(p, size[k]);
-            TRY(grain_possible(c, &grain));
+            const status s = grain_possible(c, &grain);
+            CHECK(s.code == STATUS_OK, s.code, "populations[%d], its %s grains, of %.3g mm: %.380s", i,
+                  k == 0 ? "smallest" : "largest", 1e3 * size[k], s.text);
         }
     }
     return status_ok();
