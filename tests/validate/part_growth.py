@@ -17,12 +17,15 @@ def growths(runs, name, velocity, settings):
 
 
 def zero(velocities, growth):
-    """Where one grid's growth passes zero, linearly, the lowest such place; None: nowhere."""
+    """Where one grid's growth passes zero, linearly, the lowest such place; text: it lies beyond these velocities."""
     pairs = [(v, g) for v, g in zip(velocities, growth) if g is not None]
+    if not pairs or max(g for _, g in pairs) < 0:
+        return "above %.0f" % velocities[-1]
+    if pairs[0][1] >= 0:
+        return "below %.0f" % pairs[0][0]
     for (v0, g0), (v1, g1) in zip(pairs, pairs[1:]):
         if g0 < 0 <= g1:
-            return v0 - g0 * (v1 - v0) / (g1 - g0)
-    return None
+            return "%.0f" % (v0 - g0 * (v1 - v0) / (g1 - g0))
 
 
 def spread(values):
@@ -38,8 +41,7 @@ def growth_cell(growth):
 
 def zero_cell(velocities, grids):
     """Where each grid's growth passes zero."""
-    zeros = [zero(velocities, growth) for growth in grids]
-    return ", ".join("none" if z is None else "%.0f" % z for z in zeros)
+    return ", ".join(zero(velocities, growth) for growth in grids)
 
 
 def growth_row(runs, title, name, velocities, shown, settings):
@@ -59,6 +61,12 @@ def cells(runs):
     shown = sorted({*three, *two})
     rows = [growth_row(runs, "2", "cells2", two, shown, {"scene__cells_per_radius": 2}),
             growth_row(runs, "3, the case's", "as_it_is", three, shown, {})]
+    return [Table(columns("cells a radius", shown), rows)], NOTE
+
+
+def four_cells(runs):
+    shown = [700, 850, 1000]
+    rows = [growth_row(runs, "4", "cells4", shown, shown, {"scene__cells_per_radius": 4})]
     return [Table(columns("cells a radius", shown), rows)], NOTE
 
 

@@ -29,10 +29,12 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "wu2017-three-cells": ("docs/validation/wu2017.md", part_wu2017.three_cells, 5, False),
     "wu2017-shipped": ("docs/validation/wu2017.md", part_wu2017.shipped, 2, False),
     "levels": ("docs/validation/levels.md", part_levels.default_shot, 8, True),
+    "levels-paper": ("docs/validation/levels.md", part_levels.paper, 12, False),
     "cells": ("docs/validation/growth.md", part_growth.cells, 6, False),
     "criterion-steel": ("docs/validation/criterion.md", part_criterion.steel, 13, False),
     "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
     "lattice": ("docs/validation/lattice.md", part_lattice.through, 8, False),
+    "four-cells": ("docs/validation/growth.md", part_growth.four_cells, 12, False),
     "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
 }
 
