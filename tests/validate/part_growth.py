@@ -65,7 +65,7 @@ def cells(runs):
 
 
 def four_cells(runs):
-    shown = [700, 850, 1000]
+    shown = [500, 600, 700, 850, 1000]
     rows = [growth_row(runs, "4", "cells4", shown, shown, {"scene__cells_per_radius": 4})]
     return [Table(columns("cells a radius", shown), rows)], NOTE
 
