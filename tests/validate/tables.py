@@ -34,7 +34,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "criterion-steel": ("docs/validation/criterion.md", part_criterion.steel, 13, False),
     "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
     "lattice": ("docs/validation/lattice.md", part_lattice.through, 8, False),
-    "four-cells": ("docs/validation/growth.md", part_growth.four_cells, 12, False),
+    "four-cells": ("docs/validation/growth.md", part_growth.four_cells, 16, False),
     "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
 }
 
