@@ -317,9 +317,9 @@ static const char FIVE[] = HEAD GRAINS "treatments:\n"
                                        "  - {name: polished, polish: {size: 0.7}}\n"
                                        "  - {name: the same}\n";
 
-static status run_compare(breech_case *c, const char *dir, compare_answer *out)
+/* A session in a directory of its own, over what is there, whose scenes are made up. */
+static void open_anew(const case_inputs *in, const char *dir, session *s)
 {
-    session s;
     const session_options options = { .command = "onset",
                                       .dir = dir,
                                       .store = "",
@@ -327,9 +327,15 @@ static status run_compare(breech_case *c, const char *dir, compare_answer *out)
                                       .threads = 1,
                                       .progress_to = stderr,
                                       .quiet = true };
+    OK(run_session_open(in, &options, s));
+    s->run_scene = fake_scene;
+}
+
+static status run_compare(breech_case *c, const char *dir, compare_answer *out)
+{
+    session s;
     const case_inputs in = case_inputs_of(c);
-    OK(run_session_open(&in, &options, &s));
-    s.run_scene = fake_scene;
+    open_anew(&in, dir, &s);
     scenes = 0;
     const status done = study_compare_run(&s, &in.onset, &in.treatments, out);
     OK(run_session_close(&s, done.code == STATUS_OK));
@@ -472,16 +478,8 @@ static double taken_off(const char *populations)
     c->study.feedback = true;
     onset_answer a;
     session s;
-    const session_options options = { .command = "onset",
-                                      .dir = "populations",
-                                      .store = "",
-                                      .how = { .force = true },
-                                      .threads = 1,
-                                      .progress_to = stderr,
-                                      .quiet = true };
     const case_inputs in = case_inputs_of(c);
-    OK(run_session_open(&in, &options, &s));
-    s.run_scene = fake_scene;
+    open_anew(&in, "populations", &s);
     OK(study_onset_run(&s, &in.onset, &a));
     OK(run_session_close(&s, true));
     const double off = a.shot.is.muzzle_velocity - a.result.muzzle_velocity_feedback;
@@ -512,16 +510,8 @@ static void test_population_onset(void **state)
     c->study.shots = 3;
     onset_answer a;
     session s;
-    const session_options options = { .command = "onset",
-                                      .dir = "population",
-                                      .store = "",
-                                      .how = { .force = true },
-                                      .threads = 1,
-                                      .progress_to = stderr,
-                                      .quiet = true };
     const case_inputs in = case_inputs_of(c);
-    OK(run_session_open(&in, &options, &s));
-    s.run_scene = fake_scene;
+    open_anew(&in, "population", &s);
     scenes = 0;
     OK(study_onset_run(&s, &in.onset, &a));
     const double expected = study_mc_expected(&a.grains, 3.0); /* looks into the session's scenes */
@@ -564,16 +554,8 @@ static onset_answer studied(breech_case *c, const char *dir, status want)
     static case_onset given; /* the answer borrows it */
     onset_answer a;
     session s;
-    const session_options options = { .command = "onset",
-                                      .dir = dir,
-                                      .store = "",
-                                      .how = { .force = true },
-                                      .threads = 1,
-                                      .progress_to = stderr,
-                                      .quiet = true };
     const case_inputs in = case_inputs_of(c);
-    OK(run_session_open(&in, &options, &s));
-    s.run_scene = fake_scene;
+    open_anew(&in, dir, &s);
     given = in.onset;
     const status done = study_onset_run(&s, &given, &a);
     assert_int_equal(done.code, want.code);
