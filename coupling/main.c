@@ -1,6 +1,7 @@
 /* breech: the program.  Options in, exit code out; the only place that prints and exits.
  *
  * To add a command that runs a case: a study (study/study.h); any other: a line in `others`, its function here. */
+#include "coupling/case/case_new.h"
 #include "coupling/case/material_file.h"
 #include "coupling/gouge/impact.h"
 #include "coupling/host/stop.h"
@@ -42,6 +43,7 @@ struct options {
     lending *lending;
     char ensemble[40];  /* --ensemble as one of sets, "" without it */
     const char *expect; /* --expect: a run's output directory; NULL */
+    const char *from;   /* --from: what a new case begins from; NULL */
     outdir_options how;
     double max_walltime; /* [s], INFINITY: none */
     bool quiet, no_store;
@@ -54,6 +56,7 @@ static int run_case(const options *o);
 static int run_check(const options *o);
 static int run_materials(const options *o);
 static int run_report(const options *o);
+static int run_new(const options *o);
 
 static const command others[] = {
     { "check", "CASE", "read and validate only; memory and time estimate",
@@ -61,6 +64,9 @@ static const command others[] = {
     { "materials", "[NAME]", "materials at hand; the constants of one, with their sources", "", run_materials, false,
       NULL },
     { "report", "DIR", "make report.html of an output directory anew", "", run_report, true, NULL },
+    { "new", "NAME", "begin a case of your own: the folder NAME with a case.yaml that runs as it is",
+      "Begins from a shipped case, every key with a comment; --from chooses it.  What is there already stays.", run_new,
+      true, NULL },
 };
 enum { OTHERS = sizeof others / sizeof others[0], COMMANDS = STUDIES + OTHERS };
 
@@ -92,6 +98,7 @@ static void print_help(FILE *out)
           "  --max-walltime T  stop with a checkpoint after T (90, 30m, 2h, 1:30:00)\n"
           "  --quiet           no progress, no closing table\n"
           "  --expect DIR      check: does the run in DIR give what the case's expected.yaml says?\n"
+          "  --from CASE       new: begin from shot (default), bodies, strike, a shipped case or one of yours\n"
           "  --scene           check: print the case's scene as a case of bodies, every value resolved\n"
           "  --keys            list every key of a case file\n"
           "  --version, --help [COMMAND]\n\n"
@@ -441,6 +448,39 @@ static int run_report(const options *o)
     return complain(s);
 }
 
+/* The case that a new one begins from must be one. */
+static status start_read(const char *file)
+{
+    material_places at;
+    case_material_places_find(&at);
+    const case_options how = { .material_dirs = at.dir, .n_material_dirs = at.n };
+    case_inputs *in = NULL;
+    char *errors = NULL;
+    status s = case_inputs_read(file, NULL, 0, &how, &in, &errors);
+    if (errors) {
+        fputs(errors, stderr);
+        s = base_status_error(STATUS_BAD_INPUT, "%.300s has errors: nothing was begun from it", file);
+    }
+    free(errors);
+    case_inputs_free(in);
+    return s;
+}
+
+static int run_new(const options *o)
+{
+    const case_kind *kind = NULL;
+    char file[CASE_START_SIZE];
+    status s = case_new_start(o->from, &kind, file);
+    if (s.code == STATUS_OK) s = start_read(file);
+    if (s.code == STATUS_OK) s = case_new_make(o->subject, file);
+    if (s.code != STATUS_OK) return complain(s);
+    if (o->quiet) return EXIT_DONE;
+    printf("%s/case.yaml, begun from %s\n\n", o->subject, file);
+    printf("  breech check %-20s what it needs, what is wrong with it\n", o->subject);
+    if (kind) printf("  breech %-5s %-20s %s\n", kind->run, o->subject, kind->doc);
+    return EXIT_DONE;
+}
+
 /* ---- options ---- */
 
 /* "90", "45s", "30m", "2h", "1:30", "1:30:00" in seconds; NAN if it is none of these. */
@@ -503,6 +543,9 @@ static status take_value(options *o, const char *name, const char *value)
     } else if (strcmp(name, "--expect") == 0) {
         CHECK(value[0], STATUS_BAD_INPUT, "--expect: the directory's name is empty");
         o->expect = value;
+    } else if (strcmp(name, "--from") == 0) {
+        CHECK(value[0], STATUS_BAD_INPUT, "--from: the case's name is empty");
+        o->from = value;
     } else if (strcmp(name, "--set") == 0) {
         TRY(take_set(o, value));
     } else if (strcmp(name, "--ensemble") == 0) {
@@ -519,7 +562,7 @@ static status take_value(options *o, const char *name, const char *value)
 
 static bool takes_value(const char *name)
 {
-    static const char *const names[] = { "-o",        "--store",    "--expect",       "--set",
+    static const char *const names[] = { "-o",        "--store",    "--expect",       "--from", "--set",
                                          "--threads", "--ensemble", "--max-walltime", NULL };
     for (int i = 0; names[i]; i++)
         if (strcmp(names[i], name) == 0) return true;
@@ -584,6 +627,7 @@ static status parse(int argc, char **argv, options *o)
     CHECK(!o->store || !o->no_store, STATUS_BAD_INPUT, "--store and --no-store exclude each other");
     if (o->no_store) o->store = "";
     CHECK(!o->scene || o->command.run == run_check, STATUS_BAD_INPUT, "--scene goes with `breech check CASE`");
+    CHECK(!o->from || o->command.run == run_new, STATUS_BAD_INPUT, "--from goes with `breech new NAME`");
     CHECK(!o->ensemble[0] || o->command.study == &study_scene, STATUS_BAD_INPUT,
           "--ensemble goes with `breech scene CASE`; for a threshold it is --set study.threshold_ensemble=N");
     CHECK(o->subject || !o->command.subject_required, STATUS_BAD_INPUT, "%s needs a %s: breech %s %s", o->command.name,

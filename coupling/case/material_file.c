@@ -235,10 +235,10 @@ status case_material_sheet_parse(const units *u, const char *bytes, size_t lengt
 #define BREECH_INSTALLED_CASES "../share/breech/cases"
 #endif
 
-/* "" where the system does not say where the program lies. */
+/* The cases of the installation; "" where the system does not say where the program lies. */
 static void beside_program(char path[MATERIAL_PATH_SIZE])
 {
-    static const char within[] = "/" BREECH_INSTALLED_CASES "/materials";
+    static const char within[] = "/" BREECH_INSTALLED_CASES;
     const ssize_t n = readlink("/proc/self/exe", path, MATERIAL_PATH_SIZE - sizeof within);
     path[n > 0 ? n : 0] = '\0';
     char *slash = strrchr(path, '/');
@@ -248,9 +248,20 @@ static void beside_program(char path[MATERIAL_PATH_SIZE])
     free(plain);
 }
 
-void case_material_places_find(material_places *out)
+void case_folders_find(case_folders *out)
 {
     beside_program(out->installed);
+    const char *const all[] = { out->installed, BREECH_SOURCE_CASES };
+    out->n = 0;
+    for (int k = 0; k < CASE_MAX_FOLDERS; k++)
+        if (host_folder_exists(all[k])) out->dir[out->n++] = all[k];
+}
+
+void case_material_places_find(material_places *out)
+{
+    char cases[MATERIAL_PATH_SIZE];
+    beside_program(cases);
+    snprintf(out->installed, sizeof out->installed, "%.*s/materials", MATERIAL_PATH_SIZE - 11, cases);
     const char *const all[] = { getenv("BREECH_MATERIALS"), out->installed, BREECH_SOURCE_CASES "/materials" };
     out->n = 0;
     for (int k = 0; k < MATERIAL_MAX_DIRS; k++)

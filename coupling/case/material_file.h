@@ -75,6 +75,15 @@ typedef struct {
 } material_places;
 void case_material_places_find(material_places *out);
 
+/* Where the shipped cases are, folders of <name>/case.yaml: beside the program, in the source tree. */
+enum { CASE_MAX_FOLDERS = 2 };
+typedef struct {
+    int n;
+    const char *dir[CASE_MAX_FOLDERS]; /* n; point into the program and `installed` */
+    char installed[MATERIAL_PATH_SIZE];
+} case_folders;
+void case_folders_find(case_folders *out);
+
 /* Letters, digits, _ - + and dots, not a dot first: a name that cannot lead out of its folder. */
 bool case_material_name_valid(const char *name);
 

@@ -1,0 +1,220 @@
+#include "coupling/case/case_new.h"
+
+#include "coupling/case/case_reader.h"
+#include "coupling/case/material_file.h"
+#include "coupling/host/file_text.h"
+#include "coupling/host/outdir.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+const case_kind case_kinds[] = {
+    { "shot", "default_shot", "onset", "a bank, rails, an armature and grains: where does the rail gouge?" },
+    { "bodies", "ball_gauge", "scene", "a ball on a plate with a pressure gauge in it" },
+    { "strike", "sphere_plate", "strike", "a projectile on its target: does it pierce, what is left of its velocity?" },
+    { NULL, NULL, NULL, NULL },
+};
+
+/* ---- what to begin from ---- */
+
+/* The case file of a shipped case; false where no folder of cases has it. */
+static bool shipped_case(const case_folders *at, const char *name, char file[CASE_START_SIZE])
+{
+    for (int k = 0; k < at->n && host_name_is_plain(name); k++) {
+        snprintf(file, CASE_START_SIZE, "%s/%s/case.yaml", at->dir[k], name);
+        if (host_file_exists(file)) return true;
+    }
+    return false;
+}
+
+/* "shot, bodies, strike" and the folders with shipped cases. */
+static status nothing_to_begin_from(const case_folders *at, const char *from)
+{
+    char kinds[200] = "", folders[2 * MATERIAL_PATH_SIZE] = "";
+    for (const case_kind *k = case_kinds; k->name; k++) {
+        const size_t used = strlen(kinds);
+        snprintf(kinds + used, sizeof kinds - used, "%s%s", used ? ", " : "", k->name);
+    }
+    for (int k = 0; k < at->n; k++) {
+        const size_t used = strlen(folders);
+        snprintf(folders + used, sizeof folders - used, "%s%s", used ? ", " : "", at->dir[k]);
+    }
+    return base_status_error(STATUS_BAD_INPUT,
+                             "no case `%.200s` to begin from: give one of %s, a path, or the name of a case in %s",
+                             from, kinds, at->n ? folders : "(no folder of cases was found beside the program)");
+}
+
+status case_new_start(const char *from, const case_kind **kind, char file[CASE_START_SIZE])
+{
+    char path[CASE_PATH_SIZE];
+    case_folders at;
+    case_folders_find(&at);
+    *kind = from ? NULL : case_kinds;
+    for (const case_kind *k = case_kinds; from && k->name; k++)
+        if (strcmp(k->name, from) == 0) *kind = k;
+    if (*kind) return shipped_case(&at, (*kind)->from, file) ? status_ok() : nothing_to_begin_from(&at, (*kind)->from);
+    TRY(case_file_of(from, path));
+    snprintf(file, CASE_START_SIZE, "%s", path);
+    if (host_file_exists(path) || shipped_case(&at, from, file)) return status_ok();
+    return nothing_to_begin_from(&at, from);
+}
+
+/* ---- what comes along ---- */
+
+/* The last part of a path. */
+static const char *last_part(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static status path_in(char path[CASE_START_SIZE], const char *folder, const char *name)
+{
+    const int n = name[0] == '/' ? snprintf(path, CASE_START_SIZE, "%s", name)
+                                 : snprintf(path, CASE_START_SIZE, "%s/%s", folder, name);
+    CHECK(n < CASE_START_SIZE, STATUS_BAD_INPUT, "%.200s/%.200s: the path is too long", folder, name);
+    return status_ok();
+}
+
+static status file_copy(const char *from, const char *to)
+{
+    char *bytes = NULL, folder[CASE_PATH_SIZE];
+    size_t length = 0;
+    TRY(host_file_read(from, &bytes, &length));
+    case_folder_of(to, folder);
+    status s = host_folder_make(folder);
+    if (s.code == STATUS_OK) s = host_file_write(to, bytes, length);
+    free(bytes);
+    return s;
+}
+
+/* A file that a value names from its case's folder: the same name in the new one.  What lies elsewhere comes into the
+ * new folder itself. */
+static status bring_file(case_edits *e, const tree_node *value, const char *folder, const char *to)
+{
+    char from[CASE_START_SIZE], copy[CASE_START_SIZE];
+    TRY(path_in(from, folder, value->text));
+    if (value->text[0] == '/' || !host_file_exists(from)) return status_ok();
+    const bool elsewhere = strstr(value->text, "..") != NULL;
+    const char *name = elsewhere ? last_part(value->text) : value->text;
+    if (elsewhere) case_edit_value(e, value, name);
+    TRY(path_in(copy, to, name));
+    return file_copy(from, copy);
+}
+
+static status bring_material(const tree_node *value, const char *folder, const char *to)
+{
+    char name[PARAM_TEXT_SIZE + 8], from[CASE_START_SIZE], copy[CASE_START_SIZE];
+    if (!case_material_name_valid(value->text)) return status_ok();
+    snprintf(name, sizeof name, "%s.yaml", value->text);
+    TRY(path_in(from, folder, name));
+    TRY(path_in(copy, to, name));
+    return host_file_exists(from) ? file_copy(from, copy) : status_ok();
+}
+
+/* Whatever value names a file or a material beside the case; e NULL: materials alone. */
+static status bring_files(case_edits *e, const tree_node *node, const char *folder, const char *to)
+{
+    if (node->kind == TREE_TEXT) {
+        if (node->text[0] == '\0') return status_ok();
+        if (e) TRY(bring_file(e, node, folder, to));
+        return bring_material(node, folder, to);
+    }
+    for (int k = 0; k < node->n; k++) {
+        const bool base = node->kind == TREE_MAP && strcmp(node->key[k]->text, "base") == 0;
+        if (!base) TRY(bring_files(e, node->item[k], folder, to));
+    }
+    return status_ok();
+}
+
+/* A case and those that build on it, up to the new one: their materials may lie beside it too. */
+typedef struct layer {
+    const tree_node *root;
+    const struct layer *above;
+} layer;
+
+static int height(const layer *l)
+{
+    return l ? 1 + height(l->above) : 0;
+}
+
+static status copy_case(const char *file, const char *to, const char *as, const char *name, const layer *above);
+
+/* What the case builds on, in a folder of its own inside the new one. */
+static status bring_base(case_edits *e, const layer *l, const char *folder, const char *to)
+{
+    const tree_node *base = host_tree_find(l->root, "base");
+    if (!base || base->kind != TREE_TEXT) return status_ok();
+    char path[CASE_START_SIZE], file[CASE_PATH_SIZE], where[CASE_PATH_SIZE], inner[CASE_START_SIZE], now[TREE_MAX_TEXT];
+    TRY(path_in(path, folder, base->text));
+    TRY(case_file_of(path, file));
+    CHECK(height(l) < CASE_MAX_FILES, STATUS_BAD_INPUT, "%.300s: a chain of more than %d bases", file,
+          CASE_MAX_FILES - 1);
+    char *real = realpath(file, NULL);
+    CHECK(real && strlen(real) < CASE_PATH_SIZE, STATUS_BAD_INPUT, "base %.300s: there is no such case", file);
+    case_folder_of(real, where);
+    const char *of = last_part(where), *as = last_part(real);
+    snprintf(now, sizeof now, strcmp(as, "case.yaml") == 0 ? "%.400s" : "%.400s/%.400s", of, as);
+    case_edit_value(e, base, now);
+    status s = path_in(inner, to, of);
+    if (s.code == STATUS_OK) s = copy_case(real, inner, as, NULL, l);
+    free(real);
+    return s;
+}
+
+/* The case's own name, and comments. */
+static void make_own(case_edits *e, const tree_node *root, const char *file, const char *name)
+{
+    const tree_node *old = host_tree_find(root, "name");
+    case_edit_add(e, case_edit_place(e, 1, 1), 0,
+                  "# %s, begun from %s by `breech new`.\n# Every key: breech --keys.  What it needs: breech check.\n",
+                  name, file);
+    if (old && old->kind == TREE_TEXT)
+        case_edit_value(e, old, name);
+    else
+        case_edit_add(e, case_edit_place(e, 1, 1), 0, "name: %s\n", name);
+    case_comments_add(e, root);
+}
+
+/* A case file with what belongs to it, as to/as.  name NULL: it keeps its own, and its comments. */
+static status copy_case(const char *file, const char *to, const char *as, const char *name, const layer *above)
+{
+    char folder[CASE_PATH_SIZE], path[CASE_START_SIZE], *bytes = NULL, *text = NULL;
+    size_t length = 0;
+    int line, column;
+    tree_node *root = NULL;
+    case_folder_of(file, folder);
+    TRY(path_in(path, to, as));
+    TRY(host_file_read(file, &bytes, &length));
+    case_edits e = { .text = bytes, .length = length };
+    status s = host_tree_parse(bytes, length, &root, &line, &column);
+    if (s.code == STATUS_OK) s = host_folder_make(to);
+    if (s.code == STATUS_OK) s = bring_files(&e, root, folder, to);
+    for (const layer *l = above; l && s.code == STATUS_OK; l = l->above) s = bring_files(NULL, l->root, folder, to);
+    if (s.code == STATUS_OK) s = bring_base(&e, &(layer){ root, above }, folder, to);
+    if (s.code == STATUS_OK && name) make_own(&e, root, file, name);
+    if (s.code == STATUS_OK) s = case_edits_apply(&e, &text, &length);
+    if (s.code == STATUS_OK) s = host_file_write(path, text, length);
+    case_edits_free(&e);
+    host_tree_free(root);
+    free(text);
+    free(bytes);
+    return s;
+}
+
+status case_new_make(const char *path, const char *file)
+{
+    char folder[CASE_START_SIZE];
+    struct stat there;
+    const int n = snprintf(folder, sizeof folder, "%s", path);
+    CHECK(n < CASE_PATH_SIZE - 20, STATUS_BAD_INPUT, "%.200s...: the path is too long", path);
+    for (int end = n; end > 1 && folder[end - 1] == '/';) folder[--end] = '\0';
+    const char *name = last_part(folder);
+    CHECK(host_name_is_plain(name), STATUS_BAD_INPUT,
+          "%.200s is no name for a case: letters, digits, - _ and dots, no dot first", path);
+    CHECK(lstat(folder, &there) != 0, STATUS_BAD_INPUT, "%s is there already: take another name, or remove it", folder);
+    return copy_case(file, folder, "case.yaml", name, NULL);
+}
