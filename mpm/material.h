@@ -33,6 +33,8 @@ typedef enum {
     ROW(sound_speed, "m/s", MATERIAL_FOR_SCREEN, 100.0, 2e4, "bulk sound speed c0 of us = c0 + s up")            \
     ROW(hugoniot_slope, "1", MATERIAL_FOR_SCREEN, 0.0, 5.0, "slope s of us = c0 + s up")                         \
     ROW(rate_0, "1/s", 0, 1e-6, 1e6, "reference strain rate of strength and failure; slower ones count as this") \
+    ROW(cold_work, "1", 0, 0.0, 100.0,                                                                           \
+        "plastic strain it has had before, from which its law of strength begins; not given: none")              \
     ROW(molar_mass, "kg/mol", 0, 1e-3, 0.5, "molar mass")                                                        \
     ROW(taylor_quinney, "1", 0, 0.0, 1.0, "share of plastic work that becomes heat (heat by plastic work only)") \
     ROW(spall_strength, "Pa", 0, 1e5, 1e11, "tension at which it fails")                                         \

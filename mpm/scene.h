@@ -39,7 +39,8 @@ typedef struct {
     double traction[3];   /* on all of its surface that looks towards `traction_face` [Pa]; zero = none */
     int traction_face;    /* 0..5 = -x +x -y +y -z +z */
     double yield_scale;   /* factor on the yield stress (hardened skin), 1 = none */
-    bool damage;          /* Johnson-Cook damage on */
+    double cold_work; /* plastic strain before the scene, where the law of strength begins; NAN: the material's [1] */
+    bool damage;      /* Johnson-Cook damage on */
     bool
         passes[MPM_FACES]; /* the window's ends -x +x -y +y -z +z whose boundary does not act on this body; the same for
                                all bodies of a group */

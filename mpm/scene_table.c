@@ -50,6 +50,8 @@ const param mpm_body_params[] = {
     PARAM_VEC3(mpm_body, traction, "Pa", 0.0, -1e13, 1e13, "on all of its surface that looks towards traction_face"),
     PARAM_ENUM(mpm_body, traction_face, mpm_face_names, 0, "where that surface looks"),
     PARAM_DOUBLE(mpm_body, yield_scale, "1", 1.0, 1e-3, 1e3, "factor on the yield stress: hardening"),
+    PARAM_DOUBLE(mpm_body, cold_work, "1", OPTIONAL, 0.0, 100.0,
+                 "plastic strain before the scene, from which its law of strength begins; not given: its material's"),
     PARAM_BOOL(mpm_body, damage, 0, "its material's law of failure acts"),
     PARAMS_END,
 };

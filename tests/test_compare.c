@@ -213,8 +213,10 @@ static void test_what_they_do(void **state)
     for (int k = 0; k < TREATMENT_KINDS; k++)
         n += snprintf(text + n, sizeof text - (size_t)n, "  - name: t%d\n    %s\n", k, example[k]);
     breech_case *c = read(text, ALL);
-    const case_onset given = case_inputs_of(c).onset;
+    case_onset given = case_inputs_of(c).onset;
     case_onset treated;
+    assert_true(isnan(given.impact.rail.cold_work)); /* the material's */
+    given.impact.rail.cold_work = 0.2;
     OK(case_treat(&given, &c->treatments.item[TREATMENT_coating], &treated));
     assert_int_equal(treated.impact.rail.layers.n, 2);
     assert_string_equal(treated.impact.rail.layers.item[1].material, "ofhc_copper"); /* the last is on top */
@@ -222,11 +224,12 @@ static void test_what_they_do(void **state)
     OK(case_treat(&given, &c->treatments.item[TREATMENT_hardening], &treated));
     assert_int_equal(treated.impact.rail.layers.n, 1);
     assert_true(treated.impact.rail.layers.item[0].yield_scale == 3.0 &&
-                isnan(treated.impact.rail.layers.item[0].bond_strength));
+                isnan(treated.impact.rail.layers.item[0].bond_strength) &&
+                treated.impact.rail.layers.item[0].cold_work == 0.2);
     case_treated_free(&treated);
     OK(case_treat(&given, &c->treatments.item[TREATMENT_rail_metal], &treated));
     assert_string_equal(treated.populations.item[0].material, "steel_4340"); /* was the rail's */
-    assert_true(treated.impact.rail.yield_scale == 1.0);
+    assert_true(treated.impact.rail.yield_scale == 1.0 && isnan(treated.impact.rail.cold_work));
     case_treated_free(&treated);
     OK(case_treat(&given, &c->treatments.item[TREATMENT_polish], &treated));
     assert_true(fabs(treated.populations.item[0].radius_median - 0.18e-3) < 1e-12);

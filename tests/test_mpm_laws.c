@@ -49,7 +49,9 @@ static law law_at(const material *m, double temperature, double scale)
     mpm_scene s;
     mpm_scene_default(&s);
     const bool damage = mpm_material_check(m, MATERIAL_FOR_DAMAGE).code == STATUS_OK;
-    const mpm_body b = { .material = m, .temperature = temperature, .yield_scale = scale, .damage = damage };
+    const mpm_body b = {
+        .material = m, .temperature = temperature, .yield_scale = scale, .cold_work = NAN, .damage = damage
+    };
     law k;
     assert_ok(mpm_law_make(&b, &s, &k));
     return k;

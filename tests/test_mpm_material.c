@@ -237,6 +237,102 @@ static void test_ptw(void **state)
     assert_near(ptw_stress(&flat, 1, 0.1, 1, 293) / (s - (s - y) * exp(-0.025 * 0.1 * G2 / (s - y))), 1, 1e-4);
 }
 
+/* Flow stress at a plastic strain, rate and temperature, by the law alone. */
+static double law_stress(const law *k, double e, double rate, double T)
+{
+    const flow_state at = { .strain = vd_set(e),
+                            .log_rate = vd_set(log(fmax(rate * k->inv_rate0, 1))),
+                            .T = vd_set(T),
+                            .T_star = clamp01(vd_set((T - k->T_r) * k->inv_T_range)),
+                            .rho = vd_set(k->rho0) };
+    return flow_stress(k, law_form_of(k, k->kernel), &at)[0];
+}
+
+/* Annealed copper of Follansbee and Kocks. */
+static material mts_copper(void)
+{
+    material m = ptw_copper();
+    m.strength = STRENGTH_mts;
+    m.mts_sigma_a = 40e6, m.mts_mu0 = 47.7e9, m.mts_D = 3e9, m.mts_T0 = 180, m.mts_k_b3 = 0.823e6, m.mts_g0 = 1.6;
+    m.mts_rate = 1e7, m.mts_p = 0.666667, m.mts_q = 1, m.mts_a0 = 2390e6, m.mts_a1 = 12e6, m.mts_a2 = 1.696e6;
+    m.mts_alpha = 2, m.mts_g0_s = 0.2625, m.mts_rate_s = 1e7, m.mts_sigma_s0 = 770e6;
+    return m;
+}
+
+/* (M-25) against mpmath, 25 digits, where sigma_e is found from its differential equation by quadrature: it checks the
+ * closed integral, too.  1e-8: five steps of Newton's rule. */
+static void test_mts(void **state)
+{
+    (void)state;
+    static const double table[][4] = {
+        { 0, 1, 293, 40000000.0 },         { 0.05, 1, 293, 122265572.022 },  { 0.3, 1000, 293, 329748846.736 },
+        { 0.2, 2000, 873, 168288800.407 }, { 0.5, 2e5, 400, 441508973.992 }, { 1, 2e5, 300, 561019938.826 },
+        { 3, 1e6, 293, 697134681.33 },     { 0.27, 3e7, 900, 507566908.9 },  { 2, 100, 1300, 89155500.1664 },
+    };
+    material m = mts_copper();
+    const law k = specimen_of(m, 0, 0, false).k;
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
+        const double *t = table[i];
+        assert_near(law_stress(&k, t[0], t[1], t[2]) / t[3], 1, 1e-8);
+    }
+    assert_near(law_stress(&k, 0.3, 1000, 1356), 0, 0); /* molten */
+    m.rate_0 = 1e3;                                     /* rates below rate_0 count as rate_0 */
+    const law slow = specimen_of(m, 0, 0, false).k;
+    assert_near(law_stress(&slow, 0.3, 1, 293) / 329748846.736, 1, 1e-8);
+    assert_near(law_stress(&slow, 1, 2e5, 300) / 561019938.826, 1, 1e-8);
+}
+
+/* Cold work is strain: of the material, or of the body in place of it; in every law, and in the stress of the start. */
+static void test_cold_work(void **state)
+{
+    (void)state;
+    material sg = scene_copper();
+    sg.strength = STRENGTH_steinberg_guinan, sg.sg_G0 = 47.7e9, sg.sg_A = 0, sg.sg_B = 0, sg.sg_Y0 = 0.12e9;
+    sg.sg_Y_max = 0.64e9, sg.sg_beta = 36, sg.sg_n = 0.45, sg.sg_T_m0 = 1790, sg.sg_a = 1.5, sg.sg_g0 = 2.02;
+    const material all[] = { scene_copper(), ptw_copper(), mts_copper(), sg };
+    SCENE_LOCAL(s);
+    mpm_scene_default(&s);
+    for (int i = 0; i < 4; i++) {
+        material m = all[i];
+        mpm_body b = { .material = &m, .temperature = m.reference_temperature, .yield_scale = 1, .cold_work = NAN };
+        law plain, own, body;
+        assert_ok(mpm_law_make(&b, &s, &plain));
+        m.cold_work = 0.25;
+        assert_ok(mpm_law_make(&b, &s, &own));
+        b.cold_work = 0.4;
+        assert_ok(mpm_law_make(&b, &s, &body));
+        for (double e = 0; e < 1; e += 0.3) {
+            assert_near(law_stress(&own, e, 1e3, 400) / law_stress(&plain, e + 0.25, 1e3, 400), 1, 1e-12);
+            assert_near(law_stress(&body, e, 1e3, 400) / law_stress(&plain, e + 0.4, 1e3, 400), 1, 1e-12);
+        }
+        const double T = m.reference_temperature;
+        assert_near(own.flow_start / law_stress(&plain, 0.25, 1, T), 1, 1e-5); /* (M-25) starts from an integration */
+        assert_true(own.flow_start > 1.2 * plain.flow_start);
+        assert_true(own.least_flow >= plain.least_flow);
+    }
+}
+
+/* Hardening that ends with the strain of the tests. */
+static void test_hardening_strain(void **state)
+{
+    (void)state;
+    material m = scene_copper();
+    const law plain = specimen_of(m, 0, 0, false).k;
+    m.hardening_strain = 0.15;
+    const law limited = specimen_of(m, 0, 0, false).k;
+    assert_near(law_stress(&limited, 0.1, 1e4, 400) / law_stress(&plain, 0.1, 1e4, 400), 1, EXACT);
+    assert_near(law_stress(&limited, 0.15, 1e4, 400) / law_stress(&plain, 0.15, 1e4, 400), 1, EXACT);
+    assert_near(law_stress(&limited, 3, 1e4, 400) / law_stress(&plain, 0.15, 1e4, 400), 1, EXACT);
+    m.cold_work = 1;
+    assert_near(specimen_of(m, 0, 0, false).k.flow_start, m.yield_A, EXACT * m.yield_A); /* the body's is zero */
+    const mpm_body worked = { .material = &m, .temperature = 293, .yield_scale = 1, .cold_work = NAN };
+    SCENE_LOCAL(s);
+    mpm_scene_default(&s);
+    law k;
+    assert_ok(mpm_law_make(&worked, &s, &k));
+    assert_near(k.flow_start / (m.yield_A + m.hardening_B * pow(0.15, m.hardening_n)), 1, EXACT);
+}
+
 /* The bound below which nothing is computed holds, and is not idle: within a factor of three of the stress of a cold
  * metal. A body's yield_scale reaches both. */
 static void test_ptw_bound(void **state)
@@ -489,6 +585,29 @@ static void test_damage_extended(void **state)
     for (int i = 0; i < 600; i++) strain(&p, L, step / rate);
     assert_near(p.q.damage[0][0], 0, 0);
     assert_true(p.q.ep[0][0] > fails);
+}
+
+/* Growth of damage by a strain of 0.01 at this triaxiality gives the strain of fracture. */
+static double fracture_strain(const law *k, double triaxiality)
+{
+    const failure_state s = { vd_set(0.01), vd_set(0.01), vd_set(triaxiality), vd_set(1), vd_set(0), vd_set(0) };
+    return 0.01 / damage_growth(k, &s)[0];
+}
+
+/* The fracture strain in compression bounds the formula's, more loosely under more pressure; tension keeps its own. */
+static void test_damage_compression(void **state)
+{
+    (void)state;
+    material m = scene_copper();
+    m.damage_D1 = 0.11, m.damage_D2 = 0.573, m.damage_D3 = -3.4446, m.damage_D4 = m.damage_D5 = 0;
+    const law plain = specimen_of(m, 0, 0, true).k;
+    m.damage_compression = 0.3;
+    const law bounded = specimen_of(m, 0, 0, true).k;
+    assert_near(fracture_strain(&plain, -1.0 / 3.0), 0.11 + 0.573 * exp(3.4446 / 3), 1e-9);
+    assert_near(fracture_strain(&bounded, -1.0 / 3.0), 0.3, 1e-9);
+    assert_near(fracture_strain(&bounded, -0.1), 0.3, 1e-9);
+    assert_near(fracture_strain(&bounded, -1), 0.3 * exp(3.4446 * 2 / 3), 1e-8);
+    assert_near(fracture_strain(&bounded, 0.6) / fracture_strain(&plain, 0.6), 1, EXACT);
 }
 
 /* Tension up to the spall strength is borne, more fails the point in that step; by either law that reads it. */
@@ -754,6 +873,10 @@ int main(void)
         cmocka_unit_test(test_viscosity),
         cmocka_unit_test(test_damage),
         cmocka_unit_test(test_damage_extended),
+        cmocka_unit_test(test_mts),
+        cmocka_unit_test(test_cold_work),
+        cmocka_unit_test(test_hardening_strain),
+        cmocka_unit_test(test_damage_compression),
         cmocka_unit_test(test_spall),
         cmocka_unit_test(test_fluid),
         cmocka_unit_test(test_fluid_hugoniot),

@@ -21,6 +21,8 @@ static const param layer_params[] = {
     PARAM_DOUBLE(case_layer, bond_strength, "Pa", OPTIONAL, 0.0, 1e11,
                  "traction at which it comes off what lies below; not given: never"),
     PARAM_DOUBLE(case_layer, yield_scale, "1", 1.0, 0.01, 100.0, "hardening: factor on the yield stress"),
+    PARAM_DOUBLE(case_layer, cold_work, "1", OPTIONAL, 0.0, 100.0,
+                 "plastic strain it has had, from which its law of strength begins; not given: its material's"),
     PARAMS_END,
 };
 
@@ -29,6 +31,8 @@ static const param rail_params[] = {
     PARAM_DOUBLE(case_rail, temperature, "K", 293.0, 4.0, 2000.0, "rail ahead of the armature: initial or preheat"),
     PARAM_DOUBLE(case_rail, yield_scale, "1", 1.0, 0.01, 100.0,
                  "hardening of the whole rail: factor on the yield stress, and on the hardness in the screen"),
+    PARAM_DOUBLE(case_rail, cold_work, "1", OPTIONAL, 0.0, 100.0,
+                 "plastic strain it has had, from which its law of strength begins; not given: its material's"),
     PARAMS_END,
 };
 

@@ -37,6 +37,7 @@ typedef struct {
     double thickness;     /* [m] */
     double bond_strength; /* to what lies below [Pa]; NAN: welded for good */
     double yield_scale;   /* factor on the yield stress [1] */
+    double cold_work;     /* plastic strain it has had; NAN: its material's [1] */
 } case_layer;
 
 typedef struct {
@@ -49,6 +50,7 @@ typedef struct {
     char material[PARAM_TEXT_SIZE];
     double temperature; /* ahead of the armature [K] */
     double yield_scale; /* hardening: factor on the yield stress, and on the hardness in the screen [1] */
+    double cold_work;   /* plastic strain it has had; NAN: its material's [1] */
     case_layers layers;
 } case_rail;
 

@@ -16,7 +16,8 @@ status case_treatment_hardening_apply(const treatment_settings *t, case_onset *c
 {
     case_layer skin = { .thickness = t->value[DEPTH],
                         .bond_strength = NAN,
-                        .yield_scale = c->impact.rail.yield_scale * t->value[FACTOR] };
+                        .yield_scale = c->impact.rail.yield_scale * t->value[FACTOR],
+                        .cold_work = c->impact.rail.cold_work };
     memcpy(skin.material, c->impact.rail.material, sizeof skin.material);
     return case_layers_add(&c->impact.rail.layers, 0, &skin);
 }

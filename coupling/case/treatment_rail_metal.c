@@ -24,6 +24,6 @@ status case_treatment_rail_metal_apply(const treatment_settings *t, case_onset *
     for (int i = 0; i < c->populations.n; i++) exchange(c->populations.item[i].material, former, t->material);
     exchange(c->impact.particle.material, former, t->material);
     exchange(c->impact.rail.material, former, t->material);
-    c->impact.rail.yield_scale = t->value[YIELD_SCALE];
+    c->impact.rail.yield_scale = t->value[YIELD_SCALE], c->impact.rail.cold_work = NAN;
     return status_ok();
 }

@@ -210,7 +210,7 @@ static status add_rail(const case_impact *c, const layout *l, gouge_scene *g, in
     g->layers = c->rail.layers.n;
     TRY(add_body(s, "rail", case_material(&c->materials, c->rail.material), *group, &rail));
     TRY(make_box(s, rail, l, -c->scene.rail_depth, -l->layers));
-    rail->yield_scale = c->rail.yield_scale;
+    rail->yield_scale = c->rail.yield_scale, rail->cold_work = c->rail.cold_work;
     double bottom = -l->layers;
     for (int i = 0; i < c->rail.layers.n; i++) {
         const case_layer *layer = &c->rail.layers.item[i];
@@ -220,7 +220,7 @@ static status add_rail(const case_impact *c, const layout *l, gouge_scene *g, in
         TRY(add_body(s, name, case_material(&c->materials, layer->material), *group, &b));
         const bool last = i == c->rail.layers.n - 1;
         TRY(make_box(s, b, l, bottom, last ? 0.0 : bottom + layer->thickness));
-        b->yield_scale = layer->yield_scale;
+        b->yield_scale = layer->yield_scale, b->cold_work = layer->cold_work;
         bottom += layer->thickness;
     }
     return status_ok();

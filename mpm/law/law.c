@@ -105,6 +105,8 @@ status mpm_law_make(const mpm_body *body, const mpm_scene *scene, law *out)
     k.q1 = scene->viscosity_linear, k.q2 = scene->viscosity_quadratic;
     k.plastic_heat = scene->heat_by_plastic_work;
     k.chi = isnan(m.taylor_quinney) ? 0.9 : m.taylor_quinney;
+    const double given = isnan(body->cold_work) ? m.cold_work : body->cold_work;
+    k.cold_work = isnan(given) ? 0 : given;
     k.inv_rate0 = 1 / (isnan(m.rate_0) ? 1 : m.rate_0);
     thermal(&k, &m);
     TRY(derive_eos(&k, &m));

@@ -55,6 +55,7 @@ typedef struct law {
     double p_rest;       /* pressure at rest above the surroundings'; 0 but for a gas [Pa] */
     double inv_rate0;    /* [s] */
     double least_flow;   /* flow stress >= least_flow (1 - T*); 0: no bound is known [Pa] */
+    double cold_work;    /* plastic strain before the scene, added to that of the points [1] */
     double flow_start;   /* first flow stress [Pa] */
     double softening;    /* fraction of the flow stress lost to damage when a point fails [1] */
     double spall;        /* tension at which a point fails [Pa], HUGE_VAL: none */

@@ -36,7 +36,7 @@ LANE_INLINE vd power(vd x, double n)
 
 /* Arguments of a law of strength. */
 typedef struct {
-    vd strain;    /* equivalent plastic strain [1] */
+    vd strain;    /* equivalent plastic strain, a law of strength gets it with the cold work before the scene [1] */
     vd log_rate;  /* ln(edot/edot0), at least 0 */
     vd T, T_star; /* [K]; (T - T_r)/(T_m - T_r) in 0 .. 1 */
     vd p, rho;    /* without viscosity [Pa], [kg/m3]; only for a law whose shear VARIES */
@@ -74,10 +74,11 @@ LANE_INLINE law_form law_form_of(const law *k, int kernel)
 
 LANE_INLINE vd flow_stress(const law *k, law_form f, const flow_state *s)
 {
+    const vd strain = s->strain + k->cold_work;
 #define STRENGTH(name, shear_, text)                                      \
     if (f.shear == SHEAR_##shear_ && k->strength.kind == STRENGTH_##name) \
         return strength_##name##_flow(&k->strength.name,                  \
-                                      &(flow_state){ s->strain, s->log_rate, s->T, s->T_star, s->p, s->rho });
+                                      &(flow_state){ strain, s->log_rate, s->T, s->T_star, s->p, s->rho });
 #include "mpm/law/strength.def"
     return vd_set(0);
 }

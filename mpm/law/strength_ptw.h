@@ -55,7 +55,7 @@ static double strength_ptw_least(const law *k)
     double least = HUGE_VAL;
     for (int i = 0; i < STEPS; i++) {
         const double T_star = (double)i / STEPS, T = k->T_r + T_star * (k->T_m - k->T_r);
-        least = fmin(least, strength_ptw_flow_at(&k->strength.ptw, 0, 0, T) / (1 - T_star));
+        least = fmin(least, strength_ptw_flow_at(&k->strength.ptw, k->cold_work, 0, T) / (1 - T_star));
     }
     return least;
 }
@@ -84,7 +84,7 @@ static status strength_ptw_derive(law *k, const material *m, double scale)
         .cold_work = m->ptw_cold_work,
     };
     k->least_flow = strength_ptw_least(k);
-    k->flow_start = strength_ptw_flow_at(&k->strength.ptw, 0, 0, k->T_r);
+    k->flow_start = strength_ptw_flow_at(&k->strength.ptw, k->cold_work, 0, k->T_r);
     return status_ok();
 }
 #endif

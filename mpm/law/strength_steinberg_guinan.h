@@ -43,7 +43,8 @@ static status strength_steinberg_guinan_derive(law *k, const material *m, double
                                                                 .inv_rho0 = 1 / m->density };
     const double soft = fmax(1 - m->sg_B * (k->T_r - STEINBERG_GUINAN_T), STEINBERG_GUINAN_SOFTEST);
     k->G = m->sg_G0 * soft;
-    k->flow_start = scale * fmin(m->sg_Y0 * pow(1 + m->sg_beta * m->sg_strain, m->sg_n), m->sg_Y_max) * soft;
+    const double strain = m->sg_strain + k->cold_work;
+    k->flow_start = scale * fmin(m->sg_Y0 * pow(1 + m->sg_beta * strain, m->sg_n), m->sg_Y_max) * soft;
     return status_ok();
 }
 #endif

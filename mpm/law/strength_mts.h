@@ -1,0 +1,120 @@
+/* Mechanical threshold stress: Follansbee and Kocks, Acta Metall. 36 (1988) 81, of one structure at the strain, the
+ * rate and the temperature of now:                                                                        (M-25)
+ *   sigma_y = sigma_a + mu/mu0 S sigma_e,   mu = mu0 - D/(exp(T0/T) - 1)  [Pa]; zero when molten
+ *   S = [1 - (k T/(mu b^3 g0) ln(edot_0/edot))^(1/q)]^(1/p), in 0 .. 1
+ *   d sigma_e/de = theta (1 - tanh(alpha sigma_e/sigma_s)/tanh alpha),   sigma_e = 0 at e = 0
+ *   theta = a0 + a1 ln(edot s) + a2 sqrt(edot s),   sigma_s = sigma_s0 (edot/edot_s)^(k T/(mu b^3 g0_s))
+ * The paper lets sigma_e remember under which rates and temperatures it grew; here it is that of a test at the present
+ * ones, as with the other laws, so that a point needs no variable of its own. */
+STRENGTH(mts, FIXED, "mechanical threshold stress (M-25)")
+CONSTANT(mts_sigma_a, "Pa", REQUIRED, 0.0, 1e10,
+         "mechanical threshold stress sigma_a: part without rate or temperature")
+CONSTANT(mts_mu0, "Pa", REQUIRED, 1e6, 1e12, "mechanical threshold stress mu0: shear modulus at T = 0")
+CONSTANT(mts_D, "Pa", REQUIRED, 0.0, 1e11, "mechanical threshold stress D: its fall with temperature")
+CONSTANT(mts_T0, "K", REQUIRED, 1.0, 2e3, "mechanical threshold stress T0: temperature of that fall")
+CONSTANT(mts_k_b3, "Pa/K", REQUIRED, 1e4, 1e8,
+         "mechanical threshold stress k/b^3: Boltzmann's constant, Burgers vector")
+CONSTANT(mts_g0, "1", REQUIRED, 1e-3, 100.0, "mechanical threshold stress g0: activation energy of flow")
+CONSTANT(mts_rate, "1/s", REQUIRED, 1.0, 1e15, "mechanical threshold stress edot_0: rate of flow without barriers")
+CONSTANT(mts_p, "1", REQUIRED, 0.1, 2.0, "mechanical threshold stress p: form of the barriers")
+CONSTANT(mts_q, "1", REQUIRED, 0.1, 3.0, "mechanical threshold stress q: form of the barriers")
+CONSTANT(mts_a0, "Pa", REQUIRED, 0.0, 1e12, "mechanical threshold stress a0: first rate of hardening")
+CONSTANT(mts_a1, "Pa", REQUIRED, 0.0, 1e10, "mechanical threshold stress a1: times ln of the rate in 1/s")
+CONSTANT(mts_a2, "Pa", REQUIRED, 0.0, 1e10, "mechanical threshold stress a2: times the root of the rate in 1/s")
+CONSTANT(mts_alpha, "1", REQUIRED, 0.1, 2.5, "mechanical threshold stress alpha: how hardening ends")
+CONSTANT(mts_g0_s, "1", REQUIRED, 1e-3, 100.0, "mechanical threshold stress g0_s: activation energy of saturation")
+CONSTANT(mts_rate_s, "1/s", REQUIRED, 1.0, 1e15, "mechanical threshold stress edot_s: rate of saturation at sigma_s0")
+CONSTANT(mts_sigma_s0, "Pa", REQUIRED, 1e5, 1e11, "mechanical threshold stress sigma_s0: where hardening ends at T = 0")
+NEEDS(rate_0)
+NEEDS(youngs_modulus)
+NEEDS(poisson)
+NEEDS(melting_temperature)
+
+#ifdef LAW_STRUCT
+typedef struct {
+    double sigma_a, sigma_s0; /* times the body's yield_scale [Pa] */
+    double mu0, D, T0, k_b3, inv_g0, inv_p, inv_q, inv_g0_s;
+    double a0, a1, a2; /* times the body's yield_scale [Pa] */
+    double alpha, sinh_alpha, cosh_alpha, inv_tanh;
+    double ln_rate0;               /* ln of rate_0 in 1/s */
+    double ln_barrier, ln_plateau; /* ln(edot_0/rate_0), ln(edot_s/rate_0) */
+} strength_mts;
+#endif
+
+#ifdef LAW_DERIVE
+/* The flow stress where sigma_e = 0 and, with cold work, by its equation: for the start only. */
+static double strength_mts_start(const strength_mts *k, double strain, double T)
+{
+    enum { STEPS = 4000 };
+    const double mu = k->mu0 - k->D / expm1(k->T0 / T), barrier = k->k_b3 * T / mu;
+    const double open = pow(fmax(barrier * k->inv_g0 * k->ln_barrier, 0), k->inv_q);
+    const double S = pow(fmax(1 - open, 0), k->inv_p);
+    const double end = k->sigma_s0 * exp(-barrier * k->inv_g0_s * k->ln_plateau);
+    const double theta = k->a0 + k->a1 * k->ln_rate0 + k->a2 * exp(0.5 * k->ln_rate0), d = theta * strain / STEPS;
+    double sigma = 0; /* by the midpoint rule */
+    for (int i = 0; i < STEPS; i++) {
+        const double half = sigma + 0.5 * d * (1 - tanh(k->alpha * sigma / end) * k->inv_tanh);
+        sigma += d * (1 - tanh(k->alpha * half / end) * k->inv_tanh);
+    }
+    return k->sigma_a + mu / k->mu0 * S * sigma;
+}
+
+static status strength_mts_derive(law *k, const material *m, double scale)
+{
+    k->strength.mts = (strength_mts){ .sigma_a = scale * m->mts_sigma_a,
+                                      .sigma_s0 = scale * m->mts_sigma_s0,
+                                      .mu0 = m->mts_mu0,
+                                      .D = m->mts_D,
+                                      .T0 = m->mts_T0,
+                                      .k_b3 = m->mts_k_b3,
+                                      .inv_g0 = 1 / m->mts_g0,
+                                      .inv_p = 1 / m->mts_p,
+                                      .inv_q = 1 / m->mts_q,
+                                      .inv_g0_s = 1 / m->mts_g0_s,
+                                      .a0 = scale * m->mts_a0,
+                                      .a1 = scale * m->mts_a1,
+                                      .a2 = scale * m->mts_a2,
+                                      .alpha = m->mts_alpha,
+                                      .sinh_alpha = sinh(m->mts_alpha),
+                                      .cosh_alpha = cosh(m->mts_alpha),
+                                      .inv_tanh = 1 / tanh(m->mts_alpha),
+                                      .ln_rate0 = -log(k->inv_rate0),
+                                      .ln_barrier = log(m->mts_rate * k->inv_rate0),
+                                      .ln_plateau = log(m->mts_rate_s * k->inv_rate0) };
+    k->flow_start = strength_mts_start(&k->strength.mts, k->cold_work, k->T_r);
+    return status_ok();
+}
+#endif
+
+#ifdef LAW_LANES
+/* sigma_e/sigma_s at a strain of x sigma_s/theta, from the closed integral of its equation:
+ *   sinh a (w cosh a - sinh a (a - y)) = a x,   sinh y = sinh a exp(-w),   sigma_e/sigma_s = 1 - y/a.
+ * The left side is convex in w with a slope between tanh a and sinh a cosh a.  Newton's rule begins at the least of
+ * the two bounds that these slopes give, above the root, and comes down to it: five steps to 1e-8 with a <= 2.5. */
+LANE_INLINE vd mts_hardened(const strength_mts *k, vd x)
+{
+    enum { STEPS = 5 };
+    const double a = k->alpha, S = k->sinh_alpha, C = k->cosh_alpha;
+    const vd want = a * x;
+    vd w = vd_min(want * k->inv_tanh, (want + S * S * a) / (S * C)), y = vd_set(0);
+    for (int i = 0; i <= STEPS; i++) {
+        const vd z = S * vd_exp(-w), root = vd_sqrt(1 + z * z);
+        y = vd_log(z + root);
+        if (i < STEPS) w -= (S * (C * w - S * (a - y)) - want) / (S * (C - S * z / root));
+    }
+    return 1 - y / a;
+}
+
+LAW_CALL vd strength_mts_flow(const strength_mts *k, const flow_state *s)
+{
+    const vd one = vd_set(1), zero = vd_set(0);
+    const vd mu = k->mu0 - k->D / (vd_exp(k->T0 / s->T) - 1), barrier = k->k_b3 * s->T / mu;
+    const vd open = barrier * k->inv_g0 * vd_max(k->ln_barrier - s->log_rate, zero);
+    const vd S = power(vd_max(1 - power(open, k->inv_q), zero), k->inv_p);
+    const vd end = k->sigma_s0 * vd_exp(barrier * k->inv_g0_s * (s->log_rate - k->ln_plateau));
+    const vd ln_rate = s->log_rate + k->ln_rate0;
+    const vd theta = k->a0 + k->a1 * ln_rate + k->a2 * vd_exp(0.5 * ln_rate);
+    const vd stress = k->sigma_a + mu * (1 / k->mu0) * S * end * mts_hardened(k, s->strain * theta / end);
+    return vd_where(vd_less(s->T_star, one), stress);
+}
+#endif
