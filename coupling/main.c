@@ -12,6 +12,7 @@
 #include "coupling/run/crew.h"
 #include "coupling/run/ranks.h"
 #include "coupling/study/check.h"
+#include "coupling/study/flow.h"
 #include "coupling/study/study.h"
 
 #include <errno.h>
@@ -55,6 +56,7 @@ struct options {
 static int run_case(const options *o);
 static int run_check(const options *o);
 static int run_materials(const options *o);
+static int run_flow(const options *o);
 static int run_report(const options *o);
 static int run_new(const options *o);
 
@@ -63,6 +65,11 @@ static const command others[] = {
       "Writes nothing.  Checks the case for every command whose sections it has.", run_check, true, NULL },
     { "materials", "[NAME]", "materials at hand; the constants of one, with their sources", "", run_materials, false,
       NULL },
+    { "flow", "NAME", "flow stress of a material over plastic strain, as the solver computes it",
+      "Prints columns: strain, flow stress, temperature.  --set strain=, points=, rate=, temperature=, pressure=,\n"
+      "cold_work=, yield_scale=, heat= (share of the plastic work that warms it, 0: isothermal); quantities with "
+      "units.",
+      run_flow, true, NULL },
     { "report", "DIR", "make report.html of an output directory anew", "", run_report, true, NULL },
     { "new", "NAME", "begin a case of your own: the folder NAME with a case.yaml that runs as it is",
       "Begins from a shipped case, every key with a comment; --from chooses it.  What is there already stays.", run_new,
@@ -423,20 +430,38 @@ static int print_names(const material_places *at)
     return EXIT_DONE;
 }
 
+static status open_material(const char *name, material_sheet *sheet)
+{
+    material_places at;
+    char *errors = NULL;
+    case_material_places_find(&at);
+    const status s = case_material_sheet_open(name, at.dir, at.n, sheet, &errors);
+    if (errors) fputs(errors, stderr);
+    free(errors);
+    return s;
+}
+
 static int run_materials(const options *o)
 {
     material_places at;
     material_sheet sheet;
-    char *errors = NULL;
     case_material_places_find(&at);
     if (!o->subject) return print_names(&at);
-    const status s = case_material_sheet_open(o->subject, at.dir, at.n, &sheet, &errors);
-    if (errors) fputs(errors, stderr);
-    free(errors);
+    const status s = open_material(o->subject, &sheet);
     if (s.code != STATUS_OK) return complain(s);
     print_sheet(&sheet);
     case_material_sheet_free(&sheet);
     return EXIT_DONE;
+}
+
+static int run_flow(const options *o)
+{
+    material_sheet sheet;
+    status s = open_material(o->subject, &sheet);
+    if (s.code != STATUS_OK) return complain(s);
+    s = study_flow_print(&sheet.material, o->sets, o->n_sets, stdout);
+    case_material_sheet_free(&sheet);
+    return complain(s);
 }
 
 /* ---- the rest ---- */

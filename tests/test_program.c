@@ -175,6 +175,27 @@ static void test_check_and_materials(void **state)
     assert_true(contains("out.txt", "yield_A"));
 }
 
+/* Johnson-Cook by hand: 90 + 292 0.5^0.31 = 325.54 MPa times 1 + 0.025 ln 1000 = 1.17269, isothermal.  0.9 of the work
+ * would warm copper by 41.5 K if it did not soften; by 41 K the stress falls by T*^m = 0.0287. */
+static void test_flow(void **state)
+{
+    (void)state;
+    assert_int_equal(run("flow ofhc_copper --set strain=0.5 --set points=2 --set 'rate=1000 1/s'"), 0);
+    assert_true(contains("out.txt", "Johnson-Cook") && contains("out.txt", "\n0.25 ") &&
+                contains("out.txt", "\n0.5 381.758 293\n"));
+    assert_int_equal(run("flow ofhc_copper --set strain=0.5 --set points=1 --set 'rate=1000 1/s' --set heat=0.9"), 0);
+    assert_true(contains("out.txt", "\n0.5 370.7"));
+    assert_int_equal(run("flow water"), 2);
+    assert_true(contains("err.txt", "fluid"));
+    assert_int_equal(run("flow ofhc_copper --set rate=1000"), 2);
+    assert_true(contains("err.txt", "needs a unit"));
+    assert_int_equal(run("flow ofhc_copper --set speed=1"), 2);
+    assert_true(contains("err.txt", "cold_work"));
+    assert_int_equal(run("flow ofhc_copper --set points=1.5"), 2);
+    assert_int_equal(run("flow ofhc_copper --set strain=-1"), 2);
+    assert_int_equal(run("flow unobtainium"), 2);
+}
+
 /* ---- runs ---- */
 
 static void test_shot(void **state)
@@ -338,6 +359,7 @@ int main(void)
         cmocka_unit_test(test_bad_case),
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_check_and_materials),
+        cmocka_unit_test(test_flow),
         cmocka_unit_test(test_shot),
         cmocka_unit_test(test_resume_of_another),
         cmocka_unit_test(test_resume_without_report),

@@ -20,6 +20,7 @@ import part_closed
 import part_criterion
 import part_growth
 import part_lattice
+import part_laws
 import part_levels
 import part_wu2017
 from runs import Runs
@@ -35,6 +36,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
     "lattice": ("docs/validation/lattice.md", part_lattice.through, 8, False),
     "four-cells": ("docs/validation/growth.md", part_growth.four_cells, 16, False),
+    "laws": ("docs/validation/laws.md", part_laws.laws, 1, True),
     "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
 }
 

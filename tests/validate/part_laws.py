@@ -1,0 +1,126 @@
+"""Laws of strength beside measured curves: `breech flow` at the rate and temperature of each."""
+import csv
+import math
+import os
+import subprocess
+
+from pages import Column, Table
+from runs import ROOT
+
+CURVES = "tests/data/strength_copper.csv"
+LEAST_STRAIN = 0.05  # the bars of the dynamic tests ring below it (note in the file)
+ADIABATIC = 1000.0  # [1/s] tests above it keep their heat, those below lose it (note in the file)
+HEAT = 0.9  # share of the plastic work
+
+# title: material, what is set; the curves are of annealed copper, so without cold work
+COPPER = {
+    "Johnson-Cook": ("ofhc_copper", {}),
+    "threshold stress": ("ofhc_copper_mts", {}),
+    "Preston-Tonks-Wallace": ("ofhc_copper_ptw", {"cold_work": 0}),
+    "Steinberg-Guinan": ("ofhc_copper_sg", {}),
+}
+RAIL = [
+    ("`ofhc_copper`", "ofhc_copper", {}),
+    ("`ofhc_copper`, `yield_scale` 1.5", "ofhc_copper", {"yield_scale": 1.5}),
+    ("`ofhc_copper`, `cold_work` 0.27", "ofhc_copper", {"cold_work": 0.27}),
+    ("`ofhc_copper_half_hard`", "ofhc_copper_half_hard", {}),
+    ("`ofhc_copper_ptw` (cold work 0.3)", "ofhc_copper_ptw", {}),
+    ("`ofhc_copper_sg`, `cold_work` 0.27", "ofhc_copper_sg", {"cold_work": 0.27}),
+]
+ALUMINIUM = ["al7075_t651", "al7075_t651_limited", "al7075_t6_sg", "w17_al7075"]
+MEASURED, SATURATION = 786.0, 810.0  # [MPa]
+
+
+def flow(runs, material, strain, points, rate, kelvin, **settings):
+    """[strain], [MPa] of the curve that `breech flow` prints."""
+    given = {"strain": strain, "points": points, "rate": "%g 1/s" % rate, "temperature": "%g K" % kelvin, **settings}
+    command = [runs.breech, "flow", material]
+    for key, value in given.items():
+        command += ["--set", "%s=%s" % (key, value)]
+    told = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    if told.returncode:
+        raise SystemExit(" ".join(command) + "\n" + told.stderr)
+    rows = [[float(word) for word in line.split()] for line in told.stdout.splitlines() if line[0] != "#"]
+    return [row[0] for row in rows], [row[1] for row in rows]
+
+
+def last(runs, *arguments, **settings):
+    return flow(runs, *arguments, **settings)[1][-1]
+
+
+def at(strains, stresses, strain):
+    """By straight lines between evenly spaced strains."""
+    place = strain / (strains[1] - strains[0])
+    left = min(int(place), len(strains) - 2)
+    return stresses[left] + (place - left) * (stresses[left + 1] - stresses[left])
+
+
+def measured_curves():
+    """{name: (kelvin, rate, [(strain, MPa)])} of strains that count."""
+    curves = {}
+    with open(os.path.join(ROOT, CURVES), encoding="utf-8") as file:
+        for row in csv.DictReader(line for line in file if not line.startswith("#")):
+            curve = curves.setdefault(row["curve"], (float(row["temperature_K"]), float(row["rate_1_s"]), []))
+            strain, stress = list(row.values())[3:5]
+            if float(strain) >= LEAST_STRAIN:
+                curve[2].append((float(strain), float(stress)))
+    return curves
+
+
+def deviations(runs, material, settings, curve):
+    """Of the law from each point of the curve, relative."""
+    kelvin, rate, points = curve
+    heat = HEAT if rate > ADIABATIC else 0
+    strains, stresses = flow(runs, material, max(e for e, _ in points), 200, rate, kelvin, heat=heat, **settings)
+    return [at(strains, stresses, e) / stress - 1 for e, stress in points]
+
+
+def percent(found):
+    """rms, and the mean with its sign."""
+    rms = math.sqrt(sum(d * d for d in found) / len(found))
+    return "%.1f (%+.1f)" % (100 * rms, 100 * sum(found) / len(found))
+
+
+def copper(runs):
+    rows, every, dynamic = [], {title: [] for title in COPPER}, {title: [] for title in COPPER}
+    for kelvin, rate, points in measured_curves().values():
+        row = ["%g K, %g /s, to %.2f" % (kelvin, rate, max(e for e, _ in points))]
+        for title, (material, settings) in COPPER.items():
+            found = deviations(runs, material, settings, (kelvin, rate, points))
+            every[title] += found
+            dynamic[title] += found if rate > ADIABATIC else []
+            row.append(percent(found))
+        rows.append(row)
+    rows.append(["the four at 2000 /s"] + [percent(dynamic[title]) for title in COPPER])
+    rows.append(["all"] + [percent(every[title]) for title in COPPER])
+    return Table([Column("temperature, rate, strain")] + [Column(title + " [%]", 0.05) for title in COPPER], rows)
+
+
+def regime(runs, materials):
+    rows = []
+    for title, material, settings in materials:
+        rows.append([title] + ["%.0f" % last(runs, material, strain, 1, rate, 300, **settings)
+                               for strain, rate in ((0, 1), (1, 2e5), (3, 1e6))])
+    columns = [Column("material"), Column("at yield, 1/s [MPa]", 0.01), Column("strain 1, 2e5/s [MPa]", 0.01),
+               Column("strain 3, 1e6/s [MPa]", 0.01)]
+    return Table(columns, rows)
+
+
+def aluminium(runs):
+    rows = []
+    for name in ALUMINIUM:
+        stresses = flow(runs, name, 0.3, 300, 6e3, 293, heat=HEAT)[1]
+        mean, large = sum(stresses) / len(stresses), last(runs, name, 1, 1, 2e5, 300)
+        off = (mean / MEASURED - 1, large / SATURATION - 1)
+        rows.append(["`%s`" % name] + ["%.0f (%+.1f %%)" % (value, 100 * part)
+                                       for value, part in ((mean, off[0]), (large, off[1]))]
+                    + ["%.1f" % (100 * math.sqrt(0.5 * (off[0] ** 2 + off[1] ** 2)))])
+    columns = [Column("material"), Column("mean over strain 0 - 0.3, 6e3/s [MPa]", 0.01),
+               Column("strain 1, 2e5/s [MPa]", 0.01), Column("rms of both [%]", 0.02)]
+    return Table(columns, rows)
+
+
+def laws(runs):
+    tables = [copper(runs), aluminium(runs), regime(runs, RAIL + [("`%s`" % name, name, {}) for name in ALUMINIUM])]
+    return tables, ("`breech flow`: the first, each law from each measured curve of annealed copper, rms and in brackets mean; "
+                    "the second, 7075 beside 786 MPa measured and 810 MPa; the third, at 300 K without heat")
