@@ -10,5 +10,6 @@ install(DIRECTORY base circuit mpm coupling
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/breech
         FILES_MATCHING PATTERN "*.h" PATTERN "*.def")
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/breech)
-install(FILES coupling/tools/breech.py coupling/tools/paraview_crater.py DESTINATION ${CMAKE_INSTALL_DATADIR}/breech/tools)
+install(FILES coupling/tools/paraview_crater.py DESTINATION ${CMAKE_INSTALL_DATADIR}/breech/tools)
+install(DIRECTORY python/breech DESTINATION lib/python3/dist-packages FILES_MATCHING PATTERN "*.py")
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})

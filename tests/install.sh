@@ -13,7 +13,7 @@ trap 'rm -rf "$prefix"' EXIT
 cmake --install "$build" --prefix "$prefix" >"$prefix/log" || { cat "$prefix/log" && exit 1; }
 
 cd "$prefix"
-for file in share/breech/cases/materials share/breech/tools/breech.py share/breech/tools/paraview_crater.py include/breech/base/status.h include/breech/circuit include/breech/mpm/mpm.h; do
+for file in share/breech/cases/materials lib/python3/dist-packages/breech/__init__.py share/breech/tools/paraview_crater.py include/breech/base/status.h include/breech/circuit include/breech/mpm/mpm.h; do
     if [ ! -e $file ]; then echo "not installed: $file" && exit 1; fi
 done
 bin/breech --version | grep -qF "$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")" ||

@@ -1,15 +1,16 @@
-"""The reader of coupling/tools gives what the files hold:   read_run.py TOOLS DIR SCENE
+"""The package of python/ gives what the files hold:   read_run.py PYTHON DIR SCENE
 
 DIR: an output directory with the scene, its snapshots and its store.
 """
+import os
 import subprocess
 import sys
 
 import h5py
 import numpy as np
 
-tools, directory, name = sys.argv[1:]
-sys.path.insert(0, tools)
+package, directory, name = sys.argv[1:]
+sys.path.insert(0, package)
 import breech  # noqa: E402
 
 run = breech.Run(directory)
@@ -40,5 +41,6 @@ assert one.outcome["severity"] == run.summary["severity"] and one.outcome["parti
 assert "armature:" in one.case and one.instruction_set == run.summary["instruction_set"]
 assert (one.crater.depth == crater.depth).all() and (one.columns["time"] == columns["time"]).all()
 
-text = subprocess.run([sys.executable, f"{tools}/breech.py", directory], capture_output=True, text=True, check=True).stdout
+text = subprocess.run([sys.executable, "-m", "breech", directory], capture_output=True, text=True, check=True,
+                      env={**os.environ, "PYTHONPATH": package}).stdout
 assert f"scene {name}: {crater.texts['class']}" in text and "3 snapshots" in text

@@ -43,7 +43,7 @@ static void test_gauged(void **state)
     assert_true(number(whole, "steps") > number(gauged, "steps"));
     cJSON_Delete(whole);
     cJSON_Delete(gauged);
-    run_script("read_gauged.py", BREECH_TESTS "/../coupling/tools scene/gauged0");
+    run_script("read_gauged.py", BREECH_TESTS "/../python scene/gauged0");
 }
 
 int main(void)

@@ -314,11 +314,11 @@ static void test_scene(void **state)
     cJSON_Delete(b);
 }
 
-/* The Python reader and the ParaView script of coupling/tools, on what test_scene left. */
+/* The Python package and the ParaView script, on what test_scene left. */
 static void test_reader(void **state)
 {
     (void)state;
-    run_script("read_run.py", BREECH_TESTS "/../coupling/tools scene/a scene");
+    run_script("read_run.py", BREECH_TESTS "/../python scene/a scene");
 }
 
 static void test_paraview_crater(void **state)

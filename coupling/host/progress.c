@@ -2,12 +2,13 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
 
 #define TERMINAL_INTERVAL 0.2 /* between two pictures of the live line [s] */
-#define PLAIN_INTERVAL 10.0   /* between two plain lines [s] */
+#define PLAIN_INTERVAL 10.0   /* between two plain lines [s], where $BREECH_PROGRESS gives no other */
 
 double host_wall_clock(void)
 {
@@ -33,12 +34,21 @@ void host_duration_text(double seconds, char *text, size_t size)
         snprintf(text, size, "%ld d %02ld h", s / 86400, s / 3600 % 24);
 }
 
+static double plain_interval(void)
+{
+    const char *wanted = getenv("BREECH_PROGRESS");
+    char *end;
+    const double seconds = wanted ? strtod(wanted, &end) : NAN;
+    return wanted && end != wanted && *end == '\0' && seconds >= 0.0 ? seconds : PLAIN_INTERVAL;
+}
+
 void host_progress_open(progress *p, FILE *stream, bool quiet)
 {
     memset(p, 0, sizeof *p);
     p->stream = stream;
     p->quiet = quiet;
     p->terminal = isatty(fileno(stream)) == 1;
+    p->interval = p->terminal ? TERMINAL_INTERVAL : plain_interval();
     p->started = p->last_shown = host_wall_clock();
 }
 
@@ -71,7 +81,7 @@ void host_progress_update(progress *p, double fraction, uint64_t particle_steps)
 {
     if (p->quiet) return;
     const double now = host_wall_clock();
-    if (now - p->last_shown < (p->terminal ? TERMINAL_INTERVAL : PLAIN_INTERVAL)) return;
+    if (now - p->last_shown < p->interval) return;
     char text[300];
     host_progress_text(p, fraction, now - p->started, particle_steps, text, sizeof text);
     fprintf(p->stream, p->terminal ? "\r\033[K%s" : "%s\n", text);

@@ -1,5 +1,5 @@
-/* Progress for the one who waits: a live line on a terminal, a plain line every ten seconds elsewhere, nothing if
- * quiet. And where the time went: seconds by phase. */
+/* Progress for the one who waits: a live line on a terminal, a plain line every ten seconds elsewhere, or every
+ * $BREECH_PROGRESS seconds, nothing if quiet. And where the time went: seconds by phase. */
 #ifndef BREECH_COUPLING_PROGRESS_H
 #define BREECH_COUPLING_PROGRESS_H
 
@@ -16,6 +16,7 @@ typedef struct {
     bool terminal, quiet, shown;
     char task[160];             /* "scene 3 of 8, 1480 m/s" */
     double started, last_shown; /* wall clock [s] */
+    double interval;            /* between two lines [s] */
     double fraction_started;    /* of the task, where this process took it up (resumed runs) */
     uint64_t steps_started;
 } progress;

@@ -1,22 +1,20 @@
-"""Reads what Breech wrote: an output directory, a scene store.  Needs h5py and numpy (Debian: python3-h5py).
+# SPDX-License-Identifier: BSD-3-Clause
+"""What Breech wrote: an output directory, a scene store.
 
-    import breech
     run = breech.Run("out/default_shot")
     run.summary["muzzle_velocity"]             # summary.json as it is
     run.shot["velocity"], run.shot.units["velocity"]
     for name in run.scenes:                    # time series of every scene, crater of those that ran to their end
         print(name, run.scene(name)["peak_pressure"].max(), run.crater(name) and run.crater(name).depth.max())
+    run.body("scene", "ball"), run.probe("scene", "push")  # of a scene of bodies
     for time, points in run.snapshots(name):   # material points: points["position"], points["damage"], ...
         ...
     for scene in breech.store("out/default_shot/store"):
         print(scene.key, scene.outcome["class"], scene.case.splitlines()[1])
 
-    python3 breech.py DIR                      # what is in an output directory, in a few lines
-
 All numbers are in SI units.  Whoever reads while a run goes on gets the last complete state.
 """
 import json
-import sys
 from pathlib import Path
 
 import h5py
@@ -28,10 +26,11 @@ def _text(value):
 
 
 class Columns(dict):
-    """The one-dimensional datasets of a group as arrays, with .units and .descriptions by name."""
+    """The series of a group as arrays, time along the first axis, with .units and .descriptions by name."""
 
-    def __init__(self, group):
-        sets = {name: item for name, item in group.items() if isinstance(item, h5py.Dataset) and item.ndim == 1}
+    def __init__(self, group, dimensions=(1,)):
+        sets = {name: item for name, item in group.items()
+                if isinstance(item, h5py.Dataset) and item.ndim in dimensions and item.dtype.kind in "fi"}
         super().__init__({name: item[()] for name, item in sets.items()})
         self.units = {name: _text(item.attrs.get("units", "")) for name, item in sets.items()}
         self.descriptions = {name: _text(item.attrs.get("description", "")) for name, item in sets.items()}
@@ -58,9 +57,13 @@ class Run:
         self.directory = Path(directory)
         self.summary = json.loads((self.directory / "summary.json").read_text())
 
-    def _columns(self, group):
+    def _columns(self, group, dimensions=(1,)):
         with h5py.File(self.directory / "history.h5", "r") as f:
-            return Columns(f[group])
+            return Columns(f[group], dimensions)
+
+    def _names(self, group):
+        with h5py.File(self.directory / "history.h5", "r") as f:
+            return [name for name, item in f.get(group, {}).items() if isinstance(item, h5py.Group)]
 
     @property
     def shot(self):
@@ -71,12 +74,34 @@ class Run:
         return self._columns("/shot/events")
 
     @property
+    def modules(self):
+        """Current and voltage of one module of each group of the supply: current_000, voltage_000, ..."""
+        return self._columns("/shot/modules")
+
+    @property
     def scenes(self):
-        with h5py.File(self.directory / "history.h5", "r") as f:
-            return list(f.get("scene", {}))
+        return self._names("scene")
 
     def scene(self, name):
         return self._columns(f"/scene/{name}")
+
+    def bodies(self, name):
+        return self._names(f"scene/{name}/bodies")
+
+    def body(self, name, body):
+        """Mass, place, velocity and energy of a body of a scene, with the time."""
+        columns = self._columns(f"/scene/{name}/bodies/{body}")
+        time = self._columns(f"/scene/{name}/bodies")
+        for mine, its in zip((columns, columns.units, columns.descriptions), (time, time.units, time.descriptions)):
+            mine["time"] = its["time"]
+        return columns
+
+    def probes(self, name):
+        return self._names(f"scene/{name}/probes")
+
+    def probe(self, name, probe):
+        """What a probe noted; of a map of a surface (x, y, z) arrays of times and places."""
+        return self._columns(f"/scene/{name}/probes/{probe}", (1, 2, 3))
 
     def crater(self, name):
         """None of a scene that ended once its groove's growth was known."""
@@ -118,6 +143,7 @@ def store(directory):
 
 
 def describe(directory):
+    """Prints what is in an output directory."""
     run = Run(directory)
     shown = {name: value for name, value in run.summary.items() if not isinstance(value, (list, dict))}
     width = max(map(len, shown))
@@ -129,8 +155,3 @@ def describe(directory):
         print(f"scene {name}: {shape}, "
               f"{len(run.scene(name)['time'])} rows, {sum(1 for _ in run.snapshots(name))} snapshots")
 
-
-if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit("usage: breech.py DIR")
-    describe(sys.argv[1])

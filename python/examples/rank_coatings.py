@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Ranks five coatings of the default shot's rails by the gouges that a shot makes."""
+import breech
+
+case = breech.Case("cases/default_shot")
+case["name"] = "coatings"
+case["sites"] = None  # grains strewn at random, in place of twelve at given places
+case["populations"] = [{"density": "4 1/m", "shape": "hemisphere", "sizes": [{"radius": "0.5 mm", "share": 1}]}]
+case["treatments"] = [{"name": metal, "coating": [{"material": metal, "thickness": "0.5 mm"}]}
+                      for metal in ("steel_4340", "ti6al4v", "nickel", "tantalum", "w_alloy")]
+case["scene.damage"] = False  # three of these metals have no constants of failure
+case["study.craters"] = 0     # thresholds and numbers of gouges alone
+run = case.run("compare", "out/coatings", force=True)
+
+for rank, one in enumerate(run.summary["ranking"], 1):
+    low, high = (f"{v:.0f}" if v is not None else "-" for v in one["threshold_interval"])
+    print(f"{rank}  {one['surface']:12}  gouges from {low} .. {high} m/s  {one['gouges']:.2f} a shot  tied: {one['tied']}")
+breech.plot.threshold(run).savefig("out/coatings/ranking.png")

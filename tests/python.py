@@ -1,0 +1,306 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python package, its examples and its page.    tests/python.py BREECH [FOLDER]    Exit 77 = skipped."""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import traceback
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "python"))
+sys.dont_write_bytecode = True
+os.environ["BREECH_PROGRAM"] = str(Path(sys.argv[1]).resolve())
+os.environ["MPLBACKEND"] = "Agg"
+try:
+    import h5py  # noqa: F401
+    import matplotlib  # noqa: F401
+    import numpy as np
+    import yaml
+except ImportError as missing:
+    print(f"skipped: {missing} (Debian: python3-h5py, python3-matplotlib, python3-yaml)")
+    sys.exit(77)
+
+import breech  # noqa: E402
+from breech import text  # noqa: E402
+
+SHOT = ROOT / "cases" / "default_shot"
+CHEAP = {  # an impact of a second on a stub of a rail, a search of one scene
+    "scene": {"cells_per_radius": 1, "rail_ahead": "6 mm", "rail_behind": "1 mm", "rail_depth": "3 mm", "growth": 1.4,
+              "coarse_cell": "1.2 mm", "levels": 2},
+    "armature": {"length": "8 mm", "half_bore": "3 mm", "width": "5 mm", "head_thickness": "3 mm", "leg_thickness": "3 mm"},
+    "study": {"max_scenes": 1, "craters": 0, "feedback": False, "sensitivities": False, "scratch": False,
+              "threshold_ensemble": 0, "coarse_cells_per_radius": 1, "fine_cells_per_radius": 1, "sampled": 1000},
+    "output": {"snapshots": 0, "report": False}}
+
+
+def cheap(**more):
+    case = breech.Case(SHOT, **more)
+    for section, values in CHEAP.items():
+        for key, value in values.items():
+            case[f"{section}.{key}"] = value
+    return case
+
+
+def raises(kind, call, *words):
+    """What it raises, which must say all the words."""
+    try:
+        call()
+    except kind as error:
+        for word in words:
+            assert word in str(error), f"`{error}` does not say `{word}`"
+        return error
+    raise AssertionError(f"{kind.__name__} was not raised")
+
+
+def words(value):
+    """As PyYAML's BaseLoader has it: every value a text."""
+    if isinstance(value, dict):
+        return {k: words(v) for k, v in value.items()}
+    return [words(v) for v in value] if isinstance(value, list) else value
+
+
+# ---- cases ----
+
+NASTY = ["a: 'it''s'\nb: \"x # y\"\nc: don't # stop\n", "a:\n- 1\n- - 2\n  - 3\n-\n  b: 4\n  c: [5,\n   6]\nd:\n", "{a: [1, {b: c}], 'd e': \"f\\n\"}",
+         "a: b: c\n", "a: one\n  two\n  three\nb: [x y, a:b, c: d]\n", "---\na: ~\nb: \"1\": 2\n", "# only\n\na: -1e-3 mm\n", "\"a b\": {}\nc: []\n",
+         "a: [1, 2\n", "a: 'open\n", "a: [1] 2\n", "a: 1\n b: 2\n", "a:\n  b: 1\n c: 2\n", "- {a: 1}\n- b: 2\n  c: {d:\n     e}\n"]
+
+
+def test_text_is_yaml():
+    """The reader gives what PyYAML gives, and refuses what that refuses."""
+    files = [file.read_text() for file in sorted(ROOT.glob("cases/**/*.yaml"))]
+    assert len(files) > 40
+    for source in files + NASTY:
+        try:
+            want = yaml.load(source, yaml.BaseLoader)
+        except yaml.YAMLError:
+            raises(text.CaseError, lambda: text.parse(source))
+            continue
+        got = text.parse(source, of_word=str)
+        assert words(got) == want, f"{source}\n{got}\n{want}"
+    for source in ("a: |\n  b\n", "a: &x 1\n", "a: *x\n", "a: !t 1\n", "a: 1\na: 2\n"):
+        raises(text.CaseError, lambda: text.parse(source, "f.yaml"), "f.yaml:")
+
+
+def test_text_there_and_back():
+    tree = {"name": "007 bond", "title": 'a "b": c # d', "flag": True, "no": "none", "n": 3, "x": 1e-7, "third": 1 / 3,
+            "q": breech.Quantity("1.5 0 -2e-3 km/s"), "empty": None, "list": [1, "2 mm", {"a": [True, {"b": 2.5}]}], "é": "µ",
+            "array": np.array([1.0, 2.5]), "bank": {"count": [3, 1], "charge": breech.Quantity(9, "kV")}}
+    written = text.dump(tree)
+    back, plain = text.parse(written), yaml.load(written, yaml.BaseLoader)
+    for key in ("flag", "no", "n", "q", "empty", "bank", "é", "title"):
+        assert back[key] == tree[key], key
+    assert abs(back["third"] - 1 / 3) < 1e-15 and back["x"] == 1e-7 and back["array"] == [1, 2.5]
+    assert str(back["name"]) == "007 bond" and plain["title"] == tree["title"] and plain["array"] == ["1", "2.5"]
+    assert back["list"][1].value == 2 and back["list"][2]["a"][1]["b"] == 2.5
+    for wrong in (float("nan"), float("inf"), object()):
+        raises(text.CaseError, lambda: text.dump({"a": wrong}))
+
+
+def test_quantity():
+    q = breech.Quantity("10.55 kV")
+    assert (q.value, q.unit, str(q)) == (10.55, "kV", "10.55 kV") and str(q * 2) == str(2 * q) == "21.1 kV"
+    assert q / 2 == "5.275 kV" and q != "10.55 V" and breech.Quantity("4 1/m").unit == "1/m"
+    assert str(0.5 * breech.Quantity("1 0 -3 km/s")) == "0.5 0 -1.5 km/s"
+    assert text.scalar("8.9 g / cm3") == "8.9 g / cm3" and text.scalar("yes") is True and text.scalar("1e3") == 1000.0
+    raises(text.CaseError, lambda: breech.Quantity("many"))
+
+
+def test_case_by_paths():
+    case = breech.Case(SHOT)
+    assert case["bank.charge"] is case["bank"]["charge"] and case["sites[2].position"] == "0.40 m"
+    assert "rail.level" in case and "rail.nothing" not in case and "sites[99]" not in case and case.get("x.y", 7) == 7
+    raises(KeyError, lambda: case["sites.position"])
+    raises(KeyError, lambda: case.__setitem__("name.inner", 1))
+    other = case.copy()
+    other["sites[2].position"] = "0.6 m"
+    other["strike.velocity"] = "1 km/s"
+    del other["scene.friction"]
+    assert case["sites[2].position"] == "0.40 m" and "strike" not in case and "scene.friction" in case
+    assert other["strike"] == {"velocity": "1 km/s"} and "friction" not in other["scene"]
+
+
+def used(directory):
+    return [line for line in (directory / "used.yaml").read_text().splitlines() if not line.startswith("#")]
+
+
+def test_case_is_the_programs(folder):
+    """A case changed here is the one that the program makes of the same changes."""
+    case = breech.Case(ROOT / "cases" / "treatments")  # itself on a base, a section of which it takes out
+    assert "sites" not in case and len(case["treatments"]) == 5 and case["bank.charge"] == "10.55 kV"
+    case["bank.charge"] *= 0.9
+    case["output.report"] = False
+    breech.run("shot", ROOT / "cases" / "treatments", folder / "c", progress=False,
+               sets={"bank.charge": breech.Quantity("9.495 kV"), "output.report": False})
+    case.run("shot", folder / "d", progress=False)
+    assert used(folder / "c") == used(folder / "d")
+    del case["rail.specific_heat"]
+    saved = case.save(folder / "saved")
+    assert saved.read_text().startswith("base: ") and len(saved.read_text().splitlines()) == 7, saved.read_text()
+    whole = folder / "whole.yaml"
+    whole.write_text(text.dump(case))
+    for path in (saved, whole):
+        breech.run("shot", path, folder / f"as-{path.name}", progress=False)
+    assert used(folder / "as-case.yaml") == used(folder / "as-whole.yaml") != used(folder / "c")
+    assert breech.Case(saved) == case
+    assert str(ROOT / "cases" / "pulse_unit_200kJ") in breech.check(ROOT / "cases" / "pulse_unit_200kJ")
+    assert "one unit" in breech.Case(ROOT / "cases" / "pulse_unit_200kJ", title="one unit").check()
+
+
+# ---- runs ----
+
+
+def test_errors(folder):
+    case = cheap()
+    case["bank.charge"] = "9 kg"
+    wrong = raises(breech.BadInput, lambda: case.run("shot", folder / "x", progress=False), "case.yaml:", "bank.charge = 9 kg")
+    assert wrong.code == 2 and not (folder / "x").exists() and "/tmp" not in str(wrong)
+    raises(breech.BadInput, lambda: case.check(), "bank.charge = 9 kg")
+    raises(breech.BadInput, lambda: breech.check(folder / "nowhere"), "nowhere")
+    failed = raises(breech.Failed, lambda: cheap().run("shot", "/proc/nowhere/x", progress=False), "/proc/nowhere")
+    assert failed.code == 1
+    cheap().run("shot", folder / "done", progress=False)
+    raises(breech.BadInput, lambda: cheap().run("shot", folder / "done", progress=False), "--force")
+    cheap().run("shot", folder / "done", progress=False, force=True)
+
+
+def numbers(run):
+    return {k: v for k, v in run.summary.items() if k not in ("wall_seconds", "threads")}
+
+
+def test_progress_stop_and_resume(folder):
+    """A run says how far it is; stopped by its time or by Ctrl-C, it goes on to the same numbers."""
+    os.environ["BREECH_PROGRESS"] = "0"  # a line a look
+    heard = []
+    try:
+        case = cheap()
+        whole = case.run("scene", folder / "whole", store=False, threads=1, progress=heard.append)
+        share = [line.fraction for line in heard if line.fraction is not None]
+        assert share and share == sorted(share) and 0 < share[0] < 1, share
+        task = [line for line in heard if line.task and line.left][-1]
+        assert "scene 1, 1500 m/s" in task.task and task.left.endswith(" s"), str(task)
+        how = {"store": False, "threads": 1}
+        stopped = raises(breech.Stopped, lambda: case.run("scene", folder / "part", progress=False, max_walltime="0.2s", **how))
+        assert stopped.code == 75 and stopped.directory == folder / "part"
+        assert numbers(case.run("scene", folder / "part", resume=True, progress=False, **how)) == numbers(whole)
+
+        def interrupt(line):
+            if line.fraction is not None:
+                raise KeyboardInterrupt
+        raises(KeyboardInterrupt, lambda: case.run("scene", folder / "keys", progress=interrupt, **how))
+        assert (folder / "keys" / "checkpoint.bin").exists()
+        assert numbers(case.run("scene", folder / "keys", resume=True, progress=False, **how)) == numbers(whole)
+    finally:
+        del os.environ["BREECH_PROGRESS"]
+    crater = whole.crater("scene")
+    assert crater.depth.max() == whole.summary["crater_depth"] and crater.texts["class"] == whole.summary["class"]
+    figure = breech.plot.crater(crater)
+    drawn = figure.axes[0].collections[0].get_array().reshape(crater.depth.T.shape)
+    assert np.allclose(drawn, -1e3 * crater.depth.T)
+
+
+def test_bodies(folder):
+    case = breech.Case(ROOT / "cases" / "sphere_plate")
+    case.update({"scene.cell": "1.5 mm", "scene.end_time": "2 us", "output": {"snapshots": 0, "report": False}})
+    case["scene.probes"].append({"name": "front", "surface": {"lo": "-1 -6 0 mm", "hi": "3 6 6 mm", "along": "-1 0 0",
+                                                              "cell": "1 mm", "body": "plate"}})
+    run = case.run("scene", folder / "bodies", progress=False)
+    assert run.bodies("scene") == ["ball", "plate"] and "push" in run.probes("scene")
+    ball, push = run.body("scene", "ball"), run.probe("scene", "push")
+    assert abs(ball["velocity_x"][0] - 1500) < 1 and ball["velocity_x"][-1] < 1500 and ball.units["time"] == "s"
+    assert len(push["time"]) == len(push["force_x"]) > 10 and push["force_x"].max() > 0
+    front = run.probe("scene", "front")
+    assert front["x"].shape[0] == len(front["time"]) and front["x"].ndim > 1
+    assert "result" not in run.scene("scene")
+
+
+# ---- examples and page ----
+
+
+def test_examples(folder):
+    """Both scripts, in a folder whose default shot is a cheap one."""
+    (folder / "cases").mkdir()
+    cheap().save(folder / "cases" / "default_shot")
+    said = {}
+    for script in ("first_shot.py", "rank_coatings.py"):
+        done = subprocess.run([sys.executable, ROOT / "python" / "examples" / script], cwd=folder, text=True, capture_output=True,
+                              env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+        assert done.returncode == 0, done.stderr
+        said[script] = done.stdout
+    assert said["first_shot.py"].startswith("10.55 kV 3 m 0.25\n1933 m/s after 3.25 ms\n"), said["first_shot.py"]
+    assert "9.495 kV: " in said["first_shot.py"] and "scene.velocity = 1.2 kg" in said["first_shot.py"]
+    ranks = said["rank_coatings.py"].splitlines()
+    ranking = breech.Run(folder / "out" / "coatings").summary["ranking"]
+    assert [line.split()[1] for line in ranks] == [one["surface"] for one in ranking]
+    assert sorted(one["surface"] for one in ranking) == ["nickel", "steel_4340", "tantalum", "ti6al4v", "untreated", "w_alloy"]
+    for picture in ("coatings/ranking.png", "python/shot.png", "python/crater.png"):
+        assert (folder / "out" / picture).stat().st_size > 10000, picture
+    shot = breech.Run(folder / "out" / "python" / "shot")
+    line = breech.plot.shot(shot).axes[2].lines[0].get_ydata()
+    assert abs(line.max() - shot.summary["muzzle_velocity"]) < 1e-3 * line.max()
+    said_of = subprocess.run([sys.executable, "-m", "breech", folder / "out" / "python" / "impact"], text=True, capture_output=True,
+                             env={**os.environ, "PYTHONPATH": str(ROOT / "python")}, check=True).stdout
+    assert "scene scene: " in said_of and "mm" in said_of
+    assert len((ROOT / "python" / "examples" / "rank_coatings.py").read_text().splitlines()) <= 20
+
+
+def test_threshold_picture(folder):
+    """Sites by outcome, the speeds and their intervals, of an answer that is written down here."""
+    shot = breech.Run(folder / "out" / "python" / "shot")
+    shot.summary = {"kind": "onset", "threshold_velocity": 1000.0, "threshold_interval": [900.0, None], "scratch_velocity": None,
+                    "scratch_interval": [None, None],
+                    "sites": [{"position": 0.5, "velocity": 757.0, "outcome": "scratch"},
+                              {"position": 1.5, "velocity": 1477.0, "outcome": "gouge"},
+                              {"position": 9.0, "velocity": None, "outcome": "not_reached"}]}
+    axes = breech.plot.threshold(shot).axes[0]
+    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert labels == ["the shot", "scratch", "gouge", "gouges from: 1000 m/s"], labels
+    assert axes.lines[1].get_ydata()[0] == 757.0 and axes.patches[0].get_xy()[0][1] == 900.0
+
+
+def test_page():
+    page = (ROOT / "docs" / "python.md").read_text()
+    for script in sorted((ROOT / "python" / "examples").glob("*.py")):
+        code = script.read_text().split("\n", 1)[1]
+        assert f"```python\n{code}```" in page, f"docs/python.md does not show {script.name} as it is"
+    public = [name for name in breech.__all__ if name not in ("Columns", "CaseError", "Crater", "Progress", "StoredScene")]
+    for name in public:
+        assert f"breech.{name}" in page or name in ("describe", "program", "snapshot", "check"), name
+
+
+def test_pip(folder):
+    """pip installs it from the tree; the version is the program's."""
+    shutil.copytree(ROOT / "python", folder / "python", ignore=shutil.ignore_patterns("__pycache__"))
+    done = subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-index", "--no-build-isolation", "--no-deps",
+                           "--root-user-action=ignore", "--target", folder / "site", folder / "python"], text=True, capture_output=True)
+    assert done.returncode == 0, done.stderr
+    said = subprocess.run([sys.executable, "-c", "import breech, importlib.metadata as m; print(breech.__file__, m.version('breech'));"
+                           "print(breech.Quantity('2 mm') * 2)"], cwd=folder, text=True, capture_output=True, check=True,
+                          env={**os.environ, "PYTHONPATH": str(folder / "site")}).stdout
+    version = subprocess.run([breech.program(), "--version"], text=True, capture_output=True, check=True).stdout
+    assert said.split()[0] == str(folder / "site" / "breech" / "__init__.py") and f"breech {said.split()[1]}," in version
+    assert said.endswith("4 mm\n")
+
+
+def main():
+    failed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for name, test in list(globals().items()):
+            if not name.startswith("test_"):
+                continue
+            if len(sys.argv) > 2 and sys.argv[2] not in name:
+                continue
+            try:
+                test(*([Path(folder)] if test.__code__.co_argcount else []))
+                print(f"passed  {name}")
+            except Exception:
+                traceback.print_exc()
+                print(f"FAILED  {name}")
+                failed += 1
+    return 1 if failed else 0
+
+
+sys.exit(main())
