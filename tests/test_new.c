@@ -158,7 +158,7 @@ static void test_refused(void **state)
         { "new refused/a --from nothing", "shot, bodies, strike" },
         { "new refused/a --from refused/bad.yaml", "has errors" },
         { "new refused/a --from ''", "empty" },
-        { "check refused/there --from shot", "--from goes with" },
+        { "check refused/there --from shot", "check takes no --from" },
     };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         if (run(wrong[k][0]) != 2) fail_msg("breech %s: not refused with 2", wrong[k][0]);

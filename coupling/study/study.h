@@ -26,7 +26,7 @@ typedef struct {
 } study_answer;
 
 typedef struct study {
-    const char *name, *doc, *more;
+    const char *name, *doc, *more, *example; /* example: a whole command line, of shipped cases */
     /* The next study that may take the place of one of study.def, for cases for which its `takes` says so; it has no
      * command of its own.  NULL: none. */
     const struct study *instead;

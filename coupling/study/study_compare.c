@@ -23,8 +23,9 @@ static status run(session *s, const study_case *of, study_answer *out)
 
 const study study_compare = {
     .name = "compare",
-    .doc = "the same for several rail surfaces, ranked",
+    .doc = "rail surfaces ranked by where gouging begins on each",
     .more = "As onset, for the case as it is and for each of its treatments; study.max_scenes holds for each surface.",
+    .example = "breech compare cases/treatments --store out/scenes",
     .needs = CASE_FOR_ONSET | CASE_FOR_COMPARE,
     .keys = study_compare_keys,
     .shows_shot = true,

@@ -124,6 +124,7 @@ const study study_inductance = {
     .doc = "L', R' of a rail cross-section, over frequency",
     .more = "Needs the section rail.  Direct current, 1 Hz to 100 kHz, the perfect conductor; the surface at "
             "rail.frequency.",
+    .example = "breech inductance cases/default_shot --set \"rail.thickness=15 mm\" -o out/thin",
     .needs = CASE_FOR_INDUCTANCE,
     .keys = keys,
     .can_vary = true,

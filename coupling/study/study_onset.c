@@ -23,8 +23,9 @@ static status run(session *s, const study_case *of, study_answer *out)
 
 const study study_onset = {
     .name = "onset",
-    .doc = "the main job: shot and sites, where gouging begins",
+    .doc = "where along the barrel gouging begins: a shot past its grains",
     .more = "Runs the shot, then as many impact scenes as the threshold velocity needs (study.max_scenes at most).",
+    .example = "breech onset cases/default_shot --store out/scenes --max-walltime 2h",
     .needs = CASE_FOR_ONSET,
     .keys = study_onset_keys,
     .shows_shot = true,

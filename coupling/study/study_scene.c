@@ -35,6 +35,7 @@ const study study_scene = {
     .doc = "one embedded impact at a given velocity",
     .more =
         "Needs rail, armature, particle and scene, with scene.velocity and particle.radius; or a scene with bodies.",
+    .example = "breech scene cases/ball_gauge --set \"scene.cell=0.6 mm\"",
     .instead = &study_ensemble,
     .needs = CASE_FOR_SCENE,
     .keys = run_result_keys,

@@ -73,6 +73,7 @@ const study study_shot = {
     .name = "shot",
     .doc = "the electromechanical shot alone",
     .more = "Needs the sections bank (or another supply), rail, barrel and armature.  Writes the shot's history.",
+    .example = "breech shot cases/default_shot --set \"bank.charge=9 kV\" -o out/9kV",
     .needs = CASE_FOR_SHOT,
     .keys = run_shot_keys,
     .can_vary = true,

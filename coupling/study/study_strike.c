@@ -297,6 +297,7 @@ const study study_strike = {
     .name = "strike",
     .doc = "what the launched projectile does to its target",
     .more = "Needs the sections strike and scene, with bodies; without strike.velocity, what `breech shot` needs.",
+    .example = "breech strike cases/sphere_plate --set \"strike.velocity=1 km/s\" -o out/slower",
     .needs = CASE_FOR_STRIKE,
     .keys = result_keys,
     .shows_shot = true,

@@ -643,6 +643,7 @@ const study study_sweep = {
     .doc = "a scene or a shot for many values of some keys",
     .more =
         "Needs the section sweep, and what the study that it runs needs.  All errors are told before anything runs.",
+    .example = "breech sweep cases/sweep",
     .needs = CASE_FOR_SWEEP,
     .keys = result_keys,
     .report = { NULL, section },
