@@ -98,7 +98,8 @@ status mpm_advance(mpm *m, double until, const mpm_sink *sink);
 mpm_ledger mpm_balance(const mpm *m);
 mpm_report mpm_state(const mpm *m);
 
-/* Wall time since mpm_create by phase of the step [s]; `rest` holds books, percentiles, sorting and the fine zone. */
+/* Wall time since mpm_create by phase of the step [s];
+ * `rest` holds books, percentiles, sorting and looks at refinement. */
 typedef enum { PHASE_P2G, PHASE_NODES, PHASE_G2P, PHASE_MOVERS, PHASE_REST, MPM_PHASES } mpm_phase;
 double mpm_phase_seconds(const mpm *m, mpm_phase phase);
 
@@ -140,7 +141,7 @@ status mpm_save(const mpm *m, void **image, size_t *bytes);
 status mpm_restore(mpm *m, const void *image, size_t bytes);
 
 /* What a scene will take at its start, without building it: with small cells in the zone and near bodies that have a
- * rule `around`.  What flows or is shocked adds cells while it runs.  Of a body of more than half a million points
+ * rule `around`.  What flows or is shocked adds cells while it runs.  Of a body of more than ten thousand points
  * they are counted in a sample, within a percent or two. */
 typedef struct {
     size_t particles;

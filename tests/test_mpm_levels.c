@@ -238,7 +238,7 @@ static void test_books(void **state)
     }
 }
 
-/* What an estimate counts is what is built. */
+/* What an estimate counts in a sample of boxes is what is built. */
 static void test_estimate(void **state)
 {
     (void)state;
@@ -248,10 +248,10 @@ static void test_estimate(void **state)
         mpm_needs needs;
         assert_ok(mpm_estimate(&g.scene, &needs));
         mpm *m = scene_make(&g.scene, 2);
-        assert_int_equal(needs.particles, mpm_particles(m));
+        assert_near((double)needs.particles / (double)mpm_particles(m), 1, 0.03);
         double work = 0;
         for (int k = 0; k < m->bricks_used; k++) work += (double)m->bricks[k].particles / (1 << m->bricks[k].level);
-        assert_near(needs.work / work, 1, 1e-12);
+        assert_near(needs.work / work, 1, 0.03);
         mpm_free(m);
     }
 }

@@ -214,7 +214,7 @@ static status count_point(void *user, int body, const build_point *p)
 /* A large body's points are counted in a sample of its boxes. */
 static status count_body(const mpm_scene *s, int body, const law *k, counting *c)
 {
-    static const double MOST = 5e5; /* boxes: some tenths of a second's work */
+    static const double MOST = 1e4; /* boxes: a hundredth of a second's work */
     counting own = { .grids = c->grids };
     const build_sink sink = { count_point, &own };
     double share;
