@@ -10,11 +10,12 @@
 #include "base/param.h"
 
 typedef enum {
-    MATERIAL_FOR_SCENE = 1,   /* what its strength and its equation of state need */
-    MATERIAL_FOR_DAMAGE = 2,  /* what its law of failure needs */
-    MATERIAL_FOR_SCREEN = 4,  /* hardness, impedance match */
-    MATERIAL_FOR_MELTING = 8, /* latent heat, melting temperature */
-    MATERIAL_FOR_CIRCUIT = 16 /* resistivity */
+    MATERIAL_FOR_SCENE = 1,    /* what its strength and its equation of state need */
+    MATERIAL_FOR_DAMAGE = 2,   /* what its law of failure needs */
+    MATERIAL_FOR_SCREEN = 4,   /* hardness, impedance match */
+    MATERIAL_FOR_MELTING = 8,  /* latent heat, melting temperature */
+    MATERIAL_FOR_CIRCUIT = 16, /* resistivity */
+    MATERIAL_FOR_FATIGUE = 32  /* Young's modulus, Poisson's ratio, constants of fatigue */
 } material_need;
 
 /* ROW(member, unit, needs, least, largest, text); needs: a sum of material_need, besides what a law asks for.  The
@@ -22,8 +23,8 @@ typedef enum {
 #define MATERIAL_CONSTANTS(ROW)                                                                                  \
     ROW(density, "kg/m^3", MATERIAL_FOR_SCENE | MATERIAL_FOR_SCREEN, 0.01, 3e4,                                  \
         "density at the reference temperature")                                                                  \
-    ROW(youngs_modulus, "Pa", 0, 1e6, 2e12, "Young's modulus")                                                   \
-    ROW(poisson, "1", 0, 0.0, 0.499, "Poisson's ratio")                                                          \
+    ROW(youngs_modulus, "Pa", MATERIAL_FOR_FATIGUE, 1e6, 2e12, "Young's modulus")                                \
+    ROW(poisson, "1", MATERIAL_FOR_FATIGUE, 0.0, 0.499, "Poisson's ratio")                                       \
     ROW(specific_heat, "J/(kg K)", MATERIAL_FOR_SCENE, 10.0, 1e4, "specific heat")                               \
     ROW(conductivity, "W/(m K)", 0, 1e-2, 5e3, "thermal conductivity")                                           \
     ROW(reference_temperature, "K", MATERIAL_FOR_SCENE | MATERIAL_FOR_MELTING, 1.0, 2e3,                         \
@@ -40,7 +41,10 @@ typedef enum {
     ROW(spall_strength, "Pa", 0, 1e5, 1e11, "tension at which it fails")                                         \
     ROW(hardness, "Pa", MATERIAL_FOR_SCREEN, 1e6, 1e11, "Vickers hardness as a pressure")                        \
     ROW(resistivity, "ohm m", MATERIAL_FOR_CIRCUIT, 1e-10, 1e-3, "electrical resistivity at 293.15 K")           \
-    ROW(resistivity_slope, "1/K", 0, -0.1, 0.1, "temperature coefficient of the resistivity")
+    ROW(resistivity_slope, "1/K", 0, -0.1, 0.1, "temperature coefficient of the resistivity")                    \
+    ROW(fatigue_A, "1", MATERIAL_FOR_FATIGUE, 1e-30, 1e30, "A of life lost in a cycle, A range^m (L-1)")         \
+    ROW(fatigue_m, "1", MATERIAL_FOR_FATIGUE, 0.5, 30.0, "exponent m of the same")                               \
+    ROW(fatigue_limit, "1", 0, 0.0, 0.1, "strain range up to which a cycle takes no life; not given: none")
 
 /* What a law of strength has for a shear modulus: none, one from E and nu, its own for every point. */
 typedef enum { SHEAR_NONE, SHEAR_FIXED, SHEAR_VARIES } material_shear;

@@ -4,6 +4,7 @@
 
 #include "coupling/study/compare.h"
 #include "coupling/study/inductance.h"
+#include "coupling/study/life.h"
 #include "coupling/study/strike.h"
 #include "coupling/study/study.h"
 #include "coupling/study/sweep.h"
@@ -200,6 +201,7 @@ typedef struct {
     inductance_result inductance;
     sweep_result sweep;
     strike_result strike;
+    life_result life;
     study_answer answer[STUDIES];
 } example_results;
 
@@ -252,6 +254,10 @@ static inline void example_fill(example_results *e)
                                      .residual_velocity = 1500.0,
                                      .hole_diameter = NAN,
                                      .gone = true };
+    e->life = (life_result){ .peak_pressure = 1e9,
+                             .life_first = 5890.0,
+                             .first = { .range = 4.9e-3, .position = NAN, .depth = 1e-4, .angle = 0.6 } };
+    e->answer[STUDY_life].result = &e->life;
     e->answer[STUDY_strike] = (study_answer){ .result = &e->strike, .shot = &e->shot };
 }
 

@@ -131,7 +131,7 @@ static const command_name commands[] = {
     { CASE_FOR_COMPARE, "breech compare" }, { CASE_FOR_ONSET, "breech onset" },
     { CASE_FOR_STRIKE, "breech strike" },   { CASE_FOR_SHOT, "breech shot" },
     { CASE_FOR_SCENE, "breech scene" },     { CASE_FOR_INDUCTANCE, "breech inductance" },
-    { CASE_FOR_SWEEP, "breech sweep" },
+    { CASE_FOR_SWEEP, "breech sweep" },     { CASE_FOR_LIFE, "breech life" },
 };
 
 static const char *command_of(unsigned needs)
@@ -253,6 +253,7 @@ static unsigned material_needs(const case_reader *r, const material_use *use)
     unsigned wanted = 0;
     if (needs & (CASE_FOR_SCENE | CASE_FOR_ONSET)) wanted |= MATERIAL_FOR_SCENE;
     if (wanted && r->out->scene.damage) wanted |= MATERIAL_FOR_DAMAGE;
+    if ((needs & CASE_FOR_LIFE) && strcmp(use->key, "life.material") == 0) wanted |= MATERIAL_FOR_FATIGUE;
     static const char *const meeting[] = { "rail.material", "armature.material", ".rail_metal.", ".armature_metal." };
     for (size_t k = 0; k < sizeof meeting / sizeof meeting[0]; k++)
         if ((needs & CASE_FOR_ONSET) && strstr(use->key, meeting[k])) wanted |= MATERIAL_FOR_SCREEN;
@@ -368,6 +369,7 @@ void case_check_whole(case_reader *r)
     }
     case_populations_check(r);
     case_strike_check(r);
+    case_life_check(r);
     check_materials(r);
     check_temperatures(r);
     check_treatments(r);

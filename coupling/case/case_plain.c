@@ -155,6 +155,7 @@ case_inputs case_inputs_of(const breech_case *c)
                           .bodies = c->bodies,
                           .sweep = c->sweep,
                           .strike = c->strike,
+                          .life = c->life,
                           .output = c->output,
                           .file = c };
 }

@@ -82,6 +82,7 @@ typedef struct {
     case_bodies bodies;
     case_sweep sweep;
     case_strike strike;
+    case_life life;
     case_output output;
     const struct breech_case *file; /* what it was made from; for this folder alone */
 } case_inputs;

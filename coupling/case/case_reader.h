@@ -87,6 +87,8 @@ void case_check_whole(case_reader *r);
 unsigned case_strike_needs(const tree_node *root, unsigned needs);
 /* The bodies that `strike` names, what its flight needs. */
 void case_strike_check(case_reader *r);
+/* The load of `life`: where one key asks for another. */
+void case_life_check(case_reader *r);
 
 /* case_read_memory with the unit system given; the one way in for all of them. */
 status case_build(const units *u, const case_text *text, const case_options *options, breech_case **out, char **errors);

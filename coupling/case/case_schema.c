@@ -1,6 +1,7 @@
 #include "coupling/case/case_schema.h"
 
 #include "coupling/case/treatment.h"
+#include "mpm/fatigue.h"
 #include "mpm/scene.h"
 
 #include <string.h>
@@ -217,6 +218,44 @@ static const param strike_params[] = {
     PARAMS_END,
 };
 
+static const char *const life_profile_names[] = {
+    [LIFE_HERTZ] = "hertz", [LIFE_UNIFORM] = "uniform", [LIFE_POINTS] = "points", NULL
+};
+static const char *const life_state_names[] = {
+    [LIFE_FRICTIONLESS] = "frictionless", [LIFE_STICK_SLIP] = "stick_slip", [LIFE_FULL_SLIP] = "full_slip", NULL
+};
+static const char *const life_cycle_names[] = { [LIFE_PULSE] = "pulse", [LIFE_PASSAGE] = "passage", NULL };
+
+static const param life_params[] = {
+    PARAM_STRING(case_life, material, NULL, "the rail's material, with constants of fatigue"),
+    PARAM_ENUM(case_life, profile, life_profile_names, LIFE_HERTZ,
+               "of the pressure over the patch: an ellipse, uniform, or by the list `points`"),
+    PARAM_DOUBLE(case_life, wheel_load, "N", OPTIONAL, 1e-3, 1e9,
+                 "force on a patch that is an ellipse; not given: `pressure`"),
+    PARAM_DOUBLE(case_life, pressure, "Pa", OPTIONAL, 1.0, 1e12,
+                 "largest pressure; not given: 3 wheel_load / (2 pi half_length half_width)"),
+    PARAM_DOUBLE(case_life, half_length, "m", REQUIRED, 1e-6, 10.0, "of the patch, along the rail"),
+    PARAM_DOUBLE(case_life, half_width, "m", OPTIONAL, 1e-6, 10.0, "of the patch, across the rail"),
+    PARAM_ENUM(case_life, state, life_state_names, LIFE_FULL_SLIP,
+               "frictionless: no traction; full_slip: friction times the pressure; stick_slip: Carter's"),
+    PARAM_DOUBLE(case_life, friction, "1", 0.3, 0.0, 2.0, "Coulomb coefficient"),
+    PARAM_DOUBLE(case_life, traction_share, "1", 0.5, 0.0, 1.0,
+                 "traction over friction times normal force, in stick_slip"),
+    PARAM_ENUM(case_life, cycle, life_cycle_names, LIFE_PULSE,
+               "pulse: the load comes and goes at one place; passage: it runs over the rail from end to end"),
+    PARAM_ENUM(case_life, measure, mpm_fatigue_measure_names, FATIGUE_BOND,
+               "what of a direction's strain takes life: bond: its range whatever the sign; tension; shear across it"),
+    PARAMS_END,
+};
+
+static const param life_point_params[] = {
+    PARAM_DOUBLE(case_life_point, at, "1", REQUIRED, -1.0, 1.0, "place over half_length"),
+    PARAM_DOUBLE(case_life_point, pressure, "1", REQUIRED, 0.0, 1.0, "there, over the largest"),
+    PARAM_DOUBLE(case_life_point, traction, "1", OPTIONAL, -2.0, 2.0,
+                 "there, over the largest pressure; not given: friction times the pressure there"),
+    PARAMS_END,
+};
+
 static const param output_params[] = {
     PARAM_INT(case_output, snapshots, 20, 0, 10000, "of a scene, evenly over its time; 0 = none"),
     PARAM_DOUBLE(case_output, history_interval, "s", OPTIONAL, 1e-9, 1.0,
@@ -238,6 +277,17 @@ static const case_section rail_children[] = {
       .table = layer_params,
       .offset = offsetof(case_rail, layers),
       .size = sizeof(case_layer),
+      .given = NO_FLAG,
+      .list = true },
+    END_OF_SECTIONS,
+};
+
+static const case_section life_children[] = {
+    { .key = "points",
+      .doc = "A tabulated load, a list from end to end with straight lines between.",
+      .table = life_point_params,
+      .offset = offsetof(case_life, points),
+      .size = sizeof(case_life_point),
       .given = NO_FLAG,
       .list = true },
     END_OF_SECTIONS,
@@ -276,7 +326,7 @@ static const case_section treatment_children[] = {
 };
 
 static const param sweep_params[] = {
-    PARAM_STRING(case_sweep, of, "scene", "the study to run: scene, shot, strike, inductance"),
+    PARAM_STRING(case_sweep, of, "scene", "the study to run: scene, shot, strike, life, inductance"),
     PARAM_BOOL(case_sweep, together, 0, "the lists of values go on together; no: all combinations"),
     PARAMS_END,
 };
@@ -391,6 +441,9 @@ static const case_section sections[] = {
     { SECTION(strike, strike_params, CASE_FOR_STRIKE,
               "What a launched projectile does to its target, the other bodies of the scene."),
       .size = sizeof(case_strike) },
+    { SECTION(life, life_params, CASE_FOR_LIFE,
+              "A load that comes again and again, and how long the rail lasts under it."),
+      .children = life_children, .size = sizeof(case_life) },
     { SECTION(output, output_params, 0, "What is written."), .size = sizeof(case_output) },
     { .key = "materials",
       .doc = "Materials given in the case itself, a list: used.yaml has them. They come before the files of "

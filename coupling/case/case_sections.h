@@ -28,7 +28,8 @@ enum {
     CASE_FOR_COMPARE = 16,   /* with CASE_FOR_ONSET: treatments */
     CASE_FOR_BODIES = 32,    /* takes the place of CASE_FOR_SCENE where `scene` has bodies of its own */
     CASE_FOR_SWEEP = 64,     /* sweep, and what it runs needs */
-    CASE_FOR_STRIKE = 128    /* strike, a scene with bodies; without strike.velocity the shot, if there is a supply */
+    CASE_FOR_STRIKE = 128,   /* strike, a scene with bodies; without strike.velocity the shot, if there is a supply */
+    CASE_FOR_LIFE = 256      /* life; its material's constants of elasticity and fatigue */
 };
 
 /* A layer of the rail's surface, the first in the list at the bottom. */
@@ -216,6 +217,37 @@ typedef struct {
     bool limit;                       /* the limit velocity is looked for, in the range of `study` */
 } case_strike;
 
+/* A load that comes again and again, and the life of the rail under it (coupling/life). */
+typedef enum { LIFE_HERTZ, LIFE_UNIFORM, LIFE_POINTS } life_profile;
+typedef enum { LIFE_FRICTIONLESS, LIFE_STICK_SLIP, LIFE_FULL_SLIP } life_state;
+typedef enum { LIFE_PULSE, LIFE_PASSAGE } life_cycle;
+
+/* A point of a tabulated load; straight lines between. */
+typedef struct {
+    double at;       /* over half_length [1] */
+    double pressure; /* over the peak pressure [1] */
+    double traction; /* the same; NAN: friction times the pressure [1] */
+} case_life_point;
+
+typedef struct {
+    int n;
+    case_life_point *item; /* n, owned by the case */
+} case_life_points;
+
+typedef struct {
+    char material[PARAM_TEXT_SIZE]; /* of the rail */
+    int profile;                    /* life_profile */
+    double wheel_load;              /* P on the whole ellipse; NAN: `pressure` is given [N] */
+    double pressure;                /* largest; NAN: of wheel_load [Pa] */
+    double half_length, half_width; /* of the patch, along and across the rail; half_width NAN: not given [m] */
+    int state;                      /* life_state */
+    double friction;                /* [1] */
+    double traction_share;          /* Q / (mu P') of stick-slip [1] */
+    int cycle;                      /* life_cycle */
+    int measure;                    /* fatigue_measure */
+    case_life_points points;        /* of LIFE_POINTS */
+} case_life;
+
 /* What a study takes for the onset of gouging: the groove's growth, or the crater's severity. */
 typedef enum { JUDGE_GROWTH, JUDGE_SEVERITY } study_judge;
 
@@ -295,7 +327,7 @@ typedef struct {
 typedef struct {
     bool supplies[SUPPLY_KINDS];
     bool rails, barrel, armature, options, optimise, rail, projectile, particle, sites, populations, treatments, scene,
-        study, sweep, strike, output;
+        study, sweep, strike, life, output;
     bool bodies; /* scene.bodies: then `scene` is not given */
 } case_given;
 

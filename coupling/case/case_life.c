@@ -1,0 +1,67 @@
+/* `life:`, a load that comes again and again: what no single value can say. */
+#include "coupling/case/case_reader.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+static void add(case_reader *r, const tree_node *where, const char *text)
+{
+    case_errors_add(r->errors, where, "life: %s", text);
+}
+
+/* Of a key without a value: it is there, and not as `none`, so its own error says what is wrong. */
+static bool is_wrong(const tree_node *node)
+{
+    return node && !(node->kind == TREE_TEXT && strcmp(node->text, "none") == 0);
+}
+
+static void check_points(case_reader *r, const tree_node *map)
+{
+    const case_life_points *p = &r->out->life.points;
+    const tree_node *list = host_tree_find(map, "points");
+    if (r->out->life.profile != LIFE_POINTS) {
+        if (list) add(r, list, "points are read with profile: points alone");
+        return;
+    }
+    if (p->n < 2) add(r, list ? list : map, "profile: points needs the list `points`, of two at least");
+    for (int k = 1; k < p->n; k++)
+        if (!(p->item[k].at > p->item[k - 1].at))
+            case_errors_add(r->errors, case_entry_node(list, k),
+                            "life.points[%d].at = %g: must lie beyond the point before, at %g", k, p->item[k].at,
+                            p->item[k - 1].at);
+}
+
+/* A traction that jumps makes the strain infinite at the jump. */
+static void check_jumps(case_reader *r, const tree_node *map)
+{
+    const case_life *k = &r->out->life;
+    const double mu = k->state == LIFE_FRICTIONLESS ? 0.0 : k->friction;
+    bool jumps = k->profile == LIFE_UNIFORM && mu > 0.0;
+    for (int i = 0; k->profile == LIFE_POINTS && i<k->points.n; i += k->points.n> 1 ? k->points.n - 1 : 1) {
+        const case_life_point *p = &k->points.item[i];
+        jumps = jumps || (isnan(p->traction) ? mu * p->pressure : p->traction) != 0.0;
+    }
+    if (jumps)
+        add(r, host_tree_find(map, "profile"),
+            "a traction that jumps at the patch's end makes the strain there infinite: let it fall to zero over "
+            "some length (profile: points), or take state: frictionless");
+}
+
+void case_life_check(case_reader *r)
+{
+    const case_life *k = &r->out->life;
+    const tree_node *map = host_tree_find(r->root, "life");
+    if (!r->out->given.life || !map || map->kind != TREE_MAP) return;
+    const tree_node *pressure = host_tree_find(map, "pressure"), *wheel = host_tree_find(map, "wheel_load");
+    if (isnan(k->pressure) && isnan(k->wheel_load) && !is_wrong(pressure) && !is_wrong(wheel))
+        add(r, map, "how large is the load? Give wheel_load [N], or pressure [Pa]");
+    if (!isnan(k->pressure) && !isnan(k->wheel_load)) add(r, pressure, "wheel_load and pressure exclude each other");
+    if (!isnan(k->wheel_load) && isnan(k->half_width)) add(r, wheel, "wheel_load needs half_width [m] of the patch");
+    if (!isnan(k->wheel_load) && k->profile != LIFE_HERTZ)
+        add(r, wheel, "wheel_load is that of profile: hertz; give pressure for the others");
+    if (k->state == LIFE_STICK_SLIP && k->profile != LIFE_HERTZ)
+        add(r, host_tree_find(map, "state"), "stick_slip is Carter's solution for profile: hertz");
+    check_points(r, map);
+    check_jumps(r, map);
+}

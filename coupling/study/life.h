@@ -1,0 +1,15 @@
+/* What `breech life` answers. */
+#ifndef BREECH_COUPLING_STUDY_LIFE_H
+#define BREECH_COUPLING_STUDY_LIFE_H
+
+#include "coupling/life/first.h"
+
+typedef struct {
+    double peak_pressure;                  /* [Pa] */
+    double normal_force, tangential_force; /* on a metre across the rail [N/m] */
+    double life_first;                     /* cycles until the first direction is cut [1] */
+    life_first first;                      /* that direction */
+    double wall_seconds;
+} life_result;
+
+#endif
