@@ -260,7 +260,7 @@ static material mts_copper(void)
 }
 
 /* (M-25) against mpmath, 25 digits, where sigma_e is found from its differential equation by quadrature: it checks the
- * closed integral, too.  1e-8: five steps of Newton's rule. */
+ * closed integral, too.  1e-8: the polynomial and the step of Newton's rule that invert it. */
 static void test_mts(void **state)
 {
     (void)state;
