@@ -194,7 +194,7 @@ static void test_screen_band(void **state)
     screen soft, hard;
     case_surface surface = surface_of(c);
     OK(gouge_screen_impact(&surface, 0.5e-3, 1400.0, &soft));
-    c->rail.yield_scale = 2.0 * 1.7 / 0.725;
+    c->rail.yield_scale = 2.0 * 1.7 / 0.95;
     surface = surface_of(c);
     OK(gouge_screen_impact(&surface, 0.5e-3, 1400.0, &hard));
     assert_true(fabs(hard.ratio - 0.5 * soft.ratio) < 1e-9);
@@ -207,10 +207,10 @@ static void test_screen_layers(void **state)
 {
     (void)state;
     breech_case *c = changed_case((const char *const[]){ "armature.material=steel_4340", "scene.damage=no", NULL });
-    case_layer layer[2] = { { .material = "ofhc_copper", .yield_scale = 10.0, .bond_strength = NAN },
-                            { .material = "ofhc_copper", .yield_scale = 40.0, .bond_strength = NAN } };
+    case_layer layer[2] = { { .material = "ofhc_copper_half_hard", .yield_scale = 10.0, .bond_strength = NAN },
+                            { .material = "ofhc_copper_half_hard", .yield_scale = 40.0, .bond_strength = NAN } };
     const case_layers none = c->rail.layers;
-    const double own = c->rail.yield_scale * 0.725e9, hard = 40.0 * 0.725e9, under = 10.0 * 0.725e9; /* [Pa] */
+    const double own = c->rail.yield_scale * 0.95e9, hard = 40.0 * 0.95e9, under = 10.0 * 0.95e9; /* [Pa] */
     const double height = 0.5e-3;
     screen bare, under_film, thick;
     case_surface surface = surface_of(c);
@@ -237,7 +237,8 @@ static void test_null_models(void **state)
 {
     (void)state;
     null_model of[NULL_MODELS], hard[NULL_MODELS];
-    breech_case *c = changed_case((const char *const[]){ "rail.yield_scale=1", NULL });
+    breech_case *c =
+        changed_case((const char *const[]){ "rail.material=ofhc_copper", "armature.material=al7075_t651", NULL });
     case_surface surface = surface_of(c);
     OK(gouge_null_models(&surface, 0.5e-3, of));
     for (int i = 0; i < NULL_MODELS; i++) {
@@ -309,8 +310,9 @@ static void add_layers(breech_case *c)
     assert_non_null(c->rail.layers.item);
     c->rail.layers.n = n;
     for (int i = 0; i < n; i++)
-        c->rail.layers.item[i] =
-            (case_layer){ .material = "al7075_t651", .thickness = 0.3e-3, .bond_strength = 80e6, .yield_scale = 1.0 };
+        c->rail.layers.item[i] = (case_layer){
+            .material = "al7075_t651_limited", .thickness = 0.3e-3, .bond_strength = 80e6, .yield_scale = 1.0
+        };
 }
 
 static made make(const char *const *sets)

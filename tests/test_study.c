@@ -862,7 +862,9 @@ static void test_hard_film(void **state)
 {
     (void)state;
     breech_case *c = changed_case((const char *const[]){ "sites[0].position=0.2 m", NULL });
-    case_layer film = { .thickness = 1e-6, .material = "ofhc_copper", .yield_scale = 40.0, .bond_strength = NAN };
+    case_layer film = {
+        .thickness = 1e-6, .material = "ofhc_copper_half_hard", .yield_scale = 40.0, .bond_strength = NAN
+    };
     const case_layers none = c->rail.layers;
     onset_answer a;
     c->rail.layers = (case_layers){ 1, &film };
