@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # The main job on the default case: a shot, its sites, and where along the rail gouging begins.
 # Installs missing Debian packages, builds build/release, writes out/default_shot.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # All tests.    ./test.sh          gcc; clang and gcc with sanitizers, without what is slow        (minutes)
 #               ./test.sh --full   the long parts too; all short parts with clang, both sanitizer builds and the portable
 #                                  one; the reader fuzzed with 10^6 inputs; a twelfth of the deliberate faults,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Constants of nature and of geometry. */
 #ifndef BREECH_BASE_CONSTANTS_H
 #define BREECH_BASE_CONSTANTS_H

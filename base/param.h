@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Parameters: one table a struct says every key once: unit, default, range, text.
  *
  * The case reader, `breech check`, used.yaml and the manual's key list are all made from these tables, and so is any

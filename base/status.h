@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Status: how every function of Breech that can fail says so.
  *
  * A status is returned by value; code STATUS_OK means done.  The text is one sentence for the user: what went wrong,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Bordered block-diagonal matrix, the shape of a circuit of many branches on a few common nodes (internal to circuit/).
  * The border begins with `sums` rows on which nothing else depends: their columns are zero but for the diagonal.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "circuit/dae.h"
 
 #include "circuit/sundials_compat.h"

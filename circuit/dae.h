@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Index-1 differential-algebraic system  F(t, y, y') = 0  with located roots, whose Newton matrix has the shape of
  * circuit/arrow.h.  The only door to SUNDIALS (IDA).
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "circuit/firing.h"
 
 #include "circuit/shot_model.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Looks for firing times of a bank that meet a goal, by a simplex search (Nelder and Mead's, of GSL).
  *
  * The search moves the firing times of all capacitor groups that fire and join at the breech, except the first.  For

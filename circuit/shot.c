@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Driving a shot: integration between switchings, events, summary.  Equations: circuit/shot_model.c. */
 #include "circuit/shot_internal.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The shot: from the charged bank to the armature leaving the muzzle, as one circuit with a moving part.
  *
  * circuit_shot_create copies the configuration; circuit_shot_advance integrates until a time and calls the sinks;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The armature: what pushes and holds it, what its contact costs.  Equations (C-3) .. (C-7), (C-20) .. (C-22):
  * docs/shot.md. */
 #include "base/constants.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Making a shot from its configuration. */
 #include "circuit/shot_internal.h"
 

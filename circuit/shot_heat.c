@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What a shot leaves in its rails: heat by place, as a rise of temperature once it has evened out over the section. */
 #include "circuit/shot_internal.h"
 

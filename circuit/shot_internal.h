@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A shot under way, and who does what to it (internal to circuit/):
  *   shot_create.c  makes it from its configuration        shot.c         drives the integration, hands out events
  *   shot_switch.c  switchings of supplies and armature    shot_state.c   reads it: ledger, state, summary

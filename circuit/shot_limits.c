@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Temperatures at the contact, and how near armature and rail come to their limits. */
 #include "base/constants.h"
 #include "circuit/shot_internal.h"

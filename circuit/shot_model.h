@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The equations of a shot between two switchings (internal to circuit/; docs/shot.md has them with their tags).
  *
  * Unknowns, in this order: those of every group (circuit/supply/supply_kind.h), then the tail z: those of shot_unknown,

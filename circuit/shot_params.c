@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Parameter tables of the shot: every key, unit, default, range and text stands here once. */
 #include "circuit/shot.h"
 

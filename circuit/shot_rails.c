@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The shot's rails: their keys, and the ladder that stands for them at each level. */
 #include "circuit/rails/inductance.h"
 #include "circuit/shot_model.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Reading a shot: where its energy is, its state, its summary. */
 #include "circuit/shot_internal.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Switchings: gates and stages of the supplies, the armature's phases, feeds and sites on its way. */
 #include "circuit/shot_internal.h"
 

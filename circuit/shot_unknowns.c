@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What the integrator holds: all unknowns, and those of the shot behind the supplies'. */
 #include "circuit/shot_internal.h"
 

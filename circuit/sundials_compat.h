@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What differs between SUNDIALS 6.4 and 7.x, for circuit/dae.c alone. */
 #ifndef BREECH_CIRCUIT_SUNDIALS_COMPAT_H
 #define BREECH_CIRCUIT_SUNDIALS_COMPAT_H

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # The link lines hold the arrows of the design: base needs nothing of ours, circuit and mpm need base alone.
 set(breech_arrow_breech_base "")
 set(breech_arrow_breech_circuit breech_base)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shellcheck shell=bash disable=SC2034
 # Sourced by demo.sh and test.sh: the Debian 12 packages Breech needs, and how to get them.  The one list of them.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # cmake --install: program, libraries, headers (use -I<prefix>/include/breech), cases with their materials.
 foreach(target breech breech_base breech_circuit breech_mpm breech_coupling)
     if(TARGET ${target})

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Everything outside this repository, each as one imported target that a folder just links:
 #   breech_sundials  GSL::gsl  breech_hdf5  breech_yaml  breech_udunits2  breech_cjson  breech_cmocka  OpenMP::OpenMP_C
 #   MPI::MPI_C (only where MPI was found)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Writes OUT, a header with an id of all that turns a scene's inputs into its outcome: the solver's sources (SOURCES, a list
 # of files), the compiler and its flags (TOOLCHAIN).  The scene store is keyed by it: results of another solver are not taken.
 #   cmake -DOUT=... -DSOURCES=... -DTOOLCHAIN=... -P cmake/solver_id.cmake

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* breech: the program.  Options in, exit code out; the only place that prints and exits.
  *
  * To add a command that runs a case: a study (study/study.h); any other: a line in usage/commands.def and its function

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # A study over the processes of a cluster, for Slurm:   sbatch docs/slurm-job.sh my_case
 # Submit it again after it ran out of time: --resume goes on, finished scenes are in the store.
 #SBATCH --job-name=breech

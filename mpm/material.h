@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* One material's constants, as read from cases/materials/<name>.yaml.  NAN = not known: a feature that needs the
  * constant refuses the material by name (mpm_material_check), it never assumes zero.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The solver's step and its books. */
 #include "mpm/law/contact.h"
 #include "mpm/memory/build.h"

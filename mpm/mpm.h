@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The material-point solver: a scene in, its state at a later time out.
  *
  * A step is one of the coarsest level; finer ones make two, four, .. in it (substeps.c), and after it all are in step.

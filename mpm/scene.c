@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "mpm/scene.h"
 
 #include "mpm/law/contact.h"

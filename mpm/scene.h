@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A scene: what the material-point solver is given.  Bodies with shapes and materials, a graded grid, boundaries,
  * contact laws.  SI units.
  *

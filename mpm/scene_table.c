@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The members of a scene's structs, each once: defaults, ranges, units and names for those who read or print scenes,
  * and the key that says whether two scenes are the same. */
 #include "mpm/scene.h"

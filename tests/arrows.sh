@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # The arrows of the design hold, and nothing else is included:
 #   tests -> coupling -> {circuit, mpm} -> base
 #   in coupling:  main -> usage -> study -> {gouge, strike, life} -> run -> scene -> {case, output, report} -> host

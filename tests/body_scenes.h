@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A small scene of bodies with probes for tests of the store and of processes: a ball at 300 m/s onto a block. */
 #ifndef BREECH_TESTS_BODY_SCENES_H
 #define BREECH_TESTS_BODY_SCENES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The default shot's case, changed, for tests that need a whole one. */
 #ifndef BREECH_TESTS_CASE_COMMON_H
 #define BREECH_TESTS_CASE_COMMON_H

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Headers that include, and files that call, each other in a circle.    tests/circles.py BUILD_FOLDER
 
 A file calls another where its object asks for a function that the other's defines; so what an object asks for says it,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Shots for tests and benchmarks: the 200 kJ unit of cases/pulse_unit_200kJ, a plain barrel, a notebook of events. */
 #ifndef BREECH_TESTS_CIRCUIT_COMMON_H
 #define BREECH_TESTS_CIRCUIT_COMMON_H

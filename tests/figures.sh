@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Figures about cases in README.md, docs/ and cases/: each stands in the text that its comment belongs to, and a wrong one
 # is noticed.  With BREECH_FULL=1 every command is run and its figures compared (some ten minutes of two cores).
 #   tests/figures.sh BREECH

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shellcheck shell=bash
 # Sourced: sources REGEX lists the files of this repository whose path matches, one a line: tracked, and new ones that
 # git does not ignore.  Works without git too.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Every .c and .h is formatted by the repository's .clang-format, and no line is longer than 120 columns.
 #    tests/format.sh --fix [FILE...]   formats them.
 # Versions of clang-format differ in their results: 14 is the one that counts.  Exit 77 = skipped.

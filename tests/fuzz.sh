@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Fuzzes every target of tests/fuzz with N inputs each (1 000 000 unless told), starting from the seeds in
 # tests/fuzz/seeds/<target>.  A crash leaves its input in build/fuzz/.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # What `cmake --install` lays down works outside the tree:   tests/install.sh BUILD_FOLDER
 # The program starts, says its version and knows the installed materials; a user's program compiles and links with
 # the installed headers and libraries.  Exit 77 = skipped.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Scenes for the tests of the solver, small enough to run in seconds.  Lengths in m.
  *
  * Materials are rows of the reference table, or the same metal made simple: `hydro` without strength, `elastic` with a

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Every external name begins with its library's prefix: base_, circuit_, mpm_; in coupling with its room's (host_, case_,
 # ...).    tests/names.sh BUILD_FOLDER    Exit 77 = skipped.
 set -euo pipefail

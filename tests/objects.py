@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a build's objects define and ask for, by nm; shared by circles.py and unused.py."""
 import os
 import re

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What the tests of the output share: example results, folders, Python. */
 #ifndef BREECH_TESTS_OUTPUT_COMMON_H
 #define BREECH_TESTS_OUTPUT_COMMON_H

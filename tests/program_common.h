@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Running the program from a test, and reading what it wrote. */
 #ifndef BREECH_TESTS_PROGRAM_COMMON_H
 #define BREECH_TESTS_PROGRAM_COMMON_H

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Run by test_program: the reader on a scene that ended at its second gauge, which has no crater.   read_gauged.py PYTHON DIR"""
 import os
 import subprocess

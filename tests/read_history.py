@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Every dataset of a history carries units and a description; series of one group are equally long."""
 import sys
 

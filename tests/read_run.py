@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The package of python/ gives what the files hold:   read_run.py PYTHON DIR SCENE
 
 DIR: an output directory with the scene, its snapshots and its store.

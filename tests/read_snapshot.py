@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A snapshot is a VTKHDF 1.0 UnstructuredGrid as the format's description has it, with the values that the test wrote.
 
 read_snapshot.py FILE.hdf PARTICLES TIME [FIELD ...]    one snapshot; the fields in the order of the particle list

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A small gouge scene through the runner, its steps and snapshots counted.  A `speed` is four changes of the case. */
 #ifndef BREECH_TESTS_SHELF_COMMON_H
 #define BREECH_TESTS_SHELF_COMMON_H

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Tables of docs/validation: the comparison notices what it should, and every part has its place in a page.  With
 # BREECH_FULL=1 the quick parts are computed anew and compared (tables.py --list; half an hour of two cores).
 #   tests/tables.sh BREECH

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* base/: status and parameter tables.  Tolerances are zero throughout: nothing here is computed, only copied. */
 #include "base/param.h"
 #include "base/status.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Case files: what is read, with which units; all errors at once and where; --set; used.yaml; the manual's key list. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The fuzzer's seeds, and every cut and some broken bytes of them, through the fuzzer's own function: its laws abort.
  */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The cases of every supply: read as they are, run, energy closed, in the report's table too; the published pulse of
  * one unit. */
 #include "coupling/case/case.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The bordered block-diagonal matrix against a dense one, and the circuit's Jacobian against differences of its
  * residual. */
 #include "circuit/shot_internal.h"

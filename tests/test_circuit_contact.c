@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The armature's contact: how its current crowds (circuit/armature/contact.h), the film it slides on
  * (circuit/armature/film.h), both in a shot. */
 #include "circuit/armature/contact.h"

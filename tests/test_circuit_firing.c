@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The search for firing times: it keeps its word on peak and velocity, and what it finds is better than what it was
  * given. */
 #include "circuit/firing.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Heat left along the rails (circuit/rails/rails_heat.h): closed forms of one piece, and the ledger of whole shots. */
 #include "circuit/rails/rails_heat.h"
 #include "tests/circuit_common.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Diffusing rails: the ladder against the section it stands for, the two equations a rung against slices summed one by
  * one, the closed formula of a half-space, and the power balance that must hold for any current and speed. */
 #include "circuit/rails/inductance.h"

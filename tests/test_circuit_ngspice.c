@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The same shot by ngspice, from a netlist written here out of the configuration: armature and rails as behavioural
  * sources, flux form.  Both must agree to 0.1 %, and ngspice must take at least five times as long at its own error.
  * Skipped where BREECH_FULL is not 1 or ngspice (Debian package) is not there. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Rails: L', R' of the section against the reference tables, limits and scaling laws; the parameter tables' own laws.
  */
 #include "circuit/rails/inductance.h"

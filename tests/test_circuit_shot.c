@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The shot: closed forms, a measured-like pulse, an independent integration, and everything a bank can be asked to do.
  */
 #include "circuit/shot.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Circuits no one would build: the energy closes, or the refusal says at which time and what to try. */
 #include "tests/circuit_common.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Supplies: the law of the table for every kind, closed forms of each, several of them on one barrel. */
 #include "circuit/supply/supply_kind.h"
 #include "tests/circuit_common.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Treatments and their comparison, on scenes that cost nothing. */
 #include "coupling/case/case.h"
 #include "coupling/case/treatment.h"

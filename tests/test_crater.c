@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The crater's measures on synthetic rails whose surface, and so every measure, is known in closed form.
  *
  * A rail is a lattice of points, some mm deep, whose topmost point in each column is cut to end exactly at the surface.

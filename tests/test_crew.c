@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Scenes over several processes: the same as by one, whoever computes them, on whatever threads are lent.
  *
  * Started by ctest as one process, it starts itself again as three under mpirun; rank 0 tests, the others serve. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A small scene through the runner: a dying groove ends early. */
 #include "shelf_common.h"
 

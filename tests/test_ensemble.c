@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* breech scene --ensemble N: the same scene on shifted grids; its table against the scenes themselves, each of which is
  * the same as one of its own with that shift. */
 #include "program_common.h"

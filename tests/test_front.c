@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The plastic front against a closed answer: metal of known plastic power on known places, looked at as the watch over
  * a gouging scene does. */
 #include <setjmp.h>

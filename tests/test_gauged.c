@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The program on scenes that end once the growth of their groove is known. */
 #include "program_common.h"
 

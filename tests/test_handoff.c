@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* From the shot to the scene: states at the sites, the screen, the geometry and the forces of the scenes. */
 #include "coupling/case/case.h"
 #include "coupling/gouge/growth.h"

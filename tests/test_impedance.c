@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Materials: the impedance match against tabulated and closed answers, what a study needs, derived constants. */
 #include "mpm/material.h"
 

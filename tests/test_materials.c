@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Every file of cases/materials: it reads, each constant has a source and lies in its range; and what the reader
  * refuses. */
 #include <setjmp.h>

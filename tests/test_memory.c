@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Memory that runs out: the n-th allocation of our own fails, for n = 1, 2, ... until all that is needed is had.  Every
  * failure ends in STATUS_MEMORY: no crash, no silent result, and nothing left behind.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Random shots over surfaces that are known: closed answers of a Poisson process. */
 #include "coupling/study/sampling/gouge_law.h"
 #include "coupling/study/sampling/montecarlo.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* One axis of the grid, and the weights on it: laws that hold for any grading.
  *
  * Tolerances are rounding: 2e-16 of the largest number in the sum, which is the position in the window, a few terms. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The same bits on any number of threads and across save and restore; images of anything else are refused.
  *
  * No tolerance anywhere: arrays are compared byte by byte. */

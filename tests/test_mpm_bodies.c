@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Many bodies in many groups: how many there may be is memory's to say.  Motions that are known, the same bits on any
  * number of threads and across save and restore. */
 #include "mpm_scenes.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Bodies as points: cut at their surfaces, so that mass and centroid are the shape's and neighbours share every box
  * between them.  Limits are two to four times what was measured; whole boxes or none, 0.4 - 1.9 % of the mass, miss
  * them all. */

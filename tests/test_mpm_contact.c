@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Contact of two groups at the nodes (M-6) against closed answers: friction, sticking, bond, impact, opposite forces.
  */
 #include "mpm_scenes.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Bodies that only fly: nothing may happen to them, wherever they cross cells, bricks and gradings, and what leaves the
  * window is booked.  Tolerances are rounding: a step rounds each sum once, about 2e-16, and a thousand steps add up to
  * some 1e-14 at random and 2e-13 at worst, unless said. */

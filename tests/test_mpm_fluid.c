@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Fluids and spalling solids in scenes: a column of water that is torn apart, air that runs against a wall, a plate
  * that spalls. */
 #include "mpm_scenes.h"

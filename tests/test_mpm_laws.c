@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Every law of strength.def, eos.def and failure.def, with every material of cases/materials that has what it needs:
  * the laws that all must satisfy.  A law that no material can be given is an error here.  The kernel's own code is
  * compiled in, for the compiler's default instruction set.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The books of a small gouge scene, with everything in it that can go wrong: three bodies, contact, friction, failure,
  * a graded grid, splits, and every kind of boundary.
  *

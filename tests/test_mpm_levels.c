@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Levels of the grid (mpm/grid/grid.c, interface.c): nothing may tell that two levels meet but the size of the cells.
  * Tolerances are rounding, as in test_mpm_flight. */
 #include "mpm_scenes.h"

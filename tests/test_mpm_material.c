@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The material law of one particle in a given velocity gradient, against closed answers.  The kernel's own code is
  * compiled in here, for the compiler's default instruction set.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Probes against closed answers, one test a kind at least: test_table fails for a kind without.  Same bits on any
  * number of threads. */
 #include "mpm_scenes.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Where cells are small (mpm/refine): rules, levels that nest, points that go from level to level and outlive cells. */
 #include "mpm_scenes.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A scene as data: its arrays, its tables of members, its key; and what the solver says when memory ends. */
 #include "mpm/memory/store.h"
 #include "mpm_scenes.h"

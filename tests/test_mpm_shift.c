@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A grid shifted against the bodies by part of a cell (mpm_scene.grid_shift): the window's ends stay, the planes
  * between them move, and nothing else may tell.  Tolerances are rounding, as in test_mpm_flight. */
 #include "mpm_scenes.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Plane waves: copper on copper at 2 km/s against the Hugoniot, at rest in the grid and carried through it, and a pulse
  * through a graded zone.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Bodies at rest cost nothing: points whose nodes do not move are left as they are until something comes (g2p.c). */
 #include "mpm_scenes.h"
 

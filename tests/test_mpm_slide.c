@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The quiet slide: an armature on a smooth rail, no grain, no friction, pressed on with 50 MPa, the interface 0.37 of a
  * cell off the grid planes.  Nothing may happen.  Limits are those of the issue: no failed point, plastic strain below
  * 0.05 away from the rail's ends, energy to 0.1 % of the kinetic energy. */

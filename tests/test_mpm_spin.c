@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A strut that flies and spins freely: its books start right, and it keeps energy, momentum and angular momentum. */
 #include "mpm_scenes.h"
 

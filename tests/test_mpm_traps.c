@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Invalid operations, divisions by zero and overflows stop a scene that is run with the processor's traps on: nothing
  * in it may make a NaN or an infinity, not even where the result is thrown away (holes in blocks, empty nodes, bodies
  * that fail). */

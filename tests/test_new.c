@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* breech new: a case begun from any shipped case is that case under its own name, with its files, and says what its
  * keys mean; what is there stays as it is. */
 #include "program_common.h"

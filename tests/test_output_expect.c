@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Expectations beside a case, compared with a summary: what holds, what fails, what is refused. */
 #include "coupling/output/expect.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Output directory, files that appear at once, checkpoints, progress, stop requests. */
 #include "output_common.h"
 

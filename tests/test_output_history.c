@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* history.h5: what was appended comes back, with units; a run that goes on leaves no gap; nothing that ends the writer
  * leaves a file that cannot be read. */
 #include "output_common.h"

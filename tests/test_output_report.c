@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* report.html: made from the files of the directory alone, whole whatever is missing, with no link to the network. */
 #include "coupling/gouge/crater_history.h"
 #include "coupling/host/version.h"

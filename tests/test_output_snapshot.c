@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Snapshots: the structure that VTKHDF 1.0 asks for, the values that the particles have, the index, what a resumed run
  * keeps.  ParaView itself reads them when BREECH_FULL is 1. */
 #include "output_common.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* summary.json: every key of the design is there for every kind of run and every end of it, and says what it was given.
  */
 #include "output_common.h"

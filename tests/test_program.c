@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The program from outside: exit codes, refusals that write nothing, --set, summaries. */
 #include "program_common.h"
 

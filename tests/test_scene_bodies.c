@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Scenes whose bodies stand in the case: every table of the solver is read, what cannot be is refused with its place,
  * what is left out is chosen, any scene written as text gives the same bits, and a run keeps its books body by body. */
 #include <setjmp.h>

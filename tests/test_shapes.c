@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Solids: the laws of mpm/shape/solid.h over the whole table, shapes and operations; one example or more of each, with
  * its closed volume, in `examples`.  The armature's section, which is made from them, too. */
 #include "coupling/gouge/armature.h"

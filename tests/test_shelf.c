@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Small scenes through the runner: checkpoints come no oftener than they may, a whole scene goes on from the one that
  * ended at its gauge. */
 #include "coupling/case/case.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The program stopped and resumed: SIGTERM, SIGINT, --max-walltime. */
 #include "program_common.h"
 

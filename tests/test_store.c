@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The scene store: what decides a scene, its file, and that no scene is computed twice, whoever else is at it. */
 #include "coupling/case/case.h"
 #include "coupling/gouge/impact_scene.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What a projectile does to its target: its flight, how the class is decided, what a case is refused for, and small
  * scenes that are known to rebound, to stop and to pierce. */
 #include "coupling/scene/scene_fill.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The search for a threshold on functions that are known, and the whole study on scenes that cost nothing. */
 #include "coupling/case/case.h"
 #include "coupling/gouge/growth.h"

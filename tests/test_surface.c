@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Threshold surfaces of known functions: bands hold the truth, few scenes, halving the wanted interval. */
 #include "coupling/study/search/surface.h"
 

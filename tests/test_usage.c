@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The command line as its lists say it: help, manual page and completion name every command and option, an option that
  * a command does not take is refused, every example can be run. */
 #include "program_common.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The validations of tests/validate held to their limits: the coarse levels, all of them with BREECH_FULL=1.  Momentum
  * and mass (V11) everywhere. */
 #include "valid.h"

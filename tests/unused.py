@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """What nobody uses: external functions, members of structs, enumerators, rows of tables.    tests/unused.py BUILD_FOLDER
 
 1. Every external name of the libraries is used by another of their files, or by the program.

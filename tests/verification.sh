@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # The closed answers of cases/verification as a user runs them:   tests/verification.sh PROGRAM
 # The quick ones; with BREECH_FULL=1 all that have a list of expectations.
 set -euo pipefail

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* How far the current spreads over a sliding contact: the velocity skin effect (internal to circuit/).
  *
  * Under the contact the rail takes up the current as it passes, K(x) from 0 at the leading edge to I/width at the

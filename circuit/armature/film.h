@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The melt between a face of the armature and the rail: how thick it is, what it costs to shear it (internal to
  * circuit/).
  *

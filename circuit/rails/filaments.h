@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Parallel filaments of quadrangular section, in the solved half of one rail (circuit/rails/section.h).  The vector
  * potential of filament j and its images at i, averaged over both sections, is
  *   A_i = - mu0/(2 pi) sum_j sum_images +-I_j <ln r_ij>                                              (C-8) [Wb/m]

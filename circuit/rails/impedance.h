@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Z'(s) of parallel filaments of one length, for every complex frequency s at once.
  *
  * (R + s L) i = e 1,  Z' = e/(1.i),  R diagonal.  With K = R^(-1/2) L R^(-1/2), b = R^(-1/2) 1, Lanczos' process from b

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Inductance and resistance gradients of a set of rails, per unit length of the whole as one loop
  * (circuit/rails/section.h). */
 #ifndef BREECH_CIRCUIT_INDUCTANCE_H

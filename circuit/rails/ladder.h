@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A ladder of rungs in place of Z'(s): each an inductance beside a resistance, all in series,
  *   Z'(s) = R_dc + s L_inf + sum s L_k R_k/(R_k + s L_k),   R_dc, L_inf, L_k, R_k >= 0                   (C-11)
  * Passive by construction.  A ladder of no rungs is a pair of constant gradients. */

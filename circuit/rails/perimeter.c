@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "circuit/rails/perimeter.h"
 
 #include "base/constants.h"

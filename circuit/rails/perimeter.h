@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Rails as perfect conductors: the surface current on the outline, by panels of constant current graded to the corners.
  */
 #ifndef BREECH_CIRCUIT_PERIMETER_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The pair of rails as a moving load: a ladder (circuit/rails/ladder.h) for every slice of rail, each from the instant
  * at which the armature exposes it, summed exactly over all slices.  docs/shot.md derives it.  With j_k the current in
  * rung k's inductance,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Where along the barrel the rails' heat stays: the sums over all slices of circuit/rails/rails.h, slice by slice.
  *
  * The barrel in RAILS_PIECES pieces.  At the middle of each, from the instant at which the armature exposes it, the

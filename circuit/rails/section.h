@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Cross-section of a set of equal rails, and its symmetry.
  *
  * The bore is at x = 0; the first rail lies at x > 0, symmetric about y = 0, its bore face at x = s/2 + (arc), its back

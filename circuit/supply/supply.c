@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The table of supplies, and what is common to all of them. */
 #include "circuit/supply/supply_kind.h"
 

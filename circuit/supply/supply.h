@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What can drive a shot: the parameters of every kind of supply.
  *
  * `count` equal units side by side, fired together, are a group; groups of all kinds stand in parallel on the rails.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* One phase of a pulse alternator at constant excitation (flux k, p pole pairs, inertia J, speed w, angle a, windage b
  * w):
  *   e = k sin(p a + phase),   L di/dt = e w - R i - V,   J dw/dt = -e i - b w,   da/dt = w

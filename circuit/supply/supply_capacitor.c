@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Capacitor module (C voltage u, crowbar diode V_d + R_d i_D across it, coil L_p with damping R_p across it, cable
  * L_c):
  *   L di/dt = u - R i - V,  L = L_p + L_c,  C du/dt = -i

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Homopolar generator (flux k, inertia J, speed w, windage b w):
  *   L di/dt = k w - R i - V,   J dw/dt = -k i - b w
  * Without windage it is a capacitor J/k^2 charged to k w_0.  y = i, w. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Inductive store (L_s, current i_s, battery V_b, R_s in all) with opening switch, cable (L_c, R_c) to the rails:
  *   switch closed, before firing:     L_s di_s/dt = V_b - R_s i_s
  *   opening, its arc holds U:         L_s di_s/dt = V_b - U - R_s i_s,   L_c di/dt = U - R_c i - V

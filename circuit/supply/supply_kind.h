@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What a kind of supply is to the circuit (internal to circuit/).
  *
  * A unit has up to SUPPLY_UNKNOWNS unknowns: y[0] = its current i [A], positive into the rails, the others its own.

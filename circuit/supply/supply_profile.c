@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A current that is given: i = I(t - fire_at), algebraic, I the monotone cubic (Steffen 1990) through the points; its
  * slope drives the rails' inductance.  The power V i that this takes is booked as supplied.  y = i. */
 #include "circuit/supply/supply_kind.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A case as it is read, checked and written as a whole: the struct of this room alone.  Others get what
  * case_plain.h makes of it; its sections are in case_sections.h. */
 #ifndef BREECH_COUPLING_CASE_H

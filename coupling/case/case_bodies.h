@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* `scene:` with `bodies:` in it: any scene of the solver, said in the solver's own terms.
  *
  *   scene:

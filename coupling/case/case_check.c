@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What no single value of a case can say. */
 #include "coupling/case/case_reader.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Comments for a case: what each of its keys means, from the tables that read it.  A line with a comment keeps its own;
  * of a list the first entry is commented. */
 #include "coupling/case/case_new.h"

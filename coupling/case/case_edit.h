@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Changes to a text at places that its tree knows: a value replaced, a comment added, all else as it was. */
 #ifndef BREECH_COUPLING_CASE_EDIT_H
 #define BREECH_COUPLING_CASE_EDIT_H

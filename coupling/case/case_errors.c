@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/case/case_errors.h"
 
 #include <ctype.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* All errors of a case at once: collected while reading, sorted by place, one a line.  A case may be made of several
  * files, each built on the next: every error names its own.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The keys of one mapping from several tables at once: a body's numbers and a solid's values have no struct of their
  * own in the case. */
 #include "coupling/case/case_bodies.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A new case, begun from another one: `breech new`.
  *
  * The text is that of a case that is there, shipped or the user's own: its name becomes the new one's, keys without a

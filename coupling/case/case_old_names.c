@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Names of sections and keys that this version still reads under their old name, with a warning that says the new one.
  *
  * To rename a key: a line below; take it out again one version later. */

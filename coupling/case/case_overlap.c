@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Bodies that overlap: both would fill the same place. */
 #include "coupling/case/case_bodies.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Where a case says what a message is about: checks beyond the reader's name keys by their path, such as
  * `rail.face_crown`, and know nothing of files. */
 #ifndef BREECH_COUPLING_CASE_PLACE_H

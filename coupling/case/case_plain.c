@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/case/case_plain.h"
 
 #include "coupling/case/case.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Plain structs made from a case, for those who need no more than one of them: SI numbers, nothing of the file.
  *
  * They borrow what they point to from the case and hold until it is changed or freed.  Who varies an input changes the

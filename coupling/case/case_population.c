@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Populations of grains: what presets say, and what no single value can say. */
 #include "coupling/case/case_reader.h"
 

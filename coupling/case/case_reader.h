@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* How a case is read, for the files that do it: tree -> sections by their tables -> materials -> checks of the whole.
  */
 #ifndef BREECH_COUPLING_CASE_READER_H

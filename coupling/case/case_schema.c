@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/case/case_schema.h"
 
 #include "coupling/case/treatment.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The schema of a case file: which sections there are, which table each is made of, where it lies in breech_case.
  * Read by the reader, the writer of used.yaml and the manual's key list.
  *

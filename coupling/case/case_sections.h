@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The sections of a case file as structs, in SI units: what every room may know of a case.
  *
  * Every key stands once, in a param table (this folder's case_schema.c; circuit/ and mpm/ for their own sections).

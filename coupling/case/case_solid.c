@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Solids of a case: one key, the kind; its values by the kind's own table; the parts of an operation under `of`. */
 #include "coupling/case/case_bodies.h"
 

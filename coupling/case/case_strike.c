@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* `strike:`, a projectile's arrival at the other bodies of the scene: what no single value can say. */
 #include "coupling/case/case_bodies.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The tree of a case: its file, the files it builds on (`base:`), what --set changes; old names become the new ones. */
 #include "coupling/case/case_reader.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* One value of a case file as it is written. */
 #include "coupling/case/case_reader.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* used.yaml and the manual's key list, from the same tables as the reader. */
 #include "coupling/case/case_bodies.h"
 #include "coupling/case/case_plain.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/case/material_file.h"
 
 #include "coupling/case/case_reader.h"

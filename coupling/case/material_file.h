@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A material's file: cases/materials/<name>.yaml, every constant with its source.
  *
  *   name: ofhc_copper

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A current profile from a table file: time [s] and current [A] a row, parted by commas or blanks; # begins a comment;
  * lines before the first row that are no numbers are its heading. */
 #ifndef BREECH_COUPLING_PROFILE_FILE_H

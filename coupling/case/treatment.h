@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Treatments: what can be done to a rail's surface, as a change of what the case gives (case_onset).
  *
  * A case lists surfaces to compare, each a name and the kinds of treatment on it.  To add a kind: treatment_<kind>.c

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Another armature.  Grains of the former armature's metal (debris) are of the new one; the shot keeps its mass. */
 #include "coupling/case/treatment.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* One or several layers on what the rail has already. */
 #include "coupling/case/treatment.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A skin of the rail's metal whose flow stress is raised: shot peening, laser hardening, cold rolling.  Uniform over
  * its depth; it lies below the rail's own layers and coatings. */
 #include "coupling/case/treatment.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The lead face at another angle to the rail; its height stays, so its length changes. */
 #include "coupling/case/treatment.h"
 #include "base/constants.h"

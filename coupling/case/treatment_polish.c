@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Grains of a fraction of their size, and fewer of them.  Shape and height over radius stay. */
 #include "coupling/case/treatment.h"
 

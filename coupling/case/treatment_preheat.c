@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A rail that is warm when the armature comes: softer, by the strength law of its metal. */
 #include "coupling/case/treatment.h"
 

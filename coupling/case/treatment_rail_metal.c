@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Another rail.  Grains of the former rail's metal (burrs, welded grains) are of the new one. */
 #include "coupling/case/treatment.h"
 

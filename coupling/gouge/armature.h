@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The armature's volume: half of a U on one rail, a prism along z about z = 0 that moves towards +x.
  *
  *      half_bore  . . . . . . . . . . . . . . +-----------------+   mid plane between the rails

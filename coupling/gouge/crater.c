@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Measures and class of the crater. */
 #include "coupling/gouge/crater.h"
 

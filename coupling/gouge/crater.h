@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The crater: what the rail's surface looks like after the pass, and what class of damage that is.
  *
  * Surface.  Over the map lies a lattice of sample lines, two a cell and axis, at its Gauss points (irrational, so that

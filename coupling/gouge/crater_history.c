@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/gouge/crater_history.h"
 
 status gouge_crater_record(const crater *c, history *h, const char *scene)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A crater as a map of its scene in the history: /scene/<name>/crater/{x, z, depth}, its numbers as attributes. */
 #ifndef BREECH_COUPLING_CRATER_HISTORY_H
 #define BREECH_COUPLING_CRATER_HISTORY_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The rail's surface along sample lines, and the map of its depth (rules in crater.h). */
 #include "coupling/gouge/crater_parts.h"
 

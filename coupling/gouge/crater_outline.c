@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Which cells of the map are the crater, and their outline (rules in crater.h). */
 #include "coupling/gouge/crater_parts.h"
 

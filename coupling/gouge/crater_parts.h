@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Parts of crater.c: what the surface looks like, and what of it is the crater (rules in crater.h). */
 #ifndef BREECH_MPM_CRATER_PARTS_H
 #define BREECH_MPM_CRATER_PARTS_H

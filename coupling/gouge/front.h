@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The plastic front: how far along the rail metal is ploughed, and with what power.
  *
  * The armature's edge, pressed on, ploughs the rail over the whole width, a groove does not: what counts is the power

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* How fast a groove grows and how fast its front runs: plastic power and front (front.h), noted at the gauges.
  *
  * growth = ln(P2 / P1) / (t2 - t1), P the power at the first look after each gauge.  Positive: the groove would go on

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* One impact of the armature on a grain: its scene run under the watch, and what came of it for rail and armature. */
 #ifndef BREECH_COUPLING_GOUGE_IMPACT_H
 #define BREECH_COUPLING_GOUGE_IMPACT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/gouge/impact_scene.h"
 
 #include "coupling/gouge/armature.h"

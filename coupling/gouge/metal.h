@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The material points of a gouging scene, read for those who look at the rail's surface and at the armature's metal. */
 #ifndef BREECH_COUPLING_METAL_H
 #define BREECH_COUPLING_METAL_H

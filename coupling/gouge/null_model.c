@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/gouge/null_model.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Null models: where gouging would begin if one number of the two metals decided it.
  *
  * Each has one constant, and that is what makes 7075 on copper begin at 1325 m/s, the middle of the two onsets that are

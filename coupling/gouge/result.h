@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A gouging scene's result, full model, from what the solver and the watch over it say. */
 #ifndef BREECH_COUPLING_GOUGE_RESULT_H
 #define BREECH_COUPLING_GOUGE_RESULT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The screen: can this grain gouge at all?
  *
  * Planar impact pressure of the armature on the rail (impedance match, M-22) over the hardness of the harder partner.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/gouge/session_shot.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A shot of a session: run past its grains, timed, warned of where it leaves its limits, recorded. */
 #ifndef BREECH_COUPLING_GOUGE_SESSION_SHOT_H
 #define BREECH_COUPLING_GOUGE_SESSION_SHOT_H

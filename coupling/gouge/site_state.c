@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/gouge/site_state.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* From the shot to the sites: the armature's state on its arrival at every grain of the case.
  *
  * The shot is run once, the sites its located roots (no step passes over one); what it was along the way is kept as a

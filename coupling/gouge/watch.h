@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The watch over a gouging scene: what is looked at between its pieces, when it is over, what it has come to.
  *
  * Over, before its end time, is a scene whose growth is known where that judges it (gouge_scene.gauged), and one that

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A whole file as bytes. */
 #ifndef BREECH_COUPLING_FILE_TEXT_H
 #define BREECH_COUPLING_FILE_TEXT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* One hash for keys and checksums. */
 #ifndef BREECH_COUPLING_HOST_HASH_H
 #define BREECH_COUPLING_HOST_HASH_H

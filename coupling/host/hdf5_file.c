@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/host/hdf5_file.h"
 
 #include "coupling/host/outdir.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* HDF5 behind one file: a tree of datasets held in memory, saved whole.
  *
  * A file lives in memory until host_h5_save writes it: NAME.part, fsync, rename.  So whatever happens to the process,

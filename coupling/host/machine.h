@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What the machine has. */
 #ifndef BREECH_COUPLING_HOST_MACHINE_H
 #define BREECH_COUPLING_HOST_MACHINE_H

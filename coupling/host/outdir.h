@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The output directory: where a run writes, what may be overwritten, and how a file appears there at once.
  *
  * Rules: -o defaults to out/<case>.  A finished result is not overwritten without --force, a stopped one that holds a

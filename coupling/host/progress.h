@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Progress for the one who waits: a live line on a terminal, a plain line every ten seconds elsewhere, or every
  * $BREECH_PROGRESS seconds, nothing if quiet. And where the time went: seconds by phase. */
 #ifndef BREECH_COUPLING_PROGRESS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Stop requests: SIGINT, SIGTERM and --max-walltime, polled by the sinks.
  *
  * The first signal asks: the step is finished, a checkpoint written, exit 75.  A second SIGINT ends the process at

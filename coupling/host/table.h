@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A table of text with aligned columns: numbers to the right, the rest to the left. */
 #ifndef BREECH_COUPLING_TABLE_H
 #define BREECH_COUPLING_TABLE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Quantities as the user writes them: "3.594 mF" -> 3.594e-3 in the unit a parameter is held in.
  *
  * The only file that knows udunits2.  Beside udunits2's own names there is `deg` for angles; a parameter of unit "1"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Which version of Breech this is. */
 #ifndef BREECH_COUPLING_HOST_VERSION_H
 #define BREECH_COUPLING_HOST_VERSION_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Which word did the user mean? */
 #ifndef BREECH_COUPLING_HOST_WORDS_H
 #define BREECH_COUPLING_HOST_WORDS_H

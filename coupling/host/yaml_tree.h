@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A YAML text as a small tree of nodes that know where they stand; the only file that knows libyaml.
  *
  * Robust to any bytes: size, depth, number of nodes and keys are limited.  Anchors, aliases, tags, several documents,

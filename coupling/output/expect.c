@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/output/expect.h"
 
 #include "coupling/host/outdir.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What a case is expected to give, compared with what a run of it gave: `breech check CASE --expect DIR`.
  *
  * The expectations stand beside the case file: expected.yaml for case.yaml, NAME_expected.yaml for NAME.yaml.  A list:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/output/history.h"
 
 #include "coupling/host/hdf5_file.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* history.h5: time series and maps of a run, every dataset with `units` and `description`.
  *
  *   /shot/<column>                  the shot, a row a sample

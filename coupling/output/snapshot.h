@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Scene snapshots for ParaView: VTKHDF 1.0 UnstructuredGrid, one vertex cell a particle, extension .hdf.
  *
  * Every entry of PARTICLE_FIELDS (mpm/mpm.h) but the position becomes a point array, float32, with `units` and

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/output/snapshot.h"
 
 static void read_field(const void *source, mpm_field field, double *out)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* summary.json: the machine's face of every run, written at its end whatever the end was.
  *
  * A result is a plain struct, declared by whoever makes it, with one table that says every key once (name, unit, where

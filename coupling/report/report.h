@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* report.html: one page for people, from the files of an output directory alone. */
 #ifndef BREECH_COUPLING_REPORT_H
 #define BREECH_COUPLING_REPORT_H

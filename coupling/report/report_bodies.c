@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The page of a scene of bodies: what became of each, their speeds and the scene's energies over time. */
 #include "coupling/report/report_gnuplot.h"
 #include "coupling/report/report_page.h"

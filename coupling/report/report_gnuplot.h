@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* SVG plots by gnuplot, a script file in, an SVG file out, no shell.  Internal to the report.
  *
  * report_plot_begin, then gnuplot's own words and data blocks into .script, then report_plot_end. */

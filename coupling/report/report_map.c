@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The crater's map as a light SVG: depth in colour levels, neighbours of one level joined into one rectangle. */
 #include "coupling/report/report_plots.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What the sections of report.html are written with.  Internal to the report. */
 #ifndef BREECH_COUPLING_REPORT_PAGE_H
 #define BREECH_COUPLING_REPORT_PAGE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Plots of report.html: curves by gnuplot, crater maps drawn here.  Internal to the report.
  *
  * Every plot is one file DIR/plot-<name>.svg, which the page takes in. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/report/report_gnuplot.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Probes of a scene of bodies: what each came to, all of one quantity over time in one plot, the last of every map. */
 #include "coupling/report/report_gnuplot.h"
 #include "coupling/report/report_page.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What the studies add to the report. */
 #include "coupling/report/report_page.h"
 

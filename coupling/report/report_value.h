@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What a summary says. */
 #ifndef BREECH_COUPLING_REPORT_VALUE_H
 #define BREECH_COUPLING_REPORT_VALUE_H

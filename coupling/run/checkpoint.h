@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Checkpoint: what a stopped run needs to go on bit for bit, in one file.
  *
  * Holds the study's own bookkeeping (opaque bytes: results so far, which scene is next) and, when stopped inside a

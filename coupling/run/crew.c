@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/run/crew.h"
 
 #include "coupling/run/crew_messages.h"

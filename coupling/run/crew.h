@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The processes under mpirun.  Rank 0 runs the study, hands scenes out, computes one itself and alone writes files; the
  * other ranks, the members, compute the scenes they are handed.
  *

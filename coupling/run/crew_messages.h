@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What the processes of a crew say to each other. */
 #ifndef BREECH_COUPLING_CREW_MESSAGES_H
 #define BREECH_COUPLING_CREW_MESSAGES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What an impact has done to the rail: what its crater is, or its groove while it forms (gouge/crater.h says when). */
 #ifndef BREECH_COUPLING_DAMAGE_CLASS_H
 #define BREECH_COUPLING_DAMAGE_CLASS_H

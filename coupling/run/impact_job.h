@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* An impact as this room knows it: plain numbers that are asked for and plain numbers that come back.
  *
  * How its scene is made, when it is over and what its crater is stands above, in gouge/; that comes in as an

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Threads that the processes on one machine lend each other, so that a core is not idle while a scene is computed
  * beside it.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The processes of a run that mpirun started, and messages between them.  MPI is behind this file: ranks_mpi.c, or
  * ranks_alone.c where the build has none.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A build without MPI: one process, and a refusal where mpirun started several. */
 #include "coupling/run/ranks.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/run/scene_entry.h"
 
 /* A scene of a study: what it was given; its result's keys follow in the same object. */

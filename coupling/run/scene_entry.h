@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A scene as a study lists it: what it was given and what came of it. */
 #ifndef BREECH_COUPLING_SCENE_ENTRY_H
 #define BREECH_COUPLING_SCENE_ENTRY_H

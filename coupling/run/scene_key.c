@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/run/scene_key.h"
 
 #include "coupling/run/checkpoint.h"

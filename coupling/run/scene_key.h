@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What decides a scene, as text: the case file that `breech scene` would compute just this scene from
  * (case_impact_write).
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/run/scene_result.h"
 
 const summary_key run_result_keys[] = {

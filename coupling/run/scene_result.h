@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What came of an impact's scene, full model: plain bytes, so that a checkpoint takes them as they are. */
 #ifndef BREECH_COUPLING_SCENE_RESULT_H
 #define BREECH_COUPLING_SCENE_RESULT_H

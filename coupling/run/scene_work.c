@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/run/scene_work.h"
 
 #include "coupling/scene/scene_bodies.h"

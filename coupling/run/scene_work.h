@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* One scene computed for a query, whichever process does it. */
 #ifndef BREECH_COUPLING_SCENE_WORK_H
 #define BREECH_COUPLING_SCENE_WORK_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Scenes for a study: ask with inputs, get outcomes.  The one way in which a study comes by a scene.
  *
  * A scene is what its inputs make it: the case's rail, projectile, scene and material constants, the grain, velocity,

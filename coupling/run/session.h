@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A session: one run of the program on one case, and what it carries along - output directory, history, progress,
  * timing, checkpoints, the scenes computed so far.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What a session keeps in its checkpoint, and takes up from one. */
 #include "coupling/run/session.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/run/shot_record.h"
 
 const summary_key run_shot_keys[] = {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What a shot says of itself in summary.json. */
 #ifndef BREECH_COUPLING_SHOT_RECORD_H
 #define BREECH_COUPLING_SHOT_RECORD_H

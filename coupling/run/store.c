@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/run/store.h"
 #include "coupling/host/hash.h"
 #include "coupling/host/version.h"

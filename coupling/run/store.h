@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The scene store: a folder with one HDF5 file for each scene, named by the scene's key.
  *
  * DIR/<key>.h5 is written under another name and renamed, so a reader finds a complete file or none.  Every program

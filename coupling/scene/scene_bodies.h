@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Any scene by itself: run with the motion of each of its bodies on record, and its result.
  *
  * History: /scene/<name> as scene_run writes it, what scene_probe.h says, and

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/scene/scene_bodies.h"
 
 static const summary_key body_keys[] = {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What a scene's author leaves to the program: window, cells, fine zone. */
 #ifndef BREECH_COUPLING_SCENE_FILL_H
 #define BREECH_COUPLING_SCENE_FILL_H

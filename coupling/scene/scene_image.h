@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What a stopped scene goes on from: the watch's state and the solver's image as one row of bytes.  Writing it:
  * scene_image in scene_run.h. */
 #ifndef BREECH_COUPLING_SCENE_IMAGE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Probes of a scene (mpm_scene.probe) while it runs: a series each, and what it came to.
  *
  * A probe is read at the start and at the end of every piece; one of one row also when a thousandth of the scene's time

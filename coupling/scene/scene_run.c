@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/scene/scene_run.h"
 
 #include "coupling/scene/scene_image.h"

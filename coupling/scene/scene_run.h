@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* One scene from its making to its end, with everything a run writes on the way.  Knows nothing of what the scene is
  * about: that is the watch's.
  *

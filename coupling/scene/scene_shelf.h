@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A shelf of scenes that their watch ended early, to go on from: where the whole scene is wanted too, its beginning
  * need not be computed twice.  To the same bits as from the start; what is not on the shelf is computed. */
 #ifndef BREECH_COUPLING_SCENE_SHELF_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* From the muzzle to the target: the projectile of a scene of bodies, its flight, the scene that it arrives in.
  *
  * The projectile is all bodies of the group of `strike.projectile`; all others are its target.  It flies along its own

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What a projectile has done to its target, from the series of the scene it arrived in (arrival.h, scene_probe.h).
  *
  * The class is decided at the scene's end, by intact metal alone (damage below 1).  With v0 the arrival velocity, m the

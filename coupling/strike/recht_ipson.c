@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/strike/recht_ipson.h"
 
 #include <gsl/gsl_errno.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Residual velocities over arrival velocities, as Recht and Ipson (Journal of Applied Mechanics 30 (1963) 384) have
  * them:
  *   v_r = k sqrt(v0^2 - v50^2)                                                                                (S-2)

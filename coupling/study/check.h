@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* `breech check`: what each scene the case leads to would take. */
 #ifndef BREECH_COUPLING_STUDY_CHECK_H
 #define BREECH_COUPLING_STUDY_CHECK_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Rail surfaces compared: the untreated one and every treatment of the case (case/treatment.h), at the same shot, the
  * same grains, the same random numbers.
  *

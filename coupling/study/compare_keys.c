@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* How a comparison's result is written and printed. */
 #include "coupling/study/compare.h"
 #include "coupling/host/table.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* An ensemble: one scene on several grids, each shifted against the bodies by another part of a cell (study.ensemble).
  * sampling/shifts.h has the shifts. */
 #ifndef BREECH_COUPLING_STUDY_ENSEMBLE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/study/feedback.h"
 
 #include "coupling/study/sampling/gouge_law.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What the gouges of a study do to its shot. */
 #ifndef BREECH_COUPLING_FEEDBACK_H
 #define BREECH_COUPLING_FEEDBACK_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/study/flow.h"
 
 #include "coupling/host/units.h"

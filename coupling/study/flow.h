@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* `breech flow`: the flow stress of a material over plastic strain, at one rate, temperature and pressure. */
 #ifndef BREECH_COUPLING_STUDY_FLOW_H
 #define BREECH_COUPLING_STUDY_FLOW_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/study/onset.h"
 
 #include "coupling/gouge/screen.h"

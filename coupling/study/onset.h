@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The main job: where along the rail does gouging begin?
  *
  *   shot -> every site's state at arrival -> screen -> for each family of grains (family.h) the threshold velocity over

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What a study's thresholds say of its sites, and of the case. */
 #include "coupling/study/onset.h"
 #include "coupling/study/sampling/gouge_law.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* How an onset's result is written and printed. */
 #include "coupling/study/onset.h"
 #include "coupling/host/table.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Shots fired one after the other at the same rail (study.shots): what each finds there of those before it.
  *
  * Heat: what the shots before have left (circuit_shot_rail_rise), of which study.heat_kept is still there, even over

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What a change of one input does to the answer, all else as it was and with the same random numbers: inputs of the
  * shot and the grains' size 5 % more, by the same thresholds; uncertain inputs of the scenes by what they are uncertain
  * (uncertain.h). */

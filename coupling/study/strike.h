@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What `breech strike` answers. */
 #ifndef BREECH_COUPLING_STUDY_STRIKE_H
 #define BREECH_COUPLING_STUDY_STRIKE_H

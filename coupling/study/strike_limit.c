@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/study/strike_limit.h"
 
 #include <math.h>

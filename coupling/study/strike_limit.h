@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The limit velocity of a target: between the arrivals that stop a projectile and those that pierce, by the bracketing
  * search of search/threshold.h over study.velocity_low .. velocity_high.
  *

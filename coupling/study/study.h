@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A study: a command that turns a case into a result.
  *
  * To add one: write coupling/study/study_<name>.c with `const study study_<name>` and one line in study.def.  The

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* breech scene of a case with scene.bodies: any scene of the solver, run to its end. */
 #include "coupling/study/study.h"
 #include "coupling/host/table.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* breech compare: compare.h as a study. */
 #include "coupling/study/study.h"
 #include "coupling/report/report_page.h"

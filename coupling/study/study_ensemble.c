@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* breech scene with study.ensemble: ensemble.h as a study, of a scene of any kind. */
 #include "coupling/study/ensemble.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* breech inductance: L' and R' of a pair of rails over frequency, and where the current runs. */
 #include "coupling/study/study.h"
 #include "circuit/rails/inductance.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* breech scene: one embedded impact at a given velocity. */
 #include "coupling/study/study.h"
 #include "coupling/report/report_page.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* breech shot: the electromechanical shot alone, with the firing times that the case wishes to be found. */
 #include "coupling/study/study.h"
 #include "coupling/gouge/session_shot.h"

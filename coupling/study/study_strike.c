@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* breech strike: what the projectile does to its target, at a given velocity or at that of the case's shot. */
 #include "coupling/gouge/session_shot.h"
 #include "coupling/host/table.h"

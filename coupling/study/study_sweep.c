@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* breech sweep: another study for every combination of values of some keys of the case (section `sweep`).
  *
  * A combination is the case file read again with its values set, as --set does it: units, ranges and what follows from

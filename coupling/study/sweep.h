@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What `breech sweep` answers. */
 #ifndef BREECH_COUPLING_STUDY_SWEEP_H
 #define BREECH_COUPLING_STUDY_SWEEP_H

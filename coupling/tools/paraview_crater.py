@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The crater of a scene in ParaView: the rail's points as cells, by height, the armature taken away.
 
     pvbatch paraview_crater.py out/my_case/scenes/NAME/scene.hdf.series picture.png [FIELD]

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The command line: which commands and options there are, and all that is written of them - help, the manual page, what
  * a shell completes - from three lists: commands.def beside the studies, options.def, words.def.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What bash and zsh complete: commands, the options that each takes, folders, materials, what a case begins from. */
 #include "coupling/usage/usage.h"
 #include "coupling/case/case_new.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The help: all of the program, and one command. */
 #include "coupling/usage/usage.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The manual page, in the macros of man(7). */
 #include "coupling/usage/usage.h"
 #include "coupling/host/version.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* One axis of the rectilinear grid: node positions, graded outside a fine zone.
  *
  * Node 1 lies on the window's lower end, node `last` on its upper end; nodes 0 and last + 1 are ghosts beyond them.

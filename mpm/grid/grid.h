@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Levels of the grid: the same window in cells of h, 2h, 4h, ..., level 0 the finest.  Where which level rules is
  * decided granule by granule.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Where two levels meet: nodes that take their motion from the other level (grid.h).
  *
  * Of the elements around a node some are active on its level, some on the next coarser one:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Steps of levels.  Cells of a level are twice as wide as those of the next finer one, and so its steps are twice as
  * long: particles give to the grid at the start of their level's step and take from it at the end.  Nodes that two
  * levels share (interface.c) make the finer one's steps d, and in each have what the finer particles give anew, and

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Grid to particles, and the material law: one brick, the particles of a cell a part of a block at a time.
  *
  *   v = sum S_i v_i,   L = sum v_i grad S_i,   de = sum S_i (v_i^2/2 + Q_i/m_i) - v^2/2 - ka     (transfer and contact

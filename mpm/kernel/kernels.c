@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Which instruction set the kernels run in: the best one this machine has, unless one is asked for by name. */
 #include "mpm/memory/store.h"
 

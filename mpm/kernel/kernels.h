@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Shared by the files that are compiled once an instruction set: ISA(name) gives each its own symbol. */
 #ifndef BREECH_MPM_KERNELS_H
 #define BREECH_MPM_KERNELS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Kinematics of a step.  Over it the places near a point move by x' = F x, F = 1 + dt L, with L the velocity gradient
  * over the places at the start of the step (the weights' places).  The law needs it to second order:
  *   at the end      L F^-1, which the points around have then too, and which goes on as the point's affine part,

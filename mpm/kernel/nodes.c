@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The grid phase at one site: sums of all bricks that reach its nodes, momentum update, boundaries, contact (M-6).
  *
  *   m dv/dt = f;   what the mixing of particle velocities and the contacts take from the kinetic energy stays at the

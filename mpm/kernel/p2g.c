@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Particles to grid: the node sums of one brick.
  *
  *   line_i = sum_p S_ip { m, m [v + L (x_i - x_p)], m [v^2/2 + ka + v . L (x_i - x_p)] },   f_i = -sum_p V sigma grad

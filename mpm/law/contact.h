@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Contact laws: the impulse that two groups of bodies exchange at a node where they touch.
  *
  * To add one: write mpm/law/contact_<name>.h and one line in contact.def, which has the rules. */

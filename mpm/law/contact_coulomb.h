@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Coulomb friction with a bond that can break (M-6).
  *
  *   J_n = -m (v . n) where they approach,   |J_t| = min(mu J_n, min(tau_max, tau) A dt, m |v_t|)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Surfaces that slide freely:   J = -m (v . n) n where they approach. */
 CONTACT_BEGIN(frictionless, "no force along the surface")
 CONTACT_END(frictionless)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Rough surfaces: no sliding while they are pressed on each other, whatever the shear; they part freely.
  *
  *   J = -m v where v . n < 0 */

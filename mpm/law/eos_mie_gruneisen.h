@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Mie-Grueneisen with the Hugoniot us = c0 + s up:
  *   p = rho0 c0^2 mu [1 + (1 - g0/2) mu] / [1 - (s-1) mu]^2 + g0 rho0 e for mu >= 0,                      (M-3)
  *   p = rho0 c0^2 mu + g0 rho e below.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Stiffened gas, P = (gamma - 1) rho E - gamma p_inf, and an ideal gas where p_inf = 0.  With the pressure counted from
  * that of the surroundings, p = P - Pa, and the energy from rest, e = E - E0 - Pa (1/rho0 - 1/rho), it is
  *   p = A + (rho0 c0^2 - (gamma - 1) A) mu + (gamma - 1) rho e,   A = P0 - Pa,   rho0 c0^2 = gamma (p_inf + P0),

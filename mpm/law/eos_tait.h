@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Tait's equation for liquids, without the energy:  p = B [(rho/rho0)^n - 1],   B = rho0 c0^2/n,   g = 0, T_s = T_r.
  *   e_s = B/rho0 [(x^(n-1) - 1)/(n - 1) + 1/x - 1],   x = rho/rho0 */
 EOS(tait, "Tait: p = rho0 c0^2/n [(rho/rho0)^n - 1]")

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /*   dD = D_c de/(e_f - e_th) of what strains beyond e_th, none where s* lies below s_c; failed at D_c;          (M-2)
  *   e_f = (D1 + D2 exp(D3 s*)) (1 + D4 ln max(r, 1)) (1 + r)^q (1 + D5 T*),   r = edot/edot0
  *   e_f at most e_c max(1, exp(-|D3| (s* + 1/3))) where e_c, the fracture strain of a compressed cylinder, is given

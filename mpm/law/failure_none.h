@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The material never fails; constants of other laws of failure are ignored. */
 FAILURE(none, "none")
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Spall alone: a point fails when its tension exceeds the spall strength.  law_lanes.h tests that for every law of
  * failure that sets k->spall. */
 FAILURE(spall, "tension beyond spall_strength")

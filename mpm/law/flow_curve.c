@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "mpm/law/flow_curve.h"
 
 #include "mpm/law/law_lanes.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The flow stress of a material as a test of it would show: at one strain rate, by the code that the kernels use. */
 #ifndef BREECH_MPM_FLOW_CURVE_H
 #define BREECH_MPM_FLOW_CURVE_H

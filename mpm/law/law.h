@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The material law of one body, constants derived once (mpm_law_make) for the kernels: one law of strength, one
  * equation of state and one law of failure of the three tables strength.def, eos.def, failure.def, temperature from
  * energy (M-4) and viscosity (M-5).  law_lanes.h puts them together to a step.  See docs/scene-solver.md. */

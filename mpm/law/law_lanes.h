@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The material law of some points of one body over one step: the strength, equation of state and failure that its
  * material names, with temperature (M-4) and viscosity (M-5).  Constants are derived in law.c; the kernels include this
  * file once for every instruction set.  A block holds one body, so the law is chosen once for all its lanes; for the

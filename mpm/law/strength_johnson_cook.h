@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /*   sigma_y = (A + B min(e, e_h)^n) (1 + C ln max(edot/edot0, 1)) (1 - T*^m)        (M-1) [Pa]; zero when molten
  * e_h, where it is given, ends the hardening: beyond the strains of the tests the power law is an extrapolation.
  * Johnson and Cook, 7th International Symposium on Ballistics (1983) 541. */

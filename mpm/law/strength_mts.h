@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Mechanical threshold stress: Follansbee and Kocks, Acta Metall. 36 (1988) 81, of one structure at the strain, the
  * rate and the temperature of now:                                                                        (M-25)
  *   sigma_y = sigma_a + mu/mu0 S sigma_e,   mu = mu0 - D/(exp(T0/T) - 1)  [Pa]; zero when molten

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A fluid: no stress but pressure, and no constants of a solid.  Where its equation of state gives less than the
  * cavitation pressure it cavitates: it holds that pressure at any volume, without loss, and closes again when it is
  * squeezed. */

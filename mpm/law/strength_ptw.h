@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Preston, Tonks, Wallace, J. Appl. Phys. 93 (2003) 211, at the density of rest:                          (M-23)
  *   sigma_y = 2 G0 (1 - alpha T^) {s + r ln[1 - (1 - 1/D) exp(-theta (e + e_0)/(r (D - 1)))]}  [Pa], zero when molten;
  *   T^ = T/T_m,   x = ln(edot/(gamma xi(T))),   f = erf(-kappa T^ x),   r = (s0 - y)/p,   D = exp((s - y)/r),

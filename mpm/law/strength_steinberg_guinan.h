@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Steinberg, Cochran, Guinan, J. Appl. Phys. 51 (1980) 1498:                                               (M-24)
  *   G = G0 [1 + A p/eta^(1/3) - B (T - 300 K)],   eta = rho/rho0
  *   sigma_y = min(Y0 [1 + beta (e + e_0)]^n, Y_max) G/G0  [Pa]

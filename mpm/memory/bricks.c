@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Bricks and blocks: making, finding, linking.  One thread at a time, but for mpm_store_insert and mpm_store_release.
  */
 #include "mpm/memory/store.h"

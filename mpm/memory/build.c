@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A scene's bodies as material points: each body has a lattice of its own, aligned with its faces, as fine as the grid
  * is at the place; later bodies take the points they claim from earlier ones. */
 #include "mpm/memory/build.h"

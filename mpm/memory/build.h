@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* From bodies to material points. */
 #ifndef BREECH_MPM_BUILD_H
 #define BREECH_MPM_BUILD_H

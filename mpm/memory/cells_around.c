@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Cells and nodes around cells that hold points, as bits of bricks.
  *
  * A point's nodes are those of its cell and of the cells beside it.  So two groups can share a node only where their

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Points that change cells: they leave their block after G2P and enter the new cell before the next P2G.
  *
  * Each brick's movers lie together in the list of the thread that worked on it.  A brick reads its arrivals from its 27

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Single points: halving one, merging two neighbours, and the sums of one that leaves. */
 #include "mpm/memory/store.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The solver's memory: particles in blocks of eight, blocks chained by cell, cells in bricks of 4 x 4 x 4.
  *
  *   block   8 particles of one body and one cell, array of structures of arrays; holes have mass 0

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Checkpoints and estimates.
  *
  * An image is a flat array of bytes: a header, the ledger, the reports of bodies and groups, then every brick in its

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "mpm/read/probe_kinds.h"
 
 #include <stdio.h>

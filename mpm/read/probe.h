@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Probes: quantities of a scene that a user asks for (mpm_scene.probe), read between steps by the caller of the solver.
  *
  * A probe has a kind, which says what is read, and values, which say where.  Reading changes nothing in the solver and

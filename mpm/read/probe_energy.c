@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Energy: what a body holds, and how much of it has failed. */
 #include "mpm/read/probe_kinds.h"
 

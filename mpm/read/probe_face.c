@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Pressure over a face or a box: its mean over the part of the material that lies there.  Pressure times the face's
  * area is the force on it, where the box is thin and full. */
 #include "mpm/read/probe_kinds.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Force: what contact with all other groups did to a body's group in the last step, as its mean.  Times that step it is
  * the impulse, so their sum over all steps is the impulse of the whole time. */
 #include "mpm/read/probe_kinds.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* For writing kinds of probes (probe.h has the rules). */
 #ifndef BREECH_MPM_PROBE_KINDS_H
 #define BREECH_MPM_PROBE_KINDS_H

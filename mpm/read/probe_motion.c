@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Motion: mass, centre of mass, its velocity, and the angular momentum about it, that of the points' velocity gradients
  * included:  J = sum m (x - X) cross (v - V) + m D_k e_k cross (L e_k). */
 #include "mpm/read/probe_kinds.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Passage: a body on its way through others.  Where the intact metal of its group is and how fast, what stands in its
  * way, and how far the others have given way.
  *

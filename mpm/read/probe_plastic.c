@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Plastic power: sum V s : D over a body's intact points that yield, those whose Mises stress has reached 0.9 of their
  * flow stress. */
 #include "mpm/read/probe_kinds.h"

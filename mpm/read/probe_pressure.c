@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Pressure at a point: the mean over a cube of half width `reach` about it, a cell of the grid if none is given. */
 #include "mpm/read/probe_kinds.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Surface: how far a body's intact material reaches along an axis, over a grid of the two others.
  *
  * Seen from `along`, the highest domain over the middle of each column, within the box.  A row is a point of the

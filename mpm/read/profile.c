@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Plastic power of bodies along an axis (mpm_plastic_profile). */
 #include "mpm/read/visit.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Reading the solver's state: balance, report, point fields. */
 #include "mpm/read/visit.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Walks over all points, in an order that no number of threads changes. */
 #ifndef BREECH_MPM_VISIT_H
 #define BREECH_MPM_VISIT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Levels where the rules want them (refine.h): between two steps of the coarsest level, now and then.
  *
  * A look counts every granule's life down by one, then points that ask for a level's cells give a full life to the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Points that have come into coarser cells than they need.  Pairs side by side become one, as long as its cell bears,
  * where a sound body goes on all around: at a free surface, where metal has failed and in the cells beside such points
  * outlive the cells that they came from, so a surface stays as sharp as it was made. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "mpm/refine/refine_kinds.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Rules of refinement: where a scene wants small cells (mpm_scene.refine), asked again and again while it runs.
  *
  * A rule says of every point how large a cell may be there.  The finest level that any rule asks for at a place is made

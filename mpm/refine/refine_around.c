@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A body and what lies near it, whatever happens there. */
 #include "mpm/refine/refine_kinds.h"
 

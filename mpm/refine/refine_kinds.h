@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* For writing rules of refinement (refine.h has the rules). */
 #ifndef BREECH_MPM_REFINE_KINDS_H
 #define BREECH_MPM_REFINE_KINDS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Plastic flow: no cell may be so large that the velocity changes by more than `jump` across it,
  *   h <= jump / edot_p,   edot_p = s : D / sigma_y of a point that yields, 0 of another.
  * Points at their yield stress flow now and then in the noise of a contact, so their mean is what counts.  Flow goes on

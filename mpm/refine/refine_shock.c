@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A pressure jump: no cell may be so large that the velocity drops by more than `jump` across it,
  *   h <= jump / -div v. */
 #include "mpm/refine/refine_kinds.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "mpm/shape/shape.h"
 
 /* Distance to the nearest edge; inside by the parity of the edges that a ray towards +x crosses. */

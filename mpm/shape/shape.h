@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* For writing shapes and operations on them (solid.h has the rules). */
 #ifndef BREECH_MPM_SHAPE_H
 #define BREECH_MPM_SHAPE_H

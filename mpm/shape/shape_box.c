@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Box: between two corners.  Signed distance exact. */
 #include "mpm/shape/shape.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Cone: base down, its middle at `center`, tip above it.  Signed distance exact. */
 #include "mpm/shape/shape.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Cylinder: axis along y, middle of its lower face at `center`.  Signed distance exact. */
 #include "mpm/shape/shape.h"
 

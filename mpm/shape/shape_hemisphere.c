@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Hemisphere: flat face down, its middle at `center`; with height != radius the upper half of an ellipsoid of
  * revolution about y.  Signed distance as mpm_shape_dome. */
 #include "mpm/shape/shape.h"

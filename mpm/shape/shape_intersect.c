@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Intersect: what lies in both of two solids. */
 #include "mpm/shape/shape.h"
 

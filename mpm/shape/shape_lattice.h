@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Lattices of struts: what their shapes have in common.
  *
  * Round struts with round ends, the same in every cubic cell, cut off at a box.  Cells are counted from the box's lower

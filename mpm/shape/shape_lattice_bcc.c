@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Body-centred cubic lattice: a cell's middle joined to its corners: 8 struts of sqrt(3)/2 cells.  Nodes of 8
  * struts. */
 #include "mpm/shape/shape_lattice.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Full lattice: rhombic dodecahedra that fill space, the net of fluorite: 32 struts of sqrt(3)/4 cells.  Nodes of 4
  * struts, and of 8. */
 #include "mpm/shape/shape_lattice.h"

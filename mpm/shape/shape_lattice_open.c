@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Open lattice: one rhombic dodecahedron a cell, joined to its neighbours at the middles of the cell's faces: 24 struts
  * of sqrt(3)/4 cells.  Nodes of 3 struts, and of 8. */
 #include "mpm/shape/shape_lattice.h"

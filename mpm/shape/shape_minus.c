@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Minus: the first solid without the second. */
 #include "mpm/shape/shape.h"
 

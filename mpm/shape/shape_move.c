@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Move: a solid shifted. */
 #include "mpm/shape/shape.h"
 

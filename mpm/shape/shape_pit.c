@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Pit: a hemisphere upside down, its flat face up, its middle at `center`; height is its depth.
  * Signed distance as mpm_shape_dome. */
 #include "mpm/shape/shape.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Prism: a polygon extruded between two planes along an axis.
  *
  * The corners stand in order round the section, either sense, as (x, y) of a prism along z, (y, z) along x, (z, x)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Repeat: copies of a solid at equal distances along the axes, the first where it stands: lattices.
  *
  * A copy that begins more than a pitch beyond x is farther from x than the copy between them.  So only the copies whose

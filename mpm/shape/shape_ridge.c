@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Ridge: half a cylinder extruded along z, flat face down, its middle at `center`; radius is half its width along x.
  * With height != radius its section is half an ellipse.  Signed distance as mpm_shape_dome. */
 #include "mpm/shape/shape.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Sphere.  Signed distance exact. */
 #include "mpm/shape/shape.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Strut: a cylinder between the middles of its two end faces, along any direction.  Signed distance exact. */
 #include "mpm/shape/shape.h"
 

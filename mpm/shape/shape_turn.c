@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Turn: a solid turned by an angle about an axis through a point, by the right-hand rule. */
 #include "mpm/shape/shape.h"
 

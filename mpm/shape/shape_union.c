@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Union: what lies in either of two solids. */
 #include "mpm/shape/shape.h"
 

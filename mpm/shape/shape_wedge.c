@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Wedge: a triangle extruded along z, its base down, the middle of the base at `center`, its edge at height above it;
  * radius is half its width along x.  Signed distance exact. */
 #include "mpm/shape/shape.h"

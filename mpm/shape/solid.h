@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Solids: the volume that a body fills at the start.
  *
  * A solid is a shape (a box, a sphere) or an operation on other solids (minus, turn).  A tree of them lies in an array,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Rail sections: error against run time over the mesh, all frequencies up to 20 kHz from one solution.
  *
  * Error: the largest over 1 Hz .. 20 kHz of L' and R', against the same section at the finest mesh.  Time: processor

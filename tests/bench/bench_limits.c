@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What the machine can do at most, for the roofline of docs/scene-solver.md: memory bandwidth by a triad over arrays
  * that no cache holds, arithmetic by independent multiply-adds in registers, division.
  *

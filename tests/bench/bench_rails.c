@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Rail levels on the default shot: what each makes of muzzle velocity, time, peak current and of the place where the
  * armature passes a speed; then what the laws of its contact make of it.  The circuit of cases/default_shot. */
 #include "circuit/shot_model.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Speed of the solver: ns of wall time a particle and step.
  *
  *   breech_bench_scene [--tiny] [--only WORD]... [steps [repetitions]]

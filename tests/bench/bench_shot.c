@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Speed of a shot: error against run time over rtol, for three shots.
  *
  *   breech_bench_shot [--tiny] [repetitions]

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The whole way of a case file - tree, schema, units, materials, checks, used.yaml - on any bytes, from memory.
  *
  * Laws that hold for every input: no crash, no leak, no undefined step; an error has a line of text; a case that is

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Tries deliberate faults in a scratch copy: each must build, and its test must fail, or that test proves less than it
 # seems to.  They stand in one list a room, mpm-grid.txt those of mpm/grid, one a line:
 #   file :: test of ctest :: sed -E expression that puts the fault in

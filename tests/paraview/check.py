@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """ParaView opens the time series, has its particles, arrays and times, and draws a picture (run by pvbatch).
 
 check.py SCENE.hdf.series PICTURE.png

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Random scenes through the whole hand-off: case text -> case -> scene -> solver -> crater -> class.
  *
  *   breech-stress [--scenes N] [--first K] [--seed S] [--verbose]

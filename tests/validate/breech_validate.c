@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The validations as curves.
  *
  *   breech-validate [--quick] [--basis gimp|bspline] [--transfer tpic|pic] [--courant C] [-o DIR] [NAME ...]

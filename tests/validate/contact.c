@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* V7: a block that slides down an incline, in line with the grid and across it; fast across the grid; a ball that
  * rolls.
  * V8: Hertz. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* V2: an elastic bar that rings.  V6: two elastic disks that meet. */
 #include "valid.h"
 

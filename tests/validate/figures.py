@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Figures about a case in README.md, docs/ and cases/, against runs of the commands that stand beside them.
 
   figures.py BREECH OUT [PAGE ...]   runs each command once and compares; exit 1 with a list of what differs

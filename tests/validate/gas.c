@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* V5: Sod's tube and Noh's wall.  Below rho0 the pressure law (M-3) is p = c0^2 (rho - rho0) + g0 rho e, a stiffened
  * gas with gamma = g0 + 1 and p_inf = rho0 c0^2 / gamma, whose Riemann problem is that of an ideal gas with p + p_inf
  * for p (Harlow and Amsden 1971; Toro, chapter 4).  So a material without strength, c0 as low as a material may have,

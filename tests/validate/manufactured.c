@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* V1: manufactured solutions.  The motion is given, the body force that makes it a solution follows from the law in
  * closed form (Kamojjala, Brannon, Sadeghirad, Guilkey 2015: the axis-aligned cube and the vortex), and is given to the
  * points step by step: v += dt b(X, t), what a body force on the nodes would do.  Both motions go with sin(w t), so

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* V12: two elastic plates meet obliquely while both are carried through the grid along all three axes: translation,
  * shock and shear at once, in three dimensions; what a transfer scheme must bear in a scene.
  *

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Tables of docs/validation that a command writes, and how a written one is compared with fresh figures.
 
 A page is prose with parts between `<!-- table: NAME -->` and `<!-- end -->`; only such parts are replaced."""

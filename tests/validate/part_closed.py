@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The closed answers of cases/verification: what a run of each gives beside what its list expects."""
 import os
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What tells a gouge from a scratch: three measures of a groove over velocity, on steel and on the paper's scene."""
 import statistics
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Growth of the default shot's groove between its two gauges over velocity, and its zero, on several grids."""
 import statistics
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A steel ball on a lattice sandwich (Chen et al. 2024), at the speeds at which it goes through."""
 import json
 import os

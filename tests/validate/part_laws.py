@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Laws of strength beside measured curves: `breech flow` at the rate and temperature of each."""
 import csv
 import math

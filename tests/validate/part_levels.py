@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Do craters hang on how cells are chosen?  Scenes as they are, and with one choice changed at a time."""
 from pages import Column, Table
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Wu et al. 2017 (doi 10.11883/1001-1455(2017)02-0307-08): its rows W1-W14 with cases/wu2017 as shipped."""
 from pages import UNDECIDED, Column, Table
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs of the program, each computed once: one that is in the folder, of the same program and arguments, is read."""
 import hashlib
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The tables of docs/validation, from runs of the program.
 
   tables.py BREECH OUT [PART ...]          writes these parts anew (no PART: all) into their pages

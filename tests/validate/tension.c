@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* V13: mesh dependence of damage.  A notched bar of 7075 is pulled apart by its own motion; an eighth of it.  No closed
  * answer: what breaking it costs, and how much of it fails, is to be compared among cell sizes. */
 #include "valid.h"

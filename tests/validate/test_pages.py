@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """What a comparison of a page with fresh figures notices, and that every part of tables.py has its place."""
 import pages
 import tables

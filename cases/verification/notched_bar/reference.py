@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The notched bar by finite elements, for expected.yaml: a quarter of it, plane strain, elements of nine nodes.
 Needs numpy; half a minute.  In-plane stresses of a bar without holes do not depend on its constants (Michell).
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """An elastic ball on a thin elastic plate without ends (Zener, Physical Review 59 (1941) 669).
 
 Hertz's force drives the ball, and flexural waves carry energy off in the plate, which moves under a force F with

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What a family's search says of any grain of it, tabulated for drawing by the million. */
 #ifndef BREECH_COUPLING_GOUGE_LAW_H
 #define BREECH_COUPLING_GOUGE_LAW_H

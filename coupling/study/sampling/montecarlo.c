@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/study/sampling/montecarlo.h"
 
 #include "coupling/study/sampling/gouge_law.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Random shots over threshold surfaces: how many grains gouge, where first, how much.
  *
  * Surfaces (a rail under a treatment, or one with a changed input) meet the same grains: every random number is drawn

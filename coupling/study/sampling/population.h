@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Sizes of a population of grains (case.h), log-normal or tabulated. */
 #ifndef BREECH_COUPLING_POPULATION_H
 #define BREECH_COUPLING_POPULATION_H

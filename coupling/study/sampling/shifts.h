@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Shifts of a scene's grid against its bodies (mpm_scene.grid_shift), and what its answers do over them: their scatter,
  * what they owe to where the cells happen to lie.
  *

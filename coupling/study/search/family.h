@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Families of grains and the search of their thresholds, by scenes (scenes.h).
  *
  * A family is what surface.h means by it: the grains of a case - sites of its list and populations - that are alike in

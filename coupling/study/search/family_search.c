@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The searches of families, all of them side by side.  Each is told what is known and says what it needs next; what it
  * may need after that is found by following a copy of it through guesses. */
 #include "coupling/study/search/family.h"

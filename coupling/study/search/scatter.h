@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What thresholds owe to where the cells happen to lie (study.threshold_ensemble, judged by growth).
  *
  * Of each family the search's scene nearest to its threshold is computed on further grids, each shifted by another part

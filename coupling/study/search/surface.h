@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The threshold surface of a family of grains: the velocity from which a grain of a given size gouges.
  *
  * A family: grains alike in all but size - shape, material, bond, height over radius - on one surface, in one shot.  A

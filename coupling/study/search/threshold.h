@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The search for a threshold velocity: where the growth of an impact's groove, or its severity, crosses its limit.
  *
  * The function is known only at velocities where a scene was computed: its value, at a resolution, and the class.

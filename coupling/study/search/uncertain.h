@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What a threshold owes to inputs of its scenes that are not well known: the search once more with each of them raised
  * by its stated uncertainty (study.strength_error, friction_error; 0: not asked for).
  *
