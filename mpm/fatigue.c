@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "mpm/fatigue.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Life by direction: how many equal load cycles a point of a solid lasts, direction by direction in a plane.
  *
  *   lambda(0) = 1    d lambda / dN = - A eps^m    N = lambda / (A eps^m) cycles are left            (L-1)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Life by direction: the law against its closed answers, the field of a contact against integrals and published closed
  * forms, where the first direction goes under a wheel (the states of Ma et al. 2020), what a case is refused for. */
 #include "coupling/study/life.h"

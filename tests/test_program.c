@@ -154,6 +154,14 @@ static void test_check_and_materials(void **state)
     (void)state;
     assert_int_equal(run("check " SHOT), 0);
     assert_true(contains("out.txt", "12 sites"));
+    assert_int_equal(run("check cases/pulse_unit_200kJ"), 0); /* shipped, and not here */
+    assert_true(contains("out.txt", "/cases/pulse_unit_200kJ/case.yaml"));
+    assert_int_equal(run("check cases/../cases/pulse_unit_200kJ"), 2);
+    assert_int_equal(system("echo '{base: pulse_unit_200kJ, name: own, title: my own unit}' > own.yaml"), 0);
+    assert_int_equal(run("check own.yaml"), 0);
+    assert_true(contains("out.txt", "own.yaml: my own unit"));
+    assert_int_equal(system("echo '{base: pulse_unit_300kJ, name: own}' > own.yaml"), 0);
+    assert_int_equal(run("check own.yaml"), 2);
     assert_int_equal(run("check " CASES "/treatments"), 0);
     assert_true(contains("out.txt", "onset, 500 m/s") && contains("out.txt", "1 populations, at most"));
     assert_true(contains("out.txt", "compare: 6 surfaces, at most 12 scenes each"));

@@ -226,7 +226,7 @@ status case_read(const char *path, const char *const *sets, int n_sets, const ca
     size_t length = 0;
     *out = NULL;
     *errors = NULL;
-    TRY(case_file_of(path, file));
+    TRY(case_file_find(path, file));
     TRY(host_file_text(file, TREE_MAX_BYTES, &bytes, &length));
     const case_text text = { bytes, length, file, sets, n_sets };
     const status s = case_read_memory(&text, options, out, errors);

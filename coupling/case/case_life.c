@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* `life:`, a load that comes again and again: what no single value can say. */
 #include "coupling/case/case_reader.h"
 

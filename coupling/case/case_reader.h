@@ -46,6 +46,8 @@ void case_warn(case_reader *r, const char *line);
 
 /* The case file that a path means: itself, or case.yaml in the folder. */
 status case_file_of(const char *path, char file[CASE_PATH_SIZE]);
+/* The same; where nothing is there and a case of this name (`NAME`, `cases/NAME`) came with the program, that one's. */
+status case_file_find(const char *path, char file[CASE_PATH_SIZE]);
 void case_folder_of(const char *file, char folder[CASE_PATH_SIZE]);
 
 /* A section, or all entries of a list, into its place in `parent`; path is "" for the root.  node NULL: defaults only.

@@ -3,6 +3,6 @@
 #ifndef BREECH_COUPLING_HOST_VERSION_H
 #define BREECH_COUPLING_HOST_VERSION_H
 
-const char *host_version(void); /* "0.1.0"; "unknown" where the build does not say */
+const char *host_version(void); /* "0.2.0"; "unknown" where the build does not say */
 
 #endif

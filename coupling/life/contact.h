@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A load on the face of a half space in plane strain: stress, strain and displacement under it in closed form.
  *
  * x along the face, z into the body.  The face carries a pressure p(x) and a traction q(x) that pulls the body to +x:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Where the first direction of the rail is cut, from the closed field alone: no grid, no solution.
  *
  * As long as nothing is cut the body is linear and its strain is known in closed form (contact.h).  The direction with

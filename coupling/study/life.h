@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What `breech life` answers. */
 #ifndef BREECH_COUPLING_STUDY_LIFE_H
 #define BREECH_COUPLING_STUDY_LIFE_H

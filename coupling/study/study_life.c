@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* breech life: how many cycles of a load the rail lasts, and where it cracks. */
 #include "coupling/study/study.h"
 #include "coupling/report/report_page.h"
