@@ -4,7 +4,7 @@
  * To add a command that runs a case: a study (study/study.h); any other: a line in usage/commands.def and its function
  * here, run_<name>. */
 #include "coupling/case/case_new.h"
-#include "coupling/case/material_file.h"
+#include "coupling/case/material_role.h"
 #include "coupling/gouge/impact.h"
 #include "coupling/host/stop.h"
 #include "coupling/host/table.h"
@@ -297,34 +297,6 @@ static int run_check(const options *o)
 
 /* ---- materials ---- */
 
-static void print_sheet(const material_sheet *sheet)
-{
-    printf("%s: %s\n%s\n", sheet->material.name, sheet->title, sheet->path);
-    printf("  strength: %s\n  eos: %s\n  failure: %s\n", mpm_material_strength_text(sheet->material.strength),
-           mpm_material_eos_text(sheet->material.eos), mpm_material_failure_text(sheet->material.failure));
-    for (int i = 0; i < sheet->n; i++) {
-        const material_constant *k = &sheet->constant[i];
-        const double value = *(const double *)(const void *)((const char *)&sheet->material + k->constant->offset);
-        char text[60];
-        host_quantity_text(value, k->constant->unit, text, sizeof text);
-        printf("  %-22s %-16s %s%s\n", k->constant->key, text, k->weak ? "[weak] " : "", k->source);
-        if (k->note) printf("  %-22s %-16s (%s)\n", "", "", k->note);
-    }
-}
-
-static int print_names(const material_places *at)
-{
-    for (int d = 0; d < at->n; d++) {
-        char **names;
-        int n;
-        const status s = case_material_names(at->dir[d], &names, &n);
-        if (s.code != STATUS_OK) return complain(s);
-        for (int i = 0; i < n; i++) printf("%-20s %s\n", names[i], at->dir[d]);
-        case_material_names_free(names, n);
-    }
-    return EXIT_DONE;
-}
-
 static status open_material(const char *name, material_sheet *sheet)
 {
     material_places at;
@@ -341,10 +313,10 @@ static int run_materials(const options *o)
     material_places at;
     material_sheet sheet;
     case_material_places_find(&at);
-    if (!o->line.subject) return print_names(&at);
+    if (!o->line.subject) return complain(case_materials_print(&at, stdout));
     const status s = open_material(o->line.subject, &sheet);
     if (s.code != STATUS_OK) return complain(s);
-    print_sheet(&sheet);
+    case_material_print(&sheet, stdout);
     case_material_sheet_free(&sheet);
     return EXIT_DONE;
 }

@@ -7,7 +7,8 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "coupling/case/material_file.h"
+#include "coupling/case/case.h"
+#include "coupling/case/material_role.h"
 #include "coupling/host/file_text.h"
 
 #include <stdio.h>
@@ -182,7 +183,7 @@ static void bad_files_say_where(void **state)
           "x.yaml:4:36: unknown key `waek` in constants.poisson; did you mean `weak`?" },
         { HEAD "constants:\n  poisson: {value: 0.3 Pa, source: A}\n",
           "x.yaml:4:20: constants.poisson.value = 0.3 Pa: is a pure number" },
-        { HEAD "strength: wood\nconstants: {}\n", "x.yaml:3:11: strength = wood: must be one of johnson_cook, ptw" },
+        { HEAD "strength: wood\nconstants: {}\n", "x.yaml:3:11: strength = wood: must be one of johnson_cook, mts" },
         { HEAD "eos: wood\nconstants: {}\n",
           "x.yaml:3:6: eos = wood: must be one of mie_gruneisen, stiffened_gas, tait" },
         { HEAD "failure: wood\nconstants: {}\n", "x.yaml:3:10: failure = wood: must be one of johnson_cook" },
@@ -227,6 +228,65 @@ static void folders_are_found(void **state)
     unsetenv("BREECH_MATERIALS");
 }
 
+/* ---- what each is good for ---- */
+
+/* Does a case with these values read, for this command? */
+static bool reads(const char *path, unsigned needs, const char *material_set, const char *other_set)
+{
+    const case_options how = { .material_dirs = dirs, .n_material_dirs = 1, .needs = needs };
+    const char *const sets[] = { material_set, other_set };
+    breech_case *c = NULL;
+    char *errors = NULL;
+    const bool done = case_read(path, sets, 2, &how, &c, &errors).code == STATUS_OK;
+    free(errors);
+    case_free(c);
+    return done;
+}
+
+/* The cells of a line of the table, by the columns that its head gives. */
+static void cells_of(const char *head, const char *line, char cell[3][8])
+{
+    static const char *const titles[] = { "onset", "fails", "body" };
+    for (int k = 0; k < 3; k++) {
+        const char *at = strstr(head, titles[k]);
+        assert_non_null(at);
+        sscanf(line + (at - head), "%7s", cell[k]);
+    }
+}
+
+/* The table says of every material what a case that names it says; no line is longer than 100 columns. */
+static void the_table_says_what_cases_say(void **state)
+{
+    (void)state;
+    const material_places at = { .n = 1, .dir = { MATERIALS } };
+    char *text = NULL, *rest = NULL, cell[3][8], set[3][100];
+    size_t length = 0;
+    FILE *f = open_memstream(&text, &length);
+    assert_int_equal(case_materials_print(&at, f).code, STATUS_OK);
+    fclose(f);
+    const char *head = strtok_r(text, "\n", &rest);
+    int tried = 0, refused = 0;
+    for (char *line; (line = strtok_r(NULL, "\n", &rest)) && strncmp(line, "shot ", 5) != 0; tried++) {
+        char name[40];
+        sscanf(line, "%39s", name);
+        cells_of(head, line, cell);
+        snprintf(set[0], sizeof set[0], "armature.material=%s", name);
+        snprintf(set[1], sizeof set[1], "scene.bodies[0].material=%s", name);
+        const char *launch = BREECH_TESTS "/../cases/default_shot", *bodies = BREECH_TESTS "/../cases/ball_gauge";
+        const bool onset = reads(launch, CASE_FOR_ONSET, set[0], "scene.damage=yes"),
+                   lasting = reads(launch, CASE_FOR_ONSET, set[0], "scene.damage=no"),
+                   fails = reads(bodies, CASE_FOR_SCENE, set[1], "scene.bodies[0].damage=yes"),
+                   body = reads(bodies, CASE_FOR_SCENE, set[1], "scene.bodies[0].damage=no");
+        if (strcmp(cell[0], onset ? "yes" : lasting ? "(yes)" : "-") != 0) fail_msg("%s: onset %s", name, cell[0]);
+        if (strcmp(cell[1], fails ? "yes" : "-") != 0) fail_msg("%s: fails %s", name, cell[1]);
+        if (strcmp(cell[2], body ? "yes" : "-") != 0) fail_msg("%s: body %s", name, cell[2]);
+        refused += !onset;
+        assert_true(strlen(line) <= 100);
+    }
+    assert_true(tried > 20 && refused > 5);
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -237,6 +297,7 @@ int main(void)
         cmocka_unit_test(names_cannot_leave_the_folder),
         cmocka_unit_test(folders_are_found),
         cmocka_unit_test(the_laws_are_read),
+        cmocka_unit_test(the_table_says_what_cases_say),
     };
     return cmocka_run_group_tests(tests, open_shelf, close_shelf);
 }

@@ -179,7 +179,9 @@ static void test_check_and_materials(void **state)
     assert_int_equal(run("check " SHOT " --set study.fine_cells_per_radius=100"), 2);
     assert_true(contains("err.txt", "100 cells a radius") && contains("err.txt", " GB"));
     assert_int_equal(run("materials"), 0);
-    assert_true(contains("out.txt", "ofhc_copper"));
+    assert_true(contains("out.txt", "ofhc_copper") && contains("out.txt", "onset  rail or armature"));
+    assert_int_equal(run("materials cucrzr"), 0);
+    assert_true(contains("out.txt", "lacks specific_heat"));
     assert_int_equal(run("materials ofhc_copper"), 0);
     assert_true(contains("out.txt", "yield_A"));
 }

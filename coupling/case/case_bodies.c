@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/case/case_bodies.h"
 
+#include "coupling/case/material_role.h"
 #include "coupling/host/outdir.h"
 #include "mpm/law/contact.h"
 #include "mpm/read/probe.h"
@@ -523,8 +524,7 @@ void case_bodies_resolve(case_reader *r)
         const tree_node *node = host_tree_find(case_entry_node(list, k), "material");
         b->material = case_material(&r->out->materials, text_of(case_entry_node(list, k), "material"));
         if (!b->material) continue; /* an error already */
-        const unsigned needs = MATERIAL_FOR_SCENE | (b->damage ? MATERIAL_FOR_DAMAGE : 0);
-        const status enough = mpm_material_check(b->material, needs);
+        const status enough = mpm_material_check(b->material, case_material_needs(b->damage, false));
         const bool failure = b->damage && mpm_material_check(b->material, MATERIAL_FOR_SCENE).code == STATUS_OK;
         if (enough.code != STATUS_OK)
             case_errors_add(r->errors, node, "scene.bodies[%d].material = %s: %.400s%s", k, b->material->name,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What no single value of a case can say. */
 #include "coupling/case/case_reader.h"
+#include "coupling/case/material_role.h"
 
 #include "mpm/scene.h"
 
@@ -251,14 +252,14 @@ static void check_site(case_reader *r, const case_site *site, const tree_node *n
 static unsigned material_needs(const case_reader *r, const material_use *use)
 {
     const unsigned needs = r->options->needs;
-    unsigned wanted = 0;
-    if (needs & (CASE_FOR_SCENE | CASE_FOR_ONSET)) wanted |= MATERIAL_FOR_SCENE;
-    if (wanted && r->out->scene.damage) wanted |= MATERIAL_FOR_DAMAGE;
-    if ((needs & CASE_FOR_LIFE) && strcmp(use->key, "life.material") == 0) wanted |= MATERIAL_FOR_FATIGUE;
     static const char *const meeting[] = { "rail.material", "armature.material", ".rail_metal.", ".armature_metal." };
+    const bool lasts = (needs & CASE_FOR_LIFE) && strcmp(use->key, "life.material") == 0;
+    const unsigned wanted = lasts ? MATERIAL_FOR_FATIGUE : 0;
+    bool meets = false;
+    if (!(needs & (CASE_FOR_SCENE | CASE_FOR_ONSET))) return wanted;
     for (size_t k = 0; k < sizeof meeting / sizeof meeting[0]; k++)
-        if ((needs & CASE_FOR_ONSET) && strstr(use->key, meeting[k])) wanted |= MATERIAL_FOR_SCREEN;
-    return wanted;
+        meets = meets || ((needs & CASE_FOR_ONSET) && strstr(use->key, meeting[k]));
+    return wanted | case_material_needs(r->out->scene.damage, meets);
 }
 
 static void check_materials(case_reader *r)

@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "coupling/case/material_role.h"
+
+#include "coupling/host/file_text.h"
+#include "coupling/host/table.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { LACK_SIZE = 38 /* of the table's last column */, TEXT_SIZE = sizeof((status){ .code = STATUS_OK }.text) };
+
+enum { IN_SCENES = MATERIAL_FOR_SCENE, FAILING = IN_SCENES | MATERIAL_FOR_DAMAGE };
+
+static const material_role in_shot = { "shot", "the circuit's rail or armature", MATERIAL_FOR_CIRCUIT, 0, NULL };
+static const material_role met = { "onset", "rail or armature where gouging is looked for",
+                                   FAILING | MATERIAL_FOR_SCREEN, MATERIAL_FOR_DAMAGE, "scene.damage: no" };
+static const material_role failing = { "fails", "a grain or a layer there; a body with damage: yes", FAILING,
+                                       MATERIAL_FOR_DAMAGE, NULL };
+static const material_role body = { "body", "a body of any scene, projectile or target", IN_SCENES, 0, NULL };
+
+static const material_role lasting = { "life", "the rail of `breech life`", MATERIAL_FOR_FATIGUE, 0, NULL };
+
+unsigned case_material_needs(bool damage, bool meets)
+{
+    const material_role *role = meets ? &met : &failing;
+    return damage ? role->needs : role->needs & ~role->without;
+}
+
+/* Of all parts; NULL past the last. */
+static const material_role *role_at(int i)
+{
+    static const material_role *const roles[] = { &in_shot, &met, &failing, &body, &lasting, NULL };
+    return roles[i];
+}
+
+/* "", or what the material lacks for this part, as a run that refuses it says. */
+static void list_lacks(const material *m, const material_role *role, char out[TEXT_SIZE])
+{
+    const status s = mpm_material_check(m, role->needs);
+    const char *list = strstr(s.text, "needs: ");
+    snprintf(out, TEXT_SIZE, "%s", s.code == STATUS_OK ? "" : list ? list + 7 : s.text);
+}
+
+/* ---- the table ---- */
+
+/* "yes", "(yes)": where the case says `unless`; "-". */
+static const char *good(const material *m, const material_role *role)
+{
+    if (mpm_material_check(m, role->needs).code == STATUS_OK) return "yes";
+    const bool some = role->unless && mpm_material_check(m, role->needs & ~role->without).code == STATUS_OK;
+    return some ? "(yes)" : "-";
+}
+
+/* The first constants that any role but life lacks, and how many more; a fluid is a body alone. */
+static void shortened(const material *m, char out[LACK_SIZE + 24])
+{
+    char all[TEXT_SIZE];
+    const material_role *role;
+    material_role every = { .needs = body.needs };
+    for (int i = 0; mpm_material_shear(m) != SHEAR_NONE && (role = role_at(i)); i++)
+        if (role != &lasting) every.needs |= role->needs;
+    list_lacks(m, &every, all);
+    int more = 0;
+    out[0] = '\0';
+    for (char *rest = all, *key; (key = strtok_r(rest, ",", &rest));) {
+        while (*key == ' ') key++;
+        const size_t used = strlen(out);
+        if (more || used + strlen(key) > LACK_SIZE - 12)
+            more++;
+        else
+            snprintf(out + used, LACK_SIZE - used, "%s%s", used ? ", " : "", key);
+    }
+    const size_t used = strlen(out);
+    if (more) snprintf(out + used, 24, ", %d more", more);
+}
+
+static status add_row(table *t, const char *name, const char *const *dirs, int n_dirs)
+{
+    material_sheet sheet;
+    char *errors = NULL, lacks[LACK_SIZE + 24];
+    const status s = case_material_sheet_open(name, dirs, n_dirs, &sheet, &errors);
+    free(errors);
+    if (s.code == STATUS_BAD_INPUT)
+        return host_table_row(t, "%.24s|||||||its file has errors: breech materials %.24s", name, name);
+    TRY(s);
+    const material *m = &sheet.material;
+    shortened(m, lacks);
+    const status added = host_table_row(
+        t, "%.24s|%s|%s|%s|%s|%s|%s|%s", name, mpm_material_shear(m) == SHEAR_NONE ? "fluid" : "solid",
+        good(m, role_at(0)), good(m, role_at(1)), good(m, role_at(2)), good(m, role_at(3)), good(m, role_at(4)), lacks);
+    case_material_sheet_free(&sheet);
+    return added;
+}
+
+static bool hidden(const material_places *at, int d, const char *name)
+{
+    char path[MATERIAL_PATH_SIZE + PARAM_TEXT_SIZE + 8];
+    for (int k = 0; k < d; k++) {
+        snprintf(path, sizeof path, "%s/%s.yaml", at->dir[k], name);
+        if (host_file_exists(path)) return true;
+    }
+    return false;
+}
+
+static status add_folder(table *t, const material_places *at, int d)
+{
+    char **names;
+    int n;
+    TRY(case_material_names(at->dir[d], &names, &n));
+    status s = status_ok();
+    for (int i = 0; i < n && s.code == STATUS_OK; i++)
+        if (!hidden(at, d, names[i])) s = add_row(t, names[i], &at->dir[d], 1);
+    case_material_names_free(names, n);
+    return s;
+}
+
+status case_materials_print(const material_places *at, FILE *out)
+{
+    table *t;
+    const material_role *role;
+    TRY(host_table_create("material||shot|onset|fails|body|life|lacks", &t));
+    status s = status_ok();
+    for (int d = 0; d < at->n && s.code == STATUS_OK; d++) s = add_folder(t, at, d);
+    if (s.code == STATUS_OK) host_table_print(t, out);
+    host_table_free(t);
+    TRY(s);
+    fputc('\n', out);
+    for (int i = 0; (role = role_at(i)); i++) {
+        fprintf(out, "%-6s %s", role->name, role->doc);
+        fprintf(out, role->unless ? "; (yes): with %s\n" : "%s\n", role->unless ? role->unless : "");
+    }
+    fputs("breech materials NAME: all that is known of one, and what it lacks\n", out);
+    for (int d = 0; d < at->n; d++) fprintf(out, "%s%s\n", d == 0 ? "from " : "     ", at->dir[d]);
+    return status_ok();
+}
+
+/* ---- one material ---- */
+
+static void print_roles(const material *m, FILE *out)
+{
+    const material_role *role;
+    for (int i = 0; (role = role_at(i)); i++) {
+        char lacks[TEXT_SIZE];
+        list_lacks(m, role, lacks);
+        const char *answer = good(m, role);
+        fprintf(out, "  %-6s %-5s  %s", role->name, strcmp(answer, "-") == 0 ? "no" : answer, role->doc);
+        if (strcmp(answer, "(yes)") == 0) fprintf(out, "; with %s", role->unless);
+        if (lacks[0]) fprintf(out, "; lacks %s", lacks);
+        fputc('\n', out);
+    }
+}
+
+void case_material_print(const material_sheet *sheet, FILE *out)
+{
+    const material *m = &sheet->material;
+    fprintf(out, "%s: %s\n%s\n", m->name, sheet->title, sheet->path);
+    fprintf(out, "  strength: %s\n  eos: %s\n  failure: %s\n\ngood for:\n", mpm_material_strength_text(m->strength),
+            mpm_material_eos_text(m->eos), mpm_material_failure_text(m->failure));
+    print_roles(m, out);
+    fputs("\nconstants:\n", out);
+    for (int i = 0; i < sheet->n; i++) {
+        const material_constant *k = &sheet->constant[i];
+        const double value = *(const double *)(const void *)((const char *)m + k->constant->offset);
+        char text[60];
+        host_quantity_text(value, k->constant->unit, text, sizeof text);
+        fprintf(out, "  %-22s %-16s %s%s\n", k->constant->key, text, k->weak ? "[weak] " : "", k->source);
+        if (k->note) fprintf(out, "  %-22s %-16s (%s)\n", "", "", k->note);
+    }
+}
