@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Laws of strength beside measured curves: `breech flow` at the rate and temperature of each."""
 import csv
+import json
 import math
 import os
 import subprocess
@@ -125,3 +126,58 @@ def laws(runs):
     tables = [copper(runs), aluminium(runs), regime(runs, RAIL + [("`%s`" % name, name, {}) for name in ALUMINIUM])]
     return tables, ("`breech flow`: the first, each law from each measured curve of annealed copper, rms and in brackets mean; "
                     "the second, 7075 beside 786 MPa measured and 810 MPa; the third, at 300 K without heat")
+
+
+# Bars onto a rigid wall, not used above: source, m/s, K, length and diameter [mm], final over first length.
+BARS = [
+    ("Johnson and Cook 1983", 130, 295, 25.4, 7.62, 0.770),
+    ("Johnson and Cook 1983", 190, 295, 25.4, 7.62, 0.638),
+    ("Wilkins and Guinan 1973", 204, 294, 23.47, 7.62, 0.669),
+    ("House et al. 1995", 200, 294, 22.785, 7.595, 16.9 / 22.785),
+    ("Gust 1982", 180, 295, 30, 6, 0.667),
+    ("Gust 1982", 185, 733, 30, 6, 0.574),
+    ("Gust 1982", 157, 1235, 30, 6, 0.425),
+]
+BAR_METALS = [("threshold stress, annealed", "ofhc_copper_mts"), ("the same, half hard", "ofhc_copper_half_hard"),
+              ("Johnson-Cook, annealed", "ofhc_copper")]
+HOT = 1000.0  # [K] bars that stop late
+
+
+def bar_length(runs, metal, bar):
+    """Final over first length of the bar, and what is left of its kinetic energy: the wall holds it, so it rings."""
+    _, speed, kelvin, length, diameter, _ = bar
+    end = (1.3 if kelvin > HOT else 0.75) * length / speed  # [ms]
+    settings = {
+        "scene.bodies[0].material": metal, "scene.bodies[0].velocity": "0 -%g 0 m/s" % speed,
+        "scene.bodies[0].temperature": "%g K" % kelvin,
+        "scene.bodies[0].shape.cylinder.height": "%g mm" % length,
+        "scene.bodies[0].shape.cylinder.radius": "%g mm" % (diameter / 2), "scene.end_time": "%.4g ms" % end,
+        "scene.window.x.hi": "14 mm", "scene.window.y.hi": "33 mm", "scene.window.z.hi": "14 mm",
+        "output.report": "no", "output.snapshots": "0",
+    }
+    arguments = ["scene", "cases/verification/taylor_bar"]
+    for key, value in settings.items():
+        arguments += ["--set", "%s=%s" % (key, value)]
+    folder = runs.run("bar_%s_%d_%d" % (metal, speed, kelvin), arguments)[0]
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+        last_state = json.load(file)["bodies"]["bar"]
+    return (last_state["hi"][1] - last_state["lo"][1]) / (1e-3 * length), last_state["kinetic"] / (
+        0.5 * last_state["mass"] * speed**2)
+
+
+def taylor(runs):
+    rows, off = [], {metal: [] for _, metal in BAR_METALS}
+    for bar in BARS:
+        row = ["%s, %g m/s, %g K" % bar[:3], "%.3f" % bar[5]]
+        for _, metal in BAR_METALS:
+            found, left = bar_length(runs, metal, bar)
+            if left > 0.01:
+                raise SystemExit("%s, %s: %.3f of its kinetic energy are left" % (row[0], metal, left))
+            off[metal].append(found / bar[5] - 1)
+            row.append("%.3f (%+.1f %%)" % (found, 100 * off[metal][-1]))
+        rows.append(row)
+    rows.append(["rms", ""] + ["%.1f %%" % (100 * math.sqrt(sum(d * d for d in off[metal]) / len(off[metal])))
+                               for _, metal in BAR_METALS])
+    columns = [Column("bar"), Column("measured", 0.0)] + [Column(title, 0.05) for title, _ in BAR_METALS]
+    return [Table(columns, rows)], ("cases/verification/taylor_bar with each bar's length, diameter, velocity and "
+                                    "temperature: final over first length")

@@ -38,6 +38,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "lattice": ("docs/validation/lattice.md", part_lattice.through, 8, False),
     "four-cells": ("docs/validation/growth.md", part_growth.four_cells, 16, False),
     "laws": ("docs/validation/laws.md", part_laws.laws, 1, True),
+    "taylor": ("docs/validation/laws.md", part_laws.taylor, 6, False),
     "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
 }
 
