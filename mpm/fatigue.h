@@ -18,6 +18,8 @@
 
 #include "mpm/material.h"
 
+#include <stdbool.h>
+
 enum { FATIGUE_MAX_DIRECTIONS = 180 };
 
 typedef enum { FATIGUE_BOND, FATIGUE_TENSION, FATIGUE_SHEAR } fatigue_measure;
@@ -50,5 +52,40 @@ double mpm_fatigue_strain(const fatigue_fan *fan, int k, fatigue_measure measure
                           const double strain[3]);
 /* Of a cycle between these two; zero is added to both where they do not hold it. */
 double mpm_fatigue_range(fatigue_measure measure, double least, double largest);
+
+/* ---- many points ---- */
+
+/* A direction that is cut. */
+typedef struct {
+    int point, direction;
+    double cycles; /* when */
+} fatigue_cut;
+
+/* Points under a load that comes again and again.  Between two cuts every range stays what it is, so the cycles up to
+ * the next cut are jumped over exactly: the least of lambda / (A eps^m), with the ranges before the cut. */
+typedef struct {
+    int points;
+    fatigue_fan fan;
+    fatigue_law law;
+    double cycles;    /* so far */
+    double *life;     /* points x fan.n: lambda */
+    double *rate;     /* the same: what a cycle takes now */
+    bool *is_cut;     /* the same */
+    double *index;    /* points: share of the directions that are cut */
+    fatigue_cut *cut; /* in their order, n_cuts of points x fan.n at most */
+    int n_cuts;
+} fatigue_points;
+status mpm_fatigue_create(int points, const fatigue_fan *fan, const fatigue_law *law, fatigue_points *out);
+void mpm_fatigue_free(fatigue_points *f);
+
+/* Range of direction k of a point in the cycles that follow. */
+void mpm_fatigue_set_range(fatigue_points *f, int point, int k, double range);
+/* Cycles until the next direction is cut with these ranges; INFINITY: none ever is. */
+double mpm_fatigue_wait(const fatigue_points *f);
+/* Goes on to the next cut, and on to those that follow with these ranges before the cycles are (1 + batch) times as
+ * many; those within a share of 1e-9 are one event in any case.  STATUS_BAD_INPUT: nothing is ever cut. */
+status mpm_fatigue_jump(fatigue_points *f, double batch);
+/* Cycles until this point's index is `limit` with these ranges for good. */
+double mpm_fatigue_alone(const fatigue_points *f, int point, double limit);
 
 #endif

@@ -257,6 +257,7 @@ static inline void example_fill(example_results *e)
                                      .gone = true };
     e->life = (life_result){ .peak_pressure = 1e9,
                              .life_first = 5890.0,
+                             .crack = { .life = 17900.0, .position = 1.65e-3, .cuts = 3478, .solves = 104 },
                              .first = { .range = 4.9e-3, .position = NAN, .depth = 1e-4, .angle = 0.6 } };
     e->answer[STUDY_life].result = &e->life;
     e->answer[STUDY_strike] = (study_answer){ .result = &e->strike, .shot = &e->shot };

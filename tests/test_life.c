@@ -2,6 +2,7 @@
 /* Life by direction: the law against its closed answers, the field of a contact against integrals and published closed
  * forms, where the first direction goes under a wheel (the states of Ma et al. 2020), what a case is refused for. */
 #include "coupling/study/life.h"
+#include "mpm/rest.h"
 #include "program_common.h"
 
 #include <float.h>
@@ -244,7 +245,7 @@ static void test_first_rows(void **state)
 static double crossing(double nu, int cycle, fatigue_measure measure)
 {
     double lo = 0.0, hi = 0.6;
-    for (int k = 0; k < 9; k++) {
+    for (int k = 0; k < 8; k++) {
         const double mu = 0.5 * (lo + hi);
         if (first_of(LIFE_FULL_SLIP, mu, 0.0, nu, cycle, measure).depth < 0.02)
             hi = mu;
@@ -301,6 +302,265 @@ static void test_scaling(void **state)
     assert_true(fabs(twice.range / one.range - 1.0) < 1e-9 && fabs(twice.position / one.position - 2.0) < 1e-3);
 }
 
+/* ---- many points ---- */
+
+static fatigue_points points_of(int n, int directions)
+{
+    const fatigue_fan fan = mpm_fatigue_fan_even(directions);
+    fatigue_points f;
+    OK(mpm_fatigue_create(n, &fan, &paper, &f));
+    return f;
+}
+
+/* F2: two ranges in any order: the parts of a life that they take add up to 1. */
+static void test_no_order(void **state)
+{
+    (void)state;
+    static const double ranges[2] = { 1.5e-3, 4e-3 };
+    for (int order = 0; order < 2; order++) {
+        fatigue_points f = points_of(1, 3);
+        const double n = 0.37 * mpm_fatigue_cycles(&paper, ranges[order]);
+        mpm_fatigue_set_range(&f, 0, 0, ranges[order]);
+        mpm_fatigue_set_range(&f, 0, 1, pow(1.0 / (n * paper.A), 1.0 / paper.m)); /* is cut after n: a change there */
+        OK(mpm_fatigue_jump(&f, 0.0));
+        assert_true(f.n_cuts == 1 && f.cut[0].direction == 1 && fabs(f.cycles / n - 1.0) < 1e-12);
+        mpm_fatigue_set_range(&f, 0, 0, ranges[1 - order]);
+        OK(mpm_fatigue_jump(&f, 0.0));
+        const double spent = n / mpm_fatigue_cycles(&paper, ranges[order]) +
+                             (f.cycles - n) / mpm_fatigue_cycles(&paper, ranges[1 - order]);
+        assert_true(f.n_cuts == 2 && f.cut[1].direction == 0 && fabs(spent - 1.0) < 1e-12);
+        mpm_fatigue_free(&f);
+    }
+}
+
+/* A coarse model with redistribution: every cut of a point raises the ranges of its own other directions by half and of
+ * its neighbours' by a fifth. */
+enum { CHAIN = 5, SPOKES = 4 };
+static void chain_ranges(const bool *cut, double *range)
+{
+    for (int p = 0; p < CHAIN; p++)
+        for (int d = 0; d < SPOKES; d++) {
+            double r = 3e-3 * (1.0 + 0.13 * p + 0.07 * d * d);
+            for (int q = 0; q < CHAIN; q++)
+                for (int e = 0; e < SPOKES; e++)
+                    if (cut[q * SPOKES + e]) r *= q == p ? 1.5 : abs(q - p) == 1 ? 1.2 : 1.0;
+            range[p * SPOKES + d] = r;
+        }
+}
+
+/* F3, F20: jumps give the order of cuts and the cycles that counting cycle by cycle gives (the last of them in part);
+ * in between every life is 1 less what the ranges before each cut have taken. */
+static void test_jumps_count_cycles(void **state)
+{
+    (void)state;
+    enum { ALL = CHAIN * SPOKES };
+    fatigue_points f = points_of(CHAIN, SPOKES);
+    double range[ALL], life[ALL], cycles = 0.0;
+    for (int k = 0; k < ALL; k++) life[k] = 1.0;
+    for (int n = 0; n < ALL; n++) {
+        const double before = f.cycles;
+        chain_ranges(f.is_cut, range);
+        for (int k = 0; k < ALL; k++) mpm_fatigue_set_range(&f, k / SPOKES, k % SPOKES, range[k]);
+        const double wait = mpm_fatigue_wait(&f);
+        OK(mpm_fatigue_jump(&f, 0.0));
+        assert_int_equal(f.n_cuts, n + 1);
+        assert_true(fabs(f.cycles - before - wait) <= 1e-12 * f.cycles && f.cut[n].cycles == f.cycles);
+        int next = -1;
+        for (double part = 1.0; next < 0; cycles += part) { /* a cycle at a time */
+            part = 1.0;
+            for (int k = 0; k < ALL; k++)
+                if (life[k] > 0.0 && life[k] / mpm_fatigue_rate(&paper, range[k]) <= part)
+                    next = k, part = life[k] / mpm_fatigue_rate(&paper, range[k]);
+            for (int k = 0; k < ALL; k++)
+                if (life[k] > 0.0) life[k] -= part * mpm_fatigue_rate(&paper, range[k]);
+            if (next >= 0) life[next] = 0.0;
+        }
+        assert_int_equal(f.cut[n].point * SPOKES + f.cut[n].direction, next);
+        assert_true(fabs(f.cycles / cycles - 1.0) < 1e-9);
+        for (int k = 0; k < ALL; k++) {
+            assert_true(f.life[k] >= 0.0 && f.is_cut[k] == (life[k] == 0.0));
+            assert_true(fabs(f.life[k] - life[k]) < 1e-9);
+        }
+    }
+    for (int p = 0; p < CHAIN; p++) assert_true(fabs(f.index[p] - 1.0) < 1e-12);
+    assert_int_equal(mpm_fatigue_jump(&f, 0.0).code, STATUS_BAD_INPUT);
+    mpm_fatigue_free(&f);
+}
+
+/* A batch takes what follows within its share of the cycles, in the order of time, and no more; `alone` is the time at
+ * which the share of cut directions comes to the limit with these ranges. */
+static void test_batch(void **state)
+{
+    (void)state;
+    fatigue_points f = points_of(2, 4);
+    const double at[8] = { 1000.0, 1004.0, 1009.9, 1010.2, 1000.0 * (1.0 + 1e-10), 3000.0, 1018.0, 5000.0 };
+    for (int k = 0; k < 8; k++) mpm_fatigue_set_range(&f, k / 4, k % 4, pow(1.0 / (at[k] * paper.A), 1.0 / paper.m));
+    assert_true(fabs(mpm_fatigue_alone(&f, 0, 0.5) / 1004.0 - 1.0) < 1e-12);
+    assert_true(fabs(mpm_fatigue_alone(&f, 1, 0.75) / 3000.0 - 1.0) < 1e-12);
+    OK(mpm_fatigue_jump(&f, 0.0)); /* those that are one but for rounding */
+    assert_true(f.n_cuts == 2 && f.cut[0].point == 0 && f.cut[1].point == 1 && fabs(f.cycles - 1000.0) < 1e-6);
+    OK(mpm_fatigue_jump(&f, 0.01));
+    assert_true(f.n_cuts == 5 && fabs(f.cut[2].cycles - 1004.0) < 1e-6 && fabs(f.cut[4].cycles - 1010.2) < 1e-6);
+    assert_true(fabs(f.index[0] - 1.0) < 1e-12 && fabs(f.index[1] - 0.25) < 1e-12);
+    mpm_fatigue_free(&f);
+}
+
+/* ---- equilibrium ---- */
+
+/* A field that is linear in x and z is in equilibrium on any grid: of an anisotropic solid too, and a cell's size drops
+ * out.  The load is the traction of its stress on the face. */
+static void test_patch(void **state)
+{
+    (void)state;
+    enum { NX = 24, NZ = 16 };
+    const rest_elastic solid = { 3.0, 2.0, 0.9, 0.8, 0.2, -0.1 };
+    const double h = 0.25, e[3] = { 1e-3, -4e-4, 7e-4 };
+    const double zz = solid.xx_zz * e[0] + solid.zz * e[1] + solid.zz_shear * e[2];
+    const double xz = solid.xx_shear * e[0] + solid.zz_shear * e[1] + solid.shear * e[2];
+    mpm_rest *r;
+    int iterations = 0;
+    OK(mpm_rest_create(NX, NZ, h, &solid, 1, &r));
+    double *u = mpm_rest_displacement(r), *f = mpm_rest_forces(r);
+    for (int j = 0; j <= NZ; j++)
+        for (int i = 0; i <= NX; i++) {
+            const bool held = i == 0 || i == NX || j == NZ;
+            u[2 * (j * (NX + 1) + i)] = held ? e[0] * i * h + 0.5 * e[2] * j * h : 0.0;
+            u[2 * (j * (NX + 1) + i) + 1] = held ? e[1] * j * h + 0.5 * e[2] * i * h : 0.0;
+        }
+    for (int i = 0; i <= NX; i++) f[2 * i] = -h * xz, f[2 * i + 1] = -h * zz;
+    OK(mpm_rest_solve(r, 1e-11, 200, &iterations));
+    for (int j = 0; j < NZ; j++)
+        for (int i = 0; i < NX; i++) {
+            double strain[3];
+            mpm_rest_strain(r, i, j, strain);
+            for (int q = 0; q < 3; q++) assert_true(fabs(strain[q] - e[q]) < 1e-11);
+            assert_true(fabs(mpm_rest_face_strain(r, i) - e[0]) < 1e-11);
+        }
+    mpm_rest_free(r);
+}
+
+static life_crack_how crack_how(const contact_load *l, int cycle, int cells, int most_cuts)
+{
+    return (life_crack_how){ .load = l,
+                             .how = { 210e9, 0.25, FATIGUE_BOND, cycle },
+                             .law = paper,
+                             .fan = mpm_fatigue_fan_even(36),
+                             .cells = cells,
+                             .wide = 3.2,
+                             .deep = 3.2,
+                             .limit = 0.5,
+                             .batch = 0.01,
+                             .most_cuts = most_cuts,
+                             .threads = 1 };
+}
+
+static life_crack crack_of(int contact, double mu, int cycle, int cells, int most_cuts)
+{
+    case_life c = wheel;
+    life_crack out;
+    c.pressure = 1e9, c.half_length = 6e-3, c.state = contact, c.friction = mu;
+    const contact_load l = load_of(c);
+    const life_crack_how how = crack_how(&l, cycle, cells, most_cuts);
+    OK(life_crack_find(&how, &out));
+    return out;
+}
+
+/* F6, F18: the stress of the grid is that of the half space, to 2 % of the peak pressure at a / cell = 20, falling with
+ * the cell; the first cut is that of the closed field. */
+static void test_field(void **state)
+{
+    (void)state;
+    for (int contact = LIFE_FRICTIONLESS; contact <= LIFE_FULL_SLIP; contact++) {
+        life_crack coarse = crack_of(contact, 0.3, LIFE_PULSE, 10, 0), fine = crack_of(contact, 0.3, LIFE_PULSE, 20, 0);
+        assert_true(coarse.field_error < 0.02 && fine.field_error < 0.5 * coarse.field_error);
+        assert_true(fine.iterations <= 6 && fine.solves == 1 && fine.cuts == 0 && isnan(fine.life));
+        assert_true(fabs(coarse.first / fine.first - 1.0) < 0.05 && fine.alone > fine.first);
+        life_crack_free(&coarse), life_crack_free(&fine);
+    }
+    life_crack passage = crack_of(LIFE_FULL_SLIP, 0.5, LIFE_PASSAGE, 20, 0);
+    const life_first closed = first_of(LIFE_FULL_SLIP, 0.5, 0.0, 0.25, LIFE_PASSAGE, FATIGUE_BOND);
+    assert_true(fabs(passage.first / mpm_fatigue_cycles(&paper, closed.range * 1e9 / 210e9) - 1.0) < 0.02);
+    life_crack_free(&passage);
+}
+
+/* ---- to a crack ---- */
+
+/* A passage without friction cracks below the face, between the first cut and the life without redistribution; with
+ * a high one at the face.  Cuts of a pulse under the patch are closed by its pressure, and nothing is redistributed. */
+static void test_crack(void **state)
+{
+    (void)state;
+    life_crack deep = crack_of(LIFE_FRICTIONLESS, 0.0, LIFE_PASSAGE, 8, 1000000);
+    assert_true(deep.life > deep.first && deep.life < 0.99 * deep.alone && isnan(deep.position));
+    assert_true(deep.depth > 0.2 * 6e-3 && deep.depth < 0.6 * 6e-3 && deep.cuts > 18);
+    life_crack face = crack_of(LIFE_FULL_SLIP, 0.5, LIFE_PASSAGE, 8, 1000000);
+    assert_true(face.depth == 0.0 && face.life > face.first && face.life < 0.9 * face.alone && face.life < deep.life);
+    life_crack pulse = crack_of(LIFE_FRICTIONLESS, 0.0, LIFE_PULSE, 6, 1000000);
+    assert_true(fabs(pulse.life / pulse.alone - 1.0) < 1e-9 && pulse.depth == 0.0);
+    assert_true(pulse.cuts > 10 * pulse.solves);
+    for (int i = 0; i < pulse.nx; i++) /* F16: symmetric about the middle */
+        for (int j = 0; j < pulse.nz; j++) {
+            const int here = i * pulse.nz + j, mirror = (pulse.nx - 1 - i) * pulse.nz + j;
+            assert_true(fabs(pulse.index[here] - pulse.index[mirror]) < 1e-9);
+            assert_true(fabs(pulse.least_life[here] - pulse.least_life[mirror]) < 1e-6);
+        }
+    life_crack_free(&deep), life_crack_free(&face), life_crack_free(&pulse);
+}
+
+/* Steps of 1 % of the cycles change the life by less than 2 %, with ten times fewer solutions than cuts; cuts that
+ * open redistribute: measure tension, at the trailing edge. */
+static void test_batches(void **state)
+{
+    (void)state;
+    case_life c = wheel;
+    life_crack one, several;
+    c.pressure = 1e9, c.half_length = 6e-3;
+    const contact_load l = load_of(c);
+    life_crack_how how = crack_how(&l, LIFE_PULSE, 6, 1000000);
+    OK(life_crack_find(&how, &several));
+    how.batch = 0.0;
+    OK(life_crack_find(&how, &one));
+    assert_true(fabs(several.life / one.life - 1.0) < 0.02 && 10 * several.solves <= one.cuts);
+    life_crack_free(&one), life_crack_free(&several);
+    how.batch = 0.1; /* several cuts of a point in one step, in their order: nothing is redistributed */
+    OK(life_crack_find(&how, &several));
+    assert_true(fabs(several.life / several.alone - 1.0) < 1e-9);
+    life_crack_free(&several);
+    how.batch = 0.0;
+    how.how.cycle = LIFE_PASSAGE;
+    OK(life_crack_find(&how, &one));
+    how.batch = 0.01;
+    OK(life_crack_find(&how, &several));
+    assert_true(fabs(several.life / one.life - 1.0) < 0.02 && several.solves < one.solves);
+    life_crack_free(&one), life_crack_free(&several);
+    how.how.cycle = LIFE_PULSE;
+    how.how.measure = FATIGUE_TENSION;
+    OK(life_crack_find(&how, &several));
+    assert_true(several.life < 0.5 * several.alone && several.depth == 0.0);
+    assert_true(several.position < -0.9 * 6e-3 && several.position > -1.2 * 6e-3);
+    life_crack_free(&several);
+}
+
+/* The same bits on one thread and on three: with cuts that open. */
+static void test_threads(void **state)
+{
+    (void)state;
+    case_life c = wheel;
+    life_crack of[2];
+    c.pressure = 1e9, c.half_length = 6e-3;
+    const contact_load l = load_of(c);
+    for (int k = 0; k < 2; k++) {
+        life_crack_how how = crack_how(&l, LIFE_PASSAGE, 6, 1000000);
+        how.threads = k ? 3 : 1, how.how.poisson = 0.3;
+        OK(life_crack_find(&how, &of[k]));
+    }
+    assert_true(of[0].life == of[1].life && of[0].iterations == of[1].iterations && of[0].cuts == of[1].cuts);
+    assert_true(of[0].cuts > 10 && of[0].iterations > 20 && of[0].field_error == of[1].field_error);
+    assert_memory_equal(of[0].least_life, of[1].least_life,
+                        2 * (size_t)of[0].nx * (size_t)of[0].nz * sizeof *of[0].least_life);
+    life_crack_free(&of[0]), life_crack_free(&of[1]);
+}
+
 /* ---- the program ---- */
 
 static void refused(const char *set, const char *words)
@@ -342,20 +602,23 @@ static void test_program(void **state)
 {
     (void)state;
     fresh_folder("paper");
-    assert_int_equal(run("life " PAPER " -o paper/out --quiet --set output.report=yes"), 0);
+    assert_int_equal(run("life " PAPER " -o paper/out --quiet --threads 1 --set output.report=yes"), 0);
     cJSON *s = summary_of("paper/out");
     assert_text(s, "kind", "life");
     assert_true(fabs(number(s, "life_first") / 5890.0 - 1.0) < 0.01);
     assert_true(fabs(number(s, "tangential_force") / number(s, "normal_force") - 0.3) < 1e-12);
+    assert_true(number(s, "life") > number(s, "grid_first") && number(s, "life_depth") == 0.0);
     assert_true(contains("paper/out/report.html", "cycles to the first cut"));
     cJSON_Delete(s);
     assert_int_equal(run("check " PAPER " --expect paper/out"), 0);
-    assert_int_equal(run("life " PAPER
-                         " -o paper/table --quiet --set output.report=no --set life.wheel_load=none --set "
-                         "life.pressure='1 GPa' --set life.profile=points --set 'life.points=[{at: -1, pressure: 0}, "
-                         "{at: 0, pressure: 1}, {at: 1, pressure: 0}]'"),
-                     0);
+    assert_int_equal(
+        run("life " PAPER
+            " -o paper/table --quiet --set output.report=no --set life.until=first --set life.wheel_load=none --set "
+            "life.pressure='1 GPa' --set life.profile=points --set 'life.points=[{at: -1, pressure: 0}, "
+            "{at: 0, pressure: 1}, {at: 1, pressure: 0}]'"),
+        0);
     s = summary_of("paper/table");
+    assert_true(isnan(number(s, "life")));
     assert_true(fabs(number(s, "normal_force") / 6e6 - 1.0) < 1e-12); /* a triangle of 1 GPa over 12 mm */
     cJSON_Delete(s);
 }
@@ -371,6 +634,14 @@ int main(void)
         cmocka_unit_test(test_first_rows),
         cmocka_unit_test(test_crossing),
         cmocka_unit_test(test_scaling),
+        cmocka_unit_test(test_no_order),
+        cmocka_unit_test(test_jumps_count_cycles),
+        cmocka_unit_test(test_batch),
+        cmocka_unit_test(test_patch),
+        cmocka_unit_test(test_field),
+        cmocka_unit_test(test_crack),
+        cmocka_unit_test(test_batches),
+        cmocka_unit_test(test_threads),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_program),
     };

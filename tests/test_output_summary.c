@@ -43,7 +43,7 @@ static const char *const kind_keys[STUDIES][32] = {
     [STUDY_strike] = { "impact_velocity", "class", "residual_velocity", "energy_absorbed", "peak_force", "impulse",
                        "deflection", "failed_volume", "debris_mass", "limit_velocity", "limit_interval", "arrivals",
                        "bodies", "probes", "energy_error", "wall_seconds" },
-    [STUDY_life] = { "life_first", "wall_seconds" },
+    [STUDY_life] = { "life", "life_first", "life_position", "life_depth", "life_angle", "wall_seconds" },
     [STUDY_compare] = { "ranking" },
     [STUDY_sweep] = { "of", "resolution", "units", "sweep", "wall_seconds" },
     [STUDY_inductance] = { "L_gradient", "R_gradient", "frequency", "L_gradient_high_frequency" },

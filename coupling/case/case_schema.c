@@ -227,6 +227,9 @@ static const char *const life_state_names[] = {
 };
 static const char *const life_cycle_names[] = { [LIFE_PULSE] = "pulse", [LIFE_PASSAGE] = "passage", NULL };
 
+static const char *const life_fan_names[] = { [LIFE_EVEN] = "even", [LIFE_LATTICE] = "lattice", NULL };
+static const char *const life_until_names[] = { [LIFE_UNTIL_FIRST] = "first", [LIFE_UNTIL_CRACK] = "crack", NULL };
+
 static const param life_params[] = {
     PARAM_STRING(case_life, material, NULL, "the rail's material, with constants of fatigue"),
     PARAM_ENUM(case_life, profile, life_profile_names, LIFE_HERTZ,
@@ -246,6 +249,19 @@ static const param life_params[] = {
                "pulse: the load comes and goes at one place; passage: it runs over the rail from end to end"),
     PARAM_ENUM(case_life, measure, mpm_fatigue_measure_names, FATIGUE_BOND,
                "what of a direction's strain takes life: bond: its range whatever the sign; tension; shear across it"),
+    PARAM_ENUM(case_life, fan, life_fan_names, LIFE_EVEN,
+               "directions of a point: at equal angles, or those of the 28 neighbours within 3.015 spacings of a "
+               "square lattice"),
+    PARAM_INT(case_life, directions, 36, 3, FATIGUE_MAX_DIRECTIONS, "of an even fan"),
+    PARAM_ENUM(case_life, until, life_until_names, LIFE_UNTIL_CRACK,
+               "first: the first cut, by the closed field alone; crack: on a grid, cut by cut"),
+    PARAM_DOUBLE(case_life, limit_index, "1", 0.5, 0.01, 1.0, "share of a point's directions whose loss is a crack"),
+    PARAM_DOUBLE(case_life, batch, "1", 0.01, 0.0, 0.2, "cuts within this share of the cycles are one step"),
+    PARAM_INT(case_life, max_cuts, 1000000, 0, 100000000, "at most; 0: the intact rail on the grid"),
+    PARAM_INT(case_life, cells_per_half_length, 20, 4, 400, "cells of the grid in half_length"),
+    PARAM_DOUBLE(case_life, grid_half_width, "1", 4.0, 2.0, 100.0,
+                 "from the middle of the patch to the grid's ends, over half_length"),
+    PARAM_DOUBLE(case_life, grid_depth, "1", 4.0, 2.0, 100.0, "depth of the grid, over half_length"),
     PARAMS_END,
 };
 

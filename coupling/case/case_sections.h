@@ -222,6 +222,8 @@ typedef struct {
 typedef enum { LIFE_HERTZ, LIFE_UNIFORM, LIFE_POINTS } life_profile;
 typedef enum { LIFE_FRICTIONLESS, LIFE_STICK_SLIP, LIFE_FULL_SLIP } life_state;
 typedef enum { LIFE_PULSE, LIFE_PASSAGE } life_cycle;
+typedef enum { LIFE_EVEN, LIFE_LATTICE } life_fan;
+typedef enum { LIFE_UNTIL_FIRST, LIFE_UNTIL_CRACK } life_until;
 
 /* A point of a tabulated load; straight lines between. */
 typedef struct {
@@ -236,17 +238,25 @@ typedef struct {
 } case_life_points;
 
 typedef struct {
-    char material[PARAM_TEXT_SIZE]; /* of the rail */
-    int profile;                    /* life_profile */
-    double wheel_load;              /* P on the whole ellipse; NAN: `pressure` is given [N] */
-    double pressure;                /* largest; NAN: of wheel_load [Pa] */
-    double half_length, half_width; /* of the patch, along and across the rail; half_width NAN: not given [m] */
-    int state;                      /* life_state */
-    double friction;                /* [1] */
-    double traction_share;          /* Q / (mu P') of stick-slip [1] */
-    int cycle;                      /* life_cycle */
-    int measure;                    /* fatigue_measure */
-    case_life_points points;        /* of LIFE_POINTS */
+    char material[PARAM_TEXT_SIZE];     /* of the rail */
+    int profile;                        /* life_profile */
+    double wheel_load;                  /* P on the whole ellipse; NAN: `pressure` is given [N] */
+    double pressure;                    /* largest; NAN: of wheel_load [Pa] */
+    double half_length, half_width;     /* of the patch, along and across the rail; half_width NAN: not given [m] */
+    int state;                          /* life_state */
+    double friction;                    /* [1] */
+    double traction_share;              /* Q / (mu P') of stick-slip [1] */
+    int cycle;                          /* life_cycle */
+    int measure;                        /* fatigue_measure */
+    int fan;                            /* life_fan */
+    int directions;                     /* of an even fan */
+    int until;                          /* life_until */
+    double limit_index;                 /* share of a point's directions whose loss is a crack [1] */
+    double batch;                       /* cuts within this share of the cycles are one step [1] */
+    int max_cuts;                       /* 0: the intact rail on the grid, no cut */
+    int cells_per_half_length;          /* of the grid */
+    double grid_half_width, grid_depth; /* of the grid [half lengths] */
+    case_life_points points;            /* of LIFE_POINTS */
 } case_life;
 
 /* What a study takes for the onset of gouging: the groove's growth, or the crater's severity. */

@@ -3,13 +3,14 @@
 #ifndef BREECH_COUPLING_STUDY_LIFE_H
 #define BREECH_COUPLING_STUDY_LIFE_H
 
-#include "coupling/life/first.h"
+#include "coupling/life/crack.h"
 
 typedef struct {
     double peak_pressure;                  /* [Pa] */
     double normal_force, tangential_force; /* on a metre across the rail [N/m] */
-    double life_first;                     /* cycles until the first direction is cut [1] */
+    double life_first;                     /* cycles until the first direction is cut, closed field [1] */
     life_first first;                      /* that direction */
+    life_crack crack;                      /* all NAN, 0 where life.until is first */
     double wall_seconds;
 } life_result;
 

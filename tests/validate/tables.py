@@ -19,6 +19,7 @@ import sys
 import pages
 import part_closed
 import part_criterion
+import part_fatigue
 import part_growth
 import part_lattice
 import part_laws
@@ -36,6 +37,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "criterion-steel": ("docs/validation/criterion.md", part_criterion.steel, 13, False),
     "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
     "lattice": ("docs/validation/lattice.md", part_lattice.through, 8, False),
+    "fatigue": ("docs/validation/fatigue.md", part_fatigue.wheel, 3, True),
     "four-cells": ("docs/validation/growth.md", part_growth.four_cells, 16, False),
     "laws": ("docs/validation/laws.md", part_laws.laws, 1, True),
     "taylor": ("docs/validation/laws.md", part_laws.taylor, 6, False),
