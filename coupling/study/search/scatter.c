@@ -16,6 +16,8 @@ typedef struct {
     grain_family *of;
     int number; /* of the family, from 0 */
     family_judge judge;
+    const family_scene *near;          /* the search's scene nearest to it; NULL: there is no threshold */
+    const scene_record *const *record; /* of that scene on the further grids; borrowed */
 } sought;
 
 static const threshold_result *answer_of(const sought *t)
@@ -31,7 +33,6 @@ static bool counts(const sought *t, const family_scene *scene)
            scene->cells == answer_of(t)->cells;
 }
 
-/* The scene nearest to the threshold; NULL: there is no threshold. */
 static const family_scene *nearest(const sought *t)
 {
     const grain_family *f = t->of;
@@ -102,31 +103,49 @@ typedef struct {
 
 static slopes slopes_of(const case_onset *c, const sought *t)
 {
-    const sought scratch = { t->of, t->number, JUDGE_OF_SCRATCH };
+    const sought scratch = { .of = t->of, .number = t->number, .judge = JUDGE_OF_SCRATCH };
     const bool known = t->of->scratch && !isnan(answer_of(&scratch)->velocity);
     return (slopes){ slope(c, known ? &scratch : t, growth_of), slope(c, t, shape_of) };
 }
 
-/* How far above the scene's velocity the threshold of its grid lies, by both numbers and their own slopes: a gouge
- * needs both, so the later one counts.  Where tear-drops begin growth has levelled off: one slope for the smaller of
- * both would put a groove that dies there off by half the range [m/s]. */
-static double threshold_off(const case_onset *c, const sought *t, slopes b, const onset_scene *e)
+/* The nearest scene on the i-th grid. */
+static const onset_scene *on_grid(const sought *t, int i)
 {
-    const double growth = -growth_of(c, e) / b.growth, shape = shape_of(c, e);
+    return &(i ? t->record[i - 1] : t->near->record)->entry;
+}
+
+/* How far above the scene's velocity growth passes zero on its grid: on the line to the scene of the family's other
+ * threshold on the same grid, if it passes zero between the two; else by the slope, which makes far too much of a
+ * groove that dies, since growth falls much steeper below zero than it rises above [m/s]. */
+static double zero_off(const case_onset *c, const sought *t, const sought *other, double slope_of_growth, int i)
+{
+    const double here = growth_of(c, on_grid(t, i));
+    if (other && other->near) {
+        const double way = other->near->velocity - t->near->velocity, more = growth_of(c, on_grid(other, i)) - here;
+        if (here * (here + more) < 0 && more * way > 0) return -here * way / more;
+    }
+    return -here / slope_of_growth;
+}
+
+/* How far above the scene's velocity the threshold of the i-th grid lies, by growth and shape and their own slopes: a
+ * gouge needs both, so the later one counts.  Where tear-drops begin growth has levelled off: one slope for the smaller
+ * of both would put a groove that dies there off by half the range [m/s]. */
+static double threshold_off(const case_onset *c, const sought *t, const sought *other, slopes b, int i)
+{
+    const double growth = zero_off(c, t, other, b.growth, i), shape = shape_of(c, on_grid(t, i));
     if (t->judge == JUDGE_OF_SCRATCH || isinf(shape)) return growth;
     return isnan(b.shape) || isnan(b.growth) ? NAN : fmax(growth, -shape / b.shape);
 }
 
-static status conclude(session *s, const grain_families *g, const sought *t, const family_scene *near,
-                       const scene_record *const *record, double *value)
+/* value: room for as many numbers as there are grids.  other: the family's other threshold; NULL: it has none. */
+static void conclude(session *s, const grain_families *g, const sought *t, const sought *other, double *value)
 {
     const int n = g->c->study.threshold_ensemble;
     const slopes b = slopes_of(g->c, t);
     family_scatter *out = study_family_scatter(t->of, t->judge);
-    for (int i = 0; i < n; i++)
-        value[i] = study_family_sample(g->c, t->judge, &(i ? record[i - 1] : near->record)->entry).excess;
+    for (int i = 0; i < n; i++) value[i] = study_family_sample(g->c, t->judge, on_grid(t, i)).excess;
     out->excess = study_shift_spread(value, n).deviation;
-    for (int i = 0; i < n; i++) value[i] = threshold_off(g->c, t, b, &(i ? record[i - 1] : near->record)->entry);
+    for (int i = 0; i < n; i++) value[i] = threshold_off(g->c, t, other, b, i);
     out->threshold = NAN;
     bool known = true;
     for (int i = 0; i < n; i++) known = known && isfinite(value[i]);
@@ -136,8 +155,7 @@ static status conclude(session *s, const grain_families *g, const sought *t, con
             s,
             "%swhat decides on a %s scatters by %.2g with the place of the grid at %g m/s, but does not rise "
             "with velocity in the search's scenes: the interval does not hold that",
-            g->prefix, t->judge == JUDGE_OF_GOUGE ? "gouge" : "scratch", out->excess, near->velocity);
-    return status_ok();
+            g->prefix, t->judge == JUDGE_OF_GOUGE ? "gouge" : "scratch", out->excess, t->near->velocity);
 }
 
 /* All thresholds of all families; how many. */
@@ -151,22 +169,25 @@ static int list_sought(grain_families *g, sought *out)
     return n;
 }
 
-static status measure(session *s, grain_families *g, scene_query *query, const scene_record **record, double *growth,
+static const sought *other_of(const sought *list, int n, const sought *t)
+{
+    for (int k = 0; k < n; k++)
+        if (list[k].of == t->of && list[k].judge != t->judge) return &list[k];
+    return NULL;
+}
+
+static status measure(session *s, grain_families *g, scene_query *query, const scene_record **record, double *value,
                       sought *list)
 {
     const int more = g->c->study.threshold_ensemble - 1, thresholds = list_sought(g, list);
     int n = 0;
     for (int k = 0; k < thresholds; k++) {
-        const family_scene *near = nearest(&list[k]);
-        for (int i = 0; near && i < more; i++) query[n++] = query_of(g, list[k].number, near, i + 1);
+        list[k].near = nearest(&list[k]), list[k].record = record + n;
+        for (int i = 0; list[k].near && i < more; i++) query[n++] = query_of(g, list[k].number, list[k].near, i + 1);
     }
     TRY(run_scenes_all(s, query, n, record));
-    for (int k = 0, at = 0; k < thresholds; k++) {
-        const family_scene *near = nearest(&list[k]);
-        if (!near) continue;
-        TRY(conclude(s, g, &list[k], near, record + at, growth));
-        at += more;
-    }
+    for (int k = 0; k < thresholds; k++)
+        if (list[k].near) conclude(s, g, &list[k], other_of(list, thresholds, &list[k]), value);
     return status_ok();
 }
 
@@ -177,13 +198,13 @@ status study_scatter_run(session *s, grain_families *grains)
     if (all == 0) return status_ok();
     scene_query *query = calloc(all, sizeof *query);
     const scene_record **record = malloc(all * sizeof *record);
-    double *growth = malloc(scenes * sizeof *growth);
+    double *value = malloc(scenes * sizeof *value);
     sought *list = malloc(thresholds * sizeof *list);
-    const status done = query && record && growth && list
-                            ? measure(s, grains, query, record, growth, list)
+    const status done = query && record && value && list
+                            ? measure(s, grains, query, record, value, list)
                             : base_status_error(STATUS_MEMORY, "no memory for %zu scenes on shifted grids", all);
     free(list);
-    free(growth);
+    free(value);
     free(record);
     free(query);
     return done;

@@ -2,9 +2,8 @@
 /* What thresholds owe to where the cells happen to lie (study.threshold_ensemble, judged by growth).
  *
  * Of each family the search's scene nearest to its threshold is computed on further grids, each shifted by another part
- * of a cell (sampling/shifts.h).  The standard deviation s of the groove's growth over them [e-folds], and the slope b
- * of the growth over velocity by the search's own scenes near the threshold, make a standard deviation s/b of the
- * threshold [m/s]. */
+ * of a cell (sampling/shifts.h).  Each grid's threshold is placed by its own scenes where it has them on both sides,
+ * else by the slope of the search's scenes over velocity; their standard deviation is that of the threshold [m/s]. */
 #ifndef BREECH_COUPLING_SCATTER_H
 #define BREECH_COUPLING_SCATTER_H
 

@@ -90,10 +90,10 @@ static void widen(surface_result *s, double allowance)
 {
     const double by = allowance - s->reference.allowance;
     s->reference.allowance = allowance;
-    s->reference.interval[0] -= by;
+    s->reference.interval[0] = fmax(s->reference.interval[0] - by, 0);
     s->reference.interval[1] += by;
     for (int k = 0; k < s->sizes; k++) {
-        s->size[k].interval[0] -= by;
+        s->size[k].interval[0] = fmax(s->size[k].interval[0] - by, 0);
         s->size[k].interval[1] += by;
     }
 }
