@@ -11,7 +11,7 @@ GRIDS = 3
 
 def growths(runs, name, velocity, settings):
     """Growth [1/us] on every grid; None: the groove died before its first gauge."""
-    scene = runs.scene("growth_%s_%d" % (name, velocity), "cases/default_shot", GRIDS,
+    scene = runs.scene("growth_%s_%d" % (name, velocity), "cases/default_shot/former.yaml", GRIDS,
                        scene__velocity="%d m/s" % velocity, **{**COMMON, **settings})
     found = [grid["values"].get("groove_growth") for grid in scene.summary["scenes"]]
     return [None if growth is None else growth / 1e6 for growth in found]
@@ -71,5 +71,5 @@ def four_cells(runs):
     return [Table(columns("cells a radius", shown), rows)], NOTE
 
 
-NOTE = ("cases/default_shot to its second gauge, pressed on with 60 MPa; growth [1/us], mean ± standard deviation over "
+NOTE = ("cases/default_shot/former.yaml to its second gauge, pressed on with 60 MPa; growth [1/us], mean ± standard deviation over "
         "three shifted grids")
