@@ -14,7 +14,11 @@
 #include <math.h>
 #include <stddef.h>
 
-#define PARAM_TEXT_SIZE 64 /* a PARAM_TEXT member is char[PARAM_TEXT_SIZE] */
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { PARAM_TEXT_SIZE = 64 }; /* a PARAM_TEXT member is char[PARAM_TEXT_SIZE] */
 
 typedef enum {
     PARAM_NUMBER,  /* double, in `unit` */
@@ -26,9 +30,6 @@ typedef enum {
     PARAM_POINTS   /* double[2 * room], in `unit`, written [[a, b], [c, d], ...]; NAN in the places behind the last */
 } param_kind;
 
-#define REQUIRED INFINITY /* fallback of a number that must be given */
-#define OPTIONAL NAN      /* fallback of a number that may stay unset (the member then holds NAN) */
-
 typedef struct {
     const char *key, *unit, *doc;
     size_t offset;
@@ -39,7 +40,10 @@ typedef struct {
     int room;                   /* PARAM_POINTS: pairs at most; at least one must be given */
 } param;
 
-/* A table ends with a row whose key is NULL. */
+/* A table ends with a row whose key is NULL.  The macros that write rows are for Breech's own sources. */
+#ifdef BREECH_INSIDE
+#define REQUIRED INFINITY /* fallback of a number that must be given */
+#define OPTIONAL NAN      /* fallback of a number that may stay unset (the member then holds NAN) */
 /* clang-format off */
 #define PARAMS_END { .key = NULL }
 #define PARAM_DOUBLE(type, member, unit_, fallback_, min_, max_, doc_)                                             \
@@ -65,6 +69,7 @@ typedef struct {
       .min = (min_), .max = (max_), .kind = PARAM_POINTS,                                                         \
       .room = (int)(sizeof(((type *)0)->member) / (2 * sizeof(double))) }
 /* clang-format on */
+#endif
 
 /* Fills every member of the table with its default; REQUIRED numbers become NAN, required texts "". */
 void base_params_default(const param *table, void *object);
@@ -75,5 +80,9 @@ int base_param_pairs(const double *member, int room);
 /* Error STATUS_BAD_INPUT naming "<section>.<key>", value, unit and range for the first member that is out of range or
  * required and unset. */
 status base_params_check(const param *table, const void *object, const char *section);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -6,6 +6,10 @@
 #ifndef BREECH_BASE_STATUS_H
 #define BREECH_BASE_STATUS_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef enum {
     STATUS_OK = 0,
     STATUS_BAD_INPUT, /* the user's input: exit code 2 */
@@ -22,22 +26,33 @@ typedef struct {
 
 static inline status status_ok(void)
 {
-    return (status){ .code = STATUS_OK };
+    const status s = { STATUS_OK, "" };
+    return s;
 }
 
 status base_status_error(status_code code, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* CHECK(cond, code, "format", ...): returns an error from the calling function unless cond holds. */
-#define CHECK(cond, code, ...)                                      \
+/* BASE_CHECK(cond, code, "format", ...): returns an error from the calling function unless cond holds. */
+#define BASE_CHECK(cond, code, ...)                                 \
     do {                                                            \
         if (!(cond)) return base_status_error((code), __VA_ARGS__); \
     } while (0)
 
-/* TRY(call): returns the error of `call` from the calling function, if it has one. */
-#define TRY(call)                                              \
+/* BASE_TRY(call): returns the error of `call` from the calling function, if it has one. */
+#define BASE_TRY(call)                                         \
     do {                                                       \
         const status try_status_ = (call);                     \
         if (try_status_.code != STATUS_OK) return try_status_; \
     } while (0)
+
+/* Names without a prefix are for Breech's own sources alone. */
+#ifdef BREECH_INSIDE
+#define CHECK BASE_CHECK
+#define TRY BASE_TRY
+#endif
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

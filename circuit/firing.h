@@ -9,6 +9,10 @@
 
 #include "circuit/shot.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* flat: minimise the mean along the barrel of ((I - peak_current)/peak_current)^2.  Current above peak_current counts
  * ten thousand times, so the peak is exceeded by about a thousandth at most.
  * velocity: reach muzzle_velocity with the least energy stored at the start; peak_current, if given, is a limit as in
@@ -41,5 +45,9 @@ status circuit_firing_check(const shot_config *c, const firing_wish *wish);
  * stop (may be NULL): true ends the search, STATUS_STOPPED. */
 status circuit_firing_optimise(const shot_config *c, const firing_wish *wish, bool (*stop)(void), shot_module *modules,
                                firing_result *out);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -20,6 +20,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef enum { SHOT_RAILS_CONSTANT, SHOT_RAILS_SKIN, SHOT_RAILS_DIFFUSING } shot_rail_level;
 
 /* Equal rails (circuit/rails/section.h).  constant: the gradients are given; skin: those of the section at one
@@ -273,5 +277,9 @@ status circuit_rails_ladder(const shot_rails *rails, double f_top, ladder *out);
 /* The frequency that level skin takes for these supplies when none is given, equation (C-6) [Hz]; NAN if nothing fires.
  */
 double circuit_shot_effective_frequency(const supply_list supplies[SUPPLY_KINDS]);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

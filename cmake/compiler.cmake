@@ -12,6 +12,8 @@ if(BREECH_WERROR)
     add_compile_options(-Werror)
 endif()
 
+add_compile_definitions(BREECH_INSIDE) # names without a prefix, base/status.h
+
 # Headers are included from the root: #include "base/status.h"
 include_directories(${CMAKE_SOURCE_DIR})
 

@@ -10,6 +10,10 @@
 
 #include "base/param.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef enum {
     MATERIAL_FOR_SCENE = 1,    /* what its strength and its equation of state need */
     MATERIAL_FOR_DAMAGE = 2,   /* what its law of failure needs */
@@ -65,6 +69,20 @@ typedef enum {
 #include "mpm/law/failure.def"
 } material_failure;
 
+/* What a law of strength is asked: one point. */
+typedef struct {
+    double strain;    /* equivalent plastic strain, with the cold work before the scene [1] */
+    double log_rate;  /* ln(rate / rate_0), at least 0 */
+    double T, T_star; /* [K]; (T - reference) / (melting - reference), 0 .. 1 */
+} mpm_strength_point;
+
+/* strength STRENGTH_own: the flow stress in the solid [Pa], above zero; the same for the same point, and callable from
+ * several threads at once.  No hash, key or checkpoint knows which function it was. */
+typedef struct {
+    double (*flow)(const void *user, const mpm_strength_point *at);
+    const void *user; /* borrowed as long as a solver that has the material */
+} mpm_own_strength;
+
 typedef struct {
     char name[PARAM_TEXT_SIZE];
     int strength; /* material_strength */
@@ -79,6 +97,7 @@ typedef struct {
 #include "mpm/law/eos.def"
 #define CONSTANT(member, unit, fallback, least, largest, text) double member;
 #include "mpm/law/failure.def"
+    mpm_own_strength own_strength; /* STRENGTH_own alone */
 } material;
 
 /* Every constant OPTIONAL: a file may leave out what its author does not know. */
@@ -110,5 +129,13 @@ double mpm_material_shear_speed(const material *m);        /* [m/s] */
 /* Hydrodynamic impedance match of a planar impact at `velocity` [m/s]; p [Pa], u_target = the target's particle
  * velocity [m/s].  Hugoniot p = rho0 (c0 + s u) u of each. */
 status mpm_impedance_match(const material *flyer, const material *target, double velocity, double *p, double *u_target);
+
+#ifndef BREECH_INSIDE
+#undef MATERIAL_CONSTANTS
+#endif
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -12,6 +12,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct mpm mpm; /* owns all its memory */
 
 /* Every joule and newton second.  Model as computed (a half model is a half). */
@@ -157,5 +161,13 @@ enum { MPM_BYTES = 20000000, MPM_BYTES_A_PARTICLE = 1600, MPM_BYTES_A_BODY = 500
 status mpm_estimate(const mpm_scene *scene, mpm_needs *needs);
 
 const char *mpm_instruction_set(void); /* "x86-64-v4", "x86-64-v3", "portable" */
+
+#ifndef BREECH_INSIDE
+#undef PARTICLE_FIELDS
+#endif
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

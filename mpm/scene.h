@@ -21,6 +21,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum { MPM_MAX_LEVELS = 8, MPM_FACES = 6, MPM_CONTACT_VALUES = 8 };
 
 /* ---- bodies ---- */
@@ -171,5 +175,9 @@ int mpm_scene_groups(const mpm_scene *s); /* one more than the highest group of 
 
 status mpm_scene_copy(const mpm_scene *from, mpm_scene *to); /* arrays of its own; the same borrowed materials */
 void mpm_scene_free(mpm_scene *s); /* of one that mpm_scene_default began or of zero bytes; leaves an empty one */
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

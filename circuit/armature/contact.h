@@ -15,6 +15,10 @@
 #ifndef BREECH_CIRCUIT_CONTACT_H
 #define BREECH_CIRCUIT_CONTACT_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct {
     double length;      /* l of one face along the rail [m] */
     double interface;   /* r I = (V_c/2) area [V m^2]; 0: the current enters evenly at any speed */
@@ -26,5 +30,9 @@ double circuit_contact_spread(const sliding_contact *c, double v, double I);
 
 /* Mean of J over J(l) for a contact of z = l/d, 1 at 0, 1/z for z >> 1 [1]. */
 double circuit_contact_evenness(double z);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

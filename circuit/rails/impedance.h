@@ -10,6 +10,10 @@
 
 #include "base/status.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct {
     int n, m;            /* filaments, terms */
     double R_dc;         /* [ohm/m] */
@@ -29,5 +33,9 @@ double _Complex circuit_impedance_at(const impedance *z, double _Complex s); /* 
 
 /* Share of each filament in a total current of 1 at the frequency s; `share` has n places. */
 status circuit_impedance_currents(const impedance *z, double _Complex s, double _Complex *share);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

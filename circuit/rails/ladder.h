@@ -7,6 +7,10 @@
 
 #include "circuit/rails/impedance.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum { LADDER_MAX_RUNGS = 24 };
 
 typedef struct {
@@ -23,5 +27,9 @@ double circuit_ladder_slow_inductance(const ladder *l);                /* L' at 
  * met exactly, by Galerkin's projection on the current distributions of a few real frequencies (docs/shot.md).
  * STATUS_NUMERICAL if LADDER_MAX_RUNGS do not do. */
 status circuit_ladder_fit(const impedance *z, double omega_top, double error, ladder *out);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

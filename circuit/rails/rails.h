@@ -20,6 +20,10 @@
 #include "circuit/armature/contact.h"
 #include "circuit/rails/ladder.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct {
     ladder ladder;           /* no rungs: constant gradients */
     sliding_contact contact; /* over which the current comes into the rail */
@@ -53,5 +57,9 @@ double circuit_rails_force_gradient(const rails_load *r, double v, double I);
 /* a_k and f_k of (C-12) at theta = v tau_k/contact's spread >= 0 [1]. */
 double circuit_rails_share_at_birth(double theta);
 double circuit_rails_share_of_force(double theta);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

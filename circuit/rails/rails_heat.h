@@ -12,6 +12,10 @@
 
 #include "circuit/rails/rails.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum { RAILS_PIECES = 64 };
 
 typedef struct {
@@ -38,5 +42,9 @@ void circuit_rails_heat_ahead(rails_heat *h, const rails_load *r, double x, doub
 
 /* E [J] of the contact's heat stays in the rails between x0 and x1. */
 void circuit_rails_heat_slide(rails_heat *h, double x0, double x1, double E);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -11,6 +11,10 @@
 
 #include "base/status.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct {
     double height, thickness;    /* h across the bore; w, both at the middle [m] */
     double separation;           /* s of facing bore faces at the middle [m] */
@@ -45,5 +49,9 @@ double circuit_section_image_sign(const rail_section *s, int image); /* of the c
 /* Z' [ohm/m] of the whole = this over the current that the solved half of a rail carries at 1 V/m between its two ends
  * and the field's potential (C-8) [1]. */
 double circuit_section_weight(const rail_section *s);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -12,6 +12,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Every kind's struct begins with these. */
 #define SUPPLY_COMMON                                   \
     int count;       /* equal units, solved once */     \
@@ -119,5 +123,13 @@ extern const char *const circuit_supply_sections[]; /* of the case file, by kind
 size_t circuit_supply_size(supply_kind_index kind); /* of the kind's struct */
 /* What n units of a kind are charged to (voltage, current, speed) times `factor`; a given current stays. */
 void circuit_supply_recharge(supply_kind_index kind, void *item, int n, double factor);
+
+#ifndef BREECH_INSIDE
+#undef SUPPLY_COMMON
+#endif
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

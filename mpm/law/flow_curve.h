@@ -5,6 +5,10 @@
 
 #include "mpm/material.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct {
     double strain;      /* plastic strain at which the curve ends [1] */
     int points;         /* of the curve, behind its first at no strain */
@@ -24,5 +28,9 @@ typedef struct {
 
 /* points + 1 entries of `curve`.  A fluid, and a material that lacks a constant, is refused. */
 status mpm_flow_curve(const material *m, const mpm_flow_test *test, mpm_flow_point *curve);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

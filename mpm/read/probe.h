@@ -15,6 +15,10 @@
 
 #include <stdbool.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 struct mpm; /* mpm.h */
 
 enum { MPM_PROBE_VALUES = 16 };
@@ -60,5 +64,9 @@ int mpm_probe_columns(const mpm_probe *p);
 
 /* One of the scene's, or any other that mpm_probe_check has passed.  out: rows x columns, owned by the caller. */
 status mpm_probe_read(const struct mpm *m, const mpm_probe *p, double *out);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

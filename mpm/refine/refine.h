@@ -14,6 +14,10 @@
 
 #include <stdbool.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 struct mpm; /* mpm.h */
 
 enum {
@@ -56,5 +60,9 @@ int mpm_refine_every(const mpm_refine *rules, int n);
 
 /* STATUS_BAD_INPUT names the rule, the value and what it must be, unless a scene of so many bodies can have it. */
 status mpm_refine_check(const mpm_refine *r, int bodies);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -23,6 +23,10 @@
 #include "base/param.h"
 #include "base/status.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum { MPM_SOLID_VALUES = 40, MPM_SOLID_PARTS = 2 };
 
 typedef struct mpm_solid mpm_solid;
@@ -61,5 +65,9 @@ const mpm_solid *mpm_solid_part(const mpm_solid *s, int i);
 double mpm_solid_inside(const mpm_solid *s, const double x[3]);
 void mpm_solid_bounds(const mpm_solid *s, double lo[3], double hi[3]);
 status mpm_solid_check(const mpm_solid *s, int place);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif
