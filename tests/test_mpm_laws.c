@@ -45,6 +45,15 @@ static int close_shelf(void **state)
     return 0;
 }
 
+/* The caller's own law: hardening that ends (Voce), rate and temperature. */
+static const double own_yield = 250e6;
+
+static double own_flow(const void *user, const mpm_strength_point *at)
+{
+    const double yield = *(const double *)user;
+    return yield * (2 - exp(-5 * at->strain)) * (1 + 0.01 * at->log_rate) * (1 - 0.9 * at->T_star);
+}
+
 static law law_at(const material *m, double temperature, double scale)
 {
     mpm_scene s;
@@ -73,6 +82,7 @@ static void for_every(const shelf *s, size_t kind, const char *const *name, int 
         int met = 0;
         for (int i = 0; i < s->n; i++) {
             material m = s->item[i];
+            m.own_strength = (mpm_own_strength){ own_flow, &own_yield };
             *(int *)(void *)((char *)&m + kind) = chosen;
             if (mpm_material_check(&m, needs).code != STATUS_OK) continue;
             test(&m);
@@ -119,6 +129,34 @@ static void check_strength(const material *m)
     assert_true(fluid ? k.G == 0 : k.G > 0);
     if (k.shear == SHEAR_VARIES)
         assert_near(shear_modulus(&k, vd_set(0), vd_set(k.rho0), vd_set(k.T_r))[0], k.G, 1e-9 * k.G);
+}
+
+/* A caller's function that is (M-1) gives what the law of the table gives; without a function there is no law. */
+static double own_johnson_cook(const void *user, const mpm_strength_point *at)
+{
+    const material *m = user;
+    return (m->yield_A + m->hardening_B * pow(at->strain, m->hardening_n)) * (1 + m->rate_C * at->log_rate) *
+           (1 - pow(at->T_star, m->softening_m));
+}
+
+static void test_own_strength(void **state)
+{
+    (void)state;
+    material m = scene_copper(), own = m;
+    own.strength = STRENGTH_own;
+    own.own_strength = (mpm_own_strength){ own_johnson_cook, &m };
+    const law a = law_at(&m, 300, 1.3), b = law_at(&own, 300, 1.3);
+    for (double T = 293; T < 1500; T += 100)
+        for (double strain = 0.01; strain < 3; strain *= 2)
+            assert_near(flow_at(&b, strain, 1e4, T), flow_at(&a, strain, 1e4, T), 1e-9 * a.flow_start);
+    assert_near(b.flow_start, a.flow_start, 1e-9 * a.flow_start);
+    assert_near(b.G, a.G, 0);
+    own.own_strength.flow = NULL;
+    mpm_scene s;
+    law k;
+    mpm_scene_default(&s);
+    const mpm_body body = { .material = &own, .temperature = 300, .yield_scale = 1, .cold_work = NAN };
+    assert_int_equal(mpm_law_make(&body, &s, &k).code, STATUS_BAD_INPUT);
 }
 
 static void test_strength(void **state)
@@ -318,8 +356,8 @@ static void test_failure(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_strength),     cmocka_unit_test(test_eos),     cmocka_unit_test(test_warm),
-        cmocka_unit_test(test_surroundings), cmocka_unit_test(test_failure),
+        cmocka_unit_test(test_strength), cmocka_unit_test(test_own_strength), cmocka_unit_test(test_eos),
+        cmocka_unit_test(test_warm),     cmocka_unit_test(test_surroundings), cmocka_unit_test(test_failure),
     };
     return cmocka_run_group_tests(tests, open_shelf, close_shelf);
 }
