@@ -196,6 +196,48 @@ static void test_contact(void **state)
     assert_true(fabs(s[0] / (2.0 * 0.3) - 1.0) < 1e-5);
 }
 
+/* A load that runs: nearly at rest it is the load at rest; K by its formula, which the strains on the face obey; the
+ * speeds at which K is that of the reference (copper, and 0.5, 0.8, 0.9 of its Rayleigh waves). */
+static void test_moving(void **state)
+{
+    (void)state;
+    const double E = 124e9, nu = 0.34, rho = 8960.0, limit = life_contact_rayleigh(E, nu, rho);
+    static const double K[][2] = { { 500.0, 1.04 }, { 1000.0, 1.18 }, { 1500.0, 1.62 }, { 1930.0, 3.94 } },
+                        part[][2] = { { 0.5, 1.20 }, { 0.8, 2.10 }, { 0.9, 3.61 } };
+    assert_true(fabs(limit - 2121.0) < 1.0 && fabs(life_contact_rayleigh(210e9, 0.3, 7850.0) - 2975.0) < 30.0);
+    for (int i = 0; i < 7; i++) {
+        const double v = i < 4 ? K[i][0] : part[i - 4][0] * limit, want = i < 4 ? K[i][1] : part[i - 4][1];
+        const contact_speed s = life_contact_speed(E, nu, rho, v);
+        if (!(fabs(life_contact_factor(&s) - want) < 0.006)) fail_msg("K(%g) = %g", v, life_contact_factor(&s));
+    }
+    case_life c = wheel;
+    c.state = LIFE_STICK_SLIP, c.pressure = 1e9;
+    const contact_load carter = load_of(c);
+    const double lambda = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), G = 0.5 * E / (1.0 + nu);
+    const contact_speed slow = life_contact_speed(E, nu, rho, 10.0), fast = life_contact_speed(E, nu, rho, 1500.0);
+    for (double x = -1.9; x < 2.0; x += 0.38)
+        for (double z = 0.0; z < 3.0; z = 2.0 * z + 0.2) {
+            double stress[3], at_rest[3], e[3];
+            life_contact_stress(&carter, x, z, stress);
+            life_contact_strain(stress, E, nu, at_rest);
+            life_contact_moving(&carter, &slow, x, z, e);
+            for (int q = 0; q < 3; q++) assert_true(fabs(e[q] - at_rest[q]) < 1e-3 * 1e9 / E);
+            if (z > 0.0) continue;
+            life_contact_moving(&carter, &fast, x, z, e); /* the face carries what is put on it */
+            const double zz = lambda * (e[0] + e[1]) + 2.0 * G * e[1];
+            assert_true(fabs(zz + life_contact_pressure(&carter, x)) < 1e-4 * 1e9);
+            assert_true(fabs(G * e[2] + life_contact_traction(&carter, x)) < 1e-4 * 1e9);
+        }
+    double e[3];
+    c = wheel, c.state = LIFE_FRICTIONLESS;
+    const contact_load l = load_of(c);
+    life_contact_moving(&l, &fast, 0.0, 0.0, e);
+    assert_true(fabs((lambda * (e[0] + e[1]) + 2.0 * G * e[0]) + life_contact_factor(&fast)) < 1e-5);
+    const life_first_how rest = { E, nu, FATIGUE_BOND, LIFE_PASSAGE, 0.0, rho },
+                         run = { E, nu, FATIGUE_BOND, LIFE_PASSAGE, 1500.0, rho };
+    assert_true(life_first_cut(&l, &run).range > 1.3 * life_first_cut(&l, &rest).range);
+}
+
 /* ---- the first cut ---- */
 
 static life_first first_of(int contact, double mu, double share, double nu, int cycle, fatigue_measure measure)
@@ -203,7 +245,7 @@ static life_first first_of(int contact, double mu, double share, double nu, int 
     case_life c = wheel;
     c.state = contact, c.friction = mu, c.traction_share = share;
     const contact_load l = load_of(c);
-    const life_first_how how = { 1.0, nu, measure, cycle };
+    const life_first_how how = { 1.0, nu, measure, cycle, 0.0, NAN };
     return life_first_cut(&l, &how);
 }
 
@@ -287,8 +329,8 @@ static void test_scaling(void **state)
     }
     case_life c = wheel;
     c.pressure = NAN, c.wheel_load = 85e3, c.half_length = c.half_width = 6e-3;
-    const life_first_how how = { 210e9, 0.25, FATIGUE_BOND, LIFE_PULSE },
-                         soft = { 105e9, 0.25, FATIGUE_BOND, LIFE_PULSE };
+    const life_first_how how = { 210e9, 0.25, FATIGUE_BOND, LIFE_PULSE, 0.0, NAN },
+                         soft = { 105e9, 0.25, FATIGUE_BOND, LIFE_PULSE, 0.0, NAN };
     contact_load l = load_of(c);
     const life_first one = life_first_cut(&l, &how), yielding = life_first_cut(&l, &soft);
     const double N = mpm_fatigue_cycles(&paper, one.range);
@@ -442,7 +484,7 @@ static void test_patch(void **state)
 static life_crack_how crack_how(const contact_load *l, int cycle, int cells, int most_cuts)
 {
     return (life_crack_how){ .load = l,
-                             .how = { 210e9, 0.25, FATIGUE_BOND, cycle },
+                             .how = { 210e9, 0.25, FATIGUE_BOND, cycle, 0.0, NAN },
                              .law = paper,
                              .fan = mpm_fatigue_fan_even(36),
                              .cells = cells,
@@ -595,6 +637,8 @@ static void test_refused(void **state)
             "life.points[2].at = 0.5: must lie beyond");
     refused("--set 'life.points=[{at: -1, pressure: 0}, {at: 1, pressure: 0}]'", "profile: points alone");
     refused("--set life.material=steel_4340", "fatigue_A");
+    refused("--set life.speed='100 m/s'", "speed is that of cycle: passage");
+    refused("--set life.speed='3.1 km/s' --set life.cycle=passage --set life.until=first", "speed of Rayleigh waves");
     refused("--set life.half_length=none", "life.half_length");
 }
 
@@ -631,6 +675,7 @@ int main(void)
         cmocka_unit_test(test_stress_is_the_integral),
         cmocka_unit_test(test_displacement),
         cmocka_unit_test(test_contact),
+        cmocka_unit_test(test_moving),
         cmocka_unit_test(test_first_rows),
         cmocka_unit_test(test_crossing),
         cmocka_unit_test(test_scaling),

@@ -63,6 +63,9 @@ void case_life_check(case_reader *r)
         add(r, wheel, "wheel_load is that of profile: hertz; give pressure for the others");
     if (k->state == LIFE_STICK_SLIP && k->profile != LIFE_HERTZ)
         add(r, host_tree_find(map, "state"), "stick_slip is Carter's solution for profile: hertz");
+    if (k->speed > 0.0 && (k->cycle != LIFE_PASSAGE || k->until != LIFE_UNTIL_FIRST))
+        add(r, host_tree_find(map, "speed"),
+            "speed is that of cycle: passage, until: first; the grid of until: crack is at rest");
     check_points(r, map);
     check_jumps(r, map);
 }

@@ -247,6 +247,8 @@ static const param life_params[] = {
                  "traction over friction times normal force, in stick_slip"),
     PARAM_ENUM(case_life, cycle, life_cycle_names, LIFE_PULSE,
                "pulse: the load comes and goes at one place; passage: it runs over the rail from end to end"),
+    PARAM_DOUBLE(case_life, speed, "m/s", 0.0, 0.0, 1e5,
+                 "of a passage, with its waves, until: first alone; 0: slow against them"),
     PARAM_ENUM(case_life, measure, mpm_fatigue_measure_names, FATIGUE_BOND,
                "what of a direction's strain takes life: bond: its range whatever the sign; tension; shear across it"),
     PARAM_ENUM(case_life, fan, life_fan_names, LIFE_EVEN,

@@ -247,6 +247,7 @@ typedef struct {
     double friction;                    /* [1] */
     double traction_share;              /* Q / (mu P') of stick-slip [1] */
     int cycle;                          /* life_cycle */
+    double speed;                       /* of a passage; 0: slow against waves [m/s] */
     int measure;                        /* fatigue_measure */
     int fan;                            /* life_fan */
     int directions;                     /* of an even fan */

@@ -190,3 +190,61 @@ void life_contact_displacement(const contact_load *l, double x, double z, double
     displacement[0] = creal(twice) * (1.0 + poisson) / youngs;
     displacement[1] = cimag(twice) * (1.0 + poisson) / youngs;
 }
+
+/* ---- a load that runs ---- */
+
+contact_speed life_contact_speed(double youngs, double poisson, double density, double speed)
+{
+    const double shear = 0.5 * youngs / (1.0 + poisson), c2 = shear / density;
+    const double c1 = 2.0 * c2 * (1.0 - poisson) / (1.0 - 2.0 * poisson); /* both squared */
+    contact_speed s = { sqrt(1.0 - speed * speed / c1), sqrt(1.0 - speed * speed / c2), 0.0, shear };
+    s.rayleigh = (1.0 + s.a2 * s.a2) * (1.0 + s.a2 * s.a2) - 4.0 * s.a1 * s.a2;
+    return s;
+}
+
+/* R is below zero from rest to the waves' speed, above zero from there to the shear waves'. */
+double life_contact_rayleigh(double youngs, double poisson, double density)
+{
+    const double shear = sqrt(0.5 * youngs / ((1.0 + poisson) * density));
+    double low = 0.5 * shear, high = shear;
+    while (high - low > 1e-12 * shear) {
+        const double middle = 0.5 * (low + high);
+        if (life_contact_speed(youngs, poisson, density, middle).rayleigh < 0.0)
+            low = middle;
+        else
+            high = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+double life_contact_factor(const contact_speed *s)
+{
+    const double b = 1.0 + s->a2 * s->a2;
+    return ((1.0 + 2.0 * s->a1 * s->a1 - s->a2 * s->a2) * b - 4.0 * s->a1 * s->a2) / -s->rayleigh;
+}
+
+/* Sums of P and Q over all pieces. */
+static void transforms(const contact_load *l, double x, double z, cplx *P, cplx *Q)
+{
+    const cplx w = complex_of(x, fmax(z, ON_FACE * l->half_length));
+    *P = *Q = 0.0;
+    for (int k = 0; k < l->n; k++) {
+        potential p, q;
+        piece_potentials(&l->piece[k], w, &p, &q);
+        *P += p.f, *Q += q.f;
+    }
+}
+
+void life_contact_moving(const contact_load *l, const contact_speed *s, double x, double z, double strain[3])
+{
+    const double b = 1.0 + s->a2 * s->a2, over = 2.0 / (s->shear * s->rayleigh);
+    const cplx i = complex_of(0.0, 1.0);
+    cplx P, Q;
+    transforms(l, x, s->a1 * z, &P, &Q);
+    const cplx A = over * (b * P - 2.0 * s->a2 * i * Q);
+    transforms(l, x, s->a2 * z, &P, &Q);
+    const cplx B = over * (b * i * Q - 2.0 * s->a1 * P);
+    strain[0] = creal(A) + s->a2 * creal(B);
+    strain[1] = -s->a1 * s->a1 * creal(A) - s->a2 * creal(B);
+    strain[2] = -2.0 * s->a1 * cimag(A) - b * cimag(B);
+}

@@ -35,6 +35,23 @@ typedef struct {
     double peak;        /* largest pressure p0 [Pa] */
 } contact_load;
 
+/* A load that runs along the face at a steady speed v below that of Rayleigh waves, seen from the load: with a_i^2 =
+ * 1 - v^2 / c_i^2 of the speeds c_1, c_2 of longitudinal and shear waves, w_i = x + i a_i z and
+ *   R = (1 + a_2^2)^2 - 4 a_1 a_2
+ *   A = 2 [(1 + a_2^2) P - 2 a_2 i Q] / (G R) at w_1     B = 2 [(1 + a_2^2) i Q - 2 a_1 P] / (G R) at w_2
+ *   xx = Re A + a_2 Re B,   zz = -a_1^2 Re A - a_2 Re B,   gamma = -2 a_1 Im A - (1 + a_2^2) Im B               (L-7)
+ * after Cole and Huth (Journal of Applied Mechanics 25 (1958) 433).  Under a pressure p alone stress_xx = -K p at the
+ * face; K is 1 at rest and grows without limit towards the speed of Rayleigh waves, where R = 0. */
+typedef struct {
+    double a1, a2, rayleigh; /* rayleigh: R [1] */
+    double shear;            /* G [Pa] */
+} contact_speed;
+contact_speed life_contact_speed(double youngs, double poisson, double density, double speed);
+double life_contact_rayleigh(double youngs, double poisson, double density); /* speed of these waves [m/s] */
+double life_contact_factor(const contact_speed *s);                          /* K [1] */
+/* Strain xx, zz, gamma. */
+void life_contact_moving(const contact_load *l, const contact_speed *s, double x, double z, double strain[3]);
+
 /* What the section `life` says: profile, pressure, traction. */
 status life_contact_load(const case_life *c, contact_load *out);
 

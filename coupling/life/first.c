@@ -13,11 +13,16 @@ static const double PLACE = 1e-5; /* how well the place is found, in half length
 typedef struct {
     const contact_load *load;
     const life_first_how *how;
+    contact_speed speed; /* where it moves */
 } search;
 
 static void strain_at(const search *s, double x, double z, double strain[3])
 {
     double stress[3];
+    if (s->how->speed > 0.0) {
+        life_contact_moving(s->load, &s->speed, x, z, strain);
+        return;
+    }
     life_contact_stress(s->load, x, z, stress);
     life_contact_strain(stress, s->how->youngs, s->how->poisson, strain);
 }
@@ -130,6 +135,6 @@ static life_first passage(const search *s)
 
 life_first life_first_cut(const contact_load *l, const life_first_how *how)
 {
-    const search s = { l, how };
+    const search s = { l, how, life_contact_speed(how->youngs, how->poisson, how->density, how->speed) };
     return how->cycle == LIFE_PASSAGE ? passage(&s) : pulse(&s);
 }

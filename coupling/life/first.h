@@ -22,7 +22,8 @@ typedef struct {
 typedef struct {
     double youngs, poisson; /* [Pa, 1] */
     fatigue_measure measure;
-    int cycle; /* life_cycle */
+    int cycle;             /* life_cycle */
+    double speed, density; /* of the load, 0: at rest; of the solid, read where it moves [m/s, kg/m3] */
 } life_first_how;
 
 life_first life_first_cut(const contact_load *l, const life_first_how *how);

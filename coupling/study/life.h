@@ -10,6 +10,7 @@ typedef struct {
     double normal_force, tangential_force; /* on a metre across the rail [N/m] */
     double life_first;                     /* cycles until the first direction is cut, closed field [1] */
     life_first first;                      /* that direction */
+    double moving_factor;                  /* K of (L-7) [1] */
     life_crack crack;                      /* all NAN, 0 where life.until is first */
     double wall_seconds;
 } life_result;

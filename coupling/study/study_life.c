@@ -42,14 +42,26 @@ static const summary_key keys[] = {
     SUMMARY_NUMBER(life_result, "peak_pressure", peak_pressure, "Pa", "of the contact"),
     SUMMARY_NUMBER(life_result, "normal_force", normal_force, "N/m", "on a metre of contact across the rail"),
     SUMMARY_NUMBER(life_result, "tangential_force", tangential_force, "N/m", "the same along the rail"),
+    SUMMARY_NUMBER(
+        life_result, "moving_factor", moving_factor, "1",
+        "K of (L-7): stress along the face over that at rest, under a pressure that runs at life.speed; 1 at "
+        "rest"),
     SUMMARY_NUMBER(life_result, "wall_seconds", wall_seconds, "s", "wall time of the study"),
     SUMMARY_END,
 };
 
 static status possible(const study_case *of)
 {
+    const case_life *c = &of->in->life;
+    const material *m = case_material(&of->in->onset.impact.materials, c->material);
     contact_load load;
-    return life_contact_load(&of->in->life, &load);
+    TRY(life_contact_load(c, &load));
+    if (c->speed == 0.0) return status_ok();
+    CHECK(m->density > 0.0, STATUS_BAD_INPUT, "life.speed: material %s lacks its density", m->name);
+    const double limit = life_contact_rayleigh(m->youngs_modulus, m->poisson, m->density);
+    CHECK(c->speed < limit, STATUS_BAD_INPUT,
+          "life.speed = %g m/s: must lie below the speed of Rayleigh waves in %s, %.4g m/s", c->speed, m->name, limit);
+    return status_ok();
 }
 
 static void show(void *user, double fraction)
@@ -60,7 +72,7 @@ static void show(void *user, double fraction)
 static life_crack_how how_of(session *s, const case_life *c, const material *m, const contact_load *load)
 {
     return (life_crack_how){ .load = load,
-                             .how = { m->youngs_modulus, m->poisson, c->measure, c->cycle },
+                             .how = { m->youngs_modulus, m->poisson, c->measure, c->cycle, c->speed, m->density },
                              .law = mpm_fatigue_law(m),
                              .fan = c->fan == LIFE_LATTICE ? mpm_fatigue_fan_lattice()
                                                            : mpm_fatigue_fan_even(c->directions),
@@ -132,8 +144,10 @@ static status run(session *s, const study_case *of, study_answer *out)
     host_progress_task(&s->progress, "first cut", 0.0, 0);
     const double since = host_wall_clock();
     TRY(life_contact_load(c, &load));
-    const life_first_how how = { m->youngs_modulus, m->poisson, c->measure, c->cycle };
+    const life_first_how how = { m->youngs_modulus, m->poisson, c->measure, c->cycle, c->speed, m->density };
+    const contact_speed speed = life_contact_speed(how.youngs, how.poisson, how.density, how.speed);
     r->peak_pressure = load.peak;
+    r->moving_factor = c->speed > 0.0 ? life_contact_factor(&speed) : 1.0;
     life_contact_forces(&load, &r->normal_force, &r->tangential_force);
     r->first = life_first_cut(&load, &how);
     r->life_first = mpm_fatigue_cycles(&law, r->first.range);
