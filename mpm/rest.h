@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A slice of a linear elastic solid at rest, in plane strain: the solver's grid, without its time steps.
  *
  *        held   face: free, forces at its nodes   held            x ->

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/life/crack.h"
 
 #include "mpm/rest.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* From the first cut to a crack: the rail under a load that comes again and again, while its directions are cut.
  *
  *   1  the strain of the intact rail, on a grid about the patch; its sides and bottom have the displacement of the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The rail under a wheel (Ma et al. 2020) beside closed fields: first cuts, cracks, grids, steps."""
 import json
 import math
