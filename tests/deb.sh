@@ -5,8 +5,9 @@
 # mmdebstrap) and used there.  Exit 77 = skipped.
 set -euo pipefail
 build=$(realpath "$1") tests=$(dirname "$(realpath "$0")")
-if ! command -v cpack dpkg-deb dpkg-shlibdeps >/dev/null || ! grep -q '^CMAKE_BUILD_TYPE:[A-Z]*=Release' "$build/CMakeCache.txt"; then
-    echo 'skipped: no release build, or no dpkg-dev'
+if ! command -v cpack >/dev/null || ! command -v dpkg-shlibdeps >/dev/null ||
+    ! grep -q '^CMAKE_BUILD_TYPE:[A-Z]*=Release' "$build/CMakeCache.txt" || ! grep -q '^CMAKE_C_COMPILER:.*gcc' "$build/CMakeCache.txt"; then
+    echo 'skipped: no release build by gcc, or no dpkg-dev'
     exit 77
 fi
 version=$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")

@@ -10,7 +10,7 @@ fail()
     printf '%s\n' "$*" >&2
     exit 1
 }
-breech() { env -i PATH=/usr/bin:/bin "$prefix/bin/breech" "$@"; }
+breech() { env -i PATH=/usr/bin:/bin ASAN_OPTIONS="${ASAN_OPTIONS:-}" "$prefix/bin/breech" "$@"; }
 
 for file in bin/breech share/breech/cases/materials share/breech/tools/paraview_crater.py share/man/man1/breech.1 \
     share/bash-completion/completions/breech share/zsh/vendor-completions/_breech lib/python3/dist-packages/breech/__init__.py \
@@ -48,7 +48,7 @@ done < <(cd "$prefix/share/doc/breech" && grep -roE --include='*.md' '\]\([^)#][
 [ $bad = 0 ] || exit 1
 
 if python3=$(command -v /usr/bin/python3) && $python3 -c 'import numpy, h5py' 2>/dev/null; then
-    said=$(env -i PATH=/usr/bin:/bin PYTHONPATH="$prefix/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1 $python3 -c '
+    said=$(env -i PATH=/usr/bin:/bin ASAN_OPTIONS="${ASAN_OPTIONS:-}" PYTHONPATH="$prefix/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1 $python3 -c '
 import breech
 print(breech.program(), breech.run("shot", "own.yaml", "py", progress=False).summary["status"])')
     [ "$said" = "$prefix/bin/breech done" ] || fail "the Python package says: $said"

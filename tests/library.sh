@@ -5,8 +5,9 @@
 # answers, built in the tree, by find_package(breech) and by pkg-config; C++ links.  Exit 77 = skipped.
 set -euo pipefail
 build=$(realpath "$1") tree=$(dirname "$(dirname "$(realpath "$0")")")
-if grep -qE '^CMAKE_(C_FLAGS|C_FLAGS_DEBUG):.*fsanitize' "$build/CMakeCache.txt" || ! command -v pkg-config g++ >/dev/null; then
-    echo 'skipped: a build with sanitizers, or no pkg-config or g++'
+if grep -qE '^CMAKE_(C_FLAGS|C_FLAGS_DEBUG):.*fsanitize' "$build/CMakeCache.txt" ||
+    ! grep -q '^CMAKE_C_COMPILER:.*gcc' "$build/CMakeCache.txt" || ! command -v pkg-config >/dev/null || ! command -v g++ >/dev/null; then
+    echo 'skipped: a build with sanitizers or not by gcc, or no pkg-config or g++'
     exit 77
 fi
 folder=$(mktemp -d)
