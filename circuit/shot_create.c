@@ -63,8 +63,8 @@ status circuit_shot_check(const shot_config *c)
           c->armature.initial_temperature, c->armature.melting_temperature);
     TRY(supplies_check(c));
     for (int k = 0; k < c->n_sites; k++) {
-        CHECK(c->sites[k] > c->barrel.start && c->sites[k] < c->barrel.length, STATUS_BAD_INPUT,
-              "sites[%d].position = %g m: must lie between barrel.start = %g m and barrel.length = %g m", k,
+        CHECK(c->sites[k] > c->barrel.start && c->sites[k] <= c->barrel.length, STATUS_BAD_INPUT,
+              "sites[%d].position = %g m: must lie beyond barrel.start = %g m, at barrel.length = %g m at most", k,
               c->sites[k], c->barrel.start, c->barrel.length);
     }
     return status_ok();

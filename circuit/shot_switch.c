@@ -115,11 +115,22 @@ static void groups_settle(shot *s, const int *found)
 
 /* ---- the armature ---- */
 
+static void sites_pass(shot *s, bool root)
+{
+    shot_model *m = &s->model;
+    const double x = circuit_shot_z(s)[Y_X];
+    while (s->passed < s->n_sites &&
+           (s->sites[s->passed].position <= x || (root && m->next_site == s->sites[s->passed].position)))
+        announce(s, SHOT_SITE, s->sites[s->passed++].index);
+    m->next_site = s->passed < s->n_sites ? s->sites[s->passed].position : INFINITY;
+}
+
 static void armature_leave(shot *s)
 {
     double *z = circuit_shot_z(s);
     const shot_forces f = circuit_shot_forces_now(s);
     z[Y_X] = s->model.barrel.length;
+    sites_pass(s, false); /* one at the very end */
     s->exit_kinetic = 0.5 * z[Y_MASS] * z[Y_V] * z[Y_V];
     s->exit_action = z[Y_ACTION];
     const double spent = s->start_energy + z[Y_SUPPLIED];
@@ -130,16 +141,6 @@ static void armature_leave(shot *s)
     s->result.exit_current = f.I;
     s->model.phase = SHOT_LEFT;
     switched(s, SHOT_MUZZLE, -1);
-}
-
-static void sites_pass(shot *s, bool root)
-{
-    shot_model *m = &s->model;
-    const double x = circuit_shot_z(s)[Y_X];
-    while (s->passed < s->n_sites &&
-           (s->sites[s->passed].position <= x || (root && m->next_site == s->sites[s->passed].position)))
-        announce(s, SHOT_SITE, s->sites[s->passed++].index);
-    m->next_site = s->passed < s->n_sites ? s->sites[s->passed].position : INFINITY;
 }
 
 static void feeds_pass(shot *s, bool root)

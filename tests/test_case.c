@@ -287,7 +287,7 @@ static void what_must_fit_is_checked(void **state)
     const char *sets[] = { "sites[1].position=5 m", "armature.leg_thickness=20 mm", "study.velocity_low=3 km/s",
                            "particle.height=20 mm", "scene.coarse_cell=0.1 mm" };
     char *text = read_file(SMALL_CASE), *e = errors_of(text, sets, 5, 0);
-    has_line(e, "--set sites[1].position=5 m: sites[1].position = 5 m: must lie between barrel.start = 0.1 m");
+    has_line(e, "--set sites[1].position=5 m: sites[1].position = 5 m: must lie beyond barrel.start = 0.1 m");
     has_line(e, "--set armature.leg_thickness=20 mm: armature.leg_thickness = 20 mm: must not exceed half_bore\n");
     has_line(e, "--set study.velocity_low=3 km/s: study.velocity_low = 3 km/s: must lie below velocity_high\n");
     has_line(e, "--set particle.height=20 mm: particle.height = 20 mm: must not exceed armature.half_bore\n");

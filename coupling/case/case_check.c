@@ -5,6 +5,7 @@
 
 #include "mpm/scene.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -234,10 +235,11 @@ static void check_site(case_reader *r, const case_site *site, const tree_node *n
 {
     const tree_node *position = host_tree_find(node, "position");
     const char *text = position && position->text ? position->text : "";
-    if (r->out->given.barrel && (site->position <= r->out->barrel.start || site->position >= r->out->barrel.length))
-        case_errors_add(r->errors, position,
-                        "sites[%d].position = %.*s: must lie between barrel.start = %g m and barrel.length = %g m", k,
-                        CASE_SHOWN, text, r->out->barrel.start, r->out->barrel.length);
+    if (r->out->given.barrel && (site->position <= r->out->barrel.start || site->position > r->out->barrel.length))
+        case_errors_add(
+            r->errors, position,
+            "sites[%d].position = %.*s: must lie beyond barrel.start = %g m, at barrel.length = %g m at most", k,
+            CASE_SHOWN, text, r->out->barrel.start, r->out->barrel.length);
     if (node && node->kind == TREE_MAP && !has_value(node, "radius") &&
         !has_value(host_tree_find(r->root, "particle"), "radius"))
         case_errors_add(r->errors, node,
@@ -346,9 +348,20 @@ static void check_shape(case_reader *r, const tree_node *map, const char *shape,
                     near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
 }
 
+/* Its output goes to out/<name>. */
+static void check_name(case_reader *r)
+{
+    const tree_node *node = host_tree_find(r->root, "name");
+    const char *c = r->out->name;
+    while (*c && !isalnum((unsigned char)*c)) c++;
+    if (r->out->name[0] && !*c)
+        case_errors_add(r->errors, node, "name = %.*s: must have a letter or a digit", CASE_SHOWN, r->out->name);
+}
+
 void case_check_whole(case_reader *r)
 {
     const tree_node *sites = host_tree_find(r->root, "sites");
+    check_name(r);
     check_sections(r);
     check_supplies(r);
     if (r->options->needs & CASE_FOR_SCENE) {

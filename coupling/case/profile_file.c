@@ -59,6 +59,9 @@ static status read_line(const char *path, int number, char *line, point_list *li
           "%.300s:%d: `%.60s`: wanted time [s] and current [A]", path, number, line);
     CHECK(list->n == 0 || p.time > list->item[list->n - 1].time, STATUS_BAD_INPUT,
           "%.300s:%d: %g s comes after %g s: times must ascend", path, number, p.time, list->item[list->n - 1].time);
+    char place[340];
+    snprintf(place, sizeof place, "%.300s:%d", path, number);
+    TRY(base_params_check(circuit_supply_point_params, &p, place));
     CHECK(keep(list, p), STATUS_MEMORY, "no memory for the rows of %.300s", path);
     return status_ok();
 }

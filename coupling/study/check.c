@@ -75,6 +75,13 @@ static bool has_grain_before(const case_sites *sites, int i)
     return false;
 }
 
+int study_grain_kinds(const case_onset *c)
+{
+    int n = c->populations.n;
+    for (int i = 0; i < c->sites.n; i++) n += !has_grain_before(&c->sites, i);
+    return n;
+}
+
 /* A grain of a population, of this size. */
 static case_site grain_of(const case_population *p, double radius)
 {
@@ -157,6 +164,20 @@ static status estimate(const case_impact *c, const char *what, int threads, scen
     return made;
 }
 
+/* The slowest and finest scene of a search on a treated rail. */
+static status estimate_treated(const case_onset *c, const case_treatment *t, const case_site *grain, int threads,
+                               scene_estimate *out)
+{
+    case_onset treated;
+    status s = case_treat(c, t, &treated);
+    if (s.code == STATUS_OK) {
+        const case_impact one = slowest(&treated, grain, treated.study.fine_cells_per_radius);
+        s = estimate(&one, t->name, threads, out);
+    }
+    case_treated_free(&treated);
+    return s;
+}
+
 /* Is there a scene of armature over grain of the case's own? */
 static bool has_scene(const case_inputs *in)
 {
@@ -181,6 +202,8 @@ status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_
         const case_impact one = slowest(c, &grain, cells[k]);
         TRY(estimate(&one, "onset", threads, &out[(*n)++]));
     }
+    for (int k = 0; k < in->treatments.n && *n < CHECK_MAX_ESTIMATES; k++)
+        TRY(estimate_treated(c, &in->treatments.item[k], &grain, threads, &out[(*n)++]));
     return status_ok();
 }
 

@@ -12,14 +12,17 @@ typedef struct {
     double steps;   /* of the finest level */
     double seconds; /* at CHECK_SECONDS_A_STEP on this machine's threads, with the points of the start */
 } scene_estimate;
-enum { CHECK_MAX_ESTIMATES = 3 };
+enum { CHECK_MAX_ESTIMATES = 40 };
 #define CHECK_SECONDS_A_STEP 200e-9 /* one thread */
 
 /* The scene of the case as a case of bodies, with every value resolved.  STATUS_BAD_INPUT: it has none. */
 status study_print_scene(const case_inputs *in, FILE *out);
 
+/* Kinds of grains among sites and populations: at most so many searches. */
+int study_grain_kinds(const case_onset *c);
+
 /* The scene of the case; then of its first site, or of the median grain of its first population, the slowest and finest
- * of the search; *n of them. */
+ * of the search, and with each treatment as many of these as there is room for; *n of them. */
 status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n);
 
 #endif

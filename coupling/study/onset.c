@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/study/onset.h"
+#include "coupling/study/check.h"
 
 #include "coupling/gouge/screen.h"
 #include "coupling/study/feedback.h"
@@ -272,7 +273,10 @@ static void explain(onset_answer *a)
         say(r, "; grooves grow from %.0f m/s (%.0f .. %.0f) on", r->scratch_velocity, r->scratch_interval[0],
             r->scratch_interval[1]);
     if (study_onset_contradiction(a)) say(r, "; but whole scenes contradict: %s", study_onset_contradiction(a));
-    if (a->result.n_sites > 0) say(r, "; fastest site %.0f m/s", fastest_site(a));
+    if (isfinite(fastest_site(a)))
+        say(r, "; fastest site %.0f m/s", fastest_site(a));
+    else if (a->result.n_sites > 0)
+        say(r, "; no site is reached");
     if (a->grains.c->populations.n > 0)
         say(r, "; %.3g gouges a shot (%.3g .. %.3g)", r->expected_gouges, r->expected_gouges_interval[0],
             r->expected_gouges_interval[1]);
@@ -307,6 +311,21 @@ status study_onset_list_scenes(session *s, onset_scene **out, int *n, int *run, 
     qsort(*out, (size_t)*n, sizeof **out, in_order);
     for (int i = 0; i < *n; i++) run_scenes_warn_of(s, &(*out)[i]);
     return status_ok();
+}
+
+status study_onset_possible(const case_onset *c, bool repeated)
+{
+    const int most = study_grain_kinds(c) * (1 + (c->study.judge == JUDGE_GROWTH ? c->study.craters : 0));
+    const bool follows = repeated && c->study.shots > 1;
+    if (!follows && most <= c->study.max_scenes) return status_ok();
+    onset_answer a;
+    session silent = { .threads = 1 };
+    host_progress_open(&silent.progress, stderr, true);
+    host_timing_open(&silent.timing);
+    status s = study_onset_begin(&silent, c, "", false, &a);
+    if (s.code == STATUS_OK && follows) s = study_repeated_possible(&silent, &a.grains, &a.shot);
+    study_onset_answer_free(&a);
+    return s.code == STATUS_BAD_INPUT ? s : status_ok(); /* the run tells what else may happen */
 }
 
 static status study(session *s, const case_onset *c, onset_answer *a)

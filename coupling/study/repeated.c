@@ -8,9 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double LEAST_RISE = 10.0; /* below, a threshold moves by less than half a per cent (docs/onset.md) [K] */
-static const double RISE_STEP = 25.0;  /* so that scenes are shared [K] */
-static const double SAME_FLIGHT = 1.0; /* of the rails' mean temperature [K] */
+static const double LEAST_RISE = 10.0;  /* below, a threshold moves by less than half a per cent (docs/onset.md) [K] */
+static const double RISE_STEP = 25.0;   /* so that scenes are shared [K] */
+static const double NEAR_MELTING = 0.8; /* of the rise to melting, by the first shot alone */
+static const double SAME_FLIGHT = 1.0;  /* of the rails' mean temperature [K] */
 
 void study_repeated_free(repeated_rail *r)
 {
@@ -111,6 +112,24 @@ static status fly_all(session *s, const grain_families *first, const shot_record
         out->rise = fmax(out->rise, out->shot[n].rise);
     }
     return status_ok();
+}
+
+/* Would the rail come near melting if every shot left what the first one leaves? */
+static bool may_melt(const case_onset *c, const rises left)
+{
+    double rise = 0.0, most = 0.0;
+    for (int k = 0; k < SHOT_PIECES; k++) most = fmax(most, left[k]);
+    for (int n = 1; n < c->study.shots; n++) rise = c->study.heat_kept * (rise + most);
+    return rise > NEAR_MELTING * melting_rise(c);
+}
+
+status study_repeated_possible(session *s, const grain_families *first, const shot_record *flight)
+{
+    repeated_rail rail;
+    if (first->c->study.shots < 2 || !may_melt(first->c, first->flown->rail_rise)) return status_ok();
+    const status done = study_repeated_fly(s, first, flight, &rail);
+    study_repeated_free(&rail);
+    return done;
 }
 
 status study_repeated_fly(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out)

@@ -22,6 +22,11 @@ static status run(session *s, const study_case *of, study_answer *out)
     return done;
 }
 
+static status possible(const study_case *of)
+{
+    return study_onset_possible(&of->in->onset, of->in->treatments.n == 0);
+}
+
 const study study_onset = {
     .name = "onset",
     .doc = "where along the barrel gouging begins: a shot past its grains",
@@ -32,6 +37,7 @@ const study study_onset = {
     .shows_shot = true,
     .report = { report_onset_verdict, report_section_onset },
     .print = study_onset_print,
+    .possible = possible,
     .run = run,
     .free = answer_free,
 };
