@@ -118,13 +118,44 @@ static status write_results(const options *o, const case_inputs *in, session *s,
     return written;
 }
 
+/* As a shell reads it back. */
+static void print_word(const char *word, FILE *out)
+{
+    const bool plain = word[0] && !word[strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                                     "_-./=:,+%@")];
+    if (plain) {
+        fprintf(out, " %s", word);
+        return;
+    }
+    fputs(" '", out);
+    for (; *word; word++) fputs(*word == '\'' ? "'\\''" : (char[]){ *word, '\0' }, out);
+    fputc('\'', out);
+}
+
+/* The command line that goes on with this run. */
+static void print_resume(const options *o, const session *s, FILE *out)
+{
+    fprintf(out, "breech %s", o->line.command.name);
+    print_word(o->line.subject, out);
+    for (int k = 0; k < o->line.n_sets; k++) {
+        fputs(" --set", out);
+        print_word(o->line.sets[k], out);
+    }
+    if (o->line.store) fputs(o->line.store[0] ? " --store" : " --no-store", out);
+    if (o->line.store && o->line.store[0]) print_word(o->line.store, out);
+    fputs(" -o", out);
+    print_word(s->dir.path, out);
+    fputs(" --resume\n", out);
+}
+
 static void say_where(const options *o, const session *s, status work)
 {
-    if (work.code == STATUS_STOPPED)
-        fprintf(stderr, "breech: stopped (%s); --resume goes on: breech %s %s -o %s --resume\n", host_stop_reason(),
-                o->line.command.name, o->line.subject, s->dir.path);
-    else if (!o->line.quiet)
+    if (work.code == STATUS_STOPPED) {
+        fprintf(stderr, "breech: stopped (%s); --resume goes on: ", host_stop_reason());
+        print_resume(o, s, stderr);
+    } else if (!o->line.quiet) {
         printf("\nresults: %s\n", s->dir.path);
+    }
 }
 
 static void draw_report(const char *dir)
@@ -243,10 +274,13 @@ static status print_check(const case_inputs *in, int threads)
     if (n > 0) host_table_print(t, stdout);
     host_table_free(t);
     const case_onset *c = &in->onset;
+    char whole[80] = "";
+    const int craters = c->study.judge == JUDGE_GROWTH ? c->study.craters * study_grain_kinds(c) : 0;
+    if (craters > 0) snprintf(whole, sizeof whole, ", of which %d are kept for whole craters (study.craters)", craters);
     if (c->study.ensemble > 0) printf("scene: on %d grids, each as above\n", c->study.ensemble);
     if (c->sites.n > 0 || c->populations.n > 0)
-        printf("onset: %d sites, %d populations, at most %d scenes\n", c->sites.n, c->populations.n,
-               c->study.max_scenes);
+        printf("onset: %d sites, %d populations, at most %d scenes%s\n", c->sites.n, c->populations.n,
+               c->study.max_scenes, whole);
     if (in->treatments.n > 0)
         printf("compare: %d surfaces, at most %d scenes each\n", in->treatments.n + 1, c->study.max_scenes);
     print_random(c);

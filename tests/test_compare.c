@@ -323,6 +323,8 @@ static const char FIVE[] = HEAD GRAINS "treatments:\n"
                                        "  - {name: polished, polish: {size: 0.7}}\n"
                                        "  - {name: the same}\n";
 
+static FILE *progress_lines; /* NULL: nobody reads them */
+
 /* A session in a directory of its own, over what is there, whose scenes are made up. */
 static void open_anew(const case_inputs *in, const char *dir, session *s)
 {
@@ -331,8 +333,8 @@ static void open_anew(const case_inputs *in, const char *dir, session *s)
                                       .store = "",
                                       .how = { .force = true },
                                       .threads = 1,
-                                      .progress_to = stderr,
-                                      .quiet = true };
+                                      .progress_to = progress_lines ? progress_lines : stderr,
+                                      .quiet = !progress_lines };
     OK(run_session_open(in, &options, s));
     s->run_scene = fake_scene;
 }
@@ -359,6 +361,34 @@ static const compare_entry *entry_of(const compare_answer *a, const char *surfac
 static int rank_of(const compare_answer *a, const char *surface)
 {
     return (int)(entry_of(a, surface) - a->result.ranking);
+}
+
+/* Who waits reads the bracket of the search under way, each surface's own. */
+static void test_progress(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD GRAINS "treatments:\n  - {name: hard, hardening: {depth: 0.4 mm, factor: 2}}\n", ALL);
+    compare_answer a;
+    char line[400], name[100];
+    int brackets = 0;
+    progress_lines = tmpfile();
+    OK(run_compare(c, "progress", &a));
+    rewind(progress_lines);
+    while (fgets(line, sizeof line, progress_lines)) {
+        double low, high, v;
+        const char *said = strstr(line, "; gouges begin in ");
+        assert_null(strstr(line, "nan"));
+        if (!said) continue;
+        assert_int_equal(sscanf(said, "; gouges begin in %lf .. %lf m/s", &low, &high), 2);
+        assert_true(low < high && sscanf(line, "%99s", name) == 1 && sscanf(strstr(name, "-v"), "-v%lf", &v) == 1);
+        assert_true(v <= low + 0.5 || v >= high - 0.5); /* what was computed lies at an end, or beyond */
+        brackets++;
+    }
+    fclose(progress_lines);
+    progress_lines = NULL;
+    assert_true(brackets >= 4);
+    study_compare_answer_free(&a);
+    case_free(c);
 }
 
 /* A skin a hundred times as hard as the rail: under grains lower than it is deep the screen skips everything, and no
@@ -857,6 +887,7 @@ int main(void)
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_presets),
         cmocka_unit_test(test_ranking),
+        cmocka_unit_test(test_progress),
         cmocka_unit_test(test_screened_surface),
         cmocka_unit_test(test_sheared_off),
         cmocka_unit_test(test_seed),

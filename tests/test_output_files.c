@@ -482,6 +482,18 @@ static void table_is_aligned(void **state)
     assert_string_equal(text, "site  v [m/s]  class\na        1500  gouge\nb \xc2\xb5m        -  none\n");
     free(text);
     host_table_free(t);
+    /* wider than a hundred columns: the rest below, with the first column */
+    OK(host_table_create("name|a column of thirty characters|another that has that many too|and a third of some length|"
+                         "the last",
+                         &t));
+    OK(host_table_row(t, "row|1|2|3|4"));
+    out = open_memstream(&text, &bytes);
+    host_table_print(t, out);
+    fclose(out);
+    assert_non_null(strstr(text, "and a third of some length\nrow "));
+    assert_non_null(strstr(text, "\n\nname  the last\nrow          4\n"));
+    free(text);
+    host_table_free(t);
     assert_int_equal(host_table_create("1|2|3|4|5|6|7|8|9|10|11|12|13|14|15|16|17", &t).code, STATUS_BAD_INPUT);
 }
 

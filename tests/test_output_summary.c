@@ -240,6 +240,32 @@ static void closing_table_shows_the_result(void **state)
     free(text);
 }
 
+/* What people are shown: rounded, with a prefix, without what is not known or was not asked for; a verdict; at most
+ * 100 columns. */
+static void closing_tables_are_readable(void **state)
+{
+    (void)state;
+    for (int k = 0; k < STUDIES; k++) {
+        char *text = NULL, *rest = NULL;
+        size_t bytes;
+        example e;
+        fill(&e, k);
+        FILE *out = open_memstream(&text, &bytes);
+        output_summary_print(&e.summary, out);
+        fclose(out);
+        assert_null(strstr(text, "nan"));
+        assert_null(strstr(text, "charge_scale"));
+        if (k == STUDY_shot) assert_non_null(strstr(text, "leaves the muzzle at "));
+        if (k == STUDY_shot) assert_non_null(strstr(text, " kA\n"));
+        if (k == STUDY_compare) assert_non_null(strstr(text, "best: hardened,"));
+        if (k == STUDY_compare) assert_non_null(strstr(text, "cannot be told apart from bare"));
+        for (char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest))
+            if (strncmp(line, "result ", 7) != 0 && strlen(line) > 100 && !strchr(line, ':'))
+                fail_msg("%s: %zu columns: %s", study_list[k]->name, strlen(line), line);
+        free(text);
+    }
+}
+
 static void file_and_its_status(void **state)
 {
     (void)state;
@@ -272,6 +298,7 @@ int main(void)
         cmocka_unit_test(manual_lists_every_key),
         cmocka_unit_test(manual_is_up_to_date),
         cmocka_unit_test(closing_table_shows_the_result),
+        cmocka_unit_test(closing_tables_are_readable),
         cmocka_unit_test(file_and_its_status),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -73,17 +73,27 @@ static void test_senseless(void **state)
         { "title: \"caf\xe9\"", ":3:13: not valid YAML" },
         { "populations: [{density: 4 1/m, radius_median: 0.5 mm, radius_spread: 3}]",
           ":3:15: populations[0], its largest grains, of 200 mm" },
+        { "name: ..", ":3:7: name = ..: must have a letter" },
+        { "current_profiles: [{file: huge.csv}]", "huge.csv:2.current = 1e+12 A: must be" },
+        { "study: {max_scenes: 1}", ":3:21: study.max_scenes = 1: for 1 kinds" },
+        { "study: {shots: 1000}", "study.shots: shot " },
         { "output: {snapshots: 1.5}", ":3:21: output.snapshots = 1.5: must be a whole number" },
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         fresh_folder("senseless");
         FILE *f = fopen("senseless/case.yaml", "w");
-        fprintf(f, "base: %s\nname: senseless\n%s\n", SHOT, wrong[i].yaml);
+        fprintf(f, "base: %s\n%s\n%s\n", SHOT, strstr(wrong[i].yaml, "name: ..") ? "" : "name: senseless",
+                wrong[i].yaml);
         fclose(f);
+        OK(host_file_write("senseless/huge.csv", "0,0\n1e-3,1e12\n2e-3,0\n", 22));
+        const bool runs = strncmp(wrong[i].yaml, "study", 5) == 0; /* what a run found after its shot */
+        if (runs) assert_int_equal(run("onset senseless -o senseless/out"), 2);
+        assert_false(exists("senseless/out"));
         assert_int_equal(run("check senseless"), 2);
         if (!contains("err.txt", wrong[i].says)) fail_msg("%s: not `%s`", wrong[i].yaml, wrong[i].says);
     }
     assert_int_equal(run("check " SHOT " --set output.snapshots=1e1"), 0);
+    assert_int_equal(run("check " SHOT " --set study.shots=3"), 0);
 }
 
 /* Every error of the case at once, with its place; nothing is written. */
@@ -154,6 +164,7 @@ static void test_check_and_materials(void **state)
     (void)state;
     assert_int_equal(run("check " SHOT), 0);
     assert_true(contains("out.txt", "12 sites"));
+    assert_true(contains("out.txt", "at most 12 scenes, of which 2 are kept for whole craters"));
     assert_int_equal(run("check cases/pulse_unit_200kJ"), 0); /* shipped, and not here */
     assert_true(contains("out.txt", "/cases/pulse_unit_200kJ/case.yaml"));
     assert_int_equal(run("check cases/../cases/pulse_unit_200kJ"), 2);
@@ -164,6 +175,7 @@ static void test_check_and_materials(void **state)
     assert_int_equal(run("check own.yaml"), 2);
     assert_int_equal(run("check " CASES "/treatments"), 0);
     assert_true(contains("out.txt", "onset, 500 m/s") && contains("out.txt", "1 populations, at most"));
+    assert_true(contains("out.txt", "\nwarm rail, 500 m/s, "));
     assert_true(contains("out.txt", "compare: 6 surfaces, at most 12 scenes each"));
     assert_true(contains("out.txt", "random shots: 100000 histories, at most 1.2e+06 grains"));
     assert_int_equal(run("check " CASES "/wu2017"), 0);
@@ -258,6 +270,8 @@ static void test_resume_of_another(void **state)
     assert_false(exists("other/done/report.html"));
 
     assert_int_equal(run("scene " TINY " -o other/part --quiet --no-store --max-walltime 0.3"), 75);
+    assert_true(contains("err.txt", " --set 'scene.coarse_cell=0.8 mm' --set scene.growth=1.3 "));
+    assert_true(contains("err.txt", " --no-store -o other/part --resume\n"));
     assert_int_equal(run("shot " TINY " -o other/part --resume"), 2);
     assert_true(contains("err.txt", "`# Run by: breech scene`"));
     assert_true(exists("other/part/checkpoint.bin"));
@@ -274,6 +288,21 @@ static void test_resume_without_report(void **state)
     assert_int_equal(run("shot " SHOT " -o drawn --resume"), 0);
     assert_true(contains("out.txt", "finished already"));
     assert_true(exists("drawn/report.html"));
+}
+
+/* A site at the very end of the barrel is reached, with the muzzle's velocity. */
+static void test_last_site(void **state)
+{
+    (void)state;
+    fresh_folder("last");
+    assert_int_equal(run("onset " SHOT " -o last --force --set 'sites=[{position: 3 m}]' --set study.screen_low=1000 "
+                         "--set study.sensitivities=no --set output.report=no"),
+                     0);
+    cJSON *s = summary_of("last");
+    const cJSON *site = cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(s, "sites"), 0);
+    const double muzzle = number(cJSON_GetObjectItemCaseSensitive(s, "shot"), "muzzle_velocity");
+    assert_true(fabs(number(site, "velocity") - muzzle) < 1e-6 * muzzle);
+    cJSON_Delete(s);
 }
 
 static void test_inductance(void **state)
@@ -374,6 +403,7 @@ int main(void)
         cmocka_unit_test(test_shot),
         cmocka_unit_test(test_resume_of_another),
         cmocka_unit_test(test_resume_without_report),
+        cmocka_unit_test(test_last_site),
         cmocka_unit_test(test_inductance),
         cmocka_unit_test(test_scene),
         cmocka_unit_test(test_reader),

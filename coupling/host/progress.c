@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -85,6 +86,9 @@ void host_progress_update(progress *p, double fraction, uint64_t particle_steps)
     if (now - p->last_shown < p->interval) return;
     char text[300];
     host_progress_text(p, fraction, now - p->started, particle_steps, text, sizeof text);
+    struct winsize w; /* a live line that wraps would not be cleared */
+    if (p->terminal && ioctl(fileno(p->stream), TIOCGWINSZ, &w) == 0 && w.ws_col > 1 && w.ws_col < sizeof text)
+        text[w.ws_col - 1] = '\0';
     fprintf(p->stream, p->terminal ? "\r\033[K%s" : "%s\n", text);
     fflush(p->stream);
     p->shown = p->terminal;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_COLUMNS = 16, CELL_SIZE = 96, LINE_SIZE = MAX_COLUMNS * CELL_SIZE };
+enum { MAX_COLUMNS = 16, CELL_SIZE = 96, LINE_SIZE = MAX_COLUMNS * CELL_SIZE, MAX_WIDTH = 100 };
 
 typedef struct {
     char cell[MAX_COLUMNS][CELL_SIZE];
@@ -115,28 +115,47 @@ static bool column_is_numbers(const table *t, int c)
     return any;
 }
 
+typedef struct {
+    int width[MAX_COLUMNS];
+    bool right[MAX_COLUMNS];
+} layout;
+
+static void print_cell(const table *t, const layout *l, size_t i, int c, bool last, FILE *out)
+{
+    const char *cell = t->row[i].cell[c];
+    const int pad = l->width[c] - shown_width(cell);
+    if (c) fputs("  ", out);
+    if (l->right[c]) fprintf(out, "%*s", pad, "");
+    fputs(cell, out);
+    if (!l->right[c] && !last) fprintf(out, "%*s", pad, "");
+}
+
+/* The first column, and those from one to before another. */
+static void print_part(const table *t, const layout *l, int from, int to, FILE *out)
+{
+    for (size_t i = 0; i < t->rows; i++) {
+        if (from > 0) print_cell(t, l, i, 0, false, out);
+        for (int c = from; c < to; c++) print_cell(t, l, i, c, c == to - 1, out);
+        fputc('\n', out);
+    }
+}
+
 void host_table_print(const table *t, FILE *out)
 {
-    int width[MAX_COLUMNS] = { 0 };
-    bool right[MAX_COLUMNS];
+    layout l = { .width = { 0 } };
     for (int c = 0; c < t->columns; c++) {
-        right[c] = column_is_numbers(t, c);
+        l.right[c] = column_is_numbers(t, c);
         for (size_t i = 0; i < t->rows; i++) {
             const int w = shown_width(t->row[i].cell[c]);
-            if (w > width[c]) width[c] = w;
+            if (w > l.width[c]) l.width[c] = w;
         }
     }
-    for (size_t i = 0; i < t->rows; i++) {
-        for (int c = 0; c < t->columns; c++) {
-            const char *cell = t->row[i].cell[c];
-            const int pad = width[c] - shown_width(cell);
-            const bool last = c == t->columns - 1;
-            if (c) fputs("  ", out);
-            if (right[c]) fprintf(out, "%*s", pad, "");
-            fputs(cell, out);
-            if (!right[c] && !last) fprintf(out, "%*s", pad, "");
-        }
-        fputc('\n', out);
+    for (int from = 0, to; from < t->columns; from = to) {
+        int wide = from > 0 ? l.width[0] : 0;
+        for (to = from; to < t->columns && (to == from || wide + 2 + l.width[to] <= MAX_WIDTH); to++)
+            wide += (to > 0 ? 2 : 0) + l.width[to];
+        if (from > 0) fputc('\n', out);
+        print_part(t, &l, from, to, out);
     }
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A table of text with aligned columns: numbers to the right, the rest to the left. */
+/* A table of text with aligned columns: numbers to the right, the rest to the left.  One wider than a hundred columns
+ * goes on below, with its first column again. */
 #ifndef BREECH_COUPLING_TABLE_H
 #define BREECH_COUPLING_TABLE_H
 

@@ -3,6 +3,7 @@
 
 #include "coupling/host/outdir.h"
 #include "coupling/host/table.h"
+#include "coupling/host/units.h"
 #include "coupling/host/version.h"
 
 #include <cJSON.h>
@@ -396,20 +397,50 @@ void output_numbers_visit(const summary_object *o, output_number_visitor *visit,
 
 /* ---- for people ---- */
 
-static void value_text(const summary_key *k, const void *from, char *out, size_t size)
+/* Numbers in one unit, with the prefix of the largest: "967.1|kA", "1066 .. 1759|m/s". */
+static void numbers_text(const double *x, int n, const char *unit, char *out, size_t size)
+{
+    const bool none = strcmp(unit, "1") == 0 || unit[0] == '\0';
+    double largest = 0.0;
+    char text[60];
+    for (int i = 0; i < n; i++)
+        if (isfinite(x[i])) largest = fmax(largest, fabs(x[i]));
+    host_quantity_text(largest, none ? "1" : unit, text, sizeof text);
+    const char *in = none ? "" : strchr(text, ' ') + 1;
+    double scale = largest > 0.0 && !none ? strtod(text, NULL) / largest : 1.0;
+    if (strcmp(in, "m3") == 0) {
+        in = "mm3";
+        scale = 1e9;
+    }
+    size_t used = 0;
+    for (int i = 0; i < n && used < size; i++) {
+        const char *between = i == 0 ? "" : n == 2 ? " .. " : ", ";
+        used += (size_t)(isfinite(x[i]) ? snprintf(out + used, size - used, "%s%.4g", between, scale * x[i])
+                                        : snprintf(out + used, size - used, "%s?", between));
+    }
+    if (used < size) snprintf(out + used, size - used, "|%s", in);
+}
+
+/* "value|unit"; false where there is nothing to show. */
+static bool shown_text(const summary_key *k, const void *from, char *out, size_t size)
 {
     cJSON *value = value_json(k, from);
-    char *json = value ? cJSON_PrintUnformatted(value) : NULL;
-    if (cJSON_IsNumber(value))
-        snprintf(out, size, "%.6g", value->valuedouble);
-    else if (cJSON_IsString(value))
-        snprintf(out, size, "%s", value->valuestring);
-    else if (!value || cJSON_IsNull(value))
-        snprintf(out, size, "-");
-    else
-        snprintf(out, size, "%s", json ? json : "-");
-    free(json);
+    double x[8];
+    const int n = cJSON_IsArray(value) ? cJSON_GetArraySize(value) : 1;
+    bool known = false;
+    for (int i = 0; i < n && i < 8; i++) {
+        x[i] = number_of(cJSON_IsArray(value) ? cJSON_GetArrayItem(value, i) : value);
+        known = known || isfinite(x[i]);
+    }
+    if (cJSON_IsString(value)) snprintf(out, size, "%.*s|", (int)strcspn(value->valuestring, "|"), value->valuestring);
+    if (cJSON_IsString(value) || cJSON_IsBool(value)) known = !cJSON_IsString(value) || value->valuestring[0];
+    if (cJSON_IsBool(value)) snprintf(out, size, "%s|", cJSON_IsTrue(value) ? "yes" : "no");
+    if (k->kind == KEY_COUNT || k->kind == KEY_INTEGER)
+        snprintf(out, size, "%.0f|", x[0]);
+    else if (k->kind == KEY_NUMBER && n <= 8)
+        numbers_text(x, n, k->unit, out, size);
     cJSON_Delete(value);
+    return known;
 }
 
 static bool is_short(const summary_key *k)
@@ -417,17 +448,20 @@ static bool is_short(const summary_key *k)
     return k->kind <= KEY_NAME && strcmp(k->name, "reason") != 0;
 }
 
+/* Does the key stand for nothing, since what it belongs to was not asked for? */
+static bool is_idle(const summary_object *o, const summary_key *k)
+{
+    return k->only_with && output_number_of(o->keys, k->only_with, o->of) == 0.0;
+}
+
 void output_keys_print(const summary_object *o, FILE *out)
 {
     table *t;
     if (!o->of || host_table_create("result|value|unit", &t).code != STATUS_OK) return;
     for (const summary_key *k = o->keys; k->name; k++) {
-        char value[400];
-        if (!is_short(k)) continue;
-        value_text(k, o->of, value, sizeof value);
-        for (char *c = value; *c; c++)
-            if (*c == '|') *c = '/';
-        host_table_row(t, "%s|%.90s|%s", k->name, value, strcmp(k->unit, "1") == 0 ? "" : k->unit);
+        char value[200];
+        if (is_short(k) && !is_idle(o, k) && shown_text(k, o->of, value, sizeof value))
+            host_table_row(t, "%s|%s", k->name, value);
     }
     host_table_print(t, out);
     host_table_free(t);

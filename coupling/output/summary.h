@@ -50,6 +50,7 @@ typedef struct summary_key {
     size_t item_size;               /* KEY_LIST, KEY_MAP, KEY_BY_NAME */
     size_t n_offset;     /* where the int stands that counts them: KEY_LIST, _MAP, _ARRAY, _PAIRS, _BY_NAME */
     size_t names_offset; /* KEY_BY_NAME */
+    const char *only_with; /* people are shown it only where the integer of this name is not 0; NULL: always */
 } summary_key;
 
 /* One line of a table each: SUMMARY_NUMBER(struct, "key", member, "unit", "what it is"). */
@@ -62,6 +63,8 @@ typedef struct summary_key {
     { SUMMARY_ROW(type, key, member, unit, doc), .kind = KEY_NUMBER, .n = (n_) }
 #define SUMMARY_VALUE(type, kind_, key, member, unit, doc) \
     { SUMMARY_ROW(type, key, member, unit, doc), .kind = (kind_) }
+#define SUMMARY_WITH(type, kind_, key, member, unit, with, doc) \
+    { SUMMARY_ROW(type, key, member, unit, doc), .kind = (kind_), .n = 1, .only_with = (with) }
 #define SUMMARY_TEXT(type, key, member, doc) \
     { SUMMARY_ROW(type, key, member, "", doc), .kind = KEY_TEXT, .n = sizeof(((const type *)0)->member) }
 #define SUMMARY_CHOICE(type, key, member, names_, doc) \
@@ -134,7 +137,8 @@ double output_number_of(const summary_key *keys, const char *name, const void *o
 typedef void output_number_visitor(void *user, const char *path, const char *unit, double value);
 void output_numbers_visit(const summary_object *o, output_number_visitor *visit, void *user);
 
-/* Key, value and unit of what is short: no lists, no `reason`. */
+/* For people: key, value rounded to four digits and unit with its prefix, of what is short and known: no lists, no
+ * `reason`, no null. */
 void output_keys_print(const summary_object *o, FILE *out);
 /* A table of keys for the manual, in markdown. */
 void output_keys_manual(const char *title, const summary_key *keys, FILE *out);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/run/shot_record.h"
 
+#include <math.h>
+
 const summary_key run_shot_keys[] = {
     SUMMARY_NUMBER(shot_record, "peak_current", is.peak_current, "A", "largest current in the rails"),
     SUMMARY_NUMBER(shot_record, "muzzle_velocity", is.muzzle_velocity, "m/s", "null: the armature did not leave"),
@@ -34,12 +36,28 @@ const summary_key run_shot_keys[] = {
     SUMMARY_NUMBER(shot_record, "rail_rise_position", rail_rise_position, "m", "where that is"),
     SUMMARY_VALUE(shot_record, KEY_COUNT, "steps", is.steps, "1", "of the integration"),
     SUMMARY_NUMBER(shot_record, "wall_seconds", wall_seconds, "s", "time it took"),
-    SUMMARY_VALUE(shot_record, KEY_INTEGER, "optimise_evaluations", firing.evaluations, "1",
-                  "trials of the search for firing times; 0: none was asked for"),
-    SUMMARY_NUMBER(shot_record, "optimise_before", firing.before, "1",
-                   "its measure at the start: unevenness, or stored energy [J]"),
-    SUMMARY_NUMBER(shot_record, "optimise_after", firing.after, "1", "and of what was found"),
-    SUMMARY_NUMBER(shot_record, "charge_scale", firing.charge_scale, "1", "factor on all charges that it found"),
+    SUMMARY_WITH(shot_record, KEY_INTEGER, "optimise_evaluations", firing.evaluations, "1", "optimise_evaluations",
+                 "trials of the search for firing times; 0: none was asked for"),
+    SUMMARY_WITH(shot_record, KEY_NUMBER, "optimise_before", firing.before, "1", "optimise_evaluations",
+                 "its measure at the start: unevenness, or stored energy [J]"),
+    SUMMARY_WITH(shot_record, KEY_NUMBER, "optimise_after", firing.after, "1", "optimise_evaluations",
+                 "and of what was found"),
+    SUMMARY_WITH(shot_record, KEY_NUMBER, "charge_scale", firing.charge_scale, "1", "optimise_evaluations",
+                 "factor on all charges that it found"),
     SUMMARY_ARRAY(shot_record, "fire_at", fire_at, n_fire_at, "s", "firing times of the bank's groups that it found"),
     SUMMARY_END
 };
+
+void run_shot_verdict(const shot_record *r, FILE *out)
+{
+    const shot_summary *is = &r->is;
+    if (isfinite(is->muzzle_velocity))
+        fprintf(out, "leaves the muzzle at %.0f m/s after %.3g ms: %.3g kJ, %.3g %% of the energy spent; ",
+                is->muzzle_velocity, 1e3 * is->muzzle_time, 1e-3 * is->muzzle_energy, 1e2 * is->efficiency);
+    else
+        fputs("does not leave the muzzle; ", out);
+    fprintf(out, "peak current %.3g kA\n", 1e-3 * is->peak_current);
+    if (isfinite(r->limits.transition_position))
+        fprintf(out, "transition: the sliding contact is past its limits from x = %.3g m on\n",
+                r->limits.transition_position);
+}

@@ -21,4 +21,7 @@ typedef struct {
 
 extern const summary_key run_shot_keys[]; /* of shot_record */
 
+/* For people: what became of the armature, in a line or two. */
+void run_shot_verdict(const shot_record *r, FILE *out);
+
 #endif

@@ -45,11 +45,25 @@ const summary_key study_compare_keys[] = {
     SUMMARY_END
 };
 
+/* Which surface gouges least, by how much, and can it be told apart from the next? */
+static void print_verdict(const compare_result *c, FILE *out)
+{
+    const compare_entry *best = c->ranking, *next = c->ranking + 1;
+    char v[24];
+    if (c->n < 2) return;
+    fprintf(out, "\nbest: %s, %.3g gouges a shot (%.3g .. %.3g), threshold %s m/s; ", best->surface, best->gouges,
+            best->gouges_interval[0], best->gouges_interval[1], output_cell(best->threshold_velocity, 1.0, "%.0f", v));
+    if (best->significant)
+        fprintf(out, "better than %s, which has %.3g\n", next->surface, next->gouges);
+    else
+        fprintf(out, "it cannot be told apart from %s, which has %.3g\n", next->surface, next->gouges);
+}
+
 void study_compare_print(const void *result, FILE *out)
 {
     const compare_result *c = result;
     table *t;
-    const char *titles = "rank|surface|v_th [m/s]|from|to|x [m]|gouges|from|to|gouged [mm3]|better|layer";
+    const char *titles = "#|surface|v_th [m/s]|from|to|x [m]|gouges|from|to|[mm3]|better|layer";
     if (host_table_create(titles, &t).code != STATUS_OK) return;
     for (int i = 0; i < c->n; i++) {
         const compare_entry *e = &c->ranking[i];
@@ -64,4 +78,5 @@ void study_compare_print(const void *result, FILE *out)
     }
     host_table_print(t, out);
     host_table_free(t);
+    print_verdict(c, out);
 }

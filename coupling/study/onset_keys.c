@@ -177,28 +177,47 @@ static void print_sites(const onset_result *o, FILE *out)
     close_table(t, out);
 }
 
-static void print_scenes(const onset_result *o, FILE *out)
+static void print_grooves(const onset_result *o, FILE *out)
 {
     table *t;
-    const char *titles = "scene|v [m/s]|r [mm]|cells/r|severity|growth [1/us]|[1/mm]|front/v|length/width|widening|"
-                         "depth [mm]|class|time [s]";
+    const char *titles = "scene|v [m/s]|r [mm]|cells/r|growth [1/us]|front/v|l/w|class|time [s]";
     if (o->n_scenes == 0 || host_table_create(titles, &t).code != STATUS_OK) return;
     for (int i = 0; i < o->n_scenes; i++) {
         const onset_scene *s = &o->scene[i];
-        char v[24], r[24], c[24], severity[24], growth[24], way[24], front[24], shape[24], widening[24], d[24], w[24];
-        host_table_row(t, "%s|%s|%s|%s|%s|%s|%s|%s|%s|%s|%s|%s|%s", s->name, output_cell(s->velocity, 1.0, "%.0f", v),
+        char v[24], r[24], c[24], growth[24], front[24], shape[24], w[24];
+        host_table_row(t, "%s|%s|%s|%s|%s|%s|%s|%s|%s", s->name, output_cell(s->velocity, 1.0, "%.0f", v),
                        output_cell(s->radius, 1e-3, "%.3g", r), output_cell(s->cells_per_radius, 1.0, "%.3g", c),
-                       output_cell(s->gauged ? NAN : s->result.severity, 1.0, "%.3f", severity),
                        output_cell(s->result.groove_growth, 1e6, "%.3f", growth),
-                       output_cell(s->result.growth_per_way, 1e3, "%.3f", way),
                        output_cell(s->result.front_speed_ratio, 1.0, "%.2f", front),
-                       output_cell(s->result.length_over_width, 1.0, "%.1f", shape),
-                       output_cell(s->gauged ? NAN : s->result.widening, 1.0, "%.2f", widening),
-                       output_cell(s->gauged ? NAN : s->result.crater_depth, 1e-3, "%.3f", d),
-                       run_damage_names[s->result.class],
+                       output_cell(s->result.length_over_width, 1.0, "%.1f", shape), run_damage_names[s->result.class],
                        s->reused ? "reused" : output_cell(s->result.wall_seconds, 1.0, "%.1f", w));
     }
     close_table(t, out);
+}
+
+/* Of the scenes that went to their end. */
+static void print_craters(const onset_result *o, FILE *out)
+{
+    table *t;
+    int n = 0;
+    const char *titles = "whole crater|v [m/s]|severity|widening|length [mm]|width [mm]|depth [mm]|class";
+    if (host_table_create(titles, &t).code != STATUS_OK) return;
+    for (int i = 0; i < o->n_scenes; i++) {
+        const onset_scene *s = &o->scene[i];
+        char v[24], severity[24], widening[24], l[24], w[24], d[24];
+        if (s->gauged) continue;
+        host_table_row(t, "%s|%s|%s|%s|%s|%s|%s|%s", s->name, output_cell(s->velocity, 1.0, "%.0f", v),
+                       output_cell(s->result.severity, 1.0, "%.2f", severity),
+                       output_cell(s->result.widening, 1.0, "%.2f", widening),
+                       output_cell(s->result.crater_length, 1e-3, "%.2f", l),
+                       output_cell(s->result.crater_width, 1e-3, "%.2f", w),
+                       output_cell(s->result.crater_depth, 1e-3, "%.2f", d), run_damage_names[s->result.class]);
+        n++;
+    }
+    if (n > 0)
+        close_table(t, out);
+    else
+        host_table_free(t);
 }
 
 /* The scenes' answer among those of one number each. */
@@ -218,12 +237,14 @@ static void print_null_models(const onset_result *o, FILE *out)
                    output_cell(o->threshold_position, 1.0, "%.3f", x));
     for (int i = 0; i < o->n_null_models; i++) {
         const onset_null_model *m = &o->null_model[i];
-        host_table_row(t, "%s, %s|%s|%s|%s|%s", m->name, m->says, output_cell(m->threshold_velocity, 1.0, "%.0f", v),
+        host_table_row(t, "%s|%s|%s|%s|%s", m->name, output_cell(m->threshold_velocity, 1.0, "%.0f", v),
                        output_cell(m->threshold_interval[0], 1.0, "%.0f", low),
                        output_cell(m->threshold_interval[1], 1.0, "%.0f", high),
                        output_cell(m->threshold_position, 1.0, "%.3f", x));
     }
     close_table(t, out);
+    for (int i = 0; i < o->n_null_models; i++)
+        fprintf(out, "%s: by %s\n", o->null_model[i].name, o->null_model[i].says);
     fputs("N1 to N3 have one constant each, by 7075 on copper at 1325 m/s\n", out);
 }
 
@@ -250,7 +271,8 @@ void study_onset_print(const void *result, FILE *out)
     const onset_result *o = result;
     output_keys_print(&(summary_object){ study_onset_keys, o }, out);
     print_sites(o, out);
-    print_scenes(o, out);
+    print_grooves(o, out);
+    print_craters(o, out);
     print_null_models(o, out);
     print_shots(o, out);
     if (o->reason[0]) fprintf(out, "\n%s: %s\n", verdict_names[o->verdict], o->reason);

@@ -64,6 +64,13 @@ static status run(session *s, const study_case *of, study_answer *out)
     return done;
 }
 
+static void print(const void *result, FILE *out)
+{
+    output_keys_print(&(summary_object){ run_shot_keys, result }, out);
+    fputc('\n', out);
+    run_shot_verdict(result, out);
+}
+
 static status possible(const study_case *of)
 {
     const case_flight flight = case_flight_of(&of->in->onset);
@@ -79,6 +86,7 @@ const study study_shot = {
     .keys = run_shot_keys,
     .can_vary = true,
     .report = { report_shot_verdict, NULL },
+    .print = print,
     .possible = possible,
     .run = run,
     .free = answer_free,
