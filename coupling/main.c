@@ -252,8 +252,10 @@ static void print_random(const case_onset *c)
         const case_population *p = &c->populations.item[k];
         grains += p->density * (p->to - p->from) * (p->renewed ? c->study.shots : 1);
     }
-    if (grains > 0.0)
-        printf("random shots: %d histories, at most %.2g grains\n", c->study.sampled, grains * c->study.sampled);
+    char time[40];
+    grains *= c->study.sampled;
+    host_duration_text(grains * CHECK_SECONDS_A_GRAIN, time, sizeof time);
+    if (grains > 0.0) printf("random shots: %d histories, at most %.2g grains, %s\n", c->study.sampled, grains, time);
 }
 
 static status print_check(const case_inputs *in, int threads)

@@ -177,7 +177,9 @@ static void test_check_and_materials(void **state)
     assert_true(contains("out.txt", "onset, 500 m/s") && contains("out.txt", "1 populations, at most"));
     assert_true(contains("out.txt", "\nwarm rail, 500 m/s, "));
     assert_true(contains("out.txt", "compare: 6 surfaces, at most 12 scenes each"));
-    assert_true(contains("out.txt", "random shots: 100000 histories, at most 1.2e+06 grains"));
+    assert_true(contains("out.txt", "random shots: 100000 histories, at most 1.2e+06 grains, 0 s\n"));
+    assert_int_equal(run("check " CASES "/treatments --set 'populations[0].density=1e6 1/m'"), 0);
+    assert_true(contains("out.txt", "at most 2.9e+11 grains, 12 h "));
     assert_int_equal(run("check " CASES "/wu2017"), 0);
     assert_true(contains("out.txt", "cells a radius"));
     assert_int_equal(run("check " CASES "/wu2017/coarse.yaml"), 0);
