@@ -48,8 +48,8 @@ typedef struct summary_key {
     const char *const *names;       /* KEY_NAME */
     const struct summary_key *item; /* KEY_LIST, KEY_MAP, KEY_PART */
     size_t item_size;               /* KEY_LIST, KEY_MAP, KEY_BY_NAME */
-    size_t n_offset;     /* where the int stands that counts them: KEY_LIST, _MAP, _ARRAY, _PAIRS, _BY_NAME */
-    size_t names_offset; /* KEY_BY_NAME */
+    size_t n_offset;       /* where the int stands that counts them: KEY_LIST, _MAP, _ARRAY, _PAIRS, _BY_NAME */
+    size_t names_offset;   /* KEY_BY_NAME */
     const char *only_with; /* people are shown it only where the integer of this name is not 0; NULL: always */
 } summary_key;
 
