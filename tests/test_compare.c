@@ -35,6 +35,7 @@ static double tear_drops = 0.0; /* [m/s]; 0: shapes are not made up */
 static double made_up_threshold(const case_impact *of)
 {
     double v = 1400.0 + 100.0 * (of->rail.yield_scale - 1.5) - 0.5 * (of->rail.temperature - 293.0);
+    v += 80.0 * (of->armature.yield_scale - 1.0);
     v += 10.0 * (of->armature.lead_angle * 180.0 / 3.14159265358979 - 30.0);
     v += 400.0 * of->scene.grid_shift[0];
     for (int i = 0; i < of->rail.layers.n; i++) {
@@ -609,11 +610,12 @@ static int scenes_named(const onset_answer *a, const char *prefix)
 
 /* ---- inputs that are not well known ---- */
 
-/* The made-up threshold rises by 150 m/s where the rail is twice as strong (yield_scale 3 for 1.5); friction does
- * nothing. */
+/* The made-up threshold rises by 150 m/s where the rail is twice as strong (yield_scale 3 for 1.5), by 80 where the
+ * armature is; friction does nothing. */
 static void test_uncertain_inputs(void **state)
 {
     (void)state;
+    static const double INPUTS = 170.0; /* both together [m/s] */
     breech_case *c = read(HEAD GRAINS, CASE_FOR_ONSET);
     c->study.velocity_low = 500.0;
     c->study.velocity_high = 3000.0;
@@ -623,28 +625,31 @@ static void test_uncertain_inputs(void **state)
     study_onset_answer_free(&a);
     c->study.sensitivities = true;
     c->study.strength_error = 1.0; /* 150 m/s */
+    c->study.armature_error = 1.0; /* 80 m/s */
     c->study.friction_error = 0.5;
     c->study.shots = 2; /* on the warm rail too */
     a = studied(c, "uncertain", status_ok());
     const onset_result *r = &a.result;
     assert_true(r->threshold_velocity == sure.threshold_velocity);
-    const double resolution = 0.1 * sure.threshold_velocity, both = sqrt(resolution * resolution + 150.0 * 150.0);
+    const double resolution = 0.1 * sure.threshold_velocity, both = hypot(resolution, INPUTS);
     for (int e = 0; e < 2; e++)
         assert_true(fabs(fabs(r->threshold_interval[e] - sure.threshold_interval[e]) - (both - resolution)) < 6.0);
     assert_true(r->threshold_interval[0] < sure.threshold_interval[0] &&
                 r->threshold_interval[1] > sure.threshold_interval[1]);
     assert_true(fabs(a.grains.family[0].surface.reference.allowance - both) < 6.0); /* the random shots draw from it */
     const threshold_result *warm = &a.rail.warm.family[0].surface.reference;
-    assert_true(fabs(warm->allowance - hypot(0.1 * warm->velocity, 150.0)) < 6.0);
+    assert_true(fabs(warm->allowance - hypot(0.1 * warm->velocity, INPUTS)) < 6.0);
     const case_study *near = &a.uncertain.of[0].c->study;
     const double threshold = a.grains.family[0].surface.reference.velocity;
     assert_true(fabs(near->velocity_low / threshold - 0.6) < 1e-9);
     assert_true(fabs(near->velocity_high / threshold - 1.6) < 1e-9);
-    assert_int_equal(r->n_sensitivities, 6);
-    const onset_sensitivity *strength = &r->sensitivities[4], *friction = &r->sensitivities[5];
+    assert_int_equal(r->n_sensitivities, 7);
+    const onset_sensitivity *strength = &r->sensitivities[4], *armature = &r->sensitivities[5],
+                            *friction = &r->sensitivities[6];
     assert_string_equal(strength->input, "rail.yield_scale");
     assert_true(fabs(strength->threshold_velocity - r->threshold_velocity - 150.0) < 12.0);
     assert_true(strength->threshold_position > r->threshold_position && strength->expected_gouges < r->expected_gouges);
+    assert_true(fabs(armature->threshold_velocity - r->threshold_velocity - 80.0) < 12.0);
     assert_true(fabs(friction->threshold_velocity - r->threshold_velocity) < 12.0);
     assert_true(scenes_named(&a, "strength-") > 0 && scenes_named(&a, "friction-") > 0);
     for (int i = 0; i < r->n_scenes; i++) /* near the threshold, and no whole craters */

@@ -199,6 +199,10 @@ static void test_screen_band(void **state)
     surface = surface_of(c);
     OK(gouge_screen_impact(&surface, 0.5e-3, 1400.0, &hard));
     assert_true(fabs(hard.ratio - 0.5 * soft.ratio) < 1e-9);
+    c->rail.yield_scale = 1.0, c->projectile.yield_scale = 4.0; /* so does a harder armature */
+    surface = surface_of(c);
+    OK(gouge_screen_impact(&surface, 0.5e-3, 1400.0, &hard));
+    assert_true(fabs(hard.ratio - 0.25 * soft.ratio) < 1e-9);
     case_free(c);
 }
 

@@ -135,7 +135,9 @@ case_flight case_flight_of(const case_onset *c)
 
 case_surface case_surface_of(const case_onset *c)
 {
-    return (case_surface){ .armature = case_material(&c->impact.materials, c->impact.armature.material),
+    const material *armature = case_material(&c->impact.materials, c->impact.armature.material);
+    return (case_surface){ .armature = armature,
+                           .armature_hardness = c->impact.armature.yield_scale * armature->hardness,
                            .rail = c->impact.rail,
                            .materials = c->impact.materials,
                            .screen_low = c->study.screen_low };

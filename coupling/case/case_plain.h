@@ -66,6 +66,7 @@ case_flight case_flight_of(const case_onset *c);
 /* What meets at the rail's surface: the armature, and the rail with its layers.  What it points to is borrowed. */
 typedef struct {
     const material *armature;
+    double armature_hardness; /* its material's by its yield_scale [Pa] */
     case_rail rail;
     case_materials materials;
     double screen_low; /* impact pressure over hardness below which no scene is needed [1] */

@@ -53,6 +53,8 @@ static const param projectile_params[] = {
     PARAM_DOUBLE(case_projectile, chamfer_height, "m", REQUIRED, 0.0, 1.0,
                  "height of the lead face, normal to the rail; 0 = a square front"),
     PARAM_DOUBLE(case_projectile, temperature, "K", 293.0, 4.0, 2000.0, "of the armature in the scene"),
+    PARAM_DOUBLE(case_projectile, yield_scale, "1", 1.0, 0.01, 100.0,
+                 "factor on its flow stress, and on the hardness in the screen"),
     PARAMS_END,
 };
 
@@ -184,6 +186,7 @@ static const param study_params[] = {
                  "from coarse to fine cells where that is more"),
     PARAM_DOUBLE(case_study, strength_error, "1", 0.0, 0.0, 1.0,
                  "uncertainty of rail.yield_scale, relative: a search more, and the threshold's interval holds it"),
+    PARAM_DOUBLE(case_study, armature_error, "1", 0.0, 0.0, 1.0, "uncertainty of armature.yield_scale alike"),
     PARAM_DOUBLE(case_study, friction_error, "1", 0.0, 0.0, 10.0, "uncertainty of scene.friction alike"),
     PARAM_BOOL(case_study, feedback, 1, "a gouge's impulse and mass loss go back into the shot"),
     PARAM_BOOL(case_study, sensitivities, 1, "what 5 % more charge, mass, friction and grain size would do"),

@@ -67,6 +67,7 @@ typedef struct {
     double width;          /* full width across the rail [m] */
     double chamfer_height; /* of the lead face, normal to the rail [m] */
     double temperature;    /* [K] */
+    double yield_scale;    /* factor on its flow stress, and on the hardness in the screen [1] */
 } case_projectile;
 
 /* What a site does not say itself; the grain of `breech scene`. */
@@ -278,7 +279,8 @@ typedef struct {
     double coarse_cells_per_radius, fine_cells_per_radius; /* [1] */
     double crater_cells_per_radius;                        /* of whole craters; NAN: those of the search [1] */
     double resolution_error;                               /* share that finer cells may move a threshold by [1] */
-    double strength_error, friction_error;                 /* of rail.yield_scale, of scene.friction, relative [1] */
+    double strength_error, armature_error;                 /* of rail's and armature's yield_scale, relative [1] */
+    double friction_error;                                 /* of scene.friction, relative [1] */
     bool feedback;                                         /* a gouge's impulse and mass loss go back into the shot */
     bool sensitivities;                                    /* the shot again with changed inputs */
     int shots;                                             /* fired one after the other on the same rail */

@@ -16,5 +16,6 @@ status case_treatment_armature_metal_apply(const treatment_settings *t, case_ons
         if (strcmp(grain, c->impact.armature.material) == 0) snprintf(grain, PARAM_TEXT_SIZE, "%s", t->material);
     }
     snprintf(c->impact.armature.material, sizeof c->impact.armature.material, "%s", t->material);
+    c->impact.armature.yield_scale = 1.0;
     return status_ok();
 }

@@ -280,6 +280,7 @@ static status add_armature(const case_impact *c, const layout *l, int group, gou
     mpm_scene *s = &g->scene;
     g->armature = s->bodies;
     TRY(add_body(s, "armature", case_material(&c->materials, p->material), group, &b));
+    b->yield_scale = p->yield_scale;
     const gouge_armature shape = { .front = l->x_front,
                                    .length = p->length,
                                    .leg_thickness = p->leg_thickness,

@@ -68,7 +68,7 @@ status gouge_null_models(const case_surface *s, double height, null_model out[NU
         (null_model){ .name = "N2", .says = "pressure of two fluids meeting over the hardness of the harder partner" };
     out[2] = (null_model){ .name = "N3", .says = "hardness of both over density of both" };
     TRY(gouge_screen_impact(s, height, MEASURED, &under));
-    const pair m = { s->armature->density, under.density, s->armature->hardness, under.hardness };
+    const pair m = { s->armature->density, under.density, s->armature_hardness, under.hardness };
     TRY(planar(s, height, MEASURED, &out[0].threshold_velocity));
     TRY(planar(s, height, MEASURED_LOW, &out[0].threshold_interval[0]));
     TRY(planar(s, height, MEASURED_HIGH, &out[0].threshold_interval[1]));

@@ -51,7 +51,7 @@ status gouge_screen_impact(const case_surface *s, double height, double velocity
     CHECK(height > 0.0, STATUS_BAD_INPUT, "screen: a grain of height %g m has none", height);
     TRY(mpm_material_check(s->armature, MATERIAL_FOR_SCREEN));
     TRY(average_rail(s, height, velocity, out));
-    out->ratio = out->impact_pressure / fmax(s->armature->hardness, out->hardness);
+    out->ratio = out->impact_pressure / fmax(s->armature_hardness, out->hardness);
     out->probability = gouge_screen_probability(out->ratio);
     out->skip = out->ratio < s->screen_low;
     return status_ok();

@@ -23,6 +23,11 @@ static void raise_strength(case_onset *c, double factor)
     c->impact.rail.yield_scale *= factor;
 }
 
+static void raise_armature(case_onset *c, double factor)
+{
+    c->impact.armature.yield_scale *= factor;
+}
+
 static void raise_friction(case_onset *c, double factor)
 {
     c->impact.scene.friction *= factor;
@@ -36,6 +41,7 @@ typedef struct {
 
 static const raised inputs[UNCERTAIN_MAX] = {
     { "rail.yield_scale", "strength-", offsetof(case_study, strength_error), raise_strength },
+    { "armature.yield_scale", "armature-", offsetof(case_study, armature_error), raise_armature },
     { "scene.friction", "friction-", offsetof(case_study, friction_error), raise_friction },
 };
 

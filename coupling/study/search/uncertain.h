@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a threshold owes to inputs of its scenes that are not well known: the search once more with each of them raised
- * by its stated uncertainty (study.strength_error, friction_error; 0: not asked for).
+ * by its stated uncertainty (study.strength_error, armature_error,
+ * friction_error; 0: not asked for).
  *
  * By as much as the threshold of the reference size then moves, the intervals of all sizes are widened on both sides:
  * the allowance is the root of the sum of squares of what cells may change (threshold.h), of what the place of the grid
@@ -11,7 +12,7 @@
 
 #include "coupling/study/search/family.h"
 
-enum { UNCERTAIN_MAX = 2 };
+enum { UNCERTAIN_MAX = 3 };
 
 typedef struct {
     const char *input; /* its key */
