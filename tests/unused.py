@@ -230,7 +230,7 @@ def texts():
 def summary_rows(text):
     """Members that tables of the summary show, and their counts.  A part of a part counts whatever its struct."""
     found = set()
-    for row in re.finditer(r"\bSUMMARY_\w+\((\w+), (?:KEY_\w+, )?\"[^\"]*\",\s*([\w.\[\]]+)((?:,\s*\w+\b(?!\())*)", text):
+    for row in re.finditer(r"\bSUMMARY_\w+\(\s*(\w+), (?:KEY_\w+, )?\"[^\"]*\",\s*([\w.\[\]]+)((?:,\s*\w+\b(?!\())*)", text):
         path = re.sub(r"\[.*?\]", "", row.group(2)).split(".")
         found |= {f"{row.group(1)}.{path[0]}"} | {f"*.{part}" for part in path[1:]}
         found |= {f"{row.group(1)}.{word}" for word in re.findall(r"\w+", row.group(3))}
