@@ -376,7 +376,7 @@ static void test_progress(void **state)
     OK(run_compare(c, "progress", &a));
     rewind(progress_lines);
     while (fgets(line, sizeof line, progress_lines)) {
-        double low, high, v;
+        double low, high, v = NAN;
         const char *said = strstr(line, "; gouges begin in ");
         assert_null(strstr(line, "nan"));
         if (!said) continue;

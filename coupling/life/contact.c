@@ -3,6 +3,7 @@
 
 #include <complex.h>
 #include <math.h>
+#include <string.h>
 
 static const double PI = 3.14159265358979323846;
 static const double ON_FACE = 1e-12; /* of a: a point on the face is taken this deep */
@@ -11,10 +12,13 @@ typedef double complex cplx;
 
 /* ---- loads ---- */
 
-/* a + i b without the arithmetic of infinities that a + I * b has. */
+/* a + i b without the arithmetic of infinities and signed zeros that a + I * b has; clang 14 has no CMPLX. */
 static cplx complex_of(double re, double im)
 {
-    return CMPLX(re, im);
+    const double parts[2] = { re, im };
+    cplx z;
+    memcpy(&z, parts, sizeof z);
+    return z;
 }
 
 static status add(contact_load *l, contact_piece p)
