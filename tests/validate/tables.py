@@ -24,6 +24,7 @@ import part_growth
 import part_lattice
 import part_laws
 import part_levels
+import part_strength
 import part_wu2017
 from runs import Runs
 
@@ -41,6 +42,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "four-cells": ("docs/validation/growth.md", part_growth.four_cells, 16, False),
     "laws": ("docs/validation/laws.md", part_laws.laws, 1, True),
     "taylor": ("docs/validation/laws.md", part_laws.taylor, 6, False),
+    "strength": ("docs/validation/strength.md", part_strength.strength, 18, False),
     "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
 }
 
