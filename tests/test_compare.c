@@ -660,17 +660,24 @@ static void test_uncertain_inputs(void **state)
     case_free(c);
 }
 
+/* A close search of one resolution. */
+static breech_case *close_search(const char *text)
+{
+    breech_case *c = read(text, CASE_FOR_ONSET);
+    c->study.velocity_low = 500.0;
+    c->study.velocity_high = 3000.0;
+    c->study.velocity_interval = 0.02;
+    c->study.coarse_cells_per_radius = c->study.fine_cells_per_radius;
+    return c;
+}
+
 /* The made-up threshold moves by 400 m/s with a cell's shift along x; growth by an e-fold in 150 m/s. */
 static void test_scatter(void **state)
 {
     (void)state;
     enum { GRIDS = 5 };
-    breech_case *c = read(HEAD GRAINS "sites: [{position: 2.9 m}]\n", CASE_FOR_ONSET);
-    c->study.velocity_low = 500.0;
-    c->study.velocity_high = 3000.0;
-    c->study.velocity_interval = 0.02;
+    breech_case *c = close_search(HEAD GRAINS "sites: [{position: 2.9 m}]\n");
     growth_most = 3.0; /* far from the threshold, where the search of one resolution has been */
-    c->study.coarse_cells_per_radius = c->study.fine_cells_per_radius;
     onset_answer sure = studied(c, "still", status_ok());
     assert_true(isnan(sure.result.growth_deviation) && isnan(sure.result.threshold_deviation));
     c->study.threshold_ensemble = GRIDS;
@@ -720,11 +727,7 @@ static void test_scatter_of_two(void **state)
 {
     (void)state;
     enum { GRIDS = 5 };
-    breech_case *c = read(HEAD "sites: [{position: 2.9 m}]\n", CASE_FOR_ONSET);
-    c->study.velocity_low = 500.0;
-    c->study.velocity_high = 3000.0;
-    c->study.velocity_interval = 0.02;
-    c->study.coarse_cells_per_radius = c->study.fine_cells_per_radius;
+    breech_case *c = close_search(HEAD "sites: [{position: 2.9 m}]\n");
     c->study.threshold_ensemble = GRIDS;
     c->study.scratch = true;
     tear_drops = 100.0;
@@ -756,11 +759,7 @@ static void test_scatter_of_dying(void **state)
 {
     (void)state;
     enum { GRIDS = 3 };
-    breech_case *c = read(HEAD "sites: [{position: 2.9 m}]\n", CASE_FOR_ONSET);
-    c->study.velocity_low = 500.0;
-    c->study.velocity_high = 3000.0;
-    c->study.velocity_interval = 0.02;
-    c->study.coarse_cells_per_radius = c->study.fine_cells_per_radius;
+    breech_case *c = close_search(HEAD "sites: [{position: 2.9 m}]\n");
     c->study.threshold_ensemble = GRIDS;
     c->study.scratch = true;
     tear_drops = 300.0;
