@@ -2,7 +2,7 @@
 /* The shot: from the charged bank to the armature leaving the muzzle, as one circuit with a moving part.
  *
  * circuit_shot_create copies the configuration; circuit_shot_advance integrates until a time and calls the sinks;
- * everything else reads. SI units throughout.  No files, no printing.  Equations and their tags: docs/shot.md.
+ * everything else reads. SI units throughout.  No files, no printing.  Equations by tag: docs/theory/circuit.md.
  * To add a parameter: a member in its struct and one line in its table (circuit/shot_params.c); reader, manual and
  * checks follow.  Laws that tests/test_circuit_shot.c checks for every shot it makes:
  *   all energy now + all heat and work so far = energy at the start           (ledger.energy_error, default < 1e-6)

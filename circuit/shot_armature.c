@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The armature: what pushes and holds it, what its contact costs.  Equations (C-3) .. (C-7), (C-20) .. (C-22):
- * docs/shot.md. */
+ * docs/theory/circuit.md. */
 #include "base/constants.h"
 #include "circuit/shot_model.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The equations of a shot between two switchings (internal to circuit/; docs/shot.md has them with their tags).
+/* The equations of a shot between two switchings (internal to circuit/; their tags: docs/theory/circuit.md).
  *
  * Unknowns, in this order: those of every group (circuit/supply/supply_kind.h), then the tail z: those of shot_unknown,
  * the voltages of the feeds after the breech, and the rails' memory, two a rung (circuit/rails/rails.h) of every

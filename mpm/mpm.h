@@ -156,7 +156,7 @@ typedef struct {
 } mpm_needs;
 
 /* Blocks five eighths full, a quarter in reserve, sums of their bricks;
- * measured, docs/scene-solver.md, Memory.  A body's bins for percentiles. */
+ * measured, docs/theory/scene-solver.md, Memory.  A body's bins for percentiles. */
 enum { MPM_BYTES = 20000000, MPM_BYTES_A_PARTICLE = 1600, MPM_BYTES_A_BODY = 50000 };
 status mpm_estimate(const mpm_scene *scene, mpm_needs *needs);
 

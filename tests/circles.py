@@ -4,7 +4,7 @@
 
 A file calls another where its object asks for a function that the other's defines; so what an object asks for says it,
 whatever the headers.  Constants do not count: a table names its rows, and a row may call the table's helpers.
-The circles that stay stand below; docs/structure.md says why.    Exit 77: nothing is built, or there is no nm."""
+The circles that stay stand below; docs/reference/structure.md says why.    Exit 77: nothing is built, or there is no nm."""
 import os
 import re
 import sys

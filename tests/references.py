@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files that comments, docs and scripts name are in the repository: paths (circuit/shot.h), file names alone (shot.md) and
+"""Files that comments, docs and scripts name are in the repository: paths (circuit/shot.h), file names alone (onset.md) and
 tests (test_case).  <name>, NAME and * stand for any letters.    Exit 77: no git, so no list of files."""
 import fnmatch
 import os

@@ -666,7 +666,7 @@ static void texts_survive_quoting(void **state)
     case_free(again);
 }
 
-/* docs/case-files.md holds what case_print_keys prints, after the line below. */
+/* docs/reference/case-files.md holds what case_print_keys prints, after the line below. */
 static void manual_is_up_to_date(void **state)
 {
     (void)state;
@@ -682,7 +682,7 @@ static void manual_is_up_to_date(void **state)
         fputs(keys, copy);
         fclose(copy);
     }
-    char *manual = read_file(BREECH_TESTS "/../docs/case-files.md");
+    char *manual = read_file(BREECH_TESTS "/../docs/reference/case-files.md");
     const char *at = strstr(manual, start);
     assert_non_null(at);
     assert_string_equal(at + strlen(start), keys);

@@ -199,7 +199,7 @@ static void manual_lists_every_key(void **state)
     free(text);
 }
 
-/* docs/output.md holds what the tables print: a key added or renamed must be seen there. */
+/* docs/reference/output.md holds what the tables print: a key added or renamed must be seen there. */
 static void manual_is_up_to_date(void **state)
 {
     (void)state;
@@ -215,7 +215,7 @@ static void manual_is_up_to_date(void **state)
     fclose(out);
     OK(host_file_write("output-keys.md", text, strlen(text))); /* to paste from */
     OK(host_file_write("output-columns.md", columns, strlen(columns)));
-    OK(host_file_read(BREECH_TESTS "/../docs/output.md", &page, NULL));
+    OK(host_file_read(BREECH_TESTS "/../docs/reference/output.md", &page, NULL));
     assert_non_null(strstr(page, text));
     assert_non_null(strstr(page, columns));
     free(page);

@@ -12,7 +12,7 @@
  *   else:         h = h_s,                tau = eta v/h         full film, some of it goes out in front          (C-21)
  *   eta = eta_0 (1 + 0.0012 Re^0.94),  Re = 2 rho w l/eta_0     turbulent films: ng1965, constantinescu's fit; Re of
  *   the flux that leaves
- * docs/shot.md derives it.  Sources of the parts: melting at the contact stiffler1984; streaks as in elrod1981.
+ * docs/theory/circuit.md derives it.  Sources: melting at the contact stiffler1984; streaks as in elrod1981.
  * Limits that hold: h is below 2 w l/v and below h_s; P -> 0 gives h = 2 w l/v; v -> 0 gives tau -> 0; both laws for
  * tau agree where they meet. stiffler1984: J. Tribology 106, 416.  elrod1981: J. Lubr. Technol. 103, 350.  ng1965: C.
  * W. Ng, C. H. T. Pan, J. Basic Eng. 87, 675. */

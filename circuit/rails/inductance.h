@@ -7,8 +7,8 @@
 #include "circuit/rails/impedance.h"
 #include "circuit/rails/section.h"
 
-/* Cells over the skin depth at the highest frequency: L' within 0.25 %, R' within 0.3 % (docs/shot.md has the curve).
- */
+/* Cells over the skin depth at the highest frequency: L' within 0.25 %, R' within 0.3 % (curve:
+ * docs/theory/circuit.md). */
 #define INDUCTANCE_FINENESS 4.0
 
 /* Kerrisk's closed formula for two rectangular perfect conductors, height h, thickness w, separation s [m]: within 1.5

@@ -24,8 +24,8 @@ double _Complex circuit_ladder_at(const ladder *l, double _Complex s); /* [1/s] 
 double circuit_ladder_slow_inductance(const ladder *l);                /* L' at direct current [H/m] */
 
 /* As many rungs as `error` [1] asks for up to omega_top [rad/s].  R_dc and the filaments' L' at infinite frequency are
- * met exactly, by Galerkin's projection on the current distributions of a few real frequencies (docs/shot.md).
- * STATUS_NUMERICAL if LADDER_MAX_RUNGS do not do. */
+ * met exactly, by Galerkin's projection on the current distributions of a few real frequencies
+ * (docs/theory/circuit.md).  STATUS_NUMERICAL if LADDER_MAX_RUNGS do not do. */
 status circuit_ladder_fit(const impedance *z, double omega_top, double error, ladder *out);
 
 #ifdef __cplusplus

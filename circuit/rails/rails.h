@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The pair of rails as a moving load: a ladder (circuit/rails/ladder.h) for every slice of rail, each from the instant
- * at which the armature exposes it, summed exactly over all slices.  docs/shot.md derives it.  With j_k the current in
- * rung k's inductance,
+ * at which the armature exposes it, summed exactly over all slices.  docs/theory/circuit.md derives it.
+ * With j_k the current in rung k's inductance,
  *   Q_k = int_0^x j_k dx',  W_k = int_0^x j_k^2 dx',  tau_k = L_k/R_k,
  *   V_rails = d(L_inf x I + sum L_k Q_k)/dt + R_dc x I
  *   dQ_k/dt = (x I - Q_k)/tau_k + v a_k I,   dW_k/dt = 2 (I Q_k - W_k)/tau_k + v a_k^2 I^2                 (C-1)

@@ -22,7 +22,7 @@ void gouge_job_free(gouge_job *job)
 }
 
 /* The lost metal keeps its own speed's worth of impulse out of the sum: circuit_shot_jump books it with the mass
- * (docs/onset.md). */
+ * (docs/theory/onset.md). */
 static void book_losses(const gouge_scene *s, const gouge_watch *w, double time, impact *out)
 {
     const gouge_metal *before = &w->state.start, *after = &w->end;

@@ -9,7 +9,7 @@
  *   run_scenes_some   at least one more of these: for a study that can go on with whichever comes first
  *   run_scenes_ahead  these may be asked for next: for processes that would be idle
  * One process computes in the order of the list, one at a time, and nothing ahead; several share the work
- * (docs/onset.md).  A study stays sequential in its thinking and parallel in its scenes where its searches are
+ * (docs/theory/onset.md).  A study stays sequential in its thinking and parallel in its scenes where its searches are
  * continuations (search/threshold.h): tell each what run_scenes_find knows until it needs more, run_scenes_some of what
  * all of them need, again until none needs any.  What a search concludes may depend on its own outcomes alone, never on
  * which scene came first or on what else is known: then the answer is the same for any number of processes. */

@@ -9,7 +9,7 @@
 #include <string.h>
 
 static const double DOUBT = 0.05;        /* probability from which the screen alone leaves it open */
-static const double TRUSTED_CELLS = 3.0; /* a radius: below, the threshold hangs on the resolution (docs/onset.md) */
+static const double TRUSTED_CELLS = 3.0; /* a radius; below, cells decide the threshold (docs/theory/onset.md) */
 
 /* ---- a grain's threshold at a velocity ---- */
 
@@ -312,7 +312,7 @@ static status list_surface(onset_answer *a)
     return status_ok();
 }
 
-/* A layer thinner than a cell is a film (docs/onset.md). */
+/* A layer thinner than a cell is a film (docs/theory/onset.md). */
 static void warn_of_films(session *s, const onset_answer *a)
 {
     const case_onset *c = a->grains.c;
@@ -340,7 +340,7 @@ static void warn_of_thresholds(session *s, const onset_answer *a)
         run_session_warn(
             s,
             "thresholds at %g cells a radius: below %g they come out up to twice too high, by more than the interval "
-            "allows for (docs/onset.md)",
+            "allows for (docs/theory/onset.md)",
             y->fine_cells_per_radius, TRUSTED_CELLS);
 }
 

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double LEAST_RISE = 10.0;  /* below, a threshold moves by less than half a per cent (docs/onset.md) [K] */
+static const double LEAST_RISE = 10.0;  /* below, a threshold moves by less than 0.5 % (docs/theory/onset.md) [K] */
 static const double RISE_STEP = 25.0;   /* so that scenes are shared [K] */
 static const double NEAR_MELTING = 0.8; /* of the rise to melting, by the first shot alone */
 static const double SAME_FLIGHT = 1.0;  /* of the rails' mean temperature [K] */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The material law of one body, constants derived once (mpm_law_make) for the kernels: one law of strength, one
  * equation of state and one law of failure of the three tables strength.def, eos.def, failure.def, temperature from
- * energy (M-4) and viscosity (M-5).  law_lanes.h puts them together to a step.  See docs/scene-solver.md. */
+ * energy (M-4) and viscosity (M-5).  law_lanes.h puts them together to a step.  See docs/theory/scene-solver.md. */
 #ifndef BREECH_MPM_LAW_H
 #define BREECH_MPM_LAW_H
 

@@ -70,7 +70,7 @@ typedef struct {
 
 /* A box that the surface passes through is cut: its part inside is a point at its centroid, with the part's variance
  * along each axis.  With whole boxes alone every face that is oblique to the lattice would be a staircase, and contact
- * normals would be those of its steps (docs/scene-solver.md, V7b). */
+ * normals would be those of its steps (docs/theory/scene-solver.md, V7b). */
 static void cut(const mpm_scene *s, int body, piece *p)
 {
     enum { PARTS = 4, ALL = PARTS * PARTS * PARTS };         /* an axis; in all */
@@ -187,7 +187,7 @@ typedef status box_function(const building *w, const piece *window, uint64_t num
 
 static status one_box(const building *w, const piece *window, uint64_t number, void *user)
 {
-    static const double SLIVER = 0.02; /* of a box: left out (docs/scene-solver.md, Points of a body) */
+    static const double SLIVER = 0.02; /* of a box: left out (docs/theory/scene-solver.md, Points of a body) */
     const int n = parts_of(w, window);
     (void)user;
     const uint64_t all = (uint64_t)n * (uint64_t)n * (uint64_t)n;

@@ -7,7 +7,7 @@
   --threads N                        of each run; --only TEXT: commands that contain it
 
 Behind the paragraph or table that states figures stands a comment: the command, then a list as in expected.yaml
-(docs/output.md, "What a case expects").  PAGE: README.md, docs/onset.md ..; default all.
+(docs/reference/output.md, "What a case expects").  PAGE: README.md, docs/theory/onset.md ..; default all.
 
   <!-- figures: breech onset cases/default_shot
   - {key: threshold_velocity, value: 697 m/s, within: 5 %}

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Validations V1 .. V13 (the list is in docs/scene-solver.md): small scenes with closed answers, each run at several
- * cell sizes.  breech-validate prints them as curves, error against cell size and against run time; tests/test_valid.c
- * holds the coarse ones to limits, the rest too with BREECH_FULL=1.
+/* Validations V1 .. V13 (the list is in docs/theory/scene-solver.md): small scenes with closed answers, each run at
+ * several cell sizes.  breech-validate prints them as curves, error against cell size and against run time;
+ * tests/test_valid.c holds the coarse ones to limits, the rest too with BREECH_FULL=1.
  *
  * To add one: a function of type `valid_case.run` in a file here and a line in valid.c's table.  Every run keeps
  * momentum and mass to rounding (V11): valid_finish books it, the test looks. */
