@@ -926,6 +926,29 @@ static void test_two_speeds(void **state)
     study_onset_answer_free(&a);
 }
 
+/* study.max_scenes is never passed, whichever search it runs out in; the scratch velocity then is what the scenes of
+ * the gouge's search say, or not known. */
+static void test_max_scenes(void **state)
+{
+    (void)state;
+    char most[32];
+    counter.tear_drop = 1650.0;
+    for (int scenes = 3; scenes <= 6; scenes += 3) {
+        snprintf(most, sizeof most, "study.max_scenes=%d", scenes);
+        breech_case *c = changed_case((const char *const[]){ "study.scratch=yes", most, NULL });
+        onset_answer a;
+        OK(study(c, "most", FORCE, &a));
+        if (counter.scenes > scenes) fail_msg("%d scenes run of %d", counter.scenes, scenes);
+        assert_int_equal(a.result.scenes_run, counter.scenes);
+        assert_true(a.grains.family[0].scratches.samples > 0);
+        if (!isnan(a.result.scratch_velocity))
+            assert_true(a.result.scratch_interval[0] <= 1430.0 && a.result.scratch_interval[1] >= 1430.0);
+        study_onset_answer_free(&a);
+        case_free(c);
+    }
+    counter.tear_drop = 0.0;
+}
+
 /* Where growth says that grains gouge for sure but their whole scenes are scratches, nothing is decided. */
 static void test_contradicted(void **state)
 {
@@ -1041,6 +1064,7 @@ int main(void)
         cmocka_unit_test(test_hard_film),
         cmocka_unit_test(test_contradicted),
         cmocka_unit_test(test_two_speeds),
+        cmocka_unit_test(test_max_scenes),
         cmocka_unit_test(test_two_kinds),
         cmocka_unit_test(test_resume),
         cmocka_unit_test(test_other_case),

@@ -31,6 +31,7 @@ typedef struct {
     int number;               /* of the family, from 1 */
     family_judge judge;       /* whose search is under way */
     surface_search surface[FAMILY_JUDGES];
+    bool spent; /* the first search left no scene to the second: that one takes those of the first alone */
     bool in_craters;
     int n_craters; /* not known yet */
     family_wanted crater[TOGETHER];
@@ -171,7 +172,8 @@ static status begin_scratches(family_search *s)
 {
     surface_plan *p = &s->family->scratch_plan;
     const int all = s->family->plan.search.max_scenes, used = s->surface[JUDGE_OF_GOUGE].result.samples;
-    p->search.max_scenes = all > used ? all - used : 1;
+    s->spent = used >= all;
+    p->search.max_scenes = s->spent ? 1 : all - used; /* one, to ask for those of the first */
     s->judge = JUDGE_OF_SCRATCH;
     return study_surface_begin(p, &s->surface[JUDGE_OF_SCRATCH]);
 }
@@ -345,6 +347,13 @@ static bool keep(grain_family *f, const family_wanted *w, const scene_record *re
     return true;
 }
 
+/* The search of scratches asks for a scene that is not known, and has none left. */
+static status end_scratches(family_search *s)
+{
+    study_surface_stop(&s->surface[JUDGE_OF_SCRATCH]);
+    return next_stage(s);
+}
+
 /* Tells the search all that is known, until it needs what is not: n scenes of needed. */
 static status go_on(session *s, family_search *search, scene_query needed[TOGETHER], int *n)
 {
@@ -365,6 +374,10 @@ static status go_on(session *s, family_search *search, scene_query needed[TOGETH
             const bool fresh = keep(search->family, &wanted[i], record);
             if (!fresh && search->judge == JUDGE_OF_SCRATCH) search->family->scratch_plan.search.max_scenes++;
             TRY(tell(search, &wanted[i], &is));
+        }
+        if (*n > 0 && search->spent && !search->in_craters) {
+            TRY(end_scratches(search));
+            *n = 0;
         }
     } while (*n < asked);
     if (*n > 0) return status_ok();

@@ -323,13 +323,12 @@ static bool at_reference(const surface_search *s)
     return s->reference.stage != THRESHOLD_OVER;
 }
 
-static void end_reference(surface_search *s)
+static void take_answer_of_reference(surface_search *s)
 {
     surface_result *r = &s->result;
     r->reference = s->reference.result;
     memcpy(r->warning, r->reference.warning, sizeof r->warning);
     r->monotone = r->reference.monotone;
-    ask_sizes(s);
 }
 
 /* What the reference search has taken up, in its order. */
@@ -379,13 +378,25 @@ status study_surface_tell(surface_search *s, const surface_sample *answer)
     if (at_reference(s)) {
         TRY(study_threshold_tell(&s->reference, &answer->is));
         take_reference(s);
-        if (!at_reference(s)) end_reference(s);
+        if (at_reference(s)) return status_ok();
+        take_answer_of_reference(s);
+        ask_sizes(s);
         return status_ok();
     }
     assert(!s->over && answer->radius == s->next.radius && answer->is.velocity == s->next.velocity);
     r->sample[r->samples++] = *answer;
     ask_sizes(s);
     return status_ok();
+}
+
+void study_surface_stop(surface_search *s)
+{
+    if (s->over) return;
+    if (at_reference(s)) {
+        study_threshold_stop(&s->reference);
+        take_answer_of_reference(s);
+    }
+    conclude(s);
 }
 
 surface_size study_surface_at(const surface_result *s, double radius)

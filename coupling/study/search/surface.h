@@ -77,6 +77,8 @@ status study_surface_begin(const surface_plan *plan, surface_search *out);
 int study_surface_ask(const surface_search *s, surface_wanted out[THRESHOLD_TOGETHER]);
 /* The answer of one of them.  STATUS_NUMERICAL: it has no excess; the search is where it was. */
 status study_surface_tell(surface_search *s, const surface_sample *answer);
+/* Ends the search with what it has been told; the open question is dropped. */
+void study_surface_stop(surface_search *s);
 
 /* At any size: linear in ln r between sizes, that of the last size beyond the ends. */
 surface_size study_surface_at(const surface_result *s, double radius);

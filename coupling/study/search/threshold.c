@@ -39,6 +39,7 @@ static double on_grid(const threshold_search *s, double v)
 static int budget_left(const threshold_search *s)
 {
     const int most = s->plan->max_scenes < THRESHOLD_MAX_SAMPLES ? s->plan->max_scenes : THRESHOLD_MAX_SAMPLES;
+    if (s->stopped) return 0;
     return most - s->result.samples - s->reserved;
 }
 
@@ -315,8 +316,8 @@ static void conclude_short(threshold_search *s)
     threshold_result *r = &s->result;
     r->shift = driven(&s->coarse, &s->refined);
     conclude(s, &s->coarse);
-    warn(r, "study.max_scenes = %d spent before %g cells a radius had a bracket: the threshold is that of %g cells",
-         p->max_scenes, p->fine, p->coarse);
+    warn(r, "study.max_scenes spent before %g cells a radius had a bracket: the threshold is that of %g cells", p->fine,
+         p->coarse);
     if (isnan(r->shift)) return;
     r->velocity += r->shift;
     warn(r, "moved to %g m/s, where %g cells %s", r->velocity, p->fine,
@@ -501,4 +502,12 @@ status study_threshold_tell(threshold_search *s, const threshold_sample *answer)
     s->told[i] = true;
     go_on(s);
     return status_ok();
+}
+
+void study_threshold_stop(threshold_search *s)
+{
+    if (s->stage == THRESHOLD_OVER) return;
+    s->stopped = true;
+    s->n_asked = 0;
+    conclude_all(s);
 }

@@ -122,6 +122,7 @@ typedef struct {
     int n_asked;                                /* of the question that is open; 0: the search is over */
     threshold_sample asked[THRESHOLD_TOGETHER]; /* rising in velocity; an answer where it was told */
     bool told[THRESHOLD_TOGETHER];
+    bool stopped; /* it asks for nothing more */
 } threshold_search;
 
 /* STATUS_BAD_INPUT: the plan makes no sense. */
@@ -130,6 +131,8 @@ status study_threshold_begin(const threshold_plan *plan, threshold_search *out);
 int study_threshold_ask(const threshold_search *s, threshold_wanted out[THRESHOLD_TOGETHER]);
 /* The answer of one of them.  STATUS_NUMERICAL: it has no excess; the search is where it was. */
 status study_threshold_tell(threshold_search *s, const threshold_sample *answer);
+/* Ends the search with what it has been told, as if max_scenes were spent; the open question is dropped. */
+void study_threshold_stop(threshold_search *s);
 
 /* Does a sample speak for a gouge?  An undecided one by its excess. */
 bool study_threshold_is_upper(const threshold_sample *s);
