@@ -287,6 +287,31 @@ static void the_table_says_what_cases_say(void **state)
     free(text);
 }
 
+/* What no source gives is not assumed: the refusal names the material and the constants. */
+static void strength_without_a_source_is_refused(void **state)
+{
+    (void)state;
+    static const char *const without[] = { "brass_c26000", "cucrzr",     "glidcop_al25",
+                                           "molybdenum",   "steel_1080", "vascomax_300" };
+    for (size_t k = 0; k < sizeof without / sizeof without[0]; k++) {
+        const case_options how = { .material_dirs = dirs, .n_material_dirs = 1, .needs = CASE_FOR_ONSET };
+        char set[100], says[160];
+        breech_case *c = NULL;
+        char *errors = NULL;
+        snprintf(set, sizeof set, "armature.material=%s", without[k]);
+        snprintf(says, sizeof says, "material %s lacks what this study needs: ", without[k]);
+        const char *const sets[] = { set, "scene.damage=no" };
+        assert_int_equal(case_read(BREECH_TESTS "/../cases/default_shot", sets, 2, &how, &c, &errors).code,
+                         STATUS_BAD_INPUT);
+        assert_non_null(errors);
+        if (!strstr(errors, says)) print_error("wanted %s\nin %s", says, errors);
+        assert_non_null(strstr(errors, says));
+        assert_non_null(strstr(errors, "yield_A"));
+        free(errors);
+        case_free(c);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -298,6 +323,7 @@ int main(void)
         cmocka_unit_test(folders_are_found),
         cmocka_unit_test(the_laws_are_read),
         cmocka_unit_test(the_table_says_what_cases_say),
+        cmocka_unit_test(strength_without_a_source_is_refused),
     };
     return cmocka_run_group_tests(tests, open_shelf, close_shelf);
 }

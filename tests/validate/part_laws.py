@@ -10,6 +10,7 @@ from pages import Column, Table
 from runs import ROOT
 
 CURVES = "tests/data/strength_copper.csv"
+CURVES_6061 = "tests/data/strength_al6061.csv"
 LEAST_STRAIN = 0.05  # the bars of the dynamic tests ring below it (note in the file)
 ADIABATIC = 1000.0  # [1/s] tests above it keep their heat, those below lose it (note in the file)
 HEAT = 0.9  # share of the plastic work
@@ -31,6 +32,11 @@ RAIL = [
 ]
 ALUMINIUM = ["al7075_t651", "al7075_t651_limited", "al7075_t6_sg", "w17_al7075"]
 MEASURED, SATURATION = 786.0, 810.0  # [MPa]
+AL6061 = {
+    "Johnson-Cook": ("al6061_t6", {}),
+    "the other set": ("al6061_t6_konokman", {}),
+    "Steinberg-Guinan": ("al6061_t6_sg", {}),
+}
 
 
 def flow(runs, material, strain, points, rate, kelvin, **settings):
@@ -57,14 +63,14 @@ def at(strains, stresses, strain):
     return stresses[left] + (place - left) * (stresses[left + 1] - stresses[left])
 
 
-def measured_curves():
+def measured_curves(path, least_strain):
     """{name: (kelvin, rate, [(strain, MPa)])} of strains that count."""
     curves = {}
-    with open(os.path.join(ROOT, CURVES), encoding="utf-8") as file:
+    with open(os.path.join(ROOT, path), encoding="utf-8") as file:
         for row in csv.DictReader(line for line in file if not line.startswith("#")):
             curve = curves.setdefault(row["curve"], (float(row["temperature_K"]), float(row["rate_1_s"]), []))
             strain, stress = list(row.values())[3:5]
-            if float(strain) >= LEAST_STRAIN:
+            if float(strain) >= least_strain:
                 curve[2].append((float(strain), float(stress)))
     return curves
 
@@ -83,19 +89,36 @@ def percent(found):
     return "%.1f (%+.1f)" % (100 * rms, 100 * sum(found) / len(found))
 
 
-def copper(runs):
-    rows, every, dynamic = [], {title: [] for title in COPPER}, {title: [] for title in COPPER}
-    for kelvin, rate, points in measured_curves().values():
+def beside(runs, laws_of, curves):
+    """Rows of the deviations of every law from every curve; all deviations {title: [...]}, of fast tests alone and of
+    all."""
+    rows, fast, every = [], {title: [] for title in laws_of}, {title: [] for title in laws_of}
+    for kelvin, rate, points in curves.values():
         row = ["%g K, %g /s, to %.2f" % (kelvin, rate, max(e for e, _ in points))]
-        for title, (material, settings) in COPPER.items():
+        for title, (material, settings) in laws_of.items():
             found = deviations(runs, material, settings, (kelvin, rate, points))
             every[title] += found
-            dynamic[title] += found if rate > ADIABATIC else []
+            fast[title] += found if rate > ADIABATIC else []
             row.append(percent(found))
         rows.append(row)
-    rows.append(["the four at 2000 /s"] + [percent(dynamic[title]) for title in COPPER])
+    return rows, fast, every
+
+
+def columns_of(laws_of):
+    return [Column("temperature, rate, strain")] + [Column(title + " [%]", 0.05) for title in laws_of]
+
+
+def copper(runs):
+    rows, fast, every = beside(runs, COPPER, measured_curves(CURVES, LEAST_STRAIN))
+    rows.append(["the four at 2000 /s"] + [percent(fast[title]) for title in COPPER])
     rows.append(["all"] + [percent(every[title]) for title in COPPER])
-    return Table([Column("temperature, rate, strain")] + [Column(title + " [%]", 0.05) for title in COPPER], rows)
+    return Table(columns_of(COPPER), rows)
+
+
+def al6061(runs):
+    rows, _, every = beside(runs, AL6061, measured_curves(CURVES_6061, 0.0))
+    rows.append(["all"] + [percent(every[title]) for title in AL6061])
+    return Table(columns_of(AL6061), rows)
 
 
 def regime(runs, materials):
@@ -120,6 +143,13 @@ def aluminium(runs):
     columns = [Column("material"), Column("mean over strain 0 - 0.3, 6e3/s [MPa]", 0.01),
                Column("strain 1, 2e5/s [MPa]", 0.01), Column("rms of both [%]", 0.02)]
     return Table(columns, rows)
+
+
+def laws_6061(runs):
+    others = [("`%s`" % name, name, {}) for name in (*(of[0] for of in AL6061.values()), "al1100_o")]
+    return [al6061(runs), regime(runs, others)], (
+        "`breech flow`: each law of 6061-T6 from each measured curve, rms and in brackets mean, and what each gives at "
+        "300 K without heat")
 
 
 def laws(runs):

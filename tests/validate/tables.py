@@ -41,6 +41,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "fatigue": ("docs/validation/fatigue.md", part_fatigue.wheel, 3, True),
     "four-cells": ("docs/validation/growth.md", part_growth.four_cells, 16, False),
     "laws": ("docs/validation/laws.md", part_laws.laws, 1, True),
+    "laws-6061": ("docs/validation/laws.md", part_laws.laws_6061, 1, True),
     "taylor": ("docs/validation/laws.md", part_laws.taylor, 6, False),
     "strength": ("docs/validation/strength.md", part_strength.strength, 18, False),
     "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
