@@ -239,6 +239,7 @@ static unsigned needs_of(const case_inputs *in)
     if (g->bodies) needs |= CASE_FOR_SCENE;
     if (g->strike) needs |= CASE_FOR_STRIKE;
     if (g->life) needs |= CASE_FOR_LIFE;
+    if (g->vessel) needs |= CASE_FOR_VESSEL;
     if (g->rails) needs |= CASE_FOR_INDUCTANCE;
     if (g->sweep) needs |= CASE_FOR_SWEEP;
     return needs;

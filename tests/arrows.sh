@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The arrows of the design hold, and nothing else is included:
 #   tests -> coupling -> {circuit, mpm} -> base
-#   in coupling:  main -> usage -> study -> {gouge, strike, life} -> run -> scene -> {case, output, report} -> host
+#   in coupling:  main -> usage -> study -> {gouge, strike, life, vessel} -> run -> scene -> {case, output, report} -> host
 # circuit and mpm print nothing, open nothing and never exit; each outside library sits behind one file.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -81,9 +81,9 @@ room output host
 room report 'output|host'
 room scene 'case|output|host'
 room run 'scene|case|output|host'
-for what in gouge strike life; do room $what 'run|scene|case|output|host'; done
-room study 'gouge|strike|life|run|scene|case|output|report|host'
-room usage 'study|gouge|strike|life|run|scene|case|output|report|host'
+for what in gouge strike life vessel; do room $what 'run|scene|case|output|host'; done
+room study 'gouge|strike|life|vessel|run|scene|case|output|report|host'
+room usage 'study|gouge|strike|life|vessel|run|scene|case|output|report|host'
 for folder in coupling/*/; do
     folder=$(basename "$folder")
     if [[ " $rooms tools " != *" $folder "* ]]; then complain "coupling/$folder/ is no room of this script"; fi

@@ -9,6 +9,7 @@
 #include "coupling/study/strike.h"
 #include "coupling/study/study.h"
 #include "coupling/study/sweep.h"
+#include "coupling/study/vessel.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -203,6 +204,7 @@ typedef struct {
     sweep_result sweep;
     strike_result strike;
     life_result life;
+    vessel_answer vessel;
     study_answer answer[STUDIES];
 } example_results;
 
@@ -260,6 +262,11 @@ static inline void example_fill(example_results *e)
                              .crack = { .life = 17900.0, .position = 1.65e-3, .cuts = 3478, .solves = 104 },
                              .first = { .range = 4.9e-3, .position = NAN, .depth = 1e-4, .angle = 0.6 } };
     e->answer[STUDY_life].result = &e->life;
+    e->vessel.is = (vessel_result){ .burst = true,
+                                    .rupture = { .time = 0.75, .swelling = 1.42, .pressure = 148e3, .damage = 1.0 },
+                                    .vent_time = 3e-5,
+                                    .steps = 250 };
+    e->answer[STUDY_vessel].result = &e->vessel;
     e->answer[STUDY_strike] = (study_answer){ .result = &e->strike, .shot = &e->shot };
 }
 

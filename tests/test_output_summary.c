@@ -44,6 +44,7 @@ static const char *const kind_keys[STUDIES][32] = {
                        "deflection", "failed_volume", "debris_mass", "limit_velocity", "limit_interval", "arrivals",
                        "bodies", "probes", "energy_error", "wall_seconds" },
     [STUDY_life] = { "life", "life_first", "life_position", "life_depth", "life_angle", "wall_seconds" },
+    [STUDY_vessel] = { "burst", "rupture_time", "rupture_swelling", "rupture_pressure", "vent_time", "wall_seconds" },
     [STUDY_compare] = { "ranking" },
     [STUDY_sweep] = { "of", "resolution", "units", "sweep", "wall_seconds" },
     [STUDY_inductance] = { "L_gradient", "R_gradient", "frequency", "L_gradient_high_frequency" },
@@ -212,6 +213,7 @@ static void manual_is_up_to_date(void **state)
     output_history_print_all_columns(out);
     gouge_watch_print_columns(out);
     scene_probe_print_columns(out);
+    study_vessel_print_columns(out);
     fclose(out);
     OK(host_file_write("output-keys.md", text, strlen(text))); /* to paste from */
     OK(host_file_write("output-columns.md", columns, strlen(columns)));

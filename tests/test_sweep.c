@@ -108,7 +108,7 @@ static void test_refused(void **state)
         { "{of: shot, vary: [{key: bank.charge, values: [8 kV]}], read: [peak_curent]}",
           "did you mean `peak_current`?" },
         { "{of: onset, vary: [{key: bank.charge, values: [8 kV]}]}",
-          "must be one of shot, scene, strike, life, inductance" },
+          "must be one of shot, scene, strike, life, vessel, inductance" },
         { "{of: shot, together: yes, vary: [{key: bank.charge, values: [1 kV, 2 kV]}, {key: armature.mass, values: "
           "[1 kg]}]}",
           "1 values, vary[0] has 2" },

@@ -29,6 +29,7 @@ typedef struct breech_case {
     case_sweep sweep;
     case_strike strike;
     case_life life;
+    case_vessel vessel;
     case_output output;
     case_materials materials; /* every material the case names, loaded */
     case_given given;

@@ -135,6 +135,7 @@ static const command_name commands[] = {
     { CASE_FOR_STRIKE, "breech strike" },   { CASE_FOR_SHOT, "breech shot" },
     { CASE_FOR_SCENE, "breech scene" },     { CASE_FOR_INDUCTANCE, "breech inductance" },
     { CASE_FOR_SWEEP, "breech sweep" },     { CASE_FOR_LIFE, "breech life" },
+    { CASE_FOR_VESSEL, "breech vessel" },
 };
 
 static const char *command_of(unsigned needs)
@@ -256,7 +257,10 @@ static unsigned material_needs(const case_reader *r, const material_use *use)
     const unsigned needs = r->options->needs;
     static const char *const meeting[] = { "rail.material", "armature.material", ".rail_metal.", ".armature_metal." };
     const bool lasts = (needs & CASE_FOR_LIFE) && strcmp(use->key, "life.material") == 0;
-    const unsigned wanted = lasts ? MATERIAL_FOR_FATIGUE : 0;
+    const bool shell = (needs & CASE_FOR_VESSEL) && strcmp(use->key, "vessel.film_material") == 0;
+    const bool filling = (needs & CASE_FOR_VESSEL) && strcmp(use->key, "vessel.liquid_material") == 0;
+    const unsigned wanted = (lasts ? MATERIAL_FOR_FATIGUE : 0) |
+                            (shell ? MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE : 0) | (filling ? MATERIAL_FOR_SCENE : 0);
     bool meets = false;
     if (!(needs & (CASE_FOR_SCENE | CASE_FOR_ONSET))) return wanted;
     for (size_t k = 0; k < sizeof meeting / sizeof meeting[0]; k++)

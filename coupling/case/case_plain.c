@@ -159,6 +159,7 @@ case_inputs case_inputs_of(const breech_case *c)
                           .sweep = c->sweep,
                           .strike = c->strike,
                           .life = c->life,
+                          .vessel = c->vessel,
                           .output = c->output,
                           .file = c };
 }

@@ -85,6 +85,7 @@ typedef struct {
     case_sweep sweep;
     case_strike strike;
     case_life life;
+    case_vessel vessel;
     case_output output;
     const struct breech_case *file; /* what it was made from; for this folder alone */
 } case_inputs;

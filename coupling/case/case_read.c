@@ -125,6 +125,13 @@ void case_note_material(case_reader *r, const char *name, const tree_node *where
     use->where = where;
 }
 
+/* `material`, `film_material`, .. */
+static bool names_material(const char *key)
+{
+    const size_t n = strlen(key), whole = strlen("material");
+    return n >= whole && strcmp(key + n - whole, "material") == 0;
+}
+
 static void read_text(case_reader *r, const param *p, const tree_node *node, char *member, const char *path)
 {
     if (strlen(node->text) >= PARAM_TEXT_SIZE) {
@@ -137,7 +144,7 @@ static void read_text(case_reader *r, const param *p, const tree_node *node, cha
         return;
     }
     snprintf(member, PARAM_TEXT_SIZE, "%s", node->text);
-    if (strcmp(p->key, "material") == 0 && node->text[0] != '\0') case_note_material(r, node->text, node, path);
+    if (names_material(p->key) && node->text[0] != '\0') case_note_material(r, node->text, node, path);
 }
 
 /* "0 -50 50 mm": three numbers and the unit of all. */

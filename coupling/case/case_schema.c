@@ -270,6 +270,40 @@ static const param life_params[] = {
     PARAMS_END,
 };
 
+static const char *const vessel_shape_names[] = { [VESSEL_CYLINDER] = "cylinder", [VESSEL_SPHERE] = "sphere", NULL };
+
+static const param vessel_params[] = {
+    PARAM_ENUM(case_vessel, shape, vessel_shape_names, VESSEL_CYLINDER,
+               "cylinder: a metre of it in plane strain; sphere"),
+    PARAM_DOUBLE(case_vessel, radius, "m", REQUIRED, 1e-7, 100.0, "outer, at the start"),
+    PARAM_DOUBLE(case_vessel, film_thickness, "m", REQUIRED, 1e-9, 10.0, "of the shell, at the start"),
+    PARAM_STRING(case_vessel, film_material, NULL, "of the shell, with strength and failure"),
+    PARAM_STRING(case_vessel, liquid_material, NULL, "inside it, about the bubbles"),
+    PARAM_INT(case_vessel, layers, 8, 1, 256, "of the film, each with one strain; it bursts when one has failed"),
+    PARAM_DOUBLE(case_vessel, ambient, "Pa", 101325.0, 1.0, 1e9, "absolute pressure around it"),
+    PARAM_DOUBLE(case_vessel, temperature, "K", 293.15, 1.0, 1e4, "of all of it, for good"),
+    PARAM_DOUBLE(case_vessel, critical_temperature, "K", OPTIONAL, 1.0, 1e4,
+                 "of the gas, with critical_pressure: Redlich and Kwong; not given: an ideal gas"),
+    PARAM_DOUBLE(case_vessel, critical_pressure, "Pa", OPTIONAL, 1e3, 1e9, "of the gas"),
+    PARAM_DOUBLE(case_vessel, growth, "1", REQUIRED, 0.0, 1e4,
+                 "Jakob number Ja of the bubbles' growth, superheat times heat capacities over latent heat"),
+    PARAM_DOUBLE(case_vessel, diffusivity, "m^2/s", REQUIRED, 1e-12, 1.0, "of heat in the liquid"),
+    PARAM_DOUBLE(case_vessel, hole, "m", REQUIRED, 1e-9, 10.0,
+                 "diameter of the hole that bursts; of a cylinder the width of a slit"),
+    PARAM_DOUBLE(case_vessel, discharge, "1", 0.8, 1e-3, 1.0, "coefficient of the flow through it"),
+    PARAM_DOUBLE(case_vessel, molar_mass, "kg/mol", 0.029, 1e-3, 1.0, "of the gas that leaves"),
+    PARAM_DOUBLE(case_vessel, gas_gamma, "1", 1.3, 1.01, 5.0 / 3.0 + 1e-9, "ratio of its specific heats"),
+    PARAM_DOUBLE(case_vessel, surface_tension, "N/m", 0.0, 0.0, 10.0,
+                 "of the liquid: its pressure in a bubble is reported and left out"),
+    PARAM_DOUBLE(case_vessel, end_time, "s", REQUIRED, 1e-9, 1e9, "where it has not burst and emptied before"),
+    PARAMS_END,
+};
+
+static const param bubble_params[] = {
+    PARAM_DOUBLE(case_bubble, radius, "m", REQUIRED, 1e-9, 100.0, "at the start"),
+    PARAMS_END,
+};
+
 static const param life_point_params[] = {
     PARAM_DOUBLE(case_life_point, at, "1", REQUIRED, -1.0, 1.0, "place over half_length"),
     PARAM_DOUBLE(case_life_point, pressure, "1", REQUIRED, 0.0, 1.0, "there, over the largest"),
@@ -315,6 +349,17 @@ static const case_section life_children[] = {
     END_OF_SECTIONS,
 };
 
+static const case_section vessel_children[] = {
+    { .key = "bubbles",
+      .doc = "Bubbles in the liquid, a list; gas leaves through the hole from the largest.",
+      .table = bubble_params,
+      .offset = offsetof(case_vessel, bubbles),
+      .size = sizeof(case_bubble),
+      .given = NO_FLAG,
+      .list = true },
+    END_OF_SECTIONS,
+};
+
 static const case_section population_children[] = {
     { .key = "sizes",
       .doc = "Tabulated sizes in place of log-normal ones, a list.",
@@ -348,7 +393,7 @@ static const case_section treatment_children[] = {
 };
 
 static const param sweep_params[] = {
-    PARAM_STRING(case_sweep, of, "scene", "the study to run: scene, shot, strike, life, inductance"),
+    PARAM_STRING(case_sweep, of, "scene", "the study to run: scene, shot, strike, life, vessel, inductance"),
     PARAM_BOOL(case_sweep, together, 0, "the lists of values go on together; no: all combinations"),
     PARAMS_END,
 };
@@ -466,6 +511,8 @@ static const case_section sections[] = {
     { SECTION(life, life_params, CASE_FOR_LIFE,
               "A load that comes again and again, and how long the rail lasts under it."),
       .children = life_children, .size = sizeof(case_life) },
+    { SECTION(vessel, vessel_params, CASE_FOR_VESSEL, "Gas in liquid inside a ductile shell, which swells and bursts."),
+      .children = vessel_children, .size = sizeof(case_vessel) },
     { SECTION(output, output_params, 0, "What is written."), .size = sizeof(case_output) },
     { .key = "materials",
       .doc = "Materials given in the case itself, a list: used.yaml has them. They come before the files of "

@@ -30,7 +30,8 @@ enum {
     CASE_FOR_BODIES = 32,    /* takes the place of CASE_FOR_SCENE where `scene` has bodies of its own */
     CASE_FOR_SWEEP = 64,     /* sweep, and what it runs needs */
     CASE_FOR_STRIKE = 128,   /* strike, a scene with bodies; without strike.velocity the shot, if there is a supply */
-    CASE_FOR_LIFE = 256      /* life; its material's constants of elasticity and fatigue */
+    CASE_FOR_LIFE = 256,     /* life; its material's constants of elasticity and fatigue */
+    CASE_FOR_VESSEL = 512    /* vessel; its film's constants of strength and failure */
 };
 
 /* A layer of the rail's surface, the first in the list at the bottom. */
@@ -261,6 +262,35 @@ typedef struct {
     case_life_points points;            /* of LIFE_POINTS */
 } case_life;
 
+/* Gas in liquid inside a shell that swells and bursts (coupling/vessel). */
+typedef enum { VESSEL_CYLINDER, VESSEL_SPHERE } vessel_shape;
+
+typedef struct {
+    double radius; /* at the start [m] */
+} case_bubble;
+
+typedef struct {
+    int n;
+    case_bubble *item; /* n, owned by the case */
+} case_bubbles;
+
+typedef struct {
+    int shape;                     /* vessel_shape */
+    double radius, film_thickness; /* outer radius, at the start [m] */
+    char film_material[PARAM_TEXT_SIZE];
+    char liquid_material[PARAM_TEXT_SIZE];
+    int layers;                                     /* of the film */
+    double ambient, temperature;                    /* [Pa, K] */
+    double critical_temperature, critical_pressure; /* of the gas; NAN: it is ideal [K, Pa] */
+    double growth;                                  /* Jakob number Ja of (G-4) [1] */
+    double diffusivity;                             /* of heat in the liquid [m2/s] */
+    double hole, discharge;                         /* diameter, coefficient of the orifice [m, 1] */
+    double molar_mass, gas_gamma;                   /* of the gas that leaves [kg/mol, 1] */
+    double surface_tension;                         /* [N/m] */
+    double end_time;                                /* [s] */
+    case_bubbles bubbles;
+} case_vessel;
+
 /* What a study takes for the onset of gouging: the groove's growth, or the crater's severity. */
 typedef enum { JUDGE_GROWTH, JUDGE_SEVERITY } study_judge;
 
@@ -341,7 +371,7 @@ typedef struct {
 typedef struct {
     bool supplies[SUPPLY_KINDS];
     bool rails, barrel, armature, options, optimise, rail, projectile, particle, sites, populations, treatments, scene,
-        study, sweep, strike, life, output;
+        study, sweep, strike, life, vessel, output;
     bool bodies; /* scene.bodies: then `scene` is not given */
 } case_given;
 

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "mpm/law/gas.h"
+
+#include <math.h>
+
+const double mpm_gas_constant = 8.31446261815324;
+
+mpm_gas mpm_gas_make(double temperature, double critical_temperature, double critical_pressure)
+{
+    const double R = mpm_gas_constant, Tc = critical_temperature, pc = critical_pressure;
+    if (isnan(Tc) || isnan(pc)) return (mpm_gas){ .temperature = temperature };
+    return (mpm_gas){ temperature, 0.42748 * R * R * pow(Tc, 2.5) / pc, 0.08664 * R * Tc / pc };
+}
+
+double mpm_gas_pressure(const mpm_gas *g, double v)
+{
+    return mpm_gas_constant * g->temperature / (v - g->b) - g->a / (sqrt(g->temperature) * v * (v + g->b));
+}
+
+static double slope(const mpm_gas *g, double v)
+{
+    const double b = g->b;
+    return -mpm_gas_constant * g->temperature / ((v - b) * (v - b)) +
+           g->a * (2 * v + b) / (sqrt(g->temperature) * v * v * (v + b) * (v + b));
+}
+
+/* Where the pressure of an isotherm below the critical one has its maximum; b where it has none. */
+static double turn(const mpm_gas *g)
+{
+    double lo = g->b, hi = g->b;
+    for (double v = 1.02 * g->b; v < 1e4 * g->b; v *= 1.02)
+        if (slope(g, v) > 0) lo = v, hi = 1.02 * v;
+    for (int i = 0; i < 60 && lo > g->b; i++) *(slope(g, 0.5 * (lo + hi)) > 0 ? &lo : &hi) = 0.5 * (lo + hi);
+    return lo;
+}
+
+double mpm_gas_condenses(const mpm_gas *g)
+{
+    const double v = g->a > 0 ? turn(g) : g->b;
+    return v > g->b ? mpm_gas_pressure(g, v) : INFINITY;
+}
+
+/* Newton's method from above, where the pressure is convex; an ideal gas is there at once. */
+double mpm_gas_molar_volume(const mpm_gas *g, double pressure)
+{
+    enum { ITERATIONS = 100 };
+    double v = mpm_gas_constant * g->temperature / pressure + g->b;
+    for (int i = 0; i < ITERATIONS; i++) {
+        const double step = (mpm_gas_pressure(g, v) - pressure) / slope(g, v);
+        v -= step;
+        if (fabs(step) < 1e-15 * v) break;
+    }
+    return v;
+}

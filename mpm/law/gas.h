@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A gas at one temperature in a cavity, by Redlich and Kwong (Chemical Reviews 44 (1949) 233):
+ *   p = R T/(v - b) - a/(sqrt(T) v (v + b)),   a = 0.42748 R^2 T_c^2.5/p_c,   b = 0.08664 R T_c/p_c               (G-1)
+ * with v the volume of a mole.  a = b = 0 is the ideal gas. */
+#ifndef BREECH_MPM_GAS_H
+#define BREECH_MPM_GAS_H
+
+typedef struct {
+    double temperature; /* [K] */
+    double a, b;        /* [Pa m6 K^0.5/mol2, m3/mol] */
+} mpm_gas;
+
+extern const double mpm_gas_constant; /* R [J/(mol K)] */
+
+/* Of a gas whose critical point is known; NAN, NAN: an ideal gas [K, K, Pa]. */
+mpm_gas mpm_gas_make(double temperature, double critical_temperature, double critical_pressure);
+
+double mpm_gas_pressure(const mpm_gas *g, double molar_volume); /* absolute [Pa] */
+double mpm_gas_molar_volume(const mpm_gas *g, double pressure); /* of the vapour: the largest [m3/mol] */
+double mpm_gas_condenses(const mpm_gas *g); /* pressure beyond which there is no vapour; INFINITY: none [Pa] */
+
+#endif

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "mpm/law/law_point.h"
+
+#include "mpm/law/law_lanes.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct mpm_point_law {
+    law law;
+    law_form form;
+    double T, T_star; /* [K, 1] */
+    double mu, e;     /* compression and energy at no pressure [1, J/kg] */
+};
+
+status mpm_point_law_make(const material *m, double temperature, mpm_point_law **out)
+{
+    const size_t line = 64, size = (sizeof **out + line - 1) / line * line;
+    mpm_scene scene;
+    mpm_scene_default(&scene);
+    const mpm_body body = { .material = m,
+                            .temperature = temperature,
+                            .yield_scale = 1,
+                            .cold_work = NAN,
+                            .damage = mpm_material_shear(m) != SHEAR_NONE };
+    mpm_point_law *k = *out = aligned_alloc(line, size);
+    CHECK(k, STATUS_MEMORY, "no memory for a law");
+    memset(k, 0, size);
+    const status made = mpm_law_make(&body, &scene, &k->law);
+    k->form = law_form_of(&k->law, k->law.kernel);
+    k->T = temperature;
+    k->T_star = fmin(fmax((temperature - k->law.T_r) * k->law.inv_T_range, 0), 1);
+    k->mu = k->law.rho_start * k->law.volume0 - 1, k->e = k->law.e_start;
+    if (made.code != STATUS_OK) free(k), *out = NULL;
+    return made;
+}
+
+void mpm_point_law_free(mpm_point_law *k)
+{
+    free(k);
+}
+
+static double fast(const mpm_point_law *k, const mpm_law_point *at)
+{
+    return at->rate * k->law.inv_rate0;
+}
+
+double mpm_point_law_flow(const mpm_point_law *k, const mpm_law_point *at)
+{
+    const flow_state s = { .strain = vd_set(at->strain),
+                           .log_rate = vd_set(log(fmax(fast(k, at), 1))),
+                           .T = vd_set(k->T),
+                           .T_star = vd_set(k->T_star),
+                           .rho = vd_set(k->law.rho_start) };
+    return flow_stress(&k->law, k->form, &s)[0] * (1 - k->law.softening * at->damage);
+}
+
+double mpm_point_law_damage(const mpm_point_law *k, const mpm_law_point *at, double plastic)
+{
+    const failure_state s = { .plastic = vd_set(plastic),
+                              .strain = vd_set(at->strain),
+                              .triaxiality = vd_set(at->triaxiality),
+                              .rate_square = vd_set(fast(k, at) * fast(k, at)),
+                              .log_rate = vd_set(log(fmax(fast(k, at), 1))),
+                              .T_star = vd_set(k->T_star) };
+    return damage_growth(&k->law, &s)[0];
+}
+
+double mpm_point_law_shear(const mpm_point_law *k)
+{
+    return k->law.G;
+}
+
+/* Simple iteration with the slope at rest. */
+double mpm_point_law_compression(const mpm_point_law *k, double at_pressure)
+{
+    enum { ITERATIONS = 100 };
+    const law *l = &k->law;
+    const double thermal = k->e - reference_energy(l, k->form, vd_set(k->mu))[0];
+    double mu = k->mu, off = INFINITY;
+    for (int i = 0; i < ITERATIONS && fabs(off) > 1e-13 * l->K0; i++) {
+        const vd e = thermal + reference_energy(l, k->form, vd_set(mu));
+        off = pressure(l, k->form, vd_set(mu), vd_set(l->rho0 * (1 + mu)), e, vd_set(0))[0] - at_pressure;
+        mu = fmin(fmax(mu - off / l->K0, l->mu_least), l->mu_most);
+    }
+    return (1 + mu) / (1 + k->mu);
+}
