@@ -18,7 +18,7 @@ static const double FORCE_SMOOTHING = 0.2e-6; /* [s] */
 
 /* ---- making ---- */
 
-/* Where breech-stress and the sweep of docs/theory/scene-solver.md saw scenes blow up. */
+/* Where breech-stress and the sweep of docs/notes/solver.md saw scenes blow up. */
 static double courant_limit(const mpm_scene *s)
 {
     return s->transfer == TRANSFER_PIC ? 0.5 : 0.6;

@@ -128,7 +128,7 @@ static double rlc_current(const rlc *c, double t)
     return (c->i_crowbar + c->drop / c->R) * exp(-(t - c->crowbar) * c->R / c->L) - c->drop / c->R;
 }
 
-/* 1e-8 of the peak is wanted; at rtol 1e-11 the integration's own error is below it (docs/theory/circuit.md). */
+/* 1e-8 of the peak is wanted; at rtol 1e-11 the integration's own error is below it (docs/validation/circuit.md). */
 static void closed_form(double drop)
 {
     shot_module m = unit_200kJ(1, 0.0);
@@ -657,7 +657,7 @@ static void random_banks(void **state)
     assert_true(left > n_shots / 4 && stopped > 0); /* the draw covers both ends */
 }
 
-/* The default bank at level skin; the figures of docs/theory/circuit.md come from here. */
+/* The default bank at level skin; the figures of docs/validation/circuit.md come from here. */
 static void shot_of_default_case(void **state)
 {
     (void)state;

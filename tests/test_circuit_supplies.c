@@ -191,7 +191,7 @@ static shot *run(const shot_config *c)
     const shot_sink sink = notes_sink(&notes);
     assert_ok(circuit_shot_create(c, &s));
     assert_ok(circuit_shot_advance(s, INFINITY, &sink));
-    /* default tolerances: docs/theory/circuit.md's 1000 random banks stay below 3e-7 */
+    /* default tolerances: docs/validation/circuit.md's 1000 random banks stay below 3e-7 */
     if (!(notes.worst_error < 1e-6)) fail_msg("energy error %.2e", notes.worst_error);
     return s;
 }

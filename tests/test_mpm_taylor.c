@@ -59,7 +59,7 @@ static void test_bar(void **state)
     (void)state;
     hold(bar(RADIUS / 8, BASIS_GIMP));
     if (!scene_full()) return;
-    bar(RADIUS / 6, BASIS_GIMP); /* for the table of docs/theory/scene-solver.md: how the width converges */
+    bar(RADIUS / 6, BASIS_GIMP); /* for the table of docs/validation/solver.md: how the width converges */
     hold(bar(RADIUS / 10, BASIS_GIMP));
 }
 

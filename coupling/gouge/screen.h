@@ -8,7 +8,7 @@
  * The screen knows nothing of shape and lead angle, so it only skips: below study.screen_low no scene is run, above it
  * nothing is said without one.  What it skips is not impossible but improbable (`probability`), by the width of what it
  * was calibrated with, 7075 on copper: scenes with a welded grain of 0.5 mm begin to gouge at 0.51 km/s at the lowest
- * (docs/theory/onset.md), a ratio of 3.35; Stefani and Parker (1999) report gouging from 1.4 km/s,
+ * (docs/notes/thresholds.md), a ratio of 3.35; Stefani and Parker (1999) report gouging from 1.4 km/s,
  * 17.7 GPa, a ratio of 10.4. */
 #ifndef BREECH_COUPLING_SCREEN_H
 #define BREECH_COUPLING_SCREEN_H

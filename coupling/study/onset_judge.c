@@ -9,7 +9,7 @@
 #include <string.h>
 
 static const double DOUBT = 0.05;        /* probability from which the screen alone leaves it open */
-static const double TRUSTED_CELLS = 3.0; /* a radius; below, cells decide the threshold (docs/theory/onset.md) */
+static const double TRUSTED_CELLS = 3.0; /* a radius; below, cells decide the threshold (docs/notes/thresholds.md) */
 
 /* ---- a grain's threshold at a velocity ---- */
 

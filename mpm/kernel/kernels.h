@@ -117,7 +117,7 @@ LANE_INLINE void prefetch_share(ahead *a)
 /* Least half length in cells that keeps a point stable which shares its nodes with no other.  Its forces change its own
  * velocity gradient by dt sigma/rho sum_i |grad S_i|^2 / S_i, and that sum is up to 2/(l h) an axis where the domain
  * just reaches over a node: with one axis strained it is stable for C^2 2 h/l <= 4, with three about a third of that.
- * l = C^2 h lies between, and docs/theory/scene-solver.md has the scenes that blew up with less.  Without the affine
+ * l = C^2 h lies between, and docs/validation/solver.md has the scenes that blew up with less.  Without the affine
  * part the last step's gradient is forgotten, which halves the limit. */
 LANE_INLINE double stable_half_length(const mpm_scene *s)
 {

@@ -70,7 +70,7 @@ typedef struct {
 
 /* A box that the surface passes through is cut: its part inside is a point at its centroid, with the part's variance
  * along each axis.  With whole boxes alone every face that is oblique to the lattice would be a staircase, and contact
- * normals would be those of its steps (docs/theory/scene-solver.md, V7b). */
+ * normals would be those of its steps (docs/validation/solver.md, V7b). */
 static void cut(const mpm_scene *s, int body, piece *p)
 {
     enum { PARTS = 4, ALL = PARTS * PARTS * PARTS };         /* an axis; in all */

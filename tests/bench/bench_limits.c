@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the machine can do at most, for the roofline of docs/theory/scene-solver.md: memory bandwidth by a triad over
+/* What the machine can do at most, for the roofline of docs/notes/speed.md: memory bandwidth by a triad over
  * arrays that no cache holds, arithmetic by independent multiply-adds in registers, division.
  *
  *   breech_bench_limits [--tiny]

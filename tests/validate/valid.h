@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Validations V1 .. V13 (the list is in docs/theory/scene-solver.md): small scenes with closed answers, each run at
+/* Validations V1 .. V13 (the list is in docs/validation/solver.md): small scenes with closed answers, each run at
  * several cell sizes.  breech-validate prints them as curves, error against cell size and against run time;
  * tests/test_valid.c holds the coarse ones to limits, the rest too with BREECH_FULL=1.
  *
