@@ -40,7 +40,7 @@ static plateau plateau_between(const mpm *m, double lo, double hi, double cell)
 
 /* Water that runs against a wall with speed u sends a shock into itself:  us = c0 + s u,  p = rho0 us u.  What has
  * stopped has no momentum any more, so the momentum that is left gives us.  0.5 % for both, 1 % rms of the plateau (row
- * U4 of docs/validation/water.md).  Above 200 m/s with B-splines: behind a shock that halves a domain GIMP leaves noise
+ * U4).  Above 200 m/s with B-splines: behind a shock that halves a domain GIMP leaves noise
  * whose viscous pressure adds 1 % at 500 m/s and 4 % at 1 km/s. */
 static void test_hugoniot(void **state)
 {
@@ -95,9 +95,9 @@ static double pressure_of_thin_points(const mpm *m)
 
 /* Halves of a column part at 5 m/s between two walls: a cavity opens in the middle, each half is stopped by its wall at
  * p = rho us u and thrown back, and the cavity closes again.  It takes no tension, nothing fails or is eroded, no point
- * thinner than water at rest has a pressure but the viscosity's, a fifth of the water hammer's here, and the books close
- * to rounding (row U12).  A wave's way after the start all water is squeezed by what the cavity has opened: 15 %, for the
- * cells beside the cavity tear later. */
+ * thinner than water at rest has a pressure but the viscosity's, a fifth of the water hammer's here, and the books
+ * close to rounding (row U12).  A wave's way after the start all water is squeezed by what the cavity has opened: 15 %,
+ * for the cells beside the cavity tear later. */
 static void test_cavity_closes(void **state)
 {
     (void)state;

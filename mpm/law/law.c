@@ -35,7 +35,7 @@ static status derive_failure(law *k, const material *m)
     return base_status_error(STATUS_BAD_INPUT, "material %.40s: no law of failure has number %d", m->name, m->failure);
 }
 
-static double pressure_at(const law *k, double mu, double e)
+double mpm_law_pressure(const law *k, double mu, double e)
 {
 #define EOS(name, text) \
     if (k->eos.kind == EOS_##name) return eos_##name##_pressure_at(k, mu, e);
@@ -51,6 +51,16 @@ static double reference_at(const law *k, double mu)
     return NAN;
 }
 
+/* Along the isentrope K = K0 + (4 s - 1) p, so p = K0 [mu + (2 s - 1) mu^2 + b mu^3] and e = c0^2/2 mu^2.  Two points
+ * in compression, where every law bends, tell the bend from b. */
+double mpm_law_slope(const law *k)
+{
+    const double mu = 1e-4, e = 0.5 * k->K0 / k->rho0 * mu * mu;
+    const double once = mpm_law_pressure(k, mu, e) / (k->K0 * mu);
+    const double twice = mpm_law_pressure(k, 2 * mu, 4 * e) / (2 * k->K0 * mu);
+    return 0.5 * ((2 * (once - 1) - 0.5 * (twice - 1)) / mu + 1);
+}
+
 /* Energy and density of the body at its temperature and pressure: simple iteration with the slope K0. */
 static void start_at(law *k, double temperature, double pressure)
 {
@@ -59,15 +69,15 @@ static void start_at(law *k, double temperature, double pressure)
     double mu = 0;
     k->e_start = thermal;
     for (int i = 0; i < ITERATIONS; i++) {
-        mu = fmin(fmax(mu - (pressure_at(k, mu, k->e_start) - pressure) / k->K0, k->mu_least), k->mu_most);
+        mu = fmin(fmax(mu - (mpm_law_pressure(k, mu, k->e_start) - pressure) / k->K0, k->mu_least), k->mu_most);
         k->e_start = thermal + reference_at(k, mu);
     }
     /* Of a hot gas that does not converge: bisection. */
     double lo = k->mu_least, hi = k->mu_most;
-    for (int i = 0; i < ITERATIONS && fabs(pressure_at(k, mu, k->e_start) - pressure) > 1e-9 * k->K0; i++) {
+    for (int i = 0; i < ITERATIONS && fabs(mpm_law_pressure(k, mu, k->e_start) - pressure) > 1e-9 * k->K0; i++) {
         mu = 0.5 * (lo + hi);
         k->e_start = thermal + reference_at(k, mu);
-        *(pressure_at(k, mu, k->e_start) > pressure ? &hi : &lo) = mu;
+        *(mpm_law_pressure(k, mu, k->e_start) > pressure ? &hi : &lo) = mu;
     }
     k->rho_start = k->rho0 * (1 + mu);
     k->p_start = pressure;

@@ -73,4 +73,10 @@ typedef struct law {
 /* Refuses a material that lacks a constant the scene needs. */
 status mpm_law_make(const mpm_body *body, const mpm_scene *scene, law *out);
 
+/* Its equation of state: p(mu, e) with mu = rho/rho0 - 1, from the surroundings' pressure [Pa]. */
+double mpm_law_pressure(const law *k, double mu, double e);
+
+/* s of us = c0 + s up for weak shocks, c0 = sqrt(K0/rho0), from the curvature of that equation at rest. */
+double mpm_law_slope(const law *k);
+
 #endif
