@@ -32,7 +32,7 @@ NEEDS(poisson)
 NEEDS(melting_temperature)
 
 #ifdef LAW_STRUCT
-enum { MTS_TERMS = 16 };
+enum { MTS_TERMS = 8 };
 
 typedef struct {
     double sigma_a, sigma_s0; /* times the body's yield_scale [Pa] */
@@ -78,6 +78,26 @@ static double strength_mts_root(const strength_mts *k, double x)
     return w;
 }
 
+/* Minimum of sigma_y/(1 - T*) over temperature, at the strain and the rate with the lowest flow stress. */
+static double strength_mts_least(const law *k)
+{
+    enum { STEPS = 100 };
+    const strength_mts *c = &k->strength.mts;
+    const double theta = c->a0 + c->a1 * c->ln_rate0 + c->a2 * exp(0.5 * c->ln_rate0);
+    double least = HUGE_VAL;
+    for (int i = 0; i < STEPS; i++) {
+        const double T_star = (double)i / STEPS, T = k->T_r + T_star * (k->T_m - k->T_r);
+        const double mu = c->mu0 - c->D / expm1(c->T0 / T), barrier = c->k_b3 * T / mu;
+        const double open = pow(fmax(barrier * c->inv_g0 * c->ln_barrier, 0), c->inv_q);
+        const double end = c->sigma_s0 * exp(-barrier * c->inv_g0_s * c->ln_plateau);
+        const double w = strength_mts_root(c, k->cold_work * theta / end);
+        const double hardened = end * (1 - asinh(c->sinh_alpha * exp(-w)) / c->alpha);
+        const double flow = c->sigma_a + mu / c->mu0 * pow(fmax(1 - open, 0), c->inv_p) * hardened;
+        least = fmin(least, flow / (1 - T_star));
+    }
+    return least;
+}
+
 static void strength_mts_fit(strength_mts *k)
 {
     const double pi = 4 * atan(1), S = k->sinh_alpha, C = k->cosh_alpha;
@@ -90,6 +110,12 @@ static void strength_mts_fit(strength_mts *k)
     }
 }
 
+/* 1/x; the tables print 2/3 as 0.666667. */
+static double strength_mts_inverse(double x)
+{
+    return fabs(x - 2.0 / 3.0) < 1e-6 ? 1.5 : 1 / x;
+}
+
 static status strength_mts_derive(law *k, const material *m, double scale)
 {
     k->strength.mts = (strength_mts){ .sigma_a = scale * m->mts_sigma_a,
@@ -99,8 +125,8 @@ static status strength_mts_derive(law *k, const material *m, double scale)
                                       .T0 = m->mts_T0,
                                       .k_b3 = m->mts_k_b3,
                                       .inv_g0 = 1 / m->mts_g0,
-                                      .inv_p = 1 / m->mts_p,
-                                      .inv_q = 1 / m->mts_q,
+                                      .inv_p = strength_mts_inverse(m->mts_p),
+                                      .inv_q = strength_mts_inverse(m->mts_q),
                                       .inv_g0_s = 1 / m->mts_g0_s,
                                       .a0 = scale * m->mts_a0,
                                       .a1 = scale * m->mts_a1,
@@ -113,16 +139,25 @@ static status strength_mts_derive(law *k, const material *m, double scale)
                                       .ln_barrier = log(m->mts_rate * k->inv_rate0),
                                       .ln_plateau = log(m->mts_rate_s * k->inv_rate0) };
     strength_mts_fit(&k->strength.mts);
+    k->least_flow = strength_mts_least(k);
     k->flow_start = strength_mts_start(&k->strength.mts, k->cold_work, k->T_r);
     return status_ok();
 }
 #endif
 
 #ifdef LAW_LANES
+/* x^n, zero at zero: without exponential and logarithm for the exponents of the tables, 1 and 3/2 */
+LANE_INLINE vd mts_power(vd x, double n)
+{
+    if (n == 1) return x;
+    return n == 1.5 ? x * vd_sqrt(x) : power(x, n);
+}
+
 /* sigma_e/sigma_s at a strain of x sigma_s/theta, from the closed integral of its equation:
  *   sinh a (w cosh a - sinh a (a - y)) = a x,   sinh y = sinh a exp(-w),   sigma_e/sigma_s = 1 - y/a.
- * w begins a polynomial of x/(x + 4) below its asymptote a (x + sinh^2 a)/(sinh a cosh a); one step of Newton's rule
- * then leaves less than 1e-10 of sigma_s. */
+ * w begins a polynomial of x/(x + 4) below its asymptote a (x + sinh^2 a)/(sinh a cosh a); one step of Halley's rule
+ * then leaves less than 1e-10 of sigma_s.  y follows it by its series in the step d,
+ *   y' = -z/r,   y'' = z/r^3,   z = sinh y,   r = cosh y. */
 LANE_INLINE vd mts_hardened(const strength_mts *k, vd x)
 {
     const double a = k->alpha, S = k->sinh_alpha, C = k->cosh_alpha;
@@ -132,11 +167,12 @@ LANE_INLINE vd mts_hardened(const strength_mts *k, vd x)
         const vd b = 2 * t * b1 - b2 + k->chebyshev[j];
         b2 = b1, b1 = b;
     }
-    vd w = a / (S * C) * (x + S * S) - (t * b1 - b2 + k->chebyshev[0]);
-    const vd z = S * vd_exp(-w), root = vd_sqrt(1 + z * z), y = vd_log(z + root);
-    w -= (S * (C * w - S * (a - y)) - a * x) / (S * (C - S * z / root));
-    const vd last = S * vd_exp(-w);
-    return 1 - vd_log(last + vd_sqrt(1 + last * last)) / a;
+    const vd w = a / (S * C) * (x + S * S) - (t * b1 - b2 + k->chebyshev[0]);
+    const vd z = S * vd_exp(-w), square = 1 + z * z, root = vd_sqrt(square), y = vd_log(z + root);
+    const vd slope = z / root, bend = slope / square;
+    const vd miss = S * (C * w - S * (a - y)) - a * x, rate = 1 / (S * (C - S * slope)), first = miss * rate;
+    const vd d = first * (1 + 0.5 * S * S * first * bend * rate);
+    return 1 - (y + d * (slope + 0.5 * d * bend)) / a;
 }
 
 LAW_CALL vd strength_mts_flow(const strength_mts *k, const flow_state *s)
@@ -144,7 +180,7 @@ LAW_CALL vd strength_mts_flow(const strength_mts *k, const flow_state *s)
     const vd one = vd_set(1), zero = vd_set(0);
     const vd mu = k->mu0 - k->D / (vd_exp(k->T0 / s->T) - 1), barrier = k->k_b3 * s->T / mu;
     const vd open = barrier * k->inv_g0 * vd_max(k->ln_barrier - s->log_rate, zero);
-    const vd S = power(vd_max(1 - power(open, k->inv_q), zero), k->inv_p);
+    const vd S = mts_power(vd_max(1 - mts_power(open, k->inv_q), zero), k->inv_p);
     const vd end = k->sigma_s0 * vd_exp(barrier * k->inv_g0_s * (s->log_rate - k->ln_plateau));
     const vd ln_rate = s->log_rate + k->ln_rate0;
     const vd theta = k->a0 + k->a1 * ln_rate + k->a2 * vd_exp(0.5 * ln_rate);

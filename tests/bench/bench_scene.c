@@ -3,7 +3,8 @@
  *
  *   breech_bench_scene [--tiny] [--only WORD]... [steps [repetitions]]
  *
- * `cached` is `single` so small that it stays in the second-level cache.  `contact` is the paper's base case (an
+ * `cached` is `single` so small that it stays in the second-level cache; `mts` is `cached` with the copper of the
+ * default shot, half hard, whose strength is a mechanical threshold.  `contact` is the paper's base case (an
  * armature ploughing over a grain on a rail, friction, graded grid); `single` is a block of the same number of points,
  * one body and one field, sheared so that it yields.  Each line: median, least and largest of the repetitions, each a
  * run of so many steps of one solver that goes on.  Nothing is judged here: what is printed holds for this machine and
@@ -127,6 +128,17 @@ static void single_scene(bench_scene *b, int n)
     add_body(s, "box", upper, 6, &b->copper)->velocity[0] = 300;
 }
 
+/* As ofhc_copper_half_hard of cases/materials. */
+static void mts_scene(bench_scene *b)
+{
+    single_scene(b, 8);
+    material *c = &b->copper;
+    c->strength = STRENGTH_mts, c->cold_work = 0.27;
+    c->mts_sigma_a = 40e6, c->mts_mu0 = 47.7e9, c->mts_D = 3e9, c->mts_T0 = 180, c->mts_k_b3 = 0.823e6, c->mts_g0 = 1.6;
+    c->mts_rate = 1e7, c->mts_p = 0.666667, c->mts_q = 1, c->mts_a0 = 2390e6, c->mts_a1 = 12e6, c->mts_a2 = 1.696e6;
+    c->mts_alpha = 2, c->mts_g0_s = 0.2625, c->mts_rate_s = 1e7, c->mts_sigma_s0 = 770e6;
+}
+
 static int ascending(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -204,10 +216,12 @@ int main(int argc, char **argv)
         return 2;
     }
     static const char *const sets[] = { "x86-64-v4", "x86-64-v3", "portable" };
-    bench_scene contact = { .scene = { 0 } }, single = { .scene = { 0 } }, cached = { .scene = { 0 } };
+    bench_scene contact = { .scene = { 0 } }, single = { .scene = { 0 } }, cached = { .scene = { 0 } },
+                mts = { .scene = { 0 } };
     contact_scene(&contact, o.tiny);
     single_scene(&single, o.tiny ? 6 : 36);
     single_scene(&cached, 8);
+    mts_scene(&mts);
     printf("scene     set         threads  particles    median     least   largest       cpu   (ns a particle and "
            "step)\n");
     for (int i = 0; i < 3; i++) {
@@ -215,6 +229,7 @@ int main(int argc, char **argv)
         for (int threads = 1; threads <= 2; threads++) {
             ns[0][threads - 1] = measure("single", &single.scene, sets[i], threads, &o);
             if (threads == 1 && !o.tiny) measure("cached", &cached.scene, sets[i], threads, &o);
+            if (threads == 1 && !o.tiny) measure("mts", &mts.scene, sets[i], threads, &o);
             ns[1][threads - 1] = measure("contact", &contact.scene, sets[i], threads, &o);
         }
         if (ns[0][0] > 0 && ns[0][1] > 0 && ns[1][0] > 0 && ns[1][1] > 0)
@@ -222,5 +237,6 @@ int main(int argc, char **argv)
                    sets[i], ns[0][0] / ns[0][1], ns[1][0] / ns[1][1], ns[1][0] / ns[0][0]);
     }
     mpm_scene_free(&contact.scene), mpm_scene_free(&single.scene), mpm_scene_free(&cached.scene);
+    mpm_scene_free(&mts.scene);
     return 0;
 }
