@@ -200,7 +200,7 @@ typedef struct {
     void *user;                                                         /* borrowed */
 } shot_sink;
 
-/* The keys of summary.json (ARCHITECTURE.md).  NAN where the armature has not left. */
+/* The keys of summary.json (docs/reference/output.md).  NAN where the armature has not left. */
 typedef struct {
     double peak_current;      /* [A] */
     double muzzle_velocity;   /* [m/s] */

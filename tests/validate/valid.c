@@ -7,7 +7,7 @@ const valid_scheme valid_default = { BASIS_GIMP, TRANSFER_TPIC, 0.4 };
 
 #define NONE HUGE_VAL
 
-/* Limits: the wanted figure of NUMERICS.md where there is one and the level reaches it, else half as much again as was
+/* Limits: the figure that was wanted, where there is one and the level reaches it, else half as much again as was
  * measured (docs/validation/solver.md), said at the line. */
 const valid_case valid_table[] = {
     { .name = "V1a",
