@@ -7,5 +7,6 @@ set -euo pipefail
 validate=$(dirname "$(realpath "$0")")/validate python=/usr/bin/python3
 [ -x $python ] || { echo "skipped: no $python" && exit 77; }
 $python "$validate/test_pages.py"
+$python "$validate/test_pairs.py"
 if [ "${BREECH_FULL:-0}" != 1 ]; then exit; fi
 $python "$validate/tables.py" "$1" tables-out --check

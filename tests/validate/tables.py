@@ -24,6 +24,7 @@ import part_growth
 import part_lattice
 import part_laws
 import part_levels
+import part_pairs
 import part_strength
 import part_wu2017
 from runs import Runs
@@ -44,6 +45,8 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "laws-6061": ("docs/validation/laws.md", part_laws.laws_6061, 1, True),
     "taylor": ("docs/validation/laws.md", part_laws.taylor, 6, False),
     "strength": ("docs/validation/strength.md", part_strength.strength, 18, False),
+    "pairs": ("docs/validation/pairs.md", part_pairs.pairs, 60, False),
+    "pairs-null": ("docs/validation/pairs.md", part_pairs.nulls, 1, True),
     "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
 }
 

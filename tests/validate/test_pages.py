@@ -35,8 +35,8 @@ def main():
         found = differences(*fresh)
         assert len(found) == faults, "%s: %s" % (what, found)
     for name, part in tables.PARTS.items():
-        written = pages.written_tables(pages.part_text(part[0], name)[1])
-        assert written, "%s: part %s is empty" % (part[0], name)
+        text = pages.part_text(part[0], name)[1]
+        assert pages.written_tables(text) or "Not run yet" in text, "%s: part %s is empty" % (part[0], name)
     print("%d parts in place" % len(tables.PARTS))
 
 
