@@ -40,8 +40,8 @@ static lending *lent;
 static int shares[SUBSETS][PROCESSES];
 static bool all_cores;
 
-/* Some hundred steps of real solver: a stub of an armature for a millionth of a second. */
-static breech_case *small_case(const char *end_time)
+/* Some steps of real solver: a stub of an armature for a millionth of a second; `long_stub`: one whose groove has room. */
+static breech_case *stub_case(const char *end_time, bool long_stub)
 {
     const char *const dirs[] = { CASES "/materials" };
     const case_options how = { dirs, 1, CASE_FOR_ONSET };
@@ -49,12 +49,12 @@ static breech_case *small_case(const char *end_time)
                                  "scene.coarse_cell=1.2 mm",
                                  "scene.levels=2",
                                  "scene.growth=1.3",
-                                 "scene.rail_ahead=6 mm",
+                                 long_stub ? "scene.rail_ahead=6 mm" : "scene.rail_ahead=4 mm",
                                  "scene.rail_behind=1 mm",
-                                 "scene.rail_depth=5 mm",
-                                 "armature.length=8 mm",
+                                 long_stub ? "scene.rail_depth=5 mm" : "scene.rail_depth=3 mm",
+                                 long_stub ? "armature.length=8 mm" : "armature.length=6 mm",
                                  "armature.half_bore=5 mm",
-                                 "armature.width=8 mm",
+                                 long_stub ? "armature.width=8 mm" : "armature.width=6 mm",
                                  "armature.head_thickness=5 mm",
                                  "armature.leg_thickness=3 mm",
                                  "output.snapshots=2" };
@@ -63,6 +63,11 @@ static breech_case *small_case(const char *end_time)
     const status s = case_read(CASES "/default_shot", sets, sizeof sets / sizeof *sets, &how, &c, &errors);
     if (s.code != STATUS_OK) fail_msg("%s", errors ? errors : s.text);
     return c;
+}
+
+static breech_case *small_case(const char *end_time)
+{
+    return stub_case(end_time, false);
 }
 
 static scene_query query_at(const breech_case *c, double velocity)
@@ -111,9 +116,9 @@ static void assert_same(scene_record a, scene_record b)
 {
     a.entry.result.wall_seconds = b.entry.result.wall_seconds = 0.0;
     assert_true(a.entry.result.steps > 20 && isfinite(a.entry.result.severity));
-    /* what goes with the armature is the armature, 244 mm3 of it at the start */
+    /* what goes with the armature is the armature, 147 mm3 of it at the start, 244 of a long one */
     const double *carried = a.entry.result.carried_volume;
-    assert_true(carried[a.entry.result.bodies - 1] > 200e-9 && carried[a.entry.result.bodies - 1] < 245e-9);
+    assert_true(carried[a.entry.result.bodies - 1] > 130e-9 && carried[a.entry.result.bodies - 1] < 245e-9);
     assert_true(carried[0] < 1e-9);
     /* one NaN need not have the other's bits */
     if (isnan(a.entry.result.widening) && isnan(b.entry.result.widening))
@@ -466,8 +471,8 @@ static status start_lending(void)
 
 static breech_case *grown_case(bool to_gauge)
 {
-    breech_case *c = small_case("scene.end_time=2.85 us");
-    c->scene.courant = 0.2; /* more steps than pieces: none ends with the gauge's */
+    breech_case *c = stub_case("scene.end_time=2.85 us", true);
+    c->scene.courant = 0.3; /* more steps than pieces: none ends with the gauge's */
     c->scene.levels = 2;
     c->scene.stop_when_gauged = to_gauge;
     c->output.snapshots = 0;
