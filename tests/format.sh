@@ -19,12 +19,12 @@ if [ "${1:-}" = --fix ]; then
     exit 0
 fi
 bad=0
-while read -r file; do
-    if ! "$tool" --dry-run -Werror "$file" >/dev/null 2>&1; then
-        echo "$file: not formatted; tests/format.sh --fix $file"
-        bad=1
-    fi
-done < <(sources '\.[ch]$')
+unformatted=$({ sources '\.[ch]$' | xargs "$tool" --dry-run -Werror --ferror-limit=1 2>&1 || true; } |
+    sed -nE 's/^([^ :]+):[0-9]+:.*/\1/p' | sort -u)
+if [ -n "$unformatted" ]; then
+    printf 'not formatted, tests/format.sh --fix FILE...:\n%s\n' "$unformatted"
+    bad=1
+fi
 wide=$(sources '\.(c|h|def)$' | xargs awk 'length($0) > 120 { print FILENAME ":" FNR ": " length($0) " columns" }')
 if [ -n "$wide" ]; then
     printf 'more than 120 columns:\n%s\n' "$wide"

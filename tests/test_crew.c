@@ -40,7 +40,7 @@ static lending *lent;
 static int shares[SUBSETS][PROCESSES];
 static bool all_cores;
 
-/* Some steps of real solver: a stub of an armature for a millionth of a second; `long_stub`: one whose groove has room. */
+/* Some steps of real solver, a stub of an armature for a millionth of a second; `long_stub`: its groove has room. */
 static breech_case *stub_case(const char *end_time, bool long_stub)
 {
     const char *const dirs[] = { CASES "/materials" };
