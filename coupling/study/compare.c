@@ -29,7 +29,7 @@ void study_compare_answer_free(compare_answer *a)
 
 /* ---- all surfaces ---- */
 
-enum { PREFIX_SIZE = 16 };
+enum { PREFIX_SIZE = sizeof((compare_entry *)NULL)->scene_prefix };
 
 /* NULL: untreated. */
 static const case_treatment *treatment_of(const case_treatments *all, int surface)
@@ -175,8 +175,11 @@ static void fill_entry(const case_treatments *treatments, const compare_answer *
     const mc_shot *shot_drawn = &a->drawn.of[i];
     const case_treatment *t = treatment_of(treatments, i);
     snprintf(e->surface, sizeof e->surface, "%s", t ? t->name : "untreated");
+    prefix_of(i, e->scene_prefix);
     e->threshold_velocity = r->threshold_velocity;
     memcpy(e->threshold_interval, r->threshold_interval, sizeof e->threshold_interval);
+    e->scratch_velocity = r->scratch_velocity;
+    memcpy(e->scratch_interval, r->scratch_interval, sizeof e->scratch_interval);
     e->threshold_position = r->threshold_position;
     e->onset_position = a->treated[i].populations.n > 0 ? shot_drawn->first[1] : r->onset_position;
     e->gouges = shot_drawn->gouges;

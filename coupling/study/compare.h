@@ -13,7 +13,9 @@
 
 typedef struct {
     char surface[SUMMARY_NAME_SIZE];
+    char scene_prefix[16];                            /* with which the names of its scenes begin */
     double threshold_velocity, threshold_interval[2]; /* [m/s] */
+    double scratch_velocity, scratch_interval[2];     /* [m/s] */
     double onset_position;                            /* [m] */
     double gouged_volume;                             /* [m3] */
     double gouged_volume_interval[2];                 /* [m3] */

@@ -5,8 +5,13 @@
 
 static const summary_key entry_keys[] = {
     SUMMARY_TEXT(compare_entry, "surface", surface, "of the rail"),
+    SUMMARY_TEXT(compare_entry, "scene_prefix", scene_prefix,
+                 "with which the names of its scenes begin; empty: of the untreated one"),
     SUMMARY_NUMBER(compare_entry, "threshold_velocity", threshold_velocity, "m/s", ""),
     SUMMARY_VECTOR(compare_entry, "threshold_interval", threshold_interval, 2, "m/s", ""),
+    SUMMARY_NUMBER(compare_entry, "scratch_velocity", scratch_velocity, "m/s",
+                   "from which a groove grows, furrow or gouge; null: not looked for"),
+    SUMMARY_VECTOR(compare_entry, "scratch_interval", scratch_interval, 2, "m/s", "as threshold_interval"),
     SUMMARY_NUMBER(compare_entry, "onset_position", onset_position, "m", "along the barrel; null: no gouging"),
     SUMMARY_NUMBER(compare_entry, "gouged_volume", gouged_volume, "m3", "of the whole shot"),
     SUMMARY_VECTOR(compare_entry, "gouged_volume_interval", gouged_volume_interval, 2, "m3",
