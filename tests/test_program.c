@@ -327,9 +327,10 @@ static void test_inductance(void **state)
     const int places = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(s, "perimeter"));
     assert_true(places > 10 && places == cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(s, "perimeter_heat")));
     cJSON_Delete(s);
-    assert_int_equal(run("report inductance/a"), 0); /* where there is gnuplot, both plots are drawn */
+    assert_int_equal(run("report inductance/a"), 0);
     struct stat plot;
-    assert_int_equal(stat("inductance/a/plot-inductance.svg", &plot), stat("inductance/a/plot-perimeter.svg", &plot));
+    assert_int_equal(stat("inductance/a/plot-inductance.svg", &plot), 0);
+    assert_int_equal(stat("inductance/a/plot-perimeter.svg", &plot), 0);
     assert_int_equal(run("inductance " SHOT " -o inductance/b --set rail.cladding=\"30 mm\""),
                      2); /* thicker than the rail */
 }

@@ -9,13 +9,13 @@ struct page;
 
 /* What a kind of run adds to its page, in report_page.h's words; NULL: nothing. */
 typedef struct {
-    void (*verdict)(const struct page *p); /* the head: a sentence, cards of numbers */
-    void (*section)(const struct page *p); /* tables and plots */
+    void (*head)(const struct page *p);    /* what its user reads first */
+    void (*section)(const struct page *p); /* tables and drawings that it rests on */
 } report_part;
 
-/* Reads DIR/summary.json, history.h5 and used.yaml; writes DIR/report.html, self-contained, with the plots inline and
- * beside it as .svg.  Only summary.json must be there; what is missing is named in the page.  Without gnuplot the page
- * says so in place of the plots.  part_of: of the kind that the summary names. */
+/* Reads DIR/summary.json, history.h5 and used.yaml; writes DIR/report.html, self-contained, with the drawings inline
+ * and beside it as .svg.  Only summary.json must be there; what is missing is named in the page.  part_of: of the kind
+ * that the summary names. */
 status report_write(const char *dir, report_part (*part_of)(const char *kind));
 
 #endif

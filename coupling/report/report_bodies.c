@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The page of a scene of bodies: what became of each, their speeds and the scene's energies over time. */
-#include "coupling/report/report_gnuplot.h"
 #include "coupling/report/report_page.h"
 
 #include <math.h>
@@ -8,153 +7,102 @@
 
 #define SCENE "/scene/scene"
 
-/* ---- plots ---- */
+/* ---- charts ---- */
 
-typedef struct {
-    double *value;
-    size_t n;
-} column;
-
-static column column_read(const report_source *r, const char *path)
+/* The speed of a body over time. */
+static void add_speed(report_chart *chart, const report_source *r, const char *body, int k)
 {
-    column c = { NULL, 0 };
-    size_t dims[H5_MAX_RANK];
-    if (r->history && host_h5_read(r->history, path, &c.value, dims).code == STATUS_OK) c.n = dims[0];
-    return c;
+    char path[200];
+    snprintf(path, sizeof path, SCENE "/bodies/%.100s/velocity", body);
+    report_curve v = report_curve_size(r, SCENE "/bodies/time", path);
+    if (v.n > 1) report_chart_line(chart, body, report_shade(k), v.x, v.y, v.n);
+    report_curve_free(&v);
 }
 
-/* Data block $body<i>: the speed of a body in m/s over time in us; false where it has no series. */
-static bool speed_block(FILE *script, const report_source *r, const char *body, int i)
-{
-    column t = column_read(r, SCENE "/bodies/time"), v[3];
-    bool whole = t.n > 1;
-    for (int k = 0; k < 3; k++) {
-        char path[200];
-        snprintf(path, sizeof path, SCENE "/bodies/%.100s/velocity_%c", body, "xyz"[k]);
-        v[k] = column_read(r, path);
-        whole = whole && v[k].n == t.n;
-    }
-    for (size_t q = 0; whole && q < t.n; q++) {
-        t.value[q] *= 1e6;
-        v[0].value[q] =
-            sqrt(v[0].value[q] * v[0].value[q] + v[1].value[q] * v[1].value[q] + v[2].value[q] * v[2].value[q]);
-    }
-    char name[24];
-    snprintf(name, sizeof name, "body%d", i);
-    if (whole) report_plot_data(script, name, t.value, v[0].value, t.n);
-    for (int k = 0; k < 3; k++) free(v[k].value);
-    free(t.value);
-    return whole;
-}
-
-/* Data block $<key>: an energy in J over time in us. */
-static bool energy_block(FILE *script, const report_source *r, const char *key)
-{
-    char path[100];
-    snprintf(path, sizeof path, SCENE "/%s", key);
-    column t = column_read(r, SCENE "/time"), e = column_read(r, path);
-    const bool whole = t.n > 1 && e.n == t.n;
-    for (size_t q = 0; whole && q < t.n; q++) t.value[q] *= 1e6;
-    if (whole) report_plot_data(script, key, t.value, e.value, t.n);
-    free(t.value);
-    free(e.value);
-    return whole;
-}
-
-static void plot_speeds(FILE *script, const report_source *r)
+static void draw_speeds(const page *p)
 {
     const cJSON *body;
-    int n = 0, i = 0;
-    bool used[100] = { false };
-    cJSON_ArrayForEach(body, cJSON_GetObjectItemCaseSensitive(r->summary, "bodies"))
-    {
-        if (i < 100) used[i] = speed_block(script, r, body->string, i);
-        i++;
-    }
-    fputs("set xlabel 'time [us]'\nset ylabel 'speed, mean over the body [m/s]'\nplot ", script);
-    i = 0;
-    cJSON_ArrayForEach(body, cJSON_GetObjectItemCaseSensitive(r->summary, "bodies"))
-    {
-        if (i < 100 && used[i])
-            fprintf(script, "%s$body%d with lines lw 2 title '%s' noenhanced", n++ ? ", " : "", i, body->string);
-        i++;
-    }
-    fputs(n ? "\n" : "0 notitle\n", script);
+    int k = 0;
+    report_chart *c = report_chart_create((report_axis){ .label = "time", .unit = "s", .from_zero = true },
+                                          (report_axis){ .label = "speed", .unit = "m/s", .from_zero = true });
+    cJSON_ArrayForEach(body, report_page_list(p, "bodies")) add_speed(c, p->source, body->string, k++);
+    report_page_chart(p, "speeds", "Speed of each body, mean over its mass.", c);
 }
 
-static void plot_energies(FILE *script, const report_source *r)
+static void draw_energies(const page *p)
 {
-    static const char *const keys[] = { "kinetic", "internal", "heat_friction", "work_external", "ejected_energy" };
-    enum { KEYS = sizeof keys / sizeof *keys };
-    bool used[KEYS];
-    int n = 0;
-    for (int i = 0; i < KEYS; i++) used[i] = energy_block(script, r, keys[i]);
-    fputs("set ylabel 'energy, as computed [J]'\nplot ", script);
-    for (int i = 0; i < KEYS; i++)
-        if (used[i]) fprintf(script, "%s$%s with lines lw 2 title '%s' noenhanced", n++ ? ", " : "", keys[i], keys[i]);
-    fputs(n ? "\n" : "0 notitle\n", script);
-}
-
-static status plot_bodies(const report_source *r, bool *drawn)
-{
-    *drawn = false;
-    if (!r->history || !r->gnuplot || !host_h5_exists(r->history, SCENE "/bodies/time")) return status_ok();
-    plot p;
-    TRY(report_plot_begin(&p, r, "bodies", 760, 740));
-    fputs("set multiplot layout 2,1\n", p.script);
-    plot_speeds(p.script, r);
-    plot_energies(p.script, r);
-    fputs("unset multiplot\n", p.script);
-    TRY(report_plot_end(&p));
-    *drawn = true;
-    return status_ok();
+    static const struct {
+        const char *key, *title;
+    } energies[] = { { "kinetic", "motion" },
+                     { "internal", "internal" },
+                     { "heat_friction", "of it, friction" },
+                     { "work_external", "done by loads" },
+                     { "ejected_energy", "left the window" } };
+    report_chart *c = report_chart_create((report_axis){ .label = "time", .unit = "s", .from_zero = true },
+                                          (report_axis){ .label = "energy", .unit = "J", .from_zero = true });
+    for (int k = 0; k < PAGE_COUNT(energies); k++) {
+        char path[100];
+        snprintf(path, sizeof path, SCENE "/%s", energies[k].key);
+        report_curve e = report_curve_read(p->source, SCENE "/time", path);
+        bool some = false;
+        for (size_t i = 0; i < e.n; i++) some = some || e.y[i] != 0.0;
+        if (some && e.n > 1) report_chart_line(c, energies[k].title, report_shade(k), e.x, e.y, e.n);
+        report_curve_free(&e);
+    }
+    report_page_chart(p, "energies", "Energies of the model as computed: half a model is half.", c);
 }
 
 /* ---- the page ---- */
 
-void report_bodies_verdict(const page *p)
+void report_bodies_head(const page *p)
 {
-    static const page_column cards[] = { { "end_time", "simulated", 1e-6, "us" },
-                                         { "peak_pressure", "peak pressure", 1e9, "GPa" },
-                                         { "peak_temperature", "peak temperature", 1.0, "K" },
-                                         { "kinetic", "motion, at the end", 1.0, "J" },
-                                         { "internal", "internal, at the end", 1.0, "J" },
-                                         { "energy_error", "energy error", 1.0, "" },
-                                         { "particles", "points", 1e3, "thousand" },
-                                         { "wall_seconds", "took", 1.0, "s" } };
+    static const page_column cards[] = { { "end_time", "simulated", 1e-6, "&micro;s", NULL },
+                                         { "peak_pressure", "peak pressure", 1e9, "GPa", NULL },
+                                         { "peak_temperature", "peak temperature", 1.0, "K", NULL },
+                                         { "kinetic", "motion, at the end", 1.0, "J", NULL },
+                                         { "internal", "internal, at the end", 1.0, "J", NULL },
+                                         { "energy_error", "energy error", 1.0, "", NULL },
+                                         { "particles", "points", 1.0, "", NULL },
+                                         { "wall_seconds", "took", 1.0, "s", NULL } };
     report_page_cards(p, p->source->summary, cards, PAGE_COUNT(cards));
 }
 
-static void body_row(const page *p, const cJSON *body)
+static void body_table(const page *p, const cJSON *bodies)
 {
-    fputs("<tr><td class=\"text\">", p->out);
-    report_page_escaped(p->out, body->string);
-    static const page_column numbers[] = { { "mass", "", 1e-3, "" },         { "kinetic", "", 1.0, "" },
-                                           { "internal", "", 1.0, "" },      { "failed_volume", "", 1e-9, "" },
-                                           { "peak_pressure", "", 1e9, "" }, { "peak_mises", "", 1e9, "" } };
-    for (int k = 0; k < 3; k++) {
-        fputs("</td><td>", p->out);
-        report_page_number(p->out, report_element(body, "velocity", k), 1.0, "");
+    static const page_column numbers[] = { { "mass", "mass", 1e-3, "g", NULL },
+                                           { "kinetic", "motion", 1.0, "J", NULL },
+                                           { "internal", "internal", 1.0, "J", NULL },
+                                           { "failed_volume", "failed", 1e-9, "mm\302\263", NULL },
+                                           { "peak_pressure", "peak pressure", 1e9, "GPa", NULL },
+                                           { "peak_mises", "peak von Mises", 1e9, "GPa", NULL } };
+    static const char *const velocity[] = { "velocity x", "velocity y", "velocity z" };
+    const cJSON *body;
+    report_table t;
+    report_table_begin(&t, p->out);
+    report_table_text_title(&t, "body");
+    for (int k = 0; k < 3; k++) report_table_title(&t, velocity[k], "m/s");
+    for (int k = 0; k < PAGE_COUNT(numbers); k++) report_table_title(&t, numbers[k].title, numbers[k].name);
+    cJSON_ArrayForEach(body, bodies)
+    {
+        report_table_row(&t);
+        report_table_text(&t, body->string);
+        for (int k = 0; k < 3; k++) report_table_number(&t, report_element(body, "velocity", k), 1.0);
+        for (int k = 0; k < PAGE_COUNT(numbers); k++)
+            report_table_number(&t, report_number(body, numbers[k].key), numbers[k].unit);
     }
-    for (int i = 0; i < PAGE_COUNT(numbers); i++) {
-        fputs("</td><td>", p->out);
-        report_page_number(p->out, report_number(body, numbers[i].key), numbers[i].unit, numbers[i].name);
-    }
-    fputs("</td></tr>\n", p->out);
+    report_table_end(&t);
 }
 
-void report_section_bodies(const page *p)
+void report_bodies_section(const page *p)
 {
-    const cJSON *body, *bodies = cJSON_GetObjectItemCaseSensitive(p->source->summary, "bodies");
+    const cJSON *bodies = report_page_list(p, "bodies");
     if (cJSON_GetArraySize(bodies) == 0) return;
     report_page_heading(p, "Bodies at the end");
-    fputs("<div class=\"wide\"><table><tr><th>body</th><th>v<sub>x</sub> [m/s]</th><th>v<sub>y</sub> [m/s]</th>"
-          "<th>v<sub>z</sub> [m/s]</th><th>mass [g]</th><th>motion [J]</th><th>internal [J]</th><th>failed "
-          "[mm&sup3;]</th>"
-          "<th>peak pressure [GPa]</th><th>peak von Mises [GPa]</th></tr>\n",
-          p->out);
-    cJSON_ArrayForEach(body, bodies) body_row(p, body);
-    fputs("</table></div>\n", p->out);
-    report_page_draw(p, plot_bodies, "bodies", "Means over each body; energies of the model as computed.");
-    report_section_probes(p);
+    body_table(p, bodies);
+    report_page_plots_begin(p);
+    draw_speeds(p);
+    draw_energies(p);
+    report_page_plots_end(p);
+    report_cut_section(p);
+    report_probes_section(p);
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Probes of a scene of bodies: what each came to, all of one quantity over time in one plot, the last of every map. */
-#include "coupling/report/report_gnuplot.h"
+/* Probes of a scene of bodies: what each came to, all of one quantity over time in one chart, the last of every map. */
 #include "coupling/report/report_page.h"
+
+#include "coupling/report/report_relief.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,78 +10,74 @@
 
 #define SCENE "/scene/scene"
 
-static const cJSON *probes_of(const report_source *r)
+static const cJSON *probes_of(const page *p)
 {
-    return cJSON_GetObjectItemCaseSensitive(r->summary, "probes");
+    return report_page_list(p, "probes");
 }
 
 /* ---- the table ---- */
 
-static void probe_row(const page *p, const cJSON *probe)
+/* A number of the probe's unit with the prefix that reads well. */
+static void add_quantity(report_table *t, double x, const char *unit, const char *more)
 {
-    static const struct {
-        const char *key;
-        double unit;
-    } numbers[] = { { "peak", 1.0 }, { "time_of_peak", 1e-6 }, { "arrival", 1e-6 }, { "least", 1.0 } };
-    const char *texts[] = { probe->string, report_text(probe, "kind"), report_text(probe, "quantity"),
-                            report_text(probe, "unit") };
-    fputs("<tr>", p->out);
-    for (int k = 0; k < PAGE_COUNT(texts); k++) {
-        fputs("<td class=\"text\">", p->out);
-        report_page_escaped(p->out, texts[k]);
-        fputs("</td>", p->out);
-    }
-    for (int k = 0; k < PAGE_COUNT(numbers); k++) {
-        fputs("<td>", p->out);
-        report_page_number(p->out, report_number(probe, numbers[k].key), numbers[k].unit, "");
-        fputs("</td>", p->out);
-    }
-    for (int k = 0; k < 3; k++) {
-        fputs("<td>", p->out);
-        report_page_number(p->out, report_element(probe, "impulse", k), 1.0, "");
-        fputs("</td>", p->out);
-    }
-    fputs("</tr>\n", p->out);
+    double factor;
+    char value[REPORT_VALUE_SIZE], text[2 * REPORT_VALUE_SIZE];
+    const char *prefix = report_chart_prefix(fabs(x), unit, &factor);
+    report_value_plain(x / factor, value);
+    snprintf(text, sizeof text, "%.60s%s%s%.30s%.20s", value, isfinite(x) ? "&nbsp;" : "", isfinite(x) ? prefix : "",
+             isfinite(x) && strcmp(unit, "1") != 0 ? unit : "", isfinite(x) ? more : "");
+    report_table_html(t, text);
+}
+
+/* The integral over time: of a vector its size. */
+static double integral_of(const cJSON *probe)
+{
+    const double x = report_element(probe, "impulse", 0), y = report_element(probe, "impulse", 1),
+                 z = report_element(probe, "impulse", 2);
+    return isfinite(y) && isfinite(z) ? sqrt(x * x + y * y + z * z) : x;
+}
+
+static void probe_row(report_table *t, const cJSON *probe)
+{
+    const char *unit = report_text(probe, "unit");
+    report_table_row(t);
+    report_table_text(t, probe->string);
+    report_table_text(t, report_text(probe, "kind"));
+    report_table_text(t, report_text(probe, "quantity"));
+    add_quantity(t, report_number(probe, "peak"), unit, "");
+    report_table_number(t, report_number(probe, "time_of_peak"), 1e-6);
+    report_table_number(t, report_number(probe, "arrival"), 1e-6);
+    add_quantity(t, report_number(probe, "least"), unit, "");
+    add_quantity(t, integral_of(probe), unit, " s");
 }
 
 static void probe_table(const page *p)
 {
+    static const char *const titles[] = { "peak",  "at [\302\265s]",     "arrives [\302\265s]",
+                                          "least", "integral over time", NULL };
     const cJSON *probe;
-    fputs(
-        "<div class=\"wide\"><table><tr><th>probe</th><th>kind</th><th>quantity</th><th>unit</th><th>peak</th>"
-        "<th>at [us]</th><th>arrival [us]</th><th>least</th><th colspan=\"3\">integral over time [unit s]</th></tr>\n",
-        p->out);
-    cJSON_ArrayForEach(probe, probes_of(p->source)) probe_row(p, probe);
-    fputs("</table></div>\n", p->out);
+    report_table t;
+    report_table_begin(&t, p->out);
+    report_table_text_title(&t, "probe");
+    report_table_text_title(&t, "kind");
+    report_table_text_title(&t, "quantity");
+    for (int k = 0; titles[k]; k++) report_table_title(&t, titles[k], "");
+    cJSON_ArrayForEach(probe, probes_of(p)) probe_row(&t, probe);
+    report_table_end(&t);
 }
 
 /* ---- a quantity over time ---- */
 
-/* Data block $probe<i>: the quantity, the size of a vector, over time in us; false where it has no series. */
-static bool series_block(FILE *script, const report_source *r, const cJSON *probe, int i)
+/* The quantity, the size of a vector, over time. */
+static void add_series(report_chart *c, const report_source *r, const cJSON *probe, int k)
 {
-    static const char *const ends[2][3] = { { "" }, { "_x", "_y", "_z" } };
     const bool vector = isfinite(report_element(probe, "impulse", 2));
-    double *t = NULL, *value[3] = { NULL };
-    size_t n[H5_MAX_RANK] = { 0 }, m[H5_MAX_RANK];
-    char path[400], name[24];
-    snprintf(path, sizeof path, SCENE "/probes/%.120s/time", probe->string);
-    bool whole = host_h5_read(r->history, path, &t, n).code == STATUS_OK && n[0] > 1;
-    for (int k = 0; k < (vector ? 3 : 1) && whole; k++) {
-        snprintf(path, sizeof path, SCENE "/probes/%.120s/%.80s%s", probe->string, report_text(probe, "quantity"),
-                 ends[vector][k]);
-        whole = host_h5_read(r->history, path, &value[k], m).code == STATUS_OK && m[0] == n[0];
-    }
-    for (size_t q = 0; whole && q < n[0]; q++) {
-        t[q] *= 1e6;
-        if (vector)
-            value[0][q] = sqrt(value[0][q] * value[0][q] + value[1][q] * value[1][q] + value[2][q] * value[2][q]);
-    }
-    snprintf(name, sizeof name, "probe%d", i);
-    if (whole) report_plot_data(script, name, t, value[0], n[0]);
-    for (int k = 0; k < 3; k++) free(value[k]);
-    free(t);
-    return whole;
+    char time[200], path[400];
+    snprintf(time, sizeof time, SCENE "/probes/%.120s/time", probe->string);
+    snprintf(path, sizeof path, SCENE "/probes/%.120s/%.80s", probe->string, report_text(probe, "quantity"));
+    report_curve curve = vector ? report_curve_size(r, time, path) : report_curve_read(r, time, path);
+    if (curve.n > 1) report_chart_line(c, probe->string, report_shade(k), curve.x, curve.y, curve.n);
+    report_curve_free(&curve);
 }
 
 static bool same_quantity(const cJSON *a, const cJSON *b)
@@ -97,24 +94,19 @@ static bool is_first_of_quantity(const cJSON *list, const cJSON *probe)
 }
 
 /* All probes of the quantity of this one. */
-static status plot_quantity(const report_source *r, const cJSON *of, const char *name, bool *drawn)
+static void draw_quantity(const page *p, const cJSON *of, const char *name)
 {
     enum { MOST = 40 };
-    const cJSON *shown[MOST], *probe;
+    const cJSON *probe;
     int n = 0;
-    plot p;
-    TRY(report_plot_begin(&p, r, name, 560, 380));
-    cJSON_ArrayForEach(probe, probes_of(r))
+    report_chart *c =
+        report_chart_create((report_axis){ .label = "time", .unit = "s", .from_zero = true },
+                            (report_axis){ .label = report_text(of, "quantity"), .unit = report_text(of, "unit") });
+    cJSON_ArrayForEach(probe, probes_of(p))
     {
-        if (n < MOST && same_quantity(probe, of) && series_block(p.script, r, probe, n)) shown[n++] = probe;
+        if (n < MOST && same_quantity(probe, of)) add_series(c, p->source, probe, n++);
     }
-    fprintf(p.script, "set xlabel 'time [us]'\nset ylabel '%s [%s]' noenhanced\nset format y '%%.3g'\nplot ",
-            report_text(of, "quantity"), report_text(of, "unit"));
-    for (int i = 0; i < n; i++)
-        fprintf(p.script, "%s$probe%d with lines lw 1.5 title '%s' noenhanced", i ? ", " : "", i, shown[i]->string);
-    fputs(n ? "\n" : "0 notitle\n", p.script);
-    *drawn = n > 0;
-    return report_plot_end(&p);
+    report_page_chart(p, name, "", c);
 }
 
 /* ---- the last of a map ---- */
@@ -122,7 +114,8 @@ static status plot_quantity(const report_source *r, const cJSON *of, const char 
 typedef struct {
     char name[96], unit[32];
     double *last; /* [rows], owned */
-    size_t distinct;
+    double *distinct;
+    size_t n; /* distinct values, rising, owned */
 } map_column;
 
 enum { MAP_COLUMNS = 3 };
@@ -133,16 +126,15 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static size_t distinct_values(const double *x, size_t n)
+static void find_distinct(map_column *c, size_t rows)
 {
-    size_t count = n > 0;
-    double *sorted = malloc((n ? n : 1) * sizeof *sorted);
-    if (!sorted) return 0;
-    memcpy(sorted, x, n * sizeof *x);
-    qsort(sorted, n, sizeof *sorted, by_value);
-    for (size_t i = 1; i < n; i++) count += sorted[i] != sorted[i - 1];
-    free(sorted);
-    return count;
+    c->distinct = malloc((rows ? rows : 1) * sizeof *c->distinct);
+    if (!c->distinct || rows == 0) return;
+    memcpy(c->distinct, c->last, rows * sizeof *c->distinct);
+    qsort(c->distinct, rows, sizeof *c->distinct, by_value);
+    c->n = 1;
+    for (size_t i = 1; i < rows; i++)
+        if (c->distinct[i] != c->distinct[c->n - 1]) c->distinct[c->n++] = c->distinct[i];
 }
 
 /* The last row of each of the first columns; how many there are. */
@@ -165,7 +157,7 @@ static int read_map(const report_source *r, const char *probe, map_column column
         *rows = dims[1];
         if (dims[0] > 0) memmove(all, all + (dims[0] - 1) * dims[1], dims[1] * sizeof *all);
         c->last = all;
-        c->distinct = dims[0] > 0 ? distinct_values(all, dims[1]) : 0;
+        if (dims[0] > 0) find_distinct(c, dims[1]);
         n++;
     }
     free(names);
@@ -176,79 +168,95 @@ static int read_map(const report_source *r, const char *probe, map_column column
 static int value_column(const map_column c[MAP_COLUMNS], size_t rows)
 {
     for (int k = 0; k < MAP_COLUMNS; k++)
-        if (rows > 1 && c[(k + 1) % 3].distinct * c[(k + 2) % 3].distinct == rows) return k;
+        if (rows > 4 && c[(k + 1) % 3].n > 1 && c[(k + 2) % 3].n > 1 && c[(k + 1) % 3].n * c[(k + 2) % 3].n == rows)
+            return k;
     return -1;
 }
 
-static void map_block(FILE *script, const map_column c[MAP_COLUMNS], int value, size_t rows)
+static size_t index_of(const map_column *c, double value)
 {
-    const map_column *x = &c[(value + 1) % 3], *y = &c[(value + 2) % 3], *z = &c[value];
-    fputs("$map << EOD\n", script);
-    for (size_t i = 0; i < rows; i++) {
-        if (i > 0 && x->last[i] != x->last[i - 1] && y->last[i] != y->last[i - 1]) fputs("\n", script);
-        fprintf(script, "%.6g %.6g ", 1e3 * x->last[i], 1e3 * y->last[i]);
-        if (isfinite(z->last[i]))
-            fprintf(script, "%.6g\n", 1e3 * z->last[i]);
-        else
-            fputs("NaN\n", script);
-    }
-    fputs("EOD\n", script);
-    fprintf(script, "set xlabel '%s [mm]'\nset ylabel '%s [mm]'\nset cblabel '%s [mm]'\n", x->name, y->name, z->name);
+    const double *at = bsearch(&value, c->distinct, c->n, sizeof value, by_value);
+    return at ? (size_t)(at - c->distinct) : 0;
 }
 
-/* Lengths all three, in mm; a map of another kind is not drawn. */
-static status plot_map(const report_source *r, const cJSON *probe, const char *name, bool *drawn)
+/* Heights above their median, so that what has not moved is pale. */
+static double *grid_of(const map_column *x, const map_column *y, const map_column *z, size_t rows, double *middle)
+{
+    double *grid = malloc(rows * sizeof *grid);
+    size_t n = 0;
+    if (!grid) return NULL;
+    for (size_t i = 0; i < rows; i++)
+        if (isfinite(z->last[i])) grid[n++] = z->last[i];
+    qsort(grid, n, sizeof *grid, by_value);
+    *middle = n > 0 ? grid[n / 2] : 0.0;
+    for (size_t i = 0; i < rows; i++)
+        grid[index_of(x, x->last[i]) * y->n + index_of(y, y->last[i])] =
+            isfinite(z->last[i]) ? z->last[i] - *middle : 0.0;
+    return grid;
+}
+
+static void draw_grid(const page *p, const cJSON *probe, const char *name, const map_column c[MAP_COLUMNS], int value,
+                      size_t rows)
+{
+    const map_column *x = &c[(value + 1) % 3], *y = &c[(value + 2) % 3], *z = &c[value];
+    double middle, range = 0.0;
+    char caption[400], text[REPORT_VALUE_SIZE];
+    double *grid = grid_of(x, y, z, rows, &middle);
+    if (!grid) return;
+    for (size_t i = 0; i < rows; i++) range = fmax(range, fabs(grid[i]));
+    const report_relief relief = { .height = grid,
+                                   .nx = x->n,
+                                   .ny = y->n,
+                                   .x0 = x->distinct[0],
+                                   .dx = (x->distinct[x->n - 1] - x->distinct[0]) / (double)(x->n - 1),
+                                   .y0 = y->distinct[0],
+                                   .dy = (y->distinct[y->n - 1] - y->distinct[0]) / (double)(y->n - 1),
+                                   .colour_range = fmax(range, 1e-9),
+                                   .unit = 1e-3,
+                                   .legend = "against the median [mm]",
+                                   .above = "" };
+    report_value_plain(1e3 * middle, text);
+    snprintf(caption, sizeof caption,
+             "The last of %.60s: %.40s over %.40s (to the right) and %.40s, against its median, %.60s mm.",
+             probe->string, z->name, x->name, y->name, text);
+    report_page_svg(p, name, caption, report_relief_map(&relief, probe->string));
+    free(grid);
+}
+
+/* Lengths all three; a map of another kind is not drawn. */
+static void draw_map(const page *p, const cJSON *probe, const char *name)
 {
     map_column c[MAP_COLUMNS] = { { .last = NULL } };
     size_t rows = 0;
-    status done = status_ok();
-    const int n = read_map(r, probe->string, c, &rows), value = n == MAP_COLUMNS ? value_column(c, rows) : -1;
+    const int n = read_map(p->source, probe->string, c, &rows), value = n == MAP_COLUMNS ? value_column(c, rows) : -1;
     bool lengths = true;
     for (int k = 0; k < n; k++) lengths = lengths && strcmp(c[k].unit, "m") == 0;
-    if (value >= 0 && lengths) {
-        plot p;
-        done = report_plot_begin(&p, r, name, 560, 460);
-        if (done.code == STATUS_OK) {
-            map_block(p.script, c, value, rows);
-            fprintf(p.script,
-                    "set title '%s' noenhanced\nset size ratio -1\nset palette rgbformulae 33,13,10\n"
-                    "plot $map using 1:2:3 with points pt 5 ps 0.3 palette notitle\n",
-                    probe->string);
-            done = report_plot_end(&p);
-            *drawn = done.code == STATUS_OK;
-        }
+    if (value >= 0 && lengths) draw_grid(p, probe, name, c, value, rows);
+    for (int k = 0; k < n; k++) {
+        free(c[k].last);
+        free(c[k].distinct);
     }
-    for (int k = 0; k < n; k++) free(c[k].last);
-    return done;
 }
 
 /* ---- the section ---- */
 
-static void draw(const page *p, const cJSON *probe, const char *name)
+void report_probes_section(const page *p)
 {
-    bool drawn = false;
-    const bool map = !report_text(probe, "quantity")[0];
-    const status s = map ? plot_map(p->source, probe, name, &drawn) : plot_quantity(p->source, probe, name, &drawn);
-    if (s.code != STATUS_OK)
-        report_page_paragraph(p, "missing", s.text);
-    else if (drawn)
-        report_page_plot(p, name, "");
-}
-
-void report_section_probes(const page *p)
-{
-    const cJSON *probe, *list = probes_of(p->source);
+    const cJSON *probe, *list = probes_of(p);
     int n = 0;
     if (cJSON_GetArraySize(list) == 0) return;
     report_page_heading(p, "Probes");
     probe_table(p);
-    if (!p->source->history || !p->source->gnuplot) return;
-    fputs("<div class=\"plots\">\n", p->out);
+    if (!p->source->history) return;
+    report_page_plots_begin(p);
     cJSON_ArrayForEach(probe, list)
     {
         char name[32];
         snprintf(name, sizeof name, "probe-%d", ++n);
-        if (!report_text(probe, "quantity")[0] || is_first_of_quantity(list, probe)) draw(p, probe, name);
+        if (!report_text(probe, "quantity")[0])
+            draw_map(p, probe, name);
+        else if (is_first_of_quantity(list, probe))
+            draw_quantity(p, probe, name);
     }
-    fputs("</div>\n", p->out);
+    report_page_plots_end(p);
 }

@@ -273,62 +273,6 @@ static void print(const void *result, FILE *out)
     host_table_free(t);
 }
 
-/* ---- the report's part ---- */
-
-static void html_row(const page *p, const cJSON *number)
-{
-    static const char *const keys[] = { "mean", "deviation", "least", "largest" };
-    const double scenes = report_number(number, "scenes");
-    const char *unit = report_text(number, "unit");
-    if (!(scenes > 0.0)) return;
-    fputs("<tr><td class=\"text\">", p->out);
-    report_page_escaped(p->out, number->string);
-    fputs("</td>", p->out);
-    for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++) {
-        fputs("<td>", p->out);
-        report_page_number(p->out, report_number(number, keys[k]), 1.0, "");
-        fputs("</td>", p->out);
-    }
-    fputs("<td class=\"text\">", p->out);
-    report_page_escaped(p->out, strcmp(unit, "1") == 0 ? "" : unit);
-    fprintf(p->out, "</td><td>%g</td></tr>\n", scenes);
-}
-
-static void html_scene(const page *p, const cJSON *scene)
-{
-    const cJSON *shift;
-    fputs("<tr><td class=\"text\">", p->out);
-    report_page_escaped(p->out, report_text(scene, "scene"));
-    fputs("</td>", p->out);
-    cJSON_ArrayForEach(shift, cJSON_GetObjectItemCaseSensitive(scene, "grid_shift"))
-        fprintf(p->out, "<td>%.3f</td>", shift->valuedouble);
-    fputs("<td class=\"text\">", p->out);
-    report_page_escaped(p->out, report_text(scene, "class"));
-    fputs("</td><td>", p->out);
-    report_page_number(p->out, report_number(scene, "wall_seconds"), 1.0, "");
-    fputs("</td></tr>\n", p->out);
-}
-
-static void section(const page *p)
-{
-    const cJSON *summary = p->source->summary, *item;
-    const cJSON *numbers = cJSON_GetObjectItemCaseSensitive(summary, "numbers");
-    if (cJSON_GetArraySize(numbers) == 0) return;
-    report_page_heading(p, "The ensemble");
-    report_page_paragraph(p, "",
-                          "The same scene on grids that are shifted by part of a cell: what its numbers owe to "
-                          "where the cells happen to lie.");
-    fputs("<div class=\"wide\"><table><tr><th>number</th><th>mean</th><th>deviation</th><th>smallest</th>"
-          "<th>largest</th><th>unit</th><th>scenes</th></tr>\n",
-          p->out);
-    cJSON_ArrayForEach(item, numbers) html_row(p, item);
-    fputs("</table></div>\n<div class=\"wide\"><table><tr><th>scene</th><th>shift x [cells]</th><th>y</th><th>z</th>"
-          "<th>class</th><th>time [s]</th></tr>\n",
-          p->out);
-    cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(summary, "scenes")) html_scene(p, item);
-    fputs("</table></div>\n", p->out);
-}
-
 const study study_ensemble = {
     .name = "ensemble",
     .doc = "breech scene of a case with study.ensemble",
@@ -337,7 +281,7 @@ const study study_ensemble = {
     .instead = &study_bodies,
     .needs = CASE_FOR_SCENE,
     .keys = result_keys,
-    .report = { NULL, section },
+    .report = { report_ensemble_head, report_ensemble_section },
     .print = print,
     .run = run,
     .free = answer_free,

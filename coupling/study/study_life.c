@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* breech life: how many cycles of a load the rail lasts, and where it cracks. */
 #include "coupling/study/study.h"
-#include "coupling/report/report_gnuplot.h"
 #include "coupling/report/report_page.h"
 #include "coupling/study/life.h"
 
@@ -169,51 +168,6 @@ static void free_owned(void *owned)
     free(r);
 }
 
-static void verdict(const page *p)
-{
-    static const page_column cards[] = { { "life", "cycles to a crack", 1.0, "" },
-                                         { "life_depth", "its depth", 1e-3, "mm" },
-                                         { "life_position", "its place", 1e-3, "mm" },
-                                         { "life_first", "cycles to the first cut", 1.0, "" },
-                                         { "first_range", "strain range of that", 1e-2, "%" },
-                                         { "first_depth", "depth of that", 1e-3, "mm" },
-                                         { "first_position", "place of that", 1e-3, "mm" },
-                                         { "peak_pressure", "peak pressure", 1e6, "MPa" } };
-    report_page_cards(p, p->source->summary, cards, PAGE_COUNT(cards));
-}
-
-/* The index of every point, of grids with more points than the plot has pixels every other one. */
-static status plot_index(const report_source *r, bool *drawn)
-{
-    double *index = NULL;
-    size_t dims[H5_MAX_RANK];
-    plot p;
-    if (!r->gnuplot || !r->history ||
-        host_h5_read(r->history, "/scene/rail/index/index", &index, dims).code != STATUS_OK)
-        return status_ok();
-    const size_t every = dims[0] / 200 + 1;
-    status s = report_plot_begin(&p, r, "index", 640, 400);
-    if (s.code == STATUS_OK) {
-        fputs("$index << EOD\n", p.script);
-        for (size_t j = 0; j < dims[1]; j += every)
-            for (size_t i = 0; i < dims[0]; i += every)
-                fprintf(p.script, "%zu %zu %.4g\n", i, j, index[i * dims[1] + j]);
-        fputs("EOD\nset yrange [] reverse\nset xlabel 'cells along the rail'\nset ylabel 'cells below the face'\n"
-              "set cbrange [0:]\nset palette defined (0 '#f6f4f0', 1 '#761e14')\nset cblabel 'index'\n"
-              "plot $index with image notitle\n",
-              p.script);
-        s = report_plot_end(&p);
-        *drawn = s.code == STATUS_OK;
-    }
-    free(index);
-    return s;
-}
-
-static void section(const page *p)
-{
-    report_page_draw(p, plot_index, "index", "Share of each point's directions that are cut when the crack is there.");
-}
-
 const study study_life = {
     .name = "life",
     .doc = "how many load cycles the rail lasts",
@@ -222,7 +176,7 @@ const study study_life = {
     .needs = CASE_FOR_LIFE,
     .keys = keys,
     .can_vary = true,
-    .report = { verdict, section },
+    .report = { report_life_head, report_life_section },
     .possible = possible,
     .run = run,
     .free = free_owned,

@@ -2,7 +2,6 @@
 /* breech strike: what the projectile does to its target, at a given velocity or at that of the case's shot. */
 #include "coupling/gouge/session_shot.h"
 #include "coupling/host/table.h"
-#include "coupling/report/report_gnuplot.h"
 #include "coupling/report/report_page.h"
 #include "coupling/study/strike.h"
 
@@ -223,77 +222,6 @@ static void print(const void *result, FILE *out)
     study_bodies.print(&r->scene, out);
 }
 
-static void verdict(const page *p)
-{
-    static const page_column cards[] = { { "impact_velocity", "arrives at", 1.0, "m/s" },
-                                         { "residual_velocity", "goes on at", 1.0, "m/s" },
-                                         { "energy_absorbed", "energy absorbed", 1.0, "J" },
-                                         { "peak_force", "peak force", 1e3, "kN" },
-                                         { "impulse", "impulse", 1.0, "N s" },
-                                         { "deflection", "deflection", 1e-3, "mm" },
-                                         { "hole_diameter", "hole", 1e-3, "mm" },
-                                         { "debris_mass", "debris", 1e-3, "g" },
-                                         { "limit_velocity", "limit velocity", 1.0, "m/s" },
-                                         { "wall_seconds", "took", 1.0, "s" } };
-    report_page_paragraph(p, "verdict", report_text(p->source->summary, "class"));
-    report_page_cards(p, p->source->summary, cards, PAGE_COUNT(cards));
-}
-
-/* Data block of arrivals that pierced, or of those that did not; how many. */
-static int arrival_block(FILE *script, const cJSON *list, bool pierced)
-{
-    const cJSON *a;
-    int n = 0;
-    fprintf(script, "$%s << EOD\n", pierced ? "pierced" : "held");
-    cJSON_ArrayForEach(a, list)
-    {
-        const bool is = strcmp(report_text(a, "class"), strike_class_names[STRIKE_PIERCED]) == 0;
-        if (is != pierced) continue;
-        fprintf(script, "%.9g %.9g\n", report_number(a, "impact_velocity"), report_number(a, "residual_velocity"));
-        n++;
-    }
-    fputs("EOD\n", script);
-    return n;
-}
-
-static status plot_limit(const report_source *r, bool *drawn)
-{
-    const cJSON *list = cJSON_GetObjectItemCaseSensitive(r->summary, "arrivals");
-    const double k = report_number(r->summary, "recht_ipson_factor"),
-                 v50 = report_number(r->summary, "recht_ipson_limit");
-    plot p;
-    if (!r->gnuplot) return status_ok();
-    TRY(report_plot_begin(&p, r, "limit", 560, 380));
-    const int pierced = arrival_block(p.script, list, true), held = arrival_block(p.script, list, false);
-    report_plot_band(p.script, 1, r->summary, "limit_interval", true, report_gouge_band);
-    fputs("set xlabel 'arrival [m/s]'\nset ylabel 'residual velocity [m/s]'\nset key left top\n"
-          "set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nplot ",
-          p.script);
-    if (isfinite(k))
-        fprintf(p.script, "x > %g ? %g*sqrt(x*x - %g) : NaN with lines lw 2 title 'Recht, Ipson', ", v50, k, v50 * v50);
-    if (pierced > 0) fputs("$pierced with points pt 7 title 'pierced', ", p.script);
-    if (held > 0) fputs("$held with points pt 6 title 'not pierced', ", p.script);
-    fputs("0 notitle\n", p.script);
-    TRY(report_plot_end(&p));
-    *drawn = true;
-    return status_ok();
-}
-
-static void section(const page *p)
-{
-    static const page_column columns[] = {
-        { "impact_velocity", "arrival [m/s]", 1.0, "" },    { "class", "class", 1.0, "" },
-        { "residual_velocity", "residual [m/s]", 1.0, "" }, { "energy_absorbed", "absorbed [J]", 1.0, "" },
-        { "peak_force", "peak force [kN]", 1e3, "" },       { "scene", "scene", 1.0, "" }
-    };
-    const cJSON *list = cJSON_GetObjectItemCaseSensitive(p->source->summary, "arrivals");
-    if (cJSON_GetArraySize(list) > 0) {
-        report_page_listed(p, "arrivals", "Limit velocity", columns, PAGE_COUNT(columns));
-        report_page_draw(p, plot_limit, "limit", "Arrivals of the search; the band is limit_interval.");
-    }
-    report_section_bodies(p);
-}
-
 const study study_strike = {
     .name = "strike",
     .doc = "what the launched projectile does to its target",
@@ -303,7 +231,7 @@ const study study_strike = {
     .keys = result_keys,
     .shows_shot = true,
     .can_vary = true,
-    .report = { verdict, section },
+    .report = { report_strike_head, report_strike_section },
     .print = print,
     .possible = possible,
     .run = run,

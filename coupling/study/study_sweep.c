@@ -9,7 +9,6 @@
 #include "coupling/host/table.h"
 #include "coupling/host/words.h"
 #include "coupling/output/expect.h"
-#include "coupling/report/report_gnuplot.h"
 #include "coupling/report/report_page.h"
 #include "coupling/study/sweep.h"
 
@@ -445,200 +444,6 @@ static void print(const void *result, FILE *out)
     print_runs(r, true, out);
 }
 
-/* ---- the report's part ---- */
-
-static const cJSON *member(const cJSON *object, const char *key)
-{
-    return cJSON_GetObjectItemCaseSensitive(object, key);
-}
-
-static void html_value(FILE *out, const cJSON *value)
-{
-    if (cJSON_IsString(value)) {
-        fputs("<td class=\"text\">", out);
-        report_page_escaped(out, value->valuestring);
-    } else {
-        fputs("<td>", out);
-        report_page_number(out, cJSON_IsNumber(value) ? value->valuedouble : NAN, 1.0, "");
-    }
-    fputs("</td>", out);
-}
-
-/* A run a row: its inputs, the object `what`, its time. */
-static void html_table(const page *p, const char *what)
-{
-    const cJSON *run, *item, *runs = member(p->source->summary, "sweep");
-    fputs("<div class=\"wide\"><table><tr>", p->out);
-    cJSON_ArrayForEach(item, member(p->source->summary, "units"))
-    {
-        fputs("<th>", p->out);
-        report_page_escaped(p->out, item->string);
-        const bool bare = !cJSON_IsString(item) || !item->valuestring[0] || strcmp(item->valuestring, "1") == 0;
-        const bool error = strcmp(what, "errors") == 0 && !member(member(runs->child, "inputs"), item->string);
-        if (!bare && !error) {
-            fputs(" [", p->out);
-            report_page_escaped(p->out, item->valuestring);
-            fputs("]", p->out);
-        }
-        fputs("</th>", p->out);
-    }
-    fputs("<th>time [s]</th></tr>\n", p->out);
-    cJSON_ArrayForEach(run, runs)
-    {
-        fputs("<tr>", p->out);
-        cJSON_ArrayForEach(item, member(run, "inputs")) html_value(p->out, item);
-        cJSON_ArrayForEach(item, member(run, what)) html_value(p->out, item);
-        html_value(p->out, member(run, "wall_seconds"));
-        fputs("</tr>\n", p->out);
-    }
-    fputs("</table></div>\n", p->out);
-}
-
-/* One curve: what is drawn over what, of the runs whose other inputs are those of `alike`; NULL: of all. */
-typedef struct {
-    const char *object, *key; /* y; x is the time, or the first input where over_time is not set */
-    bool over_time;
-} curve;
-
-static double x_of(const cJSON *run, const curve *c)
-{
-    const cJSON *x = c->over_time ? member(run, "wall_seconds") : member(run, "inputs")->child;
-    return cJSON_IsNumber(x) ? x->valuedouble : NAN;
-}
-
-static bool same_others(const cJSON *a, const cJSON *b)
-{
-    const cJSON *x = member(a, "inputs")->child->next, *y = member(b, "inputs")->child->next;
-    for (; x && y; x = x->next, y = y->next)
-        if (!cJSON_Compare(x, y, true)) return false;
-    return true;
-}
-
-static void print_words(FILE *script, const char *text)
-{
-    for (; *text; text++)
-        if (*text != '\'' && *text != '\\' && (unsigned char)*text >= ' ') fputc(*text, script);
-}
-
-/* What sets a curve apart from the others: its further inputs. */
-static void print_others(FILE *script, const cJSON *run)
-{
-    for (const cJSON *x = member(run, "inputs")->child->next; x; x = x->next) {
-        print_words(script, x->string);
-        if (cJSON_IsNumber(x))
-            fprintf(script, " %.4g ", x->valuedouble);
-        else
-            fputs(" ", script), print_words(script, x->valuestring ? x->valuestring : "");
-    }
-}
-
-/* The data blocks of all curves; how many there are, *points in all. */
-static int curve_data(FILE *script, const cJSON *runs, const curve *c, int *points, const cJSON *first[], int most)
-{
-    const cJSON *run;
-    int n = 0;
-    *points = 0;
-    cJSON_ArrayForEach(run, runs)
-    {
-        int k = 0;
-        while (k < n && !same_others(first[k], run)) k++;
-        if (k == n && n < most) first[n++] = run;
-    }
-    for (int k = 0; k < n; k++) {
-        fprintf(script, "$curve%d << EOD\n", k);
-        cJSON_ArrayForEach(run, runs)
-        {
-            const double x = x_of(run, c), y = report_number(member(run, c->object), c->key);
-            if (!same_others(first[k], run) || !isfinite(x) || !isfinite(y) || (c->over_time && y <= 0.0)) continue;
-            fprintf(script, "%.9g %.9g\n", x, y);
-            (*points)++;
-        }
-        fputs("EOD\n", script);
-    }
-    return n;
-}
-
-static const char *unit_of(const report_source *r, const char *key)
-{
-    return report_text(member(r->summary, "units"), key);
-}
-
-static void axis_label(const report_source *r, FILE *script, const char *axis, const char *key)
-{
-    const char *unit = unit_of(r, key);
-    fprintf(script, "set %slabel '", axis);
-    print_words(script, key);
-    if (unit[0] && strcmp(unit, "1") != 0) {
-        fputs(" [", script);
-        print_words(script, unit);
-        fputs("]", script);
-    }
-    fputs("'\n", script);
-}
-
-static status plot_curve(const report_source *r, const char *name, const curve *c, bool *drawn)
-{
-    enum { MOST_CURVES = 12 };
-    const cJSON *runs = member(r->summary, "sweep"), *first[MOST_CURVES];
-    const char *input = member(runs->child, "inputs")->child->string;
-    plot p;
-    int points;
-    *drawn = false;
-    if (!r->gnuplot) return status_ok();
-    TRY(report_plot_begin(&p, r, name, 560, 380));
-    const int n = curve_data(p.script, runs, c, &points, first, MOST_CURVES);
-    if (c->over_time) {
-        fputs("set logscale xy\nset xlabel 'time of the run [s]'\nset ylabel 'error of ", p.script);
-        print_words(p.script, c->key);
-        fputs("'\n", p.script);
-    } else {
-        axis_label(r, p.script, "x", input);
-        axis_label(r, p.script, "y", c->key);
-    }
-    fputs("set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n", p.script);
-    for (int k = 0; k < n && points > 0; k++) {
-        fprintf(p.script, "%s$curve%d using 1:2 with linespoints pt 7 ps 0.7 lw 1.5 title '", k ? ", " : "plot ", k);
-        print_others(p.script, first[k]);
-        fputs("'", p.script);
-    }
-    fputs("\n", p.script);
-    TRY(report_plot_end(&p));
-    *drawn = points > 0;
-    return status_ok();
-}
-
-static void draw_curves(const page *p, const char *object, bool over_time, const char *prefix)
-{
-    enum { MOST_PLOTS = 8 };
-    const cJSON *item;
-    int n = 0;
-    fputs("<div class=\"plots\">\n", p->out);
-    cJSON_ArrayForEach(item, member(member(p->source->summary, "sweep")->child, object))
-    {
-        char name[32];
-        bool drawn;
-        if (n++ == MOST_PLOTS) break;
-        snprintf(name, sizeof name, "%s-%d", prefix, n);
-        const status s = plot_curve(p->source, name, &(curve){ object, item->string, over_time }, &drawn);
-        if (drawn) report_page_plot(p, name, "");
-        if (s.code != STATUS_OK) report_page_paragraph(p, "missing", s.text);
-    }
-    fputs("</div>\n", p->out);
-}
-
-static void section(const page *p)
-{
-    const cJSON *summary = p->source->summary;
-    if (cJSON_GetArraySize(member(summary, "sweep")) == 0) return;
-    report_page_heading(p, "The sweep");
-    draw_curves(p, "outputs", false, "sweep");
-    html_table(p, "outputs");
-    if (!report_text(summary, "resolution")[0]) return;
-    report_page_heading(p, "Error against run time");
-    draw_curves(p, "errors", true, "error");
-    html_table(p, "errors");
-}
-
 const study study_sweep = {
     .name = "sweep",
     .doc = "a scene or a shot for many values of some keys",
@@ -647,7 +452,7 @@ const study study_sweep = {
     .example = "breech sweep cases/sweep",
     .needs = CASE_FOR_SWEEP,
     .keys = result_keys,
-    .report = { NULL, section },
+    .report = { report_sweep_head, report_sweep_section },
     .print = print,
     .possible = possible,
     .run = run,

@@ -101,17 +101,6 @@ static status run(session *s, const study_case *of, study_answer *out)
     return status_ok();
 }
 
-static void verdict(const page *p)
-{
-    static const page_column cards[] = { { "rupture_time", "bursts after", 1e-3, "ms" },
-                                         { "rupture_swelling", "at this times its diameter", 1.0, "" },
-                                         { "rupture_pressure", "under a pressure of", 1e3, "kPa" },
-                                         { "rupture_film", "film", 1e-6, "um" },
-                                         { "vent_time", "to half the pressure", 1e-3, "ms" },
-                                         { "peak_pressure", "peak pressure", 1e3, "kPa" } };
-    report_page_cards(p, p->source->summary, cards, PAGE_COUNT(cards));
-}
-
 const study study_vessel = {
     .name = "vessel",
     .doc = "when a shell with gas and liquid in it bursts",
@@ -120,7 +109,7 @@ const study study_vessel = {
     .needs = CASE_FOR_VESSEL,
     .keys = keys,
     .can_vary = true,
-    .report = { verdict, NULL },
+    .report = { report_vessel_head, report_vessel_section },
     .possible = possible,
     .run = run,
     .free = free,
