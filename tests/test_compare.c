@@ -295,9 +295,9 @@ static void test_refusals(void **state)
 static void test_presets(void **state)
 {
     (void)state;
-    static const char *const names[] = { "machining", "debris", "sand" };
-    assert_int_equal(POPULATION_PRESETS, 4);
-    for (int k = 0; k < 3; k++) {
+    static const char *const names[] = { "machining", "debris", "sand", "pits", "rims" };
+    assert_int_equal(POPULATION_PRESETS, 6);
+    for (int k = 0; k < 5; k++) {
         char text[4000];
         snprintf(text, sizeof text, HEAD "populations: [{preset: %s, from: 1 m}]\ntreatments: [{name: a}]\n", names[k]);
         breech_case *c = read(text, ALL);
