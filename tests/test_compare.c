@@ -660,6 +660,34 @@ static void test_uncertain_inputs(void **state)
     case_free(c);
 }
 
+/* Uncertain inputs widen the interval of every surface that is compared, by searches of its own. */
+static void test_uncertain_surfaces(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD GRAINS "treatments:\n  - {name: hard, hardening: {depth: 0.4 mm, factor: 2}}\n", ALL);
+    compare_answer sure, unsure;
+    int named[2] = { 0, 0 };
+    OK(run_compare(c, "sure", &sure));
+    c->study.strength_error = 1.0; /* 150 m/s */
+    OK(run_compare(c, "unsure", &unsure));
+    for (int i = 0; i < 2; i++) {
+        const char *surface = i ? "hard" : "untreated";
+        const compare_entry *a = entry_of(&sure, surface), *b = entry_of(&unsure, surface);
+        const double resolution = 0.1 * a->threshold_velocity, wider = hypot(resolution, 150.0) - resolution;
+        assert_true(a->threshold_velocity == b->threshold_velocity);
+        assert_true(fabs(a->threshold_interval[0] - b->threshold_interval[0] - wider) < 0.5 * wider);
+        assert_true(fabs(b->threshold_interval[1] - a->threshold_interval[1] - wider) < 0.5 * wider);
+    }
+    for (int i = 0; i < unsure.result.n_scenes; i++) {
+        named[0] += strncmp(unsure.result.scene[i].name, "strength-", 9) == 0;
+        named[1] += strncmp(unsure.result.scene[i].name, "t1-strength-", 12) == 0;
+    }
+    assert_true(named[0] > 0 && named[1] > 0);
+    study_compare_answer_free(&sure);
+    study_compare_answer_free(&unsure);
+    case_free(c);
+}
+
 /* A close search of one resolution. */
 static breech_case *close_search(const char *text)
 {
@@ -899,6 +927,7 @@ int main(void)
         cmocka_unit_test(test_feedback_of_populations),
         cmocka_unit_test(test_no_craters),
         cmocka_unit_test(test_uncertain_inputs),
+        cmocka_unit_test(test_uncertain_surfaces),
         cmocka_unit_test(test_scatter),
         cmocka_unit_test(test_scatter_of_two),
         cmocka_unit_test(test_scatter_of_dying),

@@ -78,7 +78,10 @@ static status search(session *s, compare_answer *a)
     const status done = study_families_search(s, all, a->n);
     free(all);
     TRY(done);
-    for (int i = 0; i < a->n; i++) TRY(study_onset_judge(s, &a->answer[i]));
+    for (int i = 0; i < a->n; i++) {
+        TRY(study_uncertain_run(s, &a->answer[i].grains, &a->answer[i].uncertain));
+        TRY(study_onset_judge(s, &a->answer[i]));
+    }
     return status_ok();
 }
 

@@ -4,8 +4,9 @@
  *
  * Ranked by the expected number of gouges a shot; of equals the one that reaches its threshold later is the better.
  * `better_than_next`: share of the worlds (montecarlo.h: what the bands of the thresholds leave open) in which a
- * surface has fewer gouges than the next one, ties half.  From 95 % on the difference is called significant; surfaces
- * that no significant step parts share their rank. */
+ * surface has fewer gouges than the next one, ties half.  The bands hold the inputs that are stated as uncertain too
+ * (search/uncertain.h), each surface's by searches of its own.  From 95 % on the difference is called significant;
+ * surfaces that no significant step parts share their rank. */
 #ifndef BREECH_COUPLING_COMPARE_H
 #define BREECH_COUPLING_COMPARE_H
 

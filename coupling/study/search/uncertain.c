@@ -68,13 +68,14 @@ static status plan(const grain_families *g, const raised *from, double error, un
     CHECK(c, STATUS_MEMORY, "no memory for a case");
     *c = *g->c;
     *out = (uncertain_input){ .input = from->input, .change = error, .c = c };
+    snprintf(out->prefix, sizeof out->prefix, "%s%s", g->prefix, from->prefix);
     from->raise(c, 1.0 + error);
     c->study.craters = 0;
     if (thresholds_of(g, &low, &high)) {
         c->study.velocity_low = fmax(NEAR[0] * low, c->study.velocity_low);
         c->study.velocity_high = fmin(NEAR[1] * high, c->study.velocity_high);
     }
-    TRY(study_families_sort(c, g->flown, from->prefix, &out->grains));
+    TRY(study_families_sort(c, g->flown, out->prefix, &out->grains));
     if (g->scratch) study_families_want_scratch(&out->grains);
     return status_ok();
 }
@@ -138,6 +139,7 @@ status study_uncertain_run(session *s, grain_families *grains, uncertain_inputs 
         TRY(plan(grains, &inputs[k], error, &out->of[out->n++]));
     }
     if (out->n > 0) TRY(study_families_search(s, all, out->n));
+    for (int k = 0; k < out->n; k++) out->of[k].grains.prefix = ""; /* the answer may be copied */
     study_uncertain_widen(out, grains, grains);
     return status_ok();
 }

@@ -16,6 +16,7 @@ enum { UNCERTAIN_MAX = 3 };
 
 typedef struct {
     const char *input; /* its key */
+    char prefix[32];   /* of its scenes' names */
     double change;     /* relative [1] */
     case_onset *c;     /* owned, borrows from the study's */
     grain_families grains;
