@@ -272,6 +272,24 @@ static void test_beyond(void **state)
     assert_true(spared > 0);
 }
 
+/* What the first of two searches asks for below its bracket, to see whether the function turns back, is what the
+ * second, whose threshold is lower, asks for on its way: it costs nothing more. */
+static void test_beyond_is_shared(void **state)
+{
+    (void)state;
+    threshold_plan plan = usual();
+    plan.low = 500.0, plan.coarse = plan.fine;
+    for (double first = 950.0; first < 1500.0; first += 7.0) {
+        function high = plain(line, first), low = plain(line, 550.0);
+        const threshold_result above = search(&high, &plan), below = search(&low, &plan);
+        double lowest = INFINITY;
+        bool shared = false;
+        for (int i = 0; i < above.samples; i++) lowest = fmin(lowest, above.sample[i].velocity);
+        for (int i = 0; i < below.samples; i++) shared = shared || below.sample[i].velocity == lowest;
+        assert_true(shared);
+    }
+}
+
 static void test_ends(void **state)
 {
     (void)state;
@@ -1046,6 +1064,7 @@ int main(void)
         cmocka_unit_test(test_allowance),
         cmocka_unit_test(test_open_resolution),
         cmocka_unit_test(test_beyond),
+        cmocka_unit_test(test_beyond_is_shared),
         cmocka_unit_test(test_one_stage),
         cmocka_unit_test(test_ends),
         cmocka_unit_test(test_far_shift),

@@ -166,15 +166,32 @@ static bool has_looked(const threshold_search *s, const threshold_bracket *b, bo
     return false;
 }
 
+/* The lower of the first two scenes of a search [m/s]. */
+static double lower_start(const threshold_plan *p)
+{
+    return p->low + 0.25 * (p->high - p->low);
+}
+
+/* Where a search for a lower threshold widens to (ask_further_out), at `most` or below: its scenes are then known.
+ * Half way from the bracket to the end of the range, where that search would come to the end. */
+static double beyond_below(const threshold_search *s, double most)
+{
+    const threshold_plan *p = s->plan;
+    const double first = on_grid(s, lower_start(p)), stride = COARSE_WIDTH * first;
+    double at = first;
+    while (at > most && at > p->low) at = on_grid(s, at - fmax(stride, first - at));
+    return at > p->low && at <= most ? at : 0.5 * (s->coarse.lo.velocity + p->low);
+}
+
 /* The search itself never looks beyond its bracket, so it cannot see a function that turns back: one coarse scene on
- * each side, half way to the end of the range, looks there, unless one of the search's lies far enough out.  Planned
- * when the coarse bracket is known, asked for last. */
+ * each side looks there, unless one of the search's lies far enough out: above half way to the end of the range, below
+ * where a search for a lower threshold would look.  Planned when the coarse bracket is known, asked for last. */
 static void plan_beyond(threshold_search *s, int reserve)
 {
     const threshold_plan *p = s->plan;
     const threshold_bracket *b = &s->coarse;
-    const double at[2] = { 0.5 * (b->lo.velocity + p->low), 0.5 * (b->hi.velocity + p->high) };
     const double gap[2] = { b->lo.velocity - p->low, p->high - b->hi.velocity }, far = BEYOND_GAP * middle(b);
+    const double at[2] = { beyond_below(s, b->lo.velocity - far), 0.5 * (b->hi.velocity + p->high) };
     for (int above = 0; above < 2; above++) {
         if (gap[above] < far || has_looked(s, b, above, far) || budget_left(s) < reserve + s->n_beyond) continue;
         s->beyond[s->n_beyond++] = on_grid(s, at[above]);
@@ -360,12 +377,11 @@ static double half_interval(const threshold_search *s)
 static void ask_first(threshold_search *s)
 {
     const threshold_plan *p = s->plan;
-    const double quarter = 0.25 * (p->high - p->low);
     s->cells = s->fine ? p->fine : p->coarse;
     if (s->fine)
         need_one(s, root(&s->coarse) - half_interval(s));
     else
-        need_two(s, p->low + quarter, p->high - quarter);
+        need_two(s, lower_start(p), p->high - 0.25 * (p->high - p->low));
 }
 
 static void begin_widening(threshold_search *s)

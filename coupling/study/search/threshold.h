@@ -12,9 +12,10 @@
  *      else at the secant's root or, where an end is within a wanted width of the root, that width from the end.  (Two
  *      scenes at a time took a fifth more of them.)  No bracket is made narrower than the resolution allows
  *      (`resolution`).
- *      At the end, a coarse scene half way to each end of the range that is far away and was not looked at: does the
- *      function turn back?  If scenes run out before both sides are known, the answer is the coarse root, moved as far
- *      as the fine scenes on one side require.
+ *      At the end, a coarse scene far out on each side where none was looked at: does the function turn back?  Above
+ *      half way to the end of the range; below where a search for a lower threshold would look (2 and 1), so that a
+ *      second search from the same range has one scene less to compute.  If scenes run out before both sides are
+ *      known, the answer is the coarse root, moved as far as the fine scenes on one side require.
  *   3. Interval: the fine bracket, between decided scenes.  An `undecided` scene counts on the side of its excess but
  *      does not end the interval; that ends at the next decided scene, or where the line to it leaves the scatter.
  *      The interval is widened by what the resolution may change: the shift of the root from coarse to fine, or the
