@@ -2,6 +2,7 @@
 /* The solver's step and its books. */
 #include "mpm/law/contact.h"
 #include "mpm/memory/build.h"
+#include "mpm/memory/cavities.h"
 #include "mpm/memory/store.h"
 #include "mpm/refine/refine.h"
 
@@ -205,6 +206,7 @@ static status fill(mpm *m)
         TRY(mpm_refine_flags(m, &again)); /* as fine as the rules want it from the start */
         again = again && i < m->grids.levels;
     }
+    TRY(mpm_cavities_make(m));
     return mpm_store_settle(m);
 }
 
@@ -287,6 +289,7 @@ void mpm_free(mpm *m)
 {
     if (!m) return;
     mpm_store_free(m);
+    mpm_cavities_free(m);
     mpm_reading_free(m);
     free(m->materials), free(m->laws), free(m->effusivity);
     free(m->body_report), free(m->peaks);
@@ -548,8 +551,9 @@ static status one_substep(mpm *m, int n, tally *sum)
     double clock = omp_get_wtime();
     m->begins = coarsest_at(m, n), m->ends = coarsest_at(m, n + 1);
     TRY(reserve_scratch(m));
+    TRY(mpm_cavities_reserve(m));
     phase_p2g(m), lap(m, PHASE_P2G, &clock);
-    phase_nodes(m), lap(m, PHASE_NODES, &clock);
+    phase_nodes(m), mpm_cavities_step(m), lap(m, PHASE_NODES, &clock);
     phase_g2p(m), lap(m, PHASE_G2P, &clock);
     TRY(collect(m, sum));
     lap(m, PHASE_REST, &clock);
@@ -584,6 +588,7 @@ static status one_step(mpm *m, double until)
     CHECK(isfinite(m->dt) && m->dt > 0, STATUS_NUMERICAL, "t = %g s: the time step became %g s; try a smaller courant",
           m->time, m->dt);
     if (is_due(m, SAMPLE_EVERY)) mpm_sample_percentiles(m);
+    if (is_due(m, MPM_CAVITY_EVERY)) mpm_cavities_look(m);
     if (is_due(m, COMPACT_EVERY)) TRY(mpm_store_compact(m));
     if (is_due(m, mpm_refine_every(m->scene.refine, m->scene.refines))) TRY(mpm_refine_look(m));
     lap(m, PHASE_REST, &clock);

@@ -3,6 +3,7 @@
 
 #include "mpm/law/contact.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -74,6 +75,18 @@ status mpm_scene_add_refine(mpm_scene *s, const char *kind, mpm_refine **added)
     return status_ok();
 }
 
+status mpm_scene_add_cavity(mpm_scene *s, const char *name, mpm_cavity **added)
+{
+    void *array = s->cavity;
+    TRY(grow(&array, s->cavities, sizeof *s->cavity));
+    s->cavity = array;
+    *added = &s->cavity[s->cavities++];
+    memset(*added, 0, sizeof **added);
+    base_params_default(mpm_cavity_params, *added);
+    snprintf((*added)->name, sizeof(*added)->name, "%s", name);
+    return status_ok();
+}
+
 status mpm_scene_add_pair(mpm_scene *s, int a, int b, mpm_pair **added)
 {
     void *array = s->pair;
@@ -135,18 +148,19 @@ static status duplicate(const void *from, int n, size_t size, void **to)
 
 status mpm_scene_copy(const mpm_scene *from, mpm_scene *to)
 {
-    void *body = NULL, *solid = NULL, *pair = NULL, *probe = NULL, *refine = NULL;
+    void *body = NULL, *solid = NULL, *pair = NULL, *probe = NULL, *refine = NULL, *cavity = NULL;
     status s = duplicate(from->body, from->bodies, sizeof *from->body, &body);
     if (s.code == STATUS_OK) s = duplicate(from->solid, from->solids, sizeof *from->solid, &solid);
     if (s.code == STATUS_OK) s = duplicate(from->pair, from->pairs, sizeof *from->pair, &pair);
     if (s.code == STATUS_OK) s = duplicate(from->probe, from->probes, sizeof *from->probe, &probe);
     if (s.code == STATUS_OK) s = duplicate(from->refine, from->refines, sizeof *from->refine, &refine);
+    if (s.code == STATUS_OK) s = duplicate(from->cavity, from->cavities, sizeof *from->cavity, &cavity);
     if (s.code != STATUS_OK) {
-        free(body), free(solid), free(pair), free(probe);
+        free(body), free(solid), free(pair), free(probe), free(refine);
         return s;
     }
     *to = *from;
-    to->body = body, to->solid = solid, to->pair = pair, to->probe = probe, to->refine = refine;
+    to->body = body, to->solid = solid, to->pair = pair, to->probe = probe, to->refine = refine, to->cavity = cavity;
     return s;
 }
 
@@ -157,5 +171,6 @@ void mpm_scene_free(mpm_scene *s)
     free(s->pair);
     free(s->probe);
     free(s->refine);
+    free(s->cavity);
     memset(s, 0, sizeof *s);
 }

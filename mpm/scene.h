@@ -13,6 +13,7 @@
 #define BREECH_MPM_SCENE_H
 
 #include "base/status.h"
+#include "mpm/cavity.h"
 #include "mpm/material.h"
 #include "mpm/read/probe.h"
 #include "mpm/refine/refine.h"
@@ -91,12 +92,13 @@ typedef enum { TRANSFER_TPIC, TRANSFER_PIC } transfer_kind; /* with and without 
 typedef enum { BASIS_GIMP, BASIS_BSPLINE } basis_kind; /* GIMP whose domains follow the stretch; quadratic B-spline */
 
 typedef struct {
-    int bodies, solids, pairs, probes, refines;
+    int bodies, solids, pairs, probes, refines, cavities;
     mpm_body *body;      /* [bodies] owned; later bodies have the points that several claim */
     mpm_solid *solid;    /* [solids] owned; trees of the bodies' volumes (shape/solid.h) */
     mpm_pair *pair;      /* [pairs] owned; each two groups at most once */
     mpm_probe *probe;    /* [probes] owned; what is read while the scene runs, which changes nothing of it */
     mpm_refine *refine;  /* [refines] owned; rules that say where cells are small, with several levels */
+    mpm_cavity *cavity;  /* [cavities] owned; gas between bodies */
     mpm_contact contact; /* of two groups that no pair names, with the normal of the lower one */
     mpm_axis axis[3];
     /* Of the grid (grid/grid.h).  1: the axes' grid.  More: cells of `fine` where the fine zones of all axes meet,
@@ -135,6 +137,8 @@ status mpm_scene_add_solid(mpm_scene *s, const char *kind, int a, int b, mpm_sol
 status mpm_scene_add_probe(mpm_scene *s, const char *kind, const char *name, mpm_probe **added);
 /* One more rule of refinement, with its values at their defaults, of no body. */
 status mpm_scene_add_refine(mpm_scene *s, const char *kind, mpm_refine **added);
+/* One more cavity at its defaults, of that name. */
+status mpm_scene_add_cavity(mpm_scene *s, const char *name, mpm_cavity **added);
 status mpm_scene_add_pair(mpm_scene *s, int a, int b, mpm_pair **added); /* as the scene's default contact */
 
 /* How these two groups touch: the scene's pair, or what holds for those without one. */

@@ -80,6 +80,26 @@ const param mpm_pair_params[] = {
     PARAMS_END,
 };
 
+const param mpm_cavity_params[] = {
+    PARAM_INT(mpm_cavity, wall, -1, -1, 1e9, "body that holds it in"),
+    /* MPM_CAVITY_KEYED */
+    PARAM_STRING(mpm_cavity, name, NULL, "its name: letters, digits, - _ ."),
+    PARAM_VEC3(mpm_cavity, place, "m", REQUIRED, -1e3, 1e3, "a point in its void at the start"),
+    PARAM_DOUBLE(mpm_cavity, pressure, "Pa", 0.0, -1e9, 1e12, "of its gas at the start, above the ambient one"),
+    PARAM_DOUBLE(mpm_cavity, ambient, "Pa", 101325.0, 1.0, 1e9,
+                 "absolute pressure outside, from which pressures count"),
+    PARAM_DOUBLE(mpm_cavity, temperature, "K", 293.15, 1.0, 1e4, "of its gas, for good"),
+    PARAM_DOUBLE(mpm_cavity, critical_temperature, "K", OPTIONAL, 1.0, 1e4,
+                 "with critical_pressure: Redlich and Kwong; not given: an ideal gas"),
+    PARAM_DOUBLE(mpm_cavity, critical_pressure, "Pa", OPTIONAL, 1e3, 1e9, "of the gas"),
+    PARAM_DOUBLE(mpm_cavity, feed, "mol/s", 0.0, -1e6, 1e6, "gas that comes into it, of the model as computed"),
+    PARAM_DOUBLE(mpm_cavity, hole, "m^2", 0.0, 0.0, 1e4, "area that opens when it bursts; 0: it keeps its gas"),
+    PARAM_DOUBLE(mpm_cavity, discharge, "1", 0.8, 1e-3, 1.0, "coefficient of the flow through it"),
+    PARAM_DOUBLE(mpm_cavity, molar_mass, "kg/mol", 0.029, 1e-3, 1.0, "of the gas"),
+    PARAM_DOUBLE(mpm_cavity, gas_gamma, "1", 1.3, 1.01, 2.0, "ratio of its specific heats"),
+    PARAMS_END,
+};
+
 const param mpm_scene_params[] = {
     PARAM_STRING(mpm_scene, instruction_set, "", "that the kernels run in; empty: the best of this machine"),
     /* MPM_SCENE_KEYED */
@@ -154,6 +174,7 @@ uint64_t mpm_scene_hash(const mpm_scene *s)
     for (int k = 0; k < 3; k++) h = hash_members(h, mpm_axis_params, &s->axis[k]);
     for (int i = 0; i < s->solids; i++) h = hash_solid(h, &s->solid[i]);
     for (int i = 0; i < s->refines; i++) h = hash_refine(h, &s->refine[i]);
+    for (int i = 0; i < s->cavities; i++) h = hash_members(h, mpm_cavity_params, &s->cavity[i]);
     for (int i = 0; i < s->bodies; i++) {
         h = hash_members(h, mpm_body_params, &s->body[i]);
         h = hash_members(h, mpm_material_params, s->body[i].material);

@@ -370,8 +370,8 @@ static void test_passage(void **state)
 static void test_table(void **state)
 {
     (void)state;
-    static const char *const tested[] = { "pressure", "face",    "force",   "motion",
-                                          "energy",   "plastic", "surface", "passage" };
+    static const char *const tested[] = { "pressure", "face",    "force",   "motion", "energy",
+                                          "plastic",  "surface", "passage", "cavity" /* test_mpm_cavity.c */ };
     int n = 0;
     for (const mpm_probe_kind *k; (k = mpm_probe_kind_at(n)); n++) {
         assert_ptr_equal(mpm_probe_kind_find(k->name), k);

@@ -127,22 +127,18 @@ static void test_tables(void **state)
     static const size_t of_body[][2] = { PLACE(mpm_body, material), { 0, 0 } };
     static const size_t of_axis[][2] = { { 0, 0 } };
     static const size_t of_pair[][2] = { PLACE(mpm_pair, contact), { 0, 0 } };
-    static const size_t of_scene[][2] = { PLACE(mpm_scene, bodies),
-                                          PLACE(mpm_scene, solids),
-                                          PLACE(mpm_scene, pairs),
-                                          PLACE(mpm_scene, body),
-                                          PLACE(mpm_scene, solid),
-                                          PLACE(mpm_scene, pair),
-                                          PLACE(mpm_scene, axis),
-                                          PLACE(mpm_scene, contact),
-                                          PLACE(mpm_scene, probes),
-                                          PLACE(mpm_scene, probe),
-                                          PLACE(mpm_scene, refines),
-                                          PLACE(mpm_scene, refine),
-                                          { 0, 0 } };
+    static const size_t of_scene[][2] = {
+        PLACE(mpm_scene, bodies),   PLACE(mpm_scene, solids),  PLACE(mpm_scene, pairs),
+        PLACE(mpm_scene, body),     PLACE(mpm_scene, solid),   PLACE(mpm_scene, pair),
+        PLACE(mpm_scene, axis),     PLACE(mpm_scene, contact), PLACE(mpm_scene, probes),
+        PLACE(mpm_scene, probe),    PLACE(mpm_scene, refines), PLACE(mpm_scene, refine),
+        PLACE(mpm_scene, cavities), PLACE(mpm_scene, cavity),  { 0, 0 }
+    };
     covered("mpm_body", (const param *const[]){ mpm_body_params, NULL }, sizeof(mpm_body), of_body);
     covered("mpm_axis", (const param *const[]){ mpm_axis_params, NULL }, sizeof(mpm_axis), of_axis);
     covered("mpm_pair", (const param *const[]){ mpm_pair_params, NULL }, sizeof(mpm_pair), of_pair);
+    static const size_t of_cavity[][2] = { { 0, 0 } };
+    covered("mpm_cavity", (const param *const[]){ mpm_cavity_params, NULL }, sizeof(mpm_cavity), of_cavity);
     covered("mpm_scene", (const param *const[]){ mpm_scene_params, NULL }, sizeof(mpm_scene), of_scene);
 }
 

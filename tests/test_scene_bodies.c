@@ -548,12 +548,13 @@ static void check_probes(const mpm_scene *s, history *const h[2], const scene_bo
             snprintf(name, sizeof name, "probes/%s/%s", p->name, k->name);
             assert_same_column(h[0], h[1], name, rows);
         }
+        const bool none = strcmp(p->kind->name, "cavity") == 0; /* the scene has none */
         const scene_probe_result *is = &r[0].probe[i];
         assert_string_equal(is->name, p->name);
         assert_string_equal(is->kind, p->kind->name);
         assert_int_equal(is->columns, map ? 0 : mpm_probe_columns(p));
-        assert_int_equal(isnan(is->peak), p->kind->mains == 0);
-        for (int c = 0; c < is->columns; c++) assert_false(isnan(is->last[c]) || isnan(is->mean[c]));
+        assert_int_equal(isnan(is->peak), p->kind->mains == 0 || none);
+        for (int c = 0; c < is->columns && !none; c++) assert_false(isnan(is->last[c]) || isnan(is->mean[c]));
         assert_memory_equal(is, &r[1].probe[i], sizeof *is);
     }
 }

@@ -17,6 +17,7 @@ static const char *const overlap_names[] = { [OVERLAP_REFUSED] = "refused", [OVE
 static const param *const method_params = &mpm_scene_params[MPM_SCENE_KEYED];
 static const param *const axis_params = &mpm_axis_params[MPM_AXIS_KEYED];
 static const param *const body_params = &mpm_body_params[MPM_BODY_KEYED];
+static const param *const cavity_params = &mpm_cavity_params[MPM_CAVITY_KEYED];
 
 typedef struct {
     int overlap;
@@ -71,6 +72,10 @@ const case_section case_bodies_manual[] = {
     MANUAL("scene.refine", refine_params,
            "A list of rules that say where cells are small. Besides `cell` one key, the kind of rule (below), with the "
            "name of a body or `all`, and the kind's own keys."),
+    MANUAL(
+        "scene.cavities", &mpm_cavity_params[MPM_CAVITY_KEYED],
+        "A list of voids between bodies that hold a gas (scenes.md). Besides these keys: `wall`, the body that holds "
+        "it in: where its intact points no longer do, the cavity has burst."),
     { .key = NULL },
 };
 
@@ -428,6 +433,23 @@ static void read_boundary(case_reader *r, const tree_node *map)
     }
 }
 
+/* Gas between bodies; its wall is a body. */
+static void read_cavity(case_reader *r, const tree_node *map, int k)
+{
+    static const char *const others[] = { "wall", NULL };
+    mpm_scene *s = &r->out->bodies.scene;
+    char path[CASE_KEY_SIZE];
+    mpm_cavity *c;
+    snprintf(path, sizeof path, "scene.cavities[%d]", k);
+    if (mpm_scene_add_cavity(s, "", &c).code != STATUS_OK) {
+        r->out_of_memory = true;
+        return;
+    }
+    const case_keys keys = { cavity_params, c };
+    case_keys_read(r, map, path, &keys, 1, others);
+    if (host_tree_find(map, "wall")) c->wall = named_body(r, map, "wall", path);
+}
+
 static const char *refine_kind_name(const void *user, int i)
 {
     (void)user;
@@ -487,7 +509,8 @@ static void share(const shared_keys *keys, mpm_scene *s)
 
 void case_bodies_read(case_reader *r)
 {
-    static const char *const others[] = { "bodies", "contacts", "refine", "window", "boundary", "probes", NULL };
+    static const char *const others[] = { "bodies", "contacts", "refine", "cavities",
+                                          "window", "boundary", "probes", NULL };
     const tree_node *scene = host_tree_find(r->root, "scene"), *bodies = host_tree_find(scene, "bodies");
     mpm_scene *s = &r->out->bodies.scene;
     shared_keys shared;
@@ -512,6 +535,8 @@ void case_bodies_read(case_reader *r)
     if (host_tree_find(scene, "boundary")) read_boundary(r, host_tree_find(scene, "boundary"));
     for (int k = 0; case_entry_node(host_tree_find(scene, "refine"), k); k++)
         read_refine(r, case_entry_node(host_tree_find(scene, "refine"), k), k);
+    for (int k = 0; case_entry_node(host_tree_find(scene, "cavities"), k); k++)
+        read_cavity(r, case_entry_node(host_tree_find(scene, "cavities"), k), k);
     share(&shared, s);
 }
 
@@ -617,6 +642,14 @@ static void write_refine(const mpm_scene *s, const mpm_refine *r, FILE *file)
     fputs("}\n", file);
 }
 
+static void write_cavity(const mpm_scene *s, const mpm_cavity *c, FILE *file)
+{
+    fputs("    - {", file);
+    case_keys_write(cavity_params, c, true, file);
+    if (c->wall >= 0) fprintf(file, ", wall: %s", s->body[c->wall].name);
+    fputs("}\n", file);
+}
+
 void case_bodies_write(const case_bodies *b, FILE *file)
 {
     const mpm_scene *s = &b->scene;
@@ -634,6 +667,8 @@ void case_bodies_write(const case_bodies *b, FILE *file)
     write_contacts(s, file);
     if (s->refines > 0) fputs("  refine:\n", file);
     for (int i = 0; i < s->refines; i++) write_refine(s, &s->refine[i], file);
+    if (s->cavities > 0) fputs("  cavities:\n", file);
+    for (int i = 0; i < s->cavities; i++) write_cavity(s, &s->cavity[i], file);
     if (s->probes > 0) fputs("  probes:\n", file);
     for (int i = 0; i < s->probes; i++) write_probe(s, &s->probe[i], file);
 }

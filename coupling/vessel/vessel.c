@@ -86,12 +86,9 @@ static double growth(const model *m, double radius)
 static double vent(const model *m, double pressure, double moles)
 {
     const case_vessel *c = m->is;
-    const double g = c->gas_gamma, p = pressure + c->ambient, x = fmin(c->ambient / p, 1.0);
-    const double area = m->dimension == 2 ? c->hole : 0.25 * PI * c->hole * c->hole;
-    const double choked = pow(2.0 / (g + 1.0), g / (g - 1.0));
-    const double psi = x < choked ? sqrt(g) * pow(2.0 / (g + 1.0), 0.5 * (g + 1.0) / (g - 1.0))
-                                  : sqrt(2.0 * g / (g - 1.0) * (pow(x, 2.0 / g) - pow(x, (g + 1.0) / g)));
-    const double flow = c->discharge * area * p * psi / sqrt(mpm_gas_constant * c->temperature * c->molar_mass);
+    const mpm_orifice hole = { m->dimension == 2 ? c->hole : 0.25 * PI * c->hole * c->hole, c->discharge, c->gas_gamma,
+                               c->molar_mass };
+    const double flow = mpm_gas_flow(&hole, c->temperature, pressure + c->ambient, c->ambient);
     return m->burst && moles > 0.0 ? flow * moles / (moles + LAST * m->at_rupture) : 0.0;
 }
 

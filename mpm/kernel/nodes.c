@@ -7,6 +7,7 @@
  *   the particles'. */
 #include "mpm/kernel/kernels.h"
 #include "mpm/law/contact.h"
+#include "mpm/memory/cavities.h"
 
 #include <math.h>
 #include <string.h>
@@ -378,9 +379,9 @@ static void finish_node(const node_state *n, double node[NODE], tally *sum)
     node[3] = 0.5 * dot(n->v, n->v) + n->heat / n->m;
 }
 
-/* The group's part of the node before any contact: walls, then the forces. */
-static void begin_side(const mpm *m, const group_nodes *group, int cell, const int index[3], double dt, node_side *side,
-                       tally *sum)
+/* The group's part of the node before any contact: walls, then the forces; gas: pressure of a cavity (mpm/cavity.h). */
+static void begin_side(const mpm *m, const group_nodes *group, int cell, const int index[3], double dt, double gas,
+                       node_side *side, tally *sum)
 {
     const double *line = group->line[cell];
     node_state *n = &side->state;
@@ -388,6 +389,7 @@ static void begin_side(const mpm *m, const group_nodes *group, int cell, const i
     *n = (node_state){ .m = line[0], .extra = group->extra[cell] };
     for (int k = 0; k < 3; k++) n->v[k] = line[1 + k] / n->m, n->f[k] = line[4 + k];
     n->heat = line[7] - kinetic(n);
+    for (int k = 0; k < 3 && gas != 0; k++) n->f[k] -= gas * n->extra[k];
     side->n_walls = walls_at(m, axes_of(m, side->brick), index, side->brick->group, side->walls);
     apply_walls(m, side, cell, dt, n, sum);
     memcpy(n->v_start, n->v, sizeof n->v_start);
@@ -401,6 +403,8 @@ typedef struct {
     group_nodes *group;
     node_side *side;
     touching *pair;
+    int gas;       /* 1 + the cavity that the node lies at, 0: none */
+    double *swept; /* [cavities] volume that the site's nodes make [m3] */
 } scratch;
 
 static size_t whole_lines(size_t bytes)
@@ -426,14 +430,23 @@ static scratch scratch_of(const mpm *m, int thread)
     return s;
 }
 
+/* What the node's motion adds to the void around it: its gas does p times that in work [m3]. */
+static double volume_made(const node_state *n, double dt)
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) sum -= 0.5 * dt * n->extra[k] * (n->v_start[k] + n->v[k]);
+    return sum;
+}
+
 static void one_node(mpm *m, const scratch *at, int count, int cell, const int index[3], const double h[3], double dt,
                      tally *sum)
 {
     node_side *side = at->side;
+    const double gas = at->gas ? m->cavities->state[at->gas - 1].pressure : 0;
     int here = 0, pairs = 0;
     for (int s = 0; s < count; s++)
         if (at->group[s].line[cell][0] > 0)
-            begin_side(m, &at->group[s], cell, index, dt, &side[here++], sum);
+            begin_side(m, &at->group[s], cell, index, dt, gas, &side[here++], sum);
         else
             memset(brick_nodes(m, at->group[s].brick)[cell], 0, NODE * sizeof(double));
     for (int a = 0; a < here; a++)
@@ -447,6 +460,7 @@ static void one_node(mpm *m, const scratch *at, int count, int cell, const int i
     for (int s = 0; s < here; s++) {
         for (int i = 0; count > 1 && i < side[s].n_walls; i++)
             if (side[s].walls[i].kind == BOUNDARY_SYMMETRY) hold(&side[s].state, side[s].walls[i].axis, 0, dt, sum);
+        if (at->gas) at->swept[at->gas - 1] += volume_made(&side[s].state, dt);
         finish_node(&side[s].state, brick_nodes(m, side[s].brick)[cell], sum);
     }
 }
@@ -494,7 +508,7 @@ static int groups_at(mpm *m, int site, const scratch *to, tally *sum)
         group_nodes *n = &to->group[count];
         *n = b->at_interface ? interface_lines(b) : (group_nodes){ b, to->own[count][0], to->own[count][1] };
         if (present > 1) memset(b->contact_impulse, 0, sizeof b->contact_impulse);
-        if (b->at_interface ? has_mass(b->line) : gather_group(m, b, present > 1, n))
+        if (b->at_interface ? has_mass(b->line) : gather_group(m, b, present > 1 || m->cavities, n))
             count++;
         else
             memset(brick_nodes(m, b), 0, sizeof *m->nodes);
@@ -511,13 +525,18 @@ static const brick *first_at(const mpm *m, int site)
 
 void ISA(nodes)(mpm *m, int site, int thread)
 {
-    const scratch at = scratch_of(m, thread);
+    scratch at = scratch_of(m, thread);
     tally *sum = &m->site_sum[site];
     memset(sum, 0, sizeof *sum);
     const brick *b = first_at(m, site);
     const uint64_t due = mpm_substep_due(m, b) &
                          ~(b->interface.follow_coarser | b->interface.follow_finer); /* mpm_interface_constrain */
     if (!due) return;
+    struct mpm_cavities *cavities = m->cavities;
+    if (cavities) {
+        at.swept = cavities->swept + site * cavities->n;
+        memset(at.swept, 0, (size_t)cavities->n * sizeof *at.swept);
+    }
     const int count = groups_at(m, site, &at, sum);
     if (count == 0) return;
     const axis *axes = axes_of(m, b);
@@ -526,7 +545,8 @@ void ISA(nodes)(mpm *m, int site, int thread)
                                BRICK * b->at[2] + cell / (BRICK * BRICK) };
         if (!(due >> cell & 1)) continue;
         const double dt = mpm_substep_dt(m, b, cell);
-        if (is_inside(axes, index) && !is_shared(at.group, count, cell)) {
+        at.gas = cavities && is_in_map(cavities, index) ? cavity_at(cavities, index) & CAVITY_OF : 0;
+        if (!at.gas && is_inside(axes, index) && !is_shared(at.group, count, cell)) {
             for (int s = 0; s < count; s++)
                 free_node(at.group[s].line[cell], dt, brick_nodes(m, at.group[s].brick)[cell]);
             continue;

@@ -18,6 +18,7 @@
  * Weights sum to one, the q to zero: instead of the middle one of an axis' three nodes the sum of all three is
  * accumulated, with w = 1 and q = 0, and the middle is what the other two leave of it.  That is a fifth less work. */
 #include "mpm/kernel/kernels.h"
+#include "mpm/memory/cavities.h"
 
 #include <string.h>
 
@@ -310,7 +311,10 @@ static void fold(const mpm *m, brick *b)
 
 void ISA(p2g)(mpm *m, brick *b)
 {
-    const uint64_t meets = b->across ? ~0ull : b->contact ? mpm_contact_cells(m, b) : 0;
+    const uint64_t meets = (b->across    ? ~0ull
+                            : b->contact ? mpm_contact_cells(m, b)
+                                         : 0) |
+                           (m->cavities ? cavity_cells(m->cavities, b) : 0);
     const bool as_before = b->given && b->still == BRICK_ASLEEP && meets == b->meets;
     memset(&b->sum, 0, sizeof b->sum);
     b->sum.bad_block = -1;

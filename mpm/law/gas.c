@@ -52,3 +52,12 @@ double mpm_gas_molar_volume(const mpm_gas *g, double pressure)
     }
     return v;
 }
+
+/*   n' = C A p psi/sqrt(R T M),   psi^2 = 2 g/(g - 1) (x^(2/g) - x^((g + 1)/g)),   x = p_a/p, no less than where psi is
+ *   largest: the flow is choked below */
+double mpm_gas_flow(const mpm_orifice *o, double temperature, double p, double p_a)
+{
+    const double g = o->gamma, choked = pow(2 / (g + 1), g / (g - 1)), x = fmin(fmax(p_a / p, choked), 1);
+    const double psi = sqrt(2 * g / (g - 1) * (pow(x, 2 / g) - pow(x, (g + 1) / g)));
+    return o->discharge * o->area * p * psi / sqrt(mpm_gas_constant * temperature * o->molar_mass);
+}

@@ -17,6 +17,13 @@ mpm_gas mpm_gas_make(double temperature, double critical_temperature, double cri
 
 double mpm_gas_pressure(const mpm_gas *g, double molar_volume); /* absolute [Pa] */
 double mpm_gas_molar_volume(const mpm_gas *g, double pressure); /* of the vapour: the largest [m3/mol] */
+/* An orifice: of an ideal gas, from p to p_a, choked or not [mol/s]. */
+typedef struct {
+    double area, discharge;   /* [m2, 1] */
+    double gamma, molar_mass; /* ratio of specific heats [1, kg/mol] */
+} mpm_orifice;
+double mpm_gas_flow(const mpm_orifice *o, double temperature, double p, double p_a);
+
 double mpm_gas_condenses(const mpm_gas *g); /* pressure beyond which there is no vapour; INFINITY: none [Pa] */
 
 #endif

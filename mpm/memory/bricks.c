@@ -196,10 +196,11 @@ static bool link_brick(mpm *m, brick *b)
     }
     b->across = b->at_interface && mpm_interface_in_contact(m, b);
     b->contact = b->across || meets_other(m, b);
-    if (b->contact && b->out && !b->out_contact) b->out_contact = aligned(HALO_NODES * sizeof *b->out_contact);
+    const bool surface = b->contact || m->cavities; /* volume gradients are summed */
+    if (surface && b->out && !b->out_contact) b->out_contact = aligned(HALO_NODES * sizeof *b->out_contact);
     if (b->at_interface && !b->line) b->line = cleared(2 * BRICK_CELLS * sizeof *b->line);
     if (interface_shared(&b->interface) && !b->held) b->held = cleared(sizeof *b->held);
-    return (b->out_contact || !b->contact || !b->out) && (b->line || !b->at_interface) &&
+    return (b->out_contact || !surface || !b->out) && (b->line || !b->at_interface) &&
            (b->held || !interface_shared(&b->interface));
 }
 

@@ -200,12 +200,13 @@ struct mpm {
     double *effusivity;  /* [scene.bodies] sqrt(k rho c), NAN: not known [W s^1/2/m2/K] */
     grids grids;
     int groups;
-    group_info *group; /* [groups] */
-    touch_rule *rule;  /* [1 + scene.pairs] the first for two groups that no pair names */
-    int *rule_of;      /* [groups x groups] */
-    int *directory;    /* [places][groups] brick or -1 */
-    tally *site_sum;   /* [places] */
-    int places;        /* that the four arrays of places have room for */
+    group_info *group;             /* [groups] */
+    touch_rule *rule;              /* [1 + scene.pairs] the first for two groups that no pair names */
+    int *rule_of;                  /* [groups x groups] */
+    struct mpm_cavities *cavities; /* memory/cavities.h; NULL: the scene has none */
+    int *directory;                /* [places][groups] brick or -1 */
+    tally *site_sum;               /* [places] */
+    int places;                    /* that the four arrays of places have room for */
 
     brick *bricks;
     double (*nodes)[BRICK_CELLS][NODE]; /* of each brick: vx, vy, vz, specific energy that is left to the particles */

@@ -4,6 +4,7 @@
  * An image is a flat array of bytes: a header, the ledger, the reports of bodies and groups, then every brick in its
  * order with its chains of blocks in theirs, holes included.  A restored solver continues with the same bits. */
 #include "mpm/memory/build.h"
+#include "mpm/memory/cavities.h"
 #include "mpm/memory/store.h"
 
 #include <math.h>
@@ -36,7 +37,7 @@ static size_t image_bytes(const mpm *m, int blocks)
     return sizeof(image_head) + sizeof(mpm_ledger) + sizeof(mpm_report) +
            (size_t)m->scene.bodies * sizeof *m->body_report + (size_t)m->groups * sizeof *m->force +
            (size_t)m->bricks_used * sizeof(image_brick) + (size_t)blocks * (sizeof(block) + sizeof(block_link)) +
-           (size_t)m->grids.pages * (sizeof(grid_page) + PAGE_PLACES);
+           (size_t)m->grids.pages * (sizeof(grid_page) + PAGE_PLACES) + mpm_cavities_bytes(m);
 }
 
 static char *put(char *to, const void *from, size_t bytes)
@@ -88,6 +89,7 @@ status mpm_save(const mpm *m, void **image, size_t *bytes)
     to = put(to, m->grids.page, (size_t)m->grids.pages * sizeof(grid_page));
     to = put(to, m->grids.active, (size_t)grids_places(&m->grids));
     for (int i = 0; i < m->bricks_used; i++) to = put_brick(to, m, &m->bricks[i]);
+    mpm_cavities_put(m, to);
     return status_ok();
 }
 
@@ -192,6 +194,8 @@ status mpm_restore(mpm *m, const void *image, size_t bytes)
     for (int i = 0; i < head.bricks; i++) TRY(get_brick(m, &r));
     m->time = head.time, m->dt = head.dt, m->dt_last = head.dt_last, m->dense_steps = head.dense_steps,
     m->steps = head.steps;
+    if ((size_t)(r.end - r.at) < mpm_cavities_bytes(m)) return cut_short();
+    mpm_cavities_get(m, r.at);
     TRY(mpm_store_relink(m));
     return mpm_store_reserve(m, 0);
 }

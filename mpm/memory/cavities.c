@@ -1,0 +1,368 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "mpm/memory/cavities.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { EMPTY, COVERED, WALL }; /* of a cell: by no intact point, by some, by some of a wall */
+
+static int cells_of(const struct mpm_cavities *c)
+{
+    return c->size[0] * c->size[1] * c->size[2];
+}
+
+static int place_of(const struct mpm_cavities *c, const int at[3])
+{
+    return (at[2] * c->size[1] + at[1]) * c->size[0] + at[0];
+}
+
+static void at_of(const struct mpm_cavities *c, int place, int at[3])
+{
+    at[0] = place % c->size[0], at[1] = place / c->size[0] % c->size[1], at[2] = place / (c->size[0] * c->size[1]);
+}
+
+static const axis *axes(const mpm *m)
+{
+    return m->grids.level[0].axes;
+}
+
+/* A cell of the window? */
+static bool inside(const mpm *m, const int at[3])
+{
+    for (int k = 0; k < 3; k++)
+        if (at[k] < 1 || at[k] > axes(m)[k].last) return false;
+    return true;
+}
+
+/* At an end of the window that is no mirror? */
+static bool at_end(const mpm *m, const int at[3])
+{
+    for (int k = 0; k < 3; k++)
+        for (int side = 0; side < 2; side++)
+            if (at[k] == (side ? axes(m)[k].last : 1) && m->scene.axis[k].boundary[side] != BOUNDARY_SYMMETRY)
+                return true;
+    return false;
+}
+
+static bool is_wall(const mpm *m, int body)
+{
+    for (int k = 0; k < m->cavities->n; k++)
+        if (m->scene.cavity[k].wall == body) return true;
+    return false;
+}
+
+/* ---- what covers the cells ---- */
+
+static void cover_point(mpm *m, const block *q, int lane, bool wall)
+{
+    static const double WITHIN = 0.999; /* of the domain: one that ends at a cell's face does not cover the next */
+    struct mpm_cavities *c = m->cavities;
+    int lo[3], hi[3], at[3];
+    for (int k = 0; k < 3; k++) {
+        const axis *a = &axes(m)[k];
+        const double x = q->x[k][lane], half = WITHIN * q->half[k][lane];
+        at[k] = mpm_axis_locate(a, x), lo[k] = mpm_axis_locate(a, x - half), hi[k] = mpm_axis_locate(a, x + half);
+    }
+    c->matter[place_of(c, at)] += q->mass[0][lane] / q->rho[0][lane];
+    if (q->damage[0][lane] >= 1) return;
+    for (at[2] = lo[2]; at[2] <= hi[2]; at[2]++)
+        for (at[1] = lo[1]; at[1] <= hi[1]; at[1]++)
+            for (at[0] = lo[0]; at[0] <= hi[0]; at[0]++) {
+                uint8_t *cover = &c->cover[place_of(c, at)];
+                *cover = wall || *cover == WALL ? WALL : COVERED;
+            }
+}
+
+/* In the order of bricks, cells and chains, by one thread: the sums have the same bits on any number of them. */
+static void cover(mpm *m)
+{
+    memset(m->cavities->cover, EMPTY, (size_t)cells_of(m->cavities));
+    memset(m->cavities->matter, 0, (size_t)cells_of(m->cavities) * sizeof *m->cavities->matter);
+    for (int i = 0; i < m->bricks_used; i++)
+        for (int cell = 0; cell < BRICK_CELLS; cell++)
+            for (int q = m->bricks[i].head[cell]; q >= 0; q = m->links[q].next) {
+                const bool wall = is_wall(m, m->links[q].body);
+                for (int l = 0; l < LANES; l++)
+                    if (m->blocks[q].mass[0][l] > 0) cover_point(m, &m->blocks[q], l, wall);
+            }
+}
+
+/* ---- floods ---- */
+
+enum { SEEN = 0x20 }; /* in the map, while a flood lasts */
+
+/* Through cells covered less than `most`, from the first n of the queue; how many it reaches, all in the queue then.
+ * *out: has it come to an end of the window? */
+static int flood(mpm *m, int n, int most, bool *out)
+{
+    struct mpm_cavities *c = m->cavities;
+    *out = false;
+    for (int i = 0; i < n; i++) c->map[c->queue[i]] |= SEEN;
+    for (int i = 0; i < n; i++) {
+        int at[3];
+        at_of(c, c->queue[i], at);
+        *out = *out || at_end(m, at);
+        for (int k = 0; k < 6; k++) {
+            int to[3] = { at[0], at[1], at[2] };
+            to[k / 2] += k % 2 ? 1 : -1;
+            const int place = inside(m, to) ? place_of(c, to) : -1;
+            if (place < 0 || c->cover[place] >= most || c->map[place] & SEEN) continue;
+            c->map[place] |= SEEN;
+            c->queue[n++] = place;
+        }
+    }
+    for (int i = 0; i < n; i++) c->map[c->queue[i]] &= (uint8_t)~SEEN;
+    return n;
+}
+
+/* Cells that a cavity had and that are still empty into the queue; their number. */
+static int seeds(struct mpm_cavities *c, int cavity)
+{
+    int n = 0;
+    for (int i = 0; i < cells_of(c); i++)
+        if (c->map[i] & CAVITY_VOID && (c->map[i] & CAVITY_OF) == cavity + 1 && c->cover[i] == EMPTY) c->queue[n++] = i;
+    return n;
+}
+
+/* The gas of one goes to another that it meets. */
+static void join(struct mpm_cavities *c, int gone, int to)
+{
+    mpm_cavity_state *a = &c->state[gone], *b = &c->state[to];
+    b->moles += a->moles, b->volume += a->volume, b->lost += a->lost;
+    a->moles = a->volume = a->pressure = 0, a->joined = to;
+    for (int i = 0; i < cells_of(c); i++)
+        if ((c->map[i] & CAVITY_OF) == gone + 1) c->map[i] = (uint8_t)((c->map[i] & ~CAVITY_OF) | (to + 1));
+}
+
+/* The cavity's cells anew.  One that nothing is left of keeps those it had. */
+static void find_void(mpm *m, int cavity)
+{
+    struct mpm_cavities *c = m->cavities;
+    int n = seeds(c, cavity);
+    if (n == 0) return;
+    n = flood(m, n, COVERED, &c->state[cavity].open);
+    for (int i = 0; i < n; i++) {
+        const int other = (c->map[c->queue[i]] & CAVITY_OF) - 1;
+        if (c->map[c->queue[i]] & CAVITY_VOID && other >= 0 && other != cavity) join(c, other, cavity);
+    }
+    for (int i = 0; i < cells_of(c); i++)
+        if ((c->map[i] & CAVITY_OF) == cavity + 1) c->map[i] = 0;
+    for (int i = 0; i < n; i++) c->map[c->queue[i]] = (uint8_t)(CAVITY_VOID | (cavity + 1));
+}
+
+static void look_for_burst(mpm *m, int cavity)
+{
+    mpm_cavity_state *s = &m->cavities->state[cavity];
+    bool out;
+    if (m->scene.cavity[cavity].wall < 0 || !isnan(s->burst_time)) return;
+    flood(m, seeds(m->cavities, cavity), WALL, &out);
+    if (out) s->burst_time = m->time;
+}
+
+/* ---- the nodes about it ---- */
+
+/* `bits` into the map of cells without any of `mask` that lie within `reach` of a cell whose map & of == is. */
+static void spread(mpm *m, int of, int is, int reach, int mask, int bits)
+{
+    struct mpm_cavities *c = m->cavities;
+    for (int i = 0; i < cells_of(c); i++) {
+        int at[3], to[3];
+        if ((c->map[i] & of) != is) continue;
+        at_of(c, i, at);
+        for (int k = 0; k < 3; k++) to[k] = at[k] - reach;
+        for (to[2] = at[2] - reach; to[2] <= at[2] + reach; to[2]++)
+            for (to[1] = at[1] - reach; to[1] <= at[1] + reach; to[1]++)
+                for (to[0] = at[0] - reach; to[0] <= at[0] + reach; to[0]++)
+                    if (inside(m, to) && !(c->map[place_of(c, to)] & mask)) c->map[place_of(c, to)] |= (uint8_t)bits;
+    }
+}
+
+/* The volume that its cells and those about them have beside their points. */
+static double found_volume(const mpm *m, int cavity)
+{
+    const struct mpm_cavities *c = m->cavities;
+    double sum = 0;
+    for (int i = 0; i < cells_of(c); i++) {
+        int at[3];
+        double volume = 1;
+        if ((c->map[i] & CAVITY_OF) != cavity + 1) continue;
+        at_of(c, i, at);
+        for (int k = 0; k < 3; k++) {
+            const axis *a = &axes(m)[k];
+            volume *= fmin(a->edge[at[k] + 1], a->node[a->last]) - fmax(a->edge[at[k]], a->node[1]);
+        }
+        sum += volume - c->matter[i];
+    }
+    return sum;
+}
+
+void mpm_cavities_look(mpm *m)
+{
+    struct mpm_cavities *c = m->cavities;
+    if (!c) return;
+    cover(m);
+    for (int i = 0; i < cells_of(c); i++)
+        c->map[i] = c->map[i] & CAVITY_VOID ? c->map[i] & (CAVITY_VOID | CAVITY_OF) : 0;
+    for (int k = 0; k < c->n; k++)
+        if (c->state[k].joined < 0) find_void(m, k);
+    for (int k = 0; k < c->n; k++)
+        if (c->state[k].joined < 0) look_for_burst(m, k);
+    for (int k = 0; k < c->n; k++)
+        if (c->state[k].joined < 0) spread(m, CAVITY_VOID | CAVITY_OF, CAVITY_VOID | (k + 1), 2, CAVITY_OF, k + 1);
+    for (int k = 0; k < c->n; k++) spread(m, CAVITY_OF, k + 1, 1, 0, CAVITY_REACHES);
+    for (int k = 0; k < c->n; k++) c->state[k].found = found_volume(m, k);
+}
+
+/* ---- gas ---- */
+
+static void set_pressure(const mpm *m, int cavity)
+{
+    mpm_cavity_state *s = &m->cavities->state[cavity];
+    const bool some = s->moles > 0 && s->joined < 0 && !s->open;
+    s->pressure =
+        some ? mpm_gas_pressure(&m->cavities->gas[cavity], s->volume / s->moles) - m->scene.cavity[cavity].ambient : 0;
+}
+
+void mpm_cavities_step(mpm *m)
+{
+    struct mpm_cavities *c = m->cavities;
+    for (int k = 0; c && k < c->n; k++) {
+        mpm_cavity_state *s = &c->state[k];
+        const mpm_cavity *is = &m->scene.cavity[k];
+        double swept = 0;
+        for (int i = 0; i < m->site_count; i++) swept += c->swept[m->site_list[i] * c->n + k];
+        m->ledger.work_external += s->pressure * swept;
+        s->volume += swept;
+        mpm_cavity_state *gets = s->joined < 0 ? s : &c->state[s->joined];
+        gets->moles += m->dt * is->feed;
+        if (!isnan(s->burst_time)) {
+            const mpm_orifice hole = { is->hole, is->discharge, is->gas_gamma, is->molar_mass };
+            const double flow = mpm_gas_flow(&hole, is->temperature, s->pressure + is->ambient, is->ambient);
+            const double lost = fmin(m->dt * flow, 0.5 * s->moles);
+            s->moles -= lost, s->lost += lost;
+        }
+    }
+    for (int k = 0; c && k < c->n; k++) set_pressure(m, k);
+}
+
+const mpm_cavity_state *mpm_cavity_of(const mpm *m, int cavity)
+{
+    return &m->cavities->state[cavity];
+}
+
+/* ---- memory ---- */
+
+static status check(const mpm *m)
+{
+    const mpm_scene *s = &m->scene;
+    CHECK(s->cavities <= MPM_MAX_CAVITIES, STATUS_BAD_INPUT, "%d cavities: at most %d", s->cavities, MPM_MAX_CAVITIES);
+    CHECK(m->grids.levels == 1, STATUS_BAD_INPUT,
+          "a scene with cavities has cells of one size: `levels: 1`, and no `refine`");
+    for (int k = 0; k < s->cavities; k++) {
+        TRY(base_params_check(mpm_cavity_params, &s->cavity[k], s->cavity[k].name));
+        CHECK(s->cavity[k].wall < s->bodies, STATUS_BAD_INPUT, "cavity `%s`: its wall is body %d, the scene has %d",
+              s->cavity[k].name, s->cavity[k].wall, s->bodies);
+    }
+    return status_ok();
+}
+
+static status allocate(mpm *m)
+{
+    struct mpm_cavities *c = m->cavities = calloc(1, sizeof *c);
+    CHECK(c, STATUS_MEMORY, "no memory for cavities");
+    c->n = m->scene.cavities;
+    for (int k = 0; k < 3; k++) c->size[k] = axes(m)[k].last + 2;
+    const size_t cells = (size_t)cells_of(c), n = (size_t)c->n;
+    c->state = calloc(n, sizeof *c->state), c->gas = calloc(n, sizeof *c->gas);
+    c->map = calloc(cells, 1), c->cover = calloc(cells, 1);
+    c->queue = malloc(cells * sizeof *c->queue), c->matter = calloc(cells, sizeof *c->matter);
+    CHECK(c->state && c->gas && c->map && c->cover && c->queue && c->matter, STATUS_MEMORY, "no memory for cavities");
+    return status_ok();
+}
+
+/* The cell at its place, from which the first flood begins. */
+static status begin(mpm *m, int cavity)
+{
+    struct mpm_cavities *c = m->cavities;
+    const mpm_cavity *is = &m->scene.cavity[cavity];
+    int at[3];
+    for (int k = 0; k < 3; k++) at[k] = mpm_axis_locate(&axes(m)[k], is->place[k]);
+    CHECK(inside(m, at) && c->cover[place_of(c, at)] == EMPTY, STATUS_BAD_INPUT,
+          "cavity `%s`: there is no void at (%g, %g, %g) m, or no whole cell of it", is->name, is->place[0],
+          is->place[1], is->place[2]);
+    CHECK((c->map[place_of(c, at)] & CAVITY_OF) == 0, STATUS_BAD_INPUT, "cavity `%s` is part of `%s`", is->name,
+          m->scene.cavity[(c->map[place_of(c, at)] & CAVITY_OF) - 1].name);
+    c->map[place_of(c, at)] = (uint8_t)(CAVITY_VOID | (cavity + 1));
+    c->gas[cavity] = mpm_gas_make(is->temperature, is->critical_temperature, is->critical_pressure);
+    c->state[cavity] = (mpm_cavity_state){ .burst_time = NAN, .joined = -1 };
+    find_void(m, cavity);
+    CHECK(!c->state[cavity].open, STATUS_BAD_INPUT,
+          "cavity `%s` is open: its void comes to an end of the window that is no mirror", is->name);
+    return status_ok();
+}
+
+status mpm_cavities_make(mpm *m)
+{
+    if (m->scene.cavities == 0) return status_ok();
+    TRY(check(m));
+    TRY(allocate(m));
+    struct mpm_cavities *c = m->cavities;
+    cover(m);
+    for (int k = 0; k < c->n; k++) TRY(begin(m, k));
+    mpm_cavities_look(m);
+    for (int k = 0; k < c->n; k++) {
+        const mpm_cavity *is = &m->scene.cavity[k];
+        mpm_cavity_state *s = &c->state[k];
+        CHECK(is->pressure + is->ambient > 0 && is->pressure + is->ambient < mpm_gas_condenses(&c->gas[k]),
+              STATUS_BAD_INPUT, "cavity `%s`: its gas has no pressure of %g Pa at %g K", is->name,
+              is->pressure + is->ambient, is->temperature);
+        s->volume = s->found;
+        s->moles = s->volume / mpm_gas_molar_volume(&c->gas[k], is->pressure + is->ambient);
+        set_pressure(m, k);
+    }
+    return status_ok();
+}
+
+void mpm_cavities_free(mpm *m)
+{
+    struct mpm_cavities *c = m->cavities;
+    if (!c) return;
+    free(c->state), free(c->gas), free(c->map), free(c->cover), free(c->queue), free(c->matter), free(c->swept);
+    free(c);
+    m->cavities = NULL;
+}
+
+status mpm_cavities_reserve(mpm *m)
+{
+    struct mpm_cavities *c = m->cavities;
+    if (!c || c->places >= m->places) return status_ok();
+    free(c->swept);
+    c->swept = calloc((size_t)m->places * (size_t)c->n, sizeof *c->swept);
+    c->places = c->swept ? m->places : 0;
+    CHECK(c->swept, STATUS_MEMORY, "no memory for the volumes of %d cavities", c->n);
+    return status_ok();
+}
+
+/* ---- checkpoints ---- */
+
+size_t mpm_cavities_bytes(const mpm *m)
+{
+    const struct mpm_cavities *c = m->cavities;
+    return c ? (size_t)c->n * sizeof *c->state + (size_t)cells_of(c) : 0;
+}
+
+void mpm_cavities_put(const mpm *m, char *to)
+{
+    const struct mpm_cavities *c = m->cavities;
+    if (!c) return;
+    memcpy(to, c->state, (size_t)c->n * sizeof *c->state), to += (size_t)c->n * sizeof *c->state;
+    memcpy(to, c->map, (size_t)cells_of(c));
+}
+
+void mpm_cavities_get(mpm *m, const char *from)
+{
+    struct mpm_cavities *c = m->cavities;
+    if (!c) return;
+    memcpy(c->state, from, (size_t)c->n * sizeof *c->state), from += (size_t)c->n * sizeof *c->state;
+    memcpy(c->map, from, (size_t)cells_of(c));
+}

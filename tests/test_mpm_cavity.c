@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Cavities: a plug on a spring of gas, a void in a block, a ring that swells until it bursts, bubbles that meet, what
+ * is refused; the same bits on any number of threads and over a checkpoint. */
+#include "mpm_scenes.h"
+
+static const double R = 8.31446261815324;
+
+static mpm_cavity *add_cavity(mpm_scene *s, const char *name, double x, double z)
+{
+    mpm_cavity *c;
+    assert_ok(mpm_scene_add_cavity(s, name, &c));
+    c->place[0] = x, c->place[1] = 1e-9, c->place[2] = z;
+    c->ambient = 1e5, c->temperature = 300;
+    return c;
+}
+
+/* A stiff plug, 4 mm from a mirror, on gas of 10 MPa at rest: it swings with omega^2 = p/(rho b L) while the gas keeps
+ * its temperature.  Gas law, volume and energy hold to rounding. */
+static void test_plug(void **state)
+{
+    (void)state;
+    const double h = 0.5e-3, gap = 4e-3, thick = 2e-3, p = 1e7, v = 5;
+    material m = scene_elastic();
+    mpm_scene s = { 0 };
+    scene_bar(&s, 0, 10e-3, h, 2);
+    s.axis[0].boundary[0] = BOUNDARY_SYMMETRY;
+    scene_box(&s, gap, -1, -1, gap + thick, 1, 1, &m)->velocity[0] = v;
+    add_cavity(&s, "gas", 1e-3, 1e-9)->ambient = p;
+    mpm *solver = scene_make(&s, 1);
+    const double area = 4 * h * h, period = 2 * SCENE_PI * sqrt(m.density * thick * gap / p);
+    double before = v, crossed[3] = { 0 };
+    int crossings = 0;
+    assert_near(mpm_cavity_of(solver, 0)->volume, area * gap, 1e-9 * area * gap);
+    const double n = mpm_cavity_of(solver, 0)->moles;
+    assert_near(n, p * area * gap / (R * 300), 1e-9 * n);
+    for (int i = 1; crossings < 3 && i < 400; i++) {
+        assert_ok(mpm_advance(solver, 0.01 * period * i, NULL));
+        const mpm_cavity_state *g = mpm_cavity_of(solver, 0);
+        const double now = scene_mean(solver, MPM_velocity, 0, -1);
+        const double x = scene_mean(solver, MPM_position, 0, -1) - gap - 0.5 * thick;
+        assert_near((g->pressure + p) * g->volume, n * R * 300, 1e-12 * n * R * 300);
+        assert_near(g->volume, area * (gap + x), 2e-3 * area * gap);
+        assert_near(g->found, area * (gap + x), 0.07 * area * gap); /* a layer of points is 0.06 */
+        if (before * now < 0) crossed[crossings++] = 0.01 * period * (i - now / (now - before));
+        before = now;
+    }
+    const mpm_ledger l = mpm_balance(solver);
+    double read[6];
+    mpm_probe *probe;
+    assert_ok(mpm_scene_add_probe(&s, "cavity", "p", &probe));
+    assert_ok(mpm_probe_read(solver, probe, read));
+    assert_near(read[0] + p, n * R * 300 / read[1], 1e-9 * p);
+    assert_near(read[3], n, 1e-12 * n);
+    assert_true(read[4] == 0 && read[5] == 0);
+    print_message("plug: period %.4f of the closed one, energy %.1e\n", (crossed[2] - crossed[0]) / period,
+                  l.energy_error);
+    assert_int_equal(crossings, 3);
+    assert_near((crossed[2] - crossed[0]) / period, 1, 0.03);
+    assert_near(l.energy_error, 0, 1e-9);
+    assert_true(fabs(l.work_external) > 0.01 * l.kinetic_start && mpm_cavity_of(solver, 0)->lost == 0);
+    mpm_free(solver);
+    mpm_scene_free(&s);
+}
+
+/* A slab one cell thick between mirrors across y, half of it above the mirror at z = 0. */
+static void slab(mpm_scene *s, double reach, double h)
+{
+    mpm_scene_free(s);
+    mpm_scene_default(s);
+    s->axis[0] = scene_axis(-reach, reach, h, BOUNDARY_FREE, BOUNDARY_FREE);
+    s->axis[1] = scene_axis(0, h, h, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    s->axis[2] = scene_axis(0, reach, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
+}
+
+static int cylinder(mpm_scene *s, double x, double radius)
+{
+    const double v[] = { x, -1, 0, radius, 2 };
+    return scene_solid(s, "cylinder", v, 5, -1, -1);
+}
+
+static mpm_body *cut_body(mpm_scene *s, int whole, int hole, const material *m)
+{
+    mpm_body *b;
+    assert_ok(mpm_scene_add_body(s, &b));
+    strcpy(b->name, "ring");
+    b->material = m, b->temperature = m->reference_temperature;
+    b->solid = scene_solid(s, "minus", NULL, 0, whole, hole);
+    return b;
+}
+
+/* The gas of a void in the middle of nothing moves no centre of mass, and knows the void's volume. */
+static void test_block(void **state)
+{
+    (void)state;
+    const double h = 0.1e-3, r = 1e-3;
+    material m = scene_elastic();
+    mpm_scene s = { 0 };
+    slab(&s, 4e-3, h);
+    const int outer = cylinder(&s, 0, 3e-3);
+    cut_body(&s, outer, cylinder(&s, 0.7e-3, r), &m);
+    add_cavity(&s, "void", 0.7e-3, 1e-9)->pressure = 5e7;
+    mpm *solver = scene_make(&s, 1);
+    const double V = mpm_cavity_of(solver, 0)->volume;
+    assert_near(V, 0.5 * SCENE_PI * r * r * h, 0.02 * V);
+    scene_steps(solver, 60);
+    const mpm_ledger l = mpm_balance(solver);
+    const double scale = l.mass * sqrt(2 * l.kinetic / l.mass);
+    print_message("block: momentum %.1e of the motion's, energy %.1e\n", fabs(l.momentum[0]) / scale,
+                  (l.kinetic + l.internal - l.work_ahead - l.energy_start - l.work_external) / l.work_external);
+    assert_true(l.work_external > 0);
+    assert_near(l.momentum[0] / scale, 0, 1e-9);
+    assert_near(l.kinetic + l.internal - l.work_ahead - l.energy_start - l.work_external, 0, 1e-9 * l.work_external);
+    mpm_free(solver);
+    mpm_scene_free(&s);
+}
+
+/* ---- a ring that bursts ---- */
+
+/* Rigid but for flow stress and failure: a gel of 1 MPa that hardens, failing at a plastic strain of 0.06. */
+static material gel(void)
+{
+    material m = scene_elastic();
+    strcpy(m.name, "gel");
+    m.density = 900, m.youngs_modulus = 6e7, m.poisson = 0.49, m.sound_speed = 300, m.hugoniot_slope = 1.5;
+    m.gruneisen = 0.1, m.yield_A = 1e6, m.hardening_B = 4e6, m.hardening_n = 1, m.rate_C = 0, m.softening_m = 1;
+    m.melting_temperature = 5e3;
+    m.damage_D1 = 0.06, m.damage_D2 = m.damage_D3 = m.damage_D4 = m.damage_D5 = 0;
+    return m;
+}
+
+enum { RING_END = 74 }; /* [us] */
+
+static void ring_scene(mpm_scene *s, const material *m, bool damage, double feed)
+{
+    const double h = 40e-6;
+    slab(s, 0.8e-3, h);
+    const int outer = cylinder(s, 0, 0.5e-3);
+    mpm_body *ring = cut_body(s, outer, cylinder(s, 0, 0.34e-3), m);
+    ring->damage = damage;
+    mpm_cavity *c = add_cavity(s, "gas", 0.02e-3, 1e-9);
+    c->wall = 0, c->feed = feed, c->hole = 1e-11;
+}
+
+static double mean_radius(const mpm *m)
+{
+    const size_t n = mpm_particles(m);
+    double *x = scene_read(m, MPM_position), *mass = scene_read(m, MPM_mass), sum = 0, all = 0;
+    for (size_t i = 0; i < n; i++) sum += mass[i] * hypot(x[3 * i], x[3 * i + 2]), all += mass[i];
+    free(x), free(mass);
+    return sum / all;
+}
+
+/* What a thick ring of this gel holds: the integral of 2/sqrt(3) sigma/r, elastic strain and all. */
+static double held(const material *m, double inside, double volume)
+{
+    double p = 0;
+    for (int i = 0; i < 200; i++) {
+        const double area = volume * (i + 0.5) / 200, was = 0.34e-3 * 0.34e-3 + area, is = was + inside;
+        const double strain = log(is / was) / sqrt(3), G3 = 1.5 * m->youngs_modulus / (1 + m->poisson);
+        const double flow = (m->yield_A + m->hardening_B * strain) / (1 + m->hardening_B / G3);
+        p += 2 / sqrt(3) * fmin(flow, G3 * strain) * 0.5 * log((is + 0.5 * volume / 200) / (is - 0.5 * volume / 200));
+    }
+    return p;
+}
+
+static void test_ring(void **state)
+{
+    (void)state;
+    const material m = gel();
+    double burst[2];
+    for (int damage = 1; damage >= 0; damage--) {
+        mpm_scene s = { 0 };
+        ring_scene(&s, &m, damage, 2.5e-5);
+        mpm *solver = scene_make(&s, 1);
+        const double n = mpm_cavity_of(solver, 0)->moles, r0 = mean_radius(solver);
+        double pressure = 0, off = 0;
+        for (int i = 1; i <= RING_END; i++) {
+            assert_ok(mpm_advance(solver, 1e-6 * i, NULL));
+            const mpm_cavity_state *g = mpm_cavity_of(solver, 0);
+            const double inside = 2 * (g->volume / (SCENE_PI * 40e-6)) - 0.34e-3 * 0.34e-3;
+            if (!isnan(g->burst_time)) break;
+            assert_near(g->moles, n + 2.5e-5 * 1e-6 * i, 1e-9 * g->moles);
+            pressure = g->pressure;
+            if (i > 40) off = fmax(off, fabs(pressure / held(&m, inside, 0.5e-3 * 0.5e-3 - 0.34e-3 * 0.34e-3) - 1));
+        }
+        const mpm_cavity_state *g = mpm_cavity_of(solver, 0);
+        burst[damage] = g->burst_time;
+        print_message("ring: %s at %.1f us, %.3f times its radius, %.0f kPa, off by %.3f\n", damage ? "bursts" : "ends",
+                      1e6 * mpm_state(solver).time, mean_radius(solver) / r0, 1e-3 * pressure, off);
+        assert_true(off < 0.1); /* it still swings */
+        if (damage) {
+            scene_steps(solver, 40);
+            assert_true(g->lost > 0 && g->pressure < pressure);
+        }
+        mpm_free(solver);
+        mpm_scene_free(&s);
+    }
+    assert_true(!isnan(burst[1]) && isnan(burst[0])); /* the same ring, swollen as far and further, without damage */
+}
+
+static void test_same_bits(void **state)
+{
+    (void)state;
+    const material m = gel();
+    mpm_scene s = { 0 };
+    ring_scene(&s, &m, true, 2.5e-5);
+    mpm *solver = scene_same_bits(&s, 70, 50);
+    assert_true(mpm_cavity_of(solver, 0)->pressure > 0);
+    mpm_free(solver);
+    mpm_scene_free(&s);
+}
+
+/* The wall between two bubbles fails, and they become one: moles and volumes add up. */
+static void test_meet(void **state)
+{
+    (void)state;
+    const double h = 50e-6;
+    material m = gel();
+    m.yield_A = 1e4, m.hardening_B = 0;
+    mpm_scene s = { 0 };
+    slab(&s, 1.2e-3, h);
+    int solid = cylinder(&s, 0, 0.9e-3);
+    const int left = cylinder(&s, -0.22e-3, 0.15e-3), right = cylinder(&s, 0.22e-3, 0.15e-3);
+    solid = scene_solid(&s, "minus", NULL, 0, solid, left);
+    cut_body(&s, solid, right, &m)->damage = true;
+    mpm_cavity *a = add_cavity(&s, "left", -0.22e-3, 1e-9);
+    a->pressure = 4e5, a->ambient = 1e6;
+    mpm_cavity *b = add_cavity(&s, "right", 0.22e-3, 1e-9);
+    b->pressure = 4e5, b->ambient = 1e6;
+    mpm *solver = scene_make(&s, 1);
+    const double n = mpm_cavity_of(solver, 0)->moles + mpm_cavity_of(solver, 1)->moles;
+    for (int i = 0; i < 60 && mpm_cavity_of(solver, 1)->joined < 0; i++) scene_steps(solver, 20);
+    const mpm_cavity_state *g = mpm_cavity_of(solver, 0);
+    print_message("meet: after %.1f us\n", 1e6 * mpm_state(solver).time);
+    assert_int_equal(mpm_cavity_of(solver, 1)->joined, 0);
+    assert_near(g->moles, n, 1e-12 * n);
+    assert_true(mpm_cavity_of(solver, 1)->moles == 0 && mpm_cavity_of(solver, 1)->pressure == 0);
+    assert_near(g->found / g->volume, 1, 0.2); /* what has failed between them is no void */
+    mpm_free(solver);
+    mpm_scene_free(&s);
+}
+
+/* ---- what is refused ---- */
+
+static void refused(const mpm_scene *s, const char *words)
+{
+    mpm *m = NULL;
+    const status is = mpm_create(s, 1, &m);
+    assert_int_equal(is.code, STATUS_BAD_INPUT);
+    if (!strstr(is.text, words)) fail_msg("not `%s` but `%s`", words, is.text);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    const material m = gel();
+    mpm_scene s = { 0 };
+    ring_scene(&s, &m, true, 0);
+    s.cavity[0].place[0] = 0.42e-3;
+    refused(&s, "there is no void");
+    s.cavity[0].place[0] = 0.7e-3;
+    refused(&s, "is open");
+    s.cavity[0].place[0] = 0;
+    s.cavity[0].wall = 1;
+    refused(&s, "its wall is body 1");
+    s.cavity[0].wall = 0, s.cavity[0].critical_temperature = 346, s.cavity[0].critical_pressure = 5.09e6;
+    s.cavity[0].ambient = 1e7;
+    refused(&s, "has no pressure");
+    s.cavity[0].ambient = 1e5, s.levels = 2;
+    s.axis[1] = scene_axis(0, 160e-6, 40e-6, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    refused(&s, "cells of one size");
+    s.levels = 1;
+    add_cavity(&s, "again", 0.1e-3, 0.1e-3);
+    refused(&s, "cavity `again` is part of `gas`");
+    mpm_scene_free(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_plug), cmocka_unit_test(test_block),     cmocka_unit_test(test_ring),
+        cmocka_unit_test(test_meet), cmocka_unit_test(test_same_bits), cmocka_unit_test(test_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
