@@ -151,7 +151,7 @@ static double band_top(const shot_config *c)
     return fmax(f_contact, 10.0 * (isnan(f_pulse) ? 100.0 : f_pulse));
 }
 
-/* The slices' warming (C-16): nothing where none are asked for. */
+/* The slices' warming (C-24): nothing where none are asked for. */
 static status warming_fit(const shot_rails *rails, rails_load *out)
 {
     if (rails->slices == 0) return status_ok();

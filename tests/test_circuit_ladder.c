@@ -312,7 +312,7 @@ static void power_balance(void **state)
 
 /* ---- slices that warm ---- */
 
-/* An armature at rest under constant current, for long: even current, rise = R_dc I^2 t/C (C-16) where R stays
+/* An armature at rest under constant current, for long: even current, rise = R_dc I^2 t/C (C-24) where R stays
  * (coefficient 0); the early crowding leaves a trace that dies as 1/t.  With a coefficient the heat is that of a
  * conductor in series: d(rise)/dt = R_dc I^2 (1 + c rise)/C. */
 static void warming_of_even_current(void **state)

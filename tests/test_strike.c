@@ -10,7 +10,7 @@
 
 /* ---- flight ---- */
 
-/* (S-1) against its own equation, m v' = - rho Cd A v^2 / 2, by the fourth-order Runge-Kutta method in 2000 steps,
+/* (A-1) against its own equation, m v' = - rho Cd A v^2 / 2, by the fourth-order Runge-Kutta method in 2000 steps,
  * whose error is below rounding here. */
 static void test_flight(void **state)
 {
@@ -230,7 +230,7 @@ static void test_parts(void **state)
 
 /* ---- the limit velocity ---- */
 
-/* What (S-2) gives comes back; with one residual velocity 4 % too high the largest deviation lies below that. */
+/* What gives comes back; with one residual velocity 4 % too high the largest deviation lies below that. */
 static void test_recht_ipson(void **state)
 {
     (void)state;
@@ -300,7 +300,7 @@ static void test_limit(void **state)
     "contact_width: 25 mm}\n"
 
 /* A ball of 32.9 mg from a package of 32.9 g flies ten metres: the summary has the shot, the muzzle velocity is its,
- * and (S-1) makes the arrival velocity of it. */
+ * and (A-1) makes the arrival velocity of it. */
 static void test_from_shot(void **state)
 {
     (void)state;

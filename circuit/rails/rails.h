@@ -10,7 +10,7 @@
  *   a = 1 - th (1 - exp(-1/th)),  f = 1 - 2 th + 2 th^2 (1 - exp(-1/th)),  th = v tau_k/contact's spread     (C-12)
  * With a heat capacity, the slices summed up in one memory share a temperature of their own, from their heat E, the
  * heat E_c that their cold resistance would have made, and the length-weighted action G = int x I^2 dt:
- *   rise = E/(C x) E_c/(R_dc G),  R_dc and R_k times 1 + coefficient rise                               (C-16)
+ *   rise = E/(C x) E_c/(R_dc G),  R_dc and R_k times 1 + coefficient rise                               (C-24)
  * The second factor is all the metal over the area that carries the current, in the mean over the action so far.
  * Laws, for any I(t) and any v >= 0: V_rails I = d(field)/dt + heat + F v, field = 1/2 L_inf x I^2 + 1/2 sum L_k W_k;
  * every part of the heat and of the force is 0 or more. */
@@ -44,7 +44,7 @@ typedef struct {
 int circuit_rails_memory_size(const rails_load *r);
 void circuit_rails_memory_scale(const rails_load *r, double x, double I, double E,
                                 double *scale);                                        /* largest to expect */
-double circuit_rails_memory_rise(const rails_load *r, double x, const double *memory); /* (C-16) [K] */
+double circuit_rails_memory_rise(const rails_load *r, double x, const double *memory); /* (C-24) [K] */
 double circuit_rails_warming(const rails_load *r, double x,
                              const double *memory); /* factor of all resistances there [1] */
 rails_flow circuit_rails_flow_at(const rails_load *r, double x, double v, double I, const double *memory);

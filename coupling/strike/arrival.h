@@ -7,7 +7,7 @@
  *   else what drag leaves of the shot's muzzle velocity, where the case has a shot;
  *   else the speed it has in scene.bodies.
  * Flight with a constant drag coefficient, straight, without gravity:
- *   dv/dx = - rho Cd A v / (2 m)    v(L) = v0 exp(-k L)    t = (exp(k L) - 1) / (k v0)    k = rho Cd A / (2 m)   (S-1)
+ *   dv/dx = - rho Cd A v / (2 m)    v(L) = v0 exp(-k L)    t = (exp(k L) - 1) / (k v0)    k = rho Cd A / (2 m)   (A-1)
  * A scene may be cut by mirror planes: masses and energies here are those of the whole. */
 #ifndef BREECH_COUPLING_STRIKE_ARRIVAL_H
 #define BREECH_COUPLING_STRIKE_ARRIVAL_H
@@ -45,7 +45,7 @@ typedef struct {
     double velocity; /* at arrival [m/s] */
     double time;     /* [s] */
 } strike_flight;
-/* (S-1) of a projectile of so much mass. */
+/* of a projectile of so much mass. */
 strike_flight strike_fly(const case_strike *s, double mass, double muzzle_velocity);
 
 /* The case's scene with the projectile at this speed, its probes and its end; out->scene is for mpm_scene_free.

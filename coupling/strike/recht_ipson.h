@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Residual velocities over arrival velocities, as Recht and Ipson (Journal of Applied Mechanics 30 (1963) 384) have
  * them:
- *   v_r = k sqrt(v0^2 - v50^2)                                                                                (S-2)
+ *   v_r = k sqrt(v0^2 - v50^2)                                                                                (A-2)
  * k = 1 where the target takes energy alone, less where it goes along. */
 #ifndef BREECH_COUPLING_STRIKE_RECHT_IPSON_H
 #define BREECH_COUPLING_STRIKE_RECHT_IPSON_H

@@ -4,7 +4,7 @@
  *
  * `pierced` lies above the limit, every other class below; `unfinished` is undecided and widens the interval, which has
  * no lower end where nothing slower is decided.  What the
- * search interpolates is (v_r/v0)^2 above, which rises from zero at the limit (S-2), and a constant below. */
+ * search interpolates is (v_r/v0)^2 above, which rises from zero at the limit (A-2), and a constant below. */
 #ifndef BREECH_COUPLING_STUDY_STRIKE_LIMIT_H
 #define BREECH_COUPLING_STUDY_STRIKE_LIMIT_H
 

@@ -57,10 +57,10 @@ static const summary_key result_keys[] = {
                    "middle between the fastest arrival that is stopped and the slowest that pierces; null: not asked "
                    "for, or not in the range of the search"),
     SUMMARY_VECTOR(strike_result, "limit_interval", limit.interval, 2, "m/s", "those two; null: not known"),
-    SUMMARY_NUMBER(strike_result, "recht_ipson_factor", limit.fit.factor, "1", "k in (S-2), of all that pierced"),
-    SUMMARY_NUMBER(strike_result, "recht_ipson_limit", limit.fit.limit, "m/s", "v50 in (S-2)"),
+    SUMMARY_NUMBER(strike_result, "recht_ipson_factor", limit.fit.factor, "1", "k in (A-2), of all that pierced"),
+    SUMMARY_NUMBER(strike_result, "recht_ipson_limit", limit.fit.limit, "m/s", "v50 in (A-2)"),
     SUMMARY_NUMBER(strike_result, "recht_ipson_error", limit.fit.error, "1",
-                   "largest deviation of a residual velocity from (S-2), over itself; null: fewer than three pierced"),
+                   "largest deviation of a residual velocity from (A-2), over itself; null: fewer than three pierced"),
     SUMMARY_LIST(strike_result, "arrivals", limit.arrival, limit.arrivals, arrival_keys, sizeof(strike_arrival),
                  "of the search and of the strike itself, rising in velocity, keys below; empty: no limit was asked "
                  "for"),
