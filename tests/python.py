@@ -262,10 +262,11 @@ def test_threshold_picture(folder):
 
 
 def test_page():
-    page = (ROOT / "docs" / "reference" / "python.md").read_text()
+    page = (ROOT / "docs" / "guide" / "python.md").read_text()
     for script in sorted((ROOT / "python" / "examples").glob("*.py")):
         code = script.read_text().split("\n", 1)[1]
-        assert f"```python\n{code}```" in page, f"docs/reference/python.md does not show {script.name} as it is"
+        assert f"```python\n{code}```" in page, f"docs/guide/python.md does not show {script.name} as it is"
+    page += (ROOT / "docs" / "reference" / "python.md").read_text()
     public = [name for name in breech.__all__ if name not in ("Columns", "CaseError", "Crater", "Progress", "StoredScene")]
     for name in public:
         assert f"breech.{name}" in page or name in ("describe", "program", "snapshot", "check"), name
