@@ -44,6 +44,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "laws": ("docs/validation/laws.md", part_laws.laws, 1, True),
     "laws-6061": ("docs/validation/laws.md", part_laws.laws_6061, 1, True),
     "taylor": ("docs/validation/laws.md", part_laws.taylor, 6, False),
+    "taylor-6061": ("docs/validation/laws.md", part_laws.taylor_6061, 6, False),
     "strength": ("docs/validation/strength.md", part_strength.strength, 18, False),
     "pairs": ("docs/validation/pairs.md", part_pairs.pairs, 60, False),
     "pairs-null": ("docs/validation/pairs.md", part_pairs.nulls, 1, True),
