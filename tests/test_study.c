@@ -961,6 +961,8 @@ static void test_max_scenes(void **state)
         assert_true(a.grains.family[0].scratches.samples > 0);
         if (!isnan(a.result.scratch_velocity))
             assert_true(a.result.scratch_interval[0] <= 1430.0 && a.result.scratch_interval[1] >= 1430.0);
+        /* what gouges grows */
+        assert_true(isnan(a.result.threshold_interval[1]) || a.result.scratch_interval[1] >= 1430.0);
         study_onset_answer_free(&a);
         case_free(c);
     }

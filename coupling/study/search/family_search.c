@@ -354,6 +354,16 @@ static status end_scratches(family_search *s)
     return next_stage(s);
 }
 
+/* What gouges grows: where the second search saw no groove grow, it does so at the latest where gouges begin. */
+static void bound_scratches(grain_family *f)
+{
+    surface_result *scratch = &f->scratches;
+    const surface_result *gouge = &f->surface;
+    if (isnan(scratch->reference.interval[1])) scratch->reference.interval[1] = gouge->reference.interval[1];
+    for (int k = 0; k < scratch->sizes; k++)
+        if (isnan(scratch->size[k].interval[1])) scratch->size[k].interval[1] = gouge->size[k].interval[1];
+}
+
 /* Tells the search all that is known, until it needs what is not: n scenes of needed. */
 static status go_on(session *s, family_search *search, scene_query needed[TOGETHER], int *n)
 {
@@ -382,7 +392,10 @@ static status go_on(session *s, family_search *search, scene_query needed[TOGETH
     } while (*n < asked);
     if (*n > 0) return status_ok();
     search->family->surface = search->surface[JUDGE_OF_GOUGE].result;
-    if (search->family->scratch) search->family->scratches = search->surface[JUDGE_OF_SCRATCH].result;
+    if (search->family->scratch) {
+        search->family->scratches = search->surface[JUDGE_OF_SCRATCH].result;
+        bound_scratches(search->family);
+    }
     return status_ok();
 }
 
