@@ -6,6 +6,7 @@
 
 #include "coupling/host/outdir.h"
 #include "coupling/output/history.h"
+#include "coupling/output/snapshot.h"
 #include "coupling/report/report.h"
 
 #include <cJSON.h>
@@ -279,6 +280,69 @@ static void a_rim_that_is_not_the_highest_is_explained(void **state)
     free(text);
 }
 
+/* ---- a scene of bodies, cut ---- */
+
+enum { PLATE_X = 6, ACROSS = 20, PLATE = PLATE_X * ACROSS * 4, BALL = 4 * 4 * 4 };
+
+/* Points of 1 mm: a plate of 6 x 20 x 4 and a cube of 4 that flies along x, 4 mm before it; later it has gone through
+ * and the plate has failed behind it.  The cut in z = 2 mm lies between points. */
+static void read_bodies(const void *source, mpm_field field, double *out)
+{
+    const bool later = *(const bool *)source;
+    memset(out, 0, (PLATE + BALL) * (size_t)mpm_field_table[field].width * sizeof *out);
+    for (int i = 0; i < PLATE + BALL; i++) {
+        const bool ball = i >= PLATE;
+        const int k = ball ? i - PLATE : i, n = ball ? 4 : ACROSS;
+        const double x = k / (4 * n) + (ball ? (later ? 10.5 : -7.5) : 0.5), y = k / 4 % n + (ball ? 8.5 : 0.5),
+                     z = k % 4 + 0.5;
+        if (field == MPM_position) out[3 * i] = 1e-3 * x, out[3 * i + 1] = 1e-3 * y, out[3 * i + 2] = 1e-3 * z;
+        if (field == MPM_size) out[3 * i] = out[3 * i + 1] = out[3 * i + 2] = 0.5e-3;
+        if (field == MPM_velocity && ball) out[3 * i] = 1000.0;
+        if (field == MPM_body) out[i] = ball;
+        if (field == MPM_damage) out[i] = later && !ball && y > 8.0 && y < 12.0;
+    }
+}
+
+/* Strips of one body in a picture: their area, in the square of its width. */
+static double strips_area(const char *svg, const char *start)
+{
+    const char *path = strstr(svg, start), *end = path ? strstr(path, "/>") : NULL;
+    double area = 0.0, wide, high;
+    for (; path && (path = strchr(path, 'h')) && path < end; path++)
+        if (sscanf(path, "h%lfv-%lfh", &wide, &high) == 2)
+            area += wide * (high - 0.4); /* each reaches 0.4 into the next */
+    return area / (424.0 * 424.0);
+}
+
+static void bodies_are_cut_before_and_after(void **state)
+{
+    (void)state;
+    snapshots *s;
+    char *text, *svg;
+    write_run("report", STUDY_strike);
+    OK(host_folder_make("report/scenes/scene"));
+    OK(output_snapshots_open("report/scenes/scene", -1.0, &s));
+    for (int later = 0; later < 2; later++) {
+        const bool then = later;
+        OK(output_snapshots_write_source(s, &(snapshot_source){ 1e-5 * later, PLATE + BALL, read_bodies, &then }));
+    }
+    output_snapshots_close(s);
+    text = page_of("report");
+    assert_int_equal(count(text, ">Cut through the middle</h2>"), 1);
+    free(text);
+    /* 22 mm wide, from the cube before to the cube after.  At its edges alone a body is filled beyond its points, by a
+     * fifth of half a domain, 0.1 mm, and by up to a square of the raster, 0.1 mm. */
+    OK(host_file_read("report/plot-before.svg", &svg, NULL));
+    const double all = 22.0 * 22.0, plate = strips_area(svg, "fill=\"#1f5fa8\" d"),
+                 cube = strips_area(svg, "fill=\"#c0392b\" d");
+    assert_true(fabs(plate * all / (6.0 * 20.0) - 1.0) < 0.08 && fabs(cube * all / 16.0 - 1.0) < 0.15);
+    free(svg);
+    OK(host_file_read("report/plot-after.svg", &svg, NULL));
+    const double failed = strips_area(svg, "fill=\"#1f5fa8\" fill-opacity");
+    assert_true(fabs(failed * all / (6.0 * 4.0) - 1.0) < 0.15);
+    free(svg);
+}
+
 /* ---- what a population's study and a comparison add, put into the summary as they write it ---- */
 
 static void add_to_summary(const char *dir, const char *const (*more)[2], int n)
@@ -522,10 +586,15 @@ static void what_is_no_run_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(page_for_every_kind),       cmocka_unit_test(onset_page_shows_everything),
-        cmocka_unit_test(same_files_same_page),      cmocka_unit_test(study_pages_have_their_sections),
-        cmocka_unit_test(a_browser_reads_it),        cmocka_unit_test(a_rim_that_is_not_the_highest_is_explained),
-        cmocka_unit_test(failed_run_has_a_page_too), cmocka_unit_test(what_is_no_run_is_refused),
+        cmocka_unit_test(bodies_are_cut_before_and_after),
+        cmocka_unit_test(page_for_every_kind),
+        cmocka_unit_test(onset_page_shows_everything),
+        cmocka_unit_test(same_files_same_page),
+        cmocka_unit_test(study_pages_have_their_sections),
+        cmocka_unit_test(a_browser_reads_it),
+        cmocka_unit_test(a_rim_that_is_not_the_highest_is_explained),
+        cmocka_unit_test(failed_run_has_a_page_too),
+        cmocka_unit_test(what_is_no_run_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

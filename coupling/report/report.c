@@ -75,7 +75,7 @@ static const char style[] =
     ".speeds,.columns{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,20rem),1fr));gap:.2rem 1.2rem}"
     ".speed{border-width:1px 1px 1px .4rem}.speed b{font-size:1.35rem;display:block;line-height:1.3}"
     ".columns h2{margin-top:1rem}ul{padding-left:1.2rem}"
-    ".plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,21rem),1fr));gap:.5rem 1rem;"
+    ".plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,21rem),1fr));gap:.5rem 1rem;"
     "align-items:start}figure{margin:.5rem 0;max-width:36rem}figure svg{display:block;width:100%;height:auto}"
     "figcaption{font-size:.85rem}.legend span{margin-right:.8rem}.legend i{display:inline-block;width:.8rem;"
     "height:.8rem;margin-right:.3rem}"

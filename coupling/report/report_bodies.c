@@ -2,6 +2,8 @@
 /* The page of a scene of bodies: what became of each, their speeds and the scene's energies over time. */
 #include "coupling/report/report_page.h"
 
+#include "coupling/report/report_svg.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -54,6 +56,29 @@ static void draw_energies(const page *p)
 
 /* ---- the page ---- */
 
+static double speed_of(const cJSON *body)
+{
+    const double x = report_element(body, "velocity", 0), y = report_element(body, "velocity", 1),
+                 z = report_element(body, "velocity", 2);
+    return sqrt(x * x + y * y + z * z);
+}
+
+/* How far the scene has come, and which body is the fastest then. */
+static void write_fastest(const page *p)
+{
+    const cJSON *body, *fastest = NULL;
+    cJSON_ArrayForEach(body, report_page_list(p, "bodies"))
+    {
+        if (isfinite(speed_of(body)) && (!fastest || speed_of(body) > speed_of(fastest))) fastest = body;
+    }
+    if (!fastest) return;
+    fputs("<p class=\"verdict\">After ", p->out);
+    report_page_number(p->out, report_number(p->source->summary, "end_time"), 1e-6, "&micro;s <b>");
+    report_svg_escaped(p->out, fastest->string);
+    fputs("</b> is the fastest body, with ", p->out);
+    report_page_number(p->out, speed_of(fastest), 1.0, "m/s.</p>\n");
+}
+
 void report_bodies_head(const page *p)
 {
     static const page_column cards[] = { { "end_time", "simulated", 1e-6, "&micro;s", NULL },
@@ -64,6 +89,7 @@ void report_bodies_head(const page *p)
                                          { "energy_error", "energy error", 1.0, "", NULL },
                                          { "particles", "points", 1.0, "", NULL },
                                          { "wall_seconds", "took", 1.0, "s", NULL } };
+    if (report_page_is_done(p)) write_fastest(p);
     report_page_cards(p, p->source->summary, cards, PAGE_COUNT(cards));
 }
 

@@ -128,6 +128,10 @@ const char *report_chart_prefix(double largest, const char *unit, double *factor
     };
     static const char *const prefixes[] = { "n", "\302\265", "m", "", "k", "M", "G", "T" };
     *factor = 1.0;
+    if (strcmp(unit, "m3") == 0 && largest > 0.0 && largest < 1e-3) {
+        *factor = 1e-9;
+        return "m";
+    }
     for (size_t k = 0; k < sizeof units / sizeof *units; k++) {
         if (strcmp(unit, units[k]) != 0 || !(largest > 0.0)) continue;
         const int power = (int)fmin(fmax(floor(log10(largest) / 3.0 + 1e-9), -3.0), 4.0);

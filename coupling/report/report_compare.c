@@ -109,6 +109,8 @@ void report_compare_head(const page *p)
 
 enum { WIDTH = 440, LEFT = 58, RIGHT = 14, TOP = 22, CURVE = 170, ROW = 34 };
 
+#define HALO "font-size=\"12\" paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"4\""
+
 typedef struct {
     FILE *out;
     report_scale v, x; /* velocity across, position up */
@@ -151,8 +153,20 @@ static void draw_curve(const beside *b, const report_curve *c, size_t n)
     free(y);
 }
 
-/* The interval as a bar, the velocity as a dot, and a thin line up to the shot's curve. */
-static void draw_surface(const beside *b, const cJSON *entry, int k, const report_curve *c, double fastest)
+/* A thin line from the velocity up to the shot's curve. */
+static void draw_lead(const beside *b, const cJSON *entry, int k, const report_curve *c, double fastest)
+{
+    const double v = report_number(entry, "threshold_velocity"), y = TOP + CURVE + 14.0 + ROW * k + 22.0;
+    size_t i = 0;
+    if (!(v <= fastest)) return;
+    while (i + 1 < c->n && c->y[i] < v) i++;
+    const double at = report_scale_at(&b->v, v);
+    report_svg_line(b->out, (double[2]){ at, at }, (double[2]){ report_scale_at(&b->x, c->x[i]), y }, 2,
+                    report_shade(k), 1.0, true);
+}
+
+/* The interval as a bar, the velocity as a dot. */
+static void draw_surface(const beside *b, const cJSON *entry, int k)
 {
     const double v = report_number(entry, "threshold_velocity"), lo = report_element(entry, "threshold_interval", 0),
                  hi = report_element(entry, "threshold_interval", 1);
@@ -162,7 +176,7 @@ static void draw_surface(const beside *b, const cJSON *entry, int k, const repor
     report_value_interval(v, lo, hi, value);
     snprintf(text, sizeof text, "%.40s: %s", report_text(entry, "surface"),
              strcmp(value, "&ndash;") ? value : "not known");
-    report_svg_text(b->out, LEFT + 4.0, y - 8.0, "start", "font-size=\"12\"", text);
+    report_svg_text(b->out, LEFT + 4.0, y - 8.0, "start", HALO, text);
     const double a = isfinite(lo) ? fmax(report_scale_at(&b->v, lo), b->v.from) : b->v.from,
                  e = isfinite(hi) ? fmin(report_scale_at(&b->v, hi), b->v.to) : b->v.to;
     if (isfinite(lo) || isfinite(hi))
@@ -171,12 +185,6 @@ static void draw_surface(const beside *b, const cJSON *entry, int k, const repor
     if (!isfinite(hi) && isfinite(lo)) report_svg_text(b->out, b->v.to, y + 5.0, "end", "", "\342\206\222");
     if (!isfinite(v)) return;
     const double at = report_scale_at(&b->v, v);
-    if (v <= fastest) {
-        size_t i = 0;
-        while (i + 1 < c->n && c->y[i] < v) i++;
-        report_svg_line(b->out, (double[2]){ at, at }, (double[2]){ report_scale_at(&b->x, c->x[i]), y }, 2, colour,
-                        1.0, true);
-    }
     fprintf(b->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"5\" fill=\"%s\"/>\n", at, y + 1.0, colour);
 }
 
@@ -212,7 +220,9 @@ static void draw_beside(FILE *out, const page *p, const report_curve *c, size_t 
     const double muzzle = report_scale_at(&b.v, fastest);
     report_svg_line(out, (double[2]){ muzzle, muzzle }, (double[2]){ TOP, b.bottom }, 2, "#555555", 1.3, true);
     report_svg_text(out, muzzle - 4.0, TOP - 6.0, "end", "font-size=\"12\" fill=\"#555\"", "muzzle");
-    cJSON_ArrayForEach(entry, ranking) draw_surface(&b, entry, k++, c, fastest);
+    cJSON_ArrayForEach(entry, ranking) draw_lead(&b, entry, k++, c, fastest);
+    k = 0;
+    cJSON_ArrayForEach(entry, ranking) draw_surface(&b, entry, k++);
     report_svg_end(out);
 }
 
@@ -263,7 +273,9 @@ static void section_each(const page *p)
     const cJSON *entry;
     int k = 0;
     if (!cJSON_GetObjectItemCaseSensitive(report_page_list(p, "ranking")->child, "scene_prefix")) {
+        report_page_plots_begin(p);
         report_onset_threshold_chart(p, "threshold", "One point a scene, of all surfaces.", NULL, NULL);
+        report_page_plots_end(p);
         return;
     }
     report_page_plots_begin(p);

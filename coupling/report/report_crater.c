@@ -107,7 +107,7 @@ static void draw_map(const page *p, const crater_picture *c, const report_relief
     report_value_plain(1e3 * c->highest, high);
     report_value_plain(1e3 * c->rim_height, rim);
     int n = snprintf(caption, sizeof caption, "From above: %.40s mm deep, up to %.40s mm high.", deep, high);
-    if (isfinite(c->rim_height) && fabs(c->rim_height - c->highest) > 0.005 * c->highest)
+    if (c->rim_height > 0.0 && fabs(c->rim_height - c->highest) > 0.005 * c->highest)
         snprintf(caption + n, sizeof caption - (size_t)n,
                  " The rim (rim_height, %.40s mm) is the highest within a crater's width of the crater alone; what "
                  "stands higher lies farther off.",

@@ -157,12 +157,14 @@ typedef struct {
     double cell; /* [m] */
 } raster;
 
+static const double ROOM = 1.2; /* domains of points that have moved apart leave gaps */
+
 static void fill(const snapshot *s, const plane *p, raster *r)
 {
     for (size_t i = 0; i < s->n; i++) {
         if (!is_cut(s, p, i)) continue;
         const double x = s->at[3 * i + (size_t)p->along] - p->lo[0], y = s->at[3 * i + (size_t)p->across] - p->lo[1],
-                     a = s->size[3 * i + (size_t)p->along], b = s->size[3 * i + (size_t)p->across];
+                     a = ROOM * s->size[3 * i + (size_t)p->along], b = ROOM * s->size[3 * i + (size_t)p->across];
         const int body = (int)s->body[i] % MOST_BODIES, failed = s->damage[i] >= 1.0;
         const int from = (int)fmax(0.0, floor((x - a) / r->cell + 0.5)), to = (int)ceil((x + a) / r->cell - 0.5),
                   low = (int)fmax(0.0, floor((y - b) / r->cell + 0.5)), high = (int)ceil((y + b) / r->cell - 0.5);
@@ -172,7 +174,7 @@ static void fill(const snapshot *s, const plane *p, raster *r)
     }
 }
 
-/* All strips of one body. */
+/* All strips of one body, each a little into the next: no seams where a screen rounds. */
 static void draw_body(FILE *out, const raster *r, int value, double unit, double bottom)
 {
     bool some = false;
@@ -184,8 +186,8 @@ static void draw_body(FILE *out, const raster *r, int value, double unit, double
                 fprintf(out, "<path fill=\"%s\"%s d=\"", report_shade((value - 1) % MOST_BODIES),
                         value > MOST_BODIES ? " fill-opacity=\"0.45\"" : "");
             some = true;
-            fprintf(out, "M%.4g %.4gh%.4gv-%.3gh-%.4gz", MARGIN + k * unit, bottom - j * unit, (end - k) * unit, unit,
-                    (end - k) * unit);
+            fprintf(out, "M%.5g %.5gh%.4gv-%.3gh-%.4gz", MARGIN + k * unit, bottom - j * unit, (end - k) * unit,
+                    unit + 0.4, (end - k) * unit);
         }
     if (some) fputs("\"/>\n", out);
 }

@@ -218,7 +218,9 @@ void report_strike_section(const page *p)
     report_cut_section(p);
     if (cJSON_GetArraySize(list) > 0) {
         report_page_heading(p, "The limit velocity");
+        report_page_plots_begin(p);
         draw_limit(p, list);
+        report_page_plots_end(p);
         report_page_list_table(p, list, columns, PAGE_COUNT(columns));
     }
     report_bodies_section(p);

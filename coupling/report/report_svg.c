@@ -138,12 +138,13 @@ static int linear_ticks(const report_scale *s, int about, double tick[REPORT_TIC
     return n;
 }
 
-/* 1, 2, 5, 10 ... where there are few decades, else powers of ten. */
-static int log_ticks(const report_scale *s, double tick[REPORT_TICKS])
+/* Within one decade even steps, within few 1, 2, 5, 10 ..., else powers of ten. */
+static int log_ticks(const report_scale *s, double tick[REPORT_TICKS], double *step)
 {
     static const double firsts[] = { 1.0, 2.0, 5.0 };
     const bool fine = s->hi / s->lo < 300.0;
     int n = 0;
+    if (s->hi / s->lo < 8.0) return linear_ticks(s, 4, tick, step);
     for (double power = pow(10.0, floor(log10(s->lo))); power <= s->hi; power *= 10.0)
         for (int k = 0; k < (fine ? 3 : 1); k++) {
             const double value = power * firsts[k];
@@ -155,14 +156,15 @@ static int log_ticks(const report_scale *s, double tick[REPORT_TICKS])
 int report_scale_ticks(const report_scale *s, int about, double tick[REPORT_TICKS], double *step)
 {
     *step = 0.0;
-    return s->log ? log_ticks(s, tick) : linear_ticks(s, about, tick, step);
+    return s->log ? log_ticks(s, tick, step) : linear_ticks(s, about, tick, step);
 }
 
 void report_scale_label(double tick, double step, char out[32])
 {
     const int decimals = step > 0.0 ? (int)fmax(0.0, ceil(-log10(step) - 1e-9)) : 0;
+    const double value = fabs(tick) < 1e-9 * step ? 0.0 : tick;
     if (step > 0.0 && decimals <= 6)
-        snprintf(out, 32, "%.*f", decimals, fabs(tick) < 1e-9 * step ? 0.0 : tick);
+        snprintf(out, 32, "%.*f", decimals, value);
     else
-        snprintf(out, 32, "%g", tick);
+        snprintf(out, 32, "%g", value);
 }

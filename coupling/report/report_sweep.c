@@ -41,12 +41,35 @@ void report_sweep_head(const page *p)
 
 /* ---- the table ---- */
 
-static void add_value(report_table *t, const cJSON *value)
+/* A column of numbers: of an object of the runs, or of the run itself where object is NULL. */
+typedef struct {
+    const char *object, *key;
+    double factor; /* of its unit, with the prefix that its largest number asks for */
+} run_column;
+
+static const cJSON *value_of(const cJSON *run, const run_column *c)
 {
-    if (cJSON_IsString(value))
-        report_table_text(t, value->valuestring);
+    return member(c->object ? member(run, c->object) : run, c->key);
+}
+
+static void add_column(const page *p, report_table *t, run_column *c, const char *unit)
+{
+    const cJSON *run;
+    double largest = 0.0;
+    bool text = false;
+    char with_prefix[60];
+    cJSON_ArrayForEach(run, report_page_list(p, "sweep"))
+    {
+        const cJSON *value = value_of(run, c);
+        if (cJSON_IsNumber(value)) largest = fmax(largest, fabs(value->valuedouble));
+        text = text || cJSON_IsString(value);
+    }
+    const char *prefix = report_chart_prefix(largest, unit, &c->factor);
+    snprintf(with_prefix, sizeof with_prefix, "%s%.40s", prefix, unit);
+    if (text)
+        report_table_text_title(t, c->key);
     else
-        report_table_number(t, cJSON_IsNumber(value) ? value->valuedouble : NAN, 1.0);
+        report_table_title(t, c->key, with_prefix);
 }
 
 /* A run a row: its inputs, the object `what`, its time. */
@@ -54,19 +77,34 @@ static void run_table(const page *p, const char *what)
 {
     const cJSON *run, *item, *runs = report_page_list(p, "sweep");
     const bool errors = strcmp(what, "errors") == 0;
+    run_column column[REPORT_COLUMNS];
+    int n = 0;
     report_table t;
     report_table_begin(&t, p->out);
     cJSON_ArrayForEach(item, member(runs->child, "inputs"))
-        report_table_title(&t, item->string, unit_of(p, item->string));
+    {
+        if (n == REPORT_COLUMNS - 1) break;
+        column[n] = (run_column){ "inputs", item->string, 1.0 };
+        add_column(p, &t, &column[n++], unit_of(p, item->string));
+    }
     cJSON_ArrayForEach(item, member(runs->child, what))
-        report_table_title(&t, item->string, errors ? "" : unit_of(p, item->string));
+    {
+        if (n == REPORT_COLUMNS - 1) break;
+        column[n] = (run_column){ what, item->string, 1.0 };
+        add_column(p, &t, &column[n++], errors ? "" : unit_of(p, item->string));
+    }
+    column[n] = (run_column){ NULL, "wall_seconds", 1.0 };
     report_table_title(&t, "time", "s");
     cJSON_ArrayForEach(run, runs)
     {
         report_table_row(&t);
-        cJSON_ArrayForEach(item, member(run, "inputs")) add_value(&t, item);
-        cJSON_ArrayForEach(item, member(run, what)) add_value(&t, item);
-        add_value(&t, member(run, "wall_seconds"));
+        for (int k = 0; k <= n; k++) {
+            const cJSON *value = value_of(run, &column[k]);
+            if (cJSON_IsString(value))
+                report_table_text(&t, value->valuestring);
+            else
+                report_table_number(&t, cJSON_IsNumber(value) ? value->valuedouble : NAN, column[k].factor);
+        }
     }
     report_table_end(&t);
 }
