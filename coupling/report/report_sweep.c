@@ -24,11 +24,12 @@ static const char *unit_of(const page *p, const char *key)
 void report_sweep_head(const page *p)
 {
     const cJSON *runs = report_page_list(p, "sweep"), *item;
+    const char *of = report_text(p->source->summary, "of"); /* a scene of bodies is a scene's command, too */
     const int n = cJSON_GetArraySize(runs);
     int k = 0;
     if (!report_page_is_done(p) || n == 0) return;
     fprintf(p->out, "<p class=\"verdict\">%d runs of <code>breech ", n);
-    report_svg_escaped(p->out, report_text(p->source->summary, "of"));
+    report_svg_escaped(p->out, strcmp(of, "bodies") == 0 || strcmp(of, "ensemble") == 0 ? "scene" : of);
     fputs("</code> that differ in ", p->out);
     cJSON_ArrayForEach(item, member(runs->child, "inputs"))
     {
@@ -219,7 +220,7 @@ void report_sweep_section(const page *p)
     run_table(p, "outputs");
     draw_all(p, "outputs", false, "sweep");
     if (!report_text(p->source->summary, "resolution")[0]) return;
-    report_page_heading(p, "Error against the time of a run");
+    report_page_heading(p, "Error against run time");
     report_page_paragraph(p, "reason", "Against the finest run of the same other inputs.");
     draw_all(p, "errors", true, "error");
     run_table(p, "errors");
