@@ -21,6 +21,7 @@
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_STOPPED = 75 };
@@ -345,12 +346,20 @@ static status open_material(const char *name, material_sheet *sheet)
     return s;
 }
 
+static bool is_folder(const char *path)
+{
+    struct stat is;
+    return stat(path, &is) == 0 && S_ISDIR(is.st_mode);
+}
+
 static int run_materials(const options *o)
 {
     material_places at;
     material_sheet sheet;
     case_material_places_find(&at);
     if (!o->line.subject) return complain(case_materials_print(&at, stdout));
+    if (is_folder(o->line.subject))
+        return complain(case_materials_print(&(material_places){ .n = 1, .dir = { o->line.subject } }, stdout));
     const status s = open_material(o->line.subject, &sheet);
     if (s.code != STATUS_OK) return complain(s);
     case_material_print(&sheet, stdout);

@@ -292,6 +292,8 @@ static void test_refusals(void **state)
 }
 
 /* Every preset fills what is not given and makes scenes; what is given stays. */
+#define TREATED "treatments: [{name: a, polish: {size: 0.5}}]\n"
+
 static void test_presets(void **state)
 {
     (void)state;
@@ -299,7 +301,7 @@ static void test_presets(void **state)
     assert_int_equal(POPULATION_PRESETS, 6);
     for (int k = 0; k < 5; k++) {
         char text[4000];
-        snprintf(text, sizeof text, HEAD "populations: [{preset: %s, from: 1 m}]\ntreatments: [{name: a}]\n", names[k]);
+        snprintf(text, sizeof text, HEAD "populations: [{preset: %s, from: 1 m}]\n" TREATED, names[k]);
         breech_case *c = read(text, ALL);
         const case_population *p = &c->populations.item[0];
         assert_true(p->density > 0.0 && p->radius_median > 0.0 && p->radius_spread > 0.0 && p->aspect > 0.0);
@@ -308,8 +310,7 @@ static void test_presets(void **state)
         OK(possible(c));
         case_free(c);
     }
-    breech_case *c = read(
-        HEAD "populations: [{preset: debris, density: 7 1/m, bond_strength: none}]\ntreatments: [{name: a}]\n", ALL);
+    breech_case *c = read(HEAD "populations: [{preset: debris, density: 7 1/m, bond_strength: none}]\n" TREATED, ALL);
     assert_true(c->populations.item[0].density == 7.0 && isnan(c->populations.item[0].bond_strength));
     assert_string_equal(c->populations.item[0].material, "al7075_t651");
     case_free(c);

@@ -70,6 +70,7 @@ static void test_senseless(void **state)
         { "treatments: [{name: untreated, preheat: {temperature: 400 K}}]", ":3:21: treatments[0].name = untreated" },
         { "treatments: [{name: hot, preheat: {temperature: 1400 K}}]",
           "preheat.temperature = 1400 K: ofhc_copper_half_hard melts" },
+        { "treatments: [{name: none, polish: {size: 1}}]", "treatment `none`: changes nothing of the rail" },
         { "title: \"caf\xe9\"", ":3:13: not valid YAML" },
         { "populations: [{density: 4 1/m, radius_median: 0.5 mm, radius_spread: 3}]",
           ":3:15: populations[0], its largest grains, of 200 mm" },
@@ -198,6 +199,15 @@ static void test_check_and_materials(void **state)
     assert_true(contains("out.txt", "lacks specific_heat"));
     assert_int_equal(run("materials ofhc_copper"), 0);
     assert_true(contains("out.txt", "yield_A"));
+    assert_int_equal(run("materials " CASES "/materials/cucrzr.yaml"), 0); /* a file, a folder: nothing else is read */
+    assert_true(contains("out.txt", "lacks specific_heat"));
+    fresh_folder("metals");
+    static const char mine[] = "name: mine\ntitle: mine\nsources: {me: made up}\n"
+                               "constants:\n  density: {value: 8000 kg/m^3, source: me}\n";
+    OK(host_file_write("metals/mine.yaml", mine, sizeof mine - 1));
+    assert_int_equal(run("materials metals"), 0);
+    assert_true(contains("out.txt", "mine ") && !contains("out.txt", "ofhc_copper"));
+    assert_int_equal(run("materials metals/other.yaml"), 2);
 }
 
 /* Johnson-Cook by hand: 90 + 292 0.5^0.31 = 325.54 MPa times 1 + 0.025 ln 1000 = 1.17269, isothermal.  0.9 of the work

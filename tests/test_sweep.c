@@ -118,6 +118,8 @@ static void test_refused(void **state)
         { "{of: shot, vary: [{values: [1]}]}", "sweep.vary[0].key is missing" },
         { "{of: scene, vary: [{key: bank.charge, values: [8 kV]}]}", "`breech scene` needs it" },
     };
+    assert_string_equal(study_command(&study_bodies), "scene"); /* what takes a place has no command of its own */
+    assert_string_equal(study_command(&study_strike), "strike");
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         char arguments[600], *text;
         snprintf(arguments, sizeof arguments, "sweep " SHOT_CASE " -o nothing --set sweep=\"%s\"", wrong[i].sweep);

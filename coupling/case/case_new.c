@@ -16,6 +16,7 @@ const case_kind case_kinds[] = {
     { "shot", "default_shot", "onset", "a bank, rails, an armature and grains: where does the rail gouge?" },
     { "bodies", "ball_gauge", "scene", "a ball on a plate with a pressure gauge in it" },
     { "strike", "sphere_plate", "strike", "a projectile on its target: does it pierce, what is left of its velocity?" },
+    { "life", "rail_fatigue", "life", "a rail under a load that comes again and again: when does it crack?" },
     { NULL, NULL, NULL, NULL },
 };
 
@@ -31,7 +32,7 @@ static bool shipped_case(const case_folders *at, const char *name, char file[CAS
     return false;
 }
 
-/* "shot, bodies, strike" and the folders with shipped cases. */
+/* "shot, bodies, strike, life" and the folders with shipped cases. */
 static status nothing_to_begin_from(const case_folders *at, const char *from)
 {
     char kinds[200] = "", folders[2 * MATERIAL_PATH_SIZE] = "";

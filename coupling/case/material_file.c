@@ -343,6 +343,16 @@ static status not_found(const char *name, const char *const *dirs, int n_dirs)
                              near[0] ? "`?" : "");
 }
 
+static status sheet_from_file(const units *u, const char *path, material_sheet *out, char **errors)
+{
+    char *bytes = NULL;
+    size_t length = 0;
+    TRY(host_file_text(path, TREE_MAX_BYTES, &bytes, &length));
+    const status s = case_material_sheet_parse(u, bytes, length, path, out, errors);
+    free(bytes);
+    return s;
+}
+
 status case_material_sheet_find(const units *u, const char *name, const char *const *dirs, int n_dirs,
                                 material_sheet *out, char **errors)
 {
@@ -352,15 +362,15 @@ status case_material_sheet_find(const units *u, const char *name, const char *co
     for (int d = 0; d < n_dirs; d++) {
         char path[MATERIAL_PATH_SIZE];
         if (snprintf(path, sizeof path, "%s/%s.yaml", dirs[d], name) >= (int)sizeof path) continue;
-        char *bytes = NULL;
-        size_t length = 0;
-        if (!host_file_exists(path)) continue;
-        TRY(host_file_text(path, TREE_MAX_BYTES, &bytes, &length));
-        const status s = case_material_sheet_parse(u, bytes, length, path, out, errors);
-        free(bytes);
-        return s;
+        if (host_file_exists(path)) return sheet_from_file(u, path, out, errors);
     }
     return not_found(name, dirs, n_dirs);
+}
+
+static bool is_path(const char *name)
+{
+    const size_t n = strlen(name);
+    return strchr(name, '/') || (n > 5 && strcmp(name + n - 5, ".yaml") == 0);
 }
 
 status case_material_sheet_open(const char *name, const char *const *dirs, int n_dirs, material_sheet *out,
@@ -370,7 +380,8 @@ status case_material_sheet_open(const char *name, const char *const *dirs, int n
     *errors = NULL;
     memset(out, 0, sizeof *out);
     TRY(host_units_open(&u));
-    const status s = case_material_sheet_find(u, name, dirs, n_dirs, out, errors);
+    const status s = is_path(name) ? sheet_from_file(u, name, out, errors)
+                                   : case_material_sheet_find(u, name, dirs, n_dirs, out, errors);
     host_units_close(u);
     return s;
 }

@@ -48,7 +48,7 @@ typedef struct {
 status case_material_sheet_find(const units *u, const char *name, const char *const *dirs, int n_dirs,
                                 material_sheet *out, char **errors);
 
-/* The same for those who have no unit system open. */
+/* The same for those who have no unit system open; a name with a slash, or that ends in .yaml, is a file's path. */
 status case_material_sheet_open(const char *name, const char *const *dirs, int n_dirs, material_sheet *out,
                                 char **errors);
 

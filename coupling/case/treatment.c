@@ -74,3 +74,38 @@ void case_treated_free(case_onset *c)
     free(c->populations.item);
     memset(c, 0, sizeof *c);
 }
+
+static bool same_bytes(const void *a, const void *b, int n, size_t size)
+{
+    return n == 0 || memcmp(a, b, (size_t)n * size) == 0;
+}
+
+static bool same_populations(const case_populations *a, const case_populations *b)
+{
+    if (a->n != b->n) return false;
+    for (int i = 0; i < a->n; i++) {
+        case_population x = a->item[i];
+        const case_population *y = &b->item[i];
+        if (x.sizes.n != y->sizes.n || !same_bytes(x.sizes.item, y->sizes.item, x.sizes.n, sizeof *x.sizes.item))
+            return false;
+        x.sizes.item = y->sizes.item;
+        if (!same_bytes(&x, y, 1, sizeof x)) return false;
+    }
+    return true;
+}
+
+/* Lists are compared by what is in them; all else is a copy, byte by byte. */
+bool case_treated_alike(const case_onset *c, const case_onset *treated)
+{
+    case_onset as = *treated;
+    const case_layers *layers = &c->impact.rail.layers;
+    if (layers->n != as.impact.rail.layers.n || c->sites.n != as.sites.n ||
+        !same_bytes(layers->item, as.impact.rail.layers.item, layers->n, sizeof *layers->item) ||
+        !same_bytes(c->sites.item, as.sites.item, c->sites.n, sizeof *c->sites.item) ||
+        !same_populations(&c->populations, &as.populations))
+        return false;
+    as.impact.rail.layers.item = layers->item;
+    as.sites.item = c->sites.item;
+    as.populations.item = c->populations.item;
+    return same_bytes(c, &as, 1, sizeof as);
+}

@@ -42,5 +42,7 @@ bool case_treatment_given(const case_treatment *t, int kind);
  * and populations; case_treated_free, even on error. */
 status case_treat(const case_onset *c, const case_treatment *t, case_onset *out);
 void case_treated_free(case_onset *c);
+/* Is it the case as it is, so that comparing the two is comparing nothing? */
+bool case_treated_alike(const case_onset *c, const case_onset *treated);
 
 #endif

@@ -115,7 +115,10 @@ static status treatments_possible(const case_onset *c, const case_treatments *al
         case_onset treated;
         status s = case_treat(c, &all->item[i], &treated);
         const bool made = s.code == STATUS_OK; /* its error names the treatment already */
-        if (made) s = grains_possible(&treated);
+        if (made && case_treated_alike(c, &treated))
+            s = base_status_error(STATUS_BAD_INPUT, "changes nothing of the rail as it is: give it another value, or "
+                                                    "leave it out");
+        if (s.code == STATUS_OK) s = grains_possible(&treated);
         case_treated_free(&treated);
         CHECK(s.code == STATUS_OK, s.code, "%s%s%s%.400s", made ? "treatment `" : "", made ? all->item[i].name : "",
               made ? "`: " : "", s.text);

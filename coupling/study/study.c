@@ -24,6 +24,14 @@ const study *study_find(const char *name)
     return NULL;
 }
 
+const char *study_command(const study *y)
+{
+    for (int k = 0; k < STUDIES; k++)
+        for (const study *other = study_list[k]; other; other = other->instead)
+            if (other == y) return study_list[k]->name;
+    return y->name;
+}
+
 status study_possible_all(const study_case *of, unsigned needs)
 {
     TRY(study_possible(of->in, needs));

@@ -64,6 +64,8 @@ extern const study study_ensemble, study_bodies; /* that take a place */
 const study *study_for(const study *y, const case_inputs *in);
 
 const study *study_find(const char *name); /* NULL: there is none */
+/* The command that runs it: `scene` for what takes its place. */
+const char *study_command(const study *y);
 
 /* Decides what the case leaves to the program; before all that follows. */
 status study_prepare(case_inputs *in);

@@ -112,7 +112,7 @@ static status check_outputs(const case_sweep *w, const study *y)
     for (int k = 0; k < w->read.n; k++) {
         const char *name = w->read.item[k].value, *near = host_nearest_name(name, output_name, y->keys);
         CHECK(output_number_key(y->keys, name), STATUS_BAD_INPUT,
-              "sweep.read[%d] = %s: no number of the summary of `breech %s`%s%s%s", k, name, y->name,
+              "sweep.read[%d] = %s: no number of the summary of `breech %s`%s%s%s", k, name, study_command(y),
               near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
     }
     return status_ok();
