@@ -43,6 +43,28 @@ static void read_texts(const report_source *r, const char *scene, crater_picture
         c->rim_height = NAN;
 }
 
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Where the darkest colours stand: what a hundredth of the crater and its rim exceeds, so that the hole of a single
+ * cell does not leave all else pale. */
+static double colour_range(const double *height, size_t n, double largest)
+{
+    size_t m = 0;
+    double *sorted = malloc((n + 1) * sizeof *sorted), range = largest;
+    for (size_t k = 0; sorted && k < n; k++)
+        if (fabs(height[k]) > 0.04 * largest) sorted[m++] = fabs(height[k]);
+    if (m > 0) {
+        qsort(sorted, m, sizeof *sorted, by_value);
+        range = sorted[(size_t)(0.99 * (double)(m - 1))];
+    }
+    free(sorted);
+    return fmax(range, 1e-9);
+}
+
 static bool read_crater(const report_source *r, const char *scene, crater_picture *c)
 {
     double *z = NULL;
@@ -57,17 +79,18 @@ static bool read_crater(const report_source *r, const char *scene, crater_pictur
             c->deepest = fmax(c->deepest, -c->height[k]);
             c->highest = fmax(c->highest, c->height[k]);
         }
-        c->map = (report_relief){ .height = c->height,
-                                  .nx = dims[0],
-                                  .ny = dims[1],
-                                  .x0 = c->x[0],
-                                  .dx = c->x[1] - c->x[0],
-                                  .y0 = z[0],
-                                  .dy = z[1] - z[0],
-                                  .colour_range = fmax(fmax(c->deepest, c->highest), 1e-9),
-                                  .unit = 1e-3,
-                                  .legend = "height [mm]",
-                                  .above = "launch direction \342\206\222" };
+        c->map =
+            (report_relief){ .height = c->height,
+                             .nx = dims[0],
+                             .ny = dims[1],
+                             .x0 = c->x[0],
+                             .dx = c->x[1] - c->x[0],
+                             .y0 = z[0],
+                             .dy = z[1] - z[0],
+                             .colour_range = colour_range(c->height, dims[0] * dims[1], fmax(c->deepest, c->highest)),
+                             .unit = 1e-3,
+                             .legend = "height [mm]",
+                             .above = "launch direction \342\206\222" };
         read_texts(r, scene, c);
     }
     free(z);
@@ -129,7 +152,7 @@ static void one_crater(const page *p, const char *scene, const crater_picture *c
 {
     char name[160];
     report_relief part = c->map;
-    double *memory = report_relief_crop(&part, 0.04 * c->map.colour_range);
+    double *memory = report_relief_crop(&part, 0.12 * c->map.colour_range);
     fputs("<section class=\"crater\"><h3>", p->out);
     report_svg_escaped(p->out, scene);
     if (c->class[0]) fprintf(p->out, ": <span style=\"color:%s\">%s</span>", report_colour(c->class), c->class);

@@ -183,7 +183,8 @@ static void draw_colours(FILE *out, const report_relief *s, double y)
     const double step = level_step(s);
     double lo = 0.0, hi = 0.0, x = MARGIN;
     for (size_t k = 0; k < s->nx * s->ny; k++) lo = fmin(lo, s->height[k]), hi = fmax(hi, s->height[k]);
-    const int first = (int)lround(lo / step), last = (int)lround(hi / step);
+    const double most = s->colour_range + 0.5 * step;
+    const int first = (int)lround(fmax(lo, -most) / step), last = (int)lround(fmin(hi, most) / step);
     const double width =
         fmin(34.0, (WIDTH - 2.0 * MARGIN - 7.0 - report_svg_text_width(s->legend)) / (last - first + 1));
     const int every = width < 30.0 ? (int)ceil(30.0 / width) : 1;
