@@ -20,6 +20,7 @@ import pages
 import part_closed
 import part_criterion
 import part_fatigue
+import part_gel
 import part_growth
 import part_lattice
 import part_laws
@@ -40,6 +41,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
     "lattice": ("docs/validation/lattice.md", part_lattice.through, 8, False),
     "fatigue": ("docs/validation/fatigue.md", part_fatigue.wheel, 3, True),
+    "gel": ("docs/validation/gel.md", part_gel.droplet, 6, False),
     "four-cells": ("docs/validation/growth.md", part_growth.four_cells, 16, False),
     "laws": ("docs/validation/laws.md", part_laws.laws, 1, True),
     "laws-6061": ("docs/validation/laws.md", part_laws.laws_6061, 1, True),
