@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Cavities: gas between bodies, two numbers each, moles and volume, instead of points.
  *
- *   p = p_gas(V/n) - p_a        at a temperature that stays (law/gas.h), counted from the ambient pressure       (C-1)
- *   m_i dv_i/dt = f_i - p G_i,   G_i = sum_p V_p grad S_ip, at nodes about the cavity                            (C-2)
- *   dV/dt = - sum_i G_i . v_i                                                                                    (C-3)
+ *   p = p_gas(V/n) - p_a        at a temperature that stays (law/gas.h), counted from the ambient pressure       (G-6)
+ *   m_i dv_i/dt = f_i - p G_i,   G_i = sum_p V_p grad S_ip, at nodes about the cavity                            (G-7)
+ *   dV/dt = - sum_i G_i . v_i                                                                                    (G-8)
  *
  *   . . . . . . .    The gradients of a shape function over matter and void together sum to zero, so that of the void
  *   # # # # # . .    is -G_i: the gas pushes on the nodes as if it were there.  Where no void is, G_i is zero but for
  *   # # o o # # .    what points leave of it, so only nodes (o and two around) about empty cells of the cavity are
- *   # o     o # .    taken.  With (C-3) the work of the gas, p dV, is what the nodes get.
+ *   # o     o # .    taken.  With (G-8) the work of the gas, p dV, is what the nodes get.
  *   # # o o # # .
  *
  * Which cells a cavity has is found every CAVITY_EVERY steps by flooding what no domain of an intact point covers, from
