@@ -215,6 +215,7 @@ LANE_INLINE void book(books *t, const block *q, int lane, const lane_sums *w)
 /* A run of blocks of one body, in a cell: what their kernels need to know, and what is booked of them. */
 typedef struct {
     int body;
+    bool near; /* may other groups' points give to nodes of this cell, as points of its level do? */
     step_of step;
     books books;
 } block_run;
@@ -342,7 +343,7 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
         }
         prefetch_share(&next);
         sum.work_external = move(q, lane, &r, &run->step);
-        law_step(k, f, &run->step, &moved, q, lane, b->contact, &sum);
+        law_step(k, f, &run->step, &moved, q, lane, run->near, &sum);
         prefetch_share(&next);
         book(&run->books, q, lane, &sum);
         find_bad(&b->sum, q, lane, sum.rate, index);
@@ -377,7 +378,7 @@ static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const h
         const int body = m->links[i].body;
         if (body != run->body) {
             add_books(&b->sum, run, &peaks_of_thread(m, b->movers_thread)[run->body]);
-            *run = (block_run){ .body = body, .step = step_for(m, b, &g, body) };
+            *run = (block_run){ .body = body, .near = run->near, .step = step_for(m, b, &g, body) };
         }
         b->sum.particles += (uint64_t)__builtin_popcount(m->links[i].mask);
         const int leaving = block_kernels[m->laws[body].kernel](m, b, i, &g, &limits, nodes, run);
@@ -453,8 +454,12 @@ void ISA(g2p)(mpm *m, brick *b, int thread)
     b->still = slow && !is_at_mirror(m, b) && !is_loaded(m, b->group) ? b->still + 1 : 0;
     b->given = false;
     block_run run = { .body = 0 };
-    for (int cell = 0; cell < BRICK_CELLS; cell++)
-        if (b->head[cell] >= 0) one_cell(m, b, cell, &grid, halo, &run);
+    const uint64_t near = !b->contact ? 0 : b->across ? mpm_contact_cells(m, b) : b->meets;
+    for (int cell = 0; cell < BRICK_CELLS; cell++) {
+        if (b->head[cell] < 0) continue;
+        run.near = near >> cell & 1;
+        one_cell(m, b, cell, &grid, halo, &run);
+    }
     add_books(&b->sum, &run, &peaks_of_thread(m, thread)[run.body]);
     b->sum.rate /= level_steps(m, b->level);
     b->still_rate = b->sum.rate;
