@@ -6,7 +6,7 @@ packages_build=(gcc libc6-dev cmake ninja-build libsundials-dev libgsl-dev libhd
                 libcjson-dev libcmocka-dev gnuplot-nox libopenmpi-dev openmpi-bin)
 packages_test=(git clang libclang-rt-14-dev libomp-dev clang-format python3-h5py python3-matplotlib
                python3-yaml python3-pip dpkg-dev pkg-config g++)
-packages_full=(ngspice paraview python3-paraview xvfb xauth chromium mmdebstrap pandoc doxygen)
+packages_full=(ngspice paraview python3-paraview xvfb xauth chromium mmdebstrap pandoc doxygen fonts-dejavu-extra)
 
 packages_missing()
 {

@@ -45,6 +45,6 @@ if(BREECH_PANDOC AND BREECH_PYTHON)
         add_dependencies(docs api)
     endif()
 else()
-    add_custom_target(docs COMMAND ${CMAKE_COMMAND} -E echo "The site needs pandoc and python3 (Debian: apt-get install pandoc python3 doxygen)."
+    add_custom_target(docs COMMAND ${CMAKE_COMMAND} -E echo "The site needs pandoc and python3 (Debian: apt-get install pandoc python3 doxygen fonts-dejavu-extra)."
                       COMMAND ${CMAKE_COMMAND} -E false VERBATIM)
 endif()

@@ -112,8 +112,8 @@ def approximations():
 
 def scenes_of(page):
     """Velocity [m/s], growth [1/us] and class of the scenes in the page's first table."""
-    found = []
-    for row in re.findall(r"^\| (\d[^|]*)\|([^|]*)\|[^|]*\|[^|]*\|([^|]*)\|$", page, flags=re.M):
+    found, table = [], re.search(r"^\| v \[m/s\] \|.*?\n\n", page, flags=re.S | re.M).group()
+    for row in re.findall(r"^\| (\d[^|]*)\|([^|]*)\|[^|]*\|[^|]*\|([^|]*)\|$", table, flags=re.M):
         speeds = [float(v) for v in re.findall(r"\d+", row[0].split(",")[0])]
         growths = [float(g) for g in re.findall(r"-?[\d.]+", row[1])]
         classes = [c.strip() for c in row[2].split(",")]

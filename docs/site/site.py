@@ -5,7 +5,7 @@
 Every page (README.md, docs/, the cases' README.md) becomes a page of HTML in OUT, at its own place; start at
 OUT/index.html.  Links between pages go to the pages of HTML; a file of the tree that a page names is shown as a page
 too.  Mathematics becomes MathML, so that nothing is fetched from anywhere.  OUT/find.js lists headings, equations and
-keys for the search field.  Needs pandoc (Debian: pandoc)."""
+keys for the search field.  Needs pandoc (Debian: pandoc, and fonts-dejavu-extra for the looks of mathematics)."""
 import argparse
 import html
 import json
@@ -18,6 +18,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 FOLDERS = (("guide", "Guide"), ("theory", "Theory"), ("reference", "Reference"), ("validation", "Validation"), ("notes", "Notes"))
+# Fonts with a table for mathematics, without which subscripts are not lowered (Debian: fonts-dejavu-extra has the first).
+MATH_FONTS = ("DejaVuMathTeXGyre.ttf", "STIXTwoMath-Regular.otf", "latinmodern-math.otf")
 SOURCES = {".c": "c", ".h": "c", ".def": "c", ".py": "python", ".sh": "bash", ".yaml": "yaml", ".csv": "text", ".cff": "yaml"}
 TEMPLATE = """<!DOCTYPE html>
 <html lang="en">
@@ -166,6 +168,8 @@ class Site:
     def make_page(self, page):
         text = read(os.path.join(self.tree, page))
         body = self.as_html(prepared(text))
+        body = re.sub(r'<math display="inline".*?</math>', lambda m: m.group().replace('stretchy="true"', 'stretchy="false"'), body,
+                      flags=re.S)  # else brackets in a line grow with every subscript
         body = re.sub(r'(href|src)="([^"]*)"', lambda m: f'{m.group(1)}="{html.escape(self.link(page, html.unescape(m.group(2))))}"', body)
         body = re.sub(r"<table>.*?</table>", lambda m: f'<div class="table">{m.group()}</div>', body, flags=re.S)
         heads = re.findall(r'<h2 id="([^"]*)">(.*?)</h2>', body)
@@ -203,6 +207,15 @@ class Site:
                 anchor = name
         return found
 
+    def take_font(self):
+        """One of the fonts for mathematics goes along with the site, if the machine has one."""
+        for folder, _, files in os.walk("/usr/share/fonts"):
+            for name in set(files) & set(MATH_FONTS):
+                shutil.copyfile(os.path.join(folder, name), os.path.join(self.out, name))
+                with open(os.path.join(self.out, "style.css"), "a", encoding="utf-8") as file:
+                    file.write(f'@font-face {{ font-family: "site math"; src: url("{name}"); }}\n')
+                return
+
     def make(self):
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             bodies = list(pool.map(self.make_page, self.pages))
@@ -212,6 +225,7 @@ class Site:
         write(os.path.join(self.out, "find.js"), "const FIND = " + json.dumps(found, ensure_ascii=False) + ";\n")
         for name in ("style.css", "site.js"):
             shutil.copyfile(os.path.join(HERE, name), os.path.join(self.out, name))
+        self.take_font()
         shutil.copyfile(os.path.join(self.out, "README.html"), os.path.join(self.out, "index.html"))
 
 
@@ -222,7 +236,7 @@ def main():
     words.add_argument("--pandoc", default="pandoc")
     given = words.parse_args()
     if not shutil.which(given.pandoc):
-        sys.exit("no pandoc: the site needs it (Debian: apt-get install pandoc doxygen)")
+        sys.exit("no pandoc: the site needs it (Debian: apt-get install pandoc doxygen fonts-dejavu-extra)")
     site = Site(os.path.abspath(given.tree), os.path.abspath(given.out), given.pandoc)
     site.make()
     print(f"{len(site.pages)} pages: {os.path.join(site.out, 'index.html')}")
