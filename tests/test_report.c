@@ -215,6 +215,37 @@ static void test_levels_have_their_area(void **state)
     free(svg);
 }
 
+/* Two points that touch at a corner stay two: around each the area above a level is a square on its corner, whose
+ * diagonals are 2 (1 - level) cells. */
+static void test_points_that_touch_at_a_corner(void **state)
+{
+    (void)state;
+    enum { N = 4 };
+    static double height[N * N];
+    height[1 * N + 1] = height[2 * N + 2] = 1e-3;
+    const report_relief two = { .height = height,
+                                .nx = N,
+                                .ny = N,
+                                .dx = 1e-3,
+                                .dy = 1e-3,
+                                .colour_range = 1e-3,
+                                .unit = 1e-3,
+                                .legend = "",
+                                .above = "" };
+    char *svg = report_relief_map(&two, "two");
+    assert_non_null(svg);
+    const double unit = 424.0 / 3.0; /* of the picture, a cell */
+    const char *at = svg;
+    for (int level = 0; level < 5; level++, at++) {
+        at = strstr(at, "<path fill=");
+        if (!at) fail_msg("only %d levels", level);
+        const double half = 1.0 - 0.1 * (2 * level + 1);
+        const double area = path_area(strstr(at, " d=\"") + 4) / (unit * unit);
+        assert_true(fabs(area / (4.0 * half * half) - 1.0) < 0.02); /* coordinates of a tenth of a unit */
+    }
+    free(svg);
+}
+
 /* Cropped it holds what is deeper than the limit, and the places stay what they were. */
 static void test_crop_keeps_what_counts(void **state)
 {
@@ -300,6 +331,7 @@ int main(void)
         cmocka_unit_test(test_levels_have_their_area),
         cmocka_unit_test(test_crop_keeps_what_counts),
         cmocka_unit_test(test_aside),
+        cmocka_unit_test(test_points_that_touch_at_a_corner),
         cmocka_unit_test(test_every_cell_has_its_title),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
