@@ -25,6 +25,16 @@ static double courant_limit(const mpm_scene *s)
     return s->transfer == TRANSFER_PIC ? 0.5 : 0.6;
 }
 
+static status check_held(const mpm_body *b)
+{
+    bool moved = false;
+    for (int k = 0; k < 3; k++)
+        moved = moved || b->velocity[k] != 0 || b->spin[k] != 0 || b->body_force[k] != 0 || b->traction[k] != 0;
+    CHECK(!b->held || !moved, STATUS_BAD_INPUT,
+          "body `%s` is held: it can have no velocity, spin, body_force or traction", b->name);
+    return status_ok();
+}
+
 static status check_body(const mpm_scene *s, int i, int groups)
 {
     const mpm_body *b = &s->body[i];
@@ -33,11 +43,17 @@ static status check_body(const mpm_scene *s, int i, int groups)
     CHECK(b->solid >= 0 && b->solid < s->solids, STATUS_BAD_INPUT, "body `%s`: solid %d, the scene has %d", b->name,
           b->solid, s->solids);
     TRY(mpm_solid_check(&s->solid[b->solid], b->solid));
+    TRY(mpm_wave_check(b));
+    TRY(check_held(b));
     CHECK(groups <= s->bodies, STATUS_BAD_INPUT, "%d groups of %d bodies: number them from 0 without gaps", groups,
           s->bodies);
     for (int k = 0; k < i; k++)
         CHECK(s->body[k].group != b->group || memcmp(s->body[k].passes, b->passes, sizeof b->passes) == 0,
               STATUS_BAD_INPUT, "bodies `%s` and `%s` are one group, but different boundaries act on them",
+              s->body[k].name, b->name);
+    for (int k = 0; k < i; k++)
+        CHECK(s->body[k].group != b->group || s->body[k].held == b->held, STATUS_BAD_INPUT,
+              "bodies `%s` and `%s` are one group, but one of them is held: give it a group of its own and a contact",
               s->body[k].name, b->name);
     return status_ok();
 }
@@ -125,15 +141,18 @@ static status make_laws(mpm *m)
     m->materials = malloc((size_t)s->bodies * sizeof *m->materials);
     m->laws = aligned_alloc(64, ((size_t)s->bodies * sizeof *m->laws + 63) / 64 * 64);
     m->effusivity = malloc((size_t)s->bodies * sizeof *m->effusivity);
+    m->waves = calloc((size_t)s->bodies, sizeof *m->waves);
+    m->load = calloc((size_t)s->bodies * MPM_MAX_LEVELS, sizeof *m->load);
     m->body_report = calloc((size_t)s->bodies, sizeof *m->body_report);
     m->peaks_row = ((size_t)s->bodies + 15) / 8 * 8; /* a line of the cache lies between two threads' */
     m->peaks = calloc(MPM_MAX_THREADS * m->peaks_row, sizeof *m->peaks);
-    CHECK(m->materials && m->laws && m->effusivity && m->body_report && m->peaks, STATUS_MEMORY,
+    CHECK(m->materials && m->laws && m->effusivity && m->waves && m->load && m->body_report && m->peaks, STATUS_MEMORY,
           "no memory for %d bodies", s->bodies);
     for (int i = 0; i < s->bodies; i++) {
         m->materials[i] = *s->body[i].material;
         s->body[i].material = &m->materials[i];
         TRY(mpm_law_make(&s->body[i], s, &m->laws[i]));
+        TRY(mpm_wave_make(&s->body[i], &m->laws[i], &m->waves[i]));
         const material *k = &m->materials[i];
         m->effusivity[i] = sqrt(k->conductivity * k->density * k->specific_heat);
     }
@@ -170,6 +189,7 @@ static status make_groups(mpm *m)
         group_info *g = &m->group[s->body[i].group];
         g->first = i;
         memcpy(g->passes, s->body[i].passes, sizeof g->passes);
+        g->held = s->body[i].held;
     }
     for (int i = 0; i < s->bodies; i++) {
         group_info *g = &m->group[s->body[i].group];
@@ -291,6 +311,8 @@ void mpm_free(mpm *m)
     mpm_store_free(m);
     mpm_cavities_free(m);
     mpm_reading_free(m);
+    for (int i = 0; m->waves && i < m->scene.bodies; i++) mpm_wave_free(&m->waves[i]);
+    free(m->waves), free(m->load);
     free(m->materials), free(m->laws), free(m->effusivity);
     free(m->body_report), free(m->peaks);
     free(m->group), free(m->rule), free(m->rule_of);
@@ -545,6 +567,16 @@ static int coarsest_at(const mpm *m, int n)
     return level;
 }
 
+/* Of the levels that begin a step with number n of the finest, each in the middle of its own. */
+static void begin_waves(mpm *m, int n)
+{
+    const double from = m->time + n * level_dt(m, 0);
+    for (int i = 0; i < m->scene.bodies; i++)
+        for (int level = 0; level <= m->begins && mpm_wave_is_wanted(&m->scene.body[i]); level++)
+            m->load[level * m->scene.bodies + i] =
+                mpm_wave_load(&m->waves[i], &m->scene.body[i], &m->laws[i], from + 0.5 * level_dt(m, level));
+}
+
 /* Step n of the finest level, and of those that begin or end theirs with it. */
 static status one_substep(mpm *m, int n, tally *sum)
 {
@@ -552,6 +584,7 @@ static status one_substep(mpm *m, int n, tally *sum)
     m->begins = coarsest_at(m, n), m->ends = coarsest_at(m, n + 1);
     TRY(reserve_scratch(m));
     TRY(mpm_cavities_reserve(m));
+    begin_waves(m, n);
     phase_p2g(m), lap(m, PHASE_P2G, &clock);
     phase_nodes(m), mpm_cavities_step(m), lap(m, PHASE_NODES, &clock);
     phase_g2p(m), lap(m, PHASE_G2P, &clock);

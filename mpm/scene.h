@@ -44,7 +44,16 @@ typedef struct {
     double body_force[3]; /* acceleration on the whole body (J x B, pressing) [m/s2] */
     double traction[3];   /* on all of its surface that looks towards `traction_face` [Pa]; zero = none */
     int traction_face;    /* 0..5 = -x +x -y +y -z +z */
-    double yield_scale;   /* factor on the yield stress (hardened skin), 1 = none */
+    /* A plane pressure wave that enters a fluid through its surface that looks towards `traction_face`, from time 0 on,
+     * and lets pass what comes back (wave.h).  NAN: none.  Either one that falls like an exponential .. */
+    double wave_pressure; /* at first [Pa] */
+    double wave_decay;    /* exp(-t/wave_decay); NAN: it stays [s] */
+    /* .. or what a piston sends down a tube of this fluid (tube.h); its front is at the surface at time 0 */
+    double piston_mass;     /* on the tube's area, with what drives it [kg/m2] */
+    double piston_velocity; /* at the start [m/s] */
+    double tube_length;     /* from the piston to this surface [m] */
+    bool held;              /* never moves: a wall, a clamp; the same for all bodies of a group */
+    double yield_scale;     /* factor on the yield stress (hardened skin), 1 = none */
     double cold_work; /* plastic strain before the scene, where the law of strength begins; NAN: the material's [1] */
     bool damage;      /* Johnson-Cook damage on */
     bool

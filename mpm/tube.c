@@ -10,7 +10,7 @@
 enum { MOST_CELLS = 1000000 };
 static const double COURANT = 0.5;
 static const double SILENT = 1e-15; /* of the piston's velocity: what a node may miss of a wave that begins to come */
-/* (M-5) of a fluid that has none of its own: a front of a few cells without ringing. */
+/* Viscosity as (M-5), for a front of a few cells that does not ring; the material's own is made for the solver. */
 static const double LINEAR = 0.1, QUADRATIC = 2.0;
 
 struct mpm_tube {
@@ -83,10 +83,9 @@ static status set_law(mpm_tube *t)
     mpm_body body = { .name = "tube", .material = t->is.fluid };
     mpm_scene_default(&scene);
     base_params_default(mpm_body_params, &body);
-    scene.viscosity_linear = LINEAR, scene.viscosity_quadratic = QUADRATIC;
     TRY(mpm_law_make(&body, &scene, &t->law));
     t->c0 = sqrt(t->law.K0 / t->law.rho0), t->slope = mpm_law_slope(&t->law);
-    t->q1 = t->law.q1, t->q2 = t->law.q2;
+    t->q1 = LINEAR, t->q2 = QUADRATIC;
     t->least = t->law.strength.none.least_pressure;
     return status_ok();
 }

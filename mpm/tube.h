@@ -8,8 +8,8 @@
  *     -------------------------------------------
  *
  * Waves in a tube are plane until they meet a target that gives way unevenly; until then three dimensions compute the
- * same for a thousand times the work.  The fluid has the solver's own law: its equation of state, cavitation, and the
- * viscosity (M-5).  Cells move with the fluid; of cell j with mass m_j [kg/m2]
+ * same for a thousand times the work.  The fluid has the solver's own law, equation of state and cavitation, and a
+ * viscosity like (M-5).  Cells move with the fluid; of cell j with mass m_j [kg/m2]
  *   M_i dv_i/dt = P_(i-1) - P_i,   P = p + q,   m_j de_j = -P_j (vbar_(j+1) - vbar_j) dt                        (W-1)
  * with vbar = (v_old + v_new)/2,
  * in two stages: P of the first is that at the step's start, of the second the mean of that and what the first has

@@ -190,7 +190,7 @@ LANE_INLINE vd move(block *q, int lane, const gathered *r, const step_of *step)
 
 /* Sums over the blocks of one body, a lane each until they are added to the brick's tally. */
 typedef struct {
-    vd heat_transfer, heat_viscous, work_external, mass, area;
+    vd heat_transfer, heat_viscous, work_external, mass, area, push;
     vd rate, pressure, mises_square, strain, temperature, clamp_p, clamp_rho;
 } books;
 
@@ -212,6 +212,15 @@ LANE_INLINE void book(books *t, const block *q, int lane, const lane_sums *w)
     t->clamp_rho += vd_where(here, w->clamp_rho);
 }
 
+/* Before the points move: their velocity at the step's start is that which p2g.c took. */
+LANE_INLINE vd work_of_wave(const block *q, int lane, const gathered *r, const step_of *step, books *t)
+{
+    const wave_load *w = &step->wave;
+    const vd v = vd_load(&q->v[w->axis][lane]), push = vd_load(&q->area[0][lane]) * wave_push(w, v);
+    t->push += push;
+    return push * (0.5 * step->dt) * (r->v[w->axis] + v);
+}
+
 /* A run of blocks of one body, in a cell: what their kernels need to know, and what is booked of them. */
 typedef struct {
     int body;
@@ -230,6 +239,7 @@ static void add_books(tally *t, const block_run *run, body_peaks *peaks)
     t->work_external += vd_sum(s->work_external);
     for (int k = 0; k < 3; k++)
         t->impulse_external[k] += step->dt * (step->force[k] * vd_sum(s->mass) + step->traction[k] * vd_sum(s->area));
+    if (step->wave.on) t->impulse_external[step->wave.axis] += step->dt * vd_sum(s->push);
     t->rate = fmax(t->rate, vd_largest(s->rate));
     peaks->pressure = fmax(peaks->pressure, vd_largest(s->pressure));
     peaks->mises = fmax(peaks->mises, sqrt(vd_largest(s->mises_square)));
@@ -310,6 +320,7 @@ static step_of step_for(const mpm *m, const brick *b, const cell_grid *g, int bo
         step.force[i] = m->scene.body[body].body_force[i];
         step.traction[i] = m->scene.body[body].traction[i];
     }
+    step.wave = m->load[b->level * m->scene.bodies + body];
     return step;
 }
 
@@ -342,7 +353,10 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
             vd_store(&q->L[i][lane], moved.end[i]);
         }
         prefetch_share(&next);
+        const bool wave = kernel == LAW_FLUID && run->step.wave.on;
+        const vd work = wave ? work_of_wave(q, lane, &r, &run->step, &run->books) : vd_set(0);
         sum.work_external = move(q, lane, &r, &run->step);
+        if (wave) sum.work_external += work;
         law_step(k, f, &run->step, &moved, q, lane, run->near, &sum);
         prefetch_share(&next);
         book(&run->books, q, lane, &sum);
@@ -419,13 +433,25 @@ static bool is_at_mirror(const mpm *m, const brick *b)
     return mirror_planes(m, b, plane) > 0;
 }
 
-/* Does a force act on the group from outside?  However small, it adds up. */
-static bool is_loaded(const mpm *m, int group)
+/* Does the brick hold a part of a face? */
+static bool has_face(const mpm *m, const brick *b)
+{
+    for (int cell = 0; cell < BRICK_CELLS; cell++)
+        for (int i = b->head[cell]; i >= 0; i = m->links[i].next)
+            for (int l = 0; l < LANES; l++)
+                if (m->blocks[i].area[0][l] > 0) return true;
+    return false;
+}
+
+/* Does a force act on the group from outside, or a wave on the brick?  However small, it adds up. */
+static bool is_loaded(const mpm *m, const brick *b)
 {
     for (int i = 0; i < m->scene.bodies; i++) {
         const mpm_body *of = &m->scene.body[i];
-        for (int k = 0; k < 3 && of->group == group; k++)
+        if (of->group != b->group) continue;
+        for (int k = 0; k < 3; k++)
             if (of->body_force[k] != 0 || of->traction[k] != 0) return true;
+        if (mpm_wave_is_wanted(of) && has_face(m, b)) return true;
     }
     return false;
 }
@@ -451,7 +477,7 @@ void ISA(g2p)(mpm *m, brick *b, int thread)
         b->sum.asleep = (uint64_t)b->particles, b->sum.rate = b->still_rate;
         return;
     }
-    b->still = slow && !is_at_mirror(m, b) && !is_loaded(m, b->group) ? b->still + 1 : 0;
+    b->still = slow && !is_at_mirror(m, b) && !is_loaded(m, b) ? b->still + 1 : 0;
     b->given = false;
     block_run run = { .body = 0 };
     const uint64_t near = !b->contact ? 0 : b->across ? mpm_contact_cells(m, b) : b->meets;

@@ -131,6 +131,12 @@ typedef struct {
     bool bspline;
 } brick_grid;
 
+/* (W-2) on a face that moves with v along the wave's axis: the force along that axis on its area [Pa]. */
+LANE_INLINE vd wave_push(const wave_load *w, vd v)
+{
+    return w->inwards * vd_max(w->base - w->Z * w->inwards * v, vd_set(w->least));
+}
+
 /* Everything a cell's particles need to know of the grid; borrowed from the brick's. */
 typedef struct {
     const cell_axis *axis[3];

@@ -307,9 +307,16 @@ static double effusivity_at(const mpm *m, const node_side *s)
     return g->mixed ? s->state.extra[7] / s->state.m : m->effusivity[g->first];
 }
 
-/* Share of the contact heat that goes to a: by effusivity sqrt(k rho c) where both are known, else half. */
+static bool is_held(const mpm *m, const node_side *s)
+{
+    return m->group[s->brick->group].held;
+}
+
+/* Share of the contact heat that goes to a: by effusivity sqrt(k rho c) where both are known, else half; a held body,
+ * which may sleep for good, takes none. */
 static double heat_share(const mpm *m, const node_side *a, const node_side *b)
 {
+    if (is_held(m, a) || is_held(m, b)) return is_held(m, b);
     const double e[2] = { effusivity_at(m, a), effusivity_at(m, b) };
     return isnan(e[0]) || isnan(e[1]) ? 0.5 : e[0] / (e[0] + e[1]);
 }
@@ -333,19 +340,27 @@ static bool impulse(const touch_rule *rule, const contact_touch *t, double J[3])
 }
 
 /* Sets the pair's velocities and its J; false where the two do not touch. */
-static bool contact_pair(const mpm *m, touching *t, const node_place *at)
+static bool contact_pair(const mpm *m, touching *t, const node_place *at, tally *sum)
 {
     static const double MASS_SCREEN = 1e-6;
     node_state *a = &t->a->state, *b = &t->b->state;
     if (a->m < MASS_SCREEN * b->m || b->m < MASS_SCREEN * a->m) return false;
     const touch_rule *rule = touch_rule_of(m, t->a->brick->group, t->b->brick->group);
-    contact_touch c = { .reduced = a->m * b->m / (a->m + b->m), .dt = at->dt };
+    const bool held[2] = { is_held(m, t->a), is_held(m, t->b) };
+    if (held[0] && held[1]) return false;
+    contact_touch c = { .reduced = held[0] ? b->m : held[1] ? a->m : a->m * b->m / (a->m + b->m), .dt = at->dt };
     if (!geometry(m, a, b, rule->normal_of_higher, at, &c)) return false;
     for (int k = 0; k < 3; k++) c.apart[k] = b->v[k] - a->v[k];
     if (!impulse(rule, &c, t->J)) return false;
     for (int k = 0; k < 3; k++) {
-        a->v[k] -= t->J[k] / a->m;
-        b->v[k] += t->J[k] / b->m;
+        if (held[0])
+            sum->impulse_boundary[k] += t->J[k]; /* what holds it gives it back */
+        else
+            a->v[k] -= t->J[k] / a->m;
+        if (held[1])
+            sum->impulse_boundary[k] -= t->J[k];
+        else
+            b->v[k] += t->J[k] / b->m;
         t->a->brick->contact_impulse[k] -= t->J[k];
         t->b->brick->contact_impulse[k] += t->J[k];
     }
@@ -454,7 +469,7 @@ static void one_node(mpm *m, const scratch *at, int count, int cell, const int i
             const node_place place = { h, side[a].walls, side[a].n_walls, dt };
             touching *t = &at->pair[pairs];
             *t = (touching){ &side[a], &side[b], { 0 } };
-            if (contact_pair(m, t, &place)) pairs++;
+            if (contact_pair(m, t, &place, sum)) pairs++;
         }
     for (int i = 0; i < pairs; i++) contact_heat(m, &at->pair[i], sum);
     for (int s = 0; s < here; s++) {

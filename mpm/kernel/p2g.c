@@ -140,9 +140,17 @@ typedef struct {
     double now, last;
 } half_steps;
 
+/* Apart from the other loads, so that those are computed as they are without a wave, to the last bit. */
+LANE_INLINE void add_wave(const wave_load *w, vd area, const vd v[3], double half_step, vd base[LINE])
+{
+    const vd push = area * wave_push(w, v[w->axis]);
+    base[4 + w->axis] += push;
+    base[7] += half_step * push * v[w->axis];
+}
+
 /* lanes: 0 m, 1-3 momentum, 4-6 force, 7 energy */
-LANE_INLINE void motion_lines(const block *q, int lane, double affine, const mpm_body *body, half_steps dt,
-                              const weights w[3], lines *n)
+LANE_INLINE void motion_lines(const block *q, int lane, double affine, const mpm_body *body, const wave_load *wave,
+                              half_steps dt, const weights w[3], lines *n)
 {
     static const int column[3][3] = { { 0, 3, 4 }, { 3, 1, 5 }, { 4, 5, 2 } };
 #define AT(field) vd_load(&q->field[lane])
@@ -158,6 +166,7 @@ LANE_INLINE void motion_lines(const block *q, int lane, double affine, const mpm
         base[4 + i] = load[i];
         base[7] += dt.now * load[i] * v[i] + stretch[i];
     }
+    if (wave->on) add_wave(wave, area, v, dt.now, base);
     store_lines(n->base, base, lane);
     for (int k = 0; k < 3; k++) {
         const int *c = column[k];
@@ -238,6 +247,7 @@ typedef struct {
     double affine; /* 1, or 0 without the affine part */
     bool meets;    /* are contact lines wanted? */
     bool mixed;    /* group_info.mixed */
+    int level;
 } cell_work;
 
 /* A block's lines into the sums of its cell, which begin with its `first`.  A call, not inlined: gcc then takes the
@@ -248,6 +258,7 @@ static __attribute__((noinline)) void one_block(const mpm *m, int index, const c
     const block *q = &m->blocks[index];
     const int mask = m->links[index].mask;
     const mpm_body *body = &m->scene.body[m->links[index].body];
+    const wave_load *wave = &m->load[c->level * m->scene.bodies + m->links[index].body];
     const cell_grid *g = c->grid;
     lines n;
     factors f;
@@ -258,7 +269,7 @@ static __attribute__((noinline)) void one_block(const mpm *m, int index, const c
         if (part_is_empty(mask, lane)) continue;
         const weights w[3] = { cell_weights(g, 0, q, lane), cell_weights(g, 1, q, lane), cell_weights(g, 2, q, lane) };
         store_factors(&f, w, lane);
-        motion_lines(q, lane, c->affine, body, c->dt, w, &n);
+        motion_lines(q, lane, c->affine, body, wave, c->dt, w, &n);
         if (c->meets) surface_of(q, lane, w, &s);
         if (c->meets && c->mixed)
             vd_store(&s.heat[lane], vd_load(&q->mass[0][lane]) * m->effusivity[m->links[index].body]);
@@ -327,7 +338,8 @@ void ISA(p2g)(mpm *m, brick *b)
     cell_work work = { .grid = &at,
                        .dt = { 0.5 * level_dt(m, b->level), 0.5 * level_dt_last(m, b->level) },
                        .affine = m->scene.transfer == TRANSFER_TPIC ? 1 : 0,
-                       .mixed = m->group[b->group].mixed };
+                       .mixed = m->group[b->group].mixed,
+                       .level = b->level };
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
         if (b->head[cell] < 0) continue;
         cell_grid_set(&at, &grid, cell);

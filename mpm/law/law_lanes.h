@@ -14,6 +14,7 @@ typedef struct {
     double dt, h[3], inv_h[3]; /* cell [m] */
     double force[3];           /* body force [m/s2] */
     double traction[3];
+    wave_load wave; /* of a fluid */
 } step_of;
 
 /* Sums for the ledger, a lane for each point. */

@@ -2,6 +2,7 @@
 /* A scene's bodies as material points: each body has a lattice of its own, aligned with its faces, as fine as the grid
  * is at the place; later bodies take the points they claim from earlier ones. */
 #include "mpm/memory/build.h"
+#include "mpm/wave.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -105,7 +106,7 @@ static void cut(const mpm_scene *s, int body, piece *p)
 static double loaded_area(const mpm_scene *s, int body, const double x[3], const double size[3])
 {
     const mpm_body *b = &s->body[body];
-    if (b->traction[0] == 0 && b->traction[1] == 0 && b->traction[2] == 0) return 0;
+    if (b->traction[0] == 0 && b->traction[1] == 0 && b->traction[2] == 0 && !mpm_wave_is_wanted(b)) return 0;
     const int k = b->traction_face / 2;
     double next[3] = { x[0], x[1], x[2] };
     next[k] += b->traction_face % 2 ? size[k] : -size[k];
@@ -151,6 +152,7 @@ static build_point point_of(const building *w, const piece *box, const piece *ow
     const mpm_body *b = &s->body[body];
     build_point p = { .mass = w->k->rho_start * own->share * box->size[0] * box->size[1] * box->size[2],
                       .area = loaded_area(s, body, box->x, box->size) };
+    if (mpm_wave_is_wanted(b)) p.area *= own->share; /* a sliver of a cell has a sliver of its face */
     for (int q = 0; q < 3; q++) {
         p.x[q] = own->x[q];
         p.half[q] = 0.5 * own->size[q];

@@ -16,6 +16,7 @@
 #include "mpm/kernel/lanes.h"
 #include "mpm/law/law.h"
 #include "mpm/mpm.h"
+#include "mpm/wave.h"
 
 #include <math.h>
 
@@ -176,6 +177,7 @@ typedef struct kernels kernels;
 typedef struct {
     int first;              /* body */
     bool passes[MPM_FACES]; /* mpm_body.passes */
+    bool held;              /* mpm_body.held */
     bool mixed;             /* its bodies differ in what a node asks of its material: effusivity, wave speeds */
 } group_info;
 
@@ -198,6 +200,8 @@ struct mpm {
     material *materials; /* [scene.bodies] */
     law *laws;           /* [scene.bodies] */
     double *effusivity;  /* [scene.bodies] sqrt(k rho c), NAN: not known [W s^1/2/m2/K] */
+    mpm_wave *waves;     /* [scene.bodies] */
+    wave_load *load;     /* [grids.levels][scene.bodies] of the waves, over the step of each level that is under way */
     grids grids;
     int groups;
     group_info *group;             /* [groups] */
