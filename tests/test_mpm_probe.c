@@ -367,11 +367,41 @@ static void test_passage(void **state)
 
 /* ---- the table ---- */
 
+static void stretched(block *q, int l)
+{
+    q->rho[0][l] = q->x[0][l] < 0 ? 500 : 999.5;
+}
+
+/* Two cubes of 2 mm: water at half of its density has twice the volume, half of it void; water that is 0.05 % thin, and
+ * metal, have none. */
+static void test_cavitation(void **state)
+{
+    (void)state;
+    material m = scene_copper();
+    m.strength = STRENGTH_none, m.density = 1000, m.cavitation_pressure = 0;
+    mpm *solver = cubes(&m);
+    each_point(solver, stretched);
+    const mpm_probe all = probe("cavitation", -1), right = probe("cavitation", 1);
+    double out[2];
+    look(solver, &all, out);
+    assert_near(out[0], 16e-9, 1e-18);
+    assert_near(out[1], 8e-9, 1e-18);
+    look(solver, &right, out);
+    assert_near(out[0], 0, 0);
+    mpm_free(solver);
+    m = scene_copper();
+    solver = cubes(&m);
+    each_point(solver, stretched);
+    look(solver, &all, out);
+    assert_near(out[0], 0, 0);
+    mpm_free(solver);
+}
+
 static void test_table(void **state)
 {
     (void)state;
-    static const char *const tested[] = { "pressure", "face",    "force",   "motion", "energy",
-                                          "plastic",  "surface", "passage", "cavity" /* test_mpm_cavity.c */ };
+    static const char *const tested[] = { "pressure", "face",    "force",      "motion", "energy", "plastic",
+                                          "surface",  "passage", "cavitation", "cavity" /* test_mpm_cavity.c */ };
     int n = 0;
     for (const mpm_probe_kind *k; (k = mpm_probe_kind_at(n)); n++) {
         assert_ptr_equal(mpm_probe_kind_find(k->name), k);
@@ -487,11 +517,11 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_table),   cmocka_unit_test(test_scene),   cmocka_unit_test(test_pressure),
-        cmocka_unit_test(test_force),   cmocka_unit_test(test_motion),  cmocka_unit_test(test_failed),
-        cmocka_unit_test(test_plastic), cmocka_unit_test(test_profile), cmocka_unit_test(test_surface),
-        cmocka_unit_test(test_passage), cmocka_unit_test(test_passage), cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_table),   cmocka_unit_test(test_scene),      cmocka_unit_test(test_pressure),
+        cmocka_unit_test(test_force),   cmocka_unit_test(test_motion),     cmocka_unit_test(test_failed),
+        cmocka_unit_test(test_plastic), cmocka_unit_test(test_profile),    cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_passage), cmocka_unit_test(test_passage),    cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_threads), cmocka_unit_test(test_cavitation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

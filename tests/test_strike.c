@@ -88,6 +88,12 @@ static void test_class(void **state)
     assert_int_equal(strike_class_of(&s), STRIKE_TORN);
     s = through, s.plate = true, s.hole = 1e-4;
     assert_int_equal(strike_class_of(&s), STRIKE_PIERCED);
+    s.piston = true, s.least_hole = 1e-6; /* water goes nowhere: the plate alone decides */
+    assert_int_equal(strike_class_of(&s), STRIKE_TORN);
+    s.hole = 0.0, s.swelling = 0.05;
+    assert_int_equal(strike_class_of(&s), STRIKE_BULGED);
+    s.swelling = 0.2;
+    assert_int_equal(strike_class_of(&s), STRIKE_UNFINISHED);
 }
 
 /* ---- cases ---- */
@@ -342,6 +348,50 @@ static void refused(const char *set, const char *words)
     assert_false(exists("bad/out"));
 }
 
+/* A piston behind water, a plate of two cells clamped over a square bore: a quarter. */
+#define WATER                                                                                                      \
+    "name: water\nmaterials:\n"                                                                                    \
+    "  - {name: sea, strength: none, density: 1000 kg/m3, specific_heat: 4186 J/(kg K), reference_temperature: "   \
+    "293 K,\n     sound_speed: 1480 m/s, hugoniot_slope: 1.92, gruneisen: 0.11, cavitation_pressure: 0 Pa}\n"      \
+    "strike: {projectile: column, plate: plate, velocity: 20 m/s}\n"                                               \
+    "scene:\n  end_time: 40 us\n  cell: 1 mm\n  bodies:\n"                                                         \
+    "    - {name: wall, material: ofhc_copper, held: yes, shape: {minus: [{box: {lo: -2 0 0 mm, hi: 16 8 8 mm}}, " \
+    "{box: {lo: -3 -1 -1 mm, hi: 17 6 6 mm}}, {box: {lo: 10 -1 -1 mm, hi: 12 9 9 mm}}]}}\n"                        \
+    "    - {name: plate, material: ofhc_copper, damage: yes, shape: {box: {lo: 10 0 0 mm, hi: 12 8 8 mm}}}\n"      \
+    "    - {name: column, material: sea, piston_mass: 74 kg/m2, piston_velocity: 10 m/s, tube_length: 50 mm,\n"    \
+    "       shape: {box: {lo: 0 0 0 mm, hi: 10 6 6 mm}}}\n"                                                        \
+    "  contacts:\n    - {default: frictionless}\n"                                                                 \
+    "    - {between: [plate, wall], law: coulomb, bond_strength: 1 TPa}\n"                                         \
+    "  window: {x: {lo: -3 mm, hi: 18 mm, fine_lo: -3 mm, fine_hi: 18 mm}, y: {lo: 0 mm, hi: 8 mm}, z: {lo: 0 "    \
+    "mm, hi: 8 mm}}\n"                                                                                             \
+    "  boundary: {y: [symmetry, free], z: [symmetry, free]}\noutput: {snapshots: 0, report: no}\n"
+
+/* The bore is 12 x 12 mm: the piston weighs 74 kg/m2 on it.  No force on the plate is above twice that of the wave, the
+ * wave has given no more impulse than the piston had, and the water has cavitated behind the plate. */
+static void test_water(void **state)
+{
+    (void)state;
+    cJSON *s = struck("water", WATER, "");
+    const double area = 144e-6, mass = 74.0 * area, first = 1000.0 * (1480.0 + 1.92 * 20.0) * 20.0;
+    assert_true(number(s, "impact_velocity") == 20.0);
+    assert_true(fabs(number(s, "projectile_mass") / mass - 1.0) < 0.01);
+    assert_true(fabs(number(s, "energy_arrival") / (200.0 * mass) - 1.0) < 0.01);
+    assert_true(number(s, "peak_force") > 0.5 * first * area && number(s, "peak_force") < 2.1 * first * area);
+    assert_true(number(s, "impulse") > 0.2 * mass * 20.0 && number(s, "impulse") < 2.0 * mass * 20.0);
+    assert_true(number(s, "deflection") > 1e-5 && number(s, "hole_diameter") == 0.0);
+    assert_true(number(s, "cavitated_volume") > 0.0 && number(s, "cavitated_volume") < area * 10e-3 * 1.5);
+    assert_true(number(s, "energy_absorbed") > 0.0 && number(s, "energy_absorbed") < number(s, "energy_arrival"));
+    print_message("water: %s, %.3g N, %.3g N s, %.3g mm, %.3g mm3 cavitated\n",
+                  cJSON_GetObjectItemCaseSensitive(s, "class")->valuestring, number(s, "peak_force"),
+                  number(s, "impulse"), 1e3 * number(s, "deflection"), 1e9 * number(s, "cavitated_volume"));
+    cJSON_Delete(s);
+    assert_int_equal(
+        run("strike water -o water/thin --quiet --set 'scene.window.x={lo: -3 mm, hi: 18 mm, fine_lo: -3 mm, "
+            "fine_hi: 18 mm, cell: 1.1 mm}'"),
+        2);
+    assert_true(contains("err.txt", "1.8 cells of 0.0011 m there: water leaks through fewer than two"));
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -370,7 +420,7 @@ int main(void)
         cmocka_unit_test(test_flight),      cmocka_unit_test(test_package), cmocka_unit_test(test_class),
         cmocka_unit_test(test_scene),       cmocka_unit_test(test_classes), cmocka_unit_test(test_parts),
         cmocka_unit_test(test_recht_ipson), cmocka_unit_test(test_limit),   cmocka_unit_test(test_from_shot),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_refused),     cmocka_unit_test(test_water),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,7 @@
 #include <math.h>
 
 enum { LOOKS = 48 };                 /* along each axis of the box that two bodies share */
-static const double TOUCHING = 1e-6; /* of that box's least length: bodies that touch overlap by rounding */
+static const double TOUCHING = 1e-6; /* of the bodies' least extent: bodies that touch overlap by rounding */
 
 typedef struct {
     double depth, at[3]; /* deepest place found in both [m] */
@@ -22,7 +22,7 @@ static overlap between(const mpm_solid *a, const mpm_solid *b)
         const double length = fmin(one[1][k], other[1][k]) - lo[k];
         if (!(length > 0.0)) return found;
         h[k] = length / LOOKS;
-        least = fmin(least, length);
+        least = fmin(least, fmin(one[1][k] - one[0][k], other[1][k] - other[0][k]));
     }
     for (int i = 0; i < LOOKS * LOOKS * LOOKS; i++) {
         const int at[3] = { i / (LOOKS * LOOKS), i / LOOKS % LOOKS, i % LOOKS };

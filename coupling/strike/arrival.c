@@ -55,6 +55,12 @@ static double volume_of(const mpm_solid *solid, const mpm_axis axis[3])
 
 static void set_direction(const mpm_body *b, strike_projectile *p)
 {
+    p->piston = !isnan(b->piston_mass);
+    if (p->piston) {
+        p->speed = b->piston_velocity;
+        p->n[b->traction_face / 2] = b->traction_face % 2 ? -1.0 : 1.0;
+        return;
+    }
     p->speed =
         sqrt(b->velocity[0] * b->velocity[0] + b->velocity[1] * b->velocity[1] + b->velocity[2] * b->velocity[2]);
     for (int k = 0; k < 3; k++) p->n[k] = p->speed > 0.0 ? b->velocity[k] / p->speed : k == 0;
@@ -84,6 +90,51 @@ static status meet_end(const mpm_scene *s, const box *b, int k, int end, strike_
     return status_ok();
 }
 
+/* Of the face that a wave enters, in the window: by the share of each of N^2 squares just inside it. */
+static double face_area(const mpm_scene *s, const strike_projectile *p)
+{
+    enum { N = 256 };
+    const mpm_solid *solid = &s->solid[s->body[p->body].solid];
+    double lo[3], hi[3], sum = 0.0;
+    int n = 0;
+    mpm_solid_bounds(solid, lo, hi);
+    while (p->n[n] == 0.0) n++;
+    const int u = (n + 1) % 3, v = (n + 2) % 3;
+    for (int k = 0; k < 3; k++) lo[k] = fmax(lo[k], s->axis[k].lo), hi[k] = fmin(hi[k], s->axis[k].hi);
+    const double a = (hi[u] - lo[u]) / N, b = (hi[v] - lo[v]) / N, depth = 1e-3 * (hi[n] - lo[n]);
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++) {
+            double x[3];
+            x[n] = p->n[n] > 0.0 ? lo[n] + depth : hi[n] - depth;
+            x[u] = lo[u] + (i + 0.5) * a, x[v] = lo[v] + (j + 0.5) * b;
+            sum += mpm_solid_inside(solid, x) > 0.0;
+        }
+    return sum * a * b;
+}
+
+/* Cells of an axis where this place is [m] */
+static double cell_at(const mpm_axis *a, double x)
+{
+    return x >= a->fine_lo && x <= a->fine_hi ? a->fine : a->coarse;
+}
+
+/* Sums of contact reach over two cells: fluid behind a thinner plate touches what is before it. */
+static status check_leak(const mpm_scene *s, const strike_projectile *p)
+{
+    static const double LEAST = 2.0; /* cells across */
+    double lo[3], hi[3];
+    int n = 0;
+    if (!p->piston || p->plate < 0) return status_ok();
+    while (p->n[n] == 0.0) n++;
+    mpm_solid_bounds(&s->solid[s->body[p->plate].solid], lo, hi);
+    const double thick = hi[n] - lo[n], cell = cell_at(&s->axis[n], 0.5 * (lo[n] + hi[n]));
+    CHECK(thick >= LEAST * cell * (1.0 - 1e-9), STATUS_BAD_INPUT,
+          "strike.plate: %s is %.4g m thick along %s, %.2g cells of %.4g m there: water leaks through fewer than two: "
+          "take cells of %.4g m at most (scene.window.%s.cell, fine_lo, fine_hi)",
+          s->body[p->plate].name, thick, mpm_axis_names[n], thick / cell, cell, thick / LEAST, mpm_axis_names[n]);
+    return status_ok();
+}
+
 status strike_projectile_of(const case_inputs *in, strike_projectile *out)
 {
     const mpm_scene *s = &in->bodies.scene;
@@ -102,7 +153,9 @@ status strike_projectile_of(const case_inputs *in, strike_projectile *out)
         const double reach = fmax(b.hi[k] - out->from[k], out->from[k] - b.lo[k]);
         out->half_width = fmax(out->half_width, reach * sqrt(fmax(0.0, 1.0 - out->n[k] * out->n[k])));
     }
-    for (int i = 0; i < s->bodies; i++)
+    TRY(check_leak(s, out));
+    if (out->piston) out->mass = out->parts * face_area(s, out) * s->body[out->body].piston_mass;
+    for (int i = 0; i < s->bodies && !out->piston; i++)
         if (is_in(s, i, out))
             out->mass += out->parts * s->body[i].material->density * volume_of(&s->solid[s->body[i].solid], s->axis);
     return status_ok();
@@ -151,7 +204,8 @@ static status add_way(mpm_scene *s, const strike_projectile *p, double velocity)
     memcpy(mpm_probe_value(way, "along"), p->n, sizeof p->n);
     memcpy(mpm_probe_value(way, "from"), p->from, sizeof p->from);
     *mpm_probe_value(way, "reach") = 0.5 * p->half_width;
-    *mpm_probe_value(way, "slower") = fmax(STRIKE_SLOW * velocity, STRIKE_SWINGS);
+    /* a plate that water drives moves at up to twice the piston's velocity while it bulges */
+    *mpm_probe_value(way, "slower") = p->piston ? 4.0 * velocity : fmax(STRIKE_SLOW * velocity, STRIKE_SWINGS);
     return status_ok();
 }
 
@@ -180,8 +234,18 @@ static status add_plate(mpm_scene *s, const strike_projectile *p)
               s->body[p->plate].name, s->body[p->body].name, mpm_axis_names[k], plate[0][k], plate[1][k],
               p->from[k] - side, p->from[k] + side);
     }
-    *mpm_probe_value(map, "cell") = CELLS * fmin(s->axis[0].fine, fmin(s->axis[1].fine, s->axis[2].fine));
+    double cell = INFINITY;
+    for (int k = 0; k < 3; k++)
+        if (p->n[k] == 0.0) cell = fmin(cell, s->axis[k].fine);
+    *mpm_probe_value(map, "cell") = CELLS * cell;
     return status_ok();
+}
+
+static bool has_fluid(const mpm_scene *s)
+{
+    bool fluid = false;
+    for (int i = 0; i < s->bodies; i++) fluid = fluid || mpm_material_shear(s->body[i].material) == SHEAR_NONE;
+    return fluid;
 }
 
 status strike_scene(const case_inputs *in, const strike_projectile *p, double velocity, case_bodies *out)
@@ -192,10 +256,12 @@ status strike_scene(const case_inputs *in, const strike_projectile *p, double ve
     TRY(mpm_scene_copy(&in->bodies.scene, &out->scene));
     mpm_scene *s = &out->scene;
     mpm_probe *force;
-    for (int i = 0; i < s->bodies; i++)
+    if (p->piston) s->body[p->body].piston_velocity = velocity;
+    for (int i = 0; i < s->bodies && !p->piston; i++)
         for (int q = 0; q < 3 && is_in(s, i, p); q++) s->body[i].velocity[q] = velocity * p->n[q];
     if (!isnan(k->travel)) s->end_time = k->travel / velocity;
     TRY(add_probe(s, "force", STRIKE_FORCE_PROBE, p->body, &force));
     TRY(add_way(s, p, velocity));
+    if (has_fluid(s)) TRY(add_probe(s, "cavitation", STRIKE_CAVITY_PROBE, -1, &force));
     return p->plate >= 0 ? add_plate(s, p) : status_ok();
 }

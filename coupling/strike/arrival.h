@@ -6,6 +6,8 @@
  *   strike.velocity, where that is given;
  *   else what drag leaves of the shot's muzzle velocity, where the case has a shot;
  *   else the speed it has in scene.bodies.
+ * Where `strike.projectile` is a body of fluid with a piston (mpm_body.piston_mass), what flies drives that piston: the
+ * arrival velocity is the piston's, its mass the piston's on the area of the face that the wave enters.
  * Flight with a constant drag coefficient, straight, without gravity:
  *   dv/dx = - rho Cd A v / (2 m)    v(L) = v0 exp(-k L)    t = (exp(k L) - 1) / (k v0)    k = rho Cd A / (2 m)   (A-1)
  * A scene may be cut by mirror planes: masses and energies here are those of the whole. */
@@ -18,6 +20,7 @@
 #define STRIKE_FORCE_PROBE "projectile_force"
 #define STRIKE_WAY_PROBE "projectile_way"
 #define STRIKE_PLATE_PROBE "plate_surface"
+#define STRIKE_CAVITY_PROBE "cavitated"
 
 /* Metal of the target that is slower than this part of the arrival velocity, or than this velocity where that is more,
  * stays where it is: a panel that swings after a slow arrival does not fly [1, m/s]. */
@@ -32,9 +35,10 @@ typedef struct {
     double parts;           /* the whole over what is computed: 2 for each mirror plane that it lies at */
     double mass;            /* of the whole [kg] */
     double speed;           /* that it has in scene.bodies [m/s] */
+    bool piston;            /* it is not in the scene, but drives a piston: `body` is the fluid that its wave enters */
 } strike_projectile;
 
-/* STATUS_BAD_INPUT: it reaches out of the window, or flies into a mirror plane. */
+/* STATUS_BAD_INPUT: it reaches out of the window, or flies into a mirror plane; fluid would leak through the plate. */
 status strike_projectile_of(const case_inputs *in, strike_projectile *out);
 
 /* What flies on and what stays behind at the muzzle must be what the shot launches, `package` [kg].  STATUS_BAD_INPUT

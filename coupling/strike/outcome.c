@@ -23,6 +23,8 @@ strike_class strike_class_of(const strike_state *s)
 {
     const double u = s->speed - (isnan(s->rest_speed) ? 0.0 : s->rest_speed), slow = AT_REST * s->arrival;
     if (!s->touched || isnan(u)) return STRIKE_UNFINISHED;
+    if (s->piston && s->hole >= s->least_hole) return STRIKE_TORN;
+    if (s->piston) return s->swelling < STEADY ? STRIKE_BULGED : STRIKE_UNFINISHED;
     if (u > slow && s->ahead < CLEAR * s->mass && s->change < STEADY * u) return STRIKE_PIERCED;
     if (u > slow || s->change > slow) return STRIKE_UNFINISHED;
     if (s->plate) return s->hole >= s->least_hole ? STRIKE_TORN : STRIKE_BULGED;
@@ -130,6 +132,8 @@ static void take_way(const series *way, const strike_projectile *p, double seen,
     state->rest_speed = way->of[WAY_REST].value[last];
     state->change = fabs(speed[last] - speed[late]);
     state->ahead = p->parts * way->of[WAY_AHEAD].value[last];
+    const double *deflection = way->of[WAY_DEFLECTION].value;
+    state->swelling = deflection[end] > 0.0 ? 1.0 - deflection[late] / deflection[end] : 0.0;
     out->gone = last < end;
     out->residual_velocity = state->speed;
     out->speed_change = state->change;
@@ -228,24 +232,43 @@ static status read_bodies(history *h, const char *scene, const strike_projectile
         if (!own) kept += b->mass, out->failed_volume += p->parts * b->failed_volume;
     }
     if (out->gone) left = 0.5 * mass * out->residual_velocity * out->residual_velocity;
-    out->projectile_mass = p->parts * mass;
-    out->energy_arrival = p->parts * kinetic;
-    out->energy_absorbed = p->parts * (kinetic - left);
+    out->projectile_mass = p->piston ? p->mass : p->parts * mass;
+    out->energy_arrival = p->piston ? 0.5 * p->mass * out->impact_velocity * out->impact_velocity : p->parts * kinetic;
+    out->energy_absorbed = p->parts * (p->piston ? r->work_external : kinetic - left);
     out->energy_share = out->energy_absorbed / out->energy_arrival;
     out->debris_mass += p->parts * fmax(0.0, target_mass - kept); /* below 0 by rounding */
     return status_ok();
 }
 
+/* The largest of the water that was ever cavitated at once. */
+static status read_cavity(history *h, const char *scene, const strike_projectile *p, const mpm_scene *s,
+                          strike_outcome *out)
+{
+    static const char *const names[] = { "time", "volume", NULL };
+    bool asked = false;
+    out->cavitated_volume = NAN;
+    for (int i = 0; i < s->probes; i++) asked = asked || strcmp(s->probe[i].name, STRIKE_CAVITY_PROBE) == 0;
+    if (!asked) return status_ok();
+    series cavity;
+    const status done = series_read(h, scene, "probes/" STRIKE_CAVITY_PROBE, names, &cavity);
+    out->cavitated_volume = 0.0;
+    for (size_t i = 0; done.code == STATUS_OK && i < cavity.rows; i++)
+        out->cavitated_volume = fmax(out->cavitated_volume, p->parts * cavity.of[1].value[i]);
+    series_free(&cavity);
+    return done;
+}
+
 status strike_outcome_read(history *h, const char *scene, const strike_projectile *p, const case_bodies *bodies,
                            double filter, double velocity, const scene_bodies_result *r, strike_outcome *out)
 {
-    strike_state state = { .arrival = velocity };
+    strike_state state = { .arrival = velocity, .piston = p->piston };
     *out = (strike_outcome){
         .muzzle_velocity = NAN, .flight_time = NAN, .impact_velocity = velocity, .hole_diameter = NAN
     };
     TRY(read_way(h, scene, p, &bodies->scene, &state, out));
     TRY(read_force(h, scene, p, filter, out));
     TRY(read_bodies(h, scene, p, &bodies->scene, r, out));
+    TRY(read_cavity(h, scene, p, &bodies->scene, out));
     if (p->plate >= 0) TRY(read_plate(h, scene, p, &bodies->scene, &state, out));
     state.mass = out->projectile_mass;
     state.touched = out->peak_force > 0.0;

@@ -13,6 +13,8 @@
  *   bulged      else, with strike.plate
  *   rebound     else, u < -v0 / 50
  *   stopped     else
+ * Of a wave that a piston has sent, the plate decides: torn with holes as above; else bulged, if its deflection grew by
+ * less than a tenth of itself in the last tenth of the scene; else unfinished.
  * A projectile that has left the window, or has no intact metal left, is judged by when it was last seen. */
 #ifndef BREECH_COUPLING_STRIKE_OUTCOME_H
 #define BREECH_COUPLING_STRIKE_OUTCOME_H
@@ -41,6 +43,8 @@ typedef struct {
     bool touched;            /* it has met the target */
     bool plate;              /* there is one to look at */
     double hole, least_hole; /* in the plate; the least that counts [m2] */
+    bool piston;             /* a piston drove water onto it: the plate alone decides */
+    double swelling;         /* growth of the deflection over the last tenth of the scene, over itself [1] */
 } strike_state;
 strike_class strike_class_of(const strike_state *s);
 
@@ -63,6 +67,7 @@ typedef struct {
     double debris_mass;           /* of the target: what flies, and what has left the window or was eroded [kg] */
     double ahead;                 /* intact metal in the projectile's way at the end [kg] */
     double speed_change;          /* of the projectile in the last tenth of the scene [m/s] */
+    double cavitated_volume;      /* largest of any time; NAN: there is no fluid [m3] */
     bool gone;                    /* judged by when it was last seen */
 } strike_outcome;
 

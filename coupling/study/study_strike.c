@@ -45,6 +45,9 @@ static const summary_key result_keys[] = {
     SUMMARY_NUMBER(strike_result, "hole_diameter", is.hole_diameter, "m",
                    "of a circle with the area of the holes in strike.plate; null: no plate is named"),
     SUMMARY_NUMBER(strike_result, "failed_volume", is.failed_volume, "m3", "of the target"),
+    SUMMARY_NUMBER(
+        strike_result, "cavitated_volume", is.cavitated_volume, "m3",
+        "largest of any time, of fluid thinner than at rest by a thousandth or more; null: there is no fluid"),
     SUMMARY_NUMBER(strike_result, "debris_mass", is.debris_mass, "kg",
                    "of the target: what flies, has left the window or was eroded"),
     SUMMARY_NUMBER(strike_result, "ahead", is.ahead, "kg",
