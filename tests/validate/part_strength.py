@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scratch and gouge velocity of the default shot with a weaker or stronger armature."""
+"""Scratch and gouge velocity of the default shot over what may move them: a table of the strengths, a map of the rest."""
 import json
 import os
 
@@ -10,6 +10,19 @@ STRENGTH = [  # title, settings
     ("as shipped, pressed on with 60 MPa", {}),
     ("armature x 0.7", {"armature.yield_scale": 0.7}),
     ("armature x 1.4", {"armature.yield_scale": 1.4}),
+    ("rail x 0.7", {"rail.yield_scale": 0.7}),
+    ("rail x 1.4", {"rail.yield_scale": 1.4}),
+]
+MAP = [
+    STRENGTH[0],
+    ("not pressed on", {"scene.contact_pressure": "0 Pa"}),
+    ("pressed on with 20 MPa", {"scene.contact_pressure": "20 MPa"}),
+    ("lead face at 15 degrees", {"armature.lead_angle": "15 deg"}),
+    ("lead face at 45 degrees", {"armature.lead_angle": "45 deg"}),
+    ("rail of 450 K", {"rail.temperature": "450 K"}),
+    ("armature of 450 K", {"armature.temperature": "450 K"}),
+    ("friction 0.2", {"scene.friction": 0.2}),
+    ("grain of 0.1 mm", {"particle.radius": "0.1 mm"}),
 ]
 
 
@@ -39,10 +52,18 @@ def row(runs, title, settings):
     return [title, speed(summary, "scratch"), speed(summary, "threshold"), "%d" % summary["scenes_run"]]
 
 
-def strength(runs):
+def table(runs, rows):
     columns = [Column("default shot"), Column("scratches from [m/s]", 0.25, words=False),
                Column("gouges from [m/s]", 0.25, words=False), Column("scenes", words=False)]
-    return [Table(columns, [row(runs, *of) for of in STRENGTH])], NOTE
+    return [Table(columns, [row(runs, *of) for of in rows])], NOTE
+
+
+def strength(runs):
+    return table(runs, STRENGTH)
+
+
+def inputs(runs):
+    return table(runs, MAP)
 
 
 NOTE = ("`breech onset cases/default_shot` without whole craters, one input changed at a time; in brackets each "

@@ -47,9 +47,10 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "laws-6061": ("docs/validation/laws.md", part_laws.laws_6061, 1, True),
     "taylor": ("docs/validation/laws.md", part_laws.taylor, 6, False),
     "taylor-6061": ("docs/validation/laws.md", part_laws.taylor_6061, 6, False),
-    "strength": ("docs/validation/strength.md", part_strength.strength, 18, False),
+    "strength": ("docs/validation/strength.md", part_strength.strength, 30, False),
     "pairs": ("docs/validation/pairs.md", part_pairs.pairs, 60, False),
     "pairs-null": ("docs/validation/pairs.md", part_pairs.nulls, 1, True),
+    "inputs": ("docs/validation/inputs.md", part_strength.inputs, 50, False),
     "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
 }
 
