@@ -281,7 +281,7 @@ static void test_limit(void **state)
     assert_true(last == 1000.0 && n >= 4);
     assert_true(number(s, "recht_ipson_factor") > 0.5 && number(s, "recht_ipson_factor") < 1.0);
     assert_text(s, "class", "pierced");
-    assert_true(contains("limit/out/report.html", "<h2>Limit velocity</h2>"));
+    assert_true(contains("limit/out/report.html", "<h2>The limit velocity</h2>"));
     cJSON_Delete(s);
     /* in half the time nothing slow has come to rest */
     assert_int_equal(

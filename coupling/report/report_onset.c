@@ -402,7 +402,23 @@ static const page_column site_columns[] = { { "position", "position", 1.0, "m", 
 static const char *const outcomes[] = { "gouge", "scratch", "none", "undecided", "skipped", "not_reached" };
 enum { OUTCOMES = sizeof outcomes / sizeof *outcomes };
 
-void report_onset_dots(report_chart *c, const cJSON *list, const report_onset_points *of)
+/* "t3-g1-v800" begins with "t3-"; with "" what begins with no such prefix. */
+static bool has_prefix(const char *name, const char *prefix)
+{
+    const size_t n = strlen(prefix);
+    if (n > 0) return strncmp(name, prefix, n) == 0;
+    const size_t digits = name[0] == 't' ? strspn(name + 1, "0123456789") : 0;
+    return !(digits > 0 && name[1 + digits] == '-');
+}
+
+/* Numbers of a list's objects as points; prefix: of their names, NULL: all. */
+typedef struct {
+    const char *outcome, *x, *y, *prefix;
+    double x_unit, y_unit;
+} points;
+
+/* One series a kind of outcome, in its colour. */
+static void draw_dots(report_chart *c, const cJSON *list, const points *of)
 {
     const int most = cJSON_GetArraySize(list);
     double *x = malloc(((size_t)most + 1) * sizeof *x), *y = malloc(((size_t)most + 1) * sizeof *y);
@@ -412,7 +428,7 @@ void report_onset_dots(report_chart *c, const cJSON *list, const report_onset_po
         cJSON_ArrayForEach(item, list)
         {
             const char *name = report_text(item, "name");
-            if (of->prefix && !report_onset_has_prefix(name, of->prefix)) continue;
+            if (of->prefix && !has_prefix(name, of->prefix)) continue;
             x[n] = report_number(item, of->x) / of->x_unit;
             y[n] = report_number(item, of->y) / of->y_unit;
             n += strcmp(report_text(item, of->outcome), outcomes[o]) == 0 && isfinite(x[n]) && isfinite(y[n]);
@@ -421,15 +437,6 @@ void report_onset_dots(report_chart *c, const cJSON *list, const report_onset_po
     }
     free(x);
     free(y);
-}
-
-/* "t3-g1-v800" begins with "t3-"; with "" what begins with no such prefix. */
-bool report_onset_has_prefix(const char *name, const char *prefix)
-{
-    const size_t n = strlen(prefix);
-    if (n > 0) return strncmp(name, prefix, n) == 0;
-    const size_t digits = name[0] == 't' ? strspn(name + 1, "0123456789") : 0;
-    return !(digits > 0 && name[1 + digits] == '-');
 }
 
 static void draw_barrel(const page *p)
@@ -445,8 +452,7 @@ static void draw_barrel(const page *p)
                           report_element(r->summary, speeds[k].interval, 0),
                           report_element(r->summary, speeds[k].interval, 1));
     report_chart_line(chart, "armature", report_blue, c.x, c.y, isfinite(end) ? report_curve_until(&c, end) : c.n);
-    report_onset_dots(chart, report_page_list(p, "sites"),
-                      &(report_onset_points){ "outcome", "position", "velocity", NULL, 1.0, 1.0 });
+    draw_dots(chart, report_page_list(p, "sites"), &(points){ "outcome", "position", "velocity", NULL, 1.0, 1.0 });
     report_page_chart(p, "barrel", "The armature's velocity, the grains by outcome, and the intervals of both speeds.",
                       chart);
     report_curve_free(&c);
@@ -533,9 +539,8 @@ void report_onset_threshold_chart(const page *p, const char *name, const char *c
     report_chart_band(c, "gouges from", report_gouge_band, 'x', report_element(bounds, "threshold_interval", 0),
                       report_element(bounds, "threshold_interval", 1));
     report_chart_rule(c, gauged ? "grows above, dies below" : "gouges above", "#777777", 'y', 0.0);
-    report_onset_dots(c, scenes,
-                      &(report_onset_points){ "class", "velocity", gauged ? "groove_growth" : "severity", prefix, 1.0,
-                                              gauged ? 1e6 : 1.0 });
+    draw_dots(c, scenes,
+              &(points){ "class", "velocity", gauged ? "groove_growth" : "severity", prefix, 1.0, gauged ? 1e6 : 1.0 });
     report_page_chart(p, name, caption, c);
 }
 
@@ -566,8 +571,7 @@ static void draw_sizes(const page *p)
                                           (report_axis){ .label = "velocity", .unit = "m/s" });
     cJSON_ArrayForEach(item, surface) last = (int)fmax(last, report_number(item, "family"));
     for (int f = 0; f <= last; f++) add_family(c, surface, f);
-    report_onset_dots(c, report_page_list(p, "scenes"),
-                      &(report_onset_points){ "class", "radius", "velocity", NULL, 1.0, 1.0 });
+    draw_dots(c, report_page_list(p, "scenes"), &(points){ "class", "radius", "velocity", NULL, 1.0, 1.0 });
     report_page_chart(p, "surface",
                       "One point a scene. Line: from which speed on grains of a size gouge, with its interval.", c);
 }

@@ -10,8 +10,6 @@ typedef struct {
     double a, b;        /* [Pa m6 K^0.5/mol2, m3/mol] */
 } mpm_gas;
 
-extern const double mpm_gas_constant; /* R [J/(mol K)] */
-
 /* Of a gas whose critical point is known; NAN, NAN: an ideal gas [K, K, Pa]. */
 mpm_gas mpm_gas_make(double temperature, double critical_temperature, double critical_pressure);
 
