@@ -244,8 +244,8 @@ void report_cut_section(const page *p)
     snapshot first, last;
     const int n = last_snapshot(p->source);
     if (n < 1) return;
-    const bool there = read_snapshot(p->source, 0, &first) & read_snapshot(p->source, n, &last);
-    if (there) {
+    const bool has_first = read_snapshot(p->source, 0, &first), has_last = read_snapshot(p->source, n, &last);
+    if (has_first && has_last) {
         const plane cut = plane_of(&first, &last);
         raster r = { .columns = COLUMNS, .cell = (cut.hi[0] - cut.lo[0]) / COLUMNS };
         r.rows = (int)fmin(ceil((cut.hi[1] - cut.lo[1]) / r.cell), MOST_ROWS);
