@@ -568,13 +568,17 @@ static int coarsest_at(const mpm *m, int n)
 }
 
 /* Of the levels that begin a step with number n of the finest, each in the middle of its own. */
-static void begin_waves(mpm *m, int n)
+static status begin_waves(mpm *m, int n)
 {
     const double from = m->time + n * level_dt(m, 0);
-    for (int i = 0; i < m->scene.bodies; i++)
-        for (int level = 0; level <= m->begins && mpm_wave_is_wanted(&m->scene.body[i]); level++)
+    for (int i = 0; i < m->scene.bodies; i++) {
+        if (!mpm_wave_is_wanted(&m->scene.body[i])) continue;
+        TRY(mpm_wave_reach(&m->waves[i], from + 0.5 * level_dt(m, m->begins)));
+        for (int level = 0; level <= m->begins; level++)
             m->load[level * m->scene.bodies + i] =
                 mpm_wave_load(&m->waves[i], &m->scene.body[i], &m->laws[i], from + 0.5 * level_dt(m, level));
+    }
+    return status_ok();
 }
 
 /* Step n of the finest level, and of those that begin or end theirs with it. */
@@ -584,7 +588,7 @@ static status one_substep(mpm *m, int n, tally *sum)
     m->begins = coarsest_at(m, n), m->ends = coarsest_at(m, n + 1);
     TRY(reserve_scratch(m));
     TRY(mpm_cavities_reserve(m));
-    begin_waves(m, n);
+    TRY(begin_waves(m, n));
     phase_p2g(m), lap(m, PHASE_P2G, &clock);
     phase_nodes(m), mpm_cavities_step(m), lap(m, PHASE_NODES, &clock);
     phase_g2p(m), lap(m, PHASE_G2P, &clock);

@@ -220,6 +220,11 @@ mpm_tube_state mpm_tube_now(const mpm_tube *t)
     return s;
 }
 
+double mpm_tube_time(const mpm_tube *t)
+{
+    return t->time;
+}
+
 double mpm_tube_pressure(const mpm_tube *t, double x)
 {
     const double at = x / t->is.length * t->n - 0.5;

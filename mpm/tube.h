@@ -60,6 +60,7 @@ typedef struct {
 } mpm_tube_state;
 mpm_tube_state mpm_tube_now(const mpm_tube *t);
 
+double mpm_tube_time(const mpm_tube *t); /* [s] */
 /* In the fluid that lay there at rest [Pa]. */
 double mpm_tube_pressure(const mpm_tube *t, double x);
 

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "mpm/wave.h"
 
-#include "mpm/tube.h"
-
 #include <math.h>
 #include <stdlib.h>
 
-static const double TUBE_CELL = 0.5e-3; /* of a piston's tube, within the next two [m] */
-enum { FEWEST_CELLS = 100, MOST_CELLS = 2000 };
+/* Of a piston's tube: cells of so much, finer for a light piston, whose wave decays over M/rho0. */
+static const double TUBE_CELL = 0.5e-3; /* [m] */
+enum { CELLS_A_DECAY = 40, FEWEST_CELLS = 100, MOST_CELLS = 10000 };
 static const double FRONT = 0.01;   /* of the acoustic pressure of the piston: less has not arrived */
 static const double NOTHING = 1e-4; /* the same: less ends the wave */
 static const double LATEST = 20;    /* times theta after the front: so does this */
@@ -28,7 +27,8 @@ status mpm_wave_check(const mpm_body *b)
 
 /* ---- the wave of a piston ---- */
 
-static status add_row(mpm_wave *w, double t, double p)
+/* What the tube's end has now. */
+static status add_row(mpm_wave *w, double p)
 {
     if (!(w->n & (w->n - 1))) {
         const size_t room = w->n ? 2 * (size_t)w->n : 1;
@@ -38,47 +38,65 @@ static status add_row(mpm_wave *w, double t, double p)
         if (incident) w->incident = incident;
         CHECK(incident, STATUS_MEMORY, "no memory for a wave of %d rows", w->n);
     }
-    w->time[w->n] = t;
+    w->time[w->n] = mpm_tube_time(w->tube) - w->arrival;
     w->incident[w->n++] = p;
     return status_ok();
 }
 
-/* From the front's arrival at the far end until the wave has gone by. */
-static status record(mpm_tube *t, double acoustic, double longest, mpm_wave *out)
+/* Its front comes to the end of the column a little faster than sound.  What a long way through the fluid has worn
+ * down to nothing never does. */
+static status wait_for_front(mpm_wave *w, const mpm_body *b, double c0)
 {
-    double arrival = NAN, peak = 0;
+    const double until = 2 * b->tube_length / c0;
     for (;;) {
-        mpm_tube_step(t);
-        const mpm_tube_state s = mpm_tube_now(t);
-        if (isnan(arrival) && s.end_pressure < FRONT * acoustic) continue;
-        if (isnan(arrival)) arrival = s.time;
-        TRY(add_row(out, s.time - arrival, s.end_pressure));
-        peak = fmax(peak, s.end_pressure);
-        const bool gone = s.end_pressure < 0.5 * peak && s.end_pressure < NOTHING * acoustic;
-        if (gone || s.time > arrival + longest) return status_ok();
+        mpm_tube_step(w->tube);
+        const double p = mpm_tube_pressure(w->tube, b->tube_length);
+        w->arrival = mpm_tube_time(w->tube);
+        if (p >= FRONT * w->acoustic) return add_row(w, p);
+        CHECK(w->arrival < until, STATUS_BAD_INPUT,
+              "body `%s`: of the piston's wave not %g %% comes to the end of the tube within %g s; take a shorter "
+              "tube_length than %g m or a heavier piston than %g kg/m2",
+              b->name, 100 * FRONT, until, b->tube_length, b->piston_mass);
     }
 }
 
-static status make_piston(const mpm_body *b, const law *k, mpm_wave *out)
+static status make_piston(const mpm_body *b, const law *k, mpm_wave *w)
 {
-    const double cells = fmin(fmax(b->tube_length / TUBE_CELL, FEWEST_CELLS), MOST_CELLS);
+    const double Z = sqrt(k->rho0 * k->K0), decay = b->piston_mass / k->rho0; /* of the wave, as a length */
+    const double cells = fmax(b->tube_length / fmin(TUBE_CELL, decay / CELLS_A_DECAY), FEWEST_CELLS);
+    CHECK(cells <= MOST_CELLS, STATUS_BAD_INPUT,
+          "body `%s`: a tube_length of %g m would take %.0f cells, as a piston_mass of %g kg/m2 wants them; at most %d "
+          "are computed: take a tube of at most %g m%s",
+          b->name, b->tube_length, cells, b->piston_mass, MOST_CELLS, b->tube_length * MOST_CELLS / cells,
+          decay / CELLS_A_DECAY < TUBE_CELL ? " or a heavier piston" : "");
     const mpm_tube_setup setup = { .fluid = b->material,
                                    .piston_mass = b->piston_mass,
                                    .piston_velocity = b->piston_velocity,
                                    .length = b->tube_length,
                                    .end = TUBE_GOES_ON,
                                    .cells = (int)cells };
-    mpm_tube *t;
-    TRY(mpm_tube_create(&setup, &t));
-    const double Z = sqrt(k->rho0 * k->K0);
-    const status done = record(t, Z * b->piston_velocity, LATEST * b->piston_mass / Z, out);
-    mpm_tube_free(t);
-    return done;
+    TRY(mpm_tube_create(&setup, &w->tube));
+    w->acoustic = Z * b->piston_velocity, w->longest = LATEST * b->piston_mass / Z, w->length = b->tube_length;
+    return wait_for_front(w, b, sqrt(k->K0 / k->rho0));
+}
+
+status mpm_wave_reach(mpm_wave *w, double t)
+{
+    while (w->tube && w->time[w->n - 1] < t) {
+        mpm_tube_step(w->tube);
+        const double p = mpm_tube_pressure(w->tube, w->length);
+        TRY(add_row(w, p));
+        w->peak = fmax(w->peak, p);
+        const bool gone = p < 0.5 * w->peak && p < NOTHING * w->acoustic;
+        if (!gone && w->time[w->n - 1] <= w->longest) continue;
+        mpm_tube_free(w->tube), w->tube = NULL;
+    }
+    return status_ok();
 }
 
 status mpm_wave_make(const mpm_body *b, const law *k, mpm_wave *out)
 {
-    *out = (mpm_wave){ .n = 0 };
+    *out = (mpm_wave){ .tube = NULL };
     if (!mpm_wave_is_wanted(b)) return status_ok();
     if (!isnan(b->piston_mass)) return make_piston(b, k, out);
     out->pressure = b->wave_pressure;
@@ -88,13 +106,14 @@ status mpm_wave_make(const mpm_body *b, const law *k, mpm_wave *out)
 
 void mpm_wave_free(mpm_wave *w)
 {
+    mpm_tube_free(w->tube);
     free(w->time), free(w->incident);
 }
 
 static double incident_pressure(const mpm_wave *w, double t)
 {
     if (w->n == 0) return w->pressure * exp(-w->rate * t);
-    if (t >= w->time[w->n - 1]) return 0;
+    if (!w->tube && t >= w->time[w->n - 1]) return 0;
     int lo = 0, hi = w->n - 1;
     while (hi - lo > 1) *(w->time[(lo + hi) / 2] > t ? &hi : &lo) = (lo + hi) / 2;
     const double share = (t - w->time[lo]) / (w->time[hi] - w->time[lo]);

@@ -14,6 +14,7 @@
 #define BREECH_MPM_WAVE_H
 
 #include "mpm/law/law.h"
+#include "mpm/tube.h"
 
 #include <math.h>
 
@@ -26,14 +27,22 @@ static inline bool mpm_wave_is_wanted(const mpm_body *b)
 /* STATUS_BAD_INPUT: constants that do not go together, or a body that is no fluid. */
 status mpm_wave_check(const mpm_body *b);
 
-/* The incident wave of one body over time. */
+/* The incident wave of one body over time: an exponential, or what comes to the end of a piston's tube from the front's
+ * arrival on.  The tube is computed as far as it was asked for. */
 typedef struct {
     double pressure, rate;   /* an exponential: at first, and one over its decay [Pa, 1/s] */
     int n;                   /* rows of a piston's wave; 0: the exponential */
     double *time, *incident; /* [n] owned [s, Pa] */
+    mpm_tube *tube;          /* owned; NULL: the wave has gone by */
+    double length;           /* of the tube [m] */
+    double arrival;          /* of the front at its end, in the tube's time [s] */
+    double longest;          /* the wave is cut off so long after that [s] */
+    double acoustic, peak;   /* rho0 c0 v; the largest pressure so far [Pa] */
 } mpm_wave;
 
+/* STATUS_BAD_INPUT: a tube of too many cells, or at whose end nothing arrives. */
 status mpm_wave_make(const mpm_body *b, const law *k, mpm_wave *out);
+status mpm_wave_reach(mpm_wave *w, double t); /* has its rows up to t; STATUS_MEMORY */
 void mpm_wave_free(mpm_wave *w);
 
 /* (W-2) over one step: pressure on the face = max(base - Z u, least). */
@@ -43,6 +52,7 @@ typedef struct {
     double inwards; /* 1 or -1: where the face's inner side lies along that axis */
     double base, Z, least;
 } wave_load;
+/* After mpm_wave_reach to t. */
 wave_load mpm_wave_load(const mpm_wave *w, const mpm_body *b, const law *k, double t);
 
 #endif

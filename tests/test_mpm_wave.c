@@ -4,6 +4,7 @@
 #include "mpm_scenes.h"
 
 #include "mpm/tube.h"
+#include "mpm/wave.h"
 
 static const double RHO0 = 1000, C0 = 1480, SLOPE = 1.92, P0 = 1e6;
 
@@ -233,6 +234,56 @@ static void assert_refused(const mpm_scene *s, const char *word)
     if (!strstr(refused.text, word)) fail_msg("`%s` lacks `%s`", refused.text, word);
 }
 
+/* A heavy piston's wave lasts longer than any scene: the tube is computed as far as the scene goes, and as it was
+ * asked for makes no difference. */
+static void test_piston_on_demand(void **state)
+{
+    (void)state;
+    const material m = water();
+    SCENE_LOCAL(s);
+    mpm_body *b = column(&s, &m, 4e-3, 2e-3, 1e-3);
+    b->piston_mass = 1e6, b->piston_velocity = 1, b->tube_length = 0.05;
+    mpm_free(scene_make(&s, 1)); /* at once, though the wave would take 14 s of 70 million rows */
+    law k;
+    assert_ok(mpm_law_make(b, &s, &k));
+    for (int pass = 0; pass < 2; pass++) {
+        mpm_wave w;
+        assert_ok(mpm_wave_make(b, &k, &w));
+        for (double t = 0; pass == 1 && t < 20e-6; t += 1e-6) assert_ok(mpm_wave_reach(&w, t));
+        assert_ok(mpm_wave_reach(&w, 20e-6));
+        const wave_load load = mpm_wave_load(&w, b, &k, 20e-6);
+        print_message("piston of 1000 t/m2: %.4f of rho c v after 20 us, %d rows\n", load.base / (2 * RHO0 * C0), w.n);
+        assert_near(load.base / (2 * RHO0 * C0), 1, 0.01); /* p_i + Z u_i */
+        assert_in_range(w.n, 20, 1000);
+        mpm_wave_free(&w);
+    }
+}
+
+/* A light piston's wave decays within a fraction of a millimetre: cells fine enough for that, or a refusal. */
+static void test_light_piston(void **state)
+{
+    (void)state;
+    const material m = water();
+    SCENE_LOCAL(s);
+    mpm_body *b = column(&s, &m, 4e-3, 2e-3, 1e-3);
+    law k;
+    assert_ok(mpm_law_make(b, &s, &k));
+    b->piston_mass = 0.2, b->piston_velocity = 0.01, b->tube_length = 0.01; /* a decay of 0.2 mm, on sound */
+    mpm_wave w;
+    assert_ok(mpm_wave_make(b, &k, &w));
+    const double theta = 0.2 / (RHO0 * C0);
+    double impulse = 0;
+    assert_ok(mpm_wave_reach(&w, 8 * theta));
+    for (int i = 1; i < w.n; i++) impulse += 0.5 * (w.incident[i] + w.incident[i - 1]) * (w.time[i] - w.time[i - 1]);
+    print_message("light piston: impulse %.4f of M v\n", impulse / (0.2 * 0.01));
+    assert_near(impulse / (0.2 * 0.01), 1, 0.02);
+    mpm_wave_free(&w);
+    b->piston_mass = 1e-3;
+    assert_refused(&s, "heavier piston");
+    b->piston_mass = 70, b->tube_length = 100;
+    assert_refused(&s, "at most 5 m");
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -254,9 +305,9 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reflection), cmocka_unit_test(test_no_pull), cmocka_unit_test(test_piston_wave),
-        cmocka_unit_test(test_plate),      cmocka_unit_test(test_sleeps),  cmocka_unit_test(test_held),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_reflection), cmocka_unit_test(test_no_pull),          cmocka_unit_test(test_piston_wave),
+        cmocka_unit_test(test_plate),      cmocka_unit_test(test_sleeps),           cmocka_unit_test(test_held),
+        cmocka_unit_test(test_refused),    cmocka_unit_test(test_piston_on_demand), cmocka_unit_test(test_light_piston),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
