@@ -6,6 +6,7 @@
 #include "coupling/case/case_new.h"
 #include "coupling/case/material_role.h"
 #include "coupling/gouge/impact.h"
+#include "coupling/host/machine.h"
 #include "coupling/host/stop.h"
 #include "coupling/host/table.h"
 #include "coupling/host/version.h"
@@ -24,11 +25,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+enum { MOST_PROCESSES = 256, USUAL_PROCESSES = 8 };
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_STOPPED = 75 };
 
 typedef struct {
     usage_line line;
     lending *lending;
+    size_t *largest; /* memory of the case's largest scene, once it is read [bytes] */
 } options;
 
 static int exit_code(status s)
@@ -51,7 +54,8 @@ static int complain(status s)
 
 static study_case study_case_of(const options *o, const case_inputs *in)
 {
-    return (study_case){ .in = in, .prefix = "", .sets = o->line.sets, .n_sets = o->line.n_sets };
+    return (
+        study_case){ .in = in, .prefix = "", .sets = o->line.sets, .n_sets = o->line.n_sets, .largest = o->largest };
 }
 
 /* With the place in the case of what it is about, where that can be told. */
@@ -200,11 +204,14 @@ static int run_case(const options *o)
     session s;
     const status got = read_case(o, o->line.command.study->needs, &in);
     if (got.code != STATUS_OK) return exit_code(got);
+    /* each may have put one off for another */
+    const double fit = *o->largest ? host_memory("") / (2.0 * (double)*o->largest) : 0;
     const session_options how = { .command = o->line.command.name,
                                   .dir = o->line.dir,
                                   .store = o->line.store,
                                   .how = { .force = o->line.force, .resume = o->line.resume },
                                   .threads = o->line.threads,
+                                  .side_by_side = *o->largest ? (int)fmin(fmax(fit, 1), MOST_PROCESSES) : 0,
                                   .lending = o->lending,
                                   .run_scene = gouge_run,
                                   .progress_to = stderr,
@@ -461,11 +468,25 @@ static void wait_passively(char **argv)
     if (setenv("OMP_WAIT_POLICY", "passive", 1) == 0) execv("/proc/self/exe", argv);
 }
 
+/* Studies of several scenes compute them side by side: a scene gets little faster with more than a few threads, and a
+ * process without one lends its own.  Who says how many threads there are has decided otherwise. */
+static int default_processes(int argc, char **argv)
+{
+    usage_line line = { .threads = 0 };
+    if (usage_parse(argc, argv, &line).code != STATUS_OK) return 1;
+    if (line.processes > 0) return line.processes;
+    const bool many = line.command.study && (line.command.study->many_scenes || line.ensemble > 0);
+    if (!many || line.threads > 0 || getenv("OMP_NUM_THREADS")) return 1;
+    const int cores = omp_get_num_procs();
+    return cores < USUAL_PROCESSES ? cores : USUAL_PROCESSES;
+}
+
 /* All of the machine, or of what the launcher has bound this process to; several processes on one machine share it. */
 static int default_threads(void)
 {
     const int mine = omp_get_num_procs(), all = (int)sysconf(_SC_NPROCESSORS_ONLN), here = run_ranks_on_machine();
-    if (getenv("OMP_NUM_THREADS") || mine < all || here == 1) return omp_get_max_threads();
+    const bool bound = run_ranks_launched() && mine < all;
+    if (getenv("OMP_NUM_THREADS") || bound || here == 1) return omp_get_max_threads();
     return mine > here ? mine / here : 1;
 }
 
@@ -488,9 +509,15 @@ static int lead(int argc, char **argv, int threads, lending *l)
         usage_help(stderr);
         return EXIT_USAGE;
     }
-    options o = { .line = { .threads = threads }, .lending = l };
+    size_t largest = 0;
+    options o = { .line = { .threads = threads }, .lending = l, .largest = &largest };
     const status s = usage_parse(argc, argv, &o.line);
     if (s.code != STATUS_OK) return complain(s);
+    if (o.line.processes && run_ranks_launched())
+        return complain(base_status_error(STATUS_BAD_INPUT,
+                                          "--processes %d: mpirun has started %d already; give the "
+                                          "number to one of the two",
+                                          o.line.processes, run_ranks_count()));
     run_lending_own(l, o.line.threads);
     return run_command(&o);
 }
@@ -508,7 +535,7 @@ static int follow(int argc, char **argv, int threads, lending *l)
 int main(int argc, char **argv)
 {
     wait_passively(argv);
-    status s = run_ranks_start();
+    status s = run_ranks_start(default_processes(argc, argv));
     if (s.code != STATUS_OK) return complain(s);
     const int threads = default_threads(); /* before run_lending_open, which unbinds */
     lending *l;

@@ -171,7 +171,7 @@ static char *onset_text(const case_onset *c)
 static status possible(const breech_case *c)
 {
     const case_inputs in = case_inputs_of(c);
-    return study_possible(&in, ALL);
+    return study_possible(&in, ALL, NULL);
 }
 
 static void test_every_kind(void **state)

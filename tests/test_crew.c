@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Scenes over several processes: the same as by one, whoever computes them, on whatever threads are lent.
  *
- * Started by ctest as one process, it starts itself again as three under mpirun; rank 0 tests, the others serve. */
+ * Started by ctest as one process, it starts itself again as one that forks two more, and then under mpirun; rank 0
+ * tests, the others serve. */
 #define _GNU_SOURCE /* sched_setaffinity */
 
 #include "coupling/case/case.h"
@@ -14,12 +15,14 @@
 #include <math.h>
 #include <sched.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -520,6 +523,66 @@ static void test_keeper(void **state)
     case_free(whole);
 }
 
+/* Two send each other more than any buffer holds, at the same time: neither waits for ever. */
+static status try_crossing(void)
+{
+    enum { BYTES = 8 << 20, KIND = 7 };
+    const int me = run_ranks_number();
+    if (me > 1) return status_ok();
+    char *data = malloc(BYTES);
+    CHECK(data, STATUS_MEMORY, "no memory");
+    memset(data, 'a' + me, BYTES);
+    TRY(run_ranks_send(1 - me, KIND, data, BYTES));
+    message m;
+    bool any = false;
+    while (!any) TRY(run_ranks_receive(&m, &any));
+    memset(data, 'a' + 1 - me, BYTES);
+    const bool same = m.from == 1 - me && m.kind == KIND && m.bytes == BYTES && memcmp(m.data, data, BYTES) == 0;
+    run_message_free(&m);
+    free(data);
+    CHECK(same, STATUS_IO, "what rank %d got is not what was sent", me);
+    return status_ok();
+}
+
+/* One of them is killed while rank 0 waits for it. */
+static int with_a_death(void)
+{
+    if (run_ranks_start(PROCESSES).code != STATUS_OK) return 1;
+    if (run_ranks_number() == 1) raise(SIGKILL);
+    for (message m;;) {
+        bool any;
+        if (run_ranks_receive(&m, &any).code != STATUS_OK) return 2;
+        run_ranks_pause();
+    }
+}
+
+/* Its exit code, and the first line of what it says at the end of standard error. */
+static int started_again(const char *self, const char *how, char *said, size_t size)
+{
+    char command[4000];
+    snprintf(command, sizeof command, "env -u OMP_PROC_BIND -u OMP_PLACES '%s' %s 2>%s", self, how,
+             said ? "&1 >/dev/null" : "&2");
+    FILE *f = popen(command, "r");
+    if (!f) return -1;
+    char line[1000];
+    while (fgets(line, sizeof line, f))
+        if (said)
+            snprintf(said, size, "%s", line);
+        else
+            fputs(line, stdout);
+    const int result = pclose(f);
+    return WIFEXITED(result) ? WEXITSTATUS(result) : -1;
+}
+
+static int forked(const char *self)
+{
+    char said[1000] = "";
+    const int code = started_again(self, "dying", said, sizeof said);
+    printf("one of %d killed: exit code %d, %s", PROCESSES, code, said);
+    if (code != 1 || !strstr(said, "process 1 of 3 ended by signal 9") || !strstr(said, "--resume")) return 1;
+    return started_again(self, "forked", NULL, 0);
+}
+
 static int as_crew(const char *self)
 {
     char count[8];
@@ -527,6 +590,7 @@ static int as_crew(const char *self)
     unsetenv("OMP_PROC_BIND"); /* nothing would be lent */
     unsetenv("OMP_PLACES");
     setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+    fflush(NULL);
     setenv("LSAN_OPTIONS", "detect_leaks=0", 0); /* MPI's own */
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
@@ -537,7 +601,11 @@ static int as_crew(const char *self)
 
 int main(int argc, char **argv)
 {
-    if (argc == 1) return as_crew(argv[0]);
+    if (argc == 1) return forked(argv[0]) ? 1 : as_crew(argv[0]);
+    if (strcmp(argv[1], "dying") == 0) return with_a_death();
+    const bool by_launcher = strcmp(argv[1], "crew") == 0;
+    const struct CMUnitTest messages[] = { cmocka_unit_test(test_lent), cmocka_unit_test(test_shares),
+                                           cmocka_unit_test(test_put_off) };
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lent), /* first: no other has made threads yet */
         cmocka_unit_test(test_shares),  cmocka_unit_test(test_given_back), cmocka_unit_test(test_keeper),
@@ -546,11 +614,12 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_put_off),
     };
     int failed = 0;
-    if (run_ranks_start().code != STATUS_OK) return SKIPPED; /* built without MPI */
+    if (run_ranks_start(by_launcher ? 1 : PROCESSES).code != STATUS_OK) return SKIPPED; /* built without MPI */
     if (run_ranks_count() < PROCESSES) return puts("skipped: not started by mpirun"), SKIPPED;
-    if (start_lending().code != STATUS_OK) return 1;
+    alarm(600); /* rather than wait for ever */
+    if (start_lending().code != STATUS_OK || try_crossing().code != STATUS_OK) return 1;
     if (run_ranks_number() == 0) {
-        failed = cmocka_run_group_tests(tests, NULL, NULL);
+        failed = by_launcher ? cmocka_run_group_tests(messages, NULL, NULL) : cmocka_run_group_tests(tests, NULL, NULL);
         run_crew_dismiss();
     } else {
         run_crew_serve(1, lent, gouge_run);

@@ -160,7 +160,8 @@ static void test_stop_and_resume(void **state)
     int code = 75, stops = 0;
     fresh_folder("parts");
     for (; code == 75 && stops < 30; stops += code == 75)
-        code = run("scene " ENSEMBLE " -o parts/out --quiet --no-store --ensemble 2 --resume --max-walltime 0.4");
+        code = run("scene " ENSEMBLE " -o parts/out --quiet --no-store --ensemble 2 --processes 1 --resume "
+                   "--max-walltime 0.4");
     assert_int_equal(code, 0);
     print_message("stopped %d times\n", stops);
     assert_true(stops >= 1);

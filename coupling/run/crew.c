@@ -381,7 +381,7 @@ static status compute_own(crew *k, errand *e)
 
 /* ---- what the study calls ---- */
 
-status run_crew_create(session *s, crew **out)
+status run_crew_create(session *s, int side_by_side, crew **out)
 {
     crew *k = calloc(1, sizeof *k);
     errand **busy = calloc((size_t)run_ranks_count(), sizeof *busy);
@@ -396,6 +396,8 @@ status run_crew_create(session *s, crew **out)
     }
     k->s = s;
     k->members = run_ranks_count() - 1;
+    if (side_by_side > 0 && run_ranks_on_machine() == run_ranks_count() && side_by_side <= k->members)
+        k->members = side_by_side - 1;
     k->busy = busy;
     k->told = told;
     k->error = status_ok();

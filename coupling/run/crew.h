@@ -17,8 +17,8 @@
 
 typedef struct crew crew;
 
-/* Rank 0, of more than one. */
-status run_crew_create(session *s, crew **out);
+/* Rank 0, of more than one; side_by_side as in session_options: members beyond that only lend their threads. */
+status run_crew_create(session *s, int side_by_side, crew **out);
 /* Stops the scenes under way and removes those that nobody asked for, with their snapshots. */
 void run_crew_free(crew *k); /* NULL allowed */
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The processes of a run that mpirun started, and messages between them.  MPI is behind this file: ranks_mpi.c, or
- * ranks_alone.c where the build has none.
+/* The processes of a run, and messages between them: those that mpirun has started, or on one machine those that the
+ * program has forked itself.  What carries the messages is behind this file (ranks_carrier.h).
  *
- * Rank 0 runs the study and alone writes; the others compute scenes for it (crew.h).  Nobody waits busily: receiving
- * polls. A message has a kind and bytes; those from one sender come in the order they were sent.  Whatever goes wrong
- * in MPI itself ends all processes, MPI's own way. */
+ * Rank 0 runs the study and alone writes; the others compute scenes for it (crew.h) and speak with it alone.  Nobody
+ * waits busily: receiving polls.  A message has a kind and bytes; those from one sender come in the order they were
+ * sent.  When one of the processes dies, all end. */
 #ifndef BREECH_COUPLING_RANKS_H
 #define BREECH_COUPLING_RANKS_H
 
@@ -12,6 +12,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <time.h>
 
 typedef struct {
     int from, kind;
@@ -19,17 +20,20 @@ typedef struct {
     size_t bytes;
 } message;
 
-/* Before anything else of this file; outside mpirun it costs nothing.
- * STATUS_BAD_INPUT: several processes were started of a build without MPI. */
-status run_ranks_start(void);
-/* All processes call it last; waits for each other. */
+/* Before anything else of this file, and before the first thread; returns in each of the processes.  Under mpirun they
+ * are its own, whatever `processes` says.
+ * STATUS_BAD_INPUT: mpirun has started several of a build without MPI.  STATUS_IO: the system grants no more. */
+status run_ranks_start(int processes);
+/* All processes call it last. */
 void run_ranks_finish(void);
 
-int run_ranks_number(void);     /* of this process, from 0 */
-int run_ranks_count(void);      /* 1 outside mpirun */
+int run_ranks_number(void); /* of this process, from 0 */
+int run_ranks_count(void);
+bool run_ranks_launched(void);  /* by mpirun */
 int run_ranks_on_machine(void); /* of them on this machine */
 
-/* Returns when the bytes may be reused, which may be when the other one has received them.  At most 2 GiB. */
+/* Returns when the bytes may be reused, which may be when the other one has received them; what comes meanwhile is kept
+ * for run_ranks_receive, so two may send to each other.  At most 2 GiB. */
 status run_ranks_send(int to, int kind, const void *data, size_t bytes);
 /* false: nothing has come.  STATUS_MEMORY only. */
 status run_ranks_receive(message *out, bool *any);
@@ -41,13 +45,17 @@ typedef struct {
     void *part;
     int n, me;
     void *window; /* MPI's, owned */
+    size_t bytes; /* of all parts, where the program has forked the processes */
 } ranks_memory;
 /* Returns when every part holds what its process has brought; bytes: the same for all.  For what changes later:
- * atomics. */
+ * atomics.  What was shared last is given back first. */
 status run_ranks_share(const void *mine, size_t bytes, ranks_memory *out);
 void run_ranks_unshare(ranks_memory *m);
 
 /* Sleeps a little: between two looks that found nothing. */
-void run_ranks_pause(void);
+static inline void run_ranks_pause(void)
+{
+    nanosleep(&(struct timespec){ 0, 2000000 }, NULL);
+}
 
 #endif

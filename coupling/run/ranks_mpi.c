@@ -1,80 +1,34 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "coupling/run/ranks.h"
+#include "coupling/run/ranks_carrier.h"
 
 #include <limits.h>
 #include <mpi.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-/* Outside mpirun MPI is not started: it would take half a second and a network. */
-static bool under_mpirun(void)
-{
-    static const char *const signs[] = { "OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE",
-                                         "MV2_COMM_WORLD_SIZE" };
-    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
-        if (getenv(signs[i])) return true;
-    return false;
-}
+static MPI_Request under_way = MPI_REQUEST_NULL;
 
-static bool running(void)
-{
-    int started = 0, finished = 0;
-    MPI_Initialized(&started);
-    MPI_Finalized(&finished);
-    return started && !finished;
-}
-
-status run_ranks_start(void)
-{
-    if (under_mpirun()) MPI_Init(NULL, NULL);
-    return status_ok();
-}
-
-void run_ranks_finish(void)
-{
-    if (running()) MPI_Finalize();
-}
-
-int run_ranks_number(void)
-{
-    int rank = 0;
-    if (running()) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    return rank;
-}
-
-int run_ranks_count(void)
-{
-    int count = 1;
-    if (running()) MPI_Comm_size(MPI_COMM_WORLD, &count);
-    return count;
-}
-
-int run_ranks_on_machine(void)
-{
-    MPI_Comm machine;
-    int count = 1;
-    if (!running()) return 1;
-    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
-    MPI_Comm_size(machine, &count);
-    MPI_Comm_free(&machine);
-    return count;
-}
-
-status run_ranks_send(int to, int kind, const void *data, size_t bytes)
+static status begin_to_send(int to, int kind, const void *data, size_t bytes)
 {
     CHECK(bytes <= INT_MAX, STATUS_MEMORY, "a message of %zu bytes between processes: at most %d", bytes, INT_MAX);
-    MPI_Send(data, (int)bytes, MPI_BYTE, to, kind, MPI_COMM_WORLD);
+    MPI_Isend(data, (int)bytes, MPI_BYTE, to, kind, MPI_COMM_WORLD, &under_way);
     return status_ok();
 }
 
-status run_ranks_receive(message *out, bool *any)
+static status has_sent(bool *all)
+{
+    int done = 0;
+    MPI_Test(&under_way, &done, MPI_STATUS_IGNORE);
+    *all = done;
+    return status_ok();
+}
+
+static status receive(message *out, bool *any)
 {
     MPI_Status about;
     int there = 0, bytes = 0;
     *out = (message){ .data = NULL };
     *any = false;
-    if (!running()) return status_ok();
     MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &about);
     if (!there) return status_ok();
     MPI_Get_count(&about, MPI_BYTE, &bytes);
@@ -87,7 +41,7 @@ status run_ranks_receive(message *out, bool *any)
     return status_ok();
 }
 
-status run_ranks_share(const void *mine, size_t bytes, ranks_memory *out)
+static status share(const void *mine, size_t bytes, ranks_memory *out)
 {
     MPI_Comm machine;
     MPI_Aint size;
@@ -107,19 +61,44 @@ status run_ranks_share(const void *mine, size_t bytes, ranks_memory *out)
     return status_ok();
 }
 
-void run_ranks_unshare(ranks_memory *m)
+static void unshare(ranks_memory *m)
 {
     MPI_Win_free(m->window);
     free(m->window);
 }
 
-void run_message_free(message *m)
+static void finish(void)
 {
-    free(m->data);
-    m->data = NULL;
+    MPI_Finalize();
 }
 
-void run_ranks_pause(void)
+/* Outside mpirun MPI is not started: it would take half a second and a network. */
+static bool under_mpirun(void)
 {
-    nanosleep(&(struct timespec){ 0, 2000000 }, NULL);
+    static const char *const signs[] = { "OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE",
+                                         "MV2_COMM_WORLD_SIZE" };
+    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
+        if (getenv(signs[i])) return true;
+    return false;
+}
+
+status run_ranks_mpi(const ranks_carrier **out)
+{
+    static ranks_carrier mpi = { .finish = finish,
+                                 .send = begin_to_send,
+                                 .sent = has_sent,
+                                 .receive = receive,
+                                 .share = share,
+                                 .unshare = unshare };
+    MPI_Comm machine;
+    *out = NULL;
+    if (!under_mpirun()) return status_ok();
+    MPI_Init(NULL, NULL);
+    MPI_Comm_rank(MPI_COMM_WORLD, &mpi.number);
+    MPI_Comm_size(MPI_COMM_WORLD, &mpi.count);
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+    MPI_Comm_size(machine, &mpi.on_machine);
+    MPI_Comm_free(&machine);
+    *out = &mpi;
+    return status_ok();
 }

@@ -124,7 +124,7 @@ status run_session_open(const case_inputs *in, const session_options *o, session
     if (s->dir.state == OUTDIR_RESUMED) TRY(run_session_take_up(s));
     TRY(host_outdir_file(&s->dir, OUTDIR_HISTORY, dir, sizeof dir));
     TRY(output_history_open(dir, s->dir.state == OUTDIR_RESUMED, &s->history));
-    return run_ranks_count() > 1 ? run_crew_create(s, &s->crew) : status_ok();
+    return run_ranks_count() > 1 ? run_crew_create(s, o->side_by_side, &s->crew) : status_ok();
 }
 
 status run_session_close(session *s, bool finished)

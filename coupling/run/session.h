@@ -47,6 +47,7 @@ typedef struct {
     const char *store;   /* NULL: <dir>/store; "": none */
     outdir_options how;  /* --force, --resume */
     int threads;
+    int side_by_side;        /* scenes that one machine can hold; 0: as many as there are processes */
     struct lending *lending; /* between processes (lending.h), borrowed; NULL: none */
     impact_runner run_scene; /* gouge_run, or a test's; the same in all processes */
     FILE *progress_to;

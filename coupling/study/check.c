@@ -15,9 +15,10 @@
 /* ---- can its scenes be made? ---- */
 
 /* A scene's grid and its materials, as far as they show without its points; and can it be held in memory? */
-static status needs_of(const mpm_scene *s, mpm_needs *needs)
+static status needs_of(const mpm_scene *s, mpm_needs *needs, size_t *largest)
 {
     TRY(mpm_estimate(s, needs));
+    if (largest && needs->bytes > *largest) *largest = needs->bytes;
     const double has = host_memory("");
     CHECK((double)needs->bytes <= has, STATUS_BAD_INPUT,
           "its %.3g million points need %.1f GB, this machine or its control group has %.1f GB: take larger cells",
@@ -26,12 +27,12 @@ static status needs_of(const mpm_scene *s, mpm_needs *needs)
 }
 
 /* Can its scene be built? */
-static status scene_possible(const case_impact *c)
+static status scene_possible(const case_impact *c, size_t *largest)
 {
     gouge_scene scene;
     mpm_needs needs;
     TRY(gouge_scene_bodies(c, &scene));
-    const status fits = needs_of(&scene.scene, &needs);
+    const status fits = needs_of(&scene.scene, &needs, largest);
     gouge_scene_free(&scene);
     CHECK(fits.code == STATUS_OK, fits.code, "scene of %g mm at %g m/s with %g cells a radius: %.350s",
           1e3 * c->particle.radius, c->scene.velocity, c->scene.cells_per_radius, fits.text);
@@ -49,12 +50,12 @@ static case_impact slowest(const case_onset *c, const case_site *grain, double c
 }
 
 /* A search's scenes at both resolutions with a grain of this size. */
-static status grain_possible(const case_onset *c, const case_site *grain)
+static status grain_possible(const case_onset *c, const case_site *grain, size_t *largest)
 {
     const case_impact coarse = slowest(c, grain, c->study.coarse_cells_per_radius),
                       fine = slowest(c, grain, c->study.fine_cells_per_radius);
-    TRY(scene_possible(&coarse));
-    return fine.scene.cells_per_radius == coarse.scene.cells_per_radius ? status_ok() : scene_possible(&fine);
+    TRY(scene_possible(&coarse, largest));
+    return fine.scene.cells_per_radius == coarse.scene.cells_per_radius ? status_ok() : scene_possible(&fine, largest);
 }
 
 static bool same(double a, double b)
@@ -91,17 +92,17 @@ static case_site grain_of(const case_population *p, double radius)
     return grain;
 }
 
-static status grains_possible(const case_onset *c)
+static status grains_possible(const case_onset *c, size_t *largest)
 {
     for (int i = 0; i < c->sites.n; i++)
-        if (!has_grain_before(&c->sites, i)) TRY(grain_possible(c, &c->sites.item[i]));
+        if (!has_grain_before(&c->sites, i)) TRY(grain_possible(c, &c->sites.item[i], largest));
     for (int i = 0; i < c->populations.n; i++) {
         const case_population *p = &c->populations.item[i];
         double size[SURFACE_MAX_SIZES], number[SURFACE_MAX_SIZES];
         const int n = study_population_sizes(p, c->study.smallest_radius, SURFACE_MAX_SIZES, size, number);
         for (int k = 0; k<n; k += n> 1 ? n - 1 : 1) { /* the smallest and the largest */
             const case_site grain = grain_of(p, size[k]);
-            const status s = grain_possible(c, &grain);
+            const status s = grain_possible(c, &grain, largest);
             CHECK(s.code == STATUS_OK, s.code, "populations[%d], its %s grains, of %.3g mm: %.380s", i,
                   k == 0 ? "smallest" : "largest", 1e3 * size[k], s.text);
         }
@@ -109,7 +110,7 @@ static status grains_possible(const case_onset *c)
     return status_ok();
 }
 
-static status treatments_possible(const case_onset *c, const case_treatments *all)
+static status treatments_possible(const case_onset *c, const case_treatments *all, size_t *largest)
 {
     for (int i = 0; i < all->n; i++) {
         case_onset treated;
@@ -118,7 +119,7 @@ static status treatments_possible(const case_onset *c, const case_treatments *al
         if (made && case_treated_alike(c, &treated))
             s = base_status_error(STATUS_BAD_INPUT, "changes nothing of the rail as it is: give it another value, or "
                                                     "leave it out");
-        if (s.code == STATUS_OK) s = grains_possible(&treated);
+        if (s.code == STATUS_OK) s = grains_possible(&treated, largest);
         case_treated_free(&treated);
         CHECK(s.code == STATUS_OK, s.code, "%s%s%s%.400s", made ? "treatment `" : "", made ? all->item[i].name : "",
               made ? "`: " : "", s.text);
@@ -131,18 +132,18 @@ status study_prepare(case_inputs *in)
     return in->given.bodies ? scene_fill(&in->bodies.scene) : status_ok();
 }
 
-status study_possible(const case_inputs *in, unsigned needs)
+status study_possible(const case_inputs *in, unsigned needs, size_t *largest)
 {
     mpm_needs bodies;
-    if (in->given.bodies) TRY(needs_of(&in->bodies.scene, &bodies));
+    if (in->given.bodies) TRY(needs_of(&in->bodies.scene, &bodies, largest));
     const case_onset *c = &in->onset;
     rail_section section;
     if (needs & CASE_FOR_INDUCTANCE) TRY(circuit_rails_section(&c->launcher.rails, &section));
     if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_rails_check(&c->launcher.rails));
     if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_shot_check(&c->launcher));
-    if ((needs & CASE_FOR_SCENE) && !in->given.bodies) TRY(scene_possible(&c->impact));
-    if (needs & CASE_FOR_ONSET) TRY(grains_possible(c));
-    return needs & CASE_FOR_COMPARE ? treatments_possible(c, &in->treatments) : status_ok();
+    if ((needs & CASE_FOR_SCENE) && !in->given.bodies) TRY(scene_possible(&c->impact, largest));
+    if (needs & CASE_FOR_ONSET) TRY(grains_possible(c, largest));
+    return needs & CASE_FOR_COMPARE ? treatments_possible(c, &in->treatments, largest) : status_ok();
 }
 
 /* ---- what would they take? ---- */
@@ -150,7 +151,7 @@ status study_possible(const case_inputs *in, unsigned needs)
 /* Two levels of thread: memory bandwidth and the serial rest are left out, so this is a lower bound on many threads. */
 static status estimate_scene(const mpm_scene *s, double last, int threads, scene_estimate *out)
 {
-    TRY(needs_of(s, &out->needs));
+    TRY(needs_of(s, &out->needs, NULL));
     out->steps = last / out->needs.dt;
     out->seconds = out->steps * out->needs.work * CHECK_SECONDS_A_STEP / threads;
     return status_ok();

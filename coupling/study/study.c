@@ -34,7 +34,7 @@ const char *study_command(const study *y)
 
 status study_possible_all(const study_case *of, unsigned needs)
 {
-    TRY(study_possible(of->in, needs));
+    TRY(study_possible(of->in, needs, of->largest));
     for (int k = 0; k < STUDIES; k++) {
         const study *y = study_for(study_list[k], of->in);
         if (y->possible && (needs & y->needs) == y->needs) TRY(y->possible(of));

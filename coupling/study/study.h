@@ -18,6 +18,7 @@ typedef struct {
     const char *prefix;      /* of its scenes' names, so that those of several cases differ */
     const char *const *sets; /* of the command line, as case_read takes them */
     int n_sets;
+    size_t *largest; /* raised to the memory that one of its scenes takes [bytes]; NULL: not asked */
 } study_case;
 
 typedef struct {
@@ -34,6 +35,7 @@ typedef struct study {
     bool (*takes)(const case_inputs *in);
     unsigned needs;          /* of the case, sum of CASE_FOR_... */
     const summary_key *keys; /* of its result */
+    bool many_scenes;        /* it may compute several side by side */
     bool shows_shot;         /* its summary has the shot too, under "shot" */
     bool can_vary;           /* runs any case, not the session's alone: `breech sweep` may call it */
     report_part report;      /* of report.html */
@@ -70,8 +72,8 @@ const char *study_command(const study *y);
 /* Decides what the case leaves to the program; before all that follows. */
 status study_prepare(case_inputs *in);
 
-/* Before anything is written: what only making the scenes can tell.  STATUS_BAD_INPUT. */
-status study_possible(const case_inputs *in, unsigned needs);
+/* Before anything is written: what only making the scenes can tell; largest as in study_case.  STATUS_BAD_INPUT. */
+status study_possible(const case_inputs *in, unsigned needs, size_t *largest);
 /* That, and what the studies whose needs are among these say themselves. */
 status study_possible_all(const study_case *of, unsigned needs);
 

@@ -28,6 +28,7 @@ const study study_compare = {
     .more = "As onset, for the case as it is and for each of its treatments; study.max_scenes holds for each surface.",
     .example = "breech compare cases/treatments --store out/scenes",
     .needs = CASE_FOR_ONSET | CASE_FOR_COMPARE,
+    .many_scenes = true,
     .keys = study_compare_keys,
     .shows_shot = true,
     .report = { report_compare_head, report_compare_section },

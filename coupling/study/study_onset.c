@@ -33,6 +33,7 @@ const study study_onset = {
     .more = "Runs the shot, then as many impact scenes as the threshold velocity needs (study.max_scenes at most).",
     .example = "breech onset cases/default_shot --store out/scenes --max-walltime 2h",
     .needs = CASE_FOR_ONSET,
+    .many_scenes = true,
     .keys = study_onset_keys,
     .shows_shot = true,
     .report = { report_onset_head, report_onset_section },

@@ -97,7 +97,7 @@ static status possible(const study_case *of)
     CHECK(fired || in->strike.velocity > 0.0 || p.speed > 0.0, STATUS_BAD_INPUT,
           "strike.velocity is missing [m/s]: %s is at rest in scene.bodies, and the case has no shot",
           in->strike.projectile);
-    if (fired) TRY(study_possible(in, CASE_FOR_SHOT));
+    if (fired) TRY(study_possible(in, CASE_FOR_SHOT, NULL));
     if (fired) TRY(strike_package_check(&in->strike, p.mass, in->onset.launcher.armature.mass));
     if (in->strike.limit) TRY(study_strike_limit_possible(&in->onset.study));
     const status made = strike_scene(in, &p, 1.0, &bodies);
@@ -231,6 +231,7 @@ const study study_strike = {
     .more = "Needs the sections strike and scene, with bodies; without strike.velocity, what `breech shot` needs.",
     .example = "breech strike cases/sphere_plate --set \"strike.velocity=1 km/s\" -o out/slower",
     .needs = CASE_FOR_STRIKE,
+    .many_scenes = true,
     .keys = result_keys,
     .shows_shot = true,
     .can_vary = true,

@@ -91,7 +91,7 @@ static status read_run(const study_case *of, const study *y, int run, case_input
     status s = case_inputs_read(of->in->path, set, of->n_sets + w->vary.n, &how, out, &errors);
     free(errors);
     if (s.code == STATUS_OK) s = study_prepare(*out);
-    if (s.code == STATUS_OK) s = study_possible(*out, y->needs);
+    if (s.code == STATUS_OK) s = study_possible(*out, y->needs, of->largest);
     describe(w, run, which, sizeof which);
     CHECK(s.code == STATUS_OK, s.code, "sweep, run %d (%s): %.500s", run + 1, which, s.text);
     return s;
@@ -451,6 +451,7 @@ const study study_sweep = {
         "Needs the section sweep, and what the study that it runs needs.  All errors are told before anything runs.",
     .example = "breech sweep cases/sweep",
     .needs = CASE_FOR_SWEEP,
+    .many_scenes = true,
     .keys = result_keys,
     .report = { report_sweep_head, report_sweep_section },
     .print = print,

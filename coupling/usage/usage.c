@@ -152,8 +152,9 @@ static const usage_option *option_find(const char *name)
 /* One word of the command line; *i moves on where the next one is its value.  --name=value is understood too. */
 static status take_word(usage_line *l, int argc, char **argv, int *i)
 {
-    char *word = argv[*i], *equals = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL;
-    if (equals) *equals = '\0';
+    const char *whole = argv[*i], *equals = strncmp(whole, "--", 2) == 0 ? strchr(whole, '=') : NULL;
+    char word[200];
+    snprintf(word, sizeof word, "%.*s", equals ? (int)(equals - whole) : (int)sizeof word, whole);
     const usage_option *o = option_find(word);
     if (o) {
         const uint64_t bit = BIT(o - usage_options);
@@ -172,8 +173,8 @@ static status take_word(usage_line *l, int argc, char **argv, int *i)
         return status_ok();
     }
     CHECK(!l->subject, STATUS_BAD_INPUT, "%s takes one %s: `%.80s` is one too many", l->command.name,
-          l->command.subject, word);
-    l->subject = word;
+          l->command.subject, whole);
+    l->subject = whole;
     return status_ok();
 }
 

@@ -61,6 +61,7 @@ typedef struct {
     const char *store; /* NULL: in the output directory, "": none */
     const char *sets[USAGE_MAX_SETS];
     int n_sets, threads;
+    int processes;         /* 0: not given */
     int ensemble;          /* 0: not given; is among sets then */
     char ensemble_set[40]; /* its text there */
     double max_walltime;   /* [s], INFINITY: none */
@@ -68,8 +69,7 @@ typedef struct {
     uint64_t given; /* a bit for each option */
 } usage_line;
 
-/* The defaults stand in *out; argv stays, but for `=` signs between option and value.  STATUS_BAD_INPUT says what is
- * wrong. */
+/* The defaults stand in *out, which borrows argv.  STATUS_BAD_INPUT says what is wrong. */
 status usage_parse(int argc, char **argv, usage_line *out);
 
 usage_command usage_command_at(int i); /* of USAGE_COMMANDS_MADE */
