@@ -165,6 +165,8 @@ typedef struct {
     double film_thickness;          /* of that melt, one face [m] */
     double contact_spread;          /* length of the contact over which the current enters, (C-22) [m] */
     double rail_behind_temperature; /* rail surface one contact length behind, estimate (C-17) [K] */
+    double rail_flux;               /* of the contact's heat into one rail's face [W/m^2] */
+    double rail_sheet;              /* current on a metre of that face's height, just exposed [A/m] */
     shot_phase phase;
     shot_ledger ledger;
 } shot_state;

@@ -68,6 +68,8 @@ shot_ledger circuit_shot_ledger_now(const shot *s);
 double circuit_shot_face_temperature(const shot *s, const shot_forces *f);                              /* [K] */
 double circuit_shot_film_thickness(const shot *s, const shot_forces *f, const shot_state *st);          /* [m] */
 double circuit_shot_film_temperature(const shot *s, const shot_forces *f, const shot_state *st);        /* [K] */
+double circuit_shot_rail_flux(const shot *s, const shot_forces *f, const shot_state *st);               /* [W/m^2] */
+double circuit_shot_rail_sheet(const shot *s, const shot_state *st);                                    /* [A/m] */
 double circuit_shot_rail_behind_temperature(const shot *s, const shot_forces *f, const shot_state *st); /* [K] */
 void circuit_shot_limits_start(shot *s);
 void circuit_shot_limits_update(shot *s, const shot_forces *f);

@@ -45,6 +45,16 @@ double circuit_shot_film_temperature(const shot *s, const shot_forces *f, const 
     return a->melting_temperature + 0.5 * q * st->film_thickness / a->thermal_conductivity;
 }
 
+double circuit_shot_rail_flux(const shot *s, const shot_forces *f, const shot_state *st)
+{
+    return st->phase == SHOT_MOVING ? (1.0 - s->model.armature.heat_share) * contact_heat(s, f, st->v) : 0.0;
+}
+
+double circuit_shot_rail_sheet(const shot *s, const shot_state *st)
+{
+    return CURRENT_ON_INNER_FACE * st->current / s->rails.height;
+}
+
 /* Rail surface one contact length l behind the trailing edge, t = l/v (at most the shot's age) after the passage that
  * took as long.  Its share q of the contact's heat: 2 q (sqrt(2 t) - sqrt(t))/sqrt(pi k rho c).  The current, K = P
  * I/height on the surface from the passage on, heats by int rho J^2 dt = mu0 K^2/pi ln(2 t/t): the integral is cut off
@@ -54,10 +64,10 @@ double circuit_shot_rail_behind_temperature(const shot *s, const shot_forces *f,
     const shot_armature *a = &s->model.armature;
     const shot_rails *r = &s->rails;
     if (st->phase != SHOT_MOVING || !(st->v > 0.0)) return s->rail_temperature;
-    const double t = fmin(a->contact_length / st->v, s->t), q = (1.0 - a->heat_share) * contact_heat(s, f, st->v);
+    const double t = fmin(a->contact_length / st->v, s->t), q = circuit_shot_rail_flux(s, f, st);
     const double contact =
         2.0 * q * (sqrt(2.0 * t) - sqrt(t)) / sqrt(PI * r->thermal_conductivity * r->density * r->specific_heat);
-    const double K = CURRENT_ON_INNER_FACE * st->current / r->height;
+    const double K = circuit_shot_rail_sheet(s, st);
     return s->rail_temperature + contact + MU0 * K * K / PI * log(2.0) / (r->density * r->specific_heat);
 }
 

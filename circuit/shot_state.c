@@ -76,6 +76,8 @@ shot_state circuit_shot_now(const shot *s)
     st.film_thickness = circuit_shot_film_thickness(s, &f, &st);
     st.film_temperature = circuit_shot_film_temperature(s, &f, &st);
     st.rail_behind_temperature = circuit_shot_rail_behind_temperature(s, &f, &st);
+    st.rail_flux = circuit_shot_rail_flux(s, &f, &st);
+    st.rail_sheet = circuit_shot_rail_sheet(s, &st);
     st.contact_spread = m->armature.contact_length / circuit_shot_crowding(m, &f, st.v);
     return st;
 }

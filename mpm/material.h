@@ -49,7 +49,10 @@ typedef enum {
     ROW(resistivity_slope, "1/K", 0, -0.1, 0.1, "temperature coefficient of the resistivity")                    \
     ROW(fatigue_A, "1", MATERIAL_FOR_FATIGUE, 1e-30, 1e30, "A of life lost in a cycle, A range^m (L-1)")         \
     ROW(fatigue_m, "1", MATERIAL_FOR_FATIGUE, 0.5, 30.0, "exponent m of the same")                               \
-    ROW(fatigue_limit, "1", 0, 0.0, 0.1, "strain range up to which a cycle takes no life; not given: none")
+    ROW(fatigue_limit, "1", 0, 0.0, 0.1, "strain range up to which a cycle takes no life; not given: none")      \
+    ROW(fatigue_A_spread, "1", 0, 0.0, 5.0,                                                                      \
+        "how well A is known: standard deviation of its natural logarithm, ln 2 = 0.69 for a factor of two")     \
+    ROW(expansion, "1/K", 0, 0.0, 1e-3, "thermal expansion of a length, linear")
 
 /* What a law of strength has for a shear modulus: none, one from E and nu, its own for every point. */
 typedef enum { SHEAR_NONE, SHEAR_FIXED, SHEAR_VARIES } material_shear;

@@ -52,7 +52,7 @@ static void make(rail *r, double density, double median, double spread, double t
     r->c.study.smallest_radius = 1e-4;
     for (int i = 0; i < TRACE; i++) {
         const double f = (double)i / (TRACE - 1);
-        r->trace[i] = (trace_point){ f, LENGTH * f, MUZZLE * f, 0.0 };
+        r->trace[i] = (trace_point){ .t = f, .x = LENGTH * f, .v = MUZZLE * f };
     }
     r->flown.trace = r->trace;
     r->flown.n_trace = TRACE;

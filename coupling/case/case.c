@@ -168,7 +168,7 @@ static status build(case_reader *r, const case_text *text, tree_node **root)
     case_options own = *r->options;
     if ((own.needs & CASE_FOR_SCENE) && host_tree_find(host_tree_find(*root, "scene"), "bodies"))
         own.needs ^= CASE_FOR_SCENE | CASE_FOR_BODIES;
-    own.needs = case_strike_needs(*root, own.needs);
+    own.needs = case_life_needs(*root, case_strike_needs(*root, own.needs));
     r->options = &own;
     return read_tree(r);
 }

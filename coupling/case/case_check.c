@@ -262,7 +262,8 @@ static unsigned material_needs(const case_reader *r, const material_use *use)
     const unsigned wanted = (lasts ? MATERIAL_FOR_FATIGUE : 0) |
                             (shell ? MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE : 0) | (filling ? MATERIAL_FOR_SCENE : 0);
     bool meets = false;
-    if (!(needs & (CASE_FOR_SCENE | CASE_FOR_ONSET))) return wanted;
+    const bool in_scenes = strcmp(use->key, "life.material") != 0; /* what lasts is asked for its life alone */
+    if (!(needs & (CASE_FOR_SCENE | CASE_FOR_ONSET)) || !in_scenes) return wanted;
     for (size_t k = 0; k < sizeof meeting / sizeof meeting[0]; k++)
         meets = meets || ((needs & CASE_FOR_ONSET) && strstr(use->key, meeting[k]));
     return wanted | case_material_needs(r->out->scene.damage, meets);

@@ -49,11 +49,39 @@ static void check_jumps(case_reader *r, const tree_node *map)
             "some length (profile: points), or take state: frictionless");
 }
 
+unsigned case_life_needs(const tree_node *root, unsigned needs)
+{
+    const tree_node *load = host_tree_find(host_tree_find(root, "life"), "load");
+    const bool armature = load && load->kind == TREE_TEXT && strcmp(load->text, "armature") == 0;
+    return (needs & CASE_FOR_LIFE) && armature ? needs | CASE_FOR_SHOT : needs;
+}
+
+/* An armature's load is the shot's. */
+static void check_armature(case_reader *r, const tree_node *map)
+{
+    static const char *const of_wheel[] = {
+        "profile",         "wheel_load", "pressure", "half_length", "half_width", "state",    "friction",
+        "traction_share",  "cycle",      "speed",    "until",       "batch",      "max_cuts", "cells_per_half_length",
+        "grid_half_width", "grid_depth", "points",   NULL
+    };
+    for (int k = 0; of_wheel[k]; k++)
+        if (host_tree_find(map, of_wheel[k]))
+            case_errors_add(r->errors, host_tree_find(map, of_wheel[k]),
+                            "life.%s is that of load: wheel; of load: armature the shot says what it is", of_wheel[k]);
+}
+
 void case_life_check(case_reader *r)
 {
     const case_life *k = &r->out->life;
     const tree_node *map = host_tree_find(r->root, "life");
     if (!r->out->given.life || !map || map->kind != TREE_MAP) return;
+    if (k->load == LIFE_ARMATURE) {
+        check_armature(r, map);
+        return;
+    }
+    const tree_node *length = host_tree_find(map, "half_length");
+    if (isnan(k->half_length) && !is_wrong(length))
+        add(r, length ? length : map, "half_length is missing [m]: half of the patch, along the rail");
     const tree_node *pressure = host_tree_find(map, "pressure"), *wheel = host_tree_find(map, "wheel_load");
     if (isnan(k->pressure) && isnan(k->wheel_load) && !is_wrong(pressure) && !is_wrong(wheel))
         add(r, map, "how large is the load? Give wheel_load [N], or pressure [Pa]");

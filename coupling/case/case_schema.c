@@ -225,6 +225,7 @@ static const param strike_params[] = {
 static const char *const life_profile_names[] = {
     [LIFE_HERTZ] = "hertz", [LIFE_UNIFORM] = "uniform", [LIFE_POINTS] = "points", NULL
 };
+static const char *const life_load_names[] = { [LIFE_WHEEL] = "wheel", [LIFE_ARMATURE] = "armature", NULL };
 static const char *const life_state_names[] = {
     [LIFE_FRICTIONLESS] = "frictionless", [LIFE_STICK_SLIP] = "stick_slip", [LIFE_FULL_SLIP] = "full_slip", NULL
 };
@@ -235,13 +236,21 @@ static const char *const life_until_names[] = { [LIFE_UNTIL_FIRST] = "first", [L
 
 static const param life_params[] = {
     PARAM_STRING(case_life, material, NULL, "the rail's material, with constants of fatigue"),
+    PARAM_ENUM(case_life, load, life_load_names, LIFE_WHEEL,
+               "wheel: the patch below; armature: what the case's shot presses, drags and heats, study.shots times, "
+               "along the barrel"),
+    PARAM_INT(case_life, places, 59, 2, 1000, "of load: armature, evenly along the barrel behind its start"),
+    PARAM_DOUBLE(case_life, rounding, "1", 0.2, 0.02, 1.0,
+                 "of load: armature, the pressure rises over this share of half the contact's length at each end"),
+    PARAM_BOOL(case_life, heat, 1, "of load: armature, the heat of the passage strains the rail too"),
     PARAM_ENUM(case_life, profile, life_profile_names, LIFE_HERTZ,
                "of the pressure over the patch: an ellipse, uniform, or by the list `points`"),
     PARAM_DOUBLE(case_life, wheel_load, "N", OPTIONAL, 1e-3, 1e9,
                  "force on a patch that is an ellipse; not given: `pressure`"),
     PARAM_DOUBLE(case_life, pressure, "Pa", OPTIONAL, 1.0, 1e12,
                  "largest pressure; not given: 3 wheel_load / (2 pi half_length half_width)"),
-    PARAM_DOUBLE(case_life, half_length, "m", REQUIRED, 1e-6, 10.0, "of the patch, along the rail"),
+    PARAM_DOUBLE(case_life, half_length, "m", OPTIONAL, 1e-6, 10.0,
+                 "of the patch, along the rail; load: wheel needs it, an armature has its contact_length"),
     PARAM_DOUBLE(case_life, half_width, "m", OPTIONAL, 1e-6, 10.0, "of the patch, across the rail"),
     PARAM_ENUM(case_life, state, life_state_names, LIFE_FULL_SLIP,
                "frictionless: no traction; full_slip: friction times the pressure; stick_slip: Carter's"),

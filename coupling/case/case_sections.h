@@ -221,6 +221,7 @@ typedef struct {
 } case_strike;
 
 /* A load that comes again and again, and the life of the rail under it (coupling/life). */
+typedef enum { LIFE_WHEEL, LIFE_ARMATURE } life_load;
 typedef enum { LIFE_HERTZ, LIFE_UNIFORM, LIFE_POINTS } life_profile;
 typedef enum { LIFE_FRICTIONLESS, LIFE_STICK_SLIP, LIFE_FULL_SLIP } life_state;
 typedef enum { LIFE_PULSE, LIFE_PASSAGE } life_cycle;
@@ -241,6 +242,10 @@ typedef struct {
 
 typedef struct {
     char material[PARAM_TEXT_SIZE];     /* of the rail */
+    int load;                           /* life_load */
+    int places;                         /* along the barrel, of an armature's load */
+    double rounding;                    /* of its pressure: rises over this share of the half length at each end [1] */
+    bool heat;                          /* of its passage counts */
     int profile;                        /* life_profile */
     double wheel_load;                  /* P on the whole ellipse; NAN: `pressure` is given [N] */
     double pressure;                    /* largest; NAN: of wheel_load [Pa] */

@@ -21,8 +21,11 @@ void gouge_shot_outcome_free(shot_outcome *o)
 /* Between two steps, a share of the way from a to b. */
 static trace_point between(const trace_point *a, const trace_point *b, double share)
 {
-    return (trace_point){ a->t + share * (b->t - a->t), a->x + share * (b->x - a->x), a->v + share * (b->v - a->v),
-                          a->contact_pressure + share * (b->contact_pressure - a->contact_pressure) };
+#define BETWEEN(member) .member = a->member + share * (b->member - a->member)
+    return (trace_point){ BETWEEN(t),        BETWEEN(x),        BETWEEN(v),         BETWEEN(contact_pressure),
+                          BETWEEN(pressure), BETWEEN(friction), BETWEEN(rail_flux), BETWEEN(rail_sheet),
+                          BETWEEN(film_rise) };
+#undef BETWEEN
 }
 
 static bool end_of_trace(const shot_outcome *o, trace_point *at)
@@ -138,7 +141,15 @@ static status keep_trace(recorder *r, const shot_state *s)
         o->trace = more;
         o->trace_room = room;
     }
-    o->trace[o->n_trace++] = (trace_point){ s->t, s->x, s->v, pressure_of(r, s) };
+    o->trace[o->n_trace++] = (trace_point){ .t = s->t,
+                                            .x = s->x,
+                                            .v = s->v,
+                                            .contact_pressure = pressure_of(r, s),
+                                            .pressure = s->contact_pressure,
+                                            .friction = s->friction_coefficient,
+                                            .rail_flux = s->rail_flux,
+                                            .rail_sheet = s->rail_sheet,
+                                            .film_rise = s->film_temperature - s->rail_temperature };
     return status_ok();
 }
 

@@ -27,7 +27,12 @@ typedef struct {
 /* The shot at one accepted step. */
 typedef struct {
     double t, x, v;          /* [s, m, m/s] */
-    double contact_pressure; /* [Pa] */
+    double contact_pressure; /* on gouge_face_area [Pa] */
+    double pressure;         /* on contact_length x contact_width, as the circuit has it [Pa] */
+    double friction;         /* coefficient [1] */
+    double rail_flux;        /* of the contact's heat into one rail's face [W/m^2] */
+    double rail_sheet;       /* current on a metre of that face's height [A/m] */
+    double film_rise;        /* of the armature's face, with its film, over the rail ahead [K] */
 } trace_point;
 
 /* What a gouge takes from the armature at its site. */

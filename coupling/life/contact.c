@@ -71,6 +71,16 @@ status life_contact_load(const case_life *c, contact_load *out)
     return add(out, (contact_piece){ false, -out->half_length, out->half_length, { p, p }, { q, q } });
 }
 
+contact_load life_contact_armature(double half_length, double rounding, double pressure, double friction)
+{
+    const double a = half_length, p = pressure / (1.0 - 0.5 * rounding), q = friction * p, flat = a * (1.0 - rounding);
+    contact_load l = { .n = rounding < 1.0 ? 3 : 2, .half_length = a, .peak = p };
+    l.piece[0] = (contact_piece){ false, -a, -flat, { 0.0, p }, { 0.0, q } };
+    l.piece[l.n - 1] = (contact_piece){ false, flat, a, { p, 0.0 }, { q, 0.0 } };
+    if (l.n == 3) l.piece[1] = (contact_piece){ false, -flat, flat, { p, p }, { q, q } };
+    return l;
+}
+
 /* A piece's value at x by its values at the ends or in the middle. */
 static double value_at(const contact_piece *k, const double value[2], double x)
 {

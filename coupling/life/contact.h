@@ -55,6 +55,10 @@ void life_contact_moving(const contact_load *l, const contact_speed *s, double x
 /* What the section `life` says: profile, pressure, traction. */
 status life_contact_load(const case_life *c, contact_load *out);
 
+/* In full slip under an armature: even but for the ends, where it rises straight over a share `rounding` of the half
+ * length, with the mean `pressure` over the whole length. */
+contact_load life_contact_armature(double half_length, double rounding, double pressure, double friction);
+
 double life_contact_pressure(const contact_load *l, double x); /* [Pa] */
 double life_contact_traction(const contact_load *l, double x); /* [Pa] */
 /* Forces on a metre of the slice: int p dx, int q dx [N/m]. */

@@ -171,8 +171,10 @@ static void free_owned(void *owned)
 const study study_life = {
     .name = "life",
     .doc = "how many load cycles the rail lasts",
-    .more = "Needs the section life.  Writes maps of the rail's index and least life.",
-    .example = "breech life cases/rail_fatigue",
+    .more = "Needs the section life.  Of a wheel's load it writes maps of the rail's index and least life; of an "
+            "armature's (life.load) it needs a shot's sections and answers along the barrel.",
+    .example = "breech life cases/rail_life",
+    .instead = &study_rail_life,
     .needs = CASE_FOR_LIFE,
     .keys = keys,
     .can_vary = true,

@@ -1,0 +1,339 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "coupling/study/rail_life.h"
+
+#include "coupling/gouge/session_shot.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double SAME_FLIGHT = 1.0; /* of the rails' mean temperature, as in repeated.c [K] */
+static const double FIVE_PERCENT = 0.05;
+
+const char *const study_rail_life_cause_names[] = {
+    [RAIL_LIFE_CONTACT] = "contact",       [RAIL_LIFE_HEAT] = "heat",
+    [RAIL_LIFE_ENDLESS] = "none",          [RAIL_LIFE_TOO_FAST] = "faster than Rayleigh waves",
+    [RAIL_LIFE_UNREACHED] = "not reached", NULL
+};
+
+/* All that is flown and what each flight takes. */
+typedef struct {
+    session *s;
+    const case_onset *c;
+    const case_life *life;
+    life_rail rail;
+    double rayleigh;
+    size_t size;   /* of a place's rates */
+    int *flight;   /* of each shot; owned */
+    int flights;   /* flown */
+    double **rate; /* of a flight: n places x size; owned */
+    double *alone; /* of the first: by contact, then by heat, n x size each; owned */
+} work;
+
+void study_rail_life_free(rail_life_result *r)
+{
+    free(r->place);
+    *r = (rail_life_result){ .n = 0 };
+}
+
+static void work_free(work *w)
+{
+    for (int k = 0; w->rate && k < w->flights; k++) free(w->rate[k]);
+    free(w->rate);
+    free(w->flight);
+    free(w->alone);
+}
+
+status study_rail_life_possible(const case_onset *c, const case_life *life, const material *metal)
+{
+    const double length = c->launcher.barrel.length - c->launcher.barrel.start;
+    TRY(mpm_material_check(metal, MATERIAL_FOR_FATIGUE));
+    CHECK(metal->density > 0.0, STATUS_BAD_INPUT, "life.material: %s lacks its density", metal->name);
+    CHECK(!life->heat || !isnan(metal->expansion), STATUS_BAD_INPUT,
+          "life.material: %s lacks its thermal expansion (or set life.heat: no)", metal->name);
+    CHECK(c->launcher.armature.contact_length < length, STATUS_BAD_INPUT,
+          "armature.contact_length = %g m: must be shorter than the armature's way, %g m, for life.load: armature",
+          c->launcher.armature.contact_length, length);
+    return status_ok();
+}
+
+/* ---- what a shot does at a place ---- */
+
+static life_heat_metal heat_metal_of(const case_onset *c)
+{
+    const shot_rails *r = &c->launcher.rails;
+    const double warm = 1.0 + r->resistivity_coefficient * (r->initial_temperature - 293.15);
+    return (life_heat_metal){ .conductivity = r->thermal_conductivity,
+                              .heat_capacity = r->density * r->specific_heat,
+                              .resistivity = r->resistivity * warm };
+}
+
+/* The first place has had the whole contact run over it, the last is the muzzle. */
+static double position_of(const case_onset *c, int k, int n)
+{
+    const double from = c->launcher.barrel.start + c->launcher.armature.contact_length, to = c->launcher.barrel.length;
+    return from + (to - from) * k / (n - 1);
+}
+
+static life_passage passage_of(const work *w, const trace_point *at, double exit)
+{
+    const life_heat_metal metal = heat_metal_of(w->c);
+    const double dwell = w->c->launcher.armature.contact_length / at->v;
+    return (life_passage){ .velocity = at->v,
+                           .pressure = at->pressure,
+                           .friction = at->friction,
+                           .heat = life_heat_of(&metal, dwell, at->rail_flux, at->rail_sheet, at->film_rise),
+                           .until = exit - at->t + dwell };
+}
+
+static void note_place(const work *w, const trace_point *at, const life_passage *p, rail_life_place *out)
+{
+    const life_heat_metal metal = heat_metal_of(w->c);
+    const contact_speed speed = life_contact_speed(w->rail.youngs, w->rail.poisson, w->rail.density, at->v);
+    out->velocity = at->v, out->pressure = at->pressure, out->friction = at->friction;
+    out->moving_factor = life_contact_factor(&speed);
+    out->rise = p->heat.rise;
+    out->flux_rise = life_heat_flux_rise(&metal, p->heat.dwell, at->rail_flux);
+}
+
+/* Rates of one flight at every place; of the first also by each cause alone, and what the places are. */
+static void take_flight(work *w, const shot_outcome *o, double *rate, rail_life_result *r)
+{
+    const double exit = o->n_trace > 0 ? o->trace[o->n_trace - 1].t : 0.0;
+    double *spare = w->alone + 2 * (size_t)r->n * w->size; /* of causes that are not kept */
+    for (int k = 0; k < r->n; k++) {
+        trace_point at;
+        rail_life_place *p = &r->place[k];
+        const bool first = w->flights == 0;
+        if (!gouge_trace_at_place(o, p->position, &at) || !(at.v > 0.0))
+            p->cause = RAIL_LIFE_UNREACHED;
+        else if (at.v >= w->rayleigh)
+            p->cause = RAIL_LIFE_TOO_FAST, p->velocity = at.v;
+        if (p->cause == RAIL_LIFE_UNREACHED || p->cause == RAIL_LIFE_TOO_FAST) continue;
+        const life_passage passage = passage_of(w, &at, exit);
+        double *const causes[LIFE_CAUSES] = { [LIFE_BY_BOTH] = rate + (size_t)k * w->size,
+                                              [LIFE_BY_CONTACT] = first ? w->alone + (size_t)k * w->size : spare,
+                                              [LIFE_BY_HEAT] =
+                                                  first ? w->alone + (size_t)(r->n + k) * w->size : spare };
+        life_along_passage(&w->rail, &passage, causes);
+        if (first) note_place(w, &at, &passage, p);
+    }
+}
+
+/* ---- the shots ---- */
+
+static double mean_of(const double rise[SHOT_PIECES])
+{
+    double sum = 0.0;
+    for (int k = 0; k < SHOT_PIECES; k++) sum += rise[k];
+    return sum / SHOT_PIECES;
+}
+
+static status no_melting(const work *w, int number, const double rise[SHOT_PIECES])
+{
+    const material *rail = case_material(&w->c->impact.materials, w->c->impact.rail.material);
+    if (!rail || isnan(rail->melting_temperature)) return status_ok();
+    for (int k = 0; k < SHOT_PIECES; k++)
+        CHECK(w->c->launcher.rails.initial_temperature + rise[k] < rail->melting_temperature, STATUS_BAD_INPUT,
+              "study.shots: shot %d would find the rail at %.0f K, %s melts at %.0f K; lower study.shots or "
+              "study.heat_kept = %g",
+              number, w->c->launcher.rails.initial_temperature + rise[k], rail->name, rail->melting_temperature,
+              w->c->study.heat_kept);
+    return status_ok();
+}
+
+static status fly(work *w, double warmer, bool with_history, double left[SHOT_PIECES], rail_life_result *r,
+                  shot_record *record)
+{
+    case_flight flight = case_flight_of(w->c);
+    shot_outcome o;
+    shot_record own;
+    flight.launcher.rails.initial_temperature += warmer;
+    status done = gouge_session_shot(w->s, &flight, NULL, with_history, &o, record ? record : &own);
+    double *rate = done.code == STATUS_OK ? calloc((size_t)r->n * w->size, sizeof *rate) : NULL;
+    if (done.code == STATUS_OK && !rate) done = base_status_error(STATUS_MEMORY, "no memory for %d places", r->n);
+    if (done.code == STATUS_OK) {
+        take_flight(w, &o, rate, r);
+        memcpy(left, o.rail_rise, sizeof o.rail_rise);
+        w->rate[w->flights++] = rate;
+    }
+    gouge_shot_outcome_free(&o);
+    return done;
+}
+
+static status fly_all(work *w, bool with_history, rail_life_result *r, shot_record *record)
+{
+    double rise[SHOT_PIECES] = { 0.0 }, left[SHOT_PIECES], flown_at = 0.0;
+    TRY(fly(w, 0.0, with_history, left, r, record));
+    w->flight[0] = 0;
+    for (int n = 1; n < r->shots; n++) {
+        for (int k = 0; k < SHOT_PIECES; k++) rise[k] = w->c->study.heat_kept * (rise[k] + left[k]);
+        TRY(no_melting(w, n + 1, rise));
+        if (fabs(mean_of(rise) - flown_at) >= SAME_FLIGHT) {
+            flown_at = mean_of(rise);
+            TRY(fly(w, flown_at, false, left, r, NULL));
+        }
+        w->flight[n] = w->flights - 1;
+    }
+    r->flights = w->flights;
+    return status_ok();
+}
+
+/* ---- lives ---- */
+
+static double finite_or_nan(double x)
+{
+    return isfinite(x) ? x : NAN;
+}
+
+static double largest_of(const double *rate, int n)
+{
+    double most = 0.0;
+    for (int k = 0; k < n; k++) most = fmax(most, rate[k]);
+    return most;
+}
+
+static life_place lives_at(const work *w, const double *const *of, int shots, const int *flight, double factor)
+{
+    const life_shots all = { .shots = shots, .flight = flight, .rate = of };
+    return life_along_place(&w->rail, &all, factor);
+}
+
+static void judge_place(const work *w, int k, const double **of, double spread, rail_life_result *r)
+{
+    static const int alike = 0;
+    rail_life_place *p = &r->place[k];
+    if (p->cause == RAIL_LIFE_UNREACHED || p->cause == RAIL_LIFE_TOO_FAST) return;
+    for (int n = 0; n < w->flights; n++) of[n] = w->rate[n] + (size_t)k * w->size;
+    const double *contact = w->alone + (size_t)k * w->size, *heat = w->alone + (size_t)(r->n + k) * w->size;
+    const life_place is = lives_at(w, of, r->shots, w->flight, 1.0);
+    const life_place cold = lives_at(w, &contact, 1, &alike, 1.0);
+    const size_t depth = (size_t)is.depth_number * (size_t)w->rail.fan.n;
+    p->life = finite_or_nan(is.life), p->first = finite_or_nan(is.first);
+    p->without_heat = finite_or_nan(cold.life), p->depth_without_heat = cold.depth;
+    p->depth = is.depth, p->angle = is.angle;
+    p->cause = RAIL_LIFE_ENDLESS;
+    if (isnan(p->life)) return;
+    const double by_contact = largest_of(contact + depth, w->rail.fan.n),
+                 by_heat = largest_of(heat + depth, w->rail.fan.n);
+    p->cause = by_heat > by_contact ? RAIL_LIFE_HEAT : RAIL_LIFE_CONTACT;
+    p->range = pow(largest_of(of[0] + depth, w->rail.fan.n) / w->rail.law.A, 1.0 / w->rail.law.m);
+    for (int q = 0; q < 2 && !isnan(spread); q++) {
+        const double factor = exp((q ? -1.0 : 1.0) * gsl_cdf_ugaussian_Qinv(FIVE_PERCENT) * spread);
+        p->interval[q] = lives_at(w, of, r->shots, w->flight, factor).life;
+    }
+    /* cracked after these shots: where A times its unknown factor spends as much as A times `spent` = 1 would */
+    if (!isnan(spread) && spread > 0.0)
+        r->probability = fmax(r->probability, is.spent > 0.0 ? gsl_cdf_ugaussian_P(log(is.spent) / spread) : 0.0);
+}
+
+static void choose_weakest(rail_life_result *r)
+{
+    const rail_life_place *weakest = NULL, *cold = NULL;
+    for (int k = 0; k < r->n; k++) {
+        const rail_life_place *p = &r->place[k];
+        if (p->cause == RAIL_LIFE_TOO_FAST && isnan(r->rayleigh_position)) r->rayleigh_position = p->position;
+        r->film_limited += p->flux_rise > p->rise;
+        if (!isnan(p->without_heat) && (!cold || p->without_heat < cold->without_heat)) cold = p;
+        if (isnan(p->life)) continue;
+        r->depths[0] = fmin(p->depth, isnan(r->depths[0]) ? INFINITY : r->depths[0]);
+        r->depths[1] = fmax(p->depth, isnan(r->depths[1]) ? 0.0 : r->depths[1]);
+        if (!weakest || p->life < weakest->life) weakest = p;
+    }
+    if (cold)
+        r->without_heat = cold->without_heat, r->without_heat_position = cold->position,
+        r->without_heat_depth = cold->depth_without_heat;
+    if (!weakest) return;
+    r->life = weakest->life, r->first = weakest->first, r->position = weakest->position;
+    r->depth = weakest->depth, r->angle = weakest->angle, r->range = weakest->range, r->cause = weakest->cause;
+    const double quantiles[3] = { weakest->interval[0], isnan(weakest->interval[0]) ? NAN : weakest->life,
+                                  weakest->interval[1] };
+    memcpy(r->quantiles, quantiles, sizeof quantiles);
+}
+
+/* ---- the whole ---- */
+
+static void begin(rail_life_result *r)
+{
+    *r = (rail_life_result){ .life = NAN,
+                             .quantiles = { NAN, NAN, NAN },
+                             .first = NAN,
+                             .position = NAN,
+                             .depth = NAN,
+                             .angle = NAN,
+                             .range = NAN,
+                             .cause = RAIL_LIFE_ENDLESS,
+                             .depths = { NAN, NAN },
+                             .without_heat = NAN,
+                             .without_heat_position = NAN,
+                             .without_heat_depth = NAN,
+                             .probability = NAN,
+                             .rayleigh_position = NAN };
+}
+
+static status make_room(work *w, rail_life_result *r)
+{
+    const size_t n = (size_t)r->n, shots = (size_t)r->shots;
+    r->place = calloc(n, sizeof *r->place);
+    w->flight = calloc(shots, sizeof *w->flight);
+    w->rate = calloc(shots, sizeof *w->rate);
+    w->alone = calloc((2 * n + 1) * w->size, sizeof *w->alone);
+    CHECK(r->place && w->flight && w->rate && w->alone, STATUS_MEMORY, "no memory for %d places and %d shots", r->n,
+          r->shots);
+    for (int k = 0; k < r->n; k++)
+        r->place[k] = (rail_life_place){ .position = position_of(w->c, k, r->n),
+                                         .velocity = NAN,
+                                         .pressure = NAN,
+                                         .friction = NAN,
+                                         .moving_factor = NAN,
+                                         .rise = NAN,
+                                         .flux_rise = NAN,
+                                         .life = NAN,
+                                         .interval = { NAN, NAN },
+                                         .first = NAN,
+                                         .depth = NAN,
+                                         .angle = NAN,
+                                         .range = NAN,
+                                         .without_heat = NAN,
+                                         .depth_without_heat = NAN };
+    return status_ok();
+}
+
+static status judge(const work *w, double spread, rail_life_result *r)
+{
+    const double **of = malloc((size_t)w->flights * sizeof *of);
+    CHECK(of, STATUS_MEMORY, "no memory for %d flights", w->flights);
+    for (int k = 0; k < r->n; k++) judge_place(w, k, of, spread, r);
+    free(of);
+    choose_weakest(r);
+    return status_ok();
+}
+
+status study_rail_life_run(session *s, const case_onset *c, const case_life *life, const material *metal,
+                           bool with_history, rail_life_result *out, shot_record *record)
+{
+    const double since = host_wall_clock();
+    work w = { .s = s, .c = c, .life = life };
+    begin(out);
+    w.rail = (life_rail){ .youngs = metal->youngs_modulus,
+                          .poisson = metal->poisson,
+                          .density = metal->density,
+                          .expansion = life->heat ? metal->expansion : NAN,
+                          .law = mpm_fatigue_law(metal),
+                          .fan = life->fan == LIFE_LATTICE ? mpm_fatigue_fan_lattice()
+                                                           : mpm_fatigue_fan_even(life->directions),
+                          .measure = life->measure,
+                          .limit = life->limit_index,
+                          .half_length = 0.5 * c->launcher.armature.contact_length,
+                          .rounding = life->rounding };
+    w.rayleigh = out->rayleigh_speed = life_contact_rayleigh(w.rail.youngs, w.rail.poisson, w.rail.density);
+    w.size = (size_t)LIFE_DEPTHS * (size_t)w.rail.fan.n;
+    out->n = life->places, out->shots = c->study.shots;
+    status done = make_room(&w, out);
+    if (done.code == STATUS_OK) done = fly_all(&w, with_history, out, record);
+    if (done.code == STATUS_OK) done = judge(&w, metal->fatigue_A_spread, out);
+    work_free(&w);
+    out->wall_seconds = host_wall_clock() - since;
+    return done;
+}
