@@ -218,6 +218,18 @@ static void test_classes(void **state)
     cJSON_Delete(rebound), cJSON_Delete(bulged), cJSON_Delete(pierced);
 }
 
+/* A hole of four columns in the whole plate is one in the quarter's corner: it counts as a hole of the whole. */
+static void test_hole(void **state)
+{
+    (void)state;
+    cJSON *torn = struck("torn", HEAD(", plate: plate", "7 us") BODIES("hard", "no, shape: {box: {lo: 0"),
+                         "--set scene.bodies[0].shape='{minus: [{box: {lo: 0 -5 -5 mm, hi: 2 5 5 mm}}, {box: {lo: -1 "
+                         "-0.6 -0.6 mm, hi: 3 0.6 0.6 mm}}]}'");
+    assert_true(fabs(number(torn, "hole_diameter") / sqrt(4.0 * 1e-6 / PI) - 1.0) < 1e-9);
+    assert_text(torn, "class", "torn");
+    cJSON_Delete(torn);
+}
+
 /* The half model and the quarter of it are the same whole: every answer, to the rounding that grows in 200 steps. */
 static void test_parts(void **state)
 {
@@ -417,10 +429,10 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flight),      cmocka_unit_test(test_package), cmocka_unit_test(test_class),
-        cmocka_unit_test(test_scene),       cmocka_unit_test(test_classes), cmocka_unit_test(test_parts),
-        cmocka_unit_test(test_recht_ipson), cmocka_unit_test(test_limit),   cmocka_unit_test(test_from_shot),
-        cmocka_unit_test(test_refused),     cmocka_unit_test(test_water),
+        cmocka_unit_test(test_flight),    cmocka_unit_test(test_package),     cmocka_unit_test(test_class),
+        cmocka_unit_test(test_scene),     cmocka_unit_test(test_classes),     cmocka_unit_test(test_hole),
+        cmocka_unit_test(test_parts),     cmocka_unit_test(test_recht_ipson), cmocka_unit_test(test_limit),
+        cmocka_unit_test(test_from_shot), cmocka_unit_test(test_refused),     cmocka_unit_test(test_water),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

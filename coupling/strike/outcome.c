@@ -9,7 +9,7 @@ static const double AT_REST = 0.02; /* of the arrival velocity: slower is no mot
 static const double CLEAR = 1e-3;   /* of the projectile's mass: less in its way does not hold it */
 static const double LATE = 0.1;     /* of the scene's time: its last part */
 static const double STEADY = 0.1;   /* of its speed: it changes by less in that part once nothing holds it */
-enum { LEAST_COLUMNS = 4 };         /* of the plate's map that make a hole */
+enum { LEAST_COLUMNS = 4 };         /* of the whole plate's map that make a hole: one of a quarter at its corner */
 
 const char *const strike_class_names[] = { [STRIKE_REBOUND] = "rebound",
                                            [STRIKE_STOPPED] = "stopped",
@@ -201,7 +201,7 @@ static status read_plate(history *h, const char *scene, const strike_projectile 
     const double one = p->parts * area / (double)dims[1];
     state->plate = true;
     state->hole = open * one;
-    state->least_hole = LEAST_COLUMNS * one;
+    state->least_hole = LEAST_COLUMNS * one / p->parts;
     out->hole_diameter = sqrt(4.0 * state->hole / 3.14159265358979323846);
     return status_ok();
 }
