@@ -71,6 +71,24 @@ static void test_table(void **state)
     assert_int_equal(rows, 7);
 }
 
+/* A projectile on water: 1 % of the published device's table, which is rounded to three digits. */
+static void test_on_water(void **state)
+{
+    (void)state;
+    const double speed[] = { 100, 500, 1000, 1933 };
+    const double want[2][4] = { { 148e6, 1000e6, 2560e6, 6680e6 }, { 159e6, 1117e6, 2980e6, 8200e6 } };
+    const material water = with_hugoniot("water", 1000, 1480, 1.92);
+    const material metal[] = { by_name("al7075_t651"), with_hugoniot("steel", 7850, 4570, 1.5) };
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < 4; i++) {
+            double p, u;
+            assert_int_equal(mpm_impedance_match(&metal[k], &water, speed[i], &p, &u).code, STATUS_OK);
+            print_message("%s on water at %g m/s: %.4g MPa (%.4g)\n", metal[k].name, speed[i], 1e-6 * p,
+                          1e-6 * want[k][i]);
+            assert_near(p / want[k][i], 1, 0.01);
+        }
+}
+
 /* Both Hugoniots give the same p at the same interface velocity, for any pair; a material on itself takes half the
  * speed; swapping the pair swaps the velocities.  Tolerance: rounding of a few operations. */
 static void test_laws(void **state)
@@ -291,9 +309,9 @@ static void test_param_table(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_table),    cmocka_unit_test(test_laws),        cmocka_unit_test(test_match_refuses),
-        cmocka_unit_test(test_needs),    cmocka_unit_test(test_derived),     cmocka_unit_test(test_every_constant),
-        cmocka_unit_test(test_laws_ask), cmocka_unit_test(test_param_table),
+        cmocka_unit_test(test_table),          cmocka_unit_test(test_on_water), cmocka_unit_test(test_laws),
+        cmocka_unit_test(test_match_refuses),  cmocka_unit_test(test_needs),    cmocka_unit_test(test_derived),
+        cmocka_unit_test(test_every_constant), cmocka_unit_test(test_laws_ask), cmocka_unit_test(test_param_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

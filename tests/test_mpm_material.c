@@ -616,6 +616,22 @@ static void test_damage_extended(void **state)
     assert_true(p.q.ep[0][0] > fails);
 }
 
+/* With the values that the extended law takes where its keys are left out it is the plain law, to the bit. */
+static void test_damage_plain(void **state)
+{
+    (void)state;
+    const double rate = 1e5, L[9] = { 0, rate, 0, 0, 0.1 * rate, 0, 0, 0, 0 };
+    material m = scene_copper();
+    m.damage_D1 = 0.2, m.damage_D2 = 0.3;
+    specimen plain = specimen_of(m, 0, 0, true);
+    m.damage_threshold = 0, m.damage_critical = 1, m.damage_softening = 0;
+    specimen extended = specimen_of(m, 0, 0, true);
+    for (int i = 0; i < 200; i++) strain(&plain, L, 1e-8), strain(&extended, L, 1e-8);
+    assert_true(plain.q.damage[0][0] > 0 && plain.q.ep[0][0] > 0);
+    assert_true(plain.q.damage[0][0] == extended.q.damage[0][0] && plain.q.ep[0][0] == extended.q.ep[0][0]);
+    assert_true(plain.q.p[0][0] == extended.q.p[0][0] && mises_of(&plain) == mises_of(&extended));
+}
+
 /* Growth of damage by a strain of 0.01 at this triaxiality gives the strain of fracture. */
 static double fracture_strain(const law *k, double triaxiality)
 {
@@ -902,6 +918,7 @@ int main(void)
         cmocka_unit_test(test_viscosity),
         cmocka_unit_test(test_damage),
         cmocka_unit_test(test_damage_extended),
+        cmocka_unit_test(test_damage_plain),
         cmocka_unit_test(test_mts),
         cmocka_unit_test(test_mts_bound),
         cmocka_unit_test(test_cold_work),

@@ -111,6 +111,44 @@ static void test_wall(void **state)
     mpm_tube_free(through), mpm_tube_free(against);
 }
 
+/* U17: of a gauge 0.1 m before a wall at 1.3 m: when half its first peak is there, how much later the pressure rises
+ * again, and both peaks.  The front's way at us = c0 + s u with u of U8's formula: time 1 %.  What comes back meets
+ * water that moves on at u: c + s u - u, 2 %. */
+static void test_gauge(void **state)
+{
+    (void)state;
+    if (!scene_full()) return;
+    const material m = water();
+    const double v0 = 22.94, length = 1.3, gauge = 1.2, theta = MASS / (RHO0 * C0), p0 = RHO0 * (C0 + SLOPE * v0) * v0;
+    double front = 0, between = 0, before = 0, peak[2] = { 0, 0 }, at[2] = { 0, 0 };
+    for (int i = 0; i < 1300; i++) {
+        const double x = 1e-3 * (i + 0.5), S = 2 * SLOPE * p0 * x / (RHO0 * C0 * C0 * C0 * theta);
+        const double u = v0 * 2 / (1 + sqrt(1 + 2 * S)), us = C0 + SLOPE * u;
+        if (x < gauge) front += 1e-3 / us;
+        if (x > gauge) between += 1e-3 / us + 1e-3 / (us - u);
+    }
+    mpm_tube *t = tube(&m, v0, length, TUBE_WALL, 0, 1300);
+    while (mpm_tube_now(t).time < front + between + 20e-6) {
+        mpm_tube_step(t);
+        const double p = mpm_tube_pressure(t, gauge), now = mpm_tube_now(t).time;
+        const int k = now > front + 0.5 * between;
+        if (at[k] == 0 && p > (k ? before + 0.5 * peak[0] : 0.35 * p0)) at[k] = now;
+        peak[k] = fmax(peak[k], p);
+        before = k ? before : p;
+        if (k && at[1] == 0) before = fmin(before, p);
+    }
+    const double S = 2 * SLOPE * p0 * gauge / (RHO0 * C0 * C0 * C0 * theta), want = p0 * 2 / (1 + sqrt(1 + 2 * S));
+    print_message(
+        "gauge: front after %.1f us (%.1f), %.2f MPa (%.2f); back %.1f us later (%.1f), %.2f MPa, %.3f fold\n",
+        1e6 * at[0], 1e6 * front, 1e-6 * peak[0], 1e-6 * want, 1e6 * (at[1] - at[0]), 1e6 * between, 1e-6 * peak[1],
+        peak[1] / peak[0]);
+    assert_near(at[0] / front, 1, 0.01);
+    assert_near(peak[0] / want, 1, 0.03);
+    assert_near((at[1] - at[0]) / between, 1, 0.02);
+    assert_books(t);
+    mpm_tube_free(t);
+}
+
 typedef struct {
     double v0, plate;           /* [m/s, kg/m2] */
     double incident, way, from; /* [Pa], way of the plate [m] so long after the arrival [s] */
@@ -207,8 +245,9 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_piston), cmocka_unit_test(test_wears_off), cmocka_unit_test(test_wall),
-        cmocka_unit_test(test_taylor), cmocka_unit_test(test_plates),    cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_piston),  cmocka_unit_test(test_wears_off), cmocka_unit_test(test_wall),
+        cmocka_unit_test(test_gauge),   cmocka_unit_test(test_taylor),    cmocka_unit_test(test_plates),
+        cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
