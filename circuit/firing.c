@@ -200,9 +200,23 @@ static status minimise(search *q, gsl_multimin_fminimizer *simplex, gsl_vector *
     return q->failed;
 }
 
+/* No time can move: the charges alone. */
+static status charge_alone(search *q)
+{
+    q->out->before = stored_energy(q);
+    q->out->after = measure(NULL, q);
+    TRY(q->failed);
+    CHECK(q->out->after < 1e299, STATUS_NUMERICAL, "no charge within %g .. %g times the given one reaches %g m/s",
+          CHARGE_LIMITS[0], CHARGE_LIMITS[1], q->wish.muzzle_velocity);
+    q->out->charge_scale = q->scale;
+    q->out->stored_energy = stored_energy(q);
+    return status_ok();
+}
+
 static status search_run(search *q)
 {
     const size_t n = (size_t)q->n_moved;
+    if (n == 0) return charge_alone(q);
     gsl_multimin_fminimizer *simplex = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, n);
     gsl_vector *times = gsl_vector_alloc(n), *steps = gsl_vector_alloc(n);
     const status done = simplex && times && steps
@@ -212,6 +226,15 @@ static status search_run(search *q)
     gsl_vector_free(times);
     gsl_vector_free(steps);
     return done;
+}
+
+static bool some_fires(const shot_config *c)
+{
+    const supply_list *bank = &c->supplies[SUPPLY_capacitor];
+    const shot_module *modules = bank->item;
+    for (int k = 0; k < bank->n; k++)
+        if (modules[k].fire_at <= c->options.max_time && modules[k].charge > 0.0) return true;
+    return false;
 }
 
 /* Which groups are moved: all that fire at the breech but the first to fire.  moved: [n] of room, or NULL; how many. */
@@ -237,8 +260,10 @@ static int choose_moved(const shot_config *c, int *moved)
 status circuit_firing_check(const shot_config *c, const firing_wish *wish)
 {
     TRY(base_params_check(circuit_firing_wish_params, wish, "optimise"));
-    CHECK(choose_moved(c, NULL) > 0, STATUS_BAD_INPUT,
-          "optimise: needs at least two capacitor groups that fire at the breech");
+    CHECK(wish->goal != FIRING_FLAT || choose_moved(c, NULL) > 0, STATUS_BAD_INPUT,
+          "optimise: goal flat needs at least two capacitor groups that fire at the breech");
+    CHECK(wish->goal != FIRING_VELOCITY || some_fires(c), STATUS_BAD_INPUT,
+          "optimise: goal velocity needs a charged capacitor group that fires (bank)");
     CHECK(wish->goal != FIRING_FLAT || !isnan(wish->peak_current), STATUS_BAD_INPUT,
           "optimise.peak_current is missing [A]: goal flat needs it");
     CHECK(wish->goal != FIRING_VELOCITY || !isnan(wish->muzzle_velocity), STATUS_BAD_INPUT,

@@ -2,7 +2,8 @@
 /* Looks for firing times of a bank that meet a goal, by a simplex search (Nelder and Mead's, of GSL).
  *
  * The search moves the firing times of all capacitor groups that fire and join at the breech, except the first.  For
- * the goal `velocity` it also scales all charges by one factor.  The rails' ladder is fitted once.  A simplex search
+ * the goal `velocity` it also scales all charges by one factor, and that alone where no time can move.  The rails'
+ * ladder is fitted once.  A simplex search
  * finds a local minimum near its start, not the global one. */
 #ifndef BREECH_CIRCUIT_FIRING_H
 #define BREECH_CIRCUIT_FIRING_H
@@ -37,7 +38,7 @@ typedef struct {
     int evaluations, shots; /* of the objective; shots that were run for them */
 } firing_result;
 
-/* STATUS_BAD_INPUT: no group's time can move, or the goal's number is missing. */
+/* STATUS_BAD_INPUT: no group's time can move (flat), none fires (velocity), or the goal's number is missing. */
 status circuit_firing_check(const shot_config *c, const firing_wish *wish);
 
 /* Times and charges are written into `modules`, a copy of the configuration's capacitor groups that the caller owns.

@@ -84,6 +84,33 @@ static void velocity_at_least_energy(void **state)
     assert_true(r.after < r.before && r.stored_energy == r.after);
 }
 
+/* One group has no time to move: its charge alone is found, and the same from twice the charge. */
+static void charge_of_one_group(void **state)
+{
+    (void)state;
+    shot_module m[GROUPS], found[GROUPS];
+    firing_result r;
+    shot_config c = three_groups(m);
+    c.supplies[SUPPLY_capacitor].n = 1;
+    firing_wish w = wish_of(FIRING_VELOCITY);
+    w.muzzle_velocity = 500.0;
+    double charge[2];
+    for (int k = 0; k < 2; k++) {
+        assert_ok(circuit_firing_optimise(&c, &w, NULL, found, &r));
+        charge[k] = found[0].charge;
+        assert_true(fabs(shoot(c, found).muzzle_velocity / 500.0 - 1.0) < 2e-5);
+        assert_true(r.stored_energy == r.after && fabs(r.charge_scale * m[0].charge / charge[k] - 1.0) < 1e-12);
+        assert_true(fabs(r.after / r.before / (r.charge_scale * r.charge_scale) - 1.0) < 1e-12);
+        m[0].charge *= 2.0;
+    }
+    print_message("500 m/s: %.2f V, from twice the charge %.2f V\n", charge[0], charge[1]);
+    assert_true(fabs(charge[1] / charge[0] - 1.0) < 2e-5);
+    w.goal = FIRING_FLAT, w.peak_current = 5e5;
+    assert_int_equal(circuit_firing_optimise(&c, &w, NULL, found, &r).code, STATUS_BAD_INPUT);
+    m[0].charge = 0.0, w.goal = FIRING_VELOCITY;
+    assert_int_equal(circuit_firing_optimise(&c, &w, NULL, found, &r).code, STATUS_BAD_INPUT);
+}
+
 static bool at_once(void)
 {
     return true;
@@ -103,7 +130,7 @@ static void refusals(void **state)
     w.muzzle_velocity = 5e4;
     assert_int_equal(circuit_firing_optimise(&c, &w, NULL, found, &r).code, STATUS_NUMERICAL);
     c.supplies[SUPPLY_capacitor].n = 1;
-    assert_int_equal(circuit_firing_optimise(&c, &w, NULL, found, &r).code, STATUS_BAD_INPUT);
+    assert_int_equal(circuit_firing_optimise(&c, &w, NULL, found, &r).code, STATUS_NUMERICAL);
 }
 
 int main(void)
@@ -111,6 +138,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flat_below_a_peak),
         cmocka_unit_test(velocity_at_least_energy),
+        cmocka_unit_test(charge_of_one_group),
         cmocka_unit_test(refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
