@@ -27,6 +27,7 @@ import part_laws
 import part_levels
 import part_pairs
 import part_strength
+import part_water
 import part_wu2017
 from runs import Runs
 
@@ -40,6 +41,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "criterion-steel": ("docs/validation/criterion.md", part_criterion.steel, 13, False),
     "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
     "lattice": ("docs/validation/lattice.md", part_lattice.through, 8, False),
+    "water": ("docs/validation/water.md", part_water.water, 12, False),
     "fatigue": ("docs/validation/fatigue.md", part_fatigue.wheel, 3, True),
     "gel": ("docs/validation/gel.md", part_gel.droplet, 6, False),
     "four-cells": ("docs/validation/growth.md", part_growth.four_cells, 16, False),
