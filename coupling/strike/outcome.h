@@ -9,8 +9,8 @@
  *               held, would slow it down
  *   unfinished  else, if it never met the target, if u > v0 / 50, or if its speed changed by more than v0 / 50 in the
  *               last tenth of the scene: a longer scene decides
- *   torn        else, with strike.plate: holes in the whole plate, of the area of four columns of its map at least (each
- *               two cells wide)
+ *   torn        else, with strike.plate: holes in the whole plate, of the area of four columns of its map (each two
+ *               cells wide)
  *   bulged      else, with strike.plate
  *   rebound     else, u < -v0 / 50
  *   stopped     else
