@@ -292,7 +292,7 @@ static status print_check(const case_inputs *in, int threads)
     if (c->sites.n > 0 || c->populations.n > 0)
         printf("onset: %d sites, %d populations, at most %d scenes%s\n", c->sites.n, c->populations.n,
                c->study.max_scenes, whole);
-    if (in->treatments.n > 0)
+    if (in->treatments.n > 0 && c->sites.n + c->populations.n > 0)
         printf("compare: %d surfaces, at most %d scenes each\n", in->treatments.n + 1, c->study.max_scenes);
     print_random(c);
     return status_ok();

@@ -347,7 +347,7 @@ static status run_compare(breech_case *c, const char *dir, compare_answer *out)
     const case_inputs in = case_inputs_of(c);
     open_anew(&in, dir, &s);
     scenes = 0;
-    const status done = study_compare_run(&s, &in.onset, &in.treatments, out);
+    const status done = study_compare_run(&s, &in.onset, &in.treatments, NULL, out);
     OK(run_session_close(&s, done.code == STATUS_OK));
     return done;
 }

@@ -158,7 +158,8 @@ static void test_signs(void **state)
     passed(&r, &p, &warm);
     assert_true(range_of(&r, warm.of[LIFE_BY_HEAT], 0, 0) == 0.0); /* compressed along the face, stretched across */
     assert_true(near(range_of(&r, warm.of[LIFE_BY_HEAT], 0, 2), 17e-6 * p.heat.rise * 0.68 / 0.66, 1e-9));
-    assert_true(range_of(&r, warm.of[0], 0, 0) < range_of(&r, rough.of[0], 0, 0));
+    /* where the drag stretches most the contact has been and has left its heat; ahead of it nothing is warm */
+    assert_true(range_of(&r, warm.of[0], 0, 0) < 0.5 * range_of(&r, rough.of[0], 0, 0));
 }
 
 /* The range of heat alone: of the face expansion times rise; deeper less, but more than the contact's where the current
@@ -205,7 +206,8 @@ static void test_shots(void **state)
 
 /* ---- the program ---- */
 
-#define FEW " --quiet --threads 1 --set life.places=3 --set output.report=no --set rail.level=skin "
+#define FEW \
+    " --quiet --threads 1 --set life.places=3 --set output.report=no --set rail.level=skin --set options.rtol=1e-4 "
 
 static void refused(const char *what, const char *words)
 {
@@ -292,13 +294,47 @@ static void test_options(void **state)
     cJSON_Delete(s);
 }
 
+/* ---- surfaces ---- */
+
+#define TREATED                                                                                               \
+    " --set 'treatments=[{name: plated, coating: [{material: copper_assumed, thickness: 0.5 mm}]}, "          \
+    "{name: warm, preheat: {temperature: 450 K}}, {name: steel, coating: [{material: steel_4340, thickness: " \
+    "0.5 mm}]}]' "
+
+/* A warm rail is warmed less by the film and lasts longer; a layer of the metal that the case's life is of is the rail
+ * as it is, tied; a metal without constants is not judged and comes last. */
+static void test_surfaces(void **state)
+{
+    (void)state;
+    fresh_folder("surfaces");
+    assert_int_equal(run("compare " CASE " -o surfaces/out" FEW TREATED), 0);
+    cJSON *s = summary_of("surfaces/out");
+    assert_text(s, "kind", "compare_life");
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(s, "ranking");
+    static const char *const order[] = { "warm", "untreated", "plated", "steel" };
+    static const double tied[] = { 1.0, 2.0, 2.0, 4.0 };
+    assert_int_equal(cJSON_GetArraySize(list), 4);
+    for (int k = 0; k < 4; k++) {
+        assert_text(cJSON_GetArrayItem(list, k), "surface", order[k]);
+        assert_true(number(cJSON_GetArrayItem(list, k), "tied") == tied[k]);
+    }
+    const cJSON *warm = cJSON_GetArrayItem(list, 0), *plain = cJSON_GetArrayItem(list, 1);
+    assert_true(number(warm, "better_than_next") == 1.0 && number(plain, "better_than_next") == 0.5);
+    assert_true(number(warm, "life") > 1.5 * number(plain, "life"));
+    assert_true(isnan(number(cJSON_GetArrayItem(list, 3), "life")));
+    assert_non_null(
+        strstr(cJSON_GetObjectItemCaseSensitive(cJSON_GetArrayItem(list, 3), "lacks")->valuestring, "fatigue_A"));
+    cJSON_Delete(s);
+    assert_int_equal(run("compare " CASE " -o surfaces/none" FEW), 2); /* no treatments */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_contact_heat), cmocka_unit_test(test_current_heat), cmocka_unit_test(test_heat_strain),
         cmocka_unit_test(test_load),         cmocka_unit_test(test_moving_load),  cmocka_unit_test(test_signs),
         cmocka_unit_test(test_heat_alone),   cmocka_unit_test(test_shots),        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_program),      cmocka_unit_test(test_options),
+        cmocka_unit_test(test_program),      cmocka_unit_test(test_options),      cmocka_unit_test(test_surfaces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,11 +49,20 @@ static void check_jumps(case_reader *r, const tree_node *map)
             "some length (profile: points), or take state: frictionless");
 }
 
+static bool has_entries(const tree_node *root, const char *list)
+{
+    const tree_node *node = host_tree_find(root, list);
+    return node && !host_tree_is_empty(node) && !(node->kind == TREE_LIST && node->n == 0);
+}
+
 unsigned case_life_needs(const tree_node *root, unsigned needs)
 {
     const tree_node *load = host_tree_find(host_tree_find(root, "life"), "load");
     const bool armature = load && load->kind == TREE_TEXT && strcmp(load->text, "armature") == 0;
-    return (needs & CASE_FOR_LIFE) && armature ? needs | CASE_FOR_SHOT : needs;
+    if (!armature || !(needs & (CASE_FOR_LIFE | CASE_FOR_COMPARE))) return needs;
+    if ((needs & CASE_FOR_COMPARE) && !has_entries(root, "sites") && !has_entries(root, "populations"))
+        needs &= ~(unsigned)CASE_FOR_ONSET; /* ranked by life alone */
+    return needs | CASE_FOR_LIFE | CASE_FOR_SHOT;
 }
 
 /* An armature's load is the shot's. */

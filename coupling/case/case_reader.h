@@ -90,7 +90,7 @@ void case_check_whole(case_reader *r);
 unsigned case_strike_needs(const tree_node *root, unsigned needs);
 /* The bodies that `strike` names, what its flight needs. */
 void case_strike_check(case_reader *r);
-/* The same of `breech life` under an armature. */
+/* The same of `breech life` under an armature; of `breech compare` by its life, which may do without grains. */
 unsigned case_life_needs(const tree_node *root, unsigned needs);
 /* The load of `life`: where one key asks for another. */
 void case_life_check(case_reader *r);

@@ -262,6 +262,7 @@ static const page_column ranking_columns[] = {
     { "better_than_next", "better than the next", 0.01, "%", NULL },
     { "significant", "that is significant", 1.0, "", NULL },
     { "gouged_volume", "gouged volume", 1e-9, "mm\302\263", "gouged_volume_interval" },
+    { "life", "shots until a crack", 1.0, "", NULL },
     { "layer", "its layers", 1.0, "", NULL },
     { "layer_failed", "of them failed", 0.01, "%", NULL },
     { "scenes", "scenes", 1.0, "", NULL } };

@@ -20,6 +20,7 @@ void study_compare_answer_free(compare_answer *a)
         case_treated_free(&a->treated[i]);
     }
     study_mc_free(&a->drawn);
+    study_life_compare_free(&a->life);
     free(a->treated);
     free(a->answer);
     free(a->entry);
@@ -172,6 +173,15 @@ static int own_scenes(const compare_answer *a, int surface)
     return n;
 }
 
+/* NULL: not asked for. */
+static void fill_life(const life_entry *of, compare_entry *e)
+{
+    static const double unknown[3] = { NAN, NAN, NAN };
+    e->life = of ? of->is.life : NAN;
+    memcpy(e->life_quantiles, of ? of->is.quantiles : unknown, sizeof e->life_quantiles);
+    e->life_rank = of ? of->tied : 0;
+}
+
 static void fill_entry(const case_treatments *treatments, const compare_answer *a, int i, compare_entry *e)
 {
     const onset_result *r = &a->answer[i].result;
@@ -191,6 +201,7 @@ static void fill_entry(const case_treatments *treatments, const compare_answer *
     memcpy(e->gouged_volume_interval, shot_drawn->volume_interval, sizeof e->gouged_volume_interval);
     e->probability_gouge = fmax(shot_drawn->probability, a->answer[i].grains.screen_probability);
     e->scenes = own_scenes(a, i);
+    fill_life(study_life_compare_find(&a->life, e->surface), e);
     judge_layers(&a->treated[i], &a->answer[i].grains, e);
 }
 
@@ -249,9 +260,10 @@ static status rank(const case_treatments *treatments, compare_answer *a)
 
 /* ---- the whole ---- */
 
-static status compare(session *s, const case_onset *c, const case_treatments *treatments, compare_answer *a,
-                      char (*prefix)[PREFIX_SIZE])
+static status compare(session *s, const case_onset *c, const case_treatments *treatments, const case_life *life,
+                      compare_answer *a, char (*prefix)[PREFIX_SIZE])
 {
+    if (life) TRY(study_life_compare_run(s, c, treatments, life, false, &a->life, NULL));
     TRY(begin(s, c, treatments, a, prefix));
     TRY(search(s, a));
     TRY(draw(s, c, a));
@@ -259,13 +271,14 @@ static status compare(session *s, const case_onset *c, const case_treatments *tr
     return rank(treatments, a);
 }
 
-status study_compare_run(session *s, const case_onset *c, const case_treatments *treatments, compare_answer *out)
+status study_compare_run(session *s, const case_onset *c, const case_treatments *treatments, const case_life *life,
+                         compare_answer *out)
 {
     memset(out, 0, sizeof *out);
     TRY(make_room(treatments->n + 1, out));
     char(*prefix)[PREFIX_SIZE] = calloc((size_t)out->n, sizeof *prefix);
     CHECK(prefix, STATUS_MEMORY, "no memory for %d surfaces", out->n);
-    const status done = compare(s, c, treatments, out, prefix);
+    const status done = compare(s, c, treatments, life, out, prefix);
     compare_result *r = &out->result;
     const status listed = study_onset_list_scenes(s, &out->scene, &r->n_scenes, &r->scenes_run, &r->scenes_reused);
     r->scene = out->scene;

@@ -10,6 +10,7 @@
 #ifndef BREECH_COUPLING_COMPARE_H
 #define BREECH_COUPLING_COMPARE_H
 
+#include "coupling/study/life_compare.h"
 #include "coupling/study/onset.h"
 
 typedef struct {
@@ -30,6 +31,8 @@ typedef struct {
     char layer[24];          /* what its layers suffer: "none", "intact", "spalled", "sheared off", "worn through" */
     double layer_failed;     /* share of the layers under the crater that failed [1] */
     double layer_velocity;   /* of the scene that says so [m/s] */
+    double life, life_quantiles[3]; /* shots until a crack (life_compare.h); NAN: not asked for or not known [1] */
+    int life_rank;                  /* tied, by life; 0: not asked for */
 } compare_entry;
 
 typedef struct {
@@ -52,10 +55,13 @@ typedef struct {
     mc_result drawn;      /* owned */
     compare_entry *entry; /* owned */
     onset_scene *scene;   /* owned */
+    life_ranking life;    /* owned; empty: not asked for */
 } compare_answer;
 
-/* *out needs study_compare_answer_free even on error; what was reached by then is in it. */
-status study_compare_run(session *s, const case_onset *c, const case_treatments *treatments, compare_answer *out);
+/* By life too where `life` is not NULL.  *out needs study_compare_answer_free even on error; what was reached by then
+ * is in it. */
+status study_compare_run(session *s, const case_onset *c, const case_treatments *treatments, const case_life *life,
+                         compare_answer *out);
 void study_compare_print(const void *result, FILE *out); /* of a compare_result */
 void study_compare_answer_free(compare_answer *a);
 

@@ -3,6 +3,8 @@
 #include "coupling/study/compare.h"
 #include "coupling/host/table.h"
 
+#include <math.h>
+
 static const summary_key entry_keys[] = {
     SUMMARY_TEXT(compare_entry, "surface", surface, "of the rail"),
     SUMMARY_TEXT(compare_entry, "scene_prefix", scene_prefix,
@@ -33,6 +35,12 @@ static const summary_key entry_keys[] = {
     SUMMARY_NUMBER(compare_entry, "layer_failed", layer_failed, "1",
                    "share of the layers under the crater that failed"),
     SUMMARY_NUMBER(compare_entry, "layer_velocity", layer_velocity, "m/s", "of the scene that says so"),
+    SUMMARY_NUMBER(
+        compare_entry, "life", life, "1",
+        "shots until a crack, with life.load: armature; null: not asked for, not judged, or it lasts for good"),
+    SUMMARY_VECTOR(compare_entry, "life_quantiles", life_quantiles, 3, "1", "the same with 5, 50 and 95 %"),
+    SUMMARY_VALUE(compare_entry, KEY_INTEGER, "life_rank", life_rank, "1",
+                  "as `tied`, by life, 1 for the longest; 0: not asked for"),
     SUMMARY_END
 };
 
@@ -64,6 +72,20 @@ static void print_verdict(const compare_result *c, FILE *out)
         fprintf(out, "it cannot be told apart from %s, which has %.3g\n", next->surface, next->gouges);
 }
 
+/* Which surface lasts longest? */
+static void print_life(const compare_result *c, FILE *out)
+{
+    const compare_entry *best = NULL;
+    int tied = 0;
+    for (int i = 0; i < c->n; i++) {
+        tied += c->ranking[i].life_rank == 1;
+        if (c->ranking[i].life_rank == 1 && !(best && best->life >= c->ranking[i].life)) best = &c->ranking[i];
+    }
+    if (!best || isnan(best->life)) return;
+    fprintf(out, "longest life: %s, a crack after %.3g shots%s\n", best->surface, best->life,
+            tied > 1 ? "; others cannot be told apart from it" : "");
+}
+
 void study_compare_print(const void *result, FILE *out)
 {
     const compare_result *c = result;
@@ -84,4 +106,5 @@ void study_compare_print(const void *result, FILE *out)
     host_table_print(t, out);
     host_table_free(t);
     print_verdict(c, out);
+    print_life(c, out);
 }

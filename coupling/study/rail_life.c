@@ -22,6 +22,7 @@ typedef struct {
     session *s;
     const case_onset *c;
     const case_life *life;
+    const material *metal;
     life_rail rail;
     double rayleigh;
     size_t size;   /* of a place's rates */
@@ -60,13 +61,24 @@ status study_rail_life_possible(const case_onset *c, const case_life *life, cons
 
 /* ---- what a shot does at a place ---- */
 
-static life_heat_metal heat_metal_of(const case_onset *c)
+static double known_or(double x, double fallback)
 {
-    const shot_rails *r = &c->launcher.rails;
+    return isnan(x) ? fallback : x;
+}
+
+/* Of the circuit's rail; another metal than the case asks for has its own constants where they are known. */
+static life_heat_metal heat_metal_of(const work *w)
+{
+    const shot_rails *r = &w->c->launcher.rails;
     const double warm = 1.0 + r->resistivity_coefficient * (r->initial_temperature - 293.15);
-    return (life_heat_metal){ .conductivity = r->thermal_conductivity,
-                              .heat_capacity = r->density * r->specific_heat,
-                              .resistivity = r->resistivity * warm };
+    life_heat_metal heat = { .conductivity = r->thermal_conductivity,
+                             .heat_capacity = r->density * r->specific_heat,
+                             .resistivity = r->resistivity * warm };
+    if (strcmp(w->metal->name, w->life->material) == 0) return heat;
+    heat.conductivity = known_or(w->metal->conductivity, heat.conductivity);
+    heat.heat_capacity = known_or(w->metal->density * w->metal->specific_heat, heat.heat_capacity);
+    heat.resistivity = known_or(w->metal->resistivity, heat.resistivity);
+    return heat;
 }
 
 /* The first place has had the whole contact run over it, the last is the muzzle. */
@@ -78,7 +90,7 @@ static double position_of(const case_onset *c, int k, int n)
 
 static life_passage passage_of(const work *w, const trace_point *at, double exit)
 {
-    const life_heat_metal metal = heat_metal_of(w->c);
+    const life_heat_metal metal = heat_metal_of(w);
     const double dwell = w->c->launcher.armature.contact_length / at->v;
     return (life_passage){ .velocity = at->v,
                            .pressure = at->pressure,
@@ -89,7 +101,7 @@ static life_passage passage_of(const work *w, const trace_point *at, double exit
 
 static void note_place(const work *w, const trace_point *at, const life_passage *p, rail_life_place *out)
 {
-    const life_heat_metal metal = heat_metal_of(w->c);
+    const life_heat_metal metal = heat_metal_of(w);
     const contact_speed speed = life_contact_speed(w->rail.youngs, w->rail.poisson, w->rail.density, at->v);
     out->velocity = at->v, out->pressure = at->pressure, out->friction = at->friction;
     out->moving_factor = life_contact_factor(&speed);
@@ -236,6 +248,7 @@ static void choose_weakest(rail_life_result *r)
         if (p->cause == RAIL_LIFE_TOO_FAST && isnan(r->rayleigh_position)) r->rayleigh_position = p->position;
         r->film_limited += p->flux_rise > p->rise;
         if (!isnan(p->without_heat) && (!cold || p->without_heat < cold->without_heat)) cold = p;
+        r->lasting = r->lasting || p->cause == RAIL_LIFE_ENDLESS;
         if (isnan(p->life)) continue;
         r->depths[0] = fmin(p->depth, isnan(r->depths[0]) ? INFINITY : r->depths[0]);
         r->depths[1] = fmax(p->depth, isnan(r->depths[1]) ? 0.0 : r->depths[1]);
@@ -244,6 +257,7 @@ static void choose_weakest(rail_life_result *r)
     if (cold)
         r->without_heat = cold->without_heat, r->without_heat_position = cold->position,
         r->without_heat_depth = cold->depth_without_heat;
+    r->lasting = r->lasting && !weakest;
     if (!weakest) return;
     r->life = weakest->life, r->first = weakest->first, r->position = weakest->position;
     r->depth = weakest->depth, r->angle = weakest->angle, r->range = weakest->range, r->cause = weakest->cause;
@@ -254,22 +268,22 @@ static void choose_weakest(rail_life_result *r)
 
 /* ---- the whole ---- */
 
-static void begin(rail_life_result *r)
+rail_life_result study_rail_life_none(void)
 {
-    *r = (rail_life_result){ .life = NAN,
-                             .quantiles = { NAN, NAN, NAN },
-                             .first = NAN,
-                             .position = NAN,
-                             .depth = NAN,
-                             .angle = NAN,
-                             .range = NAN,
-                             .cause = RAIL_LIFE_ENDLESS,
-                             .depths = { NAN, NAN },
-                             .without_heat = NAN,
-                             .without_heat_position = NAN,
-                             .without_heat_depth = NAN,
-                             .probability = NAN,
-                             .rayleigh_position = NAN };
+    return (rail_life_result){ .life = NAN,
+                               .quantiles = { NAN, NAN, NAN },
+                               .first = NAN,
+                               .position = NAN,
+                               .depth = NAN,
+                               .angle = NAN,
+                               .range = NAN,
+                               .cause = RAIL_LIFE_ENDLESS,
+                               .depths = { NAN, NAN },
+                               .without_heat = NAN,
+                               .without_heat_position = NAN,
+                               .without_heat_depth = NAN,
+                               .probability = NAN,
+                               .rayleigh_position = NAN };
 }
 
 static status make_room(work *w, rail_life_result *r)
@@ -314,8 +328,8 @@ status study_rail_life_run(session *s, const case_onset *c, const case_life *lif
                            bool with_history, rail_life_result *out, shot_record *record)
 {
     const double since = host_wall_clock();
-    work w = { .s = s, .c = c, .life = life };
-    begin(out);
+    work w = { .s = s, .c = c, .life = life, .metal = metal };
+    *out = study_rail_life_none();
     w.rail = (life_rail){ .youngs = metal->youngs_modulus,
                           .poisson = metal->poisson,
                           .density = metal->density,

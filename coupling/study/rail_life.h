@@ -38,6 +38,7 @@ typedef struct {
     double first;              /* [1] */
     double position, depth, angle, range;
     int cause;
+    bool lasting;     /* no place cracks, and of some it is known that it never does */
     double depths[2]; /* of the cracks of all places, least and most [m] */
     double without_heat, without_heat_position, without_heat_depth;
     double probability;                       /* that a crack is there after the shots [1] */
@@ -54,6 +55,7 @@ status study_rail_life_possible(const case_onset *c, const case_life *life, cons
 /* *out needs study_rail_life_free, even on error.  record, NULL: not wanted, is the first shot's. */
 status study_rail_life_run(session *s, const case_onset *c, const case_life *life, const material *metal,
                            bool with_history, rail_life_result *out, shot_record *record);
+rail_life_result study_rail_life_none(void); /* nothing is known */
 void study_rail_life_free(rail_life_result *r);
 
 #endif
