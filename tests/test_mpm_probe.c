@@ -334,7 +334,7 @@ static void test_passage(void **state)
     (void)state;
     const material m = scene_copper();
     mpm *solver = cubes(&m);
-    double out[6];
+    double out[8];
     const double kg = m.density * 1e-9; /* of a cubic millimetre */
     each_point(solver, fly);
     mpm_probe p = probe("passage", 0);
@@ -346,6 +346,8 @@ static void test_passage(void **state)
     assert_near(out[2] / 4, kg, 1e-9 * kg);      /* beside: 4 less 1 that failed; far: 2 less 1 that failed */
     assert_true(isnan(out[3]) && isnan(out[4])); /* nothing is slower than 50 m/s */
     assert_near(out[5] / 8, kg, 1e-9 * kg);
+    assert_near(out[6] / 8, kg, 1e-9 * kg);
+    assert_near(out[7], 3.0625e-3, 1e-12); /* of its foremost points to the window's end */
 
     *mpm_probe_value(&p, "slower") = 100; /* what lies beside is */
     look(solver, &p, out);

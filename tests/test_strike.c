@@ -230,6 +230,32 @@ static void test_hole(void **state)
     cJSON_Delete(torn);
 }
 
+/* A ball that flies out of the window is judged while nearly all of it is there, at the velocity that it has then; one
+ * that erodes loses mass and is judged at the end. */
+static void test_losses(void **state)
+{
+    (void)state;
+    const char *text = HEAD(", plate: plate, velocity: 1.5 km/s, travel: 8 mm", "1 us") BODIES("ofhc_copper", SHEET);
+    cJSON *s = struck("losses", text, "--set 'scene.window.x={lo: -4 mm, hi: 4 mm}'");
+    assert_text(s, "class", "pierced");
+    assert_true(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(s, "gone")));
+    assert_true(number(s, "left_share") > 0.999 && number(s, "judged_time") < 0.9 * number(s, "end_time"));
+    assert_true(fabs(number(s, "lost_mass") / number(s, "projectile_mass") - 1.0) < 1e-9);
+    const double v = number(s, "residual_velocity") / 1500.0;
+    assert_true(v > 0.5 && fabs(number(s, "energy_share") - (1.0 - v * v)) < 0.01);
+    assert_true(contains("losses/out/summary.json", "left the window before the scene's end"));
+    cJSON_Delete(s);
+    s = struck("losses", text,
+               "--set scene.bodies[1].material=al6061_t6 --set scene.bodies[1].damage=yes "
+               "--set strike.velocity='3 km/s'");
+    assert_true(number(s, "eroded_mass") > 0.0 && number(s, "left_share") == 0.0);
+    assert_true(fabs(number(s, "lost_mass") / (4.0 * number(s, "eroded_mass")) - 1.0) < 1e-9);
+    assert_true(number(s, "lost_mass") > 0.01 * number(s, "projectile_mass"));
+    assert_true(number(s, "judged_time") == number(s, "end_time"));
+    assert_false(contains("losses/out/summary.json", "left the window"));
+    cJSON_Delete(s);
+}
+
 /* The half model and the quarter of it are the same whole: every answer, to the rounding that grows in 200 steps. */
 static void test_parts(void **state)
 {
@@ -433,6 +459,7 @@ int main(void)
         cmocka_unit_test(test_scene),     cmocka_unit_test(test_classes),     cmocka_unit_test(test_hole),
         cmocka_unit_test(test_parts),     cmocka_unit_test(test_recht_ipson), cmocka_unit_test(test_limit),
         cmocka_unit_test(test_from_shot), cmocka_unit_test(test_refused),     cmocka_unit_test(test_water),
+        cmocka_unit_test(test_losses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,11 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double AT_REST = 0.02; /* of the arrival velocity: slower is no motion */
-static const double CLEAR = 1e-3;   /* of the projectile's mass: less in its way does not hold it */
-static const double LATE = 0.1;     /* of the scene's time: its last part */
-static const double STEADY = 0.1;   /* of its speed: it changes by less in that part once nothing holds it */
-enum { LEAST_COLUMNS = 4 };         /* of the whole plate's map that make a hole: one of a quarter at its corner */
+static const double AT_REST = 0.02;   /* of the arrival velocity: slower is no motion */
+static const double CLEAR = 1e-3;     /* of the projectile's mass: less in its way does not hold it */
+static const double LATE = 0.1;       /* of the scene's time: its last part */
+static const double STEADY = 0.1;     /* of its speed: it changes by less in that part once nothing holds it */
+static const double MOST_LEFT = 0.1;  /* of its mass: a projectile of which more has left is judged before */
+static const double ROUNDING = 1e-9;  /* of its mass: sums of its points differ by less */
+static const double LEAST_KEPT = 0.1; /* of its mass, intact in the window: with less it is gone */
+enum { LEAST_COLUMNS = 4 };           /* of the whole plate's map that make a hole: one of a quarter at its corner */
 
 const char *const strike_class_names[] = { [STRIKE_REBOUND] = "rebound",
                                            [STRIKE_STOPPED] = "stopped",
@@ -116,9 +119,67 @@ static status read_force(history *h, const char *scene, const strike_projectile 
 
 /* ---- the way ---- */
 
-enum { WAY_TIME, WAY_SPEED, WAY_AHEAD, WAY_REST, WAY_DEFLECTION, WAY_FLYING };
+enum { WAY_TIME, WAY_SPEED, WAY_AHEAD, WAY_REST, WAY_DEFLECTION, WAY_FLYING, WAY_INTACT, WAY_ROOM };
 
-/* seen: until when all of the projectile was in the window [s]. */
+/* Of the projectile's bodies together, a row a piece. */
+typedef struct {
+    column time, mass, kinetic;
+} body_sums;
+
+static void sums_free(body_sums *b)
+{
+    free(b->time.value), free(b->mass.value), free(b->kinetic.value);
+}
+
+static status add_column(history *h, const char *scene, const char *body, const char *name, column *sum)
+{
+    char group[200];
+    column one;
+    snprintf(group, sizeof group, "bodies/%s", body);
+    TRY(read_column(h, scene, group, name, &one));
+    if (!sum->value) {
+        *sum = one;
+        return status_ok();
+    }
+    for (size_t i = 0; i < sum->n && i < one.n; i++) sum->value[i] += one.value[i];
+    free(one.value);
+    return status_ok();
+}
+
+static status sums_read(history *h, const char *scene, const strike_projectile *p, const mpm_scene *s, body_sums *out)
+{
+    TRY(read_column(h, scene, "bodies", "time", &out->time));
+    for (int i = 0; i < s->bodies; i++) {
+        if (s->body[i].group != p->group) continue;
+        TRY(add_column(h, scene, s->body[i].name, "mass", &out->mass));
+        TRY(add_column(h, scene, s->body[i].name, "kinetic", &out->kinetic));
+    }
+    return status_ok();
+}
+
+/* When its intact metal first came as near as this to an end of the window that it moved towards; INFINITY: never. */
+static double when_near(const series *way, double near)
+{
+    for (size_t i = 0; i < way->rows; i++)
+        if (way->of[WAY_ROOM].value[i] < near) return way->of[WAY_TIME].value[i];
+    return INFINITY;
+}
+
+/* The last row of the sums before which no more than MOST_LEFT of the projectile has left the window; kept: of what it
+ * had before any of it left, the part that it has then [1]. */
+static size_t last_there(const body_sums *b, double leaving, double *kept, strike_outcome *out)
+{
+    size_t whole = 0, last = b->time.n - 1;
+    while (whole < last && b->time.value[whole + 1] <= leaving) whole++;
+    const double then = b->mass.value[whole], start = b->mass.value[0];
+    const double left = (then - b->mass.value[last]) / start;
+    out->left_share = left > ROUNDING ? left : 0.0;
+    while (last > whole && b->mass.value[last] < then - MOST_LEFT * start) last--;
+    *kept = then > 0.0 ? b->mass.value[last] / then : 1.0;
+    return last;
+}
+
+/* seen: until when there is enough of the projectile [s] */
 static void take_way(const series *way, const strike_projectile *p, double seen, strike_state *state,
                      strike_outcome *out)
 {
@@ -132,9 +193,10 @@ static void take_way(const series *way, const strike_projectile *p, double seen,
     state->rest_speed = way->of[WAY_REST].value[last];
     state->change = fabs(speed[last] - speed[late]);
     state->ahead = p->parts * way->of[WAY_AHEAD].value[last];
-    const double *deflection = way->of[WAY_DEFLECTION].value;
+    const double *deflection = way->of[WAY_DEFLECTION].value, *intact = way->of[WAY_INTACT].value;
     state->swelling = deflection[end] > 0.0 ? 1.0 - deflection[late] / deflection[end] : 0.0;
-    out->gone = last < end;
+    out->judged_time = time[last];
+    out->gone = intact[end] < LEAST_KEPT * intact[0];
     out->residual_velocity = state->speed;
     out->speed_change = state->change;
     out->ahead = state->ahead;
@@ -142,37 +204,39 @@ static void take_way(const series *way, const strike_projectile *p, double seen,
     out->debris_mass = p->parts * way->of[WAY_FLYING].value[end];
 }
 
-/* The time of the last row of its bodies in which none of its mass is missing. */
-static status last_whole(history *h, const char *scene, const strike_projectile *p, const mpm_scene *s, double *seen)
+/* What it had when it was judged, `kept` of it and with it what left before then; what it has lost by the end. */
+static void take_sums(const body_sums *b, const strike_projectile *p, size_t judged, double kept, strike_outcome *out)
 {
-    const double most_missing = 1e-3;
-    column time, mass;
-    TRY(read_column(h, scene, "bodies", "time", &time));
-    *seen = time.value[time.n - 1];
-    status done = status_ok();
-    for (int i = 0; i < s->bodies && done.code == STATUS_OK; i++) {
-        char group[200];
-        if (s->body[i].group != p->group) continue;
-        snprintf(group, sizeof group, "bodies/%s", s->body[i].name);
-        done = read_column(h, scene, group, "mass", &mass);
-        if (done.code != STATUS_OK) break;
-        for (size_t q = mass.n; q-- > 1 && mass.value[q] < (1.0 - most_missing) * mass.value[0];)
-            *seen = fmin(*seen, time.value[q - 1]);
-        free(mass.value);
-    }
-    free(time.value);
-    return done;
+    const double *mass = b->mass.value, *kinetic = b->kinetic.value;
+    out->projectile_mass = p->piston ? p->mass : p->parts * mass[0];
+    out->energy_arrival =
+        p->piston ? 0.5 * p->mass * out->impact_velocity * out->impact_velocity : p->parts * kinetic[0];
+    out->energy_absorbed = p->parts * (kinetic[0] - kinetic[judged] / kept);
+    const double lost = mass[0] - mass[b->mass.n - 1];
+    out->lost_mass = lost > ROUNDING * mass[0] ? p->parts * lost : 0.0;
 }
 
-static status read_way(history *h, const char *scene, const strike_projectile *p, const mpm_scene *s,
-                       strike_state *state, strike_outcome *out)
+static double coarsest_cell(const mpm_scene *s)
 {
-    static const char *const names[] = { "time", "speed", "ahead", "rest_speed", "deflection", "flying", NULL };
-    series way;
-    double seen;
-    TRY(last_whole(h, scene, p, s, &seen));
-    const status done = series_read(h, scene, "probes/" STRIKE_WAY_PROBE, names, &way);
-    if (done.code == STATUS_OK) take_way(&way, p, seen, state, out);
+    return fmax(s->axis[0].coarse, fmax(s->axis[1].coarse, s->axis[2].coarse));
+}
+
+static status read_projectile(history *h, const char *scene, const strike_projectile *p, const mpm_scene *s,
+                              strike_state *state, strike_outcome *out)
+{
+    static const char *const names[] = { "time",   "speed",  "ahead", "rest_speed", "deflection",
+                                         "flying", "intact", "room",  NULL };
+    series way = { 0 };
+    body_sums sums = { { 0 }, { 0 }, { 0 } };
+    status done = series_read(h, scene, "probes/" STRIKE_WAY_PROBE, names, &way);
+    if (done.code == STATUS_OK) done = sums_read(h, scene, p, s, &sums);
+    if (done.code == STATUS_OK) {
+        double kept;
+        const size_t judged = last_there(&sums, when_near(&way, coarsest_cell(s)), &kept, out);
+        take_way(&way, p, sums.time.value[judged], state, out);
+        take_sums(&sums, p, judged, kept, out);
+    }
+    sums_free(&sums);
     series_free(&way);
     return done;
 }
@@ -206,37 +270,21 @@ static status read_plate(history *h, const char *scene, const strike_projectile 
     return status_ok();
 }
 
-/* ---- bodies ---- */
+/* ---- the target ---- */
 
-static status add_start(history *h, const char *scene, const char *body, double *mass, double *kinetic)
-{
-    static const char *const names[] = { "mass", "kinetic", NULL };
-    char group[200];
-    series s;
-    snprintf(group, sizeof group, "bodies/%s", body);
-    const status done = series_read(h, scene, group, names, &s);
-    if (done.code == STATUS_OK) *mass += s.of[0].value[0], *kinetic += s.of[1].value[0];
-    series_free(&s);
-    return done;
-}
-
-static status read_bodies(history *h, const char *scene, const strike_projectile *p, const mpm_scene *s,
+static status read_target(history *h, const char *scene, const strike_projectile *p, const mpm_scene *s,
                           const scene_bodies_result *r, strike_outcome *out)
 {
-    double kinetic = 0.0, target_kinetic = 0.0, mass = 0.0, target_mass = 0.0, left = 0.0, kept = 0.0;
+    double start = 0.0, kept = 0.0;
     for (int i = 0; i < r->bodies; i++) {
         const scene_body *b = &r->body[i];
-        const bool own = s->body[i].group == p->group;
-        TRY(add_start(h, scene, b->name, own ? &mass : &target_mass, own ? &kinetic : &target_kinetic));
-        if (own) left += b->kinetic;
-        if (!own) kept += b->mass, out->failed_volume += p->parts * b->failed_volume;
+        column mass = { NULL, 0 };
+        if (s->body[i].group == p->group) continue;
+        TRY(add_column(h, scene, b->name, "mass", &mass));
+        start += mass.value[0], kept += b->mass, out->failed_volume += p->parts * b->failed_volume;
+        free(mass.value);
     }
-    if (out->gone) left = 0.5 * mass * out->residual_velocity * out->residual_velocity;
-    out->projectile_mass = p->piston ? p->mass : p->parts * mass;
-    out->energy_arrival = p->piston ? 0.5 * p->mass * out->impact_velocity * out->impact_velocity : p->parts * kinetic;
-    out->energy_absorbed = p->parts * (p->piston ? r->work_external : kinetic - left);
-    out->energy_share = out->energy_absorbed / out->energy_arrival;
-    out->debris_mass += p->parts * fmax(0.0, target_mass - kept); /* below 0 by rounding */
+    out->debris_mass += p->parts * fmax(0.0, start - kept); /* below 0 by rounding */
     return status_ok();
 }
 
@@ -265,9 +313,11 @@ status strike_outcome_read(history *h, const char *scene, const strike_projectil
     *out = (strike_outcome){
         .muzzle_velocity = NAN, .flight_time = NAN, .impact_velocity = velocity, .hole_diameter = NAN
     };
-    TRY(read_way(h, scene, p, &bodies->scene, &state, out));
+    TRY(read_projectile(h, scene, p, &bodies->scene, &state, out));
     TRY(read_force(h, scene, p, filter, out));
-    TRY(read_bodies(h, scene, p, &bodies->scene, r, out));
+    TRY(read_target(h, scene, p, &bodies->scene, r, out));
+    if (p->piston) out->energy_absorbed = p->parts * r->work_external;
+    out->energy_share = out->energy_absorbed / out->energy_arrival;
     TRY(read_cavity(h, scene, p, &bodies->scene, out));
     if (p->plate >= 0) TRY(read_plate(h, scene, p, &bodies->scene, &state, out));
     state.mass = out->projectile_mass;

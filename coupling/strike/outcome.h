@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a projectile has done to its target, from the series of the scene it arrived in (arrival.h, scene_probe.h).
  *
- * The class is decided at the scene's end, by intact metal alone (damage below 1).  With v0 the arrival velocity, m the
- * projectile's mass, u its speed along the flight less that of what stays of the target (probe `passage`: metal slower
- * than v0 / 10 or 20 m/s):
+ * The class is decided by intact metal alone (damage below 1), at the scene's end; a projectile of whose mass more than
+ * a tenth has left through the window's ends, or that has no intact metal left, at the last time before that.
+ * With v0 the arrival velocity, m the projectile's mass, u its speed along the flight less that of what stays of the
+ * target (probe `passage`: metal slower than v0 / 10 or 20 m/s):
  *   pierced     u > v0 / 50; what still stands in its way weighs less than m / 1000; and in the last tenth of the scene
  *               its speed changed by less than u / 10: metal that gives way before it, a bulge or a plug that is still
  *               held, would slow it down
@@ -16,7 +17,8 @@
  *   stopped     else
  * Of a wave that a piston has sent, the plate decides: torn with holes as above; else bulged, if its deflection grew by
  * less than a tenth of itself in the last tenth of the scene; else unfinished.
- * A projectile that has left the window, or has no intact metal left, is judged by when it was last seen. */
+ * What the projectile has lost before its intact metal came within a cell of such an end was eroded; what it loses from
+ * then on has left. */
 #ifndef BREECH_COUPLING_STRIKE_OUTCOME_H
 #define BREECH_COUPLING_STRIKE_OUTCOME_H
 
@@ -69,7 +71,10 @@ typedef struct {
     double ahead;                 /* intact metal in the projectile's way at the end [kg] */
     double speed_change;          /* of the projectile in the last tenth of the scene [m/s] */
     double cavitated_volume;      /* largest of any time; NAN: there is no fluid [m3] */
-    bool gone;                    /* judged by when it was last seen */
+    double judged_time;           /* of which its velocity and class are: the scene's end, or earlier [s] */
+    double left_share;            /* of the projectile: left through the window's ends [1] */
+    double lost_mass;             /* of the projectile: left through the window's ends, or was eroded [kg] */
+    bool gone;                    /* at the end nearly none of its intact metal is in the window */
 } strike_outcome;
 
 /* Of the scene of this name that has ended with this result; muzzle_velocity and flight_time are the caller's. */

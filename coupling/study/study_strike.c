@@ -31,9 +31,10 @@ static const summary_key result_keys[] = {
                    "what became of it: rebound, stopped, pierced; with strike.plate bulged or torn for the first two; "
                    "unfinished: the scene is too short to tell"),
     SUMMARY_NUMBER(strike_result, "residual_velocity", is.residual_velocity, "m/s",
-                   "along the flight, of the projectile's intact metal at the end"),
+                   "along the flight, of the projectile's intact metal at judged_time"),
     SUMMARY_NUMBER(strike_result, "energy_arrival", is.energy_arrival, "J", "of the projectile's motion at arrival"),
-    SUMMARY_NUMBER(strike_result, "energy_absorbed", is.energy_absorbed, "J", "of that, what it has lost at the end"),
+    SUMMARY_NUMBER(strike_result, "energy_absorbed", is.energy_absorbed, "J",
+                   "of that, what it has lost by judged_time"),
     SUMMARY_NUMBER(strike_result, "energy_share", is.energy_share, "1", "energy_absorbed over energy_arrival"),
     SUMMARY_NUMBER(strike_result, "peak_force", is.peak_force, "N",
                    "on the projectile, against its flight: largest mean over strike.filter"),
@@ -54,8 +55,16 @@ static const summary_key result_keys[] = {
                    "intact metal of the target in the projectile's way at the end"),
     SUMMARY_NUMBER(strike_result, "speed_change", is.speed_change, "m/s",
                    "of the projectile in the last tenth of the scene"),
+    SUMMARY_NUMBER(strike_result, "lost_mass", is.lost_mass, "kg",
+                   "of the projectile: left through the window's ends, or was eroded"),
+    SUMMARY_NUMBER(strike_result, "left_share", is.left_share, "1",
+                   "of the projectile's mass, that left through the window's ends"),
+    SUMMARY_NUMBER(strike_result, "judged_time", is.judged_time, "s",
+                   "of which class and residual_velocity are: the end, or the last time at which no more than a tenth "
+                   "of the projectile had left the window and some of it was intact"),
     SUMMARY_VALUE(strike_result, KEY_FLAG, "gone", is.gone, "",
-                  "the projectile left the window, or failed as a whole: judged by when it was last seen"),
+                  "at the end the window holds less than a tenth of the projectile's metal intact: it left, or failed "
+                  "as a whole"),
     SUMMARY_NUMBER(strike_result, "limit_velocity", limit.velocity, "m/s",
                    "middle between the fastest arrival that is stopped and the slowest that pierces; null: not asked "
                    "for, or not in the range of the search"),
@@ -139,10 +148,17 @@ static void warn(session *s, const strike_result *r)
                          "before, with %.3g g of intact metal in its way: a longer scene (strike.travel, "
                          "scene.end_time)",
                          o->residual_velocity, o->speed_change, 1e3 * o->ahead);
-    if (o->gone)
+    if (o->left_share > 0.0 && o->judged_time < r->scene.end_time)
         run_session_warn(s,
-                         "the projectile left the window before the scene's end, or failed as a whole: judged by when "
-                         "it was last seen");
+                         "%.0f %% of the projectile left the window before the scene's end: judged %.4g us after the "
+                         "start, when nearly all of it was there; move the end of scene.window that it flies to, or "
+                         "take a shorter strike.travel",
+                         100.0 * o->left_share, 1e6 * o->judged_time);
+    else if (o->gone)
+        run_session_warn(s,
+                         "less than a tenth of the projectile is intact at the end: class and residual_velocity are "
+                         "those of the rest that was intact %.4g us after the start",
+                         1e6 * o->judged_time);
     if (fabs(r->scene.energy_error) > ENERGY_ERROR_LIMIT)
         run_session_warn(s, "energy error %.2f %%, above %.0f %%: lower scene.courant or take smaller cells",
                          100.0 * r->scene.energy_error, 100.0 * ENERGY_ERROR_LIMIT);

@@ -24,7 +24,7 @@ static const param params[] = {
     PARAMS_END
 };
 
-enum { PLACE, SPEED, AHEAD, REST_SPEED, DEFLECTION, FLYING, COLUMNS };
+enum { PLACE, SPEED, AHEAD, REST_SPEED, DEFLECTION, FLYING, INTACT, ROOM, COLUMNS };
 
 static const mpm_column columns[COLUMNS + 1] = {
     { "place", "m", "along the way, of the middle of the intact metal of the body's group" },
@@ -33,6 +33,8 @@ static const mpm_column columns[COLUMNS + 1] = {
     { "rest_speed", "m/s", "along the way, mean of other groups' metal that is slower than `slower`" },
     { "deflection", "m", "farthest that such metal, intact, has gone along the way since the start" },
     { "flying", "kg", "other groups' metal that is not slower than `slower`" },
+    { "intact", "kg", "intact metal of the body's group" },
+    { "room", "m", "least way of any of that metal to an end of the window, no mirror, that it moves towards" },
     { NULL, NULL, NULL },
 };
 
@@ -42,12 +44,25 @@ typedef struct {
     int group;
     double n[3], place, speed; /* of the body, for the second walk */
     double mass, at, momentum; /* its intact metal: sums of m, m x.n, m v.n */
+    double room;               /* of that metal */
     double ahead, rest, rest_momentum, deflection, flying;
 } sums;
 
 static double along(const sums *s, const double (*x)[LANES], int l)
 {
     return s->n[0] * x[0][l] + s->n[1] * x[1][l] + s->n[2] * x[2][l];
+}
+
+/* To the nearest end of the window that is no mirror and that the point moves towards; INFINITY: there is none. */
+static double room_of(const mpm_axis ends[3], const block *q, int l)
+{
+    double room = INFINITY;
+    for (int k = 0; k < 3; k++) {
+        const double v = q->v[k][l], x = q->x[k][l];
+        if (v > 0 && ends[k].boundary[1] != BOUNDARY_SYMMETRY) room = fmin(room, ends[k].hi - x);
+        if (v < 0 && ends[k].boundary[0] != BOUNDARY_SYMMETRY) room = fmin(room, x - ends[k].lo);
+    }
+    return room;
 }
 
 static void add_own(void *user, const mpm *m, const brick *b, int index)
@@ -61,6 +76,7 @@ static void add_own(void *user, const mpm *m, const brick *b, int index)
         s->mass += M;
         s->at += M * along(s, q->x, l);
         s->momentum += M * along(s, q->v, l);
+        s->room = fmin(s->room, room_of(m->scene.axis, q, l));
     }
 }
 
@@ -106,6 +122,7 @@ static sums walk(const mpm *m, mpm_block_visitor *each, const sums *begin)
     for (int i = 0; i < SHARES; i++) {
         all.mass += share[i].mass, all.at += share[i].at, all.momentum += share[i].momentum;
         all.ahead += share[i].ahead, all.flying += share[i].flying;
+        all.room = fmin(all.room, share[i].room);
         all.rest += share[i].rest, all.rest_momentum += share[i].rest_momentum;
         all.deflection = fmax(all.deflection, share[i].deflection);
     }
@@ -116,7 +133,7 @@ static status read(const mpm *m, const mpm_probe *p, double *out)
 {
     const passage *v = PROBE_VALUES(passage, p);
     const double length = sqrt(v->along[0] * v->along[0] + v->along[1] * v->along[1] + v->along[2] * v->along[2]);
-    sums begin = { .v = v, .group = m->scene.body[p->body].group, .deflection = -INFINITY };
+    sums begin = { .v = v, .group = m->scene.body[p->body].group, .deflection = -INFINITY, .room = INFINITY };
     for (int k = 0; k < 3; k++) begin.n[k] = v->along[k] / length;
     const sums own = walk(m, add_own, &begin);
     begin.place = out[PLACE] = own.mass > 0 ? own.at / own.mass : NAN;
@@ -126,6 +143,8 @@ static status read(const mpm *m, const mpm_probe *p, double *out)
     out[REST_SPEED] = others.rest > 0 ? others.rest_momentum / others.rest : NAN;
     out[DEFLECTION] = isfinite(others.deflection) ? others.deflection : NAN;
     out[FLYING] = others.flying;
+    out[INTACT] = own.mass;
+    out[ROOM] = isfinite(own.room) ? own.room : NAN;
     return status_ok();
 }
 
