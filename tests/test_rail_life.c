@@ -61,6 +61,13 @@ static void test_current_heat(void **state)
         assert_true(near(life_heat_rise(&h, z, end), J * sum, 1e-6));
     }
     assert_true(life_heat_rise(&h, 0.1, 2.0 * dwell) == 0.0); /* out of its reach */
+    /* the current's rise grows for ever; that of a flux at its face is over when the contact leaves, deeper it comes
+     * later */
+    const life_heat q = life_heat_of(&copper, dwell, 2e9, 0.0, 1e5);
+    assert_true(near(life_heat_largest_rise(&h, 1e-3, 50.0 * dwell), life_heat_rise(&h, 1e-3, 50.0 * dwell), 1e-12));
+    assert_true(near(life_heat_largest_rise(&q, 0.0, 50.0 * dwell), q.rise, 1e-12));
+    const double deep = 1.5 * sqrt(q.conducts * dwell), most = life_heat_largest_rise(&q, deep, 50.0 * dwell);
+    assert_true(most > 1.02 * life_heat_rise(&q, deep, dwell) && most > 1.02 * life_heat_rise(&q, deep, 3.0 * dwell));
 }
 
 static void test_heat_strain(void **state)
@@ -252,7 +259,9 @@ static void test_program(void **state)
 {
     (void)state;
     fresh_folder("rail");
-    assert_int_equal(run("life " CASE " -o rail/out --quiet --threads 1 --set life.places=3"), 0);
+    assert_int_equal(run("life " CASE " -o rail/out --quiet --threads 1 --set life.places=3 --set "
+                         "life.probe_depth='0 mm'"),
+                     0);
     cJSON *s = summary_of("rail/out");
     const cJSON *muzzle = place_of(s, 2), *fired = cJSON_GetObjectItemCaseSensitive(s, "shot");
     const double life = number(s, "life"), spread = exp(1.6448536269514722 * 1.1);
@@ -265,6 +274,7 @@ static void test_program(void **state)
     assert_true(number(muzzle, "position") == 3.0 && number(muzzle, "rise") < number(muzzle, "flux_rise"));
     assert_true(number(s, "life_range") >= 17e-6 * number(muzzle, "rise") && number(s, "life_depth") == 0.0);
     assert_true(number(s, "life_without_heat") > 10.0 * life && number(s, "without_heat_depth") > 1e-3);
+    assert_true(near(number(muzzle, "probe_rise"), number(muzzle, "rise"), 1e-12)); /* that of the face */
     assert_true(contains("rail/out/report.html", "by the heat of the passage"));
     cJSON_Delete(s);
 }

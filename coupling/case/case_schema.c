@@ -243,6 +243,8 @@ static const param life_params[] = {
     PARAM_DOUBLE(case_life, rounding, "1", 0.2, 0.02, 1.0,
                  "of load: armature, the pressure rises over this share of half the contact's length at each end"),
     PARAM_BOOL(case_life, heat, 1, "of load: armature, the heat of the passage strains the rail too"),
+    PARAM_DOUBLE(case_life, probe_depth, "m", OPTIONAL, 0.0, 1.0,
+                 "of load: armature, a depth below the face of which the largest rise of the temperature is told"),
     PARAM_ENUM(case_life, profile, life_profile_names, LIFE_HERTZ,
                "of the pressure over the patch: an ellipse, uniform, or by the list `points`"),
     PARAM_DOUBLE(case_life, wheel_load, "N", OPTIONAL, 1e-3, 1e9,

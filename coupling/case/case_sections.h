@@ -246,6 +246,7 @@ typedef struct {
     int places;                         /* along the barrel, of an armature's load */
     double rounding;                    /* of its pressure: rises over this share of the half length at each end [1] */
     bool heat;                          /* of its passage counts */
+    double probe_depth;                 /* whose warmth is asked for; NAN: none [m] */
     int profile;                        /* life_profile */
     double wheel_load;                  /* P on the whole ellipse; NAN: `pressure` is given [N] */
     double pressure;                    /* largest; NAN: of wheel_load [Pa] */

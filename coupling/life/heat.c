@@ -45,6 +45,15 @@ double life_heat_rise(const life_heat *h, double depth, double time)
     return contact + h->current_rise * current;
 }
 
+double life_heat_largest_rise(const life_heat *h, double depth, double until)
+{
+    enum { TIMES = 200 };
+    double most = 0.0;
+    for (int k = 0; k <= TIMES; k++) /* evenly in ln t from the dwell on: within the dwell the rise only grows */
+        most = fmax(most, life_heat_rise(h, depth, h->dwell * pow(until / h->dwell, (double)k / TIMES)));
+    return most;
+}
+
 void life_heat_strain(double rise, double expansion, double poisson, double strain[3])
 {
     strain[0] = -expansion * rise;

@@ -35,6 +35,8 @@ life_heat life_heat_of(const life_heat_metal *m, double dwell, double flux, doub
 double life_heat_flux_rise(const life_heat_metal *m, double dwell, double flux);
 
 double life_heat_rise(const life_heat *h, double depth, double time); /* T [K]; 0 before the contact comes */
+/* The largest up to this time, which must not lie before the dwell's end, within a per cent. */
+double life_heat_largest_rise(const life_heat *h, double depth, double until);
 /* Strain xx, zz, gamma of a rise. */
 void life_heat_strain(double rise, double expansion, double poisson, double strain[3]);
 

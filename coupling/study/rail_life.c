@@ -106,6 +106,8 @@ static void note_place(const work *w, const trace_point *at, const life_passage 
     out->velocity = at->v, out->pressure = at->pressure, out->friction = at->friction;
     out->moving_factor = life_contact_factor(&speed);
     out->rise = p->heat.rise;
+    if (!isnan(w->life->probe_depth))
+        out->probe_rise = life_heat_largest_rise(&p->heat, w->life->probe_depth, p->until);
     out->flux_rise = life_heat_flux_rise(&metal, p->heat.dwell, at->rail_flux);
 }
 
@@ -303,6 +305,7 @@ static status make_room(work *w, rail_life_result *r)
                                          .moving_factor = NAN,
                                          .rise = NAN,
                                          .flux_rise = NAN,
+                                         .probe_rise = NAN,
                                          .life = NAN,
                                          .interval = { NAN, NAN },
                                          .first = NAN,

@@ -25,6 +25,7 @@ typedef struct {
     double position, velocity, pressure, friction; /* [m, m/s, Pa, 1] */
     double moving_factor;                          /* K of (L-7) [1] */
     double rise, flux_rise;   /* of the face when the contact leaves it; by its flux alone, without a film [K] */
+    double probe_rise;        /* largest at life.probe_depth [K] */
     double life, interval[2]; /* shots to a crack; at 5 and 95 %, NAN where the spread of A is not known */
     double first;             /* shots until the first direction is cut */
     double depth, angle;      /* [m, rad] */

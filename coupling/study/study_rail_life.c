@@ -19,6 +19,8 @@ static const summary_key place_keys[] = {
     SUMMARY_NUMBER(rail_life_place, "rise", rise, "K", "of the rail's face when the contact leaves it, (L-9)"),
     SUMMARY_NUMBER(rail_life_place, "flux_rise", flux_rise, "K",
                    "the same by the contact's heat alone, without a film"),
+    SUMMARY_NUMBER(rail_life_place, "probe_rise", probe_rise, "K",
+                   "largest rise at life.probe_depth until the armature leaves the muzzle; null: not asked for"),
     SUMMARY_NUMBER(rail_life_place, "life", life, "1", "shots until a crack; null: never, or not known"),
     SUMMARY_VECTOR(rail_life_place, "life_interval", interval, 2, "1", "5 and 95 % of what may be true of A"),
     SUMMARY_NUMBER(rail_life_place, "life_first", first, "1", "shots until the first direction is cut"),
