@@ -96,6 +96,21 @@ static inline material scene_elastic(void)
     return m;
 }
 
+/* us = c0 + s up, and no tension. */
+#define WATER_RHO0 1000.0
+#define WATER_C0 1480.0
+#define WATER_SLOPE 1.92
+static inline material scene_water(void)
+{
+    material m;
+    base_params_default(mpm_material_params, &m);
+    strcpy(m.name, "water");
+    m.strength = STRENGTH_none;
+    m.density = WATER_RHO0, m.specific_heat = 4186, m.reference_temperature = 293;
+    m.sound_speed = WATER_C0, m.hugoniot_slope = WATER_SLOPE, m.gruneisen = 0.11, m.cavitation_pressure = 0;
+    return m;
+}
+
 static inline material scene_dust(void)
 {
     material m = scene_hydro();

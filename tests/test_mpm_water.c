@@ -2,19 +2,6 @@
 /* Water in scenes of one dimension against closed answers: its shock, and a cavity that opens and closes again. */
 #include "mpm_scenes.h"
 
-static const double RHO0 = 1000, C0 = 1480, SLOPE = 1.92;
-
-static material water(void)
-{
-    material m;
-    base_params_default(mpm_material_params, &m);
-    strcpy(m.name, "water");
-    m.strength = STRENGTH_none;
-    m.density = RHO0, m.specific_heat = 4186, m.reference_temperature = 293;
-    m.sound_speed = C0, m.hugoniot_slope = SLOPE, m.gruneisen = 0.11, m.cavitation_pressure = 0;
-    return m;
-}
-
 /* Mean of the pressure between two places, and scatter of the means of its cells [Pa, 1].  Within a cell the points
  * differ by a pattern that the grid does not see. */
 typedef struct {
@@ -48,9 +35,9 @@ static void test_hugoniot(void **state)
     const double all[] = { 10, 25, 50, 100, 200, 500, 700, 1000 }, few[] = { 25, 200 };
     const double *speed = scene_full() ? all : few, length = scene_full() ? 0.15 : 0.08;
     const int n = scene_full() ? 8 : 2;
-    const material m = water();
+    const material m = scene_water();
     for (int k = 0; k < n; k++) {
-        const double u = speed[k], us = C0 + SLOPE * u, want = RHO0 * us * u, end = 0.6 * length / us;
+        const double u = speed[k], us = WATER_C0 + WATER_SLOPE * u, want = WATER_RHO0 * us * u, end = 0.6 * length / us;
         SCENE_LOCAL(s);
         scene_bar(&s, 0, 1.1 * length, 0.5e-3, 1);
         s.basis = u > 200 ? BASIS_BSPLINE : BASIS_GIMP;
@@ -78,7 +65,7 @@ static double void_share(const mpm *m)
 {
     double *rho = scene_read(m, MPM_density), *mass = scene_read(m, MPM_mass), open = 0, whole = 0;
     for (size_t i = 0; i < mpm_particles(m); i++)
-        open += fmax(0, mass[i] / rho[i] - mass[i] / RHO0), whole += mass[i] / RHO0;
+        open += fmax(0, mass[i] / rho[i] - mass[i] / WATER_RHO0), whole += mass[i] / WATER_RHO0;
     free(rho), free(mass);
     return open / whole;
 }
@@ -88,7 +75,7 @@ static double pressure_of_thin_points(const mpm *m)
 {
     double *rho = scene_read(m, MPM_density), *p = scene_read(m, MPM_pressure), most = 0;
     for (size_t i = 0; i < mpm_particles(m); i++)
-        if (rho[i] < RHO0 * (1 - 1e-3)) most = fmax(most, fabs(p[i]));
+        if (rho[i] < WATER_RHO0 * (1 - 1e-3)) most = fmax(most, fabs(p[i]));
     free(rho), free(p);
     return most;
 }
@@ -101,8 +88,8 @@ static double pressure_of_thin_points(const mpm *m)
 static void test_cavity_closes(void **state)
 {
     (void)state;
-    const material m = water();
-    const double length = 40e-3, v = 5, pass = 0.5 * length / C0;
+    const material m = scene_water();
+    const double length = 40e-3, v = 5, pass = 0.5 * length / WATER_C0;
     SCENE_LOCAL(s);
     scene_bar(&s, 0, length, 0.5e-3, 1);
     for (int e = 0; e < 2; e++) s.axis[0].boundary[e] = BOUNDARY_SYMMETRY;
@@ -122,12 +109,12 @@ static void test_cavity_closes(void **state)
     }
     const mpm_ledger l = mpm_balance(solver);
     const mpm_report r = mpm_state(solver);
-    const double opened = 2 * v * pass / length, hammer = RHO0 * C0 * v;
+    const double opened = 2 * v * pass / length, hammer = WATER_RHO0 * WATER_C0 * v;
     print_message(
         "cavity: least pressure %.0f Pa, widest %.5f of the column (%.5f), %.5f at the end, thin points %.0f Pa; "
         "energy %.0e, mass %.0e\n",
         low, widest, opened, late, thin, l.energy_error, l.mass / l.mass_start - 1);
-    assert_true(low >= -1e-6 * RHO0 * C0 * C0);
+    assert_true(low >= -1e-6 * WATER_RHO0 * WATER_C0 * WATER_C0);
     assert_near(widest / opened, 1, 0.15);
     assert_below(thin, 0.25 * hammer);
     assert_below(late, 0.3 * widest);

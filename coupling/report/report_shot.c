@@ -14,7 +14,7 @@ static const page_column cards[] = { { "muzzle_velocity", "muzzle velocity", 1.0
                                      { "efficiency", "of the stored energy", 0.01, "%", NULL },
                                      { "peak_current", "peak current", 1e3, "kA", NULL },
                                      { "exit_current", "current at exit", 1e3, "kA", NULL },
-                                     { "peak_acceleration", "peak acceleration", 9806.65, "&times; 1000 g", NULL },
+                                     { "peak_acceleration", "peak acceleration", 9806.65, "thousand g", NULL },
                                      { "muzzle_time", "leaves after", 1e-3, "ms", NULL },
                                      { "rail_rise", "rail warmer by", 1.0, "K", NULL } };
 /* clang-format on */
