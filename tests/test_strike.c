@@ -334,9 +334,14 @@ static void test_limit(void **state)
 
 /* ---- from the shot ---- */
 
+#define PROFILE                                                                                 \
+    "current_profiles: [{points: [{time: 0 s, current: 0 A}, {time: 0.5 ms, current: 300 kA}, " \
+    "{time: 3 ms, current: 300 kA}, {time: 3.1 ms, current: 0 A}]}]\n"
+#define BANK                                                                                                   \
+    "bank: {count: 3, capacitance: 3.594 mF, charge: 5 kV, inductance: 12.56 uH, resistance: 4.1 mohm, "       \
+    "crowbar_drop: 1.48 V, crowbar_resistance: 0.43 mohm, cable_inductance: 1 uH, cable_resistance: 1 mohm}\n" \
+    "optimise: {goal: velocity}\n"
 #define LAUNCHER                                                                                                   \
-    "current_profiles: [{points: [{time: 0 s, current: 0 A}, {time: 0.5 ms, current: 300 kA}, "                    \
-    "{time: 3 ms, current: 300 kA}, {time: 3.1 ms, current: 0 A}]}]\n"                                             \
     "rail: {height: 25 mm, thickness: 20 mm, separation: 25 mm, level: constant, inductance_gradient: 0.45 uH/m, " \
     "resistance_gradient: 0.1 mohm/m}\n"                                                                           \
     "barrel: {length: 1 m, start: 0.1 m}\n"                                                                        \
@@ -349,9 +354,9 @@ static void test_from_shot(void **state)
 {
     (void)state;
     const double mass = 7850.0 * 4.0 / 3.0 * PI * 1e-9, area = PI * 1e-6;
-    const char *text = LAUNCHER HEAD(", distance: 10 m, drag_coefficient: 1, drag_area: 3.14159265 mm2, "
-                                     "discarded_mass: 32.85 g",
-                                     "0.5 us") BODIES("ofhc_copper", PLATE);
+    const char *text = PROFILE LAUNCHER HEAD(", distance: 10 m, drag_coefficient: 1, drag_area: 3.14159265 mm2, "
+                                             "discarded_mass: 32.85 g",
+                                             "0.5 us") BODIES("ofhc_copper", PLATE);
     cJSON *s = struck("shot", text, "");
     const cJSON *launched = cJSON_GetObjectItemCaseSensitive(s, "shot");
     const double muzzle = number(s, "muzzle_velocity");
@@ -369,6 +374,32 @@ static void test_from_shot(void **state)
     assert_int_equal(run("strike shot -o shot/b --quiet --set strike.drag_area=none"), 2);
     assert_true(contains("err.txt", "strike.drag_area is missing"));
     assert_false(exists("shot/b"));
+}
+
+/* With `optimise`, goal velocity, the bank's charge is found: for an arrival with strike.velocity, and for one with the
+ * limit velocity that the search brings out (its scenes are those of test_limit). */
+static void test_charge(void **state)
+{
+    (void)state;
+    const char *text = BANK LAUNCHER HEAD(", velocity: 200 m/s, distance: 10 m, drag_coefficient: 1, drag_area: "
+                                          "3.14159265 mm2, discarded_mass: 32.85 g",
+                                          "0.5 us") BODIES("ofhc_copper", PLATE);
+    cJSON *s = struck("charge", text, "");
+    assert_true(fabs(number(s, "impact_velocity") / 200.0 - 1.0) < 3e-5); /* the search's closeness, shots' rtol */
+    assert_true(number(s, "muzzle_velocity") > 210.0 && number(s, "charge_scale") > 0.0);
+    const double scale = number(s, "charge_scale"), stored = 0.5 * 3 * 3.594e-3 * 25e6 * scale * scale;
+    assert_true(fabs(number(s, "stored_energy") / stored - 1.0) < 1e-9);
+    cJSON_Delete(s);
+    assert_int_equal(run("strike charge -o charge/b --quiet --set strike.velocity=none"), 2);
+    assert_true(contains("err.txt", "optimise.muzzle_velocity is missing"));
+
+    const char *limit =
+        "study: {velocity_low: 200 m/s, velocity_high: 900 m/s, velocity_interval: 0.25}\n" BANK LAUNCHER HEAD(
+            ", travel: 14 mm, limit: yes, discarded_mass: 32.85 g", "1 us") BODIES("ofhc_copper", SHEET);
+    s = struck("aimed", limit, "--store limit/out/store");
+    assert_true(number(s, "limit_velocity") > 200.0);
+    assert_true(fabs(number(s, "impact_velocity") / number(s, "limit_velocity") - 1.0) < 3e-5);
+    cJSON_Delete(s);
 }
 
 /* ---- refused ---- */
@@ -458,8 +489,8 @@ int main(void)
         cmocka_unit_test(test_flight),    cmocka_unit_test(test_package),     cmocka_unit_test(test_class),
         cmocka_unit_test(test_scene),     cmocka_unit_test(test_classes),     cmocka_unit_test(test_hole),
         cmocka_unit_test(test_parts),     cmocka_unit_test(test_recht_ipson), cmocka_unit_test(test_limit),
-        cmocka_unit_test(test_from_shot), cmocka_unit_test(test_refused),     cmocka_unit_test(test_water),
-        cmocka_unit_test(test_losses),
+        cmocka_unit_test(test_from_shot), cmocka_unit_test(test_charge),      cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_water),     cmocka_unit_test(test_losses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

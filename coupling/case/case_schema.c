@@ -206,7 +206,8 @@ static const param strike_params[] = {
     PARAM_STRING(case_strike, plate, "", "a body of the target whose holes are looked for; not given: none"),
     PARAM_DOUBLE(
         case_strike, velocity, "m/s", OPTIONAL, 0.1, 1e5,
-        "of the projectile at arrival; not given: the shot's after its flight, without a supply the body's own"),
+        "of the projectile at arrival; not given: the shot's after its flight, without a supply the body's own; with "
+        "optimise, goal velocity: the one for which a charge is found"),
     PARAM_DOUBLE(case_strike, distance, "m", 0.0, 0.0, 1e5, "from the muzzle to the target"),
     PARAM_DOUBLE(case_strike, drag_coefficient, "1", OPTIONAL, 0.0, 10.0, "of the flight over that distance"),
     PARAM_DOUBLE(case_strike, drag_area, "m^2", OPTIONAL, 0.0, 10.0, "of the projectile, across its flight"),

@@ -29,7 +29,7 @@ enum {
     CASE_FOR_COMPARE = 16,   /* with CASE_FOR_ONSET: treatments */
     CASE_FOR_BODIES = 32,    /* takes the place of CASE_FOR_SCENE where `scene` has bodies of its own */
     CASE_FOR_SWEEP = 64,     /* sweep, and what it runs needs */
-    CASE_FOR_STRIKE = 128,   /* strike, a scene with bodies; without strike.velocity the shot, if there is a supply */
+    CASE_FOR_STRIKE = 128,   /* strike, a scene with bodies; the shot, where the projectile's speed is its */
     CASE_FOR_LIFE = 256,     /* life; its material's constants of elasticity and fatigue */
     CASE_FOR_VESSEL = 512    /* vessel; its film's constants of strength and failure */
 };

@@ -5,11 +5,17 @@
 #include <math.h>
 #include <string.h>
 
-/* Is its speed the shot's?  Then the command needs the shot's sections too. */
+static bool says(const tree_node *node, const char *text)
+{
+    return node && node->kind == TREE_TEXT && strcmp(node->text, text) == 0;
+}
+
+/* Is its speed the shot's, or a charge wanted for it?  Then the command needs the shot's sections too. */
 static bool wants_shot(const tree_node *root)
 {
     const tree_node *speed = host_tree_find(host_tree_find(root, "strike"), "velocity");
-    if (speed && !(speed->kind == TREE_TEXT && strcmp(speed->text, "none") == 0)) return false;
+    const bool charge = says(host_tree_find(host_tree_find(root, "optimise"), "goal"), "velocity");
+    if (speed && !says(speed, "none") && !charge) return false;
     for (int k = 0; k < SUPPLY_KINDS; k++)
         if (host_tree_find(root, circuit_supply_sections[k])) return true;
     return false;

@@ -177,11 +177,21 @@ status strike_package_check(const case_strike *s, double mass, double package)
     return status_ok();
 }
 
+/* k of (A-1) [1/m] */
+static double drag(const case_strike *s, double mass)
+{
+    return s->distance > 0.0 ? 0.5 * s->air_density * s->drag_coefficient * s->drag_area / mass : 0.0;
+}
+
+double strike_muzzle_for(const case_strike *s, double mass, double arrival_velocity)
+{
+    return arrival_velocity * exp(drag(s, mass) * s->distance);
+}
+
 strike_flight strike_fly(const case_strike *s, double mass, double muzzle_velocity)
 {
-    const double L = s->distance, v0 = muzzle_velocity;
+    const double L = s->distance, v0 = muzzle_velocity, k = drag(s, mass);
     if (!(L > 0.0)) return (strike_flight){ v0, 0.0 };
-    const double k = 0.5 * s->air_density * s->drag_coefficient * s->drag_area / mass;
     return (strike_flight){ v0 * exp(-k * L), k > 0.0 ? expm1(k * L) / (k * v0) : L / v0 };
 }
 

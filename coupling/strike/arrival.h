@@ -3,7 +3,7 @@
  *
  * The projectile is all bodies of the group of `strike.projectile`; all others are its target.  It flies along its own
  * velocity in scene.bodies, along +x where that is zero, and arrives with
- *   strike.velocity, where that is given;
+ *   strike.velocity, where that is given (with `optimise`, goal velocity, by a charge that is found for it);
  *   else what drag leaves of the shot's muzzle velocity, where the case has a shot;
  *   else the speed it has in scene.bodies.
  * Where `strike.projectile` is a body of fluid with a piston (mpm_body.piston_mass), what flies drives that piston: the
@@ -51,6 +51,8 @@ typedef struct {
 } strike_flight;
 /* of a projectile of so much mass. */
 strike_flight strike_fly(const case_strike *s, double mass, double muzzle_velocity);
+/* The muzzle velocity with which it arrives so fast [m/s]. */
+double strike_muzzle_for(const case_strike *s, double mass, double arrival_velocity);
 
 /* The case's scene with the projectile at this speed, its probes and its end; out->scene is for mpm_scene_free.
  * STATUS_BAD_INPUT: a probe has one of the names above; the plate is not seen along an axis. */

@@ -137,7 +137,7 @@ status study_strike_limit_search(session *s, const study_case *of, const strike_
     out->arrival = calloc(THRESHOLD_MAX_SAMPLES + 1, sizeof *out->arrival);
     out->bodies = calloc(THRESHOLD_MAX_SAMPLES, sizeof *out->bodies);
     CHECK(out->arrival && out->bodies, STATUS_MEMORY, "no memory for a search of a limit velocity");
-    insert(out, first);
+    if (first) insert(out, first);
     TRY(study_threshold_begin(&plan, &search));
     while ((n = study_threshold_ask(&search, wanted)) > 0) TRY(answer(s, of, p, &search, wanted, n, out));
     conclude(s, c, &search.result, out);

@@ -31,8 +31,8 @@ typedef struct {
 
 /* STATUS_BAD_INPUT: the range of the search is empty. */
 status study_strike_limit_possible(const case_study *c);
-/* Searches; `first` is the arrival that is known already.  study_strike_limit_free even on error, once the session is
- * closed. */
+/* Searches; `first` is an arrival that is known already, or NULL.  study_strike_limit_free even on error, once the
+ * session is closed. */
 status study_strike_limit_search(session *s, const study_case *of, const strike_projectile *p,
                                  const strike_arrival *first, strike_limit *out);
 void study_strike_limit_free(strike_limit *l);

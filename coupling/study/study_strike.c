@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* breech strike: what the projectile does to its target, at a given velocity or at that of the case's shot. */
+/* breech strike: what the projectile does to its target, at a given velocity or at that of the case's shot.
+ * With `optimise` the bank is fired as that finds it; goal velocity: so that the projectile arrives with
+ * strike.velocity, or, with strike.limit and without strike.velocity, with the limit velocity; else muzzle_velocity. */
 #include "coupling/gouge/session_shot.h"
 #include "coupling/host/table.h"
 #include "coupling/report/report_page.h"
+#include "coupling/study/firing_found.h"
 #include "coupling/study/strike.h"
 
 #include <math.h>
@@ -25,6 +28,10 @@ static const summary_key result_keys[] = {
     SUMMARY_NUMBER(strike_result, "muzzle_velocity", is.muzzle_velocity, "m/s",
                    "of the case's shot; null: none was fired"),
     SUMMARY_NUMBER(strike_result, "flight_time", is.flight_time, "s", "from the muzzle to the target; null: no shot"),
+    SUMMARY_WITH(strike_result, KEY_NUMBER, "charge_scale", firing.charge_scale, "1", "charge_scale",
+                 "with `optimise`: factor on all charges of the bank that was found"),
+    SUMMARY_WITH(strike_result, KEY_NUMBER, "stored_energy", firing.stored_energy, "J", "charge_scale",
+                 "of the bank, charged so"),
     SUMMARY_NUMBER(strike_result, "impact_velocity", is.impact_velocity, "m/s", "of the projectile at arrival"),
     SUMMARY_NUMBER(strike_result, "projectile_mass", is.projectile_mass, "kg", "of the whole projectile"),
     SUMMARY_CHOICE(strike_result, "class", is.class, strike_class_names,
@@ -83,15 +90,36 @@ static const summary_key result_keys[] = {
 typedef struct {
     strike_result result;
     strike_projectile projectile;
-    shot_record shot;
-    case_bodies bodies; /* of the scene; owned */
+    shot_record shot;    /* borrows from `firing` */
+    firing_found firing; /* with `optimise` */
+    case_bodies bodies;  /* of the scene; owned */
 } strike_answer;
+
+/* Is a charge wanted for a velocity? */
+static bool wants_charge(const case_inputs *in)
+{
+    return in->given.optimise && in->optimise.goal == FIRING_VELOCITY;
+}
+
+/* Is it to arrive with the limit velocity? */
+static bool aims_at_limit(const case_inputs *in)
+{
+    return wants_charge(in) && in->strike.limit && isnan(in->strike.velocity);
+}
 
 static bool takes_shot(const case_inputs *in)
 {
     bool supply = false;
     for (int k = 0; k < SUPPLY_KINDS; k++) supply = supply || in->given.supplies[k];
-    return supply && isnan(in->strike.velocity);
+    return supply && (isnan(in->strike.velocity) || wants_charge(in));
+}
+
+/* The case's wish, its muzzle velocity that for this arrival; NAN: as it stands. */
+static firing_wish wish_for(const case_inputs *in, double mass, double arrival)
+{
+    firing_wish w = in->optimise;
+    if (wants_charge(in) && !isnan(arrival)) w.muzzle_velocity = strike_muzzle_for(&in->strike, mass, arrival);
+    return w;
 }
 
 /* ---- before anything is written ---- */
@@ -108,6 +136,12 @@ static status possible(const study_case *of)
           in->strike.projectile);
     if (fired) TRY(study_possible(in, CASE_FOR_SHOT, NULL));
     if (fired) TRY(strike_package_check(&in->strike, p.mass, in->onset.launcher.armature.mass));
+    if (fired && in->given.optimise) {
+        const case_flight flight = case_flight_of(&in->onset);
+        const firing_wish wish =
+            wish_for(in, p.mass, aims_at_limit(in) ? in->onset.study.velocity_low : in->strike.velocity);
+        TRY(circuit_firing_check(&flight.launcher, &wish));
+    }
     if (in->strike.limit) TRY(study_strike_limit_possible(&in->onset.study));
     const status made = strike_scene(in, &p, 1.0, &bodies);
     mpm_scene_free(&bodies.scene);
@@ -116,8 +150,9 @@ static status possible(const study_case *of)
 
 /* ---- the run ---- */
 
-/* The velocity of arrival; of a shot its record too. */
-static status arrive(session *s, const study_case *of, strike_answer *a, strike_flight *flight, double *muzzle)
+/* The velocity of arrival; of a shot its record too.  wanted: arrival for which `optimise` finds a charge [m/s]. */
+static status arrive(session *s, const study_case *of, double wanted, strike_answer *a, strike_flight *flight,
+                     double *muzzle)
 {
     const case_inputs *in = of->in;
     *muzzle = NAN;
@@ -125,11 +160,15 @@ static status arrive(session *s, const study_case *of, strike_answer *a, strike_
         *flight = (strike_flight){ isnan(in->strike.velocity) ? a->projectile.speed : in->strike.velocity, NAN };
         return status_ok();
     }
-    const case_flight launched = case_flight_of(&in->onset);
+    case_flight launched = case_flight_of(&in->onset);
+    const firing_wish wish = wish_for(in, a->projectile.mass, wanted);
     shot_outcome o;
+    if (in->given.optimise) TRY(study_firing_find(s, &wish, &launched, &a->firing));
     const status done = gouge_session_shot(s, &launched, NULL, !of->one_of_several, &o, &a->shot);
     gouge_shot_outcome_free(&o);
     TRY(done);
+    if (in->given.optimise) study_firing_record(&a->firing, &a->shot);
+    a->result.firing = a->firing.is;
     *muzzle = a->shot.is.muzzle_velocity;
     CHECK(*muzzle > 0.0, STATUS_NUMERICAL, "the shot does not leave the muzzle: there is nothing to strike with");
     *flight = strike_fly(&in->strike, a->projectile.mass, *muzzle);
@@ -174,10 +213,24 @@ static scene_query query_of(const study_case *of, const case_bodies *bodies, con
     return q;
 }
 
+/* The limit velocity alone, for which a charge is to be found. */
+static status aim_at_limit(session *s, const study_case *of, strike_answer *a, double *wanted)
+{
+    strike_limit *l = &a->result.limit;
+    TRY(study_strike_limit_search(s, of, &a->projectile, NULL, l));
+    CHECK(!isnan(l->velocity), STATUS_NUMERICAL,
+          "no limit velocity between study.velocity_low = %g m/s and velocity_high = %g m/s: nothing to find a charge "
+          "for",
+          of->in->onset.study.velocity_low, of->in->onset.study.velocity_high);
+    *wanted = l->velocity;
+    return status_ok();
+}
+
 static status run(session *s, const study_case *of, study_answer *out)
 {
     const case_inputs *in = of->in;
     const scene_record *done;
+    double wanted = in->strike.velocity;
     strike_flight flight = { NAN, NAN };
     double muzzle;
     strike_answer *a = out->owned = calloc(1, sizeof *a);
@@ -186,7 +239,8 @@ static status run(session *s, const study_case *of, study_answer *out)
     r->limit.velocity = r->limit.interval[0] = r->limit.interval[1] = NAN;
     r->limit.fit = (strike_fit){ NAN, NAN, NAN };
     TRY(strike_projectile_of(in, &a->projectile));
-    TRY(arrive(s, of, a, &flight, &muzzle));
+    if (aims_at_limit(in)) TRY(aim_at_limit(s, of, a, &wanted));
+    TRY(arrive(s, of, wanted, a, &flight, &muzzle));
     if (!isnan(muzzle)) out->shot = &a->shot;
     TRY(strike_scene(in, &a->projectile, flight.velocity, &a->bodies));
     const scene_query query = query_of(of, &a->bodies, "scene");
@@ -198,7 +252,7 @@ static status run(session *s, const study_case *of, study_answer *out)
     r->is.flight_time = flight.time;
     warn(s, r);
     out->result = r;
-    if (!in->strike.limit) return status_ok();
+    if (!in->strike.limit || aims_at_limit(in)) return status_ok();
     strike_arrival first = { .is = r->is };
     snprintf(first.scene, sizeof first.scene, "%s", done->entry.name);
     return study_strike_limit_search(s, of, &a->projectile, &first, &r->limit);
@@ -211,6 +265,7 @@ static void free_owned(void *owned)
     scene_bodies_free(&a->result.scene);
     study_strike_limit_free(&a->result.limit);
     mpm_scene_free(&a->bodies.scene);
+    study_firing_free(&a->firing);
     free(a);
 }
 

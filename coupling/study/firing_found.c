@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "coupling/study/firing_found.h"
+
+#include <stdlib.h>
+
+status study_firing_find(session *s, const firing_wish *wish, case_flight *flight, firing_found *out)
+{
+    supply_list *bank = &flight->launcher.supplies[SUPPLY_capacitor];
+    const size_t n = (size_t)bank->n;
+    const double since = host_wall_clock();
+    out->modules = malloc((n + 1) * sizeof *out->modules);
+    out->fire_at = malloc((n + 1) * sizeof *out->fire_at);
+    CHECK(out->modules && out->fire_at, STATUS_MEMORY, "no memory for %zu groups", n);
+    host_progress_task(&s->progress, "search for firing times", 0.0, 0);
+    TRY(circuit_firing_optimise(&flight->launcher, wish, s->stop, out->modules, &out->is));
+    host_timing_add(&s->timing, "firing times", host_wall_clock() - since);
+    out->n = bank->n;
+    for (int k = 0; k < out->n; k++) out->fire_at[k] = out->modules[k].fire_at;
+    bank->item = out->modules;
+    return status_ok();
+}
+
+void study_firing_free(firing_found *f)
+{
+    free(f->modules);
+    free(f->fire_at);
+}
+
+void study_firing_record(const firing_found *f, shot_record *record)
+{
+    record->firing = f->is;
+    record->n_fire_at = f->n;
+    record->fire_at = f->fire_at;
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the section `optimise` of a case asks for, found before its shot: firing times and charges of the bank. */
+#ifndef BREECH_COUPLING_STUDY_FIRING_FOUND_H
+#define BREECH_COUPLING_STUDY_FIRING_FOUND_H
+
+#include "circuit/firing.h"
+#include "coupling/case/case_plain.h"
+#include "coupling/run/session.h"
+#include "coupling/run/shot_record.h"
+
+typedef struct {
+    shot_module *modules; /* [n] the bank's groups; owned */
+    double *fire_at;      /* [n] owned [s] */
+    int n;
+    firing_result is;
+} firing_found;
+
+/* The flight's bank becomes the one that is found, which borrows from `out`.  study_firing_free even on error. */
+status study_firing_find(session *s, const firing_wish *wish, case_flight *flight, firing_found *out);
+void study_firing_free(firing_found *f);
+
+/* Says in the record what was found; it borrows the times. */
+void study_firing_record(const firing_found *f, shot_record *record);
+
+#endif
