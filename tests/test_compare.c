@@ -137,6 +137,7 @@ static const char *const example[TREATMENT_KINDS] = {
     [TREATMENT_polish] = "polish: {size: 0.6, number: 0.5}",
     [TREATMENT_lead_angle] = "lead_angle: {angle: 45 deg}",
     [TREATMENT_preheat] = "preheat: {temperature: 400 K}",
+    [TREATMENT_friction] = "friction: {factor: 0.5}",
     [TREATMENT_armature_metal] = "armature_metal: {material: steel_4340}",
 };
 
@@ -240,6 +241,10 @@ static void test_what_they_do(void **state)
     assert_true(fabs(treated.populations.item[0].density - 1.5) < 1e-12);
     assert_true(fabs(treated.sites.item[0].radius - 0.3e-3) < 1e-12 &&
                 fabs(treated.sites.item[0].height - 0.3e-3) < 1e-12);
+    case_treated_free(&treated);
+    OK(case_treat(&given, &c->treatments.item[TREATMENT_friction], &treated));
+    assert_true(treated.launcher.armature.friction_dry == 0.15 && treated.launcher.armature.friction_melted == 0.025);
+    assert_true(treated.impact.scene.friction == 0.025); /* half of all three */
     case_treated_free(&treated);
     case_free(c);
 }

@@ -9,7 +9,7 @@
 #include <string.h>
 
 static const double SIGNIFICANT = 0.95;
-static const double ALIKE = 1e-3; /* of one metal: lives that differ by less are tied */
+static const double ALIKE = 0.05; /* of one metal: lives that differ by a smaller share are tied */
 
 void study_life_compare_free(life_ranking *r)
 {

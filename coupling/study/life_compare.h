@@ -6,8 +6,8 @@
  * down as far as the cracks.  A preheated rail is flown warm.  What hardening, polish, a lead face or the armature's
  * metal in the scenes do is not in the law: such a surface is tied with the untreated one.
  *
- * `better_than_next`: that it lasts longer than the next one.  Of one metal A is the same, so it is certain or tied;
- * of two each A has a spread of its own. */
+ * `better_than_next`: that it lasts longer than the next one.  Of one metal A is the same, so it is certain, or tied
+ * where the lives differ by less than a twentieth; of two each A has a spread of its own. */
 #ifndef BREECH_COUPLING_STUDY_LIFE_COMPARE_H
 #define BREECH_COUPLING_STUDY_LIFE_COMPARE_H
 

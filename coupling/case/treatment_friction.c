@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A contact that slides more or less easily: a lubricant, a roughened face.  In the shot and in the scenes alike. */
+#include "coupling/case/treatment.h"
+
+enum { FACTOR };
+
+const param case_treatment_friction_params[] = {
+    TREATMENT_VALUE(FACTOR, "factor", "1", REQUIRED, 0.0, 10.0,
+                    "on the coefficients of the shot, dry and melted, and of the scenes"),
+    PARAMS_END,
+};
+
+status case_treatment_friction_apply(const treatment_settings *t, case_onset *c)
+{
+    c->launcher.armature.friction_dry *= t->value[FACTOR];
+    c->launcher.armature.friction_melted *= t->value[FACTOR];
+    c->impact.scene.friction *= t->value[FACTOR];
+    return status_ok();
+}
