@@ -225,7 +225,10 @@ static inline void example_fill(example_results *e)
     e->shot = example_shot();
     e->scene = example_scene(0.4);
     example_onset(&e->study);
-    e->compare = (compare_result){ .n = 2, .ranking = ranking };
+    e->compare =
+        (compare_result){ .verdict = "none of the 2 surfaces can be told from the others; fewest gouges: hardened",
+                          .n = 2,
+                          .ranking = ranking };
     e->inductance = (inductance_result){ .n = 3,
                                          .frequency = frequency,
                                          .L_gradient = gradient,

@@ -694,6 +694,85 @@ static void test_uncertain_surfaces(void **state)
     case_free(c);
 }
 
+/* Asked for, the scatter with the grid widens the interval of every surface, by scenes of its own; the ends of an
+ * interval are passed around the place of its threshold. */
+static void test_scatter_of_surfaces(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD GRAINS "treatments:\n  - {name: hard, hardening: {depth: 0.4 mm, factor: 2}}\n", ALL);
+    compare_answer one, many;
+    int shifted[2] = { 0, 0 };
+    OK(run_compare(c, "one-grid", &one));
+    c->study.threshold_ensemble = 3;
+    OK(run_compare(c, "grids", &many));
+    for (int i = 0; i < 2; i++) {
+        const compare_entry *a = entry_of(&one, i ? "hard" : "untreated"),
+                            *b = entry_of(&many, i ? "hard" : "untreated");
+        const double *x = b->threshold_position_interval;
+        assert_true(a->threshold_velocity == b->threshold_velocity);
+        assert_true(isnan(a->threshold_deviation) && b->threshold_deviation > 50.0);
+        assert_true(b->threshold_interval[0] < a->threshold_interval[0] - 5.0);
+        assert_true(b->threshold_interval[1] > a->threshold_interval[1] + 5.0);
+        assert_true(x[0] < a->threshold_position_interval[0] && x[0] < b->threshold_position);
+        assert_true(isnan(x[1]) || x[1] > b->threshold_position);
+    }
+    for (int i = 0; i < many.result.n_scenes; i++) {
+        const char *name = many.result.scene[i].name;
+        if (strstr(name, "-growth-e")) shifted[strncmp(name, "t1-", 3) == 0]++;
+    }
+    assert_true(shifted[0] == 2 && shifted[1] == 2);
+    study_compare_answer_free(&one);
+    study_compare_answer_free(&many);
+    case_free(c);
+}
+
+/* A crater deeper than a layer dents it; where a tenth of the layer goes too, it is worn through. */
+static void test_dented(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD GRAINS "treatments:\n"
+                                      "  - {name: thin, coating: [{material: steel_4340, thickness: 0.02 mm}]}\n"
+                                      "  - {name: loose, coating: [{material: steel_4340, thickness: 0.02 mm, "
+                                      "bond_strength: 100 MPa}]}\n",
+                          ALL);
+    compare_answer a;
+    OK(run_compare(c, "dented", &a));
+    assert_string_equal(entry_of(&a, "thin")->layer, "dented");
+    assert_string_equal(entry_of(&a, "loose")->layer, "worn through");
+    study_compare_answer_free(&a);
+    case_free(c);
+}
+
+/* One sentence says which surface is best; none is called free of gouges while another of its rank gouges. */
+static void test_verdict(void **state)
+{
+    (void)state;
+    static const struct {
+        double gouges[3], threshold[3];
+        double better[3];
+        const char *says;
+    } all[] = {
+        { { 0, 0, 2 },
+          { NAN, NAN, 1500 },
+          { 0.5, 0.9, NAN },
+          "none of the 3 surfaces can be told from the others; "
+          "fewest gouges: a" },
+        { { 0, 0, 0 }, { NAN, NAN, NAN }, { 0.5, 0.5, NAN }, "none of the 3 surfaces gouges in this shot" },
+        { { 1, 2, 3 }, { 1700, 1600, 1500 }, { 0.99, 0.5, NAN }, "best is a" },
+        { { 1, 2, 3 }, { 1700, 1600, 1500 }, { 0.5, 0.99, NAN }, "best are a and b, which cannot be told apart" },
+    };
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        compare_entry e[3] = { { .surface = "a" }, { .surface = "b" }, { .surface = "c" } };
+        compare_result r = { .n = 3, .ranking = e };
+        for (int i = 0; i < 3; i++) {
+            e[i].gouges = all[k].gouges[i], e[i].threshold_velocity = all[k].threshold[i];
+            e[i].tied = i > 0 && all[k].better[i - 1] >= 0.95 ? i + 1 : i > 0 ? e[i - 1].tied : 1;
+        }
+        study_compare_conclude(&r);
+        assert_string_equal(r.verdict, all[k].says);
+    }
+}
+
 /* A close search of one resolution. */
 static breech_case *close_search(const char *text)
 {
@@ -934,6 +1013,9 @@ int main(void)
         cmocka_unit_test(test_no_craters),
         cmocka_unit_test(test_uncertain_inputs),
         cmocka_unit_test(test_uncertain_surfaces),
+        cmocka_unit_test(test_scatter_of_surfaces),
+        cmocka_unit_test(test_dented),
+        cmocka_unit_test(test_verdict),
         cmocka_unit_test(test_scatter),
         cmocka_unit_test(test_scatter_of_two),
         cmocka_unit_test(test_scatter_of_dying),

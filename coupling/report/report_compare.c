@@ -5,6 +5,7 @@
 
 #include "coupling/report/report_svg.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,30 +40,6 @@ static const cJSON *untreated_of(const cJSON *ranking)
     return NULL;
 }
 
-/* "x, y and z": those that share the first rank. */
-static void write_tied(FILE *out, const cJSON *ranking, int tied)
-{
-    const cJSON *entry;
-    int k = 0;
-    cJSON_ArrayForEach(entry, ranking)
-    {
-        if (k >= tied) break;
-        fputs(k == 0 ? "<b>" : k + 1 == tied ? "</b> and <b>" : "</b>, <b>", out);
-        report_svg_escaped(out, report_text(entry, "surface"));
-        k++;
-    }
-    fputs("</b>", out);
-}
-
-static int tied_with_best(const cJSON *ranking)
-{
-    const double first = report_number(ranking->child, "tied");
-    const cJSON *entry;
-    int n = 0;
-    cJSON_ArrayForEach(entry, ranking) n += report_number(entry, "tied") == first;
-    return n > 0 && isfinite(first) ? n : 1;
-}
-
 /* One sentence of a surface: from which speed on it gouges, and how often. */
 static void write_surface(FILE *out, const cJSON *entry)
 {
@@ -76,22 +53,22 @@ static void write_surface(FILE *out, const cJSON *entry)
     write_gouges(out, entry);
 }
 
+/* The verdict as the summary has it, as a sentence. */
+static void write_verdict(FILE *out, const char *verdict)
+{
+    const char first[2] = { (char)toupper((unsigned char)verdict[0]), '\0' };
+    if (!verdict[0]) return;
+    fputs("<p class=\"verdict\">", out);
+    report_svg_escaped(out, first);
+    report_svg_escaped(out, verdict + 1);
+    fputs(".</p>\n", out);
+}
+
 void report_compare_head(const page *p)
 {
-    const cJSON *ranking = report_page_list(p, "ranking"), *plain = untreated_of(ranking);
-    const int n = cJSON_GetArraySize(ranking);
-    if (!report_page_is_done(p) || n == 0) return;
-    const int tied = tied_with_best(ranking);
-    const cJSON *best = ranking->child;
-    fputs("<p class=\"verdict\">", p->out);
-    if (tied == n && n > 1) {
-        fprintf(p->out, "None of the %d surfaces can be told from the others", n);
-        fputs(gouges_not(best) ? ": none gouges in this shot.</p>\n" : ".</p>\n", p->out);
-    } else {
-        fputs(tied > 1 ? "Best are " : "Best is ", p->out);
-        write_tied(p->out, ranking, tied);
-        fprintf(p->out, tied > 1 ? ", which cannot be told apart.</p>\n" : ".</p>\n");
-    }
+    const cJSON *ranking = report_page_list(p, "ranking"), *plain = untreated_of(ranking), *best = ranking->child;
+    if (!report_page_is_done(p) || !best) return;
+    write_verdict(p->out, report_text(p->source->summary, "verdict"));
     fputs("<ul>\n<li><b>", p->out);
     report_svg_escaped(p->out, report_text(best, "surface"));
     fputs("</b> ", p->out);
@@ -257,14 +234,14 @@ static const page_column ranking_columns[] = {
     { "tied", "rank", 1.0, "", NULL },
     { "threshold_velocity", "gouges from", 1.0, "m/s", "threshold_interval" },
     { "scratch_velocity", "scratches from", 1.0, "m/s", "scratch_interval" },
-    { "threshold_position", "passed at", 1.0, "m", NULL },
+    { "threshold_position", "passed at", 1.0, "m", "threshold_position_interval" },
     { "gouges", "gouges a shot", 1.0, "", "gouges_interval" },
     { "better_than_next", "better than the next", 0.01, "%", NULL },
     { "significant", "that is significant", 1.0, "", NULL },
     { "gouged_volume", "gouged volume", 1e-9, "mm\302\263", "gouged_volume_interval" },
     { "life", "shots until a crack", 1.0, "", NULL },
     { "layer", "its layers", 1.0, "", NULL },
-    { "layer_failed", "of them failed", 0.01, "%", NULL },
+    { "layer_failed", "layers over the crater that failed", 0.01, "%", NULL },
     { "scenes", "scenes", 1.0, "", NULL } };
 /* clang-format on */
 

@@ -80,6 +80,7 @@ static status search(session *s, compare_answer *a)
     free(all);
     TRY(done);
     for (int i = 0; i < a->n; i++) {
+        TRY(study_scatter_run(s, &a->answer[i].grains));
         TRY(study_uncertain_run(s, &a->answer[i].grains, &a->answer[i].uncertain));
         TRY(study_onset_judge(s, &a->answer[i]));
     }
@@ -125,11 +126,15 @@ static const family_scene *telling_scene(const grain_families *g)
     return best;
 }
 
+/* A crater deeper than the layers has worn them through only where they are gone: soft rail gives way under a layer,
+ * which then lines the dent. */
 static const char *suffering(const scene_result *r, double thickness, double failed, double carried)
 {
-    if (r->crater_depth >= thickness) return "worn through";
+    const bool deep = r->crater_depth >= thickness;
+    if (deep && failed + carried >= SUFFERED) return "worn through";
     if (carried >= SUFFERED) return "sheared off";
-    return failed >= SUFFERED ? "spalled" : "intact";
+    if (failed >= SUFFERED) return "spalled";
+    return deep ? "dented" : "intact";
 }
 
 static void judge_layers(const case_onset *c, const grain_families *g, compare_entry *e)
@@ -193,7 +198,9 @@ static void fill_entry(const case_treatments *treatments, const compare_answer *
     memcpy(e->threshold_interval, r->threshold_interval, sizeof e->threshold_interval);
     e->scratch_velocity = r->scratch_velocity;
     memcpy(e->scratch_interval, r->scratch_interval, sizeof e->scratch_interval);
+    e->threshold_deviation = r->threshold_deviation;
     e->threshold_position = r->threshold_position;
+    memcpy(e->threshold_position_interval, r->threshold_position_interval, sizeof e->threshold_position_interval);
     e->onset_position = a->treated[i].populations.n > 0 ? shot_drawn->first[1] : r->onset_position;
     e->gouges = shot_drawn->gouges;
     memcpy(e->gouges_interval, shot_drawn->gouges_interval, sizeof e->gouges_interval);
@@ -255,6 +262,7 @@ static status rank(const case_treatments *treatments, compare_answer *a)
     a->result.ranking = a->entry;
     a->result.n = a->n;
     a->result.histories = a->drawn.histories;
+    study_compare_conclude(&a->result);
     return status_ok();
 }
 

@@ -4,9 +4,9 @@
  *
  * Ranked by the expected number of gouges a shot; of equals the one that reaches its threshold later is the better.
  * `better_than_next`: share of the worlds (montecarlo.h: what the bands of the thresholds leave open) in which a
- * surface has fewer gouges than the next one, ties half.  The bands hold the inputs that are stated as uncertain too
- * (search/uncertain.h), each surface's by searches of its own.  From 95 % on the difference is called significant;
- * surfaces that no significant step parts share their rank. */
+ * surface has fewer gouges than the next one, ties half.  The bands hold the place of the grid (search/scatter.h) where
+ * that is asked for, and the inputs that are stated as uncertain (search/uncertain.h), each surface's by scenes of its
+ * own.  From 95 % on the difference is called significant; surfaces that no significant step parts share their rank. */
 #ifndef BREECH_COUPLING_COMPARE_H
 #define BREECH_COUPLING_COMPARE_H
 
@@ -21,21 +21,24 @@ typedef struct {
     double onset_position;                            /* [m] */
     double gouged_volume;                             /* [m3] */
     double gouged_volume_interval[2];                 /* [m3] */
+    double threshold_deviation;                       /* over study.threshold_ensemble grids; NAN: not known [m/s] */
     double threshold_position;                        /* [m] */
+    double threshold_position_interval[2];            /* where the ends of the threshold's interval are passed [m] */
     double gouges, gouges_interval[2];                /* a shot, expected [1] */
     double probability_gouge;                         /* [1] */
     double better_than_next; /* share of what may be true in which it gouges less than the next one [1] */
     bool significant;        /* that share is at least 0.95, not by the screen alone; of the last: the former one's */
     int tied;                /* surfaces from the same `tied` on cannot be told apart; from 1 */
     int scenes;              /* its own, those shared with surfaces before it not counted */
-    char layer[24];          /* what its layers suffer: "none", "intact", "spalled", "sheared off", "worn through" */
-    double layer_failed;     /* share of the layers under the crater that failed [1] */
+    char layer[24];          /* what its layers suffer: none, intact, dented, spalled, sheared off, worn through */
+    double layer_failed;     /* share of the layers over the crater that failed [1] */
     double layer_velocity;   /* of the scene that says so [m/s] */
     double life, life_quantiles[3]; /* shots until a crack (life_compare.h); NAN: not asked for or not known [1] */
     int life_rank;                  /* tied, by life; 0: not asked for */
 } compare_entry;
 
 typedef struct {
+    char verdict[400]; /* which surface is best, and can it be told from the others */
     int n;
     const compare_entry *ranking; /* n, best first, borrowed */
     int n_scenes;
@@ -62,6 +65,8 @@ typedef struct {
  * is in it. */
 status study_compare_run(session *s, const case_onset *c, const case_treatments *treatments, const case_life *life,
                          compare_answer *out);
+/* Writes the verdict of the ranking in *r: the one sentence that report and terminal share. */
+void study_compare_conclude(compare_result *r);
 void study_compare_print(const void *result, FILE *out); /* of a compare_result */
 void study_compare_answer_free(compare_answer *a);
 

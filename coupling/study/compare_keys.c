@@ -20,6 +20,10 @@ static const summary_key entry_keys[] = {
                    "5 and 95 % of what may be true"),
     SUMMARY_NUMBER(compare_entry, "threshold_position", threshold_position, "m",
                    "where the threshold velocity is passed"),
+    SUMMARY_VECTOR(compare_entry, "threshold_position_interval", threshold_position_interval, 2, "m",
+                   "where its ends are"),
+    SUMMARY_NUMBER(compare_entry, "threshold_deviation", threshold_deviation, "m/s",
+                   "standard deviation over study.threshold_ensemble grids; its interval holds it; null: not known"),
     SUMMARY_NUMBER(compare_entry, "gouges", gouges, "1", "a shot, expected: what ranks"),
     SUMMARY_VECTOR(compare_entry, "gouges_interval", gouges_interval, 2, "1", "5 and 95 % of what may be true"),
     SUMMARY_NUMBER(compare_entry, "probability_gouge", probability_gouge, "1", "that a shot gouges"),
@@ -31,9 +35,8 @@ static const summary_key entry_keys[] = {
                   "rank of the group of surfaces it cannot be told apart from"),
     SUMMARY_VALUE(compare_entry, KEY_INTEGER, "scenes", scenes, "1", "its own, shared ones not counted twice"),
     SUMMARY_TEXT(compare_entry, "layer", layer,
-                 "what its layers suffer: none, intact, spalled, sheared off, worn through"),
-    SUMMARY_NUMBER(compare_entry, "layer_failed", layer_failed, "1",
-                   "share of the layers under the crater that failed"),
+                 "what its layers suffer: none (no layers), intact, dented, spalled, sheared off, worn through"),
+    SUMMARY_NUMBER(compare_entry, "layer_failed", layer_failed, "1", "share of the layers over the crater that failed"),
     SUMMARY_NUMBER(compare_entry, "layer_velocity", layer_velocity, "m/s", "of the scene that says so"),
     SUMMARY_NUMBER(
         compare_entry, "life", life, "1",
@@ -45,6 +48,7 @@ static const summary_key entry_keys[] = {
 };
 
 const summary_key study_compare_keys[] = {
+    SUMMARY_TEXT(compare_result, "verdict", verdict, "which surface is best, and can it be told from the others"),
     SUMMARY_LIST(compare_result, "ranking", ranking, n, entry_keys, sizeof(compare_entry),
                  "a surface each, best first"),
     SUMMARY_LIST(compare_result, "scenes", scene, n_scenes, run_scene_keys, sizeof(onset_scene),
@@ -58,18 +62,52 @@ const summary_key study_compare_keys[] = {
     SUMMARY_END
 };
 
-/* Which surface gouges least, by how much, and can it be told apart from the next? */
+/* The verdict, and what it says of the first surface in numbers. */
 static void print_verdict(const compare_result *c, FILE *out)
 {
     const compare_entry *best = c->ranking, *next = c->ranking + 1;
-    char v[24];
     if (c->n < 2) return;
-    fprintf(out, "\nbest: %s, %.3g gouges a shot (%.3g .. %.3g), threshold %s m/s; ", best->surface, best->gouges,
-            best->gouges_interval[0], best->gouges_interval[1], output_cell(best->threshold_velocity, 1.0, "%.0f", v));
-    if (best->significant)
-        fprintf(out, "better than %s, which has %.3g\n", next->surface, next->gouges);
-    else
-        fprintf(out, "it cannot be told apart from %s, which has %.3g\n", next->surface, next->gouges);
+    fprintf(out, "\n%s\n%s: %.3g gouges a shot (%.3g .. %.3g)", c->verdict, best->surface, best->gouges,
+            best->gouges_interval[0], best->gouges_interval[1]);
+    if (isfinite(best->threshold_velocity)) fprintf(out, ", threshold %.0f m/s", best->threshold_velocity);
+    fprintf(out, "; %s: %.3g\n", next->surface, next->gouges);
+}
+
+static void print_ranking(const compare_result *c, FILE *out)
+{
+    table *t;
+    if (host_table_create("#|surface|gouges|from|to|[mm3]|better|layer", &t).code != STATUS_OK) return;
+    for (int i = 0; i < c->n; i++) {
+        const compare_entry *e = &c->ranking[i];
+        char n[24], few[24], many[24], volume[24], better[24];
+        host_table_row(t, "%d|%s|%s|%s|%s|%s|%s|%s", e->tied ? e->tied : i + 1, e->surface,
+                       output_cell(e->gouges, 1.0, "%.3g", n), output_cell(e->gouges_interval[0], 1.0, "%.3g", few),
+                       output_cell(e->gouges_interval[1], 1.0, "%.3g", many),
+                       output_cell(e->gouged_volume, 1e-9, "%.3g", volume),
+                       output_cell(e->better_than_next, 0.01, "%.0f %%", better), e->layer);
+    }
+    host_table_print(t, out);
+    host_table_free(t);
+}
+
+/* The threshold of each surface and where it is passed, both with their intervals. */
+static void print_thresholds(const compare_result *c, FILE *out)
+{
+    table *t;
+    if (host_table_create("surface|v_th [m/s]|from|to|x [m]|from|to", &t).code != STATUS_OK) return;
+    for (int i = 0; i < c->n; i++) {
+        const compare_entry *e = &c->ranking[i];
+        char v[24], low[24], high[24], x[24], near[24], far[24];
+        host_table_row(t, "%s|%s|%s|%s|%s|%s|%s", e->surface, output_cell(e->threshold_velocity, 1.0, "%.0f", v),
+                       output_cell(e->threshold_interval[0], 1.0, "%.0f", low),
+                       output_cell(e->threshold_interval[1], 1.0, "%.0f", high),
+                       output_cell(e->threshold_position, 1.0, "%.3f", x),
+                       output_cell(e->threshold_position_interval[0], 1.0, "%.3f", near),
+                       output_cell(e->threshold_position_interval[1], 1.0, "%.3f", far));
+    }
+    fputc('\n', out);
+    host_table_print(t, out);
+    host_table_free(t);
 }
 
 /* Which surface lasts longest? */
@@ -89,22 +127,8 @@ static void print_life(const compare_result *c, FILE *out)
 void study_compare_print(const void *result, FILE *out)
 {
     const compare_result *c = result;
-    table *t;
-    const char *titles = "#|surface|v_th [m/s]|from|to|x [m]|gouges|from|to|[mm3]|better|layer";
-    if (host_table_create(titles, &t).code != STATUS_OK) return;
-    for (int i = 0; i < c->n; i++) {
-        const compare_entry *e = &c->ranking[i];
-        char v[24], lo[24], hi[24], x[24], volume[24], n[24], few[24], many[24], better[24];
-        host_table_row(
-            t, "%d|%s|%s|%s|%s|%s|%s|%s|%s|%s|%s|%s", e->tied ? e->tied : i + 1, e->surface,
-            output_cell(e->threshold_velocity, 1.0, "%.0f", v), output_cell(e->threshold_interval[0], 1.0, "%.0f", lo),
-            output_cell(e->threshold_interval[1], 1.0, "%.0f", hi), output_cell(e->threshold_position, 1.0, "%.3f", x),
-            output_cell(e->gouges, 1.0, "%.3g", n), output_cell(e->gouges_interval[0], 1.0, "%.3g", few),
-            output_cell(e->gouges_interval[1], 1.0, "%.3g", many), output_cell(e->gouged_volume, 1e-9, "%.3g", volume),
-            output_cell(e->better_than_next, 0.01, "%.0f %%", better), e->layer);
-    }
-    host_table_print(t, out);
-    host_table_free(t);
+    print_ranking(c, out);
+    print_thresholds(c, out);
     print_verdict(c, out);
     print_life(c, out);
 }
