@@ -114,7 +114,8 @@ const param mpm_cavity_params[] = {
 const param mpm_scene_params[] = {
     PARAM_STRING(mpm_scene, instruction_set, "", "that the kernels run in; empty: the best of this machine"),
     /* MPM_SCENE_KEYED */
-    PARAM_DOUBLE(mpm_scene, end_time, "s", REQUIRED, 1e-12, 1e3, "time that is simulated"),
+    PARAM_DOUBLE(mpm_scene, end_time, "s", OPTIONAL, 1e-12, 1e3,
+                 "time that is simulated; may be left out beside strike.travel"),
     /* MPM_SCENE_HASHED */
     PARAM_DOUBLE(mpm_scene, zone_until, "s", OPTIONAL, 0.0, 1e6,
                  "until then cells are small in the zone of the window, with levels; not given: 0 with `refine`"),

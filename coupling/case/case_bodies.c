@@ -523,6 +523,8 @@ void case_bodies_read(case_reader *r)
     mpm_scene_default(s);
     const case_keys keys[] = { { method_params, s }, { shared_params, &shared } };
     case_keys_read(r, scene, "scene", keys, 2, others);
+    if (!host_tree_find(scene, "end_time") && !host_tree_find(host_tree_find(r->root, "strike"), "travel"))
+        case_errors_add(r->errors, scene, "scene.end_time is missing [s]: time that is simulated");
     r->out->bodies.overlap = shared.overlap;
     read_window(r, host_tree_find(scene, "window"));
     const int errors = r->errors->n;

@@ -82,15 +82,22 @@ static void fill_cells(const survey *bodies, bool rules, mpm_axis *a)
     a->growth = or_else(a->growth, GROWTH);
 }
 
-static void fill_axis(const survey *bodies, int k, int levels, mpm_axis *a)
+/* An end of the window that holds this place too; NAN: its own is enough. */
+static double further(const mpm_axis *a, int end, double own, double at)
+{
+    if (a->boundary[end] != BOUNDARY_FREE) return own;
+    return end ? fmax(own, at + a->coarse) : fmin(own, at - a->coarse);
+}
+
+static void fill_axis(const survey *bodies, const scene_room *also, int k, int levels, mpm_axis *a)
 {
     const box *all = &bodies->all, *smallest = &bodies->smallest;
     const double length = all->hi[k] - all->lo[k], around = AROUND * (smallest->hi[k] - smallest->lo[k]);
-    a->lo = or_else(a->lo, all->lo[k] - margin_at(a, 0, length));
-    a->hi = or_else(a->hi, all->hi[k] + margin_at(a, 1, length));
+    a->lo = or_else(a->lo, further(a, 0, all->lo[k] - margin_at(a, 0, length), also->lo[k]));
+    a->hi = or_else(a->hi, further(a, 1, all->hi[k] + margin_at(a, 1, length), also->hi[k]));
     const bool given = !isnan(a->fine_lo) && !isnan(a->fine_hi);
-    a->fine_lo = or_else(a->fine_lo, smallest->lo[k] - around);
-    a->fine_hi = or_else(a->fine_hi, smallest->hi[k] + around);
+    a->fine_lo = or_else(a->fine_lo, fmin(smallest->lo[k] - around, also->fine_lo[k]));
+    a->fine_hi = or_else(a->fine_hi, fmax(smallest->hi[k] + around, also->fine_hi[k]));
     if (!given || a->fine_lo < a->lo || a->fine_hi > a->hi) lay_zone(a, levels);
 }
 
@@ -110,12 +117,21 @@ static status in_window(const mpm_scene *s)
     return status_ok();
 }
 
+const scene_room scene_no_room = {
+    .lo = { NAN, NAN, NAN }, .hi = { NAN, NAN, NAN }, .fine_lo = { NAN, NAN, NAN }, .fine_hi = { NAN, NAN, NAN }
+};
+
 status scene_fill(mpm_scene *s)
+{
+    return scene_fill_with(s, &scene_no_room);
+}
+
+status scene_fill_with(mpm_scene *s, const scene_room *also)
 {
     CHECK(s->bodies > 0, STATUS_BAD_INPUT, "scene.bodies: there are none");
     const survey bodies = look(s);
     for (int k = 0; k < 3; k++) fill_cells(&bodies, s->refines > 0, &s->axis[k]);
     mpm_scene_levels_fill(s);
-    for (int k = 0; k < 3; k++) fill_axis(&bodies, k, s->levels, &s->axis[k]);
+    for (int k = 0; k < 3; k++) fill_axis(&bodies, also, k, s->levels, &s->axis[k]);
     return in_window(s);
 }

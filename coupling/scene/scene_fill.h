@@ -15,4 +15,12 @@
  * A fine zone is made a whole number of cells long, in multiples of what nested grids want. */
 status scene_fill(mpm_scene *s); /* STATUS_BAD_INPUT: nothing of a body lies in the window */
 
+/* Boxes that what is filled must hold too [m]; NAN: nothing more at that end. */
+typedef struct {
+    double lo[3], hi[3];           /* of the window, at its free ends, with a coarse cell beyond */
+    double fine_lo[3], fine_hi[3]; /* of the fine zone */
+} scene_room;
+extern const scene_room scene_no_room; /* nothing more */
+status scene_fill_with(mpm_scene *s, const scene_room *also);
+
 #endif

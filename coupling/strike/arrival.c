@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/strike/arrival.h"
+#include "coupling/scene/scene_fill.h"
 
 #include <math.h>
 #include <string.h>
@@ -135,7 +136,8 @@ static status check_leak(const mpm_scene *s, const strike_projectile *p)
     return status_ok();
 }
 
-status strike_projectile_of(const case_inputs *in, strike_projectile *out)
+/* Its bodies and its direction. */
+static void find_projectile(const case_inputs *in, strike_projectile *out)
 {
     const mpm_scene *s = &in->bodies.scene;
     *out = (strike_projectile){ .plate = -1, .parts = 1.0 };
@@ -145,6 +147,52 @@ status strike_projectile_of(const case_inputs *in, strike_projectile *out)
     }
     out->group = s->body[out->body].group;
     set_direction(&s->body[out->body], out);
+}
+
+/* ---- what the case leaves to the program ---- */
+
+static const double THICK = 2.0; /* of the projectile's length: a thicker plate is not all in the fine zone */
+
+/* The plate in the fine zone from face to face, where the projectile flies through it along an axis. */
+static void add_plate_room(const mpm_scene *s, const strike_projectile *p, const box *b, scene_room *also)
+{
+    double lo[3], hi[3];
+    if (p->plate < 0) return;
+    mpm_solid_bounds(&s->solid[s->body[p->plate].solid], lo, hi);
+    for (int k = 0; k < 3; k++) {
+        if (fabs(p->n[k]) != 1.0 || hi[k] - lo[k] > THICK * (b->hi[k] - b->lo[k])) continue;
+        also->fine_lo[k] = lo[k], also->fine_hi[k] = hi[k];
+    }
+}
+
+status strike_fill(case_inputs *in)
+{
+    mpm_scene *s = &in->bodies.scene;
+    const case_strike *c = &in->strike;
+    scene_room also = scene_no_room;
+    strike_projectile p;
+    find_projectile(in, &p);
+    const box b = box_of(s, &p);
+    const double speed = isnan(c->velocity) ? p.speed : c->velocity;
+    if (isnan(s->end_time) && speed > 0.0) s->end_time = c->travel / speed;
+    CHECK(!isnan(s->end_time), STATUS_BAD_INPUT,
+          "scene.end_time is missing [s]: strike.travel ends the scene, but with which velocity only the shot says; "
+          "give the time for `breech scene` and `breech check`");
+    for (int k = 0; k < 3 && !p.piston; k++) {
+        if (isnan(c->travel) || p.n[k] == 0.0) continue;
+        also.lo[k] = b.lo[k] + p.n[k] * c->travel;
+        also.hi[k] = b.hi[k] + p.n[k] * c->travel;
+    }
+    if (!p.piston) add_plate_room(s, &p, &b, &also);
+    return scene_fill_with(s, &also);
+}
+
+/* ---- its mass and its way ---- */
+
+status strike_projectile_of(const case_inputs *in, strike_projectile *out)
+{
+    const mpm_scene *s = &in->bodies.scene;
+    find_projectile(in, out);
     const box b = box_of(s, out);
     for (int k = 0; k < 3; k++) out->from[k] = 0.5 * (b.lo[k] + b.hi[k]);
     for (int k = 0; k < 3; k++)
@@ -233,8 +281,9 @@ static status add_plate(mpm_scene *s, const strike_projectile *p)
     for (int k = 0; k < 3; k++) {
         const bool flight = fabs(p->n[k]) == 1.0;
         CHECK(flight || p->n[k] == 0.0, STATUS_BAD_INPUT,
-              "strike.plate: holes are looked for along an axis; the projectile flies along [%g, %g, %g]", p->n[0],
-              p->n[1], p->n[2]);
+              "strike.plate: holes are looked for along an axis; the projectile flies along [%.4g, %.4g, %.4g]: turn "
+              "the plate instead (shape: {turn: {axis: 0 0 1, angle: 30 deg, of: ..}}), or leave out strike.plate",
+              p->n[0], p->n[1], p->n[2]);
         const double side = WIDTHS * p->half_width, beyond = 2.0 * p->half_width;
         along[k] = -p->n[k];
         lo[k] = flight ? plate[0][k] - beyond : fmax(fmax(plate[0][k], s->axis[k].lo), p->from[k] - side);

@@ -38,6 +38,11 @@ typedef struct {
     bool piston;            /* it is not in the scene, but drives a piston: `body` is the fluid that its wave enters */
 } strike_projectile;
 
+/* scene_fill for a case with a strike: the window holds the projectile until its strike.travel is over, the fine zone
+ * the plate through which it flies along an axis, unless that is thicker than twice the projectile is long; an end_time
+ * that is not given is that of the travel.  STATUS_BAD_INPUT as scene_fill, and where that end is not known. */
+status strike_fill(case_inputs *in);
+
 /* STATUS_BAD_INPUT: it reaches out of the window, or flies into a mirror plane; fluid would leak through the plate. */
 status strike_projectile_of(const case_inputs *in, strike_projectile *out);
 

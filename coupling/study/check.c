@@ -5,6 +5,7 @@
 #include "coupling/gouge/impact_scene.h"
 #include "coupling/host/machine.h"
 #include "coupling/scene/scene_fill.h"
+#include "coupling/strike/arrival.h"
 #include "coupling/study/sampling/population.h"
 #include "coupling/study/search/family.h"
 #include "coupling/study/study.h"
@@ -129,7 +130,8 @@ static status treatments_possible(const case_onset *c, const case_treatments *al
 
 status study_prepare(case_inputs *in)
 {
-    return in->given.bodies ? scene_fill(&in->bodies.scene) : status_ok();
+    if (!in->given.bodies) return status_ok();
+    return in->given.strike ? strike_fill(in) : scene_fill(&in->bodies.scene);
 }
 
 status study_possible(const case_inputs *in, unsigned needs, size_t *largest)
