@@ -150,6 +150,54 @@ def test_case_is_the_programs(folder):
     assert "one unit" in breech.Case(ROOT / "cases" / "pulse_unit_200kJ", title="one unit").check()
 
 
+def own_material(folder):
+    """A folder with a metal of another name that is copper."""
+    folder.mkdir()
+    copper = (ROOT / "cases" / "materials" / "ofhc_copper_half_hard.yaml").read_text()
+    (folder / "my_metal.yaml").write_text(copper.replace("name: ofhc_copper_half_hard", "name: my_metal", 1))
+    return folder
+
+
+def test_save_moves_the_case(folder):
+    """Saved, it finds materials beside its file, and may be changed, run and saved there again; it never is its own base."""
+    case = breech.Case(SHOT)
+    case["rail.material"] = "my_metal"
+    raises(breech.BadInput, case.check, "my_metal")
+    home = own_material(folder / "home")
+    saved = case.save(home)
+    assert case.path == saved.resolve() and case.check()
+    case["bank.charge"] = "9 kV"  # on top of what was saved
+    case.run("shot", folder / "home-shot", progress=False)
+    assert any(line.strip() == "charge: 9000 V" for line in used(folder / "home-shot"))
+    first = saved.read_text()
+    case.save(home)
+    assert saved.read_text().startswith(first.splitlines()[0]) and "9 kV" in saved.read_text() and breech.Case(home) == case
+    again = breech.Case(home)
+    again["bank.charge"] = "8 kV"
+    again.save(home)  # over the file that it was read from
+    assert saved.read_text().startswith(first.splitlines()[0]) and breech.Case(home)["bank.charge"] == "8 kV"
+    for k in range(breech.case.MAX_BASES + 2):  # no chain of bases grows
+        again["bank.charge"] = f"{k + 1} kV"
+        again.save(folder / f"chain{k}")
+    assert breech.Case(folder / f"chain{k}") == again
+    raises(breech.BadInput, again.check, "my_metal")  # it lives there now
+    begun = breech.Case(name="begun")
+    begun.save(folder / "begun")
+    begun.save(folder / "begun")
+    assert (folder / "begun" / "case.yaml").read_text() == "name: begun\n"
+
+
+def test_own_materials(folder):
+    home = own_material(folder / "metals")
+    case = breech.Case("default_shot", material_folder=home)  # a shipped case goes by its name
+    case["rail.material"] = "my_metal"
+    assert case.check() and case.copy().check()
+    raises(breech.BadInput, lambda: breech.check(case.save(folder / "without")), "my_metal")
+    raises(FileNotFoundError, lambda: breech.Case(SHOT, material_folder=folder / "none"), "folder of materials")
+    assert breech.Case("cases/default_shot") == breech.Case(SHOT)
+    raises(FileNotFoundError, lambda: breech.Case("defualt_shot"), "defualt_shot", "there is no such case", "default_shot, ")
+
+
 # ---- runs ----
 
 
@@ -165,6 +213,16 @@ def test_errors(folder):
     cheap().run("shot", folder / "done", progress=False)
     raises(breech.BadInput, lambda: cheap().run("shot", folder / "done", progress=False), "--force")
     cheap().run("shot", folder / "done", progress=False, force=True)
+
+
+def test_no_program(folder):
+    """Without a program it says what to set."""
+    (folder / "lone").mkdir()
+    shutil.copytree(ROOT / "python" / "breech", folder / "lone" / "breech", ignore=shutil.ignore_patterns("__pycache__"))
+    bare = {key: value for key, value in os.environ.items() if key != "BREECH_PROGRAM"}
+    done = subprocess.run([sys.executable, "-c", "import breech; breech.program()"], text=True, capture_output=True,
+                          env={**bare, "PYTHONPATH": str(folder / "lone"), "PATH": "/nowhere"})
+    assert done.returncode != 0 and "on PATH" in done.stderr and "BREECH_PROGRAM=" in done.stderr, done.stderr
 
 
 def numbers(run):

@@ -5,6 +5,7 @@ import os
 import re
 from pathlib import Path
 
+from .places import shipped_folders
 from .text import CaseError, dump, parse
 
 MAX_BASES = 8
@@ -40,35 +41,60 @@ def _changes(below, tree):
     return changed
 
 
-def case_file(path):
+def _in_folder(path):
     """The file of a case: itself, or case.yaml in a folder."""
-    path = Path(path)
     return path / "case.yaml" if path.is_dir() else path
 
 
-def _read(path, bases=0):
-    path = case_file(path)
+def case_file(path, name=None):
+    """The file of a case that is there: path, or, as on the command line, a shipped case of that name."""
+    file = _in_folder(Path(path))
+    if file.exists():
+        return file
+    name = str(path if name is None else name)
+    folders = shipped_folders()
+    if not name.startswith(("/", ".")) and ".." not in name:
+        for folder in folders:
+            shipped = _in_folder(folder / name.removeprefix("cases/"))
+            if shipped.is_file():
+                return shipped
+    names = sorted({file.parent.name for folder in folders for file in folder.glob("*/case.yaml")})
+    raise FileNotFoundError(f"{file}: there is no such case; shipped cases: {', '.join(names) or 'none found'}")
+
+
+def _read_with_files(path, name=None, bases=0):
+    """A case's tree with all that it builds on, and the files that it stands in, itself first."""
+    path = case_file(path, name).resolve()
     if bases > MAX_BASES:
         raise CaseError(f"{path}: a case builds on {MAX_BASES} others at most")
     tree = parse(path.read_text(encoding="utf-8"), str(path))
     if not isinstance(tree, dict):
         raise CaseError(f"{path} is no case: it must hold sections")
     base = tree.pop("base", None)
-    return _merged(_read(path.parent / str(base), bases + 1), tree) if base else tree
+    if not base:
+        return tree, [path]
+    below, files = _read_with_files(path.parent / str(base), str(base), bases + 1)
+    return _merged(below, tree), [path, *files]
 
 
 class Case(dict):
     """A case as nested dicts and lists.  Quantities keep their unit: case["bank"]["charge"] is Quantity("10.55 kV").
 
-    Case("cases/default_shot") reads a case with all that it builds on, Case(name="mine") begins with nothing.  Keys may be
-    paths as for --set: case["bank.charge"], case["treatments[0].name"].  A text given as a value is what would stand in the
-    file.  Saved, a case that was read is that case as its base, and what was changed.
+    Case("default_shot") reads a case with all that it builds on: a path, or the name of a shipped case.  Case(name="mine")
+    begins with nothing.  Keys may be paths as for --set: case["bank.charge"], case["treatments[0].name"].  A text given as a
+    value is what would stand in the file.  Saved, a case that was read is that case as its base, and what was changed.
+
+    path: the file where the case lives, which read or saved it last; materials lie beside it.  None: nowhere yet.
+    material_folder: a further folder with materials, looked into first; no part of what is saved.
     """
 
-    def __init__(self, path=None, **sections):
-        self.path = case_file(path).resolve() if path is not None else None
-        super().__init__(_read(self.path) if path is not None else {})
-        self._below = copy.deepcopy(dict(self))
+    def __init__(self, path=None, *, material_folder=None, **sections):
+        tree, self._files = _read_with_files(path) if path is not None else ({}, [])
+        self.path = self._files[0] if self._files else None
+        self.material_folder = Path(material_folder).resolve() if material_folder is not None else None
+        if self.material_folder and not self.material_folder.is_dir():
+            raise FileNotFoundError(f"{material_folder}: there is no such folder of materials")
+        super().__init__(tree)
         for key, value in sections.items():
             self[key] = value
 
@@ -137,24 +163,35 @@ class Case(dict):
     def copy(self):
         """Another case that starts as this one."""
         other = Case()
-        other.path, other._below = self.path, self._below
+        other.path, other.material_folder, other._files = self.path, self.material_folder, self._files
         for key, value in self.items():
             other[key] = copy.deepcopy(value)
         return other
 
-    def text(self, folder="."):
-        """The case file's text, its base named as seen from the folder."""
-        if self.path is None:
+    def _text_over(self, base, folder):
+        if base is None:
             return dump(self)
-        return dump({"base": os.path.relpath(self.path, Path(folder).resolve()), **_changes(self._below, dict(self))})
+        return dump({"base": os.path.relpath(base, Path(folder).resolve()), **_changes(_read_with_files(base)[0], dict(self))})
+
+    def text(self, folder="."):
+        """The text of a case file on top of the file where the case lives, which it names as seen from the folder."""
+        return self._text_over(self.path, folder)
 
     def save(self, path):
-        """Writes the case file and returns its path: a file ending in .yaml, or case.yaml in a folder."""
+        """Writes the case file and returns its path: a file ending in .yaml, or case.yaml in a folder.
+
+        The case lives there from now on: its runs find the materials that lie beside the file.
+        """
         path = Path(path)
         if path.suffix not in (".yaml", ".yml"):
             path = path / "case.yaml"
+        file = path.resolve()
+        # What was read is the base; a file in that chain which is now written over cannot be its own.
+        below = self._files[self._files.index(file) + 1:] if file in self._files else self._files
+        text = self._text_over(below[0] if below else None, file.parent)
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(self.text(path.parent), encoding="utf-8")
+        path.write_text(text, encoding="utf-8")
+        self.path, self._files = file, below
         return path
 
     def check(self, **how):
@@ -163,6 +200,10 @@ class Case(dict):
         return check(self, **how)
 
     def run(self, command, directory, **how):
-        """Runs `breech command` and returns the Run; see breech.run."""
+        """Runs `breech command` and returns the Run.
+
+        command: "shot", "scene", "strike", "life", "onset", "compare", "inductance" or "sweep".  how: sets, threads, progress,
+        resume, force, store, max_walltime, options; see breech.run.  Raises BadInput, Failed or Stopped.
+        """
         from .program import run
         return run(command, self, directory, **how)

@@ -2,7 +2,6 @@
 """Running the program: its progress, its exit codes, its words."""
 import os
 import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -10,6 +9,7 @@ import tempfile
 from pathlib import Path
 
 from .case import Case
+from .places import program
 from .results import Run
 
 LIVE = re.compile(r"(?P<task>.*?)  (?P<percent>\d+) %(?:  (?P<left>.+?) left)?(?:  (?P<rate>\S+) M particle-steps/s)?")
@@ -49,17 +49,6 @@ class Progress:
         return self.text
 
 
-def program():
-    """The program's path: $BREECH_PROGRAM; `breech` beside this installation or of the build tree; `breech` on the path."""
-    here = Path(__file__).resolve()
-    beside = [here.parents[4] / "bin" / "breech"] if here.parents[1].name == "dist-packages" else []
-    built = [here.parents[2] / "build" / "release" / "bin" / "breech"] if here.parents[1].name == "python" else []
-    for path in (os.environ.get("BREECH_PROGRAM"), *beside, *built, shutil.which("breech")):
-        if path and os.access(path, os.X_OK):
-            return str(path)
-    raise FileNotFoundError("the program breech is neither installed nor built; $BREECH_PROGRAM may name it")
-
-
 def _set_text(value):
     from .text import _value_text
     return value if isinstance(value, str) else _value_text(value)
@@ -77,11 +66,13 @@ def _error(code, text, directory):
     return {1: Failed, 2: BadInput, 75: Stopped}.get(code, BreechError)(code, text, directory)
 
 
-def _call(arguments, hear, hide):
+def _call(arguments, hear, hide, materials=None):
     """Exit code, standard output, lines of standard error; each line is heard as it comes."""
     with tempfile.TemporaryFile("w+", encoding="utf-8") as out:
         # A group of its own: Ctrl-C reaches Python alone, which then stops the program once, with a checkpoint.
         often = {"BREECH_PROGRESS": "1", **os.environ}  # [s] between two lines of progress
+        if materials:
+            often["BREECH_MATERIALS"] = str(materials)
         child = subprocess.Popen([program(), *arguments], stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.PIPE,
                                  encoding="utf-8", errors="replace", start_new_session=True, env=often)
         lines = []
@@ -107,7 +98,9 @@ def _with_case(case, call):
     if not isinstance(case, Case):
         return call(str(case), "")
     with tempfile.TemporaryDirectory(prefix="breech-") as folder:
-        return call(str(case.save(Path(folder) / "case.yaml")), folder + os.sep)
+        path = Path(folder) / "case.yaml"
+        path.write_text(case.text(folder), encoding="utf-8")
+        return call(str(path), folder + os.sep)
 
 
 def run(command, case, directory, *, sets=None, threads=None, progress=True, resume=False, force=False, store=None,
@@ -133,7 +126,7 @@ def run(command, case, directory, *, sets=None, threads=None, progress=True, res
         words += ["--max-walltime", str(max_walltime)] if max_walltime else []
         words += ["--no-store"] if store is False else ["--store", str(store)] if store else []
         words += ["--resume"] * bool(resume) + ["--force"] * bool(force)
-        return _call([*words, *options], hear, hide)
+        return _call([*words, *options], hear, hide, getattr(case, "material_folder", None))
 
     code, _, lines = _with_case(case, call)
     if code != 0:
@@ -145,7 +138,7 @@ def check(case, sets=None):
     """What `breech check` prints of a case; raises BadInput if it is wrong."""
     def call(path, hide):
         words = [word for key, value in (sets or {}).items() for word in ("--set", f"{key}={_set_text(value)}")]
-        return _call(["check", path, *words], lambda line: None, hide)
+        return _call(["check", path, *words], lambda line: None, hide, getattr(case, "material_folder", None))
 
     code, out, lines = _with_case(case, call)
     if code != 0:
