@@ -519,6 +519,8 @@ static void test_refused(void **state)
     refused("'scene.probes=[{name: projectile_way, energy: ball}]'", "adds a probe of that name");
     refused("'scene.bodies[1].group=one' --set 'scene.bodies[0].group=one' --set scene.contacts=[]",
             "there is no target");
+    assert_int_equal(run("strike bad -o bad/grids --quiet --set study.ensemble=3"), 2);
+    assert_true(contains("err.txt", "a strike is computed on one grid"));
     assert_int_equal(run("strike " SHOT " -o bad/out --quiet"), 2);
     assert_true(contains("err.txt", "section `strike` is missing: `breech strike` needs it"));
     assert_int_equal(run("strike " SHOT " -o bad/out --quiet --set strike.projectile=ball"), 2);

@@ -90,6 +90,7 @@ static void test_not_taken(void **state)
         { "check " SHOT " -o somewhere", "check takes no -o" },
         { "report somewhere --set a=1", "report takes no --set" },
         { "onset " SHOT " --ensemble 3", "study.threshold_ensemble" },
+        { "strike " SHOT " --ensemble 3", "vary scene.grid_shift by a sweep of strikes" },
         { "shot " SHOT " --scene", "shot takes no --scene, which is for check" },
         { "new x --threads 2", "new takes no --threads" },
         { "--completion fish", "bash or zsh" },

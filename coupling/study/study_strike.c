@@ -233,6 +233,11 @@ static status run(session *s, const study_case *of, study_answer *out)
     double wanted = in->strike.velocity;
     strike_flight flight = { NAN, NAN };
     double muzzle;
+    CHECK(
+        in->onset.study.ensemble == 0, STATUS_BAD_INPUT,
+        "study.ensemble = %d: a strike is computed on one grid; 0, and vary scene.grid_shift by a sweep of strikes, or "
+        "`breech scene`",
+        in->onset.study.ensemble);
     strike_answer *a = out->owned = calloc(1, sizeof *a);
     CHECK(a, STATUS_MEMORY, "no memory for an answer");
     strike_result *r = &a->result;

@@ -195,6 +195,9 @@ static status options_are_taken(const usage_line *l)
     for (const usage_option *o = usage_options; o->name; o++) {
         if (!(l->given & BIT(o - usage_options)) || usage_takes(&l->command, o)) continue;
         takers(o, who, sizeof who);
+        CHECK(o->offset != offsetof(usage_line, ensemble) || strcmp(l->command.name, "strike") != 0, STATUS_BAD_INPUT,
+              "strike takes no --ensemble: vary scene.grid_shift by a sweep of strikes, or `breech scene CASE "
+              "--ensemble N`");
         CHECK(o->offset != offsetof(usage_line, ensemble), STATUS_BAD_INPUT,
               "%s takes no --ensemble; for a threshold it is --set study.threshold_ensemble=N", l->command.name);
         return base_status_error(STATUS_BAD_INPUT,
