@@ -77,3 +77,22 @@ def through(runs):
     t = strike(runs, "lattice_full_2000", **{"scene__bodies[1]__shape": full})
     rows = [row(v, "open", s[v]) for v in TRAVEL] + [row(2000, "full", t)]
     return [Table(COLUMNS, rows), Table(ROWS, rows_of_paper(s))], "cases/lattice_target, cells of 0.4 mm"
+
+
+SLOW = {100: "130 us"}  # velocity [m/s]: end of the scene
+
+
+def slow(runs):
+    """Below the limit: the ball comes back."""
+    s = strike(runs, "lattice_slow_100", strike__velocity="100 m/s", strike__travel="none", scene__end_time=SLOW[100])
+    back, core, front = -s["residual_velocity"] / 100, 1e9 * failed(s, "core"), 1e9 * failed(s, "front")
+    hole = s["class"] == "torn"
+    rows = [
+        ["L4", "0.1 km/s: deeper dent, struts below it break, sheet whole",
+         "dent %.2f mm, core %.1f mm3 failed, front sheet %.1f mm3" % (1e3 * s["deflection"], core, front),
+         "struts yes, sheet not decided" if core > 0 and front > 0 else verdict(core > 0)],
+        ["L15", "0.1 km/s: rebound, slower than 30 %", "%.0f %% back, peak force %.1f kN" % (
+            100 * back, 1e-3 * s["peak_force"]), verdict(0 < back < 0.3)],
+        ["L16", "the limit lies above 0.1 km/s", "back sheet %s" % ("torn" if hole else "whole"), verdict(not hole)],
+    ]
+    return [Table(ROWS, rows)], "cases/lattice_target at 100 m/s, cells of 0.4 mm"

@@ -247,3 +247,30 @@ def water(runs):
     rows += [row(name, what, reference, why, "", "not run") for name, what, reference, why in NOT_RUN]
     rows.sort(key=lambda r: int(r[0][1:]))
     return [Table(ROW, rows), cause(runs)], "long tests and cases/underwater_shock; kind C: an input, V: computed"
+
+
+INVERSE = [Column("row"), Column("wanted"), Column("gives", 0.005), Column("comes out", 0.005), Column("allowed"),
+           Column("holds")]
+BANK = ("[{count: 1, capacitance: 3.594 mF, charge: 3 kV, inductance: 12.56 uH, resistance: 4.1 mohm, crowbar_drop: 1.48 V, "
+        "crowbar_resistance: 0.43 mohm, cable_inductance: 1 uH, cable_resistance: 1 mohm}]")
+
+
+def inverse(runs):
+    """A wanted wave: piston's velocity and mass in closed form, and the charge that gives them."""
+    pressure, theta, rho, c, slope, bore = 35e6, 50e-6, 1000.0, 1480.0, 1.92, 64e-3
+    velocity = (math.sqrt(c * c + 4 * slope * pressure / rho) - c) / (2 * slope)
+    mass = rho * c * theta * math.pi / 4 * bore ** 2
+    settings = {"armature.mass": "%.6g kg" % mass, "armature.preload": "0 N", "barrel.length": "1 m", "sites": "[]",
+                "options.max_time": "1 s", "bank": BANK, "optimise.goal": "velocity",
+                "optimise.muzzle_velocity": "%.6g m/s" % velocity, "output.report": "no"}
+    arguments = ["shot", "cases/default_shot"]
+    for key, value in settings.items():
+        arguments += ["--set", "%s=%s" % (key, value)]
+    folder, _ = runs.run("water_inverse", arguments)
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+        s = json.load(file)
+    found = s["muzzle_velocity"]
+    rows = [["U21", "p0 %.0f MPa, theta %.0f us on %.0f mm" % (1e-6 * pressure, 1e6 * theta, 1e3 * bore),
+             "%.2f m/s, %.4f kg" % (velocity, mass),
+             "%.2f m/s with %.2f kV" % (found, 3 * s["charge_scale"]), "1 %", verdict(abs(found / velocity - 1) < 0.01)]]
+    return [Table(INVERSE, rows)], "one unit of 3.6 mF on the default rails, 1 m of them, without friction at rest"

@@ -42,6 +42,8 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
     "lattice": ("docs/validation/lattice.md", part_lattice.through, 8, False),
     "water": ("docs/validation/water.md", part_water.water, 12, False),
+    "water-inverse": ("docs/validation/water.md", part_water.inverse, 1, True),
+    "lattice-slow": ("docs/validation/lattice.md", part_lattice.slow, 4, False),
     "fatigue": ("docs/validation/fatigue.md", part_fatigue.wheel, 3, True),
     "gel": ("docs/validation/gel.md", part_gel.droplet, 6, False),
     "four-cells": ("docs/validation/growth.md", part_growth.four_cells, 16, False),
