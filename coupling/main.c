@@ -275,6 +275,7 @@ static status print_check(const case_inputs *in, int threads)
     TRY(study_check(in, threads, e, &n));
     printf("%s: %s\n", in->path, in->title[0] ? in->title : in->name);
     fputs(in->warnings, stdout);
+    study_check_films(in, stdout);
     TRY(host_table_create("scene|points at the start|memory [GB]|steps|time, at least", &t));
     for (int i = 0; i < n; i++) {
         const mpm_needs *at = &e[i].needs;
@@ -293,7 +294,7 @@ static status print_check(const case_inputs *in, int threads)
         printf("onset: %d sites, %d populations, at most %d scenes%s\n", c->sites.n, c->populations.n,
                c->study.max_scenes, whole);
     if (in->treatments.n > 0 && c->sites.n + c->populations.n > 0)
-        printf("compare: %d surfaces, at most %d scenes each\n", in->treatments.n + 1, c->study.max_scenes);
+        printf("compare: %d surfaces, at most %d scenes each%s\n", in->treatments.n + 1, c->study.max_scenes, whole);
     print_random(c);
     return status_ok();
 }
@@ -346,8 +347,10 @@ static status open_material(const char *name, material_sheet *sheet)
 {
     material_places at;
     char *errors = NULL;
+    const char *dirs[MATERIAL_MAX_DIRS + 1] = { "." }; /* as beside a case */
     case_material_places_find(&at);
-    const status s = case_material_sheet_open(name, at.dir, at.n, sheet, &errors);
+    for (int i = 0; i < at.n; i++) dirs[i + 1] = at.dir[i];
+    const status s = case_material_sheet_open(name, dirs, at.n + 1, sheet, &errors);
     if (errors) fputs(errors, stderr);
     free(errors);
     return s;

@@ -592,6 +592,8 @@ static void test_population_onset(void **state)
     case_free(c);
 }
 
+static char warned[4000]; /* by the last study */
+
 static onset_answer studied(breech_case *c, const char *dir, status want)
 {
     static case_onset given; /* the answer borrows it */
@@ -603,6 +605,7 @@ static onset_answer studied(breech_case *c, const char *dir, status want)
     const status done = study_onset_run(&s, &given, &a);
     assert_int_equal(done.code, want.code);
     if (want.code != STATUS_OK && !strstr(done.text, want.text)) fail_msg("%s", done.text);
+    snprintf(warned, sizeof warned, "%s", s.warnings ? s.warnings : "");
     OK(run_session_close(&s, true));
     return a;
 }
@@ -925,6 +928,26 @@ static void test_no_craters(void **state)
     case_free(c);
 }
 
+/* A search that ends below the armature's speed without a gouge says so; one that finds the threshold does not.  Below
+ * two cells a radius not even the order of surfaces counts. */
+static void test_range(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD GRAINS, CASE_FOR_ONSET);
+    onset_answer a = studied(c, "range", status_ok());
+    assert_null(strstr(warned, "study.velocity_high"));
+    assert_null(strstr(warned, "order of surfaces"));
+    study_onset_answer_free(&a);
+    c->study.velocity_low = 500.0;
+    c->study.velocity_high = 1200.0;
+    c->study.coarse_cells_per_radius = c->study.fine_cells_per_radius = 1.5;
+    a = studied(c, "short", status_ok());
+    assert_non_null(strstr(warned, "the search ended at study.velocity_high = 1200 m/s without a gouge"));
+    assert_non_null(strstr(warned, "order of surfaces"));
+    study_onset_answer_free(&a);
+    case_free(c);
+}
+
 /* ---- shot after shot ---- */
 
 /* The rail gets warmer from shot to shot, and this made-up one gouges 0.5 m/s earlier for every kelvin. */
@@ -1019,6 +1042,7 @@ int main(void)
         cmocka_unit_test(test_scatter),
         cmocka_unit_test(test_scatter_of_two),
         cmocka_unit_test(test_scatter_of_dying),
+        cmocka_unit_test(test_range),
         cmocka_unit_test(test_shots_warm_the_rail),
         cmocka_unit_test(test_shots_strip_the_rail),
     };

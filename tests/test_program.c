@@ -178,9 +178,15 @@ static void test_check_and_materials(void **state)
     assert_true(contains("out.txt", "onset, 500 m/s") && contains("out.txt", "1 populations, at most"));
     assert_true(contains("out.txt", "\nwarm rail, 500 m/s, "));
     assert_true(contains("out.txt", "compare: 6 surfaces, at most 12 scenes each"));
+    assert_false(contains("out.txt", "thinner than a cell"));
     assert_true(contains("out.txt", "random shots: 100000 histories, at most 1.2e+06 grains, 0 s\n"));
     assert_int_equal(run("check " CASES "/treatments --set 'populations[0].density=1e6 1/m'"), 0);
     assert_true(contains("out.txt", "at most 2.9e+11 grains, 12 h "));
+    assert_int_equal(run("check " CASES "/treatments --set 'treatments[1].coating[0].thickness=50 um'"), 0);
+    assert_true(contains("out.txt", "warning: steel overlay: 50 um of steel_4340 is thinner than a cell of 167 um"));
+    assert_true(contains("out.txt", "study.fine_cells_per_radius = 10, some 123 times the time"));
+    assert_int_equal(system("sed 's/^name: .*/name: beside/' " CASES "/materials/nickel.yaml > beside.yaml"), 0);
+    assert_int_equal(run("flow beside"), 0); /* a material of the folder that one works in */
     assert_int_equal(run("check " CASES "/wu2017"), 0);
     assert_true(contains("out.txt", "cells a radius"));
     assert_int_equal(run("check " CASES "/wu2017/coarse.yaml"), 0);

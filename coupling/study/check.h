@@ -26,4 +26,7 @@ int study_grain_kinds(const case_onset *c);
  * of the search, and with each treatment as many of these as there is room for; *n of them. */
 status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n);
 
+/* A line for each layer that is thinner than the cells of the searches: a film, and what it takes to resolve it. */
+void study_check_films(const case_inputs *in, FILE *out);
+
 #endif

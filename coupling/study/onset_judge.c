@@ -9,6 +9,7 @@
 #include <string.h>
 
 static const double DOUBT = 0.05;        /* probability from which the screen alone leaves it open */
+static const double ORDERED_CELLS = 2.0; /* a radius; below, not even the order of surfaces was looked at */
 static const double TRUSTED_CELLS = 3.0; /* a radius; below, cells decide the threshold (docs/notes/thresholds.md) */
 
 /* ---- a grain's threshold at a velocity ---- */
@@ -340,8 +341,25 @@ static void warn_of_thresholds(session *s, const onset_answer *a)
         run_session_warn(
             s,
             "thresholds at %g cells a radius: below %g they come out up to twice too high, by more than the interval "
-            "allows for (docs/theory/onset.md)",
-            y->fine_cells_per_radius, TRUSTED_CELLS);
+            "allows for (docs/theory/onset.md)%s",
+            y->fine_cells_per_radius, TRUSTED_CELLS,
+            y->fine_cells_per_radius < ORDERED_CELLS ? "; nor does the order of surfaces count below 2: a try alone"
+                                                     : "");
+}
+
+/* A search that ended below a gouge says nothing of faster grains. */
+static void warn_of_range(session *s, const onset_answer *a)
+{
+    const case_study *y = &a->grains.c->study;
+    const double fastest = gouge_trace_fastest(&a->flown);
+    bool ended = false;
+    for (int k = 0; k < a->grains.n; k++)
+        ended = ended || a->grains.family[k].surface.reference.outcome == THRESHOLD_ABOVE;
+    if (!ended || fastest <= y->velocity_high) return;
+    run_session_warn(s,
+                     "%sthe armature reaches %.0f m/s, the search ended at study.velocity_high = %g m/s without a "
+                     "gouge: raise that to learn of grains that are passed faster",
+                     a->grains.prefix, fastest, y->velocity_high);
 }
 
 static void warn_of_screen(session *s, const onset_answer *a)
@@ -356,6 +374,7 @@ static void warn_of_screen(session *s, const onset_answer *a)
 status study_onset_judge(session *s, onset_answer *a)
 {
     warn_of_thresholds(s, a);
+    warn_of_range(s, a);
     warn_of_films(s, a);
     warn_of_screen(s, a);
     find_contradictions(s, a);

@@ -263,7 +263,7 @@ static void check_monotone(threshold_result *r, double cells)
     if (highest_lower < lowest_upper) return;
     warn(r,
          "gouging turns back (%g cells a radius): above its limit at %g m/s, below it at %g m/s; the interval spans "
-         "both",
+         "both (is it the place of the grid? study.threshold_ensemble: 5 tells its scatter, more cells lessen it)",
          cells, lowest_upper, highest_lower);
     r->interval[0] = fmin(r->interval[0], lowest_upper);
     r->interval[1] = fmax(r->interval[1], highest_lower);
