@@ -165,7 +165,7 @@ static void say_where(const options *o, const session *s, status work)
 
 static void draw_report(const char *dir)
 {
-    const status drawn = report_write(dir, study_report_part);
+    const status drawn = report_write(dir, study_report_kind);
     if (drawn.code != STATUS_OK) fprintf(stderr, "breech: no report: %s\n", drawn.text);
 }
 
@@ -391,7 +391,7 @@ static int run_flow(const options *o)
 
 static int run_report(const options *o)
 {
-    const status s = report_write(o->line.subject, study_report_part);
+    const status s = report_write(o->line.subject, study_report_kind);
     if (s.code == STATUS_OK && !o->line.quiet) printf("%s/%s\n", o->line.subject, OUTDIR_REPORT);
     return complain(s);
 }

@@ -117,7 +117,7 @@ static void table_closes(const char *name)
     assert_int_equal(circuit_shot_advance(s, INFINITY, &(shot_sink){ .sample = record, .user = &r }).code, STATUS_OK);
     assert_int_equal(output_history_close(r.h).code, STATUS_OK);
     assert_int_equal(host_file_write("table/summary.json", summary, sizeof summary - 1).code, STATUS_OK);
-    assert_int_equal(report_write(folder, study_report_part).code, STATUS_OK);
+    assert_int_equal(report_write(folder, study_report_kind).code, STATUS_OK);
     assert_int_equal(host_file_read("table/report.html", &page, NULL).code, STATUS_OK);
     sum_table(page, sum, &brought, stated);
     print_message("%-16s %.3f kJ at the start, %.3f brought in, %.3f in the table\n", name, sum[0], brought, sum[1]);

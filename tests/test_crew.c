@@ -604,8 +604,7 @@ int main(int argc, char **argv)
     if (argc == 1) return forked(argv[0]) ? 1 : as_crew(argv[0]);
     if (strcmp(argv[1], "dying") == 0) return with_a_death();
     const bool by_launcher = strcmp(argv[1], "crew") == 0;
-    const struct CMUnitTest messages[] = { cmocka_unit_test(test_lent), cmocka_unit_test(test_shares),
-                                           cmocka_unit_test(test_put_off) };
+    const struct CMUnitTest messages[] = { cmocka_unit_test(test_shares), cmocka_unit_test(test_put_off) };
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lent), /* first: no other has made threads yet */
         cmocka_unit_test(test_shares),  cmocka_unit_test(test_given_back), cmocka_unit_test(test_keeper),

@@ -83,7 +83,7 @@ static void write_run(const char *dir, int kind)
 static char *page_of(const char *dir)
 {
     char path[200], *text;
-    OK(report_write(dir, study_report_part));
+    OK(report_write(dir, study_report_kind));
     snprintf(path, sizeof path, "%s/report.html", dir);
     OK(host_file_read(path, &text, NULL));
     assert_int_equal(files_in(dir, ".part"), 0);
@@ -572,16 +572,16 @@ static void what_is_no_run_is_refused(void **state)
 {
     (void)state;
     fresh_folder("report");
-    const status s = report_write("report", study_report_part);
+    const status s = report_write("report", study_report_kind);
     assert_int_equal(s.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(s.text, "summary.json"));
     OK(host_file_write("report/summary.json", "{ \"kind\": [", 11));
-    assert_int_equal(report_write("report", study_report_part).code, STATUS_BAD_INPUT);
+    assert_int_equal(report_write("report", study_report_kind).code, STATUS_BAD_INPUT);
     OK(host_file_write("report/summary.json", "{}", 2));
     OK(host_file_write("report/history.h5", "damaged", 7));
-    assert_int_equal(report_write("report", study_report_part).code, STATUS_IO);
+    assert_int_equal(report_write("report", study_report_kind).code, STATUS_IO);
     assert_false(host_file_exists("report/report.html"));
-    assert_int_equal(report_write("report/nowhere", study_report_part).code, STATUS_BAD_INPUT);
+    assert_int_equal(report_write("report/nowhere", study_report_kind).code, STATUS_BAD_INPUT);
 }
 
 int main(void)

@@ -706,8 +706,9 @@ static void test_report(void **state)
     OK(output_summary_write("page", &summary));
     char *used = used_text(c);
     OK(host_file_write("page/used.yaml", used, strlen(used)));
-    OK(report_write("page", study_report_part));
+    OK(report_write("page", study_report_kind));
     OK(host_file_read("page/report.html", &page, NULL));
+    assert_int_equal(count(page, "breech scene &middot;"), 1); /* the command, not the kind `bodies` */
     assert_int_equal(count(page, "<h2>Bodies at the end</h2>"), 1);
     assert_int_equal(count(page, "<h2>Probes</h2>"), 1);
     for (int i = 0; i < s->bodies; i++) {

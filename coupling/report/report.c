@@ -11,17 +11,18 @@
 
 /* ---- the head ---- */
 
-static void section_head(const page *p, report_part part)
+static void section_head(const page *p, report_kind of)
 {
     const cJSON *s = p->source->summary;
-    const char *kind = report_text(s, "kind"), *state = report_text(s, "status");
+    const char *state = report_text(s, "status");
     char title[REPORT_USED_SIZE];
     report_used_value(p->source, "", "title", title);
     fprintf(p->out, "<h1>");
     report_svg_escaped(p->out, report_text(s, "case"));
     fprintf(p->out, "</h1>\n<p class=\"sub\">");
     report_svg_escaped(p->out, title);
-    fprintf(p->out, "%sbreech %s &middot; %s</p>\n", title[0] ? " &middot; " : "", kind, state);
+    fprintf(p->out, "%sbreech %s &middot; %s</p>\n", title[0] ? " &middot; " : "",
+            of.command ? of.command : report_text(s, "kind"), state);
     if (strcmp(state, "done") != 0) {
         fputs("<p class=\"verdict\" style=\"border-color:#c0392b\">The run ", p->out);
         fputs(strcmp(state, "stopped") == 0 ? "was stopped early; breech --resume goes on with it. " : "failed. ",
@@ -29,7 +30,7 @@ static void section_head(const page *p, report_part part)
         report_svg_escaped(p->out, report_text(s, "error"));
         fputs("</p>\n", p->out);
     }
-    if (part.head) part.head(p);
+    if (of.part.head) of.part.head(p);
 }
 
 /* ---- warnings, inputs, versions ---- */
@@ -101,7 +102,7 @@ static const char style[] =
     "@media print{body{max-width:none;font-size:10pt;padding:0}figure,.card,.speed,tr,.verdict{break-inside:avoid}"
     "h2,h3{break-after:avoid}table{font-size:8pt}.plots{grid-template-columns:1fr 1fr}details{display:none}}";
 
-static void write_page(const page *p, report_part part)
+static void write_page(const page *p, report_kind of)
 {
     const report_source *r = p->source;
     fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
@@ -109,9 +110,9 @@ static void write_page(const page *p, report_part part)
           p->out);
     report_svg_escaped(p->out, report_text(r->summary, "case"));
     fprintf(p->out, " &ndash; Breech</title><style>%s</style></head><body>\n", style);
-    section_head(p, part);
+    section_head(p, of);
     if (!r->history) report_page_paragraph(p, "missing", "history.h5 is not there: no curves and no craters.");
-    if (part.section) part.section(p);
+    if (of.part.section) of.part.section(p);
     report_crater_sections(p);
     report_shot_section(p);
     report_shot_ledger(p);
@@ -119,19 +120,19 @@ static void write_page(const page *p, report_part part)
     fputs("</body></html>\n", p->out);
 }
 
-static status report_page(const report_source *r, report_part part)
+static status report_page(const report_source *r, report_kind of)
 {
     char path[OUTDIR_PATH_SIZE];
     const int n = snprintf(path, sizeof path, "%s/%s", r->dir, OUTDIR_REPORT);
     CHECK(n > 0 && n < OUTDIR_PATH_SIZE, STATUS_IO, "%.300s: path too long", r->dir);
     file_writer w;
     TRY(host_file_begin(&w, path));
-    write_page(&(page){ r, w.stream }, part);
+    write_page(&(page){ r, w.stream }, of);
     return host_file_end(&w, true);
 }
 
 /* The files beside the summary may be missing; the page says so. */
-static status report_with(const outdir *d, const cJSON *summary, report_part part)
+static status report_with(const outdir *d, const cJSON *summary, report_kind of)
 {
     char path[OUTDIR_PATH_SIZE], *used = NULL;
     h5_file *history = NULL;
@@ -140,13 +141,13 @@ static status report_with(const outdir *d, const cJSON *summary, report_part par
     if (host_outdir_file(d, OUTDIR_USED, path, sizeof path).code == STATUS_OK && host_file_exists(path))
         (void)host_file_read(path, &used, NULL);
     const report_source source = { d->path, summary, history, used };
-    const status s = report_page(&source, part);
+    const status s = report_page(&source, of);
     host_h5_close(history);
     free(used);
     return s;
 }
 
-status report_write(const char *dir, report_part (*part_of)(const char *kind))
+status report_write(const char *dir, report_kind (*kind_of)(const char *kind))
 {
     outdir d = { .lock = -1 };
     const int n = snprintf(d.path, sizeof d.path, "%s", dir);
@@ -159,7 +160,7 @@ status report_write(const char *dir, report_part (*part_of)(const char *kind))
     cJSON *summary = cJSON_Parse(text);
     free(text);
     CHECK(summary, STATUS_BAD_INPUT, "%.300s: is no JSON", path);
-    const status s = report_with(&d, summary, part_of(report_text(summary, "kind")));
+    const status s = report_with(&d, summary, kind_of(report_text(summary, "kind")));
     cJSON_Delete(summary);
     return s;
 }

@@ -13,9 +13,15 @@ typedef struct {
     void (*section)(const struct page *p); /* tables and drawings that it rests on */
 } report_part;
 
+/* Of what a summary is. */
+typedef struct {
+    report_part part;
+    const char *command; /* that made it: `scene` for an ensemble; NULL: none is known */
+} report_kind;
+
 /* Reads DIR/summary.json, history.h5 and used.yaml; writes DIR/report.html, self-contained, with the drawings inline
- * and beside it as .svg.  Only summary.json must be there; what is missing is named in the page.  part_of: of the kind
+ * and beside it as .svg.  Only summary.json must be there; what is missing is named in the page.  kind_of: by the kind
  * that the summary names. */
-status report_write(const char *dir, report_part (*part_of)(const char *kind));
+status report_write(const char *dir, report_kind (*kind_of)(const char *kind));
 
 #endif

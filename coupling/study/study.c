@@ -42,10 +42,10 @@ status study_possible_all(const study_case *of, unsigned needs)
     return status_ok();
 }
 
-report_part study_report_part(const char *name)
+report_kind study_report_kind(const char *name)
 {
     const study *y = study_find(name);
-    return y ? y->report : (report_part){ NULL, NULL };
+    return y ? (report_kind){ y->report, study_command(y) } : (report_kind){ .command = NULL };
 }
 
 run_summary study_summary(const study *y, const study_answer *a)

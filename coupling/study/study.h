@@ -77,8 +77,8 @@ status study_possible(const case_inputs *in, unsigned needs, size_t *largest);
 /* That, and what the studies whose needs are among these say themselves. */
 status study_possible_all(const study_case *of, unsigned needs);
 
-/* The report's part of the study of that name; empty where there is none. */
-report_part study_report_part(const char *name);
+/* What the report shows of the study of that name; empty where there is none. */
+report_kind study_report_kind(const char *name);
 
 /* What is written of an answer; the rest is the caller's. */
 run_summary study_summary(const study *y, const study_answer *a);
