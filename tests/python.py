@@ -319,6 +319,36 @@ def test_threshold_picture(folder):
     assert axes.lines[1].get_ydata()[0] == 757.0 and axes.patches[0].get_xy()[0][1] == 900.0
 
 
+def test_surfaces_picture(folder):
+    """The axis covers every interval; the figures are not pyplot's."""
+    import types
+    import matplotlib.pyplot as plt
+    ranking = [{"surface": "a", "threshold_velocity": 1800.0, "threshold_interval": [1470.0, 2130.0]},
+               {"surface": "b", "threshold_velocity": None, "threshold_interval": [1500.0, None]},
+               {"surface": "c", "threshold_velocity": 1100.0, "threshold_interval": [None, 1300.0]}]
+    run = types.SimpleNamespace(summary={"kind": "compare", "ranking": ranking, "scenes": [{"velocity": 875.0}],
+                                         "shot": {"muzzle_velocity": 1950.0}})
+    axes = breech.plot.threshold(run).axes[0]
+    low, high = axes.get_xlim()
+    bars = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in axes.patches]
+    assert bars == [(1470.0, 2130.0), (1500.0, high), (low, 1300.0)] and 800 < low < 875 and 2130 < high < 2200, bars
+    assert not plt.get_fignums()
+
+
+def test_what_is_not_there(folder):
+    raises(FileNotFoundError, lambda: breech.Run(folder / "none"), "no such directory")
+    (folder / "empty").mkdir()
+    raises(FileNotFoundError, lambda: breech.Run(folder / "empty"), "holds no run")
+    run = breech.Run(folder / "whole")
+    raises(KeyError, lambda: run.scene("nosuch"), "nosuch", "it has: scene")
+    raises(KeyError, lambda: run.crater("nosuch"), "nosuch", "it has: scene")
+    (folder / "going").mkdir()
+    shutil.copy(folder / "whole" / "history.h5", folder / "going")
+    going = breech.Run(folder / "going")  # what a run has written so far
+    assert going.scenes == ["scene"]
+    raises(FileNotFoundError, lambda: going.summary, "summary.json is not there: the run goes on")
+
+
 def test_page():
     page = (ROOT / "docs" / "guide" / "python.md").read_text()
     for script in sorted((ROOT / "python" / "examples").glob("*.py")):

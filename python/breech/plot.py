@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of results; each function returns a matplotlib figure.  Debian: python3-matplotlib."""
-import matplotlib.pyplot as plt
+"""Pictures of results; each function returns a matplotlib figure, which pyplot knows nothing of.  Debian: python3-matplotlib."""
 import numpy as np
+from matplotlib.figure import Figure
 
 COLOURS = {"not_reached": "0.8", "skipped": "0.6", "none": "tab:blue", "scratch": "tab:olive", "undecided": "tab:orange",
            "gouge": "tab:red"}
@@ -13,7 +13,8 @@ def shot(run):
     inside = s["position"] < s["position"].max() - 1e-9  # what happens after the exit is another story
     ms = 1e3 * s["time"]
     end = min(np.count_nonzero(inside) + 1, len(ms))
-    figure, (over_time, along) = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
+    figure = Figure(figsize=(10, 4), layout="constrained")
+    over_time, along = figure.subplots(1, 2)
     over_time.plot(ms[:end], 1e-3 * s["current"][:end], color="tab:blue")
     over_time.set(xlabel="time [ms]", ylabel="current [kA]")
     speed = over_time.twinx()
@@ -49,7 +50,8 @@ def threshold(run):
 
 def _threshold_along(run):
     s, found = run.shot, run.summary
-    figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
+    figure = Figure(figsize=(7, 4.5), layout="constrained")
+    axes = figure.subplots()
     last = int(np.argmax(s["position"])) + 1
     axes.plot(s["position"][:last], s["velocity"][:last], color="0.3", label="the shot")
     axes.set_ylim(bottom=0)
@@ -67,16 +69,20 @@ def _threshold_along(run):
 
 def _thresholds_of_surfaces(run):
     ranking = run.summary["ranking"]
-    figure, axes = plt.subplots(figsize=(7, 1 + 0.45 * len(ranking)), layout="constrained")
-    top = max([s["velocity"] for s in run.summary["scenes"]] + [run.summary["shot"]["muzzle_velocity"] or 0])
+    figure = Figure(figsize=(7, 1 + 0.45 * len(ranking)), layout="constrained")
+    axes = figure.subplots()
+    speeds = [s["velocity"] for s in run.summary["scenes"]] + [run.summary["shot"]["muzzle_velocity"] or 0]
+    speeds += [v for one in ranking for v in (one["threshold_velocity"], *one["threshold_interval"]) if v is not None]
+    known = [v for v in speeds if v > 0]  # the axis covers every interval and begins near the least of them
+    bottom, top = 0.95 * min(known, default=0), 1.02 * max(known, default=1)
     for place, one in enumerate(ranking):
         low, high = one["threshold_interval"]
-        axes.barh(place, (top if high is None else high) - (low or 0), left=low or 0, color="tab:red", alpha=0.3)
+        axes.barh(place, (top if high is None else high) - (low or bottom), left=low or bottom, color="tab:red", alpha=0.3)
         if one["threshold_velocity"] is not None:
             axes.plot(one["threshold_velocity"], place, "o", color="tab:red")
     axes.set_yticks(range(len(ranking)), [one["surface"] for one in ranking])
     axes.invert_yaxis()
-    axes.set(xlabel="threshold velocity [m/s], with its interval", xlim=(0, top))
+    axes.set(xlabel="threshold velocity [m/s], with its interval", xlim=(bottom, top))
     return figure
 
 
@@ -85,8 +91,8 @@ def crater(found):
     height = -1e3 * found.depth
     reach = max(np.abs(height).max(), 1e-9)
     tall = 6.4 * np.ptp(found.z) / np.ptp(found.x)  # [in] that gives both directions one scale
-    figure, (seen, cut) = plt.subplots(2, 1, figsize=(8, tall + 2.6), sharex=True, height_ratios=[tall, 1.8],
-                                       layout="constrained")
+    figure = Figure(figsize=(8, tall + 2.6), layout="constrained")
+    seen, cut = figure.subplots(2, 1, sharex=True, height_ratios=[tall, 1.8])
     image = seen.pcolormesh(1e3 * found.x, 1e3 * found.z, height.T, cmap="RdBu", vmin=-reach, vmax=reach, shading="nearest")
     seen.set(aspect="equal", ylabel="z [mm]", title=found.texts.get("class", ""))
     figure.colorbar(image, ax=[seen, cut], label="height [mm]")

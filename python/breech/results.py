@@ -14,6 +14,7 @@
 
 All numbers are in SI units.  Whoever reads while a run goes on gets the last complete state.
 """
+import functools
 import json
 from pathlib import Path
 
@@ -51,18 +52,35 @@ class Crater:
 
 
 class Run:
-    """An output directory."""
+    """An output directory.  summary: summary.json, read when it is first asked for; a run writes it at its end."""
 
     def __init__(self, directory):
         self.directory = Path(directory)
-        self.summary = json.loads((self.directory / "summary.json").read_text())
+        if not self.directory.is_dir():
+            raise FileNotFoundError(f"{directory}: there is no such directory")
+        if not any((self.directory / name).exists() for name in ("summary.json", "history.h5", "used.yaml")):
+            raise FileNotFoundError(f"{directory} holds no run: neither summary.json nor history.h5 nor used.yaml")
+
+    @functools.cached_property
+    def summary(self):
+        return json.loads(self._file("summary.json").read_text())
+
+    def _file(self, name):
+        path = self.directory / name
+        if not path.exists():
+            raise FileNotFoundError(f"{path} is not there: the run goes on, or ended before it wrote that")
+        return path
+
+    def _scene_known(self, name):
+        if name not in self.scenes:
+            raise KeyError(f"{self.directory} has no scene `{name}`; it has: {', '.join(self.scenes) or 'none'}")
 
     def _columns(self, group, dimensions=(1,)):
-        with h5py.File(self.directory / "history.h5", "r") as f:
+        with h5py.File(self._file("history.h5"), "r") as f:
             return Columns(f[group], dimensions)
 
     def _names(self, group):
-        with h5py.File(self.directory / "history.h5", "r") as f:
+        with h5py.File(self._file("history.h5"), "r") as f:
             return [name for name, item in f.get(group, {}).items() if isinstance(item, h5py.Group)]
 
     @property
@@ -83,6 +101,8 @@ class Run:
         return self._names("scene")
 
     def scene(self, name):
+        """Time series of a scene, Columns: arrays by name, with .units and .descriptions; .scenes lists the names."""
+        self._scene_known(name)
         return self._columns(f"/scene/{name}")
 
     def bodies(self, name):
@@ -104,8 +124,10 @@ class Run:
         return self._columns(f"/scene/{name}/probes/{probe}", (1, 2, 3))
 
     def crater(self, name):
-        """None of a scene that ended once its groove's growth was known."""
-        with h5py.File(self.directory / "history.h5", "r") as f:
+        """The Crater of a scene (x, z, depth, numbers, texts, profile()); None of one that ended once its groove's growth was
+        known, as every scene of a study with study.craters = 0."""
+        self._scene_known(name)
+        with h5py.File(self._file("history.h5"), "r") as f:
             return Crater(f[f"/scene/{name}/crater"]) if f"/scene/{name}/crater" in f else None
 
     def snapshots(self, name):
