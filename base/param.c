@@ -4,34 +4,34 @@
 #include <stdbool.h>
 #include <string.h>
 
-static void set_default(const param *p, char *member)
+static void set_default(const base_param *p, char *member)
 {
     const double number = isinf(p->fallback) ? NAN : p->fallback;
     switch (p->kind) {
-    case PARAM_NUMBER: *(double *)(void *)member = number; break;
-    case PARAM_VECTOR:
+    case BASE_PARAM_NUMBER: *(double *)(void *)member = number; break;
+    case BASE_PARAM_VECTOR:
         for (int k = 0; k < 3; k++) ((double *)(void *)member)[k] = number;
         break;
-    case PARAM_POINTS:
+    case BASE_PARAM_POINTS:
         for (int k = 0; k < 2 * p->room; k++) ((double *)(void *)member)[k] = NAN;
         break;
-    case PARAM_INTEGER:
-    case PARAM_CHOICE: *(int *)(void *)member = (int)p->fallback; break;
-    case PARAM_FLAG: *(bool *)(void *)member = p->fallback != 0; break;
-    case PARAM_TEXT:
-        strncpy(member, p->fallback_text ? p->fallback_text : "", PARAM_TEXT_SIZE - 1);
-        member[PARAM_TEXT_SIZE - 1] = '\0';
+    case BASE_PARAM_INTEGER:
+    case BASE_PARAM_CHOICE: *(int *)(void *)member = (int)p->fallback; break;
+    case BASE_PARAM_FLAG: *(bool *)(void *)member = p->fallback != 0; break;
+    case BASE_PARAM_TEXT:
+        strncpy(member, p->fallback_text ? p->fallback_text : "", BASE_PARAM_TEXT_SIZE - 1);
+        member[BASE_PARAM_TEXT_SIZE - 1] = '\0';
         break;
     }
 }
 
-void base_params_default(const param *table, void *object)
+void base_params_default(const base_param *table, void *object)
 {
-    for (const param *p = table; p->key; p++) set_default(p, (char *)object + p->offset);
+    for (const base_param *p = table; p->key; p++) set_default(p, (char *)object + p->offset);
 }
 
 /* A NaN is "not given": allowed for OPTIONAL alone. */
-static status check_number(const param *p, double value, const char *section)
+static status check_number(const base_param *p, double value, const char *section)
 {
     const bool plain = strcmp(p->unit, "1") == 0;
     const char *gap = plain ? "" : " ", *unit = plain ? "" : p->unit;
@@ -43,7 +43,7 @@ static status check_number(const param *p, double value, const char *section)
     return status_ok();
 }
 
-static status check_choice(const param *p, int value, const char *section)
+static status check_choice(const base_param *p, int value, const char *section)
 {
     int n = 0;
     while (p->choices[n]) n++;
@@ -59,7 +59,7 @@ int base_param_pairs(const double *member, int room)
     return n;
 }
 
-static status check_pairs(const param *p, const double *member, const char *section)
+static status check_pairs(const base_param *p, const double *member, const char *section)
 {
     const int n = base_param_pairs(member, p->room);
     CHECK(n > 0, STATUS_BAD_INPUT, "%s.%s is required [%s]: %s", section, p->key, p->unit, p->doc);
@@ -67,26 +67,26 @@ static status check_pairs(const param *p, const double *member, const char *sect
     return status_ok();
 }
 
-static status check_one(const param *p, const char *member, const char *section)
+static status check_one(const base_param *p, const char *member, const char *section)
 {
     switch (p->kind) {
-    case PARAM_NUMBER: return check_number(p, *(const double *)(const void *)member, section);
-    case PARAM_VECTOR:
+    case BASE_PARAM_NUMBER: return check_number(p, *(const double *)(const void *)member, section);
+    case BASE_PARAM_VECTOR:
         for (int k = 0; k < 3; k++) TRY(check_number(p, ((const double *)(const void *)member)[k], section));
         return status_ok();
-    case PARAM_POINTS: return check_pairs(p, (const double *)(const void *)member, section);
-    case PARAM_INTEGER: return check_number(p, *(const int *)(const void *)member, section);
-    case PARAM_CHOICE: return check_choice(p, *(const int *)(const void *)member, section);
-    case PARAM_FLAG: return status_ok();
-    case PARAM_TEXT:
+    case BASE_PARAM_POINTS: return check_pairs(p, (const double *)(const void *)member, section);
+    case BASE_PARAM_INTEGER: return check_number(p, *(const int *)(const void *)member, section);
+    case BASE_PARAM_CHOICE: return check_choice(p, *(const int *)(const void *)member, section);
+    case BASE_PARAM_FLAG: return status_ok();
+    case BASE_PARAM_TEXT:
         CHECK(p->fallback_text || member[0], STATUS_BAD_INPUT, "%s.%s is required: %s", section, p->key, p->doc);
         return status_ok();
     }
     return status_ok();
 }
 
-status base_params_check(const param *table, const void *object, const char *section)
+status base_params_check(const base_param *table, const void *object, const char *section)
 {
-    for (const param *p = table; p->key; p++) TRY(check_one(p, (const char *)object + p->offset, section));
+    for (const base_param *p = table; p->key; p++) TRY(check_one(p, (const char *)object + p->offset, section));
     return status_ok();
 }

@@ -18,27 +18,27 @@
 extern "C" {
 #endif
 
-enum { PARAM_TEXT_SIZE = 64 }; /* a PARAM_TEXT member is char[PARAM_TEXT_SIZE] */
+enum { BASE_PARAM_TEXT_SIZE = 64 }; /* a BASE_PARAM_TEXT member is char[BASE_PARAM_TEXT_SIZE] */
 
 typedef enum {
-    PARAM_NUMBER,  /* double, in `unit` */
-    PARAM_INTEGER, /* int */
-    PARAM_FLAG,    /* bool: true/false, yes/no */
-    PARAM_CHOICE,  /* int: index into `choices` */
-    PARAM_TEXT,    /* char[PARAM_TEXT_SIZE] */
-    PARAM_VECTOR,  /* double[3], in `unit`, written [a, b, c] */
-    PARAM_POINTS   /* double[2 * room], in `unit`, written [[a, b], [c, d], ...]; NAN in the places behind the last */
-} param_kind;
+    BASE_PARAM_NUMBER,  /* double, in `unit` */
+    BASE_PARAM_INTEGER, /* int */
+    BASE_PARAM_FLAG,    /* bool: true/false, yes/no */
+    BASE_PARAM_CHOICE,  /* int: index into `choices` */
+    BASE_PARAM_TEXT,    /* char[BASE_PARAM_TEXT_SIZE] */
+    BASE_PARAM_VECTOR,  /* double[3], in `unit`, written [a, b, c] */
+    BASE_PARAM_POINTS   /* double[2 * room], in `unit`, written [[a, b], [c, d], ...]; NAN behind the last */
+} base_param_kind;
 
 typedef struct {
     const char *key, *unit, *doc;
     size_t offset;
     double fallback, min, max; /* in `unit`; min and max are inclusive */
-    param_kind kind;
-    const char *const *choices; /* PARAM_CHOICE: names, NULL at the end */
-    const char *fallback_text;  /* PARAM_TEXT: default, NULL = required */
-    int room;                   /* PARAM_POINTS: pairs at most; at least one must be given */
-} param;
+    base_param_kind kind;
+    const char *const *choices; /* BASE_PARAM_CHOICE: names, NULL at the end */
+    const char *fallback_text;  /* BASE_PARAM_TEXT: default, NULL = required */
+    int room;                   /* BASE_PARAM_POINTS: pairs at most; at least one must be given */
+} base_param;
 
 /* A table ends with a row whose key is NULL.  The macros that write rows are for Breech's own sources. */
 #ifdef BREECH_INSIDE
@@ -48,38 +48,38 @@ typedef struct {
 #define PARAMS_END { .key = NULL }
 #define PARAM_DOUBLE(type, member, unit_, fallback_, min_, max_, doc_)                                             \
     { .key = #member, .unit = (unit_), .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_), \
-      .min = (min_), .max = (max_), .kind = PARAM_NUMBER }
+      .min = (min_), .max = (max_), .kind = BASE_PARAM_NUMBER }
 #define PARAM_INT(type, member, fallback_, min_, max_, doc_)                                                       \
     { .key = #member, .unit = "1", .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_),     \
-      .min = (min_), .max = (max_), .kind = PARAM_INTEGER }
+      .min = (min_), .max = (max_), .kind = BASE_PARAM_INTEGER }
 #define PARAM_BOOL(type, member, fallback_, doc_)                                                                  \
     { .key = #member, .unit = "1", .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_),     \
-      .min = 0, .max = 1, .kind = PARAM_FLAG }
+      .min = 0, .max = 1, .kind = BASE_PARAM_FLAG }
 #define PARAM_ENUM(type, member, choices_, fallback_, doc_)                                                        \
     { .key = #member, .unit = "1", .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_),     \
-      .min = 0, .max = 1e9, .kind = PARAM_CHOICE, .choices = (choices_) }
+      .min = 0, .max = 1e9, .kind = BASE_PARAM_CHOICE, .choices = (choices_) }
 #define PARAM_STRING(type, member, fallback_text_, doc_)                                                           \
-    { .key = #member, .unit = "1", .doc = (doc_), .offset = offsetof(type, member), .kind = PARAM_TEXT,          \
+    { .key = #member, .unit = "1", .doc = (doc_), .offset = offsetof(type, member), .kind = BASE_PARAM_TEXT,          \
       .fallback_text = (fallback_text_) }
 #define PARAM_VEC3(type, member, unit_, fallback_, min_, max_, doc_)                                               \
     { .key = #member, .unit = (unit_), .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_), \
-      .min = (min_), .max = (max_), .kind = PARAM_VECTOR }
+      .min = (min_), .max = (max_), .kind = BASE_PARAM_VECTOR }
 #define PARAM_PAIRS(type, member, unit_, min_, max_, doc_)                                                         \
     { .key = #member, .unit = (unit_), .doc = (doc_), .offset = offsetof(type, member), .fallback = REQUIRED,    \
-      .min = (min_), .max = (max_), .kind = PARAM_POINTS,                                                         \
+      .min = (min_), .max = (max_), .kind = BASE_PARAM_POINTS,                                                         \
       .room = (int)(sizeof(((type *)0)->member) / (2 * sizeof(double))) }
 /* clang-format on */
 #endif
 
 /* Fills every member of the table with its default; REQUIRED numbers become NAN, required texts "". */
-void base_params_default(const param *table, void *object);
+void base_params_default(const base_param *table, void *object);
 
-/* How many pairs a PARAM_POINTS member holds. */
+/* How many pairs a BASE_PARAM_POINTS member holds. */
 int base_param_pairs(const double *member, int room);
 
-/* Error STATUS_BAD_INPUT naming "<section>.<key>", value, unit and range for the first member that is out of range or
- * required and unset. */
-status base_params_check(const param *table, const void *object, const char *section);
+/* Error BASE_STATUS_BAD_INPUT naming "<section>.<key>", value, unit and range for the first member that is out of range
+ * or required and unset. */
+base_status base_params_check(const base_param *table, const void *object, const char *section);
 
 #ifdef __cplusplus
 }

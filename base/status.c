@@ -4,7 +4,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-status base_status_error(status_code code, const char *format, ...)
+status base_status_error(base_status_code code, const char *format, ...)
 {
     status s = { .code = code };
     va_list args;

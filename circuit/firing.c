@@ -16,25 +16,27 @@ static const double VELOCITY_CLOSE = 1e-5; /* accepted relative error of the vel
 
 static const char *const goal_names[] = { "flat", "velocity", NULL };
 
-const param circuit_firing_wish_params[] = {
-    PARAM_ENUM(firing_wish, goal, goal_names, FIRING_FLAT,
+const base_param circuit_firing_wish_params[] = {
+    PARAM_ENUM(circuit_firing_wish, goal, goal_names, CIRCUIT_FIRING_FLAT,
                "flat: the flattest current below peak_current; velocity: muzzle_velocity at the least stored energy"),
-    PARAM_DOUBLE(firing_wish, peak_current, "A", OPTIONAL, 1.0, 1e9, "peak the rails' current should keep to"),
-    PARAM_DOUBLE(firing_wish, muzzle_velocity, "m/s", OPTIONAL, 1.0, 1e5, "wanted muzzle velocity (goal velocity)"),
-    PARAM_DOUBLE(firing_wish, spread, "s", 1e-4, 1e-9, 1.0, "first steps of the search in the firing times"),
-    PARAM_DOUBLE(firing_wish, tolerance, "s", 1e-6, 1e-12, 1.0, "the search ends when its simplex is this small"),
-    PARAM_INT(firing_wish, evaluations, 400, 1, 100000, "trials of the search at most"),
+    PARAM_DOUBLE(circuit_firing_wish, peak_current, "A", OPTIONAL, 1.0, 1e9, "peak the rails' current should keep to"),
+    PARAM_DOUBLE(circuit_firing_wish, muzzle_velocity, "m/s", OPTIONAL, 1.0, 1e5,
+                 "wanted muzzle velocity (goal velocity)"),
+    PARAM_DOUBLE(circuit_firing_wish, spread, "s", 1e-4, 1e-9, 1.0, "first steps of the search in the firing times"),
+    PARAM_DOUBLE(circuit_firing_wish, tolerance, "s", 1e-6, 1e-12, 1.0,
+                 "the search ends when its simplex is this small"),
+    PARAM_INT(circuit_firing_wish, evaluations, 400, 1, 100000, "trials of the search at most"),
     PARAMS_END
 };
 
 typedef struct {
-    shot_config config;
-    firing_wish wish;
-    const shot_module *given; /* before the search */
-    shot_module *modules;     /* of the trial under way */
-    int n, *moved, n_moved;   /* groups; those whose time is moved */
+    circuit_shot_config config;
+    circuit_firing_wish wish;
+    const circuit_shot_module *given; /* before the search */
+    circuit_shot_module *modules;     /* of the trial under way */
+    int n, *moved, n_moved;           /* groups; those whose time is moved */
     bool (*stop)(void);
-    firing_result *out;
+    circuit_firing_result *out;
     double scale; /* of the charges, last trial */
     status failed;
 } search;
@@ -52,25 +54,25 @@ static double unevenness(const flatness *f, double I)
     return off > 0.0 ? EXCESS * off * off : off * off;
 }
 
-static bool on_sample(void *user, const shot *s, const shot_state *st)
+static bool on_sample(void *user, const circuit_shot *s, const circuit_shot_state *st)
 {
     flatness *f = user;
     (void)s;
-    if (st->phase == SHOT_MOVING && !isnan(f->peak))
+    if (st->phase == CIRCUIT_SHOT_MOVING && !isnan(f->peak))
         f->badness += 0.5 * (unevenness(f, f->I) + unevenness(f, st->current)) * (st->x - f->x);
     f->I = st->current;
     f->x = st->x;
-    return st->phase != SHOT_LEFT;
+    return st->phase != CIRCUIT_SHOT_LEFT;
 }
 
 /* Ends with STATUS_STOPPED at the muzzle.  *travel: fraction of the barrel that was covered. */
-static status run(search *q, double scale, flatness *f, shot_summary *result, double *travel)
+static status run(search *q, double scale, flatness *f, circuit_shot_summary *result, double *travel)
 {
-    const shot_barrel *b = &q->config.barrel;
-    shot *s = NULL;
+    const circuit_shot_barrel *b = &q->config.barrel;
+    circuit_shot *s = NULL;
     for (int k = 0; k < q->n; k++) q->modules[k].charge = scale * q->given[k].charge;
     *f = (flatness){ .x = b->start, .peak = q->wish.peak_current };
-    const shot_sink sink = { .sample = on_sample, .user = f };
+    const circuit_shot_sink sink = { .sample = on_sample, .user = f };
     q->out->shots++;
     TRY(circuit_shot_create(&q->config, &s));
     const status done = circuit_shot_advance(s, INFINITY, &sink);
@@ -86,7 +88,7 @@ static status run(search *q, double scale, flatness *f, shot_summary *result, do
 static status measure_flat(search *q, double *value)
 {
     flatness f;
-    shot_summary r;
+    circuit_shot_summary r;
     double travel;
     TRY(run(q, q->scale, &f, &r, &travel));
     *value = f.badness + (travel < 1.0 ? NOT_LEFT + 1.0 - travel : 0.0);
@@ -112,7 +114,7 @@ static status charge_for(search *q, flatness *f, bool *found)
            travel;
     *found = false;
     for (int k = 0; k < 40 && hi - lo > 1e-12 * hi && !*found; k++) {
-        shot_summary r;
+        circuit_shot_summary r;
         TRY(run(q, at[1], f, &r, &travel));
         const double now = (isnan(r.muzzle_velocity) ? 0.0 : r.muzzle_velocity) - wanted;
         *found = fabs(now) <= VELOCITY_CLOSE * wanted;
@@ -133,7 +135,7 @@ static double stored_energy(const search *q)
 {
     double E = 0.0;
     for (int k = 0; k < q->n; k++) {
-        const shot_module *m = &q->modules[k];
+        const circuit_shot_module *m = &q->modules[k];
         E += 0.5 * m->count * m->capacitance * m->charge * m->charge;
     }
     return E;
@@ -151,7 +153,7 @@ static status measure_velocity(search *q, double *value)
     double excess = 0.0;
     if (!isnan(
             q->wish.peak_current)) { /* f.badness also counts currents below the peak; only the excess matters here */
-        shot_summary r;
+        circuit_shot_summary r;
         double travel;
         TRY(run(q, q->scale, &f, &r, &travel));
         excess = fmax(r.peak_current / q->wish.peak_current - 1.0, 0.0);
@@ -173,7 +175,7 @@ static double measure(const gsl_vector *times, void *user)
     }
     for (int k = 0; k < q->n_moved; k++) q->modules[q->moved[k]].fire_at = fabs(gsl_vector_get(times, (size_t)k));
     q->out->evaluations++;
-    q->failed = q->wish.goal == FIRING_FLAT ? measure_flat(q, &value) : measure_velocity(q, &value);
+    q->failed = q->wish.goal == CIRCUIT_FIRING_FLAT ? measure_flat(q, &value) : measure_velocity(q, &value);
     return isfinite(value) ? value : 1e300; /* GSL does not accept infinities */
 }
 
@@ -228,28 +230,28 @@ static status search_run(search *q)
     return done;
 }
 
-static bool some_fires(const shot_config *c)
+static bool some_fires(const circuit_shot_config *c)
 {
-    const supply_list *bank = &c->supplies[SUPPLY_capacitor];
-    const shot_module *modules = bank->item;
+    const circuit_supply_list *bank = &c->supplies[CIRCUIT_SUPPLY_capacitor];
+    const circuit_shot_module *modules = bank->item;
     for (int k = 0; k < bank->n; k++)
         if (modules[k].fire_at <= c->options.max_time && modules[k].charge > 0.0) return true;
     return false;
 }
 
 /* Which groups are moved: all that fire at the breech but the first to fire.  moved: [n] of room, or NULL; how many. */
-static int choose_moved(const shot_config *c, int *moved)
+static int choose_moved(const circuit_shot_config *c, int *moved)
 {
-    const supply_list *bank = &c->supplies[SUPPLY_capacitor];
-    const shot_module *modules = bank->item;
+    const circuit_supply_list *bank = &c->supplies[CIRCUIT_SUPPLY_capacitor];
+    const circuit_shot_module *modules = bank->item;
     int first = -1, n = 0;
     for (int k = 0; k < bank->n; k++) {
-        const shot_module *m = &modules[k];
+        const circuit_shot_module *m = &modules[k];
         if (!(m->fire_at <= c->options.max_time) || m->position > 0.0) continue;
         if (first < 0 || m->fire_at < modules[first].fire_at) first = k;
     }
     for (int k = 0; k < bank->n; k++) {
-        const shot_module *m = &modules[k];
+        const circuit_shot_module *m = &modules[k];
         if (k == first || !(m->fire_at <= c->options.max_time) || m->position != 0.0) continue;
         if (moved) moved[n] = k;
         n++;
@@ -257,27 +259,27 @@ static int choose_moved(const shot_config *c, int *moved)
     return n;
 }
 
-status circuit_firing_check(const shot_config *c, const firing_wish *wish)
+status circuit_firing_check(const circuit_shot_config *c, const circuit_firing_wish *wish)
 {
     TRY(base_params_check(circuit_firing_wish_params, wish, "optimise"));
-    CHECK(wish->goal != FIRING_FLAT || choose_moved(c, NULL) > 0, STATUS_BAD_INPUT,
+    CHECK(wish->goal != CIRCUIT_FIRING_FLAT || choose_moved(c, NULL) > 0, STATUS_BAD_INPUT,
           "optimise: goal flat needs at least two capacitor groups that fire at the breech");
-    CHECK(wish->goal != FIRING_VELOCITY || some_fires(c), STATUS_BAD_INPUT,
+    CHECK(wish->goal != CIRCUIT_FIRING_VELOCITY || some_fires(c), STATUS_BAD_INPUT,
           "optimise: goal velocity needs a charged capacitor group that fires (bank)");
-    CHECK(wish->goal != FIRING_FLAT || !isnan(wish->peak_current), STATUS_BAD_INPUT,
+    CHECK(wish->goal != CIRCUIT_FIRING_FLAT || !isnan(wish->peak_current), STATUS_BAD_INPUT,
           "optimise.peak_current is missing [A]: goal flat needs it");
-    CHECK(wish->goal != FIRING_VELOCITY || !isnan(wish->muzzle_velocity), STATUS_BAD_INPUT,
+    CHECK(wish->goal != CIRCUIT_FIRING_VELOCITY || !isnan(wish->muzzle_velocity), STATUS_BAD_INPUT,
           "optimise.muzzle_velocity is missing [m/s]: goal velocity needs it");
     return status_ok();
 }
 
-status circuit_firing_optimise(const shot_config *c, const firing_wish *wish, bool (*stop)(void), shot_module *modules,
-                               firing_result *out)
+status circuit_firing_optimise(const circuit_shot_config *c, const circuit_firing_wish *wish, bool (*stop)(void),
+                               circuit_shot_module *modules, circuit_firing_result *out)
 {
-    const supply_list *bank = &c->supplies[SUPPLY_capacitor];
+    const circuit_supply_list *bank = &c->supplies[CIRCUIT_SUPPLY_capacitor];
     const size_t n = bank->n > 0 ? (size_t)bank->n : 1;
-    rails_load load;
-    *out = (firing_result){ .before = NAN, .after = NAN };
+    circuit_rails_load load;
+    *out = (circuit_firing_result){ .before = NAN, .after = NAN };
     TRY(circuit_firing_check(c, wish));
     search q = { .config = *c,
                  .wish = *wish,
@@ -289,7 +291,7 @@ status circuit_firing_optimise(const shot_config *c, const firing_wish *wish, bo
                  .scale = 1.0,
                  .failed = status_ok() };
     if (bank->n > 0) memcpy(modules, bank->item, n * sizeof *modules);
-    q.config.supplies[SUPPLY_capacitor].item = modules;
+    q.config.supplies[CIRCUIT_SUPPLY_capacitor].item = modules;
     q.config.n_sites = 0;
     q.config.options.rtol = fmax(c->options.rtol, SEARCH_RTOL);
     q.config.options.atol = 0.01 * q.config.options.rtol;

@@ -18,34 +18,34 @@ extern "C" {
  * ten thousand times, so the peak is exceeded by about a thousandth at most.
  * velocity: reach muzzle_velocity with the least energy stored at the start; peak_current, if given, is a limit as in
  * `flat`. */
-typedef enum { FIRING_FLAT, FIRING_VELOCITY } firing_goal;
+typedef enum { CIRCUIT_FIRING_FLAT, CIRCUIT_FIRING_VELOCITY } circuit_firing_goal;
 
 typedef struct {
-    int goal;               /* firing_goal */
+    int goal;               /* circuit_firing_goal */
     double peak_current;    /* of the rails [A]; NAN = none (goal velocity) */
     double muzzle_velocity; /* goal velocity [m/s] */
     double spread;          /* first steps of the search [s] */
     double tolerance;       /* the search ends when the simplex is this small [s] */
     int evaluations;        /* of the objective, at most */
-} firing_wish;
+} circuit_firing_wish;
 
-extern const param circuit_firing_wish_params[];
+extern const base_param circuit_firing_wish_params[];
 
 typedef struct {
     double before, after;   /* objective: flat [1]; velocity: stored energy [J] */
     double charge_scale;    /* all charges times this [1] */
     double stored_energy;   /* then, at the start [J] */
     int evaluations, shots; /* of the objective; shots that were run for them */
-} firing_result;
+} circuit_firing_result;
 
-/* STATUS_BAD_INPUT: no group's time can move (flat), none fires (velocity), or the goal's number is missing. */
-status circuit_firing_check(const shot_config *c, const firing_wish *wish);
+/* BASE_STATUS_BAD_INPUT: no group's time can move (flat), none fires (velocity), or the goal's number is missing. */
+base_status circuit_firing_check(const circuit_shot_config *c, const circuit_firing_wish *wish);
 
 /* Times and charges are written into `modules`, a copy of the configuration's capacitor groups that the caller owns.
- * STATUS_BAD_INPUT as circuit_firing_check.  STATUS_NUMERICAL: no charge reaches the velocity.
- * stop (may be NULL): true ends the search, STATUS_STOPPED. */
-status circuit_firing_optimise(const shot_config *c, const firing_wish *wish, bool (*stop)(void), shot_module *modules,
-                               firing_result *out);
+ * BASE_STATUS_BAD_INPUT as circuit_firing_check.  BASE_STATUS_NUMERICAL: no charge reaches the velocity.
+ * stop (may be NULL): true ends the search, BASE_STATUS_STOPPED. */
+base_status circuit_firing_optimise(const circuit_shot_config *c, const circuit_firing_wish *wish, bool (*stop)(void),
+                                    circuit_shot_module *modules, circuit_firing_result *out);
 
 #ifdef __cplusplus
 }

@@ -10,17 +10,17 @@ static bool comes_again(const supply_group *g)
     return g->gate == GATE_WAITING && g->kind->pulses;
 }
 
-bool circuit_shot_done(const shot *s)
+bool circuit_shot_done(const circuit_shot *s)
 {
     const shot_model *m = &s->model;
-    const bool in_motion = m->phase == SHOT_MOVING && circuit_shot_z(s)[Y_V] > 0.0;
+    const bool in_motion = m->phase == CIRCUIT_SHOT_MOVING && circuit_shot_z(s)[Y_V] > 0.0;
     bool busy = !s->started || s->head != s->tail || in_motion || circuit_shot_any_current(s);
     for (int k = 0; k < m->n && !busy; k++) busy = comes_again(&m->groups[k]);
     return !busy && circuit_shot_next_firing(s) > s->options.max_time;
 }
 
 /* Fills everything the solver needs after a switching: the algebraic unknowns, y', tolerances, root directions. */
-static void set_tolerances(shot *s)
+static void set_tolerances(circuit_shot *s)
 {
     const shot_model *m = &s->model;
     const int n = circuit_shot_unknowns(m);
@@ -34,11 +34,11 @@ static void set_tolerances(shot *s)
     }
 }
 
-static void set_directions(shot *s)
+static void set_directions(circuit_shot *s)
 {
     const shot_model *m = &s->model;
     int *direction = circuit_dae_direction(s->solver);
-    direction[ROOT_MOTION] = m->phase == SHOT_HELD ? 1 : -1;
+    direction[ROOT_MOTION] = m->phase == CIRCUIT_SHOT_HELD ? 1 : -1;
     direction[ROOT_MELT] = direction[ROOT_SITE] = direction[ROOT_MUZZLE] = direction[ROOT_FEED] = 1;
     for (int k = 0; k < m->n; k++) {
         direction[ROOT_GROUPS + 2 * k] = -1;
@@ -46,7 +46,7 @@ static void set_directions(shot *s)
     }
 }
 
-static void note_current(shot *s, const shot_drive *d)
+static void note_current(circuit_shot *s, const shot_drive *d)
 {
     s->last_current = circuit_shot_total_current(d, &s->model);
     s->last_slope = circuit_shot_current_slope(&s->model, d, circuit_shot_z(s));
@@ -54,7 +54,7 @@ static void note_current(shot *s, const shot_drive *d)
 }
 
 /* Largest |x_j| over its weight rtol |y_j| + atol_j, of what is not algebraic. */
-static double weighted(const shot *s, const double *x)
+static double weighted(const circuit_shot *s, const double *x)
 {
     const double *y = circuit_shot_y(s), *atol = circuit_dae_atol(s->solver),
                  *differential = circuit_dae_differential(s->solver);
@@ -66,7 +66,7 @@ static double weighted(const shot *s, const double *x)
 
 /* A first step of order 1 is off by 1/2 h^2 y'', which may be one weight: y'' from the rates half a weight later.
  * IDA's own choice is that half weight itself: ten doublings and more that do nothing.  0 where nothing moves. */
-static double first_step(shot *s)
+static double first_step(circuit_shot *s)
 {
     const shot_model *m = &s->model;
     const int n = circuit_shot_unknowns(m);
@@ -82,7 +82,7 @@ static double first_step(shot *s)
     return fmax(h, sqrt(2.0 / weighted(s, bend)));
 }
 
-static status restart(shot *s)
+static status restart(circuit_shot *s)
 {
     const shot_model *m = &s->model;
     const int n = circuit_shot_unknowns(m);
@@ -115,7 +115,7 @@ static double cubic_top(double I0, double d0, double I1, double d1, double h)
     return q > 0.0 && q < 1.0 ? fmax(fmax(I0, I1), I0 + q * (a + q * (b + q * c))) : fmax(I0, I1);
 }
 
-static void peaks_update(shot *s)
+static void peaks_update(circuit_shot *s)
 {
     const shot_drive d = circuit_shot_drive_now(s);
     const double I = s->last_current, slope = s->last_slope, h = s->t - s->last_t;
@@ -123,26 +123,26 @@ static void peaks_update(shot *s)
     circuit_shot_heat_update(s, &d);
     const double top = cubic_top(I, slope, s->last_current, s->last_slope, h);
     s->result.peak_current = fmax(s->result.peak_current, top);
-    if (s->model.phase != SHOT_MOVING) return;
+    if (s->model.phase != CIRCUIT_SHOT_MOVING) return;
     const shot_forces f = circuit_shot_forces_at(&s->model, &d, circuit_shot_z(s));
     circuit_shot_limits_update(s, &f);
     s->result.peak_acceleration = fmax(s->result.peak_acceleration, f.net / circuit_shot_z(s)[Y_MASS]);
 }
 
 /* Hands out the queue.  A sink may call circuit_shot_jump, which asks for a restart. */
-static bool deliver(shot *s, const shot_sink *sink)
+static bool deliver(circuit_shot *s, const circuit_shot_sink *sink)
 {
     while (s->head < s->tail) {
         const pending p = s->queue[s->head++];
         if (!sink || !sink->event) continue;
-        const shot_event e = { .kind = p.kind, .index = p.index, .state = circuit_shot_now(s) };
+        const circuit_shot_event e = { .kind = p.kind, .index = p.index, .state = circuit_shot_now(s) };
         if (!sink->event(sink->user, s, &e)) return false;
     }
     s->head = s->tail = 0;
     return true;
 }
 
-static status settle_and_deliver(shot *s, const int *found, const shot_sink *sink)
+static status settle_and_deliver(circuit_shot *s, const int *found, const circuit_shot_sink *sink)
 {
     circuit_shot_settle(s, found);
     if (s->restart) TRY(restart(s));
@@ -152,7 +152,7 @@ static status settle_and_deliver(shot *s, const int *found, const shot_sink *sin
     return status_ok();
 }
 
-static status begin(shot *s, const shot_sink *sink)
+static status begin(circuit_shot *s, const circuit_shot_sink *sink)
 {
     if (s->started) { /* what an earlier stop left in the queue; a jump made between two calls */
         const bool go_on = deliver(s, sink);
@@ -163,14 +163,14 @@ static status begin(shot *s, const shot_sink *sink)
     s->started = s->restart = true;
     TRY(settle_and_deliver(s, NULL, sink));
     if (!sink || !sink->sample) return status_ok();
-    const shot_state now = circuit_shot_now(s);
+    const circuit_shot_state now = circuit_shot_now(s);
     CHECK(sink->sample(sink->user, s, &now), STATUS_STOPPED, "the shot was stopped at t = %.9g s", s->t);
     return status_ok();
 }
 
 /* Where a given current has its next point: a stop, so that no short pulse is stepped over.  Nor is the half wave for
  * which a machine waits: at most a quarter of a wave a step. */
-static double next_knot(const shot *s)
+static double next_knot(const circuit_shot *s)
 {
     double t = INFINITY;
     for (int k = 0; k < s->model.n; k++) {
@@ -181,7 +181,7 @@ static double next_knot(const shot *s)
     return t;
 }
 
-static status step(shot *s, double until, const shot_sink *sink)
+static status step(circuit_shot *s, double until, const circuit_shot_sink *sink)
 {
     dae_outcome outcome = DAE_STEP;
     const double firing = circuit_shot_next_firing(s), t0 = s->t;
@@ -195,7 +195,7 @@ static status step(shot *s, double until, const shot_sink *sink)
     peaks_update(s);
     bool go_on = true;
     if (sink && sink->sample && s->t > t0) {
-        const shot_state now = circuit_shot_now(s);
+        const circuit_shot_state now = circuit_shot_now(s);
         go_on = sink->sample(sink->user, s, &now);
     }
     if (outcome == DAE_ROOT || s->t >= firing) {
@@ -205,7 +205,7 @@ static status step(shot *s, double until, const shot_sink *sink)
     return status_ok();
 }
 
-status circuit_shot_advance(shot *s, double until, const shot_sink *sink)
+status circuit_shot_advance(circuit_shot *s, double until, const circuit_shot_sink *sink)
 {
     static const uint64_t STEPS_LIMIT = 5000000;
     const double end = fmin(until, s->options.max_time);
@@ -220,14 +220,15 @@ status circuit_shot_advance(shot *s, double until, const shot_sink *sink)
     return status_ok();
 }
 
-status circuit_shot_jump(shot *s, double impulse, double mass_loss)
+status circuit_shot_jump(circuit_shot *s, double impulse, double mass_loss)
 {
     double *z = circuit_shot_z(s);
     CHECK(impulse >= 0.0 && isfinite(impulse), STATUS_BAD_INPUT, "a gouge's impulse of %g N s: must be 0 or more",
           impulse);
     CHECK(mass_loss >= 0.0 && mass_loss < z[Y_MASS], STATUS_BAD_INPUT,
           "a gouge's mass loss of %g kg: must be 0 or more and less than the armature's %g kg", mass_loss, z[Y_MASS]);
-    CHECK(s->model.phase == SHOT_MOVING, STATUS_BAD_INPUT, "a gouge's impulse on an armature that is not in motion");
+    CHECK(s->model.phase == CIRCUIT_SHOT_MOVING, STATUS_BAD_INPUT,
+          "a gouge's impulse on an armature that is not in motion");
     const double mass = z[Y_MASS] - mass_loss;
     const double v = fmax(z[Y_V] - impulse / mass, 0.0);
     s->momentum_jumps += mass * (z[Y_V] - v);

@@ -24,13 +24,17 @@
 extern "C" {
 #endif
 
-typedef enum { SHOT_RAILS_CONSTANT, SHOT_RAILS_SKIN, SHOT_RAILS_DIFFUSING } shot_rail_level;
+typedef enum {
+    CIRCUIT_SHOT_RAILS_CONSTANT,
+    CIRCUIT_SHOT_RAILS_SKIN,
+    CIRCUIT_SHOT_RAILS_DIFFUSING
+} circuit_shot_rail_level;
 
 /* Equal rails (circuit/rails/section.h).  constant: the gradients are given; skin: those of the section at one
  * frequency; diffusing: every slice of rail has its own history since the armature exposed it (circuit/rails/rails.h).
  */
 typedef struct {
-    int level;                      /* shot_rail_level */
+    int level;                      /* circuit_shot_rail_level */
     double height;                  /* across the bore, along the contact line of the armature [m] */
     double thickness;               /* [m] */
     double separation;              /* between the facing surfaces, at their middles [m] */
@@ -54,7 +58,7 @@ typedef struct {
     double fineness;                /* filaments over the skin depth [1] */
     int slices;                     /* of the barrel, with a temperature and resistance of their own; 0 = none */
     double heat_capacity;           /* of the metal [J/m^3/K] */
-} shot_rails;
+} circuit_shot_rails;
 
 typedef struct {
     double length;            /* breech (x = 0) to muzzle [m] */
@@ -63,20 +67,20 @@ typedef struct {
     double muzzle_voltage;    /* arc's constant part, 0 for a shunt [V] */
     double shunt_resistance;  /* of a shunt across the muzzle from the start [ohm]; NAN = none */
     double shunt_inductance;  /* its own [H] */
-} shot_barrel;
+} circuit_shot_barrel;
 
-typedef enum { SHOT_FRICTION_SPEED, SHOT_FRICTION_FILM } shot_friction_law;
+typedef enum { CIRCUIT_SHOT_FRICTION_SPEED, CIRCUIT_SHOT_FRICTION_FILM } circuit_shot_friction_law;
 extern const char *const circuit_shot_friction_law_names[]; /* "speed", "film", NULL */
 
 /* Friction.  speed: (C-4), a coefficient that falls with speed.  film: friction_dry until the face has melted (event
- * SHOT_MELTED), then the shear of the melt (circuit/armature/film.h), never more than friction_dry; what melts then is
- * also what wears, and nothing before. At rest the face is solid. */
+ * CIRCUIT_SHOT_MELTED), then the shear of the melt (circuit/armature/film.h), never more than friction_dry; what melts
+ * then is also what wears, and nothing before. At rest the face is solid. */
 typedef struct {
     double mass;                /* [kg] */
     double velocity;            /* at t = 0 [m/s] */
     double resistance;          /* [ohm] */
     double contact_voltage;     /* both contacts together [V] */
-    int friction_law;           /* shot_friction_law */
+    int friction_law;           /* circuit_shot_friction_law */
     double friction_dry;        /* mu0 [1] */
     double friction_melted;     /* mu1 [1] */
     double friction_speed;      /* speed over which mu falls from mu0 to mu1, equation (C-4) [m/s] */
@@ -102,33 +106,33 @@ typedef struct {
     double resistivity_coefficient; /* [1/K] */
     double leg_area, throat_area; /* the current's cross-section in one leg, in the throat; NAN = not asked for [m^2] */
     double wear_thickness;        /* that wear may take; NAN = not asked for [m] */
-} shot_armature;
+} circuit_shot_armature;
 
 typedef struct {
     double rtol;     /* relative tolerance of the integration [1] */
     double atol;     /* absolute tolerance, as a share of each quantity's scale [1] */
     double max_time; /* circuit_shot_advance never goes further [s] */
-} shot_options;
+} circuit_shot_options;
 
 /* Keys, units, defaults, ranges and texts; the case reader is made from them. */
-extern const param circuit_shot_rails_params[];
-extern const param circuit_shot_barrel_params[];
-extern const param circuit_shot_armature_params[];
-extern const param circuit_shot_options_params[];
+extern const base_param circuit_shot_rails_params[];
+extern const base_param circuit_shot_barrel_params[];
+extern const base_param circuit_shot_armature_params[];
+extern const base_param circuit_shot_options_params[];
 
 typedef struct {
-    supply_list supplies[SUPPLY_KINDS]; /* by kind: groups are numbered in this order */
-    shot_rails rails;
+    circuit_supply_list supplies[CIRCUIT_SUPPLY_KINDS]; /* by kind: groups are numbered in this order */
+    circuit_shot_rails rails;
     /* Of these rails, from circuit_rails_ladder: for many shots with one section.  NULL = fitted by
      * circuit_shot_create in about 0.1 s.  Borrowed until it returns. */
-    const ladder *fitted;
-    shot_barrel barrel;
-    shot_armature armature;
-    shot_options options;
+    const circuit_ladder *fitted;
+    circuit_shot_barrel barrel;
+    circuit_shot_armature armature;
+    circuit_shot_options options;
     const double
         *sites; /* positions, any order, each in (start, length) [m]; borrowed until circuit_shot_create returns */
     int n_sites;
-} shot_config;
+} circuit_shot_config;
 
 /* Where the energy is and went [J]: a member for every line of circuit/ledger.def. */
 typedef struct {
@@ -140,9 +144,9 @@ typedef struct {
     double momentum_jumps; /* impulse taken by circuit_shot_jump [N s] */
     double mass_jumps;     /* mass taken by circuit_shot_jump [kg] */
     double energy_error;   /* (stored + spent - start - given)/(start + given); 0 where those are 0 [1] */
-} shot_ledger;
+} circuit_shot_ledger;
 
-typedef enum { SHOT_HELD, SHOT_MOVING, SHOT_LEFT } shot_phase;
+typedef enum { CIRCUIT_SHOT_HELD, CIRCUIT_SHOT_MOVING, CIRCUIT_SHOT_LEFT } circuit_shot_phase;
 
 /* Everything at one instant. */
 typedef struct {
@@ -167,40 +171,43 @@ typedef struct {
     double rail_behind_temperature; /* rail surface one contact length behind, estimate (C-17) [K] */
     double rail_flux;               /* of the contact's heat into one rail's face [W/m^2] */
     double rail_sheet;              /* current on a metre of that face's height, just exposed [A/m] */
-    shot_phase phase;
-    shot_ledger ledger;
-} shot_state;
+    circuit_shot_phase phase;
+    circuit_shot_ledger ledger;
+} circuit_shot_state;
 
 typedef enum {
-    SHOT_FIRED,      /* group `index` conducts (numbered from 0 in the order of the kinds) */
-    SHOT_WAITING,    /* group `index` was fired but its voltage is below the breech's: conducts once it is not */
-    SHOT_CROWBAR,    /* diode of group `index` conducts */
-    SHOT_BLOCKED,    /* thyristor of group `index` blocks for good */
-    SHOT_RELEASED,   /* the armature starts to move */
-    SHOT_STOPPED,    /* the armature came to rest inside the barrel */
-    SHOT_SITE,       /* site `index` (in the order given) is passed */
-    SHOT_MUZZLE,     /* the armature leaves */
-    SHOT_COMMUTATED, /* opening switch of group `index`: its current has gone over into the rails */
-    SHOT_RECHARGED,  /* diode of group `index` blocks again, its current having reversed */
-    SHOT_MELTED,     /* the armature's face has melted: it slides on a film (friction_law film) */
-    SHOT_EVENT_COUNT
-} shot_event_kind;
+    CIRCUIT_SHOT_FIRED,    /* group `index` conducts (numbered from 0 in the order of the kinds) */
+    CIRCUIT_SHOT_WAITING,  /* group `index` was fired but its voltage is below the breech's: conducts once it is not */
+    CIRCUIT_SHOT_CROWBAR,  /* diode of group `index` conducts */
+    CIRCUIT_SHOT_BLOCKED,  /* thyristor of group `index` blocks for good */
+    CIRCUIT_SHOT_RELEASED, /* the armature starts to move */
+    CIRCUIT_SHOT_STOPPED,  /* the armature came to rest inside the barrel */
+    CIRCUIT_SHOT_SITE,     /* site `index` (in the order given) is passed */
+    CIRCUIT_SHOT_MUZZLE,   /* the armature leaves */
+    CIRCUIT_SHOT_COMMUTATED, /* opening switch of group `index`: its current has gone over into the rails */
+    CIRCUIT_SHOT_RECHARGED,  /* diode of group `index` blocks again, its current having reversed */
+    CIRCUIT_SHOT_MELTED,     /* the armature's face has melted: it slides on a film (friction_law film) */
+    CIRCUIT_SHOT_EVENT_COUNT
+} circuit_shot_event_kind;
 
 typedef struct {
-    shot_event_kind kind;
-    int index;        /* of the group or site, else -1 */
-    shot_state state; /* just after the event */
-} shot_event;
+    circuit_shot_event_kind kind;
+    int index;                /* of the group or site, else -1 */
+    circuit_shot_state state; /* just after the event */
+} circuit_shot_event;
 
-typedef struct shot shot; /* owns all its memory */
+typedef struct circuit_shot circuit_shot; /* owns all its memory */
 
-/* Sinks; both may be NULL.  Return false to stop: circuit_shot_advance then returns STATUS_STOPPED and may be called
- * again. From `event` at a SHOT_SITE, circuit_shot_jump may be called; anything else that changes the shot may not. */
+/* Sinks; both may be NULL.  Return false to stop: circuit_shot_advance then returns BASE_STATUS_STOPPED and may be
+ * called
+ * again. From `event` at a CIRCUIT_SHOT_SITE, circuit_shot_jump may be called; anything else that changes the shot may
+ * not. */
 typedef struct {
-    bool (*event)(void *user, shot *s, const shot_event *e);
-    bool (*sample)(void *user, const shot *s, const shot_state *state); /* first call, every accepted step */
-    void *user;                                                         /* borrowed */
-} shot_sink;
+    bool (*event)(void *user, circuit_shot *s, const circuit_shot_event *e);
+    bool (*sample)(void *user, const circuit_shot *s,
+                   const circuit_shot_state *state); /* first call, every accepted step */
+    void *user;                                      /* borrowed */
+} circuit_shot_sink;
 
 /* The keys of summary.json (docs/reference/output.md).  NAN where the armature has not left. */
 typedef struct {
@@ -214,7 +221,7 @@ typedef struct {
     double exit_current;      /* [A] */
     double energy_error;      /* over the energy at the start [1] */
     uint64_t steps;           /* accepted steps and located instants */
-} shot_summary;
+} circuit_shot_summary;
 
 /* How near the armature and the rails have come to their limits; NAN where the configuration does not ask, or nothing
  * was reached.  Above 1 (contact_ratio: below 1) the contact is expected to go over into an arc: transition. */
@@ -228,57 +235,57 @@ typedef struct {
     double transition_position; /* where the first of the four passes its limit [m] */
     double critical_velocity;   /* of bending waves in the rail on its bed, (C-19) [m/s] */
     double critical_position;   /* where the armature first exceeds it [m] */
-} shot_limits;
+} circuit_shot_limits;
 
-/* What a single value cannot say: STATUS_BAD_INPUT names the parameter, its value, unit and range.  The rails:
+/* What a single value cannot say: BASE_STATUS_BAD_INPUT names the parameter, its value, unit and range.  The rails:
  * circuit_rails_check. */
-status circuit_shot_check(const shot_config *config);
+base_status circuit_shot_check(const circuit_shot_config *config);
 /* As circuit_shot_check, and the rails.  Caller frees *out with circuit_shot_free. */
-status circuit_shot_create(const shot_config *config, shot **out);
-void circuit_shot_free(shot *s); /* NULL allowed */
+base_status circuit_shot_create(const circuit_shot_config *config, circuit_shot **out);
+void circuit_shot_free(circuit_shot *s); /* NULL allowed */
 
 /* Integrates until t = until, or max_time, or until nothing can happen any more (circuit_shot_done), whichever comes
- * first. sink may be NULL.  STATUS_NUMERICAL says at which time and what to try. */
-status circuit_shot_advance(shot *s, double until, const shot_sink *sink);
+ * first. sink may be NULL.  BASE_STATUS_NUMERICAL says at which time and what to try. */
+base_status circuit_shot_advance(circuit_shot *s, double until, const circuit_shot_sink *sink);
 
 /* Rest or exit, no current, nothing left to fire. */
-bool circuit_shot_done(const shot *s);
+bool circuit_shot_done(const circuit_shot *s);
 
-shot_state circuit_shot_now(const shot *s);
-shot_summary circuit_shot_result(const shot *s);
-shot_limits circuit_shot_limits_of(const shot *s); /* until exit, or so far */
+circuit_shot_state circuit_shot_now(const circuit_shot *s);
+circuit_shot_summary circuit_shot_result(const circuit_shot *s);
+circuit_shot_limits circuit_shot_limits_of(const circuit_shot *s); /* until exit, or so far */
 
 /* What the shot has left in its rails so far: rise of temperature once the heat has evened out over their section, by
  * pieces of the barrel.  Current's heat, and the rails' share of the contact's (1 - armature.heat_share). [K] */
-enum { SHOT_PIECES = RAILS_PIECES };
-void circuit_shot_rail_rise(const shot *s, double rise[SHOT_PIECES]);
+enum { CIRCUIT_SHOT_PIECES = CIRCUIT_RAILS_PIECES };
+void circuit_shot_rail_rise(const circuit_shot *s, double rise[CIRCUIT_SHOT_PIECES]);
 
-double circuit_shot_module_current(const shot *s, int group); /* one unit of the group [A] */
-double circuit_shot_module_voltage(const shot *s, int group); /* of its capacitor, switch or machine [V] */
-int circuit_shot_module_count(const shot *s);                 /* groups */
+double circuit_shot_module_current(const circuit_shot *s, int group); /* one unit of the group [A] */
+double circuit_shot_module_voltage(const circuit_shot *s, int group); /* of its capacitor, switch or machine [V] */
+int circuit_shot_module_count(const circuit_shot *s);                 /* groups */
 
 /* A gouge: takes `impulse` [N s] (against the motion) and `mass_loss` [kg] (leaving at the armature's speed) at the
- * present instant; booked in the ledger.  An impulse larger than the momentum stops the armature.  STATUS_BAD_INPUT for
- * negative values or more mass than there is. */
-status circuit_shot_jump(shot *s, double impulse, double mass_loss);
+ * present instant; booked in the ledger.  An impulse larger than the momentum stops the armature. 
+ * BASE_STATUS_BAD_INPUT for negative values or more mass than there is. */
+base_status circuit_shot_jump(circuit_shot *s, double impulse, double mass_loss);
 
 /* L' [H/m] and R' [ohm/m] of the pair at frequency f [Hz], by the level: constant returns what was given; skin and
  * diffusing solve the section (circuit/rails/inductance.h).  f = 0 is direct current, INFINITY the perfect conductor
  * (R' is then INFINITY). */
-status circuit_rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance);
+base_status circuit_rails_impedance(const circuit_shot_rails *rails, double f, double *inductance, double *resistance);
 
 /* The cross-section at the temperature before the shot. */
-status circuit_rails_section(const shot_rails *rails, rail_section *out);
+base_status circuit_rails_section(const circuit_shot_rails *rails, circuit_rail_section *out);
 /* What a shot needs of its rails: the numbers of level constant, else the section. */
-status circuit_rails_check(const shot_rails *rails);
+base_status circuit_rails_check(const circuit_shot_rails *rails);
 
 /* The ladder that stands for the rails: at level diffusing fitted up to f_top [Hz], else L', R' at f_top and no rungs.
  */
-status circuit_rails_ladder(const shot_rails *rails, double f_top, ladder *out);
+base_status circuit_rails_ladder(const circuit_shot_rails *rails, double f_top, circuit_ladder *out);
 
 /* The frequency that level skin takes for these supplies when none is given, equation (C-6) [Hz]; NAN if nothing fires.
  */
-double circuit_shot_effective_frequency(const supply_list supplies[SUPPLY_KINDS]);
+double circuit_shot_effective_frequency(const circuit_supply_list supplies[CIRCUIT_SUPPLY_KINDS]);
 
 #ifdef __cplusplus
 }

@@ -7,7 +7,7 @@
 #include <math.h>
 
 /* mu(v) = mu1 + (mu0 - mu1) exp(-v/v_f)                                                   (C-4) */
-static double friction_coefficient(const shot_armature *a, double v)
+static double friction_coefficient(const circuit_shot_armature *a, double v)
 {
     return a->friction_melted + (a->friction_dry - a->friction_melted) * exp(-fmax(v, 0.0) / a->friction_speed);
 }
@@ -75,7 +75,7 @@ double circuit_shot_total_current(const shot_drive *d, const shot_model *m)
  * (C-15) */
 shot_forces circuit_shot_forces_at(const shot_model *m, const shot_drive *d, const double *z)
 {
-    const bool left = m->phase == SHOT_LEFT;
+    const bool left = m->phase == CIRCUIT_SHOT_LEFT;
     shot_forces f = { .I = circuit_shot_total_current(d, m), .shunt = z[Y_SHUNT] };
     const double v = z[Y_V], I = f.I - f.shunt;
     f.R = left ? m->barrel.muzzle_resistance : m->armature.resistance;
@@ -85,12 +85,12 @@ shot_forces circuit_shot_forces_at(const shot_model *m, const shot_drive *d, con
     if (left) return f;
     f.force = circuit_shot_push(m, v, f.I) - 0.5 * m->rails.ladder.L_inf * f.shunt * f.shunt;
     f.contact = m->armature.preload + m->armature.spreading * I * I;
-    f.mu = m->phase == SHOT_HELD ? m->armature.friction_dry : friction_coefficient(&m->armature, v);
-    if (m->phase == SHOT_HELD) {
+    f.mu = m->phase == CIRCUIT_SHOT_HELD ? m->armature.friction_dry : friction_coefficient(&m->armature, v);
+    if (m->phase == CIRCUIT_SHOT_HELD) {
         f.friction = fmin(fmax(f.force, 0.0), circuit_shot_hold_force(m, I));
         return f;
     }
-    if (m->armature.friction_law == SHOT_FRICTION_FILM) film_friction(m, v, &f);
+    if (m->armature.friction_law == CIRCUIT_SHOT_FRICTION_FILM) film_friction(m, v, &f);
     f.friction = 2.0 * f.mu * f.contact;
     f.drag = gas_drag(m, v);
     f.net = f.force - f.friction - f.drag;
@@ -99,15 +99,15 @@ shot_forces circuit_shot_forces_at(const shot_model *m, const shot_drive *d, con
 
 void circuit_shot_armature_rates(const shot_model *m, const double *z, const shot_forces *f, double *q)
 {
-    const double I = f->I - f->shunt, v = m->phase == SHOT_MOVING ? z[Y_V] : 0.0;
+    const double I = f->I - f->shunt, v = m->phase == CIRCUIT_SHOT_MOVING ? z[Y_V] : 0.0;
     q[Y_ARMATURE] = f->R * I * I;
     q[Y_CONTACT] = f->drop * I;
-    if (m->phase != SHOT_MOVING) return;
+    if (m->phase != CIRCUIT_SHOT_MOVING) return;
     q[Y_X] = v;
     q[Y_V] = f->net / z[Y_MASS];
     q[Y_FRICTION] = f->friction * v;
     q[Y_DRAG] = f->drag * v;
-    const bool solid = m->armature.friction_law == SHOT_FRICTION_FILM && !m->melted;
+    const bool solid = m->armature.friction_law == CIRCUIT_SHOT_FRICTION_FILM && !m->melted;
     const double wear = solid ? 0.0 : m->armature.wear_fraction * (q[Y_FRICTION] + q[Y_CONTACT]) / m->wear_heat;
     q[Y_MASS] = -wear;
     q[Y_WEAR] = 0.5 * wear * v * v; /* melt leaves at the armature's speed and takes its motion along */
@@ -118,7 +118,7 @@ void circuit_shot_armature_rates(const shot_model *m, const double *z, const sho
  * velocity skin effect E counts the current's heat as if it had always been as crowded as now.          (C-7) */
 double circuit_shot_face_rise(const shot_model *m, const shot_forces *f, const double *z)
 {
-    const shot_armature *a = &m->armature;
+    const circuit_shot_armature *a = &m->armature;
     const double v = z[Y_V], crowding = circuit_shot_crowding(m, f, v);
     const double q = a->heat_share * (circuit_shot_friction_heat(m, f, v) + crowding * circuit_shot_current_heat(m, f));
     const double E = a->heat_share * (z[Y_FRICTION] + crowding * z[Y_CONTACT]) / (2.0 * m->contact_area);

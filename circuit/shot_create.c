@@ -7,18 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const void *supply_item(const supply_list *list, const supply_kind *kind, int k)
+static const void *supply_item(const circuit_supply_list *list, const supply_kind *kind, int k)
 {
     return (const char *)list->item + (size_t)k * kind->size;
 }
 
 /* ---- checks ---- */
 
-static status supply_check(const shot_config *c, const supply_kind *kind, const void *p, const char *where)
+static status supply_check(const circuit_shot_config *c, const supply_kind *kind, const void *p, const char *where)
 {
     char copy[SUPPLY_BYTES];
     memcpy(copy, p, kind->size);
-    supply_common at = circuit_supply_common_of(p);
+    circuit_supply_common at = circuit_supply_common_of(p);
     if (isnan(at.fire_at)) at.fire_at = 0.0; /* never is a value too */
     memcpy(copy, &at, sizeof at);
     TRY(base_params_check(kind->params, copy, where));
@@ -27,11 +27,11 @@ static status supply_check(const shot_config *c, const supply_kind *kind, const 
     return kind->check ? kind->check(p, where) : status_ok();
 }
 
-static status supplies_check(const shot_config *c)
+static status supplies_check(const circuit_shot_config *c)
 {
     int groups = 0;
-    for (int s = 0; s < SUPPLY_KINDS; s++) {
-        const supply_list *list = &c->supplies[s];
+    for (int s = 0; s < CIRCUIT_SUPPLY_KINDS; s++) {
+        const circuit_supply_list *list = &c->supplies[s];
         for (int k = 0; k < list->n; k++, groups++) {
             char where[48];
             snprintf(where, sizeof where, "%s[%d]", circuit_supply_sections[s], k);
@@ -42,7 +42,7 @@ static status supplies_check(const shot_config *c)
     return status_ok();
 }
 
-status circuit_shot_check(const shot_config *c)
+status circuit_shot_check(const circuit_shot_config *c)
 {
     TRY(base_params_check(circuit_shot_barrel_params, &c->barrel, "barrel"));
     TRY(base_params_check(circuit_shot_armature_params, &c->armature, "armature"));
@@ -52,7 +52,7 @@ status circuit_shot_check(const shot_config *c)
     CHECK(c->armature.gas_density == 0.0 || c->armature.gas_pressure > 0.0, STATUS_BAD_INPUT,
           "armature.gas_pressure = 0 Pa with armature.gas_density = %g kg/m^3: give both or none",
           c->armature.gas_density);
-    const bool film = c->armature.friction_law == SHOT_FRICTION_FILM;
+    const bool film = c->armature.friction_law == CIRCUIT_SHOT_FRICTION_FILM;
     CHECK(!film || c->armature.wear_fraction > 0.0, STATUS_BAD_INPUT,
           "armature.friction_law film needs armature.wear_fraction above 0: the share of the heat that melts makes the "
           "film");
@@ -97,11 +97,11 @@ static status group_fill(supply_group *g, const supply_kind *kind, const void *p
     return kind->prepare ? kind->prepare(g) : status_ok();
 }
 
-static status groups_fill(shot *s, const shot_config *c)
+static status groups_fill(circuit_shot *s, const circuit_shot_config *c)
 {
     shot_model *m = &s->model;
     m->feeds = 1; /* the breech, at 0 */
-    for (int kind = 0, k = 0; kind < SUPPLY_KINDS; kind++) {
+    for (int kind = 0, k = 0; kind < CIRCUIT_SUPPLY_KINDS; kind++) {
         for (int j = 0; j < c->supplies[kind].n; j++, k++) {
             supply_group *g = &m->groups[k];
             char *memory = (char *)s->supplies + (size_t)k * SUPPLY_BYTES;
@@ -122,13 +122,13 @@ static status groups_fill(shot *s, const shot_config *c)
 
 /* ---- the rest of the model ---- */
 
-static void model_fill(shot *s, const shot_config *c)
+static void model_fill(circuit_shot *s, const circuit_shot_config *c)
 {
     shot_model *m = &s->model;
-    const shot_armature *a = &c->armature;
+    const circuit_shot_armature *a = &c->armature;
     m->barrel = c->barrel;
     m->armature = c->armature;
-    m->phase = SHOT_HELD;
+    m->phase = CIRCUIT_SHOT_HELD;
     m->next_site = INFINITY;
     m->scale = s->scale;
     m->shunt = !isnan(c->barrel.shunt_resistance);
@@ -144,7 +144,7 @@ static void model_fill(shot *s, const shot_config *c)
 }
 
 /* Scales for the absolute tolerances: what each quantity could reach. */
-static void scales_fill(shot *s)
+static void scales_fill(circuit_shot *s)
 {
     shot_model *m = &s->model;
     double E = 0.0, I = 0.0, V = 1.0;
@@ -181,14 +181,14 @@ static int by_position(const void *a, const void *b)
     return p->index - q->index;
 }
 
-static int groups_of(const shot_config *c)
+static int groups_of(const circuit_shot_config *c)
 {
     int n = 0;
-    for (int s = 0; s < SUPPLY_KINDS; s++) n += c->supplies[s].n;
+    for (int s = 0; s < CIRCUIT_SUPPLY_KINDS; s++) n += c->supplies[s].n;
     return n;
 }
 
-static status memory_take(shot *s, const shot_config *c)
+static status memory_take(circuit_shot *s, const circuit_shot_config *c)
 {
     const size_t n = (size_t)groups_of(c), sites = (size_t)(c->n_sites > 0 ? c->n_sites : 0);
     s->model.n = (int)n;
@@ -208,7 +208,7 @@ static status memory_take(shot *s, const shot_config *c)
 
 /* More than these is a switch that chatters.  A module that rings opens and closes its crowbar once a period, four
  * rises: that often, four times over, for the rings of modules side by side are faster than their own. */
-static int switchings_allowed(const shot *s)
+static int switchings_allowed(const circuit_shot *s)
 {
     static const double MOST = 1e6, BY_ARMATURE = 1000.0;
     const shot_model *m = &s->model;
@@ -221,7 +221,7 @@ static int switchings_allowed(const shot *s)
     return (int)fmin(allowed, MOST);
 }
 
-static status solver_take(shot *s)
+static status solver_take(circuit_shot *s)
 {
     shot_model *m = &s->model;
     const int n = circuit_shot_unknowns(m);
@@ -241,7 +241,7 @@ static status solver_take(shot *s)
     return circuit_dae_create(&problem, &s->solver);
 }
 
-static void state_fill(shot *s, const shot_config *c)
+static void state_fill(circuit_shot *s, const circuit_shot_config *c)
 {
     shot_model *m = &s->model;
     double *z = circuit_shot_z(s);
@@ -254,17 +254,17 @@ static void state_fill(shot *s, const shot_config *c)
     /* Free at once where nothing holds it: friction then starts at zero with the current, below the force. */
     const bool loose = c->armature.friction_dry * c->armature.preload == 0.0 &&
                        circuit_shot_push(m, 0.0, 1.0) > 2.0 * c->armature.friction_dry * c->armature.spreading;
-    if (z[Y_V] > 0.0 || loose) m->phase = SHOT_MOVING;
+    if (z[Y_V] > 0.0 || loose) m->phase = CIRCUIT_SHOT_MOVING;
     m->next_site = s->n_sites > 0 ? s->sites[0].position : INFINITY;
     circuit_shot_limits_start(s);
-    const shot_ledger l = circuit_shot_ledger_now(s);
+    const circuit_shot_ledger l = circuit_shot_ledger_now(s);
     s->start_energy = l.capacitors + l.coils + l.cables + l.rotors + l.kinetic;
-    s->result = (shot_summary){
+    s->result = (circuit_shot_summary){
         .muzzle_velocity = NAN, .muzzle_time = NAN, .muzzle_energy = NAN, .efficiency = NAN, .exit_current = NAN
     };
 }
 
-static status fill(shot *s, const shot_config *c)
+static status fill(circuit_shot *s, const circuit_shot_config *c)
 {
     s->options = c->options;
     TRY(circuit_shot_rails_fit(c, &s->model.rails));
@@ -277,11 +277,11 @@ static status fill(shot *s, const shot_config *c)
     return circuit_shot_heat_start(s, c);
 }
 
-status circuit_shot_create(const shot_config *config, shot **out)
+status circuit_shot_create(const circuit_shot_config *config, circuit_shot **out)
 {
     *out = NULL;
     TRY(circuit_shot_check(config));
-    shot *s = calloc(1, sizeof *s);
+    circuit_shot *s = calloc(1, sizeof *s);
     CHECK(s, STATUS_MEMORY, "out of memory for the shot");
     const status st = fill(s, config);
     if (st.code != STATUS_OK) {
@@ -292,7 +292,7 @@ status circuit_shot_create(const shot_config *config, shot **out)
     return st;
 }
 
-void circuit_shot_free(shot *s)
+void circuit_shot_free(circuit_shot *s)
 {
     if (!s) return;
     circuit_dae_free(s->solver);

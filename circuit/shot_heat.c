@@ -2,7 +2,7 @@
 /* What a shot leaves in its rails: heat by place, as a rise of temperature once it has evened out over the section. */
 #include "circuit/shot_internal.h"
 
-static shot_heat_instant instant(const shot *s, const shot_drive *d)
+static shot_heat_instant instant(const circuit_shot *s, const shot_drive *d)
 {
     const double *z = circuit_shot_z(s);
     shot_heat_instant now = { .t = s->t, .x = z[Y_X], .v = z[Y_V], .shunt = z[Y_SHUNT] };
@@ -11,9 +11,9 @@ static shot_heat_instant instant(const shot *s, const shot_drive *d)
     return now;
 }
 
-status circuit_shot_heat_start(shot *s, const shot_config *c)
+status circuit_shot_heat_start(circuit_shot *s, const circuit_shot_config *c)
 {
-    rail_section section;
+    circuit_rail_section section;
     TRY(circuit_rails_section(&c->rails, &section));
     const shot_drive d = circuit_shot_drive_now(s);
     circuit_rails_heat_start(&s->heat, c->barrel.length);
@@ -22,13 +22,13 @@ status circuit_shot_heat_start(shot *s, const shot_config *c)
     return status_ok();
 }
 
-void circuit_shot_heat_update(shot *s, const shot_drive *d)
+void circuit_shot_heat_update(circuit_shot *s, const shot_drive *d)
 {
     const shot_model *m = &s->model;
     const shot_heat_instant a = s->heat_until, b = instant(s, d);
     for (int f = 0; f < m->reached; f++) {
         const double end = f + 1 < m->feeds ? m->feed[f + 1] : m->barrel.length;
-        const rails_instant from = { a.t, a.x, a.v, a.I[f] }, to = { b.t, b.x, b.v, b.I[f] };
+        const circuit_rails_instant from = { a.t, a.x, a.v, a.I[f] }, to = { b.t, b.x, b.v, b.I[f] };
         circuit_rails_heat_carry(&s->heat, &m->rails, circuit_shot_rails_warming(m, f, circuit_shot_z(s)), m->feed[f],
                                  end, &from, &to);
     }
@@ -37,7 +37,7 @@ void circuit_shot_heat_update(shot *s, const shot_drive *d)
     s->heat_until = b;
 }
 
-void circuit_shot_rail_rise(const shot *s, double rise[SHOT_PIECES])
+void circuit_shot_rail_rise(const circuit_shot *s, double rise[CIRCUIT_SHOT_PIECES])
 {
-    for (int k = 0; k < SHOT_PIECES; k++) rise[k] = s->heat.heat[k] / s->rail_capacity;
+    for (int k = 0; k < CIRCUIT_SHOT_PIECES; k++) rise[k] = s->heat.heat[k] / s->rail_capacity;
 }

@@ -14,7 +14,7 @@
 #define SHOT_INSTANT 1e-12
 
 typedef struct {
-    shot_event_kind kind;
+    circuit_shot_event_kind kind;
     int index;
 } pending;
 
@@ -30,9 +30,9 @@ typedef struct {
     double I[SHOT_MAX_FEEDS]; /* of every segment behind the armature [A] */
 } shot_heat_instant;
 
-struct shot {
+struct circuit_shot {
     shot_model model;
-    shot_options options;
+    circuit_shot_options options;
     dae *solver;
     arrow *matrix;
     void *supplies;    /* the groups' parameters, SUPPLY_BYTES each */
@@ -46,47 +46,49 @@ struct shot {
     bool restart, started;
     double t, rail_temperature, armature_temperature;
     double start_energy, exit_action;
-    shot_rails rails; /* their section and metal, as given */
-    shot_limits limits;
+    circuit_shot_rails rails; /* their section and metal, as given */
+    circuit_shot_limits limits;
     double worn, wear_rate, worn_until; /* velocity skin effect: thickness off the trailing edge [m], [m/s], [s] */
-    rails_heat heat;
+    circuit_rails_heat heat;
     double rail_capacity; /* of all rails [J/K/m] */
     shot_heat_instant heat_until;
     double momentum_jumps, mass_jumps, energy_jumps;
     double exit_kinetic, last_current, last_slope, last_t;
-    shot_summary result;
+    circuit_shot_summary result;
 };
 
-double *circuit_shot_y(const shot *s); /* all unknowns */
-double *circuit_shot_z(const shot *s); /* the tail's */
-shot_drive circuit_shot_drive_now(const shot *s);
-shot_forces circuit_shot_forces_now(const shot *s);
-shot_ledger circuit_shot_ledger_now(const shot *s);
+double *circuit_shot_y(const circuit_shot *s); /* all unknowns */
+double *circuit_shot_z(const circuit_shot *s); /* the tail's */
+shot_drive circuit_shot_drive_now(const circuit_shot *s);
+shot_forces circuit_shot_forces_now(const circuit_shot *s);
+circuit_shot_ledger circuit_shot_ledger_now(const circuit_shot *s);
 
 /* ---- temperatures and limits; *st as far as it is filled before them ---- */
 
-double circuit_shot_face_temperature(const shot *s, const shot_forces *f);                              /* [K] */
-double circuit_shot_film_thickness(const shot *s, const shot_forces *f, const shot_state *st);          /* [m] */
-double circuit_shot_film_temperature(const shot *s, const shot_forces *f, const shot_state *st);        /* [K] */
-double circuit_shot_rail_flux(const shot *s, const shot_forces *f, const shot_state *st);               /* [W/m^2] */
-double circuit_shot_rail_sheet(const shot *s, const shot_state *st);                                    /* [A/m] */
-double circuit_shot_rail_behind_temperature(const shot *s, const shot_forces *f, const shot_state *st); /* [K] */
-void circuit_shot_limits_start(shot *s);
-void circuit_shot_limits_update(shot *s, const shot_forces *f);
+double circuit_shot_face_temperature(const circuit_shot *s, const shot_forces *f);                             /* [K] */
+double circuit_shot_film_thickness(const circuit_shot *s, const shot_forces *f, const circuit_shot_state *st); /* [m] */
+double circuit_shot_film_temperature(const circuit_shot *s, const shot_forces *f,
+                                     const circuit_shot_state *st);                                       /* [K] */
+double circuit_shot_rail_flux(const circuit_shot *s, const shot_forces *f, const circuit_shot_state *st); /* [W/m^2] */
+double circuit_shot_rail_sheet(const circuit_shot *s, const circuit_shot_state *st);                      /* [A/m] */
+double circuit_shot_rail_behind_temperature(const circuit_shot *s, const shot_forces *f,
+                                            const circuit_shot_state *st); /* [K] */
+void circuit_shot_limits_start(circuit_shot *s);
+void circuit_shot_limits_update(circuit_shot *s, const shot_forces *f);
 
 /* ---- heat left in the rails ---- */
 
-status circuit_shot_heat_start(shot *s, const shot_config *c);
-void circuit_shot_heat_update(shot *s, const shot_drive *d); /* after every accepted step */
+status circuit_shot_heat_start(circuit_shot *s, const circuit_shot_config *c);
+void circuit_shot_heat_update(circuit_shot *s, const shot_drive *d); /* after every accepted step */
 
 /* ---- switchings ---- */
 
 /* All that is due now: `found` as circuit_dae_found, NULL where no root was reported.  Asks for a restart where
  * something switched. */
-void circuit_shot_settle(shot *s, const int *found);
-bool circuit_shot_any_current(const shot *s);
-double circuit_shot_next_firing(const shot *s); /* infinite: none */
+void circuit_shot_settle(circuit_shot *s, const int *found);
+bool circuit_shot_any_current(const circuit_shot *s);
+double circuit_shot_next_firing(const circuit_shot *s); /* infinite: none */
 /* At rest after a stop: held where the current's push is too weak, else free again. */
-void circuit_shot_come_to_rest(shot *s);
+void circuit_shot_come_to_rest(circuit_shot *s);
 
 #endif

@@ -8,7 +8,7 @@
  */
 static const double RELEASE_MARGIN = 1e-3;
 
-enum { TAIL_MAX = Y_COUNT + SHOT_MAX_FEEDS * (4 + 2 * LADDER_MAX_RUNGS) };
+enum { TAIL_MAX = Y_COUNT + SHOT_MAX_FEEDS * (4 + 2 * CIRCUIT_LADDER_MAX_RUNGS) };
 
 static int tail_size(const shot_model *m)
 {
@@ -95,7 +95,7 @@ double circuit_shot_current_slope(const shot_model *m, const shot_drive *d, cons
 /* Where the loop ends: at the armature, or at the muzzle once it has left. */
 static double loop_end(const shot_model *m, const double *z)
 {
-    return m->phase == SHOT_LEFT ? m->barrel.length : z[Y_X];
+    return m->phase == CIRCUIT_SHOT_LEFT ? m->barrel.length : z[Y_X];
 }
 
 static double segment_length(const shot_model *m, int f, const double *z)
@@ -104,10 +104,10 @@ static double segment_length(const shot_model *m, int f, const double *z)
 }
 
 /* Segment f behind the armature: its length, and the speed at which it grows. */
-static rails_flow segment_flow(const shot_model *m, int f, double I, const double *z, double *len, double *v)
+static circuit_rails_flow segment_flow(const shot_model *m, int f, double I, const double *z, double *len, double *v)
 {
     *len = segment_length(m, f, z);
-    *v = f == m->reached - 1 && m->phase == SHOT_MOVING ? fmax(z[Y_V], 0.0) : 0.0;
+    *v = f == m->reached - 1 && m->phase == CIRCUIT_SHOT_MOVING ? fmax(z[Y_V], 0.0) : 0.0;
     return circuit_rails_flow_at(&m->rails, *len, *v, I, z + memory_unknown(m, f));
 }
 
@@ -135,7 +135,7 @@ static void shunt_rates(const shot_model *m, const double *z, const shot_forces 
 {
     if (!m->shunt) return;
     const double i = z[Y_SHUNT], R = m->rails.ladder.R_dc * (m->barrel.length - loop_end(m, z));
-    const double v = m->phase == SHOT_MOVING ? z[Y_V] : 0.0;
+    const double v = m->phase == CIRCUIT_SHOT_MOVING ? z[Y_V] : 0.0;
     q[Y_SHUNT] =
         (f->voltage - (R + m->barrel.shunt_resistance - m->rails.ladder.L_inf * v) * i) / shunt_inductance(m, z);
     q[Y_RAILS] += R * i * i;
@@ -168,7 +168,7 @@ static void line_rates(const shot_model *m, const shot_drive *d, const double *z
     for (int f = 0; f < m->reached; f++) {
         double len, v;
         I += d->I[f];
-        const rails_flow flow = segment_flow(m, f, I, z, &len, &v);
+        const circuit_rails_flow flow = segment_flow(m, f, I, z, &len, &v);
         const int memory = memory_unknown(m, f);
         circuit_rails_memory_rates(&m->rails, len, v, I, z + memory, q + memory);
         q[Y_RAILS] += flow.heat;
@@ -197,7 +197,7 @@ static void tail_rates(const shot_model *m, const shot_drive *d, const double *z
     q[Y_SUPPLIED] = d->supplied;
     for (int k = 0; k < m->reached; k++) q[Y_SUPPLIED] += d->source[k] * V[k];
     q[Y_ACTION] = (f.I - f.shunt) * (f.I - f.shunt);
-    if (m->phase == SHOT_LEFT) {
+    if (m->phase == CIRCUIT_SHOT_LEFT) {
         q[Y_MUZZLE] = f.voltage * (f.I - f.shunt);
     } else {
         circuit_shot_armature_rates(m, z, &f, q);
@@ -326,7 +326,7 @@ static void group_jacobian(const shot_model *m, int k, double t, double cj, cons
  * slow: only what it does to the resistances now is in the matrix, not how it changes. */
 static void memory_jacobian(const shot_model *m, int segment, double cj, double I, const double *z, arrow *J)
 {
-    const ladder *l = &m->rails.ladder;
+    const circuit_ladder *l = &m->rails.ladder;
     const int n = J->border, V = circuit_shot_feed_unknown(segment), first = memory_unknown(m, segment);
     const int heat = first + 2 * l->n, end = first + circuit_rails_memory_size(&m->rails);
     const bool alive = segment < m->reached;
@@ -406,18 +406,18 @@ void circuit_shot_roots(const void *model, double t, const double *y, double *g)
 {
     const shot_model *m = model;
     const double *z = y + m->start;
-    const bool moving = m->phase == SHOT_MOVING;
+    const bool moving = m->phase == CIRCUIT_SHOT_MOVING;
     g[ROOT_MOTION] = moving ? z[Y_V] : 1.0;
     g[ROOT_MELT] = 1.0;
     g[ROOT_SITE] = moving && isfinite(m->next_site) ? z[Y_X] - m->next_site : 1.0;
     g[ROOT_MUZZLE] = moving ? z[Y_X] - m->barrel.length : 1.0;
     g[ROOT_FEED] = moving && m->reached < m->feeds ? z[Y_X] - m->feed[m->reached] : 1.0;
-    const bool melts = moving && m->armature.friction_law == SHOT_FRICTION_FILM && !m->melted;
-    if (m->phase == SHOT_HELD || melts) {
+    const bool melts = moving && m->armature.friction_law == CIRCUIT_SHOT_FRICTION_FILM && !m->melted;
+    if (m->phase == CIRCUIT_SHOT_HELD || melts) {
         const shot_drive d = circuit_shot_drive_at(m, t, y);
         const shot_forces f = circuit_shot_forces_at(m, &d, z);
         if (melts) g[ROOT_MELT] = circuit_shot_melting(m, &f, z);
-        if (m->phase == SHOT_HELD)
+        if (m->phase == CIRCUIT_SHOT_HELD)
             g[ROOT_MOTION] = f.force - circuit_shot_hold_force(m, f.I - f.shunt) - RELEASE_MARGIN;
     }
     for (int k = 0; k < m->n; k++) {

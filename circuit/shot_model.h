@@ -45,16 +45,16 @@ typedef struct {
     int n, start;         /* groups; first unknown of the tail */
     double feed[SHOT_MAX_FEEDS];
     int feeds, reached; /* all; those the armature has passed, always at least the breech */
-    shot_barrel barrel;
-    shot_armature armature;
-    rails_load rails;
+    circuit_shot_barrel barrel;
+    circuit_shot_armature armature;
+    circuit_rails_load rails;
     double bore_area, contact_area, sound_speed; /* of one contact face; of the gas [m^2, m^2, m/s] */
     double wear_heat;                            /* heat that melts off one kilogram [J/kg] */
     melt_film film;                              /* friction_law film */
     bool melted;                                 /* the armature slides on it */
     double knee;                                 /* of the contact voltage, where currents can reverse; else 0 [A] */
     bool shunt;                                  /* there is one at the muzzle */
-    shot_phase phase;
+    circuit_shot_phase phase;
     double next_site;    /* [m]; infinite when none is left */
     const double *scale; /* of every unknown, for the Jacobian's differences */
 } shot_model;
@@ -78,8 +78,8 @@ int circuit_shot_unknowns(const shot_model *m);
 shot_drive circuit_shot_drive_at(const shot_model *m, double t, const double *y);
 double circuit_shot_total_current(const shot_drive *d, const shot_model *m);                  /* [A] */
 double circuit_shot_current_slope(const shot_model *m, const shot_drive *d, const double *z); /* of the total [A/s] */
-int circuit_shot_feed_unknown(int feed);                              /* of its voltage, in the tail */
-status circuit_shot_rails_fit(const shot_config *c, rails_load *out); /* circuit/shot_rails.c */
+int circuit_shot_feed_unknown(int feed);                                              /* of its voltage, in the tail */
+status circuit_shot_rails_fit(const circuit_shot_config *c, circuit_rails_load *out); /* circuit/shot_rails.c */
 double circuit_shot_rails_field(const shot_model *m, const shot_drive *d, const double *z); /* [J] */
 double circuit_shot_rails_warming(const shot_model *m, int f, const double *z);             /* of segment f [1] */
 

@@ -4,12 +4,14 @@
 
 const char *const circuit_shot_friction_law_names[] = { "speed", "film", NULL };
 
-#define BARREL(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_barrel, member, unit, fallback, min, max, doc)
+#define BARREL(member, unit, fallback, min, max, doc) \
+    PARAM_DOUBLE(circuit_shot_barrel, member, unit, fallback, min, max, doc)
 #define ARMATURE(member, unit, fallback, min, max, doc) \
-    PARAM_DOUBLE(shot_armature, member, unit, fallback, min, max, doc)
-#define OPTIONS(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_options, member, unit, fallback, min, max, doc)
+    PARAM_DOUBLE(circuit_shot_armature, member, unit, fallback, min, max, doc)
+#define OPTIONS(member, unit, fallback, min, max, doc) \
+    PARAM_DOUBLE(circuit_shot_options, member, unit, fallback, min, max, doc)
 
-const param circuit_shot_barrel_params[] = {
+const base_param circuit_shot_barrel_params[] = {
     BARREL(length, "m", REQUIRED, 1e-3, 1e3, "breech to muzzle"),
     BARREL(start, "m", 0.05, 0.0, 1e3, "position of the armature's current path at t = 0"),
     BARREL(muzzle_resistance, "ohm", 1e-3, 0.0, 1e3,
@@ -21,18 +23,18 @@ const param circuit_shot_barrel_params[] = {
     PARAMS_END
 };
 
-const param circuit_shot_armature_params[] = {
+const base_param circuit_shot_armature_params[] = {
     ARMATURE(mass, "kg", REQUIRED, 1e-6, 1e4, "mass, payload included"),
     ARMATURE(velocity, "m/s", 0.0, 0.0, 2e4, "velocity at t = 0"),
     ARMATURE(resistance, "ohm", 0.0, 0.0, 1.0, "resistance between the rails, without the contacts"),
     ARMATURE(contact_voltage, "V", 0.0, 0.0, 1e3, "voltage of both contacts together"),
-    PARAM_ENUM(shot_armature, friction_law, circuit_shot_friction_law_names, SHOT_FRICTION_SPEED,
+    PARAM_ENUM(circuit_shot_armature, friction_law, circuit_shot_friction_law_names, CIRCUIT_SHOT_FRICTION_SPEED,
                "speed: the coefficient falls with speed; film: dry until the face has melted, then the melt's shear"),
     ARMATURE(friction_dry, "1", 0.0, 0.0, 10.0, "friction coefficient at rest"),
     ARMATURE(friction_melted, "1", 0.0, 0.0, 10.0, "friction coefficient on a melted film"),
     ARMATURE(friction_speed, "m/s", 100.0, 1e-3, 1e5, "speed over which the coefficient falls to the melted one"),
     ARMATURE(film_viscosity, "Pa s", 1.3e-3, 1e-6, 10.0, "viscosity of the melt, friction_law film"),
-    PARAM_BOOL(shot_armature, velocity_skin, 0,
+    PARAM_BOOL(circuit_shot_armature, velocity_skin, 0,
                "the current crowds to the trailing edge of the contact as speed rises"),
     ARMATURE(preload, "N", 0.0, 0.0, 1e9, "contact force per rail face without current"),
     ARMATURE(spreading, "N/A^2", 0.0, 0.0, 1e-3, "spreading force of the legs per current squared, per rail face"),
@@ -62,7 +64,7 @@ const param circuit_shot_armature_params[] = {
     PARAMS_END
 };
 
-const param circuit_shot_options_params[] = {
+const base_param circuit_shot_options_params[] = {
     OPTIONS(rtol, "1", 1e-8, 1e-13, 1e-2, "relative tolerance of the integration"),
     OPTIONS(atol, "1", 1e-10, 1e-16, 1e-3, "absolute tolerance as a share of each quantity's scale"),
     OPTIONS(max_time, "s", 0.1, 1e-9, 1e3, "the shot is not followed beyond this time"), PARAMS_END

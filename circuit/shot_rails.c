@@ -7,17 +7,18 @@ static const double TURN = 6.28318530717958648;
 
 static const char *const level_names[] = { "constant", "skin", "diffusing", NULL };
 
-#define RAILS(member, unit, fallback, min, max, doc) PARAM_DOUBLE(shot_rails, member, unit, fallback, min, max, doc)
+#define RAILS(member, unit, fallback, min, max, doc) \
+    PARAM_DOUBLE(circuit_shot_rails, member, unit, fallback, min, max, doc)
 
-const param circuit_shot_rails_params[] = {
+const base_param circuit_shot_rails_params[] = {
     PARAM_ENUM(
-        shot_rails, level, level_names, SHOT_RAILS_DIFFUSING,
+        circuit_shot_rails, level, level_names, CIRCUIT_SHOT_RAILS_DIFFUSING,
         "constant: gradients as given; skin: of the cross-section at one frequency; diffusing: of every slice by its "
         "own history"),
     RAILS(height, "m", REQUIRED, 1e-4, 10.0, "height of a rail, across the bore"),
     RAILS(thickness, "m", REQUIRED, 1e-4, 10.0, "thickness of a rail"),
     RAILS(separation, "m", REQUIRED, 1e-4, 10.0, "separation of the facing rail surfaces"),
-    PARAM_INT(shot_rails, count, 2, 2, 4,
+    PARAM_INT(circuit_shot_rails, count, 2, 2, 4,
               "2: a pair; 4: two facing ones carry the current, the other two bring it back"),
     RAILS(face_crown, "m", 0.0, 0.0, 10.0, "sagitta of the bore face's arc; 0 = flat"),
     RAILS(back_crown, "m", 0.0, 0.0, 10.0, "sagitta of the back's arc; half the height makes a D; 0 = flat"),
@@ -40,7 +41,7 @@ const param circuit_shot_rails_params[] = {
           "largest error of the ladder that stands for the diffusing rails, over its band"),
     RAILS(ladder_frequency, "Hz", OPTIONAL, 1.0, 1e9,
           "top of the ladder's band; from bank energy, armature and contact length if not given"),
-    PARAM_INT(shot_rails, slices, 0, 0, 32,
+    PARAM_INT(circuit_shot_rails, slices, 0, 0, 32,
               "parts of the barrel whose resistance follows their own temperature; 0: it stays as before the shot"),
     RAILS(heat_capacity, "J/m^3/K", 3.45e6, 1e5, 1e7, "of the rails' metal: slices, and what a shot leaves"),
     RAILS(fineness, "1", INDUCTANCE_FINENESS, 1.0, 20.0, "filaments over the skin depth at the highest frequency"),
@@ -48,14 +49,14 @@ const param circuit_shot_rails_params[] = {
 };
 
 /* f = 1/(4 t_r), t_r = spread of the firing times + mean rise time of the units that fire                 (C-6) */
-double circuit_shot_effective_frequency(const supply_list supplies[SUPPLY_KINDS])
+double circuit_shot_effective_frequency(const circuit_supply_list supplies[CIRCUIT_SUPPLY_KINDS])
 {
     double first = INFINITY, last = -INFINITY, rise = 0.0, count = 0.0;
-    for (int s = 0; s < SUPPLY_KINDS; s++) {
+    for (int s = 0; s < CIRCUIT_SUPPLY_KINDS; s++) {
         const supply_kind *kind = circuit_supply_kinds[s];
         for (int k = 0; k < supplies[s].n; k++) {
             const void *p = (const char *)supplies[s].item + (size_t)k * kind->size;
-            const supply_common at = circuit_supply_common_of(p);
+            const circuit_supply_common at = circuit_supply_common_of(p);
             if (!isfinite(at.fire_at)) continue;
             first = fmin(first, at.fire_at);
             last = fmax(last, at.fire_at);
@@ -67,10 +68,10 @@ double circuit_shot_effective_frequency(const supply_list supplies[SUPPLY_KINDS]
 }
 
 /* What the supplies hold at t = 0, or will have been charged with [J]. */
-static double supplies_energy(const shot_config *c)
+static double supplies_energy(const circuit_shot_config *c)
 {
     double E = 0.0;
-    for (int s = 0; s < SUPPLY_KINDS; s++) {
+    for (int s = 0; s < CIRCUIT_SUPPLY_KINDS; s++) {
         for (int k = 0; k < c->supplies[s].n; k++) {
             const void *p = (const char *)c->supplies[s].item + (size_t)k * circuit_supply_kinds[s]->size;
             double y[SUPPLY_UNKNOWNS];
@@ -82,43 +83,43 @@ static double supplies_energy(const shot_config *c)
     return E;
 }
 
-status circuit_rails_section(const shot_rails *rails, rail_section *out)
+status circuit_rails_section(const circuit_shot_rails *rails, circuit_rail_section *out)
 {
     TRY(base_params_check(circuit_shot_rails_params, rails, "rail"));
     const double warm = 1.0 + rails->resistivity_coefficient * (rails->initial_temperature - 293.15);
     CHECK(warm > 0.0, STATUS_BAD_INPUT, "rail.initial_temperature = %g K makes rail.resistivity negative",
           rails->initial_temperature);
-    *out = (rail_section){ .height = rails->height,
-                           .thickness = rails->thickness,
-                           .separation = rails->separation,
-                           .face_crown = rails->face_crown,
-                           .back_crown = rails->back_crown,
-                           .cladding = rails->cladding,
-                           .resistivity = rails->resistivity * warm,
-                           .cladding_resistivity = rails->cladding_resistivity,
-                           .rails = rails->count };
+    *out = (circuit_rail_section){ .height = rails->height,
+                                   .thickness = rails->thickness,
+                                   .separation = rails->separation,
+                                   .face_crown = rails->face_crown,
+                                   .back_crown = rails->back_crown,
+                                   .cladding = rails->cladding,
+                                   .resistivity = rails->resistivity * warm,
+                                   .cladding_resistivity = rails->cladding_resistivity,
+                                   .rails = rails->count };
     return circuit_section_check(out);
 }
 
-status circuit_rails_check(const shot_rails *rails)
+status circuit_rails_check(const circuit_shot_rails *rails)
 {
-    rail_section section;
-    if (rails->level != SHOT_RAILS_CONSTANT) return circuit_rails_section(rails, &section);
+    circuit_rail_section section;
+    if (rails->level != CIRCUIT_SHOT_RAILS_CONSTANT) return circuit_rails_section(rails, &section);
     CHECK(!isnan(rails->inductance_gradient) && !isnan(rails->resistance_gradient), STATUS_BAD_INPUT,
           "rail.level constant needs rail.inductance_gradient [H/m] and rail.resistance_gradient [ohm/m]");
     return base_params_check(circuit_shot_rails_params, rails, "rail");
 }
 
-status circuit_rails_impedance(const shot_rails *rails, double f, double *inductance, double *resistance)
+status circuit_rails_impedance(const circuit_shot_rails *rails, double f, double *inductance, double *resistance)
 {
     CHECK(f >= 0.0, STATUS_BAD_INPUT, "frequency %g Hz: must be 0 or more", f);
     TRY(circuit_rails_check(rails));
-    if (rails->level == SHOT_RAILS_CONSTANT) {
+    if (rails->level == CIRCUIT_SHOT_RAILS_CONSTANT) {
         *inductance = rails->inductance_gradient;
         *resistance = rails->resistance_gradient;
         return status_ok();
     }
-    rail_section section;
+    circuit_rail_section section;
     TRY(circuit_rails_section(rails, &section));
     if (isinf(f)) {
         *resistance = INFINITY;
@@ -127,13 +128,14 @@ status circuit_rails_impedance(const shot_rails *rails, double f, double *induct
     return circuit_inductance_at(&section, f, rails->fineness, inductance, resistance);
 }
 
-status circuit_rails_ladder(const shot_rails *rails, double f_top, ladder *out)
+status circuit_rails_ladder(const circuit_shot_rails *rails, double f_top, circuit_ladder *out)
 {
-    *out = (ladder){ 0 };
-    if (rails->level != SHOT_RAILS_DIFFUSING) return circuit_rails_impedance(rails, f_top, &out->L_inf, &out->R_dc);
-    rail_section section;
+    *out = (circuit_ladder){ 0 };
+    if (rails->level != CIRCUIT_SHOT_RAILS_DIFFUSING)
+        return circuit_rails_impedance(rails, f_top, &out->L_inf, &out->R_dc);
+    circuit_rail_section section;
     TRY(circuit_rails_section(rails, &section));
-    impedance z;
+    circuit_impedance z;
     status st = circuit_inductance_response(&section, f_top, rails->fineness, &z);
     if (st.code == STATUS_OK) st = circuit_ladder_fit(&z, TURN * f_top, rails->ladder_error, out);
     circuit_impedance_free(&z);
@@ -143,7 +145,7 @@ status circuit_rails_ladder(const shot_rails *rails, double f_top, ladder *out)
 /* No armature gets faster than sqrt(2 E/m + v0^2), so no slice of rail gets its current in less than the contact's
  * length
  * over that; nor does the bank change its current faster than a quarter of a sine (C-6) does.             (C-13) */
-static double band_top(const shot_config *c)
+static double band_top(const circuit_shot_config *c)
 {
     const double f_pulse = circuit_shot_effective_frequency(c->supplies);
     const double v0 = c->armature.velocity, v2 = v0 * v0 + 2.0 * supplies_energy(c) / c->armature.mass;
@@ -152,10 +154,10 @@ static double band_top(const shot_config *c)
 }
 
 /* The slices' warming (C-24): nothing where none are asked for. */
-static status warming_fit(const shot_rails *rails, rails_load *out)
+static status warming_fit(const circuit_shot_rails *rails, circuit_rails_load *out)
 {
     if (rails->slices == 0) return status_ok();
-    rail_section section;
+    circuit_rail_section section;
     TRY(circuit_rails_section(rails, &section));
     out->heat_capacity = rails->heat_capacity * section.rails * circuit_section_metal_area(&section);
     out->coefficient =
@@ -164,10 +166,10 @@ static status warming_fit(const shot_rails *rails, rails_load *out)
 }
 
 /* With a velocity skin effect the current spreads by the contact voltage, over the metal of the bore face. */
-static void contact_fit(const shot_config *c, sliding_contact *out)
+static void contact_fit(const circuit_shot_config *c, circuit_sliding_contact *out)
 {
-    const shot_armature *a = &c->armature;
-    const shot_rails *r = &c->rails;
+    const circuit_shot_armature *a = &c->armature;
+    const circuit_shot_rails *r = &c->rails;
     const double width = isnan(a->contact_width) ? r->height : a->contact_width;
     const double warm = 1.0 + r->resistivity_coefficient * (r->initial_temperature - 293.15);
     out->length = a->contact_length;
@@ -175,7 +177,7 @@ static void contact_fit(const shot_config *c, sliding_contact *out)
     out->resistivity = r->cladding > 0.0 ? r->cladding_resistivity : r->resistivity * warm;
 }
 
-status circuit_shot_rails_fit(const shot_config *c, rails_load *out)
+status circuit_shot_rails_fit(const circuit_shot_config *c, circuit_rails_load *out)
 {
     contact_fit(c, &out->contact);
     TRY(warming_fit(&c->rails, out));
@@ -183,7 +185,7 @@ status circuit_shot_rails_fit(const shot_config *c, rails_load *out)
         out->ladder = *c->fitted;
         return status_ok();
     }
-    const bool diffusing = c->rails.level == SHOT_RAILS_DIFFUSING;
+    const bool diffusing = c->rails.level == CIRCUIT_SHOT_RAILS_DIFFUSING;
     double f = diffusing ? c->rails.ladder_frequency : c->rails.frequency;
     if (isnan(f)) f = diffusing ? band_top(c) : circuit_shot_effective_frequency(c->supplies);
     return circuit_rails_ladder(&c->rails, isnan(f) ? 1000.0 : f, &out->ladder);

@@ -5,18 +5,18 @@
 #include <assert.h>
 #include <math.h>
 
-shot_drive circuit_shot_drive_now(const shot *s)
+shot_drive circuit_shot_drive_now(const circuit_shot *s)
 {
     return circuit_shot_drive_at(&s->model, s->t, circuit_shot_y(s));
 }
 
-shot_forces circuit_shot_forces_now(const shot *s)
+shot_forces circuit_shot_forces_now(const circuit_shot *s)
 {
     const shot_drive d = circuit_shot_drive_now(s);
     return circuit_shot_forces_at(&s->model, &d, circuit_shot_z(s));
 }
 
-static void stores_add(const shot *s, shot_ledger *l)
+static void stores_add(const circuit_shot *s, circuit_shot_ledger *l)
 {
     for (int k = 0; k < s->model.n; k++) {
         const supply_group *g = &s->model.groups[k];
@@ -27,15 +27,15 @@ static void stores_add(const shot *s, shot_ledger *l)
     }
 }
 
-shot_ledger circuit_shot_ledger_now(const shot *s)
+circuit_shot_ledger circuit_shot_ledger_now(const circuit_shot *s)
 {
     const double *z = circuit_shot_z(s);
     const shot_model *m = &s->model;
     const shot_drive d = circuit_shot_drive_now(s);
-    shot_ledger l = { .start = s->start_energy };
+    circuit_shot_ledger l = { .start = s->start_energy };
     stores_add(s, &l);
     l.rails_field = circuit_shot_rails_field(m, &d, z);
-    l.kinetic = m->phase == SHOT_LEFT ? s->exit_kinetic : 0.5 * z[Y_MASS] * z[Y_V] * z[Y_V];
+    l.kinetic = m->phase == CIRCUIT_SHOT_LEFT ? s->exit_kinetic : 0.5 * z[Y_MASS] * z[Y_V] * z[Y_V];
 #define INTEGRAL(place, member, column, text) l.member = z[Y_##place];
 #define GIVEN(place, member, column, text) l.member = z[Y_##place];
 #include "circuit/ledger.def"
@@ -51,14 +51,14 @@ shot_ledger circuit_shot_ledger_now(const shot *s)
     return l;
 }
 
-shot_state circuit_shot_now(const shot *s)
+circuit_shot_state circuit_shot_now(const circuit_shot *s)
 {
     const double *z = circuit_shot_z(s);
     const shot_model *m = &s->model;
     const shot_drive d = circuit_shot_drive_now(s);
     const shot_forces f = circuit_shot_forces_at(m, &d, z);
-    shot_state st = { .t = s->t, .x = z[Y_X], .v = z[Y_V], .current = f.I, .breech_voltage = z[Y_BREECH] };
-    st.a = m->phase == SHOT_MOVING ? f.net / z[Y_MASS] : 0.0;
+    circuit_shot_state st = { .t = s->t, .x = z[Y_X], .v = z[Y_V], .current = f.I, .breech_voltage = z[Y_BREECH] };
+    st.a = m->phase == CIRCUIT_SHOT_MOVING ? f.net / z[Y_MASS] : 0.0;
     st.shunt_current = f.shunt;
     st.force = f.force;
     st.friction = f.friction;
@@ -82,28 +82,28 @@ shot_state circuit_shot_now(const shot *s)
     return st;
 }
 
-int circuit_shot_module_count(const shot *s)
+int circuit_shot_module_count(const circuit_shot *s)
 {
     return s->model.n;
 }
 
-double circuit_shot_module_current(const shot *s, int group)
+double circuit_shot_module_current(const circuit_shot *s, int group)
 {
     assert(group >= 0 && group < s->model.n);
     return circuit_shot_y(s)[s->model.groups[group].first];
 }
 
-double circuit_shot_module_voltage(const shot *s, int group)
+double circuit_shot_module_voltage(const circuit_shot *s, int group)
 {
     assert(group >= 0 && group < s->model.n);
     const supply_group *g = &s->model.groups[group];
     return g->kind->voltage(g, circuit_shot_y(s) + g->first);
 }
 
-shot_summary circuit_shot_result(const shot *s)
+circuit_shot_summary circuit_shot_result(const circuit_shot *s)
 {
-    shot_summary r = s->result;
+    circuit_shot_summary r = s->result;
     r.energy_error = circuit_shot_ledger_now(s).energy_error;
-    r.action = s->model.phase == SHOT_LEFT ? s->exit_action : circuit_shot_z(s)[Y_ACTION];
+    r.action = s->model.phase == CIRCUIT_SHOT_LEFT ? s->exit_action : circuit_shot_z(s)[Y_ACTION];
     return r;
 }

@@ -5,20 +5,20 @@
 #include <assert.h>
 #include <math.h>
 
-static void announce(shot *s, shot_event_kind kind, int index)
+static void announce(circuit_shot *s, circuit_shot_event_kind kind, int index)
 {
     assert(s->tail < s->capacity);
     s->queue[s->tail++] = (pending){ kind, index };
 }
 
-static void switched(shot *s, shot_event_kind kind, int index)
+static void switched(circuit_shot *s, circuit_shot_event_kind kind, int index)
 {
     s->switchings++;
     s->restart = true;
     announce(s, kind, index);
 }
 
-bool circuit_shot_any_current(const shot *s)
+bool circuit_shot_any_current(const circuit_shot *s)
 {
     for (int k = 0; k < s->model.n; k++) {
         if (circuit_supply_conducts(&s->model.groups[k])) return true;
@@ -31,7 +31,7 @@ static bool may_fire(const shot_model *m, const supply_group *g)
     return g->gate == GATE_UNFIRED && g->feed < m->reached && !isnan(g->at.fire_at);
 }
 
-double circuit_shot_next_firing(const shot *s)
+double circuit_shot_next_firing(const circuit_shot *s)
 {
     double t = INFINITY;
     for (int k = 0; k < s->model.n; k++) {
@@ -43,18 +43,18 @@ double circuit_shot_next_firing(const shot *s)
 
 /* ---- supplies ---- */
 
-static void group_block(shot *s, int k)
+static void group_block(circuit_shot *s, int k)
 {
     supply_group *g = &s->model.groups[k];
     circuit_shot_y(s)[g->first] = 0.0;
     const bool again = g->pulses-- > 0;
     g->gate = again ? GATE_WAITING : GATE_BLOCKED;
-    switched(s, again ? SHOT_WAITING : SHOT_BLOCKED, k);
+    switched(s, again ? CIRCUIT_SHOT_WAITING : CIRCUIT_SHOT_BLOCKED, k);
 }
 
 /* Groups that are due try to conduct together; whichever would carry a negative current then waits.  Taking one away
  * only raises the rails' voltage, so the loop ends after at most n rounds with the one solution. */
-static void groups_try(shot *s, const bool *before)
+static void groups_try(circuit_shot *s, const bool *before)
 {
     shot_model *m = &s->model;
     double *z = circuit_shot_z(s), rates[SUPPLY_UNKNOWNS];
@@ -75,7 +75,7 @@ static void groups_try(shot *s, const bool *before)
     }
 }
 
-static void groups_fire(shot *s)
+static void groups_fire(circuit_shot *s)
 {
     shot_model *m = &s->model;
     bool *before = s->forced + m->n, *waiting = s->forced + 2 * m->n, some = false;
@@ -90,15 +90,15 @@ static void groups_fire(shot *s)
     if (some) groups_try(s, before);
     for (int k = 0; k < m->n; k++) {
         const supply_gate now = m->groups[k].gate;
-        if (now == GATE_ON && !before[k]) switched(s, SHOT_FIRED, k);
-        if (now == GATE_WAITING && !waiting[k]) switched(s, SHOT_WAITING, k);
+        if (now == GATE_ON && !before[k]) switched(s, CIRCUIT_SHOT_FIRED, k);
+        if (now == GATE_WAITING && !waiting[k]) switched(s, CIRCUIT_SHOT_WAITING, k);
         s->forced[k] = false;
     }
 }
 
 /* Ends of stages and of currents that are due now, whether a root was reported for them or for a twin at the same
  * instant. */
-static void groups_settle(shot *s, const int *found)
+static void groups_settle(circuit_shot *s, const int *found)
 {
     for (int k = 0; k < s->model.n; k++) {
         const int *root = found ? found + ROOT_GROUPS + 2 * k : NULL;
@@ -115,17 +115,17 @@ static void groups_settle(shot *s, const int *found)
 
 /* ---- the armature ---- */
 
-static void sites_pass(shot *s, bool root)
+static void sites_pass(circuit_shot *s, bool root)
 {
     shot_model *m = &s->model;
     const double x = circuit_shot_z(s)[Y_X];
     while (s->passed < s->n_sites &&
            (s->sites[s->passed].position <= x || (root && m->next_site == s->sites[s->passed].position)))
-        announce(s, SHOT_SITE, s->sites[s->passed++].index);
+        announce(s, CIRCUIT_SHOT_SITE, s->sites[s->passed++].index);
     m->next_site = s->passed < s->n_sites ? s->sites[s->passed].position : INFINITY;
 }
 
-static void armature_leave(shot *s)
+static void armature_leave(circuit_shot *s)
 {
     double *z = circuit_shot_z(s);
     const shot_forces f = circuit_shot_forces_now(s);
@@ -139,11 +139,11 @@ static void armature_leave(shot *s)
     s->result.muzzle_energy = s->exit_kinetic;
     s->result.efficiency = spent > 0.0 ? s->exit_kinetic / spent : 0.0;
     s->result.exit_current = f.I;
-    s->model.phase = SHOT_LEFT;
-    switched(s, SHOT_MUZZLE, -1);
+    s->model.phase = CIRCUIT_SHOT_LEFT;
+    switched(s, CIRCUIT_SHOT_MUZZLE, -1);
 }
 
-static void feeds_pass(shot *s, bool root)
+static void feeds_pass(circuit_shot *s, bool root)
 {
     shot_model *m = &s->model;
     double *x = &circuit_shot_z(s)[Y_X];
@@ -153,7 +153,7 @@ static void feeds_pass(shot *s, bool root)
     }
 }
 
-void circuit_shot_come_to_rest(shot *s)
+void circuit_shot_come_to_rest(circuit_shot *s)
 {
     shot_model *m = &s->model;
     circuit_shot_z(s)[Y_V] = 0.0;
@@ -161,32 +161,32 @@ void circuit_shot_come_to_rest(shot *s)
     const shot_forces f = circuit_shot_forces_now(s);
     if (f.force > circuit_shot_hold_force(m, f.I - f.shunt)) return;
     m->melted = false;
-    m->phase = SHOT_HELD;
-    switched(s, SHOT_STOPPED, -1);
+    m->phase = CIRCUIT_SHOT_HELD;
+    switched(s, CIRCUIT_SHOT_STOPPED, -1);
 }
 
-static void face_melts(shot *s, bool root)
+static void face_melts(circuit_shot *s, bool root)
 {
     shot_model *m = &s->model;
-    if (m->armature.friction_law != SHOT_FRICTION_FILM || m->melted) return;
+    if (m->armature.friction_law != CIRCUIT_SHOT_FRICTION_FILM || m->melted) return;
     const shot_forces f = circuit_shot_forces_now(s);
     if (!root && circuit_shot_melting(m, &f, circuit_shot_z(s)) < 0.0) return;
     m->melted = true;
     if (isnan(s->limits.melt_position)) s->limits.melt_position = circuit_shot_z(s)[Y_X];
-    switched(s, SHOT_MELTED, -1);
+    switched(s, CIRCUIT_SHOT_MELTED, -1);
 }
 
-static void armature_settle(shot *s, const int *found)
+static void armature_settle(circuit_shot *s, const int *found)
 {
     shot_model *m = &s->model;
     const double *z = circuit_shot_z(s), end = m->barrel.length * (1.0 - 1e-14);
-    if (m->phase == SHOT_HELD && found && found[ROOT_MOTION]) {
-        m->phase = SHOT_MOVING;
+    if (m->phase == CIRCUIT_SHOT_HELD && found && found[ROOT_MOTION]) {
+        m->phase = CIRCUIT_SHOT_MOVING;
         s->worn_until = s->t;
         s->wear_rate = 0.0;
-        switched(s, SHOT_RELEASED, -1);
+        switched(s, CIRCUIT_SHOT_RELEASED, -1);
     }
-    if (m->phase != SHOT_MOVING) return;
+    if (m->phase != CIRCUIT_SHOT_MOVING) return;
     face_melts(s, found && found[ROOT_MELT]);
     sites_pass(s, found && found[ROOT_SITE]);
     feeds_pass(s, found && found[ROOT_FEED]);
@@ -198,7 +198,7 @@ static void armature_settle(shot *s, const int *found)
     }
 }
 
-void circuit_shot_settle(shot *s, const int *found)
+void circuit_shot_settle(circuit_shot *s, const int *found)
 {
     groups_settle(s, found);
     armature_settle(s, found);

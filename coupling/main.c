@@ -238,7 +238,7 @@ static unsigned needs_of(const case_inputs *in)
 {
     const case_given *g = &in->given;
     unsigned needs = 0;
-    for (int k = 0; k < SUPPLY_KINDS; k++)
+    for (int k = 0; k < CIRCUIT_SUPPLY_KINDS; k++)
         if (g->supplies[k]) needs |= CASE_FOR_SHOT;
     if (g->sites || g->populations) needs |= CASE_FOR_ONSET;
     if (g->treatments) needs |= CASE_FOR_COMPARE;

@@ -18,16 +18,16 @@ static double voce_flow(const void *user, const mpm_strength_point *at)
 }
 
 /* Length of the bar, which was 20 mm, after 40 us [m]; negative: *s says what went wrong. */
-static double length_after(const voce *law, status *s)
+static double length_after(const voce *law, base_status *s)
 {
     static const double hi[3] = { 22e-3, 8e-3, 8e-3 }, size[3] = { 20e-3, 3e-3, 3e-3 };
-    material copper;
+    mpm_material copper;
     base_params_default(mpm_material_params, &copper);
     snprintf(copper.name, sizeof copper.name, "copper");
     copper.density = 8960, copper.youngs_modulus = 124e9, copper.poisson = 0.34, copper.specific_heat = 383;
     copper.reference_temperature = 293, copper.melting_temperature = 1356, copper.rate_0 = 1;
     copper.sound_speed = 3940, copper.hugoniot_slope = 1.489, copper.gruneisen = 2.02;
-    copper.strength = STRENGTH_own;
+    copper.strength = MPM_STRENGTH_own;
     copper.own_strength.flow = voce_flow, copper.own_strength.user = law;
     mpm_scene scene;
     mpm_body *bar;
@@ -35,8 +35,8 @@ static double length_after(const voce *law, status *s)
     mpm *m = NULL;
     mpm_scene_default(&scene);
     *s = mpm_scene_add_body(&scene, &bar);
-    if (s->code == STATUS_OK) *s = mpm_scene_add_solid(&scene, "box", -1, -1, &box);
-    if (s->code != STATUS_OK) return -1;
+    if (s->code == BASE_STATUS_OK) *s = mpm_scene_add_solid(&scene, "box", -1, -1, &box);
+    if (s->code != BASE_STATUS_OK) return -1;
     snprintf(bar->name, sizeof bar->name, "bar");
     bar->material = &copper, bar->solid = 0, bar->velocity[0] = -200;
     for (int d = 0; d < 3; d++) {
@@ -46,12 +46,12 @@ static double length_after(const voce *law, status *s)
                                     .fine = 1e-3,
                                     .coarse = 1e-3,
                                     .growth = 1.2,
-                                    .boundary = { BOUNDARY_SYMMETRY } };
+                                    .boundary = { MPM_BOUNDARY_SYMMETRY } };
     }
     double length = -1;
     *s = mpm_create(&scene, 1, &m);
-    if (s->code == STATUS_OK) *s = mpm_advance(m, 40e-6, NULL);
-    double *x = s->code == STATUS_OK ? malloc(3 * mpm_particles(m) * sizeof *x) : NULL;
+    if (s->code == BASE_STATUS_OK) *s = mpm_advance(m, 40e-6, NULL);
+    double *x = s->code == BASE_STATUS_OK ? malloc(3 * mpm_particles(m) * sizeof *x) : NULL;
     if (x) mpm_read(m, MPM_position, x);
     for (size_t i = 0; x && i < mpm_particles(m); i++) length = fmax(length, x[3 * i]);
     free(x);
@@ -63,9 +63,9 @@ static double length_after(const voce *law, status *s)
 int main(void)
 {
     const voce soft = { 150e6, 350e6, 0.2, 0.02 }, hard = { 300e6, 700e6, 0.2, 0.02 };
-    status s;
+    base_status s;
     const double a = length_after(&soft, &s), b = a > 0 ? length_after(&hard, &s) : -1;
     if (a > 0 && b > 0) printf("20 mm before, %.2f mm after; twice as strong %.2f mm\n", 1e3 * a, 1e3 * b);
-    if (s.code != STATUS_OK) fprintf(stderr, "%s\n", s.text);
+    if (s.code != BASE_STATUS_OK) fprintf(stderr, "%s\n", s.text);
     return a > 0 && b > 0 ? 0 : 1;
 }

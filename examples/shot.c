@@ -6,8 +6,8 @@
 
 int main(void)
 {
-    shot_module unit[13];
-    shot_config c = { .supplies[SUPPLY_capacitor] = { 13, unit } };
+    circuit_shot_module unit[13];
+    circuit_shot_config c = { .supplies[CIRCUIT_SUPPLY_capacitor] = { 13, unit } };
     for (int k = 0; k < 13; k++) {
         base_params_default(circuit_supply_capacitor_params, &unit[k]);
         unit[k].count = k == 0 ? 3 : 1, unit[k].fire_at = 0.22e-3 * k;
@@ -27,11 +27,11 @@ int main(void)
     c.armature.friction_melted = 0.05;
     c.armature.contact_length = 16.5e-3, c.armature.contact_width = 25e-3;
 
-    shot *s = NULL;
-    status done = circuit_shot_create(&c, &s);
-    if (done.code == STATUS_OK) done = circuit_shot_advance(s, 20e-3, NULL);
-    if (done.code == STATUS_OK) printf("%.1f m/s\n", circuit_shot_result(s).muzzle_velocity);
-    if (done.code != STATUS_OK) fprintf(stderr, "%s\n", done.text);
+    circuit_shot *s = NULL;
+    base_status done = circuit_shot_create(&c, &s);
+    if (done.code == BASE_STATUS_OK) done = circuit_shot_advance(s, 20e-3, NULL);
+    if (done.code == BASE_STATUS_OK) printf("%.1f m/s\n", circuit_shot_result(s).muzzle_velocity);
+    if (done.code != BASE_STATUS_OK) fprintf(stderr, "%s\n", done.text);
     circuit_shot_free(s);
-    return done.code == STATUS_OK ? 0 : 1;
+    return done.code == BASE_STATUS_OK ? 0 : 1;
 }

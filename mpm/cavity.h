@@ -31,7 +31,7 @@ extern "C" {
 enum { MPM_MAX_CAVITIES = 15, MPM_CAVITY_EVERY = 20 };
 
 typedef struct {
-    char name[PARAM_TEXT_SIZE];
+    char name[BASE_PARAM_TEXT_SIZE];
     int wall;                                       /* body that holds it in; -1: none, it does not burst */
     double place[3];                                /* a point in it at the start [m] */
     double pressure, ambient;                       /* at the start, above the ambient one; that [Pa] */
@@ -44,7 +44,7 @@ typedef struct {
 
 /* From row MPM_CAVITY_KEYED on the rows are keys of a case file too. */
 enum { MPM_CAVITY_KEYED = 1 };
-extern const param mpm_cavity_params[];
+extern const base_param mpm_cavity_params[];
 
 /* One of them, now. */
 typedef struct {

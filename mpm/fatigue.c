@@ -12,7 +12,7 @@ const char *const mpm_fatigue_measure_names[] = {
 
 /* ---- the law ---- */
 
-fatigue_law mpm_fatigue_law(const material *m)
+fatigue_law mpm_fatigue_law(const mpm_material *m)
 {
     return (fatigue_law){ m->fatigue_A, m->fatigue_m, isnan(m->fatigue_limit) ? 0.0 : m->fatigue_limit };
 }

@@ -29,7 +29,7 @@ extern const char *const mpm_fatigue_measure_names[]; /* "bond", ..., NULL */
 typedef struct {
     double A, m, limit; /* [1, 1, strain range] */
 } fatigue_law;
-fatigue_law mpm_fatigue_law(const material *m);
+fatigue_law mpm_fatigue_law(const mpm_material *m);
 double mpm_fatigue_rate(const fatigue_law *law, double range);   /* life that a cycle takes [1] */
 double mpm_fatigue_cycles(const fatigue_law *law, double range); /* of a whole life; INFINITY below the limit [1] */
 

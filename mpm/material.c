@@ -25,13 +25,14 @@ static const char *const failure_names[] = {
     NULL
 };
 
-#define NUMBER(member, unit, least, largest, text) PARAM_DOUBLE(material, member, unit, OPTIONAL, least, largest, text),
+#define NUMBER(member, unit, least, largest, text) \
+    PARAM_DOUBLE(mpm_material, member, unit, OPTIONAL, least, largest, text),
 
-const param mpm_material_params[] = {
-    PARAM_STRING(material, name, NULL, "name of the material, the same as its file's"),
-    PARAM_ENUM(material, strength, strength_names, STRENGTH_johnson_cook, "law of the flow stress"),
-    PARAM_ENUM(material, eos, eos_names, EOS_mie_gruneisen, "equation of state"),
-    PARAM_ENUM(material, failure, failure_names, FAILURE_johnson_cook, "law of failure, where damage is on"),
+const base_param mpm_material_params[] = {
+    PARAM_STRING(mpm_material, name, NULL, "name of the material, the same as its file's"),
+    PARAM_ENUM(mpm_material, strength, strength_names, MPM_STRENGTH_johnson_cook, "law of the flow stress"),
+    PARAM_ENUM(mpm_material, eos, eos_names, MPM_EOS_mie_gruneisen, "equation of state"),
+    PARAM_ENUM(mpm_material, failure, failure_names, MPM_FAILURE_johnson_cook, "law of failure, where damage is on"),
 #define ROW(member, unit, needs, least, largest, text) NUMBER(member, unit, least, largest, text)
     MATERIAL_CONSTANTS(ROW)
 #undef ROW
@@ -51,8 +52,9 @@ typedef struct {
     double fallback;
 } law_row;
 
-#define OWN_ROW(member, unit, fallback, least, largest, text) { NULL, #member, offsetof(material, member), fallback },
-#define NEEDED_ROW(member) { NULL, #member, offsetof(material, member), REQUIRED },
+#define OWN_ROW(member, unit, fallback, least, largest, text) \
+    { NULL, #member, offsetof(mpm_material, member), fallback },
+#define NEEDED_ROW(member) { NULL, #member, offsetof(mpm_material, member), REQUIRED },
 
 static const law_row strength_rows[] = {
 #define STRENGTH(name, shear, text) { .law = text },
@@ -85,10 +87,10 @@ static const law_row *law_find(const law_row *row, int kind)
     return row;
 }
 
-material_shear mpm_material_shear(const material *m)
+mpm_shear_kind mpm_material_shear(const mpm_material *m)
 {
-    static const material_shear of[] = {
-#define STRENGTH(name, shear, text) SHEAR_##shear,
+    static const mpm_shear_kind of[] = {
+#define STRENGTH(name, shear, text) MPM_SHEAR_##shear,
 #include "mpm/law/strength.def"
     };
     return of[m->strength];
@@ -112,13 +114,13 @@ const char *mpm_material_failure_text(int kind)
 /* ---- what a study needs ---- */
 
 typedef struct {
-    unsigned needs; /* sum of material_need */
+    unsigned needs; /* sum of mpm_material_need */
     size_t offset;
     const char *key;
 } common_row;
 
 static const common_row common_rows[] = {
-#define ROW(member, unit, needs, least, largest, text) { needs, offsetof(material, member), #member },
+#define ROW(member, unit, needs, least, largest, text) { needs, offsetof(mpm_material, member), #member },
     MATERIAL_CONSTANTS(ROW)
 #undef ROW
 };
@@ -138,31 +140,31 @@ static void list_add(key_list *list, const char *key)
                                      list->length ? ", " : "", key);
 }
 
-static double *constant_at(const material *m, size_t offset)
+static double *constant_at(const mpm_material *m, size_t offset)
 {
     return (double *)(void *)((char *)m + offset);
 }
 
-static void list_missing(key_list *list, const material *m, const law_row *rows, int kind)
+static void list_missing(key_list *list, const mpm_material *m, const law_row *rows, int kind)
 {
     for (const law_row *row = law_find(rows, kind) + 1; !row->law; row++)
         if (isinf(row->fallback) && isnan(*constant_at(m, row->offset))) list_add(list, row->key);
 }
 
-status mpm_material_check(const material *m, unsigned needs)
+status mpm_material_check(const mpm_material *m, unsigned needs)
 {
     key_list missing = { .length = 0 };
     for (size_t i = 0; i < sizeof common_rows / sizeof common_rows[0]; i++)
         if (common_rows[i].needs & needs && isnan(*constant_at(m, common_rows[i].offset)))
             list_add(&missing, common_rows[i].key);
-    if (needs & MATERIAL_FOR_SCENE) list_missing(&missing, m, strength_rows, m->strength);
-    if (needs & MATERIAL_FOR_SCENE) list_missing(&missing, m, eos_rows, m->eos);
-    const bool fluid = mpm_material_shear(m) == SHEAR_NONE;
-    if (needs & MATERIAL_FOR_DAMAGE && !fluid) list_missing(&missing, m, failure_rows, m->failure);
+    if (needs & MPM_MATERIAL_FOR_SCENE) list_missing(&missing, m, strength_rows, m->strength);
+    if (needs & MPM_MATERIAL_FOR_SCENE) list_missing(&missing, m, eos_rows, m->eos);
+    const bool fluid = mpm_material_shear(m) == MPM_SHEAR_NONE;
+    if (needs & MPM_MATERIAL_FOR_DAMAGE && !fluid) list_missing(&missing, m, failure_rows, m->failure);
     CHECK(missing.length == 0, STATUS_BAD_INPUT, "material %.40s lacks what this study needs: %s", m->name,
           missing.text);
     TRY(base_params_check(mpm_material_params, m, m->name));
-    CHECK(!(needs & MATERIAL_FOR_SCENE) || fluid || m->density >= 100, STATUS_BAD_INPUT,
+    CHECK(!(needs & MPM_MATERIAL_FOR_SCENE) || fluid || m->density >= 100, STATUS_BAD_INPUT,
           "material %.40s: density = %g kg/m^3: a solid has at least 100 kg/m^3", m->name, m->density);
     CHECK(!(m->melting_temperature <= m->reference_temperature), STATUS_BAD_INPUT,
           "material %.40s: melting_temperature = %g K must lie above reference_temperature = %g K", m->name,
@@ -170,16 +172,16 @@ status mpm_material_check(const material *m, unsigned needs)
     return status_ok();
 }
 
-static void supply(material *m, const law_row *rows, int kind)
+static void supply(mpm_material *m, const law_row *rows, int kind)
 {
     for (const law_row *row = law_find(rows, kind) + 1; !row->law; row++)
         if (isfinite(row->fallback) && isnan(*constant_at(m, row->offset)))
             *constant_at(m, row->offset) = row->fallback;
 }
 
-material mpm_material_complete(const material *m)
+mpm_material mpm_material_complete(const mpm_material *m)
 {
-    material full = *m;
+    mpm_material full = *m;
     supply(&full, strength_rows, m->strength);
     supply(&full, eos_rows, m->eos);
     supply(&full, failure_rows, m->failure);
@@ -188,22 +190,22 @@ material mpm_material_complete(const material *m)
 
 /* ---- derived ---- */
 
-double mpm_material_shear_modulus(const material *m)
+double mpm_material_shear_modulus(const mpm_material *m)
 {
     return m->youngs_modulus / (2.0 * (1.0 + m->poisson));
 }
 
-double mpm_material_bulk_modulus(const material *m)
+double mpm_material_bulk_modulus(const mpm_material *m)
 {
     return m->density * m->sound_speed * m->sound_speed;
 }
 
-double mpm_material_longitudinal_speed(const material *m)
+double mpm_material_longitudinal_speed(const mpm_material *m)
 {
     return sqrt((mpm_material_bulk_modulus(m) + 4.0 / 3.0 * mpm_material_shear_modulus(m)) / m->density);
 }
 
-double mpm_material_shear_speed(const material *m)
+double mpm_material_shear_speed(const mpm_material *m)
 {
     return sqrt(mpm_material_shear_modulus(m) / m->density);
 }
@@ -212,11 +214,12 @@ double mpm_material_shear_speed(const material *m)
  *   p = rho_t (c_t + s_t u) u = rho_f (c_f + s_f (v - u)) (v - u)                         (M-22) [Pa]
  * is a u^2 + b u - d = 0; at u = 0 its left side is -d < 0 and at u = v it is the target's p > 0, so one root lies
  * between; the form below finds it without cancellation for either sign of a. */
-status mpm_impedance_match(const material *flyer, const material *target, double velocity, double *p, double *u_target)
+status mpm_impedance_match(const mpm_material *flyer, const mpm_material *target, double velocity, double *p,
+                           double *u_target)
 {
     CHECK(velocity >= 0.0 && velocity <= 1e5, STATUS_BAD_INPUT, "impact velocity = %g m/s: must be 0 .. 1e5 m/s",
           velocity);
-    const material *pair[2] = { flyer, target };
+    const mpm_material *pair[2] = { flyer, target };
     for (int i = 0; i < 2; i++)
         CHECK(pair[i]->density > 0.0 && pair[i]->sound_speed > 0.0 && pair[i]->hugoniot_slope >= 0.0, STATUS_BAD_INPUT,
               "material %.40s lacks density, sound_speed or hugoniot_slope: no impedance match", pair[i]->name);

@@ -22,7 +22,7 @@ static const double FORCE_SMOOTHING = 0.2e-6; /* [s] */
 /* Where breech-stress and the sweep of docs/notes/solver.md saw scenes blow up. */
 static double courant_limit(const mpm_scene *s)
 {
-    return s->transfer == TRANSFER_PIC ? 0.5 : 0.6;
+    return s->transfer == MPM_TRANSFER_PIC ? 0.5 : 0.6;
 }
 
 static status check_held(const mpm_body *b)
@@ -93,9 +93,9 @@ static status check_scene(const mpm_scene *s)
           MPM_BODIES_COUNTED);
     CHECK(s->courant > 0 && s->courant <= courant_limit(s), STATUS_BAD_INPUT,
           "courant = %g: must be in (0, %g], beyond which %s is not stable", s->courant, courant_limit(s),
-          s->transfer == TRANSFER_PIC ? "pic"
-          : s->basis == BASIS_BSPLINE ? "bspline"
-                                      : "no scheme");
+          s->transfer == MPM_TRANSFER_PIC ? "pic"
+          : s->basis == MPM_BASIS_BSPLINE ? "bspline"
+                                          : "no scheme");
     TRY(base_params_check(&mpm_scene_params[MPM_SCENE_HASHED], s, "scene"));
     for (int i = 0; i < s->bodies; i++) TRY(check_body(s, i, groups));
     TRY(check_pairs(s, groups));
@@ -153,7 +153,7 @@ static status make_laws(mpm *m)
         s->body[i].material = &m->materials[i];
         TRY(mpm_law_make(&s->body[i], s, &m->laws[i]));
         TRY(mpm_wave_make(&s->body[i], &m->laws[i], &m->waves[i]));
-        const material *k = &m->materials[i];
+        const mpm_material *k = &m->materials[i];
         m->effusivity[i] = sqrt(k->conductivity * k->density * k->specific_heat);
     }
     return status_ok();
@@ -589,13 +589,13 @@ static status one_substep(mpm *m, int n, tally *sum)
     TRY(reserve_scratch(m));
     TRY(mpm_cavities_reserve(m));
     TRY(begin_waves(m, n));
-    phase_p2g(m), lap(m, PHASE_P2G, &clock);
-    phase_nodes(m), mpm_cavities_step(m), lap(m, PHASE_NODES, &clock);
-    phase_g2p(m), lap(m, PHASE_G2P, &clock);
+    phase_p2g(m), lap(m, MPM_PHASE_P2G, &clock);
+    phase_nodes(m), mpm_cavities_step(m), lap(m, MPM_PHASE_NODES, &clock);
+    phase_g2p(m), lap(m, MPM_PHASE_G2P, &clock);
     TRY(collect(m, sum));
-    lap(m, PHASE_REST, &clock);
+    lap(m, MPM_PHASE_REST, &clock);
     TRY(mpm_movers_exchange(m));
-    lap(m, PHASE_MOVERS, &clock);
+    lap(m, MPM_PHASE_MOVERS, &clock);
     m->dt_last = m->dt; /* for levels that begin from here on */
     return status_ok();
 }
@@ -628,7 +628,7 @@ static status one_step(mpm *m, double until)
     if (is_due(m, MPM_CAVITY_EVERY)) mpm_cavities_look(m);
     if (is_due(m, COMPACT_EVERY)) TRY(mpm_store_compact(m));
     if (is_due(m, mpm_refine_every(m->scene.refine, m->scene.refines))) TRY(mpm_refine_look(m));
-    lap(m, PHASE_REST, &clock);
+    lap(m, MPM_PHASE_REST, &clock);
     return status_ok();
 }
 

@@ -86,26 +86,26 @@ typedef struct {
 } mpm_field_info;
 extern const mpm_field_info mpm_field_table[MPM_FIELD_COUNT];
 
-/* Called after every step; return false to stop (mpm_advance then returns STATUS_STOPPED after a whole step). */
+/* Called after every step; return false to stop (mpm_advance then returns BASE_STATUS_STOPPED after a whole step). */
 typedef struct {
     bool (*step)(void *user, const mpm *m);
     void *user; /* borrowed */
 } mpm_sink;
 
-status mpm_create(const mpm_scene *scene, int threads, mpm **out);
+base_status mpm_create(const mpm_scene *scene, int threads, mpm **out);
 void mpm_free(mpm *m); /* NULL allowed */
 /* Between steps: in mpm_sink too.  Changes no bit of what comes out; 0: as many as OpenMP gives. */
 void mpm_set_threads(mpm *m, int threads);
 
-/* Steps until time >= until [s].  STATUS_NUMERICAL names the point, the time and what to try. */
-status mpm_advance(mpm *m, double until, const mpm_sink *sink);
+/* Steps until time >= until [s].  BASE_STATUS_NUMERICAL names the point, the time and what to try. */
+base_status mpm_advance(mpm *m, double until, const mpm_sink *sink);
 
 mpm_ledger mpm_balance(const mpm *m);
 mpm_report mpm_state(const mpm *m);
 
 /* Wall time since mpm_create by phase of the step [s];
  * `rest` holds books, percentiles, sorting and looks at refinement. */
-typedef enum { PHASE_P2G, PHASE_NODES, PHASE_G2P, PHASE_MOVERS, PHASE_REST, MPM_PHASES } mpm_phase;
+typedef enum { MPM_PHASE_P2G, MPM_PHASE_NODES, MPM_PHASE_G2P, MPM_PHASE_MOVERS, MPM_PHASE_REST, MPM_PHASES } mpm_phase;
 double mpm_phase_seconds(const mpm *m, mpm_phase phase);
 
 mpm_report mpm_glance(const mpm *m); /* as mpm_state but failed_volume, zero, which takes a walk over all points */
@@ -137,13 +137,13 @@ typedef struct {
 /* Plastic power (as of the probe `plastic`) and volume of bodies, slice by slice; a point belongs evenly to all slices
  * that its domain covers.  counts: of each body, is it read?  sums: 2 n, of each slice its middle and its sides; the
  * caller's. */
-status mpm_plastic_profile(const mpm *m, const bool *counts, const mpm_slices *slices, mpm_plastic_sum *sums);
+base_status mpm_plastic_profile(const mpm *m, const bool *counts, const mpm_slices *slices, mpm_plastic_sum *sums);
 
 /* Checkpoint: a flat image of everything, order included.  *image is malloc'ed, the caller frees it. */
-status mpm_save(const mpm *m, void **image, size_t *bytes);
+base_status mpm_save(const mpm *m, void **image, size_t *bytes);
 /* Into a solver made by mpm_create from the same scene; refuses an image of another scene, version or instruction set.
  */
-status mpm_restore(mpm *m, const void *image, size_t bytes);
+base_status mpm_restore(mpm *m, const void *image, size_t bytes);
 
 /* What a scene will take at its start, without building it: with small cells in the zone and near bodies that have a
  * rule `around`.  What flows or is shocked adds cells while it runs.  Of a body of more than ten thousand points
@@ -158,7 +158,7 @@ typedef struct {
 /* Blocks five eighths full, a quarter in reserve, sums of their bricks;
  * measured, docs/theory/scene-solver.md, Memory.  A body's bins for percentiles. */
 enum { MPM_BYTES = 20000000, MPM_BYTES_A_PARTICLE = 1600, MPM_BYTES_A_BODY = 50000 };
-status mpm_estimate(const mpm_scene *scene, mpm_needs *needs);
+base_status mpm_estimate(const mpm_scene *scene, mpm_needs *needs);
 
 const char *mpm_instruction_set(void); /* "x86-64-v4", "x86-64-v3", "portable" */
 

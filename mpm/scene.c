@@ -123,7 +123,7 @@ void mpm_scene_levels_fill(mpm_scene *s)
     if (isnan(s->zone_until)) s->zone_until = s->refines > 0 ? 0.0 : ALWAYS;
     if (s->levels > 0) return;
     s->levels = 1;
-    if (s->refines == 0 || s->basis != BASIS_GIMP) return;
+    if (s->refines == 0 || s->basis != MPM_BASIS_GIMP) return;
     while (s->levels < MPM_MAX_LEVELS && fine * (1 << s->levels) <= coarse) s->levels++;
 }
 

@@ -31,8 +31,8 @@ enum { MPM_MAX_LEVELS = 8, MPM_FACES = 6, MPM_CONTACT_VALUES = 8 };
 /* ---- bodies ---- */
 
 typedef struct {
-    char name[PARAM_TEXT_SIZE];
-    const material *material;
+    char name[BASE_PARAM_TEXT_SIZE];
+    const mpm_material *material;
     int solid;            /* its volume: root of a tree in mpm_scene.solid; -1 at first */
     int group;            /* bodies of one group have one velocity field and are welded; groups touch by contact.
                            Numbered from 0 without gaps.  Where bodies of any group overlap, the later body has the
@@ -64,20 +64,20 @@ typedef struct {
 /* ---- grid: rectilinear, each axis graded on its own ---- */
 
 typedef enum {
-    BOUNDARY_FREE,      /* nothing; particles that leave are booked as ejected */
-    BOUNDARY_SYMMETRY,  /* mirror plane, ghost nodes folded; also a roller */
-    BOUNDARY_FIXED,     /* no motion */
-    BOUNDARY_ABSORBING, /* viscous, both wave speeds */
-    BOUNDARY_PRESCRIBED /* mpm_axis.boundary_velocity */
-} boundary_kind;
+    MPM_BOUNDARY_FREE,      /* nothing; particles that leave are booked as ejected */
+    MPM_BOUNDARY_SYMMETRY,  /* mirror plane, ghost nodes folded; also a roller */
+    MPM_BOUNDARY_FIXED,     /* no motion */
+    MPM_BOUNDARY_ABSORBING, /* viscous, both wave speeds */
+    MPM_BOUNDARY_PRESCRIBED /* mpm_axis.boundary_velocity */
+} mpm_boundary_kind;
 
 typedef struct {
     double lo, hi;                  /* window [m]; a boundary condition acts at lo and at hi */
     double fine_lo, fine_hi;        /* zone of cells of size `fine` [m] */
     double fine, coarse;            /* cell size in the zone, largest cell size outside [m] */
     double growth;                  /* ratio of neighbouring cells outside the zone, 1 .. 2 */
-    boundary_kind boundary[2];      /* at lo, at hi */
-    double boundary_velocity[2][3]; /* BOUNDARY_PRESCRIBED [m/s] */
+    mpm_boundary_kind boundary[2];  /* at lo, at hi */
+    double boundary_velocity[2][3]; /* MPM_BOUNDARY_PRESCRIBED [m/s] */
 } mpm_axis;
 
 /* ---- contact between two groups: one file a law, one line in law/contact.def (law/contact.h) ---- */
@@ -97,8 +97,11 @@ typedef struct {
     int normal_of;
 } mpm_pair;
 
-typedef enum { TRANSFER_TPIC, TRANSFER_PIC } transfer_kind; /* with and without the velocity gradient */
-typedef enum { BASIS_GIMP, BASIS_BSPLINE } basis_kind; /* GIMP whose domains follow the stretch; quadratic B-spline */
+typedef enum { MPM_TRANSFER_TPIC, MPM_TRANSFER_PIC } mpm_transfer_kind; /* with and without the velocity gradient */
+typedef enum {
+    MPM_BASIS_GIMP,
+    MPM_BASIS_BSPLINE
+} mpm_basis_kind; /* GIMP whose domains follow the stretch; quadratic B-spline */
 
 typedef struct {
     int bodies, solids, pairs, probes, refines, cavities;
@@ -124,10 +127,10 @@ typedef struct {
     double end_time;        /* of the run, for whoever calls mpm_advance; NAN: not said [s] */
     double viscosity_linear, viscosity_quadratic; /* (M-5) [1] */
     double surroundings; /* absolute pressure around the bodies; NAN: that at which each gas is at rest [Pa] */
-    transfer_kind transfer;
-    basis_kind basis;
-    bool heat_by_plastic_work;             /* option `plastic` of (M-4); default false: by energy */
-    char instruction_set[PARAM_TEXT_SIZE]; /* "" = the best this machine has */
+    mpm_transfer_kind transfer;
+    mpm_basis_kind basis;
+    bool heat_by_plastic_work;                  /* option `plastic` of (M-4); default false: by energy */
+    char instruction_set[BASE_PARAM_TEXT_SIZE]; /* "" = the best this machine has */
 } mpm_scene;
 
 /* All members at their defaults, frictionless contact, no bodies.  What `s` held before is not freed. */
@@ -140,15 +143,15 @@ int mpm_scene_level_for(const mpm_scene *s, double cell); /* the coarsest level 
 
 /* One more body, solid or pair, at its defaults, behind the others.  *added is valid until the next of its kind.
  * A solid is made of those at the places a and b (-1: none); its own place is s->solids - 1. */
-status mpm_scene_add_body(mpm_scene *s, mpm_body **added);
-status mpm_scene_add_solid(mpm_scene *s, const char *kind, int a, int b, mpm_solid **added);
+base_status mpm_scene_add_body(mpm_scene *s, mpm_body **added);
+base_status mpm_scene_add_solid(mpm_scene *s, const char *kind, int a, int b, mpm_solid **added);
 /* One more probe, with its values at their defaults, of no body. */
-status mpm_scene_add_probe(mpm_scene *s, const char *kind, const char *name, mpm_probe **added);
+base_status mpm_scene_add_probe(mpm_scene *s, const char *kind, const char *name, mpm_probe **added);
 /* One more rule of refinement, with its values at their defaults, of no body. */
-status mpm_scene_add_refine(mpm_scene *s, const char *kind, mpm_refine **added);
+base_status mpm_scene_add_refine(mpm_scene *s, const char *kind, mpm_refine **added);
 /* One more cavity at its defaults, of that name. */
-status mpm_scene_add_cavity(mpm_scene *s, const char *name, mpm_cavity **added);
-status mpm_scene_add_pair(mpm_scene *s, int a, int b, mpm_pair **added); /* as the scene's default contact */
+base_status mpm_scene_add_cavity(mpm_scene *s, const char *name, mpm_cavity **added);
+base_status mpm_scene_add_pair(mpm_scene *s, int a, int b, mpm_pair **added); /* as the scene's default contact */
 
 /* How these two groups touch: the scene's pair, or what holds for those without one. */
 mpm_pair mpm_scene_contact(const mpm_scene *s, int a, int b);
@@ -172,12 +175,12 @@ enum { MPM_BODY_KEYED = 8, MPM_AXIS_KEYED = 4, MPM_SCENE_KEYED = 1, MPM_SCENE_HA
     PARAM_DOUBLE(type, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),                  \
     PARAM_INT(type, particles_per_axis, 2, 2, 3, "material points a cell and axis"),                              \
     PARAM_DOUBLE(type, contact_gap, "1", 0.9, 0.0, 3.0, "bodies touch when nearer than this, in cells"),          \
-    PARAM_ENUM(type, transfer, mpm_transfer_names, TRANSFER_TPIC, "how velocity goes between points and grid"),   \
-    PARAM_ENUM(type, basis, mpm_basis_names, BASIS_GIMP, "shape functions"),                                      \
+    PARAM_ENUM(type, transfer, mpm_transfer_names, MPM_TRANSFER_TPIC, "how velocity goes between points and grid"),   \
+    PARAM_ENUM(type, basis, mpm_basis_names, MPM_BASIS_GIMP, "shape functions"),                                      \
     PARAM_BOOL(type, heat_by_plastic_work, 0, "(M-4) temperature by plastic work; no: by energy")
 /* clang-format on */
 
-extern const param mpm_body_params[], mpm_axis_params[], mpm_pair_params[], mpm_scene_params[];
+extern const base_param mpm_body_params[], mpm_axis_params[], mpm_pair_params[], mpm_scene_params[];
 /* Names of choices, NULL at the end: -x +x -y +y -z +z; x y z; and of the enumerators above. */
 extern const char *const mpm_face_names[], *const mpm_axis_names[];
 extern const char *const mpm_boundary_names[], *const mpm_transfer_names[], *const mpm_basis_names[];
@@ -186,7 +189,7 @@ uint64_t mpm_scene_hash(const mpm_scene *s); /* of every member but the run's; n
 
 int mpm_scene_groups(const mpm_scene *s); /* one more than the highest group of a body */
 
-status mpm_scene_copy(const mpm_scene *from, mpm_scene *to); /* arrays of its own; the same borrowed materials */
+base_status mpm_scene_copy(const mpm_scene *from, mpm_scene *to); /* arrays of its own; the same borrowed materials */
 void mpm_scene_free(mpm_scene *s); /* of one that mpm_scene_default began or of zero bytes; leaves an empty one */
 
 #ifdef __cplusplus

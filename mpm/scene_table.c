@@ -10,11 +10,11 @@
 const char *const mpm_face_names[] = { "-x", "+x", "-y", "+y", "-z", "+z", NULL };
 const char *const mpm_axis_names[] = { "x", "y", "z", NULL };
 const char *const mpm_boundary_names[] = {
-    [BOUNDARY_FREE] = "free",           [BOUNDARY_SYMMETRY] = "symmetry",     [BOUNDARY_FIXED] = "fixed",
-    [BOUNDARY_ABSORBING] = "absorbing", [BOUNDARY_PRESCRIBED] = "prescribed", NULL
+    [MPM_BOUNDARY_FREE] = "free",           [MPM_BOUNDARY_SYMMETRY] = "symmetry",     [MPM_BOUNDARY_FIXED] = "fixed",
+    [MPM_BOUNDARY_ABSORBING] = "absorbing", [MPM_BOUNDARY_PRESCRIBED] = "prescribed", NULL
 };
-const char *const mpm_transfer_names[] = { [TRANSFER_TPIC] = "tpic", [TRANSFER_PIC] = "pic", NULL };
-const char *const mpm_basis_names[] = { [BASIS_GIMP] = "gimp", [BASIS_BSPLINE] = "bspline", NULL };
+const char *const mpm_transfer_names[] = { [MPM_TRANSFER_TPIC] = "tpic", [MPM_TRANSFER_PIC] = "pic", NULL };
+const char *const mpm_basis_names[] = { [MPM_BASIS_GIMP] = "gimp", [MPM_BASIS_BSPLINE] = "bspline", NULL };
 
 /* A row whose key is not its member's name. */
 #define ROW(type, key_, member, unit_, kind_, fallback_, min_, max_, doc_)                                        \
@@ -22,16 +22,18 @@ const char *const mpm_basis_names[] = { [BASIS_GIMP] = "gimp", [BASIS_BSPLINE] =
         .key = (key_), .unit = (unit_), .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_), \
         .min = (min_), .max = (max_), .kind = (kind_)                                                             \
     }
-#define PASSES(face, key_) ROW(mpm_body, key_, passes[face], "1", PARAM_FLAG, 0, 0, 1, "that end does not act on it")
-#define BOUNDARY(end, key_)                                                                                          \
-    {                                                                                                                \
-        .key = (key_), .unit = "1", .doc = "what acts at that end of the window",                                    \
-        .offset = offsetof(mpm_axis, boundary[end]), .max = 1e9, .kind = PARAM_CHOICE, .choices = mpm_boundary_names \
+#define PASSES(face, key_) \
+    ROW(mpm_body, key_, passes[face], "1", BASE_PARAM_FLAG, 0, 0, 1, "that end does not act on it")
+#define BOUNDARY(end, key_)                                                                 \
+    {                                                                                       \
+        .key = (key_), .unit = "1", .doc = "what acts at that end of the window",           \
+        .offset = offsetof(mpm_axis, boundary[end]), .max = 1e9, .kind = BASE_PARAM_CHOICE, \
+        .choices = mpm_boundary_names                                                       \
     }
 #define CELLS(key_, member, unit_, min_, max_, doc_) \
-    ROW(mpm_axis, key_, member, unit_, PARAM_NUMBER, OPTIONAL, min_, max_, doc_)
+    ROW(mpm_axis, key_, member, unit_, BASE_PARAM_NUMBER, OPTIONAL, min_, max_, doc_)
 
-const param mpm_body_params[] = {
+const base_param mpm_body_params[] = {
     PARAM_INT(mpm_body, solid, -1, 0, 1e9, "root of its volume among the scene's solids"),
     PARAM_INT(mpm_body, group, 0, 0, 1e9, "bodies of one group have one velocity field"),
     PASSES(0, "passes_x_lo"),
@@ -68,11 +70,13 @@ const param mpm_body_params[] = {
     PARAMS_END,
 };
 
-const param mpm_axis_params[] = {
+const base_param mpm_axis_params[] = {
     BOUNDARY(0, "boundary_lo"),
     BOUNDARY(1, "boundary_hi"),
-    ROW(mpm_axis, "boundary_velocity_lo", boundary_velocity[0], "m/s", PARAM_VECTOR, 0, -1e5, 1e5, "if prescribed"),
-    ROW(mpm_axis, "boundary_velocity_hi", boundary_velocity[1], "m/s", PARAM_VECTOR, 0, -1e5, 1e5, "if prescribed"),
+    ROW(mpm_axis, "boundary_velocity_lo", boundary_velocity[0], "m/s", BASE_PARAM_VECTOR, 0, -1e5, 1e5,
+        "if prescribed"),
+    ROW(mpm_axis, "boundary_velocity_hi", boundary_velocity[1], "m/s", BASE_PARAM_VECTOR, 0, -1e5, 1e5,
+        "if prescribed"),
     /* MPM_AXIS_KEYED */
     CELLS("lo", lo, "m", -1e3, 1e3, "lower end of the window"),
     CELLS("hi", hi, "m", -1e3, 1e3, "upper end of the window"),
@@ -84,14 +88,14 @@ const param mpm_axis_params[] = {
     PARAMS_END,
 };
 
-const param mpm_pair_params[] = {
+const base_param mpm_pair_params[] = {
     PARAM_INT(mpm_pair, a, 0, 0, 1e9, "group"),
     PARAM_INT(mpm_pair, b, 1, 0, 1e9, "group"),
     PARAM_INT(mpm_pair, normal_of, 0, 0, 1e9, "group whose surface gives the contact normal"),
     PARAMS_END,
 };
 
-const param mpm_cavity_params[] = {
+const base_param mpm_cavity_params[] = {
     PARAM_INT(mpm_cavity, wall, -1, -1, 1e9, "body that holds it in"),
     /* MPM_CAVITY_KEYED */
     PARAM_STRING(mpm_cavity, name, NULL, "its name: letters, digits, - _ ."),
@@ -111,7 +115,7 @@ const param mpm_cavity_params[] = {
     PARAMS_END,
 };
 
-const param mpm_scene_params[] = {
+const base_param mpm_scene_params[] = {
     PARAM_STRING(mpm_scene, instruction_set, "", "that the kernels run in; empty: the best of this machine"),
     /* MPM_SCENE_KEYED */
     PARAM_DOUBLE(mpm_scene, end_time, "s", OPTIONAL, 1e-12, 1e3,
@@ -135,23 +139,23 @@ static uint64_t hash(uint64_t h, const void *data, size_t bytes) /* FNV-1a */
     return h;
 }
 
-static size_t size_of(const param *p, const char *member)
+static size_t size_of(const base_param *p, const char *member)
 {
     switch (p->kind) {
-    case PARAM_NUMBER: return sizeof(double);
-    case PARAM_VECTOR: return 3 * sizeof(double);
-    case PARAM_POINTS: return 2 * (size_t)p->room * sizeof(double);
-    case PARAM_FLAG: return sizeof(bool);
-    case PARAM_TEXT: return strnlen(member, PARAM_TEXT_SIZE);
-    case PARAM_INTEGER:
-    case PARAM_CHOICE: return sizeof(int);
+    case BASE_PARAM_NUMBER: return sizeof(double);
+    case BASE_PARAM_VECTOR: return 3 * sizeof(double);
+    case BASE_PARAM_POINTS: return 2 * (size_t)p->room * sizeof(double);
+    case BASE_PARAM_FLAG: return sizeof(bool);
+    case BASE_PARAM_TEXT: return strnlen(member, BASE_PARAM_TEXT_SIZE);
+    case BASE_PARAM_INTEGER:
+    case BASE_PARAM_CHOICE: return sizeof(int);
     }
     return 0;
 }
 
-static uint64_t hash_members(uint64_t h, const param *table, const void *object)
+static uint64_t hash_members(uint64_t h, const base_param *table, const void *object)
 {
-    for (const param *p = table; p->key; p++) {
+    for (const base_param *p = table; p->key; p++) {
         const char *member = (const char *)object + p->offset;
         h = hash(h, member, size_of(p, member));
     }

@@ -71,7 +71,7 @@ static status setup_check(const mpm_tube_setup *s)
           MOST_CELLS);
     CHECK(s->end != TUBE_PLATE || s->plate_mass > 0, STATUS_BAD_INPUT,
           "tube: plate_mass = %g kg/m2: must be above zero", s->plate_mass);
-    CHECK(mpm_material_shear(s->fluid) == SHEAR_NONE, STATUS_BAD_INPUT, "tube: %.40s is no fluid (strength: none)",
+    CHECK(mpm_material_shear(s->fluid) == MPM_SHEAR_NONE, STATUS_BAD_INPUT, "tube: %.40s is no fluid (strength: none)",
           s->fluid->name);
     return status_ok();
 }

@@ -28,12 +28,12 @@ extern "C" {
 typedef enum { TUBE_WALL, TUBE_PLATE, TUBE_GOES_ON } tube_end;
 
 typedef struct {
-    const material *fluid;  /* borrowed; a material without strength */
-    double piston_mass;     /* on its area [kg/m2] */
-    double piston_velocity; /* at the start [m/s] */
-    double length;          /* of the column at rest [m] */
-    int end;                /* tube_end */
-    double plate_mass;      /* TUBE_PLATE: on its area [kg/m2] */
+    const mpm_material *fluid; /* borrowed; a material without strength */
+    double piston_mass;        /* on its area [kg/m2] */
+    double piston_velocity;    /* at the start [m/s] */
+    double length;             /* of the column at rest [m] */
+    int end;                   /* tube_end */
+    double plate_mass;         /* TUBE_PLATE: on its area [kg/m2] */
     int cells;
 } mpm_tube_setup;
 

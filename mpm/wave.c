@@ -20,7 +20,7 @@ status mpm_wave_check(const mpm_body *b)
           "body `%s`: a piston wants all of piston_mass, piston_velocity and tube_length", b->name);
     CHECK(isnan(b->wave_decay) || !isnan(b->wave_pressure), STATUS_BAD_INPUT,
           "body `%s`: wave_decay = %g s, but no wave_pressure", b->name, b->wave_decay);
-    CHECK(!mpm_wave_is_wanted(b) || mpm_material_shear(b->material) == SHEAR_NONE, STATUS_BAD_INPUT,
+    CHECK(!mpm_wave_is_wanted(b) || mpm_material_shear(b->material) == MPM_SHEAR_NONE, STATUS_BAD_INPUT,
           "body `%s` of %.40s: a wave enters fluids only (strength: none)", b->name, b->material->name);
     return status_ok();
 }

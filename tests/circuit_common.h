@@ -11,14 +11,14 @@
 #include <string.h>
 
 typedef struct {
-    int n, count[SHOT_EVENT_COUNT];
-    double time[SHOT_EVENT_COUNT]; /* of the last event of each kind [s] */
-    double worst_error;            /* of the energy, over what was given by the end [1] */
-    double most;                   /* given so far [J] */
-    double worst;                  /* |energy error| x given so far [J] */
+    int n, count[CIRCUIT_SHOT_EVENT_COUNT];
+    double time[CIRCUIT_SHOT_EVENT_COUNT]; /* of the last event of each kind [s] */
+    double worst_error;                    /* of the energy, over what was given by the end [1] */
+    double most;                           /* given so far [J] */
+    double worst;                          /* |energy error| x given so far [J] */
 } shot_notes;
 
-static inline bool note_event(void *user, shot *s, const shot_event *e)
+static inline bool note_event(void *user, circuit_shot *s, const circuit_shot_event *e)
 {
     shot_notes *notes = user;
     (void)s;
@@ -28,7 +28,7 @@ static inline bool note_event(void *user, shot *s, const shot_event *e)
     return true;
 }
 
-static inline bool note_sample(void *user, const shot *s, const shot_state *state)
+static inline bool note_sample(void *user, const circuit_shot *s, const circuit_shot_state *state)
 {
     shot_notes *notes = user;
     const double given = state->ledger.start + state->ledger.supplied;
@@ -39,15 +39,15 @@ static inline bool note_sample(void *user, const shot *s, const shot_state *stat
     return true;
 }
 
-static inline shot_sink notes_sink(shot_notes *notes)
+static inline circuit_shot_sink notes_sink(shot_notes *notes)
 {
     memset(notes, 0, sizeof *notes);
-    return (shot_sink){ note_event, note_sample, notes };
+    return (circuit_shot_sink){ note_event, note_sample, notes };
 }
 
-static inline shot_module unit_200kJ(int count, double fire_at)
+static inline circuit_shot_module unit_200kJ(int count, double fire_at)
 {
-    shot_module m;
+    circuit_shot_module m;
     base_params_default(circuit_supply_capacitor_params, &m);
     m.count = count;
     m.capacitance = 3.594e-3;
@@ -62,14 +62,14 @@ static inline shot_module unit_200kJ(int count, double fire_at)
 
 /* 25 x 20 x 25 mm rails of constant gradients, a 0.25 kg armature with all losses but wear, 5 m; nothing drives it yet.
  */
-static inline shot_config plain_barrel(void)
+static inline circuit_shot_config plain_barrel(void)
 {
-    shot_config c = { .n_sites = 0 };
+    circuit_shot_config c = { .n_sites = 0 };
     base_params_default(circuit_shot_rails_params, &c.rails);
     base_params_default(circuit_shot_barrel_params, &c.barrel);
     base_params_default(circuit_shot_armature_params, &c.armature);
     base_params_default(circuit_shot_options_params, &c.options);
-    c.rails.level = SHOT_RAILS_CONSTANT;
+    c.rails.level = CIRCUIT_SHOT_RAILS_CONSTANT;
     c.rails.height = 0.025;
     c.rails.thickness = 0.020;
     c.rails.separation = 0.025;
@@ -90,15 +90,15 @@ static inline shot_config plain_barrel(void)
 enum { DEFAULT_SHOT_GROUPS = 13 };
 
 /* The shot of cases/default_shot: fifteen units, three at the start, then one every 0.22 ms; its rails and armature. */
-static inline shot_config default_shot(shot_module modules[DEFAULT_SHOT_GROUPS])
+static inline circuit_shot_config default_shot(circuit_shot_module modules[DEFAULT_SHOT_GROUPS])
 {
-    shot_config c = plain_barrel();
+    circuit_shot_config c = plain_barrel();
     for (int k = 0; k < DEFAULT_SHOT_GROUPS; k++) {
         modules[k] = unit_200kJ(k == 0 ? 3 : 1, 0.22e-3 * k);
         modules[k].cable_inductance = 1e-6;
         modules[k].cable_resistance = 1e-3;
     }
-    c.supplies[SUPPLY_capacitor] = (supply_list){ DEFAULT_SHOT_GROUPS, modules };
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ DEFAULT_SHOT_GROUPS, modules };
     base_params_default(circuit_shot_rails_params, &c.rails);
     c.rails.height = c.rails.separation = 0.025;
     c.rails.thickness = 0.020;
@@ -109,9 +109,9 @@ static inline shot_config default_shot(shot_module modules[DEFAULT_SHOT_GROUPS])
 }
 
 /* Rails of no length and an armature that nothing moves: a short circuit. */
-static inline shot_config short_circuit(void)
+static inline circuit_shot_config short_circuit(void)
 {
-    shot_config c = plain_barrel();
+    circuit_shot_config c = plain_barrel();
     c.barrel.start = 0.0;
     c.armature.preload = 1e9;
     c.armature.resistance = 0.0;
@@ -121,7 +121,7 @@ static inline shot_config short_circuit(void)
 
 /* Largest distance of a shot's current from a published pulse (rows `t,i`, others are skipped) over the pulse's peak;
  * NaN: no such file, or the shot stopped. */
-static inline double pulse_misfit(shot *s, const char *path, int *rows)
+static inline double pulse_misfit(circuit_shot *s, const char *path, int *rows)
 {
     FILE *file = fopen(path, "r");
     char line[200];

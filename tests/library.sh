@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # The libraries as somebody else uses them:   tests/library.sh BUILD_FOLDER
-# Every public header compiles alone as C and as C++ and leaves no macro without a prefix; the programs of examples/ give the right
-# answers, built in the tree, by find_package(breech) and by pkg-config; C++ links.  Exit 77 = skipped.
+# Every public header compiles alone as C and as C++ and leaves no macro, type or enumerator without a prefix; the
+# programs of examples/ give the right answers, built in the tree, by find_package(breech) and by pkg-config; C++ links.
+# Exit 77 = skipped.
 set -euo pipefail
 build=$(realpath "$1") tree=$(dirname "$(dirname "$(realpath "$0")")")
 if grep -qE '^CMAKE_(C_FLAGS|C_FLAGS_DEBUG):.*fsanitize' "$build/CMakeCache.txt" ||
@@ -25,6 +26,15 @@ mv first moved
 
 # Names of macros after the text on standard input, but those that the compiler has without it.
 macros() { gcc -dM -E -Imoved/include/breech - | sed -E 's/^#define ([A-Za-z0-9_]+).*/\1/' | sort; }
+types() # the same of types and enumerators
+{
+    local object # one each: two of these run side by side
+    object=$(mktemp ./XXXXXX.o)
+    gcc -x c -g -fno-eliminate-unused-debug-types -fno-eliminate-unused-debug-symbols -c -Imoved/include/breech -o "$object" -
+    readelf --debug-dump=info "$object" | awk '
+        /Abbrev Number/ { named = /DW_TAG_(typedef|enumerator|structure_type|union_type|enumeration_type)/ }
+        named && /DW_AT_name/ { print $NF; named = 0 }' | sort -u
+}
 looked=0
 while read -r header; do
     grep -qE "^#ifndef BREECH_" "moved/include/breech/$header" || continue # a row of a table
@@ -34,6 +44,8 @@ while read -r header; do
     { gcc -M -Imoved/include/breech one.c | grep -oE 'moved/[^ ]*\.(h|def)' | xargs cat | grep -E '^#include <' || true; } | sort -u >standard
     leaked=$(comm -13 <(macros <standard) <(macros <one.c) | grep -vE '^(BASE|CIRCUIT|MPM|BREECH)_' || true)
     [ -z "$leaked" ] || fail "$header leaves macros: $leaked"
+    leaked=$(comm -13 <(types <standard) <(types <one.c) | grep -vE '^(BASE|CIRCUIT|MPM|BREECH|base|circuit|mpm)(_|$)' || true)
+    [ -z "$leaked" ] || fail "$header leaves types or enumerators: $leaked"
     looked=$((looked + 1))
 done < <(cd moved/include/breech && find . -name '*.h' -printf '%P\n' | sort)
 [ $looked -ge 15 ] || fail "only $looked headers were looked at"
@@ -81,10 +93,10 @@ int main()
     mpm_scene scene;
     mpm_scene_default(&scene);
     mpm_body *body;
-    const status s = mpm_scene_add_body(&scene, &body);
+    const base_status s = mpm_scene_add_body(&scene, &body);
     mpm_scene_free(&scene);
-    shot_config config = {};
-    return s.code == STATUS_OK && circuit_shot_check(&config).code == STATUS_BAD_INPUT ? 0 : 1;
+    circuit_shot_config config = {};
+    return s.code == BASE_STATUS_OK && circuit_shot_check(&config).code == BASE_STATUS_BAD_INPUT ? 0 : 1;
 }
 END
 # shellcheck disable=SC2046

@@ -49,9 +49,9 @@ static inline bool scene_full(void)
 
 /* ---- materials ---- */
 
-static inline material scene_copper(void) /* row ofhc_copper */
+static inline mpm_material scene_copper(void) /* row ofhc_copper */
 {
-    material m;
+    mpm_material m;
     base_params_default(mpm_material_params, &m);
     strcpy(m.name, "ofhc_copper");
     m.density = 8960, m.youngs_modulus = 124e9, m.poisson = 0.34;
@@ -64,9 +64,9 @@ static inline material scene_copper(void) /* row ofhc_copper */
     return m;
 }
 
-static inline material scene_aluminium(void) /* row w17_al7075 */
+static inline mpm_material scene_aluminium(void) /* row w17_al7075 */
 {
-    material m;
+    mpm_material m;
     base_params_default(mpm_material_params, &m);
     strcpy(m.name, "w17_al7075");
     m.density = 2810, m.youngs_modulus = 71e9, m.poisson = 0.33;
@@ -80,17 +80,17 @@ static inline material scene_aluminium(void) /* row w17_al7075 */
     return m;
 }
 
-static inline material scene_hydro(void) /* copper of NUMERICS V3, without strength */
+static inline mpm_material scene_hydro(void) /* copper of NUMERICS V3, without strength */
 {
-    material m = scene_copper();
+    mpm_material m = scene_copper();
     strcpy(m.name, "hydro");
     m.density = 8930, m.yield_A = 0, m.hardening_B = 0;
     return m;
 }
 
-static inline material scene_elastic(void)
+static inline mpm_material scene_elastic(void)
 {
-    material m = scene_copper();
+    mpm_material m = scene_copper();
     strcpy(m.name, "elastic");
     m.yield_A = 1e10, m.hardening_B = 0, m.rate_C = 0;
     return m;
@@ -100,20 +100,20 @@ static inline material scene_elastic(void)
 #define WATER_RHO0 1000.0
 #define WATER_C0 1480.0
 #define WATER_SLOPE 1.92
-static inline material scene_water(void)
+static inline mpm_material scene_water(void)
 {
-    material m;
+    mpm_material m;
     base_params_default(mpm_material_params, &m);
     strcpy(m.name, "water");
-    m.strength = STRENGTH_none;
+    m.strength = MPM_STRENGTH_none;
     m.density = WATER_RHO0, m.specific_heat = 4186, m.reference_temperature = 293;
     m.sound_speed = WATER_C0, m.hugoniot_slope = WATER_SLOPE, m.gruneisen = 0.11, m.cavitation_pressure = 0;
     return m;
 }
 
-static inline material scene_dust(void)
+static inline mpm_material scene_dust(void)
 {
-    material m = scene_hydro();
+    mpm_material m = scene_hydro();
     strcpy(m.name, "dust");
     m.sound_speed = 100, m.youngs_modulus = 1e6, m.gruneisen = 0;
     return m;
@@ -121,7 +121,7 @@ static inline material scene_dust(void)
 
 /* ---- parts of a scene ---- */
 
-static inline mpm_axis scene_axis(double lo, double hi, double h, boundary_kind at_lo, boundary_kind at_hi)
+static inline mpm_axis scene_axis(double lo, double hi, double h, mpm_boundary_kind at_lo, mpm_boundary_kind at_hi)
 {
     return (mpm_axis){ .lo = lo,
                        .hi = hi,
@@ -155,7 +155,7 @@ static inline double *scene_values(mpm_scene *s, int body)
 }
 
 /* Valid until the next body is added. */
-static inline mpm_body *scene_body(mpm_scene *s, const char *shape, const double *values, int n, const material *m)
+static inline mpm_body *scene_body(mpm_scene *s, const char *shape, const double *values, int n, const mpm_material *m)
 {
     const int solid = scene_solid(s, shape, values, n, -1, -1);
     mpm_body *b;
@@ -167,7 +167,7 @@ static inline mpm_body *scene_body(mpm_scene *s, const char *shape, const double
 }
 
 static inline mpm_body *scene_box(mpm_scene *s, double x0, double y0, double z0, double x1, double y1, double z1,
-                                  const material *m)
+                                  const mpm_material *m)
 {
     const double v[] = { x0, y0, z0, x1, y1, z1 };
     return scene_body(s, "box", v, 6, m);
@@ -201,8 +201,8 @@ static inline void scene_bar(mpm_scene *s, double x0, double x1, double h, int c
 {
     mpm_scene_free(s); /* of one that a test uses again */
     mpm_scene_default(s);
-    s->axis[0] = scene_axis(x0, x1, h, BOUNDARY_FREE, BOUNDARY_FREE);
-    s->axis[1] = scene_axis(0, cells * h, h, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    s->axis[0] = scene_axis(x0, x1, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s->axis[1] = scene_axis(0, cells * h, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY);
     s->axis[2] = s->axis[1];
 }
 
@@ -211,7 +211,7 @@ typedef struct {
     double front, length, leg, head, top, chamfer, lead, half_width;
 } scene_u;
 
-static inline mpm_body *scene_slider(mpm_scene *s, const scene_u *u, const material *m)
+static inline mpm_body *scene_slider(mpm_scene *s, const scene_u *u, const mpm_material *m)
 {
     const double nose = u->front + u->chamfer / tan(u->lead), back = nose - u->length, inner = nose - u->head;
     const double v[] = { -u->half_width,
@@ -238,7 +238,7 @@ static inline mpm_body *scene_slider(mpm_scene *s, const scene_u *u, const mater
 
 /* A small gouge: a rail, a hemispherical grain welded to it, and a slab with a lead face that runs over it. */
 typedef struct {
-    material copper, aluminium;
+    mpm_material copper, aluminium;
     mpm_scene scene;
 } gouge_scene;
 
@@ -255,11 +255,11 @@ static inline void scene_gouge(gouge_scene *g, double h, double speed)
     mpm_scene *s = &g->scene;
     mpm_scene_free(s); /* of one that a test uses again */
     mpm_scene_default(s);
-    s->axis[0] = scene_axis(-8e-3, 8e-3, h, BOUNDARY_ABSORBING, BOUNDARY_ABSORBING);
+    s->axis[0] = scene_axis(-8e-3, 8e-3, h, MPM_BOUNDARY_ABSORBING, MPM_BOUNDARY_ABSORBING);
     s->axis[0] = scene_graded(s->axis[0], -1e-3, 4e-3, 3 * h, 1.25);
-    s->axis[1] = scene_axis(-2e-3, 2.5e-3, h, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    s->axis[1] = scene_axis(-2e-3, 2.5e-3, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY);
     s->axis[1] = scene_graded(s->axis[1], -0.8e-3, 0.8e-3, 3 * h, 1.25);
-    s->axis[2] = scene_axis(0, 2.5e-3, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
+    s->axis[2] = scene_axis(0, 2.5e-3, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FREE);
     s->axis[2] = scene_graded(s->axis[2], 0, 1e-3, 3 * h, 1.25);
     scene_box(s, -8e-3, -2e-3, -1, 8e-3, 0, 1, &g->copper);
     const double grain[] = { 0, 0, 0, 0.5e-3, 0.5e-3 };

@@ -69,7 +69,7 @@ static void test_check_and_try(void **state)
 /* ---- parameters ---- */
 
 typedef struct {
-    char name[PARAM_TEXT_SIZE], note[PARAM_TEXT_SIZE];
+    char name[BASE_PARAM_TEXT_SIZE], note[BASE_PARAM_TEXT_SIZE];
     double capacitance, limit, gap;
     int count, level;
     bool muzzle;
@@ -78,7 +78,7 @@ typedef struct {
 
 static const char *const levels[] = { "constant", "skin", NULL };
 
-static const param part_params[] = {
+static const base_param part_params[] = {
     PARAM_STRING(part, name, NULL, "name of the part"),
     PARAM_STRING(part, note, "none", "a remark"),
     PARAM_DOUBLE(part, capacitance, "F", REQUIRED, 1e-12, 1e3, "capacitance of the part"),
@@ -141,12 +141,12 @@ static void test_default_text_is_cut_and_ended(void **state)
 {
     (void)state;
     static const char longer[] = "0123456789012345678901234567890123456789012345678901234567890123456789";
-    const param table[] = { PARAM_STRING(part, name, longer, "too long"), PARAMS_END };
+    const base_param table[] = { PARAM_STRING(part, name, longer, "too long"), PARAMS_END };
     part p;
     memset(&p, 0x5a, sizeof p);
     base_params_default(table, &p);
-    assert_int_equal(strlen(p.name), PARAM_TEXT_SIZE - 1);
-    assert_memory_equal(p.name, longer, PARAM_TEXT_SIZE - 1);
+    assert_int_equal(strlen(p.name), BASE_PARAM_TEXT_SIZE - 1);
+    assert_memory_equal(p.name, longer, BASE_PARAM_TEXT_SIZE - 1);
     assert_int_equal(p.note[0], 0x5a); /* the neighbour is untouched */
 }
 

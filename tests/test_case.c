@@ -62,9 +62,9 @@ static char *errors_of(const char *text, const char *const *sets, int n, unsigne
     return errors;
 }
 
-static const shot_module *bank_of(const breech_case *c)
+static const circuit_shot_module *bank_of(const breech_case *c)
 {
-    return c->supplies[SUPPLY_capacitor].item;
+    return c->supplies[CIRCUIT_SUPPLY_capacitor].item;
 }
 
 static void has_line(const char *errors, const char *line)
@@ -90,13 +90,13 @@ static void values_are_si(void **state)
     (void)state;
     breech_case *c = small_case(NULL, 0);
     assert_string_equal(c->name, "small");
-    assert_int_equal(c->supplies[SUPPLY_capacitor].n, 2);
+    assert_int_equal(c->supplies[CIRCUIT_SUPPLY_capacitor].n, 2);
     assert_int_equal(bank_of(c)[0].count, 4);
     assert_true(bank_of(c)[0].capacitance == 3.594e-3);
     assert_true(bank_of(c)[0].inductance == 12.56e-6);
     assert_true(bank_of(c)[1].fire_at == 0.4e-3);
     assert_true(c->rails.initial_temperature == 293.15);
-    assert_int_equal(c->rails.level, SHOT_RAILS_CONSTANT);
+    assert_int_equal(c->rails.level, CIRCUIT_SHOT_RAILS_CONSTANT);
     assert_true(c->armature.friction_melted == 0.05);
     assert_true(c->options.rtol == 1e-7);
     assert_int_equal(c->rail.layers.n, 1);
@@ -133,7 +133,7 @@ static void materials_are_loaded(void **state)
     (void)state;
     breech_case *c = small_case(NULL, 0);
     assert_int_equal(c->materials.n, 2);
-    const material *copper = case_material(&c->materials, "ofhc_copper");
+    const mpm_material *copper = case_material(&c->materials, "ofhc_copper");
     assert_non_null(copper);
     assert_true(copper->density == 8960.0 && copper->yield_A == 90e6);
     assert_true(isnan(copper->spall_strength)); /* a blank constant stays unknown */
@@ -151,7 +151,7 @@ static void missing_sections_hold_defaults(void **state)
     const case_options o = options_for(0);
     assert_int_equal(case_read_memory(&(case_text){ text, strlen(text), "case.yaml", NULL, 0 }, &o, &c, &errors).code,
                      STATUS_OK);
-    assert_int_equal(c->supplies[SUPPLY_capacitor].n, 0);
+    assert_int_equal(c->supplies[CIRCUIT_SUPPLY_capacitor].n, 0);
     assert_true(c->scene.courant == 0.4);
     assert_true(isnan(c->rails.height));
     assert_false(c->given.scene);
@@ -406,7 +406,7 @@ static void a_base_is_changed(void **state)
     assert_true(c->sites.item[0].position == 3.0 && c->sites.item[0].radius == 0.5e-3);
     assert_true(isnan(c->particle.bond_strength));
     assert_true(bank_of(c)->charge == 10e3);
-    assert_int_equal(((const supply_profile *)c->supplies[SUPPLY_profile].item)->points.n, 3);
+    assert_int_equal(((const circuit_supply_profile *)c->supplies[CIRCUIT_SUPPLY_profile].item)->points.n, 3);
     case_free(c);
 }
 
@@ -470,8 +470,8 @@ static void lists_of_values_are_groups(void **state)
                            " fire_at: [0 ms, 0.5 ms, never]}, {capacitance: 1 mF, charge: 9 kV, inductance: 1 uH}]",
                            "bank[1].charge=8 kV" };
     breech_case *c = small_case(sets, 2);
-    const shot_module *m = bank_of(c);
-    assert_int_equal(c->supplies[SUPPLY_capacitor].n, 4);
+    const circuit_shot_module *m = bank_of(c);
+    assert_int_equal(c->supplies[CIRCUIT_SUPPLY_capacitor].n, 4);
     for (int k = 0; k < 3; k++) assert_true(m[k].capacitance == 3e-3 && m[k].count == (k == 0 ? 3 : 1));
     assert_true(m[0].fire_at == 0.0 && m[1].fire_at == 0.5e-3 && isinf(m[2].fire_at));
     assert_true(m[3].charge == 8e3 && m[3].fire_at == 0.0); /* --set counts the entries of the file */
@@ -517,8 +517,8 @@ static void what_follows_is_not_asked_for(void **state)
 {
     (void)state;
     breech_case *c = read_text(BOTH "}\n");
-    const material *steel = case_material(&c->materials, "steel_4340");
-    const material *alloy = case_material(&c->materials, "al6061_t6");
+    const mpm_material *steel = case_material(&c->materials, "steel_4340");
+    const mpm_material *alloy = case_material(&c->materials, "al6061_t6");
     assert_true(c->projectile.half_bore == 0.009 && c->projectile.width == 0.02);
     assert_true(fabs(c->armature.contact_length - 0.018) < 1e-15); /* 20 mm less a face of 2 mm at 45 deg */
     assert_true(c->armature.contact_width == 0.02);
@@ -556,12 +556,12 @@ static void halves_of_a_section(void **state)
 /* Every member of every table, by the tables: equal bits, NAN equal to NAN. */
 static void same_objects(const case_section *section, const void *a, const void *b)
 {
-    for (const param *p = section->table; p->key; p++) {
+    for (const base_param *p = section->table; p->key; p++) {
         const char *x = (const char *)a + p->offset, *y = (const char *)b + p->offset;
-        if (p->kind == PARAM_TEXT) assert_string_equal(x, y);
-        if (p->kind == PARAM_INTEGER || p->kind == PARAM_CHOICE) assert_memory_equal(x, y, sizeof(int));
-        if (p->kind == PARAM_FLAG) assert_memory_equal(x, y, sizeof(bool));
-        if (p->kind != PARAM_NUMBER) continue;
+        if (p->kind == BASE_PARAM_TEXT) assert_string_equal(x, y);
+        if (p->kind == BASE_PARAM_INTEGER || p->kind == BASE_PARAM_CHOICE) assert_memory_equal(x, y, sizeof(int));
+        if (p->kind == BASE_PARAM_FLAG) assert_memory_equal(x, y, sizeof(bool));
+        if (p->kind != BASE_PARAM_NUMBER) continue;
         const double u = *(const double *)(const void *)x, v = *(const double *)(const void *)y;
         if (!(u == v || (isnan(u) && isnan(v)))) print_error("%s.%s: %.17g, %.17g\n", section->key, p->key, u, v);
         assert_true(u == v || (isnan(u) && isnan(v)));
@@ -692,25 +692,25 @@ static void manual_is_up_to_date(void **state)
 
 /* ---- laws over every table of the schema ---- */
 
-static void check_param(const case_section *section, const param *p)
+static void check_param(const case_section *section, const base_param *p)
 {
-    const bool number = p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR || p->kind == PARAM_INTEGER;
+    const bool number = p->kind == BASE_PARAM_NUMBER || p->kind == BASE_PARAM_VECTOR || p->kind == BASE_PARAM_INTEGER;
     assert_true(strlen(p->doc) > 0 && !strchr(p->doc, '\n'));
     if (number && !isnan(p->fallback) && !isinf(p->fallback))
         assert_true(p->fallback >= p->min && p->fallback <= p->max);
-    if (p->kind == PARAM_INTEGER || p->kind == PARAM_CHOICE) assert_true(isfinite(p->fallback));
-    for (const param *q = p + 1; q->key; q++)
+    if (p->kind == BASE_PARAM_INTEGER || p->kind == BASE_PARAM_CHOICE) assert_true(isfinite(p->fallback));
+    for (const base_param *q = p + 1; q->key; q++)
         if (strcmp(p->key, q->key) == 0) fail_msg("%s.%s stands twice in its table", section->key, p->key);
 }
 
 /* Defaults lie in range, keys are unique, and every unit is one that udunits2 knows. */
 static void check_section(const units *u, const case_section *section)
 {
-    for (const param *p = section->table; p->key; p++) {
+    for (const base_param *p = section->table; p->key; p++) {
         char text[100], user_unit[UNIT_SIZE];
         double value;
         check_param(section, p);
-        if (p->kind != PARAM_NUMBER && p->kind != PARAM_VECTOR) continue;
+        if (p->kind != BASE_PARAM_NUMBER && p->kind != BASE_PARAM_VECTOR) continue;
         snprintf(text, sizeof text, "2 %s", strcmp(p->unit, "1") == 0 ? "" : p->unit);
         assert_int_equal(host_quantity_read(u, text, p->unit, &value, user_unit).code, STATUS_OK);
         assert_true(value == 2.0);
@@ -718,8 +718,8 @@ static void check_section(const units *u, const case_section *section)
     for (const case_section *s = section->children; s && s->key; s++)
         for (const case_section *part = s; part; part = part->also) check_section(u, part);
     for (const case_section *part = section->also; part; part = part->also) /* one section of the file: no key twice */
-        for (const param *p = section->table; p->key; p++)
-            for (const param *q = part->table; q->key; q++) assert_string_not_equal(p->key, q->key);
+        for (const base_param *p = section->table; p->key; p++)
+            for (const base_param *q = part->table; q->key; q++) assert_string_not_equal(p->key, q->key);
 }
 
 static void tables_are_sound(void **state)

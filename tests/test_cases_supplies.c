@@ -35,24 +35,24 @@ static const char *const names[] = { "inductive_store", "homopolar", "alternator
 static void cases_run(void **state)
 {
     (void)state;
-    bool kinds[SUPPLY_KINDS] = { false };
+    bool kinds[CIRCUIT_SUPPLY_KINDS] = { false };
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         breech_case *c = case_of(names[k]);
-        const shot_config config = case_inputs_of(c).onset.launcher;
+        const circuit_shot_config config = case_inputs_of(c).onset.launcher;
         shot_notes notes;
-        shot *s = NULL;
-        const shot_sink sink = notes_sink(&notes);
+        circuit_shot *s = NULL;
+        const circuit_shot_sink sink = notes_sink(&notes);
         assert_int_equal(circuit_shot_create(&config, &s).code, STATUS_OK);
         assert_int_equal(circuit_shot_advance(s, INFINITY, &sink).code, STATUS_OK);
         print_message("%-16s %.0f m/s, energy error %.1e\n", names[k], circuit_shot_result(s).muzzle_velocity,
                       notes.worst_error);
-        assert_int_equal(notes.count[SHOT_MUZZLE], 1);
+        assert_int_equal(notes.count[CIRCUIT_SHOT_MUZZLE], 1);
         assert_true(notes.worst_error < 1e-6); /* ARCHITECTURE's bound at the default tolerances */
-        for (int i = 0; i < SUPPLY_KINDS; i++) kinds[i] = kinds[i] || config.supplies[i].n > 0;
+        for (int i = 0; i < CIRCUIT_SUPPLY_KINDS; i++) kinds[i] = kinds[i] || config.supplies[i].n > 0;
         circuit_shot_free(s);
         case_free(c);
     }
-    for (int i = 0; i < SUPPLY_KINDS; i++) assert_true(kinds[i]); /* a case a kind */
+    for (int i = 0; i < CIRCUIT_SUPPLY_KINDS; i++) assert_true(kinds[i]); /* a case a kind */
 }
 
 /* ---- the report's table ---- */
@@ -62,7 +62,7 @@ typedef struct {
     int series;
 } recorder;
 
-static bool record(void *user, const shot *s, const shot_state *state)
+static bool record(void *user, const circuit_shot *s, const circuit_shot_state *state)
 {
     (void)s;
     const recorder *r = user;
@@ -105,16 +105,17 @@ static void table_closes(const char *name)
 {
     static const char folder[] = "table", summary[] = "{\"kind\": \"shot\", \"status\": \"done\", \"case\": \"a\"}";
     recorder r;
-    shot *s = NULL;
+    circuit_shot *s = NULL;
     char *page = NULL;
     double sum[2], brought, stated[2];
     breech_case *c = case_of(name);
-    const shot_config config = case_inputs_of(c).onset.launcher;
+    const circuit_shot_config config = case_inputs_of(c).onset.launcher;
     assert_int_equal(system("rm -rf table && mkdir table"), 0);
     assert_int_equal(output_history_open("table/history.h5", false, &r.h).code, STATUS_OK);
     assert_int_equal(output_history_shot(r.h, &r.series).code, STATUS_OK);
     assert_int_equal(circuit_shot_create(&config, &s).code, STATUS_OK);
-    assert_int_equal(circuit_shot_advance(s, INFINITY, &(shot_sink){ .sample = record, .user = &r }).code, STATUS_OK);
+    assert_int_equal(circuit_shot_advance(s, INFINITY, &(circuit_shot_sink){ .sample = record, .user = &r }).code,
+                     STATUS_OK);
     assert_int_equal(output_history_close(r.h).code, STATUS_OK);
     assert_int_equal(host_file_write("table/summary.json", summary, sizeof summary - 1).code, STATUS_OK);
     assert_int_equal(report_write(folder, study_report_kind).code, STATUS_OK);
@@ -142,8 +143,8 @@ static void published_pulse(void **state)
 {
     (void)state;
     breech_case *c = case_of("pulse_unit_200kJ");
-    const shot_config config = case_inputs_of(c).onset.launcher;
-    shot *s = NULL;
+    const circuit_shot_config config = case_inputs_of(c).onset.launcher;
+    circuit_shot *s = NULL;
     assert_int_equal(circuit_shot_create(&config, &s).code, STATUS_OK);
     int rows;
     const double misfit = pulse_misfit(s, CASES "pulse_unit_200kJ/pulse_unit_200kJ.csv", &rows);
@@ -177,10 +178,10 @@ static void bad_tables(void **state)
         const case_text in = { text, sizeof text - 1, "t.yaml", NULL, 0 };
         char *errors = NULL;
         breech_case *c = NULL;
-        shot *s = NULL;
+        circuit_shot *s = NULL;
         const status read = case_read_memory(&in, &(case_options){ .needs = CASE_FOR_SHOT }, &c, &errors);
         if (read.code == STATUS_OK) {
-            const shot_config config = case_inputs_of(c).onset.launcher;
+            const circuit_shot_config config = case_inputs_of(c).onset.launcher;
             const status made = circuit_shot_create(&config, &s);
             assert_int_equal(made.code, STATUS_BAD_INPUT);
             assert_non_null(strstr(made.text, tables[k][1]));

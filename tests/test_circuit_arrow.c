@@ -101,10 +101,10 @@ static void singular_is_said(void **state)
 
 /* A shot half way down a barrel with three feeds, a shunt, diffusing rails, wear and two kinds of supply; on a film of
  * melt, its current crowded, where asked. */
-static shot *busy_shot(bool film)
+static circuit_shot *busy_shot(bool film)
 {
-    shot_module m[4] = { unit_200kJ(9, 0.0), unit_200kJ(2, 2e-4), unit_200kJ(2, 0.0), unit_200kJ(1, NAN) };
-    supply_homopolar h;
+    circuit_shot_module m[4] = { unit_200kJ(9, 0.0), unit_200kJ(2, 2e-4), unit_200kJ(2, 0.0), unit_200kJ(1, NAN) };
+    circuit_supply_homopolar h;
     base_params_default(circuit_supply_homopolar_params, &h);
     h.flux = 0.2;
     h.inertia = 50.0;
@@ -115,15 +115,15 @@ static shot *busy_shot(bool film)
     m[1].cable_inductance = 1e-6;
     m[1].position = 0.3;
     m[2].position = 0.6;
-    shot_config c = plain_barrel();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ 4, m };
-    c.supplies[SUPPLY_homopolar] = (supply_list){ 1, &h };
-    c.rails.level = SHOT_RAILS_DIFFUSING;
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 4, m };
+    c.supplies[CIRCUIT_SUPPLY_homopolar] = (circuit_supply_list){ 1, &h };
+    c.rails.level = CIRCUIT_SHOT_RAILS_DIFFUSING;
     c.barrel.shunt_resistance = 1e-3;
     c.armature.wear_fraction = 0.05;
-    c.armature.friction_law = film ? SHOT_FRICTION_FILM : SHOT_FRICTION_SPEED;
+    c.armature.friction_law = film ? CIRCUIT_SHOT_FRICTION_FILM : CIRCUIT_SHOT_FRICTION_SPEED;
     c.armature.velocity_skin = film;
-    shot *s = NULL;
+    circuit_shot *s = NULL;
     assert_ok(circuit_shot_create(&c, &s));
     for (double t = 1e-4; circuit_shot_now(s).x < 1.0; t += 1e-4) assert_ok(circuit_shot_advance(s, t, NULL));
     assert_int_equal(s->model.reached, 3);
@@ -132,7 +132,7 @@ static shot *busy_shot(bool film)
 
 /* Differences of the whole residual in one unknown, central, against the column: both are differences of functions that
  * are smooth over the step, good to 1e-5 of the column's largest entry in the units of each row. */
-static void check_jacobian(shot *s)
+static void check_jacobian(circuit_shot *s)
 {
     const shot_model *m = &s->model;
     const int n = circuit_shot_unknowns(m);
@@ -172,7 +172,7 @@ static void jacobian_is_the_residuals(void **state)
 {
     (void)state;
     check_jacobian(busy_shot(false));
-    shot *s = busy_shot(true);
+    circuit_shot *s = busy_shot(true);
     assert_true(s->model.melted);
     check_jacobian(s);
 }

@@ -25,9 +25,9 @@ static void assert_near(double got, double want, double tolerance)
     if (!(fabs(got - want) <= tolerance)) fail_msg("%.9g instead of %.9g (+- %.2g)", got, want, tolerance);
 }
 
-static void assert_refused(const shot_config *c, const char *key)
+static void assert_refused(const circuit_shot_config *c, const char *key)
 {
-    shot *s = NULL;
+    circuit_shot *s = NULL;
     const status st = circuit_shot_create(c, &s);
     assert_int_equal(st.code, STATUS_BAD_INPUT);
     if (!strstr(st.text, key)) fail_msg("%s does not name %s", st.text, key);
@@ -79,7 +79,7 @@ static void spread_by_speed_and_current(void **state)
 {
     (void)state;
     const double area = 0.0165 * 0.025, rho = 1.72e-8, v = 1000.0, I = 9e5;
-    sliding_contact c = { .length = 0.0165, .interface = 15.0 * area, .resistivity = rho };
+    circuit_sliding_contact c = { .length = 0.0165, .interface = 15.0 * area, .resistivity = rho };
     const double r = c.interface / I, d = cbrt(r * r / (4e-7 * 3.14159265358979 * rho * v));
     assert_near(d, 0.01298, 1e-5); /* by hand: r 6.875e-9 ohm m^2 */
     assert_near(circuit_contact_spread(&c, v, I), 0.0165 * circuit_contact_evenness(0.0165 / d), 1e-9);
@@ -165,56 +165,56 @@ static void film_bears_and_shears(void **state)
 /* ---- in a shot ---- */
 
 typedef struct {
-    shot_state melted, last;
+    circuit_shot_state melted, last;
     double dry, least_spread;
 } contact_notes;
 
-static bool note_melting(void *user, shot *s, const shot_event *e)
+static bool note_melting(void *user, circuit_shot *s, const circuit_shot_event *e)
 {
     contact_notes *n = user;
     note_event(&notes, s, e);
-    if (e->kind == SHOT_MELTED) n->melted = e->state;
+    if (e->kind == CIRCUIT_SHOT_MELTED) n->melted = e->state;
     return true;
 }
 
-static bool note_contact(void *user, const shot *s, const shot_state *st)
+static bool note_contact(void *user, const circuit_shot *s, const circuit_shot_state *st)
 {
     contact_notes *n = user;
     note_sample(&notes, s, st);
-    if (st->phase == SHOT_MOVING && notes.count[SHOT_MELTED] == 0) n->dry = st->friction_coefficient;
-    if (st->phase == SHOT_MOVING) n->last = *st;
+    if (st->phase == CIRCUIT_SHOT_MOVING && notes.count[CIRCUIT_SHOT_MELTED] == 0) n->dry = st->friction_coefficient;
+    if (st->phase == CIRCUIT_SHOT_MOVING) n->last = *st;
     n->least_spread = fmin(n->least_spread, st->contact_spread);
     return true;
 }
 
-static shot_module bank; /* of the shots below */
+static circuit_shot_module bank; /* of the shots below */
 
-static shot_config launcher(void)
+static circuit_shot_config launcher(void)
 {
-    shot_config c = plain_barrel();
+    circuit_shot_config c = plain_barrel();
     bank = unit_200kJ(10, 0.0);
-    c.supplies[SUPPLY_capacitor] = (supply_list){ 1, &bank };
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, &bank };
     c.barrel.length = 2.0;
     c.armature.wear_fraction = 0.01;
     c.armature.wear_thickness = 1e-3;
     return c;
 }
 
-static shot *watched(const shot_config *c, contact_notes *n)
+static circuit_shot *watched(const circuit_shot_config *c, contact_notes *n)
 {
-    shot *s = NULL;
+    circuit_shot *s = NULL;
     (void)notes_sink(&notes);
     *n = (contact_notes){ .least_spread = INFINITY };
-    const shot_sink sink = { note_melting, note_contact, n };
+    const circuit_shot_sink sink = { note_melting, note_contact, n };
     assert_ok(circuit_shot_create(c, &s));
     assert_ok(circuit_shot_advance(s, INFINITY, &sink));
-    assert_int_equal(notes.count[SHOT_MUZZLE], 1);
+    assert_int_equal(notes.count[CIRCUIT_SHOT_MUZZLE], 1);
     assert_true(notes.worst_error < 1e-6);
     return s;
 }
 
 /* (C-7) by hand, from the state just after the face melted: what friction was before, and both heats so far. */
-static double rise_at_melting(const shot_armature *a, const shot_state *e, double area)
+static double rise_at_melting(const circuit_shot_armature *a, const circuit_shot_state *e, double area)
 {
     const double pi = 3.14159265358979, crowding = a->contact_length / e->contact_spread;
     const double q =
@@ -229,13 +229,13 @@ static void melting_changes_friction(void **state)
 {
     (void)state;
     contact_notes n;
-    shot_config c = launcher();
+    circuit_shot_config c = launcher();
     c.armature.contact_voltage = 1.0;
-    shot *by_speed = watched(&c, &n);
-    assert_int_equal(notes.count[SHOT_MELTED], 0);
-    c.armature.friction_law = SHOT_FRICTION_FILM;
-    shot *s = watched(&c, &n);
-    const shot_armature *a = &c.armature;
+    circuit_shot *by_speed = watched(&c, &n);
+    assert_int_equal(notes.count[CIRCUIT_SHOT_MELTED], 0);
+    c.armature.friction_law = CIRCUIT_SHOT_FRICTION_FILM;
+    circuit_shot *s = watched(&c, &n);
+    const circuit_shot_armature *a = &c.armature;
     const double area = a->contact_length * c.rails.height;
     const melt_film f = {
         .viscosity = a->film_viscosity,
@@ -244,13 +244,13 @@ static void melting_changes_friction(void **state)
         .length = a->contact_length,
         .share = a->wear_fraction
     };
-    const shot_state *e = &n.last;
+    const circuit_shot_state *e = &n.last;
     const double P = e->contact_force / area;
     const melt_flow m = circuit_melt_film_at(&f, e->v, P, a->contact_voltage * e->current / (2.0 * area));
     print_message("melts at x = %.4f m, %.0f m/s; at the muzzle mu %.4f, film %.2f um; %.1f m/s, by speed alone %.1f\n",
                   n.melted.x, n.melted.v, e->friction_coefficient, 1e6 * e->film_thickness,
                   circuit_shot_result(s).muzzle_velocity, circuit_shot_result(by_speed).muzzle_velocity);
-    assert_int_equal(notes.count[SHOT_MELTED], 1);
+    assert_int_equal(notes.count[CIRCUIT_SHOT_MELTED], 1);
     assert_near(n.dry, a->friction_dry, 0.0);
     assert_near(n.melted.mass, a->mass, 0.0); /* nothing has worn off yet */
     assert_near(n.melted.x, circuit_shot_limits_of(s).melt_position, 0.0);
@@ -279,16 +279,16 @@ static void current_crowds_in_a_shot(void **state)
 {
     (void)state;
     contact_notes n;
-    shot_config c = launcher();
-    c.rails.level = SHOT_RAILS_DIFFUSING;
-    ladder l;
+    circuit_shot_config c = launcher();
+    c.rails.level = CIRCUIT_SHOT_RAILS_DIFFUSING;
+    circuit_ladder l;
     assert_ok(circuit_rails_ladder(&c.rails, 5e4, &l));
     c.fitted = &l;
-    shot *even = watched(&c, &n);
+    circuit_shot *even = watched(&c, &n);
     assert_near(n.least_spread, c.armature.contact_length, 0.0);
     const double before = circuit_shot_result(even).muzzle_velocity;
     c.armature.velocity_skin = true;
-    shot *s = watched(&c, &n);
+    circuit_shot *s = watched(&c, &n);
     const double v = circuit_shot_result(s).muzzle_velocity, worn = circuit_shot_limits_of(s).wear_share;
     print_message(
         "%.2f m/s instead of %.2f; the current enters over %.1f mm and more; wear %.3f instead of %.3f of the leg\n", v,
@@ -302,7 +302,7 @@ static void current_crowds_in_a_shot(void **state)
     c.armature.velocity_skin = false;
     c.armature.contact_length = n.least_spread;
     c.armature.contact_width = 0.025;
-    shot *shorter = watched(&c, &n);
+    circuit_shot *shorter = watched(&c, &n);
     assert_true(circuit_shot_result(shorter).muzzle_velocity < v && v < before);
     circuit_shot_free(shorter);
     c.armature.velocity_skin = true;
@@ -315,11 +315,11 @@ static void wear_by_trapezes(void **state)
 {
     (void)state;
     contact_notes n;
-    shot_config c = launcher();
-    shot *by_mass = watched(&c, &n);
+    circuit_shot_config c = launcher();
+    circuit_shot *by_mass = watched(&c, &n);
     c.armature.velocity_skin = true;
     c.rails.resistivity = 1e-10; /* d is long: even */
-    shot *s = watched(&c, &n);
+    circuit_shot *s = watched(&c, &n);
     assert_true(n.least_spread > 0.9 * c.armature.contact_length);
     assert_near(circuit_shot_limits_of(s).wear_share / circuit_shot_limits_of(by_mass).wear_share,
                 c.armature.contact_length / n.least_spread, 0.05);

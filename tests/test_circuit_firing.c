@@ -18,34 +18,34 @@ static void assert_ok(status st)
     if (st.code != STATUS_OK) fail_msg("%s", st.text);
 }
 
-static shot_config three_groups(shot_module *m)
+static circuit_shot_config three_groups(circuit_shot_module *m)
 {
     for (int k = 0; k < GROUPS; k++) {
         m[k] = unit_200kJ(3, 3e-4 * k);
         m[k].cable_inductance = 1e-6;
     }
-    shot_config c = plain_barrel();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ GROUPS, m };
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ GROUPS, m };
     c.barrel.length = 2.0;
     return c;
 }
 
-static firing_wish wish_of(firing_goal goal)
+static circuit_firing_wish wish_of(circuit_firing_goal goal)
 {
-    firing_wish w;
+    circuit_firing_wish w;
     base_params_default(circuit_firing_wish_params, &w);
     w.goal = goal;
     w.evaluations = 60;
     return w;
 }
 
-static shot_summary shoot(shot_config c, const shot_module *m)
+static circuit_shot_summary shoot(circuit_shot_config c, const circuit_shot_module *m)
 {
-    shot *s = NULL;
-    c.supplies[SUPPLY_capacitor].item = m;
+    circuit_shot *s = NULL;
+    c.supplies[CIRCUIT_SUPPLY_capacitor].item = m;
     assert_ok(circuit_shot_create(&c, &s));
     assert_ok(circuit_shot_advance(s, INFINITY, NULL));
-    const shot_summary r = circuit_shot_result(s);
+    const circuit_shot_summary r = circuit_shot_result(s);
     circuit_shot_free(s);
     return r;
 }
@@ -53,13 +53,13 @@ static shot_summary shoot(shot_config c, const shot_module *m)
 static void flat_below_a_peak(void **state)
 {
     (void)state;
-    shot_module m[GROUPS], found[GROUPS];
-    firing_result r;
-    const shot_config c = three_groups(m);
-    firing_wish w = wish_of(FIRING_FLAT);
+    circuit_shot_module m[GROUPS], found[GROUPS];
+    circuit_firing_result r;
+    const circuit_shot_config c = three_groups(m);
+    circuit_firing_wish w = wish_of(CIRCUIT_FIRING_FLAT);
     w.peak_current = 500e3;
     assert_ok(circuit_firing_optimise(&c, &w, NULL, found, &r));
-    const shot_summary got = shoot(c, found);
+    const circuit_shot_summary got = shoot(c, found);
     print_message("unevenness %.4f -> %.4f, peak %.1f kA, %d trials\n", r.before, r.after, 1e-3 * got.peak_current,
                   r.evaluations);
     assert_true(r.after < 0.5 * r.before);
@@ -70,14 +70,14 @@ static void flat_below_a_peak(void **state)
 static void velocity_at_least_energy(void **state)
 {
     (void)state;
-    shot_module m[GROUPS], found[GROUPS];
-    firing_result r;
-    const shot_config c = three_groups(m);
-    firing_wish w = wish_of(FIRING_VELOCITY);
+    circuit_shot_module m[GROUPS], found[GROUPS];
+    circuit_firing_result r;
+    const circuit_shot_config c = three_groups(m);
+    circuit_firing_wish w = wish_of(CIRCUIT_FIRING_VELOCITY);
     w.muzzle_velocity = 900.0;
     w.evaluations = 30;
     assert_ok(circuit_firing_optimise(&c, &w, NULL, found, &r));
-    const shot_summary got = shoot(c, found);
+    const circuit_shot_summary got = shoot(c, found);
     print_message("%.1f -> %.1f kJ, %.3f m/s, %d trials, %d shots\n", 1e-3 * r.before, 1e-3 * r.after,
                   got.muzzle_velocity, r.evaluations, r.shots);
     assert_true(fabs(got.muzzle_velocity / 900.0 - 1.0) < 2e-5); /* the search's own closeness and its shots' rtol */
@@ -88,11 +88,11 @@ static void velocity_at_least_energy(void **state)
 static void charge_of_one_group(void **state)
 {
     (void)state;
-    shot_module m[GROUPS], found[GROUPS];
-    firing_result r;
-    shot_config c = three_groups(m);
-    c.supplies[SUPPLY_capacitor].n = 1;
-    firing_wish w = wish_of(FIRING_VELOCITY);
+    circuit_shot_module m[GROUPS], found[GROUPS];
+    circuit_firing_result r;
+    circuit_shot_config c = three_groups(m);
+    c.supplies[CIRCUIT_SUPPLY_capacitor].n = 1;
+    circuit_firing_wish w = wish_of(CIRCUIT_FIRING_VELOCITY);
     w.muzzle_velocity = 500.0;
     double charge[2];
     for (int k = 0; k < 2; k++) {
@@ -105,9 +105,9 @@ static void charge_of_one_group(void **state)
     }
     print_message("500 m/s: %.2f V, from twice the charge %.2f V\n", charge[0], charge[1]);
     assert_true(fabs(charge[1] / charge[0] - 1.0) < 2e-5);
-    w.goal = FIRING_FLAT, w.peak_current = 5e5;
+    w.goal = CIRCUIT_FIRING_FLAT, w.peak_current = 5e5;
     assert_int_equal(circuit_firing_optimise(&c, &w, NULL, found, &r).code, STATUS_BAD_INPUT);
-    m[0].charge = 0.0, w.goal = FIRING_VELOCITY;
+    m[0].charge = 0.0, w.goal = CIRCUIT_FIRING_VELOCITY;
     assert_int_equal(circuit_firing_optimise(&c, &w, NULL, found, &r).code, STATUS_BAD_INPUT);
 }
 
@@ -119,17 +119,17 @@ static bool at_once(void)
 static void refusals(void **state)
 {
     (void)state;
-    shot_module m[GROUPS], found[GROUPS];
-    firing_result r;
-    shot_config c = three_groups(m);
-    firing_wish w = wish_of(FIRING_FLAT);
+    circuit_shot_module m[GROUPS], found[GROUPS];
+    circuit_firing_result r;
+    circuit_shot_config c = three_groups(m);
+    circuit_firing_wish w = wish_of(CIRCUIT_FIRING_FLAT);
     assert_int_equal(circuit_firing_optimise(&c, &w, NULL, found, &r).code, STATUS_BAD_INPUT); /* no peak */
     w.peak_current = 5e5;
     assert_int_equal(circuit_firing_optimise(&c, &w, at_once, found, &r).code, STATUS_STOPPED);
-    w = wish_of(FIRING_VELOCITY);
+    w = wish_of(CIRCUIT_FIRING_VELOCITY);
     w.muzzle_velocity = 5e4;
     assert_int_equal(circuit_firing_optimise(&c, &w, NULL, found, &r).code, STATUS_NUMERICAL);
-    c.supplies[SUPPLY_capacitor].n = 1;
+    c.supplies[CIRCUIT_SUPPLY_capacitor].n = 1;
     assert_int_equal(circuit_firing_optimise(&c, &w, NULL, found, &r).code, STATUS_NUMERICAL);
 }
 

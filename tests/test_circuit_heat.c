@@ -22,17 +22,19 @@ static void assert_near(double got, double want, double tolerance)
 }
 
 /* Two rungs, of 10 us and 1 ms. */
-static rails_load two_rungs(void)
+static circuit_rails_load two_rungs(void)
 {
-    return (rails_load){ .ladder = { .n = 2, .R_dc = 1e-4, .L_inf = 4e-7, .L = { 1e-7, 5e-8 }, .R = { 1e-4, 5e-3 } },
-                         .contact = { .length = 0.02, .resistivity = 1.7e-8 } };
+    return (circuit_rails_load){
+        .ladder = { .n = 2, .R_dc = 1e-4, .L_inf = 4e-7, .L = { 1e-7, 5e-8 }, .R = { 1e-4, 5e-3 } },
+        .contact = { .length = 0.02, .resistivity = 1.7e-8 }
+    };
 }
 
 /* ---- one piece ---- */
 
 /* A current that goes linearly, over a rail that is exposed all the time: j' = (I - j)/tau by many small steps of order
  * 4. */
-static double heat_by_steps(const rails_load *r, double warm, double T, double I0, double I1)
+static double heat_by_steps(const circuit_rails_load *r, double warm, double T, double I0, double I1)
 {
     enum { STEPS = 20000 };
     const double h = T / STEPS, slope = (I1 - I0) / T;
@@ -55,8 +57,8 @@ static double heat_by_steps(const rails_load *r, double warm, double T, double I
 static void steady_and_changing_current(void **state)
 {
     static const double currents[][2] = { { 1e5, 1e5 }, { 0.0, 3e5 }, { 2e5, -1e5 } };
-    static rails_heat h;
-    const rails_load r = two_rungs();
+    static circuit_rails_heat h;
+    const circuit_rails_load r = two_rungs();
     (void)state;
     for (size_t k = 0; k < sizeof currents / sizeof *currents; k++)
         for (double warm = 1.0; warm < 2.0; warm += 0.4) {
@@ -65,27 +67,27 @@ static void steady_and_changing_current(void **state)
             circuit_rails_heat_start(&h, 1.0);
             for (int j = 0; j < 8; j++) { /* in unequal parts: the memory goes on */
                 const double t0 = T * j * j / 64.0, t1 = T * (j + 1) * (j + 1) / 64.0;
-                const rails_instant a = { t0, 1.0, 0.0, I0 + (I1 - I0) * t0 / T },
-                                    b = { t1, 1.0, 0.0, I0 + (I1 - I0) * t1 / T };
+                const circuit_rails_instant a = { t0, 1.0, 0.0, I0 + (I1 - I0) * t0 / T },
+                                            b = { t1, 1.0, 0.0, I0 + (I1 - I0) * t1 / T };
                 circuit_rails_heat_carry(&h, &r, warm, 0.0, 1.0, &a, &b);
             }
             assert_near(h.heat[0], want, 1e-7 * want);
-            assert_near(h.heat[RAILS_PIECES - 1], want, 1e-7 * want);
+            assert_near(h.heat[CIRCUIT_RAILS_PIECES - 1], want, 1e-7 * want);
         }
 }
 
 /* Exposed on the way: nothing before, what exposing costs, then the rest of the step. */
 static void exposed_on_the_way(void **state)
 {
-    static rails_heat h;
-    const rails_load r = two_rungs();
+    static circuit_rails_heat h;
+    const circuit_rails_load r = two_rungs();
     const double v = 1500.0, I = 3e5, T = 4e-4, length = 1.0;
     (void)state;
     circuit_rails_heat_start(&h, length);
-    const rails_instant a = { 0.0, 0.0, v, I }, b = { T, v * T, v, I };
+    const circuit_rails_instant a = { 0.0, 0.0, v, I }, b = { T, v * T, v, I };
     circuit_rails_heat_carry(&h, &r, 1.0, 0.0, length, &a, &b);
-    for (int k = 0; k < RAILS_PIECES; k += 5) {
-        const double x = (k + 0.5) * length / RAILS_PIECES, t = T - x / v;
+    for (int k = 0; k < CIRCUIT_RAILS_PIECES; k += 5) {
+        const double x = (k + 0.5) * length / CIRCUIT_RAILS_PIECES, t = T - x / v;
         double want = t > 0.0 ? r.ladder.R_dc * I * I * t : 0.0;
         for (int n = 0; n < r.ladder.n && t > 0.0; n++) {
             const double tau = r.ladder.L[n] / r.ladder.R[n], theta = v * tau / r.contact.length;
@@ -95,14 +97,14 @@ static void exposed_on_the_way(void **state)
         }
         assert_near(h.heat[k], want, 1e-12 * fabs(want));
     }
-    assert_true(h.heat[0] > h.heat[20] && h.heat[RAILS_PIECES - 1] == 0.0);
+    assert_true(h.heat[0] > h.heat[20] && h.heat[CIRCUIT_RAILS_PIECES - 1] == 0.0);
 }
 
 static void only_its_own_stretch(void **state)
 {
-    static rails_heat h;
-    const rails_load r = two_rungs();
-    const rails_instant a = { 0.0, 1.0, 0.0, 1e5 }, b = { 1e-4, 1.0, 0.0, 1e5 };
+    static circuit_rails_heat h;
+    const circuit_rails_load r = two_rungs();
+    const circuit_rails_instant a = { 0.0, 1.0, 0.0, 1e5 }, b = { 1e-4, 1.0, 0.0, 1e5 };
     (void)state;
     circuit_rails_heat_start(&h, 1.0);
     circuit_rails_heat_carry(&h, &r, 1.0, 0.25, 0.5, &a, &b);
@@ -113,16 +115,16 @@ static void only_its_own_stretch(void **state)
     assert_true(h.heat[31] == 0.0);
 }
 
-static double sum_of(const rails_heat *h)
+static double sum_of(const circuit_rails_heat *h)
 {
     double sum = 0.0;
-    for (int k = 0; k < RAILS_PIECES; k++) sum += h->heat[k] * h->piece;
+    for (int k = 0; k < CIRCUIT_RAILS_PIECES; k++) sum += h->heat[k] * h->piece;
     return sum;
 }
 
 static void contact_leaves_its_heat_where_it_slides(void **state)
 {
-    static rails_heat h;
+    static circuit_rails_heat h;
     (void)state;
     circuit_rails_heat_start(&h, 2.0);
     circuit_rails_heat_slide(&h, 0.31, 0.77, 500.0);
@@ -137,18 +139,18 @@ static void contact_leaves_its_heat_where_it_slides(void **state)
 /* ---- whole shots ---- */
 
 /* The pieces add up to the ledger, but for half a piece at both ends; returns the largest rise. */
-static double check_ledger(const char *name, const shot_config *c)
+static double check_ledger(const char *name, const circuit_shot_config *c)
 {
-    shot *s = NULL;
-    double rise[SHOT_PIECES], sum = 0.0, most = 0.0;
+    circuit_shot *s = NULL;
+    double rise[CIRCUIT_SHOT_PIECES], sum = 0.0, most = 0.0;
     assert_ok(circuit_shot_create(c, &s));
     assert_ok(circuit_shot_advance(s, INFINITY, NULL));
     circuit_shot_rail_rise(s, rise);
-    const shot_ledger l = circuit_shot_now(s).ledger;
+    const circuit_shot_ledger l = circuit_shot_now(s).ledger;
     const double capacity = c->rails.heat_capacity * 2.0 * c->rails.height * c->rails.thickness,
-                 piece = c->barrel.length / SHOT_PIECES;
+                 piece = c->barrel.length / CIRCUIT_SHOT_PIECES;
     const double want = l.rails_heat + (1.0 - c->armature.heat_share) * (l.friction + l.contact_heat);
-    for (int k = 0; k < SHOT_PIECES; k++) {
+    for (int k = 0; k < CIRCUIT_SHOT_PIECES; k++) {
         sum += rise[k] * capacity * piece;
         most = fmax(most, rise[k]);
         assert_true(rise[k] >= 0.0);
@@ -162,8 +164,8 @@ static double check_ledger(const char *name, const shot_config *c)
 
 static void pieces_add_up(void **state)
 {
-    shot_module modules[DEFAULT_SHOT_GROUPS];
-    shot_config c = default_shot(modules);
+    circuit_shot_module modules[DEFAULT_SHOT_GROUPS];
+    circuit_shot_config c = default_shot(modules);
     (void)state;
     const double cold = check_ledger("default shot", &c);
     assert_true(cold > 20.0 && cold < 1000.0);
@@ -179,7 +181,7 @@ static void pieces_add_up(void **state)
     c.barrel.shunt_resistance = 1e-4;
     check_ledger("shunt at the muzzle", &c);
     c = plain_barrel();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ DEFAULT_SHOT_GROUPS, modules };
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ DEFAULT_SHOT_GROUPS, modules };
     for (int k = 0; k < DEFAULT_SHOT_GROUPS; k++) modules[k].position = 0.0;
     check_ledger("constant gradients", &c);
     c.armature.preload = 1e9;

@@ -21,7 +21,7 @@
 
 static const double TURN = 6.28318530717958648, MU0 = 1.25663706212e-6;
 static const double COPPER = 1.72e-8; /* [ohm m] */
-static const rail_section SECTION = {
+static const circuit_rail_section SECTION = {
     .height = 0.025, .thickness = 0.020, .separation = 0.025, .resistivity = 1.72e-8, .rails = 2
 };
 
@@ -36,10 +36,10 @@ static void assert_near(double got, double want, double relative)
         fail_msg("got %.9g, want %.9g: off by %.3g, allowed %.3g", got, want, got / want - 1.0, relative);
 }
 
-static ladder fitted(double f_top, double error)
+static circuit_ladder fitted(double f_top, double error)
 {
-    impedance z;
-    ladder l;
+    circuit_impedance z;
+    circuit_ladder l;
     assert_ok(circuit_inductance_response(&SECTION, f_top, 4.0, &z));
     assert_ok(circuit_ladder_fit(&z, TURN * f_top, error, &l));
     circuit_impedance_free(&z);
@@ -52,11 +52,11 @@ static ladder fitted(double f_top, double error)
 static void error_as_asked(void **state)
 {
     (void)state;
-    impedance z;
+    circuit_impedance z;
     assert_ok(circuit_inductance_response(&SECTION, 5e4, 4.0, &z));
     int rungs = 0;
     for (double error = 0.1; error > 1e-6; error *= 0.1) {
-        ladder l;
+        circuit_ladder l;
         assert_ok(circuit_ladder_fit(&z, TURN * 5e4, error, &l));
         assert_true(l.n > rungs && l.error <= error);
         rungs = l.n;
@@ -66,7 +66,7 @@ static void error_as_asked(void **state)
         }
     }
     assert_true(rungs <= 18); /* measured: 16 at 1e-6 */
-    ladder l;
+    circuit_ladder l;
     assert_int_equal(circuit_ladder_fit(&z, TURN * 5e4, 1e-15, &l).code, STATUS_NUMERICAL);
     circuit_impedance_free(&z);
 }
@@ -77,7 +77,7 @@ static void ends_of_the_band(void **state)
 {
     (void)state;
     double L = 0.0, R = 0.0, L_limit = 0.0;
-    const ladder l = fitted(5e4, 1e-2);
+    const circuit_ladder l = fitted(5e4, 1e-2);
     assert_ok(circuit_inductance_at(&SECTION, 0.0, 4.0, &L, &R));
     assert_ok(circuit_inductance_limit(&SECTION, &L_limit));
     assert_near(l.R_dc, 2.0 * COPPER / (0.020 * 0.025), 1e-9);
@@ -94,13 +94,13 @@ static void passive(void **state)
         { 0.025, 0.02, 0.025 }, { 0.025, 0.002, 0.025 }, { 0.04, 0.01, 0.002 }, { 0.005, 0.02, 0.05 }
     };
     for (size_t k = 0; k < sizeof sections / sizeof sections[0]; k++) {
-        const rail_section s = { .height = sections[k][0],
-                                 .thickness = sections[k][1],
-                                 .separation = sections[k][2],
-                                 .resistivity = COPPER,
-                                 .rails = 2 };
-        impedance z;
-        ladder l;
+        const circuit_rail_section s = { .height = sections[k][0],
+                                         .thickness = sections[k][1],
+                                         .separation = sections[k][2],
+                                         .resistivity = COPPER,
+                                         .rails = 2 };
+        circuit_impedance z;
+        circuit_ladder l;
         assert_ok(circuit_inductance_response(&s, 2e4, 4.0, &z));
         assert_ok(circuit_ladder_fit(&z, TURN * 2e4, 1e-4, &l));
         assert_true(l.R_dc > 0.0 && l.L_inf > 0.0 && l.n >= 4);
@@ -114,7 +114,7 @@ static void passive(void **state)
 static void currents_carry_the_impedance(void **state)
 {
     (void)state;
-    impedance z;
+    circuit_impedance z;
     assert_ok(circuit_inductance_response(&SECTION, 1e4, 4.0, &z));
     double complex *share = malloc((size_t)z.n * sizeof *share), total = 0.0;
     const double complex s = _Complex_I * TURN * 2e3;
@@ -160,7 +160,7 @@ static void shares_under_the_contact(void **state)
 static void force_between_its_limits(void **state)
 {
     (void)state;
-    const rails_load r = { .ladder = fitted(5e4, 1e-2), .contact = { .length = 0.0165 } };
+    const circuit_rails_load r = { .ladder = fitted(5e4, 1e-2), .contact = { .length = 0.0165 } };
     assert_near(circuit_rails_force_gradient(&r, 0.0, 1.0), circuit_ladder_slow_inductance(&r.ladder), 1e-12);
     assert_near(circuit_rails_force_gradient(&r, 1e9, 1.0), r.ladder.L_inf, 1e-5);
     for (double v = 1.0, last = 1.0; v < 1e5; v *= 2.0) {
@@ -180,16 +180,16 @@ static double pulse(double t)
     return I_1 * t / t_1 * exp(1.0 - t / t_1);
 }
 
-static void pulse_rates(const rails_load *r, double t, const double *y, double *d)
+static void pulse_rates(const circuit_rails_load *r, double t, const double *y, double *d)
 {
     circuit_rails_memory_rates(r, x_0 + 0.5 * g * t * t, g * t, pulse(t), y, d);
 }
 
 /* Runge-Kutta of order four; steps well below the fastest rung's time. */
-static void pulse_memory(const rails_load *r, double end, int steps, double *y)
+static void pulse_memory(const circuit_rails_load *r, double end, int steps, double *y)
 {
     const int n = 2 * r->ladder.n;
-    double k[4][2 * LADDER_MAX_RUNGS], z[2 * LADDER_MAX_RUNGS];
+    double k[4][2 * CIRCUIT_LADDER_MAX_RUNGS], z[2 * CIRCUIT_LADDER_MAX_RUNGS];
     const double dt = end / steps;
     memset(y, 0, (size_t)n * sizeof *y);
     for (int i = 0; i < steps; i++) {
@@ -214,10 +214,10 @@ static double slice_current(double birth, double j, double end, double tau)
 }
 
 /* Voltage of the rungs at `end`, slice by slice: those of the start, then 400 whose age grows from the armature on. */
-static double slices_voltage(const rails_load *r, double end)
+static double slices_voltage(const circuit_rails_load *r, double end)
 {
     enum { SLICES = 400 };
-    const ladder *l = &r->ladder;
+    const circuit_ladder *l = &r->ladder;
     double V = 0.0;
     for (int k = 0; k < l->n; k++) {
         const double tau = l->L[k] / l->R[k];
@@ -239,13 +239,13 @@ static double slices_voltage(const rails_load *r, double end)
 static void slices_one_by_one(void **state)
 {
     (void)state;
-    const rails_load coarse = { .ladder = fitted(5e4, 1e-2), .contact = { .length = 0.0165 } },
-                     fine = { .ladder = fitted(5e4, 1e-5), .contact = { .length = 0.0165 } };
-    double y[2 * LADDER_MAX_RUNGS];
+    const circuit_rails_load coarse = { .ladder = fitted(5e4, 1e-2), .contact = { .length = 0.0165 } },
+                             fine = { .ladder = fitted(5e4, 1e-5), .contact = { .length = 0.0165 } };
+    double y[2 * CIRCUIT_LADDER_MAX_RUNGS];
     for (double end = 5e-4; end < 2.1e-3; end += 5e-4) {
         const double x = x_0 + 0.5 * g * end * end, v = g * end, I = pulse(end);
         pulse_memory(&coarse, end, 8000, y);
-        const rails_flow flow = circuit_rails_flow_at(&coarse, x, v, I, y);
+        const circuit_rails_flow flow = circuit_rails_flow_at(&coarse, x, v, I, y);
         const double rungs = flow.voltage - (coarse.ladder.L_inf * v + coarse.ladder.R_dc * x) * I;
         assert_true(fabs(rungs - slices_voltage(&fine, end)) <= 1e-3 * (flow.voltage - coarse.ladder.L_inf * v * I));
     }
@@ -256,16 +256,16 @@ static void slices_one_by_one(void **state)
 static void half_space_formula(void **state)
 {
     (void)state;
-    const rails_load r = { .ladder = fitted(1e6, 1e-3), .contact = { .length = 1e-9 } };
+    const circuit_rails_load r = { .ladder = fitted(1e6, 1e-3), .contact = { .length = 1e-9 } };
     const double v = 1500.0, I = 1e6;
-    double y[2 * LADDER_MAX_RUNGS] = { 0 };
+    double y[2 * CIRCUIT_LADDER_MAX_RUNGS] = { 0 };
     for (double time = 1e-4; time < 5.1e-4; time += 1e-4) {
         const double x = v * time;
         for (int k = 0; k < r.ladder.n; k++) { /* dQ/dt = (v t I - Q)/tau in closed form */
             const double tau = r.ladder.L[k] / r.ladder.R[k];
             y[2 * k] = I * v * (time + tau * expm1(-time / tau));
         }
-        const rails_flow flow = circuit_rails_flow_at(&r, x, v, I, y);
+        const circuit_rails_flow flow = circuit_rails_flow_at(&r, x, v, I, y);
         const double rest = flow.voltage / I - r.ladder.L_inf * v;
         assert_near(rest, 4.0 * 0.405 / SECTION.height * sqrt(COPPER * MU0 * v * x / 3.14159265358979), 0.05);
     }
@@ -278,9 +278,9 @@ static void half_space_formula(void **state)
 static void power_balance(void **state)
 {
     (void)state;
-    rails_load r = { .ladder = fitted(5e4, 1e-3),
-                     .contact = { .length = 0.0165, .resistivity = 1.72e-8 },
-                     .coefficient = 4e-3 };
+    circuit_rails_load r = { .ladder = fitted(5e4, 1e-3),
+                             .contact = { .length = 0.0165, .resistivity = 1.72e-8 },
+                             .coefficient = 4e-3 };
     srand(7);
     for (int trial = 0; trial < 2000; trial++) {
         r.heat_capacity = trial % 2 ? 3450.0 : 0.0; /* cold or warm, even or crowded: the balance is the same */
@@ -289,7 +289,7 @@ static void power_balance(void **state)
                               rand() / (double)RAND_MAX };
         const double x = 0.1 + 5.0 * U[0], v = trial % 9 ? 3000.0 * U[1] * U[1] : 0.0;
         const double I = 2e6 * (U[2] - 0.3), slope = 1e10 * (U[3] - 0.5);
-        double y[2 * LADDER_MAX_RUNGS + 3], d[2 * LADDER_MAX_RUNGS + 3];
+        double y[2 * CIRCUIT_LADDER_MAX_RUNGS + 3], d[2 * CIRCUIT_LADDER_MAX_RUNGS + 3];
         y[2 * r.ladder.n] = 1e5 * U[0];
         y[2 * r.ladder.n + 1] = 0.8e5 * U[0];
         y[2 * r.ladder.n + 2] = 1e9 * U[1];
@@ -298,7 +298,7 @@ static void power_balance(void **state)
             y[2 * k] = x * mean;
             y[2 * k + 1] = x * mean * mean * (1.0 + rand() / (double)RAND_MAX);
         }
-        const rails_flow f = circuit_rails_flow_at(&r, x, v, I, y);
+        const circuit_rails_flow f = circuit_rails_flow_at(&r, x, v, I, y);
         circuit_rails_memory_rates(&r, x, v, I, y, d);
         double field = r.ladder.L_inf * (0.5 * v * I * I + x * I * slope);
         for (int k = 0; k < r.ladder.n; k++) field += 0.5 * r.ladder.L[k] * d[2 * k + 1];
@@ -320,9 +320,9 @@ static void warming_of_even_current(void **state)
     (void)state;
     enum { STEPS = 40000 };
     const double I = 1e5, end = 1.0, dt = end / STEPS, x = 2.0;
-    rails_load r = { .ladder = fitted(30.0, 1e-1), .contact = { .length = 0.02 }, .heat_capacity = 3450.0 };
+    circuit_rails_load r = { .ladder = fitted(30.0, 1e-1), .contact = { .length = 0.02 }, .heat_capacity = 3450.0 };
     for (int k = 0; k < 2; k++) {
-        double y[2 * LADDER_MAX_RUNGS + 3] = { 0.0 }, d[2 * LADDER_MAX_RUNGS + 3];
+        double y[2 * CIRCUIT_LADDER_MAX_RUNGS + 3] = { 0.0 }, d[2 * CIRCUIT_LADDER_MAX_RUNGS + 3];
         r.coefficient = k ? 4e-3 : 0.0;
         const int n = circuit_rails_memory_size(&r);
         for (int i = 0; i < STEPS; i++) {
@@ -344,7 +344,7 @@ typedef struct {
     double last_heat;
 } watch;
 
-static bool look(void *user, const shot *s, const shot_state *state)
+static bool look(void *user, const circuit_shot *s, const circuit_shot_state *state)
 {
     watch *w = user;
     (void)s;
@@ -355,14 +355,14 @@ static bool look(void *user, const shot *s, const shot_state *state)
     return true;
 }
 
-static shot_summary shoot(const shot_config *c, watch *w)
+static circuit_shot_summary shoot(const circuit_shot_config *c, watch *w)
 {
-    shot *s = NULL;
+    circuit_shot *s = NULL;
     *w = (watch){ 0 };
-    const shot_sink sink = { NULL, look, w };
+    const circuit_shot_sink sink = { NULL, look, w };
     assert_ok(circuit_shot_create(c, &s));
     assert_ok(circuit_shot_advance(s, INFINITY, &sink));
-    const shot_summary r = circuit_shot_result(s);
+    const circuit_shot_summary r = circuit_shot_result(s);
     circuit_shot_free(s);
     return r;
 }
@@ -372,15 +372,15 @@ static shot_summary shoot(const shot_config *c, watch *w)
 static void diffusing_shot(void **state)
 {
     (void)state;
-    shot_module modules[DEFAULT_SHOT_GROUPS];
-    shot_config c = default_shot(modules);
-    assert_int_equal(c.rails.level, SHOT_RAILS_DIFFUSING); /* the default */
+    circuit_shot_module modules[DEFAULT_SHOT_GROUPS];
+    circuit_shot_config c = default_shot(modules);
+    assert_int_equal(c.rails.level, CIRCUIT_SHOT_RAILS_DIFFUSING); /* the default */
     watch w;
-    const shot_summary plain = shoot(&c, &w);
+    const circuit_shot_summary plain = shoot(&c, &w);
     assert_true(w.energy < 1e-7);
     c.options.rtol = 1e-11;
     c.options.atol = 1e-12;
-    const shot_summary sharp = shoot(&c, &w);
+    const circuit_shot_summary sharp = shoot(&c, &w);
     print_message("muzzle %.3f m/s, off by %.1e at the default tolerances; energy error %.1e\n", sharp.muzzle_velocity,
                   plain.muzzle_velocity / sharp.muzzle_velocity - 1.0, w.energy);
     assert_true(w.energy < 1e-8 && w.field >= 0.0 && w.heat >= 0.0);
@@ -396,35 +396,35 @@ static void diffusing_shot(void **state)
 static void levels_agree(void **state)
 {
     (void)state;
-    shot_module modules[DEFAULT_SHOT_GROUPS];
-    shot_config c = default_shot(modules);
-    ladder l;
+    circuit_shot_module modules[DEFAULT_SHOT_GROUPS];
+    circuit_shot_config c = default_shot(modules);
+    circuit_ladder l;
     watch w;
     c.rails.ladder_frequency = 5e4;
-    const shot_summary own = shoot(&c, &w);
+    const circuit_shot_summary own = shoot(&c, &w);
     assert_ok(circuit_rails_ladder(&c.rails, 5e4, &l));
     c.fitted = &l;
     assert_true(shoot(&c, &w).muzzle_velocity == own.muzzle_velocity);
-    ladder none = { .R_dc = l.R_dc, .L_inf = l.L_inf };
+    circuit_ladder none = { .R_dc = l.R_dc, .L_inf = l.L_inf };
     c.fitted = &none;
     const double bare = shoot(&c, &w).muzzle_velocity;
     c.fitted = NULL;
-    c.rails.level = SHOT_RAILS_CONSTANT;
+    c.rails.level = CIRCUIT_SHOT_RAILS_CONSTANT;
     c.rails.inductance_gradient = l.L_inf;
     c.rails.resistance_gradient = l.R_dc;
     assert_true(shoot(&c, &w).muzzle_velocity == bare);
 }
 
 /* Slices with their own temperature take 0.7 % of the muzzle velocity; one is as good as eight to 0.04 %. */
-static shot_summary at_tolerance(shot_config c, double tolerance)
+static circuit_shot_summary at_tolerance(circuit_shot_config c, double tolerance)
 {
     shot_notes notes;
-    const shot_sink sink = notes_sink(&notes);
-    shot *s = NULL;
+    const circuit_shot_sink sink = notes_sink(&notes);
+    circuit_shot *s = NULL;
     c.options.rtol = c.options.atol = tolerance;
     assert_ok(circuit_shot_create(&c, &s));
     assert_ok(circuit_shot_advance(s, INFINITY, &sink));
-    const shot_summary r = circuit_shot_result(s);
+    const circuit_shot_summary r = circuit_shot_result(s);
     circuit_shot_free(s);
     return r;
 }
@@ -434,12 +434,12 @@ static shot_summary at_tolerance(shot_config c, double tolerance)
 static void few_steps(void **state)
 {
     (void)state;
-    shot_module modules[DEFAULT_SHOT_GROUPS];
-    shot_config c = default_shot(modules);
-    ladder l;
+    circuit_shot_module modules[DEFAULT_SHOT_GROUPS];
+    circuit_shot_config c = default_shot(modules);
+    circuit_ladder l;
     assert_ok(circuit_rails_ladder(&c.rails, 50e3, &l));
     c.fitted = &l;
-    const shot_summary exact = at_tolerance(c, 1e-11), quick = at_tolerance(c, 1e-5);
+    const circuit_shot_summary exact = at_tolerance(c, 1e-11), quick = at_tolerance(c, 1e-5);
     print_message("muzzle velocity off by %.1e in %d steps\n", quick.muzzle_velocity / exact.muzzle_velocity - 1.0,
                   (int)quick.steps);
     assert_near(quick.muzzle_velocity, exact.muzzle_velocity, 1e-4);
@@ -449,8 +449,8 @@ static void few_steps(void **state)
 static void warm_slices(void **state)
 {
     (void)state;
-    shot_module modules[DEFAULT_SHOT_GROUPS];
-    shot_config c = default_shot(modules);
+    circuit_shot_module modules[DEFAULT_SHOT_GROUPS];
+    circuit_shot_config c = default_shot(modules);
     watch w;
     double muzzle[3];
     for (int k = 0; k < 3; k++) {

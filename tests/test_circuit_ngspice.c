@@ -30,7 +30,7 @@ static void assert_ok(status st)
 
 /* ---- the netlist ---- */
 
-static void put_module(FILE *f, const shot_module *m, int k)
+static void put_module(FILE *f, const circuit_shot_module *m, int k)
 {
     const double n = m->count;
     fprintf(f, "C%d c%d 0 %.12g IC=%.12g\n", k, k, n * m->capacitance, m->charge);
@@ -44,9 +44,9 @@ static void put_module(FILE *f, const shot_module *m, int k)
 
 /* The diodes are as sharp as ngspice bears: about 0.2 V at 100 kA, of the 500 V of the module's own resistance. */
 /* V(x), V(v): position and speed, capacitors of 1 F; V(phi) = L' x I, its derivative the current of 1 F. */
-static void put_barrel(FILE *f, const shot_config *c)
+static void put_barrel(FILE *f, const circuit_shot_config *c)
 {
-    const shot_armature *a = &c->armature;
+    const circuit_shot_armature *a = &c->armature;
     const double L = c->rails.inductance_gradient, sound = sqrt(a->gas_gamma * a->gas_pressure / a->gas_density);
     fprintf(f, "Vi b q 0\nBv q 0 V=I(Vp)+(%.12g*V(x)+%.12g)*I(Vi)+%.12g*tanh(I(Vi)/50)\n", c->rails.resistance_gradient,
             a->resistance, a->contact_voltage);
@@ -60,13 +60,13 @@ static void put_barrel(FILE *f, const shot_config *c)
             pow(0.25 * (a->gas_gamma + 1.0), 2.0), sound * sound, a->mass);
 }
 
-static void write_netlist(const char *path, const shot_config *c, double end, double step)
+static void write_netlist(const char *path, const circuit_shot_config *c, double end, double step)
 {
     FILE *f = fopen(path, "w");
     assert_non_null(f);
     fputs("* a shot\n.model GATE SW(RON=1e-6 ROFF=1e5 VT=0.5 VH=0.1)\n.model DT D(IS=1e-3 N=0.5 RS=1e-6)\n", f);
-    for (int k = 0; k < c->supplies[SUPPLY_capacitor].n; k++)
-        put_module(f, (const shot_module *)c->supplies[SUPPLY_capacitor].item + k, k);
+    for (int k = 0; k < c->supplies[CIRCUIT_SUPPLY_capacitor].n; k++)
+        put_module(f, (const circuit_shot_module *)c->supplies[CIRCUIT_SUPPLY_capacitor].item + k, k);
     put_barrel(f, c);
     fprintf(f, ".options reltol=1e-4 method=gear itl4=200\n.tran %g %g 0 %g uic\n", step, end, step);
     fprintf(f, ".meas tran vexit FIND V(v) WHEN V(x)=%.12g\n.meas tran texit WHEN V(x)=%.12g\n", c->barrel.length,
@@ -128,11 +128,11 @@ static double measured(const char *log, const char *key)
     return value;
 }
 
-static bool until_muzzle(void *user, shot *s, const shot_event *e)
+static bool until_muzzle(void *user, circuit_shot *s, const circuit_shot_event *e)
 {
     (void)user;
     (void)s;
-    return e->kind != SHOT_MUZZLE;
+    return e->kind != CIRCUIT_SHOT_MUZZLE;
 }
 
 static double now(void)
@@ -142,17 +142,17 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static shot_summary shoot(shot_config c, double rtol, double *took)
+static circuit_shot_summary shoot(circuit_shot_config c, double rtol, double *took)
 {
-    const shot_sink sink = { .event = until_muzzle };
-    shot *s = NULL;
+    const circuit_shot_sink sink = { .event = until_muzzle };
+    circuit_shot *s = NULL;
     c.options.rtol = rtol;
     c.options.atol = 0.01 * rtol;
     const double since = now();
     assert_ok(circuit_shot_create(&c, &s));
     assert_int_equal(circuit_shot_advance(s, INFINITY, &sink).code, STATUS_STOPPED);
     *took = now() - since;
-    const shot_summary r = circuit_shot_result(s);
+    const circuit_shot_summary r = circuit_shot_result(s);
     circuit_shot_free(s);
     return r;
 }
@@ -164,18 +164,18 @@ static void same_shot(void **state)
     write_nothing("nothing.cir");
     const double idle = full && strcmp(full, "1") == 0 ? ngspice("nothing.cir", "nothing.log") : -1.0;
     if (idle < 0.0) skip();
-    shot_module m[GROUPS];
+    circuit_shot_module m[GROUPS];
     for (int k = 0; k < GROUPS; k++) {
         m[k] = unit_200kJ(1, k < 4 ? 0.0 : (k - 3) * 2e-4);
         m[k].cable_inductance = 1e-6;
         m[k].cable_resistance = 1e-3;
     }
-    shot_config c = plain_barrel();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ GROUPS, m };
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ GROUPS, m };
     c.armature.velocity = 10.0;
     c.barrel.length = 4.0;
     double took;
-    const shot_summary exact = shoot(c, 1e-12, &took);
+    const circuit_shot_summary exact = shoot(c, 1e-12, &took);
     for (int k = 0; k < 2; k++) { /* two maximal steps: its error, and what less of it costs */
         const double step = k == 0 ? 2e-6 : 5e-7;
         write_netlist("shot.cir", &c, 1.05 * exact.muzzle_time, step);

@@ -16,14 +16,15 @@
 
 static const double PI = 3.14159265358979323846, MU0 = 1.25663706212e-6;
 static const double COPPER = 1.0 / 5.998e7; /* [ohm m], the conductivity of the frequency table */
-static const rail_section SECTION = {
+static const circuit_rail_section SECTION = {
     .height = 0.025, .thickness = 0.020, .separation = 0.025, .resistivity = 1.0 / 5.998e7, .rails = 2
 };
 static const double FINE = 6.0; /* cells a skin depth */
 
-static rail_section pair(double h, double w, double s)
+static circuit_rail_section pair(double h, double w, double s)
 {
-    return (rail_section){ .height = h, .thickness = w, .separation = s, .resistivity = 1.0 / 5.998e7, .rails = 2 };
+    return (
+        circuit_rail_section){ .height = h, .thickness = w, .separation = s, .resistivity = 1.0 / 5.998e7, .rails = 2 };
 }
 
 static void assert_ok(status st)
@@ -51,7 +52,7 @@ static void perfect_conductor_table(void **state)
     (void)state;
     for (int k = 0; k < N_LIMITS; k++) {
         double L = 0.0;
-        const rail_section s = pair(LIMITS[k][0], LIMITS[k][1], LIMITS[k][2]);
+        const circuit_rail_section s = pair(LIMITS[k][0], LIMITS[k][1], LIMITS[k][2]);
         assert_ok(circuit_inductance_limit(&s, &L));
         assert_near(1e6 * L, LIMITS[k][3], 1.5e-4);
     }
@@ -115,7 +116,7 @@ static void thin_and_thick_skin_meet(void **state)
 static void scaling_law(void **state)
 {
     (void)state;
-    rail_section half = pair(0.0125, 0.010, 0.0125);
+    circuit_rail_section half = pair(0.0125, 0.010, 0.0125);
     half.resistivity *= 2.0;
     double L0 = 0.0, R0 = 0.0, L1 = 0.0, R1 = 0.0;
     assert_ok(circuit_inductance_at(&SECTION, 1000.0, FINE, &L0, &R0));
@@ -131,7 +132,7 @@ static void scaling_law(void **state)
 static void round_rods(void **state)
 {
     (void)state;
-    rail_section s = pair(0.02, 0.02, 0.02);
+    circuit_rail_section s = pair(0.02, 0.02, 0.02);
     double L = 0.0, R = 0.0, error[2] = { 0.0, 0.0 };
     s.face_crown = s.back_crown = 0.01;
     assert_ok(circuit_inductance_limit(&s, &L));
@@ -149,7 +150,7 @@ static void round_rods(void **state)
 static void rod_skin_effect(void **state)
 {
     (void)state;
-    rail_section s = pair(0.02, 0.02, 2.0);
+    circuit_rail_section s = pair(0.02, 0.02, 2.0);
     s.face_crown = s.back_crown = 0.01;
     for (double f = 100.0; f < 2e4; f *= 7.0) {
         const double complex x = (1.0 - _Complex_I) / sqrt(COPPER / (PI * MU0 * f)) * 0.01;
@@ -170,7 +171,7 @@ static void rod_skin_effect(void **state)
 static void four_rods(void **state)
 {
     (void)state;
-    rail_section s = pair(0.002, 0.002, 0.1);
+    circuit_rail_section s = pair(0.002, 0.002, 0.1);
     s.face_crown = s.back_crown = 0.001;
     s.rails = 4;
     double L = 0.0, R = 0.0;
@@ -187,7 +188,7 @@ static void narrow_gap(void **state)
 {
     (void)state;
     const double ratio = 0.05;
-    rail_section s = pair(0.04, 0.00004, 0.002);
+    circuit_rail_section s = pair(0.04, 0.00004, 0.002);
     double L = 0.0;
     assert_ok(circuit_inductance_limit(&s, &L));
     assert_near(L, MU0 * ratio / (1.0 + ratio / PI * (1.0 + log(2.0 * PI / ratio))), 0.005);
@@ -207,7 +208,7 @@ static void narrow_gap(void **state)
 static void clad_face(void **state)
 {
     (void)state;
-    rail_section plain = pair(0.4, 0.01, 0.008), clad = plain;
+    circuit_rail_section plain = pair(0.4, 0.01, 0.008), clad = plain;
     clad.cladding = 0.001;
     clad.cladding_resistivity = 5.0 * COPPER;
     double L = 0.0, R0 = 0.0, R1 = 0.0;
@@ -231,7 +232,7 @@ static void clad_face(void **state)
 static void d_shape(void **state)
 {
     (void)state;
-    rail_section s = pair(0.025, 0.020, 0.025);
+    circuit_rail_section s = pair(0.025, 0.020, 0.025);
     s.back_crown = 0.0125;
     double L = 0.0, R = 0.0, L1 = 0.0, R1 = 0.0, L_limit = 0.0;
     assert_ok(circuit_inductance_limit(&s, &L_limit));
@@ -248,7 +249,7 @@ static void d_shape(void **state)
 static void surface_currents(void **state)
 {
     (void)state;
-    rail_section s = pair(0.04, 0.01, 0.002);
+    circuit_rail_section s = pair(0.04, 0.01, 0.002);
     inductance_surface p;
     assert_ok(circuit_inductance_surface_at(&s, 0.0, 4.0, &p));
     for (int k = 0; k < p.n; k++) {
@@ -285,7 +286,7 @@ static void bad_sections(void **state)
                 { 0.02, 0.01, 0.02, 0, 0, 0, 3, "rail.count" },
                 { 0.02, 0.01, 0.02, 0, 0, 0, 4, "overlap" } };
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
-        rail_section s = pair(bad[k].h, bad[k].w, bad[k].s);
+        circuit_rail_section s = pair(bad[k].h, bad[k].w, bad[k].s);
         s.face_crown = bad[k].face;
         s.back_crown = bad[k].back;
         s.cladding = bad[k].cladding;
@@ -301,13 +302,13 @@ static void bad_sections(void **state)
 static void levels_of_rails(void **state)
 {
     (void)state;
-    shot_rails rails;
+    circuit_shot_rails rails;
     base_params_default(circuit_shot_rails_params, &rails);
     rails.height = rails.separation = 0.025;
     rails.thickness = 0.020;
     double L = 0.0, R = 0.0, L0 = 0.0, R0 = 0.0;
     assert_ok(circuit_rails_impedance(&rails, 500.0, &L, &R));
-    rail_section section = SECTION;
+    circuit_rail_section section = SECTION;
     section.resistivity = rails.resistivity;
     assert_ok(circuit_inductance_at(&section, 500.0, rails.fineness, &L0, &R0));
     assert_true(L == L0 && R == R0);
@@ -318,7 +319,7 @@ static void levels_of_rails(void **state)
     assert_ok(circuit_rails_impedance(&rails, INFINITY, &L, &R));
     assert_near(1e6 * L, 0.4643, 1.5e-4);
     assert_true(isinf(R));
-    rails.level = SHOT_RAILS_CONSTANT;
+    rails.level = CIRCUIT_SHOT_RAILS_CONSTANT;
     assert_int_equal(circuit_rails_impedance(&rails, 500.0, &L, &R).code, STATUS_BAD_INPUT);
     rails.inductance_gradient = 0.5e-6;
     rails.resistance_gradient = 1e-4;
@@ -327,13 +328,14 @@ static void levels_of_rails(void **state)
     assert_int_equal(circuit_rails_impedance(&rails, -1.0, &L, &R).code, STATUS_BAD_INPUT);
 }
 
-static void table_laws(const param *table)
+static void table_laws(const base_param *table)
 {
-    for (const param *p = table; p->key; p++) {
+    for (const base_param *p = table; p->key; p++) {
         assert_true(p->unit[0] && p->doc[0]);
-        assert_true(p->kind == PARAM_CHOICE || p->kind == PARAM_TEXT || p->min < p->max);
-        if (p->kind != PARAM_TEXT && isfinite(p->fallback)) assert_true(p->fallback >= p->min && p->fallback <= p->max);
-        for (const param *q = table; q < p; q++) assert_string_not_equal(p->key, q->key);
+        assert_true(p->kind == BASE_PARAM_CHOICE || p->kind == BASE_PARAM_TEXT || p->min < p->max);
+        if (p->kind != BASE_PARAM_TEXT && isfinite(p->fallback))
+            assert_true(p->fallback >= p->min && p->fallback <= p->max);
+        for (const base_param *q = table; q < p; q++) assert_string_not_equal(p->key, q->key);
     }
 }
 

@@ -18,9 +18,9 @@
 enum { MAX_EVENTS = 4096 };
 
 typedef struct {
-    shot_event events[MAX_EVENTS];
+    circuit_shot_event events[MAX_EVENTS];
     int n, samples;
-    int count[SHOT_EVENT_COUNT];
+    int count[CIRCUIT_SHOT_EVENT_COUNT];
     double worst_energy;
     int stop_at;               /* stop when this many events have come; 0 = never */
     double impulse, mass_loss; /* handed back at every site */
@@ -38,17 +38,17 @@ static void assert_near(double got, double want, double tolerance)
     if (!(fabs(got - want) <= tolerance)) fail_msg("got %.12g, want %.12g, allowed %.3g", got, want, tolerance);
 }
 
-static bool on_event(void *user, shot *s, const shot_event *e)
+static bool on_event(void *user, circuit_shot *s, const circuit_shot_event *e)
 {
     record *r = user;
     assert_true(r->n < MAX_EVENTS);
     r->events[r->n++] = *e;
     r->count[e->kind]++;
-    if (e->kind == SHOT_SITE && r->impulse > 0.0) assert_ok(circuit_shot_jump(s, r->impulse, r->mass_loss));
+    if (e->kind == CIRCUIT_SHOT_SITE && r->impulse > 0.0) assert_ok(circuit_shot_jump(s, r->impulse, r->mass_loss));
     return r->n != r->stop_at;
 }
 
-static bool on_sample(void *user, const shot *s, const shot_state *state)
+static bool on_sample(void *user, const circuit_shot *s, const circuit_shot_state *state)
 {
     record *r = user;
     (void)s;
@@ -57,24 +57,24 @@ static bool on_sample(void *user, const shot *s, const shot_state *state)
     return true;
 }
 
-static shot_sink notebook(void)
+static circuit_shot_sink notebook(void)
 {
     memset(&rec, 0, sizeof rec);
-    return (shot_sink){ on_event, on_sample, &rec };
+    return (circuit_shot_sink){ on_event, on_sample, &rec };
 }
 
 /* 25 x 20 x 25 mm rails at level constant, a 0.25 kg armature, 5 m. */
-static shot_config plain(const shot_module *modules, int n)
+static circuit_shot_config plain(const circuit_shot_module *modules, int n)
 {
-    shot_config c = plain_barrel();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ n, modules };
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ n, modules };
     return c;
 }
 
 /* Rails of no length and an armature that nothing moves: a short circuit. */
-static shot_config shorted(const shot_module *modules, int n)
+static circuit_shot_config shorted(const circuit_shot_module *modules, int n)
 {
-    shot_config c = plain(modules, n);
+    circuit_shot_config c = plain(modules, n);
     c.barrel.start = 0.0;
     c.armature.preload = 1e9;
     c.armature.resistance = 0.0;
@@ -83,14 +83,14 @@ static shot_config shorted(const shot_module *modules, int n)
 }
 
 /* Runs to the end and checks the laws that hold for every shot. */
-static shot *run(const shot_config *c)
+static circuit_shot *run(const circuit_shot_config *c)
 {
-    shot *s = NULL;
-    const shot_sink sink = notebook();
+    circuit_shot *s = NULL;
+    const circuit_shot_sink sink = notebook();
     assert_ok(circuit_shot_create(c, &s));
     assert_ok(circuit_shot_advance(s, INFINITY, &sink));
     assert_true(rec.worst_energy < 1e-6); /* ARCHITECTURE's bound at the default tolerances */
-    assert_true(rec.n <= 4 * c->supplies[SUPPLY_capacitor].n + c->n_sites + 16); /* no chatter */
+    assert_true(rec.n <= 4 * c->supplies[CIRCUIT_SUPPLY_capacitor].n + c->n_sites + 16); /* no chatter */
     for (int k = 1; k < rec.n; k++) assert_true(rec.events[k].state.t >= rec.events[k - 1].state.t);
     return s;
 }
@@ -102,7 +102,7 @@ typedef struct {
     double V0, L, R, C, drop, a, w, crowbar, i_crowbar;
 } rlc;
 
-static rlc rlc_of(const shot_module *p, double L_load, double R_load)
+static rlc rlc_of(const circuit_shot_module *p, double L_load, double R_load)
 {
     rlc c = { .V0 = p->charge, .L = p->inductance + L_load, .R = p->resistance + R_load, .C = p->capacitance };
     c.drop = p->crowbar_drop;
@@ -131,18 +131,18 @@ static double rlc_current(const rlc *c, double t)
 /* 1e-8 of the peak is wanted; at rtol 1e-11 the integration's own error is below it (docs/validation/circuit.md). */
 static void closed_form(double drop)
 {
-    shot_module m = unit_200kJ(1, 0.0);
+    circuit_shot_module m = unit_200kJ(1, 0.0);
     m.crowbar_drop = drop;
     m.crowbar_resistance = 0.0;
-    shot_config c = shorted(&m, 1);
+    circuit_shot_config c = shorted(&m, 1);
     c.barrel.start = 2.0; /* the rails' 1 uH and 0.2 mohm and the armature's 0.3 mohm belong to the loop */
     c.armature.resistance = 3e-4;
     c.options.rtol = 1e-11;
     c.options.atol = 1e-13;
     const rlc exact = rlc_of(&m, 1e-6, 5e-4);
     const double peak = rlc_current(&exact, atan(exact.w / exact.a) / exact.w);
-    shot *s = NULL;
-    const shot_sink sink = notebook();
+    circuit_shot *s = NULL;
+    const circuit_shot_sink sink = notebook();
     assert_ok(circuit_shot_create(&c, &s));
     double worst = 0.0;
     for (int k = 1; k <= 200; k++) {
@@ -154,13 +154,13 @@ static void closed_form(double drop)
                   circuit_shot_result(s).peak_current / peak - 1.0);
     assert_true(worst < 1e-8);
     assert_near(circuit_shot_result(s).peak_current, peak, 1e-8 * peak);
-    assert_int_equal(rec.count[SHOT_CROWBAR], 1);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_CROWBAR], 1);
     assert_near(rec.events[1].state.t, exact.crowbar, 1e-11); /* NUMERICS: right to 1e-12 s at rtol 1e-8 for one loop */
     if (drop > 0.0) {                                         /* zero current at t_c + L/R ln(1 + R i_c/V_d) */
         const double end = exact.crowbar + exact.L / exact.R * log1p(exact.R * exact.i_crowbar / drop);
         assert_ok(circuit_shot_advance(s, INFINITY, &sink));
         assert_true(circuit_shot_done(s));
-        assert_int_equal(rec.count[SHOT_BLOCKED], 1);
+        assert_int_equal(rec.count[CIRCUIT_SHOT_BLOCKED], 1);
         assert_near(rec.events[rec.n - 1].state.t, end, 1e-8 * end);
     }
     circuit_shot_free(s);
@@ -179,9 +179,9 @@ static void rlc_with_ideal_crowbar(void **state)
 static void published_pulse(void **state)
 {
     (void)state;
-    const shot_module m = unit_200kJ(1, 0.0);
-    const shot_config c = shorted(&m, 1);
-    shot *s = NULL;
+    const circuit_shot_module m = unit_200kJ(1, 0.0);
+    const circuit_shot_config c = shorted(&m, 1);
+    circuit_shot *s = NULL;
     assert_ok(circuit_shot_create(&c, &s));
     int rows;
     const double misfit = pulse_misfit(s, BREECH_TESTS "/../cases/pulse_unit_200kJ/pulse_unit_200kJ.csv", &rows);
@@ -195,10 +195,10 @@ static void published_pulse(void **state)
 
 /* y = u, i, x, v, m: one module, held by nothing, all of (C-1), (C-3), (C-4), (C-5), written from PHYSICS and not from
  * the code; classical Runge-Kutta. */
-static void slope(const shot_config *c, bool crowbar, const double *y, double *d)
+static void slope(const circuit_shot_config *c, bool crowbar, const double *y, double *d)
 {
-    const shot_module *p = c->supplies[SUPPLY_capacitor].item;
-    const shot_armature *a = &c->armature;
+    const circuit_shot_module *p = c->supplies[CIRCUIT_SUPPLY_capacitor].item;
+    const circuit_shot_armature *a = &c->armature;
     const double Lr = c->rails.inductance_gradient, i = y[1], I = p->count * i, x = y[2], v = y[3];
     const double u = crowbar ? -p->crowbar_drop : y[0];
     const double L = p->inductance + p->cable_inductance, R = p->resistance + p->cable_resistance;
@@ -215,7 +215,7 @@ static void slope(const shot_config *c, bool crowbar, const double *y, double *d
            (a->specific_heat * (a->melting_temperature - a->initial_temperature) + a->latent_heat);
 }
 
-static void runge_kutta(const shot_config *c, bool crowbar, double h, double *y)
+static void runge_kutta(const circuit_shot_config *c, bool crowbar, double h, double *y)
 {
     double k[4][5], z[5];
     static const double at[4] = { 0.0, 0.5, 0.5, 1.0 };
@@ -227,15 +227,17 @@ static void runge_kutta(const shot_config *c, bool crowbar, double h, double *y)
 }
 
 /* Halves the step until `done` of the state is met to 1e-15 s; returns the time. */
-static double integrate(const shot_config *c, bool crowbar, double t, double *y)
+static double integrate(const circuit_shot_config *c, bool crowbar, double t, double *y)
 {
     double h = 2e-7;
     while (h > 1e-16) {
         double z[5];
         memcpy(z, y, sizeof z);
         runge_kutta(c, crowbar, h, z);
-        const bool over = z[2] > c->barrel.length ||
-                          (!crowbar && z[0] < -((const shot_module *)c->supplies[SUPPLY_capacitor].item)->crowbar_drop);
+        const bool over =
+            z[2] > c->barrel.length ||
+            (!crowbar &&
+             z[0] < -((const circuit_shot_module *)c->supplies[CIRCUIT_SUPPLY_capacitor].item)->crowbar_drop);
         if (over) {
             h *= 0.5;
         } else {
@@ -250,11 +252,11 @@ static double integrate(const shot_config *c, bool crowbar, double t, double *y)
 static void independent_integration(void **state)
 {
     (void)state;
-    shot_module m = unit_200kJ(8, 0.0);
+    circuit_shot_module m = unit_200kJ(8, 0.0);
     m.cable_inductance = 1e-6;
     m.cable_resistance = 1e-3;
     m.crowbar_resistance = 0.0;
-    shot_config c = plain(&m, 1);
+    circuit_shot_config c = plain(&m, 1);
     c.armature.velocity = 10.0; /* moving from the start: no release to model twice */
     c.armature.wear_fraction = 0.3;
     c.barrel.length = 2.0;
@@ -263,8 +265,8 @@ static void independent_integration(void **state)
     double y[5] = { m.charge, 0.0, c.barrel.start, 10.0, c.armature.mass };
     const double crowbar = integrate(&c, false, 0.0, y), t = integrate(&c, true, crowbar, y);
     assert_near(y[2], c.barrel.length, 1e-9);
-    shot *s = run(&c);
-    const shot_summary r = circuit_shot_result(s);
+    circuit_shot *s = run(&c);
+    const circuit_shot_summary r = circuit_shot_result(s);
     print_message("muzzle velocity %.6f m/s, differs by %.1e; time by %.1e; wear %.3f g\n", r.muzzle_velocity,
                   r.muzzle_velocity / y[3] - 1.0, r.muzzle_time / t - 1.0,
                   1e3 * (c.armature.mass - circuit_shot_now(s).mass));
@@ -277,7 +279,7 @@ static void independent_integration(void **state)
 }
 
 /* 13 groups, 15 units: the bank of the default shot. */
-static int default_bank(shot_module *modules)
+static int default_bank(circuit_shot_module *modules)
 {
     for (int k = 0; k < 13; k++) {
         modules[k] = unit_200kJ(k ? 1 : 3, k * 2.2e-4);
@@ -289,11 +291,11 @@ static int default_bank(shot_module *modules)
 
 static double muzzle_velocity_at(double rtol)
 {
-    shot_module modules[13];
-    shot_config c = plain(modules, default_bank(modules));
+    circuit_shot_module modules[13];
+    circuit_shot_config c = plain(modules, default_bank(modules));
     c.options.rtol = rtol;
     c.options.atol = 0.01 * rtol;
-    shot *s = NULL;
+    circuit_shot *s = NULL;
     assert_ok(circuit_shot_create(&c, &s));
     assert_ok(circuit_shot_advance(s, INFINITY, NULL));
     const double v = circuit_shot_result(s).muzzle_velocity;
@@ -322,22 +324,22 @@ static void tolerance_converges(void **state)
 static void many_at_once(void **state)
 {
     (void)state;
-    shot_module together = unit_200kJ(48, 1e-4), apart[48];
+    circuit_shot_module together = unit_200kJ(48, 1e-4), apart[48];
     together.charge = 4e3;
     for (int k = 0; k < 48; k++) {
         apart[k] = together;
         apart[k].count = 1;
         apart[k].charge *= 1.0 + (k % 7) * 2.3e-16 * (k < 24 ? 1 : 40); /* twins but for round-off */
     }
-    shot_config c = plain(&together, 1);
-    shot *one = run(&c);
+    circuit_shot_config c = plain(&together, 1);
+    circuit_shot *one = run(&c);
     c = plain(apart, 48);
-    shot *all = run(&c);
-    assert_int_equal(rec.count[SHOT_FIRED], 48);
-    assert_int_equal(rec.count[SHOT_CROWBAR], 48);
-    assert_int_equal(rec.count[SHOT_BLOCKED], 48);
-    assert_int_equal(rec.count[SHOT_WAITING], 0);
-    assert_int_equal(rec.count[SHOT_MUZZLE], 1);
+    circuit_shot *all = run(&c);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_FIRED], 48);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_CROWBAR], 48);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_BLOCKED], 48);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_WAITING], 0);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_MUZZLE], 1);
     /* the same circuit, integrated with other error norms: both within 100 rtol of the truth (see above) */
     const double v = circuit_shot_result(one).muzzle_velocity;
     assert_near(circuit_shot_result(all).muzzle_velocity, v, 2e-6 * v);
@@ -348,10 +350,10 @@ static void many_at_once(void **state)
 static void modules_that_never_fire(void **state)
 {
     (void)state;
-    shot_module modules[3] = { unit_200kJ(4, 0.0), unit_200kJ(2, NAN), unit_200kJ(3, INFINITY) };
+    circuit_shot_module modules[3] = { unit_200kJ(4, 0.0), unit_200kJ(2, NAN), unit_200kJ(3, INFINITY) };
     modules[0].fire_at = 1e3;
-    shot_config c = plain(modules, 3);
-    shot *s = run(&c);
+    circuit_shot_config c = plain(modules, 3);
+    circuit_shot *s = run(&c);
     assert_true(circuit_shot_done(s));
     assert_int_equal(rec.n, 0);
     assert_true(circuit_shot_now(s).v == 0.0 && circuit_shot_result(s).peak_current == 0.0);
@@ -360,8 +362,8 @@ static void modules_that_never_fire(void **state)
     modules[0].fire_at = 0.0; /* beside one that does, they keep their charge */
     c = plain(modules, 3);
     s = run(&c);
-    assert_int_equal(rec.count[SHOT_FIRED], 1);
-    assert_int_equal(rec.count[SHOT_MUZZLE], 1);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_FIRED], 1);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_MUZZLE], 1);
     assert_true(circuit_shot_module_voltage(s, 1) == modules[1].charge && circuit_shot_module_current(s, 2) == 0.0);
     circuit_shot_free(s);
 }
@@ -369,12 +371,12 @@ static void modules_that_never_fire(void **state)
 static void zero_charge(void **state)
 {
     (void)state;
-    shot_module modules[2] = { unit_200kJ(4, 1e-4), unit_200kJ(4, 1e-4) };
+    circuit_shot_module modules[2] = { unit_200kJ(4, 1e-4), unit_200kJ(4, 1e-4) };
     modules[0].charge = 0.0;
-    shot_config c = plain(modules, 1);
-    shot *s = run(&c);
+    circuit_shot_config c = plain(modules, 1);
+    circuit_shot *s = run(&c);
     assert_true(circuit_shot_done(s) && circuit_shot_now(s).v == 0.0 && circuit_shot_result(s).energy_error == 0.0);
-    assert_int_equal(rec.count[SHOT_FIRED], 0);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_FIRED], 0);
     circuit_shot_free(s);
     c = plain(modules, 1); /* nothing that would hold the armature: still no motion, and an end */
     c.armature.preload = 0.0;
@@ -383,9 +385,9 @@ static void zero_charge(void **state)
     circuit_shot_free(s);
     c = plain(modules, 2); /* beside a charged group it waits for a breech voltage below zero, which never comes */
     s = run(&c);
-    assert_int_equal(rec.count[SHOT_WAITING], 1);
-    assert_int_equal(rec.count[SHOT_FIRED], 1);
-    assert_int_equal(rec.count[SHOT_MUZZLE], 1);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_WAITING], 1);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_FIRED], 1);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_MUZZLE], 1);
     circuit_shot_free(s);
 }
 
@@ -393,15 +395,15 @@ static void zero_charge(void **state)
 static void weak_group_waits(void **state)
 {
     (void)state;
-    shot_module modules[2] = { unit_200kJ(10, 0.0), unit_200kJ(1, 6e-4) };
+    circuit_shot_module modules[2] = { unit_200kJ(10, 0.0), unit_200kJ(1, 6e-4) };
     modules[1].charge = 500.0;
-    const shot_config c = plain(modules, 2);
-    shot *s = run(&c);
-    const shot_event *waits = NULL, *fires = NULL;
+    const circuit_shot_config c = plain(modules, 2);
+    circuit_shot *s = run(&c);
+    const circuit_shot_event *waits = NULL, *fires = NULL;
     for (int k = 0; k < rec.n; k++) {
         if (rec.events[k].index != 1) continue;
-        if (rec.events[k].kind == SHOT_WAITING) waits = &rec.events[k];
-        if (rec.events[k].kind == SHOT_FIRED) fires = &rec.events[k];
+        if (rec.events[k].kind == CIRCUIT_SHOT_WAITING) waits = &rec.events[k];
+        if (rec.events[k].kind == CIRCUIT_SHOT_FIRED) fires = &rec.events[k];
     }
     assert_non_null(waits);
     assert_non_null(fires);
@@ -413,20 +415,20 @@ static void weak_group_waits(void **state)
 static void stuck_armature(void **state)
 {
     (void)state;
-    const shot_module m = unit_200kJ(10, 0.0);
-    shot_config c = plain(&m, 1);
+    const circuit_shot_module m = unit_200kJ(10, 0.0);
+    circuit_shot_config c = plain(&m, 1);
     c.armature.preload = 1e7;
-    shot *s = run(&c);
+    circuit_shot *s = run(&c);
     assert_true(circuit_shot_done(s));
-    assert_true(circuit_shot_now(s).x == c.barrel.start && circuit_shot_now(s).phase == SHOT_HELD);
+    assert_true(circuit_shot_now(s).x == c.barrel.start && circuit_shot_now(s).phase == CIRCUIT_SHOT_HELD);
     assert_true(isnan(circuit_shot_result(s).muzzle_velocity) && circuit_shot_result(s).peak_current > 1e6);
-    assert_int_equal(rec.count[SHOT_RELEASED] + rec.count[SHOT_MUZZLE], 0);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_RELEASED] + rec.count[CIRCUIT_SHOT_MUZZLE], 0);
     circuit_shot_free(s);
     c = plain(&m, 1); /* spreading alone can hold it at any current: 2 mu k > L'/2 */
     c.armature.preload = 0.0;
     c.armature.spreading = 1e-6;
     s = run(&c);
-    assert_true(circuit_shot_done(s) && circuit_shot_now(s).phase == SHOT_HELD);
+    assert_true(circuit_shot_done(s) && circuit_shot_now(s).phase == CIRCUIT_SHOT_HELD);
     circuit_shot_free(s);
 }
 
@@ -434,21 +436,21 @@ static void stuck_armature(void **state)
 static void armature_that_stops_again(void **state)
 {
     (void)state;
-    const shot_module m = unit_200kJ(10, 0.0);
-    shot_config c = plain(&m, 1);
+    const circuit_shot_module m = unit_200kJ(10, 0.0);
+    circuit_shot_config c = plain(&m, 1);
     c.armature.friction_dry = 0.5;
     c.armature.friction_melted = 0.5;
     c.armature.spreading = 0.0;
     c.armature.preload = 3e5;
     c.armature.mass = 5.0;
-    shot *s = run(&c);
+    circuit_shot *s = run(&c);
     assert_true(circuit_shot_done(s));
-    assert_int_equal(rec.count[SHOT_RELEASED], 1);
-    assert_int_equal(rec.count[SHOT_STOPPED], 1);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_RELEASED], 1);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_STOPPED], 1);
     for (int k = 0; k < rec.n; k++) { /* (C-3): 1/2 L' I^2 = 2 mu N, to the release margin of 1e-3 N and round-off */
-        const shot_state *e = &rec.events[k].state;
-        if (rec.events[k].kind == SHOT_RELEASED) assert_near(0.25e-6 * e->current * e->current, 3e5, 0.01);
-        if (rec.events[k].kind == SHOT_STOPPED) assert_true(e->v == 0.0 && e->x > 0.1 && e->x < 5.0);
+        const circuit_shot_state *e = &rec.events[k].state;
+        if (rec.events[k].kind == CIRCUIT_SHOT_RELEASED) assert_near(0.25e-6 * e->current * e->current, 3e5, 0.01);
+        if (rec.events[k].kind == CIRCUIT_SHOT_STOPPED) assert_true(e->v == 0.0 && e->x > 0.1 && e->x < 5.0);
     }
     circuit_shot_free(s);
 }
@@ -456,15 +458,15 @@ static void armature_that_stops_again(void **state)
 static void leaves_before_the_last_firing(void **state)
 {
     (void)state;
-    shot_module modules[2] = { unit_200kJ(10, 0.0), unit_200kJ(10, 5e-3) };
-    shot_config c = plain(modules, 2);
+    circuit_shot_module modules[2] = { unit_200kJ(10, 0.0), unit_200kJ(10, 5e-3) };
+    circuit_shot_config c = plain(modules, 2);
     c.barrel.length = 0.5;
     c.barrel.muzzle_voltage = 200.0;
-    shot *s = run(&c);
-    const shot_summary result = circuit_shot_result(s);
+    circuit_shot *s = run(&c);
+    const circuit_shot_summary result = circuit_shot_result(s);
     assert_true(circuit_shot_done(s) && result.muzzle_time < 5e-3);
-    assert_int_equal(rec.count[SHOT_FIRED], 2);
-    assert_int_equal(rec.count[SHOT_BLOCKED], 2);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_FIRED], 2);
+    assert_int_equal(rec.count[CIRCUIT_SHOT_BLOCKED], 2);
     assert_near(circuit_shot_now(s).ledger.kinetic, result.muzzle_energy, 0.0);
     assert_true(circuit_shot_now(s).ledger.muzzle >
                 0.5 * 0.5 * circuit_shot_now(s).ledger.start); /* the late half goes mostly there */
@@ -478,16 +480,16 @@ static void sites_are_located(void **state)
     (void)state;
     static const double sites[] = { 4.2, 0.5, 0.5, 0.500001, 1.7, 2.9999999, 3.0, 4.9999 };
     static const int order[] = { 1, 2, 3, 4, 5, 6, 0, 7 };
-    shot_module modules[13];
-    shot_config c = plain(modules, default_bank(modules));
-    shot *bare = run(&c);
+    circuit_shot_module modules[13];
+    circuit_shot_config c = plain(modules, default_bank(modules));
+    circuit_shot *bare = run(&c);
     c.sites = sites;
     c.n_sites = 8;
-    shot *s = run(&c);
+    circuit_shot *s = run(&c);
     int n = 0;
     for (int k = 0; k < rec.n; k++) {
-        if (rec.events[k].kind != SHOT_SITE) continue;
-        const shot_state *e = &rec.events[k].state;
+        if (rec.events[k].kind != CIRCUIT_SHOT_SITE) continue;
+        const circuit_shot_state *e = &rec.events[k].state;
         assert_int_equal(rec.events[k].index, order[n]);
         assert_near(e->x, sites[order[n]], 1e-9); /* IDA locates roots to about 100 roundings of t: 1e-15 s x 2 km/s */
         assert_true(e->contact_pressure > 1e7 && e->rail_temperature == c.rails.initial_temperature);
@@ -506,18 +508,18 @@ static void gouges_hand_back(void **state)
 {
     (void)state;
     static const double sites[] = { 1.0, 2.0 };
-    shot_module modules[13];
-    shot_config c = plain(modules, default_bank(modules));
+    circuit_shot_module modules[13];
+    circuit_shot_config c = plain(modules, default_bank(modules));
     c.sites = sites;
     c.n_sites = 2;
-    shot *free_run = run(&c);
-    shot *s = NULL;
-    const shot_sink sink = notebook();
+    circuit_shot *free_run = run(&c);
+    circuit_shot *s = NULL;
+    const circuit_shot_sink sink = notebook();
     rec.impulse = 5.0;
     rec.mass_loss = 1e-4;
     assert_ok(circuit_shot_create(&c, &s));
     assert_ok(circuit_shot_advance(s, INFINITY, &sink));
-    const shot_ledger l = circuit_shot_now(s).ledger;
+    const circuit_shot_ledger l = circuit_shot_now(s).ledger;
     assert_true(rec.worst_energy < 1e-6);
     assert_near(l.momentum_jumps, 10.0, 1e-12);
     assert_near(l.mass_jumps, 2e-4, 1e-16);
@@ -527,7 +529,7 @@ static void gouges_hand_back(void **state)
     circuit_shot_free(s);
     circuit_shot_free(free_run);
 
-    const shot_sink again =
+    const circuit_shot_sink again =
         notebook(); /* more than the momentum: it stops there, and the current starts it again or not */
     rec.impulse = 1e6;
     assert_ok(circuit_shot_create(&c, &s));
@@ -543,13 +545,13 @@ static void gouges_hand_back(void **state)
 static void stop_and_go_on(void **state)
 {
     (void)state;
-    shot_module modules[13];
-    const shot_config c = plain(modules, default_bank(modules));
-    shot *whole = run(&c);
+    circuit_shot_module modules[13];
+    const circuit_shot_config c = plain(modules, default_bank(modules));
+    circuit_shot *whole = run(&c);
     const int n = rec.n;
     for (int stop = 1; stop <= n; stop += 5) {
-        shot *s = NULL;
-        const shot_sink sink = notebook();
+        circuit_shot *s = NULL;
+        const circuit_shot_sink sink = notebook();
         rec.stop_at = stop;
         assert_ok(circuit_shot_create(&c, &s));
         assert_int_equal(circuit_shot_advance(s, INFINITY, &sink).code, STATUS_STOPPED);
@@ -561,9 +563,9 @@ static void stop_and_go_on(void **state)
     circuit_shot_free(whole);
 }
 
-static status creation(const shot_config *c)
+static status creation(const circuit_shot_config *c)
 {
-    shot *s = NULL;
+    circuit_shot *s = NULL;
     const status st = circuit_shot_create(c, &s);
     if (st.code != STATUS_OK) assert_null(s);
     circuit_shot_free(s);
@@ -573,9 +575,9 @@ static status creation(const shot_config *c)
 static void bad_input_is_named(void **state)
 {
     (void)state;
-    shot_module m = unit_200kJ(1, 0.0);
+    circuit_shot_module m = unit_200kJ(1, 0.0);
     const double outside[1] = { 7.0 };
-    shot_config c = plain(&m, 1);
+    circuit_shot_config c = plain(&m, 1);
     m.capacitance = -5e-3;
     status st = creation(&c);
     assert_int_equal(st.code, STATUS_BAD_INPUT);
@@ -591,7 +593,7 @@ static void bad_input_is_named(void **state)
     c.n_sites = 1;
     assert_non_null(strstr(creation(&c).text, "sites[0]"));
     c = plain(&m, 0);
-    c.supplies[SUPPLY_capacitor].n = 0;
+    c.supplies[CIRCUIT_SUPPLY_capacitor].n = 0;
     assert_int_equal(creation(&c).code, STATUS_BAD_INPUT);
 }
 
@@ -608,9 +610,9 @@ static double dice_between(uint64_t *seed, double lo, double hi) /* evenly in th
     return lo * pow(hi / lo, dice(seed));
 }
 
-static shot_module dice_module(uint64_t *seed)
+static circuit_shot_module dice_module(uint64_t *seed)
 {
-    shot_module m = unit_200kJ(1 + (int)(5.0 * dice(seed)), floor(6.0 * dice(seed)) * 3e-4);
+    circuit_shot_module m = unit_200kJ(1 + (int)(5.0 * dice(seed)), floor(6.0 * dice(seed)) * 3e-4);
     m.capacitance = dice_between(seed, 1e-4, 1e-2);
     m.charge = dice(seed) < 0.1 ? 0.0 : dice_between(seed, 1e2, 2e4);
     m.inductance = dice_between(seed, 1e-6, 1e-4);
@@ -633,10 +635,10 @@ static void random_banks(void **state)
     uint64_t most = 0;
     int left = 0, stopped = 0;
     for (int k = 0; k < n_shots; k++) {
-        shot_module modules[12];
+        circuit_shot_module modules[12];
         const int n = 1 + (int)(12.0 * dice(&seed));
         for (int j = 0; j < n; j++) modules[j] = dice_module(&seed);
-        shot_config c = plain(modules, n);
+        circuit_shot_config c = plain(modules, n);
         c.armature.mass = dice_between(&seed, 0.01, 10.0);
         c.armature.preload = dice(&seed) < 0.2 ? 0.0 : dice_between(&seed, 1.0, 1e6);
         c.armature.spreading = dice(&seed) < 0.3 ? 0.0 : dice_between(&seed, 1e-9, 1e-6);
@@ -645,11 +647,11 @@ static void random_banks(void **state)
         c.armature.wear_fraction = dice(&seed) < 0.5 ? 0.0 : 0.02;
         c.barrel.length = dice_between(&seed, 0.2, 20.0);
         c.barrel.muzzle_voltage = dice(&seed) < 0.5 ? 0.0 : 300.0;
-        shot *s = run(&c);
+        circuit_shot *s = run(&c);
         worst = fmax(worst, rec.worst_energy);
         most = circuit_shot_result(s).steps > most ? circuit_shot_result(s).steps : most;
-        left += rec.count[SHOT_MUZZLE];
-        stopped += rec.count[SHOT_STOPPED];
+        left += rec.count[CIRCUIT_SHOT_MUZZLE];
+        stopped += rec.count[CIRCUIT_SHOT_STOPPED];
         circuit_shot_free(s);
     }
     print_message("%d shots: %d leave, %d stop, worst energy error %.1e, at most %llu steps\n", n_shots, left, stopped,
@@ -661,12 +663,12 @@ static void random_banks(void **state)
 static void shot_of_default_case(void **state)
 {
     (void)state;
-    shot_module modules[13];
-    shot_config c = plain(modules, default_bank(modules));
-    c.rails.level = SHOT_RAILS_SKIN;
-    shot *s = run(&c);
-    const shot_summary r = circuit_shot_result(s);
-    const shot_state now = circuit_shot_now(s);
+    circuit_shot_module modules[13];
+    circuit_shot_config c = plain(modules, default_bank(modules));
+    c.rails.level = CIRCUIT_SHOT_RAILS_SKIN;
+    circuit_shot *s = run(&c);
+    const circuit_shot_summary r = circuit_shot_result(s);
+    const circuit_shot_state now = circuit_shot_now(s);
     const double frequency = circuit_shot_effective_frequency(c.supplies);
     print_message("f %.1f Hz\n", frequency);
     print_message(

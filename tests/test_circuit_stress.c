@@ -12,7 +12,7 @@
 
 enum { MAX_MODULES = 2000 };
 
-static shot_module modules[MAX_MODULES];
+static circuit_shot_module modules[MAX_MODULES];
 static shot_notes notes;
 
 static bool full(void)
@@ -32,10 +32,10 @@ static double between(uint64_t *seed, double lo, double hi) /* evenly in the log
     return lo * pow(hi / lo, dice(seed));
 }
 
-static status run(const shot_config *c, shot_summary *out)
+static status run(const circuit_shot_config *c, circuit_shot_summary *out)
 {
-    shot *s = NULL;
-    const shot_sink sink = notes_sink(&notes);
+    circuit_shot *s = NULL;
+    const circuit_shot_sink sink = notes_sink(&notes);
     TRY(circuit_shot_create(c, &s));
     const status done = circuit_shot_advance(s, INFINITY, &sink);
     *out = circuit_shot_result(s);
@@ -44,9 +44,9 @@ static status run(const shot_config *c, shot_summary *out)
 }
 
 /* Quarter periods from 1 us to 1 s, resistances from 1e-9 ohm, every option of a module, simultaneous firing. */
-static shot_module any_module(uint64_t *seed)
+static circuit_shot_module any_module(uint64_t *seed)
 {
-    shot_module m = unit_200kJ(1 + (int)(3.0 * dice(seed)), floor(5.0 * dice(seed)) * 4e-4);
+    circuit_shot_module m = unit_200kJ(1 + (int)(3.0 * dice(seed)), floor(5.0 * dice(seed)) * 4e-4);
     const double tau = between(seed, 1e-6, 1.0) / 1.5708;
     m.inductance = between(seed, fmax(1e-8, tau * tau), fmax(1e-7, fmin(1e-3, 1e3 * tau)));
     m.capacitance = fmin(fmax(tau * tau / m.inductance, 1e-9), 100.0);
@@ -62,11 +62,11 @@ static shot_module any_module(uint64_t *seed)
     return m;
 }
 
-static shot_config any_shot(uint64_t *seed, int n)
+static circuit_shot_config any_shot(uint64_t *seed, int n)
 {
-    shot_config c = plain_barrel();
+    circuit_shot_config c = plain_barrel();
     for (int k = 0; k < n; k++) modules[k] = any_module(seed);
-    c.supplies[SUPPLY_capacitor] = (supply_list){ n, modules };
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ n, modules };
     c.armature.mass = between(seed, 0.01, 10.0);
     c.armature.preload = dice(seed) < 0.2 ? 0.0 : between(seed, 1.0, 1e6);
     c.armature.contact_voltage = dice(seed) < 0.3 ? 0.0 : 40.0;
@@ -90,8 +90,8 @@ static void random_circuits(void **state)
     int refused = 0, rerun = 0, left = 0;
     double worst = 0.0;
     for (int k = 0; k < shots; k++) {
-        shot_summary r;
-        shot_config c = any_shot(&seed, 1 + (int)(12.0 * dice(&seed)));
+        circuit_shot_summary r;
+        circuit_shot_config c = any_shot(&seed, 1 + (int)(12.0 * dice(&seed)));
         status st = run(&c, &r);
         if (st.code == STATUS_OK && notes.worst_error >= 1e-5) { /* thousands of rings of microseconds: errors add up */
             print_message("shot %d: energy error %.1e in %llu steps", k, notes.worst_error,
@@ -110,7 +110,7 @@ static void random_circuits(void **state)
         } else if (!(notes.worst_error < 1e-5)) {
             fail_msg("shot %d: energy error %.2e", k, notes.worst_error);
         }
-        left += notes.count[SHOT_MUZZLE];
+        left += notes.count[CIRCUIT_SHOT_MUZZLE];
         if (st.code == STATUS_OK) worst = fmax(worst, notes.worst_error);
     }
     print_message("%d circuits: %d refused, %d at a closer tolerance, %d leave, worst energy error %.1e\n", shots,
@@ -126,7 +126,7 @@ static void many_groups(void **state)
     double first = 0.0;
     for (int k = 0; k < (full() ? 4 : 3); k++) {
         const int n = counts[k];
-        shot_config c = plain_barrel();
+        circuit_shot_config c = plain_barrel();
         for (int j = 0; j < n; j++) {
             modules[j] = unit_200kJ(1, 0.0);
             modules[j].capacitance *= 15.0 / n;
@@ -137,14 +137,14 @@ static void many_groups(void **state)
             modules[j].charge *= 1.0 + 1e-6 * sin(j);
         }
         if (n == 1) modules[0].fire_at = 1.5e-4;
-        c.supplies[SUPPLY_capacitor] = (supply_list){ n, modules };
-        shot_summary r;
+        c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ n, modules };
+        circuit_shot_summary r;
         const status st = run(&c, &r);
         if (st.code != STATUS_OK) fail_msg("%d groups: %s", n, st.text);
         print_message("%d groups: %.3f m/s, worst energy error %.1e, %llu steps\n", n, r.muzzle_velocity,
                       notes.worst_error, (unsigned long long)r.steps);
         assert_true(notes.worst_error < 1e-6);
-        assert_int_equal(notes.count[SHOT_FIRED], n);
+        assert_int_equal(notes.count[CIRCUIT_SHOT_FIRED], n);
         if (k == 1) first = r.muzzle_velocity;
         if (k > 1) assert_true(fabs(r.muzzle_velocity / first - 1.0) < 1e-5); /* charges differ by 1e-6 */
     }
@@ -156,17 +156,17 @@ static void coincidences(void **state)
 {
     (void)state;
     modules[0] = unit_200kJ(8, 0.0);
-    shot_config c = plain_barrel();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ 1, modules };
-    shot_summary r;
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, modules };
+    circuit_shot_summary r;
     assert_int_equal(run(&c, &r).code, STATUS_OK);
-    const double instants[] = { r.muzzle_time, notes.time[SHOT_CROWBAR], notes.time[SHOT_BLOCKED],
-                                notes.time[SHOT_RELEASED] };
-    c.supplies[SUPPLY_capacitor].n = 2;
+    const double instants[] = { r.muzzle_time, notes.time[CIRCUIT_SHOT_CROWBAR], notes.time[CIRCUIT_SHOT_BLOCKED],
+                                notes.time[CIRCUIT_SHOT_RELEASED] };
+    c.supplies[CIRCUIT_SUPPLY_capacitor].n = 2;
     for (size_t k = 0; k < sizeof instants / sizeof *instants; k++) {
         modules[1] = unit_200kJ(2, instants[k]);
         assert_int_equal(run(&c, &r).code, STATUS_OK);
-        assert_true(notes.worst_error < 1e-6 && notes.count[SHOT_FIRED] == 2);
+        assert_true(notes.worst_error < 1e-6 && notes.count[CIRCUIT_SHOT_FIRED] == 2);
     }
     modules[1] =
         unit_200kJ(2, 1e-4); /* empty, no drop: its diode conducts from the start, if it gets to conduct at all */
@@ -178,10 +178,10 @@ static void coincidences(void **state)
 static void refusals(void **state)
 {
     (void)state;
-    shot_summary r;
-    shot_config c = plain_barrel();
+    circuit_shot_summary r;
+    circuit_shot_config c = plain_barrel();
     modules[0] = unit_200kJ(1, 0.0);
-    c.supplies[SUPPLY_capacitor] = (supply_list){ 1, modules };
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, modules };
     modules[0].charge = -1e3; /* reversed */
     const status reversed = run(&c, &r);
     assert_int_equal(reversed.code, STATUS_BAD_INPUT);

@@ -24,14 +24,14 @@ static void assert_near(double got, double want, double tolerance)
 /* ---- one of each ---- */
 
 typedef struct {
-    shot_module capacitor;
-    supply_inductor inductor;
-    supply_homopolar homopolar;
-    supply_alternator alternator;
-    supply_profile profile;
+    circuit_shot_module capacitor;
+    circuit_supply_inductor inductor;
+    circuit_supply_homopolar homopolar;
+    circuit_supply_alternator alternator;
+    circuit_supply_profile profile;
 } one_of_each;
 
-static supply_point hump[9];
+static circuit_supply_point hump[9];
 
 static one_of_each samples(void)
 {
@@ -63,7 +63,7 @@ static one_of_each samples(void)
     s.alternator.inductance = 2e-6;
     s.alternator.resistance = 300e-6;
     base_params_default(circuit_supply_profile_params, &s.profile);
-    for (int k = 0; k < 9; k++) hump[k] = (supply_point){ k * 5e-4, 4e5 * sin(3.14159265358979 * k / 8) };
+    for (int k = 0; k < 9; k++) hump[k] = (circuit_supply_point){ k * 5e-4, 4e5 * sin(3.14159265358979 * k / 8) };
     hump[8].current = 0.0;
     s.profile.points.n = 9;
     s.profile.points.item = hump;
@@ -72,11 +72,11 @@ static one_of_each samples(void)
 
 static const void *sample_of(const one_of_each *s, int kind)
 {
-    const void *const all[SUPPLY_KINDS] = { [SUPPLY_capacitor] = &s->capacitor,
-                                            [SUPPLY_inductor] = &s->inductor,
-                                            [SUPPLY_homopolar] = &s->homopolar,
-                                            [SUPPLY_alternator] = &s->alternator,
-                                            [SUPPLY_profile] = &s->profile };
+    const void *const all[CIRCUIT_SUPPLY_KINDS] = { [CIRCUIT_SUPPLY_capacitor] = &s->capacitor,
+                                                    [CIRCUIT_SUPPLY_inductor] = &s->inductor,
+                                                    [CIRCUIT_SUPPLY_homopolar] = &s->homopolar,
+                                                    [CIRCUIT_SUPPLY_alternator] = &s->alternator,
+                                                    [CIRCUIT_SUPPLY_profile] = &s->profile };
     assert_non_null(all[kind]); /* a new kind needs a sample here */
     return all[kind];
 }
@@ -127,13 +127,13 @@ static void recharged(void **state)
 {
     (void)state;
     const one_of_each s = samples();
-    for (int kind = 0; kind < SUPPLY_KINDS; kind++) {
-        const size_t size = circuit_supply_size((supply_kind_index)kind);
-        _Alignas(max_align_t) char units[2 * (sizeof(shot_module) + sizeof(supply_alternator))];
+    for (int kind = 0; kind < CIRCUIT_SUPPLY_KINDS; kind++) {
+        const size_t size = circuit_supply_size((circuit_supply_kind_index)kind);
+        _Alignas(max_align_t) char units[2 * (sizeof(circuit_shot_module) + sizeof(circuit_supply_alternator))];
         double e[2];
         assert_true(2 * size <= sizeof units);
         for (int i = 0; i < 2; i++) memcpy(units + (size_t)i * size, sample_of(&s, kind), size);
-        circuit_supply_recharge((supply_kind_index)kind, units, 2, 1.1);
+        circuit_supply_recharge((circuit_supply_kind_index)kind, units, 2, 1.1);
         assert_memory_equal(units, units + size, size);
         if (circuit_supply_kinds[kind]->source) {
             assert_memory_equal(units, sample_of(&s, kind), size);
@@ -155,23 +155,24 @@ static void law_of_the_table(void **state)
 {
     (void)state;
     const one_of_each s = samples();
-    for (int kind = 0; kind < SUPPLY_KINDS; kind++) {
+    for (int kind = 0; kind < CIRCUIT_SUPPLY_KINDS; kind++) {
         for (int variant = 0; variant < 2; variant++) {
             supply_group g = { .kind = circuit_supply_kinds[kind], .p = sample_of(&s, kind), .n = 1.0 };
-            shot_module damped = s.capacitor;
+            circuit_shot_module damped = s.capacitor;
             damped.damping_resistance = 0.3;
             damped.crowbar_resistance = 0.0;
-            if (variant && kind == SUPPLY_capacitor) g.p = &damped;
+            if (variant && kind == CIRCUIT_SUPPLY_capacitor) g.p = &damped;
             g.at = circuit_supply_common_of(g.p);
             g.unknowns = g.kind->unknowns(g.p);
             if (g.kind->prepare) assert_ok(g.kind->prepare(&g));
             for (int gate = GATE_UNFIRED; gate <= GATE_ON; gate++) {
-                for (int stage = 0; stage < (g.kind->next && kind != SUPPLY_profile ? 2 : 1); stage++) {
+                for (int stage = 0; stage < (g.kind->next && kind != CIRCUIT_SUPPLY_profile ? 2 : 1); stage++) {
                     const double i = gate == GATE_ON ? 1.2e5 : 0.0;
-                    const double y[SUPPLY_UNKNOWNS] = { i, kind == SUPPLY_inductor ? 2e5 : 650.0, 0.3, 0.0 };
+                    const double y[SUPPLY_UNKNOWNS] = { i, kind == CIRCUIT_SUPPLY_inductor ? 2e5 : 650.0, 0.3, 0.0 };
                     g.gate = (supply_gate)gate;
                     g.stage = stage;
-                    if (stage && gate != GATE_ON && kind == SUPPLY_inductor) continue; /* open, and carrying nothing */
+                    if (stage && gate != GATE_ON && kind == CIRCUIT_SUPPLY_inductor)
+                        continue; /* open, and carrying nothing */
                     balance(&g, y, 800.0);
                     balance(&g, y, -90.0);
                 }
@@ -185,10 +186,10 @@ static void law_of_the_table(void **state)
 
 static shot_notes notes;
 
-static shot *run(const shot_config *c)
+static circuit_shot *run(const circuit_shot_config *c)
 {
-    shot *s = NULL;
-    const shot_sink sink = notes_sink(&notes);
+    circuit_shot *s = NULL;
+    const circuit_shot_sink sink = notes_sink(&notes);
     assert_ok(circuit_shot_create(c, &s));
     assert_ok(circuit_shot_advance(s, INFINITY, &sink));
     /* default tolerances: docs/validation/circuit.md's 1000 random banks stay below 3e-7 */
@@ -200,17 +201,18 @@ static void every_kind_shoots(void **state)
 {
     (void)state;
     const one_of_each s = samples();
-    for (int kind = 0; kind < SUPPLY_KINDS; kind++) {
-        shot_config c = plain_barrel();
-        c.supplies[kind] = (supply_list){ 1, sample_of(&s, kind) };
-        shot *one = run(&c);
-        const shot_summary r = circuit_shot_result(one);
+    for (int kind = 0; kind < CIRCUIT_SUPPLY_KINDS; kind++) {
+        circuit_shot_config c = plain_barrel();
+        c.supplies[kind] = (circuit_supply_list){ 1, sample_of(&s, kind) };
+        circuit_shot *one = run(&c);
+        const circuit_shot_summary r = circuit_shot_result(one);
         print_message("%-10s peak %.0f kA, %.0f m/s, worst energy error %.1e, %llu steps\n",
                       circuit_supply_kinds[kind]->name, 1e-3 * r.peak_current, r.muzzle_velocity, notes.worst_error,
                       (unsigned long long)r.steps);
-        assert_int_equal(notes.count[SHOT_FIRED], 1);
+        assert_int_equal(notes.count[CIRCUIT_SHOT_FIRED], 1);
         assert_int_equal(circuit_shot_module_count(one), 1);
-        assert_true(r.peak_current > 1e4 && (r.muzzle_velocity > 10.0 || circuit_shot_now(one).phase != SHOT_LEFT));
+        assert_true(r.peak_current > 1e4 &&
+                    (r.muzzle_velocity > 10.0 || circuit_shot_now(one).phase != CIRCUIT_SHOT_LEFT));
         circuit_shot_free(one);
     }
 }
@@ -219,11 +221,12 @@ static void all_kinds_together(void **state)
 {
     (void)state;
     const one_of_each s = samples();
-    shot_config c = plain_barrel();
-    for (int kind = 0; kind < SUPPLY_KINDS; kind++) c.supplies[kind] = (supply_list){ 1, sample_of(&s, kind) };
-    shot *one = run(&c);
-    assert_int_equal(circuit_shot_module_count(one), SUPPLY_KINDS);
-    assert_int_equal(notes.count[SHOT_MUZZLE], 1);
+    circuit_shot_config c = plain_barrel();
+    for (int kind = 0; kind < CIRCUIT_SUPPLY_KINDS; kind++)
+        c.supplies[kind] = (circuit_supply_list){ 1, sample_of(&s, kind) };
+    circuit_shot *one = run(&c);
+    assert_int_equal(circuit_shot_module_count(one), CIRCUIT_SUPPLY_KINDS);
+    assert_int_equal(notes.count[CIRCUIT_SHOT_MUZZLE], 1);
     print_message("together: %.0f m/s, worst energy error %.1e\n", circuit_shot_result(one).muzzle_velocity,
                   notes.worst_error);
     circuit_shot_free(one);
@@ -233,10 +236,10 @@ static void all_kinds_together(void **state)
 static void homopolar_is_a_capacitor(void **state)
 {
     (void)state;
-    supply_homopolar h = samples().homopolar;
+    circuit_supply_homopolar h = samples().homopolar;
     h.windage = 0.0;
     h.inertia = 2e-3;
-    shot_module m;
+    circuit_shot_module m;
     base_params_default(circuit_supply_capacitor_params, &m);
     m.capacitance = h.inertia / (h.flux * h.flux);
     m.charge = h.flux * h.speed * 10.0;
@@ -244,10 +247,10 @@ static void homopolar_is_a_capacitor(void **state)
     m.inductance = h.inductance;
     m.resistance = h.resistance;
     m.crowbar = false;
-    shot_config a = plain_barrel(), b = plain_barrel();
-    a.supplies[SUPPLY_homopolar] = (supply_list){ 1, &h };
-    b.supplies[SUPPLY_capacitor] = (supply_list){ 1, &m };
-    shot *one = run(&a), *other = run(&b);
+    circuit_shot_config a = plain_barrel(), b = plain_barrel();
+    a.supplies[CIRCUIT_SUPPLY_homopolar] = (circuit_supply_list){ 1, &h };
+    b.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, &m };
+    circuit_shot *one = run(&a), *other = run(&b);
     const double peak = circuit_shot_result(other).peak_current;
     assert_near(circuit_shot_result(one).peak_current, peak, 1e-7 * peak); /* both within 100 rtol of the truth */
     assert_near(circuit_shot_now(one).x, circuit_shot_now(other).x, 1e-6);
@@ -262,7 +265,7 @@ static void homopolar_is_a_capacitor(void **state)
 static void opening_switch(void **state)
 {
     (void)state;
-    supply_inductor p = samples().inductor;
+    circuit_supply_inductor p = samples().inductor;
     p.current = 0.0;
     p.battery_voltage = 400.0;
     p.fire_at = 0.02;
@@ -271,15 +274,15 @@ static void opening_switch(void **state)
     const double i0 = p.battery_voltage / p.resistance * -expm1(-p.fire_at * p.resistance / p.inductance);
     const double share = p.inductance / (p.inductance + p.cable_inductance),
                  took = i0 * share * p.cable_inductance / 1e6;
-    shot_config c = short_circuit();
-    c.supplies[SUPPLY_inductor] = (supply_list){ 1, &p };
-    shot *s = NULL;
-    const shot_sink sink = notes_sink(&notes);
+    circuit_shot_config c = short_circuit();
+    c.supplies[CIRCUIT_SUPPLY_inductor] = (circuit_supply_list){ 1, &p };
+    circuit_shot *s = NULL;
+    const circuit_shot_sink sink = notes_sink(&notes);
     assert_ok(circuit_shot_create(&c, &s));
     assert_ok(circuit_shot_advance(s, 0.020001, &sink));
-    assert_int_equal(notes.count[SHOT_COMMUTATED], 1);
+    assert_int_equal(notes.count[CIRCUIT_SHOT_COMMUTATED], 1);
     /* R i_0/U = 2.6e-4 of the current is lost or gained on the way */
-    assert_near(notes.time[SHOT_COMMUTATED] - p.fire_at, took, 1e-3 * took);
+    assert_near(notes.time[CIRCUIT_SHOT_COMMUTATED] - p.fire_at, took, 1e-3 * took);
     assert_near(circuit_shot_result(s).peak_current, i0 * share, 1e-3 * i0);
     assert_near(circuit_shot_now(s).ledger.switch_heat, 0.5 * i0 * i0 * share * p.cable_inductance,
                 1e-3 * circuit_shot_now(s).ledger.switch_heat);
@@ -295,31 +298,31 @@ static void opening_switch(void **state)
 static void alternator_pulses(void **state)
 {
     (void)state;
-    supply_alternator p = samples().alternator;
+    circuit_supply_alternator p = samples().alternator;
     p.resistance = p.windage = 0.0;
     p.inertia = 1e7;
     p.phase = 0.5;
     p.pulses = 2;
-    shot_config c = short_circuit();
-    c.supplies[SUPPLY_alternator] = (supply_list){ 1, &p };
+    circuit_shot_config c = short_circuit();
+    c.supplies[CIRCUIT_SUPPLY_alternator] = (circuit_supply_list){ 1, &p };
     const double pi = 3.14159265358979, w = p.pole_pairs * p.speed, unit = p.flux / (p.pole_pairs * p.inductance);
-    shot *s = NULL;
-    const shot_sink sink = notes_sink(&notes);
+    circuit_shot *s = NULL;
+    const circuit_shot_sink sink = notes_sink(&notes);
     assert_ok(circuit_shot_create(&c, &s));
     assert_ok(circuit_shot_advance(s, (2.0 * pi - 0.6) / w, &sink));
     assert_near(circuit_shot_result(s).peak_current, unit * (1.0 + cos(0.5)),
                 2e-5 * unit); /* the rotor's share: 1e-6 */
-    assert_int_equal(notes.count[SHOT_WAITING], 1);
-    assert_near(notes.time[SHOT_WAITING], (2.0 * pi - 1.0) / w, 1e-5 / w);
+    assert_int_equal(notes.count[CIRCUIT_SHOT_WAITING], 1);
+    assert_near(notes.time[CIRCUIT_SHOT_WAITING], (2.0 * pi - 1.0) / w, 1e-5 / w);
     assert_ok(circuit_shot_advance(s, 3.0 * pi / w, &sink));
-    assert_int_equal(notes.count[SHOT_FIRED], 2);
-    assert_near(notes.time[SHOT_FIRED], (2.0 * pi - 0.5) / w, 1e-5 / w);
-    assert_int_equal(notes.count[SHOT_BLOCKED], 0);
+    assert_int_equal(notes.count[CIRCUIT_SHOT_FIRED], 2);
+    assert_near(notes.time[CIRCUIT_SHOT_FIRED], (2.0 * pi - 0.5) / w, 1e-5 / w);
+    assert_int_equal(notes.count[CIRCUIT_SHOT_BLOCKED], 0);
     assert_true(notes.worst_error < 1e-6);
     circuit_shot_free(s);
     p.resistance = 3e-4; /* with losses the second pulse ends too, for good */
     s = run(&c);
-    assert_int_equal(notes.count[SHOT_BLOCKED], 1);
+    assert_int_equal(notes.count[CIRCUIT_SHOT_BLOCKED], 1);
     assert_true(circuit_shot_done(s));
     circuit_shot_free(s);
 }
@@ -328,9 +331,9 @@ static void profile_is_followed(void **state)
 {
     (void)state;
     const one_of_each all = samples();
-    shot_config c = plain_barrel();
-    c.supplies[SUPPLY_profile] = (supply_list){ 1, &all.profile };
-    shot *s = NULL;
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_profile] = (circuit_supply_list){ 1, &all.profile };
+    circuit_shot *s = NULL;
     assert_ok(circuit_shot_create(&c, &s));
     for (int k = 1; k < 8; k++) {
         assert_ok(circuit_shot_advance(s, hump[k].time, NULL));
@@ -348,9 +351,9 @@ static void profile_is_followed(void **state)
     assert_ok(circuit_shot_advance(s, INFINITY, NULL));
     assert_true(circuit_shot_now(s).current == 0.0 && circuit_shot_now(s).t >= 2 * hump[8].time - hump[7].time);
     circuit_shot_free(s);
-    supply_profile bad = all.profile;
+    circuit_supply_profile bad = all.profile;
     hump[8].current = 0.1 * 4e5;
-    c.supplies[SUPPLY_profile].item = &bad;
+    c.supplies[CIRCUIT_SUPPLY_profile].item = &bad;
     const status st = circuit_shot_create(&c, &s);
     assert_int_equal(st.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(st.text, "current_profiles[0]"));
@@ -360,14 +363,14 @@ static void profile_is_followed(void **state)
 static void late_spike(void **state)
 {
     (void)state;
-    supply_point points[] = { { 0.0, 0.0 }, { 0.05, 0.0 }, { 0.05001, 5e5 }, { 0.05002, 0.0 } };
-    supply_profile p;
+    circuit_supply_point points[] = { { 0.0, 0.0 }, { 0.05, 0.0 }, { 0.05001, 5e5 }, { 0.05002, 0.0 } };
+    circuit_supply_profile p;
     base_params_default(circuit_supply_profile_params, &p);
     p.points.n = 4;
     p.points.item = points;
-    shot_config c = short_circuit();
-    c.supplies[SUPPLY_profile] = (supply_list){ 1, &p };
-    shot *s = run(&c);
+    circuit_shot_config c = short_circuit();
+    c.supplies[CIRCUIT_SUPPLY_profile] = (circuit_supply_list){ 1, &p };
+    circuit_shot *s = run(&c);
     assert_near(circuit_shot_result(s).peak_current, 5e5, 1.0);
     circuit_shot_free(s);
 }
@@ -378,13 +381,13 @@ static void late_spike(void **state)
 static void ringing(void **state)
 {
     (void)state;
-    shot_module m = unit_200kJ(1, 0.0);
+    circuit_shot_module m = unit_200kJ(1, 0.0);
     m.crowbar = m.series_diode = false;
-    shot_config c = short_circuit();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ 1, &m };
+    circuit_shot_config c = short_circuit();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, &m };
     c.options.rtol = 1e-11;
     c.options.atol = 1e-13;
-    shot *s = NULL;
+    circuit_shot *s = NULL;
     assert_ok(circuit_shot_create(&c, &s));
     const double a = 0.5 * m.resistance / m.inductance, w = sqrt(1.0 / (m.inductance * m.capacitance) - a * a);
     const double peak = m.charge / (w * m.inductance);
@@ -404,23 +407,23 @@ static void ringing(void **state)
 static void reversal_through_a_crowbar(void **state)
 {
     (void)state;
-    shot_module m[2] = { unit_200kJ(1, 0.0), unit_200kJ(6, 2e-4) };
+    circuit_shot_module m[2] = { unit_200kJ(1, 0.0), unit_200kJ(6, 2e-4) };
     m[0].series_diode = false;
     m[0].charge = 3e3;
     m[0].cable_inductance = m[1].cable_inductance = 1e-6;
-    shot_config c = plain_barrel();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ 2, m };
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 2, m };
     c.options.max_time = 0.02;
-    shot *s = run(&c);
-    assert_true(notes.count[SHOT_RECHARGED] >= 1);
+    circuit_shot *s = run(&c);
+    assert_true(notes.count[CIRCUIT_SHOT_RECHARGED] >= 1);
     circuit_shot_free(s);
 }
 
-static double muzzle_velocity(const shot_module *m, int n)
+static double muzzle_velocity(const circuit_shot_module *m, int n)
 {
-    shot_config c = plain_barrel();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ n, m };
-    shot *s = run(&c);
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ n, m };
+    circuit_shot *s = run(&c);
     const double v = circuit_shot_result(s).muzzle_velocity;
     circuit_shot_free(s);
     return v;
@@ -430,7 +433,7 @@ static double muzzle_velocity(const shot_module *m, int n)
 static void damping(void **state)
 {
     (void)state;
-    shot_module m = unit_200kJ(8, 0.0);
+    circuit_shot_module m = unit_200kJ(8, 0.0);
     m.cable_inductance = 1e-6;
     const double bare = muzzle_velocity(&m, 1);
     m.damping_resistance = 1e6;
@@ -440,9 +443,9 @@ static void damping(void **state)
     print_message("muzzle velocity %.3f, damped %.3f m/s\n", bare, damped);
     assert_true(fabs(damped / bare - 1.0) > 1e-3);
     m.cable_inductance = 0.0;
-    shot_config c = plain_barrel();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ 1, &m };
-    shot *s = NULL;
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, &m };
+    circuit_shot *s = NULL;
     assert_int_equal(circuit_shot_create(&c, &s).code, STATUS_BAD_INPUT);
 }
 
@@ -451,7 +454,7 @@ static void damping(void **state)
 static void feed_at_the_breech_is_the_breech(void **state)
 {
     (void)state;
-    shot_module m[2] = { unit_200kJ(6, 0.0), unit_200kJ(6, 3e-4) };
+    circuit_shot_module m[2] = { unit_200kJ(6, 0.0), unit_200kJ(6, 3e-4) };
     m[0].cable_inductance = m[1].cable_inductance = 1e-6;
     const double together = muzzle_velocity(m, 2);
     m[1].position = 1e-9;
@@ -463,7 +466,7 @@ static void feed_at_the_breech_is_the_breech(void **state)
 /* Two feeds of ideal sources behind inductances, by Runge-Kutta: y = u_0, i_0, u_1, i_1, x, v.  Level constant, no
  * losses. */
 typedef struct {
-    const shot_module *m;
+    const circuit_shot_module *m;
     double Lr, mass, join;
 } two_feeds;
 
@@ -512,15 +515,15 @@ static void two_feeds_until(const two_feeds *c, double end, double *y)
 static void joining_on_the_way(void **state)
 {
     (void)state;
-    shot_module m[2] = { unit_200kJ(1, 0.0), unit_200kJ(1, 0.0) };
+    circuit_shot_module m[2] = { unit_200kJ(1, 0.0), unit_200kJ(1, 0.0) };
     for (int k = 0; k < 2; k++) {
         m[k].capacitance = 1.0; /* far from empty at the muzzle: no crowbar to model twice */
         m[k].resistance = 0.0;
         m[k].charge = 3e3;
     }
     m[1].position = 0.8;
-    shot_config c = plain_barrel();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ 2, m };
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 2, m };
     c.rails.resistance_gradient = 0.0;
     c.armature.resistance = c.armature.contact_voltage = c.armature.preload = c.armature.friction_dry = 0.0;
     c.armature.friction_melted = c.armature.spreading = c.armature.gas_density = 0.0;
@@ -533,36 +536,36 @@ static void joining_on_the_way(void **state)
     two_feeds_until(&own, m[1].position, y);
     y[4] = m[1].position;
     two_feeds_until(&own, c.barrel.length, y);
-    shot *s = run(&c);
-    const shot_summary r = circuit_shot_result(s);
+    circuit_shot *s = run(&c);
+    const circuit_shot_summary r = circuit_shot_result(s);
     print_message("two feeds: %.4f m/s, differs by %.1e\n", r.muzzle_velocity, r.muzzle_velocity / y[5] - 1.0);
     assert_near(r.muzzle_velocity, y[5], 1e-8 * y[5]); /* Runge-Kutta at 1 us is good to 1e-10, rtol 1e-10 to 1e-9 */
     assert_near(r.exit_current, y[1] + y[3], 1e-8 * r.exit_current);
-    assert_int_equal(notes.count[SHOT_FIRED], 2);
-    assert_true(notes.time[SHOT_FIRED] > 1e-4); /* the second one on the way, not at the start */
+    assert_int_equal(notes.count[CIRCUIT_SHOT_FIRED], 2);
+    assert_true(notes.time[CIRCUIT_SHOT_FIRED] > 1e-4); /* the second one on the way, not at the start */
     circuit_shot_free(s);
 }
 
 static void a_barrel_of_feeds(void **state)
 {
     (void)state;
-    shot_module m[12];
+    circuit_shot_module m[12];
     for (int k = 0; k < 12; k++) {
         m[k] = unit_200kJ(2, 0.0);
         m[k].position = k * 0.4;
         m[k].charge = 6e3;
     }
     m[0].count = 10;
-    shot_config c = plain_barrel();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ 12, m };
-    c.rails.level = SHOT_RAILS_DIFFUSING;
-    shot *s = run(&c);
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 12, m };
+    c.rails.level = CIRCUIT_SHOT_RAILS_DIFFUSING;
+    circuit_shot *s = run(&c);
     print_message("12 feeds: %.1f m/s, peak %.0f kA, worst energy error %.1e, %llu steps\n",
                   circuit_shot_result(s).muzzle_velocity, 1e-3 * circuit_shot_result(s).peak_current, notes.worst_error,
                   (unsigned long long)circuit_shot_result(s).steps);
-    assert_int_equal(notes.count[SHOT_FIRED], 12);
+    assert_int_equal(notes.count[CIRCUIT_SHOT_FIRED], 12);
     m[3].position = 5.0;
-    shot *none = NULL;
+    circuit_shot *none = NULL;
     assert_int_equal(circuit_shot_create(&c, &none).code, STATUS_BAD_INPUT);
     circuit_shot_free(s);
 }
@@ -572,20 +575,20 @@ static void a_barrel_of_feeds(void **state)
 static void muzzle_shunt(void **state)
 {
     (void)state;
-    shot_module m = unit_200kJ(8, 0.0);
-    shot_config c = plain_barrel();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ 1, &m };
+    circuit_shot_module m = unit_200kJ(8, 0.0);
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, &m };
     c.barrel.length = 2.0;
-    shot *bare = run(&c);
+    circuit_shot *bare = run(&c);
     c.barrel.shunt_resistance = 1e3;
-    shot *open = run(&c);
+    circuit_shot *open = run(&c);
     const double v = circuit_shot_result(bare).muzzle_velocity;
     assert_near(circuit_shot_result(open).muzzle_velocity, v,
                 1e-5 * v); /* 30 V over 1 kohm of 1 MA, and the contact's knee */
     c.barrel.shunt_resistance = 1e-4;
-    c.rails.level = SHOT_RAILS_DIFFUSING;
-    shot *shunted = run(&c);
-    const shot_state now = circuit_shot_now(shunted);
+    c.rails.level = CIRCUIT_SHOT_RAILS_DIFFUSING;
+    circuit_shot *shunted = run(&c);
+    const circuit_shot_state now = circuit_shot_now(shunted);
     print_message("muzzle velocity %.2f m/s, with a shunt of 0.1 mohm %.2f; worst energy error %.1e\n", v,
                   circuit_shot_result(shunted).muzzle_velocity, notes.worst_error);
     assert_true(circuit_shot_result(shunted).muzzle_velocity < v);
@@ -601,11 +604,11 @@ static void muzzle_shunt(void **state)
 static void limits(void **state)
 {
     (void)state;
-    shot_module m = unit_200kJ(8, 0.0);
-    shot_config c = plain_barrel();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ 1, &m };
-    shot *s = run(&c);
-    shot_limits l = circuit_shot_limits_of(s);
+    circuit_shot_module m = unit_200kJ(8, 0.0);
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, &m };
+    circuit_shot *s = run(&c);
+    circuit_shot_limits l = circuit_shot_limits_of(s);
     assert_true(isnan(l.leg_action) && isnan(l.wear_share) && isnan(l.critical_velocity) &&
                 isnan(l.transition_position));
     assert_true(l.contact_ratio > 1.0); /* 5 kN + 3e-8 I^2 against 9.81e-3 I: least 2.5 at 408 kA */
@@ -636,10 +639,10 @@ static void limits(void **state)
     circuit_shot_free(s);
 }
 
-static bool temperatures_in_order(void *user, const shot *s, const shot_state *st)
+static bool temperatures_in_order(void *user, const circuit_shot *s, const circuit_shot_state *st)
 {
     (void)s;
-    if (st->phase != SHOT_MOVING || st->v < 1.0) return true;
+    if (st->phase != CIRCUIT_SHOT_MOVING || st->v < 1.0) return true;
     assert_true(st->film_temperature >= st->armature_temperature);
     assert_true(st->rail_behind_temperature > st->rail_temperature);
     *(double *)user = fmax(*(double *)user, st->film_temperature);
@@ -650,13 +653,13 @@ static bool temperatures_in_order(void *user, const shot *s, const shot_state *s
 static void temperatures(void **state)
 {
     (void)state;
-    shot_module m = unit_200kJ(8, 0.0);
-    shot_config c = plain_barrel();
-    c.supplies[SUPPLY_capacitor] = (supply_list){ 1, &m };
+    circuit_shot_module m = unit_200kJ(8, 0.0);
+    circuit_shot_config c = plain_barrel();
+    c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ 1, &m };
     double hottest[2] = { 0.0, 0.0 };
     for (int k = 0; k < 2; k++) {
-        shot *s = NULL;
-        const shot_sink sink = { .sample = temperatures_in_order, .user = &hottest[k] };
+        circuit_shot *s = NULL;
+        const circuit_shot_sink sink = { .sample = temperatures_in_order, .user = &hottest[k] };
         c.armature.wear_fraction = 0.3 * k;
         assert_ok(circuit_shot_create(&c, &s));
         assert_ok(circuit_shot_advance(s, INFINITY, &sink));

@@ -955,7 +955,7 @@ static void test_shots_warm_the_rail(void **state)
 {
     (void)state;
     breech_case *c = read(HEAD "populations:\n  - {preset: debris, radius_median: 0.3 mm}\n", CASE_FOR_ONSET);
-    c->rails.level = SHOT_RAILS_DIFFUSING;
+    c->rails.level = CIRCUIT_SHOT_RAILS_DIFFUSING;
     c->study.velocity_interval = 0.02;
     c->study.shots = 4;
     onset_answer a = studied(c, "warm", status_ok());
@@ -981,8 +981,8 @@ static void test_shots_warm_the_rail(void **state)
     assert_true(each[3].muzzle_velocity == first.muzzle_velocity);
     assert_true(fabs(each[0].expected_gouges / first.expected_gouges - 1.0) < 0.02); /* other random numbers */
     study_onset_answer_free(&a);
-    c->rails.level = SHOT_RAILS_CONSTANT; /* cheap flights */
-    c->study.heat_kept = 0.5;             /* it settles at as much as one shot leaves */
+    c->rails.level = CIRCUIT_SHOT_RAILS_CONSTANT; /* cheap flights */
+    c->study.heat_kept = 0.5;                     /* it settles at as much as one shot leaves */
     c->study.shots = 12;
     a = studied(c, "settled", status_ok());
     each = a.result.shot;

@@ -22,9 +22,9 @@
 static const double H = 0.5e-3;               /* cell [m] */
 static const double EDGE = 3e12, MORE = 5e12; /* plastic power densities [W/m3] */
 
-static material copper(void)
+static mpm_material copper(void)
 {
-    material m;
+    mpm_material m;
     base_params_default(mpm_material_params, &m);
     strcpy(m.name, "copper");
     m.density = 8960, m.youngs_modulus = 124e9, m.poisson = 0.34, m.specific_heat = 383, m.conductivity = 386;
@@ -34,7 +34,7 @@ static material copper(void)
     return m;
 }
 
-static void add_box(mpm_scene *s, const material *m, const double lo[3], const double hi[3], int group)
+static void add_box(mpm_scene *s, const mpm_material *m, const double lo[3], const double hi[3], int group)
 {
     mpm_body *b;
     mpm_solid *box;
@@ -48,7 +48,7 @@ static void add_box(mpm_scene *s, const material *m, const double lo[3], const d
 
 /* A rail from x = 0 to 8 mm, y = -2 to -1 mm, a layer on it to y = 0, an armature above; all of z = 0 to 4 mm, of which
  * 3 to 4 mm are the window's side.  The armature is body 0. */
-static gouge_scene launcher(const material *m, bool half_model)
+static gouge_scene launcher(const mpm_material *m, bool half_model)
 {
     static const double lo[3] = { 0, -2e-3, -4e-3 }, hi[3] = { 8e-3, 2e-3, 4e-3 };
     gouge_scene g = { .rail = 1, .layers = 1, .grain = GOUGE_PIT, .armature = 0, .gauge_time = { 1e-6, 2e-6 } };
@@ -64,7 +64,7 @@ static gouge_scene launcher(const material *m, bool half_model)
                                  .fine = H,
                                  .coarse = H,
                                  .growth = 1,
-                                 .boundary = { half_model ? BOUNDARY_SYMMETRY : BOUNDARY_FREE } };
+                                 .boundary = { half_model ? MPM_BOUNDARY_SYMMETRY : MPM_BOUNDARY_FREE } };
     }
     add_box(s, m, (const double[3]){ 0, 0, lo[2] }, hi, 1);
     add_box(s, m, lo, (const double[3]){ 8e-3, -1e-3, 4e-3 }, 0);
@@ -97,7 +97,7 @@ static void give_powers(mpm *m)
 static void test_front(void **state)
 {
     (void)state;
-    const material metal = copper();
+    const mpm_material metal = copper();
     const double groove = MORE * 3e-3 * 2e-3 * 2.5e-3; /* as long as it is, of rail and layer, as wide as half of it */
     for (int half = 0; half < 2; half++) {
         gouge_scene g = launcher(&metal, half);

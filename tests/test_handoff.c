@@ -474,7 +474,7 @@ static void test_levels(void **state)
             for (int a = 0; a < 3; a++) m.c->scene.grid_shift[a] = trial % 2 ? shift[a] : 0.0;
             OK(make_again(&m, m.c->scene.cells_per_radius));
             OK(mpm_grids_make(&m.gouge.scene, &g));
-            assert_int_equal(g.levels, m.gouge.scene.basis == BASIS_GIMP ? levels : 1);
+            assert_int_equal(g.levels, m.gouge.scene.basis == MPM_BASIS_GIMP ? levels : 1);
             assert_memory_equal(m.gouge.scene.grid_shift, m.c->scene.grid_shift, sizeof shift);
             for (int a = 0; a < 3; a++)
                 for (int i = 0; i < g.levels; i++) assert_true(g.level[i].axes[a].node[1] == m.gouge.scene.axis[a].lo);
@@ -488,24 +488,24 @@ static void test_levels(void **state)
 static void test_method(void **state)
 {
     (void)state;
-    static const param of_case[] = { MPM_METHOD_PARAMS(case_scene), PARAMS_END };
-    static const param of_scene[] = { MPM_METHOD_PARAMS(mpm_scene), PARAMS_END };
+    static const base_param of_case[] = { MPM_METHOD_PARAMS(case_scene), PARAMS_END };
+    static const base_param of_scene[] = { MPM_METHOD_PARAMS(mpm_scene), PARAMS_END };
     for (int i = 0; of_case[i].key; i++) {
         made m = make((const char *const[]){ NULL });
-        const param *p = &of_case[i];
+        const base_param *p = &of_case[i];
         char *value = (char *)&m.c->scene + p->offset;
         const double number = p->min + 0.6 * (p->max - p->min), vector[3] = { number, 0.9 * number, 0.8 * number };
-        const int whole = p->kind == PARAM_CHOICE ? 1 : (int)fmin(p->max, 3);
-        const size_t bytes = p->kind == PARAM_NUMBER   ? sizeof number
-                             : p->kind == PARAM_VECTOR ? sizeof vector
-                             : p->kind == PARAM_FLAG   ? sizeof(bool)
-                                                       : sizeof whole;
+        const int whole = p->kind == BASE_PARAM_CHOICE ? 1 : (int)fmin(p->max, 3);
+        const size_t bytes = p->kind == BASE_PARAM_NUMBER   ? sizeof number
+                             : p->kind == BASE_PARAM_VECTOR ? sizeof vector
+                             : p->kind == BASE_PARAM_FLAG   ? sizeof(bool)
+                                                            : sizeof whole;
         const bool yes = true;
-        const void *all[] = { [PARAM_NUMBER] = &number,
-                              [PARAM_VECTOR] = vector,
-                              [PARAM_FLAG] = &yes,
-                              [PARAM_INTEGER] = &whole,
-                              [PARAM_CHOICE] = &whole };
+        const void *all[] = { [BASE_PARAM_NUMBER] = &number,
+                              [BASE_PARAM_VECTOR] = vector,
+                              [BASE_PARAM_FLAG] = &yes,
+                              [BASE_PARAM_INTEGER] = &whole,
+                              [BASE_PARAM_CHOICE] = &whole };
         assert_memory_not_equal(value, all[p->kind], bytes);
         memcpy(value, all[p->kind], bytes);
         OK(make_again(&m, 3.0));

@@ -53,9 +53,9 @@ static void check_sheet(const material_sheet *sheet)
         assert_non_null(c->source);
         assert_true(strlen(c->source) >= 20); /* a citation, not a short name */
     }
-    for (const param *p = mpm_material_params; p->key; p++) {
+    for (const base_param *p = mpm_material_params; p->key; p++) {
         const double *value = (const double *)(const void *)((const char *)&sheet->material + p->offset);
-        given += p->kind == PARAM_NUMBER && !isnan(*value);
+        given += p->kind == BASE_PARAM_NUMBER && !isnan(*value);
     }
     assert_int_equal(given, sheet->n); /* nothing comes from anywhere but the file */
 }
@@ -113,7 +113,7 @@ static void the_papers_sets_are_kept(void **state)
     material_sheet sheet;
     char *errors = NULL;
     assert_int_equal(case_material_sheet_find(s->u, "w17_al7075", dirs, 1, &sheet, &errors).code, STATUS_OK);
-    const material *m = &sheet.material;
+    const mpm_material *m = &sheet.material;
     assert_true(m->density == 2810.0 && m->youngs_modulus == 71e9 && m->poisson == 0.33 && m->specific_heat == 960.0);
     assert_true(m->yield_A == 369e6 && m->hardening_B == 684e6 && m->hardening_n == 0.73);
     assert_true(m->rate_C == 0.0083 && m->softening_m == 1.7 && m->melting_temperature == 933.0);
@@ -143,14 +143,15 @@ static void the_laws_are_read(void **state)
         material_sheet sheet;
         char *errors = NULL;
         assert_int_equal(case_material_sheet_find(s->u, s->names[k], dirs, 1, &sheet, &errors).code, STATUS_OK);
-        const material *m = &sheet.material;
+        const mpm_material *m = &sheet.material;
         const bool strength = chooses(s->names[k], "\nstrength: "), eos = chooses(s->names[k], "\neos: ");
-        assert_int_equal(m->strength != STRENGTH_johnson_cook, strength);
-        assert_int_equal(m->eos != EOS_mie_gruneisen, eos);
-        assert_int_equal(m->failure != FAILURE_johnson_cook, chooses(s->names[k], "\nfailure: "));
-        if (strength || eos) assert_int_equal(mpm_material_check(m, MATERIAL_FOR_SCENE).code, STATUS_OK);
-        const bool fluid = mpm_material_shear(m) == SHEAR_NONE;
-        if (fluid) assert_int_equal(mpm_material_check(m, MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE).code, STATUS_OK);
+        assert_int_equal(m->strength != MPM_STRENGTH_johnson_cook, strength);
+        assert_int_equal(m->eos != MPM_EOS_mie_gruneisen, eos);
+        assert_int_equal(m->failure != MPM_FAILURE_johnson_cook, chooses(s->names[k], "\nfailure: "));
+        if (strength || eos) assert_int_equal(mpm_material_check(m, MPM_MATERIAL_FOR_SCENE).code, STATUS_OK);
+        const bool fluid = mpm_material_shear(m) == MPM_SHEAR_NONE;
+        if (fluid)
+            assert_int_equal(mpm_material_check(m, MPM_MATERIAL_FOR_SCENE | MPM_MATERIAL_FOR_DAMAGE).code, STATUS_OK);
         metals += !strength, fluids += fluid, others += strength && !fluid;
         case_material_sheet_free(&sheet);
     }

@@ -153,9 +153,9 @@ static void every_failure(status (*work)(void), const char *what)
 
 static status make_shot(void)
 {
-    shot_module modules[DEFAULT_SHOT_GROUPS];
-    const shot_config c = default_shot(modules);
-    shot *s = NULL;
+    circuit_shot_module modules[DEFAULT_SHOT_GROUPS];
+    const circuit_shot_config c = default_shot(modules);
+    circuit_shot *s = NULL;
     status done = circuit_shot_create(&c, &s);
     if (done.code == STATUS_OK) done = circuit_shot_advance(s, 1e-4, NULL);
     circuit_shot_free(s);

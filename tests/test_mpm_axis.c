@@ -104,7 +104,7 @@ static void test_locate(void **state)
 static void test_refused(void **state)
 {
     (void)state;
-    const mpm_axis good = scene_axis(0, 1e-2, 1e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+    const mpm_axis good = scene_axis(0, 1e-2, 1e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     mpm_axis bad[7];
     for (int i = 0; i < 7; i++) bad[i] = good;
     bad[0].hi = -1, bad[1].fine = 0, bad[2].coarse = 0.5e-3, bad[3].fine_hi = 2e-2, bad[4].growth = 0.9,
@@ -220,7 +220,8 @@ static void test_continuity(void **state)
 {
     (void)state;
     srand(6);
-    const mpm_axis spec = scene_graded(scene_axis(0, 1e-2, 2e-4, BOUNDARY_FREE, BOUNDARY_FREE), 4e-3, 6e-3, 1e-3, 1.25);
+    const mpm_axis spec =
+        scene_graded(scene_axis(0, 1e-2, 2e-4, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE), 4e-3, 6e-3, 1e-3, 1.25);
     axis a;
     assert_ok(mpm_axis_make(&spec, 'x', &a));
     for (int i = 2; i < a.last - 1; i++) {

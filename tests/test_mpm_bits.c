@@ -166,7 +166,7 @@ static void test_refusals(void **state)
         case 3: other.scene.courant = 0.39; break;
         case 4: other.scene.axis[2].hi += 1e-6; break;
         case 5: scene_values(&other.scene, 1)[3] *= 1.001; break;
-        case 6: other.scene.axis[0].boundary[1] = BOUNDARY_FREE; break;
+        case 6: other.scene.axis[0].boundary[1] = MPM_BOUNDARY_FREE; break;
         default: break;
         }
         m = scene_make(&other.scene, 1);

@@ -17,12 +17,12 @@ static void flight(double velocity[3], int group)
 }
 
 /* Each of two bodies, of two metals, welded together. */
-static void flying_blocks(mpm_scene *s, const material *copper, const material *aluminium)
+static void flying_blocks(mpm_scene *s, const mpm_material *copper, const mpm_material *aluminium)
 {
     mpm_scene_default(s);
-    s->axis[0] = scene_axis(0, 8e-3, H, BOUNDARY_FREE, BOUNDARY_FREE);
-    s->axis[1] = scene_axis(0, 4e-3 * GROUPS, H, BOUNDARY_FREE, BOUNDARY_FREE);
-    s->axis[2] = scene_axis(-2e-3, 3e-3, H, BOUNDARY_FREE, BOUNDARY_FREE);
+    s->axis[0] = scene_axis(0, 8e-3, H, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s->axis[1] = scene_axis(0, 4e-3 * GROUPS, H, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s->axis[2] = scene_axis(-2e-3, 3e-3, H, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     for (int g = 0; g < GROUPS; g++)
         for (int half = 0; half < 2; half++) {
             const double x = 1e-3 + 1e-3 * half, y = 1e-3 + 4e-3 * g;
@@ -35,7 +35,7 @@ static void flying_blocks(mpm_scene *s, const material *copper, const material *
 static void test_flight(void **state)
 {
     (void)state;
-    const material copper = scene_copper(), aluminium = scene_aluminium();
+    const mpm_material copper = scene_copper(), aluminium = scene_aluminium();
     SCENE_LOCAL(s);
     flying_blocks(&s, &copper, &aluminium);
     mpm *m = scene_same_bits(&s, 30, 30);
@@ -82,7 +82,7 @@ static bool push(void *user, const mpm *m)
 }
 
 /* Each bar is two bodies, welded. */
-static void cradle(mpm_scene *s, const material *m, double speed)
+static void cradle(mpm_scene *s, const mpm_material *m, double speed)
 {
     scene_bar(s, -8e-3, GROUPS * LENGTH + 8e-3, H, 2);
     for (int i = 0; i < BODIES; i++) {
@@ -97,7 +97,7 @@ static void cradle(mpm_scene *s, const material *m, double speed)
 static void test_cradle(void **state)
 {
     (void)state;
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     const double speed = 10;
     SCENE_LOCAL(s);
     cradle(&s, &m, speed);
@@ -128,7 +128,7 @@ static void test_row(void **state)
 {
     (void)state;
     enum { N = 300 };
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     SCENE_LOCAL(s);
     scene_bar(&s, 0, N * H, H, 1);
     for (int i = 0; i < N; i++) scene_box(&s, i * H, -1, -1, (i + 1) * H, 1, 1, &m)->velocity[0] = i < N / 2 ? 50 : -50;
@@ -149,21 +149,21 @@ static void test_row(void **state)
 /* ---- several materials in one group ---- */
 
 /* Heat of a contact that changes no motion: no Grueneisen coefficient. */
-static material conductor(double conductivity)
+static mpm_material conductor(double conductivity)
 {
-    material m = scene_elastic();
+    mpm_material m = scene_elastic();
     m.gruneisen = 0, m.conductivity = conductivity;
     return m;
 }
 
 /* A block slides over a plate whose sides, z < 0 and z > 0, are of two metals. */
-static mpm *rubbed(const material *left, const material *right, const material *slider)
+static mpm *rubbed(const mpm_material *left, const mpm_material *right, const mpm_material *slider)
 {
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
-    s.axis[0] = scene_axis(0, 8e-3, H, BOUNDARY_FREE, BOUNDARY_FREE);
-    s.axis[1] = scene_axis(-1e-3, 2e-3, H, BOUNDARY_FIXED, BOUNDARY_FREE);
-    s.axis[2] = scene_axis(-3e-3, 3e-3, H, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    s.axis[0] = scene_axis(0, 8e-3, H, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s.axis[1] = scene_axis(-1e-3, 2e-3, H, MPM_BOUNDARY_FIXED, MPM_BOUNDARY_FREE);
+    s.axis[2] = scene_axis(-3e-3, 3e-3, H, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY);
     scene_box(&s, 0, -1e-3, -4e-3, 8e-3, 0, 0, left);
     scene_box(&s, 0, -1e-3, 0, 8e-3, 0, 4e-3, right);
     mpm_body *b = scene_box(&s, 2e-3, 0, -4e-3, 5e-3, 1.5e-3, 4e-3, slider);
@@ -192,7 +192,7 @@ static double energy_of(const mpm *m, const double start[3])
 static void test_heat_by_material(void **state)
 {
     (void)state;
-    const material good = conductor(400), poor = conductor(4), slider = conductor(100);
+    const mpm_material good = conductor(400), poor = conductor(4), slider = conductor(100);
     mpm *mixed = rubbed(&good, &poor, &slider), *all_good = rubbed(&good, &good, &slider),
         *all_poor = rubbed(&poor, &poor, &slider);
     const double n = 0.5 * H; /* points' distance */
@@ -211,12 +211,12 @@ static void test_heat_by_material(void **state)
 }
 
 /* Bars of two metals that fly against an absorbing wall, in one group or in two. */
-static void against_wall(mpm_scene *s, const material *copper, const material *aluminium, bool together)
+static void against_wall(mpm_scene *s, const mpm_material *copper, const mpm_material *aluminium, bool together)
 {
     mpm_scene_default(s);
-    s->axis[0] = scene_axis(-6e-3, 6e-3, H, BOUNDARY_FREE, BOUNDARY_ABSORBING);
-    s->axis[1] = scene_axis(-2e-3, 10e-3, H, BOUNDARY_FREE, BOUNDARY_FREE);
-    s->axis[2] = scene_axis(-1e-3, 1e-3, H, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    s->axis[0] = scene_axis(-6e-3, 6e-3, H, MPM_BOUNDARY_FREE, MPM_BOUNDARY_ABSORBING);
+    s->axis[1] = scene_axis(-2e-3, 10e-3, H, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s->axis[2] = scene_axis(-1e-3, 1e-3, H, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY);
     scene_box(s, 0, 0, -2e-3, 6e-3, 1e-3, 2e-3, copper)->velocity[0] = 1;
     mpm_body *b = scene_box(s, 0, 7e-3, -2e-3, 6e-3, 8e-3, 2e-3, aluminium);
     b->velocity[0] = 1;
@@ -227,8 +227,8 @@ static void against_wall(mpm_scene *s, const material *copper, const material *a
 static void test_wall_by_material(void **state)
 {
     (void)state;
-    const material copper = scene_elastic();
-    material aluminium = scene_aluminium();
+    const mpm_material copper = scene_elastic();
+    mpm_material aluminium = scene_aluminium();
     aluminium.yield_A = 1e10, aluminium.hardening_B = 0, aluminium.rate_C = 0;
     double v[2][2];
     for (int together = 0; together < 2; together++) {
@@ -250,7 +250,7 @@ static void test_wall_by_material(void **state)
 static void test_refused(void **state)
 {
     (void)state;
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     SCENE_LOCAL(s);
     mpm *solver = NULL;
     scene_bar(&s, 0, 4 * H, H, 1);

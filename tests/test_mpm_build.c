@@ -27,12 +27,13 @@ static sum sum_of(const mpm *m, int body)
 static void window(mpm_scene *s, double cells)
 {
     mpm_scene_default(s);
-    for (int k = 0; k < 3; k++) s->axis[k] = scene_axis(-1.3e-3, 1.3e-3, 1e-3 / cells, BOUNDARY_FREE, BOUNDARY_FREE);
+    for (int k = 0; k < 3; k++)
+        s->axis[k] = scene_axis(-1.3e-3, 1.3e-3, 1e-3 / cells, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
 }
 
 static void check_shape(const char *shape, const double *value, int n, double volume, double height, double limit)
 {
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     for (double cells = 4; cells <= 8; cells *= 2) {
         SCENE_LOCAL(s);
         window(&s, cells);
@@ -62,7 +63,7 @@ static void test_mass(void **state)
 static void test_neighbours(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     const double ball[] = { 0.03e-3, 0.05e-3, -0.02e-3, 0.7e-3 };
     SCENE_LOCAL(s);
     window(&s, 6);
@@ -78,7 +79,7 @@ static void test_neighbours(void **state)
 static void test_box(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     SCENE_LOCAL(s);
     window(&s, 4);
     scene_box(&s, -0.37e-3, -1e-3, -0.5e-3, 0.44e-3, 0.21e-3, 1.1e-3, &copper);
@@ -94,7 +95,7 @@ static void test_box(void **state)
 static void test_overlap(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     for (int groups = 1; groups <= 2; groups++) {
         SCENE_LOCAL(s);
         window(&s, 8);
@@ -143,11 +144,11 @@ static int diagonals(mpm_scene *s, double e, double r)
 /* A body of so many copies of a solid along x, in cells of size h; its mass over its density. */
 static double row_volume(mpm_scene *s, int of, int copies, double e, double h)
 {
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     mpm_solid *solid;
     mpm_body *b;
     for (int k = 0; k < 3; k++)
-        s->axis[k] = scene_axis(-e, (k == 0 ? copies + 1 : 2) * e, h, BOUNDARY_FREE, BOUNDARY_FREE);
+        s->axis[k] = scene_axis(-e, (k == 0 ? copies + 1 : 2) * e, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     assert_ok(mpm_scene_add_solid(s, "repeat", of, -1, &solid));
     mpm_solid_value(solid, "pitch")[0] = e, mpm_solid_value(solid, "count")[0] = copies;
     assert_ok(mpm_scene_add_body(s, &b));
@@ -204,7 +205,7 @@ static void test_sample(void **state)
 {
     (void)state;
     enum { MOST = 8000 };
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     const double ball[] = { 0, 0, 0, 1e-3 };
     for (int levels = 1; levels <= 2; levels++) {
         SCENE_LOCAL(s);
@@ -231,7 +232,7 @@ static void test_sample(void **state)
 static void test_estimate_of_many(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     const double ball[] = { 0, 0, 0, 1e-3 };
     SCENE_LOCAL(s);
     mpm_needs needs;
@@ -249,7 +250,7 @@ static void test_estimate_of_many(void **state)
 static void test_stress_order(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     SCENE_LOCAL(s);
     window(&s, 2);
     scene_box(&s, -1e-3, -1e-3, -1e-3, 1e-3, 1e-3, 1e-3, &copper);

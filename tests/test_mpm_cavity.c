@@ -20,10 +20,10 @@ static void test_plug(void **state)
 {
     (void)state;
     const double h = 0.5e-3, gap = 4e-3, thick = 2e-3, p = 1e7, v = 5;
-    material m = scene_elastic();
+    mpm_material m = scene_elastic();
     mpm_scene s = { 0 };
     scene_bar(&s, 0, 10e-3, h, 2);
-    s.axis[0].boundary[0] = BOUNDARY_SYMMETRY;
+    s.axis[0].boundary[0] = MPM_BOUNDARY_SYMMETRY;
     scene_box(&s, gap, -1, -1, gap + thick, 1, 1, &m)->velocity[0] = v;
     add_cavity(&s, "gas", 1e-3, 1e-9)->ambient = p;
     mpm *solver = scene_make(&s, 1);
@@ -67,17 +67,17 @@ static void test_points(void **state)
 {
     (void)state;
     const double h = 0.5e-3, gap = 4e-3, thick = 2e-3, p = 1e7, v = 5;
-    material m = scene_elastic(), gas;
+    mpm_material m = scene_elastic(), gas;
     base_params_default(mpm_material_params, &gas);
     strcpy(gas.name, "gas");
-    gas.strength = STRENGTH_none, gas.eos = EOS_stiffened_gas;
+    gas.strength = MPM_STRENGTH_none, gas.eos = MPM_EOS_stiffened_gas;
     gas.density = p / (0.05 * 1e4 * 293), gas.specific_heat = 1e4, gas.reference_temperature = 293;
     gas.gas_gamma = 1.05, gas.gas_stiffness = 0, gas.gas_pressure = p;
     mpm *solver[2];
     mpm_scene s = { 0 };
     for (int points = 0; points < 2; points++) {
         scene_bar(&s, 0, 10e-3, h, 2);
-        s.axis[0].boundary[0] = BOUNDARY_SYMMETRY;
+        s.axis[0].boundary[0] = MPM_BOUNDARY_SYMMETRY;
         scene_box(&s, gap, -1, -1, gap + thick, 1, 1, &m)->velocity[0] = v;
         if (points)
             s.surroundings = p, scene_box(&s, -1, -1, -1, gap, 1, 1, &gas);
@@ -104,9 +104,9 @@ static void slab(mpm_scene *s, double reach, double h)
 {
     mpm_scene_free(s);
     mpm_scene_default(s);
-    s->axis[0] = scene_axis(-reach, reach, h, BOUNDARY_FREE, BOUNDARY_FREE);
-    s->axis[1] = scene_axis(0, h, h, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
-    s->axis[2] = scene_axis(0, reach, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
+    s->axis[0] = scene_axis(-reach, reach, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s->axis[1] = scene_axis(0, h, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY);
+    s->axis[2] = scene_axis(0, reach, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FREE);
 }
 
 static int cylinder(mpm_scene *s, double x, double radius)
@@ -115,7 +115,7 @@ static int cylinder(mpm_scene *s, double x, double radius)
     return scene_solid(s, "cylinder", v, 5, -1, -1);
 }
 
-static mpm_body *cut_body(mpm_scene *s, int whole, int hole, const material *m)
+static mpm_body *cut_body(mpm_scene *s, int whole, int hole, const mpm_material *m)
 {
     mpm_body *b;
     assert_ok(mpm_scene_add_body(s, &b));
@@ -130,7 +130,7 @@ static void test_block(void **state)
 {
     (void)state;
     const double h = 0.1e-3, r = 1e-3;
-    material m = scene_elastic();
+    mpm_material m = scene_elastic();
     mpm_scene s = { 0 };
     slab(&s, 4e-3, h);
     const int outer = cylinder(&s, 0, 3e-3);
@@ -154,9 +154,9 @@ static void test_block(void **state)
 /* ---- a ring that bursts ---- */
 
 /* Rigid but for flow stress and failure: a gel of 1 MPa that hardens, failing at a plastic strain of 0.06. */
-static material gel(void)
+static mpm_material gel(void)
 {
-    material m = scene_elastic();
+    mpm_material m = scene_elastic();
     strcpy(m.name, "gel");
     m.density = 900, m.youngs_modulus = 6e7, m.poisson = 0.49, m.sound_speed = 300, m.hugoniot_slope = 1.5;
     m.gruneisen = 0.1, m.yield_A = 1e6, m.hardening_B = 4e6, m.hardening_n = 1, m.rate_C = 0, m.softening_m = 1;
@@ -167,7 +167,7 @@ static material gel(void)
 
 enum { RING_END = 74 }; /* [us] */
 
-static void ring_scene(mpm_scene *s, const material *m, bool damage, double feed)
+static void ring_scene(mpm_scene *s, const mpm_material *m, bool damage, double feed)
 {
     const double h = 40e-6;
     slab(s, 0.8e-3, h);
@@ -188,7 +188,7 @@ static double mean_radius(const mpm *m)
 }
 
 /* What a thick ring of this gel holds: the integral of 2/sqrt(3) sigma/r, elastic strain and all. */
-static double held(const material *m, double inside, double volume)
+static double held(const mpm_material *m, double inside, double volume)
 {
     double p = 0;
     for (int i = 0; i < 200; i++) {
@@ -203,7 +203,7 @@ static double held(const material *m, double inside, double volume)
 static void test_ring(void **state)
 {
     (void)state;
-    const material m = gel();
+    const mpm_material m = gel();
     double burst[2];
     for (int damage = 1; damage >= 0; damage--) {
         mpm_scene s = { 0 };
@@ -238,7 +238,7 @@ static void test_ring(void **state)
 static void test_same_bits(void **state)
 {
     (void)state;
-    const material m = gel();
+    const mpm_material m = gel();
     mpm_scene s = { 0 };
     ring_scene(&s, &m, true, 2.5e-5);
     mpm *solver = scene_same_bits(&s, 70, 50);
@@ -252,7 +252,7 @@ static void test_meet(void **state)
 {
     (void)state;
     const double h = 50e-6;
-    material m = gel();
+    mpm_material m = gel();
     m.yield_A = 1e4, m.hardening_B = 0;
     mpm_scene s = { 0 };
     slab(&s, 1.2e-3, h);
@@ -290,7 +290,7 @@ static void refused(const mpm_scene *s, const char *words)
 static void test_refused(void **state)
 {
     (void)state;
-    const material m = gel();
+    const mpm_material m = gel();
     mpm_scene s = { 0 };
     ring_scene(&s, &m, true, 0);
     s.cavity[0].place[0] = 0.42e-3;
@@ -304,7 +304,7 @@ static void test_refused(void **state)
     s.cavity[0].ambient = 1e7;
     refused(&s, "has no pressure");
     s.cavity[0].ambient = 1e5, s.levels = 2;
-    s.axis[1] = scene_axis(0, 160e-6, 40e-6, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    s.axis[1] = scene_axis(0, 160e-6, 40e-6, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY);
     refused(&s, "cells of one size");
     s.levels = 1;
     add_cavity(&s, "again", 0.1e-3, 0.1e-3);

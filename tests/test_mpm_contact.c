@@ -27,12 +27,13 @@ static bool watch_step(void *user, const mpm *m)
 
 static const double H = 0.5e-3, G = 1e6, HEIGHT = 2e-3;
 
-static void block_scene(mpm_scene *s, const material *m, double mu, double speed, double pull)
+static void block_scene(mpm_scene *s, const mpm_material *m, double mu, double speed, double pull)
 {
     mpm_scene_default(s);
-    s->axis[0] = scene_axis(0, 14e-3, H, BOUNDARY_FREE, BOUNDARY_FREE);
-    s->axis[1] = scene_axis(-2.185e-3, 3e-3, H, BOUNDARY_FIXED, BOUNDARY_FREE); /* interface 0.37 of a cell off */
-    s->axis[2] = scene_axis(0, 1e-3, H, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    s->axis[0] = scene_axis(0, 14e-3, H, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s->axis[1] =
+        scene_axis(-2.185e-3, 3e-3, H, MPM_BOUNDARY_FIXED, MPM_BOUNDARY_FREE); /* interface 0.37 of a cell off */
+    s->axis[2] = scene_axis(0, 1e-3, H, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY);
     scene_box(s, 0, -2.185e-3, -1, 14e-3, 0, 1, m);
     mpm_body *b = scene_box(s, 3e-3, 0, -1, 6e-3, HEIGHT, 1, m);
     b->group = 1;
@@ -47,7 +48,7 @@ static void block_scene(mpm_scene *s, const material *m, double mu, double speed
 static void test_friction(void **state)
 {
     (void)state;
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     const double mu = 0.3, v0 = 60, end = 40e-6;
     SCENE_LOCAL(s);
     block_scene(&s, &m, mu, v0, 0);
@@ -74,7 +75,7 @@ static void test_friction(void **state)
 /* Pulled along by less than mu N it stays; by more it goes with the difference (1 % as above). */
 static double pulled(double share)
 {
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     const double mu = 0.3, end = 24e-6;
     SCENE_LOCAL(s);
     block_scene(&s, &m, mu, 0, share * mu * G);
@@ -99,7 +100,7 @@ static void test_sticking(void **state)
 static void test_shear_limit(void **state)
 {
     (void)state;
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     const double end = 12e-6, v0 = 60;
     SCENE_LOCAL(s);
     block_scene(&s, &m, 0.3, v0, 0);
@@ -121,11 +122,11 @@ static void test_shear_limit(void **state)
  * twice that while it rings.  Returns how far the pair has come apart [m]. */
 static double bonded(double strength, double pull)
 {
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     const double h = 0.5e-3, L = 5e-3;
     SCENE_LOCAL(s);
     scene_bar(&s, 0, 20e-3, h, 2);
-    s.axis[0].boundary[0] = BOUNDARY_FIXED;
+    s.axis[0].boundary[0] = MPM_BOUNDARY_FIXED;
     scene_box(&s, 0, -1, -1, L, 1, 1, &m);
     mpm_body *b = scene_box(&s, L, -1, -1, 2 * L, 1, 1, &m);
     b->group = 1;
@@ -160,7 +161,7 @@ static void test_bond(void **state)
 static void test_impact(void **state)
 {
     (void)state;
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     const double h = 0.25e-3, L = 10e-3, v = 20, gap = 2 * h;
     SCENE_LOCAL(s);
     scene_bar(&s, 0, 30e-3, h, 2);
@@ -194,7 +195,7 @@ static void test_impact(void **state)
 static void test_parting(void **state)
 {
     (void)state;
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     SCENE_LOCAL(s);
     scene_bar(&s, 0, 12e-3, 0.5e-3, 2);
     scene_box(&s, 2e-3, -1, -1, 6e-3, 1, 1, &m)->velocity[0] = -50;
@@ -272,7 +273,7 @@ static void test_laws(void **state)
 /* Speed that the sliding block has left where the pair has a law of its own; the others' friction is 0.5. */
 static double speed_left(const char *law)
 {
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     const double v0 = 20;
     SCENE_LOCAL(s);
     block_scene(&s, &m, 0.5, v0, 0);
@@ -298,7 +299,7 @@ static void test_pairs(void **state)
 /* Who is group 0 decides nothing where the pair says whose surface gives the normal. */
 static double end_of_slide(int block, int normal_of)
 {
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     SCENE_LOCAL(s);
     block_scene(&s, &m, 0.3, 60, 0);
     s.body[0].group = !block, s.body[1].group = block;
@@ -326,7 +327,7 @@ static void test_normal(void **state)
 static void test_bad_pairs(void **state)
 {
     (void)state;
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     for (int change = 0; change < 5; change++) {
         SCENE_LOCAL(s);
         block_scene(&s, &m, 0.3, 60, 0);

@@ -8,10 +8,10 @@
 
 static const double ROUNDING = 1e-12;
 
-static void cube(mpm_scene *s, const material *m, double h, bool graded)
+static void cube(mpm_scene *s, const mpm_material *m, double h, bool graded)
 {
     mpm_scene_default(s);
-    for (int k = 0; k < 3; k++) s->axis[k] = scene_axis(0, k ? 18e-3 : 40e-3, h, BOUNDARY_FREE, BOUNDARY_FREE);
+    for (int k = 0; k < 3; k++) s->axis[k] = scene_axis(0, k ? 18e-3 : 40e-3, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     if (graded) {
         s->axis[0] = scene_graded(s->axis[0], 15e-3, 22e-3, 2.5 * h, 1.2);
         s->axis[1] = scene_graded(s->axis[1], 6e-3, 12e-3, 2.5 * h, 1.2);
@@ -20,9 +20,9 @@ static void cube(mpm_scene *s, const material *m, double h, bool graded)
     b->velocity[0] = 300, b->velocity[1] = 100, b->velocity[2] = 50;
 }
 
-static void thousand_steps(basis_kind basis, bool graded, transfer_kind transfer)
+static void thousand_steps(mpm_basis_kind basis, bool graded, mpm_transfer_kind transfer)
 {
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     SCENE_LOCAL(s);
     cube(&s, &m, 1e-3, graded);
     s.basis = basis, s.transfer = transfer;
@@ -33,8 +33,8 @@ static void thousand_steps(basis_kind basis, bool graded, transfer_kind transfer
     const mpm_report r = mpm_state(solver);
     const double K0 = mpm_material_bulk_modulus(&m), speed2 = 300.0 * 300 + 100 * 100 + 50 * 50;
     print_message("%s %s %s: %.1f mm, stress / K0 %.2e, kinetic energy %.2e, momentum %.2e, energy %.2e, splits %llu\n",
-                  basis == BASIS_GIMP ? "GIMP" : "B-spline", graded ? "graded" : "uniform",
-                  transfer == TRANSFER_TPIC ? "TPIC" : "PIC", 1e3 * (scene_mean(solver, MPM_position, 0, -1) - x0),
+                  basis == MPM_BASIS_GIMP ? "GIMP" : "B-spline", graded ? "graded" : "uniform",
+                  transfer == MPM_TRANSFER_TPIC ? "TPIC" : "PIC", 1e3 * (scene_mean(solver, MPM_position, 0, -1) - x0),
                   scene_largest(solver, MPM_stress) / K0, l.kinetic / l.kinetic_start - 1, l.momentum_error,
                   l.energy_error, (unsigned long long)r.splits);
     assert_below(scene_largest(solver, MPM_stress) / K0, ROUNDING);
@@ -54,27 +54,27 @@ static void thousand_steps(basis_kind basis, bool graded, transfer_kind transfer
 static void test_uniform(void **state)
 {
     (void)state;
-    thousand_steps(BASIS_GIMP, false, TRANSFER_TPIC);
-    thousand_steps(BASIS_BSPLINE, false, TRANSFER_TPIC);
-    thousand_steps(BASIS_GIMP, false, TRANSFER_PIC);
+    thousand_steps(MPM_BASIS_GIMP, false, MPM_TRANSFER_TPIC);
+    thousand_steps(MPM_BASIS_BSPLINE, false, MPM_TRANSFER_TPIC);
+    thousand_steps(MPM_BASIS_GIMP, false, MPM_TRANSFER_PIC);
 }
 
 /* A constant velocity needs only the partition of unity, which both bases have on any grading. */
 static void test_graded(void **state)
 {
     (void)state;
-    thousand_steps(BASIS_GIMP, true, TRANSFER_TPIC);
-    thousand_steps(BASIS_BSPLINE, true, TRANSFER_TPIC);
+    thousand_steps(MPM_BASIS_GIMP, true, MPM_TRANSFER_TPIC);
+    thousand_steps(MPM_BASIS_BSPLINE, true, MPM_TRANSFER_TPIC);
 }
 
 /* Out of the window on three sides: what is left plus what left is what was there. */
 static void test_leaving(void **state)
 {
     (void)state;
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     SCENE_LOCAL(s);
     cube(&s, &m, 1e-3, false);
-    s.axis[0] = scene_axis(0, 12e-3, 1e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+    s.axis[0] = scene_axis(0, 12e-3, 1e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     s.body[0].velocity[0] = 2000;
     mpm *solver = scene_make(&s, 1);
     const mpm_ledger start = mpm_balance(solver);
@@ -130,7 +130,7 @@ static void test_halves(void **state)
 static void test_splitting(void **state)
 {
     (void)state;
-    const material m = scene_dust();
+    const mpm_material m = scene_dust();
     SCENE_LOCAL(s);
     cube(&s, &m, 0.5e-3, true);
     s.viscosity_linear = s.viscosity_quadratic = 0;
@@ -167,10 +167,10 @@ static void test_splitting(void **state)
 static void test_debris(void **state)
 {
     (void)state;
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
-    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 40e-3, 1e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 40e-3, 1e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     scene_box(&s, 5e-3, 5e-3, 5e-3, 5.5e-3, 5.5e-3, 5.5e-3, &m);
     mpm *solver = scene_make(&s, 1);
     assert_int_equal(mpm_particles(solver), 1);

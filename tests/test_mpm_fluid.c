@@ -3,12 +3,12 @@
  * that spalls. */
 #include "mpm_scenes.h"
 
-static material water(void)
+static mpm_material water(void)
 {
-    material m;
+    mpm_material m;
     base_params_default(mpm_material_params, &m);
     strcpy(m.name, "water");
-    m.strength = STRENGTH_none;
+    m.strength = MPM_STRENGTH_none;
     m.density = 1000, m.specific_heat = 4186, m.reference_temperature = 293;
     m.sound_speed = 1480, m.hugoniot_slope = 1.92, m.gruneisen = 0.11, m.cavitation_pressure = -99e3;
     return m;
@@ -28,7 +28,7 @@ static double least(const mpm *m, mpm_field field)
 static void test_torn_water(void **state)
 {
     (void)state;
-    const material m = water();
+    const mpm_material m = water();
     const double h = 1e-3, length = 40e-3, end = 40e-6, v = 10;
     mpm_scene s = { 0 };
     scene_bar(&s, -4e-3, length + 4e-3, h, 2);
@@ -59,12 +59,12 @@ static void test_torn_water(void **state)
     mpm_scene_free(&s);
 }
 
-static material air(void)
+static mpm_material air(void)
 {
-    material m;
+    mpm_material m;
     base_params_default(mpm_material_params, &m);
     strcpy(m.name, "air");
-    m.strength = STRENGTH_none, m.eos = EOS_stiffened_gas;
+    m.strength = MPM_STRENGTH_none, m.eos = MPM_EOS_stiffened_gas;
     m.density = 1.2041, m.specific_heat = 717.65, m.reference_temperature = 293.15;
     m.gas_gamma = 1.4, m.gas_stiffness = 0, m.gas_pressure = 101325;
     return m;
@@ -93,10 +93,10 @@ static void test_expanding_air(void **state)
     (void)state;
     const double h = 10e-3, whole = 101325, around[2] = { 0, whole };
     for (int k = 0; k < 2; k++) {
-        const material m = air();
+        const mpm_material m = air();
         mpm_scene s = { 0 };
         scene_bar(&s, 0, 1, h, 1);
-        for (int e = 0; e < 2; e++) s.axis[0].boundary[e] = BOUNDARY_SYMMETRY;
+        for (int e = 0; e < 2; e++) s.axis[0].boundary[e] = MPM_BOUNDARY_SYMMETRY;
         s.surroundings = around[k];
         mpm_body *left = scene_box(&s, 0, -1, -1, 0.5, 1, 1, &m);
         left->pressure = whole - around[k], left->temperature = 293.15;
@@ -129,13 +129,13 @@ static void test_expanding_air(void **state)
 static void test_stopped_air(void **state)
 {
     (void)state;
-    const material m = air();
+    const mpm_material m = air();
     const double h = 1e-3, length = 60e-3, v = 100, a = 0.6 * v;
     const double c = sqrt(1.4 * 101325 / 1.2041), us = a + sqrt(c * c + a * a), want = 1.2041 * us * v;
     const double end = 30e-3 / (us - v);
     mpm_scene s = { 0 };
     scene_bar(&s, -4e-3, length, h, 2);
-    s.axis[0].boundary[1] = BOUNDARY_SYMMETRY;
+    s.axis[0].boundary[1] = MPM_BOUNDARY_SYMMETRY;
     mpm_body *gas = scene_box(&s, 0, -1, -1, length, 1, 1, &m);
     gas->temperature = 293.15, gas->velocity[0] = v;
     mpm *solver = scene_make(&s, 1);
@@ -160,8 +160,8 @@ static void test_spalled_plate(void **state)
     (void)state;
     double most[2];
     for (int spalls = 0; spalls < 2; spalls++) {
-        material m = scene_copper();
-        m.failure = FAILURE_spall, m.spall_strength = 1e9;
+        mpm_material m = scene_copper();
+        m.failure = MPM_FAILURE_spall, m.spall_strength = 1e9;
         const double h = 0.1e-3;
         mpm_scene s = { 0 };
         scene_bar(&s, -1e-3, 8e-3, h, 2);

@@ -14,7 +14,7 @@
 #define MATERIALS BREECH_TESTS "/../cases/materials"
 
 typedef struct {
-    material *item;
+    mpm_material *item;
     int n;
 } shelf;
 
@@ -54,11 +54,11 @@ static double own_flow(const void *user, const mpm_strength_point *at)
     return yield * (2 - exp(-5 * at->strain)) * (1 + 0.01 * at->log_rate) * (1 - 0.9 * at->T_star);
 }
 
-static law law_at(const material *m, double temperature, double scale)
+static law law_at(const mpm_material *m, double temperature, double scale)
 {
     mpm_scene s;
     mpm_scene_default(&s);
-    const bool damage = mpm_material_check(m, MATERIAL_FOR_DAMAGE).code == STATUS_OK;
+    const bool damage = mpm_material_check(m, MPM_MATERIAL_FOR_DAMAGE).code == STATUS_OK;
     const mpm_body b = {
         .material = m, .temperature = temperature, .yield_scale = scale, .cold_work = NAN, .damage = damage
     };
@@ -72,7 +72,7 @@ static law_form form(const law *k)
     return law_form_of(k, k->kernel);
 }
 
-typedef void material_test(const material *m);
+typedef void material_test(const mpm_material *m);
 
 /* Each material with each law of a table that it has the constants for. */
 static void for_every(const shelf *s, size_t kind, const char *const *name, int laws, unsigned needs,
@@ -81,7 +81,7 @@ static void for_every(const shelf *s, size_t kind, const char *const *name, int 
     for (int chosen = 0; chosen < laws; chosen++) {
         int met = 0;
         for (int i = 0; i < s->n; i++) {
-            material m = s->item[i];
+            mpm_material m = s->item[i];
             m.own_strength = (mpm_own_strength){ own_flow, &own_yield };
             *(int *)(void *)((char *)&m + kind) = chosen;
             if (mpm_material_check(&m, needs).code != STATUS_OK) continue;
@@ -105,10 +105,10 @@ static double flow_at(const law *k, double strain, double rate, double T)
     return flow_stress(k, form(k), &at)[0];
 }
 
-static void check_strength(const material *m)
+static void check_strength(const mpm_material *m)
 {
     const law k = law_at(m, m->reference_temperature, 1), hard = law_at(m, m->reference_temperature, 1.5);
-    const bool fluid = k.shear == SHEAR_NONE;
+    const bool fluid = k.shear == MPM_SHEAR_NONE;
     const double top = fluid ? 1e3 : k.T_m;
     for (double T = k.T_r; T < 0.999 * top; T += 0.04 * (top - k.T_r))
         for (double rate = 1; rate < 1e8; rate *= 100) {
@@ -127,14 +127,14 @@ static void check_strength(const material *m)
     assert_near(flow_at(&k, 0.1, 1e4, 1e6), 0, 0); /* molten */
     assert_near(k.flow_start, flow_at(&k, 0, 1, k.T_r), 1e-6 * k.flow_start);
     assert_true(fluid ? k.G == 0 : k.G > 0);
-    if (k.shear == SHEAR_VARIES)
+    if (k.shear == MPM_SHEAR_VARIES)
         assert_near(shear_modulus(&k, vd_set(0), vd_set(k.rho0), vd_set(k.T_r))[0], k.G, 1e-9 * k.G);
 }
 
 /* A caller's function that is (M-1) gives what the law of the table gives; without a function there is no law. */
 static double own_johnson_cook(const void *user, const mpm_strength_point *at)
 {
-    const material *m = user;
+    const mpm_material *m = user;
     return (m->yield_A + m->hardening_B * pow(at->strain, m->hardening_n)) * (1 + m->rate_C * at->log_rate) *
            (1 - pow(at->T_star, m->softening_m));
 }
@@ -142,8 +142,8 @@ static double own_johnson_cook(const void *user, const mpm_strength_point *at)
 static void test_own_strength(void **state)
 {
     (void)state;
-    material m = scene_copper(), own = m;
-    own.strength = STRENGTH_own;
+    mpm_material m = scene_copper(), own = m;
+    own.strength = MPM_STRENGTH_own;
     own.own_strength = (mpm_own_strength){ own_johnson_cook, &m };
     const law a = law_at(&m, 300, 1.3), b = law_at(&own, 300, 1.3);
     for (double T = 293; T < 1500; T += 100)
@@ -165,7 +165,7 @@ static void test_strength(void **state)
 #define STRENGTH(name, shear, text) #name,
 #include "mpm/law/strength.def"
     };
-    for_every(*state, offsetof(material, strength), names, sizeof names / sizeof names[0], MATERIAL_FOR_SCENE,
+    for_every(*state, offsetof(mpm_material, strength), names, sizeof names / sizeof names[0], MPM_MATERIAL_FOR_SCENE,
               check_strength);
 }
 
@@ -207,7 +207,7 @@ static void check_isentrope(const law *k, double mu_end)
     assert_near(T, want, 1 + 1e-3 * want); /* the polynomials of (M-3) fit to a few tenths of a kelvin */
 }
 
-static void check_eos(const material *m)
+static void check_eos(const mpm_material *m)
 {
     const law k = law_at(m, m->reference_temperature, 1);
     const double scale = k.K0 * k.volume0;
@@ -236,19 +236,20 @@ static void test_eos(void **state)
 #define EOS(name, text) #name,
 #include "mpm/law/eos.def"
     };
-    for_every(*state, offsetof(material, eos), names, sizeof names / sizeof names[0], MATERIAL_FOR_SCENE, check_eos);
+    for_every(*state, offsetof(mpm_material, eos), names, sizeof names / sizeof names[0], MPM_MATERIAL_FOR_SCENE,
+              check_eos);
 }
 
 /* A body that starts warm has no pressure and the temperature it was given: the two forms of pressure and of reference
  * energy agree. */
-static void check_warm(const material *m)
+static void check_warm(const mpm_material *m)
 {
     for (int i = 0; i < 3; i++) {
         const double T = m->reference_temperature * (1 + 0.8 * i);
         if (T >= m->melting_temperature) continue;
         const law k = law_at(m, T, 1);
         const double mu = k.rho_start / k.rho0 - 1;
-        if (k.eos.kind == EOS_mie_gruneisen && mu <= k.mu_least) continue; /* beyond its range */
+        if (k.eos.kind == MPM_EOS_mie_gruneisen && mu <= k.mu_least) continue; /* beyond its range */
         assert_near(p_at(&k, mu, k.e_start, 0), 0, 2e-9 * k.K0);
         assert_near(temperature(&k, vd_set(k.e_start), reference_energy(&k, form(&k), vd_set(mu)), vd_set(0))[0], T,
                     1e-6 * T);
@@ -261,10 +262,11 @@ static void test_warm(void **state)
 #define EOS(name, text) #name,
 #include "mpm/law/eos.def"
     };
-    for_every(*state, offsetof(material, eos), names, sizeof names / sizeof names[0], MATERIAL_FOR_SCENE, check_warm);
+    for_every(*state, offsetof(mpm_material, eos), names, sizeof names / sizeof names[0], MPM_MATERIAL_FOR_SCENE,
+              check_warm);
 }
 
-static law gas_in(const material *m, double surroundings, double temperature, double pressure)
+static law gas_in(const mpm_material *m, double surroundings, double temperature, double pressure)
 {
     mpm_scene s;
     mpm_scene_default(&s);
@@ -278,9 +280,9 @@ static law gas_in(const material *m, double surroundings, double temperature, do
 /* The same gas with pressures that count from elsewhere, e from rest with the work of that difference:
  *   p' = p + A,   e' = e + A (1/rho0 - 1/rho),   A = P0 - Pa;   c and T are the same.
  * A body that begins at a pressure of its own has that and its temperature, whatever surrounds it. */
-static void check_surroundings(const material *m)
+static void check_surroundings(const mpm_material *m)
 {
-    if (m->eos != EOS_stiffened_gas) return;
+    if (m->eos != MPM_EOS_stiffened_gas) return;
     const double A = m->gas_pressure, T = m->reference_temperature;
     const law rest = gas_in(m, NAN, T, NAN), same = gas_in(m, A, T, NAN), empty = gas_in(m, 0, T, NAN);
     const double scale = rest.K0 * rest.volume0;
@@ -317,13 +319,13 @@ static void test_surroundings(void **state)
 #define EOS(name, text) #name,
 #include "mpm/law/eos.def"
     };
-    for_every(*state, offsetof(material, eos), names, sizeof names / sizeof names[0], MATERIAL_FOR_SCENE,
+    for_every(*state, offsetof(mpm_material, eos), names, sizeof names / sizeof names[0], MPM_MATERIAL_FOR_SCENE,
               check_surroundings);
 }
 
 /* ---- failure ---- */
 
-static void check_failure(const material *m)
+static void check_failure(const mpm_material *m)
 {
     const law k = law_at(m, m->reference_temperature, 1);
     const vd zero = vd_set(0);
@@ -338,7 +340,7 @@ static void check_failure(const material *m)
                 assert_true(growth >= 0 && growth <= 1);
                 d += growth;
             }
-            assert_true(k.failure.kind == FAILURE_johnson_cook ? d >= 0 && isfinite(d) : d == 0);
+            assert_true(k.failure.kind == MPM_FAILURE_johnson_cook ? d >= 0 && isfinite(d) : d == 0);
         }
     assert_true(k.spall > 0 && k.softening >= 0 && k.softening <= 1);
 }
@@ -349,8 +351,8 @@ static void test_failure(void **state)
 #define FAILURE(name, text) #name,
 #include "mpm/law/failure.def"
     };
-    for_every(*state, offsetof(material, failure), names, sizeof names / sizeof names[0],
-              MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE, check_failure);
+    for_every(*state, offsetof(mpm_material, failure), names, sizeof names / sizeof names[0],
+              MPM_MATERIAL_FOR_SCENE | MPM_MATERIAL_FOR_DAMAGE, check_failure);
 }
 
 int main(void)

@@ -49,13 +49,13 @@ static void test_boundaries(void **state)
 {
     (void)state;
     static const struct {
-        boundary_kind bottom, ends;
+        mpm_boundary_kind bottom, ends;
         const char *name;
     } kinds[] = {
-        { BOUNDARY_FIXED, BOUNDARY_FREE, "fixed bottom, free ends" },
-        { BOUNDARY_FREE, BOUNDARY_FIXED, "free bottom, fixed ends" },
-        { BOUNDARY_ABSORBING, BOUNDARY_SYMMETRY, "absorbing, rollers" },
-        { BOUNDARY_PRESCRIBED, BOUNDARY_PRESCRIBED, "prescribed velocity" },
+        { MPM_BOUNDARY_FIXED, MPM_BOUNDARY_FREE, "fixed bottom, free ends" },
+        { MPM_BOUNDARY_FREE, MPM_BOUNDARY_FIXED, "free bottom, fixed ends" },
+        { MPM_BOUNDARY_ABSORBING, MPM_BOUNDARY_SYMMETRY, "absorbing, rollers" },
+        { MPM_BOUNDARY_PRESCRIBED, MPM_BOUNDARY_PRESCRIBED, "prescribed velocity" },
     };
     GOUGE_LOCAL(g);
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
@@ -94,10 +94,10 @@ static void test_options(void **state)
     (void)state;
     GOUGE_LOCAL(g);
     scene_gouge(&g, H, SPEED);
-    g.scene.transfer = TRANSFER_PIC;
+    g.scene.transfer = MPM_TRANSFER_PIC;
     run(&g.scene, "PIC");
     scene_gouge(&g, H, SPEED);
-    g.scene.basis = BASIS_BSPLINE;
+    g.scene.basis = MPM_BASIS_BSPLINE;
     run(&g.scene, "B-spline");
     scene_gouge(&g, H, SPEED);
     g.scene.heat_by_plastic_work = true;
@@ -122,10 +122,10 @@ static void test_options(void **state)
 static void test_vapour(void **state)
 {
     (void)state;
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
-    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 10e-3, 0.5e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 10e-3, 0.5e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     scene_box(&s, 1e-3, 1e-3, 1e-3, 3e-3, 3e-3, 3e-3, &m)->velocity[0] = 500;
     mpm_body *hot = scene_box(&s, 6e-3, 6e-3, 6e-3, 8e-3, 8e-3, 8e-3, &m);
     hot->velocity[1] = 500;

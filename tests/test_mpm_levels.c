@@ -20,10 +20,11 @@ static void test_refused(void **state)
     grids g;
     mpm_scene_default(&s);
     for (int k = 0; k < 3; k++)
-        s.axis[k] = scene_graded(scene_axis(0, 40e-3, 1e-3, BOUNDARY_FREE, BOUNDARY_FREE), 16e-3, 24e-3, 4e-3, 1.5);
+        s.axis[k] =
+            scene_graded(scene_axis(0, 40e-3, 1e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE), 16e-3, 24e-3, 4e-3, 1.5);
     s.levels = 2;
     mpm_scene bad[4] = { s, s, s, s };
-    bad[0].levels = 0, bad[1].levels = MPM_MAX_LEVELS + 1, bad[2].basis = BASIS_BSPLINE;
+    bad[0].levels = 0, bad[1].levels = MPM_MAX_LEVELS + 1, bad[2].basis = MPM_BASIS_BSPLINE;
     bad[3].axis[1].hi = 3e-3; /* not two cells of the coarsest level */
     for (int i = 0; i < 4; i++) assert_int_equal(mpm_grids_make(&bad[i], &g).code, STATUS_BAD_INPUT);
     assert_ok(mpm_grids_make(&s, &g));
@@ -32,12 +33,12 @@ static void test_refused(void **state)
 
 /* ---- fields ---- */
 
-static void cube(mpm_scene *s, const material *m, int levels)
+static void cube(mpm_scene *s, const mpm_material *m, int levels)
 {
     mpm_scene_default(s);
     s->levels = levels;
     for (int k = 0; k < 3; k++) {
-        s->axis[k] = scene_axis(0, k ? 20e-3 : 40e-3, 0.5e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+        s->axis[k] = scene_axis(0, k ? 20e-3 : 40e-3, 0.5e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
         s->axis[k] = scene_graded(s->axis[k], k ? 7e-3 : 12e-3, k ? 11e-3 : 18e-3, 4e-3, 2);
     }
     scene_box(s, 3.3e-3, 3.3e-3, 3.3e-3, 9.3e-3, 9.3e-3, 9.3e-3, m);
@@ -50,7 +51,7 @@ static void test_linear(void **state)
 {
     (void)state;
     static const double CARRIED = 1000, RATE = 1e3, STEP = 3e-13; /* [m/s, 1/s, s]: it turns and stretches by 3e-10 */
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     for (int levels = 2; levels <= LEVELS; levels++) {
         SCENE_LOCAL(s);
         cube(&s, &copper, levels);
@@ -104,7 +105,7 @@ static void test_linear(void **state)
 static void test_paces(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     double dt[LEVELS];
     for (int levels = 1; levels <= LEVELS; levels++) {
         SCENE_LOCAL(s);
@@ -131,7 +132,7 @@ static void test_paces(void **state)
 static void test_flight(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     for (int levels = 2; levels <= LEVELS; levels++) {
         SCENE_LOCAL(s);
         cube(&s, &copper, levels);
@@ -164,14 +165,14 @@ static void test_ends(void **state)
 {
     (void)state;
     static const struct {
-        boundary_kind kind;
+        mpm_boundary_kind kind;
         bool passes;
-    } ends[] = { { BOUNDARY_FREE, false },
-                 { BOUNDARY_ABSORBING, false },
-                 { BOUNDARY_FIXED, false },
-                 { BOUNDARY_SYMMETRY, false },
-                 { BOUNDARY_SYMMETRY, true } };
-    const material copper = scene_copper();
+    } ends[] = { { MPM_BOUNDARY_FREE, false },
+                 { MPM_BOUNDARY_ABSORBING, false },
+                 { MPM_BOUNDARY_FIXED, false },
+                 { MPM_BOUNDARY_SYMMETRY, false },
+                 { MPM_BOUNDARY_SYMMETRY, true } };
+    const mpm_material copper = scene_copper();
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++)
         for (int levels = 2; levels <= LEVELS; levels++) {
             SCENE_LOCAL(s);
@@ -189,7 +190,7 @@ static void test_ends(void **state)
             print_message("end %zu, %d levels: %.1e of the mass left, mass %.1e, energy %.1e, momentum %.1e\n", i,
                           levels, l.ejected_mass / l.mass_start, (l.mass + l.ejected_mass) / l.mass_start - 1,
                           l.energy_error, l.momentum_error);
-            const bool open = ends[i].kind == BOUNDARY_FREE || ends[i].passes;
+            const bool open = ends[i].kind == MPM_BOUNDARY_FREE || ends[i].passes;
             assert_int_equal(l.ejected_mass > 0.01 * l.mass_start, open);
             assert_near((l.mass + l.ejected_mass) / l.mass_start, 1, ROUNDING);
             assert_below(l.momentum_error, ROUNDING);
@@ -207,7 +208,8 @@ static void gouge(gouge_scene *g, int levels)
     s->levels = levels;
     s->axis[0] = scene_graded(s->axis[0], -1e-3, 2e-3, 1.5e-3, 1.5);
     s->axis[1] = scene_graded(s->axis[1], -1e-3, 1e-3, 1e-3, 1.5);
-    s->axis[2] = scene_graded(scene_axis(0, 6e-3, 0.25e-3, BOUNDARY_SYMMETRY, BOUNDARY_FREE), 0, 1e-3, 1e-3, 1.5);
+    s->axis[2] =
+        scene_graded(scene_axis(0, 6e-3, 0.25e-3, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FREE), 0, 1e-3, 1e-3, 1.5);
     scene_values(s, 0)[3] = 40e-3; /* the rail goes on */
     s->zone_until = 0.5e-6;
     mpm_refine *plastic;
@@ -262,7 +264,7 @@ static void test_estimate(void **state)
 static void test_contact_sums(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     for (int i = 0; i < 12; i++) {
         const int levels = 2 + i % 2;
         const double y = 7.25e-3 + 0.3e-3 * i; /* where they meet, among the cells and bricks of the boxes */
@@ -321,7 +323,7 @@ static void hold_known(mpm *m)
 static void test_known(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     for (int levels = 1; levels <= LEVELS; levels++) {
         SCENE_LOCAL(s);
         cube(&s, &copper, levels);

@@ -14,13 +14,13 @@ static const double EXACT = 1e-12;
 /* One particle, in all eight lanes. */
 typedef struct {
     law k;
-    material material;
+    mpm_material material;
     block q;
     step_of step;
     lane_sums sum;
 } specimen;
 
-static specimen specimen_make(material m, double temperature, double q1, double q2, bool damage)
+static specimen specimen_make(mpm_material m, double temperature, double q1, double q2, bool damage)
 {
     specimen p;
     memset(&p, 0, sizeof p);
@@ -38,12 +38,12 @@ static specimen specimen_make(material m, double temperature, double q1, double 
     return p;
 }
 
-static specimen specimen_of(material m, double q1, double q2, bool damage)
+static specimen specimen_of(mpm_material m, double q1, double q2, bool damage)
 {
     return specimen_make(m, m.reference_temperature, q1, q2, damage);
 }
 
-static specimen specimen_at(material m, double temperature)
+static specimen specimen_at(mpm_material m, double temperature)
 {
     return specimen_make(m, temperature, 0, 0, true);
 }
@@ -122,7 +122,7 @@ static void test_turning(void **state)
 
 /* ---- strength ---- */
 
-static double yield_of(const material *m, double ep, double rate, double T)
+static double yield_of(const mpm_material *m, double ep, double rate, double T)
 {
     const double T_star =
         fmin(fmax((T - m->reference_temperature) / (m->melting_temperature - m->reference_temperature), 0), 1);
@@ -137,7 +137,7 @@ static void test_yield(void **state)
     (void)state;
     enum { STEPS = 4000 };
     const double gamma = 0.4, rate = 1e5, L[9] = { 0, rate, 0, 0, 0, 0, 0, 0, 0 };
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     specimen p = specimen_of(m, 0, 0, false);
     for (int i = 0; i < STEPS; i++) {
         const double before = p.q.ep[0][0], want = yield_of(&m, before, rate / sqrt(3), p.q.T[0][0]);
@@ -161,7 +161,7 @@ static void test_yield(void **state)
     assert_true(p.q.T[0][0] > 300);
 
     /* no hardening, no rate, cold: A itself */
-    material plain = m;
+    mpm_material plain = m;
     plain.hardening_B = 0, plain.rate_C = 0, plain.specific_heat = 1e4, plain.softening_m = 10;
     p = specimen_of(plain, 0, 0, false);
     for (int i = 0; i < 200; i++) strain(&p, L, 1e-4 / rate);
@@ -175,10 +175,10 @@ static void test_yield(void **state)
 }
 
 /* Copper of Preston, Tonks and Wallace, annealed. */
-static material ptw_copper(void)
+static mpm_material ptw_copper(void)
 {
-    material m = scene_copper();
-    m.strength = STRENGTH_ptw;
+    mpm_material m = scene_copper();
+    m.strength = MPM_STRENGTH_ptw;
     m.ptw_theta = 0.025, m.ptw_p = 2, m.ptw_s0 = 0.0085, m.ptw_s_inf = 0.00055, m.ptw_kappa = 0.11, m.ptw_gamma = 1e-5;
     m.ptw_y0 = 1e-4, m.ptw_y_inf = 1e-4, m.ptw_y1 = 0.094, m.ptw_y2 = 0.575, m.ptw_beta = 0.25;
     m.ptw_G0 = 51.8e9, m.ptw_alpha = 0.2, m.molar_mass = 0.063546;
@@ -188,7 +188,7 @@ static material ptw_copper(void)
 }
 
 /* Flow stress at a plastic strain, rate and temperature: a step of simple shear from a stress far beyond it. */
-static double ptw_stress(const material *m, double scale, double e, double rate, double T)
+static double ptw_stress(const mpm_material *m, double scale, double e, double rate, double T)
 {
     const double dt = 1e-6 / rate, L[9] = { 0, sqrt(3) * rate, 0, 0, 0, 0, 0, 0, 0 };
     specimen p = specimen_make(*m, 293, 0, 0, false);
@@ -212,27 +212,27 @@ static void test_ptw(void **state)
         { 0.5, 1e+07, 900, 6.376114880e+08 },  { 10, 1e+08, 293, 8.818761848e+08 },
         { 0.2, 1e+09, 1300, 1.353013695e+09 }, { 0, 3e+07, 77, 6.716377291e+08 },
     };
-    const material m = ptw_copper();
+    const mpm_material m = ptw_copper();
     for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
         const double *t = table[i];
         assert_near(ptw_stress(&m, 1, t[0], t[1], t[2]) / t[3], 1, 1e-6);
     }
-    material drawn = m; /* cold work is strain it has had */
+    mpm_material drawn = m; /* cold work is strain it has had */
     drawn.ptw_cold_work = 0.3;
     assert_near(ptw_stress(&drawn, 1, 0, 1e6, 293) / 5.859397212e+08, 1, 1e-6);
     assert_near(ptw_stress(&m, 1, 0.3, 1e6, 1357), 0, 0); /* molten */
     assert_near(ptw_stress(&m, 1.5, 0.3, 1e6, 293) / 5.859397212e+08, 1.5, 2e-6);
 
-    material weak = m; /* beyond gamma xi, where thermal activation is still the larger of the two */
+    mpm_material weak = m; /* beyond gamma xi, where thermal activation is still the larger of the two */
     weak.ptw_beta = 0.01;
     assert_near(ptw_stress(&weak, 1, 10, 1e9, 1300) / 9.104182607e+08, 1, 1e-6);
 
-    material slow = m; /* rates below rate_0 count as rate_0, whatever unit that is in */
+    mpm_material slow = m; /* rates below rate_0 count as rate_0, whatever unit that is in */
     slow.rate_0 = 1e3;
     assert_near(ptw_stress(&slow, 1, 0.3, 1e6, 293) / 5.859397212e+08, 1, 1e-6);
     assert_near(ptw_stress(&slow, 1, 0, 1, 293) / 1.379989210e+07, 1, 1e-6);
 
-    material flat = m; /* p -> 0: tau = s - (s - y) exp(-theta e/(s - y)), to the 1e-4 that stand for zero */
+    mpm_material flat = m; /* p -> 0: tau = s - (s - y) exp(-theta e/(s - y)), to the 1e-4 that stand for zero */
     flat.ptw_p = 0;
     const double s = ptw_stress(&flat, 1, 100, 1, 293), y = ptw_stress(&flat, 1, 0, 1, 293), G2 = y / 1e-4;
     assert_near(ptw_stress(&flat, 1, 0.1, 1, 293) / (s - (s - y) * exp(-0.025 * 0.1 * G2 / (s - y))), 1, 1e-4);
@@ -250,10 +250,10 @@ static double law_stress(const law *k, double e, double rate, double T)
 }
 
 /* Annealed copper of Follansbee and Kocks. */
-static material mts_copper(void)
+static mpm_material mts_copper(void)
 {
-    material m = ptw_copper();
-    m.strength = STRENGTH_mts;
+    mpm_material m = ptw_copper();
+    m.strength = MPM_STRENGTH_mts;
     m.mts_sigma_a = 40e6, m.mts_mu0 = 47.7e9, m.mts_D = 3e9, m.mts_T0 = 180, m.mts_k_b3 = 0.823e6, m.mts_g0 = 1.6;
     m.mts_rate = 1e7, m.mts_p = 0.666667, m.mts_q = 1, m.mts_a0 = 2390e6, m.mts_a1 = 12e6, m.mts_a2 = 1.696e6;
     m.mts_alpha = 2, m.mts_g0_s = 0.2625, m.mts_rate_s = 1e7, m.mts_sigma_s0 = 770e6;
@@ -271,14 +271,14 @@ static void test_mts(void **state)
         { 0.2, 2000, 873, 168288789.136 }, { 0.5, 2e5, 400, 441508968.223 }, { 1, 2e5, 300, 561019933.434 },
         { 3, 1e6, 293, 697134677.442 },    { 0.27, 3e7, 900, 507566908.9 },  { 2, 100, 1300, 89155488.0576 },
     };
-    material m = mts_copper();
+    mpm_material m = mts_copper();
     const law k = specimen_of(m, 0, 0, false).k;
     for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
         const double *t = table[i];
         assert_near(law_stress(&k, t[0], t[1], t[2]) / t[3], 1, 1e-8);
     }
     assert_near(law_stress(&k, 0.3, 1000, 1356), 0, 0); /* molten */
-    material other = m; /* exponents without a root of their own: S^p and (g ln)^q as those of the equation */
+    mpm_material other = m; /* exponents without a root of their own: S^p and (g ln)^q as those of the equation */
     other.mts_p = 0.75, other.mts_q = 1.25;
     const law odd = specimen_of(other, 0, 0, false).k;
     const double barrier = 0.823e6 * 293 / (47.7e9 - 3e9 / expm1(180.0 / 293)) / 1.6 * log(1e4);
@@ -295,7 +295,7 @@ static void test_mts_bound(void **state)
 {
     (void)state;
     for (int worked = 0; worked < 2; worked++) {
-        material m = mts_copper();
+        mpm_material m = mts_copper();
         m.cold_work = 0.27 * worked;
         const law k = specimen_of(m, 0, 0, false).k;
         double nearest = HUGE_VAL;
@@ -315,14 +315,14 @@ static void test_mts_bound(void **state)
 static void test_cold_work(void **state)
 {
     (void)state;
-    material sg = scene_copper();
-    sg.strength = STRENGTH_steinberg_guinan, sg.sg_G0 = 47.7e9, sg.sg_A = 0, sg.sg_B = 0, sg.sg_Y0 = 0.12e9;
+    mpm_material sg = scene_copper();
+    sg.strength = MPM_STRENGTH_steinberg_guinan, sg.sg_G0 = 47.7e9, sg.sg_A = 0, sg.sg_B = 0, sg.sg_Y0 = 0.12e9;
     sg.sg_Y_max = 0.64e9, sg.sg_beta = 36, sg.sg_n = 0.45, sg.sg_T_m0 = 1790, sg.sg_a = 1.5, sg.sg_g0 = 2.02;
-    const material all[] = { scene_copper(), ptw_copper(), mts_copper(), sg };
+    const mpm_material all[] = { scene_copper(), ptw_copper(), mts_copper(), sg };
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
     for (int i = 0; i < 4; i++) {
-        material m = all[i];
+        mpm_material m = all[i];
         mpm_body b = { .material = &m, .temperature = m.reference_temperature, .yield_scale = 1, .cold_work = NAN };
         law plain, own, body;
         assert_ok(mpm_law_make(&b, &s, &plain));
@@ -345,7 +345,7 @@ static void test_cold_work(void **state)
 static void test_hardening_strain(void **state)
 {
     (void)state;
-    material m = scene_copper();
+    mpm_material m = scene_copper();
     const law plain = specimen_of(m, 0, 0, false).k;
     m.hardening_strain = 0.15;
     const law limited = specimen_of(m, 0, 0, false).k;
@@ -368,7 +368,7 @@ static void test_ptw_bound(void **state)
 {
     (void)state;
     for (int worked = 0; worked < 2; worked++) {
-        material m = ptw_copper();
+        mpm_material m = ptw_copper();
         m.ptw_cold_work = 0.3 * worked;
         const specimen p = specimen_make(m, 293, 0, 0, false);
         for (double T = 293; T < 1355; T += 50)
@@ -396,7 +396,7 @@ static void test_plastic_heat(void **state)
 {
     (void)state;
     const double rate = 1e5, L[9] = { 0, rate, 0, 0, 0, 0, 0, 0, 0 };
-    material m = scene_copper();
+    mpm_material m = scene_copper();
     m.hardening_B = 0, m.rate_C = 0, m.softening_m = 10;
     specimen p = specimen_of(m, 0, 0, false);
     p.k.plastic_heat = true;
@@ -412,7 +412,7 @@ static void test_hugoniot(void **state)
 {
     (void)state;
     static const double none[9] = { 0 };
-    const material m = scene_hydro();
+    const mpm_material m = scene_hydro();
     for (double up = 50; up < 2500; up *= 1.7) {
         const double us = m.sound_speed + m.hugoniot_slope * up, want = m.density * us * up;
         specimen p = specimen_of(m, 0, 0, false);
@@ -455,7 +455,7 @@ static void test_isentrope(void **state)
 {
     (void)state;
     enum { STEPS = 2000 };
-    const material m = scene_hydro();
+    const mpm_material m = scene_hydro();
     specimen p = specimen_of(m, 0, 0, false);
     const double rate = 1e4, L[9] = { -rate, 0, 0, 0, -rate, 0, 0, 0, -rate };
     const double dt = log(1.2) / (3 * rate) / STEPS;
@@ -472,7 +472,7 @@ static void test_melting(void **state)
 {
     (void)state;
     static const double none[9] = { 0 };
-    material m = scene_copper();
+    mpm_material m = scene_copper();
     m.latent_heat = 205e3;
     const double melt = m.specific_heat * (m.melting_temperature - m.reference_temperature);
     const double energy[] = { 0, 0.5 * melt, melt, melt + 0.5 * 205e3, melt + 205e3, melt + 205e3 + 1e5 };
@@ -491,7 +491,7 @@ static void test_hot_start(void **state)
 {
     (void)state;
     static const double none[9] = { 0 };
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
     mpm_body b = { .material = &m, .temperature = 700, .yield_scale = 1 };
@@ -513,7 +513,7 @@ static void test_hugoniot_temperature(void **state)
     (void)state;
     enum { N = 20000 };
     static const double none[9] = { 0 };
-    const material m = scene_hydro();
+    const mpm_material m = scene_hydro();
     const double c0 = m.sound_speed, s = m.hugoniot_slope, rho0 = m.density;
     for (double up = 250; up < 1600; up *= 2) {
         const double x1 = up / (c0 + s * up); /* (V0 - V)/V0 */
@@ -565,7 +565,7 @@ static void test_damage(void **state)
 {
     (void)state;
     const double rate = 1e5, step = 2e-3, L[9] = { 0, rate, 0, 0, 0, 0, 0, 0, 0 };
-    material m = scene_copper();
+    mpm_material m = scene_copper();
     m.hardening_B = 0, m.specific_heat = 1e4, m.gruneisen = 0, m.damage_D5 = 0, m.yield_A = 1e7;
     m.damage_D1 = 0.2, m.damage_D2 = 0.3;
     specimen p = specimen_of(m, 0, 0, true);
@@ -592,7 +592,7 @@ static void test_damage_extended(void **state)
     (void)state;
     const double rate = 1e5, step = 2e-3, L[9] = { 0, rate, 0, 0, 0, 0, 0, 0, 0 };
     const double threshold = 0.1, critical = 0.3, power = 0.05;
-    material m = scene_copper();
+    mpm_material m = scene_copper();
     m.hardening_B = 0, m.specific_heat = 1e4, m.gruneisen = 0, m.softening_m = 10, m.rate_C = 0;
     m.damage_D1 = 0.2, m.damage_D2 = 0.1, m.damage_D3 = 0, m.damage_D4 = 0, m.damage_D5 = 0;
     m.damage_threshold = threshold, m.damage_critical = critical, m.damage_softening = 1, m.damage_rate_power = power;
@@ -621,7 +621,7 @@ static void test_damage_plain(void **state)
 {
     (void)state;
     const double rate = 1e5, L[9] = { 0, rate, 0, 0, 0.1 * rate, 0, 0, 0, 0 };
-    material m = scene_copper();
+    mpm_material m = scene_copper();
     m.damage_D1 = 0.2, m.damage_D2 = 0.3;
     specimen plain = specimen_of(m, 0, 0, true);
     m.damage_threshold = 0, m.damage_critical = 1, m.damage_softening = 0;
@@ -643,7 +643,7 @@ static double fracture_strain(const law *k, double triaxiality)
 static void test_damage_compression(void **state)
 {
     (void)state;
-    material m = scene_copper();
+    mpm_material m = scene_copper();
     m.damage_D1 = 0.11, m.damage_D2 = 0.573, m.damage_D3 = -3.4446, m.damage_D4 = m.damage_D5 = 0;
     const law plain = specimen_of(m, 0, 0, true).k;
     m.damage_compression = 0.3;
@@ -661,9 +661,10 @@ static void test_spall(void **state)
     (void)state;
     const double L[9] = { 1e5, 0, 0, 0, 1e5, 0, 0, 0, 1e5 }, dt = 1e-10;
     for (int alone = 0; alone < 2; alone++) {
-        material m = scene_copper();
+        mpm_material m = scene_copper();
         m.spall_strength = 1e9;
-        if (alone) m.failure = FAILURE_spall, m.damage_D1 = m.damage_D2 = m.damage_D3 = m.damage_D4 = m.damage_D5 = NAN;
+        if (alone)
+            m.failure = MPM_FAILURE_spall, m.damage_D1 = m.damage_D2 = m.damage_D3 = m.damage_D4 = m.damage_D5 = NAN;
         specimen p = specimen_of(m, 0, 0, true), off = specimen_of(m, 0, 0, false);
         double most = 0;
         for (int i = 0; i < 1000 && p.q.damage[0][0] < 1; i++) {
@@ -681,12 +682,12 @@ static void test_spall(void **state)
 
 /* ---- fluids ---- */
 
-static material water(void)
+static mpm_material water(void)
 {
-    material m;
+    mpm_material m;
     base_params_default(mpm_material_params, &m);
     strcpy(m.name, "water");
-    m.strength = STRENGTH_none;
+    m.strength = MPM_STRENGTH_none;
     m.density = 1000, m.specific_heat = 4186, m.reference_temperature = 293;
     m.sound_speed = 1480, m.hugoniot_slope = 1.92, m.gruneisen = 0.11, m.cavitation_pressure = -99e3;
     m.tait_exponent = 7.15;
@@ -698,7 +699,7 @@ static void test_fluid(void **state)
 {
     (void)state;
     const double L[9] = { 0, 1e5, 0, 0, 0, 0, 0, 0, 0 };
-    material m = water();
+    mpm_material m = water();
     m.viscosity_linear = 0.06;
     specimen p = specimen_of(m, 0.2, 2, true);
     assert_near(p.k.q1, 0.06, 0);
@@ -716,23 +717,23 @@ static void test_fluid_hugoniot(void **state)
     (void)state;
     static const double none[9] = { 0 };
     for (double up = 10; up < 1100; up *= 1.5) {
-        const material m = water();
+        const mpm_material m = water();
         const double us = 1480 + 1.92 * up, rho = 1000 * us / (us - up);
         specimen p = specimen_of(m, 0, 0, false);
         for (int l = 0; l < LANES; l++) p.q.rho[0][l] = rho, p.q.e[0][l] = 0.5 * up * up;
         strain(&p, none, 1e-9);
         assert_near(p.q.p[0][0] / (1000 * us * up), 1, 1e-11);
         if (up > 100) continue;
-        material tait = m;
-        tait.eos = EOS_tait;
+        mpm_material tait = m;
+        tait.eos = MPM_EOS_tait;
         p = specimen_of(tait, 0, 0, false);
         for (int l = 0; l < LANES; l++) p.q.rho[0][l] = rho, p.q.e[0][l] = 0.5 * up * up;
         strain(&p, none, 1e-9);
         assert_near(p.q.p[0][0] / (1000 * us * up), 1, 0.02);
     }
     for (int air = 0; air < 2; air++) {
-        material m = water();
-        m.eos = EOS_stiffened_gas, m.cavitation_pressure = NAN;
+        mpm_material m = water();
+        m.eos = MPM_EOS_stiffened_gas, m.cavitation_pressure = NAN;
         m.gas_gamma = air ? 1.4 : 7.415, m.gas_stiffness = air ? 0 : 296.2e6, m.gas_pressure = 101325;
         m.density = air ? 1.2041 : 1000, m.specific_heat = air ? 717.95 : 157.6;
         const double c = sqrt(m.gas_gamma * (m.gas_stiffness + m.gas_pressure) / m.density);
@@ -787,8 +788,8 @@ static void test_cavitation(void **state)
 static void test_steinberg_guinan(void **state)
 {
     (void)state;
-    material m = scene_copper();
-    m.strength = STRENGTH_steinberg_guinan, m.density = 8930;
+    mpm_material m = scene_copper();
+    m.strength = MPM_STRENGTH_steinberg_guinan, m.density = 8930;
     m.youngs_modulus = m.poisson = m.yield_A = NAN; /* not asked for */
     m.sg_G0 = 47.7e9, m.sg_A = 2.83e-11, m.sg_B = 3.77e-4, m.sg_Y0 = 0.12e9, m.sg_Y_max = 0.64e9, m.sg_beta = 36;
     m.sg_n = 0.45, m.sg_T_m0 = 1790, m.sg_a = 1.5, m.sg_g0 = 2.02;

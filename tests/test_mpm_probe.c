@@ -45,11 +45,11 @@ static void each_point(mpm *m, setter *give)
 }
 
 /* Two copper cubes of 2 mm that touch at x = 0, on cells of 0.25 mm; bodies 0 and 1. */
-static mpm *cubes(const material *m)
+static mpm *cubes(const mpm_material *m)
 {
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
-    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(-3e-3, 3e-3, 0.25e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(-3e-3, 3e-3, 0.25e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     scene_box(&s, -2e-3, -1e-3, -1e-3, 0, 1e-3, 1e-3, m);
     scene_box(&s, 0, -1e-3, -1e-3, 2e-3, 1e-3, 1e-3, m)->group = 1;
     return scene_make(&s, 1);
@@ -70,7 +70,7 @@ static void hydrostatic(block *q, int l)
 static void test_pressure(void **state)
 {
     (void)state;
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     mpm *solver = cubes(&m);
     double out[6];
     each_point(solver, hydrostatic);
@@ -110,7 +110,7 @@ static void test_pressure(void **state)
 static void test_force(void **state)
 {
     (void)state;
-    const material m = scene_hydro();
+    const mpm_material m = scene_hydro();
     const double h = 0.1e-3, u = 500, want = m.density * (m.sound_speed + m.hugoniot_slope * u) * u;
     const double area = 4 * h * 4 * h;
     SCENE_LOCAL(s);
@@ -148,12 +148,12 @@ static void test_force(void **state)
 static void test_motion(void **state)
 {
     (void)state;
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     const double r = 0.5e-3, length = 2e-3, h = r / 8, w[3] = { 2e4, 0, 1e4 };
     const double strut[] = { -1e-3, 0.2e-3, 0.1e-3, 1e-3, 0.2e-3, 0.1e-3, r };
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
-    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(-1.5e-3, 2.5e-3, h, BOUNDARY_FREE, BOUNDARY_FREE);
+    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(-1.5e-3, 2.5e-3, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     mpm_body *b = scene_body(&s, "strut", strut, 7, &m);
     b->velocity[0] = 100, b->velocity[2] = -30;
     for (int k = 0; k < 3; k++) b->spin[k] = w[k];
@@ -189,7 +189,7 @@ static void broken(block *q, int l)
 static void test_failed(void **state)
 {
     (void)state;
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     mpm *solver = cubes(&m);
     double out[3];
     mpm_probe energy = probe("energy", 1);
@@ -217,7 +217,7 @@ static void shear(block *q, int l)
 static void test_plastic(void **state)
 {
     (void)state;
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     mpm *solver = cubes(&m);
     double out;
     mpm_probe plastic = probe("plastic", 0);
@@ -239,7 +239,7 @@ static void test_profile(void **state)
 {
     (void)state;
     enum { N = 12 };
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     const mpm_slices slices = {
         .along = 0, .across = 2, .n = N, .lo = -3.0625e-3, .width = 0.5e-3, .half = 0.75e-3, .sides = 2.0 / 3
     };
@@ -272,11 +272,11 @@ static void test_profile(void **state)
 static void test_surface(void **state)
 {
     (void)state;
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     const double wedge[] = { 0.1e-3, 0, 0, 1e-3, 0.5e-3, 1e-3 }, h = 0.1e-3;
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
-    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(-1.5e-3, 1.5e-3, h, BOUNDARY_FREE, BOUNDARY_FREE);
+    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(-1.5e-3, 1.5e-3, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     scene_box(&s, -1.5e-3, -0.5e-3, -1.5e-3, 1.5e-3, 0, 1.5e-3, &m);
     scene_body(&s, "wedge", wedge, 6, &m);
     mpm *solver = scene_make(&s, 1);
@@ -332,7 +332,7 @@ static void fly(block *q, int l)
 static void test_passage(void **state)
 {
     (void)state;
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     mpm *solver = cubes(&m);
     double out[8];
     const double kg = m.density * 1e-9; /* of a cubic millimetre */
@@ -379,8 +379,8 @@ static void stretched(block *q, int l)
 static void test_cavitation(void **state)
 {
     (void)state;
-    material m = scene_copper();
-    m.strength = STRENGTH_none, m.density = 1000, m.cavitation_pressure = 0;
+    mpm_material m = scene_copper();
+    m.strength = MPM_STRENGTH_none, m.density = 1000, m.cavitation_pressure = 0;
     mpm *solver = cubes(&m);
     each_point(solver, stretched);
     const mpm_probe all = probe("cavitation", -1), right = probe("cavitation", 1);
@@ -409,9 +409,9 @@ static void test_table(void **state)
         assert_ptr_equal(mpm_probe_kind_find(k->name), k);
         assert_true(k->doc && k->doc[0] && k->read && k->params && k->columns && k->columns[0].name);
         mpm_probe p = mpm_probe_make(k, "p");
-        for (const param *q = k->params; q->key; q++) {
-            const size_t doubles = q->kind == PARAM_VECTOR ? 3 : 1;
-            assert_true(q->kind == PARAM_NUMBER || q->kind == PARAM_VECTOR);
+        for (const base_param *q = k->params; q->key; q++) {
+            const size_t doubles = q->kind == BASE_PARAM_VECTOR ? 3 : 1;
+            assert_true(q->kind == BASE_PARAM_NUMBER || q->kind == BASE_PARAM_VECTOR);
             assert_true(q->offset / sizeof(double) + doubles <= MPM_PROBE_VALUES);
             assert_ptr_equal((char *)mpm_probe_value(&p, q->key), (char *)p.value + q->offset);
         }
@@ -434,10 +434,10 @@ static void test_table(void **state)
 static void test_scene(void **state)
 {
     (void)state;
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
-    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(-3e-3, 3e-3, 1e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(-3e-3, 3e-3, 1e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     scene_box(&s, -2e-3, -1e-3, -1e-3, 0, 1e-3, 1e-3, &m);
     mpm_probe *p;
     for (int i = 0; i < 3; i++) assert_ok(mpm_scene_add_probe(&s, "force", i == 0 ? "a" : i == 1 ? "b" : "c", &p));

@@ -51,10 +51,10 @@ static void test_merge_undoes_halve(void **state)
 /* ---- rules ---- */
 
 /* Some seconds into a gouge, or what a rule might see of one: any block of a moving, flowing body. */
-static mpm *flowing(const material *copper, mpm_scene *s)
+static mpm *flowing(const mpm_material *copper, mpm_scene *s)
 {
     mpm_scene_default(s);
-    for (int k = 0; k < 3; k++) s->axis[k] = scene_axis(0, 8e-3, 1e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+    for (int k = 0; k < 3; k++) s->axis[k] = scene_axis(0, 8e-3, 1e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     scene_box(s, 2e-3, 2e-3, 2e-3, 6e-3, 6e-3, 6e-3, copper);
     mpm *m = scene_make(s, 1);
     for (int i = 0; i < m->bricks_used; i++)
@@ -81,7 +81,7 @@ static int any_block(const mpm *m)
 static void test_kinds(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     SCENE_LOCAL(s);
     mpm *m = flowing(&copper, &s);
     int n = 0;
@@ -97,7 +97,7 @@ static void test_kinds(void **state)
         r.body = 0;
         k->cells(m, &r, any_block(m), cell[0]);
         bool tolerance = false;
-        for (const param *p = k->params; p->key; p++) {
+        for (const base_param *p = k->params; p->key; p++) {
             assert_non_null(mpm_refine_value(&r, p->key));
             if (strcmp(p->unit, "m/s") != 0) continue;
             tolerance = true;
@@ -117,12 +117,12 @@ static void test_kinds(void **state)
 }
 
 /* A block of copper at rest in cells of 1 mm with finer levels for a rule, and all its points elastic. */
-static mpm *quiet(const material *copper, mpm_scene *s, double jump, bool fine)
+static mpm *quiet(const mpm_material *copper, mpm_scene *s, double jump, bool fine)
 {
     mpm_refine *plastic;
     mpm_scene_default(s);
     s->levels = 3, s->zone_until = fine ? 1 : 0;
-    for (int k = 0; k < 3; k++) s->axis[k] = scene_axis(0, 64e-3, 1e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+    for (int k = 0; k < 3; k++) s->axis[k] = scene_axis(0, 64e-3, 1e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     scene_box(s, 8e-3, 8e-3, 8e-3, 56e-3, 56e-3, 56e-3, copper);
     assert_ok(mpm_scene_add_refine(s, "plastic", &plastic));
     *mpm_refine_value(plastic, "jump") = jump;
@@ -152,7 +152,7 @@ static void flow(mpm *m, brick *b, int lo, int hi, int n, double rate)
 static int active_after(bool fine, int lo, int hi, int n, double rate)
 {
     static const double JUMP = 10; /* [m/s] so 1e4/s asks for 1 mm, 5e3/s for 2 mm */
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     SCENE_LOCAL(s);
     mpm *m = quiet(&copper, &s, JUMP, fine);
     int active = 0, chosen = -1;
@@ -227,14 +227,14 @@ static void check_node(const mpm *m, int level, const int n[3])
 static void test_nesting(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     srand(5);
     for (int trial = 0; trial < 12; trial++) {
         SCENE_LOCAL(s);
         mpm_scene_default(&s);
         s.levels = 2 + trial % 3, s.zone_until = 0;
         for (int k = 0; k < 3; k++)
-            s.axis[k] = scene_axis(0, uniform(16e-3, 24e-3), 0.5e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+            s.axis[k] = scene_axis(0, uniform(16e-3, 24e-3), 0.5e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
         scene_box(&s, 1e-3, 1e-3, 1e-3, 2e-3, 2e-3, 2e-3, &copper);
         mpm *m = scene_make(&s, 1);
         for (int i = 0; i < 4; i++) {
@@ -278,12 +278,12 @@ static void test_linear(void **state)
 {
     (void)state;
     static const double CARRIED = 1000, RATE = 1e3, STEP = 3e-13;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
     s.levels = 4, s.zone_until = 0;
     s.viscosity_linear = s.viscosity_quadratic = 0; /* else there is stress at once */
-    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 24e-3, 0.25e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 24e-3, 0.25e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     scene_box(&s, 1e-3, 1e-3, 1e-3, 23e-3, 23e-3, 23e-3, &copper);
     scene_box(&s, 8e-3, 8e-3, 8e-3, 9e-3, 9e-3, 9e-3, &copper);
     scene_box(&s, 10e-3, 10e-3, 8e-3, 13e-3, 11e-3, 9e-3, &copper);
@@ -329,13 +329,13 @@ static void test_linear(void **state)
 static void test_estimate(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     SCENE_LOCAL(s);
     mpm_refine *r;
     mpm_needs needs, large;
     mpm_scene_default(&s);
     s.levels = 3, s.zone_until = 0;
-    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 16e-3, 0.25e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 16e-3, 0.25e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     scene_box(&s, 1e-3, 1e-3, 1e-3, 15e-3, 9e-3, 15e-3, &copper);
     scene_box(&s, 7e-3, 9e-3, 7e-3, 9e-3, 11e-3, 9e-3, &copper);
     assert_ok(mpm_estimate(&s, &large));
@@ -358,7 +358,8 @@ static void gouge(gouge_scene *g, double jump)
     s->levels = 3;
     s->axis[0] = scene_graded(s->axis[0], -1.5e-3, 1.5e-3, 1e-3, 1.5);
     s->axis[1] = scene_graded(s->axis[1], -1e-3, 1e-3, 1e-3, 1.5);
-    s->axis[2] = scene_graded(scene_axis(0, 6e-3, 0.25e-3, BOUNDARY_SYMMETRY, BOUNDARY_FREE), 0, 1e-3, 1e-3, 1.5);
+    s->axis[2] =
+        scene_graded(scene_axis(0, 6e-3, 0.25e-3, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FREE), 0, 1e-3, 1e-3, 1.5);
     scene_values(s, 0)[3] = 40e-3; /* the rail goes on */
     s->zone_until = 0.5e-6;
     assert_ok(mpm_scene_add_refine(s, "plastic", &plastic));
@@ -380,12 +381,12 @@ static void test_bits(void **state)
 static void test_surface(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
     s.levels = 3, s.zone_until = 1e-9; /* which is over at the first look */
     for (int k = 0; k < 3; k++) {
-        s.axis[k] = scene_axis(0, 16e-3, 0.25e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+        s.axis[k] = scene_axis(0, 16e-3, 0.25e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
         s.axis[k].fine_lo = 6e-3, s.axis[k].fine_hi = 10e-3;
     }
     scene_box(&s, 2e-3, 2e-3, 2e-3, 14e-3, 8.2e-3, 14e-3, &copper); /* its upper face in the zone's middle */

@@ -4,7 +4,7 @@
 #include "mpm_scenes.h"
 
 /* Two groups, a pair, two solids: something of everything. */
-static void some_scene(mpm_scene *s, const material *m)
+static void some_scene(mpm_scene *s, const mpm_material *m)
 {
     scene_bar(s, 0, 12e-3, 0.5e-3, 2);
     scene_box(s, 2e-3, -1, -1, 6e-3, 1, 1, m);
@@ -19,33 +19,33 @@ static void some_scene(mpm_scene *s, const material *m)
 
 /* ---- the key ---- */
 
-static void change(const param *p, char *member)
+static void change(const base_param *p, char *member)
 {
     switch (p->kind) {
-    case PARAM_NUMBER:
-    case PARAM_VECTOR:
-    case PARAM_POINTS: {
+    case BASE_PARAM_NUMBER:
+    case BASE_PARAM_VECTOR:
+    case BASE_PARAM_POINTS: {
         double *x = (double *)(void *)member;
-        x += p->kind == PARAM_VECTOR ? 2 : 0;
+        x += p->kind == BASE_PARAM_VECTOR ? 2 : 0;
         *x = isnan(*x) ? 1 : nextafter(*x, INFINITY);
         break;
     }
-    case PARAM_INTEGER:
-    case PARAM_CHOICE: ++*(int *)(void *)member; break;
-    case PARAM_FLAG: *(bool *)(void *)member = !*(bool *)(void *)member; break;
-    case PARAM_TEXT: member[0] = member[0] == 'x' ? 'y' : 'x'; break;
+    case BASE_PARAM_INTEGER:
+    case BASE_PARAM_CHOICE: ++*(int *)(void *)member; break;
+    case BASE_PARAM_FLAG: *(bool *)(void *)member = !*(bool *)(void *)member; break;
+    case BASE_PARAM_TEXT: member[0] = member[0] == 'x' ? 'y' : 'x'; break;
     }
 }
 
 /* Each member of a struct of the scene by itself: the key changes, from row `hashed` on, and is again what it was. */
-static int walk_from(int hashed, const mpm_scene *s, const param *table, void *object, size_t size)
+static int walk_from(int hashed, const mpm_scene *s, const base_param *table, void *object, size_t size)
 {
     char *kept = malloc(size);
     const uint64_t key = mpm_scene_hash(s);
     int n = 0;
     assert_non_null(kept);
     memcpy(kept, object, size);
-    for (const param *p = table; p->key; p++, n++) {
+    for (const base_param *p = table; p->key; p++, n++) {
         const bool counts = n >= hashed;
         change(p, (char *)object + p->offset);
         if ((mpm_scene_hash(s) != key) != counts) fail_msg("%s: the key %s", p->key, counts ? "stays" : "changes");
@@ -56,7 +56,7 @@ static int walk_from(int hashed, const mpm_scene *s, const param *table, void *o
     return n;
 }
 
-static int walk(const mpm_scene *s, const param *table, void *object, size_t size)
+static int walk(const mpm_scene *s, const base_param *table, void *object, size_t size)
 {
     return walk_from(0, s, table, object, size);
 }
@@ -64,7 +64,7 @@ static int walk(const mpm_scene *s, const param *table, void *object, size_t siz
 static void test_key(void **state)
 {
     (void)state;
-    material m = scene_copper();
+    mpm_material m = scene_copper();
     SCENE_LOCAL(s);
     some_scene(&s, &m);
     assert_string_equal(mpm_scene_params[MPM_SCENE_HASHED - 1].key, "end_time");
@@ -94,17 +94,17 @@ static void test_key(void **state)
 
 /* A member that no table has: a run of its struct that no row covers, longer than what lies between two members.  What
  * is said elsewhere (pointers, nested structs) is named. */
-static void covered(const char *what, const param *const *tables, size_t size, const size_t (*known)[2])
+static void covered(const char *what, const base_param *const *tables, size_t size, const size_t (*known)[2])
 {
     char *seen = calloc(size, 1);
     assert_non_null(seen);
     for (; *tables; tables++)
-        for (const param *p = *tables; p->key; p++) {
-            const size_t bytes = p->kind == PARAM_NUMBER   ? sizeof(double)
-                                 : p->kind == PARAM_VECTOR ? 3 * sizeof(double)
-                                 : p->kind == PARAM_FLAG   ? sizeof(bool)
-                                 : p->kind == PARAM_TEXT   ? PARAM_TEXT_SIZE
-                                                           : sizeof(int);
+        for (const base_param *p = *tables; p->key; p++) {
+            const size_t bytes = p->kind == BASE_PARAM_NUMBER   ? sizeof(double)
+                                 : p->kind == BASE_PARAM_VECTOR ? 3 * sizeof(double)
+                                 : p->kind == BASE_PARAM_FLAG   ? sizeof(bool)
+                                 : p->kind == BASE_PARAM_TEXT   ? BASE_PARAM_TEXT_SIZE
+                                                                : sizeof(int);
             memset(seen + p->offset, 1, bytes);
         }
     for (; (*known)[1]; known++) memset(seen + (*known)[0], 1, (*known)[1]);
@@ -134,12 +134,12 @@ static void test_tables(void **state)
         PLACE(mpm_scene, probe),    PLACE(mpm_scene, refines), PLACE(mpm_scene, refine),
         PLACE(mpm_scene, cavities), PLACE(mpm_scene, cavity),  { 0, 0 }
     };
-    covered("mpm_body", (const param *const[]){ mpm_body_params, NULL }, sizeof(mpm_body), of_body);
-    covered("mpm_axis", (const param *const[]){ mpm_axis_params, NULL }, sizeof(mpm_axis), of_axis);
-    covered("mpm_pair", (const param *const[]){ mpm_pair_params, NULL }, sizeof(mpm_pair), of_pair);
+    covered("mpm_body", (const base_param *const[]){ mpm_body_params, NULL }, sizeof(mpm_body), of_body);
+    covered("mpm_axis", (const base_param *const[]){ mpm_axis_params, NULL }, sizeof(mpm_axis), of_axis);
+    covered("mpm_pair", (const base_param *const[]){ mpm_pair_params, NULL }, sizeof(mpm_pair), of_pair);
     static const size_t of_cavity[][2] = { { 0, 0 } };
-    covered("mpm_cavity", (const param *const[]){ mpm_cavity_params, NULL }, sizeof(mpm_cavity), of_cavity);
-    covered("mpm_scene", (const param *const[]){ mpm_scene_params, NULL }, sizeof(mpm_scene), of_scene);
+    covered("mpm_cavity", (const base_param *const[]){ mpm_cavity_params, NULL }, sizeof(mpm_cavity), of_cavity);
+    covered("mpm_scene", (const base_param *const[]){ mpm_scene_params, NULL }, sizeof(mpm_scene), of_scene);
 }
 
 /* ---- levels that the scene leaves open ---- */
@@ -147,7 +147,7 @@ static void test_tables(void **state)
 static void test_levels(void **state)
 {
     (void)state;
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     SCENE_LOCAL(s);
     mpm *solver;
     scene_bar(&s, 0, 12e-3, 0.5e-3, 2);
@@ -166,7 +166,7 @@ static void test_levels(void **state)
     mpm_scene filled = s;
     mpm_scene_levels_fill(&filled);
     assert_true(filled.levels == 3 && filled.zone_until == 0); /* fine, 2 and 4 times as large */
-    filled = s, filled.basis = BASIS_BSPLINE;
+    filled = s, filled.basis = MPM_BASIS_BSPLINE;
     mpm_scene_levels_fill(&filled);
     assert_int_equal(filled.levels, 1); /* which has no levels */
     filled = s, filled.levels = 2, filled.zone_until = 1e-6;
@@ -180,7 +180,7 @@ static void test_levels(void **state)
 static void test_copy(void **state)
 {
     (void)state;
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     SCENE_LOCAL(a);
     SCENE_LOCAL(b);
     some_scene(&a, &m);
@@ -203,7 +203,7 @@ static void test_copy(void **state)
 static void test_no_memory(void **state)
 {
     (void)state;
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     SCENE_LOCAL(s);
     some_scene(&s, &m);
     s.body[0].velocity[0] = 100;

@@ -21,7 +21,7 @@ static mpm_axis any_axis(int levels)
 {
     const double fine = uniform(0.1e-3, 1e-3), coarsest = fine * (1 << (levels - 1));
     const double lo = rand() % 2 ? 0 : uniform(-50e-3, 10e-3), hi = lo + uniform(16, 40) * coarsest;
-    mpm_axis a = scene_axis(lo, hi, fine, BOUNDARY_FREE, BOUNDARY_FREE);
+    mpm_axis a = scene_axis(lo, hi, fine, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     a.coarse = 4 * fine;
     if (rand() % 2) a.fine_lo = lo + 3 * coarsest;
     a.fine_hi = rand() % 2 ? hi : a.fine_lo + floor((hi - a.fine_lo) / coarsest - 3) * coarsest;
@@ -99,8 +99,8 @@ static void test_none(void **state)
 static void test_refused(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
-    mpm_axis small = scene_axis(0, 2e-3, 1e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+    const mpm_material copper = scene_copper();
+    mpm_axis small = scene_axis(0, 2e-3, 1e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     axis a;
     const status few = mpm_axis_make_shifted(&small, 0.5, 'y', &a);
     assert_int_equal(few.code, STATUS_BAD_INPUT);
@@ -121,14 +121,15 @@ static void test_refused(void **state)
 static void test_at_mirrors(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     for (int trial = 0; trial < N_SHIFTS; trial++)
         for (int moves = 0; moves < 2; moves++) {
             SCENE_LOCAL(s);
             mpm_scene_default(&s);
             s.levels = 1 + trial;
             for (int k = 0; k < 3; k++) {
-                s.axis[k] = scene_axis(0, 16e-3, 0.5e-3, k ? BOUNDARY_SYMMETRY : BOUNDARY_FREE, BOUNDARY_FREE);
+                s.axis[k] =
+                    scene_axis(0, 16e-3, 0.5e-3, k ? MPM_BOUNDARY_SYMMETRY : MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
                 s.axis[k] = scene_graded(s.axis[k], 0, 6e-3, 2e-3, 1.5);
             }
             memcpy(s.grid_shift, SHIFTS[trial], sizeof s.grid_shift);
@@ -152,13 +153,13 @@ static void test_at_mirrors(void **state)
 static void test_flight(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     for (int trial = 0; trial < N_SHIFTS; trial++) {
         SCENE_LOCAL(s);
         mpm_scene_default(&s);
         s.levels = 1 + trial;
         for (int k = 0; k < 3; k++) {
-            s.axis[k] = scene_axis(0, k ? 20e-3 : 40e-3, 0.5e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+            s.axis[k] = scene_axis(0, k ? 20e-3 : 40e-3, 0.5e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
             s.axis[k] = scene_graded(s.axis[k], k ? 7e-3 : 12e-3, k ? 11e-3 : 18e-3, 4e-3, 2);
         }
         memcpy(s.grid_shift, SHIFTS[trial], sizeof s.grid_shift);
@@ -189,7 +190,8 @@ static void gouge(gouge_scene *g, const double shift[3])
     scene_gouge(g, 0.25e-3, 1500);
     mpm_scene *s = &g->scene;
     s->levels = 3;
-    s->axis[2] = scene_graded(scene_axis(0, 6e-3, 0.25e-3, BOUNDARY_SYMMETRY, BOUNDARY_FREE), 0, 1e-3, 1e-3, 1.5);
+    s->axis[2] =
+        scene_graded(scene_axis(0, 6e-3, 0.25e-3, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FREE), 0, 1e-3, 1e-3, 1.5);
     s->zone_until = 1e-6;
     memcpy(s->grid_shift, shift, sizeof s->grid_shift);
 }

@@ -44,9 +44,9 @@ static void read_plateau(const mpm *m, double middle, double drift, shock_error 
     free(x), free(p);
 }
 
-static shock_error shock(int cells, double drift, basis_kind basis)
+static shock_error shock(int cells, double drift, mpm_basis_kind basis)
 {
-    const material m = scene_hydro();
+    const mpm_material m = scene_hydro();
     const double length = 40e-3, h = length / cells, middle = length / 2, end = 2.4e-6;
     SCENE_LOCAL(s);
     scene_bar(&s, -2e-3, length + (2000 + drift) * end + 4e-3, h, 2);
@@ -68,8 +68,8 @@ static shock_error shock(int cells, double drift, basis_kind basis)
     e.energy = l.energy_error * l.kinetic_start / (0.5 * 0.5 * l.mass * 2000 * 2000);
     print_message("%d cells, drift %4.0f m/s, %s: pressure %+.3f %%, rms %.3f %%, shock speed %+.3f %%, energy %+.1e, "
                   "momentum %.1e\n",
-                  cells, drift, basis == BASIS_GIMP ? "GIMP" : "B-spline", 100 * e.pressure, 100 * e.rms, 100 * e.speed,
-                  e.energy, l.momentum_error);
+                  cells, drift, basis == MPM_BASIS_GIMP ? "GIMP" : "B-spline", 100 * e.pressure, 100 * e.rms,
+                  100 * e.speed, e.energy, l.momentum_error);
     assert_below(l.momentum_error, 1e-12); /* rounding: the bar is free at both ends */
     mpm_free(solver);
     return e;
@@ -87,10 +87,10 @@ static void hold(shock_error e, int cells)
 static void test_hugoniot(void **state)
 {
     (void)state;
-    hold(shock(200, 0, BASIS_GIMP), 200);
+    hold(shock(200, 0, MPM_BASIS_GIMP), 200);
     if (!scene_full()) return;
-    hold(shock(400, 0, BASIS_GIMP), 400);
-    hold(shock(800, 0, BASIS_GIMP), 800);
+    hold(shock(400, 0, MPM_BASIS_GIMP), 400);
+    hold(shock(800, 0, MPM_BASIS_GIMP), 800);
 }
 
 /* The same carried through the grid at the flyer's speed (V4): no worse than twice the error at rest plus a tenth of a
@@ -99,8 +99,8 @@ static void test_carried(void **state)
 {
     (void)state;
     const int coarse = 100, fine = scene_full() ? 400 : 200;
-    const shock_error rest = shock(fine, 0, BASIS_GIMP), moved = shock(fine, 2000, BASIS_GIMP);
-    const shock_error before = shock(coarse, 2000, BASIS_GIMP);
+    const shock_error rest = shock(fine, 0, MPM_BASIS_GIMP), moved = shock(fine, 2000, MPM_BASIS_GIMP);
+    const shock_error before = shock(coarse, 2000, MPM_BASIS_GIMP);
     hold(moved, fine);
     assert_below(fabs(moved.pressure), 2 * fabs(rest.pressure) + 1e-3);
     assert_below(fabs(moved.pressure), fabs(before.pressure) + 1e-3);
@@ -114,7 +114,7 @@ static void test_carried(void **state)
 static size_t pulse(double growth, int levels, double **pressure, double *incident)
 {
     static const double fine = 0.15e-3, length = 50e-3, speed[] = { 2.5, 7.5, 10, 7.5, 2.5 };
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     SCENE_LOCAL(s);
     scene_bar(&s, 0, length, fine, levels > 1 ? 8 : 2);
     s.levels = levels;
@@ -125,7 +125,7 @@ static size_t pulse(double growth, int levels, double **pressure, double *incide
         scene_box(&s, x, -1, -1, x + 1.8e-3, 1, 1, &m)->velocity[0] = speed[i];
     }
     scene_box(&s, 15e-3, -1, -1, length, 1, 1, &m);
-    s.axis[0].boundary[0] = BOUNDARY_ABSORBING;
+    s.axis[0].boundary[0] = MPM_BOUNDARY_ABSORBING;
     mpm *solver = scene_make(&s, 1);
     assert_ok(mpm_advance(solver, 5.5e-6, NULL)); /* 26 mm at 4.8 km/s: out of the graded zone and a reflection back */
     double *p = scene_read(solver, MPM_pressure), *x = scene_read(solver, MPM_start);
@@ -176,7 +176,7 @@ static void test_grading(void **state)
 static void test_bspline(void **state)
 {
     (void)state;
-    const shock_error spline = shock(200, 0, BASIS_BSPLINE), gimp = shock(200, 0, BASIS_GIMP);
+    const shock_error spline = shock(200, 0, MPM_BASIS_BSPLINE), gimp = shock(200, 0, MPM_BASIS_GIMP);
     assert_near(spline.pressure, 0, 0.047);
     assert_below(4 * fabs(gimp.pressure), fabs(spline.pressure));
     assert_near(spline.speed, 0, 0.01);

@@ -5,11 +5,11 @@
 #include "mpm/memory/store.h"
 
 /* A cube of 3 mm flies at a block of 12 mm and is half a millimetre off; `drift`: velocity of the block. */
-static void target(mpm_scene *s, const material *copper, double drift, int levels)
+static void target(mpm_scene *s, const mpm_material *copper, double drift, int levels)
 {
     mpm_scene_default(s);
     s->levels = levels;
-    for (int k = 0; k < 3; k++) s->axis[k] = scene_axis(0, 20e-3, 0.5e-3, BOUNDARY_FREE, BOUNDARY_FREE);
+    for (int k = 0; k < 3; k++) s->axis[k] = scene_axis(0, 20e-3, 0.5e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     scene_box(s, 6e-3, 4e-3, 4e-3, 18e-3, 16e-3, 16e-3, copper);
     scene_box(s, 2.5e-3, 8e-3, 8e-3, 5.5e-3, 11e-3, 11e-3, copper);
     s->body[0].velocity[0] = drift, s->body[1].velocity[0] = 400;
@@ -37,7 +37,7 @@ static uint64_t points_of(const mpm *m, int body)
 static void test_waits(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     SCENE_LOCAL(s);
     target(&s, &copper, 0, 1);
     mpm *m = after(&s, 0.5e-6);
@@ -53,7 +53,7 @@ static void test_waits(void **state)
 static void test_wakes(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     for (int levels = 1; levels <= 2; levels++) {
         mpm *m[2];
         for (int i = 0; i < 2; i++) {
@@ -83,7 +83,7 @@ static void test_wakes(void **state)
 static void test_force(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     SCENE_LOCAL(s);
     target(&s, &copper, 0, 1);
     const double a = 1e-5; /* [m/s2]: a step's gain is a hundredth of what counts as slow */
@@ -98,7 +98,7 @@ static void test_force(void **state)
 static void test_bits(void **state)
 {
     (void)state;
-    const material copper = scene_copper();
+    const mpm_material copper = scene_copper();
     SCENE_LOCAL(s);
     target(&s, &copper, 0, 2);
     mpm *m = scene_same_bits(&s, 30, 10);

@@ -12,17 +12,17 @@ static const double H = 0.3e-3, LENGTH = 10e-3, HALF_BORE = 4e-3, HALF_WIDTH = 3
                     CHAMFER = 1e-3;
 
 /* Rail ahead and the grid: 4 mm behind the armature, `travel` + 4 mm before it; fine over the whole way along x. */
-static void slide_scene(mpm_scene *s, const material *copper, const material *aluminium, double speed, double travel,
-                        int levels)
+static void slide_scene(mpm_scene *s, const mpm_material *copper, const mpm_material *aluminium, double speed,
+                        double travel, int levels)
 {
     mpm_scene_default(s);
     s->levels = levels;
     const double x0 = -LENGTH - 4e-3, x1 = travel + 6e-3, off = 0.37 * H;
-    s->axis[0] = scene_axis(x0, x1, H, BOUNDARY_ABSORBING, BOUNDARY_ABSORBING);
+    s->axis[0] = scene_axis(x0, x1, H, MPM_BOUNDARY_ABSORBING, MPM_BOUNDARY_ABSORBING);
     /* free above: a mirror there would hold the head up and bear part of the load */
-    s->axis[1] = scene_axis(-3e-3, HALF_BORE + 1e-3, H, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
+    s->axis[1] = scene_axis(-3e-3, HALF_BORE + 1e-3, H, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FREE);
     s->axis[1] = scene_graded(s->axis[1], -3 * H + off, 3 * H + off, 2 * H, 1.2);
-    s->axis[2] = scene_axis(0, 4.5e-3, H, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
+    s->axis[2] = scene_axis(0, 4.5e-3, H, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FREE);
     s->axis[2] = scene_graded(s->axis[2], 0, 1.5e-3, 2 * H, 1.2);
     if (levels > 1) { /* the face slides into a box of fine cells and out of it */
         s->axis[0] = scene_graded(s->axis[0], -2 * H, 6 * H, 4 * H, 2);
@@ -58,7 +58,7 @@ static bool watch_step(void *user, const mpm *m)
 
 static slide_result slide(double speed, double travel, int levels)
 {
-    const material copper = scene_copper(), aluminium = scene_aluminium();
+    const mpm_material copper = scene_copper(), aluminium = scene_aluminium();
     SCENE_LOCAL(s);
     slide_scene(&s, &copper, &aluminium, speed, travel, levels);
     mpm *m = scene_make(&s, 1);

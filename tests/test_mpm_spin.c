@@ -7,7 +7,7 @@
 static const double LENGTH = 4e-3, RADIUS = 0.7e-3, RATE = 6e4; /* [m, m, rad/s]: 120 m/s at its ends */
 
 /* Along (1, 2, 0), about z. */
-static void strut(mpm_scene *s, const material *m, double h, basis_kind basis, int levels)
+static void strut(mpm_scene *s, const mpm_material *m, double h, mpm_basis_kind basis, int levels)
 {
     mpm_scene_free(s); /* of one that a test uses again */
     mpm_scene_default(s);
@@ -17,7 +17,8 @@ static void strut(mpm_scene *s, const material *m, double h, basis_kind basis, i
     for (int k = 0; k < 3; k++) {
         const double way = k < 2 ? 0.5 * LENGTH * n[k] : 0;
         value[k] = at[k] - way, value[3 + k] = at[k] + way;
-        s->axis[k] = scene_axis(k < 2 ? -3.5e-3 : -1.5e-3, k < 2 ? 3.5e-3 : 1.5e-3, h, BOUNDARY_FREE, BOUNDARY_FREE);
+        s->axis[k] =
+            scene_axis(k < 2 ? -3.5e-3 : -1.5e-3, k < 2 ? 3.5e-3 : 1.5e-3, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
         if (levels > 1) s->axis[k] = scene_graded(s->axis[k], -2 * h, 2 * h, 2 * h, 1.5);
     }
     mpm_body *b = scene_body(s, "strut", value, 7, m);
@@ -39,10 +40,10 @@ static double angular_momentum(const mpm *m)
 static void test_start(void **state)
 {
     (void)state;
-    const material m = scene_elastic();
-    for (int basis = BASIS_GIMP; basis <= BASIS_BSPLINE; basis++) {
+    const mpm_material m = scene_elastic();
+    for (int basis = MPM_BASIS_GIMP; basis <= MPM_BASIS_BSPLINE; basis++) {
         SCENE_LOCAL(s);
-        strut(&s, &m, RADIUS / 4, (basis_kind)basis, 1);
+        strut(&s, &m, RADIUS / 4, (mpm_basis_kind)basis, 1);
         mpm *solver = scene_make(&s, 1);
         const mpm_ledger l = mpm_balance(solver);
         const double mass = m.density * SCENE_PI * RADIUS * RADIUS * LENGTH;
@@ -65,10 +66,10 @@ static void test_start(void **state)
 static void test_keeps(void **state)
 {
     (void)state;
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     for (int levels = 1; levels <= 2; levels++) {
         SCENE_LOCAL(s);
-        strut(&s, &m, RADIUS / 2, BASIS_GIMP, levels);
+        strut(&s, &m, RADIUS / 2, MPM_BASIS_GIMP, levels);
         mpm *solver = scene_make(&s, 2);
         const mpm_ledger start = mpm_balance(solver);
         const double turning = angular_momentum(solver);
@@ -89,11 +90,11 @@ static void test_keeps(void **state)
 static void test_key(void **state)
 {
     (void)state;
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     void *image;
     size_t bytes;
     SCENE_LOCAL(s);
-    strut(&s, &m, RADIUS / 2, BASIS_GIMP, 1);
+    strut(&s, &m, RADIUS / 2, MPM_BASIS_GIMP, 1);
     mpm *solver = scene_make(&s, 1);
     assert_ok(mpm_save(solver, &image, &bytes));
     assert_ok(mpm_restore(solver, image, bytes));

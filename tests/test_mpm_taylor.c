@@ -11,14 +11,14 @@ typedef struct {
     double length, width, energy, momentum;
 } bar_shape;
 
-static bar_shape bar(double h, basis_kind basis)
+static bar_shape bar(double h, mpm_basis_kind basis)
 {
-    const material m = scene_copper();
+    const mpm_material m = scene_copper();
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
     s.basis = basis;
-    s.axis[0] = scene_axis(0, 2.4 * RADIUS, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
-    s.axis[1] = scene_axis(0, LENGTH + 4 * h, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
+    s.axis[0] = scene_axis(0, 2.4 * RADIUS, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FREE);
+    s.axis[1] = scene_axis(0, LENGTH + 4 * h, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FREE);
     s.axis[2] = s.axis[0];
     const double shape[] = { 0, 0, 0, RADIUS, LENGTH };
     scene_body(&s, "cylinder", shape, 5, &m)->velocity[1] = -190;
@@ -35,7 +35,7 @@ static bar_shape bar(double h, basis_kind basis)
     const bar_shape out = { top / LENGTH, side / RADIUS, l.energy_error, l.momentum_error };
     print_message("h %.3f mm, %.0f points, %s: L/L0 %.4f, D/D0 %.4f, strain %.2f, %.0f K, kinetic energy left %.2f %%, "
                   "energy %+.1e, momentum %.1e\n",
-                  1e3 * h, points, basis == BASIS_GIMP ? "GIMP" : "B-spline", out.length, out.width,
+                  1e3 * h, points, basis == MPM_BASIS_GIMP ? "GIMP" : "B-spline", out.length, out.width,
                   mpm_body_state(solver, 0).peak_plastic_strain, r.peak_temperature, 100 * l.kinetic / l.kinetic_start,
                   out.energy, out.momentum);
     assert_below(l.kinetic / l.kinetic_start, 0.01); /* it has come to rest but for ringing */
@@ -57,10 +57,10 @@ static void hold(bar_shape b)
 static void test_bar(void **state)
 {
     (void)state;
-    hold(bar(RADIUS / 8, BASIS_GIMP));
+    hold(bar(RADIUS / 8, MPM_BASIS_GIMP));
     if (!scene_full()) return;
-    bar(RADIUS / 6, BASIS_GIMP); /* for the table of docs/validation/solver.md: how the width converges */
-    hold(bar(RADIUS / 10, BASIS_GIMP));
+    bar(RADIUS / 6, MPM_BASIS_GIMP); /* for the table of docs/validation/solver.md: how the width converges */
+    hold(bar(RADIUS / 10, MPM_BASIS_GIMP));
 }
 
 /* The other basis reaches far over the mirror planes, and over the edge where two meet: the books must close there too.
@@ -68,7 +68,7 @@ static void test_bar(void **state)
 static void test_bspline_books(void **state)
 {
     (void)state;
-    assert_below(bar(RADIUS / 4, BASIS_BSPLINE).momentum, 1e-10);
+    assert_below(bar(RADIUS / 4, MPM_BASIS_BSPLINE).momentum, 1e-10);
 }
 
 int main(void)

@@ -9,18 +9,18 @@ static const double RHO0 = 1000, C0 = 1482, SLOPE = 8.415 / 4;
 static const double MASS = 73.98; /* 0.238 kg on 64 mm [kg/m2] */
 
 /* Tait with gamma 7.415: that of the published computations, s = 2.104. */
-static material water(void)
+static mpm_material water(void)
 {
-    material m;
+    mpm_material m;
     base_params_default(mpm_material_params, &m);
     strcpy(m.name, "water");
-    m.strength = STRENGTH_none, m.eos = EOS_tait, m.tait_exponent = 7.415;
+    m.strength = MPM_STRENGTH_none, m.eos = MPM_EOS_tait, m.tait_exponent = 7.415;
     m.density = RHO0, m.specific_heat = 4186, m.reference_temperature = 293;
     m.sound_speed = C0, m.cavitation_pressure = 0;
     return m;
 }
 
-static mpm_tube *tube(const material *m, double v0, double length, tube_end end, double plate, int cells)
+static mpm_tube *tube(const mpm_material *m, double v0, double length, tube_end end, double plate, int cells)
 {
     const mpm_tube_setup setup = { m, MASS, v0, length, end, plate, cells };
     mpm_tube *t;
@@ -40,7 +40,7 @@ static void assert_books(const mpm_tube *t)
 static void test_piston(void **state)
 {
     (void)state;
-    const material m = water();
+    const mpm_material m = water();
     const double theta = MASS / (RHO0 * C0), speeds[] = { 22.94, 43.18 }, later = 2e-6;
     for (int k = 0; k < 2; k++) {
         const double v0 = speeds[k], first = RHO0 * (C0 + SLOPE * v0) * v0;
@@ -78,7 +78,7 @@ static double peak_at(mpm_tube *t, double x, double until)
 static void test_wears_off(void **state)
 {
     (void)state;
-    const material m = water();
+    const mpm_material m = water();
     const double v0 = 22.94, theta = MASS / (RHO0 * C0), p0 = RHO0 * (C0 + SLOPE * v0) * v0;
     for (int k = 0; k < (scene_full() ? 3 : 1); k++) {
         const double x = k == 0 ? 0.5 : k == 1 ? 1.0 : 1.3;
@@ -101,7 +101,7 @@ static void test_wears_off(void **state)
 static void test_wall(void **state)
 {
     (void)state;
-    const material m = water();
+    const mpm_material m = water();
     const double v0 = 22.94, length = 0.5;
     mpm_tube *through = tube(&m, v0, length, TUBE_GOES_ON, 0, 600), *against = tube(&m, v0, length, TUBE_WALL, 0, 600);
     const double incident = peak_at(through, length, 0.36e-3), wall = peak_at(against, length, 0.36e-3);
@@ -118,7 +118,7 @@ static void test_gauge(void **state)
 {
     (void)state;
     if (!scene_full()) return;
-    const material m = water();
+    const mpm_material m = water();
     const double v0 = 22.94, length = 1.3, gauge = 1.2, theta = MASS / (RHO0 * C0), p0 = RHO0 * (C0 + SLOPE * v0) * v0;
     double front = 0, between = 0, before = 0, peak[2] = { 0, 0 }, at[2] = { 0, 0 };
     for (int i = 0; i < 1300; i++) {
@@ -163,7 +163,7 @@ typedef struct {
 
 static plate_answer drive_plate(const plate_row *r, double length, int cells)
 {
-    const material m = water();
+    const mpm_material m = water();
     mpm_tube *t = tube(&m, r->v0, length, TUBE_PLATE, r->plate, cells);
     plate_answer a = { 0, 0, 0 };
     double arrival = 0, most = 0;
@@ -234,7 +234,7 @@ static void assert_refused(mpm_tube_setup s, const char *word)
 static void test_refused(void **state)
 {
     (void)state;
-    const material m = water(), metal = scene_copper();
+    const mpm_material m = water(), metal = scene_copper();
     const mpm_tube_setup good = { &m, MASS, 10, 0.1, TUBE_PLATE, 1, 10 };
     mpm_tube_setup bad[5] = { good, good, good, good, good };
     bad[0].length = 0, bad[1].piston_mass = -1, bad[2].cells = 1, bad[3].plate_mass = 0, bad[4].fluid = &metal;

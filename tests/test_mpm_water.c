@@ -35,13 +35,13 @@ static void test_hugoniot(void **state)
     const double all[] = { 10, 25, 50, 100, 200, 500, 700, 1000 }, few[] = { 25, 200 };
     const double *speed = scene_full() ? all : few, length = scene_full() ? 0.15 : 0.08;
     const int n = scene_full() ? 8 : 2;
-    const material m = scene_water();
+    const mpm_material m = scene_water();
     for (int k = 0; k < n; k++) {
         const double u = speed[k], us = WATER_C0 + WATER_SLOPE * u, want = WATER_RHO0 * us * u, end = 0.6 * length / us;
         SCENE_LOCAL(s);
         scene_bar(&s, 0, 1.1 * length, 0.5e-3, 1);
-        s.basis = u > 200 ? BASIS_BSPLINE : BASIS_GIMP;
-        s.axis[0].boundary[0] = BOUNDARY_SYMMETRY;
+        s.basis = u > 200 ? MPM_BASIS_BSPLINE : MPM_BASIS_GIMP;
+        s.axis[0].boundary[0] = MPM_BOUNDARY_SYMMETRY;
         scene_box(&s, 0, -1, -1, length, 1, 1, &m)->velocity[0] = -u;
         mpm *solver = scene_make(&s, 1);
         assert_ok(mpm_advance(solver, end, NULL));
@@ -88,11 +88,11 @@ static double pressure_of_thin_points(const mpm *m)
 static void test_cavity_closes(void **state)
 {
     (void)state;
-    const material m = scene_water();
+    const mpm_material m = scene_water();
     const double length = 40e-3, v = 5, pass = 0.5 * length / WATER_C0;
     SCENE_LOCAL(s);
     scene_bar(&s, 0, length, 0.5e-3, 1);
-    for (int e = 0; e < 2; e++) s.axis[0].boundary[e] = BOUNDARY_SYMMETRY;
+    for (int e = 0; e < 2; e++) s.axis[0].boundary[e] = MPM_BOUNDARY_SYMMETRY;
     scene_box(&s, 0, -1, -1, 0.5 * length, 1, 1, &m)->velocity[0] = -v;
     scene_box(&s, 0.5 * length, -1, -1, length, 1, 1, &m)->velocity[0] = v;
     s.body[0].damage = s.body[1].damage = true;

@@ -9,9 +9,9 @@
 static const double P0 = 1e6;
 
 /* With a viscosity that lets fronts pass without ringing. */
-static material water(void)
+static mpm_material water(void)
 {
-    material m = scene_water();
+    mpm_material m = scene_water();
     m.viscosity_linear = 0.06, m.viscosity_quadratic = 2;
     return m;
 }
@@ -44,7 +44,7 @@ static double energy_left(const mpm_ledger *l)
 }
 
 /* Water of `length` from x = 0 on, into which a wave comes at x = 0. */
-static mpm_body *column(mpm_scene *s, const material *m, double length, double beyond, double h)
+static mpm_body *column(mpm_scene *s, const mpm_material *m, double length, double beyond, double h)
 {
     scene_bar(s, -4 * h, length + beyond, h, 1);
     s->contact = mpm_contact_of(mpm_contact_find("frictionless"));
@@ -59,8 +59,8 @@ static void test_reflection(void **state)
     const double h = 1e-3, length = 40e-3, beyond = 75e-3;
     const char *kinds[] = { "copper", "aluminium", "held", "nothing" };
     for (int k = 0; k < 4; k++) {
-        const material m = water();
-        material metal = k == 1 ? scene_aluminium() : scene_elastic();
+        const mpm_material m = water();
+        mpm_material metal = k == 1 ? scene_aluminium() : scene_elastic();
         SCENE_LOCAL(s);
         column(&s, &m, length, beyond, h)->wave_pressure = P0;
         if (k < 3) scene_box(&s, length, -1, -1, length + beyond, 1, 1, &metal)->group = 1;
@@ -88,7 +88,7 @@ static void test_reflection(void **state)
 static void test_no_pull(void **state)
 {
     (void)state;
-    const material m = water();
+    const mpm_material m = water();
     SCENE_LOCAL(s);
     mpm_body *b = column(&s, &m, 10e-3, 10e-3, 1e-3);
     b->wave_pressure = 0, b->velocity[0] = 10;
@@ -103,7 +103,7 @@ static void test_no_pull(void **state)
 static void test_piston_wave(void **state)
 {
     (void)state;
-    const material m = water();
+    const mpm_material m = water();
     const double h = 0.5e-3, length = 80e-3, gauge = 40e-3, tube_length = 0.2, end = 50e-6;
     SCENE_LOCAL(s);
     mpm_body *b = column(&s, &m, length, 4 * h, h);
@@ -141,7 +141,7 @@ static void test_plate(void **state)
 {
     (void)state;
     const double h = 1e-3, length = 60e-3, plate = 3e-3, tube_length = 0.1, end = 120e-6;
-    const material m = water(), metal = scene_aluminium();
+    const mpm_material m = water(), metal = scene_aluminium();
     SCENE_LOCAL(s);
     mpm_body *b = column(&s, &m, length, 14 * h, h);
     b->piston_mass = 73.98, b->piston_velocity = 22.94, b->tube_length = tube_length;
@@ -179,11 +179,11 @@ static void test_plate(void **state)
 static void test_sleeps(void **state)
 {
     (void)state;
-    const material m = water();
+    const mpm_material m = water();
     const double h = 1e-3, length = 60e-3;
     SCENE_LOCAL(s);
     column(&s, &m, length, 4 * h, h)->wave_pressure = P0;
-    for (int k = 1; k < 3; k++) s.axis[k] = scene_axis(-6 * h, 6 * h, h, BOUNDARY_FREE, BOUNDARY_FREE);
+    for (int k = 1; k < 3; k++) s.axis[k] = scene_axis(-6 * h, 6 * h, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     scene_values(&s, 0)[1] = scene_values(&s, 0)[2] = -2 * h, scene_values(&s, 0)[4] = scene_values(&s, 0)[5] = 2 * h;
     mpm *solver = scene_make(&s, 1);
     assert_ok(mpm_advance(solver, 0.5 * length / WATER_C0, NULL));
@@ -199,7 +199,7 @@ static void test_sleeps(void **state)
 static void test_held(void **state)
 {
     (void)state;
-    const material metal = scene_elastic();
+    const mpm_material metal = scene_elastic();
     const double h = 0.5e-3;
     SCENE_LOCAL(s);
     scene_bar(&s, -8 * h, 12 * h, h, 2);
@@ -235,7 +235,7 @@ static void assert_refused(const mpm_scene *s, const char *word)
 static void test_piston_on_demand(void **state)
 {
     (void)state;
-    const material m = water();
+    const mpm_material m = water();
     SCENE_LOCAL(s);
     mpm_body *b = column(&s, &m, 4e-3, 2e-3, 1e-3);
     b->piston_mass = 1e6, b->piston_velocity = 1, b->tube_length = 0.05;
@@ -260,7 +260,7 @@ static void test_piston_on_demand(void **state)
 static void test_light_piston(void **state)
 {
     (void)state;
-    const material m = water();
+    const mpm_material m = water();
     SCENE_LOCAL(s);
     mpm_body *b = column(&s, &m, 4e-3, 2e-3, 1e-3);
     law k;
@@ -284,7 +284,7 @@ static void test_light_piston(void **state)
 static void test_refused(void **state)
 {
     (void)state;
-    const material m = water(), metal = scene_copper();
+    const mpm_material m = water(), metal = scene_copper();
     SCENE_LOCAL(s);
     mpm_body *b = column(&s, &m, 4e-3, 2e-3, 1e-3);
     b->wave_decay = 1e-6;

@@ -60,7 +60,7 @@ static void every_column_has_units_and_description(void **state)
     OK(output_history_open("history/a.h5", false, &h));
     OK(output_history_shot(h, &series));
     double row[HISTORY_MAX_COLUMNS];
-    shot_state s;
+    circuit_shot_state s;
     memset(&s, 0, sizeof s);
     s.t = 1e-3;
     s.v = 1234.5;
@@ -68,7 +68,7 @@ static void every_column_has_units_and_description(void **state)
     output_history_shot_row(&s, row);
     OK(output_history_append(h, series, row));
     OK(output_history_events(h, &series));
-    const shot_event e = { SHOT_SITE, 3, s };
+    const circuit_shot_event e = { CIRCUIT_SHOT_SITE, 3, s };
     output_history_event_row(&e, row);
     OK(output_history_append(h, series, row));
     const history_column more = { "speed", "m/s", "of the caller's" };
@@ -126,7 +126,7 @@ typedef struct {
     size_t n;
 } shot_writer;
 
-static bool write_sample(void *user, const shot *s, const shot_state *state)
+static bool write_sample(void *user, const circuit_shot *s, const circuit_shot_state *state)
 {
     shot_writer *w = user;
     double row[HISTORY_MAX_COLUMNS];
@@ -140,9 +140,9 @@ static bool write_sample(void *user, const shot *s, const shot_state *state)
     return true;
 }
 
-static shot *two_groups(void)
+static circuit_shot *two_groups(void)
 {
-    shot_module module[2];
+    circuit_shot_module module[2];
     for (int g = 0; g < 2; g++) {
         base_params_default(circuit_supply_capacitor_params, &module[g]);
         module[g].count = g + 1;
@@ -152,12 +152,12 @@ static shot *two_groups(void)
         module[g].resistance = 4.1e-3;
         module[g].fire_at = 1e-4 * g;
     }
-    shot_config c = { .supplies = { [SUPPLY_capacitor] = { 2, module } } };
+    circuit_shot_config c = { .supplies = { [CIRCUIT_SUPPLY_capacitor] = { 2, module } } };
     base_params_default(circuit_shot_rails_params, &c.rails);
     base_params_default(circuit_shot_barrel_params, &c.barrel);
     base_params_default(circuit_shot_armature_params, &c.armature);
     base_params_default(circuit_shot_options_params, &c.options);
-    c.rails.level = SHOT_RAILS_CONSTANT;
+    c.rails.level = CIRCUIT_SHOT_RAILS_CONSTANT;
     c.rails.height = c.rails.separation = 0.025;
     c.rails.thickness = 0.02;
     c.rails.inductance_gradient = 0.5e-6;
@@ -165,7 +165,7 @@ static shot *two_groups(void)
     c.barrel.length = 1.0;
     c.barrel.start = 0.1;
     c.armature.mass = 0.1;
-    shot *s;
+    circuit_shot *s;
     OK(circuit_shot_create(&c, &s));
     return s;
 }
@@ -174,14 +174,14 @@ static void real_shot_comes_back(void **state)
 {
     (void)state;
     fresh_folder("history");
-    shot *s = two_groups();
+    circuit_shot *s = two_groups();
     shot_writer w = { .n = 0 };
     OK(output_history_open("history/a.h5", false, &w.h));
     OK(output_history_shot(w.h, &w.series));
     OK(output_history_modules(w.h, s, &w.modules));
-    OK(circuit_shot_advance(s, 1e-3, &(shot_sink){ .sample = write_sample, .user = &w }));
+    OK(circuit_shot_advance(s, 1e-3, &(circuit_shot_sink){ .sample = write_sample, .user = &w }));
     OK(output_history_close(w.h));
-    const shot_state now = circuit_shot_now(s);
+    const circuit_shot_state now = circuit_shot_now(s);
     circuit_shot_free(s);
     assert_true(w.n > 20);
     const struct {

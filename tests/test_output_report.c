@@ -19,7 +19,7 @@ static void write_shot(history *h)
     double row[HISTORY_MAX_COLUMNS];
     OK(output_history_shot(h, &series));
     for (int i = 0; i < SAMPLES; i++) {
-        shot_state s;
+        circuit_shot_state s;
         memset(&s, 0, sizeof s);
         s.t = 5e-3 * i / SAMPLES;
         s.current = 1.2e6 * sin(600.0 * s.t) * exp(-200.0 * s.t);

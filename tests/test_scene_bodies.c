@@ -87,31 +87,31 @@ static void test_minimal(void **state)
 }
 
 /* Another value than the default, within the row's range. */
-static void change(const param *p, void *member)
+static void change(const base_param *p, void *member)
 {
     const double fallback = isfinite(p->fallback) ? p->fallback : 0.0;
     switch (p->kind) {
-    case PARAM_NUMBER:
+    case BASE_PARAM_NUMBER:
         *(double *)member = fallback + 1.25 <= p->max ? fallback + 1.25 : 0.5 * (fallback + p->max);
         break;
-    case PARAM_VECTOR:
+    case BASE_PARAM_VECTOR:
         for (int k = 0; k < 3; k++) ((double *)member)[k] = fallback + fmin(1.25, 0.25 * p->max) * (k + 1);
         break;
-    case PARAM_INTEGER: *(int *)member = (int)fallback + 1; break;
-    case PARAM_CHOICE: *(int *)member = fallback == 0.0; break;
-    case PARAM_FLAG: *(bool *)member = fallback == 0.0; break;
-    case PARAM_TEXT: strcpy(member, "other"); break;
-    case PARAM_POINTS: fail_msg("no scene has points"); break;
+    case BASE_PARAM_INTEGER: *(int *)member = (int)fallback + 1; break;
+    case BASE_PARAM_CHOICE: *(int *)member = fallback == 0.0; break;
+    case BASE_PARAM_FLAG: *(bool *)member = fallback == 0.0; break;
+    case BASE_PARAM_TEXT: strcpy(member, "other"); break;
+    case BASE_PARAM_POINTS: fail_msg("no scene has points"); break;
     }
 }
 
-static size_t bytes_of(const param *p)
+static size_t bytes_of(const base_param *p)
 {
-    return p->kind == PARAM_NUMBER   ? sizeof(double)
-           : p->kind == PARAM_VECTOR ? 3 * sizeof(double)
-           : p->kind == PARAM_FLAG   ? sizeof(bool)
-           : p->kind == PARAM_TEXT   ? PARAM_TEXT_SIZE
-                                     : sizeof(int);
+    return p->kind == BASE_PARAM_NUMBER   ? sizeof(double)
+           : p->kind == BASE_PARAM_VECTOR ? 3 * sizeof(double)
+           : p->kind == BASE_PARAM_FLAG   ? sizeof(bool)
+           : p->kind == BASE_PARAM_TEXT   ? BASE_PARAM_TEXT_SIZE
+                                          : sizeof(int);
 }
 
 /* Where the struct of a table lies in a case. */
@@ -130,10 +130,10 @@ static void *second_body(mpm_scene *s)
 }
 
 /* Every row of one of the solver's tables is read, written and read back. */
-static int keys_come_back(const param *table, part_of_scene *part)
+static int keys_come_back(const base_param *table, part_of_scene *part)
 {
     int rows = 0;
-    for (const param *p = table; p->key; p++, rows++) {
+    for (const base_param *p = table; p->key; p++, rows++) {
         breech_case *c = read_good(TWO);
         char *want = (char *)part(&c->bodies.scene) + p->offset;
         change(p, want);
@@ -178,7 +178,7 @@ static void test_groups(void **state)
     assert_true(mpm_scene_contact(s, 0, 1).contact.value[COULOMB_FRICTION] == 0.4);
     assert_int_equal(mpm_scene_contact(s, 0, 1).normal_of, 1);
     assert_true(mpm_scene_contact(s, 1, 2).contact.value[COULOMB_FRICTION] == 0.2);
-    assert_true(s->axis[0].boundary[0] == BOUNDARY_FIXED && s->axis[0].boundary[1] == BOUNDARY_PRESCRIBED);
+    assert_true(s->axis[0].boundary[0] == MPM_BOUNDARY_FIXED && s->axis[0].boundary[1] == MPM_BOUNDARY_PRESCRIBED);
     assert_true(s->axis[0].boundary_velocity[1][1] == 5.0);
     case_free(c);
 }
@@ -195,7 +195,7 @@ static void test_every_shape(void **state)
         snprintf(text, sizeof text, HEAD "  bodies: [{name: a, material: nickel, shape: {%s: {}}}]\n", k->name);
         const status s = read_text(text, CASE_FOR_SCENE, &c, &errors);
         assert_int_equal(s.code, STATUS_BAD_INPUT); /* none is whole without a value or a part */
-        for (const param *p = k->params; p->key; p++) {
+        for (const base_param *p = k->params; p->key; p++) {
             char missing[200];
             snprintf(missing, sizeof missing, "scene.bodies[0].shape.%s.%s is missing", k->name, p->key);
             assert_int_equal(strstr(errors, missing) != NULL, isinf(p->fallback));
@@ -339,9 +339,9 @@ static void test_refused(void **state)
 
 /* A value that any kind should take: corners in the lower and the upper half of the scene, an axis, a length, a
  * velocity. */
-static const char *any_value(const param *p)
+static const char *any_value(const base_param *p)
 {
-    if (p->kind != PARAM_VECTOR) return strcmp(p->unit, "m/s") == 0 ? "500 m/s" : "0.5 mm";
+    if (p->kind != BASE_PARAM_VECTOR) return strcmp(p->unit, "m/s") == 0 ? "500 m/s" : "0.5 mm";
     if (p->unit[0] == '1') return "0 1 0";
     return strcmp(p->key, "lo") == 0 ? "-3 -1 -1 mm" : strcmp(p->key, "hi") == 0 ? "3 5 5 mm" : "0.1 2 2 mm";
 }
@@ -350,7 +350,7 @@ static void add_probe(char *text, size_t size, const mpm_probe_kind *k)
 {
     size_t at = strlen(text);
     at += (size_t)snprintf(text + at, size - at, "    - {name: a_%s, %s: {body: wall", k->name, k->name);
-    for (const param *p = k->params; p->key; p++)
+    for (const base_param *p = k->params; p->key; p++)
         if (isinf(p->fallback)) at += (size_t)snprintf(text + at, size - at, ", %s: %s", p->key, any_value(p));
     snprintf(text + at, size - at, "}}\n");
 }
@@ -382,7 +382,7 @@ static void test_every_probe(void **state)
         assert_true(a->kind == k && b->kind == k && a->body == 0 && b->body == 0);
         assert_string_equal(a->name, b->name);
         assert_memory_equal(a->value, b->value, sizeof a->value);
-        for (const param *p = k->params; p->key; p++)
+        for (const base_param *p = k->params; p->key; p++)
             if (isinf(p->fallback)) {
                 char missing[200], *errors = NULL;
                 breech_case *bad = NULL;

@@ -136,9 +136,11 @@ static void test_table(void **state)
         assert_true(k->doc && k->doc[0] && k->inside && k->bounds && k->params);
         assert_in_range(k->parts, 0, MPM_SOLID_PARTS);
         mpm_solid s = mpm_solid_make(k);
-        for (const param *p = k->params; p->key; p++) {
-            const size_t doubles = p->kind == PARAM_VECTOR ? 3 : p->kind == PARAM_POINTS ? 2 * (size_t)p->room : 1;
-            assert_true(p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR || p->kind == PARAM_POINTS);
+        for (const base_param *p = k->params; p->key; p++) {
+            const size_t doubles = p->kind == BASE_PARAM_VECTOR   ? 3
+                                   : p->kind == BASE_PARAM_POINTS ? 2 * (size_t)p->room
+                                                                  : 1;
+            assert_true(p->kind == BASE_PARAM_NUMBER || p->kind == BASE_PARAM_VECTOR || p->kind == BASE_PARAM_POINTS);
             assert_true(p->offset % sizeof(double) == 0 && p->offset / sizeof(double) + doubles <= MPM_SOLID_VALUES);
             assert_true(strcmp(p->unit, "m") == 0 || strcmp(p->unit, "rad") == 0 || strcmp(p->unit, "1") == 0);
             assert_ptr_equal((char *)mpm_solid_value(&s, p->key), (char *)s.value + p->offset);

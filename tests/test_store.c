@@ -93,7 +93,7 @@ static void test_key_parts(void **state)
         if (key_at(other, 1500.0, 3.0) != base) fail_msg("%s changes the key", idle[i]);
         case_free(other);
     }
-    material *copper = (material *)case_material(&c->materials, c->rail.material);
+    mpm_material *copper = (mpm_material *)case_material(&c->materials, c->rail.material);
     copper->damage_D1 = nextafter(copper->damage_D1, INFINITY); /* the last bit of one constant */
     assert_true(key_at(c, 1500.0, 3.0) != base);
     case_free(c);

@@ -13,7 +13,7 @@ typedef struct {
     case_inputs *in;
     case_vessel is;
     case_bubble bubble[3];
-    material film, liquid;
+    mpm_material film, liquid;
     vessel_how how;
 } droplet;
 

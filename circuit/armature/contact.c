@@ -25,7 +25,7 @@ double circuit_contact_evenness(double z)
     return mean / end;
 }
 
-double circuit_contact_spread(const sliding_contact *c, double v, double I)
+double circuit_contact_spread(const circuit_sliding_contact *c, double v, double I)
 {
     if (!(c->interface > 0.0)) return c->length;
     const double r_inverse = I / c->interface;

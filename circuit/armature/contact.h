@@ -23,10 +23,10 @@ typedef struct {
     double length;      /* l of one face along the rail [m] */
     double interface;   /* r I = (V_c/2) area [V m^2]; 0: the current enters evenly at any speed */
     double resistivity; /* of the rail's face [ohm m] */
-} sliding_contact;
+} circuit_sliding_contact;
 
 /* I over J(l) and the width: the length over which the current enters, 0 .. l [m].  v >= 0 [m/s], I of any sign [A]. */
-double circuit_contact_spread(const sliding_contact *c, double v, double I);
+double circuit_contact_spread(const circuit_sliding_contact *c, double v, double I);
 
 /* Mean of J over J(l) for a contact of z = l/d, 1 at 0, 1/z for z >> 1 [1]. */
 double circuit_contact_evenness(double z);

@@ -10,10 +10,10 @@
 #include "circuit/rails/section.h"
 
 typedef struct {
-    section_point corner[4]; /* anticlockwise; may coincide */
-    section_point centre;
-    section_point axis[2]; /* centre +- axis[0] +- axis[1] have the quadrangle's mean and second moments */
-    double area, reach;    /* [m^2]; greatest distance of a corner from the centre [m] */
+    circuit_section_point corner[4]; /* anticlockwise; may coincide */
+    circuit_section_point centre;
+    circuit_section_point axis[2]; /* centre +- axis[0] +- axis[1] have the quadrangle's mean and second moments */
+    double area, reach;            /* [m^2]; greatest distance of a corner from the centre [m] */
 } filament;
 
 typedef struct {
@@ -23,11 +23,11 @@ typedef struct {
 } filaments;
 
 /* First cells of depth/fineness or a side/(4 fineness), growing by 1 + 1.5/fineness.  depth [m], fineness >= 1. */
-status circuit_filaments_create(const rail_section *s, double depth, double fineness, filaments *out);
+status circuit_filaments_create(const circuit_rail_section *s, double depth, double fineness, filaments *out);
 void circuit_filaments_free(filaments *f);
 
 /* n x n inductances, images and circuit_section_weight included [H/m]; the caller frees *L. */
-status circuit_filaments_inductance(const rail_section *s, const filaments *f, double **L);
+status circuit_filaments_inductance(const circuit_rail_section *s, const filaments *f, double **L);
 
 /* Cell sizes over `length`, growing from `first` by `growth` at most away from one end, or from both (ends = 2).
  * Returns their number; `size` must hold them. */

@@ -10,30 +10,30 @@
 static const double SETTLED = 1e-7; /* of Z' over CHECK_EVERY terms */
 enum { CHECK_EVERY = 8 };
 
-void circuit_impedance_free(impedance *z)
+void circuit_impedance_free(circuit_impedance *z)
 {
     free(z->diagonal);
     free(z->coupling);
     free(z->conductance);
     free(z->vectors);
-    *z = (impedance){ 0 };
+    *z = (circuit_impedance){ 0 };
 }
 
-static double complex fraction(const impedance *z, int m, double complex s)
+static double complex fraction(const circuit_impedance *z, int m, double complex s)
 {
     double complex d = 1.0 + s * z->diagonal[m - 1];
     for (int k = m - 2; k >= 0; k--) d = 1.0 + s * z->diagonal[k] - s * s * z->coupling[k] * z->coupling[k] / d;
     return z->R_dc * d;
 }
 
-double complex circuit_impedance_at(const impedance *z, double complex s)
+double complex circuit_impedance_at(const circuit_impedance *z, double complex s)
 {
     return fraction(z, z->m, s);
 }
 
 /* The same fraction over s, in the limit. */
 /* L' as s -> infinity, on these filaments [H/m]. */
-static double fast_inductance(const impedance *z)
+static double fast_inductance(const circuit_impedance *z)
 {
     double d = z->diagonal[z->m - 1];
     for (int k = z->m - 2; k >= 0; k--) d = z->diagonal[k] - z->coupling[k] * z->coupling[k] / d;
@@ -69,7 +69,7 @@ static void orthogonalise(int n, int rows, const double *V, double *x)
     }
 }
 
-static bool settled(const impedance *z, int m, double complex *before)
+static bool settled(const circuit_impedance *z, int m, double complex *before)
 {
     if (m % CHECK_EVERY != 0) return false;
     const double complex now = fraction(z, m, _Complex_I * z->omega_top);
@@ -79,7 +79,7 @@ static bool settled(const impedance *z, int m, double complex *before)
 }
 
 /* K v_k = T_k-1,k v_k-1 + T_kk v_k + T_k,k+1 v_k+1; row n of `vectors` is spare. */
-static void lanczos(impedance *z, const double *K)
+static void lanczos(circuit_impedance *z, const double *K)
 {
     const int n = z->n;
     double complex before = 0.0;
@@ -100,10 +100,10 @@ static void lanczos(impedance *z, const double *K)
     }
 }
 
-status circuit_impedance_create(int n, double *L, const double *R, double omega_top, impedance *out)
+status circuit_impedance_create(int n, double *L, const double *R, double omega_top, circuit_impedance *out)
 {
     const size_t size = (size_t)n;
-    *out = (impedance){ .n = n, .omega_top = omega_top };
+    *out = (circuit_impedance){ .n = n, .omega_top = omega_top };
     out->diagonal = malloc(size * sizeof *out->diagonal);
     out->coupling = malloc(size * sizeof *out->coupling);
     out->conductance = malloc(size * sizeof *out->conductance);
@@ -122,7 +122,7 @@ status circuit_impedance_create(int n, double *L, const double *R, double omega_
 }
 
 /* share = R^(-1/2) V (1 + s T)^-1 e_1 Z'; the tridiagonal system by forward and backward substitution. */
-status circuit_impedance_currents(const impedance *z, double complex s, double complex *share)
+status circuit_impedance_currents(const circuit_impedance *z, double complex s, double complex *share)
 {
     const int m = z->m;
     double complex *d = malloc(2 * (size_t)m * sizeof *d), *y = d ? d + m : NULL;

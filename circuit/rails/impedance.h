@@ -22,17 +22,17 @@ typedef struct {
     double *coupling;    /* T_k,k+1 [s], m; the last is 0 */
     double *conductance; /* R^(-1/2) of the filaments [(m/ohm)^1/2], n */
     double *vectors;     /* V, m rows of n */
-} impedance;
+} circuit_impedance;
 
 /* L: n x n, symmetric, row by row [H/m]; changed to K.  R: n [ohm/m].  Ends once Z' at i omega_top is settled to 1e-7.
  * *out is freed by circuit_impedance_free, also after an error. */
-status circuit_impedance_create(int n, double *L, const double *R, double omega_top, impedance *out);
-void circuit_impedance_free(impedance *z);
+base_status circuit_impedance_create(int n, double *L, const double *R, double omega_top, circuit_impedance *out);
+void circuit_impedance_free(circuit_impedance *z);
 
-double _Complex circuit_impedance_at(const impedance *z, double _Complex s); /* Re s >= 0 [1/s] -> [ohm/m] */
+double _Complex circuit_impedance_at(const circuit_impedance *z, double _Complex s); /* Re s >= 0 [1/s] -> [ohm/m] */
 
 /* Share of each filament in a total current of 1 at the frequency s; `share` has n places. */
-status circuit_impedance_currents(const impedance *z, double _Complex s, double _Complex *share);
+base_status circuit_impedance_currents(const circuit_impedance *z, double _Complex s, double _Complex *share);
 
 #ifdef __cplusplus
 }

@@ -20,7 +20,7 @@ double circuit_inductance_kerrisk(double h, double w, double s)
     return 1e-6 * (0.4406411 - 0.07771617 * log(F1)) * log(F2);
 }
 
-status circuit_inductance_limit(const rail_section *s, double *L)
+status circuit_inductance_limit(const circuit_rail_section *s, double *L)
 {
     double skin = 0.0;
     TRY(circuit_section_check(s));
@@ -28,25 +28,25 @@ status circuit_inductance_limit(const rail_section *s, double *L)
 }
 
 /* Of the better conductor of the two. */
-static double skin_depth(const rail_section *s, double f)
+static double skin_depth(const circuit_rail_section *s, double f)
 {
     const double rho = s->cladding > 0.0 ? fmin(s->resistivity, s->cladding_resistivity) : s->resistivity;
     return sqrt(rho / (PI * MU0 * f));
 }
 
-static double largest_side(const rail_section *s)
+static double largest_side(const circuit_rail_section *s)
 {
     return fmax(s->height, s->thickness);
 }
 
 /* Below the frequency whose skin depth is 100 sections nothing changes by 1e-7: that is direct current. */
-static double at_least_slow(const rail_section *s, double f)
+static double at_least_slow(const circuit_rail_section *s, double f)
 {
     const double ratio = skin_depth(s, 1.0) / (100.0 * largest_side(s));
     return fmax(f, ratio * ratio);
 }
 
-static status response(const rail_section *s, const filaments *cells, double f_top, impedance *out)
+static status response(const circuit_rail_section *s, const filaments *cells, double f_top, circuit_impedance *out)
 {
     double *L = NULL;
     status st = circuit_filaments_inductance(s, cells, &L);
@@ -55,24 +55,24 @@ static status response(const rail_section *s, const filaments *cells, double f_t
     return st;
 }
 
-static status mesh(const rail_section *s, double f_top, double fineness, filaments *cells)
+static status mesh(const circuit_rail_section *s, double f_top, double fineness, filaments *cells)
 {
     TRY(circuit_section_check(s));
     CHECK(f_top > 0.0 && isfinite(f_top), STATUS_BAD_INPUT, "frequency %g Hz: must be positive and finite", f_top);
     return circuit_filaments_create(s, skin_depth(s, f_top), fineness, cells);
 }
 
-status circuit_inductance_response(const rail_section *s, double f_top, double fineness, impedance *out)
+status circuit_inductance_response(const circuit_rail_section *s, double f_top, double fineness, circuit_impedance *out)
 {
     filaments cells = { 0 };
-    *out = (impedance){ 0 };
+    *out = (circuit_impedance){ 0 };
     status st = mesh(s, f_top, fineness, &cells);
     if (st.code == STATUS_OK) st = response(s, &cells, f_top, out);
     circuit_filaments_free(&cells);
     return st;
 }
 
-status circuit_inductance_at(const rail_section *s, double f, double fineness, double *L, double *R)
+status circuit_inductance_at(const circuit_rail_section *s, double f, double fineness, double *L, double *R)
 {
     TRY(circuit_section_check(s));
     CHECK(f >= 0.0 && isfinite(f), STATUS_BAD_INPUT, "frequency %g Hz: must be 0 or positive and finite", f);
@@ -84,7 +84,7 @@ status circuit_inductance_at(const rail_section *s, double f, double fineness, d
         *L += *R / (2.0 * PI * f);
         return status_ok();
     }
-    impedance z;
+    circuit_impedance z;
     const status st = circuit_inductance_response(s, f, fineness, &z);
     if (st.code == STATUS_OK) {
         const double complex Z = circuit_impedance_at(&z, _Complex_I * 2.0 * PI * f);
@@ -115,14 +115,14 @@ static surface_cell surface_cell_of(const filaments *c, int k)
     return (surface_cell){ (c->nx - 1) * c->ny + k - c->ny - c->nx, 2, 1 };
 }
 
-static void surface_fill(const rail_section *s, const filaments *c, const double complex *share,
+static void surface_fill(const circuit_rail_section *s, const filaments *c, const double complex *share,
                          inductance_surface *out)
 {
     double place = 0.0;
     for (int k = 0; k < 2 * c->ny + c->nx; k++) {
         const surface_cell at = surface_cell_of(c, k);
         const filament *f = &c->cell[at.cell];
-        const section_point a = f->corner[at.from], b = f->corner[at.to];
+        const circuit_section_point a = f->corner[at.from], b = f->corner[at.to];
         const double length = hypot(b.x - a.x, b.y - a.y), J = 0.5 * cabs(share[at.cell]) / f->area;
         place += length;
         if (length <= 0.0) continue; /* a round rail has no side */
@@ -132,10 +132,10 @@ static void surface_fill(const rail_section *s, const filaments *c, const double
     }
 }
 
-status circuit_inductance_surface_at(const rail_section *s, double f, double fineness, inductance_surface *out)
+status circuit_inductance_surface_at(const circuit_rail_section *s, double f, double fineness, inductance_surface *out)
 {
     filaments cells = { 0 };
-    impedance z = { 0 };
+    circuit_impedance z = { 0 };
     double complex *share = NULL;
     *out = (inductance_surface){ 0 };
     TRY(circuit_section_check(s));

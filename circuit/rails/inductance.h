@@ -16,14 +16,15 @@
 double circuit_inductance_kerrisk(double h, double w, double s);
 
 /* Perfect conductor by a 2-D boundary solution on graded panels [H/m]. */
-status circuit_inductance_limit(const rail_section *s, double *L);
+status circuit_inductance_limit(const circuit_rail_section *s, double *L);
 
 /* At one frequency f >= 0 [Hz], finite: L [H/m], R [ohm/m]. */
-status circuit_inductance_at(const rail_section *s, double f, double fineness, double *L, double *R);
+status circuit_inductance_at(const circuit_rail_section *s, double f, double fineness, double *L, double *R);
 
 /* The same for all frequencies up to f_top [Hz] at once, by 2-D filaments graded to the skin depth; freed by
  * circuit_impedance_free. */
-status circuit_inductance_response(const rail_section *s, double f_top, double fineness, impedance *out);
+status circuit_inductance_response(const circuit_rail_section *s, double f_top, double fineness,
+                                   circuit_impedance *out);
 
 /* Along the surface from the middle of the bore face over the edge to the middle of the back, at the frequency f [Hz]
  * and a current of 1 A in the rail: current density [A/m^2 per A] and heating [W/m^3 per A^2], both of effective
@@ -33,7 +34,7 @@ typedef struct {
     double *place;             /* [m], owns all three */
     double *current, *heating; /* in place's block */
 } inductance_surface;
-status circuit_inductance_surface_at(const rail_section *s, double f, double fineness, inductance_surface *out);
+status circuit_inductance_surface_at(const circuit_rail_section *s, double f, double fineness, inductance_surface *out);
 void circuit_inductance_surface_free(inductance_surface *p);
 
 #endif

@@ -12,24 +12,24 @@
  * top. Of the pairs tried (2, 5, 10; 1/2, 1, 2) this one needs the fewest rungs for every error from 0.1 to 1e-6. */
 static const double LOWEST = 10.0, HIGHEST = 2.0;
 
-enum { MAX_BASIS = LADDER_MAX_RUNGS + 1, GRID = 96 };
+enum { MAX_BASIS = CIRCUIT_LADDER_MAX_RUNGS + 1, GRID = 96 };
 
 /* The projection grows: an orthonormal basis U of a space of Lanczos' coordinates, first vector e_1. */
 typedef struct {
-    const impedance *z;
+    const circuit_impedance *z;
     int n;                          /* vectors */
     double *U;                      /* rows of m */
     double T[MAX_BASIS][MAX_BASIS]; /* U T U^T */
 } projection;
 
-double complex circuit_ladder_at(const ladder *l, double complex s)
+double complex circuit_ladder_at(const circuit_ladder *l, double complex s)
 {
     double complex z = l->R_dc + s * l->L_inf;
     for (int k = 0; k < l->n; k++) z += s * l->L[k] * l->R[k] / (l->R[k] + s * l->L[k]);
     return z;
 }
 
-double circuit_ladder_slow_inductance(const ladder *l)
+double circuit_ladder_slow_inductance(const circuit_ladder *l)
 {
     double L = l->L_inf;
     for (int k = 0; k < l->n; k++) L += l->L[k];
@@ -37,7 +37,7 @@ double circuit_ladder_slow_inductance(const ladder *l)
 }
 
 /* (c + s T) y = e_1, all real and positive definite; y(0) = e_1 and y(infinity) are c = 1, s = 0 and c = 0, s = 1. */
-static void solve(const impedance *z, double c, double s, double *y)
+static void solve(const circuit_impedance *z, double c, double s, double *y)
 {
     const int m = z->m;
     y[m - 1] = c + s * z->diagonal[m - 1]; /* pivots from below, then the solution from above in their places */
@@ -46,7 +46,7 @@ static void solve(const impedance *z, double c, double s, double *y)
     for (int k = 1; k < m; k++) y[k] = -s * z->coupling[k - 1] * y[k - 1] / y[k];
 }
 
-static double product(const impedance *z, const double *a, const double *b) /* a T b */
+static double product(const circuit_impedance *z, const double *a, const double *b) /* a T b */
 {
     double sum = 0.0;
     for (int k = 0; k < z->m; k++) {
@@ -89,10 +89,10 @@ static void enrich(projection *p, double c, double s)
 
 /* With T = [t c; c C] and C = G tau G^T, w = G^T c:  Z'/R_dc = 1 + s (t - sum w^2/tau) + sum (w^2/tau) s/(1 + s tau).
  */
-static void rungs_of(const projection *p, ladder *out)
+static void rungs_of(const projection *p, circuit_ladder *out)
 {
     const size_t n = (size_t)p->n - 1;
-    *out = (ladder){ .R_dc = p->z->R_dc, .L_inf = p->z->R_dc * p->T[0][0] };
+    *out = (circuit_ladder){ .R_dc = p->z->R_dc, .L_inf = p->z->R_dc * p->T[0][0] };
     if (n == 0) return;
     double C[MAX_BASIS * MAX_BASIS], G[MAX_BASIS * MAX_BASIS], tau[MAX_BASIS];
     double d[MAX_BASIS], sd[MAX_BASIS], gc[MAX_BASIS], gs[MAX_BASIS]; /* GSL's work space, with nothing to run out of */
@@ -116,7 +116,7 @@ static void rungs_of(const projection *p, ladder *out)
 }
 
 /* Largest error over the band; the grid is even in log frequency from the slowest mode's own. */
-static double worst(const projection *p, double omega_top, ladder *l)
+static double worst(const projection *p, double omega_top, circuit_ladder *l)
 {
     const double low = fmin(0.01 / p->T[0][0], 0.1 * omega_top), ratio = pow(omega_top / low, 1.0 / (GRID - 1));
     l->error = 0.0;
@@ -139,7 +139,7 @@ static void project(projection *p, int n, double omega_top)
     for (int j = 0; j < n; j++) enrich(p, 1.0, low * pow(top / low, (j + 0.5) / n));
 }
 
-status circuit_ladder_fit(const impedance *z, double omega_top, double error, ladder *out)
+status circuit_ladder_fit(const circuit_impedance *z, double omega_top, double error, circuit_ladder *out)
 {
     projection p = { .z = z, .U = malloc((size_t)(MAX_BASIS + 1) * (size_t)z->m * sizeof *p.U) };
     CHECK(p.U, STATUS_MEMORY, "out of memory for the rails' ladder");

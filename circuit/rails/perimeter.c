@@ -15,9 +15,9 @@ static const double FINEST = 1e-5, GROWTH = 1.16, STEP = 0.04;
 enum { MAX_PANELS = 600, MAX_SIDE = 200 };
 
 typedef struct {
-    section_point middle, along; /* [m], unit vector */
-    double length;               /* [m] */
-    double resistivity;          /* of the metal behind it [ohm m] */
+    circuit_section_point middle, along; /* [m], unit vector */
+    double length;                       /* [m] */
+    double resistivity;                  /* of the metal behind it [ohm m] */
 } panel;
 
 typedef struct {
@@ -25,7 +25,7 @@ typedef struct {
     panel at[MAX_PANELS];
 } outline;
 
-static void outline_add(outline *o, section_point a, section_point b, double resistivity)
+static void outline_add(outline *o, circuit_section_point a, circuit_section_point b, double resistivity)
 {
     const double dx = b.x - a.x, dy = b.y - a.y, length = hypot(dx, dy);
     o->at[o->n++] =
@@ -33,30 +33,30 @@ static void outline_add(outline *o, section_point a, section_point b, double res
 }
 
 /* Bore face from the edge to the middle, back likewise, the side between them. */
-static void outline_trace(const rail_section *s, outline *o)
+static void outline_trace(const circuit_rail_section *s, outline *o)
 {
-    double d[MAX_SIDE], y[SECTION_MAX_ROWS + 1];
+    double d[MAX_SIDE], y[CIRCUIT_SECTION_MAX_ROWS + 1];
     const int rows = circuit_section_rows(s, FINEST * s->height, GROWTH, STEP, y);
     const double half = 0.5 * s->height, top = circuit_section_face(s, half),
                  side = circuit_section_back(s, half) - top;
     const double face_metal = s->cladding > 0.0 ? s->cladding_resistivity : s->resistivity;
     o->n = 0;
     for (int back = 0; back < 2; back++) {
-        double (*const x)(const rail_section *, double) = back ? circuit_section_back : circuit_section_face;
+        double (*const x)(const circuit_rail_section *, double) = back ? circuit_section_back : circuit_section_face;
         for (int j = 0; j < rows; j++)
-            outline_add(o, (section_point){ x(s, y[j]), y[j] }, (section_point){ x(s, y[j + 1]), y[j + 1] },
-                        back ? s->resistivity : face_metal);
+            outline_add(o, (circuit_section_point){ x(s, y[j]), y[j] },
+                        (circuit_section_point){ x(s, y[j + 1]), y[j + 1] }, back ? s->resistivity : face_metal);
     }
     if (side < 1e-9 * s->thickness) return;
     const int n = circuit_filaments_graded(side, FINEST * side, GROWTH, 2, d);
     double x = top;
     for (int j = 0; j < n; x += d[j++])
-        outline_add(o, (section_point){ x, half }, (section_point){ x + d[j], half },
+        outline_add(o, (circuit_section_point){ x, half }, (circuit_section_point){ x + d[j], half },
                     x + 0.5 * d[j] - top < s->cladding ? face_metal : s->resistivity);
 }
 
 /* Integral of ln r over a panel, seen from p. */
-static double panel_log(const panel *q, section_point p)
+static double panel_log(const panel *q, circuit_section_point p)
 {
     const double dx = p.x - q->middle.x, dy = p.y - q->middle.y;
     const double along = dx * q->along.x + dy * q->along.y, across = dx * q->along.y - dy * q->along.x;
@@ -70,7 +70,7 @@ static double panel_log(const panel *q, section_point p)
     return sum;
 }
 
-static double panel_potential(const rail_section *s, const panel *p, const panel *q)
+static double panel_potential(const circuit_rail_section *s, const panel *p, const panel *q)
 {
     double sum = 0.0;
     for (int image = 0; image < circuit_section_images(s); image++)
@@ -78,7 +78,7 @@ static double panel_potential(const rail_section *s, const panel *p, const panel
     return -MU0 / (2.0 * PI) * sum;
 }
 
-static status currents_solve(const rail_section *s, const outline *o, gsl_vector *K)
+static status currents_solve(const circuit_rail_section *s, const outline *o, gsl_vector *K)
 {
     const size_t n = (size_t)o->n;
     gsl_matrix *matrix = gsl_matrix_alloc(n, n);
@@ -100,7 +100,7 @@ static status currents_solve(const rail_section *s, const outline *o, gsl_vector
     return status_ok();
 }
 
-status circuit_perimeter_solve(const rail_section *s, double *L, double *skin)
+status circuit_perimeter_solve(const circuit_rail_section *s, double *L, double *skin)
 {
     outline o;
     outline_trace(s, &o);

@@ -8,6 +8,6 @@
 
 /* L of the whole [H/m], and R over sqrt(frequency) that a thin skin has in the metals' own surface impedance (C-9)
  * [ohm/m/Hz^1/2]. */
-status circuit_perimeter_solve(const rail_section *s, double *L, double *skin);
+status circuit_perimeter_solve(const circuit_rail_section *s, double *L, double *skin);
 
 #endif

@@ -20,18 +20,18 @@ double circuit_rails_share_of_force(double theta)
     return 1.0 - 2.0 * theta * (1.0 + theta * expm1(-u));
 }
 
-static double theta_of(const rails_load *r, int k, double rate)
+static double theta_of(const circuit_rails_load *r, int k, double rate)
 {
     return rate * r->ladder.L[k] / r->ladder.R[k];
 }
 
 /* 1 over the time that a slice of rail spends where the current enters [1/s]; only a ladder with rungs asks. */
-static double passing_rate(const rails_load *r, double v, double I)
+static double passing_rate(const circuit_rails_load *r, double v, double I)
 {
     return r->ladder.n > 0 ? v / circuit_contact_spread(&r->contact, v, I) : 0.0;
 }
 
-double circuit_rails_force_gradient(const rails_load *r, double v, double I)
+double circuit_rails_force_gradient(const circuit_rails_load *r, double v, double I)
 {
     const double rate = passing_rate(r, v, I);
     double L = r->ladder.L_inf;
@@ -42,12 +42,12 @@ double circuit_rails_force_gradient(const rails_load *r, double v, double I)
 /* So little action says nothing of a temperature yet [A^2 s m]: some microseconds of a pulse. */
 static const double LEAST_ACTION = 1.0;
 
-int circuit_rails_memory_size(const rails_load *r)
+int circuit_rails_memory_size(const circuit_rails_load *r)
 {
     return 2 * r->ladder.n + (r->heat_capacity > 0.0 ? 3 : 0);
 }
 
-void circuit_rails_memory_scale(const rails_load *r, double x, double I, double E, double *scale)
+void circuit_rails_memory_scale(const circuit_rails_load *r, double x, double I, double E, double *scale)
 {
     static const double LONG_PULSE = 1e-3; /* [s] */
     const int n = 2 * r->ladder.n;
@@ -60,25 +60,26 @@ void circuit_rails_memory_scale(const rails_load *r, double x, double I, double 
     scale[n + 2] = x * I * I * LONG_PULSE;
 }
 
-double circuit_rails_memory_rise(const rails_load *r, double x, const double *memory)
+double circuit_rails_memory_rise(const circuit_rails_load *r, double x, const double *memory)
 {
     const double *heat = memory + 2 * r->ladder.n, E = heat[0], E_c = heat[1], G = fmax(heat[2], 0.0);
     return x > 0.0 ? E * E_c / (r->ladder.R_dc * r->heat_capacity * x * (G + LEAST_ACTION)) : 0.0;
 }
 
-double circuit_rails_warming(const rails_load *r, double x, const double *memory)
+double circuit_rails_warming(const circuit_rails_load *r, double x, const double *memory)
 {
     return r->heat_capacity > 0.0 ? 1.0 + r->coefficient * circuit_rails_memory_rise(r, x, memory) : 1.0;
 }
 
-rails_flow circuit_rails_flow_at(const rails_load *r, double x, double v, double I, const double *memory)
+circuit_rails_flow circuit_rails_flow_at(const circuit_rails_load *r, double x, double v, double I,
+                                         const double *memory)
 {
-    const ladder *l = &r->ladder;
+    const circuit_ladder *l = &r->ladder;
     const double warm = circuit_rails_warming(r, x, memory), R_dc = warm * l->R_dc, rate = passing_rate(r, v, I);
-    rails_flow f = { .inductance = l->L_inf * x,
-                     .voltage = (l->L_inf * v + R_dc * x) * I,
-                     .heat = R_dc * x * I * I,
-                     .field = 0.5 * l->L_inf * x * I * I };
+    circuit_rails_flow f = { .inductance = l->L_inf * x,
+                             .voltage = (l->L_inf * v + R_dc * x) * I,
+                             .heat = R_dc * x * I * I,
+                             .field = 0.5 * l->L_inf * x * I * I };
     for (int k = 0; k < l->n; k++) {
         const double Q = memory[2 * k], W = memory[2 * k + 1], theta = theta_of(r, k, rate);
         const double a = circuit_rails_share_at_birth(theta),
@@ -90,7 +91,8 @@ rails_flow circuit_rails_flow_at(const rails_load *r, double x, double v, double
     return f;
 }
 
-void circuit_rails_memory_rates(const rails_load *r, double x, double v, double I, const double *memory, double *rates)
+void circuit_rails_memory_rates(const circuit_rails_load *r, double x, double v, double I, const double *memory,
+                                double *rates)
 {
     const int n = r->ladder.n;
     const double warm = circuit_rails_warming(r, x, memory), rate = passing_rate(r, v, I);

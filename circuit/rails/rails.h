@@ -25,11 +25,11 @@ extern "C" {
 #endif
 
 typedef struct {
-    ladder ladder;           /* no rungs: constant gradients */
-    sliding_contact contact; /* over which the current comes into the rail */
-    double heat_capacity;    /* C, of all the metal in a length [J/m/K]; 0: the rails keep their resistance */
-    double coefficient;      /* relative rise of the resistance [1/K] */
-} rails_load;
+    circuit_ladder ladder;           /* no rungs: constant gradients */
+    circuit_sliding_contact contact; /* over which the current comes into the rail */
+    double heat_capacity;            /* C, of all the metal in a length [J/m/K]; 0: the rails keep their resistance */
+    double coefficient;              /* relative rise of the resistance [1/K] */
+} circuit_rails_load;
 
 /* What the circuit sees; the current's slope comes on top: V = inductance dI/dt + voltage [V]. */
 typedef struct {
@@ -37,22 +37,24 @@ typedef struct {
     double voltage;    /* V_rails without L_inf x dI/dt [V] */
     double heat;       /* [W] */
     double field;      /* [J] */
-} rails_flow;
+} circuit_rails_flow;
 
 /* memory: Q_k, W_k of every rung in turn [A m], [A^2 m]; then E, E_c [J], G [A^2 s m] if there is a heat capacity.
  * x [m], v >= 0 [m/s], I [A]. */
-int circuit_rails_memory_size(const rails_load *r);
-void circuit_rails_memory_scale(const rails_load *r, double x, double I, double E,
-                                double *scale);                                        /* largest to expect */
-double circuit_rails_memory_rise(const rails_load *r, double x, const double *memory); /* (C-24) [K] */
-double circuit_rails_warming(const rails_load *r, double x,
+int circuit_rails_memory_size(const circuit_rails_load *r);
+void circuit_rails_memory_scale(const circuit_rails_load *r, double x, double I, double E,
+                                double *scale);                                                /* largest to expect */
+double circuit_rails_memory_rise(const circuit_rails_load *r, double x, const double *memory); /* (C-24) [K] */
+double circuit_rails_warming(const circuit_rails_load *r, double x,
                              const double *memory); /* factor of all resistances there [1] */
-rails_flow circuit_rails_flow_at(const rails_load *r, double x, double v, double I, const double *memory);
-void circuit_rails_memory_rates(const rails_load *r, double x, double v, double I, const double *memory, double *rates);
+circuit_rails_flow circuit_rails_flow_at(const circuit_rails_load *r, double x, double v, double I,
+                                         const double *memory);
+void circuit_rails_memory_rates(const circuit_rails_load *r, double x, double v, double I, const double *memory,
+                                double *rates);
 
 /* 2 F/I^2 [H/m]: L' of direct current at rest, L_inf at great speed.  I matters where the contact crowds (contact.h).
  */
-double circuit_rails_force_gradient(const rails_load *r, double v, double I);
+double circuit_rails_force_gradient(const circuit_rails_load *r, double v, double I);
 
 /* a_k and f_k of (C-12) at theta = v tau_k/contact's spread >= 0 [1]. */
 double circuit_rails_share_at_birth(double theta);

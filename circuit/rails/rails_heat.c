@@ -4,10 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-void circuit_rails_heat_start(rails_heat *h, double length)
+void circuit_rails_heat_start(circuit_rails_heat *h, double length)
 {
     memset(h, 0, sizeof *h);
-    h->piece = length / RAILS_PIECES;
+    h->piece = length / CIRCUIT_RAILS_PIECES;
 }
 
 /* int I^2 dt of a current that goes linearly. */
@@ -17,9 +17,10 @@ static double action(double I0, double I1, double dt)
 }
 
 /* Piece k over dt, exposed all the time. */
-static void pass(rails_heat *h, const rails_load *r, double warm, int k, double dt, double I0, double I1)
+static void pass(circuit_rails_heat *h, const circuit_rails_load *r, double warm, int k, double dt, double I0,
+                 double I1)
 {
-    const ladder *l = &r->ladder;
+    const circuit_ladder *l = &r->ladder;
     double heat = warm * l->R_dc * action(I0, I1, dt);
     for (int n = 0; n < l->n && dt > 0.0; n++) {
         const double R = warm * l->R[n], tau = l->L[n] / R;
@@ -31,9 +32,9 @@ static void pass(rails_heat *h, const rails_load *r, double warm, int k, double 
 }
 
 /* The armature, at v, comes past the middle of piece k. */
-static void expose(rails_heat *h, const rails_load *r, int k, double v, double I)
+static void expose(circuit_rails_heat *h, const circuit_rails_load *r, int k, double v, double I)
 {
-    const ladder *l = &r->ladder;
+    const circuit_ladder *l = &r->ladder;
     const double rate = l->n > 0 ? v / circuit_contact_spread(&r->contact, v, I) : 0.0;
     for (int n = 0; n < l->n; n++) {
         const double theta = rate * l->L[n] / l->R[n], a = circuit_rails_share_at_birth(theta);
@@ -42,10 +43,10 @@ static void expose(rails_heat *h, const rails_load *r, int k, double v, double I
     }
 }
 
-void circuit_rails_heat_carry(rails_heat *h, const rails_load *r, double warm, double from, double to,
-                              const rails_instant *a, const rails_instant *b)
+void circuit_rails_heat_carry(circuit_rails_heat *h, const circuit_rails_load *r, double warm, double from, double to,
+                              const circuit_rails_instant *a, const circuit_rails_instant *b)
 {
-    for (int k = 0; k < RAILS_PIECES; k++) {
+    for (int k = 0; k < CIRCUIT_RAILS_PIECES; k++) {
         const double x = (k + 0.5) * h->piece;
         if (x < from || x >= to || x > b->x) continue;
         const double share = x > a->x ? (x - a->x) / (b->x - a->x) : 0.0; /* of the step before it is exposed */
@@ -55,15 +56,17 @@ void circuit_rails_heat_carry(rails_heat *h, const rails_load *r, double warm, d
     }
 }
 
-void circuit_rails_heat_ahead(rails_heat *h, const rails_load *r, double x, double dt, double i0, double i1)
+void circuit_rails_heat_ahead(circuit_rails_heat *h, const circuit_rails_load *r, double x, double dt, double i0,
+                              double i1)
 {
-    for (int k = 0; k < RAILS_PIECES; k++)
+    for (int k = 0; k < CIRCUIT_RAILS_PIECES; k++)
         if ((k + 0.5) * h->piece > x) h->heat[k] += r->ladder.R_dc * action(i0, i1, dt);
 }
 
-void circuit_rails_heat_slide(rails_heat *h, double x0, double x1, double E)
+void circuit_rails_heat_slide(circuit_rails_heat *h, double x0, double x1, double E)
 {
-    const int first = (int)fmin(x0 / h->piece, RAILS_PIECES - 1), last = (int)fmin(x1 / h->piece, RAILS_PIECES - 1);
+    const int first = (int)fmin(x0 / h->piece, CIRCUIT_RAILS_PIECES - 1),
+              last = (int)fmin(x1 / h->piece, CIRCUIT_RAILS_PIECES - 1);
     for (int k = first; k <= last; k++) {
         const double length = fmin(x1, (k + 1) * h->piece) - fmax(x0, k * h->piece);
         const double share = first == last ? 1.0 : length / (x1 - x0);

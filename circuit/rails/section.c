@@ -17,12 +17,12 @@ static double arc(double h, double c, double y)
     return y * y / (r + sqrt(fmax(r * r - y * y, 0.0)));
 }
 
-double circuit_section_face(const rail_section *s, double y)
+double circuit_section_face(const circuit_rail_section *s, double y)
 {
     return 0.5 * s->separation + arc(s->height, s->face_crown, y);
 }
 
-double circuit_section_back(const rail_section *s, double y)
+double circuit_section_back(const circuit_rail_section *s, double y)
 {
     return 0.5 * s->separation + s->thickness - arc(s->height, s->back_crown, y);
 }
@@ -35,12 +35,12 @@ static double lost_area(double h, double c)
     return h * c - r * r * (half - 0.5 * sin(2.0 * half));
 }
 
-double circuit_section_metal_area(const rail_section *s)
+double circuit_section_metal_area(const circuit_rail_section *s)
 {
     return s->height * s->thickness - lost_area(s->height, s->face_crown) - lost_area(s->height, s->back_crown);
 }
 
-status circuit_section_check(const rail_section *s)
+status circuit_section_check(const circuit_rail_section *s)
 {
     const double h = s->height, w = s->thickness, edge = w - s->face_crown - s->back_crown;
     CHECK(h > 0.0 && w > 0.0 && s->separation > 0.0, STATUS_BAD_INPUT,
@@ -73,13 +73,13 @@ static double row_end(double y, double size, double r, double step)
     return fmax(y - size, r * sin(asin(fmin(y / r, 1.0)) - step));
 }
 
-int circuit_section_rows(const rail_section *s, double first, double growth, double step, double *y)
+int circuit_section_rows(const circuit_rail_section *s, double first, double growth, double step, double *y)
 {
     const double half = 0.5 * s->height, r = radius(s->height, fmax(s->face_crown, s->back_crown));
     double size = first;
     int n = 0;
     for (y[0] = half; y[n] > 1e-9 * half; size *= growth, n++) {
-        if (n == SECTION_MAX_ROWS) return 0;
+        if (n == CIRCUIT_SECTION_MAX_ROWS) return 0;
         y[n + 1] = row_end(y[n], size, r, step);
     }
     const double stretch = half / (half - y[n]);
@@ -88,24 +88,24 @@ int circuit_section_rows(const rail_section *s, double first, double growth, dou
     return n;
 }
 
-int circuit_section_images(const rail_section *s)
+int circuit_section_images(const circuit_rail_section *s)
 {
     return 2 * s->rails;
 }
 
-section_point circuit_section_image(section_point p, int image)
+circuit_section_point circuit_section_image(circuit_section_point p, int image)
 {
-    if (image & 4) p = (section_point){ p.y, p.x };
-    return (section_point){ image & 1 ? -p.x : p.x, image & 2 ? -p.y : p.y };
+    if (image & 4) p = (circuit_section_point){ p.y, p.x };
+    return (circuit_section_point){ image & 1 ? -p.x : p.x, image & 2 ? -p.y : p.y };
 }
 
-double circuit_section_image_sign(const rail_section *s, int image)
+double circuit_section_image_sign(const circuit_rail_section *s, int image)
 {
     if (s->rails == 4) return image & 4 ? -1.0 : 1.0;
     return image & 1 ? -1.0 : 1.0;
 }
 
-double circuit_section_weight(const rail_section *s)
+double circuit_section_weight(const circuit_rail_section *s)
 {
     return s->rails == 4 ? 0.5 : 1.0;
 }

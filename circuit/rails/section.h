@@ -24,31 +24,32 @@ typedef struct {
     double resistivity;          /* [ohm m] */
     double cladding_resistivity; /* [ohm m] */
     int rails;                   /* 2 or 4 */
-} rail_section;
+} circuit_rail_section;
 
 typedef struct {
     double x, y; /* [m] */
-} section_point;
+} circuit_section_point;
 
-status circuit_section_check(const rail_section *s); /* STATUS_BAD_INPUT names the key, its value and range */
+base_status
+circuit_section_check(const circuit_rail_section *s); /* BASE_STATUS_BAD_INPUT names the key, its value and range */
 
-double circuit_section_face(const rail_section *s, double y); /* x of the bore face at |y| <= h/2 [m] */
-double circuit_section_back(const rail_section *s, double y);
-double circuit_section_metal_area(const rail_section *s); /* of one rail [m^2] */
+double circuit_section_face(const circuit_rail_section *s, double y); /* x of the bore face at |y| <= h/2 [m] */
+double circuit_section_back(const circuit_rail_section *s, double y);
+double circuit_section_metal_area(const circuit_rail_section *s); /* of one rail [m^2] */
 
 /* Lines y[0] = h/2 > y[1] > .. > y[n] = 0 across a face: rows grow from `first` [m] by `growth`, and span no more than
- * `step` radians of the more curved face's arc.  Returns n; `y` must hold n + 1 <= SECTION_MAX_ROWS + 1.  More than
- * that: 0. */
-enum { SECTION_MAX_ROWS = 400 };
-int circuit_section_rows(const rail_section *s, double first, double growth, double step, double *y);
+ * `step` radians of the more curved face's arc.  Returns n; `y` must hold n + 1 <= CIRCUIT_SECTION_MAX_ROWS + 1.  More
+ * than that: 0. */
+enum { CIRCUIT_SECTION_MAX_ROWS = 400 };
+int circuit_section_rows(const circuit_rail_section *s, double first, double growth, double step, double *y);
 
-int circuit_section_images(const rail_section *s);                   /* 4 or 8; number 0 is the point itself */
-section_point circuit_section_image(section_point p, int image);     /* isometries */
-double circuit_section_image_sign(const rail_section *s, int image); /* of the current there */
+int circuit_section_images(const circuit_rail_section *s); /* 4 or 8; number 0 is the point itself */
+circuit_section_point circuit_section_image(circuit_section_point p, int image); /* isometries */
+double circuit_section_image_sign(const circuit_rail_section *s, int image);     /* of the current there */
 
 /* Z' [ohm/m] of the whole = this over the current that the solved half of a rail carries at 1 V/m between its two ends
  * and the field's potential (C-8) [1]. */
-double circuit_section_weight(const rail_section *s);
+double circuit_section_weight(const circuit_rail_section *s);
 
 #ifdef __cplusplus
 }

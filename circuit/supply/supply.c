@@ -4,11 +4,11 @@
 
 #include <string.h>
 
-#define SUPPLY(kind, type, section, lists, text)                                      \
-    extern const supply_kind circuit_kind_##kind;                                     \
-    _Static_assert(offsetof(type, count) == offsetof(supply_common, count) &&         \
-                       offsetof(type, fire_at) == offsetof(supply_common, fire_at) && \
-                       offsetof(type, position) == offsetof(supply_common, position), \
+#define SUPPLY(kind, type, section, lists, text)                                              \
+    extern const supply_kind circuit_kind_##kind;                                             \
+    _Static_assert(offsetof(type, count) == offsetof(circuit_supply_common, count) &&         \
+                       offsetof(type, fire_at) == offsetof(circuit_supply_common, fire_at) && \
+                       offsetof(type, position) == offsetof(circuit_supply_common, position), \
                    "the struct of " #kind " begins with SUPPLY_COMMON");
 #include "circuit/supply/supply.def"
 #undef SUPPLY
@@ -26,21 +26,21 @@ const char *const circuit_supply_sections[] = {
 };
 #undef SUPPLY
 
-size_t circuit_supply_size(supply_kind_index kind)
+size_t circuit_supply_size(circuit_supply_kind_index kind)
 {
     return circuit_supply_kinds[kind]->size;
 }
 
-void circuit_supply_recharge(supply_kind_index kind, void *item, int n, double factor)
+void circuit_supply_recharge(circuit_supply_kind_index kind, void *item, int n, double factor)
 {
     const supply_kind *k = circuit_supply_kinds[kind];
     for (int i = 0; k->charge && i < n; i++)
         *(double *)(void *)((char *)item + (size_t)i * k->size + k->charge) *= factor;
 }
 
-supply_common circuit_supply_common_of(const void *p)
+circuit_supply_common circuit_supply_common_of(const void *p)
 {
-    supply_common at;
+    circuit_supply_common at;
     memcpy(&at, p, sizeof at);
     return at;
 }

@@ -24,7 +24,7 @@ extern "C" {
 
 typedef struct {
     SUPPLY_COMMON
-} supply_common;
+} circuit_supply_common;
 
 /* Capacitor, crowbar diode across it, switch, pulse-forming coil, cable to the rails, all in series but the diode.  The
  * gate is held from fire_at until the switch has conducted; with a series diode (or a thyristor for the switch) it is
@@ -42,7 +42,7 @@ typedef struct {
     bool crowbar;              /* there is a crowbar diode */
     bool series_diode;         /* the current cannot reverse */
     double damping_resistance; /* across the coil [ohm]; NAN = none */
-} shot_module;
+} circuit_shot_module;
 
 /* A coil charged by a battery through a closed switch across the output.  At fire_at the switch opens: its arc holds
  * opening_voltage until the current has gone over into the rails; battery and coil then stay in series with them. */
@@ -55,7 +55,7 @@ typedef struct {
     double opening_voltage;  /* across the opening switch while it commutates [V] */
     double cable_inductance; /* [H] */
     double cable_resistance; /* [ohm] */
-} supply_inductor;
+} circuit_supply_inductor;
 
 /* A disc in a field: voltage flux x speed, torque flux x current. */
 typedef struct {
@@ -66,7 +66,7 @@ typedef struct {
     double windage;    /* braking torque over speed [N m s/rad] */
     double inductance; /* machine and leads [H] */
     double resistance; /* [ohm] */
-} supply_homopolar;
+} circuit_supply_homopolar;
 
 /* One phase of a pulse alternator (compulsator) behind a thyristor: voltage flux x speed x sin(pole_pairs x angle +
  * phase), at constant excitation.  Gives `pulses` half waves, each from the instant its voltage exceeds that of the
@@ -82,47 +82,47 @@ typedef struct {
     double windage;    /* braking torque over speed [N m s/rad] */
     double inductance; /* compensated winding and leads [H] */
     double resistance; /* [ohm] */
-} supply_alternator;
+} circuit_supply_alternator;
 
 typedef struct {
     double time, current; /* after fire_at; of one unit [s, A] */
-} supply_point;
+} circuit_supply_point;
 
 /* A current that is given: what the source is does not matter.  Monotone cubic between its points, first and last zero.
  */
 typedef struct {
     SUPPLY_COMMON
-    char file[PARAM_TEXT_SIZE]; /* where the points came from; circuit/ does not open it */
+    char file[BASE_PARAM_TEXT_SIZE]; /* where the points came from; circuit/ does not open it */
     struct {
         int n;
-        supply_point *item; /* n, times ascending from 0; borrowed until circuit_shot_create returns */
+        circuit_supply_point *item; /* n, times ascending from 0; borrowed until circuit_shot_create returns */
     } points;
-} supply_profile;
+} circuit_supply_profile;
 
 typedef enum {
-#define SUPPLY(kind, type, section, lists, text) SUPPLY_##kind,
+#define SUPPLY(kind, type, section, lists, text) CIRCUIT_SUPPLY_##kind,
 #include "circuit/supply/supply.def"
 #undef SUPPLY
-    SUPPLY_KINDS
-} supply_kind_index;
+    CIRCUIT_SUPPLY_KINDS
+} circuit_supply_kind_index;
 
 /* The groups of one kind. */
 typedef struct {
     int n;
     const void *item; /* n structs of the kind; borrowed until circuit_shot_create returns */
-} supply_list;
+} circuit_supply_list;
 
 /* Keys, units, defaults, ranges and texts, a table a kind. */
-#define SUPPLY(kind, type, section, lists, text) extern const param circuit_supply_##kind##_params[];
+#define SUPPLY(kind, type, section, lists, text) extern const base_param circuit_supply_##kind##_params[];
 #include "circuit/supply/supply.def"
 #undef SUPPLY
-extern const param circuit_supply_point_params[];
+extern const base_param circuit_supply_point_params[];
 
 extern const char *const circuit_supply_sections[]; /* of the case file, by kind, NULL at the end */
 
-size_t circuit_supply_size(supply_kind_index kind); /* of the kind's struct */
+size_t circuit_supply_size(circuit_supply_kind_index kind); /* of the kind's struct */
 /* What n units of a kind are charged to (voltage, current, speed) times `factor`; a given current stays. */
-void circuit_supply_recharge(supply_kind_index kind, void *item, int n, double factor);
+void circuit_supply_recharge(circuit_supply_kind_index kind, void *item, int n, double factor);
 
 #ifndef BREECH_INSIDE
 #undef SUPPLY_COMMON

@@ -8,20 +8,20 @@
 #include <math.h>
 
 #define MACHINE(member, unit, fallback, min, max, doc) \
-    PARAM_DOUBLE(supply_alternator, member, unit, fallback, min, max, doc)
-const param circuit_supply_alternator_params[] = {
-    PARAM_INT(supply_alternator, count, 1, 1, 1e6, "identical machines in this group, in step"),
+    PARAM_DOUBLE(circuit_supply_alternator, member, unit, fallback, min, max, doc)
+const base_param circuit_supply_alternator_params[] = {
+    PARAM_INT(circuit_supply_alternator, count, 1, 1, 1e6, "identical machines in this group, in step"),
     MACHINE(flux, "V s/rad", REQUIRED, 1e-6, 1e4, "peak voltage over speed, peak torque over current"),
-    PARAM_INT(supply_alternator, pole_pairs, 1, 1, 100, "pole pairs"),
+    PARAM_INT(circuit_supply_alternator, pole_pairs, 1, 1, 100, "pole pairs"),
     MACHINE(phase, "rad", 0.0, -1e3, 1e3, "electrical angle of its voltage at t = 0"),
-    PARAM_INT(supply_alternator, pulses, 1, 1, 1000, "half waves it is let through for"),
+    PARAM_INT(circuit_supply_alternator, pulses, 1, 1, 1000, "half waves it is let through for"),
     MACHINE(inertia, "kg m^2", REQUIRED, 1e-6, 1e7, "moment of inertia of the rotor"),
     MACHINE(speed, "rad/s", REQUIRED, 0.0, 1e5, "speed of the rotor at t = 0"),
     MACHINE(windage, "N m s/rad", 0.0, 0.0, 1e6, "braking torque of bearings and gas over speed"),
     MACHINE(inductance, "H", REQUIRED, 1e-12, 1.0, "inductance of the compensated winding and leads"),
     MACHINE(resistance, "ohm", 0.0, 0.0, 1e3, "resistance of winding and leads"),
     MACHINE(fire_at, "s", 0.0, 0.0, INFINITY, "instant from which it is let through; beyond options.max_time = never"),
-    SUPPLY_POSITION(supply_alternator),
+    SUPPLY_POSITION(circuit_supply_alternator),
     PARAMS_END
 };
 
@@ -33,25 +33,25 @@ static int unknowns(const void *p)
 
 static int pulses(const void *p)
 {
-    return ((const supply_alternator *)p)->pulses;
+    return ((const circuit_supply_alternator *)p)->pulses;
 }
 
 static double rise(const void *params)
 {
-    const supply_alternator *p = params;
+    const circuit_supply_alternator *p = params;
     return 1.5707963267948966 / (p->pole_pairs * fmax(p->speed, 1.0));
 }
 
 static void start(const void *params, double *y, supply_scale *scale)
 {
-    const supply_alternator *p = params;
+    const circuit_supply_alternator *p = params;
     y[1] = p->speed;
     *scale = (supply_scale){ .y = { fmax(p->flux / (p->pole_pairs * p->inductance), 1.0), fmax(p->speed, 1.0), 1.0 },
                              .voltage = p->flux * p->speed,
                              .energy = 0.5 * p->inertia * p->speed * p->speed };
 }
 
-static double flux_at(const supply_alternator *p, double angle)
+static double flux_at(const circuit_supply_alternator *p, double angle)
 {
     return p->flux * sin(p->pole_pairs * angle + p->phase);
 }
@@ -63,7 +63,7 @@ static double voltage(const supply_group *g, const double *y)
 
 static void flow(const supply_group *g, double t, const double *y, supply_flow *f)
 {
-    const supply_alternator *p = g->p;
+    const circuit_supply_alternator *p = g->p;
     (void)t;
     const double e = flux_at(p, y[2]), i = y[0], w = y[1];
     f->push = (e * w - p->resistance * i) / p->inductance;
@@ -76,7 +76,7 @@ static void flow(const supply_group *g, double t, const double *y, supply_flow *
 
 static void stored(const supply_group *g, const double *y, double *e)
 {
-    const supply_alternator *p = g->p;
+    const circuit_supply_alternator *p = g->p;
     e[STORE_COIL] += 0.5 * p->inductance * y[0] * y[0];
     e[STORE_ROTOR] += 0.5 * p->inertia * y[1] * y[1];
 }
@@ -84,8 +84,8 @@ static void stored(const supply_group *g, const double *y, double *e)
 const supply_kind circuit_kind_alternator = {
     .name = "alternator",
     .params = circuit_supply_alternator_params,
-    .size = sizeof(supply_alternator),
-    .charge = offsetof(supply_alternator, speed),
+    .size = sizeof(circuit_supply_alternator),
+    .charge = offsetof(circuit_supply_alternator, speed),
     .unknowns = unknowns,
     .pulses = pulses,
     .rise = rise,

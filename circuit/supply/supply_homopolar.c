@@ -7,9 +7,9 @@
 #include <math.h>
 
 #define MACHINE(member, unit, fallback, min, max, doc) \
-    PARAM_DOUBLE(supply_homopolar, member, unit, fallback, min, max, doc)
-const param circuit_supply_homopolar_params[] = {
-    PARAM_INT(supply_homopolar, count, 1, 1, 1e6, "identical machines in this group"),
+    PARAM_DOUBLE(circuit_supply_homopolar, member, unit, fallback, min, max, doc)
+const base_param circuit_supply_homopolar_params[] = {
+    PARAM_INT(circuit_supply_homopolar, count, 1, 1, 1e6, "identical machines in this group"),
     MACHINE(flux, "V s/rad", REQUIRED, 1e-6, 1e4, "voltage over speed, torque over current"),
     MACHINE(inertia, "kg m^2", REQUIRED, 1e-6, 1e7, "moment of inertia of the rotor"),
     MACHINE(speed, "rad/s", REQUIRED, 0.0, 1e5, "speed of the rotor at t = 0"),
@@ -17,7 +17,7 @@ const param circuit_supply_homopolar_params[] = {
     MACHINE(inductance, "H", REQUIRED, 1e-12, 1.0, "inductance of machine and leads"),
     MACHINE(resistance, "ohm", 0.0, 0.0, 1e3, "resistance of machine and leads"),
     MACHINE(fire_at, "s", 0.0, 0.0, INFINITY, "instant at which it is switched on; beyond options.max_time = never"),
-    SUPPLY_POSITION(supply_homopolar),
+    SUPPLY_POSITION(circuit_supply_homopolar),
     PARAMS_END
 };
 
@@ -29,13 +29,13 @@ static int unknowns(const void *p)
 
 static double rise(const void *params)
 {
-    const supply_homopolar *p = params;
+    const circuit_supply_homopolar *p = params;
     return 1.5707963267948966 * sqrt(p->inductance * p->inertia) / p->flux;
 }
 
 static void start(const void *params, double *y, supply_scale *scale)
 {
-    const supply_homopolar *p = params;
+    const circuit_supply_homopolar *p = params;
     y[1] = p->speed;
     *scale = (supply_scale){ .y = { fmax(p->speed * sqrt(p->inertia / p->inductance), 1.0), fmax(p->speed, 1.0) },
                              .voltage = p->flux * p->speed,
@@ -44,12 +44,12 @@ static void start(const void *params, double *y, supply_scale *scale)
 
 static double voltage(const supply_group *g, const double *y)
 {
-    return ((const supply_homopolar *)g->p)->flux * y[1];
+    return ((const circuit_supply_homopolar *)g->p)->flux * y[1];
 }
 
 static void flow(const supply_group *g, double t, const double *y, supply_flow *f)
 {
-    const supply_homopolar *p = g->p;
+    const circuit_supply_homopolar *p = g->p;
     (void)t;
     const double i = y[0], w = y[1];
     f->push = (p->flux * w - p->resistance * i) / p->inductance;
@@ -61,7 +61,7 @@ static void flow(const supply_group *g, double t, const double *y, supply_flow *
 
 static void stored(const supply_group *g, const double *y, double *e)
 {
-    const supply_homopolar *p = g->p;
+    const circuit_supply_homopolar *p = g->p;
     e[STORE_COIL] += 0.5 * p->inductance * y[0] * y[0];
     e[STORE_ROTOR] += 0.5 * p->inertia * y[1] * y[1];
 }
@@ -69,8 +69,8 @@ static void stored(const supply_group *g, const double *y, double *e)
 const supply_kind circuit_kind_homopolar = {
     .name = "homopolar",
     .params = circuit_supply_homopolar_params,
-    .size = sizeof(supply_homopolar),
-    .charge = offsetof(supply_homopolar, speed),
+    .size = sizeof(circuit_supply_homopolar),
+    .charge = offsetof(circuit_supply_homopolar, speed),
     .unknowns = unknowns,
     .rise = rise,
     .start = start,

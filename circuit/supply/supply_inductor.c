@@ -11,9 +11,9 @@
 enum { SWITCH_CLOSED, SWITCH_OPEN };
 
 #define STORE(member, unit, fallback, min, max, doc) \
-    PARAM_DOUBLE(supply_inductor, member, unit, fallback, min, max, doc)
-const param circuit_supply_inductor_params[] = {
-    PARAM_INT(supply_inductor, count, 1, 1, 1e6, "identical stores in this group"),
+    PARAM_DOUBLE(circuit_supply_inductor, member, unit, fallback, min, max, doc)
+const base_param circuit_supply_inductor_params[] = {
+    PARAM_INT(circuit_supply_inductor, count, 1, 1, 1e6, "identical stores in this group"),
     STORE(inductance, "H", REQUIRED, 1e-9, 10.0, "inductance of the store"),
     STORE(resistance, "ohm", 0.0, 0.0, 1e3, "resistance of store, battery and leads in series"),
     STORE(current, "A", 0.0, 0.0, 1e8, "current in the store at t = 0"),
@@ -23,7 +23,7 @@ const param circuit_supply_inductor_params[] = {
     STORE(cable_inductance, "H", REQUIRED, 1e-12, 1.0, "inductance of the cable to the rails"),
     STORE(cable_resistance, "ohm", 0.0, 0.0, 1e3, "resistance of the cable to the rails"),
     STORE(fire_at, "s", 0.0, 0.0, INFINITY, "instant at which the switch opens; beyond options.max_time = never"),
-    SUPPLY_POSITION(supply_inductor),
+    SUPPLY_POSITION(circuit_supply_inductor),
     PARAMS_END
 };
 
@@ -34,7 +34,7 @@ static int unknowns(const void *p)
 }
 
 /* Current in the store at time t with the switch closed. */
-static double charged_current(const supply_inductor *p, double t)
+static double charged_current(const circuit_supply_inductor *p, double t)
 {
     if (p->resistance == 0.0) return p->current + p->battery_voltage / p->inductance * t;
     const double full = p->battery_voltage / p->resistance;
@@ -43,13 +43,13 @@ static double charged_current(const supply_inductor *p, double t)
 
 static double rise(const void *params)
 {
-    const supply_inductor *p = params;
+    const circuit_supply_inductor *p = params;
     return charged_current(p, p->fire_at) * p->cable_inductance / p->opening_voltage;
 }
 
 static void start(const void *params, double *y, supply_scale *scale)
 {
-    const supply_inductor *p = params;
+    const circuit_supply_inductor *p = params;
     const double i = fmax(isfinite(p->fire_at) ? charged_current(p, p->fire_at) : p->current, 1.0);
     y[1] = p->current;
     *scale = (supply_scale){ .y = { i, i }, .voltage = p->opening_voltage, .energy = 0.5 * p->inductance * i * i };
@@ -62,7 +62,7 @@ static bool algebraic(const supply_group *g, int j)
 
 static void flow(const supply_group *g, double t, const double *y, supply_flow *f)
 {
-    const supply_inductor *p = g->p;
+    const circuit_supply_inductor *p = g->p;
     (void)t;
     const bool open = g->stage == SWITCH_OPEN, opening = !open && g->gate != GATE_UNFIRED;
     const double U = opening ? p->opening_voltage : 0.0, i = y[0], i_s = open ? i : y[1];
@@ -78,22 +78,22 @@ static void flow(const supply_group *g, double t, const double *y, supply_flow *
 
 static double root(const supply_group *g, double t, const double *y)
 {
-    const supply_inductor *p = g->p;
+    const circuit_supply_inductor *p = g->p;
     (void)t;
     if (g->gate == GATE_UNFIRED || g->stage == SWITCH_OPEN) return 1.0;
     return (y[1] - y[0]) / fmax(charged_current(p, p->fire_at), 1.0);
 }
 
-static shot_event_kind next(supply_group *g, double *y)
+static circuit_shot_event_kind next(supply_group *g, double *y)
 {
     y[1] = y[0];
     g->stage = SWITCH_OPEN;
-    return SHOT_COMMUTATED;
+    return CIRCUIT_SHOT_COMMUTATED;
 }
 
 static void stored(const supply_group *g, const double *y, double *e)
 {
-    const supply_inductor *p = g->p;
+    const circuit_supply_inductor *p = g->p;
     e[STORE_COIL] += 0.5 * p->inductance * y[1] * y[1];
     e[STORE_CABLE] += 0.5 * p->cable_inductance * y[0] * y[0];
 }
@@ -101,7 +101,7 @@ static void stored(const supply_group *g, const double *y, double *e)
 static double voltage(const supply_group *g, const double *y)
 {
     (void)y;
-    const supply_inductor *p = g->p;
+    const circuit_supply_inductor *p = g->p;
     const bool opening = g->stage == SWITCH_CLOSED && (g->gate == GATE_ON || g->gate == GATE_WAITING);
     return opening ? p->opening_voltage : 0.0;
 }
@@ -109,8 +109,8 @@ static double voltage(const supply_group *g, const double *y)
 const supply_kind circuit_kind_inductor = {
     .name = "inductor",
     .params = circuit_supply_inductor_params,
-    .size = sizeof(supply_inductor),
-    .charge = offsetof(supply_inductor, current),
+    .size = sizeof(circuit_supply_inductor),
+    .charge = offsetof(circuit_supply_inductor, current),
     .unknowns = unknowns,
     .rise = rise,
     .start = start,

@@ -36,10 +36,10 @@ typedef struct supply_kind supply_kind;
 /* A group as it stands. */
 typedef struct {
     const supply_kind *kind;
-    const void *p;    /* the kind's struct, owned */
-    supply_common at; /* its common part */
-    double n;         /* count as a number */
-    void *curve;      /* the kind's own memory, owned; NULL for most */
+    const void *p;            /* the kind's struct, owned */
+    circuit_supply_common at; /* its common part */
+    double n;                 /* count as a number */
+    void *curve;              /* the kind's own memory, owned; NULL for most */
     supply_gate gate;
     int stage;
     int pulses;    /* times it may still begin to conduct, after the first */
@@ -65,7 +65,7 @@ typedef struct {
 
 struct supply_kind {
     const char *name;
-    const param *params;
+    const base_param *params;
     size_t size;
     size_t charge; /* offset of the double that it is charged to; 0: a given current, which is not charged */
     bool source;   /* the power it gives is that at the rails */
@@ -82,7 +82,7 @@ struct supply_kind {
     double (*scale)(const supply_group *g, int j);                     /* of y_j in this stage; NULL: that of `start` */
     double (*knot)(const supply_group *g, double t);                   /* first time > t not to step over; NULL: none */
     double (*root)(const supply_group *g, double t, const double *y);  /* of order 1; NULL: one stage */
-    shot_event_kind (*next)(supply_group *g, double *y);               /* the stage that follows, and what to call it */
+    circuit_shot_event_kind (*next)(supply_group *g, double *y);       /* the stage that follows, and what to call it */
     void (*stored)(const supply_group *g, const double *y, double *e); /* adds to e[STORE_PLACES] [J] */
     double (*voltage)(const supply_group *g, const double *y);         /* of capacitor, switch or machine [V] */
 };
@@ -92,9 +92,9 @@ struct supply_kind {
     PARAM_DOUBLE(type, position, "m", 0.0, 0.0, 1e3, \
                  "where it joins the rails, from the breech; conducts once the armature has passed there")
 
-extern const supply_kind *const circuit_supply_kinds[]; /* SUPPLY_KINDS */
+extern const supply_kind *const circuit_supply_kinds[]; /* CIRCUIT_SUPPLY_KINDS */
 
-supply_common circuit_supply_common_of(const void *p); /* p: any kind's struct */
+circuit_supply_common circuit_supply_common_of(const void *p); /* p: any kind's struct */
 bool circuit_supply_conducts(const supply_group *g);
 /* The group's flow and rates: d[j] = dy_j/dt, or the value y_j must have where it is algebraic. */
 void circuit_supply_rates(const supply_group *g, double t, const double *y, double V, double *d, supply_flow *f);

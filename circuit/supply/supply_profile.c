@@ -11,18 +11,18 @@
 enum { MAX_POINTS = 5000 };
 static const double REST = 0.05; /* of the peak: a measured current may end with it, and falls to 0 in an interval */
 
-const param circuit_supply_profile_params[] = {
-    PARAM_INT(supply_profile, count, 1, 1, 1e6, "factor on the current"),
-    PARAM_STRING(supply_profile, file, "",
+const base_param circuit_supply_profile_params[] = {
+    PARAM_INT(circuit_supply_profile, count, 1, 1, 1e6, "factor on the current"),
+    PARAM_STRING(circuit_supply_profile, file, "",
                  "table of time [s] and current [A], a row a point; looked for beside the case"),
-    PARAM_DOUBLE(supply_profile, fire_at, "s", 0.0, 0.0, INFINITY,
+    PARAM_DOUBLE(circuit_supply_profile, fire_at, "s", 0.0, 0.0, INFINITY,
                  "instant at which the profile's time is 0; beyond options.max_time = never"),
-    SUPPLY_POSITION(supply_profile), PARAMS_END
+    SUPPLY_POSITION(circuit_supply_profile), PARAMS_END
 };
 
-const param circuit_supply_point_params[] = {
-    PARAM_DOUBLE(supply_point, time, "s", REQUIRED, 0.0, 1e3, "from fire_at"),
-    PARAM_DOUBLE(supply_point, current, "A", REQUIRED, -1e9, 1e9, "current then"), PARAMS_END
+const base_param circuit_supply_point_params[] = {
+    PARAM_DOUBLE(circuit_supply_point, time, "s", REQUIRED, 0.0, 1e3, "from fire_at"),
+    PARAM_DOUBLE(circuit_supply_point, current, "A", REQUIRED, -1e9, 1e9, "current then"), PARAMS_END
 };
 
 typedef struct {
@@ -31,7 +31,7 @@ typedef struct {
     double *t, *i; /* n each, in one piece */
 } profile_curve;
 
-static double peak_of(const supply_profile *p)
+static double peak_of(const circuit_supply_profile *p)
 {
     double peak = 1.0;
     for (int k = 0; k < p->points.n; k++) peak = fmax(peak, fabs(p->points.item[k].current));
@@ -40,11 +40,11 @@ static double peak_of(const supply_profile *p)
 
 static status check(const void *params, const char *where)
 {
-    const supply_profile *p = params;
+    const circuit_supply_profile *p = params;
     const int n = p->points.n;
     CHECK(n >= 3 && n <= MAX_POINTS, STATUS_BAD_INPUT, "%s: %d points: needs 3 .. %d; give `file` or `points`", where,
           n, MAX_POINTS);
-    const supply_point *q = p->points.item;
+    const circuit_supply_point *q = p->points.item;
     CHECK(q[0].time == 0.0 && q[0].current == 0.0 && fabs(q[n - 1].current) <= REST * peak_of(p), STATUS_BAD_INPUT,
           "%s: runs from %g A at %g s to %g A: the first point must be 0 A at 0 s, the last within 5 %% of the peak",
           where, q[0].current, q[0].time, q[n - 1].current);
@@ -66,8 +66,8 @@ static void release(supply_group *g)
 
 static status prepare(supply_group *g)
 {
-    const supply_profile *p = g->p;
-    const supply_point *point = p->points.item;
+    const circuit_supply_profile *p = g->p;
+    const circuit_supply_point *point = p->points.item;
     const int last = p->points.n - 1;
     const size_t given = (size_t)p->points.n, n = given + (point[last].current != 0.0);
     profile_curve *c = g->curve = calloc(1, sizeof *c);
@@ -94,7 +94,7 @@ static int unknowns(const void *p)
 
 static bool reverses(const void *params)
 {
-    const supply_profile *p = params;
+    const circuit_supply_profile *p = params;
     for (int k = 0; k < p->points.n; k++)
         if (p->points.item[k].current < 0.0) return true;
     return false;
@@ -102,7 +102,7 @@ static bool reverses(const void *params)
 
 static double rise(const void *params)
 {
-    const supply_profile *p = params;
+    const circuit_supply_profile *p = params;
     const double peak = peak_of(p);
     int k = 0;
     while (k < p->points.n && fabs(p->points.item[k].current) < peak) k++;
@@ -147,11 +147,11 @@ static double root(const supply_group *g, double t, const double *y)
     return (g->at.fire_at + c->t[c->n - 1] - t) / c->t[c->n - 1];
 }
 
-static shot_event_kind next(supply_group *g, double *y)
+static circuit_shot_event_kind next(supply_group *g, double *y)
 {
     y[0] = 0.0;
     g->gate = GATE_BLOCKED;
-    return SHOT_BLOCKED;
+    return CIRCUIT_SHOT_BLOCKED;
 }
 
 static void stored(const supply_group *g, const double *y, double *e)
@@ -171,7 +171,7 @@ static double voltage(const supply_group *g, const double *y)
 const supply_kind circuit_kind_profile = {
     .name = "profile",
     .params = circuit_supply_profile_params,
-    .size = sizeof(supply_profile),
+    .size = sizeof(circuit_supply_profile),
     .source = true,
     .check = check,
     .prepare = prepare,

@@ -22,10 +22,10 @@ void case_free(breech_case *c)
 
 /* ---- materials ---- */
 
-static void keep_material(case_reader *r, const material *m)
+static void keep_material(case_reader *r, const mpm_material *m)
 {
     case_materials *list = &r->out->materials;
-    material *more = realloc(list->item, ((size_t)list->n + 1) * sizeof *more);
+    mpm_material *more = realloc(list->item, ((size_t)list->n + 1) * sizeof *more);
     if (!more) {
         r->out_of_memory = true;
         return;
@@ -72,7 +72,7 @@ static void check_own(case_reader *r)
 {
     const case_materials *list = &r->out->materials;
     const tree_node *node = host_tree_find(r->root, "materials");
-    char line[PARAM_TEXT_SIZE + 100];
+    char line[BASE_PARAM_TEXT_SIZE + 100];
     for (int k = 0; k < list->n; k++) {
         const char *name = list->item[k].name;
         for (int i = 0; i < k; i++)
@@ -113,9 +113,9 @@ static void load_materials(case_reader *r)
 
 /* ---- current profiles ---- */
 
-static void profile_load(case_reader *r, supply_profile *p, const tree_node *entry)
+static void profile_load(case_reader *r, circuit_supply_profile *p, const tree_node *entry)
 {
-    char path[CASE_PATH_SIZE + PARAM_TEXT_SIZE + 2], folder[CASE_PATH_SIZE];
+    char path[CASE_PATH_SIZE + BASE_PARAM_TEXT_SIZE + 2], folder[CASE_PATH_SIZE];
     const tree_node *where = host_tree_find(entry, "file");
     if (!where) where = entry;
     if (p->file[0] == '\0') return;
@@ -133,12 +133,12 @@ static void profile_load(case_reader *r, supply_profile *p, const tree_node *ent
 /* Current profiles given as files. */
 static void load_profiles(case_reader *r)
 {
-    case_supplies *list = &r->out->supplies[SUPPLY_profile];
-    const case_section *section = case_section_find(circuit_supply_sections[SUPPLY_profile]);
+    case_supplies *list = &r->out->supplies[CIRCUIT_SUPPLY_profile];
+    const case_section *section = case_section_find(circuit_supply_sections[CIRCUIT_SUPPLY_profile]);
     const tree_node *node = host_tree_find(r->root, section->key), *from = NULL;
     for (int k = 0, i = 0; i < list->n && (from = case_entry_node(node, k)); k++)
         for (int pick = 0; pick < case_entry_values(section, from) && i < list->n; pick++)
-            profile_load(r, (supply_profile *)list->item + i++, from);
+            profile_load(r, (circuit_supply_profile *)list->item + i++, from);
 }
 
 /* ---- the whole way ---- */

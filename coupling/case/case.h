@@ -9,14 +9,14 @@
 #include <stdio.h>
 
 typedef struct breech_case {
-    char name[PARAM_TEXT_SIZE];
-    char title[PARAM_TEXT_SIZE];
-    case_supplies supplies[SUPPLY_KINDS]; /* by kind: sections `bank`, ... of circuit/supply/supply.def */
-    shot_rails rails;
-    shot_barrel barrel;
-    shot_armature armature;
-    shot_options options;
-    firing_wish optimise; /* of `breech shot` where it is given */
+    char name[BASE_PARAM_TEXT_SIZE];
+    char title[BASE_PARAM_TEXT_SIZE];
+    case_supplies supplies[CIRCUIT_SUPPLY_KINDS]; /* by kind: sections `bank`, ... of circuit/supply/supply.def */
+    circuit_shot_rails rails;
+    circuit_shot_barrel barrel;
+    circuit_shot_armature armature;
+    circuit_shot_options options;
+    circuit_firing_wish optimise; /* of `breech shot` where it is given */
     case_rail rail;
     case_projectile projectile;
     case_particle particle;

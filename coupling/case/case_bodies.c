@@ -14,17 +14,17 @@
 static const char *const overlap_names[] = { [OVERLAP_REFUSED] = "refused", [OVERLAP_LATER] = "later", NULL };
 
 /* The solver's own tables, from their first row that is a key; what is left out of an axis is chosen by scene_fill. */
-static const param *const method_params = &mpm_scene_params[MPM_SCENE_KEYED];
-static const param *const axis_params = &mpm_axis_params[MPM_AXIS_KEYED];
-static const param *const body_params = &mpm_body_params[MPM_BODY_KEYED];
-static const param *const cavity_params = &mpm_cavity_params[MPM_CAVITY_KEYED];
+static const base_param *const method_params = &mpm_scene_params[MPM_SCENE_KEYED];
+static const base_param *const axis_params = &mpm_axis_params[MPM_AXIS_KEYED];
+static const base_param *const body_params = &mpm_body_params[MPM_BODY_KEYED];
+static const base_param *const cavity_params = &mpm_cavity_params[MPM_CAVITY_KEYED];
 
 typedef struct {
     int overlap;
     double cell, coarse_cell, growth; /* of all axes that do not say it themselves; NAN: not given */
 } shared_keys;
 
-static const param shared_params[] = {
+static const base_param shared_params[] = {
     PARAM_ENUM(shared_keys, overlap, overlap_names, OVERLAP_REFUSED,
                "bodies that overlap: refused, or the later one has what both claim"),
     PARAM_DOUBLE(
@@ -38,15 +38,15 @@ static const param shared_params[] = {
 };
 
 typedef struct {
-    char name[PARAM_TEXT_SIZE];
+    char name[BASE_PARAM_TEXT_SIZE];
 } probe_keys;
 
-static const param probe_params[] = {
+static const base_param probe_params[] = {
     PARAM_STRING(probe_keys, name, NULL, "its name: letters, digits, - _ ."),
     PARAMS_END,
 };
 
-static const param refine_params[] = {
+static const base_param refine_params[] = {
     PARAM_DOUBLE(mpm_refine, cell, "m", 0.0, 0.0, 1e2,
                  "the smallest cells that the rule asks for; 0: the scene's `cell`"),
     PARAMS_END,
@@ -386,26 +386,26 @@ static void read_window(case_reader *r, const tree_node *window)
 /* One end of the window: the name of a boundary, or {prescribed: velocity}. */
 static void read_end(case_reader *r, const tree_node *node, const char *path, mpm_axis *a, int end)
 {
-    static const param velocity[] = { { .key = "prescribed",
-                                        .unit = "m/s",
-                                        .doc = "velocity",
-                                        .fallback = REQUIRED,
-                                        .min = -1e5,
-                                        .max = 1e5,
-                                        .kind = PARAM_VECTOR },
-                                      PARAMS_END };
+    static const base_param velocity[] = { { .key = "prescribed",
+                                             .unit = "m/s",
+                                             .doc = "velocity",
+                                             .fallback = REQUIRED,
+                                             .min = -1e5,
+                                             .max = 1e5,
+                                             .kind = BASE_PARAM_VECTOR },
+                                           PARAMS_END };
     static const char *const none[] = { NULL };
     if (node->kind == TREE_MAP) {
         const case_keys keys = { velocity, a->boundary_velocity[end] };
         case_keys_read(r, node, path, &keys, 1, none);
-        a->boundary[end] = BOUNDARY_PRESCRIBED;
+        a->boundary[end] = MPM_BOUNDARY_PRESCRIBED;
         return;
     }
     int kind = 0;
     const char *text = node->kind == TREE_TEXT ? node->text : "";
-    while (kind < BOUNDARY_PRESCRIBED && strcmp(mpm_boundary_names[kind], text) != 0) kind++;
-    a->boundary[end] = (boundary_kind)kind;
-    if (kind == BOUNDARY_PRESCRIBED)
+    while (kind < MPM_BOUNDARY_PRESCRIBED && strcmp(mpm_boundary_names[kind], text) != 0) kind++;
+    a->boundary[end] = (mpm_boundary_kind)kind;
+    if (kind == MPM_BOUNDARY_PRESCRIBED)
         case_errors_add(r->errors, node,
                         "%s = %.*s: must be one of free, symmetry, fixed, absorbing, or {prescribed: "
                         "velocity}",
@@ -552,7 +552,7 @@ void case_bodies_resolve(case_reader *r)
         b->material = case_material(&r->out->materials, text_of(case_entry_node(list, k), "material"));
         if (!b->material) continue; /* an error already */
         const status enough = mpm_material_check(b->material, case_material_needs(b->damage, false));
-        const bool failure = b->damage && mpm_material_check(b->material, MATERIAL_FOR_SCENE).code == STATUS_OK;
+        const bool failure = b->damage && mpm_material_check(b->material, MPM_MATERIAL_FOR_SCENE).code == STATUS_OK;
         if (enough.code != STATUS_OK)
             case_errors_add(r->errors, node, "scene.bodies[%d].material = %s: %.400s%s", k, b->material->name,
                             enough.text, failure ? " (or set damage: no)" : "");
@@ -605,7 +605,7 @@ static void write_contacts(const mpm_scene *s, FILE *file)
 
 static void write_window(const mpm_scene *s, FILE *file)
 {
-    static const param velocity = { .unit = "m/s", .kind = PARAM_VECTOR };
+    static const base_param velocity = { .unit = "m/s", .kind = BASE_PARAM_VECTOR };
     fputs("  window:\n", file);
     for (int k = 0; k < 3; k++) {
         fprintf(file, "    %s: {", mpm_axis_names[k]);
@@ -617,7 +617,7 @@ static void write_window(const mpm_scene *s, FILE *file)
         const mpm_axis *a = &s->axis[k];
         fprintf(file, "    %s: [", mpm_axis_names[k]);
         for (int e = 0; e < 2; e++) {
-            const bool moved = a->boundary[e] == BOUNDARY_PRESCRIBED;
+            const bool moved = a->boundary[e] == MPM_BOUNDARY_PRESCRIBED;
             fprintf(file, "%s%s%s", e ? ", " : "", moved ? "{" : "", mpm_boundary_names[a->boundary[e]]);
             if (!moved) continue;
             fputs(": ", file);
@@ -656,7 +656,7 @@ void case_bodies_write(const case_bodies *b, FILE *file)
 {
     const mpm_scene *s = &b->scene;
     fputs("scene:\n", file);
-    for (const param *p = method_params; p->key; p++) {
+    for (const base_param *p = method_params; p->key; p++) {
         if (!case_value_is_set(p, (const char *)s + p->offset)) continue;
         fprintf(file, "  %s: ", p->key);
         case_value_write(p, (const char *)s + p->offset, file);

@@ -39,7 +39,7 @@ void case_overlap_check(case_reader *r, const tree_node *list);
 /* ---- keys of one mapping, from several tables at once ---- */
 
 typedef struct {
-    const param *table;
+    const base_param *table;
     void *object;
 } case_keys;
 
@@ -47,7 +47,7 @@ typedef struct {
 void case_keys_read(case_reader *r, const tree_node *map, const char *path, const case_keys *keys, int n,
                     const char *const *others);
 /* "key: value" of the table's members that have a value, in flow style; each with ", " after the first. */
-void case_keys_write(const param *table, const void *object, bool first, FILE *file);
+void case_keys_write(const base_param *table, const void *object, bool first, FILE *file);
 
 /* Names the nearest of names(user, i), NULL at the end, and all of them. */
 void case_unknown_name(case_reader *r, const tree_node *where, const char *what, const char *path,

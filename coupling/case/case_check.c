@@ -13,7 +13,7 @@
 
 static void resolve_text(char *own, const char *shared)
 {
-    if (own[0] == '\0') memcpy(own, shared, PARAM_TEXT_SIZE);
+    if (own[0] == '\0') memcpy(own, shared, BASE_PARAM_TEXT_SIZE);
 }
 
 static bool is_given(const tree_node *map, const char *key)
@@ -40,16 +40,16 @@ static void resolve_site(case_site *site, const case_particle *shared, const tre
 
 /* ---- what follows from other keys ---- */
 
-static const param *row_of(const param *table, const char *key)
+static const base_param *row_of(const base_param *table, const char *key)
 {
     while (table->key && strcmp(table->key, key) != 0) table++;
     return table->key ? table : NULL;
 }
 
 /* `value` for a key that was not given, if there is a value and the key's range holds it. */
-static void follow(const tree_node *map, const param *table, void *object, const char *key, double value)
+static void follow(const tree_node *map, const base_param *table, void *object, const char *key, double value)
 {
-    const param *p = row_of(table, key);
+    const base_param *p = row_of(table, key);
     if (!is_given(map, key) && value >= p->min && value <= p->max) *(double *)((char *)object + p->offset) = value;
 }
 
@@ -80,8 +80,8 @@ static const metal_key armature_keys[] = {
 };
 
 /* m NULL: no metal is named. */
-static void follow_metal(const tree_node *map, const param *table, void *object, const metal_key *keys,
-                         const material *m)
+static void follow_metal(const tree_node *map, const base_param *table, void *object, const metal_key *keys,
+                         const mpm_material *m)
 {
     for (; m && keys->key; keys++)
         follow(map, table, object, keys->key,
@@ -95,15 +95,15 @@ static void follow_lengths(breech_case *c, const tree_node *armature)
     if (!is_given(armature, "half_bore") && isnan(p->half_bore)) p->half_bore = 0.5 * c->rails.separation;
     if (!is_given(armature, "width") && isnan(p->width)) p->width = c->rails.height;
     if (!c->given.projectile) return;
-    const param *table = circuit_shot_armature_params;
-    const bool wears = c->armature.wear_fraction > 0.0 || c->armature.friction_law == SHOT_FRICTION_FILM;
+    const base_param *table = circuit_shot_armature_params;
+    const bool wears = c->armature.wear_fraction > 0.0 || c->armature.friction_law == CIRCUIT_SHOT_FRICTION_FILM;
     follow(armature, table, &c->armature, "contact_length", p->length - p->chamfer_height / tan(p->lead_angle));
     follow(armature, table, &c->armature, "contact_width", p->width);
     follow(armature, table, &c->armature, "wear_thickness", wears ? p->leg_thickness : NAN);
 }
 
 /* A rail or an armature that is warm for the scene is so for the circuit. */
-static void follow_temperature(const tree_node *map, const param *table, void *object, double temperature)
+static void follow_temperature(const tree_node *map, const base_param *table, void *object, double temperature)
 {
     if (is_given(map, "temperature")) follow(map, table, object, "initial_temperature", temperature);
 }
@@ -167,8 +167,8 @@ static void check_supplies(case_reader *r)
 {
     const unsigned needs = r->options->needs & (CASE_FOR_SHOT | CASE_FOR_ONSET);
     bool given = !needs;
-    for (int k = 0; k < SUPPLY_KINDS; k++) given = given || r->out->supplies[k].n > 0;
-    for (int k = 0; k < SUPPLY_KINDS && !given; k++)
+    for (int k = 0; k < CIRCUIT_SUPPLY_KINDS; k++) given = given || r->out->supplies[k].n > 0;
+    for (int k = 0; k < CIRCUIT_SUPPLY_KINDS && !given; k++)
         if (host_tree_find(r->root, circuit_supply_sections[k])) given = r->errors->n > 0; /* its own errors say it */
     if (!given)
         case_errors_add(r->errors, r->root, "section `%s` is missing: `%s` needs it, or another supply",
@@ -259,8 +259,9 @@ static unsigned material_needs(const case_reader *r, const material_use *use)
     const bool lasts = (needs & CASE_FOR_LIFE) && strcmp(use->key, "life.material") == 0;
     const bool shell = (needs & CASE_FOR_VESSEL) && strcmp(use->key, "vessel.film_material") == 0;
     const bool filling = (needs & CASE_FOR_VESSEL) && strcmp(use->key, "vessel.liquid_material") == 0;
-    const unsigned wanted = (lasts ? MATERIAL_FOR_FATIGUE : 0) |
-                            (shell ? MATERIAL_FOR_SCENE | MATERIAL_FOR_DAMAGE : 0) | (filling ? MATERIAL_FOR_SCENE : 0);
+    const unsigned wanted = (lasts ? MPM_MATERIAL_FOR_FATIGUE : 0) |
+                            (shell ? MPM_MATERIAL_FOR_SCENE | MPM_MATERIAL_FOR_DAMAGE : 0) |
+                            (filling ? MPM_MATERIAL_FOR_SCENE : 0);
     bool meets = false;
     const bool in_scenes = strcmp(use->key, "life.material") != 0; /* what lasts is asked for its life alone */
     if (!(needs & (CASE_FOR_SCENE | CASE_FOR_ONSET)) || !in_scenes) return wanted;
@@ -273,12 +274,12 @@ static void check_materials(case_reader *r)
 {
     for (int k = 0; k < r->n_use; k++) {
         const material_use *use = &r->use[k];
-        const material *m = case_material(&r->out->materials, use->name);
+        const mpm_material *m = case_material(&r->out->materials, use->name);
         const unsigned needs = material_needs(r, use);
         if (!m || needs == 0) continue; /* one that could not be loaded is an error already */
         const status s = mpm_material_check(m, needs);
         const bool damage =
-            r->out->scene.damage && mpm_material_check(m, needs & ~(unsigned)MATERIAL_FOR_DAMAGE).code == STATUS_OK;
+            r->out->scene.damage && mpm_material_check(m, needs & ~(unsigned)MPM_MATERIAL_FOR_DAMAGE).code == STATUS_OK;
         if (s.code != STATUS_OK)
             case_errors_add(r->errors, use->where, "%s = %s: %.400s%s", use->key, use->name, s.text,
                             damage ? " (or set scene.damage: no)" : "");
@@ -288,7 +289,7 @@ static void check_materials(case_reader *r)
 /* A temperature that is given must leave the metal solid, where it is known when that melts. */
 static void check_solid(case_reader *r, const char *section, const char *key, double temperature, const char *name)
 {
-    const material *m = case_material(&r->out->materials, name);
+    const mpm_material *m = case_material(&r->out->materials, name);
     char text[200];
     if (!m || !(m->melting_temperature > 0.0) || !is_given(host_tree_find(r->root, section), key)) return;
     snprintf(text, sizeof text, "%.60s melts at %g K", name, m->melting_temperature);

@@ -30,7 +30,7 @@ static const case_section *section_of(const char *path, bool bodies)
 static const char *doc_in(const case_section *section, const char *key)
 {
     for (const case_section *part = section; part; part = part->also)
-        for (const param *p = part->table; p->key; p++)
+        for (const base_param *p = part->table; p->key; p++)
             if (strcmp(p->key, key) == 0) return p->doc;
     return NULL;
 }

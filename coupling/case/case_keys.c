@@ -15,7 +15,7 @@ static const char *known_name(const void *user, int i)
 {
     const known *k = user;
     for (int t = 0; t < k->n; t++)
-        for (const param *p = k->keys[t].table; p->key; p++)
+        for (const base_param *p = k->keys[t].table; p->key; p++)
             if (i-- == 0) return p->key;
     for (int o = 0; k->others[o]; o++)
         if (i-- == 0) return k->others[o];
@@ -47,7 +47,7 @@ static void read_one(case_reader *r, const known *k, const tree_node *key, const
     char inner[CASE_KEY_SIZE];
     snprintf(inner, sizeof inner, "%.*s.%.*s", CASE_KEY_SIZE - CASE_SHOWN - 2, path, CASE_SHOWN, key->text);
     for (int t = 0; t < k->n; t++)
-        for (const param *p = k->keys[t].table; p->key; p++)
+        for (const base_param *p = k->keys[t].table; p->key; p++)
             if (strcmp(p->key, key->text) == 0) {
                 case_value_read(r, p, value, (char *)k->keys[t].object + p->offset, inner);
                 return;
@@ -55,9 +55,9 @@ static void read_one(case_reader *r, const known *k, const tree_node *key, const
     if (!is_other(k->others, key->text)) case_unknown_name(r, key, "key", path, known_name, k);
 }
 
-static bool is_required(const param *p)
+static bool is_required(const base_param *p)
 {
-    return p->kind == PARAM_TEXT ? !p->fallback_text : isinf(p->fallback);
+    return p->kind == BASE_PARAM_TEXT ? !p->fallback_text : isinf(p->fallback);
 }
 
 void case_keys_read(case_reader *r, const tree_node *map, const char *path, const case_keys *keys, int n,
@@ -73,15 +73,15 @@ void case_keys_read(case_reader *r, const tree_node *map, const char *path, cons
         for (int i = 0; i < map->n; i++) read_one(r, &k, map->key[i], map->item[i], path);
     }
     for (int t = 0; t < n; t++)
-        for (const param *p = keys[t].table; p->key; p++)
+        for (const base_param *p = keys[t].table; p->key; p++)
             if (is_required(p) && !host_tree_find(map, p->key))
                 case_errors_add(r->errors, map, "%s.%s is missing%s%s%s: %s", path, p->key, *p->unit != '1' ? " [" : "",
                                 *p->unit != '1' ? p->unit : "", *p->unit != '1' ? "]" : "", p->doc);
 }
 
-void case_keys_write(const param *table, const void *object, bool first, FILE *file)
+void case_keys_write(const base_param *table, const void *object, bool first, FILE *file)
 {
-    for (const param *p = table; p->key; p++) {
+    for (const base_param *p = table; p->key; p++) {
         const void *member = (const char *)object + p->offset;
         if (!case_value_is_set(p, member)) continue;
         fprintf(file, "%s%s: ", first ? "" : ", ", p->key);

@@ -11,7 +11,7 @@ double case_layers_thickness(const case_layers *layers)
     return sum;
 }
 
-const material *case_material(const case_materials *list, const char *name)
+const mpm_material *case_material(const case_materials *list, const char *name)
 {
     for (int k = 0; k < list->n; k++)
         if (strcmp(list->item[k].name, name) == 0) return &list->item[k];

@@ -109,7 +109,7 @@ static status bring_file(case_edits *e, const tree_node *value, const char *fold
 
 static status bring_material(const tree_node *value, const char *folder, const char *to)
 {
-    char name[PARAM_TEXT_SIZE + 8], from[CASE_START_SIZE], copy[CASE_START_SIZE];
+    char name[BASE_PARAM_TEXT_SIZE + 8], from[CASE_START_SIZE], copy[CASE_START_SIZE];
     if (!case_material_name_valid(value->text)) return status_ok();
     snprintf(name, sizeof name, "%s.yaml", value->text);
     TRY(path_in(from, folder, name));

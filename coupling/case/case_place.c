@@ -64,7 +64,7 @@ static const tree_node *node_at(const tree_node *root, const char *path, size_t 
     const char *end = path + length;
     *whole = false;
     while (at && path < end) {
-        char key[PARAM_TEXT_SIZE];
+        char key[BASE_PARAM_TEXT_SIZE];
         const size_t n = strcspn(path, ".[");
         snprintf(key, sizeof key, "%.*s", (int)(n < (size_t)(end - path) ? n : (size_t)(end - path)), path);
         const case_section *section = at == root ? case_section_find(key) : NULL;

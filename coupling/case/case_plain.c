@@ -38,7 +38,7 @@ static bool names_material(const void *of, const char *name)
 /* By name, so that the order in which the case came upon them does not count. */
 static int by_name(const void *a, const void *b)
 {
-    return strcmp(((const material *)a)->name, ((const material *)b)->name);
+    return strcmp(((const mpm_material *)a)->name, ((const mpm_material *)b)->name);
 }
 
 /* Those of all that are named; out->item is owned. */
@@ -106,10 +106,13 @@ case_body_scene case_body_scene_of(const case_inputs *in)
 
 /* ---- a shot over grains ---- */
 
-static shot_config launcher_of(const breech_case *c)
+static circuit_shot_config launcher_of(const breech_case *c)
 {
-    shot_config config = { .rails = c->rails, .barrel = c->barrel, .armature = c->armature, .options = c->options };
-    for (int k = 0; k < SUPPLY_KINDS; k++) config.supplies[k] = (supply_list){ c->supplies[k].n, c->supplies[k].item };
+    circuit_shot_config config = {
+        .rails = c->rails, .barrel = c->barrel, .armature = c->armature, .options = c->options
+    };
+    for (int k = 0; k < CIRCUIT_SUPPLY_KINDS; k++)
+        config.supplies[k] = (circuit_supply_list){ c->supplies[k].n, c->supplies[k].item };
     return config;
 }
 
@@ -135,7 +138,7 @@ case_flight case_flight_of(const case_onset *c)
 
 case_surface case_surface_of(const case_onset *c)
 {
-    const material *armature = case_material(&c->impact.materials, c->impact.armature.material);
+    const mpm_material *armature = case_material(&c->impact.materials, c->impact.armature.material);
     return (case_surface){ .armature = armature,
                            .armature_hardness = c->impact.armature.yield_scale * armature->hardness,
                            .rail = c->impact.rail,

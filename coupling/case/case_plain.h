@@ -44,8 +44,8 @@ status case_body_scene_write(const case_body_scene *s, FILE *file);
 /* A shot over grains on the rail: the launcher, the grains, what their scenes are made of, how thresholds are looked
  * for.  What studies of onset vary. */
 typedef struct {
-    shot_config launcher;    /* supplies, rails, barrel, armature and tolerances; no sites */
-    double history_interval; /* of the shot: least time between two samples [s]; NaN: every step */
+    circuit_shot_config launcher; /* supplies, rails, barrel, armature and tolerances; no sites */
+    double history_interval;      /* of the shot: least time between two samples [s]; NaN: every step */
     case_sites sites;
     case_populations populations;
     bool has_body; /* impact.armature is given; else the circuit's contact is all there is */
@@ -55,7 +55,7 @@ typedef struct {
 
 /* A shot past the grains of the rail. */
 typedef struct {
-    shot_config launcher;
+    circuit_shot_config launcher;
     const case_projectile *body; /* whose face is pressed on the rail; NULL: the circuit's contact is all there is */
     const case_site *site;       /* n_sites */
     int n_sites;
@@ -65,7 +65,7 @@ case_flight case_flight_of(const case_onset *c);
 
 /* What meets at the rail's surface: the armature, and the rail with its layers.  What it points to is borrowed. */
 typedef struct {
-    const material *armature;
+    const mpm_material *armature;
     double armature_hardness; /* its material's by its yield_scale [Pa] */
     case_rail rail;
     case_materials materials;
@@ -79,7 +79,7 @@ typedef struct {
     const char *warnings; /* a line each */
     case_given given;
     case_onset onset;
-    firing_wish optimise;
+    circuit_firing_wish optimise;
     case_treatments treatments;
     case_bodies bodies;
     case_sweep sweep;

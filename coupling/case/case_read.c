@@ -20,8 +20,8 @@ static void wrong(case_reader *r, const tree_node *node, const char *path, const
     case_errors_add(r->errors, node, "%s = %.*s: %s", path, CASE_SHOWN, node->text, reason);
 }
 
-static void out_of_range(case_reader *r, const param *p, const tree_node *node, const char *path, const char *user_unit,
-                         double value)
+static void out_of_range(case_reader *r, const base_param *p, const tree_node *node, const char *path,
+                         const char *user_unit, double value)
 {
     char limits[LIMITS_SIZE];
     const char *must = p->min > 0.0 && value <= 0.0 ? "must be positive" : "must lie within the range";
@@ -32,14 +32,14 @@ static void out_of_range(case_reader *r, const param *p, const tree_node *node, 
 static const double UNIT_ROUNDING = 1e-14; /* quantities keep 15 digits when their unit changes [1] */
 
 /* A limit given in another unit, 90 deg for pi/2, may miss it by rounding. */
-static double on_limit(double value, const param *p)
+static double on_limit(double value, const base_param *p)
 {
     if (isfinite(p->max) && fabs(value - p->max) <= UNIT_ROUNDING * fabs(p->max)) return p->max;
     if (isfinite(p->min) && fabs(value - p->min) <= UNIT_ROUNDING * fabs(p->min)) return p->min;
     return value;
 }
 
-static void read_number(case_reader *r, const param *p, const tree_node *node, double *member, const char *path)
+static void read_number(case_reader *r, const base_param *p, const tree_node *node, double *member, const char *path)
 {
     char user_unit[UNIT_SIZE];
     double value;
@@ -63,7 +63,7 @@ static void read_number(case_reader *r, const param *p, const tree_node *node, d
         *member = value;
 }
 
-static void read_integer(case_reader *r, const param *p, const tree_node *node, int *member, const char *path)
+static void read_integer(case_reader *r, const base_param *p, const tree_node *node, int *member, const char *path)
 {
     char *end = NULL;
     const double value = strtod(node->text, &end); /* 1e3 is one too */
@@ -92,7 +92,7 @@ static const char *choice_name(const void *choices, int i)
     return ((const char *const *)choices)[i];
 }
 
-static void read_choice(case_reader *r, const param *p, const tree_node *node, int *member, const char *path)
+static void read_choice(case_reader *r, const base_param *p, const tree_node *node, int *member, const char *path)
 {
     char known[200] = "";
     for (int k = 0; p->choices[k]; k++) {
@@ -132,23 +132,24 @@ static bool names_material(const char *key)
     return n >= whole && strcmp(key + n - whole, "material") == 0;
 }
 
-static void read_text(case_reader *r, const param *p, const tree_node *node, char *member, const char *path)
+static void read_text(case_reader *r, const base_param *p, const tree_node *node, char *member, const char *path)
 {
-    if (strlen(node->text) >= PARAM_TEXT_SIZE) {
+    if (strlen(node->text) >= BASE_PARAM_TEXT_SIZE) {
         case_errors_add(r->errors, node, "%s = %.*s...: longer than %d bytes", path, CASE_SHOWN, node->text,
-                        PARAM_TEXT_SIZE - 1);
+                        BASE_PARAM_TEXT_SIZE - 1);
         return;
     }
     if (!p->fallback_text && node->text[0] == '\0') {
         case_errors_add(r->errors, node, "%s is empty: %s", path, p->doc);
         return;
     }
-    snprintf(member, PARAM_TEXT_SIZE, "%s", node->text);
+    snprintf(member, BASE_PARAM_TEXT_SIZE, "%s", node->text);
     if (names_material(p->key) && node->text[0] != '\0') case_note_material(r, node->text, node, path);
 }
 
 /* "0 -50 50 mm": three numbers and the unit of all. */
-static void read_vector_text(case_reader *r, const param *p, const tree_node *node, double *member, const char *path)
+static void read_vector_text(case_reader *r, const base_param *p, const tree_node *node, double *member,
+                             const char *path)
 {
     const char *number[3];
     char *end = node->text;
@@ -171,7 +172,7 @@ static void read_vector_text(case_reader *r, const param *p, const tree_node *no
     }
 }
 
-static void read_vector(case_reader *r, const param *p, const tree_node *node, double *member, const char *path)
+static void read_vector(case_reader *r, const base_param *p, const tree_node *node, double *member, const char *path)
 {
     char entry[CASE_KEY_SIZE];
     if (node->kind == TREE_TEXT) {
@@ -191,7 +192,7 @@ static void read_vector(case_reader *r, const param *p, const tree_node *node, d
     }
 }
 
-static void read_points(case_reader *r, const param *p, const tree_node *node, double *member, const char *path)
+static void read_points(case_reader *r, const base_param *p, const tree_node *node, double *member, const char *path)
 {
     char entry[CASE_KEY_SIZE];
     if (node->kind != TREE_LIST || node->n < 1 || node->n > p->room) {
@@ -211,13 +212,13 @@ static void read_points(case_reader *r, const param *p, const tree_node *node, d
     }
 }
 
-void case_value_read(case_reader *r, const param *p, const tree_node *node, void *member, const char *path)
+void case_value_read(case_reader *r, const base_param *p, const tree_node *node, void *member, const char *path)
 {
-    if (p->kind == PARAM_VECTOR) {
+    if (p->kind == BASE_PARAM_VECTOR) {
         read_vector(r, p, node, member, path);
         return;
     }
-    if (p->kind == PARAM_POINTS) {
+    if (p->kind == BASE_PARAM_POINTS) {
         read_points(r, p, node, member, path);
         return;
     }
@@ -231,13 +232,13 @@ void case_value_read(case_reader *r, const param *p, const tree_node *node, void
         return;
     }
     switch (p->kind) {
-    case PARAM_NUMBER: read_number(r, p, node, member, path); break;
-    case PARAM_INTEGER: read_integer(r, p, node, member, path); break;
-    case PARAM_FLAG: read_flag(r, node, member, path); break;
-    case PARAM_CHOICE: read_choice(r, p, node, member, path); break;
-    case PARAM_TEXT: read_text(r, p, node, member, path); break;
-    case PARAM_VECTOR:
-    case PARAM_POINTS: break;
+    case BASE_PARAM_NUMBER: read_number(r, p, node, member, path); break;
+    case BASE_PARAM_INTEGER: read_integer(r, p, node, member, path); break;
+    case BASE_PARAM_FLAG: read_flag(r, node, member, path); break;
+    case BASE_PARAM_CHOICE: read_choice(r, p, node, member, path); break;
+    case BASE_PARAM_TEXT: read_text(r, p, node, member, path); break;
+    case BASE_PARAM_VECTOR:
+    case BASE_PARAM_POINTS: break;
     }
 }
 
@@ -246,7 +247,7 @@ void case_value_read(case_reader *r, const param *p, const tree_node *node, void
 static const char *known_key(const void *user, int i)
 {
     for (const case_section *part = user; part; part = part->also) {
-        for (const param *p = part->table; p->key; p++)
+        for (const base_param *p = part->table; p->key; p++)
             if (i-- == 0) return p->key;
         for (const case_section *s = part->children; s && s->key; s++)
             if (i-- == 0) return s->key;
@@ -288,9 +289,9 @@ static void unknown_key(case_reader *r, const case_section *section, const tree_
     case_errors_add(r->errors, key, "unknown key `%.*s`%s%s; known are %s", CASE_SHOWN, key->text, in, path, known);
 }
 
-static bool is_required(const param *p)
+static bool is_required(const base_param *p)
 {
-    if (p->kind == PARAM_TEXT) return p->fallback_text == NULL;
+    if (p->kind == BASE_PARAM_TEXT) return p->fallback_text == NULL;
     return isinf(p->fallback);
 }
 
@@ -299,19 +300,19 @@ static void join(char out[CASE_KEY_SIZE], const char *path, const char *key)
     snprintf(out, CASE_KEY_SIZE, "%s%s%s", path, path[0] ? "." : "", key);
 }
 
-static void missing_key(case_reader *r, const param *p, const tree_node *where, const char *path)
+static void missing_key(case_reader *r, const base_param *p, const tree_node *where, const char *path)
 {
     char key[CASE_KEY_SIZE];
     join(key, path, p->key);
-    if (p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR)
+    if (p->kind == BASE_PARAM_NUMBER || p->kind == BASE_PARAM_VECTOR)
         case_errors_add(r->errors, where, "%s is missing [%s]: %s", key, p->unit, p->doc);
     else
         case_errors_add(r->errors, where, "%s is missing: %s", key, p->doc);
 }
 
-static const param *param_of(const case_section *section, const char *key)
+static const base_param *param_of(const case_section *section, const char *key)
 {
-    for (const param *p = section->table; p->key; p++)
+    for (const base_param *p = section->table; p->key; p++)
         if (strcmp(p->key, key) == 0) return p;
     return NULL;
 }
@@ -352,9 +353,10 @@ static bool is_bare_value(const case_section *section, const tree_node *node)
 }
 
 /* Does a list of values stand for this key of an entry? */
-static bool is_spread(const case_section *section, const tree_node *value, const param *p)
+static bool is_spread(const case_section *section, const tree_node *value, const base_param *p)
 {
-    return section->spread && value->kind == TREE_LIST && p && p->kind != PARAM_VECTOR && p->kind != PARAM_POINTS;
+    return section->spread && value->kind == TREE_LIST && p && p->kind != BASE_PARAM_VECTOR &&
+           p->kind != BASE_PARAM_POINTS;
 }
 
 const tree_node *case_entry_node(const tree_node *list, int k)
@@ -385,8 +387,8 @@ static void check_spread(case_reader *r, const case_section *section, const tree
 }
 
 /* The value of one key: that of place `pick` where a list of values is given. */
-static void read_key(case_reader *r, const case_section *section, const param *p, const tree_node *node, void *member,
-                     const char *path, int pick)
+static void read_key(case_reader *r, const case_section *section, const base_param *p, const tree_node *node,
+                     void *member, const char *path, int pick)
 {
     char entry[CASE_KEY_SIZE + 16];
     if (!is_spread(section, node, p)) {
@@ -425,7 +427,7 @@ static void check_required(case_reader *r, const case_section *section, const tr
 {
     for (const case_section *part = section; part; part = part->also) {
         if (section->also && !has_part(part, map) && !(part->needed_for & r->options->needs)) continue;
-        for (const param *p = part->table; p->key; p++)
+        for (const base_param *p = part->table; p->key; p++)
             if (is_required(p) && !host_tree_find(map, p->key) && !is_mistyped(r, section, map, p->key))
                 missing_key(r, p, map, path);
     }
@@ -448,7 +450,7 @@ static void read_map(case_reader *r, const case_section *section, const tree_nod
     for (int k = 0; map->kind == TREE_MAP && k < map->n; k++) {
         char inner[CASE_KEY_SIZE];
         const case_section *part = part_of(section, map->key[k]->text);
-        const param *p = part ? param_of(part, map->key[k]->text) : NULL;
+        const base_param *p = part ? param_of(part, map->key[k]->text) : NULL;
         if (!part) unknown_key(r, section, map->key[k], path);
         if (!p) continue;
         join(inner, path, p->key);

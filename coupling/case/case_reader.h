@@ -14,7 +14,7 @@ enum { CASE_MAX_ENTRIES = 5000, CASE_KEY_SIZE = 160, CASE_SHOWN = 60 };
 
 /* A place where the case names a material. */
 typedef struct {
-    char name[PARAM_TEXT_SIZE], key[CASE_KEY_SIZE];
+    char name[BASE_PARAM_TEXT_SIZE], key[CASE_KEY_SIZE];
     const tree_node *where; /* borrowed from the tree */
 } material_use;
 
@@ -49,6 +49,11 @@ status case_file_of(const char *path, char file[CASE_PATH_SIZE]);
 /* The same; where nothing is there and a case of this name (`NAME`, `cases/NAME`) came with the program, that one's. */
 status case_file_find(const char *path, char file[CASE_PATH_SIZE]);
 void case_folder_of(const char *file, char folder[CASE_PATH_SIZE]);
+bool case_file_is_same(const char *a, const char *b);
+
+/* The tree of a material's file, over those that it names as `base`, which lie in its folder or in those of the
+ * options.  *root NULL: errors were found that leave nothing to read. */
+status case_material_tree_read(case_reader *r, const char *bytes, size_t length, const char *path, tree_node **root);
 
 /* A section, or all entries of a list, into its place in `parent`; path is "" for the root.  node NULL: defaults only.
  */
@@ -57,11 +62,11 @@ void case_section_read(case_reader *r, const case_section *section, const tree_n
 void case_section_free(const case_section *section, void *parent);
 
 /* One value by its param, with unit and range. */
-void case_value_read(case_reader *r, const param *p, const tree_node *node, void *member, const char *path);
+void case_value_read(case_reader *r, const base_param *p, const tree_node *node, void *member, const char *path);
 
 /* One value as it is written; has it one at all? */
-void case_value_write(const param *p, const void *member, FILE *file);
-bool case_value_is_set(const param *p, const void *member);
+void case_value_write(const base_param *p, const void *member, FILE *file);
+bool case_value_is_set(const base_param *p, const void *member);
 
 /* A place that names a material without a key of that name. */
 void case_note_material(case_reader *r, const char *name, const tree_node *where, const char *path);

@@ -11,13 +11,13 @@
 
 static const char *const judge_names[] = { [JUDGE_GROWTH] = "growth", [JUDGE_SEVERITY] = "severity", NULL };
 
-static const param case_params[] = {
+static const base_param case_params[] = {
     PARAM_STRING(breech_case, name, NULL, "short name of the case: its output goes to out/<name>"),
     PARAM_STRING(breech_case, title, "", "one line for reports"),
     PARAMS_END,
 };
 
-static const param layer_params[] = {
+static const base_param layer_params[] = {
     PARAM_STRING(case_layer, material, NULL, "the layer's material"),
     PARAM_DOUBLE(case_layer, thickness, "m", REQUIRED, 1e-6, 0.1, "its thickness"),
     PARAM_DOUBLE(case_layer, bond_strength, "Pa", OPTIONAL, 0.0, 1e11,
@@ -28,7 +28,7 @@ static const param layer_params[] = {
     PARAMS_END,
 };
 
-static const param rail_params[] = {
+static const base_param rail_params[] = {
     PARAM_STRING(case_rail, material, NULL, "the rail's material"),
     PARAM_DOUBLE(case_rail, temperature, "K", 293.0, 4.0, 2000.0, "rail ahead of the armature: initial or preheat"),
     PARAM_DOUBLE(case_rail, yield_scale, "1", 1.0, 0.01, 100.0,
@@ -38,7 +38,7 @@ static const param rail_params[] = {
     PARAMS_END,
 };
 
-static const param projectile_params[] = {
+static const base_param projectile_params[] = {
     PARAM_STRING(case_projectile, material, NULL, "the armature's material"),
     PARAM_DOUBLE(case_projectile, lead_angle, "rad", REQUIRED, 0.01, 1.5707963267948966,
                  "between the lead face at the front and the rail's surface"),
@@ -61,7 +61,7 @@ static const param projectile_params[] = {
 #define PARTICLE_DOC_SHAPE \
     "hemisphere, cone, ridge, pit, sphere (embedded where lower than twice its radius), or another shape"
 
-static const param particle_params[] = {
+static const base_param particle_params[] = {
     PARAM_DOUBLE(case_particle, radius, "m", OPTIONAL, 1e-6, 0.1, "of the grain's foot"),
     PARAM_DOUBLE(case_particle, height, "m", OPTIONAL, 1e-6, 0.1, "above the surface; not given: the radius"),
     PARAM_STRING(case_particle, shape, "hemisphere", PARTICLE_DOC_SHAPE),
@@ -71,7 +71,7 @@ static const param particle_params[] = {
     PARAMS_END,
 };
 
-static const param site_params[] = {
+static const base_param site_params[] = {
     PARAM_DOUBLE(case_site, position, "m", REQUIRED, 0.0, 1e3, "along the barrel, from the breech"),
     PARAM_DOUBLE(case_site, radius, "m", OPTIONAL, 1e-6, 0.1, "not given: particle.radius"),
     PARAM_DOUBLE(case_site, height, "m", OPTIONAL, 1e-6, 0.1,
@@ -88,7 +88,7 @@ static const char *const preset_names[] = { "none",
 #undef POPULATION
                                             NULL };
 
-static const param population_params[] = {
+static const base_param population_params[] = {
     PARAM_ENUM(case_population, preset, preset_names, POPULATION_NONE, "where they come from: gives what is not given"),
     PARAM_DOUBLE(case_population, density, "1/m", OPTIONAL, 0.0, 1e6, "grains on a metre of the rail"),
     PARAM_DOUBLE(case_population, radius_median, "m", OPTIONAL, 1e-6, 0.1,
@@ -106,18 +106,18 @@ static const param population_params[] = {
     PARAMS_END,
 };
 
-static const param size_params[] = {
+static const base_param size_params[] = {
     PARAM_DOUBLE(case_size, radius, "m", REQUIRED, 1e-6, 0.1, "of the grains' foot"),
     PARAM_DOUBLE(case_size, share, "1", REQUIRED, 0.0, 1e9, "of the grains; shares need not add up to 1"),
     PARAMS_END,
 };
 
-static const param treatment_params[] = {
+static const base_param treatment_params[] = {
     PARAM_STRING(case_treatment, name, NULL, "short name of the surface"),
     PARAMS_END,
 };
 
-static const param scene_params[] = {
+static const base_param scene_params[] = {
     PARAM_DOUBLE(case_scene, velocity, "m/s", OPTIONAL, 1.0, 1e4,
                  "of the armature in `breech scene`; onset takes the shot's"),
     PARAM_DOUBLE(case_scene, contact_pressure, "Pa", OPTIONAL, 0.0, 1e10,
@@ -153,7 +153,7 @@ static const param scene_params[] = {
     PARAMS_END,
 };
 
-static const param study_params[] = {
+static const base_param study_params[] = {
     PARAM_DOUBLE(case_study, velocity_interval, "1", 0.03, 1e-4, 1.0,
                  "wanted width of the threshold's interval over its middle"),
     PARAM_DOUBLE(case_study, position_interval, "1", 0.02, 1e-4, 1.0,
@@ -202,7 +202,7 @@ static const param study_params[] = {
 };
 
 /* Air: ISO 2533, the standard atmosphere at sea level. */
-static const param strike_params[] = {
+static const base_param strike_params[] = {
     PARAM_STRING(case_strike, projectile, NULL, "the body of scene.bodies that flies, with all of its group"),
     PARAM_STRING(case_strike, plate, "", "a body of the target whose holes are looked for; not given: none"),
     PARAM_DOUBLE(
@@ -236,7 +236,7 @@ static const char *const life_cycle_names[] = { [LIFE_PULSE] = "pulse", [LIFE_PA
 static const char *const life_fan_names[] = { [LIFE_EVEN] = "even", [LIFE_LATTICE] = "lattice", NULL };
 static const char *const life_until_names[] = { [LIFE_UNTIL_FIRST] = "first", [LIFE_UNTIL_CRACK] = "crack", NULL };
 
-static const param life_params[] = {
+static const base_param life_params[] = {
     PARAM_STRING(case_life, material, NULL, "the rail's material, with constants of fatigue"),
     PARAM_ENUM(case_life, load, life_load_names, LIFE_WHEEL,
                "wheel: the patch below; armature: what the case's shot presses, drags and heats, study.shots times, "
@@ -285,7 +285,7 @@ static const param life_params[] = {
 
 static const char *const vessel_shape_names[] = { [VESSEL_CYLINDER] = "cylinder", [VESSEL_SPHERE] = "sphere", NULL };
 
-static const param vessel_params[] = {
+static const base_param vessel_params[] = {
     PARAM_ENUM(case_vessel, shape, vessel_shape_names, VESSEL_CYLINDER,
                "cylinder: a metre of it in plane strain; sphere"),
     PARAM_DOUBLE(case_vessel, radius, "m", REQUIRED, 1e-7, 100.0, "outer, at the start"),
@@ -312,12 +312,12 @@ static const param vessel_params[] = {
     PARAMS_END,
 };
 
-static const param bubble_params[] = {
+static const base_param bubble_params[] = {
     PARAM_DOUBLE(case_bubble, radius, "m", REQUIRED, 1e-9, 100.0, "at the start"),
     PARAMS_END,
 };
 
-static const param life_point_params[] = {
+static const base_param life_point_params[] = {
     PARAM_DOUBLE(case_life_point, at, "1", REQUIRED, -1.0, 1.0, "place over half_length"),
     PARAM_DOUBLE(case_life_point, pressure, "1", REQUIRED, 0.0, 1.0, "there, over the largest"),
     PARAM_DOUBLE(case_life_point, traction, "1", OPTIONAL, -2.0, 2.0,
@@ -325,7 +325,7 @@ static const param life_point_params[] = {
     PARAMS_END,
 };
 
-static const param output_params[] = {
+static const base_param output_params[] = {
     PARAM_INT(case_output, snapshots, 20, 0, 10000, "of a scene, evenly over its time; 0 = none"),
     PARAM_DOUBLE(case_output, history_interval, "s", OPTIONAL, 1e-9, 1.0,
                  "least time between two samples of the shot's history; not given: every step"),
@@ -405,19 +405,19 @@ static const case_section treatment_children[] = {
     END_OF_SECTIONS,
 };
 
-static const param sweep_params[] = {
+static const base_param sweep_params[] = {
     PARAM_STRING(case_sweep, of, "scene", "the study to run: scene, shot, strike, life, vessel, inductance"),
     PARAM_BOOL(case_sweep, together, 0, "the lists of values go on together; no: all combinations"),
     PARAMS_END,
 };
 
-static const param varied_params[] = {
+static const base_param varied_params[] = {
     PARAM_STRING(case_varied, key, NULL, "key of the case to vary, as --set names it: particle.radius"),
     PARAMS_END,
 };
 
 /* A list of words: an entry may stand as the value alone. */
-static const param word_params[] = {
+static const base_param word_params[] = {
     PARAM_STRING(case_word, value, NULL, "as in a case file; a list in quotes, \"[1, 0, 0]\""),
     PARAMS_END,
 };
@@ -463,22 +463,22 @@ static const case_section profile_children[] = {
     { .key = "points",
       .doc = "The table itself where there is no file, a list.",
       .table = circuit_supply_point_params,
-      .offset = offsetof(supply_profile, points),
-      .size = sizeof(supply_point),
+      .offset = offsetof(circuit_supply_profile, points),
+      .size = sizeof(circuit_supply_point),
       .given = NO_FLAG,
       .list = true },
     END_OF_SECTIONS,
 };
 
-#define SUPPLY(kind, type, section, lists, text)                     \
-    { .key = #section,                                               \
-      .doc = (text),                                                 \
-      .table = circuit_supply_##kind##_params,                       \
-      .children = (lists),                                           \
-      .offset = offsetof(breech_case, supplies[SUPPLY_##kind]),      \
-      .size = sizeof(type),                                          \
-      .given = offsetof(breech_case, given.supplies[SUPPLY_##kind]), \
-      .list = true,                                                  \
+#define SUPPLY(kind, type, section, lists, text)                             \
+    { .key = #section,                                                       \
+      .doc = (text),                                                         \
+      .table = circuit_supply_##kind##_params,                               \
+      .children = (lists),                                                   \
+      .offset = offsetof(breech_case, supplies[CIRCUIT_SUPPLY_##kind]),      \
+      .size = sizeof(type),                                                  \
+      .given = offsetof(breech_case, given.supplies[CIRCUIT_SUPPLY_##kind]), \
+      .list = true,                                                          \
       .spread = true },
 
 /* What the impact scene takes from sections that the circuit reads too. */
@@ -495,15 +495,15 @@ static const case_section sections[] = {
 #undef SUPPLY
     { PART("rail", rails, circuit_shot_rails_params, NEED_SHOT | CASE_FOR_INDUCTANCE,
            "The rails: two or four equal ones in the circuit, one of them in the impact scene."),
-      .also = &rail_in_scene, .size = sizeof(shot_rails) },
-    { SECTION(barrel, circuit_shot_barrel_params, NEED_SHOT, "The barrel."), .size = sizeof(shot_barrel) },
+      .also = &rail_in_scene, .size = sizeof(circuit_shot_rails) },
+    { SECTION(barrel, circuit_shot_barrel_params, NEED_SHOT, "The barrel."), .size = sizeof(circuit_shot_barrel) },
     { SECTION(armature, circuit_shot_armature_params, NEED_SHOT, "The armature: what the circuit drives."),
-      .also = &armature_in_scene, .size = sizeof(shot_armature) },
+      .also = &armature_in_scene, .size = sizeof(circuit_shot_armature) },
     { SECTION(options, circuit_shot_options_params, 0, "Tolerances of the shot's integration."),
-      .size = sizeof(shot_options) },
+      .size = sizeof(circuit_shot_options) },
     { SECTION(optimise, circuit_firing_wish_params, 0,
               "Firing times of the bank that `breech shot` looks for before it shoots."),
-      .size = sizeof(firing_wish) },
+      .size = sizeof(circuit_firing_wish) },
     { SECTION(particle, particle_params, CASE_FOR_SCENE, "The grain of `breech scene`, and what a site leaves out."),
       .size = sizeof(case_particle) },
     { SECTION(sites, site_params, 0, "Grains along the barrel, a list; `breech onset` needs these or populations."),
@@ -532,7 +532,7 @@ static const case_section sections[] = {
              "cases/materials, where every constant has its source.",
       .table = mpm_material_params,
       .offset = offsetof(breech_case, materials),
-      .size = sizeof(material),
+      .size = sizeof(mpm_material),
       .given = NO_FLAG,
       .list = true },
     END_OF_SECTIONS,

@@ -14,7 +14,7 @@
 
 typedef struct case_section {
     const char *key, *doc;
-    const param *table;                  /* ends with a NULL key */
+    const base_param *table;             /* ends with a NULL key */
     const struct case_section *children; /* sections inside this one, ends with a NULL key; NULL if none */
     const struct case_section *also;     /* another part of this section, with the same key; NULL if none */
     size_t offset;                       /* of the struct, or of the list, in the parent's struct */

@@ -36,7 +36,7 @@ enum {
 
 /* A layer of the rail's surface, the first in the list at the bottom. */
 typedef struct {
-    char material[PARAM_TEXT_SIZE];
+    char material[BASE_PARAM_TEXT_SIZE];
     double thickness;     /* [m] */
     double bond_strength; /* to what lies below [Pa]; NAN: welded for good */
     double yield_scale;   /* factor on the yield stress [1] */
@@ -50,7 +50,7 @@ typedef struct {
 
 /* The rail as the scene sees it. */
 typedef struct {
-    char material[PARAM_TEXT_SIZE];
+    char material[BASE_PARAM_TEXT_SIZE];
     double temperature; /* ahead of the armature [K] */
     double yield_scale; /* hardening: factor on the yield stress, and on the hardness in the screen [1] */
     double cold_work;   /* plastic strain it has had; NAN: its material's [1] */
@@ -59,7 +59,7 @@ typedef struct {
 
 /* The armature's body in the scene: half a U, one leg on one rail. */
 typedef struct {
-    char material[PARAM_TEXT_SIZE];
+    char material[BASE_PARAM_TEXT_SIZE];
     double lead_angle;     /* between the lead face and the rail's surface [rad] */
     double length;         /* along the rail [m] */
     double leg_thickness;  /* normal to the rail [m] */
@@ -75,9 +75,9 @@ typedef struct {
 typedef struct {
     double radius; /* [m], NAN: not given */
     double height; /* [m], resolved to the radius when not given */
-    char shape[PARAM_TEXT_SIZE];
-    char material[PARAM_TEXT_SIZE]; /* resolved to the rail's when not given */
-    double bond_strength;           /* to the rail [Pa]; NAN: welded for good */
+    char shape[BASE_PARAM_TEXT_SIZE];
+    char material[BASE_PARAM_TEXT_SIZE]; /* resolved to the rail's when not given */
+    double bond_strength;                /* to the rail [Pa]; NAN: welded for good */
 } case_particle;
 
 /* A grain on the rail; all but the position resolved from `particle` where not given. */
@@ -85,8 +85,8 @@ typedef struct {
     double position; /* along the barrel, from the breech [m] */
     double radius;   /* [m] */
     double height;   /* [m] */
-    char shape[PARAM_TEXT_SIZE];
-    char material[PARAM_TEXT_SIZE];
+    char shape[BASE_PARAM_TEXT_SIZE];
+    char material[BASE_PARAM_TEXT_SIZE];
     double bond_strength; /* [Pa]; NAN: welded for good */
 } case_site;
 
@@ -115,10 +115,10 @@ typedef struct {
     double radius_spread; /* standard deviation of ln radius [1] */
     double aspect;        /* height over radius [1] */
     double from, to;      /* stretch of the barrel they lie on; NAN: its ends [m] */
-    char shape[PARAM_TEXT_SIZE];
-    char material[PARAM_TEXT_SIZE]; /* resolved to the rail's when not given */
-    double bond_strength;           /* [Pa]; NAN: welded for good */
-    bool renewed;                   /* strewn anew before every shot; no: what one shot passed is gone */
+    char shape[BASE_PARAM_TEXT_SIZE];
+    char material[BASE_PARAM_TEXT_SIZE]; /* resolved to the rail's when not given */
+    double bond_strength;                /* [Pa]; NAN: welded for good */
+    bool renewed;                        /* strewn anew before every shot; no: what one shot passed is gone */
     case_sizes sizes;
 } case_population;
 
@@ -140,7 +140,7 @@ typedef enum {
 enum { TREATMENT_VALUES = 3 };
 typedef struct {
     double value[TREATMENT_VALUES];
-    char material[PARAM_TEXT_SIZE];
+    char material[BASE_PARAM_TEXT_SIZE];
     case_layers layers;
 } treatment_settings;
 
@@ -153,7 +153,7 @@ enum {
 
 /* A rail surface to compare: all that is changed on the case (treatment.h). */
 typedef struct {
-    char name[PARAM_TEXT_SIZE];
+    char name[BASE_PARAM_TEXT_SIZE];
     treatment_settings kind[TREATMENT_KINDS];
 } case_treatment;
 
@@ -185,8 +185,8 @@ typedef struct {
     double viscosity_linear, viscosity_quadratic; /* (M-5) [1] */
     int particles_per_axis;
     double contact_gap; /* [cells] */
-    transfer_kind transfer;
-    basis_kind basis;
+    mpm_transfer_kind transfer;
+    mpm_basis_kind basis;
     bool heat_by_plastic_work;      /* (M-4); to here */
     bool damage;                    /* Johnson-Cook damage in all bodies */
     bool half_model;                /* only z >= 0, mirrored */
@@ -207,17 +207,17 @@ typedef struct {
 
 /* A projectile's arrival at its target, the other bodies of the scene. */
 typedef struct {
-    char projectile[PARAM_TEXT_SIZE]; /* body of scene.bodies; those of its group fly with it */
-    char plate[PARAM_TEXT_SIZE];      /* body of the target whose holes are looked for; "": none */
-    double velocity;                  /* at arrival; NAN: the shot's, or what the body has in the scene [m/s] */
-    double distance;                  /* from the muzzle to the target [m] */
-    double drag_coefficient;          /* NAN: not given [1] */
-    double drag_area;                 /* NAN: not given [m2] */
-    double air_density;               /* [kg/m3] */
-    double discarded_mass;            /* of the package, stays behind at the muzzle [kg] */
-    double travel;                    /* its way in the scene, at its arrival velocity; NAN: scene.end_time [m] */
-    double filter;                    /* over which forces are averaged [s] */
-    bool limit;                       /* the limit velocity is looked for, in the range of `study` */
+    char projectile[BASE_PARAM_TEXT_SIZE]; /* body of scene.bodies; those of its group fly with it */
+    char plate[BASE_PARAM_TEXT_SIZE];      /* body of the target whose holes are looked for; "": none */
+    double velocity;                       /* at arrival; NAN: the shot's, or what the body has in the scene [m/s] */
+    double distance;                       /* from the muzzle to the target [m] */
+    double drag_coefficient;               /* NAN: not given [1] */
+    double drag_area;                      /* NAN: not given [m2] */
+    double air_density;                    /* [kg/m3] */
+    double discarded_mass;                 /* of the package, stays behind at the muzzle [kg] */
+    double travel;                         /* its way in the scene, at its arrival velocity; NAN: scene.end_time [m] */
+    double filter;                         /* over which forces are averaged [s] */
+    bool limit;                            /* the limit velocity is looked for, in the range of `study` */
 } case_strike;
 
 /* A load that comes again and again, and the life of the rail under it (coupling/life). */
@@ -241,31 +241,31 @@ typedef struct {
 } case_life_points;
 
 typedef struct {
-    char material[PARAM_TEXT_SIZE];     /* of the rail */
-    int load;                           /* life_load */
-    int places;                         /* along the barrel, of an armature's load */
-    double rounding;                    /* of its pressure: rises over this share of the half length at each end [1] */
-    bool heat;                          /* of its passage counts */
-    double probe_depth;                 /* whose warmth is asked for; NAN: none [m] */
-    int profile;                        /* life_profile */
-    double wheel_load;                  /* P on the whole ellipse; NAN: `pressure` is given [N] */
-    double pressure;                    /* largest; NAN: of wheel_load [Pa] */
-    double half_length, half_width;     /* of the patch, along and across the rail; half_width NAN: not given [m] */
-    int state;                          /* life_state */
-    double friction;                    /* [1] */
-    double traction_share;              /* Q / (mu P') of stick-slip [1] */
-    int cycle;                          /* life_cycle */
-    double speed;                       /* of a passage; 0: slow against waves [m/s] */
-    int measure;                        /* fatigue_measure */
-    int fan;                            /* life_fan */
-    int directions;                     /* of an even fan */
-    int until;                          /* life_until */
-    double limit_index;                 /* share of a point's directions whose loss is a crack [1] */
-    double batch;                       /* cuts within this share of the cycles are one step [1] */
-    int max_cuts;                       /* 0: the intact rail on the grid, no cut */
-    int cells_per_half_length;          /* of the grid */
-    double grid_half_width, grid_depth; /* of the grid [half lengths] */
-    case_life_points points;            /* of LIFE_POINTS */
+    char material[BASE_PARAM_TEXT_SIZE]; /* of the rail */
+    int load;                            /* life_load */
+    int places;                          /* along the barrel, of an armature's load */
+    double rounding;                     /* of its pressure: rises over this share of the half length at each end [1] */
+    bool heat;                           /* of its passage counts */
+    double probe_depth;                  /* whose warmth is asked for; NAN: none [m] */
+    int profile;                         /* life_profile */
+    double wheel_load;                   /* P on the whole ellipse; NAN: `pressure` is given [N] */
+    double pressure;                     /* largest; NAN: of wheel_load [Pa] */
+    double half_length, half_width;      /* of the patch, along and across the rail; half_width NAN: not given [m] */
+    int state;                           /* life_state */
+    double friction;                     /* [1] */
+    double traction_share;               /* Q / (mu P') of stick-slip [1] */
+    int cycle;                           /* life_cycle */
+    double speed;                        /* of a passage; 0: slow against waves [m/s] */
+    int measure;                         /* fatigue_measure */
+    int fan;                             /* life_fan */
+    int directions;                      /* of an even fan */
+    int until;                           /* life_until */
+    double limit_index;                  /* share of a point's directions whose loss is a crack [1] */
+    double batch;                        /* cuts within this share of the cycles are one step [1] */
+    int max_cuts;                        /* 0: the intact rail on the grid, no cut */
+    int cells_per_half_length;           /* of the grid */
+    double grid_half_width, grid_depth;  /* of the grid [half lengths] */
+    case_life_points points;             /* of LIFE_POINTS */
 } case_life;
 
 /* Gas in liquid inside a shell that swells and bursts (coupling/vessel). */
@@ -283,8 +283,8 @@ typedef struct {
 typedef struct {
     int shape;                     /* vessel_shape */
     double radius, film_thickness; /* outer radius, at the start [m] */
-    char film_material[PARAM_TEXT_SIZE];
-    char liquid_material[PARAM_TEXT_SIZE];
+    char film_material[BASE_PARAM_TEXT_SIZE];
+    char liquid_material[BASE_PARAM_TEXT_SIZE];
     int layers;                                     /* of the film */
     double ambient, temperature;                    /* [Pa, K] */
     double critical_temperature, critical_pressure; /* of the gas; NAN: it is ideal [K, Pa] */
@@ -330,7 +330,7 @@ typedef struct {
 enum { CASE_SWEEP_KEYS = 8 };
 
 typedef struct {
-    char value[PARAM_TEXT_SIZE]; /* as written */
+    char value[BASE_PARAM_TEXT_SIZE]; /* as written */
 } case_word;
 
 typedef struct {
@@ -339,7 +339,7 @@ typedef struct {
 } case_words;
 
 typedef struct {
-    char key[PARAM_TEXT_SIZE]; /* path.to.key, as --set has it */
+    char key[BASE_PARAM_TEXT_SIZE]; /* path.to.key, as --set has it */
     case_words values;
 } case_varied;
 
@@ -349,8 +349,8 @@ typedef struct {
 } case_varied_list;
 
 typedef struct {
-    char of[PARAM_TEXT_SIZE]; /* the study that is run */
-    bool together;            /* the lists go on together; else all combinations */
+    char of[BASE_PARAM_TEXT_SIZE]; /* the study that is run */
+    bool together;                 /* the lists go on together; else all combinations */
     case_varied_list vary;
     case_words read; /* keys of its summary */
 } case_sweep;
@@ -370,12 +370,12 @@ typedef struct {
 
 typedef struct {
     int n;
-    material *item; /* n, owned by the case */
+    mpm_material *item; /* n, owned by the case */
 } case_materials;
 
 /* Sections given in the file (or by --set). */
 typedef struct {
-    bool supplies[SUPPLY_KINDS];
+    bool supplies[CIRCUIT_SUPPLY_KINDS];
     bool rails, barrel, armature, options, optimise, rail, projectile, particle, sites, populations, treatments, scene,
         study, sweep, strike, life, vessel, output;
     bool bodies; /* scene.bodies: then `scene` is not given */
@@ -400,7 +400,7 @@ typedef struct {
 } case_text;
 
 /* The material of that name; a case has all that it names.  NULL: it is not among them.  Borrowed from the list. */
-const material *case_material(const case_materials *list, const char *name);
+const mpm_material *case_material(const case_materials *list, const char *name);
 
 double case_layers_thickness(const case_layers *layers); /* of all together [m] */
 /* A layer more, at place `at` from below. */

@@ -16,7 +16,7 @@ static bool wants_shot(const tree_node *root)
     const tree_node *speed = host_tree_find(host_tree_find(root, "strike"), "velocity");
     const bool charge = says(host_tree_find(host_tree_find(root, "optimise"), "goal"), "velocity");
     if (speed && !says(speed, "none") && !charge) return false;
-    for (int k = 0; k < SUPPLY_KINDS; k++)
+    for (int k = 0; k < CIRCUIT_SUPPLY_KINDS; k++)
         if (host_tree_find(root, circuit_supply_sections[k])) return true;
     return false;
 }

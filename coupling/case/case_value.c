@@ -15,12 +15,12 @@ static void number_text(double value, char out[32])
     }
 }
 
-static bool is_pure(const param *p)
+static bool is_pure(const base_param *p)
 {
     return strcmp(p->unit, "1") == 0;
 }
 
-static void write_number(FILE *file, const param *p, double value)
+static void write_number(FILE *file, const base_param *p, double value)
 {
     char text[32];
     if (isnan(value)) {
@@ -41,7 +41,7 @@ static void write_quoted(FILE *file, const char *text)
     fputc('"', file);
 }
 
-static void write_vector(FILE *file, const param *p, const double *v)
+static void write_vector(FILE *file, const base_param *p, const double *v)
 {
     for (int k = 0; k < 3; k++) {
         fputs(k == 0 ? "[" : ", ", file);
@@ -50,7 +50,7 @@ static void write_vector(FILE *file, const param *p, const double *v)
     fputc(']', file);
 }
 
-static void write_points(FILE *file, const param *p, const double *v)
+static void write_points(FILE *file, const base_param *p, const double *v)
 {
     for (int i = 0; i < base_param_pairs(v, p->room); i++) {
         fputs(i == 0 ? "[[" : ", [", file);
@@ -63,22 +63,22 @@ static void write_points(FILE *file, const param *p, const double *v)
 }
 
 /* Left out: a text that is empty, and a number that is required but has no value (there is no `none` for it). */
-bool case_value_is_set(const param *p, const void *member)
+bool case_value_is_set(const base_param *p, const void *member)
 {
-    const bool number = p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR || p->kind == PARAM_POINTS;
+    const bool number = p->kind == BASE_PARAM_NUMBER || p->kind == BASE_PARAM_VECTOR || p->kind == BASE_PARAM_POINTS;
     if (number) return !isinf(p->fallback) || !isnan(*(const double *)member);
-    return p->kind != PARAM_TEXT || *(const char *)member != '\0';
+    return p->kind != BASE_PARAM_TEXT || *(const char *)member != '\0';
 }
 
-void case_value_write(const param *p, const void *member, FILE *file)
+void case_value_write(const base_param *p, const void *member, FILE *file)
 {
     switch (p->kind) {
-    case PARAM_NUMBER: write_number(file, p, *(const double *)member); break;
-    case PARAM_INTEGER: fprintf(file, "%d", *(const int *)member); break;
-    case PARAM_FLAG: fputs(*(const bool *)member ? "yes" : "no", file); break;
-    case PARAM_CHOICE: fputs(p->choices[*(const int *)member], file); break;
-    case PARAM_TEXT: write_quoted(file, member); break;
-    case PARAM_VECTOR: write_vector(file, p, member); break;
-    case PARAM_POINTS: write_points(file, p, member); break;
+    case BASE_PARAM_NUMBER: write_number(file, p, *(const double *)member); break;
+    case BASE_PARAM_INTEGER: fprintf(file, "%d", *(const int *)member); break;
+    case BASE_PARAM_FLAG: fputs(*(const bool *)member ? "yes" : "no", file); break;
+    case BASE_PARAM_CHOICE: fputs(p->choices[*(const int *)member], file); break;
+    case BASE_PARAM_TEXT: write_quoted(file, member); break;
+    case BASE_PARAM_VECTOR: write_vector(file, p, member); break;
+    case BASE_PARAM_POINTS: write_points(file, p, member); break;
     }
 }

@@ -23,7 +23,7 @@ static void write_keys(FILE *file, const breech_case *c, const case_section *par
                        bool in_list)
 {
     bool first = in_list;
-    for (const param *p = part->table; p->key; p++) {
+    for (const base_param *p = part->table; p->key; p++) {
         const void *member = (const char *)object + p->offset;
         if (!case_value_is_set(p, member)) continue;
         fprintf(file, "%*s%s%s: ", first ? indent - 2 : indent, "", first ? "- " : "", p->key);
@@ -37,8 +37,8 @@ static void write_keys(FILE *file, const breech_case *c, const case_section *par
 /* A section inside another, not given: its first key must be given, and is not. */
 static bool is_absent(const case_section *section, const void *object)
 {
-    const param *first = section->table;
-    const bool required = first->kind == PARAM_TEXT ? !first->fallback_text : isinf(first->fallback);
+    const base_param *first = section->table;
+    const bool required = first->kind == BASE_PARAM_TEXT ? !first->fallback_text : isinf(first->fallback);
     return section->given == NO_FLAG && required && !case_value_is_set(first, (const char *)object + first->offset);
 }
 
@@ -77,10 +77,10 @@ status case_write_scene(const breech_case *c, const mpm_scene *s, FILE *file)
 
 /* ---- the manual ---- */
 
-static void print_default(FILE *file, const param *p)
+static void print_default(FILE *file, const base_param *p)
 {
     char text[64];
-    if (p->kind == PARAM_TEXT) {
+    if (p->kind == BASE_PARAM_TEXT) {
         fputs(!p->fallback_text ? "required" : p->fallback_text[0] ? p->fallback_text : "-", file);
         return;
     }
@@ -88,32 +88,32 @@ static void print_default(FILE *file, const param *p)
         fputs(isinf(p->fallback) ? "required" : "-", file);
         return;
     }
-    if (p->kind == PARAM_FLAG) fputs(p->fallback != 0.0 ? "yes" : "no", file);
-    if (p->kind == PARAM_CHOICE) fputs(p->choices[(int)p->fallback], file);
-    if (p->kind == PARAM_INTEGER) fprintf(file, "%d", (int)p->fallback);
-    if (p->kind != PARAM_NUMBER && p->kind != PARAM_VECTOR) return;
+    if (p->kind == BASE_PARAM_FLAG) fputs(p->fallback != 0.0 ? "yes" : "no", file);
+    if (p->kind == BASE_PARAM_CHOICE) fputs(p->choices[(int)p->fallback], file);
+    if (p->kind == BASE_PARAM_INTEGER) fprintf(file, "%d", (int)p->fallback);
+    if (p->kind != BASE_PARAM_NUMBER && p->kind != BASE_PARAM_VECTOR) return;
     host_quantity_text(p->fallback, p->unit, text, sizeof text);
     fputs(text, file);
 }
 
-static void print_range(FILE *file, const param *p)
+static void print_range(FILE *file, const base_param *p)
 {
     char limits[LIMITS_SIZE];
     switch (p->kind) {
-    case PARAM_TEXT: fputs("text", file); break;
-    case PARAM_FLAG: fputs("yes, no", file); break;
-    case PARAM_CHOICE:
+    case BASE_PARAM_TEXT: fputs("text", file); break;
+    case BASE_PARAM_FLAG: fputs("yes, no", file); break;
+    case BASE_PARAM_CHOICE:
         for (int k = 0; p->choices[k]; k++) fprintf(file, "%s%s", k > 0 ? ", " : "", p->choices[k]);
         break;
-    case PARAM_NUMBER:
-    case PARAM_INTEGER:
-    case PARAM_VECTOR:
-    case PARAM_POINTS:
+    case BASE_PARAM_NUMBER:
+    case BASE_PARAM_INTEGER:
+    case BASE_PARAM_VECTOR:
+    case BASE_PARAM_POINTS:
         host_quantity_limits(NULL, p->min, p->max, p->unit, "", limits);
         fprintf(file, "%s%s", limits,
-                p->kind == PARAM_VECTOR   ? ", three of them"
-                : p->kind == PARAM_POINTS ? ", in pairs"
-                                          : "");
+                p->kind == BASE_PARAM_VECTOR   ? ", three of them"
+                : p->kind == BASE_PARAM_POINTS ? ", in pairs"
+                                               : "");
         break;
     }
 }
@@ -127,11 +127,12 @@ static void print_cell(FILE *file, const char *text)
     }
 }
 
-static void print_table(FILE *file, const param *table)
+static void print_table(FILE *file, const base_param *table)
 {
     fputs("\n| key | unit | default | range | meaning |\n|---|---|---|---|---|\n", file);
-    for (const param *p = table; p->key; p++) {
-        const bool number = p->kind == PARAM_NUMBER || p->kind == PARAM_VECTOR || p->kind == PARAM_POINTS;
+    for (const base_param *p = table; p->key; p++) {
+        const bool number =
+            p->kind == BASE_PARAM_NUMBER || p->kind == BASE_PARAM_VECTOR || p->kind == BASE_PARAM_POINTS;
         fprintf(file, "| `%s` | %s | ", p->key, number && strcmp(p->unit, "1") != 0 ? p->unit : "");
         print_default(file, p);
         fputs(" | ", file);
@@ -155,7 +156,7 @@ static void print_section(FILE *file, const case_section *section, const char *p
 
 void case_print_keys(FILE *file)
 {
-    char key[PARAM_TEXT_SIZE];
+    char key[BASE_PARAM_TEXT_SIZE];
     print_section(file, &case_root, "");
     for (const case_section *s = case_bodies_manual; s->key; s++) print_section(file, s, "");
     for (int i = 0; mpm_solid_kind_at(i); i++) {

@@ -13,7 +13,7 @@
 
 bool case_material_name_valid(const char *name)
 {
-    if (name[0] == '\0' || name[0] == '.' || strlen(name) >= PARAM_TEXT_SIZE) return false;
+    if (name[0] == '\0' || name[0] == '.' || strlen(name) >= BASE_PARAM_TEXT_SIZE) return false;
     for (; *name; name++)
         if (!isalnum((unsigned char)*name) && !strchr("_-+.", *name)) return false;
     return true;
@@ -30,18 +30,18 @@ void case_material_sheet_free(material_sheet *sheet)
 
 /* ---- one file ---- */
 
-static const param *constant_of(const char *key)
+static const base_param *constant_of(const char *key)
 {
-    for (const param *p = mpm_material_params; p->key; p++)
-        if (p->kind == PARAM_NUMBER && strcmp(p->key, key) == 0) return p;
+    for (const base_param *p = mpm_material_params; p->key; p++)
+        if (p->kind == BASE_PARAM_NUMBER && strcmp(p->key, key) == 0) return p;
     return NULL;
 }
 
 static const char *constant_name(const void *user, int i)
 {
     (void)user;
-    for (const param *p = mpm_material_params; p->key; p++)
-        if (p->kind == PARAM_NUMBER && i-- == 0) return p->key;
+    for (const base_param *p = mpm_material_params; p->key; p++)
+        if (p->kind == BASE_PARAM_NUMBER && i-- == 0) return p->key;
     return NULL;
 }
 
@@ -93,7 +93,9 @@ static void read_source(case_reader *r, const tree_node *entry, const char *path
 
 static void read_remarks(case_reader *r, const tree_node *entry, const char *path, material_constant *c)
 {
-    static const param weak = { .key = "weak", .unit = "1", .kind = PARAM_FLAG, .max = 1, .doc = "yes or no" };
+    static const base_param weak = {
+        .key = "weak", .unit = "1", .kind = BASE_PARAM_FLAG, .max = 1, .doc = "yes or no"
+    };
     char key[CASE_KEY_SIZE + 8];
     const tree_node *flag = host_tree_find(entry, "weak"), *note = host_tree_find(entry, "note");
     snprintf(key, sizeof key, "%s.weak", path);
@@ -108,7 +110,7 @@ static void read_constant(case_reader *r, const tree_node *key, const tree_node 
 {
     static const char *const known[] = { "value", "source", "weak", "note", NULL };
     char path[CASE_KEY_SIZE], value_path[CASE_KEY_SIZE + 8];
-    const param *p = constant_of(key->text);
+    const base_param *p = constant_of(key->text);
     if (!p) {
         const char *near = host_nearest_name(key->text, constant_name, NULL);
         case_errors_add(r->errors, key, "unknown constant `%.*s`%s%s%s", CASE_SHOWN, key->text,
@@ -147,11 +149,11 @@ static void read_sources(case_reader *r)
 
 static void read_head(case_reader *r, const char *path, material_sheet *sheet)
 {
-    static const param name = {
-        .key = "name", .unit = "1", .kind = PARAM_TEXT, .doc = "the file's name without .yaml"
+    static const base_param name = {
+        .key = "name", .unit = "1", .kind = BASE_PARAM_TEXT, .doc = "the file's name without .yaml"
     };
-    static const param title = {
-        .key = "title", .unit = "1", .kind = PARAM_TEXT, .fallback_text = "", .doc = "one line"
+    static const base_param title = {
+        .key = "title", .unit = "1", .kind = BASE_PARAM_TEXT, .fallback_text = "", .doc = "one line"
     };
     const tree_node *node = host_tree_find(r->root, "name"), *title_node = host_tree_find(r->root, "title");
     const char *file = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
@@ -171,8 +173,8 @@ static void read_head(case_reader *r, const char *path, material_sheet *sheet)
 /* The laws: no constants, so without a source of their own. */
 static void read_laws(case_reader *r, material_sheet *sheet)
 {
-    for (const param *p = mpm_material_params; p->key; p++) {
-        const tree_node *node = p->kind == PARAM_CHOICE ? host_tree_find(r->root, p->key) : NULL;
+    for (const base_param *p = mpm_material_params; p->key; p++) {
+        const tree_node *node = p->kind == BASE_PARAM_CHOICE ? host_tree_find(r->root, p->key) : NULL;
         if (node) case_value_read(r, p, node, (char *)&sheet->material + p->offset, p->key);
     }
 }
@@ -322,7 +324,7 @@ static const char *listed(const void *user, int i)
 
 static status not_found(const char *name, const char *const *dirs, int n_dirs)
 {
-    char text[400] = "", near[PARAM_TEXT_SIZE] = "";
+    char text[400] = "", near[BASE_PARAM_TEXT_SIZE] = "";
     for (int d = 0; d < n_dirs; d++) {
         char **names;
         int n;

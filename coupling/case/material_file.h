@@ -23,21 +23,21 @@
 #include <stdbool.h>
 
 enum {
-    MATERIAL_MAX_CONSTANTS = sizeof(material) / sizeof(double),
+    MATERIAL_MAX_CONSTANTS = sizeof(mpm_material) / sizeof(double),
     MATERIAL_PATH_SIZE = 512,
     MATERIAL_WARNING_SIZE = 600
 };
 
 typedef struct {
-    const param *constant; /* borrowed from mpm_material_params */
+    const base_param *constant; /* borrowed from mpm_material_params */
     bool weak;
     char *source; /* the whole citation, owned */
     char *note;   /* owned, NULL if none */
 } material_constant;
 
 typedef struct {
-    material material;
-    char title[PARAM_TEXT_SIZE];
+    mpm_material material;
+    char title[BASE_PARAM_TEXT_SIZE];
     char path[MATERIAL_PATH_SIZE];
     int n;
     material_constant constant[MATERIAL_MAX_CONSTANTS]; /* those given, in the file's order */

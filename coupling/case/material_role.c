@@ -9,16 +9,16 @@
 
 enum { LACK_SIZE = 38 /* of the table's last column */, TEXT_SIZE = sizeof((status){ .code = STATUS_OK }.text) };
 
-enum { IN_SCENES = MATERIAL_FOR_SCENE, FAILING = IN_SCENES | MATERIAL_FOR_DAMAGE };
+enum { IN_SCENES = MPM_MATERIAL_FOR_SCENE, FAILING = IN_SCENES | MPM_MATERIAL_FOR_DAMAGE };
 
-static const material_role in_shot = { "shot", "the circuit's rail or armature", MATERIAL_FOR_CIRCUIT, 0, NULL };
+static const material_role in_shot = { "shot", "the circuit's rail or armature", MPM_MATERIAL_FOR_CIRCUIT, 0, NULL };
 static const material_role met = { "onset", "rail or armature where gouging is looked for",
-                                   FAILING | MATERIAL_FOR_SCREEN, MATERIAL_FOR_DAMAGE, "scene.damage: no" };
+                                   FAILING | MPM_MATERIAL_FOR_SCREEN, MPM_MATERIAL_FOR_DAMAGE, "scene.damage: no" };
 static const material_role failing = { "fails", "a grain or a layer there; a body with damage: yes", FAILING,
-                                       MATERIAL_FOR_DAMAGE, NULL };
+                                       MPM_MATERIAL_FOR_DAMAGE, NULL };
 static const material_role body = { "body", "a body of any scene, projectile or target", IN_SCENES, 0, NULL };
 
-static const material_role lasting = { "life", "the rail of `breech life`", MATERIAL_FOR_FATIGUE, 0, NULL };
+static const material_role lasting = { "life", "the rail of `breech life`", MPM_MATERIAL_FOR_FATIGUE, 0, NULL };
 
 unsigned case_material_needs(bool damage, bool meets)
 {
@@ -34,7 +34,7 @@ static const material_role *role_at(int i)
 }
 
 /* "", or what the material lacks for this part, as a run that refuses it says. */
-static void list_lacks(const material *m, const material_role *role, char out[TEXT_SIZE])
+static void list_lacks(const mpm_material *m, const material_role *role, char out[TEXT_SIZE])
 {
     const status s = mpm_material_check(m, role->needs);
     const char *list = strstr(s.text, "needs: ");
@@ -44,7 +44,7 @@ static void list_lacks(const material *m, const material_role *role, char out[TE
 /* ---- the table ---- */
 
 /* "yes", "(yes)": where the case says `unless`; "-". */
-static const char *good(const material *m, const material_role *role)
+static const char *good(const mpm_material *m, const material_role *role)
 {
     if (mpm_material_check(m, role->needs).code == STATUS_OK) return "yes";
     const bool some = role->unless && mpm_material_check(m, role->needs & ~role->without).code == STATUS_OK;
@@ -52,12 +52,12 @@ static const char *good(const material *m, const material_role *role)
 }
 
 /* The first constants that any role but life lacks, and how many more; a fluid is a body alone. */
-static void shortened(const material *m, char out[LACK_SIZE + 24])
+static void shortened(const mpm_material *m, char out[LACK_SIZE + 24])
 {
     char all[TEXT_SIZE];
     const material_role *role;
     material_role every = { .needs = body.needs };
-    for (int i = 0; mpm_material_shear(m) != SHEAR_NONE && (role = role_at(i)); i++)
+    for (int i = 0; mpm_material_shear(m) != MPM_SHEAR_NONE && (role = role_at(i)); i++)
         if (role != &lasting) every.needs |= role->needs;
     list_lacks(m, &every, all);
     int more = 0;
@@ -83,10 +83,10 @@ static status add_row(table *t, const char *name, const char *const *dirs, int n
     if (s.code == STATUS_BAD_INPUT)
         return host_table_row(t, "%.24s|||||||its file has errors: breech materials %.24s", name, name);
     TRY(s);
-    const material *m = &sheet.material;
+    const mpm_material *m = &sheet.material;
     shortened(m, lacks);
     const status added = host_table_row(
-        t, "%.24s|%s|%s|%s|%s|%s|%s|%s", name, mpm_material_shear(m) == SHEAR_NONE ? "fluid" : "solid",
+        t, "%.24s|%s|%s|%s|%s|%s|%s|%s", name, mpm_material_shear(m) == MPM_SHEAR_NONE ? "fluid" : "solid",
         good(m, role_at(0)), good(m, role_at(1)), good(m, role_at(2)), good(m, role_at(3)), good(m, role_at(4)), lacks);
     case_material_sheet_free(&sheet);
     return added;
@@ -94,7 +94,7 @@ static status add_row(table *t, const char *name, const char *const *dirs, int n
 
 static bool hidden(const material_places *at, int d, const char *name)
 {
-    char path[MATERIAL_PATH_SIZE + PARAM_TEXT_SIZE + 8];
+    char path[MATERIAL_PATH_SIZE + BASE_PARAM_TEXT_SIZE + 8];
     for (int k = 0; k < d; k++) {
         snprintf(path, sizeof path, "%s/%s.yaml", at->dir[k], name);
         if (host_file_exists(path)) return true;
@@ -136,7 +136,7 @@ status case_materials_print(const material_places *at, FILE *out)
 
 /* ---- one material ---- */
 
-static void print_roles(const material *m, FILE *out)
+static void print_roles(const mpm_material *m, FILE *out)
 {
     const material_role *role;
     for (int i = 0; (role = role_at(i)); i++) {
@@ -152,7 +152,7 @@ static void print_roles(const material *m, FILE *out)
 
 void case_material_print(const material_sheet *sheet, FILE *out)
 {
-    const material *m = &sheet->material;
+    const mpm_material *m = &sheet->material;
     fprintf(out, "%s: %s\n%s\n", m->name, sheet->title, sheet->path);
     fprintf(out, "  strength: %s\n  eos: %s\n  failure: %s\n\ngood for:\n", mpm_material_strength_text(m->strength),
             mpm_material_eos_text(m->eos), mpm_material_failure_text(m->failure));

@@ -9,13 +9,13 @@
 
 #include <stdio.h>
 
-/* Sum of material_need for a material in scenes; damage: they let it fail; meets: the screen asks how hard the rail and
+/* Sum of mpm_material_need for a material in scenes; damage: they let it fail; meets: the screen asks how hard the rail and
  * the armature are that meet. */
 unsigned case_material_needs(bool damage, bool meets);
 
 typedef struct {
     const char *name, *doc;
-    unsigned needs;     /* sum of material_need */
+    unsigned needs;     /* sum of mpm_material_need */
     unsigned without;   /* of these, what bodies that may not fail do not need */
     const char *unless; /* what the case then says; NULL: it fails in this part, or never does */
 } material_role;

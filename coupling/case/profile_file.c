@@ -11,15 +11,15 @@
 #include <string.h>
 
 typedef struct {
-    supply_point *item;
+    circuit_supply_point *item;
     size_t n, room;
 } point_list;
 
-static bool keep(point_list *list, supply_point p)
+static bool keep(point_list *list, circuit_supply_point p)
 {
     if (list->n == list->room) {
         const size_t room = list->room ? 2 * list->room : 64;
-        supply_point *more = realloc(list->item, room * sizeof *more);
+        circuit_supply_point *more = realloc(list->item, room * sizeof *more);
         if (!more) return false;
         list->item = more;
         list->room = room;
@@ -49,7 +49,7 @@ static status check_heading(const char *path, int number, const char *line)
 
 static status read_line(const char *path, int number, char *line, point_list *list)
 {
-    supply_point p;
+    circuit_supply_point p;
     char rest;
     line[strcspn(line, "#\r")] = '\0';
     if (line[strspn(line, " \t,;")] == '\0') return status_ok();
@@ -66,7 +66,7 @@ static status read_line(const char *path, int number, char *line, point_list *li
     return status_ok();
 }
 
-status case_profile_read(const char *path, supply_point **points, int *n)
+status case_profile_read(const char *path, circuit_supply_point **points, int *n)
 {
     char *bytes = NULL;
     size_t length = 0;

@@ -10,6 +10,6 @@
 enum { PROFILE_MAX_BYTES = 1 << 20 };
 
 /* *points is malloc'ed, *n long; the caller frees it.  STATUS_BAD_INPUT names the file's line. */
-status case_profile_read(const char *path, supply_point **points, int *n);
+status case_profile_read(const char *path, circuit_supply_point **points, int *n);
 
 #endif

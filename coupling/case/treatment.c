@@ -14,10 +14,10 @@ const treatment_kind case_treatment_kinds[TREATMENT_KINDS] = {
 bool case_treatment_given(const case_treatment *t, int kind)
 {
     const treatment_settings *s = &t->kind[kind];
-    const param *first = case_treatment_kinds[kind].params;
+    const base_param *first = case_treatment_kinds[kind].params;
     if (!first) return s->layers.n > 0;
     const char *member = (const char *)s + first->offset;
-    return first->kind == PARAM_TEXT ? member[0] != '\0' : !isnan(*(const double *)(const void *)member);
+    return first->kind == BASE_PARAM_TEXT ? member[0] != '\0' : !isnan(*(const double *)(const void *)member);
 }
 
 /* *list becomes a copy of its own. */

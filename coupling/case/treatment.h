@@ -16,14 +16,14 @@
 
 typedef struct {
     const char *name, *doc;
-    const param *params; /* NULL: a list of layers */
+    const base_param *params; /* NULL: a list of layers */
     status (*apply)(const treatment_settings *t, case_onset *c);
 } treatment_kind;
 extern const treatment_kind case_treatment_kinds[TREATMENT_KINDS];
 
 #define TREATMENT_LAYERS(name, doc) status case_treatment_##name##_apply(const treatment_settings *t, case_onset *c);
-#define TREATMENT(name, doc)                             \
-    extern const param case_treatment_##name##_params[]; \
+#define TREATMENT(name, doc)                                  \
+    extern const base_param case_treatment_##name##_params[]; \
     status case_treatment_##name##_apply(const treatment_settings *t, case_onset *c);
 #include "coupling/case/treatment.def"
 #undef TREATMENT
@@ -32,7 +32,7 @@ extern const treatment_kind case_treatment_kinds[TREATMENT_KINDS];
 #define TREATMENT_VALUE(i, key_, unit_, fallback_, min_, max_, doc_)                                     \
     {                                                                                                    \
         .key = (key_), .unit = (unit_), .doc = (doc_), .offset = offsetof(treatment_settings, value[i]), \
-        .fallback = (fallback_), .min = (min_), .max = (max_), .kind = PARAM_NUMBER                      \
+        .fallback = (fallback_), .min = (min_), .max = (max_), .kind = BASE_PARAM_NUMBER                 \
     }
 
 /* Is this kind part of the treatment? */

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-const param case_treatment_armature_metal_params[] = {
+const base_param case_treatment_armature_metal_params[] = {
     PARAM_STRING(treatment_settings, material, NULL, "the armature's material"),
     PARAMS_END,
 };
@@ -13,7 +13,7 @@ status case_treatment_armature_metal_apply(const treatment_settings *t, case_ons
 {
     for (int i = 0; i < c->populations.n; i++) {
         char *grain = c->populations.item[i].material;
-        if (strcmp(grain, c->impact.armature.material) == 0) snprintf(grain, PARAM_TEXT_SIZE, "%s", t->material);
+        if (strcmp(grain, c->impact.armature.material) == 0) snprintf(grain, BASE_PARAM_TEXT_SIZE, "%s", t->material);
     }
     snprintf(c->impact.armature.material, sizeof c->impact.armature.material, "%s", t->material);
     c->impact.armature.yield_scale = 1.0;

@@ -4,7 +4,7 @@
 
 enum { FACTOR };
 
-const param case_treatment_friction_params[] = {
+const base_param case_treatment_friction_params[] = {
     TREATMENT_VALUE(FACTOR, "factor", "1", REQUIRED, 0.0, 10.0,
                     "on the coefficients of the shot, dry and melted, and of the scenes"),
     PARAMS_END,

@@ -7,7 +7,7 @@
 
 enum { DEPTH, FACTOR };
 
-const param case_treatment_hardening_params[] = {
+const base_param case_treatment_hardening_params[] = {
     TREATMENT_VALUE(DEPTH, "depth", "m", REQUIRED, 1e-6, 0.1, "of the skin"),
     TREATMENT_VALUE(FACTOR, "factor", "1", REQUIRED, 0.01, 100.0, "on the rail's flow stress and hardness"),
     PARAMS_END,

@@ -5,7 +5,7 @@
 
 enum { ANGLE };
 
-const param case_treatment_lead_angle_params[] = {
+const base_param case_treatment_lead_angle_params[] = {
     TREATMENT_VALUE(ANGLE, "angle", "rad", REQUIRED, 0.01, 1.5707963267948966, "between lead face and rail surface"),
     PARAMS_END,
 };

@@ -6,7 +6,7 @@
 
 enum { YIELD_SCALE };
 
-const param case_treatment_rail_metal_params[] = {
+const base_param case_treatment_rail_metal_params[] = {
     PARAM_STRING(treatment_settings, material, NULL, "the rail's material"),
     TREATMENT_VALUE(YIELD_SCALE, "yield_scale", "1", 1.0, 0.01, 100.0, "factor on its flow stress and hardness"),
     PARAMS_END,
@@ -14,12 +14,12 @@ const param case_treatment_rail_metal_params[] = {
 
 static void exchange(char *metal, const char *former, const char *now)
 {
-    if (strcmp(metal, former) == 0) snprintf(metal, PARAM_TEXT_SIZE, "%s", now);
+    if (strcmp(metal, former) == 0) snprintf(metal, BASE_PARAM_TEXT_SIZE, "%s", now);
 }
 
 status case_treatment_rail_metal_apply(const treatment_settings *t, case_onset *c)
 {
-    char former[PARAM_TEXT_SIZE];
+    char former[BASE_PARAM_TEXT_SIZE];
     memcpy(former, c->impact.rail.material, sizeof former);
     for (int i = 0; i < c->sites.n; i++) exchange(c->sites.item[i].material, former, t->material);
     for (int i = 0; i < c->populations.n; i++) exchange(c->populations.item[i].material, former, t->material);

@@ -19,7 +19,7 @@ bool gouge_front_is_due(const gouge_scene *s, const mpm_report *now, const gouge
 static mpm_slices slices_of(const mpm_scene *s)
 {
     const mpm_axis *along = &s->axis[ALONG], *across = &s->axis[ACROSS];
-    const bool half_model = across->boundary[0] == BOUNDARY_SYMMETRY;
+    const bool half_model = across->boundary[0] == MPM_BOUNDARY_SYMMETRY;
     mpm_slices p = { .along = ALONG, .across = ACROSS, .lo = along->lo, .width = SLICE * along->fine, .sides = SIDES };
     p.n = (int)((along->hi - along->lo) / p.width) + 1;
     p.middle = half_model ? across->lo : 0.5 * (across->lo + across->hi);

@@ -89,7 +89,7 @@ static double half_across(const case_particle *g)
 static int levels_of(const case_scene *s, double fine)
 {
     int levels = s->levels;
-    if (s->basis != BASIS_GIMP) return 1;
+    if (s->basis != MPM_BASIS_GIMP) return 1;
     if (levels == 0)
         for (levels = 1; levels < MPM_MAX_LEVELS && fine * (1 << levels) <= s->coarse_cell * (1.0 + 1e-9);) levels++;
     return levels;
@@ -172,7 +172,7 @@ static status check_layers(const case_impact *c, const layout *l)
 /* ---- bodies ---- */
 
 /* *added is valid until the next is added. */
-static status add_body(mpm_scene *s, const char *name, const material *m, int group, mpm_body **added)
+static status add_body(mpm_scene *s, const char *name, const mpm_material *m, int group, mpm_body **added)
 {
     TRY(mpm_scene_add_body(s, added));
     snprintf((*added)->name, sizeof(*added)->name, "%s", name);
@@ -215,7 +215,7 @@ static status add_rail(const case_impact *c, const layout *l, gouge_scene *g, in
     double bottom = -l->layers;
     for (int i = 0; i < c->rail.layers.n; i++) {
         const case_layer *layer = &c->rail.layers.item[i];
-        char name[PARAM_TEXT_SIZE];
+        char name[BASE_PARAM_TEXT_SIZE];
         snprintf(name, sizeof name, "layer_%d", i + 1);
         TRY(next_group(s, layer->bond_strength, group));
         TRY(add_body(s, name, case_material(&c->materials, layer->material), *group, &b));
@@ -350,9 +350,9 @@ static void set_axes(const case_impact *c, const layout *l, gouge_scene *g)
     const bool half = c->scene.half_model;
     const double lo[3] = { -l->behind, -c->scene.rail_depth, half ? 0.0 : -l->half_width };
     const double hi[3] = { l->ahead, c->armature.half_bore, l->half_width };
-    const boundary_kind kind[3][2] = { { BOUNDARY_ABSORBING, BOUNDARY_ABSORBING },
-                                       { BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY },
-                                       { half ? BOUNDARY_SYMMETRY : BOUNDARY_FREE, BOUNDARY_FREE } };
+    const mpm_boundary_kind kind[3][2] = { { MPM_BOUNDARY_ABSORBING, MPM_BOUNDARY_ABSORBING },
+                                           { MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY },
+                                           { half ? MPM_BOUNDARY_SYMMETRY : MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE } };
     for (int k = 0; k < 3; k++) {
         mpm_axis *a = &s->axis[k];
         a->lo = lo[k], a->hi = hi[k];

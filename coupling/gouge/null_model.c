@@ -6,16 +6,16 @@
 static const double MEASURED = 1325.0, MEASURED_LOW = 1300.0, MEASURED_HIGH = 1350.0; /* [m/s] */
 
 /* The pair they are calibrated on, as cases/materials has it (tests/test_handoff.c compares). */
-static const material al7075 = { .name = "al7075_t651",
-                                 .density = 2804.0,
-                                 .sound_speed = 5200.0,
-                                 .hugoniot_slope = 1.36,
-                                 .hardness = 1.7e9 },
-                      copper = { .name = "ofhc_copper",
-                                 .density = 8960.0,
-                                 .sound_speed = 3940.0,
-                                 .hugoniot_slope = 1.489,
-                                 .hardness = 0.725e9 };
+static const mpm_material al7075 = { .name = "al7075_t651",
+                                     .density = 2804.0,
+                                     .sound_speed = 5200.0,
+                                     .hugoniot_slope = 1.36,
+                                     .hardness = 1.7e9 },
+                          copper = { .name = "ofhc_copper",
+                                     .density = 8960.0,
+                                     .sound_speed = 3940.0,
+                                     .hugoniot_slope = 1.489,
+                                     .hardness = 0.725e9 };
 
 /* A pair's numbers, a the armature, b the rail [kg/m3, Pa]. */
 typedef struct {

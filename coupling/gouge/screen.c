@@ -20,9 +20,9 @@ double gouge_screen_probability(double ratio)
 static status add_metal(const case_surface *s, const char *name, double yield_scale, double part, double velocity,
                         screen *out)
 {
-    const material *m = case_material(&s->materials, name);
+    const mpm_material *m = case_material(&s->materials, name);
     double p, u;
-    TRY(mpm_material_check(m, MATERIAL_FOR_SCREEN));
+    TRY(mpm_material_check(m, MPM_MATERIAL_FOR_SCREEN));
     TRY(mpm_impedance_match(s->armature, m, velocity, &p, &u));
     out->impact_pressure += part * p;
     out->hardness += part * yield_scale * m->hardness;
@@ -49,7 +49,7 @@ status gouge_screen_impact(const case_surface *s, double height, double velocity
 {
     *out = (screen){ .impact_pressure = 0.0 };
     CHECK(height > 0.0, STATUS_BAD_INPUT, "screen: a grain of height %g m has none", height);
-    TRY(mpm_material_check(s->armature, MATERIAL_FOR_SCREEN));
+    TRY(mpm_material_check(s->armature, MPM_MATERIAL_FOR_SCREEN));
     TRY(average_rail(s, height, velocity, out));
     out->ratio = out->impact_pressure / fmax(s->armature_hardness, out->hardness);
     out->probability = gouge_screen_probability(out->ratio);

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-static void warn_of_limits(session *s, const shot_limits *l)
+static void warn_of_limits(session *s, const circuit_shot_limits *l)
 {
     const double x = l->transition_position;
     if (l->contact_ratio < 1.0)
@@ -36,13 +36,14 @@ status gouge_session_shot(session *s, const case_flight *flight, const site_jump
     if (s->history && done.code == STATUS_OK) TRY(output_history_tick(s->history));
     host_timing_add(&s->timing, "shot", host_wall_clock() - since);
     int warmest = 0;
-    for (int k = 1; k < SHOT_PIECES; k++)
+    for (int k = 1; k < CIRCUIT_SHOT_PIECES; k++)
         if (out->rail_rise[k] > out->rail_rise[warmest]) warmest = k;
-    *record = (shot_record){ .is = out->summary,
-                             .limits = out->limits,
-                             .rail_rise = out->rail_rise[warmest],
-                             .rail_rise_position = (warmest + 0.5) * flight->launcher.barrel.length / SHOT_PIECES,
-                             .wall_seconds = host_wall_clock() - since };
+    *record =
+        (shot_record){ .is = out->summary,
+                       .limits = out->limits,
+                       .rail_rise = out->rail_rise[warmest],
+                       .rail_rise_position = (warmest + 0.5) * flight->launcher.barrel.length / CIRCUIT_SHOT_PIECES,
+                       .wall_seconds = host_wall_clock() - since };
     if (done.code == STATUS_OK && with_history) warn_of_limits(s, &out->limits);
     return done;
 }

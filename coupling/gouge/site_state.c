@@ -99,12 +99,12 @@ static bool keep(recorder *r, status s)
     return r->error.code == STATUS_OK;
 }
 
-static double pressure_of(const recorder *r, const shot_state *s)
+static double pressure_of(const recorder *r, const circuit_shot_state *s)
 {
     return s->contact_force / r->face_area;
 }
 
-static void arrive(recorder *r, const shot_event *e)
+static void arrive(recorder *r, const circuit_shot_event *e)
 {
     site_state *s = &r->out->site[e->index];
     s->reached = true;
@@ -116,7 +116,7 @@ static void arrive(recorder *r, const shot_event *e)
     s->armature_temperature = e->state.armature_temperature;
 }
 
-static bool on_event(void *user, shot *s, const shot_event *e)
+static bool on_event(void *user, circuit_shot *s, const circuit_shot_event *e)
 {
     recorder *r = user;
     if (r->plan->history) {
@@ -124,16 +124,16 @@ static bool on_event(void *user, shot *s, const shot_event *e)
         output_history_event_row(e, row);
         if (!keep(r, output_history_append(r->plan->history, r->rows[2], row))) return false;
     }
-    if (e->kind != SHOT_SITE) return true;
+    if (e->kind != CIRCUIT_SHOT_SITE) return true;
     arrive(r, e);
     const site_jump *j = r->plan->jump ? &r->plan->jump[e->index] : NULL;
     return !j || !(j->impulse > 0.0 || j->mass_loss > 0.0) || keep(r, circuit_shot_jump(s, j->impulse, j->mass_loss));
 }
 
-static status keep_trace(recorder *r, const shot_state *s)
+static status keep_trace(recorder *r, const circuit_shot_state *s)
 {
     shot_outcome *o = r->out;
-    if (s->phase == SHOT_LEFT || (o->n_trace > 0 && s->t <= o->trace[o->n_trace - 1].t)) return status_ok();
+    if (s->phase == CIRCUIT_SHOT_LEFT || (o->n_trace > 0 && s->t <= o->trace[o->n_trace - 1].t)) return status_ok();
     if (o->n_trace == o->trace_room) {
         const int room = o->trace_room ? 2 * o->trace_room : 1024;
         trace_point *more = realloc(o->trace, (size_t)room * sizeof *more);
@@ -153,7 +153,7 @@ static status keep_trace(recorder *r, const shot_state *s)
     return status_ok();
 }
 
-static status write_rows(recorder *r, const shot *s, const shot_state *state)
+static status write_rows(recorder *r, const circuit_shot *s, const circuit_shot_state *state)
 {
     double row[HISTORY_MAX_COLUMNS];
     const double interval = r->flight->history_interval;
@@ -165,7 +165,7 @@ static status write_rows(recorder *r, const shot *s, const shot_state *state)
     return output_history_append(r->plan->history, r->rows[1], row);
 }
 
-static bool on_sample(void *user, const shot *s, const shot_state *state)
+static bool on_sample(void *user, const circuit_shot *s, const circuit_shot_state *state)
 {
     recorder *r = user;
     const double length = r->flight->launcher.barrel.length, start = r->flight->launcher.barrel.start;
@@ -176,7 +176,7 @@ static bool on_sample(void *user, const shot *s, const shot_state *state)
 
 /* ---- the run ---- */
 
-static status open_series(recorder *r, const shot *s)
+static status open_series(recorder *r, const circuit_shot *s)
 {
     history *h = r->plan->history;
     if (!h) return status_ok();
@@ -194,10 +194,10 @@ static status close_series(recorder *r)
     return status_ok();
 }
 
-static status run(recorder *r, shot *s)
+static status run(recorder *r, circuit_shot *s)
 {
     TRY(open_series(r, s));
-    const shot_sink sink = { on_event, on_sample, r };
+    const circuit_shot_sink sink = { on_event, on_sample, r };
     const status done = circuit_shot_advance(s, INFINITY, &sink);
     if (r->error.code != STATUS_OK) return r->error;
     TRY(done);
@@ -224,7 +224,7 @@ static status prepare(const case_flight *f, shot_outcome *out, double **position
 /* Of the face that is pressed on the rail [m2]. */
 static double face_area(const case_flight *f)
 {
-    const shot_armature *a = &f->launcher.armature;
+    const circuit_shot_armature *a = &f->launcher.armature;
     const double width = isnan(a->contact_width) ? f->launcher.rails.height : a->contact_width;
     return f->body ? gouge_face_area(f->body) : a->contact_length * width;
 }
@@ -233,12 +233,12 @@ status gouge_shot_run(const case_flight *f, const shot_plan *plan, shot_outcome 
 {
     memset(out, 0, sizeof *out);
     double *positions = NULL;
-    shot *s = NULL;
+    circuit_shot *s = NULL;
     recorder r = { .flight = f, .plan = plan, .out = out, .last_sample = -INFINITY, .error = status_ok() };
     r.face_area = face_area(f);
     status done = prepare(f, out, &positions);
     if (done.code == STATUS_OK) {
-        shot_config config = f->launcher;
+        circuit_shot_config config = f->launcher;
         config.sites = positions;
         config.n_sites = f->n_sites;
         done = circuit_shot_create(&config, &s);

@@ -42,9 +42,9 @@ typedef struct {
 } site_jump;
 
 typedef struct {
-    shot_summary summary;
-    shot_limits limits;
-    double rail_rise[SHOT_PIECES]; /* that the shot leaves, along the barrel [K] */
+    circuit_shot_summary summary;
+    circuit_shot_limits limits;
+    double rail_rise[CIRCUIT_SHOT_PIECES]; /* that the shot leaves, along the barrel [K] */
     int n_sites;
     site_state *site; /* in the case's order, owned */
     int n_trace, trace_room;

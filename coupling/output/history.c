@@ -406,7 +406,7 @@ status output_history_shot(history *h, int *series)
     return output_history_series(h, "/shot", shot_columns, WIDTH(shot_columns), series);
 }
 
-void output_history_shot_row(const shot_state *s, double *row)
+void output_history_shot_row(const circuit_shot_state *s, double *row)
 {
     SHOT_COLUMNS(COLUMN_VALUE)
 #define STORED(member, column, text) *row++ = s->ledger.member;
@@ -421,7 +421,7 @@ status output_history_events(history *h, int *series)
     return output_history_series(h, "/shot/events", event_columns, WIDTH(event_columns), series);
 }
 
-void output_history_event_row(const shot_event *e, double *row){ EVENT_COLUMNS(COLUMN_VALUE) }
+void output_history_event_row(const circuit_shot_event *e, double *row){ EVENT_COLUMNS(COLUMN_VALUE) }
 
 status output_history_scene(history *h, const char *scene, const history_column *more, int n, int *series)
 {
@@ -466,7 +466,7 @@ static status modules_series(history *h, int groups, char (*name)[64], history_c
     return output_history_series(h, "/shot/modules", columns, n, series);
 }
 
-status output_history_modules(history *h, const shot *s, int *series)
+status output_history_modules(history *h, const circuit_shot *s, int *series)
 {
     char(*name)[64] = calloc(HISTORY_MAX_COLUMNS, sizeof *name);
     history_column *columns = calloc(HISTORY_MAX_COLUMNS, sizeof *columns);
@@ -478,7 +478,7 @@ status output_history_modules(history *h, const shot *s, int *series)
     return result;
 }
 
-void output_history_modules_row(const shot *s, double *row)
+void output_history_modules_row(const circuit_shot *s, double *row)
 {
     const int groups = groups_kept(circuit_shot_module_count(s));
     *row++ = circuit_shot_now(s).t;

@@ -89,11 +89,12 @@ status output_history_map(history *h, const char *scene, const history_map *map)
 enum { HISTORY_MAX_COLUMNS = 4096, HISTORY_MAX_SERIES = 512 };
 
 status output_history_shot(history *h, int *series); /* /shot */
-void output_history_shot_row(const shot_state *s, double *row);
+void output_history_shot_row(const circuit_shot_state *s, double *row);
 status output_history_events(history *h, int *series); /* /shot/events */
-void output_history_event_row(const shot_event *e, double *row);
-status output_history_modules(history *h, const shot *s, int *series); /* /shot/modules: as many groups as fit */
-void output_history_modules_row(const shot *s, double *row);
+void output_history_event_row(const circuit_shot_event *e, double *row);
+status output_history_modules(history *h, const circuit_shot *s,
+                              int *series); /* /shot/modules: as many groups as fit */
+void output_history_modules_row(const circuit_shot *s, double *row);
 /* /scene/<name>, with n more columns of the caller's behind those that every scene has. */
 status output_history_scene(history *h, const char *scene, const history_column *more, int n, int *series);
 /* force: [3] of contact, on the group that scene_job names [N].  Returns where the caller's values go. */

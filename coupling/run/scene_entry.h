@@ -10,7 +10,7 @@ typedef struct {
     char name[SUMMARY_NAME_SIZE]; /* its folder under scenes/ and its group under /scene */
     double velocity;              /* [m/s] */
     double radius, height;        /* of the grain [m] */
-    char shape[PARAM_TEXT_SIZE], material[PARAM_TEXT_SIZE], surface[SUMMARY_NAME_SIZE];
+    char shape[BASE_PARAM_TEXT_SIZE], material[BASE_PARAM_TEXT_SIZE], surface[SUMMARY_NAME_SIZE];
     double contact_pressure; /* [Pa] */
     double temperature;      /* of the rail [K] */
     double cells_per_radius; /* [1] */

@@ -37,7 +37,7 @@ typedef struct {
     bool crater_truncated; /* the crater reaches the edge of its map: length and volume are lower bounds */
     double momentum_error, energy_error; /* [1] */
     int bodies;
-    char body[RESULT_BODIES][PARAM_TEXT_SIZE];
+    char body[RESULT_BODIES][BASE_PARAM_TEXT_SIZE];
     double failed_volume[RESULT_BODIES];  /* [m3] */
     double carried_volume[RESULT_BODIES]; /* sound and faster than half the armature's speed at the end [m3] */
     double layers_failed_volume, layers_carried_volume; /* the same, of the rail's layers together [m3] */

@@ -50,7 +50,7 @@ const summary_key run_shot_keys[] = {
 
 void run_shot_verdict(const shot_record *r, FILE *out)
 {
-    const shot_summary *is = &r->is;
+    const circuit_shot_summary *is = &r->is;
     if (isfinite(is->muzzle_velocity))
         fprintf(out, "leaves the muzzle at %.0f m/s after %.3g ms: %.3g kJ, %.3g %% of the energy spent; ",
                 is->muzzle_velocity, 1e3 * is->muzzle_time, 1e-3 * is->muzzle_energy, 1e2 * is->efficiency);

@@ -9,12 +9,12 @@
 
 /* The shot, and what it took. */
 typedef struct {
-    shot_summary is;
-    shot_limits limits;
+    circuit_shot_summary is;
+    circuit_shot_limits limits;
     double rail_rise,
-        rail_rise_position; /* largest that the shot leaves in its rails, even over the section; where [K, m] */
-    double wall_seconds;    /* [s] */
-    firing_result firing;   /* of the search for firing times, all zero where there was none */
+        rail_rise_position;       /* largest that the shot leaves in its rails, even over the section; where [K, m] */
+    double wall_seconds;          /* [s] */
+    circuit_firing_result firing; /* of the search for firing times, all zero where there was none */
     int n_fire_at;
     const double *fire_at; /* of the bank's groups, as found [s]; n_fire_at, borrowed */
 } shot_record;

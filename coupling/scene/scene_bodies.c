@@ -114,7 +114,7 @@ typedef struct {
 } recorder;
 
 typedef struct {
-    char text[PARAM_TEXT_SIZE + 20]; /* "ball/velocity_x" */
+    char text[BASE_PARAM_TEXT_SIZE + 20]; /* "ball/velocity_x" */
 } column_name;
 
 static status open_named(recorder *r, const char *group, history_column *column, column_name *name)

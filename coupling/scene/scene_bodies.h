@@ -12,7 +12,7 @@
 #include "coupling/scene/scene_run.h"
 
 typedef struct {
-    char name[PARAM_TEXT_SIZE];
+    char name[BASE_PARAM_TEXT_SIZE];
     double mass;                     /* in the window [kg] */
     double position[3], velocity[3]; /* means over its mass [m, m/s]; NAN where nothing is left */
     double lo[3], hi[3];             /* how far its intact material reaches [m]; NAN where there is none */

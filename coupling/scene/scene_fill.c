@@ -61,7 +61,7 @@ static double or_else(double value, double fallback)
 
 static double margin_at(const mpm_axis *a, int end, double length)
 {
-    return a->boundary[end] == BOUNDARY_FREE ? fmax(MARGIN * length, ROOM * a->coarse) : 0.0;
+    return a->boundary[end] == MPM_BOUNDARY_FREE ? fmax(MARGIN * length, ROOM * a->coarse) : 0.0;
 }
 
 /* Whole cells, in multiples of what the levels want; an end that comes near the window's is laid to it. */
@@ -85,7 +85,7 @@ static void fill_cells(const survey *bodies, bool rules, mpm_axis *a)
 /* An end of the window that holds this place too; NAN: its own is enough. */
 static double further(const mpm_axis *a, int end, double own, double at)
 {
-    if (a->boundary[end] != BOUNDARY_FREE) return own;
+    if (a->boundary[end] != MPM_BOUNDARY_FREE) return own;
     return end ? fmax(own, at + a->coarse) : fmin(own, at - a->coarse);
 }
 

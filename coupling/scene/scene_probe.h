@@ -18,12 +18,12 @@ enum { SCENE_PROBE_COLUMNS = 16 };
 
 /* Of the quantity that stands for its kind (mpm_probe_kind.main), all NAN for a map and for what was never there. */
 typedef struct {
-    char name[PARAM_TEXT_SIZE], kind[PARAM_TEXT_SIZE];
-    char quantity[PARAM_TEXT_SIZE], unit[PARAM_TEXT_SIZE];
+    char name[BASE_PARAM_TEXT_SIZE], kind[BASE_PARAM_TEXT_SIZE];
+    char quantity[BASE_PARAM_TEXT_SIZE], unit[BASE_PARAM_TEXT_SIZE];
     double peak, peak_time, least, arrival; /* [unit], [s] */
     double impulse[3];                      /* of a vector all three, of one number the first [unit s] */
     int columns;
-    char column[SCENE_PROBE_COLUMNS][PARAM_TEXT_SIZE];
+    char column[SCENE_PROBE_COLUMNS][BASE_PARAM_TEXT_SIZE];
     double last[SCENE_PROBE_COLUMNS]; /* at the end, in the columns' units */
     double mean[SCENE_PROBE_COLUMNS]; /* over the scene's time */
 } scene_probe_result;

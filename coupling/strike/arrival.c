@@ -75,7 +75,7 @@ static status meet_end(const mpm_scene *s, const box *b, int k, int end, strike_
     const double tolerance = AT_PLANE * (b->hi[k] - b->lo[k]);
     if (out < -tolerance) return status_ok();
     const char *name = s->body[p->body].name;
-    if (a->boundary[end] != BOUNDARY_SYMMETRY) {
+    if (a->boundary[end] != MPM_BOUNDARY_SYMMETRY) {
         CHECK(out <= tolerance, STATUS_BAD_INPUT,
               "strike.projectile: %s reaches %.4g m out of the window at scene.window.%s.%s = %g m: move it, or widen "
               "the window",
@@ -303,7 +303,7 @@ static status add_plate(mpm_scene *s, const strike_projectile *p)
 static bool has_fluid(const mpm_scene *s)
 {
     bool fluid = false;
-    for (int i = 0; i < s->bodies; i++) fluid = fluid || mpm_material_shear(s->body[i].material) == SHEAR_NONE;
+    for (int i = 0; i < s->bodies; i++) fluid = fluid || mpm_material_shear(s->body[i].material) == MPM_SHEAR_NONE;
     return fluid;
 }
 

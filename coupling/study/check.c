@@ -139,7 +139,7 @@ status study_possible(const case_inputs *in, unsigned needs, size_t *largest)
     mpm_needs bodies;
     if (in->given.bodies) TRY(needs_of(&in->bodies.scene, &bodies, largest));
     const case_onset *c = &in->onset;
-    rail_section section;
+    circuit_rail_section section;
     if (needs & CASE_FOR_INDUCTANCE) TRY(circuit_rails_section(&c->launcher.rails, &section));
     if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_rails_check(&c->launcher.rails));
     if (needs & (CASE_FOR_SHOT | CASE_FOR_ONSET)) TRY(circuit_shot_check(&c->launcher));

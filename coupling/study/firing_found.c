@@ -3,9 +3,9 @@
 
 #include <stdlib.h>
 
-status study_firing_find(session *s, const firing_wish *wish, case_flight *flight, firing_found *out)
+status study_firing_find(session *s, const circuit_firing_wish *wish, case_flight *flight, firing_found *out)
 {
-    supply_list *bank = &flight->launcher.supplies[SUPPLY_capacitor];
+    circuit_supply_list *bank = &flight->launcher.supplies[CIRCUIT_SUPPLY_capacitor];
     const size_t n = (size_t)bank->n;
     const double since = host_wall_clock();
     out->modules = malloc((n + 1) * sizeof *out->modules);

@@ -9,14 +9,14 @@
 #include "coupling/run/shot_record.h"
 
 typedef struct {
-    shot_module *modules; /* [n] the bank's groups; owned */
-    double *fire_at;      /* [n] owned [s] */
+    circuit_shot_module *modules; /* [n] the bank's groups; owned */
+    double *fire_at;              /* [n] owned [s] */
     int n;
-    firing_result is;
+    circuit_firing_result is;
 } firing_found;
 
 /* The flight's bank becomes the one that is found, which borrows from `out`.  study_firing_free even on error. */
-status study_firing_find(session *s, const firing_wish *wish, case_flight *flight, firing_found *out);
+status study_firing_find(session *s, const circuit_firing_wish *wish, case_flight *flight, firing_found *out);
 void study_firing_free(firing_found *f);
 
 /* Says in the record what was found; it borrows the times. */

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const param *key_find(const char *set, size_t length)
+static const base_param *key_find(const char *set, size_t length)
 {
-    for (const param *p = mpm_flow_test_params; p->key; p++)
+    for (const base_param *p = mpm_flow_test_params; p->key; p++)
         if (strlen(p->key) == length && strncmp(p->key, set, length) == 0) return p;
     return NULL;
 }
@@ -16,7 +16,7 @@ static const param *key_find(const char *set, size_t length)
 static void keys_text(char *out, size_t size)
 {
     size_t used = 0;
-    for (const param *p = mpm_flow_test_params; p->key && used < size; p++)
+    for (const base_param *p = mpm_flow_test_params; p->key && used < size; p++)
         used += (size_t)snprintf(out + used, size - used, "%s%s", p == mpm_flow_test_params ? "" : ", ", p->key);
 }
 
@@ -25,13 +25,13 @@ static status take(const units *u, const char *set, mpm_flow_test *test)
     const char *equals = strchr(set, '=');
     char keys[200], unit[UNIT_SIZE];
     keys_text(keys, sizeof keys);
-    const param *p = equals ? key_find(set, (size_t)(equals - set)) : NULL;
+    const base_param *p = equals ? key_find(set, (size_t)(equals - set)) : NULL;
     CHECK(p, STATUS_BAD_INPUT, "--set %.60s: must be KEY=VALUE with a key of %s", set, keys);
     double value;
     const status s = host_quantity_read(u, equals + 1, p->unit, &value, unit);
     CHECK(s.code == STATUS_OK, STATUS_BAD_INPUT, "--set %.60s: %s", set, s.text);
     void *member = (char *)test + p->offset;
-    if (p->kind == PARAM_INTEGER) {
+    if (p->kind == BASE_PARAM_INTEGER) {
         CHECK(value == floor(value) && fabs(value) < 1e9, STATUS_BAD_INPUT, "--set %.60s: must be a whole number", set);
         *(int *)member = (int)value;
     } else {
@@ -49,7 +49,7 @@ static status take_all(const char *const *sets, int n, mpm_flow_test *test)
     return s;
 }
 
-status study_flow_print(const material *m, const char *const *sets, int n, FILE *out)
+status study_flow_print(const mpm_material *m, const char *const *sets, int n, FILE *out)
 {
     mpm_flow_test test;
     base_params_default(mpm_flow_test_params, &test);

@@ -9,6 +9,6 @@
 
 /* Prints a table: strain, flow stress [MPa], temperature [K].  sets: n texts KEY=VALUE, of the keys of
  * mpm_flow_test_params, values with their units. */
-status study_flow_print(const material *m, const char *const *sets, int n, FILE *out);
+status study_flow_print(const mpm_material *m, const char *const *sets, int n, FILE *out);
 
 #endif

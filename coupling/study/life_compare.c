@@ -28,7 +28,7 @@ const life_entry *study_life_compare_find(const life_ranking *r, const char *sur
 /* ---- one surface ---- */
 
 /* The metal on top, by the constants that its life is asked for with. */
-static const material *metal_of(const case_onset *plain, const case_onset *treated, const case_life *life)
+static const mpm_material *metal_of(const case_onset *plain, const case_onset *treated, const case_life *life)
 {
     const case_layers *layers = &treated->impact.rail.layers;
     const char *top = layers->n > 0 ? layers->item[layers->n - 1].material : treated->impact.rail.material;
@@ -39,7 +39,7 @@ static const material *metal_of(const case_onset *plain, const case_onset *treat
 static status run_surface(session *s, const case_onset *plain, const case_onset *treated, const case_life *life,
                           bool with_history, life_entry *e, shot_record *record)
 {
-    const material *metal = metal_of(plain, treated, life);
+    const mpm_material *metal = metal_of(plain, treated, life);
     case_onset flown = *treated;
     flown.launcher.rails.initial_temperature += treated->impact.rail.temperature - plain->impact.rail.temperature;
     snprintf(e->metal, sizeof e->metal, "%s", metal->name);

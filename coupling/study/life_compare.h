@@ -15,7 +15,7 @@
 
 typedef struct {
     char surface[SUMMARY_NAME_SIZE];
-    char metal[PARAM_TEXT_SIZE]; /* whose constants are taken */
+    char metal[BASE_PARAM_TEXT_SIZE]; /* whose constants are taken */
     char lacks[160];             /* why it is not judged; "": it is */
     rail_life_result is;         /* owned */
     double spread;               /* fatigue_A_spread of the metal */

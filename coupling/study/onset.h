@@ -43,7 +43,7 @@ typedef struct {
 /* The threshold at one size of one family of grains. */
 typedef struct {
     int family; /* from 1 */
-    char shape[PARAM_TEXT_SIZE], material[PARAM_TEXT_SIZE];
+    char shape[BASE_PARAM_TEXT_SIZE], material[BASE_PARAM_TEXT_SIZE];
     double radius;                                /* [m] */
     double grains;                                /* it stands for */
     double threshold_velocity;                    /* [m/s] */

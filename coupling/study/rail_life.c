@@ -22,7 +22,7 @@ typedef struct {
     session *s;
     const case_onset *c;
     const case_life *life;
-    const material *metal;
+    const mpm_material *metal;
     life_rail rail;
     double rayleigh;
     size_t size;   /* of a place's rates */
@@ -46,10 +46,10 @@ static void work_free(work *w)
     free(w->alone);
 }
 
-status study_rail_life_possible(const case_onset *c, const case_life *life, const material *metal)
+status study_rail_life_possible(const case_onset *c, const case_life *life, const mpm_material *metal)
 {
     const double length = c->launcher.barrel.length - c->launcher.barrel.start;
-    TRY(mpm_material_check(metal, MATERIAL_FOR_FATIGUE));
+    TRY(mpm_material_check(metal, MPM_MATERIAL_FOR_FATIGUE));
     CHECK(metal->density > 0.0, STATUS_BAD_INPUT, "life.material: %s lacks its density", metal->name);
     CHECK(!life->heat || !isnan(metal->expansion), STATUS_BAD_INPUT,
           "life.material: %s lacks its thermal expansion (or set life.heat: no)", metal->name);
@@ -69,7 +69,7 @@ static double known_or(double x, double fallback)
 /* Of the circuit's rail; another metal than the case asks for has its own constants where they are known. */
 static life_heat_metal heat_metal_of(const work *w)
 {
-    const shot_rails *r = &w->c->launcher.rails;
+    const circuit_shot_rails *r = &w->c->launcher.rails;
     const double warm = 1.0 + r->resistivity_coefficient * (r->initial_temperature - 293.15);
     life_heat_metal heat = { .conductivity = r->thermal_conductivity,
                              .heat_capacity = r->density * r->specific_heat,
@@ -137,18 +137,18 @@ static void take_flight(work *w, const shot_outcome *o, double *rate, rail_life_
 
 /* ---- the shots ---- */
 
-static double mean_of(const double rise[SHOT_PIECES])
+static double mean_of(const double rise[CIRCUIT_SHOT_PIECES])
 {
     double sum = 0.0;
-    for (int k = 0; k < SHOT_PIECES; k++) sum += rise[k];
-    return sum / SHOT_PIECES;
+    for (int k = 0; k < CIRCUIT_SHOT_PIECES; k++) sum += rise[k];
+    return sum / CIRCUIT_SHOT_PIECES;
 }
 
-static status no_melting(const work *w, int number, const double rise[SHOT_PIECES])
+static status no_melting(const work *w, int number, const double rise[CIRCUIT_SHOT_PIECES])
 {
-    const material *rail = case_material(&w->c->impact.materials, w->c->impact.rail.material);
+    const mpm_material *rail = case_material(&w->c->impact.materials, w->c->impact.rail.material);
     if (!rail || isnan(rail->melting_temperature)) return status_ok();
-    for (int k = 0; k < SHOT_PIECES; k++)
+    for (int k = 0; k < CIRCUIT_SHOT_PIECES; k++)
         CHECK(w->c->launcher.rails.initial_temperature + rise[k] < rail->melting_temperature, STATUS_BAD_INPUT,
               "study.shots: shot %d would find the rail at %.0f K, %s melts at %.0f K; lower study.shots or "
               "study.heat_kept = %g",
@@ -157,7 +157,7 @@ static status no_melting(const work *w, int number, const double rise[SHOT_PIECE
     return status_ok();
 }
 
-static status fly(work *w, double warmer, bool with_history, double left[SHOT_PIECES], rail_life_result *r,
+static status fly(work *w, double warmer, bool with_history, double left[CIRCUIT_SHOT_PIECES], rail_life_result *r,
                   shot_record *record)
 {
     case_flight flight = case_flight_of(w->c);
@@ -178,11 +178,11 @@ static status fly(work *w, double warmer, bool with_history, double left[SHOT_PI
 
 static status fly_all(work *w, bool with_history, rail_life_result *r, shot_record *record)
 {
-    double rise[SHOT_PIECES] = { 0.0 }, left[SHOT_PIECES], flown_at = 0.0;
+    double rise[CIRCUIT_SHOT_PIECES] = { 0.0 }, left[CIRCUIT_SHOT_PIECES], flown_at = 0.0;
     TRY(fly(w, 0.0, with_history, left, r, record));
     w->flight[0] = 0;
     for (int n = 1; n < r->shots; n++) {
-        for (int k = 0; k < SHOT_PIECES; k++) rise[k] = w->c->study.heat_kept * (rise[k] + left[k]);
+        for (int k = 0; k < CIRCUIT_SHOT_PIECES; k++) rise[k] = w->c->study.heat_kept * (rise[k] + left[k]);
         TRY(no_melting(w, n + 1, rise));
         if (fabs(mean_of(rise) - flown_at) >= SAME_FLIGHT) {
             flown_at = mean_of(rise);
@@ -327,7 +327,7 @@ static status judge(const work *w, double spread, rail_life_result *r)
     return status_ok();
 }
 
-status study_rail_life_run(session *s, const case_onset *c, const case_life *life, const material *metal,
+status study_rail_life_run(session *s, const case_onset *c, const case_life *life, const mpm_material *metal,
                            bool with_history, rail_life_result *out, shot_record *record)
 {
     const double since = host_wall_clock();

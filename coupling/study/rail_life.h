@@ -52,9 +52,9 @@ typedef struct {
 } rail_life_result;
 
 /* Of this metal; STATUS_BAD_INPUT names what it lacks. */
-status study_rail_life_possible(const case_onset *c, const case_life *life, const material *metal);
+status study_rail_life_possible(const case_onset *c, const case_life *life, const mpm_material *metal);
 /* *out needs study_rail_life_free, even on error.  record, NULL: not wanted, is the first shot's. */
-status study_rail_life_run(session *s, const case_onset *c, const case_life *life, const material *metal,
+status study_rail_life_run(session *s, const case_onset *c, const case_life *life, const mpm_material *metal,
                            bool with_history, rail_life_result *out, shot_record *record);
 rail_life_result study_rail_life_none(void); /* nothing is known */
 void study_rail_life_free(rail_life_result *r);

@@ -26,20 +26,20 @@ void study_repeated_free(repeated_rail *r)
 
 /* ---- the flights ---- */
 
-typedef double rises[SHOT_PIECES];
+typedef double rises[CIRCUIT_SHOT_PIECES];
 
 static double mean_of(const rises rise)
 {
     double sum = 0.0;
-    for (int k = 0; k < SHOT_PIECES; k++) sum += rise[k];
-    return sum / SHOT_PIECES;
+    for (int k = 0; k < CIRCUIT_SHOT_PIECES; k++) sum += rise[k];
+    return sum / CIRCUIT_SHOT_PIECES;
 }
 
 /* Of the piece's middles linearly, even before the first and after the last. */
 static double rise_at(const rises rise, double share_of_barrel)
 {
-    const double at = fmin(fmax(SHOT_PIECES * share_of_barrel - 0.5, 0.0), SHOT_PIECES - 1.0);
-    const int k = at < SHOT_PIECES - 1 ? (int)at : SHOT_PIECES - 2;
+    const double at = fmin(fmax(CIRCUIT_SHOT_PIECES * share_of_barrel - 0.5, 0.0), CIRCUIT_SHOT_PIECES - 1.0);
+    const int k = at < CIRCUIT_SHOT_PIECES - 1 ? (int)at : CIRCUIT_SHOT_PIECES - 2;
     return rise[k] + (at - k) * (rise[k + 1] - rise[k]);
 }
 
@@ -62,11 +62,11 @@ static double melting_rise(const case_onset *c)
 static status no_melting(const case_onset *c, int number, const rises rise)
 {
     const double melting = melting_rise(c);
-    for (int k = 0; k < SHOT_PIECES; k++)
+    for (int k = 0; k < CIRCUIT_SHOT_PIECES; k++)
         CHECK(rise[k] < melting, STATUS_BAD_INPUT,
               "study.shots: shot %d would find the rail at %.0f K %.3g m from the breech, %s melts at %.0f K; lower "
               "study.shots or study.heat_kept = %g",
-              number, c->impact.rail.temperature + rise[k], (k + 0.5) * c->launcher.barrel.length / SHOT_PIECES,
+              number, c->impact.rail.temperature + rise[k], (k + 0.5) * c->launcher.barrel.length / CIRCUIT_SHOT_PIECES,
               c->impact.rail.material, c->impact.rail.temperature + melting, c->study.heat_kept);
     return status_ok();
 }
@@ -104,7 +104,7 @@ static status fly_all(session *s, const grain_families *first, const shot_record
     study_mc_velocities(first->flown, c->launcher.barrel.length, out->along[0].v);
     out->shot[0].muzzle_velocity = flight->is.muzzle_velocity;
     for (int n = 1; n < out->shots; n++) {
-        for (int k = 0; k < SHOT_PIECES; k++) rise[k] = c->study.heat_kept * (rise[k] + left[k]);
+        for (int k = 0; k < CIRCUIT_SHOT_PIECES; k++) rise[k] = c->study.heat_kept * (rise[k] + left[k]);
         TRY(no_melting(c, n + 1, rise));
         TRY(fly(s, c, n, rise, &flown_at, left, out));
         for (int k = 0; k <= MC_PLACES; k++) out->along[n].rise[k] = rise_at(rise, (double)k / MC_PLACES);
@@ -118,7 +118,7 @@ static status fly_all(session *s, const grain_families *first, const shot_record
 static bool may_melt(const case_onset *c, const rises left)
 {
     double rise = 0.0, most = 0.0;
-    for (int k = 0; k < SHOT_PIECES; k++) most = fmax(most, left[k]);
+    for (int k = 0; k < CIRCUIT_SHOT_PIECES; k++) most = fmax(most, left[k]);
     for (int n = 1; n < c->study.shots; n++) rise = c->study.heat_kept * (rise + most);
     return rise > NEAR_MELTING * melting_rise(c);
 }

@@ -10,22 +10,22 @@ static const double CHANGE = 0.05; /* relative */
 
 typedef struct {
     const char *input;
-    void (*change)(shot_config *c, double factor); /* of a copy; NULL: the grains' size */
+    void (*change)(circuit_shot_config *c, double factor); /* of a copy; NULL: the grains' size */
 } changed_input;
 
 /* Of a launcher whose supplies are copies (own_supplies). */
-static void change_charge(shot_config *c, double factor)
+static void change_charge(circuit_shot_config *c, double factor)
 {
-    for (int k = 0; k < SUPPLY_KINDS; k++)
-        circuit_supply_recharge((supply_kind_index)k, (void *)c->supplies[k].item, c->supplies[k].n, factor);
+    for (int k = 0; k < CIRCUIT_SUPPLY_KINDS; k++)
+        circuit_supply_recharge((circuit_supply_kind_index)k, (void *)c->supplies[k].item, c->supplies[k].n, factor);
 }
 
-static void change_mass(shot_config *c, double factor)
+static void change_mass(circuit_shot_config *c, double factor)
 {
     c->armature.mass *= factor;
 }
 
-static void change_friction(shot_config *c, double factor)
+static void change_friction(circuit_shot_config *c, double factor)
 {
     c->armature.friction_dry *= factor;
     c->armature.friction_melted *= factor;
@@ -41,10 +41,10 @@ static const changed_input inputs[] = {
 enum { INPUTS = sizeof inputs / sizeof inputs[0], MOST = INPUTS + UNCERTAIN_MAX };
 
 /* Copies of the supplies that can be changed; copy[] is owned. */
-static status own_supplies(shot_config *c, void *copy[SUPPLY_KINDS])
+static status own_supplies(circuit_shot_config *c, void *copy[CIRCUIT_SUPPLY_KINDS])
 {
-    for (int k = 0; k < SUPPLY_KINDS; k++) {
-        const size_t bytes = (size_t)c->supplies[k].n * circuit_supply_size((supply_kind_index)k);
+    for (int k = 0; k < CIRCUIT_SUPPLY_KINDS; k++) {
+        const size_t bytes = (size_t)c->supplies[k].n * circuit_supply_size((circuit_supply_kind_index)k);
         if (bytes == 0) continue;
         copy[k] = malloc(bytes);
         CHECK(copy[k], STATUS_MEMORY, "no memory for the supplies");
@@ -59,7 +59,7 @@ static status fly_changed(session *s, const onset_answer *a, const changed_input
                           shot_record *record)
 {
     case_flight flight = case_flight_of(a->grains.c);
-    void *copy[SUPPLY_KINDS] = { NULL };
+    void *copy[CIRCUIT_SUPPLY_KINDS] = { NULL };
     *record = a->shot;
     if (!input->change) return status_ok();
     status done = own_supplies(&flight.launcher, copy);
@@ -67,7 +67,7 @@ static status fly_changed(session *s, const onset_answer *a, const changed_input
         input->change(&flight.launcher, 1.0 + CHANGE);
         done = gouge_session_shot(s, &flight, NULL, false, flown, record);
     }
-    for (int k = 0; k < SUPPLY_KINDS; k++) free(copy[k]);
+    for (int k = 0; k < CIRCUIT_SUPPLY_KINDS; k++) free(copy[k]);
     return done;
 }
 

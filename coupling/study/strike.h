@@ -8,9 +8,9 @@
 
 typedef struct {
     strike_outcome is;
-    scene_bodies_result scene; /* that it arrived in */
-    strike_limit limit;        /* with strike.limit */
-    firing_result firing;      /* with `optimise`; all zero without */
+    scene_bodies_result scene;    /* that it arrived in */
+    strike_limit limit;           /* with strike.limit */
+    circuit_firing_result firing; /* with `optimise`; all zero without */
 } strike_result;
 
 #endif

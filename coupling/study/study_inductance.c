@@ -50,12 +50,12 @@ static const double frequencies[] = { 1, 2, 5, 10, 20, 50, 100, 200, 500, 1e3, 2
 enum { FREQUENCIES = sizeof frequencies / sizeof frequencies[0] };
 
 /* All frequencies from one solution, the perfect conductor from another. */
-static status gradients_fill(const shot_rails *rails, inductance_answer *out)
+static status gradients_fill(const circuit_shot_rails *rails, inductance_answer *out)
 {
     static const double TURN = 6.28318530717958648;
     inductance_result *r = &out->result;
-    rail_section section;
-    impedance z;
+    circuit_rail_section section;
+    circuit_impedance z;
     TRY(circuit_rails_section(rails, &section));
     status done = circuit_inductance_response(&section, frequencies[FREQUENCIES - 1], rails->fineness, &z);
     for (int i = 0; i < FREQUENCIES && done.code == STATUS_OK; i++) {
@@ -76,7 +76,7 @@ static status gradients_fill(const shot_rails *rails, inductance_answer *out)
 }
 
 /* The surface at rails.frequency; else at what the pulse says, at 1 kHz without supplies. */
-static double surface_frequency(const shot_config *launcher)
+static double surface_frequency(const circuit_shot_config *launcher)
 {
     if (!isnan(launcher->rails.frequency)) return launcher->rails.frequency;
     const double f = circuit_shot_effective_frequency(launcher->supplies);
@@ -86,7 +86,7 @@ static double surface_frequency(const shot_config *launcher)
 static status run(session *s, const study_case *of, study_answer *out)
 {
     const double since = host_wall_clock();
-    const shot_config *launcher = &of->in->onset.launcher;
+    const circuit_shot_config *launcher = &of->in->onset.launcher;
     inductance_answer *a = out->owned = calloc(1, sizeof *a);
     CHECK(a, STATUS_MEMORY, "no memory for an answer");
     inductance_result *r = &a->result;

@@ -52,7 +52,7 @@ static const summary_key keys[] = {
 static status possible(const study_case *of)
 {
     const case_life *c = &of->in->life;
-    const material *m = case_material(&of->in->onset.impact.materials, c->material);
+    const mpm_material *m = case_material(&of->in->onset.impact.materials, c->material);
     contact_load load;
     TRY(life_contact_load(c, &load));
     if (c->speed == 0.0) return status_ok();
@@ -68,7 +68,7 @@ static void show(void *user, double fraction)
     host_progress_update(user, fraction, 0);
 }
 
-static life_crack_how how_of(session *s, const case_life *c, const material *m, const contact_load *load)
+static life_crack_how how_of(session *s, const case_life *c, const mpm_material *m, const contact_load *load)
 {
     return (life_crack_how){ .load = load,
                              .how = { m->youngs_modulus, m->poisson, c->measure, c->cycle, c->speed, m->density },
@@ -116,7 +116,7 @@ static void warn(session *s, const life_result *r, const case_life *c)
                          100.0 * off);
 }
 
-static status look_for_crack(session *s, const study_case *of, const material *m, const contact_load *load,
+static status look_for_crack(session *s, const study_case *of, const mpm_material *m, const contact_load *load,
                              life_result *r)
 {
     const double since = host_wall_clock();
@@ -134,7 +134,7 @@ static status look_for_crack(session *s, const study_case *of, const material *m
 static status run(session *s, const study_case *of, study_answer *out)
 {
     const case_life *c = &of->in->life;
-    const material *m = case_material(&of->in->onset.impact.materials, c->material);
+    const mpm_material *m = case_material(&of->in->onset.impact.materials, c->material);
     const fatigue_law law = mpm_fatigue_law(m);
     contact_load load;
     life_result *r = out->owned = calloc(1, sizeof *r);

@@ -77,7 +77,7 @@ typedef struct {
     shot_record shot;
 } answer;
 
-static const material *metal_of(const case_inputs *in)
+static const mpm_material *metal_of(const case_inputs *in)
 {
     return case_material(&in->onset.impact.materials, in->life.material);
 }
@@ -93,7 +93,7 @@ static status possible(const study_case *of)
     return study_rail_life_possible(&of->in->onset, &of->in->life, metal_of(of->in));
 }
 
-static void warn(session *s, const rail_life_result *r, const material *metal)
+static void warn(session *s, const rail_life_result *r, const mpm_material *metal)
 {
     if (!isnan(r->rayleigh_position))
         run_session_warn(
@@ -108,7 +108,7 @@ static status run(session *s, const study_case *of, study_answer *out)
 {
     answer *a = out->owned = calloc(1, sizeof *a);
     CHECK(a, STATUS_MEMORY, "no memory for an answer");
-    const material *metal = metal_of(of->in);
+    const mpm_material *metal = metal_of(of->in);
     TRY(study_rail_life_run(s, &of->in->onset, &of->in->life, metal, !of->one_of_several, &a->result, &a->shot));
     warn(s, &a->result, metal);
     out->result = &a->result;

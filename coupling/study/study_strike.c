@@ -98,7 +98,7 @@ typedef struct {
 /* Is a charge wanted for a velocity? */
 static bool wants_charge(const case_inputs *in)
 {
-    return in->given.optimise && in->optimise.goal == FIRING_VELOCITY;
+    return in->given.optimise && in->optimise.goal == CIRCUIT_FIRING_VELOCITY;
 }
 
 /* Is it to arrive with the limit velocity? */
@@ -110,14 +110,14 @@ static bool aims_at_limit(const case_inputs *in)
 static bool takes_shot(const case_inputs *in)
 {
     bool supply = false;
-    for (int k = 0; k < SUPPLY_KINDS; k++) supply = supply || in->given.supplies[k];
+    for (int k = 0; k < CIRCUIT_SUPPLY_KINDS; k++) supply = supply || in->given.supplies[k];
     return supply && (isnan(in->strike.velocity) || wants_charge(in));
 }
 
 /* The case's wish, its muzzle velocity that for this arrival; NAN: as it stands. */
-static firing_wish wish_for(const case_inputs *in, double mass, double arrival)
+static circuit_firing_wish wish_for(const case_inputs *in, double mass, double arrival)
 {
-    firing_wish w = in->optimise;
+    circuit_firing_wish w = in->optimise;
     if (wants_charge(in) && !isnan(arrival)) w.muzzle_velocity = strike_muzzle_for(&in->strike, mass, arrival);
     return w;
 }
@@ -138,7 +138,7 @@ static status possible(const study_case *of)
     if (fired) TRY(strike_package_check(&in->strike, p.mass, in->onset.launcher.armature.mass));
     if (fired && in->given.optimise) {
         const case_flight flight = case_flight_of(&in->onset);
-        const firing_wish wish =
+        const circuit_firing_wish wish =
             wish_for(in, p.mass, aims_at_limit(in) ? in->onset.study.velocity_low : in->strike.velocity);
         TRY(circuit_firing_check(&flight.launcher, &wish));
     }
@@ -161,7 +161,7 @@ static status arrive(session *s, const study_case *of, double wanted, strike_ans
         return status_ok();
     }
     case_flight launched = case_flight_of(&in->onset);
-    const firing_wish wish = wish_for(in, a->projectile.mass, wanted);
+    const circuit_firing_wish wish = wish_for(in, a->projectile.mass, wanted);
     shot_outcome o;
     if (in->given.optimise) TRY(study_firing_find(s, &wish, &launched, &a->firing));
     const status done = gouge_session_shot(s, &launched, NULL, !of->one_of_several, &o, &a->shot);

@@ -16,7 +16,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_RUNS = 2000, MOST_OUTPUTS = 24, USUAL_OUTPUTS = 6, MOST_SETS = 300, SET_SIZE = 2 * PARAM_TEXT_SIZE + 2 };
+enum {
+    MOST_RUNS = 2000,
+    MOST_OUTPUTS = 24,
+    USUAL_OUTPUTS = 6,
+    MOST_SETS = 300,
+    SET_SIZE = 2 * BASE_PARAM_TEXT_SIZE + 2
+};
 
 /* ---- keys ---- */
 

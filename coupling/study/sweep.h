@@ -15,8 +15,8 @@ typedef struct {
 } sweep_run;
 
 typedef struct {
-    char of[PARAM_TEXT_SIZE];         /* the study that was run */
-    char resolution[PARAM_TEXT_SIZE]; /* the varied key that is one, "" if none is */
+    char of[BASE_PARAM_TEXT_SIZE];         /* the study that was run */
+    char resolution[BASE_PARAM_TEXT_SIZE]; /* the varied key that is one, "" if none is */
     int n_units, n_runs;
     const summary_pair *units; /* n_units: inputs, then outputs; borrowed */
     const sweep_run *run;      /* n_runs, borrowed */

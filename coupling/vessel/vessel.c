@@ -283,7 +283,7 @@ status vessel_possible(const vessel_how *how)
           "vessel: critical_temperature and critical_pressure go together; without both the gas is ideal");
     CHECK(c->bubbles.n >= 1 && c->bubbles.n <= VESSEL_MAX_BUBBLES, STATUS_BAD_INPUT,
           "vessel.bubbles: %d of them, must be 1 .. %d", c->bubbles.n, VESSEL_MAX_BUBBLES);
-    CHECK(mpm_material_shear(how->film) != SHEAR_NONE, STATUS_BAD_INPUT,
+    CHECK(mpm_material_shear(how->film) != MPM_SHEAR_NONE, STATUS_BAD_INPUT,
           "vessel.film_material = %s: a fluid has no strength to hold a pressure", how->film->name);
     status s = model_make(how, &m);
     const double most = mpm_gas_condenses(&m.gas);

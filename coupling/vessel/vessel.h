@@ -40,7 +40,7 @@ typedef struct {
 
 typedef struct {
     const case_vessel *is; /* borrowed */
-    const material *film, *liquid;
+    const mpm_material *film, *liquid;
     void (*step)(void *user, const vessel_state *at); /* after every step of time; NULL: nobody is told */
     bool (*stop)(void);                               /* NULL: never */
     void *user;

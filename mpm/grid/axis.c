@@ -219,11 +219,11 @@ static void bspline_weights(const axis *a, int i, double x, double w[3], double 
     for (int k = 0; k < 3; k++) d[k] = 0.5 * (e[k] + e[k + 1]) - x;
 }
 
-double mpm_axis_spread(const axis *a, double x, double half, basis_kind basis)
+double mpm_axis_spread(const axis *a, double x, double half, mpm_basis_kind basis)
 {
     const int at = mpm_axis_locate(a, x), i = at < 1 ? 1 : at > a->last ? a->last : at;
     double w[3], d[3];
-    if (basis == BASIS_BSPLINE)
+    if (basis == MPM_BASIS_BSPLINE)
         bspline_weights(a, i, x, w, d);
     else
         gimp_weights(a, i, x, half, w, d);

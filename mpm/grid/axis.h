@@ -41,7 +41,7 @@ static inline double axis_right(const axis *a, int i)
 
 /* D = sum_i S_i(x) (x_i - x)^2 of a point whose domain has this half length [m2].  A velocity gradient L along the axis
  * holds the kinetic energy D L^2 / 2 a mass. */
-double mpm_axis_spread(const axis *a, double x, double half, basis_kind basis);
+double mpm_axis_spread(const axis *a, double x, double half, mpm_basis_kind basis);
 
 /* Grid spacing at x [m]. */
 double mpm_axis_spacing(const axis *a, double x);

@@ -214,7 +214,7 @@ status mpm_grids_make(const mpm_scene *s, grids *out)
     memset(out, 0, sizeof *out);
     CHECK(s->levels >= 1 && s->levels <= MPM_MAX_LEVELS, STATUS_BAD_INPUT, "levels = %d: must be 1 .. %d", s->levels,
           MPM_MAX_LEVELS);
-    CHECK(s->levels == 1 || s->basis == BASIS_GIMP, STATUS_BAD_INPUT, "levels = %d: several need the basis gimp",
+    CHECK(s->levels == 1 || s->basis == MPM_BASIS_GIMP, STATUS_BAD_INPUT, "levels = %d: several need the basis gimp",
           s->levels);
     out->levels = s->levels;
     const status r = make(s, out);

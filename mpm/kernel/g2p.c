@@ -163,7 +163,7 @@ LANE_INLINE void leave_holes(gathered *r, vm here)
  * that this leaves. */
 LANE_INLINE vd bound_gradient(const law *k, law_form f, const block *q, int lane, vd budget, vd *ka)
 {
-    const vm large = vd_less(budget, *ka), over = f.shear == SHEAR_NONE ? large : loose_points(k, q, lane) & large;
+    const vm large = vd_less(budget, *ka), over = f.shear == MPM_SHEAR_NONE ? large : loose_points(k, q, lane) & large;
     if (!vm_bits(over)) return vd_set(1);
     const vd wanted = *ka, kept = vd_select(over, vd_max(budget, vd_set(0)), wanted);
     *ka = kept;
@@ -341,7 +341,7 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
         gathered r;
         lane_sums sum;
         gather(w, nodes, &r, &next);
-        if (m->scene.transfer != TRANSFER_TPIC) r.ka = vd_set(0);
+        if (m->scene.transfer != MPM_TRANSFER_TPIC) r.ka = vd_set(0);
         leave_holes(&r, vd_less(vd_set(0), vd_load(&q->mass[0][lane])));
         const vd budget = r.E - 0.5 * (r.v[0] * r.v[0] + r.v[1] * r.v[1] + r.v[2] * r.v[2]);
         const vd share = bound_gradient(k, f, q, lane, budget, &r.ka);

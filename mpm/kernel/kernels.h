@@ -121,7 +121,7 @@ LANE_INLINE void prefetch_share(ahead *a)
  * part the last step's gradient is forgotten, which halves the limit. */
 LANE_INLINE double stable_half_length(const mpm_scene *s)
 {
-    return (s->transfer == TRANSFER_TPIC ? 1 : 2) * s->courant * s->courant;
+    return (s->transfer == MPM_TRANSFER_TPIC ? 1 : 2) * s->courant * s->courant;
 }
 
 /* The cells of a brick along each axis. */
@@ -147,7 +147,7 @@ typedef struct {
 LANE_INLINE brick_grid brick_grid_at(const mpm *m, const brick *b)
 {
     brick_grid g;
-    g.bspline = m->scene.basis == BASIS_BSPLINE;
+    g.bspline = m->scene.basis == MPM_BASIS_BSPLINE;
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < BRICK; i++) {
             const int node = BRICK * b->at[k] + i;
@@ -223,7 +223,7 @@ static inline void plane_point(int k, int plane, int n, int at[3])
 static inline bool is_mirror(const mpm *m, const brick *b, int k, int side)
 {
     const mpm_axis *s = &m->scene.axis[k];
-    return s->boundary[side] == BOUNDARY_SYMMETRY && !m->group[b->group].passes[2 * k + side];
+    return s->boundary[side] == MPM_BOUNDARY_SYMMETRY && !m->group[b->group].passes[2 * k + side];
 }
 
 /* Mirror planes that the brick's particles reach over; their number, by axis. */

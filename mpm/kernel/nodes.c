@@ -135,7 +135,7 @@ static bool has_mass(double (*const line)[LINE])
 /* ---- boundaries ---- */
 
 typedef struct {
-    boundary_kind kind;
+    mpm_boundary_kind kind;
     int axis;
     double size; /* of the element beside the boundary [m] */
     const double *velocity;
@@ -150,7 +150,7 @@ static int walls_at(const mpm *m, const axis axes[3], const int index[3], int gr
         if (index[k] > 1 && !hi) continue;
         const mpm_axis *s = &m->scene.axis[k];
         if (m->group[group].passes[2 * k + hi]) continue;
-        if (s->boundary[hi] == BOUNDARY_FREE) continue;
+        if (s->boundary[hi] == MPM_BOUNDARY_FREE) continue;
         w[n++] = (wall){ s->boundary[hi], k, hi ? axis_left(a, a->last) : axis_right(a, 1), s->boundary_velocity[hi] };
     }
     return n;
@@ -243,10 +243,10 @@ static void apply_walls(const mpm *m, const node_side *side, int cell, double dt
     const wall *w = side->walls;
     static const double rest[3] = { 0, 0, 0 };
     for (int i = 0; i < side->n_walls; i++) {
-        const double *velocity = w[i].kind == BOUNDARY_PRESCRIBED ? w[i].velocity : rest;
-        if (w[i].kind == BOUNDARY_SYMMETRY)
+        const double *velocity = w[i].kind == MPM_BOUNDARY_PRESCRIBED ? w[i].velocity : rest;
+        if (w[i].kind == MPM_BOUNDARY_SYMMETRY)
             hold(n, w[i].axis, 0, dt, sum);
-        else if (w[i].kind == BOUNDARY_ABSORBING)
+        else if (w[i].kind == MPM_BOUNDARY_ABSORBING)
             absorb(n, &w[i], speeds_at(m, side->brick, cell), dt, sum);
         else
             for (int q = 0; q < 3; q++) hold(n, q, velocity[q], dt, sum);
@@ -281,7 +281,7 @@ static bool geometry(const mpm *m, const node_state *a, const node_state *b, boo
     if (sqrt(dot(d, d)) * smallest < 0.05 * h[0] * h[1] * h[2] * fmin(1, of->m / (a->m + b->m)))
         for (int k = 0; k < 3; k++) d[k] = a->extra[k] - b->extra[k];
     for (int i = 0; i < at->wall_count; i++)
-        if (at->walls[i].kind == BOUNDARY_SYMMETRY) d[at->walls[i].axis] = 0;
+        if (at->walls[i].kind == MPM_BOUNDARY_SYMMETRY) d[at->walls[i].axis] = 0;
     const double length = sqrt(dot(d, d));
     if (!(length > 0)) return false;
     double gap = 0, span = 0;
@@ -474,7 +474,7 @@ static void one_node(mpm *m, const scratch *at, int count, int cell, const int i
     for (int i = 0; i < pairs; i++) contact_heat(m, &at->pair[i], sum);
     for (int s = 0; s < here; s++) {
         for (int i = 0; count > 1 && i < side[s].n_walls; i++)
-            if (side[s].walls[i].kind == BOUNDARY_SYMMETRY) hold(&side[s].state, side[s].walls[i].axis, 0, dt, sum);
+            if (side[s].walls[i].kind == MPM_BOUNDARY_SYMMETRY) hold(&side[s].state, side[s].walls[i].axis, 0, dt, sum);
         if (at->gas) at->swept[at->gas - 1] += volume_made(&side[s].state, dt);
         finish_node(&side[s].state, brick_nodes(m, side[s].brick)[cell], sum);
     }

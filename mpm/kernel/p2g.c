@@ -337,7 +337,7 @@ void ISA(p2g)(mpm *m, brick *b)
     cell_grid at;
     cell_work work = { .grid = &at,
                        .dt = { 0.5 * level_dt(m, b->level), 0.5 * level_dt_last(m, b->level) },
-                       .affine = m->scene.transfer == TRANSFER_TPIC ? 1 : 0,
+                       .affine = m->scene.transfer == MPM_TRANSFER_TPIC ? 1 : 0,
                        .mixed = m->group[b->group].mixed,
                        .level = b->level };
     for (int cell = 0; cell < BRICK_CELLS; cell++) {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define CONTACT_BEGIN(name, text) static const param params_##name[] = {
+#define CONTACT_BEGIN(name, text) static const base_param params_##name[] = {
 #define CONTACT_VALUE(place, key_, unit_, fallback_, least, largest, text) \
     { .key = (key_),                                                       \
       .unit = (unit_),                                                     \
@@ -13,7 +13,7 @@
       .fallback = (fallback_),                                             \
       .min = (least),                                                      \
       .max = (largest),                                                    \
-      .kind = PARAM_NUMBER },
+      .kind = BASE_PARAM_NUMBER },
 #define CONTACT_END(name) \
     PARAMS_END            \
     }                     \
@@ -54,7 +54,7 @@ mpm_contact mpm_contact_of(const mpm_contact_law *law)
 status mpm_contact_check(const mpm_contact *c)
 {
     CHECK(c->law, STATUS_BAD_INPUT, "a contact lacks its law");
-    char section[PARAM_TEXT_SIZE];
+    char section[BASE_PARAM_TEXT_SIZE];
     snprintf(section, sizeof section, "contact %s", c->law->name);
     return base_params_check(c->law->params, c, section);
 }

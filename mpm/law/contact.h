@@ -24,7 +24,7 @@ typedef struct {
 
 struct mpm_contact_law {
     const char *name, *doc;
-    const param *params; /* of an mpm_contact: what its values mean */
+    const base_param *params; /* of an mpm_contact: what its values mean */
 };
 
 /* Places of the values of each law in mpm_contact.value: COULOMB_FRICTION, .. */

@@ -109,7 +109,7 @@ static void fit_reference(const law *k, double mu_end, double out[EOS_TERMS])
 }
 
 /* The density is limited below the pole at mu = 1/(s - 1); the fit ends further below it. */
-static status eos_mie_gruneisen_derive(law *k, const material *m)
+static status eos_mie_gruneisen_derive(law *k, const mpm_material *m)
 {
     eos_mie_gruneisen *c = &k->eos.mie_gruneisen;
     *c = (eos_mie_gruneisen){ .g = m->gruneisen, .s1 = m->hugoniot_slope - 1, .K_slope = 4 * m->hugoniot_slope - 1 };

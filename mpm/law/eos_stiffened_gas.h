@@ -33,7 +33,7 @@ static double eos_stiffened_gas_reference_at(const law *k, double mu)
     return c->heat * (pow(1 + mu, c->gamma1) - 1) + c->cold * (1 / (1 + mu) - 1);
 }
 
-static status eos_stiffened_gas_derive(law *k, const material *m)
+static status eos_stiffened_gas_derive(law *k, const mpm_material *m)
 {
     const double stiff = m->gas_stiffness + m->gas_pressure, g1 = m->gas_gamma - 1;
     CHECK(stiff > 0, STATUS_BAD_INPUT,

@@ -24,7 +24,7 @@ static double eos_tait_reference_at(const law *k, double mu)
     return k->eos.tait.B * k->volume0 * ((pow(x, n - 1) - 1) / (n - 1) + 1 / x - 1);
 }
 
-static status eos_tait_derive(law *k, const material *m)
+static status eos_tait_derive(law *k, const mpm_material *m)
 {
     k->K0 = m->density * m->sound_speed * m->sound_speed;
     k->eos.tait = (eos_tait){ .n = m->tait_exponent, .B = k->K0 / m->tait_exponent };

@@ -31,7 +31,7 @@ typedef struct {
 #endif
 
 #ifdef LAW_DERIVE
-static status failure_johnson_cook_derive(law *k, const material *m)
+static status failure_johnson_cook_derive(law *k, const mpm_material *m)
 {
     k->failure.johnson_cook =
         (failure_johnson_cook){ .D1 = m->damage_D1,

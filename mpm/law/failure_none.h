@@ -7,7 +7,7 @@ typedef char failure_none; /* keeps nothing */
 #endif
 
 #ifdef LAW_DERIVE
-static status failure_none_derive(law *k, const material *m)
+static status failure_none_derive(law *k, const mpm_material *m)
 {
     (void)k, (void)m;
     return status_ok();

@@ -9,7 +9,7 @@ typedef char failure_spall; /* keeps nothing: k->spall */
 #endif
 
 #ifdef LAW_DERIVE
-static status failure_spall_derive(law *k, const material *m)
+static status failure_spall_derive(law *k, const mpm_material *m)
 {
     k->spall = m->spall_strength;
     return status_ok();

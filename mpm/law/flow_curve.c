@@ -3,7 +3,7 @@
 
 #include "mpm/law/law_lanes.h"
 
-const param mpm_flow_test_params[] = {
+const base_param mpm_flow_test_params[] = {
     PARAM_DOUBLE(mpm_flow_test, strain, "1", 1.0, 0.0, 100.0, "plastic strain at which the curve ends"),
     PARAM_INT(mpm_flow_test, points, 20, 1, 10000, "of the curve, behind its first at no strain"),
     PARAM_DOUBLE(mpm_flow_test, rate, "1/s", 1.0, 1e-6, 1e12,
@@ -31,7 +31,7 @@ static double stress_at(const law *k, double strain, double rate, double T, doub
 }
 
 /*   rho c dT = heat sigma_y de, by the midpoint rule */
-status mpm_flow_curve(const material *m, const mpm_flow_test *test, mpm_flow_point *curve)
+status mpm_flow_curve(const mpm_material *m, const mpm_flow_test *test, mpm_flow_point *curve)
 {
     enum { STEPS = 20 }; /* from one point of the curve to the next */
     mpm_scene scene;
@@ -43,7 +43,7 @@ status mpm_flow_curve(const material *m, const mpm_flow_test *test, mpm_flow_poi
                             .cold_work = test->cold_work };
     law k;
     TRY(mpm_law_make(&body, &scene, &k));
-    CHECK(k.shear != SHEAR_NONE, STATUS_BAD_INPUT, "%.40s is a fluid: it has no flow stress", m->name);
+    CHECK(k.shear != MPM_SHEAR_NONE, STATUS_BAD_INPUT, "%.40s is a fluid: it has no flow stress", m->name);
     const double d = test->strain / (test->points * STEPS), warm = test->heat * k.inv_c / k.rho_start;
     double T = test->temperature, strain = 0;
     for (int i = 0; i <= test->points; i++) {

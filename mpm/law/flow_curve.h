@@ -20,14 +20,14 @@ typedef struct {
     double heat;        /* share of the plastic work that warms it, 0: the temperature is held [1] */
 } mpm_flow_test;
 
-extern const param mpm_flow_test_params[];
+extern const base_param mpm_flow_test_params[];
 
 typedef struct {
     double strain, stress, temperature; /* [1, Pa, K] */
 } mpm_flow_point;
 
 /* points + 1 entries of `curve`.  A fluid, and a material that lacks a constant, is refused. */
-status mpm_flow_curve(const material *m, const mpm_flow_test *test, mpm_flow_point *curve);
+base_status mpm_flow_curve(const mpm_material *m, const mpm_flow_test *test, mpm_flow_point *curve);
 
 #ifdef __cplusplus
 }

@@ -10,27 +10,27 @@
 #include "mpm/law/strength.def"
 #undef LAW_DERIVE
 
-static status derive_strength(law *k, const material *m, double scale)
+static status derive_strength(law *k, const mpm_material *m, double scale)
 {
 #define STRENGTH(name, shear, text) \
-    if (k->strength.kind == STRENGTH_##name) return strength_##name##_derive(k, m, scale);
+    if (k->strength.kind == MPM_STRENGTH_##name) return strength_##name##_derive(k, m, scale);
 #include "mpm/law/strength.def"
     return base_status_error(STATUS_BAD_INPUT, "material %.40s: no law of strength has number %d", m->name,
                              m->strength);
 }
 
-static status derive_eos(law *k, const material *m)
+static status derive_eos(law *k, const mpm_material *m)
 {
 #define EOS(name, text) \
-    if (k->eos.kind == EOS_##name) return eos_##name##_derive(k, m);
+    if (k->eos.kind == MPM_EOS_##name) return eos_##name##_derive(k, m);
 #include "mpm/law/eos.def"
     return base_status_error(STATUS_BAD_INPUT, "material %.40s: no equation of state has number %d", m->name, m->eos);
 }
 
-static status derive_failure(law *k, const material *m)
+static status derive_failure(law *k, const mpm_material *m)
 {
 #define FAILURE(name, text) \
-    if (k->failure.kind == FAILURE_##name) return failure_##name##_derive(k, m);
+    if (k->failure.kind == MPM_FAILURE_##name) return failure_##name##_derive(k, m);
 #include "mpm/law/failure.def"
     return base_status_error(STATUS_BAD_INPUT, "material %.40s: no law of failure has number %d", m->name, m->failure);
 }
@@ -38,7 +38,7 @@ static status derive_failure(law *k, const material *m)
 double mpm_law_pressure(const law *k, double mu, double e)
 {
 #define EOS(name, text) \
-    if (k->eos.kind == EOS_##name) return eos_##name##_pressure_at(k, mu, e);
+    if (k->eos.kind == MPM_EOS_##name) return eos_##name##_pressure_at(k, mu, e);
 #include "mpm/law/eos.def"
     return NAN;
 }
@@ -46,7 +46,7 @@ double mpm_law_pressure(const law *k, double mu, double e)
 static double reference_at(const law *k, double mu)
 {
 #define EOS(name, text) \
-    if (k->eos.kind == EOS_##name) return eos_##name##_reference_at(k, mu);
+    if (k->eos.kind == MPM_EOS_##name) return eos_##name##_reference_at(k, mu);
 #include "mpm/law/eos.def"
     return NAN;
 }
@@ -83,7 +83,7 @@ static void start_at(law *k, double temperature, double pressure)
     k->p_start = pressure;
 }
 
-static void thermal(law *k, const material *m)
+static void thermal(law *k, const mpm_material *m)
 {
     k->c_v = m->specific_heat;
     k->inv_c = 1 / m->specific_heat;
@@ -101,15 +101,15 @@ static void thermal(law *k, const material *m)
 status mpm_law_make(const mpm_body *body, const mpm_scene *scene, law *out)
 {
     CHECK(body->material, STATUS_BAD_INPUT, "body `%s` has no material", body->name);
-    TRY(mpm_material_check(body->material, MATERIAL_FOR_SCENE | (body->damage ? MATERIAL_FOR_DAMAGE : 0u)));
-    const material m = mpm_material_complete(body->material);
+    TRY(mpm_material_check(body->material, MPM_MATERIAL_FOR_SCENE | (body->damage ? MPM_MATERIAL_FOR_DAMAGE : 0u)));
+    const mpm_material m = mpm_material_complete(body->material);
     law k = { .rho0 = m.density, .volume0 = 1 / m.density };
     k.strength.kind = m.strength, k.eos.kind = m.eos, k.shear = mpm_material_shear(&m);
-    k.kernel = k.shear == SHEAR_NONE                                  ? LAW_FLUID
-               : k.shear == SHEAR_FIXED && m.eos == EOS_mie_gruneisen ? LAW_METAL
-                                                                      : LAW_SOLID;
-    k.failure.kind = body->damage && k.shear != SHEAR_NONE ? m.failure : FAILURE_none;
-    k.G = k.shear == SHEAR_FIXED ? mpm_material_shear_modulus(&m) : 0;
+    k.kernel = k.shear == MPM_SHEAR_NONE                                      ? LAW_FLUID
+               : k.shear == MPM_SHEAR_FIXED && m.eos == MPM_EOS_mie_gruneisen ? LAW_METAL
+                                                                              : LAW_SOLID;
+    k.failure.kind = body->damage && k.shear != MPM_SHEAR_NONE ? m.failure : MPM_FAILURE_none;
+    k.G = k.shear == MPM_SHEAR_FIXED ? mpm_material_shear_modulus(&m) : 0;
     k.spall = HUGE_VAL;
     k.volume_max = 20 * k.volume0;
     k.surroundings = scene->surroundings;

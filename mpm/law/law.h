@@ -15,7 +15,7 @@
 
 /* What a law keeps of one body: the member of its own name. */
 typedef struct {
-    int kind; /* material_strength */
+    int kind; /* mpm_material_strength */
     union {
 #define STRENGTH(name, shear, text) strength_##name name;
 #include "mpm/law/strength.def"
@@ -23,7 +23,7 @@ typedef struct {
 } law_strength;
 
 typedef struct {
-    int kind; /* material_eos */
+    int kind; /* mpm_material_eos */
     union {
 #define EOS(name, text) eos_##name name;
 #include "mpm/law/eos.def"
@@ -31,7 +31,7 @@ typedef struct {
 } law_eos;
 
 typedef struct {
-    int kind; /* material_failure; FAILURE_none of a body without damage */
+    int kind; /* mpm_material_failure; MPM_FAILURE_none of a body without damage */
     union {
 #define FAILURE(name, text) failure_##name name;
 #include "mpm/law/failure.def"
@@ -45,7 +45,7 @@ typedef struct law {
     law_strength strength;
     law_eos eos;
     law_failure failure;
-    int shear;                     /* material_shear, by the law of strength */
+    int shear;                     /* mpm_shear_kind, by the law of strength */
     int kernel;                    /* LAW_FLUID .. */
     double rho0, volume0;          /* [kg/m3, m3/kg] */
     double volume_min, volume_max; /* guards of the specific volume [m3/kg] */

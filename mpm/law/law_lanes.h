@@ -63,23 +63,23 @@ typedef struct {
 
 /* The laws of a kernel: constants at compile time where it is made for one combination, else the body's. */
 typedef struct {
-    int shear; /* material_shear */
-    int eos;   /* material_eos */
+    int shear; /* mpm_shear_kind */
+    int eos;   /* mpm_material_eos */
 } law_form;
 
 LANE_INLINE law_form law_form_of(const law *k, int kernel)
 {
-    if (kernel == LAW_FLUID) return (law_form){ SHEAR_NONE, k->eos.kind };
-    if (kernel == LAW_METAL) return (law_form){ SHEAR_FIXED, EOS_mie_gruneisen };
+    if (kernel == LAW_FLUID) return (law_form){ MPM_SHEAR_NONE, k->eos.kind };
+    if (kernel == LAW_METAL) return (law_form){ MPM_SHEAR_FIXED, MPM_EOS_mie_gruneisen };
     return (law_form){ k->shear, k->eos.kind };
 }
 
 LANE_INLINE vd flow_stress(const law *k, law_form f, const flow_state *s)
 {
     const vd strain = s->strain + k->cold_work;
-#define STRENGTH(name, shear_, text)                                      \
-    if (f.shear == SHEAR_##shear_ && k->strength.kind == STRENGTH_##name) \
-        return strength_##name##_flow(&k->strength.name,                  \
+#define STRENGTH(name, shear_, text)                                              \
+    if (f.shear == MPM_SHEAR_##shear_ && k->strength.kind == MPM_STRENGTH_##name) \
+        return strength_##name##_flow(&k->strength.name,                          \
                                       &(flow_state){ strain, s->log_rate, s->T, s->T_star, s->p, s->rho });
 #include "mpm/law/strength.def"
     return vd_set(0);
@@ -91,7 +91,7 @@ LANE_INLINE vd shear_modulus(const law *k, vd p, vd rho, vd T)
 #define SHEAR_OF_NONE(name)
 #define SHEAR_OF_FIXED(name)
 #define SHEAR_OF_VARIES(name) \
-    if (k->strength.kind == STRENGTH_##name) return strength_##name##_shear(&k->strength.name, p, rho, T);
+    if (k->strength.kind == MPM_STRENGTH_##name) return strength_##name##_shear(&k->strength.name, p, rho, T);
 #define STRENGTH(name, shear, text) SHEAR_OF_##shear(name)
 #include "mpm/law/strength.def"
     return vd_set(k->G);
@@ -100,7 +100,7 @@ LANE_INLINE vd shear_modulus(const law *k, vd p, vd rho, vd T)
 LANE_INLINE vd pressure(const law *k, law_form f, vd mu, vd rho, vd e, vd half)
 {
 #define EOS(name, text) \
-    if (f.eos == EOS_##name) return eos_##name##_pressure(k, mu, rho, e, half);
+    if (f.eos == MPM_EOS_##name) return eos_##name##_pressure(k, mu, rho, e, half);
 #include "mpm/law/eos.def"
     return vd_set(0);
 }
@@ -108,7 +108,7 @@ LANE_INLINE vd pressure(const law *k, law_form f, vd mu, vd rho, vd e, vd half)
 LANE_INLINE vd reference_energy(const law *k, law_form f, vd mu)
 {
 #define EOS(name, text) \
-    if (f.eos == EOS_##name) return eos_##name##_reference(k, mu);
+    if (f.eos == MPM_EOS_##name) return eos_##name##_reference(k, mu);
 #include "mpm/law/eos.def"
     return vd_set(0);
 }
@@ -118,7 +118,7 @@ LANE_INLINE vd reference_energy(const law *k, law_form f, vd mu)
 LANE_INLINE vd wave_speed_square(const law *k, law_form f, vd volume, vd p, vd shear)
 {
 #define EOS(name, text) \
-    if (f.eos == EOS_##name) return eos_##name##_wave(k, volume, p, shear);
+    if (f.eos == MPM_EOS_##name) return eos_##name##_wave(k, volume, p, shear);
 #include "mpm/law/eos.def"
     return shear;
 }
@@ -126,7 +126,7 @@ LANE_INLINE vd wave_speed_square(const law *k, law_form f, vd volume, vd p, vd s
 LANE_INLINE vd damage_growth(const law *k, const failure_state *s)
 {
 #define FAILURE(name, text) \
-    if (k->failure.kind == FAILURE_##name) return failure_##name##_grow(&k->failure.name, s);
+    if (k->failure.kind == MPM_FAILURE_##name) return failure_##name##_grow(&k->failure.name, s);
 #include "mpm/law/failure.def"
     return vd_set(0);
 }
@@ -150,7 +150,7 @@ typedef struct {
 LANE_INLINE elastic elastic_of(const law *k, law_form f, const block *q, int lane, vd mu, vd rho)
 {
     const vd zero = vd_set(0);
-    if (f.shear != SHEAR_VARIES)
+    if (f.shear != MPM_SHEAR_VARIES)
         return (elastic){ vd_set(k->G), vd_set(1 / (3 * k->G)), vd_set(1 / (6 * k->G)), zero, zero };
     const vd p = pressure(k, f, mu, rho, vd_load(&q->e[0][lane]), zero);
     const vd G = shear_modulus(k, p, rho, vd_load(&q->T[0][lane]));
@@ -359,7 +359,7 @@ LANE_INLINE void solid_step(const law *k, law_form f, const step_of *step, const
     r.torn = (loose & vd_less(p_free, zero)) | spalls;
     r.p = vd_select(r.torn, zero, p_free);
     r.e -= half * r.p;
-    if (k->failure.kind != FAILURE_none && y.any) damage(k, &y, r.p, q, lane);
+    if (k->failure.kind != MPM_FAILURE_none && y.any) damage(k, &y, r.p, q, lane);
     if (vm_bits(parted & ~failed)) vd_store(&q->damage[0][lane], vd_select(parted, one, vd_load(&q->damage[0][lane])));
 
     const vd stored = y.mises_square * r.volume * m.inv_6G; /* s:s/(4 G rho) */
@@ -378,7 +378,7 @@ LANE_INLINE void solid_step(const law *k, law_form f, const step_of *step, const
 LANE_INLINE void law_step(const law *k, law_form f, const step_of *step, const motion *move, block *q, int lane,
                           bool contact, lane_sums *sum)
 {
-    if (f.shear == SHEAR_NONE)
+    if (f.shear == MPM_SHEAR_NONE)
         fluid_step(k, f, step, move, q, lane, sum);
     else
         solid_step(k, f, step, move, q, lane, contact, sum);

@@ -13,7 +13,7 @@ struct mpm_point_law {
     double mu, e;     /* compression and energy at no pressure [1, J/kg] */
 };
 
-status mpm_point_law_make(const material *m, double temperature, mpm_point_law **out)
+status mpm_point_law_make(const mpm_material *m, double temperature, mpm_point_law **out)
 {
     const size_t line = 64, size = (sizeof **out + line - 1) / line * line;
     mpm_scene scene;
@@ -22,7 +22,7 @@ status mpm_point_law_make(const material *m, double temperature, mpm_point_law *
                             .temperature = temperature,
                             .yield_scale = 1,
                             .cold_work = NAN,
-                            .damage = mpm_material_shear(m) != SHEAR_NONE };
+                            .damage = mpm_material_shear(m) != MPM_SHEAR_NONE };
     mpm_point_law *k = *out = aligned_alloc(line, size);
     CHECK(k, STATUS_MEMORY, "no memory for a law");
     memset(k, 0, size);

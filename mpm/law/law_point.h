@@ -9,7 +9,7 @@
 typedef struct mpm_point_law mpm_point_law; /* owns its memory */
 
 /* With damage, at a temperature that stays [K].  A material that lacks a constant is refused. */
-status mpm_point_law_make(const material *m, double temperature, mpm_point_law **out);
+status mpm_point_law_make(const mpm_material *m, double temperature, mpm_point_law **out);
 void mpm_point_law_free(mpm_point_law *k); /* NULL allowed */
 
 /* Of a solid. */

@@ -22,7 +22,7 @@ typedef struct {
 #endif
 
 #ifdef LAW_DERIVE
-static status strength_johnson_cook_derive(law *k, const material *m, double scale)
+static status strength_johnson_cook_derive(law *k, const mpm_material *m, double scale)
 {
     const double most = isnan(m->hardening_strain) ? HUGE_VAL : m->hardening_strain;
     k->strength.johnson_cook = (strength_johnson_cook){ .A = scale * m->yield_A,

@@ -116,7 +116,7 @@ static double strength_mts_inverse(double x)
     return fabs(x - 2.0 / 3.0) < 1e-6 ? 1.5 : 1 / x;
 }
 
-static status strength_mts_derive(law *k, const material *m, double scale)
+static status strength_mts_derive(law *k, const mpm_material *m, double scale)
 {
     k->strength.mts = (strength_mts){ .sigma_a = scale * m->mts_sigma_a,
                                       .sigma_s0 = scale * m->mts_sigma_s0,

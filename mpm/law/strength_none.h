@@ -15,7 +15,7 @@ typedef struct {
 #endif
 
 #ifdef LAW_DERIVE
-static status strength_none_derive(law *k, const material *m, double scale)
+static status strength_none_derive(law *k, const mpm_material *m, double scale)
 {
     (void)scale;
     k->strength.none.least_pressure = k->p_rest + (isnan(m->cavitation_pressure) ? k->vacuum : m->cavitation_pressure);

@@ -15,7 +15,7 @@ typedef struct {
 #endif
 
 #ifdef LAW_DERIVE
-static status strength_own_derive(law *k, const material *m, double scale)
+static status strength_own_derive(law *k, const mpm_material *m, double scale)
 {
     CHECK(m->own_strength.flow, STATUS_BAD_INPUT,
           "material %.40s: strength `own` is for programs that use the library and give material.own_strength",

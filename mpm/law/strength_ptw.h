@@ -62,7 +62,7 @@ static double strength_ptw_least(const law *k)
 }
 
 /*   xi = 1/2 (4 pi rho0/(3 M))^(1/3) sqrt(G0/rho0), M the mass of an atom                              (M-23) [1/s] */
-static status strength_ptw_derive(law *k, const material *m, double scale)
+static status strength_ptw_derive(law *k, const mpm_material *m, double scale)
 {
     const double avogadro = 6.02214076e23, third = 1.0 / 3.0, four_pi = 16 * atan(1);
     const double atom = m->molar_mass / avogadro;

@@ -28,7 +28,7 @@ static const double STEINBERG_GUINAN_T = 300, STEINBERG_GUINAN_SOFTEST = 0.05;
 #endif
 
 #ifdef LAW_DERIVE
-static status strength_steinberg_guinan_derive(law *k, const material *m, double scale)
+static status strength_steinberg_guinan_derive(law *k, const mpm_material *m, double scale)
 {
     k->strength.steinberg_guinan = (strength_steinberg_guinan){ .G0 = m->sg_G0,
                                                                 .A = m->sg_A,

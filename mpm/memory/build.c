@@ -140,7 +140,7 @@ static void set_spin(const building *w, build_point *p)
         p->L[3 * k + u] = -b->spin[v];
         p->L[3 * k + v] = b->spin[u];
         const double square = b->spin[u] * b->spin[u] + b->spin[v] * b->spin[v];
-        if (w->s->transfer == TRANSFER_TPIC)
+        if (w->s->transfer == MPM_TRANSFER_TPIC)
             p->ka += 0.5 * mpm_axis_spread(&axes[k], p->x[k], p->half[k], w->s->basis) * square;
     }
 }

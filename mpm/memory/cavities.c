@@ -39,7 +39,7 @@ static bool at_end(const mpm *m, const int at[3])
 {
     for (int k = 0; k < 3; k++)
         for (int side = 0; side < 2; side++)
-            if (at[k] == (side ? axes(m)[k].last : 1) && m->scene.axis[k].boundary[side] != BOUNDARY_SYMMETRY)
+            if (at[k] == (side ? axes(m)[k].last : 1) && m->scene.axis[k].boundary[side] != MPM_BOUNDARY_SYMMETRY)
                 return true;
     return false;
 }

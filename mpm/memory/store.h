@@ -197,11 +197,11 @@ typedef struct {
 
 struct mpm {
     mpm_scene scene;
-    material *materials; /* [scene.bodies] */
-    law *laws;           /* [scene.bodies] */
-    double *effusivity;  /* [scene.bodies] sqrt(k rho c), NAN: not known [W s^1/2/m2/K] */
-    mpm_wave *waves;     /* [scene.bodies] */
-    wave_load *load;     /* [grids.levels][scene.bodies] of the waves, over the step of each level that is under way */
+    mpm_material *materials; /* [scene.bodies] */
+    law *laws;               /* [scene.bodies] */
+    double *effusivity;      /* [scene.bodies] sqrt(k rho c), NAN: not known [W s^1/2/m2/K] */
+    mpm_wave *waves;         /* [scene.bodies] */
+    wave_load *load; /* [grids.levels][scene.bodies] of the waves, over the step of each level that is under way */
     grids grids;
     int groups;
     group_info *group;             /* [groups] */
@@ -258,7 +258,7 @@ struct kernels {
     void (*g2p)(mpm *m, brick *b, int thread);
 };
 
-/* The kernels for this machine, or those named (NULL = best); NULL if it cannot run them. */
+/* The kernels named (NULL or "" = mpm_instruction_set()); NULL if this machine cannot run them. */
 const kernels *mpm_kernels_choose(const char *name);
 
 /* bricks.c */

@@ -37,7 +37,7 @@ mpm_probe mpm_probe_make(const mpm_probe_kind *kind, const char *name)
 
 double *mpm_probe_value(mpm_probe *p, const char *name)
 {
-    for (const param *q = p->kind->params; q->key; q++)
+    for (const base_param *q = p->kind->params; q->key; q++)
         if (strcmp(q->key, name) == 0) return p->value + q->offset / sizeof *p->value;
     return NULL;
 }

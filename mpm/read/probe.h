@@ -31,18 +31,18 @@ typedef struct mpm_probe mpm_probe;
 
 typedef struct {
     const char *name, *doc;
-    const param *params;       /* of the values, offsets from mpm_probe.value; m, m/s, rad or 1 */
+    const base_param *params;  /* of the values, offsets from mpm_probe.value; m, m/s, rad or 1 */
     const mpm_column *columns; /* of every row; NULL name at the end */
     int main, mains;           /* which columns stand for it: one, or 3 of a vector's size; mains 0: none, a map */
     bool of_step;              /* about the last step alone: a series wants every step */
     bool of_body;              /* reads one body, which must be given; else all bodies where none is */
-    int (*rows)(const mpm_probe *p);                       /* NULL: one */
-    status (*check)(const mpm_probe *p, const char *name); /* checks beyond the table's ranges; NULL: none */
-    status (*read)(const struct mpm *m, const mpm_probe *p, double *out); /* STATUS_MEMORY alone */
+    int (*rows)(const mpm_probe *p);                            /* NULL: one */
+    base_status (*check)(const mpm_probe *p, const char *name); /* checks beyond the table's ranges; NULL: none */
+    base_status (*read)(const struct mpm *m, const mpm_probe *p, double *out); /* BASE_STATUS_MEMORY alone */
 } mpm_probe_kind;
 
 struct mpm_probe {
-    char name[PARAM_TEXT_SIZE];
+    char name[BASE_PARAM_TEXT_SIZE];
     const mpm_probe_kind *kind;
     int body; /* index; -1: all */
     double value[MPM_PROBE_VALUES];
@@ -56,14 +56,15 @@ const mpm_probe_kind *mpm_probe_kind_at(int i);
 mpm_probe mpm_probe_make(const mpm_probe_kind *kind, const char *name);
 double *mpm_probe_value(mpm_probe *p, const char *name);
 
-/* STATUS_BAD_INPUT names the probe, the value and what it must be, unless a scene of so many bodies can be read. */
-status mpm_probe_check(const mpm_probe *p, int bodies);
+/* BASE_STATUS_BAD_INPUT names the probe, the value and what it must be, unless a scene of so many bodies can be
+ * read. */
+base_status mpm_probe_check(const mpm_probe *p, int bodies);
 
 int mpm_probe_rows(const mpm_probe *p);
 int mpm_probe_columns(const mpm_probe *p);
 
 /* One of the scene's, or any other that mpm_probe_check has passed.  out: rows x columns, owned by the caller. */
-status mpm_probe_read(const struct mpm *m, const mpm_probe *p, double *out);
+base_status mpm_probe_read(const struct mpm *m, const mpm_probe *p, double *out);
 
 #ifdef __cplusplus
 }

@@ -4,7 +4,7 @@
 
 static const double THIN = 1e-3; /* of the density at rest: stretched by more counts as cavitated */
 
-static const param params[] = { PARAMS_END };
+static const base_param params[] = { PARAMS_END };
 
 enum { VOLUME, OPEN, COLUMNS };
 
@@ -25,7 +25,7 @@ static void add_block(void *user, const mpm *m, const brick *b, int index)
     cavities *s = user;
     const block *q = &m->blocks[index];
     const law *k = &m->laws[m->links[index].body];
-    if (!visit_wants(m, index, s->body) || k->shear != SHEAR_NONE) return;
+    if (!visit_wants(m, index, s->body) || k->shear != MPM_SHEAR_NONE) return;
     for (int l = 0; l < LANES; l++) {
         if (!(q->mass[0][l] > 0) || q->rho[0][l] > (1 - THIN) * k->rho0) continue;
         const double volume = q->mass[0][l] / q->rho[0][l];

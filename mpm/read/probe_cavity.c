@@ -7,7 +7,7 @@ typedef struct {
     double number;
 } values;
 
-static const param params[] = {
+static const base_param params[] = {
     PARAM_DOUBLE(values, number, "1", 0.0, 0.0, MPM_MAX_CAVITIES - 1, "of the cavity in the scene's list, 0 the first"),
     PARAMS_END,
 };

@@ -2,7 +2,7 @@
 /* Energy: what a body holds, and how much of it has failed. */
 #include "mpm/read/probe_kinds.h"
 
-static const param params[] = { PARAMS_END };
+static const base_param params[] = { PARAMS_END };
 
 enum { KINETIC, INTERNAL, FAILED, COLUMNS };
 

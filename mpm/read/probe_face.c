@@ -7,8 +7,8 @@ typedef struct {
     double lo[3], hi[3];
 } face;
 
-static const param params[] = { PROBE_POINT(face, lo, "corner at the lower ends, fixed in space"),
-                                PROBE_POINT(face, hi, "corner at the upper ends"), PARAMS_END };
+static const base_param params[] = { PROBE_POINT(face, lo, "corner at the lower ends, fixed in space"),
+                                     PROBE_POINT(face, hi, "corner at the upper ends"), PARAMS_END };
 
 static status check(const mpm_probe *p, const char *name)
 {

@@ -3,7 +3,7 @@
  * the impulse, so their sum over all steps is the impulse of the whole time. */
 #include "mpm/read/probe_kinds.h"
 
-static const param params[] = { PARAMS_END };
+static const base_param params[] = { PARAMS_END };
 
 static const mpm_column columns[] = { { "force_x", "N", "contact force on the body's group, mean of the last step" },
                                       { "force_y", "N", "the same along y" },

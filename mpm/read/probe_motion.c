@@ -3,7 +3,7 @@
  * included:  J = sum m (x - X) cross (v - V) + m D_k e_k cross (L e_k). */
 #include "mpm/read/probe_kinds.h"
 
-static const param params[] = { PARAMS_END };
+static const base_param params[] = { PARAMS_END };
 
 enum { MASS, PLACE, SPEED = PLACE + 3, TURNING = SPEED + 3, COLUMNS = TURNING + 3 };
 
@@ -31,7 +31,7 @@ static void add_lane(moments *s, const mpm *m, const axis *axes, const block *q,
     const double M = q->mass[0][l];
     double D[3];
     for (int k = 0; k < 3; k++) {
-        const bool affine = m->scene.transfer == TRANSFER_TPIC;
+        const bool affine = m->scene.transfer == MPM_TRANSFER_TPIC;
         D[k] = affine ? mpm_axis_spread(&axes[k], q->x[k][l], q->half[k][l], m->scene.basis) : 0;
         s->sum[PLACE + k] += M * q->x[k][l];
         s->sum[SPEED + k] += M * q->v[k][l];

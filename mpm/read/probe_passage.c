@@ -14,7 +14,7 @@ typedef struct {
     double along[3], from[3], reach, slower;
 } passage;
 
-static const param params[] = {
+static const base_param params[] = {
     PARAM_VEC3(passage, along, "1", REQUIRED, -1, 1,
                "direction of the way, such as [1, 0, 0]; its length does not count"),
     PROBE_POINT(passage, from, "a point of the line along which the body goes"),
@@ -59,8 +59,8 @@ static double room_of(const mpm_axis ends[3], const block *q, int l)
     double room = INFINITY;
     for (int k = 0; k < 3; k++) {
         const double v = q->v[k][l], x = q->x[k][l];
-        if (v > 0 && ends[k].boundary[1] != BOUNDARY_SYMMETRY) room = fmin(room, ends[k].hi - x);
-        if (v < 0 && ends[k].boundary[0] != BOUNDARY_SYMMETRY) room = fmin(room, x - ends[k].lo);
+        if (v > 0 && ends[k].boundary[1] != MPM_BOUNDARY_SYMMETRY) room = fmin(room, ends[k].hi - x);
+        if (v < 0 && ends[k].boundary[0] != MPM_BOUNDARY_SYMMETRY) room = fmin(room, x - ends[k].lo);
     }
     return room;
 }

@@ -3,7 +3,7 @@
  * flow stress. */
 #include "mpm/read/probe_kinds.h"
 
-static const param params[] = { PARAMS_END };
+static const base_param params[] = { PARAMS_END };
 
 static const mpm_column columns[] = { { "power", "W", "plastic power" }, { NULL, NULL, NULL } };
 

@@ -6,10 +6,10 @@ typedef struct {
     double at[3], reach;
 } pressure;
 
-static const param params[] = { PROBE_POINT(pressure, at, "the point, fixed in space"),
-                                PARAM_DOUBLE(pressure, reach, "m", OPTIONAL, 1e-9, PROBE_FARTHEST,
-                                             "half width of the cube; not given: half a cell there"),
-                                PARAMS_END };
+static const base_param params[] = { PROBE_POINT(pressure, at, "the point, fixed in space"),
+                                     PARAM_DOUBLE(pressure, reach, "m", OPTIONAL, 1e-9, PROBE_FARTHEST,
+                                                  "half width of the cube; not given: half a cell there"),
+                                     PARAMS_END };
 
 static status read(const mpm *m, const mpm_probe *p, double *out)
 {

@@ -12,7 +12,7 @@ typedef struct {
     double lo[3], hi[3], along[3], cell;
 } surface;
 
-static const param params[] = {
+static const base_param params[] = {
     PROBE_POINT(surface, lo, "corner of the box at the lower ends"),
     PROBE_POINT(surface, hi, "corner of the box at the upper ends"),
     PARAM_VEC3(surface, along, "1", REQUIRED, -1, 1, "where it is seen from: an axis, such as [0, 1, 0]"),

@@ -35,7 +35,7 @@ mpm_refine mpm_refine_make(const mpm_refine_kind *kind)
 
 double *mpm_refine_value(mpm_refine *r, const char *name)
 {
-    for (const param *q = r->kind->params; q->key; q++)
+    for (const base_param *q = r->kind->params; q->key; q++)
         if (strcmp(q->key, name) == 0) return r->value + q->offset / sizeof *r->value;
     return NULL;
 }

@@ -29,12 +29,12 @@ typedef struct mpm_refine mpm_refine;
 
 typedef struct {
     const char *name, *doc;
-    const param *params; /* of the values, offsets from mpm_refine.value */
-    bool of_body;        /* looks at one body, which must be given; else at all bodies where none is */
-    bool mean;           /* a cell's points are heard by their mean (adapt.c), else the one that asks for most */
-    int buffer;          /* cells around one that asks, of the level it asks for, that are as small */
-    int every;           /* steps of the finest level between two looks that it bears */
-    status (*check)(const mpm_refine *r, const char *name); /* what the table cannot say; NULL: nothing */
+    const base_param *params; /* of the values, offsets from mpm_refine.value */
+    bool of_body;             /* looks at one body, which must be given; else at all bodies where none is */
+    bool mean;                /* a cell's points are heard by their mean (adapt.c), else the one that asks for most */
+    int buffer;               /* cells around one that asks, of the level it asks for, that are as small */
+    int every;                /* steps of the finest level between two looks that it bears */
+    base_status (*check)(const mpm_refine *r, const char *name); /* what the table cannot say; NULL: nothing */
     double (*reach)(const mpm_refine *r); /* how far around a point its cell is asked for [m]; NULL: 0 */
     /* Largest cell that each of a block's points bears [m]: [LANES], infinite where any will do. */
     void (*cells)(const struct mpm *m, const mpm_refine *r, int index, double *cell);
@@ -58,8 +58,8 @@ double *mpm_refine_value(mpm_refine *r, const char *name);
 /* Steps of the finest level between two looks that all the rules bear. */
 int mpm_refine_every(const mpm_refine *rules, int n);
 
-/* STATUS_BAD_INPUT names the rule, the value and what it must be, unless a scene of so many bodies can have it. */
-status mpm_refine_check(const mpm_refine *r, int bodies);
+/* BASE_STATUS_BAD_INPUT names the rule, the value and what it must be, unless a scene of so many bodies can have it. */
+base_status mpm_refine_check(const mpm_refine *r, int bodies);
 
 #ifdef __cplusplus
 }

@@ -6,8 +6,8 @@ typedef struct {
     double within;
 } around;
 
-static const param params[] = { PARAM_DOUBLE(around, within, "m", 0.0, 0.0, 1e3, "of any of the body's points"),
-                                PARAMS_END };
+static const base_param params[] = { PARAM_DOUBLE(around, within, "m", 0.0, 0.0, 1e3, "of any of the body's points"),
+                                     PARAMS_END };
 
 static double reach(const mpm_refine *r)
 {

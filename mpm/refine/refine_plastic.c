@@ -10,7 +10,7 @@ typedef struct {
     double jump;
 } plastic;
 
-static const param params[] = {
+static const base_param params[] = {
     PARAM_DOUBLE(plastic, jump, "m/s", 20.0, 1e-6, 1e6, "velocity across a cell that plastic flow may make"), PARAMS_END
 };
 

@@ -7,9 +7,9 @@ typedef struct {
     double jump;
 } shock;
 
-static const param params[] = { PARAM_DOUBLE(shock, jump, "m/s", 20.0, 1e-6, 1e6,
-                                             "drop of velocity across a cell that compression may make"),
-                                PARAMS_END };
+static const base_param params[] = { PARAM_DOUBLE(shock, jump, "m/s", 20.0, 1e-6, 1e6,
+                                                  "drop of velocity across a cell that compression may make"),
+                                     PARAMS_END };
 
 static void cells(const mpm *m, const mpm_refine *r, int index, double *cell)
 {

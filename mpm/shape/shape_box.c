@@ -6,8 +6,8 @@ typedef struct {
     double lo[3], hi[3];
 } box;
 
-static const param params[] = { SHAPE_POINT(box, lo, REQUIRED, "corner at the lower ends"),
-                                SHAPE_POINT(box, hi, REQUIRED, "corner at the upper ends"), PARAMS_END };
+static const base_param params[] = { SHAPE_POINT(box, lo, REQUIRED, "corner at the lower ends"),
+                                     SHAPE_POINT(box, hi, REQUIRED, "corner at the upper ends"), PARAMS_END };
 
 static double inside(const mpm_solid *s, const double x[3])
 {

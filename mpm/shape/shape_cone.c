@@ -6,9 +6,9 @@ typedef struct {
     double center[3], radius, height;
 } cone;
 
-static const param params[] = { SHAPE_POINT(cone, center, 0, "middle of its base"),
-                                SHAPE_LENGTH(cone, radius, "of the base"),
-                                SHAPE_LENGTH(cone, height, "from the base to the tip"), PARAMS_END };
+static const base_param params[] = { SHAPE_POINT(cone, center, 0, "middle of its base"),
+                                     SHAPE_LENGTH(cone, radius, "of the base"),
+                                     SHAPE_LENGTH(cone, height, "from the base to the tip"), PARAMS_END };
 
 static double inside(const mpm_solid *s, const double x[3])
 {

@@ -6,9 +6,9 @@ typedef struct {
     double center[3], radius, height;
 } cylinder;
 
-static const param params[] = { SHAPE_POINT(cylinder, center, 0, "middle of its lower face"),
-                                SHAPE_LENGTH(cylinder, radius, "of the section"),
-                                SHAPE_LENGTH(cylinder, height, "from the lower face to the upper"), PARAMS_END };
+static const base_param params[] = { SHAPE_POINT(cylinder, center, 0, "middle of its lower face"),
+                                     SHAPE_LENGTH(cylinder, radius, "of the section"),
+                                     SHAPE_LENGTH(cylinder, height, "from the lower face to the upper"), PARAMS_END };
 
 static double inside(const mpm_solid *s, const double x[3])
 {

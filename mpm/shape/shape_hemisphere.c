@@ -7,9 +7,9 @@ typedef struct {
     double center[3], radius, height;
 } hemisphere;
 
-static const param params[] = { SHAPE_POINT(hemisphere, center, 0, "middle of its flat face"),
-                                SHAPE_LENGTH(hemisphere, radius, "of the flat face"),
-                                SHAPE_LENGTH(hemisphere, height, "from the flat face to the top"), PARAMS_END };
+static const base_param params[] = { SHAPE_POINT(hemisphere, center, 0, "middle of its flat face"),
+                                     SHAPE_LENGTH(hemisphere, radius, "of the flat face"),
+                                     SHAPE_LENGTH(hemisphere, height, "from the flat face to the top"), PARAMS_END };
 
 static double inside(const mpm_solid *s, const double x[3])
 {

@@ -5,10 +5,11 @@ typedef struct {
     double lo[3], hi[3], cell, radius;
 } lattice;
 
-const param mpm_shape_lattice_params[] = { SHAPE_POINT(lattice, lo, REQUIRED, "corner of the box at the lower ends"),
-                                           SHAPE_POINT(lattice, hi, REQUIRED, "corner of the box at the upper ends"),
-                                           SHAPE_LENGTH(lattice, cell, "edge of a cubic cell"),
-                                           SHAPE_LENGTH(lattice, radius, "of the struts"), PARAMS_END };
+const base_param mpm_shape_lattice_params[] = {
+    SHAPE_POINT(lattice, lo, REQUIRED, "corner of the box at the lower ends"),
+    SHAPE_POINT(lattice, hi, REQUIRED, "corner of the box at the upper ends"),
+    SHAPE_LENGTH(lattice, cell, "edge of a cubic cell"), SHAPE_LENGTH(lattice, radius, "of the struts"), PARAMS_END
+};
 
 /* Square of the distance to a strut's middle line, both in cells. */
 static double distance2(const lattice_strut *b, const double u[3])

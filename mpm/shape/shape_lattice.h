@@ -21,7 +21,7 @@ typedef struct {
     double from[3], to[3];
 } lattice_strut;
 
-extern const param mpm_shape_lattice_params[];
+extern const base_param mpm_shape_lattice_params[];
 double mpm_shape_lattice_inside(const mpm_solid *s, const double x[3], const lattice_strut *strut, int struts);
 void mpm_shape_lattice_bounds(const mpm_solid *s, double lo[3], double hi[3]);
 status mpm_shape_lattice_check(const mpm_solid *s, const char *name);

@@ -2,7 +2,7 @@
 /* Minus: the first solid without the second. */
 #include "mpm/shape/shape.h"
 
-static const param params[] = { PARAMS_END };
+static const base_param params[] = { PARAMS_END };
 
 static double inside(const mpm_solid *s, const double x[3])
 {

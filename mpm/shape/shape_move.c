@@ -6,7 +6,7 @@ typedef struct {
     double offset[3];
 } move;
 
-static const param params[] = { SHAPE_POINT(move, offset, REQUIRED, "by which it is shifted"), PARAMS_END };
+static const base_param params[] = { SHAPE_POINT(move, offset, REQUIRED, "by which it is shifted"), PARAMS_END };
 
 static double inside(const mpm_solid *s, const double x[3])
 {

@@ -7,9 +7,9 @@ typedef struct {
     double center[3], radius, height;
 } pit;
 
-static const param params[] = { SHAPE_POINT(pit, center, 0, "middle of its flat face"),
-                                SHAPE_LENGTH(pit, radius, "of the flat face"), SHAPE_LENGTH(pit, height, "its depth"),
-                                PARAMS_END };
+static const base_param params[] = { SHAPE_POINT(pit, center, 0, "middle of its flat face"),
+                                     SHAPE_LENGTH(pit, radius, "of the flat face"),
+                                     SHAPE_LENGTH(pit, height, "its depth"), PARAMS_END };
 
 static double inside(const mpm_solid *s, const double x[3])
 {

@@ -11,7 +11,7 @@ typedef struct {
     double lo, hi, along[3], corners[2 * CORNERS];
 } prism;
 
-static const param params[] = {
+static const base_param params[] = {
     SHAPE_PLANE(prism, lo, "lower end along the axis"), SHAPE_PLANE(prism, hi, "upper end along the axis"),
     PARAM_VEC3(prism, along, "1", 0, 0, 1, "the axis: one number is 1; all 0: z"),
     PARAM_PAIRS(prism, corners, "m", -SHAPE_FARTHEST, SHAPE_FARTHEST, "corners of the section, in order"), PARAMS_END

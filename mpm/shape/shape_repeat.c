@@ -9,9 +9,9 @@ typedef struct {
     double pitch[3], count[3];
 } repeat;
 
-static const param params[] = { SHAPE_POINT(repeat, pitch, 0, "from copy to copy along x, y, z"),
-                                PARAM_VEC3(repeat, count, "1", 1, 1, 10000, "copies along x, y, z, whole numbers"),
-                                PARAMS_END };
+static const base_param params[] = { SHAPE_POINT(repeat, pitch, 0, "from copy to copy along x, y, z"),
+                                     PARAM_VEC3(repeat, count, "1", 1, 1, 10000, "copies along x, y, z, whole numbers"),
+                                     PARAMS_END };
 
 /* The first and the last copy to evaluate along axis k. */
 static void range(const repeat *r, int k, double x, double lo, double hi, double ends[2])

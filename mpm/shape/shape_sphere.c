@@ -6,8 +6,8 @@ typedef struct {
     double center[3], radius;
 } sphere;
 
-static const param params[] = { SHAPE_POINT(sphere, center, 0, "its middle"),
-                                SHAPE_LENGTH(sphere, radius, "its radius"), PARAMS_END };
+static const base_param params[] = { SHAPE_POINT(sphere, center, 0, "its middle"),
+                                     SHAPE_LENGTH(sphere, radius, "its radius"), PARAMS_END };
 
 static double inside(const mpm_solid *s, const double x[3])
 {

@@ -6,9 +6,9 @@ typedef struct {
     double from[3], to[3], radius;
 } strut;
 
-static const param params[] = { SHAPE_POINT(strut, from, REQUIRED, "middle of one end face"),
-                                SHAPE_POINT(strut, to, REQUIRED, "middle of the other"),
-                                SHAPE_LENGTH(strut, radius, "of its section"), PARAMS_END };
+static const base_param params[] = { SHAPE_POINT(strut, from, REQUIRED, "middle of one end face"),
+                                     SHAPE_POINT(strut, to, REQUIRED, "middle of the other"),
+                                     SHAPE_LENGTH(strut, radius, "of its section"), PARAMS_END };
 
 /* Its length and its direction. */
 static double length_of(const strut *b, double n[3])

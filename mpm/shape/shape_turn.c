@@ -6,10 +6,11 @@ typedef struct {
     double axis[3], angle, about[3];
 } turn;
 
-static const param params[] = { PARAM_VEC3(turn, axis, "1", REQUIRED, -SHAPE_FARTHEST, SHAPE_FARTHEST,
-                                           "direction of the axis, of any length"),
-                                PARAM_DOUBLE(turn, angle, "rad", REQUIRED, -1e3, 1e3, "right-handed about the axis"),
-                                SHAPE_POINT(turn, about, 0, "a point of the axis"), PARAMS_END };
+static const base_param params[] = {
+    PARAM_VEC3(turn, axis, "1", REQUIRED, -SHAPE_FARTHEST, SHAPE_FARTHEST, "direction of the axis, of any length"),
+    PARAM_DOUBLE(turn, angle, "rad", REQUIRED, -1e3, 1e3, "right-handed about the axis"),
+    SHAPE_POINT(turn, about, 0, "a point of the axis"), PARAMS_END
+};
 
 static double length_of(const double a[3])
 {

@@ -7,10 +7,10 @@ typedef struct {
     double center[3], radius, height, half_length;
 } wedge;
 
-static const param params[] = { SHAPE_POINT(wedge, center, 0, "middle of its base"),
-                                SHAPE_LENGTH(wedge, radius, "half of its width along x"),
-                                SHAPE_LENGTH(wedge, height, "from the base to the top"),
-                                SHAPE_LENGTH(wedge, half_length, "half of its length along z"), PARAMS_END };
+static const base_param params[] = { SHAPE_POINT(wedge, center, 0, "middle of its base"),
+                                     SHAPE_LENGTH(wedge, radius, "half of its width along x"),
+                                     SHAPE_LENGTH(wedge, height, "from the base to the top"),
+                                     SHAPE_LENGTH(wedge, half_length, "half of its length along z"), PARAMS_END };
 
 static double inside(const mpm_solid *s, const double x[3])
 {

@@ -35,7 +35,7 @@ mpm_solid mpm_solid_make(const mpm_solid_kind *kind)
 /* Place of a value, -1: none. */
 static int value_place(const mpm_solid_kind *kind, const char *name)
 {
-    for (const param *p = kind->params; p->key; p++)
+    for (const base_param *p = kind->params; p->key; p++)
         if (strcmp(p->key, name) == 0) return (int)(p->offset / sizeof(double));
     return -1;
 }

@@ -33,11 +33,11 @@ typedef struct mpm_solid mpm_solid;
 
 typedef struct {
     const char *name, *doc;
-    const param *params; /* of the values, offsets from mpm_solid.value; m, rad or 1 */
-    int parts;           /* 0: a shape; else an operation on so many solids */
+    const base_param *params; /* of the values, offsets from mpm_solid.value; m, rad or 1 */
+    int parts;                /* 0: a shape; else an operation on so many solids */
     double (*inside)(const mpm_solid *s, const double x[3]);        /* signed distance [m] */
     void (*bounds)(const mpm_solid *s, double lo[3], double hi[3]); /* [m] */
-    status (*check)(const mpm_solid *s, const char *name);          /* checks beyond the table's ranges; NULL: none */
+    base_status (*check)(const mpm_solid *s, const char *name);     /* checks beyond the table's ranges; NULL: none */
 } mpm_solid_kind;
 
 struct mpm_solid {
@@ -60,11 +60,11 @@ const double *mpm_solid_get(const mpm_solid *s, const char *name);
 /* Part number i of a node that stands in its array. */
 const mpm_solid *mpm_solid_part(const mpm_solid *s, int i);
 
-/* Of the whole tree under a node that stands in its array, at `place` of it.  STATUS_BAD_INPUT names the value, its
- * size and what it must be. */
+/* Of the whole tree under a node that stands in its array, at `place` of it.  BASE_STATUS_BAD_INPUT names the value,
+ * its size and what it must be. */
 double mpm_solid_inside(const mpm_solid *s, const double x[3]);
 void mpm_solid_bounds(const mpm_solid *s, double lo[3], double hi[3]);
-status mpm_solid_check(const mpm_solid *s, int place);
+base_status mpm_solid_check(const mpm_solid *s, int place);
 
 #ifdef __cplusplus
 }

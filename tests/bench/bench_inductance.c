@@ -19,7 +19,7 @@ enum { POINTS = 25 };
 
 typedef struct {
     const char *name;
-    rail_section section;
+    circuit_rail_section section;
 } sample;
 
 #define COPPER .resistivity = 1.72e-8
@@ -55,11 +55,11 @@ static double processor_time(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static curve solve(const rail_section *s, double fineness, int repetitions)
+static curve solve(const circuit_rail_section *s, double fineness, int repetitions)
 {
     curve c = { .seconds = INFINITY };
     for (int k = 0; k < repetitions; k++) {
-        impedance z;
+        circuit_impedance z;
         const double since = processor_time();
         must(circuit_inductance_response(s, TOP, fineness, &z));
         for (int i = 0; i < POINTS; i++) {
@@ -87,7 +87,7 @@ int main(int argc, char **argv)
     const bool tiny = argc > 1 && strcmp(argv[1], "--tiny") == 0;
     const double finest = tiny ? 3.0 : 14.0;
     for (int k = 0; k < SAMPLES; k++) {
-        const rail_section *s = &samples[k].section;
+        const circuit_rail_section *s = &samples[k].section;
         const curve best = solve(s, finest, 1);
         double limit = 0.0;
         must(circuit_inductance_limit(s, &limit));

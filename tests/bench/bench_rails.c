@@ -14,7 +14,7 @@ static const double speeds[SPEEDS] = { 800, 1000, 1200, 1231, 1402, 1569, 1600, 
 
 typedef struct {
     double x[SPEEDS], I[SPEEDS], p[SPEEDS];
-    shot_state last;
+    circuit_shot_state last;
 } passage;
 
 static void must(status s)
@@ -24,7 +24,7 @@ static void must(status s)
     exit(1);
 }
 
-static bool note(void *user, const shot *s, const shot_state *now)
+static bool note(void *user, const circuit_shot *s, const circuit_shot_state *now)
 {
     passage *p = user;
     (void)s;
@@ -39,21 +39,21 @@ static bool note(void *user, const shot *s, const shot_state *now)
     return true;
 }
 
-static shot *shoot(const shot_config *c, const shot_sink *sink)
+static circuit_shot *shoot(const circuit_shot_config *c, const circuit_shot_sink *sink)
 {
-    shot *s = NULL;
+    circuit_shot *s = NULL;
     must(circuit_shot_create(c, &s));
     must(circuit_shot_advance(s, INFINITY, sink));
     return s;
 }
 
-static void row(const char *name, const shot_config *c)
+static void row(const char *name, const circuit_shot_config *c)
 {
     passage p;
     memset(&p, 0, sizeof p);
-    shot *s = shoot(c, &(shot_sink){ NULL, note, &p });
-    const shot_summary r = circuit_shot_result(s);
-    const shot_ledger l = circuit_shot_now(s).ledger;
+    circuit_shot *s = shoot(c, &(circuit_shot_sink){ NULL, note, &p });
+    const circuit_shot_summary r = circuit_shot_result(s);
+    const circuit_shot_ledger l = circuit_shot_now(s).ledger;
     printf("%-28s %8.1f %8.2f %7.3f %7.1f %6.4f %9.1f", name, 1e-3 * r.peak_current, r.muzzle_velocity,
            1e3 * r.muzzle_time, 1e-3 * r.exit_current, r.efficiency, 1e-3 * l.rails_heat);
     for (int k = 0; k < SPEEDS; k++) printf(" %6.3f", p.x[k]);
@@ -66,9 +66,9 @@ static void row(const char *name, const shot_config *c)
 }
 
 /* What a slice holds at birth and what pushes there (C-12), over speed: of all rungs together, by their inductances. */
-static void births(const shot_config *c)
+static void births(const circuit_shot_config *c)
 {
-    rails_load r;
+    circuit_rails_load r;
     must(circuit_shot_rails_fit(c, &r));
     printf("%-10s share at birth, share of force, 2 F/I^2 [uH/m], heat under the contact over motion\n", "v [m/s]");
     static const double at[] = { 0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 2000.0, 3000.0 };
@@ -89,20 +89,20 @@ static void births(const shot_config *c)
 }
 
 /* The state before the muzzle. */
-static bool note_moving(void *user, const shot *s, const shot_state *now)
+static bool note_moving(void *user, const circuit_shot *s, const circuit_shot_state *now)
 {
     (void)s;
-    if (now->phase == SHOT_MOVING) *(shot_state *)user = *now;
+    if (now->phase == CIRCUIT_SHOT_MOVING) *(circuit_shot_state *)user = *now;
     return true;
 }
 
-static void contact_row(const char *name, const shot_config *c)
+static void contact_row(const char *name, const circuit_shot_config *c)
 {
-    shot_state e;
+    circuit_shot_state e;
     memset(&e, 0, sizeof e);
-    shot *s = shoot(c, &(shot_sink){ NULL, note_moving, &e });
-    const shot_summary r = circuit_shot_result(s);
-    const shot_limits l = circuit_shot_limits_of(s);
+    circuit_shot *s = shoot(c, &(circuit_shot_sink){ NULL, note_moving, &e });
+    const circuit_shot_summary r = circuit_shot_result(s);
+    const circuit_shot_limits l = circuit_shot_limits_of(s);
     printf("%-34s %8.2f %8.2f %9.4f %8.2f %7.1f %7.3f %8.4f %6.0f %7.2f\n", name, r.muzzle_velocity,
            1e-3 * e.ledger.friction, e.friction_coefficient, 1e6 * e.film_thickness, 1e3 * e.contact_spread,
            1e3 * l.wear_share * c->armature.wear_thickness, l.melt_position, e.film_temperature,
@@ -111,11 +111,11 @@ static void contact_row(const char *name, const shot_config *c)
 }
 
 /* What the armature's contact does to the default shot: the two laws of friction, the velocity skin effect. */
-static void contacts(shot_config c, bool tiny)
+static void contacts(circuit_shot_config c, bool tiny)
 {
     const double wear[] = { 0.01, 0.03, 0.1, 0.3 }, volts[] = { 30.0, 10.0, 3.0 };
     char name[60];
-    c.rails.level = SHOT_RAILS_DIFFUSING;
+    c.rails.level = CIRCUIT_SHOT_RAILS_DIFFUSING;
     c.armature.wear_thickness = 1e-3;
     printf("%-34s exit[m/s] lost[kJ] mu film[um] spread[mm] worn[mm] melts at x[m] T[K] mass lost[g]\n", "contact");
     for (int film = 0; film < 2; film++) {
@@ -141,8 +141,8 @@ static void contacts(shot_config c, bool tiny)
 int main(int argc, char **argv)
 {
     const bool tiny = argc > 1 && strcmp(argv[1], "--tiny") == 0;
-    shot_module modules[DEFAULT_SHOT_GROUPS];
-    shot_config c = default_shot(modules);
+    circuit_shot_module modules[DEFAULT_SHOT_GROUPS];
+    circuit_shot_config c = default_shot(modules);
     if (tiny) c.options.rtol = 1e-4;
     printf("%-28s peak[kA] exit[m/s] t[ms] I[kA]  effic. heat[kJ], then x [m] at", "rails");
     for (int k = 0; k < SPEEDS; k++) printf(" %.0f", speeds[k]);
@@ -155,7 +155,7 @@ int main(int argc, char **argv)
         row(name, &c);
     }
     c.rails.slices = 0;
-    c.rails.level = SHOT_RAILS_SKIN;
+    c.rails.level = CIRCUIT_SHOT_RAILS_SKIN;
     row("skin, pulse's frequency", &c);
     for (double f = 300; !tiny && f < 2e4; f *= 3.0) {
         char name[40];
@@ -163,15 +163,15 @@ int main(int argc, char **argv)
         c.rails.frequency = f;
         row(name, &c);
     }
-    c.rails.level = SHOT_RAILS_CONSTANT;
-    ladder l;
-    shot_rails rails = c.rails;
-    rails.level = SHOT_RAILS_DIFFUSING;
+    c.rails.level = CIRCUIT_SHOT_RAILS_CONSTANT;
+    circuit_ladder l;
+    circuit_shot_rails rails = c.rails;
+    rails.level = CIRCUIT_SHOT_RAILS_DIFFUSING;
     must(circuit_rails_ladder(&rails, 5e4, &l));
     c.rails.inductance_gradient = l.L_inf;
     c.rails.resistance_gradient = l.R_dc;
     row("constant, L_inf and R_dc", &c);
-    c.rails.level = SHOT_RAILS_DIFFUSING;
+    c.rails.level = CIRCUIT_SHOT_RAILS_DIFFUSING;
     for (double error = 0.1; !tiny && error > 5e-5; error *= 0.1) {
         char name[40];
         snprintf(name, sizeof name, "diffusing, ladder %g", error);

@@ -39,7 +39,7 @@ static double processor_time(void) /* of all threads [s] */
 }
 
 typedef struct {
-    material copper, aluminium;
+    mpm_material copper, aluminium;
     mpm_scene scene;
 } bench_scene;
 
@@ -53,7 +53,7 @@ static void die(status s)
 /* Rows ofhc_copper and w17_al7075 of the reference table. */
 static void set_materials(bench_scene *b)
 {
-    material *c = &b->copper, *a = &b->aluminium;
+    mpm_material *c = &b->copper, *a = &b->aluminium;
     base_params_default(mpm_material_params, c);
     base_params_default(mpm_material_params, a);
     strcpy(c->name, "ofhc_copper"), strcpy(a->name, "w17_al7075");
@@ -69,7 +69,7 @@ static void set_materials(bench_scene *b)
     c->taylor_quinney = a->taylor_quinney = 0.9;
 }
 
-static mpm_body *add_body(mpm_scene *s, const char *shape, const double *values, int n, const material *m)
+static mpm_body *add_body(mpm_scene *s, const char *shape, const double *values, int n, const mpm_material *m)
 {
     mpm_body *b;
     die(mpm_scene_add_body(s, &b));
@@ -99,8 +99,8 @@ static void contact_scene(bench_scene *b, bool tiny)
     s->axis[0] = graded(-33e-3, 20e-3, -2e-3, 8e-3, h);
     s->axis[1] = graded(-10e-3, 12.5e-3, -1.5e-3, 1.5e-3, h);
     s->axis[2] = graded(0, 15e-3, 0, 3e-3, h);
-    s->axis[0].boundary[0] = s->axis[0].boundary[1] = BOUNDARY_ABSORBING;
-    s->axis[1].boundary[0] = s->axis[1].boundary[1] = s->axis[2].boundary[0] = BOUNDARY_SYMMETRY;
+    s->axis[0].boundary[0] = s->axis[0].boundary[1] = MPM_BOUNDARY_ABSORBING;
+    s->axis[1].boundary[0] = s->axis[1].boundary[1] = s->axis[2].boundary[0] = MPM_BOUNDARY_SYMMETRY;
     const double rail[] = { -33e-3, -10e-3, -1, 20e-3, 0, 1 }, grain[] = { 0, 0, 0, 0.5e-3, 0.5e-3 };
     /* half a U of 30 mm with a leg of 5 mm, a head of 10 mm and a chamfer of 2 mm at 30 degrees */
     const double front = -1e-3, nose = front + 2e-3 / tan(0.5236), back = nose - 30e-3, inner = nose - 10e-3;
@@ -132,8 +132,8 @@ static void single_scene(bench_scene *b, int n)
 static void mts_scene(bench_scene *b)
 {
     single_scene(b, 8);
-    material *c = &b->copper;
-    c->strength = STRENGTH_mts, c->cold_work = 0.27;
+    mpm_material *c = &b->copper;
+    c->strength = MPM_STRENGTH_mts, c->cold_work = 0.27;
     c->mts_sigma_a = 40e6, c->mts_mu0 = 47.7e9, c->mts_D = 3e9, c->mts_T0 = 180, c->mts_k_b3 = 0.823e6, c->mts_g0 = 1.6;
     c->mts_rate = 1e7, c->mts_p = 0.666667, c->mts_q = 1, c->mts_a0 = 2390e6, c->mts_a1 = 12e6, c->mts_a2 = 1.696e6;
     c->mts_alpha = 2, c->mts_g0_s = 0.2625, c->mts_rate_s = 1e7, c->mts_sigma_s0 = 770e6;

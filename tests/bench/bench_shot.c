@@ -18,8 +18,8 @@ enum { UNITS = 16, MAX_GROUPS = 64 };
 
 typedef struct {
     const char *name, *text;
-    shot_module module[MAX_GROUPS];
-    shot_config config;
+    circuit_shot_module module[MAX_GROUPS];
+    circuit_shot_config config;
 } bench_shot;
 
 static void die(status s)
@@ -45,7 +45,7 @@ static void set_units(bench_shot *b, int groups, int first, double spacing)
     }
     b->config = plain_barrel();
     b->config.barrel.length = 4.0;
-    b->config.supplies[SUPPLY_capacitor] = (supply_list){ groups, b->module };
+    b->config.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ groups, b->module };
 }
 
 /* 16 modules, each a group of its own, 4 m: the issue's.  Then all at once, and spread along the barrel. */
@@ -54,34 +54,34 @@ static void set_shots(bench_shot *b)
     b[0].name = "sixteen", b[0].text = "16 units, one after another, 4 m, diffusing rails";
     set_units(&b[0], UNITS, 1, 2e-4);
     for (int k = 0; k < 4; k++) b[0].module[k].fire_at = 0.0;
-    b[0].config.rails.level = SHOT_RAILS_DIFFUSING;
+    b[0].config.rails.level = CIRCUIT_SHOT_RAILS_DIFFUSING;
     b[1].name = "skin", b[1].text = "the same at level skin";
     set_units(&b[1], UNITS, 1, 2e-4);
     for (int k = 0; k < 4; k++) b[1].module[k].fire_at = 0.0;
-    b[1].config.rails.level = SHOT_RAILS_SKIN;
+    b[1].config.rails.level = CIRCUIT_SHOT_RAILS_SKIN;
     b[2].name = "distributed", b[2].text = "10 units at the breech, 6 along 4 m, diffusing rails";
     set_units(&b[2], 7, 10, 0.0);
     for (int k = 1; k < 7; k++) b[2].module[k].position = 0.5 * k;
-    b[2].config.rails.level = SHOT_RAILS_DIFFUSING;
+    b[2].config.rails.level = CIRCUIT_SHOT_RAILS_DIFFUSING;
 }
 
-static bool until_muzzle(void *user, shot *s, const shot_event *e)
+static bool until_muzzle(void *user, circuit_shot *s, const circuit_shot_event *e)
 {
     (void)user;
     (void)s;
-    return e->kind != SHOT_MUZZLE;
+    return e->kind != CIRCUIT_SHOT_MUZZLE;
 }
 
 /* Least time of the repetitions; the muzzle velocity and the steps. */
-static double run(const bench_shot *b, double rtol, int repetitions, shot_summary *out)
+static double run(const bench_shot *b, double rtol, int repetitions, circuit_shot_summary *out)
 {
     double least = INFINITY;
-    const shot_sink sink = { .event = until_muzzle };
-    shot_config c = b->config;
+    const circuit_shot_sink sink = { .event = until_muzzle };
+    circuit_shot_config c = b->config;
     c.options.rtol = rtol;
     c.options.atol = rtol;
     for (int r = 0; r < repetitions; r++) {
-        shot *s = NULL;
+        circuit_shot *s = NULL;
         die(circuit_shot_create(&c, &s));
         const double since = seconds();
         const status done = circuit_shot_advance(s, INFINITY, &sink);
@@ -95,10 +95,10 @@ static double run(const bench_shot *b, double rtol, int repetitions, shot_summar
 
 static void curve(bench_shot *b, bool tiny, int repetitions)
 {
-    ladder fitted;
-    shot_summary exact, got;
+    circuit_ladder fitted;
+    circuit_shot_summary exact, got;
     double since = seconds();
-    rails_load load;
+    circuit_rails_load load;
     die(circuit_shot_rails_fit(&b->config, &load));
     fitted = load.ladder;
     printf("%s: %s; %d rungs, fitted in %.0f ms\n", b->name, b->text, fitted.n, 1e3 * (seconds() - since));

@@ -371,11 +371,11 @@ static void take_material(stock *s, int i)
     s->melting[i] = 900;
     s->group[ANY][s->count[ANY]++] = i;
     if (case_material_sheet_open(s->names[i], s->at.dir, s->at.n, &sheet, &errors).code == STATUS_OK) {
-        const material *m = &sheet.material;
+        const mpm_material *m = &sheet.material;
         if (m->melting_temperature > 0) s->melting[i] = m->melting_temperature;
-        const bool scene = mpm_material_check(m, MATERIAL_FOR_SCENE).code == STATUS_OK;
+        const bool scene = mpm_material_check(m, MPM_MATERIAL_FOR_SCENE).code == STATUS_OK;
         if (scene) s->group[WITHOUT_DAMAGE][s->count[WITHOUT_DAMAGE]++] = i;
-        if (scene && mpm_material_check(m, MATERIAL_FOR_DAMAGE).code == STATUS_OK)
+        if (scene && mpm_material_check(m, MPM_MATERIAL_FOR_DAMAGE).code == STATUS_OK)
             s->group[WITH_DAMAGE][s->count[WITH_DAMAGE]++] = i;
         case_material_sheet_free(&sheet);
     }

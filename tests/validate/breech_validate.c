@@ -119,9 +119,9 @@ static options read_options(int argc, char **argv)
         }
         i++;
         if (strcmp(argv[i - 1], "--basis") == 0)
-            o.scheme.basis = strcmp(value, "bspline") == 0 ? BASIS_BSPLINE : BASIS_GIMP;
+            o.scheme.basis = strcmp(value, "bspline") == 0 ? MPM_BASIS_BSPLINE : MPM_BASIS_GIMP;
         else if (strcmp(argv[i - 1], "--transfer") == 0)
-            o.scheme.transfer = strcmp(value, "pic") == 0 ? TRANSFER_PIC : TRANSFER_TPIC;
+            o.scheme.transfer = strcmp(value, "pic") == 0 ? MPM_TRANSFER_PIC : MPM_TRANSFER_TPIC;
         else if (strcmp(argv[i - 1], "--courant") == 0)
             o.scheme.courant = atof(value);
         else if (strcmp(argv[i - 1], "-o") == 0 && *value)

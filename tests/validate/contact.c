@@ -28,17 +28,17 @@ typedef struct {
 
 static mpm *sliding_make(const sliding *b, double h, const valid_scheme *scheme)
 {
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     const double c = cos(b->turn), t = sin(b->turn), x0 = 4e-3, way = b->way;
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
-    s.axis[0] = scene_axis(-3e-3, 10e-3 + way, h, BOUNDARY_FREE, BOUNDARY_FREE);
-    s.axis[1] = scene_axis(-4.185e-3 - (4e-3 + way) * t, 6e-3 + 6e-3 * t, h, BOUNDARY_FREE, BOUNDARY_FREE);
-    s.axis[2] = scene_axis(0, h, h, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    s.axis[0] = scene_axis(-3e-3, 10e-3 + way, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s.axis[1] = scene_axis(-4.185e-3 - (4e-3 + way) * t, 6e-3 + 6e-3 * t, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s.axis[2] = scene_axis(0, h, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY);
     /* what lies below is far stiffer than what the block does to it in this time; its ends are held */
-    s.axis[0].boundary[0] = s.axis[0].boundary[1] = BOUNDARY_FIXED;
-    s.axis[1].boundary[0] = BOUNDARY_FIXED;
+    s.axis[0].boundary[0] = s.axis[0].boundary[1] = MPM_BOUNDARY_FIXED;
+    s.axis[1].boundary[0] = MPM_BOUNDARY_FIXED;
     const double origin[3] = { x0, -0.37 * h, 0 }; /* off the grid planes */
     for (int i = 0; i < 2; i++) {                  /* below: from the face down */
         const double box[] = { -(i ? 0.5 * LENGTH : 1), i ? 0 : -0.1, -1, i ? 0.5 * LENGTH : 1, i ? HEIGHT : 0, 1 };
@@ -114,14 +114,14 @@ static const double BALL_RADIUS = 4e-3;
 
 void valid_rolling(double cells, const valid_scheme *scheme, valid_result *out)
 {
-    const material m = scene_elastic();
+    const mpm_material m = scene_elastic();
     const double R = BALL_RADIUS, h = R / cells, way = 6e-3, g = 2e5, side = g * sqrt(0.5);
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
-    s.axis[0] = scene_axis(-1.4 * R, way + 1.4 * R, h, BOUNDARY_FREE, BOUNDARY_FREE);
-    s.axis[1] = scene_axis(-3 * h - 0.37 * h, 2.2 * R, h, BOUNDARY_FIXED, BOUNDARY_FREE);
-    s.axis[2] = scene_axis(0, 1.2 * R, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
+    s.axis[0] = scene_axis(-1.4 * R, way + 1.4 * R, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s.axis[1] = scene_axis(-3 * h - 0.37 * h, 2.2 * R, h, MPM_BOUNDARY_FIXED, MPM_BOUNDARY_FREE);
+    s.axis[2] = scene_axis(0, 1.2 * R, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FREE);
     scene_box(&s, -1, -1, -1, 1, 0, 1, &m);
     const double ball[] = { 0, R, 0, R };
     mpm_body *b = scene_body(&s, "sphere", ball, 4, &m);
@@ -200,16 +200,17 @@ static bool press_step(void *user, const mpm *m)
 void valid_hertz(double cells, const valid_scheme *scheme, valid_result *out)
 {
     const double E = BALL_E, nu = BALL_NU, R = BALL_R, h = R / cells, gap = 0.02 * R, speed = 4;
-    const material m = valid_solid(E, nu, 1000);
+    const mpm_material m = valid_solid(E, nu, 1000);
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
     s.viscosity_linear = s.viscosity_quadratic = 0;
     const double side = 1.1 * R, fine = 0.25 * R;
-    s.axis[0] = scene_graded(scene_axis(0, side, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE), 0, fine, fmax(R / 12, h), 1.2);
+    s.axis[0] =
+        scene_graded(scene_axis(0, side, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FREE), 0, fine, fmax(R / 12, h), 1.2);
     s.axis[2] = s.axis[0];
-    s.axis[1] =
-        scene_graded(scene_axis(-2.1 * R, 2.1 * R, h, BOUNDARY_FREE, BOUNDARY_FREE), -fine, fine, fmax(R / 12, h), 1.2);
+    s.axis[1] = scene_graded(scene_axis(-2.1 * R, 2.1 * R, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE), -fine, fine,
+                             fmax(R / 12, h), 1.2);
     for (int i = 0; i < 2; i++) {
         const double way = i ? -1 : 1, off = 0.37 * h, ball[] = { 0, off - way * (R + gap / 2), 0, R };
         mpm_body *b = scene_body(&s, "sphere", ball, 4, &m);

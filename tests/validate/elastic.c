@@ -32,13 +32,13 @@ static void ring_amplitude(void *user, block *q, int lane)
 static void ring(double cells, double viscosity, const valid_scheme *scheme, double *frequency, double *kept,
                  valid_result *out)
 {
-    const material m = valid_solid(1.2e9, 0.3, 1000);
+    const mpm_material m = valid_solid(1.2e9, 0.3, 1000);
     const double h = BAR_LENGTH / cells, c = mpm_material_longitudinal_speed(&m), period = 4 * BAR_LENGTH / c;
     SCENE_LOCAL(s);
     scene_bar(&s, 0, BAR_LENGTH + 4 * h, h, 1);
     valid_apply(scheme, &s);
     s.viscosity_linear = 0.2 * viscosity, s.viscosity_quadratic = 2.0 * viscosity;
-    s.axis[0].boundary[0] = BOUNDARY_SYMMETRY;
+    s.axis[0].boundary[0] = MPM_BOUNDARY_SYMMETRY;
     scene_box(&s, 0, -1, -1, BAR_LENGTH, 1, 1, &m);
     mpm *solver = scene_make(&s, 1);
     valid_each(solver, ring_start, NULL);
@@ -80,14 +80,14 @@ static const double DISK_RADIUS = 10e-3, DISK_SPEED = 10;
 /* Share of the kinetic energy that has become heat when they have parted. */
 static double collide(double cells, bool contact, const valid_scheme *scheme, valid_result *out)
 {
-    const material m = valid_solid(1e9, 0.33, 1000);
+    const mpm_material m = valid_solid(1e9, 0.33, 1000);
     const double R = DISK_RADIUS, h = 2 * R / cells, gap = 2.5 * h, side = 2.2 * R;
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
-    s.axis[0] = scene_axis(-side - gap - 8 * h, side + gap + 8 * h, h, BOUNDARY_FREE, BOUNDARY_FREE);
-    s.axis[1] = scene_axis(0, h, h, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
-    s.axis[2] = scene_axis(0, 1.1 * R + 3 * h, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
+    s.axis[0] = scene_axis(-side - gap - 8 * h, side + gap + 8 * h, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s.axis[1] = scene_axis(0, h, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY);
+    s.axis[2] = scene_axis(0, 1.1 * R + 3 * h, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FREE);
     for (int i = 0; i < 2; i++) {
         const double way = i ? -1 : 1, disk[] = { -way * (R + gap / 2), -1, 0, R, 2 };
         mpm_body *b = scene_body(&s, "cylinder", disk, 5, &m);

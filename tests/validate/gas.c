@@ -73,13 +73,13 @@ typedef struct {
     riemann *exact;
     int bins;
     double middle, rho0, c0, time;
-    boundary_kind far;                                   /* at x = LENGTH */
+    mpm_boundary_kind far;                               /* at x = LENGTH */
     double mass[BINS], volume[BINS], place[BINS], noise; /* of the points by place: sums of m, m/rho, m x */
 } tube;
 
-static material gas_of(double gamma, double rho0)
+static mpm_material gas_of(double gamma, double rho0)
 {
-    material m = scene_hydro();
+    mpm_material m = scene_hydro();
     strcpy(m.name, "gas");
     m.density = rho0, m.sound_speed = 100, m.hugoniot_slope = 1, m.gruneisen = gamma - 1;
     m.youngs_modulus = 1e6, m.specific_heat = 1e4, m.melting_temperature = 5000;
@@ -126,14 +126,14 @@ static void compare(const tube *t, valid_result *out)
 static void run_tube(double cells, double gamma, tube *t, double end, const valid_scheme *scheme, valid_result *out)
 {
     const double rho0 = t->rho0;
-    const material m = gas_of(gamma, rho0);
+    const mpm_material m = gas_of(gamma, rho0);
     t->c0 = m.sound_speed, t->time = end;
     t->exact->gamma = gamma, t->exact->p_inf = rho0 * m.sound_speed * m.sound_speed / gamma;
     solve(t->exact);
     SCENE_LOCAL(s);
     scene_bar(&s, 0, LENGTH, LENGTH / cells, 1);
     valid_apply(scheme, &s);
-    s.axis[0].boundary[0] = BOUNDARY_SYMMETRY;
+    s.axis[0].boundary[0] = MPM_BOUNDARY_SYMMETRY;
     s.axis[0].boundary[1] = t->far;
     scene_box(&s, 0, -1, -1, LENGTH, 1, 1, &m);
     mpm *solver = scene_make(&s, 1);
@@ -155,7 +155,7 @@ static void run_tube(double cells, double gamma, tube *t, double end, const vali
 void valid_sod(double cells, const valid_scheme *scheme, valid_result *out)
 {
     riemann r = { .left = { 1000, 0, 1e9 }, .right = { 125, 0, 1e8 } };
-    tube t = { .exact = &r, .middle = 0.5 * LENGTH, .rho0 = 1000, .far = BOUNDARY_SYMMETRY };
+    tube t = { .exact = &r, .middle = 0.5 * LENGTH, .rho0 = 1000, .far = MPM_BOUNDARY_SYMMETRY };
     run_tube(cells, 1.4, &t, 0.2e-3, scheme, out);
 }
 
@@ -164,6 +164,6 @@ void valid_sod(double cells, const valid_scheme *scheme, valid_result *out)
 void valid_noh(double cells, const valid_scheme *scheme, valid_result *out)
 {
     riemann r = { .left = { 200, 1000, 0 }, .right = { 200, -1000, 0 } };
-    tube t = { .exact = &r, .middle = 0, .rho0 = 1000, .far = BOUNDARY_FREE };
+    tube t = { .exact = &r, .middle = 0, .rho0 = 1000, .far = MPM_BOUNDARY_FREE };
     run_tube(cells, 5.0 / 3.0, &t, 0.5e-3, scheme, out);
 }

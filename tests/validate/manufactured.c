@@ -6,14 +6,14 @@
 #include "valid.h"
 
 typedef struct {
-    const material *m;
+    const mpm_material *m;
     double K, G, rho, omega, size;
     double turn;  /* of the vortex */
     double t, dt; /* of the step to come [s] */
     double error2, scale2, points;
 } motion;
 
-static motion motion_of(const material *m, double omega, double size)
+static motion motion_of(const mpm_material *m, double omega, double size)
 {
     return (motion){ .m = m,
                      .K = mpm_material_bulk_modulus(m),
@@ -102,12 +102,12 @@ static void cube_compare(void *user, block *q, int lane)
 
 void valid_cube(double cells, const valid_scheme *scheme, valid_result *out)
 {
-    const material m = valid_solid(1.2e9, 0.3, 1000);
+    const mpm_material m = valid_solid(1.2e9, 0.3, 1000);
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
     s.viscosity_linear = s.viscosity_quadratic = 0;
-    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 1, 1 / cells, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 1, 1 / cells, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY);
     scene_box(&s, -1, -1, -1, 2, 2, 2, &m);
     const double omega = SCENE_PI * mpm_material_longitudinal_speed(&m);
     motion w = motion_of(&m, omega, 1);
@@ -177,14 +177,14 @@ static void vortex_compare(void *user, block *q, int lane)
 
 static void vortex(double turn, double cells, const valid_scheme *scheme, valid_result *out)
 {
-    const material m = valid_solid(1.2e9, 0.3, 1000);
+    const mpm_material m = valid_solid(1.2e9, 0.3, 1000);
     const double h = 2.6 / cells;
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
     s.viscosity_linear = s.viscosity_quadratic = 0;
-    s.axis[0] = s.axis[2] = scene_axis(-1.3, 1.3, h, BOUNDARY_FREE, BOUNDARY_FREE);
-    s.axis[1] = scene_axis(0, h, h, BOUNDARY_SYMMETRY, BOUNDARY_SYMMETRY);
+    s.axis[0] = s.axis[2] = scene_axis(-1.3, 1.3, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+    s.axis[1] = scene_axis(0, h, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_SYMMETRY);
     scene_box(&s, -2, -1, -2, 2, 1, 2, &m);
     const double omega = 2 * SCENE_PI * mpm_material_shear_speed(&m);
     motion w = motion_of(&m, omega, 1);

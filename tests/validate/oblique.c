@@ -39,7 +39,7 @@ static void compare(void *user, block *q, int lane)
 /* `carried`: 1, or 0 for plates whose centre of mass stays.  Figures from `first` on: both errors. */
 static mpm *impact(double cells, const valid_scheme *scheme, double carried, valid_result *out, int first)
 {
-    const material m = valid_solid(1e9, 0.3, 1000);
+    const mpm_material m = valid_solid(1e9, 0.3, 1000);
     const double fast = mpm_material_longitudinal_speed(&m), end = TRAVEL / fast, h = 1 / cells, B = HALF_WIDTH;
     core c = { .front = { TRAVEL, TRAVEL * mpm_material_shear_speed(&m) / fast } };
     SCENE_LOCAL(s);
@@ -49,7 +49,7 @@ static mpm *impact(double cells, const valid_scheme *scheme, double carried, val
         const double lo = k == 0 ? -1 : -B, way = carried * CARRIED[k] * TRAVEL;
         const double n = ceil((way - 2 * lo) / h) + 4; /* cells, some to spare: nothing leaves */
         c.carried[k] = carried * CARRIED[k] * fast;
-        s.axis[k] = scene_axis(lo - 2.3 * h, lo - 2.3 * h + n * h, h, BOUNDARY_FREE, BOUNDARY_FREE);
+        s.axis[k] = scene_axis(lo - 2.3 * h, lo - 2.3 * h + n * h, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     }
     for (int side = -1; side <= 1; side += 2) {
         mpm_body *b = scene_box(&s, side < 0 ? -1 : 0, -B, -B, side < 0 ? 0 : 1, B, B, &m);

@@ -16,13 +16,13 @@ static void pull(void *user, block *q, int lane)
 
 void valid_tension(double cells, const valid_scheme *scheme, valid_result *out)
 {
-    const material m = scene_aluminium();
+    const mpm_material m = scene_aluminium();
     const double h = SIDE / cells;
     SCENE_LOCAL(s);
     mpm_scene_default(&s);
     valid_apply(scheme, &s);
-    s.axis[0] = scene_axis(0, LENGTH + 5e-3, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
-    s.axis[1] = scene_axis(0, 1.5 * SIDE, h, BOUNDARY_SYMMETRY, BOUNDARY_FREE);
+    s.axis[0] = scene_axis(0, LENGTH + 5e-3, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FREE);
+    s.axis[1] = scene_axis(0, 1.5 * SIDE, h, MPM_BOUNDARY_SYMMETRY, MPM_BOUNDARY_FREE);
     s.axis[2] = s.axis[1];
     mpm_body *b = scene_box(&s, 0, 0, 0, LENGTH, SIDE, SIDE, &m);
     b->damage = true;

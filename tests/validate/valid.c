@@ -3,7 +3,7 @@
 
 #include <time.h>
 
-const valid_scheme valid_default = { BASIS_GIMP, TRANSFER_TPIC, 0.4 };
+const valid_scheme valid_default = { MPM_BASIS_GIMP, MPM_TRANSFER_TPIC, 0.4 };
 
 #define NONE HUGE_VAL
 
@@ -192,9 +192,9 @@ void valid_reopen(mpm *m)
 }
 
 /* s = 1/2 and g0 = 0 make (M-3) p = K mu (1 + mu)/(1 + mu/2)^2 = K mu (1 - mu^2/4 + ..), and K mu below */
-material valid_solid(double youngs, double poisson, double density)
+mpm_material valid_solid(double youngs, double poisson, double density)
 {
-    material m = scene_elastic();
+    mpm_material m = scene_elastic();
     strcpy(m.name, "solid");
     m.density = density, m.youngs_modulus = youngs, m.poisson = poisson;
     m.sound_speed = sqrt(youngs / (3 * (1 - 2 * poisson)) / density);

@@ -15,8 +15,8 @@ enum { VALID_FIGURES = 4, VALID_LEVELS = 5 };
 
 /* What may be compared: members of mpm_scene that a validation takes from outside. */
 typedef struct {
-    basis_kind basis;
-    transfer_kind transfer;
+    mpm_basis_kind basis;
+    mpm_transfer_kind transfer;
     double courant;
 } valid_scheme;
 extern const valid_scheme valid_default;
@@ -57,7 +57,7 @@ void valid_each(mpm *m, valid_visit *visit, void *user);
 void valid_reopen(mpm *m);
 
 /* An elastic metal-like solid, linear up to the third order in the volume change and deaf to heat: E [Pa], nu, rho. */
-material valid_solid(double youngs, double poisson, double density);
+mpm_material valid_solid(double youngs, double poisson, double density);
 
 /* Processor time of this process [s] */
 double valid_clock(void);
