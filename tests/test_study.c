@@ -14,11 +14,7 @@
 
 #include <cmocka.h>
 
-#define OK(call)                                                        \
-    do {                                                                \
-        const status ok_ = (call);                                      \
-        if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
-    } while (0)
+#include "status_common.h"
 
 static double uniform(uint64_t *seed)
 {
@@ -320,6 +316,21 @@ static void test_far_shift(void **state)
     }
     print_message("%d scenes\n", asked);
     assert_true(asked < 10 * n);
+}
+
+/* A range that neither begins nor ends on the grid of velocities: every search comes to an end, on the right side. */
+static void test_range_off_the_grid(void **state)
+{
+    (void)state;
+    threshold_plan plan = usual();
+    plan.low = 500.0, plan.step = 13.0;
+    for (double zero = 495.0; zero < 2010.0; zero += 4.7) {
+        function f = plain(line, zero);
+        const threshold_result r = search(&f, &plan);
+        if (zero <= 507.0) assert_int_equal(r.outcome, THRESHOLD_BELOW);
+        if (zero > 1989.0) assert_int_equal(r.outcome, THRESHOLD_ABOVE);
+        if (zero > 507.0 && zero <= 1989.0) assert_true(r.bracket[0] <= zero && zero <= r.bracket[1]);
+    }
 }
 
 /* ---- functions that are not so kind ---- */
@@ -1070,6 +1081,7 @@ int main(void)
         cmocka_unit_test(test_one_stage),
         cmocka_unit_test(test_ends),
         cmocka_unit_test(test_far_shift),
+        cmocka_unit_test(test_range_off_the_grid),
         cmocka_unit_test(test_noise),
         cmocka_unit_test(test_dip),
         cmocka_unit_test(test_undecided),

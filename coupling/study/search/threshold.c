@@ -177,10 +177,10 @@ static double lower_start(const threshold_plan *p)
 static double beyond_below(const threshold_search *s, double most)
 {
     const threshold_plan *p = s->plan;
-    const double first = on_grid(s, lower_start(p)), stride = COARSE_WIDTH * first;
+    const double first = on_grid(s, lower_start(p)), stride = COARSE_WIDTH * first, lowest = on_grid(s, p->low);
     double at = first;
-    while (at > most && at > p->low) at = on_grid(s, at - fmax(stride, first - at));
-    return at > p->low && at <= most ? at : 0.5 * (s->coarse.lo.velocity + p->low);
+    while (at > most && at > lowest) at = on_grid(s, at - fmax(stride, first - at));
+    return at > lowest && at <= most ? at : 0.5 * (s->coarse.lo.velocity + p->low);
 }
 
 /* The search itself never looks beyond its bracket, so it cannot see a function that turns back: one coarse scene on
