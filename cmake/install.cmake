@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # cmake --install and cpack.  An installation may be moved: the program finds cases and materials from its own place
-# (coupling/case/material_file.c), breech-config.cmake and the .pc files what they name from theirs.
+# (coupling/case/material_places.c), breech-config.cmake and the .pc files what they name from theirs.
 #   bin/breech
 #   lib/libbreech_{base,circuit,mpm}.a, lib/cmake/breech, lib/pkgconfig, include/breech/{base,circuit,mpm}
 #   lib/python3/dist-packages/breech
