@@ -285,6 +285,8 @@ static status print_check(const case_inputs *in, int threads)
     }
     if (n > 0) host_table_print(t, stdout);
     host_table_free(t);
+    if (n > 0) study_check_assumptions(in, threads, stdout);
+    study_check_searches(in, stdout);
     const case_onset *c = &in->onset;
     char whole[80] = "";
     const int craters = c->study.judge == JUDGE_GROWTH ? c->study.craters * study_grain_kinds(c) : 0;
@@ -521,15 +523,19 @@ static int lead(int argc, char **argv, int threads, lending *l)
                                           "--processes %d: mpirun has started %d already; give the "
                                           "number to one of the two",
                                           o.line.processes, run_ranks_count()));
+    const status chosen = mpm_instruction_set_choose(o.line.instruction_set);
+    if (chosen.code != STATUS_OK) return complain(chosen);
     run_lending_own(l, o.line.threads);
     return run_command(&o);
 }
 
-/* The other processes read their number of threads only; what is wrong with the words, rank 0 says. */
+/* The other processes read their number of threads and the instruction set only; what is wrong with the words, rank 0
+ * says. */
 static int follow(int argc, char **argv, int threads, lending *l)
 {
     usage_line line = { .threads = threads };
     (void)usage_parse(argc, argv, &line);
+    (void)mpm_instruction_set_choose(line.instruction_set);
     run_lending_own(l, line.threads);
     run_crew_serve(line.threads, l, gouge_run);
     return EXIT_DONE;

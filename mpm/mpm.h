@@ -160,7 +160,11 @@ typedef struct {
 enum { MPM_BYTES = 20000000, MPM_BYTES_A_PARTICLE = 1600, MPM_BYTES_A_BODY = 50000 };
 base_status mpm_estimate(const mpm_scene *scene, mpm_needs *needs);
 
+/* The one that scenes run in which name none: the best of the machine, or what was chosen for the process, before any
+ * scene and by one thread ("" or NULL: the best again).  Results of two sets differ by rounding.  BASE_STATUS_BAD_INPUT
+ * says which sets run on this machine. */
 const char *mpm_instruction_set(void); /* "x86-64-v4", "x86-64-v3", "portable" */
+base_status mpm_instruction_set_choose(const char *name);
 
 #ifndef BREECH_INSIDE
 #undef PARTICLE_FIELDS

@@ -70,6 +70,18 @@ static inline double number(const cJSON *s, const char *key)
     return cJSON_IsNumber(item) ? item->valuedouble : NAN;
 }
 
+/* Bad input: the errors hold these words, and there is no output folder. */
+static inline void assert_refused(const char *arguments, const char *folder, const char *words)
+{
+    assert_int_equal(run(arguments), 2);
+    if (!contains("err.txt", words)) {
+        char *errors;
+        OK(host_file_read("err.txt", &errors, NULL));
+        fail_msg("%s: not `%s` but %s", arguments, words, errors);
+    }
+    assert_false(exists(folder));
+}
+
 /* The same results whatever took them: all numbers but the times. */
 static inline void assert_same(const cJSON *a, const cJSON *b)
 {

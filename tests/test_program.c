@@ -95,6 +95,13 @@ static void test_senseless(void **state)
     }
     assert_int_equal(run("check " SHOT " --set output.snapshots=1e1"), 0);
     assert_int_equal(run("check " SHOT " --set study.shots=3"), 0);
+    assert_false(contains("out.txt", "warning: study.max_scenes"));
+    assert_true(contains("out.txt", "at least: 200 ns a point and step"));
+    /* one grain: what one whole crater leaves of three is enough for a bracket, of two it is not */
+    assert_int_equal(run("check " SHOT " --set study.craters=1 --set study.max_scenes=2"), 0);
+    assert_true(contains("out.txt", "study.max_scenes = 2: less 1 for whole craters it leaves 1"));
+    assert_int_equal(run("check " SHOT " --set study.craters=1 --set study.max_scenes=3"), 0);
+    assert_false(contains("out.txt", "warning: study.max_scenes"));
 }
 
 /* Every error of the case at once, with its place; nothing is written. */
@@ -216,6 +223,23 @@ static void test_check_and_materials(void **state)
     assert_int_equal(run("materials metals/other.yaml"), 2);
 }
 
+/* The set that was named is what the scene says it ran in; a checkpoint of it is no other set's. */
+static void test_instruction_set(void **state)
+{
+    (void)state;
+    fresh_folder("set");
+    assert_int_equal(
+        run("scene " TINY " -o set/a --quiet --no-store --set output.report=no --instruction-set portable"), 0);
+    cJSON *a = summary_of("set/a");
+    assert_text(a, "instruction_set", "portable");
+    cJSON_Delete(a);
+    assert_int_equal(run("scene " TINY " -o set/b --quiet --no-store --instruction-set portable --max-walltime 0.01"),
+                     75);
+    const bool other = strcmp(mpm_instruction_set(), "portable") != 0;
+    assert_int_equal(run("scene " TINY " -o set/b --quiet --no-store --resume"), other ? 2 : 0);
+    if (other) assert_true(contains("err.txt", "portable"));
+}
+
 /* Johnson-Cook by hand: 90 + 292 0.5^0.31 = 325.54 MPa times 1 + 0.025 ln 1000 = 1.17269, isothermal.  0.9 of the work
  * would warm copper by 41.5 K if it did not soften; by 41 K the stress falls by T*^m = 0.0287. */
 static void test_flow(void **state)
@@ -287,7 +311,7 @@ static void test_resume_of_another(void **state)
     assert_true(contains("out.txt", "finished already"));
     assert_false(exists("other/done/report.html"));
 
-    assert_int_equal(run("scene " TINY " -o other/part --quiet --no-store --max-walltime 0.3"), 75);
+    assert_int_equal(run("scene " TINY " -o other/part --quiet --no-store --max-walltime 0.05"), 75);
     assert_true(contains("err.txt", " --set 'scene.coarse_cell=0.8 mm' --set scene.growth=1.3 "));
     assert_true(contains("err.txt", " --no-store -o other/part --resume\n"));
     assert_int_equal(run("shot " TINY " -o other/part --resume"), 2);
@@ -419,6 +443,7 @@ int main(void)
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_check_and_materials),
         cmocka_unit_test(test_flow),
+        cmocka_unit_test(test_instruction_set),
         cmocka_unit_test(test_shot),
         cmocka_unit_test(test_resume_of_another),
         cmocka_unit_test(test_resume_without_report),

@@ -46,6 +46,7 @@ static void test_help(void **state)
         assert_true(contains("out.txt", says));
         snprintf(says, sizeof says, "example:\n  %s\n", c.example ? c.example : "");
         assert_true(!c.example || contains("out.txt", says));
+        assert_true(contains("out.txt", "breech --keys") == (strcmp(c.subject, "CASE") == 0));
         for (const usage_option *o = usage_options; o->name; o++)
             if (lists("out.txt", o->name) != usage_takes(&c, o)) fail_msg("--help %s: %s", c.name, o->name);
     }
@@ -93,6 +94,7 @@ static void test_not_taken(void **state)
         { "strike " SHOT " --ensemble 3", "vary scene.grid_shift by a sweep of strikes" },
         { "shot " SHOT " --scene", "shot takes no --scene, which is for check" },
         { "new x --threads 2", "new takes no --threads" },
+        { "shot " SHOT " --instruction-set sse9", "`sse9` is unknown, or this machine lacks it; here run:" },
         { "--completion fish", "bash or zsh" },
         { "--completion", "bash or zsh" },
     };

@@ -58,7 +58,8 @@ typedef struct {
     usage_command command;
     const char *subject; /* CASE, NAME or DIR; NULL */
     const char *dir, *expect, *from;
-    const char *store; /* NULL: in the output directory, "": none */
+    const char *instruction_set; /* NULL: not given */
+    const char *store;           /* NULL: in the output directory, "": none */
     const char *sets[USAGE_MAX_SETS];
     int n_sets, threads;
     int processes;         /* 0: not given */
@@ -76,6 +77,8 @@ usage_command usage_command_at(int i); /* of USAGE_COMMANDS_MADE */
 /* Its name is NULL where there is none of this name. */
 usage_command usage_command_find(const char *name);
 bool usage_takes(const usage_command *c, const usage_option *o);
+/* Is its subject a case? */
+bool usage_reads_case(const usage_command *c);
 
 /* All commands and options; one command. */
 void usage_help(FILE *out);

@@ -2,6 +2,7 @@
 /* Which instruction set the kernels run in: the best one this machine has, unless one is asked for by name. */
 #include "mpm/memory/store.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #define KERNELS_OF(isa)                                 \
@@ -44,9 +45,33 @@ static bool runs_here(const char *name)
     return strcmp(name, "portable") == 0;
 }
 
+/* What scenes that name none run in; NULL: the first of the table that runs here. */
+static const kernels *usual;
+
 const kernels *mpm_kernels_choose(const char *name)
 {
+    if (usual && (!name || !name[0])) return usual;
     for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
         if ((!name || !name[0] || strcmp(name, table[i].name) == 0) && runs_here(table[i].name)) return &table[i];
     return NULL;
+}
+
+status mpm_instruction_set_choose(const char *name)
+{
+    usual = NULL;
+    const kernels *chosen = mpm_kernels_choose(name);
+    if (chosen) {
+        if (name && name[0]) usual = chosen;
+        return status_ok();
+    }
+    char here[80] = "";
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
+        if (runs_here(table[i].name)) snprintf(here + strlen(here), sizeof here - strlen(here), " %s", table[i].name);
+    return base_status_error(STATUS_BAD_INPUT,
+                             "instruction set `%.40s` is unknown, or this machine lacks it; here run:%s", name, here);
+}
+
+const char *mpm_instruction_set(void)
+{
+    return mpm_kernels_choose(NULL)->name;
 }

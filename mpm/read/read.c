@@ -183,11 +183,6 @@ const mpm_scene *mpm_scene_of(const mpm *m)
     return &m->scene;
 }
 
-const char *mpm_instruction_set(void)
-{
-    return mpm_kernels_choose(NULL)->name;
-}
-
 size_t mpm_particles(const mpm *m)
 {
     size_t n = 0;
