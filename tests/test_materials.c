@@ -193,11 +193,80 @@ static void bad_files_say_where(void **state)
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
         material_sheet sheet;
         char *errors = NULL;
-        const status r = case_material_sheet_parse(s->u, bad[k].text, strlen(bad[k].text), "x.yaml", &sheet, &errors);
+        const status r =
+            case_material_sheet_parse(s->u, bad[k].text, strlen(bad[k].text), "x.yaml", dirs, 1, &sheet, &errors);
         assert_int_equal(r.code, STATUS_BAD_INPUT);
         assert_non_null(errors);
         if (!strstr(errors, bad[k].error)) print_error("wanted %s\nin %s", bad[k].error, errors);
         assert_non_null(strstr(errors, bad[k].error));
+        free(errors);
+    }
+}
+
+static const material_constant *constant_of(const material_sheet *sheet, const char *key)
+{
+    for (int i = 0; i < sheet->n; i++)
+        if (strcmp(sheet->constant[i].constant->key, key) == 0) return &sheet->constant[i];
+    return NULL;
+}
+
+/* A copper of one's own in six lines: all is the base's but what the file says, which stands with its own source. */
+static void a_material_changes_its_base(void **state)
+{
+    shelf *s = *state;
+    static const char own[] = "name: x\nbase: ofhc_copper_half_hard\nsources: {mine: our test}\nconstants:\n"
+                              "  hardness: {value: 1.1 GPa, source: mine}\n  resistivity_slope: ~\n";
+    material_sheet base, sheet;
+    char *errors = NULL;
+    assert_int_equal(case_material_sheet_find(s->u, "ofhc_copper_half_hard", dirs, 1, &base, &errors).code, STATUS_OK);
+    const status r = case_material_sheet_parse(s->u, own, strlen(own), "x.yaml", dirs, 1, &sheet, &errors);
+    if (r.code != STATUS_OK) fail_msg("%s", errors);
+    assert_int_equal(sheet.n, base.n - 1);
+    assert_non_null(strstr(sheet.base, "/ofhc_copper_half_hard.yaml"));
+    assert_true(sheet.material.hardness == 1.1e9 && base.material.hardness == 950e6);
+    assert_true(isnan(sheet.material.resistivity_slope) && sheet.material.strength == base.material.strength);
+    assert_true(sheet.material.mts_sigma_a == base.material.mts_sigma_a);
+    const material_constant *hard = constant_of(&sheet, "hardness");
+    assert_string_equal(hard->source, "our test");
+    assert_true(!hard->weak && !hard->note); /* those were the old value's */
+    assert_string_equal(constant_of(&sheet, "mts_p")->source, constant_of(&base, "mts_p")->source);
+    case_material_sheet_free(&sheet);
+    case_material_sheet_free(&base);
+}
+
+/* Each error names the file, line and column where it stands, be it the base's. */
+static void errors_of_bases_have_their_place(void **state)
+{
+    shelf *s = *state;
+    static const struct {
+        const char *text, *error;
+    } bad[] = {
+        { "name: x\nbase: ofhc_coper\n", "x.yaml:2:7: base = ofhc_coper: no material of this name in " },
+        { "name: x\nbase: ofhc_coper\n", "did you mean `ofhc_copper" },
+        { "name: x\nbase: ../ofhc_copper\n", "x.yaml:2:7: base = ../ofhc_copper: a material's name has letters" },
+        { "name: x\nbase: [1]\n", "x.yaml:2:7: base = : must be the name of a material" },
+        { "name: x\nbase: ofhc_copper\nsources: {book: mine}\n",
+          "x.yaml:3:11: sources.book: the base has a source of this name" },
+        { "name: x\nbase: ofhc_copper\nconstants:\n  hardness: {value: 1 GPa}\n", "x.yaml:4:13: constants.hardness" },
+        { "name: x\nbase: ofhc_copper\nconstants:\n  hardnes: {value: 1 GPa, source: JC}\n",
+          "x.yaml:4:3: unknown constant `hardnes`; did you mean `hardness`" },
+        { "base: ofhc_copper\n", "name = ofhc_copper: must be the file's name, x" },
+        { "name: x\nbase: round\n", "round.yaml:2:7: base = round: leads back to ./round.yaml" },
+        { "name: x\nbase: broken\n", "broken.yaml:3:48: constants.density.source = c: not in" },
+    };
+    FILE *round = fopen("round.yaml", "w"), *broken = fopen("broken.yaml", "w");
+    fputs("name: round\nbase: round\n", round);
+    fputs("name: broken\nsources: {a: b}\nconstants: {density: {value: 1 kg/m^3, source: c}}\n", broken);
+    fclose(round);
+    fclose(broken);
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
+        material_sheet sheet;
+        char *errors = NULL;
+        const status r =
+            case_material_sheet_parse(s->u, bad[k].text, strlen(bad[k].text), "x.yaml", dirs, 1, &sheet, &errors);
+        assert_int_equal(r.code, STATUS_BAD_INPUT);
+        assert_non_null(errors);
+        if (!strstr(errors, bad[k].error)) fail_msg("wanted %s\nin %s", bad[k].error, errors);
         free(errors);
     }
 }
@@ -320,6 +389,8 @@ int main(void)
         cmocka_unit_test(unchecked_constants_are_weak),
         cmocka_unit_test(the_papers_sets_are_kept),
         cmocka_unit_test(bad_files_say_where),
+        cmocka_unit_test(a_material_changes_its_base),
+        cmocka_unit_test(errors_of_bases_have_their_place),
         cmocka_unit_test(names_cannot_leave_the_folder),
         cmocka_unit_test(folders_are_found),
         cmocka_unit_test(the_laws_are_read),

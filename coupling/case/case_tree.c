@@ -47,25 +47,6 @@ status case_file_find(const char *path, char file[CASE_PATH_SIZE])
     return status_ok();
 }
 
-void case_folder_of(const char *file, char folder[CASE_PATH_SIZE])
-{
-    snprintf(folder, CASE_PATH_SIZE, "%s", file);
-    char *slash = strrchr(folder, '/');
-    if (!slash)
-        snprintf(folder, CASE_PATH_SIZE, ".");
-    else
-        slash[slash == folder ? 1 : 0] = '\0';
-}
-
-static bool same_file(const char *a, const char *b)
-{
-    char *x = realpath(a, NULL), *y = realpath(b, NULL);
-    const bool same = x && y && strcmp(x, y) == 0;
-    free(x);
-    free(y);
-    return same;
-}
-
 /* The file that `base` names, seen from the file it stands in: a new one of the reader's.  What is wrong with it is an
  * error at `base`; then the result is -1. */
 static int base_file(case_reader *r, const tree_node *base)
@@ -90,7 +71,7 @@ static int base_file(case_reader *r, const tree_node *base)
         return -1;
     }
     for (int k = 0; k < r->n_files; k++) {
-        if (!same_file(file, r->file[k])) continue;
+        if (!case_file_is_same(file, r->file[k])) continue;
         case_errors_add(r->errors, base, "base = %.*s: leads back to %.200s, which builds on this file", CASE_SHOWN,
                         base->text, r->file[k]);
         return -1;

@@ -4,20 +4,8 @@
 #include "coupling/case/case_reader.h"
 #include "coupling/host/file_text.h"
 
-#include <ctype.h>
-#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <unistd.h>
-
-bool case_material_name_valid(const char *name)
-{
-    if (name[0] == '\0' || name[0] == '.' || strlen(name) >= BASE_PARAM_TEXT_SIZE) return false;
-    for (; *name; name++)
-        if (!isalnum((unsigned char)*name) && !strchr("_-+.", *name)) return false;
-    return true;
-}
 
 void case_material_sheet_free(material_sheet *sheet)
 {
@@ -83,7 +71,7 @@ static void read_source(case_reader *r, const tree_node *entry, const char *path
 {
     const char *name = text_of(r, entry, "source", path);
     if (!name) return;
-    const tree_node *source = host_tree_find(host_tree_find(r->root, "sources"), name);
+    const tree_node *source = host_tree_find(host_tree_find(r->root, "sources"), name); /* those of its bases too */
     if (source && source->kind == TREE_TEXT && source->text[0])
         c->source = copy_text(r, source->text);
     else
@@ -156,7 +144,7 @@ static void read_head(case_reader *r, const char *path, material_sheet *sheet)
         .key = "title", .unit = "1", .kind = BASE_PARAM_TEXT, .fallback_text = "", .doc = "one line"
     };
     const tree_node *node = host_tree_find(r->root, "name"), *title_node = host_tree_find(r->root, "title");
-    const char *file = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
+    const char *file = strrchr(path, '/') ? strrchr(path, '/') + 1 : path; /* not its base's */
     const char *dot = strrchr(file, '.');
     const size_t stem = dot ? (size_t)(dot - file) : strlen(file);
     if (title_node) case_value_read(r, &title, title_node, sheet->title, "title");
@@ -181,10 +169,11 @@ static void read_laws(case_reader *r, material_sheet *sheet)
 
 static void read_sheet(case_reader *r, const char *path, material_sheet *sheet)
 {
-    static const char *const known[] = { "name", "title", "strength", "eos", "failure", "sources", "constants", NULL };
+    static const char *const known[] = { "name",    "title",   "base",      "strength", "eos",
+                                         "failure", "sources", "constants", NULL };
     if (r->root->kind != TREE_MAP) {
         case_errors_add(r->errors, r->root,
-                        "a material's file has the keys name, title, strength, eos, failure, sources and constants");
+                        "a material's file has the keys name, title, base, strength, eos, failure, sources, constants");
         return;
     }
     check_keys(r, r->root, "a material's file", known);
@@ -200,24 +189,21 @@ static void read_sheet(case_reader *r, const char *path, material_sheet *sheet)
 }
 
 status case_material_sheet_parse(const units *u, const char *bytes, size_t length, const char *path,
-                                 material_sheet *out, char **errors)
+                                 const char *const *dirs, int n_dirs, material_sheet *out, char **errors)
 {
     tree_node *root = NULL;
-    int line, column;
+    const case_options options = { .material_dirs = dirs, .n_material_dirs = n_dirs };
     *errors = NULL;
     memset(out, 0, sizeof *out);
     base_params_default(mpm_material_params, &out->material);
     snprintf(out->path, sizeof out->path, "%s", path);
     case_errors *found = calloc(1, sizeof *found);
     CHECK(found, STATUS_MEMORY, "out of memory while reading %s", path);
-    found->file[0] = path;
-    case_reader r = { .u = u, .errors = found };
-    status s = host_tree_parse(bytes, length, &root, &line, &column);
+    case_reader r = { .u = u, .errors = found, .options = &options };
+    status s = case_material_tree_read(&r, bytes, length, path, &root);
     r.root = root;
-    if (s.code == STATUS_OK)
-        read_sheet(&r, path, out);
-    else if (s.code == STATUS_BAD_INPUT)
-        case_errors_add_at(found, 0, line, column, "%s", s.text);
+    if (root) read_sheet(&r, path, out);
+    if (r.n_files > 1) snprintf(out->base, sizeof out->base, "%s", r.file[1]);
     if (s.code != STATUS_MEMORY) s = case_errors_finish(found, errors);
     if (r.out_of_memory) s = base_status_error(STATUS_MEMORY, "out of memory while reading %s", path);
     if (s.code != STATUS_OK) case_material_sheet_free(out);
@@ -228,129 +214,15 @@ status case_material_sheet_parse(const units *u, const char *bytes, size_t lengt
     return s;
 }
 
-/* ---- folders ---- */
+/* ---- found by name ---- */
 
-/* The build says where the cases are; without it there is only the environment. */
-#ifndef BREECH_SOURCE_CASES
-#define BREECH_SOURCE_CASES "cases"
-#endif
-#ifndef BREECH_INSTALLED_CASES /* from the program's folder */
-#define BREECH_INSTALLED_CASES "../share/breech/cases"
-#endif
-
-/* The cases of the installation; "" where the system does not say where the program lies. */
-static void beside_program(char path[MATERIAL_PATH_SIZE])
-{
-    static const char within[] = "/" BREECH_INSTALLED_CASES;
-    const ssize_t n = readlink("/proc/self/exe", path, MATERIAL_PATH_SIZE - sizeof within);
-    path[n > 0 ? n : 0] = '\0';
-    char *slash = strrchr(path, '/');
-    if (slash) memcpy(slash, within, sizeof within);
-    char *plain = realpath(path, NULL); /* without the dots */
-    snprintf(path, MATERIAL_PATH_SIZE, "%s", plain ? plain : "");
-    free(plain);
-}
-
-void case_folders_find(case_folders *out)
-{
-    beside_program(out->installed);
-    const char *const all[] = { out->installed, BREECH_SOURCE_CASES };
-    out->n = 0;
-    for (int k = 0; k < CASE_MAX_FOLDERS; k++)
-        if (host_folder_exists(all[k])) out->dir[out->n++] = all[k];
-}
-
-void case_material_places_find(material_places *out)
-{
-    char cases[MATERIAL_PATH_SIZE];
-    beside_program(cases);
-    snprintf(out->installed, sizeof out->installed, "%.*s/materials", MATERIAL_PATH_SIZE - 11, cases);
-    const char *const all[] = { getenv("BREECH_MATERIALS"), out->installed, BREECH_SOURCE_CASES "/materials" };
-    out->n = 0;
-    for (int k = 0; k < MATERIAL_MAX_DIRS; k++)
-        if (all[k] && host_folder_exists(all[k])) out->dir[out->n++] = all[k];
-}
-
-static int by_name(const void *a, const void *b)
-{
-    return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
-void case_material_names_free(char **names, int n)
-{
-    for (int k = 0; k < n; k++) free(names[k]);
-    free(names);
-}
-
-static status add_name(char ***names, int *n, const char *file)
-{
-    const size_t length = strlen(file);
-    if (length <= 5 || strcmp(file + length - 5, ".yaml") != 0) return status_ok();
-    char **more = realloc(*names, ((size_t)*n + 1) * sizeof *more);
-    CHECK(more, STATUS_MEMORY, "out of memory while listing materials");
-    *names = more;
-    more[*n] = strndup(file, length - 5);
-    CHECK(more[*n], STATUS_MEMORY, "out of memory while listing materials");
-    if (case_material_name_valid(more[*n]))
-        (*n)++;
-    else
-        free(more[*n]);
-    return status_ok();
-}
-
-status case_material_names(const char *dir, char ***names, int *n)
-{
-    *names = NULL;
-    *n = 0;
-    DIR *folder = opendir(dir);
-    if (!folder) return status_ok();
-    status s = status_ok();
-    for (struct dirent *entry; s.code == STATUS_OK && (entry = readdir(folder));) s = add_name(names, n, entry->d_name);
-    closedir(folder);
-    if (s.code != STATUS_OK) {
-        case_material_names_free(*names, *n);
-        *names = NULL;
-        *n = 0;
-        return s;
-    }
-    if (*n > 0) qsort(*names, (size_t)*n, sizeof **names, by_name);
-    return s;
-}
-
-static const char *listed(const void *user, int i)
-{
-    return ((char *const *)user)[i];
-}
-
-static status not_found(const char *name, const char *const *dirs, int n_dirs)
-{
-    char text[400] = "", near[BASE_PARAM_TEXT_SIZE] = "";
-    for (int d = 0; d < n_dirs; d++) {
-        char **names;
-        int n;
-        const size_t used = strlen(text);
-        snprintf(text + used, sizeof text - used, "%s%s", d > 0 ? ", " : "", dirs[d]);
-        TRY(case_material_names(dirs[d], &names, &n));
-        char **ended = realloc(names, ((size_t)n + 1) * sizeof *ended);
-        if (ended) {
-            names = ended;
-            names[n] = NULL;
-            const char *found = host_nearest_name(name, listed, names);
-            if (found) snprintf(near, sizeof near, "%s", found);
-        }
-        case_material_names_free(names, n);
-    }
-    return base_status_error(STATUS_BAD_INPUT, "no material of this name in %s%s%s%s",
-                             n_dirs > 0 ? text : "(no folder given)", near[0] ? "; did you mean `" : "", near,
-                             near[0] ? "`?" : "");
-}
-
-static status sheet_from_file(const units *u, const char *path, material_sheet *out, char **errors)
+static status sheet_from_file(const units *u, const char *path, const char *const *dirs, int n_dirs,
+                              material_sheet *out, char **errors)
 {
     char *bytes = NULL;
     size_t length = 0;
     TRY(host_file_text(path, TREE_MAX_BYTES, &bytes, &length));
-    const status s = case_material_sheet_parse(u, bytes, length, path, out, errors);
+    const status s = case_material_sheet_parse(u, bytes, length, path, dirs, n_dirs, out, errors);
     free(bytes);
     return s;
 }
@@ -358,15 +230,11 @@ static status sheet_from_file(const units *u, const char *path, material_sheet *
 status case_material_sheet_find(const units *u, const char *name, const char *const *dirs, int n_dirs,
                                 material_sheet *out, char **errors)
 {
+    char path[MATERIAL_PATH_SIZE];
     *errors = NULL;
     memset(out, 0, sizeof *out);
-    CHECK(case_material_name_valid(name), STATUS_BAD_INPUT, "a material's name has letters, digits, _ - + . only");
-    for (int d = 0; d < n_dirs; d++) {
-        char path[MATERIAL_PATH_SIZE];
-        if (snprintf(path, sizeof path, "%s/%s.yaml", dirs[d], name) >= (int)sizeof path) continue;
-        if (host_file_exists(path)) return sheet_from_file(u, path, out, errors);
-    }
-    return not_found(name, dirs, n_dirs);
+    TRY(case_material_file_find(name, dirs, n_dirs, path));
+    return sheet_from_file(u, path, dirs, n_dirs, out, errors);
 }
 
 static bool is_path(const char *name)
@@ -382,7 +250,7 @@ status case_material_sheet_open(const char *name, const char *const *dirs, int n
     *errors = NULL;
     memset(out, 0, sizeof *out);
     TRY(host_units_open(&u));
-    const status s = is_path(name) ? sheet_from_file(u, name, out, errors)
+    const status s = is_path(name) ? sheet_from_file(u, name, dirs, n_dirs, out, errors)
                                    : case_material_sheet_find(u, name, dirs, n_dirs, out, errors);
     host_units_close(u);
     return s;

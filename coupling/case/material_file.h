@@ -13,6 +13,18 @@
  * and what needs it refuses the material.  `weak: true` marks a secondary or unchecked value; whoever uses it is
  * warned.  `strength`, `eos` and `failure` after the title choose the laws by their names in mpm/law/<table>.def; not
  * given: johnson_cook, mie_gruneisen and johnson_cook.
+ *
+ * A file may be a change of another:
+ *
+ *   name: my_copper
+ *   base: ofhc_copper_half_hard
+ *   sources: {mine: "hardness test of our rails, 12 May"}
+ *   constants:
+ *     hardness: {value: 1.05 GPa, source: mine}
+ *
+ * `base` is the name of a material in the same folder or where materials are looked for.  A constant replaces that of
+ * the base whole, with source, note and weakness; `~` takes it out.
+ *
  * To add a material: add a file; tests/test_materials.c covers it at once. */
 #ifndef BREECH_COUPLING_MATERIAL_FILE_H
 #define BREECH_COUPLING_MATERIAL_FILE_H
@@ -38,7 +50,7 @@ typedef struct {
 typedef struct {
     mpm_material material;
     char title[BASE_PARAM_TEXT_SIZE];
-    char path[MATERIAL_PATH_SIZE];
+    char path[MATERIAL_PATH_SIZE], base[MATERIAL_PATH_SIZE]; /* base "": it builds on none */
     int n;
     material_constant constant[MATERIAL_MAX_CONSTANTS]; /* those given, in the file's order */
 } material_sheet;
@@ -52,9 +64,12 @@ status case_material_sheet_find(const units *u, const char *name, const char *co
 status case_material_sheet_open(const char *name, const char *const *dirs, int n_dirs, material_sheet *out,
                                 char **errors);
 
-/* From memory; the name in the file must be that of `path`. */
+/* From memory; the name in the file must be that of `path`.  Its base lies beside it or in one of the folders. */
 status case_material_sheet_parse(const units *u, const char *bytes, size_t length, const char *path,
-                                 material_sheet *out, char **errors);
+                                 const char *const *dirs, int n_dirs, material_sheet *out, char **errors);
+
+/* The path of the first such file; STATUS_BAD_INPUT as of case_material_sheet_find. */
+status case_material_file_find(const char *name, const char *const *dirs, int n_dirs, char path[MATERIAL_PATH_SIZE]);
 
 void case_material_sheet_free(material_sheet *sheet);
 

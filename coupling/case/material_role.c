@@ -109,7 +109,8 @@ static status add_folder(table *t, const material_places *at, int d)
     TRY(case_material_names(at->dir[d], &names, &n));
     status s = status_ok();
     for (int i = 0; i < n && s.code == STATUS_OK; i++)
-        if (!hidden(at, d, names[i])) s = add_row(t, names[i], &at->dir[d], 1);
+        if (!hidden(at, d, names[i]))
+            s = add_row(t, names[i], &at->dir[d], at->n - d); /* its base may lie in a later one */
     case_material_names_free(names, n);
     return s;
 }
@@ -154,6 +155,7 @@ void case_material_print(const material_sheet *sheet, FILE *out)
 {
     const mpm_material *m = &sheet->material;
     fprintf(out, "%s: %s\n%s\n", m->name, sheet->title, sheet->path);
+    if (sheet->base[0]) fprintf(out, "changes %s\n", sheet->base);
     fprintf(out, "  strength: %s\n  eos: %s\n  failure: %s\n\ngood for:\n", mpm_material_strength_text(m->strength),
             mpm_material_eos_text(m->eos), mpm_material_failure_text(m->failure));
     print_roles(m, out);

@@ -9,8 +9,8 @@
 
 #include <stdio.h>
 
-/* Sum of mpm_material_need for a material in scenes; damage: they let it fail; meets: the screen asks how hard the rail and
- * the armature are that meet. */
+/* Sum of mpm_material_need for a material in scenes; damage: they let it fail; meets: the screen asks how hard the rail
+ * and the armature are that meet. */
 unsigned case_material_needs(bool damage, bool meets);
 
 typedef struct {

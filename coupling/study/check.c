@@ -213,6 +213,36 @@ status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_
     return status_ok();
 }
 
+void study_check_assumptions(const case_inputs *in, int threads, FILE *out)
+{
+    fprintf(out, "at least: %.0f ns a point and step on %d thread%s alone, points and steps as at the start\n",
+            1e9 * CHECK_SECONDS_A_STEP, threads, threads == 1 ? "" : "s");
+    fputs("not counted: shorter steps where it gets hot or fast", out);
+    if (in->given.bodies && in->bodies.scene.refines > 0) fputs(", cells that scene.refine makes small later", out);
+    if (in->given.bodies && in->bodies.scene.probes > 0) fputs(", probes", out);
+    if (in->output.snapshots > 0) fprintf(out, ", %d snapshots", in->output.snapshots);
+    fputc('\n', out);
+}
+
+enum { LEAST_OF_BRACKET = 2 }; /* scenes: one on either side */
+
+void study_check_searches(const case_inputs *in, FILE *out)
+{
+    const case_onset *c = &in->onset;
+    const int most = c->study.max_scenes;
+    if (in->given.strike && in->strike.limit && most < LEAST_OF_BRACKET)
+        fprintf(out, "warning: study.max_scenes = %d: a limit velocity lies between two arrivals at least\n", most);
+    if (!c->has_body || (c->sites.n == 0 && c->populations.n == 0)) return;
+    const case_impact probe = study_family_probe(c);
+    const int kinds = study_grain_kinds(c), craters = case_impact_is_gauged(&probe) ? c->study.craters * kinds : 0;
+    const int left = most - craters;
+    if (left < LEAST_OF_BRACKET * kinds)
+        fprintf(out,
+                "warning: study.max_scenes = %d: less %d for whole craters it leaves %d to the searches of %d kinds of "
+                "grain, each of which needs %d at least, one on either side of the threshold\n",
+                most, craters, left > 0 ? left : 0, kinds, LEAST_OF_BRACKET);
+}
+
 /* The layers of a rail under grains of this radius. */
 static void print_films(const case_onset *c, const char *surface, double radius, FILE *out)
 {

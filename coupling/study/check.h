@@ -26,6 +26,12 @@ int study_grain_kinds(const case_onset *c);
  * of the search, and with each treatment as many of these as there is room for; *n of them. */
 status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n);
 
+/* What the times of study_check assume, so that a run takes longer. */
+void study_check_assumptions(const case_inputs *in, int threads, FILE *out);
+
+/* A warning where study.max_scenes leaves a search fewer scenes than a bracket has ends. */
+void study_check_searches(const case_inputs *in, FILE *out);
+
 /* A line for each layer that is thinner than the cells of the searches: a film, and what it takes to resolve it. */
 void study_check_films(const case_inputs *in, FILE *out);
 

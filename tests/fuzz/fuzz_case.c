@@ -79,7 +79,7 @@ static void read_material(const units *u, const uint8_t *data, size_t size)
 {
     material_sheet sheet;
     char *errors = NULL;
-    const status s = case_material_sheet_parse(u, (const char *)data, size, "nowhere/x.yaml", &sheet, &errors);
+    const status s = case_material_sheet_parse(u, (const char *)data, size, "nowhere/x.yaml", NULL, 0, &sheet, &errors);
     fail_unless((s.code == STATUS_OK) == (errors == NULL));
     char warning[MATERIAL_WARNING_SIZE];
     if (s.code == STATUS_OK) {
