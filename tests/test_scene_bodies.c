@@ -21,11 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define OK(call)                                                        \
-    do {                                                                \
-        const status ok_ = (call);                                      \
-        if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
-    } while (0)
+#include "status_common.h"
 
 static const char *const dirs[] = { BREECH_TESTS "/../cases/materials" };
 
@@ -728,6 +724,20 @@ static void test_report(void **state)
     }
     assert_int_equal(count(page, "<svg"), 2 + quantities + maps); /* 2: speeds and energies */
     assert_int_equal(count(page, "class=\"missing\""), 0);
+    /* integrals over time: of a force an impulse, of a velocity a way, of an energy none */
+    assert_true(count(page, "N s</td>") > 0);
+    assert_true(count(page, "m</td>") > 0);
+    assert_int_equal(count(page, "m/s s") + count(page, "J s"), 0);
+    assert_int_equal(count(page, ">a map</td>"), maps);
+    assert_string_equal(output_unit_over_time("m/s"), "m");
+    assert_null(output_unit_over_time("J"));
+    char *table = NULL;
+    size_t size;
+    FILE *out = open_memstream(&table, &size);
+    study_bodies.print(&r, out);
+    fclose(out);
+    assert_int_equal(count(table, "beside one mirror half of the whole"), 1);
+    free(table);
     free(page), free(used);
     scene_bodies_free(&r);
     case_free(c);

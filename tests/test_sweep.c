@@ -6,6 +6,8 @@
 #include "coupling/study/study.h"
 #include "tests/output_common.h"
 
+#include "tests/body_scenes.h"
+
 #include <cJSON.h>
 #include <sys/wait.h>
 
@@ -179,13 +181,59 @@ static void test_resolution(void **state)
     cJSON_Delete(again);
 }
 
+/* Numbers of probes and bodies by their names, with the units that only a run tells: those of a run of its own. */
+static void test_probes(void **state)
+{
+    (void)state;
+    static const char *const paths[] = { "probes.push.peak", "probes.push.impulse[0]", "probes.gauge.last.pressure",
+                                         "bodies.ball.velocity[0]", "steps" };
+    char *text;
+    fresh_folder("body");
+    OK(host_file_write("body/case.yaml", body_scene_text, strlen(body_scene_text)));
+#define SMALL "body --force --quiet --no-store --set output.snapshots=0 --set scene.end_time='0.3 us' "
+#define SWEEP "--set sweep=\"{of: scene, vary: [{key: scene.cell, values: [0.6 mm, 0.5 mm]}], read: [%s]}\""
+    assert_int_equal(run("sweep " SMALL "-o cells --set sweep=\"{of: scene, vary: [{key: scene.cell, values: [0.6 mm, "
+                         "0.5 mm]}], read: [probes.push.peak, 'probes.push.impulse[0]', probes.gauge.last.pressure, "
+                         "'bodies.ball.velocity[0]', steps]}\""),
+                     0);
+    assert_int_equal(run("scene " SMALL "-o one --set scene.cell='0.5 mm'"), 0);
+    cJSON *all = summary_of("cells"), *one = summary_of("one");
+    const cJSON *out = run_at(all, 1, "outputs"), *probes = cJSON_GetObjectItem(one, "probes"),
+                *push = cJSON_GetObjectItem(probes, "push"), *gauge = cJSON_GetObjectItem(probes, "gauge"),
+                *ball = cJSON_GetObjectItem(cJSON_GetObjectItem(one, "bodies"), "ball");
+    const double expected[] = { number_in(push, "peak"),
+                                cJSON_GetArrayItem(cJSON_GetObjectItem(push, "impulse"), 0)->valuedouble,
+                                number_in(cJSON_GetObjectItem(gauge, "last"), "pressure"),
+                                cJSON_GetArrayItem(cJSON_GetObjectItem(ball, "velocity"), 0)->valuedouble,
+                                number_in(one, "steps") };
+    assert_true(expected[0] > 0.0 && expected[3] > 0.0);
+    for (int k = 0; k < 5; k++) assert_true(number_in(out, paths[k]) == expected[k]);
+    OK(host_file_read("cells/sweep.csv", &text, NULL));
+    assert_non_null(strstr(text, "probes.push.peak [N],probes.push.impulse[0] [N s],"));
+    free(text);
+    cJSON_Delete(all);
+    cJSON_Delete(one);
+    static const char *const wrong[][2] = { { "probes.gage.peak", "no such probe; it has push, gauge, dent" },
+                                            { "probes.gauge.last.presure", "kind pressure has no such column" },
+                                            { "bodies.bal.mass", "no such body; it has wall, ball" },
+                                            { "probes.gauge.peek", "no number of the summary of `breech scene`" } };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        char arguments[600];
+        snprintf(arguments, sizeof arguments, "sweep " SMALL "-o nothing " SWEEP, wrong[i][0]);
+        assert_int_equal(run(arguments), 2);
+        OK(host_file_read("err.txt", &text, NULL));
+        if (!strstr(text, wrong[i][1])) fail_msg("%s: %s", wrong[i][0], text);
+        free(text);
+    }
+#undef SMALL
+#undef SWEEP
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_as_runs_of_their_own),
-        cmocka_unit_test(test_together),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_resolution),
+        cmocka_unit_test(test_as_runs_of_their_own), cmocka_unit_test(test_together), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_resolution),           cmocka_unit_test(test_probes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -305,39 +305,17 @@ status output_object_read(const char *text, const summary_key *keys, void *out)
     return status_ok();
 }
 
-/* ---- one number ---- */
+/* ---- numbers by their paths ---- */
 
-/* *base: moves to the struct that the key is of. */
-static const summary_key *find_number(const summary_key *keys, const char *name, const char **base)
+const char *output_unit_over_time(const char *unit)
 {
-    for (const summary_key *k = keys; k->name; k++) {
-        const bool one = (k->kind == KEY_NUMBER && k->n == 1) || k->kind == KEY_COUNT || k->kind == KEY_INTEGER;
-        const char *inner = *base ? *base + k->offset : NULL;
-        const summary_key *part = k->kind == KEY_PART ? find_number(k->item, name, &inner) : NULL;
-        if (one && strcmp(k->name, name) == 0) return k;
-        if (part) *base = inner;
-        if (part) return part;
-    }
+    static const struct {
+        const char *unit, *over_time;
+    } known[] = { { "N", "N s" }, { "Pa", "Pa s" }, { "m/s", "m" }, { "W", "J" } };
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        if (strcmp(unit, known[i].unit) == 0) return known[i].over_time;
     return NULL;
 }
-
-const summary_key *output_number_key(const summary_key *keys, const char *name)
-{
-    const char *none = NULL;
-    return find_number(keys, name, &none);
-}
-
-double output_number_of(const summary_key *keys, const char *name, const void *of)
-{
-    const char *base = of;
-    const summary_key *key = find_number(keys, name, &base);
-    cJSON *value = key && of ? value_json(key, base) : NULL;
-    const double x = number_of(value);
-    cJSON_Delete(value);
-    return x;
-}
-
-/* ---- all numbers ---- */
 
 typedef struct {
     output_number_visitor *visit;
@@ -352,47 +330,124 @@ static const char *own_unit(const summary_key *keys, const char *base)
     return "";
 }
 
+/* A number, or each component of a vector.  base: NULL where there are no values, as in all that follow. */
 static void visit_number(const summary_key *k, const char *base, const char *own, const char *path, const visitor *v)
 {
-    const double *value = (const double *)(const void *)(base + k->offset);
+    const double *value = base ? (const double *)(const void *)(base + k->offset) : NULL;
+    const bool over_time = !k->unit[0] && own[0] && k->n > 1;
+    const char *integral = over_time ? output_unit_over_time(own) : NULL;
     char unit[SUMMARY_NAME_SIZE], part[SUMMARY_PATH_SIZE];
-    snprintf(unit, sizeof unit, "%s%s", k->unit[0] ? k->unit : own, !k->unit[0] && own[0] && k->n > 1 ? " s" : "");
+    snprintf(unit, sizeof unit, "%s%s",
+             integral     ? integral
+             : k->unit[0] ? k->unit
+                          : own,
+             over_time && !integral ? " s" : "");
     for (int i = 0; i < k->n; i++) {
         snprintf(part, sizeof part, "%.220s[%d]", path, i);
-        v->visit(v->user, k->n == 1 ? path : part, unit, value[i]);
+        v->visit(v->user, &(output_number){ k->n == 1 ? path : part, unit, value ? value[i] : NAN, false });
     }
+}
+
+static void visit_count(const summary_key *k, const char *base, const char *path, const visitor *v)
+{
+    const void *member = base ? base + k->offset : NULL;
+    const double value = !member                ? NAN
+                         : k->kind == KEY_COUNT ? (double)*(const uint64_t *)member
+                                                : *(const int *)member;
+    v->visit(v->user, &(output_number){ path, k->unit, value, true });
 }
 
 static void visit_by_name(const summary_key *k, const char *base, const char *path, const visitor *v)
 {
-    const double *value = (const double *)(const void *)(base + k->offset);
+    const double *value = base ? (const double *)(const void *)(base + k->offset) : NULL;
     char part[SUMMARY_PATH_SIZE];
-    for (int i = 0; i < count_of(k, base); i++) {
-        snprintf(part, sizeof part, "%.150s.%.80s", path, base + k->names_offset + (size_t)i * k->item_size);
-        v->visit(v->user, part, k->unit, value[i]);
+    for (int i = 0; i < (base ? count_of(k, base) : 1); i++) {
+        snprintf(part, sizeof part, "%.150s.%.80s", path,
+                 base ? base + k->names_offset + (size_t)i * k->item_size : "*");
+        v->visit(v->user, &(output_number){ part, k->unit, value ? value[i] : NAN, false });
+    }
+}
+
+static void visit_numbers(const summary_key *keys, const char *base, const char *before, const visitor *v);
+
+static void visit_map(const summary_key *k, const char *base, const char *path, const visitor *v)
+{
+    const char *items = base ? *(const char *const *)(const void *)(base + k->offset) : NULL;
+    char inner[SUMMARY_PATH_SIZE];
+    for (int i = 0; i < (base ? count_of(k, base) : 1); i++) {
+        const char *item = base ? items + (size_t)i * k->item_size : NULL;
+        snprintf(inner, sizeof inner, "%.100s.%.100s.", path, item ? item + k->item->offset : "*");
+        visit_numbers(k->item + 1, item, inner, v);
     }
 }
 
 static void visit_numbers(const summary_key *keys, const char *base, const char *before, const visitor *v)
 {
-    const char *own = own_unit(keys, base);
+    const char *own = base ? own_unit(keys, base) : "";
     for (const summary_key *k = keys; k->name; k++) {
-        char path[SUMMARY_PATH_SIZE], inner[SUMMARY_PATH_SIZE];
+        char path[SUMMARY_PATH_SIZE];
         snprintf(path, sizeof path, "%.120s%.100s", before, k->name);
         if (k->kind == KEY_NUMBER) visit_number(k, base, own, path, v);
+        if (k->kind == KEY_COUNT || k->kind == KEY_INTEGER) visit_count(k, base, path, v);
         if (k->kind == KEY_BY_NAME) visit_by_name(k, base, path, v);
-        if (k->kind == KEY_PART) visit_numbers(k->item, base + k->offset, before, v);
-        for (int i = 0; k->kind == KEY_MAP && i < count_of(k, base); i++) {
-            const char *item = *(const char *const *)(const void *)(base + k->offset) + (size_t)i * k->item_size;
-            snprintf(inner, sizeof inner, "%.100s.%.100s.", path, item + k->item->offset);
-            visit_numbers(k->item + 1, item, inner, v);
-        }
+        if (k->kind == KEY_PART) visit_numbers(k->item, base ? base + k->offset : NULL, before, v);
+        if (k->kind == KEY_MAP) visit_map(k, base, path, v);
     }
 }
 
 void output_numbers_visit(const summary_object *o, output_number_visitor *visit, void *user)
 {
-    if (o->of) visit_numbers(o->keys, o->of, "", &(visitor){ visit, user });
+    visit_numbers(o->keys, o->of, "", &(visitor){ visit, user });
+}
+
+/* ---- one number ---- */
+
+typedef struct {
+    const char *path;
+    char *unit;
+    double value;
+    bool met;
+} wanted_number;
+
+/* Is the text of the pattern's form, where `*` stands for one letter or more? */
+static bool matches(const char *pattern, const char *text)
+{
+    for (; *pattern && *pattern != '*'; pattern++, text++)
+        if (*pattern != *text) return false;
+    if (!*pattern) return !*text;
+    for (; *text; text++)
+        if (matches(pattern + 1, text + 1)) return true;
+    return false;
+}
+
+static void find_form(void *user, const output_number *number)
+{
+    wanted_number *w = user;
+    w->met = w->met || matches(number->path, w->path);
+}
+
+bool output_number_exists(const summary_key *keys, const char *path)
+{
+    wanted_number w = { .path = path };
+    output_numbers_visit(&(summary_object){ keys, NULL }, find_form, &w);
+    return w.met;
+}
+
+/* The first of its path. */
+static void find_number(void *user, const output_number *number)
+{
+    wanted_number *w = user;
+    if (w->met || strcmp(number->path, w->path) != 0) return;
+    w->met = true;
+    w->value = number->value;
+    if (w->unit) snprintf(w->unit, SUMMARY_NAME_SIZE, "%s", number->unit);
+}
+
+double output_number_of(const summary_object *o, const char *path, char unit[SUMMARY_NAME_SIZE])
+{
+    wanted_number w = { path, unit, NAN, false };
+    output_numbers_visit(o, find_number, &w);
+    return isfinite(w.value) ? w.value : NAN;
 }
 
 /* ---- for people ---- */
@@ -451,7 +506,7 @@ static bool is_short(const summary_key *k)
 /* Does the key stand for nothing, since what it belongs to was not asked for? */
 static bool is_idle(const summary_object *o, const summary_key *k)
 {
-    return k->only_with && output_number_of(o->keys, k->only_with, o->of) == 0.0;
+    return k->only_with && output_number_of(o, k->only_with, NULL) == 0.0;
 }
 
 void output_keys_print(const summary_object *o, FILE *out)

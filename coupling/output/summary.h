@@ -126,16 +126,25 @@ char *output_object_text(const summary_object *o);
 /* The struct back from it.  STATUS_IO: not such a text, or keys are missing.  Lists and maps are malloc'ed, the caller
  * frees them, on error too; *out is all zero at first where there are any.  Not for KEY_PAIRS, _ARRAY. */
 status output_object_read(const char *text, const summary_key *keys, void *out);
-/* The key of that name that is one number, of a part too; NULL: none is.  Its value in a struct of `keys`; NaN: null,
- * or there is none. */
-const summary_key *output_number_key(const summary_key *keys, const char *name);
-double output_number_of(const summary_key *keys, const char *name, const void *of);
+/* The unit of the integral over time of a quantity in `unit`, where it is a quantity of its own: an impulse, an impulse
+ * an area, a way, an energy.  NULL: it is none, as that of a temperature. */
+const char *output_unit_over_time(const char *unit);
 
-/* Every number of the object that is no count, in the order of the keys: of a vector each component as `key[0]`, of
- * maps and of what has names of its own as `key.name.key`.  A key without a unit, beside one that is called `unit`, has
- * that; its vectors are over time [unit s]. */
-typedef void output_number_visitor(void *user, const char *path, const char *unit, double value);
+/* A number of an object by its path: `key`, of a vector `key[0]`, of maps and of what has names of its own
+ * `key.name.key`.  A key without a unit, beside one that is called `unit`, has that; its vectors are its integral over
+ * time.  Of an object without values the value is NaN, names are `*`, and units that only values tell are "". */
+typedef struct {
+    const char *path, *unit;
+    double value; /* NaN: null */
+    bool counts;  /* a whole number: how many */
+} output_number;
+/* Shown all numbers of the object in the order of the keys, those of its parts too. */
+typedef void output_number_visitor(void *user, const output_number *number);
 void output_numbers_visit(const summary_object *o, output_number_visitor *visit, void *user);
+/* May an object of these keys hold a number of this path? */
+bool output_number_exists(const summary_key *keys, const char *path);
+/* Its value; NaN: null, or it is not there.  unit: NULL, or where the unit goes, left alone where it is not there. */
+double output_number_of(const summary_object *o, const char *path, char unit[SUMMARY_NAME_SIZE]);
 
 /* For people: key, value rounded to four digits and unit with its prefix, of what is short and known: no lists, no
  * `reason`, no null. */

@@ -98,7 +98,7 @@ static void body_table(const page *p, const cJSON *bodies)
     static const page_column numbers[] = { { "mass", "mass", 1e-3, "g", NULL },
                                            { "kinetic", "motion", 1.0, "J", NULL },
                                            { "internal", "internal", 1.0, "J", NULL },
-                                           { "failed_volume", "failed", 1e-9, "mm\302\263", NULL },
+                                           { "failed_volume", "failed *", 1e-9, "mm\302\263", NULL },
                                            { "peak_pressure", "peak pressure", 1e9, "GPa", NULL },
                                            { "peak_mises", "peak von Mises", 1e9, "GPa", NULL } };
     static const char *const velocity[] = { "velocity x", "velocity y", "velocity z" };
@@ -119,16 +119,25 @@ static void body_table(const page *p, const cJSON *bodies)
     report_table_end(&t);
 }
 
-void report_bodies_section(const page *p)
+void report_bodies_part(const page *p)
 {
     const cJSON *bodies = report_page_list(p, "bodies");
     if (cJSON_GetArraySize(bodies) == 0) return;
     report_page_heading(p, "Bodies at the end");
     body_table(p, bodies);
+    report_page_paragraph(p, "reason",
+                          "Masses, energies, volumes, and forces of probes are those of the model as computed: beside "
+                          "one mirror half of the whole, beside two a quarter. Velocities and pressures hold for both. "
+                          "* does not settle as cells become smaller.");
     report_page_plots_begin(p);
     draw_speeds(p);
     draw_energies(p);
     report_page_plots_end(p);
+}
+
+void report_bodies_section(const page *p)
+{
+    report_bodies_part(p);
     report_cut_section(p);
     report_probes_section(p);
 }

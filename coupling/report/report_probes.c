@@ -2,6 +2,7 @@
 /* Probes of a scene of bodies: what each came to, all of one quantity over time in one chart, the last of every map. */
 #include "coupling/report/report_page.h"
 
+#include "coupling/output/summary.h"
 #include "coupling/report/report_relief.h"
 
 #include <math.h>
@@ -18,14 +19,14 @@ static const cJSON *probes_of(const page *p)
 /* ---- the table ---- */
 
 /* A number of the probe's unit with the prefix that reads well. */
-static void add_quantity(report_table *t, double x, const char *unit, const char *more)
+static void add_quantity(report_table *t, double x, const char *unit)
 {
     double factor;
     char value[REPORT_VALUE_SIZE], text[2 * REPORT_VALUE_SIZE];
     const char *prefix = report_chart_prefix(fabs(x), unit, &factor);
     report_value_plain(x / factor, value);
-    snprintf(text, sizeof text, "%.60s%s%s%.30s%.20s", value, isfinite(x) ? "&nbsp;" : "", isfinite(x) ? prefix : "",
-             isfinite(x) && strcmp(unit, "1") != 0 ? unit : "", isfinite(x) ? more : "");
+    snprintf(text, sizeof text, "%.60s%s%s%.30s", value, isfinite(x) ? "&nbsp;" : "", isfinite(x) ? prefix : "",
+             isfinite(x) && strcmp(unit, "1") != 0 ? unit : "");
     report_table_html(t, text);
 }
 
@@ -39,16 +40,16 @@ static double integral_of(const cJSON *probe)
 
 static void probe_row(report_table *t, const cJSON *probe)
 {
-    const char *unit = report_text(probe, "unit");
+    const char *unit = report_text(probe, "unit"), *over_time = output_unit_over_time(unit);
     report_table_row(t);
     report_table_text(t, probe->string);
     report_table_text(t, report_text(probe, "kind"));
-    report_table_text(t, report_text(probe, "quantity"));
-    add_quantity(t, report_number(probe, "peak"), unit, "");
+    report_table_text(t, report_text(probe, "quantity")[0] ? report_text(probe, "quantity") : "a map");
+    add_quantity(t, report_number(probe, "peak"), unit);
     report_table_number(t, report_number(probe, "time_of_peak"), 1e-6);
     report_table_number(t, report_number(probe, "arrival"), 1e-6);
-    add_quantity(t, report_number(probe, "least"), unit, "");
-    add_quantity(t, integral_of(probe), unit, " s");
+    add_quantity(t, report_number(probe, "least"), unit);
+    add_quantity(t, over_time ? integral_of(probe) : NAN, over_time ? over_time : "");
 }
 
 static void probe_table(const page *p)

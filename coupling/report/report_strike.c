@@ -50,8 +50,8 @@ void report_strike_head(const page *p)
                                          { "energy_share", "of its energy", 0.01, "%", NULL },
                                          { "peak_force", "peak force", 1e3, "kN", NULL },
                                          { "impulse", "impulse", 1.0, "N s", NULL },
-                                         { "deflection", "deflection", 1e-3, "mm", NULL },
-                                         { "hole_diameter", "hole", 1e-3, "mm", NULL },
+                                         { "deflection", "deflection *", 1e-3, "mm", NULL },
+                                         { "hole_diameter", "hole *", 1e-3, "mm", NULL },
                                          { "debris_mass", "debris", 1e-3, "g", NULL },
                                          { "muzzle_velocity", "muzzle velocity", 1.0, "m/s", NULL },
                                          { "flight_time", "flight", 1e-3, "ms", NULL },
@@ -59,6 +59,10 @@ void report_strike_head(const page *p)
                                          { "wall_seconds", "took", 1.0, "s", NULL } };
     if (report_page_is_done(p)) write_outcome(p);
     report_page_cards(p, p->source->summary, cards, PAGE_COUNT(cards));
+    report_page_paragraph(p, "reason",
+                          "Masses, energies, forces of the whole, mirror parts included. * rests on what failed, which "
+                          "does not settle as cells "
+                          "become smaller: compare it on the same cells alone (docs/guide/target.md).");
 }
 
 /* ---- over time ---- */
@@ -223,5 +227,6 @@ void report_strike_section(const page *p)
         report_page_plots_end(p);
         report_page_list_table(p, list, columns, PAGE_COUNT(columns));
     }
-    report_bodies_section(p);
+    report_bodies_part(p);
+    report_probes_section(p);
 }

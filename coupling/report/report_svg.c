@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+static const char *const GRID = "#e6e6e6"; /* colour */
+
 /* ---- texts ---- */
 
 /* Length of the UTF-8 sequence that begins here, 0 where it is none. */
@@ -167,4 +169,37 @@ void report_scale_label(double tick, double step, char out[32])
         snprintf(out, 32, "%.*f", decimals, value);
     else
         snprintf(out, 32, "%g", value);
+}
+
+void report_svg_grid_across(FILE *out, const report_scale *x, int about, double top, double bottom, double below)
+{
+    double tick[REPORT_TICKS], step;
+    const int n = report_scale_ticks(x, about, tick, &step);
+    for (int k = 0; k < n; k++) {
+        const double at = report_scale_at(x, tick[k]);
+        char text[32];
+        report_scale_label(tick[k], step, text);
+        report_svg_segment(out, at, top, at, bottom, GRID, 1.0);
+        report_svg_text(out, at, bottom + below, "middle", "", text);
+    }
+}
+
+void report_svg_grid_up(FILE *out, const report_scale *y, int about, double left, double right)
+{
+    double tick[REPORT_TICKS], step;
+    const int n = report_scale_ticks(y, about, tick, &step);
+    for (int k = 0; k < n; k++) {
+        const double at = report_scale_at(y, tick[k]);
+        char text[32];
+        report_scale_label(tick[k], step, text);
+        report_svg_segment(out, left, at, right, at, GRID, 1.0);
+        report_svg_text(out, left - 6.0, at + 4.5, "end", "", text);
+    }
+}
+
+void report_svg_upward_title(FILE *out, double y, const char *text)
+{
+    char turned[80];
+    snprintf(turned, sizeof turned, "transform=\"rotate(-90 14 %.1f)\"", y);
+    report_svg_text(out, 14.0, y, "middle", turned, text);
 }

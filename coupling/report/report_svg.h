@@ -39,6 +39,12 @@ double report_scale_at(const report_scale *s, double value);
 /* Round numbers between lo and hi, about so many; *step is their distance, 0 for a logarithmic scale. */
 enum { REPORT_TICKS = 24 };
 int report_scale_ticks(const report_scale *s, int about, double tick[REPORT_TICKS], double *step);
+/* Lines across a plot at the ticks, each labelled: of a scale to the right, from top to bottom, its labels so far
+ * below; of one upwards, from left to right. */
+void report_svg_grid_across(FILE *out, const report_scale *x, int about, double top, double bottom, double below);
+void report_svg_grid_up(FILE *out, const report_scale *y, int about, double left, double right);
+/* A title along the left edge, read upwards, its middle at y. */
+void report_svg_upward_title(FILE *out, double y, const char *text);
 /* As many decimals as the step needs. */
 void report_scale_label(double tick, double step, char out[32]);
 /* The largest of 1, 2, 5 times a power of ten that is at most x > 0. */

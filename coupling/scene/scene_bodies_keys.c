@@ -46,9 +46,11 @@ const summary_key scene_bodies_keys[] = {
                   "that points at rest did not take"),
     SUMMARY_VALUE(scene_bodies_result, KEY_COUNT, "particle_steps_dense", particle_steps_dense, "1",
                   "if nothing had been skipped"),
-    SUMMARY_VALUE(scene_bodies_result, KEY_COUNT, "clamps_pressure", clamps_pressure, "1", "pressures held at a limit"),
+    SUMMARY_VALUE(
+        scene_bodies_result, KEY_COUNT, "clamps_pressure", clamps_pressure, "1",
+        "steps of points whose tension was cut off, as they are molten or failed, spall, or cavitate; no error"),
     SUMMARY_VALUE(scene_bodies_result, KEY_COUNT, "clamps_compression", clamps_compression, "1",
-                  "compressions held at a limit"),
+                  "steps of points whose density was held at a limit"),
     SUMMARY_NUMBER(scene_bodies_result, "wall_seconds", wall_seconds, "s", "time it took"),
     SUMMARY_VALUE(scene_bodies_result, KEY_INTEGER, "threads", threads, "1",
                   "of its process; others may have lent theirs"),

@@ -53,7 +53,9 @@ static void print(const void *result, FILE *out)
         host_table_row(t, "%s|%.4g|%.4g|%.4g|%.4g|%.4g|%.4g", b->name, 1e3 * b->mass, b->velocity[0], b->velocity[1],
                        b->velocity[2], b->kinetic, 1e9 * b->failed_volume);
     }
-    fputc('\n', out);
+    fputs("\nmasses, energies and volumes of the scene and its bodies are those of the model as computed:\n"
+          "beside one mirror half of the whole, beside two a quarter\n\n",
+          out);
     host_table_print(t, out);
     host_table_free(t);
 }

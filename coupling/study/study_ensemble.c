@@ -140,20 +140,20 @@ typedef struct {
     int scene, at;
 } collector;
 
-static void collect(void *user, const char *name, const char *unit, double value)
+static void collect(void *user, const output_number *number)
 {
     collector *c = user;
     ensemble_answer *a = c->a;
-    if (strcmp(name, "wall_seconds") == 0) return;
+    if (number->counts || strcmp(number->path, "wall_seconds") == 0) return;
     const int at = c->at++;
     if (!a->number || at >= a->numbers) return; /* they are counted first */
     ensemble_number *n = &a->number[at];
     if (c->scene == 0) {
-        snprintf(n->name, sizeof n->name, "%s", name);
-        snprintf(n->unit, sizeof n->unit, "%s", unit);
+        snprintf(n->name, sizeof n->name, "%s", number->path);
+        snprintf(n->unit, sizeof n->unit, "%s", number->unit);
     }
-    a->value[at * a->scenes + c->scene] = value;
-    a->pair[c->scene * a->numbers + at] = (summary_pair){ .name = n->name, .value = value };
+    a->value[at * a->scenes + c->scene] = number->value;
+    a->pair[c->scene * a->numbers + at] = (summary_pair){ .name = n->name, .value = number->value };
 }
 
 static int collect_scene(ensemble_answer *a, int scene)
@@ -200,7 +200,8 @@ static status fill_numbers(ensemble_answer *a)
               found, numbers);
         a->scene[i].n_values = numbers;
         a->scene[i].value = a->pair + i * numbers;
-        a->scene[i].wall_seconds = output_number_of(a->of->keys, "wall_seconds", a->answer[i].result);
+        a->scene[i].wall_seconds =
+            output_number_of(&(summary_object){ a->of->keys, a->answer[i].result }, "wall_seconds", NULL);
     }
     for (int k = 0; k < numbers; k++) number[k].spread = study_shift_spread(a->value + k * a->scenes, a->scenes);
     count_classes(a);

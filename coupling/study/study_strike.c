@@ -59,7 +59,8 @@ static const summary_key result_keys[] = {
     SUMMARY_NUMBER(strike_result, "debris_mass", is.debris_mass, "kg",
                    "of the target: what flies, has left the window or was eroded"),
     SUMMARY_NUMBER(strike_result, "ahead", is.ahead, "kg",
-                   "intact metal of the target in the projectile's way at the end"),
+                   "intact metal of the target in the projectile's way at the end: before it and slower than half its "
+                   "speed; 0: its way is free"),
     SUMMARY_NUMBER(strike_result, "speed_change", is.speed_change, "m/s",
                    "of the projectile in the last tenth of the scene"),
     SUMMARY_NUMBER(strike_result, "lost_mass", is.lost_mass, "kg",
@@ -296,7 +297,7 @@ static void print(const void *result, FILE *out)
 {
     const strike_result *r = result;
     output_keys_print(&(summary_object){ result_keys, r }, out);
-    fputc('\n', out);
+    fputs("masses, energies, forces and volumes above are those of the whole, mirror parts included\n\n", out);
     print_arrivals(&r->limit, out);
     study_bodies.print(&r->scene, out);
 }

@@ -78,6 +78,34 @@ static void describe(const case_sweep *w, int run, char *out, size_t size)
                                  value_text(w, run, k));
 }
 
+/* Has the probe the column that `last.<column>` or `mean.<column>` names? */
+static status check_column(const char *path, const char *key, const mpm_probe *probe)
+{
+    if (strncmp(key, "last.", 5) != 0 && strncmp(key, "mean.", 5) != 0) return status_ok();
+    for (int c = 0; c < mpm_probe_columns(probe); c++)
+        if (strcmp(key + 5, probe->kind->columns[c].name) == 0) return status_ok();
+    return base_status_error(STATUS_BAD_INPUT, "%.200s: a probe of kind %s has no such column (breech --keys)", path,
+                             probe->kind->name);
+}
+
+/* Does a path of a scene's probe or body, `probes.<name>.peak`, name one that the scene has? */
+static status check_names(const char *path, const mpm_scene *scene)
+{
+    const bool probe = strncmp(path, "probes.", 7) == 0;
+    const int n = probe ? scene->probes : scene->bodies;
+    char known[300] = "";
+    if (!probe && strncmp(path, "bodies.", 7) != 0) return status_ok();
+    for (int i = 0; i < n; i++) {
+        const char *name = probe ? scene->probe[i].name : scene->body[i].name;
+        const size_t length = strlen(name), used = strlen(known);
+        if (strncmp(path + 7, name, length) == 0 && path[7 + length] == '.')
+            return probe ? check_column(path, path + 8 + length, &scene->probe[i]) : status_ok();
+        snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", name);
+    }
+    return base_status_error(STATUS_BAD_INPUT, "%.200s: the scene has no such %s; it has %s", path,
+                             probe ? "probe" : "body", n > 0 ? known : "none");
+}
+
 /* The case with the values of one run. */
 static status read_run(const study_case *of, const study *y, int run, case_inputs **out)
 {
@@ -98,6 +126,8 @@ static status read_run(const study_case *of, const study *y, int run, case_input
     free(errors);
     if (s.code == STATUS_OK) s = study_prepare(*out);
     if (s.code == STATUS_OK) s = study_possible(*out, y->needs, of->largest);
+    for (int k = 0; s.code == STATUS_OK && (*out)->given.bodies && k < w->read.n; k++)
+        s = check_names(w->read.item[k].value, &(*out)->bodies.scene);
     describe(w, run, which, sizeof which);
     CHECK(s.code == STATUS_OK, s.code, "sweep, run %d (%s): %.500s", run + 1, which, s.text);
     return s;
@@ -108,7 +138,7 @@ static status read_run(const study_case *of, const study *y, int run, case_input
 static const char *output_name(const void *keys, int i)
 {
     for (const summary_key *k = keys; k->name; k++)
-        if (output_number_key(k, k->name) == k && i-- == 0) return k->name;
+        if (output_number_exists(keys, k->name) && i-- == 0) return k->name;
     return NULL;
 }
 
@@ -117,7 +147,7 @@ static status check_outputs(const case_sweep *w, const study *y)
     CHECK(w->read.n <= MOST_OUTPUTS, STATUS_BAD_INPUT, "sweep.read: more than %d keys", MOST_OUTPUTS);
     for (int k = 0; k < w->read.n; k++) {
         const char *name = w->read.item[k].value, *near = host_nearest_name(name, output_name, y->keys);
-        CHECK(output_number_key(y->keys, name), STATUS_BAD_INPUT,
+        CHECK(output_number_exists(y->keys, name), STATUS_BAD_INPUT,
               "sweep.read[%d] = %s: no number of the summary of `breech %s`%s%s%s", k, name, study_command(y),
               near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
     }
@@ -179,11 +209,12 @@ typedef struct {
     sweep_result result; /* borrows the rest */
     const study *of;
     int runs, keys, outputs;
-    const summary_key *output[MOST_OUTPUTS];
-    case_inputs **in;     /* [runs], owned one by one, as all that follows */
-    study_answer *answer; /* [runs] */
-    char (*prefix)[16];   /* [runs] */
-    sweep_run *run;       /* [runs] */
+    const char *output[MOST_OUTPUTS];                  /* paths of numbers, borrowed */
+    char output_unit[MOST_OUTPUTS][SUMMARY_NAME_SIZE]; /* of the first run */
+    case_inputs **in;                                  /* [runs], owned one by one, as all that follows */
+    study_answer *answer;                              /* [runs] */
+    char (*prefix)[16];                                /* [runs] */
+    sweep_run *run;                                    /* [runs] */
     summary_pair *input, *value, *error, *unit;
 } sweep_answer;
 
@@ -201,9 +232,9 @@ static void answer_free(void *owned)
 /* What `read` names; else the first numbers of the study. */
 static void choose_outputs(const case_sweep *w, sweep_answer *a)
 {
-    for (int k = 0; k < w->read.n; k++) a->output[a->outputs++] = output_number_key(a->of->keys, w->read.item[k].value);
+    for (int k = 0; k < w->read.n; k++) a->output[a->outputs++] = w->read.item[k].value;
     for (int k = 0; w->read.n == 0 && k < USUAL_OUTPUTS && output_name(a->of->keys, k); k++)
-        a->output[a->outputs++] = output_number_key(a->of->keys, output_name(a->of->keys, k));
+        a->output[a->outputs++] = output_name(a->of->keys, k);
 }
 
 static status make_room(const case_sweep *w, sweep_answer *a)
@@ -260,22 +291,22 @@ static void fill_inputs(const units *u, const case_sweep *w, sweep_answer *a)
         a->unit[k] = (summary_pair){ .name = w->vary.item[k].key, .text = unit ? unit : "" };
     }
     for (int k = 0; k < a->outputs; k++)
-        a->unit[a->keys + k] = (summary_pair){ .name = a->output[k]->name, .text = a->output[k]->unit };
+        a->unit[a->keys + k] = (summary_pair){ .name = a->output[k], .text = a->output_unit[k] };
 }
 
 static void fill_run(sweep_answer *a, int i)
 {
-    const summary_key *keys = a->of->keys;
-    const void *result = a->answer[i].result;
-    for (int k = 0; k < a->outputs; k++)
-        a->value[i * a->outputs + k] =
-            (summary_pair){ .name = a->output[k]->name, .value = output_number_of(keys, a->output[k]->name, result) };
+    const summary_object result = { a->of->keys, a->answer[i].result };
+    for (int k = 0; k < a->outputs; k++) {
+        const double value = output_number_of(&result, a->output[k], a->output_unit[k]);
+        a->value[i * a->outputs + k] = (summary_pair){ .name = a->output[k], .value = value };
+    }
     a->run[i] = (sweep_run){ .n_inputs = a->keys,
                              .inputs = a->input + i * a->keys,
                              .n_outputs = a->outputs,
                              .outputs = a->value + i * a->outputs,
                              .errors = a->error + i * a->outputs,
-                             .wall_seconds = output_number_of(keys, "wall_seconds", result) };
+                             .wall_seconds = output_number_of(&result, "wall_seconds", NULL) };
     a->result.n_runs = i + 1;
 }
 
@@ -319,7 +350,7 @@ static void fill_errors(const case_sweep *w, sweep_answer *a)
         for (int k = 0; k < a->outputs; k++) {
             const double exact = a->value[finest * a->outputs + k].value;
             a->error[i * a->outputs + k] =
-                (summary_pair){ .name = a->output[k]->name,
+                (summary_pair){ .name = a->output[k],
                                 .value = fabs(a->value[i * a->outputs + k].value - exact) / fabs(exact) };
         }
         a->run[i].n_errors = a->outputs;
