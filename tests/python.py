@@ -151,10 +151,10 @@ def test_case_is_the_programs(folder):
 
 
 def own_material(folder):
-    """A folder with a metal of another name that is copper."""
+    """A folder with a metal that is a harder copper."""
     folder.mkdir()
-    copper = (ROOT / "cases" / "materials" / "ofhc_copper_half_hard.yaml").read_text()
-    (folder / "my_metal.yaml").write_text(copper.replace("name: ofhc_copper_half_hard", "name: my_metal", 1))
+    (folder / "my_metal.yaml").write_text("name: my_metal\nbase: ofhc_copper_half_hard\nsources: {mine: our test}\nconstants:\n"
+                                          "  hardness: {value: 1.05 GPa, source: mine}\n")
     return folder
 
 
@@ -235,13 +235,14 @@ def test_progress_stop_and_resume(folder):
     heard = []
     try:
         case = cheap()
+        case["scene.cells_per_radius"] = 2  # a second or two, for several looks at the solver on a fast machine
         whole = case.run("scene", folder / "whole", store=False, threads=1, progress=heard.append)
         share = [line.fraction for line in heard if line.fraction is not None]
         assert share and share == sorted(share) and 0 < share[0] < 1, share
         task = [line for line in heard if line.task and line.left][-1]
         assert "scene 1, 1500 m/s" in task.task and task.left.endswith(" s"), str(task)
         how = {"store": False, "threads": 1}
-        stopped = raises(breech.Stopped, lambda: case.run("scene", folder / "part", progress=False, max_walltime="0.2s", **how))
+        stopped = raises(breech.Stopped, lambda: case.run("scene", folder / "part", progress=False, max_walltime="0.1s", **how))
         assert stopped.code == 75 and stopped.directory == folder / "part"
         assert numbers(case.run("scene", folder / "part", resume=True, progress=False, **how)) == numbers(whole)
 
@@ -292,7 +293,9 @@ def test_examples(folder):
     assert "9.495 kV: " in said["first_shot.py"] and "scene.velocity = 1.2 kg" in said["first_shot.py"]
     ranks = said["rank_coatings.py"].splitlines()
     ranking = breech.Run(folder / "out" / "coatings").summary["ranking"]
-    assert [line.split()[1] for line in ranks] == [one["surface"] for one in ranking]
+    assert [line.split()[0] for line in ranks[:-1]] == [one["surface"] for one in ranking]
+    assert [line.endswith("cannot be told from it") for line in ranks[:-1]] == [one["tied"] == 1 for one in ranking]
+    assert ranks[-1] == breech.Run(folder / "out" / "coatings").summary["verdict"] != ""
     assert sorted(one["surface"] for one in ranking) == ["nickel", "steel_4340", "tantalum", "ti6al4v", "untreated", "w_alloy"]
     for picture in ("coatings/ranking.png", "python/shot.png", "python/crater.png"):
         assert (folder / "out" / picture).stat().st_size > 10000, picture
@@ -303,6 +306,48 @@ def test_examples(folder):
                              env={**os.environ, "PYTHONPATH": str(ROOT / "python")}, check=True).stdout
     assert "scene scene: " in said_of and "mm" in said_of
     assert len((ROOT / "python" / "examples" / "rank_coatings.py").read_text().splitlines()) <= 20
+
+
+def described(directory):
+    return subprocess.run([sys.executable, "-m", "breech", directory], text=True, capture_output=True,
+                          env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+
+
+def test_described(folder):
+    """A comparison is described by its ranking; a reader that closes the pipe and a folder that is not there are no bugs."""
+    done = described(folder / "out" / "coatings")
+    ranking = breech.Run(folder / "out" / "coatings").summary["ranking"]
+    lines = done.stdout.splitlines()
+    head = next(k for k, line in enumerate(lines) if line.startswith("surface"))
+    assert done.returncode == 0 and [line.split()[0] for line in lines[head + 1:head + 7]] == [e["surface"] for e in ranking]
+    short = folder / "short"  # of a run without series
+    short.mkdir()
+    shutil.copy(folder / "out" / "coatings" / "summary.json", short)
+    assert described(short).returncode == 0 and described(short).stdout.splitlines() == lines[:head + 7]
+    none = described(folder / "none")
+    assert none.returncode == 1 and "no such directory" in none.stderr and "Traceback" not in none.stderr
+    piped = subprocess.Popen([sys.executable, "-m", "breech", folder / "out" / "coatings"], stdout=subprocess.PIPE,
+                             stderr=subprocess.PIPE, env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+    piped.stdout.close()
+    assert piped.stderr.read() == b"" and piped.wait() == 0
+    piped.stderr.close()
+
+
+def test_progress_of_pipes(folder):
+    """A line a second where a person or a function hears it; into a pipe the program's own way."""
+    fake = folder / "fake"
+    fake.write_text('#!/bin/sh\necho "every ${BREECH_PROGRESS-long}" >&2\nexit 1\n')
+    fake.chmod(0o755)
+    kept, os.environ["BREECH_PROGRAM"] = os.environ["BREECH_PROGRAM"], str(fake)
+    try:
+        heard = []
+        raises(breech.Failed, lambda: cheap().run("shot", folder / "x", progress=lambda line: heard.append(str(line))))
+        assert heard == ["every 1"], heard
+        raises(breech.Failed, lambda: cheap().run("shot", folder / "x", progress=True),
+               "every 1" if sys.stderr.isatty() else "every long")
+        raises(breech.Failed, lambda: cheap().run("shot", folder / "x", progress=False), "every long")
+    finally:
+        os.environ["BREECH_PROGRAM"] = kept
 
 
 def test_threshold_picture(folder):

@@ -66,15 +66,18 @@ def _error(code, text, directory):
     return {1: Failed, 2: BadInput, 75: Stopped}.get(code, BreechError)(code, text, directory)
 
 
-def _call(arguments, hear, hide, materials=None):
-    """Exit code, standard output, lines of standard error; each line is heard as it comes."""
+def _call(arguments, hear, hide, materials=None, often=False):
+    """Exit code, standard output, lines of standard error; each line is heard as it comes.
+
+    often: a line of progress every second, not as seldom as the program writes into a file.
+    """
     with tempfile.TemporaryFile("w+", encoding="utf-8") as out:
         # A group of its own: Ctrl-C reaches Python alone, which then stops the program once, with a checkpoint.
-        often = {"BREECH_PROGRESS": "1", **os.environ}  # [s] between two lines of progress
+        environment = {**({"BREECH_PROGRESS": "1"} if often else {}), **os.environ}  # [s] between two lines
         if materials:
-            often["BREECH_MATERIALS"] = str(materials)
+            environment["BREECH_MATERIALS"] = str(materials)
         child = subprocess.Popen([program(), *arguments], stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.PIPE,
-                                 encoding="utf-8", errors="replace", start_new_session=True, env=often)
+                                 encoding="utf-8", errors="replace", start_new_session=True, env=environment)
         lines = []
         try:
             for line in child.stderr:
@@ -108,8 +111,8 @@ def run(command, case, directory, *, sets=None, threads=None, progress=True, res
     """Runs `breech command` on a case (a Case, or the path of one) and returns the Run that reads the directory.
 
     sets: {"bank.charge": "9 kV", ...} on top of the case.  store: a folder of scenes, False: none.  max_walltime: "30m".
-    options: any other words of the command line.  progress: True prints what the program says while it runs, a function is
-    called with each Progress, False is silent.
+    options: any other words of the command line.  progress: True prints what the program says while it runs, every second at a
+    terminal, now and then into a file or a pipe; a function is called with each Progress, every second; False is silent.
     Raises BadInput, Failed or Stopped with the program's own words.
     """
     def hear(line):
@@ -126,7 +129,8 @@ def run(command, case, directory, *, sets=None, threads=None, progress=True, res
         words += ["--max-walltime", str(max_walltime)] if max_walltime else []
         words += ["--no-store"] if store is False else ["--store", str(store)] if store else []
         words += ["--resume"] * bool(resume) + ["--force"] * bool(force)
-        return _call([*words, *options], hear, hide, getattr(case, "material_folder", None))
+        return _call([*words, *options], hear, hide, getattr(case, "material_folder", None),
+                     callable(progress) or bool(progress) and sys.stderr.isatty())
 
     code, _, lines = _with_case(case, call)
     if code != 0:

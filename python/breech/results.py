@@ -63,6 +63,14 @@ class Run:
 
     @functools.cached_property
     def summary(self):
+        """summary.json as dicts and lists.
+
+        Of compare, ["verdict"] says which surface is best and which cannot be told from it.  ["ranking"] lists the surfaces by
+        "gouges", the expected number a shot, fewest first; of equals the one first that reaches its threshold later along the
+        barrel.  "tied" is 1 for every surface that cannot be told from the best; of any other it is the rank of the best of its
+        group.  "worse_than_best": share of what may be true in which the best has fewer gouges.  "onset_position": place of
+        the first grain that gouges [m], with populations the median; None: no gouging.  It does not rank.
+        """
         return json.loads(self._file("summary.json").read_text())
 
     def _file(self, name):
@@ -164,13 +172,33 @@ def store(directory):
     return [StoredScene(path) for path in sorted(Path(directory).glob("*.h5"))]
 
 
+def _cell(value):
+    return "-" if value is None else f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def _print_ranking(ranking):
+    """The surfaces of compare, best first: gouges or life with their intervals."""
+    columns = [name for name in ("surface", "tied", "gouges", "gouges_interval", "threshold_velocity", "threshold_interval",
+                                 "onset_position", "life", "life_quantiles", "worse_than_best")
+               if any(one.get(name) not in (None, [None, None, None]) for one in ranking)]
+    rows = [columns] + [[" .. ".join(map(_cell, one[name])) if isinstance(one[name], list) else _cell(one[name])
+                         for name in columns] for one in ranking]
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    for row in rows:
+        print("  ".join(f"{cell:{width}}" for cell, width in zip(row, widths)).rstrip())
+
+
 def describe(directory):
     """Prints what is in an output directory."""
     run = Run(directory)
     shown = {name: value for name, value in run.summary.items() if not isinstance(value, (list, dict))}
-    width = max(map(len, shown))
+    width = max(map(len, shown), default=0)
     for name, value in shown.items():
         print(f"{name:{width}}  {value}")
+    if run.summary.get("ranking"):
+        _print_ranking(run.summary["ranking"])
+    if not (run.directory / "history.h5").exists():
+        return
     for name in run.scenes:
         crater = run.crater(name)
         shape = f"{crater.texts['class']}, depth {1e3 * np.max(crater.depth):.3f} mm" if crater else "until its second gauge"

@@ -12,7 +12,9 @@ case["scene.damage"] = False  # three of these metals have no constants of failu
 case["study.craters"] = 0     # thresholds and numbers of gouges alone
 run = case.run("compare", "out/coatings", force=True)
 
-for rank, one in enumerate(run.summary["ranking"], 1):
+for one in run.summary["ranking"]:  # fewest gouges first
     low, high = (f"{v:.0f}" if v is not None else "-" for v in one["threshold_interval"])
-    print(f"{rank}  {one['surface']:12}  gouges from {low} .. {high} m/s  {one['gouges']:.2f} a shot  tied: {one['tied']}")
+    told = "" if one["tied"] > 1 else "best, or cannot be told from it"
+    print(f"{one['surface']:12}  gouges from {low} .. {high} m/s  {one['gouges']:.2f} a shot  {told}")
+print(run.summary["verdict"])
 breech.plot.threshold(run).savefig("out/coatings/ranking.png")
