@@ -3,7 +3,8 @@
 # The arrows of the design hold, and nothing else is included:
 #   tests -> coupling -> {circuit, mpm} -> base
 #   in coupling:  main -> usage -> study -> {gouge, strike, life, vessel} -> run -> scene -> {case, output, report} -> host
-# circuit and mpm print nothing, open nothing and never exit; each outside library sits behind one file.
+# circuit and mpm print nothing, open nothing and never exit; each outside library sits behind one file; every folder
+# is in docs/reference/structure.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source tests/files.sh
@@ -88,6 +89,14 @@ for folder in coupling/*/; do
     folder=$(basename "$folder")
     if [[ " $rooms tools " != *" $folder "* ]]; then complain "coupling/$folder/ is no room of this script"; fi
 done
+
+# Every folder of the libraries and the program stands in the table of docs/reference/structure.md, with its path or,
+# in the row of the folder it is in, with its name.
+while read -r folder; do
+    if ! grep -qE "^\|.*\`($folder|${folder##*/})/\`" docs/reference/structure.md; then
+        complain "$folder/ has no row in docs/reference/structure.md"
+    fi
+done < <(sources '^(base|circuit|mpm|coupling)/.*/|^(base|circuit|mpm)/' | sed 's|/[^/]*$||' | sort -u)
 
 # The file's struct stays in coupling/case; the others get the plain structs that it makes (case_plain.h).
 hits=$(sources '^coupling/.*\.(c|h|def)$' | grep -v '^coupling/case/' | xargs -r grep -nwE 'breech_case|case/case\.h' /dev/null || true)

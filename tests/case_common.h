@@ -12,11 +12,7 @@
 
 #include <cmocka.h>
 
-#define OK(call)                                                        \
-    do {                                                                \
-        const status ok_ = (call);                                      \
-        if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
-    } while (0)
+#include "status_common.h"
 
 /* With the texts of --set, a NULL behind them; NULL: as it is.  The caller frees it. */
 static inline breech_case *changed_case(const char *const *sets)

@@ -17,11 +17,7 @@
 
 #include <cmocka.h>
 
-#define OK(call)                                                        \
-    do {                                                                \
-        const status ok_ = (call);                                      \
-        if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
-    } while (0)
+#include "status_common.h"
 
 static int scenes;
 static double growth_most = INFINITY; /* it levels out [e-folds] */
@@ -457,9 +453,12 @@ static void test_ranking(void **state)
         assert_true(e->threshold_interval[0] <= e->threshold_velocity &&
                     e->threshold_velocity <= e->threshold_interval[1]);
         if (i < 5) assert_true(e->better_than_next >= 0.0 && e->significant == (e->better_than_next >= 0.95));
-        if (i > 0)
-            assert_int_equal(e->tied, a.result.ranking[i - 1].significant ? i + 1 : a.result.ranking[i - 1].tied);
+        /* tied with the best of a group: told neither from it, nor alike to the best of a group before */
+        assert_true(a.result.ranking[e->tied - 1].tied == e->tied && e->tied <= i + 1);
+        assert_true(isnan(e->worse_than_best) == (i == 0));
+        if (i > 0) assert_int_equal(e->tied == 1, e->worse_than_best < 0.95);
     }
+    assert_true(a.result.ranking[1].worse_than_best == a.result.ranking[0].better_than_next);
     assert_string_equal(plain->layer, "none");
     assert_string_equal(entry_of(&a, "coated")->layer, "intact"); /* craters of 0.06 mm */
     assert_true(entry_of(&a, "coated")->layer_failed > 0.0);
@@ -467,16 +466,43 @@ static void test_ranking(void **state)
     case_free(c);
 }
 
-/* A layer whose bond gives way is told from one that stays. */
-static void test_sheared_off(void **state)
+/* Each surface is as good as its neighbour, within what is known; the last is worse than the best all the same. */
+static void test_no_chain_of_ties(void **state)
 {
     (void)state;
     breech_case *c = read(HEAD GRAINS "treatments:\n"
+                                      "  - {name: 32 deg, lead_angle: {angle: 32 deg}}\n"
+                                      "  - {name: 34 deg, lead_angle: {angle: 34 deg}}\n"
+                                      "  - {name: 36 deg, lead_angle: {angle: 36 deg}}\n"
+                                      "  - {name: 38 deg, lead_angle: {angle: 38 deg}}\n"
+                                      "  - {name: 40 deg, lead_angle: {angle: 40 deg}}\n",
+                          ALL);
+    compare_answer a;
+    OK(run_compare(c, "chain", &a));
+    const compare_entry *e = a.result.ranking;
+    for (int i = 0; i < 5; i++) assert_true(!e[i].significant);
+    assert_true(e[1].tied == 1 && e[5].tied > 1 && e[5].worse_than_best >= 0.95);
+    assert_null(strstr(a.result.verdict, e[5].surface));
+    study_compare_answer_free(&a);
+    case_free(c);
+}
+
+/* A layer whose bond gives way is told from one that stays; a crater deeper than a layer dents it, and has worn it
+ * through where a tenth of the layer goes too. */
+static void test_what_layers_suffer(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD GRAINS "treatments:\n"
+                                      "  - {name: thin, coating: [{material: steel_4340, thickness: 0.02 mm}]}\n"
+                                      "  - {name: thin and loose, coating: [{material: steel_4340, thickness: 0.02 mm, "
+                                      "bond_strength: 100 MPa}]}\n"
                                       "  - {name: loose, coating: [{material: steel_4340, thickness: 0.3 mm, "
                                       "bond_strength: 100 MPa}]}\n",
                           ALL);
     compare_answer a;
-    OK(run_compare(c, "sheared", &a));
+    OK(run_compare(c, "layers", &a));
+    assert_string_equal(entry_of(&a, "thin")->layer, "dented");
+    assert_string_equal(entry_of(&a, "thin and loose")->layer, "worn through");
     assert_string_equal(entry_of(&a, "loose")->layer, "sheared off");
     study_compare_answer_free(&a);
     c->study.fine_cells_per_radius =
@@ -729,47 +755,27 @@ static void test_scatter_of_surfaces(void **state)
     case_free(c);
 }
 
-/* A crater deeper than a layer dents it; where a tenth of the layer goes too, it is worn through. */
-static void test_dented(void **state)
-{
-    (void)state;
-    breech_case *c = read(HEAD GRAINS "treatments:\n"
-                                      "  - {name: thin, coating: [{material: steel_4340, thickness: 0.02 mm}]}\n"
-                                      "  - {name: loose, coating: [{material: steel_4340, thickness: 0.02 mm, "
-                                      "bond_strength: 100 MPa}]}\n",
-                          ALL);
-    compare_answer a;
-    OK(run_compare(c, "dented", &a));
-    assert_string_equal(entry_of(&a, "thin")->layer, "dented");
-    assert_string_equal(entry_of(&a, "loose")->layer, "worn through");
-    study_compare_answer_free(&a);
-    case_free(c);
-}
-
 /* One sentence says which surface is best; none is called free of gouges while another of its rank gouges. */
 static void test_verdict(void **state)
 {
     (void)state;
     static const struct {
         double gouges[3], threshold[3];
-        double better[3];
+        int tied[3];
         const char *says;
     } all[] = {
-        { { 0, 0, 2 },
-          { NAN, NAN, 1500 },
-          { 0.5, 0.9, NAN },
-          "none of the 3 surfaces can be told from the others; "
-          "fewest gouges: a" },
-        { { 0, 0, 0 }, { NAN, NAN, NAN }, { 0.5, 0.5, NAN }, "none of the 3 surfaces gouges in this shot" },
-        { { 1, 2, 3 }, { 1700, 1600, 1500 }, { 0.99, 0.5, NAN }, "best is a" },
-        { { 1, 2, 3 }, { 1700, 1600, 1500 }, { 0.5, 0.99, NAN }, "best are a and b, which cannot be told apart" },
+        { { 0, 0, 2 }, { NAN, NAN, 1500 }, { 1, 1, 1 }, "fewest gouges: a; none of the others can be told from it" },
+        { { 0, 0, 0 }, { NAN, NAN, NAN }, { 1, 1, 1 }, "none of the 3 surfaces gouges in this shot" },
+        { { 1, 2, 3 }, { 1700, 1600, 1500 }, { 1, 2, 2 }, "best is a" },
+        { { 1, 2, 3 }, { 1700, 1600, 1500 }, { 1, 1, 3 }, "fewest gouges: a; b cannot be told from it" },
+        { { 1, 2, 3 }, { 1700, 1600, 1500 }, { 1, 2, 1 }, "fewest gouges: a; c cannot be told from it" },
     };
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         compare_entry e[3] = { { .surface = "a" }, { .surface = "b" }, { .surface = "c" } };
         compare_result r = { .n = 3, .ranking = e };
         for (int i = 0; i < 3; i++) {
             e[i].gouges = all[k].gouges[i], e[i].threshold_velocity = all[k].threshold[i];
-            e[i].tied = i > 0 && all[k].better[i - 1] >= 0.95 ? i + 1 : i > 0 ? e[i - 1].tied : 1;
+            e[i].tied = all[k].tied[i];
         }
         study_compare_conclude(&r);
         assert_string_equal(r.verdict, all[k].says);
@@ -992,16 +998,25 @@ static void test_shots_warm_the_rail(void **state)
     c->study.shots = 500;
     a = studied(c, "melted", base_status_error(STATUS_BAD_INPUT, "ofhc_copper melts at 1356 K; lower study.shots"));
     study_onset_answer_free(&a);
+    for (int i = 0; i < c->materials.n; i++) c->materials.item[i].melting_temperature = NAN; /* nothing says when */
+    c->study.shots = 2;
+    a = studied(c, "never-melts", status_ok());
+    assert_true(a.result.shot[1].rail_rise > 10.0 && a.result.shot[1].threshold_velocity < first.threshold_velocity);
+    study_onset_answer_free(&a);
     case_free(c);
 }
 
-/* Gouges 0.1 mm deep: through a layer of 0.05 mm, not of 0.2 mm. */
+/* Gouges 0.1 mm deep: a layer of 0.05 mm whose bond gives way is gone, one that stays is dented, and one of 0.2 mm is
+ * not reached through. */
 static void test_shots_strip_the_rail(void **state)
 {
     (void)state;
-    for (int k = 0; k < 2; k++) {
+    static const case_layer all[] = { { .thickness = 0.05e-3, .yield_scale = 1.0, .bond_strength = 1e8 },
+                                      { .thickness = 0.05e-3, .yield_scale = 1.0, .bond_strength = NAN },
+                                      { .thickness = 0.2e-3, .yield_scale = 1.0, .bond_strength = 1e8 } };
+    for (int k = 0; k < 3; k++) {
         breech_case *c = read(HEAD "sites: [{position: 2 m}]\n", CASE_FOR_ONSET);
-        case_layer layer = { .thickness = k == 0 ? 0.05e-3 : 0.2e-3, .yield_scale = 1.0, .bond_strength = NAN };
+        case_layer layer = all[k];
         snprintf(layer.material, sizeof layer.material, "ofhc_copper");
         const case_layers none = c->rail.layers;
         c->rail.layers = (case_layers){ 1, &layer };
@@ -1027,9 +1042,10 @@ int main(void)
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_presets),
         cmocka_unit_test(test_ranking),
+        cmocka_unit_test(test_no_chain_of_ties),
         cmocka_unit_test(test_progress),
         cmocka_unit_test(test_screened_surface),
-        cmocka_unit_test(test_sheared_off),
+        cmocka_unit_test(test_what_layers_suffer),
         cmocka_unit_test(test_seed),
         cmocka_unit_test(test_population_onset),
         cmocka_unit_test(test_feedback_of_populations),
@@ -1037,7 +1053,6 @@ int main(void)
         cmocka_unit_test(test_uncertain_inputs),
         cmocka_unit_test(test_uncertain_surfaces),
         cmocka_unit_test(test_scatter_of_surfaces),
-        cmocka_unit_test(test_dented),
         cmocka_unit_test(test_verdict),
         cmocka_unit_test(test_scatter),
         cmocka_unit_test(test_scatter_of_two),

@@ -13,11 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-#define OK(call)                                                        \
-    do {                                                                \
-        const status ok_ = (call);                                      \
-        if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
-    } while (0)
+#include "status_common.h"
 
 static const double H = 0.5e-3;               /* cell [m] */
 static const double EDGE = 3e12, MORE = 5e12; /* plastic power densities [W/m3] */

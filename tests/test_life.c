@@ -609,13 +609,7 @@ static void refused(const char *set, const char *words)
 {
     char command[600];
     snprintf(command, sizeof command, "life " PAPER " -o bad --quiet %s", set);
-    assert_int_equal(run(command), 2);
-    if (!contains("err.txt", words)) {
-        char *errors;
-        OK(host_file_read("err.txt", &errors, NULL));
-        fail_msg("%s: not `%s` but %s", set, words, errors);
-    }
-    assert_false(exists("bad"));
+    assert_refused(command, "bad", words);
 }
 
 static void test_refused(void **state)

@@ -14,11 +14,7 @@
 
 #include <cmocka.h>
 
-#define OK(call)                                                        \
-    do {                                                                \
-        const status ok_ = (call);                                      \
-        if (ok_.code != STATUS_OK) fail_msg("%s: %s", #call, ok_.text); \
-    } while (0)
+#include "status_common.h"
 
 /* ---- a rail ---- */
 
@@ -407,19 +403,35 @@ static void test_warm(void **state)
     free(warm.family);
 }
 
-/* The grain of test_rims on a layer: its gouge is 0.6 mm deep.  Rims on the bare rail meet that one's threshold. */
+/* The grain of test_rims on a layer: its gouge is 0.6 mm deep.  Rims on the bare rail meet that one's threshold; a
+ * layer is gone where the gouge is deeper and a tenth of the layer over the crater failed or was carried off. */
 static void test_bare(void **state)
 {
     (void)state;
-    for (int through = 0; through < 2; through++) {
+    static const struct {
+        double thickness, failed, carried; /* [m, 1, 1] */
+        bool through;
+    } all[] = { { 0.5e-3, 0.2, 0.0, true },
+                { 0.5e-3, 0.06, 0.06, true },
+                { 0.5e-3, 0.08, 0.0, false },
+                { 0.7e-3, 0.2, 0.0, false } };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        const bool through = all[i].through;
         rail covered, bare;
-        case_layer layer = { .thickness = through ? 0.5e-3 : 0.7e-3 };
+        case_layer layer = { .thickness = all[i].thickness };
+        const double over_crater = layer.thickness * 0.25 * 3.14159265358979 * 4e-3 * 1e-3;
         make(&covered, 1e-9, 2e-4, 0.5, 1400.0, 0.0, 0.0);
         make(&bare, 1e-9, 2e-4, 0.5, 1900.0, 0.0, 0.0);
         covered.site[0] = (case_site){ .position = 2.1, .radius = 1e-3 };
         covered.c.sites = (case_sites){ 1, covered.site };
         covered.c.impact.rail.layers = (case_layers){ 1, &layer };
-        for (int k = 0; k < 2; k++) covered.record[k].entry.result.crater_depth = 0.3e-3;
+        for (int k = 0; k < 2; k++) {
+            scene_result *hit = &covered.record[k].entry.result; /* of a grain half as large; 4 mm long, 1 mm wide */
+            hit->crater_depth = 0.3e-3;
+            hit->crater_width = 1e-3;
+            hit->layers_failed_volume = all[i].failed * over_crater;
+            hit->layers_carried_volume = all[i].carried * over_crater;
+        }
         mc_surface one = as_new(&covered, 0, 1.0);
         one.bare = &bare.grains;
         mc_result out = run(&one, 1, 200, 2);

@@ -92,7 +92,7 @@ static void test_max_walltime(void **state)
 {
     (void)state;
     fresh_folder("walltime");
-    assert_int_equal(run("scene " TINY " -o walltime/a --max-walltime 0.3 --set output.snapshots=0"), 75);
+    assert_int_equal(run("scene " TINY " -o walltime/a --max-walltime 0.05 --set output.snapshots=0"), 75);
     assert_true(contains("err.txt", "--max-walltime"));
     assert_int_equal(run("scene " TINY " -o walltime/a --max-walltime 1h --resume --set output.snapshots=0"), 0);
     assert_int_equal(run("scene " TINY " -o walltime/a --resume --set output.snapshots=0"), 0); /* nothing to do */

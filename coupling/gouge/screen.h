@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The screen: can this grain gouge at all?
  *
- * Planar impact pressure of the armature on the rail (impedance match, M-22) over the hardness of the harder partner.
+ * Planar impact pressure of the armature on the rail (impedance match, M-22) over the hardness of the harder
+ * partner.
  * The load of a grain is carried by as much rail as the grain is high: pressure, hardness and density of the rail are
  * means over that depth, each layer by its part of it, so a film of a micrometre hardly counts under a grain of half a
  * millimetre, and counts alone where it is thicker than the grain is high.

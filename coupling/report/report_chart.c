@@ -224,28 +224,12 @@ static double py(const canvas *v, double y)
 
 static void draw_axes(const canvas *v, const char *x_title, const char *y_title)
 {
-    double tick[REPORT_TICKS], step;
-    char text[32];
-    int n = report_scale_ticks(&v->x, 6, tick, &step);
-    for (int k = 0; k < n; k++) {
-        const double x = report_scale_at(&v->x, tick[k]);
-        report_scale_label(tick[k], step, text);
-        report_svg_segment(v->out, x, v->y.to, x, v->y.from, "#e6e6e6", 1.0);
-        report_svg_text(v->out, x, v->y.from + 17.0, "middle", "", text);
-    }
-    n = report_scale_ticks(&v->y, 5, tick, &step);
-    for (int k = 0; k < n; k++) {
-        const double y = report_scale_at(&v->y, tick[k]);
-        report_scale_label(tick[k], step, text);
-        report_svg_segment(v->out, v->x.from, y, v->x.to, y, "#e6e6e6", 1.0);
-        report_svg_text(v->out, v->x.from - 6.0, y + 4.5, "end", "", text);
-    }
+    report_svg_grid_across(v->out, &v->x, 6, v->y.to, v->y.from, 17.0);
+    report_svg_grid_up(v->out, &v->y, 5, v->x.from, v->x.to);
     fprintf(v->out, "<path d=\"M%.1f %.1fV%.1fH%.1f\" fill=\"none\" stroke=\"#777\"/>\n", v->x.from, v->y.to, v->y.from,
             v->x.to);
     report_svg_text(v->out, 0.5 * (v->x.from + v->x.to), v->y.from + 38.0, "middle", "", x_title);
-    char turned[80];
-    snprintf(turned, sizeof turned, "transform=\"rotate(-90 14 %.1f)\"", 0.5 * (v->y.from + v->y.to));
-    report_svg_text(v->out, 14.0, 0.5 * (v->y.from + v->y.to), "middle", turned, y_title);
+    report_svg_upward_title(v->out, 0.5 * (v->y.from + v->y.to), y_title);
 }
 
 /* An end of a band in the picture; one that is not finite is an edge. */

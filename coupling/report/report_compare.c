@@ -96,26 +96,10 @@ typedef struct {
 
 static void draw_grid(const beside *b)
 {
-    double tick[REPORT_TICKS], step;
-    char text[32];
-    int n = report_scale_ticks(&b->v, 6, tick, &step);
-    for (int k = 0; k < n; k++) {
-        const double at = report_scale_at(&b->v, tick[k]);
-        report_scale_label(tick[k], step, text);
-        report_svg_segment(b->out, at, TOP, at, b->bottom, "#e6e6e6", 1.0);
-        report_svg_text(b->out, at, b->bottom + 16.0, "middle", "", text);
-    }
+    report_svg_grid_across(b->out, &b->v, 6, TOP, b->bottom, 16.0);
     report_svg_text(b->out, 0.5 * (b->v.from + b->v.to), b->bottom + 36.0, "middle", "", "velocity [m/s]");
-    n = report_scale_ticks(&b->x, 4, tick, &step);
-    for (int k = 0; k < n; k++) {
-        const double at = report_scale_at(&b->x, tick[k]);
-        report_scale_label(tick[k], step, text);
-        report_svg_segment(b->out, b->v.from, at, b->v.to, at, "#e6e6e6", 1.0);
-        report_svg_text(b->out, b->v.from - 6.0, at + 4.5, "end", "", text);
-    }
-    char turned[80];
-    snprintf(turned, sizeof turned, "transform=\"rotate(-90 14 %.1f)\"", TOP + 0.5 * CURVE);
-    report_svg_text(b->out, 14.0, TOP + 0.5 * CURVE, "middle", turned, "reached at [m]");
+    report_svg_grid_up(b->out, &b->x, 4, b->v.from, b->v.to);
+    report_svg_upward_title(b->out, TOP + 0.5 * CURVE, "reached at [m]");
 }
 
 static void draw_curve(const beside *b, const report_curve *c, size_t n)

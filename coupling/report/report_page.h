@@ -99,7 +99,8 @@ void report_compare_section(const page *p);
 void report_inductance_head(const page *p);
 void report_inductance_section(const page *p);
 void report_bodies_head(const page *p);
-void report_bodies_section(const page *p); /* bodies, energies, probes */
+void report_bodies_part(const page *p);    /* bodies and energies */
+void report_bodies_section(const page *p); /* those, the cut, the probes */
 void report_probes_section(const page *p);
 /* The bodies cut in their middle, by the first and the last snapshot; nothing without snapshots. */
 void report_cut_section(const page *p);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/study/compare.h"
 
-#include "base/constants.h"
 #include "coupling/case/treatment.h"
+#include "coupling/study/layer_wear.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,8 +10,6 @@
 #include <string.h>
 
 static const double SIGNIFICANT = 0.95;
-static const double SUFFERED =
-    0.1; /* share of the layers over the crater that failed or was carried off, from which it counts */
 
 void study_compare_answer_free(compare_answer *a)
 {
@@ -126,17 +124,6 @@ static const family_scene *telling_scene(const grain_families *g)
     return best;
 }
 
-/* A crater deeper than the layers has worn them through only where they are gone: soft rail gives way under a layer,
- * which then lines the dent. */
-static const char *suffering(const scene_result *r, double thickness, double failed, double carried)
-{
-    const bool deep = r->crater_depth >= thickness;
-    if (deep && failed + carried >= SUFFERED) return "worn through";
-    if (carried >= SUFFERED) return "sheared off";
-    if (failed >= SUFFERED) return "spalled";
-    return deep ? "dented" : "intact";
-}
-
 static void judge_layers(const case_onset *c, const grain_families *g, compare_entry *e)
 {
     const double thickness = case_layers_thickness(&c->impact.rail.layers);
@@ -145,13 +132,10 @@ static void judge_layers(const case_onset *c, const grain_families *g, compare_e
     e->layer_failed = e->layer_velocity = NAN;
     if (!(thickness > 0.0) || !from) return;
     const scene_result *r = &from->record->entry.result;
-    const double ellipse = 0.25 * PI * r->crater_length * r->crater_width;
-    const double grain = PI * from->radius * from->radius;
+    const layer_wear wear = study_layer_wear_of(r, thickness, from->radius);
     e->layer_velocity = from->velocity;
-    const double over_crater = thickness * fmax(ellipse, grain);
-    e->layer_failed = fmin(r->layers_failed_volume / over_crater, 1.0);
-    snprintf(e->layer, sizeof e->layer, "%s",
-             suffering(r, thickness, e->layer_failed, r->layers_carried_volume / over_crater));
+    e->layer_failed = wear.failed;
+    snprintf(e->layer, sizeof e->layer, "%s", study_layer_wear_word(&wear, r->crater_depth, thickness));
 }
 
 /* ---- ranking ---- */
@@ -246,6 +230,17 @@ static bool rests_on_screen(const compare_answer *a, int surface)
     return a->answer[surface].grains.unbacked > 0;
 }
 
+/* Of the entries before k that lead a group: the best that surface k cannot be told from; else k. */
+static int leader_of(const compare_answer *a, const int *order, int k)
+{
+    for (int j = 0; j < k; j++) {
+        const bool leads = a->entry[j].tied == j + 1;
+        const bool told = share_better(&a->drawn, order[j], order[k]) >= SIGNIFICANT && !rests_on_screen(a, order[j]);
+        if (leads && !told) return j;
+    }
+    return k;
+}
+
 static status rank(const case_treatments *treatments, compare_answer *a)
 {
     int *order = malloc((size_t)a->n * sizeof *order);
@@ -256,7 +251,8 @@ static status rank(const case_treatments *treatments, compare_answer *a)
         fill_entry(treatments, a, order[k], e);
         e->better_than_next = k + 1 < a->n ? share_better(&a->drawn, order[k], order[k + 1]) : NAN;
         e->significant = e->better_than_next >= SIGNIFICANT && !rests_on_screen(a, order[k]);
-        e->tied = k == 0 || a->entry[k - 1].significant ? k + 1 : a->entry[k - 1].tied;
+        e->worse_than_best = k > 0 ? share_better(&a->drawn, order[0], order[k]) : NAN;
+        e->tied = leader_of(a, order, k) + 1;
     }
     free(order);
     a->result.ranking = a->entry;

@@ -6,7 +6,11 @@
  * `better_than_next`: share of the worlds (montecarlo.h: what the bands of the thresholds leave open) in which a
  * surface has fewer gouges than the next one, ties half.  The bands hold the place of the grid (search/scatter.h) where
  * that is asked for, and the inputs that are stated as uncertain (search/uncertain.h), each surface's by scenes of its
- * own.  From 95 % on the difference is called significant; surfaces that no significant step parts share their rank. */
+ * own.  From 95 % on the difference is called significant.
+ *
+ * Groups: going down the ranking, a surface joins the best group whose first surface it cannot be told from, else it is
+ * the first of a new one.  `tied` is the rank of its group's first surface: with `tied` 1 a surface cannot be told from
+ * the best.  No chain of neighbours that are alike puts the last beside the first. */
 #ifndef BREECH_COUPLING_COMPARE_H
 #define BREECH_COUPLING_COMPARE_H
 
@@ -28,7 +32,8 @@ typedef struct {
     double probability_gouge;                         /* [1] */
     double better_than_next; /* share of what may be true in which it gouges less than the next one [1] */
     bool significant;        /* that share is at least 0.95, not by the screen alone; of the last: the former one's */
-    int tied;                /* surfaces from the same `tied` on cannot be told apart; from 1 */
+    double worse_than_best;  /* share of what may be true in which the best gouges less than it; of the best NAN [1] */
+    int tied;                /* rank of the best of its group, from which it cannot be told; from 1 */
     int scenes;              /* its own, those shared with surfaces before it not counted */
     char layer[24];          /* what its layers suffer: none, intact, dented, spalled, sheared off, worn through */
     double layer_failed;     /* share of the layers over the crater that failed [1] */

@@ -17,35 +17,45 @@ static void say(compare_result *r, const char *text)
     snprintf(r->verdict + used, sizeof r->verdict - used, "%s", text);
 }
 
-/* "x, y and z": the first so many of the ranking. */
+static bool with_best(const compare_result *r, int i)
+{
+    return i > 0 && r->ranking[i].tied == r->ranking[0].tied;
+}
+
+/* "x, y and z": those n that cannot be told from the best. */
 static void say_names(compare_result *r, int n)
 {
-    for (int k = 0; k < n; k++) {
+    for (int i = 1, k = 0; i < r->n; i++) {
+        if (!with_best(r, i)) continue;
         say(r, k == 0 ? "" : k + 1 == n ? " and " : ", ");
-        say(r, r->ranking[k].surface);
+        say(r, r->ranking[i].surface);
+        k++;
     }
 }
 
-/* No surface is told from any other: does none gouge? */
-static void say_all_tied(compare_result *r)
+static bool none_gouges(const compare_result *r)
 {
-    int gouging = 0;
-    for (int i = 0; i < r->n; i++) gouging += !gouges_not(&r->ranking[i]);
-    snprintf(r->verdict, sizeof r->verdict, "none of the %d surfaces %s", r->n,
-             gouging ? "can be told from the others; fewest gouges: " : "gouges in this shot");
-    if (gouging) say(r, r->ranking[0].surface);
+    for (int i = 0; i < r->n; i++)
+        if (!gouges_not(&r->ranking[i])) return false;
+    return r->n > 1;
 }
 
 void study_compare_conclude(compare_result *r)
 {
     int tied = 0;
+    for (int i = 0; i < r->n; i++) tied += with_best(r, i);
     r->verdict[0] = '\0';
-    while (tied < r->n && r->ranking[tied].tied == r->ranking[0].tied) tied++;
-    if (r->n > 1 && tied == r->n) {
-        say_all_tied(r);
+    if (none_gouges(r)) {
+        snprintf(r->verdict, sizeof r->verdict, "none of the %d surfaces gouges in this shot", r->n);
         return;
     }
-    say(r, tied > 1 ? "best are " : "best is ");
-    say_names(r, tied);
-    if (tied > 1) say(r, ", which cannot be told apart");
+    say(r, tied > 0 ? "fewest gouges: " : "best is ");
+    say(r, r->ranking[0].surface);
+    if (tied == 0) return;
+    say(r, "; ");
+    if (tied + 1 < r->n)
+        say_names(r, tied);
+    else
+        say(r, r->n > 2 ? "none of the others" : r->ranking[1].surface);
+    say(r, tied + 1 < r->n || r->n == 2 ? " cannot be told from it" : " can be told from it");
 }

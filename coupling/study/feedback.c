@@ -13,7 +13,7 @@
 static site_jump taken_by(const onset_answer *a, const grain_family *f, double v, double volume)
 {
     gouge_mark mark;
-    const bool known = study_gouge_mark_at(f, a->grains.c->impact.scene.limit_severity, v, &mark) && mark.volume > 0.0;
+    const bool known = study_gouge_mark_at(f, &a->grains.c->impact, v, &mark) && mark.volume > 0.0;
     const double share = known ? volume / mark.volume : 0.0;
     return (site_jump){ share * mark.impulse, share * mark.metal };
 }

@@ -105,6 +105,18 @@ static double chance(const life_entry *a, const life_entry *b)
     return spread > 0.0 ? gsl_cdf_ugaussian_P(ratio / spread) : isnan(spread) ? NAN : ratio > ALIKE ? 1.0 : 0.5;
 }
 
+/* Of the surfaces before k that lead a group: the one that lasts longest from which k cannot be told; else k itself. */
+static int leader_of(const life_ranking *r, int k)
+{
+    const bool judged = !isnan(life_of(&r->ranking[k]));
+    for (int j = 0; j < k; j++) {
+        const life_entry *first = &r->ranking[j];
+        const bool leads = first->tied == j + 1, told = chance(first, &r->ranking[k]) >= SIGNIFICANT;
+        if (leads && !told && isnan(life_of(first)) != judged) return j;
+    }
+    return k;
+}
+
 static void rank(life_ranking *r)
 {
     sort(r);
@@ -112,8 +124,7 @@ static void rank(life_ranking *r)
         life_entry *e = &r->ranking[k];
         e->better_than_next = k + 1 < r->n ? chance(e, e + 1) : NAN;
         e->significant = e->better_than_next >= SIGNIFICANT;
-        const bool parted = k == 0 || e[-1].significant || (isnan(life_of(e)) && !isnan(life_of(e - 1)));
-        e->tied = parted ? k + 1 : e[-1].tied;
+        e->tied = leader_of(r, k) + 1;
     }
 }
 

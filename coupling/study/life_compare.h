@@ -16,12 +16,12 @@
 typedef struct {
     char surface[SUMMARY_NAME_SIZE];
     char metal[BASE_PARAM_TEXT_SIZE]; /* whose constants are taken */
-    char lacks[160];             /* why it is not judged; "": it is */
-    rail_life_result is;         /* owned */
-    double spread;               /* fatigue_A_spread of the metal */
-    double better_than_next;     /* [1]; NAN: not known */
-    bool significant;            /* at least 0.95 */
-    int tied;                    /* rank of the group that it cannot be told apart from, from 1 */
+    char lacks[160];                  /* why it is not judged; "": it is */
+    rail_life_result is;              /* owned */
+    double spread;                    /* fatigue_A_spread of the metal */
+    double better_than_next;          /* [1]; NAN: not known */
+    bool significant;                 /* at least 0.95 */
+    int tied;                         /* rank of the best of its group, from which it cannot be told; from 1 */
 } life_entry;
 
 typedef struct {

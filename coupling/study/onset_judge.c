@@ -119,7 +119,7 @@ static void judge_sites(onset_answer *a)
         if (site->outcome == SITE_GOUGE && f->contradicted[0]) site->outcome = SITE_UNDECIDED;
         if (site->outcome != SITE_GOUGE) continue;
         a->result.gouges++;
-        if (study_gouge_mark_at(f, a->grains.c->impact.scene.limit_severity, site->velocity, &mark))
+        if (study_gouge_mark_at(f, &a->grains.c->impact, site->velocity, &mark))
             site->gouged_volume = mark.volume * pow(site->radius, 3.0);
     }
 }

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/study/rail_life.h"
 
-#include "coupling/gouge/session_shot.h"
+#include "coupling/study/warm_rail.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double SAME_FLIGHT = 1.0; /* of the rails' mean temperature, as in repeated.c [K] */
 static const double FIVE_PERCENT = 0.05;
 
 const char *const study_rail_life_cause_names[] = {
@@ -112,8 +111,10 @@ static void note_place(const work *w, const trace_point *at, const life_passage 
 }
 
 /* Rates of one flight at every place; of the first also by each cause alone, and what the places are. */
-static void take_flight(work *w, const shot_outcome *o, double *rate, rail_life_result *r)
+static status take_flight(work *w, const shot_outcome *o, rail_life_result *r)
 {
+    double *rate = calloc((size_t)r->n * w->size, sizeof *rate);
+    CHECK(rate, STATUS_MEMORY, "no memory for %d places", r->n);
     const double exit = o->n_trace > 0 ? o->trace[o->n_trace - 1].t : 0.0;
     double *spare = w->alone + 2 * (size_t)r->n * w->size; /* of causes that are not kept */
     for (int k = 0; k < r->n; k++) {
@@ -133,65 +134,37 @@ static void take_flight(work *w, const shot_outcome *o, double *rate, rail_life_
         life_along_passage(&w->rail, &passage, causes);
         if (first) note_place(w, &at, &passage, p);
     }
+    w->rate[w->flights++] = rate;
+    return status_ok();
 }
 
 /* ---- the shots ---- */
 
-static double mean_of(const double rise[CIRCUIT_SHOT_PIECES])
+static status fly_first(work *w, bool with_history, shot_outcome *flown, rail_life_result *r, shot_record *record)
 {
-    double sum = 0.0;
-    for (int k = 0; k < CIRCUIT_SHOT_PIECES; k++) sum += rise[k];
-    return sum / CIRCUIT_SHOT_PIECES;
-}
-
-static status no_melting(const work *w, int number, const double rise[CIRCUIT_SHOT_PIECES])
-{
-    const mpm_material *rail = case_material(&w->c->impact.materials, w->c->impact.rail.material);
-    if (!rail || isnan(rail->melting_temperature)) return status_ok();
-    for (int k = 0; k < CIRCUIT_SHOT_PIECES; k++)
-        CHECK(w->c->launcher.rails.initial_temperature + rise[k] < rail->melting_temperature, STATUS_BAD_INPUT,
-              "study.shots: shot %d would find the rail at %.0f K, %s melts at %.0f K; lower study.shots or "
-              "study.heat_kept = %g",
-              number, w->c->launcher.rails.initial_temperature + rise[k], rail->name, rail->melting_temperature,
-              w->c->study.heat_kept);
-    return status_ok();
-}
-
-static status fly(work *w, double warmer, bool with_history, double left[CIRCUIT_SHOT_PIECES], rail_life_result *r,
-                  shot_record *record)
-{
-    case_flight flight = case_flight_of(w->c);
-    shot_outcome o;
-    shot_record own;
-    flight.launcher.rails.initial_temperature += warmer;
-    status done = gouge_session_shot(w->s, &flight, NULL, with_history, &o, record ? record : &own);
-    double *rate = done.code == STATUS_OK ? calloc((size_t)r->n * w->size, sizeof *rate) : NULL;
-    if (done.code == STATUS_OK && !rate) done = base_status_error(STATUS_MEMORY, "no memory for %d places", r->n);
-    if (done.code == STATUS_OK) {
-        take_flight(w, &o, rate, r);
-        memcpy(left, o.rail_rise, sizeof o.rail_rise);
-        w->rate[w->flights++] = rate;
-    }
-    gouge_shot_outcome_free(&o);
-    return done;
+    const case_flight flight = case_flight_of(w->c);
+    TRY(gouge_session_shot(w->s, &flight, NULL, with_history, flown, record));
+    return take_flight(w, flown, r);
 }
 
 static status fly_all(work *w, bool with_history, rail_life_result *r, shot_record *record)
 {
-    double rise[CIRCUIT_SHOT_PIECES] = { 0.0 }, left[CIRCUIT_SHOT_PIECES], flown_at = 0.0;
-    TRY(fly(w, 0.0, with_history, left, r, record));
-    w->flight[0] = 0;
-    for (int n = 1; n < r->shots; n++) {
-        for (int k = 0; k < CIRCUIT_SHOT_PIECES; k++) rise[k] = w->c->study.heat_kept * (rise[k] + left[k]);
-        TRY(no_melting(w, n + 1, rise));
-        if (fabs(mean_of(rise) - flown_at) >= SAME_FLIGHT) {
-            flown_at = mean_of(rise);
-            TRY(fly(w, flown_at, false, left, r, NULL));
+    shot_outcome flown;
+    shot_record own;
+    status done = fly_first(w, with_history, &flown, r, record ? record : &own);
+    warm_rail rail = study_warm_rail_begin(w->c, &flown);
+    gouge_shot_outcome_free(&flown);
+    for (int n = 1; done.code == STATUS_OK && n < r->shots; n++) {
+        bool is_flown;
+        TRY(study_warm_rail_shoot(w->s, &rail, &is_flown, &flown, &own));
+        if (is_flown) {
+            done = take_flight(w, &flown, r);
+            gouge_shot_outcome_free(&flown);
         }
         w->flight[n] = w->flights - 1;
     }
     r->flights = w->flights;
-    return status_ok();
+    return done;
 }
 
 /* ---- lives ---- */

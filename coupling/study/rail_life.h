@@ -3,7 +3,7 @@
  *
  * The case's shot is flown; at places along the barrel it says how fast the armature passes, how hard it presses and
  * drags, and what heat it leaves (gouge/site_state.h).  life/along.h makes strain and lost life of that.  With
- * study.shots the rails of later shots are warmer by what the shots before have left there, as in repeated.h. */
+ * study.shots the rails of later shots are warmer by what the shots before have left there, warm_rail.h. */
 #ifndef BREECH_COUPLING_STUDY_RAIL_LIFE_H
 #define BREECH_COUPLING_STUDY_RAIL_LIFE_H
 

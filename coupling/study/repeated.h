@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Shots fired one after the other at the same rail (study.shots): what each finds there of those before it.
  *
- * Heat: what the shots before have left (circuit_shot_rail_rise), of which study.heat_kept is still there, even over
- * the section.  Each shot flies through rails of that mean temperature.  If the rail is warm where grains may gouge,
- * their thresholds are searched for once more at the warmest of all places and shots (in steps of 25 K); in between
- * they go linearly with temperature. A bare rail: where a gouge is deeper than the layers, the rim that it leaves
- * stands on the rail's own metal; thresholds for that are searched for too.
+ * Heat: what the shots before have left (warm_rail.h).  If the rail is warm where grains may gouge, their thresholds
+ * are searched for once more at the warmest of all places and shots (in steps of 25 K); in between they go linearly
+ * with temperature.  A bare rail: where a gouge wears the layers through (layer_wear.h), the rim that it leaves stands
+ * on the rail's own metal; thresholds for that are searched for too.
  * Rims themselves are drawn: montecarlo.h.  Nothing is searched for that no later shot can meet. */
 #ifndef BREECH_COUPLING_REPEATED_H
 #define BREECH_COUPLING_REPEATED_H

@@ -24,7 +24,7 @@ static const summary_key entry_keys[] = {
                    "that it lasts longer than the next; null: not known"),
     SUMMARY_VALUE(life_entry, KEY_FLAG, "significant", significant, "", "better_than_next is at least 0.95"),
     SUMMARY_VALUE(life_entry, KEY_INTEGER, "tied", tied, "1",
-                  "rank of the group of surfaces it cannot be told apart from"),
+                  "rank of the best of its group, from which it cannot be told: 1, it cannot be told from the best"),
     SUMMARY_END,
 };
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/study/sampling/gouge_law.h"
 
+#include "coupling/study/layer_wear.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -82,26 +84,35 @@ static bool gouges(const scene_result *r, double limit_severity)
 }
 
 /* Scenes whose craters count: whole ones, at the resolution of the thresholds where those were found by craters. */
-static bool counts(const grain_family *f, const family_scene *a, double limit_severity)
+static bool counts(const grain_family *f, const family_scene *a, const case_impact *of)
 {
     if (f->by_growth) return a->whole;
-    return a->cells == f->surface.reference.cells && gouges(&a->record->entry.result, limit_severity);
+    return a->cells == f->surface.reference.cells && gouges(&a->record->entry.result, of->scene.limit_severity);
+}
+
+/* Share of the layers over its crater that is gone. */
+static double layers_gone(const family_scene *a, const case_impact *of)
+{
+    const double thickness = case_layers_thickness(&of->rail.layers);
+    const layer_wear wear = study_layer_wear_of(&a->record->entry.result, thickness, a->radius);
+    return wear.failed + wear.carried;
 }
 
 /* The family's gouges in order of velocity. */
-static int collect(const grain_family *f, double limit_severity, marked *out)
+static int collect(const grain_family *f, const case_impact *of, marked *out)
 {
     int n = 0;
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *a = &f->scene[i];
         const scene_result *r = &a->record->entry.result;
         const double r3 = pow(a->radius, 3.0);
-        if (!counts(f, a, limit_severity)) continue;
+        if (!counts(f, a, of)) continue;
         out[n].v = a->velocity;
         out[n++].is = (gouge_mark){ .volume = worth(r->crater_volume) / r3,
                                     .rim = worth(r->rim_height) / a->radius,
                                     .along = worth(r->crater_length) / a->radius,
                                     .depth = worth(r->crater_depth) / a->radius,
+                                    .layers_gone = worth(layers_gone(a, of)),
                                     .impulse = a->record->impulse / r3,
                                     .metal = a->record->mass_loss / r3 };
     }
@@ -109,11 +120,20 @@ static int collect(const grain_family *f, double limit_severity, marked *out)
     return n;
 }
 
+static double between(double a, double b, double f)
+{
+    return a + f * (b - a);
+}
+
 gouge_mark study_gouge_mark_between(const gouge_mark *a, const gouge_mark *b, double f)
 {
-    return (gouge_mark){ a->volume + f * (b->volume - a->volume),    a->rim + f * (b->rim - a->rim),
-                         a->along + f * (b->along - a->along),       a->depth + f * (b->depth - a->depth),
-                         a->impulse + f * (b->impulse - a->impulse), a->metal + f * (b->metal - a->metal) };
+    return (gouge_mark){ .volume = between(a->volume, b->volume, f),
+                         .rim = between(a->rim, b->rim, f),
+                         .along = between(a->along, b->along, f),
+                         .depth = between(a->depth, b->depth, f),
+                         .layers_gone = between(a->layers_gone, b->layers_gone, f),
+                         .impulse = between(a->impulse, b->impulse, f),
+                         .metal = between(a->metal, b->metal, f) };
 }
 
 static gouge_mark mark_at(const marked *m, int n, double v)
@@ -125,18 +145,18 @@ static gouge_mark mark_at(const marked *m, int n, double v)
     return study_gouge_mark_between(&m[k].is, &m[k + 1].is, (v - m[k].v) / (m[k + 1].v - m[k].v));
 }
 
-bool study_gouge_mark_at(const grain_family *f, double limit_severity, double velocity, gouge_mark *out)
+bool study_gouge_mark_at(const grain_family *f, const case_impact *of, double velocity, gouge_mark *out)
 {
     marked m[THRESHOLD_MAX_SAMPLES];
-    const int n = collect(f, limit_severity, m);
+    const int n = collect(f, of, m);
     *out = mark_at(m, n, velocity);
     return n > 0;
 }
 
-static void tabulate_marks(const grain_family *f, double limit_severity, gouge_law *out)
+static void tabulate_marks(const grain_family *f, const case_impact *of, gouge_law *out)
 {
     marked m[THRESHOLD_MAX_SAMPLES];
-    const int n = collect(f, limit_severity, m);
+    const int n = collect(f, of, m);
     const double first = n ? m[0].v : 1.0, last = n ? m[n - 1].v : 1.0;
     out->marked = n > 0;
     out->v_first = first;
@@ -152,13 +172,24 @@ gouge_mark study_gouge_law_mark(const gouge_law *l, double velocity)
     return study_gouge_mark_between(&l->mark[i], &l->mark[i + 1], f);
 }
 
-double study_gouge_law_depth(const grain_family *f, double limit_severity)
+double study_gouge_law_depth(const grain_family *f, const case_impact *of)
 {
     double depth = 0.0;
     for (int i = 0; i < f->n_scenes; i++)
-        if (counts(f, &f->scene[i], limit_severity))
-            depth = fmax(depth, worth(f->scene[i].record->entry.result.crater_depth));
+        if (counts(f, &f->scene[i], of)) depth = fmax(depth, worth(f->scene[i].record->entry.result.crater_depth));
     return depth;
+}
+
+bool study_gouge_law_bares(const grain_family *f, const case_impact *of)
+{
+    const double thickness = case_layers_thickness(&of->rail.layers);
+    for (int i = 0; i < f->n_scenes; i++) {
+        const family_scene *a = &f->scene[i];
+        if (!counts(f, a, of)) continue;
+        const double depth = a->record->entry.result.crater_depth;
+        if (study_layer_wear_is_through(layers_gone(a, of), depth, thickness)) return true;
+    }
+    return false;
 }
 
 void study_gouge_law_none(gouge_law *out)
@@ -167,8 +198,8 @@ void study_gouge_law_none(gouge_law *out)
     for (int i = 0; i <= LAW_SIZES; i++) out->low[i] = out->high[i] = INFINITY;
 }
 
-void study_gouge_law_make(const grain_family *f, double limit_severity, gouge_law *out)
+void study_gouge_law_make(const grain_family *f, const case_impact *of, gouge_law *out)
 {
     tabulate_thresholds(f, out);
-    tabulate_marks(f, limit_severity, out);
+    tabulate_marks(f, of, out);
 }

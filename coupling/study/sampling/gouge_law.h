@@ -13,6 +13,7 @@ typedef struct {
     double volume;         /* over r^3 [1] */
     double rim, along;     /* height of the rim, its way downstream, over r [1] */
     double depth;          /* over r [1] */
+    double layers_gone;    /* share of the rail's layers over the crater (layer_wear.h) [1] */
     double impulse, metal; /* of the armature, over r^3 [N s/m3, kg/m3] */
 } gouge_mark;
 
@@ -27,17 +28,19 @@ typedef struct {
 
 /* Of a family that no scene was run for: it never gouges. */
 void study_gouge_law_none(gouge_law *out);
-void study_gouge_law_make(const grain_family *f, double limit_severity, gouge_law *out);
+/* of: what the family's scenes were made of, here and below. */
+void study_gouge_law_make(const grain_family *f, const case_impact *of, gouge_law *out);
 
 /* By the scenes themselves, for one grain; false: none of them gouges. */
-bool study_gouge_mark_at(const grain_family *f, double limit_severity, double velocity, gouge_mark *out);
+bool study_gouge_mark_at(const grain_family *f, const case_impact *of, double velocity, gouge_mark *out);
 
 /* low + in_band (high - low) + of_allowance x allowance, in_band 0 .. 1, of_allowance -1 .. 1 [m/s] */
 double study_gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_allowance);
 gouge_mark study_gouge_law_mark(const gouge_law *l, double velocity);
 gouge_mark study_gouge_mark_between(const gouge_mark *a, const gouge_mark *b, double share); /* 0: a, 1: b */
-double study_gouge_law_depth(const grain_family *f,
-                             double limit_severity); /* of the deepest crater; 0: nothing gouges [m] */
+/* Of the deepest crater that counts; 0: nothing gouges [m] */
+double study_gouge_law_depth(const grain_family *f, const case_impact *of);
+bool study_gouge_law_bares(const grain_family *f, const case_impact *of); /* one of them wears the layers through */
 
 /* The lowest any size can have [m/s]. */
 double study_gouge_law_lowest(const gouge_law *l);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/study/sampling/montecarlo.h"
 
+#include "coupling/study/layer_wear.h"
 #include "coupling/study/sampling/gouge_law.h"
 #include "coupling/study/sampling/population.h"
 
@@ -135,11 +136,11 @@ static gouge_mark mark_at(const lane *l, const grain *g, double v, double warm)
     return study_gouge_mark_between(&a, &b, warm);
 }
 
-/* Where the gouge ends; on the rail's own metal if it goes through the layers, or is in such a place itself. */
+/* Where the gouge ends; on the rail's own metal if it wears the layers through, or is in such a place itself. */
 static void leave_rim(lane *l, const grain *g, double radius, const gouge_mark *m)
 {
     if (l->rims_next == MAX_RIMS || !(m->rim > 0.0)) return;
-    const bool bare = l->bare && (g->bare || m->depth * radius > l->layers);
+    const bool bare = l->bare && (g->bare || study_layer_wear_is_through(m->layers_gone, m->depth * radius, l->layers));
     l->next[l->rims_next++] = (grain){ g->x + m->along * radius, log(m->rim * radius), g->family, bare };
 }
 
@@ -344,7 +345,7 @@ static status make_laws(const mc_surface *s, const grain_families *from, gouge_l
     for (int k = 0; k < s->grains->n; k++) {
         const grain_family *f = study_family_alike(from, &s->grains->family[k]);
         if (f)
-            study_gouge_law_make(f, from->c->impact.scene.limit_severity, &(*out)[k]);
+            study_gouge_law_make(f, &from->c->impact, &(*out)[k]);
         else
             study_gouge_law_none(&(*out)[k]);
     }

@@ -33,7 +33,7 @@ typedef struct {
     const mc_along *along;        /* [shots]; NULL: every shot is that of `grains`, and finds its rail */
     const grain_families *warm;   /* the same grains on a rail warmer by warm_rise; in between linear; NULL: none */
     double warm_rise;             /* [K] */
-    const grain_families *bare;   /* for rims where a gouge went through the layers; NULL: as all others */
+    const grain_families *bare;   /* for rims where a gouge wore the layers through; NULL: as all others */
 } mc_surface;
 
 typedef struct {
