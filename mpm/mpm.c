@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const int COMPACT_EVERY = 200; /* steps of the finest level between restorings of the blocks' order in memory */
+static const int SCATTERED = 8;       /* the blocks' order in memory is restored when one of so many is out of it */
 static const int SAMPLE_EVERY = 20;   /* the same between percentile samples */
 enum { START_BLOCKS = 1 << 15 };      /* room at the start: memory that nobody touches costs nothing, growing does */
 static const double DT_GROWTH = 1.05; /* a step of the coarsest level */
@@ -626,7 +626,7 @@ static status one_step(mpm *m, double until)
           m->time, m->dt);
     if (is_due(m, SAMPLE_EVERY)) mpm_sample_percentiles(m);
     if (is_due(m, MPM_CAVITY_EVERY)) mpm_cavities_look(m);
-    if (is_due(m, COMPACT_EVERY)) TRY(mpm_store_compact(m));
+    if (m->blocks_scattered > (m->blocks_capacity - m->blocks_free) / SCATTERED) TRY(mpm_store_compact(m));
     if (is_due(m, mpm_refine_every(m->scene.refine, m->scene.refines))) TRY(mpm_refine_look(m));
     lap(m, MPM_PHASE_REST, &clock);
     return status_ok();

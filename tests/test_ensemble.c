@@ -164,7 +164,8 @@ static void test_stop_and_resume(void **state)
     fresh_folder("parts");
     for (; code == 75 && stops < 30; stops += code == 75, seconds *= 1.4) {
         snprintf(command, sizeof command,
-                 "scene " ENSEMBLE " -o parts/out --quiet --no-store --ensemble 2 --processes 1 --resume --max-walltime %.3f",
+                 "scene " ENSEMBLE " -o parts/out --quiet --no-store --ensemble 2 --processes 1 --resume "
+                 "--max-walltime %.3f",
                  seconds);
         code = run(command);
     }

@@ -339,7 +339,7 @@ static int take_free_block(mpm *m)
         i = m->free_head;
         if (i >= 0) {
             m->free_head = m->links[i].next;
-            m->blocks_free--;
+            m->blocks_free--, m->blocks_scattered++;
         }
     }
     return i;
@@ -483,7 +483,7 @@ status mpm_store_compact(mpm *m)
 #pragma omp parallel num_threads(m->threads)
     make_moves(m, &c);
     free(to);
-    m->free_head = -1, m->blocks_free = 0;
+    m->free_head = -1, m->blocks_free = 0, m->blocks_scattered = 0;
     chain_free_blocks(m, used);
     return status_ok();
 }

@@ -222,6 +222,7 @@ struct mpm {
     block *blocks;
     block_link *links;
     int blocks_capacity, blocks_free, free_head;
+    int blocks_scattered; /* taken from the chain of free ones since mpm_store_compact */
 
     mover_list movers[MPM_MAX_THREADS];
     int threads;
