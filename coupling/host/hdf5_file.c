@@ -328,7 +328,8 @@ static hid_t creation_for(const h5_array *a, const hsize_t *dims)
 {
     size_t values = 1;
     for (int i = 0; i < a->rank; i++) values *= a->dims[i];
-    if (values * H5Tget_size(native(a->type)) < COMPRESS_FROM) return H5Pcreate(H5P_DATASET_CREATE);
+    const bool compress = a->type != H5_FLOAT && values * H5Tget_size(native(a->type)) >= COMPRESS_FROM;
+    if (!compress) return H5Pcreate(H5P_DATASET_CREATE);
     hsize_t chunk[H5_MAX_RANK] = { dims[0], a->rank > 1 ? dims[1] : 1 };
     const hsize_t row = a->rank > 1 ? dims[1] : 1, rows = CHUNK_VALUES / row > 0 ? CHUNK_VALUES / row : 1;
     if (chunk[0] > rows) chunk[0] = rows;

@@ -399,6 +399,12 @@ static void read_block(void *user, const mpm *m, const brick *b, int index)
 
 void mpm_read(const mpm *m, mpm_field field, double *out)
 {
-    reading r = { field, out };
-    visit(m, read_block, &r);
+    reading share[SHARES];
+    int at = 0;
+    for (int i = 0; i < SHARES; i++) {
+        share[i] = (reading){ field, out };
+        for (; at < share_begin(m->bricks_used, i + 1); at++)
+            out += (size_t)m->bricks[at].particles * (size_t)mpm_field_table[field].width;
+    }
+    mpm_visit_shares(m, read_block, share, sizeof *share);
 }
