@@ -42,7 +42,7 @@ const base_param circuit_shot_armature_params[] = {
     ARMATURE(gas_pressure, "Pa", 101325.0, 0.0, 1e8, "gas pressure in the barrel"),
     ARMATURE(gas_density, "kg/m^3", 1.204, 0.0, 1e3, "gas density in the barrel; 0 = evacuated"),
     ARMATURE(gas_gamma, "1", 1.4, 1.001, 2.0, "ratio of specific heats of the gas"),
-    ARMATURE(wear_fraction, "1", 0.0, 0.0, 1.0, "share of the contact's heat that melts metal off"),
+    ARMATURE(wear_fraction, "1", 0.0, 0.0, 1.0, "fraction of the contact's heat that melts metal off"),
     ARMATURE(specific_heat, "J/kg/K", 848.0, 1.0, 1e5, "specific heat"),
     ARMATURE(melting_temperature, "K", 750.0, 200.0, 5000.0, "melting temperature (solidus)"),
     ARMATURE(latent_heat, "J/kg", 390e3, 0.0, 1e8, "latent heat of fusion"),
@@ -53,7 +53,7 @@ const base_param circuit_shot_armature_params[] = {
     ARMATURE(contact_length, "m", 0.02, 1e-4, 10.0,
              "of one contact face along the rail; not given: that of the leg's foot"),
     ARMATURE(contact_width, "m", OPTIONAL, 1e-4, 10.0, "of one contact face; not given: width, else the rail's height"),
-    ARMATURE(heat_share, "1", 0.5, 0.0, 1.0, "share of the contact's heat that enters the armature"),
+    ARMATURE(heat_share, "1", 0.5, 0.0, 1.0, "fraction of the contact's heat that enters the armature"),
     ARMATURE(resistivity, "ohm m", 5.15e-8, 1e-10, 1e-3,
              "at 293.15 K, for the action that melts it; not given: the material's"),
     ARMATURE(resistivity_coefficient, "1/K", 2.0e-3, 0.0, 0.1, "relative rise of the resistivity"),
@@ -66,6 +66,6 @@ const base_param circuit_shot_armature_params[] = {
 
 const base_param circuit_shot_options_params[] = {
     OPTIONS(rtol, "1", 1e-8, 1e-13, 1e-2, "relative tolerance of the integration"),
-    OPTIONS(atol, "1", 1e-10, 1e-16, 1e-3, "absolute tolerance as a share of each quantity's scale"),
+    OPTIONS(atol, "1", 1e-10, 1e-16, 1e-3, "absolute tolerance as a fraction of each quantity's scale"),
     OPTIONS(max_time, "s", 0.1, 1e-9, 1e3, "the shot is not followed beyond this time"), PARAMS_END
 };

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "mpm/fatigue.h"
 
+#include "base/constants.h"
+
 #include <math.h>
 #include <stdlib.h>
-
-static const double PI = 3.14159265358979323846;
 
 const char *const mpm_fatigue_measure_names[] = {
     [FATIGUE_BOND] = "bond", [FATIGUE_TENSION] = "tension", [FATIGUE_SHEAR] = "shear", NULL

@@ -25,33 +25,33 @@ typedef enum {
 
 /* ROW(member, unit, needs, least, largest, text); needs: a sum of mpm_material_need, besides what a law asks for.  The
  * ranges hold room to spare: they catch a wrong unit or a slip of the decimal point, not a poor value. */
-#define MATERIAL_CONSTANTS(ROW)                                                                                  \
-    ROW(density, "kg/m^3", MPM_MATERIAL_FOR_SCENE | MPM_MATERIAL_FOR_SCREEN, 0.01, 3e4,                          \
-        "density at the reference temperature")                                                                  \
-    ROW(youngs_modulus, "Pa", MPM_MATERIAL_FOR_FATIGUE, 1e6, 2e12, "Young's modulus")                            \
-    ROW(poisson, "1", MPM_MATERIAL_FOR_FATIGUE, 0.0, 0.499, "Poisson's ratio")                                   \
-    ROW(specific_heat, "J/(kg K)", MPM_MATERIAL_FOR_SCENE, 10.0, 1e4, "specific heat")                           \
-    ROW(conductivity, "W/(m K)", 0, 1e-2, 5e3, "thermal conductivity")                                           \
-    ROW(reference_temperature, "K", MPM_MATERIAL_FOR_SCENE | MPM_MATERIAL_FOR_MELTING, 1.0, 2e3,                 \
-        "temperature at which the constants hold")                                                               \
-    ROW(melting_temperature, "K", MPM_MATERIAL_FOR_MELTING, 200.0, 5e3, "melting temperature (solidus)")         \
-    ROW(latent_heat, "J/kg", MPM_MATERIAL_FOR_MELTING, 1e3, 1e7, "latent heat of fusion")                        \
-    ROW(sound_speed, "m/s", MPM_MATERIAL_FOR_SCREEN, 100.0, 2e4, "bulk sound speed c0 of us = c0 + s up")        \
-    ROW(hugoniot_slope, "1", MPM_MATERIAL_FOR_SCREEN, 0.0, 5.0, "slope s of us = c0 + s up")                     \
-    ROW(rate_0, "1/s", 0, 1e-6, 1e6, "reference strain rate of strength and failure; slower ones count as this") \
-    ROW(cold_work, "1", 0, 0.0, 100.0,                                                                           \
-        "plastic strain it has had before, from which its law of strength begins; not given: none")              \
-    ROW(molar_mass, "kg/mol", 0, 1e-3, 0.5, "molar mass")                                                        \
-    ROW(taylor_quinney, "1", 0, 0.0, 1.0, "share of plastic work that becomes heat (heat by plastic work only)") \
-    ROW(spall_strength, "Pa", 0, 1e5, 1e11, "tension at which it fails")                                         \
-    ROW(hardness, "Pa", MPM_MATERIAL_FOR_SCREEN, 1e6, 1e11, "Vickers hardness as a pressure")                    \
-    ROW(resistivity, "ohm m", MPM_MATERIAL_FOR_CIRCUIT, 1e-10, 1e-3, "electrical resistivity at 293.15 K")       \
-    ROW(resistivity_slope, "1/K", 0, -0.1, 0.1, "temperature coefficient of the resistivity")                    \
-    ROW(fatigue_A, "1", MPM_MATERIAL_FOR_FATIGUE, 1e-30, 1e30, "A of life lost in a cycle, A range^m (L-1)")     \
-    ROW(fatigue_m, "1", MPM_MATERIAL_FOR_FATIGUE, 0.5, 30.0, "exponent m of the same")                           \
-    ROW(fatigue_limit, "1", 0, 0.0, 0.1, "strain range up to which a cycle takes no life; not given: none")      \
-    ROW(fatigue_A_spread, "1", 0, 0.0, 5.0,                                                                      \
-        "how well A is known: standard deviation of its natural logarithm, ln 2 = 0.69 for a factor of two")     \
+#define MATERIAL_CONSTANTS(ROW)                                                                                     \
+    ROW(density, "kg/m^3", MPM_MATERIAL_FOR_SCENE | MPM_MATERIAL_FOR_SCREEN, 0.01, 3e4,                             \
+        "density at the reference temperature")                                                                     \
+    ROW(youngs_modulus, "Pa", MPM_MATERIAL_FOR_FATIGUE, 1e6, 2e12, "Young's modulus")                               \
+    ROW(poisson, "1", MPM_MATERIAL_FOR_FATIGUE, 0.0, 0.499, "Poisson's ratio")                                      \
+    ROW(specific_heat, "J/(kg K)", MPM_MATERIAL_FOR_SCENE, 10.0, 1e4, "specific heat")                              \
+    ROW(conductivity, "W/(m K)", 0, 1e-2, 5e3, "thermal conductivity")                                              \
+    ROW(reference_temperature, "K", MPM_MATERIAL_FOR_SCENE | MPM_MATERIAL_FOR_MELTING, 1.0, 2e3,                    \
+        "temperature at which the constants hold")                                                                  \
+    ROW(melting_temperature, "K", MPM_MATERIAL_FOR_MELTING, 200.0, 5e3, "melting temperature (solidus)")            \
+    ROW(latent_heat, "J/kg", MPM_MATERIAL_FOR_MELTING, 1e3, 1e7, "latent heat of fusion")                           \
+    ROW(sound_speed, "m/s", MPM_MATERIAL_FOR_SCREEN, 100.0, 2e4, "bulk sound speed c0 of us = c0 + s up")           \
+    ROW(hugoniot_slope, "1", MPM_MATERIAL_FOR_SCREEN, 0.0, 5.0, "slope s of us = c0 + s up")                        \
+    ROW(rate_0, "1/s", 0, 1e-6, 1e6, "reference strain rate of strength and failure; slower ones count as this")    \
+    ROW(cold_work, "1", 0, 0.0, 100.0,                                                                              \
+        "plastic strain it has had before, from which its law of strength begins; not given: none")                 \
+    ROW(molar_mass, "kg/mol", 0, 1e-3, 0.5, "molar mass")                                                           \
+    ROW(taylor_quinney, "1", 0, 0.0, 1.0, "fraction of plastic work that becomes heat (heat by plastic work only)") \
+    ROW(spall_strength, "Pa", 0, 1e5, 1e11, "tension at which it fails")                                            \
+    ROW(hardness, "Pa", MPM_MATERIAL_FOR_SCREEN, 1e6, 1e11, "Vickers hardness as a pressure")                       \
+    ROW(resistivity, "ohm m", MPM_MATERIAL_FOR_CIRCUIT, 1e-10, 1e-3, "electrical resistivity at 293.15 K")          \
+    ROW(resistivity_slope, "1/K", 0, -0.1, 0.1, "temperature coefficient of the resistivity")                       \
+    ROW(fatigue_A, "1", MPM_MATERIAL_FOR_FATIGUE, 1e-30, 1e30, "A of life lost in a cycle, A range^m (L-1)")        \
+    ROW(fatigue_m, "1", MPM_MATERIAL_FOR_FATIGUE, 0.5, 30.0, "exponent m of the same")                              \
+    ROW(fatigue_limit, "1", 0, 0.0, 0.1, "strain range up to which a cycle takes no life; not given: none")         \
+    ROW(fatigue_A_spread, "1", 0, 0.0, 5.0,                                                                         \
+        "how well A is known: standard deviation of its natural logarithm, ln 2 = 0.69 for a factor of two")        \
     ROW(expansion, "1/K", 0, 0.0, 1e-3, "thermal expansion of a length, linear")
 
 /* What a law of strength has for a shear modulus: none, one from E and nu, its own for every point. */

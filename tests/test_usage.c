@@ -46,7 +46,7 @@ static void test_help(void **state)
         assert_true(contains("out.txt", says));
         snprintf(says, sizeof says, "example:\n  %s\n", c.example ? c.example : "");
         assert_true(!c.example || contains("out.txt", says));
-        assert_true(contains("out.txt", "breech --keys") == (strcmp(c.subject, "CASE") == 0));
+        assert_true(contains("out.txt", "breech --keys"));
         for (const usage_option *o = usage_options; o->name; o++)
             if (lists("out.txt", o->name) != usage_takes(&c, o)) fail_msg("--help %s: %s", c.name, o->name);
     }

@@ -6,7 +6,7 @@ enum { SIZE, NUMBER };
 
 const base_param case_treatment_polish_params[] = {
     TREATMENT_VALUE(SIZE, "size", "1", REQUIRED, 0.01, 1.0, "factor on every grain's size"),
-    TREATMENT_VALUE(NUMBER, "number", "1", 1.0, 0.0, 1.0, "share of a population's grains that is left"),
+    TREATMENT_VALUE(NUMBER, "number", "1", 1.0, 0.0, 1.0, "fraction of a population's grains that is left"),
     PARAMS_END,
 };
 

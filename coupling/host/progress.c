@@ -151,7 +151,7 @@ void host_timing_print(const timing *t, FILE *out)
         if (w > width) width = w;
     }
     const double unit = total > 0.0 ? 100.0 / total : 0.0;
-    fprintf(out, "%-*s  %8s  %10s  %6s\n", width, "phase", "calls", "time [s]", "share");
+    fprintf(out, "%-*s  %8s  %10s  %6s\n", width, "phase", "calls", "time [s]", "part");
     for (int i = 0; i < t->phases; i++)
         fprintf(out, "%-*s  %8llu  %10.3f  %4.0f %%\n", width, t->phase[i].name, (unsigned long long)t->phase[i].calls,
                 t->phase[i].seconds, unit * t->phase[i].seconds);

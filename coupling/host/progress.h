@@ -55,7 +55,7 @@ typedef struct {
 void host_timing_open(timing *t);
 /* seconds = host_wall_clock() - what it was at the phase's start; phases are made on first use. */
 void host_timing_add(timing *t, const char *phase, double seconds);
-/* A table: phase, calls, seconds, share of the whole; the rest as `other`. */
+/* A table: phase, calls, seconds, part of the whole; the rest as `other`. */
 void host_timing_print(const timing *t, FILE *out);
 
 #endif

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/life/contact.h"
 
+#include "base/constants.h"
+
 #include <complex.h>
 #include <math.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
 static const double ON_FACE = 1e-12; /* of a: a point on the face is taken this deep */
 
 typedef double complex cplx;

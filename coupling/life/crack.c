@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/life/crack.h"
 
+#include "base/constants.h"
 #include "mpm/rest.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
 static const double KEPT = 1e-3;     /* of the stiffness of a direction that opens: no point comes loose */
 static const double RESIDUAL = 1e-6; /* of the load: far below the error of the cells */
 static const double TURNS = 1e-5;    /* of the peak's strain: within that a cut neither opens nor closes */

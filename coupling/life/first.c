@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/life/first.h"
 
-#include <math.h>
+#include "base/constants.h"
 
-static const double PI = 3.14159265358979323846;
+#include <math.h>
 
 /* Where it is looked for, in half lengths of the patch. */
 static const double STEP = 0.025, WIDE = 1.6, DEEP = 1.5;

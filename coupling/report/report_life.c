@@ -118,7 +118,7 @@ static void draw_map(const page *p, const rail_map *m)
                              .dy = m->z[1] - m->z[0],
                              .colour_range = fmax(largest, 1e-9),
                              .unit = -1.0,
-                             .legend = "share cut",
+                             .legend = "fraction cut",
                              .above = "face of the rail on top",
                              .marked = isfinite(position) && isfinite(depth),
                              .mark = { position, -depth } };
@@ -146,9 +146,9 @@ static void draw_depth(const page *p, const rail_map *m)
     n = n + n / 4 + 1 < m->nz ? n + n / 4 + 1 : m->nz; /* a little further than any is cut */
     report_chart *c =
         report_chart_create((report_axis){ .label = "depth below the face", .unit = "m", .from_zero = true },
-                            (report_axis){ .label = "largest share cut", .unit = "1", .from_zero = true });
+                            (report_axis){ .label = "largest fraction cut", .unit = "1", .from_zero = true });
     report_chart_line(c, "", report_red, m->z, largest, n);
-    report_page_chart(p, "depth", "How deep the loads have used up directions: the largest share at each depth.", c);
+    report_page_chart(p, "depth", "How deep the loads have used up directions: the largest fraction at each depth.", c);
     free(largest);
 }
 

@@ -11,13 +11,18 @@ static const double ENERGY_ERROR_LIMIT = 0.01; /* above it a scene is warned abo
 
 /* ---- computing ---- */
 
+void run_scenes_warn_of_energy(session *s, const char *scene, double error)
+{
+    const bool named = scene[0] != '\0';
+    if (fabs(error) > ENERGY_ERROR_LIMIT)
+        run_session_warn(s, "%s%s%senergy error %.2f %%, above %.0f %%: lower scene.courant or take smaller cells",
+                         named ? "scene " : "", scene, named ? ": " : "", 100.0 * error, 100.0 * ENERGY_ERROR_LIMIT);
+}
+
 void run_scenes_warn_of(session *s, const onset_scene *e)
 {
     const scene_result *r = &e->result;
-    if (fabs(r->energy_error) > ENERGY_ERROR_LIMIT)
-        run_session_warn(s,
-                         "scene %s: energy error %.2f %%, above %.0f %%: lower scene.courant or raise the resolution",
-                         e->name, 100.0 * r->energy_error, 100.0 * ENERGY_ERROR_LIMIT);
+    run_scenes_warn_of_energy(s, e->name, r->energy_error);
     if (r->crater_truncated)
         run_session_warn(s, "scene %s: the crater reaches the edge of its map: enlarge scene.rail_ahead or rail_width",
                          e->name);

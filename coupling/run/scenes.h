@@ -38,6 +38,8 @@ status run_scenes_some(session *s, const scene_query *query, int n);
 /* What is to be said of a scene that was computed.  By whoever lists a study's scenes, in that list's order: they come
  * in another with every number of processes. */
 void run_scenes_warn_of(session *s, const onset_scene *e);
+/* Of its energy error alone [1]; scene: its name, "" where there is but one. */
+void run_scenes_warn_of_energy(session *s, const char *scene, double error);
 
 /* Scenes that may be needed next, the likeliest first; replaces the former list.  any_order: these scenes may run in
  * any order; the search needs all of them before it continues.  Those that run_scenes_some needs may then stand among

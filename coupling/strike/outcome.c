@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/strike/outcome.h"
 
+#include "base/constants.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -266,7 +268,7 @@ static status read_plate(history *h, const char *scene, const strike_projectile 
     state->plate = true;
     state->hole = open * one;
     state->least_hole = LEAST_COLUMNS * one / p->parts;
-    out->hole_diameter = sqrt(4.0 * state->hole / 3.14159265358979323846);
+    out->hole_diameter = sqrt(4.0 * state->hole / PI);
     return status_ok();
 }
 

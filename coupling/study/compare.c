@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double SIGNIFICANT = 0.95;
-
 void study_compare_answer_free(compare_answer *a)
 {
     for (int i = 0; i < a->n; i++) {
@@ -235,7 +233,8 @@ static int leader_of(const compare_answer *a, const int *order, int k)
 {
     for (int j = 0; j < k; j++) {
         const bool leads = a->entry[j].tied == j + 1;
-        const bool told = share_better(&a->drawn, order[j], order[k]) >= SIGNIFICANT && !rests_on_screen(a, order[j]);
+        const bool told =
+            share_better(&a->drawn, order[j], order[k]) >= STUDY_SIGNIFICANT && !rests_on_screen(a, order[j]);
         if (leads && !told) return j;
     }
     return k;
@@ -250,7 +249,7 @@ static status rank(const case_treatments *treatments, compare_answer *a)
         compare_entry *e = &a->entry[k];
         fill_entry(treatments, a, order[k], e);
         e->better_than_next = k + 1 < a->n ? share_better(&a->drawn, order[k], order[k + 1]) : NAN;
-        e->significant = e->better_than_next >= SIGNIFICANT && !rests_on_screen(a, order[k]);
+        e->significant = e->better_than_next >= STUDY_SIGNIFICANT && !rests_on_screen(a, order[k]);
         e->worse_than_best = k > 0 ? share_better(&a->drawn, order[0], order[k]) : NAN;
         e->tied = leader_of(a, order, k) + 1;
     }

@@ -31,13 +31,13 @@ typedef struct {
     double gouges, gouges_interval[2];                /* a shot, expected [1] */
     double probability_gouge;                         /* [1] */
     double better_than_next; /* share of what may be true in which it gouges less than the next one [1] */
-    bool significant;        /* that share is at least 0.95, not by the screen alone; of the last: the former one's */
-    double worse_than_best;  /* share of what may be true in which the best gouges less than it; of the best NAN [1] */
-    int tied;                /* rank of the best of its group, from which it cannot be told; from 1 */
-    int scenes;              /* its own, those shared with surfaces before it not counted */
-    char layer[24];          /* what its layers suffer: none, intact, dented, spalled, sheared off, worn through */
-    double layer_failed;     /* share of the layers over the crater that failed [1] */
-    double layer_velocity;   /* of the scene that says so [m/s] */
+    bool significant; /* that is at least STUDY_SIGNIFICANT, not by the screen alone; of the last: the former one's */
+    double worse_than_best; /* share of what may be true in which the best gouges less than it; of the best NAN [1] */
+    int tied;               /* rank of the best of its group, from which it cannot be told; from 1 */
+    int scenes;             /* its own, those shared with surfaces before it not counted */
+    char layer[24];         /* what its layers suffer: none, intact, dented, spalled, sheared off, worn through */
+    double layer_failed;    /* share of the layers over the crater that failed [1] */
+    double layer_velocity;  /* of the scene that says so [m/s] */
     double life, life_quantiles[3]; /* shots until a crack (life_compare.h); NAN: not asked for or not known [1] */
     int life_rank;                  /* tied, by life; 0: not asked for */
 } compare_entry;

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double SIGNIFICANT = 0.95;
 static const double ALIKE = 0.05; /* of one metal: lives that differ by a smaller share are tied */
 
 void study_life_compare_free(life_ranking *r)
@@ -111,7 +110,7 @@ static int leader_of(const life_ranking *r, int k)
     const bool judged = !isnan(life_of(&r->ranking[k]));
     for (int j = 0; j < k; j++) {
         const life_entry *first = &r->ranking[j];
-        const bool leads = first->tied == j + 1, told = chance(first, &r->ranking[k]) >= SIGNIFICANT;
+        const bool leads = first->tied == j + 1, told = chance(first, &r->ranking[k]) >= STUDY_SIGNIFICANT;
         if (leads && !told && isnan(life_of(first)) != judged) return j;
     }
     return k;
@@ -123,7 +122,7 @@ static void rank(life_ranking *r)
     for (int k = 0; k < r->n; k++) {
         life_entry *e = &r->ranking[k];
         e->better_than_next = k + 1 < r->n ? chance(e, e + 1) : NAN;
-        e->significant = e->better_than_next >= SIGNIFICANT;
+        e->significant = e->better_than_next >= STUDY_SIGNIFICANT;
         e->tied = leader_of(r, k) + 1;
     }
 }

@@ -13,6 +13,8 @@
 
 #include "coupling/study/rail_life.h"
 
+#define STUDY_SIGNIFICANT 0.95 /* chance from which on the better of two surfaces is told */
+
 typedef struct {
     char surface[SUMMARY_NAME_SIZE];
     char metal[BASE_PARAM_TEXT_SIZE]; /* whose constants are taken */
@@ -20,7 +22,7 @@ typedef struct {
     rail_life_result is;              /* owned */
     double spread;                    /* fatigue_A_spread of the metal */
     double better_than_next;          /* [1]; NAN: not known */
-    bool significant;                 /* at least 0.95 */
+    bool significant;                 /* that is at least STUDY_SIGNIFICANT */
     int tied;                         /* rank of the best of its group, from which it cannot be told; from 1 */
 } life_entry;
 

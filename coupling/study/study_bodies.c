@@ -8,13 +8,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double ENERGY_ERROR_LIMIT = 0.01; /* above it the scene is warned about */
-
 static void warn(session *s, const scene_bodies_result *r)
 {
-    if (fabs(r->energy_error) > ENERGY_ERROR_LIMIT)
-        run_session_warn(s, "energy error %.2f %%, above %.0f %%: lower scene.courant or take smaller cells",
-                         100.0 * r->energy_error, 100.0 * ENERGY_ERROR_LIMIT);
+    run_scenes_warn_of_energy(s, "", r->energy_error);
     for (int i = 0; i < r->bodies; i++)
         if (!(r->body[i].mass > 0.0))
             run_session_warn(s, "body %s: nothing of it is in the window at the end", r->body[i].name);

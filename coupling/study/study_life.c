@@ -124,7 +124,7 @@ static status look_for_crack(session *s, const study_case *of, const mpm_materia
     host_progress_task(&s->progress, "cuts until a crack", 0.0, 0);
     TRY(life_crack_find(&how, &r->crack));
     host_timing_add(&s->timing, "cuts until a crack", host_wall_clock() - since);
-    TRY(save_map(s, of, &r->crack, "index", "share of the point's directions that are cut", r->crack.index));
+    TRY(save_map(s, of, &r->crack, "index", "fraction of the point's directions that are cut", r->crack.index));
     TRY(save_map(s, of, &r->crack, "least_life", "least life that a direction of the point has left",
                  r->crack.least_life));
     warn(s, r, &of->in->life);

@@ -12,8 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double ENERGY_ERROR_LIMIT = 0.01; /* above it the scene is warned about */
-
 static const summary_key arrival_keys[] = {
     SUMMARY_TEXT(strike_arrival, "scene", scene, "its name"),
     SUMMARY_NUMBER(strike_arrival, "impact_velocity", is.impact_velocity, "m/s", "of arrival"),
@@ -199,9 +197,7 @@ static void warn(session *s, const strike_result *r)
                          "less than a tenth of the projectile is intact at the end: class and residual_velocity are "
                          "those of the rest that was intact %.4g us after the start",
                          1e6 * o->judged_time);
-    if (fabs(r->scene.energy_error) > ENERGY_ERROR_LIMIT)
-        run_session_warn(s, "energy error %.2f %%, above %.0f %%: lower scene.courant or take smaller cells",
-                         100.0 * r->scene.energy_error, 100.0 * ENERGY_ERROR_LIMIT);
+    run_scenes_warn_of_energy(s, "", r->scene.energy_error);
 }
 
 /* One that is wanted with its snapshots is computed where they are to lie. */

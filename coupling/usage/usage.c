@@ -76,11 +76,6 @@ bool usage_takes(const usage_command *c, const usage_option *o)
     return (o->taken_by & BIT(c->number)) != 0;
 }
 
-bool usage_reads_case(const usage_command *c)
-{
-    return strcmp(c->subject, "CASE") == 0;
-}
-
 /* ---- values ---- */
 
 /* "90", "45s", "30m", "2h", "1:30", "1:30:00" in seconds; NAN if it is none of these. */

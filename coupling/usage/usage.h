@@ -77,8 +77,6 @@ usage_command usage_command_at(int i); /* of USAGE_COMMANDS_MADE */
 /* Its name is NULL where there is none of this name. */
 usage_command usage_command_find(const char *name);
 bool usage_takes(const usage_command *c, const usage_option *o);
-/* Is its subject a case? */
-bool usage_reads_case(const usage_command *c);
 
 /* All commands and options; one command. */
 void usage_help(FILE *out);

@@ -49,7 +49,7 @@ void usage_help_command(const usage_command *c, FILE *out)
         any = true;
         print_option(o, out);
     }
-    if (usage_reads_case(c)) fputs("\nbreech --keys lists every key of a case, with unit, range and meaning\n", out);
+    fputs("\nbreech --keys lists every key of a case, with unit, range and meaning\n", out);
 }
 
 void usage_help(FILE *out)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/vessel/film.h"
 
+#include "base/constants.h"
+
 #include <math.h>
 #include <stdlib.h>
-
-static const double PI = 3.14159265358979323846;
 
 double vessel_volume(int dimension, double radius)
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/vessel/vessel.h"
 
+#include "base/constants.h"
 #include "circuit/dae.h"
 #include "coupling/vessel/film.h"
 
@@ -8,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
 static const double LAST = 1e-3; /* part of a bubble's gas that leaves slower */
 
 /* Unknowns, each over its scale: molar volume, volume inside the film, moles of the bubbles. */

@@ -14,7 +14,7 @@ const base_param mpm_flow_test_params[] = {
                  "plastic strain before the test; not given: the material's"),
     PARAM_DOUBLE(mpm_flow_test, yield_scale, "1", 1.0, 1e-3, 1e3, "factor on the flow stress"),
     PARAM_DOUBLE(mpm_flow_test, heat, "1", 0.0, 0.0, 1.0,
-                 "share of the plastic work that warms it: 0.9 of a test at thousands per second; 0: isothermal"),
+                 "fraction of the plastic work that warms it: 0.9 of a test at thousands per second; 0: isothermal"),
     PARAMS_END,
 };
 

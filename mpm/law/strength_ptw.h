@@ -17,7 +17,7 @@ CONSTANT(ptw_y1, "1", REQUIRED, 0.0, 10.0, "Preston-Tonks-Wallace y1: yield stre
 CONSTANT(ptw_y2, "1", REQUIRED, 0.0, 2.0, "Preston-Tonks-Wallace y2: its exponent")
 CONSTANT(ptw_beta, "1", REQUIRED, 0.0, 1.0, "Preston-Tonks-Wallace beta: exponent of the overdriven regime")
 CONSTANT(ptw_G0, "Pa", REQUIRED, 1e6, 1e12, "Preston-Tonks-Wallace shear modulus at T = 0")
-CONSTANT(ptw_alpha, "1", REQUIRED, 0.0, 0.95, "Preston-Tonks-Wallace alpha: share of that modulus lost at melting")
+CONSTANT(ptw_alpha, "1", REQUIRED, 0.0, 0.95, "Preston-Tonks-Wallace alpha: fraction of that modulus lost at melting")
 CONSTANT(ptw_cold_work, "1", 0.0, 0.0, 100.0,
          "Preston-Tonks-Wallace: plastic strain the metal has had before; not given: none")
 NEEDS(molar_mass)
