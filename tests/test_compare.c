@@ -1034,9 +1034,66 @@ static void test_shots_strip_the_rail(void **state)
     }
 }
 
+static int scenes_begin(const compare_answer *a, const char *prefix)
+{
+    int n = 0;
+    for (int i = 0; i < a->result.n_scenes; i++) n += strncmp(a->result.scene[i].name, prefix, strlen(prefix)) == 0;
+    return n;
+}
+
+/* Surfaces compared over several shots: each keeps its own heat and loses its own layers, and what ranks is the mean of
+ * all shots, which of the untreated rail is that of breech onset. */
+static void test_shots_compared(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD "populations:\n  - {preset: debris, radius_median: 0.3 mm}\n"
+                               "treatments:\n"
+                               "  - {name: loose, coating: [{material: steel_4340, thickness: 0.05 mm, "
+                               "bond_strength: 100 MPa}]}\n"
+                               "  - {name: greased, friction: {factor: 0.8}}\n",
+                          ALL);
+    c->rails.level = CIRCUIT_SHOT_RAILS_DIFFUSING;
+    compare_answer a;
+    OK(run_compare(c, "one-shot", &a));
+    assert_int_equal(a.result.shots, 1);
+    for (int i = 0; i < a.result.n; i++) assert_true(a.entry[i].gouges == a.entry[i].last_gouges);
+    assert_true(scenes_begin(&a, "warm-") == 0 && a.answer[1].rail.bare.n == 0);
+    const double loose_once = entry_of(&a, "loose")->gouges, plain_once = entry_of(&a, "untreated")->gouges;
+    study_compare_answer_free(&a);
+    c->study.shots = 6;
+    OK(run_compare(c, "six-shots", &a));
+    assert_int_equal(a.result.shots, 6);
+    const compare_entry plain = *entry_of(&a, "untreated"), loose = *entry_of(&a, "loose");
+    assert_true(scenes_begin(&a, "warm-") > 0 && scenes_begin(&a, "t1-warm-") > 0);
+    /* a layer of 0.05 mm is gone: then its rail is the untreated one, whose scenes serve */
+    assert_true(a.answer[1].rail.bare.n > 0 && a.answer[0].rail.bare.n == 0 && scenes_begin(&a, "t1-bare-") == 0);
+    print_message("untreated %g, %g, the last %g; loose %g, %g, %g\n", plain_once, plain.gouges, plain.last_gouges,
+                  loose_once, loose.gouges, loose.last_gouges);
+    print_message("untreated %g, %g, last %g; loose %g, %g, last %g\n", plain_once, plain.gouges, plain.last_gouges,
+                  loose_once, loose.gouges, loose.last_gouges);
+    assert_true(plain.last_gouges > 1.005 * plain_once && plain.gouges > plain_once);
+    assert_true(loose.last_gouges > 1.01 * loose_once && loose.gouges > loose_once);
+    assert_true(plain.gouges_interval[0] <= plain.gouges && plain.gouges <= plain.gouges_interval[1]);
+    for (int i = 1; i < a.result.n; i++) assert_true(a.entry[i - 1].gouges <= a.entry[i].gouges);
+    study_compare_answer_free(&a);
+    onset_answer alone = studied(c, "six-alone", status_ok());
+    double sum = 0.0;
+    for (int k = 0; k < 6; k++) sum += alone.result.shot[k].expected_gouges;
+    assert_true(fabs(sum / 6.0 / plain.gouges - 1.0) < 0.005); /* other random numbers */
+    assert_true(fabs(alone.result.shot[5].expected_gouges / plain.last_gouges - 1.0) < 0.005);
+    study_onset_answer_free(&alone);
+    c->study.shots = 500;
+    const status melts = run_compare(c, "melts", &a);
+    assert_int_equal(melts.code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(melts.text, "lower study.shots"));
+    study_compare_answer_free(&a);
+    case_free(c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_shots_compared),
         cmocka_unit_test(test_every_kind),
         cmocka_unit_test(test_what_they_do),
         cmocka_unit_test(test_refusals),

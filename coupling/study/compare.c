@@ -19,6 +19,7 @@ void study_compare_answer_free(compare_answer *a)
     study_life_compare_free(&a->life);
     free(a->treated);
     free(a->answer);
+    free(a->mean);
     free(a->entry);
     free(a->scene);
     memset(a, 0, sizeof *a);
@@ -47,8 +48,9 @@ static status make_room(int surfaces, compare_answer *a)
     const size_t n = (size_t)surfaces;
     a->treated = calloc(n, sizeof *a->treated);
     a->answer = calloc(n, sizeof *a->answer);
+    a->mean = calloc(n, sizeof *a->mean);
     a->entry = calloc(n, sizeof *a->entry);
-    CHECK(a->treated && a->answer && a->entry, STATUS_MEMORY, "no memory for %zu surfaces", n);
+    CHECK(a->treated && a->answer && a->mean && a->entry, STATUS_MEMORY, "no memory for %zu surfaces", n);
     a->n = (int)n;
     return status_ok();
 }
@@ -61,20 +63,20 @@ static status begin(session *s, const case_onset *c, const case_treatments *trea
         prefix_of(i, prefix[i]);
         TRY(case_treat(c, t, &a->treated[i]));
         const status begun = study_onset_begin(s, &a->treated[i], prefix[i], i == 0, &a->answer[i]);
-        CHECK(begun.code == STATUS_OK, begun.code, "%s%s%s%.400s", t ? "treatment `" : "", t ? t->name : "",
-              t ? "`: " : "", begun.text);
+        const status flown = begun.code == STATUS_OK
+                                 ? study_repeated_fly(s, &a->answer[i].grains, &a->answer[i].shot, &a->answer[i].rail)
+                                 : begun;
+        CHECK(flown.code == STATUS_OK, flown.code, "%s%s%s%.400s", t ? "treatment `" : "", t ? t->name : "",
+              t ? "`: " : "", flown.text);
     }
     return status_ok();
 }
 
-static status search(session *s, compare_answer *a)
+/* `all` has room for REPEATED_RAILS of each surface. */
+static status search_first(session *s, compare_answer *a, grain_families **all)
 {
-    grain_families **all = malloc((size_t)a->n * sizeof *all);
-    CHECK(all, STATUS_MEMORY, "no memory for %d surfaces", a->n);
     for (int i = 0; i < a->n; i++) all[i] = &a->answer[i].grains;
-    const status done = study_families_search(s, all, a->n);
-    free(all);
-    TRY(done);
+    TRY(study_families_search(s, all, a->n));
     for (int i = 0; i < a->n; i++) {
         TRY(study_scatter_run(s, &a->answer[i].grains));
         TRY(study_uncertain_run(s, &a->answer[i].grains, &a->answer[i].uncertain));
@@ -83,14 +85,42 @@ static status search(session *s, compare_answer *a)
     return status_ok();
 }
 
+/* What further shots find, of all surfaces side by side. */
+static status search_repeated(session *s, compare_answer *a, grain_families **all)
+{
+    int n = 0;
+    for (int i = 0; i < a->n; i++) {
+        int more;
+        TRY(study_repeated_want(&a->answer[i].grains, &a->answer[i].rail, all + n, &more));
+        n += more;
+    }
+    if (n == 0) return status_ok();
+    TRY(study_families_search(s, all, n));
+    for (int i = 0; i < a->n; i++)
+        study_repeated_found(&a->answer[i].rail, &a->answer[i].grains, &a->answer[i].uncertain);
+    return status_ok();
+}
+
+static status search(session *s, compare_answer *a)
+{
+    grain_families **all = malloc(REPEATED_RAILS * (size_t)a->n * sizeof *all);
+    CHECK(all, STATUS_MEMORY, "no memory for %d surfaces", a->n);
+    status done = search_first(s, a, all);
+    if (done.code == STATUS_OK) done = search_repeated(s, a, all);
+    free(all);
+    return done;
+}
+
 static status draw(session *s, const case_onset *c, compare_answer *a)
 {
     mc_surface *surface = malloc((size_t)a->n * sizeof *surface);
     CHECK(surface, STATUS_MEMORY, "no memory for %d surfaces", a->n);
-    for (int i = 0; i < a->n; i++)
-        surface[i] = (mc_surface){ .grains = &a->answer[i].grains, .draws = i, .size_factor = 1.0 };
+    for (int i = 0; i < a->n; i++) {
+        surface[i] = study_repeated_surface(&a->answer[i].rail, &a->answer[i].grains);
+        surface[i].draws = i;
+    }
     const mc_plan plan = { .histories = c->study.sampled,
-                           .shots = 1,
+                           .shots = c->study.shots,
                            .seed = c->study.seed,
                            .length = c->launcher.barrel.length,
                            .n = a->n,
@@ -99,7 +129,9 @@ static status draw(session *s, const case_onset *c, compare_answer *a)
                            .progress = &s->progress };
     const status done = study_mc_run(&plan, &a->drawn);
     free(surface);
-    return done;
+    TRY(done);
+    for (int i = 0; i < a->n; i++) study_mc_mean_shot(&a->drawn, i, &a->mean[i]);
+    return status_ok();
 }
 
 /* ---- what the layers suffer ---- */
@@ -172,7 +204,8 @@ static void fill_life(const life_entry *of, compare_entry *e)
 static void fill_entry(const case_treatments *treatments, const compare_answer *a, int i, compare_entry *e)
 {
     const onset_result *r = &a->answer[i].result;
-    const mc_shot *shot_drawn = &a->drawn.of[i];
+    const mc_shot *first = &a->drawn.of[i * a->drawn.shots], *last = first + a->drawn.shots - 1;
+    const mc_mean_shot *mean = &a->mean[i];
     const case_treatment *t = treatment_of(treatments, i);
     snprintf(e->surface, sizeof e->surface, "%s", t ? t->name : "untreated");
     prefix_of(i, e->scene_prefix);
@@ -183,12 +216,13 @@ static void fill_entry(const case_treatments *treatments, const compare_answer *
     e->threshold_deviation = r->threshold_deviation;
     e->threshold_position = r->threshold_position;
     memcpy(e->threshold_position_interval, r->threshold_position_interval, sizeof e->threshold_position_interval);
-    e->onset_position = a->treated[i].populations.n > 0 ? shot_drawn->first[1] : r->onset_position;
-    e->gouges = shot_drawn->gouges;
-    memcpy(e->gouges_interval, shot_drawn->gouges_interval, sizeof e->gouges_interval);
-    e->gouged_volume = shot_drawn->volume;
-    memcpy(e->gouged_volume_interval, shot_drawn->volume_interval, sizeof e->gouged_volume_interval);
-    e->probability_gouge = fmax(shot_drawn->probability, a->answer[i].grains.screen_probability);
+    e->onset_position = a->treated[i].populations.n > 0 ? first->first[1] : r->onset_position;
+    e->gouges = mean->gouges;
+    memcpy(e->gouges_interval, mean->gouges_interval, sizeof e->gouges_interval);
+    e->last_gouges = last->gouges;
+    e->gouged_volume = mean->volume;
+    memcpy(e->gouged_volume_interval, mean->volume_interval, sizeof e->gouged_volume_interval);
+    e->probability_gouge = fmax(mean->probability, a->answer[i].grains.screen_probability);
     e->scenes = own_scenes(a, i);
     fill_life(study_life_compare_find(&a->life, e->surface), e);
     judge_layers(&a->treated[i], &a->answer[i].grains, e);
@@ -197,7 +231,7 @@ static void fill_entry(const case_treatments *treatments, const compare_answer *
 /* Is surface i the better one?  Of equals the later threshold (never: the latest), then the order of the case. */
 static bool is_better(const compare_answer *a, int i, int j)
 {
-    const double gi = a->drawn.of[i].gouges, gj = a->drawn.of[j].gouges;
+    const double gi = a->mean[i].gouges, gj = a->mean[j].gouges;
     const double xi = a->answer[i].result.threshold_position, xj = a->answer[j].result.threshold_position;
     if (gi != gj) return gi < gj;
     if (isnan(xi) != isnan(xj)) return isnan(xi);
@@ -205,9 +239,9 @@ static bool is_better(const compare_answer *a, int i, int j)
     return i < j;
 }
 
-static double share_better(const mc_result *drawn, int i, int j)
+static double share_better(const compare_answer *all, int i, int j)
 {
-    const double *a = drawn->world_gouges + (size_t)i * MC_WORLDS, *b = drawn->world_gouges + (size_t)j * MC_WORLDS;
+    const double *a = all->mean[i].world_gouges, *b = all->mean[j].world_gouges;
     double wins = 0.0;
     for (int w = 0; w < MC_WORLDS; w++) wins += a[w] < b[w] ? 1.0 : a[w] == b[w] ? 0.5 : 0.0;
     return wins / MC_WORLDS;
@@ -233,8 +267,7 @@ static int leader_of(const compare_answer *a, const int *order, int k)
 {
     for (int j = 0; j < k; j++) {
         const bool leads = a->entry[j].tied == j + 1;
-        const bool told =
-            share_better(&a->drawn, order[j], order[k]) >= STUDY_SIGNIFICANT && !rests_on_screen(a, order[j]);
+        const bool told = share_better(a, order[j], order[k]) >= STUDY_SIGNIFICANT && !rests_on_screen(a, order[j]);
         if (leads && !told) return j;
     }
     return k;
@@ -248,15 +281,16 @@ static status rank(const case_treatments *treatments, compare_answer *a)
     for (int k = 0; k < a->n; k++) {
         compare_entry *e = &a->entry[k];
         fill_entry(treatments, a, order[k], e);
-        e->better_than_next = k + 1 < a->n ? share_better(&a->drawn, order[k], order[k + 1]) : NAN;
+        e->better_than_next = k + 1 < a->n ? share_better(a, order[k], order[k + 1]) : NAN;
         e->significant = e->better_than_next >= STUDY_SIGNIFICANT && !rests_on_screen(a, order[k]);
-        e->worse_than_best = k > 0 ? share_better(&a->drawn, order[0], order[k]) : NAN;
+        e->worse_than_best = k > 0 ? share_better(a, order[0], order[k]) : NAN;
         e->tied = leader_of(a, order, k) + 1;
     }
     free(order);
     a->result.ranking = a->entry;
     a->result.n = a->n;
     a->result.histories = a->drawn.histories;
+    a->result.shots = a->drawn.shots;
     study_compare_conclude(&a->result);
     return status_ok();
 }

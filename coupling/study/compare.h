@@ -2,7 +2,8 @@
 /* Rail surfaces compared: the untreated one and every treatment of the case (case/treatment.h), at the same shot, the
  * same grains, the same random numbers.
  *
- * Ranked by the expected number of gouges a shot; of equals the one that reaches its threshold later is the better.
+ * Ranked by the expected number of gouges a shot, the mean of study.shots of them on the same rail (repeated.h); of
+ * equals the one that reaches its threshold later in the first shot is the better.
  * `better_than_next`: share of the worlds (montecarlo.h: what the bands of the thresholds leave open) in which a
  * surface has fewer gouges than the next one, ties half.  The bands hold the place of the grid (search/scatter.h) where
  * that is asked for, and the inputs that are stated as uncertain (search/uncertain.h), each surface's by scenes of its
@@ -28,8 +29,9 @@ typedef struct {
     double threshold_deviation;                       /* over study.threshold_ensemble grids; NAN: not known [m/s] */
     double threshold_position;                        /* [m] */
     double threshold_position_interval[2];            /* where the ends of the threshold's interval are passed [m] */
-    double gouges, gouges_interval[2];                /* a shot, expected [1] */
-    double probability_gouge;                         /* [1] */
+    double gouges, gouges_interval[2];                /* a shot, expected: mean of all shots [1] */
+    double last_gouges;                               /* the same of the last shot [1] */
+    double probability_gouge;                         /* of a shot [1] */
     double better_than_next; /* share of what may be true in which it gouges less than the next one [1] */
     bool significant; /* that is at least STUDY_SIGNIFICANT, not by the screen alone; of the last: the former one's */
     double worse_than_best; /* share of what may be true in which the best gouges less than it; of the best NAN [1] */
@@ -49,7 +51,7 @@ typedef struct {
     int n_scenes;
     const onset_scene *scene; /* n_scenes, borrowed */
     int scenes_run, scenes_skipped, scenes_reused;
-    int histories;
+    int histories, shots;
     double wall_seconds; /* [s] */
 } compare_result;
 
@@ -61,6 +63,7 @@ typedef struct {
     case_onset *treated;  /* n, each owned; the first is untreated */
     onset_answer *answer; /* n, each owned */
     mc_result drawn;      /* owned */
+    mc_mean_shot *mean;   /* n, owned */
     compare_entry *entry; /* owned */
     onset_scene *scene;   /* owned */
     life_ranking life;    /* owned; empty: not asked for */

@@ -15,8 +15,8 @@ static const summary_key entry_keys[] = {
                    "from which a groove grows, furrow or gouge; null: not looked for"),
     SUMMARY_VECTOR(compare_entry, "scratch_interval", scratch_interval, 2, "m/s", "as threshold_interval"),
     SUMMARY_NUMBER(compare_entry, "onset_position", onset_position, "m",
-                   "of the first grain that gouges, with populations the median; null: no gouging"),
-    SUMMARY_NUMBER(compare_entry, "gouged_volume", gouged_volume, "m3", "of the whole shot"),
+                   "of the first shot's first grain that gouges, with populations the median; null: no gouging"),
+    SUMMARY_NUMBER(compare_entry, "gouged_volume", gouged_volume, "m3", "a shot, mean of all shots"),
     SUMMARY_VECTOR(compare_entry, "gouged_volume_interval", gouged_volume_interval, 2, "m3",
                    "5 and 95 % of what may be true"),
     SUMMARY_NUMBER(compare_entry, "threshold_position", threshold_position, "m",
@@ -25,9 +25,11 @@ static const summary_key entry_keys[] = {
                    "where its ends are"),
     SUMMARY_NUMBER(compare_entry, "threshold_deviation", threshold_deviation, "m/s",
                    "standard deviation over study.threshold_ensemble grids; its interval holds it; null: not known"),
-    SUMMARY_NUMBER(compare_entry, "gouges", gouges, "1", "a shot, expected: what ranks"),
+    SUMMARY_NUMBER(compare_entry, "gouges", gouges, "1", "a shot, expected, mean of all shots: what ranks"),
     SUMMARY_VECTOR(compare_entry, "gouges_interval", gouges_interval, 2, "1", "5 and 95 % of what may be true"),
-    SUMMARY_NUMBER(compare_entry, "probability_gouge", probability_gouge, "1", "that a shot gouges"),
+    SUMMARY_NUMBER(compare_entry, "last_gouges", last_gouges, "1",
+                   "expected of the last shot, on the rail that the shots before it have left"),
+    SUMMARY_NUMBER(compare_entry, "probability_gouge", probability_gouge, "1", "that a shot gouges, mean of all shots"),
     SUMMARY_NUMBER(compare_entry, "better_than_next", better_than_next, "1",
                    "fraction of what may be true in which it gouges less than the next"),
     SUMMARY_NUMBER(compare_entry, "worse_than_best", worse_than_best, "1",
@@ -61,6 +63,7 @@ const summary_key study_compare_keys[] = {
     SUMMARY_VALUE(compare_result, KEY_INTEGER, "scenes_skipped", scenes_skipped, "1",
                   "by the screen, shared or bounded by others"),
     SUMMARY_VALUE(compare_result, KEY_INTEGER, "scenes_reused", scenes_reused, "1", "taken from the store"),
+    SUMMARY_VALUE(compare_result, KEY_INTEGER, "shots", shots, "1", "on the same rail, study.shots"),
     SUMMARY_VALUE(compare_result, KEY_INTEGER, "histories", histories, "1", "of the Monte Carlo"),
     SUMMARY_NUMBER(compare_result, "wall_seconds", wall_seconds, "s", "time it took"),
     SUMMARY_END
@@ -80,13 +83,19 @@ static void print_verdict(const compare_result *c, FILE *out)
 static void print_ranking(const compare_result *c, FILE *out)
 {
     table *t;
-    if (host_table_create("#|surface|gouges|from|to|[mm3]|better|layer", &t).code != STATUS_OK) return;
+    const bool several = c->shots > 1;
+    if (host_table_create(several ? "#|surface|gouges|from|to|the last|[mm3]|better|layer"
+                                  : "#|surface|gouges|from|to|[mm3]|better|layer",
+                          &t)
+            .code != STATUS_OK)
+        return;
     for (int i = 0; i < c->n; i++) {
         const compare_entry *e = &c->ranking[i];
-        char n[24], few[24], many[24], volume[24], better[24];
-        host_table_row(t, "%d|%s|%s|%s|%s|%s|%s|%s", e->tied ? e->tied : i + 1, e->surface,
+        char n[24], few[24], many[24], last[24], volume[24], better[24];
+        host_table_row(t, "%d|%s|%s|%s|%s%s%s|%s|%s|%s", e->tied ? e->tied : i + 1, e->surface,
                        output_cell(e->gouges, 1.0, "%.3g", n), output_cell(e->gouges_interval[0], 1.0, "%.3g", few),
-                       output_cell(e->gouges_interval[1], 1.0, "%.3g", many),
+                       output_cell(e->gouges_interval[1], 1.0, "%.3g", many), several ? "|" : "",
+                       several ? output_cell(e->last_gouges, 1.0, "%.3g", last) : "",
                        output_cell(e->gouged_volume, 1e-9, "%.3g", volume),
                        output_cell(e->better_than_next, 0.01, "%.0f %%", better), e->layer);
     }

@@ -149,12 +149,7 @@ static status draw_shots(session *s, onset_answer *a)
 {
     const case_onset *c = a->grains.c;
     onset_result *r = &a->result;
-    const mc_surface one = { .grains = &a->grains,
-                             .size_factor = 1.0,
-                             .along = a->rail.along,
-                             .warm = a->rail.warm_case ? &a->rail.warm : NULL,
-                             .warm_rise = a->rail.rise,
-                             .bare = a->rail.bare_case ? &a->rail.bare : NULL };
+    const mc_surface one = study_repeated_surface(&a->rail, &a->grains);
     const mc_plan plan = { .histories = c->study.sampled,
                            .shots = c->study.shots,
                            .seed = c->study.seed,
@@ -313,10 +308,10 @@ status study_onset_list_scenes(session *s, onset_scene **out, int *n, int *run, 
     return status_ok();
 }
 
-status study_onset_possible(const case_onset *c, bool repeated)
+status study_onset_possible(const case_onset *c)
 {
     const int most = study_grain_kinds(c) * (1 + (c->study.judge == JUDGE_GROWTH ? c->study.craters : 0));
-    const bool follows = repeated && c->study.shots > 1;
+    const bool follows = c->study.shots > 1;
     if (!follows && most <= c->study.max_scenes) return status_ok();
     onset_answer a;
     session silent = { .threads = 1 };
@@ -326,6 +321,17 @@ status study_onset_possible(const case_onset *c, bool repeated)
     if (s.code == STATUS_OK && follows) s = study_repeated_possible(&silent, &a.grains, &a.shot);
     study_onset_answer_free(&a);
     return s.code == STATUS_BAD_INPUT ? s : status_ok(); /* the run tells what else may happen */
+}
+
+/* What further shots find. */
+static status search_repeated(session *s, onset_answer *a)
+{
+    grain_families *wanted[REPEATED_RAILS];
+    int n;
+    TRY(study_repeated_want(&a->grains, &a->rail, wanted, &n));
+    TRY(n > 0 ? study_families_search(s, wanted, n) : status_ok());
+    study_repeated_found(&a->rail, &a->grains, &a->uncertain);
+    return status_ok();
 }
 
 static status study(session *s, const case_onset *c, onset_answer *a)
@@ -338,9 +344,7 @@ static status study(session *s, const case_onset *c, onset_answer *a)
     TRY(study_scatter_run(s, &a->grains));
     TRY(study_uncertain_run(s, &a->grains, &a->uncertain));
     TRY(study_onset_judge(s, a));
-    TRY(study_repeated_search(s, &a->grains, &a->rail));
-    study_uncertain_widen(&a->uncertain, &a->grains, &a->rail.warm);
-    study_uncertain_widen(&a->uncertain, &a->grains, &a->rail.bare);
+    TRY(search_repeated(s, a));
     TRY(draw_shots(s, a));
     conclude_population(a);
     TRY(study_feedback_shot(s, a));

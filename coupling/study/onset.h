@@ -147,7 +147,7 @@ typedef struct {
 /* *out needs study_onset_answer_free even on error, before c goes; what was reached by then is in it. */
 status study_onset_run(session *s, const case_onset *c, onset_answer *out);
 /* STATUS_BAD_INPUT where a run would say so after its shot; flies that shot where it may decide. */
-status study_onset_possible(const case_onset *c, bool repeated);
+status study_onset_possible(const case_onset *c);
 void study_onset_print(const void *result, FILE *out); /* of an onset_result */
 void study_onset_answer_free(onset_answer *a);
 

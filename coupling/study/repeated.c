@@ -5,6 +5,7 @@
 #include "coupling/study/warm_rail.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -136,26 +137,44 @@ static status copy_case(const grain_families *first, case_onset **out)
     return status_ok();
 }
 
-status study_repeated_search(session *s, const grain_families *first, repeated_rail *out)
+status study_repeated_want(const grain_families *first, repeated_rail *out, grain_families **wanted, int *n)
 {
+    *n = 0;
     if (out->shots == 0) return status_ok();
     const bool warm = out->rise >= LEAST_RISE && (deepest_gouge(first) > 0.0 || is_renewed(first));
     const bool bare = wears_layers_through(first);
-    grain_families *all[2];
-    int n = 0;
     const double rounded = RISE_STEP * ceil(out->rise / RISE_STEP);
     if (!warm || rounded < study_warm_rail_melting_rise(first->c)) out->rise = warm ? rounded : 0.0;
     if (warm) {
         TRY(copy_case(first, &out->warm_case));
         out->warm_case->impact.rail.temperature += out->rise;
-        TRY(study_families_sort(out->warm_case, first->flown, "warm-", &out->warm));
-        all[n++] = &out->warm;
+        snprintf(out->warm_prefix, sizeof out->warm_prefix, "%swarm-", first->prefix);
+        TRY(study_families_sort(out->warm_case, first->flown, out->warm_prefix, &out->warm));
+        wanted[(*n)++] = &out->warm;
     }
     if (bare) {
         TRY(copy_case(first, &out->bare_case));
         out->bare_case->impact.rail.layers.n = 0;
-        TRY(study_families_sort(out->bare_case, first->flown, "bare-", &out->bare));
-        all[n++] = &out->bare;
+        snprintf(out->bare_prefix, sizeof out->bare_prefix, "%sbare-", first->prefix);
+        TRY(study_families_sort(out->bare_case, first->flown, out->bare_prefix, &out->bare));
+        wanted[(*n)++] = &out->bare;
     }
-    return n > 0 ? study_families_search(s, all, n) : status_ok();
+    return status_ok();
+}
+
+void study_repeated_found(repeated_rail *r, const grain_families *first, const uncertain_inputs *u)
+{
+    study_uncertain_widen(u, first, &r->warm);
+    study_uncertain_widen(u, first, &r->bare);
+    r->warm.prefix = r->bare.prefix = "";
+}
+
+mc_surface study_repeated_surface(const repeated_rail *r, const grain_families *first)
+{
+    return (mc_surface){ .grains = first,
+                         .size_factor = 1.0,
+                         .along = r->along,
+                         .warm = r->warm_case ? &r->warm : NULL,
+                         .warm_rise = r->rise,
+                         .bare = r->bare_case ? &r->bare : NULL };
 }

@@ -11,6 +11,7 @@
 
 #include "coupling/run/shot_record.h"
 #include "coupling/study/sampling/montecarlo.h"
+#include "coupling/study/search/uncertain.h"
 
 /* One shot. */
 typedef struct {
@@ -19,12 +20,13 @@ typedef struct {
 } repeated_shot;
 
 typedef struct {
-    int shots;                         /* 0: there is but one, all below is empty */
-    repeated_shot *shot;               /* [shots], owned */
-    mc_along *along;                   /* [shots], owned */
-    double rise;                       /* that the warm search is for; 0: there is none [K] */
-    case_onset *warm_case, *bare_case; /* owned, borrow from the first's; NULL: not needed */
-    grain_families warm, bare;         /* owned */
+    int shots;                             /* 0: there is but one, all below is empty */
+    repeated_shot *shot;                   /* [shots], owned */
+    mc_along *along;                       /* [shots], owned */
+    double rise;                           /* that the warm search is for; 0: there is none [K] */
+    case_onset *warm_case, *bare_case;     /* owned, borrow from the first's; NULL: not needed */
+    grain_families warm, bare;             /* owned */
+    char warm_prefix[32], bare_prefix[32]; /* of their scenes' names */
 } repeated_rail;
 
 /* The flights.  *out needs study_repeated_free even on error, before `first` goes.  STATUS_BAD_INPUT: the rail would
@@ -32,8 +34,15 @@ typedef struct {
 status study_repeated_fly(session *s, const grain_families *first, const shot_record *flight, repeated_rail *out);
 /* STATUS_BAD_INPUT where it would say so; it flies further shots only where the first one makes that likely. */
 status study_repeated_possible(session *s, const grain_families *first, const shot_record *flight);
-/* After the first shot's search: those of what further shots find, as far as any of them can meet it. */
-status study_repeated_search(session *s, const grain_families *first, repeated_rail *out);
+/* After the first shot's search: those of what further shots find, as far as any of them can meet it.  REPEATED_RAILS
+ * at most are put into `wanted`, *n of them, for study_families_search; they are borrowed from *out, which must stay
+ * where it is. */
+enum { REPEATED_RAILS = 2 };
+status study_repeated_want(const grain_families *first, repeated_rail *out, grain_families **wanted, int *n);
+/* After that search: their thresholds are as uncertain as those of the first shot. */
+void study_repeated_found(repeated_rail *r, const grain_families *first, const uncertain_inputs *u);
+/* For the random shots. */
+mc_surface study_repeated_surface(const repeated_rail *r, const grain_families *first);
 void study_repeated_free(repeated_rail *r);
 
 #endif

@@ -24,7 +24,7 @@ static status run(session *s, const study_case *of, study_answer *out)
 
 static status possible(const study_case *of)
 {
-    return study_onset_possible(&of->in->onset, of->in->treatments.n == 0);
+    return study_onset_possible(&of->in->onset);
 }
 
 const study study_onset = {

@@ -318,6 +318,27 @@ static void conclude(const mc *m, mc_result *out)
         out->strewn[i].gouges *= each, out->strewn[i].volume *= each;
 }
 
+void study_mc_mean_shot(const mc_result *r, int surface, mc_mean_shot *out)
+{
+    const double each = 1.0 / r->shots;
+    double volumes[MC_WORLDS] = { 0.0 };
+    memset(out, 0, sizeof *out);
+    for (int i = surface * r->shots; i < (surface + 1) * r->shots; i++) {
+        out->gouges += each * r->of[i].gouges;
+        out->volume += each * r->of[i].volume;
+        out->probability += each * r->of[i].probability;
+        for (int w = 0; w < MC_WORLDS; w++) {
+            out->world_gouges[w] += each * r->world_gouges[(size_t)i * MC_WORLDS + (size_t)w];
+            volumes[w] += each * r->world_volumes[(size_t)i * MC_WORLDS + (size_t)w];
+        }
+    }
+    middle_of(out->world_gouges, out->gouges_interval);
+    if (isnan(out->volume))
+        out->volume_interval[0] = out->volume_interval[1] = NAN;
+    else
+        middle_of(volumes, out->volume_interval);
+}
+
 /* ---- setting up ---- */
 
 void study_mc_velocities(const shot_outcome *flown, double length, double v[MC_PLACES + 1])

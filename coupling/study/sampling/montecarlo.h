@@ -64,7 +64,7 @@ typedef struct {
     mc_shot *of; /* [n x shots], owned */
     int populations;
     mc_strewn *strewn;     /* [n x shots x populations x MC_PIECES], owned */
-    double *world_gouges;  /* [n x MC_WORLDS] means of the first shot, owned */
+    double *world_gouges;  /* [n x shots x MC_WORLDS] means, owned */
     double *world_volumes; /* the same for the volume [m3], owned */
     double seconds;        /* that it took */
 } mc_result;
@@ -75,6 +75,14 @@ void study_mc_velocities(const shot_outcome *flown, double length, double v[MC_P
 /* *out needs study_mc_free even on error.  STATUS_STOPPED: nothing of it can be used. */
 status study_mc_run(const mc_plan *plan, mc_result *out);
 void study_mc_free(mc_result *r);
+
+/* A surface over all its shots: means of one. */
+typedef struct {
+    double gouges, volume, probability; /* as in mc_shot [1, m3, 1] */
+    double gouges_interval[2], volume_interval[2];
+    double world_gouges[MC_WORLDS];
+} mc_mean_shot;
+void study_mc_mean_shot(const mc_result *r, int surface, mc_mean_shot *out);
 
 /* Of one surface in the middle of its bands, by quadrature: expected number of gouges [1]. */
 double study_mc_expected(const grain_families *grains, double length);
