@@ -357,6 +357,47 @@ static void the_table_says_what_cases_say(void **state)
     free(text);
 }
 
+/* The listing of a material says where its law of strength is from before it says what it is good for; the table names
+ * the law, and none where no constant of it is known. */
+static void the_source_of_strength_is_told(void **state)
+{
+    shelf *s = *state;
+    static const char *const of_law[] = { "yield_A", "mts_a0", "ptw_theta", "sg_Y0" };
+    const material_places at = { .n = 1, .dir = { MATERIALS } };
+    char *table = NULL;
+    size_t length = 0;
+    int told = 0;
+    FILE *f = open_memstream(&table, &length);
+    assert_int_equal(case_materials_print(&at, f).code, STATUS_OK);
+    fclose(f);
+    assert_non_null(strstr(table, "ofhc_copper_half_hard  mts "));
+    assert_non_null(strstr(table, "al7075_t651_limited    johnson_cook "));
+    assert_non_null(strstr(table, "cucrzr                 - "));
+    assert_non_null(strstr(table, "water                  - (fluid) "));
+    free(table);
+    for (int k = 0; k < s->n; k++) {
+        material_sheet sheet;
+        char *errors = NULL, *text = NULL;
+        assert_int_equal(case_material_sheet_find(s->u, s->names[k], dirs, 1, &sheet, &errors).code, STATUS_OK);
+        f = open_memstream(&text, &length);
+        case_material_print(&sheet, f);
+        fclose(f);
+        for (int i = 0; i < sheet.n; i++)
+            for (size_t j = 0; j < sizeof of_law / sizeof of_law[0]; j++) {
+                if (strcmp(sheet.constant[i].constant->key, of_law[j]) != 0) continue;
+                char line[1200];
+                snprintf(line, sizeof line, "    source: %s\n", sheet.constant[i].source);
+                const char *found = strstr(text, line), *behind = strstr(text, "\ngood for:");
+                if (!found || found > behind) fail_msg("%s: %s", s->names[k], line);
+                if (strstr(found + 1, line)) fail_msg("%s: told twice: %s", s->names[k], line);
+                told++;
+            }
+        free(text);
+        case_material_sheet_free(&sheet);
+    }
+    assert_true(told > 15);
+}
+
 /* What no source gives is not assumed: the refusal names the material and the constants. */
 static void strength_without_a_source_is_refused(void **state)
 {
@@ -395,6 +436,7 @@ int main(void)
         cmocka_unit_test(folders_are_found),
         cmocka_unit_test(the_laws_are_read),
         cmocka_unit_test(the_table_says_what_cases_say),
+        cmocka_unit_test(the_source_of_strength_is_told),
         cmocka_unit_test(strength_without_a_source_is_refused),
     };
     return cmocka_run_group_tests(tests, open_shelf, close_shelf);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LACK_SIZE = 38 /* of the table's last column */, TEXT_SIZE = sizeof((status){ .code = STATUS_OK }.text) };
+enum { LACK_SIZE = 28 /* of the table's last column */, TEXT_SIZE = sizeof((status){ .code = STATUS_OK }.text) };
 
 enum { IN_SCENES = MPM_MATERIAL_FOR_SCENE, FAILING = IN_SCENES | MPM_MATERIAL_FOR_DAMAGE };
 
@@ -41,6 +41,60 @@ static void list_lacks(const mpm_material *m, const material_role *role, char ou
     snprintf(out, TEXT_SIZE, "%s", s.code == STATUS_OK ? "" : list ? list + 7 : s.text);
 }
 
+/* ---- laws of strength ---- */
+
+/* The name of a law as files have it, then its own constants, and so on. */
+typedef struct {
+    const char *law, *key; /* one of the two */
+} law_row;
+
+static const law_row strength_rows[] = {
+#define STRENGTH(name, shear, text) { .law = #name },
+#define CONSTANT(member, unit, fallback, least, largest, text) { .key = #member },
+#include "mpm/law/strength.def"
+    { .law = "" }
+};
+
+/* The row of the law of this number; its constants follow. */
+static const law_row *law_find(int kind)
+{
+    const law_row *row = strength_rows;
+    for (; !row->law || (row->law[0] && kind-- > 0); row++) continue;
+    return row;
+}
+
+static const material_constant *constant_find(const material_sheet *sheet, const char *key)
+{
+    for (int i = 0; i < sheet->n; i++)
+        if (strcmp(sheet->constant[i].constant->key, key) == 0) return &sheet->constant[i];
+    return NULL;
+}
+
+/* "mts"; "-": it is a fluid, or its file has no constant of a law. */
+static const char *strength_name(const material_sheet *sheet)
+{
+    const law_row *law = law_find(sheet->material.strength);
+    if (mpm_material_shear(&sheet->material) == MPM_SHEAR_NONE) return "- (fluid)";
+    for (const law_row *row = law + 1; row->key; row++)
+        if (constant_find(sheet, row->key)) return law->law;
+    return "-";
+}
+
+/* Where the constants of its law of strength come from, each source once. */
+static void print_law_sources(const material_sheet *sheet, FILE *out)
+{
+    const law_row *first = law_find(sheet->material.strength) + 1;
+    for (const law_row *row = first; row->key; row++) {
+        const material_constant *k = constant_find(sheet, row->key);
+        bool told = !k;
+        for (const law_row *before = first; before < row && !told; before++) {
+            const material_constant *b = constant_find(sheet, before->key);
+            told = b && strcmp(b->source, k->source) == 0;
+        }
+        if (!told) fprintf(out, "    source: %s\n", k->source);
+    }
+}
+
 /* ---- the table ---- */
 
 /* "yes", "(yes)": where the case says `unless`; "-". */
@@ -65,13 +119,13 @@ static void shortened(const mpm_material *m, char out[LACK_SIZE + 24])
     for (char *rest = all, *key; (key = strtok_r(rest, ",", &rest));) {
         while (*key == ' ') key++;
         const size_t used = strlen(out);
-        if (more || used + strlen(key) > LACK_SIZE - 12)
+        if (more || (used && used + strlen(key) > LACK_SIZE - 8))
             more++;
         else
             snprintf(out + used, LACK_SIZE - used, "%s%s", used ? ", " : "", key);
     }
     const size_t used = strlen(out);
-    if (more) snprintf(out + used, 24, ", %d more", more);
+    if (more) snprintf(out + used, 24, ", +%d", more);
 }
 
 static status add_row(table *t, const char *name, const char *const *dirs, int n_dirs)
@@ -85,9 +139,9 @@ static status add_row(table *t, const char *name, const char *const *dirs, int n
     TRY(s);
     const mpm_material *m = &sheet.material;
     shortened(m, lacks);
-    const status added = host_table_row(
-        t, "%.24s|%s|%s|%s|%s|%s|%s|%s", name, mpm_material_shear(m) == MPM_SHEAR_NONE ? "fluid" : "solid",
-        good(m, role_at(0)), good(m, role_at(1)), good(m, role_at(2)), good(m, role_at(3)), good(m, role_at(4)), lacks);
+    const status added =
+        host_table_row(t, "%.24s|%s|%s|%s|%s|%s|%s|%s", name, strength_name(&sheet), good(m, role_at(0)),
+                       good(m, role_at(1)), good(m, role_at(2)), good(m, role_at(3)), good(m, role_at(4)), lacks);
     case_material_sheet_free(&sheet);
     return added;
 }
@@ -119,7 +173,8 @@ status case_materials_print(const material_places *at, FILE *out)
 {
     table *t;
     const material_role *role;
-    TRY(host_table_create("material||shot|onset|fails|body|life|lacks", &t));
+    char path[MATERIAL_PATH_SIZE];
+    TRY(host_table_create("material|strength|shot|onset|fails|body|life|lacks", &t));
     status s = status_ok();
     for (int d = 0; d < at->n && s.code == STATUS_OK; d++) s = add_folder(t, at, d);
     if (s.code == STATUS_OK) host_table_print(t, out);
@@ -130,7 +185,13 @@ status case_materials_print(const material_places *at, FILE *out)
         fprintf(out, "%-6s %s", role->name, role->doc);
         fprintf(out, role->unless ? "; (yes): with %s\n" : "%s\n", role->unless ? role->unless : "");
     }
-    fputs("breech materials NAME: all that is known of one, and what it lacks\n", out);
+    fputs("lacks  constants for parts that it cannot have; +4: four more\n"
+          "breech materials NAME: all that is known of one, the source of each constant, and what it lacks\n",
+          out);
+    if (case_material_file_find("ofhc_copper_half_hard", at->dir, at->n, path).code == STATUS_OK)
+        fputs("of several coppers or aluminium alloys: the default shot has a rail of ofhc_copper_half_hard and an\n"
+              "armature of al7075_t651_limited; which to take for yours: docs/guide/own-launcher.md\n",
+              out);
     for (int d = 0; d < at->n; d++) fprintf(out, "%s%s\n", d == 0 ? "from " : "     ", at->dir[d]);
     return status_ok();
 }
@@ -156,8 +217,10 @@ void case_material_print(const material_sheet *sheet, FILE *out)
     const mpm_material *m = &sheet->material;
     fprintf(out, "%s: %s\n%s\n", m->name, sheet->title, sheet->path);
     if (sheet->base[0]) fprintf(out, "changes %s\n", sheet->base);
-    fprintf(out, "  strength: %s\n  eos: %s\n  failure: %s\n\ngood for:\n", mpm_material_strength_text(m->strength),
-            mpm_material_eos_text(m->eos), mpm_material_failure_text(m->failure));
+    fprintf(out, "  strength: %s\n", mpm_material_strength_text(m->strength));
+    print_law_sources(sheet, out);
+    fprintf(out, "  eos: %s\n  failure: %s\n\ngood for:\n", mpm_material_eos_text(m->eos),
+            mpm_material_failure_text(m->failure));
     print_roles(m, out);
     fputs("\nconstants:\n", out);
     for (int i = 0; i < sheet->n; i++) {

@@ -509,13 +509,58 @@ static bool is_idle(const summary_object *o, const summary_key *k)
     return k->only_with && output_number_of(o, k->only_with, NULL) == 0.0;
 }
 
+enum { SHOWN_WIDTH = 100, LEAST_MEANING = 24 /* columns, else none */, VALUE_SIZE = 200 };
+
+static bool is_shown(const summary_object *o, const summary_key *k, char value[VALUE_SIZE])
+{
+    return is_short(k) && !is_idle(o, k) && shown_text(k, o->of, value, VALUE_SIZE);
+}
+
+/* Columns that the table leaves for what its keys mean. */
+static int room_for_meaning(const summary_object *o)
+{
+    int name = (int)strlen("result"), number = (int)strlen("value"), unit = (int)strlen("unit");
+    char value[VALUE_SIZE];
+    for (const summary_key *k = o->keys; k->name; k++) {
+        if (!is_shown(o, k, value)) continue;
+        const int digits = (int)strcspn(value, "|");
+        name = (int)fmax(name, strlen(k->name));
+        number = (int)fmax(number, digits);
+        unit = (int)fmax(unit, strlen(value + digits + 1));
+    }
+    return SHOWN_WIDTH - (name + 2 + number + 2 + unit + 2);
+}
+
+/* The key's row, with its doc to the first semicolon; rows below it go on with that. */
+static void add_with_meaning(table *t, const summary_key *k, const char *value, int room)
+{
+    const char *at = k->doc, *end = k->doc + strcspn(k->doc, ";|");
+    bool first = true;
+    while (first || at < end) {
+        int n = (int)(end - at);
+        if (n > room)
+            for (n = room; n > 0 && at[n] != ' '; n--) continue;
+        if (n == 0) n = room; /* a word wider than that */
+        host_table_row(t, "%s|%s|%.*s", first ? k->name : "", first ? value : "|", n < end - at ? n : (int)(end - at),
+                       at);
+        at += n;
+        while (at < end && *at == ' ') at++;
+        first = false;
+    }
+}
+
 void output_keys_print(const summary_object *o, FILE *out)
 {
     table *t;
-    if (!o->of || host_table_create("result|value|unit", &t).code != STATUS_OK) return;
+    const int room = o->of ? room_for_meaning(o) : 0;
+    const bool explained = room >= LEAST_MEANING;
+    if (!o->of || host_table_create(explained ? "result|value|unit|meaning" : "result|value|unit", &t).code) return;
     for (const summary_key *k = o->keys; k->name; k++) {
-        char value[200];
-        if (is_short(k) && !is_idle(o, k) && shown_text(k, o->of, value, sizeof value))
+        char value[VALUE_SIZE];
+        if (!is_shown(o, k, value)) continue;
+        if (explained)
+            add_with_meaning(t, k, value, room);
+        else
             host_table_row(t, "%s|%s", k->name, value);
     }
     host_table_print(t, out);

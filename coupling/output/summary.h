@@ -116,7 +116,7 @@ typedef struct {
 status output_summary_write(const char *dir, const run_summary *s);
 /* Its text, malloc'ed, the caller frees it; NULL when out of memory. */
 char *output_summary_text(const run_summary *s);
-/* The closing table for people. */
+/* The closing table for people: each key with its value and, where 100 columns allow it, what it means. */
 void output_summary_print(const run_summary *s, FILE *out);
 
 /* ---- objects by themselves ---- */

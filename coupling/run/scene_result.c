@@ -26,7 +26,7 @@ const summary_key run_result_keys[] = {
     SUMMARY_NUMBER(scene_result, "max_pressure", max_pressure, "Pa",
                    "of any intact point at any time: molten debris may set it"),
     SUMMARY_VECTOR(scene_result, "peak_force", peak_force, 3, "N", "on the rail, full model"),
-    SUMMARY_NUMBER(scene_result, "peak_temperature", peak_temperature, "K", "of any intact point at any time"),
+    SUMMARY_NUMBER(scene_result, "peak_temperature", peak_temperature, "K", "of any intact point at any time: a molten splinter may set it"),
     SUMMARY_NUMBER(scene_result, "peak_mises_armature", peak_mises_armature, "Pa",
                    "von Mises stress of any of its particles"),
     SUMMARY_NUMBER(scene_result, "peak_mises_rail", peak_mises_rail, "Pa", "von Mises stress of any of its particles"),

@@ -5,7 +5,8 @@
 
 const summary_key run_shot_keys[] = {
     SUMMARY_NUMBER(shot_record, "peak_current", is.peak_current, "A", "largest current in the rails"),
-    SUMMARY_NUMBER(shot_record, "muzzle_velocity", is.muzzle_velocity, "m/s", "null: the armature did not leave"),
+    SUMMARY_NUMBER(shot_record, "muzzle_velocity", is.muzzle_velocity, "m/s",
+                   "of the armature at exit; null: it did not leave"),
     SUMMARY_NUMBER(shot_record, "muzzle_time", is.muzzle_time, "s", "when it left"),
     SUMMARY_NUMBER(shot_record, "muzzle_energy", is.muzzle_energy, "J", "kinetic, at exit"),
     SUMMARY_NUMBER(shot_record, "efficiency", is.efficiency, "1",

@@ -24,7 +24,7 @@ const summary_key scene_bodies_keys[] = {
     SUMMARY_NUMBER(scene_bodies_result, "peak_pressure", peak_pressure, "Pa", "the largest of the bodies'"),
     SUMMARY_NUMBER(scene_bodies_result, "max_pressure", max_pressure, "Pa",
                    "of any intact point at any time: molten debris may set it"),
-    SUMMARY_NUMBER(scene_bodies_result, "peak_temperature", peak_temperature, "K", "of any intact point at any time"),
+    SUMMARY_NUMBER(scene_bodies_result, "peak_temperature", peak_temperature, "K", "of any intact point at any time: a molten splinter may set it"),
     SUMMARY_NUMBER(scene_bodies_result, "kinetic", kinetic, "J", "energy of motion at the end, as computed"),
     SUMMARY_NUMBER(scene_bodies_result, "internal", internal, "J", "work of stress and heat, as computed"),
     SUMMARY_NUMBER(scene_bodies_result, "heat_friction", heat_friction, "J", "part of internal"),
