@@ -267,36 +267,50 @@ static void print_random(const case_onset *c)
     if (grains > 0.0) printf("random shots: %d histories, at most %.2g grains, %s\n", c->study.sampled, grains, time);
 }
 
+/* "; likely some 3 min 10 s for so many", or "". */
+static const char *search_time(const scene_estimate *e, int n, int scenes, char text[80])
+{
+    const double seconds = study_check_search_time(e, n, scenes);
+    char time[40];
+    host_duration_text(seconds, time, sizeof time);
+    snprintf(text, 80, isnan(seconds) ? "" : "\n  likely some %s for so many scenes", time);
+    return text;
+}
+
 static status print_check(const case_inputs *in, int threads)
 {
     scene_estimate e[CHECK_MAX_ESTIMATES];
     int n = 0;
+    double rate;
     table *t;
-    TRY(study_check(in, threads, e, &n));
+    TRY(study_check(in, threads, e, &n, &rate));
     printf("%s: %s\n", in->path, in->title[0] ? in->title : in->name);
     fputs(in->warnings, stdout);
     study_check_films(in, stdout);
-    TRY(host_table_create("scene|points at the start|memory [GB]|steps|time, at least", &t));
+    TRY(host_table_create("scene|points at the start|memory [GB]|steps|time, at least|likely", &t));
     for (int i = 0; i < n; i++) {
         const mpm_needs *at = &e[i].needs;
-        char time[40];
+        char time[40], likely[40] = "-";
         host_duration_text(e[i].seconds, time, sizeof time);
-        host_table_row(t, "%s|%zu|%.2f|%.0f|%s", e[i].what, at->particles, 1e-9 * (double)at->bytes, e[i].steps, time);
+        if (!isnan(e[i].likely)) host_duration_text(e[i].likely, likely, sizeof likely);
+        host_table_row(t, "%s|%zu|%.2f|%.0f|%s|%s", e[i].what, at->particles, 1e-9 * (double)at->bytes, e[i].steps,
+                       time, likely);
     }
     if (n > 0) host_table_print(t, stdout);
     host_table_free(t);
-    if (n > 0) study_check_assumptions(in, threads, stdout);
+    if (n > 0) study_check_assumptions(in, threads, rate, stdout);
     study_check_searches(in, stdout);
     const case_onset *c = &in->onset;
-    char whole[80] = "";
+    char whole[80] = "", text[80];
     const int craters = c->study.judge == JUDGE_GROWTH ? c->study.craters * study_grain_kinds(c) : 0;
     if (craters > 0) snprintf(whole, sizeof whole, ", of which %d are kept for whole craters (study.craters)", craters);
     if (c->study.ensemble > 0) printf("scene: on %d grids, each as above\n", c->study.ensemble);
     if (c->sites.n > 0 || c->populations.n > 0)
-        printf("onset: %d sites, %d populations, at most %d scenes%s\n", c->sites.n, c->populations.n,
-               c->study.max_scenes, whole);
+        printf("onset: %d sites, %d populations, at most %d scenes%s%s\n", c->sites.n, c->populations.n,
+               c->study.max_scenes, whole, search_time(e, n, c->study.max_scenes, text));
     if (in->treatments.n > 0 && c->sites.n + c->populations.n > 0)
-        printf("compare: %d surfaces, at most %d scenes each%s\n", in->treatments.n + 1, c->study.max_scenes, whole);
+        printf("compare: %d surfaces, at most %d scenes each%s%s\n", in->treatments.n + 1, c->study.max_scenes, whole,
+               search_time(e, n, (in->treatments.n + 1) * c->study.max_scenes, text));
     print_random(c);
     return status_ok();
 }

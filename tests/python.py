@@ -280,24 +280,31 @@ def test_bodies(folder):
 
 
 def test_examples(folder):
-    """Both scripts, in a folder whose default shot is a cheap one."""
+    """All scripts, in a folder whose default shot is a cheap one."""
     (folder / "cases").mkdir()
     cheap().save(folder / "cases" / "default_shot")
     said = {}
-    for script in ("first_shot.py", "rank_coatings.py"):
+    for script in ("first_shot.py", "coated_crater.py", "rank_coatings.py"):
         done = subprocess.run([sys.executable, ROOT / "python" / "examples" / script], cwd=folder, text=True, capture_output=True,
                               env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
         assert done.returncode == 0, done.stderr
         said[script] = done.stdout
     assert said["first_shot.py"].startswith("10.55 kV 3 m 0.25\n1933 m/s after 3.25 ms\n"), said["first_shot.py"]
     assert "9.495 kV: " in said["first_shot.py"] and "scene.velocity = 1.2 kg" in said["first_shot.py"]
+    craters = {line.split()[0]: line.split()[1:] for line in said["coated_crater.py"].splitlines()}
+    assert list(craters) == ["bare", "nickel"] and craters["bare"][1:] != craters["nickel"][1:]
+    coated = breech.Run(folder / "out" / "coated" / "nickel")
+    numbers_of = coated.crater("scene").numbers
+    assert f"{1e3 * numbers_of['depth_m']:.3f}" in craters["nickel"] and abs(coated.summary["crater_depth"] - numbers_of["depth_m"]) < 1e-9
+    page = (ROOT / "docs" / "guide" / "python.md").read_text()
+    assert all(f"`{key}`" in page for key in numbers_of), numbers_of
     ranks = said["rank_coatings.py"].splitlines()
     ranking = breech.Run(folder / "out" / "coatings").summary["ranking"]
     assert [line.split()[0] for line in ranks[:-1]] == [one["surface"] for one in ranking]
     assert [line.endswith("cannot be told from it") for line in ranks[:-1]] == [one["tied"] == 1 for one in ranking]
     assert ranks[-1] == breech.Run(folder / "out" / "coatings").summary["verdict"] != ""
     assert sorted(one["surface"] for one in ranking) == ["nickel", "steel_4340", "tantalum", "ti6al4v", "untreated", "w_alloy"]
-    for picture in ("coatings/ranking.png", "python/shot.png", "python/crater.png"):
+    for picture in ("coatings/ranking.png", "python/shot.png", "python/crater.png", "coated/bare.png", "coated/nickel.png"):
         assert (folder / "out" / picture).stat().st_size > 10000, picture
     shot = breech.Run(folder / "out" / "python" / "shot")
     line = breech.plot.shot(shot).axes[2].lines[0].get_ydata()

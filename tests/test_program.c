@@ -96,7 +96,8 @@ static void test_senseless(void **state)
     assert_int_equal(run("check " SHOT " --set output.snapshots=1e1"), 0);
     assert_int_equal(run("check " SHOT " --set study.shots=3"), 0);
     assert_false(contains("out.txt", "warning: study.max_scenes"));
-    assert_true(contains("out.txt", "at least: 200 ns a point and step"));
+    assert_true(contains("out.txt", " ns a point and step") && contains("out.txt", ", as just measured"));
+    assert_true(contains("out.txt", "likely: 1.8 times that") && contains("out.txt", "\n  likely some "));
     /* one grain: what one whole crater leaves of three is enough for a bracket, of two it is not */
     assert_int_equal(run("check " SHOT " --set study.craters=1 --set study.max_scenes=2"), 0);
     assert_true(contains("out.txt", "study.max_scenes = 2: less 1 for whole craters it leaves 1"));

@@ -19,7 +19,8 @@ typedef struct {
     unsigned without;   /* of these, what bodies that may not fail do not need */
     const char *unless; /* what the case then says; NULL: it fails in this part, or never does */
 } material_role;
-/* One line for each material in these folders with its law of strength, at most 100 columns; an earlier folder's hides those of its name. */
+/* One line for each material in these folders with its law of strength, at most 100 columns; an earlier folder's hides
+ * those of its name. */
 status case_materials_print(const material_places *at, FILE *out);
 /* Laws, where that of strength is from, what it is good for, constants with their sources. */
 void case_material_print(const material_sheet *sheet, FILE *out);

@@ -4,6 +4,7 @@
 #include "coupling/case/treatment.h"
 #include "coupling/gouge/impact_scene.h"
 #include "coupling/host/machine.h"
+#include "coupling/host/progress.h"
 #include "coupling/scene/scene_fill.h"
 #include "coupling/strike/arrival.h"
 #include "coupling/study/sampling/population.h"
@@ -40,14 +41,19 @@ static status scene_possible(const case_impact *c, size_t *largest)
     return status_ok();
 }
 
-/* A search's slowest scene with this grain. */
-static case_impact slowest(const case_onset *c, const case_site *grain, double cells_per_radius)
+/* A search's scene with this grain at this velocity. */
+static case_impact scene_at(const case_onset *c, const case_site *grain, double velocity, double cells_per_radius)
 {
     const case_impact probe = study_family_probe(c);
     const site_state state = { .grain = *grain,
-                               .velocity = c->study.velocity_low,
+                               .velocity = velocity,
                                .contact_pressure = probe.scene.contact_pressure };
     return gouge_impact_at(&probe, &state, cells_per_radius);
+}
+
+static case_impact slowest(const case_onset *c, const case_site *grain, double cells_per_radius)
+{
+    return scene_at(c, grain, c->study.velocity_low, cells_per_radius);
 }
 
 /* A search's scenes at both resolutions with a grain of this size. */
@@ -150,35 +156,83 @@ status study_possible(const case_inputs *in, unsigned needs, size_t *largest)
 
 /* ---- what would they take? ---- */
 
-/* Two levels of thread: memory bandwidth and the serial rest are left out, so this is a lower bound on many threads. */
-static status estimate_scene(const mpm_scene *s, double last, int threads, scene_estimate *out)
+enum { TRIAL_POINTS = 300000, TRIAL_WARM = 2, TRIAL_LEAST = 5 /* steps */ };
+static const double TRIAL_SECONDS = 0.4;
+
+typedef struct {
+    int threads;
+    double rate; /* measured: of a point and step [s]; NAN: not yet */
+} pace;
+
+typedef struct {
+    int steps;
+    double since;    /* wall clock behind the warm steps [s] */
+    uint64_t before; /* particle-steps then */
+} trial;
+
+/* Those that points at rest did not take count too, as they do in mpm_needs.work. */
+static uint64_t counted_steps(const mpm *m)
+{
+    const mpm_report now = mpm_glance(m);
+    return now.particle_steps + now.particle_steps_asleep;
+}
+
+static bool trial_goes_on(void *user, const mpm *m)
+{
+    trial *t = user;
+    if (++t->steps == TRIAL_WARM) {
+        t->since = host_wall_clock();
+        t->before = counted_steps(m);
+    }
+    return t->steps < TRIAL_LEAST || host_wall_clock() - t->since < TRIAL_SECONDS;
+}
+
+/* Runs the scene's first steps.  One that cannot be made or fails there tells nothing: its run will say why. */
+static void try_scene(const mpm_scene *s, double last, pace *p)
+{
+    trial t = { .steps = 0 };
+    mpm *m = NULL;
+    if (mpm_create(s, p->threads, &m).code != STATUS_OK) return;
+    const status done = mpm_advance(m, last, &(mpm_sink){ trial_goes_on, &t });
+    const uint64_t taken = t.steps < TRIAL_LEAST ? 0 : counted_steps(m) - t.before;
+    if ((done.code == STATUS_OK || done.code == STATUS_STOPPED) && taken > 0)
+        p->rate = (host_wall_clock() - t.since) / (double)taken;
+    mpm_free(m);
+}
+
+/* Without a trial memory bandwidth and the serial rest are left out: a lower bound on many threads. */
+static status estimate_scene(const mpm_scene *s, double last, pace *p, scene_estimate *out)
 {
     TRY(needs_of(s, &out->needs, NULL));
+    if (isnan(p->rate) && out->needs.particles <= TRIAL_POINTS) try_scene(s, last, p);
     out->steps = last / out->needs.dt;
-    out->seconds = out->steps * out->needs.work * CHECK_SECONDS_A_STEP / threads;
+    const double work = out->steps * out->needs.work;
+    out->seconds = work * (isnan(p->rate) ? CHECK_SECONDS_A_STEP / p->threads : p->rate);
+    out->likely = CHECK_GROWTH * work * p->rate;
+    out->searched = false;
     return status_ok();
 }
 
-static status estimate(const case_impact *c, const char *what, int threads, scene_estimate *out)
+static status estimate(const case_impact *c, const char *what, pace *p, scene_estimate *out)
 {
     gouge_scene scene;
     snprintf(out->what, sizeof out->what, "%s, %g m/s, %g cells a radius", what, c->scene.velocity,
              c->scene.cells_per_radius);
     TRY(gouge_scene_bodies(c, &scene));
-    const status made = estimate_scene(&scene.scene, gouge_last_time(&scene), threads, out);
+    const status made = estimate_scene(&scene.scene, gouge_last_time(&scene), p, out);
     gouge_scene_free(&scene);
     return made;
 }
 
 /* The slowest and finest scene of a search on a treated rail. */
-static status estimate_treated(const case_onset *c, const case_treatment *t, const case_site *grain, int threads,
+static status estimate_treated(const case_onset *c, const case_treatment *t, const case_site *grain, pace *p,
                                scene_estimate *out)
 {
     case_onset treated;
     status s = case_treat(c, t, &treated);
     if (s.code == STATUS_OK) {
         const case_impact one = slowest(&treated, grain, treated.study.fine_cells_per_radius);
-        s = estimate(&one, t->name, threads, out);
+        s = estimate(&one, t->name, p, out);
     }
     case_treated_free(&treated);
     return s;
@@ -191,33 +245,69 @@ static bool has_scene(const case_inputs *in)
     return in->onset.has_body && !isnan(own->scene.velocity) && !isnan(own->particle.radius);
 }
 
-status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n)
+/* Both ends of the search's range with this grain, the slow one with coarse cells too where they differ. */
+static status estimate_search(const case_onset *c, const case_site *grain, pace *p, scene_estimate *out, int *n)
 {
-    const case_onset *c = &in->onset;
-    *n = 0;
-    if (in->given.bodies) {
-        snprintf(out[*n].what, sizeof out->what, "scene, %d bodies", in->bodies.scene.bodies);
-        TRY(estimate_scene(&in->bodies.scene, in->bodies.scene.end_time, threads, &out[(*n)++]));
+    const case_study *y = &c->study;
+    const struct {
+        double velocity, cells;
+    } of[] = { { y->velocity_low, y->coarse_cells_per_radius },
+               { y->velocity_low, y->fine_cells_per_radius },
+               { y->velocity_high, y->fine_cells_per_radius } };
+    for (int k = 0; k < 3; k++) {
+        if (k == 0 && !(of[0].cells < of[1].cells)) continue;
+        const case_impact one = scene_at(c, grain, of[k].velocity, of[k].cells);
+        TRY(estimate(&one, "onset", p, &out[*n]));
+        out[(*n)++].searched = k > 0;
     }
-    if (has_scene(in)) TRY(estimate(&c->impact, "scene", threads, &out[(*n)++]));
-    if (!c->has_body || (c->sites.n == 0 && c->populations.n == 0)) return status_ok();
-    const case_population *p = c->populations.item;
-    const case_site grain = c->sites.n > 0 ? c->sites.item[0] : grain_of(p, study_population_quantile(p, 0.5));
-    const double cells[] = { c->study.coarse_cells_per_radius, c->study.fine_cells_per_radius };
-    for (int k = 0; k < (cells[0] < cells[1] ? 2 : 1); k++) {
-        const case_impact one = slowest(c, &grain, cells[k]);
-        TRY(estimate(&one, "onset", threads, &out[(*n)++]));
-    }
-    for (int k = 0; k < in->treatments.n && *n < CHECK_MAX_ESTIMATES; k++)
-        TRY(estimate_treated(c, &in->treatments.item[k], &grain, threads, &out[(*n)++]));
     return status_ok();
 }
 
-void study_check_assumptions(const case_inputs *in, int threads, FILE *out)
+static status estimate_all(const case_inputs *in, pace *pace_of, scene_estimate out[CHECK_MAX_ESTIMATES], int *n)
 {
-    fprintf(out, "at least: %.0f ns a point and step on %d thread%s alone, points and steps as at the start\n",
-            1e9 * CHECK_SECONDS_A_STEP, threads, threads == 1 ? "" : "s");
-    fputs("not counted: shorter steps where it gets hot or fast", out);
+    const case_onset *c = &in->onset;
+    if (in->given.bodies) {
+        snprintf(out[*n].what, sizeof out->what, "scene, %d bodies", in->bodies.scene.bodies);
+        TRY(estimate_scene(&in->bodies.scene, in->bodies.scene.end_time, pace_of, &out[(*n)++]));
+    }
+    if (has_scene(in)) TRY(estimate(&c->impact, "scene", pace_of, &out[(*n)++]));
+    if (!c->has_body || (c->sites.n == 0 && c->populations.n == 0)) return status_ok();
+    const case_population *p = c->populations.item;
+    const case_site grain = c->sites.n > 0 ? c->sites.item[0] : grain_of(p, study_population_quantile(p, 0.5));
+    TRY(estimate_search(c, &grain, pace_of, out, n));
+    for (int k = 0; k < in->treatments.n && *n < CHECK_MAX_ESTIMATES; k++)
+        TRY(estimate_treated(c, &in->treatments.item[k], &grain, pace_of, &out[(*n)++]));
+    return status_ok();
+}
+
+status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n, double *rate)
+{
+    pace p = { threads, NAN };
+    *n = 0;
+    const status s = estimate_all(in, &p, out, n);
+    for (int i = 0; i < *n; i++) out[i].likely = CHECK_GROWTH * out[i].steps * out[i].needs.work * p.rate;
+    *rate = p.rate;
+    return s;
+}
+
+double study_check_search_time(const scene_estimate *e, int n, int scenes)
+{
+    double sum = 0.0;
+    int ends = 0;
+    for (int i = 0; i < n; i++)
+        if (e[i].searched) sum += e[i].likely, ends++;
+    return ends > 0 ? scenes * sum / ends : NAN;
+}
+
+void study_check_assumptions(const case_inputs *in, int threads, double rate, FILE *out)
+{
+    fprintf(out, "at least: %.0f ns a point and step on %d thread%s%s, points and steps as at the start\n",
+            1e9 * (isnan(rate) ? CHECK_SECONDS_A_STEP / threads : rate), threads, threads == 1 ? "" : "s",
+            isnan(rate) ? ", assumed" : ", as just measured");
+    if (!isnan(rate))
+        fprintf(out, "likely: %.1f times that, for contact, heat and small cells that come later\n", CHECK_GROWTH);
+    fputs("not counted: shorter steps where it gets hot or fast, an end before its time where nothing changes any more",
+          out);
     if (in->given.bodies && in->bodies.scene.refines > 0) fputs(", cells that scene.refine makes small later", out);
     if (in->given.bodies && in->bodies.scene.probes > 0) fputs(", probes", out);
     if (in->output.snapshots > 0) fprintf(out, ", %d snapshots", in->output.snapshots);

@@ -10,10 +10,13 @@ typedef struct {
     char what[80];
     mpm_needs needs;
     double steps;   /* of the finest level */
-    double seconds; /* at CHECK_SECONDS_A_STEP on this machine's threads, with the points of the start */
+    double seconds; /* with the points and steps of the start */
+    double likely;  /* [s]; NAN: no scene of the case is small enough to be tried */
+    bool searched;  /* one of the two ends of the search's range, with its fine cells */
 } scene_estimate;
 enum { CHECK_MAX_ESTIMATES = 40 };
-#define CHECK_SECONDS_A_STEP 200e-9  /* one thread */
+#define CHECK_SECONDS_A_STEP 200e-9 /* one thread, where no scene is tried */
+#define CHECK_GROWTH 1.8 /* time of a whole scene over that at the pace of its first steps: docs/notes/speed.md */
 #define CHECK_SECONDS_A_GRAIN 150e-9 /* of the random shots: 12 million grains in 1.85 s */
 
 /* The scene of the case as a case of bodies, with every value resolved.  STATUS_BAD_INPUT: it has none. */
@@ -22,12 +25,16 @@ status study_print_scene(const case_inputs *in, FILE *out);
 /* Kinds of grains among sites and populations: at most so many searches. */
 int study_grain_kinds(const case_onset *c);
 
-/* The scene of the case; then of its first site, or of the median grain of its first population, the slowest and finest
- * of the search, and with each treatment as many of these as there is room for; *n of them. */
-status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n);
+/* The scene of the case; then of its first site, or of the median grain of its first population, both ends of the
+ * search's range, and with each treatment its slow end, as many of these as there is room for; *n of them.  The first
+ * that is small runs for some tenths of a second: *rate is what it took a point and step [s], NAN: none is small. */
+status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n, double *rate);
 
-/* What the times of study_check assume, so that a run takes longer. */
-void study_check_assumptions(const case_inputs *in, int threads, FILE *out);
+/* What the times of study_check assume; rate: as it found. */
+void study_check_assumptions(const case_inputs *in, int threads, double rate, FILE *out);
+
+/* Seconds that so many scenes of the search take, from the mean of its ends; NAN: not known. */
+double study_check_search_time(const scene_estimate *e, int n, int scenes);
 
 /* A warning where study.max_scenes leaves a search fewer scenes than a bracket has ends. */
 void study_check_searches(const case_inputs *in, FILE *out);
