@@ -277,7 +277,18 @@ static const char *search_time(const scene_estimate *e, int n, int scenes, char 
     return text;
 }
 
-static status print_check(const case_inputs *in, int threads)
+/* The commands whose needs are all among those that were checked. */
+static void print_ready(const case_inputs *in, unsigned needs)
+{
+    int n = 0;
+    fputs("ready for: ", stdout);
+    for (int i = 0; i < STUDIES; i++)
+        if ((study_for(study_list[i], in)->needs & ~needs) == 0)
+            printf("%s%s", n++ ? ", " : "breech ", study_list[i]->name);
+    puts(n ? "" : "no command yet; breech --help COMMAND says what each needs");
+}
+
+static status print_check(const case_inputs *in, int threads, unsigned needs)
 {
     scene_estimate e[CHECK_MAX_ESTIMATES];
     int n = 0;
@@ -285,9 +296,10 @@ static status print_check(const case_inputs *in, int threads)
     table *t;
     TRY(study_check(in, threads, e, &n, &rate));
     printf("%s: %s\n", in->path, in->title[0] ? in->title : in->name);
+    print_ready(in, needs);
     fputs(in->warnings, stdout);
     study_check_films(in, stdout);
-    TRY(host_table_create("scene|points at the start|memory [GB]|steps|time, at least|likely", &t));
+    TRY(host_table_create("scene|points|memory [GB]|steps|time, at least|likely", &t));
     for (int i = 0; i < n; i++) {
         const mpm_needs *at = &e[i].needs;
         char time[40], likely[40] = "-";
@@ -306,8 +318,9 @@ static status print_check(const case_inputs *in, int threads)
     if (craters > 0) snprintf(whole, sizeof whole, ", of which %d are kept for whole craters (study.craters)", craters);
     if (c->study.ensemble > 0) printf("scene: on %d grids, each as above\n", c->study.ensemble);
     if (c->sites.n > 0 || c->populations.n > 0)
-        printf("onset: %d sites, %d populations, at most %d scenes%s%s\n", c->sites.n, c->populations.n,
-               c->study.max_scenes, whole, search_time(e, n, c->study.max_scenes, text));
+        printf("onset: %d site%s, %d population%s, at most %d scenes%s%s\n", c->sites.n, c->sites.n == 1 ? "" : "s",
+               c->populations.n, c->populations.n == 1 ? "" : "s", c->study.max_scenes, whole,
+               search_time(e, n, c->study.max_scenes, text));
     if (in->treatments.n > 0 && c->sites.n + c->populations.n > 0)
         printf("compare: %d surfaces, at most %d scenes each%s%s\n", in->treatments.n + 1, c->study.max_scenes, whole,
                search_time(e, n, (in->treatments.n + 1) * c->study.max_scenes, text));
@@ -352,7 +365,7 @@ static int run_check(const options *o)
     case_inputs_free(in);
     s = read_case(o, needs, &in);
     if (s.code != STATUS_OK) return exit_code(s);
-    s = o->line.scene ? study_print_scene(in, stdout) : print_check(in, o->line.threads);
+    s = o->line.scene ? study_print_scene(in, stdout) : print_check(in, o->line.threads, needs);
     case_inputs_free(in);
     return complain(s);
 }

@@ -94,7 +94,10 @@ static void test_senseless(void **state)
         if (!contains("err.txt", wrong[i].says)) fail_msg("%s: not `%s`", wrong[i].yaml, wrong[i].says);
     }
     assert_int_equal(run("check " SHOT " --set output.snapshots=1e1"), 0);
+    assert_int_equal(run("check " CASES "/rail_life"), 0);
+    assert_true(contains("out.txt", "\nready for: breech shot, scene, life, inductance\n"));
     assert_int_equal(run("check " SHOT " --set study.shots=3"), 0);
+    assert_true(contains("out.txt", "\nready for: breech shot, scene, onset, inductance\n"));
     assert_false(contains("out.txt", "warning: study.max_scenes"));
     assert_true(contains("out.txt", " ns a point and step") && contains("out.txt", ", as just measured"));
     assert_true(contains("out.txt", "likely: 1.8 times that") && contains("out.txt", "\n  likely some "));
@@ -183,7 +186,7 @@ static void test_check_and_materials(void **state)
     assert_int_equal(system("echo '{base: pulse_unit_300kJ, name: own}' > own.yaml"), 0);
     assert_int_equal(run("check own.yaml"), 2);
     assert_int_equal(run("check " CASES "/treatments"), 0);
-    assert_true(contains("out.txt", "onset, 500 m/s") && contains("out.txt", "1 populations, at most"));
+    assert_true(contains("out.txt", "onset, 500 m/s") && contains("out.txt", "1 population, at most"));
     assert_true(contains("out.txt", "\nwarm rail, 500 m/s, "));
     assert_true(contains("out.txt", "compare: 6 surfaces, at most 12 scenes each"));
     assert_false(contains("out.txt", "thinner than a cell"));
