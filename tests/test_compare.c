@@ -830,15 +830,35 @@ static void test_scatter(void **state)
     study_onset_answer_free(&sure);
     study_onset_answer_free(&a);
     growth_most = INFINITY;
-    growth_rises = -1.0; /* no slope: the scatter is told, and the interval is as without it */
+    growth_rises = -1.0; /* no slope: no deviation, and the interval reaches to where a scene decides, here nowhere */
     c->study.shots = 1;
     a = studied(c, "falling", status_ok());
+    char warned_falling[sizeof warned];
+    memcpy(warned_falling, warned, sizeof warned);
     c->study.threshold_ensemble = 0;
     sure = studied(c, "falling-still", status_ok());
     growth_rises = 1.0;
     assert_true(fabs(a.result.growth_deviation - want / 150.0) < 1e-9 && isnan(a.result.threshold_deviation));
-    for (int e = 0; e < 2; e++) assert_true(a.result.threshold_interval[e] == sure.result.threshold_interval[e]);
+    const double v = a.result.threshold_velocity, reach = fmax(3000.0 - v, v - 500.0);
+    for (int e = 0; e < 2; e++) {
+        const double wider = fabs(a.result.threshold_interval[e] - sure.result.threshold_interval[e]);
+        assert_true(a.result.threshold_interval[e] == 0.0 || fabs(wider - (hypot(0.1 * v, reach) - 0.1 * v)) < 6.0);
+        assert_true(wider > 300.0);
+    }
+    assert_non_null(strstr(warned_falling, "the interval is wider by"));
     study_onset_answer_free(&sure);
+    study_onset_answer_free(&a);
+    /* level above the threshold, dead below: there a scene decides on any grid, so only the range above is open */
+    growth_most = 0.3, growth_dies = 1000.0;
+    c->study.velocity_interval = 0.1; /* no scene on the slope between the two */
+    c->study.velocity_high = 1600.0;
+    c->study.threshold_ensemble = GRIDS;
+    a = studied(c, "level", status_ok());
+    growth_most = INFINITY, growth_dies = 1.0;
+    r = &a.result;
+    assert_true(isnan(r->threshold_deviation) && r->growth_deviation > 0.3);
+    const double wider = hypot(0.1 * r->threshold_velocity, 1600.0 - r->threshold_velocity);
+    assert_true(fabs(1350.0 - r->threshold_interval[0] - wider) < 20.0); /* the bracket begins there */
     study_onset_answer_free(&a);
     case_free(c);
 }

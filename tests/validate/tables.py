@@ -22,6 +22,7 @@ import part_criterion
 import part_fatigue
 import part_gel
 import part_growth
+import part_initiators
 import part_lattice
 import part_laws
 import part_levels
@@ -55,6 +56,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "pairs": ("docs/validation/pairs.md", part_pairs.pairs, 60, False),
     "pairs-null": ("docs/validation/pairs.md", part_pairs.nulls, 1, True),
     "inputs": ("docs/validation/inputs.md", part_strength.inputs, 50, False),
+    "initiators": ("docs/validation/initiators.md", part_initiators.initiators, 20, False),
     "closed": ("docs/validation/closed.md", part_closed.closed, 3, True),
 }
 

@@ -30,9 +30,10 @@ typedef enum {
 } family_judge;
 
 /* With the place of the grid, standard deviations: of what passes zero [1], of the threshold by that [m/s].  0: not
- * asked for, or there is no threshold; NAN: the second one is not known. */
+ * asked for, or there is no threshold; NAN: the second one is not known.  Then `reach` is how far from the threshold
+ * scenes are that decide beyond the first one, else it is the second one: by this the interval is wider [m/s]. */
 typedef struct {
-    double excess, threshold;
+    double excess, threshold, reach;
 } family_scatter;
 
 typedef struct {

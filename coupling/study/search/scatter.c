@@ -137,6 +137,21 @@ static double threshold_off(const case_onset *c, const sought *t, const sought *
     return isnan(b.shape) || isnan(b.growth) ? NAN : fmax(growth, -shape / b.shape);
 }
 
+/* The search's nearest scene on one side of the threshold that would decide alike on any grid: it lies further from zero
+ * than the scatter.  Its distance; to the end of the range where there is none [m/s]. */
+static double decided_off(const case_onset *c, const sought *t, double scatter, bool above)
+{
+    const double threshold = answer_of(t)->velocity;
+    double off = above ? c->study.velocity_high - threshold : threshold - c->study.velocity_low;
+    for (int i = 0; i < t->of->n_scenes; i++) {
+        const family_scene *a = &t->of->scene[i];
+        const double way = above ? a->velocity - threshold : threshold - a->velocity;
+        const double excess = study_family_sample(c, t->judge, &a->record->entry).excess;
+        if (counts(t, a) && way >= 0 && (above ? excess : -excess) > scatter) off = fmin(off, way);
+    }
+    return fmax(off, 0);
+}
+
 /* value: room for as many numbers as there are grids.  other: the family's other threshold; NULL: it has none. */
 static void conclude(session *s, const grain_families *g, const sought *t, const sought *other, double *value)
 {
@@ -150,12 +165,17 @@ static void conclude(session *s, const grain_families *g, const sought *t, const
     bool known = true;
     for (int i = 0; i < n; i++) known = known && isfinite(value[i]);
     if (known) out->threshold = study_shift_spread(value, n).deviation;
-    if (isnan(out->threshold))
-        run_session_warn(
-            s,
-            "%swhat decides on a %s scatters by %.2g with the place of the grid at %g m/s, but does not rise "
-            "with velocity in the search's scenes: the interval does not hold that",
-            g->prefix, t->judge == JUDGE_OF_GOUGE ? "gouge" : "scratch", out->excess, t->near->velocity);
+    if (out->threshold > g->c->study.velocity_high - g->c->study.velocity_low)
+        out->threshold = NAN; /* level, to rounding */
+    out->reach = out->threshold;
+    if (!isnan(out->threshold)) return;
+    out->reach = fmax(decided_off(g->c, t, out->excess, false), decided_off(g->c, t, out->excess, true));
+    run_session_warn(s,
+                     "%swhat decides on a %s scatters by %.2g with the place of the grid at %g m/s, but does not rise "
+                     "with velocity in the search's scenes: the interval is wider by %.0f m/s, as far as scenes that "
+                     "decide in spite of it",
+                     g->prefix, t->judge == JUDGE_OF_GOUGE ? "gouge" : "scratch", out->excess, t->near->velocity,
+                     out->reach);
 }
 
 /* All thresholds of all families; how many. */

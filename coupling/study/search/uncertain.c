@@ -114,8 +114,8 @@ static void widen_threshold(const uncertain_inputs *u, grain_family *f, grain_fa
         const double off = moved_to(&u->of[i], f, judge) - study_family_surface(f, judge)->reference.velocity;
         if (isfinite(off)) squares += off * off;
     }
-    const double scatter = f ? study_family_scatter(f, judge)->threshold : NAN;
-    if (isfinite(scatter)) squares += scatter * scatter;
+    const double scatter = f ? study_family_scatter(f, judge)->reach : 0;
+    squares += scatter * scatter;
     widen(s, sqrt(squares));
 }
 
