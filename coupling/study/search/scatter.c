@@ -137,8 +137,8 @@ static double threshold_off(const case_onset *c, const sought *t, const sought *
     return isnan(b.shape) || isnan(b.growth) ? NAN : fmax(growth, -shape / b.shape);
 }
 
-/* The search's nearest scene on one side of the threshold that would decide alike on any grid: it lies further from zero
- * than the scatter.  Its distance; to the end of the range where there is none [m/s]. */
+/* The search's nearest scene on one side of the threshold that would decide alike on any grid: it lies further from
+ * zero than the scatter.  Its distance; to the end of the range where there is none [m/s]. */
 static double decided_off(const case_onset *c, const sought *t, double scatter, bool above)
 {
     const double threshold = answer_of(t)->velocity;
