@@ -272,8 +272,10 @@ static const char *search_time(const scene_estimate *e, int n, int scenes, char 
 {
     const double seconds = study_check_search_time(e, n, scenes);
     char time[40];
+    text[0] = '\0';
+    if (isnan(seconds)) return text;
     host_duration_text(seconds, time, sizeof time);
-    snprintf(text, 80, isnan(seconds) ? "" : "\n  likely some %s for so many scenes", time);
+    snprintf(text, 80, "\n  likely some %s for so many scenes", time);
     return text;
 }
 
