@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Random scenes through the whole hand-off: case text -> case -> scene -> solver -> crater -> class.
  *
- *   breech-stress [--scenes N] [--first K] [--seed S] [--verbose]
+ *   breech-stress [--targets] [--scenes N] [--first K] [--seed S] [--verbose]
  *
  * Scene i of a seed is always the same, so `--first i --scenes 1` repeats a single one.  Every scene must end with a
  * class or be refused with a text; a scene that ends is judged by what no physics may break, at every tenth step:
@@ -11,21 +11,20 @@
  * Materials are those of cases/materials; speeds 0.1 .. 5 km/s, grain radii 0.05 .. 2 mm, lead angles 5 .. 90 degrees,
  * Courant numbers 0.1 .. 0.6 (some more, to be refused), 1 .. 1.5 cells a radius, temperatures up to melting; with
  * layers as thin as a twentieth of a cell, loose, bonded and welded grains, fragments that fly through the scene, and
- * armature, grains and fragments that leave the window; on one to three nested grids. */
-#include "coupling/case/case.h"
-#include "coupling/case/material_file.h"
+ * armature, grains and fragments that leave the window; on one to three nested grids.
+ *
+ * --targets: strikes at random targets instead (targets.c). */
+#include "stress.h"
 #include "coupling/gouge/impact.h"
 #include "mpm/mpm.h"
 
-#include <math.h>
 #include <stdarg.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-enum { TEXT_SIZE = 6000, WORST = 10, MAX_STEPS = 700, LOOK_EVERY = 10 };
+enum { WORST = 10, LOOK_EVERY = 10 };
 
 static const double ENERGY_LIMIT = 1e-9; /* of the kinetic energy at the start: rounding, 1e-12 was measured */
 /* Bodies that start unstressed can gain no motion but by work from outside; where the scheme is not stable they do, out
@@ -34,63 +33,7 @@ static const double GAIN_LIMIT = 0.02;      /* of the kinetic energy at the star
 static const double MOMENTUM_LIMIT = 1e-10; /* of mass times the fastest body's speed: what the product promises */
 static const double MASS_LIMIT = 1e-12;     /* rounding */
 
-/* ---- chance: splitmix64 ---- */
-
-typedef struct {
-    uint64_t state;
-} chance;
-
-static uint64_t chance_bits(chance *c)
-{
-    uint64_t z = c->state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
-static double uniform(chance *c, double lo, double hi)
-{
-    return lo + (hi - lo) * ((double)(chance_bits(c) >> 11) * 0x1p-53);
-}
-
-static double log_uniform(chance *c, double lo, double hi)
-{
-    return exp(uniform(c, log(lo), log(hi)));
-}
-
-static bool one_in(chance *c, int n)
-{
-    return chance_bits(c) % (uint64_t)n == 0;
-}
-
-static int below(chance *c, int n)
-{
-    return (int)(chance_bits(c) % (uint64_t)n);
-}
-
-/* ---- one random scene ---- */
-
-/* Groups of the materials: those whose constants are enough for a scene with damage, without, and all. */
-typedef enum { WITH_DAMAGE, WITHOUT_DAMAGE, ANY, GROUPS } group;
-
-typedef struct {
-    char **names;
-    int n, *group[GROUPS], count[GROUPS];
-    double *melting; /* [K] */
-    material_places at;
-} stock;
-
-typedef struct {
-    char text[TEXT_SIZE];
-    size_t length;
-    double radius, velocity, courant; /* [m, m/s, 1] */
-    int levels;                       /* of nested grids */
-    double wider;                     /* what the window needs for them beside what it has for one [m] */
-    group group;
-    char summary[200];
-} recipe;
-
-static void add(recipe *r, const char *format, ...)
+void stress_add(recipe *r, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -102,11 +45,6 @@ static void add(recipe *r, const char *format, ...)
     }
 }
 
-static int any_material(const recipe *r, chance *c, const stock *s)
-{
-    return s->group[r->group][below(c, s->count[r->group])];
-}
-
 static double temperature(chance *c, double melting)
 {
     return one_in(c, 2) ? 293 : uniform(c, 77, fmin(melting, 2000));
@@ -115,15 +53,15 @@ static double temperature(chance *c, double melting)
 static int add_rail(recipe *r, chance *c, const stock *s)
 {
     const int rail = any_material(r, c, s);
-    add(r, "rail:\n  material: %s\n  temperature: %.6g K\n  yield_scale: %.6g\n", s->names[rail],
-        temperature(c, s->melting[rail]), log_uniform(c, 0.5, 3));
+    stress_add(r, "rail:\n  material: %s\n  temperature: %.6g K\n  yield_scale: %.6g\n", s->names[rail],
+               temperature(c, s->melting[rail]), log_uniform(c, 0.5, 3));
     const int layers = one_in(c, 2) ? 0 : 1 + below(c, 2);
-    if (layers > 0) add(r, "  layers:\n");
+    if (layers > 0) stress_add(r, "  layers:\n");
     for (int i = 0; i < layers; i++) {
-        add(r, "    - {material: %s, thickness: %.6g m, yield_scale: %.6g", s->names[any_material(r, c, s)],
-            r->radius * log_uniform(c, 0.05, 1.5), log_uniform(c, 0.5, 3));
-        if (one_in(c, 4)) add(r, ", bond_strength: %.6g Pa", log_uniform(c, 1e6, 1e10));
-        add(r, "}\n");
+        stress_add(r, "    - {material: %s, thickness: %.6g m, yield_scale: %.6g", s->names[any_material(r, c, s)],
+                   r->radius * log_uniform(c, 0.05, 1.5), log_uniform(c, 0.5, 3));
+        if (one_in(c, 4)) stress_add(r, ", bond_strength: %.6g Pa", log_uniform(c, 1e6, 1e10));
+        stress_add(r, "}\n");
     }
     return rail;
 }
@@ -133,7 +71,8 @@ static int add_projectile(recipe *r, chance *c, const stock *s)
     const int armature = any_material(r, c, s);
     const double a = r->radius;
     const double leg = a * uniform(c, 1.5, 3), lead = uniform(c, 5, 90), chamfer = leg * uniform(c, 0, 0.9);
-    add(r,
+    stress_add(
+        r,
         "armature:\n  material: %s\n  lead_angle: %.6g deg\n  length: %.6g m\n  leg_thickness: %.6g m\n"
         "  head_thickness: %.6g m\n  half_bore: %.6g m\n  width: %.6g m\n  chamfer_height: %.6g m\n  temperature: %.6g "
         "K\n",
@@ -146,36 +85,36 @@ static int add_projectile(recipe *r, chance *c, const stock *s)
 static void add_particle(recipe *r, chance *c, const stock *s)
 {
     static const char *const shapes[] = { "hemisphere", "cone", "ridge", "sphere", "cylinder", "wedge" };
-    add(r, "particle:\n  shape: %s\n  radius: %.6g m\n  height: %.6g m\n", shapes[below(c, 6)], r->radius,
-        r->radius * uniform(c, 0.3, 1.5));
-    if (one_in(c, 2)) add(r, "  material: %s\n", s->names[any_material(r, c, s)]);
-    if (one_in(c, 3)) add(r, "  bond_strength: %.6g Pa\n", one_in(c, 3) ? 0 : log_uniform(c, 1e7, 1e10));
+    stress_add(r, "particle:\n  shape: %s\n  radius: %.6g m\n  height: %.6g m\n", shapes[below(c, 6)], r->radius,
+               r->radius * uniform(c, 0.3, 1.5));
+    if (one_in(c, 2)) stress_add(r, "  material: %s\n", s->names[any_material(r, c, s)]);
+    if (one_in(c, 3)) stress_add(r, "  bond_strength: %.6g Pa\n", one_in(c, 3) ? 0 : log_uniform(c, 1e7, 1e10));
 }
 
 static void add_scene(recipe *r, chance *c)
 {
     const double a = r->radius, cells = uniform(c, 1, 1.5), coarse = a * (one_in(c, 20) ? 0.5 : uniform(c, 1.02, 2.5));
-    add(r, "scene:\n  velocity: %.8g m/s\n  courant: %.4g\n  cells_per_radius: %.4g\n  coarse_cell: %.6g m\n",
-        r->velocity, r->courant, cells, coarse);
-    add(r, "  friction: %.4g\n  growth: %.4g\n  contact_pressure: %.6g Pa\n", one_in(c, 4) ? 0 : uniform(c, 0, 1),
-        uniform(c, 1.05, 1.3), one_in(c, 2) ? 0 : log_uniform(c, 1e6, 1e9));
-    add(r, "  rail_ahead: %.6g m\n  rail_behind: %.6g m\n  rail_depth: %.6g m\n", a * uniform(c, 7, 12) + r->wider,
-        a * uniform(c, 6, 9) + r->wider, a * uniform(c, 7, 9) + r->wider);
-    add(r, "  refine_tolerance: %.4g\n", log_uniform(c, 0.01, 0.5));
+    stress_add(r, "scene:\n  velocity: %.8g m/s\n  courant: %.4g\n  cells_per_radius: %.4g\n  coarse_cell: %.6g m\n",
+               r->velocity, r->courant, cells, coarse);
+    stress_add(r, "  friction: %.4g\n  growth: %.4g\n  contact_pressure: %.6g Pa\n",
+               one_in(c, 4) ? 0 : uniform(c, 0, 1), uniform(c, 1.05, 1.3), one_in(c, 2) ? 0 : log_uniform(c, 1e6, 1e9));
+    stress_add(r, "  rail_ahead: %.6g m\n  rail_behind: %.6g m\n  rail_depth: %.6g m\n",
+               a * uniform(c, 7, 12) + r->wider, a * uniform(c, 6, 9) + r->wider, a * uniform(c, 7, 9) + r->wider);
+    stress_add(r, "  refine_tolerance: %.4g\n", log_uniform(c, 0.01, 0.5));
     /* no longer than MAX_STEPS of a metal whose waves run at 6 km/s */
     const double crossing = 12 * a / r->velocity;
-    add(r, "  end_time: %.6g s\n", fmin(crossing, MAX_STEPS * r->courant * a / cells / (6000 + r->velocity)));
+    stress_add(r, "  end_time: %.6g s\n", fmin(crossing, MAX_STEPS * r->courant * a / cells / (6000 + r->velocity)));
     if (one_in(c, 5))
-        add(r, "  basis: bspline\n"); /* one grid only */
+        stress_add(r, "  basis: bspline\n"); /* one grid only */
     else
-        add(r, "  levels: %d\n", r->levels);
-    if (one_in(c, 8)) add(r, "  transfer: pic\n");
-    if (one_in(c, 6)) add(r, "  heat_by_plastic_work: yes\n");
-    if (r->group == WITHOUT_DAMAGE) add(r, "  damage: no\n");
-    if (one_in(c, 6)) add(r, "  half_model: no\n");
-    if (one_in(c, 6)) add(r, "  particles_per_axis: 3\n");
-    if (one_in(c, 6)) add(r, "  shear_limit: %.6g Pa\n", log_uniform(c, 1e6, 1e9));
-    add(r, "output:\n  snapshots: 0\n");
+        stress_add(r, "  levels: %d\n", r->levels);
+    if (one_in(c, 8)) stress_add(r, "  transfer: pic\n");
+    if (one_in(c, 6)) stress_add(r, "  heat_by_plastic_work: yes\n");
+    if (r->group == WITHOUT_DAMAGE) stress_add(r, "  damage: no\n");
+    if (one_in(c, 6)) stress_add(r, "  half_model: no\n");
+    if (one_in(c, 6)) stress_add(r, "  particles_per_axis: 3\n");
+    if (one_in(c, 6)) stress_add(r, "  shear_limit: %.6g Pa\n", log_uniform(c, 1e6, 1e9));
+    stress_add(r, "output:\n  snapshots: 0\n");
 }
 
 static void write_recipe(recipe *r, chance *c, const stock *s)
@@ -188,7 +127,7 @@ static void write_recipe(recipe *r, chance *c, const stock *s)
     r->velocity = log_uniform(c, 100, 5000);
     r->courant = uniform(c, 0.1, one_in(c, 10) ? 0.8 : 0.6); /* more than 0.6 is refused */
     r->group = one_in(c, 25) ? ANY : one_in(c, 3) ? WITHOUT_DAMAGE : WITH_DAMAGE;
-    add(r, "name: stress\n");
+    stress_add(r, "name: stress\n");
     const int rail = add_rail(r, c, s), armature = add_projectile(r, c, s);
     add_particle(r, c, s);
     add_scene(r, c);
@@ -225,24 +164,12 @@ static status add_fragments(gouge_scene *g, chance *c, const recipe *r)
 
 /* ---- running and judging ---- */
 
-typedef enum { ENDED, REFUSED, FAILED } verdict;
-
-typedef struct {
-    int index;
-    verdict verdict;
-    status why;                    /* refused or failed */
-    double energy, momentum, mass; /* largest errors seen */
-    double gain;                   /* of kinetic energy, over what it started with and the work from outside */
-    double seconds;
-    uint64_t looks, steps;
-    char summary[200], class[16];
-} outcome;
-
 static void look(outcome *o, const mpm *m)
 {
     const mpm_ledger l = mpm_balance(m);
     const double energy = fabs(l.energy_error), mass = fabs((l.mass + l.ejected_mass) / l.mass_start - 1);
-    const double gain = (l.kinetic - l.work_boundary - l.work_external) / l.kinetic_start - 1;
+    const double start = l.kinetic_start + o->driven; /* of a piston: not in the scene, its work from outside is */
+    const double gain = (l.kinetic - l.work_boundary - l.work_external - l.kinetic_start) / start;
     /* NaN must win */
     if (!(energy <= o->energy)) o->energy = energy;
     if (!(l.momentum_error <= o->momentum)) o->momentum = l.momentum_error;
@@ -304,22 +231,43 @@ static void run_case(const breech_case *c, const recipe *r, chance *luck, outcom
     judge(o);
 }
 
-static outcome run_one(const stock *s, uint64_t seed, int index, bool verbose)
+typedef struct {
+    int scenes, first;
+    uint64_t seed;
+    bool verbose, targets;
+} options;
+
+static void run_target(const breech_case *c, outcome *o)
 {
-    chance luck = { seed ^ ((uint64_t)index << 20) };
+    const scene_host host = { .threads = 1, .save = on_save, .user = o };
+    const status s = stress_target_run(c, &host, o);
+    if (s.code != STATUS_OK)
+        take_status(o, &s);
+    else
+        judge(o);
+}
+
+static outcome run_one(const stock *s, const options *of, int index)
+{
+    chance luck = { of->seed ^ ((uint64_t)index << 20) };
     recipe r;
     outcome o = { .index = index, .gain = -1 };
-    write_recipe(&r, &luck, s);
-    if (verbose) printf("---- scene %d\n%s", index, r.text);
+    if (of->targets)
+        stress_target_write(&r, &luck, s);
+    else
+        write_recipe(&r, &luck, s);
+    if (of->verbose) printf("---- scene %d\n%s", index, r.text);
     snprintf(o.summary, sizeof o.summary, "%s", r.summary);
-    const case_options how = { s->at.dir, s->at.n, CASE_FOR_SCENE };
+    const case_options how = { s->at.dir, s->at.n, of->targets ? CASE_FOR_STRIKE : CASE_FOR_SCENE };
     const case_text text = { .bytes = r.text, .length = r.length, .path = "stress.yaml" };
     breech_case *c = NULL;
     char *errors = NULL;
     struct timespec from, to;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &from);
     const status read = case_read_memory(&text, &how, &c, &errors);
-    if (read.code == STATUS_OK)
+    if (read.code == STATUS_OK && of->targets)
+        run_target(c, &o);
+    else if (read.code == STATUS_OK)
         run_case(c, &r, &luck, &o);
     else
         take_status(&o, &read);
@@ -402,12 +350,6 @@ static void close_stock(stock *s)
     case_material_names_free(s->names, s->n);
 }
 
-typedef struct {
-    int scenes, first;
-    uint64_t seed;
-    bool verbose;
-} options;
-
 static options read_options(int argc, char **argv)
 {
     options o = { .scenes = 500, .first = 0, .seed = 20170, .verbose = false };
@@ -421,11 +363,13 @@ static options read_options(int argc, char **argv)
             o.seed = strtoull(argv[++i], NULL, 10);
         else if (strcmp(argv[i], "--verbose") == 0)
             o.verbose = true;
+        else if (strcmp(argv[i], "--targets") == 0)
+            o.targets = true;
         else
             o.scenes = 0;
     }
     if (o.scenes < 1) {
-        fprintf(stderr, "usage: breech-stress [--scenes N] [--first K] [--seed S] [--verbose]\n");
+        fprintf(stderr, "usage: breech-stress [--targets] [--scenes N] [--first K] [--seed S] [--verbose]\n");
         exit(2);
     }
     return o;
@@ -441,7 +385,7 @@ int main(int argc, char **argv)
         return 1;
     }
     for (int i = 0; i < o.scenes; i++) {
-        all[i] = run_one(&s, o.seed, o.first + i, o.verbose);
+        all[i] = run_one(&s, &o, o.first + i);
         print_outcome(&all[i]);
     }
     const int failed = report(all, o.scenes);
