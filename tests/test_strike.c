@@ -433,6 +433,32 @@ static void test_from_shot(void **state)
     assert_false(exists("shot/b"));
 }
 
+/* The shipped case, on cells of twice the size: the ball leaves with the velocity of `breech shot`, of which (A-1)
+ * makes the arrival velocity, and goes through.  A larger ball is refused with its mass and the package's. */
+static void test_shipped(void **state)
+{
+    (void)state;
+#define SHOT_TARGET BREECH_TESTS "/../cases/shot_target"
+    fresh_folder("shipped");
+    assert_int_equal(run("shot " SHOT_TARGET " -o shipped/shot --quiet --set output.report=no"), 0);
+    assert_int_equal(run("strike " SHOT_TARGET " -o shipped/strike --quiet --threads 1 --set output.report=no "
+                         "--set 'scene.cell=1 mm' --set 'scene.coarse_cell=2 mm'"),
+                     0);
+    cJSON *shot = summary_of("shipped/shot"), *s = summary_of("shipped/strike");
+    const double mass = 18167.0 * 4.0 / 3.0 * PI * 64e-9, k = 0.5 * 1.225 * 0.95 * 50.27e-6 / mass;
+    const double muzzle = number(shot, "muzzle_velocity");
+    assert_true(muzzle > 1900.0 && number(s, "muzzle_velocity") == muzzle);
+    assert_true(fabs(number(s, "impact_velocity") / (muzzle * exp(-20.0 * k)) - 1.0) < 1e-4);
+    assert_text(s, "class", "pierced");
+    assert_true(number(s, "residual_velocity") > 1000.0 && number(s, "residual_velocity") < 1350.0);
+    cJSON_Delete(shot), cJSON_Delete(s);
+    assert_int_equal(run("strike " SHOT_TARGET
+                         " -o shipped/b --quiet --set 'scene.bodies[1].shape={sphere: {center: -6 0 0 "
+                         "mm, radius: 5 mm}}'"),
+                     2);
+    assert_true(contains("err.txt", "9.513 g") && contains("err.txt", "weighs 250 g"));
+}
+
 /* With `optimise`, goal velocity, the bank's charge is found: for an arrival with strike.velocity, and for one with the
  * limit velocity that the search brings out (its scenes are those of test_limit). */
 static void test_charge(void **state)
@@ -546,8 +572,9 @@ int main(void)
         cmocka_unit_test(test_flight),    cmocka_unit_test(test_package),     cmocka_unit_test(test_class),
         cmocka_unit_test(test_scene),     cmocka_unit_test(test_classes),     cmocka_unit_test(test_hole),
         cmocka_unit_test(test_parts),     cmocka_unit_test(test_recht_ipson), cmocka_unit_test(test_limit),
-        cmocka_unit_test(test_from_shot), cmocka_unit_test(test_charge),      cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_water),     cmocka_unit_test(test_losses),      cmocka_unit_test(test_room),
+        cmocka_unit_test(test_from_shot), cmocka_unit_test(test_shipped),     cmocka_unit_test(test_charge),
+        cmocka_unit_test(test_refused),   cmocka_unit_test(test_water),       cmocka_unit_test(test_losses),
+        cmocka_unit_test(test_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
