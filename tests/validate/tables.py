@@ -41,7 +41,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "cells": ("docs/validation/growth.md", part_growth.cells, 6, False),
     "criterion-steel": ("docs/validation/criterion.md", part_criterion.steel, 13, False),
     "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
-    "lattice": ("docs/validation/lattice.md", part_lattice.through, 8, False),
+    "lattice": ("docs/validation/lattice.md", part_lattice.through, 9, False),
     "water": ("docs/validation/water.md", part_water.water, 12, False),
     "water-inverse": ("docs/validation/water.md", part_water.inverse, 1, True),
     "lattice-slow": ("docs/validation/lattice.md", part_lattice.slow, 4, False),
