@@ -23,6 +23,8 @@ static int scenes;
 static double growth_most = INFINITY; /* it levels out [e-folds] */
 static double growth_rises = 1.0;     /* with velocity; -1: it falls, whatever the class */
 static double growth_dies = 1.0;      /* how much steeper it is below zero */
+static double growth_jumps = 0.0; /* so far from the threshold it is three e-folds further off zero [m/s]; 0: never */
+static double grid_noise = 0.0;   /* of the growth, by a cell's shift along x [e-folds] */
 
 static double tear_drops = 0.0; /* [m/s]; 0: shapes are not made up */
 
@@ -53,6 +55,9 @@ static status fake_scene(const impact_job *job, const scene_host *host, impact *
     hit->severity = excess + of->scene.limit_severity;
     hit->groove_growth =
         growth_rises * fmin(excess < 0.0 ? growth_dies * excess : excess, growth_most) / gouge_growth_folds(1.0, r, v);
+    const bool far = growth_jumps > 0.0 && fabs(150.0 * excess) > growth_jumps;
+    hit->groove_growth +=
+        ((far ? copysign(3.0, excess) : 0.0) + grid_noise * of->scene.grid_shift[0]) / gouge_growth_folds(1.0, r, v);
     /* a groove must have grown for a while before its crater is a gouge */
     hit->class = excess >= (case_impact_is_gauged(of) ? 0.0 : 0.4) ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
     if (tear_drops > 0.0 && case_impact_is_gauged(of)) { /* tear-drops so far above the threshold, on every grid */
@@ -863,6 +868,69 @@ static void test_scatter(void **state)
     case_free(c);
 }
 
+/* An interval is its bracket and the root of the sum of squares of its other parts, and every part is listed. */
+static void assert_parts(const onset_result *r, bool scattered, double strength)
+{
+    const onset_part *p = r->part;
+    assert_int_equal(r->n_parts, ONSET_PARTS);
+    assert_true(fabs(p[1].threshold_below - 0.1 * r->threshold_velocity) < 1e-6);
+    assert_true(scattered ? p[2].threshold_above == r->threshold_deviation : isnan(p[2].threshold_above));
+    assert_string_equal(p[3].part, "rail.yield_scale");
+    assert_true(strength > 0.0 ? fabs(p[3].threshold_below - strength) < 0.1 * strength : isnan(p[3].threshold_below));
+    assert_true(isnan(p[4].threshold_below) && isnan(p[5].threshold_above));
+    double squares[2] = { 0.0 };
+    for (int i = 1; i < r->n_parts; i++) {
+        if (isfinite(p[i].threshold_below)) squares[0] += p[i].threshold_below * p[i].threshold_below;
+        if (isfinite(p[i].threshold_above)) squares[1] += p[i].threshold_above * p[i].threshold_above;
+    }
+    assert_true(fabs(r->threshold_velocity - p[0].threshold_below - sqrt(squares[0]) - r->threshold_interval[0]) <
+                1e-6);
+    assert_true(fabs(r->threshold_velocity + p[0].threshold_above + sqrt(squares[1]) - r->threshold_interval[1]) <
+                1e-6);
+}
+
+static void test_parts_of_an_interval(void **state)
+{
+    (void)state;
+    breech_case *c = close_search(HEAD "sites: [{position: 2.9 m}]\n");
+    onset_answer bare = studied(c, "parts-bare", status_ok());
+    c->study.threshold_ensemble = 3;
+    c->study.strength_error = 1.0; /* 150 m/s */
+    onset_answer full = studied(c, "parts-full", status_ok());
+    assert_parts(&bare.result, false, 0.0);
+    assert_parts(&full.result, true, 150.0);
+    study_onset_answer_free(&bare);
+    study_onset_answer_free(&full);
+    case_free(c);
+}
+
+/* Growth hardly rises with velocity near its zero, and scatters with the grid for another reason: that slope alone
+ * would make 1700 m/s of it.  Scenes further off decide on any grid, so the threshold's deviation is no more than their
+ * distance. */
+static void test_scatter_of_a_small_slope(void **state)
+{
+    (void)state;
+    breech_case *c = close_search(HEAD "sites: [{position: 2.9 m}]\n");
+    c->study.velocity_low = 1000.0;
+    growth_rises = 0.1, growth_jumps = 450.0, grid_noise = 4.0;
+    onset_answer still = studied(c, "creeps-still", status_ok());
+    c->study.threshold_ensemble = 5;
+    onset_answer a = studied(c, "creeps", status_ok());
+    growth_rises = 1.0, growth_jumps = 0.0, grid_noise = 0.0;
+    const onset_result *r = &a.result;
+    const double v = r->threshold_velocity, cells = 0.1 * v,
+                 wider = r->threshold_interval[1] - still.result.threshold_interval[1],
+                 reach = r->part[2].threshold_above;
+    print_message("excess %.2f, slope alone %.0f, reach %.0f m/s\n", r->growth_deviation, r->growth_deviation * 1500.0,
+                  reach);
+    assert_true(r->growth_deviation * 1500.0 > 1500.0 && r->growth_deviation * 1500.0 < 2000.0);
+    assert_true(isnan(r->threshold_deviation) && reach < 1200.0);
+    assert_true(fabs(wider - (hypot(cells, reach) - cells)) < 6.0);
+    study_onset_answer_free(&still);
+    study_onset_answer_free(&a);
+    case_free(c);
+}
+
 /* Grooves grow from a velocity on that moves with the grid, and are tear-drops from one on that does not, 100 m/s above
  * that of the case's own grid: on each grid the later of the two is where it gouges. */
 static void test_scatter_of_two(void **state)
@@ -1136,6 +1204,8 @@ int main(void)
         cmocka_unit_test(test_scatter_of_surfaces),
         cmocka_unit_test(test_verdict),
         cmocka_unit_test(test_scatter),
+        cmocka_unit_test(test_parts_of_an_interval),
+        cmocka_unit_test(test_scatter_of_a_small_slope),
         cmocka_unit_test(test_scatter_of_two),
         cmocka_unit_test(test_scatter_of_dying),
         cmocka_unit_test(test_range),

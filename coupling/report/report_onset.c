@@ -279,7 +279,8 @@ static void how_sure(const page *p)
 {
     fputs(
         "<section><h2>How sure is that?</h2>\n<ul>\n<li>The intervals hold what the search left open, the cells' size, "
-        "the scatter with the grid where it was asked for, and the stated uncertainty of the inputs. They do not hold "
+        "the scatter with the grid where it was asked for, and the stated uncertainty of the inputs: a table below "
+        "lists each. They do not hold "
         "what the model itself leaves out.</li>\n",
         p->out);
     say_scatter(p, &speeds[0], "scratch_deviation");
@@ -512,6 +513,12 @@ static const page_column size_columns[] = {
     { "scenes", "scenes of this size", 1.0, "", NULL } };
 static const page_column skip_columns[] = { { "rests_on", "why no scene was needed", 1.0, "", NULL },
                                             { "scenes", "scenes", 1.0, "", NULL } };
+static const page_column part_columns[] = {
+    { "part", "in the interval", 1.0, "", NULL },
+    { "threshold_below", "below the gouge's velocity", 1.0, "m/s", NULL },
+    { "threshold_above", "above it", 1.0, "m/s", NULL },
+    { "scratch_below", "below the scratch's velocity", 1.0, "m/s", NULL },
+    { "scratch_above", "above it", 1.0, "m/s", NULL } };
 static const page_column null_model_columns[] = {
     { "name", "rule", 1.0, "", NULL },                          { "says", "the cause it takes", 1.0, "", NULL },
     { "threshold_velocity", "gouges from", 1.0, "m/s", "threshold_interval" },
@@ -655,6 +662,8 @@ void report_onset_section(const page *p)
         report_page_paragraph(p, "reason", "p/H: pressure of the impact over the hardness of the harder partner.");
     }
     section_threshold(p);
+    report_page_listed(p, "interval_parts", "What the intervals hold, and what was not asked for", part_columns,
+                       PAGE_COUNT(part_columns));
     report_page_listed(p, "null_models", "What one number of the two metals alone would say (7075 on copper: 1325 m/s)",
                        null_model_columns, PAGE_COUNT(null_model_columns));
     report_page_listed(p, "skips", "Scenes that were not needed", skip_columns, PAGE_COUNT(skip_columns));

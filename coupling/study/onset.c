@@ -22,7 +22,7 @@ void study_onset_answer_free(onset_answer *a)
     study_families_free(&a->grains);
     gouge_shot_outcome_free(&a->flown);
     study_mc_free(&a->drawn);
-    void *const owned[] = { a->site, a->scene, a->size, a->skip, a->sensitivity, a->repeated, a->along };
+    void *const owned[] = { a->site, a->scene, a->size, a->skip, a->sensitivity, a->repeated, a->part, a->along };
     for (size_t k = 0; k < sizeof owned / sizeof owned[0]; k++) free(owned[k]);
     memset(a, 0, sizeof *a);
 }

@@ -52,6 +52,16 @@ typedef struct {
     int scenes;                                   /* of this size; 0: bounded by other sizes */
 } onset_size;
 
+/* One part of an interval: how far it alone would reach below and above the velocity [m/s].  The bracket's reaches are
+ * added to the root of the sum of squares of the others; NAN: not asked for, so not in the interval. */
+typedef struct {
+    char part[40];
+    double threshold_below, threshold_above;
+    double scratch_below, scratch_above;
+} onset_part;
+
+enum { ONSET_PARTS = 3 + UNCERTAIN_MAX };
+
 /* Scenes that were not needed. */
 typedef struct {
     char rests_on[120];
@@ -114,6 +124,8 @@ typedef struct {
     const onset_skip *skip;                 /* borrowed */
     const onset_sensitivity *sensitivities; /* borrowed */
     const onset_shot *shot;                 /* borrowed */
+    int n_parts;
+    const onset_part *part; /* n_parts, borrowed */
     int n_null_models;
     const onset_null_model *null_model; /* n_null_models, borrowed */
     int scenes_run, scenes_skipped, scenes_reused;
@@ -140,6 +152,7 @@ typedef struct {
     onset_skip *skip;
     onset_sensitivity *sensitivity;
     onset_shot *repeated;
+    onset_part *part;
     double *along;
     onset_null_model null_model[NULL_MODELS];
 } onset_answer;

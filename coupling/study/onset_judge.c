@@ -225,12 +225,61 @@ const grain_family *study_onset_leading_grain(const onset_answer *a, double *rad
     return lowest;
 }
 
-static void set_threshold(onset_answer *a)
+/* ---- what its intervals hold ---- */
+
+/* Below and above the velocity, by each part; NAN: not in the interval. */
+typedef struct {
+    double reach[ONSET_PARTS][2];
+} interval_parts;
+
+/* Of one threshold of the family, t at the size that counts. */
+static interval_parts parts_of(const uncertain_inputs *u, grain_family *f, family_judge judge, const surface_size *t)
+{
+    const threshold_result *r = &study_family_surface(f, judge)->reference;
+    const family_scatter *scatter = study_family_scatter(f, judge);
+    interval_parts p;
+    for (int side = 0; side < 2; side++) {
+        const double end = side ? t->interval[1] - t->velocity : t->velocity - t->interval[0];
+        p.reach[0][side] = fmax(end - r->allowance, 0.0);
+        p.reach[1][side] = r->of_cells;
+        p.reach[2][side] = scatter->excess > 0.0 ? scatter->reach : NAN;
+        for (int k = 0; k < UNCERTAIN_MAX; k++) p.reach[3 + k][side] = fabs(study_uncertain_moved(u, k, f, judge));
+    }
+    return p;
+}
+
+static status list_parts(onset_answer *a, grain_family *f, const surface_size *gouge, const surface_size *scratch)
+{
+    static const char *const names[] = { "bracket of the search", "cells", "place of the grid" };
+    onset_result *r = &a->result;
+    interval_parts of[FAMILY_JUDGES];
+    if (isnan(gouge->velocity) && isnan(scratch->velocity)) return status_ok();
+    a->part = calloc(ONSET_PARTS, sizeof *a->part);
+    CHECK(a->part, STATUS_MEMORY, "no memory for a summary");
+    of[JUDGE_OF_GOUGE] = parts_of(&a->uncertain, f, JUDGE_OF_GOUGE, gouge);
+    if (f->scratch) of[JUDGE_OF_SCRATCH] = parts_of(&a->uncertain, f, JUDGE_OF_SCRATCH, scratch);
+    for (int i = 0; i < ONSET_PARTS; i++) {
+        onset_part *to = &a->part[r->n_parts++];
+        const double *g = of[JUDGE_OF_GOUGE].reach[i], *s = of[JUDGE_OF_SCRATCH].reach[i];
+        const bool has_gouge = !isnan(gouge->velocity), has_scratch = f->scratch && !isnan(scratch->velocity);
+        *to = (onset_part){ .threshold_below = has_gouge ? g[0] : NAN,
+                            .threshold_above = has_gouge ? g[1] : NAN,
+                            .scratch_below = has_scratch ? s[0] : NAN,
+                            .scratch_above = has_scratch ? s[1] : NAN };
+        snprintf(to->part, sizeof to->part, "%s", i < 3 ? names[i] : study_uncertain_input(i - 3));
+    }
+    r->part = a->part;
+    return status_ok();
+}
+
+/* ---- and the threshold itself ---- */
+
+static status set_threshold(onset_answer *a)
 {
     onset_result *r = &a->result;
     double radius;
     const grain_family *f = study_onset_leading_grain(a, &radius);
-    if (!f) return;
+    if (!f) return status_ok();
     const surface_size t = study_surface_at(&f->surface, radius);
     r->threshold_velocity = t.velocity;
     const surface_size scratch = scratch_at(f, radius);
@@ -248,6 +297,7 @@ static void set_threshold(onset_answer *a)
         r->threshold_interval[k] = t.interval[k];
         r->threshold_position_interval[k] = gouge_trace_place(&a->flown, t.interval[k]);
     }
+    return list_parts(a, &a->grains.family[f - a->grains.family], &t, &scratch);
 }
 
 /* ---- what was skipped, and why ---- */
@@ -380,7 +430,7 @@ status study_onset_judge(session *s, onset_answer *a)
     find_contradictions(s, a);
     judge_sites(a);
     conclude_list(a);
-    set_threshold(a);
+    TRY(set_threshold(a));
     TRY(list_surface(a));
     return count_skips(a);
 }

@@ -66,6 +66,16 @@ static const summary_key sensitivity_keys[] = {
     SUMMARY_END
 };
 
+static const summary_key part_keys[] = {
+    SUMMARY_TEXT(onset_part, "part", part, "bracket, cells, place of the grid, or the key of an uncertain input"),
+    SUMMARY_NUMBER(onset_part, "threshold_below", threshold_below, "m/s",
+                   "how far it alone reaches below the gouge's velocity; null: not asked for, so not in the interval"),
+    SUMMARY_NUMBER(onset_part, "threshold_above", threshold_above, "m/s", "the same above"),
+    SUMMARY_NUMBER(onset_part, "scratch_below", scratch_below, "m/s", "the same below the scratch velocity"),
+    SUMMARY_NUMBER(onset_part, "scratch_above", scratch_above, "m/s", "the same above it"),
+    SUMMARY_END
+};
+
 static const summary_key null_model_keys[] = {
     SUMMARY_TEXT(onset_null_model, "name", name, "N1, N2, N3"),
     SUMMARY_TEXT(onset_null_model, "says", says, "what it takes for the cause"),
@@ -141,6 +151,9 @@ const summary_key study_onset_keys[] = {
     SUMMARY_LIST(onset_result, "sensitivities", sensitivities, n_sensitivities, sensitivity_keys,
                  sizeof(onset_sensitivity), "keys below"),
     SUMMARY_LIST(onset_result, "shots", shot, n_shots, shot_keys, sizeof(onset_shot), "on the same rail, keys below"),
+    SUMMARY_LIST(onset_result, "interval_parts", part, n_parts, part_keys, sizeof(onset_part),
+                 "what both intervals hold: the bracket, and on it the root of the sum of squares of all others, keys "
+                 "below"),
     SUMMARY_LIST(onset_result, "null_models", null_model, n_null_models, null_model_keys, sizeof(onset_null_model),
                  "what one number of the two metals alone would say, keys below"),
     SUMMARY_VALUE(onset_result, KEY_INTEGER, "scenes_reused", scenes_reused, "1", "taken from the store"),
@@ -223,6 +236,23 @@ static void print_craters(const onset_result *o, FILE *out)
         host_table_free(t);
 }
 
+/* What the intervals hold; "-": not asked for. */
+static void print_parts(const onset_result *o, FILE *out)
+{
+    table *t;
+    const char *titles = "in the interval|gouge - [m/s]|gouge + [m/s]|scratch - [m/s]|scratch + [m/s]";
+    if (o->n_parts == 0 || host_table_create(titles, &t).code != STATUS_OK) return;
+    for (int i = 0; i < o->n_parts; i++) {
+        const onset_part *p = &o->part[i];
+        char cell[4][24];
+        host_table_row(t, "%s|%s|%s|%s|%s", p->part, output_cell(p->threshold_below, 1.0, "%.0f", cell[0]),
+                       output_cell(p->threshold_above, 1.0, "%.0f", cell[1]),
+                       output_cell(p->scratch_below, 1.0, "%.0f", cell[2]),
+                       output_cell(p->scratch_above, 1.0, "%.0f", cell[3]));
+    }
+    close_table(t, out);
+}
+
 /* The scenes' answer among those of one number each. */
 static void print_null_models(const onset_result *o, FILE *out)
 {
@@ -276,6 +306,7 @@ void study_onset_print(const void *result, FILE *out)
     print_sites(o, out);
     print_grooves(o, out);
     print_craters(o, out);
+    print_parts(o, out);
     print_null_models(o, out);
     print_shots(o, out);
     if (o->reason[0]) fprintf(out, "\n%s: %s\n", verdict_names[o->verdict], o->reason);

@@ -152,7 +152,15 @@ static double decided_off(const case_onset *c, const sought *t, double scatter, 
     return fmax(off, 0);
 }
 
-/* value: room for as many numbers as there are grids.  other: the family's other threshold; NULL: it has none. */
+/* How far from the threshold a scene lies on either side that decides alike on any grid [m/s]. */
+static double reach_of(const case_onset *c, const sought *t, double scatter)
+{
+    return fmax(decided_off(c, t, scatter, false), decided_off(c, t, scatter, true));
+}
+
+/* value: room for as many numbers as there are grids.  other: the family's other threshold; NULL: it has none.
+ * A slope that is hardly above zero makes a groove's scatter into a deviation of any size; it cannot exceed the reach,
+ * within which all grids have decided. */
 static void conclude(session *s, const grain_families *g, const sought *t, const sought *other, double *value)
 {
     const int n = g->c->study.threshold_ensemble;
@@ -161,17 +169,15 @@ static void conclude(session *s, const grain_families *g, const sought *t, const
     for (int i = 0; i < n; i++) value[i] = study_family_sample(g->c, t->judge, on_grid(t, i)).excess;
     out->excess = study_shift_spread(value, n).deviation;
     for (int i = 0; i < n; i++) value[i] = threshold_off(g->c, t, other, b, i);
-    out->threshold = NAN;
     bool known = true;
     for (int i = 0; i < n; i++) known = known && isfinite(value[i]);
-    if (known) out->threshold = study_shift_spread(value, n).deviation;
-    if (out->threshold > g->c->study.velocity_high - g->c->study.velocity_low)
-        out->threshold = NAN; /* level, to rounding */
-    out->reach = out->threshold;
+    const double reach = reach_of(g->c, t, out->excess);
+    out->threshold = known ? study_shift_spread(value, n).deviation : NAN;
+    if (out->threshold > reach) out->threshold = NAN;
+    out->reach = isnan(out->threshold) ? reach : out->threshold;
     if (!isnan(out->threshold)) return;
-    out->reach = fmax(decided_off(g->c, t, out->excess, false), decided_off(g->c, t, out->excess, true));
     run_session_warn(s,
-                     "%swhat decides on a %s scatters by %.2g with the place of the grid at %g m/s, but does not rise "
+                     "%swhat decides on a %s scatters by %.2g with the place of the grid at %g m/s, and hardly rises "
                      "with velocity in the search's scenes: the interval is wider by %.0f m/s, as far as scenes that "
                      "decide in spite of it",
                      g->prefix, t->judge == JUDGE_OF_GOUGE ? "gouge" : "scratch", out->excess, t->near->velocity,

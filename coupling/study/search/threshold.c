@@ -276,7 +276,7 @@ static void one_sided(threshold_search *s, const threshold_bracket *b)
     r->outcome = THRESHOLD_UNKNOWN;
     if (b->has_hi) r->bracket[1] = b->hi.velocity;
     if (b->has_lo) r->bracket[0] = b->lo.velocity;
-    r->allowance = s->plan->resolution * (b->has_hi ? b->hi.velocity : b->has_lo ? b->lo.velocity : 0.0);
+    r->allowance = r->of_cells = s->plan->resolution * (b->has_hi ? b->hi.velocity : b->has_lo ? b->lo.velocity : 0.0);
     r->interval[0] = r->bracket[0] - r->allowance;
     r->interval[1] = r->bracket[1] + r->allowance;
     if (b->has_hi && b->hi.velocity == grid_low) r->outcome = THRESHOLD_BELOW;
@@ -298,7 +298,7 @@ static void conclude(threshold_search *s, const threshold_bracket *b)
     r->interval[1] = decided_end(s, &b->hi);
     check_monotone(r, s->plan->coarse);
     if (s->cells != s->plan->coarse) check_monotone(r, s->cells);
-    r->allowance = fmax(s->plan->resolution * r->velocity, isnan(r->shift) ? 0.0 : fabs(r->shift));
+    r->allowance = r->of_cells = fmax(s->plan->resolution * r->velocity, isnan(r->shift) ? 0.0 : fabs(r->shift));
     r->interval[0] -= r->allowance;
     r->interval[1] += r->allowance;
 }

@@ -80,7 +80,8 @@ typedef struct {
     double interval[2]; /* where it lies; an end that is not known is NaN [m/s] */
     double bracket[2];  /* of the last stage alone [m/s] */
     double shift;       /* of the root from coarse to fine, at least, NaN if there is only one [m/s] */
-    double allowance;   /* for the resolution, on both sides of the interval: the shift or the plan's share [m/s] */
+    double of_cells;    /* for the resolution, on both sides of the interval: the shift or the plan's share [m/s] */
+    double allowance;   /* that, with what else widened the interval since (uncertain.h) [m/s] */
     double cells;       /* a radius, of the last stage [1] */
     bool monotone;
     char warning[THRESHOLD_WARNING_SIZE]; /* "" if none */

@@ -93,6 +93,23 @@ static double moved_to(const uncertain_input *u, const grain_family *f, family_j
     return isnan(r->bracket[0]) ? r->bracket[1] : r->bracket[0];
 }
 
+static double off(const uncertain_input *u, grain_family *f, family_judge judge)
+{
+    return moved_to(u, f, judge) - study_family_surface(f, judge)->reference.velocity;
+}
+
+const char *study_uncertain_input(int k)
+{
+    return inputs[k].input;
+}
+
+double study_uncertain_moved(const uncertain_inputs *u, int k, grain_family *f, family_judge judge)
+{
+    for (int i = 0; i < u->n; i++)
+        if (strcmp(u->of[i].input, inputs[k].input) == 0) return off(&u->of[i], f, judge);
+    return NAN;
+}
+
 static void widen(surface_result *s, double allowance)
 {
     const double by = allowance - s->reference.allowance;
@@ -111,8 +128,8 @@ static void widen_threshold(const uncertain_inputs *u, grain_family *f, grain_fa
     surface_result *s = study_family_surface(other, judge);
     double squares = s->reference.allowance * s->reference.allowance;
     for (int i = 0; f && i < u->n; i++) {
-        const double off = moved_to(&u->of[i], f, judge) - study_family_surface(f, judge)->reference.velocity;
-        if (isfinite(off)) squares += off * off;
+        const double moved = off(&u->of[i], f, judge);
+        if (isfinite(moved)) squares += moved * moved;
     }
     const double scatter = f ? study_family_scatter(f, judge)->reach : 0;
     squares += scatter * scatter;
