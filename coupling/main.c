@@ -50,6 +50,15 @@ static int complain(status s)
     return exit_code(s);
 }
 
+/* Processes of a study of several scenes: a scene gets little faster with more than a few threads, and a process
+ * without one lends its own.  Who says how many threads there are has decided otherwise. */
+static int usual_processes(const usage_line *l)
+{
+    if (usage_given(l, "--threads") || getenv("OMP_NUM_THREADS")) return 1;
+    const int cores = omp_get_num_procs();
+    return cores < USUAL_PROCESSES ? cores : USUAL_PROCESSES;
+}
+
 /* ---- the case ---- */
 
 static study_case study_case_of(const options *o, const case_inputs *in)
@@ -123,41 +132,11 @@ static status write_results(const options *o, const case_inputs *in, session *s,
     return written;
 }
 
-/* As a shell reads it back. */
-static void print_word(const char *word, FILE *out)
-{
-    const bool plain = word[0] && !word[strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                                     "_-./=:,+%@")];
-    if (plain) {
-        fprintf(out, " %s", word);
-        return;
-    }
-    fputs(" '", out);
-    for (; *word; word++) fputs(*word == '\'' ? "'\\''" : (char[]){ *word, '\0' }, out);
-    fputc('\'', out);
-}
-
-/* The command line that goes on with this run. */
-static void print_resume(const options *o, const session *s, FILE *out)
-{
-    fprintf(out, "breech %s", o->line.command.name);
-    print_word(o->line.subject, out);
-    for (int k = 0; k < o->line.n_sets; k++) {
-        fputs(" --set", out);
-        print_word(o->line.sets[k], out);
-    }
-    if (o->line.store) fputs(o->line.store[0] ? " --store" : " --no-store", out);
-    if (o->line.store && o->line.store[0]) print_word(o->line.store, out);
-    fputs(" -o", out);
-    print_word(s->dir.path, out);
-    fputs(" --resume\n", out);
-}
-
 static void say_where(const options *o, const session *s, status work)
 {
     if (work.code == STATUS_STOPPED) {
         fprintf(stderr, "breech: stopped (%s); --resume goes on: ", host_stop_reason());
-        print_resume(o, s, stderr);
+        usage_print_resume(&o->line, s->dir.path, stderr);
     } else if (!o->line.quiet) {
         printf("\nresults: %s\n", s->dir.path);
     }
@@ -198,20 +177,24 @@ static int carry_out(const options *o, const case_inputs *in, session *s)
     return complain(written.code != STATUS_OK ? written : closed);
 }
 
+/* Scenes of this size that the machine holds side by side: each process may have put one off for another. */
+static int side_by_side(size_t largest)
+{
+    return largest ? (int)fmin(fmax(host_memory("") / (2.0 * (double)largest), 1), MOST_PROCESSES) : 0;
+}
+
 static int run_case(const options *o)
 {
     case_inputs *in = NULL;
     session s;
     const status got = read_case(o, o->line.command.study->needs, &in);
     if (got.code != STATUS_OK) return exit_code(got);
-    /* each may have put one off for another */
-    const double fit = *o->largest ? host_memory("") / (2.0 * (double)*o->largest) : 0;
     const session_options how = { .command = o->line.command.name,
                                   .dir = o->line.dir,
                                   .store = o->line.store,
                                   .how = { .force = o->line.force, .resume = o->line.resume },
                                   .threads = o->line.threads,
-                                  .side_by_side = *o->largest ? (int)fmin(fmax(fit, 1), MOST_PROCESSES) : 0,
+                                  .side_by_side = side_by_side(*o->largest),
                                   .lending = o->lending,
                                   .run_scene = gouge_run,
                                   .progress_to = stderr,
@@ -268,14 +251,14 @@ static void print_random(const case_onset *c)
 }
 
 /* "; likely some 3 min 10 s for so many", or "". */
-static const char *search_time(const scene_estimate *e, int n, int scenes, char text[80])
+static const char *search_time(const scene_estimate *e, int n, int scenes, char text[100])
 {
     const double seconds = study_check_search_time(e, n, scenes);
     char time[40];
     text[0] = '\0';
     if (isnan(seconds)) return text;
     host_duration_text(seconds, time, sizeof time);
-    snprintf(text, 80, "\n  likely some %s for so many scenes", time);
+    snprintf(text, 100, "\n  likely some %s for so many scenes, one after the other", time);
     return text;
 }
 
@@ -290,8 +273,27 @@ static void print_ready(const case_inputs *in, unsigned needs)
     puts(n ? "" : "no command yet; breech --help COMMAND says what each needs");
 }
 
-static status print_check(const case_inputs *in, int threads, unsigned needs)
+/* What scenes side by side take together, where a command that the case is ready for would have several. */
+static void print_together(const options *o, const case_inputs *in, unsigned needs)
 {
+    bool many = false;
+    for (int i = 0; i < STUDIES; i++) {
+        const study *y = study_for(study_list[i], in);
+        many |= y->many_scenes && (y->needs & ~needs) == 0;
+    }
+    const int asked = o->line.processes ? o->line.processes : usual_processes(&o->line),
+              fit = side_by_side(*o->largest);
+    const int n = asked < fit ? asked : fit;
+    if (!many || n < 1 || asked < 2) return;
+    printf("memory: %d scene%s side by side take %.2f GB, twice that where each has put one off for another; there are "
+           "%.1f GB\n",
+           n, n == 1 ? "" : "s", 1e-9 * n * (double)*o->largest, 1e-9 * host_memory(""));
+    if (n < asked) printf("warning: for %d processes there is no memory: %d compute scenes\n", asked, n);
+}
+
+static status print_check(const options *o, const case_inputs *in, unsigned needs)
+{
+    const int threads = o->line.threads;
     scene_estimate e[CHECK_MAX_ESTIMATES];
     int n = 0;
     double rate;
@@ -313,9 +315,10 @@ static status print_check(const case_inputs *in, int threads, unsigned needs)
     if (n > 0) host_table_print(t, stdout);
     host_table_free(t);
     if (n > 0) study_check_assumptions(in, threads, rate, stdout);
+    print_together(o, in, needs);
     study_check_searches(in, stdout);
     const case_onset *c = &in->onset;
-    char whole[80] = "", text[80];
+    char whole[80] = "", text[100];
     const int craters = c->study.judge == JUDGE_GROWTH ? c->study.craters * study_grain_kinds(c) : 0;
     if (craters > 0) snprintf(whole, sizeof whole, ", of which %d are kept for whole craters (study.craters)", craters);
     if (c->study.ensemble > 0) printf("scene: on %d grids, each as above\n", c->study.ensemble);
@@ -367,7 +370,7 @@ static int run_check(const options *o)
     case_inputs_free(in);
     s = read_case(o, needs, &in);
     if (s.code != STATUS_OK) return exit_code(s);
-    s = o->line.scene ? study_print_scene(in, stdout) : print_check(in, o->line.threads, needs);
+    s = o->line.scene ? study_print_scene(in, stdout) : print_check(o, in, needs);
     case_inputs_free(in);
     return complain(s);
 }
@@ -502,17 +505,14 @@ static void wait_passively(char **argv)
     if (setenv("OMP_WAIT_POLICY", "passive", 1) == 0) execv("/proc/self/exe", argv);
 }
 
-/* Studies of several scenes compute them side by side: a scene gets little faster with more than a few threads, and a
- * process without one lends its own.  Who says how many threads there are has decided otherwise. */
+/* Studies of several scenes compute them side by side. */
 static int default_processes(int argc, char **argv)
 {
     usage_line line = { .threads = 0 };
     if (usage_parse(argc, argv, &line).code != STATUS_OK) return 1;
+    if (!line.command.study) return 1;
     if (line.processes > 0) return line.processes;
-    const bool many = line.command.study && (line.command.study->many_scenes || line.ensemble > 0);
-    if (!many || line.threads > 0 || getenv("OMP_NUM_THREADS")) return 1;
-    const int cores = omp_get_num_procs();
-    return cores < USUAL_PROCESSES ? cores : USUAL_PROCESSES;
+    return line.command.study->many_scenes || line.ensemble > 0 ? usual_processes(&line) : 1;
 }
 
 /* All of the machine, or of what the launcher has bound this process to; several processes on one machine share it. */

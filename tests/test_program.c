@@ -193,6 +193,13 @@ static void test_check_and_materials(void **state)
     assert_true(contains("out.txt", "random shots: 100000 histories, at most 1.2e+06 grains, 0 s\n"));
     assert_int_equal(run("check " CASES "/treatments --set 'populations[0].density=1e6 1/m'"), 0);
     assert_true(contains("out.txt", "at most 2.9e+11 grains, 12 h "));
+    assert_int_equal(run("check " CASES "/treatments --processes 2"), 0); /* what they take together */
+    assert_true(contains("out.txt", "\nmemory: 2 scenes side by side take 0."));
+    assert_int_equal(run("check " CASES "/treatments --processes 1"), 0);
+    assert_false(contains("out.txt", "\nmemory: "));
+    /* 512 of 3 GB fit nowhere where tests run */
+    assert_int_equal(run("check " CASES "/treatments --processes 256 --set study.fine_cells_per_radius=16"), 0);
+    assert_true(contains("out.txt", "\nwarning: for 256 processes there is no memory: "));
     assert_int_equal(run("check " CASES "/treatments --set 'treatments[1].coating[0].thickness=50 um'"), 0);
     assert_true(contains("out.txt", "warning: steel overlay: 50 um of steel_4340 is thinner than a cell of 167 um"));
     assert_true(contains("out.txt", "study.fine_cells_per_radius = 10, some 123 times the time"));
@@ -318,6 +325,13 @@ static void test_resume_of_another(void **state)
     assert_int_equal(run("scene " TINY " -o other/part --quiet --no-store --max-walltime 0.05"), 75);
     assert_true(contains("err.txt", " --set 'scene.coarse_cell=0.8 mm' --set scene.growth=1.3 "));
     assert_true(contains("err.txt", " --no-store -o other/part --resume\n"));
+    assert_int_equal(run("scene " TINY
+                         " -o other/three --ensemble 3 --threads 1 --instruction-set portable --store other/st "
+                         "--max-walltime 0.05"),
+                     75);
+    assert_true(contains("err.txt",
+                         " --set study.ensemble=3 --threads 1 --instruction-set portable --store other/st -o "
+                         "other/three --resume\n"));
     assert_int_equal(run("shot " TINY " -o other/part --resume"), 2);
     assert_true(contains("err.txt", "`# Run by: breech scene`"));
     assert_true(exists("other/part/checkpoint.bin"));

@@ -153,7 +153,7 @@ static void test_bash(void **state)
         { "breech --comp", 1, "--completion" },
         { "breech --completion z", 2, "zsh" },
         { "breech --help ma", 2, "materials" },
-        { "breech check --", 2, "--help --set --threads --expect --scene" },
+        { "breech check --", 2, "--help --set --threads --processes --expect --scene" },
         { "breech scene folder --en", 3, "--ensemble" },
         { "breech onset folder --en", 3, "" },
         { "breech new x --from bod", 4, "bodies" },

@@ -10,9 +10,12 @@ import json
 import os
 import sys
 
-from paraview import servermanager
-from paraview.simple import (Calculator, ColorBy, GetActiveViewOrCreate, GetAnimationScene, GetColorTransferFunction,
-                             GetScalarBar, OpenDataFile, Render, SaveScreenshot, Show, Threshold, UpdatePipeline)
+try:
+    from paraview import servermanager
+    from paraview.simple import (Calculator, ColorBy, GetActiveViewOrCreate, GetAnimationScene, GetColorTransferFunction,
+                                 GetScalarBar, OpenDataFile, Render, SaveScreenshot, Show, Threshold, UpdatePipeline)
+except ModuleNotFoundError:
+    sys.exit(f"{sys.executable} has no paraview: run this with pvbatch, which brings its own (apt-get install paraview)")
 
 UNITS = {"height": "mm", "damage": "1", "temperature": "K", "pressure": "Pa"}
 

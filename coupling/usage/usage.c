@@ -149,6 +149,12 @@ static const usage_option *option_find(const char *name)
     return NULL;
 }
 
+bool usage_given(const usage_line *l, const char *option)
+{
+    const usage_option *o = option_find(option);
+    return o && (l->given & BIT(o - usage_options)) != 0;
+}
+
 /* One word of the command line; *i moves on where the next one is its value.  --name=value is understood too. */
 static status take_word(usage_line *l, int argc, char **argv, int *i)
 {

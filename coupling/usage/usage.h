@@ -73,6 +73,10 @@ typedef struct {
 /* The defaults stand in *out, which borrows argv.  STATUS_BAD_INPUT says what is wrong. */
 status usage_parse(int argc, char **argv, usage_line *out);
 
+bool usage_given(const usage_line *l, const char *option);
+/* The command line that goes on with the run in dir: case, values and options of this one, --resume. */
+void usage_print_resume(const usage_line *l, const char *dir, FILE *out);
+
 usage_command usage_command_at(int i); /* of USAGE_COMMANDS_MADE */
 /* Its name is NULL where there is none of this name. */
 usage_command usage_command_find(const char *name);

@@ -10,7 +10,7 @@ if len(sys.argv) != 2:
 try:
     describe(sys.argv[1])
     sys.stdout.flush()
-except FileNotFoundError as error:
+except (FileNotFoundError, ImportError) as error:
     sys.exit(str(error))
 except BrokenPipeError:  # who reads has seen enough, as `| head`
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of results; each function returns a matplotlib figure, which pyplot knows nothing of.  Debian: python3-matplotlib."""
-import numpy as np
-from matplotlib.figure import Figure
+from .needs import load, numpy as np
+
+Figure = load("matplotlib.figure").Figure
 
 COLOURS = {"not_reached": "0.8", "skipped": "0.6", "none": "tab:blue", "scratch": "tab:olive", "undecided": "tab:orange",
            "gouge": "tab:red"}

@@ -18,8 +18,7 @@ import functools
 import json
 from pathlib import Path
 
-import h5py
-import numpy as np
+from .needs import h5py, numpy as np
 
 
 def _text(value):

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A shot, the same at other charges, and one impact, cell by cell."""
 # %% A case is nested dicts; a quantity keeps the unit that it has in the file
-import numpy as np
-
 import breech
 
 case = breech.Case("cases/default_shot")
@@ -12,7 +10,7 @@ print(case["bank"]["charge"], case["barrel.length"], case["sites[0].position"].v
 run = case.run("shot", "out/python/shot", force=True)
 shot = run.shot
 print(f"{run.summary['muzzle_velocity']:.0f} m/s after {1e3 * run.summary['muzzle_time']:.2f} ms")
-fastest = np.argmax(shot["acceleration"])
+fastest = shot["acceleration"].argmax()
 print(f"{shot['acceleration'][fastest]:.3g} {shot.units['acceleration']} at {shot['position'][fastest]:.2f} m")
 breech.plot.shot(run).savefig("out/python/shot.png")
 

@@ -7,6 +7,8 @@ import os
 
 from pages import Column, Table
 
+from breech.needs import h5py, numpy as np
+
 CASE = "cases/gel_droplet"
 CELL, INNER, OUTER = 16e-6, 0.4505e-3, 0.5e-3
 SLOWER = 1500.0  # the growth takes 0.75 s, in the scenes 0.5 ms
@@ -33,8 +35,6 @@ class Disc:
     """A run of the scene: series of its bubbles until it bursts and after, points of its snapshots."""
 
     def __init__(self, runs, name, file, bubbles):
-        import h5py
-        import numpy as np
         folder, self.took = runs.run(name, ["scene", "%s/%s.yaml" % (CASE, file), "--set", "output.report=no"])
         with h5py.File(os.path.join(folder, "history.h5")) as h:
             probes = h["scene/scene/probes"]
@@ -51,7 +51,6 @@ class Disc:
         self.main = bubbles[0]
 
     def points(self, k):
-        import h5py
         with h5py.File(self.files[k]) as h:
             data = h["VTKHDF"]
             out = {key: data["PointData"][key][:] for key in ("body", "damage", "velocity", "mass", "density")}
@@ -67,7 +66,6 @@ class Disc:
 
     def failed_angle(self):
         """From the middle of the droplet to its most damaged point, before it bursts."""
-        import numpy as np
         q = self.points(self.last_whole())
         film = q["body"] == 0
         x = q["x"][film]
@@ -90,7 +88,6 @@ class Disc:
 
     def source(self, k):
         """Spread of v r about a single bubble, over rings of liquid off the film: (largest - least) / mean."""
-        import numpy as np
         q = self.points(k)
         liquid = q["body"] == 1
         x, v = q["x"][liquid], q["velocity"][liquid]
@@ -105,13 +102,11 @@ class Disc:
         return (max(means) - min(means)) / np.mean(means)
 
     def after(self, share):
-        import numpy as np
         low = np.where(self.p[self.main][self.at:] < share * self.pressure())[0]
         return self.time[self.at + low[0]] - self.time[self.at] if len(low) else None
 
     def maxima(self):
         """Heights over a smooth rise of the pressure's maxima before it bursts, at most six."""
-        import numpy as np
         p, t = self.p[self.main][1:self.at], self.time[1:self.at]
         off = p - np.polyval(np.polyfit(t, p, 5), t)
         tops = [off[i] for i in range(2, len(off) - 2) if off[i] == off[i - 2:i + 3].max() and off[i] > 100]
@@ -136,7 +131,6 @@ def solver_row(name, d):
 
 def spread(d, low, high):
     """Of the bubbles' pressures about their mean, the mean of it from low to high times the time of rupture."""
-    import numpy as np
     all_p = np.array([d.p[b] for b in d.p])
     part = (d.time > low * d.time[d.at]) & (d.time < high * d.time[d.at])
     return ((all_p.max(axis=0) - all_p.min(axis=0)) / all_p.mean(axis=0))[part].mean()

@@ -3,9 +3,9 @@
 import json
 import os
 
-import h5py
-import numpy as np
 from pages import Column, Table
+
+from breech.needs import h5py, numpy as np
 
 CASE = "cases/lattice_target"
 TRAVEL = {500: 45, 1000: 36, 1500: 34, 2000: 32}  # velocity [m/s]: travel [mm]

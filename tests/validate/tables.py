@@ -32,6 +32,8 @@ import part_water
 import part_wu2017
 from runs import Runs
 
+from breech.needs import demand
+
 PARTS = {  # name: page, function, minutes of processor time, quick: compared by ctest with BREECH_FULL=1
     "wu2017": ("docs/validation/wu2017.md", part_wu2017.two_cells, 35, True),
     "wu2017-three-cells": ("docs/validation/wu2017.md", part_wu2017.three_cells, 5, False),
@@ -81,6 +83,7 @@ def main():
         for name, (page, _, minutes, quick) in PARTS.items():
             print("%-20s %-28s %3d min%s" % (name, page, minutes, ", in --full" if quick else ""))
         return
+    demand("numpy", "h5py")
     breech, out, parts, check, threads = options(sys.argv[1:])
     runs = Runs(breech, out, threads)
     faults = []
