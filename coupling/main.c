@@ -206,9 +206,10 @@ static int run_case(const options *o)
         if (!o->line.quiet && in->warnings[0]) fputs(in->warnings, stderr);
         code = carry_out(o, in, &s);
     } else {
-        if (opened.code == STATUS_OK) say_finished(o, in, &s);
+        const bool finished = opened.code == STATUS_OK;
+        if (finished) say_finished(o, in, &s);
         code = complain(opened);
-        run_session_close(&s, false);
+        run_session_close(&s, finished); /* killed at its very end it has left a checkpoint */
     }
     case_inputs_free(in);
     return code;
