@@ -93,6 +93,16 @@ double mpm_fatigue_strain(const fatigue_fan *fan, int k, fatigue_measure measure
     return c * c * strain[0] + s * s * strain[1] + c * s * strain[2];
 }
 
+void mpm_fatigue_take(const fatigue_fan *fan, fatigue_measure measure, double poisson, const double strain[3],
+                      fatigue_extremes *of)
+{
+    for (int k = 0; k < fan->n; k++) {
+        const double is = mpm_fatigue_strain(fan, k, measure, poisson, strain);
+        of->least[k] = fmin(of->least[k], is);
+        of->largest[k] = fmax(of->largest[k], is);
+    }
+}
+
 double mpm_fatigue_range(fatigue_measure measure, double least, double largest)
 {
     const double up = fmax(largest, 0.0), down = fmin(least, 0.0);

@@ -50,6 +50,12 @@ fatigue_fan mpm_fatigue_fan_lattice(void);
 /* Strain of direction k by a measure, before the range is taken; strain: xx, yy, and gamma = 2 xy [1]. */
 double mpm_fatigue_strain(const fatigue_fan *fan, int k, fatigue_measure measure, double poisson,
                           const double strain[3]);
+/* Between which strains every direction runs in a cycle from and to no load: zeros at first. */
+typedef struct {
+    double least[FATIGUE_MAX_DIRECTIONS], largest[FATIGUE_MAX_DIRECTIONS];
+} fatigue_extremes;
+void mpm_fatigue_take(const fatigue_fan *fan, fatigue_measure measure, double poisson, const double strain[3],
+                      fatigue_extremes *of);
 /* Of a cycle between these two; zero is added to both where they do not hold it. */
 double mpm_fatigue_range(fatigue_measure measure, double least, double largest);
 

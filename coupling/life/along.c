@@ -40,19 +40,6 @@ static places places_of(const life_rail *r, const life_passage *p, const contact
     return all;
 }
 
-typedef struct {
-    double least[FATIGUE_MAX_DIRECTIONS], largest[FATIGUE_MAX_DIRECTIONS];
-} extremes;
-
-static void take(const life_rail *r, const double strain[3], extremes *e)
-{
-    for (int k = 0; k < r->fan.n; k++) {
-        const double of = mpm_fatigue_strain(&r->fan, k, r->measure, r->poisson, strain);
-        e->least[k] = fmin(e->least[k], of);
-        e->largest[k] = fmax(e->largest[k], of);
-    }
-}
-
 static void contact_strain(const life_rail *r, const life_passage *p, const contact_load *l, double x, double z,
                            double strain[3])
 {
@@ -73,7 +60,7 @@ void life_along_passage(const life_rail *r, const life_passage *p, double *const
     const double a = r->half_length, expansion = isnan(r->expansion) ? 0.0 : r->expansion;
     for (int j = 0; j < LIFE_DEPTHS; j++) {
         const double z = life_along_depth(r, j);
-        extremes of[LIFE_CAUSES] = { { { 0.0 }, { 0.0 } } };
+        fatigue_extremes of[LIFE_CAUSES] = { { { 0.0 }, { 0.0 } } };
         for (int i = 0; i < at.n; i++) {
             double strain[LIFE_CAUSES][3];
             const double time = p->heat.dwell * 0.5 * (1.0 - at.x[i] / a);
@@ -81,7 +68,7 @@ void life_along_passage(const life_rail *r, const life_passage *p, double *const
             life_heat_strain(life_heat_rise(&p->heat, z, fmin(time, p->until)), expansion, r->poisson,
                              strain[LIFE_BY_HEAT]);
             for (int q = 0; q < 3; q++) strain[LIFE_BY_BOTH][q] = strain[LIFE_BY_CONTACT][q] + strain[LIFE_BY_HEAT][q];
-            for (int c = 0; c < LIFE_CAUSES; c++) take(r, strain[c], &of[c]);
+            for (int c = 0; c < LIFE_CAUSES; c++) mpm_fatigue_take(&r->fan, r->measure, r->poisson, strain[c], &of[c]);
         }
         for (int c = 0; c < LIFE_CAUSES; c++)
             for (int k = 0; k < r->fan.n; k++)

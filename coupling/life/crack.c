@@ -92,35 +92,24 @@ static void face_strain(const crack *k, int cell, int place, double strain[3])
     strain[2] = (c.zz * xz - c.zz_shear * zz) / determinant;
 }
 
-typedef struct {
-    double least[FATIGUE_MAX_DIRECTIONS], largest[FATIGUE_MAX_DIRECTIONS];
-} extremes;
-
-static void take_strain(const crack *k, const double strain[3], extremes *of)
+/* Strains of a cell: in its middle; on the face, where they change most from cell to cell, at its ends too. */
+static void take_cell(const crack *k, int i, int j, fatigue_extremes *of)
 {
     const life_first_how *how = &k->c->how;
-    for (int d = 0; d < k->points.fan.n; d++) {
-        const double e = mpm_fatigue_strain(&k->points.fan, d, how->measure, how->poisson, strain);
-        of->least[d] = fmin(of->least[d], e), of->largest[d] = fmax(of->largest[d], e);
-    }
-}
-
-/* Strains of a cell: in its middle; on the face, where they change most from cell to cell, at its ends too. */
-static void take_cell(const crack *k, int i, int j, extremes *of)
-{
+    const fatigue_fan *fan = &k->points.fan;
     double strain[3];
     if (j > 0) {
         mpm_rest_strain(k->body, i, j, strain);
-        take_strain(k, strain, of);
+        mpm_fatigue_take(fan, how->measure, how->poisson, strain, of);
         return;
     }
     for (int place = i > 0 ? 2 * i : 1; place <= 2 * i + 2 && place < 2 * k->nx; place++) {
         face_strain(k, i, place, strain);
-        take_strain(k, strain, of);
+        mpm_fatigue_take(fan, how->measure, how->poisson, strain, of);
     }
 }
 
-static void set_point(crack *k, int point, const extremes *of)
+static void set_point(crack *k, int point, const fatigue_extremes *of)
 {
     const fatigue_measure measure = k->c->how.measure;
     for (int d = 0; d < k->points.fan.n; d++)
@@ -133,9 +122,9 @@ static void set_ranges(crack *k)
     const bool passage = k->c->how.cycle == LIFE_PASSAGE;
 #pragma omp parallel for schedule(static) num_threads(k->c->threads)
     for (int j = 0; j < k->nz; j++) {
-        extremes of = { { 0.0 }, { 0.0 } };
+        fatigue_extremes of = { { 0.0 }, { 0.0 } };
         for (int i = 0; i < k->nx; i++) {
-            if (!passage) of = (extremes){ { 0.0 }, { 0.0 } };
+            if (!passage) of = (fatigue_extremes){ { 0.0 }, { 0.0 } };
             take_cell(k, i, j, &of);
             if (!passage) set_point(k, j * k->nx + i, &of);
         }

@@ -82,25 +82,17 @@ static double place(int k, double a)
     return a * (x + copysign(4.0 * beyond * beyond, x));
 }
 
-typedef struct {
-    double least[FATIGUE_MAX_DIRECTIONS], largest[FATIGUE_MAX_DIRECTIONS];
-} extremes;
-
-static void take_place(const search *s, const fatigue_fan *fan, double x, double z, extremes *of)
+static void take_place(const search *s, const fatigue_fan *fan, double x, double z, fatigue_extremes *of)
 {
-    double e[3];
-    strain_at(s, x, z, e);
-    for (int k = 0; k < fan->n; k++) {
-        const double strain = mpm_fatigue_strain(fan, k, s->how->measure, s->how->poisson, e);
-        of->least[k] = fmin(of->least[k], strain);
-        of->largest[k] = fmax(of->largest[k], strain);
-    }
+    double strain[3];
+    strain_at(s, x, z, strain);
+    mpm_fatigue_take(fan, s->how->measure, s->how->poisson, strain, of);
 }
 
 static life_first at_depth(const search *s, const fatigue_fan *fan, double z)
 {
     const contact_load *l = s->load;
-    extremes of = { { 0.0 }, { 0.0 } };
+    fatigue_extremes of = { { 0.0 }, { 0.0 } };
     life_first best = { .range = -1.0, .position = NAN, .depth = z };
     for (int k = -PLACES; k <= PLACES; k++) take_place(s, fan, place(k, l->half_length), z, &of);
     for (int k = 0; k < l->n; k++) { /* on the face the strain has its peaks at ends of pieces */
