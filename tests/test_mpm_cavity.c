@@ -62,17 +62,24 @@ static void test_plug(void **state)
     mpm_scene_free(&s);
 }
 
-/* The same plug on points of a gas, nearly isothermal: pressures agree to 3 % through a quarter of its period. */
-static void test_points(void **state)
+/* A gas that hardly warms, at this pressure at rest. */
+static mpm_material points_gas(double p)
 {
-    (void)state;
-    const double h = 0.5e-3, gap = 4e-3, thick = 2e-3, p = 1e7, v = 5;
-    mpm_material m = scene_elastic(), gas;
+    mpm_material gas;
     base_params_default(mpm_material_params, &gas);
     strcpy(gas.name, "gas");
     gas.strength = MPM_STRENGTH_none, gas.eos = MPM_EOS_stiffened_gas;
     gas.density = p / (0.05 * 1e4 * 293), gas.specific_heat = 1e4, gas.reference_temperature = 293;
     gas.gas_gamma = 1.05, gas.gas_stiffness = 0, gas.gas_pressure = p;
+    return gas;
+}
+
+/* The same plug on points of a gas, nearly isothermal: pressures agree to 3 % through a quarter of its period. */
+static void test_points(void **state)
+{
+    (void)state;
+    const double h = 0.5e-3, gap = 4e-3, thick = 2e-3, p = 1e7, v = 5;
+    const mpm_material m = scene_elastic(), gas = points_gas(p);
     mpm *solver[2];
     mpm_scene s = { 0 };
     for (int points = 0; points < 2; points++) {
@@ -235,14 +242,55 @@ static void test_ring(void **state)
     assert_true(!isnan(burst[1]) && isnan(burst[0])); /* the same ring, swollen as far and further, without damage */
 }
 
+/* The same ring, intact, on gas that starts at nearly twice the pressure around it: the cavity and points of gas swell it
+ * alike, their pressures agree to 3 % while they fall by a third. */
+static void test_shell(void **state)
+{
+    (void)state;
+    const double around = 1e6, over = 0.8e6;
+    const mpm_material m = gel(), gas = points_gas(around + over);
+    mpm *solver[2];
+    mpm_scene s = { 0 };
+    for (int points = 0; points < 2; points++) {
+        ring_scene(&s, &m, false, 0);
+        if (points) {
+            mpm_body *body;
+            s.cavities = 0, s.surroundings = around;
+            assert_ok(mpm_scene_add_body(&s, &body));
+            strcpy(body->name, "gas");
+            body->material = &gas, body->temperature = 293, body->solid = cylinder(&s, 0, 0.34e-3);
+        } else {
+            s.cavity[0].ambient = around, s.cavity[0].pressure = over;
+        }
+        solver[points] = scene_make(&s, 1);
+    }
+    double off = 0, least = INFINITY;
+    for (int i = 1; i <= 30; i++) {
+        for (int k = 0; k < 2; k++) assert_ok(mpm_advance(solver[k], 1e-6 * i, NULL));
+        const double cavity = mpm_cavity_of(solver[0], 0)->pressure, is = scene_mean(solver[1], MPM_pressure, 0, 1);
+        off = fmax(off, fabs(is - cavity) / (around + over)), least = fmin(least, cavity + around);
+    }
+    print_message("ring: points of gas and the cavity %.4f of the pressure apart, which falls to %.3f\n", off,
+                  least / (around + over));
+    assert_below(least / (around + over), 0.85);
+    assert_below(off, 0.03);
+    mpm_free(solver[0]), mpm_free(solver[1]);
+    mpm_scene_free(&s);
+}
+
+/* Threads and an image: of a ring that bursts behind it, and vents. */
 static void test_same_bits(void **state)
 {
     (void)state;
-    const mpm_material m = gel();
+    mpm_material m = gel();
+    m.damage_D1 = 0.03;
     mpm_scene s = { 0 };
     ring_scene(&s, &m, true, 2.5e-5);
-    mpm *solver = scene_same_bits(&s, 70, 50);
-    assert_true(mpm_cavity_of(solver, 0)->pressure > 0);
+    s.cavity[0].pressure = 1.2e6;
+    mpm *solver = scene_same_bits(&s, 70, 130);
+    const mpm_cavity_state *g = mpm_cavity_of(solver, 0);
+    print_message("same bits: bursts at %.2f of %.2f us\n", 1e6 * g->burst_time, 1e6 * mpm_state(solver).time);
+    assert_true(g->burst_time > 0.36 * mpm_state(solver).time && g->lost > 0);
     mpm_free(solver);
     mpm_scene_free(&s);
 }
@@ -315,9 +363,9 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plug),    cmocka_unit_test(test_points), cmocka_unit_test(test_block),
-        cmocka_unit_test(test_ring),    cmocka_unit_test(test_meet),   cmocka_unit_test(test_same_bits),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_plug),      cmocka_unit_test(test_points),  cmocka_unit_test(test_block),
+        cmocka_unit_test(test_ring),      cmocka_unit_test(test_shell),   cmocka_unit_test(test_meet),
+        cmocka_unit_test(test_same_bits), cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
