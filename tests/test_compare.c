@@ -353,7 +353,7 @@ static status run_compare(breech_case *c, const char *dir, compare_answer *out)
     const case_inputs in = case_inputs_of(c);
     open_anew(&in, dir, &s);
     scenes = 0;
-    const status done = study_compare_run(&s, &in.onset, &in.treatments, NULL, out);
+    const status done = study_compare_run(&s, &in.onset, &in.treatments, in.given.life ? &in.life : NULL, out);
     OK(run_session_close(&s, done.code == STATUS_OK));
     return done;
 }
@@ -469,6 +469,40 @@ static void test_ranking(void **state)
     assert_true(entry_of(&a, "coated")->layer_failed > 0.0);
     study_compare_answer_free(&a);
     case_free(c);
+}
+
+/* Life beside grains: the ranking by gouges is what it is without, and every surface has its life.  A rail that is flown
+ * warm lasts longer; a hardened skin as long as none, and shares its rank by life. */
+static void test_life_beside_grains(void **state)
+{
+    (void)state;
+    static const char text[] = HEAD GRAINS "treatments:\n  - {name: hardened, hardening: {depth: 0.4 mm, factor: 2}}\n"
+                                           "  - {name: warm, preheat: {temperature: 400 K}}\n%s";
+    static const char life[] =
+        "materials:\n  - {name: tired, density: 8960 kg/m3, youngs_modulus: 124 GPa, poisson: 0.34, "
+        "melting_temperature: "
+        "1356 K,\n     expansion: 17e-6 1/K, fatigue_A: 9.14, fatigue_m: 2.237, fatigue_A_spread: 1.1}\n"
+        "life: {load: armature, material: tired, places: 3}\n";
+    compare_answer of[2];
+    for (int k = 0; k < 2; k++) {
+        char whole[4000];
+        snprintf(whole, sizeof whole, text, k ? life : "");
+        breech_case *c = read(whole, k ? ALL | CASE_FOR_LIFE : ALL);
+        OK(run_compare(c, "life", &of[k]));
+        case_free(c);
+    }
+    for (int i = 0; i < 3; i++) {
+        const compare_entry *without = &of[0].result.ranking[i], *with = &of[1].result.ranking[i];
+        assert_string_equal(without->surface, with->surface);
+        assert_true(without->gouges == with->gouges && without->threshold_velocity == with->threshold_velocity);
+        assert_true(isnan(without->life) && without->life_rank == 0);
+        assert_true(with->life > 0.0 && with->life_quantiles[0] < with->life && with->life < with->life_quantiles[2]);
+    }
+    const compare_entry *plain = entry_of(&of[1], "untreated"), *hard = entry_of(&of[1], "hardened"),
+                        *warm = entry_of(&of[1], "warm");
+    assert_true(warm->life > plain->life && warm->life_rank == 1);
+    assert_true(hard->life == plain->life && hard->life_rank == 2 && plain->life_rank == 2);
+    study_compare_answer_free(&of[0]), study_compare_answer_free(&of[1]);
 }
 
 /* Each surface is as good as its neighbour, within what is known; the last is worse than the best all the same. */
@@ -1191,6 +1225,7 @@ int main(void)
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_presets),
         cmocka_unit_test(test_ranking),
+        cmocka_unit_test(test_life_beside_grains),
         cmocka_unit_test(test_no_chain_of_ties),
         cmocka_unit_test(test_progress),
         cmocka_unit_test(test_screened_surface),

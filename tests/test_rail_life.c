@@ -213,8 +213,8 @@ static void test_shots(void **state)
 
 /* ---- the program ---- */
 
-#define FEW \
-    " --quiet --threads 1 --set life.places=3 --set output.report=no --set rail.level=skin --set options.rtol=1e-4 "
+#define SMALL " --quiet --set life.places=3 --set output.report=no --set rail.level=skin --set options.rtol=1e-4 "
+#define FEW SMALL "--threads 1 "
 
 static void refused(const char *what, const char *words)
 {
@@ -298,6 +298,30 @@ static void test_options(void **state)
     cJSON_Delete(s);
 }
 
+/* The same answers on one, two and three threads; the last was stopped before its second shot, and resumed. */
+static void test_same_bits(void **state)
+{
+    (void)state;
+    fresh_folder("bits");
+    cJSON *of[3];
+    for (int k = 0; k < 3; k++) {
+        char folder[40], command[600];
+        snprintf(folder, sizeof folder, "bits/%d", k + 1);
+        snprintf(command, sizeof command, "life " CASE " -o %s" SMALL "--threads %d --set study.shots=2%s", folder,
+                 k + 1, k == 2 ? " --max-walltime 0.001" : "");
+        assert_int_equal(run(command), k == 2 ? 75 : 0);
+        if (k == 2) {
+            *strstr(command, " --max-walltime") = '\0';
+            strcat(command, " --resume");
+            assert_int_equal(run(command), 0);
+        }
+        of[k] = summary_of(folder);
+        assert_same(of[0], of[k]);
+    }
+    assert_true(number(of[0], "life") > 0.0 && number(of[0], "flights") == 2.0);
+    for (int k = 0; k < 3; k++) cJSON_Delete(of[k]);
+}
+
 /* ---- surfaces ---- */
 
 #define TREATED                                                                                               \
@@ -338,7 +362,8 @@ int main(void)
         cmocka_unit_test(test_contact_heat), cmocka_unit_test(test_current_heat), cmocka_unit_test(test_heat_strain),
         cmocka_unit_test(test_load),         cmocka_unit_test(test_moving_load),  cmocka_unit_test(test_signs),
         cmocka_unit_test(test_heat_alone),   cmocka_unit_test(test_shots),        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_program),      cmocka_unit_test(test_options),      cmocka_unit_test(test_surfaces),
+        cmocka_unit_test(test_program),      cmocka_unit_test(test_options),      cmocka_unit_test(test_same_bits),
+        cmocka_unit_test(test_surfaces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
