@@ -275,7 +275,7 @@ static const base_param life_params[] = {
     PARAM_ENUM(case_life, until, life_until_names, LIFE_UNTIL_CRACK,
                "first: the first cut, by the closed field alone; crack: on a grid, cut by cut"),
     PARAM_DOUBLE(case_life, limit_index, "1", 0.5, 0.01, 1.0, "fraction of a point's directions whose loss is a crack"),
-    PARAM_DOUBLE(case_life, batch, "1", 0.01, 0.0, 0.2, "cuts within this fraction of the cycles are one step"),
+    PARAM_DOUBLE(case_life, batch, "1", 0.05, 0.0, 0.2, "cuts within this fraction of the cycles are one step"),
     PARAM_INT(case_life, max_cuts, 1000000, 0, 100000000, "at most; 0: the intact rail on the grid"),
     PARAM_INT(case_life, cells_per_half_length, 20, 4, 400, "cells of the grid in half_length"),
     PARAM_DOUBLE(case_life, grid_half_width, "1", 4.0, 2.0, 100.0,

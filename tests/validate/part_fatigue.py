@@ -144,15 +144,22 @@ def grids(runs):
                   Column("depth [a]", 0.15), Column("time [s]", words=False)], rows)
 
 
+BATCHED = (("full_slip", 0.3, "pulse"), ("full_slip", 0.5, "pulse"), ("frictionless", 0.0, "passage"),
+           ("full_slip", 0.1, "passage"), ("full_slip", 0.3, "passage"), ("full_slip", 0.5, "passage"))
+
+
 def batches(runs):
+    """Cut by cut, in steps of 1 % and of 5 %, the default."""
     rows = []
-    for state, cycle in (("full_slip", "pulse"), ("frictionless", "passage"), ("full_slip", "passage")):
-        one, several = (life(runs, "batch_%s_%s_%g" % (state, cycle, batch), life__batch=batch, life__cycle=cycle,
-                             life__state=state, life__cells_per_half_length=16) for batch in (0, 0.01))
-        rows.append(["%s, %s" % (state.replace("_", " "), cycle), "%.0f" % one["life"], "%.0f" % several["life"],
-                     "%d, %d" % (one["cuts"], several["cuts"]), "%d, %d" % (one["solves"], several["solves"])])
+    for state, friction, cycle in BATCHED:
+        of = [life(runs, "batch_%s_%g_%s_%g" % (state, friction, cycle, batch), life__batch=batch, life__cycle=cycle,
+                   **state_settings(state, friction, 0.5)) for batch in (0, 0.01, 0.05)]
+        rows.append(["%s, %s" % (state_name(state, friction, 0.5), cycle)] + ["%.0f" % s["life"] for s in of] +
+                    [", ".join("%d" % s[key] for s in of) for key in ("cuts", "solves")] +
+                    ["%.1f" % (of[0]["solves"] / of[2]["solves"])])
     return Table([Column("state, cycle"), Column("cut by cut", 0.02), Column("steps of 1 %", 0.02),
-                  Column("cuts", words=False), Column("solutions", words=False)], rows)
+                  Column("steps of 5 %", 0.02), Column("cuts", words=False), Column("solutions", words=False),
+                  Column("first over last", words=False)], rows)
 
 
 def lattice(runs):
@@ -210,3 +217,20 @@ def wheel(runs):
     table, found = cracks(runs)
     return ([first_cuts(runs), crossings(runs), table, grids(runs), batches(runs), paper_rows(runs, found)],
             "cases/rail_fatigue")
+
+
+SURFACE = [Column("surface"), Column("fatigue of"), Column("shots to a crack", 0.03), Column("5 %, 95 %", 0.03),
+           Column("where [m]", 0.1), Column("by"), Column("tied with place"), Column("lasts longer than the next [%]", 0.02)]
+
+
+def surfaces(runs):
+    """Treatments of the default shot's rail, ranked by life."""
+    case = "cases/rail_life/treatments.yaml"
+    folder, _ = runs.run("rail_life_treatments", ["compare", case, "--set", "output.report=no"])
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+        ranking = json.load(file)["ranking"]
+    rows = [[e["surface"], e["metal"].replace("_", " "), "%.3g" % e["life"],
+             "%.3g, %.3g" % (e["life_quantiles"][0], e["life_quantiles"][2]), "%.2f" % e["life_position"],
+             e["life_cause"], "%d" % e["tied"],
+             "" if e["better_than_next"] is None else "%.0f" % (100 * e["better_than_next"])] for e in ranking]
+    return [Table(SURFACE, rows)], "`breech compare %s`" % case

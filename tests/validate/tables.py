@@ -27,6 +27,7 @@ import part_lattice
 import part_laws
 import part_levels
 import part_pairs
+import part_slide
 import part_strength
 import part_water
 import part_wu2017
@@ -48,6 +49,8 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "water-inverse": ("docs/validation/water.md", part_water.inverse, 1, True),
     "lattice-slow": ("docs/validation/lattice.md", part_lattice.slow, 4, False),
     "fatigue": ("docs/validation/fatigue.md", part_fatigue.wheel, 3, True),
+    "rail-surfaces": ("docs/validation/fatigue.md", part_fatigue.surfaces, 1, True),
+    "slide": ("docs/validation/fatigue.md", part_slide.slide, 3, True),
     "gel": ("docs/validation/gel.md", part_gel.droplet, 6, False),
     "four-cells": ("docs/validation/growth.md", part_growth.four_cells, 16, False),
     "laws": ("docs/validation/laws.md", part_laws.laws, 1, True),
