@@ -471,8 +471,8 @@ static void test_ranking(void **state)
     case_free(c);
 }
 
-/* Life beside grains: the ranking by gouges is what it is without, and every surface has its life.  A rail that is flown
- * warm lasts longer; a hardened skin as long as none, and shares its rank by life. */
+/* Life beside grains: the ranking by gouges is what it is without, and every surface has its life.  A rail that is
+ * flown warm lasts longer; a hardened skin as long as none, and shares its rank by life. */
 static void test_life_beside_grains(void **state)
 {
     (void)state;

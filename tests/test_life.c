@@ -550,8 +550,9 @@ static void test_crack(void **state)
 }
 
 /* Steps of 1 % and of 5 % of the cycles change the life by less than 2 %; those of a pulse take ten times fewer
- * solutions than cuts, those of a passage, whose cuts open, in steps of 5 % six times fewer than cut by cut (ten times on
- * the case's cells, docs/validation/fatigue.md); cuts that open redistribute: measure tension, at the trailing edge. */
+ * solutions than cuts, those of a passage, whose cuts open, in steps of 5 % six times fewer than cut by cut (ten times
+ * on the case's cells, docs/validation/fatigue.md).  Cuts that open redistribute: measure tension, at the trailing
+ * edge. */
 static void test_batches(void **state)
 {
     (void)state;

@@ -242,8 +242,8 @@ static void test_ring(void **state)
     assert_true(!isnan(burst[1]) && isnan(burst[0])); /* the same ring, swollen as far and further, without damage */
 }
 
-/* The same ring, intact, on gas that starts at nearly twice the pressure around it: the cavity and points of gas swell it
- * alike, their pressures agree to 3 % while they fall by a third. */
+/* The same ring, intact, on gas that starts at nearly twice the pressure around it: the cavity and points of gas swell
+ * it alike, their pressures agree to 3 % while they fall by a third. */
 static void test_shell(void **state)
 {
     (void)state;
