@@ -12,11 +12,11 @@ static const double GAP = 1.2; /* of the touching distance: a wider gap ends the
 static const double FOOTPRINT_SLACK =
     0.1; /* of a half length: slits between points that have moved apart a little are closed */
 
-/* Sample lines: top is the height reached so far, half the half length of the point there. */
+/* Sample lines: top is the height reached so far, reach (reach_of) that of the point there. */
 typedef struct {
     int nx, nz;
     double x_axis[2], z_axis[2]; /* lowest edge of the map, its cell [m] */
-    double *top, *half;          /* nx x nz [m]; half < 0: no point yet */
+    double *top, *reach;         /* nx x nz [m]; reach < 0: no point yet */
 } sampling;
 
 typedef struct {
@@ -82,17 +82,27 @@ static status sort_points(const crater_points *p, const sampling *s, layer **lay
     return status_ok();
 }
 
-/* One point, the next from below, on one line. */
-static void pile_up(double *top, double *half, double bottom, double point_half, bool failed)
+/* How far up and down a point's metal may be: its half length, but of a point coarser than the map the largest of the
+ * three.  Such points were merged out of finer ones far from the groove; they keep the volume of those, not their
+ * places, and leave slits that are as high as they are wide. */
+static double reach_of(const crater_points *p, size_t i, double cell)
 {
-    if (*half < 0.0) { /* the floor of the line: stands even where all above has failed */
+    const double *half = p->size + 3 * i;
+    const double least = fmin(half[0], fmin(half[1], half[2])), most = fmax(half[0], fmax(half[1], half[2]));
+    return least > 0.5 * cell ? most : half[1];
+}
+
+/* One point, the next from below, on one line. */
+static void pile_up(double *top, double *reach, double bottom, double point_half, double point_reach, bool failed)
+{
+    if (*reach < 0.0) { /* the floor of the line: stands even where all above has failed */
         *top = bottom;
-        *half = point_half;
+        *reach = point_reach;
     }
-    if (failed || bottom - *top > GAP * (*half + point_half)) return;
+    if (failed || bottom - *top > GAP * (*reach + point_reach)) return;
     if (bottom + 2.0 * point_half <= *top) return;
     *top = bottom + 2.0 * point_half;
-    *half = point_half;
+    *reach = point_reach;
 }
 
 /* Lines whose lowest point lies in the upper half of the model are outside the rail and stay empty. */
@@ -104,13 +114,14 @@ static status pile_points(const crater_points *p, const crater_spec *spec, sampl
     const double floor_limit = n ? spec->surface - 0.5 * (spec->surface - list[0].bottom) : 0.0;
     for (size_t k = 0; k < n; k++) {
         const size_t i = list[k].point;
+        const double reach = reach_of(p, i, spec->cell);
         int x_range[2], z_range[2];
         footprint(p, i, s, x_range, z_range);
         for (int ix = x_range[0]; ix <= x_range[1]; ix++)
             for (int iz = z_range[0]; iz <= z_range[1]; iz++) {
                 const size_t at = (size_t)ix * (size_t)s->nz + (size_t)iz;
-                if (s->half[at] < 0.0 && list[k].bottom > floor_limit) continue;
-                pile_up(&s->top[at], &s->half[at], list[k].bottom, p->size[3 * i + 1], !(p->damage[i] < 1.0));
+                if (s->reach[at] < 0.0 && list[k].bottom > floor_limit) continue;
+                pile_up(&s->top[at], &s->reach[at], list[k].bottom, p->size[3 * i + 1], reach, !(p->damage[i] < 1.0));
             }
     }
     const bool any = n && list[0].bottom < spec->surface;
@@ -126,7 +137,7 @@ static double top_at(const sampling *s, int ix, int iz, bool mirrored, double no
     const int kz = mirrored && iz < 0 ? 0 : iz;
     if (ix < 0 || ix >= s->nx || kz < 0 || kz >= s->nz) return none;
     const size_t at = (size_t)ix * (size_t)s->nz + (size_t)kz;
-    return s->half[at] < 0.0 ? none : s->top[at];
+    return s->reach[at] < 0.0 ? none : s->top[at];
 }
 
 /* Height of a line, but no higher than the highest of its eight neighbours, and no lower than both along an axis (those
@@ -153,7 +164,7 @@ static double cell_depth(const sampling *s, int i, int j, const crater_spec *spe
     int n = 0;
     for (int ix = SAMPLES * i; ix < SAMPLES * (i + 1); ix++)
         for (int iz = SAMPLES * j; iz < SAMPLES * (j + 1); iz++) {
-            if (s->half[(size_t)ix * (size_t)s->nz + (size_t)iz] < 0.0) continue;
+            if (s->reach[(size_t)ix * (size_t)s->nz + (size_t)iz] < 0.0) continue;
             sum += spec->surface - without_spike(s, ix, iz, spec->mirrored);
             n++;
         }
@@ -191,15 +202,15 @@ status gouge_crater_map(const crater_points *p, const crater_spec *spec, crater 
     };
     const size_t lines = (size_t)s.nx * (size_t)s.nz;
     s.top = malloc(lines * sizeof *s.top);
-    s.half = malloc(lines * sizeof *s.half);
+    s.reach = malloc(lines * sizeof *s.reach);
     c->depth_map = malloc((size_t)c->nx * (size_t)c->nz * sizeof *c->depth_map);
     status done = status_ok();
-    if (!s.top || !s.half || !c->depth_map)
+    if (!s.top || !s.reach || !c->depth_map)
         done = base_status_error(STATUS_MEMORY, "crater: no memory for a map of %d x %d cells", c->nx, c->nz);
-    for (size_t k = 0; done.code == STATUS_OK && k < lines; k++) s.half[k] = -1.0;
+    for (size_t k = 0; done.code == STATUS_OK && k < lines; k++) s.reach[k] = -1.0;
     if (done.code == STATUS_OK) done = pile_points(p, spec, &s);
     if (done.code == STATUS_OK) fill_map(&s, spec, c);
     free(s.top);
-    free(s.half);
+    free(s.reach);
     return done;
 }
