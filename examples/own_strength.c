@@ -51,9 +51,9 @@ static double length_after(const voce *law, base_status *s)
     double length = -1;
     *s = mpm_create(&scene, 1, &m);
     if (s->code == BASE_STATUS_OK) *s = mpm_advance(m, 40e-6, NULL);
-    double *x = s->code == BASE_STATUS_OK ? malloc(3 * mpm_particles(m) * sizeof *x) : NULL;
+    double *x = s->code == BASE_STATUS_OK ? malloc(3 * mpm_points(m) * sizeof *x) : NULL;
     if (x) mpm_read(m, MPM_position, x);
-    for (size_t i = 0; x && i < mpm_particles(m); i++) length = fmax(length, x[3 * i]);
+    for (size_t i = 0; x && i < mpm_points(m); i++) length = fmax(length, x[3 * i]);
     free(x);
     mpm_free(m);
     mpm_scene_free(&scene);

@@ -252,7 +252,7 @@ static void start_books(mpm *m)
     m->ledger.mass_start = now.mass;
     memcpy(m->ledger.momentum_start, now.momentum, sizeof now.momentum);
     m->dt = m->scene.courant / first_rate(m) * level_steps(m, 0);
-    m->report.particles = mpm_particles(m);
+    m->report.particles = mpm_points(m);
     for (int i = 0; i < m->scene.bodies; i++)
         m->report.peak_temperature = fmax(m->report.peak_temperature, m->scene.body[i].temperature);
 }
@@ -520,7 +520,7 @@ static void book(mpm *m, const tally *t)
     mpm_ledger *l = &m->ledger;
     mpm_report *r = &m->report;
     l->heat_friction += t->heat_friction;
-    l->heat_transfer += t->heat_transfer - t->heat_friction; /* the particles' share held both */
+    l->heat_transfer += t->heat_transfer - t->heat_friction; /* the points' part held both */
     l->heat_viscous += t->heat_viscous;
     l->work_boundary += t->work_boundary, l->work_external += t->work_external;
     mpm_book_departure(m, &t->left);
@@ -533,7 +533,7 @@ static void book(mpm *m, const tally *t)
     r->clamps_pressure += t->clamps_pressure, r->clamps_compression += t->clamps_compression;
     r->splits += t->splits, r->eroded += t->eroded, r->eroded_mass += t->eroded_mass;
     r->particle_steps += t->particles, r->particle_steps_asleep += t->asleep;
-    r->particles = mpm_particles(m);
+    r->particles = mpm_points(m);
 }
 
 /* First-order low pass, so that the peaks do not hang on one step's noise. */

@@ -68,7 +68,7 @@ typedef struct {
     FIELD(density, 1, "kg/m^3", "density")                                      \
     FIELD(energy, 1, "J/kg", "specific internal energy")                        \
     FIELD(mass, 1, "kg", "mass")                                                \
-    FIELD(size, 3, "m", "half lengths of the particle's domain")                \
+    FIELD(size, 3, "m", "half lengths of the domain")                           \
     FIELD(body, 1, "1", "index of the body")                                    \
     FIELD(start, 3, "m", "position at the start")
 
@@ -116,8 +116,8 @@ void mpm_failed_volumes(const mpm *m, double *volume); /* of each body, now [m3]
 const double *mpm_contact_force(const mpm *m, int group);
 const double *mpm_peak_contact_force(const mpm *m, int group);
 const mpm_scene *mpm_scene_of(const mpm *m); /* borrowed */
-size_t mpm_particles(const mpm *m);
-/* out: mpm_particles() x width doubles, owned by the caller. */
+size_t mpm_points(const mpm *m);
+/* out: mpm_points() x width doubles, owned by the caller. */
 void mpm_read(const mpm *m, mpm_field field, double *out);
 
 /* Slices of equal width along an axis, each in two parts: its middle, and its sides beyond a part of the half width
@@ -150,7 +150,7 @@ base_status mpm_restore(mpm *m, const void *image, size_t bytes);
  * they are counted in a sample, within a percent or two. */
 typedef struct {
     size_t particles;
-    double work;  /* particle-steps in a step of the finest level: coarser levels make fewer */
+    double work;  /* point-steps in a step of the finest level: coarser levels make fewer */
     size_t bytes; /* MPM_BYTES and MPM_BYTES_A_PARTICLE each */
     double dt;    /* first step of the finest level [s] */
 } mpm_needs;

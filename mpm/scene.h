@@ -64,7 +64,7 @@ typedef struct {
 /* ---- grid: rectilinear, each axis graded on its own ---- */
 
 typedef enum {
-    MPM_BOUNDARY_FREE,      /* nothing; particles that leave are booked as ejected */
+    MPM_BOUNDARY_FREE,      /* nothing; points that leave are booked as ejected */
     MPM_BOUNDARY_SYMMETRY,  /* mirror plane, ghost nodes folded; also a roller */
     MPM_BOUNDARY_FIXED,     /* no motion */
     MPM_BOUNDARY_ABSORBING, /* viscous, both wave speeds */

@@ -292,7 +292,7 @@ static inline void scene_steps(mpm *m, int steps)
 
 static inline double *scene_read(const mpm *m, mpm_field field) /* the caller frees it */
 {
-    double *out = malloc((mpm_particles(m) * (size_t)mpm_field_table[field].width + 1) * sizeof *out);
+    double *out = malloc((mpm_points(m) * (size_t)mpm_field_table[field].width + 1) * sizeof *out);
     assert_non_null(out);
     mpm_read(m, field, out);
     return out;
@@ -301,7 +301,7 @@ static inline double *scene_read(const mpm *m, mpm_field field) /* the caller fr
 static inline double scene_largest(const mpm *m, mpm_field field) /* largest magnitude of any component */
 {
     double *a = scene_read(m, field), largest = 0;
-    const size_t n = mpm_particles(m) * (size_t)mpm_field_table[field].width;
+    const size_t n = mpm_points(m) * (size_t)mpm_field_table[field].width;
     for (size_t i = 0; i < n; i++) largest = fmax(largest, fabs(a[i]));
     free(a);
     return largest;
@@ -312,7 +312,7 @@ static inline double scene_mean(const mpm *m, mpm_field field, int component, in
     double *a = scene_read(m, field), *mass = scene_read(m, MPM_mass), *of = scene_read(m, MPM_body), sum = 0,
            total = 0;
     const size_t width = (size_t)mpm_field_table[field].width;
-    for (size_t i = 0; i < mpm_particles(m); i++)
+    for (size_t i = 0; i < mpm_points(m); i++)
         if (body < 0 || of[i] == body) sum += mass[i] * a[width * i + (size_t)component], total += mass[i];
     free(a), free(mass), free(of);
     return sum / total;
@@ -339,14 +339,14 @@ static inline scene_picture scene_picture_of(const mpm *m)
     const mpm_scene *s = mpm_scene_of(m);
     const size_t bodies = (size_t)s->bodies, groups = (size_t)mpm_scene_groups(s);
     size_t doubles = bodies + 6 * groups;
-    for (int f = 0; f < MPM_FIELD_COUNT; f++) doubles += mpm_particles(m) * (size_t)mpm_field_table[f].width;
+    for (int f = 0; f < MPM_FIELD_COUNT; f++) doubles += mpm_points(m) * (size_t)mpm_field_table[f].width;
     scene_picture p = { doubles * sizeof(double) + sizeof l + sizeof r + bodies * sizeof(mpm_body_report), NULL };
     p.data = malloc(p.bytes);
     assert_non_null(p.data);
     double *to = (double *)(void *)p.data;
     for (int f = 0; f < MPM_FIELD_COUNT; f++) {
         mpm_read(m, (mpm_field)f, to);
-        to += mpm_particles(m) * (size_t)mpm_field_table[f].width;
+        to += mpm_points(m) * (size_t)mpm_field_table[f].width;
     }
     mpm_failed_volumes(m, to);
     char *at = scene_put(scene_put((char *)(to + bodies), &l, sizeof l), &r, sizeof r);

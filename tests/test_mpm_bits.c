@@ -19,8 +19,8 @@ static void test_threads(void **state)
         const mpm_report r = mpm_state(m);
         if (threads == 1) {
             one = p;
-            print_message("%zu points, %llu splits, plastic strain %.2f\n", mpm_particles(m),
-                          (unsigned long long)r.splits, mpm_body_state(m, 0).peak_plastic_strain);
+            print_message("%zu points, %llu splits, plastic strain %.2f\n", mpm_points(m), (unsigned long long)r.splits,
+                          mpm_body_state(m, 0).peak_plastic_strain);
             assert_true(r.splits > 100); /* or the movers were hardly tried */
             assert_true(mpm_body_state(m, 0).peak_plastic_strain > 0.1);
         } else {

@@ -134,7 +134,7 @@ static void test_row(void **state)
     for (int i = 0; i < N; i++) scene_box(&s, i * H, -1, -1, (i + 1) * H, 1, 1, &m)->velocity[0] = i < N / 2 ? 50 : -50;
     mpm *solver = scene_same_bits(&s, 3, 3);
     double *body = scene_read(solver, MPM_body), *start = scene_read(solver, MPM_start), points = 0;
-    for (size_t i = 0; i < mpm_particles(solver); i++) {
+    for (size_t i = 0; i < mpm_points(solver); i++) {
         assert_int_equal((int)body[i], (int)(start[3 * i] / H));
         points += (int)body[i] == N - 1;
     }
@@ -180,7 +180,7 @@ static mpm *rubbed(const mpm_material *left, const mpm_material *right, const mp
 static double energy_of(const mpm *m, const double start[3])
 {
     double *x = scene_read(m, MPM_start), *e = scene_read(m, MPM_energy), found = NAN;
-    for (size_t i = 0; i < mpm_particles(m); i++)
+    for (size_t i = 0; i < mpm_points(m); i++)
         if (fabs(x[3 * i] - start[0]) + fabs(x[3 * i + 1] - start[1]) + fabs(x[3 * i + 2] - start[2]) < 1e-9)
             found = e[i];
     free(x), free(e);

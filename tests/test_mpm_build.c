@@ -16,7 +16,7 @@ static sum sum_of(const mpm *m, int body)
 {
     double *mass = scene_read(m, MPM_mass), *of = scene_read(m, MPM_body);
     sum s = { 0 };
-    for (size_t i = 0; i < mpm_particles(m); i++)
+    for (size_t i = 0; i < mpm_points(m); i++)
         if (of[i] == body) s.mass += mass[i];
     for (int k = 0; k < 3; k++) s.centre[k] = scene_mean(m, MPM_position, k, body);
     free(mass), free(of);
@@ -41,7 +41,7 @@ static void check_shape(const char *shape, const double *value, int n, double vo
         mpm *m = scene_make(&s, 1);
         const sum got = sum_of(m, 0);
         const double mass = got.mass / (copper.density * volume) - 1, rise = got.centre[1] - value[1] - height;
-        print_message("%-10s %g cells/mm, %zu points: mass %+.2e, centroid %+.1e mm\n", shape, cells, mpm_particles(m),
+        print_message("%-10s %g cells/mm, %zu points: mass %+.2e, centroid %+.1e mm\n", shape, cells, mpm_points(m),
                       mass, 1e3 * rise);
         assert_near(mass, 0, limit * 16 / (cells * cells));
         assert_near(rise, 0, 1e-3 * limit * 16 / (cells * cells));
@@ -85,7 +85,7 @@ static void test_box(void **state)
     scene_box(&s, -0.37e-3, -1e-3, -0.5e-3, 0.44e-3, 0.21e-3, 1.1e-3, &copper);
     mpm *m = scene_make(&s, 1);
     double *mass = scene_read(m, MPM_mass);
-    for (size_t i = 1; i < mpm_particles(m); i++) assert_near(mass[i] / mass[0], 1, 1e-9);
+    for (size_t i = 1; i < mpm_points(m); i++) assert_near(mass[i] / mass[0], 1, 1e-9);
     assert_near(sum_of(m, 0).mass / (copper.density * 0.81e-3 * 1.21e-3 * 1.6e-3), 1, 1e-12);
     free(mass);
     mpm_free(m);
@@ -262,7 +262,7 @@ static void test_stress_order(void **state)
             for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next)
                 for (int l = 0; l < LANES; l++) m->blocks[q].s[4][l] = xz[4];
     double *stress = scene_read(m, MPM_stress);
-    for (size_t i = 0; i < mpm_particles(m); i++)
+    for (size_t i = 0; i < mpm_points(m); i++)
         for (int k = 0; k < 6; k++) assert_near(stress[6 * i + (size_t)k], k == 5 ? xz[4] : 0, 1e-3);
     free(stress);
     mpm_free(m);

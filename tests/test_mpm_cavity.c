@@ -187,7 +187,7 @@ static void ring_scene(mpm_scene *s, const mpm_material *m, bool damage, double 
 
 static double mean_radius(const mpm *m)
 {
-    const size_t n = mpm_particles(m);
+    const size_t n = mpm_points(m);
     double *x = scene_read(m, MPM_position), *mass = scene_read(m, MPM_mass), sum = 0, all = 0;
     for (size_t i = 0; i < n; i++) sum += mass[i] * hypot(x[3 * i], x[3 * i + 2]), all += mass[i];
     free(x), free(mass);

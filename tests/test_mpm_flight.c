@@ -88,8 +88,8 @@ static void test_leaving(void **state)
     assert_below(l.momentum_error, ROUNDING);
     /* with no outer force the whole energy is still there, in or out of the window; the cut body stays unloaded */
     assert_near(l.energy_error, 0, ROUNDING);
-    assert_int_equal(r.particles, mpm_particles(solver));
-    assert_int_equal(r.ejected + mpm_particles(solver), 1000);
+    assert_int_equal(r.particles, mpm_points(solver));
+    assert_int_equal(r.ejected + mpm_points(solver), 1000);
     mpm_free(solver);
 }
 
@@ -144,16 +144,16 @@ static void test_splitting(void **state)
     s.body[0].velocity[0] = 3000;
     second->velocity[0] = 3000, second->velocity[1] = -200;
     mpm *solver = scene_make(&s, 1);
-    const size_t before = mpm_particles(solver);
+    const size_t before = mpm_points(solver);
     assert_ok(mpm_advance(solver, 3e-6, NULL));
     const mpm_ledger l = mpm_balance(solver);
     const mpm_report r = mpm_state(solver);
     print_message(
         "splitting: %zu -> %zu points, heat of transfer %.3g of %.3g J; mass %.2e, momentum %.2e, energy %.2e\n",
-        before, mpm_particles(solver), l.heat_transfer, l.kinetic_start, l.mass / l.mass_start - 1, l.momentum_error,
+        before, mpm_points(solver), l.heat_transfer, l.kinetic_start, l.mass / l.mass_start - 1, l.momentum_error,
         l.energy_error);
     assert_true(r.splits > 1000);
-    assert_int_equal(before + r.splits - r.ejected, mpm_particles(solver));
+    assert_int_equal(before + r.splits - r.ejected, mpm_points(solver));
     assert_near((l.mass + l.ejected_mass) / l.mass_start, 1, ROUNDING);
     assert_below(l.momentum_error, ROUNDING);
     assert_near(l.energy_error, 0, ROUNDING);
@@ -173,7 +173,7 @@ static void test_debris(void **state)
     for (int k = 0; k < 3; k++) s.axis[k] = scene_axis(0, 40e-3, 1e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     scene_box(&s, 5e-3, 5e-3, 5e-3, 5.5e-3, 5.5e-3, 5.5e-3, &m);
     mpm *solver = scene_make(&s, 1);
-    assert_int_equal(mpm_particles(solver), 1);
+    assert_int_equal(mpm_points(solver), 1);
     block *q = NULL;
     for (int i = 0; i < solver->bricks_used; i++)
         for (int c = 0; c < BRICK_CELLS; c++)

@@ -17,7 +17,7 @@ static mpm_material water(void)
 static double least(const mpm *m, mpm_field field)
 {
     double *a = scene_read(m, field), low = HUGE_VAL;
-    for (size_t i = 0; i < mpm_particles(m); i++) low = fmin(low, a[i]);
+    for (size_t i = 0; i < mpm_points(m); i++) low = fmin(low, a[i]);
     free(a);
     return low;
 }
@@ -73,7 +73,7 @@ static mpm_material air(void)
 /* Largest distance between neighbours along x. */
 static double widest_gap(const mpm *m)
 {
-    const size_t n = mpm_particles(m);
+    const size_t n = mpm_points(m);
     double *x = scene_read(m, MPM_position), gap = 0;
     for (size_t i = 0; i < n; i++) {
         double next = HUGE_VAL;
@@ -106,7 +106,7 @@ static void test_expanding_air(void **state)
         assert_ok(mpm_advance(solver, 0.6e-3, NULL));
         const double gap = widest_gap(solver);
         double *x = scene_read(solver, MPM_position), *p = scene_read(solver, MPM_pressure), sum = 0, count = 0;
-        for (size_t i = 0; i < mpm_particles(solver); i++)
+        for (size_t i = 0; i < mpm_points(solver); i++)
             if (x[3 * i] > 0.54 && x[3 * i] < 0.62) sum += p[i] + around[k], count++;
         free(x), free(p);
         print_message("air expands, pressures from %.0f Pa: widest gap %.2f cells, %.4f of the pressure\n", around[k],
@@ -141,7 +141,7 @@ static void test_stopped_air(void **state)
     mpm *solver = scene_make(&s, 1);
     assert_ok(mpm_advance(solver, end, NULL));
     double *x = scene_read(solver, MPM_position), *p = scene_read(solver, MPM_pressure), sum = 0, count = 0;
-    for (size_t i = 0; i < mpm_particles(solver); i++)
+    for (size_t i = 0; i < mpm_points(solver); i++)
         if (x[3 * i] > length - 15e-3) sum += p[i], count++;
     free(x), free(p);
     const mpm_ledger l = mpm_balance(solver);

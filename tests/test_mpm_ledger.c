@@ -11,7 +11,7 @@ static const double H = 0.25e-3, SPEED = 1500, END = 2e-6;
 static mpm_ledger run(const mpm_scene *s, const char *name)
 {
     mpm *m = scene_make(s, 1);
-    const size_t before = mpm_particles(m);
+    const size_t before = mpm_points(m);
     assert_ok(mpm_advance(m, END, NULL));
     const mpm_ledger l = mpm_balance(m);
     const mpm_report r = mpm_state(m);
@@ -24,8 +24,8 @@ static mpm_ledger run(const mpm_scene *s, const char *name)
     assert_below(l.momentum_error, 1e-10);
     assert_near(l.energy_error, 0, 1e-12);
     assert_near((l.mass + l.ejected_mass) / l.mass_start, 1, 1e-12); /* rounding */
-    assert_int_equal(before + r.splits - r.ejected, mpm_particles(m));
-    assert_int_equal(r.particles, mpm_particles(m));
+    assert_int_equal(before + r.splits - r.ejected, mpm_points(m));
+    assert_int_equal(r.particles, mpm_points(m));
     /* heat is heat: all three grow, and together they are part of what the bodies hold; the start is cold, e = 0 */
     assert_true(l.heat_friction > 0 && l.heat_transfer > 0 && l.heat_viscous > 0);
     assert_below(l.heat_friction + l.heat_transfer + l.heat_viscous, l.internal + l.ejected_energy);
@@ -136,8 +136,8 @@ static void test_vapour(void **state)
         const mpm_ledger l = mpm_balance(solver);
         const mpm_report r = mpm_state(solver);
         assert_int_equal(r.eroded, i ? 512 : 0);
-        assert_int_equal(mpm_particles(solver), i ? 512 : 1024);
-        assert_int_equal(r.particles, mpm_particles(solver));
+        assert_int_equal(mpm_points(solver), i ? 512 : 1024);
+        assert_int_equal(r.particles, mpm_points(solver));
         assert_near(r.eroded_mass, l.ejected_mass, 1e-12 * l.mass_start);
         assert_near((l.mass + l.ejected_mass) / l.mass_start, 1, 1e-12); /* rounding, as the next two */
         assert_below(l.momentum_error, 1e-12);
@@ -164,11 +164,11 @@ static double percentile_now(const mpm *m, mpm_field field, int body)
 {
     double *stress = scene_read(m, field), *mass = scene_read(m, MPM_mass), *of = scene_read(m, MPM_body),
            *damage = scene_read(m, MPM_damage);
-    loaded_point *p = malloc(mpm_particles(m) * sizeof *p);
+    loaded_point *p = malloc(mpm_points(m) * sizeof *p);
     assert_non_null(p);
     size_t n = 0;
     double all = 0, above = 0;
-    for (size_t i = 0; i < mpm_particles(m); i++)
+    for (size_t i = 0; i < mpm_points(m); i++)
         if ((int)of[i] == body) {
             all += mass[i];
             if (field == MPM_mises || damage[i] < 1) p[n++] = (loaded_point){ stress[i], mass[i] };

@@ -236,7 +236,7 @@ static void test_books(void **state)
         assert_near((l.mass + l.ejected_mass) / l.mass_start, 1, ROUNDING);
         assert_below(l.momentum_error, ROUNDING);
         assert_near(l.energy_error, 0, ROUNDING);
-        assert_int_equal(r.particles, mpm_particles(m));
+        assert_int_equal(r.particles, mpm_points(m));
         mpm_free(m);
     }
 }
@@ -251,7 +251,7 @@ static void test_estimate(void **state)
         mpm_needs needs;
         assert_ok(mpm_estimate(&g.scene, &needs));
         mpm *m = scene_make(&g.scene, 2);
-        assert_near((double)needs.particles / (double)mpm_particles(m), 1, 0.03);
+        assert_near((double)needs.particles / (double)mpm_points(m), 1, 0.03);
         double work = 0;
         for (int k = 0; k < m->bricks_used; k++) work += (double)m->bricks[k].particles / (1 << m->bricks[k].level);
         assert_near(needs.work / work, 1, 0.03);
@@ -386,7 +386,7 @@ static void test_same_groove(void **state)
         assert_ok(mpm_advance(m, 3e-6, NULL));
         power[levels - 1] = groove_power(m);
         lost[levels - 1] = 1 - scene_mean(m, MPM_velocity, 0, 2) / 1500;
-        print_message("%d levels: %zu points, power %.4g W, velocity lost %.4f\n", levels, mpm_particles(m),
+        print_message("%d levels: %zu points, power %.4g W, velocity lost %.4f\n", levels, mpm_points(m),
                       power[levels - 1], lost[levels - 1]);
         mpm_free(m);
         assert_near(power[levels - 1] / power[0], 1,

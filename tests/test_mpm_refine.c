@@ -343,10 +343,9 @@ static void test_estimate(void **state)
     r->body = 1, *mpm_refine_value(r, "within") = 0.5e-3;
     assert_ok(mpm_estimate(&s, &needs));
     mpm *m = scene_make(&s, 2);
-    print_message("%zu points told, %zu made, %zu in large cells\n", needs.particles, mpm_particles(m),
-                  large.particles);
+    print_message("%zu points told, %zu made, %zu in large cells\n", needs.particles, mpm_points(m), large.particles);
     assert_true(needs.particles > 1.5 * (double)large.particles && needs.work > large.work);
-    assert_near((double)needs.particles / (double)mpm_particles(m), 1, 0.02); /* levels are asked for in passes there */
+    assert_near((double)needs.particles / (double)mpm_points(m), 1, 0.02); /* levels are asked for in passes there */
     mpm_free(m);
 }
 
@@ -391,7 +390,7 @@ static void test_surface(void **state)
     }
     scene_box(&s, 2e-3, 2e-3, 2e-3, 14e-3, 8.2e-3, 14e-3, &copper); /* its upper face in the zone's middle */
     mpm *m = scene_make(&s, 2);
-    const size_t before = mpm_particles(m);
+    const size_t before = mpm_points(m);
     assert_ok(mpm_advance(m, 6e-6, NULL));
     int fine_up = 0, fine_deep = 0;
     for (int i = 0; i < m->bricks_used; i++)
@@ -405,10 +404,10 @@ static void test_surface(void **state)
                     fine_up += b->x[1][l] > 8e-3 && b->half[1][l] < 0.1e-3;
                     fine_deep += b->x[1][l] < 7e-3 && b->half[1][l] < 0.1e-3;
                 }
-    print_message("%zu points, then %zu: %d small ones at the surface, %d below\n", before, mpm_particles(m), fine_up,
+    print_message("%zu points, then %zu: %d small ones at the surface, %d below\n", before, mpm_points(m), fine_up,
                   fine_deep);
     assert_true(fine_up > 500 && fine_deep < 200);
-    assert_true(mpm_particles(m) < before);
+    assert_true(mpm_points(m) < before);
     const mpm_ledger l = mpm_balance(m);
     assert_near(l.mass / l.mass_start, 1, 1e-12);
     mpm_free(m);

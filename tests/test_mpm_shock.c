@@ -18,7 +18,7 @@ static double front_of(const mpm *m, double h)
     double *x = scene_read(m, MPM_position), *p = scene_read(m, MPM_pressure);
     double behind = 0, behind_p = 0, ahead = HUGE_VAL, ahead_p = 0;
     for (int pass = 0; pass < 2; pass++)
-        for (size_t i = 0; i < mpm_particles(m); i++) {
+        for (size_t i = 0; i < mpm_points(m); i++) {
             const double *at = &x[3 * i];
             if (at[1] > 0.4 * h || at[2] > 0.4 * h) continue;
             if (pass == 0 && p[i] > 0.5 * P_H && at[0] > behind) behind = at[0], behind_p = p[i];
@@ -34,7 +34,7 @@ static void read_plateau(const mpm *m, double middle, double drift, shock_error 
     const double t = mpm_state(m).time, interface = middle + (1000 + drift) * t;
     double *x = scene_read(m, MPM_position), *p = scene_read(m, MPM_pressure);
     double sum = 0, square = 0, count = 0;
-    for (size_t i = 0; i < mpm_particles(m); i++) {
+    for (size_t i = 0; i < mpm_points(m); i++) {
         const double from = (x[3 * i] - interface) / ((US - 1000) * t);
         if (from < 0.25 || from > 0.75) continue;
         sum += p[i], square += p[i] * p[i], count++;
@@ -129,11 +129,11 @@ static size_t pulse(double growth, int levels, double **pressure, double *incide
     mpm *solver = scene_make(&s, 1);
     assert_ok(mpm_advance(solver, 5.5e-6, NULL)); /* 26 mm at 4.8 km/s: out of the graded zone and a reflection back */
     double *p = scene_read(solver, MPM_pressure), *x = scene_read(solver, MPM_start);
-    *pressure = calloc(mpm_particles(solver), sizeof **pressure);
+    *pressure = calloc(mpm_points(solver), sizeof **pressure);
     assert_non_null(*pressure);
     *incident = 0;
     size_t n = 0;
-    for (size_t i = 0; i < mpm_particles(solver); i++) {
+    for (size_t i = 0; i < mpm_points(solver); i++) {
         *incident = fmax(*incident, p[i]);
         if (x[3 * i] < 15e-3 && x[3 * i + 1] < 0.3 * fine && x[3 * i + 2] < 0.3 * fine) {
             const size_t at = (size_t)(x[3 * i] / (0.5 * fine));

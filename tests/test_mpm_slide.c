@@ -69,7 +69,7 @@ static slide_result slide(double speed, double travel, int levels)
     const mpm_report r = mpm_state(m);
     slide_result out = { .energy = l.energy_error, .momentum = l.momentum_error, .failed = 0 };
     double *x = scene_read(m, MPM_position), *ep = scene_read(m, MPM_plastic_strain);
-    for (size_t i = 0; i < mpm_particles(m); i++)
+    for (size_t i = 0; i < mpm_points(m); i++)
         if (x[3 * i] > s.axis[0].lo + 3e-3 && x[3 * i] < s.axis[0].hi - 3e-3) out.strain = fmax(out.strain, ep[i]);
     free(x), free(ep);
     out.failed = r.failed_volume;
@@ -77,7 +77,7 @@ static slide_result slide(double speed, double travel, int levels)
     print_message("%d levels, %.1f km/s over %.0f mm, %zu points, %llu steps: plastic strain %.2e, failed %.2g mm3, "
                   "energy %+.1e, "
                   "momentum %.1e, load %.0f N of %.0f, peak pressure %.0f MPa\n",
-                  levels, 1e-3 * speed, 1e3 * travel, mpm_particles(m), (unsigned long long)r.steps, out.strain,
+                  levels, 1e-3 * speed, 1e3 * travel, mpm_points(m), (unsigned long long)r.steps, out.strain,
                   1e9 * out.failed, out.energy, out.momentum, w.impulse / (end / 2), pressed, 1e-6 * out.pressure);
     /* it was pressed on: the rail bears the load, which still rings: a third is allowed for over a few microseconds */
     assert_near(w.impulse / (end / 2) / pressed, 1, 0.33);

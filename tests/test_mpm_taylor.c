@@ -23,10 +23,10 @@ static bar_shape bar(double h, mpm_basis_kind basis)
     const double shape[] = { 0, 0, 0, RADIUS, LENGTH };
     scene_body(&s, "cylinder", shape, 5, &m)->velocity[1] = -190;
     mpm *solver = scene_make(&s, 1);
-    const double points = (double)mpm_particles(solver);
+    const double points = (double)mpm_points(solver);
     assert_ok(mpm_advance(solver, 65e-6, NULL));
     double *x = scene_read(solver, MPM_position), *half = scene_read(solver, MPM_size), top = 0, side = 0;
-    for (size_t i = 0; i < mpm_particles(solver); i++) {
+    for (size_t i = 0; i < mpm_points(solver); i++) {
         top = fmax(top, x[3 * i + 1] + half[3 * i + 1]);
         for (int k = 0; k < 3; k += 2) side = fmax(side, x[3 * i + (size_t)k] + half[3 * i + (size_t)k]);
     }

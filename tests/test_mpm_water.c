@@ -15,7 +15,7 @@ static plateau plateau_between(const mpm *m, double lo, double hi, double cell)
     double sum[MOST] = { 0 }, count[MOST] = { 0 }, mean = 0, square = 0;
     const int n = (int)((hi - lo) / cell);
     assert_in_range(n, 2, MOST);
-    for (size_t i = 0; i < mpm_particles(m); i++) {
+    for (size_t i = 0; i < mpm_points(m); i++) {
         const double at = floor((x[3 * i] - lo) / cell);
         if (at >= 0 && at < n) sum[(int)at] += p[i], count[(int)at]++;
     }
@@ -64,7 +64,7 @@ static void test_hugoniot(void **state)
 static double void_share(const mpm *m)
 {
     double *rho = scene_read(m, MPM_density), *mass = scene_read(m, MPM_mass), open = 0, whole = 0;
-    for (size_t i = 0; i < mpm_particles(m); i++)
+    for (size_t i = 0; i < mpm_points(m); i++)
         open += fmax(0, mass[i] / rho[i] - mass[i] / WATER_RHO0), whole += mass[i] / WATER_RHO0;
     free(rho), free(mass);
     return open / whole;
@@ -74,7 +74,7 @@ static double void_share(const mpm *m)
 static double pressure_of_thin_points(const mpm *m)
 {
     double *rho = scene_read(m, MPM_density), *p = scene_read(m, MPM_pressure), most = 0;
-    for (size_t i = 0; i < mpm_particles(m); i++)
+    for (size_t i = 0; i < mpm_points(m); i++)
         if (rho[i] < WATER_RHO0 * (1 - 1e-3)) most = fmax(most, fabs(p[i]));
     free(rho), free(p);
     return most;
@@ -101,7 +101,7 @@ static void test_cavity_closes(void **state)
     for (int i = 1; i <= 60; i++) {
         assert_ok(mpm_advance(solver, 6 * pass * i / 60, NULL));
         double *p = scene_read(solver, MPM_pressure);
-        for (size_t q = 0; q < mpm_particles(solver); q++) low = fmin(low, p[q]);
+        for (size_t q = 0; q < mpm_points(solver); q++) low = fmin(low, p[q]);
         free(p);
         widest = fmax(widest, void_share(solver));
         thin = fmax(thin, pressure_of_thin_points(solver));

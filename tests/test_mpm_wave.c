@@ -19,7 +19,7 @@ static mpm_material water(void)
 static double pressure_at(const mpm *m, double lo, double hi)
 {
     double *x = scene_read(m, MPM_position), *s = scene_read(m, MPM_stress), sum = 0, n = 0;
-    for (size_t i = 0; i < mpm_particles(m); i++)
+    for (size_t i = 0; i < mpm_points(m); i++)
         if (x[3 * i] > lo && x[3 * i] < hi) sum -= s[6 * i], n++;
     free(x), free(s);
     assert_true(n > 0);
@@ -30,7 +30,7 @@ static double pressure_at(const mpm *m, double lo, double hi)
 static double pressure_at_start(const mpm *m, double lo, double hi)
 {
     double *x = scene_read(m, MPM_start), *p = scene_read(m, MPM_pressure), sum = 0, n = 0;
-    for (size_t i = 0; i < mpm_particles(m); i++)
+    for (size_t i = 0; i < mpm_points(m); i++)
         if (x[3 * i] > lo && x[3 * i] < hi) sum += p[i], n++;
     free(x), free(p);
     return sum / n;
@@ -157,7 +157,7 @@ static void test_plate(void **state)
         assert_ok(mpm_advance(solver, end * i / 40, NULL));
         fastest = fmax(fastest, scene_mean(solver, MPM_velocity, 0, 1));
         double *p = scene_read(solver, MPM_pressure), *of = scene_read(solver, MPM_body);
-        for (size_t q = 0; q < mpm_particles(solver); q++)
+        for (size_t q = 0; q < mpm_points(solver); q++)
             if (of[q] == 0) low = fmin(low, p[q]);
         free(p), free(of);
     }
@@ -189,7 +189,7 @@ static void test_sleeps(void **state)
     assert_ok(mpm_advance(solver, 0.5 * length / WATER_C0, NULL));
     const mpm_report r = mpm_state(solver);
     const double asleep = (double)r.particle_steps_asleep / (double)(r.particle_steps + r.particle_steps_asleep);
-    print_message("front half way: %.0f %% of the particle-steps were left out\n", 100 * asleep);
+    print_message("front half way: %.0f %% of the point-steps were left out\n", 100 * asleep);
     assert_true(asleep > 0.5);
     mpm_free(solver);
 }

@@ -393,7 +393,7 @@ static void progress_line(void **state)
     strcpy(p.task, "scene 3 of 8");
     char text[200];
     host_progress_text(&p, 0.25, 10.0, 312000000, text, sizeof text);
-    assert_string_equal(text, "scene 3 of 8  25 %  30 s left  31.2 M particle-steps/s");
+    assert_string_equal(text, "scene 3 of 8  25 %  30 s left  31.2 M point-steps/s");
     host_progress_text(&p, 0.0, 0.0, 0, text, sizeof text);
     assert_string_equal(text, "scene 3 of 8  0 %");
     host_progress_text(&p, 0.999, 10.0, 0, text, sizeof text); /* not 100 % before it is done */
@@ -401,7 +401,7 @@ static void progress_line(void **state)
     p.fraction_started = 0.5; /* resumed at one half: the rest takes as long as the gained half */
     p.steps_started = 100000000;
     host_progress_text(&p, 0.75, 10.0, 200000000, text, sizeof text);
-    assert_string_equal(text, "scene 3 of 8  75 %  10 s left  10.0 M particle-steps/s");
+    assert_string_equal(text, "scene 3 of 8  75 %  10 s left  10.0 M point-steps/s");
     char small[12];
     host_progress_text(&p, 0.75, 10.0, 200000000, small, sizeof small);
     assert_int_equal(strlen(small), sizeof small - 1);

@@ -418,8 +418,8 @@ static mpm *made(const mpm_scene *s)
 
 static void assert_same_state(const mpm *a, const mpm *b)
 {
-    const size_t n = mpm_particles(a);
-    assert_int_equal(n, mpm_particles(b));
+    const size_t n = mpm_points(a);
+    assert_int_equal(n, mpm_points(b));
     double *x = malloc(2 * 6 * n * sizeof *x), *y = x + 6 * n;
     assert_non_null(x);
     static const mpm_field fields[] = { MPM_position, MPM_velocity, MPM_stress, MPM_energy, MPM_body };

@@ -139,7 +139,7 @@ static status check_spec(const crater_spec *s)
           s->z_hi, s->cell);
     CHECK(s->particle_radius > 0.0 && s->particle_height > 0.0 && s->particle_volume > 0.0 && s->particle_area > 0.0,
           STATUS_BAD_INPUT,
-          "crater: the particle's radius %g m, height %g m, volume %g m3 and area %g m2 must be positive",
+          "crater: the grain's radius %g m, height %g m, volume %g m3 and area %g m2 must be positive",
           s->particle_radius, s->particle_height, s->particle_volume, s->particle_area);
     CHECK(isfinite(s->limit_widening) && isfinite(s->limit_severity), STATUS_BAD_INPUT,
           "crater: limit_widening = %g and limit_severity = %g must be numbers", s->limit_widening, s->limit_severity);

@@ -31,7 +31,7 @@
  * Because w is smooth, V and severity are continuous in the surface: a shallow scratch does not jump in as a whole when
  * it passes d_m, and springback or noise below d_m counts nothing.  Severity is - A h / V_p (-1.5 for a hemisphere)
  * without a crater; below that where the groove dies out, however long it is; it passes 0 where what grows downstream
- * exceeds the particle's cylinder A h.  V alone would not do: at 1.0 km/s the groove of a 0.5 mm grain holds 2.1 mm3,
+ * exceeds the grain's cylinder A h.  V alone would not do: at 1.0 km/s the groove of a 0.5 mm grain holds 2.1 mm3,
  * five times A h, and dies out after 6 mm; at 1.5 km/s it grows until the armature has passed.
  *
  * Class.  none: no cell above d_m.  gouge: severity and widening at or above their limits and a rim higher than d_m

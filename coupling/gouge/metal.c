@@ -11,7 +11,7 @@ enum { COLUMNS = 12 }; /* doubles a point */
 
 static status points_read(const mpm *m, gouge_points *p)
 {
-    const size_t n = mpm_particles(m), room = n ? n : 1;
+    const size_t n = mpm_points(m), room = n ? n : 1;
     double *all = malloc(room * COLUMNS * sizeof *all);
     CHECK(all, STATUS_MEMORY, "no memory to read %zu material points", n);
     *p = (gouge_points){ .n = n,

@@ -76,7 +76,7 @@ void host_progress_text(const progress *p, double fraction, double elapsed, uint
     }
     const double rate = elapsed > 0.0 ? (double)(particle_steps - p->steps_started) / elapsed : 0.0;
     if (particle_steps > p->steps_started && rate > 0.0 && n > 0 && (size_t)n < size)
-        snprintf(text + n, size - (size_t)n, "  %.1f M particle-steps/s", 1e-6 * rate);
+        snprintf(text + n, size - (size_t)n, "  %.1f M point-steps/s", 1e-6 * rate);
 }
 
 void host_progress_update(progress *p, double fraction, uint64_t particle_steps)

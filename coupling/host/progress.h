@@ -32,7 +32,7 @@ void host_progress_say(progress *p, const char *format, ...) __attribute__((form
 /* Clears the live line. */
 void host_progress_close(progress *p);
 
-/* The text of a line: "scene 3 of 8  42 %  1 min 20 s left  31.2 M particle-steps/s".
+/* The text of a line: "scene 3 of 8  42 %  1 min 20 s left  31.2 M point-steps/s".
  * elapsed, the time spent on the `gained` fraction [s]. */
 void host_progress_text(const progress *p, double fraction, double elapsed, uint64_t particle_steps, char *text,
                         size_t size);

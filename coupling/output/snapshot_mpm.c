@@ -8,6 +8,6 @@ static void read_field(const void *source, mpm_field field, double *out)
 
 status output_snapshots_write(snapshots *s, const mpm *m)
 {
-    const snapshot_source source = { mpm_glance(m).time, mpm_particles(m), read_field, m };
+    const snapshot_source source = { mpm_glance(m).time, mpm_points(m), read_field, m };
     return output_snapshots_write_source(s, &source);
 }

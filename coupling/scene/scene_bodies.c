@@ -29,7 +29,7 @@ static void add_extent(scene_body *b, const double x[3], const double half[3])
 static status add_points(const mpm *m, scene_body *out)
 {
     enum { COLUMNS = 13 };
-    const size_t n = mpm_particles(m);
+    const size_t n = mpm_points(m);
     double *all = malloc((n ? n : 1) * COLUMNS * sizeof *all);
     CHECK(all, STATUS_MEMORY, "no memory to read %zu material points", n);
     double *x = all, *v = all + 3 * n, *mass = all + 6 * n, *energy = all + 7 * n, *body = all + 8 * n;

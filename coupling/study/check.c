@@ -167,7 +167,7 @@ typedef struct {
 typedef struct {
     int steps;
     double since;    /* wall clock behind the warm steps [s] */
-    uint64_t before; /* particle-steps then */
+    uint64_t before; /* point-steps then */
 } trial;
 
 /* Those that points at rest did not take count too, as they do in mpm_needs.work. */

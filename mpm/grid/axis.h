@@ -2,7 +2,7 @@
 /* One axis of the rectilinear grid: node positions, graded outside a fine zone.
  *
  * Node 1 lies on the window's lower end, node `last` on its upper end; nodes 0 and last + 1 are ghosts beyond them.
- * The cell of a node reaches half-way to its neighbours: a particle in the cell of node i sees nodes i-1, i, i+1. */
+ * The cell of a node reaches half-way to its neighbours: a point in the cell of node i sees nodes i-1, i, i+1. */
 #ifndef BREECH_MPM_AXIS_H
 #define BREECH_MPM_AXIS_H
 

@@ -294,7 +294,7 @@ status mpm_interface_want_bricks(mpm *m, int index)
     return status_ok();
 }
 
-/* May another group have particles in bricks that hold these nodes? */
+/* May another group have points in bricks that hold these nodes? */
 static bool others_in(const mpm *m, int group, int level, const node_box *r)
 {
     if (is_empty(r)) return false;
@@ -308,8 +308,7 @@ static bool others_in(const mpm *m, int group, int level, const node_box *r)
     return false;
 }
 
-/* Nodes of particles in the brick are followed by, or follow, nodes up to two further of their level; so are the
- * others'. */
+/* Constrained nodes lie up to two nodes of their level away from those that they depend on, here as in other groups. */
 bool mpm_interface_in_contact(const mpm *m, const brick *b)
 {
     enum { REACH = 6 };

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Steps of levels.  Cells of a level are twice as wide as those of the next finer one, and so its steps are twice as
- * long: particles give to the grid at the start of their level's step and take from it at the end.  Nodes that two
- * levels share (interface.c) make the finer one's steps d, and in each have what the finer particles give anew, and
+ * long: points give to the grid at the start of their level's step and take from it at the end.  Nodes that two
+ * levels share (interface.c) make the finer one's steps d, and in each have what the finer points give anew, and
  * what the coarser ones gave at the start of theirs, D: m, p, f, K.  Of that, mass and force stay; momentum and energy
  * go with the node,
  *   p <- m u,   K <- m [E - (v^2 - u^2)/2],   u = v - b,   b = d (u . grad) v,
- * v and E the node's after its step.  b: the coarser particles' nodes have gone on by d v since, the finer ones' are
+ * v and E the node's after its step.  b: the coarser points' nodes have gone on by d v since, the finer ones' are
  * made anew at their places, and a motion that is linear in space must look the same to both.  At the end the coarser
- * particles take w = v + sum b.
+ * points take w = v + sum b.
  *
- * Energy.  In a node's steps f does the work d/2 f . (u + v) each; what the particles have booked of it, and will, is
+ * Energy.  In a node's steps f does the work d/2 f . (u + v) each; what the points have booked of it, and will, is
  * D/2 f . (u_0 + w), u_0 = p/m as they gave it (what more they have booked is the smoothing of their transfer, p2g.c).
  * The difference, and that of the motion above, is owed to them alone and goes into the energies that only they read:
  *   D/2 f . (u_0 + w) - sum d/2 f . (u + v) + sum m/2 (v^2 - u^2). */
@@ -40,7 +40,7 @@ static double square(const double v[3])
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
 }
 
-/* ---- at the start of the particles' step ---- */
+/* ---- at the start of the points' step ---- */
 
 static void hold_node(const mpm *m, brick *b, int cell)
 {
@@ -116,7 +116,7 @@ static void keep_node(const mpm *m, brick *b, int cell)
     b->held->owed[cell] += slower - before - 0.5 * dt * power(line, v);
 }
 
-/* To the particles, at the end of their step. */
+/* To the points, at the end of their step. */
 static void pay_node(const mpm *m, brick *b, int cell)
 {
     const double *line = b->held->line[cell];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Grid to particles, and the material law: one brick, the particles of a cell a part of a block at a time.
+/* Grid to points, and the material law: one brick, the points of a cell a part of a block at a time.
  *
  *   v = sum S_i v_i,   L = sum v_i grad S_i,   de = sum S_i (v_i^2/2 + Q_i/m_i) - v^2/2 - ka     (transfer and contact
  *   heat)
@@ -30,7 +30,7 @@ static void gather_halo(const mpm *m, const brick *b, halo_nodes halo)
         }
 }
 
-/* Ghost velocities.  A ghost gives its particles the mirror of what its node holds: the difference is the mirror's
+/* Ghost velocities.  A ghost gives its points the mirror of what its node holds: the difference is the mirror's
  * impulse, with the ghost's own mass from P2G.  A ghost of several mirrors counts in the first; the others find its
  * mass where fold() has put it. */
 static void mirror_ghosts(const mpm *m, brick *b, halo_nodes halo)
@@ -249,7 +249,7 @@ static void add_books(tally *t, const block_run *run, body_peaks *peaks)
     t->clamps_compression += (uint64_t)vd_sum(s->clamp_rho);
 }
 
-/* Notes the first particle that is not finite: x - x is 0, or NaN. */
+/* Notes the first point that is not finite: x - x is 0, or NaN. */
 LANE_INLINE void find_bad(tally *t, const block *q, int lane, vd rate, int index)
 {
     const vm here = vd_less(vd_set(0), vd_load(&q->mass[0][lane]));

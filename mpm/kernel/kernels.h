@@ -45,7 +45,7 @@ LANE_INLINE bool part_is_empty(int mask, int lane)
 }
 
 typedef struct {
-    vd w[3], g[3], d[3]; /* weights, their derivatives with the particle's position [1/m], node minus particle [m] */
+    vd w[3], g[3], d[3]; /* weights, their derivatives with the point's position [1/m], node minus point [m] */
 } weights;
 
 /* Generalized interpolation over the domain x - l .. x + l (Bardenhagen and Kober 2004), on unequal elements:
@@ -137,7 +137,7 @@ LANE_INLINE vd wave_push(const wave_load *w, vd v)
     return w->inwards * vd_max(w->base - w->Z * w->inwards * v, vd_set(w->least));
 }
 
-/* Everything a cell's particles need to know of the grid; borrowed from the brick's. */
+/* Everything a cell's points need to know of the grid; borrowed from the brick's. */
 typedef struct {
     const cell_axis *axis[3];
     const knots *knots[3];
@@ -152,7 +152,7 @@ LANE_INLINE brick_grid brick_grid_at(const mpm *m, const brick *b)
         for (int i = 0; i < BRICK; i++) {
             const int node = BRICK * b->at[k] + i;
             const axis *from = &axes_of(m, b)[k];
-            if (node < 1 || node > from->last) continue; /* no particles there */
+            if (node < 1 || node > from->last) continue; /* no points there */
             cell_axis *a = &g.axis[k][i];
             *a = cell_axis_at(from, node);
             if (g.bspline) g.knots[k][i] = knots_at(from, node);
@@ -226,7 +226,7 @@ static inline bool is_mirror(const mpm *m, const brick *b, int k, int side)
     return s->boundary[side] == MPM_BOUNDARY_SYMMETRY && !m->group[b->group].passes[2 * k + side];
 }
 
-/* Mirror planes that the brick's particles reach over; their number, by axis. */
+/* Mirror planes that the brick's points reach over; their number, by axis. */
 static inline int mirror_planes(const mpm *m, const brick *b, mirror_plane p[6])
 {
     int n = 0;

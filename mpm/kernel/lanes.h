@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lanes: particles that are worked on together.  A block has eight; an instruction set takes them WIDTH at a time, as
+/* Lanes: points that are worked on together.  A block has eight; an instruction set takes them WIDTH at a time, as
  * many as its vectors have doubles, so a block is eight, four or two `vd` wide parts of one, two or four.  The same
  * source for all: gcc and clang turn comparisons and selects of a machine's own width into its compare and blend, but
  * take wider vectors apart into single numbers. */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The grid phase at one site: sums of all bricks that reach its nodes, momentum update, boundaries, contact (M-6).
  *
- *   m dv/dt = f;   what the mixing of particle velocities and the contacts take from the kinetic energy stays at the
- *   node as heat and goes to the particles in G2P:  E_i = v_i^2/2 + Q_i/m_i.  So does the work of the forces on the
- *   velocities before them, dt/2 f . v, less what the particles had booked of it (p2g.c); that on those after them is
- *   the particles'. */
+ *   m dv/dt = f;   what the mixing of point velocities and the contacts take from the kinetic energy stays at the
+ *   node as heat and goes to the points in G2P:  E_i = v_i^2/2 + Q_i/m_i.  So does the work of the forces on the
+ *   velocities before them, dt/2 f . v, less what the points had booked of it (p2g.c); that on those after them is
+ *   the points'. */
 #include "mpm/kernel/kernels.h"
 #include "mpm/law/contact.h"
 #include "mpm/memory/cavities.h"
@@ -28,8 +28,8 @@ typedef struct {
     const double *extra;
 } node_state;
 
-/* Nodes of a brick that the particles of its neighbour at a step reach: a box, where the neighbour has its sums of
- * them, and its cells whose particles those are. */
+/* Nodes of a brick that the points of its neighbour at a step reach: a box, where the neighbour has its sums of
+ * them, and its cells whose points those are. */
 typedef struct {
     int first[3], count[3], there;
     uint64_t cells;

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Particles to grid: the node sums of one brick.
+/* Points to grid: the node sums of one brick.
  *
  *   line_i = sum_p S_ip { m, m [v + L (x_i - x_p)], m [v^2/2 + ka + v . L (x_i - x_p)] },   f_i = -sum_p V sigma grad
  *   S_ip
  *
  * and, with the energy, the other side of the work that the forces do before they change the nodes (nodes.c takes
- * dt/2 f_i . v_i from it): what they would do if the nodes moved as the particles do, dt/2 sum_p f_ip . [v + L (x_i -
- * x_p)]. Its sum is what the particles have booked at the end of the last step, dt/2 V sigma:L, so the two together are
+ * dt/2 f_i . v_i from it): what they would do if the nodes moved as the points do, dt/2 sum_p f_ip . [v + L (x_i -
+ * x_p)]. Its sum is what the points have booked at the end of the last step, dt/2 V sigma:L, so the two together are
  * the work that the transfer's smoothing takes or makes.  Of L only the parts along the axes are told apart by node:
  * those across sum to zero.
  *
- * With S = wx wy wz every term is a product over the axes, so a particle's line at node (a, b, c) is
+ * With S = wx wy wz every term is a product over the axes, so a point's line at node (a, b, c) is
  *   wy_b wz_c A_a + wx_a B_bc,   A_a = wx_a base + qx_a CX,   B_bc = wz_c Y_b + wy_b Z_c,   Y_b = qy_b CY,   Z_c = qz_c
  *   CZ,
  * where q is w (x_i - x_p) in the lanes of momentum and energy and grad w in the lanes of force.
@@ -27,18 +27,18 @@ enum { PARTS = (int)LINE / (int)WIDTH }; /* of a node line */
 /* A part of the lines of nodes (a, b, c): place 9 c + 3 b + a; place 1 along an axis: of all three. */
 typedef vd part_sums[27];
 
-/* What a block's rows of three nodes along x are made of, [first or last node][particle][lane of the line]. */
+/* What a block's rows of three nodes along x are made of, [first or last node][point][lane of the line]. */
 typedef struct {
     double base[LANES][LINE], A[2][LANES][LINE], Y[2][LANES][LINE], Z[2][LANES][LINE];
 } __attribute__((aligned(64))) lines;
 
-/* A block's factors, [axis][first or last node][particle]. */
+/* A block's factors, [axis][first or last node][point]. */
 typedef struct {
     double w[3][2][LANES];  /* weight */
     double yz[2][2][LANES]; /* weights' product, [z][y] */
 } __attribute__((aligned(64))) factors;
 
-/* What a block gives to contact lines, [axis][first or last node][particle]: V grad w, m w (x_p - x_i); m flow stress;
+/* What a block gives to contact lines, [axis][first or last node][point]: V grad w, m w (x_p - x_i); m flow stress;
  * m effusivity, in a group whose bodies differ in that.
  */
 typedef struct {
@@ -53,7 +53,7 @@ LANE_INLINE void store_factors(factors *f, const weights w[3], int lane)
         for (int b = 0; b < 2; b++) vd_store(&f->yz[c][b][lane], w[1].w[2 * b] * w[2].w[2 * c]);
 }
 
-/* Rows (a line's lane each) of some particles -> lines of those particles. */
+/* Rows (a line's lane each) of some points -> lines of those points. */
 LANE_INLINE void store_lines(double (*to)[LINE], const vd row[LINE], int lane)
 {
     for (int part = 0; part < PARTS; part++) {
@@ -107,7 +107,7 @@ LANE_INLINE void add_plane(vd sum[9], const lines *n, int part, const factors *f
         add_row(&sum[6 * b], n, part, f, l, f->yz[c][b][l], wz * vd_load(&n->Y[b][l][part]) + f->w[1][b][l] * Z);
 }
 
-/* Nine nodes of the particles in `mask`, a part of their lines.  Nine sums at a time: they stay in registers. */
+/* Nine nodes of the points in `mask`, a part of their lines.  Nine sums at a time: they stay in registers. */
 LANE_INLINE void accumulate_plane(vd to[9], const lines *n, int part, const factors *f, int mask, int plane, bool first)
 {
     vd sum[9];
@@ -124,7 +124,7 @@ LANE_INLINE void accumulate_plane(vd to[9], const lines *n, int part, const fact
     for (int i = 0; i < 9; i++) to[i] = sum[i];
 }
 
-/* Adds a part of the lines of the particles in `mask`. */
+/* Adds a part of the lines of the points in `mask`. */
 LANE_INLINE void accumulate(part_sums sum, const lines *n, int part, const factors *f, int mask, bool first,
                             ahead *next)
 {
@@ -199,7 +199,7 @@ LANE_INLINE void surface_of(const block *q, int lane, const weights w[3], contac
 #undef AT
 }
 
-/* A part of particle l's contact lines: each lane is one number, so nothing need be transposed. */
+/* A part of point l's contact lines: each lane is one number, so nothing need be transposed. */
 LANE_INLINE void contact_lines(const contact_factors *s, const factors *f, int part, int l, bool mixed, lines *n)
 {
     vd base = vd_where(kind_at(contact_kinds.flow, part), vd_set(s->flow[l]));

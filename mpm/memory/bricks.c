@@ -173,7 +173,7 @@ status mpm_store_empty(mpm *m, int blocks)
     return blocks > m->blocks_capacity ? grow_blocks(m, blocks + blocks / 8) : status_ok();
 }
 
-/* May another group have particles at this place or next door? */
+/* May another group have points at this place or next door? */
 static bool meets_other(const mpm *m, const brick *b)
 {
     for (int step = 0; step < NEIGHBOURS; step++) {
@@ -236,7 +236,7 @@ status mpm_store_relink(mpm *m)
     return status_ok();
 }
 
-/* ---- the bricks that particles need ---- */
+/* ---- the bricks that points need ---- */
 
 enum { SLACK = 1 }; /* cells that they may go on before bricks are made anew */
 

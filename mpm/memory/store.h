@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The solver's memory: particles in blocks of eight, blocks chained by cell, cells in bricks of 4 x 4 x 4.
+/* The solver's memory: points in blocks of eight, blocks chained by cell, cells in bricks of 4 x 4 x 4.
  *
- *   block   8 particles of one body and one cell, array of structures of arrays; holes have mass 0
- *   brick   64 cells of one group; `out` are the node sums of its own particles on its 6 x 6 x 6 nodes (own
+ *   block   8 points of one body and one cell, array of structures of arrays; holes have mass 0
+ *   brick   64 cells of one group; `out` are the node sums of its own points on its 6 x 6 x 6 nodes (own
  *   nodes
  *           and one layer around), `mpm.nodes` the velocities of its own 4 x 4 x 4 nodes
  *   site    the bricks of all groups at one place of one level of the nested grids (grid.h)
@@ -23,13 +23,13 @@
 enum {
     BRICK = 4,                           /* cells a brick and axis */
     BRICK_CELLS = BRICK * BRICK * BRICK, /* 64 */
-    HALO = BRICK + 2,                    /* nodes a brick's particles see, an axis */
+    HALO = BRICK + 2,                    /* nodes a brick's points see, an axis */
     HALO_NODES = HALO * HALO * HALO,     /* 216 */
     LINE = 8,                            /* doubles of a node line */
     NODE = 4,                            /* vx vy vz E of a finished node */
     NEIGHBOURS = 27,
     SELF = 13,        /* index of the brick itself among them */
-    BRICK_ASLEEP = 2, /* steps at rest after which a brick's particles are left as they are */
+    BRICK_ASLEEP = 2, /* steps at rest after which a brick's points are left as they are */
     CROSSES = 27,     /* of a mover: to another level */
     MPM_MAX_THREADS = 256,
     SHARES = 32 /* of the bricks: what is summed over all of them is summed share by share, on any number of threads */
@@ -40,7 +40,7 @@ static inline int share_begin(int bricks, int share)
     return (int)((int64_t)bricks * share / SHARES);
 }
 
-/* One list makes the block, the copies of single particles and the checkpoint.  P2G reads what comes before e, G2P all
+/* One list makes the block, the copies of single points and the checkpoint.  P2G reads what comes before e, G2P all
  * before start. */
 #define BLOCK_FIELDS(FIELD)                                                    \
     FIELD(x, 3)      /* position [m] */                                        \
@@ -68,14 +68,14 @@ typedef struct {
 
 enum { BLOCK_DOUBLES = sizeof(block) / (sizeof(double) * LANES) };
 
-/* Places of the fields in a single particle's BLOCK_DOUBLES. */
+/* Places of the fields in a single point's BLOCK_DOUBLES. */
 enum {
 #define BLOCK_FIRST(name, n) FIRST_##name, LAST_##name = FIRST_##name + (n)-1,
     BLOCK_FIELDS(BLOCK_FIRST)
 #undef BLOCK_FIRST
 };
 
-/* A particle on its way between cells. */
+/* A point on its way between cells. */
 typedef struct {
     int brick_step; /* which of the 27 neighbours it goes to; CROSSES: a brick of another level */
     int cell;       /* cell in that brick */
@@ -105,11 +105,11 @@ typedef struct {
     double rate; /* largest (c + |v|) / h, times the share of m.dt that the level's steps are [1/s] */
     double peak_temperature;
     uint64_t clamps_pressure, clamps_compression, splits, eroded, particles;
-    uint64_t asleep; /* particles that were left as they are */
+    uint64_t asleep; /* points that were left as they are */
     double eroded_mass;
     bool stranded;           /* no memory for points that left their cells: the step cannot go on */
     bool shared;             /* of a site: its bricks' contact_impulse counts */
-    int bad_lane, bad_block; /* first particle that is not finite, bad_block = -1: none */
+    int bad_lane, bad_block; /* first point that is not finite, bad_block = -1: none */
 } tally;
 
 /* Nodes of a brick (bits) that two levels share (interface.c). */
@@ -119,11 +119,11 @@ typedef struct {
     uint64_t twice_finer; /* those of follow_finer where the node that they follow leads a still finer level */
 } interface_nodes;
 
-/* What a brick's particles gave to its nodes, while a finer level makes several steps with those that both share
+/* What a brick's points gave to its nodes, while a finer level makes several steps with those that both share
  * (substeps.c). */
 typedef struct {
     double line[2 * BRICK_CELLS][LINE]; /* as brick.line; of shared nodes as their last step left it */
-    double drift[BRICK_CELLS][3];       /* velocity that is still to be added for the particles [m/s] */
+    double drift[BRICK_CELLS][3];       /* velocity that is still to be added for the points [m/s] */
     double owed[BRICK_CELLS];           /* the same of the energy [J] */
 } node_shares;
 
@@ -133,17 +133,17 @@ typedef struct {
     interface_nodes interface;    /* of its nodes */
     bool at_interface;            /* there are any */
     uint8_t foreign[BRICK_CELLS]; /* octants of each cell (bit 0: upper half along x) that another level has */
-    bool across;           /* another group has particles near a node that this brick shares with another level */
-    int head[BRICK_CELLS]; /* first block of each cell, -1 = none */
+    bool across;                  /* another group has points near a node that this brick shares with another level */
+    int head[BRICK_CELLS];        /* first block of each cell, -1 = none */
     int particles, blocks;
     bool fresh;                  /* points have come from another level since the last look (refine/merge.c) */
-    int still;                   /* steps since a node of its particles was not slow, up to BRICK_ASLEEP (g2p.c) */
+    int still;                   /* steps since a node of its points was not slow, up to BRICK_ASLEEP (g2p.c) */
     double still_rate;           /* sum.rate of the last of them [1/s] */
-    bool given;                  /* `out` holds what its particles give as they are */
-    bool contact;                /* another group has particles here or next door */
-    uint64_t occupied, meets;    /* bit c: cell c has particles; it may share nodes with another group */
+    bool given;                  /* `out` holds what its points give as they are */
+    bool contact;                /* another group has points here or next door */
+    uint64_t occupied, meets;    /* bit c: cell c has points; it may share nodes with another group */
     uint64_t covered;            /* cells that may come to be occupied until bricks are made anew around them */
-    uint64_t reached;            /* nodes that particles in covered cells give to */
+    uint64_t reached;            /* nodes that points in covered cells give to */
     bool wanted;                 /* those need this brick: it has them, their nodes, or nodes that these follow */
     int neighbour[NEIGHBOURS];   /* bricks of the same group around, -1 = none */
     double (*out)[LINE];         /* [216] m, px, py, pz, fx, fy, fz, kinetic energy; halo_place (kernels.h) */
@@ -213,7 +213,7 @@ struct mpm {
     int places;                    /* that the four arrays of places have room for */
 
     brick *bricks;
-    double (*nodes)[BRICK_CELLS][NODE]; /* of each brick: vx, vy, vz, specific energy that is left to the particles */
+    double (*nodes)[BRICK_CELLS][NODE]; /* of each brick: vx, vy, vz, specific energy that is left to the points */
     int bricks_used, bricks_capacity;
     int *site_list, site_count;                                  /* sites that have a brick, by level */
     int *interface_list, interface_count;                        /* those of them where levels meet */
@@ -235,7 +235,7 @@ struct mpm {
     double time, dt, dt_last; /* steps of the coarsest level; dt_last: the last that began, 0 before the first [s] */
     int begins, ends; /* levels 0 .. begins begin a step with the finest level's that is under way, 0 .. ends end one */
     uint64_t steps;
-    double dense, dense_steps; /* particles, and particle-steps so far, of the finest cells everywhere */
+    double dense, dense_steps; /* points, and point-steps so far, of the finest cells everywhere */
     double *histogram;         /* of percentiles (read.c) */
     body_tops *tops;           /* [1 + SHARES][scene.bodies] of percentiles */
     double *failed;            /* [1 + SHARES][scene.bodies] for mpm_failed_volumes [m3] */
@@ -269,9 +269,9 @@ void mpm_store_release(mpm *m, int block_index);         /* back to the free blo
 void mpm_store_release_cell(mpm *m, brick *b, int cell); /* all blocks of a cell */
 void mpm_store_free(mpm *m);
 status mpm_store_brick(mpm *m, int group, int level, const int at[3], int *out); /* finds or makes it */
-status mpm_store_open(brick *b);            /* memory for the sums of its particles */
+status mpm_store_open(brick *b);                                                 /* memory for the sums of its points */
 status mpm_store_empty(mpm *m, int blocks); /* no bricks, room for so many blocks */
-/* Makes the bricks whose nodes particles reach, or will within a cell's way, and finds them again: neighbours, contact
+/* Makes the bricks whose nodes points reach, or will within a cell's way, and finds them again: neighbours, contact
  * flags, site list.  Due when a cell is occupied that is not covered. */
 status mpm_store_cover(mpm *m);
 status mpm_store_relink(mpm *m); /* neighbours, contact flags, site list alone */
@@ -302,7 +302,7 @@ uint64_t mpm_substep_due(const mpm *m,
                          const brick *b); /* nodes that end a step with the finest level's that is under way */
 double mpm_substep_dt(const mpm *m, const brick *b, int cell); /* of a node's step [s] */
 void mpm_substep_restore(mpm *m, int site);                    /* brick.line as brick.held has it */
-void mpm_substep_store(mpm *m, int site); /* into brick.held, or for its particles, what a step has made of it */
+void mpm_substep_store(mpm *m, int site); /* into brick.held, or for its points, what a step has made of it */
 
 /* cells_around.c: bits of a brick's cells */
 uint64_t mpm_occupied_cells(const brick *b);
@@ -310,13 +310,13 @@ uint64_t mpm_contact_cells(const mpm *m, const brick *b);           /* brick.mee
 uint64_t mpm_cells_around(const mpm *m, const brick *b, int reach); /* within `reach` (1, 2) of the group's occupied */
 uint64_t mpm_cells_towards(int step, int layers); /* so many layers of cells beside the neighbour at a step */
 
-/* point.c: one particle's BLOCK_DOUBLES */
+/* point.c: one point's BLOCK_DOUBLES */
 void mpm_point_halve(double *q, double *other, int k);
 void mpm_point_merge(double *q, const double *other, int k, double dt); /* the inverse: q takes other in */
 void mpm_point_departure(const double *q, double dt, departure *sum);   /* dt: of the last step [s] */
 void mpm_point_rescale_step(double *q, double dt, double other);        /* its last step counts as one of `other` [s] */
 
-/* Work of the stress that a particle has booked at the end of a step and the nodes will do before the next forces
+/* Work of the stress that a point has booked at the end of a step and the nodes will do before the next forces
  * (p2g.c): dt/2 sigma:L / rho [J/kg]. */
 static inline double work_ahead(const double s[6], double p, const double L[9], double rho, double dt)
 {

@@ -183,7 +183,7 @@ const mpm_scene *mpm_scene_of(const mpm *m)
     return &m->scene;
 }
 
-size_t mpm_particles(const mpm *m)
+size_t mpm_points(const mpm *m)
 {
     size_t n = 0;
     for (int i = 0; i < m->bricks_used; i++) n += (size_t)m->bricks[i].particles;

@@ -297,6 +297,6 @@ status mpm_refine_look(mpm *m)
     TRY(mpm_refine_flags(m, &changed));
     if (changed) TRY(move_points(m));
     TRY(mpm_merge_points(m));
-    m->report.particles = mpm_particles(m);
+    m->report.particles = mpm_points(m);
     return status_ok();
 }

@@ -12,7 +12,7 @@ from .case import Case
 from .places import program
 from .results import Run
 
-LIVE = re.compile(r"(?P<task>.*?)  (?P<percent>\d+) %(?:  (?P<left>.+?) left)?(?:  (?P<rate>\S+) M particle-steps/s)?")
+LIVE = re.compile(r"(?P<task>.*?)  (?P<percent>\d+) %(?:  (?P<left>.+?) left)?(?:  (?P<rate>\S+) M point-steps/s)?")
 
 
 class BreechError(Exception):

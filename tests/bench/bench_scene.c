@@ -181,7 +181,7 @@ static double measure(const char *name, const mpm_scene *base, const char *set, 
         before = now;
     }
     qsort(ns, (size_t)o->repetitions, sizeof *ns, ascending);
-    printf("%-8s  %-10s  %7d  %9zu  %8.1f  %8.1f  %8.1f  %8.1f ", name, set, threads, mpm_particles(m),
+    printf("%-8s  %-10s  %7d  %9zu  %8.1f  %8.1f  %8.1f  %8.1f ", name, set, threads, mpm_points(m),
            ns[o->repetitions / 2], ns[0], ns[o->repetitions - 1], cpu);
     for (int p = 0; p < MPM_PHASES; p++) printf(" %6.1f", phase[p]);
     printf("\n");

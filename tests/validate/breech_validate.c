@@ -3,7 +3,7 @@
  *
  *   breech-validate [--quick] [--basis gimp|bspline] [--transfer tpic|pic] [--courant C] [-o DIR] [NAME ...]
  *
- * Each line: resolution, the case's figures, books, particle-steps and processor time (one thread).  With -o DIR the
+ * Each line: resolution, the case's figures, books, point-steps and processor time (one thread).  With -o DIR the
  * same goes to DIR/<name>.dat and a gnuplot picture of all, DIR/validation.svg: error against cell size and against
  * time. */
 #include "valid.h"
@@ -35,7 +35,7 @@ static void print_head(FILE *f, const valid_case *c)
 {
     fprintf(f, "# %s  %s.  Cells of the %s", c->name, c->doc, c->per);
     for (int i = 0; i < VALID_FIGURES && c->figure[i]; i++) fprintf(f, "; %s", c->figure[i]);
-    fprintf(f, "; energy, momentum, mass of the books; particle-steps; s\n");
+    fprintf(f, "; energy, momentum, mass of the books; point-steps; s\n");
 }
 
 static FILE *open_data(const options *o, const valid_case *c)

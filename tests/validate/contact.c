@@ -170,7 +170,7 @@ static double tracer_distance(const mpm *m, const pressing *w)
     double at[2] = { 0 };
     for (int b = 0; b < 2; b++) {
         double sum[5] = { 0 };
-        for (size_t i = 0; i < mpm_particles(m); i++) {
+        for (size_t i = 0; i < mpm_points(m); i++) {
             const double *s = &start[3 * i], deep = (b ? s[1] - w->face : w->face - s[1]) - BALL_DEPTH;
             if ((int)body[i] != b || s[0] > w->spacing || s[2] > w->spacing || fabs(deep) > 2 * w->spacing) continue;
             sum[0] += 1, sum[1] += deep, sum[2] += x[3 * i + 1], sum[3] += deep * deep, sum[4] += deep * x[3 * i + 1];

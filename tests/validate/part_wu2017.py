@@ -167,6 +167,6 @@ def three_cells(runs):
 def shipped(runs):
     scene = runs.scene("wu2017_case", "cases/wu2017")
     time = "%.0f, %.0f s, %.0f MB" % (scene.run["wall"], scene.run["processor"], scene.run["memory"] / 1024)
-    columns = CRATER + [Column("wall and processor time, memory", words=False), Column("particle-steps [M]", 0.1)]
+    columns = CRATER + [Column("wall and processor time, memory", words=False), Column("point-steps [M]", 0.1)]
     row = crater_row("cases/wu2017", scene) + [time, "%.0f" % (scene.summary["particle_steps"] / 1e6)]
     return [Table(columns, [row])], "2.8 cells a radius, one grid"
