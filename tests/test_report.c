@@ -293,6 +293,24 @@ static void test_aside(void **state)
     free(svg);
 }
 
+/* Powers of ten on a logarithmic axis are short. */
+static void test_powers_of_ten(void **state)
+{
+    (void)state;
+    static const struct {
+        double tick, step;
+        const char *text;
+    } want[] = { { 1e7, 0.0, "10\u2077" },        { 2e-4, 0.0, "2\u00b710\u207b\u2074" },
+                 { 1e12, 0.0, "10\u00b9\u00b2" }, { 1000.0, 0.0, "1000" },
+                 { 0.01, 0.0, "0.01" },           { 20000.0, 5000.0, "20000" },
+                 { 0.25, 0.05, "0.25" } };
+    for (size_t i = 0; i < sizeof want / sizeof *want; i++) {
+        char text[32];
+        report_scale_label(want[i].tick, want[i].step, text);
+        assert_string_equal(text, want[i].text);
+    }
+}
+
 /* ---- tables ---- */
 
 static void test_every_cell_has_its_title(void **state)
@@ -303,7 +321,7 @@ static void test_every_cell_has_its_title(void **state)
     report_table t;
     FILE *out = open_memstream(&text, &size);
     report_table_begin(&t, out);
-    report_table_text_title(&t, "name");
+    report_table_text_title(&t, "the.long_name");
     for (int k = 0; k < 12; k++) report_table_title(&t, "number", "m/s");
     for (int row = 0; row < 3; row++) {
         report_table_row(&t);
@@ -317,6 +335,8 @@ static void test_every_cell_has_its_title(void **state)
     assert_int_equal(count(text, "<td"), 3 * 13);
     assert_int_equal(count(text, "data-title=\"number [m/s]\">1230</td>"), 3 * 12);
     assert_int_equal(count(text, "&lt;x&gt;"), 3);
+    assert_int_equal(count(text, ">the.&#8203;long_&#8203;name</th>"), 1); /* may go on in the next line */
+    assert_int_equal(count(text, "data-title=\"the.&#8203;long_&#8203;name\""), 3);
     free(text);
 }
 
@@ -325,6 +345,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_known_digits),
         cmocka_unit_test(test_plain_digits),
+        cmocka_unit_test(test_powers_of_ten),
         cmocka_unit_test(test_chart_places_points),
         cmocka_unit_test(test_chart_without_values_is_none),
         cmocka_unit_test(test_lines_are_small),

@@ -161,7 +161,7 @@ static void test_resolution(void **state)
     free(text);
     OK(host_file_read("cells/report.html", &text, NULL));
     assert_non_null(strstr(text, "Error against run time"));
-    assert_non_null(strstr(text, "scene.velocity [m/s]"));
+    assert_non_null(strstr(text, "scene.&#8203;velocity [m/s]"));
     free(text);
     OK(host_file_read("cells/sweep.csv", &text, NULL));
     assert_int_equal(strncmp(text, "scene.cells_per_radius,scene.velocity [m/s],peak_pressure [Pa],", 63), 0);
@@ -229,11 +229,27 @@ static void test_probes(void **state)
 #undef SWEEP
 }
 
+/* A text is no axis: outputs are drawn over the first key that is a number, a curve for each text. */
+static void test_drawn_over(void **state)
+{
+    (void)state;
+    char *text;
+    assert_int_equal(run("sweep " SHOT_CASE " -o drawn --force --quiet --set sweep=\"{of: shot, vary: ["
+                         "{key: title, values: [one, other]}, {key: bank.charge, values: [8 kV, 9.5 kV]}],"
+                         " read: [peak_current]}\""),
+                     0);
+    OK(host_file_read("drawn/plot-sweep-1.svg", &text, NULL));
+    assert_non_null(strstr(text, ">bank.charge [kV]<"));
+    assert_non_null(strstr(text, ">title one<"));
+    assert_non_null(strstr(text, ">title other<"));
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_as_runs_of_their_own), cmocka_unit_test(test_together), cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_resolution),           cmocka_unit_test(test_probes),
+        cmocka_unit_test(test_resolution),           cmocka_unit_test(test_probes),   cmocka_unit_test(test_drawn_over),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

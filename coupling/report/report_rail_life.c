@@ -9,6 +9,8 @@
 
 /* ---- the head ---- */
 
+static const double LEAST_CHANCE = 1e-4; /* that is said as a number */
+
 /* Lives come from a fit of scattered tests: two digits. */
 static void write_shots(const page *p, double shots)
 {
@@ -74,6 +76,15 @@ static void write_doubts(const page *p, const cJSON *s)
         write_place(p, report_number(s, "without_heat_position"), report_number(s, "without_heat_depth"));
         fputs(".</li>\n", p->out);
     }
+    const double cracked = report_number(s, "probability_cracked");
+    if (isfinite(cracked)) {
+        fprintf(p->out, "<li>Cracked after study.shots = %.0f: ", report_number(s, "shots"));
+        if (cracked < LEAST_CHANCE)
+            fputs("less than 0.01 %", p->out);
+        else
+            report_page_number(p->out, cracked, 1e-2, "%");
+        fputs(".</li>\n", p->out);
+    }
     const double from = report_number(s, "rayleigh_position");
     if (isfinite(from)) {
         fputs("<li>From ", p->out);
@@ -87,8 +98,6 @@ void report_rail_life_head(const page *p)
 {
     static const page_column cards[] = { { "life_first", "shots until the first damage there", 1.0, "", NULL },
                                          { "life_range", "strain range there, largest", 1e-2, "%", NULL },
-                                         { "probability_cracked", "cracked after study.shots", 1e-2, "%", NULL },
-                                         { "shots", "shots fired one after the other", 1.0, "", NULL },
                                          { "rayleigh_speed", "Rayleigh waves of the rail", 1.0, "m/s", NULL },
                                          { "wall_seconds", "took", 1.0, "s", NULL } };
     const cJSON *s = p->source->summary;

@@ -2,6 +2,7 @@
 #include "coupling/report/report_svg.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char *const GRID = "#e6e6e6"; /* colour */
@@ -161,8 +162,24 @@ int report_scale_ticks(const report_scale *s, int about, double tick[REPORT_TICK
     return s->log ? log_ticks(s, tick, step) : linear_ticks(s, about, tick, step);
 }
 
+/* 10 to a power, 2 of them: 2 and a dot before it; in characters that are raised, since a plot's text has no others. */
+static void power_label(double tick, char out[32])
+{
+    static const char *const raised[] = { "\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+                                          "\u2075", "\u2076", "\u2077", "\u2078", "\u2079" };
+    const int power = (int)floor(log10(tick) + 1e-9), n = abs(power) % 100;
+    const double front = round(tick / pow(10.0, power));
+    char first[8] = "";
+    if (front > 1.0) snprintf(first, sizeof first, "%.0f\u00b7", front);
+    snprintf(out, 32, "%s10%s%s%s", first, power < 0 ? "\u207b" : "", n > 9 ? raised[n / 10] : "", raised[n % 10]);
+}
+
 void report_scale_label(double tick, double step, char out[32])
 {
+    if (step <= 0.0 && tick > 0.0 && (tick > 9999.0 || tick < 1e-3)) {
+        power_label(tick, out);
+        return;
+    }
     const int decimals = step > 0.0 ? (int)fmax(0.0, ceil(-log10(step) - 1e-9)) : 0;
     const double value = fabs(tick) < 1e-9 * step ? 0.0 : tick;
     if (step > 0.0 && decimals <= 6)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The page of a sweep: a table of its runs, every output over the first varied key, and where a resolution is varied
- * the errors over the time they take. */
+/* The page of a sweep: a table of its runs; every output over the first varied key that is a number; where a
+ * resolution is varied, the errors over the time they take. */
 #include "coupling/report/report_page.h"
 
 #include "coupling/report/report_svg.h"
@@ -112,7 +112,15 @@ static void run_table(const page *p, const char *what)
 
 /* ---- charts ---- */
 
-/* What is drawn over what: y a key of an object of the run; x its time, or the first input. */
+/* The input that outputs are drawn over: the first that is a number, else the first. */
+static const cJSON *drawn_over(const cJSON *run)
+{
+    const cJSON *input, *first = member(run, "inputs")->child;
+    cJSON_ArrayForEach(input, member(run, "inputs")) if (cJSON_IsNumber(input)) return input;
+    return first;
+}
+
+/* What is drawn over what: y a key of an object of the run; x its time, or that input. */
 typedef struct {
     const char *object, *key;
     bool over_time;
@@ -120,15 +128,15 @@ typedef struct {
 
 static double x_of(const cJSON *run, const drawn *d)
 {
-    const cJSON *x = d->over_time ? member(run, "wall_seconds") : member(run, "inputs")->child;
+    const cJSON *x = d->over_time ? member(run, "wall_seconds") : drawn_over(run);
     return cJSON_IsNumber(x) ? x->valuedouble : NAN;
 }
 
 static bool same_others(const cJSON *a, const cJSON *b)
 {
-    const cJSON *x = member(a, "inputs")->child->next, *y = member(b, "inputs")->child->next;
+    const cJSON *x = member(a, "inputs")->child, *y = member(b, "inputs")->child;
     for (; x && y; x = x->next, y = y->next)
-        if (!cJSON_Compare(x, y, true)) return false;
+        if (x != drawn_over(a) && !cJSON_Compare(x, y, true)) return false;
     return true;
 }
 
@@ -137,7 +145,8 @@ static void curve_name(const page *p, const cJSON *run, char *out, size_t size)
 {
     size_t used = 0;
     out[0] = '\0';
-    for (const cJSON *x = member(run, "inputs")->child->next; x && used + 1 < size; x = x->next) {
+    for (const cJSON *x = member(run, "inputs")->child; x && used + 1 < size; x = x->next) {
+        if (x == drawn_over(run)) continue;
         const char *key = strrchr(x->string, '.');
         char value[REPORT_USED_SIZE];
         if (cJSON_IsNumber(x))
@@ -178,7 +187,7 @@ static void draw_curves(const page *p, const char *name, const drawn *d)
 {
     enum { MOST = 12 };
     const cJSON *run, *runs = report_page_list(p, "sweep"), *first[MOST];
-    const char *input = member(runs->child, "inputs")->child->string;
+    const char *input = drawn_over(runs->child)->string;
     int n = 0;
     char label[120];
     snprintf(label, sizeof label, d->over_time ? "error of %.90s" : "%.90s", d->key);

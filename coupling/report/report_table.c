@@ -28,6 +28,20 @@ void report_table_text_title(report_table *t, const char *title)
     report_table_title(t, title, "");
 }
 
+/* A key such as scene.bodies[0].material may go on in the next line behind a dot and an underscore: long ones in the
+ * head would push the last columns off the page. */
+static void breakable(FILE *out, const char *title)
+{
+    char part[REPORT_TITLE_SIZE];
+    while (*title) {
+        const size_t n = strcspn(title, "._") + 1, whole = strlen(title);
+        snprintf(part, sizeof part, "%.*s", (int)(n < whole ? n : whole), title);
+        report_svg_escaped(out, part);
+        title += strlen(part);
+        if (*title) fputs("&#8203;", out);
+    }
+}
+
 /* ---- rows ---- */
 
 static void head(report_table *t)
@@ -38,7 +52,7 @@ static void head(report_table *t)
                                  : "many");
     for (int k = 0; k < t->columns; k++) {
         fputs(t->of_text[k] ? "<th class=\"text\">" : "<th>", t->out);
-        report_svg_escaped(t->out, t->title[k]);
+        breakable(t->out, t->title[k]);
         fputs("</th>", t->out);
     }
     fputs("</tr></thead><tbody>", t->out);
@@ -65,7 +79,7 @@ static bool open_cell(report_table *t, const char *class, const char *colour)
 {
     if (t->at >= t->columns) return false;
     fprintf(t->out, "<td%s%s%s data-title=\"", class[0] ? " class=\"" : "", class, class[0] ? "\"" : "");
-    report_svg_escaped(t->out, t->title[t->at++]);
+    breakable(t->out, t->title[t->at++]);
     fputs("\"", t->out);
     if (colour[0]) fprintf(t->out, " style=\"color:%s\"", colour);
     fputs(">", t->out);
