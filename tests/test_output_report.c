@@ -384,7 +384,8 @@ static void write_study(const char *dir)
                      "\"threshold_velocity\":null,\"threshold_interval\":null,\"scenes\":0}]" },
         { "skips", "[{\"rests_on\":\"the screen\",\"scenes\":4}]" },
         { "sensitivities", "[{\"input\":\"charge\",\"change\":0.05,\"muzzle_velocity\":2200,\"threshold_position\":1.2,"
-                           "\"expected_gouges\":3.5}]" },
+                           "\"expected_gouges\":3.5},{\"input\":\"mass\",\"change\":0.05,\"threshold_position\":null,"
+                           "\"expected_gouges\":null}]" },
         { "shots", "[{\"shot\":1,\"probability_gouge\":0.5,\"expected_gouges\":1,\"expected_gouged_volume\":1e-9,"
                    "\"onset_position\":2.0,\"onset_interval\":[1.5,2.5]}]" },
     };
@@ -454,6 +455,8 @@ static void study_pages_have_their_sections(void **state)
     has_sections(text, study_sections);
     assert_non_null(strstr(text, "sand &lt;x&gt;"));
     assert_non_null(strstr(text, "1700 (1650 to 1750)"));
+    assert_non_null(strstr(text, "+5 % charge: "));
+    assert_null(strstr(text, "+5 % mass: ")); /* where nothing gouges there is no place to move */
     assert_true(host_file_exists("report/plot-surface.svg"));
     free(text);
     write_comparison("report");

@@ -157,7 +157,8 @@ static void one_crater(const page *p, const char *scene, const crater_picture *c
     report_svg_escaped(p->out, scene);
     if (c->class[0]) fprintf(p->out, ": <span style=\"color:%s\">%s</span>", report_colour(c->class), c->class);
     fputs("</h3>\n", p->out);
-    if (c->reason[0]) report_page_paragraph(p, "reason", c->reason);
+    const bool said = strcmp(c->reason, report_text(p->source->summary, "reason")) == 0; /* at the page's head */
+    if (c->reason[0] && !said) report_page_paragraph(p, "reason", c->reason);
     if (memory) {
         report_page_plots_begin(p);
         snprintf(name, sizeof name, "map-%.120s", scene);

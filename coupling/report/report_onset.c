@@ -333,7 +333,8 @@ static void say_effect(const page *p, const cJSON *change)
                  more = report_number(change, "expected_gouges") - report_number(s, "expected_gouges"),
                  by = report_number(change, "change");
     char text[REPORT_VALUE_SIZE];
-    if (!isfinite(by)) return;
+    const bool counts = isfinite(more) && fabs(more) >= 0.005;
+    if (!isfinite(by) || (!isfinite(moved) && !counts)) return; /* nothing gouges, before as after */
     item_begin(p);
     fprintf(p->out, "%+.0f %% ", 100.0 * by);
     report_svg_escaped(p->out, report_text(change, "input"));
@@ -341,10 +342,10 @@ static void say_effect(const page *p, const cJSON *change)
     if (isfinite(moved) && fabs(moved) >= 5e-4) {
         report_value_known(1e3 * fabs(moved), 0.8e3 * fabs(moved), 1.2e3 * fabs(moved), text);
         fprintf(p->out, "gouging begins %s&nbsp;mm %s", text, moved > 0.0 ? "later" : "earlier");
-    } else {
+    } else if (isfinite(moved)) {
         fputs("gouging begins at the same place", p->out);
     }
-    if (isfinite(more) && fabs(more) >= 0.005) fprintf(p->out, ", %+.2f gouges a shot", more);
+    if (counts) fprintf(p->out, "%s%+.2f gouges a shot", isfinite(moved) ? ", " : "", more);
     fputs(".", p->out);
     item_end(p);
 }
