@@ -7,6 +7,8 @@ import os
 
 from pages import Column, Table
 
+from breech.needs import h5py, numpy as np
+
 CASE = "cases/verification/moving_load"
 YOUNGS, POISSON, DENSITY = 124e9, 0.34, 8960.0
 SHEAR = 0.5 * YOUNGS / (1 + POISSON)
@@ -51,8 +53,6 @@ class Face:
     """A snapshot: stress along the face and across it in the first cells below the slide and three on either side."""
 
     def __init__(self, file, cell):
-        import h5py
-        import numpy as np
         with h5py.File(file) as h:
             data = h["VTKHDF/PointData"]
             x, stress = h["VTKHDF/Points"][:, 0].astype(float), data["stress"][:].astype(float)
