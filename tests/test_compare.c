@@ -1037,6 +1037,22 @@ static void test_scatter_of_dying(void **state)
     case_free(c);
 }
 
+/* Of grains too small for a scene nothing is known: neither that they gouge nor a sharp no. */
+static void test_too_small(void **state)
+{
+    (void)state;
+    breech_case *c =
+        read(HEAD "populations:\n  - {density: 3 1/m, sizes: [{radius: 30 um, share: 1}]}\n", CASE_FOR_ONSET);
+    onset_answer a = studied(c, "too-small", status_ok());
+    assert_int_equal(a.result.scenes_run, 0);
+    assert_int_equal(a.result.verdict, VERDICT_UNDECIDED);
+    assert_true(isnan(a.result.probability_gouge) && isnan(a.result.expected_gouges));
+    assert_non_null(strstr(a.result.reason, "study.smallest_radius = 100 um"));
+    assert_null(strstr(a.result.reason, "gouges a shot"));
+    study_onset_answer_free(&a);
+    case_free(c);
+}
+
 /* No whole craters: numbers of gouges as with them, volumes and what the gouges take unknown. */
 static void test_no_craters(void **state)
 {
@@ -1233,6 +1249,7 @@ int main(void)
         cmocka_unit_test(test_seed),
         cmocka_unit_test(test_population_onset),
         cmocka_unit_test(test_feedback_of_populations),
+        cmocka_unit_test(test_too_small),
         cmocka_unit_test(test_no_craters),
         cmocka_unit_test(test_uncertain_inputs),
         cmocka_unit_test(test_uncertain_surfaces),

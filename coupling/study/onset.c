@@ -170,6 +170,19 @@ static status draw_shots(session *s, onset_answer *a)
     return list_along(a, c->launcher.barrel.length);
 }
 
+/* No grain has a scene, and some are too small for one: their threshold is not known. */
+static bool is_unseen(const onset_answer *a)
+{
+    return a->grains.n == 0 && a->grains.too_small > 0;
+}
+
+static void forget_gouges(onset_result *r)
+{
+    r->verdict = VERDICT_UNDECIDED;
+    r->probability_gouge = r->expected_gouges = r->expected_gouged_volume = NAN;
+    for (int k = 0; k < 2; k++) r->expected_gouges_interval[k] = r->expected_gouged_volume_interval[k] = NAN;
+}
+
 /* With a population the answer is that of the random shots. */
 static void conclude_population(onset_answer *a)
 {
@@ -186,6 +199,7 @@ static void conclude_population(onset_answer *a)
     r->onset_position = first->first[1];
     r->onset_interval[0] = first->first[0];
     r->onset_interval[1] = first->first[2];
+    if (is_unseen(a)) forget_gouges(r);
 }
 
 /* ---- beside it: the null models ---- */
@@ -250,7 +264,12 @@ static void explain(onset_answer *a)
     double radius;
     const grain_family *f = study_onset_leading_grain(a, &radius);
     const double allowance = f ? f->surface.reference.allowance : 0.0;
-    if (a->grains.n == 0 && a->grains.unbacked == 0)
+    if (is_unseen(a))
+        say(r,
+            "no scene was run: grains of a population below study.smallest_radius = %g um are taken not to gouge, and "
+            "nothing shows it",
+            1e6 * a->grains.c->study.smallest_radius);
+    else if (a->grains.n == 0 && a->grains.unbacked == 0)
         say(r, "no grain is reached that could be looked at");
     else if (a->grains.n == 0)
         say(r,
@@ -272,7 +291,7 @@ static void explain(onset_answer *a)
         say(r, "; fastest site %.0f m/s", fastest_site(a));
     else if (a->result.n_sites > 0)
         say(r, "; no site is reached");
-    if (a->grains.c->populations.n > 0)
+    if (a->grains.c->populations.n > 0 && isfinite(r->expected_gouges))
         say(r, "; %.3g gouges a shot (%.3g .. %.3g)", r->expected_gouges, r->expected_gouges_interval[0],
             r->expected_gouges_interval[1]);
     if (isfinite(r->muzzle_velocity_feedback))
