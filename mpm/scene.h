@@ -33,8 +33,8 @@ enum { MPM_MAX_LEVELS = 8, MPM_FACES = 6, MPM_CONTACT_VALUES = 8 };
 typedef struct {
     char name[BASE_PARAM_TEXT_SIZE];
     const mpm_material *material;
-    int solid;            /* its volume: root of a tree in mpm_scene.solid; -1 at first */
-    int group;            /* bodies of one group have one velocity field and are welded; groups touch by contact.
+    int solid; /* its volume: root of a tree in mpm_scene.solid; -1 at first */
+    int group; /* bodies of one group share one velocity at every node: they are welded.  Groups touch by contact.
                            Numbered from 0 without gaps.  Where bodies of any group overlap, the later body has the
                            points. */
     double velocity[3];   /* of its centre of mass at the start [m/s] */

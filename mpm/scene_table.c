@@ -35,7 +35,7 @@ const char *const mpm_basis_names[] = { [MPM_BASIS_GIMP] = "gimp", [MPM_BASIS_BS
 
 const base_param mpm_body_params[] = {
     PARAM_INT(mpm_body, solid, -1, 0, 1e9, "root of its volume among the scene's solids"),
-    PARAM_INT(mpm_body, group, 0, 0, 1e9, "bodies of one group have one velocity field"),
+    PARAM_INT(mpm_body, group, 0, 0, 1e9, "bodies of one group share one velocity at every node"),
     PASSES(0, "passes_x_lo"),
     PASSES(1, "passes_x_hi"),
     PASSES(2, "passes_y_lo"),
