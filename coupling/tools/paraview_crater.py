@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The crater of a scene in ParaView: the rail's points as cells, by height, the armature taken away.
+"""The crater of a scene in ParaView: the rail's points by height, the armature taken away, a mirrored half made whole.
 
     pvbatch paraview_crater.py out/my_case/scenes/NAME/scene.hdf.series picture.png [FIELD]
     paraview --script=paraview_crater.py       # asks for nothing: opens the series named in $BREECH_SERIES
@@ -13,7 +13,8 @@ import sys
 try:
     from paraview import servermanager
     from paraview.simple import (Calculator, ColorBy, GetActiveViewOrCreate, GetAnimationScene, GetColorTransferFunction,
-                                 GetScalarBar, OpenDataFile, Render, SaveScreenshot, Show, Threshold, UpdatePipeline)
+                                 GetScalarBar, OpenDataFile, Reflect, Render, SaveScreenshot, Show, Threshold,
+                                 UpdatePipeline)
 except ModuleNotFoundError:
     sys.exit(f"{sys.executable} has no paraview: run this with pvbatch, which brings its own (apt-get install paraview)")
 
@@ -34,7 +35,27 @@ def rail_of(reader, time):
     sound = Threshold(Input=rail, Scalars=["POINTS", "damage"], ThresholdMethod="Below Lower Threshold",
                       LowerThreshold=0.999999)
     sized = Calculator(Input=sound, ResultArrayName="half", Function="max(size_X,size_Z)")
-    return Calculator(Input=sized, ResultArrayName="height", Function="1000*coordsY")
+    top = Calculator(Input=sized, ResultArrayName="height", Function="1000*(coordsY+size_Y)")  # of a point's domain
+    UpdatePipeline(time, top)
+    low, high = top.GetDataInformation().GetBounds()[4:6]
+    return Reflect(Input=top, Plane="Z Min", CopyInput=1) if low > -0.1 * high else top
+
+
+def fine_zone(rail, time):
+    """Bounds of the rail's smallest cells, which lie at the crater [m]."""
+    fine = Threshold(Input=rail, Scalars=["POINTS", "half"], ThresholdMethod="Below Lower Threshold",
+                     LowerThreshold=1.5 * rail.PointData["half"].GetRange(0)[0])
+    UpdatePipeline(time, fine)
+    return fine.GetDataInformation().GetBounds()
+
+
+def look_at(view, bounds):
+    """From upstream and above onto the middle of the bounds, which fill the picture."""
+    x, y, z = (0.5 * (bounds[2 * k] + bounds[2 * k + 1]) for k in range(3))
+    length = max(bounds[1] - bounds[0], bounds[5] - bounds[4])
+    view.CameraParallelProjection, view.CameraViewUp = 1, [0, 1, 0]
+    view.CameraFocalPoint, view.CameraPosition = [x, y, z], [x - 0.5 * length, y + length, z + 0.9 * length]
+    view.CameraParallelScale = 0.4 * length
 
 
 def show(series, field="height"):
@@ -51,8 +72,7 @@ def show(series, field="height"):
     ColorBy(shown, ("POINTS", field))
     colours = GetColorTransferFunction(field)
     if field == "height":  # around the surface, so that crater and rim stand out
-        x = rail.PointData["height"].GetRange(0)
-        reach = max(0.1, min(1.0, abs(x[1])))
+        reach = max(0.1, min(1.0, abs(rail.PointData["height"].GetRange(0)[1])))
         colours.RescaleTransferFunction(-reach, reach)
     bar = GetScalarBar(colours, view)
     bar.Title, bar.ComponentTitle = f"{field} [{UNITS.get(field, 'SI')}]", ""
@@ -60,10 +80,8 @@ def show(series, field="height"):
     bar.TitleFontSize = bar.LabelFontSize = 12
     shown.SetScalarBarVisibility(view, True)
     view.UseColorPaletteForBackground, view.Background = 0, [1.0, 1.0, 1.0]
-    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [-0.01, 0.02, 0.02], [0.004, 0.0, 0.0], [0, 1, 0]
-    view.CameraParallelProjection = 1
-    view.ResetCamera()
-    view.CameraParallelScale *= 0.75  # the rail is long: fill the picture
+    Render(view)
+    look_at(view, fine_zone(rail, time))
     Render(view)
     return rail, view
 
