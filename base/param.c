@@ -4,6 +4,11 @@
 #include <stdbool.h>
 #include <string.h>
 
+size_t base_param_text_size(const base_param *p)
+{
+    return p->room > 0 ? (size_t)p->room : (size_t)BASE_PARAM_TEXT_SIZE;
+}
+
 static void set_default(const base_param *p, char *member)
 {
     const double number = isinf(p->fallback) ? NAN : p->fallback;
@@ -19,8 +24,8 @@ static void set_default(const base_param *p, char *member)
     case BASE_PARAM_CHOICE: *(int *)(void *)member = (int)p->fallback; break;
     case BASE_PARAM_FLAG: *(bool *)(void *)member = p->fallback != 0; break;
     case BASE_PARAM_TEXT:
-        strncpy(member, p->fallback_text ? p->fallback_text : "", BASE_PARAM_TEXT_SIZE - 1);
-        member[BASE_PARAM_TEXT_SIZE - 1] = '\0';
+        strncpy(member, p->fallback_text ? p->fallback_text : "", base_param_text_size(p) - 1);
+        member[base_param_text_size(p) - 1] = '\0';
         break;
     }
 }

@@ -18,14 +18,16 @@
 extern "C" {
 #endif
 
-enum { BASE_PARAM_TEXT_SIZE = 64 }; /* a BASE_PARAM_TEXT member is char[BASE_PARAM_TEXT_SIZE] */
+enum {
+    BASE_PARAM_TEXT_SIZE = 64
+}; /* a BASE_PARAM_TEXT member is char[BASE_PARAM_TEXT_SIZE], where the row says no other */
 
 typedef enum {
     BASE_PARAM_NUMBER,  /* double, in `unit` */
     BASE_PARAM_INTEGER, /* int */
     BASE_PARAM_FLAG,    /* bool: true/false, yes/no */
     BASE_PARAM_CHOICE,  /* int: index into `choices` */
-    BASE_PARAM_TEXT,    /* char[BASE_PARAM_TEXT_SIZE] */
+    BASE_PARAM_TEXT,    /* char[base_param_text_size] */
     BASE_PARAM_VECTOR,  /* double[3], in `unit`, written [a, b, c] */
     BASE_PARAM_POINTS   /* double[2 * room], in `unit`, written [[a, b], [c, d], ...]; NAN behind the last */
 } base_param_kind;
@@ -37,7 +39,7 @@ typedef struct {
     base_param_kind kind;
     const char *const *choices; /* BASE_PARAM_CHOICE: names, NULL at the end */
     const char *fallback_text;  /* BASE_PARAM_TEXT: default, NULL = required */
-    int room;                   /* BASE_PARAM_POINTS: pairs at most; at least one must be given */
+    int room; /* BASE_PARAM_POINTS: pairs at most; at least one must be given.  BASE_PARAM_TEXT: bytes, 0 = the usual */
 } base_param;
 
 /* A table ends with a row whose key is NULL.  The macros that write rows are for Breech's own sources. */
@@ -61,6 +63,9 @@ typedef struct {
 #define PARAM_STRING(type, member, fallback_text_, doc_)                                                           \
     { .key = #member, .unit = "1", .doc = (doc_), .offset = offsetof(type, member), .kind = BASE_PARAM_TEXT,          \
       .fallback_text = (fallback_text_) }
+#define PARAM_LONG_STRING(type, member, fallback_text_, doc_)                                                     \
+    { .key = #member, .unit = "1", .doc = (doc_), .offset = offsetof(type, member), .kind = BASE_PARAM_TEXT,          \
+      .fallback_text = (fallback_text_), .room = (int)sizeof(((type *)0)->member) }
 #define PARAM_VEC3(type, member, unit_, fallback_, min_, max_, doc_)                                               \
     { .key = #member, .unit = (unit_), .doc = (doc_), .offset = offsetof(type, member), .fallback = (fallback_), \
       .min = (min_), .max = (max_), .kind = BASE_PARAM_VECTOR }
@@ -73,6 +78,9 @@ typedef struct {
 
 /* Fills every member of the table with its default; REQUIRED numbers become NAN, required texts "". */
 void base_params_default(const base_param *table, void *object);
+
+/* Bytes of a BASE_PARAM_TEXT member, the 0 at its end included. */
+size_t base_param_text_size(const base_param *p);
 
 /* How many pairs a BASE_PARAM_POINTS member holds. */
 int base_param_pairs(const double *member, int room);

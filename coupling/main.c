@@ -78,17 +78,18 @@ static int complain_of(const case_inputs *in, status s)
     return exit_code(s);
 }
 
-static status read_case(const options *o, unsigned needs, case_inputs **in)
+/* For a study, or NULL and these needs. */
+static status read_case(const options *o, const study *y, unsigned needs, case_inputs **in)
 {
     material_places at;
     case_material_places_find(&at);
-    const case_options how = { .material_dirs = at.dir, .n_material_dirs = at.n, .needs = needs };
+    const case_options how = { .material_dirs = at.dir, .n_material_dirs = at.n, .needs = y ? y->needs : needs };
     char *errors = NULL;
     status s = case_inputs_read(o->line.subject, o->line.sets, o->line.n_sets, &how, in, &errors);
     if (s.code == STATUS_OK) {
         s = study_prepare(*in);
         const study_case of = study_case_of(o, *in);
-        if (s.code == STATUS_OK) s = study_possible_all(&of, needs);
+        if (s.code == STATUS_OK) s = study_possible_all(&of, y ? study_for(y, *in)->needs : needs);
         complain_of(*in, s);
         if (s.code != STATUS_OK) case_inputs_free(*in);
     } else if (errors) {
@@ -187,7 +188,7 @@ static int run_case(const options *o)
 {
     case_inputs *in = NULL;
     session s;
-    const status got = read_case(o, o->line.command.study->needs, &in);
+    const status got = read_case(o, o->line.command.study, 0, &in);
     if (got.code != STATUS_OK) return exit_code(got);
     const session_options how = { .command = o->line.command.name,
                                   .dir = o->line.dir,
@@ -230,6 +231,7 @@ static unsigned needs_of(const case_inputs *in)
         needs |= CASE_FOR_SCENE;
     if (g->bodies) needs |= CASE_FOR_SCENE;
     if (g->strike) needs |= CASE_FOR_STRIKE;
+    if (g->targets) needs |= CASE_FOR_TARGETS;
     if (g->life) needs |= CASE_FOR_LIFE;
     if (g->vessel) needs |= CASE_FOR_VESSEL;
     if (g->rails) needs |= CASE_FOR_INDUCTANCE;
@@ -340,7 +342,7 @@ static int run_expect(const options *o)
     case_inputs *in = NULL;
     expectations e;
     table *t = NULL;
-    const status read = read_case(o, 0, &in);
+    const status read = read_case(o, NULL, 0, &in);
     if (read.code != STATUS_OK) return exit_code(read);
     status s = output_expect(in->path, o->line.expect, &e);
     if (s.code == STATUS_OK) s = host_table_create("key|expected|found|deviation|", &t);
@@ -365,11 +367,11 @@ static int run_check(const options *o)
 {
     if (o->line.expect) return run_expect(o);
     case_inputs *in = NULL;
-    status s = read_case(o, 0, &in);
+    status s = read_case(o, NULL, 0, &in);
     if (s.code != STATUS_OK) return exit_code(s);
     const unsigned needs = needs_of(in) & (o->line.scene ? CASE_FOR_SCENE : ~0u);
     case_inputs_free(in);
-    s = read_case(o, needs, &in);
+    s = read_case(o, NULL, needs, &in);
     if (s.code != STATUS_OK) return exit_code(s);
     s = o->line.scene ? study_print_scene(in, stdout) : print_check(o, in, needs);
     case_inputs_free(in);

@@ -36,9 +36,9 @@ static int signalled(const char *arguments, int number_of_signal, const char *sn
 }
 
 /* Every row once, to the bit. */
-static void assert_same_history(const char *dataset)
+static void assert_same_history(const char *one, const char *other, const char *dataset)
 {
-    static const char *const files[2] = { "stop/whole/history.h5", "stop/part/history.h5" };
+    const char *const files[2] = { one, other };
     double *data[2];
     size_t dims[2][H5_MAX_RANK];
     for (int k = 0; k < 2; k++) {
@@ -81,11 +81,47 @@ static void test_stop_and_resume(void **state)
     assert_text(part, "status", "done");
     assert_same(whole, part);
     assert_int_equal(files_in("stop/part/scenes/scene", ".hdf"), files_in("stop/whole/scenes/scene", ".hdf"));
-    assert_same_history("/scene/scene/time");
-    assert_same_history("/scene/scene/internal");
-    assert_same_history("/scene/scene/crater/depth");
+    assert_same_history("stop/whole/history.h5", "stop/part/history.h5", "/scene/scene/time");
+    assert_same_history("stop/whole/history.h5", "stop/part/history.h5", "/scene/scene/internal");
+    assert_same_history("stop/whole/history.h5", "stop/part/history.h5", "/scene/scene/crater/depth");
     cJSON_Delete(whole);
     cJSON_Delete(part);
+}
+
+/* The shipped lattice on cells of twice the size, for three microseconds. */
+#define STRIKE                                                                                            \
+    "strike " CASES "/lattice_target --quiet --set strike.travel='6 mm' --set scene.cell='0.8 mm' --set " \
+    "scene.coarse_cell='1.6 mm' --set output.report=no --set output.snapshots=12 "
+
+/* A strike: the same summary, the same series of force and way, on 1, 2, 3 threads and over stops. */
+static void test_strike(void **state)
+{
+    (void)state;
+    static const char *const series[] = { "/scene/scene/probes/projectile_force/force_x",
+                                          "/scene/scene/probes/projectile_way/speed", "/scene/scene/internal",
+                                          "/scene/scene/bodies/core/failed_volume" };
+    static const char *const others[] = { "struck/two", "struck/three", "struck/part" };
+    int code = 75, stops = 0;
+    fresh_folder("struck");
+    assert_int_equal(run(STRIKE "-o struck/whole --threads 1"), 0);
+    assert_int_equal(run(STRIKE "-o struck/two --threads 2"), 0);
+    assert_int_equal(run(STRIKE "-o struck/three --threads 3"), 0);
+    for (; code == 75 && stops < 20; stops += code == 75)
+        code = signalled(STRIKE "-o struck/part --threads 2 --resume", SIGTERM, "struck/part/scenes/scene");
+    assert_int_equal(code, 0);
+    assert_true(stops >= 2);
+    cJSON *whole = summary_of("struck/whole");
+    assert_true(number(whole, "failed_volume") > 0.0);
+    for (int k = 0; k < 3; k++) {
+        char path[60];
+        cJSON *other = summary_of(others[k]);
+        assert_same(whole, other);
+        snprintf(path, sizeof path, "%s/history.h5", others[k]);
+        for (size_t i = 0; i < sizeof series / sizeof series[0]; i++)
+            assert_same_history("struck/whole/history.h5", path, series[i]);
+        cJSON_Delete(other);
+    }
+    cJSON_Delete(whole);
 }
 
 static void test_max_walltime(void **state)
@@ -103,6 +139,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_stop_and_resume),
+        cmocka_unit_test(test_strike),
         cmocka_unit_test(test_max_walltime),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,7 +5,7 @@
 set -euo pipefail
 breech=$1
 cases=$(cd "$(dirname "$0")/../cases/verification" && pwd)
-names='copper_hugoniot two_disks spinning_strut sod notched_bar'
+names='copper_hugoniot two_disks spinning_strut bending_strut sod notched_bar'
 if [ "${BREECH_FULL:-0}" = 1 ]; then names=$(cd "$cases" && ls */expected.yaml | xargs -n 1 dirname); fi
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT

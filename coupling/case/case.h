@@ -28,6 +28,7 @@ typedef struct breech_case {
     case_study study;
     case_sweep sweep;
     case_strike strike;
+    case_targets targets;
     case_life life;
     case_vessel vessel;
     case_output output;

@@ -135,7 +135,7 @@ static const command_name commands[] = {
     { CASE_FOR_STRIKE, "breech strike" },   { CASE_FOR_SHOT, "breech shot" },
     { CASE_FOR_SCENE, "breech scene" },     { CASE_FOR_INDUCTANCE, "breech inductance" },
     { CASE_FOR_SWEEP, "breech sweep" },     { CASE_FOR_LIFE, "breech life" },
-    { CASE_FOR_VESSEL, "breech vessel" },
+    { CASE_FOR_VESSEL, "breech vessel" },   { CASE_FOR_TARGETS, "breech compare" },
 };
 
 static const char *command_of(unsigned needs)

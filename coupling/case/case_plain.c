@@ -161,6 +161,7 @@ case_inputs case_inputs_of(const breech_case *c)
                           .bodies = c->bodies,
                           .sweep = c->sweep,
                           .strike = c->strike,
+                          .targets = c->targets,
                           .life = c->life,
                           .vessel = c->vessel,
                           .output = c->output,

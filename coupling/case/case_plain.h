@@ -84,6 +84,7 @@ typedef struct {
     case_bodies bodies;
     case_sweep sweep;
     case_strike strike;
+    case_targets targets;
     case_life life;
     case_vessel vessel;
     case_output output;

@@ -134,16 +134,16 @@ static bool names_material(const char *key)
 
 static void read_text(case_reader *r, const base_param *p, const tree_node *node, char *member, const char *path)
 {
-    if (strlen(node->text) >= BASE_PARAM_TEXT_SIZE) {
-        case_errors_add(r->errors, node, "%s = %.*s...: longer than %d bytes", path, CASE_SHOWN, node->text,
-                        BASE_PARAM_TEXT_SIZE - 1);
+    const size_t size = base_param_text_size(p);
+    if (strlen(node->text) >= size) {
+        case_errors_add(r->errors, node, "%s = %.*s...: longer than %zu bytes", path, CASE_SHOWN, node->text, size - 1);
         return;
     }
     if (!p->fallback_text && node->text[0] == '\0') {
         case_errors_add(r->errors, node, "%s is empty: %s", path, p->doc);
         return;
     }
-    snprintf(member, BASE_PARAM_TEXT_SIZE, "%s", node->text);
+    snprintf(member, size, "%s", node->text);
     if (names_material(p->key) && node->text[0] != '\0') case_note_material(r, node->text, node, path);
 }
 

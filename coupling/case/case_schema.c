@@ -419,7 +419,7 @@ static const base_param varied_params[] = {
 
 /* A list of words: an entry may stand as the value alone. */
 static const base_param word_params[] = {
-    PARAM_STRING(case_word, value, NULL, "as in a case file; a list in quotes, \"[1, 0, 0]\""),
+    PARAM_LONG_STRING(case_word, value, NULL, "as in a case file; a list in quotes, \"[1, 0, 0]\""),
     PARAMS_END,
 };
 
@@ -448,6 +448,30 @@ static const case_section sweep_children[] = {
       .table = word_params,
       .offset = offsetof(case_sweep, read),
       .size = sizeof(case_word),
+      .given = NO_FLAG,
+      .list = true },
+    END_OF_SECTIONS,
+};
+
+static const base_param target_params[] = {
+    PARAM_STRING(case_target, name, NULL, "of the target"),
+    PARAMS_END,
+};
+
+static const base_param change_params[] = {
+    PARAM_STRING(case_change, key, NULL, "key of the case, as --set names it: scene.bodies[0].material"),
+    PARAM_LONG_STRING(
+        case_change, value, NULL,
+        "of this target, as in a case file; a shape in quotes, \"{box: {lo: 0 -5 -5 mm, hi: 2 5 5 mm}}\""),
+    PARAMS_END,
+};
+
+static const case_section target_children[] = {
+    { .key = "change",
+      .doc = "What is otherwise than in the case, a list.",
+      .table = change_params,
+      .offset = offsetof(case_target, change),
+      .size = sizeof(case_change),
       .given = NO_FLAG,
       .list = true },
     END_OF_SECTIONS,
@@ -522,6 +546,9 @@ static const case_section sections[] = {
     { SECTION(strike, strike_params, CASE_FOR_STRIKE,
               "What a launched projectile does to its target, the other bodies of the scene."),
       .size = sizeof(case_strike) },
+    { SECTION(targets, target_params, CASE_FOR_TARGETS,
+              "Targets to compare, a list; that of the case as it is, named `given`, is always compared too."),
+      .children = target_children, .size = sizeof(case_target), .list = true },
     { SECTION(life, life_params, CASE_FOR_LIFE,
               "A load that comes again and again, and how long the rail lasts under it."),
       .children = life_children, .size = sizeof(case_life) },

@@ -31,7 +31,8 @@ enum {
     CASE_FOR_SWEEP = 64,     /* sweep, and what it runs needs */
     CASE_FOR_STRIKE = 128,   /* strike, a scene with bodies; the shot, where the projectile's speed is its */
     CASE_FOR_LIFE = 256,     /* life; its material's constants of elasticity and fatigue */
-    CASE_FOR_VESSEL = 512    /* vessel; its film's constants of strength and failure */
+    CASE_FOR_VESSEL = 512,   /* vessel; its film's constants of strength and failure */
+    CASE_FOR_TARGETS = 1024  /* with CASE_FOR_STRIKE: targets */
 };
 
 /* A layer of the rail's surface, the first in the list at the bottom. */
@@ -329,8 +330,9 @@ typedef struct {
 /* What `breech sweep` runs (study/study_sweep.c): another study with other values of some keys. */
 enum { CASE_SWEEP_KEYS = 8 };
 
+enum { CASE_VALUE_SIZE = 256 }; /* of a value as text, a shape say */
 typedef struct {
-    char value[BASE_PARAM_TEXT_SIZE]; /* as written */
+    char value[CASE_VALUE_SIZE]; /* as written */
 } case_word;
 
 typedef struct {
@@ -355,6 +357,28 @@ typedef struct {
     case_words read; /* keys of its summary */
 } case_sweep;
 
+/* A key of the case with another value. */
+typedef struct {
+    char key[BASE_PARAM_TEXT_SIZE]; /* path.to.key, as --set has it */
+    char value[CASE_VALUE_SIZE];    /* as written */
+} case_change;
+
+typedef struct {
+    int n;
+    case_change *item; /* n, owned by the case */
+} case_changes;
+
+/* A target to compare with that of the case: all that is changed for it. */
+typedef struct {
+    char name[BASE_PARAM_TEXT_SIZE];
+    case_changes change;
+} case_target;
+
+typedef struct {
+    int n;
+    case_target *item; /* n, owned by the case */
+} case_targets;
+
 typedef struct {
     int snapshots;              /* of one scene, evenly over its time; 0 = none */
     double history_interval;    /* least time between two samples of the shot's history [s]; NAN: every step */
@@ -377,7 +401,7 @@ typedef struct {
 typedef struct {
     bool supplies[CIRCUIT_SUPPLY_KINDS];
     bool rails, barrel, armature, options, optimise, rail, projectile, particle, sites, populations, treatments, scene,
-        study, sweep, strike, life, vessel, output;
+        study, sweep, strike, targets, life, vessel, output;
     bool bodies; /* scene.bodies: then `scene` is not given */
 } case_given;
 

@@ -21,8 +21,17 @@ static bool wants_shot(const tree_node *root)
     return false;
 }
 
+/* `breech compare` of a case with targets and no treatments compares those. */
+static unsigned needs_of_targets(const tree_node *root, unsigned needs)
+{
+    const bool targets = host_tree_find(root, "targets") && !host_tree_find(root, "treatments");
+    if (!targets || !(needs & CASE_FOR_COMPARE)) return needs;
+    return (needs & ~(unsigned)(CASE_FOR_COMPARE | CASE_FOR_ONSET)) | CASE_FOR_STRIKE | CASE_FOR_TARGETS;
+}
+
 unsigned case_strike_needs(const tree_node *root, unsigned needs)
 {
+    needs = needs_of_targets(root, needs);
     return (needs & CASE_FOR_STRIKE) && wants_shot(root) ? needs | CASE_FOR_SHOT : needs;
 }
 

@@ -112,6 +112,8 @@ void report_rail_life_head(const page *p);
 void report_rail_life_section(const page *p); /* along the barrel */
 void report_compare_life_head(const page *p);
 void report_compare_life_section(const page *p); /* which surface lasts how long */
+void report_compare_targets_head(const page *p);
+void report_compare_targets_section(const page *p); /* which target takes more */
 void report_vessel_head(const page *p);
 void report_vessel_section(const page *p);
 void report_sweep_head(const page *p);

@@ -142,7 +142,7 @@ static status open_series(recorder *r, const scene_job *job)
     free(column);
     free(name);
     TRY(done);
-    const double reached = job->resume.image ? job->resume.time * (1.0 - 1e-9) : -1.0;
+    const double reached = job->resume.image ? job->resume.time * (1.0 + 1e-9) : -1.0;
     TRY(output_history_rewind(r->history, r->series, reached));
     return scene_probes_open(r->history, job->name, r->scene, job->resume.image ? job->resume.time : -1.0, &r->probes);
 }

@@ -148,6 +148,14 @@ static status advance_piece(run *r, int piece)
     return s;
 }
 
+/* Where every step ends a piece, no step sees that a stop is wanted. */
+static status stop_between(run *r)
+{
+    if (!r->host->stop || !r->host->stop(r->host->user)) return status_ok();
+    TRY(save(r));
+    return base_status_error(STATUS_STOPPED, "stopped at t = %g s", mpm_glance(r->m).time);
+}
+
 static status advance(run *r)
 {
     bool over = false;
@@ -165,6 +173,7 @@ static status advance(run *r)
         const bool due = r->per_snapshot && done / r->per_snapshot > piece / r->per_snapshot;
         if (due || (over && r->per_snapshot)) TRY(write_snapshot(r));
         piece = done;
+        if (piece < r->pieces && !over) TRY(stop_between(r));
     }
     return status_ok();
 }
@@ -241,8 +250,9 @@ static status open_output(run *r)
 {
     const scene_host *h = r->host;
     const scene_watch *w = r->job->watch;
-    const double reached =
-        r->from.image ? r->from.time * (1.0 - 1e-9) : -1.0; /* what stands at that instant is redone */
+    /* what was stopped there has its row of that instant, if one was due; what a shorter scene ended with is redone */
+    const double near = r->job->resume.image ? 1e-9 : -1e-9,
+                 reached = r->from.image ? r->from.time * (1.0 + near) : -1.0;
     if (h->history) {
         TRY(output_history_scene(h->history, r->job->name, w ? w->column : NULL, w ? w->columns : 0, &r->series));
         TRY(output_history_rewind(h->history, r->series, reached));

@@ -286,6 +286,7 @@ static status read_target(history *h, const char *scene, const strike_projectile
         start += mass.value[0], kept += b->mass, out->failed_volume += p->parts * b->failed_volume;
         free(mass.value);
     }
+    out->target_mass = p->parts * start;
     out->debris_mass += p->parts * fmax(0.0, start - kept); /* below 0 by rounding */
     return status_ok();
 }

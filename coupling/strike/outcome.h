@@ -66,6 +66,7 @@ typedef struct {
     double impulse;               /* against the flight, of contact [N s] */
     double deflection;            /* farthest that intact metal of the target has gone that stays there [m] */
     double hole_diameter;         /* of a circle with the area of the plate's holes; NAN: no plate [m] */
+    double target_mass;           /* of the target at the start, in the window [kg] */
     double failed_volume;         /* of the target [m3] */
     double debris_mass;           /* of the target: what flies, and what has left the window or was eroded [kg] */
     double ahead;                 /* intact metal in the projectile's way at the end [kg] */

@@ -37,9 +37,10 @@ static status run(session *s, const study_case *of, study_answer *out)
 
 const study study_compare = {
     .name = "compare",
-    .doc = "rail surfaces ranked by where gouging begins on each",
+    .doc = "rail surfaces ranked by where gouging begins on each, or targets by what holds",
     .more = "As onset, for the case as it is and for each of its treatments; study.max_scenes holds for each surface.  "
-            "With life.load: armature by life too, and by life alone in a case without sites and populations.",
+            "With life.load: armature by life too, and by life alone in a case without sites and populations.  "
+            "A case with targets and no treatments compares those, as strike does each.",
     .example = "breech compare cases/treatments --store out/scenes",
     .instead = &study_compare_life,
     .needs = CASE_FOR_ONSET | CASE_FOR_COMPARE,

@@ -50,6 +50,7 @@ static const summary_key result_keys[] = {
                    "20 m/s, or than a tenth of impact_velocity; null: there is none"),
     SUMMARY_NUMBER(strike_result, "hole_diameter", is.hole_diameter, "m",
                    "of a circle with the area of the holes in strike.plate; null: no plate is named"),
+    SUMMARY_NUMBER(strike_result, "target_mass", is.target_mass, "kg", "of the target in the window, at the start"),
     SUMMARY_NUMBER(strike_result, "failed_volume", is.failed_volume, "m3", "of the target"),
     SUMMARY_NUMBER(
         strike_result, "cavitated_volume", is.cavitated_volume, "m3",

@@ -5,24 +5,18 @@
  * other keys are those of a case file, and every error is told before anything is written.  Scenes of all combinations
  * are asked for at once, so that they come from the store or run side by side.  Where a varied key is a resolution, the
  * error of every output against the finest run is listed over the time that the run took. */
-#include "coupling/case/material_file.h"
 #include "coupling/host/table.h"
 #include "coupling/host/words.h"
 #include "coupling/output/expect.h"
 #include "coupling/report/report_page.h"
+#include "coupling/study/reread.h"
 #include "coupling/study/sweep.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    MOST_RUNS = 2000,
-    MOST_OUTPUTS = 24,
-    USUAL_OUTPUTS = 6,
-    MOST_SETS = 300,
-    SET_SIZE = 2 * BASE_PARAM_TEXT_SIZE + 2
-};
+enum { MOST_RUNS = 2000, MOST_OUTPUTS = 24, USUAL_OUTPUTS = 6 };
 
 /* ---- keys ---- */
 
@@ -110,22 +104,13 @@ static status check_names(const char *path, const mpm_scene *scene)
 static status read_run(const study_case *of, const study *y, int run, case_inputs **out)
 {
     const case_sweep *w = &of->in->sweep;
-    const char *set[MOST_SETS];
-    char own[CASE_SWEEP_KEYS][SET_SIZE], which[300], *errors = NULL;
-    material_places at;
-    *out = NULL;
-    CHECK(of->n_sets + w->vary.n <= MOST_SETS, STATUS_BAD_INPUT, "sweep: more than %d --set", MOST_SETS - w->vary.n);
-    for (int k = 0; k < of->n_sets; k++) set[k] = of->sets[k];
+    case_change change[CASE_SWEEP_KEYS];
+    char which[300];
     for (int k = 0; k < w->vary.n; k++) {
-        snprintf(own[k], sizeof own[k], "%s=%s", w->vary.item[k].key, value_text(w, run, k));
-        set[of->n_sets + k] = own[k];
+        snprintf(change[k].key, sizeof change[k].key, "%s", w->vary.item[k].key);
+        snprintf(change[k].value, sizeof change[k].value, "%s", value_text(w, run, k));
     }
-    case_material_places_find(&at);
-    const case_options how = { .material_dirs = at.dir, .n_material_dirs = at.n, .needs = y->needs };
-    status s = case_inputs_read(of->in->path, set, of->n_sets + w->vary.n, &how, out, &errors);
-    free(errors);
-    if (s.code == STATUS_OK) s = study_prepare(*out);
-    if (s.code == STATUS_OK) s = study_possible(*out, y->needs, of->largest);
+    status s = study_reread(of, y, w->vary.n, change, out);
     for (int k = 0; s.code == STATUS_OK && (*out)->given.bodies && k < w->read.n; k++)
         s = check_names(w->read.item[k].value, &(*out)->bodies.scene);
     describe(w, run, which, sizeof which);
