@@ -29,6 +29,7 @@ import part_levels
 import part_pairs
 import part_slide
 import part_strength
+import part_struts
 import part_water
 import part_wu2017
 from runs import Runs
@@ -44,6 +45,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "cells": ("docs/validation/growth.md", part_growth.cells, 14, False),
     "criterion-steel": ("docs/validation/criterion.md", part_criterion.steel, 13, False),
     "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
+    "struts": ("docs/validation/lattice.md", part_struts.struts, 4, False),
     "lattice": ("docs/validation/lattice.md", part_lattice.through, 9, False),
     "water": ("docs/validation/water.md", part_water.water, 12, False),
     "water-inverse": ("docs/validation/water.md", part_water.inverse, 1, True),
