@@ -85,7 +85,8 @@ def held_cell(runs, net, cell, **more):
 def specimen(runs, net, cell=0.4, **more):
     """E [GPa], first maximum of the mean stress [MPa] and its strain, where it spreads most [of its height], how far
     [mm], its curve (gap [m], force [N])."""
-    folder = run(runs, "press_%s_%g" % (net, cell), net, cell, **more)
+    settings = {"scene__end_time": "75 us", "output__snapshots": 3, **more}
+    folder = run(runs, "press_%s_%g" % (net, cell), net, cell, **settings)
     gap, force = curve(folder, PARTS)
     strain, stress = gap / CORE, force / AREA
     low = (strain > 0.003) & (strain < 0.008)
