@@ -78,6 +78,9 @@ def show(series, field="height"):
     bar.Title, bar.ComponentTitle = f"{field} [{UNITS.get(field, 'SI')}]", ""
     bar.TitleColor = bar.LabelColor = [0.0, 0.0, 0.0]
     bar.TitleFontSize = bar.LabelFontSize = 12
+    bar.WindowLocation, bar.ScalarBarLength = "Upper Left Corner", 0.2
+    if field == "height":
+        bar.RangeLabelFormat = "%.2f"
     shown.SetScalarBarVisibility(view, True)
     view.UseColorPaletteForBackground, view.Background = 0, [1.0, 1.0, 1.0]
     Render(view)
