@@ -96,6 +96,11 @@ mpm_shear_kind mpm_material_shear(const mpm_material *m)
     return of[m->strength];
 }
 
+bool mpm_material_is_gas(const mpm_material *m)
+{
+    return m->eos == MPM_EOS_stiffened_gas && m->gas_stiffness == 0;
+}
+
 const char *mpm_material_strength_text(int kind)
 {
     return law_find(strength_rows, kind)->law;

@@ -10,6 +10,8 @@
 
 #include "base/param.h"
 
+#include <stdbool.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -115,6 +117,9 @@ mpm_material mpm_material_complete(const mpm_material *m);
 
 /* Of its law of strength; MPM_SHEAR_NONE: it is a fluid, which does not fail. */
 mpm_shear_kind mpm_material_shear(const mpm_material *m);
+
+/* Has it a pressure at rest that drives it into a void? */
+bool mpm_material_is_gas(const mpm_material *m);
 
 /* Text of the law that has this number in `strength`, `eos` or `failure`. */
 const char *mpm_material_strength_text(int kind);

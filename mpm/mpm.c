@@ -15,6 +15,7 @@ static const int SCATTERED = 8;       /* the blocks' order in memory is restored
 static const int SAMPLE_EVERY = 20;   /* the same between percentile samples */
 enum { START_BLOCKS = 1 << 15 };      /* room at the start: memory that nobody touches costs nothing, growing does */
 static const double DT_GROWTH = 1.05; /* a step of the coarsest level */
+static const double DT_LEAST = 1.0 / 300;     /* of the first step: no shock up to 10 km/s needs less */
 static const double FORCE_SMOOTHING = 0.2e-6; /* [s] */
 
 /* ---- making ---- */
@@ -244,6 +245,11 @@ static double first_rate(const mpm *m)
     return fastest;
 }
 
+static double first_step(const mpm *m)
+{
+    return m->scene.courant / first_rate(m) * level_steps(m, 0);
+}
+
 static void start_books(mpm *m)
 {
     const mpm_ledger now = mpm_balance(m);
@@ -251,7 +257,7 @@ static void start_books(mpm *m)
     m->ledger.kinetic_start = now.kinetic;
     m->ledger.mass_start = now.mass;
     memcpy(m->ledger.momentum_start, now.momentum, sizeof now.momentum);
-    m->dt = m->scene.courant / first_rate(m) * level_steps(m, 0);
+    m->dt = first_step(m);
     m->report.particles = mpm_points(m);
     for (int i = 0; i < m->scene.bodies; i++)
         m->report.peak_temperature = fmax(m->report.peak_temperature, m->scene.body[i].temperature);
@@ -607,6 +613,40 @@ static bool is_due(const mpm *m, int every)
     return m->steps % (uint64_t)(steps > 1 ? steps : 1) == 0;
 }
 
+/* The point with the most energy, of motion and heat, by mass. */
+static void hottest_point(const mpm *m, int *index, int *lane)
+{
+    double largest = -HUGE_VAL;
+    for (int i = 0; i < m->bricks_used; i++)
+        for (int c = 0; c < BRICK_CELLS; c++)
+            for (int n = m->bricks[i].head[c]; n >= 0; n = m->links[n].next)
+                for (unsigned left = m->links[n].mask; left; left &= left - 1) {
+                    const int l = __builtin_ctz(left);
+                    const double v[3] = { m->blocks[n].v[0][l], m->blocks[n].v[1][l], m->blocks[n].v[2][l] };
+                    const double energy = m->blocks[n].e[0][l] + 0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+                    if (energy > largest) largest = energy, *index = n, *lane = l;
+                }
+}
+
+/* A run whose steps shrink without end would never come to its own. */
+static status check_step(const mpm *m)
+{
+    int i = -1, l = 0;
+    CHECK(isfinite(m->dt) && m->dt > 0, STATUS_NUMERICAL, "t = %g s: the time step became %g s; try a smaller courant",
+          m->time, m->dt);
+    if (m->dt >= DT_LEAST * first_step(m)) return status_ok();
+    hottest_point(m, &i, &l);
+    if (i < 0) return status_ok();
+    const block *q = &m->blocks[i];
+    return base_status_error(STATUS_NUMERICAL,
+                             "t = %g s, step %llu: the time step has fallen from %g to %g s: the point of `%s` that "
+                             "started at (%g, %g, %g) m has %g K and %g m/s; try a smaller courant (now %g), larger "
+                             "viscosity, or a material that melts",
+                             m->time, (unsigned long long)m->steps, first_step(m), m->dt,
+                             m->scene.body[m->links[i].body].name, q->start[0][l], q->start[1][l], q->start[2][l],
+                             q->T[0][l], hypot(hypot(q->v[0][l], q->v[1][l]), q->v[2][l]), m->scene.courant);
+}
+
 /* From one moment at which all levels are in step to the next. */
 static status one_step(mpm *m, double until)
 {
@@ -622,8 +662,7 @@ static status one_step(mpm *m, double until)
     m->steps++;
     m->dense_steps += m->dense * level_steps(m, 0);
     m->dt = fmin(sum.rate > 0 ? m->scene.courant / sum.rate : wanted, DT_GROWTH * wanted);
-    CHECK(isfinite(m->dt) && m->dt > 0, STATUS_NUMERICAL, "t = %g s: the time step became %g s; try a smaller courant",
-          m->time, m->dt);
+    TRY(check_step(m));
     if (is_due(m, SAMPLE_EVERY)) mpm_sample_percentiles(m);
     if (is_due(m, MPM_CAVITY_EVERY)) mpm_cavities_look(m);
     if (m->blocks_scattered > (m->blocks_capacity - m->blocks_free) / SCATTERED) TRY(mpm_store_compact(m));

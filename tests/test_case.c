@@ -296,6 +296,19 @@ static void what_must_fit_is_checked(void **state)
     free(text);
 }
 
+static void gases_are_no_rails(void **state)
+{
+    (void)state;
+    const char *sets[] = { "rail.material=air", "armature.material=air", "particle.material=air" };
+    char *text = read_file(SMALL_CASE), *e = errors_of(text, sets, 3, CASE_FOR_SCENE);
+    has_line(e,
+             "--set rail.material=air: rail.material = air: a gas: rail, armature and grain must be solid or liquid");
+    has_line(e, "--set armature.material=air: armature.material = air: a gas: ");
+    has_line(e, "--set particle.material=air: particle.material = air: a gas: ");
+    free(e);
+    free(text);
+}
+
 /* ---- --set ---- */
 
 static void set_reaches_every_place(void **state)
@@ -828,6 +841,7 @@ int main(void)
         cmocka_unit_test(yaml_errors_have_a_place),
         cmocka_unit_test(commands_say_what_they_need),
         cmocka_unit_test(what_must_fit_is_checked),
+        cmocka_unit_test(gases_are_no_rails),
         cmocka_unit_test(set_reaches_every_place),
         cmocka_unit_test(set_can_give_a_whole_list),
         cmocka_unit_test(set_errors_name_the_set),

@@ -270,6 +270,18 @@ static unsigned material_needs(const case_reader *r, const material_use *use)
     return wanted | case_material_needs(r->out->scene.damage, meets);
 }
 
+/* A gas has nothing that a rail or an armature could be pressed on: it flies apart, and its cells with it. */
+static void check_no_gas(case_reader *r, const material_use *use, const mpm_material *m)
+{
+    static const char *const solids[] = { "rail.material", "armature.material", "particle.material" };
+    for (size_t k = 0; k < sizeof solids / sizeof solids[0]; k++)
+        if (strcmp(use->key, solids[k]) == 0 && mpm_material_is_gas(m))
+            case_errors_add(r->errors, use->where,
+                            "%s = %s: a gas: rail, armature and grain must be solid or liquid; put a gas into "
+                            "scene.bodies or scene.cavities",
+                            use->key, use->name);
+}
+
 static void check_materials(case_reader *r)
 {
     for (int k = 0; k < r->n_use; k++) {
@@ -277,6 +289,7 @@ static void check_materials(case_reader *r)
         const mpm_material *m = case_material(&r->out->materials, use->name);
         const unsigned needs = material_needs(r, use);
         if (!m || needs == 0) continue; /* one that could not be loaded is an error already */
+        check_no_gas(r, use, m);
         const status s = mpm_material_check(m, needs);
         const bool damage =
             r->out->scene.damage && mpm_material_check(m, needs & ~(unsigned)MPM_MATERIAL_FOR_DAMAGE).code == STATUS_OK;
