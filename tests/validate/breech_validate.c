@@ -130,6 +130,8 @@ static options read_options(int argc, char **argv)
             usage();
     }
     o.names = argc - i, o.name = argv + i;
+    for (; i < argc; i++)
+        if (argv[i][0] == '-') usage(); /* an option after a name would do nothing */
     return o;
 }
 
