@@ -628,13 +628,13 @@ static void hottest_point(const mpm *m, int *index, int *lane)
                 }
 }
 
-/* A run whose steps shrink without end would never come to its own. */
-static status check_step(const mpm *m)
+/* A run whose steps shrink without end would never come to its own.  `longest`: that its fastest point allows [s] */
+static status check_step(const mpm *m, double longest)
 {
     int i = -1, l = 0;
     CHECK(isfinite(m->dt) && m->dt > 0, STATUS_NUMERICAL, "t = %g s: the time step became %g s; try a smaller courant",
           m->time, m->dt);
-    if (m->dt >= DT_LEAST * first_step(m)) return status_ok();
+    if (longest >= DT_LEAST * first_step(m)) return status_ok();
     hottest_point(m, &i, &l);
     if (i < 0) return status_ok();
     const block *q = &m->blocks[i];
@@ -642,7 +642,7 @@ static status check_step(const mpm *m)
                              "t = %g s, step %llu: the time step has fallen from %g to %g s: the point of `%s` that "
                              "started at (%g, %g, %g) m has %g K and %g m/s; try a smaller courant (now %g), larger "
                              "viscosity, or a material that melts",
-                             m->time, (unsigned long long)m->steps, first_step(m), m->dt,
+                             m->time, (unsigned long long)m->steps, first_step(m), longest,
                              m->scene.body[m->links[i].body].name, q->start[0][l], q->start[1][l], q->start[2][l],
                              q->T[0][l], hypot(hypot(q->v[0][l], q->v[1][l]), q->v[2][l]), m->scene.courant);
 }
@@ -661,8 +661,9 @@ static status one_step(mpm *m, double until)
     m->time += m->dt;
     m->steps++;
     m->dense_steps += m->dense * level_steps(m, 0);
-    m->dt = fmin(sum.rate > 0 ? m->scene.courant / sum.rate : wanted, DT_GROWTH * wanted);
-    TRY(check_step(m));
+    const double longest = sum.rate > 0 ? m->scene.courant / sum.rate : wanted;
+    m->dt = fmin(longest, DT_GROWTH * wanted);
+    TRY(check_step(m, longest));
     if (is_due(m, SAMPLE_EVERY)) mpm_sample_percentiles(m);
     if (is_due(m, MPM_CAVITY_EVERY)) mpm_cavities_look(m);
     if (m->blocks_scattered > (m->blocks_capacity - m->blocks_free) / SCATTERED) TRY(mpm_store_compact(m));
