@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bending of a strut at angles to the grid, against Timoshenko; stiffness of a lattice's cell, by cells a strut."""
+import math
 import os
 
 import press
@@ -9,10 +10,10 @@ from breech.needs import h5py, numpy as np
 
 CASE = "cases/verification/bending_strut"
 YOUNGS, POISSON, DENSITY, THICK, LENGTH = 113e9, 0.34, 4430.0, 1e-3, 8e-3
-TURN = np.radians(35.26439)
+TURN = math.radians(35.26439)
 LINES = {  # along the strut, and sideways as it swings
     "0": ((1, 0, 0), (0, 0, 1)),
-    "35.26": ((np.cos(TURN), np.sin(TURN), 0), (-np.sin(TURN), np.cos(TURN), 0)),
+    "35.26": ((math.cos(TURN), math.sin(TURN), 0), (-math.sin(TURN), math.cos(TURN), 0)),
     "54.74": ((3 ** -0.5,) * 3, (2 ** -0.5, -2 ** -0.5, 0)),
 }
 CELLS = (2, 3, 4, 6)  # across the strut
