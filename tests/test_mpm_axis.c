@@ -175,7 +175,7 @@ static void test_weights(void **state)
         assert_ok(mpm_axis_make(&spec, 'x', &a));
         for (int q = 0; q < 40; q++) {
             const sample s = any_sample(&a);
-            const weights gimp = weights_gimp(&s.c, lanes(s.x), lanes(s.half));
+            const weights gimp = weights_gimp(&s.c, s.c.narrowest, lanes(s.x), lanes(s.half));
             const weights spline = weights_bspline(&s.k, lanes(s.x));
             check_weights(&s, &gimp);
             check_weights(&s, &spline);
@@ -202,9 +202,9 @@ static void test_derivative(void **state)
             up.x[l] = s.x[l] + step, down.x[l] = s.x[l] - step;
         }
         const double tolerance = 1e-15 * (1 + fabs(s.x[0]) / h) / 1e-4;
-        const weights g[3] = { weights_gimp(&s.c, lanes(s.x), lanes(s.half)),
-                               weights_gimp(&s.c, lanes(up.x), lanes(s.half)),
-                               weights_gimp(&s.c, lanes(down.x), lanes(s.half)) };
+        const weights g[3] = { weights_gimp(&s.c, s.c.narrowest, lanes(s.x), lanes(s.half)),
+                               weights_gimp(&s.c, s.c.narrowest, lanes(up.x), lanes(s.half)),
+                               weights_gimp(&s.c, s.c.narrowest, lanes(down.x), lanes(s.half)) };
         const weights b[3] = { weights_bspline(&s.k, lanes(s.x)), weights_bspline(&s.k, lanes(up.x)),
                                weights_bspline(&s.k, lanes(down.x)) };
         for (int i = 0; i < 3; i++) {
@@ -229,8 +229,8 @@ static void test_continuity(void **state)
                      half = 0.24 * fmin(axis_right(&a, i), fmin(axis_left(&a, i), axis_right(&a, i + 1)));
         const cell_axis c[2] = { cell_axis_at(&a, i), cell_axis_at(&a, i + 1) };
         const knots k[2] = { knots_at(&a, i), knots_at(&a, i + 1) };
-        const weights g[2] = { weights_gimp(&c[0], vd_set(x), vd_set(half)),
-                               weights_gimp(&c[1], vd_set(x), vd_set(half)) };
+        const weights g[2] = { weights_gimp(&c[0], c[0].narrowest, vd_set(x), vd_set(half)),
+                               weights_gimp(&c[1], c[1].narrowest, vd_set(x), vd_set(half)) };
         const weights b[2] = { weights_bspline(&k[0], vd_set(x)), weights_bspline(&k[1], vd_set(x)) };
         for (int n = 0; n < 2; n++) { /* nodes i and i + 1 are seen from both */
             assert_near(g[0].w[1 + n][0], g[1].w[n][0], 1e-13);

@@ -162,8 +162,8 @@ static void test_splitting(void **state)
 }
 
 /* One failed point, drawn out along x and flattened along y: nothing resists.  Its gradient part may hold no more than
- * it began with, and its heat may not go below none; without the bound it holds a hundred times as much after some
- * hundred steps. */
+ * it began with, and its heat may not go below none, but for what its pressure gives back a step late; without the
+ * bound it holds a hundred times as much after some hundred steps. */
 static void test_debris(void **state)
 {
     (void)state;
@@ -196,7 +196,7 @@ static void test_debris(void **state)
     print_message(
         "lone debris: energy of the gradient part %.3g -> at most %.3g J/kg, least internal energy %.3g J/kg\n", ka,
         most, least);
-    assert_true(least >= 0);
+    assert_true(least > -1e-4 * ka);
     assert_true(most > 0);
     assert_below(most, 1.01 * ka);
     mpm_free(solver);

@@ -382,7 +382,7 @@ static block_kernel *const block_kernels[LAW_KERNELS] = { fluid_block, metal_blo
 static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const halo_nodes halo, block_run *run)
 {
     cell_grid g;
-    cell_grid_set(&g, grid, cell);
+    cell_grid_set(&g, grid, b, cell);
     const cell_limits limits = limits_of(m, b, cell);
     mover_list *movers = &m->movers[b->movers_thread];
     cell_nodes nodes;

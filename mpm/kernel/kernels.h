@@ -23,6 +23,7 @@ typedef struct {
     double x[3];                /* of the nodes before, at and after [m] */
     double inv_left, inv_right; /* one over the element sizes [1/m] */
     double narrowest, widest;   /* least and largest half length of a domain in the weights [m] */
+    double stable;              /* least one an open side of the cell [m] */
     double cell, inv_cell;      /* size of the cell [m], one over it [1/m] */
 } cell_axis;
 
@@ -50,9 +51,9 @@ typedef struct {
 
 /* Generalized interpolation over the domain x - l .. x + l (Bardenhagen and Kober 2004), on unequal elements:
  *   w = 1/(2 l) int N dx,   g = [N(x + l) - N(x - l)]/(2 l),   N the hat functions of the three nodes            */
-LANE_INLINE weights weights_gimp(const cell_axis *c, vd x, vd half)
+LANE_INLINE weights weights_gimp(const cell_axis *c, double narrowest, vd x, vd half)
 {
-    const vd zero = vd_set(0), l = vd_max(vd_min(half, vd_set(c->widest)), vd_set(c->narrowest));
+    const vd zero = vd_set(0), l = vd_max(vd_min(half, vd_set(c->widest)), vd_set(narrowest));
     const vd t = x - c->x[1], a = t - l, b = t + l;
     const vd aL = vd_min(a, zero), bL = vd_min(b, zero), aR = vd_max(a, zero), bR = vd_max(b, zero);
     const vd scale = vd_set(0.5) / l, sL = scale * c->inv_left, sR = scale * c->inv_right;
@@ -114,14 +115,14 @@ LANE_INLINE void prefetch_share(ahead *a)
     for (int i = 0; i < a->share && a->next < a->end; i++, a->next += 64) __builtin_prefetch(a->next);
 }
 
-/* Least half length in cells that keeps a point stable which shares its nodes with no other.  Its forces change its own
- * velocity gradient by dt sigma/rho sum_i |grad S_i|^2 / S_i, and that sum is up to 2/(l h) an axis where the domain
- * just reaches over a node: with one axis strained it is stable for C^2 2 h/l <= 4, with three about a third of that.
- * l = C^2 h lies between, and docs/validation/solver.md has the scenes that blew up with less.  Without the affine
- * part the last step's gradient is forgotten, which halves the limit. */
+/* Least half length in cells that keeps a point stable, an open side of its cell.  Its forces change its own velocity
+ * gradient by dt sigma/rho sum_i |grad S_i|^2 / S_i over the nodes that it shares with no other, and where its domain
+ * just reaches over its cell's node those beyond an open side give 1/(l h) each.  The limit is n C^2 h/l <= 4 with n
+ * such sides: l = n C^2 h/2 takes half of it, and docs/notes/solver.md has the scenes that blew up with less.  Without
+ * the affine part the last step's gradient is forgotten, which halves the limit. */
 LANE_INLINE double stable_half_length(const mpm_scene *s)
 {
-    return (s->transfer == MPM_TRANSFER_TPIC ? 1 : 2) * s->courant * s->courant;
+    return (s->transfer == MPM_TRANSFER_TPIC ? 0.5 : 1) * s->courant * s->courant;
 }
 
 /* The cells of a brick along each axis. */
@@ -141,41 +142,9 @@ LANE_INLINE vd wave_push(const wave_load *w, vd v)
 typedef struct {
     const cell_axis *axis[3];
     const knots *knots[3];
+    double narrowest[3]; /* least half length of a domain [m] */
     bool bspline;
 } cell_grid;
-
-LANE_INLINE brick_grid brick_grid_at(const mpm *m, const brick *b)
-{
-    brick_grid g;
-    g.bspline = m->scene.basis == MPM_BASIS_BSPLINE;
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < BRICK; i++) {
-            const int node = BRICK * b->at[k] + i;
-            const axis *from = &axes_of(m, b)[k];
-            if (node < 1 || node > from->last) continue; /* no points there */
-            cell_axis *a = &g.axis[k][i];
-            *a = cell_axis_at(from, node);
-            if (g.bspline) g.knots[k][i] = knots_at(from, node);
-            const double stable = 2 * a->widest * stable_half_length(&m->scene);
-            if (stable > a->narrowest) a->narrowest = stable < a->widest ? stable : a->widest;
-        }
-    return g;
-}
-
-/* In its place: returned by value it is copied in wider pieces than it was written in, which a core waits for. */
-LANE_INLINE void cell_grid_set(cell_grid *g, const brick_grid *b, int cell)
-{
-    const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
-    for (int k = 0; k < 3; k++) g->axis[k] = &b->axis[k][at[k]], g->knots[k] = &b->knots[k][at[k]];
-    g->bspline = b->bspline;
-}
-
-/* Along axis k, for the part of the block that begins with `lane`. */
-LANE_INLINE weights cell_weights(const cell_grid *g, int k, const block *q, int lane)
-{
-    const vd x = vd_load(&q->x[k][lane]);
-    return g->bspline ? weights_bspline(g->knots[k], x) : weights_gimp(g->axis[k], x, vd_load(&q->half[k][lane]));
-}
 
 /* First of the 27 nodes of a cell in its brick's 6 x 6 x 6. */
 LANE_INLINE int halo_index(int cell)
@@ -246,6 +215,46 @@ static inline bool mirror_shared(const mirror_plane *p, int i, const int at[3])
     for (int j = 0; j < i; j++)
         if (p[j].axis != p[i].axis && at[p[j].axis] == p[j].ghost) return true;
     return false;
+}
+
+LANE_INLINE brick_grid brick_grid_at(const mpm *m, const brick *b)
+{
+    brick_grid g;
+    g.bspline = m->scene.basis == MPM_BASIS_BSPLINE;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < BRICK; i++) {
+            const int node = BRICK * b->at[k] + i;
+            const axis *from = &axes_of(m, b)[k];
+            if (node < 1 || node > from->last) continue; /* no points there */
+            cell_axis *a = &g.axis[k][i];
+            *a = cell_axis_at(from, node);
+            if (g.bspline) g.knots[k][i] = knots_at(from, node);
+            a->stable = 2 * a->widest * stable_half_length(&m->scene);
+        }
+    return g;
+}
+
+/* In its place: returned by value it is copied in wider pieces than it was written in, which a core waits for. */
+LANE_INLINE void cell_grid_set(cell_grid *g, const brick_grid *from, const brick *b, int cell)
+{
+    const int at[3] = { cell % BRICK, cell / BRICK % BRICK, cell / (BRICK * BRICK) };
+    int open[3], all = 0;
+    for (int k = 0; k < 3; k++) all += open[k] = (int)(b->open[k][0] >> cell & 1) + (int)(b->open[k][1] >> cell & 1);
+    for (int k = 0; k < 3; k++) {
+        const cell_axis *a = g->axis[k] = &from->axis[k][at[k]];
+        const double stable = (open[k] ? all : 1) * a->stable;
+        g->narrowest[k] = stable < a->narrowest ? a->narrowest : stable < a->widest ? stable : a->widest;
+        g->knots[k] = &from->knots[k][at[k]];
+    }
+    g->bspline = from->bspline;
+}
+
+/* Along axis k, for the part of the block that begins with `lane`. */
+LANE_INLINE weights cell_weights(const cell_grid *g, int k, const block *q, int lane)
+{
+    const vd x = vd_load(&q->x[k][lane]);
+    return g->bspline ? weights_bspline(g->knots[k], x)
+                      : weights_gimp(g->axis[k], g->narrowest[k], x, vd_load(&q->half[k][lane]));
 }
 
 #endif

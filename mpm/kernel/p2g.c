@@ -320,18 +320,34 @@ static void fold(const mpm *m, brick *b)
         }
 }
 
+/* What lies beyond a mirror is what lies before it. */
+static inline void find_open_sides(const mpm *m, const brick *b, uint64_t open[3][2])
+{
+    for (int k = 0; k < 3; k++) mpm_cells_open(m, b, k, open[k]);
+    mirror_plane p[6];
+    for (int i = mirror_planes(m, b, p) - 1; i >= 0; i--) {
+        const int k = p[i].axis, beyond = p[i].ghost > p[i].mirror;
+        const uint64_t at = mpm_cells_of_layer(k, (p[i].ghost + p[i].mirror) / 2 - 1);
+        open[k][beyond] = (open[k][beyond] & ~at) | (open[k][!beyond] & at);
+    }
+}
+
 void ISA(p2g)(mpm *m, brick *b)
 {
     const uint64_t meets = (b->across    ? ~0ull
                             : b->contact ? mpm_contact_cells(m, b)
                                          : 0) |
                            (m->cavities ? cavity_cells(m->cavities, b) : 0);
-    const bool as_before = b->given && b->still == BRICK_ASLEEP && meets == b->meets;
+    uint64_t open[3][2];
+    find_open_sides(m, b, open);
+    const bool as_before =
+        b->given && b->still == BRICK_ASLEEP && meets == b->meets && memcmp(open, b->open, sizeof open) == 0;
     memset(&b->sum, 0, sizeof b->sum);
     b->sum.bad_block = -1;
     if (as_before) return;
     memset(b->out, 0, HALO_NODES * sizeof *b->out);
     b->meets = meets, b->given = true;
+    memcpy(b->open, open, sizeof open);
     if (b->meets) memset(b->out_contact, 0, HALO_NODES * sizeof *b->out_contact);
     const brick_grid grid = brick_grid_at(m, b);
     cell_grid at;
@@ -342,7 +358,7 @@ void ISA(p2g)(mpm *m, brick *b)
                        .level = b->level };
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
         if (b->head[cell] < 0) continue;
-        cell_grid_set(&at, &grid, cell);
+        cell_grid_set(&at, &grid, b, cell);
         work.meets = b->meets >> cell & 1;
         one_cell(m, b, cell, &work);
     }

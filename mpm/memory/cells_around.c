@@ -5,6 +5,8 @@
  * cells lie within two of each other along every axis, and nodes within one of a group's cells have mass. */
 #include "mpm/memory/store.h"
 
+static const uint64_t first_layer[3] = { 0x1111111111111111, 0x000f000f000f000f, 0xffff }; /* across each axis */
+
 uint64_t mpm_occupied_cells(const brick *b)
 {
     uint64_t cells = 0;
@@ -16,7 +18,6 @@ uint64_t mpm_occupied_cells(const brick *b)
  * included. */
 static uint64_t spread(int k, int reach, uint64_t before, uint64_t here, uint64_t after)
 {
-    static const uint64_t first_layer[3] = { 0x1111111111111111, 0x000f000f000f000f, 0xffff };
     const int stride = 1 << 2 * k;
     uint64_t low = 0, r = here;
     for (int n = 1; n <= reach; n++) {
@@ -59,6 +60,23 @@ static uint64_t within(const mpm *m, const brick *b, whose which, int reach)
     return spread(2, reach, plane[0], plane[1], plane[2]);
 }
 
+void mpm_cells_open(const mpm *m, const brick *b, int k, uint64_t open[2])
+{
+    static const int step[3] = { 1, 3, 9 };
+    const int before = b->neighbour[SELF - step[k]], after = b->neighbour[SELF + step[k]];
+    const int stride = 1 << 2 * k, back = (BRICK - 1) * stride;
+    const uint64_t low = first_layer[k], high = low << back;
+    const uint64_t last = before < 0 ? 0 : m->bricks[before].occupied >> back & low;
+    const uint64_t first = after < 0 ? 0 : m->bricks[after].occupied << back & high;
+    open[0] = ~((b->occupied << stride & ~low) | last);
+    open[1] = ~((b->occupied >> stride & ~high) | first);
+}
+
+uint64_t mpm_cells_of_layer(int k, int layer)
+{
+    return first_layer[k] << layer * (1 << 2 * k);
+}
+
 uint64_t mpm_contact_cells(const mpm *m, const brick *b)
 {
     return within(m, b, OTHERS, 2);
@@ -71,12 +89,11 @@ uint64_t mpm_cells_around(const mpm *m, const brick *b, int reach)
 
 uint64_t mpm_cells_towards(int step, int layers)
 {
-    static const uint64_t first_layer[3] = { 0x1111111111111111, 0x000f000f000f000f, 0xffff };
     uint64_t cells = ~0ull;
     for (int k = 0; k < 3; k++, step /= 3) {
-        const int stride = 1 << 2 * k, d = step % 3 - 1;
+        const int d = step % 3 - 1;
         uint64_t side = d == 0 ? ~0ull : 0;
-        for (int n = 0; n < layers && d != 0; n++) side |= first_layer[k] << stride * (d < 0 ? n : BRICK - 1 - n);
+        for (int n = 0; n < layers && d != 0; n++) side |= mpm_cells_of_layer(k, d < 0 ? n : BRICK - 1 - n);
         cells &= side;
     }
     return cells;

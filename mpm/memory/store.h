@@ -142,6 +142,7 @@ typedef struct {
     bool given;                  /* `out` holds what its points give as they are */
     bool contact;                /* another group has points here or next door */
     uint64_t occupied, meets;    /* bit c: cell c has points; it may share nodes with another group */
+    uint64_t open[3][2];         /* cells beside which, before and after along each axis, the group has no points */
     uint64_t covered;            /* cells that may come to be occupied until bricks are made anew around them */
     uint64_t reached;            /* nodes that points in covered cells give to */
     bool wanted;                 /* those need this brick: it has them, their nodes, or nodes that these follow */
@@ -308,6 +309,8 @@ void mpm_substep_store(mpm *m, int site); /* into brick.held, or for its points,
 uint64_t mpm_occupied_cells(const brick *b);
 uint64_t mpm_contact_cells(const mpm *m, const brick *b);           /* brick.meets from what is occupied around */
 uint64_t mpm_cells_around(const mpm *m, const brick *b, int reach); /* within `reach` (1, 2) of the group's occupied */
+void mpm_cells_open(const mpm *m, const brick *b, int k, uint64_t open[2]); /* brick.open, nothing beyond a mirror */
+uint64_t mpm_cells_of_layer(int k, int layer);                              /* one of BRICK across axis k */
 uint64_t mpm_cells_towards(int step, int layers); /* so many layers of cells beside the neighbour at a step */
 
 /* point.c: one point's BLOCK_DOUBLES */

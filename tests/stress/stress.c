@@ -9,7 +9,7 @@
  * printed; exit 1 when one fails.
  *
  * Materials are those of cases/materials; speeds 0.1 .. 5 km/s, grain radii 0.05 .. 2 mm, lead angles 5 .. 90 degrees,
- * Courant numbers 0.1 .. 0.6 (some more, to be refused), 1 .. 1.5 cells a radius, temperatures up to melting; with
+ * Courant numbers 0.1 .. 0.45 (some more, to be refused), 1 .. 1.5 cells a radius, temperatures up to melting; with
  * layers as thin as a twentieth of a cell, loose, bonded and welded grains, fragments that fly through the scene, and
  * armature, grains and fragments that leave the window; on one to three nested grids.
  *
@@ -117,7 +117,7 @@ static void add_scene(recipe *r, chance *c)
     stress_add(r, "output:\n  snapshots: 0\n");
 }
 
-static void write_recipe(recipe *r, chance *c, const stock *s)
+static void write_recipe(recipe *r, chance *c, const stock *s, double courant)
 {
     chance levels = { ~c->state }; /* beside the others, which it leaves as they were without levels */
     r->length = 0;
@@ -125,7 +125,8 @@ static void write_recipe(recipe *r, chance *c, const stock *s)
     r->levels = 1 + below(&levels, 3);
     r->wider = 3 * ((1 << (r->levels - 1)) - 1) * r->radius; /* three of the largest cells, and one cell a radius */
     r->velocity = log_uniform(c, 100, 5000);
-    r->courant = uniform(c, 0.1, one_in(c, 10) ? 0.8 : 0.6); /* more than 0.6 is refused */
+    r->courant = uniform(c, 0.1, one_in(c, 10) ? 0.6 : 0.45); /* more than 0.45 is refused */
+    if (courant > 0) r->courant = courant;
     r->group = one_in(c, 25) ? ANY : one_in(c, 3) ? WITHOUT_DAMAGE : WITH_DAMAGE;
     stress_add(r, "name: stress\n");
     const int rail = add_rail(r, c, s), armature = add_projectile(r, c, s);
@@ -234,6 +235,7 @@ static void run_case(const breech_case *c, const recipe *r, chance *luck, outcom
 typedef struct {
     int scenes, first;
     uint64_t seed;
+    double courant; /* of every gouge scene; 0: each its own */
     bool verbose, targets;
 } options;
 
@@ -255,7 +257,7 @@ static outcome run_one(const stock *s, const options *of, int index)
     if (of->targets)
         stress_target_write(&r, &luck, s);
     else
-        write_recipe(&r, &luck, s);
+        write_recipe(&r, &luck, s, of->courant);
     if (of->verbose) printf("---- scene %d\n%s", index, r.text);
     snprintf(o.summary, sizeof o.summary, "%s", r.summary);
     const case_options how = { s->at.dir, s->at.n, of->targets ? CASE_FOR_STRIKE : CASE_FOR_SCENE };
@@ -361,6 +363,8 @@ static options read_options(int argc, char **argv)
             o.first = atoi(argv[++i]);
         else if (strcmp(argv[i], "--seed") == 0 && more)
             o.seed = strtoull(argv[++i], NULL, 10);
+        else if (strcmp(argv[i], "--courant") == 0 && more)
+            o.courant = strtod(argv[++i], NULL);
         else if (strcmp(argv[i], "--verbose") == 0)
             o.verbose = true;
         else if (strcmp(argv[i], "--targets") == 0)
@@ -369,7 +373,8 @@ static options read_options(int argc, char **argv)
             o.scenes = 0;
     }
     if (o.scenes < 1) {
-        fprintf(stderr, "usage: breech-stress [--targets] [--scenes N] [--first K] [--seed S] [--verbose]\n");
+        fprintf(stderr,
+                "usage: breech-stress [--targets] [--scenes N] [--first K] [--seed S] [--courant C] [--verbose]\n");
         exit(2);
     }
     return o;
