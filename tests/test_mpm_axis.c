@@ -242,9 +242,47 @@ static void test_continuity(void **state)
     mpm_axis_free(&a);
 }
 
-/* Cells that may share a node with another field: those within two of one of its cells along every axis, by looking at
- * all pairs in three bricks an axis. */
-static void test_meeting(void **state)
+/* Has brick `group`'s of these three an axis, all there but for some, points in a cell of all their cells? */
+static bool holds_points(const mpm *m, const bool *there, int group, const int to[3])
+{
+    enum { N = 3 * BRICK };
+    for (int k = 0; k < 3; k++)
+        if (to[k] < 0 || to[k] >= N) return false;
+    const int i = (to[2] / BRICK * 3 + to[1] / BRICK) * 3 + to[0] / BRICK + 27 * group;
+    return there[i] && m->bricks[i].head[cell_index(to[0] % BRICK, to[1] % BRICK, to[2] % BRICK)] >= 0;
+}
+
+static void find_neighbours(brick *b, const bool *there)
+{
+    for (int step = 0; step < NEIGHBOURS; step++) {
+        const int to[3] = { b->at[0] + step % 3 - 1, b->at[1] + step / 3 % 3 - 1, b->at[2] + step / 9 - 1 };
+        const int i = (to[2] * 3 + to[1]) * 3 + to[0] + 27 * b->group;
+        const bool inside = fmin(to[0], fmin(to[1], to[2])) >= 0 && fmax(to[0], fmax(to[1], to[2])) < 3;
+        b->neighbour[step] = inside && there[i] ? i : -1;
+    }
+}
+
+/* Sides of cells beside which the group has no points. */
+static void check_open(const mpm *m, const brick *b, const bool *there)
+{
+    for (int k = 0; k < 3; k++) {
+        uint64_t got[2], want[2] = { 0, 0 };
+        mpm_cells_open(m, b, k, got);
+        for (int c = 0; c < BRICK_CELLS; c++)
+            for (int side = 0; side < 2; side++) {
+                int to[3] = { BRICK * b->at[0] + c % BRICK, BRICK * b->at[1] + c / BRICK % BRICK,
+                              BRICK * b->at[2] + c / (BRICK * BRICK) };
+                to[k] += 2 * side - 1;
+                if (!holds_points(m, there, b->group, to)) want[side] |= 1ull << c;
+            }
+        assert_int_equal(got[0], want[0]);
+        assert_int_equal(got[1], want[1]);
+    }
+}
+
+/* Cells that may share a node with another field, those within two of one of its cells along every axis, and open sides,
+ * by looking at all pairs in three bricks an axis. */
+static void test_cells_around(void **state)
 {
     (void)state;
     enum { N = 3 * BRICK };
@@ -278,22 +316,22 @@ static void test_meeting(void **state)
             for (int other = 0; other < N * N * N; other++) {
                 const int to[3] = { other % N, other / N % N, other / (N * N) };
                 const int from[3] = { c % BRICK, c / BRICK % BRICK, c / (BRICK * BRICK) };
-                const int i = (to[2] / BRICK * 3 + to[1] / BRICK) * 3 + to[0] / BRICK + 27 * (1 - b->group);
-                const int cell = cell_index(to[0] % BRICK, to[1] % BRICK, to[2] % BRICK);
-                bool near = there[i] && m.bricks[i].head[cell] >= 0;
+                bool near = holds_points(&m, there, 1 - b->group, to);
                 for (int k = 0; k < 3; k++) near = near && abs(to[k] - BRICK * b->at[k] - from[k]) <= 2;
                 if (near) want |= 1ull << c;
             }
         assert_int_equal(got, want);
+        find_neighbours(b, there);
+        if (there[b - m.bricks]) check_open(&m, b, there);
     }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grading),    cmocka_unit_test(test_ratio),   cmocka_unit_test(test_locate),
-        cmocka_unit_test(test_refused),    cmocka_unit_test(test_weights), cmocka_unit_test(test_derivative),
-        cmocka_unit_test(test_continuity), cmocka_unit_test(test_meeting),
+        cmocka_unit_test(test_grading),    cmocka_unit_test(test_ratio),        cmocka_unit_test(test_locate),
+        cmocka_unit_test(test_refused),    cmocka_unit_test(test_weights),      cmocka_unit_test(test_derivative),
+        cmocka_unit_test(test_continuity), cmocka_unit_test(test_cells_around),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
