@@ -98,4 +98,27 @@ static inline void assert_same(const cJSON *a, const cJSON *b)
     }
 }
 
+/* The same answers on one, two and three threads, in folder_1 and so on; the last is stopped at once, and resumed.
+ * Their summary, the caller's. */
+static inline cJSON *same_on_threads(const char *arguments, const char *folder)
+{
+    cJSON *of[3];
+    for (int k = 0; k < 3; k++) {
+        char dir[100], command[800];
+        snprintf(dir, sizeof dir, "%s_%d", folder, k + 1);
+        snprintf(command, sizeof command, "%s -o %s --quiet --threads %d%s", arguments, dir, k + 1,
+                 k == 2 ? " --max-walltime 0.001" : "");
+        assert_int_equal(run(command), k == 2 ? 75 : 0);
+        if (k == 2) {
+            *strstr(command, " --max-walltime") = '\0';
+            strcat(command, " --resume");
+            assert_int_equal(run(command), 0);
+        }
+        of[k] = summary_of(dir);
+        assert_same(of[0], of[k]);
+    }
+    cJSON_Delete(of[1]), cJSON_Delete(of[2]);
+    return of[0];
+}
+
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rails: L', R' of the section against the reference tables, limits and scaling laws; the parameter tables' own laws.
  */
+#include "base/constants.h"
 #include "circuit/rails/inductance.h"
 #include "circuit/shot.h"
 
@@ -14,7 +15,6 @@
 
 #include <cmocka.h>
 
-static const double PI = 3.14159265358979323846, MU0 = 1.25663706212e-6;
 static const double COPPER = 1.0 / 5.998e7; /* [ohm m], the conductivity of the frequency table */
 static const circuit_rail_section SECTION = {
     .height = 0.025, .thickness = 0.020, .separation = 0.025, .resistivity = 1.0 / 5.998e7, .rails = 2

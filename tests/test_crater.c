@@ -3,6 +3,7 @@
  *
  * A rail is a lattice of points, some mm deep, whose topmost point in each column is cut to end exactly at the surface.
  * Lengths here are in mm; the rail is handed over in metres. */
+#include "base/constants.h"
 #include "coupling/gouge/crater.h"
 
 #include <math.h>
@@ -14,7 +15,6 @@
 
 #include <cmocka.h>
 
-#define PI 3.14159265358979323846
 #define MM 1e-3
 #define RADIUS 0.5 /* of the particle, a hemisphere [mm] */
 #define BASE 1.2   /* depth of the rail [mm] */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* From the shot to the scene: states at the sites, the screen, the geometry and the forces of the scenes. */
+#include "base/constants.h"
 #include "coupling/case/case.h"
 #include "coupling/gouge/growth.h"
 #include "coupling/gouge/impact.h"
@@ -15,8 +16,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 enum { MAX_SETS = 12 };
 

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a projectile does to its target: its flight, how the class is decided, what a case is refused for, and small
  * scenes that are known to rebound, to stop and to pierce. */
+#include "base/constants.h"
 #include "coupling/scene/scene_fill.h"
 #include "coupling/strike/outcome.h"
 #include "coupling/strike/recht_ipson.h"
 #include "program_common.h"
-
-#define PI 3.14159265358979323846
 
 /* ---- flight ---- */
 

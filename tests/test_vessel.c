@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A shell with gas and liquid in it, reduced: the film, the gas, the growth of a bubble and the vent, each against its
  * closed answer; when the droplet of Qiang et al. (2017) bursts; what a case is refused for. */
+#include "base/constants.h"
 #include "coupling/study/vessel.h"
 #include "mpm/law/law_point.h"
 #include "program_common.h"
 
-#define PI 3.14159265358979323846
 #define DROPLET CASES "/gel_droplet"
 
 /* The droplet's materials and section, to be changed. */
