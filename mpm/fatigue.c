@@ -196,16 +196,17 @@ status mpm_fatigue_jump(fatigue_points *f, double batch)
 double mpm_fatigue_alone(const fatigue_points *f, int point, double limit)
 {
     const size_t first = (size_t)point * (size_t)f->fan.n;
-    double waits[FATIGUE_MAX_DIRECTIONS], share = 0.0;
-    bool used[FATIGUE_MAX_DIRECTIONS] = { false };
-    for (int k = 0; k < f->fan.n; k++) waits[k] = left(f, first + (size_t)k);
-    for (int n = 0; n < f->fan.n; n++) {
+    double waits[FATIGUE_MAX_DIRECTIONS], share = f->index[point];
+    bool used[FATIGUE_MAX_DIRECTIONS];
+    if (share >= limit - AT_ONCE) return f->cycles;
+    for (int k = 0; k < f->fan.n; k++) waits[k] = left(f, first + (size_t)k), used[k] = f->is_cut[first + (size_t)k];
+    for (;;) {
         int next = -1;
         for (int k = 0; k < f->fan.n; k++)
             if (!used[k] && (next < 0 || waits[k] < waits[next])) next = k;
+        if (next < 0) return INFINITY;
         used[next] = true;
         share += f->fan.share[next];
         if (share >= limit - AT_ONCE) return f->cycles + waits[next];
     }
-    return INFINITY;
 }

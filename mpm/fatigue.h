@@ -91,7 +91,7 @@ double mpm_fatigue_wait(const fatigue_points *f);
 /* Goes on to the next cut, and on to those that follow with these ranges before the cycles are (1 + batch) times as
  * many; those within a share of 1e-9 are one event in any case.  STATUS_BAD_INPUT: nothing is ever cut. */
 status mpm_fatigue_jump(fatigue_points *f, double batch);
-/* Cycles until this point's index is `limit` with these ranges for good. */
+/* Cycles, those so far included, until this point's index is `limit` with these ranges for good; INFINITY: never. */
 double mpm_fatigue_alone(const fatigue_points *f, int point, double limit);
 
 #endif

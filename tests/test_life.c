@@ -441,6 +441,9 @@ static void test_batch(void **state)
     assert_true(fabs(mpm_fatigue_alone(&f, 1, 0.75) / 3000.0 - 1.0) < 1e-12);
     OK(mpm_fatigue_jump(&f, 0.0)); /* those that are one but for rounding */
     assert_true(f.n_cuts == 2 && f.cut[0].point == 0 && f.cut[1].point == 1 && fabs(f.cycles - 1000.0) < 1e-6);
+    assert_true(fabs(mpm_fatigue_alone(&f, 0, 0.5) / 1004.0 - 1.0) < 1e-12); /* what is cut counts */
+    assert_true(fabs(mpm_fatigue_alone(&f, 1, 0.75) / 3000.0 - 1.0) < 1e-12);
+    assert_true(mpm_fatigue_alone(&f, 1, 0.25) == f.cycles);
     OK(mpm_fatigue_jump(&f, 0.01));
     assert_true(f.n_cuts == 5 && fabs(f.cut[2].cycles - 1004.0) < 1e-6 && fabs(f.cut[4].cycles - 1010.2) < 1e-6);
     assert_true(fabs(f.index[0] - 1.0) < 1e-12 && fabs(f.index[1] - 0.25) < 1e-12);
