@@ -200,15 +200,11 @@ static void try_scene(const mpm_scene *s, double last, pace *p)
     mpm_free(m);
 }
 
-/* Without a trial memory bandwidth and the serial rest are left out: a lower bound on many threads. */
 static status estimate_scene(const mpm_scene *s, double last, pace *p, scene_estimate *out)
 {
     TRY(needs_of(s, &out->needs, NULL));
     if (isnan(p->rate) && out->needs.particles <= TRIAL_POINTS) try_scene(s, last, p);
     out->steps = last / out->needs.dt;
-    const double work = out->steps * out->needs.work;
-    out->seconds = work * (isnan(p->rate) ? CHECK_SECONDS_A_STEP / p->threads : p->rate);
-    out->likely = CHECK_GROWTH * work * p->rate;
     out->searched = false;
     return status_ok();
 }
@@ -280,12 +276,22 @@ static status estimate_all(const case_inputs *in, pace *pace_of, scene_estimate 
     return status_ok();
 }
 
+/* Without a trial memory bandwidth and the serial rest are left out: a lower bound on many threads. */
+static double pace_rate(const pace *p)
+{
+    return isnan(p->rate) ? CHECK_SECONDS_A_STEP / p->threads : p->rate;
+}
+
 status study_check(const case_inputs *in, int threads, scene_estimate out[CHECK_MAX_ESTIMATES], int *n, double *rate)
 {
     pace p = { threads, NAN };
     *n = 0;
     const status s = estimate_all(in, &p, out, n);
-    for (int i = 0; i < *n; i++) out[i].likely = CHECK_GROWTH * out[i].steps * out[i].needs.work * p.rate;
+    for (int i = 0; i < *n; i++) { /* those before the trial too */
+        const double work = out[i].steps * out[i].needs.work;
+        out[i].seconds = work * pace_rate(&p);
+        out[i].likely = CHECK_GROWTH * work * p.rate;
+    }
     *rate = p.rate;
     return s;
 }
