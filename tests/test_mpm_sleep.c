@@ -94,6 +94,38 @@ static void test_force(void **state)
     mpm_free(m);
 }
 
+static void set_half_lengths(mpm *m, const brick *b, int k, double half)
+{
+    for (int c = 0; c < BRICK_CELLS; c++)
+        for (int q = b->head[c]; q >= 0; q = m->links[q].next)
+            for (int l = 0; l < LANES; l++) m->blocks[q].half[k][l] = half;
+}
+
+/* Flat points beside cells that become empty have longer domains: a brick that sleeps gives its nodes anew what it
+ * gives, the same as one that never slept. */
+static void test_open_sides(void **state)
+{
+    (void)state;
+    static double out[3][HALO_NODES][LINE];
+    const mpm_material copper = scene_copper();
+    SCENE_LOCAL(s);
+    target(&s, &copper, 0, 1);
+    mpm *m = after(&s, 0.5e-6);
+    brick *b = m->bricks;
+    while (b->still < BRICK_ASLEEP || b->neighbour[SELF + 1] < 0 || !m->bricks[b->neighbour[SELF + 1]].occupied)
+        assert_true(++b < m->bricks + m->bricks_used);
+    set_half_lengths(m, b, 0, 0.05 * s.axis[0].fine);
+    for (int i = 0; i < 3; i++) {
+        if (i != 1) b->given = false;
+        if (i == 1) m->bricks[b->neighbour[SELF + 1]].occupied = 0;
+        m->kernel->p2g(m, b);
+        memcpy(out[i], b->out, sizeof out[i]);
+    }
+    assert_memory_not_equal(out[0], out[1], sizeof out[0]);
+    assert_memory_equal(out[1], out[2], sizeof out[1]);
+    mpm_free(m);
+}
+
 /* Same bits on any number of threads and on from a checkpoint while part of it sleeps. */
 static void test_bits(void **state)
 {
@@ -109,6 +141,7 @@ static void test_bits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_waits), cmocka_unit_test(test_wakes),
-                                        cmocka_unit_test(test_force), cmocka_unit_test(test_bits) };
+                                        cmocka_unit_test(test_force), cmocka_unit_test(test_open_sides),
+                                        cmocka_unit_test(test_bits) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,8 +2,7 @@
 /* The solver's memory: points in blocks of eight, blocks chained by cell, cells in bricks of 4 x 4 x 4.
  *
  *   block   8 points of one body and one cell, array of structures of arrays; holes have mass 0
- *   brick   64 cells of one group; `out` are the node sums of its own points on its 6 x 6 x 6 nodes (own
- *   nodes
+ *   brick   64 cells of one group; `out` are the node sums of its own points on its 6 x 6 x 6 nodes (own nodes
  *           and one layer around), `mpm.nodes` the velocities of its own 4 x 4 x 4 nodes
  *   site    the bricks of all groups at one place of one level of the nested grids (grid.h)
  * A step (mpm.c) of a level: P2G over bricks -> sums over sites, contact, boundaries -> G2P over bricks -> movers
