@@ -18,9 +18,7 @@
 extern "C" {
 #endif
 
-enum {
-    BASE_PARAM_TEXT_SIZE = 64
-}; /* a BASE_PARAM_TEXT member is char[BASE_PARAM_TEXT_SIZE], where the row says no other */
+enum { BASE_PARAM_TEXT_SIZE = 64 }; /* bytes of a BASE_PARAM_TEXT member whose row says no other */
 
 typedef enum {
     BASE_PARAM_NUMBER,  /* double, in `unit` */

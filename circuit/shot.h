@@ -199,9 +199,8 @@ typedef struct {
 typedef struct circuit_shot circuit_shot; /* owns all its memory */
 
 /* Sinks; both may be NULL.  Return false to stop: circuit_shot_advance then returns BASE_STATUS_STOPPED and may be
- * called
- * again. From `event` at a CIRCUIT_SHOT_SITE, circuit_shot_jump may be called; anything else that changes the shot may
- * not. */
+ * called again.  From `event` at a CIRCUIT_SHOT_SITE, circuit_shot_jump may be called; anything else that changes the
+ * shot may not. */
 typedef struct {
     bool (*event)(void *user, circuit_shot *s, const circuit_shot_event *e);
     bool (*sample)(void *user, const circuit_shot *s,

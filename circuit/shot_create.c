@@ -55,8 +55,7 @@ status circuit_shot_check(const circuit_shot_config *c)
     const bool film = c->armature.friction_law == CIRCUIT_SHOT_FRICTION_FILM;
     CHECK(!film || c->armature.wear_fraction > 0.0, STATUS_BAD_INPUT,
           "armature.friction_law film needs armature.wear_fraction above 0: the fraction of the heat that melts makes "
-          "the "
-          "film");
+          "the film");
     CHECK(!c->armature.velocity_skin || c->armature.contact_voltage > 0.0, STATUS_BAD_INPUT,
           "armature.velocity_skin needs armature.contact_voltage above 0 V: nothing else spreads the current");
     CHECK(c->armature.wear_fraction == 0.0 || c->armature.melting_temperature > c->armature.initial_temperature,

@@ -143,8 +143,7 @@ status circuit_rails_ladder(const circuit_shot_rails *rails, double f_top, circu
 }
 
 /* No armature gets faster than sqrt(2 E/m + v0^2), so no slice of rail gets its current in less than the contact's
- * length
- * over that; nor does the bank change its current faster than a quarter of a sine (C-6) does.             (C-13) */
+ * length over that; nor does the bank change its current faster than a quarter of a sine (C-6) does.      (C-13) */
 static double band_top(const circuit_shot_config *c)
 {
     const double f_pulse = circuit_shot_effective_frequency(c->supplies);

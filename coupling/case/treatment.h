@@ -3,9 +3,8 @@
  *
  * A case lists surfaces to compare, each a name and the kinds of treatment on it.  To add a kind: treatment_<kind>.c
  * with
- *   const base_param case_treatment_<kind>_params[]: the keys of the case file, members of treatment_settings, the
- * first   REQUIRED
- *     (a kind is given if its first key is);
+ *   const base_param case_treatment_<kind>_params[]: the keys of the case file, members of treatment_settings; the
+ *     first is REQUIRED (a kind is given if its first key is);
  *   status case_treatment_<kind>_apply(settings, inputs): changes them; STATUS_BAD_INPUT names what cannot be;
  * and one line in treatment.def.  tests/test_compare.c checks every kind: applied, the case differs and its scenes can
  * be built. */

@@ -16,8 +16,7 @@ status case_treatment_lead_angle_apply(const treatment_settings *t, case_onset *
     const double run = p->chamfer_height / tan(t->value[ANGLE]);
     CHECK(run < p->length, STATUS_BAD_INPUT,
           "lead_angle.angle = %g deg: the lead face would be %g m long, the armature is %g m: a larger angle, or a "
-          "smaller "
-          "armature.chamfer_height",
+          "smaller armature.chamfer_height",
           t->value[ANGLE] * 180.0 / PI, run, p->length);
     p->lead_angle = t->value[ANGLE];
     return status_ok();

@@ -9,10 +9,9 @@
  * (no half length below cell / 2) may touch as far as their largest half length reaches: merged ones leave slits.
  * The height is position + half length of the last point.  A sample above all of its eight neighbours, or below both
  * of those along x or along z, is set to the nearest of them: spikes of one sample and slits one sample wide, however
- * long, are the lattice's.  A map
- * cell is the mean of its samples, so an undisturbed rail has depth 0 to rounding whatever the sizes of its points; a
- * line that meets nothing of the rail's lower half is left out (the rail ends there), depth 0.  Choose `cell` about the
- * fine grid's cell.
+ * long, are the lattice's.  A map cell is the mean of its samples, so an undisturbed rail has depth 0 to rounding
+ * whatever the sizes of its points; a line that meets nothing of the rail's lower half is left out (the rail ends
+ * there), depth 0.  Choose `cell` about the fine grid's cell.
  *
  * Measures, at the measuring depth d_m = max(0.1 particle_radius, cell / 2), d the depth, downstream = +x:
  *   the crater is the cells with d > d_m that hang together (by edge or corner), with every other such patch that has a

@@ -60,9 +60,8 @@ enum {
 };
 #undef STUDY
 extern const study *const study_list[STUDIES];
-extern const study study_ensemble, study_bodies, study_rail_life, study_compare_life,
-    study_compare_targets; /* that take
-                                                                                                         a place */
+/* Those that take a place: */
+extern const study study_ensemble, study_bodies, study_rail_life, study_compare_life, study_compare_targets;
 
 /* This one, or what takes its place for such a case. */
 const study *study_for(const study *y, const case_inputs *in);

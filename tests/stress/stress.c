@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Random scenes through the whole hand-off: case text -> case -> scene -> solver -> crater -> class.
  *
- *   breech-stress [--targets] [--scenes N] [--first K] [--seed S] [--verbose]
+ *   breech-stress [--targets] [--scenes N] [--first K] [--seed S] [--courant C] [--verbose]
  *
  * Scene i of a seed is always the same, so `--first i --scenes 1` repeats a single one.  Every scene must end with a
  * class or be refused with a text; a scene that ends is judged by what no physics may break, at every tenth step:
