@@ -280,8 +280,8 @@ static void check_open(const mpm *m, const brick *b, const bool *there)
     }
 }
 
-/* Cells that may share a node with another field, those within two of one of its cells along every axis, and open sides,
- * by looking at all pairs in three bricks an axis. */
+/* Cells that may share a node with another field, those within two of one of its cells along every axis, and open
+ * sides, by looking at all pairs in three bricks an axis. */
 static void test_cells_around(void **state)
 {
     (void)state;
