@@ -119,6 +119,8 @@ const mpm_scene *mpm_scene_of(const mpm *m); /* borrowed */
 size_t mpm_points(const mpm *m);
 /* out: mpm_points() x width doubles, owned by the caller. */
 void mpm_read(const mpm *m, mpm_field field, double *out);
+/* All fields in one walk over the points, rounded to float32: out[field] takes mpm_points() x width values. */
+void mpm_read_all(const mpm *m, float *const out[MPM_FIELD_COUNT]);
 
 /* Slices of equal width along an axis, each in two parts: its middle, and its sides beyond a part of the half width
  * across.  What lies beyond the half width is in none. */

@@ -268,12 +268,41 @@ static void test_stress_order(void **state)
     mpm_free(m);
 }
 
+/* All fields at once are what each alone is, rounded to float32: two bodies that meet, blocks with holes, on one thread
+ * and on two. */
+static void test_read_all(void **state)
+{
+    (void)state;
+    GOUGE_LOCAL(g);
+    scene_gouge(&g, 0.25e-3, 1500);
+    mpm *m = scene_make(&g.scene, 1);
+    scene_steps(m, 20);
+    for (int threads = 1; threads < 3; threads++) {
+        float *all[MPM_FIELD_COUNT];
+        double largest = 0;
+        mpm_set_threads(m, threads);
+        for (int f = 0; f < MPM_FIELD_COUNT; f++)
+            assert_non_null(all[f] = malloc(mpm_points(m) * (size_t)mpm_field_table[f].width * sizeof *all[f]));
+        mpm_read_all(m, all);
+        for (int f = 0; f < MPM_FIELD_COUNT; f++) {
+            double *alone = scene_read(m, (mpm_field)f);
+            for (size_t i = 0; i < mpm_points(m) * (size_t)mpm_field_table[f].width; i++) {
+                assert_true(all[f][i] == (float)alone[i]);
+                if (f == MPM_body) largest = fmax(largest, alone[i]);
+            }
+            free(alone), free(all[f]);
+        }
+        assert_true(largest > 0);
+    }
+    mpm_free(m);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_stress_order),    cmocka_unit_test(test_mass),
-                                        cmocka_unit_test(test_neighbours),      cmocka_unit_test(test_box),
-                                        cmocka_unit_test(test_overlap),         cmocka_unit_test(test_lattice),
-                                        cmocka_unit_test(test_seams),           cmocka_unit_test(test_sample),
-                                        cmocka_unit_test(test_estimate_of_many) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_read_all), cmocka_unit_test(test_stress_order),
+                                        cmocka_unit_test(test_mass),     cmocka_unit_test(test_neighbours),
+                                        cmocka_unit_test(test_box),      cmocka_unit_test(test_overlap),
+                                        cmocka_unit_test(test_lattice),  cmocka_unit_test(test_seams),
+                                        cmocka_unit_test(test_sample),   cmocka_unit_test(test_estimate_of_many) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,23 +59,27 @@ static void books_add(books *b, const double add[BOOKS])
     }
 }
 
+/* Of all lanes side by side, then added up one after the other. */
 static void balance_block(void *user, const mpm *m, const brick *b, int index)
 {
     const block *q = &m->blocks[index];
-    double add[BOOKS] = { 0 };
+    const double dt = level_dt_last(m, b->level);
+    double of_lane[BOOKS][LANES], add[BOOKS] = { 0 };
     for (int i = 0; i < LANES; i++) {
         const double M = q->mass[0][i];
         double square = 0;
         for (int k = 0; k < 3; k++) {
             const double v = q->v[k][i];
             square += v * v;
-            add[BOOK_MOMENTUM + k] += M * v;
+            of_lane[BOOK_MOMENTUM + k][i] = M * v;
         }
-        add[BOOK_MASS] += M;
-        add[BOOK_KINETIC] += M * (0.5 * square + q->ka[0][i]);
-        add[BOOK_INTERNAL] += M * q->e[0][i];
-        add[BOOK_AHEAD] += M * lane_work_ahead(q, i, level_dt_last(m, b->level));
+        of_lane[BOOK_MASS][i] = M;
+        of_lane[BOOK_KINETIC][i] = M * (0.5 * square + q->ka[0][i]);
+        of_lane[BOOK_INTERNAL][i] = M * q->e[0][i];
+        of_lane[BOOK_AHEAD][i] = M * lane_work_ahead(q, i, dt);
     }
+    for (int k = 0; k < BOOKS; k++)
+        for (int i = 0; i < LANES; i++) add[k] += of_lane[k][i];
     books_add(user, add);
 }
 
@@ -344,40 +348,53 @@ void mpm_sample_percentiles(mpm *m)
 
 /* ---- point fields ---- */
 
+enum { WIDEST = 6 }; /* values of a point in one field */
+
+typedef double row[LANES]; /* a value a lane */
+
 /* In the order that ParaView reads a symmetric tensor in: the last two of a block's are the other way round. */
-static void get_stress(const block *q, int l, double *out)
+static void stress_rows(const block *q, row *out)
 {
     static const int from[6] = { 0, 1, 2, 3, 5, 4 };
-    for (int i = 0; i < 6; i++) out[i] = q->s[from[i]][l] - (i < 3 ? q->p[0][l] : 0);
+    for (int i = 0; i < 6; i++)
+        for (int l = 0; l < LANES; l++) out[i][l] = q->s[from[i]][l] - (i < 3 ? q->p[0][l] : 0);
 }
 
-static void get_lane(const mpm *m, int index, int l, mpm_field field, double *out)
+/* A field's rows in a block: its own, or made in `made`. */
+static const row *field_rows(const mpm *m, int index, mpm_field field, row made[WIDEST])
 {
     const block *q = &m->blocks[index];
     switch (field) {
-    case MPM_position:
-        for (int k = 0; k < 3; k++) out[k] = q->x[k][l];
+    case MPM_position: return q->x;
+    case MPM_velocity: return q->v;
+    case MPM_stress: stress_rows(q, made); break;
+    case MPM_pressure: return q->p;
+    case MPM_mises:
+        for (int l = 0; l < LANES; l++) made[0][l] = lane_mises(q, l);
         break;
-    case MPM_velocity:
-        for (int k = 0; k < 3; k++) out[k] = q->v[k][l];
+    case MPM_plastic_strain: return q->ep;
+    case MPM_damage: return q->damage;
+    case MPM_temperature: return q->T;
+    case MPM_density: return q->rho;
+    case MPM_energy: return q->e;
+    case MPM_mass: return q->mass;
+    case MPM_size: return q->half;
+    case MPM_body:
+        for (int l = 0; l < LANES; l++) made[0][l] = m->links[index].body;
         break;
-    case MPM_stress: get_stress(q, l, out); break;
-    case MPM_pressure: out[0] = q->p[0][l]; break;
-    case MPM_mises: out[0] = lane_mises(q, l); break;
-    case MPM_plastic_strain: out[0] = q->ep[0][l]; break;
-    case MPM_damage: out[0] = q->damage[0][l]; break;
-    case MPM_temperature: out[0] = q->T[0][l]; break;
-    case MPM_density: out[0] = q->rho[0][l]; break;
-    case MPM_energy: out[0] = q->e[0][l]; break;
-    case MPM_mass: out[0] = q->mass[0][l]; break;
-    case MPM_size:
-        for (int k = 0; k < 3; k++) out[k] = q->half[k][l];
-        break;
-    case MPM_body: out[0] = m->links[index].body; break;
-    case MPM_start:
-        for (int k = 0; k < 3; k++) out[k] = q->start[k][l];
-        break;
+    case MPM_start: return q->start;
     case MPM_FIELD_COUNT: break;
+    }
+    return (const row *)made;
+}
+
+/* Points in front of each share of the bricks: where its values begin. */
+static void count_before(const mpm *m, size_t before[SHARES])
+{
+    size_t n = 0;
+    for (int i = 0, at = 0; i < SHARES; i++) {
+        before[i] = n;
+        for (; at < share_begin(m->bricks_used, i + 1); at++) n += (size_t)m->bricks[at].particles;
     }
 }
 
@@ -389,22 +406,54 @@ typedef struct {
 static void read_block(void *user, const mpm *m, const brick *b, int index)
 {
     (void)b;
+    row made[WIDEST];
     reading *r = user;
+    const row *from = field_rows(m, index, r->field, made);
     for (int l = 0; l < LANES; l++)
-        if (m->links[index].mask >> l & 1) {
-            get_lane(m, index, l, r->field, r->to);
-            r->to += mpm_field_table[r->field].width;
-        }
+        for (int k = 0; m->links[index].mask >> l & 1 && k < mpm_field_table[r->field].width; k++)
+            *r->to++ = from[k][l];
 }
 
 void mpm_read(const mpm *m, mpm_field field, double *out)
 {
     reading share[SHARES];
-    int at = 0;
-    for (int i = 0; i < SHARES; i++) {
-        share[i] = (reading){ field, out };
-        for (; at < share_begin(m->bricks_used, i + 1); at++)
-            out += (size_t)m->bricks[at].particles * (size_t)mpm_field_table[field].width;
-    }
+    size_t before[SHARES];
+    count_before(m, before);
+    for (int i = 0; i < SHARES; i++)
+        share[i] = (reading){ field, out + before[i] * (size_t)mpm_field_table[field].width };
     mpm_visit_shares(m, read_block, share, sizeof *share);
+}
+
+typedef struct {
+    float *to[MPM_FIELD_COUNT];
+} reading_all;
+
+static float *put_rows(const row *from, int width, uint8_t mask, float *to)
+{
+    for (int l = 0; l < LANES; l++)
+        for (int k = 0; mask >> l & 1 && k < width; k++) *to++ = (float)from[k][l];
+    return to;
+}
+
+static void read_all_of_block(void *user, const mpm *m, const brick *b, int index)
+{
+    (void)b;
+    row made[WIDEST];
+    reading_all *r = user;
+#define PUT(name, width, unit, doc) \
+    r->to[MPM_##name] =             \
+        put_rows(field_rows(m, index, MPM_##name, made), width, m->links[index].mask, r->to[MPM_##name]);
+    PARTICLE_FIELDS(PUT)
+#undef PUT
+}
+
+void mpm_read_all(const mpm *m, float *const out[MPM_FIELD_COUNT])
+{
+    reading_all share[SHARES];
+    size_t before[SHARES];
+    count_before(m, before);
+    for (int i = 0; i < SHARES; i++)
+        for (int f = 0; f < MPM_FIELD_COUNT; f++)
+            share[i].to[f] = out[f] + before[i] * (size_t)mpm_field_table[f].width;
+    mpm_visit_shares(m, read_all_of_block, share, sizeof *share);
 }
