@@ -31,6 +31,7 @@ endif()
 
 find_package(GSL REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS C)
+find_package(Threads REQUIRED)
 
 # Serial even where the OpenMPI flavour is installed beside it (pkg-config hdf5 would give that one).
 set(HDF5_PREFER_PARALLEL OFF)

@@ -9,16 +9,22 @@
 
 #define SCENE "scene " TINY " --set output.snapshots=2 --set scene.end_time='1.5 us' --quiet --threads 1 "
 
-/* Its exit code; 1000: by a signal. */
-static int killed(const char *arguments, const char *at, int count, int after)
+/* Its exit code; 1000: by a signal.  `what` is for killed_at.c. */
+static int run_with(const char *what, const char *arguments)
 {
     char command[2000];
     snprintf(command, sizeof command,
-             "KILLED_AT='%s' KILLED_COUNT=%d KILLED_AFTER=%d LD_PRELOAD='" BREECH_KILLED_AT
-             "' BREECH_MATERIALS= exec " BREECH_PROGRAM " %s >out.txt 2>err.txt",
-             at, count, after, arguments);
+             "%s LD_PRELOAD='" BREECH_KILLED_AT "' BREECH_MATERIALS= exec " BREECH_PROGRAM " %s >out.txt 2>err.txt",
+             what, arguments);
     const int state = system(command);
     return WIFSIGNALED(state) || WEXITSTATUS(state) > 128 ? 1000 : WEXITSTATUS(state);
+}
+
+static int killed(const char *arguments, const char *at, int count, int after)
+{
+    char what[200];
+    snprintf(what, sizeof what, "KILLED_AT='%s' KILLED_COUNT=%d KILLED_AFTER=%d", at, count, after);
+    return run_with(what, arguments);
 }
 
 /* All files below a folder, a line each, sorted. */
@@ -92,9 +98,42 @@ static void test_ending(void **state)
     assert_true(!full_tests() || n > 8);
 }
 
+/* Snapshots are written in the background: a checkpoint waits for those before it, however slow the disk. */
+static void test_checkpoint_waits(void **state)
+{
+    (void)state;
+    open_folder();
+    fresh_folder("killed/part");
+    assert_int_equal(run_with("LATE_AT=0.hdf KILLED_AT=part/checkpoint.bin KILLED_COUNT=1 KILLED_AFTER=1",
+                              SCENE "-o killed/part --max-walltime 0.2"),
+                     1000);
+    assert_int_equal(run(SCENE "-o killed/part --resume"), 0);
+    assert_as_whole("killed behind its checkpoint, on a slow disk");
+}
+
+/* A disk that is full by the first snapshot, or by the last, behind which no other comes, ends the run and says so. */
+static void test_full_disk(void **state)
+{
+    (void)state;
+    static const char *const files[] = { "scene-000000.hdf", "scene-000001.hdf", "scene.hdf.series" };
+    for (int i = 0; i < 3; i++) {
+        char what[60], message[80];
+        fresh_folder("killed");
+        snprintf(what, sizeof what, "FULL_AT=%s", files[i]);
+        snprintf(message, sizeof message, "%s: cannot be written: No space left on device", files[i]);
+        assert_int_equal(run_with(what, SCENE "-o killed/part"), 1);
+        assert_true(contains("err.txt", message));
+        assert_int_equal(files_in("killed/part/scenes/scene", ".part"), 0);
+        assert_int_equal(run(SCENE "-o killed/part --resume"), 0); /* room again */
+        assert_int_equal(files_in("killed/part/scenes/scene", ".hdf"), 2);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_checkpoint_waits),
+        cmocka_unit_test(test_full_disk),
         cmocka_unit_test(test_stopping),
         cmocka_unit_test(test_ending),
     };

@@ -2,6 +2,7 @@
 /* Output directory, files that appear at once, checkpoints, progress, stop requests. */
 #include "output_common.h"
 
+#include "coupling/host/background.h"
 #include "coupling/host/machine.h"
 #include "coupling/host/outdir.h"
 #include "coupling/host/progress.h"
@@ -11,6 +12,7 @@
 
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 static void put(const char *path, const char *text)
@@ -533,6 +535,57 @@ static void second_interrupt_ends_it(void **state)
     assert_int_equal(WEXITSTATUS(result), 128 + SIGINT);
 }
 
+/* ---- in the background ---- */
+
+/* A pipe takes the first file only when it is read: until then the caller goes on, and the second is not there. */
+static void files_are_written_behind_the_caller(void **state)
+{
+    (void)state;
+    fresh_folder("behind");
+    assert_int_equal(mkfifo("behind/a.part", 0666), 0);
+    background b = { .started = false };
+    OK(host_background_wait(&b));
+    const background_file file[BACKGROUND_FILES] = { { "behind/a", "one", 3 }, { "behind/b", "two", 3 } };
+    host_background_start(&b, file);
+    assert_false(host_file_exists("behind/a") || host_file_exists("behind/b"));
+    char text[4] = "";
+    FILE *reader = fopen("behind/a.part", "r");
+    assert_int_equal(fread(text, 1, 3, reader), 3);
+    assert_string_equal(text, "one");
+    const status pipe = host_background_wait(&b); /* which cannot be synchronised */
+    fclose(reader);
+    assert_int_equal(pipe.code, STATUS_IO);
+    assert_false(host_file_exists("behind/b")); /* what comes behind one that failed is not written */
+    OK(host_background_wait(&b));
+    host_background_start(&b, file);
+    OK(host_background_wait(&b));
+    assert_true(host_file_exists("behind/a") && host_file_exists("behind/b"));
+    assert_int_equal(files_in("behind", ".part"), 0);
+}
+
+/* A signal of the process comes to the thread that asks for it, not to the one that writes: while this one does not
+ * take it, nobody does. */
+static void signals_leave_the_writer_alone(void **state)
+{
+    (void)state;
+    sigset_t stop, before;
+    fresh_folder("behind");
+    assert_int_equal(mkfifo("behind/a.part", 0666), 0);
+    host_stop_install(NAN);
+    sigemptyset(&stop), sigaddset(&stop, SIGTERM);
+    background b = { .started = false };
+    host_background_start(&b, (background_file[BACKGROUND_FILES]){ { "behind/a", "", 0 }, { "behind/b", "", 0 } });
+    pthread_sigmask(SIG_BLOCK, &stop, &before);
+    kill(getpid(), SIGTERM);
+    usleep(20000);
+    assert_false(host_stop_requested());
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    assert_true(host_stop_requested());
+    fclose(fopen("behind/a.part", "r"));
+    host_background_wait(&b);
+    host_stop_install(NAN);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -557,6 +610,8 @@ int main(void)
         cmocka_unit_test(table_is_aligned),
         cmocka_unit_test(signals_ask_to_stop),
         cmocka_unit_test(second_interrupt_ends_it),
+        cmocka_unit_test(files_are_written_behind_the_caller),
+        cmocka_unit_test(signals_leave_the_writer_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -307,21 +307,25 @@ enum { PLATE_X = 6, ACROSS = 20, PLATE = PLATE_X * ACROSS * 4, BALL = 4 * 4 * 4 
 
 /* Points of 1 mm: a plate of 6 x 20 x 4 and a cube of 4 that flies along x, 4 mm before it; later it has gone through
  * and the plate has failed behind it.  The cut in z = 2 mm lies between points. */
-static void read_bodies(const void *source, mpm_field field, double *out)
+static void read_field(bool later, mpm_field field, float *out)
 {
-    const bool later = *(const bool *)source;
     memset(out, 0, (PLATE + BALL) * (size_t)mpm_field_table[field].width * sizeof *out);
     for (int i = 0; i < PLATE + BALL; i++) {
         const bool ball = i >= PLATE;
         const int k = ball ? i - PLATE : i, n = ball ? 4 : ACROSS;
-        const double x = k / (4 * n) + (ball ? (later ? 10.5 : -7.5) : 0.5), y = k / 4 % n + (ball ? 8.5 : 0.5),
-                     z = k % 4 + 0.5;
-        if (field == MPM_position) out[3 * i] = 1e-3 * x, out[3 * i + 1] = 1e-3 * y, out[3 * i + 2] = 1e-3 * z;
-        if (field == MPM_size) out[3 * i] = out[3 * i + 1] = out[3 * i + 2] = 0.5e-3;
-        if (field == MPM_velocity && ball) out[3 * i] = 1000.0;
+        const double x[3] = { k / (4 * n) + (ball ? (later ? 10.5 : -7.5) : 0.5), k / 4 % n + (ball ? 8.5 : 0.5),
+                              k % 4 + 0.5 };
+        for (int q = 0; field == MPM_position && q < 3; q++) out[3 * i + q] = (float)(1e-3 * x[q]);
+        for (int q = 0; field == MPM_size && q < 3; q++) out[3 * i + q] = (float)0.5e-3;
+        if (field == MPM_velocity && ball) out[3 * i] = 1000.0F;
         if (field == MPM_body) out[i] = ball;
-        if (field == MPM_damage) out[i] = later && !ball && y > 8.0 && y < 12.0;
+        if (field == MPM_damage) out[i] = later && !ball && x[1] > 8.0 && x[1] < 12.0;
     }
+}
+
+static void read_bodies(const void *source, float *const out[MPM_FIELD_COUNT])
+{
+    for (int f = 0; f < MPM_FIELD_COUNT; f++) read_field(*(const bool *)source, (mpm_field)f, out[f]);
 }
 
 /* Strips of one body in a picture: their area, in the square of its width. */

@@ -11,15 +11,16 @@ typedef struct {
     size_t n;
 } fake_particles;
 
-static void read_fake(const void *source, mpm_field field, double *out)
+static void read_fake(const void *source, float *const out[MPM_FIELD_COUNT])
 {
 #define FIELD_WIDTH(name, width, unit, doc) width,
-    static const int widths[] = { PARTICLE_FIELDS(FIELD_WIDTH) };
+    static const size_t widths[] = { PARTICLE_FIELDS(FIELD_WIDTH) };
 #undef FIELD_WIDTH
     const fake_particles *p = source;
-    for (size_t i = 0; i < p->n; i++)
-        for (int k = 0; k < widths[field]; k++)
-            out[i * (size_t)widths[field] + (size_t)k] = (double)(i * 128 + (size_t)field * 8) + k;
+    for (size_t field = 0; field < MPM_FIELD_COUNT; field++)
+        for (size_t i = 0; i < p->n; i++)
+            for (size_t k = 0; k < widths[field]; k++)
+                out[field][i * widths[field] + k] = (float)(i * 128 + field * 8 + k);
 }
 
 static status write_one(snapshots *s, size_t n, double time)
@@ -36,6 +37,7 @@ static void write_three(void)
     OK(write_one(s, 1000, 0.0));
     OK(write_one(s, 1500, 1e-6));
     OK(write_one(s, 3000, 2e-6));
+    OK(output_snapshots_wait(s));
     assert_int_equal(output_snapshots_count(s), 3);
     output_snapshots_close(s);
 }
@@ -90,23 +92,59 @@ static void resumed_scene_goes_on(void **state)
     output_snapshots_close(s);
 }
 
+static void assert_listed(const char *name, bool listed)
+{
+    char *index;
+    OK(host_file_read("snap/scene.hdf.series", &index, NULL));
+    assert_int_equal(strstr(index, name) != NULL, listed);
+    free(index);
+}
+
+/* The next call says it, be that the wait or the next snapshot, which is then not written either. */
 static void full_disk_leaves_no_half_snapshot(void **state)
+{
+    (void)state;
+    for (int next = 0; next < 2; next++) {
+        fresh_folder("snap");
+        snapshots *s;
+        OK(output_snapshots_open("snap", -1.0, &s));
+        assert_int_equal(symlink("/dev/full", "snap/scene-000000.hdf.part"), 0);
+        OK(write_one(s, 1000, 0.0));
+        const status full = next ? write_one(s, 1000, 1e-6) : output_snapshots_wait(s);
+        assert_int_equal(full.code, STATUS_IO);
+        assert_non_null(strstr(full.text, "scene-000000.hdf"));
+        assert_int_equal(files_in("snap", ".hdf"), 0);
+        assert_listed("scene-000000.hdf", false);
+        assert_int_equal(output_snapshots_count(s), 0);
+        OK(output_snapshots_wait(s)); /* said once */
+        OK(write_one(s, 1000, 0.0));  /* room again */
+        OK(output_snapshots_wait(s));
+        assert_int_equal(output_snapshots_count(s), 1);
+        assert_listed("scene-000000.hdf", true);
+        output_snapshots_close(s);
+    }
+    snapshots *s;
+    assert_int_equal(output_snapshots_open("snap/nowhere", -1.0, &s).code, STATUS_IO);
+    assert_null(s);
+}
+
+/* After the wait it is there, with the index that lists it, and stays so when more come. */
+static void waiting_puts_it_on_disk(void **state)
 {
     (void)state;
     fresh_folder("snap");
     snapshots *s;
     OK(output_snapshots_open("snap", -1.0, &s));
-    assert_int_equal(symlink("/dev/full", "snap/scene-000000.hdf.part"), 0);
-    const status full = write_one(s, 1000, 0.0);
-    assert_int_equal(full.code, STATUS_IO);
-    assert_non_null(strstr(full.text, "scene-000000.hdf"));
-    assert_int_equal(files_in("snap", ".hdf"), 0);
-    assert_int_equal(output_snapshots_count(s), 0);
-    OK(write_one(s, 1000, 0.0)); /* room again */
-    assert_int_equal(output_snapshots_count(s), 1);
+    for (int i = 0; i < 20; i++) {
+        char name[40];
+        OK(write_one(s, 5000, 1e-6 * i));
+        OK(output_snapshots_wait(s));
+        assert_int_equal(files_in("snap", ".hdf"), i + 1);
+        snprintf(name, sizeof name, "scene-%06d.hdf", i);
+        assert_listed(name, true);
+    }
     output_snapshots_close(s);
-    assert_int_equal(output_snapshots_open("snap/nowhere", -1.0, &s).code, STATUS_IO);
-    assert_null(s);
+    OK(output_snapshots_wait(NULL));
 }
 
 static void paraview_reads_it(void **state)
@@ -126,9 +164,9 @@ static void paraview_reads_it(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(structure_is_vtkhdf),   cmocka_unit_test(field_list_is_complete),
-        cmocka_unit_test(resumed_scene_goes_on), cmocka_unit_test(full_disk_leaves_no_half_snapshot),
-        cmocka_unit_test(paraview_reads_it),
+        cmocka_unit_test(structure_is_vtkhdf),     cmocka_unit_test(field_list_is_complete),
+        cmocka_unit_test(resumed_scene_goes_on),   cmocka_unit_test(full_disk_leaves_no_half_snapshot),
+        cmocka_unit_test(waiting_puts_it_on_disk), cmocka_unit_test(paraview_reads_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

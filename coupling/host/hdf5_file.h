@@ -36,8 +36,8 @@ typedef struct {
 status host_h5_create(h5_file **out);
 status host_h5_open(const char *path, h5_file **out); /* a copy in memory; the file itself is not kept open */
 status host_h5_save(h5_file *f, const char *path);
-/* The file as bytes, and back; *image is malloc'ed, the caller frees it.  what: names it in messages. */
-status host_h5_image(h5_file *f, void **image, size_t *bytes);
+/* The file as bytes, borrowed until it is changed or closed; and back.  what: names it in messages. */
+status host_h5_image(h5_file *f, const void **image, size_t *bytes);
 status host_h5_open_image(const char *what, const void *image, size_t bytes, h5_file **out);
 void host_h5_close(h5_file *f); /* NULL allowed; saves nothing */
 

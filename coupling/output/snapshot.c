@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/output/snapshot.h"
 
+#include "coupling/host/background.h"
 #include "coupling/host/hdf5_file.h"
 #include "coupling/host/outdir.h"
 
@@ -13,13 +14,25 @@
 
 #define INDEX_NAME "scene.hdf.series"
 
-enum { FILE_SIZE = 32, MAX_WIDTH = 6, VTK_VERTEX = 1 };
+#define PLUS_WIDTH(name, width, unit, description) +width
+enum { FILE_SIZE = 32, VTK_VERTEX = 1, VALUES = PARTICLE_FIELDS(PLUS_WIDTH) /* of a particle */ };
+
+/* What is being written in the background: a snapshot, then the index that lists it. */
+typedef struct {
+    background files;
+    char path[OUTDIR_PATH_SIZE], index_path[OUTDIR_PATH_SIZE];
+    h5_file *file; /* owned */
+    char *index;   /* owned */
+} snapshot_order;
 
 struct snapshots {
     char dir[OUTDIR_PATH_SIZE];
-    snapshot_sink sink;
+    snapshot_sink sink; /* put NULL: the files are ours to write */
     int n, room;
     double *time; /* n, owned [s] */
+    size_t points;
+    float *value; /* VALUES x points of them, owned; taken once, as most snapshots need as much as the last */
+    snapshot_order order;
 };
 
 static void file_name(int i, char name[FILE_SIZE])
@@ -49,12 +62,6 @@ static status add_time(snapshots *s, double time)
 
 /* ---- the index, and what an earlier run left ---- */
 
-static status put_file(void *user, const char *path, const void *data, size_t bytes)
-{
-    (void)user;
-    return host_file_write(path, data, bytes);
-}
-
 static void print_index(const snapshots *s, FILE *out)
 {
     fputs("{ \"file-series-version\": \"1.0\",\n  \"files\": [", out);
@@ -66,17 +73,24 @@ static void print_index(const snapshots *s, FILE *out)
     fputs("\n  ] }\n", out);
 }
 
-static status write_index(const snapshots *s)
+static status make_index(const snapshots *s, char **text, size_t *bytes)
 {
-    char path[OUTDIR_PATH_SIZE], *text = NULL;
-    size_t bytes = 0;
-    TRY(full_path(s, INDEX_NAME, path));
-    FILE *out = open_memstream(&text, &bytes);
+    FILE *out = open_memstream(text, bytes);
     CHECK(out, STATUS_MEMORY, "no memory for the list of snapshots");
     print_index(s, out);
-    const bool whole = fclose(out) == 0;
-    const status done = whole ? s->sink.put(s->sink.user, path, text, bytes)
-                              : base_status_error(STATUS_MEMORY, "no memory for the list of snapshots");
+    if (fclose(out) == 0) return status_ok();
+    free(*text);
+    *text = NULL;
+    return base_status_error(STATUS_MEMORY, "no memory for the list of snapshots");
+}
+
+static status write_first_index(const snapshots *s)
+{
+    char path[OUTDIR_PATH_SIZE], *text;
+    size_t bytes;
+    TRY(full_path(s, INDEX_NAME, path));
+    TRY(make_index(s, &text, &bytes));
+    const status done = s->sink.put ? s->sink.put(s->sink.user, path, text, bytes) : host_file_write(path, text, bytes);
     free(text);
     return done;
 }
@@ -127,11 +141,11 @@ static void remove_others(const snapshots *s)
 
 static status open_list(snapshots *s, double resume_time)
 {
-    if (s->sink.put == put_file) {
+    if (!s->sink.put) {
         TRY(read_index(s, resume_time));
         remove_others(s);
     }
-    return write_index(s);
+    return write_first_index(s);
 }
 
 static status open_with(const char *dir, const snapshot_sink *sink, double resume_time, snapshots **out)
@@ -151,12 +165,25 @@ static status open_with(const char *dir, const snapshot_sink *sink, double resum
 
 status output_snapshots_open(const char *dir, double resume_time, snapshots **out)
 {
-    return open_with(dir, &(snapshot_sink){ put_file, NULL }, resume_time, out);
+    return open_with(dir, &(snapshot_sink){ NULL, NULL }, resume_time, out);
 }
 
 status output_snapshots_open_sink(const char *dir, const snapshot_sink *sink, snapshots **out)
 {
     return open_with(dir, sink, -1.0, out);
+}
+
+/* One that could not be written is none. */
+status output_snapshots_wait(snapshots *s)
+{
+    if (!s) return status_ok();
+    snapshot_order *o = &s->order;
+    const status done = host_background_wait(&o->files);
+    if (done.code != STATUS_OK) s->n--;
+    host_h5_close(o->file);
+    free(o->index);
+    o->file = NULL, o->index = NULL;
+    return done;
 }
 
 int output_snapshots_count(const snapshots *s)
@@ -167,103 +194,115 @@ int output_snapshots_count(const snapshots *s)
 void output_snapshots_close(snapshots *s)
 {
     if (!s) return;
+    output_snapshots_wait(s);
     free(s->time);
+    free(s->value);
     free(s);
 }
 
 /* ---- one file ---- */
 
-typedef struct {
-    mpm_field field;
-    const char *name;
-    int width;
-    const char *unit, *description;
-} field_entry;
-
-#define FIELD_ENTRY(name, width, unit, description) { MPM_##name, #name, width, unit, description },
-static const field_entry fields[] = { PARTICLE_FIELDS(FIELD_ENTRY) };
-
-typedef struct {
-    h5_file *file;
-    const snapshot_source *source;
-    double *value; /* n x MAX_WIDTH */
-    float *single; /* n x MAX_WIDTH */
-} writer;
-
-static status write_field(writer *w, const field_entry *f)
+static status write_field(h5_file *file, mpm_field field, size_t n, const float *value)
 {
-    const size_t n = w->source->n, values = n * (size_t)f->width;
+    const mpm_field_info *f = &mpm_field_table[field];
     char path[100];
-    if (f->field == MPM_position)
+    if (field == MPM_position)
         snprintf(path, sizeof path, "/VTKHDF/Points");
     else
         snprintf(path, sizeof path, "/VTKHDF/PointData/%s", f->name);
-    w->source->read(w->source->source, f->field, w->value);
-    for (size_t i = 0; i < values; i++) w->single[i] = (float)w->value[i];
-    return host_h5_write(w->file, &(h5_name){ path, f->unit, f->description },
-                         &(h5_array){ H5_FLOAT, f->width > 1 ? 2 : 1, { n, (size_t)f->width }, w->single });
+    return host_h5_write(file, &(h5_name){ path, f->unit, f->doc },
+                         &(h5_array){ H5_FLOAT, f->width > 1 ? 2 : 1, { n, (size_t)f->width }, value });
 }
 
-static status write_ints(writer *w, const char *path, const int64_t *values, size_t n)
+static status write_fields(h5_file *file, const snapshot_source *source, float *value)
 {
-    return host_h5_write(w->file, &(h5_name){ path, NULL, NULL }, &(h5_array){ H5_INT64, 1, { n }, values });
+    float *at[MPM_FIELD_COUNT];
+    for (int f = 0; f < MPM_FIELD_COUNT; f++) {
+        at[f] = value;
+        value += source->n * (size_t)mpm_field_table[f].width;
+    }
+    source->read(source->source, at);
+    for (int f = 0; f < MPM_FIELD_COUNT; f++) TRY(write_field(file, (mpm_field)f, source->n, at[f]));
+    return status_ok();
 }
 
-/* One vertex cell a particle: cell i is point i. */
-static status write_cells(writer *w)
+static status write_ints(h5_file *file, const char *path, const int64_t *values, size_t n)
 {
-    const size_t n = w->source->n;
+    return host_h5_write(file, &(h5_name){ path, NULL, NULL }, &(h5_array){ H5_INT64, 1, { n }, values });
+}
+
+/* One vertex cell a particle: cell i is point i.  room: VALUES x 4 bytes a particle hold n + 1 numbers, and n kinds. */
+static status write_cells(h5_file *file, size_t n, void *room)
+{
     const int64_t count = (int64_t)n;
-    int64_t *offset = (int64_t *)(void *)w->value; /* MAX_WIDTH x 8 bytes a particle hold n + 1 of them, n >= 1 */
-    uint8_t *kind = (uint8_t *)(void *)w->single;
+    int64_t *offset = room;
+    uint8_t *kind = (uint8_t *)(offset + n + 1);
     for (size_t i = 0; i <= n; i++) offset[i] = (int64_t)i;
     memset(kind, VTK_VERTEX, n);
-    TRY(write_ints(w, "/VTKHDF/NumberOfPoints", &count, 1));
-    TRY(write_ints(w, "/VTKHDF/NumberOfCells", &count, 1));
-    TRY(write_ints(w, "/VTKHDF/NumberOfConnectivityIds", &count, 1));
-    TRY(write_ints(w, "/VTKHDF/Offsets", offset, n + 1));
-    TRY(write_ints(w, "/VTKHDF/Connectivity", offset, n));
-    return host_h5_write(w->file, &(h5_name){ "/VTKHDF/Types", NULL, NULL }, &(h5_array){ H5_UINT8, 1, { n }, kind });
+    TRY(write_ints(file, "/VTKHDF/NumberOfPoints", &count, 1));
+    TRY(write_ints(file, "/VTKHDF/NumberOfCells", &count, 1));
+    TRY(write_ints(file, "/VTKHDF/NumberOfConnectivityIds", &count, 1));
+    TRY(write_ints(file, "/VTKHDF/Offsets", offset, n + 1));
+    TRY(write_ints(file, "/VTKHDF/Connectivity", offset, n));
+    return host_h5_write(file, &(h5_name){ "/VTKHDF/Types", NULL, NULL }, &(h5_array){ H5_UINT8, 1, { n }, kind });
 }
 
-static status write_all(writer *w)
+static status write_all(h5_file *file, const snapshot_source *source, float *room)
 {
     const int64_t version[2] = { 1, 0 };
-    TRY(host_h5_group(w->file, "/VTKHDF"));
-    TRY(host_h5_attribute_ints(w->file, "/VTKHDF", "Version", version, 2));
-    TRY(host_h5_attribute_text(w->file, "/VTKHDF", "Type", "UnstructuredGrid"));
-    TRY(write_cells(w));
-    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) TRY(write_field(w, &fields[i]));
-    return host_h5_write(w->file, &(h5_name){ "/VTKHDF/FieldData/time", "s", "of the scene" },
-                         &(h5_array){ H5_DOUBLE, 1, { 1 }, &w->source->time });
+    TRY(host_h5_group(file, "/VTKHDF"));
+    TRY(host_h5_attribute_ints(file, "/VTKHDF", "Version", version, 2));
+    TRY(host_h5_attribute_text(file, "/VTKHDF", "Type", "UnstructuredGrid"));
+    TRY(write_cells(file, source->n, room));
+    TRY(write_fields(file, source, room));
+    return host_h5_write(file, &(h5_name){ "/VTKHDF/FieldData/time", "s", "of the scene" },
+                         &(h5_array){ H5_DOUBLE, 1, { 1 }, &source->time });
 }
 
-static status put_image(const snapshots *s, h5_file *file, const char *path)
+static status make_room(snapshots *s, size_t points)
 {
-    void *image;
-    size_t bytes;
-    TRY(host_h5_image(file, &image, &bytes));
-    const status done = s->sink.put(s->sink.user, path, image, bytes);
-    free(image);
-    return done;
+    if (points <= s->points) return status_ok();
+    free(s->value);
+    s->value = malloc(points * VALUES * sizeof *s->value);
+    s->points = s->value ? points : 0;
+    CHECK(s->value, STATUS_MEMORY, "no memory for a snapshot of %zu particles", points);
+    return status_ok();
 }
 
+/* Of the order's file, which counts as written from here on. */
+static status hand_over(snapshots *s, double time)
+{
+    char name[FILE_SIZE];
+    snapshot_order *o = &s->order;
+    background_file file[BACKGROUND_FILES] = { { .path = o->path }, { .path = o->index_path } };
+    file_name(s->n, name);
+    TRY(full_path(s, name, o->path));
+    TRY(full_path(s, INDEX_NAME, o->index_path));
+    TRY(host_h5_image(o->file, &file[0].data, &file[0].bytes));
+    TRY(add_time(s, time));
+    TRY(make_index(s, &o->index, &file[1].bytes));
+    file[1].data = o->index;
+    if (!s->sink.put) {
+        host_background_start(&o->files, file);
+        return status_ok();
+    }
+    for (int i = 0; i < BACKGROUND_FILES; i++)
+        TRY(s->sink.put(s->sink.user, file[i].path, file[i].data, file[i].bytes));
+    return status_ok();
+}
+
+/* The next one is made while the last one is still being written: two are in memory at most. */
 status output_snapshots_write_source(snapshots *s, const snapshot_source *source)
 {
-    char name[FILE_SIZE], path[OUTDIR_PATH_SIZE];
-    file_name(s->n, name);
-    TRY(full_path(s, name, path));
-    const size_t room = (source->n + 1) * MAX_WIDTH;
-    writer w = { .source = source, .value = malloc(room * sizeof(double)), .single = malloc(room * sizeof(float)) };
-    status result = w.value && w.single
-                        ? host_h5_create(&w.file)
-                        : base_status_error(STATUS_MEMORY, "no memory for a snapshot of %zu particles", source->n);
-    if (result.code == STATUS_OK) result = write_all(&w);
-    free(w.value);
-    free(w.single);
-    if (result.code == STATUS_OK) result = put_image(s, w.file, path);
-    host_h5_close(w.file);
-    if (result.code != STATUS_OK) return result;
-    TRY(add_time(s, source->time));
-    return write_index(s);
+    h5_file *file;
+    TRY(make_room(s, source->n));
+    TRY(host_h5_create(&file));
+    status result = write_all(file, source, s->value);
+    if (result.code == STATUS_OK) result = output_snapshots_wait(s);
+    if (result.code != STATUS_OK) {
+        host_h5_close(file);
+        return result;
+    }
+    s->order.file = file;
+    return hand_over(s, source->time);
 }

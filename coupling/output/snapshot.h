@@ -21,16 +21,19 @@ typedef struct {
     void *user;                                                                  /* borrowed */
 } snapshot_sink;
 status output_snapshots_open_sink(const char *dir, const snapshot_sink *sink, snapshots **out);
+/* The file and the index that lists it are written while the program goes on: STATUS_IO, disk full, comes from the next
+ * call, or from the wait, which must come before what relies on them: a checkpoint, or the scene's end. */
 status output_snapshots_write(snapshots *s, const mpm *m);
+status output_snapshots_wait(snapshots *s); /* NULL allowed */
 int output_snapshots_count(const snapshots *s);
-void output_snapshots_close(snapshots *s); /* NULL allowed */
+void output_snapshots_close(snapshots *s); /* waits; NULL allowed */
 
 /* What a snapshot holds, without a solver: for tests and other writers. */
 typedef struct {
     double time; /* [s] */
     size_t n;
-    void (*read)(const void *source, mpm_field field, double *out); /* as mpm_read */
-    const void *source;                                             /* borrowed */
+    void (*read)(const void *source, float *const out[MPM_FIELD_COUNT]); /* as mpm_read_all */
+    const void *source;                                                  /* borrowed */
 } snapshot_source;
 status output_snapshots_write_source(snapshots *s, const snapshot_source *source);
 

@@ -109,14 +109,12 @@ static status compute_case(work *w, const scene_order *order, const case_inputs 
 static status answer(const member *me, uint64_t key, status done, h5_file *file)
 {
     scene_answer head = { .key = key };
-    void *image;
+    const void *image;
     size_t bytes;
     for (int i = 0; i < SCENE_SHELF_ROOM; i++) head.shelf[i] = me->shelf.item[i].twin;
     if (done.code != STATUS_OK) return run_crew_say(0, SAY_FAILED, &head, sizeof head, &done, sizeof done);
     TRY(host_h5_image(file, &image, &bytes));
-    const status said = run_crew_say(0, SAY_DONE, &head, sizeof head, image, bytes);
-    free(image);
-    return said;
+    return run_crew_say(0, SAY_DONE, &head, sizeof head, image, bytes);
 }
 
 static status take_order(member *me, const message *m)

@@ -156,15 +156,13 @@ static seal seal_of(const void *image, size_t bytes)
 
 static status write_sealed(const char *path, h5_file *file)
 {
-    void *image;
+    const void *image;
     size_t bytes;
     TRY(host_h5_image(file, &image, &bytes));
-    char *all = realloc(image, bytes + sizeof(seal));
-    if (!all) {
-        free(image);
-        return base_status_error(STATUS_MEMORY, "%.300s: no memory for %zu bytes", path, bytes);
-    }
-    const seal last = seal_of(all, bytes);
+    char *all = malloc(bytes + sizeof(seal));
+    CHECK(all, STATUS_MEMORY, "%.300s: no memory for %zu bytes", path, bytes);
+    const seal last = seal_of(image, bytes);
+    memcpy(all, image, bytes);
     memcpy(all + bytes, &last, sizeof last);
     const status done = host_file_write(path, all, bytes + sizeof last);
     free(all);

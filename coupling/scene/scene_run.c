@@ -40,11 +40,22 @@ static double progress_of(const run *r, const mpm_report *now)
     return fmin(now->time / r->job->last_time, 1.0);
 }
 
+/* Until the snapshots so far are on disk. */
+static status await_snapshots(const run *r)
+{
+    if (!r->shots) return status_ok();
+    const double since = host_wall_clock();
+    TRY(output_snapshots_wait(r->shots));
+    book(r->host, "snapshots", since);
+    return status_ok();
+}
+
 /* A large scene's checkpoints come further apart than asked for, lest they take more than a twentieth of the time. */
 static status save(run *r)
 {
     enum { SHARE = 20 };
     const scene_host *h = r->host;
+    TRY(await_snapshots(r));
     const double since = host_wall_clock();
     if (h->save) {
         TRY(h->save(h->user, r->job->name, &(scene_now){ r->m, r->job->watch, wall_spent(r) }));
@@ -283,6 +294,7 @@ static status run_made(run *r, scene_outcome *out)
     if (r->host->progress)
         host_progress_task(r->host->progress, r->job->task, progress_of(r, &state), state.particle_steps);
     TRY(advance(r));
+    TRY(await_snapshots(r));
     TRY(finish(r, out, &keep));
     const bool shelved = keep && r->host->shelf && r->job->twin && !r->job->whole;
     return shelved && r->reached < r->piece_end ? shelve(r) : status_ok();
