@@ -26,7 +26,8 @@ static double growth_dies = 1.0;      /* how much steeper it is below zero */
 static double growth_jumps = 0.0; /* so far from the threshold it is three e-folds further off zero [m/s]; 0: never */
 static double grid_noise = 0.0;   /* of the growth, by a cell's shift along x [e-folds] */
 
-static double tear_drops = 0.0; /* [m/s]; 0: shapes are not made up */
+static double by_thickness = 0.0; /* of each layer [m/s/m] */
+static double tear_drops = 0.0;   /* [m/s]; 0: shapes are not made up */
 
 /* Severity of a made-up scene: a line in velocity; a harder, colder or layered rail, a steeper lead face and a grid
  * that is shifted gouge later. */
@@ -39,6 +40,7 @@ static double made_up_threshold(const case_impact *of)
     for (int i = 0; i < of->rail.layers.n; i++) {
         const case_layer *layer = &of->rail.layers.item[i];
         v += 80.0 * layer->yield_scale + (strcmp(layer->material, "steel_4340") == 0 ? 200.0 : 0.0);
+        v += by_thickness * layer->thickness;
     }
     return v;
 }
@@ -276,6 +278,21 @@ static void test_refusals(void **state)
         snprintf(text, sizeof text, HEAD "%s", wrong[k].text);
         char *errors = errors_of(text, ALL);
         if (!strstr(errors, wrong[k].says)) fail_msg("`%s` is not in:\n%s", wrong[k].says, errors);
+        free(errors);
+    }
+    /* no armature metal to keep; nor is there a wear rate of a metre */
+    static const char *const set[] = { "study.deposit_kept=0.5",
+                                       "rail.layers=[{material: ofhc_copper, thickness: 1 mm, wear_rate: 1 m2/N}]" };
+    static const char *const told[] = { "study.deposit_kept = 0.5: the armature leaves no metal",
+                                        "wear_rate = 1 m2/N" };
+    for (int k = 0; k < 2; k++) {
+        const char *const dirs[] = { BREECH_TESTS "/../cases/materials" };
+        const case_options how = { dirs, 1, CASE_FOR_ONSET };
+        const case_text from = { HEAD GRAINS, strlen(HEAD GRAINS), "test/case.yaml", &set[k], 1 };
+        breech_case *none = NULL;
+        char *errors = NULL;
+        assert_int_equal(case_read_memory(&from, &how, &none, &errors).code, STATUS_BAD_INPUT);
+        if (!errors || !strstr(errors, told[k])) fail_msg("`%s` is not in:\n%s", told[k], errors ? errors : "nothing");
         free(errors);
     }
     breech_case *c = read(HEAD GRAINS "treatments: [{name: flat, lead_angle: {angle: 2 deg}}]\n", ALL);
@@ -711,7 +728,7 @@ static void test_uncertain_inputs(void **state)
     assert_true(r->threshold_interval[0] < sure.threshold_interval[0] &&
                 r->threshold_interval[1] > sure.threshold_interval[1]);
     assert_true(fabs(a.grains.family[0].surface.reference.allowance - both) < 6.0); /* the random shots draw from it */
-    const threshold_result *warm = &a.rail.warm.family[0].surface.reference;
+    const threshold_result *warm = &a.rail.changed[MC_WARMTH].grains.family[0].surface.reference;
     assert_true(fabs(warm->allowance - hypot(0.1 * warm->velocity, INPUTS)) < 6.0);
     const case_study *near = &a.uncertain.of[0].c->study;
     const double threshold = a.grains.family[0].surface.reference.velocity;
@@ -861,7 +878,7 @@ static void test_scatter(void **state)
                     6.0);
     assert_true(r->threshold_interval[0] < sure.result.threshold_interval[0] &&
                 r->threshold_interval[1] > sure.result.threshold_interval[1]);
-    const threshold_result *warm = &a.rail.warm.family[0].surface.reference;
+    const threshold_result *warm = &a.rail.changed[MC_WARMTH].grains.family[0].surface.reference;
     assert_true(fabs(warm->allowance - hypot(0.1 * warm->velocity, want)) < 6.0);
     int shifted = 0;
     for (int i = 0; i < r->n_scenes; i++) shifted += strstr(r->scene[i].name, "-growth-e") != NULL;
@@ -1172,6 +1189,103 @@ static void test_shots_strip_the_rail(void **state)
     }
 }
 
+/* A layer of 40 um that every shot wears: by as much each time, as (O-6) says of the shot's force, and the threshold
+ * goes with the thickness that is left. */
+static void test_shots_wear_layers(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD "populations:\n  - {preset: debris, radius_median: 0.3 mm}\n", CASE_FOR_ONSET);
+    case_layer layer = { .thickness = 40e-6, .yield_scale = 1.0, .bond_strength = NAN, .wear_rate = 1.5e-12 };
+    const case_layers none = c->rail.layers;
+    snprintf(layer.material, sizeof layer.material, "ofhc_copper");
+    c->rail.layers = (case_layers){ 1, &layer };
+    c->study.velocity_interval = 0.02;
+    c->study.shots = 4;
+    c->study.heat_kept = 0.0;
+    by_thickness = 5e6; /* 200 m/s for the whole layer */
+    onset_answer a = studied(c, "worn", status_ok());
+    const onset_shot *each = a.result.shot;
+    double force = 0.0; /* the largest from velocity_low on */
+    for (int i = 0; i < a.flown.n_trace; i++)
+        if (a.flown.trace[i].v >= c->study.velocity_low)
+            force = fmax(force, a.flown.trace[i].pressure * c->armature.contact_length * c->armature.contact_width);
+    assert_true(each[0].layer_worn == 0.0 && each[0].threshold_velocity == a.result.threshold_velocity);
+    for (int k = 1; k < 4; k++) {
+        const double worn = k * layer.wear_rate * force / c->armature.contact_width;
+        print_message("shot %d finds %.3g um worn, by hand %.3g\n", k + 1, 1e6 * each[k].layer_worn, 1e6 * worn);
+        assert_true(worn > k * 2e-6 && worn < 39e-6);
+        assert_true(fabs(each[k].layer_worn / worn - 1.0) < 1e-3); /* places of 3 mm */
+        assert_true(fabs(each[k].threshold_velocity - (each[0].threshold_velocity - by_thickness * worn)) < 15.0);
+        assert_true(each[k].expected_gouges > each[k - 1].expected_gouges);
+    }
+    assert_true(isnan(each[1].deposit));
+    assert_true(scenes_named(&a, "worn-") > 0 && scenes_named(&a, "plated-") == 0);
+    assert_true(a.rail.changed[MC_WEAR].layers.n == 1);
+    assert_true(fabs(a.rail.changed[MC_WEAR].layers.item[0].thickness - (40e-6 - each[3].layer_worn)) < 1e-12);
+    assert_null(strstr(warned, "wear_rate"));
+    study_onset_answer_free(&a);
+    layer.wear_rate = 1e-9; /* gone with the first shot: the rail itself, which nothing wears */
+    a = studied(c, "worn-through", status_ok());
+    assert_true(fabs(a.result.shot[3].layer_worn - 40e-6) < 1e-12 && a.rail.changed[MC_WEAR].layers.n == 0);
+    assert_true(fabs(a.result.shot[1].threshold_velocity - 1400.0) < 20.0);
+    study_onset_answer_free(&a);
+    layer.wear_rate = NAN; /* nothing is known: nothing is worn, and that is said */
+    a = studied(c, "unworn", status_ok());
+    each = a.result.shot;
+    assert_true(isnan(each[3].layer_worn) && each[3].threshold_velocity == each[0].threshold_velocity);
+    assert_int_equal(scenes_named(&a, "worn-"), 0);
+    assert_non_null(strstr(warned, "a layer of ofhc_copper has no wear_rate"));
+    study_onset_answer_free(&a);
+    by_thickness = 0.0;
+    c->rail.layers = none;
+    case_free(c);
+}
+
+/* The armature's metal adds up from shot to shot, study.deposit_kept of it each time; the scenes know it once it is a
+ * cell thick. */
+static void test_shots_plate_the_rail(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD "populations:\n  - {preset: debris, radius_median: 0.3 mm}\n", CASE_FOR_ONSET);
+    c->study.velocity_interval = 0.02;
+    c->study.shots = 4;
+    c->study.heat_kept = 0.0;
+    c->study.deposit_kept = 0.5;
+    c->armature.contact_voltage = 30.0;
+    c->armature.wear_fraction = 0.05;
+    by_thickness = 5e6;
+    onset_answer thin = studied(c, "thin-metal", status_ok());
+    const onset_shot *each = thin.result.shot;
+    const double first = each[1].deposit;
+    print_message("%.3g um of metal after one shot\n", 1e6 * first);
+    assert_true(each[0].deposit == 0.0 && first > 1e-6 && first < 100e-6 && isnan(each[1].layer_worn));
+    for (int k = 2; k < 4; k++) assert_true(fabs(each[k].deposit / (0.5 * each[k - 1].deposit + first) - 1.0) < 1e-9);
+    assert_int_equal(scenes_named(&thin, "plated-"), 0);
+    assert_non_null(strstr(warned, "is thinner than a cell of"));
+    assert_true(each[3].threshold_velocity == each[0].threshold_velocity);
+    const surface_plan *plan = &thin.grains.family[0].plan;
+    c->study.fine_cells_per_radius = plan->size[plan->reference] / (0.9 * each[3].deposit);
+    study_onset_answer_free(&thin);
+    onset_answer thick = studied(c, "thick-metal", status_ok());
+    each = thick.result.shot;
+    assert_true(each[1].deposit == first && scenes_named(&thick, "plated-") > 0);
+    assert_null(strstr(warned, "thinner than a cell"));
+    const case_layers *layers = &thick.rail.changed[MC_METAL].layers;
+    assert_true(layers->n == 1 && layers->item[0].thickness == each[3].deposit && isnan(layers->item[0].bond_strength));
+    assert_string_equal(layers->item[0].material, "al7075_t651");
+    const double added = 80.0 + by_thickness * each[3].deposit; /* this made-up rail with its metal */
+    for (int k = 1; k < 4; k++)
+        assert_true(fabs(each[k].threshold_velocity - each[0].threshold_velocity -
+                         added * each[k].deposit / each[3].deposit) < 25.0);
+    study_onset_answer_free(&thick);
+    c->study.deposit_kept = 0.0; /* wiped off */
+    onset_answer clean = studied(c, "wiped", status_ok());
+    assert_true(clean.result.shot[3].deposit == 0.0 && scenes_named(&clean, "plated-") == 0);
+    study_onset_answer_free(&clean);
+    by_thickness = 0.0;
+    case_free(c);
+}
+
 static int scenes_begin(const compare_answer *a, const char *prefix)
 {
     int n = 0;
@@ -1195,7 +1309,7 @@ static void test_shots_compared(void **state)
     OK(run_compare(c, "one-shot", &a));
     assert_int_equal(a.result.shots, 1);
     for (int i = 0; i < a.result.n; i++) assert_true(a.entry[i].gouges == a.entry[i].last_gouges);
-    assert_true(scenes_begin(&a, "warm-") == 0 && a.answer[1].rail.bare.n == 0);
+    assert_true(scenes_begin(&a, "warm-") == 0 && a.answer[1].rail.bare.grains.n == 0);
     const double loose_once = entry_of(&a, "loose")->gouges, plain_once = entry_of(&a, "untreated")->gouges;
     study_compare_answer_free(&a);
     c->study.shots = 6;
@@ -1204,7 +1318,8 @@ static void test_shots_compared(void **state)
     const compare_entry plain = *entry_of(&a, "untreated"), loose = *entry_of(&a, "loose");
     assert_true(scenes_begin(&a, "warm-") > 0 && scenes_begin(&a, "t1-warm-") > 0);
     /* a layer of 0.05 mm is gone: then its rail is the untreated one, whose scenes serve */
-    assert_true(a.answer[1].rail.bare.n > 0 && a.answer[0].rail.bare.n == 0 && scenes_begin(&a, "t1-bare-") == 0);
+    assert_true(a.answer[1].rail.bare.grains.n > 0 && a.answer[0].rail.bare.grains.n == 0 &&
+                scenes_begin(&a, "t1-bare-") == 0);
     assert_true(plain.last_gouges > 1.005 * plain_once && plain.gouges > plain_once);
     assert_true(loose.last_gouges > 1.01 * loose_once && loose.gouges > loose_once);
     assert_true(plain.gouges_interval[0] <= plain.gouges && plain.gouges <= plain.gouges_interval[1]);
@@ -1263,6 +1378,8 @@ int main(void)
         cmocka_unit_test(test_range),
         cmocka_unit_test(test_shots_warm_the_rail),
         cmocka_unit_test(test_shots_strip_the_rail),
+        cmocka_unit_test(test_shots_wear_layers),
+        cmocka_unit_test(test_shots_plate_the_rail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -369,14 +369,13 @@ static void test_warm(void **state)
     }
     mc_along *along = along_of(&cold, 4);
     for (int k = 0; k <= MC_PLACES; k++) {
-        along[1].rise[k] = 50.0;
-        along[2].rise[k] = k < MC_PLACES / 2 ? 0.0 : 100.0; /* the muzzle's half alone */
-        along[3].v[k] = 0.8 * along[3].v[k];                /* cold, but slower: 1400 m/s at 2.5 m */
+        along[1].left[MC_WARMTH][k] = 50.0;
+        along[2].left[MC_WARMTH][k] = k < MC_PLACES / 2 ? 0.0 : 100.0; /* the muzzle's half alone */
+        along[3].v[k] = 0.8 * along[3].v[k];                           /* cold, but slower: 1400 m/s at 2.5 m */
     }
     mc_surface one = as_new(&cold, 0, 1.0);
     one.along = along;
-    one.warm = &warm.grains;
-    one.warm_rise = 100.0;
+    one.changed[MC_WARMTH] = (mc_changed){ &warm.grains, 100.0 };
     const double start[4] = { 2.0, 3.0 * 1300.0 / MUZZLE, 3.0 * 1200.0 / MUZZLE, 2.5 },
                  volume[4] = { 10.0, 15.0, 20.0, 10.0 };
     mc_result out = run(&one, 1, 20000, 4);
@@ -391,7 +390,7 @@ static void test_warm(void **state)
         cold.family->surface.size[k].velocity = cold.family->surface.size[k].interval[1] = NAN;
         cold.family->surface.size[k].interval[0] = 2000.0;
     }
-    for (int k = 0; k <= MC_PLACES; k++) along[1].rise[k] = k < MC_PLACES / 2 ? 40.0 : 60.0;
+    for (int k = 0; k <= MC_PLACES; k++) along[1].left[MC_WARMTH][k] = k < MC_PLACES / 2 ? 40.0 : 60.0;
     cold.family->n_scenes = 0;
     out = run(&one, 1, 20000, 2);
     assert_true(out.of[0].gouges == 0.0);
@@ -401,6 +400,49 @@ static void test_warm(void **state)
     free(along);
     free(cold.family);
     free(warm.family);
+}
+
+/* Three ways in which a rail may be another one: thresholds 1400 m/s as new, 1200 where it is warm, 1600 where it is
+ * worn, 1225 where metal lies on it.  Their factors are multiplied, also
+ * below all three, their volumes added. */
+static void test_changes_together(void **state)
+{
+    (void)state;
+    static const double threshold[MC_CHANGES] = { 1200.0, 1600.0, 1225.0 }, most[MC_CHANGES] = { 100.0, 2e-5, 5e-5 };
+    rail fresh, other[MC_CHANGES];
+    make(&fresh, 20.0, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    mc_surface one = as_new(&fresh, 0, 1.0);
+    for (int k = 0; k < MC_CHANGES; k++) {
+        make(&other[k], 20.0, 2e-4, 0.5, threshold[k], 0.0, 0.0);
+        for (int i = 0; i < 2; i++) {
+            fresh.record[i].entry.result.rim_height = other[k].record[i].entry.result.rim_height = 0.0;
+            fresh.record[i].entry.result.crater_volume = 10.0 * 0.125e-9;
+            other[k].record[i].entry.result.crater_volume = (12.0 + 4.0 * k) * 0.125e-9; /* +2, +6, +10 */
+        }
+        one.changed[k] = (mc_changed){ &other[k].grains, most[k] };
+    }
+    mc_along *along = along_of(&fresh, 5);
+    for (int i = 0; i <= MC_PLACES; i++) {
+        along[1].left[MC_WEAR][i] = 1e-5;  /* half */
+        along[2].left[MC_METAL][i] = 1e-4; /* more than was searched for counts as that */
+        along[3].left[MC_WARMTH][i] = 50.0;
+        along[3].left[MC_WEAR][i] = 2e-5;
+        along[4].left[MC_WARMTH][i] = along[4].left[MC_METAL][i] = 1e3;
+    }
+    one.along = along;
+    const double passed[5] = { 1400.0, 1500.0, 1225.0, 1300.0 * 1600.0 / 1400.0, 1050.0 },
+                 volume[5] = { 10.0, 13.0, 20.0, 17.0, 22.0 };
+    mc_result out = run(&one, 1, 20000, 5);
+    const double mean = 20.0 * study_population_share_from(&fresh.population, 1e-4),
+                 each = out.of[0].volume / out.of[0].gouges;
+    for (int k = 0; k < 5; k++) {
+        assert_true(fabs(out.of[k].gouges - mean * (3.0 - 3.0 * passed[k] / MUZZLE)) < four_sigma(mean, out.histories));
+        assert_true(fabs(out.of[k].volume / out.of[k].gouges / each - volume[k] / volume[0]) < 0.08); /* r^3 of few */
+    }
+    study_mc_free(&out);
+    free(along);
+    free(fresh.family);
+    for (int k = 0; k < MC_CHANGES; k++) free(other[k].family);
 }
 
 /* The grain of test_rims on a layer: its gouge is 0.6 mm deep.  Rims on the bare rail meet that one's threshold; a
@@ -438,6 +480,16 @@ static void test_bare(void **state)
         assert_true(fabs(out.of[0].gouges - 1.0) < 1e-9);
         assert_true(fabs(out.of[1].gouges - (through ? 0.0 : 1.0)) < 1e-9);
         study_mc_free(&out);
+        mc_along *along = along_of(&covered, 2); /* sliding has thinned the layer to 0.3 mm: then it is through */
+        for (int k = 0; k <= MC_PLACES; k++)
+            along[0].left[MC_WEAR][k] = along[1].left[MC_WEAR][k] = layer.thickness - 0.3e-3;
+        one.along = along;
+        const bool thin = all[i].failed + all[i].carried >= 0.1;
+        out = run(&one, 1, 200, 2);
+        assert_true(fabs(out.of[1].gouges - (thin ? 0.0 : 1.0)) < 1e-9);
+        study_mc_free(&out);
+        one.along = NULL;
+        free(along);
         bare.grains.n = 0; /* none of its kind is fast enough there: never */
         out = run(&one, 1, 200, 2);
         assert_true(fabs(out.of[1].gouges - (through ? 0.0 : 1.0)) < 1e-9);
@@ -450,12 +502,10 @@ static void test_bare(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sizes),          cmocka_unit_test(test_closed),
-        cmocka_unit_test(test_band),           cmocka_unit_test(test_beyond),
-        cmocka_unit_test(test_common_numbers), cmocka_unit_test(test_seed),
-        cmocka_unit_test(test_rims),           cmocka_unit_test(test_table_and_sites),
-        cmocka_unit_test(test_warm),           cmocka_unit_test(test_bare),
-        cmocka_unit_test(test_stop),
+        cmocka_unit_test(test_sizes),  cmocka_unit_test(test_closed),           cmocka_unit_test(test_band),
+        cmocka_unit_test(test_beyond), cmocka_unit_test(test_common_numbers),   cmocka_unit_test(test_seed),
+        cmocka_unit_test(test_rims),   cmocka_unit_test(test_table_and_sites),  cmocka_unit_test(test_warm),
+        cmocka_unit_test(test_bare),   cmocka_unit_test(test_changes_together), cmocka_unit_test(test_stop),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -219,6 +219,8 @@ static void check_lengths(case_reader *r)
          "the lead face would be longer than the armature (chamfer_height / tan(lead_angle) > length)");
     must(r, !(c->study.velocity_low >= c->study.velocity_high), "study", "velocity_low",
          "must lie below velocity_high");
+    must(r, isnan(c->study.deposit_kept) || !c->given.armature || c->armature.wear_fraction > 0.0, "study",
+         "deposit_kept", "the armature leaves no metal: give armature.wear_fraction, above 0");
     must(r, c->study.ensemble != 1, "study", "ensemble", "one grid has no scatter: two at least, or 0");
     must(r, c->study.threshold_ensemble != 1, "study", "threshold_ensemble",
          "one grid has no scatter: two at least, or 0");

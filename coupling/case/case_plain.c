@@ -58,7 +58,19 @@ static case_output output_of(int snapshots)
     return (case_output){ .snapshots = snapshots, .history_interval = NAN, .checkpoint_interval = 60.0 };
 }
 
-status case_impact_write(const case_impact *i, FILE *file)
+/* Layers as a scene knows them: what wears them between shots decides nothing there.  out->item is owned. */
+static status unworn_layers(const case_layers *all, case_layers *out)
+{
+    *out = (case_layers){ 0, NULL };
+    for (int k = 0; k < all->n; k++) {
+        case_layer layer = all->item[k];
+        layer.wear_rate = NAN;
+        TRY(case_layers_add(out, k, &layer));
+    }
+    return status_ok();
+}
+
+static status write_impact(const case_impact *i, const case_layers *layers, FILE *file)
 {
     breech_case one = { .name = "scene",
                         .rail = i->rail,
@@ -68,9 +80,19 @@ status case_impact_write(const case_impact *i, FILE *file)
                         .output = output_of(i->snapshots),
                         .given = {
                             .rail = true, .projectile = true, .particle = true, .scene = true, .output = true } };
+    one.rail.layers = *layers;
     TRY(named_materials(&i->materials, names_material, i, &one.materials));
     const status done = case_write_used(&one, file);
     free(one.materials.item);
+    return done;
+}
+
+status case_impact_write(const case_impact *i, FILE *file)
+{
+    case_layers layers;
+    status done = unworn_layers(&i->rail.layers, &layers);
+    if (done.code == STATUS_OK) done = write_impact(i, &layers, file);
+    free(layers.item);
     return done;
 }
 

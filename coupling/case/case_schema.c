@@ -25,6 +25,10 @@ static const base_param layer_params[] = {
     PARAM_DOUBLE(case_layer, yield_scale, "1", 1.0, 0.01, 100.0, "hardening: factor on the yield stress"),
     PARAM_DOUBLE(case_layer, cold_work, "1", OPTIONAL, 0.0, 100.0,
                  "plastic strain it has had, from which its law of strength begins; not given: its material's"),
+    PARAM_DOUBLE(
+        case_layer, wear_rate, "m^3/N/m", OPTIONAL, 0.0, 1e-9,
+        "volume that a shot's sliding wears off, over contact force and way, with study.shots; not given: only "
+        "gouges wear it"),
     PARAMS_END,
 };
 
@@ -195,6 +199,9 @@ static const base_param study_params[] = {
     PARAM_INT(case_study, shots, 1, 1, 1000, "fired one after the other on the same rail"),
     PARAM_DOUBLE(case_study, heat_kept, "1", 1.0, 0.0, 1.0,
                  "fraction of what the shots before have left in the rails that is still there at the next one"),
+    PARAM_DOUBLE(case_study, deposit_kept, "1", OPTIONAL, 0.0, 1.0,
+                 "fraction of the armature's metal on the rail after a shot, all that armature.wear_fraction melts and "
+                 "what lay there before, that the next shot finds; not given: none is carried on"),
     PARAM_INT(case_study, sampled, 100000, 100, 100000000, "histories of the Monte Carlo"),
     PARAM_INT(case_study, seed, 1, 0, 2000000000, "of its random numbers"),
     PARAM_DOUBLE(case_study, smallest_radius, "m", 1e-4, 1e-6, 0.1,

@@ -42,6 +42,7 @@ typedef struct {
     double bond_strength; /* to what lies below [Pa]; NAN: welded for good */
     double yield_scale;   /* factor on the yield stress [1] */
     double cold_work;     /* plastic strain it has had; NAN: its material's [1] */
+    double wear_rate;     /* volume that sliding wears off over force and way; NAN: it is not worn [m^3/N/m] */
 } case_layer;
 
 typedef struct {
@@ -322,8 +323,9 @@ typedef struct {
     bool sensitivities;                                    /* the shot again with changed inputs */
     int shots;                                             /* fired one after the other on the same rail */
     double heat_kept;                                      /* in the rails from shot to shot [1] */
-    int sampled;                                           /* histories of the Monte Carlo */
-    int seed;                                              /* of its random numbers */
+    double deposit_kept;    /* of the armature's metal on the rail, from shot to shot; NAN: none is carried on [1] */
+    int sampled;            /* histories of the Monte Carlo */
+    int seed;               /* of its random numbers */
     double smallest_radius; /* grains of a population below it are taken not to gouge [m] */
 } case_study;
 

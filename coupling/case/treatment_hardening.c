@@ -3,6 +3,7 @@
  * its depth; it lies below the rail's own layers and coatings. */
 #include "coupling/case/treatment.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { DEPTH, FACTOR };
@@ -18,7 +19,8 @@ status case_treatment_hardening_apply(const treatment_settings *t, case_onset *c
     case_layer skin = { .thickness = t->value[DEPTH],
                         .bond_strength = NAN,
                         .yield_scale = c->impact.rail.yield_scale * t->value[FACTOR],
-                        .cold_work = c->impact.rail.cold_work };
+                        .cold_work = c->impact.rail.cold_work,
+                        .wear_rate = NAN };
     memcpy(skin.material, c->impact.rail.material, sizeof skin.material);
     return case_layers_add(&c->impact.rail.layers, 0, &skin);
 }

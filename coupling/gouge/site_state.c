@@ -22,9 +22,9 @@ void gouge_shot_outcome_free(shot_outcome *o)
 static trace_point between(const trace_point *a, const trace_point *b, double share)
 {
 #define BETWEEN(member) .member = a->member + share * (b->member - a->member)
-    return (trace_point){ BETWEEN(t),        BETWEEN(x),        BETWEEN(v),         BETWEEN(contact_pressure),
-                          BETWEEN(pressure), BETWEEN(friction), BETWEEN(rail_flux), BETWEEN(rail_sheet),
-                          BETWEEN(film_rise) };
+    return (trace_point){ BETWEEN(t),         BETWEEN(x),        BETWEEN(v),         BETWEEN(contact_pressure),
+                          BETWEEN(pressure),  BETWEEN(friction), BETWEEN(rail_flux), BETWEEN(rail_sheet),
+                          BETWEEN(film_rise), BETWEEN(melted) };
 #undef BETWEEN
 }
 
@@ -141,15 +141,17 @@ static status keep_trace(recorder *r, const circuit_shot_state *s)
         o->trace = more;
         o->trace_room = room;
     }
-    o->trace[o->n_trace++] = (trace_point){ .t = s->t,
-                                            .x = s->x,
-                                            .v = s->v,
-                                            .contact_pressure = pressure_of(r, s),
-                                            .pressure = s->contact_pressure,
-                                            .friction = s->friction_coefficient,
-                                            .rail_flux = s->rail_flux,
-                                            .rail_sheet = s->rail_sheet,
-                                            .film_rise = s->film_temperature - s->rail_temperature };
+    o->trace[o->n_trace++] =
+        (trace_point){ .t = s->t,
+                       .x = s->x,
+                       .v = s->v,
+                       .contact_pressure = pressure_of(r, s),
+                       .pressure = s->contact_pressure,
+                       .friction = s->friction_coefficient,
+                       .rail_flux = s->rail_flux,
+                       .rail_sheet = s->rail_sheet,
+                       .film_rise = s->film_temperature - s->rail_temperature,
+                       .melted = r->flight->launcher.armature.mass - s->mass - s->ledger.mass_jumps };
     return status_ok();
 }
 

@@ -530,6 +530,8 @@ static const page_column repeated_columns[] = {
     { "expected_gouges", "gouges", 1.0, "", NULL },
     { "expected_gouged_volume", "gouged volume", 1e-9, "mm\302\263", NULL },
     { "rail_rise", "rail warmer by", 1.0, "K", NULL },
+    { "layer_worn", "layers worn by", 1e-6, "\302\265m", NULL },
+    { "deposit", "armature metal on it", 1e-6, "\302\265m", NULL },
     { "muzzle_velocity", "muzzle velocity", 1.0, "m/s", NULL } };
 /* clang-format on */
 

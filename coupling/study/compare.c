@@ -91,7 +91,7 @@ static status search_repeated(session *s, compare_answer *a, grain_families **al
     int n = 0;
     for (int i = 0; i < a->n; i++) {
         int more;
-        TRY(study_repeated_want(&a->answer[i].grains, &a->answer[i].rail, all + n, &more));
+        TRY(study_repeated_want(s, &a->answer[i].grains, &a->answer[i].rail, all + n, &more));
         n += more;
     }
     if (n == 0) return status_ok();
@@ -201,6 +201,12 @@ static void fill_life(const life_entry *of, compare_entry *e)
     e->life_rank = of ? of->tied : 0;
 }
 
+/* By the last shot; NAN: not carried on, or there is but one. */
+static double last_found(const repeated_rail *r, mc_change change)
+{
+    return r->shots > 0 ? r->shot[r->shots - 1].most[change] : NAN;
+}
+
 static void fill_entry(const case_treatments *treatments, const compare_answer *a, int i, compare_entry *e)
 {
     const onset_result *r = &a->answer[i].result;
@@ -220,6 +226,8 @@ static void fill_entry(const case_treatments *treatments, const compare_answer *
     e->gouges = mean->gouges;
     memcpy(e->gouges_interval, mean->gouges_interval, sizeof e->gouges_interval);
     e->last_gouges = last->gouges;
+    e->layer_worn = last_found(&a->answer[i].rail, MC_WEAR);
+    e->deposit = last_found(&a->answer[i].rail, MC_METAL);
     e->gouged_volume = mean->volume;
     memcpy(e->gouged_volume_interval, mean->volume_interval, sizeof e->gouged_volume_interval);
     e->probability_gouge = fmax(mean->probability, a->answer[i].grains.screen_probability);

@@ -26,13 +26,14 @@ typedef struct {
     double onset_position;                            /* [m] */
     double gouged_volume;                             /* [m3] */
     double gouged_volume_interval[2];                 /* [m3] */
-    double threshold_deviation;                       /* over study.threshold_ensemble grids; NAN: not known [m/s] */
-    double threshold_position;                        /* [m] */
-    double threshold_position_interval[2];            /* where the ends of the threshold's interval are passed [m] */
-    double gouges, gouges_interval[2];                /* a shot, expected: mean of all shots [1] */
-    double last_gouges;                               /* the same of the last shot [1] */
-    double probability_gouge;                         /* of a shot [1] */
-    double better_than_next; /* share of what may be true in which it gouges less than the next one [1] */
+    double layer_worn, deposit;            /* of the rail that the last shot finds, as onset_shot has them [m] */
+    double threshold_deviation;            /* over study.threshold_ensemble grids; NAN: not known [m/s] */
+    double threshold_position;             /* [m] */
+    double threshold_position_interval[2]; /* where the ends of the threshold's interval are passed [m] */
+    double gouges, gouges_interval[2];     /* a shot, expected: mean of all shots [1] */
+    double last_gouges;                    /* the same of the last shot [1] */
+    double probability_gouge;              /* of a shot [1] */
+    double better_than_next;               /* share of what may be true in which it gouges less than the next one [1] */
     bool significant; /* that is at least STUDY_SIGNIFICANT, not by the screen alone; of the last: the former one's */
     double worse_than_best; /* share of what may be true in which the best gouges less than it; of the best NAN [1] */
     int tied;               /* rank of the best of its group, from which it cannot be told; from 1 */

@@ -29,6 +29,12 @@ static const summary_key entry_keys[] = {
     SUMMARY_VECTOR(compare_entry, "gouges_interval", gouges_interval, 2, "1", "5 and 95 % of what may be true"),
     SUMMARY_NUMBER(compare_entry, "last_gouges", last_gouges, "1",
                    "expected of the last shot, on the rail that the shots before it have left"),
+    SUMMARY_NUMBER(compare_entry, "layer_worn", layer_worn, "m",
+                   "thickness that sliding has worn off its layers before the last shot: the largest from "
+                   "study.velocity_low on; null: no layer has a wear_rate, or there is one shot"),
+    SUMMARY_NUMBER(compare_entry, "deposit", deposit, "m",
+                   "armature metal on it before the last shot, as a thickness, the largest alike; null: "
+                   "study.deposit_kept is not given, or there is one shot"),
     SUMMARY_NUMBER(compare_entry, "probability_gouge", probability_gouge, "1", "that a shot gouges, mean of all shots"),
     SUMMARY_NUMBER(compare_entry, "better_than_next", better_than_next, "1",
                    "fraction of what may be true in which it gouges less than the next"),

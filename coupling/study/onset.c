@@ -94,22 +94,27 @@ status study_onset_begin(session *s, const case_onset *c, const char *prefix, bo
 
 /* ---- random shots ---- */
 
-/* On the rail of shot k where that is warmest, linear in temperature. */
+/* On the rail of shot k where that is changed most, linear in each change. */
 static double threshold_of_shot(const onset_answer *a, int k)
 {
-    const repeated_rail *rail = &a->rail;
     double radius;
-    const grain_family *f = study_onset_leading_grain(a, &radius),
-                       *hot = f && rail->warm.n ? study_family_alike(&rail->warm, f) : NULL;
+    const grain_family *f = study_onset_leading_grain(a, &radius);
     const double cold = a->result.threshold_velocity;
-    if (!hot) return cold;
-    return cold + rail->shot[k].rise / rail->rise * (study_surface_at(&hot->surface, radius).velocity - cold);
+    double here = cold;
+    for (int i = 0; i < MC_CHANGES; i++) {
+        const changed_rail *rail = &a->rail.changed[i];
+        const grain_family *hot = f && rail->grains.n ? study_family_alike(&rail->grains, f) : NULL;
+        if (!hot) continue;
+        const double share = a->rail.shot[k].most[i] / rail->most;
+        here += share * (study_surface_at(&hot->surface, radius).velocity - cold);
+    }
+    return here;
 }
 
 static status list_shots(onset_answer *a)
 {
     onset_result *r = &a->result;
-    const repeated_shot alone = { .muzzle_velocity = a->shot.is.muzzle_velocity };
+    const repeated_shot alone = { .muzzle_velocity = a->shot.is.muzzle_velocity, .most = { 0.0, NAN, NAN } };
     a->repeated = calloc((size_t)a->drawn.shots, sizeof *a->repeated);
     CHECK(a->repeated, STATUS_MEMORY, "no memory for %d shots", a->drawn.shots);
     for (int k = 0; k < a->drawn.shots; k++) {
@@ -117,7 +122,9 @@ static status list_shots(onset_answer *a)
         const repeated_shot *found = a->rail.shots ? &a->rail.shot[k] : &alone;
         a->repeated[k] = (onset_shot){ .shot = k + 1,
                                        .muzzle_velocity = found->muzzle_velocity,
-                                       .rail_rise = found->rise,
+                                       .rail_rise = found->most[MC_WARMTH],
+                                       .layer_worn = found->most[MC_WEAR],
+                                       .deposit = found->most[MC_METAL],
                                        .threshold_velocity = threshold_of_shot(a, k),
                                        .probability_gouge = from->probability,
                                        .expected_gouges = from->gouges,
@@ -347,7 +354,7 @@ static status search_repeated(session *s, onset_answer *a)
 {
     grain_families *wanted[REPEATED_RAILS];
     int n;
-    TRY(study_repeated_want(&a->grains, &a->rail, wanted, &n));
+    TRY(study_repeated_want(s, &a->grains, &a->rail, wanted, &n));
     TRY(n > 0 ? study_families_search(s, wanted, n) : status_ok());
     study_repeated_found(&a->rail, &a->grains, &a->uncertain);
     return status_ok();

@@ -85,7 +85,9 @@ typedef struct {
     double onset_position, onset_interval[2];                          /* median, 5 .. 95 % [m] */
     double muzzle_velocity;                                            /* [m/s] */
     double rail_rise; /* left by the shots before, where the armature is fast enough to be looked at: the largest [K] */
-    double threshold_velocity; /* as the study's, where the rail is that warm [m/s] */
+    double layer_worn;         /* off its layers by sliding, the same; NAN: not carried on [m] */
+    double deposit;            /* armature metal on it, the same [m] */
+    double threshold_velocity; /* as the study's, where the rail has come to that [m/s] */
 } onset_shot;
 
 /* What one number of the two metals alone would say (coupling/gouge/null_model.h). */

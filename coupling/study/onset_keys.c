@@ -101,7 +101,14 @@ static const summary_key shot_keys[] = {
     SUMMARY_NUMBER(onset_shot, "rail_rise", rail_rise, "K",
                    "of the rail before it: the largest from study.velocity_low on"),
     SUMMARY_NUMBER(onset_shot, "threshold_velocity", threshold_velocity, "m/s",
-                   "as the study's, where the rail is that warm"),
+                   "as the study's, where the rail is that warm, worn and plated"),
+    SUMMARY_NUMBER(onset_shot, "layer_worn", layer_worn, "m",
+                   "thickness that sliding has worn off the rail's layers before it: the largest from "
+                   "study.velocity_low on; null: no layer has a wear_rate"),
+    SUMMARY_NUMBER(
+        onset_shot, "deposit", deposit, "m",
+        "armature metal on the rail before it, as a thickness, the largest alike; null: study.deposit_kept is "
+        "not given"),
     SUMMARY_END
 };
 
@@ -284,12 +291,13 @@ static void print_null_models(const onset_result *o, FILE *out)
 static void print_shots(const onset_result *o, FILE *out)
 {
     table *t;
-    const char *titles = "shot|rail +[K]|muzzle [m/s]|v_th [m/s]|gouges|gouged [mm3]|onset [m]";
+    const char *titles = "shot|rail +[K]|worn [um]|metal [um]|muzzle [m/s]|v_th [m/s]|gouges|[mm3]|onset [m]";
     if (o->n_shots < 2 || host_table_create(titles, &t).code != STATUS_OK) return;
     for (int i = 0; i < o->n_shots; i++) {
         const onset_shot *s = &o->shot[i];
-        char rise[24], muzzle[24], v[24], n[24], volume[24], x[24];
-        host_table_row(t, "%d|%s|%s|%s|%s|%s|%s", s->shot, output_cell(s->rail_rise, 1.0, "%.0f", rise),
+        char rise[24], worn[24], metal[24], muzzle[24], v[24], n[24], volume[24], x[24];
+        host_table_row(t, "%d|%s|%s|%s|%s|%s|%s|%s|%s", s->shot, output_cell(s->rail_rise, 1.0, "%.0f", rise),
+                       output_cell(s->layer_worn, 1e-6, "%.3g", worn), output_cell(s->deposit, 1e-6, "%.3g", metal),
                        output_cell(s->muzzle_velocity, 1.0, "%.0f", muzzle),
                        output_cell(s->threshold_velocity, 1.0, "%.0f", v),
                        output_cell(s->expected_gouges, 1.0, "%.3g", n),

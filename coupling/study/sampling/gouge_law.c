@@ -120,20 +120,22 @@ static int collect(const grain_family *f, const case_impact *of, marked *out)
     return n;
 }
 
-static double between(double a, double b, double f)
+static double towards(double is, double from, double to, double f)
 {
-    return a + f * (b - a);
+    return is + f * (to - from);
 }
 
-gouge_mark study_gouge_mark_between(const gouge_mark *a, const gouge_mark *b, double f)
+gouge_mark study_gouge_mark_towards(const gouge_mark *is, const gouge_mark *from, const gouge_mark *to, double f)
 {
-    return (gouge_mark){ .volume = between(a->volume, b->volume, f),
-                         .rim = between(a->rim, b->rim, f),
-                         .along = between(a->along, b->along, f),
-                         .depth = between(a->depth, b->depth, f),
-                         .layers_gone = between(a->layers_gone, b->layers_gone, f),
-                         .impulse = between(a->impulse, b->impulse, f),
-                         .metal = between(a->metal, b->metal, f) };
+#define TOWARDS(member) .member = towards(is->member, from->member, to->member, f)
+    return (gouge_mark){ TOWARDS(volume),      TOWARDS(rim),     TOWARDS(along), TOWARDS(depth),
+                         TOWARDS(layers_gone), TOWARDS(impulse), TOWARDS(metal) };
+#undef TOWARDS
+}
+
+static gouge_mark between(const gouge_mark *a, const gouge_mark *b, double f)
+{
+    return study_gouge_mark_towards(a, a, b, f);
 }
 
 static gouge_mark mark_at(const marked *m, int n, double v)
@@ -142,7 +144,7 @@ static gouge_mark mark_at(const marked *m, int n, double v)
     int k = 0;
     while (k + 1 < n && m[k + 1].v < v) k++;
     if (k + 1 == n || v <= m[k].v || m[k + 1].v <= m[k].v) return m[k].is;
-    return study_gouge_mark_between(&m[k].is, &m[k + 1].is, (v - m[k].v) / (m[k + 1].v - m[k].v));
+    return between(&m[k].is, &m[k + 1].is, (v - m[k].v) / (m[k + 1].v - m[k].v));
 }
 
 bool study_gouge_mark_at(const grain_family *f, const case_impact *of, double velocity, gouge_mark *out)
@@ -169,7 +171,7 @@ gouge_mark study_gouge_law_mark(const gouge_law *l, double velocity)
 {
     double f;
     const int i = step_of(velocity, l->v_first, l->per_v, LAW_VELOCITIES, &f);
-    return study_gouge_mark_between(&l->mark[i], &l->mark[i + 1], f);
+    return between(&l->mark[i], &l->mark[i + 1], f);
 }
 
 double study_gouge_law_depth(const grain_family *f, const case_impact *of)

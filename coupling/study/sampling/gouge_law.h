@@ -37,7 +37,8 @@ bool study_gouge_mark_at(const grain_family *f, const case_impact *of, double ve
 /* low + in_band (high - low) + of_allowance x allowance, in_band 0 .. 1, of_allowance -1 .. 1 [m/s] */
 double study_gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_allowance);
 gouge_mark study_gouge_law_mark(const gouge_law *l, double velocity);
-gouge_mark study_gouge_mark_between(const gouge_mark *a, const gouge_mark *b, double share); /* 0: a, 1: b */
+/* `is` and a share of what `to` has more than `from`. */
+gouge_mark study_gouge_mark_towards(const gouge_mark *is, const gouge_mark *from, const gouge_mark *to, double share);
 /* Of the deepest crater that counts; 0: nothing gouges [m] */
 double study_gouge_law_depth(const grain_family *f, const case_impact *of);
 bool study_gouge_law_bares(const grain_family *f, const case_impact *of); /* one of them wears the layers through */

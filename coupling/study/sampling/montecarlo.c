@@ -35,17 +35,17 @@ typedef struct {
 /* One surface, ready for drawing. */
 typedef struct {
     const grain_families *grains;
-    gouge_law *law; /* of each family, owned, as those of a warmer and of a bare rail: NULL: there are none */
-    gouge_law *warm, *bare;
-    double *in_band;       /* u_b of each family in this world, owned */
-    mc_along *own;         /* where all shots are alike, owned */
-    const mc_along *along; /* of the shot under way */
-    double per_place;      /* [1/m] */
-    double warm_rise;      /* [K] */
-    double layers;         /* thickness of all [m] */
-    strewn_here *strewn;   /* of each population, owned */
-    double ln_factor;      /* on sizes */
-    double ln_smallest;    /* of a population's grains and of rims */
+    gouge_law *law; /* of each family, owned, as those of changed and of bare rails: NULL: there are none */
+    gouge_law *changed[MC_CHANGES], *bare;
+    double most[MC_CHANGES]; /* that the laws of changed rails are for [K, m, m] */
+    double *in_band;         /* u_b of each family in this world, owned */
+    mc_along *own;           /* where all shots are alike, owned */
+    const mc_along *along;   /* of the shot under way */
+    double per_place;        /* [1/m] */
+    double layers;           /* thickness of all [m] */
+    strewn_here *strewn;     /* of each population, owned */
+    double ln_factor;        /* on sizes */
+    double ln_smallest;      /* of a population's grains and of rims */
     int draws;
     int rims, rims_next;
     grain rim[MAX_RIMS], next[MAX_RIMS];
@@ -110,37 +110,61 @@ static double velocity_at(const lane *l, double x)
     return value_at(l, l->along->v, x);
 }
 
-/* A threshold on a rail that is warmer by a share of what `hot` is warmer than `cold`; where one of the two never
+/* How far the rail at a grain is on its way to each of the changed ones, 0 .. 1.  Where a gouge has bared the rail
+ * there are no layers left to wear, and what metal has come there since is not followed. */
+static void shares_at(const lane *l, const grain *g, double share[MC_CHANGES])
+{
+    for (int k = 0; k < MC_CHANGES; k++) {
+        const bool counts = l->changed[k] && (k == MC_WARMTH || !g->bare);
+        share[k] = counts ? fmin(value_at(l, l->along->left[k], g->x) / l->most[k], 1.0) : 0.0;
+    }
+}
+
+/* A threshold on a rail that is changed by a share of what `hot` differs from `cold`; where one of the two never
  * gouges, the nearer one says. */
-static double warmed(double threshold, double cold, double hot, double share)
+static double changed_by(double threshold, double cold, double hot, double share)
 {
     if (isfinite(cold) && isfinite(hot)) return threshold * (1.0 + share * (hot / cold - 1.0));
     return share < 0.5 || isinf(cold) == isinf(hot) ? threshold : hot;
 }
 
-static double threshold_at(const mc *m, const lane *l, const grain *g, double warm)
+static double threshold_at(const mc *m, const lane *l, const grain *g, const double share[MC_CHANGES])
 {
     const double in_band = l->in_band[g->family], allowed = m->of_allowance;
     const double cold = study_gouge_law_threshold(&l->law[g->family], g->ln_r, in_band, allowed);
-    const double here = g->bare ? study_gouge_law_threshold(&l->bare[g->family], g->ln_r, in_band, allowed) : cold;
-    if (!(warm > 0.0)) return here;
-    return warmed(here, cold, study_gouge_law_threshold(&l->warm[g->family], g->ln_r, in_band, allowed), warm);
+    double here = g->bare ? study_gouge_law_threshold(&l->bare[g->family], g->ln_r, in_band, allowed) : cold;
+    for (int k = 0; k < MC_CHANGES; k++) {
+        if (!(share[k] > 0.0)) continue;
+        const double hot = study_gouge_law_threshold(&l->changed[k][g->family], g->ln_r, in_band, allowed);
+        here = changed_by(here, cold, hot, share[k]);
+    }
+    return here;
 }
 
-static gouge_mark mark_at(const lane *l, const grain *g, double v, double warm)
+/* What each change does to the mark is added; the first of those that know a mark is the one that they start from. */
+static gouge_mark mark_at(const lane *l, const grain *g, double v, const double share[MC_CHANGES])
 {
     const gouge_law *cold = g->bare ? &l->bare[g->family] : &l->law[g->family];
-    const gouge_law *hot = warm > 0.0 ? &l->warm[g->family] : cold;
-    if (!cold->marked || !hot->marked) return study_gouge_law_mark(cold->marked ? cold : hot, v);
-    const gouge_mark a = study_gouge_law_mark(cold, v), b = study_gouge_law_mark(hot, v);
-    return study_gouge_mark_between(&a, &b, warm);
+    for (int k = 0; k < MC_CHANGES && !cold->marked; k++)
+        if (share[k] > 0.0) cold = &l->changed[k][g->family];
+    const gouge_mark start = study_gouge_law_mark(cold, v);
+    gouge_mark here = start;
+    for (int k = 0; k < MC_CHANGES; k++) {
+        const gouge_law *hot = share[k] > 0.0 ? &l->changed[k][g->family] : cold;
+        if (hot == cold || !hot->marked) continue;
+        const gouge_mark to = study_gouge_law_mark(hot, v);
+        here = study_gouge_mark_towards(&here, &start, &to, share[k]);
+    }
+    if (here.volume < 0.0) here.volume = 0.0;
+    return here;
 }
 
 /* Where the gouge ends; on the rail's own metal if it wears the layers through, or is in such a place itself. */
 static void leave_rim(lane *l, const grain *g, double radius, const gouge_mark *m)
 {
     if (l->rims_next == MAX_RIMS || !(m->rim > 0.0)) return;
-    const bool bare = l->bare && (g->bare || study_layer_wear_is_through(m->layers_gone, m->depth * radius, l->layers));
+    const double layers = l->layers - value_at(l, l->along->left[MC_WEAR], g->x);
+    const bool bare = l->bare && (g->bare || study_layer_wear_is_through(m->layers_gone, m->depth * radius, layers));
     l->next[l->rims_next++] = (grain){ g->x + m->along * radius, log(m->rim * radius), g->family, bare };
 }
 
@@ -148,10 +172,11 @@ static void leave_rim(lane *l, const grain *g, double radius, const gouge_mark *
 static bool meet(const mc *m, lane *l, const grain *g)
 {
     const double v = velocity_at(l, g->x);
-    const double warm = l->warm ? fmin(value_at(l, l->along->rise, g->x) / l->warm_rise, 1.0) : 0.0;
-    if (v < threshold_at(m, l, g, warm)) return false;
+    double share[MC_CHANGES];
+    shares_at(l, g, share);
+    if (v < threshold_at(m, l, g, share)) return false;
     const double radius = exp(g->ln_r);
-    const gouge_mark mark = mark_at(l, g, v, warm);
+    const gouge_mark mark = mark_at(l, g, v, share);
     l->gouges++;
     l->latest = mark.volume * radius * radius * radius;
     l->volume += l->latest;
@@ -387,7 +412,6 @@ static status make_lane(const mc_plan *plan, int i, lane *l)
     const mc_surface *s = &plan->surface[i];
     l->grains = s->grains;
     l->draws = s->draws;
-    l->warm_rise = s->warm_rise;
     l->ln_factor = log(s->size_factor);
     l->ln_smallest = log(s->grains->c->study.smallest_radius);
     l->in_band = calloc((size_t)s->grains->n + 1, sizeof *l->in_band);
@@ -396,9 +420,25 @@ static status make_lane(const mc_plan *plan, int i, lane *l)
     place_populations(plan, l);
     l->layers = case_layers_thickness(&s->grains->c->impact.rail.layers);
     TRY(make_laws(s, s->grains, &l->law));
-    TRY(make_laws(s, s->warm, &l->warm));
+    for (int k = 0; k < MC_CHANGES; k++) {
+        l->most[k] = s->changed[k].most;
+        TRY(make_laws(s, s->changed[k].grains, &l->changed[k]));
+    }
     TRY(make_laws(s, s->bare, &l->bare));
     return make_along(plan, s, l);
+}
+
+/* The lowest threshold of a family on this surface, whatever its rail has come to [m/s] */
+static double lowest_of(const lane *l, int family)
+{
+    double lowest = study_gouge_law_lowest(&l->law[family]);
+    int changes = 0;
+    for (int k = 0; k < MC_CHANGES; k++) {
+        if (!l->changed[k]) continue;
+        lowest = fmin(lowest, study_gouge_law_lowest(&l->changed[k][family]));
+        changes++;
+    }
+    return changes > 1 ? 0.0 : lowest; /* of several factors together no bound is known */
 }
 
 /* First place where any shot on any surface may gouge with grains of this population. */
@@ -409,8 +449,7 @@ static double first_place(const mc *m, int index)
         const lane *l = &m->lane[i];
         const int family = l->grains->of_population[index], shots = l->own ? 1 : m->plan->shots;
         if (family < 0) continue;
-        double lowest = study_gouge_law_lowest(&l->law[family]);
-        if (l->warm) lowest = fmin(lowest, study_gouge_law_lowest(&l->warm[family]));
+        const double lowest = lowest_of(l, family);
         for (int number = 0; number < shots; number++) {
             int k = 0;
             while (k <= MC_PLACES && l->along[number].v[k] < lowest) k++;
@@ -477,7 +516,7 @@ static status set_up(mc *m, mc_result *out)
 static void lane_free(lane *l)
 {
     free(l->law);
-    free(l->warm);
+    for (int k = 0; k < MC_CHANGES; k++) free(l->changed[k]);
     free(l->bare);
     free(l->own);
     free(l->in_band);

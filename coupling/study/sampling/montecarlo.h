@@ -9,8 +9,8 @@
  * low(r)) + u_s allowance,  u_s in -1 .. 1. A history is a rail under `shots` shots.  A gouge leaves a rim downstream,
  * which is a grain of the same family to the next shot: its place and height, in radii of the grain that made it, by
  * the scenes that gouged (gouge_law.h).  What else the shots leave for those after them is the caller's to say
- * (repeated.h): `along`, `warm`, `bare`. Populations are a Poisson process; grains that no surface could gouge with are
- * not drawn. */
+ * (repeated.h): `along`, `changed`, `bare`. Populations are a Poisson process; grains that no surface could gouge with
+ * are not drawn. */
 #ifndef BREECH_COUPLING_MONTECARLO_H
 #define BREECH_COUPLING_MONTECARLO_H
 
@@ -19,11 +19,21 @@
 
 enum { MC_WORLDS = 200, MC_BINS = 1000, MC_PLACES = 1024, MC_PIECES = 20 };
 
+/* How a rail is another one than that of `grains`: it is warmer [K], its layers are worn by so much [m], so much of the
+ * armature's metal lies on it [m]. */
+typedef enum { MC_WARMTH, MC_WEAR, MC_METAL, MC_CHANGES } mc_change;
+
 /* What a shot of one number finds along the barrel, at MC_PLACES equal steps. */
 typedef struct {
-    double v[MC_PLACES + 1];    /* of the armature [m/s] */
-    double rise[MC_PLACES + 1]; /* of the rail above that of `grains` [K] */
+    double v[MC_PLACES + 1];                /* of the armature [m/s] */
+    double left[MC_CHANGES][MC_PLACES + 1]; /* by the shots before it [K, m, m] */
 } mc_along;
+
+/* The same grains on a rail that is changed by `most`; in between thresholds and craters are linear. */
+typedef struct {
+    const grain_families *grains; /* borrowed; NULL: this change is not looked at */
+    double most;                  /* [K, m, m] */
+} mc_changed;
 
 /* One surface. */
 typedef struct {
@@ -31,9 +41,8 @@ typedef struct {
     int draws;                    /* surfaces with the same number share their u_b: the same thresholds, other inputs */
     double size_factor;           /* on every grain (a sensitivity); else 1 */
     const mc_along *along;        /* [shots]; NULL: every shot is that of `grains`, and finds its rail */
-    const grain_families *warm;   /* the same grains on a rail warmer by warm_rise; in between linear; NULL: none */
-    double warm_rise;             /* [K] */
-    const grain_families *bare;   /* for rims where a gouge wore the layers through; NULL: as all others */
+    mc_changed changed[MC_CHANGES]; /* the factors of several changes on a threshold are multiplied */
+    const grain_families *bare;     /* for rims where a gouge wore the layers through; NULL: as all others */
 } mc_surface;
 
 typedef struct {
