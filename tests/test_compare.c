@@ -1278,6 +1278,15 @@ static void test_shots_plate_the_rail(void **state)
         assert_true(fabs(each[k].threshold_velocity - each[0].threshold_velocity -
                          added * each[k].deposit / each[3].deposit) < 25.0);
     study_onset_answer_free(&thick);
+    by_thickness = 5e7; /* plated it gouges nowhere in the search: the nearer one of both rails says */
+    c->study.deposit_kept = 1.0;
+    onset_answer never = studied(c, "plated-never", status_ok());
+    each = never.result.shot;
+    assert_true(each[1].threshold_velocity == each[0].threshold_velocity && isfinite(each[0].threshold_velocity));
+    assert_true(isnan(each[2].threshold_velocity) && isnan(each[3].threshold_velocity));
+    print_message("gouges %.3g, %.3g of shots 2 and 4\n", each[1].expected_gouges, each[3].expected_gouges);
+    assert_true(each[3].expected_gouges < 0.97 * each[1].expected_gouges); /* fast places keep less than half */
+    study_onset_answer_free(&never);
     c->study.deposit_kept = 0.0; /* wiped off */
     onset_answer clean = studied(c, "wiped", status_ok());
     assert_true(clean.result.shot[3].deposit == 0.0 && scenes_named(&clean, "plated-") == 0);

@@ -94,7 +94,8 @@ status study_onset_begin(session *s, const case_onset *c, const char *prefix, bo
 
 /* ---- random shots ---- */
 
-/* On the rail of shot k where that is changed most, linear in each change. */
+/* On the rail of shot k where that is changed most, linear in each change.  Where the search of a changed rail found
+ * none, the nearer one of both rails says, as in the random shots. */
 static double threshold_of_shot(const onset_answer *a, int k)
 {
     double radius;
@@ -105,8 +106,9 @@ static double threshold_of_shot(const onset_answer *a, int k)
         const changed_rail *rail = &a->rail.changed[i];
         const grain_family *hot = f && rail->grains.n ? study_family_alike(&rail->grains, f) : NULL;
         if (!hot) continue;
-        const double share = a->rail.shot[k].most[i] / rail->most;
-        here += share * (study_surface_at(&hot->surface, radius).velocity - cold);
+        const double share = a->rail.shot[k].most[i] / rail->most,
+                     there = study_surface_at(&hot->surface, radius).velocity;
+        if (isfinite(there) || share >= 0.5) here += share * (there - cold);
     }
     return here;
 }
