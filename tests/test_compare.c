@@ -1310,7 +1310,7 @@ static void test_shots_compared(void **state)
     breech_case *c = read(HEAD "populations:\n  - {preset: debris, radius_median: 0.3 mm}\n"
                                "treatments:\n"
                                "  - {name: loose, coating: [{material: steel_4340, thickness: 0.05 mm, "
-                               "bond_strength: 100 MPa}]}\n"
+                               "bond_strength: 100 MPa, wear_rate: 1e-14 m^3/N/m}]}\n"
                                "  - {name: greased, friction: {factor: 0.8}}\n",
                           ALL);
     c->rails.level = CIRCUIT_SHOT_RAILS_DIFFUSING;
@@ -1329,6 +1329,19 @@ static void test_shots_compared(void **state)
     /* a layer of 0.05 mm is gone: then its rail is the untreated one, whose scenes serve */
     assert_true(a.answer[1].rail.bare.grains.n > 0 && a.answer[0].rail.bare.grains.n == 0 &&
                 scenes_begin(&a, "t1-bare-") == 0);
+    /* what sliding wears off its layer, too little for a search of its own; no other surface has a rate */
+    assert_true(loose.layer_worn > 1e-7 && loose.layer_worn < 1e-6 && scenes_begin(&a, "t1-worn-") == 0);
+    assert_true(isnan(plain.layer_worn) && isnan(loose.deposit));
+    FILE *shown = tmpfile();
+    char line[200], name[50] = "";
+    double worn = NAN;
+    study_compare_print(&a.result, shown);
+    rewind(shown);
+    while (fgets(line, sizeof line, shown) && strncmp(line, "before the last shot", 20) != 0) continue;
+    while (fgets(line, sizeof line, shown) && sscanf(line, "%49s %lf", name, &worn) > 0 && strcmp(name, "loose") != 0)
+        continue;
+    fclose(shown);
+    assert_true(strcmp(name, "loose") == 0 && fabs(worn / (1e6 * loose.layer_worn) - 1.0) < 5e-3); /* three digits */
     assert_true(plain.last_gouges > 1.005 * plain_once && plain.gouges > plain_once);
     assert_true(loose.last_gouges > 1.01 * loose_once && loose.gouges > loose_once);
     assert_true(plain.gouges_interval[0] <= plain.gouges && plain.gouges <= plain.gouges_interval[1]);

@@ -391,7 +391,7 @@ static void write_study(const char *dir)
                            "\"expected_gouges\":3.5},{\"input\":\"mass\",\"change\":0.05,\"threshold_position\":null,"
                            "\"expected_gouges\":null}]" },
         { "shots", "[{\"shot\":1,\"probability_gouge\":0.5,\"expected_gouges\":1,\"expected_gouged_volume\":1e-9,"
-                   "\"onset_position\":2.0,\"onset_interval\":[1.5,2.5]}]" },
+                   "\"layer_worn\":6.56e-6,\"deposit\":1.28e-5,\"onset_position\":2.0,\"onset_interval\":[1.5,2.5]}]" },
     };
     write_run(dir, STUDY_onset);
     add_to_summary(dir, more, sizeof more / sizeof *more);
@@ -406,6 +406,7 @@ static void write_comparison(const char *dir)
           "\\\"skin\\\"\",\"scene_prefix\":\"t1-\",\"gouges\":1.5,\"gouges_interval\":[1,2.25],\"better_than_next\":0."
           "97,"
           "\"significant\":true,\"tied\":1,\"threshold_velocity\":1800,\"threshold_interval\":[1750,1850],"
+          "\"layer_worn\":4.59e-5,\"deposit\":8.94e-5,"
           "\"onset_position\":2.2,\"gouged_volume\":1e-9,\"layer\":\"none\",\"scenes\":3},"
           "{\"surface\":\"<as "
           "delivered>\",\"scene_prefix\":\"\",\"gouges\":4,\"gouges_interval\":[3,5],\"better_than_next\":null,"
@@ -460,6 +461,7 @@ static void study_pages_have_their_sections(void **state)
     assert_non_null(strstr(text, "sand &lt;x&gt;"));
     assert_non_null(strstr(text, "1700 (1650 to 1750)"));
     assert_non_null(strstr(text, "+5 % charge: "));
+    assert_true(strstr(text, "layers worn by") && strstr(text, "armature metal on it"));
     assert_null(strstr(text, "+5 % mass: ")); /* where nothing gouges there is no place to move */
     assert_true(host_file_exists("report/plot-surface.svg"));
     free(text);
@@ -468,6 +470,7 @@ static void study_pages_have_their_sections(void **state)
     is_self_contained(text);
     has_sections(text, comparison_sections);
     assert_non_null(strstr(text, "Best is hard &quot;skin&quot;."));
+    assert_true(strstr(text, "layers worn by") && strstr(text, "armature metal on it"));
     assert_non_null(strstr(text, "gouges from 1800 (1750 to 1850)&nbsp;m/s on, 1.5 (1.0 to 2.3)&nbsp;gouges a shot"));
     /* beside the shot's velocities, one row a surface; then the scenes of each in a chart of its own */
     char *svg;

@@ -221,6 +221,8 @@ static const page_column ranking_columns[] = {
     { "threshold_position", "passed at", 1.0, "m", "threshold_position_interval" },
     { "gouges", "gouges a shot", 1.0, "", "gouges_interval" },
     { "last_gouges", "of the last shot", 1.0, "", NULL },
+    { "layer_worn", "layers worn by", 1e-6, "\302\265m", NULL },
+    { "deposit", "armature metal on it", 1e-6, "\302\265m", NULL },
     { "better_than_next", "better than the next", 0.01, "%", NULL },
     { "significant", "that is significant", 1.0, "", NULL },
     { "gouged_volume", "gouged volume", 1e-9, "mm\302\263", "gouged_volume_interval" },

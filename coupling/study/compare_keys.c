@@ -129,6 +129,25 @@ static void print_thresholds(const compare_result *c, FILE *out)
     host_table_free(t);
 }
 
+/* What the last shot finds on the rail of former ones; nothing where that is not carried on. */
+static void print_left(const compare_result *c, FILE *out)
+{
+    table *t;
+    bool carried = false;
+    for (int i = 0; i < c->n; i++)
+        carried = carried || isfinite(c->ranking[i].layer_worn) || isfinite(c->ranking[i].deposit);
+    if (!carried || host_table_create("before the last shot|worn [um]|metal [um]", &t).code != STATUS_OK) return;
+    for (int i = 0; i < c->n; i++) {
+        const compare_entry *e = &c->ranking[i];
+        char worn[24], metal[24];
+        host_table_row(t, "%s|%s|%s", e->surface, output_cell(e->layer_worn, 1e-6, "%.3g", worn),
+                       output_cell(e->deposit, 1e-6, "%.3g", metal));
+    }
+    fputc('\n', out);
+    host_table_print(t, out);
+    host_table_free(t);
+}
+
 /* Which surface lasts longest? */
 static void print_life(const compare_result *c, FILE *out)
 {
@@ -148,6 +167,7 @@ void study_compare_print(const void *result, FILE *out)
     const compare_result *c = result;
     print_ranking(c, out);
     print_thresholds(c, out);
+    print_left(c, out);
     print_verdict(c, out);
     print_life(c, out);
 }
