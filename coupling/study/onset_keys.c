@@ -117,7 +117,8 @@ const summary_key study_onset_keys[] = {
     SUMMARY_TEXT(onset_result, "reason", reason, "of the verdict"),
     SUMMARY_NUMBER(onset_result, "probability_gouge", probability_gouge, "1", "that the shot gouges"),
     SUMMARY_NUMBER(onset_result, "threshold_velocity", threshold_velocity, "m/s",
-                   "from which a grain gouges, at the population's median size for a population"),
+                   "from which a grain gouges, at the population's median size for a population; with "
+                   "study.threshold_ensemble the mean over its grids"),
     SUMMARY_VECTOR(onset_result, "threshold_interval", threshold_interval, 2, "m/s",
                    "bracket, resolution, scatter with the grid and input uncertainty"),
     SUMMARY_NUMBER(onset_result, "growth_deviation", growth_deviation, "1",
@@ -126,7 +127,7 @@ const summary_key study_onset_keys[] = {
     SUMMARY_NUMBER(onset_result, "threshold_deviation", threshold_deviation, "m/s",
                    "what that makes of the threshold; its interval holds it"),
     SUMMARY_NUMBER(onset_result, "scratch_velocity", scratch_velocity, "m/s",
-                   "from which a groove grows, furrow or gouge; null: not looked for"),
+                   "as threshold_velocity, from which a groove grows, furrow or gouge; null: not looked for"),
     SUMMARY_VECTOR(onset_result, "scratch_interval", scratch_interval, 2, "m/s", "as threshold_interval"),
     SUMMARY_NUMBER(onset_result, "scratch_deviation", scratch_deviation, "m/s", "as threshold_deviation"),
     SUMMARY_NUMBER(onset_result, "onset_position", onset_position, "m",

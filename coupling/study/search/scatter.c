@@ -172,9 +172,10 @@ static void conclude(session *s, const grain_families *g, const sought *t, const
     bool known = true;
     for (int i = 0; i < n; i++) known = known && isfinite(value[i]);
     const double reach = reach_of(g->c, t, out->excess);
-    out->threshold = known ? study_shift_spread(value, n).deviation : NAN;
-    if (out->threshold > reach) out->threshold = NAN;
+    const shift_spread places = study_shift_spread(value, n);
+    out->threshold = known && places.deviation <= reach ? places.deviation : NAN;
     out->reach = isnan(out->threshold) ? reach : out->threshold;
+    out->more = isnan(out->threshold) ? 0 : places.mean - value[0];
     if (!isnan(out->threshold)) return;
     run_session_warn(s,
                      "%swhat decides on a %s scatters by %.2g with the place of the grid at %g m/s, and hardly rises "

@@ -3,7 +3,8 @@
  *
  * Of each family the search's scene nearest to its threshold is computed on further grids, each shifted by another part
  * of a cell (sampling/shifts.h).  Each grid's threshold is placed by its own scenes where it has them on both sides,
- * else by the slope of the search's scenes over velocity; their standard deviation is that of the threshold [m/s]. */
+ * else by the slope of the search's scenes over velocity; their mean is the threshold, their standard deviation is its
+ * scatter [m/s]. */
 #ifndef BREECH_COUPLING_SCATTER_H
 #define BREECH_COUPLING_SCATTER_H
 

@@ -82,6 +82,7 @@ typedef struct {
     double shift;       /* of the root from coarse to fine, at least, NaN if there is only one [m/s] */
     double of_cells;    /* for the resolution, on both sides of the interval: the shift or the plan's share [m/s] */
     double allowance;   /* that, with what else widened the interval since (uncertain.h) [m/s] */
+    double more;        /* of the velocity and the interval: what further grids made of them (uncertain.h) [m/s] */
     double cells;       /* a radius, of the last stage [1] */
     bool monotone;
     char warning[THRESHOLD_WARNING_SIZE]; /* "" if none */

@@ -82,20 +82,21 @@ static status plan(const grain_families *g, const raised *from, double error, un
 
 /* ---- what they move ---- */
 
-/* To where the raised input moves the threshold of a family; where its search saw one side alone, as far as that
- * reached. */
+/* To where the raised input moves the threshold of a family, on the search's own grid; where its search saw one side
+ * alone, as far as that reached. */
 static double moved_to(const uncertain_input *u, const grain_family *f, family_judge judge)
 {
     grain_family *as = study_family_alike(&u->grains, f);
     if (!as) return NAN;
     const threshold_result *r = &study_family_surface(as, judge)->reference;
-    if (!isnan(r->velocity)) return r->velocity;
+    if (!isnan(r->velocity)) return r->velocity - r->more;
     return isnan(r->bracket[0]) ? r->bracket[1] : r->bracket[0];
 }
 
 static double off(const uncertain_input *u, grain_family *f, family_judge judge)
 {
-    return moved_to(u, f, judge) - study_family_surface(f, judge)->reference.velocity;
+    const threshold_result *own = &study_family_surface(f, judge)->reference;
+    return moved_to(u, f, judge) - (own->velocity - own->more);
 }
 
 const char *study_uncertain_input(int k)
@@ -110,16 +111,20 @@ double study_uncertain_moved(const uncertain_inputs *u, int k, grain_family *f, 
     return NAN;
 }
 
-static void widen(surface_result *s, double allowance)
+static void move_threshold(double *velocity, double interval[2], double more, double wider)
 {
-    const double by = allowance - s->reference.allowance;
+    *velocity += more;
+    interval[0] = fmax(interval[0] + more - wider, 0);
+    interval[1] += more + wider;
+}
+
+static void move_and_widen(surface_result *s, double more, double allowance)
+{
+    const double wider = allowance - s->reference.allowance;
     s->reference.allowance = allowance;
-    s->reference.interval[0] = fmax(s->reference.interval[0] - by, 0);
-    s->reference.interval[1] += by;
-    for (int k = 0; k < s->sizes; k++) {
-        s->size[k].interval[0] = fmax(s->size[k].interval[0] - by, 0);
-        s->size[k].interval[1] += by;
-    }
+    s->reference.more = more;
+    move_threshold(&s->reference.velocity, s->reference.interval, more, wider);
+    for (int k = 0; k < s->sizes; k++) move_threshold(&s->size[k].velocity, s->size[k].interval, more, wider);
 }
 
 /* One threshold of a family by what was measured of those of f, the grains alike in the study itself; NULL: none. */
@@ -131,9 +136,9 @@ static void widen_threshold(const uncertain_inputs *u, grain_family *f, grain_fa
         const double moved = off(&u->of[i], f, judge);
         if (isfinite(moved)) squares += moved * moved;
     }
-    const double scatter = f ? study_family_scatter(f, judge)->reach : 0;
-    squares += scatter * scatter;
-    widen(s, sqrt(squares));
+    const family_scatter scatter = f ? *study_family_scatter(f, judge) : (family_scatter){ .more = 0 };
+    squares += scatter.reach * scatter.reach;
+    move_and_widen(s, scatter.more, sqrt(squares));
 }
 
 void study_uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other)
@@ -143,6 +148,18 @@ void study_uncertain_widen(const uncertain_inputs *u, const grain_families *firs
         widen_threshold(u, f, &other->family[k], JUDGE_OF_GOUGE);
         if (other->family[k].scratch) widen_threshold(u, f, &other->family[k], JUDGE_OF_SCRATCH);
     }
+}
+
+/* What further grids make of a threshold they make of it with an input raised too. */
+static void move_raised(const grain_families *first, grain_families *with)
+{
+    for (int k = 0; k < with->n; k++)
+        for (int j = 0; j < FAMILY_JUDGES; j++) {
+            grain_family *f = study_family_alike(first, &with->family[k]);
+            surface_result *to = study_family_surface(&with->family[k], (family_judge)j);
+            if (f && (j == JUDGE_OF_GOUGE || with->family[k].scratch))
+                move_and_widen(to, study_family_scatter(f, (family_judge)j)->more, to->reference.allowance);
+        }
 }
 
 status study_uncertain_run(session *s, grain_families *grains, uncertain_inputs *out)
@@ -156,7 +173,10 @@ status study_uncertain_run(session *s, grain_families *grains, uncertain_inputs 
         TRY(plan(grains, &inputs[k], error, &out->of[out->n++]));
     }
     if (out->n > 0) TRY(study_families_search(s, all, out->n));
-    for (int k = 0; k < out->n; k++) out->of[k].grains.prefix = ""; /* the answer may be copied */
     study_uncertain_widen(out, grains, grains);
+    for (int k = 0; k < out->n; k++) {
+        move_raised(grains, &out->of[k].grains);
+        out->of[k].grains.prefix = ""; /* the answer may be copied */
+    }
     return status_ok();
 }

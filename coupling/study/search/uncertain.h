@@ -27,14 +27,14 @@ typedef struct {
     uncertain_input of[UNCERTAIN_MAX];
 } uncertain_inputs;
 
-/* After the search of `grains`, whose intervals it widens.  *out needs study_uncertain_free even on error, before
+/* After the search of `grains`, whose thresholds it moves to the mean over the grids and whose intervals it widens.  *out needs study_uncertain_free even on error, before
  * `grains` goes. */
 status study_uncertain_run(session *s, grain_families *grains, uncertain_inputs *out);
 /* The inputs that may be uncertain, k from 0 to UNCERTAIN_MAX - 1, by their keys. */
 const char *study_uncertain_input(int k);
 /* How far the k-th of them, raised by its uncertainty, moves a threshold of the family; NAN: none is stated [m/s]. */
 double study_uncertain_moved(const uncertain_inputs *u, int k, grain_family *f, family_judge judge);
-/* Widens the families of another rail (repeated.h), by as much as the thresholds of `first` have moved. */
+/* Moves and widens the families of another rail (repeated.h) by as much as those of `first`. */
 void study_uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other);
 void study_uncertain_free(uncertain_inputs *u);
 
