@@ -169,7 +169,7 @@ enum { MPM_BODY_KEYED = 8, MPM_AXIS_KEYED = 4, MPM_SCENE_KEYED = 1, MPM_SCENE_HA
               "of the grid, each with cells twice as large; 0: as coarse_cell allows, without rules of `refine` 1"), \
     PARAM_VEC3(type, grid_shift, "1", 0.0, 0.0, 1.0,                                                              \
                "of the grid's planes along x, y, z, in finest cells; the window's ends and the bodies stay"),     \
-    PARAM_DOUBLE(type, courant, "1", 0.4, 0.01, 0.45,                                                             \
+    PARAM_DOUBLE(type, courant, "1", 0.4, 0.01, 0.6,                                                              \
                  "Courant number of c + |v|; points at a surface are smeared over its square"),                  \
     PARAM_DOUBLE(type, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),                         \
     PARAM_DOUBLE(type, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),                  \

@@ -333,11 +333,14 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
     const law *k = &m->laws[run->body];
     const law_form f = law_form_of(k, kernel);
     int leaving = 0;
+    double least[3];
+    least_domain(m, b, g, run->body, least);
     ahead next = ahead_of(m, index, FIRST_start, 1 + 5 * LANES / WIDTH);
     prefetch_share(&next);
     for (int lane = 0; lane < LANES; lane += WIDTH) {
         if (part_is_empty(m->links[index].mask, lane)) continue;
-        const weights w[3] = { cell_weights(g, 0, q, lane), cell_weights(g, 1, q, lane), cell_weights(g, 2, q, lane) };
+        const weights w[3] = { cell_weights(g, least, 0, q, lane), cell_weights(g, least, 1, q, lane),
+                               cell_weights(g, least, 2, q, lane) };
         gathered r;
         lane_sums sum;
         gather(w, nodes, &r, &next);

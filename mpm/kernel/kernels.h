@@ -23,7 +23,6 @@ typedef struct {
     double x[3];                /* of the nodes before, at and after [m] */
     double inv_left, inv_right; /* one over the element sizes [1/m] */
     double narrowest, widest;   /* least and largest half length of a domain in the weights [m] */
-    double stable;              /* least one an open side of the cell [m] */
     double cell, inv_cell;      /* size of the cell [m], one over it [1/m] */
 } cell_axis;
 
@@ -115,14 +114,17 @@ LANE_INLINE void prefetch_share(ahead *a)
     for (int i = 0; i < a->share && a->next < a->end; i++, a->next += 64) __builtin_prefetch(a->next);
 }
 
-/* Least half length in cells that keeps a point stable, an open side of its cell.  Its forces change its own velocity
- * gradient by dt sigma/rho sum_i |grad S_i|^2 / S_i over the nodes that it shares with no other, and where its domain
- * just reaches over its cell's node those beyond an open side give 1/(l h) each.  The limit is n C^2 h/l <= 4 with n
- * such sides: l = n C^2 h/2 takes half of it, and docs/notes/solver.md has the scenes that blew up with less.  Without
- * the affine part the last step's gradient is forgotten, which halves the limit. */
-LANE_INLINE double stable_half_length(const mpm_scene *s)
+/* Least half length of a domain that keeps a point stable, an open side of its cell, times the cell [m2].  Its forces
+ * change its own velocity gradient by dt sigma/rho sum_i |grad S_i|^2 / S_i over the nodes that it shares with no other.
+ * Where its domain just reaches over its cell's node, those beyond n open sides give n/(l h).  With C = c dt/h and the
+ * linear viscosity q the limit is l = n h C (C + 2 q)/4, that of an oscillator damped at the end of its step; what is
+ * taken is a third more.  docs/notes/solver.md has the scenes that blew up with less.  Without the affine part the last
+ * step's gradient is forgotten, which halves the limit. */
+LANE_INLINE double stable_area(const mpm *m, const brick *b, int body, double cell)
 {
-    return (s->transfer == MPM_TRANSFER_TPIC ? 0.5 : 1) * s->courant * s->courant;
+    const law *k = &m->laws[body];
+    const double way = k->sound * b->steady_dt;
+    return (m->scene.transfer == MPM_TRANSFER_TPIC ? 1 : 2) / 3.0 * way * (way + 2 * k->q1 * cell);
 }
 
 /* The cells of a brick along each axis. */
@@ -142,7 +144,7 @@ LANE_INLINE vd wave_push(const wave_load *w, vd v)
 typedef struct {
     const cell_axis *axis[3];
     const knots *knots[3];
-    double narrowest[3]; /* least half length of a domain [m] */
+    int sides[3]; /* open ones of the cell, where it has one along the axis; else 1 */
     bool bspline;
 } cell_grid;
 
@@ -229,7 +231,6 @@ LANE_INLINE brick_grid brick_grid_at(const mpm *m, const brick *b)
             cell_axis *a = &g.axis[k][i];
             *a = cell_axis_at(from, node);
             if (g.bspline) g.knots[k][i] = knots_at(from, node);
-            a->stable = 2 * a->widest * stable_half_length(&m->scene);
         }
     return g;
 }
@@ -241,20 +242,28 @@ LANE_INLINE void cell_grid_set(cell_grid *g, const brick_grid *from, const brick
     int open[3], all = 0;
     for (int k = 0; k < 3; k++) all += open[k] = (int)(b->open[k][0] >> cell & 1) + (int)(b->open[k][1] >> cell & 1);
     for (int k = 0; k < 3; k++) {
-        const cell_axis *a = g->axis[k] = &from->axis[k][at[k]];
-        const double stable = (open[k] ? all : 1) * a->stable;
-        g->narrowest[k] = stable < a->narrowest ? a->narrowest : stable < a->widest ? stable : a->widest;
-        g->knots[k] = &from->knots[k][at[k]];
+        g->axis[k] = &from->axis[k][at[k]], g->knots[k] = &from->knots[k][at[k]];
+        g->sides[k] = open[k] ? all : 1;
     }
     g->bspline = from->bspline;
 }
 
+/* Least half lengths of a body's domains along each axis [m]. */
+LANE_INLINE void least_domain(const mpm *m, const brick *b, const cell_grid *g, int body, double narrowest[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const cell_axis *a = g->axis[k];
+        const double cell = 2 * a->widest, stable = g->sides[k] * stable_area(m, b, body, cell) / cell;
+        narrowest[k] = stable < a->narrowest ? a->narrowest : stable < a->widest ? stable : a->widest;
+    }
+}
+
 /* Along axis k, for the part of the block that begins with `lane`. */
-LANE_INLINE weights cell_weights(const cell_grid *g, int k, const block *q, int lane)
+LANE_INLINE weights cell_weights(const cell_grid *g, const double narrowest[3], int k, const block *q, int lane)
 {
     const vd x = vd_load(&q->x[k][lane]);
     return g->bspline ? weights_bspline(g->knots[k], x)
-                      : weights_gimp(g->axis[k], g->narrowest[k], x, vd_load(&q->half[k][lane]));
+                      : weights_gimp(g->axis[k], narrowest[k], x, vd_load(&q->half[k][lane]));
 }
 
 #endif

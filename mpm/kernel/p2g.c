@@ -20,6 +20,7 @@
 #include "mpm/kernel/kernels.h"
 #include "mpm/memory/cavities.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { PARTS = (int)LINE / (int)WIDTH }; /* of a node line */
@@ -252,7 +253,7 @@ typedef struct {
 
 /* A block's lines into the sums of its cell, which begin with its `first`.  A call, not inlined: gcc then takes the
  * sums as begun. */
-static __attribute__((noinline)) void one_block(const mpm *m, int index, const cell_work *c, bool first,
+static __attribute__((noinline)) void one_block(const mpm *m, const brick *b, int index, const cell_work *c, bool first,
                                                 part_sums motion[PARTS], part_sums contact[PARTS])
 {
     const block *q = &m->blocks[index];
@@ -264,10 +265,13 @@ static __attribute__((noinline)) void one_block(const mpm *m, int index, const c
     factors f;
     contact_factors s;
     ahead next = ahead_of(m, index, FIRST_e, 1 + 3 * PARTS), none = { 0 };
+    double least[3];
+    least_domain(m, b, g, m->links[index].body, least);
     prefetch_share(&next);
     for (int lane = 0; lane < LANES; lane += WIDTH) {
         if (part_is_empty(mask, lane)) continue;
-        const weights w[3] = { cell_weights(g, 0, q, lane), cell_weights(g, 1, q, lane), cell_weights(g, 2, q, lane) };
+        const weights w[3] = { cell_weights(g, least, 0, q, lane), cell_weights(g, least, 1, q, lane),
+                               cell_weights(g, least, 2, q, lane) };
         store_factors(&f, w, lane);
         motion_lines(q, lane, c->affine, body, wave, c->dt, w, &n);
         if (c->meets) surface_of(q, lane, w, &s);
@@ -288,7 +292,8 @@ static __attribute__((noinline)) void one_block(const mpm *m, int index, const c
 static void one_cell(const mpm *m, brick *b, int cell, const cell_work *c)
 {
     part_sums motion[PARTS], contact[PARTS];
-    for (int i = b->head[cell]; i >= 0; i = m->links[i].next) one_block(m, i, c, i == b->head[cell], motion, contact);
+    for (int i = b->head[cell]; i >= 0; i = m->links[i].next)
+        one_block(m, b, i, c, i == b->head[cell], motion, contact);
     add_to_brick(b->out, halo_index(cell), motion);
     if (c->meets) add_to_brick(b->out_contact, halo_index(cell), contact);
 }
@@ -320,6 +325,12 @@ static void fold(const mpm *m, brick *b)
         }
 }
 
+/* The next of the powers of 2^(1/16): a brick at rest need not give to its nodes anew with every change of the step. */
+static inline double steady(double dt)
+{
+    return exp2(ceil(16 * log2(dt)) / 16);
+}
+
 /* What lies beyond a mirror is what lies before it. */
 static inline void find_open_sides(const mpm *m, const brick *b, uint64_t open[3][2])
 {
@@ -340,14 +351,16 @@ void ISA(p2g)(mpm *m, brick *b)
                            (m->cavities ? cavity_cells(m->cavities, b) : 0);
     uint64_t open[3][2];
     find_open_sides(m, b, open);
-    const bool as_before =
-        b->given && b->still == BRICK_ASLEEP && meets == b->meets && memcmp(open, b->open, sizeof open) == 0;
+    const double steady_dt = steady(level_dt(m, b->level));
+    const bool as_before = b->given && b->still == BRICK_ASLEEP && meets == b->meets && steady_dt == b->steady_dt &&
+                           memcmp(open, b->open, sizeof open) == 0;
     memset(&b->sum, 0, sizeof b->sum);
     b->sum.bad_block = -1;
     if (as_before) return;
     memset(b->out, 0, HALO_NODES * sizeof *b->out);
     b->meets = meets, b->given = true;
     memcpy(b->open, open, sizeof open);
+    b->steady_dt = steady_dt;
     if (b->meets) memset(b->out_contact, 0, HALO_NODES * sizeof *b->out_contact);
     const brick_grid grid = brick_grid_at(m, b);
     cell_grid at;

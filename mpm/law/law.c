@@ -126,6 +126,7 @@ status mpm_law_make(const mpm_body *body, const mpm_scene *scene, law *out)
     TRY(derive_strength(&k, &m, body->yield_scale > 0 ? body->yield_scale : 1));
     TRY(derive_failure(&k, &m));
     k.least_flow *= 1 - k.softening;
+    k.sound = sqrt((k.K0 + 4.0 / 3.0 * mpm_law_shear(&k)) / k.rho0);
     start_at(&k, body->temperature, isnan(body->pressure) ? k.p_rest : body->pressure);
     *out = k;
     return status_ok();

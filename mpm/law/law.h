@@ -51,6 +51,7 @@ typedef struct law {
     double volume_min, volume_max; /* guards of the specific volume [m3/kg] */
     double mu_least, mu_most;      /* range in which the equation of state holds [1] */
     double K0, G;                  /* bulk and shear modulus at rest [Pa] */
+    double sound;                  /* longitudinal, without pressure, at the reference temperature [m/s] */
     double vacuum;       /* least pressure of a fluid without a cavitation pressure, counted from that at rest [Pa] */
     double surroundings; /* absolute pressure from which pressures count; NAN: that at rest [Pa] */
     double p_rest;       /* pressure at rest above the surroundings'; 0 but for a gas [Pa] */
@@ -75,6 +76,9 @@ status mpm_law_make(const mpm_body *body, const mpm_scene *scene, law *out);
 
 /* Its equation of state: p(mu, e) with mu = rho/rho0 - 1, from the surroundings' pressure [Pa]. */
 double mpm_law_pressure(const law *k, double mu, double e);
+
+/* Shear modulus without pressure, at the reference temperature; 0 of a fluid [Pa] */
+double mpm_law_shear(const law *k);
 
 /* s of us = c0 + s up for weak shocks, c0 = sqrt(K0/rho0), from the curvature of that equation at rest. */
 double mpm_law_slope(const law *k);

@@ -142,6 +142,7 @@ typedef struct {
     bool contact;                /* another group has points here or next door */
     uint64_t occupied, meets;    /* bit c: cell c has points; it may share nodes with another group */
     uint64_t open[3][2];         /* cells beside which, before and after along each axis, the group has no points */
+    double steady_dt;            /* that its points' domains are long enough for [s] */
     uint64_t covered;            /* cells that may come to be occupied until bricks are made anew around them */
     uint64_t reached;            /* nodes that points in covered cells give to */
     bool wanted;                 /* those need this brick: it has them, their nodes, or nodes that these follow */

@@ -9,7 +9,7 @@
  * printed; exit 1 when one fails.
  *
  * Materials are those of cases/materials; speeds 0.1 .. 5 km/s, grain radii 0.05 .. 2 mm, lead angles 5 .. 90 degrees,
- * Courant numbers 0.1 .. 0.45 (some more, to be refused), 1 .. 1.5 cells a radius, temperatures up to melting; with
+ * Courant numbers 0.1 .. 0.6 (some more, to be refused), 1 .. 1.5 cells a radius, temperatures up to melting; with
  * layers as thin as a twentieth of a cell, loose, bonded and welded grains, fragments that fly through the scene, and
  * armature, grains and fragments that leave the window; on one to three nested grids.
  *
@@ -125,7 +125,7 @@ static void write_recipe(recipe *r, chance *c, const stock *s, double courant)
     r->levels = 1 + below(&levels, 3);
     r->wider = 3 * ((1 << (r->levels - 1)) - 1) * r->radius; /* three of the largest cells, and one cell a radius */
     r->velocity = log_uniform(c, 100, 5000);
-    r->courant = uniform(c, 0.1, one_in(c, 10) ? 0.6 : 0.45); /* more than 0.45 is refused */
+    r->courant = uniform(c, 0.1, one_in(c, 10) ? 0.8 : 0.6); /* more than 0.6 is refused */
     if (courant > 0) r->courant = courant;
     r->group = one_in(c, 25) ? ANY : one_in(c, 3) ? WITHOUT_DAMAGE : WITH_DAMAGE;
     stress_add(r, "name: stress\n");

@@ -110,7 +110,7 @@ static void write_solid(recipe *r, chance *c, const stock *s, target kind)
     of.cell = of.a / uniform(c, 2, of.mirrors == 2 ? 4 : 3);
     of.wide = of.a * uniform(c, 2.5, 4);
     r->velocity = log_uniform(c, 20, 3000);
-    r->courant = uniform(c, 0.1, 0.45);
+    r->courant = uniform(c, 0.1, 0.6);
     r->levels = 1 + below(c, 3);
     stress_add(r, "name: target\nstrike: {projectile: ball, plate: plate, travel: %.8g m}\nscene:\n",
                fmin(12 * of.a, r->velocity * MAX_STEPS * r->courant * of.cell / (6000 + r->velocity)));
@@ -136,7 +136,7 @@ static void write_water(recipe *r, chance *c, const stock *s)
     const double mass = log_uniform(c, 10, 300);
     const char *held = s->names[any_material(r, c, s)];
     r->velocity = log_uniform(c, 5, 200);
-    r->courant = uniform(c, 0.1, 0.45);
+    r->courant = uniform(c, 0.1, 0.6);
     stress_add(
         r,
         "name: target\nmaterials:\n  - {name: sea, strength: none, density: 1000 kg/m3, specific_heat: 4186 J/(kg K), "
