@@ -159,6 +159,17 @@ static void test_own_strength(void **state)
     assert_int_equal(mpm_law_make(&body, &s, &k).code, STATUS_BAD_INPUT);
 }
 
+/* Longitudinal sound at rest: of a law whose shear varies by its own constants. */
+static void check_sound(const mpm_material *m)
+{
+    const law k = law_at(m, m->reference_temperature, 1);
+    const double sg = m->sg_G0 * (1 - m->sg_B * (m->reference_temperature - 300));
+    const double G = m->strength == MPM_STRENGTH_steinberg_guinan ? sg : k.shear == MPM_SHEAR_NONE ? 0 : k.G;
+    if (m->strength == MPM_STRENGTH_steinberg_guinan || k.shear != MPM_SHEAR_VARIES)
+        assert_near(k.rho0 * k.sound * k.sound / (k.K0 + 4.0 / 3.0 * G), 1, 1e-12);
+    assert_true(k.shear == MPM_SHEAR_NONE || k.sound > 1.1 * sqrt(k.K0 / k.rho0));
+}
+
 static void test_strength(void **state)
 {
     const char *const names[] = {
@@ -167,6 +178,8 @@ static void test_strength(void **state)
     };
     for_every(*state, offsetof(mpm_material, strength), names, sizeof names / sizeof names[0], MPM_MATERIAL_FOR_SCENE,
               check_strength);
+    for_every(*state, offsetof(mpm_material, strength), names, sizeof names / sizeof names[0], MPM_MATERIAL_FOR_SCENE,
+              check_sound);
 }
 
 /* ---- equation of state ---- */

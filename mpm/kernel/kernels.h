@@ -115,7 +115,7 @@ LANE_INLINE void prefetch_share(ahead *a)
 }
 
 /* Least half length of a domain that keeps a point stable, an open side of its cell, times the cell [m2].  Its forces
- * change its own velocity gradient by dt sigma/rho sum_i |grad S_i|^2 / S_i over the nodes that it shares with no other.
+ * change its own velocity gradient by dt sigma/rho sum_i |grad S_i|^2 / S_i over nodes that it shares with no other.
  * Where its domain just reaches over its cell's node, those beyond n open sides give n/(l h).  With C = c dt/h and the
  * linear viscosity q the limit is l = n h C (C + 2 q)/4, that of an oscillator damped at the end of its step; what is
  * taken is a third more.  docs/notes/solver.md has the scenes that blew up with less.  Without the affine part the last

@@ -6,12 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-double mpm_law_shear(const law *k)
-{
-    if (k->shear != MPM_SHEAR_VARIES) return k->G;
-    return shear_modulus(k, vd_set(0), vd_set(k->rho0), vd_set(k->T_r))[0];
-}
-
 struct mpm_point_law {
     law law;
     law_form form;

@@ -31,8 +31,9 @@ typedef enum {
 
 /* With the place of the grid, standard deviations: of what passes zero [1], of the threshold by that [m/s].  0: not
  * asked for, or there is no threshold; NAN: the second one is not known.  Then `reach` is how far from the threshold
- * scenes are that decide beyond the first one, else it is the second one: by this the interval is wider [m/s].  more: by
- * how much the mean over the grids lies above the search's own threshold; 0 where the second one is not known [m/s]. */
+ * scenes are that decide beyond the first one, else it is the second one: by this the interval is wider [m/s].
+ * more: how far the mean over the grids lies above the search's own threshold; 0 where the second one is not known
+ * [m/s]. */
 typedef struct {
     double excess, threshold, reach, more;
 } family_scatter;

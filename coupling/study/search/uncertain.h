@@ -27,8 +27,8 @@ typedef struct {
     uncertain_input of[UNCERTAIN_MAX];
 } uncertain_inputs;
 
-/* After the search of `grains`, whose thresholds it moves to the mean over the grids and whose intervals it widens.  *out
- * needs study_uncertain_free even on error, before `grains` goes. */
+/* After the search of `grains`, whose thresholds it moves to the mean over the grids and whose intervals it widens.
+ * *out needs study_uncertain_free even on error, before `grains` goes. */
 status study_uncertain_run(session *s, grain_families *grains, uncertain_inputs *out);
 /* The inputs that may be uncertain, k from 0 to UNCERTAIN_MAX - 1, by their keys. */
 const char *study_uncertain_input(int k);
