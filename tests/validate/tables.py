@@ -43,7 +43,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "wu2017-shipped": ("docs/validation/wu2017.md", part_wu2017.shipped, 2, False),
     "levels": ("docs/validation/levels.md", part_levels.default_shot, 8, True),
     "levels-paper": ("docs/validation/levels.md", part_levels.paper, 12, False),
-    "cells": ("docs/validation/growth.md", part_growth.cells, 14, False),
+    "cells": ("docs/validation/growth.md", part_growth.cells, 40, False),
     "criterion-steel": ("docs/validation/criterion.md", part_criterion.steel, 13, False),
     "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
     "struts": ("docs/validation/lattice.md", part_struts.struts, 4, False),
