@@ -768,6 +768,8 @@ static void test_uncertain_surfaces(void **state)
         assert_true(a->threshold_velocity == b->threshold_velocity);
         assert_true(fabs(a->threshold_interval[0] - b->threshold_interval[0] - wider) < 0.5 * wider);
         assert_true(fabs(b->threshold_interval[1] - a->threshold_interval[1] - wider) < 0.5 * wider);
+        assert_true(b->n_parts == ONSET_PARTS && fabs(b->part[3].threshold_above - 150.0) < 15.0);
+        assert_true(isnan(a->part[3].threshold_above));
     }
     for (int i = 0; i < unsure.result.n_scenes; i++) {
         named[0] += strncmp(unsure.result.scene[i].name, "strength-", 9) == 0;

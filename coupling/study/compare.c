@@ -220,6 +220,7 @@ static void fill_entry(const case_treatments *treatments, const compare_answer *
     e->scratch_velocity = r->scratch_velocity;
     memcpy(e->scratch_interval, r->scratch_interval, sizeof e->scratch_interval);
     e->threshold_deviation = r->threshold_deviation;
+    e->part = r->part, e->n_parts = r->n_parts;
     e->threshold_position = r->threshold_position;
     memcpy(e->threshold_position_interval, r->threshold_position_interval, sizeof e->threshold_position_interval);
     e->onset_position = a->treated[i].populations.n > 0 ? first->first[1] : r->onset_position;

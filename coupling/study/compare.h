@@ -43,6 +43,8 @@ typedef struct {
     double layer_velocity;  /* of the scene that says so [m/s] */
     double life, life_quantiles[3]; /* shots until a crack (life_compare.h); NAN: not asked for or not known [1] */
     int life_rank;                  /* tied, by life; 0: not asked for */
+    int n_parts;
+    const onset_part *part; /* n_parts, of the intervals; borrowed from the surface's answer */
 } compare_entry;
 
 typedef struct {

@@ -56,6 +56,8 @@ static const summary_key entry_keys[] = {
     SUMMARY_VECTOR(compare_entry, "life_quantiles", life_quantiles, 3, "1", "the same with 5, 50 and 95 %"),
     SUMMARY_VALUE(compare_entry, KEY_INTEGER, "life_rank", life_rank, "1",
                   "as `tied`, by life, 1 for the longest; 0: not asked for"),
+    SUMMARY_LIST(compare_entry, "interval_parts", part, n_parts, study_onset_part_keys, sizeof(onset_part),
+                 "what its intervals hold, keys as in those of an onset"),
     SUMMARY_END
 };
 

@@ -137,7 +137,8 @@ typedef struct {
     double wall_seconds;      /* [s] */
 } onset_result;
 
-extern const summary_key study_onset_keys[]; /* of onset_result */
+extern const summary_key study_onset_keys[];      /* of onset_result */
+extern const summary_key study_onset_part_keys[]; /* of onset_part */
 
 typedef struct {
     onset_result result; /* borrows the arrays below */

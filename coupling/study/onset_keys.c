@@ -66,7 +66,7 @@ static const summary_key sensitivity_keys[] = {
     SUMMARY_END
 };
 
-static const summary_key part_keys[] = {
+const summary_key study_onset_part_keys[] = {
     SUMMARY_TEXT(onset_part, "part", part, "bracket, cells, place of the grid, or the key of an uncertain input"),
     SUMMARY_NUMBER(onset_part, "threshold_below", threshold_below, "m/s",
                    "how far it alone reaches below the gouge's velocity; null: not asked for, so not in the interval"),
@@ -159,7 +159,7 @@ const summary_key study_onset_keys[] = {
     SUMMARY_LIST(onset_result, "sensitivities", sensitivities, n_sensitivities, sensitivity_keys,
                  sizeof(onset_sensitivity), "keys below"),
     SUMMARY_LIST(onset_result, "shots", shot, n_shots, shot_keys, sizeof(onset_shot), "on the same rail, keys below"),
-    SUMMARY_LIST(onset_result, "interval_parts", part, n_parts, part_keys, sizeof(onset_part),
+    SUMMARY_LIST(onset_result, "interval_parts", part, n_parts, study_onset_part_keys, sizeof(onset_part),
                  "what both intervals hold: the bracket, and on it the root of the sum of squares of all others, keys "
                  "below"),
     SUMMARY_LIST(onset_result, "null_models", null_model, n_null_models, null_model_keys, sizeof(onset_null_model),
