@@ -13,7 +13,7 @@ WIDEST_SCRATCH = 4.0  # scene.limit_length_over_width
 RESOLUTIONS = {  # cells a radius: velocities [m/s], grids of each
     3: ((500, 700, 900, 1000, 1150), 3),
     4: ((700, 800, 900, 1000, 1150), 3),
-    6: ((900, 1100), 3),
+    6: ((900, 1000, 1150), 3),
 }
 MEASURES = {  # key of the summary: title of the column, unit, digits, what a fresh one may differ by
     "groove_growth": ("growth [1/us]", 1e6, 3, 0.1),
