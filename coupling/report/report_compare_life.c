@@ -2,58 +2,32 @@
 /* The page of surfaces compared by life.  First which lasts longest and whether it can be told apart, beside the rail
  * as it is; then all of them. */
 #include "coupling/report/report_page.h"
-#include "coupling/report/report_svg.h"
 
 #include <math.h>
-#include <string.h>
 
-static void write_surface(FILE *out, const cJSON *entry)
+static void write_line(FILE *out, const cJSON *entry)
 {
     char text[REPORT_VALUE_SIZE];
     const double life = report_number(entry, "life"), early = report_element(entry, "life_quantiles", 0),
                  late = report_element(entry, "life_quantiles", 2);
     if (!isfinite(life)) {
-        fputs(report_text(entry, "lacks")[0] ? "is not judged" : "is not known to crack", out);
+        fputs(report_text(entry, "lacks")[0] ? " is not judged" : " is not known to crack", out);
         return;
     }
     if (isfinite(early))
         report_value_interval(life, early, late, text);
     else
         report_value_known(life, 0.7 * life, 1.3 * life, text);
-    fprintf(out, "cracks after %s shots, by %s", text, report_text(entry, "life_cause"));
-}
-
-static void write_line(FILE *out, const cJSON *entry)
-{
-    fputs("<li><b>", out);
-    report_svg_escaped(out, report_text(entry, "surface"));
-    fputs("</b> ", out);
-    write_surface(out, entry);
-    fputs(".</li>\n", out);
+    fprintf(out, " cracks after %s shots, by %s", text, report_text(entry, "life_cause"));
 }
 
 void report_compare_life_head(const page *p)
 {
-    const cJSON *ranking = report_page_list(p, "ranking"), *entry;
-    if (!report_page_is_done(p) || cJSON_GetArraySize(ranking) == 0) return;
-    const cJSON *best = ranking->child;
-    int tied = 0;
-    cJSON_ArrayForEach(entry, ranking) tied += report_number(entry, "tied") == report_number(best, "tied");
-    fputs("<p class=\"verdict\">", p->out);
-    if (tied > 1) {
-        fprintf(p->out, "The best %d surfaces cannot be told apart by their life", tied);
-    } else {
-        fputs("Longest lasts <b>", p->out);
-        report_svg_escaped(p->out, report_text(best, "surface"));
-        fputs("</b>", p->out);
-    }
-    fputs(".</p>\n<ul>\n", p->out);
-    write_line(p->out, best);
-    cJSON_ArrayForEach(entry, ranking)
-    {
-        if (entry != best && strcmp(report_text(entry, "surface"), "untreated") == 0) write_line(p->out, entry);
-    }
-    fputs("</ul>\n", p->out);
+    report_page_ranking(p, &(page_ranking){ .name = "surface",
+                                            .reference = "untreated",
+                                            .best = "Longest lasts",
+                                            .tied = "surfaces cannot be told apart by their life",
+                                            .line = write_line });
 }
 
 void report_compare_life_section(const page *p)

@@ -55,6 +55,39 @@ void report_page_paragraph(const page *p, const char *class, const char *text)
     fputs("</p>\n", p->out);
 }
 
+static void write_ranked(FILE *out, const page_ranking *of, const cJSON *entry)
+{
+    fputs("<li><b>", out);
+    report_svg_escaped(out, report_text(entry, of->name));
+    fputs("</b>", out);
+    of->line(out, entry);
+    fputs(".</li>\n", out);
+}
+
+void report_page_ranking(const page *p, const page_ranking *of)
+{
+    const cJSON *ranking = report_page_list(p, "ranking"), *entry;
+    if (!report_page_is_done(p) || cJSON_GetArraySize(ranking) == 0) return;
+    const cJSON *best = ranking->child;
+    int tied = 0;
+    cJSON_ArrayForEach(entry, ranking) tied += report_number(entry, "tied") == report_number(best, "tied");
+    fputs("<p class=\"verdict\">", p->out);
+    if (tied > 1) {
+        fprintf(p->out, "The best %d %s", tied, of->tied);
+    } else {
+        fprintf(p->out, "%s <b>", of->best);
+        report_svg_escaped(p->out, report_text(best, of->name));
+        fputs("</b>", p->out);
+    }
+    fputs(".</p>\n<ul>\n", p->out);
+    write_ranked(p->out, of, best);
+    cJSON_ArrayForEach(entry, ranking)
+    {
+        if (entry != best && strcmp(report_text(entry, of->name), of->reference) == 0) write_ranked(p->out, of, entry);
+    }
+    fputs("</ul>\n", p->out);
+}
+
 void report_page_number(FILE *out, double x, double unit, const char *name)
 {
     report_page_interval(out, x, NAN, NAN, unit, name);

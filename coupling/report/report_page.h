@@ -52,6 +52,15 @@ void report_page_list_table(const page *p, const cJSON *list, const page_column 
 /* The same of a list of the summary, under a heading. */
 void report_page_listed(const page *p, const char *key, const char *title, const page_column *columns, int n);
 
+/* Opens the page of a comparison from the list `ranking`: which entry is best, or how many cannot be told apart, then a
+ * line each of the best and of the one that all are compared with.  Nothing where the run is not done. */
+typedef struct {
+    const char *name;                            /* key of an entry's name */
+    const char *reference;                       /* name of what all are compared with */
+    const char *best, *tied;                     /* "The best target is", "targets cannot be told apart" */
+    void (*line)(FILE *out, const cJSON *entry); /* writes what follows the name */
+} page_ranking;
+void report_page_ranking(const page *p, const page_ranking *of);
 bool report_page_is_done(const page *p); /* the run is, by its summary */
 const cJSON *report_page_list(const page *p, const char *key);
 /* Colour of an outcome or class: "#c0392b" for a gouge. */
