@@ -240,7 +240,7 @@ static interval_parts parts_of(const uncertain_inputs *u, grain_family *f, famil
     interval_parts p;
     for (int side = 0; side < 2; side++) {
         const double end = side ? t->interval[1] - t->velocity : t->velocity - t->interval[0];
-        p.reach[0][side] = fmax(end - r->allowance, 0.0);
+        p.reach[0][side] = isnan(end) ? NAN : fmax(end - r->allowance, 0.0);
         p.reach[1][side] = r->of_cells;
         p.reach[2][side] = scatter->excess > 0.0 ? scatter->reach : NAN;
         for (int k = 0; k < UNCERTAIN_MAX; k++) p.reach[3 + k][side] = fabs(study_uncertain_moved(u, k, f, judge));
