@@ -926,6 +926,43 @@ static void test_scatter(void **state)
     case_free(c);
 }
 
+/* Where the search sees one side alone, its scenes on other grids say how far that is sure: the made-up threshold lies
+ * above the case's own on every further grid, by 328 m/s at most. */
+static void test_one_side_on_other_grids(void **state)
+{
+    (void)state;
+    breech_case *c = close_search(HEAD "sites: [{position: 2.9 m}]\n");
+    onset_answer own = studied(c, "side-own", status_ok());
+    const double threshold = own.result.threshold_velocity;
+    study_onset_answer_free(&own);
+    c->study.velocity_low = threshold + 50.0, c->study.velocity_high = threshold + 1000.0;
+    own = studied(c, "side-one", status_ok());
+    assert_true(own.result.verdict == VERDICT_GOUGES && own.result.probability_gouge == 1.0);
+    assert_true(isnan(own.result.threshold_velocity) && own.result.threshold_interval[1] < 1.2 * (threshold + 75.0));
+    const double near = own.result.threshold_interval[1];
+    study_onset_answer_free(&own);
+    c->study.threshold_ensemble = 3;
+    onset_answer many = studied(c, "side-many", status_ok());
+    const threshold_result *t = &many.grains.family[0].surface.reference;
+    const double against = many.grains.family[0].scatter.against;
+    assert_true(against > threshold + 50.0 && against < threshold + 330.0);
+    assert_true(many.result.threshold_interval[1] > near + 100.0 && t->interval[1] > threshold + 330.0);
+    assert_non_null(strstr(many.result.reason, "but on a shifted one the scene at"));
+    study_onset_answer_free(&many);
+    /* below it the further grids leave no gouge either, and nothing changes */
+    c->study.velocity_low = 500.0, c->study.velocity_high = threshold - 50.0;
+    many = studied(c, "side-below", status_ok());
+    assert_true(many.grains.family[0].scatter.against == 0.0);
+    c->study.threshold_ensemble = 0;
+    own = studied(c, "side-below-one", status_ok());
+    assert_true(many.result.verdict == own.result.verdict);
+    assert_true(many.result.threshold_interval[0] == own.result.threshold_interval[0]);
+    assert_true(many.result.n_scenes == 3 * own.result.n_scenes);
+    study_onset_answer_free(&own);
+    study_onset_answer_free(&many);
+    case_free(c);
+}
+
 /* An interval is its bracket and the root of the sum of squares of its other parts, and every part is listed. */
 static void assert_parts(const onset_result *r, double own_grid, bool scattered, double strength)
 {
@@ -1405,6 +1442,7 @@ int main(void)
         cmocka_unit_test(test_scatter_of_surfaces),
         cmocka_unit_test(test_verdict),
         cmocka_unit_test(test_scatter),
+        cmocka_unit_test(test_one_side_on_other_grids),
         cmocka_unit_test(test_parts_of_an_interval),
         cmocka_unit_test(test_scatter_of_a_small_slope),
         cmocka_unit_test(test_scatter_of_two),

@@ -288,6 +288,10 @@ static void explain(onset_answer *a)
     else if (isfinite(r->threshold_velocity))
         say(r, "threshold %.0f m/s (%.0f .. %.0f) is passed at x = %.3f m (%.3f .. %.3f)", r->threshold_velocity,
             r->threshold_interval[0], r->threshold_interval[1], r->threshold_position, x[0], x[1]);
+    else if (f && f->scatter.against > 0.0)
+        say(r, "%s on the case's own grid, but on a shifted one the scene at %g m/s does not decide so",
+            f->surface.reference.outcome == THRESHOLD_ABOVE ? "no threshold was found" : "all scenes gouge",
+            f->scatter.against);
     else if (isnan(r->threshold_interval[0]))
         say(r, "threshold at or below %.0f m/s, where the search began", r->threshold_interval[1] - allowance);
     else

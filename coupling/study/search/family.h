@@ -33,9 +33,11 @@ typedef enum {
  * asked for, or there is no threshold; NAN: the second one is not known.  Then `reach` is how far from the threshold
  * scenes are that decide beyond the first one, else it is the second one: by this the interval is wider [m/s].
  * more: how far the mean over the grids lies above the search's own threshold; 0 where the second one is not known
- * [m/s]. */
+ * [m/s].
+ * against: where the search saw one side alone, the velocity of the first scene that decides otherwise on a further
+ * grid; the interval's known end lies before it.  0: none [m/s]. */
 typedef struct {
-    double excess, threshold, reach, more;
+    double excess, threshold, reach, more, against;
 } family_scatter;
 
 typedef struct {

@@ -11,13 +11,13 @@ static const double DEAD = -2.999; /* growth of a groove that died before its fi
 
 static const double NEAR = 0.3; /* of the threshold: scenes so near it make the slope */
 
-/* One threshold of a family. */
+/* One threshold of a family, and the search's scenes that are computed on further grids. */
 typedef struct {
     grain_family *of;
     int number; /* of the family, from 0 */
     family_judge judge;
-    const family_scene *near;          /* the search's scene nearest to it; NULL: there is no threshold */
-    const scene_record *const *record; /* of that scene on the further grids; borrowed */
+    const family_scene *near;          /* the scene nearest to it; NULL: there is no threshold */
+    const scene_record *const *record; /* of that scene on the further grids, or of all of the search; borrowed */
 } sought;
 
 static const threshold_result *answer_of(const sought *t)
@@ -43,6 +43,13 @@ static const family_scene *nearest(const sought *t)
         if (counts(t, a) && (!best || fabs(a->velocity - threshold) < fabs(best->velocity - threshold))) best = a;
     }
     return best;
+}
+
+/* Has the search looked at one side alone, up to the end of its range? */
+static bool is_one_sided(const sought *t)
+{
+    const threshold_outcome found = answer_of(t)->outcome;
+    return t->of->by_growth && (found == THRESHOLD_ABOVE || found == THRESHOLD_BELOW);
 }
 
 /* The two numbers that decide on a gouge, each above zero where it speaks for one: growth in e-folds, and the shape. */
@@ -185,6 +192,65 @@ static void conclude(session *s, const grain_families *g, const sought *t, const
                      out->reach);
 }
 
+/* ---- where there is no threshold ---- */
+
+/* Does the scene decide on the side on which the search saw all of its scenes? */
+static bool agrees(const case_onset *c, const sought *t, const onset_scene *e)
+{
+    const threshold_sample is = study_family_sample(c, t->judge, e);
+    const bool upper = answer_of(t)->outcome == THRESHOLD_BELOW;
+    return is.class != DAMAGE_UNDECIDED && study_threshold_is_upper(&is) == upper;
+}
+
+/* Of the scenes that count, the nearest to the unknown threshold up to which all agree on all grids; NAN: the first one
+ * does not.  Sets the nearest that does not, NAN: all agree [m/s]. */
+static double agreed_to(const case_onset *c, const sought *t, double *against)
+{
+    const double up = answer_of(t)->outcome == THRESHOLD_ABOVE ? 1 : -1;
+    const int more = c->study.threshold_ensemble - 1;
+    double first = INFINITY, last = -INFINITY; /* on the way to the threshold */
+    int n = 0;
+    for (int i = 0; i < t->of->n_scenes; i++) {
+        const family_scene *a = &t->of->scene[i];
+        if (!counts(t, a)) continue;
+        for (int k = 0; k < more; k++)
+            if (!agrees(c, t, &t->record[n + k]->entry)) first = fmin(first, up * a->velocity);
+        n += more;
+    }
+    for (int i = 0; i < t->of->n_scenes; i++) {
+        const double way = up * t->of->scene[i].velocity;
+        if (counts(t, &t->of->scene[i]) && way < first) last = fmax(last, way);
+    }
+    *against = isinf(first) ? NAN : up * first;
+    return isinf(last) ? NAN : up * last;
+}
+
+/* The known end of a threshold's interval, as far as the grids agree: all sizes' with it. */
+static void move_end(surface_result *s, int side, double factor)
+{
+    s->reference.interval[side] *= factor;
+    for (int k = 0; k < s->sizes; k++) s->size[k].interval[side] *= factor;
+}
+
+static void conclude_one_sided(session *s, const grain_families *g, const sought *t)
+{
+    static const char *const said[FAMILY_JUDGES][2] = { { "leave no gouge", "leave gouges" },
+                                                        { "leave grooves that die", "leave grooves that grow" } };
+    surface_result *of = study_family_surface(t->of, t->judge);
+    const int side = of->reference.outcome == THRESHOLD_ABOVE ? 0 : 1;
+    double against;
+    const double to = agreed_to(g->c, t, &against);
+    if (isnan(against)) return;
+    study_family_scatter(t->of, t->judge)->against = against;
+    move_end(of, side, to / of->reference.bracket[side]);
+    run_session_warn(s,
+                     "%sall scenes of the search %s, but on a shifted grid that at %g m/s does not decide so: the "
+                     "interval ends before it; more cells a radius would lessen what the place of the cells decides",
+                     g->prefix, said[t->judge][side], against);
+}
+
+/* ---- all of them ---- */
+
 /* All thresholds of all families; how many. */
 static int list_sought(grain_families *g, sought *out)
 {
@@ -203,25 +269,48 @@ static const sought *other_of(const sought *list, int n, const sought *t)
     return NULL;
 }
 
+/* The scenes of one threshold on further grids; how many. */
+static int ask_for(const grain_families *g, const sought *t, scene_query *out)
+{
+    const int more = g->c->study.threshold_ensemble - 1;
+    int n = 0;
+    for (int i = 0; i < t->of->n_scenes; i++) {
+        const family_scene *a = &t->of->scene[i];
+        if (a != t->near && !(is_one_sided(t) && counts(t, a))) continue;
+        for (int k = 0; k < more; k++) out[n++] = query_of(g, t->number, a, k + 1);
+    }
+    return n;
+}
+
 static status measure(session *s, grain_families *g, scene_query *query, const scene_record **record, double *value,
                       sought *list)
 {
-    const int more = g->c->study.threshold_ensemble - 1, thresholds = list_sought(g, list);
+    const int thresholds = list_sought(g, list);
     int n = 0;
     for (int k = 0; k < thresholds; k++) {
         list[k].near = nearest(&list[k]), list[k].record = record + n;
-        for (int i = 0; list[k].near && i < more; i++) query[n++] = query_of(g, list[k].number, list[k].near, i + 1);
+        n += ask_for(g, &list[k], query + n);
     }
     TRY(run_scenes_all(s, query, n, record));
-    for (int k = 0; k < thresholds; k++)
+    for (int k = 0; k < thresholds; k++) {
         if (list[k].near) conclude(s, g, &list[k], other_of(list, thresholds, &list[k]), value);
+        if (is_one_sided(&list[k])) conclude_one_sided(s, g, &list[k]);
+    }
     return status_ok();
+}
+
+/* No more scenes than this on further grids, for all thresholds together. */
+static size_t most_scenes(const grain_families *g)
+{
+    size_t all = 0;
+    for (int k = 0; k < g->n; k++) all += (size_t)(g->family[k].n_scenes * FAMILY_JUDGES);
+    return all * (size_t)g->c->study.threshold_ensemble;
 }
 
 status study_scatter_run(session *s, grain_families *grains)
 {
     const size_t scenes = (size_t)grains->c->study.threshold_ensemble, thresholds = (size_t)(FAMILY_JUDGES * grains->n),
-                 all = scenes * thresholds;
+                 all = most_scenes(grains);
     if (all == 0) return status_ok();
     scene_query *query = calloc(all, sizeof *query);
     const scene_record **record = malloc(all * sizeof *record);
