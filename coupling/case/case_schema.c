@@ -171,10 +171,10 @@ static const base_param study_params[] = {
     PARAM_INT(case_study, ensemble, 0, 0, 1000,
               "grids, each shifted by another part of a cell, on which `breech scene` computes its scene: means and "
               "scatter of its answers; 0: on one alone"),
-    PARAM_INT(case_study, threshold_ensemble, 0, 0, 1000,
-              "grids on which `breech onset` and `breech compare` compute the scene nearest a threshold, judge: "
-              "growth, or all "
-              "of a search that saw one side alone; the interval then holds the scatter; 0: on one alone"),
+    PARAM_INT(
+        case_study, threshold_ensemble, 0, 0, 1000,
+        "grids on which `breech onset` and `breech compare` compute the scene nearest a threshold, judge: "
+        "growth, or all of a search that saw one side alone; the interval then holds the scatter; 0: on one alone"),
     PARAM_INT(case_study, craters, 2, 0, 2,
               "whole craters of each kind of grain that gouges, judge: growth: in the middle of the velocities that "
               "gouge; and at the fastest grain; 0: none, so no volumes, rims and feedback"),
