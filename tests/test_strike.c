@@ -537,6 +537,38 @@ static void test_water(void **state)
     assert_true(contains("err.txt", "1.8 cells of 0.0011 m there: water leaks through fewer than two"));
 }
 
+/* Water pierces nothing: the limit lies between arrivals that hold the plate and those that tear it, and both ends of
+ * the bracket are what they are said to be.  Up to 100 m/s none tears. */
+static void test_water_limit(void **state)
+{
+    (void)state;
+    const char *search = "--set strike.limit=yes --set study.velocity_low='20 m/s' --set study.velocity_high='400 m/s' "
+                         "--set study.velocity_interval=0.2 --set study.max_scenes=8 --set scene.end_time='60 us'";
+    cJSON *s = struck("water_limit", WATER, search);
+    const cJSON *bracket = cJSON_GetObjectItemCaseSensitive(s, "limit_interval"), *a;
+    assert_true(cJSON_IsNumber(cJSON_GetArrayItem(bracket, 0)) && cJSON_IsNumber(cJSON_GetArrayItem(bracket, 1)));
+    const double lo = cJSON_GetArrayItem(bracket, 0)->valuedouble, hi = cJSON_GetArrayItem(bracket, 1)->valuedouble;
+    bool holds = false, tears = false;
+    assert_true(lo < number(s, "limit_velocity") && number(s, "limit_velocity") < hi && lo >= 20.0 && hi <= 400.0);
+    cJSON_ArrayForEach(a, cJSON_GetObjectItemCaseSensitive(s, "arrivals"))
+    {
+        const char *class = cJSON_GetObjectItemCaseSensitive(a, "class")->valuestring;
+        const double v = number(a, "impact_velocity");
+        print_message("water at %g m/s: %s\n", v, class);
+        if (v <= lo) assert_string_not_equal(class, "torn");
+        if (v >= hi) assert_string_equal(class, "torn");
+        holds = holds || (v == lo && strcmp(class, "bulged") == 0);
+        tears = tears || v == hi;
+    }
+    assert_true(holds && tears);
+    assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(s, "recht_ipson_factor")));
+    cJSON_Delete(s);
+    assert_int_equal(run("strike water_limit -o water_limit/low --quiet --threads 1 --set strike.limit=yes --set "
+                         "study.velocity_low='10 m/s' --set study.velocity_high='60 m/s' --set study.max_scenes=6"),
+                     0);
+    assert_true(contains("water_limit/low/summary.json", "nothing up to there tears the plate"));
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -573,7 +605,7 @@ int main(void)
         cmocka_unit_test(test_parts),     cmocka_unit_test(test_recht_ipson), cmocka_unit_test(test_limit),
         cmocka_unit_test(test_from_shot), cmocka_unit_test(test_shipped),     cmocka_unit_test(test_charge),
         cmocka_unit_test(test_refused),   cmocka_unit_test(test_water),       cmocka_unit_test(test_losses),
-        cmocka_unit_test(test_room),
+        cmocka_unit_test(test_room),      cmocka_unit_test(test_water_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

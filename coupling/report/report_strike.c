@@ -152,8 +152,8 @@ static void draw_force(const page *p)
 
 /* ---- the limit velocity ---- */
 
-/* Arrivals that pierced, or those that did not. */
-static void add_arrivals(report_chart *c, const cJSON *list, bool pierced)
+/* Arrivals of a class; NULL: of all others than `pierced` and `torn`. */
+static void add_arrivals(report_chart *c, const cJSON *list, const char *class, const char *label, const char *colour)
 {
     const int most = cJSON_GetArraySize(list);
     double *x = malloc(((size_t)most + 1) * sizeof *x), *y = malloc(((size_t)most + 1) * sizeof *y);
@@ -162,13 +162,12 @@ static void add_arrivals(report_chart *c, const cJSON *list, bool pierced)
     if (x && y) {
         cJSON_ArrayForEach(a, list)
         {
-            if ((strcmp(report_text(a, "class"), "pierced") == 0) != pierced) continue;
+            const char *is = report_text(a, "class");
+            if (class ? strcmp(is, class) != 0 : strcmp(is, "pierced") == 0 || strcmp(is, "torn") == 0) continue;
             x[n] = report_number(a, "impact_velocity");
             y[n++] = report_number(a, "residual_velocity");
         }
-        if (n > 0)
-            (pierced ? report_chart_dots : report_chart_rings)(c, pierced ? "pierced" : "not pierced",
-                                                               pierced ? report_red : "#3d8b4f", x, y, n);
+        if (n > 0) (class ? report_chart_dots : report_chart_rings)(c, label, colour, x, y, n);
     }
     free(x);
     free(y);
@@ -199,8 +198,9 @@ static void draw_limit(const page *p, const cJSON *list)
     report_chart_band(c, "limit velocity", report_gouge_band, 'x', report_element(s, "limit_interval", 0),
                       report_element(s, "limit_interval", 1));
     add_fit(c, s, list);
-    add_arrivals(c, list, true);
-    add_arrivals(c, list, false);
+    add_arrivals(c, list, "pierced", "pierced", report_red);
+    add_arrivals(c, list, "torn", "torn", "#d08a1e");
+    add_arrivals(c, list, NULL, "neither", "#3d8b4f");
     report_page_chart(p, "limit", "One point an arrival of the search.", c);
 }
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 static const double STOPPED_EXCESS = -0.05; /* of what does not pierce: as far below as a fifth of v0 is above [1] */
+static const double TORN_EXCESS = 0.05;     /* of a plate that water tears: a bracket is halved [1] */
 
 static threshold_plan plan_of(const case_study *c)
 {
@@ -25,14 +26,22 @@ status study_strike_limit_possible(const case_study *c)
     return study_threshold_begin(&plan, &search);
 }
 
-static threshold_sample sample_of(double velocity, const strike_outcome *o)
+/* The class above the limit.  Water goes nowhere: it tears the plate. */
+static strike_class class_above(const strike_projectile *p)
+{
+    return p->piston ? STRIKE_TORN : STRIKE_PIERCED;
+}
+
+static threshold_sample sample_of(double velocity, const strike_projectile *p, const strike_outcome *o)
 {
     const double share = o->residual_velocity / velocity;
-    const bool pierced = o->class == STRIKE_PIERCED;
+    const bool above = (strike_class)o->class == class_above(p);
     return (threshold_sample){ .velocity = velocity,
                                .cells_per_radius = 1.0,
-                               .excess = pierced ? share * share : STOPPED_EXCESS,
-                               .class = pierced                         ? DAMAGE_GOUGE
+                               .excess = !above      ? STOPPED_EXCESS
+                                         : p->piston ? TORN_EXCESS
+                                                     : share * share,
+                               .class = above                           ? DAMAGE_GOUGE
                                         : o->class == STRIKE_UNFINISHED ? DAMAGE_UNDECIDED
                                                                         : DAMAGE_NONE };
 }
@@ -81,43 +90,50 @@ static status answer(session *s, const study_case *of, const strike_projectile *
         snprintf(a.scene, sizeof a.scene, "%s", record[i]->entry.name);
         TRY(read_arrival(s, of, p, &bodies[i], wanted[i].velocity, &a));
         insert(l, &a);
-        const threshold_sample sample = sample_of(wanted[i].velocity, &a.is);
+        const threshold_sample sample = sample_of(wanted[i].velocity, p, &a.is);
         TRY(study_threshold_tell(search, &sample));
     }
     return status_ok();
 }
 
 /* Was an arrival no faster than this really held? */
-static bool is_held(const strike_limit *l, double velocity)
+static bool is_held(const strike_limit *l, const strike_projectile *p, double velocity)
 {
-    for (int i = 0; i < l->arrivals && l->arrival[i].is.impact_velocity <= velocity; i++)
-        if (l->arrival[i].is.class != STRIKE_PIERCED && l->arrival[i].is.class != STRIKE_UNFINISHED) return true;
+    for (int i = 0; i < l->arrivals && l->arrival[i].is.impact_velocity <= velocity; i++) {
+        const strike_class class = (strike_class)l->arrival[i].is.class;
+        if (class != class_above(p) && class != STRIKE_UNFINISHED) return true;
+    }
     return false;
 }
 
-static void conclude(session *s, const case_study *c, const threshold_result *r, strike_limit *l)
+static void conclude(session *s, const case_study *c, const strike_projectile *p, const threshold_result *r,
+                     strike_limit *l)
 {
+    const char *above = p->piston ? "tears the plate" : "pierces";
     double arrival[THRESHOLD_MAX_SAMPLES + 1], residual[THRESHOLD_MAX_SAMPLES + 1];
     int n = 0;
     for (int k = 0; k < 2; k++) l->interval[k] = r->interval[k];
     if (r->outcome == THRESHOLD_FOUND) l->velocity = 0.5 * (r->bracket[0] + r->bracket[1]);
-    if (r->outcome == THRESHOLD_FOUND && !is_held(l, r->interval[0])) {
+    if (r->outcome == THRESHOLD_FOUND && !is_held(l, p, r->interval[0])) {
         run_session_warn(s,
                          "limit_interval has no lower end: no arrival below %g m/s is decided; take a longer scene "
-                         "(strike.travel), or a lower study.velocity_low",
-                         r->interval[0]);
+                         "(%s), or a lower study.velocity_low",
+                         r->interval[0], p->piston ? "scene.end_time" : "strike.travel");
         l->interval[0] = NAN;
     }
     if (r->outcome == THRESHOLD_BELOW)
-        run_session_warn(s, "the limit velocity lies below study.velocity_low = %g m/s: that pierces", c->velocity_low);
+        run_session_warn(s, "the limit velocity lies below study.velocity_low = %g m/s: that %s", c->velocity_low,
+                         above);
     if (r->outcome == THRESHOLD_ABOVE)
-        run_session_warn(s, "the limit velocity lies above study.velocity_high = %g m/s: that does not pierce",
-                         c->velocity_high);
+        run_session_warn(s, "the limit velocity lies above study.velocity_high = %g m/s: nothing up to there %s",
+                         c->velocity_high, above);
     if (r->outcome == THRESHOLD_UNKNOWN)
         run_session_warn(s, "study.max_scenes = %d did not suffice to find a limit velocity", c->max_scenes);
     if (!r->monotone)
-        run_session_warn(s, "piercing turns back: a faster arrival than one that pierces is stopped; limit_interval "
-                            "spans both");
+        run_session_warn(s,
+                         "the limit turns back: a faster arrival than one that %s does not; limit_interval spans "
+                         "both",
+                         above);
     for (int i = 0; i < l->arrivals; i++) {
         const strike_outcome *o = &l->arrival[i].is;
         if (o->class != STRIKE_PIERCED) continue;
@@ -140,7 +156,7 @@ status study_strike_limit_search(session *s, const study_case *of, const strike_
     if (first) insert(out, first);
     TRY(study_threshold_begin(&plan, &search));
     while ((n = study_threshold_ask(&search, wanted)) > 0) TRY(answer(s, of, p, &search, wanted, n, out));
-    conclude(s, c, &search.result, out);
+    conclude(s, c, p, &search.result, out);
     return status_ok();
 }
 

@@ -2,9 +2,10 @@
 /* The limit velocity of a target: between the arrivals that stop a projectile and those that pierce, by the bracketing
  * search of search/threshold.h over study.velocity_low .. velocity_high.
  *
- * `pierced` lies above the limit, every other class below; `unfinished` is undecided and widens the interval, which has
- * no lower end where nothing slower is decided.  What the
- * search interpolates is (v_r/v0)^2 above, which rises from zero at the limit (A-2), and a constant below. */
+ * `pierced` lies above the limit, of a piston's water `torn`, every other class below; `unfinished` is undecided and
+ * widens the interval, which has no lower end where nothing slower is decided.  What the search interpolates is
+ * (v_r/v0)^2 above, which rises from zero at the limit (A-2), and a constant below; of a piston's water a constant on
+ * either side, so that it halves its bracket. */
 #ifndef BREECH_COUPLING_STUDY_STRIKE_LIMIT_H
 #define BREECH_COUPLING_STUDY_STRIKE_LIMIT_H
 
