@@ -540,6 +540,33 @@ static status try_crossing(void)
     return status_ok();
 }
 
+/* A snapshot's bytes to a rank 0 that looks seldom, as it does who steps a scene: once begun they come as a whole. */
+static status try_large(void)
+{
+    enum { BYTES = 16 << 20, BEGINS = 8, MOST = 5 };
+    const int me = run_ranks_number();
+    if (me > 1) return status_ok();
+    message m;
+    bool any = false;
+    int looks = 0;
+    if (me == 1) {
+        char *data = calloc(1, BYTES);
+        CHECK(data, STATUS_MEMORY, "no memory");
+        TRY(run_ranks_send(0, BEGINS, "", 0));
+        TRY(run_ranks_send(0, BEGINS + 1, data, BYTES));
+        free(data);
+        return status_ok();
+    }
+    for (int part = 0; part < 2; part++, any = false)
+        while (!any) {
+            if (part == 1 && looks++ > 0) nanosleep(&(struct timespec){ 0, 50000000 }, NULL);
+            TRY(run_ranks_receive(&m, &any));
+            run_message_free(&m);
+        }
+    CHECK(looks <= MOST, STATUS_IO, "%d bytes took %d looks", (int)BYTES, looks);
+    return status_ok();
+}
+
 /* One of them is killed while rank 0 waits for it. */
 static int with_a_death(void)
 {
@@ -612,7 +639,8 @@ int main(int argc, char **argv)
     if (run_ranks_start(by_launcher ? 1 : PROCESSES).code != STATUS_OK) return SKIPPED; /* built without MPI */
     if (run_ranks_count() < PROCESSES) return puts("skipped: not started by mpirun"), SKIPPED;
     alarm(600); /* rather than wait for ever */
-    if (start_lending().code != STATUS_OK || try_crossing().code != STATUS_OK) return 1;
+    if (start_lending().code != STATUS_OK || try_crossing().code != STATUS_OK || try_large().code != STATUS_OK)
+        return 1;
     if (run_ranks_number() == 0) {
         failed = by_launcher ? cmocka_run_group_tests(messages, NULL, NULL) : cmocka_run_group_tests(tests, NULL, NULL);
         run_crew_dismiss();

@@ -35,7 +35,7 @@ int run_ranks_on_machine(void); /* of them on this machine */
 /* Returns when the bytes may be reused, which may be when the other one has received them; what comes meanwhile is kept
  * for run_ranks_receive, so two may send to each other.  At most 2 GiB. */
 status run_ranks_send(int to, int kind, const void *data, size_t bytes);
-/* false: nothing has come.  STATUS_MEMORY only. */
+/* false: nothing has come.  Of a message that has begun to come the rest is waited for.  STATUS_MEMORY only. */
 status run_ranks_receive(message *out, bool *any);
 void run_message_free(message *m);
 

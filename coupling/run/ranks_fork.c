@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdint.h>
@@ -16,7 +17,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { BOARD_BYTES = 4096, ALIGNED = 64 }; /* of each process */
+enum {
+    BOARD_BYTES = 4096, /* of each process */
+    ALIGNED = 64,
+    SHORT_PAUSE = 1,    /* of who sends, until there is room [ms] */
+    LONGEST_PAUSE = 100 /* of who receives, within a message: the sender may be stopped [ms] */
+};
 
 /* Begins every message. */
 typedef struct {
@@ -84,6 +90,13 @@ static status begin_to_send(int to, int kind, const void *data, size_t bytes)
     return status_ok();
 }
 
+/* The other one reads on while it has something to read (more_comes). */
+static bool has_room(const line *l)
+{
+    struct pollfd p = { .fd = l->fd, .events = POLLOUT };
+    return poll(&p, 1, SHORT_PAUSE) > 0;
+}
+
 static status has_sent(bool *all)
 {
     const size_t size = sizeof out_tray.head + out_tray.head.bytes;
@@ -93,7 +106,10 @@ static status has_sent(bool *all)
                                    : out_tray.data + (out_tray.done - sizeof out_tray.head);
         const size_t left = (in_head ? sizeof out_tray.head : size) - out_tray.done;
         const ssize_t n = send(out_tray.to->fd, from, left, MSG_NOSIGNAL | MSG_DONTWAIT);
-        if (n < 0 && (errno == EAGAIN || errno == EINTR)) break;
+        if (n < 0 && (errno == EAGAIN || errno == EINTR)) {
+            if (has_room(out_tray.to)) continue;
+            break;
+        }
         if (n <= 0) end_all(out_tray.to);
         out_tray.done += (size_t)n;
     }
@@ -101,7 +117,20 @@ static status has_sent(bool *all)
     return status_ok();
 }
 
-/* What can be read of a message now; *whole: all of it is there. */
+static bool is_sending(void)
+{
+    return out_tray.to && out_tray.done < sizeof out_tray.head + out_tray.head.bytes;
+}
+
+/* Whose message has begun goes on with it (ranks.c: run_ranks_send), a socket's room at a time: without waiting, each
+ * would take as long as a step of the scene that rank 0 computes.  Two that send to each other do not wait. */
+static bool more_comes(const line *l)
+{
+    struct pollfd p = { .fd = l->fd, .events = POLLIN };
+    return l->got > 0 && !is_sending() && poll(&p, 1, LONGEST_PAUSE) > 0;
+}
+
+/* What can be read of a message now, all of it if it has begun; *whole: all of it is there. */
 static status read_on(line *l, bool *whole)
 {
     *whole = false;
@@ -110,7 +139,10 @@ static status read_on(line *l, bool *whole)
         if (l->got == size) break;
         char *to = l->got < sizeof l->head ? (char *)&l->head + l->got : l->data + (l->got - sizeof l->head);
         const ssize_t n = recv(l->fd, to, size - l->got, MSG_DONTWAIT);
-        if (n < 0 && (errno == EAGAIN || errno == EINTR)) return status_ok();
+        if (n < 0 && (errno == EAGAIN || errno == EINTR)) {
+            if (more_comes(l)) continue;
+            return status_ok();
+        }
         if (n <= 0) end_all(l);
         l->got += (size_t)n;
         if (l->got != sizeof l->head) continue;
