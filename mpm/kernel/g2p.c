@@ -312,16 +312,21 @@ static cell_limits limits_of(const mpm *m, const brick *b, int cell)
     return c;
 }
 
-static step_of step_for(const mpm *m, const brick *b, const cell_grid *g, int body)
+/* Of a body, without the cell's sizes. */
+static step_of step_for(const mpm *m, const brick *b, int body)
 {
     step_of step = { .dt = level_dt(m, b->level) };
     for (int i = 0; i < 3; i++) {
-        step.h[i] = g->axis[i]->cell, step.inv_h[i] = g->axis[i]->inv_cell;
         step.force[i] = m->scene.body[body].body_force[i];
         step.traction[i] = m->scene.body[body].traction[i];
     }
     step.wave = m->load[b->level * m->scene.bodies + body];
     return step;
+}
+
+static void set_cell(step_of *step, const cell_grid *g)
+{
+    for (int i = 0; i < 3; i++) step->h[i] = g->axis[i]->cell, step->inv_h[i] = g->axis[i]->inv_cell;
 }
 
 /* Advances a block by a step; the lanes that leave it.  `kernel`: that of the body's law, a constant where this is
@@ -390,12 +395,13 @@ static void one_cell(mpm *m, brick *b, int cell, const brick_grid *grid, const h
     mover_list *movers = &m->movers[b->movers_thread];
     cell_nodes nodes;
     gather_cell(halo, halo_index(cell), nodes);
-    run->step = step_for(m, b, &g, run->body);
+    set_cell(&run->step, &g);
     for (int i = b->head[cell]; i >= 0; i = m->links[i].next) {
         const int body = m->links[i].body;
         if (body != run->body) {
             add_books(&b->sum, run, &peaks_of_thread(m, b->movers_thread)[run->body]);
-            *run = (block_run){ .body = body, .near = run->near, .step = step_for(m, b, &g, body) };
+            *run = (block_run){ .body = body, .near = run->near, .step = step_for(m, b, body) };
+            set_cell(&run->step, &g);
         }
         b->sum.particles += (uint64_t)__builtin_popcount(m->links[i].mask);
         const int leaving = block_kernels[m->laws[body].kernel](m, b, i, &g, &limits, nodes, run);
@@ -482,7 +488,7 @@ void ISA(g2p)(mpm *m, brick *b, int thread)
     }
     b->still = slow && !is_at_mirror(m, b) && !is_loaded(m, b) ? b->still + 1 : 0;
     b->given = false;
-    block_run run = { .body = 0 };
+    block_run run = { .body = 0, .step = step_for(m, b, 0) };
     const uint64_t near = !b->contact ? 0 : b->across ? mpm_contact_cells(m, b) : b->meets;
     for (int cell = 0; cell < BRICK_CELLS; cell++) {
         if (b->head[cell] < 0) continue;
