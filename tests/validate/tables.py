@@ -39,7 +39,7 @@ from breech.needs import demand
 
 PARTS = {  # name: page, function, minutes of processor time, quick: compared by ctest with BREECH_FULL=1
     "wu2017": ("docs/validation/wu2017.md", part_wu2017.two_cells, 35, True),
-    "wu2017-three-cells": ("docs/validation/wu2017.md", part_wu2017.three_cells, 5, False),
+    "wu2017-three-cells": ("docs/validation/wu2017.md", part_wu2017.three_cells, 7, False),
     "wu2017-shipped": ("docs/validation/wu2017.md", part_wu2017.shipped, 2, False),
     "levels": ("docs/validation/levels.md", part_levels.default_shot, 8, True),
     "levels-paper": ("docs/validation/levels.md", part_levels.paper, 12, False),
@@ -47,7 +47,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "criterion-steel": ("docs/validation/criterion.md", part_criterion.steel, 13, False),
     "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
     "struts": ("docs/validation/lattice.md", part_struts.struts, 4, False),
-    "lattice-press": ("docs/validation/lattice.md", part_lattice_rows.pressing, 4, False),
+    "lattice-press": ("docs/validation/lattice.md", part_lattice_rows.pressing, 10, False),
     "lattice-rows": ("docs/validation/lattice.md", part_lattice_rows.nets, 40, False),
     "lattice": ("docs/validation/lattice.md", part_lattice.through, 9, False),
     "water": ("docs/validation/water.md", part_water.water, 12, False),
