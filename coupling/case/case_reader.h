@@ -48,6 +48,8 @@ void case_warn(case_reader *r, const char *line);
 status case_file_of(const char *path, char file[CASE_PATH_SIZE]);
 /* The same; where nothing is there and a case of this name (`NAME`, `cases/NAME`) came with the program, that one's. */
 status case_file_find(const char *path, char file[CASE_PATH_SIZE]);
+/* Is `cases/NAME` or `NAME` a case that came with the program?  *file stays as it is if there is none. */
+bool case_file_shipped(const char *path, char file[CASE_PATH_SIZE]);
 void case_folder_of(const char *file, char folder[CASE_PATH_SIZE]);
 bool case_file_is_same(const char *a, const char *b);
 

@@ -2,50 +2,10 @@
 /* The tree of a case: its file, the files it builds on (`base:`), what --set changes; old names become the new ones. */
 #include "coupling/case/case_reader.h"
 
-#include "coupling/case/material_file.h"
 #include "coupling/host/file_text.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-/* ---- files ---- */
-
-status case_file_of(const char *path, char file[CASE_PATH_SIZE])
-{
-    const size_t end = strlen(path);
-    const char *slash = end > 0 && path[end - 1] == '/' ? "" : "/";
-    const int used = host_folder_exists(path) ? snprintf(file, CASE_PATH_SIZE, "%s%scase.yaml", path, slash)
-                                              : snprintf(file, CASE_PATH_SIZE, "%s", path);
-    CHECK(used < CASE_PATH_SIZE, STATUS_BAD_INPUT, "the case's path is longer than %d bytes", CASE_PATH_SIZE - 1);
-    return status_ok();
-}
-
-/* Of a path that is not there: `cases/NAME` or `NAME` may be a case that came with the program.  *file stays as it is
- * if there is none. */
-static bool shipped(const char *path, char file[CASE_PATH_SIZE])
-{
-    const char *name = strncmp(path, "cases/", 6) == 0 ? path + 6 : path;
-    char folder[CASE_PATH_SIZE], found[CASE_PATH_SIZE];
-    case_folders at;
-    case_folders_find(&at);
-    if (path[0] == '/' || path[0] == '.' || strstr(name, "..")) return false;
-    for (int k = 0; k < at.n; k++) {
-        const int n = snprintf(folder, sizeof folder, "%s/%s", at.dir[k], name);
-        if (n >= (int)sizeof folder || case_file_of(folder, found).code != STATUS_OK) continue;
-        if (!host_file_exists(found)) continue;
-        memcpy(file, found, sizeof found);
-        return true;
-    }
-    return false;
-}
-
-status case_file_find(const char *path, char file[CASE_PATH_SIZE])
-{
-    TRY(case_file_of(path, file));
-    if (access(file, F_OK) != 0) (void)shipped(path, file);
-    return status_ok();
-}
 
 /* The file that `base` names, seen from the file it stands in: a new one of the reader's.  What is wrong with it is an
  * error at `base`; then the result is -1. */
@@ -65,7 +25,7 @@ static int base_file(case_reader *r, const tree_node *base)
     const bool as_it_is = base->text[0] == '/' || strcmp(folder, ".") == 0;
     snprintf(path, sizeof path, "%s%s%s", as_it_is ? "" : folder, as_it_is ? "" : "/", base->text);
     const status s = case_file_of(path, file);
-    if (s.code != STATUS_OK || !(host_file_exists(file) || shipped(base->text, file))) {
+    if (s.code != STATUS_OK || !(host_file_exists(file) || case_file_shipped(base->text, file))) {
         case_errors_add(r->errors, base, "base = %.*s: %s", CASE_SHOWN, base->text,
                         s.code != STATUS_OK ? s.text : "there is no such case");
         return -1;
