@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The shot's rails: their keys, and the ladder that stands for them at each level. */
+#include "base/constants.h"
 #include "circuit/rails/inductance.h"
 #include "circuit/shot_model.h"
-
-static const double TURN = 6.28318530717958648;
 
 static const char *const level_names[] = { "constant", "skin", "diffusing", NULL };
 
@@ -137,7 +136,7 @@ status circuit_rails_ladder(const circuit_shot_rails *rails, double f_top, circu
     TRY(circuit_rails_section(rails, &section));
     circuit_impedance z;
     status st = circuit_inductance_response(&section, f_top, rails->fineness, &z);
-    if (st.code == STATUS_OK) st = circuit_ladder_fit(&z, TURN * f_top, rails->ladder_error, out);
+    if (st.code == STATUS_OK) st = circuit_ladder_fit(&z, 2.0 * PI * f_top, rails->ladder_error, out);
     circuit_impedance_free(&z);
     return st;
 }
@@ -148,7 +147,7 @@ static double band_top(const circuit_shot_config *c)
 {
     const double f_pulse = circuit_shot_effective_frequency(c->supplies);
     const double v0 = c->armature.velocity, v2 = v0 * v0 + 2.0 * supplies_energy(c) / c->armature.mass;
-    const double f_contact = sqrt(v2) / (TURN * c->armature.contact_length);
+    const double f_contact = sqrt(v2) / (2.0 * PI * c->armature.contact_length);
     return fmax(f_contact, 10.0 * (isnan(f_pulse) ? 100.0 : f_pulse));
 }
 

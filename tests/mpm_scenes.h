@@ -6,6 +6,7 @@
 #ifndef BREECH_TESTS_MPM_SCENES_H
 #define BREECH_TESTS_MPM_SCENES_H
 
+#include "base/constants.h"
 #include "mpm/law/contact.h"
 #include "mpm/mpm.h"
 
@@ -19,7 +20,7 @@
 
 #include <cmocka.h>
 
-#define SCENE_PI 3.14159265358979323846
+#define SCENE_PI PI
 
 /* cmocka's own comparison is in single precision. */
 #define assert_near(value, want, tolerance)                                                    \

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* base/: status and parameter tables.  Tolerances are zero throughout: nothing here is computed, only copied. */
+/* base/: constants, status and parameter tables.  Tolerances of the latter two are zero: there nothing is computed,
+ * only copied. */
+#include "base/constants.h"
 #include "base/param.h"
 #include "base/status.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -11,6 +14,18 @@
 #include <string.h>
 
 #include <cmocka.h>
+
+/* ---- constants, by the numbers they follow from ---- */
+
+/* mu_0 = 2 alpha h/(c e^2), known to ten digits; R = N_A k, exact. */
+static void test_constants(void **state)
+{
+    (void)state;
+    const double alpha = 7.2973525693e-3, h = 6.62607015e-34, e = 1.602176634e-19, c = 299792458.0;
+    assert_true(PI == acos(-1.0));
+    assert_true(fabs(MU0 * c * e * e / (2.0 * alpha * h) - 1.0) < 1e-10);
+    assert_true(fabs(GAS_CONSTANT / (6.02214076e23 * 1.380649e-23) - 1.0) < 1e-14);
+}
 
 /* ---- status ---- */
 
@@ -244,6 +259,7 @@ static void test_check_reports_the_first_in_table_order(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_constants),
         cmocka_unit_test(test_status_ok),
         cmocka_unit_test(test_status_text_is_formatted),
         cmocka_unit_test(test_status_long_text_is_cut),

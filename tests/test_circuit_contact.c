@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The armature's contact: how its current crowds (circuit/armature/contact.h), the film it slides on
  * (circuit/armature/film.h), both in a shot. */
+#include "base/constants.h"
 #include "circuit/armature/contact.h"
 #include "circuit/armature/film.h"
 #include "tests/circuit_common.h"
@@ -41,7 +42,7 @@ static double evenness_by_cells(double z)
 {
     enum { CELLS = 2000 };
     static double J[CELLS + 1];
-    const double h = z / CELLS, pi = 3.14159265358979;
+    const double h = z / CELLS;
     double slope = 0.0, sum = 0.0;
     J[0] = 1.0;
     for (int n = 1; n <= CELLS; n++) {
@@ -53,7 +54,7 @@ static double evenness_by_cells(double z)
                 const double at_x = J[k] + b * u1; /* the line carried on to s = x */
                 E += 2.0 * at_x * (sqrt(u1) - sqrt(u0)) - b * (pow(u1, 1.5) - pow(u0, 1.5)) * 2.0 / 3.0;
             }
-            const double end = E / sqrt(pi);
+            const double end = E / sqrt(PI);
             J[n] = J[n - 1] + 0.5 * h * (slope + end);
             if (pass == 3) slope = end;
         }
@@ -80,7 +81,7 @@ static void spread_by_speed_and_current(void **state)
     (void)state;
     const double area = 0.0165 * 0.025, rho = 1.72e-8, v = 1000.0, I = 9e5;
     circuit_sliding_contact c = { .length = 0.0165, .interface = 15.0 * area, .resistivity = rho };
-    const double r = c.interface / I, d = cbrt(r * r / (4e-7 * 3.14159265358979 * rho * v));
+    const double r = c.interface / I, d = cbrt(r * r / (4e-7 * PI * rho * v));
     assert_near(d, 0.01298, 1e-5); /* by hand: r 6.875e-9 ohm m^2 */
     assert_near(circuit_contact_spread(&c, v, I), 0.0165 * circuit_contact_evenness(0.0165 / d), 1e-9);
     assert_near(circuit_contact_spread(&c, v, -I), circuit_contact_spread(&c, v, I), 0.0);
@@ -216,11 +217,11 @@ static circuit_shot *watched(const circuit_shot_config *c, contact_notes *n)
 /* (C-7) by hand, from the state just after the face melted: what friction was before, and both heats so far. */
 static double rise_at_melting(const circuit_shot_armature *a, const circuit_shot_state *e, double area)
 {
-    const double pi = 3.14159265358979, crowding = a->contact_length / e->contact_spread;
+    const double crowding = a->contact_length / e->contact_spread;
     const double q =
         a->friction_dry * e->contact_force * e->v / area + crowding * a->contact_voltage * e->current / (2.0 * area);
     const double E = (e->ledger.friction + crowding * e->ledger.contact_heat) / (2.0 * area);
-    return a->heat_share * 2.0 * sqrt(q * E / pi) / sqrt(a->thermal_conductivity * a->density * a->specific_heat);
+    return a->heat_share * 2.0 * sqrt(q * E / PI) / sqrt(a->thermal_conductivity * a->density * a->specific_heat);
 }
 
 /* Dry until the face melts, at a located instant and where its temperature says; then the film's own shear; wear begins

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Diffusing rails: the ladder against the section it stands for, the two equations a rung against slices summed one by
  * one, the closed formula of a half-space, and the power balance that must hold for any current and speed. */
+#include "base/constants.h"
 #include "circuit/rails/inductance.h"
 #include "circuit/rails/rails.h"
 #include "circuit/shot.h"
@@ -19,7 +20,6 @@
 
 #undef I /* the current, here */
 
-static const double TURN = 6.28318530717958648, MU0 = 1.25663706212e-6;
 static const double COPPER = 1.72e-8; /* [ohm m] */
 static const circuit_rail_section SECTION = {
     .height = 0.025, .thickness = 0.020, .separation = 0.025, .resistivity = 1.72e-8, .rails = 2
@@ -41,7 +41,7 @@ static circuit_ladder fitted(double f_top, double error)
     circuit_impedance z;
     circuit_ladder l;
     assert_ok(circuit_inductance_response(&SECTION, f_top, 4.0, &z));
-    assert_ok(circuit_ladder_fit(&z, TURN * f_top, error, &l));
+    assert_ok(circuit_ladder_fit(&z, 2.0 * PI * f_top, error, &l));
     circuit_impedance_free(&z);
     return l;
 }
@@ -57,17 +57,17 @@ static void error_as_asked(void **state)
     int rungs = 0;
     for (double error = 0.1; error > 1e-6; error *= 0.1) {
         circuit_ladder l;
-        assert_ok(circuit_ladder_fit(&z, TURN * 5e4, error, &l));
+        assert_ok(circuit_ladder_fit(&z, 2.0 * PI * 5e4, error, &l));
         assert_true(l.n > rungs && l.error <= error);
         rungs = l.n;
         for (double f = 0.1; f < 5e4; f *= 1.037) {
-            const double complex s = _Complex_I * TURN * f, want = circuit_impedance_at(&z, s);
+            const double complex s = _Complex_I * 2.0 * PI * f, want = circuit_impedance_at(&z, s);
             assert_true(cabs(circuit_ladder_at(&l, s) - want) <= 1.05 * error * cabs(want - s * l.L_inf));
         }
     }
     assert_true(rungs <= 18); /* measured: 16 at 1e-6 */
     circuit_ladder l;
-    assert_int_equal(circuit_ladder_fit(&z, TURN * 5e4, 1e-15, &l).code, STATUS_NUMERICAL);
+    assert_int_equal(circuit_ladder_fit(&z, 2.0 * PI * 5e4, 1e-15, &l).code, STATUS_NUMERICAL);
     circuit_impedance_free(&z);
 }
 
@@ -102,7 +102,7 @@ static void passive(void **state)
         circuit_impedance z;
         circuit_ladder l;
         assert_ok(circuit_inductance_response(&s, 2e4, 4.0, &z));
-        assert_ok(circuit_ladder_fit(&z, TURN * 2e4, 1e-4, &l));
+        assert_ok(circuit_ladder_fit(&z, 2.0 * PI * 2e4, 1e-4, &l));
         assert_true(l.R_dc > 0.0 && l.L_inf > 0.0 && l.n >= 4);
         for (int r = 0; r < l.n; r++) assert_true(l.L[r] > 0.0 && l.R[r] > 0.0);
         for (int r = 1; r < l.n; r++) assert_true(l.L[r] / l.R[r] < l.L[r - 1] / l.R[r - 1]);
@@ -117,7 +117,7 @@ static void currents_carry_the_impedance(void **state)
     circuit_impedance z;
     assert_ok(circuit_inductance_response(&SECTION, 1e4, 4.0, &z));
     double complex *share = malloc((size_t)z.n * sizeof *share), total = 0.0;
-    const double complex s = _Complex_I * TURN * 2e3;
+    const double complex s = _Complex_I * 2.0 * PI * 2e3;
     double heat = 0.0;
     assert_ok(circuit_impedance_currents(&z, s, share));
     for (int i = 0; i < z.n; i++) {
@@ -267,7 +267,7 @@ static void half_space_formula(void **state)
         }
         const circuit_rails_flow flow = circuit_rails_flow_at(&r, x, v, I, y);
         const double rest = flow.voltage / I - r.ladder.L_inf * v;
-        assert_near(rest, 4.0 * 0.405 / SECTION.height * sqrt(COPPER * MU0 * v * x / 3.14159265358979), 0.05);
+        assert_near(rest, 4.0 * 0.405 / SECTION.height * sqrt(COPPER * MU0 * v * x / PI), 0.05);
     }
 }
 

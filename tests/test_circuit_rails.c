@@ -104,7 +104,7 @@ static void direct_current(void **state)
 static void thin_and_thick_skin_meet(void **state)
 {
     (void)state;
-    const double f = COPPER * 1000.0 * 1000.0 / (3.14159265358979 * 1.25663706212e-6 * 0.025 * 0.025);
+    const double f = COPPER * 1000.0 * 1000.0 / (PI * MU0 * 0.025 * 0.025);
     double L0 = 0.0, R0 = 0.0, L1 = 0.0, R1 = 0.0;
     assert_ok(circuit_inductance_at(&SECTION, 0.999 * f, FINE, &L0, &R0));
     assert_ok(circuit_inductance_at(&SECTION, 1.001 * f, FINE, &L1, &R1));

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The shot: closed forms, a measured-like pulse, an independent integration, and everything a bank can be asked to do.
  */
+#include "base/constants.h"
 #include "circuit/shot.h"
 #include "tests/circuit_common.h"
 
@@ -108,7 +109,7 @@ static rlc rlc_of(const circuit_shot_module *p, double L_load, double R_load)
     c.drop = p->crowbar_drop;
     c.a = 0.5 * c.R / c.L;
     c.w = sqrt(1.0 / (c.L * c.C) - c.a * c.a);
-    double lo = 0.0, hi = 3.14159265358979 / c.w;
+    double lo = 0.0, hi = PI / c.w;
     for (int k = 0; k < 200; k++) {
         const double t = 0.5 * (lo + hi), u = c.V0 * exp(-c.a * t) * (cos(c.w * t) + c.a / c.w * sin(c.w * t));
         if (u > -c.drop) {

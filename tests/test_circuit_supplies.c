@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Supplies: the law of the table for every kind, closed forms of each, several of them on one barrel. */
+#include "base/constants.h"
 #include "circuit/supply/supply_kind.h"
 #include "tests/circuit_common.h"
 
@@ -63,7 +64,7 @@ static one_of_each samples(void)
     s.alternator.inductance = 2e-6;
     s.alternator.resistance = 300e-6;
     base_params_default(circuit_supply_profile_params, &s.profile);
-    for (int k = 0; k < 9; k++) hump[k] = (circuit_supply_point){ k * 5e-4, 4e5 * sin(3.14159265358979 * k / 8) };
+    for (int k = 0; k < 9; k++) hump[k] = (circuit_supply_point){ k * 5e-4, 4e5 * sin(PI * k / 8) };
     hump[8].current = 0.0;
     s.profile.points.n = 9;
     s.profile.points.item = hump;
@@ -305,18 +306,18 @@ static void alternator_pulses(void **state)
     p.pulses = 2;
     circuit_shot_config c = short_circuit();
     c.supplies[CIRCUIT_SUPPLY_alternator] = (circuit_supply_list){ 1, &p };
-    const double pi = 3.14159265358979, w = p.pole_pairs * p.speed, unit = p.flux / (p.pole_pairs * p.inductance);
+    const double w = p.pole_pairs * p.speed, unit = p.flux / (p.pole_pairs * p.inductance);
     circuit_shot *s = NULL;
     const circuit_shot_sink sink = notes_sink(&notes);
     assert_ok(circuit_shot_create(&c, &s));
-    assert_ok(circuit_shot_advance(s, (2.0 * pi - 0.6) / w, &sink));
+    assert_ok(circuit_shot_advance(s, (2.0 * PI - 0.6) / w, &sink));
     assert_near(circuit_shot_result(s).peak_current, unit * (1.0 + cos(0.5)),
                 2e-5 * unit); /* the rotor's share: 1e-6 */
     assert_int_equal(notes.count[CIRCUIT_SHOT_WAITING], 1);
-    assert_near(notes.time[CIRCUIT_SHOT_WAITING], (2.0 * pi - 1.0) / w, 1e-5 / w);
-    assert_ok(circuit_shot_advance(s, 3.0 * pi / w, &sink));
+    assert_near(notes.time[CIRCUIT_SHOT_WAITING], (2.0 * PI - 1.0) / w, 1e-5 / w);
+    assert_ok(circuit_shot_advance(s, 3.0 * PI / w, &sink));
     assert_int_equal(notes.count[CIRCUIT_SHOT_FIRED], 2);
-    assert_near(notes.time[CIRCUIT_SHOT_FIRED], (2.0 * pi - 0.5) / w, 1e-5 / w);
+    assert_near(notes.time[CIRCUIT_SHOT_FIRED], (2.0 * PI - 0.5) / w, 1e-5 / w);
     assert_int_equal(notes.count[CIRCUIT_SHOT_BLOCKED], 0);
     assert_true(notes.worst_error < 1e-6);
     circuit_shot_free(s);

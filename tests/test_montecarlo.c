@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Random shots over surfaces that are known: closed answers of a Poisson process. */
+#include "base/constants.h"
 #include "coupling/study/sampling/gouge_law.h"
 #include "coupling/study/sampling/montecarlo.h"
 #include "coupling/study/sampling/population.h"
@@ -461,7 +462,7 @@ static void test_bare(void **state)
         const bool through = all[i].through;
         rail covered, bare;
         case_layer layer = { .thickness = all[i].thickness };
-        const double over_crater = layer.thickness * 0.25 * 3.14159265358979 * 4e-3 * 1e-3;
+        const double over_crater = layer.thickness * 0.25 * PI * 4e-3 * 1e-3;
         make(&covered, 1e-9, 2e-4, 0.5, 1400.0, 0.0, 0.0);
         make(&bare, 1e-9, 2e-4, 0.5, 1900.0, 0.0, 0.0);
         covered.site[0] = (case_site){ .position = 2.1, .radius = 1e-3 };

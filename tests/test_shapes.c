@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Solids: the laws of mpm/shape/solid.h over the whole table, shapes and operations; one example or more of each, with
  * its closed volume, in `examples`.  The armature's section, which is made from them, too. */
+#include "base/constants.h"
 #include "coupling/gouge/armature.h"
 #include "mpm/shape/shape.h"
 
@@ -12,8 +13,6 @@
 #include <string.h>
 
 #include <cmocka.h>
-
-#define PI 3.14159265358979323846
 
 /* A tree: its nodes in order, the root last. */
 typedef struct {

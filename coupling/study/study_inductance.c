@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* breech inductance: L' and R' of a pair of rails over frequency, and where the current runs. */
 #include "coupling/study/study.h"
+#include "base/constants.h"
 #include "circuit/rails/inductance.h"
 #include "coupling/host/table.h"
 #include "coupling/report/report_page.h"
@@ -52,15 +53,15 @@ enum { FREQUENCIES = sizeof frequencies / sizeof frequencies[0] };
 /* All frequencies from one solution, the perfect conductor from another. */
 static status gradients_fill(const circuit_shot_rails *rails, inductance_answer *out)
 {
-    static const double TURN = 6.28318530717958648;
     inductance_result *r = &out->result;
     circuit_rail_section section;
     circuit_impedance z;
     TRY(circuit_rails_section(rails, &section));
     status done = circuit_inductance_response(&section, frequencies[FREQUENCIES - 1], rails->fineness, &z);
     for (int i = 0; i < FREQUENCIES && done.code == STATUS_OK; i++) {
-        const double complex Z = circuit_impedance_at(&z, _Complex_I * TURN * frequencies[i]);
-        out->gradients[i] = cimag(Z) / (TURN * frequencies[i]);
+        const double omega = 2.0 * PI * frequencies[i];
+        const double complex Z = circuit_impedance_at(&z, _Complex_I * omega);
+        out->gradients[i] = cimag(Z) / omega;
         out->gradients[FREQUENCIES + i] = creal(Z);
     }
     circuit_impedance_free(&z);

@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "mpm/law/gas.h"
 
-#include <math.h>
+#include "base/constants.h"
 
-static const double gas_constant = 8.31446261815324; /* R [J/(mol K)] */
+#include <math.h>
 
 mpm_gas mpm_gas_make(double temperature, double critical_temperature, double critical_pressure)
 {
-    const double R = gas_constant, Tc = critical_temperature, pc = critical_pressure;
+    const double R = GAS_CONSTANT, Tc = critical_temperature, pc = critical_pressure;
     if (isnan(Tc) || isnan(pc)) return (mpm_gas){ .temperature = temperature };
     return (mpm_gas){ temperature, 0.42748 * R * R * pow(Tc, 2.5) / pc, 0.08664 * R * Tc / pc };
 }
 
 double mpm_gas_pressure(const mpm_gas *g, double v)
 {
-    return gas_constant * g->temperature / (v - g->b) - g->a / (sqrt(g->temperature) * v * (v + g->b));
+    return GAS_CONSTANT * g->temperature / (v - g->b) - g->a / (sqrt(g->temperature) * v * (v + g->b));
 }
 
 static double slope(const mpm_gas *g, double v)
 {
     const double b = g->b;
-    return -gas_constant * g->temperature / ((v - b) * (v - b)) +
+    return -GAS_CONSTANT * g->temperature / ((v - b) * (v - b)) +
            g->a * (2 * v + b) / (sqrt(g->temperature) * v * v * (v + b) * (v + b));
 }
 
@@ -44,7 +44,7 @@ double mpm_gas_condenses(const mpm_gas *g)
 double mpm_gas_molar_volume(const mpm_gas *g, double pressure)
 {
     enum { ITERATIONS = 100 };
-    double v = gas_constant * g->temperature / pressure + g->b;
+    double v = GAS_CONSTANT * g->temperature / pressure + g->b;
     for (int i = 0; i < ITERATIONS; i++) {
         const double step = (mpm_gas_pressure(g, v) - pressure) / slope(g, v);
         v -= step;
@@ -59,5 +59,5 @@ double mpm_gas_flow(const mpm_orifice *o, double temperature, double p, double p
 {
     const double g = o->gamma, choked = pow(2 / (g + 1), g / (g - 1)), x = fmin(fmax(p_a / p, choked), 1);
     const double psi = sqrt(2 * g / (g - 1) * (pow(x, 2 / g) - pow(x, (g + 1) / g)));
-    return o->discharge * o->area * p * psi / sqrt(gas_constant * temperature * o->molar_mass);
+    return o->discharge * o->area * p * psi / sqrt(GAS_CONSTANT * temperature * o->molar_mass);
 }

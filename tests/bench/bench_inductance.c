@@ -4,6 +4,7 @@
  * Error: the largest over 1 Hz .. 20 kHz of L' and R', against the same section at the finest mesh.  Time: processor
  * time of one solution, least of three.  The last column is Kerrisk's formula against the perfect conductor, where it
  * applies. */
+#include "base/constants.h"
 #include "circuit/rails/inductance.h"
 
 #include <complex.h>
@@ -63,7 +64,7 @@ static curve solve(const circuit_rail_section *s, double fineness, int repetitio
         const double since = processor_time();
         must(circuit_inductance_response(s, TOP, fineness, &z));
         for (int i = 0; i < POINTS; i++) {
-            const double omega = 6.28318530717958648 * pow(TOP, i / (POINTS - 1.0));
+            const double omega = 2.0 * PI * pow(TOP, i / (POINTS - 1.0));
             const double complex Z = circuit_impedance_at(&z, _Complex_I * omega);
             c.L[i] = cimag(Z) / omega;
             c.R[i] = creal(Z);

@@ -15,6 +15,7 @@
  *
  * --targets: strikes at random targets instead (targets.c). */
 #include "stress.h"
+#include "base/constants.h"
 #include "coupling/gouge/impact.h"
 #include "mpm/mpm.h"
 
@@ -76,9 +77,8 @@ static int add_projectile(recipe *r, chance *c, const stock *s)
         "armature:\n  material: %s\n  lead_angle: %.6g deg\n  length: %.6g m\n  leg_thickness: %.6g m\n"
         "  head_thickness: %.6g m\n  half_bore: %.6g m\n  width: %.6g m\n  chamfer_height: %.6g m\n  temperature: %.6g "
         "K\n",
-        s->names[armature], lead, a * uniform(c, 4, 9) + chamfer / tan(lead * 3.14159265358979 / 180), leg,
-        a * uniform(c, 1.5, 3), a * uniform(c, 9, 11) + r->wider, a * uniform(c, 4, 9), chamfer,
-        temperature(c, s->melting[armature]));
+        s->names[armature], lead, a * uniform(c, 4, 9) + chamfer / tan(lead * PI / 180), leg, a * uniform(c, 1.5, 3),
+        a * uniform(c, 9, 11) + r->wider, a * uniform(c, 4, 9), chamfer, temperature(c, s->melting[armature]));
     return armature;
 }
 
