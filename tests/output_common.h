@@ -204,9 +204,8 @@ typedef struct {
     study_answer answer[STUDIES];
 } example_results;
 
-static inline void example_fill(example_results *e)
+static inline compare_result example_compare(void)
 {
-    static const double frequency[] = { 10.0, 1e3, 1e5 }, gradient[] = { 0.6e-6, 0.55e-6, 0.5e-6 };
     static const compare_entry ranking[] = { { .surface = "hardened",
                                                .threshold_velocity = 1700.0,
                                                .threshold_interval = { 1650.0, 1750.0 },
@@ -217,26 +216,27 @@ static inline void example_fill(example_results *e)
                                                .threshold_interval = { 1450.0, 1510.0 },
                                                .onset_position = 2.5,
                                                .gouged_volume = 3e-9 } };
-    memset(e, 0, sizeof *e);
-    e->shot = example_shot();
-    e->scene = example_scene(0.4);
-    example_onset(&e->study);
-    e->compare = (compare_result){ .verdict = "fewest gouges: hardened; untreated cannot be told from it",
-                                   .n = 2,
-                                   .ranking = ranking };
-    e->inductance = (inductance_result){ .n = 3,
-                                         .frequency = frequency,
-                                         .L_gradient = gradient,
-                                         .R_gradient = gradient,
-                                         .L_gradient_high_frequency = 0.49e-6,
-                                         .n_perimeter = 3,
-                                         .perimeter = frequency,
-                                         .perimeter_current = gradient,
-                                         .perimeter_heat = gradient };
-    e->answer[STUDY_shot].result = &e->shot;
-    e->answer[STUDY_scene].result = &e->scene;
-    e->answer[STUDY_onset] = (study_answer){ .result = &e->study.result, .shot = &e->shot };
-    e->answer[STUDY_compare] = (study_answer){ .result = &e->compare, .shot = &e->shot };
+    return (compare_result){ .verdict = "fewest gouges: hardened; untreated cannot be told from it",
+                             .n = 2,
+                             .ranking = ranking };
+}
+
+static inline inductance_result example_inductance(void)
+{
+    static const double frequency[] = { 10.0, 1e3, 1e5 }, gradient[] = { 0.6e-6, 0.55e-6, 0.5e-6 };
+    return (inductance_result){ .n = 3,
+                                .frequency = frequency,
+                                .L_gradient = gradient,
+                                .R_gradient = gradient,
+                                .L_gradient_high_frequency = 0.49e-6,
+                                .n_perimeter = 3,
+                                .perimeter = frequency,
+                                .perimeter_current = gradient,
+                                .perimeter_heat = gradient };
+}
+
+static inline sweep_result example_sweep(void)
+{
     static const summary_pair unit[] = { { "scene.cells_per_radius", "1", NAN }, { "severity", "1", NAN } },
                               inputs[2][1] = { { { "scene.cells_per_radius", NULL, 2.0 } },
                                                { { "scene.cells_per_radius", NULL, 3.0 } } },
@@ -244,11 +244,20 @@ static inline void example_fill(example_results *e)
                               errors[2][1] = { { { "severity", NULL, 0.25 } }, { { "severity", NULL, 0.0 } } };
     static const sweep_run runs[] = { { 1, 1, 1, inputs[0], outputs[0], errors[0], 2.0 },
                                       { 1, 1, 1, inputs[1], outputs[1], errors[1], 7.0 } };
-    e->sweep = (sweep_result){
+    return (sweep_result){
         .of = "scene", .resolution = "scene.cells_per_radius", .n_units = 2, .n_runs = 2, .units = unit, .run = runs
     };
-    e->answer[STUDY_sweep].result = &e->sweep;
-    e->answer[STUDY_inductance].result = &e->inductance;
+}
+
+static inline void example_fill(example_results *e)
+{
+    memset(e, 0, sizeof *e);
+    e->shot = example_shot();
+    e->scene = example_scene(0.4);
+    example_onset(&e->study);
+    e->compare = example_compare();
+    e->inductance = example_inductance();
+    e->sweep = example_sweep();
     e->strike.is = (strike_outcome){ .muzzle_velocity = 1950.0,
                                      .impact_velocity = 1930.0,
                                      .class = STRIKE_PIERCED,
@@ -259,13 +268,19 @@ static inline void example_fill(example_results *e)
                              .life_first = 5890.0,
                              .crack = { .life = 17900.0, .position = 1.65e-3, .cuts = 3478, .solves = 104 },
                              .first = { .range = 4.9e-3, .position = NAN, .depth = 1e-4, .angle = 0.6 } };
-    e->answer[STUDY_life].result = &e->life;
     e->vessel.is = (vessel_result){ .burst = true,
                                     .rupture = { .time = 0.75, .swelling = 1.42, .pressure = 148e3, .damage = 1.0 },
                                     .vent_time = 3e-5,
                                     .steps = 250 };
-    e->answer[STUDY_vessel].result = &e->vessel;
+    e->answer[STUDY_shot].result = &e->shot;
+    e->answer[STUDY_scene].result = &e->scene;
+    e->answer[STUDY_onset] = (study_answer){ .result = &e->study.result, .shot = &e->shot };
+    e->answer[STUDY_compare] = (study_answer){ .result = &e->compare, .shot = &e->shot };
+    e->answer[STUDY_inductance].result = &e->inductance;
+    e->answer[STUDY_sweep].result = &e->sweep;
     e->answer[STUDY_strike] = (study_answer){ .result = &e->strike, .shot = &e->shot };
+    e->answer[STUDY_life].result = &e->life;
+    e->answer[STUDY_vessel].result = &e->vessel;
 }
 
 #endif

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "base/constants.h"
 #include "coupling/case/case.h"
 #include "coupling/case/case_errors.h"
 #include "coupling/case/case_plain.h"
@@ -751,70 +752,71 @@ typedef struct {
     double value; /* NAN: refused */
 } quantity;
 
+static const quantity written[] = {
+    { "1.5 km/s", "m/s", 1500.0 },
+    { "12.56uH", "H", 12.56e-6 },
+    { "4.10 mohm", "ohm", 4.1e-3 },
+    { "20 degC", "K", 293.15 },
+    { "8.96 g/cm^3", "kg/m^3", 8960.0 },
+    { "0.48 uH/m", "H/m", 0.48e-6 },
+    { "5 %", "1", 0.05 },
+    { "3", "1", 3.0 },
+    { "200 ppm", "1", 2e-4 },
+    { "1e3 mm", "m", 1.0 },
+    { "-2 us", "s", -2e-6 },
+    { "+.5 m", "m", 0.5 },
+    { "180 deg", "rad", PI },
+    { "386 W/(m K)", "W/m/K", 386.0 },
+    { "1 1/s", "1/s", 1.0 },
+    { "0.5 \xc2\xb5m", "m", 0.5e-6 },
+    { "2 in", "m", 0.0508 },
+    { "0.2 1/us", "1/s", 2e5 },
+    { "5 kHz", "1/s", 5e3 },
+    { "5 kHz", "s", NAN },
+    { "1/us", "s", NAN },
+    { "2 us", "1/s", NAN },
+    { "5", "m", NAN },
+    { "m", "m", NAN },
+    { "", "m", NAN },
+    { "5 m m", "m", NAN },
+    { "5 100 m", "m", NAN },
+    { "nan m", "m", NAN },
+    { "0x10 m", "m", NAN },
+    { "5 m since 2000-01-01", "m", NAN },
+    { "5 %", "m", NAN },
+    { "5 %", "rad", NAN },
+    { "5 deg", "1", NAN },
+    { "5 lg(re 1 m)", "m", NAN },
+    { "1e999 km", "m", NAN },
+    { "5 m^999", "m", NAN },
+    { "2 W.m-1.K^-1", "W/(m K)", 2.0 },
+    { "3 (V s)/A", "H", 3.0 },
+    { "4 m**2", "m^2", 4.0 },
+    { "4 mm\xc2\xb2", "m^2", 4e-6 },
+    { "1 A 0s", "F", NAN },
+    { "1 m^", "m", NAN },
+    { "1 m*", "m", NAN },
+    { "1 (m", "m", NAN },
+    { "1 m)", "m", NAN },
+    { "1 km per s", "m/s", NAN },
+    { "1 m^100/m^99", "m", NAN },
+    { "5 @", "m", NAN },
+    { "1e308 km", "m", NAN },
+};
+
 static void quantities(void **state)
 {
     (void)state;
-    static const quantity all[] = {
-        { "1.5 km/s", "m/s", 1500.0 },
-        { "12.56uH", "H", 12.56e-6 },
-        { "4.10 mohm", "ohm", 4.1e-3 },
-        { "20 degC", "K", 293.15 },
-        { "8.96 g/cm^3", "kg/m^3", 8960.0 },
-        { "0.48 uH/m", "H/m", 0.48e-6 },
-        { "5 %", "1", 0.05 },
-        { "3", "1", 3.0 },
-        { "200 ppm", "1", 2e-4 },
-        { "1e3 mm", "m", 1.0 },
-        { "-2 us", "s", -2e-6 },
-        { "+.5 m", "m", 0.5 },
-        { "180 deg", "rad", 3.14159265358979 },
-        { "386 W/(m K)", "W/m/K", 386.0 },
-        { "1 1/s", "1/s", 1.0 },
-        { "0.5 \xc2\xb5m", "m", 0.5e-6 },
-        { "2 in", "m", 0.0508 },
-        { "0.2 1/us", "1/s", 2e5 },
-        { "5 kHz", "1/s", 5e3 },
-        { "5 kHz", "s", NAN },
-        { "1/us", "s", NAN },
-        { "2 us", "1/s", NAN },
-        { "5", "m", NAN },
-        { "m", "m", NAN },
-        { "", "m", NAN },
-        { "5 m m", "m", NAN },
-        { "5 100 m", "m", NAN },
-        { "nan m", "m", NAN },
-        { "0x10 m", "m", NAN },
-        { "5 m since 2000-01-01", "m", NAN },
-        { "5 %", "m", NAN },
-        { "5 %", "rad", NAN },
-        { "5 deg", "1", NAN },
-        { "5 lg(re 1 m)", "m", NAN },
-        { "1e999 km", "m", NAN },
-        { "5 m^999", "m", NAN },
-        { "2 W.m-1.K^-1", "W/(m K)", 2.0 },
-        { "3 (V s)/A", "H", 3.0 },
-        { "4 m**2", "m^2", 4.0 },
-        { "4 mm\xc2\xb2", "m^2", 4e-6 },
-        { "1 A 0s", "F", NAN },
-        { "1 m^", "m", NAN },
-        { "1 m*", "m", NAN },
-        { "1 (m", "m", NAN },
-        { "1 m)", "m", NAN },
-        { "1 km per s", "m/s", NAN },
-        { "1 m^100/m^99", "m", NAN },
-        { "5 @", "m", NAN },
-        { "1e308 km", "m", NAN },
-    };
     units *u = NULL;
     assert_int_equal(host_units_open(&u).code, STATUS_OK);
-    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
+    for (size_t k = 0; k < sizeof written / sizeof written[0]; k++) {
         double value = 0.0;
         char user_unit[UNIT_SIZE];
-        const status s = host_quantity_read(u, all[k].text, all[k].unit, &value, user_unit);
-        if (isnan(all[k].value) != (s.code != STATUS_OK)) print_error("%s: %s\n", all[k].text, s.text);
-        assert_int_equal(s.code, isnan(all[k].value) ? STATUS_BAD_INPUT : STATUS_OK);
+        const status s = host_quantity_read(u, written[k].text, written[k].unit, &value, user_unit);
+        if (isnan(written[k].value) != (s.code != STATUS_OK)) print_error("%s: %s\n", written[k].text, s.text);
+        assert_int_equal(s.code, isnan(written[k].value) ? STATUS_BAD_INPUT : STATUS_OK);
         /* fifteen digits are kept, so most of these are exact */
-        if (s.code == STATUS_OK) assert_true(fabs(value - all[k].value) <= 1e-14 * fabs(all[k].value));
+        if (s.code == STATUS_OK) assert_true(fabs(value - written[k].value) <= 1e-14 * fabs(written[k].value));
     }
     host_units_close(u);
 }

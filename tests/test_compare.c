@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Treatments and their comparison, on scenes that cost nothing. */
+#include "base/constants.h"
 #include "coupling/case/case.h"
 #include "coupling/case/treatment.h"
 #include "coupling/gouge/growth.h"
@@ -35,7 +36,7 @@ static double made_up_threshold(const case_impact *of)
 {
     double v = 1400.0 + 100.0 * (of->rail.yield_scale - 1.5) - 0.5 * (of->rail.temperature - 293.0);
     v += 80.0 * (of->armature.yield_scale - 1.0);
-    v += 10.0 * (of->armature.lead_angle * 180.0 / 3.14159265358979 - 30.0);
+    v += 10.0 * (of->armature.lead_angle * 180.0 / PI - 30.0);
     v += 400.0 * of->scene.grid_shift[0];
     for (int i = 0; i < of->rail.layers.n; i++) {
         const case_layer *layer = &of->rail.layers.item[i];
@@ -280,7 +281,12 @@ static void test_refusals(void **state)
         if (!strstr(errors, wrong[k].says)) fail_msg("`%s` is not in:\n%s", wrong[k].says, errors);
         free(errors);
     }
-    /* no armature metal to keep; nor is there a wear rate of a metre */
+}
+
+/* What is set on the command line: no armature metal is there to keep, and no wear rate is a metre's. */
+static void test_refused_sets(void **state)
+{
+    (void)state;
     static const char *const set[] = { "study.deposit_kept=0.5",
                                        "rail.layers=[{material: ofhc_copper, thickness: 1 mm, wear_rate: 1 m2/N}]" };
     static const char *const told[] = { "study.deposit_kept = 0.5: the armature leaves no metal",
@@ -295,6 +301,12 @@ static void test_refusals(void **state)
         if (!errors || !strstr(errors, told[k])) fail_msg("`%s` is not in:\n%s", told[k], errors ? errors : "nothing");
         free(errors);
     }
+}
+
+/* Cases that read well and cannot be compared. */
+static void test_impossible(void **state)
+{
+    (void)state;
     breech_case *c = read(HEAD GRAINS "treatments: [{name: flat, lead_angle: {angle: 2 deg}}]\n", ALL);
     const status s = possible(c);
     assert_int_equal(s.code, STATUS_BAD_INPUT);
@@ -692,11 +704,16 @@ static onset_answer studied(breech_case *c, const char *dir, status want)
     return a;
 }
 
+static int scenes_begin(const onset_scene *scene, int n, const char *prefix)
+{
+    int found = 0;
+    for (int i = 0; i < n; i++) found += strncmp(scene[i].name, prefix, strlen(prefix)) == 0;
+    return found;
+}
+
 static int scenes_named(const onset_answer *a, const char *prefix)
 {
-    int n = 0;
-    for (int i = 0; i < a->result.n_scenes; i++) n += strncmp(a->result.scene[i].name, prefix, strlen(prefix)) == 0;
-    return n;
+    return scenes_begin(a->result.scene, a->result.n_scenes, prefix);
 }
 
 /* ---- inputs that are not well known ---- */
@@ -1344,11 +1361,44 @@ static void test_shots_plate_the_rail(void **state)
     case_free(c);
 }
 
-static int scenes_begin(const compare_answer *a, const char *prefix)
+static int compared_named(const compare_answer *a, const char *prefix)
 {
-    int n = 0;
-    for (int i = 0; i < a->result.n_scenes; i++) n += strncmp(a->result.scene[i].name, prefix, strlen(prefix)) == 0;
-    return n;
+    return scenes_begin(a->result.scene, a->result.n_scenes, prefix);
+}
+
+/* The wear of `loose` [um] as the closing table shows it before the last shot; NAN: it does not. */
+static double shown_wear(const compare_result *r)
+{
+    char line[200], name[50] = "";
+    double worn = NAN;
+    FILE *shown = tmpfile();
+    assert_non_null(shown);
+    study_compare_print(r, shown);
+    rewind(shown);
+    while (fgets(line, sizeof line, shown) && strncmp(line, "before the last shot", 20) != 0) continue;
+    while (fgets(line, sizeof line, shown) && sscanf(line, "%49s %lf", name, &worn) > 0 && strcmp(name, "loose") != 0)
+        continue;
+    fclose(shown);
+    return strcmp(name, "loose") == 0 ? worn : NAN;
+}
+
+/* Each surface as alone, by other random numbers. */
+static void assert_as_alone(const breech_case *c, const compare_answer *a)
+{
+    for (int i = 0; i < a->n; i++) {
+        onset_answer alone;
+        session s;
+        const case_inputs in = case_inputs_of(c);
+        open_anew(&in, "six-alone", &s);
+        OK(study_onset_run(&s, &a->treated[i], &alone));
+        OK(run_session_close(&s, true));
+        double sum = 0.0;
+        for (int n = 0; n < 6; n++) sum += alone.result.shot[n].expected_gouges;
+        assert_true(fabs(sum / 6.0 / a->mean[i].gouges - 1.0) < 0.006);
+        const double last = alone.result.shot[5].expected_gouges;
+        assert_true(fabs(last / a->drawn.of[6 * i + 5].gouges - 1.0) < 0.006);
+        study_onset_answer_free(&alone);
+    }
 }
 
 /* Surfaces compared over several shots: each keeps its own heat and loses its own layers, and what ranks is the mean of
@@ -1367,48 +1417,26 @@ static void test_shots_compared(void **state)
     OK(run_compare(c, "one-shot", &a));
     assert_int_equal(a.result.shots, 1);
     for (int i = 0; i < a.result.n; i++) assert_true(a.entry[i].gouges == a.entry[i].last_gouges);
-    assert_true(scenes_begin(&a, "warm-") == 0 && a.answer[1].rail.bare.grains.n == 0);
+    assert_true(compared_named(&a, "warm-") == 0 && a.answer[1].rail.bare.grains.n == 0);
     const double loose_once = entry_of(&a, "loose")->gouges, plain_once = entry_of(&a, "untreated")->gouges;
     study_compare_answer_free(&a);
     c->study.shots = 6;
     OK(run_compare(c, "six-shots", &a));
     assert_int_equal(a.result.shots, 6);
     const compare_entry plain = *entry_of(&a, "untreated"), loose = *entry_of(&a, "loose");
-    assert_true(scenes_begin(&a, "warm-") > 0 && scenes_begin(&a, "t1-warm-") > 0);
+    assert_true(compared_named(&a, "warm-") > 0 && compared_named(&a, "t1-warm-") > 0);
     /* a layer of 0.05 mm is gone: then its rail is the untreated one, whose scenes serve */
     assert_true(a.answer[1].rail.bare.grains.n > 0 && a.answer[0].rail.bare.grains.n == 0 &&
-                scenes_begin(&a, "t1-bare-") == 0);
+                compared_named(&a, "t1-bare-") == 0);
     /* what sliding wears off its layer, too little for a search of its own; no other surface has a rate */
-    assert_true(loose.layer_worn > 1e-7 && loose.layer_worn < 1e-6 && scenes_begin(&a, "t1-worn-") == 0);
+    assert_true(loose.layer_worn > 1e-7 && loose.layer_worn < 1e-6 && compared_named(&a, "t1-worn-") == 0);
     assert_true(isnan(plain.layer_worn) && isnan(loose.deposit));
-    FILE *shown = tmpfile();
-    char line[200], name[50] = "";
-    double worn = NAN;
-    study_compare_print(&a.result, shown);
-    rewind(shown);
-    while (fgets(line, sizeof line, shown) && strncmp(line, "before the last shot", 20) != 0) continue;
-    while (fgets(line, sizeof line, shown) && sscanf(line, "%49s %lf", name, &worn) > 0 && strcmp(name, "loose") != 0)
-        continue;
-    fclose(shown);
-    assert_true(strcmp(name, "loose") == 0 && fabs(worn / (1e6 * loose.layer_worn) - 1.0) < 5e-3); /* three digits */
+    assert_true(fabs(shown_wear(&a.result) / (1e6 * loose.layer_worn) - 1.0) < 5e-3); /* three digits */
     assert_true(plain.last_gouges > 1.005 * plain_once && plain.gouges > plain_once);
     assert_true(loose.last_gouges > 1.01 * loose_once && loose.gouges > loose_once);
     assert_true(plain.gouges_interval[0] <= plain.gouges && plain.gouges <= plain.gouges_interval[1]);
     for (int i = 1; i < a.result.n; i++) assert_true(a.entry[i - 1].gouges <= a.entry[i].gouges);
-    for (int i = 0; i < a.n; i++) { /* each as alone, by other random numbers */
-        onset_answer alone;
-        session s;
-        const case_inputs in = case_inputs_of(c);
-        open_anew(&in, "six-alone", &s);
-        OK(study_onset_run(&s, &a.treated[i], &alone));
-        OK(run_session_close(&s, true));
-        double sum = 0.0;
-        for (int n = 0; n < 6; n++) sum += alone.result.shot[n].expected_gouges;
-        assert_true(fabs(sum / 6.0 / a.mean[i].gouges - 1.0) < 0.006);
-        const double last = alone.result.shot[5].expected_gouges;
-        assert_true(fabs(last / a.drawn.of[6 * i + 5].gouges - 1.0) < 0.006);
-        study_onset_answer_free(&alone);
-    }
+    assert_as_alone(c, &a);
     study_compare_answer_free(&a);
     c->study.shots = 500;
     const status melts = run_compare(c, "melts", &a);
@@ -1425,6 +1453,8 @@ int main(void)
         cmocka_unit_test(test_every_kind),
         cmocka_unit_test(test_what_they_do),
         cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_refused_sets),
+        cmocka_unit_test(test_impossible),
         cmocka_unit_test(test_presets),
         cmocka_unit_test(test_ranking),
         cmocka_unit_test(test_life_beside_grains),

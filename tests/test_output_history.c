@@ -51,10 +51,9 @@ static void rows_come_back(void **state)
     assert_int_equal(files_in("history", ""), 1);
 }
 
-static void every_column_has_units_and_description(void **state)
+/* A shot's row and event, a scene's row and its crater, whose map has 4 x 3 depths. */
+static void write_one_of_each(double map[12])
 {
-    (void)state;
-    fresh_folder("history");
     history *h;
     int series;
     OK(output_history_open("history/a.h5", false, &h));
@@ -80,8 +79,6 @@ static void every_column_has_units_and_description(void **state)
     report.failed_volume = 5.0;
     *output_history_scene_row(&report, &ledger, (const double[3]){ 7.0, 8.0, 9.0 }, row) = 11.0;
     OK(output_history_append(h, series, row));
-    double map[12];
-    for (int i = 0; i < 12; i++) map[i] = 1e-4 * i;
     const crater c = { .class = DAMAGE_GOUGE,
                        .reason = "why",
                        .severity = 0.5,
@@ -95,26 +92,32 @@ static void every_column_has_units_and_description(void **state)
     OK(gouge_crater_record(&c, h, "v1500"));
     OK(gouge_crater_record(&c, h, "v1500")); /* a former one is replaced */
     OK(output_history_close(h));
+}
 
+static void every_column_has_units_and_description(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *series;
+        double is;
+    } written[] = {
+        { "/shot/velocity", 1234.5 },          { "/shot/events/index", 3.0 },
+        { "/scene/v1500/failed_volume", 5.0 }, { "/scene/v1500/contact_force_y", 8.0 },
+        { "/scene/v1500/speed", 11.0 },
+    };
+    double map[12];
     size_t n;
-    double *v = read_series("history/a.h5", "/shot/velocity", &n);
-    assert_true(n == 1 && v[0] == 1234.5);
-    free(v);
-    v = read_series("history/a.h5", "/shot/events/index", &n);
-    assert_true(n == 1 && v[0] == 3.0);
-    free(v);
-    v = read_series("history/a.h5", "/scene/v1500/failed_volume", &n);
-    assert_true(n == 1 && v[0] == 5.0);
-    free(v);
-    v = read_series("history/a.h5", "/scene/v1500/contact_force_y", &n);
-    assert_true(n == 1 && v[0] == 8.0);
-    free(v);
-    v = read_series("history/a.h5", "/scene/v1500/speed", &n);
-    assert_true(n == 1 && v[0] == 11.0);
-    free(v);
-    v = read_series("history/a.h5", "/scene/v1500/crater/depth", &n);
-    assert_true(n == 4 && v[11] == map[11]);
-    free(v);
+    for (int i = 0; i < 12; i++) map[i] = 1e-4 * i;
+    fresh_folder("history");
+    write_one_of_each(map);
+    for (size_t k = 0; k < sizeof written / sizeof *written; k++) {
+        double *v = read_series("history/a.h5", written[k].series, &n);
+        if (n != 1 || v[0] != written[k].is) fail_msg("%s: %zu rows", written[k].series, n);
+        free(v);
+    }
+    double *depth = read_series("history/a.h5", "/scene/v1500/crater/depth", &n);
+    assert_true(n == 4 && depth[11] == map[11]);
+    free(depth);
     run_script("read_history.py", "history/a.h5");
 }
 

@@ -171,7 +171,7 @@ static void test_places(void **state)
     }
 }
 
-static void test_check_and_materials(void **state)
+static void test_check(void **state)
 {
     (void)state;
     assert_int_equal(run("check " SHOT), 0);
@@ -185,6 +185,18 @@ static void test_check_and_materials(void **state)
     assert_true(contains("out.txt", "own.yaml: my own unit"));
     assert_int_equal(system("echo '{base: pulse_unit_300kJ, name: own}' > own.yaml"), 0);
     assert_int_equal(run("check own.yaml"), 2);
+    assert_int_equal(run("check " CASES "/wu2017"), 0);
+    assert_true(contains("out.txt", "cells a radius"));
+    assert_int_equal(run("check " CASES "/wu2017/coarse.yaml"), 0);
+    assert_int_equal(run("check " TINY), 2);            /* ends before its grooves could be gauged */
+    assert_int_equal(run("check " TINY " --scene"), 0); /* which `breech scene` does not ask for */
+    assert_true(contains("out.txt", "bodies:") && contains("out.txt", "armature"));
+}
+
+/* What a comparison and its random shots take: time, scenes, memory; what of it is too fine. */
+static void test_check_says_what_a_study_takes(void **state)
+{
+    (void)state;
     assert_int_equal(run("check " CASES "/treatments"), 0);
     assert_true(contains("out.txt", "onset, 500 m/s") && contains("out.txt", "1 population, at most"));
     assert_true(contains("out.txt", "\nwarm rail, 500 m/s, "));
@@ -203,20 +215,22 @@ static void test_check_and_materials(void **state)
     assert_int_equal(run("check " CASES "/treatments --set 'treatments[1].coating[0].thickness=50 um'"), 0);
     assert_true(contains("out.txt", "warning: steel overlay: 50 um of steel_4340 is thinner than a cell of 167 um"));
     assert_true(contains("out.txt", "study.fine_cells_per_radius = 10, some 123 times the time"));
-    assert_int_equal(system("sed 's/^name: .*/name: beside/' " CASES "/materials/nickel.yaml > beside.yaml"), 0);
-    assert_int_equal(run("flow beside"), 0); /* a material of the folder that one works in */
-    assert_int_equal(run("check " CASES "/wu2017"), 0);
-    assert_true(contains("out.txt", "cells a radius"));
-    assert_int_equal(run("check " CASES "/wu2017/coarse.yaml"), 0);
-    assert_int_equal(run("check " TINY), 2);            /* ends before its grooves could be gauged */
-    assert_int_equal(run("check " TINY " --scene"), 0); /* which `breech scene` does not ask for */
-    assert_true(contains("out.txt", "bodies:") && contains("out.txt", "armature"));
+}
+
+static void test_check_refuses_what_fits_nowhere(void **state)
+{
+    (void)state;
     assert_int_equal(run("check " CASES "/sphere_plate --set scene.cell='0.005 mm'"), 2); /* 30 TB */
     assert_true(contains("err.txt", "take larger cells"));
     assert_int_equal(run("scene " CASES "/sphere_plate --set scene.cell='0.005 mm' -o too_large"), 2);
     assert_false(exists("too_large"));
     assert_int_equal(run("check " SHOT " --set study.fine_cells_per_radius=100"), 2);
     assert_true(contains("err.txt", "100 cells a radius") && contains("err.txt", " GB"));
+}
+
+static void test_materials(void **state)
+{
+    (void)state;
     assert_int_equal(run("materials"), 0);
     assert_true(contains("out.txt", "ofhc_copper") && contains("out.txt", "onset  rail or armature"));
     assert_int_equal(run("materials cucrzr"), 0);
@@ -232,6 +246,8 @@ static void test_check_and_materials(void **state)
     assert_int_equal(run("materials metals"), 0);
     assert_true(contains("out.txt", "mine ") && !contains("out.txt", "ofhc_copper"));
     assert_int_equal(run("materials metals/other.yaml"), 2);
+    assert_int_equal(system("sed 's/^name: .*/name: beside/' " CASES "/materials/nickel.yaml > beside.yaml"), 0);
+    assert_int_equal(run("flow beside"), 0); /* a material of the folder that one works in */
 }
 
 /* The set that was named is what the scene says it ran in; a checkpoint of it is no other set's. */
@@ -459,7 +475,10 @@ int main(void)
         cmocka_unit_test(test_senseless),
         cmocka_unit_test(test_bad_case),
         cmocka_unit_test(test_places),
-        cmocka_unit_test(test_check_and_materials),
+        cmocka_unit_test(test_check),
+        cmocka_unit_test(test_check_says_what_a_study_takes),
+        cmocka_unit_test(test_check_refuses_what_fits_nowhere),
+        cmocka_unit_test(test_materials),
         cmocka_unit_test(test_flow),
         cmocka_unit_test(test_instruction_set),
         cmocka_unit_test(test_shot),

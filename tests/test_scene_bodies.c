@@ -267,61 +267,59 @@ static void test_tree(void **state)
     case_free(back), case_free(c);
 }
 
+static const struct {
+    const char *text, *error;
+} wrong[] = {
+    { HEAD "  bodies: []\n", "case.yaml:4:11: scene.bodies must be a list of bodies, at least one" },
+    { HEAD "  bodies: [{name: a, material: nickel}]\n", "scene.bodies[0].shape is missing" },
+    { HEAD "  bodies: [{name: a, material: nickel, shape: {bal: {}}}]\n", "case.yaml:4:48: unknown shape `bal`" },
+    { HEAD "  bodies: [{name: a, material: nickel, shape: {sphere: {center: 0 0 mm, radius: 1 mm}}}]\n",
+      "center = 0 0 mm: must be three numbers and their unit" },
+    { HEAD "  bodies: [{name: a, material: nickel, shape: {sphere: {center: 0 0 0 mm, radius: -1 mm}}}]\n",
+      "scene.bodies[0].shape.sphere.radius = -1 mm: must be positive" },
+    { HEAD "  bodies: [{name: a, material: nickel, shape: {box: {lo: 0 0 0 mm, hi: 1 0 1 mm}}}]\n", "hi along y" },
+    { HEAD "  bodies: [{name: a, material: nickel, shape: {minus: [{sphere: {center: 0 0 0 mm, radius: 1 mm}}]}}]\n",
+      "is made of at least 2 solids" },
+    { HEAD "  bodies: [{name: a b, material: nickel, shape: {sphere: {center: 0 0 0 mm, radius: 1 mm}}}]\n",
+      "letters, digits" },
+    { TWO "  contacts: [{default: glue}]\n", "case.yaml:7:24: unknown law of contact `glue`" },
+    { TWO "  contacts: [{between: [wall, bal], law: coulomb}]\n",
+      "unknown body `bal` in scene.contacts[0]; did you mean `ball`?" },
+    { TWO "  contacts: [{between: [wall, wall], law: coulomb}]\n", "both are of one group" },
+    { TWO "  boundary: {x: [free]}\n", "scene.boundary.x must be two boundaries" },
+    { TWO "  boundary: {x: [free, absorbin]}\n", "scene.boundary.x[1] = absorbin: must be one of free" },
+    { TWO "  window: {w: {lo: 0 mm}}\n", "unknown key `w` in scene.window" },
+    { TWO "  probes: [{name: push, force_on: wal}]\n",
+      "unknown body `wal` in scene.probes[0].force; did you mean `wall`?" },
+    { TWO "  probes: [{name: push, force: {body: wal}}]\n", "did you mean `wall`?" },
+    { TWO "  probes: [{name: push, forc: wall}]\n",
+      "unknown kind of probe `forc` in scene.probes[0]; did you mean `force`?" },
+    { TWO "  probes: [{name: push, force: {}}]\n", "scene.probes[0].force.body must name a body" },
+    { TWO "  probes: [{name: push}]\n", "scene.probes[0] must name a kind of probe" },
+    { TWO "  probes: [{name: push, force: wall, energy: wall}]\n", "a probe of two kinds, force and energy" },
+    { TWO "  probes: [{energy: wall}]\n", "scene.probes[0].name is missing" },
+    { TWO "  probes: [{name: a b, energy: wall}]\n", "letters, digits, - _ . only" },
+    { TWO "  probes: [{name: p, face: {lo: 0 0 0 mm, hi: 1 0 1 mm}}]\n", "scene.probes[0].face: hi along y" },
+    { TWO "  probes: [{name: p, force_on: wall}, {name: p, force_on: ball}]\n",
+      "scene.probes[1].name = p: the same as" },
+    { TWO "  friction: 0.1\n", "unknown key `friction` in scene" },
+    { TWO "  refine: [{around: bal, within: 1 mm, cell: 0.1 mm}]\n", "did you mean `ball`?" },
+    { HEAD "  bodies:\n    - " BOX "\n    - " BOX "\n", "case.yaml:6:14: scene.bodies[1].name = wall: the same as" },
+    { HEAD "  bodies:\n    - " BOX
+           "\n    - {name: b, material: nickel, shape: {box: {lo: 1.9 0 0 mm, hi: 3 4 4 mm}}}\n",
+      "case.yaml:6:42: scene.bodies[1].shape: b overlaps wall by 4.9e-05 m" },
+    { HEAD "  bodies: [{name: a, material: w_alloy, damage: yes, shape: {sphere: {center: 0 0 0 mm, radius: 1 mm}}}]\n",
+      "(or set damage: no)" },
+};
+
 static void test_refused(void **state)
 {
     (void)state;
-    static const struct {
-        const char *text, *error;
-    } cases[] = {
-        { HEAD "  bodies: []\n", "case.yaml:4:11: scene.bodies must be a list of bodies, at least one" },
-        { HEAD "  bodies: [{name: a, material: nickel}]\n", "scene.bodies[0].shape is missing" },
-        { HEAD "  bodies: [{name: a, material: nickel, shape: {bal: {}}}]\n", "case.yaml:4:48: unknown shape `bal`" },
-        { HEAD "  bodies: [{name: a, material: nickel, shape: {sphere: {center: 0 0 mm, radius: 1 mm}}}]\n",
-          "center = 0 0 mm: must be three numbers and their unit" },
-        { HEAD "  bodies: [{name: a, material: nickel, shape: {sphere: {center: 0 0 0 mm, radius: -1 mm}}}]\n",
-          "scene.bodies[0].shape.sphere.radius = -1 mm: must be positive" },
-        { HEAD "  bodies: [{name: a, material: nickel, shape: {box: {lo: 0 0 0 mm, hi: 1 0 1 mm}}}]\n", "hi along y" },
-        { HEAD
-          "  bodies: [{name: a, material: nickel, shape: {minus: [{sphere: {center: 0 0 0 mm, radius: 1 mm}}]}}]\n",
-          "is made of at least 2 solids" },
-        { HEAD "  bodies: [{name: a b, material: nickel, shape: {sphere: {center: 0 0 0 mm, radius: 1 mm}}}]\n",
-          "letters, digits" },
-        { TWO "  contacts: [{default: glue}]\n", "case.yaml:7:24: unknown law of contact `glue`" },
-        { TWO "  contacts: [{between: [wall, bal], law: coulomb}]\n",
-          "unknown body `bal` in scene.contacts[0]; did you mean `ball`?" },
-        { TWO "  contacts: [{between: [wall, wall], law: coulomb}]\n", "both are of one group" },
-        { TWO "  boundary: {x: [free]}\n", "scene.boundary.x must be two boundaries" },
-        { TWO "  boundary: {x: [free, absorbin]}\n", "scene.boundary.x[1] = absorbin: must be one of free" },
-        { TWO "  window: {w: {lo: 0 mm}}\n", "unknown key `w` in scene.window" },
-        { TWO "  probes: [{name: push, force_on: wal}]\n",
-          "unknown body `wal` in scene.probes[0].force; did you mean `wall`?" },
-        { TWO "  probes: [{name: push, force: {body: wal}}]\n", "did you mean `wall`?" },
-        { TWO "  probes: [{name: push, forc: wall}]\n",
-          "unknown kind of probe `forc` in scene.probes[0]; did you mean `force`?" },
-        { TWO "  probes: [{name: push, force: {}}]\n", "scene.probes[0].force.body must name a body" },
-        { TWO "  probes: [{name: push}]\n", "scene.probes[0] must name a kind of probe" },
-        { TWO "  probes: [{name: push, force: wall, energy: wall}]\n", "a probe of two kinds, force and energy" },
-        { TWO "  probes: [{energy: wall}]\n", "scene.probes[0].name is missing" },
-        { TWO "  probes: [{name: a b, energy: wall}]\n", "letters, digits, - _ . only" },
-        { TWO "  probes: [{name: p, face: {lo: 0 0 0 mm, hi: 1 0 1 mm}}]\n", "scene.probes[0].face: hi along y" },
-        { TWO "  probes: [{name: p, force_on: wall}, {name: p, force_on: ball}]\n",
-          "scene.probes[1].name = p: the same as" },
-        { TWO "  friction: 0.1\n", "unknown key `friction` in scene" },
-        { TWO "  refine: [{around: bal, within: 1 mm, cell: 0.1 mm}]\n", "did you mean `ball`?" },
-        { HEAD "  bodies:\n    - " BOX "\n    - " BOX "\n",
-          "case.yaml:6:14: scene.bodies[1].name = wall: the same as" },
-        { HEAD "  bodies:\n    - " BOX
-               "\n    - {name: b, material: nickel, shape: {box: {lo: 1.9 0 0 mm, hi: 3 4 4 mm}}}\n",
-          "case.yaml:6:42: scene.bodies[1].shape: b overlaps wall by 4.9e-05 m" },
-        { HEAD
-          "  bodies: [{name: a, material: w_alloy, damage: yes, shape: {sphere: {center: 0 0 0 mm, radius: 1 mm}}}]\n",
-          "(or set damage: no)" },
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         breech_case *c = NULL;
         char *errors = NULL;
-        assert_int_equal(read_text(cases[i].text, CASE_FOR_SCENE, &c, &errors).code, STATUS_BAD_INPUT);
-        if (!strstr(errors, cases[i].error)) fail_msg("case %zu: %s\nnot: %s", i, cases[i].error, errors);
+        assert_int_equal(read_text(wrong[i].text, CASE_FOR_SCENE, &c, &errors).code, STATUS_BAD_INPUT);
+        if (!strstr(errors, wrong[i].error)) fail_msg("case %zu: %s\nnot: %s", i, wrong[i].error, errors);
         free(errors);
     }
     breech_case *c = NULL;
