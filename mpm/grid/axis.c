@@ -7,8 +7,9 @@
 
 enum { MAX_NODES = 20000 };
 
-/* Of a cell: the longest domain it bears before a point is split.  In the fine zone a stretched point is halved before
- * it spans its cell; outside it may: one or two points a cell and axis, so that eight lanes of a block hold a cell. */
+/* Of a cell: the longest domain of a point in it that is not split.  In the fine zone a stretched point is halved
+ * before it spans its cell; outside it may: one or two points a cell and axis, so that eight lanes of a block hold a
+ * cell. */
 static const double LONGEST_FINE = 0.8, LONGEST_COARSE = 1.0;
 
 static const double LEAST = 0.7; /* the shortest element between a shifted zone and the window's end, of its cells */
@@ -76,7 +77,7 @@ static void finish(axis *a)
 }
 
 /* Cells up to `fine` are those of a fine zone. */
-static void bear(axis *a, double fine)
+static void set_longest(axis *a, double fine)
 {
     for (int i = 0; i < 4 * a->bricks; i++) {
         const bool whole = i > 0 && i + 1 < 4 * a->bricks; /* of a cell that is cut, what it was */
@@ -87,7 +88,7 @@ static void bear(axis *a, double fine)
 
 void mpm_axis_allow_long(axis *a)
 {
-    bear(a, 0);
+    set_longest(a, 0);
 }
 
 /* As grade, of a zone that may be shifted: what lies between it and an end that it reached is one element. */
@@ -121,7 +122,7 @@ static status make(const mpm_axis *spec, bool shifted, axis *out)
         }
         out->node[out->last] = spec->hi;
         finish(out);
-        bear(out, spec->fine);
+        set_longest(out, spec->fine);
     } else {
         mpm_axis_free(out);
     }
@@ -165,7 +166,7 @@ status mpm_axis_bisect(const axis *coarse, axis *out)
     for (int i = 1; i <= coarse->last; i++) out->node[2 * i - 1] = coarse->node[i];
     for (int i = 2; i < out->last; i += 2) out->node[i] = 0.5 * (out->node[i - 1] + out->node[i + 1]);
     finish(out);
-    bear(out, HUGE_VAL);
+    set_longest(out, HUGE_VAL);
     return s;
 }
 

@@ -13,7 +13,7 @@ typedef struct {
     int bricks;      /* bricks of 4 nodes that hold nodes 0 .. last + 1 */
     double *node;    /* [4 bricks] positions [m], owned */
     double *edge;    /* [4 bricks + 1] edge[i] .. edge[i+1] is the cell of node i [m], owned */
-    double *longest; /* [4 bricks] domain that the cell of a node bears before a point is split [m], owned */
+    double *longest; /* [4 bricks] longest domain in the cell of a node: beyond it a point is split [m], owned */
     double smallest; /* smallest spacing [m] */
 } axis;
 

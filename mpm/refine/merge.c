@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Points that have come into coarser cells than they need.  Pairs side by side become one, as long as its cell bears,
- * where a sound body goes on all around: at a free surface, where metal has failed and in the cells beside such points
- * outlive the cells that they came from, so a surface stays as sharp as it was made. */
+/* Points that have come into coarser cells than they need.  Two side by side become one where their cell allows
+ * a point of that length and a sound body goes on all around.  At a free surface, where metal has failed and in the
+ * cells beside such, points outlive the cells that they came from, so a surface stays as sharp as it was made. */
 #include "mpm/memory/store.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double MERGE_RATIO = 0.9; /* of a merged domain to the longest that its cell bears, at most */
+static const double MERGE_RATIO = 0.9; /* of a merged domain to the longest that its cell allows, at most */
 
 /* A cell's points; a thread has its own. */
 typedef struct {
@@ -50,7 +50,7 @@ static bool gather_cell(const mpm *m, const brick *b, int cell, bool whole, gath
     return true;
 }
 
-/* Side by side along an axis, of one size across, sound, and together no longer than the cell bears? */
+/* Side by side along an axis, of one size across, sound, and together no longer than `longest`? */
 static bool mergeable(const double *a, const double *b, int along, double longest)
 {
     if (a[FIRST_damage] >= 1 || b[FIRST_damage] >= 1) return false;
