@@ -226,6 +226,7 @@ static void a_material_changes_its_base(void **state)
     assert_true(sheet.material.hardness == 1.1e9 && base.material.hardness == 950e6);
     assert_true(isnan(sheet.material.resistivity_slope) && sheet.material.strength == base.material.strength);
     assert_true(sheet.material.mts_sigma_a == base.material.mts_sigma_a);
+    assert_true(base.take_for[0] && !sheet.take_for[0]); /* that is said of the base alone */
     const material_constant *hard = constant_of(&sheet, "hardness");
     assert_string_equal(hard->source, "our test");
     assert_true(!hard->weak && !hard->note); /* those were the old value's */
@@ -366,7 +367,7 @@ static void the_source_of_strength_is_told(void **state)
     const material_places at = { .n = 1, .dir = { MATERIALS } };
     char *table = NULL;
     size_t length = 0;
-    int told = 0;
+    int told = 0, advised = 0;
     FILE *f = open_memstream(&table, &length);
     assert_int_equal(case_materials_print(&at, f).code, STATUS_OK);
     fclose(f);
@@ -374,11 +375,12 @@ static void the_source_of_strength_is_told(void **state)
     assert_non_null(strstr(table, "al7075_t651_limited    johnson_cook "));
     assert_non_null(strstr(table, "cucrzr                 - "));
     assert_non_null(strstr(table, "water                  - (fluid) "));
-    free(table);
     for (int k = 0; k < s->n; k++) {
         material_sheet sheet;
         char *errors = NULL, *text = NULL;
         assert_int_equal(case_material_sheet_find(s->u, s->names[k], dirs, 1, &sheet, &errors).code, STATUS_OK);
+        if (sheet.take_for[0] && !strstr(table, sheet.take_for)) fail_msg("%s: no advice", s->names[k]);
+        advised += sheet.take_for[0] != '\0';
         f = open_memstream(&text, &length);
         case_material_print(&sheet, f);
         fclose(f);
@@ -395,7 +397,8 @@ static void the_source_of_strength_is_told(void **state)
         free(text);
         case_material_sheet_free(&sheet);
     }
-    assert_true(told > 15);
+    assert_true(told > 15 && advised > 2);
+    free(table);
 }
 
 /* What no source gives is not assumed: the refusal names the material and the constants. */

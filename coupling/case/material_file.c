@@ -135,19 +135,28 @@ static void read_sources(case_reader *r)
                             sources->key[k]->text);
 }
 
-static void read_head(case_reader *r, const char *path, material_sheet *sheet)
+static void read_texts(case_reader *r, material_sheet *sheet)
+{
+    static const base_param texts[] = {
+        PARAM_LONG_STRING(material_sheet, title, "", "one line"),
+        PARAM_LONG_STRING(material_sheet, take_for, "", "when to take it, of several for one metal"),
+        PARAMS_END,
+    };
+    for (const base_param *p = texts; p->key; p++) {
+        const tree_node *node = host_tree_find(r->root, p->key);
+        if (node) case_value_read(r, p, node, (char *)sheet + p->offset, p->key);
+    }
+}
+
+static void read_name(case_reader *r, const char *path, material_sheet *sheet)
 {
     static const base_param name = {
         .key = "name", .unit = "1", .kind = BASE_PARAM_TEXT, .doc = "the file's name without .yaml"
     };
-    static const base_param title = {
-        .key = "title", .unit = "1", .kind = BASE_PARAM_TEXT, .fallback_text = "", .doc = "one line"
-    };
-    const tree_node *node = host_tree_find(r->root, "name"), *title_node = host_tree_find(r->root, "title");
+    const tree_node *node = host_tree_find(r->root, "name");
     const char *file = strrchr(path, '/') ? strrchr(path, '/') + 1 : path; /* not its base's */
     const char *dot = strrchr(file, '.');
     const size_t stem = dot ? (size_t)(dot - file) : strlen(file);
-    if (title_node) case_value_read(r, &title, title_node, sheet->title, "title");
     if (!node) {
         case_errors_add(r->errors, r->root, "name is missing: the file's name without .yaml");
         return;
@@ -169,15 +178,20 @@ static void read_laws(case_reader *r, material_sheet *sheet)
 
 static void read_sheet(case_reader *r, const char *path, material_sheet *sheet)
 {
-    static const char *const known[] = { "name",    "title",   "base",      "strength", "eos",
-                                         "failure", "sources", "constants", NULL };
+    static const char *const known[] = { "name", "title",   "take_for", "base",      "strength",
+                                         "eos",  "failure", "sources",  "constants", NULL };
     if (r->root->kind != TREE_MAP) {
-        case_errors_add(r->errors, r->root,
-                        "a material's file has the keys name, title, base, strength, eos, failure, sources, constants");
+        char keys[200] = "";
+        for (int i = 0; known[i]; i++) {
+            const size_t used = strlen(keys);
+            snprintf(keys + used, sizeof keys - used, "%s%s", i ? ", " : "", known[i]);
+        }
+        case_errors_add(r->errors, r->root, "a material's file has the keys %s", keys);
         return;
     }
     check_keys(r, r->root, "a material's file", known);
-    read_head(r, path, sheet);
+    read_name(r, path, sheet);
+    read_texts(r, sheet);
     read_laws(r, sheet);
     read_sources(r);
     const tree_node *constants = host_tree_find(r->root, "constants");
@@ -253,6 +267,7 @@ status case_material_sheet_open(const char *name, const char *const *dirs, int n
     const status s = is_path(name) ? sheet_from_file(u, name, dirs, n_dirs, out, errors)
                                    : case_material_sheet_find(u, name, dirs, n_dirs, out, errors);
     host_units_close(u);
+    CHECK(s.code != STATUS_BAD_INPUT || *errors || is_path(name), s.code, "material %.100s: %.450s", name, s.text);
     return s;
 }
 

@@ -9,6 +9,8 @@
  *     density: {value: 8960 kg/m^3, source: JC}
  *     hardness: {value: 725 MPa, source: book, weak: true, note: annealed 0.5 GPa .. half hard 0.95 GPa}
  *
+ * `take_for` below the title, where several files are of one metal, says when to take this one.
+ *
  * The constants are those of mpm_material_params (mpm/material.h), each optional: one that is not there is not known,
  * and what needs it refuses the material.  `weak: true` marks a secondary or unchecked value; whoever uses it is
  * warned.  `strength`, `eos` and `failure` after the title choose the laws by their names in mpm/law/<table>.def; not
@@ -23,7 +25,7 @@
  *     hardness: {value: 1.05 GPa, source: mine}
  *
  * `base` is the name of a material in the same folder or where materials are looked for.  A constant replaces that of
- * the base whole, with source, note and weakness; `~` takes it out.
+ * the base whole, with source, note and weakness; `~` takes it out.  `take_for` is not the base's.
  *
  * To add a material: add a file; tests/test_materials.c covers it at once. */
 #ifndef BREECH_COUPLING_MATERIAL_FILE_H
@@ -37,6 +39,7 @@
 enum {
     MATERIAL_MAX_CONSTANTS = sizeof(mpm_material) / sizeof(double),
     MATERIAL_PATH_SIZE = 512,
+    MATERIAL_ADVICE_SIZE = 76,
     MATERIAL_WARNING_SIZE = 600
 };
 
@@ -49,8 +52,8 @@ typedef struct {
 
 typedef struct {
     mpm_material material;
-    char title[BASE_PARAM_TEXT_SIZE];
-    char path[MATERIAL_PATH_SIZE], base[MATERIAL_PATH_SIZE]; /* base "": it builds on none */
+    char title[BASE_PARAM_TEXT_SIZE], take_for[MATERIAL_ADVICE_SIZE]; /* "" where the file does not say */
+    char path[MATERIAL_PATH_SIZE], base[MATERIAL_PATH_SIZE];          /* base "": it builds on none */
     int n;
     material_constant constant[MATERIAL_MAX_CONSTANTS]; /* those given, in the file's order */
 } material_sheet;

@@ -130,9 +130,9 @@ static status not_found(const char *name, const char *const *dirs, int n_dirs)
         }
         case_material_names_free(names, n);
     }
-    return base_status_error(STATUS_BAD_INPUT, "no material of this name in %s%s%s%s",
-                             n_dirs > 0 ? text : "(no folder given)", near[0] ? "; did you mean `" : "", near,
-                             near[0] ? "`?" : "");
+    return base_status_error(
+        STATUS_BAD_INPUT, "no material of this name in %s; %s%s%s", n_dirs > 0 ? text : "(no folder given)",
+        near[0] ? "did you mean `" : "`breech materials` lists those at hand", near, near[0] ? "`?" : "");
 }
 
 status case_material_file_find(const char *name, const char *const *dirs, int n_dirs, char path[MATERIAL_PATH_SIZE])

@@ -11,26 +11,21 @@ enum { LACK_SIZE = 28 /* of the table's last column */, TEXT_SIZE = sizeof((stat
 
 enum { IN_SCENES = MPM_MATERIAL_FOR_SCENE, FAILING = IN_SCENES | MPM_MATERIAL_FOR_DAMAGE };
 
-static const material_role in_shot = { "shot", "the circuit's rail or armature", MPM_MATERIAL_FOR_CIRCUIT, 0, NULL };
-static const material_role met = { "onset", "rail or armature where gouging is looked for",
-                                   FAILING | MPM_MATERIAL_FOR_SCREEN, MPM_MATERIAL_FOR_DAMAGE, "scene.damage: no" };
-static const material_role failing = { "fails", "a grain or a layer there; a body with damage: yes", FAILING,
-                                       MPM_MATERIAL_FOR_DAMAGE, NULL };
-static const material_role body = { "body", "a body of any scene, projectile or target", IN_SCENES, 0, NULL };
-
-static const material_role lasting = { "life", "the rail of `breech life`", MPM_MATERIAL_FOR_FATIGUE, 0, NULL };
+enum { ROLE_SHOT, ROLE_ONSET, ROLE_FAILS, ROLE_BODY, ROLE_LIFE, ROLES };
+static const material_role roles[ROLES] = {
+    [ROLE_SHOT] = { "shot", "the circuit's rail or armature", MPM_MATERIAL_FOR_CIRCUIT, 0, NULL },
+    [ROLE_ONSET] = { "onset", "rail or armature where gouging is looked for", FAILING | MPM_MATERIAL_FOR_SCREEN,
+                     MPM_MATERIAL_FOR_DAMAGE, "scene.damage: no" },
+    [ROLE_FAILS] = { "fails", "a grain or a layer there; a body with damage: yes", FAILING, MPM_MATERIAL_FOR_DAMAGE,
+                     NULL },
+    [ROLE_BODY] = { "body", "a body of any scene, projectile or target", IN_SCENES, 0, NULL },
+    [ROLE_LIFE] = { "life", "the rail of `breech life`", MPM_MATERIAL_FOR_FATIGUE, 0, NULL },
+};
 
 unsigned case_material_needs(bool damage, bool meets)
 {
-    const material_role *role = meets ? &met : &failing;
+    const material_role *role = &roles[meets ? ROLE_ONSET : ROLE_FAILS];
     return damage ? role->needs : role->needs & ~role->without;
-}
-
-/* Of all parts; NULL past the last. */
-static const material_role *role_at(int i)
-{
-    static const material_role *const roles[] = { &in_shot, &met, &failing, &body, &lasting, NULL };
-    return roles[i];
 }
 
 /* "", or what the material lacks for this part, as a run that refuses it says. */
@@ -109,10 +104,9 @@ static const char *good(const mpm_material *m, const material_role *role)
 static void shortened(const mpm_material *m, char out[LACK_SIZE + 24])
 {
     char all[TEXT_SIZE];
-    const material_role *role;
-    material_role every = { .needs = body.needs };
-    for (int i = 0; mpm_material_shear(m) != MPM_SHEAR_NONE && (role = role_at(i)); i++)
-        if (role != &lasting) every.needs |= role->needs;
+    material_role every = { .needs = roles[ROLE_BODY].needs };
+    for (int i = 0; i < ROLES && mpm_material_shear(m) != MPM_SHEAR_NONE; i++)
+        if (i != ROLE_LIFE) every.needs |= roles[i].needs;
     list_lacks(m, &every, all);
     int more = 0;
     out[0] = '\0';
@@ -128,20 +122,39 @@ static void shortened(const mpm_material *m, char out[LACK_SIZE + 24])
     if (more) snprintf(out + used, 24, ", +%d", more);
 }
 
-static status add_row(table *t, const char *name, const char *const *dirs, int n_dirs)
+/* A line of the table: `first`, a cell of each role, `last`. */
+static status put_row(table *t, const char *first, const mpm_material *m, const char *last)
+{
+    char cells[12 * ROLES] = "";
+    for (int i = 0; i < ROLES; i++) {
+        const size_t used = strlen(cells);
+        snprintf(cells + used, sizeof cells - used, "|%s", m ? good(m, &roles[i]) : "");
+    }
+    return host_table_row(t, "%s%s|%s", first, cells, last);
+}
+
+/* All materials: the table, and below it what a file says of when to take its own. */
+typedef struct {
+    table *t;
+    FILE *advice;
+} listing;
+
+static status add_row(listing *l, const char *name, const char *const *dirs, int n_dirs)
 {
     material_sheet sheet;
-    char *errors = NULL, lacks[LACK_SIZE + 24];
+    char *errors = NULL, first[60], last[80];
     const status s = case_material_sheet_open(name, dirs, n_dirs, &sheet, &errors);
     free(errors);
-    if (s.code == STATUS_BAD_INPUT)
-        return host_table_row(t, "%.24s|||||||its file has errors: breech materials %.24s", name, name);
+    if (s.code == STATUS_BAD_INPUT) {
+        snprintf(first, sizeof first, "%.24s|", name);
+        snprintf(last, sizeof last, "its file has errors: breech materials %.24s", name);
+        return put_row(l->t, first, NULL, last);
+    }
     TRY(s);
-    const mpm_material *m = &sheet.material;
-    shortened(m, lacks);
-    const status added =
-        host_table_row(t, "%.24s|%s|%s|%s|%s|%s|%s|%s", name, strength_name(&sheet), good(m, role_at(0)),
-                       good(m, role_at(1)), good(m, role_at(2)), good(m, role_at(3)), good(m, role_at(4)), lacks);
+    snprintf(first, sizeof first, "%.24s|%.24s", name, strength_name(&sheet));
+    shortened(&sheet.material, last);
+    const status added = put_row(l->t, first, &sheet.material, last);
+    if (sheet.take_for[0]) fprintf(l->advice, "  %-22s %s\n", name, sheet.take_for);
     case_material_sheet_free(&sheet);
     return added;
 }
@@ -156,7 +169,7 @@ static bool hidden(const material_places *at, int d, const char *name)
     return false;
 }
 
-static status add_folder(table *t, const material_places *at, int d)
+static status add_folder(listing *l, const material_places *at, int d)
 {
     char **names;
     int n;
@@ -164,44 +177,60 @@ static status add_folder(table *t, const material_places *at, int d)
     status s = status_ok();
     for (int i = 0; i < n && s.code == STATUS_OK; i++)
         if (!hidden(at, d, names[i]))
-            s = add_row(t, names[i], &at->dir[d], at->n - d); /* its base may lie in a later one */
+            s = add_row(l, names[i], &at->dir[d], at->n - d); /* its base may lie in a later one */
     case_material_names_free(names, n);
     return s;
 }
 
-status case_materials_print(const material_places *at, FILE *out)
+static status fill_listing(listing *l, const material_places *at)
 {
-    table *t;
-    const material_role *role;
-    char path[MATERIAL_PATH_SIZE];
-    TRY(host_table_create("material|strength|shot|onset|fails|body|life|lacks", &t));
-    status s = status_ok();
-    for (int d = 0; d < at->n && s.code == STATUS_OK; d++) s = add_folder(t, at, d);
-    if (s.code == STATUS_OK) host_table_print(t, out);
-    host_table_free(t);
-    TRY(s);
+    char titles[200] = "material|strength";
+    for (int i = 0; i < ROLES; i++) {
+        const size_t used = strlen(titles);
+        snprintf(titles + used, sizeof titles - used, "|%s", roles[i].name);
+    }
+    strcat(titles, "|lacks");
+    TRY(host_table_create(titles, &l->t));
+    for (int d = 0; d < at->n; d++) TRY(add_folder(l, at, d));
+    return status_ok();
+}
+
+static void print_listing(const listing *l, const char *advice, const material_places *at, FILE *out)
+{
+    host_table_print(l->t, out);
     fputc('\n', out);
-    for (int i = 0; (role = role_at(i)); i++) {
-        fprintf(out, "%-6s %s", role->name, role->doc);
-        fprintf(out, role->unless ? "; (yes): with %s\n" : "%s\n", role->unless ? role->unless : "");
+    for (int i = 0; i < ROLES; i++) {
+        fprintf(out, "%-6s %s", roles[i].name, roles[i].doc);
+        fprintf(out, roles[i].unless ? "; (yes): with %s\n" : "%s\n", roles[i].unless ? roles[i].unless : "");
     }
     fputs("lacks  constants for parts that it cannot have; +4: four more\n"
           "breech materials NAME: all that is known of one, the source of each constant, and what it lacks\n",
           out);
-    if (case_material_file_find("ofhc_copper_half_hard", at->dir, at->n, path).code == STATUS_OK)
-        fputs("of several coppers or aluminium alloys: the default shot has a rail of ofhc_copper_half_hard and an\n"
-              "armature of al7075_t651_limited; which to take for yours: docs/guide/own-launcher.md\n",
-              out);
+    if (advice[0]) fprintf(out, "\nof several for one metal (more in docs/guide/own-launcher.md):\n%s\n", advice);
     for (int d = 0; d < at->n; d++) fprintf(out, "%s%s\n", d == 0 ? "from " : "     ", at->dir[d]);
-    return status_ok();
+}
+
+status case_materials_print(const material_places *at, FILE *out)
+{
+    char *advice = NULL;
+    size_t length = 0;
+    listing l = { .advice = open_memstream(&advice, &length) };
+    CHECK(l.advice, STATUS_MEMORY, "no memory for the list of materials");
+    status s = fill_listing(&l, at);
+    if (fclose(l.advice) != 0 && s.code == STATUS_OK)
+        s = base_status_error(STATUS_MEMORY, "no memory for the list of materials");
+    if (s.code == STATUS_OK) print_listing(&l, advice, at, out);
+    host_table_free(l.t);
+    free(advice);
+    return s;
 }
 
 /* ---- one material ---- */
 
 static void print_roles(const mpm_material *m, FILE *out)
 {
-    const material_role *role;
-    for (int i = 0; (role = role_at(i)); i++) {
+    for (int i = 0; i < ROLES; i++) {
+        const material_role *role = &roles[i];
         char lacks[TEXT_SIZE];
         list_lacks(m, role, lacks);
         const char *answer = good(m, role);
@@ -216,6 +245,7 @@ void case_material_print(const material_sheet *sheet, FILE *out)
 {
     const mpm_material *m = &sheet->material;
     fprintf(out, "%s: %s\n%s\n", m->name, sheet->title, sheet->path);
+    if (sheet->take_for[0]) fprintf(out, "take it for %s\n", sheet->take_for);
     if (sheet->base[0]) fprintf(out, "changes %s\n", sheet->base);
     fprintf(out, "  strength: %s\n", mpm_material_strength_text(m->strength));
     print_law_sources(sheet, out);

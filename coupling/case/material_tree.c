@@ -96,7 +96,10 @@ static status tree_of(case_reader *r, const char *bytes, size_t length, int file
         return s;
     }
     check_sources(r, below, changes);
-    if (below->kind == TREE_MAP) make_way(below, changes);
+    if (below->kind == TREE_MAP) {
+        make_way(below, changes);
+        host_tree_free(host_tree_take(below, "take_for"));
+    }
     return host_tree_merge(out, changes);
 }
 
