@@ -471,10 +471,7 @@ static int run_new(const options *o)
 static int help(const char *name)
 {
     const usage_command c = name ? usage_command_find(name) : (usage_command){ .name = NULL };
-    if (name && !c.name) {
-        fprintf(stderr, "breech: no command `%s`; breech --help lists them\n", name);
-        return EXIT_USAGE;
-    }
+    if (name && !c.name) return complain(usage_no_command(name));
     if (c.name)
         usage_help_command(&c, stdout);
     else

@@ -178,9 +178,9 @@ static void all_errors_at_once(void **state)
         "velocity: 3 m/s\n";
     char *e = errors_of(text, NULL, 0, 0);
     has_line(e, "case.yaml:3:16: bank.capacitance = -5 mF: must be positive (1 pF .. 1 kF)\n");
-    has_line(e, "case.yaml:4:11: bank.charge = 9: needs a unit, such as `9 V`\n");
+    has_line(e, "case.yaml:4:11: bank.charge = 9: needs a unit, such as `9 V` (0 V .. 1 MV)\n");
     has_line(e, "case.yaml:5:3: unknown key `inductence` in bank; did you mean `inductance`?\n");
-    has_line(e, "case.yaml:6:34: rail.thickness = 20 kV: `kV` is not a unit of m\n");
+    has_line(e, "case.yaml:6:34: rail.thickness = 20 kV: `kV` is not a unit of m (100 um .. 10 m)\n");
     has_line(e, "case.yaml:6:53: rail.separation = 25 mmm: `mmm` is not a known unit");
     has_line(e, "case.yaml:6:68: rail.level = skim: must be one of constant, skin, diffusing; did you mean `skin`?\n");
     has_line(e, "case.yaml:7:12: unknown key `leadangle` in armature; did you mean `lead_angle`?\n");
@@ -189,7 +189,7 @@ static void all_errors_at_once(void **state)
     has_line(e, "case.yaml:8:19: scene.friction = 0.2 mm: is a pure number");
     has_line(e, "case.yaml:8:37: scene.velocity = 20 km/s: must lie within the range (0.001 km/s .. 10 km/s)\n");
     has_line(e, "case.yaml:8:54: scene.damage = maybe: must be yes or no\n");
-    has_line(e, "case.yaml:8:81: scene.particles_per_axis = 2.5: must be a whole number\n");
+    has_line(e, "case.yaml:8:81: scene.particles_per_axis = 2.5: must be a whole number (2 .. 3)\n");
     has_line(e, "case.yaml:6:84: rail.material = ofhc_coper: no material of this name in ");
     has_line(
         e, "case.yaml:6:109: rail.temperature = 5000 degC: must lie within the range (-269.15 degC .. 1726.85 degC)\n");
@@ -350,7 +350,7 @@ static void set_errors_name_the_set(void **state)
                            "=3",           "bank[x].charge=3", "study.max_scenes=0", "nothing",  "bank.charge=9" };
     char *text = read_file(SMALL_CASE), *e = errors_of(text, sets, 10, 0);
     has_line(e, "--set bank.charg=3: unknown key `charg` in bank[0]; did you mean `charge`?\n");
-    has_line(e, "--set rail.height=2 kV: rail.height = 2 kV: `kV` is not a unit of m\n");
+    has_line(e, "--set rail.height=2 kV: rail.height = 2 kV: `kV` is not a unit of m (100 um .. 10 m)\n");
     has_line(e, "--set bank[2].charge=3 V: bank has 2 entries: bank[0] .. bank[1]\n");
     has_line(e, "--set name.x=3: x is not inside a section");
     has_line(e, "--set scene=[1,{: not valid YAML");
@@ -358,7 +358,7 @@ static void set_errors_name_the_set(void **state)
     has_line(e, "--set bank[x].charge=3: wanted a number from 0 in bank[...]");
     has_line(e, "--set study.max_scenes=0: study.max_scenes = 0: must be positive (1 .. 100000)\n");
     has_line(e, "--set nothing: wanted path.to.key=value");
-    has_line(e, "--set bank.charge=9: bank[0].charge = 9: needs a unit, such as `9 V`\n");
+    has_line(e, "--set bank.charge=9: bank[0].charge = 9: needs a unit, such as `9 V` (0 V .. 1 MV)\n");
     assert_int_equal(lines_of(e), 10); /* one line a set, however many entries it reaches */
     free(e);
     free(text);
@@ -433,11 +433,11 @@ static void errors_name_the_file_of_the_chain(void **state)
     char *errors = NULL;
     assert_null(read_path("wrong.yaml", NULL, 0, &errors));
     has_line(errors, "wrong.yaml:3:8: unknown key `heigth` in rail; did you mean `height`?\n");
-    has_line(errors, "wrong.yaml:3:33: rail.thickness = 20 kV: `kV` is not a unit of m\n");
+    has_line(errors, "wrong.yaml:3:33: rail.thickness = 20 kV: `kV` is not a unit of m (100 um .. 10 m)\n");
     free(errors);
     write_file("below/case.yaml", "name: below\nparticle: {radius: 3 kg}\nrail: {height: 25 mm}\n");
     assert_null(read_path("top.yaml", NULL, 0, &errors));
-    has_line(errors, "below/case.yaml:2:20: particle.radius = 3 kg: `kg` is not a unit of m\n");
+    has_line(errors, "below/case.yaml:2:20: particle.radius = 3 kg: `kg` is not a unit of m (1 um .. 100 mm)\n");
     has_line(errors, "./middle.yaml:3:7: rail.separation is missing [m]");
     free(errors);
     write_file("below/case.yaml", "name: [below\n");
@@ -471,7 +471,7 @@ static void chains_end(void **state)
     free(errors);
     write_file("none.yaml", "name: none\nbase: nowhere\n");
     assert_null(read_path("none.yaml", NULL, 0, &errors));
-    has_line(errors, "none.yaml:2:7: base = nowhere: there is no such case\n");
+    has_line(errors, "none.yaml:2:7: base = nowhere: there is no such case; those that came with the program are in ");
     free(errors);
 }
 
@@ -501,9 +501,9 @@ static void lists_of_values_are_groups(void **state)
         "sites: {position: [1 m, 2 m], radius: 1 mm}\n",
         NULL, 0, 0);
     has_line(e, "case.yaml:2:21: bank.capacitance = -3 mF: must be positive");
-    has_line(e, "case.yaml:2:61: bank.inductance[1] = 2 kV: `kV` is not a unit of H\n");
+    has_line(e, "case.yaml:2:61: bank.inductance[1] = 2 kV: `kV` is not a unit of H (0 H .. 1 H)\n");
     has_line(e, "case.yaml:2:77: bank.fire_at: 3 values where 2 are wanted");
-    has_line(e, "case.yaml:3:19: sites.position: must be one value, not a list\n");
+    has_line(e, "case.yaml:3:19: sites.position: must be one value, not a list (0 m .. 1 km)\n");
     assert_int_equal(lines_of(e), 4); /* what two groups share is said once */
     free(e);
 }

@@ -47,6 +47,39 @@ static void test_usage(void **state)
     assert_true(contains("err.txt", "section `treatments` is missing"));
 }
 
+/* A mistyped name is met with the nearest one, and where none is near with where to look; a bad value with the unit and
+ * the range of a good one. */
+static void test_what_to_try(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *words, *says;
+    } wrong[] = {
+        { "shott x", "breech: no command `shott`; did you mean `shot`? breech --help lists them\n" },
+        { "--help chek", "no command `chek`; did you mean `check`?" },
+        { "explode x", "breech: no command `explode`; breech --help lists them\n" },
+        { "check x --proceses 2", "no option --proceses; did you mean --processes?" },
+        { "check --kays", "no option --kays; did you mean --keys?" },
+        { "check x --set", "--set needs a value: --set KEY=VALUE\n" },
+        { "shot default_sho", "default_sho: there is no such case; did you mean `default_shot`?" },
+        { "shot cases/defualt_shot", "there is no such case; did you mean `default_shot`?" },
+        { "shot not_here", "not_here: there is no such case; those that came with the program are in " },
+        { "shot empty", "empty/case.yaml: there is no such file in this folder\n" },
+        { "materials cooper", "breech: material cooper: no material of this name in ." },
+        { "flow unobtainium", "`breech materials` lists those at hand\n" },
+        { "check " SHOT " --set barrel.length=5", "barrel.length = 5: needs a unit, such as `5 m` (1 mm .. 1 km)\n" },
+        { "check " SHOT " --set armature.lead_angle=30", "needs a unit, such as `30 deg` (" },
+        { "check " SHOT " --set study.shots=some", "study.shots = some: must be a whole number (1 .. " },
+        { "check " SHOT " --set barrel.length=", "barrel.length has no value [m]: breech to muzzle\n" },
+        { "check " SHOT " --set 'barrel.length=[1 m, 2 m]'", "must be one value, not a list (1 mm .. 1 km)\n" },
+    };
+    fresh_folder("empty");
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        if (run(wrong[i].words) != 2) fail_msg("breech %s: not refused with 2", wrong[i].words);
+        if (!contains("err.txt", wrong[i].says)) fail_msg("breech %s: not `%s`", wrong[i].words, wrong[i].says);
+    }
+}
+
 /* What was printed into nowhere is no success. */
 static void test_full_output(void **state)
 {
@@ -471,6 +504,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_usage),
+        cmocka_unit_test(test_what_to_try),
         cmocka_unit_test(test_full_output),
         cmocka_unit_test(test_senseless),
         cmocka_unit_test(test_bad_case),

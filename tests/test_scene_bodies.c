@@ -271,6 +271,7 @@ static const struct {
     const char *text, *error;
 } wrong[] = {
     { HEAD "  bodies: []\n", "case.yaml:4:11: scene.bodies must be a list of bodies, at least one" },
+    { HEAD "  bodies: [5]\n", "case.yaml:4:12: scene.bodies[0] must be a section: key and value, one a line" },
     { HEAD "  bodies: [{name: a, material: nickel}]\n", "scene.bodies[0].shape is missing" },
     { HEAD "  bodies: [{name: a, material: nickel, shape: {bal: {}}}]\n", "case.yaml:4:48: unknown shape `bal`" },
     { HEAD "  bodies: [{name: a, material: nickel, shape: {sphere: {center: 0 0 mm, radius: 1 mm}}}]\n",

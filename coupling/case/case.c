@@ -7,8 +7,10 @@
 #include "coupling/case/profile_file.h"
 #include "coupling/host/file_text.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 void case_free(breech_case *c)
 {
@@ -227,6 +229,11 @@ status case_read(const char *path, const char *const *sets, int n_sets, const ca
     *out = NULL;
     *errors = NULL;
     TRY(case_file_find(path, file));
+    if (access(file, F_OK) != 0 && errno == ENOENT) {
+        const status none = case_file_missing(path);
+        CHECK(host_folder_exists(path), STATUS_BAD_INPUT, "%.300s: %s; `breech new NAME` begins one", path, none.text);
+        return base_status_error(STATUS_BAD_INPUT, "%.300s: there is no such file in this folder", file);
+    }
     TRY(host_file_text(file, TREE_MAX_BYTES, &bytes, &length));
     const case_text text = { bytes, length, file, sets, n_sets };
     const status s = case_read_memory(&text, options, out, errors);

@@ -169,6 +169,7 @@ static void read_body(case_reader *r, const tree_node *list, int k, const char *
     }
     const case_keys keys = { body_params, b };
     case_keys_read(r, map, path, &keys, 1, others);
+    if (map->kind == TREE_TEXT && !host_tree_is_empty(map)) return; /* no section: that was said */
     check_name(r, map, path, b);
     b->group = group_of(s, list, k);
     const tree_node *metal = host_tree_find(map, "material"), *shape = host_tree_find(map, "shape");

@@ -3,7 +3,7 @@
  * files, each built on the next: every error names its own.
  *
  *   case.yaml:12:18: bank.capacitance = -5 mF: must be positive (1 pF .. 1 kF)
- *   --set bank.charge=9: bank.charge = 9: needs a unit, such as `9 V` */
+ *   --set bank.charge=9: bank.charge = 9: needs a unit, such as `9 V` (0 V .. 1 MV) */
 #ifndef BREECH_COUPLING_CASE_ERRORS_H
 #define BREECH_COUPLING_CASE_ERRORS_H
 

@@ -4,7 +4,9 @@
 
 #include "coupling/case/material_file.h"
 #include "coupling/host/file_text.h"
+#include "coupling/host/words.h"
 
+#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -60,4 +62,38 @@ status case_file_find(const char *path, char file[CASE_PATH_SIZE])
     TRY(case_file_of(path, file));
     if (access(file, F_OK) != 0) (void)case_file_shipped(path, file);
     return status_ok();
+}
+
+static const char *alone(const void *name, int i)
+{
+    return i == 0 ? name : NULL;
+}
+
+/* Of the names in a folder the nearest to a mistyped one, if it is nearer than `near` already is. */
+static void nearest_in(const char *folder, const char *name, char near[CASE_PATH_SIZE])
+{
+    DIR *d = opendir(folder);
+    for (struct dirent *entry; d && (entry = readdir(d));) {
+        const char *found = host_nearest_name(name, alone, entry->d_name);
+        if (!found || (near[0] && host_word_distance(name, near) <= host_word_distance(name, found))) continue;
+        snprintf(near, CASE_PATH_SIZE, "%s", found);
+    }
+    if (d) closedir(d);
+}
+
+status case_file_missing(const char *path)
+{
+    const char *name = strncmp(path, "cases/", 6) == 0 ? path + 6 : path;
+    char near[CASE_PATH_SIZE] = "", folders[2 * CASE_PATH_SIZE] = "";
+    case_folders at;
+    case_folders_find(&at);
+    for (int k = 0; k < at.n; k++) {
+        const size_t used = strlen(folders);
+        snprintf(folders + used, sizeof folders - used, "%s%s", used ? ", " : "", at.dir[k]);
+        nearest_in(at.dir[k], name, near);
+    }
+    CHECK(!near[0], STATUS_BAD_INPUT, "there is no such case; did you mean `%.100s`?", near);
+    CHECK(at.n == 0, STATUS_BAD_INPUT, "there is no such case; those that came with the program are in %.300s",
+          folders);
+    return base_status_error(STATUS_BAD_INPUT, "there is no such case");
 }

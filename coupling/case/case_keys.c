@@ -55,28 +55,23 @@ static void read_one(case_reader *r, const known *k, const tree_node *key, const
     if (!is_other(k->others, key->text)) case_unknown_name(r, key, "key", path, known_name, k);
 }
 
-static bool is_required(const base_param *p)
-{
-    return p->kind == BASE_PARAM_TEXT ? !p->fallback_text : isinf(p->fallback);
-}
-
 void case_keys_read(case_reader *r, const tree_node *map, const char *path, const case_keys *keys, int n,
                     const char *const *others)
 {
     const known k = { keys, n, others };
     for (int t = 0; t < n; t++) base_params_default(keys[t].table, keys[t].object);
-    if (map->kind != TREE_MAP) {
-        if (!host_tree_is_empty(map))
-            case_errors_add(r->errors, map, "%s must be a section: key and value, one a line, or {key: value, ..}",
-                            path);
-    } else {
-        for (int i = 0; i < map->n; i++) read_one(r, &k, map->key[i], map->item[i], path);
+    if (map->kind != TREE_MAP && !host_tree_is_empty(map)) {
+        case_errors_add(r->errors, map, "%s must be a section: key and value, one a line, or {key: value, ..}", path);
+        return;
     }
+    for (int i = 0; map->kind == TREE_MAP && i < map->n; i++) read_one(r, &k, map->key[i], map->item[i], path);
     for (int t = 0; t < n; t++)
-        for (const base_param *p = keys[t].table; p->key; p++)
-            if (is_required(p) && !host_tree_find(map, p->key))
-                case_errors_add(r->errors, map, "%s.%s is missing%s%s%s: %s", path, p->key, *p->unit != '1' ? " [" : "",
-                                *p->unit != '1' ? p->unit : "", *p->unit != '1' ? "]" : "", p->doc);
+        for (const base_param *p = keys[t].table; p->key; p++) {
+            char unit[UNIT_SIZE + 3];
+            if (case_value_is_required(p) && !host_tree_find(map, p->key))
+                case_errors_add(r->errors, map, "%s.%s is missing%s: %s", path, p->key, case_unit_text(p, unit),
+                                p->doc);
+        }
 }
 
 void case_keys_write(const base_param *table, const void *object, bool first, FILE *file)

@@ -22,16 +22,6 @@ const case_kind case_kinds[] = {
 
 /* ---- what to begin from ---- */
 
-/* The case file of a shipped case; false where no folder of cases has it. */
-static bool shipped_case(const case_folders *at, const char *name, char file[CASE_START_SIZE])
-{
-    for (int k = 0; k < at->n && host_name_is_plain(name); k++) {
-        snprintf(file, CASE_START_SIZE, "%s/%s/case.yaml", at->dir[k], name);
-        if (host_file_exists(file)) return true;
-    }
-    return false;
-}
-
 /* "shot, bodies, strike, life" and the folders with shipped cases. */
 static status nothing_to_begin_from(const case_folders *at, const char *from)
 {
@@ -57,11 +47,14 @@ status case_new_start(const char *from, const case_kind **kind, char file[CASE_S
     *kind = from ? NULL : case_kinds;
     for (const case_kind *k = case_kinds; from && k->name; k++)
         if (strcmp(k->name, from) == 0) *kind = k;
-    if (*kind) return shipped_case(&at, (*kind)->from, file) ? status_ok() : nothing_to_begin_from(&at, (*kind)->from);
-    TRY(case_file_of(from, path));
+    if (*kind) {
+        if (!case_file_shipped((*kind)->from, path)) return nothing_to_begin_from(&at, (*kind)->from);
+    } else {
+        TRY(case_file_find(from, path));
+        if (!host_file_exists(path)) return nothing_to_begin_from(&at, from);
+    }
     snprintf(file, CASE_START_SIZE, "%s", path);
-    if (host_file_exists(path) || shipped_case(&at, from, file)) return status_ok();
-    return nothing_to_begin_from(&at, from);
+    return status_ok();
 }
 
 /* ---- what comes along ---- */

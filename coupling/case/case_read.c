@@ -20,13 +20,34 @@ static void wrong(case_reader *r, const tree_node *node, const char *path, const
     case_errors_add(r->errors, node, "%s = %.*s: %s", path, CASE_SHOWN, node->text, reason);
 }
 
+/* " (1 mm .. 1 km)"; "": any value will do, or the value is no number. */
+static const char *range_text(const case_reader *r, const base_param *p, const char *user_unit,
+                              char out[LIMITS_SIZE + 3])
+{
+    char limits[LIMITS_SIZE];
+    const bool number = p->kind != BASE_PARAM_FLAG && p->kind != BASE_PARAM_CHOICE && p->kind != BASE_PARAM_TEXT;
+    out[0] = '\0';
+    if (!number || (isinf(p->min) && isinf(p->max))) return out;
+    host_quantity_limits(r->u, p->min, p->max, p->unit, user_unit, limits);
+    snprintf(out, LIMITS_SIZE + 3, " (%s)", limits);
+    return out;
+}
+
+/* What is no number of this unit, with the range that one must lie in. */
+static void no_number(case_reader *r, const base_param *p, const tree_node *node, const char *path, const char *reason)
+{
+    char range[LIMITS_SIZE + 3];
+    case_errors_add(r->errors, node, "%s = %.*s: %s%s", path, CASE_SHOWN, node->text, reason,
+                    range_text(r, p, strcmp(p->unit, "rad") == 0 ? "deg" : "", range));
+}
+
 static void out_of_range(case_reader *r, const base_param *p, const tree_node *node, const char *path,
                          const char *user_unit, double value)
 {
-    char limits[LIMITS_SIZE];
+    char range[LIMITS_SIZE + 3];
     const char *must = p->min > 0.0 && value <= 0.0 ? "must be positive" : "must lie within the range";
-    host_quantity_limits(r->u, p->min, p->max, p->unit, user_unit, limits);
-    case_errors_add(r->errors, node, "%s = %.*s: %s (%s)", path, CASE_SHOWN, node->text, must, limits);
+    case_errors_add(r->errors, node, "%s = %.*s: %s%s", path, CASE_SHOWN, node->text, must,
+                    range_text(r, p, user_unit, range));
 }
 
 static const double UNIT_ROUNDING = 1e-14; /* quantities keep 15 digits when their unit changes [1] */
@@ -53,7 +74,7 @@ static void read_number(case_reader *r, const base_param *p, const tree_node *no
     }
     const status s = host_quantity_read(r->u, node->text, p->unit, &value, user_unit);
     if (s.code != STATUS_OK) {
-        wrong(r, node, path, s.text);
+        no_number(r, p, node, path, s.text);
         return;
     }
     value = on_limit(value, p);
@@ -69,7 +90,7 @@ static void read_integer(case_reader *r, const base_param *p, const tree_node *n
     const double value = strtod(node->text, &end); /* 1e3 is one too */
     const bool plain = node->text[strspn(node->text, "+-.0123456789eE")] == '\0';
     if (end == node->text || *end != '\0' || !plain || value != floor(value))
-        wrong(r, node, path, "must be a whole number");
+        no_number(r, p, node, path, "must be a whole number");
     else if (value < p->min || value > p->max)
         out_of_range(r, p, node, path, "", value);
     else
@@ -223,12 +244,14 @@ void case_value_read(case_reader *r, const base_param *p, const tree_node *node,
         return;
     }
     if (node->kind != TREE_TEXT) {
-        case_errors_add(r->errors, node, "%s: must be one value, not a %s", path,
-                        node->kind == TREE_MAP ? "section" : "list");
+        char range[LIMITS_SIZE + 3];
+        case_errors_add(r->errors, node, "%s: must be one value, not a %s%s", path,
+                        node->kind == TREE_MAP ? "section" : "list", range_text(r, p, "", range));
         return;
     }
     if (host_tree_is_empty(node)) {
-        case_errors_add(r->errors, node, "%s has no value: %s", path, p->doc);
+        char unit[UNIT_SIZE + 3];
+        case_errors_add(r->errors, node, "%s has no value%s: %s", path, case_unit_text(p, unit), p->doc);
         return;
     }
     switch (p->kind) {
@@ -289,12 +312,6 @@ static void unknown_key(case_reader *r, const case_section *section, const tree_
     case_errors_add(r->errors, key, "unknown key `%.*s`%s%s; known are %s", CASE_SHOWN, key->text, in, path, known);
 }
 
-static bool is_required(const base_param *p)
-{
-    if (p->kind == BASE_PARAM_TEXT) return p->fallback_text == NULL;
-    return isinf(p->fallback);
-}
-
 static void join(char out[CASE_KEY_SIZE], const char *path, const char *key)
 {
     snprintf(out, CASE_KEY_SIZE, "%s%s%s", path, path[0] ? "." : "", key);
@@ -302,12 +319,9 @@ static void join(char out[CASE_KEY_SIZE], const char *path, const char *key)
 
 static void missing_key(case_reader *r, const base_param *p, const tree_node *where, const char *path)
 {
-    char key[CASE_KEY_SIZE];
+    char key[CASE_KEY_SIZE], unit[UNIT_SIZE + 3];
     join(key, path, p->key);
-    if (p->kind == BASE_PARAM_NUMBER || p->kind == BASE_PARAM_VECTOR)
-        case_errors_add(r->errors, where, "%s is missing [%s]: %s", key, p->unit, p->doc);
-    else
-        case_errors_add(r->errors, where, "%s is missing: %s", key, p->doc);
+    case_errors_add(r->errors, where, "%s is missing%s: %s", key, case_unit_text(p, unit), p->doc);
 }
 
 static const base_param *param_of(const case_section *section, const char *key)
@@ -428,7 +442,7 @@ static void check_required(case_reader *r, const case_section *section, const tr
     for (const case_section *part = section; part; part = part->also) {
         if (section->also && !has_part(part, map) && !(part->needed_for & r->options->needs)) continue;
         for (const base_param *p = part->table; p->key; p++)
-            if (is_required(p) && !host_tree_find(map, p->key) && !is_mistyped(r, section, map, p->key))
+            if (case_value_is_required(p) && !host_tree_find(map, p->key) && !is_mistyped(r, section, map, p->key))
                 missing_key(r, p, map, path);
     }
 }

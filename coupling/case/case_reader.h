@@ -50,6 +50,8 @@ status case_file_of(const char *path, char file[CASE_PATH_SIZE]);
 status case_file_find(const char *path, char file[CASE_PATH_SIZE]);
 /* Is `cases/NAME` or `NAME` a case that came with the program?  *file stays as it is if there is none. */
 bool case_file_shipped(const char *path, char file[CASE_PATH_SIZE]);
+/* STATUS_BAD_INPUT of a path that is no case: the nearest name of a shipped one, or where those are. */
+status case_file_missing(const char *path);
 void case_folder_of(const char *file, char folder[CASE_PATH_SIZE]);
 bool case_file_is_same(const char *a, const char *b);
 
@@ -69,6 +71,9 @@ void case_value_read(case_reader *r, const base_param *p, const tree_node *node,
 /* One value as it is written; has it one at all? */
 void case_value_write(const base_param *p, const void *member, FILE *file);
 bool case_value_is_set(const base_param *p, const void *member);
+/* Must a case give it?  Its unit as errors name it: " [m]", or "" of a pure number and of what is no number. */
+bool case_value_is_required(const base_param *p);
+const char *case_unit_text(const base_param *p, char out[UNIT_SIZE + 3]);
 
 /* A place that names a material without a key of that name. */
 void case_note_material(case_reader *r, const char *name, const tree_node *where, const char *path);

@@ -24,10 +24,11 @@ static int base_file(case_reader *r, const tree_node *base)
     case_folder_of(r->file[base->file], folder);
     const bool as_it_is = base->text[0] == '/' || strcmp(folder, ".") == 0;
     snprintf(path, sizeof path, "%s%s%s", as_it_is ? "" : folder, as_it_is ? "" : "/", base->text);
-    const status s = case_file_of(path, file);
-    if (s.code != STATUS_OK || !(host_file_exists(file) || case_file_shipped(base->text, file))) {
-        case_errors_add(r->errors, base, "base = %.*s: %s", CASE_SHOWN, base->text,
-                        s.code != STATUS_OK ? s.text : "there is no such case");
+    status s = case_file_of(path, file);
+    if (s.code == STATUS_OK && !host_file_exists(file) && !case_file_shipped(base->text, file))
+        s = case_file_missing(base->text);
+    if (s.code != STATUS_OK) {
+        case_errors_add(r->errors, base, "base = %.*s: %s", CASE_SHOWN, base->text, s.text);
         return -1;
     }
     for (int k = 0; k < r->n_files; k++) {

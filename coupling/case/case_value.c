@@ -62,6 +62,18 @@ static void write_points(FILE *file, const base_param *p, const double *v)
     fputc(']', file);
 }
 
+bool case_value_is_required(const base_param *p)
+{
+    return p->kind == BASE_PARAM_TEXT ? !p->fallback_text : isinf(p->fallback);
+}
+
+const char *case_unit_text(const base_param *p, char out[UNIT_SIZE + 3])
+{
+    out[0] = '\0';
+    if (!is_pure(p)) snprintf(out, UNIT_SIZE + 3, " [%s]", p->unit);
+    return out;
+}
+
 /* Left out: a text that is empty, and a number that is required but has no value (there is no `none` for it). */
 bool case_value_is_set(const base_param *p, const void *member)
 {

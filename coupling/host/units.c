@@ -223,7 +223,7 @@ static status convert(const units *u, double number, const char *from, const cha
     ut_free(a);
     ut_free(b);
     ut_set_status(UT_SUCCESS);
-    CHECK(known, STATUS_BAD_INPUT, "`%s` is not a known unit (wanted: a unit of %s)", from, to);
+    CHECK(known, STATUS_BAD_INPUT, "`%s` is not a known unit: write it in %s", from, to);
     CHECK(done, STATUS_BAD_INPUT, "`%s` is not a unit of %s", from, to);
     return status_ok();
 }

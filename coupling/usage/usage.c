@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/usage/usage.h"
 
+#include "coupling/host/words.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -64,6 +66,33 @@ usage_command usage_command_at(int i)
     return (usage_command){ y->name, "CASE", y->doc, y->more, y->example, true, y, i };
 }
 
+static const char *command_name(const void *user, int i)
+{
+    (void)user;
+    return i < USAGE_COMMANDS_MADE ? usage_command_at(i).name : NULL;
+}
+
+static const char *option_name(const void *list, int i)
+{
+    return ((const usage_option *)list)[i].name;
+}
+
+status usage_no_command(const char *name)
+{
+    const char *near = host_nearest_name(name, command_name, NULL);
+    return base_status_error(STATUS_BAD_INPUT, "no command `%.80s`; %s%s%sbreech --help lists them", name,
+                             near ? "did you mean `" : "", near ? near : "", near ? "`? " : "");
+}
+
+/* Of an option that is not in the list; near ones may be words in place of a command. */
+static status no_option(const char *name)
+{
+    const char *near = host_nearest_name(name, option_name, usage_options);
+    if (!near) near = host_nearest_name(name, option_name, usage_words);
+    return base_status_error(STATUS_BAD_INPUT, "no option %.80s; %s%s%sbreech --help lists them", name,
+                             near ? "did you mean " : "", near ? near : "", near ? "? " : "");
+}
+
 usage_command usage_command_find(const char *name)
 {
     for (int i = 0; i < USAGE_COMMANDS_MADE; i++)
@@ -121,7 +150,7 @@ static status take_set(usage_line *l, const char *set)
 static status take_value(const usage_option *o, const char *value, usage_line *l)
 {
     char *member = (char *)l + o->offset;
-    CHECK(value, STATUS_BAD_INPUT, "%s needs a value", o->name);
+    CHECK(value, STATUS_BAD_INPUT, "%s needs a value: %s %s", o->name, o->name, o->value);
     switch (o->kind) {
     case USAGE_TEXT:
         CHECK(value[0], STATUS_BAD_INPUT, "%s: the %s is empty", o->name,
@@ -172,11 +201,10 @@ static status take_word(usage_line *l, int argc, char **argv, int *i)
         *(bool *)(void *)((char *)l + o->offset) = true;
         return status_ok();
     }
-    CHECK(word[0] != '-' || word[1] == '\0', STATUS_BAD_INPUT, "no option %.80s; breech --help lists them", word);
+    if (word[0] == '-' && word[1] != '\0') return no_option(word);
     if (!l->command.name) {
         l->command = usage_command_find(word);
-        CHECK(l->command.name, STATUS_BAD_INPUT, "no command `%.80s`; breech --help lists them", word);
-        return status_ok();
+        return l->command.name ? status_ok() : usage_no_command(word);
     }
     CHECK(!l->subject, STATUS_BAD_INPUT, "%s takes one %s: `%.80s` is one too many", l->command.name,
           l->command.subject, whole);

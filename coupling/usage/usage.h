@@ -80,6 +80,8 @@ void usage_print_resume(const usage_line *l, const char *dir, FILE *out);
 usage_command usage_command_at(int i); /* of USAGE_COMMANDS_MADE */
 /* Its name is NULL where there is none of this name. */
 usage_command usage_command_find(const char *name);
+/* STATUS_BAD_INPUT of a name that is no command, with the nearest that is. */
+status usage_no_command(const char *name);
 bool usage_takes(const usage_command *c, const usage_option *o);
 
 /* All commands and options; one command. */
