@@ -17,7 +17,6 @@
 #include "circuit/supply/supply.h"
 
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus

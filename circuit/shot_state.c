@@ -3,7 +3,6 @@
 #include "circuit/shot_internal.h"
 
 #include <assert.h>
-#include <math.h>
 
 shot_drive circuit_shot_drive_now(const circuit_shot *s)
 {

@@ -3,7 +3,6 @@
 #include "base/constants.h"
 #include "coupling/case/case.h"
 #include "coupling/gouge/growth.h"
-#include "coupling/gouge/impact.h"
 #include "coupling/gouge/null_model.h"
 #include "coupling/gouge/result.h"
 #include "coupling/gouge/site_state.h"

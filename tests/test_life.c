@@ -2,7 +2,6 @@
 /* Life by direction: the law against its closed answers, the field of a contact against integrals and published closed
  * forms, where the first direction goes under a wheel (the states of Ma et al. 2020), what a case is refused for. */
 #include "base/constants.h"
-#include "coupling/study/life.h"
 #include "mpm/rest.h"
 #include "program_common.h"
 

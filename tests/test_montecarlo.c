@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Random shots over surfaces that are known: closed answers of a Poisson process. */
 #include "base/constants.h"
-#include "coupling/study/sampling/gouge_law.h"
 #include "coupling/study/sampling/montecarlo.h"
 #include "coupling/study/sampling/population.h"
 

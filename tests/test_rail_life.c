@@ -2,7 +2,6 @@
 /* Life of a launcher's rail: the heat of a passage against closed answers, what a passage takes, shots that differ, and
  * the program on the default shot. */
 #include "base/constants.h"
-#include "coupling/study/rail_life.h"
 #include "program_common.h"
 
 #define CASE CASES "/rail_life"

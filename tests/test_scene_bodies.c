@@ -8,7 +8,6 @@
 #include <cmocka.h>
 
 #include "coupling/case/case.h"
-#include "coupling/case/case_bodies.h"
 #include "coupling/gouge/impact_scene.h"
 #include "coupling/host/outdir.h"
 #include "coupling/scene/scene_bodies.h"

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* breech sweep: every combination of the varied keys, each the same as a run of its own; errors before anything is
  * written; the error against the finest run. */
-#include "coupling/host/file_text.h"
 #include "coupling/host/outdir.h"
 #include "coupling/study/study.h"
 #include "tests/output_common.h"

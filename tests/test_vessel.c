@@ -2,7 +2,6 @@
 /* A shell with gas and liquid in it, reduced: the film, the gas, the growth of a bubble and the vent, each against its
  * closed answer; when the droplet of Qiang et al. (2017) bursts; what a case is refused for. */
 #include "base/constants.h"
-#include "coupling/study/vessel.h"
 #include "mpm/law/law_point.h"
 #include "program_common.h"
 

@@ -4,7 +4,6 @@
 #include <complex.h>
 #include <gsl/gsl_eigen.h>
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 

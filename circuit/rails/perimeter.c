@@ -7,7 +7,6 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 
 /* K grows as r^(-1/3) towards a square corner: panels from 1e-5 of the side there. */

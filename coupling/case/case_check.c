@@ -3,8 +3,6 @@
 #include "coupling/case/case_reader.h"
 #include "coupling/case/material_role.h"
 
-#include "mpm/scene.h"
-
 #include <ctype.h>
 #include <math.h>
 #include <string.h>

@@ -6,8 +6,6 @@
 #include "coupling/host/file_text.h"
 #include "coupling/host/outdir.h"
 
-#include <dirent.h>
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>

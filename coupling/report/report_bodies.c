@@ -5,7 +5,6 @@
 #include "coupling/report/report_svg.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #define SCENE "/scene/scene"
 

@@ -2,9 +2,6 @@
 /* The page of one impact on a rail, and of an ensemble of it. */
 #include "coupling/report/report_page.h"
 
-#include "coupling/report/report_svg.h"
-
-#include <math.h>
 #include <string.h>
 
 /* clang-format off */

@@ -4,7 +4,6 @@
 #include "coupling/scene/scene_image.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { PIECES = 60 };                     /* of a scene, at least */

@@ -3,8 +3,6 @@
 #include "coupling/study/onset.h"
 #include "coupling/host/table.h"
 
-#include <math.h>
-
 const char *const study_site_outcome_names[] = {
     "not_reached", "skipped", "none", "scratch", "gouge", "undecided", NULL
 };

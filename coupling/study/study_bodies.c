@@ -5,7 +5,6 @@
 #include "coupling/report/report_page.h"
 #include "coupling/scene/scene_bodies.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 static void warn(session *s, const scene_bodies_result *r)

@@ -5,7 +5,6 @@
 #include "coupling/report/report_page.h"
 #include "coupling/study/life_compare.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 static const summary_key entry_keys[] = {

@@ -5,7 +5,6 @@
 #include "coupling/host/table.h"
 #include "coupling/report/report_page.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -6,8 +6,6 @@
 
 #include "mpm/law/law_point.h"
 
-#include <stdbool.h>
-
 typedef struct {
     double before;  /* volume inside its inner face at the start [m3] */
     double strain;  /* equivalent strain [1] */

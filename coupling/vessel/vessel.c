@@ -6,7 +6,6 @@
 #include "coupling/vessel/film.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double LAST = 1e-3; /* part of a bubble's gas that leaves slower */

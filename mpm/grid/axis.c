@@ -201,8 +201,8 @@ double mpm_axis_spacing(const axis *a, double x)
     return x >= a->node[i] ? axis_right(a, i < a->last ? i : a->last - 1) : axis_left(a, i > 1 ? i : 2);
 }
 
-/* The weights of kernels.h, of one point whose domain is as long as it is: the least one for stability is not known
- * here. */
+/* The weights of kernels.h for one point, but for least_domain: by how much the kernels widen a short domain depends on
+ * the step and on the cells around, which are not known here. */
 static void gimp_weights(const axis *a, int i, double x, double half, double w[3], double d[3])
 {
     const double left = axis_left(a, i), right = axis_right(a, i), widest = 0.5 * fmin(left, right);

@@ -40,7 +40,8 @@ static inline double axis_right(const axis *a, int i)
 }
 
 /* D = sum_i S_i(x) (x_i - x)^2 of a point whose domain has this half length [m2].  A velocity gradient L along the axis
- * holds the kinetic energy D L^2 / 2 a mass. */
+ * holds the kinetic energy D L^2 / 2 a mass.  Of a domain that the kernels widen for stability (least_domain in
+ * mpm/kernel/kernels.h) it is that of the domain as it is, which is less. */
 double mpm_axis_spread(const axis *a, double x, double half, mpm_basis_kind basis);
 
 /* Grid spacing at x [m]. */

@@ -6,7 +6,6 @@
 #include "mpm/memory/store.h"
 
 #include <limits.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
