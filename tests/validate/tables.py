@@ -24,7 +24,6 @@ import part_gel
 import part_growth
 import part_initiators
 import part_lattice
-import part_lattice_rows
 import part_laws
 import part_levels
 import part_pairs
@@ -47,12 +46,10 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "criterion-steel": ("docs/validation/criterion.md", part_criterion.steel, 13, False),
     "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
     "struts": ("docs/validation/lattice.md", part_struts.struts, 4, False),
-    "lattice-press": ("docs/validation/lattice.md", part_lattice_rows.pressing, 10, False),
-    "lattice-rows": ("docs/validation/lattice.md", part_lattice_rows.nets, 40, False),
-    "lattice": ("docs/validation/lattice.md", part_lattice.through, 9, False),
+    "lattice-press": ("docs/validation/lattice.md", part_lattice.pressing, 10, False),
+    "lattice-rows": ("docs/validation/lattice.md", part_lattice.nets, 36, False),
     "water": ("docs/validation/water.md", part_water.water, 12, False),
     "water-inverse": ("docs/validation/water.md", part_water.inverse, 1, True),
-    "lattice-slow": ("docs/validation/lattice.md", part_lattice.slow, 4, False),
     "fatigue": ("docs/validation/fatigue.md", part_fatigue.wheel, 3, True),
     "rail-surfaces": ("docs/validation/fatigue.md", part_fatigue.surfaces, 1, True),
     "slide": ("docs/validation/fatigue.md", part_slide.slide, 3, True),
