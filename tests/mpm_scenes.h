@@ -20,21 +20,10 @@
 
 #include <cmocka.h>
 
+#include "full_common.h"
+#include "near_common.h"
+
 #define SCENE_PI PI
-
-/* cmocka's own comparison is in single precision. */
-#define assert_near(value, want, tolerance)                                                    \
-    do {                                                                                       \
-        const double value_ = (value), want_ = (want), tolerance_ = (tolerance);               \
-        if (!(fabs(value_ - want_) <= tolerance_))                                             \
-            fail_msg("%s = %.12g, want %.12g within %.3g", #value, value_, want_, tolerance_); \
-    } while (0)
-
-#define assert_below(value, limit)                                                                 \
-    do {                                                                                           \
-        const double value_ = (value), limit_ = (limit);                                           \
-        if (!(value_ < limit_)) fail_msg("%s = %.6g, must be below %.6g", #value, value_, limit_); \
-    } while (0)
 
 #define assert_ok(call)                                                         \
     do {                                                                        \
@@ -42,10 +31,10 @@
         if (status_.code != STATUS_OK) fail_msg("%s: %s", #call, status_.text); \
     } while (0)
 
-static inline bool scene_full(void)
+/* lo .. hi, by rand. */
+static inline double scene_random(double lo, double hi)
 {
-    const char *full = getenv("BREECH_FULL");
-    return full && strcmp(full, "1") == 0;
+    return lo + (hi - lo) * ((double)rand() / RAND_MAX);
 }
 
 /* ---- materials ---- */

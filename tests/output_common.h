@@ -24,6 +24,7 @@
 
 #include <cmocka.h>
 
+#include "full_common.h"
 #include "status_common.h"
 
 /* An empty folder of that name under the test's own. */
@@ -47,12 +48,6 @@ static inline int files_in(const char *dir, const char *suffix)
     }
     closedir(d);
     return n;
-}
-
-static inline bool full_tests(void)
-{
-    const char *full = getenv("BREECH_FULL");
-    return full && strcmp(full, "1") == 0;
 }
 
 /* A Python that has h5py, NULL when there is none. */

@@ -12,16 +12,8 @@
 
 #include <cmocka.h>
 
-static void assert_ok(status st)
-{
-    if (st.code != STATUS_OK) fail_msg("%s", st.text);
-}
-
-static double dice(uint64_t *seed) /* -1 .. 1 */
-{
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 11) / 4503599627370496.0 - 1.0;
-}
+#include "random_common.h"
+#include "status_common.h"
 
 /* All entries of the arrow as one dense matrix, n x n. */
 static double *dense_of(const arrow *a, int n)
@@ -50,7 +42,7 @@ static void solves_as_a_dense_matrix(void **state)
     uint64_t seed = 4;
     for (int trial = 0; trial < 50; trial++) {
         arrow *a = NULL;
-        assert_ok(circuit_arrow_create(BLOCKS, BORDER, SUMS, &a));
+        OK(circuit_arrow_create(BLOCKS, BORDER, SUMS, &a));
         circuit_arrow_clear(a);
         int n = BORDER;
         for (int k = 0; k < BLOCKS; k++) {
@@ -59,19 +51,21 @@ static void solves_as_a_dense_matrix(void **state)
             a->idle[k] = (k + trial) % 6 == 0;
             for (int i = 0; i < a->size[k]; i++) {
                 for (int j = 0; j < a->size[k]; j++)
-                    circuit_arrow_block(a, k)[i * ARROW_BLOCK + j] = dice(&seed) + (i == j ? 3.0 : 0.0);
-                a->b[k * ARROW_BLOCK + i] = dice(&seed);
-                for (int r = 0; r < BORDER; r++) circuit_arrow_column(a, k, i)[r] = dice(&seed);
+                    circuit_arrow_block(a, k)[i * ARROW_BLOCK + j] =
+                        random_between(&seed, -1.0, 1.0) + (i == j ? 3.0 : 0.0);
+                a->b[k * ARROW_BLOCK + i] = random_between(&seed, -1.0, 1.0);
+                for (int r = 0; r < BORDER; r++) circuit_arrow_column(a, k, i)[r] = random_between(&seed, -1.0, 1.0);
             }
         }
-        for (int i = 0; i < BORDER * BORDER; i++) a->E[i] = dice(&seed) + (i % (BORDER + 1) == 0 ? 6.0 : 0.0);
+        for (int i = 0; i < BORDER * BORDER; i++)
+            a->E[i] = random_between(&seed, -1.0, 1.0) + (i % (BORDER + 1) == 0 ? 6.0 : 0.0);
         for (int s = 0; s < SUMS; s++) {
             for (int i = 0; i < BORDER; i++)
                 if (i != s) a->E[i * BORDER + s] = 0.0;
         }
         double x[40], y[40];
         int pivot[40];
-        for (int i = 0; i < n; i++) x[i] = y[i] = dice(&seed);
+        for (int i = 0; i < n; i++) x[i] = y[i] = random_between(&seed, -1.0, 1.0);
         double *A = dense_of(a, n);
         assert_int_equal(circuit_lu_factor(A, n, n, pivot), 0);
         circuit_lu_solve(A, n, n, pivot, y);
@@ -88,7 +82,7 @@ static void singular_is_said(void **state)
 {
     (void)state;
     arrow *a = NULL;
-    assert_ok(circuit_arrow_create(2, 1, 0, &a));
+    OK(circuit_arrow_create(2, 1, 0, &a));
     circuit_arrow_clear(a);
     a->size[0] = 1;
     a->size[1] = 2;
@@ -124,8 +118,8 @@ static circuit_shot *busy_shot(bool film)
     c.armature.friction_law = film ? CIRCUIT_SHOT_FRICTION_FILM : CIRCUIT_SHOT_FRICTION_SPEED;
     c.armature.velocity_skin = film;
     circuit_shot *s = NULL;
-    assert_ok(circuit_shot_create(&c, &s));
-    for (double t = 1e-4; circuit_shot_now(s).x < 1.0; t += 1e-4) assert_ok(circuit_shot_advance(s, t, NULL));
+    OK(circuit_shot_create(&c, &s));
+    for (double t = 1e-4; circuit_shot_now(s).x < 1.0; t += 1e-4) OK(circuit_shot_advance(s, t, NULL));
     assert_int_equal(s->model.reached, 3);
     return s;
 }

@@ -14,17 +14,10 @@
 
 #include <cmocka.h>
 
+#include "near_common.h"
+#include "status_common.h"
+
 static shot_notes notes;
-
-static void assert_ok(status st)
-{
-    if (st.code != STATUS_OK) fail_msg("%s", st.text);
-}
-
-static void assert_near(double got, double want, double tolerance)
-{
-    if (!(fabs(got - want) <= tolerance)) fail_msg("%.9g instead of %.9g (+- %.2g)", got, want, tolerance);
-}
 
 static void assert_refused(const circuit_shot_config *c, const char *key)
 {
@@ -207,8 +200,8 @@ static circuit_shot *watched(const circuit_shot_config *c, contact_notes *n)
     (void)notes_sink(&notes);
     *n = (contact_notes){ .least_spread = INFINITY };
     const circuit_shot_sink sink = { note_melting, note_contact, n };
-    assert_ok(circuit_shot_create(c, &s));
-    assert_ok(circuit_shot_advance(s, INFINITY, &sink));
+    OK(circuit_shot_create(c, &s));
+    OK(circuit_shot_advance(s, INFINITY, &sink));
     assert_int_equal(notes.count[CIRCUIT_SHOT_MUZZLE], 1);
     assert_true(notes.worst_error < 1e-6);
     return s;
@@ -283,7 +276,7 @@ static void current_crowds_in_a_shot(void **state)
     circuit_shot_config c = launcher();
     c.rails.level = CIRCUIT_SHOT_RAILS_DIFFUSING;
     circuit_ladder l;
-    assert_ok(circuit_rails_ladder(&c.rails, 5e4, &l));
+    OK(circuit_rails_ladder(&c.rails, 5e4, &l));
     c.fitted = &l;
     circuit_shot *even = watched(&c, &n);
     assert_near(n.least_spread, c.armature.contact_length, 0.0);

@@ -11,12 +11,9 @@
 
 #include <cmocka.h>
 
-enum { GROUPS = 3 };
+#include "status_common.h"
 
-static void assert_ok(status st)
-{
-    if (st.code != STATUS_OK) fail_msg("%s", st.text);
-}
+enum { GROUPS = 3 };
 
 static circuit_shot_config three_groups(circuit_shot_module *m)
 {
@@ -43,8 +40,8 @@ static circuit_shot_summary shoot(circuit_shot_config c, const circuit_shot_modu
 {
     circuit_shot *s = NULL;
     c.supplies[CIRCUIT_SUPPLY_capacitor].item = m;
-    assert_ok(circuit_shot_create(&c, &s));
-    assert_ok(circuit_shot_advance(s, INFINITY, NULL));
+    OK(circuit_shot_create(&c, &s));
+    OK(circuit_shot_advance(s, INFINITY, NULL));
     const circuit_shot_summary r = circuit_shot_result(s);
     circuit_shot_free(s);
     return r;
@@ -58,7 +55,7 @@ static void flat_below_a_peak(void **state)
     const circuit_shot_config c = three_groups(m);
     circuit_firing_wish w = wish_of(CIRCUIT_FIRING_FLAT);
     w.peak_current = 500e3;
-    assert_ok(circuit_firing_optimise(&c, &w, NULL, found, &r));
+    OK(circuit_firing_optimise(&c, &w, NULL, found, &r));
     const circuit_shot_summary got = shoot(c, found);
     print_message("unevenness %.4f -> %.4f, peak %.1f kA, %d trials\n", r.before, r.after, 1e-3 * got.peak_current,
                   r.evaluations);
@@ -76,7 +73,7 @@ static void velocity_at_least_energy(void **state)
     circuit_firing_wish w = wish_of(CIRCUIT_FIRING_VELOCITY);
     w.muzzle_velocity = 900.0;
     w.evaluations = 30;
-    assert_ok(circuit_firing_optimise(&c, &w, NULL, found, &r));
+    OK(circuit_firing_optimise(&c, &w, NULL, found, &r));
     const circuit_shot_summary got = shoot(c, found);
     print_message("%.1f -> %.1f kJ, %.3f m/s, %d trials, %d shots\n", 1e-3 * r.before, 1e-3 * r.after,
                   got.muzzle_velocity, r.evaluations, r.shots);
@@ -96,7 +93,7 @@ static void charge_of_one_group(void **state)
     w.muzzle_velocity = 500.0;
     double charge[2];
     for (int k = 0; k < 2; k++) {
-        assert_ok(circuit_firing_optimise(&c, &w, NULL, found, &r));
+        OK(circuit_firing_optimise(&c, &w, NULL, found, &r));
         charge[k] = found[0].charge;
         assert_true(fabs(shoot(c, found).muzzle_velocity / 500.0 - 1.0) < 2e-5);
         assert_true(r.stored_energy == r.after && fabs(r.charge_scale * m[0].charge / charge[k] - 1.0) < 1e-12);

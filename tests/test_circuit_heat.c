@@ -11,15 +11,8 @@
 
 #include <cmocka.h>
 
-static void assert_ok(status st)
-{
-    if (st.code != STATUS_OK) fail_msg("%s", st.text);
-}
-
-static void assert_near(double got, double want, double tolerance)
-{
-    if (!(fabs(got - want) <= tolerance)) fail_msg("%.9g instead of %.9g (+- %.2g)", got, want, tolerance);
-}
+#include "near_common.h"
+#include "status_common.h"
 
 /* Two rungs, of 10 us and 1 ms. */
 static circuit_rails_load two_rungs(void)
@@ -143,8 +136,8 @@ static double check_ledger(const char *name, const circuit_shot_config *c)
 {
     circuit_shot *s = NULL;
     double rise[CIRCUIT_SHOT_PIECES], sum = 0.0, most = 0.0;
-    assert_ok(circuit_shot_create(c, &s));
-    assert_ok(circuit_shot_advance(s, INFINITY, NULL));
+    OK(circuit_shot_create(c, &s));
+    OK(circuit_shot_advance(s, INFINITY, NULL));
     circuit_shot_rail_rise(s, rise);
     const circuit_shot_ledger l = circuit_shot_now(s).ledger;
     const double capacity = c->rails.heat_capacity * 2.0 * c->rails.height * c->rails.thickness,

@@ -18,6 +18,9 @@
 
 #include <cmocka.h>
 
+#include "near_common.h"
+#include "status_common.h"
+
 #undef I /* the current, here */
 
 static const double COPPER = 1.72e-8; /* [ohm m] */
@@ -25,23 +28,12 @@ static const circuit_rail_section SECTION = {
     .height = 0.025, .thickness = 0.020, .separation = 0.025, .resistivity = 1.72e-8, .rails = 2
 };
 
-static void assert_ok(status st)
-{
-    if (st.code != STATUS_OK) fail_msg("%s", st.text);
-}
-
-static void assert_near(double got, double want, double relative)
-{
-    if (!(fabs(got - want) <= relative * fabs(want)))
-        fail_msg("got %.9g, want %.9g: off by %.3g, allowed %.3g", got, want, got / want - 1.0, relative);
-}
-
 static circuit_ladder fitted(double f_top, double error)
 {
     circuit_impedance z;
     circuit_ladder l;
-    assert_ok(circuit_inductance_response(&SECTION, f_top, 4.0, &z));
-    assert_ok(circuit_ladder_fit(&z, 2.0 * PI * f_top, error, &l));
+    OK(circuit_inductance_response(&SECTION, f_top, 4.0, &z));
+    OK(circuit_ladder_fit(&z, 2.0 * PI * f_top, error, &l));
     circuit_impedance_free(&z);
     return l;
 }
@@ -53,11 +45,11 @@ static void error_as_asked(void **state)
 {
     (void)state;
     circuit_impedance z;
-    assert_ok(circuit_inductance_response(&SECTION, 5e4, 4.0, &z));
+    OK(circuit_inductance_response(&SECTION, 5e4, 4.0, &z));
     int rungs = 0;
     for (double error = 0.1; error > 1e-6; error *= 0.1) {
         circuit_ladder l;
-        assert_ok(circuit_ladder_fit(&z, 2.0 * PI * 5e4, error, &l));
+        OK(circuit_ladder_fit(&z, 2.0 * PI * 5e4, error, &l));
         assert_true(l.n > rungs && l.error <= error);
         rungs = l.n;
         for (double f = 0.1; f < 5e4; f *= 1.037) {
@@ -78,11 +70,11 @@ static void ends_of_the_band(void **state)
     (void)state;
     double L = 0.0, R = 0.0, L_limit = 0.0;
     const circuit_ladder l = fitted(5e4, 1e-2);
-    assert_ok(circuit_inductance_at(&SECTION, 0.0, 4.0, &L, &R));
-    assert_ok(circuit_inductance_limit(&SECTION, &L_limit));
-    assert_near(l.R_dc, 2.0 * COPPER / (0.020 * 0.025), 1e-9);
-    assert_near(circuit_ladder_slow_inductance(&l), L, 1e-4);
-    assert_near(l.L_inf, L_limit, 0.003);
+    OK(circuit_inductance_at(&SECTION, 0.0, 4.0, &L, &R));
+    OK(circuit_inductance_limit(&SECTION, &L_limit));
+    assert_close(l.R_dc, 2.0 * COPPER / (0.020 * 0.025), 1e-9);
+    assert_close(circuit_ladder_slow_inductance(&l), L, 1e-4);
+    assert_close(l.L_inf, L_limit, 0.003);
     assert_true(l.L_inf > L_limit);
 }
 
@@ -101,8 +93,8 @@ static void passive(void **state)
                                          .rails = 2 };
         circuit_impedance z;
         circuit_ladder l;
-        assert_ok(circuit_inductance_response(&s, 2e4, 4.0, &z));
-        assert_ok(circuit_ladder_fit(&z, 2.0 * PI * 2e4, 1e-4, &l));
+        OK(circuit_inductance_response(&s, 2e4, 4.0, &z));
+        OK(circuit_ladder_fit(&z, 2.0 * PI * 2e4, 1e-4, &l));
         assert_true(l.R_dc > 0.0 && l.L_inf > 0.0 && l.n >= 4);
         for (int r = 0; r < l.n; r++) assert_true(l.L[r] > 0.0 && l.R[r] > 0.0);
         for (int r = 1; r < l.n; r++) assert_true(l.L[r] / l.R[r] < l.L[r - 1] / l.R[r - 1]);
@@ -115,17 +107,17 @@ static void currents_carry_the_impedance(void **state)
 {
     (void)state;
     circuit_impedance z;
-    assert_ok(circuit_inductance_response(&SECTION, 1e4, 4.0, &z));
+    OK(circuit_inductance_response(&SECTION, 1e4, 4.0, &z));
     double complex *share = malloc((size_t)z.n * sizeof *share), total = 0.0;
     const double complex s = _Complex_I * 2.0 * PI * 2e3;
     double heat = 0.0;
-    assert_ok(circuit_impedance_currents(&z, s, share));
+    OK(circuit_impedance_currents(&z, s, share));
     for (int i = 0; i < z.n; i++) {
         total += share[i];
         heat += creal(share[i] * conj(share[i])) / (z.conductance[i] * z.conductance[i]);
     }
     assert_true(cabs(total - 1.0) < 1e-9);
-    assert_near(heat, creal(circuit_impedance_at(&z, s)), 1e-6);
+    assert_close(heat, creal(circuit_impedance_at(&z, s)), 1e-6);
     free(share);
     circuit_impedance_free(&z);
 }
@@ -147,22 +139,23 @@ static void shares_under_the_contact(void **state)
             j = next;
         }
         const double a = circuit_rails_share_at_birth(theta), f = circuit_rails_share_of_force(theta);
-        assert_near(a, j, 1e-5);
-        assert_near(f, force, 1e-4);
-        assert_near(a * (2.0 - a) - f, 2.0 * heat, 2e-4); /* what is neither field nor work is heat under the contact */
+        assert_close(a, j, 1e-5);
+        assert_close(f, force, 1e-4);
+        assert_close(a * (2.0 - a) - f, 2.0 * heat,
+                     2e-4); /* what is neither field nor work is heat under the contact */
     }
     assert_true(circuit_rails_share_at_birth(0.0) == 1.0 && circuit_rails_share_of_force(0.0) == 1.0);
-    assert_near(circuit_rails_share_at_birth(29.999), circuit_rails_share_at_birth(30.001),
-                1e-4); /* formula and series meet */
-    assert_near(circuit_rails_share_of_force(29.999), circuit_rails_share_of_force(30.001), 1e-4);
+    assert_close(circuit_rails_share_at_birth(29.999), circuit_rails_share_at_birth(30.001),
+                 1e-4); /* formula and series meet */
+    assert_close(circuit_rails_share_of_force(29.999), circuit_rails_share_of_force(30.001), 1e-4);
 }
 
 static void force_between_its_limits(void **state)
 {
     (void)state;
     const circuit_rails_load r = { .ladder = fitted(5e4, 1e-2), .contact = { .length = 0.0165 } };
-    assert_near(circuit_rails_force_gradient(&r, 0.0, 1.0), circuit_ladder_slow_inductance(&r.ladder), 1e-12);
-    assert_near(circuit_rails_force_gradient(&r, 1e9, 1.0), r.ladder.L_inf, 1e-5);
+    assert_close(circuit_rails_force_gradient(&r, 0.0, 1.0), circuit_ladder_slow_inductance(&r.ladder), 1e-12);
+    assert_close(circuit_rails_force_gradient(&r, 1e9, 1.0), r.ladder.L_inf, 1e-5);
     for (double v = 1.0, last = 1.0; v < 1e5; v *= 2.0) {
         const double now = circuit_rails_force_gradient(&r, v, 1.0);
         assert_true(now < last);
@@ -267,7 +260,7 @@ static void half_space_formula(void **state)
         }
         const circuit_rails_flow flow = circuit_rails_flow_at(&r, x, v, I, y);
         const double rest = flow.voltage / I - r.ladder.L_inf * v;
-        assert_near(rest, 4.0 * 0.405 / SECTION.height * sqrt(COPPER * MU0 * v * x / PI), 0.05);
+        assert_close(rest, 4.0 * 0.405 / SECTION.height * sqrt(COPPER * MU0 * v * x / PI), 0.05);
     }
 }
 
@@ -331,7 +324,7 @@ static void warming_of_even_current(void **state)
         }
         const double plain = r.ladder.R_dc * I * I * end / r.heat_capacity;
         const double want = k ? expm1(r.coefficient * plain) / r.coefficient : plain;
-        assert_near(circuit_rails_memory_rise(&r, x, y), want, k ? 0.08 : 0.04);
+        assert_close(circuit_rails_memory_rise(&r, x, y), want, k ? 0.08 : 0.04);
     }
     r.heat_capacity = 0.0;
     assert_int_equal(circuit_rails_memory_size(&r), 2 * r.ladder.n); /* nothing is paid for what is not asked for */
@@ -360,8 +353,8 @@ static circuit_shot_summary shoot(const circuit_shot_config *c, watch *w)
     circuit_shot *s = NULL;
     *w = (watch){ 0 };
     const circuit_shot_sink sink = { NULL, look, w };
-    assert_ok(circuit_shot_create(c, &s));
-    assert_ok(circuit_shot_advance(s, INFINITY, &sink));
+    OK(circuit_shot_create(c, &s));
+    OK(circuit_shot_advance(s, INFINITY, &sink));
     const circuit_shot_summary r = circuit_shot_result(s);
     circuit_shot_free(s);
     return r;
@@ -384,11 +377,11 @@ static void diffusing_shot(void **state)
     print_message("muzzle %.3f m/s, off by %.1e at the default tolerances; energy error %.1e\n", sharp.muzzle_velocity,
                   plain.muzzle_velocity / sharp.muzzle_velocity - 1.0, w.energy);
     assert_true(w.energy < 1e-8 && w.field >= 0.0 && w.heat >= 0.0);
-    assert_near(plain.muzzle_velocity, sharp.muzzle_velocity, 1e-6);
+    assert_close(plain.muzzle_velocity, sharp.muzzle_velocity, 1e-6);
     c.rails.ladder_error = 1e-4;
-    assert_near(shoot(&c, &w).muzzle_velocity, sharp.muzzle_velocity, 1e-5);
+    assert_close(shoot(&c, &w).muzzle_velocity, sharp.muzzle_velocity, 1e-5);
     c.armature.contact_length = 0.1; /* the bench's figure: 1.3 % faster */
-    assert_near(shoot(&c, &w).muzzle_velocity, 1.0132 * sharp.muzzle_velocity, 1e-3);
+    assert_close(shoot(&c, &w).muzzle_velocity, 1.0132 * sharp.muzzle_velocity, 1e-3);
 }
 
 /* Faster exposed than diffused, the rail pushes with L_inf; an armature that hardly moves is pushed with direct
@@ -402,7 +395,7 @@ static void levels_agree(void **state)
     watch w;
     c.rails.ladder_frequency = 5e4;
     const circuit_shot_summary own = shoot(&c, &w);
-    assert_ok(circuit_rails_ladder(&c.rails, 5e4, &l));
+    OK(circuit_rails_ladder(&c.rails, 5e4, &l));
     c.fitted = &l;
     assert_true(shoot(&c, &w).muzzle_velocity == own.muzzle_velocity);
     circuit_ladder none = { .R_dc = l.R_dc, .L_inf = l.L_inf };
@@ -422,8 +415,8 @@ static circuit_shot_summary at_tolerance(circuit_shot_config c, double tolerance
     const circuit_shot_sink sink = notes_sink(&notes);
     circuit_shot *s = NULL;
     c.options.rtol = c.options.atol = tolerance;
-    assert_ok(circuit_shot_create(&c, &s));
-    assert_ok(circuit_shot_advance(s, INFINITY, &sink));
+    OK(circuit_shot_create(&c, &s));
+    OK(circuit_shot_advance(s, INFINITY, &sink));
     const circuit_shot_summary r = circuit_shot_result(s);
     circuit_shot_free(s);
     return r;
@@ -437,12 +430,12 @@ static void few_steps(void **state)
     circuit_shot_module modules[DEFAULT_SHOT_GROUPS];
     circuit_shot_config c = default_shot(modules);
     circuit_ladder l;
-    assert_ok(circuit_rails_ladder(&c.rails, 50e3, &l));
+    OK(circuit_rails_ladder(&c.rails, 50e3, &l));
     c.fitted = &l;
     const circuit_shot_summary exact = at_tolerance(c, 1e-11), quick = at_tolerance(c, 1e-5);
     print_message("muzzle velocity off by %.1e in %d steps\n", quick.muzzle_velocity / exact.muzzle_velocity - 1.0,
                   (int)quick.steps);
-    assert_near(quick.muzzle_velocity, exact.muzzle_velocity, 1e-4);
+    assert_close(quick.muzzle_velocity, exact.muzzle_velocity, 1e-4);
     assert_true(quick.steps < 950);
 }
 
@@ -459,8 +452,8 @@ static void warm_slices(void **state)
         assert_true(w.energy < 1e-7 && w.heat >= 0.0);
     }
     print_message("muzzle %.2f m/s cold, %.2f with 4 slices, %.2f with 8\n", muzzle[0], muzzle[1], muzzle[2]);
-    assert_near(muzzle[2], 0.9934 * muzzle[0], 5e-4);
-    assert_near(muzzle[1], muzzle[2], 5e-4);
+    assert_close(muzzle[2], 0.9934 * muzzle[0], 5e-4);
+    assert_close(muzzle[1], muzzle[2], 5e-4);
 }
 
 int main(void)

@@ -19,14 +19,12 @@
 
 #include <cmocka.h>
 
+#include "full_common.h"
+#include "status_common.h"
+
 extern char **environ;
 
 enum { GROUPS = 16 };
-
-static void assert_ok(status st)
-{
-    if (st.code != STATUS_OK) fail_msg("%s", st.text);
-}
 
 /* ---- the netlist ---- */
 
@@ -149,7 +147,7 @@ static circuit_shot_summary shoot(circuit_shot_config c, double rtol, double *to
     c.options.rtol = rtol;
     c.options.atol = 0.01 * rtol;
     const double since = now();
-    assert_ok(circuit_shot_create(&c, &s));
+    OK(circuit_shot_create(&c, &s));
     assert_int_equal(circuit_shot_advance(s, INFINITY, &sink).code, STATUS_STOPPED);
     *took = now() - since;
     const circuit_shot_summary r = circuit_shot_result(s);
@@ -160,9 +158,8 @@ static circuit_shot_summary shoot(circuit_shot_config c, double rtol, double *to
 static void same_shot(void **state)
 {
     (void)state;
-    const char *full = getenv("BREECH_FULL");
     write_nothing("nothing.cir");
-    const double idle = full && strcmp(full, "1") == 0 ? ngspice("nothing.cir", "nothing.log") : -1.0;
+    const double idle = full_tests() ? ngspice("nothing.cir", "nothing.log") : -1.0;
     if (idle < 0.0) skip();
     circuit_shot_module m[GROUPS];
     for (int k = 0; k < GROUPS; k++) {

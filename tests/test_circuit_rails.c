@@ -15,6 +15,9 @@
 
 #include <cmocka.h>
 
+#include "near_common.h"
+#include "status_common.h"
+
 static const double COPPER = 1.0 / 5.998e7; /* [ohm m], the conductivity of the frequency table */
 static const circuit_rail_section SECTION = {
     .height = 0.025, .thickness = 0.020, .separation = 0.025, .resistivity = 1.0 / 5.998e7, .rails = 2
@@ -25,17 +28,6 @@ static circuit_rail_section pair(double h, double w, double s)
 {
     return (
         circuit_rail_section){ .height = h, .thickness = w, .separation = s, .resistivity = 1.0 / 5.998e7, .rails = 2 };
-}
-
-static void assert_ok(status st)
-{
-    if (st.code != STATUS_OK) fail_msg("%s", st.text);
-}
-
-static void assert_near(double got, double want, double relative)
-{
-    if (!(fabs(got - want) <= relative * fabs(want)))
-        fail_msg("got %.9g, want %.9g: off by %.3g, allowed %.3g", got, want, got / want - 1.0, relative);
 }
 
 /* inductance_gradient.csv: boundary-element solutions to five digits (h, w, s, uH/m). */
@@ -53,8 +45,8 @@ static void perfect_conductor_table(void **state)
     for (int k = 0; k < N_LIMITS; k++) {
         double L = 0.0;
         const circuit_rail_section s = pair(LIMITS[k][0], LIMITS[k][1], LIMITS[k][2]);
-        assert_ok(circuit_inductance_limit(&s, &L));
-        assert_near(1e6 * L, LIMITS[k][3], 1.5e-4);
+        OK(circuit_inductance_limit(&s, &L));
+        assert_close(1e6 * L, LIMITS[k][3], 1.5e-4);
     }
 }
 
@@ -63,7 +55,7 @@ static void kerrisk_table(void **state)
 {
     (void)state;
     for (int k = 0; k < N_LIMITS; k++)
-        assert_near(1e6 * circuit_inductance_kerrisk(LIMITS[k][0], LIMITS[k][1], LIMITS[k][2]), LIMITS[k][3], 0.015);
+        assert_close(1e6 * circuit_inductance_kerrisk(LIMITS[k][0], LIMITS[k][1], LIMITS[k][2]), LIMITS[k][3], 0.015);
 }
 
 /* inductance_vs_frequency.csv: grids agree to 0.05 % (L') and 0.2 % (R'; 0.4 % at 20 kHz); ours, refined further, moves
@@ -78,13 +70,13 @@ static void frequency_table(void **state)
     };
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
         double L = 0.0, R = 0.0;
-        assert_ok(circuit_inductance_at(&SECTION, table[k][0], FINE, &L, &R));
-        assert_near(1e6 * L, table[k][1], 0.0007);
-        assert_near(1e6 * R, table[k][2], table[k][0] < 15e3 ? 0.003 : 0.007);
-        assert_ok(circuit_inductance_at(&SECTION, table[k][0], INDUCTANCE_FINENESS, &L,
-                                        &R)); /* what is promised at the default */
-        assert_near(1e6 * L, table[k][1], 0.003);
-        assert_near(1e6 * R, table[k][2], 0.01);
+        OK(circuit_inductance_at(&SECTION, table[k][0], FINE, &L, &R));
+        assert_close(1e6 * L, table[k][1], 0.0007);
+        assert_close(1e6 * R, table[k][2], table[k][0] < 15e3 ? 0.003 : 0.007);
+        OK(circuit_inductance_at(&SECTION, table[k][0], INDUCTANCE_FINENESS, &L,
+                                 &R)); /* what is promised at the default */
+        assert_close(1e6 * L, table[k][1], 0.003);
+        assert_close(1e6 * R, table[k][2], 0.01);
     }
 }
 
@@ -93,10 +85,10 @@ static void direct_current(void **state)
 {
     (void)state;
     double L = 0.0, R = 0.0, L1 = 0.0, R1 = 0.0;
-    assert_ok(circuit_inductance_at(&SECTION, 0.0, FINE, &L, &R));
-    assert_ok(circuit_inductance_at(&SECTION, 0.01, FINE, &L1, &R1));
-    assert_near(R, 2.0 * COPPER / (0.020 * 0.025), 1e-6);
-    assert_near(L1, L, 1e-6);
+    OK(circuit_inductance_at(&SECTION, 0.0, FINE, &L, &R));
+    OK(circuit_inductance_at(&SECTION, 0.01, FINE, &L1, &R1));
+    assert_close(R, 2.0 * COPPER / (0.020 * 0.025), 1e-6);
+    assert_close(L1, L, 1e-6);
 }
 
 /* The two solutions meet where one takes over (skin depth = largest side/1000).  A surface impedance does not know that
@@ -106,10 +98,10 @@ static void thin_and_thick_skin_meet(void **state)
     (void)state;
     const double f = COPPER * 1000.0 * 1000.0 / (PI * MU0 * 0.025 * 0.025);
     double L0 = 0.0, R0 = 0.0, L1 = 0.0, R1 = 0.0;
-    assert_ok(circuit_inductance_at(&SECTION, 0.999 * f, FINE, &L0, &R0));
-    assert_ok(circuit_inductance_at(&SECTION, 1.001 * f, FINE, &L1, &R1));
-    assert_near(L1, L0, 1e-4);
-    assert_near(R1, R0, 0.012);
+    OK(circuit_inductance_at(&SECTION, 0.999 * f, FINE, &L0, &R0));
+    OK(circuit_inductance_at(&SECTION, 1.001 * f, FINE, &L1, &R1));
+    assert_close(L1, L0, 1e-4);
+    assert_close(R1, R0, 0.012);
 }
 
 /* L' depends on shape and on f size^2/rho alone; R' size^2/rho likewise.  Round-off only. */
@@ -119,10 +111,10 @@ static void scaling_law(void **state)
     circuit_rail_section half = pair(0.0125, 0.010, 0.0125);
     half.resistivity *= 2.0;
     double L0 = 0.0, R0 = 0.0, L1 = 0.0, R1 = 0.0;
-    assert_ok(circuit_inductance_at(&SECTION, 1000.0, FINE, &L0, &R0));
-    assert_ok(circuit_inductance_at(&half, 8000.0, FINE, &L1, &R1));
-    assert_near(L1, L0, 1e-9);
-    assert_near(R1, 8.0 * R0, 1e-9);
+    OK(circuit_inductance_at(&SECTION, 1000.0, FINE, &L0, &R0));
+    OK(circuit_inductance_at(&half, 8000.0, FINE, &L1, &R1));
+    assert_close(L1, L0, 1e-9);
+    assert_close(R1, 8.0 * R0, 1e-9);
 }
 
 /* ---- other sections ---- */
@@ -135,11 +127,11 @@ static void round_rods(void **state)
     circuit_rail_section s = pair(0.02, 0.02, 0.02);
     double L = 0.0, R = 0.0, error[2] = { 0.0, 0.0 };
     s.face_crown = s.back_crown = 0.01;
-    assert_ok(circuit_inductance_limit(&s, &L));
-    assert_near(L, 4e-7 * acosh(2.0), 2e-4);
+    OK(circuit_inductance_limit(&s, &L));
+    assert_close(L, 4e-7 * acosh(2.0), 2e-4);
     for (int k = 0; k < 2; k++) {
-        assert_ok(circuit_inductance_at(&s, 0.0, k ? 8.0 : 4.0, &L, &R));
-        assert_near(L, 4e-7 * (log(4.0) + 0.25), k ? 1e-4 : 4e-4);
+        OK(circuit_inductance_at(&s, 0.0, k ? 8.0 : 4.0, &L, &R));
+        assert_close(L, 4e-7 * (log(4.0) + 0.25), k ? 1e-4 : 4e-4);
         error[k] = R * PI * 1e-4 / (2.0 * COPPER) - 1.0;
     }
     assert_true(fabs(error[0]) < 1e-3 && fabs(error[1]) < 0.3 * fabs(error[0]));
@@ -162,8 +154,8 @@ static void rod_skin_effect(void **state)
         }
         const double want = creal(2.0 * x * COPPER / (2.0 * PI * 1e-4) * J0 / J1);
         double L = 0.0, R = 0.0;
-        assert_ok(circuit_inductance_at(&s, f, 4.0, &L, &R));
-        assert_near(R, want, 3e-3);
+        OK(circuit_inductance_at(&s, f, 4.0, &L, &R));
+        assert_close(R, want, 3e-3);
     }
 }
 
@@ -175,11 +167,11 @@ static void four_rods(void **state)
     s.face_crown = s.back_crown = 0.001;
     s.rails = 4;
     double L = 0.0, R = 0.0;
-    assert_ok(circuit_inductance_limit(&s, &L));
-    assert_near(L, 2e-7 * log(0.051 / 0.001), 5e-4);
-    assert_ok(circuit_inductance_at(&s, 0.0, 4.0, &L, &R));
-    assert_near(R, COPPER / (PI * 1e-6), 2e-3); /* two beside each other there and back */
-    assert_near(L, 2e-7 * (log(0.051 / 0.001) + 0.25), 1e-3);
+    OK(circuit_inductance_limit(&s, &L));
+    assert_close(L, 2e-7 * log(0.051 / 0.001), 5e-4);
+    OK(circuit_inductance_at(&s, 0.0, 4.0, &L, &R));
+    assert_close(R, COPPER / (PI * 1e-6), 2e-3); /* two beside each other there and back */
+    assert_close(L, 2e-7 * (log(0.051 / 0.001) + 0.25), 1e-3);
 }
 
 /* Thin strips close together, s/h = 0.05, w/h = 0.001: L' = mu0 s/h/(1 + s/(pi h) (1 + ln(2 pi h/s))), good to (s/h)^2
@@ -190,15 +182,15 @@ static void narrow_gap(void **state)
     const double ratio = 0.05;
     circuit_rail_section s = pair(0.04, 0.00004, 0.002);
     double L = 0.0;
-    assert_ok(circuit_inductance_limit(&s, &L));
-    assert_near(L, MU0 * ratio / (1.0 + ratio / PI * (1.0 + log(2.0 * PI / ratio))), 0.005);
+    OK(circuit_inductance_limit(&s, &L));
+    assert_close(L, MU0 * ratio / (1.0 + ratio / PI * (1.0 + log(2.0 * PI / ratio))), 0.005);
     for (double w = 0.001; w < 0.1;
          w *= 5.0) { /* filaments approach the same limit from above: L + R/omega of the skin */
         double Lf = 0.0, R = 0.0;
         s = pair(0.04, w, 0.002);
-        assert_ok(circuit_inductance_limit(&s, &L));
-        assert_ok(circuit_inductance_at(&s, 1e6, 4.0, &Lf, &R));
-        assert_near(Lf - R / (2.0 * PI * 1e6), L, 0.004);
+        OK(circuit_inductance_limit(&s, &L));
+        OK(circuit_inductance_at(&s, 1e6, 4.0, &Lf, &R));
+        assert_close(Lf - R / (2.0 * PI * 1e6), L, 0.004);
     }
 }
 
@@ -212,20 +204,20 @@ static void clad_face(void **state)
     clad.cladding = 0.001;
     clad.cladding_resistivity = 5.0 * COPPER;
     double L = 0.0, R0 = 0.0, R1 = 0.0;
-    assert_ok(circuit_inductance_at(&clad, 0.0, 4.0, &L, &R1)); /* direct current: both in parallel */
-    assert_near(R1, 2.0 * COPPER / (0.4 * (0.009 + 0.001 / 5.0)), 1e-9);
+    OK(circuit_inductance_at(&clad, 0.0, 4.0, &L, &R1)); /* direct current: both in parallel */
+    assert_close(R1, 2.0 * COPPER / (0.4 * (0.009 + 0.001 / 5.0)), 1e-9);
     for (double f = 2000.0; f < 1e5; f *= 4.0) {
         const double complex k2 = (1.0 + _Complex_I) / sqrt(COPPER / (PI * MU0 * f)), k1 = k2 / sqrt(5.0);
         const double complex Z1 = 5.0 * COPPER * k1, Z2 = COPPER * k2, th = ctanh(k1 * clad.cladding);
         const double want = creal(Z1 * (Z2 + Z1 * th) / (Z1 + Z2 * th)) / creal(Z2);
-        assert_ok(circuit_inductance_at(&plain, f, 4.0, &L, &R0));
-        assert_ok(circuit_inductance_at(&clad, f, 4.0, &L, &R1));
-        assert_near(R1 / R0, want, 0.02);
+        OK(circuit_inductance_at(&plain, f, 4.0, &L, &R0));
+        OK(circuit_inductance_at(&clad, f, 4.0, &L, &R1));
+        assert_close(R1 / R0, want, 0.02);
     }
     clad.cladding_resistivity = COPPER; /* a layer of the rail's own metal changes nothing but the mesh */
-    assert_ok(circuit_inductance_at(&clad, 2000.0, 4.0, &L, &R1));
-    assert_ok(circuit_inductance_at(&plain, 2000.0, 4.0, &L, &R0));
-    assert_near(R1, R0, 2e-3);
+    OK(circuit_inductance_at(&clad, 2000.0, 4.0, &L, &R1));
+    OK(circuit_inductance_at(&plain, 2000.0, 4.0, &L, &R0));
+    assert_close(R1, R0, 2e-3);
 }
 
 /* A D-shaped pair, no closed form: the mesh converges, and the section loses to the full rectangle in L' and R'. */
@@ -235,13 +227,13 @@ static void d_shape(void **state)
     circuit_rail_section s = pair(0.025, 0.020, 0.025);
     s.back_crown = 0.0125;
     double L = 0.0, R = 0.0, L1 = 0.0, R1 = 0.0, L_limit = 0.0;
-    assert_ok(circuit_inductance_limit(&s, &L_limit));
-    assert_ok(circuit_inductance_at(&s, 5e3, 4.0, &L, &R));
-    assert_ok(circuit_inductance_at(&s, 5e3, 8.0, &L1, &R1));
-    assert_near(L, L1, 1e-3);
-    assert_near(R, R1, 3e-3);
-    assert_near(L1 - R1 / (2.0 * PI * 5e3), L_limit, 2e-3);
-    assert_ok(circuit_inductance_at(&SECTION, 5e3, 4.0, &L1, &R1));
+    OK(circuit_inductance_limit(&s, &L_limit));
+    OK(circuit_inductance_at(&s, 5e3, 4.0, &L, &R));
+    OK(circuit_inductance_at(&s, 5e3, 8.0, &L1, &R1));
+    assert_close(L, L1, 1e-3);
+    assert_close(R, R1, 3e-3);
+    assert_close(L1 - R1 / (2.0 * PI * 5e3), L_limit, 2e-3);
+    OK(circuit_inductance_at(&SECTION, 5e3, 4.0, &L1, &R1));
     assert_true(L > L1 && R > R1);
 }
 
@@ -251,23 +243,23 @@ static void surface_currents(void **state)
     (void)state;
     circuit_rail_section s = pair(0.04, 0.01, 0.002);
     inductance_surface p;
-    assert_ok(circuit_inductance_surface_at(&s, 0.0, 4.0, &p));
+    OK(circuit_inductance_surface_at(&s, 0.0, 4.0, &p));
     for (int k = 0; k < p.n; k++) {
-        assert_near(p.current[k], 1.0 / (0.04 * 0.01), 1e-6);
-        assert_near(p.heating[k], COPPER * p.current[k] * p.current[k], 1e-9);
+        assert_close(p.current[k], 1.0 / (0.04 * 0.01), 1e-6);
+        assert_close(p.heating[k], COPPER * p.current[k] * p.current[k], 1e-9);
         assert_true(k == 0 || p.place[k] > p.place[k - 1]);
     }
     assert_true(p.place[p.n - 1] > 0.045 && p.place[p.n - 1] < 0.05); /* 20 + 10 + 20 mm, to the last cell's middle */
     circuit_inductance_surface_free(&p);
-    assert_ok(circuit_inductance_surface_at(&s, 1e4, 4.0, &p));
+    OK(circuit_inductance_surface_at(&s, 1e4, 4.0, &p));
     const double depth = sqrt(COPPER / (PI * MU0 * 1e4));
     /* |1 + i| K/depth, less exp(-1/8) in the first cell's middle; edges take some of K = 1/h */
-    assert_near(p.current[0], sqrt(2.0) * exp(-0.125) / depth / 0.04, 0.15);
+    assert_close(p.current[0], sqrt(2.0) * exp(-0.125) / depth / 0.04, 0.15);
     assert_true(p.current[0] > 20.0 * p.current[p.n - 1]);
     circuit_inductance_surface_free(&p);
     s.separation = 4.0; /* a rail alone: face and back alike */
-    assert_ok(circuit_inductance_surface_at(&s, 1e4, 4.0, &p));
-    assert_near(p.current[p.n - 1], p.current[0], 0.02);
+    OK(circuit_inductance_surface_at(&s, 1e4, 4.0, &p));
+    assert_close(p.current[p.n - 1], p.current[0], 0.02);
     circuit_inductance_surface_free(&p);
 }
 
@@ -307,23 +299,23 @@ static void levels_of_rails(void **state)
     rails.height = rails.separation = 0.025;
     rails.thickness = 0.020;
     double L = 0.0, R = 0.0, L0 = 0.0, R0 = 0.0;
-    assert_ok(circuit_rails_impedance(&rails, 500.0, &L, &R));
+    OK(circuit_rails_impedance(&rails, 500.0, &L, &R));
     circuit_rail_section section = SECTION;
     section.resistivity = rails.resistivity;
-    assert_ok(circuit_inductance_at(&section, 500.0, rails.fineness, &L0, &R0));
+    OK(circuit_inductance_at(&section, 500.0, rails.fineness, &L0, &R0));
     assert_true(L == L0 && R == R0);
     rails.initial_temperature = 393.15; /* 39.3 % more resistive: R' between its root and its first power */
     double R_hot = 0.0;
-    assert_ok(circuit_rails_impedance(&rails, 500.0, &L, &R_hot));
+    OK(circuit_rails_impedance(&rails, 500.0, &L, &R_hot));
     assert_true(R_hot > R * sqrt(1.39) && R_hot < R * 1.40);
-    assert_ok(circuit_rails_impedance(&rails, INFINITY, &L, &R));
-    assert_near(1e6 * L, 0.4643, 1.5e-4);
+    OK(circuit_rails_impedance(&rails, INFINITY, &L, &R));
+    assert_close(1e6 * L, 0.4643, 1.5e-4);
     assert_true(isinf(R));
     rails.level = CIRCUIT_SHOT_RAILS_CONSTANT;
     assert_int_equal(circuit_rails_impedance(&rails, 500.0, &L, &R).code, STATUS_BAD_INPUT);
     rails.inductance_gradient = 0.5e-6;
     rails.resistance_gradient = 1e-4;
-    assert_ok(circuit_rails_impedance(&rails, 500.0, &L, &R));
+    OK(circuit_rails_impedance(&rails, 500.0, &L, &R));
     assert_true(L == 0.5e-6 && R == 1e-4);
     assert_int_equal(circuit_rails_impedance(&rails, -1.0, &L, &R).code, STATUS_BAD_INPUT);
 }

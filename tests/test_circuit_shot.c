@@ -16,6 +16,11 @@
 
 #include <cmocka.h>
 
+#include "full_common.h"
+#include "near_common.h"
+#include "random_common.h"
+#include "status_common.h"
+
 enum { MAX_EVENTS = 4096 };
 
 typedef struct {
@@ -29,23 +34,13 @@ typedef struct {
 
 static record rec; /* the tests' own notebook */
 
-static void assert_ok(status st)
-{
-    if (st.code != STATUS_OK) fail_msg("%s", st.text);
-}
-
-static void assert_near(double got, double want, double tolerance)
-{
-    if (!(fabs(got - want) <= tolerance)) fail_msg("got %.12g, want %.12g, allowed %.3g", got, want, tolerance);
-}
-
 static bool on_event(void *user, circuit_shot *s, const circuit_shot_event *e)
 {
     record *r = user;
     assert_true(r->n < MAX_EVENTS);
     r->events[r->n++] = *e;
     r->count[e->kind]++;
-    if (e->kind == CIRCUIT_SHOT_SITE && r->impulse > 0.0) assert_ok(circuit_shot_jump(s, r->impulse, r->mass_loss));
+    if (e->kind == CIRCUIT_SHOT_SITE && r->impulse > 0.0) OK(circuit_shot_jump(s, r->impulse, r->mass_loss));
     return r->n != r->stop_at;
 }
 
@@ -88,8 +83,8 @@ static circuit_shot *run(const circuit_shot_config *c)
 {
     circuit_shot *s = NULL;
     const circuit_shot_sink sink = notebook();
-    assert_ok(circuit_shot_create(c, &s));
-    assert_ok(circuit_shot_advance(s, INFINITY, &sink));
+    OK(circuit_shot_create(c, &s));
+    OK(circuit_shot_advance(s, INFINITY, &sink));
     assert_true(rec.worst_energy < 1e-6); /* ARCHITECTURE's bound at the default tolerances */
     assert_true(rec.n <= 4 * c->supplies[CIRCUIT_SUPPLY_capacitor].n + c->n_sites + 16); /* no chatter */
     for (int k = 1; k < rec.n; k++) assert_true(rec.events[k].state.t >= rec.events[k - 1].state.t);
@@ -144,11 +139,11 @@ static void closed_form(double drop)
     const double peak = rlc_current(&exact, atan(exact.w / exact.a) / exact.w);
     circuit_shot *s = NULL;
     const circuit_shot_sink sink = notebook();
-    assert_ok(circuit_shot_create(&c, &s));
+    OK(circuit_shot_create(&c, &s));
     double worst = 0.0;
     for (int k = 1; k <= 200; k++) {
         const double t = k * 2e-5;
-        assert_ok(circuit_shot_advance(s, t, &sink));
+        OK(circuit_shot_advance(s, t, &sink));
         worst = fmax(worst, fabs(circuit_shot_now(s).current - rlc_current(&exact, t)) / peak);
     }
     print_message("worst current error %.2e of peak, peak %.2e\n", worst,
@@ -159,7 +154,7 @@ static void closed_form(double drop)
     assert_near(rec.events[1].state.t, exact.crowbar, 1e-11); /* NUMERICS: right to 1e-12 s at rtol 1e-8 for one loop */
     if (drop > 0.0) {                                         /* zero current at t_c + L/R ln(1 + R i_c/V_d) */
         const double end = exact.crowbar + exact.L / exact.R * log1p(exact.R * exact.i_crowbar / drop);
-        assert_ok(circuit_shot_advance(s, INFINITY, &sink));
+        OK(circuit_shot_advance(s, INFINITY, &sink));
         assert_true(circuit_shot_done(s));
         assert_int_equal(rec.count[CIRCUIT_SHOT_BLOCKED], 1);
         assert_near(rec.events[rec.n - 1].state.t, end, 1e-8 * end);
@@ -183,7 +178,7 @@ static void published_pulse(void **state)
     const circuit_shot_module m = unit_200kJ(1, 0.0);
     const circuit_shot_config c = shorted(&m, 1);
     circuit_shot *s = NULL;
-    assert_ok(circuit_shot_create(&c, &s));
+    OK(circuit_shot_create(&c, &s));
     int rows;
     const double misfit = pulse_misfit(s, BREECH_TESTS "/../cases/pulse_unit_200kJ/pulse_unit_200kJ.csv", &rows);
     print_message("worst difference %.3f %% of peak over %d rows\n", 100.0 * misfit, rows);
@@ -297,8 +292,8 @@ static double muzzle_velocity_at(double rtol)
     c.options.rtol = rtol;
     c.options.atol = 0.01 * rtol;
     circuit_shot *s = NULL;
-    assert_ok(circuit_shot_create(&c, &s));
-    assert_ok(circuit_shot_advance(s, INFINITY, NULL));
+    OK(circuit_shot_create(&c, &s));
+    OK(circuit_shot_advance(s, INFINITY, NULL));
     const double v = circuit_shot_result(s).muzzle_velocity;
     circuit_shot_free(s);
     return v;
@@ -518,8 +513,8 @@ static void gouges_hand_back(void **state)
     const circuit_shot_sink sink = notebook();
     rec.impulse = 5.0;
     rec.mass_loss = 1e-4;
-    assert_ok(circuit_shot_create(&c, &s));
-    assert_ok(circuit_shot_advance(s, INFINITY, &sink));
+    OK(circuit_shot_create(&c, &s));
+    OK(circuit_shot_advance(s, INFINITY, &sink));
     const circuit_shot_ledger l = circuit_shot_now(s).ledger;
     assert_true(rec.worst_energy < 1e-6);
     assert_near(l.momentum_jumps, 10.0, 1e-12);
@@ -533,9 +528,9 @@ static void gouges_hand_back(void **state)
     const circuit_shot_sink again =
         notebook(); /* more than the momentum: it stops there, and the current starts it again or not */
     rec.impulse = 1e6;
-    assert_ok(circuit_shot_create(&c, &s));
+    OK(circuit_shot_create(&c, &s));
     assert_int_equal(circuit_shot_jump(s, 1.0, 0.0).code, STATUS_BAD_INPUT); /* held: no motion to take from */
-    assert_ok(circuit_shot_advance(s, INFINITY, &again));
+    OK(circuit_shot_advance(s, INFINITY, &again));
     assert_true(rec.worst_energy < 1e-6 && circuit_shot_done(s));
     assert_int_equal(circuit_shot_jump(s, -1.0, 0.0).code, STATUS_BAD_INPUT);
     assert_int_equal(circuit_shot_jump(s, 0.0, 1.0).code, STATUS_BAD_INPUT);
@@ -554,9 +549,9 @@ static void stop_and_go_on(void **state)
         circuit_shot *s = NULL;
         const circuit_shot_sink sink = notebook();
         rec.stop_at = stop;
-        assert_ok(circuit_shot_create(&c, &s));
+        OK(circuit_shot_create(&c, &s));
         assert_int_equal(circuit_shot_advance(s, INFINITY, &sink).code, STATUS_STOPPED);
-        assert_ok(circuit_shot_advance(s, INFINITY, &sink));
+        OK(circuit_shot_advance(s, INFINITY, &sink));
         assert_int_equal(rec.n, n);
         assert_true(circuit_shot_result(s).muzzle_velocity == circuit_shot_result(whole).muzzle_velocity);
         circuit_shot_free(s);
@@ -600,28 +595,18 @@ static void bad_input_is_named(void **state)
 
 /* ---- any bank at all ---- */
 
-static double dice(uint64_t *seed) /* 0 .. 1 */
-{
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 11) / 9007199254740992.0;
-}
-
-static double dice_between(uint64_t *seed, double lo, double hi) /* evenly in the logarithm */
-{
-    return lo * pow(hi / lo, dice(seed));
-}
-
 static circuit_shot_module dice_module(uint64_t *seed)
 {
-    circuit_shot_module m = unit_200kJ(1 + (int)(5.0 * dice(seed)), floor(6.0 * dice(seed)) * 3e-4);
-    m.capacitance = dice_between(seed, 1e-4, 1e-2);
-    m.charge = dice(seed) < 0.1 ? 0.0 : dice_between(seed, 1e2, 2e4);
-    m.inductance = dice_between(seed, 1e-6, 1e-4);
-    m.resistance = dice(seed) < 0.1 ? 0.0 : dice_between(seed, 1e-4, 1e-1);
-    m.cable_inductance = dice(seed) < 0.5 ? 0.0 : 1e-6;
-    m.crowbar_drop = dice(seed) < 0.3 ? 0.0 : dice_between(seed, 0.1, 50.0);
-    m.crowbar_resistance = dice(seed) < 0.3 ? 0.0 : dice_between(seed, 1e-9, 1e-2);
-    if (dice(seed) < 0.1) m.fire_at = NAN;
+    circuit_shot_module m =
+        unit_200kJ(1 + (int)(5.0 * random_between(seed, 0.0, 1.0)), floor(6.0 * random_between(seed, 0.0, 1.0)) * 3e-4);
+    m.capacitance = random_log_between(seed, 1e-4, 1e-2);
+    m.charge = random_between(seed, 0.0, 1.0) < 0.1 ? 0.0 : random_log_between(seed, 1e2, 2e4);
+    m.inductance = random_log_between(seed, 1e-6, 1e-4);
+    m.resistance = random_between(seed, 0.0, 1.0) < 0.1 ? 0.0 : random_log_between(seed, 1e-4, 1e-1);
+    m.cable_inductance = random_between(seed, 0.0, 1.0) < 0.5 ? 0.0 : 1e-6;
+    m.crowbar_drop = random_between(seed, 0.0, 1.0) < 0.3 ? 0.0 : random_log_between(seed, 0.1, 50.0);
+    m.crowbar_resistance = random_between(seed, 0.0, 1.0) < 0.3 ? 0.0 : random_log_between(seed, 1e-9, 1e-2);
+    if (random_between(seed, 0.0, 1.0) < 0.1) m.fire_at = NAN;
     return m;
 }
 
@@ -629,25 +614,24 @@ static circuit_shot_module dice_module(uint64_t *seed)
 static void random_banks(void **state)
 {
     (void)state;
-    const char *full = getenv("BREECH_FULL");
-    const int n_shots = full && strcmp(full, "1") == 0 ? 1000 : 60;
+    const int n_shots = full_tests() ? 1000 : 60;
     uint64_t seed = 20170707;
     double worst = 0.0;
     uint64_t most = 0;
     int left = 0, stopped = 0;
     for (int k = 0; k < n_shots; k++) {
         circuit_shot_module modules[12];
-        const int n = 1 + (int)(12.0 * dice(&seed));
+        const int n = 1 + (int)(12.0 * random_between(&seed, 0.0, 1.0));
         for (int j = 0; j < n; j++) modules[j] = dice_module(&seed);
         circuit_shot_config c = plain(modules, n);
-        c.armature.mass = dice_between(&seed, 0.01, 10.0);
-        c.armature.preload = dice(&seed) < 0.2 ? 0.0 : dice_between(&seed, 1.0, 1e6);
-        c.armature.spreading = dice(&seed) < 0.3 ? 0.0 : dice_between(&seed, 1e-9, 1e-6);
-        c.armature.friction_melted = 0.3 * dice(&seed);
-        c.armature.contact_voltage = dice(&seed) < 0.3 ? 0.0 : 40.0;
-        c.armature.wear_fraction = dice(&seed) < 0.5 ? 0.0 : 0.02;
-        c.barrel.length = dice_between(&seed, 0.2, 20.0);
-        c.barrel.muzzle_voltage = dice(&seed) < 0.5 ? 0.0 : 300.0;
+        c.armature.mass = random_log_between(&seed, 0.01, 10.0);
+        c.armature.preload = random_between(&seed, 0.0, 1.0) < 0.2 ? 0.0 : random_log_between(&seed, 1.0, 1e6);
+        c.armature.spreading = random_between(&seed, 0.0, 1.0) < 0.3 ? 0.0 : random_log_between(&seed, 1e-9, 1e-6);
+        c.armature.friction_melted = 0.3 * random_between(&seed, 0.0, 1.0);
+        c.armature.contact_voltage = random_between(&seed, 0.0, 1.0) < 0.3 ? 0.0 : 40.0;
+        c.armature.wear_fraction = random_between(&seed, 0.0, 1.0) < 0.5 ? 0.0 : 0.02;
+        c.barrel.length = random_log_between(&seed, 0.2, 20.0);
+        c.barrel.muzzle_voltage = random_between(&seed, 0.0, 1.0) < 0.5 ? 0.0 : 300.0;
         circuit_shot *s = run(&c);
         worst = fmax(worst, rec.worst_energy);
         most = circuit_shot_result(s).steps > most ? circuit_shot_result(s).steps : most;

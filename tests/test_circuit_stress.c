@@ -10,27 +10,13 @@
 
 #include <cmocka.h>
 
+#include "full_common.h"
+#include "random_common.h"
+
 enum { MAX_MODULES = 2000 };
 
 static circuit_shot_module modules[MAX_MODULES];
 static shot_notes notes;
-
-static bool full(void)
-{
-    const char *f = getenv("BREECH_FULL");
-    return f && strcmp(f, "1") == 0;
-}
-
-static double dice(uint64_t *seed) /* 0 .. 1 */
-{
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 11) / 9007199254740992.0;
-}
-
-static double between(uint64_t *seed, double lo, double hi) /* evenly in the logarithm */
-{
-    return lo * pow(hi / lo, dice(seed));
-}
 
 static status run(const circuit_shot_config *c, circuit_shot_summary *out)
 {
@@ -46,19 +32,20 @@ static status run(const circuit_shot_config *c, circuit_shot_summary *out)
 /* Quarter periods from 1 us to 1 s, resistances from 1e-9 ohm, every option of a module, simultaneous firing. */
 static circuit_shot_module any_module(uint64_t *seed)
 {
-    circuit_shot_module m = unit_200kJ(1 + (int)(3.0 * dice(seed)), floor(5.0 * dice(seed)) * 4e-4);
-    const double tau = between(seed, 1e-6, 1.0) / 1.5708;
-    m.inductance = between(seed, fmax(1e-8, tau * tau), fmax(1e-7, fmin(1e-3, 1e3 * tau)));
+    circuit_shot_module m =
+        unit_200kJ(1 + (int)(3.0 * random_between(seed, 0.0, 1.0)), floor(5.0 * random_between(seed, 0.0, 1.0)) * 4e-4);
+    const double tau = random_log_between(seed, 1e-6, 1.0) / 1.5708;
+    m.inductance = random_log_between(seed, fmax(1e-8, tau * tau), fmax(1e-7, fmin(1e-3, 1e3 * tau)));
     m.capacitance = fmin(fmax(tau * tau / m.inductance, 1e-9), 100.0);
-    const double charge = sqrt(2.0 * between(seed, 10.0, 1e5) / m.capacitance);
-    m.charge = dice(seed) < 0.1 ? 0.0 : fmin(charge, 5e4);
-    m.resistance = between(seed, 1e-9, 1e-1);
-    m.cable_inductance = between(seed, 1e-8, 1e-6);
-    m.crowbar = dice(seed) < 0.8;
-    m.series_diode = dice(seed) < 0.7;
-    m.crowbar_drop = dice(seed) < 0.3 ? 0.0 : between(seed, 0.1, 50.0);
-    m.crowbar_resistance = dice(seed) < 0.3 ? 0.0 : between(seed, 1e-9, 1e-2);
-    m.damping_resistance = dice(seed) < 0.2 ? between(seed, 1e-3, 1e3) : NAN;
+    const double charge = sqrt(2.0 * random_log_between(seed, 10.0, 1e5) / m.capacitance);
+    m.charge = random_between(seed, 0.0, 1.0) < 0.1 ? 0.0 : fmin(charge, 5e4);
+    m.resistance = random_log_between(seed, 1e-9, 1e-1);
+    m.cable_inductance = random_log_between(seed, 1e-8, 1e-6);
+    m.crowbar = random_between(seed, 0.0, 1.0) < 0.8;
+    m.series_diode = random_between(seed, 0.0, 1.0) < 0.7;
+    m.crowbar_drop = random_between(seed, 0.0, 1.0) < 0.3 ? 0.0 : random_log_between(seed, 0.1, 50.0);
+    m.crowbar_resistance = random_between(seed, 0.0, 1.0) < 0.3 ? 0.0 : random_log_between(seed, 1e-9, 1e-2);
+    m.damping_resistance = random_between(seed, 0.0, 1.0) < 0.2 ? random_log_between(seed, 1e-3, 1e3) : NAN;
     return m;
 }
 
@@ -67,17 +54,18 @@ static circuit_shot_config any_shot(uint64_t *seed, int n)
     circuit_shot_config c = plain_barrel();
     for (int k = 0; k < n; k++) modules[k] = any_module(seed);
     c.supplies[CIRCUIT_SUPPLY_capacitor] = (circuit_supply_list){ n, modules };
-    c.armature.mass = between(seed, 0.01, 10.0);
-    c.armature.preload = dice(seed) < 0.2 ? 0.0 : between(seed, 1.0, 1e6);
-    c.armature.contact_voltage = dice(seed) < 0.3 ? 0.0 : 40.0;
-    c.armature.resistance = between(seed, 1e-9, 1e-3);
-    c.armature.wear_fraction = dice(seed) < 0.5 ? 0.0 : 0.01;
-    c.barrel.length = between(seed, 0.2, 20.0);
-    c.barrel.muzzle_voltage = dice(seed) < 0.5 ? 0.0 : 300.0;
-    c.barrel.shunt_resistance = dice(seed) < 0.2 ? between(seed, 1e-9, 1e-2) : NAN;
+    c.armature.mass = random_log_between(seed, 0.01, 10.0);
+    c.armature.preload = random_between(seed, 0.0, 1.0) < 0.2 ? 0.0 : random_log_between(seed, 1.0, 1e6);
+    c.armature.contact_voltage = random_between(seed, 0.0, 1.0) < 0.3 ? 0.0 : 40.0;
+    c.armature.resistance = random_log_between(seed, 1e-9, 1e-3);
+    c.armature.wear_fraction = random_between(seed, 0.0, 1.0) < 0.5 ? 0.0 : 0.01;
+    c.barrel.length = random_log_between(seed, 0.2, 20.0);
+    c.barrel.muzzle_voltage = random_between(seed, 0.0, 1.0) < 0.5 ? 0.0 : 300.0;
+    c.barrel.shunt_resistance = random_between(seed, 0.0, 1.0) < 0.2 ? random_log_between(seed, 1e-9, 1e-2) : NAN;
     c.options.max_time = 0.01;
     for (int k = 1; k < n && n < 30; k++)
-        if (dice(seed) < 0.1) modules[k].position = c.barrel.length * dice(seed);
+        if (random_between(seed, 0.0, 1.0) < 0.1)
+            modules[k].position = c.barrel.length * random_between(seed, 0.0, 1.0);
     return c;
 }
 
@@ -85,13 +73,13 @@ static circuit_shot_config any_shot(uint64_t *seed, int n)
 static void random_circuits(void **state)
 {
     (void)state;
-    const int shots = full() ? 600 : 24;
+    const int shots = full_tests() ? 600 : 24;
     uint64_t seed = 20181113;
     int refused = 0, rerun = 0, left = 0;
     double worst = 0.0;
     for (int k = 0; k < shots; k++) {
         circuit_shot_summary r;
-        circuit_shot_config c = any_shot(&seed, 1 + (int)(12.0 * dice(&seed)));
+        circuit_shot_config c = any_shot(&seed, 1 + (int)(12.0 * random_between(&seed, 0.0, 1.0)));
         status st = run(&c, &r);
         if (st.code == STATUS_OK && notes.worst_error >= 1e-5) { /* thousands of rings of microseconds: errors add up */
             print_message("shot %d: energy error %.1e in %llu steps", k, notes.worst_error,
@@ -124,7 +112,7 @@ static void many_groups(void **state)
     (void)state;
     const int counts[] = { 1, 20, 200, MAX_MODULES };
     double first = 0.0;
-    for (int k = 0; k < (full() ? 4 : 3); k++) {
+    for (int k = 0; k < (full_tests() ? 4 : 3); k++) {
         const int n = counts[k];
         circuit_shot_config c = plain_barrel();
         for (int j = 0; j < n; j++) {

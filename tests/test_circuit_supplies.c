@@ -12,15 +12,8 @@
 
 #include <cmocka.h>
 
-static void assert_ok(status st)
-{
-    if (st.code != STATUS_OK) fail_msg("%s", st.text);
-}
-
-static void assert_near(double got, double want, double tolerance)
-{
-    if (!(fabs(got - want) <= tolerance)) fail_msg("got %.12g, want %.12g, allowed %.3g", got, want, tolerance);
-}
+#include "near_common.h"
+#include "status_common.h"
 
 /* ---- one of each ---- */
 
@@ -165,7 +158,7 @@ static void law_of_the_table(void **state)
             if (variant && kind == CIRCUIT_SUPPLY_capacitor) g.p = &damped;
             g.at = circuit_supply_common_of(g.p);
             g.unknowns = g.kind->unknowns(g.p);
-            if (g.kind->prepare) assert_ok(g.kind->prepare(&g));
+            if (g.kind->prepare) OK(g.kind->prepare(&g));
             for (int gate = GATE_UNFIRED; gate <= GATE_ON; gate++) {
                 for (int stage = 0; stage < (g.kind->next && kind != CIRCUIT_SUPPLY_profile ? 2 : 1); stage++) {
                     const double i = gate == GATE_ON ? 1.2e5 : 0.0;
@@ -191,8 +184,8 @@ static circuit_shot *run(const circuit_shot_config *c)
 {
     circuit_shot *s = NULL;
     const circuit_shot_sink sink = notes_sink(&notes);
-    assert_ok(circuit_shot_create(c, &s));
-    assert_ok(circuit_shot_advance(s, INFINITY, &sink));
+    OK(circuit_shot_create(c, &s));
+    OK(circuit_shot_advance(s, INFINITY, &sink));
     /* default tolerances: docs/validation/circuit.md's 1000 random banks stay below 3e-7 */
     if (!(notes.worst_error < 1e-6)) fail_msg("energy error %.2e", notes.worst_error);
     return s;
@@ -279,8 +272,8 @@ static void opening_switch(void **state)
     c.supplies[CIRCUIT_SUPPLY_inductor] = (circuit_supply_list){ 1, &p };
     circuit_shot *s = NULL;
     const circuit_shot_sink sink = notes_sink(&notes);
-    assert_ok(circuit_shot_create(&c, &s));
-    assert_ok(circuit_shot_advance(s, 0.020001, &sink));
+    OK(circuit_shot_create(&c, &s));
+    OK(circuit_shot_advance(s, 0.020001, &sink));
     assert_int_equal(notes.count[CIRCUIT_SHOT_COMMUTATED], 1);
     /* R i_0/U = 2.6e-4 of the current is lost or gained on the way */
     assert_near(notes.time[CIRCUIT_SHOT_COMMUTATED] - p.fire_at, took, 1e-3 * took);
@@ -309,13 +302,13 @@ static void alternator_pulses(void **state)
     const double w = p.pole_pairs * p.speed, unit = p.flux / (p.pole_pairs * p.inductance);
     circuit_shot *s = NULL;
     const circuit_shot_sink sink = notes_sink(&notes);
-    assert_ok(circuit_shot_create(&c, &s));
-    assert_ok(circuit_shot_advance(s, (2.0 * PI - 0.6) / w, &sink));
+    OK(circuit_shot_create(&c, &s));
+    OK(circuit_shot_advance(s, (2.0 * PI - 0.6) / w, &sink));
     assert_near(circuit_shot_result(s).peak_current, unit * (1.0 + cos(0.5)),
                 2e-5 * unit); /* the rotor's share: 1e-6 */
     assert_int_equal(notes.count[CIRCUIT_SHOT_WAITING], 1);
     assert_near(notes.time[CIRCUIT_SHOT_WAITING], (2.0 * PI - 1.0) / w, 1e-5 / w);
-    assert_ok(circuit_shot_advance(s, 3.0 * PI / w, &sink));
+    OK(circuit_shot_advance(s, 3.0 * PI / w, &sink));
     assert_int_equal(notes.count[CIRCUIT_SHOT_FIRED], 2);
     assert_near(notes.time[CIRCUIT_SHOT_FIRED], (2.0 * PI - 0.5) / w, 1e-5 / w);
     assert_int_equal(notes.count[CIRCUIT_SHOT_BLOCKED], 0);
@@ -335,21 +328,21 @@ static void profile_is_followed(void **state)
     circuit_shot_config c = plain_barrel();
     c.supplies[CIRCUIT_SUPPLY_profile] = (circuit_supply_list){ 1, &all.profile };
     circuit_shot *s = NULL;
-    assert_ok(circuit_shot_create(&c, &s));
+    OK(circuit_shot_create(&c, &s));
     for (int k = 1; k < 8; k++) {
-        assert_ok(circuit_shot_advance(s, hump[k].time, NULL));
+        OK(circuit_shot_advance(s, hump[k].time, NULL));
         assert_near(circuit_shot_now(s).current, hump[k].current,
                     1e-9 * 4e5); /* algebraic: met to the Newton iteration */
     }
-    assert_ok(circuit_shot_advance(s, INFINITY, NULL));
+    OK(circuit_shot_advance(s, INFINITY, NULL));
     assert_near(circuit_shot_now(s).ledger.energy_error, 0.0, 1e-6);
     assert_true(circuit_shot_now(s).current == 0.0 && circuit_shot_now(s).ledger.supplied > 1e4);
     circuit_shot_free(s);
     hump[8].current = 700.0; /* a measured one does not end at exactly 0: it falls to 0 in one interval more */
-    assert_ok(circuit_shot_create(&c, &s));
-    assert_ok(circuit_shot_advance(s, hump[8].time, NULL));
+    OK(circuit_shot_create(&c, &s));
+    OK(circuit_shot_advance(s, hump[8].time, NULL));
     assert_near(circuit_shot_now(s).current, 700.0, 1e-9 * 4e5);
-    assert_ok(circuit_shot_advance(s, INFINITY, NULL));
+    OK(circuit_shot_advance(s, INFINITY, NULL));
     assert_true(circuit_shot_now(s).current == 0.0 && circuit_shot_now(s).t >= 2 * hump[8].time - hump[7].time);
     circuit_shot_free(s);
     circuit_supply_profile bad = all.profile;
@@ -389,13 +382,13 @@ static void ringing(void **state)
     c.options.rtol = 1e-11;
     c.options.atol = 1e-13;
     circuit_shot *s = NULL;
-    assert_ok(circuit_shot_create(&c, &s));
+    OK(circuit_shot_create(&c, &s));
     const double a = 0.5 * m.resistance / m.inductance, w = sqrt(1.0 / (m.inductance * m.capacitance) - a * a);
     const double peak = m.charge / (w * m.inductance);
     double worst = 0.0, least = 0.0;
     for (int k = 1; k <= 100; k++) {
         const double t = 5e-5 * k, i = peak * exp(-a * t) * sin(w * t);
-        assert_ok(circuit_shot_advance(s, t, NULL));
+        OK(circuit_shot_advance(s, t, NULL));
         worst = fmax(worst, fabs(circuit_shot_now(s).current - i));
         least = fmin(least, circuit_shot_now(s).current);
     }
@@ -662,8 +655,8 @@ static void temperatures(void **state)
         circuit_shot *s = NULL;
         const circuit_shot_sink sink = { .sample = temperatures_in_order, .user = &hottest[k] };
         c.armature.wear_fraction = 0.3 * k;
-        assert_ok(circuit_shot_create(&c, &s));
-        assert_ok(circuit_shot_advance(s, INFINITY, &sink));
+        OK(circuit_shot_create(&c, &s));
+        OK(circuit_shot_advance(s, INFINITY, &sink));
         circuit_shot_free(s);
     }
     assert_near(hottest[0], c.armature.melting_temperature, 1e-9);

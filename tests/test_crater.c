@@ -15,16 +15,12 @@
 
 #include <cmocka.h>
 
+#include "near_common.h"
+#include "random_common.h"
+
 #define MM 1e-3
 #define RADIUS 0.5 /* of the particle, a hemisphere [mm] */
 #define BASE 1.2   /* depth of the rail [mm] */
-
-/* cmocka's own comparison is in single precision. */
-#define assert_near(value, want, tolerance)                                                                    \
-    do {                                                                                                       \
-        const double value_ = (value), want_ = (want);                                                         \
-        if (!(fabs(value_ - want_) <= (tolerance))) fail_msg("%s = %.12g, want %.12g", #value, value_, want_); \
-    } while (0)
 
 /* ---- rails ---- */
 
@@ -135,12 +131,6 @@ static crater measured_once(double z_lo, double pitch, study_surface_at *surface
     const crater c = measured(&r, spec);
     drop(&r);
     return c;
-}
-
-static double random_between(uint64_t *seed, double lo, double hi)
-{
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return lo + (hi - lo) * (double)(*seed >> 11) * 0x1p-53;
 }
 
 /* (M-20) w(d), written anew from its definition; d, d_m in one unit. */

@@ -11,6 +11,7 @@
 #include "mpm/mpm.h"
 
 #include "tests/case_common.h"
+#include "tests/random_common.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -362,12 +363,6 @@ static bool is_of_kind(const mpm_scene *s, const mpm_body *b, const char *kind)
     return strcmp(s->solid[b->solid].kind->name, kind) == 0;
 }
 
-static double uniform(uint64_t *seed)
-{
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 11) * 0x1p-53;
-}
-
 /* Depth to which two bodies may share points by rounding of the lengths. */
 #define ROUNDING 1e-12
 
@@ -395,9 +390,9 @@ static void test_no_overlap(void **state)
         const double r = m.impact.particle.radius;
         for (int i = 0; i < 20000; i++) { /* around the grain, and anywhere */
             const double reach = i % 2 ? 3.0 * r : 30e-3;
-            const double x[3] = { reach * (2.0 * uniform(&seed) - 1.0),
-                                  (i % 2 ? 2.0 * r : 12e-3) * (2.0 * uniform(&seed) - 1.0),
-                                  reach * (2.0 * uniform(&seed) - 1.0) };
+            const double x[3] = { reach * (2.0 * random_between(&seed, 0.0, 1.0) - 1.0),
+                                  (i % 2 ? 2.0 * r : 12e-3) * (2.0 * random_between(&seed, 0.0, 1.0) - 1.0),
+                                  reach * (2.0 * random_between(&seed, 0.0, 1.0) - 1.0) };
             check_overlap(&m.gouge, x);
         }
         unmake(&m);

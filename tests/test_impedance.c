@@ -12,16 +12,11 @@
 
 #include <cmocka.h>
 
+#include "near_common.h"
+
 #ifndef BREECH_TESTS
 #define BREECH_TESTS "tests"
 #endif
-
-/* cmocka's own comparison is in single precision. */
-#define assert_near(value, want, tolerance)                                                                    \
-    do {                                                                                                       \
-        const double value_ = (value), want_ = (want);                                                         \
-        if (!(fabs(value_ - want_) <= (tolerance))) fail_msg("%s = %.15g, want %.15g", #value, value_, want_); \
-    } while (0)
 
 static mpm_material blank(const char *name)
 {

@@ -6,23 +6,19 @@
 
 #include "mpm/kernel/kernels.h"
 
-static double uniform(double lo, double hi)
-{
-    return lo + (hi - lo) * ((double)rand() / RAND_MAX);
-}
-
 /* Random specifications that make sense: anything from a few to a few hundred cells. */
 static mpm_axis any_axis(void)
 {
-    const double lo = uniform(-50e-3, 10e-3), length = uniform(1e-3, 60e-3), fine = length / uniform(4, 200);
-    const double a = uniform(0, 0.5) * length, b = uniform(0.6, 1.0) * length;
+    const double lo = scene_random(-50e-3, 10e-3), length = scene_random(1e-3, 60e-3),
+                 fine = length / scene_random(4, 200);
+    const double a = scene_random(0, 0.5) * length, b = scene_random(0.6, 1.0) * length;
     return (mpm_axis){ .lo = lo,
                        .hi = lo + length,
                        .fine_lo = lo + (rand() % 3 ? a : 0),
                        .fine_hi = lo + (rand() % 3 ? b : length),
                        .fine = fine,
-                       .coarse = fine * uniform(1, 8),
-                       .growth = uniform(1.05, 1.3) };
+                       .coarse = fine * scene_random(1, 8),
+                       .growth = scene_random(1.05, 1.3) };
 }
 
 static void test_grading(void **state)
@@ -93,7 +89,7 @@ static void test_locate(void **state)
         assert_true(mpm_axis_locate(&a, s.lo) == 1 &&
                     mpm_axis_locate(&a, s.hi) == a.last); /* the whole window is in some cell */
         for (int q = 0; q < 20; q++) {
-            const double x = uniform(s.lo, s.hi), h = mpm_axis_spacing(&a, x);
+            const double x = scene_random(s.lo, s.hi), h = mpm_axis_spacing(&a, x);
             const int i = mpm_axis_locate(&a, x);
             assert_true(h == axis_left(&a, i) || h == axis_right(&a, i));
         }
@@ -133,8 +129,8 @@ static sample any_sample(const axis *a)
     sample s = { .cell = 2 + rand() % (a->last - 2) };
     s.c = cell_axis_at(a, s.cell), s.k = knots_at(a, s.cell);
     for (int l = 0; l < WIDTH; l++) {
-        s.x[l] = uniform(a->edge[s.cell], a->edge[s.cell + 1]);
-        s.half[l] = uniform(0.05, 0.5) * fmin(axis_left(a, s.cell), axis_right(a, s.cell));
+        s.x[l] = scene_random(a->edge[s.cell], a->edge[s.cell + 1]);
+        s.half[l] = scene_random(0.05, 0.5) * fmin(axis_left(a, s.cell), axis_right(a, s.cell));
     }
     return s;
 }
@@ -198,7 +194,7 @@ static void test_derivative(void **state)
         const double h = s.k.e[2] - s.k.e[1], step = 1e-4 * h;
         for (int l = 0; l < WIDTH; l++) {
             s.half[l] = up.half[l] = down.half[l] = 0.2 * s.c.widest;
-            s.x[l] = s.c.x[1] + uniform(0.3, 0.6) * s.c.widest; /* a piece without a kink for either basis */
+            s.x[l] = s.c.x[1] + scene_random(0.3, 0.6) * s.c.widest; /* a piece without a kink for either basis */
             up.x[l] = s.x[l] + step, down.x[l] = s.x[l] - step;
         }
         const double tolerance = 1e-15 * (1 + fabs(s.x[0]) / h) / 1e-4;

@@ -91,7 +91,7 @@ static void test_restart(void **state)
     (void)state;
     static const int few[] = { 17, 148, 199, 200, 201 }, many[] = { 0, 1, 17, 83, 119, 148, 199, 200, 201 };
     enum { FEW = sizeof few / sizeof few[0], STOPS = sizeof many / sizeof many[0], LAST = 220 };
-    const int *const stops = scene_full() ? many : few, count = scene_full() ? STOPS : FEW;
+    const int *const stops = full_tests() ? many : few, count = full_tests() ? STOPS : FEW;
     GOUGE_LOCAL(g);
     scene_gouge(&g, H, SPEED);
     mpm *m = scene_make(&g.scene, 1);

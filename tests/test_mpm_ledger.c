@@ -109,7 +109,7 @@ static void test_options(void **state)
     g.scene.body[1].group = 2;
     scene_pair(&g.scene, 0, 2)[COULOMB_BOND_STRENGTH] = 300e6;
     run(&g.scene, "bonded grain");
-    if (!scene_full()) return;
+    if (!full_tests()) return;
     scene_gouge(&g, 0.6 * H, SPEED);
     g.scene.particles_per_axis = 3;
     run(&g.scene, "finer, three points a cell");

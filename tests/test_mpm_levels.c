@@ -8,11 +8,6 @@
 static const double ROUNDING = 1e-12;
 enum { LEVELS = 3 };
 
-static double uniform(double lo, double hi)
-{
-    return lo + (hi - lo) * ((double)rand() / RAND_MAX);
-}
-
 static void test_refused(void **state)
 {
     (void)state;
@@ -60,7 +55,7 @@ static void test_linear(void **state)
         mpm *m = scene_make(&s, 2);
         double L[9], at_level[LEVELS] = { 0 };
         srand(4);
-        for (int i = 0; i < 9; i++) L[i] = RATE * uniform(-1, 1);
+        for (int i = 0; i < 9; i++) L[i] = RATE * scene_random(-1, 1);
         for (int i = 0; i < m->bricks_used; i++)
             for (int c = 0; c < BRICK_CELLS; c++)
                 for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next) {
@@ -140,7 +135,7 @@ static void test_flight(void **state)
         b->velocity[0] = 900, b->velocity[1] = 200, b->velocity[2] = -100;
         mpm *m = scene_make(&s, 2);
         const double K0 = mpm_material_bulk_modulus(&copper), x0 = scene_mean(m, MPM_position, 0, -1);
-        assert_ok(mpm_advance(m, scene_full() ? 28e-6 : 14e-6, NULL));
+        assert_ok(mpm_advance(m, full_tests() ? 28e-6 : 14e-6, NULL));
         const mpm_ledger l = mpm_balance(m);
         const mpm_report r = mpm_state(m);
         const double way = scene_mean(m, MPM_position, 0, -1) - x0;

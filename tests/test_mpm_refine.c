@@ -192,11 +192,6 @@ static void test_mean(void **state)
 
 /* ---- levels that nest ---- */
 
-static double uniform(double lo, double hi)
-{
-    return lo + (hi - lo) * ((double)rand() / RAND_MAX);
-}
-
 static bool node_has(const mpm *m, int level, const int node[3], int which)
 {
     uint8_t foreign[BRICK_CELLS];
@@ -234,12 +229,12 @@ static void test_nesting(void **state)
         mpm_scene_default(&s);
         s.levels = 2 + trial % 3, s.zone_until = 0;
         for (int k = 0; k < 3; k++)
-            s.axis[k] = scene_axis(0, uniform(16e-3, 24e-3), 0.5e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+            s.axis[k] = scene_axis(0, scene_random(16e-3, 24e-3), 0.5e-3, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
         scene_box(&s, 1e-3, 1e-3, 1e-3, 2e-3, 2e-3, 2e-3, &copper);
         mpm *m = scene_make(&s, 1);
         for (int i = 0; i < 4; i++) {
             double lo[3], hi[3];
-            for (int k = 0; k < 3; k++) lo[k] = uniform(0, 20e-3), hi[k] = lo[k] + uniform(0, 3e-3);
+            for (int k = 0; k < 3; k++) lo[k] = scene_random(0, 20e-3), hi[k] = lo[k] + scene_random(0, 3e-3);
             assert_ok(mpm_grids_activate(&m->grids, rand() % (s.levels - 1), lo, hi));
         }
         assert_ok(mpm_grids_nest(&m->grids));
@@ -256,7 +251,7 @@ static void test_nesting(void **state)
             }
         }
         for (int i = 0; i < 3000; i++) {
-            const double x[3] = { uniform(0, 16e-3), uniform(0, 16e-3), uniform(0, 16e-3) };
+            const double x[3] = { scene_random(0, 16e-3), scene_random(0, 16e-3), scene_random(0, 16e-3) };
             const int level = mpm_grids_level(&m->grids, x);
             double lo[3], hi[3];
             for (int k = 0; k < 3; k++) lo[k] = x[k] - 1e-6, hi[k] = x[k] + 1e-6;
@@ -295,7 +290,7 @@ static void test_linear(void **state)
     mpm *m = scene_make(&s, 2);
     double L[9], at_level[MPM_MAX_LEVELS] = { 0 }, worst = 0;
     srand(4);
-    for (int i = 0; i < 9; i++) L[i] = RATE * uniform(-1, 1);
+    for (int i = 0; i < 9; i++) L[i] = RATE * scene_random(-1, 1);
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < m->bricks_used; i++)
             for (int c = 0; c < BRICK_CELLS; c++)

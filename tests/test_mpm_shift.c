@@ -9,18 +9,13 @@ static const double ROUNDING = 1e-12;
 static const double SHIFTS[][3] = { { 0.25, 0.6, 0.5 }, { 0.9, 0.1, 0.75 }, { 0.5, 1, 0.3 } };
 enum { N_SHIFTS = sizeof SHIFTS / sizeof SHIFTS[0] };
 
-static double uniform(double lo, double hi)
-{
-    return lo + (hi - lo) * ((double)rand() / RAND_MAX);
-}
-
 /* ---- planes ---- */
 
 /* A window of at least six of the coarsest cells; the fine zone reaches its ends, or not. */
 static mpm_axis any_axis(int levels)
 {
-    const double fine = uniform(0.1e-3, 1e-3), coarsest = fine * (1 << (levels - 1));
-    const double lo = rand() % 2 ? 0 : uniform(-50e-3, 10e-3), hi = lo + uniform(16, 40) * coarsest;
+    const double fine = scene_random(0.1e-3, 1e-3), coarsest = fine * (1 << (levels - 1));
+    const double lo = rand() % 2 ? 0 : scene_random(-50e-3, 10e-3), hi = lo + scene_random(16, 40) * coarsest;
     mpm_axis a = scene_axis(lo, hi, fine, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
     a.coarse = 4 * fine;
     if (rand() % 2) a.fine_lo = lo + 3 * coarsest;
@@ -59,7 +54,7 @@ static void test_planes(void **state)
         s.levels = 1 + trial % 4;
         for (int k = 0; k < 3; k++) s.axis[k] = any_axis(s.levels);
         assert_ok(mpm_grids_make(&s, &still));
-        for (int k = 0; k < 3; k++) s.grid_shift[k] = uniform(0.01, 0.99);
+        for (int k = 0; k < 3; k++) s.grid_shift[k] = scene_random(0.01, 0.99);
         assert_ok(mpm_grids_make(&s, &moved));
         for (int k = 0; k < 3; k++) {
             const mpm_axis *spec = &s.axis[k];

@@ -88,7 +88,7 @@ static void test_hugoniot(void **state)
 {
     (void)state;
     hold(shock(200, 0, MPM_BASIS_GIMP), 200);
-    if (!scene_full()) return;
+    if (!full_tests()) return;
     hold(shock(400, 0, MPM_BASIS_GIMP), 400);
     hold(shock(800, 0, MPM_BASIS_GIMP), 800);
 }
@@ -98,7 +98,7 @@ static void test_hugoniot(void **state)
 static void test_carried(void **state)
 {
     (void)state;
-    const int coarse = 100, fine = scene_full() ? 400 : 200;
+    const int coarse = 100, fine = full_tests() ? 400 : 200;
     const shock_error rest = shock(fine, 0, MPM_BASIS_GIMP), moved = shock(fine, 2000, MPM_BASIS_GIMP);
     const shock_error before = shock(coarse, 2000, MPM_BASIS_GIMP);
     hold(moved, fine);

@@ -97,7 +97,7 @@ static void hold(slide_result r)
 static void test_slide(void **state)
 {
     (void)state;
-    if (!scene_full()) {
+    if (!full_tests()) {
         hold(slide(1500, 3e-3, 1));
         hold(slide(1500, 3e-3, 2));
         return;

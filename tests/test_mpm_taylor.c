@@ -58,7 +58,7 @@ static void test_bar(void **state)
 {
     (void)state;
     hold(bar(RADIUS / 8, MPM_BASIS_GIMP));
-    if (!scene_full()) return;
+    if (!full_tests()) return;
     bar(RADIUS / 6, MPM_BASIS_GIMP); /* for the table of docs/validation/solver.md: how the width converges */
     hold(bar(RADIUS / 10, MPM_BASIS_GIMP));
 }

@@ -33,7 +33,7 @@ static void test_traps(void **state)
 {
     (void)state;
     static const char *const sets[] = { "x86-64-v4", "x86-64-v3", "portable" };
-    for (int i = 0; i < 3; i++) run(sets[i], 1500, scene_full() ? 2 : 1.25);
+    for (int i = 0; i < 3; i++) run(sets[i], 1500, full_tests() ? 2 : 1.25);
     run("", 3000, 1.25);
 }
 

@@ -80,7 +80,7 @@ static void test_wears_off(void **state)
     (void)state;
     const mpm_material m = water();
     const double v0 = 22.94, theta = MASS / (RHO0 * C0), p0 = RHO0 * (C0 + SLOPE * v0) * v0;
-    for (int k = 0; k < (scene_full() ? 3 : 1); k++) {
+    for (int k = 0; k < (full_tests() ? 3 : 1); k++) {
         const double x = k == 0 ? 0.5 : k == 1 ? 1.0 : 1.3;
         const double S = 2 * SLOPE * p0 * x / (RHO0 * C0 * C0 * C0 * theta), want = p0 * 2 / (1 + sqrt(1 + 2 * S));
         mpm_tube *t = tube(&m, v0, x + 0.1, TUBE_GOES_ON, 0, (int)(1000 * (x + 0.1)));
@@ -117,7 +117,7 @@ static void test_wall(void **state)
 static void test_gauge(void **state)
 {
     (void)state;
-    if (!scene_full()) return;
+    if (!full_tests()) return;
     const mpm_material m = water();
     const double v0 = 22.94, length = 1.3, gauge = 1.2, theta = MASS / (RHO0 * C0), p0 = RHO0 * (C0 + SLOPE * v0) * v0;
     double front = 0, between = 0, before = 0, peak[2] = { 0, 0 }, at[2] = { 0, 0 };
@@ -213,8 +213,8 @@ static void test_plates(void **state)
         { 22.94, 3.24, 31.0e6, 5.2e-3, 154e-6, 34.5 },  { 43.18, 3.24, 56.9e6, 9.5e-3, 161e-6, 59.8 },
         { 70, 3.24, 88.3e6, 14.9e-3, 169e-6, 89.3 },    { 100, 3.24, 121e6, 20.7e-3, 177e-6, 118 },
     };
-    for (int k = 0; k < (scene_full() ? 10 : 7); k += scene_full() ? 1 : 6) {
-        const plate_answer a = drive_plate(&rows[k], 0.5, scene_full() ? 1000 : 500);
+    for (int k = 0; k < (full_tests() ? 10 : 7); k += full_tests() ? 1 : 6) {
+        const plate_answer a = drive_plate(&rows[k], 0.5, full_tests() ? 1000 : 500);
         print_message("%g m/s, %.2f kg/m2: %.2f m/s (%.2f), parted after %.1f us, way %.2f mm (%.2f)\n", rows[k].v0,
                       rows[k].plate, a.velocity, rows[k].velocity, 1e6 * a.parted, 1e3 * a.way, 1e3 * rows[k].way);
         assert_near(a.velocity / rows[k].velocity, 1, 0.03);

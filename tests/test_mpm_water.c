@@ -33,8 +33,8 @@ static void test_hugoniot(void **state)
 {
     (void)state;
     const double all[] = { 10, 25, 50, 100, 200, 500, 700, 1000 }, few[] = { 25, 200 };
-    const double *speed = scene_full() ? all : few, length = scene_full() ? 0.15 : 0.08;
-    const int n = scene_full() ? 8 : 2;
+    const double *speed = full_tests() ? all : few, length = full_tests() ? 0.15 : 0.08;
+    const int n = full_tests() ? 8 : 2;
     const mpm_material m = scene_water();
     for (int k = 0; k < n; k++) {
         const double u = speed[k], us = WATER_C0 + WATER_SLOPE * u, want = WATER_RHO0 * us * u, end = 0.6 * length / us;

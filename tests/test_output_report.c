@@ -3,6 +3,7 @@
 #include "coupling/gouge/crater_history.h"
 #include "coupling/host/version.h"
 #include "output_common.h"
+#include "text_common.h"
 
 #include "coupling/host/outdir.h"
 #include "coupling/output/history.h"
@@ -90,13 +91,6 @@ static char *page_of(const char *dir)
     return text;
 }
 
-static int count(const char *text, const char *what)
-{
-    int n = 0;
-    for (; (text = strstr(text, what)); text++) n++;
-    return n;
-}
-
 /* ---- what every page keeps to ---- */
 
 /* Every element that opens is closed, in order. */
@@ -180,9 +174,9 @@ static void tables_are_whole(const char *text)
             if (cells != titles) fail_msg("%d cells, %d titles: %.200s", cells, titles, row);
         }
     }
-    assert_int_equal(count(text, "<td"),
-                     count(text, "<td data-title=") + count(text, "<td class=\"text\" data-title="));
-    assert_int_equal(count(text, "overflow-x"), 0); /* nothing has to be scrolled sideways */
+    assert_int_equal(text_count(text, "<td"),
+                     text_count(text, "<td data-title=") + text_count(text, "<td class=\"text\" data-title="));
+    assert_int_equal(text_count(text, "overflow-x"), 0); /* nothing has to be scrolled sideways */
     assert_non_null(strstr(text, "content:attr(data-title)"));
     assert_non_null(strstr(text, "@media print"));
 }
@@ -190,13 +184,14 @@ static void tables_are_whole(const char *text)
 /* No script, no address but the name spaces that SVG is written in, every text escaped. */
 static void is_self_contained(const char *text)
 {
-    const int names = count(text, "\"http://www.w3.org/2000/svg\"") + count(text, "\"http://www.w3.org/1999/xlink\"");
-    assert_int_equal(count(text, "http:"), names);
-    assert_int_equal(count(text, "https:"), 0);
-    assert_int_equal(count(text, "<script"), 0);
-    assert_int_equal(count(text, "src="), 0);
-    assert_int_equal(count(text, "<b>\n"), 0);
-    assert_int_equal(count(text, "</html>"), 1);
+    const int names =
+        text_count(text, "\"http://www.w3.org/2000/svg\"") + text_count(text, "\"http://www.w3.org/1999/xlink\"");
+    assert_int_equal(text_count(text, "http:"), names);
+    assert_int_equal(text_count(text, "https:"), 0);
+    assert_int_equal(text_count(text, "<script"), 0);
+    assert_int_equal(text_count(text, "src="), 0);
+    assert_int_equal(text_count(text, "<b>\n"), 0);
+    assert_int_equal(text_count(text, "</html>"), 1);
     is_well_formed(text);
     shows_no_more_digits_than_known(text);
     tables_are_whole(text);
@@ -258,11 +253,11 @@ static void onset_page_shows_everything(void **state)
     assert_non_null(strstr(text, "What can be done about it?"));
     assert_non_null(strstr(text, "v1650"));
     assert_non_null(strstr(text, "energy_kinetic"));
-    assert_int_equal(count(text, "<svg"), files_in("report", ".svg"));
+    assert_int_equal(text_count(text, "<svg"), files_in("report", ".svg"));
     /* a map, a view aside and a profile a crater; the barrel as a strip and a curve; the threshold; the shot: current,
      * velocity, position, force, energy, where the example has values */
-    assert_int_equal(count(text, "<svg"), 3 * EXAMPLE_SCENES + 3 + 5);
-    assert_int_equal(count(text, "class=\"missing\""), 0);
+    assert_int_equal(text_count(text, "<svg"), 3 * EXAMPLE_SCENES + 3 + 5);
+    assert_int_equal(text_count(text, "class=\"missing\""), 0);
     /* the history goes on for 5 ms, the armature leaves after 4.1 ms */
     OK(host_file_read("report/plot-shot-current.svg", &svg, NULL));
     assert_true(last_tick(svg) > 3.0 && last_tick(svg) < 4.5);
@@ -276,7 +271,7 @@ static void a_rim_that_is_not_the_highest_is_explained(void **state)
     (void)state;
     write_run("report", STUDY_scene);
     char *text = page_of("report");
-    assert_int_equal(count(text, " mm high. The rim (rim_height, 0.15 mm) is the highest within"), 1);
+    assert_int_equal(text_count(text, " mm high. The rim (rim_height, 0.15 mm) is the highest within"), 1);
     free(text);
 }
 
@@ -357,8 +352,8 @@ static void bodies_are_cut_before_and_after(void **state)
     };
     for (int k = 0; k < 2; k++) { /* with the section of bodies too, which of a scene has the cut */
         text = page_of("report");
-        assert_int_equal(count(text, ">Cut through the middle</h2>"), 1);
-        assert_int_equal(count(text, ">Bodies at the end</h2>"), k);
+        assert_int_equal(text_count(text, ">Cut through the middle</h2>"), 1);
+        assert_int_equal(text_count(text, ">Bodies at the end</h2>"), k);
         free(text);
         add_to_summary("report", bodies, 1);
     }
@@ -447,7 +442,8 @@ static void has_sections(const char *text, const char *const *titles)
     for (int i = 0; titles[i]; i++) {
         char heading[100];
         snprintf(heading, sizeof heading, ">%s</h2>", titles[i]);
-        if (count(text, heading) != 1) fail_msg("the page has %d sections `%s`", count(text, heading), titles[i]);
+        if (text_count(text, heading) != 1)
+            fail_msg("the page has %d sections `%s`", text_count(text, heading), titles[i]);
     }
 }
 
@@ -475,15 +471,15 @@ static void study_pages_have_their_sections(void **state)
     /* beside the shot's velocities, one row a surface; then the scenes of each in a chart of its own */
     char *svg;
     OK(host_file_read("report/plot-ranking.svg", &svg, NULL));
-    assert_int_equal(count(svg, "<rect"), 2);
-    assert_int_equal(count(svg, "muzzle</text>"), 1);
+    assert_int_equal(text_count(svg, "<rect"), 2);
+    assert_int_equal(text_count(svg, "muzzle</text>"), 1);
     free(svg);
     assert_true(host_file_exists("report/plot-threshold-1.svg"));
     assert_true(host_file_exists("report/plot-threshold-2.svg"));
     OK(host_file_read("report/plot-threshold-1.svg", &svg, NULL));
-    assert_int_equal(count(svg, "r=\"4.5\""), 1);
+    assert_int_equal(text_count(svg, "r=\"4.5\""), 1);
     free(svg);
-    assert_int_equal(count(text, "class=\"missing\""), 0);
+    assert_int_equal(text_count(text, "class=\"missing\""), 0);
     free(text);
 }
 
@@ -526,7 +522,7 @@ static void browser_shows(const char *const *sections)
     static const int widths[] = { 360, 390, 800, 1200 };
     char *text = browser_says("--dump-dom \"file://$PWD/report/report.html\"");
     has_sections(text, sections);
-    const int drawn = count(text, "<svg");
+    const int drawn = text_count(text, "<svg");
     free(text);
     for (size_t k = 0; k < sizeof widths / sizeof *widths; k++) {
         int wide = 0, room = -1, plots = -1, outside = -1;

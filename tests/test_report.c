@@ -16,12 +16,7 @@
 
 #include <cmocka.h>
 
-static int count(const char *text, const char *what)
-{
-    int n = 0;
-    for (; (text = strstr(text, what)); text++) n++;
-    return n;
-}
+#include "text_common.h"
 
 /* ---- numbers ---- */
 
@@ -144,7 +139,7 @@ static void test_lines_are_small(void **state)
     FILE *out = open_memstream(&text, &size);
     report_svg_line(out, x, y, N, "#000", 1.0, false);
     fclose(out);
-    const int points = count(text, "L") + 1;
+    const int points = text_count(text, "L") + 1;
     assert_true(points > 20 && points < 200);
     const char *at = strchr(text, 'M') + 1;
     double a[2], b[2];
@@ -287,7 +282,7 @@ static void test_aside(void **state)
     assert_non_null(svg);
     assert_true(up == 5.0); /* a sixth of 3.9 mm over 0.1 mm is 6.5 */
     assert_true(strlen(svg) < 100000);
-    assert_int_equal(count(svg, "color=\"#b9b3a6\""), 1);
+    assert_int_equal(text_count(svg, "color=\"#b9b3a6\""), 1);
     assert_true(strstr(svg, "color=\"#b9b3a6\"") > strstr(svg, "color=\"#"));
     assert_non_null(strstr(svg, "mm</text>"));
     free(svg);
@@ -330,13 +325,13 @@ static void test_every_cell_has_its_title(void **state)
     }
     report_table_end(&t);
     fclose(out);
-    assert_int_equal(count(text, "<table class=\"many\">"), 1);
-    assert_int_equal(count(text, "<th"), 13 + 1); /* and thead */
-    assert_int_equal(count(text, "<td"), 3 * 13);
-    assert_int_equal(count(text, "data-title=\"number [m/s]\">1230</td>"), 3 * 12);
-    assert_int_equal(count(text, "&lt;x&gt;"), 3);
-    assert_int_equal(count(text, ">the.&#8203;long_&#8203;name</th>"), 1); /* may go on in the next line */
-    assert_int_equal(count(text, "data-title=\"the.&#8203;long_&#8203;name\""), 3);
+    assert_int_equal(text_count(text, "<table class=\"many\">"), 1);
+    assert_int_equal(text_count(text, "<th"), 13 + 1); /* and thead */
+    assert_int_equal(text_count(text, "<td"), 3 * 13);
+    assert_int_equal(text_count(text, "data-title=\"number [m/s]\">1230</td>"), 3 * 12);
+    assert_int_equal(text_count(text, "&lt;x&gt;"), 3);
+    assert_int_equal(text_count(text, ">the.&#8203;long_&#8203;name</th>"), 1); /* may go on in the next line */
+    assert_int_equal(text_count(text, "data-title=\"the.&#8203;long_&#8203;name\""), 3);
     free(text);
 }
 

@@ -15,6 +15,7 @@
 #include "coupling/study/study.h"
 #include "mpm/law/contact.h"
 #include "mpm/read/probe.h"
+#include "text_common.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -670,13 +671,6 @@ static void test_run(void **state)
     case_free(c);
 }
 
-static int count(const char *text, const char *what)
-{
-    int n = 0;
-    for (; (text = strstr(text, what)); text++) n++;
-    return n;
-}
-
 extern const study study_bodies;
 
 /* The page of a scene with every kind of probe: its bodies in a table, the curves of each quantity, the map. */
@@ -702,17 +696,17 @@ static void test_report(void **state)
     OK(host_file_write("page/used.yaml", used, strlen(used)));
     OK(report_write("page", study_report_kind));
     OK(host_file_read("page/report.html", &page, NULL));
-    assert_int_equal(count(page, "breech scene &middot;"), 1); /* the command, not the kind `bodies` */
-    assert_int_equal(count(page, "<h2>Bodies at the end</h2>"), 1);
-    assert_int_equal(count(page, "<h2>Probes</h2>"), 1);
+    assert_int_equal(text_count(page, "breech scene &middot;"), 1); /* the command, not the kind `bodies` */
+    assert_int_equal(text_count(page, "<h2>Bodies at the end</h2>"), 1);
+    assert_int_equal(text_count(page, "<h2>Probes</h2>"), 1);
     for (int i = 0; i < s->bodies; i++) {
         snprintf(row, sizeof row, "<td class=\"text\" data-title=\"body\">%s</td>", s->body[i].name);
-        assert_int_equal(count(page, row), 1);
+        assert_int_equal(text_count(page, row), 1);
     }
     int quantities = 0, maps = 0;
     for (int i = 0; i < r.probes; i++) {
         snprintf(row, sizeof row, "<td class=\"text\" data-title=\"probe\">%s</td>", r.probe[i].name);
-        assert_int_equal(count(page, row), 1);
+        assert_int_equal(text_count(page, row), 1);
         bool met = false;
         for (int k = 0; k < i; k++)
             met = met || (strcmp(r.probe[k].quantity, r.probe[i].quantity) == 0 &&
@@ -720,13 +714,13 @@ static void test_report(void **state)
         maps += r.probe[i].columns == 0;
         quantities += r.probe[i].columns > 0 && !met;
     }
-    assert_int_equal(count(page, "<svg"), 2 + quantities + maps); /* 2: speeds and energies */
-    assert_int_equal(count(page, "class=\"missing\""), 0);
+    assert_int_equal(text_count(page, "<svg"), 2 + quantities + maps); /* 2: speeds and energies */
+    assert_int_equal(text_count(page, "class=\"missing\""), 0);
     /* integrals over time: of a force an impulse, of a velocity a way, of an energy none */
-    assert_true(count(page, "N s</td>") > 0);
-    assert_true(count(page, "m</td>") > 0);
-    assert_int_equal(count(page, "m/s s") + count(page, "J s"), 0);
-    assert_int_equal(count(page, ">a map</td>"), maps);
+    assert_true(text_count(page, "N s</td>") > 0);
+    assert_true(text_count(page, "m</td>") > 0);
+    assert_int_equal(text_count(page, "m/s s") + text_count(page, "J s"), 0);
+    assert_int_equal(text_count(page, ">a map</td>"), maps);
     assert_string_equal(output_unit_over_time("m/s"), "m");
     assert_null(output_unit_over_time("J"));
     char *table = NULL;
@@ -734,7 +728,7 @@ static void test_report(void **state)
     FILE *out = open_memstream(&table, &size);
     study_bodies.print(&r, out);
     fclose(out);
-    assert_int_equal(count(table, "beside one mirror half of the whole"), 1);
+    assert_int_equal(text_count(table, "beside one mirror half of the whole"), 1);
     free(table);
     free(page), free(used);
     scene_bodies_free(&r);

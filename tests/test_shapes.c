@@ -14,6 +14,8 @@
 
 #include <cmocka.h>
 
+#include "random_common.h"
+
 /* A tree: its nodes in order, the root last. */
 typedef struct {
     const char *kind;
@@ -109,12 +111,6 @@ static const mpm_solid *plant(const example *e, mpm_solid tree[NODES])
 static double size_of(const double lo[3], const double hi[3])
 {
     return fmax(hi[0] - lo[0], fmax(hi[1] - lo[1], hi[2] - lo[2]));
-}
-
-static double random_between(uint64_t *seed, double lo, double hi)
-{
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return lo + (hi - lo) * (double)(*seed >> 11) * 0x1p-53;
 }
 
 static bool has_example(const mpm_solid_kind *kind)

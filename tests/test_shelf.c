@@ -2,6 +2,7 @@
 /* Small scenes through the runner: checkpoints come no oftener than they may, a whole scene goes on from the one that
  * ended at its gauge. */
 #include "coupling/case/case.h"
+#include "full_common.h"
 #include "shelf_common.h"
 
 static const char *const FAST[] = { "scene.velocity=2 km/s", "scene.end_time=3.4 us", "scene.contact_pressure=300 MPa",
@@ -72,8 +73,7 @@ static void test_shelf(void **state)
     assert_memory_equal(&on.hit, &alone.hit, sizeof on.hit);
     assert_true(on.steps < alone.steps - gauged.steps + 20 && on.snapshots == 2 && alone.snapshots == 2);
     assert_same_rows(alone.rows, on.rows);
-    const char *full = getenv("BREECH_FULL");
-    if (full && strcmp(full, "1") == 0) {
+    if (full_tests()) {
         const run_counted many = run_small(FAST, false, "output.snapshots=31", &shelf);
         assert_true(many.steps > 0.9 * alone.steps && many.snapshots == 31);
         assert_memory_equal(&many.hit, &alone.hit, sizeof many.hit);

@@ -14,13 +14,8 @@
 
 #include <cmocka.h>
 
+#include "random_common.h"
 #include "status_common.h"
-
-static double uniform(uint64_t *seed)
-{
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 11) * 0x1p-53;
-}
 
 /* ---- functions to search ---- */
 
@@ -45,9 +40,9 @@ static status value_of(function *f, double v, double cells, threshold_sample *ou
     f->asked[f->calls++][1] = cells;
     CHECK(f->calls != f->fail_at, STATUS_STOPPED, "stopped");
     uint64_t seed = (uint64_t)(1000.0 * v) + (uint64_t)cells + f->salt;
-    uniform(&seed);
+    random_between(&seed, 0.0, 1.0);
     const double zero = f->zero + (cells < 2.5 ? f->shift : 0.0);
-    double excess = f->f((v - zero) / f->scale) + f->noise * (2.0 * uniform(&seed) - 1.0);
+    double excess = f->f((v - zero) / f->scale) + f->noise * (2.0 * random_between(&seed, 0.0, 1.0) - 1.0);
     if (fabs(v - f->dip_at) < 30.0) excess = -1.0;
     const damage_class side = excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH;
     *out = (threshold_sample){ v, cells, excess, fabs(excess) < f->doubt ? DAMAGE_UNDECIDED : side };
@@ -142,8 +137,8 @@ static void test_found(void **state)
     int n = 0, pairs = 0;
     for (int k = 0; k < FUNCTIONS; k++)
         for (int i = 0; i < 400; i++) {
-            function f = plain(functions[k], 1030.0 + 940.0 * uniform(&seed));
-            f.shift = 120.0 * (2.0 * uniform(&seed) - 1.0);
+            function f = plain(functions[k], 1030.0 + 940.0 * random_between(&seed, 0.0, 1.0));
+            f.shift = 120.0 * (2.0 * random_between(&seed, 0.0, 1.0) - 1.0);
             if (f.zero + f.shift < 1030.0 || f.zero + f.shift > 1970.0) f.shift = 0.0;
             const threshold_result r = search(&f, &plan);
             assert_int_equal(r.outcome, THRESHOLD_FOUND);
@@ -343,7 +338,7 @@ static void test_noise(void **state)
     const threshold_plan plan = usual();
     int warned = 0;
     for (int i = 0; i < 2000; i++) {
-        function f = plain(line, 1200.0 + 600.0 * uniform(&seed));
+        function f = plain(line, 1200.0 + 600.0 * random_between(&seed, 0.0, 1.0));
         f.scale = 400.0;
         f.noise = 0.9; /* 360 m/s on the slope below */
         f.salt = (uint64_t)i << 32;

@@ -11,13 +11,8 @@
 
 #include <cmocka.h>
 
+#include "random_common.h"
 #include "status_common.h"
-
-static double uniform(uint64_t *seed)
-{
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 11) * 0x1p-53;
-}
 
 /* ---- made-up grains ---- */
 
@@ -39,9 +34,9 @@ static status outcome(grains *g, double radius, double v, double cells, threshol
 {
     CHECK(++g->calls != g->fail_at, STATUS_STOPPED, "stopped");
     uint64_t seed = (uint64_t)(1e3 * v) + (uint64_t)(1e9 * radius) + (uint64_t)cells;
-    uniform(&seed);
+    random_between(&seed, 0.0, 1.0);
     double far = (v - truth(g, radius) - (cells < 2.5 ? g->shift : 0.0)) / 150.0;
-    far += g->noise * (2.0 * uniform(&seed) - 1.0);
+    far += g->noise * (2.0 * random_between(&seed, 0.0, 1.0) - 1.0);
     const double excess = g->steep > 0.0 ? tanh(g->steep * far) : far;
     *out = (threshold_sample){ v, cells, excess, excess >= 0.0 ? DAMAGE_GOUGE : DAMAGE_SCRATCH };
     return status_ok();
@@ -135,8 +130,8 @@ static void test_bands(void **state)
         int scenes = 0, reference = 0, most = 0, n = 0;
         for (int i = 0; i < 200; i++) {
             const surface_plan p = plan_of(4 + i % 9, 0.05);
-            grains g = { .base = 1100.0 + 700.0 * uniform(&seed), .slope = slopes[s] };
-            g.shift = 100.0 * (2.0 * uniform(&seed) - 1.0);
+            grains g = { .base = 1100.0 + 700.0 * random_between(&seed, 0.0, 1.0), .slope = slopes[s] };
+            g.shift = 100.0 * (2.0 * random_between(&seed, 0.0, 1.0) - 1.0);
             const double at_reference = truth(&g, p.size[p.reference]);
             if (at_reference < 1150.0 || at_reference > 1850.0) continue;
             const surface_result r = search(&g, &p);
@@ -277,11 +272,11 @@ static void test_halving(void **state)
     for (int i = 0; i < 1500; i++) {
         const surface_plan wide = plan_of(7, 0.06);
         surface_plan narrow = plan_of(7, 0.03);
-        grains g = { .base = 1150.0 + 650.0 * uniform(&seed),
-                     .slope = 0.3 * uniform(&seed),
-                     .shift = 120.0 * (2.0 * uniform(&seed) - 1.0),
-                     .noise = 0.3 * uniform(&seed),
-                     .steep = i % 3 ? 0.0 : 3.0 * uniform(&seed) };
+        grains g = { .base = 1150.0 + 650.0 * random_between(&seed, 0.0, 1.0),
+                     .slope = 0.3 * random_between(&seed, 0.0, 1.0),
+                     .shift = 120.0 * (2.0 * random_between(&seed, 0.0, 1.0) - 1.0),
+                     .noise = 0.3 * random_between(&seed, 0.0, 1.0),
+                     .steep = i % 3 ? 0.0 : 3.0 * random_between(&seed, 0.0, 1.0) };
         const surface_result a = search(&g, &wide), b = search(&g, &narrow);
         for (int k = 0; k < 7; k++) {
             const bool reference = k == wide.reference;

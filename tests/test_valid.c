@@ -17,7 +17,7 @@ static void run_case(const valid_case *c)
     valid_result r;
     double first = 0;
     int last = -1;
-    for (int i = 0; i < VALID_LEVELS && c->cells[i] > 0 && (scene_full() || i < c->quick); i++) {
+    for (int i = 0; i < VALID_LEVELS && c->cells[i] > 0 && (full_tests() || i < c->quick); i++) {
         memset(&r, 0, sizeof r);
         c->run(c->cells[i], &valid_default, &r);
         print_message("%s %s, %g cells of the %s: %s %.3e, energy %.1e, momentum %.1e\n", c->name, c->doc, c->cells[i],
@@ -29,7 +29,7 @@ static void run_case(const valid_case *c)
         last = i;
     }
     assert_true(last >= 0);
-    if (scene_full()) hold(c, &r, c->limit_full);
+    if (full_tests()) hold(c, &r, c->limit_full);
     if (last > 0 && c->order > 0) assert_true(log(first / r.figure[0]) / log(c->cells[last] / c->cells[0]) >= c->order);
 }
 
