@@ -81,9 +81,9 @@ const case_section case_bodies_manual[] = {
 
 /* ---- names ---- */
 
-static const char *body_name(const void *user, int i)
+const char *case_body_name(const void *scene, int i)
 {
-    const mpm_scene *s = user;
+    const mpm_scene *s = scene;
     return i < s->bodies ? s->body[i].name : NULL;
 }
 
@@ -104,7 +104,7 @@ static int named_body(case_reader *r, const tree_node *map, const char *key, con
         return -1;
     }
     const int body = find_body(s, node->text);
-    if (body < 0) case_unknown_name(r, node, "body", path, body_name, s);
+    if (body < 0) case_unknown_name(r, node, "body", path, case_body_name, s);
     return body;
 }
 
@@ -242,7 +242,7 @@ static void read_pair(case_reader *r, const tree_node *map, const tree_node *bet
         const tree_node *node = between->item[i];
         const int body = node->kind == TREE_TEXT ? find_body(s, node->text) : -1;
         if (body < 0) {
-            if (node->kind == TREE_TEXT) case_unknown_name(r, node, "body", path, body_name, s);
+            if (node->kind == TREE_TEXT) case_unknown_name(r, node, "body", path, case_body_name, s);
             return;
         }
         group[i] = s->body[body].group;
@@ -334,7 +334,7 @@ static void read_probe_values(case_reader *r, const tree_node *value, const char
     nothing.kind = TREE_MAP, nothing.n = 0;
     case_keys_read(r, name_alone ? &nothing : value, path, &keys, 1, body);
     if (name_alone && (p->body = find_body(s, value->text)) < 0)
-        case_unknown_name(r, value, "body", path, body_name, s);
+        case_unknown_name(r, value, "body", path, case_body_name, s);
     if (!name_alone && host_tree_find(value, "body")) p->body = named_body(r, value, "body", path);
     if (r->errors->n > errors) return;
     if (p->kind->of_body && p->body < 0) case_errors_add(r->errors, value, "%s.body must name a body", path);

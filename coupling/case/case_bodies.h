@@ -53,6 +53,9 @@ void case_keys_write(const base_param *table, const void *object, bool first, FI
 void case_unknown_name(case_reader *r, const tree_node *where, const char *what, const char *path,
                        const char *(*names)(const void *user, int i), const void *user);
 
+/* The name of a body of an mpm_scene, NULL past the last: for case_unknown_name. */
+const char *case_body_name(const void *scene, int i);
+
 /* For the manual: the tables of the section as sections of their own; ends with a NULL key. */
 extern const case_section case_bodies_manual[];
 

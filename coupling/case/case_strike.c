@@ -35,19 +35,13 @@ unsigned case_strike_needs(const tree_node *root, unsigned needs)
     return (needs & CASE_FOR_STRIKE) && wants_shot(root) ? needs | CASE_FOR_SHOT : needs;
 }
 
-static const char *body_name(const void *user, int i)
-{
-    const mpm_scene *s = user;
-    return i < s->bodies ? s->body[i].name : NULL;
-}
-
 /* The body that a key names, -1 after an error. */
 static int named_body(case_reader *r, const tree_node *map, const char *key, const char *name)
 {
     const mpm_scene *s = &r->out->bodies.scene;
     for (int i = 0; i < s->bodies; i++)
         if (strcmp(s->body[i].name, name) == 0) return i;
-    case_unknown_name(r, host_tree_find(map, key), "body", "strike", body_name, s);
+    case_unknown_name(r, host_tree_find(map, key), "body", "strike", case_body_name, s);
     return -1;
 }
 

@@ -3,6 +3,7 @@
 
 #include "coupling/gouge/armature.h"
 #include "coupling/gouge/growth.h"
+#include "coupling/host/numbers.h"
 #include "coupling/run/scene_result.h"
 #include "mpm/grid/grid.h"
 #include "mpm/law/contact.h"
@@ -65,11 +66,6 @@ typedef struct {
     double layers;                      /* thickness of all layers */
 } layout;
 
-static double given_or(double value, double fallback)
-{
-    return isnan(value) ? fallback : value;
-}
-
 /* A whole number of cells that covers `length`. */
 static double cells_over(double length, double cell)
 {
@@ -126,7 +122,7 @@ static layout lay_out(const case_impact *c)
     l.passage = s->follow ? (p->length - l.run) / (1.0 - FRONT_SPEED) : 0.0;
     l.ahead = s->rail_ahead + FRONT_SPEED * l.passage; /* the same whether it is over at a gauge or not */
     l.reach = s->follow && l.levels > 1 ? l.ahead - 3.0 * l.coarse : fmin(ZONE_AHEAD * g->radius, 0.8 * l.ahead);
-    l.rail_half_width = 0.5 * given_or(s->rail_width, p->width);
+    l.rail_half_width = 0.5 * host_number_or(s->rail_width, p->width);
     l.half_width = fmax(l.rail_half_width, 0.5 * p->width) + (l.levels > 1 ? l.coarse : 3.0 * l.coarse);
     l.layers = case_layers_thickness(&c->rail.layers);
     lay_zone(c, &l);
@@ -297,7 +293,7 @@ static status add_armature(const case_impact *c, const layout *l, int group, gou
     b->solid = s->solids - 1;
     const double mass = b->material->density * gouge_armature_section(&shape) * p->width;
     b->velocity[0] = c->scene.velocity;
-    b->body_force[1] = -given_or(c->scene.contact_pressure, 0.0) * gouge_face_area(p) / mass;
+    b->body_force[1] = -host_number_or(c->scene.contact_pressure, 0.0) * gouge_face_area(p) / mass;
     g->velocity = c->scene.velocity;
     g->face_front = l->x_front;
     g->face_tail = l->x_front + l->run - p->length;
@@ -327,7 +323,7 @@ static status add_bodies(const case_impact *c, const layout *l, gouge_scene *g)
 static void set_contacts(const case_impact *c, mpm_scene *s)
 {
     s->contact.value[COULOMB_FRICTION] = c->scene.friction;
-    s->contact.value[COULOMB_SHEAR_LIMIT] = given_or(c->scene.shear_limit, CONTACT_NO_LIMIT);
+    s->contact.value[COULOMB_SHEAR_LIMIT] = host_number_or(c->scene.shear_limit, CONTACT_NO_LIMIT);
 }
 
 /* ---- grid ---- */
@@ -419,8 +415,8 @@ static void set_method(const case_impact *c, const layout *l, gouge_scene *g)
     memcpy(s->grid_shift, from->grid_shift, sizeof s->grid_shift);
     s->heat_by_plastic_work = from->heat_by_plastic_work;
     const double passage = gouge_crossing_time(g) + c->armature.length / g->velocity;
-    s->end_time = given_or(from->end_time, from->follow ? l->passage / g->velocity
-                                                        : fmin(END_FACTOR * gouge_crossing_time(g), passage));
+    s->end_time = host_number_or(from->end_time, from->follow ? l->passage / g->velocity
+                                                              : fmin(END_FACTOR * gouge_crossing_time(g), passage));
 }
 
 static void set_rules(const case_impact *c, gouge_scene *g)

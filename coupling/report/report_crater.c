@@ -2,6 +2,7 @@
 /* The craters of the history: from above, aside and along their middle. */
 #include "coupling/report/report_page.h"
 
+#include "coupling/host/numbers.h"
 #include "coupling/host/outdir.h"
 #include "coupling/report/report_relief.h"
 #include "coupling/report/report_svg.h"
@@ -43,12 +44,6 @@ static void read_texts(const report_source *r, const char *scene, crater_picture
         c->rim_height = NAN;
 }
 
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Where the darkest colours stand: what a hundredth of the crater and its rim exceeds, so that the hole of a single
  * cell does not leave all else pale. */
 static double colour_range(const double *height, size_t n, double largest)
@@ -58,7 +53,7 @@ static double colour_range(const double *height, size_t n, double largest)
     for (size_t k = 0; sorted && k < n; k++)
         if (fabs(height[k]) > 0.04 * largest) sorted[m++] = fabs(height[k]);
     if (m > 0) {
-        qsort(sorted, m, sizeof *sorted, by_value);
+        qsort(sorted, m, sizeof *sorted, host_number_order);
         range = sorted[(size_t)(0.99 * (double)(m - 1))];
     }
     free(sorted);

@@ -2,6 +2,7 @@
 /* Probes of a scene of bodies: what each came to, all of one quantity over time in one chart, the last of every map. */
 #include "coupling/report/report_page.h"
 
+#include "coupling/host/numbers.h"
 #include "coupling/output/summary.h"
 #include "coupling/report/report_relief.h"
 
@@ -121,18 +122,12 @@ typedef struct {
 
 enum { MAP_COLUMNS = 3 };
 
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void find_distinct(map_column *c, size_t rows)
 {
     c->distinct = malloc((rows ? rows : 1) * sizeof *c->distinct);
     if (!c->distinct || rows == 0) return;
     memcpy(c->distinct, c->last, rows * sizeof *c->distinct);
-    qsort(c->distinct, rows, sizeof *c->distinct, by_value);
+    qsort(c->distinct, rows, sizeof *c->distinct, host_number_order);
     c->n = 1;
     for (size_t i = 1; i < rows; i++)
         if (c->distinct[i] != c->distinct[c->n - 1]) c->distinct[c->n++] = c->distinct[i];
@@ -176,7 +171,7 @@ static int value_column(const map_column c[MAP_COLUMNS], size_t rows)
 
 static size_t index_of(const map_column *c, double value)
 {
-    const double *at = bsearch(&value, c->distinct, c->n, sizeof value, by_value);
+    const double *at = bsearch(&value, c->distinct, c->n, sizeof value, host_number_order);
     return at ? (size_t)(at - c->distinct) : 0;
 }
 
@@ -188,7 +183,7 @@ static double *grid_of(const map_column *x, const map_column *y, const map_colum
     if (!grid) return NULL;
     for (size_t i = 0; i < rows; i++)
         if (isfinite(z->last[i])) grid[n++] = z->last[i];
-    qsort(grid, n, sizeof *grid, by_value);
+    qsort(grid, n, sizeof *grid, host_number_order);
     *middle = n > 0 ? grid[n / 2] : 0.0;
     for (size_t i = 0; i < rows; i++)
         grid[index_of(x, x->last[i]) * y->n + index_of(y, y->last[i])] =

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/scene/scene_fill.h"
 
+#include "coupling/host/numbers.h"
+
 #include <math.h>
 
 static const double CELLS_ACROSS = 20.0;                 /* of the smallest extent of any body */
@@ -54,11 +56,6 @@ static survey look(const mpm_scene *s)
     return r;
 }
 
-static double or_else(double value, double fallback)
-{
-    return isnan(value) ? fallback : value;
-}
-
 static double margin_at(const mpm_axis *a, int end, double length)
 {
     return a->boundary[end] == MPM_BOUNDARY_FREE ? fmax(MARGIN * length, ROOM * a->coarse) : 0.0;
@@ -77,9 +74,9 @@ static void lay_zone(mpm_axis *a, int levels)
 
 static void fill_cells(const survey *bodies, bool rules, mpm_axis *a)
 {
-    a->fine = or_else(a->fine, bodies->extent / CELLS_ACROSS);
-    a->coarse = or_else(a->coarse, (rules ? COARSE_BY_RULES : COARSE) * a->fine);
-    a->growth = or_else(a->growth, GROWTH);
+    a->fine = host_number_or(a->fine, bodies->extent / CELLS_ACROSS);
+    a->coarse = host_number_or(a->coarse, (rules ? COARSE_BY_RULES : COARSE) * a->fine);
+    a->growth = host_number_or(a->growth, GROWTH);
 }
 
 /* An end of the window that holds this place too; NAN: its own is enough. */
@@ -93,11 +90,11 @@ static void fill_axis(const survey *bodies, const scene_room *also, int k, int l
 {
     const box *all = &bodies->all, *smallest = &bodies->smallest;
     const double length = all->hi[k] - all->lo[k], around = AROUND * (smallest->hi[k] - smallest->lo[k]);
-    a->lo = or_else(a->lo, further(a, 0, all->lo[k] - margin_at(a, 0, length), also->lo[k]));
-    a->hi = or_else(a->hi, further(a, 1, all->hi[k] + margin_at(a, 1, length), also->hi[k]));
+    a->lo = host_number_or(a->lo, further(a, 0, all->lo[k] - margin_at(a, 0, length), also->lo[k]));
+    a->hi = host_number_or(a->hi, further(a, 1, all->hi[k] + margin_at(a, 1, length), also->hi[k]));
     const bool given = !isnan(a->fine_lo) && !isnan(a->fine_hi);
-    a->fine_lo = or_else(a->fine_lo, fmin(smallest->lo[k] - around, also->fine_lo[k]));
-    a->fine_hi = or_else(a->fine_hi, fmax(smallest->hi[k] + around, also->fine_hi[k]));
+    a->fine_lo = host_number_or(a->fine_lo, fmin(smallest->lo[k] - around, also->fine_lo[k]));
+    a->fine_hi = host_number_or(a->fine_hi, fmax(smallest->hi[k] + around, also->fine_hi[k]));
     if (!given || a->fine_lo < a->lo || a->fine_hi > a->hi) lay_zone(a, levels);
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/study/sampling/montecarlo.h"
 
+#include "coupling/host/numbers.h"
 #include "coupling/study/layer_wear.h"
 #include "coupling/study/sampling/gouge_law.h"
 #include "coupling/study/sampling/population.h"
@@ -291,17 +292,11 @@ static void new_world(mc *m)
     }
 }
 
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void middle_of(const double *worlds, double interval[2])
 {
     double sorted[MC_WORLDS];
     memcpy(sorted, worlds, sizeof sorted);
-    qsort(sorted, MC_WORLDS, sizeof *sorted, by_value);
+    qsort(sorted, MC_WORLDS, sizeof *sorted, host_number_order);
     interval[0] = sorted[MC_WORLDS / 20];
     interval[1] = sorted[MC_WORLDS - 1 - MC_WORLDS / 20];
 }
