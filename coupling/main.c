@@ -218,124 +218,6 @@ static int run_case(const options *o)
 
 /* ---- check ---- */
 
-/* The commands whose sections the case has. */
-static unsigned needs_of(const case_inputs *in)
-{
-    const case_given *g = &in->given;
-    unsigned needs = 0;
-    for (int k = 0; k < CIRCUIT_SUPPLY_KINDS; k++)
-        if (g->supplies[k]) needs |= CASE_FOR_SHOT;
-    if (g->sites || g->populations) needs |= CASE_FOR_ONSET;
-    if (g->treatments) needs |= CASE_FOR_COMPARE;
-    if (g->projectile && g->scene && (!isnan(in->onset.impact.scene.velocity) || !(needs & CASE_FOR_ONSET)))
-        needs |= CASE_FOR_SCENE;
-    if (g->bodies) needs |= CASE_FOR_SCENE;
-    if (g->strike) needs |= CASE_FOR_STRIKE;
-    if (g->targets) needs |= CASE_FOR_TARGETS;
-    if (g->life) needs |= CASE_FOR_LIFE;
-    if (g->vessel) needs |= CASE_FOR_VESSEL;
-    if (g->rails) needs |= CASE_FOR_INDUCTANCE;
-    if (g->sweep) needs |= CASE_FOR_SWEEP;
-    return needs;
-}
-
-/* What the random shots draw at most: grains too slow to gouge are not drawn. */
-static void print_random(const case_onset *c)
-{
-    double grains = 0.0;
-    for (int k = 0; k < c->populations.n; k++) {
-        const case_population *p = &c->populations.item[k];
-        grains += p->density * (p->to - p->from) * (p->renewed ? c->study.shots : 1);
-    }
-    char time[40];
-    grains *= c->study.sampled;
-    host_duration_text(grains * CHECK_SECONDS_A_GRAIN, time, sizeof time);
-    if (grains > 0.0) printf("random shots: %d histories, at most %.2g grains, %s\n", c->study.sampled, grains, time);
-}
-
-/* "; likely some 3 min 10 s for so many", or "". */
-static const char *search_time(const scene_estimate *e, int n, int scenes, char text[100])
-{
-    const double seconds = study_check_search_time(e, n, scenes);
-    char time[40];
-    text[0] = '\0';
-    if (isnan(seconds)) return text;
-    host_duration_text(seconds, time, sizeof time);
-    snprintf(text, 100, "\n  likely some %s for so many scenes, one after the other", time);
-    return text;
-}
-
-/* The commands whose needs are all among those that were checked. */
-static void print_ready(const case_inputs *in, unsigned needs)
-{
-    int n = 0;
-    fputs("ready for: ", stdout);
-    for (int i = 0; i < STUDIES; i++)
-        if ((study_for(study_list[i], in)->needs & ~needs) == 0)
-            printf("%s%s", n++ ? ", " : "breech ", study_list[i]->name);
-    puts(n ? "" : "no command yet; breech --help COMMAND says what each needs");
-}
-
-/* What scenes side by side take together, where a command that the case is ready for would have several. */
-static void print_together(const options *o, const case_inputs *in, unsigned needs)
-{
-    bool many = false;
-    for (int i = 0; i < STUDIES; i++) {
-        const study *y = study_for(study_list[i], in);
-        many |= y->many_scenes && (y->needs & ~needs) == 0;
-    }
-    const int asked = o->line.processes ? o->line.processes : usual_processes(&o->line),
-              fit = side_by_side(*o->largest);
-    const int n = asked < fit ? asked : fit;
-    if (!many || n < 1 || asked < 2) return;
-    printf("memory: %d scene%s side by side take %.2f GB, twice that where each has put one off for another; there are "
-           "%.1f GB\n",
-           n, n == 1 ? "" : "s", 1e-9 * n * (double)*o->largest, 1e-9 * host_memory(""));
-    if (n < asked) printf("warning: for %d processes there is no memory: %d compute scenes\n", asked, n);
-}
-
-static status print_check(const options *o, const case_inputs *in, unsigned needs)
-{
-    const int threads = o->line.threads;
-    scene_estimate e[CHECK_MAX_ESTIMATES];
-    int n = 0;
-    double rate;
-    table *t;
-    TRY(study_check(in, threads, e, &n, &rate));
-    printf("%s: %s\n", in->path, in->title[0] ? in->title : in->name);
-    print_ready(in, needs);
-    fputs(in->warnings, stdout);
-    study_check_films(in, stdout);
-    TRY(host_table_create("scene|points|memory [GB]|steps|time, at least|likely", &t));
-    for (int i = 0; i < n; i++) {
-        const mpm_needs *at = &e[i].needs;
-        char time[40], likely[40] = "-";
-        host_duration_text(e[i].seconds, time, sizeof time);
-        if (!isnan(e[i].likely)) host_duration_text(e[i].likely, likely, sizeof likely);
-        host_table_row(t, "%s|%zu|%.2f|%.0f|%s|%s", e[i].what, at->particles, 1e-9 * (double)at->bytes, e[i].steps,
-                       time, likely);
-    }
-    if (n > 0) host_table_print(t, stdout);
-    host_table_free(t);
-    if (n > 0) study_check_assumptions(in, threads, rate, stdout);
-    print_together(o, in, needs);
-    study_check_searches(in, stdout);
-    const case_onset *c = &in->onset;
-    char whole[80] = "", text[100];
-    const int craters = c->study.judge == JUDGE_GROWTH ? c->study.craters * study_grain_kinds(c) : 0;
-    if (craters > 0) snprintf(whole, sizeof whole, ", of which %d are kept for whole craters (study.craters)", craters);
-    if (c->study.ensemble > 0) printf("scene: on %d grids, each as above\n", c->study.ensemble);
-    if (c->sites.n > 0 || c->populations.n > 0)
-        printf("onset: %d site%s, %d population%s, at most %d scenes%s%s\n", c->sites.n, c->sites.n == 1 ? "" : "s",
-               c->populations.n, c->populations.n == 1 ? "" : "s", c->study.max_scenes, whole,
-               search_time(e, n, c->study.max_scenes, text));
-    if (in->treatments.n > 0 && c->sites.n + c->populations.n > 0)
-        printf("compare: %d surfaces, at most %d scenes each%s%s\n", in->treatments.n + 1, c->study.max_scenes, whole,
-               search_time(e, n, (in->treatments.n + 1) * c->study.max_scenes, text));
-    print_random(c);
-    return status_ok();
-}
-
 /* Does a run's summary hold what the case's list of expectations says? */
 static int run_expect(const options *o)
 {
@@ -369,11 +251,15 @@ static int run_check(const options *o)
     case_inputs *in = NULL;
     status s = read_case(o, NULL, 0, &in);
     if (s.code != STATUS_OK) return exit_code(s);
-    const unsigned needs = needs_of(in) & (o->line.scene ? CASE_FOR_SCENE : ~0u);
+    const unsigned needs = study_check_needs(in) & (o->line.scene ? CASE_FOR_SCENE : ~0u);
     case_inputs_free(in);
     s = read_case(o, NULL, needs, &in);
     if (s.code != STATUS_OK) return exit_code(s);
-    s = o->line.scene ? study_print_scene(in, stdout) : print_check(o, in, needs);
+    const check_machine on = { .threads = o->line.threads,
+                               .processes = o->line.processes ? o->line.processes : usual_processes(&o->line),
+                               .fit = side_by_side(*o->largest),
+                               .largest = *o->largest };
+    s = o->line.scene ? study_print_scene(in, stdout) : study_check_print(in, &on, needs, stdout);
     case_inputs_free(in);
     return complain(s);
 }

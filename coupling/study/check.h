@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* `breech check`: what each scene the case leads to would take. */
+/* `breech check`: what each scene the case leads to would take (check.c), and how that is told (check_print.c). */
 #ifndef BREECH_COUPLING_STUDY_CHECK_H
 #define BREECH_COUPLING_STUDY_CHECK_H
 
@@ -18,6 +18,20 @@ enum { CHECK_MAX_ESTIMATES = 40 };
 #define CHECK_SECONDS_A_STEP 200e-9 /* one thread, where no scene is tried */
 #define CHECK_GROWTH 1.8 /* time of a whole scene over that at the pace of its first steps: docs/notes/speed.md */
 #define CHECK_SECONDS_A_GRAIN 150e-9 /* of the random shots: 12 million grains in 1.85 s */
+
+/* What the runs would have of the machine. */
+typedef struct {
+    int threads;    /* of each process */
+    int processes;  /* that are asked for */
+    int fit;        /* so many of the largest scenes are held in memory side by side; 0: the case has none */
+    size_t largest; /* memory of that scene [bytes] */
+} check_machine;
+
+/* The commands whose sections the case has: a sum of CASE_FOR_. */
+unsigned study_check_needs(const case_inputs *in);
+
+/* All that is to be said of a case that reads well for these needs. */
+status study_check_print(const case_inputs *in, const check_machine *on, unsigned needs, FILE *out);
 
 /* The scene of the case as a case of bodies, with every value resolved.  STATUS_BAD_INPUT: it has none. */
 status study_print_scene(const case_inputs *in, FILE *out);
