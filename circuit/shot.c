@@ -209,7 +209,7 @@ status circuit_shot_advance(circuit_shot *s, double until, const circuit_shot_si
 {
     static const uint64_t STEPS_LIMIT = 5000000;
     const double end = fmin(until, s->options.max_time);
-    CHECK(!isnan(until), STATUS_BAD_INPUT, "the time to advance the shot to is not a number");
+    CHECK(!isnan(until), STATUS_BAD_INPUT, "the time to advance the shot to = %g s: must be a number", until);
     TRY(begin(s, sink));
     while (s->t + SHOT_INSTANT < end && !circuit_shot_done(s)) {
         CHECK(s->result.steps < STEPS_LIMIT, STATUS_NUMERICAL,

@@ -55,7 +55,7 @@ static status check_lead_face(const gouge_armature *a)
 
 status gouge_armature_check(const gouge_armature *a)
 {
-    CHECK(isfinite(a->front), STATUS_BAD_INPUT, "armature.front is not a finite number");
+    CHECK(isfinite(a->front), STATUS_BAD_INPUT, "armature.front = %g m: must be finite", a->front);
     TRY(check_positive("length", a->length));
     TRY(check_positive("leg_thickness", a->leg_thickness));
     TRY(check_positive("head_thickness", a->head_thickness));

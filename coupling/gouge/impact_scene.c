@@ -147,7 +147,10 @@ static status check_layout(const case_impact *c, const layout *l)
           c->scene.rail_depth, l->layers);
     CHECK(strcmp(g->shape, "pit") != 0 || g->height < -l->zone_lo[1], STATUS_BAD_INPUT,
           "particle.height = %g m: a pit may be %g m deep, %g radii", g->height, -l->zone_lo[1], START_DEPTH);
-    CHECK(-l->x_front < l->behind, STATUS_BAD_INPUT, "scene: the armature would start outside the window");
+    CHECK(-l->x_front < l->behind, STATUS_BAD_INPUT,
+          "scene: the armature would start %g m behind the grain, outside the window, which begins %g m behind it: "
+          "lengthen scene.rail_behind",
+          -l->x_front, l->behind);
     return status_ok();
 }
 

@@ -427,7 +427,7 @@ static status set_in(tree_node **slot, const set_path *path, int i)
     tree_node **inner = slot_of(map, step->name);
     if (!inner) {
         CHECK(step->index < 0, STATUS_BAD_INPUT, "%s has no entries", step->name);
-        CHECK(map->n < 2 * TREE_MAX_KEYS, STATUS_BAD_INPUT, "too many keys in one section");
+        CHECK(map->n < 2 * TREE_MAX_KEYS, STATUS_BAD_INPUT, "a section has at most %d keys", 2 * TREE_MAX_KEYS);
         tree_node *key = NULL, *fresh = node_new(TREE_MAP, 0, 0, path->set);
         CHECK(fresh, STATUS_MEMORY, "out of memory while reading --set");
         const status s = node_text(step->name, strlen(step->name), 0, 0, path->set, &key);

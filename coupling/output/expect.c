@@ -205,7 +205,8 @@ status output_expect(const char *case_file, const char *dir, expectations *out)
     *out = (expectations){ 0, 0, NULL };
     list_path(case_file, path);
     const int used = snprintf(results, sizeof results, "%s/%s", dir, OUTDIR_SUMMARY);
-    CHECK(used < (int)sizeof results, STATUS_BAD_INPUT, "the name of the output directory is too long");
+    CHECK(used < (int)sizeof results, STATUS_BAD_INPUT, "--expect %.60s...: a path has at most %zu bytes", dir,
+          sizeof results - 1);
     TRY(host_file_text(path, TREE_MAX_BYTES, &bytes, &length));
     status s = host_file_read(results, &json, NULL);
     if (s.code == STATUS_OK) {

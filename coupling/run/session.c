@@ -90,7 +90,7 @@ static status find_store(session *s, const char *wanted)
 {
     if (wanted) {
         CHECK(snprintf(s->store, sizeof s->store, "%s", wanted) < (int)sizeof s->store, STATUS_BAD_INPUT,
-              "--store: the path is too long");
+              "--store %.60s...: a path has at most %zu bytes", wanted, sizeof s->store - 1);
         return wanted[0] ? run_store_open(wanted) : status_ok();
     }
     TRY(host_outdir_file(&s->dir, OUTDIR_STORE, s->store, sizeof s->store));
@@ -113,7 +113,8 @@ status run_session_open(const case_inputs *in, const session_options *o, session
     host_progress_open(&s->progress, o->progress_to, o->quiet);
     host_timing_open(&s->timing);
     if (o->dir)
-        CHECK(snprintf(dir, sizeof dir, "%s", o->dir) < (int)sizeof dir, STATUS_BAD_INPUT, "-o: the path is too long");
+        CHECK(snprintf(dir, sizeof dir, "%s", o->dir) < (int)sizeof dir, STATUS_BAD_INPUT,
+              "-o %.60s...: a path has at most %zu bytes", o->dir, sizeof dir - 1);
     else
         TRY(host_outdir_default(in->name, dir, sizeof dir));
     if (o->store) TRY(find_store(s, o->store));

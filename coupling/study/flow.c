@@ -28,11 +28,14 @@ static status take(const units *u, const char *set, mpm_flow_test *test)
     const base_param *p = equals ? key_find(set, (size_t)(equals - set)) : NULL;
     CHECK(p, STATUS_BAD_INPUT, "--set %.60s: must be KEY=VALUE with a key of %s", set, keys);
     double value;
+    char limits[LIMITS_SIZE];
     const status s = host_quantity_read(u, equals + 1, p->unit, &value, unit);
-    CHECK(s.code == STATUS_OK, STATUS_BAD_INPUT, "--set %.60s: %s", set, s.text);
+    host_quantity_limits(u, p->min, p->max, p->unit, "", limits);
+    CHECK(s.code == STATUS_OK, STATUS_BAD_INPUT, "--set %.60s: %s (%s)", set, s.text, limits);
     void *member = (char *)test + p->offset;
     if (p->kind == BASE_PARAM_INTEGER) {
-        CHECK(value == floor(value) && fabs(value) < 1e9, STATUS_BAD_INPUT, "--set %.60s: must be a whole number", set);
+        CHECK(value == floor(value) && fabs(value) < 1e9, STATUS_BAD_INPUT, "--set %.60s: must be a whole number (%s)",
+              set, limits);
         *(int *)member = (int)value;
     } else {
         *(double *)member = value;

@@ -171,7 +171,11 @@ static status arrive(session *s, const study_case *of, double wanted, strike_ans
     if (in->given.optimise) study_firing_record(&a->firing, &a->shot);
     a->result.firing = a->firing.is;
     *muzzle = a->shot.is.muzzle_velocity;
-    CHECK(*muzzle > 0.0, STATUS_NUMERICAL, "the shot does not leave the muzzle: there is nothing to strike with");
+    CHECK(
+        *muzzle > 0.0, STATUS_NUMERICAL,
+        "the shot does not leave the muzzle, so nothing strikes: raise bank.charge, shorten barrel.length of %g m, or "
+        "give strike.velocity",
+        launched.launcher.barrel.length);
     *flight = strike_fly(&in->strike, a->projectile.mass, *muzzle);
     return status_ok();
 }
