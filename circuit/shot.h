@@ -139,7 +139,7 @@ typedef struct {
 #define SPENT(member, column, text) double member;
 #define GIVEN(place, member, column, text) double member;
 #include "circuit/ledger.def"
-    double start;          /* supplies and motion at t = 0 */
+    double start;          /* supplies and motion at t = 0 [J] */
     double momentum_jumps; /* impulse taken by circuit_shot_jump [N s] */
     double mass_jumps;     /* mass taken by circuit_shot_jump [kg] */
     double energy_error;   /* (stored + spent - start - given)/(start + given); 0 where those are 0 [1] */

@@ -37,9 +37,9 @@ double mpm_fatigue_cycles(const fatigue_law *law, double range); /* of a whole l
  * the direction, a stiffness how much of its elasticity; both add up to 1, and the stiffness is isotropic. */
 typedef struct {
     int n;
-    double angle[FATIGUE_MAX_DIRECTIONS];
-    double cosine[FATIGUE_MAX_DIRECTIONS], sine[FATIGUE_MAX_DIRECTIONS];
-    double share[FATIGUE_MAX_DIRECTIONS], stiffness[FATIGUE_MAX_DIRECTIONS];
+    double angle[FATIGUE_MAX_DIRECTIONS];                                    /* [rad] */
+    double cosine[FATIGUE_MAX_DIRECTIONS], sine[FATIGUE_MAX_DIRECTIONS];     /* of the angles [1] */
+    double share[FATIGUE_MAX_DIRECTIONS], stiffness[FATIGUE_MAX_DIRECTIONS]; /* [1] */
 } fatigue_fan;
 /* n at equal angles, 3 .. FATIGUE_MAX_DIRECTIONS. */
 fatigue_fan mpm_fatigue_fan_even(int n);
@@ -52,7 +52,7 @@ double mpm_fatigue_strain(const fatigue_fan *fan, int k, fatigue_measure measure
                           const double strain[3]);
 /* Between which strains every direction runs in a cycle from and to no load: zeros at first. */
 typedef struct {
-    double least[FATIGUE_MAX_DIRECTIONS], largest[FATIGUE_MAX_DIRECTIONS];
+    double least[FATIGUE_MAX_DIRECTIONS], largest[FATIGUE_MAX_DIRECTIONS]; /* [1] */
 } fatigue_extremes;
 void mpm_fatigue_take(const fatigue_fan *fan, fatigue_measure measure, double poisson, const double strain[3],
                       fatigue_extremes *of);
@@ -64,7 +64,7 @@ double mpm_fatigue_range(fatigue_measure measure, double least, double largest);
 /* A direction that is cut. */
 typedef struct {
     int point, direction;
-    double cycles; /* when */
+    double cycles; /* when it was cut [1] */
 } fatigue_cut;
 
 /* Points under a load that comes again and again.  Between two cuts every range stays what it is, so the cycles up to
@@ -73,12 +73,12 @@ typedef struct {
     int points;
     fatigue_fan fan;
     fatigue_law law;
-    double cycles;    /* so far */
-    double *life;     /* points x fan.n: lambda */
-    double *rate;     /* the same: what a cycle takes now */
-    bool *is_cut;     /* the same */
-    double *index;    /* points: share of the directions that are cut */
-    fatigue_cut *cut; /* in their order, n_cuts of points x fan.n at most */
+    double cycles;    /* so far [1] */
+    double *life;     /* points x fan.n: lambda, what is left of each life; owned [1] */
+    double *rate;     /* the same: what a cycle takes of it now; owned [1] */
+    bool *is_cut;     /* the same; owned */
+    double *index;    /* points: fraction of the directions that are cut; owned [1] */
+    fatigue_cut *cut; /* in their order, n_cuts of points x fan.n at most; owned */
     int n_cuts;
 } fatigue_points;
 status mpm_fatigue_create(int points, const fatigue_fan *fan, const fatigue_law *law, fatigue_points *out);

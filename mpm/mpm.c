@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The solver's step and its books. */
+/* The solver's step and its ledger. */
 #include "mpm/law/contact.h"
 #include "mpm/memory/build.h"
 #include "mpm/memory/cavities.h"
@@ -249,7 +249,7 @@ static double first_step(const mpm *m)
     return m->scene.courant / first_rate(m) * level_steps(m, 0);
 }
 
-static void start_books(mpm *m)
+static void start_ledger(mpm *m)
 {
     const mpm_ledger now = mpm_balance(m);
     m->ledger.energy_start = now.kinetic + now.internal;
@@ -303,7 +303,7 @@ status mpm_create(const mpm_scene *scene, int threads, mpm **out)
         mpm_free(m);
         return s;
     }
-    start_books(m);
+    start_ledger(m);
     m->scene_key = mpm_scene_hash(&m->scene);
     m->dense = dense_particles(m);
     *out = m;

@@ -28,8 +28,8 @@ typedef struct {
     double heat_friction, heat_transfer, heat_viscous; /* booked so far; all three are part of `internal` [J] */
     double work_boundary, work_external; /* done on the model so far: boundaries; tractions and body forces [J] */
     double impulse_boundary[3], impulse_external[3];          /* [N s] */
-    double ejected_mass, ejected_momentum[3], ejected_energy; /* left the window or was eroded so far */
-    double energy_start, momentum_start[3], kinetic_start, mass_start;
+    double ejected_mass, ejected_momentum[3], ejected_energy; /* left the window or was eroded so far [kg, kg m/s, J] */
+    double energy_start, momentum_start[3], kinetic_start, mass_start; /* [J, kg m/s, J, kg] */
     double
         energy_error; /* (energy now - work_ahead + ejected - work - energy at start) / kinetic energy at start [1] */
     double momentum_error; /* norm of the momentum left over / (mass x largest initial speed) [1] */
@@ -104,7 +104,7 @@ mpm_ledger mpm_balance(const mpm *m);
 mpm_report mpm_state(const mpm *m);
 
 /* Wall time since mpm_create by phase of the step [s];
- * `rest` holds books, percentiles, sorting and looks at refinement. */
+ * `rest` holds the ledger, percentiles, sorting and looks at refinement. */
 typedef enum { MPM_PHASE_P2G, MPM_PHASE_NODES, MPM_PHASE_G2P, MPM_PHASE_MOVERS, MPM_PHASE_REST, MPM_PHASES } mpm_phase;
 double mpm_phase_seconds(const mpm *m, mpm_phase phase);
 
@@ -152,7 +152,7 @@ base_status mpm_restore(mpm *m, const void *image, size_t bytes);
  * they are counted in a sample, within a percent or two. */
 typedef struct {
     size_t particles;
-    double work;  /* point-steps in a step of the finest level: coarser levels make fewer */
+    double work;  /* point-steps in a step of the finest level: coarser levels make fewer [1] */
     size_t bytes; /* MPM_BYTES and MPM_BYTES_A_PARTICLE each */
     double dt;    /* first step of the finest level [s] */
 } mpm_needs;

@@ -22,8 +22,8 @@
 
 /* Stress of strain (xx, zz, gamma): a symmetric matrix [Pa]. */
 typedef struct {
-    double xx, zz, shear; /* its diagonal */
-    double xx_zz, xx_shear, zz_shear;
+    double xx, zz, shear;             /* its diagonal */
+    double xx_zz, xx_shear, zz_shear; /* beside it */
 } rest_elastic;
 rest_elastic mpm_rest_isotropic(double youngs, double poisson);
 

@@ -9,7 +9,7 @@
  *   p = p_i + Z (u_i - u)                                                                                     (W-2)
  * u the face's velocity, inwards: u = u_i where nothing has come back, and a wave that comes back leaves.  The fluid
  * left out takes no tension either: p is at least the cavitation pressure.  The load goes with the points of the face.
- * Its work and its impulse are external ones in the books. */
+ * Its work and its impulse are external ones in the ledger. */
 #ifndef BREECH_MPM_WAVE_H
 #define BREECH_MPM_WAVE_H
 
@@ -49,8 +49,8 @@ void mpm_wave_free(mpm_wave *w);
 typedef struct {
     bool on;
     int axis;
-    double inwards; /* 1 or -1: where the face's inner side lies along that axis */
-    double base, Z, least;
+    double inwards;        /* 1 or -1: where the face's inner side lies along that axis */
+    double base, Z, least; /* [Pa, Pa s/m, Pa] */
 } wave_load;
 /* After mpm_wave_reach to t. */
 wave_load mpm_wave_load(const mpm_wave *w, const mpm_body *b, const law *k, double t);

@@ -16,10 +16,10 @@
 enum { NULL_MODELS = 3 };
 
 typedef struct {
-    const char *name;          /* "N1", ... */
-    const char *says;          /* what it takes for the cause, in words */
-    double threshold_velocity; /* [m/s]; INFINITY: N1 not below 20 km/s */
-    double threshold_interval[2];
+    const char *name;             /* "N1", ... */
+    const char *says;             /* what it takes for the cause, in words */
+    double threshold_velocity;    /* [m/s]; INFINITY: N1 not below 20 km/s */
+    double threshold_interval[2]; /* what the two reported onsets would give [m/s] */
 } null_model;
 
 /* For a grain of that height on a surface.  STATUS_BAD_INPUT names a material that lacks what they need. */

@@ -31,7 +31,7 @@ typedef struct {
     int cells;         /* of the grid, in a half length of the patch */
     double wide, deep; /* the grid: half its width, its depth [half lengths of the patch] */
     double limit;      /* index of a crack [1] */
-    double batch;      /* cuts within this share of the cycles are one step */
+    double batch;      /* cuts within this fraction of the cycles are one step [1] */
     int most_cuts;     /* 0: the intact rail alone */
     int threads;
     void (*step)(void *user,

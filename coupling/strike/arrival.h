@@ -29,10 +29,10 @@
 
 typedef struct {
     int body, group, plate; /* of scene.bodies; plate -1: none */
-    double n[3];            /* direction of flight */
+    double n[3];            /* direction of flight, a unit vector [1] */
     double from[3];         /* its middle at the start, on the mirror planes that cut it [m] */
     double half_width;      /* how far it reaches to the side of the line through there [m] */
-    double parts;           /* the whole over what is computed: 2 for each mirror plane that it lies at */
+    double parts;           /* the whole over what is computed: 2 for each mirror plane that it lies at [1] */
     double mass;            /* of the whole [kg] */
     double speed;           /* that it has in scene.bodies [m/s] */
     bool piston;            /* it is not in the scene, but drives a piston: `body` is the fluid that its wave enters */

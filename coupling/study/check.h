@@ -9,8 +9,8 @@
 typedef struct {
     char what[80];
     mpm_needs needs;
-    double steps;   /* of the finest level */
-    double seconds; /* with the points and steps of the start */
+    double steps;   /* of the finest level [1] */
+    double seconds; /* with the points and steps of the start [s] */
     double likely;  /* [s]; NAN: no scene of the case is small enough to be tried */
     bool searched;  /* one of the two ends of the search's range, with its fine cells */
 } scene_estimate;

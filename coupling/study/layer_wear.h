@@ -8,7 +8,7 @@
 
 #include "coupling/run/scene_result.h"
 
-/* Shares of the layers over the crater, or over the grain where that is the larger; 0 without layers [1] */
+/* Fractions of the layers over the crater, or over the grain where that is the larger; 0 without layers [1] */
 typedef struct {
     double failed, carried;
 } layer_wear;

@@ -12,7 +12,7 @@ typedef struct {
     life_first first;                      /* that direction */
     double moving_factor;                  /* K of (L-7) [1] */
     life_crack crack;                      /* all NAN, 0 where life.until is first */
-    double wall_seconds;
+    double wall_seconds;                   /* [s] */
 } life_result;
 
 #endif

@@ -29,7 +29,7 @@ typedef struct {
 typedef struct {
     int n;
     life_entry *ranking; /* n, owned; longest life first, then those without a judgement */
-    double wall_seconds;
+    double wall_seconds; /* [s] */
 } life_ranking;
 
 /* *out needs study_life_compare_free, even on error.  record, NULL: not wanted, is the untreated rail's shot. */

@@ -34,7 +34,7 @@ typedef struct {
     double screen;                                    /* impact pressure over the hardness of the harder partner [1] */
     double screen_probability;                        /* that it gouges, by that number alone [1] */
     double threshold_velocity, threshold_interval[2]; /* of a gouge, for its grain [m/s]; NaN: not looked for */
-    double scratch_velocity, scratch_interval[2];     /* of a scratch, the same */
+    double scratch_velocity, scratch_interval[2];     /* of a scratch, the same [m/s] */
     double gouged_volume;                             /* [m3]; NaN: unknown */
     site_outcome outcome;
     char scene[SUMMARY_NAME_SIZE]; /* the scene that decided, "" if none */
@@ -45,7 +45,7 @@ typedef struct {
     int family; /* from 1 */
     char shape[BASE_PARAM_TEXT_SIZE], material[BASE_PARAM_TEXT_SIZE];
     double radius;                                /* [m] */
-    double grains;                                /* it stands for */
+    double grains;                                /* it stands for [1] */
     double threshold_velocity;                    /* [m/s] */
     double threshold_interval[2];                 /* [m/s] */
     double scratch_velocity, scratch_interval[2]; /* [m/s]; NaN: not looked for */

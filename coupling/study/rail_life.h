@@ -26,7 +26,7 @@ typedef struct {
     double moving_factor;                          /* K of (L-7) [1] */
     double rise, flux_rise;   /* of the face when the contact leaves it; by its flux alone, without a film [K] */
     double probe_rise;        /* largest at life.probe_depth [K] */
-    double life, interval[2]; /* shots to a crack; at 5 and 95 %, NAN where the spread of A is not known */
+    double life, interval[2]; /* shots to a crack; at 5 and 95 %, NAN where the spread of A is not known [1] */
     double first;             /* shots until the first direction is cut */
     double depth, angle;      /* [m, rad] */
     double range;             /* largest of any direction at that depth [1] */
@@ -35,20 +35,20 @@ typedef struct {
 } rail_life_place;
 
 typedef struct {
-    double life, quantiles[3]; /* of the weakest place [1] */
-    double first;              /* [1] */
-    double position, depth, angle, range;
+    double life, quantiles[3];            /* of the weakest place [1] */
+    double first;                         /* [1] */
+    double position, depth, angle, range; /* of the crack there [m, m, rad, 1] */
     int cause;
     bool lasting;     /* no place cracks, and of some it is known that it never does */
     double depths[2]; /* of the cracks of all places, least and most [m] */
-    double without_heat, without_heat_position, without_heat_depth;
-    double probability;                       /* that a crack is there after the shots [1] */
-    int shots, flights;                       /* flown: one for all that are alike */
+    double without_heat, without_heat_position, without_heat_depth; /* weakest place by its load alone [1, m, m] */
+    double probability;                                             /* that a crack is there after the shots [1] */
+    int shots, flights;                                             /* flown: one for all that are alike */
     double rayleigh_speed, rayleigh_position; /* [m/s]; from where on the armature is faster, NAN: nowhere [m] */
     int film_limited;                         /* places whose face would be warmer than the film */
     int n;
     rail_life_place *place; /* n, owned */
-    double wall_seconds;
+    double wall_seconds;    /* [s] */
 } rail_life_result;
 
 /* Of this metal; STATUS_BAD_INPUT names what it lacks. */

@@ -23,7 +23,7 @@ typedef struct {
     int n;
     int by_limit;          /* 1: by limit velocity, 0: by one arrival */
     target_entry *ranking; /* [n] owned; the best first, once it is ranked */
-    double wall_seconds;
+    double wall_seconds;   /* [s] */
 } target_ranking;
 
 /* Best first; fills `tied`. */

@@ -9,7 +9,7 @@
 
 typedef struct {
     vessel_result is;
-    double wall_seconds;
+    double wall_seconds; /* [s] */
 } vessel_answer;
 
 void study_vessel_print_columns(FILE *out); /* of /vessel, for the manual */

@@ -97,15 +97,15 @@ typedef struct {
 
 /* What one brick, or one site, books in a step. */
 typedef struct {
-    double heat_friction, heat_transfer, heat_viscous;
-    double work_boundary, work_external;
-    double impulse_boundary[3], impulse_external[3];
+    double heat_friction, heat_transfer, heat_viscous; /* as mpm_ledger has them [J] */
+    double work_boundary, work_external;               /* [J] */
+    double impulse_boundary[3], impulse_external[3];   /* [N s] */
     departure left;
-    double rate; /* largest (c + |v|) / h, times the share of m.dt that the level's steps are [1/s] */
-    double peak_temperature;
+    double rate;             /* largest (c + |v|) / h, times the share of m.dt that the level's steps are [1/s] */
+    double peak_temperature; /* [K] */
     uint64_t clamps_pressure, clamps_compression, splits, eroded, particles;
-    uint64_t asleep; /* points that were left as they are */
-    double eroded_mass;
+    uint64_t asleep;         /* points that were left as they are */
+    double eroded_mass;      /* [kg] */
     bool stranded;           /* no memory for points that left their cells: the step cannot go on */
     bool shared;             /* of a site: its bricks' contact_impulse counts */
     int bad_lane, bad_block; /* first point that is not finite, bad_block = -1: none */

@@ -36,11 +36,11 @@ void mpm_visit_shares(const mpm *m, mpm_block_visitor *each, void *sums, size_t 
 
 /* Sums of the ledger.  Millions of equal terms have equal rounding errors, which add up: compensated summation
  * (Neumaier 1974). */
-enum { BOOK_MASS, BOOK_KINETIC, BOOK_INTERNAL, BOOK_AHEAD, BOOK_MOMENTUM, BOOKS = BOOK_MOMENTUM + 3 };
+enum { SUM_MASS, SUM_KINETIC, SUM_INTERNAL, SUM_AHEAD, SUM_MOMENTUM, SUMS = SUM_MOMENTUM + 3 };
 
 typedef struct {
-    double sum[BOOKS], rest[BOOKS];
-} books;
+    double sum[SUMS], rest[SUMS];
+} ledger_sums;
 
 static double lane_work_ahead(const block *q, int lane, double dt)
 {
@@ -50,9 +50,9 @@ static double lane_work_ahead(const block *q, int lane, double dt)
     return work_ahead(s, q->p[0][lane], L, q->rho[0][lane], dt);
 }
 
-static void books_add(books *b, const double add[BOOKS])
+static void ledger_sums_add(ledger_sums *b, const double add[SUMS])
 {
-    for (int i = 0; i < BOOKS; i++) {
+    for (int i = 0; i < SUMS; i++) {
         const double old = b->sum[i], now = old + add[i];
         b->rest[i] += fabs(old) >= fabs(add[i]) ? (old - now) + add[i] : (add[i] - now) + old;
         b->sum[i] = now;
@@ -64,30 +64,30 @@ static void balance_block(void *user, const mpm *m, const brick *b, int index)
 {
     const block *q = &m->blocks[index];
     const double dt = level_dt_last(m, b->level);
-    double of_lane[BOOKS][LANES], add[BOOKS] = { 0 };
+    double of_lane[SUMS][LANES], add[SUMS] = { 0 };
     for (int i = 0; i < LANES; i++) {
         const double M = q->mass[0][i];
         double square = 0;
         for (int k = 0; k < 3; k++) {
             const double v = q->v[k][i];
             square += v * v;
-            of_lane[BOOK_MOMENTUM + k][i] = M * v;
+            of_lane[SUM_MOMENTUM + k][i] = M * v;
         }
-        of_lane[BOOK_MASS][i] = M;
-        of_lane[BOOK_KINETIC][i] = M * (0.5 * square + q->ka[0][i]);
-        of_lane[BOOK_INTERNAL][i] = M * q->e[0][i];
-        of_lane[BOOK_AHEAD][i] = M * lane_work_ahead(q, i, dt);
+        of_lane[SUM_MASS][i] = M;
+        of_lane[SUM_KINETIC][i] = M * (0.5 * square + q->ka[0][i]);
+        of_lane[SUM_INTERNAL][i] = M * q->e[0][i];
+        of_lane[SUM_AHEAD][i] = M * lane_work_ahead(q, i, dt);
     }
-    for (int k = 0; k < BOOKS; k++)
+    for (int k = 0; k < SUMS; k++)
         for (int i = 0; i < LANES; i++) add[k] += of_lane[k][i];
-    books_add(user, add);
+    ledger_sums_add(user, add);
 }
 
-static books all_books(const mpm *m)
+static ledger_sums ledger_summed(const mpm *m)
 {
-    books share[SHARES] = { { .sum = { 0 } } }, all = { .sum = { 0 } };
+    ledger_sums share[SHARES] = { { .sum = { 0 } } }, all = { .sum = { 0 } };
     mpm_visit_shares(m, balance_block, share, sizeof *share);
-    for (int i = 0; i < SHARES; i++) books_add(&all, share[i].sum), books_add(&all, share[i].rest);
+    for (int i = 0; i < SHARES; i++) ledger_sums_add(&all, share[i].sum), ledger_sums_add(&all, share[i].rest);
     return all;
 }
 
@@ -107,11 +107,11 @@ static double start_speed(const mpm *m)
 mpm_ledger mpm_balance(const mpm *m)
 {
     mpm_ledger l = m->ledger;
-    books b = all_books(m);
-    for (int i = 0; i < BOOKS; i++) b.sum[i] += b.rest[i];
-    l.mass = b.sum[BOOK_MASS], l.kinetic = b.sum[BOOK_KINETIC], l.internal = b.sum[BOOK_INTERNAL];
-    l.work_ahead = b.sum[BOOK_AHEAD];
-    memcpy(l.momentum, b.sum + BOOK_MOMENTUM, sizeof l.momentum);
+    ledger_sums b = ledger_summed(m);
+    for (int i = 0; i < SUMS; i++) b.sum[i] += b.rest[i];
+    l.mass = b.sum[SUM_MASS], l.kinetic = b.sum[SUM_KINETIC], l.internal = b.sum[SUM_INTERNAL];
+    l.work_ahead = b.sum[SUM_AHEAD];
+    memcpy(l.momentum, b.sum + SUM_MOMENTUM, sizeof l.momentum);
     double left[3];
     for (int k = 0; k < 3; k++)
         left[k] =

@@ -58,9 +58,9 @@ typedef struct {
 typedef struct {
     double gouges, volume;                         /* mean number, mean volume, NaN: not known [1, m3] */
     double gouges_interval[2], volume_interval[2]; /* 5 and 95 % of the worlds' means */
-    double probability;                            /* that it gouges at all */
+    double probability;                            /* that it gouges at all [1] */
     double first[3];        /* place of the first gouge: 5, 50, 95 % of all shots; NaN where so many do not gouge [m] */
-    double before[MC_BINS]; /* P(gouge before (k + 1) / MC_BINS of the barrel) */
+    double before[MC_BINS]; /* P(gouge before (k + 1) / MC_BINS of the barrel) [1] */
 } mc_shot;
 
 /* Of a population's grains that gouge in one of MC_PIECES equal pieces of the barrel. */
@@ -75,7 +75,7 @@ typedef struct {
     mc_strewn *strewn;     /* [n x shots x populations x MC_PIECES], owned */
     double *world_gouges;  /* [n x shots x MC_WORLDS] means, owned */
     double *world_volumes; /* the same for the volume [m3], owned */
-    double seconds;        /* that it took */
+    double seconds;        /* that it took [s] */
 } mc_result;
 
 /* v of an mc_along, no more of it. */
@@ -87,9 +87,9 @@ void study_mc_free(mc_result *r);
 
 /* A surface over all its shots: means of one. */
 typedef struct {
-    double gouges, volume, probability; /* as in mc_shot [1, m3, 1] */
-    double gouges_interval[2], volume_interval[2];
-    double world_gouges[MC_WORLDS];
+    double gouges, volume, probability;            /* as in mc_shot [1, m3, 1] */
+    double gouges_interval[2], volume_interval[2]; /* [1, m3] */
+    double world_gouges[MC_WORLDS];                /* [1] */
 } mc_mean_shot;
 void study_mc_mean_shot(const mc_result *r, int surface, mc_mean_shot *out);
 

@@ -13,7 +13,7 @@ void study_shift_of(int i, const double own[3], double out[3]);
 /* Of the numbers that are there; how many of n.  deviation: by one less than these, NAN of fewer than two. */
 typedef struct {
     int scenes;
-    double mean, deviation, least, largest;
+    double mean, deviation, least, largest; /* in the values' unit */
 } shift_spread;
 shift_spread study_shift_spread(const double *value, int n);
 
