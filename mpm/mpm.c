@@ -491,7 +491,7 @@ static status check_share(const mpm *m, const tally *t)
     const block *q = &m->blocks[t->bad_block];
     const int l = t->bad_lane;
     return base_status_error(STATUS_NUMERICAL,
-                             "t = %g s, step %llu: the particle of `%s` that started at (%g, %g, %g) m is not "
+                             "t = %g s, step %llu: the point of `%s` that started at (%g, %g, %g) m is not "
                              "finite; try a smaller courant (now %g) or larger viscosity",
                              m->time, (unsigned long long)m->steps, m->scene.body[m->links[t->bad_block].body].name,
                              q->start[0][l], q->start[1][l], q->start[2][l], m->scene.courant);

@@ -15,7 +15,7 @@
 #define INDEX_NAME "scene.hdf.series"
 
 #define PLUS_WIDTH(name, width, unit, description) +width
-enum { FILE_SIZE = 32, VTK_VERTEX = 1, VALUES = PARTICLE_FIELDS(PLUS_WIDTH) /* of a particle */ };
+enum { FILE_SIZE = 32, VTK_VERTEX = 1, VALUES = PARTICLE_FIELDS(PLUS_WIDTH) /* of a point */ };
 
 /* What is being written in the background: a snapshot, then the index that lists it. */
 typedef struct {
@@ -231,7 +231,7 @@ static status write_ints(h5_file *file, const char *path, const int64_t *values,
     return host_h5_write(file, &(h5_name){ path, NULL, NULL }, &(h5_array){ H5_INT64, 1, { n }, values });
 }
 
-/* One vertex cell a particle: cell i is point i.  room: VALUES x 4 bytes a particle hold n + 1 numbers, and n kinds. */
+/* One vertex cell a point: cell i is point i.  room: VALUES x 4 bytes a point hold n + 1 numbers, and n kinds. */
 static status write_cells(h5_file *file, size_t n, void *room)
 {
     const int64_t count = (int64_t)n;
@@ -265,7 +265,7 @@ static status make_room(snapshots *s, size_t points)
     free(s->value);
     s->value = malloc(points * VALUES * sizeof *s->value);
     s->points = s->value ? points : 0;
-    CHECK(s->value, STATUS_MEMORY, "no memory for a snapshot of %zu particles", points);
+    CHECK(s->value, STATUS_MEMORY, "no memory for a snapshot of %zu points", points);
     return status_ok();
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scene snapshots for ParaView: VTKHDF 1.0 UnstructuredGrid, one vertex cell a particle, extension .hdf.
+/* Scene snapshots for ParaView: VTKHDF 1.0 UnstructuredGrid, one vertex cell a point, extension .hdf.
  *
  * Every entry of PARTICLE_FIELDS (mpm/mpm.h) but the position becomes a point array, float32, with `units` and
  * `description`; the position becomes Points.  DIR/scene-000012.hdf, and DIR/scene.hdf.series lists them with their

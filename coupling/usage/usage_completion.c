@@ -174,7 +174,7 @@ static void zsh(FILE *out)
 status usage_completion(const char *shell, FILE *out)
 {
     const bool is_bash = strcmp(shell, "bash") == 0;
-    CHECK(is_bash || strcmp(shell, "zsh") == 0, STATUS_BAD_INPUT, "--completion %.40s: bash or zsh", shell);
+    CHECK(is_bash || strcmp(shell, "zsh") == 0, STATUS_BAD_INPUT, "--completion %.40s: must be bash or zsh", shell);
     if (is_bash)
         bash(out);
     else

@@ -51,11 +51,11 @@ static status grow_blocks(mpm *m, int capacity)
 {
     const size_t old = (size_t)m->blocks_capacity;
     block *b = enlarge(m->blocks, old * sizeof(block), (size_t)capacity * sizeof(block));
-    CHECK(b, STATUS_MEMORY, "no memory for %d particle blocks (%.1f GB): use larger cells", capacity,
+    CHECK(b, STATUS_MEMORY, "no memory for %d blocks of points (%.1f GB): use larger cells", capacity,
           1e-9 * capacity * (double)sizeof(block));
     m->blocks = b;
     block_link *l = enlarge(m->links, old * sizeof(block_link), (size_t)capacity * sizeof(block_link));
-    CHECK(l, STATUS_MEMORY, "no memory for %d particle blocks", capacity);
+    CHECK(l, STATUS_MEMORY, "no memory for %d blocks of points", capacity);
     m->links = l;
     m->blocks_capacity = capacity;
     chain_free_blocks(m, (int)old);
@@ -314,11 +314,11 @@ status mpm_store_reserve(mpm *m, int blocks)
 }
 
 /* Values that let the kernels run over a hole without a trap. */
-static void block_clear(mpm *m, block *q, int body, const double *particle)
+static void block_clear(mpm *m, block *q, int body, const double *point)
 {
     double(*to)[LANES] = (double(*)[LANES])(void *)q;
     for (int i = 0; i < BLOCK_DOUBLES; i++)
-        for (int l = 0; l < LANES; l++) to[i][l] = particle[i];
+        for (int l = 0; l < LANES; l++) to[i][l] = point[i];
     const law *k = &m->laws[body];
     for (int l = 0; l < LANES; l++) {
         q->mass[0][l] = q->p[0][l] = q->ep[0][l] = q->damage[0][l] = q->area[0][l] = q->ka[0][l] = 0;
@@ -488,7 +488,7 @@ status mpm_store_compact(mpm *m)
     return status_ok();
 }
 
-int mpm_store_insert(mpm *m, brick *b, int cell, int body, const double *particle)
+int mpm_store_insert(mpm *m, brick *b, int cell, int body, const double *point)
 {
     int *link = &b->head[cell];
     b->still = 0;
@@ -497,14 +497,14 @@ int mpm_store_insert(mpm *m, brick *b, int cell, int body, const double *particl
         const int fresh = take_free_block(m);
         if (fresh < 0) return -1;
         m->links[fresh] = (block_link){ .next = -1, .body = (uint16_t)body };
-        block_clear(m, &m->blocks[fresh], body, particle);
+        block_clear(m, &m->blocks[fresh], body, point);
         *link = fresh;
         b->blocks++;
     }
     const int lane = __builtin_ctz(~(unsigned)m->links[*link].mask);
     m->links[*link].mask |= (uint8_t)(1u << lane);
     double(*to)[LANES] = (double(*)[LANES])(void *)&m->blocks[*link];
-    for (int i = 0; i < BLOCK_DOUBLES; i++) to[i][lane] = particle[i];
+    for (int i = 0; i < BLOCK_DOUBLES; i++) to[i][lane] = point[i];
     b->particles++;
     return *link;
 }
@@ -522,16 +522,15 @@ int mpm_store_cell_at(const mpm *m, int level, const double x[3], int at[3])
     return cell_index(place[0], place[1], place[2]);
 }
 
-status mpm_store_place(mpm *m, int body, const double *particle)
+status mpm_store_place(mpm *m, int body, const double *point)
 {
     int at[3], index;
-    const int level = mpm_grids_level(&m->grids, particle + FIRST_x);
-    const int cell = mpm_store_cell_at(m, level, particle + FIRST_x, at);
+    const int level = mpm_grids_level(&m->grids, point + FIRST_x);
+    const int cell = mpm_store_cell_at(m, level, point + FIRST_x, at);
     assert(cell >= 0);
     TRY(mpm_store_brick(m, m->scene.body[body].group, level, at, &index));
     if (m->blocks_free == 0) TRY(mpm_store_reserve(m, 0));
-    CHECK(mpm_store_insert(m, &m->bricks[index], cell, body, particle) >= 0, STATUS_MEMORY,
-          "no memory for the particles");
+    CHECK(mpm_store_insert(m, &m->bricks[index], cell, body, point) >= 0, STATUS_MEMORY, "no memory for the points");
     return status_ok();
 }
 

@@ -190,7 +190,7 @@ static status arrive_across(mpm *m, const mover_list *list, int i, int group)
 {
     brick *b = &m->bricks[brick_at(m, group, list->head[i].level, list->head[i].at)];
     const int q = mpm_store_insert(m, b, list->head[i].cell, list->head[i].body, list->data[i]);
-    CHECK(q >= 0, STATUS_MEMORY, "the particle blocks ran out where the grids' levels meet: use larger cells");
+    CHECK(q >= 0, STATUS_MEMORY, "the blocks of points ran out where the grids' levels meet: use larger cells");
     b->occupied |= 1ull << list->head[i].cell;
     b->fresh = true;
     return status_ok();
@@ -221,7 +221,7 @@ status mpm_movers_exchange(mpm *m)
     TRY(each_crossing(m, arrive_across));
     if (!all_covered(m)) TRY(m->ends == m->grids.levels - 1 ? mpm_store_prune(m) : mpm_store_cover(m));
     CHECK(enough, STATUS_MEMORY,
-          "the particle blocks ran out within one step at t = %g s; this is a limit of the solver: use larger cells",
+          "the blocks of points ran out within one step at t = %g s; this is a limit of the solver: use larger cells",
           m->time);
     return status_ok();
 }

@@ -281,9 +281,9 @@ void mpm_store_drop_lane(mpm *m, brick *b, int block_index, int lane); /* a poin
 void mpm_store_tidy_cell(mpm *m, brick *b, int cell);                  /* gives back its empty blocks */
 status mpm_store_reserve(mpm *m, int blocks); /* so many free blocks, and those for the next step */
 status mpm_store_compact(mpm *m);             /* blocks into the order of bricks and cells */
-int mpm_store_insert(mpm *m, brick *b, int cell, int body, const double *particle); /* block, or -1 when none is free */
+int mpm_store_insert(mpm *m, brick *b, int cell, int body, const double *point); /* block, or -1 when none is free */
 
-status mpm_store_place(mpm *m, int body, const double *particle); /* makes its brick if need be; outside any step */
+status mpm_store_place(mpm *m, int body, const double *point); /* makes its brick if need be; outside any step */
 int mpm_store_cell_at(const mpm *m, int level, const double x[3],
                       int at[3]); /* cell and its brick's place; -1: outside */
 

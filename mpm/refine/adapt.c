@@ -257,7 +257,7 @@ static status move_points(mpm *m)
     TRY(mpm_store_reserve(m, blocks));
 #pragma omp parallel num_threads(m->threads) reduction(&& : enough)
     enough = fill_bricks(m, n);
-    CHECK(enough, STATUS_MEMORY, "no memory for the particles");
+    CHECK(enough, STATUS_MEMORY, "no memory for the points");
     TRY(mpm_store_prune(m));
     return mpm_store_reserve(m, 0);
 }

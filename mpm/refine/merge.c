@@ -179,6 +179,6 @@ status mpm_merge_points(mpm *m)
         free(g.data);
     }
     m->report.merges += merges;
-    CHECK(enough, STATUS_MEMORY, "no memory to merge particles");
+    CHECK(enough, STATUS_MEMORY, "no memory to merge points");
     return status_ok();
 }
