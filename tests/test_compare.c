@@ -956,15 +956,21 @@ static void test_one_side_on_other_grids(void **state)
     own = studied(c, "side-one", status_ok());
     assert_true(own.result.verdict == VERDICT_GOUGES && own.result.probability_gouge == 1.0);
     assert_true(isnan(own.result.threshold_velocity) && own.result.threshold_interval[1] < 1.2 * (threshold + 75.0));
+    assert_true(isnan(own.result.threshold_interval[0]));
+    assert_non_null(strstr(own.result.reason, "at or below"));
     const double near = own.result.threshold_interval[1];
     study_onset_answer_free(&own);
     c->study.threshold_ensemble = 3;
+    c->study.shots = 2; /* on the warm rail the same end counts */
     onset_answer many = studied(c, "side-many", status_ok());
+    c->study.shots = 1;
     const threshold_result *t = &many.grains.family[0].surface.reference;
     const double against = many.grains.family[0].scatter.against;
     assert_true(against > threshold + 50.0 && against < threshold + 330.0);
     assert_true(many.result.threshold_interval[1] > near + 100.0 && t->interval[1] > threshold + 330.0);
     assert_true(t->interval[1] > 1.1 * against + 1.0); /* 10 % beyond the last scene that all agree on */
+    const threshold_result *warm = &many.rail.changed[MC_WARMTH].grains.family[0].surface.reference;
+    assert_true(warm->outcome == THRESHOLD_BELOW && warm->interval[1] == t->interval[1]);
     assert_non_null(strstr(many.result.reason, "but on a shifted one the scene at"));
     study_onset_answer_free(&many);
     /* below it the further grids leave no gouge either, and nothing changes */

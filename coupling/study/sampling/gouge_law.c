@@ -17,15 +17,14 @@ static int step_of(double x, double first, double per, int n, double *f)
 
 /* ---- thresholds ---- */
 
-/* A band without the allowance for the resolution; beyond the search it gouges from the lowest velocity on, or never.
- */
+/* A band without the allowance for the resolution.  Below the search it gouges from the lowest velocity on; above it the
+ * band is open: from the last velocity that is known not to gouge, or never. */
 static void band_at(const grain_family *f, double radius, double allowance, double *low, double *high)
 {
     const surface_size at = study_surface_at(&f->surface, radius);
     const threshold_plan *p = &f->plan.search;
     *low = isnan(at.interval[0]) ? p->low : at.interval[0] + allowance;
     *high = isnan(at.interval[1]) ? INFINITY : at.interval[1] - allowance;
-    if (isnan(at.interval[1])) *low = INFINITY;
     if (*high < *low) *low = *high = 0.5 * (*low + *high);
 }
 
@@ -48,6 +47,7 @@ double study_gouge_law_threshold(const gouge_law *l, double ln_radius, double in
     const int i = step_of(ln_radius, l->ln_first, l->per_ln, LAW_SIZES, &f);
     if (isinf(l->low[i]) || isinf(l->low[i + 1])) return INFINITY;
     const double low = l->low[i] + f * (l->low[i + 1] - l->low[i]);
+    if (isinf(l->high[i]) || isinf(l->high[i + 1])) return in_band < 0.5 ? low + of_allowance * l->allowance : INFINITY;
     const double high = l->high[i] + f * (l->high[i + 1] - l->high[i]);
     return low + in_band * (high - low) + of_allowance * l->allowance;
 }

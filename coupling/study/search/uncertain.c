@@ -111,10 +111,11 @@ double study_uncertain_moved(const uncertain_inputs *u, int k, grain_family *f, 
     return NAN;
 }
 
+/* An end that is not known stays so. */
 static void move_threshold(double *velocity, double interval[2], double more, double wider)
 {
     *velocity += more;
-    interval[0] = fmax(interval[0] + more - wider, 0);
+    if (!isnan(interval[0])) interval[0] = fmax(interval[0] + more - wider, 0);
     interval[1] += more + wider;
 }
 
@@ -125,6 +126,16 @@ static void move_and_widen(surface_result *s, double more, double allowance)
     s->reference.more = more;
     move_threshold(&s->reference.velocity, s->reference.interval, more, wider);
     for (int k = 0; k < s->sizes; k++) move_threshold(&s->size[k].velocity, s->size[k].interval, more, wider);
+}
+
+/* Where both were seen from one side alone: no further than the first one's scenes agree on all grids. */
+static void end_alike(surface_result *s, const surface_result *first)
+{
+    const threshold_outcome outcome = first->reference.outcome;
+    const int side = outcome == THRESHOLD_ABOVE ? 0 : 1;
+    if (s == first || s->reference.outcome != outcome) return;
+    s->reference.interval[side] = first->reference.interval[side];
+    for (int k = 0; k < s->sizes && k < first->sizes; k++) s->size[k].interval[side] = first->size[k].interval[side];
 }
 
 /* One threshold of a family by what was measured of those of f, the grains alike in the study itself; NULL: none. */
@@ -139,6 +150,7 @@ static void widen_threshold(const uncertain_inputs *u, grain_family *f, grain_fa
     const family_scatter scatter = f ? *study_family_scatter(f, judge) : (family_scatter){ .more = 0 };
     squares += scatter.reach * scatter.reach;
     move_and_widen(s, scatter.more, sqrt(squares));
+    if (scatter.against > 0.0) end_alike(s, study_family_surface(f, judge));
 }
 
 void study_uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other)
