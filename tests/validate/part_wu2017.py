@@ -160,8 +160,13 @@ def two_cells(runs):
 
 
 def three_cells(runs):
-    scenes = compute(runs, 3, VELOCITIES[2:], 0)
+    scenes = compute(runs, 3, VELOCITIES, 0)
     return [craters(scenes)], "three cells a radius, on the case's own grid"
+
+
+def five_cells(runs):
+    scenes = compute(runs, 5, ["1.0 km/s", BASE], 0)
+    return [craters(scenes)], "five cells a radius, on the case's own grid"
 
 
 def shipped(runs):
