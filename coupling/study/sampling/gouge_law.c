@@ -17,8 +17,8 @@ static int step_of(double x, double first, double per, int n, double *f)
 
 /* ---- thresholds ---- */
 
-/* A band without the allowance for the resolution.  Below the search it gouges from the lowest velocity on; above it the
- * band is open: from the last velocity that is known not to gouge, or never. */
+/* A band without the allowance for the resolution.  Below the search it gouges from the lowest velocity on; above it
+ * the band is open: from the last velocity that is known not to gouge, or never. */
 static void band_at(const grain_family *f, double radius, double allowance, double *low, double *high)
 {
     const surface_size at = study_surface_at(&f->surface, radius);
