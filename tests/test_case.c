@@ -6,7 +6,6 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "base/constants.h"
 #include "coupling/case/case.h"
 #include "coupling/case/case_errors.h"
 #include "coupling/case/case_plain.h"
@@ -765,7 +764,7 @@ static const quantity written[] = {
     { "1e3 mm", "m", 1.0 },
     { "-2 us", "s", -2e-6 },
     { "+.5 m", "m", 0.5 },
-    { "180 deg", "rad", PI },
+    { "180 deg", "rad", 3.14159265358979 },
     { "386 W/(m K)", "W/m/K", 386.0 },
     { "1 1/s", "1/s", 1.0 },
     { "0.5 \xc2\xb5m", "m", 0.5e-6 },

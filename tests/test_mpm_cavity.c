@@ -3,7 +3,7 @@
  * is refused; the same bits on any number of threads and over a checkpoint. */
 #include "mpm_scenes.h"
 
-static const double R = GAS_CONSTANT;
+#define R GAS_CONSTANT
 
 static mpm_cavity *add_cavity(mpm_scene *s, const char *name, double x, double z)
 {
