@@ -2,7 +2,7 @@
 """A plate behind water that a projectile strikes: rows U1 .. U22 of the published kind of device.
 
 Rows with a closed answer are what the long tests print (test programs beside BREECH, run with BREECH_FULL=1), the
-others come out of the shipped case, U14 with coarse cells.  U15, U16: part_water_slow.py."""
+others come out of the shipped case, U14 with coarse cells.  U15, U16, U20: part_water_slow.py."""
 import hashlib
 import json
 import math
@@ -234,7 +234,6 @@ def cause(runs):
 
 NOT_RUN = [
     ("U19", "grid-core target", "order of events", "three cells across each of its sheets: hours"),
-    ("U20", "petals: 3 .. 6 of them", "class", "a quarter model can only have four"),
 ]
 
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A plate behind water: rows U15, U16, which take searches and higher pressures."""
+"""A plate behind water: rows U15, U16, U20, which take searches, higher pressures or the whole plate."""
 import glob
 import json
+import math
 import os
 
 from pages import Column, Table
@@ -126,9 +127,48 @@ def highest(runs):
     return told
 
 
+# ---- U20: petals ----
+
+BORE = "{turn: {axis: 0 0 1, angle: -90 deg, of: {cylinder: {center: 0 -10 0 mm, radius: 32 mm, height: 70 mm}}}}"
+WHOLE = {  # no mirror, and a grid that none of the plate's own symmetries has
+    "scene__bodies[0]__shape": "{minus: [{box: {lo: -2 -36 -36 mm, hi: 43.6 36 36 mm}}, %s, {box: {lo: 40 -37 -37 mm, hi: "
+                               "41.2 37 37 mm}}]}" % BORE,
+    "scene__bodies[1]__shape": "{box: {lo: 40 -36 -36 mm, hi: 41.2 36 36 mm}}",
+    "scene__window__y": "{lo: -36.8 mm, hi: 36.8 mm}", "scene__window__z": "{lo: -36.8 mm, hi: 36.8 mm}",
+    "scene__boundary": "{y: [free, free], z: [free, free]}", "scene__grid_shift": "0 0.37 0.21",
+}
+STEP = 2.4  # width of a ring and of a sector on it: a cell [mm]
+PETALS = [Column("off the axis"), Column("failed", 0.1), Column("cracks around")]
+
+
+def cracks(inner, start, volume, failed):
+    """Of a ring: the share that has failed, and how many gaps all around are."""
+    r, angle = np.hypot(start[:, 1], start[:, 2]), np.arctan2(start[:, 2], start[:, 1])
+    ring = (r >= inner) & (r < inner + STEP)
+    sectors = max(4, round(2 * math.pi * (inner + 0.5 * STEP) / STEP))
+    sector = np.floor((angle[ring] / (2 * math.pi) + 0.5) * sectors).astype(int) % sectors
+    whole = np.bincount(sector, volume[ring], sectors)
+    gone = np.bincount(sector, (volume * failed)[ring], sectors) >= 0.5 * whole
+    return (volume * failed)[ring].sum() / whole.sum(), int(np.sum(gone & ~np.roll(gone, 1)))
+
+
+def petals(runs):
+    s = strike(runs, "whole", strike__velocity="100 m/s", scene__end_time="150 us", output__snapshots=6,
+               **FAR, **NO_RATE, **WHOLE)
+    last = snapshot(snapshots(s)[-1])
+    rings = [(inner, *cracks(inner, *last)) for inner in np.arange(0, RADIUS, STEP)]
+    found = max(n for inner, share, n in rings if share < 0.5)
+    told = row("U20", "petals: 3 .. 6 of them; the whole plate", "class", "%s; %d cracks from the hole outwards" % (
+        s["class"], found), "class", 3 <= found <= 6, "variant")
+    table = Table(PETALS, [["%.1f .. %.1f mm" % (inner, inner + STEP), "%.0f %%" % (100 * share), "%d" % n]
+                           for inner, share, n in rings])
+    return told, table
+
+
 # ---- all of them ----
 
 def slow(runs):
     threshold, limit = limits(runs)
-    return [Table(ROW, [threshold, *highest(runs)]), limit], (
+    high, (petal, rings) = highest(runs), petals(runs)
+    return [Table(ROW, [threshold, *high, petal]), limit, rings], (
         "cases/underwater_shock with cells of 0.6 mm across the plate and 2.4 mm along it")

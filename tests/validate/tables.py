@@ -51,7 +51,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "lattice-press": ("docs/validation/lattice.md", part_lattice.pressing, 10, False),
     "lattice-rows": ("docs/validation/lattice.md", part_lattice.nets, 36, False),
     "water": ("docs/validation/water.md", part_water.water, 12, False),
-    "water-slow": ("docs/validation/water.md", part_water_slow.slow, 10, False),
+    "water-slow": ("docs/validation/water.md", part_water_slow.slow, 12, False),
     "water-inverse": ("docs/validation/water.md", part_water.inverse, 1, True),
     "fatigue": ("docs/validation/fatigue.md", part_fatigue.wheel, 3, True),
     "rail-surfaces": ("docs/validation/fatigue.md", part_fatigue.surfaces, 1, True),
