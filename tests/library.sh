@@ -29,7 +29,7 @@ macros() { gcc -dM -E -Imoved/include/breech - | sed -E 's/^#define ([A-Za-z0-9_
 types() # the same of types and enumerators
 {
     local object # one each: two of these run side by side
-    object=$(mktemp ./XXXXXX.o)
+    object=$(mktemp --tmpdir=. --suffix=.o)
     gcc -x c -g -fno-eliminate-unused-debug-types -fno-eliminate-unused-debug-symbols -c -Imoved/include/breech -o "$object" -
     readelf --debug-dump=info "$object" | awk '
         /Abbrev Number/ { named = /DW_TAG_(typedef|enumerator|structure_type|union_type|enumeration_type)/ }

@@ -969,6 +969,7 @@ static void test_one_side_on_other_grids(void **state)
     assert_true(against > threshold + 50.0 && against < threshold + 330.0);
     assert_true(many.result.threshold_interval[1] > near + 100.0 && t->interval[1] > threshold + 330.0);
     assert_true(t->interval[1] > 1.1 * against + 1.0); /* 10 % beyond the last scene that all agree on */
+    assert_true(fabs(t->allowance / (t->interval[1] - t->allowance) - 0.1) < 1e-9);
     const threshold_result *warm = &many.rail.changed[MC_WARMTH].grains.family[0].surface.reference;
     assert_true(warm->outcome == THRESHOLD_BELOW && warm->interval[1] == t->interval[1]);
     assert_non_null(strstr(many.result.reason, "but on a shifted one the scene at"));

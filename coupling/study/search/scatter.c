@@ -225,10 +225,12 @@ static double agreed_to(const case_onset *c, const sought *t, double *against)
     return isinf(last) ? NAN : up * last;
 }
 
-/* The known end of a threshold's interval, as far as the grids agree: all sizes' with it. */
+/* The known end of a threshold's interval, as far as the grids agree: all sizes' with it, and what is allowed for the
+ * resolution there.  NAN: nothing is known. */
 static void move_end(surface_result *s, int side, double factor)
 {
     s->reference.interval[side] *= factor;
+    if (!isnan(factor)) s->reference.allowance *= factor, s->reference.of_cells *= factor;
     for (int k = 0; k < s->sizes; k++) s->size[k].interval[side] *= factor;
 }
 
