@@ -17,6 +17,7 @@ Behind the paragraph or table that states figures stands a comment: the command,
 The number of every `value` must stand in the text between the heading, or the comment, before and this one.  OUT keeps
 the runs, as for tables.py."""
 import glob
+import hashlib
 import os
 import re
 import shlex
@@ -27,6 +28,7 @@ from runs import ROOT, Runs
 
 COMMENT = re.compile(r"<!-- figures: (?P<command>breech [^\n]*(?:\\\n[^\n]*)*)\n(?P<list>.*?)-->", flags=re.S)
 VALUE = re.compile(r"\bvalue: *['\"]?(-?[\d.]+)")  # without its power of ten: 216e6 is 216 M in a text
+LONGEST = 200  # name of a run: a file system takes 255, its files have endings
 ENTRY = re.compile(r"^- \{.*\}$")
 
 
@@ -78,8 +80,9 @@ def all_pages():
 
 
 def folder_of(words):
-    """Name of a command's run: its words without what a file name cannot hold."""
-    return "figures_" + re.sub(r"[^\w.=-]+", "_", "_".join(words))
+    """Name of a command's run: its words without what a file name cannot hold; of a long one the first, and a number."""
+    name = "figures_" + re.sub(r"[^\w.=-]+", "_", "_".join(words))
+    return name if len(name) <= LONGEST else name[:LONGEST - 9] + "-" + hashlib.sha256(name.encode()).hexdigest()[:8]
 
 
 def case_of(words):
