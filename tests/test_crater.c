@@ -426,6 +426,34 @@ static void test_slit_of_merged(void **state)
     }
 }
 
+/* A slit one merged point wide and five high: metal goes on beside it, so the rail is whole there.  The same one of
+ * fine points is the end of the rail, and beside a groove merged points change nothing: its bottom is what lies on a
+ * line. */
+static void test_column_of_merged(void **state)
+{
+    (void)state;
+    const crater_spec spec = spec_of(0.1);
+    for (int coarse = 0; coarse < 2; coarse++) {
+        const double half[3] = { 0.2, 0.06, coarse ? 0.2 : 0.04 };
+        rail r = { 0 };
+        for (double x = -1.0 + half[0]; x < 7.0; x += 2.0 * half[0])
+            for (double z = -2.0 + half[2]; z < 2.0; z += 2.0 * half[2]) {
+                const bool slit = fabs(x - 2.8) < 0.1 && fabs(z - 0.2) < 0.19, groove = x < 0.1;
+                for (int k = 0; k < (groove ? 7 : 10); k++)
+                    if (!slit || k < 3 || k > 7) add(&r, (const double[3]){ x, -1.14 + 0.12 * k, z }, half);
+            }
+        crater c = measured(&r, &spec);
+        for (int i = 0; i < c.nx; i++) {
+            const double x = (c.x0 + i * c.dx) / MM;
+            const double depth = c.depth_map[i * c.nz + (int)((0.2 * MM - c.z0) / c.dz)] / MM;
+            if (x < 0.1) assert_near(depth, 0.36, 1e-9);
+            if (x > 0.4) assert_near(depth, !coarse && fabs(x - 2.8) < 0.2 ? 0.84 : 0.0, 1e-9);
+        }
+        gouge_crater_free(&c);
+        drop(&r);
+    }
+}
+
 static void add_cluster(rail *r, double x, double y, double z, int n)
 {
     for (int k = 0; k < n * n * n; k++)
@@ -664,11 +692,22 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flat),     cmocka_unit_test(test_flat_graded),    cmocka_unit_test(test_cap),
-        cmocka_unit_test(test_scratch),  cmocka_unit_test(test_gouge),          cmocka_unit_test(test_graded),
-        cmocka_unit_test(test_mirrored), cmocka_unit_test(test_slit_of_merged), cmocka_unit_test(test_debris),
-        cmocka_unit_test(test_failed),   cmocka_unit_test(test_patches),        cmocka_unit_test(test_noise),
-        cmocka_unit_test(test_slits),    cmocka_unit_test(test_convergence),    cmocka_unit_test(test_continuity),
+        cmocka_unit_test(test_flat),
+        cmocka_unit_test(test_flat_graded),
+        cmocka_unit_test(test_cap),
+        cmocka_unit_test(test_scratch),
+        cmocka_unit_test(test_gouge),
+        cmocka_unit_test(test_graded),
+        cmocka_unit_test(test_mirrored),
+        cmocka_unit_test(test_slit_of_merged),
+        cmocka_unit_test(test_column_of_merged),
+        cmocka_unit_test(test_debris),
+        cmocka_unit_test(test_failed),
+        cmocka_unit_test(test_patches),
+        cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_slits),
+        cmocka_unit_test(test_convergence),
+        cmocka_unit_test(test_continuity),
         cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,7 +6,8 @@
  * (position +- half lengths) it meets are walked up from below; failed points (damage >= 1) are left out.  The walk
  * ends at the first gap wider than 1.2 times the distance at which the two points beside it would touch: one missing
  * point is bridged, what floats higher is debris, and so is a flap over a deeper cavity.  Points coarser than the map
- * (no half length below cell / 2) may touch as far as their largest half length reaches: merged ones leave slits.
+ * (no half length below cell / 2) may touch as far as their largest half length reaches, and those beside a line,
+ * within twice their half lengths of it, close its gaps: merged ones leave slits.
  * The height is position + half length of the last point.  A sample above all of its eight neighbours, or below both
  * of those along x or along z, is set to the nearest of them: spikes of one sample and slits one sample wide, however
  * long, are the lattice's.  A map cell is the mean of its samples, so an undisturbed rail has depth 0 to rounding

@@ -12,11 +12,18 @@ static const double GAP = 1.2; /* of the touching distance: a wider gap ends the
 static const double FOOTPRINT_SLACK =
     0.1; /* of a half length: slits between points that have moved apart a little are closed */
 
-/* Sample lines: top is the height reached so far, reach (reach_of) that of the point there. */
+/* What has been met on a sample line so far. */
+typedef struct {
+    double top;   /* of the points on it [m] */
+    double sound; /* as far up as sound metal goes on, merged points beside the line too [m] */
+    double reach; /* of the point that ends there (reach_of); < 0: no point yet [m] */
+} sample;
+
+/* Sample lines. */
 typedef struct {
     int nx, nz;
     double x_axis[2], z_axis[2]; /* lowest edge of the map, its cell [m] */
-    double *top, *reach;         /* nx x nz [m]; reach < 0: no point yet */
+    sample *line;                /* nx x nz */
 } sampling;
 
 typedef struct {
@@ -48,10 +55,36 @@ static void lines_of(double middle, double half, const double axis[2], int n, in
     while (range[0] <= range[1] && line_at(axis, range[1]) > hi) range[1]--;
 }
 
-static void footprint(const crater_points *p, size_t i, const sampling *s, int x_range[2], int z_range[2])
+/* Lines that a footprint `wide` times as wide meets. */
+typedef struct {
+    int x[2], z[2];
+} lines;
+
+static lines footprint(const crater_points *p, size_t i, const sampling *s, double wide)
 {
-    lines_of(p->position[3 * i], p->size[3 * i], s->x_axis, s->nx, x_range);
-    lines_of(p->position[3 * i + 2], p->size[3 * i + 2], s->z_axis, s->nz, z_range);
+    lines met;
+    lines_of(p->position[3 * i], wide * p->size[3 * i], s->x_axis, s->nx, met.x);
+    lines_of(p->position[3 * i + 2], wide * p->size[3 * i + 2], s->z_axis, s->nz, met.z);
+    return met;
+}
+
+static bool is_met(const lines *l, int ix, int iz)
+{
+    return ix >= l->x[0] && ix <= l->x[1] && iz >= l->z[0] && iz <= l->z[1];
+}
+
+/* A point coarser than the map was merged out of finer ones far from the groove, or lies where nothing has happened.
+ * Merged ones keep the volume of those, not their places, and leave slits that are as wide and as high as they. */
+static bool is_coarse(const crater_points *p, size_t i, double cell)
+{
+    const double *half = p->size + 3 * i;
+    return fmin(half[0], fmin(half[1], half[2])) > 0.5 * cell;
+}
+
+/* How far to the sides a point may close a slit, in half lengths. */
+static double width_of(const crater_points *p, size_t i, double cell)
+{
+    return is_coarse(p, i, cell) ? 2.0 : 1.0;
 }
 
 static bool is_finite_point(const crater_points *p, size_t i)
@@ -62,16 +95,15 @@ static bool is_finite_point(const crater_points *p, size_t i)
 }
 
 /* The points that meet any line, lowest first; *layers is malloc'ed. */
-static status sort_points(const crater_points *p, const sampling *s, layer **layers, size_t *count)
+static status sort_points(const crater_points *p, const sampling *s, double cell, layer **layers, size_t *count)
 {
     layer *list = malloc((p->n ? p->n : 1) * sizeof *list);
     CHECK(list, STATUS_MEMORY, "crater: no memory to sort %zu material points", p->n);
     size_t n = 0, i = 0;
     for (; i < p->n && is_finite_point(p, i); i++) {
-        int x_range[2], z_range[2];
-        footprint(p, i, s, x_range, z_range);
+        const lines met = footprint(p, i, s, width_of(p, i, cell));
         const double bottom = p->position[3 * i + 1] - p->size[3 * i + 1];
-        if (x_range[0] > x_range[1] || z_range[0] > z_range[1]) continue;
+        if (met.x[0] > met.x[1] || met.z[0] > met.z[1]) continue;
         list[n++] = (layer){ bottom, i };
     }
     if (i < p->n) free(list);
@@ -82,27 +114,29 @@ static status sort_points(const crater_points *p, const sampling *s, layer **lay
     return status_ok();
 }
 
-/* How far up and down a point's metal may be: its half length, but of a point coarser than the map the largest of the
- * three.  Such points were merged out of finer ones far from the groove; they keep the volume of those, not their
- * places, and leave slits that are as high as they are wide. */
+/* How far up and down a point's metal may be: its half length, but of a coarse one the largest of the three. */
 static double reach_of(const crater_points *p, size_t i, double cell)
 {
     const double *half = p->size + 3 * i;
-    const double least = fmin(half[0], fmin(half[1], half[2])), most = fmax(half[0], fmax(half[1], half[2]));
-    return least > 0.5 * cell ? most : half[1];
+    return is_coarse(p, i, cell) ? fmax(half[0], fmax(half[1], half[2])) : half[1];
 }
 
-/* One point, the next from below, on one line. */
-static void pile_up(double *top, double *reach, double bottom, double point_half, double point_reach, bool failed)
+/* One point, the next from below, on a line or beside it. */
+static void pile_up(sample *l, double bottom, double point_half, double point_reach, bool failed, bool beside)
 {
-    if (*reach < 0.0) { /* the floor of the line: stands even where all above has failed */
-        *top = bottom;
-        *reach = point_reach;
+    const double top = bottom + 2.0 * point_half;
+    if (l->reach < 0.0) { /* the floor of the line: stands even where all above has failed */
+        if (beside) return;
+        *l = (sample){ bottom, bottom, point_reach };
     }
-    if (failed || bottom - *top > GAP * (*reach + point_reach)) return;
-    if (bottom + 2.0 * point_half <= *top) return;
-    *top = bottom + 2.0 * point_half;
-    *reach = point_reach;
+    if (failed || bottom - l->sound > GAP * (l->reach + point_reach)) return;
+    if (!beside) l->top = fmax(l->top, top);
+    if (top > l->sound) l->sound = top, l->reach = point_reach;
+}
+
+static sample *line_of(const sampling *s, int ix, int iz)
+{
+    return &s->line[(size_t)ix * (size_t)s->nz + (size_t)iz];
 }
 
 /* Lines whose lowest point lies in the upper half of the model are outside the rail and stay empty. */
@@ -110,18 +144,17 @@ static status pile_points(const crater_points *p, const crater_spec *spec, sampl
 {
     layer *list = NULL;
     size_t n = 0;
-    TRY(sort_points(p, s, &list, &n));
+    TRY(sort_points(p, s, spec->cell, &list, &n));
     const double floor_limit = n ? spec->surface - 0.5 * (spec->surface - list[0].bottom) : 0.0;
     for (size_t k = 0; k < n; k++) {
         const size_t i = list[k].point;
         const double reach = reach_of(p, i, spec->cell);
-        int x_range[2], z_range[2];
-        footprint(p, i, s, x_range, z_range);
-        for (int ix = x_range[0]; ix <= x_range[1]; ix++)
-            for (int iz = z_range[0]; iz <= z_range[1]; iz++) {
-                const size_t at = (size_t)ix * (size_t)s->nz + (size_t)iz;
-                if (s->reach[at] < 0.0 && list[k].bottom > floor_limit) continue;
-                pile_up(&s->top[at], &s->reach[at], list[k].bottom, p->size[3 * i + 1], reach, !(p->damage[i] < 1.0));
+        const lines own = footprint(p, i, s, 1.0), wide = footprint(p, i, s, width_of(p, i, spec->cell));
+        for (int ix = wide.x[0]; ix <= wide.x[1]; ix++)
+            for (int iz = wide.z[0]; iz <= wide.z[1]; iz++) {
+                sample *line = line_of(s, ix, iz);
+                if (line->reach < 0.0 && list[k].bottom > floor_limit) continue;
+                pile_up(line, list[k].bottom, p->size[3 * i + 1], reach, !(p->damage[i] < 1.0), !is_met(&own, ix, iz));
             }
     }
     const bool any = n && list[0].bottom < spec->surface;
@@ -136,8 +169,8 @@ static double top_at(const sampling *s, int ix, int iz, bool mirrored, double no
 {
     const int kz = mirrored && iz < 0 ? 0 : iz;
     if (ix < 0 || ix >= s->nx || kz < 0 || kz >= s->nz) return none;
-    const size_t at = (size_t)ix * (size_t)s->nz + (size_t)kz;
-    return s->reach[at] < 0.0 ? none : s->top[at];
+    const sample *line = line_of(s, ix, kz);
+    return line->reach < 0.0 ? none : line->top;
 }
 
 /* Height of a line, but no higher than the highest of its eight neighbours, and no lower than both along an axis (those
@@ -154,7 +187,7 @@ static double without_spike(const sampling *s, int ix, int iz, bool mirrored)
             lower = fmin(lower, top_at(s, ix + (k ? 0 : side), iz + (k ? side : 0), mirrored, INFINITY));
         if (isfinite(lower)) lowest = fmax(lowest, lower);
     }
-    const double top = s->top[(size_t)ix * (size_t)s->nz + (size_t)iz];
+    const double top = line_of(s, ix, iz)->top;
     return isfinite(highest) ? fmin(fmax(top, lowest), highest) : top;
 }
 
@@ -164,7 +197,7 @@ static double cell_depth(const sampling *s, int i, int j, const crater_spec *spe
     int n = 0;
     for (int ix = SAMPLES * i; ix < SAMPLES * (i + 1); ix++)
         for (int iz = SAMPLES * j; iz < SAMPLES * (j + 1); iz++) {
-            if (s->reach[(size_t)ix * (size_t)s->nz + (size_t)iz] < 0.0) continue;
+            if (line_of(s, ix, iz)->reach < 0.0) continue;
             sum += spec->surface - without_spike(s, ix, iz, spec->mirrored);
             n++;
         }
@@ -200,17 +233,15 @@ status gouge_crater_map(const crater_points *p, const crater_spec *spec, crater 
     sampling s = {
         .nx = SAMPLES * c->nx, .nz = SAMPLES * nz, .x_axis = { spec->x_lo, c->dx }, .z_axis = { z_lo, c->dz }
     };
-    const size_t lines = (size_t)s.nx * (size_t)s.nz;
-    s.top = malloc(lines * sizeof *s.top);
-    s.reach = malloc(lines * sizeof *s.reach);
+    const size_t count = (size_t)s.nx * (size_t)s.nz;
+    s.line = malloc(count * sizeof *s.line);
     c->depth_map = malloc((size_t)c->nx * (size_t)c->nz * sizeof *c->depth_map);
     status done = status_ok();
-    if (!s.top || !s.reach || !c->depth_map)
+    if (!s.line || !c->depth_map)
         done = base_status_error(STATUS_MEMORY, "crater: no memory for a map of %d x %d cells", c->nx, c->nz);
-    for (size_t k = 0; done.code == STATUS_OK && k < lines; k++) s.reach[k] = -1.0;
+    for (size_t k = 0; done.code == STATUS_OK && k < count; k++) s.line[k].reach = -1.0;
     if (done.code == STATUS_OK) done = pile_points(p, spec, &s);
     if (done.code == STATUS_OK) fill_map(&s, spec, c);
-    free(s.top);
-    free(s.reach);
+    free(s.line);
     return done;
 }
