@@ -283,6 +283,11 @@ void mpm_set_threads(mpm *m, int threads)
     if (m->threads > MPM_MAX_THREADS) m->threads = MPM_MAX_THREADS;
 }
 
+void mpm_set_finest(mpm *m, int level)
+{
+    m->finest = level;
+}
+
 status mpm_create(const mpm_scene *scene, int threads, mpm **out)
 {
     *out = NULL;

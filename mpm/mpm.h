@@ -96,6 +96,9 @@ base_status mpm_create(const mpm_scene *scene, int threads, mpm **out);
 void mpm_free(mpm *m); /* NULL allowed */
 /* Between steps: in mpm_sink too.  Changes no bit of what comes out; 0: as many as OpenMP gives. */
 void mpm_set_threads(mpm *m, int threads);
+/* Between steps too.  From their next look on rules of refinement ask for no finer level than this one, which must be
+ * one of the scene's; 0, the finest, until it is called.  Part of a checkpoint. */
+void mpm_set_finest(mpm *m, int level);
 
 /* Steps until time >= until [s].  BASE_STATUS_NUMERICAL names the point, the time and what to try. */
 base_status mpm_advance(mpm *m, double until, const mpm_sink *sink);

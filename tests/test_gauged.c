@@ -47,10 +47,34 @@ static void test_gauged(void **state)
     run_script("read_gauged.py", BREECH_TESTS "/../python scene/gauged0");
 }
 
+/* Past its second gauge this groove takes more than four times the power it took at the first: it does without the
+ * finest cells then, and everything before is the same. */
+static void test_cells_grow(void **state)
+{
+    (void)state;
+    fresh_folder("grow");
+    cJSON *s[2];
+    for (int grow = 0; grow < 2; grow++) {
+        char command[1500], dir[40];
+        snprintf(command, sizeof command,
+                 "scene " GAUGED "-o grow/%d --set output.snapshots=0 --set scene.end_time='5 us' "
+                 "--set scene.cells_grow=%s",
+                 grow, grow ? "yes" : "no");
+        assert_int_equal(run(command), 0);
+        snprintf(dir, sizeof dir, "grow/%d", grow);
+        s[grow] = summary_of(dir);
+    }
+    assert_true(number(s[0], "groove_growth") == number(s[1], "groove_growth"));
+    assert_true(number(s[1], "particle_steps") < 0.9 * number(s[0], "particle_steps"));
+    assert_true(fabs(number(s[1], "crater_length") / number(s[0], "crater_length") - 1.0) < 0.2);
+    for (int i = 0; i < 2; i++) cJSON_Delete(s[i]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_gauged),
+        cmocka_unit_test(test_cells_grow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -738,6 +738,29 @@ static void test_gauges(void **state)
     assert_true(fabs(gouge_growth(&g, &now) / 0.25e6 - 1.0) < 1e-9);
 }
 
+/* A level is given up with each fourfold of the power that the groove took at its first gauge, once it has passed the
+ * second, for good, and never the coarsest. */
+static void test_finest_level(void **state)
+{
+    (void)state;
+    gouge_scene s = { .gauge_time = { 2e-6, 3e-6 }, .cells_grow = true };
+    s.scene.levels = 4;
+    gouge_gauges g = { .at = { 0.0 } };
+    const struct {
+        double time, power;
+        int level;
+    } looks[] = { { 1e-6, 9e7, 0 },     { 2.1e-6, 1e5, 0 },   { 2.5e-6, 5e5, 0 },
+                  { 3.1e-6, 3.9e5, 0 }, { 3.2e-6, 4.1e5, 1 }, { 3.3e-6, 1e5, 1 },
+                  { 3.4e-6, 2e6, 2 },   { 3.5e-6, 7e6, 3 },   { 3.6e-6, 1e9, 3 } };
+    for (size_t i = 0; i < sizeof looks / sizeof *looks; i++) {
+        const gouge_front now = { .time = looks[i].time, .power = looks[i].power };
+        gouge_gauges_note(&s, &now, &g);
+        assert_int_equal(gouge_finest_level(&s, &g), looks[i].level);
+    }
+    s.cells_grow = false;
+    assert_int_equal(gouge_finest_level(&s, &g), 0);
+}
+
 /* The front's speed is the slope through all looks between the gauges, whatever came before and comes after. */
 static void test_front_speed(void **state)
 {
@@ -857,6 +880,7 @@ int main(void)
         cmocka_unit_test(test_gauged),
         cmocka_unit_test(test_dying),
         cmocka_unit_test(test_gauges),
+        cmocka_unit_test(test_finest_level),
         cmocka_unit_test(test_front_speed),
         cmocka_unit_test(test_half_model),
     };

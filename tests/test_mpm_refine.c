@@ -371,6 +371,43 @@ static void test_bits(void **state)
     mpm_free(m);
 }
 
+static int at_level(const mpm *m, int level)
+{
+    int n = 0;
+    for (int i = 0; i < m->bricks_used; i++) n += m->bricks[i].level == level ? m->bricks[i].particles : 0;
+    return n;
+}
+
+/* A level that is given up empties within a few looks and stays empty, on from a checkpoint too; the books close. */
+static void test_finest(void **state)
+{
+    (void)state;
+    GOUGE_LOCAL(g);
+    gouge(&g, 75);
+    mpm *m = scene_make(&g.scene, 2), *on = scene_make(&g.scene, 1);
+    assert_ok(mpm_advance(m, 0.8e-6, NULL));
+    assert_true(at_level(m, 0) > 1000);
+    mpm_set_finest(m, 1);
+    void *image;
+    size_t bytes;
+    assert_ok(mpm_save(m, &image, &bytes));
+    assert_ok(mpm_restore(on, image, bytes));
+    free(image);
+    scene_picture p[2];
+    for (int i = 0; i < 2; i++) {
+        mpm *each = i ? on : m;
+        assert_ok(mpm_advance(each, 3.2e-6, NULL));
+        assert_int_equal(at_level(each, 0), 0);
+        assert_true(at_level(each, 1) > 100);
+        p[i] = scene_picture_of(each);
+    }
+    scene_assert_same(p[0], p[1], "from an image");
+    const mpm_ledger l = mpm_balance(m);
+    assert_true(fabs(l.energy_error) < 1e-9 && fabs(l.momentum_error) < 1e-12);
+    for (int i = 0; i < 2; i++) free(p[i].data);
+    mpm_free(m), mpm_free(on);
+}
+
 /* Points at a surface outlive the cells that they came from; below it they are joined. */
 static void test_surface(void **state)
 {
@@ -415,7 +452,7 @@ int main(void)
         cmocka_unit_test(test_kinds),   cmocka_unit_test(test_mean),
         cmocka_unit_test(test_nesting), cmocka_unit_test(test_estimate),
         cmocka_unit_test(test_linear),  cmocka_unit_test(test_bits),
-        cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_finest),  cmocka_unit_test(test_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

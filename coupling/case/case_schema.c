@@ -136,6 +136,9 @@ static const base_param scene_params[] = {
     PARAM_DOUBLE(case_scene, growth, "1", 1.2, 1.0, 2.0,
                  "ratio of neighbouring cells outside the fine zone, one level"),
     PARAM_BOOL(case_scene, follow, 1, "the groove is followed: its growth past the grain is gauged"),
+    PARAM_BOOL(
+        case_scene, cells_grow, 0,
+        "the finest cells double each time a groove that is followed has become twice as wide as at its first gauge"),
     PARAM_DOUBLE(case_scene, rail_ahead, "m", 2e-2, 1e-4, 10.0, "rail modelled downstream of the grain's middle"),
     PARAM_DOUBLE(case_scene, rail_behind, "m", 1e-2, 1e-4, 10.0, "rail modelled upstream of it"),
     PARAM_DOUBLE(case_scene, rail_depth, "m", 1e-2, 1e-4, 1.0, "thickness of the rail modelled"),

@@ -175,6 +175,7 @@ typedef struct {
     double refine_tolerance;        /* share of the velocity that plastic flow may change across a cell [1] */
     double growth;                  /* ratio of neighbouring cells outside the fine zone [1] */
     bool follow;                    /* the groove's growth past the grain is gauged */
+    bool cells_grow;                /* with a groove that is followed, past its second gauge */
     double rail_ahead, rail_behind; /* ends of the rail modelled, from the grain's middle [m] */
     double rail_depth;              /* [m] */
     double rail_width;              /* full; NAN: the projectile's [m] */

@@ -37,6 +37,15 @@ void gouge_gauges_note(const gouge_scene *s, const gouge_front *now, gouge_gauge
         if (s->gauge_time[i] > 0.0 && !(g->at[i] > 0.0) && now->time >= s->gauge_time[i])
             g->at[i] = now->time, g->power[i] = now->power;
     if (g->at[0] > 0.0 && before_second) note_place(now, g);
+    if (g->at[1] > 0.0) g->most = fmax(g->most, now->power);
+}
+
+int gouge_finest_level(const gouge_scene *s, const gouge_gauges *g)
+{
+    int level = 0;
+    if (!s->cells_grow || !(g->power[0] > 0.0)) return 0;
+    for (double wide = 4.0 * g->power[0]; level < s->scene.levels - 1 && g->most >= wide; wide *= 4.0) level++;
+    return level;
 }
 
 double gouge_growth(const gouge_gauges *g, const gouge_front *now)

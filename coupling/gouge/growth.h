@@ -17,6 +17,7 @@ typedef struct {
     /* Sums over the looks between the gauges, both ends included; t from at[0], x from `from`. */
     double looks, from, last; /* number of them, front at the first [m], time of the last [s] */
     double t, x, tt, tx;      /* [s, m, s2, m s] */
+    double most;              /* largest power since the second gauge, 0 before [W] */
 } gouge_gauges;
 
 /* The two times for a grain of that radius under an armature of that speed [s]. */
@@ -31,6 +32,11 @@ void gouge_gauges_note(const gouge_scene *s, const gouge_front *now, gouge_gauge
 double gouge_growth(const gouge_gauges *g, const gouge_front *now);
 /* Of the front, over the same way; NAN before its second look [m/s]. */
 double gouge_front_speed(const gouge_gauges *g);
+
+/* Level of the smallest cells that the groove still needs, after its second gauge: one level is given up each time it
+ * has become twice as wide as it was at the first, so that as many cells as then lie across it.  Power goes with the
+ * section that is ploughed: four times as much then.  Never less than before. */
+int gouge_finest_level(const gouge_scene *s, const gouge_gauges *g);
 
 /* A growth [1/s] as e-folds over the way between the two gauges [1]; one that died before the first has the growth NAN
  * and counts as -3, and none as less. */

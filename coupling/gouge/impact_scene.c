@@ -427,6 +427,7 @@ static void set_rules(const case_impact *c, gouge_scene *g)
     g->friction = c->scene.friction;
     g->gauged = case_impact_is_gauged(c);
     g->stop_when_settled = c->scene.stop_when_settled;
+    g->cells_grow = c->scene.cells_grow;
     g->limit_length_over_width = c->scene.limit_length_over_width;
     g->growth_scatter = c->scene.growth_scatter;
 }

@@ -38,6 +38,7 @@ typedef struct {
     double gauge_time[2]; /* when the growth of the groove is gauged; 0: never, it is not followed [s] */
     bool gauged;          /* over, and judged, once that growth is known */
     bool stop_when_settled;
+    bool cells_grow;                /* with the groove, past its second gauge (growth.h) */
     double limit_length_over_width; /* of a gouge at its second gauge [1] */
     double growth_scatter;          /* e-folds between the gauges within which growth decides nothing [1] */
     crater_spec crater;

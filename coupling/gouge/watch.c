@@ -25,6 +25,12 @@ static status due(void *user, const mpm *m, const mpm_report *now, bool *ends)
     return status_ok();
 }
 
+static int finest(void *user)
+{
+    const gouge_watch *w = user;
+    return gouge_finest_level(w->scene, &w->state.gauges);
+}
+
 /* A groove that is followed: dead, or the armature's contact face has gone over its front. */
 static bool groove_over(const gouge_scene *s, const gouge_front *f, double time)
 {
@@ -127,6 +133,7 @@ scene_watch gouge_watch_of(gouge_watch *w)
     return (scene_watch){ .due = due,
                           .piece = piece,
                           .finish = finish,
+                          .finest = finest,
                           .user = w,
                           .state = &w->state,
                           .state_bytes = sizeof w->state,

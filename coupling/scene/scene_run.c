@@ -71,6 +71,7 @@ static status ends_piece(const run *r, const mpm_report *now, bool *ends)
     const scene_watch *w = r->job->watch;
     *ends = false;
     if (w && w->due) TRY(w->due(w->user, r->m, now, ends));
+    if (w && w->finest) mpm_set_finest(r->m, w->finest(w->user));
     *ends = *ends || now->time >= r->piece_end;
     return status_ok();
 }

@@ -21,6 +21,8 @@ typedef struct {
     status (*due)(void *user, const mpm *m, const mpm_report *now, bool *ends);
     /* At the start, and at the end of every piece.  *over: the scene ends here; false when called. */
     status (*piece)(void *user, const mpm *m, bool *over);
+    /* After `due`: the finest level that rules of refinement may ask for from here on (mpm_set_finest). */
+    int (*finest)(void *user);
     /* Once the scene is over.  *keep: worth going on from (scene_job.whole); false when called. */
     status (*finish)(void *user, const mpm *m, bool *keep);
     void *user;         /* borrowed */

@@ -236,6 +236,7 @@ struct mpm {
     double time, dt, dt_last; /* steps of the coarsest level; dt_last: the last that began, 0 before the first [s] */
     int begins, ends; /* levels 0 .. begins begin a step with the finest level's that is under way, 0 .. ends end one */
     uint64_t steps;
+    int finest;                /* level that rules of refinement may ask for */
     double dense, dense_steps; /* points, and point-steps so far, of the finest cells everywhere */
     double *histogram;         /* of percentiles (read.c) */
     body_tops *tops;           /* [1 + SHARES][scene.bodies] of percentiles */

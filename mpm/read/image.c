@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char MAGIC[8] = "BREECHA";
+static const char MAGIC[8] = "BREECHB";
 
 typedef struct {
     char magic[8];
@@ -19,7 +19,7 @@ typedef struct {
     uint64_t scene, bytes;
     double time, dt, dt_last, dense_steps;
     uint64_t steps;
-    int bricks, blocks, pages;
+    int bricks, blocks, pages, finest;
 } image_head;
 
 typedef struct {
@@ -80,7 +80,7 @@ status mpm_save(const mpm *m, void **image, size_t *bytes)
     head.scene = m->scene_key, head.bytes = *bytes;
     head.time = m->time, head.dt = m->dt, head.dt_last = m->dt_last, head.dense_steps = m->dense_steps,
     head.steps = m->steps;
-    head.bricks = m->bricks_used, head.blocks = blocks, head.pages = m->grids.pages;
+    head.bricks = m->bricks_used, head.blocks = blocks, head.pages = m->grids.pages, head.finest = m->finest;
     to = put(to, &head, sizeof head);
     to = put(to, &m->ledger, sizeof m->ledger);
     to = put(to, &m->report, sizeof m->report);
@@ -176,6 +176,8 @@ static status check_head(const mpm *m, const image_head *h, size_t bytes)
     CHECK(h->scene == m->scene_key, STATUS_IO, "the checkpoint belongs to another scene");
     CHECK(h->bytes == bytes, STATUS_IO, "the checkpoint has %zu bytes, it says %llu: cut short", bytes,
           (unsigned long long)h->bytes);
+    CHECK(h->finest >= 0 && h->finest < m->grids.levels, STATUS_IO,
+          "the checkpoint asks for a level that the scene lacks");
     return status_ok();
 }
 
@@ -193,7 +195,7 @@ status mpm_restore(mpm *m, const void *image, size_t bytes)
     TRY(get_pages(m, &head, &r));
     for (int i = 0; i < head.bricks; i++) TRY(get_brick(m, &r));
     m->time = head.time, m->dt = head.dt, m->dt_last = head.dt_last, m->dense_steps = head.dense_steps,
-    m->steps = head.steps;
+    m->steps = head.steps, m->finest = head.finest;
     if ((size_t)(r.end - r.at) < mpm_cavities_bytes(m)) return cut_short();
     mpm_cavities_get(m, r.at);
     TRY(mpm_store_relink(m));
