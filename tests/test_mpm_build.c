@@ -246,6 +246,49 @@ static void test_estimate_of_many(void **state)
     assert_true(seconds < 15);
 }
 
+/* A block under a ball of six of the finest cells, in the smallest of zones, the coarsest cells 64 times as wide:
+ * wherever that is, no point is larger than its cell bears, and the ball has no more than four times the eight a cell
+ * that it needs. */
+static void test_many_levels(void **state)
+{
+    (void)state;
+    const mpm_material copper = scene_copper();
+    const double h = 0.02e-3;
+    for (int shift = 0; shift < 3; shift++) {
+        SCENE_LOCAL(s);
+        mpm_scene_default(&s);
+        const double x = (3.2 + 0.17 * shift) * 1e-3, r = 3 * h;
+        const double middle[3] = { x, 3.2e-3 + r, x };
+        s.levels = 7;
+        for (int k = 0; k < 3; k++) {
+            s.axis[k] = scene_axis(0, 320 * h, h, MPM_BOUNDARY_FREE, MPM_BOUNDARY_FREE);
+            s.axis[k].fine_lo = middle[k] - 2 * r, s.axis[k].fine_hi = middle[k] + 2 * r;
+        }
+        scene_box(&s, 0.64e-3, 0.64e-3, 0.64e-3, 5.76e-3, 3.2e-3, 5.76e-3, &copper);
+        scene_body(&s, "sphere", (const double[4]){ middle[0], middle[1], middle[2], r }, 4, &copper);
+        mpm *m = scene_make(&s, 1);
+        int of_ball = 0;
+        for (int i = 0; i < m->bricks_used; i++)
+            for (int c = 0; c < BRICK_CELLS; c++)
+                for (int q = m->bricks[i].head[c]; q >= 0; q = m->links[q].next)
+                    for (int l = 0; l < LANES; l++) {
+                        const brick *b = &m->bricks[i];
+                        const int in[3] = { c % BRICK, c / BRICK % BRICK, c / (BRICK * BRICK) };
+                        if (!(m->blocks[q].mass[0][l] > 0)) continue;
+                        of_ball += m->links[q].body == 1;
+                        for (int k = 0; k < 3; k++)
+                            assert_true(2 * m->blocks[q].half[k][l] <=
+                                        (1 + 1e-9) *
+                                            m->grids.level[b->level].axes[k].longest[BRICK * b->at[k] + in[k]]);
+                    }
+        const double cells = 4.0 / 3 * M_PI * r * r * r / (h * h * h);
+        print_message("%zu points, %d of the ball of %.0f cells\n", mpm_points(m), of_ball, cells);
+        assert_true(of_ball > 8 * cells && of_ball < 4 * 8 * cells);
+        assert_near(sum_of(m, 1).mass / (copper.density * cells * h * h * h), 1, 0.01);
+        mpm_free(m);
+    }
+}
+
 /* The stress that is read is xx yy zz xy yz xz, as said; a block's has xz before yz, as the work of a shear shows. */
 static void test_stress_order(void **state)
 {
@@ -299,10 +342,11 @@ static void test_read_all(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_read_all), cmocka_unit_test(test_stress_order),
-                                        cmocka_unit_test(test_mass),     cmocka_unit_test(test_neighbours),
-                                        cmocka_unit_test(test_box),      cmocka_unit_test(test_overlap),
-                                        cmocka_unit_test(test_lattice),  cmocka_unit_test(test_seams),
-                                        cmocka_unit_test(test_sample),   cmocka_unit_test(test_estimate_of_many) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_read_all),   cmocka_unit_test(test_stress_order),
+                                        cmocka_unit_test(test_mass),       cmocka_unit_test(test_neighbours),
+                                        cmocka_unit_test(test_box),        cmocka_unit_test(test_overlap),
+                                        cmocka_unit_test(test_lattice),    cmocka_unit_test(test_seams),
+                                        cmocka_unit_test(test_sample),     cmocka_unit_test(test_estimate_of_many),
+                                        cmocka_unit_test(test_many_levels) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

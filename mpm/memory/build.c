@@ -162,10 +162,70 @@ static build_point point_of(const building *w, const piece *box, const piece *ow
     return p;
 }
 
-/* A box of the window's lattice is halved along each axis once for every level that it lies in: parts along each. */
-static int parts_of(const building *w, const piece *window)
+/* A box as wide as the points of a level's cells are apart. */
+typedef struct {
+    piece box;
+    int level;
+} cube;
+
+/* The window's lattice has the coarsest level's boxes.  Of a body that is smaller than one, the box is narrower and
+ * passes for a finer level's. */
+static cube cube_of(const building *w, const piece *window)
 {
-    return 1 << (w->g->levels - 1 - mpm_grids_level(w->g, window->x));
+    cube c = { .box = *window, .level = w->g->levels - 1 };
+    double widest = 0; /* of its axes, over what it would be there */
+    for (int q = 0; q < 3; q++) {
+        const double full = mpm_axis_spacing(&grids_window(w->g)->axes[q], window->x[q]) / w->s->particles_per_axis;
+        widest = fmax(widest, window->size[q] / full);
+    }
+    while (c.level > 0 && 2 * widest <= 1 + ROUNDING) widest *= 2, c.level--;
+    return c;
+}
+
+/* Is it larger than a granule of the finest level, and does a finer level than its own reach into it?  As it is no
+ * larger than a granule of the next finer one, its corners lie in all of those that it meets. */
+static bool is_halved(const building *w, const cube *c)
+{
+    if (1 << c->level <= GRANULE * w->s->particles_per_axis) return false;
+    for (int i = 0; i < 8; i++) {
+        double x[3];
+        for (int q = 0; q < 3; q++) x[q] = c->box.x[q] + (i >> q & 1 ? 0.5 : -0.5) * (1 - 1e-6) * c->box.size[q];
+        if (mpm_grids_level(w->g, x) < c->level) return true;
+    }
+    return false;
+}
+
+/* A box that is not halved any more is cut along each axis once for every level that its middle is finer: parts along
+ * each, one a point. */
+static int parts_of(const building *w, const cube *c)
+{
+    const int finer = c->level - mpm_grids_level(w->g, c->box.x);
+    return finer > 0 ? 1 << finer : 1;
+}
+
+/* Part number k of a box that is cut into n along each axis. */
+static piece part_of(const piece *whole, int n, int k)
+{
+    const int at[3] = { k % n, k / n % n, k / (n * n) };
+    piece p = *whole;
+    for (int q = 0; q < 3; q++) {
+        p.size[q] /= n;
+        p.x[q] += p.size[q] * (at[q] - 0.5 * (n - 1));
+    }
+    return p;
+}
+
+typedef status cube_function(const building *w, const cube *c, uint64_t number, void *user);
+
+/* The cubes of a box, each with a number of its own. */
+static status each_cube(const building *w, const cube *c, uint64_t number, cube_function *call, void *user)
+{
+    if (!is_halved(w, c)) return call(w, c, number, user);
+    for (int k = 0; k < 8; k++) {
+        const cube half = { .box = part_of(&c->box, 2, k), .level = c->level - 1 };
+        TRY(each_cube(w, &half, (number << 3) + (uint64_t)k + 1, call, user));
+    }
+    return status_ok();
 }
 
 /* Evenly distributed from 0 up to 1, the same for the same number. */
@@ -185,22 +245,15 @@ static uint64_t sampled(uint64_t k, uint64_t n, uint64_t all, uint64_t seed)
     return number < all ? number : all - 1;
 }
 
-typedef status box_function(const building *w, const piece *window, uint64_t number, void *user);
-
-static status one_box(const building *w, const piece *window, uint64_t number, void *user)
+static status one_cube(const building *w, const cube *c, uint64_t number, void *user)
 {
     static const double SLIVER = 0.02; /* of a box: left out (docs/theory/scene-solver.md, Points of a body) */
-    const int n = parts_of(w, window);
+    const int n = parts_of(w, c);
     (void)user;
     const uint64_t all = (uint64_t)n * (uint64_t)n * (uint64_t)n;
     const uint64_t looked_at = w->parts == 1 ? all : (uint64_t)(w->parts * (double)all + chance(number));
     for (uint64_t k = 0; k < looked_at; k++) {
-        const int i = (int)sampled(k, looked_at, all, number << 20), at[3] = { i % n, i / n % n, i / (n * n) };
-        piece box = *window;
-        for (int q = 0; q < 3; q++) {
-            box.size[q] /= n;
-            box.x[q] += box.size[q] * (at[q] - 0.5 * (n - 1));
-        }
+        const piece box = part_of(&c->box, n, (int)sampled(k, looked_at, all, number << 20));
         piece own = box;
         cut(w->s, w->body, &own);
         if (own.share < SLIVER) continue;
@@ -210,26 +263,27 @@ static status one_box(const building *w, const piece *window, uint64_t number, v
     return status_ok();
 }
 
-static status walk(const building *w, const ladder l[3], box_function *call, void *user)
+static status walk(const building *w, const ladder l[3], cube_function *call, void *user)
 {
     const uint64_t nx = (uint64_t)l[0].n, ny = (uint64_t)l[1].n, all = nx * ny * (uint64_t)l[2].n;
     const uint64_t looked_at = w->windows == 1 ? all : (uint64_t)(w->windows * (double)all);
     for (uint64_t k = 0; k < looked_at; k++) {
         const uint64_t number = sampled(k, looked_at, all, 0);
         const int at[3] = { (int)(number % nx), (int)(number / nx % ny), (int)(number / (nx * ny)) };
-        piece box;
+        piece box = { .share = 1 };
         for (int q = 0; q < 3; q++) {
             box.size[q] = l[q].edge[at[q] + 1] - l[q].edge[at[q]];
             box.x[q] = l[q].edge[at[q]] + 0.5 * box.size[q];
         }
-        TRY(call(w, &box, number, user));
+        const cube c = cube_of(w, &box);
+        TRY(each_cube(w, &c, number, call, user));
     }
     return status_ok();
 }
 
-static status add_parts(const building *w, const piece *window, uint64_t number, void *user)
+static status add_parts(const building *w, const cube *c, uint64_t number, void *user)
 {
-    const double n = parts_of(w, window);
+    const double n = parts_of(w, c);
     (void)number;
     *(double *)user += n * n * n;
     return status_ok();
@@ -268,7 +322,7 @@ static status build_between(building *w, const build_range *range, double most)
             r = ladder_make(&axes[q], lo[q], hi[q], w->s->particles_per_axis, &l[q]);
     }
     if (r.code == STATUS_OK) r = set_shares(w, l, most);
-    if (r.code == STATUS_OK) r = walk(w, l, one_box, NULL);
+    if (r.code == STATUS_OK) r = walk(w, l, one_cube, NULL);
     for (int q = 0; q < 3; q++) free(l[q].edge);
     return r;
 }
