@@ -41,8 +41,8 @@ def answer(runs, title, settings):
 
 
 def speed(summary, what):
-    """A velocity with its interval [m/s]; which ends are open."""
-    value, ends = summary["%s_velocity" % what], summary["%s_interval" % what]
+    """A velocity with its interval [m/s], "none" where an end, or both, is not known."""
+    value, ends = summary["%s_velocity" % what], summary["%s_interval" % what] or (None, None)
     shown = ["none" if v is None else "%.0f" % v for v in (value, *ends)]
     return "%s (%s .. %s)" % tuple(shown)
 

@@ -19,6 +19,7 @@ import sys
 import pages
 import part_closed
 import part_criterion
+import part_droplet
 import part_fatigue
 import part_gel
 import part_growth
@@ -45,6 +46,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "levels": ("docs/validation/levels.md", part_levels.default_shot, 8, True),
     "levels-paper": ("docs/validation/levels.md", part_levels.paper, 12, False),
     "cells": ("docs/validation/growth.md", part_growth.cells, 40, False),
+    "droplet": ("docs/validation/initiators.md", part_droplet.droplet, 12, False),
     "criterion-steel": ("docs/validation/criterion.md", part_criterion.steel, 13, False),
     "criterion-paper": ("docs/validation/criterion.md", part_criterion.paper, 15, False),
     "struts": ("docs/validation/lattice.md", part_struts.struts, 4, False),
