@@ -13,7 +13,7 @@ MEASURES = {  # key of the summary: title of the column, unit, digits, what a fr
 RESOLUTIONS = {  # cells a radius: velocities [m/s], grids of each
     3: ((1000, 1300, 1600, 1900), 3),
     6: ((1000, 1300, 1600, 1900), 3),
-    8: ((1600, 1900), 3),
+    8: ((1600,), 3),
 }
 
 
