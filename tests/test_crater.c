@@ -400,6 +400,31 @@ static void test_mirrored(void **state)
     gouge_crater_free(&half);
 }
 
+/* A rail of ten layers 0.12 mm high without the points that are left out, all coarser than the map's cells of 0.1 mm or
+ * fine across. */
+static rail slab(bool coarse, bool (*left_out)(double x, int layer, double z))
+{
+    const double half[3] = { 0.2, 0.06, coarse ? 0.2 : 0.04 };
+    rail r = { 0 };
+    for (double x = -1.0 + half[0]; x < 7.0; x += 2.0 * half[0])
+        for (double z = -2.0 + half[2]; z < 2.0; z += 2.0 * half[2])
+            for (int k = 0; k < 10; k++)
+                if (!left_out(x, k, z)) add(&r, (const double[3]){ x, -1.14 + 0.12 * k, z }, half);
+    return r;
+}
+
+static bool two_layers_out(double x, int layer, double z)
+{
+    return fabs(x - 3.0) < 0.3 && z > 1.5 && (layer == 5 || layer == 6);
+}
+
+/* And a groove three layers deep at the end. */
+static bool column_out(double x, int layer, double z)
+{
+    const bool slit = fabs(x - 2.8) < 0.1 && fabs(z - 0.2) < 0.19, groove = x < 0.1;
+    return (slit && layer >= 3 && layer <= 7) || (groove && layer >= 7);
+}
+
 /* Merged points far from the groove leave a slit under the surface that is higher than they are, not than they are
  * wide: the rail is whole there.  The same slit under points that are fine in one direction, as those of a groove may
  * be stretched, is the end of the rail. */
@@ -408,14 +433,7 @@ static void test_slit_of_merged(void **state)
     (void)state;
     const crater_spec spec = spec_of(0.1);
     for (int coarse = 0; coarse < 2; coarse++) {
-        const double half[3] = { 0.2, 0.06, coarse ? 0.2 : 0.04 };
-        rail r = { 0 };
-        for (double x = -1.0 + half[0]; x < 7.0; x += 2.0 * half[0])
-            for (double z = -2.0 + half[2]; z < 2.0; z += 2.0 * half[2]) {
-                const bool slit = fabs(x - 3.0) < 0.3 && z > 1.5;
-                for (int k = 0; k < 10; k++)
-                    if (!slit || k < 5 || k > 6) add(&r, (const double[3]){ x, -1.14 + 0.12 * k, z }, half);
-            }
+        rail r = slab(coarse, two_layers_out);
         crater c = measured(&r, &spec);
         if (coarse)
             assert_untouched(&c);
@@ -434,14 +452,7 @@ static void test_column_of_merged(void **state)
     (void)state;
     const crater_spec spec = spec_of(0.1);
     for (int coarse = 0; coarse < 2; coarse++) {
-        const double half[3] = { 0.2, 0.06, coarse ? 0.2 : 0.04 };
-        rail r = { 0 };
-        for (double x = -1.0 + half[0]; x < 7.0; x += 2.0 * half[0])
-            for (double z = -2.0 + half[2]; z < 2.0; z += 2.0 * half[2]) {
-                const bool slit = fabs(x - 2.8) < 0.1 && fabs(z - 0.2) < 0.19, groove = x < 0.1;
-                for (int k = 0; k < (groove ? 7 : 10); k++)
-                    if (!slit || k < 3 || k > 7) add(&r, (const double[3]){ x, -1.14 + 0.12 * k, z }, half);
-            }
+        rail r = slab(coarse, column_out);
         crater c = measured(&r, &spec);
         for (int i = 0; i < c.nx; i++) {
             const double x = (c.x0 + i * c.dx) / MM;

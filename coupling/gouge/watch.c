@@ -131,9 +131,9 @@ void gouge_watch_print_columns(FILE *out)
 scene_watch gouge_watch_of(gouge_watch *w)
 {
     return (scene_watch){ .due = due,
+                          .finest = finest,
                           .piece = piece,
                           .finish = finish,
-                          .finest = finest,
                           .user = w,
                           .state = &w->state,
                           .state_bytes = sizeof w->state,

@@ -71,7 +71,6 @@ static status ends_piece(const run *r, const mpm_report *now, bool *ends)
     const scene_watch *w = r->job->watch;
     *ends = false;
     if (w && w->due) TRY(w->due(w->user, r->m, now, ends));
-    if (w && w->finest) mpm_set_finest(r->m, w->finest(w->user));
     *ends = *ends || now->time >= r->piece_end;
     return status_ok();
 }
@@ -90,6 +89,7 @@ static bool on_step(void *user, const mpm *m)
         host_progress_update(r->host->progress, progress_of(r, &state), state.particle_steps);
     }
     r->error = ends_piece(r, &state, &ends);
+    if (r->job->watch && r->job->watch->finest) mpm_set_finest(r->m, r->job->watch->finest(r->job->watch->user));
     if (r->error.code != STATUS_OK || ends) return false;
     if (now >= r->save_at) r->error = save(r);
     return r->error.code == STATUS_OK && !(r->host->stop && r->host->stop(r->host->user));

@@ -19,10 +19,10 @@ typedef struct {
     /* After every step, and again at the end of a piece, so it must give the same answer twice; cheap.  *ends: the
      * piece ends here; false when called. */
     status (*due)(void *user, const mpm *m, const mpm_report *now, bool *ends);
+    /* After every step, once it has been seen: the finest level that is still needed (mpm_set_finest). */
+    int (*finest)(void *user);
     /* At the start, and at the end of every piece.  *over: the scene ends here; false when called. */
     status (*piece)(void *user, const mpm *m, bool *over);
-    /* After `due`: the finest level that rules of refinement may ask for from here on (mpm_set_finest). */
-    int (*finest)(void *user);
     /* Once the scene is over.  *keep: worth going on from (scene_job.whole); false when called. */
     status (*finish)(void *user, const mpm *m, bool *keep);
     void *user;         /* borrowed */

@@ -166,13 +166,13 @@ static build_point point_of(const building *w, const piece *box, const piece *ow
 typedef struct {
     piece box;
     int level;
-} cube;
+} level_box;
 
 /* The window's lattice has the coarsest level's boxes.  Of a body that is smaller than one, the box is narrower and
  * passes for a finer level's. */
-static cube cube_of(const building *w, const piece *window)
+static level_box level_box_of(const building *w, const piece *window)
 {
-    cube c = { .box = *window, .level = w->g->levels - 1 };
+    level_box c = { .box = *window, .level = w->g->levels - 1 };
     double widest = 0; /* of its axes, over what it would be there */
     for (int q = 0; q < 3; q++) {
         const double full = mpm_axis_spacing(&grids_window(w->g)->axes[q], window->x[q]) / w->s->particles_per_axis;
@@ -184,7 +184,7 @@ static cube cube_of(const building *w, const piece *window)
 
 /* Is it larger than a granule of the finest level, and does a finer level than its own reach into it?  As it is no
  * larger than a granule of the next finer one, its corners lie in all of those that it meets. */
-static bool is_halved(const building *w, const cube *c)
+static bool is_halved(const building *w, const level_box *c)
 {
     if (1 << c->level <= GRANULE * w->s->particles_per_axis) return false;
     for (int i = 0; i < 8; i++) {
@@ -197,7 +197,7 @@ static bool is_halved(const building *w, const cube *c)
 
 /* A box that is not halved any more is cut along each axis once for every level that its middle is finer: parts along
  * each, one a point. */
-static int parts_of(const building *w, const cube *c)
+static int parts_of(const building *w, const level_box *c)
 {
     const int finer = c->level - mpm_grids_level(w->g, c->box.x);
     return finer > 0 ? 1 << finer : 1;
@@ -215,15 +215,15 @@ static piece part_of(const piece *whole, int n, int k)
     return p;
 }
 
-typedef status cube_function(const building *w, const cube *c, uint64_t number, void *user);
+typedef status level_box_function(const building *w, const level_box *c, uint64_t number, void *user);
 
-/* The cubes of a box, each with a number of its own. */
-static status each_cube(const building *w, const cube *c, uint64_t number, cube_function *call, void *user)
+/* The boxes that one comes to, each with a number of its own. */
+static status each_box(const building *w, const level_box *c, uint64_t number, level_box_function *call, void *user)
 {
     if (!is_halved(w, c)) return call(w, c, number, user);
     for (int k = 0; k < 8; k++) {
-        const cube half = { .box = part_of(&c->box, 2, k), .level = c->level - 1 };
-        TRY(each_cube(w, &half, (number << 3) + (uint64_t)k + 1, call, user));
+        const level_box half = { .box = part_of(&c->box, 2, k), .level = c->level - 1 };
+        TRY(each_box(w, &half, (number << 3) + (uint64_t)k + 1, call, user));
     }
     return status_ok();
 }
@@ -245,7 +245,7 @@ static uint64_t sampled(uint64_t k, uint64_t n, uint64_t all, uint64_t seed)
     return number < all ? number : all - 1;
 }
 
-static status one_cube(const building *w, const cube *c, uint64_t number, void *user)
+static status one_box(const building *w, const level_box *c, uint64_t number, void *user)
 {
     static const double SLIVER = 0.02; /* of a box: left out (docs/theory/scene-solver.md, Points of a body) */
     const int n = parts_of(w, c);
@@ -263,7 +263,7 @@ static status one_cube(const building *w, const cube *c, uint64_t number, void *
     return status_ok();
 }
 
-static status walk(const building *w, const ladder l[3], cube_function *call, void *user)
+static status walk(const building *w, const ladder l[3], level_box_function *call, void *user)
 {
     const uint64_t nx = (uint64_t)l[0].n, ny = (uint64_t)l[1].n, all = nx * ny * (uint64_t)l[2].n;
     const uint64_t looked_at = w->windows == 1 ? all : (uint64_t)(w->windows * (double)all);
@@ -275,13 +275,13 @@ static status walk(const building *w, const ladder l[3], cube_function *call, vo
             box.size[q] = l[q].edge[at[q] + 1] - l[q].edge[at[q]];
             box.x[q] = l[q].edge[at[q]] + 0.5 * box.size[q];
         }
-        const cube c = cube_of(w, &box);
-        TRY(each_cube(w, &c, number, call, user));
+        const level_box c = level_box_of(w, &box);
+        TRY(each_box(w, &c, number, call, user));
     }
     return status_ok();
 }
 
-static status add_parts(const building *w, const cube *c, uint64_t number, void *user)
+static status add_parts(const building *w, const level_box *c, uint64_t number, void *user)
 {
     const double n = parts_of(w, c);
     (void)number;
@@ -322,7 +322,7 @@ static status build_between(building *w, const build_range *range, double most)
             r = ladder_make(&axes[q], lo[q], hi[q], w->s->particles_per_axis, &l[q]);
     }
     if (r.code == STATUS_OK) r = set_shares(w, l, most);
-    if (r.code == STATUS_OK) r = walk(w, l, one_cube, NULL);
+    if (r.code == STATUS_OK) r = walk(w, l, one_box, NULL);
     for (int q = 0; q < 3; q++) free(l[q].edge);
     return r;
 }
