@@ -79,10 +79,14 @@ static status piece(void *user, const mpm *m, bool *over)
 
 /* ---- what it has come to ---- */
 
-static status measure_crater(const gouge_scene *s, const mpm *m, crater *out)
+/* The map widens with the groove, as the scene's cells do; its own cells and what they measure stay. */
+static status measure_crater(const gouge_watch *w, const mpm *m, crater *out)
 {
     gouge_points p;
+    const gouge_scene *s = w->scene;
+    const double wider = 1 << gouge_finest_level(s, &w->state.gauges);
     crater_spec spec = s->crater;
+    spec.z_hi = fmin(s->beside, wider * spec.z_hi);
     TRY(gouge_points_of_rail(s, m, &p));
     const crater_points rail = { .n = p.n, .position = p.position, .size = p.size, .damage = p.damage };
     const status done = gouge_crater_measure(&rail, &spec, out);
@@ -96,7 +100,7 @@ static status finish(void *user, const mpm *m, bool *keep)
     gouge_watch *w = user;
     const double since = host_wall_clock();
     TRY(gouge_armature_metal(w->scene, m, &w->end));
-    TRY(measure_crater(w->scene, m, &w->found));
+    TRY(measure_crater(w, m, &w->found));
     TRY(gouge_carried_volumes(w->scene, m, w->carried));
     mpm_failed_volumes(m, w->failed);
     w->rail = mpm_body_state(m, w->scene->rail);
