@@ -41,13 +41,13 @@ static bool over_map(const crater_spec *s, const double x[3], const double half[
     return x[0] + half[0] >= s->x_lo && x[0] - half[0] <= s->x_hi && fabs(x[2]) - half[2] <= s->z_hi;
 }
 
-status gouge_points_of_rail(const gouge_scene *s, const mpm *m, gouge_points *p)
+status gouge_points_of_rail(const gouge_scene *s, const crater_spec *map, const mpm *m, gouge_points *p)
 {
     size_t kept = 0;
     TRY(points_read(m, p));
     for (size_t i = 0; i < p->n; i++) {
         double *x = p->position + 3 * i, *half = p->size + 3 * i;
-        if (!gouge_counts_as_rail(s, (int)p->body[i]) || !over_map(&s->crater, x, half)) continue;
+        if (!gouge_counts_as_rail(s, (int)p->body[i]) || !over_map(map, x, half)) continue;
         memmove(p->position + 3 * kept, x, 3 * sizeof *x);
         memmove(p->velocity + 3 * kept, p->velocity + 3 * i, 3 * sizeof *x);
         memmove(p->size + 3 * kept, half, 3 * sizeof *x);

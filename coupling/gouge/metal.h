@@ -12,8 +12,8 @@ typedef struct {
     double *damage, *mass, *body;       /* n [1, kg, index] */
 } gouge_points;
 
-/* Those of rail and layers over the crater's map, in their order. */
-status gouge_points_of_rail(const gouge_scene *s, const mpm *m, gouge_points *p);
+/* Those of rail and layers over a crater's map, in their order. */
+status gouge_points_of_rail(const gouge_scene *s, const crater_spec *map, const mpm *m, gouge_points *p);
 void gouge_points_free(gouge_points *p);
 
 /* The armature's sound metal that is not slower than half its first speed; as computed: half a model is half. */

@@ -41,7 +41,7 @@ static bool groove_over(const gouge_scene *s, const gouge_front *f, double time)
 static status distance_left(const gouge_scene *s, const mpm *m, double *distance)
 {
     gouge_points p;
-    TRY(gouge_points_of_rail(s, m, &p));
+    TRY(gouge_points_of_rail(s, &s->crater, m, &p));
     double fastest2 = 0.0;
     for (size_t i = 0; i < p.n; i++) {
         const double *v = p.velocity + 3 * i;
@@ -87,7 +87,7 @@ static status measure_crater(const gouge_watch *w, const mpm *m, crater *out)
     const double wider = 1 << gouge_finest_level(s, &w->state.gauges);
     crater_spec spec = s->crater;
     spec.z_hi = fmin(s->beside, wider * spec.z_hi);
-    TRY(gouge_points_of_rail(s, m, &p));
+    TRY(gouge_points_of_rail(s, &spec, m, &p));
     const crater_points rail = { .n = p.n, .position = p.position, .size = p.size, .damage = p.damage };
     const status done = gouge_crater_measure(&rail, &spec, out);
     gouge_points_free(&p);

@@ -16,6 +16,16 @@ DEFAULT_SHOT_WINDOW = {"scene__rail_ahead": "21 mm", "scene__rail_behind": "15 m
 PAPER_WINDOW = {"scene__rail_ahead": "21 mm", "scene__rail_behind": "15 mm", "scene__rail_depth": "15 mm"}
 
 
+GROWING = [  # whole craters with cells that grow with the groove: name, case, settings
+    ("cases/wu2017", "cases/wu2017", {}),
+    ("cases/wu2017/coarse.yaml", "cases/wu2017/coarse.yaml", {}),
+    ("default shot, 1200 m/s", "cases/default_shot",
+     {"scene__velocity": "1.2 km/s", "scene__contact_pressure": "60 MPa", "scene__cells_per_radius": 3}),
+    ("default shot, 1600 m/s", "cases/default_shot",
+     {"scene__velocity": "1.6 km/s", "scene__contact_pressure": "60 MPa", "scene__cells_per_radius": 3}),
+]
+
+
 def row(name, scene):
     return [name, scene.class_text(), scene["crater_volume"].text(2, 1e-9), scene["crater_length"].text(2, 1e-3),
             scene["crater_width"].text(2, 1e-3), scene["crater_depth"].text(3, 1e-3)]
@@ -40,3 +50,16 @@ def paper(runs):
         rows.append(row("1500 m/s, " + name, scene))
     return [Table(COLUMNS, rows)], ("cases/wu2017/coarse.yaml, two cells a radius; mean ± standard deviation over three "
                                     "shifted grids")
+
+
+def growing(runs):
+    """Does a whole crater hang on cells that grow with its groove, and what do they save?"""
+    columns = COLUMNS + [Column("processor time [s]", words=False)]
+    rows = []
+    for name, case, settings in GROWING:
+        for grow, text in (("no", "cells of one size"), ("yes", "cells that grow")):
+            folder = "growing_%s_%s" % (name.replace(" ", "_").replace("/", "_").replace(",", ""), grow)
+            scene = runs.scene(folder, case, 3, scene__cells_grow=grow, **settings)
+            rows.append(row("%s, %s" % (name, text), scene) + ["%.0f" % scene.run["processor"]])
+    return [Table(columns, rows)], ("`scene.cells_grow`; the default shot's scenes pressed on with 60 MPa, three cells a radius; mean ± standard "
+                                    "deviation over three shifted grids; times of all three")

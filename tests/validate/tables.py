@@ -45,6 +45,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "wu2017-shipped": ("docs/validation/wu2017.md", part_wu2017.shipped, 2, False),
     "levels": ("docs/validation/levels.md", part_levels.default_shot, 8, True),
     "levels-paper": ("docs/validation/levels.md", part_levels.paper, 12, False),
+    "cells-grow": ("docs/validation/levels.md", part_levels.growing, 25, False),
     "cells": ("docs/validation/growth.md", part_growth.cells, 40, False),
     "droplet": ("docs/validation/initiators.md", part_droplet.droplet, 12, False),
     "criterion-steel": ("docs/validation/criterion.md", part_criterion.steel, 13, False),
