@@ -114,10 +114,11 @@ typedef struct {
     mpm_contact contact; /* of two groups that no pair names, with the normal of the lower one */
     mpm_axis axis[3];
     /* Of the grid (grid/grid.h).  1: the axes' grid.  More: cells of `fine` where the fine zones of all axes meet,
-     * until `zone_until`, and where the rules ask for them; elsewhere cells twice, four times, ... as large.
+     * until `zone_until`, or larger ones if `zone_cell` says so, and where the rules ask for them; elsewhere cells twice, four times, ... as large.
      * 0: mpm_scene_levels_fill says how many. */
     int levels;
     double zone_until; /* NAN: 0 with rules, else for good [s] */
+    double zone_cell;  /* largest cell of that zone; NAN: `fine` [m] */
     /* The planes of the grid, of all levels, moved along each axis by a share of the finest cell; the window's ends and
      * the bodies stay where they are [1] */
     double grid_shift[3];
@@ -167,7 +168,7 @@ enum { MPM_BODY_KEYED = 8, MPM_AXIS_KEYED = 4, MPM_SCENE_KEYED = 1, MPM_SCENE_HA
 #define MPM_METHOD_PARAMS(type)                                                                                   \
     PARAM_INT(type, levels, 0, 0, MPM_MAX_LEVELS,                                                                 \
               "of the grid, each with cells twice as large; 0: as coarse_cell allows, without rules of `refine` 1"), \
-    PARAM_VEC3(type, grid_shift, "1", 0.0, 0.0, 1.0,                                                              \
+    PARAM_VEC3(type, grid_shift, "1", 0.0, 0.0, 1 << (MPM_MAX_LEVELS - 1),                                        \
                "of the grid's planes along x, y, z, in finest cells; the window's ends and the bodies stay"),     \
     PARAM_DOUBLE(type, courant, "1", 0.4, 0.01, 0.6,                                                              \
                  "Courant number of c + |v|; points at a surface are smeared over its square"),                  \

@@ -123,6 +123,8 @@ const base_param mpm_scene_params[] = {
     /* MPM_SCENE_HASHED */
     PARAM_DOUBLE(mpm_scene, zone_until, "s", OPTIONAL, 0.0, 1e6,
                  "until then cells are small in the zone of the window, with levels; not given: 0 with `refine`"),
+    PARAM_DOUBLE(mpm_scene, zone_cell, "m", OPTIONAL, 1e-9, 1e3,
+                 "cells that are small enough in that zone, with levels; not given: the finest"),
     PARAM_DOUBLE(mpm_scene, surroundings, "Pa", OPTIONAL, 0.0, 1e12,
                  "absolute pressure around the bodies, from which pressures count; not given: that at which each gas "
                  "is at rest"),

@@ -618,6 +618,55 @@ static void test_many_layers(void **state)
     case_free(m.c);
 }
 
+static int rules_of(const mpm_scene *s, int body, double cell)
+{
+    int n = 0;
+    for (int i = 0; i < s->refines; i++)
+        n += s->refine[i].body == body && fabs(s->refine[i].cell / cell - 1.0) < 1e-12 &&
+             strcmp(s->refine[i].kind->name, "plastic") == 0;
+    return n;
+}
+
+/* Two cells across a layer of 0.1 mm under cells of 0.25 mm at the grain take three levels more, for this layer alone;
+ * where the grain is and what is measured with its cells stay.  Of 2 um they would take too many levels: a film. */
+static void test_layer_cells(void **state)
+{
+    (void)state;
+    made plain = make((const char *const[]){ "title=2 layers", "scene.cells_per_radius=2", NULL });
+    made own = make((const char *const[]){ "title=2 layers", "scene.cells_per_radius=2", NULL });
+    const double fine = plain.gouge.cell, shift[3] = { 0.25, 0.5, 0.75 };
+    for (int i = 0; i < 2; i++) {
+        case_layer *layer = &own.c->rail.layers.item[i];
+        layer->bond_strength = NAN;
+        layer->thickness = i == 0 ? 0.4e-3 : 0.1e-3;
+    }
+    assert_true(fabs(gouge_cells_across(&own.c->scene, fine, 0.1e-3) - 0.1e-3 / fine) < 1e-12);
+    own.c->scene.cells_per_layer = 2.0;
+    memcpy(own.c->scene.grid_shift, shift, sizeof shift);
+    OK(make_again(&own, 2.0));
+    const mpm_scene *s = &own.gouge.scene;
+    assert_true(gouge_cells_across(&own.c->scene, fine, 0.1e-3) >= GOUGE_SOUND_LAYER);
+    assert_true(gouge_cells_across(&own.c->scene, fine, 0.4e-3) >= GOUGE_SOUND_LAYER);
+    assert_true(gouge_cells_across(&own.c->scene, fine, 2e-6) < 0.01);
+    assert_int_equal(gouge_layer_halvings(&own.c->scene, fine, 0.1e-3), 3);
+    assert_int_equal(gouge_layer_halvings(&own.c->scene, fine, 0.4e-3), 1);
+    assert_int_equal(gouge_layer_halvings(&own.c->scene, fine, 2e-6), 0);
+    assert_true(fabs(own.gouge.cell - fine) < ROUNDING && fabs(own.gouge.crater.cell - fine) < ROUNDING);
+    assert_true(fabs(8.0 * s->axis[1].fine / fine - 1.0) < 1e-12 && fabs(s->zone_cell / fine - 1.0) < 1e-12);
+    assert_int_equal(s->levels, plain.gouge.scene.levels + 3);
+    assert_int_equal(rules_of(s, -1, fine), 1);
+    assert_int_equal(rules_of(s, own.gouge.rail + 1, 0.5 * fine), 1);
+    assert_int_equal(rules_of(s, own.gouge.rail + 2, 0.125 * fine), 1);
+    for (int k = 0; k < 3; k++) {
+        const mpm_axis *a = &s->axis[k], *b = &plain.gouge.scene.axis[k];
+        assert_true(fabs(s->grid_shift[k] * a->fine - shift[k] * fine) < ROUNDING); /* as far as without */
+        assert_true(a->lo == b->lo && a->hi == b->hi && a->coarse == b->coarse);
+        assert_true(a->fine_lo == b->fine_lo && a->fine_hi == b->fine_hi);
+    }
+    unmake(&plain);
+    unmake(&own);
+}
+
 /* What the solver makes of it: masses of the bodies; nothing moves but the armature. */
 static void test_masses(void **state)
 {
@@ -873,6 +922,7 @@ int main(void)
         cmocka_unit_test(test_grain_measures),
         cmocka_unit_test(test_fields),
         cmocka_unit_test(test_many_layers),
+        cmocka_unit_test(test_layer_cells),
         cmocka_unit_test(test_masses),
         cmocka_unit_test(test_pit),
         cmocka_unit_test(test_refused),

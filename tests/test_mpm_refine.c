@@ -129,6 +129,24 @@ static mpm *quiet(const mpm_material *copper, mpm_scene *s, double jump, bool fi
     return scene_make(s, 1);
 }
 
+/* The zone has the finest cells, or such as `zone_cell` lets be. */
+static void test_zone_cell(void **state)
+{
+    (void)state;
+    const mpm_material copper = scene_copper();
+    for (int level = 0; level < 3; level++) {
+        SCENE_LOCAL(s);
+        mpm *m = quiet(&copper, &s, 10, true);
+        mpm_free(m);
+        s.zone_cell = level > 0 ? 1.01e-3 * (1 << level) : NAN;
+        m = scene_make(&s, 1);
+        assert_ok(mpm_refine_look(m));
+        for (int i = 0; i < m->bricks_used; i++)
+            if (m->bricks[i].particles > 0) assert_int_equal(m->bricks[i].level, level);
+        mpm_free(m);
+    }
+}
+
 /* Every n-th of the points of a brick's cells lo .. hi along each axis flows with a rate [1/s]. */
 static void flow(mpm *m, brick *b, int lo, int hi, int n, double rate)
 {
@@ -448,11 +466,12 @@ static void test_surface(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_merge),   cmocka_unit_test(test_merge_undoes_halve),
-        cmocka_unit_test(test_kinds),   cmocka_unit_test(test_mean),
-        cmocka_unit_test(test_nesting), cmocka_unit_test(test_estimate),
-        cmocka_unit_test(test_linear),  cmocka_unit_test(test_bits),
-        cmocka_unit_test(test_finest),  cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_merge),     cmocka_unit_test(test_merge_undoes_halve),
+        cmocka_unit_test(test_kinds),     cmocka_unit_test(test_mean),
+        cmocka_unit_test(test_zone_cell), cmocka_unit_test(test_nesting),
+        cmocka_unit_test(test_estimate),  cmocka_unit_test(test_linear),
+        cmocka_unit_test(test_bits),      cmocka_unit_test(test_finest),
+        cmocka_unit_test(test_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

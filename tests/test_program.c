@@ -246,8 +246,15 @@ static void test_check_says_what_a_study_takes(void **state)
     assert_int_equal(run("check " CASES "/treatments --processes 256 --set study.fine_cells_per_radius=16"), 0);
     assert_true(contains("out.txt", "\nwarning: for 256 processes there is no memory: "));
     assert_int_equal(run("check " CASES "/treatments --set 'treatments[1].coating[0].thickness=50 um'"), 0);
-    assert_true(contains("out.txt", "warning: steel overlay: 50 um of steel_4340 is thinner than a cell of 167 um"));
-    assert_true(contains("out.txt", "study.fine_cells_per_radius = 10, some 123 times the time"));
+    assert_true(contains("out.txt", "warning: steel overlay: 50 um of steel_4340 has 0.3 cells across: "));
+    assert_true(contains("out.txt", "scene.cells_per_layer = 2 gives it cells of its own, for some 52 times the time"));
+    assert_int_equal(run("check " CASES "/treatments --set 'treatments[1].coating[0].thickness=5 um'"), 0);
+    assert_true(contains("out.txt", "steel_4340 has 0.03 cells across: "));
+    assert_false(contains("out.txt", "scene.cells_per_layer = 2 gives")); /* too many levels */
+    assert_int_equal(run("check " CASES "/treatments --set 'treatments[1].coating[0].thickness=50 um' "
+                         "--set scene.cells_per_layer=2"),
+                     0);
+    assert_false(contains("out.txt", "cells across: "));
 }
 
 static void test_check_refuses_what_fits_nowhere(void **state)

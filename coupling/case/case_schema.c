@@ -130,6 +130,8 @@ static const base_param scene_params[] = {
     PARAM_DOUBLE(case_scene, shear_limit, "Pa", OPTIONAL, 0.0, 1e11,
                  "upper limit of the friction stress; not given: none"),
     PARAM_DOUBLE(case_scene, cells_per_radius, "1", 5.0, 1.0, 100.0, "fine cell = grain's radius / this"),
+    PARAM_DOUBLE(case_scene, cells_per_layer, "1", 0.0, 0.0, 100.0,
+                 "cells across each layer of the rail where it flows; 0: those of the grain"),
     PARAM_DOUBLE(case_scene, coarse_cell, "m", 8e-4, 1e-6, 0.1, "largest cell, far from the grain"),
     PARAM_DOUBLE(case_scene, refine_tolerance, "1", 0.05, 1e-4, 1.0,
                  "fraction of the armature's velocity that plastic flow may change across a cell"),

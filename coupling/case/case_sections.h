@@ -171,6 +171,7 @@ typedef struct {
     double friction;                /* Coulomb coefficient between armature, grain and rail [1] */
     double shear_limit;             /* upper limit of the friction stress [Pa], NAN: none */
     double cells_per_radius;        /* fine cell = radius / this [1] */
+    double cells_per_layer;         /* across each layer of the rail where it flows; 0: no more than the grain's [1] */
     double coarse_cell;             /* largest cell [m] */
     double refine_tolerance;        /* share of the velocity that plastic flow may change across a cell [1] */
     double growth;                  /* ratio of neighbouring cells outside the fine zone [1] */

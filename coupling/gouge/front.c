@@ -7,7 +7,7 @@
 enum { ALONG = 0, ACROSS = 2, LOOK_EVERY = 16 }; /* axes; steps of the finest level between two looks */
 static const double POWER_AHEAD = 0.05;          /* of the power lies ahead of the front */
 static const double SIDES = 0.75;                /* of the window's half width; beyond it lie its sides */
-static const double SLICE = 2.0;                 /* width of a slice along the rail, in the finest cells */
+static const double SLICE = 2.0;                 /* width of a slice along the rail, in cells at the grain */
 
 bool gouge_front_is_due(const gouge_scene *s, const mpm_report *now, const gouge_front *f)
 {
@@ -16,11 +16,12 @@ bool gouge_front_is_due(const gouge_scene *s, const mpm_report *now, const gouge
 }
 
 /* The window's extent across: of a half model from its mirror on. */
-static mpm_slices slices_of(const mpm_scene *s)
+static mpm_slices slices_of(const gouge_scene *g)
 {
+    const mpm_scene *s = &g->scene;
     const mpm_axis *along = &s->axis[ALONG], *across = &s->axis[ACROSS];
     const bool half_model = across->boundary[0] == MPM_BOUNDARY_SYMMETRY;
-    mpm_slices p = { .along = ALONG, .across = ACROSS, .lo = along->lo, .width = SLICE * along->fine, .sides = SIDES };
+    mpm_slices p = { .along = ALONG, .across = ACROSS, .lo = along->lo, .width = SLICE * g->cell, .sides = SIDES };
     p.n = (int)((along->hi - along->lo) / p.width) + 1;
     p.middle = half_model ? across->lo : 0.5 * (across->lo + across->hi);
     p.half = across->hi - p.middle;
@@ -50,7 +51,7 @@ static void find_front(const mpm_slices *p, const mpm_plastic_sum *sums, gouge_f
 
 status gouge_front_look(const gouge_scene *s, const mpm *m, gouge_front *f)
 {
-    const mpm_slices p = slices_of(&s->scene);
+    const mpm_slices p = slices_of(s);
     mpm_plastic_sum *sums = calloc(2 * (size_t)p.n, sizeof *sums);
     bool *counts = calloc((size_t)s->scene.bodies, sizeof *counts);
     status done = base_status_error(STATUS_MEMORY, "no memory to find the plastic front in %d slices", p.n);

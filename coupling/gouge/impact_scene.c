@@ -55,7 +55,8 @@ case_impact gouge_impact_at(const case_impact *from, const site_state *state, do
 /* Everything along x, y, z that more than one part of the scene needs [m]. */
 typedef struct {
     int levels;
-    double fine, coarse;                /* smallest and largest cell */
+    double fine, coarse;                /* cell at the grain, largest cell */
+    int halvings;                       /* of `fine` that make the smallest cell, which a layer asks for */
     double x_front;                     /* front end of the armature's contact face at the start */
     double run;                         /* length of the lead face along x */
     double zone_lo[3], zone_hi[3];      /* of the finest cells at the start */
@@ -89,6 +90,21 @@ static int levels_of(const case_scene *s, double fine)
     if (levels == 0)
         for (levels = 1; levels < MPM_MAX_LEVELS && fine * (1 << levels) <= s->coarse_cell * (1.0 + 1e-9);) levels++;
     return levels;
+}
+
+int gouge_layer_halvings(const case_scene *s, double fine, double thickness)
+{
+    static const double ALMOST = 1.1; /* cells so much larger will do: they can only be halved */
+    const int levels = levels_of(s, fine), most = levels > 1 ? MPM_MAX_LEVELS - levels : 0;
+    const double wanted = s->cells_per_layer > 0.0 ? ALMOST * thickness / s->cells_per_layer : INFINITY;
+    int n = 0;
+    while (n <= most && fine / (1 << n) > wanted) n++;
+    return n <= most ? n : 0;
+}
+
+double gouge_cells_across(const case_scene *s, double fine, double thickness)
+{
+    return thickness / fine * (1 << gouge_layer_halvings(s, fine, thickness));
 }
 
 /* On one level the zone of fine cells must hold all that happens. */
@@ -125,6 +141,10 @@ static layout lay_out(const case_impact *c)
     l.rail_half_width = 0.5 * host_number_or(s->rail_width, p->width);
     l.half_width = fmax(l.rail_half_width, 0.5 * p->width) + (l.levels > 1 ? l.coarse : 3.0 * l.coarse);
     l.layers = case_layers_thickness(&c->rail.layers);
+    for (int i = 0; i < c->rail.layers.n; i++) {
+        const int own = gouge_layer_halvings(s, l.fine, c->rail.layers.item[i].thickness);
+        l.halvings = own > l.halvings ? own : l.halvings;
+    }
     lay_zone(c, &l);
     return l;
 }
@@ -356,10 +376,11 @@ static void set_axes(const case_impact *c, const layout *l, gouge_scene *g)
         mpm_axis *a = &s->axis[k];
         a->lo = lo[k], a->hi = hi[k];
         a->fine_lo = l->zone_lo[k], a->fine_hi = l->zone_hi[k];
-        a->fine = l->fine, a->coarse = l->coarse;
+        a->fine = l->fine / (1 << l->halvings), a->coarse = l->coarse;
         a->growth = c->scene.growth;
         for (int e = 0; e < 2; e++) a->boundary[e] = kind[k][e];
     }
+    g->cell = l->fine;
     g->reach = l->reach, g->beside = l->rail_half_width;
     free_ends(g);
 }
@@ -389,17 +410,30 @@ double gouge_last_time(const gouge_scene *s)
     return s->gauged ? s->gauge_time[1] : s->scene.end_time;
 }
 
-/* Fine cells around the grain until it has been passed, then where metal flows. */
+static status add_plastic(gouge_scene *g, double jump, double cell, int body)
+{
+    mpm_refine *plastic;
+    TRY(mpm_scene_add_refine(&g->scene, "plastic", &plastic));
+    *mpm_refine_value(plastic, "jump") = jump;
+    plastic->cell = cell, plastic->body = body;
+    return status_ok();
+}
+
+/* Fine cells around the grain until it has been passed, then where metal flows; where a layer does, its own. */
 static status set_refinement(const case_impact *c, gouge_scene *g)
 {
     const double radius = c->particle.radius;
+    const double jump = c->scene.refine_tolerance * g->velocity;
     mpm_scene *s = &g->scene;
-    mpm_refine *plastic;
     if (c->scene.follow) gouge_gauge_times(radius, g->velocity, g->gauge_time);
     if (s->levels == 1) return status_ok();
     s->zone_until = gouge_grain_passed(g) + radius / g->velocity;
-    TRY(mpm_scene_add_refine(s, "plastic", &plastic));
-    *mpm_refine_value(plastic, "jump") = c->scene.refine_tolerance * g->velocity;
+    s->zone_cell = g->cell;
+    TRY(add_plastic(g, jump, g->cell, -1));
+    for (int i = 0; i < g->layers; i++) {
+        const int own = gouge_layer_halvings(&c->scene, g->cell, c->rail.layers.item[i].thickness);
+        if (own > 0) TRY(add_plastic(g, jump, g->cell / (1 << own), g->rail + 1 + i));
+    }
     return status_ok();
 }
 
@@ -414,8 +448,8 @@ static void set_method(const case_impact *c, const layout *l, gouge_scene *g)
     s->contact_gap = from->contact_gap;
     s->transfer = from->transfer;
     s->basis = from->basis;
-    s->levels = l->levels;
-    memcpy(s->grid_shift, from->grid_shift, sizeof s->grid_shift);
+    s->levels = l->levels + l->halvings;
+    for (int k = 0; k < 3; k++) s->grid_shift[k] = from->grid_shift[k] * (1 << l->halvings);
     s->heat_by_plastic_work = from->heat_by_plastic_work;
     const double passage = gouge_crossing_time(g) + c->armature.length / g->velocity;
     s->end_time = host_number_or(from->end_time, from->follow ? l->passage / g->velocity
@@ -481,7 +515,7 @@ static crater_spec spec_of(const case_impact *c, const gouge_scene *of)
                          .x_hi = of->reach,
                          .z_hi = fmin(of->beside, MAP_BESIDE * g->radius),
                          .mirrored = c->scene.half_model,
-                         .cell = s->axis[0].fine,
+                         .cell = of->cell,
                          .particle_radius = g->radius,
                          .particle_height = g->height,
                          .limit_widening = c->scene.limit_widening,

@@ -31,6 +31,7 @@ typedef struct {
     int armature;         /* the body */
     double velocity;      /* of the armature at the start [m/s] */
     double friction;      /* Coulomb coefficient between all of them [1] */
+    double cell;          /* at the grain; layers may have smaller ones [m] */
     double face_front;    /* of the armature's contact face at the start: its downstream end, */
     double face_tail;     /*   its upstream end [m] */
     double grain_end;     /* downstream end of grain or pit [m] */
@@ -46,11 +47,19 @@ typedef struct {
 
 enum { GOUGE_PIT = -1 };
 
+#define GOUGE_SOUND_LAYER 1.8 /* two cells across, or almost: cells can only be halved */
+
 /* An impact decides its scene; a contact pressure that it does not give is none.  The caller frees the scene; after an
  * error it is empty.  STATUS_BAD_INPUT names what cannot be built and which key to change. */
 status gouge_scene_make(const case_impact *c, gouge_scene *out);
 
 void gouge_scene_free(gouge_scene *s);
+
+/* How often a layer of the rail has the grain's cells halved where it flows, to have as many across as the case says; 0
+ * also where that would take more levels than there may be.  How many it then has across: of less than one it is a film,
+ * strained as its cell is; with less than GOUGE_SOUND_LAYER its threshold comes out low (docs/theory/onset.md). */
+int gouge_layer_halvings(const case_scene *s, double fine, double thickness);
+double gouge_cells_across(const case_scene *s, double fine, double thickness);
 
 /* The same without what the crater is measured by, which takes some 20 ms: does this case make a scene? */
 status gouge_scene_bodies(const case_impact *c, gouge_scene *out);

@@ -339,21 +339,33 @@ void study_check_searches(const case_inputs *in, FILE *out)
                 most, craters, left > 0 ? left : 0, kinds, LEAST_OF_BRACKET);
 }
 
+/* What cells of its own do for a thin layer. */
+static void print_remedy(const case_scene *of, double fine, double thickness, FILE *out)
+{
+    static const double CELLS = 2.0; /* across a layer: with them thresholds came to rest (docs/theory/onset.md) */
+    static const double COST = 0.1;  /* of them over a scene's, unhalved; each halving doubles steps and both lengths */
+    case_scene with = *of;
+    with.cells_per_layer = CELLS;
+    const int halvings = gouge_layer_halvings(&with, fine, thickness);
+    if (halvings > 0)
+        fprintf(out, "; scene.cells_per_layer = %g gives it cells of its own, for some %.2g times the time", CELLS,
+                1.0 + COST * exp2(3.0 * halvings));
+    fputc('\n', out);
+}
+
 /* The layers of a rail under grains of this radius. */
 static void print_films(const case_onset *c, const char *surface, double radius, FILE *out)
 {
-    const double cells = c->study.fine_cells_per_radius;
+    const double fine = radius / c->study.fine_cells_per_radius;
     for (int i = 0; i < c->impact.rail.layers.n; i++) {
         const case_layer *layer = &c->impact.rail.layers.item[i];
-        const double wanted = radius / layer->thickness;
-        if (!(layer->thickness < radius / cells)) continue;
-        fprintf(
-            out,
-            "warning: %s%s%g um of %s is thinner than a cell of %.3g um: a film, whose threshold came out some 20 %% "
-            "low with 0.6 of a cell across (docs/theory/onset.md#thin-layers); one cell across is "
-            "study.fine_cells_per_radius = %.3g, some %.0f times the time\n",
-            surface, surface[0] ? ": " : "", 1e6 * layer->thickness, layer->material, 1e6 * radius / cells, wanted,
-            pow(wanted / cells, 4.0));
+        const double across = gouge_cells_across(&c->impact.scene, fine, layer->thickness);
+        if (across >= GOUGE_SOUND_LAYER) continue;
+        fprintf(out,
+                "warning: %s%s%g um of %s has %.2g cells across: with less than two its threshold comes out low "
+                "(docs/theory/onset.md#thin-layers)",
+                surface, surface[0] ? ": " : "", 1e6 * layer->thickness, layer->material, across);
+        print_remedy(&c->impact.scene, fine, layer->thickness, out);
     }
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a study's thresholds say of its sites, and of the case. */
 #include "coupling/study/onset.h"
+#include "coupling/gouge/impact_scene.h"
 #include "coupling/study/sampling/gouge_law.h"
 #include "coupling/study/sampling/population.h"
 
@@ -363,18 +364,20 @@ static status list_surface(onset_answer *a)
     return status_ok();
 }
 
-/* A layer thinner than a cell is a film (docs/theory/onset.md). */
-static void warn_of_films(session *s, const onset_answer *a)
+/* With less than two cells across a layer protects too little (docs/theory/onset.md). */
+static void warn_of_thin_layers(session *s, const onset_answer *a)
 {
-    const case_onset *c = a->grains.c;
+    const case_impact *c = &a->grains.c->impact;
     for (int k = 0; k < a->grains.n; k++) {
         const surface_plan *p = &a->grains.family[k].plan;
         const double cell = p->size[p->reference] / p->search.fine;
-        for (int i = 0; i < c->impact.rail.layers.n; i++)
-            if (c->impact.rail.layers.item[i].thickness < cell)
-                run_session_warn(s, "%srail.layers[%d]: %g um of %s in cells of %g um: a film, strained as its cell is",
-                                 a->grains.prefix, i, 1e6 * c->impact.rail.layers.item[i].thickness,
-                                 c->impact.rail.layers.item[i].material, 1e6 * cell);
+        for (int i = 0; i < c->rail.layers.n; i++) {
+            const case_layer *layer = &c->rail.layers.item[i];
+            const double across = gouge_cells_across(&c->scene, cell, layer->thickness);
+            if (across < GOUGE_SOUND_LAYER)
+                run_session_warn(s, "%srail.layers[%d]: %g um of %s has %.2g cells across: its threshold comes out low",
+                                 a->grains.prefix, i, 1e6 * layer->thickness, layer->material, across);
+        }
     }
 }
 
@@ -425,7 +428,7 @@ status study_onset_judge(session *s, onset_answer *a)
 {
     warn_of_thresholds(s, a);
     warn_of_range(s, a);
-    warn_of_films(s, a);
+    warn_of_thin_layers(s, a);
     warn_of_screen(s, a);
     find_contradictions(s, a);
     judge_sites(a);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/study/repeated.h"
 
+#include "coupling/gouge/impact_scene.h"
 #include "coupling/study/rail_left.h"
 #include "coupling/study/sampling/gouge_law.h"
 #include "coupling/study/warm_rail.h"
@@ -193,11 +194,12 @@ static double widest_cell(const grain_families *f)
 static bool is_resolved(session *s, const grain_families *first, double thickness)
 {
     const double cell = widest_cell(first);
-    if (thickness >= cell) return true;
-    run_session_warn(s,
-                     "study.shots: armature metal on the rail, %.3g um at most, is thinner than a cell of %.3g um: the "
-                     "thresholds are those without it",
-                     1e6 * thickness, 1e6 * cell);
+    if (gouge_cells_across(&first->c->impact.scene, cell, thickness) >= 1.0) return true;
+    run_session_warn(
+        s,
+        "study.shots: armature metal on the rail, %.3g um at most, is thinner than a cell of %.3g um and has none "
+        "of its own (scene.cells_per_layer): the thresholds are those without it",
+        1e6 * thickness, 1e6 * cell);
     return false;
 }
 

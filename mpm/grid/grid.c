@@ -198,7 +198,7 @@ status mpm_grids_activate_zone(grids *g, const mpm_scene *s)
         const mpm_axis *a = &s->axis[k];
         lo[k] = a->fine_lo + s->grid_shift[k] * a->fine, hi[k] = a->fine_hi + s->grid_shift[k] * a->fine;
     }
-    return mpm_grids_activate(g, 0, lo, hi);
+    return mpm_grids_activate(g, isnan(s->zone_cell) ? 0 : mpm_scene_level_for(s, s->zone_cell), lo, hi);
 }
 
 static status make(const mpm_scene *s, grids *out)
