@@ -43,11 +43,13 @@ static void add_box(mpm_scene *s, const mpm_material *m, const double lo[3], con
 }
 
 /* A rail from x = 0 to 8 mm, y = -2 to -1 mm, a layer on it to y = 0, an armature above; all of z = 0 to 4 mm, of which
- * 3 to 4 mm are the window's side.  The armature is body 0. */
+ * 3 to 4 mm are the window's side.  The armature is body 0.  Half a model has cells half as large as the grain's. */
 static gouge_scene launcher(const mpm_material *m, bool half_model)
 {
     static const double lo[3] = { 0, -2e-3, -4e-3 }, hi[3] = { 8e-3, 2e-3, 4e-3 };
-    gouge_scene g = { .rail = 1, .layers = 1, .grain = GOUGE_PIT, .armature = 0, .gauge_time = { 1e-6, 2e-6 } };
+    gouge_scene g = {
+        .rail = 1, .layers = 1, .grain = GOUGE_PIT, .armature = 0, .cell = H, .gauge_time = { 1e-6, 2e-6 }
+    };
     mpm_scene *s = &g.scene;
     mpm_scene_default(s);
     s->levels = 1;
@@ -57,8 +59,8 @@ static gouge_scene launcher(const mpm_material *m, bool half_model)
                                  .hi = hi[k],
                                  .fine_lo = from,
                                  .fine_hi = hi[k],
-                                 .fine = H,
-                                 .coarse = H,
+                                 .fine = half_model ? H / 2 : H,
+                                 .coarse = half_model ? H / 2 : H,
                                  .growth = 1,
                                  .boundary = { half_model ? MPM_BOUNDARY_SYMMETRY : MPM_BOUNDARY_FREE } };
     }
@@ -106,6 +108,7 @@ static void test_front(void **state)
         assert_true(fabs(one.power / ((2 - half) * groove) - 1) < 1e-9); /* rounding */
         assert_true(one.peak == one.power);
         /* within the slice, of two cells, in which a twentieth of the groove's 3 mm lies ahead */
+        assert_true(fabs(remainder(one.front, 2 * H)) < 1e-12);
         assert_true(one.front > 5e-3 - 0.05 * 3e-3 && one.front <= 5e-3 - 0.05 * 3e-3 + 2 * H);
         mpm_set_threads(m, 3);
         OK(gouge_front_look(&g, m, &three));

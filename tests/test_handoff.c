@@ -651,6 +651,7 @@ static void test_layer_cells(void **state)
     assert_int_equal(gouge_layer_halvings(&own.c->scene, fine, 0.1e-3), 3);
     assert_int_equal(gouge_layer_halvings(&own.c->scene, fine, 0.4e-3), 1);
     assert_int_equal(gouge_layer_halvings(&own.c->scene, fine, 2e-6), 0);
+    assert_int_equal(gouge_layer_halvings(&own.c->scene, fine, 0.46 * fine), 2); /* a tenth too large will do */
     assert_true(fabs(own.gouge.cell - fine) < ROUNDING && fabs(own.gouge.crater.cell - fine) < ROUNDING);
     assert_true(fabs(8.0 * s->axis[1].fine / fine - 1.0) < 1e-12 && fabs(s->zone_cell / fine - 1.0) < 1e-12);
     assert_int_equal(s->levels, plain.gouge.scene.levels + 3);

@@ -15,6 +15,7 @@ MEASURES = {  # key of the summary: title of the column, unit, digits, what a fr
 ROWS = [  # cells a radius, cells of the layer's own across it (0: none), velocities [m/s]
     (3, 0, (1200, 1400, 1700)),
     (3, 2, (1200, 1400, 1700)),
+    (3, 4, (1400, 1700)),
     (6, 0, (1200, 1400)),
     (6, 2, (1200, 1400)),
 ]
