@@ -127,13 +127,6 @@ void mpm_scene_levels_fill(mpm_scene *s)
     while (s->levels < MPM_MAX_LEVELS && fine * (1 << s->levels) <= coarse) s->levels++;
 }
 
-int mpm_scene_level_for(const mpm_scene *s, double cell)
-{
-    int level = 0;
-    for (double h = 2 * s->axis[0].fine; h <= cell * (1 + 1e-9) && level < s->levels - 1; h *= 2) level++;
-    return level;
-}
-
 static status duplicate(const void *from, int n, size_t size, void **to)
 {
     size_t room = 1;

@@ -114,8 +114,8 @@ typedef struct {
     mpm_contact contact; /* of two groups that no pair names, with the normal of the lower one */
     mpm_axis axis[3];
     /* Of the grid (grid/grid.h).  1: the axes' grid.  More: cells of `fine` where the fine zones of all axes meet,
-     * until `zone_until`, or larger ones if `zone_cell` says so, and where the rules ask for them; elsewhere cells twice, four times, ... as large.
-     * 0: mpm_scene_levels_fill says how many. */
+     * until `zone_until`, or larger ones if `zone_cell` says so, and where the rules ask for them; elsewhere cells
+     * twice, four times, ... as large.  0: mpm_scene_levels_fill says how many. */
     int levels;
     double zone_until; /* NAN: 0 with rules, else for good [s] */
     double zone_cell;  /* largest cell of that zone; NAN: `fine` [m] */
@@ -140,7 +140,6 @@ void mpm_scene_default(mpm_scene *s);
 /* The grid's levels, and until when the zone keeps its cells, where the scene leaves them open: as many levels as a
  * doubling of the finest cells makes of the coarsest where there are rules, else one. */
 void mpm_scene_levels_fill(mpm_scene *s);
-int mpm_scene_level_for(const mpm_scene *s, double cell); /* the coarsest level whose cells are no larger */
 
 /* One more body, solid or pair, at its defaults, behind the others.  *added is valid until the next of its kind.
  * A solid is made of those at the places a and b (-1: none); its own place is s->solids - 1. */

@@ -191,6 +191,13 @@ status mpm_grids_nest(grids *g)
 
 /* ---- */
 
+int mpm_grids_level_for(const mpm_scene *s, double cell)
+{
+    int level = 0;
+    for (double h = 2 * s->axis[0].fine; h <= cell * (1 + 1e-9) && level < s->levels - 1; h *= 2) level++;
+    return level;
+}
+
 status mpm_grids_activate_zone(grids *g, const mpm_scene *s)
 {
     double lo[3], hi[3];
@@ -198,7 +205,7 @@ status mpm_grids_activate_zone(grids *g, const mpm_scene *s)
         const mpm_axis *a = &s->axis[k];
         lo[k] = a->fine_lo + s->grid_shift[k] * a->fine, hi[k] = a->fine_hi + s->grid_shift[k] * a->fine;
     }
-    return mpm_grids_activate(g, isnan(s->zone_cell) ? 0 : mpm_scene_level_for(s, s->zone_cell), lo, hi);
+    return mpm_grids_activate(g, isnan(s->zone_cell) ? 0 : mpm_grids_level_for(s, s->zone_cell), lo, hi);
 }
 
 static status make(const mpm_scene *s, grids *out)

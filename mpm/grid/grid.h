@@ -76,6 +76,9 @@ static inline int grids_places(const grids *g)
     return g->pages * PAGE_PLACES;
 }
 
+/* The coarsest level whose cells are no larger. */
+int mpm_grids_level_for(const mpm_scene *s, double cell);
+
 /* Finest level that is active at x; beyond the window as at its end. */
 int mpm_grids_level(const grids *g, const double x[3]);
 

@@ -278,7 +278,7 @@ static status ask_rules(const mpm_scene *s, const grids *at_start, grids *refine
         const mpm_refine *r = &s->refine[i];
         asking a = { .s = s, .at_start = at_start, .refined = refined, .buffer = r->kind->buffer };
         if (!r->kind->reach) continue;
-        a.reach = r->kind->reach(r), a.level = mpm_scene_level_for(s, r->cell);
+        a.reach = r->kind->reach(r), a.level = mpm_grids_level_for(s, r->cell);
         const build_sink sink = { ask_point, &a };
         for (int body = 0; body < s->bodies; body++) {
             law k;

@@ -46,7 +46,7 @@ static wish wish_of_cell(const mpm *m, const brick *b, int cell, const mpm_refin
 
 static int level_of(const mpm *m, const mpm_refine *r, double size)
 {
-    const int level = mpm_scene_level_for(&m->scene, fmax(size, r->cell));
+    const int level = mpm_grids_level_for(&m->scene, fmax(size, r->cell));
     return level > m->finest ? level : m->finest;
 }
 
