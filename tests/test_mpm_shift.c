@@ -103,7 +103,7 @@ static void test_refused(void **state)
     SCENE_LOCAL(s);
     scene_bar(&s, 0, 12e-3, 0.5e-3, 8);
     scene_box(&s, 2e-3, -1, -1, 6e-3, 1, 1, &copper);
-    s.grid_shift[1] = 1.5;
+    s.grid_shift[1] = 1.01 * (1 << (MPM_MAX_LEVELS - 1)); /* more than the largest cell that there may be */
     mpm *m = NULL;
     const status far = mpm_create(&s, 1, &m);
     assert_int_equal(far.code, STATUS_BAD_INPUT);
