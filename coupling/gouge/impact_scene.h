@@ -57,7 +57,8 @@ void gouge_scene_free(gouge_scene *s);
 
 /* How often a layer of the rail has the grain's cells halved where it flows, to have as many across as the case says;
  * 0 also where that would take more levels than there may be.  How many it then has across: of less than one it is
- * a film, strained as its cell is; with less than GOUGE_SOUND_LAYER it protects too little (docs/theory/onset.md). */
+ * a film, strained as its cell is; with less than GOUGE_SOUND_LAYER bending and shear in it are not resolved
+ * (docs/theory/onset.md). */
 int gouge_layer_halvings(const case_scene *s, double fine, double thickness);
 double gouge_cells_across(const case_scene *s, double fine, double thickness);
 

@@ -342,7 +342,7 @@ void study_check_searches(const case_inputs *in, FILE *out)
 /* What cells of its own do for a thin layer. */
 static void print_remedy(const case_scene *of, double fine, double thickness, FILE *out)
 {
-    static const double CELLS = 2.0; /* across a layer: with them thresholds came to rest (docs/theory/onset.md) */
+    static const double CELLS = 2.0; /* across a layer, the fewest that bend */
     static const double COST = 0.1;  /* of them over a scene's, unhalved; each halving doubles steps and both lengths */
     case_scene with = *of;
     with.cells_per_layer = CELLS;
@@ -361,10 +361,11 @@ static void print_films(const case_onset *c, const char *surface, double radius,
         const case_layer *layer = &c->impact.rail.layers.item[i];
         const double across = gouge_cells_across(&c->impact.scene, fine, layer->thickness);
         if (across >= GOUGE_SOUND_LAYER) continue;
-        fprintf(out,
-                "warning: %s%s%g um of %s has %.2g cells across: with less than two its threshold comes out low "
-                "(docs/theory/onset.md#thin-layers)",
-                surface, surface[0] ? ": " : "", 1e6 * layer->thickness, layer->material, across);
+        fprintf(
+            out,
+            "warning: %s%s%g um of %s has %.2g cells across: with less than two what it does inside is not resolved "
+            "(docs/theory/onset.md#thin-layers)",
+            surface, surface[0] ? ": " : "", 1e6 * layer->thickness, layer->material, across);
         print_remedy(&c->impact.scene, fine, layer->thickness, out);
     }
 }

@@ -364,7 +364,7 @@ static status list_surface(onset_answer *a)
     return status_ok();
 }
 
-/* With less than two cells across a layer protects too little (docs/theory/onset.md). */
+/* With less than two cells across bending and shear in a layer are not resolved (docs/theory/onset.md). */
 static void warn_of_thin_layers(session *s, const onset_answer *a)
 {
     const case_impact *c = &a->grains.c->impact;
@@ -375,8 +375,9 @@ static void warn_of_thin_layers(session *s, const onset_answer *a)
             const case_layer *layer = &c->rail.layers.item[i];
             const double across = gouge_cells_across(&c->scene, cell, layer->thickness);
             if (across < GOUGE_SOUND_LAYER)
-                run_session_warn(s, "%srail.layers[%d]: %g um of %s has %.2g cells across: its threshold comes out low",
-                                 a->grains.prefix, i, 1e6 * layer->thickness, layer->material, across);
+                run_session_warn(
+                    s, "%srail.layers[%d]: %g um of %s has %.2g cells across: what it does inside is not resolved",
+                    a->grains.prefix, i, 1e6 * layer->thickness, layer->material, across);
         }
     }
 }
