@@ -645,8 +645,8 @@ static void test_layer_cells(void **state)
     memcpy(own.c->scene.grid_shift, shift, sizeof shift);
     OK(make_again(&own, 2.0));
     const mpm_scene *s = &own.gouge.scene;
-    assert_true(gouge_cells_across(&own.c->scene, fine, 0.1e-3) >= GOUGE_SOUND_LAYER);
-    assert_true(gouge_cells_across(&own.c->scene, fine, 0.4e-3) >= GOUGE_SOUND_LAYER);
+    assert_true(gouge_cells_across(&own.c->scene, fine, 0.1e-3) >= GOUGE_RESOLVED_LAYER);
+    assert_true(gouge_cells_across(&own.c->scene, fine, 0.4e-3) >= GOUGE_RESOLVED_LAYER);
     assert_true(gouge_cells_across(&own.c->scene, fine, 2e-6) < 0.01);
     assert_int_equal(gouge_layer_halvings(&own.c->scene, fine, 0.1e-3), 3);
     assert_int_equal(gouge_layer_halvings(&own.c->scene, fine, 0.4e-3), 1);

@@ -47,7 +47,9 @@ typedef struct {
 
 enum { GOUGE_PIT = -1 };
 
-#define GOUGE_SOUND_LAYER 1.8 /* two cells across, or almost: cells can only be halved */
+/* Cells across a layer that resolve its bending and shear: two, or almost, for cells can only be halved.  With less
+ * than one it is a film, strained as its cell is (docs/theory/onset.md). */
+#define GOUGE_RESOLVED_LAYER 1.8
 
 /* An impact decides its scene; a contact pressure that it does not give is none.  The caller frees the scene; after an
  * error it is empty.  STATUS_BAD_INPUT names what cannot be built and which key to change. */
@@ -55,11 +57,11 @@ status gouge_scene_make(const case_impact *c, gouge_scene *out);
 
 void gouge_scene_free(gouge_scene *s);
 
-/* How often a layer of the rail has the grain's cells halved where it flows, to have as many across as the case says;
- * 0 also where that would take more levels than there may be.  How many it then has across: of less than one it is
- * a film, strained as its cell is; with less than GOUGE_SOUND_LAYER bending and shear in it are not resolved
- * (docs/theory/onset.md). */
+/* How often a layer of that thickness has the grain's cells, of `fine` [m], halved where it flows, to have as many
+ * across as the case says; 0 also where that would take more levels than there may be. */
 int gouge_layer_halvings(const case_scene *s, double fine, double thickness);
+
+/* Cells that a layer then has across. */
 double gouge_cells_across(const case_scene *s, double fine, double thickness);
 
 /* The same without what the crater is measured by, which takes some 20 ms: does this case make a scene? */

@@ -354,13 +354,13 @@ static void print_remedy(const case_scene *of, double fine, double thickness, FI
 }
 
 /* The layers of a rail under grains of this radius. */
-static void print_films(const case_onset *c, const char *surface, double radius, FILE *out)
+static void print_thin_layers(const case_onset *c, const char *surface, double radius, FILE *out)
 {
     const double fine = radius / c->study.fine_cells_per_radius;
     for (int i = 0; i < c->impact.rail.layers.n; i++) {
         const case_layer *layer = &c->impact.rail.layers.item[i];
         const double across = gouge_cells_across(&c->impact.scene, fine, layer->thickness);
-        if (across >= GOUGE_SOUND_LAYER) continue;
+        if (across >= GOUGE_RESOLVED_LAYER) continue;
         fprintf(
             out,
             "warning: %s%s%g um of %s has %.2g cells across: with less than two what it does inside is not resolved "
@@ -370,17 +370,17 @@ static void print_films(const case_onset *c, const char *surface, double radius,
     }
 }
 
-void study_check_films(const case_inputs *in, FILE *out)
+void study_check_thin_layers(const case_inputs *in, FILE *out)
 {
     const case_onset *c = &in->onset;
     if (!c->has_body || (c->sites.n == 0 && c->populations.n == 0)) return;
     const case_population *p = c->populations.item;
     const double radius = c->sites.n > 0 ? c->sites.item[0].radius : study_population_quantile(p, 0.5);
-    print_films(c, "", radius, out);
+    print_thin_layers(c, "", radius, out);
     for (int k = 0; k < in->treatments.n; k++) {
         case_onset treated;
         if (case_treat(c, &in->treatments.item[k], &treated).code == STATUS_OK)
-            print_films(&treated, in->treatments.item[k].name, radius, out);
+            print_thin_layers(&treated, in->treatments.item[k].name, radius, out);
         case_treated_free(&treated);
     }
 }

@@ -54,6 +54,6 @@ double study_check_search_time(const scene_estimate *e, int n, int scenes);
 void study_check_searches(const case_inputs *in, FILE *out);
 
 /* A line for each layer that is thinner than the cells of the searches: a film, and what it takes to resolve it. */
-void study_check_films(const case_inputs *in, FILE *out);
+void study_check_thin_layers(const case_inputs *in, FILE *out);
 
 #endif

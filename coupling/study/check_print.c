@@ -129,7 +129,7 @@ status study_check_print(const case_inputs *in, const check_machine *on, unsigne
     fprintf(out, "%s: %s\n", in->path, in->title[0] ? in->title : in->name);
     print_ready(in, needs, out);
     fputs(in->warnings, out);
-    study_check_films(in, out);
+    study_check_thin_layers(in, out);
     TRY(print_estimates(e, n, out));
     if (n > 0) study_check_assumptions(in, on->threads, rate, out);
     print_together(on, in, needs, out);

@@ -374,7 +374,7 @@ static void warn_of_thin_layers(session *s, const onset_answer *a)
         for (int i = 0; i < c->rail.layers.n; i++) {
             const case_layer *layer = &c->rail.layers.item[i];
             const double across = gouge_cells_across(&c->scene, cell, layer->thickness);
-            if (across < GOUGE_SOUND_LAYER)
+            if (across < GOUGE_RESOLVED_LAYER)
                 run_session_warn(
                     s, "%srail.layers[%d]: %g um of %s has %.2g cells across: what it does inside is not resolved",
                     a->grains.prefix, i, 1e6 * layer->thickness, layer->material, across);

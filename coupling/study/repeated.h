@@ -5,9 +5,9 @@
  * armatures have left, of which study.deposit_kept is still there (both rail_left.h).  If the rail is changed in one
  * of these ways where grains may gouge, their thresholds are searched for once more where it is changed most, of all
  * places and shots (heat in steps of 25 K); in between they go linearly with the change.  Metal is a welded layer on
- * all others, of the armature's material as its file has it; where it is thinner than a cell the scenes leave it out,
- * and a warning says so.  A bare rail: where a gouge wears the layers through (layer_wear.h), the rim that it leaves
- * stands on the rail's own metal; thresholds for that are searched for too.
+ * all others, of the armature's material as its file has it; where it is thinner than a cell and has none of its own
+ * the scenes leave it out, and a warning says so.  A bare rail: where a gouge wears the layers through
+ * (layer_wear.h), the rim that it leaves stands on the rail's own metal; thresholds for that are searched for too.
  * Rims themselves are drawn: montecarlo.h.  Nothing is searched for that no later shot can meet. */
 #ifndef BREECH_COUPLING_REPEATED_H
 #define BREECH_COUPLING_REPEATED_H
