@@ -166,7 +166,7 @@ static const base_param study_params[] = {
     PARAM_DOUBLE(case_study, velocity_interval, "1", 0.03, 1e-4, 1.0,
                  "wanted width of the threshold's interval over its middle"),
     PARAM_DOUBLE(case_study, position_interval, "1", 0.02, 1e-4, 1.0,
-                 "wanted width of the onset's interval over the barrel's length"),
+                 "wanted width of the threshold position's interval over the barrel's length"),
     PARAM_DOUBLE(case_study, velocity_low, "m/s", 1000.0, 1.0, 1e4, "no threshold is looked for below"),
     PARAM_DOUBLE(case_study, velocity_high, "m/s", 2000.0, 1.0, 1e4, "no threshold is looked for above"),
     PARAM_ENUM(case_study, judge, judge_names, JUDGE_GROWTH,

@@ -307,7 +307,7 @@ typedef enum { JUDGE_GROWTH, JUDGE_SEVERITY } study_judge;
 /* The search for where gouging begins. */
 typedef struct {
     double velocity_interval;           /* wanted width of the threshold's interval over its middle [1] */
-    double position_interval;           /* wanted width of the onset's interval over the barrel's length [1] */
+    double position_interval;           /* wanted width of the threshold position's, over the barrel's length [1] */
     double velocity_low, velocity_high; /* where the search may look [m/s] */
     int judge;                          /* study_judge */
     int max_scenes;
