@@ -312,6 +312,18 @@ static void test_impossible(void **state)
     assert_int_equal(s.code, STATUS_BAD_INPUT);
     assert_non_null(strstr(s.text, "treatment `flat`"));
     case_free(c);
+    /* more tabulated sizes than are searched for; the smallest of these are too small to count */
+    for (int n = 27; n < 29; n++) {
+        char text[4000] = HEAD "populations:\n  - {density: 3 1/m, sizes: [{radius: 97 um, share: 1}";
+        for (int k = 1; k < n; k++)
+            snprintf(text + strlen(text), sizeof text - strlen(text), ", {radius: %d um, share: 1}", 97 + k);
+        strcat(text, "]}\ntreatments: [{name: a, polish: {size: 0.999}}]\n");
+        c = read(text, ALL);
+        const status many = possible(c);
+        assert_int_equal(many.code, n == 27 ? STATUS_OK : STATUS_BAD_INPUT);
+        if (n > 27) assert_non_null(strstr(many.text, "populations[0].sizes: 25 of a share"));
+        case_free(c);
+    }
     /* a layer of its own field needs a cell; welded it is a film */
     for (int welded = 0; welded < 2; welded++) {
         char text[4000];

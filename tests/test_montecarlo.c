@@ -106,24 +106,45 @@ static void test_sizes(void **state)
 {
     (void)state;
     case_population p = { .density = 10.0, .radius_median = 2e-4, .radius_spread = 0.5, .to = 3.0 };
-    double size[64], number[64], sum = 0.0;
+    population_sizes s;
+    double sum = 0.0;
     assert_true(fabs(study_population_share_from(&p, 2e-4) - 0.5) < 1e-12);
     assert_true(fabs(study_population_quantile(&p, 0.5) - 2e-4) < 1e-12);
     assert_true(fabs(study_population_share_from(&p, study_population_quantile(&p, 0.9)) - 0.1) < 1e-9);
-    const int n = study_population_sizes(&p, 1e-4, 64, size, number);
-    assert_true(n > 4);
-    for (int k = 0; k < n; k++) {
-        const double place = 10.0 * log10(size[k]);
-        assert_true(fabs(place - round(place)) < 1e-6 && size[k] > 0.99e-4 && number[k] > 0.0);
-        sum += number[k];
+    OK(study_population_sizes(&p, 1e-4, &s));
+    assert_true(s.n > 4);
+    for (int k = 0; k < s.n; k++) {
+        const double place = 10.0 * log10(s.size[k]);
+        assert_true(fabs(place - round(place)) < 1e-6 && s.size[k] > 0.99e-4 && s.number[k] > 0.0);
+        sum += s.number[k];
     }
     assert_true(fabs(sum - 30.0 * study_population_share_from(&p, 1e-4)) < 1e-9); /* none is lost above the smallest */
     case_size table[] = { { 5e-5, 5.0 }, { 2e-4, 3.0 }, { 4e-4, 2.0 } };
     p.sizes = (case_sizes){ 3, table };
-    assert_int_equal(study_population_sizes(&p, 1e-4, 64, size, number), 2);
-    assert_true(size[0] == 2e-4 && fabs(number[0] - 9.0) < 1e-12 && fabs(number[1] - 6.0) < 1e-12);
+    OK(study_population_sizes(&p, 1e-4, &s));
+    assert_true(s.n == 2 && s.size[0] == 2e-4);
+    assert_true(fabs(s.number[0] - 9.0) < 1e-12 && fabs(s.number[1] - 6.0) < 1e-12);
     assert_true(fabs(study_population_share_from(&p, 2e-4) - 0.5) < 1e-12 &&
                 study_population_quantile(&p, 0.9) == 4e-4);
+}
+
+/* As many tabulated sizes as there is room for are all taken; of one more none is left out in silence. */
+static void test_many_sizes(void **state)
+{
+    (void)state;
+    enum { MOST = POPULATION_MAX_SIZES, SMALL = 3 };
+    case_size table[MOST + SMALL + 1];
+    for (int k = 0; k < MOST + SMALL + 1; k++) table[k] = (case_size){ 1e-5 * (k + 1), 1.0 };
+    case_population p = { .density = 10.0, .to = 3.0, .sizes = { MOST + SMALL, table } };
+    population_sizes s;
+    OK(study_population_sizes(&p, table[SMALL].radius, &s)); /* the small ones do not count */
+    assert_true(s.n == MOST && s.size[MOST - 1] == table[MOST + SMALL - 1].radius);
+    p.sizes.n++;
+    const status told = study_population_sizes(&p, table[SMALL].radius, &s);
+    assert_int_equal(told.code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(told.text, "sizes: 25 of a share and at least study.smallest_radius"));
+    table[MOST + SMALL].share = 0.0;
+    OK(study_population_sizes(&p, table[SMALL].radius, &s));
 }
 
 /* ---- one surface ---- */
@@ -512,10 +533,11 @@ static void test_bare(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sizes),  cmocka_unit_test(test_closed),           cmocka_unit_test(test_band),
-        cmocka_unit_test(test_beyond), cmocka_unit_test(test_common_numbers),   cmocka_unit_test(test_seed),
-        cmocka_unit_test(test_rims),   cmocka_unit_test(test_table_and_sites),  cmocka_unit_test(test_warm),
-        cmocka_unit_test(test_bare),   cmocka_unit_test(test_changes_together), cmocka_unit_test(test_stop),
+        cmocka_unit_test(test_sizes), cmocka_unit_test(test_many_sizes), cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_band),  cmocka_unit_test(test_beyond),     cmocka_unit_test(test_common_numbers),
+        cmocka_unit_test(test_seed),  cmocka_unit_test(test_rims),       cmocka_unit_test(test_table_and_sites),
+        cmocka_unit_test(test_warm),  cmocka_unit_test(test_bare),       cmocka_unit_test(test_changes_together),
+        cmocka_unit_test(test_stop),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -388,7 +388,7 @@ static const case_section vessel_children[] = {
 
 static const case_section population_children[] = {
     { .key = "sizes",
-      .doc = "Tabulated sizes in place of log-normal ones, a list.",
+      .doc = "Tabulated sizes in place of log-normal ones, a list; at most 24 of at least `study.smallest_radius`.",
       .table = size_params,
       .offset = offsetof(case_population, sizes),
       .size = sizeof(case_size),

@@ -105,13 +105,15 @@ static status grains_possible(const case_onset *c, size_t *largest)
         if (!has_grain_before(&c->sites, i)) TRY(grain_possible(c, &c->sites.item[i], largest));
     for (int i = 0; i < c->populations.n; i++) {
         const case_population *p = &c->populations.item[i];
-        double size[SURFACE_MAX_SIZES], number[SURFACE_MAX_SIZES];
-        const int n = study_population_sizes(p, c->study.smallest_radius, SURFACE_MAX_SIZES, size, number);
+        population_sizes sizes;
+        status s = study_population_sizes(p, c->study.smallest_radius, &sizes);
+        CHECK(s.code == STATUS_OK, s.code, "populations[%d].%.380s", i, s.text);
+        const int n = sizes.n;
         for (int k = 0; k<n; k += n> 1 ? n - 1 : 1) { /* the smallest and the largest */
-            const case_site grain = grain_of(p, size[k]);
-            const status s = grain_possible(c, &grain, largest);
+            const case_site grain = grain_of(p, sizes.size[k]);
+            s = grain_possible(c, &grain, largest);
             CHECK(s.code == STATUS_OK, s.code, "populations[%d], its %s grains, of %.3g mm: %.380s", i,
-                  k == 0 ? "smallest" : "largest", 1e3 * size[k], s.text);
+                  k == 0 ? "smallest" : "largest", 1e3 * sizes.size[k], s.text);
         }
     }
     return status_ok();

@@ -37,17 +37,24 @@ double study_population_quantile(const case_population *p, double share)
     return p->sizes.item[k].radius;
 }
 
-static int tabulated(const case_population *p, double smallest, double grains, int room, double *size, double *number)
+static status tabulated(const case_population *p, double smallest, double grains, population_sizes *out)
 {
     const double all = sum_of_shares(&p->sizes, 0);
     int n = 0;
-    for (int i = 0; i < p->sizes.n && n < room; i++) {
+    for (int i = 0; i < p->sizes.n; i++) {
         const case_size *s = &p->sizes.item[i];
         if (s->radius < smallest || !(s->share > 0.0)) continue;
-        size[n] = s->radius;
-        number[n++] = grains * s->share / all;
+        if (n < POPULATION_MAX_SIZES) {
+            out->size[n] = s->radius;
+            out->number[n] = grains * s->share / all;
+        }
+        n++;
     }
-    return n;
+    CHECK(n <= POPULATION_MAX_SIZES, STATUS_BAD_INPUT,
+          "sizes: %d of a share and at least study.smallest_radius = %g m, may be at most %d: join some", n, smallest,
+          POPULATION_MAX_SIZES);
+    out->n = n;
+    return status_ok();
 }
 
 static double series(double i)
@@ -55,22 +62,24 @@ static double series(double i)
     return pow(10.0, i / PER_DECADE);
 }
 
-int study_population_sizes(const case_population *p, double smallest, int room, double *size, double *number)
+status study_population_sizes(const case_population *p, double smallest, population_sizes *out)
 {
+    out->n = 0;
     const double grains = p->density * (p->to - p->from);
-    if (p->sizes.n > 0) return tabulated(p, smallest, grains, room, size, number);
-    if (!(study_population_share_from(p, smallest) > 0.0)) return 0;
+    if (p->sizes.n > 0) return tabulated(p, smallest, grains, out);
+    if (!(study_population_share_from(p, smallest) > 0.0)) return status_ok();
     const double low = fmax(smallest, study_population_quantile(p, TAIL)),
                  high = study_population_quantile(p, 1.0 - TAIL);
     const int first = (int)ceil(PER_DECADE * log10(low) - 1e-6);
     const int last = (int)fmax(floor(PER_DECADE * log10(high) + 1e-6), first);
     int n = 0;
-    for (int i = first; i <= last && n < room; i++, n++) {
-        const bool open = i == last || n + 1 == room;
+    for (int i = first; i <= last && n < POPULATION_MAX_SIZES; i++, n++) {
+        const bool open = i == last || n + 1 == POPULATION_MAX_SIZES;
         const double from = i == first ? smallest : series(i - 0.5);
-        size[n] = series(i);
-        number[n] = grains * (study_population_share_from(p, from) -
-                              (open ? 0.0 : study_population_share_from(p, series(i + 0.5))));
+        out->size[n] = series(i);
+        out->number[n] = grains * (study_population_share_from(p, from) -
+                                   (open ? 0.0 : study_population_share_from(p, series(i + 0.5))));
     }
-    return n;
+    out->n = n;
+    return status_ok();
 }

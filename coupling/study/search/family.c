@@ -58,12 +58,12 @@ static status add_size(surface_plan *p, double size, double weight)
 }
 
 /* Of grains of that height over radius, the size under which the rail resists least [m]. */
-static status softest_under(const case_surface *s, double aspect, const double *size, int n, double velocity,
+static status softest_under(const case_surface *s, double aspect, const population_sizes *of, double velocity,
                             screen *out)
 {
-    for (int k = 0; k < n; k++) {
+    for (int k = 0; k < of->n; k++) {
         screen hit;
-        TRY(gouge_screen_impact(s, aspect * size[k], velocity, &hit));
+        TRY(gouge_screen_impact(s, aspect * of->size[k], velocity, &hit));
         if (k == 0 || hit.ratio > out->ratio) *out = hit;
     }
     return status_ok();
@@ -105,19 +105,20 @@ static status sort_populations(grain_families *f)
     screen hit = { .skip = false };
     for (int i = 0; i < c->populations.n; i++) {
         const case_population *p = &c->populations.item[i];
-        double size[SURFACE_MAX_SIZES], number[SURFACE_MAX_SIZES];
+        population_sizes sizes;
         const case_site grain = grain_of(p);
-        const int n = study_population_sizes(p, c->study.smallest_radius, SURFACE_MAX_SIZES / 2, size, number);
+        TRY(study_population_sizes(p, c->study.smallest_radius, &sizes));
         f->of_population[i] = -1;
-        f->too_small += n == 0;
-        if (n == 0) continue;
-        TRY(softest_under(&surface, p->aspect, size, n, gouge_trace_fastest(f->flown), &hit));
+        f->too_small += sizes.n == 0;
+        if (sizes.n == 0) continue;
+        TRY(softest_under(&surface, p->aspect, &sizes, gouge_trace_fastest(f->flown), &hit));
         if (hit.skip) {
             f->screened++;
             continue;
         }
         f->of_population[i] = family_for(f, &grain, p->aspect);
-        for (int k = 0; k < n; k++) TRY(add_size(&f->family[f->of_population[i]].plan, size[k], number[k]));
+        surface_plan *plan = &f->family[f->of_population[i]].plan;
+        for (int k = 0; k < sizes.n; k++) TRY(add_size(plan, sizes.size[k], sizes.number[k]));
     }
     return status_ok();
 }
@@ -155,12 +156,12 @@ static status find_unbacked_populations(grain_families *f, const case_surface *s
 {
     for (int i = 0; i < f->c->populations.n; i++) {
         const case_population *p = &f->c->populations.item[i];
-        double size[SURFACE_MAX_SIZES], number[SURFACE_MAX_SIZES];
+        population_sizes sizes;
         const case_site grain = grain_of(p);
-        const int n = study_population_sizes(p, f->c->study.smallest_radius, SURFACE_MAX_SIZES / 2, size, number);
         screen hit;
-        if (n == 0 || f->of_population[i] >= 0 || study_family_of_grain(f, &grain, p->aspect)) continue;
-        TRY(softest_under(surface, p->aspect, size, n, gouge_trace_fastest(f->flown), &hit));
+        TRY(study_population_sizes(p, f->c->study.smallest_radius, &sizes));
+        if (sizes.n == 0 || f->of_population[i] >= 0 || study_family_of_grain(f, &grain, p->aspect)) continue;
+        TRY(softest_under(surface, p->aspect, &sizes, gouge_trace_fastest(f->flown), &hit));
         note_unbacked(f, &hit);
     }
     return status_ok();
