@@ -3,7 +3,7 @@
 #include "coupling/output/expect.h"
 
 #include "coupling/host/outdir.h"
-#include "tests/output_common.h"
+#include "tests/program_common.h"
 
 #include <math.h>
 #include <string.h>
@@ -101,9 +101,26 @@ static void test_names(void **state)
     output_expect_free(&e);
 }
 
+/* The program's table takes what a list may hold: a long text, and one with the bar that parts a table's cells. */
+static void test_table(void **state)
+{
+    (void)state;
+    expectations e;
+    char list[400];
+    snprintf(list, sizeof list, "- {key: class, is: gouge}\n- {key: '%0110d', is: none}\n- {key: class, is: 'a|b'}\n",
+             0);
+    assert_int_equal(host_file_write("case.yaml", "name: one\n", 10).code, STATUS_OK);
+    assert_int_equal(compare(list, &e).code, STATUS_OK);
+    output_expect_free(&e);
+    assert_int_equal(run("check case.yaml --expect run"), 1);
+    assert_true(contains("out.txt", "1 of 3 expectations hold"));
+    assert_true(contains("out.txt", "  a|b\n") && contains("out.txt", "0000...  none\n"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_numbers), cmocka_unit_test(test_words),
-                                        cmocka_unit_test(test_refused), cmocka_unit_test(test_names) };
+                                        cmocka_unit_test(test_refused), cmocka_unit_test(test_names),
+                                        cmocka_unit_test(test_table) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -496,7 +496,37 @@ static void table_is_aligned(void **state)
     assert_non_null(strstr(text, "\n\nname  the last\nrow          4\n"));
     free(text);
     host_table_free(t);
-    assert_int_equal(host_table_create("1|2|3|4|5|6|7|8|9|10|11|12|13|14|15|16|17", &t).code, STATUS_BAD_INPUT);
+    char titles[2 * TABLE_MAX_COLUMNS + 2] = "1"; /* one column more than there may be */
+    for (int k = 0; k < TABLE_MAX_COLUMNS; k++) strcat(titles, "|k");
+    assert_int_equal(host_table_create(titles, &t).code, STATUS_BAD_INPUT);
+}
+
+/* Any text may stand in a cell: a long one ends between two characters, and a bar begins no new cell. */
+static void table_takes_any_text(void **state)
+{
+    (void)state;
+    table *t;
+    char longest[96] = "", longer[2000] = "", *text = NULL;
+    size_t bytes;
+    memset(longest, 'n', 95);
+    memset(longer, 'm', 91);
+    for (size_t k = 91; k < 1901; k += 2) memcpy(longer + k, "\xc2\xb5", 2);
+    OK(host_table_create("name" TABLE_NEXT "what|more", &t));
+    OK(host_table_row(t, "%s|c", "a" TABLE_NEXT "b"));
+    assert_int_equal(host_table_row(t, "%s|c|d", "a" TABLE_NEXT "b").code, STATUS_BAD_INPUT);
+    OK(host_table_row(t, "%s|%s", "a|b|c", "two\nlines"));
+    OK(host_table_row(t, "%s|x", longest));
+    OK(host_table_row(t, "%s|after", longer));
+    FILE *out = open_memstream(&text, &bytes);
+    host_table_print(t, out);
+    fclose(out);
+    assert_non_null(strstr(text, "\na|b|c"));
+    assert_non_null(strstr(text, "two lines"));
+    assert_non_null(strstr(text, longest));
+    assert_non_null(strstr(text, "m...  ")); /* 91 of m, no half of a character, three dots */
+    assert_non_null(strstr(text, "after"));
+    free(text);
+    host_table_free(t);
 }
 
 static void signals_ask_to_stop(void **state)
@@ -608,6 +638,7 @@ int main(void)
         cmocka_unit_test(progress_on_no_terminal),
         cmocka_unit_test(timing_books_every_second),
         cmocka_unit_test(table_is_aligned),
+        cmocka_unit_test(table_takes_any_text),
         cmocka_unit_test(signals_ask_to_stop),
         cmocka_unit_test(second_interrupt_ends_it),
         cmocka_unit_test(files_are_written_behind_the_caller),

@@ -96,6 +96,32 @@ static void test_together(void **state)
     cJSON_Delete(all);
 }
 
+/* Twenty numbers are all printed, each under its title, and so is a text that holds a bar. */
+static void test_many_columns(void **state)
+{
+    (void)state;
+    enum { COLUMNS = 20 };
+    const summary_key *key[COLUMNS];
+    const study *shot = study_find("shot");
+    char *text, arguments[1600] = "sweep " SHOT_CASE " -o wide --force --set sweep=\"{of: shot, vary: [{key: title, "
+                                  "values: ['low|8', 'high|9']}], read: [";
+    int n = 0;
+    for (const summary_key *k = shot->keys; k->name && n < COLUMNS; k++)
+        if (k->kind == KEY_NUMBER && k->n == 1) key[n++] = k;
+    assert_int_equal(n, COLUMNS);
+    for (int k = 0; k < n; k++) {
+        strcat(arguments, k > 0 ? ", " : "");
+        strcat(arguments, key[k]->name);
+    }
+    strcat(arguments, "]}\"");
+    assert_int_equal(run(arguments), 0);
+    OK(host_file_read("out.txt", &text, NULL));
+    for (int k = 0; k < n; k++)
+        if (!strstr(text, key[k]->name)) fail_msg("no `%s` in\n%s", key[k]->name, text);
+    if (!strstr(text, "\nlow|8 ") || !strstr(text, "time [s]")) fail_msg("%s", text);
+    free(text);
+}
+
 /* What is wrong is said, with its value, before there is a folder. */
 static void test_refused(void **state)
 {
@@ -247,8 +273,10 @@ static void test_drawn_over(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_as_runs_of_their_own), cmocka_unit_test(test_together), cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_resolution),           cmocka_unit_test(test_probes),   cmocka_unit_test(test_drawn_over),
+        cmocka_unit_test(test_as_runs_of_their_own), cmocka_unit_test(test_together),
+        cmocka_unit_test(test_many_columns),         cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_resolution),           cmocka_unit_test(test_probes),
+        cmocka_unit_test(test_drawn_over),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

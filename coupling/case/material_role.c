@@ -128,7 +128,7 @@ static status put_row(table *t, const char *first, const mpm_material *m, const 
     char cells[12 * ROLES] = "";
     for (int i = 0; i < ROLES; i++) {
         const size_t used = strlen(cells);
-        snprintf(cells + used, sizeof cells - used, "|%s", m ? good(m, &roles[i]) : "");
+        snprintf(cells + used, sizeof cells - used, TABLE_NEXT "%s", m ? good(m, &roles[i]) : "");
     }
     return host_table_row(t, "%s%s|%s", first, cells, last);
 }
@@ -146,12 +146,12 @@ static status add_row(listing *l, const char *name, const char *const *dirs, int
     const status s = case_material_sheet_open(name, dirs, n_dirs, &sheet, &errors);
     free(errors);
     if (s.code == STATUS_BAD_INPUT) {
-        snprintf(first, sizeof first, "%.24s|", name);
+        snprintf(first, sizeof first, "%.24s" TABLE_NEXT, name);
         snprintf(last, sizeof last, "its file has errors: breech materials %.24s", name);
         return put_row(l->t, first, NULL, last);
     }
     TRY(s);
-    snprintf(first, sizeof first, "%.24s|%.24s", name, strength_name(&sheet));
+    snprintf(first, sizeof first, "%.24s" TABLE_NEXT "%.24s", name, strength_name(&sheet));
     shortened(&sheet.material, last);
     const status added = put_row(l->t, first, &sheet.material, last);
     if (sheet.take_for[0]) fprintf(l->advice, "  %-22s %s\n", name, sheet.take_for);

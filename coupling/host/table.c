@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_COLUMNS = 16, CELL_SIZE = 96, LINE_SIZE = MAX_COLUMNS * CELL_SIZE, MAX_WIDTH = 100 };
+enum { CELL_SIZE = 96, MAX_WIDTH = 100 };
 
 typedef struct {
-    char cell[MAX_COLUMNS][CELL_SIZE];
+    char cell[TABLE_MAX_COLUMNS][CELL_SIZE];
 } row;
 
 struct table {
@@ -27,23 +27,36 @@ static int shown_width(const char *text)
     return n;
 }
 
-/* Number of cells, or -1 when there are too many or one is too long. */
+/* Of a text that is too long its start, to the end of a character, and "...". */
+static void fill_cell(const char *text, size_t length, char cell[CELL_SIZE])
+{
+    const bool fits = length < CELL_SIZE;
+    if (!fits) {
+        length = CELL_SIZE - sizeof "...";
+        while (length > 0 && ((unsigned char)text[length] & 0xC0) == 0x80) length--;
+    }
+    for (size_t i = 0; i < length; i++) cell[i] = (char)(iscntrl((unsigned char)text[i]) ? ' ' : text[i]);
+    strcpy(cell + length, fits ? "" : "...");
+}
+
+/* Number of cells; those past the last column that a table may have are only counted. */
 static int split(const char *line, row *out)
 {
     memset(out, 0, sizeof *out);
-    int column = 0;
-    size_t n = 0;
-    for (; *line; line++) {
-        if (*line == '|') {
-            column++;
-            n = 0;
-        } else if (column < MAX_COLUMNS && n + 1 < CELL_SIZE) {
-            out->cell[column][n++] = *line;
-        } else {
-            return -1;
-        }
+    for (int column = 0;; column++) {
+        const size_t length = strcspn(line, TABLE_NEXT);
+        if (column < TABLE_MAX_COLUMNS) fill_cell(line, length, out->cell[column]);
+        if (!line[length]) return column + 1;
+        line += length + 1;
     }
-    return column < MAX_COLUMNS ? column + 1 : -1;
+}
+
+/* A copy of the text with TABLE_NEXT for each '|'; NULL: no memory.  free() it. */
+static char *with_separators(const char *text)
+{
+    char *copy = strdup(text);
+    for (char *at = copy; at && (at = strchr(at, '|'));) *at = *TABLE_NEXT;
+    return copy;
 }
 
 static status add(table *t, const row *r)
@@ -63,9 +76,12 @@ status host_table_create(const char *titles, table **out)
 {
     *out = NULL;
     row r;
-    const int columns = split(titles, &r);
-    CHECK(columns > 0, STATUS_BAD_INPUT, "table: at most %d columns of %d characters: %.200s", MAX_COLUMNS,
-          CELL_SIZE - 1, titles);
+    char *line = with_separators(titles);
+    CHECK(line, STATUS_MEMORY, "no memory for a table");
+    const int columns = split(line, &r);
+    free(line);
+    CHECK(columns <= TABLE_MAX_COLUMNS, STATUS_BAD_INPUT, "table: at most %d columns: %.200s", TABLE_MAX_COLUMNS,
+          titles);
     table *t = calloc(1, sizeof *t);
     CHECK(t, STATUS_MEMORY, "no memory for a table");
     t->columns = columns;
@@ -80,15 +96,21 @@ status host_table_create(const char *titles, table **out)
 
 status host_table_row(table *t, const char *format, ...)
 {
-    char line[LINE_SIZE];
-    va_list args;
+    char *own = with_separators(format), *line = NULL;
+    va_list args, again;
     va_start(args, format);
-    vsnprintf(line, sizeof line, format, args);
+    va_copy(again, args);
+    const int length = own ? vsnprintf(NULL, 0, own, args) : -1;
+    if (length >= 0) line = malloc((size_t)length + 1);
+    if (line) vsnprintf(line, (size_t)length + 1, own, again);
+    va_end(again);
     va_end(args);
+    free(own);
+    CHECK(line, STATUS_MEMORY, "no memory for a row of a table");
     row r;
     const int columns = split(line, &r);
-    CHECK(columns > 0 && columns <= t->columns, STATUS_BAD_INPUT, "table: %d cells in a row of %d columns: %.200s",
-          columns, t->columns, line);
+    free(line);
+    CHECK(columns <= t->columns, STATUS_BAD_INPUT, "table: %d cells in a row of %d columns", columns, t->columns);
     return add(t, &r);
 }
 
@@ -116,8 +138,8 @@ static bool column_is_numbers(const table *t, int c)
 }
 
 typedef struct {
-    int width[MAX_COLUMNS];
-    bool right[MAX_COLUMNS];
+    int width[TABLE_MAX_COLUMNS];
+    bool right[TABLE_MAX_COLUMNS];
 } layout;
 
 static void print_cell(const table *t, const layout *l, size_t i, int c, bool last, FILE *out)

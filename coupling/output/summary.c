@@ -452,7 +452,7 @@ double output_number_of(const summary_object *o, const char *path, char unit[SUM
 
 /* ---- for people ---- */
 
-/* Numbers in one unit, with the prefix of the largest: "967.1|kA", "1066 .. 1759|m/s". */
+/* Numbers in one unit, with the prefix of the largest: 967.1 and kA, 1066 .. 1759 and m/s, in two cells. */
 static void numbers_text(const double *x, int n, const char *unit, char *out, size_t size)
 {
     const bool none = strcmp(unit, "1") == 0 || unit[0] == '\0';
@@ -473,10 +473,10 @@ static void numbers_text(const double *x, int n, const char *unit, char *out, si
         used += (size_t)(isfinite(x[i]) ? snprintf(out + used, size - used, "%s%.4g", between, scale * x[i])
                                         : snprintf(out + used, size - used, "%s?", between));
     }
-    if (used < size) snprintf(out + used, size - used, "|%s", in);
+    if (used < size) snprintf(out + used, size - used, TABLE_NEXT "%s", in);
 }
 
-/* "value|unit"; false where there is nothing to show. */
+/* Value and unit, in two cells; false where there is nothing to show. */
 static bool shown_text(const summary_key *k, const void *from, char *out, size_t size)
 {
     cJSON *value = value_json(k, from);
@@ -487,11 +487,11 @@ static bool shown_text(const summary_key *k, const void *from, char *out, size_t
         x[i] = number_of(cJSON_IsArray(value) ? cJSON_GetArrayItem(value, i) : value);
         known = known || isfinite(x[i]);
     }
-    if (cJSON_IsString(value)) snprintf(out, size, "%.*s|", (int)strcspn(value->valuestring, "|"), value->valuestring);
+    if (cJSON_IsString(value)) snprintf(out, size, "%.*s" TABLE_NEXT, (int)size - 2, value->valuestring);
     if (cJSON_IsString(value) || cJSON_IsBool(value)) known = !cJSON_IsString(value) || value->valuestring[0];
-    if (cJSON_IsBool(value)) snprintf(out, size, "%s|", cJSON_IsTrue(value) ? "yes" : "no");
+    if (cJSON_IsBool(value)) snprintf(out, size, "%s" TABLE_NEXT, cJSON_IsTrue(value) ? "yes" : "no");
     if (k->kind == KEY_COUNT || k->kind == KEY_INTEGER)
-        snprintf(out, size, "%.0f|", x[0]);
+        snprintf(out, size, "%.0f" TABLE_NEXT, x[0]);
     else if (k->kind == KEY_NUMBER && n <= 8)
         numbers_text(x, n, k->unit, out, size);
     cJSON_Delete(value);
@@ -523,7 +523,7 @@ static int room_for_meaning(const summary_object *o)
     char value[VALUE_SIZE];
     for (const summary_key *k = o->keys; k->name; k++) {
         if (!is_shown(o, k, value)) continue;
-        const int digits = (int)strcspn(value, "|");
+        const int digits = (int)strcspn(value, TABLE_NEXT);
         name = (int)fmax(name, strlen(k->name));
         number = (int)fmax(number, digits);
         unit = (int)fmax(unit, strlen(value + digits + 1));
@@ -541,8 +541,8 @@ static void add_with_meaning(table *t, const summary_key *k, const char *value, 
         if (n > room)
             for (n = room; n > 0 && at[n] != ' '; n--) continue;
         if (n == 0) n = room; /* a word wider than that */
-        host_table_row(t, "%s|%s|%.*s", first ? k->name : "", first ? value : "|", n < end - at ? n : (int)(end - at),
-                       at);
+        host_table_row(t, "%s|%s|%.*s", first ? k->name : "", first ? value : TABLE_NEXT,
+                       n < end - at ? n : (int)(end - at), at);
         at += n;
         while (at < end && *at == ' ') at++;
         first = false;

@@ -102,7 +102,7 @@ static void print_ranking(const compare_result *c, FILE *out)
         char n[24], few[24], many[24], last[24], volume[24], better[24];
         host_table_row(t, "%d|%s|%s|%s|%s%s%s|%s|%s|%s", e->tied ? e->tied : i + 1, e->surface,
                        output_cell(e->gouges, 1.0, "%.3g", n), output_cell(e->gouges_interval[0], 1.0, "%.3g", few),
-                       output_cell(e->gouges_interval[1], 1.0, "%.3g", many), several ? "|" : "",
+                       output_cell(e->gouges_interval[1], 1.0, "%.3g", many), several ? TABLE_NEXT : "",
                        several ? output_cell(e->last_gouges, 1.0, "%.3g", last) : "",
                        output_cell(e->gouged_volume, 1e-9, "%.3g", volume),
                        output_cell(e->better_than_next, 0.01, "%.0f %%", better), e->layer);

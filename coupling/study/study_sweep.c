@@ -419,41 +419,53 @@ static status run(session *s, const study_case *of, study_answer *out)
 
 /* ---- for people ---- */
 
-static void add_cell(char *row, size_t size, const summary_pair *p)
+enum { COLUMNS = CASE_SWEEP_KEYS + MOST_OUTPUTS + 1 /* time */, CELL_ROOM = 320, ROW_ROOM = COLUMNS * CELL_ROOM };
+_Static_assert((int)COLUMNS <= (int)TABLE_MAX_COLUMNS, "a table has all columns of a sweep");
+
+/* The table cuts what is too wide; what is far too long is cut here, so that a row has room for every cell. */
+static char *add_cell(char *row, const summary_pair *p)
 {
     char number[24];
-    snprintf(row + strlen(row), size - strlen(row), "%s%s", row[0] ? "|" : "",
-             p->text ? p->text : output_cell(p->value, 1.0, "%.5g", number));
+    return row + snprintf(row, CELL_ROOM, "%.300s" TABLE_NEXT,
+                          p->text ? p->text : output_cell(p->value, 1.0, "%.5g", number));
 }
 
-static void add_title(char *row, size_t size, const summary_pair *unit)
+static char *add_title(char *row, const summary_pair *unit)
 {
     const bool bare = !unit->text[0] || strcmp(unit->text, "1") == 0;
-    snprintf(row + strlen(row), size - strlen(row), "%s%s%s%s%s", row[0] ? "|" : "", unit->name, bare ? "" : " [",
-             bare ? "" : unit->text, bare ? "" : "]");
+    return row + snprintf(row, CELL_ROOM, "%.200s%s%.90s%s" TABLE_NEXT, unit->name, bare ? "" : " [",
+                          bare ? "" : unit->text, bare ? "" : "]");
 }
 
-enum { ROW_SIZE = 64 * (CASE_SWEEP_KEYS + MOST_OUTPUTS + 2) };
-
 /* A run a line: its inputs, its outputs or their errors, its time. */
-static void print_runs(const sweep_result *r, bool errors, FILE *out)
+static status fill_table(const sweep_result *r, bool errors, table **t)
 {
-    char row[ROW_SIZE] = "";
-    table *t;
-    const int inputs = r->n_runs > 0 ? r->run[0].n_inputs : 0;
+    char row[ROW_ROOM], *end = row;
     for (int k = 0; k < r->n_units; k++)
-        add_title(row, sizeof row, errors && k >= inputs ? &(summary_pair){ r->units[k].name, "", NAN } : &r->units[k]);
-    add_title(row, sizeof row, &(summary_pair){ "time", "s", NAN });
-    if (r->n_runs == 0 || host_table_create(row, &t).code != STATUS_OK) return;
+        end = add_title(end, errors && k >= r->run[0].n_inputs ? &(summary_pair){ r->units[k].name, "", NAN }
+                                                               : &r->units[k]);
+    strcpy(end, "time [s]");
+    TRY(host_table_create(row, t));
     for (int i = 0; i < r->n_runs; i++) {
         const sweep_run *run = &r->run[i];
-        row[0] = '\0';
-        for (int k = 0; k < run->n_inputs; k++) add_cell(row, sizeof row, &run->inputs[k]);
-        for (int k = 0; k < run->n_outputs; k++) add_cell(row, sizeof row, errors ? &run->errors[k] : &run->outputs[k]);
-        add_cell(row, sizeof row, &(summary_pair){ .value = run->wall_seconds });
-        host_table_row(t, "%s", row);
+        char time[24];
+        end = row;
+        for (int k = 0; k < run->n_inputs; k++) end = add_cell(end, &run->inputs[k]);
+        for (int k = 0; k < run->n_outputs; k++) end = add_cell(end, errors ? &run->errors[k] : &run->outputs[k]);
+        TRY(host_table_row(*t, "%.*s%s", (int)(end - row), row, output_cell(run->wall_seconds, 1.0, "%.5g", time)));
     }
-    host_table_print(t, out);
+    return status_ok();
+}
+
+static void print_runs(const sweep_result *r, bool errors, FILE *out)
+{
+    table *t = NULL;
+    if (r->n_runs == 0) return;
+    const status s = fill_table(r, errors, &t);
+    if (s.code == STATUS_OK)
+        host_table_print(t, out);
+    else
+        fprintf(out, "no table here (%s); all runs are in sweep.csv\n", s.text);
     host_table_free(t);
 }
 
