@@ -2,7 +2,11 @@
 /* Expectations beside a case, compared with a summary: what holds, what fails, what is refused. */
 #include "coupling/output/expect.h"
 
+#include "coupling/case/case_schema.h"
 #include "coupling/host/outdir.h"
+#include "coupling/host/units.h"
+#include "coupling/study/study.h"
+#include "mpm/read/probe.h"
 #include "tests/program_common.h"
 
 #include <math.h>
@@ -86,6 +90,50 @@ static void test_refused(void **state)
     refused("key: crater_depth, valeu: 1 mm, within: 1 mm", "unknown key `valeu`");
 }
 
+/* A number in this unit is taken as it is. */
+static void unit_is_known(const units *u, const char *name, const char *unit)
+{
+    char text[60];
+    const char *found;
+    double value = NAN;
+    if (!unit[0]) return;
+    snprintf(text, sizeof text, "1.5 %s", unit);
+    if (!output_number_in_si(u, text, &value, &found) || value != 1.5) fail_msg("%s: %s", name, text);
+}
+
+static void units_of_keys(const units *u, const summary_key *keys)
+{
+    for (const summary_key *k = keys; k && k->name; k++) {
+        unit_is_known(u, k->name, k->unit);
+        units_of_keys(u, k->item);
+    }
+}
+
+static void units_of_sections(const units *u, const case_section *sections)
+{
+    for (const case_section *s = sections; s; s = s->also) {
+        for (const base_param *p = s->table; p && p->key; p++)
+            if (p->kind == BASE_PARAM_NUMBER) unit_is_known(u, p->key, p->unit);
+        for (const case_section *child = s->children; child && child->key; child++) units_of_sections(u, child);
+    }
+}
+
+/* Every number of a summary may be expected, every key of a case varied, in the unit that its table says. */
+static void test_units(void **state)
+{
+    (void)state;
+    units *u;
+    OK(host_units_open(&u));
+    const study *const others[] = { &study_ensemble, &study_bodies, &study_rail_life, &study_compare_life,
+                                    &study_compare_targets };
+    for (int k = 0; k < STUDIES; k++) units_of_keys(u, study_list[k]->keys);
+    for (size_t k = 0; k < sizeof others / sizeof *others; k++) units_of_keys(u, others[k]->keys);
+    for (int i = 0; mpm_probe_kind_at(i); i++)
+        for (const mpm_column *c = mpm_probe_kind_at(i)->columns; c->name; c++) unit_is_known(u, c->name, c->unit);
+    units_of_sections(u, &case_root);
+    host_units_close(u);
+}
+
 /* NAME.yaml has its list in NAME_expected.yaml; without one there is nothing to compare. */
 static void test_names(void **state)
 {
@@ -121,6 +169,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_numbers), cmocka_unit_test(test_words),
                                         cmocka_unit_test(test_refused), cmocka_unit_test(test_names),
-                                        cmocka_unit_test(test_table) };
+                                        cmocka_unit_test(test_table),   cmocka_unit_test(test_units) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
