@@ -3,8 +3,8 @@
  *
  * A look counts every granule's life down by one, then points that ask for a level's cells give a full life to the
  * granules around them.  Where a granule has become active or has ceased to be, points change their level: into finer
- * cells they are halved until they fit, in coarser ones they stay as they are until merge.c joins what lies deep in a
- * sound body. */
+ * cells they are halved until they fit, in coarser ones they stay as they are until merge.c joins sound ones that lie
+ * deep in their group. */
 #include "mpm/memory/build.h"
 #include "mpm/memory/store.h"
 #include "mpm/refine/refine.h"

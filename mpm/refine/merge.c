@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Points that have come into coarser cells than they need.  Two side by side become one where their cell allows
- * a point of that length and a sound body goes on all around.  At a free surface, where metal has failed and in the
- * cells beside such, points outlive the cells that they came from, so a surface stays as sharp as it was made. */
+/* Points that have come into coarser cells than they need.  Two sound ones side by side become one where their cell
+ * allows a point of that length and is deep: each of the six cells that share a face with it holds points of the group,
+ * failed ones too, or lies beyond the window.  In the other cells, those of a free surface, points outlive the cells
+ * that they came from, so a surface stays as sharp as it was made.  A cell that meets a void with an edge or a corner
+ * alone is deep. */
 #include "mpm/memory/store.h"
 
 #include <math.h>
@@ -134,8 +136,8 @@ static bool merge_lengths(const mpm *m, const brick *b, double longest[3][BRICK]
     return any;
 }
 
-/* Has the group points in all cells beside one?  As it was before this look: while that goes on, other threads take the
- * chains of their cells apart. */
+/* Has the group points, sound or failed, in the six cells that share a face with this one?  As it was before this look:
+ * while that goes on, other threads take the chains of their cells apart. */
 static bool is_deep(const mpm *m, const brick *b, int cell)
 {
     static const int stride[3] = { 1, BRICK, BRICK * BRICK }, step[3] = { 1, 3, 9 };
