@@ -257,6 +257,10 @@ static void test_profile(void **state)
                 assert_near(one[2 * i + part].volume, volume, 1e-12 * 8e-9);
                 assert_near(one[2 * i + part].power, body == 0 ? 1e8 * 4e4 * volume : 0, 1e-12 * 1e8 * 4e4 * 8e-9);
             }
+        mpm_slices beside = slices; /* what ends less than a slice before the first, or begins behind the last */
+        beside.lo = body == 0 ? 0.1e-3 : -0.1e-3 - N * beside.width;
+        assert_ok(mpm_plastic_profile(solver, counts, &beside, three));
+        for (int i = 0; i < 2 * N; i++) assert_true(three[i].power == 0 && three[i].volume == 0);
         mpm_set_threads(solver, 3);
         assert_ok(mpm_plastic_profile(solver, counts, &slices, three));
         assert_memory_equal(one, three, sizeof one);

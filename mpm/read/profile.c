@@ -23,8 +23,9 @@ static void add_lane(const block *q, int l, double off, const share_sums *s)
     const mpm_slices *p = s->slices;
     const double x = q->x[p->along][l], half = q->half[p->along][l], power = lane_plastic_power(q, l),
                  volume = q->mass[0][l] / q->rho[0][l];
-    const int first = (int)fmax((x - half - p->lo) / p->width, 0);
-    const int last = (int)fmin((x + half - p->lo) / p->width, p->n - 1), n = last - first + 1;
+    const double from = (x - half - p->lo) / p->width, to = (x + half - p->lo) / p->width;
+    if (!(to >= 0 && from < p->n)) return; /* in no slice */
+    const int first = (int)fmax(from, 0), last = (int)fmin(to, p->n - 1), n = last - first + 1;
     for (int i = first; i <= last; i++) add(&s->to[2 * i + (off > p->sides)], power / n, volume / n);
 }
 
