@@ -85,7 +85,7 @@ static status grow_places(mpm *m)
     m->site_count = m->interface_count = 0;
     CHECK(directory && m->site_list && m->interface_list && m->site_sum, STATUS_MEMORY,
           "no memory for %d places of bricks", room);
-    for (int i = m->groups * m->places; i < m->groups * room; i++) m->directory[i] = -1;
+    for (size_t i = directory_slot(m, m->places, 0); i < directory_slot(m, room, 0); i++) m->directory[i] = -1;
     m->places = room;
     return status_ok();
 }
@@ -138,7 +138,7 @@ status mpm_store_brick(mpm *m, int group, int level, const int at[3], int *out)
     int site;
     TRY(mpm_grids_add_place(&m->grids, level, at, &site));
     TRY(grow_places(m));
-    int *slot = &m->directory[site * m->groups + group];
+    int *slot = &m->directory[directory_slot(m, site, group)];
     if (*slot < 0) {
         TRY(grow_bricks(m));
         brick *b = &m->bricks[m->bricks_used];
@@ -167,7 +167,7 @@ status mpm_store_empty(mpm *m, int blocks)
 {
     for (int i = 0; i < m->bricks_used; i++) free_brick(&m->bricks[i]);
     m->bricks_used = 0;
-    for (int i = 0; i < m->groups * m->places; i++) m->directory[i] = -1;
+    for (size_t i = 0; i < directory_slot(m, m->places, 0); i++) m->directory[i] = -1;
     m->free_head = -1, m->blocks_free = 0;
     chain_free_blocks(m, 0);
     return blocks > m->blocks_capacity ? grow_blocks(m, blocks + blocks / 8) : status_ok();
@@ -283,7 +283,7 @@ static void forget_unwanted(mpm *m)
     int n = 0;
     for (int i = 0; i < m->bricks_used; i++) {
         brick *b = &m->bricks[i];
-        int *slot = &m->directory[grids_place(&m->grids, b->level, b->at) * m->groups + b->group];
+        int *slot = &m->directory[directory_slot(m, grids_place(&m->grids, b->level, b->at), b->group)];
         *slot = b->wanted ? n : -1;
         if (b->wanted)
             m->bricks[n++] = *b;

@@ -372,10 +372,16 @@ static inline double (*brick_nodes(const mpm *m, const brick *b))[NODE]
     return m->nodes[b - m->bricks];
 }
 
+/* Where the directory says which brick a group has at a site: more slots than an int counts may be needed. */
+static inline size_t directory_slot(const mpm *m, int site, int group)
+{
+    return (size_t)site * (size_t)m->groups + (size_t)group;
+}
+
 /* Brick of a group at a site, -1 = none. */
 static inline int brick_of_site(const mpm *m, int site, int group)
 {
-    return m->directory[site * m->groups + group];
+    return m->directory[directory_slot(m, site, group)];
 }
 
 /* The same at a place of a level. */
