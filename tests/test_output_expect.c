@@ -66,6 +66,8 @@ static void test_numbers(void **state)
     assert_true(holds("key: 'scenes[1].v', value: 1.6 km/s, within: 0 m/s"));
     assert_true(holds("key: 'scenes[a].v', value: 1.5 km/s, within: 0 m/s"));
     assert_true(holds("key: 'ranking[warm rail].v', value: 640 m/s, within: 0 m/s"));
+    assert_false(holds("key: 'scenes[4294967297].v', value: 1.6 km/s, within: 0 m/s"));  /* 1 to 32 bits */
+    assert_false(holds("key: 'scenes[-4294967295].v', value: 1.6 km/s, within: 0 m/s")); /* and so is this */
     assert_false(holds("key: 'scenes[c].v', value: 1.5 km/s, within: 1 km/s"));
 }
 

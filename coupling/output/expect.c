@@ -75,7 +75,8 @@ static const cJSON *entry_of(const cJSON *list, const char *which, size_t length
     char word[EXPECT_TEXT_SIZE], *end;
     snprintf(word, sizeof word, "%.*s", (int)length, which);
     const long number = strtol(word, &end, 10);
-    if (*end == '\0' && end != word) return cJSON_GetArrayItem(list, (int)number);
+    if (*end == '\0' && end != word)
+        return number >= 0 && number < cJSON_GetArraySize(list) ? cJSON_GetArrayItem(list, (int)number) : NULL;
     const cJSON *item;
     cJSON_ArrayForEach(item, list)
     {
