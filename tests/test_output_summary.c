@@ -270,6 +270,21 @@ static void closing_tables_are_readable(void **state)
     }
 }
 
+/* A text cut inside a character, and bytes that are none, do not make the file unreadable. */
+static void texts_are_valid(void **state)
+{
+    (void)state;
+    example e;
+    fill(&e, STUDY_scene);
+    e.summary.error = "\xc3\xa4 \xe2\x82\xac \xf0\x9f\x98\x80 \xff \xc3| \xe2\x82";
+    e.summary.warnings = "a\xc3\nb\n";
+    cJSON *s = parsed(&e.summary);
+    assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(s, "error")),
+                        "\xc3\xa4 \xe2\x82\xac \xf0\x9f\x98\x80 ? ?| ??");
+    assert_string_equal(cJSON_GetStringValue(cJSON_GetArrayItem(cJSON_GetObjectItem(s, "warnings"), 0)), "a?");
+    cJSON_Delete(s);
+}
+
 static void file_and_its_status(void **state)
 {
     (void)state;
@@ -298,6 +313,7 @@ int main(void)
         cmocka_unit_test(every_key_on_failure_too),
         cmocka_unit_test(numbers_come_back_exactly),
         cmocka_unit_test(what_is_not_there_is_null),
+        cmocka_unit_test(texts_are_valid),
         cmocka_unit_test(onset_carries_shot_sites_and_scenes),
         cmocka_unit_test(manual_lists_every_key),
         cmocka_unit_test(manual_is_up_to_date),

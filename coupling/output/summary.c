@@ -20,6 +20,28 @@ static cJSON *number_json(double value)
     return isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull();
 }
 
+/* Bytes of the UTF-8 character that begins here; 0: none does. */
+static int character_bytes(const char *text)
+{
+    const unsigned char c = (unsigned char)*text;
+    const int n = c < 0x80 ? 1 : c < 0xC2 ? 0 : c < 0xE0 ? 2 : c < 0xF0 ? 3 : c < 0xF5 ? 4 : 0;
+    for (int i = 1; i < n; i++)
+        if (((unsigned char)text[i] & 0xC0) != 0x80) return 0;
+    return n;
+}
+
+/* A text that was cut to its room may end inside a character, and a path may hold any bytes: JSON takes neither. */
+static cJSON *text_json(const char *text)
+{
+    cJSON *json = cJSON_CreateString(text);
+    for (char *at = json ? json->valuestring : NULL; at && *at;) {
+        const int bytes = character_bytes(at);
+        if (!bytes) *at = '?';
+        at += bytes ? bytes : 1;
+    }
+    return json;
+}
+
 static cJSON *vector_json(const double *value, int n)
 {
     cJSON *list = cJSON_CreateArray();
@@ -55,7 +77,7 @@ static cJSON *pairs_json(const summary_key *k, const char *base)
     const summary_pair *pair = *(const summary_pair *const *)(const void *)(base + k->offset);
     for (int i = 0; i < count_of(k, base); i++)
         cJSON_AddItemToObject(object, pair[i].name,
-                              pair[i].text ? cJSON_CreateString(pair[i].text) : number_json(pair[i].value));
+                              pair[i].text ? text_json(pair[i].text) : number_json(pair[i].value));
     return object;
 }
 
@@ -96,7 +118,7 @@ static cJSON *value_json(const summary_key *k, const void *from)
     case KEY_COUNT: return cJSON_CreateNumber((double)*(const uint64_t *)member);
     case KEY_INTEGER: return cJSON_CreateNumber(*(const int *)member);
     case KEY_FLAG: return cJSON_CreateBool(*(const bool *)member);
-    case KEY_TEXT: return cJSON_CreateString(member);
+    case KEY_TEXT: return text_json(member);
     case KEY_NAME: return cJSON_CreateString(k->names[*(const int *)member]);
     case KEY_BY_NAME: return by_name_json(k, base);
     case KEY_PAIRS: return pairs_json(k, base);
@@ -125,7 +147,7 @@ static cJSON *warnings_json(const char *warnings)
         const size_t n = strcspn(line, "\n");
         char text[1000];
         snprintf(text, sizeof text, "%.*s", (int)(n < sizeof text ? n : sizeof text - 1), line);
-        if (n) cJSON_AddItemToArray(list, cJSON_CreateString(text));
+        if (n) cJSON_AddItemToArray(list, text_json(text));
         line += n + (line[n] == '\n');
     }
     return list;
@@ -138,10 +160,7 @@ static void add_common(cJSON *root, const run_summary *s)
     cJSON_AddStringToObject(root, "version", host_version());
     cJSON_AddStringToObject(root, "instruction_set", s->instruction_set ? s->instruction_set : "");
     cJSON_AddStringToObject(root, "status", output_run_status_names[s->status]);
-    if (s->error)
-        cJSON_AddStringToObject(root, "error", s->error);
-    else
-        cJSON_AddNullToObject(root, "error");
+    cJSON_AddItemToObject(root, "error", s->error ? text_json(s->error) : cJSON_CreateNull());
     cJSON_AddItemToObject(root, "warnings", warnings_json(s->warnings));
 }
 
