@@ -104,7 +104,7 @@ static void test_many_columns(void **state)
     const summary_key *key[COLUMNS];
     const study *shot = study_find("shot");
     char *text, arguments[1600] = "sweep " SHOT_CASE " -o wide --force --set sweep=\"{of: shot, vary: [{key: title, "
-                                  "values: ['low|8', 'high|9']}], read: [";
+                                  "values: ['low|8', 'the 9\\\" gun']}], read: [";
     int n = 0;
     for (const summary_key *k = shot->keys; k->name && n < COLUMNS; k++)
         if (k->kind == KEY_NUMBER && k->n == 1) key[n++] = k;
@@ -119,6 +119,9 @@ static void test_many_columns(void **state)
     for (int k = 0; k < n; k++)
         if (!strstr(text, key[k]->name)) fail_msg("no `%s` in\n%s", key[k]->name, text);
     if (!strstr(text, "\nlow|8 ") || !strstr(text, "time [s]")) fail_msg("%s", text);
+    free(text);
+    OK(host_file_read("wide/sweep.csv", &text, NULL)); /* quotes inside a text are doubled */
+    if (!strstr(text, "\n\"the 9\"\" gun\",")) fail_msg("%s", text);
     free(text);
 }
 

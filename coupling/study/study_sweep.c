@@ -350,11 +350,19 @@ static void csv_title(FILE *out, const summary_pair *unit, bool first)
     fprintf(out, "%s%s%s%s%s", first ? "" : ",", unit->name, bare ? "" : " [", bare ? "" : unit->text, bare ? "" : "]");
 }
 
+/* In quotes; those inside it are doubled (RFC 4180). */
+static void csv_text(FILE *out, const char *text)
+{
+    fputc('"', out);
+    for (; *text; text++) fputs(*text == '"' ? "\"\"" : (char[2]){ *text }, out);
+    fputc('"', out);
+}
+
 static void csv_value(FILE *out, const summary_pair *p, bool first)
 {
     if (!first) fputc(',', out);
     if (p->text)
-        fprintf(out, "\"%s\"", p->text);
+        csv_text(out, p->text);
     else if (isfinite(p->value))
         fprintf(out, "%.15g", p->value);
 }
