@@ -468,6 +468,19 @@ static void timing_books_every_second(void **state)
     free(text);
 }
 
+/* A long path does not push out what is wrong with it. */
+static void long_paths_leave_the_reason(void **state)
+{
+    (void)state;
+    char path[700], *text;
+    size_t length;
+    memset(path, 'p', sizeof path - 1);
+    path[sizeof path - 1] = '\0';
+    const status s = host_file_text(path, 100, &text, &length);
+    assert_int_equal(s.code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(s.text, "cannot be opened: File name too long"));
+}
+
 static void table_is_aligned(void **state)
 {
     (void)state;
@@ -637,6 +650,7 @@ int main(void)
         cmocka_unit_test(progress_line),
         cmocka_unit_test(progress_on_no_terminal),
         cmocka_unit_test(timing_books_every_second),
+        cmocka_unit_test(long_paths_leave_the_reason),
         cmocka_unit_test(table_is_aligned),
         cmocka_unit_test(table_takes_any_text),
         cmocka_unit_test(signals_ask_to_stop),
