@@ -136,6 +136,22 @@ static void test_units(void **state)
     host_units_close(u);
 }
 
+/* A band without the value's unit is that many metres wide, and everything holds. */
+static void test_units_agree(void **state)
+{
+    (void)state;
+    refused("key: crater_depth, value: 0.5 mm, within: 0.1", "within = 0.1: must be in a unit of m");
+    refused("key: crater_depth, value: 0.5, within: 0.1 mm", "within = 0.1 mm: must be in a unit of 1");
+    refused("key: crater_depth, at_least: 0.5 mm, at_most: 1 ms", "at_most = 1 ms: must be in a unit of m");
+    refused("key: probes.push.peak, value: 48 GPa, within: 1 %, at_least: 40",
+            "at_least = 40: must be in a unit of Pa");
+    refused("key: crater_depth, value: 5 %, within: 0.1 mm", "within = 0.1 mm: must be in a unit of 1");
+    assert_true(holds("key: crater_depth, at_least: 0, at_most: 1 mm"));
+    assert_true(holds("key: crater_depth, at_least: 0.5 mm, at_most: .inf"));
+    assert_false(holds("key: crater_depth, value: 0.5 mm, within: 0"));
+    assert_true(holds("key: crater_depth, value: 0.5 mm, within: 20 %, at_least: 540 um"));
+}
+
 /* NAME.yaml has its list in NAME_expected.yaml; without one there is nothing to compare. */
 static void test_names(void **state)
 {
@@ -169,8 +185,9 @@ static void test_table(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_numbers), cmocka_unit_test(test_words),
-                                        cmocka_unit_test(test_refused), cmocka_unit_test(test_names),
-                                        cmocka_unit_test(test_table),   cmocka_unit_test(test_units) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_numbers),    cmocka_unit_test(test_words),
+                                        cmocka_unit_test(test_refused),    cmocka_unit_test(test_names),
+                                        cmocka_unit_test(test_table),      cmocka_unit_test(test_units),
+                                        cmocka_unit_test(test_units_agree) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

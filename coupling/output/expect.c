@@ -48,15 +48,24 @@ bool output_number_in_si(const units *u, const char *text, double *value, const 
     return false;
 }
 
-static status read_number(const comparison *c, const tree_node *entry, const char *key, double *value)
+/* unit: of the entry's numbers before this one, NULL where none says it.  0 and what is infinite need none, and a band
+ * that is a part of the value (5 %) has none. */
+static status read_number(const comparison *c, const tree_node *entry, const char *key, double *value,
+                          const char **unit)
 {
     const tree_node *node = host_tree_find(entry, key);
-    const char *unit;
+    const char *own;
     *value = NAN;
     if (!node) return status_ok();
-    CHECK(node->kind == TREE_TEXT && output_number_in_si(c->u, node->text, value, &unit), STATUS_BAD_INPUT,
+    CHECK(node->kind == TREE_TEXT && output_number_in_si(c->u, node->text, value, &own), STATUS_BAD_INPUT,
           "%.200s:%d:%d: %s = %.60s: must be a number with a unit", c->path, node->line, node->column, key,
           node->kind == TREE_TEXT ? node->text : "a list");
+    const bool part = strcmp(key, "within") == 0 && strchr(node->text, '%');
+    if (*value == 0.0 || isinf(*value) || part) return status_ok();
+    CHECK(!*unit || strcmp(*unit, own) == 0, STATUS_BAD_INPUT,
+          "%.200s:%d:%d: %s = %.60s: must be in a unit of %s, as the number before it", c->path, node->line,
+          node->column, key, node->text, *unit);
+    *unit = own;
     return status_ok();
 }
 
@@ -133,11 +142,12 @@ static status compare_text(const tree_node *is, const cJSON *found, expectation 
 static status compare_number(const comparison *c, const tree_node *entry, const cJSON *found, expectation *e)
 {
     double value, least, most, within = NAN;
+    const char *unit = NULL;
     const tree_node *band = host_tree_find(entry, "within");
-    TRY(read_number(c, entry, "value", &value));
-    TRY(read_number(c, entry, "within", &within));
-    TRY(read_number(c, entry, "at_least", &least));
-    TRY(read_number(c, entry, "at_most", &most));
+    TRY(read_number(c, entry, "value", &value, &unit));
+    TRY(read_number(c, entry, "within", &within, &unit));
+    TRY(read_number(c, entry, "at_least", &least, &unit));
+    TRY(read_number(c, entry, "at_most", &most, &unit));
     CHECK(!isnan(value) || !isnan(least) || !isnan(most), STATUS_BAD_INPUT,
           "%.200s:%d:%d: give a value, at_least, at_most or is", c->path, entry->line, entry->column);
     CHECK(isnan(value) == isnan(within), STATUS_BAD_INPUT, "%.200s:%d:%d: `value` and `within` belong together",

@@ -10,6 +10,7 @@
  *
  * `key` is a path through summary.json: names by dots, entries of lists as scenes[0] or scenes[name].  Numbers have
  * units and are held in SI like those of the summary; `within` with a % is relative to the value, else it has its unit.
+ * Numbers of one entry in units of different kinds are refused.
  */
 #ifndef BREECH_COUPLING_OUTPUT_EXPECT_H
 #define BREECH_COUPLING_OUTPUT_EXPECT_H
