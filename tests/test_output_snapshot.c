@@ -67,6 +67,21 @@ static void field_list_is_complete(void **state)
     run_script("read_snapshot.py", names);
 }
 
+/* A run that goes on when all points have left the window begins with one. */
+static void snapshot_of_no_points(void **state)
+{
+    (void)state;
+    fresh_folder("snap");
+    snapshots *s;
+    OK(output_snapshots_open("snap", -1.0, &s));
+    OK(write_one(s, 0, 1e-6));
+    OK(write_one(s, 3, 2e-6));
+    OK(output_snapshots_wait(s));
+    assert_int_equal(output_snapshots_count(s), 2);
+    output_snapshots_close(s);
+    run_script("read_snapshot.py", "snap/scene-000000.hdf 0 1e-6");
+}
+
 /* Stopped after 1.5 us: the first two stay and go on being counted, the third goes; parts of a killed writer go too. */
 static void resumed_scene_goes_on(void **state)
 {
@@ -166,7 +181,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(structure_is_vtkhdf),     cmocka_unit_test(field_list_is_complete),
         cmocka_unit_test(resumed_scene_goes_on),   cmocka_unit_test(full_disk_leaves_no_half_snapshot),
-        cmocka_unit_test(waiting_puts_it_on_disk), cmocka_unit_test(paraview_reads_it),
+        cmocka_unit_test(waiting_puts_it_on_disk), cmocka_unit_test(snapshot_of_no_points),
+        cmocka_unit_test(paraview_reads_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -259,9 +259,11 @@ static status write_all(h5_file *file, const snapshot_source *source, float *roo
                          &(h5_array){ H5_DOUBLE, 1, { 1 }, &source->time });
 }
 
+/* For one point at least: the offsets of no cells are one number. */
 static status make_room(snapshots *s, size_t points)
 {
-    if (points <= s->points) return status_ok();
+    if (s->value && points <= s->points) return status_ok();
+    if (points == 0) points = 1;
     free(s->value);
     s->value = malloc(points * VALUES * sizeof *s->value);
     s->points = s->value ? points : 0;
