@@ -143,6 +143,37 @@ static void full_disk_leaves_no_half_snapshot(void **state)
     assert_null(s);
 }
 
+typedef struct {
+    bool refuses;
+    char index[500]; /* the last that came */
+} fake_sink;
+
+static status put_away(void *user, const char *path, const void *data, size_t bytes)
+{
+    fake_sink *to = user;
+    CHECK(!to->refuses, STATUS_IO, "%s: not taken", path);
+    if (strstr(path, "series")) snprintf(to->index, sizeof to->index, "%.*s", (int)bytes, (const char *)data);
+    return status_ok();
+}
+
+/* Where files are handed to somebody else too, one that was not taken is none. */
+static void refused_snapshot_is_not_listed(void **state)
+{
+    (void)state;
+    fresh_folder("snap");
+    fake_sink to = { .refuses = false };
+    snapshots *s;
+    OK(output_snapshots_open_sink("snap", &(snapshot_sink){ put_away, &to }, &s));
+    to.refuses = true;
+    assert_int_equal(write_one(s, 10, 0.0).code, STATUS_IO);
+    assert_int_equal(output_snapshots_count(s), 0);
+    to.refuses = false;
+    OK(write_one(s, 10, 1e-6));
+    assert_non_null(strstr(to.index, "scene-000000.hdf"));
+    assert_null(strstr(to.index, "scene-000001.hdf"));
+    output_snapshots_close(s);
+}
+
 /* After the wait it is there, with the index that lists it, and stays so when more come. */
 static void waiting_puts_it_on_disk(void **state)
 {
@@ -179,9 +210,13 @@ static void paraview_reads_it(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(structure_is_vtkhdf),     cmocka_unit_test(field_list_is_complete),
-        cmocka_unit_test(resumed_scene_goes_on),   cmocka_unit_test(full_disk_leaves_no_half_snapshot),
-        cmocka_unit_test(waiting_puts_it_on_disk), cmocka_unit_test(snapshot_of_no_points),
+        cmocka_unit_test(structure_is_vtkhdf),
+        cmocka_unit_test(field_list_is_complete),
+        cmocka_unit_test(resumed_scene_goes_on),
+        cmocka_unit_test(full_disk_leaves_no_half_snapshot),
+        cmocka_unit_test(waiting_puts_it_on_disk),
+        cmocka_unit_test(snapshot_of_no_points),
+        cmocka_unit_test(refused_snapshot_is_not_listed),
         cmocka_unit_test(paraview_reads_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

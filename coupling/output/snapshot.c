@@ -271,6 +271,13 @@ static status make_room(snapshots *s, size_t points)
     return status_ok();
 }
 
+static status hand_to_sink(const snapshots *s, const background_file file[BACKGROUND_FILES])
+{
+    for (int i = 0; i < BACKGROUND_FILES; i++)
+        TRY(s->sink.put(s->sink.user, file[i].path, file[i].data, file[i].bytes));
+    return status_ok();
+}
+
 /* Of the order's file, which counts as written from here on. */
 static status hand_over(snapshots *s, double time)
 {
@@ -282,15 +289,14 @@ static status hand_over(snapshots *s, double time)
     TRY(full_path(s, INDEX_NAME, o->index_path));
     TRY(host_h5_image(o->file, &file[0].data, &file[0].bytes));
     TRY(add_time(s, time));
-    TRY(make_index(s, &o->index, &file[1].bytes));
+    status done = make_index(s, &o->index, &file[1].bytes);
     file[1].data = o->index;
-    if (!s->sink.put) {
+    if (done.code == STATUS_OK && s->sink.put) done = hand_to_sink(s, file);
+    if (done.code != STATUS_OK)
+        s->n--;
+    else if (!s->sink.put)
         host_background_start(&o->files, file);
-        return status_ok();
-    }
-    for (int i = 0; i < BACKGROUND_FILES; i++)
-        TRY(s->sink.put(s->sink.user, file[i].path, file[i].data, file[i].bytes));
-    return status_ok();
+    return done;
 }
 
 /* The next one is made while the last one is still being written: two are in memory at most. */
