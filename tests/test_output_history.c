@@ -364,6 +364,38 @@ static void files_in_memory_are_apart(void **state)
     host_h5_close(b);
 }
 
+/* A file of another origin, as a shared store may have: nothing is read past what is there, or past the room. */
+static void other_forms_are_refused(void **state)
+{
+    (void)state;
+    h5_file *f;
+    const int64_t three[] = { 1, 2, 3 };
+    const double minus = -1.0;
+    double number[3] = { 0.0, 7.0, 8.0 };
+    char *text;
+    OK(host_h5_create(&f));
+    OK(host_h5_attribute_ints(f, "/", "one", three, 1));
+    OK(host_h5_attribute_ints(f, "/", "three", three, 3));
+    OK(host_h5_read_attribute_double(f, "/", "one", number));
+    assert_true(number[0] == 1.0);
+    assert_int_equal(host_h5_read_attribute_double(f, "/", "three", number).code, STATUS_IO);
+    assert_true(number[0] == 1.0 && number[1] == 7.0 && number[2] == 8.0);
+    OK(host_h5_write_text(f, "/text", NULL, "a b"));
+    OK(host_h5_read_text(f, "/text", &text));
+    assert_string_equal(text, "a b");
+    free(text);
+    OK(host_h5_write(f, &(h5_name){ "/rows", NULL, NULL }, &(h5_array){ H5_UINT8, 2, { 1000000, 0 }, "" }));
+    OK(host_h5_write(f, &(h5_name){ "/minus", NULL, NULL }, &(h5_array){ H5_DOUBLE, 1, { 1 }, &minus }));
+    const char *const no_text[] = { "/rows", "/minus", "/nothing" };
+    for (size_t i = 0; i < sizeof no_text / sizeof *no_text; i++) {
+        const status s = host_h5_read_text(f, no_text[i], &text);
+        assert_int_equal(s.code, STATUS_IO);
+        assert_non_null(strstr(s.text, no_text[i]));
+        assert_null(text);
+    }
+    host_h5_close(f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -376,6 +408,7 @@ int main(void)
         cmocka_unit_test(full_disk_is_an_error_and_keeps_the_file),
         cmocka_unit_test(foreign_files_are_refused),
         cmocka_unit_test(files_in_memory_are_apart),
+        cmocka_unit_test(other_forms_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -288,10 +288,18 @@ status host_h5_read_attribute_text(const h5_file *f, const char *path, const cha
     return status_ok();
 }
 
+static bool is_single(hid_t attribute)
+{
+    const hid_t space = H5Aget_space(attribute);
+    const bool single = H5Sget_simple_extent_npoints(space) == 1;
+    H5Sclose(space);
+    return single;
+}
+
 status host_h5_read_attribute_double(const h5_file *f, const char *path, const char *name, double *out)
 {
     const hid_t attribute = open_attribute(f, path, name);
-    const bool done = attribute >= 0 && H5Aread(attribute, H5T_NATIVE_DOUBLE, out) >= 0;
+    const bool done = attribute >= 0 && is_single(attribute) && H5Aread(attribute, H5T_NATIVE_DOUBLE, out) >= 0;
     if (attribute >= 0) H5Aclose(attribute);
     CHECK(done, STATUS_IO, "%.150s: %.150s has no number %.60s", f->name, path, name);
     return status_ok();
@@ -462,16 +470,25 @@ status host_h5_write_text(h5_file *f, const char *path, const char *description,
                          &(h5_array){ .type = H5_UINT8, .rank = 1, .dims = { strlen(text) }, .data = text });
 }
 
+static bool are_bytes(const double *value, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!(value[i] >= 0.0 && value[i] <= UINT8_MAX)) return false;
+    return true;
+}
+
 status host_h5_read_text(const h5_file *f, const char *path, char **text)
 {
     double *bytes;
     size_t dims[H5_MAX_RANK];
     *text = NULL;
     TRY(host_h5_read(f, path, &bytes, dims));
-    *text = malloc(dims[0] + 1);
+    const bool is_text = dims[1] == 1 && are_bytes(bytes, dims[0]);
+    if (is_text) *text = malloc(dims[0] + 1);
     for (size_t i = 0; *text && i < dims[0]; i++) (*text)[i] = (char)(unsigned char)bytes[i];
     if (*text) (*text)[dims[0]] = '\0';
     free(bytes);
+    CHECK(is_text, STATUS_IO, "%.150s: %.150s is no text", f->name, path);
     CHECK(*text, STATUS_MEMORY, "no memory for a text of %zu bytes", dims[0]);
     return status_ok();
 }
