@@ -57,6 +57,27 @@ static void full_disk_keeps_the_older_file(void **state)
     assert_int_equal(files_in("files", ""), 1);
 }
 
+/* The same by pieces, small ones, and one that goes past the stream's buffer, whose rest is then not written later. */
+static void full_disk_stops_a_stream(void **state)
+{
+    (void)state;
+    const int sizes[] = { 100, 100000 };
+    char text[100000];
+    memset(text, 'x', sizeof text);
+    for (int large = 0; large < 2; large++) {
+        fresh_folder("files");
+        put("files/a", "old");
+        assert_int_equal(symlink("/dev/full", "files/a.part"), 0);
+        file_writer w;
+        OK(host_file_begin(&w, "files/a"));
+        for (int k = 0; k < (large ? 1 : 100); k++) fprintf(w.stream, "%.*s", sizes[large], text);
+        const status s = host_file_end(&w, true);
+        assert_int_equal(s.code, STATUS_IO);
+        if (!strstr(s.text, large ? "disk full" : "No space left")) fail_msg("%s", s.text);
+        assert_int_equal(files_in("files", ""), 1);
+    }
+}
+
 static void unwritable_places_are_named(void **state)
 {
     (void)state;
@@ -634,6 +655,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(file_comes_back),
         cmocka_unit_test(full_disk_keeps_the_older_file),
+        cmocka_unit_test(full_disk_stops_a_stream),
         cmocka_unit_test(unwritable_places_are_named),
         cmocka_unit_test(default_directory),
         cmocka_unit_test(rules_of_overwriting),

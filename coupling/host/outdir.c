@@ -46,17 +46,23 @@ static void sync_parent(const char *path)
     close(fd);
 }
 
+/* Why not all of a stream is on the disk; NULL where it is. */
+static const char *why_unwritten(FILE *stream)
+{
+    const bool lost = ferror(stream); /* the reason was for the one who wrote; a flush that fails says it again */
+    if (fflush(stream) != 0) return strerror(errno);
+    if (lost) return "not all of it was taken; is the disk full?";
+    return fsync(fileno(stream)) != 0 ? strerror(errno) : NULL;
+}
+
 status host_file_end(file_writer *w, bool keep)
 {
-    errno = 0;
-    int error = 0;
-    if (keep && (ferror(w->stream) || fflush(w->stream) != 0 || fsync(fileno(w->stream)) != 0))
-        error = errno ? errno : EIO;
-    if (fclose(w->stream) != 0 && keep && !error) error = errno;
+    const char *why = keep ? why_unwritten(w->stream) : NULL;
+    if (fclose(w->stream) != 0 && keep && !why) why = strerror(errno);
     w->stream = NULL;
-    if (keep && !error && rename(w->part, w->path) != 0) error = errno;
-    if (!keep || error) unlink(w->part);
-    CHECK(!error, STATUS_IO, "%.300s: cannot be written: %s", w->path, strerror(error));
+    if (keep && !why && rename(w->part, w->path) != 0) why = strerror(errno);
+    if (!keep || why) unlink(w->part);
+    CHECK(!why, STATUS_IO, "%.300s: cannot be written: %s", w->path, why);
     if (keep) sync_parent(w->path);
     return status_ok();
 }
