@@ -283,6 +283,18 @@ static void texts_are_valid(void **state)
                         "\xc3\xa4 \xe2\x82\xac \xf0\x9f\x98\x80 ? ?| ??");
     assert_string_equal(cJSON_GetStringValue(cJSON_GetArrayItem(cJSON_GetObjectItem(s, "warnings"), 0)), "a?");
     cJSON_Delete(s);
+    /* what only looks like UTF-8: half a pair, a letter in more bytes than it needs, one past the last */
+    const char *const others[][2] = { { "\xed\xa0\x80", "???" },
+                                      { "\xe0\x80\xaf", "???" },
+                                      { "\xf0\x80\x80\xaf", "????" },
+                                      { "\xf4\x90\x80\x80", "????" } };
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        e.summary.error = e.summary.case_name = others[i][0];
+        s = parsed(&e.summary);
+        assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(s, "error")), others[i][1]);
+        assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(s, "case")), others[i][1]);
+        cJSON_Delete(s);
+    }
 }
 
 static void file_and_its_status(void **state)

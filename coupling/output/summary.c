@@ -4,6 +4,7 @@
 #include "coupling/host/outdir.h"
 #include "coupling/host/table.h"
 #include "coupling/host/units.h"
+#include "coupling/host/utf8.h"
 #include "coupling/host/version.h"
 
 #include <cJSON.h>
@@ -20,25 +21,11 @@ static cJSON *number_json(double value)
     return isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull();
 }
 
-/* Bytes of the UTF-8 character that begins here; 0: none does. */
-static int character_bytes(const char *text)
-{
-    const unsigned char c = (unsigned char)*text;
-    const int n = c < 0x80 ? 1 : c < 0xC2 ? 0 : c < 0xE0 ? 2 : c < 0xF0 ? 3 : c < 0xF5 ? 4 : 0;
-    for (int i = 1; i < n; i++)
-        if (((unsigned char)text[i] & 0xC0) != 0x80) return 0;
-    return n;
-}
-
 /* A text that was cut to its room may end inside a character, and a path may hold any bytes: JSON takes neither. */
 static cJSON *text_json(const char *text)
 {
     cJSON *json = cJSON_CreateString(text);
-    for (char *at = json ? json->valuestring : NULL; at && *at;) {
-        const int bytes = character_bytes(at);
-        if (!bytes) *at = '?';
-        at += bytes ? bytes : 1;
-    }
+    if (json) host_utf8_repair(json->valuestring);
     return json;
 }
 
@@ -156,7 +143,7 @@ static cJSON *warnings_json(const char *warnings)
 static void add_common(cJSON *root, const run_summary *s)
 {
     cJSON_AddStringToObject(root, "kind", s->kind);
-    cJSON_AddStringToObject(root, "case", s->case_name ? s->case_name : "");
+    cJSON_AddItemToObject(root, "case", text_json(s->case_name ? s->case_name : ""));
     cJSON_AddStringToObject(root, "version", host_version());
     cJSON_AddStringToObject(root, "instruction_set", s->instruction_set ? s->instruction_set : "");
     cJSON_AddStringToObject(root, "status", output_run_status_names[s->status]);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/report/report_svg.h"
 
+#include "coupling/host/utf8.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,19 +11,10 @@ static const char *const GRID = "#e6e6e6"; /* colour */
 
 /* ---- texts ---- */
 
-/* Length of the UTF-8 sequence that begins here, 0 where it is none. */
-static int utf8_length(const unsigned char *c)
-{
-    const int n = c[0] < 0x80 ? 1 : c[0] < 0xc2 ? 0 : c[0] < 0xe0 ? 2 : c[0] < 0xf0 ? 3 : c[0] < 0xf5 ? 4 : 0;
-    for (int k = 1; k < n; k++)
-        if ((c[k] & 0xc0) != 0x80) return 0;
-    return n;
-}
-
 void report_svg_escaped(FILE *out, const char *text)
 {
     while (*text) {
-        const int n = utf8_length((const unsigned char *)text);
+        const int n = host_utf8_length(text);
         switch (*text) {
         case '&': fputs("&amp;", out); break;
         case '<': fputs("&lt;", out); break;
