@@ -78,13 +78,8 @@ scene_result gouge_result(const gouge_scene *s, const gouge_watch *w, const scen
     r.momentum_error = o->ledger.momentum_error;
     r.energy_error = o->ledger.energy_error;
     r.end_time = m->time;
-    r.particles = m->particles;
-    r.steps = m->steps;
-    r.particle_steps = m->particle_steps;
-    r.particle_steps_asleep = m->particle_steps_asleep;
-    r.particle_steps_dense = m->particle_steps_dense;
-    r.clamps_pressure = m->clamps_pressure;
-    r.clamps_compression = m->clamps_compression;
+#define WORK(member, text) r.member = m->member;
+#include "coupling/scene/scene_work.def"
     r.wall_seconds = o->wall;
     r.threads = o->threads;
     if (s->gauged) judge_by_growth(&r, s);

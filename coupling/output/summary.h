@@ -85,19 +85,6 @@ typedef struct summary_key {
     { SUMMARY_ROW(type, key, member, unit, doc), .kind = KEY_ARRAY, .n_offset = offsetof(type, count) }
 #define SUMMARY_PART(type, title, member, item_) \
     { SUMMARY_ROW(type, title, member, "", ""), .kind = KEY_PART, .item = (item_) }
-/* What the solver counted in a scene: the members have the keys' names. */
-#define SUMMARY_SOLVER_COUNTS(type) \
-    SUMMARY_VALUE(type, KEY_COUNT, "particles", particles, "1", "at the end"), \
-    SUMMARY_VALUE(type, KEY_COUNT, "steps", steps, "1", "of the solver"), \
-    SUMMARY_VALUE(type, KEY_COUNT, "particle_steps", particle_steps, "1", "done"), \
-    SUMMARY_VALUE(type, KEY_COUNT, "particle_steps_asleep", particle_steps_asleep, "1", \
-                  "that points at rest did not take"), \
-    SUMMARY_VALUE(type, KEY_COUNT, "particle_steps_dense", particle_steps_dense, "1", "if nothing had been skipped"), \
-    SUMMARY_VALUE(type, KEY_COUNT, "clamps_pressure", clamps_pressure, "1", \
-                  "steps of points whose tension was cut off, as they are molten or failed, spall, or cavitate; " \
-                  "no error"), \
-    SUMMARY_VALUE(type, KEY_COUNT, "clamps_compression", clamps_compression, "1", \
-                  "steps of points whose density was held at a limit")
 #define SUMMARY_END { .name = NULL }
 /* clang-format on */
 

@@ -47,7 +47,8 @@ const summary_key run_result_keys[] = {
     SUMMARY_NUMBER(scene_result, "layers_carried_volume", layers_carried_volume, "m3",
                    "of the rail's layers, carried along by the armature, full model"),
     SUMMARY_NUMBER(scene_result, "end_time", end_time, "s", "simulated"),
-    SUMMARY_SOLVER_COUNTS(scene_result),
+#define WORK(member, text) SUMMARY_VALUE(scene_result, KEY_COUNT, #member, member, "1", text),
+#include "coupling/scene/scene_work.def"
     SUMMARY_NUMBER(scene_result, "eroded_mass", eroded_mass, "kg", "vapour and dust taken out, full model"),
     SUMMARY_NUMBER(scene_result, "wall_seconds", wall_seconds, "s", "time it took"),
     SUMMARY_VALUE(scene_result, KEY_INTEGER, "threads", threads, "1", "of its process; others may have lent theirs"),

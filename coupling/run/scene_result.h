@@ -42,8 +42,8 @@ typedef struct {
     double carried_volume[RESULT_BODIES]; /* sound and faster than half the armature's speed at the end [m3] */
     double layers_failed_volume, layers_carried_volume; /* the same, of the rail's layers together [m3] */
     double end_time;                                    /* [s] */
-    uint64_t particles, steps, particle_steps, particle_steps_asleep, particle_steps_dense;
-    uint64_t clamps_pressure, clamps_compression;
+#define WORK(member, text) uint64_t member;
+#include "coupling/scene/scene_work.def"
     double eroded_mass;  /* [kg] */
     double wall_seconds; /* [s] */
     int threads;

@@ -186,13 +186,8 @@ static void take(const scene_outcome *o, scene_bodies_result *r)
     r->eroded_mass = m->eroded_mass;
     r->momentum_error = l->momentum_error;
     r->energy_error = l->energy_error;
-    r->particles = m->particles;
-    r->steps = m->steps;
-    r->particle_steps = m->particle_steps;
-    r->particle_steps_asleep = m->particle_steps_asleep;
-    r->particle_steps_dense = m->particle_steps_dense;
-    r->clamps_pressure = m->clamps_pressure;
-    r->clamps_compression = m->clamps_compression;
+#define WORK(member, text) r->member = m->member;
+#include "coupling/scene/scene_work.def"
     r->wall_seconds = o->wall;
     r->threads = o->threads;
 }

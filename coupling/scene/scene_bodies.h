@@ -35,8 +35,8 @@ typedef struct {
     double work_boundary, work_external;   /* [J] */
     double ejected_mass, eroded_mass;      /* [kg] */
     double momentum_error, energy_error;   /* [1] */
-    uint64_t particles, steps, particle_steps, particle_steps_asleep, particle_steps_dense;
-    uint64_t clamps_pressure, clamps_compression;
+#define WORK(member, text) uint64_t member;
+#include "coupling/scene/scene_work.def"
     double wall_seconds; /* [s] */
     int threads;
 } scene_bodies_result;

@@ -40,7 +40,8 @@ const summary_key scene_bodies_keys[] = {
     SUMMARY_MAP(scene_bodies_result, "bodies", body, bodies, body_keys, sizeof(scene_body), "each by its name"),
     SUMMARY_MAP(scene_bodies_result, "probes", probe, probes, scene_probe_keys, sizeof(scene_probe_result),
                 "each by its name"),
-    SUMMARY_SOLVER_COUNTS(scene_bodies_result),
+#define WORK(member, text) SUMMARY_VALUE(scene_bodies_result, KEY_COUNT, #member, member, "1", text),
+#include "coupling/scene/scene_work.def"
     SUMMARY_NUMBER(scene_bodies_result, "wall_seconds", wall_seconds, "s", "time it took"),
     SUMMARY_VALUE(scene_bodies_result, KEY_INTEGER, "threads", threads, "1",
                   "of its process; others may have lent theirs"),
