@@ -168,6 +168,39 @@ static void test_refused(void **state)
     free(text);
 }
 
+/* The place of an error is the value in the sweep's own file, not the key in the case that it builds on; and a run that
+ * only the study itself knows to be impossible is told before the first one starts. */
+static void test_places(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *says;
+    } wrong[] = {
+        { "base: " SHOT_CASE "\nsweep:\n  of: shot\n  vary:\n    - {key: armature.mass, values: [1 kg, 2 kg]}\n"
+          "    - {key: bank.charge, values: [8 kV, -1 kV]}\n",
+          "places/case.yaml:6:41: sweep.vary[1].values[1]: run 2 (armature.mass = 1 kg, bank.charge = -1 kV): "
+          "bank.charge = -1 kV: must" },
+        { "base: " BREECH_TESTS "/../cases/gel_droplet\n"
+          "sweep: {of: vessel, vary: [{key: vessel.radius, values: [0.5 mm, 0.09 mm]}], read: [rupture_time]}\n",
+          "places/case.yaml:2:66: sweep.vary[0].values[1]: run 2 (vessel.radius = 0.09 mm): vessel.bubbles fill more" },
+        { "base: " BREECH_TESTS "/../cases/rail_fatigue\nlife: {until: first, cycle: passage}\n"
+          "sweep: {of: life, vary: [{key: life.speed, values: [0 m/s, 9 km/s]}, {key: life.friction, values: "
+          "[0.2]}]}\n",
+          "places/case.yaml:3:60: sweep.vary[0].values[1]: run 2 (life.speed = 9 km/s, life.friction = 0.2): "
+          "life.speed = 9000 m/s: must lie below" },
+    };
+    fresh_folder("places");
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        char *text;
+        OK(host_file_write("places/case.yaml", wrong[i].text, strlen(wrong[i].text)));
+        assert_int_equal(run("sweep places -o nothing --quiet"), 2);
+        OK(host_file_read("err.txt", &text, NULL));
+        if (strncmp(text, wrong[i].says, strlen(wrong[i].says)) != 0) fail_msg("not %s but %s", wrong[i].says, text);
+        free(text);
+        assert_int_equal(access("nothing", F_OK), -1);
+    }
+}
+
 /* The varied key is a resolution: errors are those against the finest run of the same other inputs. */
 static void test_resolution(void **state)
 {
@@ -243,6 +276,7 @@ static void test_probes(void **state)
     cJSON_Delete(one);
     static const char *const wrong[][2] = { { "probes.gage.peak", "no such probe; it has push, gauge, dent" },
                                             { "probes.gauge.last.presure", "kind pressure has no such column" },
+                                            { "bodies.bal.mass", "sweep.read[0]: run 1" },
                                             { "bodies.bal.mass", "no such body; it has wall, ball" },
                                             { "probes.gauge.peek", "no number of the summary of `breech scene`" } };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
@@ -276,9 +310,13 @@ static void test_drawn_over(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_as_runs_of_their_own), cmocka_unit_test(test_together),
-        cmocka_unit_test(test_many_columns),         cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_resolution),           cmocka_unit_test(test_probes),
+        cmocka_unit_test(test_as_runs_of_their_own),
+        cmocka_unit_test(test_together),
+        cmocka_unit_test(test_many_columns),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_places),
+        cmocka_unit_test(test_resolution),
+        cmocka_unit_test(test_probes),
         cmocka_unit_test(test_drawn_over),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

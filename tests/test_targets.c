@@ -112,7 +112,7 @@ static void refused(const char *set, const char *words)
     assert_refused(arguments, "bad/out", words);
 }
 
-/* All errors are told before anything runs, with the name of the target. */
+/* All errors are told before anything runs, with the name of the target and the place of the change. */
 static void test_refused(void **state)
 {
     (void)state;
@@ -120,10 +120,14 @@ static void test_refused(void **state)
     refused("'targets[0].name=given'", "the target of the case as it is has this name");
     refused("'targets[0].name=light'", "targets[1].name = light: two have this name");
     refused("'targets[0].change=[]'", "targets[0].change is empty: thin");
-    refused("'targets[1].change[0].value=unobtainium'", "targets: light: ");
-    refused("'targets[0].change[0].value=\"{box: {lo: -2 -12 -12 mm, hi: 3 12 12 mm}}\"'", "targets: thin: ");
+    refused(
+        "'targets[1].change[0].value=unobtainium'",
+        "--set targets[1].change[0].value=unobtainium: targets[1].change[0].value: light: scene.bodies[0].material");
+    refused("'targets[0].change[0].value=\"{box: {lo: -2 -12 -12 mm, hi: 3 12 12 mm}}\"'",
+            "targets[0].change[0].value: thin: ");
     refused("strike.projectile=none", "strike");
-    refused("'targets[0].change[0].key=scene.bodies[7].material'", "targets: thin: ");
+    refused("'targets[0].change[0].key=scene.bodies[7].material'",
+            "bad/case.yaml:8:52: targets[0].change[0].value: thin: ");
 }
 
 int main(void)

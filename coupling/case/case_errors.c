@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/case/case_errors.h"
 
+#include "coupling/case/case_place.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +15,7 @@ static void add(case_errors *e, const case_error *at, const char *format, va_lis
     for (int k = 0; at->set >= 0 && k < e->n; k++)
         if (e->item[k].set == at->set) return;
     if (at->set >= 0 && e->sets)
-        used = snprintf(line, sizeof line, "--set %.120s: ", e->sets[at->set]);
+        used = snprintf(line, sizeof line, CASE_SET_PLACE, e->sets[at->set]);
     else if (at->line > 0)
         used = snprintf(line, sizeof line, "%.200s:%d:%d: ", e->file[at->file], at->line, at->column);
     else

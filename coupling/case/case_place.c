@@ -108,7 +108,7 @@ void case_places_find(const case_places *p, const char *message, char *out, size
     const tree_node *node = p ? node_of(p->root, message) : NULL;
     out[0] = '\0';
     if (node && node->set >= 0 && node->set < p->n_sets)
-        snprintf(out, size, "--set %.120s: ", p->set[node->set]);
+        snprintf(out, size, CASE_SET_PLACE, p->set[node->set]);
     else if (node && node->set < 0 && node->file < p->n_files)
         snprintf(out, size, "%.200s:%d:%d: ", p->file[node->file], node->line, node->column);
 }

@@ -6,6 +6,9 @@
 
 #include "coupling/host/yaml_tree.h"
 
+/* The place of a value of --set. */
+#define CASE_SET_PLACE "--set %.120s: "
+
 typedef struct case_places case_places;
 
 /* Takes the tree over, also where there is no memory for the rest (NULL); copies file names and the texts of --set. */

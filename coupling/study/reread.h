@@ -7,7 +7,9 @@
 
 /* The case file is read again with its --set and then these n changes, as --set sets them, for the study y: units,
  * ranges and what follows from other keys are those of a case file.  STATUS_BAD_INPUT before anything is written: what
- * reading, or making its scene, can tell.  *out is for case_inputs_free, even on error. */
-status study_reread(const study_case *of, const study *y, int n, const case_change *change, case_inputs **out);
+ * reading, making its scene, or the study itself can tell.  *about: the change that the error is about, whose --set its
+ * text then does not name, or -1.  *out is for case_inputs_free, even on error. */
+status study_reread(const study_case *of, const study *y, int n, const case_change *change, case_inputs **out,
+                    int *about);
 
 #endif

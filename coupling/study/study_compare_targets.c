@@ -71,10 +71,12 @@ static status read_target(const study_case *of, int k, case_inputs **out)
     static const case_changes none = { 0, NULL };
     const case_targets *t = &of->in->targets;
     const case_changes *c = k == 0 ? &none : &t->item[k - 1].change;
-    status s = study_reread(of, &study_strike, c->n, c->item, out);
-    const study_case one = { .in = *out, .one_of_several = true, .prefix = "", .largest = of->largest };
-    if (s.code == STATUS_OK) s = study_strike.possible(&one);
-    CHECK(s.code == STATUS_OK, s.code, "targets: %s: %.500s", name_of(t, k), s.text);
+    char at[60] = "targets";
+    int about;
+    const status s = study_reread(of, &study_strike, c->n, c->item, out, &about);
+    if (k > 0) snprintf(at, sizeof at, "targets[%d].change", k - 1); /* its place is that of the error */
+    if (about >= 0) snprintf(at + strlen(at), sizeof at - strlen(at), "[%d].value", about);
+    CHECK(s.code == STATUS_OK, s.code, "%s: %s: %.400s", at, name_of(t, k), s.text);
     return s;
 }
 

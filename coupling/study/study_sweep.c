@@ -100,22 +100,40 @@ static status check_names(const char *path, const mpm_scene *scene)
                              probe ? "probe" : "body", n > 0 ? known : "none");
 }
 
+/* What is wrong with a run, by the path of the value that is to blame: the place of an error is that in the sweep's own
+ * file, not that of the key in the case that the sweep is of.  key -1: no single value is. */
+static status wrong_run(const case_sweep *w, int run, int key, const status *s)
+{
+    char which[300], at[60] = "sweep.vary";
+    describe(w, run, which, sizeof which);
+    if (key >= 0) snprintf(at, sizeof at, "sweep.vary[%d].values[%d]", key, value_index(w, run, key));
+    return base_status_error(s->code, "%s: run %d (%s): %.400s", at, run + 1, which, s->text);
+}
+
+/* Has the scene of this run what `read` names? */
+static status check_read(const case_sweep *w, int run, const case_inputs *in)
+{
+    char which[300];
+    describe(w, run, which, sizeof which);
+    for (int k = 0; in->given.bodies && k < w->read.n; k++) {
+        const status s = check_names(w->read.item[k].value, &in->bodies.scene);
+        CHECK(s.code == STATUS_OK, s.code, "sweep.read[%d]: run %d (%s): %.400s", k, run + 1, which, s.text);
+    }
+    return status_ok();
+}
+
 /* The case with the values of one run. */
 static status read_run(const study_case *of, const study *y, int run, case_inputs **out)
 {
     const case_sweep *w = &of->in->sweep;
     case_change change[CASE_SWEEP_KEYS];
-    char which[300];
+    int about;
     for (int k = 0; k < w->vary.n; k++) {
         snprintf(change[k].key, sizeof change[k].key, "%s", w->vary.item[k].key);
         snprintf(change[k].value, sizeof change[k].value, "%s", value_text(w, run, k));
     }
-    status s = study_reread(of, y, w->vary.n, change, out);
-    for (int k = 0; s.code == STATUS_OK && (*out)->given.bodies && k < w->read.n; k++)
-        s = check_names(w->read.item[k].value, &(*out)->bodies.scene);
-    describe(w, run, which, sizeof which);
-    CHECK(s.code == STATUS_OK, s.code, "sweep, run %d (%s): %.500s", run + 1, which, s.text);
-    return s;
+    const status s = study_reread(of, y, w->vary.n, change, out, &about);
+    return s.code == STATUS_OK ? check_read(w, run, *out) : wrong_run(w, run, about, &s);
 }
 
 /* ---- before anything is written ---- */
