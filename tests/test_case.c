@@ -363,6 +363,19 @@ static void set_errors_name_the_set(void **state)
     free(text);
 }
 
+/* A value is shown as it is written, and cut where it is long. */
+static void long_values_are_cut(void **state)
+{
+    (void)state;
+    char text[400], line[200], tail[201] = "";
+    memset(tail, 'x', sizeof tail - 1);
+    snprintf(text, sizeof text, "name: a\nrail: {material: ofhc_copper, temperature: 3 %s}\n", tail);
+    snprintf(line, sizeof line, "case.yaml:2:44: rail.temperature = 3 %.58s...: its unit", tail);
+    char *e = errors_of(text, NULL, 0, 0);
+    has_line(e, line);
+    free(e);
+}
+
 /* ---- a case that builds on another ---- */
 
 static void write_file(const char *path, const char *text)
@@ -421,6 +434,39 @@ static void a_base_is_changed(void **state)
     assert_true(bank_of(c)->charge == 10e3);
     assert_int_equal(((const circuit_supply_profile *)c->supplies[CIRCUIT_SUPPLY_profile].item)->points.n, 3);
     case_free(c);
+}
+
+/* A base that two materials of the case have: its error once, and each of the two by its key. */
+static void errors_of_a_shared_base_are_told_once(void **state)
+{
+    (void)state;
+    write_file("own_base.yaml", "name: own_base\nsources: {a: b}\n"
+                                "constants: {density: {value: -1 kg/m^3, source: a}}\n");
+    write_file("own_one.yaml", "name: own_one\nbase: own_base\n");
+    write_file("own_two.yaml", "name: own_two\nbase: own_base\n");
+    char *e =
+        errors_of("name: a\nrail: {material: own_one}\nparticle: {radius: 1 mm, material: own_two}\n", NULL, 0, 0);
+    has_line(e, "./own_base.yaml:3:30: constants.density.value = -1 kg/m^3: must be positive");
+    has_line(e, "case.yaml:2:18: rail.material = own_one: its file has errors\n");
+    has_line(e, "case.yaml:3:36: particle.material = own_two: its file has errors\n");
+    assert_int_equal(lines_of(e), 3);
+    free(e);
+}
+
+/* `base` is a key of the case, though no section's; it is the file's alone. */
+static void base_is_a_known_key(void **state)
+{
+    (void)state;
+    const char *sets[] = { "base=cases/default_shot" };
+    char *e = errors_of("bse: below\nname: a\n", NULL, 0, 0);
+    has_line(e, "case.yaml:1:1: unknown key `bse`; did you mean `base`?\n");
+    free(e);
+    e = errors_of("zzzzzz: below\nname: a\n", NULL, 0, 0);
+    has_line(e, "case.yaml:1:1: unknown key `zzzzzz`; known are base, name, title, bank");
+    free(e);
+    e = errors_of("name: a\n", sets, 1, 0);
+    has_line(e, "--set base=cases/default_shot: base is a line of the case's file");
+    free(e);
 }
 
 /* An error stands where the fault is, in whatever file of the chain. */
@@ -846,6 +892,9 @@ int main(void)
         cmocka_unit_test(set_reaches_every_place),
         cmocka_unit_test(set_can_give_a_whole_list),
         cmocka_unit_test(set_errors_name_the_set),
+        cmocka_unit_test(long_values_are_cut),
+        cmocka_unit_test(errors_of_a_shared_base_are_told_once),
+        cmocka_unit_test(base_is_a_known_key),
         cmocka_unit_test(a_base_is_changed),
         cmocka_unit_test(errors_name_the_file_of_the_chain),
         cmocka_unit_test(chains_end),

@@ -276,6 +276,8 @@ static const struct {
     { HEAD "  bodies: [{name: a, material: nickel, shape: {bal: {}}}]\n", "case.yaml:4:48: unknown shape `bal`" },
     { HEAD "  bodies: [{name: a, material: nickel, shape: {sphere: {center: 0 0 mm, radius: 1 mm}}}]\n",
       "center = 0 0 mm: must be three numbers and their unit" },
+    { HEAD "  bodies: [{name: a, material: nickel, shape: {sphere: {center: 0.1 0.2 0.3, radius: 1 mm}}}]\n",
+      "center = 0.1: needs a unit, such as `0.1 m`" }, /* as it is written, not as it is kept */
     { HEAD "  bodies: [{name: a, material: nickel, shape: {sphere: {center: 0 0 0 mm, radius: -1 mm}}}]\n",
       "scene.bodies[0].shape.sphere.radius = -1 mm: must be positive" },
     { HEAD "  bodies: [{name: a, material: nickel, shape: {box: {lo: 0 0 0 mm, hi: 1 0 1 mm}}}]\n", "hi along y" },

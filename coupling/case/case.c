@@ -36,11 +36,14 @@ static void keep_material(case_reader *r, const mpm_material *m)
     list->item = more;
 }
 
-/* All lines of a material file's errors, after the case's own. */
+/* All lines of a material file's errors, after the case's own; those of a base that several files have, once. */
 static void add_lines(case_errors *e, char *lines)
 {
     char *rest = NULL;
     for (char *line = strtok_r(lines, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+        bool told = false;
+        for (int k = 0; k < e->n; k++) told = told || strcmp(e->item[k].text, line) == 0;
+        if (told) continue;
         if (e->n == CASE_MAX_ERRORS) return;
         e->item[e->n] = (case_error){ .set = -1, .line = 1 << 30, .order = e->n, .text = strdup(line) };
         if (e->item[e->n].text)

@@ -190,8 +190,8 @@ static void must(case_reader *r, bool ok, const char *section, const char *key, 
     if (ok) return;
     const tree_node *map = host_tree_find(r->root, section);
     const tree_node *node = host_tree_find(map, key);
-    case_errors_add(r->errors, node ? node : map, "%s.%s%s%.*s: %s", section, key, node && node->text ? " = " : "",
-                    CASE_SHOWN, node && node->text ? node->text : "", text);
+    case_errors_add(r->errors, node ? node : map, "%s.%s%s" CASE_ECHO ": %s", section, key,
+                    node && node->text ? " = " : "", CASE_ECHO_OF(node && node->text ? node->text : ""), text);
 }
 
 /* A length of the armature's body that was neither given nor follows from the rail's key `from`. */
@@ -237,10 +237,10 @@ static void check_site(case_reader *r, const case_site *site, const tree_node *n
     const tree_node *position = host_tree_find(node, "position");
     const char *text = position && position->text ? position->text : "";
     if (r->out->given.barrel && (site->position <= r->out->barrel.start || site->position > r->out->barrel.length))
-        case_errors_add(
-            r->errors, position,
-            "sites[%d].position = %.*s: must lie beyond barrel.start = %g m, at barrel.length = %g m at most", k,
-            CASE_SHOWN, text, r->out->barrel.start, r->out->barrel.length);
+        case_errors_add(r->errors, position,
+                        "sites[%d].position = " CASE_ECHO
+                        ": must lie beyond barrel.start = %g m, at barrel.length = %g m at most",
+                        k, CASE_ECHO_OF(text), r->out->barrel.start, r->out->barrel.length);
     if (node && node->kind == TREE_MAP && !has_value(node, "radius") &&
         !has_value(host_tree_find(r->root, "particle"), "radius"))
         case_errors_add(r->errors, node,

@@ -17,7 +17,7 @@ static bool is_word(const char *text, const char *const *words)
 
 static void wrong(case_reader *r, const tree_node *node, const char *path, const char *reason)
 {
-    case_errors_add(r->errors, node, "%s = %.*s: %s", path, CASE_SHOWN, node->text, reason);
+    case_errors_add(r->errors, node, "%s = " CASE_ECHO ": %s", path, CASE_ECHO_OF(node->text), reason);
 }
 
 /* " (1 mm .. 1 km)"; "": any value will do, or the value is no number. */
@@ -37,7 +37,7 @@ static const char *range_text(const case_reader *r, const base_param *p, const c
 static void no_number(case_reader *r, const base_param *p, const tree_node *node, const char *path, const char *reason)
 {
     char range[LIMITS_SIZE + 3];
-    case_errors_add(r->errors, node, "%s = %.*s: %s%s", path, CASE_SHOWN, node->text, reason,
+    case_errors_add(r->errors, node, "%s = " CASE_ECHO ": %s%s", path, CASE_ECHO_OF(node->text), reason,
                     range_text(r, p, strcmp(p->unit, "rad") == 0 ? "deg" : "", range));
 }
 
@@ -46,7 +46,7 @@ static void out_of_range(case_reader *r, const base_param *p, const tree_node *n
 {
     char range[LIMITS_SIZE + 3];
     const char *must = p->min > 0.0 && value <= 0.0 ? "must be positive" : "must lie within the range";
-    case_errors_add(r->errors, node, "%s = %.*s: %s%s", path, CASE_SHOWN, node->text, must,
+    case_errors_add(r->errors, node, "%s = " CASE_ECHO ": %s%s", path, CASE_ECHO_OF(node->text), must,
                     range_text(r, p, user_unit, range));
 }
 
@@ -125,8 +125,8 @@ static void read_choice(case_reader *r, const base_param *p, const tree_node *no
         snprintf(known + used, sizeof known - used, "%s%s", k > 0 ? ", " : "", p->choices[k]);
     }
     const char *near = host_nearest_name(node->text, choice_name, p->choices);
-    case_errors_add(r->errors, node, "%s = %.*s: must be one of %s%s%s%s", path, CASE_SHOWN, node->text, known,
-                    near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
+    case_errors_add(r->errors, node, "%s = " CASE_ECHO ": must be one of %s%s%s%s", path, CASE_ECHO_OF(node->text),
+                    known, near ? "; did you mean `" : "", near ? near : "", near ? "`?" : "");
 }
 
 void case_note_material(case_reader *r, const char *name, const tree_node *where, const char *path)
@@ -173,12 +173,13 @@ static void read_vector_text(case_reader *r, const base_param *p, const tree_nod
                              const char *path)
 {
     const char *number[3];
+    int n = 0, length[3];
     char *end = node->text;
-    int n = 0;
     for (; n < 3; n++) {
-        number[n] = end;
+        number[n] = end + strspn(end, " \t");
         strtod(number[n], &end);
-        if (end == number[n]) break;
+        if (end <= number[n]) break;
+        length[n] = (int)(end - number[n]);
     }
     if (n < 3) {
         wrong(r, node, path, "must be three numbers and their unit, `0 -50 50 mm`, or [x, y, z]");
@@ -187,7 +188,7 @@ static void read_vector_text(case_reader *r, const base_param *p, const tree_nod
     for (int k = 0; k < 3; k++) {
         char text[TREE_MAX_TEXT + 50];
         tree_node one = *node;
-        snprintf(text, sizeof text, "%.17g%s", strtod(number[k], NULL), end);
+        snprintf(text, sizeof text, "%.*s%s", length[k], number[k], end); /* an error shows it as it is written */
         one.text = text;
         read_number(r, p, &one, &member[k], path);
     }
@@ -267,8 +268,15 @@ void case_value_read(case_reader *r, const base_param *p, const tree_node *node,
 
 /* ---- keys ---- */
 
+static bool is_root(const case_section *section)
+{
+    return section->table == case_root.table;
+}
+
+/* Of the case as a whole `base` too, which no table has: its file's tree is read over that of its base. */
 static const char *known_key(const void *user, int i)
 {
+    if (is_root(user) && i-- == 0) return "base";
     for (const case_section *part = user; part; part = part->also) {
         for (const base_param *p = part->table; p->key; p++)
             if (i-- == 0) return p->key;
@@ -291,6 +299,10 @@ static const char *home_of(const char *key, const case_section *not_this)
 
 static void unknown_key(case_reader *r, const case_section *section, const tree_node *key, const char *path)
 {
+    if (is_root(section) && strcmp(key->text, "base") == 0) {
+        case_errors_add(r->errors, key, "base is a line of the case's file: --set cannot change what it builds on");
+        return;
+    }
     const bool listed = r->errors->n < CASE_MAX_ERRORS; /* beyond the list there is no need to look for names */
     const char *near = listed ? host_nearest_name(key->text, known_key, section) : NULL;
     const char *home = near || !listed ? NULL : home_of(key->text, section);

@@ -12,6 +12,10 @@
 
 enum { CASE_MAX_ENTRIES = 5000, CASE_KEY_SIZE = 160, CASE_SHOWN = 60 };
 
+/* How an error shows a value: as it is written, a long one cut. */
+#define CASE_ECHO "%.*s%s"
+#define CASE_ECHO_OF(text) CASE_SHOWN, (text), strlen(text) > CASE_SHOWN ? "..." : ""
+
 /* A place where the case names a material. */
 typedef struct {
     char name[BASE_PARAM_TEXT_SIZE], key[CASE_KEY_SIZE];

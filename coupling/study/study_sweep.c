@@ -62,14 +62,18 @@ static const char *value_text(const case_sweep *w, int run, int key)
     return w->vary.item[key].values.item[value_index(w, run, key)].value;
 }
 
+enum { SHOWN = 40 }; /* of a value, in an error */
+
 /* "particle.radius = 0.5 mm, scene.friction = 0.1" */
 static void describe(const case_sweep *w, int run, char *out, size_t size)
 {
     size_t used = 0;
     out[0] = '\0';
-    for (int k = 0; k < w->vary.n && used < size; k++)
-        used += (size_t)snprintf(out + used, size - used, "%s%s = %s", k ? ", " : "", w->vary.item[k].key,
-                                 value_text(w, run, k));
+    for (int k = 0; k < w->vary.n && used < size; k++) {
+        const char *value = value_text(w, run, k);
+        used += (size_t)snprintf(out + used, size - used, "%s%s = %.*s%s", k ? ", " : "", w->vary.item[k].key, SHOWN,
+                                 value, strlen(value) > SHOWN ? "..." : "");
+    }
 }
 
 /* Has the probe the column that `last.<column>` or `mean.<column>` names? */
