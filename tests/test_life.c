@@ -651,6 +651,33 @@ static void test_refused(void **state)
     refused("--set life.half_length=none", "life.half_length");
 }
 
+/* What a contact does not read is said where it is given, and used.yaml has the value of no effect: read back, it is
+ * silent. */
+static void test_idle_friction(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *set, *says;
+    } idle[] = {
+        { "--set life.state=frictionless",
+          "/case.yaml:10:13: life.friction = 0.3 has no effect with life.state = fric" },
+        { "--set life.state=frictionless --set life.friction=0.1", "--set life.friction=0.1: life.friction = 0.1 has" },
+        { "--set life.traction_share=0.2", "life.traction_share = 0.2 has no effect with life.state = full_slip" },
+    };
+    for (size_t k = 0; k < sizeof idle / sizeof idle[0]; k++) {
+        char command[300];
+        snprintf(command, sizeof command, "check " PAPER " %s", idle[k].set);
+        assert_int_equal(run(command), 0);
+        if (!contains("out.txt", idle[k].says)) fail_msg("not said: %s", idle[k].says);
+    }
+    assert_int_equal(run("check " PAPER " --set life.state=stick_slip --set life.traction_share=0.2"), 0);
+    assert_false(contains("out.txt", "no effect"));
+    assert_int_equal(run("life " PAPER " -o idle --force --quiet --set life.state=frictionless --set life.until=first"),
+                     0);
+    assert_int_equal(run("check idle/used.yaml"), 0);
+    assert_false(contains("out.txt", "no effect"));
+}
+
 static void test_program(void **state)
 {
     (void)state;
@@ -717,6 +744,7 @@ int main(void)
         cmocka_unit_test(test_batches),
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_idle_friction),
         cmocka_unit_test(test_program),
         cmocka_unit_test(test_same_bits),
     };

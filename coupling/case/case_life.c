@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* `life:`, a load that comes again and again: what no single value can say. */
+#include "coupling/case/case_place.h"
 #include "coupling/case/case_reader.h"
 
 #include <math.h>
@@ -79,9 +80,33 @@ static void check_armature(case_reader *r, const tree_node *map)
                             "life.%s is that of load: wheel; of load: armature the shot says what it is", of_wheel[k]);
 }
 
+/* A warning, with the place of this value in front. */
+static void warn_at(case_reader *r, const tree_node *node, const char *text)
+{
+    char place[CASE_PATH_SIZE + 40], line[CASE_PATH_SIZE + 240];
+    if (node->set >= 0)
+        snprintf(place, sizeof place, CASE_SET_PLACE, r->errors->sets[node->set]);
+    else
+        snprintf(place, sizeof place, "%s:%d:%d: ", r->file[node->file], node->line, node->column);
+    snprintf(line, sizeof line, "%s%s", place, text);
+    case_warn(r, line);
+}
+
+/* A key of friction that this state of the contact does not read has its value of no effect, in used.yaml too; another
+ * one that the case gives is a warning. */
+static void settle(case_reader *r, const char *key, double *value, double idle)
+{
+    const tree_node *node = host_tree_find(host_tree_find(r->root, "life"), key);
+    const char *state = r->out->life.state == LIFE_FRICTIONLESS ? "frictionless" : "full_slip";
+    char text[200];
+    snprintf(text, sizeof text, "life.%s = %g has no effect with life.state = %s", key, *value, state);
+    if (node && *value != idle) warn_at(r, node, text);
+    *value = idle;
+}
+
 void case_life_check(case_reader *r)
 {
-    const case_life *k = &r->out->life;
+    case_life *k = &r->out->life;
     const tree_node *map = host_tree_find(r->root, "life");
     if (!r->out->given.life || !map || map->kind != TREE_MAP) return;
     if (k->load == LIFE_ARMATURE) {
@@ -105,4 +130,6 @@ void case_life_check(case_reader *r)
             "speed is that of cycle: passage, until: first; the grid of until: crack is at rest");
     check_points(r, map);
     check_jumps(r, map);
+    if (k->state == LIFE_FRICTIONLESS) settle(r, "friction", &k->friction, 0.0);
+    if (k->state != LIFE_STICK_SLIP) settle(r, "traction_share", &k->traction_share, k->state == LIFE_FULL_SLIP);
 }

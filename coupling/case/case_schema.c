@@ -271,7 +271,7 @@ static const base_param life_params[] = {
     PARAM_DOUBLE(case_life, half_width, "m", OPTIONAL, 1e-6, 10.0, "of the patch, across the rail"),
     PARAM_ENUM(case_life, state, life_state_names, LIFE_FULL_SLIP,
                "frictionless: no traction; full_slip: friction times the pressure; stick_slip: Carter's"),
-    PARAM_DOUBLE(case_life, friction, "1", 0.3, 0.0, 2.0, "Coulomb coefficient"),
+    PARAM_DOUBLE(case_life, friction, "1", 0.3, 0.0, 2.0, "Coulomb coefficient; of no effect where frictionless"),
     PARAM_DOUBLE(case_life, traction_share, "1", 0.5, 0.0, 1.0,
                  "traction over friction times normal force, in stick_slip"),
     PARAM_ENUM(case_life, cycle, life_cycle_names, LIFE_PULSE,
