@@ -687,6 +687,8 @@ static void test_population_onset(void **state)
     assert_true(mass->muzzle_velocity < a.shot.is.muzzle_velocity && mass->expected_gouges < r->expected_gouges);
     assert_true(mass->threshold_position > r->threshold_position);
     assert_true(r->sensitivities[2].expected_gouges <= r->expected_gouges);
+    assert_string_equal(mass->input, "armature.mass");
+    assert_string_equal(r->sensitivities[2].input, "armature.friction_dry, armature.friction_melted");
     /* skips: the second site, and what monotony gives */
     int skipped = 0;
     for (int k = 0; k < r->n_skips; k++) skipped += r->skip[k].scenes;

@@ -70,7 +70,7 @@ typedef struct {
 
 /* What a change of one input does, all else as it was. */
 typedef struct {
-    char input[40];
+    char input[64];
     double change;             /* of the input, relative [1] */
     double muzzle_velocity;    /* [m/s] */
     double threshold_velocity; /* [m/s] */

@@ -54,7 +54,7 @@ static const summary_key skip_keys[] = { SUMMARY_TEXT(onset_skip, "rests_on", re
                                          SUMMARY_END };
 
 static const summary_key sensitivity_keys[] = {
-    SUMMARY_TEXT(onset_sensitivity, "input", input, "what is changed, all else as it was"),
+    SUMMARY_TEXT(onset_sensitivity, "input", input, "what is changed, by its keys, all else as it was"),
     SUMMARY_NUMBER(onset_sensitivity, "change", change, "1", "relative"),
     SUMMARY_NUMBER(onset_sensitivity, "muzzle_velocity", muzzle_velocity, "m/s", ""),
     SUMMARY_NUMBER(onset_sensitivity, "threshold_velocity", threshold_velocity, "m/s",

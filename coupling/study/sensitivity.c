@@ -35,10 +35,17 @@ static void change_friction(circuit_shot_config *c, double factor)
 static const changed_input inputs[] = {
     { "charge of the supplies", change_charge },
     { "armature.mass", change_mass },
-    { "armature.friction", change_friction },
+    { NULL, change_friction }, /* named by its keys: friction_keys */
     { "grain size", NULL },
 };
 enum { INPUTS = sizeof inputs / sizeof inputs[0], MOST = INPUTS + UNCERTAIN_MAX };
+
+/* The keys of the case that the law of friction reads. */
+static const char *friction_keys(const circuit_shot_armature *a)
+{
+    return a->friction_law == CIRCUIT_SHOT_FRICTION_FILM ? "armature.friction_dry, armature.film_viscosity"
+                                                         : "armature.friction_dry, armature.friction_melted";
+}
 
 /* Copies of the supplies that can be changed; copy[] is owned. */
 static status own_supplies(circuit_shot_config *c, void *copy[CIRCUIT_SUPPLY_KINDS])
@@ -120,7 +127,7 @@ static status change_all(session *s, onset_answer *a, changed *with)
     for (int k = 0; k < INPUTS; k++) {
         changed *to = &with[k];
         TRY(fly_changed(s, a, &inputs[k], &to->flown, &to->record));
-        to->input = inputs[k].input;
+        to->input = inputs[k].input ? inputs[k].input : friction_keys(&a->grains.c->launcher.armature);
         to->change = CHANGE;
         to->grains = a->grains;
         to->grains.flown = inputs[k].change ? &to->flown : &a->flown;
