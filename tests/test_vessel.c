@@ -286,7 +286,10 @@ static void test_refused(void **state)
     (void)state;
     refused("--set vessel.ambient='10 MPa'", "this gas is a liquid above");
     refused("--set vessel.bubbles='[{radius: 0.4 mm}, {radius: 0.4 mm}]'", "fill more than there is inside");
-    refused("--set vessel.film_thickness='0.5 mm'", "fill more than there is inside");
+    refused("--set vessel.film_thickness='0.45 mm'", "fill more than there is inside");
+    refused("--set vessel.film_thickness='0.5 mm'",
+            "--set vessel.film_thickness=0.5 mm: vessel.film_thickness = 0.5 mm: must be less than vessel.radius");
+    refused("--set vessel.film_thickness='1 mm'", "or there is nothing inside"); /* squares and cubes have no sign */
     refused("--set vessel.film_material=water", "vessel.film_material");
     refused("--set vessel.film_material=rail_steel_ma2020", "damage_D1");
     refused("--set vessel.critical_pressure=none", "critical_temperature and critical_pressure");

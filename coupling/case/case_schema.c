@@ -305,7 +305,7 @@ static const base_param vessel_params[] = {
                "cylinder: a metre of it in plane strain; sphere"),
     PARAM_DOUBLE(case_vessel, radius, "m", REQUIRED, 1e-7, 100.0, "outer, at the start"),
     PARAM_DOUBLE(case_vessel, film_thickness, "m", REQUIRED, 1e-9, 10.0,
-                 "of the shell, at the start"),
+                 "of the shell, at the start; less than radius"),
     PARAM_STRING(case_vessel, film_material, NULL, "of the shell, with strength and failure"),
     PARAM_STRING(case_vessel, liquid_material, NULL, "inside it, about the bubbles"),
     PARAM_INT(case_vessel, layers, 8, 1, 256, "of the film, each with one strain; it bursts when one has failed"),

@@ -278,6 +278,9 @@ status vessel_possible(const vessel_how *how)
 {
     const case_vessel *c = how->is;
     model m;
+    CHECK(c->film_thickness < c->radius, STATUS_BAD_INPUT,
+          "vessel.film_thickness = %g mm: must be less than vessel.radius = %g mm, or there is nothing inside",
+          1e3 * c->film_thickness, 1e3 * c->radius);
     CHECK(isnan(c->critical_temperature) == isnan(c->critical_pressure), STATUS_BAD_INPUT,
           "vessel: critical_temperature and critical_pressure go together; without both the gas is ideal");
     CHECK(c->bubbles.n >= 1 && c->bubbles.n <= VESSEL_MAX_BUBBLES, STATUS_BAD_INPUT,
