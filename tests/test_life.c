@@ -678,6 +678,39 @@ static void test_idle_friction(void **state)
     assert_false(contains("out.txt", "no effect"));
 }
 
+/* A pressure that no metal carries warns at its key; what it may carry is its hardness, three times its flow stress, or
+ * that of a perfect crystal, G / (2 pi 0.30) = 44.6 GPa of this steel. */
+static void test_too_much_pressure(void **state)
+{
+    (void)state;
+#define OWN                                                                                                         \
+    " --set 'materials=[{name: own, density: 7850 kg/m^3, youngs_modulus: 210 GPa, poisson: 0.25, fatigue_A: 426, " \
+    "fatigue_m: 2.77, %s}]' --set life.material=own "
+    static const struct {
+        const char *constants, *load;
+        double least; /* wheel_load that warns; 75.4 kN is 1 GPa [kN] */
+    } own[] = { { "hardness: 2 GPa", "--set life.wheel_load='%g kN'", 2.0 * 75.398 },
+                { "yield_A: 400 MPa, hardening_B: 0 Pa, hardening_n: 1", "--set life.wheel_load='%g kN'",
+                  1.2 * 75.398 },
+                { "expansion: 1e-5 1/K", "--set life.wheel_load='%g kN'", 44.563 * 75.398 } };
+    for (size_t k = 0; k < sizeof own / sizeof own[0]; k++)
+        for (int above = 0; above < 2; above++) {
+            char command[700], load[60], material[400];
+            snprintf(load, sizeof load, own[k].load, own[k].least * (above ? 1.01 : 0.99));
+            snprintf(material, sizeof material, OWN, own[k].constants);
+            snprintf(command, sizeof command, "check " PAPER "%s%s", material, load);
+            assert_int_equal(run(command), 0);
+            assert_int_equal(contains("out.txt", "is the unit right?"), above);
+        }
+#undef OWN
+    assert_int_equal(run("check " PAPER " --set life.wheel_load='75.4 MN'"), 0);
+    assert_true(contains("out.txt", "--set life.wheel_load=75.4 MN: life.wheel_load: 1e+03 GPa at the middle"));
+    assert_int_equal(run("check " PAPER), 0);
+    assert_false(contains("out.txt", "is the unit right?"));
+    assert_int_equal(run("check " PAPER " --set life.wheel_load=none --set life.pressure='1000 GPa'"), 0);
+    assert_true(contains("out.txt", "--set life.pressure=1000 GPa: life.pressure: 1e+03 GPa"));
+}
+
 static void test_program(void **state)
 {
     (void)state;
@@ -745,6 +778,7 @@ int main(void)
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_idle_friction),
+        cmocka_unit_test(test_too_much_pressure),
         cmocka_unit_test(test_program),
         cmocka_unit_test(test_same_bits),
     };

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* `life:`, a load that comes again and again: what no single value can say. */
+#include "base/constants.h"
 #include "coupling/case/case_place.h"
+#include "coupling/case/case_plain.h"
 #include "coupling/case/case_reader.h"
 
 #include <math.h>
@@ -83,7 +85,7 @@ static void check_armature(case_reader *r, const tree_node *map)
 /* A warning, with the place of this value in front. */
 static void warn_at(case_reader *r, const tree_node *node, const char *text)
 {
-    char place[CASE_PATH_SIZE + 40], line[CASE_PATH_SIZE + 240];
+    char place[CASE_PATH_SIZE + 40], line[CASE_PATH_SIZE + 440];
     if (node->set >= 0)
         snprintf(place, sizeof place, CASE_SET_PLACE, r->errors->sets[node->set]);
     else
@@ -102,6 +104,46 @@ static void settle(case_reader *r, const char *key, double *value, double idle)
     snprintf(text, sizeof text, "life.%s = %g has no effect with life.state = %s", key, *value, state);
     if (node && *value != idle) warn_at(r, node, text);
     *value = idle;
+}
+
+/* ---- more than a metal carries ---- */
+
+/* (L-10) The largest pressure that a metal's face carries: its hardness; else three times its flow stress at a strain
+ * of 8 %, which is what hardness is (Tabor); else the bound that no metal passes, where the largest shear of a Hertz
+ * contact, 0.30 p0, is the strength of a perfect crystal, G / (2 pi) (Frenkel).  [Pa] */
+static double pressure_carried(const mpm_material *m, const char **by)
+{
+    static const double TABOR = 3.0, TABOR_STRAIN = 0.08, HERTZ_SHEAR = 0.30; /* [1] */
+    const double flow = m->yield_A + m->hardening_B * pow(TABOR_STRAIN, m->hardening_n);
+    *by = "its hardness";
+    if (m->hardness > 0.0) return m->hardness;
+    *by = "three times its flow stress at 8 %";
+    if (m->strength == MPM_STRENGTH_johnson_cook && flow > 0.0) return TABOR * flow;
+    *by = "the strength of its perfect crystal";
+    return mpm_material_shear_modulus(m) / (2.0 * PI * HERTZ_SHEAR);
+}
+
+double case_life_peak(const case_life *c)
+{
+    return isnan(c->pressure) ? 3.0 * c->wheel_load / (2.0 * PI * c->half_length * c->half_width) : c->pressure;
+}
+
+/* A slip of a unit gives a life too, of a fraction of a cycle. */
+static void warn_of_pressure(case_reader *r, const tree_node *map)
+{
+    const case_life *k = &r->out->life;
+    const mpm_material *m = case_material(&r->out->materials, k->material);
+    const char *key = isnan(k->pressure) ? "wheel_load" : "pressure", *by;
+    const tree_node *node = host_tree_find(map, key);
+    char text[400];
+    if (!m || !node) return;
+    const double peak = case_life_peak(k), most = pressure_carried(m, &by);
+    if (!(peak > most)) return;
+    snprintf(text, sizeof text,
+             "life.%s: %.3g GPa at the middle of the patch is more than %.60s carries, %.3g GPa (%s): its face would "
+             "flow away, and the life has no meaning; is the unit right?",
+             key, 1e-9 * peak, m->name, 1e-9 * most, by);
+    warn_at(r, node, text);
 }
 
 void case_life_check(case_reader *r)
@@ -130,6 +172,7 @@ void case_life_check(case_reader *r)
             "speed is that of cycle: passage, until: first; the grid of until: crack is at rest");
     check_points(r, map);
     check_jumps(r, map);
+    warn_of_pressure(r, map);
     if (k->state == LIFE_FRICTIONLESS) settle(r, "friction", &k->friction, 0.0);
     if (k->state != LIFE_STICK_SLIP) settle(r, "traction_share", &k->traction_share, k->state == LIFE_FULL_SLIP);
 }

@@ -99,6 +99,9 @@ status case_inputs_read(const char *path, const char *const *sets, int n_sets, c
 status case_inputs_read_memory(const case_text *text, const case_options *options, case_inputs **out, char **errors);
 void case_inputs_free(case_inputs *in); /* NULL allowed */
 
+/* Pressure in the patch's middle under load: wheel, (6) of ma2020 where the wheel's load is given [Pa]. */
+double case_life_peak(const case_life *c);
+
 /* The place in the case of what a message is about, before the message: case_place.h. */
 void case_inputs_place(const case_inputs *in, const char *message, char *out, size_t size);
 

@@ -34,12 +34,6 @@ static double friction_of(const case_life *c)
     return c->state == LIFE_FRICTIONLESS ? 0.0 : c->friction;
 }
 
-/* (6) of the paper: the middle of an ellipse that carries the wheel's load. */
-static double peak_of(const case_life *c)
-{
-    return isnan(c->pressure) ? 3.0 * c->wheel_load / (2.0 * PI * c->half_length * c->half_width) : c->pressure;
-}
-
 static status add_hertz(const case_life *c, contact_load *l)
 {
     const double a = l->half_length, q0 = friction_of(c) * l->peak;
@@ -65,7 +59,7 @@ static status add_points(const case_life *c, contact_load *l)
 
 status life_contact_load(const case_life *c, contact_load *out)
 {
-    *out = (contact_load){ .half_length = c->half_length, .peak = peak_of(c) };
+    *out = (contact_load){ .half_length = c->half_length, .peak = case_life_peak(c) };
     if (c->profile == LIFE_HERTZ) return add_hertz(c, out);
     if (c->profile == LIFE_POINTS) return add_points(c, out);
     const double p = out->peak, q = friction_of(c) * p;
