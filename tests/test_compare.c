@@ -253,6 +253,45 @@ static void test_what_they_do(void **state)
     case_free(c);
 }
 
+/* A surface with several kinds: the hardened skin is of the rail's new metal, whatever the order in the file. */
+static void test_new_metal_is_hardened(void **state)
+{
+    (void)state;
+    case_onset treated;
+    breech_case *c = read(HEAD GRAINS "treatments:\n  - name: both\n    hardening: {depth: 0.4 mm, factor: 2}\n"
+                                      "    rail_metal: {material: steel_4340, yield_scale: 1.5}\n",
+                          ALL);
+    const case_onset given = case_inputs_of(c).onset;
+    OK(case_treat(&given, &c->treatments.item[0], &treated));
+    assert_int_equal(treated.impact.rail.layers.n, 1);
+    assert_string_equal(treated.impact.rail.layers.item[0].material, "steel_4340");
+    assert_true(treated.impact.rail.layers.item[0].yield_scale == 3.0);
+    case_treated_free(&treated);
+    case_free(c);
+}
+
+/* Grains of the armature's metal (debris) are of the new one, wherever the case has them; others stay. */
+static void test_debris_of_a_new_armature(void **state)
+{
+    (void)state;
+    case_onset treated;
+    breech_case *c = read(
+        HEAD "populations:\n  - {density: 3 1/m, radius_median: 0.3 mm, radius_spread: 0.3, material: al7075_t651}\n"
+             "sites: [{position: 1 m, material: al7075_t651}, {position: 2 m}]\n"
+             "treatments:\n  - {name: steel, armature_metal: {material: steel_4340}}\n",
+        ALL);
+    case_onset given = case_inputs_of(c).onset;
+    assert_string_equal(given.impact.armature.material, "al7075_t651");
+    snprintf(given.impact.particle.material, sizeof given.impact.particle.material, "al7075_t651");
+    OK(case_treat(&given, &c->treatments.item[0], &treated));
+    assert_string_equal(treated.populations.item[0].material, "steel_4340");
+    assert_string_equal(treated.sites.item[0].material, "steel_4340");
+    assert_string_equal(treated.sites.item[1].material, given.impact.rail.material);
+    assert_string_equal(treated.impact.particle.material, "steel_4340");
+    case_treated_free(&treated);
+    case_free(c);
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -1474,6 +1513,8 @@ int main(void)
         cmocka_unit_test(test_shots_compared),
         cmocka_unit_test(test_every_kind),
         cmocka_unit_test(test_what_they_do),
+        cmocka_unit_test(test_new_metal_is_hardened),
+        cmocka_unit_test(test_debris_of_a_new_armature),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_refused_sets),
         cmocka_unit_test(test_impossible),

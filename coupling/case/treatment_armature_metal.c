@@ -2,7 +2,7 @@
 /* Another armature.  Grains of the former armature's metal (debris) are of the new one; the shot keeps its mass. */
 #include "coupling/case/treatment.h"
 
-#include <string.h>
+#include <stdio.h>
 
 const base_param case_treatment_armature_metal_params[] = {
     PARAM_STRING(treatment_settings, material, NULL, "the armature's material"),
@@ -11,10 +11,7 @@ const base_param case_treatment_armature_metal_params[] = {
 
 status case_treatment_armature_metal_apply(const treatment_settings *t, case_onset *c)
 {
-    for (int i = 0; i < c->populations.n; i++) {
-        char *grain = c->populations.item[i].material;
-        if (strcmp(grain, c->impact.armature.material) == 0) snprintf(grain, BASE_PARAM_TEXT_SIZE, "%s", t->material);
-    }
+    case_treatment_exchange(c, c->impact.armature.material, t->material);
     snprintf(c->impact.armature.material, sizeof c->impact.armature.material, "%s", t->material);
     c->impact.armature.yield_scale = 1.0;
     return status_ok();
