@@ -1422,6 +1422,41 @@ static void test_shots_plate_the_rail(void **state)
     case_free(c);
 }
 
+/* A rail that is both warmer and worn: the two factors on its threshold are multiplied, as in the random shots. */
+static void test_changes_of_a_shot_multiply(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD "populations:\n  - {preset: debris, radius_median: 0.3 mm}\n", CASE_FOR_ONSET);
+    case_layer layer = { .thickness = 40e-6, .yield_scale = 1.0, .bond_strength = NAN, .wear_rate = 1.5e-12 };
+    const case_layers none = c->rail.layers;
+    snprintf(layer.material, sizeof layer.material, "ofhc_copper");
+    c->rail.layers = (case_layers){ 1, &layer };
+    c->study.velocity_interval = 0.02;
+    c->study.velocity_low = 400.0;
+    c->study.shots = 4;
+    by_thickness = 1.2e7;
+    onset_answer a = studied(c, "both", status_ok());
+    const double cold = a.result.threshold_velocity;
+    double radius;
+    const grain_family *f = study_onset_leading_grain(&a, &radius);
+    for (int k = 1; k < 4; k++) {
+        double product = cold, sum = cold;
+        for (int i = MC_WARMTH; i <= MC_WEAR; i++) {
+            const changed_rail *rail = &a.rail.changed[i];
+            const double there = study_surface_at(&study_family_alike(&rail->grains, f)->surface, radius).velocity,
+                         share = a.rail.shot[k].most[i] / rail->most;
+            assert_true(there < cold - 50.0);
+            product *= 1.0 + share * (there / cold - 1.0), sum += share * (there - cold);
+        }
+        assert_true(fabs(a.result.shot[k].threshold_velocity / product - 1.0) < 1e-12); /* rounding */
+        assert_true(product - sum > 1.0);
+    }
+    study_onset_answer_free(&a);
+    by_thickness = 0.0;
+    c->rail.layers = none;
+    case_free(c);
+}
+
 static int compared_named(const compare_answer *a, const char *prefix)
 {
     return scenes_begin(a->result.scene, a->result.n_scenes, prefix);
@@ -1545,6 +1580,7 @@ int main(void)
         cmocka_unit_test(test_shots_strip_the_rail),
         cmocka_unit_test(test_shots_wear_layers),
         cmocka_unit_test(test_shots_plate_the_rail),
+        cmocka_unit_test(test_changes_of_a_shot_multiply),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -53,6 +53,7 @@ static void make(rail *r, double density, double median, double spread, double t
     r->flown.trace = r->trace;
     r->flown.n_trace = TRACE;
     r->family = calloc(1, sizeof *r->family);
+    r->family->aspect = 1.0;
     surface_result *s = &r->family->surface;
     s->sizes = 9;
     s->reference.shift = NAN;
@@ -375,6 +376,27 @@ static void test_rims(void **state)
     free(r.family);
 }
 
+/* Grains half as high as wide: a rim of 0.4 mm is a grain of 0.8 mm radius to the second shot. */
+static void test_rims_keep_their_height(void **state)
+{
+    (void)state;
+    rail r;
+    make(&r, 1e-9, 2e-4, 0.5, 1400.0, 0.0, 0.0);
+    r.family->aspect = 0.5;
+    for (int k = 0; k < 2; k++) {
+        r.record[k].entry.result.rim_height = 0.2e-3; /* 0.4 of the radius */
+        r.record[k].entry.result.crater_volume = 10.0 * 0.125e-9;
+    }
+    r.site[0] = (case_site){ .position = 2.1, .radius = 1e-3, .height = 0.5e-3 };
+    r.c.sites = (case_sites){ 1, r.site };
+    const mc_surface one = as_new(&r, 0, 1.0);
+    mc_result out = run(&one, 1, 200, 2);
+    assert_true(fabs(out.of[0].volume / 10e-9 - 1.0) < 1e-3);
+    assert_true(fabs(out.of[1].volume / (10e-9 * pow(0.8, 3.0)) - 1.0) < 1e-3); /* sums of 200 */
+    study_mc_free(&out);
+    free(r.family);
+}
+
 /* ---- what shots leave for the next ---- */
 
 static mc_along *along_of(const rail *r, int shots)
@@ -533,10 +555,19 @@ static void test_bare(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sizes), cmocka_unit_test(test_many_sizes), cmocka_unit_test(test_closed),
-        cmocka_unit_test(test_band),  cmocka_unit_test(test_beyond),     cmocka_unit_test(test_common_numbers),
-        cmocka_unit_test(test_seed),  cmocka_unit_test(test_rims),       cmocka_unit_test(test_table_and_sites),
-        cmocka_unit_test(test_warm),  cmocka_unit_test(test_bare),       cmocka_unit_test(test_changes_together),
+        cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_many_sizes),
+        cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_band),
+        cmocka_unit_test(test_beyond),
+        cmocka_unit_test(test_common_numbers),
+        cmocka_unit_test(test_seed),
+        cmocka_unit_test(test_rims),
+        cmocka_unit_test(test_rims_keep_their_height),
+        cmocka_unit_test(test_table_and_sites),
+        cmocka_unit_test(test_warm),
+        cmocka_unit_test(test_bare),
+        cmocka_unit_test(test_changes_together),
         cmocka_unit_test(test_stop),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

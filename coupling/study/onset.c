@@ -94,23 +94,23 @@ status study_onset_begin(session *s, const case_onset *c, const char *prefix, bo
 
 /* ---- random shots ---- */
 
-/* On the rail of shot k where that is changed most, linear in each change.  Where the search of a changed rail found
- * none, the nearer one of both rails says, as in the random shots. */
+/* On the rail of shot k where that is changed most, by the same factors as in the random shots. */
 static double threshold_of_shot(const onset_answer *a, int k)
 {
     double radius;
     const grain_family *f = study_onset_leading_grain(a, &radius);
     const double cold = a->result.threshold_velocity;
     double here = cold;
-    for (int i = 0; i < MC_CHANGES; i++) {
+    for (int i = 0; i < MC_CHANGES && isfinite(cold); i++) {
         const changed_rail *rail = &a->rail.changed[i];
         const grain_family *hot = f && rail->grains.n ? study_family_alike(&rail->grains, f) : NULL;
         if (!hot) continue;
-        const double share = a->rail.shot[k].most[i] / rail->most,
-                     there = study_surface_at(&hot->surface, radius).velocity;
-        if (isfinite(there) || share >= 0.5) here += share * (there - cold);
+        const double share = fmin(a->rail.shot[k].most[i] / rail->most, 1.0),
+                     found = study_surface_at(&hot->surface, radius).velocity,
+                     there = isfinite(found) ? found : INFINITY;
+        here = study_mc_threshold_changed(here, cold, there, share);
     }
-    return here;
+    return isfinite(here) ? here : NAN;
 }
 
 static status list_shots(onset_answer *a)

@@ -121,9 +121,7 @@ static void shares_at(const lane *l, const grain *g, double share[MC_CHANGES])
     }
 }
 
-/* A threshold on a rail that is changed by a share of what `hot` differs from `cold`; where one of the two never
- * gouges, the nearer one says. */
-static double changed_by(double threshold, double cold, double hot, double share)
+double study_mc_threshold_changed(double threshold, double cold, double hot, double share)
 {
     if (isfinite(cold) && isfinite(hot)) return threshold * (1.0 + share * (hot / cold - 1.0));
     return share < 0.5 || isinf(cold) == isinf(hot) ? threshold : hot;
@@ -137,7 +135,7 @@ static double threshold_at(const mc *m, const lane *l, const grain *g, const dou
     for (int k = 0; k < MC_CHANGES; k++) {
         if (!(share[k] > 0.0)) continue;
         const double hot = study_gouge_law_threshold(&l->changed[k][g->family], g->ln_r, in_band, allowed);
-        here = changed_by(here, cold, hot, share[k]);
+        here = study_mc_threshold_changed(here, cold, hot, share[k]);
     }
     return here;
 }
@@ -166,7 +164,8 @@ static void leave_rim(lane *l, const grain *g, double radius, const gouge_mark *
     if (l->rims_next == MAX_RIMS || !(m->rim > 0.0)) return;
     const double layers = l->layers - value_at(l, l->along->left[MC_WEAR], g->x);
     const bool bare = l->bare && (g->bare || study_layer_wear_is_through(m->layers_gone, m->depth * radius, layers));
-    l->next[l->rims_next++] = (grain){ g->x + m->along * radius, log(m->rim * radius), g->family, bare };
+    const double as_grain = m->rim * radius / l->grains->family[g->family].aspect; /* radius of a grain as high */
+    l->next[l->rims_next++] = (grain){ g->x + m->along * radius, log(as_grain), g->family, bare };
 }
 
 /* Does it gouge? */

@@ -8,9 +8,9 @@
  * resolution, threshold.h; one number for all: cells err alike on all surfaces):  v_th(r) = low(r) + u_b (high(r) -
  * low(r)) + u_s allowance,  u_s in -1 .. 1. A history is a rail under `shots` shots.  A gouge leaves a rim downstream,
  * which is a grain of the same family to the next shot: its place and height, in radii of the grain that made it, by
- * the scenes that gouged (gouge_law.h).  What else the shots leave for those after them is the caller's to say
- * (repeated.h): `along`, `changed`, `bare`. Populations are a Poisson process; grains that no surface could gouge with
- * are not drawn. */
+ * the scenes that gouged (gouge_law.h); its radius is its height over the family's aspect.  What else the shots leave
+ * for those after them is the caller's to say (repeated.h): `along`, `changed`, `bare`. Populations are a Poisson
+ * process; grains that no surface could gouge with are not drawn. */
 #ifndef BREECH_COUPLING_MONTECARLO_H
 #define BREECH_COUPLING_MONTECARLO_H
 
@@ -41,7 +41,7 @@ typedef struct {
     int draws;                    /* surfaces with the same number share their u_b: the same thresholds, other inputs */
     double size_factor;           /* on every grain (a sensitivity); else 1 */
     const mc_along *along;        /* [shots]; NULL: every shot is that of `grains`, and finds its rail */
-    mc_changed changed[MC_CHANGES]; /* the factors of several changes on a threshold are multiplied */
+    mc_changed changed[MC_CHANGES]; /* their factors on a threshold are multiplied: study_mc_threshold_changed */
     const grain_families *bare;     /* for rims where a gouge wore the layers through; NULL: as all others */
 } mc_surface;
 
@@ -80,6 +80,10 @@ typedef struct {
 
 /* v of an mc_along, no more of it. */
 void study_mc_velocities(const shot_outcome *flown, double length, double v[MC_PLACES + 1]);
+
+/* A threshold times the factor of one change of the rail: a share, 0 .. 1, of what takes `cold`, that of the rail as
+ * new, to `hot`, that of the changed one.  Where one of the two never gouges (INFINITY), the nearer one says [m/s]. */
+double study_mc_threshold_changed(double threshold, double cold, double hot, double share);
 
 /* *out needs study_mc_free even on error.  STATUS_STOPPED: nothing of it can be used. */
 status study_mc_run(const mc_plan *plan, mc_result *out);
