@@ -80,12 +80,12 @@ static scene_query query_at(const breech_case *c, double velocity)
     return q;
 }
 
-static void open_session(const breech_case *c, const char *dir, session *s)
+static void begin_session(const breech_case *c, const char *dir, bool resumed, session *s)
 {
     const session_options options = { .command = "onset",
                                       .dir = dir,
                                       .store = "",
-                                      .how = { .force = true },
+                                      .how = { .force = !resumed, .resume = resumed },
                                       .threads = 1,
                                       .lending = lent,
                                       .run_scene = gouge_run,
@@ -94,6 +94,16 @@ static void open_session(const breech_case *c, const char *dir, session *s)
     const case_inputs in = case_inputs_of(c);
     OK(run_session_open(&in, &options, s));
     assert_non_null(s->crew);
+}
+
+static void open_session(const breech_case *c, const char *dir, session *s)
+{
+    begin_session(c, dir, false, s);
+}
+
+static void resume_session(const breech_case *c, const char *dir, session *s)
+{
+    begin_session(c, dir, true, s);
 }
 
 /* What one process gives. */
@@ -281,6 +291,43 @@ static void test_stopped(void **state)
     s.stop = stop_at_once;
     assert_int_equal(run_scenes_all(&s, q, 2, out).code, STATUS_STOPPED);
     OK(run_session_close(&s, false));
+    case_free(c);
+}
+
+static char shown[300]; /* the snapshot after which rank 0 stops */
+
+static bool stop_once_shown(void)
+{
+    return access(shown, F_OK) == 0;
+}
+
+/* Stopped inside rank 0's own scene: its snapshots stay with the checkpoint, and the resumed run has all of them. */
+static void test_snapshots_resumed(void **state)
+{
+    (void)state;
+    enum { SNAPSHOTS = 6 };
+    breech_case *c = small_case("scene.end_time=4 us");
+    c->output.snapshots = SNAPSHOTS;
+    const scene_query q = query_at(c, 1500.0);
+    const scene_record *out;
+    session s;
+    snprintf(shown, sizeof shown, "kept/scenes/%s/scene-000002.hdf", q.name);
+    open_session(c, "kept", &s);
+    s.stop = stop_once_shown;
+    assert_int_equal(run_scenes_all(&s, &q, 1, &out).code, STATUS_STOPPED);
+    OK(run_session_close(&s, false));
+    assert_true(is_there("kept", q.name, "scene-000000.hdf"));
+    resume_session(c, "kept", &s);
+    assert_true(run_session_resume_of(&s, q.name).image != NULL);
+    OK(run_scenes_all(&s, &q, 1, &out));
+    assert_same(*out, alone(c, &q));
+    for (int i = 0; i <= SNAPSHOTS; i++) {
+        char file[40];
+        snprintf(file, sizeof file, "scene-%06d.hdf", i);
+        assert_true(is_there("kept", q.name, file) == is_there("alone", q.name, file));
+        assert_true(is_there("kept", q.name, file) || i == SNAPSHOTS);
+    }
+    OK(run_session_close(&s, true));
     case_free(c);
 }
 
@@ -630,9 +677,11 @@ int main(int argc, char **argv)
     const struct CMUnitTest messages[] = { cmocka_unit_test(test_shares), cmocka_unit_test(test_put_off) };
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lent), /* first: no other has made threads yet */
-        cmocka_unit_test(test_shares),  cmocka_unit_test(test_given_back), cmocka_unit_test(test_keeper),
-        cmocka_unit_test(test_batch),   cmocka_unit_test(test_bodies),     cmocka_unit_test(test_laid_aside),
-        cmocka_unit_test(test_ahead),   cmocka_unit_test(test_failed),     cmocka_unit_test(test_stopped),
+        cmocka_unit_test(test_shares),  cmocka_unit_test(test_given_back),
+        cmocka_unit_test(test_keeper),  cmocka_unit_test(test_batch),
+        cmocka_unit_test(test_bodies),  cmocka_unit_test(test_laid_aside),
+        cmocka_unit_test(test_ahead),   cmocka_unit_test(test_failed),
+        cmocka_unit_test(test_stopped), cmocka_unit_test(test_snapshots_resumed),
         cmocka_unit_test(test_put_off),
     };
     int failed = 0;

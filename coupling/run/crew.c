@@ -26,6 +26,7 @@ typedef struct errand {
     history *rows;          /* of rank 0's own scenes */
     void *image;            /* laid aside by rank 0, to go on from; owned */
     scene_resume at;        /* image, when there is one */
+    bool saved;             /* the checkpoint goes on from it; one errand at most */
 } errand;
 
 struct crew {
@@ -99,6 +100,12 @@ static status find_or_add(crew *k, const scene_query *q, errand **out)
     }
     run_scene_key_free(&key);
     return done;
+}
+
+/* The checkpoint holds this scene's image; NULL: none. */
+static void mark_saved(crew *k, const errand *e)
+{
+    for (int i = 0; i < k->n; i++) k->errand[i]->saved = k->errand[i] == e;
 }
 
 /* Scenes that nobody asks for any more: those that wait are forgotten, members are told to drop those they compute. */
@@ -321,7 +328,9 @@ static status save_own(void *user, const char *scene, const scene_now *now)
     errand *e = own->e;
     if (!own->k->aside) {
         TRY(output_history_copy_scene(e->rows, scene, own->k->s->history));
-        return run_session_save_inside(own->k->s, scene, now);
+        TRY(run_session_save_inside(own->k->s, scene, now));
+        mark_saved(own->k, e);
+        return status_ok();
     }
     free(e->image);
     e->image = NULL;
@@ -422,13 +431,21 @@ static void stop_members(crew *k)
     }
 }
 
-void run_crew_free(crew *k)
+/* Does a resumed run need the snapshots?  It goes on from the scene in the checkpoint, and takes from the store what
+ * was finished when the run stopped. */
+static bool is_resumed_with(const crew *k, const errand *e)
+{
+    return e->saved || (e->wanted && e->file && k->s->store[0]);
+}
+
+void run_crew_free(crew *k, bool finished)
 {
     if (!k) return;
     stop_members(k);
     for (int i = 0; i < k->n; i++) {
-        host_outdir_drop_scene(&k->s->dir, k->errand[i]->query.name);
-        errand_free(k->errand[i]);
+        errand *e = k->errand[i];
+        if (finished || !is_resumed_with(k, e)) host_outdir_drop_scene(&k->s->dir, e->query.name);
+        errand_free(e);
     }
     free(k->errand);
     free(k->busy);
@@ -487,6 +504,7 @@ status run_crew_take(crew *k, const scene_key *key, h5_file **out)
     if (failed.code != STATUS_OK) return failed;
     *out = e->file;
     e->file = NULL;
+    mark_saved(k, NULL); /* the caller writes the next checkpoint, between scenes */
     errand_unlist(k, e);
     errand_free(e);
     return status_ok();

@@ -19,8 +19,9 @@ typedef struct crew crew;
 
 /* Rank 0, of more than one; side_by_side as in session_options: members beyond that only lend their threads. */
 status run_crew_create(session *s, int side_by_side, crew **out);
-/* Stops the scenes under way and removes those that nobody asked for, with their snapshots. */
-void run_crew_free(crew *k); /* NULL allowed */
+/* Stops the scenes under way and removes those that nobody asked for, with their snapshots.  finished: the run is over,
+ * else it may be resumed: snapshots stay of what the resumed run finds, in the checkpoint or in the store. */
+void run_crew_free(crew *k, bool finished); /* NULL allowed */
 
 /* Computes these until at least one of them is finished; the queries' cases are borrowed until run_crew_free. */
 status run_crew_some(crew *k, const scene_query *query, int n);

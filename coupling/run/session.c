@@ -132,7 +132,7 @@ status run_session_close(session *s, bool finished)
 {
     char path[OUTDIR_PATH_SIZE];
     host_progress_close(&s->progress);
-    run_crew_free(s->crew);
+    run_crew_free(s->crew, finished);
     s->crew = NULL;
     const status done = output_history_close(s->history);
     if (finished && s->dir.lock >= 0 && run_session_checkpoint_path(s, path).code == STATUS_OK) unlink(path);
