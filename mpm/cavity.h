@@ -12,10 +12,10 @@
  *   # # o o # # .
  *
  * Which cells a cavity has is found every CAVITY_EVERY steps by flooding what no domain of an intact point covers, from
- * what it had.  Two that meet become one.  Moles come in by `feed`.  The cavity has burst when the intact points of
- * `wall` no longer lie between it and an end of the window that is no mirror, by a flood through all else: by
- * their damage, not by gaps between them.  Then gas leaves through `hole`, as through an orifice; where the void itself
- * comes to the window's end, it is all gone.
+ * what it had.  Two that meet become one, with the holes of both.  Moles come in by `feed`.  The cavity has burst when
+ * the intact points of `wall` no longer lie between it and an end of the window that is no mirror, by a flood through
+ * all else: by their damage, not by gaps between them.  Then gas leaves through `hole`, as through an orifice; where
+ * the void itself comes to the window's end, it is all gone.
  * Moles and volume are those of the model as computed; the grid has one level. */
 #ifndef BREECH_MPM_CAVITY_H
 #define BREECH_MPM_CAVITY_H
@@ -50,10 +50,11 @@ extern const base_param mpm_cavity_params[];
 typedef struct {
     double moles, volume; /* [mol, m3] */
     double pressure;      /* above the ambient one [Pa] */
-    double burst_time;    /* NAN: it has not [s] */
+    double burst_time;    /* of the first that has, of those joined here too; NAN: none has [s] */
+    double open_hole;     /* area that gas leaves through, of all that have burst [m2] */
     double lost;          /* moles that have left [mol] */
     double found;         /* volume by cells less points, at the last look [m3] */
-    int joined;           /* the cavity that it has become part of; -1: none */
+    int joined;           /* the cavity that it is part of now, which has joined none; -1: none */
     bool open;            /* its void reaches the window's end */
 } mpm_cavity_state;
 

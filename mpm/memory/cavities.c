@@ -124,12 +124,15 @@ static int seeds(struct mpm_cavities *c, int cavity)
     return n;
 }
 
-/* The gas of one goes to another that it meets. */
+/* The gas of one goes to another that it meets, with all that has joined it; a burst one goes on venting there. */
 static void join(struct mpm_cavities *c, int gone, int to)
 {
     mpm_cavity_state *a = &c->state[gone], *b = &c->state[to];
     b->moles += a->moles, b->volume += a->volume, b->lost += a->lost;
-    a->moles = a->volume = a->pressure = 0, a->joined = to;
+    b->burst_time = fmin(b->burst_time, a->burst_time), b->open_hole += a->open_hole; /* NAN: the other's */
+    a->moles = a->volume = a->pressure = a->open_hole = 0, a->joined = to;
+    for (int k = 0; k < c->n; k++)
+        if (c->state[k].joined == gone) c->state[k].joined = to;
     for (int i = 0; i < cells_of(c); i++)
         if ((c->map[i] & CAVITY_OF) == gone + 1) c->map[i] = (uint8_t)((c->map[i] & ~CAVITY_OF) | (to + 1));
 }
@@ -156,7 +159,7 @@ static void look_for_burst(mpm *m, int cavity)
     bool out;
     if (m->scene.cavity[cavity].wall < 0 || !isnan(s->burst_time)) return;
     flood(m, seeds(m->cavities, cavity), WALL, &out);
-    if (out) s->burst_time = m->time;
+    if (out) s->burst_time = m->time, s->open_hole = m->scene.cavity[cavity].hole;
 }
 
 /* ---- the nodes about it ---- */
@@ -235,8 +238,8 @@ void mpm_cavities_step(mpm *m)
         s->volume += swept;
         mpm_cavity_state *gets = s->joined < 0 ? s : &c->state[s->joined];
         gets->moles += m->dt * is->feed;
-        if (!isnan(s->burst_time)) {
-            const mpm_orifice hole = { is->hole, is->discharge, is->gas_gamma, is->molar_mass };
+        if (s->open_hole > 0) {
+            const mpm_orifice hole = { s->open_hole, is->discharge, is->gas_gamma, is->molar_mass };
             const double flow = mpm_gas_flow(&hole, is->temperature, s->pressure + is->ambient, is->ambient);
             const double lost = fmin(m->dt * flow, 0.5 * s->moles);
             s->moles -= lost, s->lost += lost;
