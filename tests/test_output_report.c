@@ -296,6 +296,29 @@ static void add_to_summary(const char *dir, const char *const (*more)[2], int n)
     cJSON_Delete(root);
 }
 
+/* What a designer is told to keep below is the interval's end, by this case's grains and cells; below three cells a
+ * radius nothing of it is said. */
+static void advice_is_no_surer_than_the_interval(void **state)
+{
+    (void)state;
+    static const char *const cells[] = { "2.9", "3" };
+    for (int k = 0; k < 2; k++) {
+        char scenes[100];
+        snprintf(scenes, sizeof scenes, "[{\"name\":\"v1\",\"cells_per_radius\":%s}]", cells[k]);
+        const char *const more[][2] = { { "scenes", scenes },
+                                        { "threshold_interval", "[1450,1510]" },
+                                        { "threshold_position_interval", "[1.9,2.1]" } };
+        write_run("advice", STUDY_onset);
+        add_to_summary("advice", more, 3);
+        char *text = page_of("advice");
+        assert_int_equal(text_count(text, "By the grains and the cells of this case"), 2 * k);
+        assert_int_equal(text_count(text, "m/s, the lower end of the interval, is not expected to gouge"), k);
+        assert_int_equal(text_count(text, "the early end of the interval"), k);
+        assert_int_equal(text_count(text, "does not gouge on such grains"), 0);
+        free(text);
+    }
+}
+
 /* ---- a scene of bodies, cut ---- */
 
 enum { PLATE_X = 6, ACROSS = 20, PLATE = PLATE_X * ACROSS * 4, BALL = 4 * 4 * 4 };
@@ -605,6 +628,7 @@ int main(void)
         cmocka_unit_test(bodies_are_cut_before_and_after),
         cmocka_unit_test(page_for_every_kind),
         cmocka_unit_test(onset_page_shows_everything),
+        cmocka_unit_test(advice_is_no_surer_than_the_interval),
         cmocka_unit_test(same_files_same_page),
         cmocka_unit_test(study_pages_have_their_sections),
         cmocka_unit_test(a_browser_reads_it),

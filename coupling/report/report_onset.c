@@ -293,6 +293,17 @@ static void how_sure(const page *p)
 
 /* ---- what to do ---- */
 
+/* What is said of the case's own grains is said only at a resolution at which the interval is one. */
+static bool is_resolved(const cJSON *summary)
+{
+    static const double TRUSTED_CELLS = 3.0; /* a radius; the limit of the run's own warning (onset_judge.c) */
+    double finest = NAN;
+    const cJSON *scene;
+    cJSON_ArrayForEach(scene, cJSON_GetObjectItemCaseSensitive(summary, "scenes")) finest =
+        fmax(finest, report_number(scene, "cells_per_radius"));
+    return finest >= TRUSTED_CELLS;
+}
+
 /* The rail that has to be looked after: from the early end of the interval on. */
 static void say_where(const page *p)
 {
@@ -302,11 +313,10 @@ static void say_where(const page *p)
     if (!isfinite(from) || !(end > from)) return;
     report_value_known(from, x.lo, x.hi, start);
     item_begin(p);
-    fprintf(
-        p->out,
-        "Protect the rail from %s&nbsp;m on, the early end of the interval: that is %.0f %% of the barrel. Before it "
-        "gouges are not expected.",
-        start, 100.0 * (end - from) / end);
+    fprintf(p->out,
+            "Protect the rail from %s&nbsp;m on, the early end of the interval: that is %.0f %% of the barrel. By the "
+            "grains and the cells of this case no gouge is expected before it.",
+            start, 100.0 * (end - from) / end);
     item_end(p);
 }
 
@@ -319,7 +329,10 @@ static void say_slower(const page *p)
     if (!isfinite(v.lo) || !(muzzle > v.lo)) return;
     report_value_known(v.lo, v.lo, v.hi, slow);
     item_begin(p);
-    fprintf(p->out, "A shot that stays below %s&nbsp;m/s does not gouge on such grains; this one leaves with ", slow);
+    fprintf(p->out,
+            "By the grains and the cells of this case a shot that stays below %s&nbsp;m/s, the lower end of the "
+            "interval, is not expected to gouge; this one leaves with ",
+            slow);
     report_page_number(p->out, muzzle, 1.0, "m/s");
     fputs(".", p->out);
     item_end(p);
@@ -354,8 +367,10 @@ static void what_to_do(const page *p)
 {
     const cJSON *change;
     fputs("<section><h2>What can be done about it?</h2>\n<ul>\n", p->out);
-    say_where(p);
-    say_slower(p);
+    if (is_resolved(p->source->summary)) {
+        say_where(p);
+        say_slower(p);
+    }
     cJSON_ArrayForEach(change, report_page_list(p, "sensitivities")) say_effect(p, change);
     fputs(
         "<li>Coatings, hardening, polish, another lead angle: list them under <code>treatments</code> in the case and "
