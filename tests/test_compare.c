@@ -1236,6 +1236,38 @@ static void test_range(void **state)
     case_free(c);
 }
 
+/* The closing line gives one grain's threshold at any speed; where the sites' verdict seems to contradict it, the line
+ * says the speed and the interval that the verdict rests on. */
+static void test_closing_line_of_sites(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *sites;
+        onset_verdict verdict;
+        const char *says; /* NULL: nothing more */
+    } all[] = { { "[{position: 0.2 m}]", VERDICT_NO_GOUGING, "lies below its grain's interval" },
+                { "[{position: 0.2 m}, {position: 0.29 m}]", VERDICT_UNDECIDED, "lies inside its grain's interval" },
+                { "[{position: 2.9 m}]", VERDICT_GOUGES, NULL } };
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        char text[4000], interval[60];
+        snprintf(text, sizeof text, HEAD "sites: %s\n", all[k].sites);
+        breech_case *c = read(text, CASE_FOR_ONSET);
+        onset_answer a = studied(c, "closing", status_ok());
+        const onset_site *last = &a.result.site[a.result.n_sites - 1];
+        snprintf(interval, sizeof interval, "passed at %.0f m/s", last->velocity);
+        assert_int_equal(a.result.verdict, all[k].verdict);
+        assert_true((strstr(a.result.reason, "the verdict is the sites'") != NULL) == (all[k].says != NULL));
+        if (all[k].says && (!strstr(a.result.reason, all[k].says) || !strstr(a.result.reason, interval)))
+            fail_msg("%s", a.result.reason);
+        snprintf(interval, sizeof interval, "interval, %.0f .. %.0f m/s", last->threshold_interval[0],
+                 last->threshold_interval[1]);
+        if (all[k].says) assert_non_null(strstr(a.result.reason, interval));
+        print_message("%s\n", a.result.reason);
+        study_onset_answer_free(&a);
+        case_free(c);
+    }
+}
+
 /* ---- shot after shot ---- */
 
 /* The rail gets warmer from shot to shot, and this made-up one gouges 0.5 m/s earlier for every kelvin. */
@@ -1576,6 +1608,7 @@ int main(void)
         cmocka_unit_test(test_scatter_of_two),
         cmocka_unit_test(test_scatter_of_dying),
         cmocka_unit_test(test_range),
+        cmocka_unit_test(test_closing_line_of_sites),
         cmocka_unit_test(test_shots_warm_the_rail),
         cmocka_unit_test(test_shots_strip_the_rail),
         cmocka_unit_test(test_shots_wear_layers),

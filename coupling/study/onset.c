@@ -249,11 +249,34 @@ static status ask_null_models(onset_answer *a)
 
 /* ---- in words ---- */
 
-static double fastest_site(const onset_answer *a)
+static const onset_site *fastest_site(const onset_answer *a)
 {
-    double v = NAN;
-    for (int i = 0; i < a->result.n_sites; i++) v = fmax(v, a->site[i].velocity);
-    return v;
+    const onset_site *fastest = NULL;
+    for (int i = 0; i < a->result.n_sites; i++)
+        if (isfinite(a->site[i].velocity) && (!fastest || a->site[i].velocity > fastest->velocity))
+            fastest = &a->site[i];
+    return fastest;
+}
+
+/* The site that the verdict rests on: the first that gouges, or is undecided; else the fastest. */
+static const onset_site *deciding_site(const onset_answer *a)
+{
+    const onset_verdict verdict = a->result.verdict;
+    const site_outcome of = verdict == VERDICT_GOUGES ? SITE_GOUGE : SITE_UNDECIDED;
+    for (int i = 0; verdict != VERDICT_NO_GOUGING && i < a->result.n_sites; i++)
+        if (a->site[i].outcome == of) return &a->site[i];
+    return fastest_site(a);
+}
+
+/* Would a reader of the threshold's line expect another verdict?  That line is of one grain at any speed, the verdict
+ * of the sites: each at its own speed, with its own grain's interval. */
+static bool seems_contradicted(const onset_answer *a)
+{
+    const onset_result *r = &a->result;
+    const onset_site *fastest = fastest_site(a);
+    if (!fastest || a->grains.c->populations.n > 0 || !isfinite(r->threshold_velocity)) return false;
+    if (r->verdict == VERDICT_GOUGES) return fastest->velocity < r->threshold_interval[1];
+    return fastest->velocity > r->threshold_interval[0] || isfinite(r->threshold_position);
 }
 
 static void say(onset_result *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -264,6 +287,29 @@ static void say(onset_result *r, const char *format, ...)
     va_start(args, format);
     vsnprintf(r->reason + used, sizeof r->reason - used, format, args);
     va_end(args);
+}
+
+/* The fastest site; where the verdict seems to contradict the threshold's line, the numbers that it rests on. */
+static void say_sites(onset_answer *a)
+{
+    onset_result *r = &a->result;
+    const onset_site *fastest = fastest_site(a);
+    if (fastest)
+        say(r, "; fastest site %.0f m/s", fastest->velocity);
+    else if (r->n_sites > 0)
+        say(r, "; no site is reached");
+    if (!seems_contradicted(a)) return;
+    const onset_site *site = deciding_site(a);
+    const double *of = site->threshold_interval;
+    if (isnan(of[0]) || isnan(of[1])) return;
+    say(r,
+        "; the verdict is the sites': the one at %.3f m, passed at %.0f m/s, lies %s its grain's interval, %.0f .. "
+        "%.0f m/s",
+        site->position, site->velocity,
+        site->velocity >= of[1]   ? "above"
+        : site->velocity <= of[0] ? "below"
+                                  : "inside",
+        of[0], of[1]);
 }
 
 static void explain(onset_answer *a)
@@ -300,10 +346,7 @@ static void explain(onset_answer *a)
         say(r, "; grooves grow from %.0f m/s (%.0f .. %.0f) on", r->scratch_velocity, r->scratch_interval[0],
             r->scratch_interval[1]);
     if (study_onset_contradiction(a)) say(r, "; but whole scenes contradict: %s", study_onset_contradiction(a));
-    if (isfinite(fastest_site(a)))
-        say(r, "; fastest site %.0f m/s", fastest_site(a));
-    else if (a->result.n_sites > 0)
-        say(r, "; no site is reached");
+    say_sites(a);
     if (a->grains.c->populations.n > 0 && isfinite(r->expected_gouges))
         say(r, "; %.3g gouges a shot (%.3g .. %.3g)", r->expected_gouges, r->expected_gouges_interval[0],
             r->expected_gouges_interval[1]);
