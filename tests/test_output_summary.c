@@ -297,6 +297,27 @@ static void texts_are_valid(void **state)
     }
 }
 
+/* The closing table shows a description up to its semicolon: one that names some of a word's values before it names all
+ * of them there, or the table would explain `bulged` by "rebound, stopped, pierced". */
+static void words_are_explained_whole(const summary_key *keys)
+{
+    for (const summary_key *k = keys; k->name; k++) {
+        int named = 0, shown = 0, all = 0;
+        if (k->item) words_are_explained_whole(k->item);
+        for (; k->kind == KEY_NAME && k->names[all]; all++) {
+            const char *at = strstr(k->doc, k->names[all]);
+            named += at != NULL, shown += at && at < k->doc + strcspn(k->doc, ";");
+        }
+        if (named > 0 && shown != all) fail_msg("%s: %s", k->name, k->doc);
+    }
+}
+
+static void closing_tables_explain_every_word(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < STUDIES; kind++) words_are_explained_whole(study_list[kind]->keys);
+}
+
 static void file_and_its_status(void **state)
 {
     (void)state;
@@ -331,6 +352,7 @@ int main(void)
         cmocka_unit_test(manual_is_up_to_date),
         cmocka_unit_test(closing_table_shows_the_result),
         cmocka_unit_test(closing_tables_are_readable),
+        cmocka_unit_test(closing_tables_explain_every_word),
         cmocka_unit_test(file_and_its_status),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -38,7 +38,7 @@ static const summary_key entry_keys[] = {
 
 static const summary_key keys[] = {
     SUMMARY_CHOICE(target_ranking, "ranked_by", by_limit, rank_names,
-                   "limit_velocity with strike.limit; else residual_velocity, after whether the target holds"),
+                   "limit_velocity with strike.limit, else residual_velocity, after whether the target holds"),
     SUMMARY_LIST(target_ranking, "ranking", ranking, n, entry_keys, sizeof(target_entry),
                  "a target each, keys below; the best first"),
     SUMMARY_NUMBER(target_ranking, "wall_seconds", wall_seconds, "s", "time it took"),

@@ -33,8 +33,8 @@ static const summary_key result_keys[] = {
     SUMMARY_NUMBER(strike_result, "impact_velocity", is.impact_velocity, "m/s", "of the projectile at arrival"),
     SUMMARY_NUMBER(strike_result, "projectile_mass", is.projectile_mass, "kg", "of the whole projectile"),
     SUMMARY_CHOICE(strike_result, "class", is.class, strike_class_names,
-                   "what became of it: rebound, stopped, pierced; with strike.plate bulged or torn for the first two; "
-                   "unfinished: the scene is too short to tell"),
+                   "what became of it: pierced, else torn or bulged with strike.plate, else rebound or stopped, or "
+                   "unfinished where the scene is too short to tell"),
     SUMMARY_NUMBER(strike_result, "residual_velocity", is.residual_velocity, "m/s",
                    "along the flight, of the projectile's intact metal at judged_time"),
     SUMMARY_NUMBER(strike_result, "energy_arrival", is.energy_arrival, "J", "of the projectile's motion at arrival"),
