@@ -370,6 +370,36 @@ static void test_force_keeps_it(void **state)
     case_free(c);
 }
 
+/* All files of a store are damaged: each is warned of once, however often it is looked for before its scene has come. */
+static void test_damaged_is_said_once(void **state)
+{
+    (void)state;
+    enum { N = 4 };
+    breech_case *c = read_case(NULL);
+    const scene_record *out[N];
+    scene_query q[N];
+    char path[300], name[N][8];
+    fresh_folder("damaged");
+    for (int k = 0; k < N; k++) {
+        snprintf(name[k], sizeof name[k], "q%d", k);
+        q[k] = query_at(c, 1400.0 + 100.0 * k, name[k]);
+    }
+    session s = opened(c, "damaged/one", "damaged/store");
+    OK(run_scenes_all(&s, q, N, out));
+    OK(run_session_close(&s, true));
+    for (int k = 0; k < N; k++) {
+        path_in("damaged/store", key_at(c, q[k].impact.scene.velocity, 3.0), path);
+        assert_int_equal(truncate(path, 1000), 0);
+    }
+    s = opened(c, "damaged/two", "damaged/store");
+    OK(run_scenes_all(&s, q, N, out));
+    int said = 0;
+    for (const char *at = s.warnings; (at = strstr(at, "is damaged")); at++) said++;
+    assert_int_equal(said, N);
+    OK(run_session_close(&s, true));
+    case_free(c);
+}
+
 /* A damaged file, and one of another scene under this one's name: computed anew, and mended. */
 static void test_damaged(void **state)
 {
@@ -626,11 +656,13 @@ static void test_unusable(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_key_parts), cmocka_unit_test(test_key_is_a_case), cmocka_unit_test(test_file),
-        cmocka_unit_test(test_shared),    cmocka_unit_test(test_bodies),        cmocka_unit_test(test_force_keeps_it),
-        cmocka_unit_test(test_damaged),   cmocka_unit_test(test_flipped_bits),  cmocka_unit_test(test_killed_writers),
-        cmocka_unit_test(test_full_disk), cmocka_unit_test(test_history_first), cmocka_unit_test(test_left_over),
-        cmocka_unit_test(test_unusable),
+        cmocka_unit_test(test_key_parts),    cmocka_unit_test(test_key_is_a_case),
+        cmocka_unit_test(test_file),         cmocka_unit_test(test_shared),
+        cmocka_unit_test(test_bodies),       cmocka_unit_test(test_force_keeps_it),
+        cmocka_unit_test(test_damaged),      cmocka_unit_test(test_damaged_is_said_once),
+        cmocka_unit_test(test_flipped_bits), cmocka_unit_test(test_killed_writers),
+        cmocka_unit_test(test_full_disk),    cmocka_unit_test(test_history_first),
+        cmocka_unit_test(test_left_over),    cmocka_unit_test(test_unusable),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -149,6 +149,12 @@ static bool may_be_stored(const session *s, const scene_query *q)
     return s->store[0] && !q->anew && !(s->started_over && shows);
 }
 
+/* Once a file: it is looked for again and again until its scene is computed. */
+static void warn_of_damaged(session *s, const char *what)
+{
+    if (!s->warnings || !strstr(s->warnings, what)) run_session_warn(s, "%s; computed anew", what);
+}
+
 /* A file that cannot be used is none: its scene is computed and replaces it. */
 static status take_stored(session *s, const scene_query *q, const scene_key *key)
 {
@@ -157,7 +163,7 @@ static status take_stored(session *s, const scene_query *q, const scene_key *key
     status taken = run_store_get(s->store, key, &file);
     if (file) taken = take_file(s, q, key, file, true);
     host_h5_close(file);
-    if (taken.code == STATUS_IO) run_session_warn(s, "%s; computed anew", taken.text);
+    if (taken.code == STATUS_IO) warn_of_damaged(s, taken.text);
     return taken.code == STATUS_IO ? status_ok() : taken;
 }
 
