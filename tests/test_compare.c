@@ -427,6 +427,8 @@ static void open_anew(const case_inputs *in, const char *dir, session *s)
     s->run_scene = fake_scene;
 }
 
+static char warned[4000]; /* by the last study */
+
 static status run_compare(breech_case *c, const char *dir, compare_answer *out)
 {
     session s;
@@ -434,6 +436,7 @@ static status run_compare(breech_case *c, const char *dir, compare_answer *out)
     open_anew(&in, dir, &s);
     scenes = 0;
     const status done = study_compare_run(&s, &in.onset, &in.treatments, in.given.life ? &in.life : NULL, out);
+    snprintf(warned, sizeof warned, "%s", s.warnings ? s.warnings : "");
     OK(run_session_close(&s, done.code == STATUS_OK));
     return done;
 }
@@ -606,6 +609,27 @@ static void test_no_chain_of_ties(void **state)
     case_free(c);
 }
 
+/* Warnings of a comparison name the surface, not the prefix of its scenes. */
+static void test_warnings_name_the_surface(void **state)
+{
+    (void)state;
+    breech_case *c = read(HEAD GRAINS "treatments:\n"
+                                      "  - {name: warm, preheat: {temperature: 350 K}}\n"
+                                      "  - {name: thin coat, coating: [{material: steel_4340, thickness: 0.02 mm}]}\n",
+                          ALL);
+    compare_answer a;
+    c->study.velocity_low = 500.0; /* so that every surface's search ends without a gouge */
+    c->study.velocity_high = 900.0;
+    OK(run_compare(c, "named", &a));
+    assert_non_null(strstr(warned, "\nthin coat: rail.layers[0]: 20 um of steel_4340 has"));
+    assert_non_null(strstr(warned, "\nwarm: the armature reaches"));
+    assert_non_null(strstr(warned, "untreated: the armature reaches"));
+    assert_null(strstr(warned, "t1-"));
+    assert_null(strstr(warned, "t2-"));
+    study_compare_answer_free(&a);
+    case_free(c);
+}
+
 /* A layer whose bond gives way is told from one that stays; a crater deeper than a layer dents it, and has worn it
  * through where a tenth of the layer goes too. */
 static void test_what_layers_suffer(void **state)
@@ -738,8 +762,6 @@ static void test_population_onset(void **state)
     study_onset_answer_free(&a);
     case_free(c);
 }
-
-static char warned[4000]; /* by the last study */
 
 static onset_answer studied(breech_case *c, const char *dir, status want)
 {
@@ -1591,6 +1613,7 @@ int main(void)
         cmocka_unit_test(test_no_chain_of_ties),
         cmocka_unit_test(test_progress),
         cmocka_unit_test(test_screened_surface),
+        cmocka_unit_test(test_warnings_name_the_surface),
         cmocka_unit_test(test_what_layers_suffer),
         cmocka_unit_test(test_seed),
         cmocka_unit_test(test_population_onset),

@@ -370,7 +370,7 @@ static void test_force_keeps_it(void **state)
     case_free(c);
 }
 
-/* All files of a store are damaged: each is warned of once, however often it is looked for before its scene has come. */
+/* All files of a store are damaged: each is warned of once, however often it is looked for until its scene has come. */
 static void test_damaged_is_said_once(void **state)
 {
     (void)state;

@@ -35,6 +35,11 @@ static const case_treatment *treatment_of(const case_treatments *all, int surfac
     return surface == 0 ? NULL : &all->item[surface - 1];
 }
 
+static const char *name_of(const case_treatment *t)
+{
+    return t ? t->name : "untreated";
+}
+
 static void prefix_of(int surface, char out[PREFIX_SIZE])
 {
     if (surface > 0)
@@ -63,6 +68,7 @@ static status begin(session *s, const case_onset *c, const case_treatments *trea
         prefix_of(i, prefix[i]);
         TRY(case_treat(c, t, &a->treated[i]));
         const status begun = study_onset_begin(s, &a->treated[i], prefix[i], i == 0, &a->answer[i]);
+        snprintf(a->answer[i].grains.surface, sizeof a->answer[i].grains.surface, "%s: ", name_of(t));
         const status flown = begun.code == STATUS_OK
                                  ? study_repeated_fly(s, &a->answer[i].grains, &a->answer[i].shot, &a->answer[i].rail)
                                  : begun;
@@ -213,7 +219,7 @@ static void fill_entry(const case_treatments *treatments, const compare_answer *
     const mc_shot *first = &a->drawn.of[i * a->drawn.shots], *last = first + a->drawn.shots - 1;
     const mc_mean_shot *mean = &a->mean[i];
     const case_treatment *t = treatment_of(treatments, i);
-    snprintf(e->surface, sizeof e->surface, "%s", t ? t->name : "untreated");
+    snprintf(e->surface, sizeof e->surface, "%s", name_of(t));
     prefix_of(i, e->scene_prefix);
     e->threshold_velocity = r->threshold_velocity;
     memcpy(e->threshold_interval, r->threshold_interval, sizeof e->threshold_interval);

@@ -96,7 +96,7 @@ static void find_contradictions(session *s, onset_answer *a)
         find_contradiction(f);
         if (f->contradicted[0])
             run_session_warn(s, "%sgrains of kind %d gouge by the growth of their grooves, but not by whole scenes: %s",
-                             a->grains.prefix, k + 1, f->contradicted);
+                             a->grains.surface, k + 1, f->contradicted);
     }
 }
 
@@ -377,7 +377,7 @@ static void warn_of_thin_layers(session *s, const onset_answer *a)
             if (across < GOUGE_RESOLVED_LAYER)
                 run_session_warn(
                     s, "%srail.layers[%d]: %g um of %s has %.2g cells across: what it does inside is not resolved",
-                    a->grains.prefix, i, 1e6 * layer->thickness, layer->material, across);
+                    a->grains.surface, i, 1e6 * layer->thickness, layer->material, across);
         }
     }
 }
@@ -387,9 +387,9 @@ static void warn_of_thresholds(session *s, const onset_answer *a)
     const case_study *y = &a->grains.c->study;
     for (int k = 0; k < a->grains.n; k++) {
         const grain_family *f = &a->grains.family[k];
-        if (f->surface.warning[0]) run_session_warn(s, "%s%s", a->grains.prefix, f->surface.warning);
+        if (f->surface.warning[0]) run_session_warn(s, "%s%s", a->grains.surface, f->surface.warning);
         if (f->scratch && f->scratches.warning[0])
-            run_session_warn(s, "%sscratches: %s", a->grains.prefix, f->scratches.warning);
+            run_session_warn(s, "%sscratches: %s", a->grains.surface, f->scratches.warning);
     }
     if (a->grains.n && y->fine_cells_per_radius < TRUSTED_CELLS && a->first)
         run_session_warn(
@@ -413,7 +413,7 @@ static void warn_of_range(session *s, const onset_answer *a)
     run_session_warn(s,
                      "%sthe armature reaches %.0f m/s, the search ended at study.velocity_high = %g m/s without a "
                      "gouge: raise that to learn of grains that are passed faster",
-                     a->grains.prefix, fastest, y->velocity_high);
+                     a->grains.surface, fastest, y->velocity_high);
 }
 
 static void warn_of_screen(session *s, const onset_answer *a)
@@ -422,7 +422,7 @@ static void warn_of_screen(session *s, const onset_answer *a)
     run_session_warn(s,
                      "%s%d sites and populations rest on the screen alone, impact pressure over hardness below "
                      "study.screen_low = %g: no scene was run for their grains (study.screen_low: 0 runs them)",
-                     a->grains.prefix, a->grains.unbacked, a->grains.c->study.screen_low);
+                     a->grains.surface, a->grains.unbacked, a->grains.c->study.screen_low);
 }
 
 status study_onset_judge(session *s, onset_answer *a)

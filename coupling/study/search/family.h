@@ -56,11 +56,12 @@ typedef struct {
 
 /* The grains of one case in one shot. */
 typedef struct {
-    const case_onset *c;       /* borrowed */
-    case_impact probe, whole;  /* what the searches' scenes are made of, and those that go to their end */
-    const shot_outcome *flown; /* borrowed */
-    const char *prefix;        /* of its scenes' names, "" for the case as it is; borrowed */
-    bool scratch;              /* their searches look for the scratch velocity too */
+    const case_onset *c;                    /* borrowed */
+    case_impact probe, whole;               /* what the searches' scenes are made of, and those that go to their end */
+    const shot_outcome *flown;              /* borrowed */
+    const char *prefix;                     /* of its scenes' names, "" for the case as it is; borrowed */
+    char surface[BASE_PARAM_TEXT_SIZE + 4]; /* before its warnings: "hardened: "; "": it is the only one */
+    bool scratch;                           /* their searches look for the scratch velocity too */
     int n;
     grain_family *family;         /* owned */
     int *of_site, *of_population; /* index of the family, -1: needs no scene; owned */

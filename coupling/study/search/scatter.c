@@ -188,7 +188,7 @@ static void conclude(session *s, const grain_families *g, const sought *t, const
                      "%swhat decides on a %s scatters by %.2g with the place of the grid at %g m/s, and hardly rises "
                      "with velocity in the search's scenes: the interval is wider by %.0f m/s, as far as scenes that "
                      "decide in spite of it",
-                     g->prefix, t->judge == JUDGE_OF_GOUGE ? "gouge" : "scratch", out->excess, t->near->velocity,
+                     g->surface, t->judge == JUDGE_OF_GOUGE ? "gouge" : "scratch", out->excess, t->near->velocity,
                      out->reach);
 }
 
@@ -248,7 +248,7 @@ static void conclude_one_sided(session *s, const grain_families *g, const sought
     run_session_warn(s,
                      "%sall scenes of the search %s, but on a shifted grid that at %g m/s does not decide so: the "
                      "interval ends before it; more cells a radius would lessen what the place of the cells decides",
-                     g->prefix, said[t->judge][side], against);
+                     g->surface, said[t->judge][side], against);
 }
 
 /* ---- all of them ---- */
