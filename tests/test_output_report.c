@@ -251,6 +251,7 @@ static void onset_page_shows_everything(void **state)
     char *text = page_of("report"), *svg;
     assert_non_null(strstr(text, "How sure is that?"));
     assert_non_null(strstr(text, "What can be done about it?"));
+    assert_non_null(strstr(text, "A place's interval ends where the armature passes the ends of the speed's"));
     assert_non_null(strstr(text, "v1650"));
     assert_non_null(strstr(text, "energy_kinetic"));
     assert_int_equal(text_count(text, "<svg"), files_in("report", ".svg"));

@@ -281,7 +281,8 @@ static void how_sure(const page *p)
         "<section><h2>How sure is that?</h2>\n<ul>\n<li>The intervals hold what the search left open, the cells' size, "
         "the scatter with the grid where it was asked for, and the stated uncertainty of the inputs: a table below "
         "lists each. They do not hold "
-        "what the model itself leaves out.</li>\n",
+        "what the model itself leaves out. A place's interval ends where the armature passes the ends of the speed's, "
+        "whether a grain is there or not.</li>\n",
         p->out);
     say_scatter(p, &speeds[0], "scratch_deviation");
     say_scatter(p, &speeds[1], "threshold_deviation");

@@ -22,7 +22,8 @@ static const summary_key entry_keys[] = {
     SUMMARY_NUMBER(compare_entry, "threshold_position", threshold_position, "m",
                    "where the threshold velocity is passed, whether a grain is there or not"),
     SUMMARY_VECTOR(compare_entry, "threshold_position_interval", threshold_position_interval, 2, "m",
-                   "where its ends are"),
+                   "where the ends of threshold_interval are passed; null: that end is not known, or "
+                   "not passed in this shot"),
     SUMMARY_NUMBER(compare_entry, "threshold_deviation", threshold_deviation, "m/s",
                    "standard deviation over study.threshold_ensemble grids; its interval holds it; null: not known"),
     SUMMARY_NUMBER(compare_entry, "gouges", gouges, "1", "a shot, expected, mean of all shots: what ranks"),
