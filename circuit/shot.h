@@ -219,6 +219,10 @@ typedef struct {
     double exit_current;      /* [A] */
     double energy_error;      /* over the energy at the start [1] */
     uint64_t steps;           /* accepted steps and located instants */
+    double end_time;          /* as far as the shot was followed [s] */
+    double end_position;      /* of the armature then; after its exit the muzzle [m] */
+    double end_velocity;      /* then; after its exit the one it left with [m/s] */
+    bool time_ran_out; /* max_time came while the armature moved in the barrel, or stood under a current still rising */
 } circuit_shot_summary;
 
 /* How near the armature and the rails have come to their limits; NAN where the configuration does not ask, or nothing

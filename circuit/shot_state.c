@@ -3,6 +3,7 @@
 #include "circuit/shot_internal.h"
 
 #include <assert.h>
+#include <math.h>
 
 shot_drive circuit_shot_drive_now(const circuit_shot *s)
 {
@@ -99,10 +100,23 @@ double circuit_shot_module_voltage(const circuit_shot *s, int group)
     return g->kind->voltage(g, circuit_shot_y(s) + g->first);
 }
 
+/* A current that still rises may yet move an armature that stands; one that falls will not. */
+static bool time_ran_out(const circuit_shot *s, const circuit_shot_state *now)
+{
+    if (s->t + SHOT_INSTANT < s->options.max_time || now->phase == CIRCUIT_SHOT_LEFT) return false;
+    const bool moves = now->phase == CIRCUIT_SHOT_MOVING && now->v > 0.0;
+    return moves || (!circuit_shot_done(s) && fabs(now->current) >= s->result.peak_current);
+}
+
 circuit_shot_summary circuit_shot_result(const circuit_shot *s)
 {
+    const circuit_shot_state now = circuit_shot_now(s);
     circuit_shot_summary r = s->result;
     r.energy_error = circuit_shot_ledger_now(s).energy_error;
     r.action = s->model.phase == CIRCUIT_SHOT_LEFT ? s->exit_action : circuit_shot_z(s)[Y_ACTION];
+    r.end_time = now.t;
+    r.end_position = now.x;
+    r.end_velocity = now.v;
+    r.time_ran_out = time_ran_out(s, &now);
     return r;
 }

@@ -86,7 +86,10 @@ static inline shot_record example_shot(void)
                                   .peak_acceleration = 1.1e6,
                                   .exit_current = 4.4e5,
                                   .energy_error = 3e-9,
-                                  .steps = 1234 },
+                                  .steps = 1234,
+                                  .end_time = 0.1,
+                                  .end_position = 3.6,
+                                  .end_velocity = 2105.0 },
                           .wall_seconds = 0.25 };
 }
 

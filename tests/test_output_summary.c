@@ -14,7 +14,8 @@
 static const char *const all_keys[] = { "case", "version", "instruction_set", "status", "error", "warnings", NULL };
 static const char *const kind_keys[STUDIES][32] = {
     [STUDY_shot] = { "peak_current", "muzzle_velocity", "muzzle_time", "muzzle_energy", "efficiency", "action",
-                     "peak_acceleration", "exit_current", "energy_error", "steps", "wall_seconds" },
+                     "peak_acceleration", "exit_current", "energy_error", "end_time", "end_position", "end_velocity",
+                     "time_ran_out", "steps", "wall_seconds" },
     [STUDY_scene] = { "class",
                       "severity",
                       "crater_length",

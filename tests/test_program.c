@@ -355,6 +355,59 @@ static void test_shot(void **state)
     cJSON_Delete(c);
 }
 
+static bool ran_out(const cJSON *s)
+{
+    const cJSON *flag = cJSON_GetObjectItemCaseSensitive(s, "time_ran_out");
+    assert_true(cJSON_IsBool(flag));
+    return cJSON_IsTrue(flag);
+}
+
+/* Leaving, coming to rest, and max_time while it moves or before it has begun to: told apart. */
+static void test_how_a_shot_ends(void **state)
+{
+    static const struct {
+        const char *set, *says;
+        bool ran_out;
+        double end[2][3]; /* end_time, end_position, end_velocity: at least, at most */
+    } way[] = {
+        { "options.max_time='100 ms'",
+          "leaves the muzzle at 1933 m/s",
+          false,
+          { { 1e-3, 1.0, 1932.0 }, { 0.1, 9.0, 1934.0 } } },
+        { "options.max_time='1 ms'",
+          "options.max_time ran out after 1 ms: at x = ",
+          true,
+          { { 1e-3, 0.01, 10.0 }, { 1e-3, 1.0, 1900.0 } } },
+        { "options.max_time='1 us'",
+          "options.max_time ran out after 0.001 ms: at x = ",
+          true,
+          { { 1e-6, 0.0, 0.0 }, { 1e-6, 1.0, 0.1 } } },
+        { "bank.charge='1.5 kV'",
+          "does not leave the muzzle: rests at x = ",
+          false,
+          { { 1e-3, 0.0, 0.0 }, { 0.1, 9.0, 0.0 } } },
+    };
+    static const char *const key[] = { "end_time", "end_position", "end_velocity" };
+    (void)state;
+    fresh_folder("ends");
+    for (int k = 0; k < 4; k++) {
+        char command[300];
+        snprintf(command, sizeof command, "shot " SHOT " -o ends/a --force --set %s", way[k].set);
+        assert_int_equal(run(command), 0);
+        if (!contains("out.txt", way[k].says)) fail_msg("%s: the table does not say `%s`", way[k].set, way[k].says);
+        assert_int_equal(contains("err.txt", "options.max_time = "), way[k].ran_out); /* the warning */
+        assert_int_equal(contains("ends/a/report.html", "when options.max_time runs out"), way[k].ran_out);
+        cJSON *s = summary_of("ends/a");
+        assert_int_equal(ran_out(s), way[k].ran_out);
+        assert_true(isnan(number(s, "muzzle_velocity")) == (k > 0));
+        for (int i = 0; i < 3; i++)
+            if (!(number(s, key[i]) >= way[k].end[0][i] * (1.0 - 1e-9) &&
+                  number(s, key[i]) <= way[k].end[1][i] * (1.0 + 1e-9)))
+                fail_msg("%s: %s = %g", way[k].set, key[i], number(s, key[i]));
+        cJSON_Delete(s);
+    }
+}
+
 /* --resume of what another command, case or value left: refused with the difference, and nothing changes. */
 static void test_resume_of_another(void **state)
 {
@@ -523,6 +576,7 @@ int main(void)
         cmocka_unit_test(test_flow),
         cmocka_unit_test(test_instruction_set),
         cmocka_unit_test(test_shot),
+        cmocka_unit_test(test_how_a_shot_ends),
         cmocka_unit_test(test_resume_of_another),
         cmocka_unit_test(test_resume_without_report),
         cmocka_unit_test(test_last_site),

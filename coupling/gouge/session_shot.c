@@ -3,6 +3,15 @@
 
 #include <math.h>
 
+static void warn_of_time(session *s, const circuit_shot_summary *is)
+{
+    if (is->time_ran_out)
+        run_session_warn(s,
+                         "shot: options.max_time = %.4g ms ran out with the armature at x = %.3g m and %.3g m/s; "
+                         "a larger one follows it further",
+                         1e3 * is->end_time, is->end_position, is->end_velocity);
+}
+
 static void warn_of_limits(session *s, const circuit_shot_limits *l)
 {
     const double x = l->transition_position;
@@ -44,6 +53,8 @@ status gouge_session_shot(session *s, const case_flight *flight, const site_jump
                        .rail_rise = out->rail_rise[warmest],
                        .rail_rise_position = (warmest + 0.5) * flight->launcher.barrel.length / CIRCUIT_SHOT_PIECES,
                        .wall_seconds = host_wall_clock() - since };
-    if (done.code == STATUS_OK && with_history) warn_of_limits(s, &out->limits);
+    if (done.code != STATUS_OK || !with_history) return done;
+    warn_of_time(s, &out->summary);
+    warn_of_limits(s, &out->limits);
     return done;
 }

@@ -26,6 +26,24 @@ static const cJSON *shot_of(const page *p)
     return cJSON_IsObject(part) ? part : p->source->summary;
 }
 
+static void verdict_inside(const page *p, const cJSON *shot)
+{
+    const bool ran_out = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(shot, "time_ran_out"));
+    const double x = report_number(shot, "end_position");
+    fputs(ran_out ? "The armature is still in the barrel when options.max_time runs out"
+                  : "The armature does not leave the barrel",
+          p->out);
+    if (isfinite(x)) {
+        fputs(ran_out ? ": it is at " : ": it rests at ", p->out);
+        report_page_number(p->out, x, 1.0, "m");
+        if (ran_out) {
+            fputs(" with ", p->out);
+            report_page_number(p->out, report_number(shot, "end_velocity"), 1.0, "m/s");
+        }
+    }
+    fputs(".", p->out);
+}
+
 void report_shot_head(const page *p)
 {
     const cJSON *shot = shot_of(p);
@@ -40,7 +58,7 @@ void report_shot_head(const page *p)
             fputs(", at a peak current of ", p->out);
             report_page_number(p->out, report_number(shot, "peak_current"), 1e3, "kA.");
         } else {
-            fputs("The armature does not leave the barrel.", p->out);
+            verdict_inside(p, shot);
         }
         fputs("</p>\n", p->out);
     }

@@ -12,6 +12,12 @@ const summary_key run_shot_keys[] = {
     SUMMARY_NUMBER(shot_record, "efficiency", is.efficiency, "1",
                    "muzzle energy over the energy stored at the start and supplied since"),
     SUMMARY_NUMBER(shot_record, "action", is.action, "A2 s", "integral of the current's square"),
+    SUMMARY_NUMBER(shot_record, "end_time", is.end_time, "s", "as far as the shot was followed"),
+    SUMMARY_NUMBER(shot_record, "end_position", is.end_position, "m", "of the armature then; the muzzle once it left"),
+    SUMMARY_NUMBER(shot_record, "end_velocity", is.end_velocity, "m/s",
+                   "of the armature then; that of its exit once it left"),
+    SUMMARY_VALUE(shot_record, KEY_FLAG, "time_ran_out", is.time_ran_out, "",
+                  "options.max_time came before the armature had left or come to rest"),
     SUMMARY_NUMBER(shot_record, "peak_acceleration", is.peak_acceleration, "m/s2", "of the armature"),
     SUMMARY_NUMBER(shot_record, "exit_current", is.exit_current, "A", "at the muzzle"),
     SUMMARY_NUMBER(shot_record, "energy_error", is.energy_error, "1",
@@ -55,8 +61,11 @@ void run_shot_verdict(const shot_record *r, FILE *out)
     if (isfinite(is->muzzle_velocity))
         fprintf(out, "leaves the muzzle at %.0f m/s after %.3g ms: %.3g kJ, %.3g %% of the energy spent; ",
                 is->muzzle_velocity, 1e3 * is->muzzle_time, 1e-3 * is->muzzle_energy, 1e2 * is->efficiency);
+    else if (is->time_ran_out)
+        fprintf(out, "still in the barrel when options.max_time ran out after %.3g ms: at x = %.3g m with %.3g m/s; ",
+                1e3 * is->end_time, is->end_position, is->end_velocity);
     else
-        fputs("does not leave the muzzle; ", out);
+        fprintf(out, "does not leave the muzzle: rests at x = %.3g m; ", is->end_position);
     fprintf(out, "peak current %.3g kA\n", 1e-3 * is->peak_current);
     if (isfinite(r->limits.transition_position))
         fprintf(out, "transition: the sliding contact is past its limits from x = %.3g m on\n",
