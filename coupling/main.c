@@ -204,7 +204,7 @@ static int run_case(const options *o)
     const status opened = run_session_open(in, &how, &s);
     int code;
     if (opened.code == STATUS_OK && s.dir.state != OUTDIR_FINISHED) {
-        if (!o->line.quiet && in->warnings[0]) fputs(in->warnings, stderr);
+        if (in->warnings[0]) fputs(in->warnings, stderr);
         code = carry_out(o, in, &s);
     } else {
         const bool finished = opened.code == STATUS_OK;

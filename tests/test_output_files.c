@@ -430,7 +430,7 @@ static void progress_line(void **state)
     assert_int_equal(strlen(small), sizeof small - 1);
 }
 
-/* To a file: no control characters, nothing within ten seconds; quiet: nothing at all. */
+/* To a file: no control characters, nothing within ten seconds; quiet: warnings alone. */
 static void progress_on_no_terminal(void **state)
 {
     (void)state;
@@ -445,17 +445,19 @@ static void progress_on_no_terminal(void **state)
         p.last_shown -= 11.0; /* as if eleven seconds had gone by */
         host_progress_update(&p, 0.2, 1000);
         host_progress_say(&p, "site %d passed", 4);
+        host_progress_warn(&p, "%d cells", 2);
         host_progress_close(&p);
         char text[300] = "";
         rewind(f);
         const size_t n = fread(text, 1, sizeof text - 1, f);
         fclose(f);
         if (quiet) {
-            assert_int_equal(n, 0);
+            assert_string_equal(text, "warning: 2 cells\n");
+            assert_int_equal(n, strlen(text));
         } else {
             assert_null(strchr(text, '\r'));
             assert_non_null(strstr(text, "scene  20 %"));
-            assert_non_null(strstr(text, "site 4 passed\n"));
+            assert_non_null(strstr(text, "site 4 passed\nwarning: 2 cells\n"));
         }
     }
 }

@@ -408,6 +408,20 @@ static void test_how_a_shot_ends(void **state)
     }
 }
 
+/* --quiet leaves out what can be done without, not the warnings: the case's own, and what a run finds. */
+static void test_quiet_warns(void **state)
+{
+    char *said = NULL;
+    (void)state;
+    fresh_folder("quiet");
+    assert_int_equal(run("shot " SHOT " -o quiet/a --quiet --set output.report=no --set options.max_time='1 ms'"), 0);
+    OK(host_file_read("out.txt", &said, NULL));
+    assert_string_equal(said, "");
+    free(said);
+    assert_true(contains("err.txt", "from secondary or unchecked sources"));
+    assert_true(contains("err.txt", "warning: shot: options.max_time = 1 ms ran out"));
+}
+
 /* --resume of what another command, case or value left: refused with the difference, and nothing changes. */
 static void test_resume_of_another(void **state)
 {
@@ -577,6 +591,7 @@ int main(void)
         cmocka_unit_test(test_instruction_set),
         cmocka_unit_test(test_shot),
         cmocka_unit_test(test_how_a_shot_ends),
+        cmocka_unit_test(test_quiet_warns),
         cmocka_unit_test(test_resume_of_another),
         cmocka_unit_test(test_resume_without_report),
         cmocka_unit_test(test_last_site),

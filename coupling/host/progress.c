@@ -95,16 +95,30 @@ void host_progress_update(progress *p, double fraction, uint64_t particle_steps)
     p->last_shown = now;
 }
 
+static void say(progress *p, const char *before, const char *format, va_list args)
+{
+    host_progress_close(p);
+    fputs(before, p->stream);
+    vfprintf(p->stream, format, args);
+    fputc('\n', p->stream);
+    fflush(p->stream);
+}
+
 void host_progress_say(progress *p, const char *format, ...)
 {
     if (p->quiet) return;
-    host_progress_close(p);
     va_list args;
     va_start(args, format);
-    vfprintf(p->stream, format, args);
+    say(p, "", format, args);
     va_end(args);
-    fputc('\n', p->stream);
-    fflush(p->stream);
+}
+
+void host_progress_warn(progress *p, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    say(p, "warning: ", format, args);
+    va_end(args);
 }
 
 void host_progress_close(progress *p)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Progress for the one who waits: a live line on a terminal, a plain line every ten seconds elsewhere, or every
- * $BREECH_PROGRESS seconds, nothing if quiet. And where the time went: seconds by phase. */
+ * $BREECH_PROGRESS seconds, nothing but warnings if quiet. And where the time went: seconds by phase. */
 #ifndef BREECH_COUPLING_PROGRESS_H
 #define BREECH_COUPLING_PROGRESS_H
 
@@ -29,6 +29,8 @@ void host_progress_task(progress *p, const char *task, double fraction, uint64_t
 void host_progress_update(progress *p, double fraction, uint64_t particle_steps);
 /* A line that stays (an event, a result), above the live line. */
 void host_progress_say(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* The same for what must be known, with "warning: " before it: said even if quiet. */
+void host_progress_warn(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Clears the live line. */
 void host_progress_close(progress *p);
 

@@ -22,7 +22,7 @@ void run_session_warn(session *s, const char *format, ...)
     if (!all) return;
     snprintf(all + old, more + 2, "%s\n", line);
     s->warnings = all;
-    host_progress_say(&s->progress, "warning: %s", line);
+    host_progress_warn(&s->progress, "%s", line);
 }
 
 /* ---- opening and closing ---- */
