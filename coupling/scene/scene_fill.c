@@ -2,6 +2,7 @@
 #include "coupling/scene/scene_fill.h"
 
 #include "coupling/host/numbers.h"
+#include "coupling/scene/scene_window.h"
 
 #include <math.h>
 
@@ -98,22 +99,6 @@ static void fill_axis(const survey *bodies, const scene_room *also, int k, int l
     if (!given || a->fine_lo < a->lo || a->fine_hi > a->hi) lay_zone(a, levels);
 }
 
-/* Where the window was given, a body may lie beside it. */
-static status in_window(const mpm_scene *s)
-{
-    for (int i = 0; i < s->bodies; i++) {
-        const box b = box_of(s, i);
-        for (int k = 0; k < 3; k++)
-            CHECK(b.hi[k] > s->axis[k].lo && b.lo[k] < s->axis[k].hi, STATUS_BAD_INPUT,
-                  "scene.bodies[%d]: %s lies at %s = %.4g .. %.4g m, out of the window, scene.window.%s = %.4g .. %.4g "
-                  "m: "
-                  "move it, or widen the window",
-                  i, s->body[i].name, mpm_axis_names[k], b.lo[k], b.hi[k], mpm_axis_names[k], s->axis[k].lo,
-                  s->axis[k].hi);
-    }
-    return status_ok();
-}
-
 const scene_room scene_no_room = {
     .lo = { NAN, NAN, NAN }, .hi = { NAN, NAN, NAN }, .fine_lo = { NAN, NAN, NAN }, .fine_hi = { NAN, NAN, NAN }
 };
@@ -130,5 +115,5 @@ status scene_fill_with(mpm_scene *s, const scene_room *also)
     for (int k = 0; k < 3; k++) fill_cells(&bodies, s->refines > 0, &s->axis[k]);
     mpm_scene_levels_fill(s);
     for (int k = 0; k < 3; k++) fill_axis(&bodies, also, k, s->levels, &s->axis[k]);
-    return in_window(s);
+    return scene_window_check(s);
 }

@@ -13,7 +13,7 @@
  *   fine_lo, _hi the smallest body's box, by its volume, and half of its length on either side; cut off at the
  *                window's ends, and laid to them where no whole coarse cell would be left between
  * A fine zone is made a whole number of cells long, in multiples of what nested grids want. */
-status scene_fill(mpm_scene *s); /* STATUS_BAD_INPUT: nothing of a body lies in the window */
+status scene_fill(mpm_scene *s); /* STATUS_BAD_INPUT: as scene_window_check */
 
 /* Boxes that what is filled must hold too [m]; NAN: nothing more at that end. */
 typedef struct {

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A scene's window, its cells and what lies in them, as a user gives them: what cannot be is refused at the key that is
+ * wrong, with its line and column. */
+#include "program_common.h"
+
+/* Lines 1 to 4; the caller's follow. */
+static const char head[] = "name: w\n"
+                           "output: {snapshots: 0, report: no}\n"
+                           "scene:\n"
+                           "  end_time: 0.2 us\n";
+static const char bodies[] =
+    "  bodies:\n"
+    "    - {name: plate, material: ofhc_copper, shape: {box: {lo: 0 -5 -5 mm, hi: 4 5 5 mm}}}\n"
+    "    - {name: ball, material: ofhc_copper, shape: {sphere: {center: -3 0 0 mm, radius: 2 mm}}, velocity: 1 0 0 "
+    "km/s}\n";
+
+static void write_scene(const char *lines)
+{
+    fresh_folder("w");
+    FILE *f = fopen("w/case.yaml", "w");
+    assert_non_null(f);
+    fprintf(f, "%s%s%s", head, lines, bodies);
+    fclose(f);
+}
+
+/* The place of a key in the case: "5:9" */
+static void assert_refused_at(const char *lines, const char *place, const char *says)
+{
+    char wanted[300];
+    write_scene(lines);
+    assert_int_equal(run("check w"), 2);
+    snprintf(wanted, sizeof wanted, "w/case.yaml:%s: %s", place, says);
+    if (contains("err.txt", wanted)) return;
+    char *said = NULL;
+    OK(host_file_read("err.txt", &said, NULL));
+    fail_msg("%s\nwanted: %s\nsaid:   %s", lines, wanted, said);
+}
+
+static void test_windows(void **state)
+{
+    (void)state;
+    assert_refused_at("  cell: 0.5 mm\n  window:\n    x: {lo: 6 mm, hi: -8 mm}\n", "7:13",
+                      "scene.window.x.lo = 0.006 m: must lie below");
+    assert_refused_at("  cell: 0.5 mm\n  window:\n    x: {lo: -6 mm, hi: -5.9 mm}\n", "7:13",
+                      "scene.window.x.lo = -0.006 m, scene.window.x.hi = -0.0059 m: the window is shorter than a cell");
+    assert_refused_at("  cell: 0.5 mm\n  window:\n    x: {lo: 0.1 mm, hi: 8 mm}\n", "10:7",
+                      "scene.bodies[1]: ball lies at x = -0.005 .. -0.001 m, out of the window");
+    assert_refused_at("  cell: 0.5 mm\n  window:\n    x: {fine_lo: 3 mm, fine_hi: 2 mm}\n", "7:18",
+                      "scene.window.x.fine_lo = 0.003 m");
+    write_scene("  cell: 0.5 mm\n  window:\n    x: {lo: -6 mm, hi: 8 mm}\n    y: {lo: 0 mm, hi: 0.5 mm}\n");
+    assert_int_equal(run("check w"), 0); /* one cell */
+}
+
+static void test_cells(void **state)
+{
+    (void)state;
+    assert_refused_at(
+        "  cell: 60 mm\n  window: {x: {lo: -6 mm, hi: 8 mm}, y: {lo: -6 mm, hi: 6 mm}, z: {lo: -6 mm, hi: 6 mm}}\n",
+        "5:9", "scene.cell = 0.06 m: the window");
+    assert_refused_at("  cell: 5 nm\n", "5:9", "scene.window.x.cell, of all axes scene.cell = 5e-09 m: too small");
+    assert_refused_at("  cell: 0.5 mm\n  window:\n    y: {cell: 5 nm}\n", "7:15", "scene.window.y.cell, of all axes");
+    assert_refused_at("  cell: 0.5 mm\n  coarse_cell: 0.1 mm\n", "6:16",
+                      "scene.window.x.coarse_cell, of all axes scene.coarse_cell = 0.0001 m: the largest cells");
+    assert_refused_at("  cell: 0.5 mm\n  window:\n    z: {coarse_cell: 0.1 mm}\n", "7:22",
+                      "scene.window.z.coarse_cell, of all axes");
+    assert_refused_at("  levels: 6\n  cell: 0.5 mm\n", "5:11", "scene.levels = 6: the largest cells, 0.016 m");
+    assert_refused_at("  basis: bspline\n  levels: 2\n  cell: 0.5 mm\n", "6:11", "scene.levels = 2: several need");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_windows),
+        cmocka_unit_test(test_cells),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
