@@ -67,11 +67,56 @@ static void test_cells(void **state)
     assert_refused_at("  basis: bspline\n  levels: 2\n  cell: 0.5 mm\n", "6:11", "scene.levels = 2: several need");
 }
 
+/* Both by check and by the run; neither fails. */
+static void assert_warned(const char *lines, const char *says, bool warned)
+{
+    write_scene(lines);
+    assert_int_equal(run("check w"), 0);
+    if (contains("out.txt", says) != warned) fail_msg("check: %s\n%s`%s`", lines, warned ? "no " : "", says);
+    assert_int_equal(run("scene w -o w/out --quiet --no-store --threads 1"), 0);
+    if (contains("err.txt", says) != warned) fail_msg("scene: %s\n%s`%s`", lines, warned ? "no " : "", says);
+}
+
+static void test_few_cells(void **state)
+{
+    (void)state;
+    assert_warned("  cell: 1.5 mm\n", "warning: body ball: 2.7 cells of 1.5 mm across it along x, 4 mm", true);
+    assert_warned("  cell: 1.3 mm\n", " across it", false);
+    /* the plate as a layer of the window; the ball is halved by a mirror, which does not make it thinner */
+    assert_warned("  cell: 1.3 mm\n  window: {y: {lo: 0 mm, hi: 5 mm}, z: {lo: -5 mm, hi: 5 mm}}\n"
+                  "  boundary: {y: [symmetry, free], z: [symmetry, symmetry]}\n",
+                  " across it", false);
+    /* cells have grown there */
+    assert_warned("  cell: 0.5 mm\n  coarse_cell: 4 mm\n  growth: 2\n  window: {x: {lo: -5 mm, hi: 30 mm, fine_lo: 20 "
+                  "mm, fine_hi: 22 mm}}\n",
+                  "warning: body ball: 1 cells of 4 mm across it along x", true);
+    assert_int_equal(run("check " SHOT " --set scene.cells_per_radius=1.2"), 0);
+    assert_true(contains("out.txt", "warning: particle: 2.4 cells across it"));
+}
+
+static void test_probes(void **state)
+{
+    (void)state;
+    assert_refused_at("  cell: 1 mm\n  probes:\n    - {name: a, force: ball}\n"
+                      "    - {name: g, pressure: {at: 200 0 0 mm}}\n",
+                      "8:32", "scene.probes[1].pressure.at: g lies at x = ");
+    assert_refused_at("  cell: 1 mm\n  probes: [{name: f, face: {lo: 0 90 0 mm, hi: 1 91 1 mm}}]\n", "6:33",
+                      "scene.probes[0].face.lo: f lies at y = ");
+    assert_warned("  cell: 1 mm\n  probes: [{name: g, pressure: {at: -3 3.5 0 mm}}]\n",
+                  "warning: probe g: nothing is where it reads at the start", true);
+    assert_warned("  cell: 1 mm\n  probes: [{name: g, pressure: {at: -3 0 0 mm, body: plate}}]\n",
+                  "warning: probe g: nothing of plate is where it reads at the start", true);
+    assert_warned("  cell: 1 mm\n  probes: [{name: g, pressure: {at: -3 0 0 mm}}, {name: a, force: ball}]\n",
+                  "where it reads", false);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_windows),
         cmocka_unit_test(test_cells),
+        cmocka_unit_test(test_few_cells),
+        cmocka_unit_test(test_probes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

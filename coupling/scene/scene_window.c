@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/scene/scene_window.h"
 
+#include "coupling/scene/probe_place.h"
+
 static const double ROUND = 1e-6;         /* of a cell: what lengths may be off by */
 static const double MOST_CELLS = 20000.0; /* along an axis, as mpm/grid/axis.c has it */
 
@@ -85,5 +87,6 @@ status scene_window_check(const mpm_scene *s)
     for (int i = 0; i < s->bodies; i++) TRY(check_body(s, i));
     for (int k = 0; k < 3; k++) TRY(check_cells(&s->axis[k], mpm_axis_names[k]));
     for (int k = 0; k < 3; k++) TRY(check_levels(s, k));
+    for (int i = 0; i < s->probes; i++) TRY(scene_probe_place_check(s, i));
     return status_ok();
 }

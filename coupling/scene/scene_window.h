@@ -7,7 +7,7 @@
 #include "mpm/scene.h"
 
 /* STATUS_BAD_INPUT: ends the wrong way round, a window shorter than a cell, cells that contradict each other, a fine
- * zone beside the window, levels that do not fit, a body beside the window.  s: filled (scene_fill). */
+ * zone beside the window, levels that do not fit, a body or a probe beside the window.  s: filled (scene_fill). */
 status scene_window_check(const mpm_scene *s);
 
 #endif

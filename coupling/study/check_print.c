@@ -4,6 +4,7 @@
 
 #include "coupling/host/machine.h"
 #include "coupling/host/table.h"
+#include "coupling/study/scene_doubts.h"
 #include "coupling/study/study.h"
 
 #include <math.h>
@@ -130,6 +131,7 @@ status study_check_print(const case_inputs *in, const check_machine *on, unsigne
     print_ready(in, needs, out);
     fputs(in->warnings, out);
     study_check_thin_layers(in, out);
+    study_scene_doubts_print(in, out);
     TRY(print_estimates(e, n, out));
     if (n > 0) study_check_assumptions(in, on->threads, rate, out);
     print_together(on, in, needs, out);

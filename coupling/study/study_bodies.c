@@ -4,6 +4,7 @@
 #include "coupling/host/table.h"
 #include "coupling/report/report_page.h"
 #include "coupling/scene/scene_bodies.h"
+#include "coupling/study/scene_doubts.h"
 
 #include <stdlib.h>
 
@@ -30,6 +31,7 @@ static status run(session *s, const study_case *of, study_answer *out)
     const scene_record *done;
     scene_bodies_result *r = out->owned = calloc(1, sizeof *r);
     CHECK(r, STATUS_MEMORY, "no memory for a scene's result");
+    study_scene_doubts_warn(s, of);
     TRY(run_scenes_all(s, &query, scenes(of, &query), &done));
     TRY(scene_bodies_read(s->history, done->entry.name, r));
     warn(s, r);

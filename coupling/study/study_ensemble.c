@@ -4,6 +4,7 @@
 
 #include "coupling/host/table.h"
 #include "coupling/report/report_page.h"
+#include "coupling/study/scene_doubts.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -230,6 +231,7 @@ static status run(session *s, const study_case *of, study_answer *out)
 {
     ensemble_answer *a = out->owned = calloc(1, sizeof *a);
     CHECK(a, STATUS_MEMORY, "no memory for an ensemble");
+    study_scene_doubts_warn(s, of);
     TRY(ensemble(s, of, a));
     a->result.wall_seconds = run_session_wall(s);
     out->result = &a->result;

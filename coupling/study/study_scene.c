@@ -2,6 +2,7 @@
 /* breech scene: one embedded impact at a given velocity. */
 #include "coupling/study/study.h"
 #include "coupling/report/report_page.h"
+#include "coupling/study/scene_doubts.h"
 
 #include <math.h>
 
@@ -18,6 +19,7 @@ static status run(session *s, const study_case *of, study_answer *out)
 {
     scene_query query;
     const scene_record *done;
+    study_scene_doubts_warn(s, of);
     TRY(run_scenes_all(s, &query, scenes(of, &query), &done));
     run_scenes_warn_of(s, &done->entry);
     out->result = &done->entry.result;

@@ -6,6 +6,7 @@
 #include "coupling/host/table.h"
 #include "coupling/report/report_page.h"
 #include "coupling/study/firing_found.h"
+#include "coupling/study/scene_doubts.h"
 #include "coupling/study/strike.h"
 
 #include <math.h>
@@ -246,6 +247,7 @@ static status run(session *s, const study_case *of, study_answer *out)
     strike_result *r = &a->result;
     r->limit.velocity = r->limit.interval[0] = r->limit.interval[1] = NAN;
     r->limit.fit = (strike_fit){ NAN, NAN, NAN };
+    study_scene_doubts_warn(s, of);
     TRY(strike_projectile_of(in, &a->projectile));
     if (aims_at_limit(in)) TRY(aim_at_limit(s, of, a, &wanted));
     TRY(arrive(s, of, wanted, a, &flight, &muzzle));

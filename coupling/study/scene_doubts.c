@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "coupling/study/scene_doubts.h"
+
+#include "coupling/scene/few_cells.h"
+#include "coupling/scene/probe_place.h"
+
+#include <math.h>
+
+typedef void doubt_sink(void *user, const char *text);
+
+/* The scene of a grain: it has as many cells across as its radius says. */
+static void doubt_grain(const case_inputs *in, doubt_sink *say, void *user)
+{
+    const case_impact *c = &in->onset.impact;
+    char text[400];
+    if (!in->onset.has_body || isnan(c->scene.velocity) || isnan(c->particle.radius)) return;
+    if (!(2.0 * c->scene.cells_per_radius < SCENE_FEW_CELLS)) return;
+    snprintf(text, sizeof text,
+             "particle: %.2g cells across it: with fewer than %g the scene does not resolve what becomes of it "
+             "(scene.cells_per_radius)",
+             2.0 * c->scene.cells_per_radius, SCENE_FEW_CELLS);
+    say(user, text);
+}
+
+static void doubt(const case_inputs *in, doubt_sink *say, void *user)
+{
+    char text[400];
+    const mpm_scene *s = &in->bodies.scene;
+    if (!in->given.bodies) {
+        doubt_grain(in, say, user);
+        return;
+    }
+    for (int i = 0; i < s->bodies; i++)
+        if (scene_few_cells(s, i, text)) say(user, text);
+    for (int i = 0; i < s->probes; i++)
+        if (scene_probe_is_empty(s, i, text)) say(user, text);
+}
+
+static void print_doubt(void *out, const char *text)
+{
+    fprintf(out, "warning: %s\n", text);
+}
+
+void study_scene_doubts_print(const case_inputs *in, FILE *out)
+{
+    doubt(in, print_doubt, out);
+}
+
+static void warn_of_doubt(void *s, const char *text)
+{
+    run_session_warn(s, "%s", text);
+}
+
+void study_scene_doubts_warn(session *s, const study_case *of)
+{
+    if (!of->one_of_several) doubt(of->in, warn_of_doubt, s);
+}
