@@ -105,7 +105,7 @@ static bool time_ran_out(const circuit_shot *s, const circuit_shot_state *now)
 {
     if (s->t + SHOT_INSTANT < s->options.max_time || now->phase == CIRCUIT_SHOT_LEFT) return false;
     const bool moves = now->phase == CIRCUIT_SHOT_MOVING && now->v > 0.0;
-    return moves || (!circuit_shot_done(s) && fabs(now->current) >= s->result.peak_current);
+    return moves || (now->current != 0.0 && fabs(now->current) >= s->result.peak_current);
 }
 
 circuit_shot_summary circuit_shot_result(const circuit_shot *s)

@@ -106,7 +106,7 @@ static void test_senseless(void **state)
         { "treatments: [{name: none, polish: {size: 1}}]", "treatment `none`: changes nothing of the rail" },
         { "title: \"caf\xe9\"", ":3:13: not valid YAML" },
         { "populations: [{density: 4 1/m, radius_median: 0.5 mm, radius_spread: 3}]",
-          ":3:15: populations[0], its largest grains, of 200 mm" },
+          ":3:15: populations[0], its largest grains, of 20 mm" },
         { "name: ..", ":3:7: name = ..: must have a letter" },
         { "current_profiles: [{file: huge.csv}]", "huge.csv:2.current = 1e+12 A: must be" },
         { "study: {max_scenes: 1}", ":3:21: study.max_scenes = 1: for 1 kinds" },

@@ -108,7 +108,7 @@ static void settle(case_reader *r, const char *key, double *value, double idle)
 
 /* ---- more than a metal carries ---- */
 
-/* (L-10) The largest pressure that a metal's face carries: its hardness; else three times its flow stress at a strain
+/* (L-11) The largest pressure that a metal's face carries: its hardness; else three times its flow stress at a strain
  * of 8 %, which is what hardness is (Tabor); else the bound that no metal passes, where the largest shear of a Hertz
  * contact, 0.30 p0, is the strength of a perfect crystal, G / (2 pi) (Frenkel).  [Pa] */
 static double pressure_carried(const mpm_material *m, const char **by)
