@@ -1370,18 +1370,27 @@ static void test_shots_strip_the_rail(void **state)
     }
 }
 
+/* Four shots past debris on a rail that wears: 40 um of copper, the caller's `layer`, which the case borrows. */
+static breech_case *wearing_case(case_layer *layer)
+{
+    breech_case *c = read(HEAD "populations:\n  - {preset: debris, radius_median: 0.3 mm}\n", CASE_FOR_ONSET);
+    *layer = (case_layer){ .thickness = 40e-6, .yield_scale = 1.0, .bond_strength = NAN, .wear_rate = 1.5e-12 };
+    snprintf(layer->material, sizeof layer->material, "ofhc_copper");
+    assert_int_equal(c->rail.layers.n, 0);
+    c->rail.layers = (case_layers){ 1, layer };
+    c->study.velocity_interval = 0.02;
+    c->study.shots = 4;
+    return c;
+}
+
 /* A layer of 40 um that every shot wears: by as much each time, as (O-6) says of the shot's force, and the threshold
  * goes with the thickness that is left. */
 static void test_shots_wear_layers(void **state)
 {
     (void)state;
-    breech_case *c = read(HEAD "populations:\n  - {preset: debris, radius_median: 0.3 mm}\n", CASE_FOR_ONSET);
-    case_layer layer = { .thickness = 40e-6, .yield_scale = 1.0, .bond_strength = NAN, .wear_rate = 1.5e-12 };
-    const case_layers none = c->rail.layers;
-    snprintf(layer.material, sizeof layer.material, "ofhc_copper");
-    c->rail.layers = (case_layers){ 1, &layer };
-    c->study.velocity_interval = 0.02;
-    c->study.shots = 4;
+    case_layer layer;
+    breech_case *c = wearing_case(&layer);
+    const case_layers none = { 0, NULL };
     c->study.heat_kept = 0.0;
     by_thickness = 5e6; /* 200 m/s for the whole layer */
     onset_answer a = studied(c, "worn", status_ok());
@@ -1480,14 +1489,10 @@ static void test_shots_plate_the_rail(void **state)
 static void test_changes_of_a_shot_multiply(void **state)
 {
     (void)state;
-    breech_case *c = read(HEAD "populations:\n  - {preset: debris, radius_median: 0.3 mm}\n", CASE_FOR_ONSET);
-    case_layer layer = { .thickness = 40e-6, .yield_scale = 1.0, .bond_strength = NAN, .wear_rate = 1.5e-12 };
-    const case_layers none = c->rail.layers;
-    snprintf(layer.material, sizeof layer.material, "ofhc_copper");
-    c->rail.layers = (case_layers){ 1, &layer };
-    c->study.velocity_interval = 0.02;
+    case_layer layer;
+    breech_case *c = wearing_case(&layer);
+    const case_layers none = { 0, NULL };
     c->study.velocity_low = 400.0;
-    c->study.shots = 4;
     by_thickness = 1.2e7;
     onset_answer a = studied(c, "both", status_ok());
     const double cold = a.result.threshold_velocity;
