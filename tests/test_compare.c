@@ -292,6 +292,39 @@ static void test_debris_of_a_new_armature(void **state)
     case_free(c);
 }
 
+/* Each grain is exchanged once, by what it was: where the new rail is of the old armature's metal, too, and where rail,
+ * armature and grain were of one metal, with the part that is exchanged. */
+static void test_both_metals_are_new(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *armature, *now, *rails, *debris; /* the armature's metal, a surface, and what its grains become */
+    } cases[] = {
+        { "al7075_t651", "rail_metal: {material: al7075_t651}, armature_metal: {material: steel_4340}", "al7075_t651",
+          "steel_4340" },
+        { "ofhc_copper", "rail_metal: {material: steel_4340}, armature_metal: {material: al7075_t651}", "steel_4340",
+          "steel_4340" },
+        { "ofhc_copper", "armature_metal: {material: steel_4340}", "steel_4340", "steel_4340" },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        case_onset treated;
+        char text[1500];
+        snprintf(text, sizeof text,
+                 HEAD "sites: [{position: 1 m, material: ofhc_copper}, {position: 2 m, material: %s}]\n"
+                      "treatments:\n  - {name: both, %s}\n",
+                 cases[i].armature, cases[i].now);
+        breech_case *c = read(text, ALL);
+        case_onset given = case_inputs_of(c).onset;
+        snprintf(given.impact.rail.material, sizeof given.impact.rail.material, "ofhc_copper");
+        snprintf(given.impact.armature.material, sizeof given.impact.armature.material, "%s", cases[i].armature);
+        OK(case_treat(&given, &c->treatments.item[0], &treated));
+        assert_string_equal(treated.sites.item[0].material, cases[i].rails);
+        assert_string_equal(treated.sites.item[1].material, cases[i].debris);
+        case_treated_free(&treated);
+        case_free(c);
+    }
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -1609,6 +1642,7 @@ int main(void)
         cmocka_unit_test(test_what_they_do),
         cmocka_unit_test(test_new_metal_is_hardened),
         cmocka_unit_test(test_debris_of_a_new_armature),
+        cmocka_unit_test(test_both_metals_are_new),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_refused_sets),
         cmocka_unit_test(test_impossible),

@@ -89,6 +89,7 @@ static void test_refused(void **state)
     refused("value: 1, within: 1", "`key` is missing");
     refused("key: crater_depth, value: 1 mm", "belong together");
     refused("key: crater_depth, value: 1 furlongs_of_beer, within: 1", "must be a number with a unit");
+    refused("key: class, is: gouge, at_least: 1", "`is` and `at_least` exclude each other");
     refused("key: crater_depth, valeu: 1 mm, within: 1 mm", "unknown key `valeu`");
 }
 

@@ -183,6 +183,9 @@ static void test_places(void **state)
         { "base: " BREECH_TESTS "/../cases/gel_droplet\n"
           "sweep: {of: vessel, vary: [{key: vessel.radius, values: [0.5 mm, 0.09 mm]}], read: [rupture_time]}\n",
           "places/case.yaml:2:66: sweep.vary[0].values[1]: run 2 (vessel.radius = 0.09 mm): vessel.bubbles fill more" },
+        { "base: " BREECH_TESTS "/../cases/gel_droplet\n"
+          "sweep: {of: vessel, vary: [{key: vessel.raduis, values: [0.5 mm]}], read: [rupture_time]}\n",
+          "places/case.yaml:2:34: sweep.vary[0].key: run 1 (vessel.raduis = 0.5 mm): unknown key `raduis` in vessel" },
         { "base: " BREECH_TESTS "/../cases/rail_fatigue\nlife: {until: first, cycle: passage}\n"
           "sweep: {of: life, vary: [{key: life.speed, values: [0 m/s, 9 km/s]}, {key: life.friction, values: "
           "[0.2]}]}\n",

@@ -101,6 +101,10 @@ void case_inputs_free(case_inputs *in); /* NULL allowed */
 
 /* Pressure in the patch's middle under load: wheel, (6) of ma2020 where the wheel's load is given [Pa]. */
 double case_life_peak(const case_life *c);
+/* The largest pressure that a metal's face carries (L-11): its hardness; else three times its flow stress at a strain
+ * of 8 %, which is what hardness is; else 0.04 of Young's modulus, which bearing steel has (8 of 210 GPa).  *by: which,
+ * in words.  [Pa] */
+double case_life_carried(const mpm_material *m, const char **by);
 
 /* The place in the case of what a message is about, before the message: case_place.h. */
 void case_inputs_place(const case_inputs *in, const char *message, char *out, size_t size);

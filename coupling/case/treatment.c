@@ -63,6 +63,7 @@ status case_treat(const case_onset *c, const case_treatment *t, case_onset *out)
         const status s = case_treatment_kinds[k].apply(&t->kind[k], out);
         CHECK(s.code == STATUS_OK, s.code, "treatment `%s`: %.400s", t->name, s.text);
     }
+    case_treatment_exchange(c, out);
     return status_ok();
 }
 

@@ -37,8 +37,9 @@ extern const treatment_kind case_treatment_kinds[TREATMENT_KINDS];
 /* Is this kind part of the treatment? */
 bool case_treatment_given(const case_treatment *t, int kind);
 
-/* Grains of the metal `former` become `now`: those of the list, of populations and of a scene alone. */
-void case_treatment_exchange(case_onset *c, const char *former, const char *now);
+/* After all of a treatment: grains of the given case's rail's or armature's metal are of the treated one's; those of
+ * the list, of populations and of a scene alone. */
+void case_treatment_exchange(const case_onset *given, case_onset *out);
 
 /* The case under a treatment (NULL: as it is): a copy that borrows what it does not change.  It owns its layers, sites
  * and populations; case_treated_free, even on error. */

@@ -11,7 +11,6 @@ const base_param case_treatment_armature_metal_params[] = {
 
 status case_treatment_armature_metal_apply(const treatment_settings *t, case_onset *c)
 {
-    case_treatment_exchange(c, c->impact.armature.material, t->material);
     snprintf(c->impact.armature.material, sizeof c->impact.armature.material, "%s", t->material);
     c->impact.armature.yield_scale = 1.0;
     return status_ok();

@@ -15,7 +15,6 @@ const base_param case_treatment_rail_metal_params[] = {
 
 status case_treatment_rail_metal_apply(const treatment_settings *t, case_onset *c)
 {
-    case_treatment_exchange(c, c->impact.rail.material, t->material);
     snprintf(c->impact.rail.material, sizeof c->impact.rail.material, "%s", t->material);
     c->impact.rail.yield_scale = t->value[YIELD_SCALE], c->impact.rail.cold_work = NAN;
     return status_ok();

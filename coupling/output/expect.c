@@ -177,6 +177,10 @@ static status compare_one(const comparison *c, const tree_node *entry, expectati
           "%.200s:%d:%d: `key` is missing: the name of a number in summary.json", c->path, entry->line, entry->column);
     CHECK(!is || is->kind == TREE_TEXT, STATUS_BAD_INPUT, "%.200s:%d:%d: `is` must be a word", c->path, entry->line,
           entry->column);
+    static const char *const of_numbers[] = { "value", "within", "at_least", "at_most" };
+    for (size_t i = 0; is && i < sizeof of_numbers / sizeof of_numbers[0]; i++)
+        CHECK(!host_tree_find(entry, of_numbers[i]), STATUS_BAD_INPUT, "%.200s:%d:%d: `is` and `%s` exclude each other",
+              c->path, is->line, is->column, of_numbers[i]);
     snprintf(e->key, sizeof e->key, "%s", key->text);
     if (source && source->kind == TREE_TEXT) snprintf(e->source, sizeof e->source, "%.100s", source->text);
     const cJSON *found = summary_at(c->summary, key->text);

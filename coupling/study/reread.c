@@ -54,6 +54,11 @@ static int change_of(const case_inputs *in, status *error, int n, char (*own)[SE
     return n == 1 ? 0 : -1;
 }
 
+bool study_reread_key(const status *s)
+{
+    return strncmp(s->text, "unknown key `", 13) == 0;
+}
+
 status study_reread(const study_case *of, const study *y, int n, const case_change *change, case_inputs **out,
                     int *about)
 {

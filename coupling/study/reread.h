@@ -11,5 +11,7 @@
  * text then does not name, or -1.  *out is for case_inputs_free, even on error. */
 status study_reread(const study_case *of, const study *y, int n, const case_change *change, case_inputs **out,
                     int *about);
+/* Is such an error about the change's key, not its value? */
+bool study_reread_key(const status *s);
 
 #endif

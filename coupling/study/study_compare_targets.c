@@ -75,7 +75,8 @@ static status read_target(const study_case *of, int k, case_inputs **out)
     int about;
     const status s = study_reread(of, &study_strike, c->n, c->item, out, &about);
     if (k > 0) snprintf(at, sizeof at, "targets[%d].change", k - 1); /* its place is that of the error */
-    if (about >= 0) snprintf(at + strlen(at), sizeof at - strlen(at), "[%d].value", about);
+    if (about >= 0)
+        snprintf(at + strlen(at), sizeof at - strlen(at), "[%d].%s", about, study_reread_key(&s) ? "key" : "value");
     CHECK(s.code == STATUS_OK, s.code, "%s: %s: %.400s", at, name_of(t, k), s.text);
     return s;
 }

@@ -93,8 +93,25 @@ static status possible(const study_case *of)
     return study_rail_life_possible(&of->in->onset, &of->in->life, metal_of(of->in));
 }
 
+/* Where it presses hardest. */
+static void warn_of_pressure(session *s, const rail_life_result *r, const mpm_material *metal)
+{
+    const char *by;
+    const double most = case_life_carried(metal, &by);
+    const rail_life_place *at = NULL;
+    for (int k = 0; k < r->n; k++)
+        if (r->place[k].pressure > (at ? at->pressure : most)) at = &r->place[k];
+    if (at)
+        run_session_warn(s,
+                         "the armature presses on the rail with %.3g GPa at x = %.3g m, more than %s carries, %.3g GPa "
+                         "(%s): its face would flow away, and the life there has no meaning; are preload and "
+                         "contact_length right?",
+                         1e-9 * at->pressure, at->position, metal->name, 1e-9 * most, by);
+}
+
 static void warn(session *s, const rail_life_result *r, const mpm_material *metal)
 {
+    warn_of_pressure(s, r, metal);
     if (!isnan(r->rayleigh_position))
         run_session_warn(
             s,

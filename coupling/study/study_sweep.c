@@ -110,7 +110,10 @@ static status wrong_run(const case_sweep *w, int run, int key, const status *s)
 {
     char which[300], at[60] = "sweep.vary";
     describe(w, run, which, sizeof which);
-    if (key >= 0) snprintf(at, sizeof at, "sweep.vary[%d].values[%d]", key, value_index(w, run, key));
+    if (key >= 0 && study_reread_key(s))
+        snprintf(at, sizeof at, "sweep.vary[%d].key", key);
+    else if (key >= 0)
+        snprintf(at, sizeof at, "sweep.vary[%d].values[%d]", key, value_index(w, run, key));
     return base_status_error(s->code, "%s: run %d (%s): %.400s", at, run + 1, which, s->text);
 }
 
