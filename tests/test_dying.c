@@ -20,10 +20,24 @@ static void test_dies_early(void **state)
     OK(output_history_close(slow.rows));
 }
 
+/* It ends where it ends, however often it is shown. */
+static void test_shown_or_not(void **state)
+{
+    (void)state;
+    scene_shelf none = { .oldest = 0 }, some = none;
+    const run_counted plain = run_small(SLOW, true, "output.snapshots=0", &none),
+                      shown = run_small(SLOW, true, "output.snapshots=20", &some);
+    assert_true(plain.hit.result.end_time == shown.hit.result.end_time);
+    assert_true(plain.hit.result.severity == shown.hit.result.severity);
+    OK(output_history_close(plain.rows));
+    OK(output_history_close(shown.rows));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_dies_early),
+        cmocka_unit_test(test_shown_or_not),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { PIECES = 60 };                     /* of a scene, at least */
+enum { PIECES = 60 };                     /* of a scene */
 static const double LIVE_INTERVAL = 0.25; /* between two looks at the solver for the progress line [s] */
 /* ---- one run ---- */
 
@@ -19,14 +19,23 @@ typedef struct {
     double before, reached; /* times of the last two steps [s] */
     snapshots *shots;
     int series;                      /* of the history, -1: none */
-    int pieces, per_snapshot;        /* pieces; pieces from one snapshot to the next, 0: no snapshots */
+    int gaps, gaps_over;             /* between snapshots, 0: none are wanted; whose end has one */
+    double shown;                    /* time of the last of them [s] */
     double started, save_at, looked; /* wall clock [s] */
+    double aside;                    /* of the piece under way, for snapshots and checkpoints [s] */
     status error;                    /* of what was done after a step */
 } run;
 
 static void book(const scene_host *h, const char *phase, double since)
 {
     if (h->timing) host_timing_add(h->timing, phase, host_wall_clock() - since);
+}
+
+/* What is done between two steps is not the steps' time. */
+static void book_aside(run *r, const char *phase, double since)
+{
+    book(r->host, phase, since);
+    r->aside += host_wall_clock() - since;
 }
 
 static double wall_spent(const run *r)
@@ -40,12 +49,12 @@ static double progress_of(const run *r, const mpm_report *now)
 }
 
 /* Until the snapshots so far are on disk. */
-static status await_snapshots(const run *r)
+static status await_snapshots(run *r)
 {
     if (!r->shots) return status_ok();
     const double since = host_wall_clock();
     TRY(output_snapshots_wait(r->shots));
-    book(r->host, "snapshots", since);
+    book_aside(r, "snapshots", since);
     return status_ok();
 }
 
@@ -58,11 +67,44 @@ static status save(run *r)
     const double since = host_wall_clock();
     if (h->save) {
         TRY(h->save(h->user, r->job->name, &(scene_now){ r->m, r->job->watch, wall_spent(r) }));
-        book(h, "checkpoints", since);
+        book_aside(r, "checkpoints", since);
     }
     const double now = host_wall_clock(), interval = r->job->checkpoint_interval;
     r->save_at = now + (interval > 0 ? fmax(interval, SHARE * (now - since)) : 0.0); /* 0: after every step */
     return status_ok();
+}
+
+/* Of so many equal parts of the scene's time. */
+static double part_end(const run *r, int parts, int part)
+{
+    const double end = r->job->scene->end_time;
+    return part + 1 == parts ? end * (1.0 - 1e-12) : end * (part + 1) / parts;
+}
+
+/* Parts that are over by then; a step may end several. */
+static int parts_over(const run *r, int parts, double time)
+{
+    int n = 0;
+    while (n < parts && part_end(r, parts, n) <= time) n++;
+    return n;
+}
+
+static status write_snapshot(run *r)
+{
+    if (!r->shots) return status_ok();
+    const double since = host_wall_clock();
+    TRY(output_snapshots_write(r->shots, r->m));
+    book_aside(r, "snapshots", since);
+    return status_ok();
+}
+
+/* One that is due by now.  It ends no piece: a scene's answer does not hang on what is shown of it. */
+static status show(run *r, double time)
+{
+    if (r->gaps_over == r->gaps || part_end(r, r->gaps, r->gaps_over) > time) return status_ok();
+    r->gaps_over = parts_over(r, r->gaps, time);
+    r->shown = time;
+    return write_snapshot(r);
 }
 
 /* Has the step ended a piece, or the scene?  The watch is asked after every step: it may note what it sees. */
@@ -89,6 +131,7 @@ static bool on_step(void *user, const mpm *m)
         host_progress_update(r->host->progress, progress_of(r, &state), state.particle_steps);
     }
     r->error = ends_piece(r, &state, &ends);
+    if (r->error.code == STATUS_OK) r->error = show(r, state.time);
     if (r->job->watch && r->job->watch->finest) mpm_set_finest(r->m, r->job->watch->finest(r->job->watch->user));
     if (r->error.code != STATUS_OK || ends) return false;
     if (now >= r->save_at) r->error = save(r);
@@ -111,15 +154,6 @@ static status write_row(run *r)
     return status_ok();
 }
 
-static status write_snapshot(run *r)
-{
-    if (!r->shots) return status_ok();
-    const double since = host_wall_clock();
-    TRY(output_snapshots_write(r->shots, r->m));
-    book(r->host, "snapshots", since);
-    return status_ok();
-}
-
 /* At the start, and at the end of every piece. */
 static status ask_watch(const run *r, bool *over)
 {
@@ -127,28 +161,15 @@ static status ask_watch(const run *r, bool *over)
     return w && w->piece ? w->piece(w->user, r->m, over) : status_ok();
 }
 
-static double piece_end(const run *r, int piece)
-{
-    const double end = r->job->scene->end_time;
-    return piece + 1 == r->pieces ? end * (1.0 - 1e-12) : end * (piece + 1) / r->pieces;
-}
-
-/* Pieces that are over by then; a step may end several. */
-static int pieces_over(const run *r, double time)
-{
-    int n = 0;
-    while (n < r->pieces && piece_end(r, n) <= time) n++;
-    return n;
-}
-
 /* To the end of the piece, or to where the watch ends it. */
 static status advance_piece(run *r, int piece)
 {
     const mpm_sink sink = { on_step, r };
     const double since = host_wall_clock();
-    r->piece_end = piece_end(r, piece);
+    r->piece_end = part_end(r, PIECES, piece);
+    r->aside = 0.0;
     const status s = mpm_advance(r->m, r->job->scene->end_time, &sink);
-    book(r->host, "scene steps", since);
+    book(r->host, "scene steps", since + r->aside);
     if (r->error.code != STATUS_OK) return r->error;
     const mpm_report now = mpm_glance(r->m);
     if (s.code != STATUS_STOPPED) return s;
@@ -170,21 +191,21 @@ static status stop_between(run *r)
 static status advance(run *r)
 {
     bool over = false;
-    int piece = pieces_over(r, mpm_glance(r->m).time);
+    int piece = parts_over(r, PIECES, mpm_glance(r->m).time);
+    r->gaps_over = parts_over(r, r->gaps, mpm_glance(r->m).time);
     if (!r->from.image) {
         TRY(ask_watch(r, &over));
         TRY(write_row(r));
         TRY(write_snapshot(r));
     }
-    while (piece < r->pieces && !over) {
+    while (piece < PIECES && !over) {
         TRY(advance_piece(r, piece));
         TRY(ask_watch(r, &over));
         TRY(write_row(r));
-        const int done = pieces_over(r, mpm_glance(r->m).time);
-        const bool due = r->per_snapshot && done / r->per_snapshot > piece / r->per_snapshot;
-        if (due || (over && r->per_snapshot)) TRY(write_snapshot(r));
-        piece = done;
-        if (piece < r->pieces && !over) TRY(stop_between(r));
+        const double time = mpm_glance(r->m).time;
+        if (over && r->shown < time) TRY(write_snapshot(r));
+        piece = parts_over(r, PIECES, time);
+        if (piece < PIECES && !over) TRY(stop_between(r));
     }
     return status_ok();
 }
@@ -205,9 +226,7 @@ static status finish(run *r, scene_outcome *out, bool *keep)
 static status shelve(run *r)
 {
     const scene_host *h = r->host;
-    shelved_scene item = {
-        .twin = r->job->twin, .pieces = r->pieces, .time = r->reached, .before = r->before, .wall = wall_spent(r)
-    };
+    shelved_scene item = { .twin = r->job->twin, .time = r->reached, .before = r->before, .wall = wall_spent(r) };
     TRY(scene_image(&(scene_now){ r->m, r->job->watch, item.wall }, &item.image, &item.bytes));
     status s = h->history ? host_h5_create(&item.rows) : status_ok();
     if (s.code == STATUS_OK && h->history) s = output_history_export(h->history, r->job->name, item.rows);
@@ -219,9 +238,8 @@ static status shelve(run *r)
  * but the first. */
 static bool goes_on_from(const run *r, const shelved_scene *item)
 {
-    const int over = pieces_over(r, item->time);
-    return item->pieces == r->pieces && over == pieces_over(r, item->before) && !item->rows == !r->host->history &&
-           (!r->per_snapshot || over < r->per_snapshot);
+    return parts_over(r, PIECES, item->time) == parts_over(r, PIECES, item->before) &&
+           !item->rows == !r->host->history && parts_over(r, r->gaps, item->time) == 0;
 }
 
 static const shelved_scene *find_shelved(const run *r)
@@ -233,22 +251,17 @@ static const shelved_scene *find_shelved(const run *r)
 
 /* ---- setting up ---- */
 
-/* Snapshots stand at piece ends, the first at the start, the last at the end; the pieces are those of the case whether
- * anybody wants the snapshots or not. */
-static void plan_pieces(run *r)
+/* Snapshots are evenly apart, the first of the start, the last of the end. */
+static void plan_snapshots(run *r)
 {
     const int n = r->job->snapshots;
-    r->pieces = PIECES;
-    if (n == 0) return;
-    const int gaps = n > 1 ? n - 1 : 1, per_gap = (PIECES + gaps - 1) / gaps;
-    r->pieces = gaps * per_gap;
-    if (r->host->dir || r->host->sink) r->per_snapshot = per_gap;
+    if (n > 0 && (r->host->dir || r->host->sink)) r->gaps = n > 1 ? n - 1 : 1;
 }
 
 static status open_snapshots(run *r, double reached)
 {
     char dir[OUTDIR_PATH_SIZE];
-    if (!r->per_snapshot) return status_ok();
+    if (r->gaps == 0) return status_ok();
     if (r->host->sink) {
         snprintf(dir, sizeof dir, "scenes/%s", r->job->name);
         return output_snapshots_open_sink(dir, r->host->sink, &r->shots);
@@ -306,7 +319,7 @@ status scene_run(const scene_job *job, const scene_host *host, scene_outcome *ou
     memset(out, 0, sizeof *out);
     r.started = r.looked = host_wall_clock();
     r.save_at = r.started + job->checkpoint_interval;
-    plan_pieces(&r);
+    plan_snapshots(&r);
     status s = mpm_create(job->scene, host->threads, &r.m);
     book(host, "scene making", r.started);
     if (s.code == STATUS_OK) s = run_made(&r, out);

@@ -2,9 +2,10 @@
 /* One scene from its making to its end, with everything a run writes on the way.  Knows nothing of what the scene is
  * about: that is the watch's.
  *
- * Its time is cut into equal pieces; after the step that ends one stand the watch's question whether the scene is over,
- * the history's row and a snapshot that is due.  No step is shortened for them: what a run writes changes nothing of
- * what it computes, and one that was stopped and resumed gives the same bits. */
+ * Its time is cut into equal pieces, as many in every scene; after the step that ends one stand the watch's question
+ * whether the scene is over and the history's row.  A snapshot follows the step after which it is due.  No step is
+ * shortened for them, and no piece: what a run writes changes nothing of what it computes, and one that was stopped and
+ * resumed gives the same bits. */
 #ifndef BREECH_COUPLING_SCENE_RUN_H
 #define BREECH_COUPLING_SCENE_RUN_H
 

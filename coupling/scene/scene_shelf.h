@@ -10,7 +10,6 @@ enum { SCENE_SHELF_ROOM = 4 }; /* each takes the memory of its material points *
 
 typedef struct {
     uint64_t twin;       /* hash of what makes the scene, but for where it ends (scene_run.h); 0: an empty place */
-    int pieces;          /* that its time was cut into */
     double time, before; /* reached, and a step earlier [s] */
     double wall;         /* spent [s] */
     void *image;         /* scene_image's; owned */
