@@ -20,15 +20,18 @@ static void test_dies_early(void **state)
     OK(output_history_close(slow.rows));
 }
 
-/* It ends where it ends, however often it is shown. */
+/* It ends where it ends, however often it is shown; the last snapshot is that of its end. */
 static void test_shown_or_not(void **state)
 {
     (void)state;
+    const char *const settles[] = { SLOW[0], SLOW[1], SLOW[2], "scene.stop_when_settled=yes" };
     scene_shelf none = { .oldest = 0 }, some = none;
-    const run_counted plain = run_small(SLOW, true, "output.snapshots=0", &none),
-                      shown = run_small(SLOW, true, "output.snapshots=20", &some);
+    const run_counted plain = run_small(settles, false, "output.snapshots=0", &none),
+                      shown = run_small(settles, false, "output.snapshots=20", &some);
+    print_message("over at %.3f us of 11, %d snapshots\n", 1e6 * shown.hit.result.end_time, shown.snapshots);
     assert_true(plain.hit.result.end_time == shown.hit.result.end_time);
     assert_true(plain.hit.result.severity == shown.hit.result.severity);
+    assert_int_equal(shown.snapshots, 1 + (int)(shown.hit.result.end_time / (11e-6 / 19.0)) + 1);
     OK(output_history_close(plain.rows));
     OK(output_history_close(shown.rows));
 }

@@ -12,8 +12,9 @@ BETWEEN_GAUGES = 12 * 0.5e-3  # [m] way, 12 grain radii
 WIDEST_SCRATCH = 4.0  # scene.limit_length_over_width
 RESOLUTIONS = {  # cells a radius: velocities [m/s], grids of each
     3: ((500, 700, 900, 1000, 1150), 3),
-    4: ((700, 800, 900, 1000, 1150), 3),
-    6: ((900, 1000, 1150), 3),
+    4: ((500, 700, 900, 1000, 1150), 3),
+    6: ((500, 700, 900, 1000, 1150), 3),
+    8: ((900, 1000, 1150), 3),
 }
 MEASURES = {  # key of the summary: title of the column, unit, digits, what a fresh one may differ by
     "groove_growth": ("growth [1/us]", 1e6, 3, 0.1),
