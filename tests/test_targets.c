@@ -126,6 +126,8 @@ static void test_refused(void **state)
     refused("'targets[0].change[0].value=\"{box: {lo: -2 -12 -12 mm, hi: 3 12 12 mm}}\"'",
             "targets[0].change[0].value: thin: ");
     refused("strike.projectile=none", "strike");
+    refused("'targets[0].change[0].key=scene.bodies[0].materal'",
+            "--set targets[0].change[0].key=scene.bodies[0].materal: targets[0].change[0].key: thin: unknown key `m");
     refused("'targets[0].change[0].key=scene.bodies[7].material'",
             "bad/case.yaml:8:52: targets[0].change[0].value: thin: ");
 }
