@@ -183,6 +183,13 @@ int mpm_axis_locate(const axis *a, double x)
     if (!(x >= a->edge[1])) return 0;
     if (x >= a->edge[a->last + 1]) return a->last + 1;
     int lo = 1, hi = a->last + 1; /* edge[lo] <= x < edge[hi] */
+    const double cells = (x - a->edge[1]) / a->smallest;
+    const int guess = cells < a->last ? lo + (int)cells : a->last; /* right where all are of one size */
+    if (x >= a->edge[guess])
+        lo = guess;
+    else
+        hi = guess;
+    if (x < a->edge[lo + 1]) return lo;
     while (hi - lo > 1) {
         const int mid = (lo + hi) / 2;
         if (x >= a->edge[mid])

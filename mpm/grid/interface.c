@@ -80,6 +80,19 @@ static node_box inside(node_box r, const int lo[3], const int hi[3])
     return r;
 }
 
+/* Of a brick's nodes (bits) those in the box. */
+static uint64_t nodes_in(const int at[3], const node_box *r)
+{
+    uint64_t set = ~0ull;
+    for (int k = 0; k < 3; k++) {
+        uint64_t layers = 0;
+        for (int i = 0; i < BRICK; i++)
+            if (BRICK * at[k] + i >= r->lo[k] && BRICK * at[k] + i <= r->hi[k]) layers |= mpm_cells_of_layer(k, i);
+        set &= layers;
+    }
+    return set;
+}
+
 /* Nodes of a grid that exist: 0 .. last + 1. */
 static node_box existing(const grid_level *g, node_box r)
 {
@@ -420,7 +433,7 @@ static void receive_from_finer(const mpm *m, brick *b)
                 const int i = brick_at(m, b->group, b->level - 1, (const int[3]){ x, y, z });
                 if (i < 0) continue;
                 const brick *from = &m->bricks[i];
-                for (uint64_t set = from->interface.follow_coarser; set;) {
+                for (uint64_t set = from->interface.follow_coarser & nodes_in(from->at, &r); set;) {
                     int node[3];
                     const int cell = next_node(from, &set, node);
                     if (from->line[cell][0] > 0) hand_on(m, from, cell, node, b);

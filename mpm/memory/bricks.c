@@ -430,8 +430,8 @@ static void put(mpm *m, int i, const held_block *h)
     m->blocks[i] = h->points, m->links[i] = h->link;
 }
 
-/* This thread's part of the moves.  What other threads overwrite is held before any of them begins: the first block of
- * the cycle that the part begins in, and the one after the part. */
+/* This thread's part of the moves.  What is overwritten before it is taken is held: the first block of the cycle that
+ * is under way and, of other threads before any of them begins, the one after the part. */
 static void make_moves(mpm *m, const moves *c)
 {
     const int me = omp_get_thread_num(), threads = omp_get_num_threads();
@@ -442,9 +442,13 @@ static void make_moves(mpm *m, const moves *c)
 #pragma omp barrier
     for (int i = lo; i < hi; i++) {
         if (c->first[i] == i) first = hold(m, c->place[i]);
-        const bool last = i + 1 == c->n || c->first[i + 1] == i + 1;
-        const held_block next = last || i + 1 == hi ? (last ? first : after) : hold(m, c->place[i + 1]);
-        put(m, c->place[i], &next);
+        const int to = c->place[i];
+        if (i + 1 == c->n || c->first[i + 1] == i + 1)
+            put(m, to, &first);
+        else if (i + 1 == hi)
+            put(m, to, &after);
+        else
+            m->blocks[to] = m->blocks[c->place[i + 1]], m->links[to] = m->links[c->place[i + 1]];
     }
 }
 
