@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# All tests.    ./test.sh          gcc; clang and gcc with sanitizers, without what is slow        (minutes)
-#               ./test.sh --full   the long parts too; all short parts with clang, both sanitizer builds and the portable
-#                                  one; the reader fuzzed with 10^6 inputs; a twelfth of the deliberate faults,
+# All tests.    ./test.sh          gcc, optimised; clang with sanitizers, without what is slow     (minutes)
+#               ./test.sh --full   the long parts too; all short parts with both compilers, optimised and with sanitizers,
+#                                  and the portable build; the reader fuzzed with 10^6 inputs; a twelfth of the deliberate faults,
 #                                  another one for every commit (all: tests/mutants/run.sh)                      (hours)
 # Installs missing Debian packages.  The last lines repeat the closing line of every ctest run.
 set -euo pipefail
@@ -22,8 +22,10 @@ packages_install "${packages[@]}"
 
 export OMP_WAIT_POLICY=passive # tests share the machine
 export UBSAN_OPTIONS=print_stacktrace=1
-export ASAN_OPTIONS=intercept_tls_get_addr=0 # clang 14's leak check may die of the threads' storage otherwise (llvm D147459)
+export ASAN_OPTIONS=intercept_tls_get_addr=0:quarantine_size_mb=16 # clang 14's leak check may die of the threads' storage otherwise (llvm D147459)
 limit=$([ $full = 1 ] && echo 14400 || echo 1800) # [s] only a test that hangs takes so long
+export BREECH_HEAVY=$full # runs that are heavy with sanitizers
+export LSAN_OPTIONS=suppressions=$PWD/tests/leaks.txt:print_suppressions=0
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 closing='' failed=0
@@ -72,16 +74,14 @@ check()
 }
 
 stage release $full none
-stage clang-release 0 "$([ $full = 1 ] && echo tree || echo 'tree|slow')"
+stage clang-debug 0 "$([ $full = 1 ] && echo tree || echo 'tree|slow')"
 if [ $full = 1 ]; then
     stage debug 0 tree
-    stage clang-debug 0 tree
+    stage clang-release 0 tree
     stage portable 0 tree
     check fuzz tests/fuzz.sh 1000000
     commit=$(git rev-parse --short=7 HEAD 2>/dev/null || echo 0)
     check mutants tests/mutants/run.sh --part $((16#$commit % 12))/12
-else
-    stage debug 0 'tree|slow'
 fi
 
 printf '\n==== closing lines, after %d s ====\n%s' $SECONDS "$closing"

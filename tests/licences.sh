@@ -7,10 +7,11 @@ cd "$(dirname "$0")/.."
 source tests/files.sh
 line='SPDX-License-Identifier: BSD-3-Clause'
 pattern='(\.(c|h|def|inc|py|sh|cmake|cmake\.in|toml|yml|clang-format)|(^|/)(CMakeLists\.txt|Containerfile))$'
-missing=()
-while read -r file; do
-    head -n 3 "$file" | grep -qF "$line" || missing+=("$file")
-done < <(sources "$pattern")
+mapfile -t missing < <(sources "$pattern" | xargs awk -v line="$line" '
+    FNR == 1 { if (file != "" && !says) print file; file = FILENAME; says = 0 }
+    FNR <= 3 && index($0, line) { says = 1 }
+    FNR > 3 { nextfile }
+    END { if (!says) print file }')
 if [ "${1:-}" = --write ]; then
     for file in "${missing[@]}"; do
         case $file in

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a build's objects define and ask for, by nm; shared by circles.py and unused.py."""
+"""What a build's objects define and ask for, by nm; shared by circles.py, names.py and unused.py."""
 import os
 import re
 import shutil
@@ -22,10 +22,12 @@ def objects(build):
 def symbols(build):
     """(source, letter of nm, name) of every external name: U where it is asked for, T a function, D R B data.
     Nothing where nothing is built, or there is no nm."""
-    for source, file in objects(build) if shutil.which("nm") else ():
-        for line in subprocess.run(["nm", "-g", file], capture_output=True, text=True, check=True).stdout.splitlines():
-            words = line.split()
-            yield source, words[-2], words[-1]
+    source_of = {file: source for source, file in objects(build)} if shutil.which("nm") else {}
+    if not source_of:
+        return
+    for line in subprocess.run(["nm", "-g", "-A", *source_of], capture_output=True, text=True, check=True).stdout.splitlines():
+        file, words = line[:line.index(".c.o:") + 4], line.split()
+        yield source_of[file], words[-2], words[-1]
 
 
 def sources(endings):

@@ -18,6 +18,7 @@
 
 #include <cmocka.h>
 
+#include "full_common.h"
 #include "status_common.h"
 
 static int scenes;
@@ -182,6 +183,7 @@ static status possible(const breech_case *c)
 static void test_every_kind(void **state)
 {
     (void)state;
+    if (!heavy_tests()) skip();
     for (int k = 0; k < TREATMENT_KINDS; k++) {
         char text[4000];
         case_onset treated, same;
@@ -1594,6 +1596,7 @@ static void assert_as_alone(const breech_case *c, const compare_answer *a)
 static void test_shots_compared(void **state)
 {
     (void)state;
+    if (!heavy_tests()) skip();
     breech_case *c = read(HEAD "populations:\n  - {preset: debris, radius_median: 0.3 mm}\n"
                                "treatments:\n"
                                "  - {name: loose, coating: [{material: steel_4340, thickness: 0.05 mm, "

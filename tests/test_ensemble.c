@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* breech scene --ensemble N: the same scene on shifted grids; its table against the scenes themselves, each of which is
  * the same as one of its own with that shift. */
+#include "full_common.h"
 #include "program_common.h"
 
 #include "body_scenes.h"
@@ -158,6 +159,7 @@ static void test_bodies(void **state)
 static void test_stop_and_resume(void **state)
 {
     (void)state;
+    if (!heavy_tests()) skip();
     int code = 75, stops = 0;
     double seconds = 0.05; /* more every time: slow machines come to the end, fast ones are stopped */
     char command[1000];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The program on scenes that end once the growth of their groove is known. */
+#include "full_common.h"
 #include "program_common.h"
 
 /* A scene that ends at its second gauge, 28 radii of way: the class is that of the growth, beyond its scatter or not.
@@ -52,6 +53,7 @@ static void test_gauged(void **state)
 static void test_cells_grow(void **state)
 {
     (void)state;
+    if (!heavy_tests()) skip();
     fresh_folder("grow");
     cJSON *s[2];
     for (int grow = 0; grow < 2; grow++) {

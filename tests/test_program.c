@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The program from outside: exit codes, refusals that write nothing, --set, summaries. */
+#include "full_common.h"
 #include "program_common.h"
 
 /* ---- usage ---- */
@@ -230,6 +231,7 @@ static void test_check(void **state)
 static void test_check_says_what_a_study_takes(void **state)
 {
     (void)state;
+    if (!heavy_tests()) skip();
     assert_int_equal(run("check " CASES "/treatments"), 0);
     assert_true(contains("out.txt", "onset, 500 m/s") && contains("out.txt", "1 population, at most"));
     assert_true(contains("out.txt", "\nwarm rail, 500 m/s, "));

@@ -13,6 +13,7 @@
 #include "coupling/scene/scene_bodies.h"
 #include "coupling/scene/scene_fill.h"
 #include "coupling/study/study.h"
+#include "full_common.h"
 #include "mpm/law/contact.h"
 #include "mpm/read/probe.h"
 #include "text_common.h"
@@ -436,6 +437,7 @@ static void assert_same_state(const mpm *a, const mpm *b)
 static void test_gouging_as_text(void **state)
 {
     (void)state;
+    if (!heavy_tests()) skip();
     static const char *const variants[][2] = {
         { "scene.levels=2", "particle.shape=hemisphere" },
         { "scene.levels=1", "particle.shape=sphere" },

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The program stopped and resumed: SIGTERM, SIGINT, --max-walltime. */
+#include "full_common.h"
 #include "program_common.h"
 
 #include "coupling/host/hdf5_file.h"
@@ -97,6 +98,7 @@ static void test_stop_and_resume(void **state)
 static void test_strike(void **state)
 {
     (void)state;
+    if (!heavy_tests()) skip();
     static const char *const series[] = { "/scene/scene/probes/projectile_force/force_x",
                                           "/scene/scene/probes/projectile_way/speed", "/scene/scene/internal",
                                           "/scene/scene/bodies/core/failed_volume" };

@@ -5,6 +5,7 @@
 #include "coupling/scene/scene_fill.h"
 #include "coupling/strike/outcome.h"
 #include "coupling/strike/recht_ipson.h"
+#include "full_common.h"
 #include "program_common.h"
 
 /* ---- flight ---- */
@@ -351,6 +352,7 @@ static void test_recht_ipson(void **state)
 static void test_limit(void **state)
 {
     (void)state;
+    if (!heavy_tests()) skip();
     const char *text = "study: {velocity_low: 200 m/s, velocity_high: 900 m/s, velocity_interval: 0.25}\n" HEAD(
         ", velocity: 1 km/s, travel: 14 mm, limit: yes", "1 us") BODIES("ofhc_copper", SHEET);
     cJSON *s = struck("limit", text, "--set output.report=yes");
@@ -542,6 +544,7 @@ static void test_water(void **state)
 static void test_water_limit(void **state)
 {
     (void)state;
+    if (!heavy_tests()) skip();
     const char *search = "--set strike.limit=yes --set study.velocity_low='20 m/s' --set study.velocity_high='400 m/s' "
                          "--set study.velocity_interval=0.2 --set study.max_scenes=8 --set scene.end_time='60 us'";
     cJSON *s = struck("water_limit", WATER, search);

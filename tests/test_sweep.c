@@ -3,6 +3,7 @@
  * written; the error against the finest run. */
 #include "coupling/host/outdir.h"
 #include "coupling/study/study.h"
+#include "tests/full_common.h"
 #include "tests/output_common.h"
 
 #include "tests/body_scenes.h"
@@ -208,6 +209,7 @@ static void test_places(void **state)
 static void test_resolution(void **state)
 {
     (void)state;
+    if (!heavy_tests()) skip();
     fresh_folder("cells_store");
     assert_int_equal(run("sweep " SCENE_CASE " " SHORT "-o cells --force --store cells_store"), 0);
     cJSON *all = summary_of("cells");
