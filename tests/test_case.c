@@ -199,6 +199,18 @@ static void all_errors_at_once(void **state)
     free(e);
 }
 
+/* Also keys of a scene whose bodies stand at the wrong place. */
+static void a_key_finds_its_home(void **state)
+{
+    (void)state;
+    char *e = errors_of("bodies: []\nscene: {cell: 1 mm, box: 1 mm, body_force: 1 m/s2}\n", NULL, 0, 0);
+    has_line(e, "case.yaml:1:1: unknown key `bodies`; `scene` has one\n");
+    has_line(e, "case.yaml:2:9: unknown key `cell` in scene; `scene with bodies` has one\n");
+    has_line(e, "case.yaml:2:21: unknown key `box` in scene; known are ");
+    has_line(e, "case.yaml:2:32: unknown key `body_force` in scene; `scene.bodies` has one\n");
+    free(e);
+}
+
 /* A limit in another unit is within, whatever the rounding of the conversion; what is really beyond is not. */
 static void limits_hold_in_any_unit(void **state)
 {
@@ -884,6 +896,7 @@ int main(void)
         cmocka_unit_test(missing_sections_hold_defaults),
         cmocka_unit_test(all_errors_at_once),
         cmocka_unit_test(errors_are_sorted_and_limited),
+        cmocka_unit_test(a_key_finds_its_home),
         cmocka_unit_test(limits_hold_in_any_unit),
         cmocka_unit_test(yaml_errors_have_a_place),
         cmocka_unit_test(commands_say_what_they_need),

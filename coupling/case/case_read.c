@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "coupling/case/case_bodies.h"
 #include "coupling/case/case_reader.h"
 
 #include <math.h>
@@ -286,13 +287,22 @@ static const char *known_key(const void *user, int i)
     return NULL;
 }
 
-/* The section of the case, other than `not_this`, that has this very key. */
+static bool has_key(const case_section *section, const char *key)
+{
+    for (int i = 0; known_key(section, i); i++)
+        if (strcmp(known_key(section, i), key) == 0) return true;
+    return false;
+}
+
+/* The section of the case, other than `not_this`, that has this very key; of a scene with bodies too. */
 static const char *home_of(const char *key, const case_section *not_this)
 {
-    for (const case_section *s = case_root.children; s->key; s++) {
-        if (s == not_this) continue;
-        for (int i = 0; known_key(s, i); i++)
-            if (strcmp(known_key(s, i), key) == 0) return s->key;
+    for (const case_section *s = case_root.children; s->key; s++)
+        if (s != not_this && has_key(s, key)) return s->key;
+    for (const case_section *s = case_bodies_manual; s->key; s++) {
+        const char *dot = strchr(s->key, '.'); /* scene.bodies: a list, itself a key of the scene */
+        if (dot && strcmp(dot + 1, key) == 0) return "scene";
+        if (has_key(s, key)) return dot ? s->key : "scene with bodies";
     }
     return NULL;
 }
