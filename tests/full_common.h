@@ -21,13 +21,14 @@ static inline bool is_asked_for(const char *variable)
     return value && strcmp(value, "1") == 0;
 }
 
-/* The long parts, by the first build. */
+/* The long parts: once, by the first build. */
 static inline bool full_tests(void)
 {
     return is_asked_for("BREECH_FULL");
 }
 
-/* What takes ten seconds and more with sanitizers, and runs code that other tests run with them: by builds without. */
+/* What takes ten seconds and more with sanitizers, though its code is in shorter tests too.  A build with them leaves
+ * it out; with BREECH_HEAVY=1 it does not. */
 static inline bool heavy_tests(void)
 {
     return !BUILT_WITH_SANITIZERS || is_asked_for("BREECH_HEAVY");

@@ -28,9 +28,8 @@ static long held;      /* allocations not freed */
 static bool forks;     /* a child of the process has each allocation fail; the parent goes on */
 static bool is_child;  /* the one whose allocation has failed */
 static int reached;    /* allocations so far */
+static int every = 1;  /* one of so many has a child */
 static int tried, bad; /* children; those that ended badly */
-
-static int every = 1; /* so many allocations a child */
 
 /* In the child: this allocation fails.  The parent waits to see how that ends. */
 static bool fails_in_child(void)

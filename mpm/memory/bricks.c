@@ -431,7 +431,7 @@ static void put(mpm *m, int i, const held_block *h)
 }
 
 /* This thread's part of the moves.  What is overwritten before it is taken is held: the first block of the cycle that
- * is under way and, of other threads before any of them begins, the one after the part. */
+ * is under way, and the one after the part.  Other threads may overwrite the two: they are held before any begins. */
 static void make_moves(mpm *m, const moves *c)
 {
     const int me = omp_get_thread_num(), threads = omp_get_num_threads();
