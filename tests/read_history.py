@@ -21,7 +21,9 @@ def check(path):
             assert len(shapes) == 1, f"{group}: columns of different length {shapes}"
         depth = f["/scene/v1500/crater/depth"]
         assert depth.shape == (len(f["/scene/v1500/crater/x"]), len(f["/scene/v1500/crater/z"]))
-        assert f["/scene/v1500/crater"].attrs["class"] == b"gouge"
+        said = f["/scene/v1500/crater"].attrs
+        assert said["class"] == b"gouge" and said["reason"] == b"grows"
+        assert said["crater_class"] == b"scratch" and said["crater_reason"] == b"ends"
         assert f["/scene/v1500/crater"].attrs["severity"] == 0.5
     assert {"/shot", "/shot/events", "/scene/v1500"} <= set(groups), groups
 

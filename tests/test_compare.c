@@ -69,6 +69,7 @@ static status fake_scene(const impact_job *job, const scene_host *host, impact *
         hit->length_over_width = 4.0 * exp((from - v) / 300.0);
         if (v < from) hit->class = DAMAGE_SCRATCH;
     }
+    hit->crater_class = case_impact_is_gauged(of) ? DAMAGE_UNDECIDED : hit->class;
     hit->crater_volume = 10.0 * r * r * r;
     hit->crater_depth = 0.2 * r;
     hit->crater_length = 6.0 * r;

@@ -30,6 +30,7 @@ static void test_gauged(void **state)
         assert_true(number(a, "end_time") >= gauge && number(a, "end_time") < 1.1 * gauge);
         const bool tear_drop = growth > 0.0 && number(a, "length_over_width") < 4.0;
         assert_text(a, "class", i ? "undecided" : tear_drop ? "gouge" : "scratch");
+        assert_true(number(a, "gauge_length_over_width") == number(a, "length_over_width"));
         /* what tells furrow from tear-drop, of the crater as it was then */
         assert_true(fabs(number(a, "growth_per_way") / (growth / 2000.0) - 1.0) < 1e-9);
         assert_true(number(a, "front_speed_ratio") > 0.1 && number(a, "front_speed_ratio") < 1.2);
@@ -38,13 +39,25 @@ static void test_gauged(void **state)
         cJSON_Delete(a);
     }
     /* the whole scene, whatever it writes on the way, has the same growth, and goes on */
-    assert_int_equal(run("scene " GAUGED "-o scene/whole --set output.snapshots=3"), 0);
+    assert_int_equal(run("scene " GAUGED "-o scene/whole --set output.snapshots=3 --set scene.growth_scatter=0"), 0);
     cJSON *whole = summary_of("scene/whole"), *gauged = summary_of("scene/gauged0");
     assert_true(number(whole, "groove_growth") == number(gauged, "groove_growth"));
     assert_true(number(whole, "front_speed_ratio") == number(gauged, "front_speed_ratio"));
+    /* and the class of its crater as it was then, not of what came of it */
+    assert_true(number(whole, "gauge_length_over_width") == number(gauged, "length_over_width"));
+    assert_true(number(whole, "length_over_width") != number(gauged, "length_over_width"));
+    assert_text(whole, "class", cJSON_GetObjectItemCaseSensitive(gauged, "class")->valuestring);
     assert_true(number(whole, "steps") > number(gauged, "steps"));
+    assert_text(whole, "reason", cJSON_GetObjectItemCaseSensitive(gauged, "reason")->valuestring);
     cJSON_Delete(whole);
     cJSON_Delete(gauged);
+    /* one that ends before, its groove alive, has the class of its crater alone */
+    assert_int_equal(run("scene " GAUGED "-o scene/early --set output.snapshots=0 --set scene.end_time='2 us'"), 0);
+    cJSON *early = summary_of("scene/early");
+    assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(early, "gauge_length_over_width")));
+    assert_text(early, "class", cJSON_GetObjectItemCaseSensitive(early, "crater_class")->valuestring);
+    assert_text(early, "reason", cJSON_GetObjectItemCaseSensitive(early, "crater_reason")->valuestring);
+    cJSON_Delete(early);
     run_script("read_gauged.py", BREECH_TESTS "/../python scene/gauged0");
 }
 

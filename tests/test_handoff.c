@@ -901,6 +901,41 @@ static void test_half_model(void **state)
     }
 }
 
+/* A followed groove is judged by its crater as it was at the second gauge, not by what it has become, nor by its shape
+ * alone. */
+static void test_judged(void **state)
+{
+    (void)state;
+    mpm_body bodies[2] = { { .name = "armature" }, { .name = "rail" } };
+    const gouge_scene s = { .scene = { .bodies = 2, .body = bodies },
+                            .armature = 0,
+                            .rail = 1,
+                            .grain = GOUGE_PIT,
+                            .velocity = 1000.0,
+                            .limit_length_over_width = 4.0,
+                            .growth_scatter = 0.2,
+                            .crater = { .particle_radius = 0.5e-3 } };
+    const scene_outcome o = { .threads = 1 };
+    const struct {
+        bool decides;
+        double growth, shape;
+        damage_class is;
+    } grooves[] = { { true, 1e5, 5.0, DAMAGE_SCRATCH },  { true, 1e5, 3.0, DAMAGE_GOUGE },
+                    { true, -1e5, 3.0, DAMAGE_SCRATCH }, { true, 1e4, 3.0, DAMAGE_UNDECIDED },
+                    { true, NAN, NAN, DAMAGE_SCRATCH },  { false, 1e5, 3.0, DAMAGE_UNDECIDED } };
+    for (size_t k = 0; k < sizeof grooves / sizeof *grooves; k++) {
+        const gouge_watch w = { .scene = &s,
+                                .state = { .gauge_shape = grooves[k].shape },
+                                .growth = grooves[k].growth,
+                                .growth_decides = grooves[k].decides,
+                                .found = { .class = DAMAGE_UNDECIDED, .length = 12e-3, .width = 6e-3 } };
+        const scene_result r = gouge_result(&s, &w, &o);
+        assert_int_equal(r.class, grooves[k].is);
+        assert_int_equal(r.crater_class, DAMAGE_UNDECIDED);
+        assert_true(r.length_over_width == 2.0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -929,6 +964,7 @@ int main(void)
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_growth),
         cmocka_unit_test(test_gauged),
+        cmocka_unit_test(test_judged),
         cmocka_unit_test(test_dying),
         cmocka_unit_test(test_gauges),
         cmocka_unit_test(test_finest_level),

@@ -79,18 +79,14 @@ static void write_one_of_each(double map[12])
     report.failed_volume = 5.0;
     *output_history_scene_row(&report, &ledger, (const double[3]){ 7.0, 8.0, 9.0 }, row) = 11.0;
     OK(output_history_append(h, series, row));
-    const crater c = { .class = DAMAGE_GOUGE,
-                       .reason = "why",
-                       .severity = 0.5,
-                       .nx = 4,
-                       .nz = 3,
-                       .x0 = 1e-3,
-                       .dx = 1e-4,
-                       .z0 = -1e-4,
-                       .dz = 1e-4,
-                       .depth_map = map };
-    OK(gouge_crater_record(&c, h, "v1500"));
-    OK(gouge_crater_record(&c, h, "v1500")); /* a former one is replaced */
+    const scene_result r = {
+        .class = DAMAGE_GOUGE, .reason = "grows", .crater_class = DAMAGE_SCRATCH, .crater_reason = "ends"
+    };
+    const crater c = {
+        .severity = 0.5, .nx = 4, .nz = 3, .x0 = 1e-3, .dx = 1e-4, .z0 = -1e-4, .dz = 1e-4, .depth_map = map
+    };
+    OK(gouge_crater_record(&c, &r, h, "v1500"));
+    OK(gouge_crater_record(&c, &r, h, "v1500")); /* a former one is replaced */
     OK(output_history_close(h));
 }
 

@@ -44,9 +44,11 @@ static void write_crater(history *h, const char *scene, double growth)
                          inside = along > 0.15 && along < 0.8 ? 1.0 - z * z / (half * half) : -1.0;
             map[i * MAP_Z + k] = inside > 0.0 ? 0.4e-3 * inside : -0.2e-3 * exp(6.0 * inside);
         }
-    const crater c = { .class = DAMAGE_GOUGE,
-                       .reason = "widening <1.5> & so on",
-                       .nx = MAP_X,
+    const scene_result r = { .class = DAMAGE_GOUGE,
+                             .reason = "widening <1.5> & so on",
+                             .crater_class = DAMAGE_SCRATCH,
+                             .crater_reason = "severity -2" };
+    const crater c = { .nx = MAP_X,
                        .nz = MAP_Z,
                        .x0 = -1e-3,
                        .dx = 0.1e-3,
@@ -54,7 +56,7 @@ static void write_crater(history *h, const char *scene, double growth)
                        .dz = 0.1e-3,
                        .rim_height = 0.15e-3,
                        .depth_map = map };
-    OK(gouge_crater_record(&c, h, scene));
+    OK(gouge_crater_record(&c, &r, h, scene));
 }
 
 static void write_run(const char *dir, int kind)

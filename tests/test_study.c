@@ -582,9 +582,11 @@ static status fake_scene(const impact_job *job, const scene_host *host, impact *
         out->result.length_over_width = 4.0 * exp((counter.tear_drop - v) / 400.0);
         if (v < counter.tear_drop) out->result.class = DAMAGE_SCRATCH;
     }
+    out->result.crater_class =
+        gauged ? DAMAGE_UNDECIDED : out->result.class; /* of a half-made crater it says nothing */
     if (!gauged && counter.whole_scratches > 0) {
         counter.whole_scratches--;
-        out->result.class = DAMAGE_SCRATCH;
+        out->result.crater_class = DAMAGE_SCRATCH;
     }
     out->result.crater_volume = (gauged ? 0.3e-9 : 1e-9) * v; /* as far as it was */
     out->impulse = 0.02;
@@ -1063,40 +1065,45 @@ static void test_other_case(void **state)
     case_free(other);
 }
 
+/* A scene of a search has the class of its growth, one judged by severity that of its crater alone. */
+static void test_sample(void **state)
+{
+    (void)state;
+    case_onset *c = calloc(1, sizeof *c);
+    assert_non_null(c);
+    c->impact.scene.limit_length_over_width = 4.0, c->impact.scene.growth_scatter = 0.2;
+    onset_scene e = { .velocity = 1000.0, .radius = 0.5e-3, .cells_per_radius = 3.0, .gauged = true };
+    e.result.class = DAMAGE_SCRATCH, e.result.crater_class = DAMAGE_GOUGE, e.result.severity = 7.0;
+    e.result.groove_growth = 1e5, e.result.length_over_width = 8.0;
+    threshold_sample is = study_family_sample(c, JUDGE_OF_GOUGE, &e);
+    assert_true(is.class == DAMAGE_SCRATCH && fabs(is.excess - log(0.5)) < 1e-12); /* a furrow */
+    is = study_family_sample(c, JUDGE_OF_SCRATCH, &e);
+    assert_true(is.class == DAMAGE_GOUGE && fabs(is.excess - 0.6) < 1e-9); /* that grows */
+    e.gauged = false;
+    is = study_family_sample(c, JUDGE_OF_GOUGE, &e);
+    assert_true(is.class == DAMAGE_GOUGE && is.excess == 7.0);
+    free(c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_found),
-        cmocka_unit_test(test_line_exact),
-        cmocka_unit_test(test_shift_shown),
-        cmocka_unit_test(test_allowance),
-        cmocka_unit_test(test_open_resolution),
-        cmocka_unit_test(test_beyond),
-        cmocka_unit_test(test_beyond_is_shared),
-        cmocka_unit_test(test_one_stage),
-        cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_far_shift),
-        cmocka_unit_test(test_range_off_the_grid),
-        cmocka_unit_test(test_noise),
-        cmocka_unit_test(test_dip),
-        cmocka_unit_test(test_undecided),
-        cmocka_unit_test(test_scatter),
-        cmocka_unit_test(test_budget),
-        cmocka_unit_test(test_driven),
-        cmocka_unit_test(test_errors),
-        cmocka_unit_test(test_any_order),
-        cmocka_unit_test(test_copy),
-        cmocka_unit_test(test_onset),
-        cmocka_unit_test(test_moves),
-        cmocka_unit_test(test_screened),
-        cmocka_unit_test(test_hard_film),
-        cmocka_unit_test(test_contradicted),
-        cmocka_unit_test(test_two_speeds),
-        cmocka_unit_test(test_max_scenes),
-        cmocka_unit_test(test_two_kinds),
-        cmocka_unit_test(test_resume),
-        cmocka_unit_test(test_other_case),
-        cmocka_unit_test(test_craters),
+        cmocka_unit_test(test_sample),     cmocka_unit_test(test_found),
+        cmocka_unit_test(test_line_exact), cmocka_unit_test(test_shift_shown),
+        cmocka_unit_test(test_allowance),  cmocka_unit_test(test_open_resolution),
+        cmocka_unit_test(test_beyond),     cmocka_unit_test(test_beyond_is_shared),
+        cmocka_unit_test(test_one_stage),  cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_far_shift),  cmocka_unit_test(test_range_off_the_grid),
+        cmocka_unit_test(test_noise),      cmocka_unit_test(test_dip),
+        cmocka_unit_test(test_undecided),  cmocka_unit_test(test_scatter),
+        cmocka_unit_test(test_budget),     cmocka_unit_test(test_driven),
+        cmocka_unit_test(test_errors),     cmocka_unit_test(test_any_order),
+        cmocka_unit_test(test_copy),       cmocka_unit_test(test_onset),
+        cmocka_unit_test(test_moves),      cmocka_unit_test(test_screened),
+        cmocka_unit_test(test_hard_film),  cmocka_unit_test(test_contradicted),
+        cmocka_unit_test(test_two_speeds), cmocka_unit_test(test_max_scenes),
+        cmocka_unit_test(test_two_kinds),  cmocka_unit_test(test_resume),
+        cmocka_unit_test(test_other_case), cmocka_unit_test(test_craters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

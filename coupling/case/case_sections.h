@@ -182,7 +182,7 @@ typedef struct {
     double rail_width;              /* full; NAN: the projectile's [m] */
     double end_time;                /* NAN: from the lengths and the velocity [s] */
     bool stop_when_settled;         /* stop once the crater no longer changes */
-    bool stop_when_gauged;          /* stop once the groove's growth is known, and take the class from it */
+    bool stop_when_gauged;          /* stop once the groove's growth, and with it the class, is known */
     int levels;                     /* from here on as in mpm_scene (MPM_METHOD_PARAMS): 0: as coarse_cell allows */
     double grid_shift[3];           /* [finest cells] */
     double courant;                 /* of c + |v| [1] */
@@ -194,9 +194,9 @@ typedef struct {
     bool heat_by_plastic_work;      /* (M-4); to here */
     bool damage;                    /* Johnson-Cook damage in all bodies */
     bool half_model;                /* only z >= 0, mirrored */
-    double limit_widening;          /* of the class gouge [1] */
-    double limit_severity;          /* of the class gouge [1] */
-    double limit_length_over_width; /* of a groove that ends at its second gauge: a gouge is not longer [1] */
+    double limit_widening;          /* of a crater that is a gouge by its shape [1] */
+    double limit_severity;          /* the same [1] */
+    double limit_length_over_width; /* at its second gauge: a gouge is not longer [1] */
     double growth_scatter;          /* e-folds between the gauges within which growth decides nothing [1] */
 } case_scene;
 

@@ -34,9 +34,9 @@
  * exceeds the grain's cylinder A h.  V alone would not do: at 1.0 km/s the groove of a 0.5 mm grain holds 2.1 mm3,
  * five times A h, and dies out after 6 mm; at 1.5 km/s it grows until the armature has passed.
  *
- * Class.  none: no cell above d_m.  gouge: severity and widening at or above their limits and a rim higher than d_m
- * downstream of the crater's middle.  scratch: severity below its limit, and not both widening and rim.  Else
- * undecided. */
+ * Class, by the shape alone.  none: no cell above d_m.  gouge: severity and widening at or above their limits and a
+ * rim higher than d_m downstream of the crater's middle.  scratch: severity below its limit, and not both widening and
+ * rim.  Else undecided. */
 #ifndef BREECH_MPM_CRATER_H
 #define BREECH_MPM_CRATER_H
 

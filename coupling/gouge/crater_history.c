@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/gouge/crater_history.h"
 
-status gouge_crater_record(const crater *c, history *h, const char *scene)
+status gouge_crater_record(const crater *c, const scene_result *r, history *h, const char *scene)
 {
     const history_number numbers[] = {
         { "severity", c->severity },     { "widening", c->widening },
@@ -10,7 +10,10 @@ status gouge_crater_record(const crater *c, history *h, const char *scene)
         { "rim_x_m", c->rim_x },         { "rim_height_m", c->rim_height },
         { "deepest_x_m", c->deepest_x }, { "measuring_depth_m", c->measuring_depth },
     };
-    const history_text texts[] = { { "class", run_damage_names[c->class] }, { "reason", c->reason } };
+    const history_text texts[] = { { "class", run_damage_names[r->class] },
+                                   { "reason", r->reason },
+                                   { "crater_class", run_damage_names[r->crater_class] },
+                                   { "crater_reason", r->crater_reason } };
     const history_map map = { .name = "crater",
                               .across = { { "x", "m", "along the rail, middle of a map cell" },
                                           { "z", "m", "across the rail, middle of a map cell" } },

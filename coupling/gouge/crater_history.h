@@ -5,8 +5,9 @@
 
 #include "coupling/gouge/crater.h"
 #include "coupling/output/history.h"
+#include "coupling/run/scene_result.h"
 
-/* A former one is replaced. */
-status gouge_crater_record(const crater *c, history *h, const char *scene);
+/* With the classes of its scene and why.  A former one is replaced. */
+status gouge_crater_record(const crater *c, const scene_result *r, history *h, const char *scene);
 
 #endif

@@ -51,7 +51,8 @@ static status run_watched(const gouge_job *job, const scene_host *host, gouge_wa
     TRY(scene_run(&run, host, &o));
     out->result = gouge_result(&job->scene, w, &o);
     book_losses(&job->scene, w, o.report.time, out);
-    return host->history && !job->scene.gauged ? gouge_crater_record(&w->found, host->history, job->name) : status_ok();
+    if (!host->history || job->scene.gauged) return status_ok();
+    return gouge_crater_record(&w->found, &out->result, host->history, job->name);
 }
 
 status gouge_job_run(const gouge_job *job, const scene_host *host, impact *out)

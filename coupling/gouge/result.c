@@ -6,8 +6,9 @@
 
 static void take_crater(scene_result *r, const crater *c)
 {
-    r->class = c->class;
+    r->class = r->crater_class = c->class;
     snprintf(r->reason, sizeof r->reason, "%s", c->reason);
+    snprintf(r->crater_reason, sizeof r->crater_reason, "%s", c->reason);
     r->severity = c->severity;
     r->widening = c->widening;
     r->crater_length = c->length;
@@ -45,12 +46,12 @@ static void take_bodies(scene_result *r, const gouge_scene *s, const gouge_watch
     r->peak_pressure_rail_999 = w->rail.peak_pressure_999;
 }
 
-/* A scene that ends at its second gauge, or dying, has no whole crater to be judged by, but a growth and a shape; what
- * left none until then is still `none`. */
+/* By the groove's growth between its gauges and its crater's shape at the second, whether the scene ended there or went
+ * on: a whole scene and one of a search say the same.  What left no crater is `none`. */
 static void judge_by_growth(scene_result *r, const gouge_scene *s)
 {
     const double folds = gouge_growth_folds(r->groove_growth, s->crater.particle_radius, s->velocity);
-    const double excess = gouge_tear_drop_excess(folds, r->length_over_width, s->limit_length_over_width);
+    const double excess = gouge_tear_drop_excess(folds, r->gauge_length_over_width, s->limit_length_over_width);
     const bool decided = fabs(excess) >= s->growth_scatter;
     const damage_class below = r->class == DAMAGE_NONE ? DAMAGE_NONE : DAMAGE_SCRATCH;
     r->class = !decided ? DAMAGE_UNDECIDED : excess > 0.0 ? DAMAGE_GOUGE : below;
@@ -58,7 +59,7 @@ static void judge_by_growth(scene_result *r, const gouge_scene *s)
         r->reason, sizeof r->reason,
         "the groove's plastic power changes by %.2f e-folds from gauge to gauge, its crater is %.1f times as long as "
         "wide (limit %g): %.2f, %s %.2f",
-        folds, r->length_over_width, s->limit_length_over_width, excess, decided ? "beyond" : "within",
+        folds, r->gauge_length_over_width, s->limit_length_over_width, excess, decided ? "beyond" : "within",
         s->growth_scatter);
 }
 
@@ -72,6 +73,7 @@ scene_result gouge_result(const gouge_scene *s, const gouge_watch *w, const scen
     r.groove_growth = w->growth;
     r.growth_per_way = w->growth / s->velocity;
     r.front_speed_ratio = w->front_speed / s->velocity;
+    r.gauge_length_over_width = w->growth_decides ? w->state.gauge_shape : NAN;
     r.peak_pressure = fmax(r.peak_pressure_armature_999, r.peak_pressure_rail_999);
     r.max_pressure = m->peak_pressure;
     r.peak_temperature = m->peak_temperature;
@@ -82,6 +84,6 @@ scene_result gouge_result(const gouge_scene *s, const gouge_watch *w, const scen
 #include "coupling/scene/scene_work.def"
     r.wall_seconds = o->wall;
     r.threads = o->threads;
-    if (s->gauged) judge_by_growth(&r, s);
+    if (w->growth_decides) judge_by_growth(&r, s);
     return r;
 }

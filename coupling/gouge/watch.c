@@ -7,6 +7,40 @@
 static const double SETTLED_SHARE = 0.1; /* of the measuring depth */
 static const double DEAD_SHARE = 0.1;    /* of its largest plastic power, below which a groove is dead */
 
+/* ---- the crater so far ---- */
+
+/* The map widens with the groove, as the scene's cells do; its own cells and what they measure stay. */
+static status measure_crater(const gouge_watch *w, const mpm *m, crater *out)
+{
+    gouge_points p;
+    const gouge_scene *s = w->scene;
+    const double wider = 1 << gouge_finest_level(s, &w->state.gauges);
+    crater_spec spec = s->crater;
+    spec.z_hi = fmin(s->beside, wider * spec.z_hi);
+    TRY(gouge_points_of_rail(s, &spec, m, &p));
+    const crater_points rail = { .n = p.n, .position = p.position, .size = p.size, .damage = p.damage };
+    const status done = gouge_crater_measure(&rail, &spec, out);
+    gouge_points_free(&p);
+    return done;
+}
+
+static double shape_of(const crater *c)
+{
+    return c->width > 0.0 ? c->length / c->width : NAN;
+}
+
+/* At the second gauge, where a scene of a search ends: a whole scene is judged by the same crater. */
+static status note_shape(gouge_watch *w, const mpm *m)
+{
+    crater now;
+    const double since = host_wall_clock();
+    TRY(measure_crater(w, m, &now));
+    w->state.gauge_shape = shape_of(&now);
+    gouge_crater_free(&now);
+    if (w->timing) host_timing_add(w->timing, "crater", host_wall_clock() - since);
+    return status_ok();
+}
+
 /* ---- is it over? ---- */
 
 static bool is_gauged(const gouge_watch *w, const mpm_report *now)
@@ -22,6 +56,7 @@ static status due(void *user, const mpm *m, const mpm_report *now, bool *ends)
     if (gouge_front_is_due(w->scene, now, &seen->front)) TRY(gouge_front_look(w->scene, m, &seen->front));
     gouge_gauges_note(w->scene, &seen->front, &seen->gauges);
     *ends = is_gauged(w, now);
+    if (!*ends && seen->gauges.at[1] > 0.0 && seen->gauge_shape == 0.0) return note_shape(w, m);
     return status_ok();
 }
 
@@ -31,7 +66,7 @@ static int finest(void *user)
     return gouge_finest_level(w->scene, &w->state.gauges);
 }
 
-/* A groove that is followed: dead, or the armature's contact face has gone over its front. */
+/* Is a groove that is followed dead, or has the armature's contact face gone over its front? */
 static bool groove_over(const gouge_scene *s, const gouge_front *f, double time)
 {
     return time > gouge_grain_passed(s) && (f->power < DEAD_SHARE * f->peak || gouge_face_tail(s, time) > f->front);
@@ -79,19 +114,14 @@ static status piece(void *user, const mpm *m, bool *over)
 
 /* ---- what it has come to ---- */
 
-/* The map widens with the groove, as the scene's cells do; its own cells and what they measure stay. */
-static status measure_crater(const gouge_watch *w, const mpm *m, crater *out)
+/* Not where the scene's end came first: then the groove might have grown on. */
+static bool growth_decides(const gouge_watch *w, double time)
 {
-    gouge_points p;
     const gouge_scene *s = w->scene;
-    const double wider = 1 << gouge_finest_level(s, &w->state.gauges);
-    crater_spec spec = s->crater;
-    spec.z_hi = fmin(s->beside, wider * spec.z_hi);
-    TRY(gouge_points_of_rail(s, &spec, m, &p));
-    const crater_points rail = { .n = p.n, .position = p.position, .size = p.size, .damage = p.damage };
-    const status done = gouge_crater_measure(&rail, &spec, out);
-    gouge_points_free(&p);
-    return done;
+    const gouge_watched *seen = &w->state;
+    if (!gouge_is_followed(s)) return false;
+    return s->gauged || seen->gauges.at[1] > 0.0 || groove_over(s, &seen->front, time) ||
+           gouge_groove_dies(s, &seen->gauges, &seen->front, time);
 }
 
 /* A groove that grows is worth going on with. */
@@ -101,6 +131,8 @@ static status finish(void *user, const mpm *m, bool *keep)
     const double since = host_wall_clock();
     TRY(gouge_armature_metal(w->scene, m, &w->end));
     TRY(measure_crater(w, m, &w->found));
+    if (w->state.gauge_shape == 0.0)
+        w->state.gauge_shape = shape_of(&w->found); /* ends at its second gauge, or before */
     TRY(gouge_carried_volumes(w->scene, m, w->carried));
     mpm_failed_volumes(m, w->failed);
     w->rail = mpm_body_state(m, w->scene->rail);
@@ -108,6 +140,7 @@ static status finish(void *user, const mpm *m, bool *keep)
     memcpy(w->peak_force, mpm_peak_contact_force(m, w->scene->scene.body[w->scene->rail].group), sizeof w->peak_force);
     w->growth = gouge_growth(&w->state.gauges, &w->state.front);
     w->front_speed = gouge_front_speed(&w->state.gauges);
+    w->growth_decides = growth_decides(w, mpm_glance(m).time);
     *keep = w->growth > 0.0;
     if (w->timing) host_timing_add(w->timing, "crater", host_wall_clock() - since);
     return status_ok();

@@ -18,7 +18,8 @@
 typedef struct {
     gouge_front front;
     gouge_gauges gauges;
-    gouge_metal start; /* the armature's at the start */
+    double gauge_shape; /* length over width of the crater at the second gauge, NAN without one; 0: not yet [1] */
+    gouge_metal start;  /* the armature's at the start */
 } gouge_watched;
 
 /* Zero but for `scene` and `timing`, its address in scene_watch.user; free found with gouge_crater_free. */
@@ -26,10 +27,11 @@ typedef struct {
     const gouge_scene *scene; /* borrowed */
     timing *timing;           /* borrowed; NULL: none */
     gouge_watched state;
-    gouge_metal end;               /* the rest is filled when the scene is over; the armature's then */
-    crater found;                  /* owned */
-    double growth;                 /* gouge_growth [1/s] */
-    double front_speed;            /* gouge_front_speed [m/s] */
+    gouge_metal end;     /* the rest is filled when the scene is over; the armature's then */
+    crater found;        /* owned */
+    double growth;       /* gouge_growth [1/s] */
+    bool growth_decides; /* followed to its second gauge, or until it died or the contact face had passed it */
+    double front_speed;  /* gouge_front_speed [m/s] */
     double carried[RESULT_BODIES]; /* gouge_carried_volumes [m3] */
     double failed[RESULT_BODIES];  /* of each body, as computed [m3] */
     mpm_body_report rail, armature;

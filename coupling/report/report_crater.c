@@ -22,6 +22,7 @@ typedef struct {
     double rim_height;       /* as the summary's, NaN: not known [m] */
     double deepest, highest; /* of the whole map, >= 0 [m] */
     char reason[256], class[40];
+    char shape_class[40], shape_reason[256]; /* of the crater by its shape alone */
 } crater_picture;
 
 static bool read_part(const report_source *r, const char *scene, const char *part, double **data,
@@ -35,11 +36,18 @@ static bool read_part(const report_source *r, const char *scene, const char *par
 static void read_texts(const report_source *r, const char *scene, crater_picture *c)
 {
     char group[300];
+    const struct {
+        const char *name;
+        char *to;
+        size_t size;
+    } texts[] = { { "class", c->class, sizeof c->class },
+                  { "reason", c->reason, sizeof c->reason },
+                  { "crater_class", c->shape_class, sizeof c->shape_class },
+                  { "crater_reason", c->shape_reason, sizeof c->shape_reason } };
     snprintf(group, sizeof group, "/scene/%.150s/crater", scene);
-    if (host_h5_read_attribute_text(r->history, group, "reason", c->reason, sizeof c->reason).code != STATUS_OK)
-        c->reason[0] = '\0';
-    if (host_h5_read_attribute_text(r->history, group, "class", c->class, sizeof c->class).code != STATUS_OK)
-        c->class[0] = '\0';
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++)
+        if (host_h5_read_attribute_text(r->history, group, texts[k].name, texts[k].to, texts[k].size).code != STATUS_OK)
+            texts[k].to[0] = '\0';
     if (host_h5_read_attribute_double(r->history, group, "rim_height_m", &c->rim_height).code != STATUS_OK)
         c->rim_height = NAN;
 }
@@ -154,6 +162,11 @@ static void one_crater(const page *p, const char *scene, const crater_picture *c
     fputs("</h3>\n", p->out);
     const bool said = strcmp(c->reason, report_text(p->source->summary, "reason")) == 0; /* at the page's head */
     if (c->reason[0] && !said) report_page_paragraph(p, "reason", c->reason);
+    if (c->shape_reason[0] && strcmp(c->shape_reason, c->reason) != 0) {
+        char text[400];
+        snprintf(text, sizeof text, "By its shape alone: %s; %s.", c->shape_class, c->shape_reason);
+        report_page_paragraph(p, "reason", text);
+    }
     if (memory) {
         report_page_plots_begin(p);
         snprintf(name, sizeof name, "map-%.120s", scene);

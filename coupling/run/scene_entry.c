@@ -14,7 +14,7 @@ const summary_key run_scene_keys[] = {
     SUMMARY_NUMBER(onset_scene, "temperature", temperature, "K", "of the rail"),
     SUMMARY_NUMBER(onset_scene, "cells_per_radius", cells_per_radius, "1", "resolution"),
     SUMMARY_VALUE(onset_scene, KEY_FLAG, "gauged", gauged, "",
-                  "over once its groove's growth was known: class by that, crater as far as it was"),
+                  "over once its groove's growth was known: its crater is as far as it was"),
     SUMMARY_VALUE(onset_scene, KEY_FLAG, "reused", reused, "", "not computed by this run"),
     SUMMARY_PART(onset_scene, "scene", result, run_result_keys),
     SUMMARY_END

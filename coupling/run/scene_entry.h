@@ -14,8 +14,8 @@ typedef struct {
     double contact_pressure; /* [Pa] */
     double temperature;      /* of the rail [K] */
     double cells_per_radius; /* [1] */
-    bool gauged; /* over once its groove's growth was known: the class is by that, the crater as far as it was */
-    bool reused; /* taken from the store, not computed by this run */
+    bool gauged;             /* over once its groove's growth was known: its crater is as far as it was */
+    bool reused;             /* taken from the store, not computed by this run */
     scene_result result;
 } onset_scene;
 

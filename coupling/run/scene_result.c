@@ -4,6 +4,9 @@
 const summary_key run_result_keys[] = {
     SUMMARY_CHOICE(scene_result, "class", class, run_damage_names, "none, scratch, gouge, undecided"),
     SUMMARY_TEXT(scene_result, "reason", reason, "the numbers behind the class"),
+    SUMMARY_CHOICE(scene_result, "crater_class", crater_class, run_damage_names,
+                   "of the crater at the end by its shape alone; the class where no growth is gauged"),
+    SUMMARY_TEXT(scene_result, "crater_reason", crater_reason, "the numbers behind the crater's class"),
     SUMMARY_NUMBER(scene_result, "severity", severity, "1",
                    "(lean x volume - plan area x height of the grain) / its volume; gouging grows above 0"),
     SUMMARY_NUMBER(scene_result, "groove_growth", groove_growth, "1/s",
@@ -13,6 +16,9 @@ const summary_key run_result_keys[] = {
                    "speed of the groove's front between its gauges over the armature's; null: not followed so far"),
     SUMMARY_NUMBER(scene_result, "length_over_width", length_over_width, "1",
                    "of the crater, as far as it was when the scene ended; null: no crater"),
+    SUMMARY_NUMBER(
+        scene_result, "gauge_length_over_width", gauge_length_over_width, "1",
+        "the same at the second gauge, by which a gouge is told from a scratch; null: not gauged, no crater"),
     SUMMARY_NUMBER(scene_result, "crater_length", crater_length, "m", "along the rail"),
     SUMMARY_NUMBER(scene_result, "crater_width", crater_width, "m", "full width"),
     SUMMARY_NUMBER(scene_result, "crater_depth", crater_depth, "m", "deepest"),

@@ -17,14 +17,16 @@ enum { RESULT_BODIES = 32 };
 
 /* One scene, full model: forces and volumes with the mirror half. */
 typedef struct {
-    damage_class class;
-    char reason[200];
+    damage_class class; /* by growth and shape at the second gauge where the groove is followed, else crater_class */
+    damage_class crater_class; /* of the crater at the end, by its shape alone (crater.h) */
+    char reason[200], crater_reason[200];
     double severity, widening; /* [1] */
     /* Of the plastic power in a groove that is followed, in time and over the armature's way; NaN if it was not gauged
      * [1/s, 1/m]. */
     double groove_growth, growth_per_way;
-    double front_speed_ratio; /* speed of its front between the gauges over the armature's, NaN as before [1] */
-    double length_over_width; /* of the crater, NaN without one [1] */
+    double front_speed_ratio;       /* speed of its front between the gauges over the armature's, NaN as before [1] */
+    double length_over_width;       /* of the crater, NaN without one [1] */
+    double gauge_length_over_width; /* of the crater as it was at the second gauge; NaN: not gauged, no crater [1] */
     double crater_length, crater_width, crater_depth, rim_height; /* [m] */
     double crater_volume;                                         /* [m3] */
     double peak_pressure;    /* the larger of the 99.9th percentiles by mass of armature and rail, intact points [Pa] */

@@ -39,8 +39,9 @@ static void bracket_text(const session *s, const char *name, char *out, size_t s
     for (int k = 0; alike > 0 && k < s->n_records; k++) {
         const onset_scene *e = &s->record[k]->entry;
         if (s->record[k]->of_bodies || strncmp(e->name, name, alike) != 0) continue;
-        if (e->result.class == DAMAGE_GOUGE) high = fmin(high, e->velocity);
-        if (e->result.class < DAMAGE_GOUGE) low = fmax(low, e->velocity);
+        const damage_class class = e->gauged ? e->result.class : e->result.crater_class; /* as the search takes it */
+        if (class == DAMAGE_GOUGE) high = fmin(high, e->velocity);
+        if (class < DAMAGE_GOUGE) low = fmax(low, e->velocity);
     }
     if (low >= high) return; /* they turn back, or scatter */
     if (isfinite(low) && isfinite(high))

@@ -142,6 +142,12 @@ static status draw(session *s, const case_onset *c, compare_answer *a)
 
 /* ---- what the layers suffer ---- */
 
+static bool gouged(const grain_family *f, const family_scene *a)
+{
+    const scene_result *r = &a->record->entry.result;
+    return (f->by_growth ? r->class : r->crater_class) == DAMAGE_GOUGE;
+}
+
 /* The fastest scene of the search that does not gouge: what a layer must bear where it is meant to help; else the
  * slowest of all. */
 static const family_scene *telling_scene(const grain_families *g)
@@ -152,10 +158,8 @@ static const family_scene *telling_scene(const grain_families *g)
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *a = &f->scene[i];
         if (a->cells != f->surface.reference.cells || !study_family_searched(f, a)) continue;
-        const bool gouged = a->record->entry.result.class == DAMAGE_GOUGE;
-        const bool best_gouged = best && best->record->entry.result.class == DAMAGE_GOUGE;
-        if (!best || (best_gouged && !gouged) || (gouged == best_gouged && (a->velocity > best->velocity) != gouged))
-            best = a;
+        const bool does = gouged(f, a), best_does = best && gouged(f, best);
+        if (!best || (best_does && !does) || (does == best_does && (a->velocity > best->velocity) != does)) best = a;
     }
     return best;
 }

@@ -64,7 +64,7 @@ static bool is_sure(const grain_family *f, const family_scene *s)
     return f->by_growth && s->whole && !isnan(t.interval[1]) && s->velocity >= t.interval[1];
 }
 
-/* One of them left no gouge, and none left one: the end of a groove decides as much as its growth. */
+/* One of them left no gouge by its shape, and none left one: what is there at the end decides as much as growth. */
 static void find_contradiction(grain_family *f)
 {
     int gouges = 0, others = 0;
@@ -72,7 +72,7 @@ static void find_contradiction(grain_family *f)
     for (int i = 0; i < f->n_scenes; i++) {
         const family_scene *s = &f->scene[i];
         if (!is_sure(f, s)) continue;
-        const damage_class class = s->record->entry.result.class;
+        const damage_class class = s->record->entry.result.crater_class;
         const size_t used = strlen(f->contradicted);
         gouges += class == DAMAGE_GOUGE;
         others += class == DAMAGE_NONE || class == DAMAGE_SCRATCH;

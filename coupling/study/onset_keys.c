@@ -225,18 +225,19 @@ static void print_craters(const onset_result *o, FILE *out)
 {
     table *t;
     int n = 0;
-    const char *titles = "whole crater|v [m/s]|severity|widening|length [mm]|width [mm]|depth [mm]|class";
+    const char *titles = "whole crater|v [m/s]|severity|widening|length [mm]|width [mm]|depth [mm]|class|by shape";
     if (host_table_create(titles, &t).code != STATUS_OK) return;
     for (int i = 0; i < o->n_scenes; i++) {
         const onset_scene *s = &o->scene[i];
         char v[24], severity[24], widening[24], l[24], w[24], d[24];
         if (s->gauged) continue;
-        host_table_row(t, "%s|%s|%s|%s|%s|%s|%s|%s", s->name, output_cell(s->velocity, 1.0, "%.0f", v),
+        host_table_row(t, "%s|%s|%s|%s|%s|%s|%s|%s|%s", s->name, output_cell(s->velocity, 1.0, "%.0f", v),
                        output_cell(s->result.severity, 1.0, "%.2f", severity),
                        output_cell(s->result.widening, 1.0, "%.2f", widening),
                        output_cell(s->result.crater_length, 1e-3, "%.2f", l),
                        output_cell(s->result.crater_width, 1e-3, "%.2f", w),
-                       output_cell(s->result.crater_depth, 1e-3, "%.2f", d), run_damage_names[s->result.class]);
+                       output_cell(s->result.crater_depth, 1e-3, "%.2f", d), run_damage_names[s->result.class],
+                       run_damage_names[s->result.crater_class]);
         n++;
     }
     if (n > 0)

@@ -5,6 +5,7 @@
 #include "coupling/study/scene_doubts.h"
 
 #include <math.h>
+#include <string.h>
 
 static int scenes(const study_case *of, scene_query *out)
 {
@@ -31,6 +32,8 @@ static void print(const void *result, FILE *out)
     const scene_result *r = result;
     output_keys_print(&(summary_object){ run_result_keys, r }, out);
     if (r->reason[0]) fprintf(out, "\n%s: %s\n", run_damage_names[r->class], r->reason);
+    if (strcmp(r->crater_reason, r->reason) != 0)
+        fprintf(out, "its crater alone, %s: %s\n", run_damage_names[r->crater_class], r->crater_reason);
 }
 
 const study study_scene = {

@@ -80,7 +80,7 @@ static double worth(double value)
 /* An undecided scene takes the side of its severity, as in the search. */
 static bool gouges(const scene_result *r, double limit_severity)
 {
-    return r->class == DAMAGE_GOUGE || (r->class == DAMAGE_UNDECIDED && r->severity >= limit_severity);
+    return r->crater_class == DAMAGE_GOUGE || (r->crater_class == DAMAGE_UNDECIDED && r->severity >= limit_severity);
 }
 
 /* Scenes whose craters count: whole ones, at the resolution of the thresholds where those were found by craters. */

@@ -100,7 +100,7 @@ threshold_sample study_family_sample(const case_onset *c, family_judge judge, co
 surface_result *study_family_surface(grain_family *f, family_judge judge);
 family_scatter *study_family_scatter(grain_family *f, family_judge judge);
 
-/* Is it of the search?  Judged by growth, whole scenes are not: their class is that of their severity. */
+/* Is it of the search?  Judged by growth, whole scenes are not. */
 bool study_family_searched(const grain_family *f, const family_scene *scene);
 
 /* Of the search's that of the best resolution nearest in velocity, of those nearest in size; NULL if there is none. */

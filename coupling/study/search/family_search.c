@@ -81,11 +81,12 @@ threshold_sample study_family_sample(const case_onset *c, family_judge judge, co
 {
     const scene_result *r = &e->result;
     const case_scene *limits = &c->impact.scene;
-    threshold_sample is = { e->velocity, e->cells_per_radius, r->severity - limits->limit_severity, r->class };
+    threshold_sample is = { e->velocity, e->cells_per_radius, r->severity - limits->limit_severity, r->crater_class };
     if (!e->gauged) return is;
     const double folds = gouge_growth_folds(r->groove_growth, e->radius, e->velocity);
     if (judge == JUDGE_OF_GOUGE) {
         is.excess = gouge_tear_drop_excess(folds, r->length_over_width, limits->limit_length_over_width);
+        is.class = r->class;
     } else {
         is.excess = folds;
         is.class = class_by_growth(folds, limits->growth_scatter, r->class);
