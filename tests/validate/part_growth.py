@@ -10,12 +10,15 @@ from runs import Figure
 COMMON = {"scene__stop_when_gauged": "yes", "scene__contact_pressure": "60 MPa"}
 BETWEEN_GAUGES = 12 * 0.5e-3  # [m] way, 12 grain radii
 WIDEST_SCRATCH = 4.0  # scene.limit_length_over_width
-RESOLUTIONS = {  # cells a radius: velocities [m/s], grids of each
-    3: ((500, 700, 900, 1000, 1150), 3),
-    4: ((500, 700, 900, 1000, 1150), 3),
-    6: ((500, 700, 900, 1000, 1150), 3),
-    8: ((900, 1000, 1150), 3),
+GRIDS = 3
+RESOLUTIONS = {  # cells a radius: velocities [m/s]
+    3: (500, 700, 900, 1000, 1150),
+    4: (500, 700, 900, 1000, 1150),
+    6: (500, 700, 900, 1000, 1150),
+    8: (900, 1000, 1150),
 }
+FINE = {cells: (1300, 1500) for cells in (4, 6, 8, 12)}  # where the finest begin to gouge
+RADIUS = 0.5  # [mm] of the grain
 MEASURES = {  # key of the summary: title of the column, unit, digits, what a fresh one may differ by
     "groove_growth": ("growth [1/us]", 1e6, 3, 0.1),
     "growth_per_way": ("growth [1/mm]", 1e3, 3, 0.1),
@@ -24,9 +27,9 @@ MEASURES = {  # key of the summary: title of the column, unit, digits, what a fr
 }
 
 
-def grids_of(runs, cells, velocity, grids):
+def grids_of(runs, cells, velocity):
     """Values of the summary of each grid."""
-    scene = runs.scene("cells%d_%d" % (cells, velocity), "cases/default_shot", grids,
+    scene = runs.scene("cells%d_%d" % (cells, velocity), "cases/default_shot", GRIDS,
                        scene__velocity="%d m/s" % velocity, scene__cells_per_radius=cells, **COMMON)
     return [grid["values"] for grid in scene.summary["scenes"]]
 
@@ -77,18 +80,51 @@ def zeros(found):
     columns = [Column("cells a radius"), Column("scratches from, on each grid [m/s]", 0.2),
                Column("gouges from, on each grid [m/s]", 0.2)]
     rows = []
-    for cells, (velocities, _) in RESOLUTIONS.items():
+    for cells, velocities in RESOLUTIONS.items():
         grids = list(zip(*(found[cells, v] for v in velocities)))
         rows.append(["%d" % cells] + [", ".join(zero(velocities, [what(values) for values in grid]) for grid in grids)
                                       for what in (growth, tear_drop)])
     return Table(columns, rows)
 
 
+def all_of(runs, resolutions):
+    return {(cells, v): grids_of(runs, cells, v) for cells, velocities in resolutions.items() for v in velocities}
+
+
 def cells(runs):
-    found = {(cells, v): grids_of(runs, cells, v, grids)
-             for cells, (velocities, grids) in RESOLUTIONS.items() for v in velocities}
-    return [measures(found), zeros(found)], NOTE
+    found = all_of(runs, RESOLUTIONS)
+    return [measures(found), zeros(found)], NOTE + "; places linearly between velocities"
+
+
+def line(points):
+    """Of (x, y) the least-squares line's value at x = 0 and its slope, each with its standard error."""
+    n = len(points)
+    mean_x, mean_y = (sum(p[k] for p in points) / n for k in (0, 1))
+    sxx = sum((x - mean_x) ** 2 for x, _ in points)
+    slope = sum((x - mean_x) * (y - mean_y) for x, y in points) / sxx
+    at_zero = mean_y - slope * mean_x
+    variance = sum((y - at_zero - slope * x) ** 2 for x, y in points) / (n - 2)
+    return (Figure(at_zero, math.sqrt(variance * (1.0 / n + mean_x ** 2 / sxx)), n),
+            Figure(slope, math.sqrt(variance / sxx), n))
+
+
+def vanishing(found):
+    """Over the size of the cells, of all grids: the line through growth, at cells of no size."""
+    columns = [Column("velocity"), Column("grids"), Column("growth with cells of no size [1/mm]", 0.1),
+               Column("more with every 100 um of cell [1/mm]", 0.1)]
+    rows = []
+    for velocity in sorted({v for _, v in found}):
+        points = [(RADIUS / cells, values["growth_per_way"] * 1e-3) for (cells, v), grids in found.items() if v == velocity
+                  for values in grids if values.get("growth_per_way") is not None]
+        at_zero, slope = line(points)
+        rows.append(["%d m/s" % velocity, "%d" % len(points), at_zero.text(3), slope.text(3, 10.0)])
+    return Table(columns, rows)
+
+
+def fine(runs):
+    found = all_of(runs, FINE)
+    return [measures(found), vanishing(found)], NOTE + "; of the lines ± is the standard error"
 
 
 NOTE = ("cases/default_shot to its second gauge, pressed on with 60 MPa; mean ± standard deviation over shifted grids of "
-        "those whose groove lived; places linearly between velocities")
+        "those whose groove lived")
