@@ -64,7 +64,7 @@ static void make(rail *r, double density, double median, double spread, double t
     }
     for (int k = 0; k < 2; k++) { /* crater 10 r^3 at 1000 m/s, 30 r^3 at 2000 */
         scene_result *hit = &r->record[k].entry.result;
-        hit->class = DAMAGE_GOUGE;
+        hit->class = hit->crater_class = DAMAGE_GOUGE;
         hit->crater_volume = (10.0 + 20.0 * k) * 0.125e-9;
         hit->rim_height = 0.25e-3;
         hit->crater_length = 4e-3;
