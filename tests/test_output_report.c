@@ -255,6 +255,7 @@ static void onset_page_shows_everything(void **state)
     assert_non_null(strstr(text, "What can be done about it?"));
     assert_non_null(strstr(text, "A place's interval ends where the armature passes the ends of the speed's"));
     assert_non_null(strstr(text, "v1650"));
+    assert_non_null(strstr(text, "By its shape alone: scratch; severity -2.")); /* where growth says gouge */
     assert_non_null(strstr(text, "energy_kinetic"));
     assert_int_equal(text_count(text, "<svg"), files_in("report", ".svg"));
     /* a map, a view aside and a profile a crater; the barrel as a strip and a curve; the threshold; the shot: current,
