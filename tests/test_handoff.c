@@ -925,7 +925,7 @@ static void test_judged(void **state)
                     { true, NAN, NAN, DAMAGE_SCRATCH },  { false, 1e5, 3.0, DAMAGE_UNDECIDED } };
     for (size_t k = 0; k < sizeof grooves / sizeof *grooves; k++) {
         const gouge_watch w = { .scene = &s,
-                                .state = { .gauge_shape = grooves[k].shape },
+                                .state = { .gauge_length_over_width = grooves[k].shape },
                                 .growth = grooves[k].growth,
                                 .growth_decides = grooves[k].decides,
                                 .found = { .class = DAMAGE_UNDECIDED, .length = 12e-3, .width = 6e-3 } };

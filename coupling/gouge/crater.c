@@ -169,3 +169,8 @@ void gouge_crater_free(crater *c)
     free(c->depth_map);
     c->depth_map = NULL;
 }
+
+double gouge_crater_length_over_width(const crater *c)
+{
+    return c->width > 0.0 ? c->length / c->width : NAN;
+}

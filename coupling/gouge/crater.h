@@ -82,4 +82,7 @@ typedef struct {
 status gouge_crater_measure(const crater_points *points, const crater_spec *spec, crater *out);
 void gouge_crater_free(crater *c);
 
+/* NAN where there is no crater [1]. */
+double gouge_crater_length_over_width(const crater *c);
+
 #endif

@@ -17,7 +17,7 @@ static void take_crater(scene_result *r, const crater *c)
     r->crater_volume = c->volume;
     r->rim_height = c->rim_height;
     r->crater_truncated = c->truncated;
-    r->length_over_width = c->width > 0.0 ? c->length / c->width : NAN;
+    r->length_over_width = gouge_crater_length_over_width(c);
 }
 
 /* The mirror half of a half model doubles what acts in its plane and cancels what acts across it. */
@@ -73,7 +73,7 @@ scene_result gouge_result(const gouge_scene *s, const gouge_watch *w, const scen
     r.groove_growth = w->growth;
     r.growth_per_way = w->growth / s->velocity;
     r.front_speed_ratio = w->front_speed / s->velocity;
-    r.gauge_length_over_width = w->growth_decides ? w->state.gauge_shape : NAN;
+    r.gauge_length_over_width = w->growth_decides ? w->state.gauge_length_over_width : NAN;
     r.peak_pressure = fmax(r.peak_pressure_armature_999, r.peak_pressure_rail_999);
     r.max_pressure = m->peak_pressure;
     r.peak_temperature = m->peak_temperature;

@@ -24,20 +24,13 @@ static status measure_crater(const gouge_watch *w, const mpm *m, crater *out)
     return done;
 }
 
-static double shape_of(const crater *c)
-{
-    return c->width > 0.0 ? c->length / c->width : NAN;
-}
-
 /* At the second gauge, where a scene of a search ends: a whole scene is judged by the same crater. */
 static status note_shape(gouge_watch *w, const mpm *m)
 {
     crater now;
-    const double since = host_wall_clock();
     TRY(measure_crater(w, m, &now));
-    w->state.gauge_shape = shape_of(&now);
+    w->state.gauge_length_over_width = gouge_crater_length_over_width(&now);
     gouge_crater_free(&now);
-    if (w->timing) host_timing_add(w->timing, "crater", host_wall_clock() - since);
     return status_ok();
 }
 
@@ -56,7 +49,7 @@ static status due(void *user, const mpm *m, const mpm_report *now, bool *ends)
     if (gouge_front_is_due(w->scene, now, &seen->front)) TRY(gouge_front_look(w->scene, m, &seen->front));
     gouge_gauges_note(w->scene, &seen->front, &seen->gauges);
     *ends = is_gauged(w, now);
-    if (!*ends && seen->gauges.at[1] > 0.0 && seen->gauge_shape == 0.0) return note_shape(w, m);
+    if (!*ends && seen->gauges.at[1] > 0.0 && seen->gauge_length_over_width == 0.0) return note_shape(w, m);
     return status_ok();
 }
 
@@ -131,8 +124,8 @@ static status finish(void *user, const mpm *m, bool *keep)
     const double since = host_wall_clock();
     TRY(gouge_armature_metal(w->scene, m, &w->end));
     TRY(measure_crater(w, m, &w->found));
-    if (w->state.gauge_shape == 0.0)
-        w->state.gauge_shape = shape_of(&w->found); /* ends at its second gauge, or before */
+    double *at_gauge = &w->state.gauge_length_over_width;
+    if (*at_gauge == 0.0) *at_gauge = gouge_crater_length_over_width(&w->found); /* ends there, or before */
     TRY(gouge_carried_volumes(w->scene, m, w->carried));
     mpm_failed_volumes(m, w->failed);
     w->rail = mpm_body_state(m, w->scene->rail);

@@ -18,8 +18,8 @@
 typedef struct {
     gouge_front front;
     gouge_gauges gauges;
-    double gauge_shape; /* length over width of the crater at the second gauge, NAN without one; 0: not yet [1] */
-    gouge_metal start;  /* the armature's at the start */
+    double gauge_length_over_width; /* of the crater at the second gauge, NAN without one; 0: not yet [1] */
+    gouge_metal start;              /* the armature's at the start */
 } gouge_watched;
 
 /* Zero but for `scene` and `timing`, its address in scene_watch.user; free found with gouge_crater_free. */
