@@ -111,22 +111,23 @@ static char *errors_of(const char *text, unsigned needs)
     return errors;
 }
 
-#define HEAD                                                                                                        \
-    "name: test\n"                                                                                                  \
-    "bank: {count: 15, capacitance: 3.594 mF, charge: 10.55 kV, inductance: 12.56 uH, resistance: 4.1 mohm,\n"      \
-    "  crowbar_drop: 1.48 V, crowbar_resistance: 0.43 mohm}\n"                                                      \
-    "rail: {level: constant, height: 25 mm, thickness: 20 mm, separation: 25 mm, resistivity: 1.72e-8 ohm m,\n"     \
-    "  inductance_gradient: 0.42 uH/m, resistance_gradient: 0.1 mohm/m, material: ofhc_copper, yield_scale: 1.5,\n" \
-    "  specific_heat: 385 J/kg/K, thermal_conductivity: 391 W/m/K}\n"                                               \
-    "barrel: {length: 3 m, start: 0.1 m}\n"                                                                         \
-    "armature: {mass: 0.18 kg, contact_length: 16 mm, contact_width: 25 mm, preload: 5 kN, spreading: 3e-8 N/A^2, " \
-    "friction_dry: 0.3, friction_melted: 0.05,\n"                                                                   \
-    "  material: al7075_t651, lead_angle: 30 deg, length: 20 mm, leg_thickness: 5 mm, head_thickness: 10 mm,\n"     \
-    "  chamfer_height: 2 mm}\n"                                                                                     \
-    "particle: {radius: 0.5 mm}\n"                                                                                  \
-    "scene: {friction: 0.05, coarse_cell: 2 mm, growth: 1.3, contact_pressure: 75 MPa}\n"                           \
-    "study: {coarse_cells_per_radius: 2, fine_cells_per_radius: 3, max_scenes: 40, sampled: 10000,\n"               \
-    "  sensitivities: no, feedback: no, scratch: no}\n"                                                             \
+#define HEAD                                                                                                           \
+    "name: test\n"                                                                                                     \
+    "bank: {count: 15, capacitance: 3.594 mF, charge: 10.55 kV, inductance: 12.56 uH, resistance: 4.1 mohm,\n"         \
+    "  crowbar_drop: 1.48 V, crowbar_resistance: 0.43 mohm}\n"                                                         \
+    "rail: {level: constant, height: 25 mm, thickness: 20 mm, separation: 25 mm, resistivity: 1.72e-8 ohm m,\n"        \
+    "  inductance_gradient: 0.42 uH/m, resistance_gradient: 0.1 mohm/m, material: ofhc_copper, yield_scale: 1.5,\n"    \
+    "  specific_heat: 385 J/kg/K, thermal_conductivity: 391 W/m/K}\n"                                                  \
+    "barrel: {length: 3 m, start: 0.1 m}\n"                                                                            \
+    "armature: {mass: 0.18 kg, contact_length: 16 mm, contact_width: 25 mm, preload: 5 kN, spreading: 3e-8 N/A^2, "    \
+    "friction_dry: 0.3, friction_melted: 0.05,\n"                                                                      \
+    "  material: al7075_t651, lead_angle: 30 deg, length: 20 mm, leg_thickness: 5 mm, head_thickness: 10 mm,\n"        \
+    "  chamfer_height: 2 mm}\n"                                                                                        \
+    "particle: {radius: 0.5 mm}\n"                                                                                     \
+    "scene: {friction: 0.05, coarse_cell: 2 mm, growth: 1.3, contact_pressure: 75 MPa}\n"                              \
+    "study: {coarse_cells_per_radius: 2, fine_cells_per_radius: 3, max_scenes: 40, sampled: 10000, resolution_above: " \
+    "0,\n"                                                                                                             \
+    "  sensitivities: no, feedback: no, scratch: no}\n"                                                                \
     "output: {snapshots: 0, report: no}\n"
 #define GRAINS "populations:\n  - {density: 3 1/m, radius_median: 0.3 mm, radius_spread: 0.3}\n"
 
@@ -855,9 +856,10 @@ static void test_uncertain_inputs(void **state)
         assert_true(fabs(fabs(r->threshold_interval[e] - sure.threshold_interval[e]) - (both - resolution)) < 6.0);
     assert_true(r->threshold_interval[0] < sure.threshold_interval[0] &&
                 r->threshold_interval[1] > sure.threshold_interval[1]);
-    assert_true(fabs(a.grains.family[0].surface.reference.allowance - both) < 6.0); /* the random shots draw from it */
+    assert_true(fabs(a.grains.family[0].surface.reference.allowance[1] - both) <
+                6.0); /* the random shots draw from it */
     const threshold_result *warm = &a.rail.changed[MC_WARMTH].grains.family[0].surface.reference;
-    assert_true(fabs(warm->allowance - hypot(0.1 * warm->velocity, INPUTS)) < 6.0);
+    assert_true(fabs(warm->allowance[1] - hypot(0.1 * warm->velocity, INPUTS)) < 6.0);
     const case_study *near = &a.uncertain.of[0].c->study;
     const double threshold = a.grains.family[0].surface.reference.velocity;
     assert_true(fabs(near->velocity_low / threshold - 0.6) < 1e-9);
@@ -1014,15 +1016,23 @@ static void test_scatter(void **state)
         assert_true(fabs(r->threshold_interval[e] - sure.result.threshold_interval[e] - more -
                          (e ? 1 : -1) * (both - resolution)) < 6.0);
     const threshold_result *warm = &a.rail.changed[MC_WARMTH].grains.family[0].surface.reference;
-    assert_true(fabs(warm->allowance - hypot(0.1 * (warm->velocity - more), want)) < 6.0);
+    assert_true(fabs(warm->allowance[1] - hypot(0.1 * (warm->velocity - more), want)) < 6.0);
     int shifted = 0;
     for (int i = 0; i < r->n_scenes; i++) shifted += strstr(r->scene[i].name, "-growth-e") != NULL;
     assert_int_equal(shifted, GRIDS - 1);
-    study_onset_answer_free(&sure);
     study_onset_answer_free(&a);
     growth_most = INFINITY;
-    growth_rises = -1.0; /* no slope: no deviation, and the interval reaches to where a scene decides, here nowhere */
     c->study.shots = 1;
+    c->study.resolution_above = 0.5;
+    a = studied(c, "above", status_ok());
+    c->study.resolution_above = 0.0;
+    const double own = sure.result.threshold_velocity, end = sure.result.threshold_interval[1] - 0.1 * own + more;
+    assert_true(fabs(a.result.threshold_interval[1] - end - hypot(0.5 * own, want)) < 6.0);
+    assert_true(fabs(a.result.threshold_interval[0] - sure.result.threshold_interval[0] - more + both - resolution) <
+                6.0);
+    study_onset_answer_free(&sure);
+    study_onset_answer_free(&a);
+    growth_rises = -1.0; /* no slope: no deviation, and the interval reaches to where a scene decides, here nowhere */
     a = studied(c, "falling", status_ok());
     char warned_falling[sizeof warned];
     memcpy(warned_falling, warned, sizeof warned);
@@ -1080,7 +1090,7 @@ static void test_one_side_on_other_grids(void **state)
     assert_true(against > threshold + 50.0 && against < threshold + 330.0);
     assert_true(many.result.threshold_interval[1] > near + 100.0 && t->interval[1] > threshold + 330.0);
     assert_true(t->interval[1] > 1.1 * against + 1.0); /* 10 % beyond the last scene that all agree on */
-    assert_true(fabs(t->allowance / (t->interval[1] - t->allowance) - 0.1) < 1e-9);
+    assert_true(fabs(t->allowance[1] / (t->interval[1] - t->allowance[1]) - 0.1) < 1e-9);
     const threshold_result *warm = &many.rail.changed[MC_WARMTH].grains.family[0].surface.reference;
     assert_true(warm->outcome == THRESHOLD_BELOW && warm->interval[1] == t->interval[1]);
     assert_non_null(strstr(many.result.reason, "but on a shifted one the scene at"));

@@ -205,6 +205,17 @@ static void test_band(void **state)
     study_mc_free(&out);
     study_mc_free(&sharp);
     free(r.family);
+    /* the cells allow 40 m/s below and 300 above: thresholds of 1500 + (300 - 40)/4 m/s on average */
+    make(&r, 20.0, 1.5e-4, 0.7, 1500.0, 0.0, 0.0);
+    surface_result *of = &r.family->surface;
+    of->reference.allowance[0] = 40.0, of->reference.allowance[1] = 300.0;
+    for (int k = 0; k < 9; k++) of->size[k].interval[0] -= 40.0, of->size[k].interval[1] += 300.0;
+    out = run(&one, 1, 40000, 1);
+    const double start = LENGTH * 1565.0 / MUZZLE, share = study_population_share_from(&r.population, 1e-4);
+    assert_true(fabs(out.of[0].gouges / (20.0 * share * (LENGTH - start)) - 1.0) < 0.06);
+    assert_true(out.of[0].gouges < 0.95 * 20.0 * share * LENGTH * (1.0 - 1500.0 / MUZZLE));
+    study_mc_free(&out);
+    free(r.family);
 }
 
 static void test_table_and_sites(void **state)

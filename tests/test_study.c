@@ -210,9 +210,9 @@ static void test_allowance(void **state)
         function f = plain(line, 1411.0);
         f.shift = shift;
         const threshold_result r = search(&f, &plan);
-        assert_true(fabs(r.allowance - fmax(141.1, fabs(shift))) < 1e-6);
-        assert_true(fabs(r.bracket[0] - r.interval[0] - r.allowance) < 1e-9);
-        assert_true(fabs(r.interval[1] - r.bracket[1] - r.allowance) < 1e-9);
+        assert_true(fabs(r.allowance[0] - fmax(141.1, fabs(shift))) < 1e-6);
+        assert_true(fabs(r.bracket[0] - r.interval[0] - r.allowance[0]) < 1e-9);
+        assert_true(fabs(r.interval[1] - r.bracket[1] - r.allowance[1]) < 1e-9);
     }
 }
 
@@ -606,13 +606,13 @@ static breech_case *changed_case(const char *const *sets)
         "study.velocity_interval=5 %",        "study.velocity_low=1 km/s",
         "study.velocity_high=2 km/s",         "rail.level=skin",
         "study.position_interval=1",          "study.sensitivities=no",
-        "study.resolution_error=0",           "sites[0].position=0.60 m",
-        "sites[1].position=0.75 m",           "sites[2].position=0.90 m",
-        "sites[3].position=1.05 m",           "sites[4].position=1.20 m",
-        "sites[5].position=1.35 m",           "sites[6].position=1.50 m",
-        "sites[7].position=1.65 m",           "sites[8].position=1.85 m",
-        "sites[9].position=2.10 m",           "sites[10].position=2.40 m",
-        "sites[11].position=2.70 m",
+        "study.resolution_error=0",           "study.resolution_above=0",
+        "sites[0].position=0.60 m",           "sites[1].position=0.75 m",
+        "sites[2].position=0.90 m",           "sites[3].position=1.05 m",
+        "sites[4].position=1.20 m",           "sites[5].position=1.35 m",
+        "sites[6].position=1.50 m",           "sites[7].position=1.65 m",
+        "sites[8].position=1.85 m",           "sites[9].position=2.10 m",
+        "sites[10].position=2.40 m",          "sites[11].position=2.70 m",
     };
     breech_case *c = NULL;
     char *errors = NULL;
@@ -952,6 +952,36 @@ static void test_two_speeds(void **state)
     study_onset_answer_free(&a);
 }
 
+/* By what finer cells may raise a threshold its interval reaches further up, and the scratch's with it; nothing else of
+ * the search changes, not the scenes of its whole craters either. */
+static void test_finer_cells(void **state)
+{
+    (void)state;
+    onset_answer of[2];
+    counter.tear_drop = 1500.0;
+    for (int k = 0; k < 2; k++) {
+        breech_case *c = changed_case((const char *const[]){
+            k ? "study.resolution_above=0.3" : "study.resolution_above=0", "study.scratch=yes", "study.max_scenes=30",
+            "study.resolution_error=0.05", "study.coarse_cells_per_radius=3", NULL });
+        OK(study(c, "finer", FORCE, &of[k]));
+        case_free(c);
+    }
+    counter.tear_drop = 0.0;
+    const onset_result *with = &of[1].result, *without = &of[0].result;
+    const double v = with->threshold_velocity, wider = 0.25 * v;
+    assert_int_equal(with->n_scenes, without->n_scenes);
+    for (int i = 0; i < with->n_scenes; i++) assert_string_equal(of[0].scene[i].name, of[1].scene[i].name);
+    assert_true(v == without->threshold_velocity && with->threshold_interval[0] == without->threshold_interval[0]);
+    assert_true(with->scratch_velocity == without->scratch_velocity &&
+                with->scratch_interval[0] == without->scratch_interval[0]);
+    assert_true(fabs(with->threshold_interval[1] - without->threshold_interval[1] - wider) < 1e-6);
+    assert_true(without->scratch_interval[1] < without->threshold_interval[1]);
+    assert_true(with->scratch_interval[1] == with->threshold_interval[1]);
+    assert_true(fabs(of[1].part[1].threshold_below - 0.05 * v) < 1e-6 &&
+                fabs(of[1].part[1].threshold_above - 0.3 * v) < 1e-6);
+    for (int e = 0; e < 2; e++) study_onset_answer_free(&of[e]);
+}
+
 /* study.max_scenes is never passed, whichever search it runs out in; the scratch velocity then is what the scenes of
  * the gouge's search say, or not known. */
 static void test_max_scenes(void **state)
@@ -1115,6 +1145,7 @@ int main(void)
         cmocka_unit_test(test_hard_film),
         cmocka_unit_test(test_contradicted),
         cmocka_unit_test(test_two_speeds),
+        cmocka_unit_test(test_finer_cells),
         cmocka_unit_test(test_max_scenes),
         cmocka_unit_test(test_two_kinds),
         cmocka_unit_test(test_resume),

@@ -319,6 +319,7 @@ typedef struct {
     double coarse_cells_per_radius, fine_cells_per_radius; /* [1] */
     double crater_cells_per_radius;                        /* of whole craters; NAN: those of the search [1] */
     double resolution_error;                               /* share that finer cells may move a threshold by [1] */
+    double resolution_above;                               /* the same upwards, judged by growth [1] */
     double strength_error, armature_error;                 /* of rail's and armature's yield_scale, relative [1] */
     double friction_error;                                 /* of scene.friction, relative [1] */
     bool feedback;                                         /* a gouge's impulse and mass loss go back into the shot */

@@ -227,19 +227,21 @@ static void say_probability(const page *p)
     item_end(p);
 }
 
-/* How far the half-width of an interval owes to the scatter with the grid. */
+/* How far an interval reaches on either side, and what of that it owes to the scatter with the grid. */
 static void say_scatter(const page *p, const speed *k, const char *deviation_key)
 {
     const cJSON *s = p->source->summary;
     const known v = known_of(s, k->velocity, k->interval);
-    const double deviation = report_number(s, deviation_key), half = 0.5 * (v.hi - v.lo);
-    if (!isfinite(deviation) || !isfinite(half)) return;
-    char off[REPORT_VALUE_SIZE], share[REPORT_VALUE_SIZE];
-    report_value_known(half, 0.6 * half, 1.4 * half, off);
+    const double deviation = report_number(s, deviation_key), below = v.at - v.lo, above = v.hi - v.at;
+    if (!isfinite(deviation) || !isfinite(below) || !isfinite(above)) return;
+    char down[REPORT_VALUE_SIZE], up[REPORT_VALUE_SIZE], share[REPORT_VALUE_SIZE];
+    report_value_known(below, 0.6 * below, 1.4 * below, down);
+    report_value_known(above, 0.6 * above, 1.4 * above, up);
     report_value_known(deviation, 0.6 * deviation, 1.4 * deviation, share);
     item_begin(p);
-    fprintf(p->out, "%s: &plusmn;%s&nbsp;m/s, of which the same scenes on shifted grids scatter by %s&nbsp;m/s.",
-            k->what, off, share);
+    fprintf(p->out,
+            "%s: down by %s and up by %s&nbsp;m/s, of which the same scenes on shifted grids scatter by %s&nbsp;m/s.",
+            k->what, down, up, share);
     item_end(p);
 }
 
@@ -312,7 +314,7 @@ static void say_where(const page *p)
     const double from = isfinite(x.lo) ? x.lo : x.at, end = barrel_end(p->source);
     char start[REPORT_VALUE_SIZE];
     if (!isfinite(from) || !(end > from)) return;
-    report_value_known(from, x.lo, x.hi, start);
+    report_value_known(from, 2.0 * x.lo - x.at, x.at, start);
     item_begin(p);
     fprintf(p->out,
             "Protect the rail from %s&nbsp;m on, the early end of the interval: that is %.0f %% of the barrel. By the "
@@ -328,7 +330,7 @@ static void say_slower(const page *p)
     const double muzzle = report_number(cJSON_GetObjectItemCaseSensitive(s, "shot"), "muzzle_velocity");
     char slow[REPORT_VALUE_SIZE];
     if (!isfinite(v.lo) || !(muzzle > v.lo)) return;
-    report_value_known(v.lo, v.lo, v.hi, slow);
+    report_value_known(v.lo, 2.0 * v.lo - v.at, v.at, slow);
     item_begin(p);
     fprintf(p->out,
             "By the grains and the cells of this case a shot that stays below %s&nbsp;m/s, the lower end of the "

@@ -61,28 +61,39 @@ void report_value_plain(double x, char out[REPORT_VALUE_SIZE])
     }
 }
 
-/* The power of ten of the last digit that an interval of this half-width lets a value keep. */
-static int last_digit(double half_width)
+/* The power of ten of the last digit that an interval which reaches so far lets a value keep. */
+static int last_digit(double reach)
 {
-    const int power = power_of(half_width);
-    return half_width / pow(10.0, power) < 3.55 ? power - 1 : power;
+    const int power = power_of(reach);
+    return reach / pow(10.0, power) < 3.55 ? power - 1 : power;
+}
+
+/* How far the interval of x reaches. */
+static double reach_of(double x, double lo, double hi)
+{
+    return lo < x && x < hi ? fmin(x - lo, hi - x) : 0.5 * (hi - lo);
+}
+
+static void write_known(double x, double reach, char out[REPORT_VALUE_SIZE])
+{
+    if (isfinite(x) && reach > 0.0 && reach > 1e-9 * fabs(x))
+        write_rounded(x, last_digit(reach), true, out);
+    else
+        report_value_plain(x, out);
 }
 
 void report_value_known(double x, double lo, double hi, char out[REPORT_VALUE_SIZE])
 {
-    const double half = 0.5 * (hi - lo);
-    if (isfinite(x) && half > 0.0 && half > 1e-9 * fabs(x))
-        write_rounded(x, last_digit(half), true, out);
-    else
-        report_value_plain(x, out);
+    write_known(x, reach_of(x, lo, hi), out);
 }
 
 void report_value_interval(double x, double lo, double hi, char out[REPORT_VALUE_SIZE])
 {
     char value[REPORT_VALUE_SIZE], from[REPORT_VALUE_SIZE], to[REPORT_VALUE_SIZE];
-    report_value_known(x, lo, hi, value);
-    report_value_known(lo, lo, hi, from);
-    report_value_known(hi, lo, hi, to);
+    const double reach = reach_of(x, lo, hi);
+    write_known(x, reach, value);
+    write_known(lo, reach, from);
+    write_known(hi, reach, to);
     if (!isfinite(x) && isfinite(lo) && !isfinite(hi))
         snprintf(out, REPORT_VALUE_SIZE, "above %.80s", from);
     else if (!isfinite(x) && !isfinite(lo) && isfinite(hi))

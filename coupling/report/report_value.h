@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a summary says, and how a number of it is written: with the digits that are known, no more.
  *
- * A number with an interval is rounded as its half-width h is: to two digits of h where they are 10 to 35, else to one,
- * so that 953.7 between 788.9 and 1156.0 is "950 (790 to 1160)".  One without is given three digits; whole numbers
+ * A number with an interval is rounded as the nearer end's distance h is, or half the interval where it lies at an end:
+ * to two digits of h where they are 10 to 35, else to one, so that 953.7 between 788.9 and 1156.0 is "950 (790 to
+ * 1160)".  One without is given three digits; whole numbers
  * stay whole. */
 #ifndef BREECH_COUPLING_REPORT_VALUE_H
 #define BREECH_COUPLING_REPORT_VALUE_H

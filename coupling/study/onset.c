@@ -312,13 +312,28 @@ static void say_sites(onset_answer *a)
         of[0], of[1]);
 }
 
+/* With its place; an end of the interval that the armature does not reach has none. */
+static void say_threshold(onset_result *r)
+{
+    const double *v = r->threshold_interval, *x = r->threshold_position_interval;
+    say(r, "threshold %.0f m/s (%.0f .. %.0f)", r->threshold_velocity, v[0], v[1]);
+    if (isnan(r->threshold_position)) {
+        say(r, " is not passed");
+        return;
+    }
+    say(r, " is passed at x = %.3f m (%.3f .. ", r->threshold_position, x[0]);
+    if (isnan(x[1]))
+        say(r, "the muzzle or not at all)");
+    else
+        say(r, "%.3f)", x[1]);
+}
+
 static void explain(onset_answer *a)
 {
     onset_result *r = &a->result;
-    const double *x = r->threshold_position_interval;
     double radius;
     const grain_family *f = study_onset_leading_grain(a, &radius);
-    const double allowance = f ? f->surface.reference.allowance : 0.0;
+    const double none[2] = { 0.0, 0.0 }, *allowance = f ? f->surface.reference.allowance : none;
     if (is_unseen(a))
         say(r,
             "no scene was run: grains of a population below study.smallest_radius = %g um are taken not to gouge, and "
@@ -332,16 +347,15 @@ static void explain(onset_answer *a)
             "gives a probability of %.2g",
             a->grains.c->study.screen_low, a->grains.screen_probability);
     else if (isfinite(r->threshold_velocity))
-        say(r, "threshold %.0f m/s (%.0f .. %.0f) is passed at x = %.3f m (%.3f .. %.3f)", r->threshold_velocity,
-            r->threshold_interval[0], r->threshold_interval[1], r->threshold_position, x[0], x[1]);
+        say_threshold(r);
     else if (f && f->scatter.against > 0.0)
         say(r, "%s on the case's own grid, but on a shifted one the scene at %g m/s does not decide so",
             f->surface.reference.outcome == THRESHOLD_ABOVE ? "no threshold was found" : "all scenes gouge",
             f->scatter.against);
     else if (isnan(r->threshold_interval[0]))
-        say(r, "threshold at or below %.0f m/s, where the search began", r->threshold_interval[1] - allowance);
+        say(r, "threshold at or below %.0f m/s, where the search began", r->threshold_interval[1] - allowance[1]);
     else
-        say(r, "threshold above %.0f m/s, where the search ended", r->threshold_interval[0] + allowance);
+        say(r, "threshold above %.0f m/s, where the search ended", r->threshold_interval[0] + allowance[0]);
     if (isfinite(r->scratch_velocity))
         say(r, "; grooves grow from %.0f m/s (%.0f .. %.0f) on", r->scratch_velocity, r->scratch_interval[0],
             r->scratch_interval[1]);

@@ -15,26 +15,34 @@ static const double TRUSTED_CELLS = 3.0; /* a radius; below, cells decide the th
 
 /* ---- a grain's threshold at a velocity ---- */
 
+/* From which velocity on a grain counts as above: the threshold itself; where all that the search saw is above, the end
+ * of what it saw [m/s]. */
+static double counts_from(const surface_result *s, const surface_size *of)
+{
+    return isnan(of->velocity) ? study_surface_end_in_cells(s, of) : of->velocity;
+}
+
 /* gouge, scratch: its two thresholds; without the second one what the nearest scene has left is the class below the
- * first.  A site within the scratch's interval takes the side of the scratch velocity itself. */
-static site_outcome outcome_at(const surface_size *gouge, const surface_size *scratch, double v,
+ * first.  scratch_from: from where on it counts as one, NAN: nowhere. */
+static site_outcome outcome_at(const surface_size *gouge, const surface_size *scratch, double scratch_from, double v,
                                const family_scene *near)
 {
     if (!isnan(gouge->interval[1]) && v >= gouge->interval[1]) return SITE_GOUGE;
     if (isnan(gouge->interval[0]) || v > gouge->interval[0]) return SITE_UNDECIDED;
-    const double from = !scratch ? NAN : isnan(scratch->velocity) ? scratch->interval[1] : scratch->velocity;
-    if (!isnan(from)) return v >= from ? SITE_SCRATCH : SITE_NONE;
+    if (!isnan(scratch_from)) return v >= scratch_from ? SITE_SCRATCH : SITE_NONE;
     if (scratch && !isnan(scratch->interval[0])) return SITE_NONE; /* nowhere in the range */
     return near && near->record->entry.result.class == DAMAGE_NONE ? SITE_NONE : SITE_SCRATCH;
 }
 
-/* Where v lies in the interval, 0 below, 1 above; NaN where an end is unknown and v beyond the known one. */
+/* Where v lies in the interval, 0 below, a half at the threshold, 1 above; NaN where an end is unknown and v beyond the
+ * known one. */
 static double probability_at(const surface_size *t, double v)
 {
-    const double lo = t->interval[0], hi = t->interval[1];
+    const double lo = t->interval[0], hi = t->interval[1], at = t->velocity;
     if (!isnan(hi) && v >= hi) return 1.0;
     if (!isnan(lo) && v <= lo) return 0.0;
-    return (v - lo) / (hi - lo);
+    if (!(lo < at && at < hi)) return (v - lo) / (hi - lo);
+    return v < at ? 0.5 * (v - lo) / (at - lo) : 0.5 + 0.5 * (v - at) / (hi - at);
 }
 
 static const grain_family *family_of(const onset_answer *a, int site)
@@ -57,11 +65,11 @@ static surface_size scratch_at(const grain_family *f, double radius)
 
 /* ---- do whole scenes agree? ---- */
 
-/* Does growth say that this whole scene gouges for sure? */
+/* Does growth, in cells of the search's size, say that this whole scene gouges for sure? */
 static bool is_sure(const grain_family *f, const family_scene *s)
 {
     const surface_size t = study_surface_at(&f->surface, s->radius);
-    return f->by_growth && s->whole && !isnan(t.interval[1]) && s->velocity >= t.interval[1];
+    return f->by_growth && s->whole && s->velocity >= study_surface_end_in_cells(&f->surface, &t);
 }
 
 /* One of them left no gouge by its shape, and none left one: what is there at the end decides as much as growth. */
@@ -115,7 +123,8 @@ static void judge_sites(onset_answer *a)
         memcpy(site->scratch_interval, scratch.interval, sizeof scratch.interval);
         site->threshold_velocity = t.velocity;
         memcpy(site->threshold_interval, t.interval, sizeof t.interval);
-        site->outcome = outcome_at(&t, f->scratch ? &scratch : NULL, site->velocity, near);
+        const double scratch_from = f->scratch ? counts_from(&f->scratches, &scratch) : NAN;
+        site->outcome = outcome_at(&t, f->scratch ? &scratch : NULL, scratch_from, site->velocity, near);
         if (near) memcpy(site->scene, near->record->entry.name, sizeof site->scene);
         if (site->outcome == SITE_GOUGE && f->contradicted[0]) site->outcome = SITE_UNDECIDED;
         if (site->outcome != SITE_GOUGE) continue;
@@ -149,8 +158,10 @@ static int first_site(const onset_answer *a, int end)
         bool passed = may_gouge_by_screen(a, i) && end == 0;
         if (family_of(a, i)) {
             const surface_size t = threshold_of(a, i);
-            const double v = a->site[i].velocity, at = end < 2 ? t.interval[end] : t.velocity;
-            passed = end == 0 ? !(v <= at) : v >= (isnan(at) ? t.interval[1] : at);
+            const double v = a->site[i].velocity;
+            passed = end == 0   ? !(v <= t.interval[0])
+                     : end == 1 ? v >= t.interval[1]
+                                : v >= counts_from(&family_of(a, i)->surface, &t);
             if (end == 1 && family_of(a, i)->contradicted[0]) passed = false;
         }
         if (passed && (first < 0 || a->site[i].position < a->site[first].position)) first = i;
@@ -241,8 +252,8 @@ static interval_parts parts_of(const uncertain_inputs *u, grain_family *f, famil
     interval_parts p;
     for (int side = 0; side < 2; side++) {
         const double end = side ? t->interval[1] - t->velocity : t->velocity - t->interval[0];
-        p.reach[0][side] = isnan(end) ? NAN : fmax(end - r->allowance, 0.0);
-        p.reach[1][side] = r->of_cells;
+        p.reach[0][side] = isnan(end) ? NAN : fmax(end - r->allowance[side], 0.0);
+        p.reach[1][side] = r->of_cells[side];
         p.reach[2][side] = scatter->excess > 0.0 ? scatter->reach : NAN;
         for (int k = 0; k < UNCERTAIN_MAX; k++) p.reach[3 + k][side] = fabs(study_uncertain_moved(u, k, f, judge));
     }

@@ -5,6 +5,7 @@ import math
 import statistics
 
 from pages import Column, Table
+from part_pairs import AL6061, COPPER, STEEL, TI64
 from runs import Figure
 
 COMMON = {"scene__stop_when_gauged": "yes", "scene__contact_pressure": "60 MPa"}
@@ -19,6 +20,13 @@ RESOLUTIONS = {  # cells a radius: velocities [m/s]
 }
 FINE = {cells: (1300, 1500) for cells in (4, 6, 8, 12)}  # where the finest begin to gouge
 RADIUS = 0.5  # [mm] of the grain
+OF_PAIRS = (  # armature on rail, their files, a velocity at which the groove grows [m/s]
+    ("copper on copper", COPPER, COPPER, 1100),
+    ("6061 on copper", AL6061, COPPER, 1400),
+    ("Ti-6Al-4V on copper", TI64, COPPER, 1300),
+    ("4340 on 4340", STEEL, STEEL, 1600),
+)
+CELLS_OF_PAIRS = (3, 4, 6)
 MEASURES = {  # key of the summary: title of the column, unit, digits, what a fresh one may differ by
     "groove_growth": ("growth [1/us]", 1e6, 3, 0.1),
     "growth_per_way": ("growth [1/mm]", 1e3, 3, 0.1),
@@ -124,6 +132,28 @@ def vanishing(found):
 def fine(runs):
     found = all_of(runs, FINE)
     return [measures(found), vanishing(found)], NOTE + "; of the lines ± is the standard error"
+
+
+def growths(runs, armature, rail, velocity, cells):
+    """e-folds between the gauges, of each grid whose groove lived."""
+    scene = runs.scene("pair_%s_%s_%d_%d" % (armature, rail, velocity, cells), "cases/pairs", GRIDS,
+                       armature__material=armature, rail__material=rail, scene__velocity="%d m/s" % velocity,
+                       scene__cells_per_radius=cells, scene__stop_when_gauged="yes")
+    found = (growth(grid["values"]) for grid in scene.summary["scenes"])
+    return [folds for folds in found if folds is not None]
+
+
+def pairs(runs):
+    columns = [Column("armature on rail, velocity")] + [Column("%d cells" % cells, 0.1) for cells in CELLS_OF_PAIRS]
+    columns += [Column("with cells of no size", 0.3), Column("more, times cells a radius", 0.3)]
+    rows = []
+    for title, armature, rail, velocity in OF_PAIRS:
+        found = {cells: growths(runs, armature, rail, velocity, cells) for cells in CELLS_OF_PAIRS}
+        means = [Figure(statistics.mean(of), statistics.stdev(of), len(of)).text(2) for of in found.values()]
+        at_zero, slope = line([(1.0 / cells, folds) for cells, of in found.items() for folds in of])
+        rows.append(["%s, %d m/s" % (title, velocity), *means, at_zero.text(2), slope.text(1)])
+    return [Table(columns, rows)], ("cases/pairs to its second gauge: growth in e-folds between the gauges, mean ± standard "
+                                    "deviation over shifted grids of those whose groove lived; of the lines ± is the standard error")
 
 
 NOTE = ("cases/default_shot to its second gauge, pressed on with 60 MPa; mean ± standard deviation over shifted grids of "

@@ -12,12 +12,13 @@ from part_strength import speed
 from runs import ROOT
 
 COPPER, AL7075, STEEL = "ofhc_copper_half_hard", "al7075_t651_limited", "steel_4340"
+AL6061, TI64 = "al6061_t6_konokman", "ti6al4v"
 PAIRS = [  # armature on rail, their files
     ("copper on copper", COPPER, COPPER),
     ("1100 on copper", "al1100_o", COPPER),
-    ("6061 on copper", "al6061_t6_konokman", COPPER),
+    ("6061 on copper", AL6061, COPPER),
     ("7075 on copper", AL7075, COPPER),
-    ("Ti-6Al-4V on copper", "ti6al4v", COPPER),
+    ("Ti-6Al-4V on copper", TI64, COPPER),
     ("7075 on molybdenum", AL7075, "molybdenum"),
     ("7075 on 4340", AL7075, STEEL),
     ("4340 on 4340", STEEL, STEEL),

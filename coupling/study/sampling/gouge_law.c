@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Place of x in a table of n steps: index and share of the step. */
 static int step_of(double x, double first, double per, int n, double *f)
@@ -19,12 +20,12 @@ static int step_of(double x, double first, double per, int n, double *f)
 
 /* A band without the allowance for the resolution.  Below the search it gouges from the lowest velocity on; above it
  * the band is open: from the last velocity that is known not to gouge, or never. */
-static void band_at(const grain_family *f, double radius, double allowance, double *low, double *high)
+static void band_at(const grain_family *f, double radius, const double allowance[2], double *low, double *high)
 {
     const surface_size at = study_surface_at(&f->surface, radius);
     const threshold_plan *p = &f->plan.search;
-    *low = isnan(at.interval[0]) ? p->low : at.interval[0] + allowance;
-    *high = isnan(at.interval[1]) ? INFINITY : at.interval[1] - allowance;
+    *low = isnan(at.interval[0]) ? p->low : at.interval[0] + allowance[0];
+    *high = isnan(at.interval[1]) ? INFINITY : at.interval[1] - allowance[1];
     if (*high < *low) *low = *high = 0.5 * (*low + *high);
 }
 
@@ -32,7 +33,7 @@ static void tabulate_thresholds(const grain_family *f, gouge_law *out)
 {
     const surface_result *s = &f->surface;
     const double first = log(s->size[0].radius), last = log(s->size[s->sizes - 1].radius);
-    out->allowance = s->reference.allowance;
+    memcpy(out->allowance, s->reference.allowance, sizeof out->allowance);
     out->ln_first = first;
     out->per_ln = last > first ? LAW_SIZES / (last - first) : 0.0;
     for (int i = 0; i <= LAW_SIZES; i++) {
@@ -44,19 +45,20 @@ static void tabulate_thresholds(const grain_family *f, gouge_law *out)
 double study_gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_allowance)
 {
     double f;
+    const double allowed = of_allowance * l->allowance[of_allowance > 0.0];
     const int i = step_of(ln_radius, l->ln_first, l->per_ln, LAW_SIZES, &f);
     if (isinf(l->low[i]) || isinf(l->low[i + 1])) return INFINITY;
     const double low = l->low[i] + f * (l->low[i + 1] - l->low[i]);
-    if (isinf(l->high[i]) || isinf(l->high[i + 1])) return in_band < 0.5 ? low + of_allowance * l->allowance : INFINITY;
+    if (isinf(l->high[i]) || isinf(l->high[i + 1])) return in_band < 0.5 ? low + allowed : INFINITY;
     const double high = l->high[i] + f * (l->high[i + 1] - l->high[i]);
-    return low + in_band * (high - low) + of_allowance * l->allowance;
+    return low + in_band * (high - low) + allowed;
 }
 
 double study_gouge_law_lowest(const gouge_law *l)
 {
     double lowest = INFINITY;
     for (int i = 0; i <= LAW_SIZES; i++) lowest = fmin(lowest, l->low[i]);
-    return lowest - l->allowance;
+    return lowest - l->allowance[0];
 }
 
 /* ---- marks ---- */

@@ -5,12 +5,13 @@
  * once and used by all, so differences between surfaces are not blurred by chance.
  * What is not known is drawn too, once a world: where in its band a family's threshold lies (uniform, u_b, its own
  * number for every surface and family) and how far cells have moved it (a share u_s of what is allowed for the
- * resolution, threshold.h; one number for all: cells err alike on all surfaces):  v_th(r) = low(r) + u_b (high(r) -
- * low(r)) + u_s allowance,  u_s in -1 .. 1. A history is a rail under `shots` shots.  A gouge leaves a rim downstream,
- * which is a grain of the same family to the next shot: its place and height, in radii of the grain that made it, by
- * the scenes that gouged (gouge_law.h); its radius is its height over the family's aspect.  What else the shots leave
- * for those after them is the caller's to say (repeated.h): `along`, `changed`, `bare`. Populations are a Poisson
- * process; grains that no surface could gouge with are not drawn. */
+ * resolution below or above, threshold.h; one number for all: cells err alike on all surfaces):  v_th(r) = low(r) + u_b
+ * (high(r) - low(r)) + u_s allowance,  u_s in -1 .. 1.
+ * A history is a rail under `shots` shots.  A gouge leaves a rim downstream, which is a grain of the same family to
+ * the next shot: its place and height, in radii of the grain that made it, by the scenes that gouged (gouge_law.h);
+ * its radius is its height over the family's aspect.  What else the shots leave for those after them is the caller's
+ * to say (repeated.h): `along`, `changed`, `bare`. Populations are a Poisson process; grains that no surface could
+ * gouge with are not drawn. */
 #ifndef BREECH_COUPLING_MONTECARLO_H
 #define BREECH_COUPLING_MONTECARLO_H
 

@@ -224,6 +224,7 @@ static status plan_searches(grain_families *f)
                                       .fine = y->fine_cells_per_radius,
                                       .scatter = by_growth ? f->c->impact.scene.growth_scatter : 0.0,
                                       .resolution = y->resolution_error,
+                                      .above = by_growth ? y->resolution_above : y->resolution_error,
                                       .max_scenes = (y->max_scenes - craters) / f->n,
                                       .place = place_of,
                                       .place_user = f,

@@ -126,11 +126,12 @@ static int size_of_craters(const surface_plan *p, const surface_result *s, doubl
     return k;
 }
 
-/* The scene of the search nearest to the middle of the velocities that gouge for sure; of none in their inner two
- * thirds, the middle; where no grain is fast enough for sure, the slowest that gouges. */
+/* The scene of the search nearest to the middle of the velocities that gouge for sure in its cells; of none in their
+ * inner two thirds, the middle; where no grain is fast enough for sure, the slowest that gouges. */
 static double middle_gouge(const surface_plan *p, const surface_result *s, int k, double fastest)
 {
-    const double step = p->search.step, low = s->size[k].interval[1], middle = 0.5 * (low + fastest);
+    const double step = p->search.step, low = study_surface_end_in_cells(s, &s->size[k]),
+                 middle = 0.5 * (low + fastest);
     double best = NAN, off = (fastest - low) / 3.0;
     if (low >= fastest) return k == p->reference ? s->reference.bracket[1] : step * ceil(low / step);
     for (int i = 0; i < s->samples; i++) {

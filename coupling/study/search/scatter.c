@@ -230,7 +230,8 @@ static double agreed_to(const case_onset *c, const sought *t, double *against)
 static void move_end(surface_result *s, int side, double factor)
 {
     s->reference.interval[side] *= factor;
-    if (!isnan(factor)) s->reference.allowance *= factor, s->reference.of_cells *= factor;
+    for (int k = 0; k < 2 && !isnan(factor); k++)
+        s->reference.allowance[k] *= factor, s->reference.of_cells[k] *= factor;
     for (int k = 0; k < s->sizes; k++) s->size[k].interval[side] *= factor;
 }
 

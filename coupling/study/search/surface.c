@@ -245,16 +245,16 @@ static surface_size answer_of(surface_search *s, int k)
     surface_result *r = &s->result;
     band b = band_of(s, p->size[k]);
     surface_size a = { .radius = p->size[k], .weight = p->weight[k], .velocity = NAN, .interval = { NAN, NAN } };
-    const double allowance = r->reference.allowance;
+    const double *allowance = r->reference.allowance;
     for (int i = 0; i < r->samples; i++) a.scenes += r->sample[i].radius == a.radius;
-    if (b.low_known) a.interval[0] = b.low - allowance;
-    if (b.high_known) a.interval[1] = b.high + allowance;
+    if (b.low_known) a.interval[0] = b.low - allowance[0];
+    if (b.high_known) a.interval[1] = b.high + allowance[1];
     if (b.low_known && b.high_known) {
         a.velocity = crossing(&b);
         if (b.low >= b.high) {
             r->monotone = false; /* its own scenes turn back */
-            a.interval[0] = b.high - allowance;
-            a.interval[1] = b.low + allowance;
+            a.interval[0] = b.high - allowance[0];
+            a.interval[1] = b.low + allowance[1];
         }
     }
     if (k == p->reference) {
@@ -397,6 +397,11 @@ void study_surface_stop(surface_search *s)
         take_answer_of_reference(s);
     }
     conclude(s);
+}
+
+double study_surface_end_in_cells(const surface_result *s, const surface_size *of)
+{
+    return of->interval[1] - (s->reference.allowance[1] - s->reference.allowance[0]);
 }
 
 surface_size study_surface_at(const surface_result *s, double radius)

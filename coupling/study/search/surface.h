@@ -15,7 +15,7 @@
  *      decides which scene comes next, never the answer.
  *   3. The search ends when the bands' weighted mean width is the wanted one in velocity and in place, when no size has
  *      a band wider than the grid, or with the budget.  A flat threshold takes four scenes beyond the reference.
- * Interval of a size: its band and on both sides the reference's allowance for the resolution.
+ * Interval of a size: its band and on either side the reference's allowance for the resolution.
  * A continuation, begun, asked and told as that of threshold.h. */
 #ifndef BREECH_COUPLING_SURFACE_H
 #define BREECH_COUPLING_SURFACE_H
@@ -79,6 +79,10 @@ int study_surface_ask(const surface_search *s, surface_wanted out[THRESHOLD_TOGE
 status study_surface_tell(surface_search *s, const surface_sample *answer);
 /* Ends the search with what it has been told; the open question is dropped. */
 void study_surface_stop(surface_search *s);
+
+/* The upper end of a size's interval as it is for cells of the search's size: without what finer ones may raise the
+ * threshold by, beyond what they may lower it by [m/s]. */
+double study_surface_end_in_cells(const surface_result *s, const surface_size *of);
 
 /* At any size: linear in ln r between sizes, that of the last size beyond the ends. */
 surface_size study_surface_at(const surface_result *s, double radius);

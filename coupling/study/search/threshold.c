@@ -269,6 +269,16 @@ static void check_monotone(threshold_result *r, double cells)
     r->interval[1] = fmax(r->interval[1], highest_lower);
 }
 
+/* The interval of a threshold near v reaches further by what finer cells may change, by `least` at least. */
+static void allow(threshold_result *r, const threshold_plan *p, double v, double least)
+{
+    for (int side = 0; side < 2; side++) {
+        const double share = side ? fmax(p->above, p->resolution) : p->resolution;
+        r->allowance[side] = r->of_cells[side] = fmax(share * v, least);
+        r->interval[side] += side ? r->allowance[1] : -r->allowance[0];
+    }
+}
+
 static void one_sided(threshold_search *s, const threshold_bracket *b)
 {
     threshold_result *r = &s->result;
@@ -276,9 +286,8 @@ static void one_sided(threshold_search *s, const threshold_bracket *b)
     r->outcome = THRESHOLD_UNKNOWN;
     if (b->has_hi) r->bracket[1] = b->hi.velocity;
     if (b->has_lo) r->bracket[0] = b->lo.velocity;
-    r->allowance = r->of_cells = s->plan->resolution * (b->has_hi ? b->hi.velocity : b->has_lo ? b->lo.velocity : 0.0);
-    r->interval[0] = r->bracket[0] - r->allowance;
-    r->interval[1] = r->bracket[1] + r->allowance;
+    memcpy(r->interval, r->bracket, sizeof r->interval);
+    allow(r, s->plan, b->has_hi ? b->hi.velocity : b->has_lo ? b->lo.velocity : 0.0, 0.0);
     if (b->has_hi && b->hi.velocity == grid_low) r->outcome = THRESHOLD_BELOW;
     if (b->has_lo && b->lo.velocity == grid_high) r->outcome = THRESHOLD_ABOVE;
 }
@@ -298,9 +307,7 @@ static void conclude(threshold_search *s, const threshold_bracket *b)
     r->interval[1] = decided_end(s, &b->hi);
     check_monotone(r, s->plan->coarse);
     if (s->cells != s->plan->coarse) check_monotone(r, s->cells);
-    r->allowance = r->of_cells = fmax(s->plan->resolution * r->velocity, isnan(r->shift) ? 0.0 : fabs(r->shift));
-    r->interval[0] -= r->allowance;
-    r->interval[1] += r->allowance;
+    allow(r, s->plan, r->velocity, isnan(r->shift) ? 0.0 : fabs(r->shift));
 }
 
 static status check_plan(const threshold_plan *p)

@@ -19,8 +19,8 @@
  *   3. Interval: the fine bracket, between decided scenes.  An `undecided` scene counts on the side of its excess but
  *      does not end the interval; that ends at the next decided scene, or where the line to it leaves the scatter.
  *      The interval is widened by what the resolution may change: the shift of the root from coarse to fine, or the
- *      plan's fraction of the threshold if that is more.  For a threshold outside of the range, it is that fraction of
- *      the end where it was looked for.
+ *      plan's fraction of the threshold if that is more, upwards by a fraction of its own.  For a threshold outside of
+ *      the range, it is that fraction of the end where it was looked for.
  * Monotonicity is checked: a scene on the lower side at a higher velocity than one on the upper side widens the
  * interval over both and warns.  Velocities lie on the grid k * step, so that searches share scenes, and none is
  * computed twice.
@@ -61,6 +61,7 @@ typedef struct {
     double coarse, fine; /* cells a radius; equal: one stage [1] */
     double scatter;      /* |excess| within which a scene is undecided; 0: not known [1] */
     double resolution;   /* share of the threshold that finer cells still may move it by [1] */
+    double above;        /* the same upwards, `resolution` at least [1] */
     int max_scenes;
     double (*place)(const void *user, double v); /* where the armature has it [m]; NULL: only velocities count */
     const void *place_user;                      /* borrowed */
@@ -76,14 +77,14 @@ typedef enum {
 
 typedef struct {
     threshold_outcome outcome;
-    double velocity;    /* of the crossing, between the bracket's ends by excess; NaN unless found [m/s] */
-    double interval[2]; /* where it lies; an end that is not known is NaN [m/s] */
-    double bracket[2];  /* of the last stage alone [m/s] */
-    double shift;       /* of the root from coarse to fine, at least, NaN if there is only one [m/s] */
-    double of_cells;    /* for the resolution, on both sides of the interval: the shift or the plan's share [m/s] */
-    double allowance;   /* that, with what else widened the interval since (uncertain.h) [m/s] */
-    double more;        /* of the velocity and the interval: what further grids made of them (uncertain.h) [m/s] */
-    double cells;       /* a radius, of the last stage [1] */
+    double velocity;     /* of the crossing, between the bracket's ends by excess; NaN unless found [m/s] */
+    double interval[2];  /* where it lies; an end that is not known is NaN [m/s] */
+    double bracket[2];   /* of the last stage alone [m/s] */
+    double shift;        /* of the root from coarse to fine, at least, NaN if there is only one [m/s] */
+    double of_cells[2];  /* for the resolution, below and above: the shift or the plan's shares [m/s] */
+    double allowance[2]; /* that, with what else widened the interval since (uncertain.h) [m/s] */
+    double more;         /* of the velocity and the interval: what further grids made of them (uncertain.h) [m/s] */
+    double cells;        /* a radius, of the last stage [1] */
     bool monotone;
     char warning[THRESHOLD_WARNING_SIZE]; /* "" if none */
     int samples;

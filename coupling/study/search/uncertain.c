@@ -112,17 +112,21 @@ double study_uncertain_moved(const uncertain_inputs *u, int k, grain_family *f, 
 }
 
 /* An end that is not known stays so. */
-static void move_threshold(double *velocity, double interval[2], double more, double wider)
+static void move_threshold(double *velocity, double interval[2], double more, const double wider[2])
 {
     *velocity += more;
-    if (!isnan(interval[0])) interval[0] = fmax(interval[0] + more - wider, 0);
-    interval[1] += more + wider;
+    if (!isnan(interval[0])) interval[0] = fmax(interval[0] + more - wider[0], 0);
+    interval[1] += more + wider[1];
 }
 
-static void move_and_widen(surface_result *s, double more, double allowance)
+/* allowance: below and above. */
+static void move_and_widen(surface_result *s, double more, const double allowance[2])
 {
-    const double wider = allowance - s->reference.allowance;
-    s->reference.allowance = allowance;
+    double wider[2];
+    for (int side = 0; side < 2; side++) {
+        wider[side] = allowance[side] - s->reference.allowance[side];
+        s->reference.allowance[side] = allowance[side];
+    }
     s->reference.more = more;
     move_threshold(&s->reference.velocity, s->reference.interval, more, wider);
     for (int k = 0; k < s->sizes; k++) move_threshold(&s->size[k].velocity, s->size[k].interval, more, wider);
@@ -135,7 +139,7 @@ static void end_alike(surface_result *s, const surface_result *first)
     const int side = outcome == THRESHOLD_ABOVE ? 0 : 1;
     if (s == first || s->reference.outcome != outcome) return;
     s->reference.interval[side] = first->reference.interval[side];
-    s->reference.allowance = first->reference.allowance;
+    s->reference.allowance[side] = first->reference.allowance[side];
     for (int k = 0; k < s->sizes && k < first->sizes; k++) s->size[k].interval[side] = first->size[k].interval[side];
 }
 
@@ -143,15 +147,34 @@ static void end_alike(surface_result *s, const surface_result *first)
 static void widen_threshold(const uncertain_inputs *u, grain_family *f, grain_family *other, family_judge judge)
 {
     surface_result *s = study_family_surface(other, judge);
-    double squares = s->reference.allowance * s->reference.allowance;
+    const family_scatter scatter = f ? *study_family_scatter(f, judge) : (family_scatter){ .more = 0 };
+    double squares = 0.0, allowance[2]; /* of all but the cells, which weigh differently below and above */
     for (int i = 0; f && i < u->n; i++) {
         const double moved = off(&u->of[i], f, judge);
         if (isfinite(moved)) squares += moved * moved;
     }
-    const family_scatter scatter = f ? *study_family_scatter(f, judge) : (family_scatter){ .more = 0 };
     squares += scatter.reach * scatter.reach;
-    move_and_widen(s, scatter.more, sqrt(squares));
+    for (int side = 0; side < 2; side++) {
+        const double own = s->reference.allowance[side];
+        allowance[side] = sqrt(own * own + squares);
+    }
+    move_and_widen(s, scatter.more, allowance);
     if (scatter.against > 0.0) end_alike(s, study_family_surface(f, judge));
+}
+
+/* Without growth nothing gouges, whatever its shape, and cells add to growth: as far up as finer ones may raise the
+ * gouge's threshold they may raise the scratch's. */
+static void reach_up_to_gouge(grain_family *f)
+{
+    const threshold_result *gouge = &f->surface.reference;
+    threshold_result *scratch = &f->scratches.reference;
+    const double more = gouge->interval[1] - scratch->interval[1];
+    if (!(gouge->allowance[1] > gouge->allowance[0]) || !(more > 0.0)) return;
+    const double others = scratch->allowance[1] * scratch->allowance[1] - scratch->of_cells[1] * scratch->of_cells[1];
+    scratch->interval[1] += more;
+    scratch->allowance[1] += more;
+    scratch->of_cells[1] = sqrt(scratch->allowance[1] * scratch->allowance[1] - others);
+    for (int k = 0; k < f->scratches.sizes; k++) f->scratches.size[k].interval[1] += more;
 }
 
 void study_uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other)
@@ -159,7 +182,9 @@ void study_uncertain_widen(const uncertain_inputs *u, const grain_families *firs
     for (int k = 0; k < other->n; k++) {
         grain_family *f = study_family_alike(first, &other->family[k]);
         widen_threshold(u, f, &other->family[k], JUDGE_OF_GOUGE);
-        if (other->family[k].scratch) widen_threshold(u, f, &other->family[k], JUDGE_OF_SCRATCH);
+        if (!other->family[k].scratch) continue;
+        widen_threshold(u, f, &other->family[k], JUDGE_OF_SCRATCH);
+        reach_up_to_gouge(&other->family[k]);
     }
 }
 
@@ -170,8 +195,8 @@ static void move_raised(const grain_families *first, grain_families *with)
         for (int j = 0; j < FAMILY_JUDGES; j++) {
             grain_family *f = study_family_alike(first, &with->family[k]);
             surface_result *to = study_family_surface(&with->family[k], (family_judge)j);
-            if (f && (j == JUDGE_OF_GOUGE || with->family[k].scratch))
-                move_and_widen(to, study_family_scatter(f, (family_judge)j)->more, to->reference.allowance);
+            if (!f || (j == JUDGE_OF_SCRATCH && !with->family[k].scratch)) continue;
+            move_and_widen(to, study_family_scatter(f, (family_judge)j)->more, to->reference.allowance);
         }
 }
 

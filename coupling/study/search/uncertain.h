@@ -3,7 +3,7 @@
  * by its stated uncertainty (study.strength_error, armature_error,
  * friction_error; 0: not asked for).
  *
- * By as much as the threshold of the reference size then moves, the intervals of all sizes are widened on both sides:
+ * By as much as the threshold of the reference size then moves, the intervals of all sizes are widened: on either side
  * the allowance is the root of the sum of squares of what cells may change (threshold.h), of what the place of the grid
  * does (scatter.h) and of all these.
  * The searches are looked for from 0.6 to 1.6 of the threshold, have no whole craters, and go on side by side. */
