@@ -16,6 +16,7 @@ no reason, is a fault.    Exit 77: nothing is built, or there is no nm or clang.
 import json
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -23,6 +24,8 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
 from objects import LIBRARIES, root, sources, symbols
+
+TOGETHER = 16  # sources of one process
 
 build = os.path.abspath(sys.argv[1])
 
@@ -155,11 +158,19 @@ def copy_marked(scratch):
     return names
 
 
+def front_end(flags, source):
+    """The command of clang's own front end, which takes many sources at once, without them: starting a process for each
+    would take twice as long as reading it."""
+    told = subprocess.run(["clang", "-###", "-fsyntax-only", *flags, source], capture_output=True, text=True, check=True)
+    words = next(shlex.split(line) for line in told.stderr.splitlines() if "-cc1" in line)
+    return [word for word in words if word != source]
+
+
 def commands(scratch):
-    """A command a source file, for the copy."""
+    """Commands for the copy, each for sources of the same flags."""
     with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
         entries = json.load(file)
-    done = set()
+    done, alike = set(), {}
     for entry in entries:
         source = os.path.relpath(entry["file"], root)
         if source.split(os.sep)[0] in LIBRARIES and source not in done:
@@ -168,9 +179,13 @@ def commands(scratch):
             keep = [w.replace("-I" + root, "-I" + scratch) if w == "-I" + root else w for w in words
                     if re.match(r"-[ID]|-fopenmp|-std=|-march=", w)]
             keep += [w for i, name in enumerate(words) if name == "-isystem" for w in ("-isystem", words[i + 1])]
-            keep = [w.replace('\\"', '"') for w in keep]
-            yield ["clang", "-fsyntax-only", "-Wno-everything", "-Wdeprecated-declarations", "-fno-caret-diagnostics",
-                   *keep, os.path.join(scratch, source)]
+            flags = tuple(w.replace('\\"', '"') for w in keep)
+            alike.setdefault(flags, []).append(os.path.join(scratch, source))
+    warnings = ("-Wno-everything", "-Wdeprecated-declarations", "-fno-caret-diagnostics")
+    for flags, files in alike.items():
+        command = front_end((*warnings, *flags), files[0])
+        for first in range(0, len(files), TOGETHER):
+            yield command + files[first:first + TOGETHER]
 
 
 LINE = re.compile(r"^(.*?):(\d+):(\d+): (?:warning: '.*' is deprecated: @(\S+)|(?:fatal )?error: (.*))")
