@@ -982,6 +982,35 @@ static void test_finer_cells(void **state)
     for (int e = 0; e < 2; e++) study_onset_answer_free(&of[e]);
 }
 
+/* A grain that comes faster than the threshold, within its interval, gouges with more than a half; one from below the
+ * search on counts as above it, as far as finer cells may raise that. */
+static void test_within_a_long_interval(void **state)
+{
+    (void)state;
+    for (int below = 0; below < 2; below++) {
+        onset_answer of[2];
+        counter.base = below ? 700.0 : 1430.0;
+        for (int k = 0; k < 2; k++) {
+            breech_case *c = changed_case((const char *const[]){
+                k ? "study.resolution_above=3" : "study.resolution_above=0", "study.scratch=yes", "study.craters=0",
+                "study.max_scenes=30", "study.coarse_cells_per_radius=3", NULL });
+            OK(study(c, "long", FORCE, &of[k]));
+            case_free(c);
+        }
+        const onset_result *r = &of[1].result;
+        const surface_size *t = &of[1].grains.family[0].surface.size[0];
+        const double fastest = of[1].site[r->n_sites - 1].velocity, at = t->velocity, end = t->interval[1];
+        assert_int_equal(of[0].result.verdict, VERDICT_GOUGES);
+        assert_int_equal(r->verdict, VERDICT_UNDECIDED);
+        assert_true(end > 1.5 * fastest);
+        assert_true(isnan(at) == (below == 1));
+        assert_true(r->onset_position == of[0].result.onset_position); /* of the first that is as fast as a gouge */
+        if (!below) assert_true(fabs(r->probability_gouge - (0.5 + 0.5 * (fastest - at) / (end - at))) < 1e-9);
+        for (int k = 0; k < 2; k++) study_onset_answer_free(&of[k]);
+    }
+    counter.base = 1430.0;
+}
+
 /* study.max_scenes is never passed, whichever search it runs out in; the scratch velocity then is what the scenes of
  * the gouge's search say, or not known. */
 static void test_max_scenes(void **state)
@@ -1146,6 +1175,7 @@ int main(void)
         cmocka_unit_test(test_contradicted),
         cmocka_unit_test(test_two_speeds),
         cmocka_unit_test(test_finer_cells),
+        cmocka_unit_test(test_within_a_long_interval),
         cmocka_unit_test(test_max_scenes),
         cmocka_unit_test(test_two_kinds),
         cmocka_unit_test(test_resume),
