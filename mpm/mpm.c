@@ -3,6 +3,7 @@
 #include "mpm/law/contact.h"
 #include "mpm/memory/build.h"
 #include "mpm/memory/cavities.h"
+#include "mpm/memory/runs.h"
 #include "mpm/memory/store.h"
 #include "mpm/refine/refine.h"
 
@@ -348,9 +349,12 @@ static int coarsest_due(const mpm *m)
 
 static void phase_p2g(mpm *m)
 {
-#pragma omp parallel for schedule(dynamic, 4) num_threads(m->threads)
-    for (int i = 0; i < m->bricks_used; i++)
-        if (m->bricks[i].particles > 0 && m->bricks[i].level <= m->begins) m->kernel->p2g(m, &m->bricks[i]);
+    loop_runs bricks;
+    mpm_runs_of_bricks(&bricks, m);
+#pragma omp parallel num_threads(m->threads)
+    for (int i, end; mpm_runs_take(&bricks, omp_get_thread_num(), &i, &end);)
+        for (; i < end; i++)
+            if (m->bricks[i].particles > 0 && m->bricks[i].level <= m->begins) m->kernel->p2g(m, &m->bricks[i]);
 }
 
 /* Scratch memory for the groups at a site, for as many threads as there are now. */
@@ -371,37 +375,53 @@ static void phase_nodes(mpm *m)
     const int due = coarsest_due(m), gathered = m->begins > due ? m->begins : due;
     const int nodes = sites_up_to(m, m->sites_to, due), interfaces = sites_up_to(m, m->interfaces_to, due);
     const int lines = sites_up_to(m, m->interfaces_to, gathered);
+    loop_runs of_lines, to_add, of_nodes, to_constrain, to_store;
+    mpm_runs_even(&of_lines, m->threads, lines);
+    mpm_runs_even(&to_add, m->threads, interfaces);
+    mpm_runs_even(&of_nodes, m->threads, nodes);
+    mpm_runs_even(&to_constrain, m->threads, interfaces);
+    mpm_runs_even(&to_store, m->threads, interfaces);
 #pragma omp parallel num_threads(m->threads)
     {
-#pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < lines; i++) {
-            m->kernel->gather(m, m->interface_list[i]);
-            mpm_substep_restore(m, m->interface_list[i]);
-        }
-#pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < interfaces; i++) mpm_interface_add_sums(m, m->interface_list[i]);
-#pragma omp for schedule(dynamic, 16)
-        for (int i = 0; i < nodes; i++) m->kernel->nodes(m, m->site_list[i], omp_get_thread_num());
-#pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < interfaces; i++) mpm_interface_constrain(m, m->interface_list[i]);
-#pragma omp for schedule(dynamic, 8)
-        for (int i = 0; i < interfaces; i++) mpm_substep_store(m, m->interface_list[i]);
+        const int t = omp_get_thread_num();
+        for (int i, end; mpm_runs_take(&of_lines, t, &i, &end);)
+            for (; i < end; i++) {
+                m->kernel->gather(m, m->interface_list[i]);
+                mpm_substep_restore(m, m->interface_list[i]);
+            }
+#pragma omp barrier
+        for (int i, end; mpm_runs_take(&to_add, t, &i, &end);)
+            for (; i < end; i++) mpm_interface_add_sums(m, m->interface_list[i]);
+#pragma omp barrier
+        for (int i, end; mpm_runs_take(&of_nodes, t, &i, &end);)
+            for (; i < end; i++) m->kernel->nodes(m, m->site_list[i], t);
+#pragma omp barrier
+        for (int i, end; mpm_runs_take(&to_constrain, t, &i, &end);)
+            for (; i < end; i++) mpm_interface_constrain(m, m->interface_list[i]);
+#pragma omp barrier
+        for (int i, end; mpm_runs_take(&to_store, t, &i, &end);)
+            for (; i < end; i++) mpm_substep_store(m, m->interface_list[i]);
     }
+}
+
+static void g2p_of(mpm *m, brick *b, int thread)
+{
+    b->movers = 0, b->mover_steps = 0;
+    if (b->level > m->ends) return;
+    if (b->particles > 0)
+        m->kernel->g2p(m, b, thread);
+    else
+        memset(&b->sum, 0, sizeof b->sum), b->sum.bad_block = -1;
 }
 
 static void phase_g2p(mpm *m)
 {
+    loop_runs bricks;
+    mpm_runs_of_bricks(&bricks, m);
     for (int t = 0; t < m->threads; t++) m->movers[t].count = 0;
-#pragma omp parallel for schedule(dynamic, 4) num_threads(m->threads)
-    for (int i = 0; i < m->bricks_used; i++) {
-        brick *b = &m->bricks[i];
-        b->movers = 0, b->mover_steps = 0;
-        if (b->level > m->ends) continue;
-        if (b->particles > 0)
-            m->kernel->g2p(m, b, omp_get_thread_num());
-        else
-            memset(&b->sum, 0, sizeof b->sum), b->sum.bad_block = -1;
-    }
+#pragma omp parallel num_threads(m->threads)
+    for (int i, end; mpm_runs_take(&bricks, omp_get_thread_num(), &i, &end);)
+        for (; i < end; i++) g2p_of(m, &m->bricks[i], omp_get_thread_num());
 }
 
 static double larger(double a, double b) /* b NaN: a */
