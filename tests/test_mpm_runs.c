@@ -57,7 +57,7 @@ static void test_bricks_by_work(void **state)
                    { .particles = 100, .level = 1 }, { .particles = 50, .level = 0 }, { .particles = 50, .level = 0 } };
     loop_runs r;
     assert_non_null(m);
-    m->bricks = b, m->bricks_used = 6, m->threads = 3;
+    m->bricks = b, m->bricks_used = 6, m->threads = 3, m->grids.levels = 2;
     mpm_runs_of_bricks(&r, m);
     assert_true(r.of[0].next == 0 && r.of[0].end == 1);
     assert_true(r.of[1].next == 1 && r.of[1].end == 4);

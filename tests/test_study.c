@@ -952,6 +952,18 @@ static void test_two_speeds(void **state)
     study_onset_answer_free(&a);
 }
 
+/* A study without and with what finer cells may raise a threshold by. */
+static void study_above(const char *share, const char *more, onset_answer of[2])
+{
+    for (int k = 0; k < 2; k++) {
+        breech_case *c =
+            changed_case((const char *const[]){ k ? share : "study.resolution_above=0", more, "study.scratch=yes",
+                                                "study.max_scenes=30", "study.coarse_cells_per_radius=3", NULL });
+        OK(study(c, "above", FORCE, &of[k]));
+        case_free(c);
+    }
+}
+
 /* By what finer cells may raise a threshold its interval reaches further up, and the scratch's with it; nothing else of
  * the search changes, not the scenes of its whole craters either. */
 static void test_finer_cells(void **state)
@@ -959,13 +971,7 @@ static void test_finer_cells(void **state)
     (void)state;
     onset_answer of[2];
     counter.tear_drop = 1500.0;
-    for (int k = 0; k < 2; k++) {
-        breech_case *c = changed_case((const char *const[]){
-            k ? "study.resolution_above=0.3" : "study.resolution_above=0", "study.scratch=yes", "study.max_scenes=30",
-            "study.resolution_error=0.05", "study.coarse_cells_per_radius=3", NULL });
-        OK(study(c, "finer", FORCE, &of[k]));
-        case_free(c);
-    }
+    study_above("study.resolution_above=0.3", "study.resolution_error=0.05", of);
     counter.tear_drop = 0.0;
     const onset_result *with = &of[1].result, *without = &of[0].result;
     const double v = with->threshold_velocity, wider = 0.25 * v;
@@ -990,13 +996,7 @@ static void test_within_a_long_interval(void **state)
     for (int below = 0; below < 2; below++) {
         onset_answer of[2];
         counter.base = below ? 700.0 : 1430.0;
-        for (int k = 0; k < 2; k++) {
-            breech_case *c = changed_case((const char *const[]){
-                k ? "study.resolution_above=3" : "study.resolution_above=0", "study.scratch=yes", "study.craters=0",
-                "study.max_scenes=30", "study.coarse_cells_per_radius=3", NULL });
-            OK(study(c, "long", FORCE, &of[k]));
-            case_free(c);
-        }
+        study_above("study.resolution_above=3", "study.craters=0", of);
         const onset_result *r = &of[1].result;
         const surface_size *t = &of[1].grains.family[0].surface.size[0];
         const double fastest = of[1].site[r->n_sites - 1].velocity, at = t->velocity, end = t->interval[1];

@@ -197,8 +197,10 @@ static const base_param study_params[] = {
         case_study, resolution_error, "1", 0.1, 0.0, 1.0,
         "fraction of a threshold that finer cells may move it by: its interval allows for that, or for the shift "
         "from coarse to fine cells where that is more"),
-    PARAM_DOUBLE(case_study, resolution_above, "1", 0.6, 0.0, 10.0,
-                 "the same upwards, if it is more, judge: growth: growth falls with the cell"),
+    PARAM_DOUBLE(
+        case_study, resolution_above, "1", 0.6, 0.0, 10.0,
+        "the same upwards where growth is the judge, if it is more: growth falls with the cell, so finer cells "
+        "raise a threshold further than they lower it"),
     PARAM_DOUBLE(case_study, strength_error, "1", 0.0, 0.0, 1.0,
                  "uncertainty of rail.yield_scale, relative: a search more, and the threshold's interval holds it"),
     PARAM_DOUBLE(case_study, armature_error, "1", 0.0, 0.0, 1.0, "uncertainty of armature.yield_scale alike"),

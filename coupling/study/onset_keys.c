@@ -40,7 +40,7 @@ static const summary_key surface_keys[] = {
     SUMMARY_NUMBER(onset_size, "threshold_velocity", threshold_velocity, "m/s",
                    "from which it gouges; null: outside of the search"),
     SUMMARY_VECTOR(onset_size, "threshold_interval", threshold_interval, 2, "m/s",
-                   "its band, and what the whole of them is widened by"),
+                   "its own band, widened as the interval of the size that was searched"),
     SUMMARY_NUMBER(onset_size, "scratch_velocity", scratch_velocity, "m/s",
                    "from which its groove grows; null: not looked for, or outside"),
     SUMMARY_VECTOR(onset_size, "scratch_interval", scratch_interval, 2, "m/s", "as threshold_interval"),

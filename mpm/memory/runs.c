@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "mpm/memory/runs.h"
 
-#include <math.h>
+#include <stdint.h>
 
 enum { CHUNK = 4 }; /* iterations taken at a time */
 
@@ -19,22 +19,22 @@ void mpm_runs_even(loop_runs *out, int threads, int count)
     for (int t = 0; t < threads; t++) cut(out, t, (int)((long)count * (t + 1) / threads));
 }
 
-/* Its points' steps while the finest level takes one: a level's cells are twice as large as the next finer one's. */
-static double work_of(const brick *b)
+/* Its points' steps in one of the coarsest level: each finer one takes twice as many. */
+static int64_t work_of(const mpm *m, const brick *b)
 {
-    return ldexp(b->particles, -b->level);
+    return (int64_t)b->particles << (m->grids.levels - 1 - b->level);
 }
 
 void mpm_runs_of_bricks(loop_runs *out, const mpm *m)
 {
-    double all = 0.0, before = 0.0;
+    int64_t all = 0, before = 0;
     int t = 0;
-    for (int i = 0; i < m->bricks_used; i++) all += work_of(&m->bricks[i]);
+    for (int i = 0; i < m->bricks_used; i++) all += work_of(m, &m->bricks[i]);
     out->threads = m->threads;
     out->of[0].next = 0;
     for (int i = 0; i < m->bricks_used; i++) {
         while (t + 1 < m->threads && before >= all * (t + 1) / m->threads) cut(out, t++, i);
-        before += work_of(&m->bricks[i]);
+        before += work_of(m, &m->bricks[i]);
     }
     while (t < m->threads) cut(out, t++, m->bricks_used);
 }

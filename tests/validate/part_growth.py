@@ -117,8 +117,8 @@ def line(points):
 
 
 def vanishing(found):
-    """Over the size of the cells, of all grids: the line through growth, at cells of no size."""
-    columns = [Column("velocity"), Column("grids"), Column("growth with cells of no size [1/mm]", 0.1),
+    """Over the size of the cells, of all grids: the line through growth, at zero cell size."""
+    columns = [Column("velocity"), Column("grids"), Column("growth at zero cell size [1/mm]", 0.1),
                Column("more with every 100 um of cell [1/mm]", 0.1)]
     rows = []
     for velocity in sorted({v for _, v in found}):
@@ -145,7 +145,7 @@ def growths(runs, armature, rail, velocity, cells):
 
 def pairs(runs):
     columns = [Column("armature on rail, velocity")] + [Column("%d cells" % cells, 0.1) for cells in CELLS_OF_PAIRS]
-    columns += [Column("with cells of no size", 0.3), Column("more, times cells a radius", 0.3)]
+    columns += [Column("at zero cell size", 0.3), Column("more, times cells a radius", 0.3)]
     rows = []
     for title, armature, rail, velocity in OF_PAIRS:
         found = {cells: growths(runs, armature, rail, velocity, cells) for cells in CELLS_OF_PAIRS}

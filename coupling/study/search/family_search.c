@@ -361,7 +361,11 @@ static void bound_scratches(grain_family *f)
 {
     surface_result *scratch = &f->scratches;
     const surface_result *gouge = &f->surface;
-    if (isnan(scratch->reference.interval[1])) scratch->reference.interval[1] = gouge->reference.interval[1];
+    if (isnan(scratch->reference.interval[1])) {
+        scratch->reference.interval[1] = gouge->reference.interval[1];
+        scratch->reference.allowance[1] = gouge->reference.allowance[1];
+        scratch->reference.of_cells[1] = gouge->reference.of_cells[1];
+    }
     for (int k = 0; k < scratch->sizes; k++)
         if (isnan(scratch->size[k].interval[1])) scratch->size[k].interval[1] = gouge->size[k].interval[1];
 }

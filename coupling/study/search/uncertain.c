@@ -139,7 +139,7 @@ static void end_alike(surface_result *s, const surface_result *first)
     const int side = outcome == THRESHOLD_ABOVE ? 0 : 1;
     if (s == first || s->reference.outcome != outcome) return;
     s->reference.interval[side] = first->reference.interval[side];
-    s->reference.allowance[side] = first->reference.allowance[side];
+    memcpy(s->reference.allowance, first->reference.allowance, sizeof s->reference.allowance);
     for (int k = 0; k < s->sizes && k < first->sizes; k++) s->size[k].interval[side] = first->size[k].interval[side];
 }
 
