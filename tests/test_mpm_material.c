@@ -290,6 +290,22 @@ static void test_mts(void **state)
     assert_near(law_stress(&slow, 1, 2e5, 300) / 561019933.434, 1, 1e-8);
 }
 
+/* The shear modulus of the law falls to nothing near 2900 K: what melts above has none for the last of its way. */
+static void test_mts_modulus(void **state)
+{
+    (void)state;
+    mpm_material m = mts_copper();
+    mpm_scene scene = { 0 };
+    const mpm_body body = { .name = "bar", .material = &m, .yield_scale = 1 };
+    law k;
+    m.melting_temperature = 2700;
+    assert_int_equal(mpm_law_make(&body, &scene, &k).code, STATUS_OK);
+    m.melting_temperature = 3100;
+    const status refused = mpm_law_make(&body, &scene, &k);
+    assert_int_equal(refused.code, STATUS_BAD_INPUT);
+    assert_non_null(strstr(refused.text, "melting_temperature = 3100 K, but its shear modulus"));
+}
+
 /* Below nine tenths of the bound the law is not computed: it must be one, and near enough to be of use. */
 static void test_mts_bound(void **state)
 {
@@ -922,6 +938,7 @@ int main(void)
         cmocka_unit_test(test_damage_plain),
         cmocka_unit_test(test_mts),
         cmocka_unit_test(test_mts_bound),
+        cmocka_unit_test(test_mts_modulus),
         cmocka_unit_test(test_cold_work),
         cmocka_unit_test(test_hardening_strain),
         cmocka_unit_test(test_damage_compression),

@@ -118,6 +118,10 @@ static double strength_mts_inverse(double x)
 
 static status strength_mts_derive(law *k, const mpm_material *m, double scale)
 {
+    CHECK(m->mts_mu0 > m->mts_D / expm1(m->mts_T0 / m->melting_temperature), STATUS_BAD_INPUT,
+          "material %.40s: melting_temperature = %g K, but its shear modulus, mts_mu0 - mts_D/(exp(mts_T0/T) - 1), has "
+          "fallen to none before",
+          m->name, m->melting_temperature);
     k->strength.mts = (strength_mts){ .sigma_a = scale * m->mts_sigma_a,
                                       .sigma_s0 = scale * m->mts_sigma_s0,
                                       .mu0 = m->mts_mu0,
