@@ -14,6 +14,7 @@
 
 static const char SUMMARY[] =
     "{\"crater_depth\": 0.00055, \"energy_error\": -2e-7, \"class\": \"gouge\", \"none\": null,"
+    " \"numbers\": {\"failed_volume.rail\": {\"mean\": 2e-9}},"
     " \"probes\": {\"push\": {\"peak\": 4.85e10}},"
     " \"scenes\": [{\"name\": \"a\", \"v\": 1500}, {\"name\": \"b\", \"v\": 1600}],"
     " \"ranking\": [{\"surface\": \"as it is\", \"v\": 700}, {\"surface\": \"warm rail\", \"v\": 640}]}";
@@ -68,6 +69,7 @@ static void test_numbers(void **state)
     assert_true(holds("key: 'ranking[warm rail].v', value: 640 m/s, within: 0 m/s"));
     assert_false(holds("key: 'scenes[4294967297].v', value: 1.6 km/s, within: 0 m/s"));  /* 1 to 32 bits */
     assert_false(holds("key: 'scenes[-4294967295].v', value: 1.6 km/s, within: 0 m/s")); /* and so is this */
+    assert_true(holds("key: 'numbers[failed_volume.rail].mean', value: 2 mm^3, within: 0 m^3"));
     assert_false(holds("key: 'scenes[c].v', value: 1.5 km/s, within: 1 km/s"));
 }
 

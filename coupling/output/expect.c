@@ -78,11 +78,12 @@ static const char *name_of(const cJSON *entry)
     return name ? name : cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(entry, "surface"));
 }
 
-/* Entry of a list by its number or by its name. */
+/* Entry of a list by its number or by its name; of an object by its name, which may have dots. */
 static const cJSON *entry_of(const cJSON *list, const char *which, size_t length)
 {
     char word[EXPECT_TEXT_SIZE], *end;
     snprintf(word, sizeof word, "%.*s", (int)length, which);
+    if (cJSON_IsObject(list)) return cJSON_GetObjectItemCaseSensitive(list, word);
     const long number = strtol(word, &end, 10);
     if (*end == '\0' && end != word)
         return number >= 0 && number < cJSON_GetArraySize(list) ? cJSON_GetArrayItem(list, (int)number) : NULL;
