@@ -27,6 +27,13 @@ OF_PAIRS = (  # armature on rail, their files, a velocity at which the groove gr
     ("4340 on 4340", STEEL, STEEL, 1600),
 )
 CELLS_OF_PAIRS = (3, 4, 6)
+SHIPPED, UNMELTING = "cases/default_shot", "cases/default_shot/unmelting.yaml"
+STRENGTHLESS = (  # what the armature may do, its case, damage, velocity [m/s], cells a radius
+    ("melts", SHIPPED, "no", 1500, (4, 8)),
+    ("fails", UNMELTING, "yes", 1500, (4, 8)),
+    ("neither", UNMELTING, "no", 1500, (4, 8)),
+    ("neither", UNMELTING, "no", 1150, (4, 8)),
+)
 MEASURES = {  # key of the summary: title of the column, unit, digits, what a fresh one may differ by
     "groove_growth": ("growth [1/us]", 1e6, 3, 0.1),
     "growth_per_way": ("growth [1/mm]", 1e3, 3, 0.1),
@@ -132,6 +139,23 @@ def vanishing(found):
 def fine(runs):
     found = all_of(runs, FINE)
     return [measures(found), vanishing(found)], NOTE + "; of the lines ± is the standard error"
+
+
+def layer_grids(runs, may, case, damage, velocity, cells):
+    scene = runs.scene("layer_%s_%d_%d" % (may, velocity, cells), case, GRIDS, scene__damage=damage,
+                       scene__velocity="%d m/s" % velocity, scene__cells_per_radius=cells, **COMMON)
+    return [grid["values"] for grid in scene.summary["scenes"]]
+
+
+def layer(runs):
+    found = {(may, velocity, cells): layer_grids(runs, may, case, damage, velocity, cells)
+             for may, case, damage, velocity, several in STRENGTHLESS for cells in several}
+    shown = {**MEASURES, "crater_volume": ("crater [mm3]", 1e-9, 1, 0.2)}
+    columns = [Column("the armature; velocity, cells a radius")]
+    columns += [Column(title, share) for title, _, _, share in shown.values()]
+    rows = [["%s; %d m/s, %d" % of] + [cell(grids, key, digits, unit) for key, (_, unit, digits, _) in shown.items()]
+            for of, grids in found.items()]
+    return [Table(columns, rows)], NOTE + "; \"melts\" and \"neither\" without damage in any body"
 
 
 def growths(runs, armature, rail, velocity, cells):
