@@ -28,7 +28,7 @@ OF_PAIRS = (  # armature on rail, their files, a velocity at which the groove gr
 )
 CELLS_OF_PAIRS = (3, 4, 6)
 SHIPPED, UNMELTING = "cases/default_shot", "cases/default_shot/unmelting.yaml"
-STRENGTHLESS = (  # what the armature may do, its case, damage, velocity [m/s], cells a radius
+ARMATURES = (  # what the armature may do, its case, damage, velocity [m/s], cells a radius
     ("melts", SHIPPED, "no", 1500, (4, 8)),
     ("fails", UNMELTING, "yes", 1500, (4, 8)),
     ("neither", UNMELTING, "no", 1500, (4, 8)),
@@ -42,10 +42,10 @@ MEASURES = {  # key of the summary: title of the column, unit, digits, what a fr
 }
 
 
-def grids_of(runs, cells, velocity):
+def grids_of(runs, cells, velocity, name="cells", case=SHIPPED, **more):
     """Values of the summary of each grid."""
-    scene = runs.scene("cells%d_%d" % (cells, velocity), "cases/default_shot", GRIDS,
-                       scene__velocity="%d m/s" % velocity, scene__cells_per_radius=cells, **COMMON)
+    scene = runs.scene("%s%d_%d" % (name, cells, velocity), case, GRIDS,
+                       scene__velocity="%d m/s" % velocity, scene__cells_per_radius=cells, **COMMON, **more)
     return [grid["values"] for grid in scene.summary["scenes"]]
 
 
@@ -83,10 +83,10 @@ def cell(found, key, digits, unit):
     return Figure(statistics.mean(lived), spread, len(lived)).text(digits, unit) + died
 
 
-def measures(found):
-    """found: (cells, velocity): the values of its grids."""
-    columns = [Column("cells a radius, velocity")] + [Column(title, share) for title, _, _, share in MEASURES.values()]
-    rows = [["%d, %d m/s" % of] + [cell(grids, key, digits, unit) for key, (_, unit, digits, _) in MEASURES.items()]
+def measures(found, first="cells a radius, velocity", row="%d, %d m/s", shown=MEASURES):
+    """found: what a row is of: the values of its grids."""
+    columns = [Column(first)] + [Column(title, share) for title, _, _, share in shown.values()]
+    rows = [[row % of] + [cell(grids, key, digits, unit) for key, (_, unit, digits, _) in shown.items()]
             for of, grids in found.items()]
     return Table(columns, rows)
 
@@ -141,21 +141,12 @@ def fine(runs):
     return [measures(found), vanishing(found)], NOTE + "; of the lines ± is the standard error"
 
 
-def layer_grids(runs, may, case, damage, velocity, cells):
-    scene = runs.scene("layer_%s_%d_%d" % (may, velocity, cells), case, GRIDS, scene__damage=damage,
-                       scene__velocity="%d m/s" % velocity, scene__cells_per_radius=cells, **COMMON)
-    return [grid["values"] for grid in scene.summary["scenes"]]
-
-
-def layer(runs):
-    found = {(may, velocity, cells): layer_grids(runs, may, case, damage, velocity, cells)
-             for may, case, damage, velocity, several in STRENGTHLESS for cells in several}
+def melt(runs):
+    found = {(may, velocity, cells): grids_of(runs, cells, velocity, "melt_%s" % may, case, scene__damage=damage)
+             for may, case, damage, velocity, several in ARMATURES for cells in several}
     shown = {**MEASURES, "crater_volume": ("crater [mm3]", 1e-9, 1, 0.2)}
-    columns = [Column("the armature; velocity, cells a radius")]
-    columns += [Column(title, share) for title, _, _, share in shown.values()]
-    rows = [["%s; %d m/s, %d" % of] + [cell(grids, key, digits, unit) for key, (_, unit, digits, _) in shown.items()]
-            for of, grids in found.items()]
-    return [Table(columns, rows)], NOTE + "; \"melts\" and \"neither\" without damage in any body"
+    return ([measures(found, "the armature; velocity, cells a radius", "%s; %d m/s, %d", shown)],
+            NOTE + "; \"melts\" and \"neither\" without damage in any body")
 
 
 def growths(runs, armature, rail, velocity, cells):
