@@ -171,7 +171,7 @@ static void test_batch(void **state)
 static void test_laid_aside(void **state)
 {
     (void)state;
-    breech_case *c = small_case("scene.end_time=1 us"), *longer = small_case("scene.end_time=4 us");
+    breech_case *c = small_case("scene.end_time=1 us"), *longer = small_case("scene.end_time=10 us");
     const scene_query q[] = { query_at(longer, 1500.0), query_at(c, 1400.0), query_at(c, 1600.0) };
     const scene_record *out[3];
     int rounds = 0, known = 0;
