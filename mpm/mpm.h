@@ -42,7 +42,7 @@ typedef struct {
     size_t particles;
     uint64_t clamps_pressure, clamps_compression; /* counted, never silent */
     uint64_t splits, merges, ejected, eroded;     /* ejected holds the eroded points too */
-    double eroded_mass;                           /* vapour and dust taken out so far [kg] */
+    double eroded_mass;                           /* dust taken out so far [kg] */
     double peak_pressure, peak_temperature;       /* any intact point, any time so far [Pa, K] */
     double failed_volume;                         /* of all bodies, now [m3] */
 } mpm_report;

@@ -199,8 +199,8 @@ static const base_param study_params[] = {
         "from coarse to fine cells where that is more"),
     PARAM_DOUBLE(
         case_study, resolution_above, "1", 0.6, 0.0, 10.0,
-        "the same upwards where growth is the judge, if it is more: growth falls with the cell, so finer cells "
-        "raise a threshold further than they lower it"),
+        "the same upwards where growth is the judge, if it is more: finer cells may raise a threshold further than "
+        "they lower it"),
     PARAM_DOUBLE(case_study, strength_error, "1", 0.0, 0.0, 1.0,
                  "uncertainty of rail.yield_scale, relative: a search more, and the threshold's interval holds it"),
     PARAM_DOUBLE(case_study, armature_error, "1", 0.0, 0.0, 1.0, "uncertainty of armature.yield_scale alike"),

@@ -55,7 +55,7 @@ const summary_key run_result_keys[] = {
     SUMMARY_NUMBER(scene_result, "end_time", end_time, "s", "simulated"),
 #define WORK(member, text) SUMMARY_VALUE(scene_result, KEY_COUNT, #member, member, "1", text),
 #include "coupling/scene/scene_work.def"
-    SUMMARY_NUMBER(scene_result, "eroded_mass", eroded_mass, "kg", "vapour and dust taken out, full model"),
+    SUMMARY_NUMBER(scene_result, "eroded_mass", eroded_mass, "kg", "dust taken out, full model"),
     SUMMARY_NUMBER(scene_result, "wall_seconds", wall_seconds, "s", "time it took"),
     SUMMARY_VALUE(scene_result, KEY_INTEGER, "threads", threads, "1", "of its process; others may have lent theirs"),
     SUMMARY_END

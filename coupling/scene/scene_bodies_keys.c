@@ -32,7 +32,7 @@ const summary_key scene_bodies_keys[] = {
     SUMMARY_NUMBER(scene_bodies_result, "work_boundary", work_boundary, "J", "done on the model by its boundaries"),
     SUMMARY_NUMBER(scene_bodies_result, "work_external", work_external, "J", "done on it by tractions and body forces"),
     SUMMARY_NUMBER(scene_bodies_result, "ejected_mass", ejected_mass, "kg", "that left the window or was eroded"),
-    SUMMARY_NUMBER(scene_bodies_result, "eroded_mass", eroded_mass, "kg", "vapour and dust taken out"),
+    SUMMARY_NUMBER(scene_bodies_result, "eroded_mass", eroded_mass, "kg", "dust taken out"),
     SUMMARY_NUMBER(scene_bodies_result, "momentum_error", momentum_error, "1",
                    "over mass times the largest initial speed"),
     SUMMARY_NUMBER(scene_bodies_result, "energy_error", energy_error, "1",

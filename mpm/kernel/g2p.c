@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Grid to points, and the material law: one brick, the points of a cell a part of a block at a time.
  *
- *   v = sum S_i v_i,   L = sum v_i grad S_i,   de = sum S_i (v_i^2/2 + Q_i/m_i) - v^2/2 - ka     (transfer and contact
- *   heat)
+ *   v = sum S_i v_i,   L = sum v_i grad S_i,   de = sum S_i (v_i^2/2 + Q_i/m_i) - v^2/2 - ka - b (transfer and contact
+ *   heat; b: heat_beyond)
  *   ka = 1/2 sum_k D_k |L e_k|^2,  D_k = sum S_i (x_i - x_p)_k^2                                  (TPIC's gradient
  *   part)   */
 #include "mpm/kernel/kernels.h"
@@ -289,8 +289,7 @@ LANE_INLINE vm in_foreign_octant(const cell_limits *c, const block *q, int lane)
 LANE_INLINE int leaving_lanes(const block *q, int lane, const cell_limits *c, const law *k)
 {
     const vm whole = vd_less(vd_load(&q->damage[0][lane]), vd_set(1));
-    vm leave = vd_less(vd_set(k->e_vapour), vd_load(&q->e[0][lane]));
-    leave |= vd_less(vd_load(&q->rho[0][lane]), vd_set(k->rho_dust));
+    vm leave = vd_less(vd_load(&q->rho[0][lane]), vd_set(k->rho_dust));
     for (int i = 0; i < 3; i++) {
         const vd x = vd_load(&q->x[i][lane]), half = vd_load(&q->half[i][lane]);
         leave |= (x < c->lo[i]) | (x >= c->hi[i]) | (whole & (half > c->longest[i]));
@@ -351,7 +350,7 @@ LANE_INLINE int one_block(mpm *m, brick *b, int index, const cell_grid *g, const
         gather(w, nodes, &r, &next);
         if (m->scene.transfer != MPM_TRANSFER_TPIC) r.ka = vd_set(0);
         leave_holes(&r, vd_less(vd_set(0), vd_load(&q->mass[0][lane])));
-        const vd budget = r.E - 0.5 * (r.v[0] * r.v[0] + r.v[1] * r.v[1] + r.v[2] * r.v[2]);
+        const vd budget = r.E - 0.5 * (r.v[0] * r.v[0] + r.v[1] * r.v[1] + r.v[2] * r.v[2]) - heat_beyond(k, q, lane);
         const vd share = bound_gradient(k, f, q, lane, budget, &r.ka);
         sum.heat = budget - r.ka;
         vd_store(&q->ka[0][lane], r.ka);

@@ -258,6 +258,14 @@ LANE_INLINE void least_domain(const mpm *m, const brick *b, const cell_grid *g, 
     }
 }
 
+/* What a point holds beyond the hottest state of its law [J/kg].  It goes with its motion's energy to the nodes, and
+ * from them to all points around: heat is mixed in, as momentum is.  Else a point that stays in a sheared layer, a cell
+ * thick whatever the cell, would be heated without bound. */
+LANE_INLINE vd heat_beyond(const law *k, const block *q, int lane)
+{
+    return vd_max(vd_load(&q->e[0][lane]) - k->e_hottest, vd_set(0));
+}
+
 /* Along axis k, for the part of the block that begins with `lane`. */
 LANE_INLINE weights cell_weights(const cell_grid *g, const double narrowest[3], int k, const block *q, int lane)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Points to grid: the node sums of one brick.
  *
- *   line_i = sum_p S_ip { m, m [v + L (x_i - x_p)], m [v^2/2 + ka + v . L (x_i - x_p)] },   f_i = -sum_p V sigma grad
- *   S_ip
+ *   line_i = sum_p S_ip { m, m [v + L (x_i - x_p)], m [v^2/2 + ka + b + v . L (x_i - x_p)] },
+ *   f_i = -sum_p V sigma grad S_ip,   b: heat_beyond
  *
  * and, with the energy, the other side of the work that the forces do before they change the nodes (nodes.c takes
  * dt/2 f_i . v_i from it): what they would do if the nodes moved as the points do, dt/2 sum_p f_ip . [v + L (x_i -
@@ -150,8 +150,8 @@ LANE_INLINE void add_wave(const wave_load *w, vd area, const vd v[3], double hal
 }
 
 /* lanes: 0 m, 1-3 momentum, 4-6 force, 7 energy */
-LANE_INLINE void motion_lines(const block *q, int lane, double affine, const mpm_body *body, const wave_load *wave,
-                              half_steps dt, const weights w[3], lines *n)
+LANE_INLINE void motion_lines(const block *q, int lane, const law *material, double affine, const mpm_body *body,
+                              const wave_load *wave, half_steps dt, const weights w[3], lines *n)
 {
     static const int column[3][3] = { { 0, 3, 4 }, { 3, 1, 5 }, { 4, 5, 2 } };
 #define AT(field) vd_load(&q->field[lane])
@@ -159,7 +159,7 @@ LANE_INLINE void motion_lines(const block *q, int lane, double affine, const mpm
     const vd square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], area = AT(area[0]);
     vd base[LINE] = { m, m * v[0], m * v[1], m * v[2] }, s[6] /* -V sigma */, load[3], stretch[3];
     for (int i = 0; i < 6; i++) s[i] = V * (i < 3 ? AT(p[0]) - AT(s[i]) : -AT(s[i]));
-    base[7] = m * (0.5 * square + AT(ka[0]));
+    base[7] = m * (0.5 * square + AT(ka[0]) + heat_beyond(material, q, lane));
     for (int i = 0; i < 3; i++) {
         const int *c = column[i];
         load[i] = m * body->body_force[i] + area * body->traction[i];
@@ -264,7 +264,7 @@ static __attribute__((noinline)) void one_block(const mpm *m, const brick *b, in
     lines n;
     factors f;
     contact_factors s;
-    ahead next = ahead_of(m, index, FIRST_e, 1 + 3 * PARTS), none = { 0 };
+    ahead next = ahead_of(m, index, FIRST_ep, 1 + 3 * PARTS), none = { 0 };
     double least[3];
     least_domain(m, b, g, m->links[index].body, least);
     prefetch_share(&next);
@@ -273,7 +273,7 @@ static __attribute__((noinline)) void one_block(const mpm *m, const brick *b, in
         const weights w[3] = { cell_weights(g, least, 0, q, lane), cell_weights(g, least, 1, q, lane),
                                cell_weights(g, least, 2, q, lane) };
         store_factors(&f, w, lane);
-        motion_lines(q, lane, c->affine, body, wave, c->dt, w, &n);
+        motion_lines(q, lane, &m->laws[m->links[index].body], c->affine, body, wave, c->dt, w, &n);
         if (c->meets) surface_of(q, lane, w, &s);
         if (c->meets && c->mixed)
             vd_store(&s.heat[lane], vd_load(&q->mass[0][lane]) * m->effusivity[m->links[index].body]);

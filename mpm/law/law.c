@@ -92,11 +92,11 @@ static void thermal(law *k, const mpm_material *m)
     const bool never_melts = isnan(m->melting_temperature);
     k->T_m = never_melts ? 1e9 : m->melting_temperature;
     k->inv_T_range = 1 / (k->T_m - k->T_r);
-    /* Limits of validity.  Vapour: more energy than at five times the melting temperature (copper and aluminium boil at
-     * two to three times); of what has none, such as a fluid, than at a temperature where molecules have come apart.
-     * Dust: failed or molten, at a quarter of the solid's density. */
+    /* Limits of validity.  Five times the melting temperature (copper and aluminium boil at two to three times); of
+     * what has none, such as a fluid, a temperature where molecules have come apart.  Dust: failed or molten, at a
+     * quarter of the solid's density. */
     const double hottest = never_melts ? 2e4 : 5 * k->T_m; /* [K] */
-    k->e_vapour = k->c_v * (hottest - k->T_r) + k->latent;
+    k->e_hottest = k->c_v * (hottest - k->T_r) + k->latent;
     k->rho_dust = 0.25 * k->rho0;
 }
 

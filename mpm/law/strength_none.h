@@ -20,7 +20,7 @@ static status strength_none_derive(law *k, const mpm_material *m, double scale)
     (void)scale;
     k->strength.none.least_pressure = k->p_rest + (isnan(m->cavitation_pressure) ? k->vacuum : m->cavitation_pressure);
     k->flow_start = k->least_flow = 0;
-    k->rho_dust = 0; /* spray and vapour are a fluid too */
+    k->rho_dust = 0; /* spray is a fluid too */
     if (!isnan(m->viscosity_linear)) k->q1 = m->viscosity_linear;
     if (!isnan(m->viscosity_quadratic)) k->q2 = m->viscosity_quadratic;
     return status_ok();

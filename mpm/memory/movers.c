@@ -52,12 +52,11 @@ static bool find_cell(const mpm *m, const brick *b, const int cell[3], const dou
     return true;
 }
 
-/* Vapour and dust: what no law here describes is taken out and booked, not kept as a hot, thin film between the bodies.
- */
+/* Dust is described by no law here; it is taken out and booked. */
 static bool erodes(const law *k, const double *q)
 {
     const bool loose = q[FIRST_damage] >= 1 || q[FIRST_T] >= k->T_m;
-    return q[FIRST_e] > k->e_vapour || (loose && q[FIRST_rho] < k->rho_dust);
+    return loose && q[FIRST_rho] < k->rho_dust;
 }
 
 static void send(mpm *m, brick *b, const int cell[3], int body, const double *q)

@@ -89,7 +89,7 @@ typedef struct {
     double (*data)[BLOCK_DOUBLES];
 } mover_list;
 
-/* What has left: through the window's ends, or as vapour and dust. */
+/* What has left: through the window's ends, or as dust. */
 typedef struct {
     uint64_t count;
     double mass, momentum[3], energy; /* [kg, kg m/s, J] */

@@ -14,12 +14,9 @@ WIDEST_SCRATCH = 4.0  # scene.limit_length_over_width
 GRIDS = 3
 RESOLUTIONS = {  # cells a radius: velocities [m/s]
     3: (500, 700, 900, 1000, 1150),
-    4: (500, 700, 900, 1000, 1150),
-    6: (500, 700, 900, 1000, 1150),
-    8: (900, 1000, 1150),
+    4: (500, 700, 900, 1000, 1150, 1300, 1500),
+    6: (900, 1000, 1150, 1300, 1500),
 }
-FINE = {cells: (1300, 1500) for cells in (4, 6, 8, 12)}  # where the finest begin to gouge
-RADIUS = 0.5  # [mm] of the grain
 OF_PAIRS = (  # armature on rail, their files, a velocity at which the groove grows [m/s]
     ("copper on copper", COPPER, COPPER, 1100),
     ("6061 on copper", AL6061, COPPER, 1400),
@@ -27,13 +24,7 @@ OF_PAIRS = (  # armature on rail, their files, a velocity at which the groove gr
     ("4340 on 4340", STEEL, STEEL, 1600),
 )
 CELLS_OF_PAIRS = (3, 4, 6)
-SHIPPED, UNMELTING = "cases/default_shot", "cases/default_shot/unmelting.yaml"
-ARMATURES = (  # what the armature may do, its case, damage, velocity [m/s], cells a radius
-    ("melts", SHIPPED, "no", 1500, (4, 8)),
-    ("fails", UNMELTING, "yes", 1500, (4, 8)),
-    ("neither", UNMELTING, "no", 1500, (4, 8)),
-    ("neither", UNMELTING, "no", 1150, (4, 8)),
-)
+SHIPPED = "cases/default_shot"
 MEASURES = {  # key of the summary: title of the column, unit, digits, what a fresh one may differ by
     "groove_growth": ("growth [1/us]", 1e6, 3, 0.1),
     "growth_per_way": ("growth [1/mm]", 1e3, 3, 0.1),
@@ -42,10 +33,10 @@ MEASURES = {  # key of the summary: title of the column, unit, digits, what a fr
 }
 
 
-def grids_of(runs, cells, velocity, name="cells", case=SHIPPED, **more):
+def grids_of(runs, cells, velocity):
     """Values of the summary of each grid."""
-    scene = runs.scene("%s%d_%d" % (name, cells, velocity), case, GRIDS,
-                       scene__velocity="%d m/s" % velocity, scene__cells_per_radius=cells, **COMMON, **more)
+    scene = runs.scene("cells%d_%d" % (cells, velocity), SHIPPED, GRIDS,
+                       scene__velocity="%d m/s" % velocity, scene__cells_per_radius=cells, **COMMON)
     return [grid["values"] for grid in scene.summary["scenes"]]
 
 
@@ -83,10 +74,10 @@ def cell(found, key, digits, unit):
     return Figure(statistics.mean(lived), spread, len(lived)).text(digits, unit) + died
 
 
-def measures(found, first="cells a radius, velocity", row="%d, %d m/s", shown=MEASURES):
-    """found: what a row is of: the values of its grids."""
-    columns = [Column(first)] + [Column(title, share) for title, _, _, share in shown.values()]
-    rows = [[row % of] + [cell(grids, key, digits, unit) for key, (_, unit, digits, _) in shown.items()]
+def measures(found):
+    """found: of cells a radius and velocity: the values of the grids."""
+    columns = [Column("cells a radius, velocity")] + [Column(title, share) for title, _, _, share in MEASURES.values()]
+    rows = [["%d, %d m/s" % of] + [cell(grids, key, digits, unit) for key, (_, unit, digits, _) in MEASURES.items()]
             for of, grids in found.items()]
     return Table(columns, rows)
 
@@ -102,12 +93,8 @@ def zeros(found):
     return Table(columns, rows)
 
 
-def all_of(runs, resolutions):
-    return {(cells, v): grids_of(runs, cells, v) for cells, velocities in resolutions.items() for v in velocities}
-
-
 def cells(runs):
-    found = all_of(runs, RESOLUTIONS)
+    found = {(cells, v): grids_of(runs, cells, v) for cells, velocities in RESOLUTIONS.items() for v in velocities}
     return [measures(found), zeros(found)], NOTE + "; places linearly between velocities"
 
 
@@ -121,32 +108,6 @@ def line(points):
     variance = sum((y - at_zero - slope * x) ** 2 for x, y in points) / (n - 2)
     return (Figure(at_zero, math.sqrt(variance * (1.0 / n + mean_x ** 2 / sxx)), n),
             Figure(slope, math.sqrt(variance / sxx), n))
-
-
-def vanishing(found):
-    """Over the size of the cells, of all grids: the line through growth, at zero cell size."""
-    columns = [Column("velocity"), Column("grids"), Column("growth at zero cell size [1/mm]", 0.1),
-               Column("more with every 100 um of cell [1/mm]", 0.1)]
-    rows = []
-    for velocity in sorted({v for _, v in found}):
-        points = [(RADIUS / cells, values["growth_per_way"] * 1e-3) for (cells, v), grids in found.items() if v == velocity
-                  for values in grids if values.get("growth_per_way") is not None]
-        at_zero, slope = line(points)
-        rows.append(["%d m/s" % velocity, "%d" % len(points), at_zero.text(3), slope.text(3, 10.0)])
-    return Table(columns, rows)
-
-
-def fine(runs):
-    found = all_of(runs, FINE)
-    return [measures(found), vanishing(found)], NOTE + "; of the lines ± is the standard error"
-
-
-def melt(runs):
-    found = {(may, velocity, cells): grids_of(runs, cells, velocity, "melt_%s" % may, case, scene__damage=damage)
-             for may, case, damage, velocity, several in ARMATURES for cells in several}
-    shown = {**MEASURES, "crater_volume": ("crater [mm3]", 1e-9, 1, 0.2)}
-    return ([measures(found, "the armature; velocity, cells a radius", "%s; %d m/s, %d", shown)],
-            NOTE + "; \"melts\" and \"neither\" without damage in any body")
 
 
 def growths(runs, armature, rail, velocity, cells):
