@@ -67,7 +67,7 @@ typedef struct law {
     double chi;                   /* heat_by_plastic_work: fraction of plastic work */
     double q1, q2;                /* viscosity, linear and quadratic */
     bool plastic_heat;
-    double e_hottest;                   /* what a point holds at most; the rest goes to the points around it [J/kg] */
+    double e_hottest;                   /* what a point holds beyond goes to the points around it [J/kg] */
     double rho_dust;                    /* failed or molten points of less density are eroded [kg/m3] */
     double e_start, rho_start, p_start; /* of a body at rest at its temperature and its pressure */
 } law;
