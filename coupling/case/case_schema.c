@@ -198,7 +198,7 @@ static const base_param study_params[] = {
         "fraction of a threshold that finer cells may move it by: its interval allows for that, or for the shift "
         "from coarse to fine cells where that is more"),
     PARAM_DOUBLE(
-        case_study, resolution_above, "1", 0.6, 0.0, 10.0,
+        case_study, resolution_above, "1", 0.2, 0.0, 10.0,
         "the same upwards where growth is the judge, if it is more: finer cells may raise a threshold further than "
         "they lower it"),
     PARAM_DOUBLE(case_study, strength_error, "1", 0.0, 0.0, 1.0,

@@ -17,13 +17,15 @@ RESOLUTIONS = {  # cells a radius: velocities [m/s]
     4: (500, 700, 900, 1000, 1150, 1300, 1500),
     6: (900, 1000, 1150, 1300, 1500),
 }
+FINE, FINE_VELOCITIES, FINE_GRIDS = (4, 8), (1150, 1500), 6
 OF_PAIRS = (  # armature on rail, their files, a velocity at which the groove grows [m/s]
     ("copper on copper", COPPER, COPPER, 1100),
     ("6061 on copper", AL6061, COPPER, 1400),
     ("Ti-6Al-4V on copper", TI64, COPPER, 1300),
     ("4340 on 4340", STEEL, STEEL, 1600),
 )
-CELLS_OF_PAIRS = (3, 4, 6)
+CELLS_FINE, FINE_VELOCITIES, FINE_GRIDS = (4, 8), (1150, 1500), 6
+OF_PAIRS = (3, 4, 6)
 SHIPPED = "cases/default_shot"
 MEASURES = {  # key of the summary: title of the column, unit, digits, what a fresh one may differ by
     "groove_growth": ("growth [1/us]", 1e6, 3, 0.1),
@@ -33,9 +35,9 @@ MEASURES = {  # key of the summary: title of the column, unit, digits, what a fr
 }
 
 
-def grids_of(runs, cells, velocity):
+def grids_of(runs, cells, velocity, grids=GRIDS):
     """Values of the summary of each grid."""
-    scene = runs.scene("cells%d_%d" % (cells, velocity), SHIPPED, GRIDS,
+    scene = runs.scene("%s%d_%d" % ("cells" if grids == GRIDS else "fine", cells, velocity), SHIPPED, grids,
                        scene__velocity="%d m/s" % velocity, scene__cells_per_radius=cells, **COMMON)
     return [grid["values"] for grid in scene.summary["scenes"]]
 
@@ -96,6 +98,21 @@ def zeros(found):
 def cells(runs):
     found = {(cells, v): grids_of(runs, cells, v) for cells, velocities in RESOLUTIONS.items() for v in velocities}
     return [measures(found), zeros(found)], NOTE + "; places linearly between velocities"
+
+
+def fine(runs):
+    """Growth and shape in coarse and fine cells side by side, with the standard error of their difference."""
+    columns = [Column("growth [1/mm] at")] + [Column("%d cells" % cells, 0.1) for cells in FINE]
+    columns += [Column("difference")] + [Column("length over width, %d cells" % cells, 0.25) for cells in FINE]
+    rows = []
+    for velocity in FINE_VELOCITIES:
+        found = [grids_of(runs, cells, velocity, FINE_GRIDS) for cells in FINE]
+        lived = [[g["growth_per_way"] for g in grids if g.get("growth_per_way") is not None] for grids in found]
+        change = statistics.mean(lived[1]) - statistics.mean(lived[0])
+        error = math.sqrt(sum(statistics.variance(of) / len(of) for of in lived))
+        rows.append(["%d m/s" % velocity, *(cell(grids, "growth_per_way", 3, 1e3) for grids in found),
+                     Figure(change, error).text(3, 1e3), *(cell(grids, "length_over_width", 1, 1.0) for grids in found)])
+    return [Table(columns, rows)], NOTE + ", six of them; of the difference ± is the standard error"
 
 
 def line(points):
