@@ -193,22 +193,12 @@ static void test_in_a_step(void **state)
         if (solver->bricks[i].particles == (int)(BRICK_CELLS * 8)) n = solver->bricks[i].head[21];
     assert_true(n >= 0 && solver->blocks[n].mass[0][l] > 0);
     solver->blocks[n].rho[0][l] *= 1.5;
-    const double where[3] = { solver->blocks[n].start[0][l], solver->blocks[n].start[1][l],
-                              solver->blocks[n].start[2][l] };
     const mpm_ledger before = mpm_balance(solver);
     scene_steps(solver, 20);
     const mpm_ledger after = mpm_balance(solver);
-    double densest = 0, started[3] = { 0 };
-    for (int i = 0; i < solver->bricks_used; i++)
-        for (int c = 0; c < (int)BRICK_CELLS; c++)
-            for (int q = solver->bricks[i].head[c]; q >= 0; q = solver->links[q].next)
-                for (int k = 0; k < LANES; k++) {
-                    const block *b = &solver->blocks[q];
-                    if (!(b->mass[0][k] > 0) || b->rho[0][k] <= densest) continue;
-                    densest = b->rho[0][k];
-                    for (int j = 0; j < 3; j++) started[j] = b->start[j][k];
-                }
-    for (int j = 0; j < 3; j++) assert_near(started[j], where[j], 1e-12);
+    double *density = scene_read(solver, MPM_density), densest = 0;
+    for (size_t i = 0; i < mpm_points(solver); i++) densest = fmax(densest, density[i]);
+    free(density);
     print_message("densest point after 20 steps: %.3f of the density at rest\n", densest / m.density);
     assert_true(densest < 1.3 * m.density);
     const double gain = after.kinetic + after.internal - after.work_ahead - before.kinetic - before.internal;

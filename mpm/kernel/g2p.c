@@ -399,13 +399,14 @@ static __attribute__((noinline)) void relax_blocks(mpm *m, int first, int end, c
     const double sound = k->sound * fmax(step->inv_h[0], fmax(step->inv_h[1], step->inv_h[2]));
     relax_sums sum = { .least = vd_set(HUGE_VAL), .most = vd_set(-HUGE_VAL), .softest = vd_set(HUGE_VAL) };
     PARTS_OF_BLOCKS relax_sum(k, f, &m->blocks[i], lane, &sum);
-    if (!(vd_largest(sum.most) + vd_largest(-sum.least) > -RELAX_BOUND * vd_largest(-sum.softest))) return;
+    const double softest = -vd_largest(-sum.softest);
+    if (!(vd_largest(sum.most) + vd_largest(-sum.least) > RELAX_BOUND * softest)) return;
     const double room = vd_sum(sum.room);
     relaxation by = { .dt = step->dt, .share = fmin(1, step->dt * sound), .P = vd_sum(sum.push) / room };
     PARTS_OF_BLOCKS relax_give(k, f, &by, &m->blocks[i], lane, &sum);
     by.S = vd_sum(sum.excess) / room;
     /* no volume is more than halved: dust among dense points is soft */
-    const double softest = -vd_largest(-sum.softest), most = vd_largest(-sum.lowest) + fmax(by.S, 0) / softest;
+    const double most = vd_largest(-sum.lowest) + fmax(by.S, 0) / softest;
     if (most > 0.5) by.share *= 0.5 / most, by.S *= 0.5 / most;
     PARTS_OF_BLOCKS relax(k, f, &by, &m->blocks[i], lane);
 #undef PARTS_OF_BLOCKS

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The pressure that a point has beyond its neighbours.                                                       (M-7)
+/* Pressure relaxation: what a point's pressure has beyond its neighbours'.                                   (M-7)
  *
  * A point's density follows from the velocity gradients it has met, and the nodes feel only the sum of V p over the
  * points of a cell.  So nothing holds together the densities of points side by side: where matter is sheared for long

@@ -37,7 +37,7 @@ MEASURES = {  # key of the summary: title of the column, unit, digits, what a fr
 
 def grids_of(runs, cells, velocity, grids=GRIDS):
     """Values of the summary of each grid."""
-    scene = runs.scene("%s%d_%d" % ("cells" if grids == GRIDS else "fine", cells, velocity), SHIPPED, grids,
+    scene = runs.scene("cells%d_%d_%d" % (cells, velocity, grids), SHIPPED, grids,
                        scene__velocity="%d m/s" % velocity, scene__cells_per_radius=cells, **COMMON)
     return [grid["values"] for grid in scene.summary["scenes"]]
 
