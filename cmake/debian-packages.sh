@@ -4,7 +4,7 @@
 
 packages_build=(gcc libc6-dev cmake ninja-build libsundials-dev libgsl-dev libhdf5-dev libyaml-dev libudunits2-dev
                 libcjson-dev libcmocka-dev gnuplot-nox libopenmpi-dev openmpi-bin dpkg-dev file)
-packages_test=(git clang lld libclang-rt-14-dev libomp-dev clang-format python3-h5py python3-matplotlib
+packages_test=(git clang lld libclang-rt-14-dev libomp-dev clang-format pyflakes3 python3-h5py python3-matplotlib
                python3-yaml python3-pip pkg-config g++)
 packages_full=(ngspice paraview python3-paraview xvfb xauth chromium mmdebstrap pandoc doxygen fonts-dejavu-extra)
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package, its examples and its page.    tests/python.py BREECH [FOLDER]    Exit 77 = skipped."""
+import importlib
 import os
 import shutil
 import subprocess
@@ -15,8 +16,8 @@ sys.dont_write_bytecode = True
 os.environ["BREECH_PROGRAM"] = str(Path(sys.argv[1]).resolve())
 os.environ["MPLBACKEND"] = "Agg"
 try:
-    import h5py  # noqa: F401
-    import matplotlib  # noqa: F401
+    for module in ("h5py", "matplotlib"):
+        importlib.import_module(module)
     import numpy as np
     import yaml
 except ImportError as missing:

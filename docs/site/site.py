@@ -193,7 +193,7 @@ class Site:
     def findings(self, page, body):
         """What the search field knows of a page: text, kind, place."""
         found = [[self.titles[page], "page", html_name(page)]]
-        section = ""
+        section = anchor = ""
         for level, name, head, tag, row in re.findall(
                 r'<h([1-6]) id="([^"]*)">(.*?)</h[1-6]>|<div class="equation" id="([^"]*)">|<tr[^>]*>\s*<td><code>([^<]*)</code></td>', body):
             if tag:

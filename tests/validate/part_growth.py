@@ -24,8 +24,7 @@ OF_PAIRS = (  # armature on rail, their files, a velocity at which the groove gr
     ("Ti-6Al-4V on copper", TI64, COPPER, 1300),
     ("4340 on 4340", STEEL, STEEL, 1600),
 )
-CELLS_FINE, FINE_VELOCITIES, FINE_GRIDS = (4, 8), (1150, 1500), 6
-OF_PAIRS = (3, 4, 6)
+CELLS_OF_PAIRS = (3, 4, 6)
 SHIPPED = "cases/default_shot"
 MEASURES = {  # key of the summary: title of the column, unit, digits, what a fresh one may differ by
     "groove_growth": ("growth [1/us]", 1e6, 3, 0.1),
