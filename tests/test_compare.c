@@ -30,6 +30,7 @@ static double grid_noise = 0.0;   /* of the growth, by a cell's shift along x [e
 
 static double by_thickness = 0.0; /* of each layer [m/s/m] */
 static double tear_drops = 0.0;   /* [m/s]; 0: shapes are not made up */
+static double lengthens = 0.0;    /* a short crater, by so much of its width with each m/s; 0: not made up [s/m] */
 
 /* Severity of a made-up scene: a line in velocity; a harder, colder or layered rail, a steeper lead face and a grid
  * that is shifted gouge later. */
@@ -69,6 +70,7 @@ static status fake_scene(const impact_job *job, const scene_host *host, impact *
         hit->length_over_width = 4.0 * exp((from - v) / 300.0);
         if (v < from) hit->class = DAMAGE_SCRATCH;
     }
+    if (lengthens > 0.0 && case_impact_is_gauged(of)) hit->length_over_width = 1.0 + lengthens * (v - 500.0);
     hit->crater_class = case_impact_is_gauged(of) ? DAMAGE_UNDECIDED : hit->class;
     hit->crater_volume = 10.0 * r * r * r;
     hit->crater_depth = 0.2 * r;
@@ -1249,6 +1251,24 @@ static void test_scatter_of_dying(void **state)
     case_free(c);
 }
 
+/* Craters as short as tear-drops at any velocity, and longer with it: each grid gouges from where its grooves grow. */
+static void test_scatter_of_short(void **state)
+{
+    (void)state;
+    breech_case *c = close_search(HEAD "sites: [{position: 2.9 m}]\n");
+    c->study.threshold_ensemble = 3;
+    c->study.scratch = true;
+    lengthens = 1e-3;
+    onset_answer a = studied(c, "short", status_ok());
+    lengthens = 0.0;
+    const onset_result *r = &a.result;
+    assert_true(r->threshold_deviation > 50.0);
+    assert_true(fabs(r->threshold_deviation - r->scratch_deviation) < 1e-6);
+    assert_true(fabs(r->threshold_velocity - r->scratch_velocity) < 1.0);
+    study_onset_answer_free(&a);
+    case_free(c);
+}
+
 /* Of grains too small for a scene nothing is known: neither that they gouge nor a sharp no. */
 static void test_too_small(void **state)
 {
@@ -1683,6 +1703,7 @@ int main(void)
         cmocka_unit_test(test_scatter_of_a_small_slope),
         cmocka_unit_test(test_scatter_of_two),
         cmocka_unit_test(test_scatter_of_dying),
+        cmocka_unit_test(test_scatter_of_short),
         cmocka_unit_test(test_range),
         cmocka_unit_test(test_closing_line_of_sites),
         cmocka_unit_test(test_shots_warm_the_rail),
