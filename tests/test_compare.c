@@ -934,8 +934,10 @@ static void test_scatter_of_surfaces(void **state)
     compare_answer one, many;
     int shifted[2] = { 0, 0 };
     OK(run_compare(c, "one-grid", &one));
+    assert_true(one.result.ranking[1].tied == 2 && strstr(warned, "thresholds are of one grid each"));
     c->study.threshold_ensemble = 3;
     OK(run_compare(c, "grids", &many));
+    assert_null(strstr(warned, "of one grid"));
     for (int i = 0; i < 2; i++) {
         const compare_entry *a = entry_of(&one, i ? "hard" : "untreated"),
                             *b = entry_of(&many, i ? "hard" : "untreated");

@@ -316,6 +316,16 @@ static status rank(const case_treatments *treatments, compare_answer *a)
 
 /* ---- the whole ---- */
 
+/* Are surfaces told apart by scenes on one grid alone? */
+static void warn_of_one_grid(session *s, const case_onset *c, const compare_result *r)
+{
+    bool told = false;
+    for (int k = 0; k < r->n; k++) told |= r->ranking[k].tied > 1 && r->ranking[k].scenes > 0;
+    if (!told || c->study.threshold_ensemble >= 2 || c->study.judge != JUDGE_GROWTH) return;
+    run_session_warn(s, "thresholds are of one grid each: what the place of the cells may change is not in the ranks; "
+                        "study.threshold_ensemble: 3 holds it, by two scenes more a threshold");
+}
+
 static status compare(session *s, const case_onset *c, const case_treatments *treatments, const case_life *life,
                       compare_answer *a, char (*prefix)[PREFIX_SIZE])
 {
@@ -324,7 +334,9 @@ static status compare(session *s, const case_onset *c, const case_treatments *tr
     TRY(search(s, a));
     TRY(draw(s, c, a));
     for (int i = 0; i < a->n; i++) a->result.scenes_skipped += a->answer[i].result.scenes_skipped;
-    return rank(treatments, a);
+    TRY(rank(treatments, a));
+    warn_of_one_grid(s, c, &a->result);
+    return status_ok();
 }
 
 status study_compare_run(session *s, const case_onset *c, const case_treatments *treatments, const case_life *life,
