@@ -170,7 +170,7 @@ enum { MPM_BODY_KEYED = 8, MPM_AXIS_KEYED = 4, MPM_SCENE_KEYED = 1, MPM_SCENE_HA
     PARAM_VEC3(type, grid_shift, "1", 0.0, 0.0, 1 << (MPM_MAX_LEVELS - 1),                                        \
                "of the grid's planes along x, y, z, in finest cells; the window's ends and the bodies stay"),     \
     PARAM_DOUBLE(type, courant, "1", 0.4, 0.01, 0.6,                                                              \
-                 "Courant number of c + |v|; points at a surface are smeared over its square"),                  \
+                 "Courant number of c + |v|; it smears points at a surface"),                  \
     PARAM_DOUBLE(type, viscosity_linear, "1", 0.2, 0.0, 2.0, "(M-5) linear coefficient"),                         \
     PARAM_DOUBLE(type, viscosity_quadratic, "1", 2.0, 0.0, 10.0, "(M-5) quadratic coefficient"),                  \
     PARAM_INT(type, particles_per_axis, 2, 2, 3, "material points a cell and axis"),                              \
