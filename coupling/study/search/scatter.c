@@ -142,7 +142,7 @@ static double threshold_off(const case_onset *c, const sought *t, const sought *
     const double growth = zero_off(c, t, other, b.growth, i), shape = shape_of(c, on_grid(t, i));
     if (t->judge == JUDGE_OF_SCRATCH || isinf(shape)) return growth;
     if (isnan(b.growth)) return NAN;
-    /* a shape that does not rise with velocity does not fall below zero with it either: growth alone decides */
+    /* craters do not become shorter with velocity: where they are short enough growth alone decides */
     if (isnan(b.shape)) return shape <= 0 ? NAN : growth;
     return fmax(growth, -shape / b.shape);
 }
