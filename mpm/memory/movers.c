@@ -114,36 +114,54 @@ void mpm_movers_take(mpm *m, brick *b, int cell, int block_index, int leaving)
     }
 }
 
-/* Empties the last block of a cell where its points fit into the holes of the others. */
-static void merge_cell(mpm *m, brick *b, int cell)
+/* Points that a cell's blocks of a body have room for before the block `last`. */
+static int holes_before(const mpm *m, const brick *b, int cell, int last)
 {
-    int holes = 0, last = -1, *last_link = NULL;
-    for (int *link = &b->head[cell]; *link >= 0; link = &m->links[*link].next) {
-        if (last >= 0) holes += LANES - __builtin_popcount(m->links[last].mask);
-        last = *link;
-        last_link = link;
-    }
-    if (last < 0 || holes < __builtin_popcount(m->links[last].mask)) return;
-    for (int i = b->head[cell]; i != last; i = m->links[i].next)
-        if (m->links[i].body != m->links[last].body) return;
-    const uint8_t mask = m->links[last].mask;
-    *last_link = -1;
-    b->blocks--;
-    double(*from)[LANES] = (double(*)[LANES])(void *)&m->blocks[last];
-    for (int lane = 0; lane < LANES; lane++) {
-        if (!(mask >> lane & 1)) continue;
-        double one[BLOCK_DOUBLES];
-        for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][lane];
-        b->particles--;
-        mpm_store_insert(m, b, cell, m->links[last].body, one);
-    }
-    mpm_store_release(m, last);
+    int holes = 0;
+    for (int q = b->head[cell]; q != last; q = m->links[q].next)
+        if (m->links[q].body == m->links[last].body) holes += LANES - __builtin_popcount(m->links[q].mask);
+    return holes;
 }
 
-/* Inserts this brick's arrivals from its neighbours; false when no block is free. */
-static bool arrive(mpm *m, brick *b)
+static bool is_last_of_body(const mpm *m, int index)
 {
-    uint64_t dirty = 0;
+    for (int q = m->links[index].next; q >= 0; q = m->links[q].next)
+        if (m->links[q].body == m->links[index].body) return false;
+    return true;
+}
+
+/* A block that has been taken out of its cell's chain: its points go to holes before it. */
+static void empty_block(mpm *m, brick *b, int cell, int index)
+{
+    double(*from)[LANES] = (double(*)[LANES])(void *)&m->blocks[index];
+    for (unsigned left = m->links[index].mask; left; left &= left - 1) {
+        double one[BLOCK_DOUBLES];
+        for (int i = 0; i < BLOCK_DOUBLES; i++) one[i] = from[i][__builtin_ctz(left)];
+        b->particles--;
+        mpm_store_insert(m, b, cell, m->links[index].body, one);
+    }
+    b->blocks--;
+    mpm_store_release(m, index);
+}
+
+/* As few blocks as each body's points need: the last one is emptied where its points fit into the others' holes. */
+static void merge_cell(mpm *m, brick *b, int cell)
+{
+    for (int *link = &b->head[cell]; *link >= 0;) {
+        const int q = *link;
+        if (is_last_of_body(m, q) && holes_before(m, b, cell, q) >= __builtin_popcount(m->links[q].mask)) {
+            *link = m->links[q].next;
+            empty_block(m, b, cell, q);
+            link = &b->head[cell];
+        } else {
+            link = &m->links[q].next;
+        }
+    }
+}
+
+/* Inserts this brick's arrivals from its neighbours, if any; false when no block is free. */
+static bool arrive(mpm *m, brick *b, bool *any)
+{
     bool enough = true;
     for (int step = 0; step < NEIGHBOURS; step++) {
         if (b->neighbour[step] < 0) continue;
@@ -155,11 +173,9 @@ static bool arrive(mpm *m, brick *b)
             const mover_head *h = &list->head[i];
             if (h->brick_step != towards) continue;
             if (mpm_store_insert(m, b, h->cell, h->body, list->data[i]) < 0) enough = false;
-            dirty |= 1ull << h->cell;
+            *any = true;
         }
     }
-    for (int c = 0; c < BRICK_CELLS; c++)
-        if (dirty >> c & 1) merge_cell(m, b, c);
     return enough;
 }
 
@@ -212,9 +228,10 @@ status mpm_movers_exchange(mpm *m)
     for (int i = 0; i < m->bricks_used; i++) {
         brick *b = &m->bricks[i];
         if (!b->reached || b->level > m->ends) continue;
-        if (b->mover_steps || b->sum.left.count)
-            for (int c = 0; c < BRICK_CELLS; c++) mpm_store_tidy_cell(m, b, c);
-        enough = arrive(m, b) && enough;
+        bool changed = b->mover_steps || b->sum.left.count;
+        for (int c = 0; c < BRICK_CELLS && changed; c++) mpm_store_tidy_cell(m, b, c);
+        enough = arrive(m, b, &changed) && enough;
+        for (int c = 0; c < BRICK_CELLS && changed; c++) merge_cell(m, b, c);
         b->occupied = mpm_occupied_cells(b);
     }
     TRY(each_crossing(m, arrive_across));
