@@ -82,29 +82,34 @@ static status make_page(grids *g, int level, int index)
 {
     if (g->pages == g->room) {
         const int room = 2 * g->room + 64;
-        uint8_t *active = realloc(g->active, (size_t)room * PAGE_PLACES);
+        uint8_t *active = realloc(g->active, (size_t)room * PAGE_FLAGS);
         if (active) g->active = active;
-        uint8_t *before = realloc(g->before, (size_t)room * PAGE_PLACES);
+        uint8_t *before = realloc(g->before, (size_t)room * PAGE_FLAGS);
         if (before) g->before = before;
         grid_page *page = realloc(g->page, (size_t)room * sizeof *page);
         if (page) g->page = page;
         CHECK(active && before && page, STATUS_MEMORY, "no memory for %d pages of the grid", room);
         g->room = room;
     }
-    memset(g->active + (size_t)g->pages * PAGE_PLACES, 0, PAGE_PLACES);
-    memset(g->before + (size_t)g->pages * PAGE_PLACES, 0, PAGE_PLACES);
+    memset(g->active + (size_t)g->pages * PAGE_FLAGS, 0, PAGE_FLAGS);
+    memset(g->before + (size_t)g->pages * PAGE_FLAGS, 0, PAGE_FLAGS);
     g->page[g->pages] = (grid_page){ level, index };
     g->level[level].page[index] = ++g->pages;
     return status_ok();
 }
 
+/* Of what has n an axis of a page. */
+static status add_slot(grids *g, int level, const int at[3], int n, int *slot)
+{
+    const int index = grid_page_index(&g->level[level], at, n);
+    if (!g->level[level].page[index]) TRY(make_page(g, level, index));
+    *slot = grids_slot(g, level, at, n);
+    return status_ok();
+}
+
 status mpm_grids_add_place(grids *g, int level, const int at[3], int *place)
 {
-    const grid_level *l = &g->level[level];
-    const int index = (at[2] / PAGE * l->pages[1] + at[1] / PAGE) * l->pages[0] + at[0] / PAGE;
-    if (!l->page[index]) TRY(make_page(g, level, index));
-    *place = grids_place(g, level, at);
-    return status_ok();
+    return add_slot(g, level, at, PAGE, place);
 }
 
 status mpm_grids_take_pages(grids *g, const grid_page *page, int pages)
@@ -134,9 +139,9 @@ static status activate(grids *g, int level, const int lo[3], const int hi[3])
     for (int z = lo[2]; z <= hi[2]; z++)
         for (int y = lo[1]; y <= hi[1]; y++)
             for (int x = lo[0]; x <= hi[0]; x++) {
-                int place;
-                TRY(mpm_grids_add_place(g, level, (const int[3]){ x, y, z }, &place));
-                g->active[place] = GRANULE_LIFE;
+                int flag;
+                TRY(add_slot(g, level, (const int[3]){ x, y, z }, PAGE_GRANULES, &flag));
+                g->active[flag] = GRANULE_LIFE;
             }
     return status_ok();
 }
@@ -154,24 +159,23 @@ status mpm_grids_activate(grids *g, int level, const double lo[3], const double 
     return activate(g, level, first, last);
 }
 
-/* A granule's parents and those beside them: two elements of its level. */
+/* A granule's parent and those within two of it. */
 static status activate_around(grids *g, int level, const int at[3])
 {
     int lo[3], hi[3];
     for (int k = 0; k < 3; k++) {
-        const int parents = grid_elements(&g->level[level + 1], k), parent = at[k] * GRANULE / 2;
-        lo[k] = grid_clamp(parent - 1, parents) / GRANULE;
-        hi[k] = grid_clamp(parent + GRANULE / 2, parents) / GRANULE;
+        const int parents = grid_elements(&g->level[level + 1], k);
+        lo[k] = grid_clamp(at[k] - 2, parents) / GRANULE, hi[k] = grid_clamp(at[k] + 2, parents) / GRANULE;
     }
     return activate(g, level + 1, lo, hi);
 }
 
 static status nest_page(grids *g, int level, const int page_at[3], int number)
 {
-    for (int i = 0; i < PAGE_PLACES; i++) {
-        const int at[3] = { PAGE * page_at[0] + i % PAGE, PAGE * page_at[1] + i / PAGE % PAGE,
-                            PAGE * page_at[2] + i / (PAGE * PAGE) };
-        if (g->active[(number - 1) * PAGE_PLACES + i]) TRY(activate_around(g, level, at));
+    enum { N = PAGE_GRANULES };
+    for (int i = 0; i < PAGE_FLAGS; i++) {
+        const int at[3] = { N * page_at[0] + i % N, N * page_at[1] + i / N % N, N * page_at[2] + i / (N * N) };
+        if (g->active[(number - 1) * PAGE_FLAGS + i]) TRY(activate_around(g, level, at));
     }
     return status_ok();
 }
@@ -247,7 +251,7 @@ int mpm_grids_level(const grids *g, const double x[3])
     if (g->levels == 1) return 0;
     for (int k = 0; k < 3; k++) element[k] = element_at(&g->level[0].axes[k], x[k]);
     for (; i < g->levels - 1; i++) {
-        const int shift = i + 2; /* an element's granule of its level: a quarter of its number */
+        const int shift = i + 1; /* an element's granule of its level: half its number */
         if (granule_is_active(g, i, element[0] >> shift, element[1] >> shift, element[2] >> shift)) break;
     }
     return i;

@@ -3,14 +3,15 @@
  * decided granule by granule.
  *
  *   element   the box between eight nodes of a level; element e of an axis lies between nodes e + 1 and e + 2
- *   granule   4 x 4 x 4 elements of a level, the children of 2 x 2 x 2 of the next coarser one
+ *   granule   2 x 2 x 2 elements of a level, the children of one of the next coarser one
  *
  * A granule of a level is active, or it is not: then its elements are left to the coarser levels.  The coarsest level
  * is active everywhere.  A point belongs to the finest level that is active where the point is.
  *
- *   +-------+---+---+     A row of elements of three levels.  Two elements beside an active granule, of its own
- *   |       | +-+-+-+     level, the next coarser level is active too (mpm_grids_nest): so two changes of level lie
- *   +-------+-+-+-+-+     apart, and no node takes its motion from a node that takes it from another (interface.c).
+ *   +-------+---+---+-+-+     A row of elements of three levels.  Two elements beside an active granule, of the next
+ *   |       |   |   +-+-+     coarser level, that level is active too (mpm_grids_nest): so two changes of level lie so
+ *   +-------+---+---+-+-+     far apart that no point reaches both, and no node takes its motion from a node that
+ *                             takes it from another (interface.c).
  */
 #ifndef BREECH_MPM_GRID_H
 #define BREECH_MPM_GRID_H
@@ -18,10 +19,12 @@
 #include "mpm/grid/axis.h"
 
 enum {
-    GRANULE = 4,      /* elements an axis; brick (k) of nodes 4k .. 4k + 3 has the same place */
+    GRANULE = 2,      /* elements an axis */
     GRANULE_LIFE = 2, /* looks after the last that asked for it (refine/adapt.c) */
-    PAGE = 8,         /* granules an axis */
-    PAGE_PLACES = PAGE * PAGE * PAGE
+    PAGE = 8,         /* bricks an axis */
+    PAGE_PLACES = PAGE * PAGE * PAGE,
+    PAGE_GRANULES = 2 * PAGE, /* granules an axis: brick (k) of nodes 4k .. 4k + 3 lies at granules 2k, 2k + 1 */
+    PAGE_FLAGS = PAGE_GRANULES * PAGE_GRANULES * PAGE_GRANULES
 };
 
 typedef struct {
@@ -36,16 +39,17 @@ typedef struct {
     int level, index;
 } grid_page;
 
-/* What is known of a granule's or a brick's place is kept in pages that are made where they are needed, so an empty
- * window of any size costs next to nothing.  A place: PAGE_PLACES page + the granule's number in it. */
+/* What is known of a granule or of a brick's place is kept in pages that are made where they are needed, so an empty
+ * window of any size costs next to nothing.  A place: PAGE_PLACES page + the brick's number in it; a granule's flags
+ * likewise: PAGE_FLAGS page + its number. */
 typedef struct {
     int levels;
     grid_level level[MPM_MAX_LEVELS];
     int pages, room;
     grid_page *page; /* [pages] owned */
-    uint8_t *
-        active; /* [places] owned: looks that the granule stays active, 0: it is not.  Of the coarsest level: all are */
-    uint8_t *before; /* [places] owned: was it active before the last look? */
+    uint8_t
+        *active; /* [flags] owned: looks that the granule stays active, 0: it is not.  Of the coarsest level: all are */
+    uint8_t *before; /* [flags] owned: was it active before the last look? */
 } grids;
 
 /* For the scene's axes as they are now, the finer levels active where the fine zones of all three axes meet. */
@@ -63,7 +67,7 @@ status mpm_grids_activate_zone(grids *g, const mpm_scene *s);
 /* The pages of another grid of the same axes, with their numbers; nothing is active.  STATUS_IO: not of these axes. */
 status mpm_grids_take_pages(grids *g, const grid_page *page, int pages);
 
-/* The place of a granule or brick, with its page. */
+/* The place of a brick, with its page. */
 status mpm_grids_add_place(grids *g, int level, const int at[3], int *place);
 
 static inline const grid_level *grids_window(const grids *g)
@@ -74,6 +78,11 @@ static inline const grid_level *grids_window(const grids *g)
 static inline int grids_places(const grids *g)
 {
     return g->pages * PAGE_PLACES;
+}
+
+static inline int grids_flags(const grids *g)
+{
+    return g->pages * PAGE_FLAGS;
 }
 
 /* The coarsest level whose cells are no larger. */
@@ -92,32 +101,45 @@ static inline int grid_clamp(int i, int n)
     return i < 0 ? 0 : i < n ? i : n - 1;
 }
 
-/* -1 where no page has been made. */
-static inline int grids_place(const grids *g, int level, const int at[3])
+/* Which entry of a level's table a page has, from where something lies in pages of n an axis. */
+static inline int grid_page_index(const grid_level *l, const int at[3], int n)
 {
-    const grid_level *l = &g->level[level];
-    const int page = l->page[(at[2] / PAGE * l->pages[1] + at[1] / PAGE) * l->pages[0] + at[0] / PAGE];
-    const int in = (at[2] % PAGE * PAGE + at[1] % PAGE) * PAGE + at[0] % PAGE;
-    return page ? (page - 1) * PAGE_PLACES + in : -1;
+    return (at[2] / n * l->pages[1] + at[1] / n) * l->pages[0] + at[0] / n;
 }
 
-/* Is a granule active?  Beyond the window as the one at its end. */
-static inline bool granule_is_active(const grids *g, int level, int x, int y, int z)
+/* Where something is kept that has n an axis of a page; -1 where no page has been made. */
+static inline int grids_slot(const grids *g, int level, const int at[3], int n)
+{
+    const int page = g->level[level].page[grid_page_index(&g->level[level], at, n)];
+    const int in = (at[2] % n * n + at[1] % n) * n + at[0] % n;
+    return page ? (page - 1) * n * n * n + in : -1;
+}
+
+static inline int grids_place(const grids *g, int level, const int at[3])
+{
+    return grids_slot(g, level, at, PAGE);
+}
+
+/* Beyond the window that of the granule at its end. */
+static inline int grids_flag(const grids *g, int level, int x, int y, int z)
 {
     const grid_level *l = &g->level[level];
     const int at[3] = { grid_clamp(x, l->granules[0]), grid_clamp(y, l->granules[1]), grid_clamp(z, l->granules[2]) };
+    return grids_slot(g, level, at, PAGE_GRANULES);
+}
+
+static inline bool granule_is_active(const grids *g, int level, int x, int y, int z)
+{
     if (level == g->levels - 1) return true;
-    const int place = grids_place(g, level, at);
-    return place >= 0 && g->active[place] > 0;
+    const int flag = grids_flag(g, level, x, y, z);
+    return flag >= 0 && g->active[flag] > 0;
 }
 
 /* Has the last look made it active or ended that? */
 static inline bool granule_has_changed(const grids *g, int level, int x, int y, int z)
 {
-    const grid_level *l = &g->level[level];
-    const int at[3] = { grid_clamp(x, l->granules[0]), grid_clamp(y, l->granules[1]), grid_clamp(z, l->granules[2]) };
-    const int place = level < g->levels - 1 ? grids_place(g, level, at) : -1;
-    return place >= 0 && g->before[place] != (g->active[place] > 0);
+    const int flag = level < g->levels - 1 ? grids_flag(g, level, x, y, z) : -1;
+    return flag >= 0 && g->before[flag] != (g->active[flag] > 0);
 }
 
 #endif

@@ -109,24 +109,45 @@ typedef struct {
     uint16_t row[PATCH][PATCH]; /* [z][y] */
 } element_patch;
 
-/* Which of the elements around a brick lie in active granules of `level`, granules of `elements` of them. */
-static element_patch patch_of(const grids *g, int level, const int at[3], int elements)
+/* Along an axis the granules, of a level so many finer, that elements `lo` to `hi` of a level have a part of. */
+typedef struct {
+    int lo, hi;
+} granule_range;
+
+static granule_range granules_of(int lo, int hi, int finer)
+{
+    enum { BEFORE = 64 }; /* granules before the window, so that their numbers are rounded down too */
+    return (granule_range){ (lo * (1 << finer) + BEFORE * GRANULE) / GRANULE - BEFORE,
+                            ((hi + 1) * (1 << finer) - 1 + BEFORE * GRANULE) / GRANULE - BEFORE };
+}
+
+static bool any_active(const grids *g, int level, granule_range x, granule_range y, granule_range z)
+{
+    for (int k = z.lo; k <= z.hi; k++)
+        for (int j = y.lo; j <= y.hi; j++)
+            for (int i = x.lo; i <= x.hi; i++)
+                if (granule_is_active(g, level, i, j, k)) return true;
+    return false;
+}
+
+/* Which of the elements around a brick of `level` have a part of an active granule of the level so many finer. */
+static element_patch patch_of(const grids *g, int level, int finer, const int at[3])
 {
     element_patch p;
-    int granule[3][PATCH];
+    granule_range granule[3][PATCH];
     for (int k = 0; k < 3; k++)
         for (int j = 0; j < PATCH; j++) {
-            const int e = BRICK * at[k] + j - FIRST;
-            granule[k][j] = e >= 0 ? e / elements : -1;
+            const int element = BRICK * at[k] + j - FIRST;
+            granule[k][j] = granules_of(element, element, finer);
         }
     for (int z = 0; z < PATCH; z++)
         for (int y = 0; y < PATCH; y++) {
-            const bool as_below = z > 0 && granule[2][z] == granule[2][z - 1],
-                       as_before = y > 0 && granule[1][y] == granule[1][y - 1];
+            const bool as_below = z > 0 && granule[2][z].lo == granule[2][z - 1].lo,
+                       as_before = y > 0 && granule[1][y].lo == granule[1][y - 1].lo;
             unsigned row = 0, bit = 0;
             for (int x = 0; x < PATCH && !as_below && !as_before; x++) {
-                if (x == 0 || granule[0][x] != granule[0][x - 1])
-                    bit = granule_is_active(g, level, granule[0][x], granule[1][y], granule[2][z]);
+                if (x == 0 || granule[0][x].lo != granule[0][x - 1].lo)
+                    bit = any_active(g, level - finer, granule[0][x], granule[1][y], granule[2][z]);
                 row |= bit << x;
             }
             p.row[z][y] = as_below ? p.row[z - 1][y] : as_before ? p.row[z][y - 1] : (uint16_t)row;
@@ -201,34 +222,36 @@ static void mark_octants(const element_patch *p, uint8_t octants[BRICK_CELLS])
     }
 }
 
-/* Are granules of a level around a brick all active (1), none (0), or some (-1)?  As far as its elements reach. */
-static int all_alike(const grids *g, int level, const int at[3], int elements)
+/* The granules that elements `lo` to `hi` around a brick have a part of, counted from its first node's. */
+static void granules_around(const int at[3], int finer, int lo, int hi, granule_range r[3])
 {
-    int lo[3], hi[3];
-    for (int k = 0; k < 3; k++) {
-        lo[k] = (BRICK * at[k] - FIRST + 64 * elements) / elements - 64;
-        hi[k] = (BRICK * at[k] + PATCH - 1 - FIRST) / elements;
-    }
-    const bool first = granule_is_active(g, level, lo[0], lo[1], lo[2]);
-    for (int z = lo[2]; z <= hi[2]; z++)
-        for (int y = lo[1]; y <= hi[1]; y++)
-            for (int x = lo[0]; x <= hi[0]; x++)
-                if (granule_is_active(g, level, x, y, z) != first) return -1;
+    for (int k = 0; k < 3; k++) r[k] = granules_of(BRICK * at[k] + lo, BRICK * at[k] + hi, finer);
+}
+
+/* Are the granules around a brick of `level`, of the level so many finer, all active (1), none (0), or some (-1)?  As
+ * far as its elements reach. */
+static int all_alike(const grids *g, int level, int finer, const int at[3])
+{
+    granule_range r[3];
+    granules_around(at, finer, -FIRST, PATCH - 1 - FIRST, r);
+    const bool first = granule_is_active(g, level - finer, r[0].lo, r[1].lo, r[2].lo);
+    for (int z = r[2].lo; z <= r[2].hi; z++)
+        for (int y = r[1].lo; y <= r[1].hi; y++)
+            for (int x = r[0].lo; x <= r[0].hi; x++)
+                if (granule_is_active(g, level - finer, x, y, z) != first) return -1;
     return first;
 }
 
-/* Has any granule of a level changed that holds elements `lo` to `hi` around a brick, counted from its first node's? */
-static bool any_changed(const grids *g, int level, const int at[3], int elements, int lo, int hi)
+/* Has any of them changed that elements `lo` to `hi` have a part of? */
+static bool any_changed(const grids *g, const brick *b, int finer, int lo, int hi)
 {
-    int from[3], to[3];
-    for (int k = 0; k < 3; k++) {
-        from[k] = (BRICK * at[k] + lo + 64 * elements) / elements - 64;
-        to[k] = (BRICK * at[k] + hi) / elements;
-    }
-    for (int z = from[2]; z <= to[2]; z++)
-        for (int y = from[1]; y <= to[1]; y++)
-            for (int x = from[0]; x <= to[0]; x++)
-                if (granule_has_changed(g, level, x, y, z)) return true;
+    granule_range r[3];
+    if (finer > b->level) return false;
+    granules_around(b->at, finer, lo, hi, r);
+    for (int z = r[2].lo; z <= r[2].hi; z++)
+        for (int y = r[1].lo; y <= r[1].hi; y++)
+            for (int x = r[0].lo; x <= r[0].hi; x++)
+                if (granule_has_changed(g, b->level - finer, x, y, z)) return true;
     return false;
 }
 
@@ -236,9 +259,8 @@ bool mpm_interface_changed(const mpm *m, const brick *b)
 {
     const grids *g = &m->grids;
     const int last = PATCH - 1 - FIRST;
-    return any_changed(g, b->level, b->at, GRANULE, -FIRST, last) ||
-           (b->level > 0 && any_changed(g, b->level - 1, b->at, GRANULE / 2, -FIRST, last)) ||
-           (b->level > 1 && any_changed(g, b->level - 2, b->at, 1, -2, BRICK - 1));
+    return any_changed(g, b, 0, -FIRST, last) || any_changed(g, b, 1, -FIRST, last) ||
+           any_changed(g, b, 2, -2, BRICK - 1);
 }
 
 interface_nodes mpm_interface_nodes(const mpm *m, int level, const int at[3], uint8_t foreign[BRICK_CELLS])
@@ -246,24 +268,23 @@ interface_nodes mpm_interface_nodes(const mpm *m, int level, const int at[3], ui
     const grids *all = &m->grids;
     const grid_level *g = &all->level[level];
     interface_nodes s = { 0 };
-    const int here = all_alike(all, level, at, GRANULE),
-              there = level > 0 ? all_alike(all, level - 1, at, GRANULE / 2) : 0;
+    const int here = all_alike(all, level, 0, at), there = level > 0 ? all_alike(all, level, 1, at) : 0;
     memset(foreign, 0, BRICK_CELLS);
     if (here == 1 && there == 0) return s;
     const uint64_t exist = nodes_there(g, at, NODES_ALL), at_coarse = nodes_there(g, at, NODES_AT_COARSE);
-    const element_patch active = patch_of(all, level, at, GRANULE), left = inverse(&active);
+    const element_patch active = patch_of(all, level, 0, at), left = inverse(&active);
     s.follow_coarser = any_beside(&left) & exist;
     s.lead_coarser = at_coarse & ~any_beside(&left) & any_near_coarse(&left);
     mark_octants(&left, foreign);
     if (level == 0) return s;
-    const element_patch fine = patch_of(all, level - 1, at, GRANULE / 2), own = inverse(&fine);
+    const element_patch fine = patch_of(all, level, 1, at), own = inverse(&fine);
     /* a ghost lies a cell beyond the window, where the finer level has no node */
     const uint64_t inside = ~any_beside(&own) & nodes_there(g, at, NODES_NO_GHOSTS);
     s.lead_finer = any_near(&fine) & ~inside & exist;
     s.follow_finer = inside & any_near(&own); /* no point of this level reaches further in */
     mark_octants(&fine, foreign);
     if (level == 1 || !s.follow_finer) return s;
-    const element_patch twice = patch_of(all, level - 2, at, 1);
+    const element_patch twice = patch_of(all, level, 2, at);
     s.twice_finer = s.follow_finer & any_beside(&twice);
     return s;
 }

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char MAGIC[8] = "BREECHB";
+static const char MAGIC[8] = "BREECHC";
 
 typedef struct {
     char magic[8];
@@ -37,7 +37,7 @@ static size_t image_bytes(const mpm *m, int blocks)
     return sizeof(image_head) + sizeof(mpm_ledger) + sizeof(mpm_report) +
            (size_t)m->scene.bodies * sizeof *m->body_report + (size_t)m->groups * sizeof *m->force +
            (size_t)m->bricks_used * sizeof(image_brick) + (size_t)blocks * (sizeof(block) + sizeof(block_link)) +
-           (size_t)m->grids.pages * (sizeof(grid_page) + PAGE_PLACES) + mpm_cavities_bytes(m);
+           (size_t)m->grids.pages * (sizeof(grid_page) + PAGE_FLAGS) + mpm_cavities_bytes(m);
 }
 
 static char *put(char *to, const void *from, size_t bytes)
@@ -87,7 +87,7 @@ status mpm_save(const mpm *m, void **image, size_t *bytes)
     to = put(to, m->body_report, (size_t)m->scene.bodies * sizeof *m->body_report);
     to = put(to, m->force, (size_t)m->groups * sizeof *m->force);
     to = put(to, m->grids.page, (size_t)m->grids.pages * sizeof(grid_page));
-    to = put(to, m->grids.active, (size_t)grids_places(&m->grids));
+    to = put(to, m->grids.active, (size_t)grids_flags(&m->grids));
     for (int i = 0; i < m->bricks_used; i++) to = put_brick(to, m, &m->bricks[i]);
     mpm_cavities_put(m, to);
     return status_ok();
@@ -163,7 +163,7 @@ static status get_pages(mpm *m, const image_head *h, reader *r)
     const status s = whole ? mpm_grids_take_pages(&m->grids, page, h->pages) : cut_short();
     free(page);
     TRY(s);
-    return get(r, m->grids.active, (size_t)grids_places(&m->grids)) ? status_ok() : cut_short();
+    return get(r, m->grids.active, (size_t)grids_flags(&m->grids)) ? status_ok() : cut_short();
 }
 
 static status check_head(const mpm *m, const image_head *h, size_t bytes)

@@ -267,7 +267,7 @@ static status move_points(mpm *m)
 
 static void count_down(grids *g)
 {
-    for (int i = 0; i < grids_places(g); i++) {
+    for (int i = 0; i < grids_flags(g); i++) {
         g->before[i] = g->active[i] > 0;
         if (g->active[i]) g->active[i]--;
     }
@@ -275,7 +275,7 @@ static void count_down(grids *g)
 
 static bool has_changed(const grids *g)
 {
-    for (int i = 0; i < grids_places(g); i++)
+    for (int i = 0; i < grids_flags(g); i++)
         if (g->before[i] != (g->active[i] > 0)) return true;
     return false;
 }
