@@ -133,7 +133,7 @@ static const base_param scene_params[] = {
     PARAM_DOUBLE(case_scene, cells_per_layer, "1", 0.0, 0.0, 100.0,
                  "cells across each layer of the rail where it flows; 0: those of the grain"),
     PARAM_DOUBLE(case_scene, coarse_cell, "m", 8e-4, 1e-6, 0.1, "largest cell, far from the grain"),
-    PARAM_DOUBLE(case_scene, refine_tolerance, "1", 0.05, 1e-4, 1.0,
+    PARAM_DOUBLE(case_scene, refine_tolerance, "1", 0.035, 1e-4, 1.0,
                  "fraction of the armature's velocity that plastic flow may change across a cell"),
     PARAM_DOUBLE(case_scene, growth, "1", 1.2, 1.0, 2.0,
                  "ratio of neighbouring cells outside the fine zone, one level"),

@@ -6,8 +6,8 @@ COLUMNS = [Column("scene"), Column("class"), Column("volume [mm3]", 0.1), Column
            Column("width [mm]", 0.1), Column("depth [mm]", 0.1)]
 CHANGES = {  # of both cases; what a window half as large again is, each says of itself
     "nothing": {},
-    "half the tolerance": {"scene__refine_tolerance": 0.025},
-    "twice the tolerance": {"scene__refine_tolerance": 0.1},
+    "half the tolerance": {"scene__refine_tolerance": 0.0175},
+    "twice the tolerance": {"scene__refine_tolerance": 0.07},
     "two levels": {"scene__levels": 2},
 }
 WINDOW = "a window half as large again"
