@@ -25,7 +25,7 @@ CRATER = [Column("scene"), Column("class"), Column("length [mm]", 0.1), Column("
 
 
 def compute(runs, cells, names, ensemble):
-    """Scenes by name.  cells: None as shipped."""
+    """Scenes by name, each on so many shifted grids.  cells: a radius, None as shipped."""
     found = {}
     for name in names:
         settings = dict(SCENES[name])
@@ -147,26 +147,53 @@ def rows_of_angle_and_scratches(scenes):
     ]
 
 
-def two_cells(runs):
-    scenes = compute(runs, None, SCENES, 3)
+def two_cells_of(runs):
+    return compute(runs, None, SCENES, 3)
+
+
+def three_cells_of(runs):
+    return compute(runs, 3, SCENES, 3)
+
+
+def five_cells_of(runs):
+    return compute(runs, 5, [name for name in SCENES if name not in TWO_GRIDS], 2)
+
+
+def rows_of(scenes):
+    """Rows as lists: name, paper, here, comes out; those of small grains where these were run."""
+    grains = [scenes.get(name) for name in ("grain of 0.2 mm", "grain of 0.08 mm")]
     rows = rows_of_base(scenes[BASE])
-    rows += rows_of_grains(scenes[BASE], scenes["grain of 0.2 mm"], scenes["grain of 0.08 mm"])
-    rows += rows_of_velocities(scenes) + rows_of_angle_and_scratches(scenes)
+    rows += rows_of_grains(scenes[BASE], *grains) if all(grains) else []
+    return rows + rows_of_velocities(scenes) + rows_of_angle_and_scratches(scenes)
+
+
+def judged(scenes, grids):
+    """The rows, and the craters that they were judged by."""
     # what is here stands in the table of craters too, where it is compared
-    judged = Table([Column("row"), Column("paper"), Column("here", words=False), Column("comes out")], rows)
+    rows = Table([Column("row"), Column("paper"), Column("here", words=False), Column("comes out")], rows_of(scenes))
     error = max(scene.largest("energy_error") for scene in scenes.values())
-    return [judged, craters(scenes)], ("mean ± standard deviation over three shifted grids, of the small grains over "
-                                        "two; energy error at most %.0e" % error)
+    return [rows, craters(scenes)], "mean ± standard deviation over %s; energy error at most %.0e" % (grids, error)
+
+
+def two_cells(runs):
+    return judged(two_cells_of(runs), "three shifted grids, of the small grains over two")
 
 
 def three_cells(runs):
-    scenes = compute(runs, 3, VELOCITIES, 0)
-    return [craters(scenes)], "three cells a radius, on the case's own grid"
+    return judged(three_cells_of(runs), "three shifted grids, of the small grains over two")
 
 
 def five_cells(runs):
-    scenes = compute(runs, 5, ["1.0 km/s", BASE], 0)
-    return [craters(scenes)], "five cells a radius, on the case's own grid"
+    return judged(five_cells_of(runs), "two shifted grids")
+
+
+def all_rows(runs):
+    """What comes out with two, three and five cells a radius."""
+    found = [{row[0]: row for row in rows_of(scenes_of(runs))} for scenes_of in (two_cells_of, three_cells_of, five_cells_of)]
+    rows = [[name, paper] + [rows[name][3] if name in rows else "not run" for rows in found]
+            for name, paper, _, _ in found[0].values()]
+    columns = [Column("row"), Column("paper"), Column("two cells"), Column("three cells"), Column("five cells")]
+    return [Table(columns, rows)], "the last columns of the tables below"
 
 
 def shipped(runs):
