@@ -192,9 +192,10 @@ def five_cells(runs):
 
 def all_rows(runs):
     """What comes out with two, three and five cells a radius."""
-    found = [{row[0]: row for row in rows_of(scenes_of(runs))} for scenes_of in (two_cells_of, three_cells_of, five_cells_of)]
-    rows = [[name, paper] + [rows[name][3] if name in rows else "not run" for rows in found]
-            for name, paper, _, _ in found[0].values()]
+    resolutions = [scenes_of(runs) for scenes_of in (two_cells_of, three_cells_of, five_cells_of)]
+    answers = [{row[0]: row[3] for row in rows_of(scenes)} for scenes in resolutions]
+    rows = [[name, paper] + [those.get(name, "not run") for those in answers]
+            for name, paper, _, _ in rows_of(resolutions[0])]
     columns = [Column("row"), Column("paper"), Column("two cells"), Column("three cells"), Column("five cells")]
     return [Table(columns, rows)], "the last columns of the tables below"
 

@@ -40,8 +40,8 @@ from runs import Runs
 from breech.needs import demand
 
 PARTS = {  # name: page, function, minutes of processor time, quick: compared by ctest with BREECH_FULL=1
-    "wu2017-rows": ("docs/validation/wu2017.md", part_wu2017.all_rows, 145, False),
-    "wu2017": ("docs/validation/wu2017.md", part_wu2017.two_cells, 35, True),
+    "wu2017-rows": ("docs/validation/wu2017.md", part_wu2017.all_rows, 140, False),
+    "wu2017": ("docs/validation/wu2017.md", part_wu2017.two_cells, 15, True),
     "wu2017-three-cells": ("docs/validation/wu2017.md", part_wu2017.three_cells, 75, False),
     "wu2017-five-cells": ("docs/validation/wu2017.md", part_wu2017.five_cells, 50, False),
     "wu2017-shipped": ("docs/validation/wu2017.md", part_wu2017.shipped, 2, False),
