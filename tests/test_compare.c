@@ -1117,7 +1117,7 @@ static void test_one_side_on_other_grids(void **state)
 static void assert_parts(const onset_result *r, double own_grid, bool scattered, double strength)
 {
     const onset_part *p = r->part;
-    assert_int_equal(r->n_parts, ONSET_PARTS);
+    assert_true(r->n_parts >= ONSET_PARTS);
     assert_true(fabs(p[1].threshold_below - 0.1 * own_grid) < 1e-6);
     assert_true(scattered ? p[2].threshold_above == r->threshold_deviation : isnan(p[2].threshold_above));
     assert_string_equal(p[3].part, "rail.yield_scale");
@@ -1146,6 +1146,39 @@ static void test_parts_of_an_interval(void **state)
     assert_parts(&bare.result, own, false, 0.0);
     assert_parts(&full.result, own, true, 150.0);
     assert_true(fabs(full.result.threshold_velocity - own - made_up_spread(3).mean) < 1e-6);
+    study_onset_answer_free(&bare);
+    study_onset_answer_free(&full);
+    case_free(c);
+}
+
+/* What the case states widens the intervals of threshold and scratch, of the untreated rail and of a warm one, without
+ * a scene, and is listed by its name. */
+static void test_stated_parts(void **state)
+{
+    (void)state;
+    breech_case *c = close_search(HEAD GRAINS "sites: [{position: 2.9 m}]\n");
+    c->study.scratch = true;
+    c->study.shots = 2; /* on the warm rail too */
+    onset_answer bare = studied(c, "stated-none", status_ok());
+    c->study.interval_parts = (case_interval_parts){ 2, calloc(2, sizeof(case_interval_part)) };
+    assert_non_null(c->study.interval_parts.item);
+    c->study.interval_parts.item[0] = (case_interval_part){ "rail's strength to 10 %", 0.07, 0.2 };
+    c->study.interval_parts.item[1] = (case_interval_part){ "its temper", 0.05, 0.0 };
+    onset_answer full = studied(c, "stated", status_ok());
+    const onset_result *r = &full.result, *of = &bare.result;
+    const double v = of->threshold_velocity, wide = v * sqrt(0.1 * 0.1 + 0.07 * 0.07 + 0.05 * 0.05);
+    assert_int_equal(r->n_scenes, of->n_scenes);
+    assert_true(r->threshold_velocity == v && r->scratch_velocity == of->scratch_velocity);
+    for (int e = 0; e < 2; e++)
+        assert_true(fabs(fabs(r->threshold_interval[e] - of->threshold_interval[e]) - (wide - 0.1 * v)) < 1e-6);
+    assert_int_equal(r->n_parts, ONSET_PARTS + 2);
+    assert_parts(r, v, false, 0.0);
+    assert_string_equal(r->part[ONSET_PARTS].part, "rail's strength to 10 %");
+    assert_true(fabs(r->part[ONSET_PARTS].threshold_below - 0.07 * v) < 1e-6);
+    assert_true(fabs(r->part[ONSET_PARTS].scratch_above - 0.2 * r->scratch_velocity) < 1e-6);
+    assert_true(fabs(r->part[ONSET_PARTS + 1].threshold_above - 0.05 * v) < 1e-6);
+    const threshold_result *warm = &full.rail.changed[MC_WARMTH].grains.family[0].surface.reference;
+    assert_true(fabs(warm->allowance[0] - warm->velocity * wide / v) < 1e-6); /* the random shots draw from it */
     study_onset_answer_free(&bare);
     study_onset_answer_free(&full);
     case_free(c);
@@ -1702,6 +1735,7 @@ int main(void)
         cmocka_unit_test(test_scatter),
         cmocka_unit_test(test_one_side_on_other_grids),
         cmocka_unit_test(test_parts_of_an_interval),
+        cmocka_unit_test(test_stated_parts),
         cmocka_unit_test(test_scatter_of_a_small_slope),
         cmocka_unit_test(test_scatter_of_two),
         cmocka_unit_test(test_scatter_of_dying),

@@ -164,6 +164,14 @@ static const base_param scene_params[] = {
     PARAMS_END,
 };
 
+static const base_param interval_part_params[] = {
+    PARAM_STRING(case_interval_part, part, NULL, "what it is, in words"),
+    PARAM_DOUBLE(case_interval_part, threshold, "1", 0.0, 0.0, 1.0,
+                 "share of the threshold by which it may lie lower or higher"),
+    PARAM_DOUBLE(case_interval_part, scratch, "1", 0.0, 0.0, 1.0, "the same of the scratch velocity"),
+    PARAMS_END,
+};
+
 static const base_param study_params[] = {
     PARAM_DOUBLE(case_study, velocity_interval, "1", 0.03, 1e-4, 1.0,
                  "wanted width of the threshold's interval over its middle"),
@@ -201,8 +209,10 @@ static const base_param study_params[] = {
         case_study, resolution_above, "1", 0.2, 0.0, 10.0,
         "the same upwards where growth is the judge, if it is more: finer cells may raise a threshold further than "
         "they lower it"),
-    PARAM_DOUBLE(case_study, strength_error, "1", 0.0, 0.0, 1.0,
-                 "uncertainty of rail.yield_scale, relative: a search more, and the threshold's interval holds it"),
+    PARAM_DOUBLE(
+        case_study, strength_error, "1", 0.0, 0.0, 1.0,
+        "uncertainty of rail.yield_scale, relative: a search more, and the threshold's interval holds it; a known "
+        "effect goes into interval_parts"),
     PARAM_DOUBLE(case_study, armature_error, "1", 0.0, 0.0, 1.0, "uncertainty of armature.yield_scale alike"),
     PARAM_DOUBLE(case_study, friction_error, "1", 0.0, 0.0, 10.0, "uncertainty of scene.friction alike"),
     PARAM_BOOL(case_study, feedback, 1, "a gouge's impulse and mass loss go back into the shot"),
@@ -379,6 +389,17 @@ static const case_section life_children[] = {
       .table = life_point_params,
       .offset = offsetof(case_life, points),
       .size = sizeof(case_life_point),
+      .given = NO_FLAG,
+      .list = true },
+    END_OF_SECTIONS,
+};
+
+static const case_section study_children[] = {
+    { .key = "interval_parts",
+      .doc = "What else a threshold's interval has to hold, measured before, a list; no scene is run for it.",
+      .table = interval_part_params,
+      .offset = offsetof(case_study, interval_parts),
+      .size = sizeof(case_interval_part),
       .given = NO_FLAG,
       .list = true },
     END_OF_SECTIONS,
@@ -561,7 +582,8 @@ static const case_section sections[] = {
       .children = treatment_children, .size = sizeof(case_treatment), .list = true },
     { SECTION(scene, scene_params, NEED_SCENE, "How an impact scene is built and run."), .size = sizeof(case_scene),
       .unless = "bodies" },
-    { SECTION(study, study_params, 0, "The search for where gouging begins."), .size = sizeof(case_study) },
+    { SECTION(study, study_params, 0, "The search for where gouging begins."), .children = study_children,
+      .size = sizeof(case_study) },
     { SECTION(sweep, sweep_params, CASE_FOR_SWEEP, "Runs of another study with other values of some keys."),
       .children = sweep_children, .size = sizeof(case_sweep) },
     { SECTION(strike, strike_params, CASE_FOR_STRIKE,

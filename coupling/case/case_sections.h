@@ -304,6 +304,17 @@ typedef struct {
 /* What a study takes for the onset of gouging: the groove's growth, or the crater's severity. */
 typedef enum { JUDGE_GROWTH, JUDGE_SEVERITY } study_judge;
 
+/* What else a threshold's interval has to hold, known from elsewhere: a share of the velocity on either side. */
+typedef struct {
+    char part[BASE_PARAM_TEXT_SIZE]; /* what it is, in words */
+    double threshold, scratch;       /* of the threshold, of the scratch velocity [1] */
+} case_interval_part;
+
+typedef struct {
+    int n;
+    case_interval_part *item; /* n, owned by the case */
+} case_interval_parts;
+
 /* The search for where gouging begins. */
 typedef struct {
     double velocity_interval;           /* wanted width of the threshold's interval over its middle [1] */
@@ -322,10 +333,11 @@ typedef struct {
     double resolution_above;                               /* the same upwards, judged by growth [1] */
     double strength_error, armature_error;                 /* of rail's and armature's yield_scale, relative [1] */
     double friction_error;                                 /* of scene.friction, relative [1] */
-    bool feedback;                                         /* a gouge's impulse and mass loss go back into the shot */
-    bool sensitivities;                                    /* the shot again with changed inputs */
-    int shots;                                             /* fired one after the other on the same rail */
-    double heat_kept;                                      /* in the rails from shot to shot [1] */
+    case_interval_parts interval_parts;
+    bool feedback;          /* a gouge's impulse and mass loss go back into the shot */
+    bool sensitivities;     /* the shot again with changed inputs */
+    int shots;              /* fired one after the other on the same rail */
+    double heat_kept;       /* in the rails from shot to shot [1] */
     double deposit_kept;    /* of the armature's metal on the rail, from shot to shot; NAN: none is carried on [1] */
     int sampled;            /* histories of the Monte Carlo */
     int seed;               /* of its random numbers */

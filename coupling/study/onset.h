@@ -55,12 +55,12 @@ typedef struct {
 /* One part of an interval: how far it alone would reach below and above the velocity [m/s].  The bracket's reaches are
  * added to the root of the sum of squares of the others; NAN: not asked for, so not in the interval. */
 typedef struct {
-    char part[40];
+    char part[BASE_PARAM_TEXT_SIZE];
     double threshold_below, threshold_above;
     double scratch_below, scratch_above;
 } onset_part;
 
-enum { ONSET_PARTS = 3 + UNCERTAIN_MAX };
+enum { ONSET_PARTS = 3 + UNCERTAIN_MAX }; /* and those of study.interval_parts */
 
 /* Scenes that were not needed. */
 typedef struct {

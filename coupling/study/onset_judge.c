@@ -239,48 +239,58 @@ const grain_family *study_onset_leading_grain(const onset_answer *a, double *rad
 
 /* ---- what its intervals hold ---- */
 
-/* Below and above the velocity, by each part; NAN: not in the interval. */
+/* How far a part lets a velocity lie lower and higher [m/s]; NAN: not in the interval. */
 typedef struct {
-    double reach[ONSET_PARTS][2];
-} interval_parts;
+    double reach[2];
+} part_reach;
 
-/* Of one threshold of the family, t at the size that counts. */
-static interval_parts parts_of(const uncertain_inputs *u, grain_family *f, family_judge judge, const surface_size *t)
+/* Part i of one threshold of the family, t at the size that counts: the bracket, cells, the grid's place, the uncertain
+ * inputs, what the case states. */
+static part_reach reach_of(const onset_answer *a, int i, grain_family *f, family_judge judge, const surface_size *t)
 {
     const threshold_result *r = &study_family_surface(f, judge)->reference;
     const family_scatter *scatter = study_family_scatter(f, judge);
-    interval_parts p;
-    for (int side = 0; side < 2; side++) {
-        const double end = side ? t->interval[1] - t->velocity : t->velocity - t->interval[0];
-        p.reach[0][side] = isnan(end) ? NAN : fmax(end - r->allowance[side], 0.0);
-        p.reach[1][side] = r->of_cells[side];
-        p.reach[2][side] = scatter->excess > 0.0 ? scatter->reach : NAN;
-        for (int k = 0; k < UNCERTAIN_MAX; k++) p.reach[3 + k][side] = fabs(study_uncertain_moved(u, k, f, judge));
-    }
-    return p;
+    const double below = t->velocity - t->interval[0], above = t->interval[1] - t->velocity;
+    if (i == 0)
+        return (part_reach){ { isnan(below) ? NAN : fmax(below - r->allowance[0], 0.0),
+                               isnan(above) ? NAN : fmax(above - r->allowance[1], 0.0) } };
+    if (i == 1) return (part_reach){ { r->of_cells[0], r->of_cells[1] } };
+    double same;
+    if (i == 2)
+        same = scatter->excess > 0.0 ? scatter->reach : NAN;
+    else if (i < ONSET_PARTS)
+        same = fabs(study_uncertain_moved(&a->uncertain, i - 3, f, judge));
+    else
+        same = study_uncertain_stated(&a->grains.c->study.interval_parts.item[i - ONSET_PARTS], f, judge);
+    return (part_reach){ { same, same } };
+}
+
+static const char *name_of_part(const onset_answer *a, int i)
+{
+    static const char *const names[] = { "bracket of the search", "cells", "place of the grid" };
+    if (i < 3) return names[i];
+    return i < ONSET_PARTS ? study_uncertain_input(i - 3)
+                           : a->grains.c->study.interval_parts.item[i - ONSET_PARTS].part;
 }
 
 static status list_parts(onset_answer *a, grain_family *f, const surface_size *gouge, const surface_size *scratch)
 {
-    static const char *const names[] = { "bracket of the search", "cells", "place of the grid" };
-    onset_result *r = &a->result;
-    interval_parts of[FAMILY_JUDGES];
+    const part_reach none = { { NAN, NAN } };
+    const int n = ONSET_PARTS + a->grains.c->study.interval_parts.n;
+    const bool has_gouge = !isnan(gouge->velocity), has_scratch = f->scratch && !isnan(scratch->velocity);
     if (isnan(gouge->velocity) && isnan(scratch->velocity)) return status_ok();
-    a->part = calloc(ONSET_PARTS, sizeof *a->part);
+    a->part = calloc((size_t)n, sizeof *a->part);
     CHECK(a->part, STATUS_MEMORY, "no memory for a summary");
-    of[JUDGE_OF_GOUGE] = parts_of(&a->uncertain, f, JUDGE_OF_GOUGE, gouge);
-    if (f->scratch) of[JUDGE_OF_SCRATCH] = parts_of(&a->uncertain, f, JUDGE_OF_SCRATCH, scratch);
-    for (int i = 0; i < ONSET_PARTS; i++) {
-        onset_part *to = &a->part[r->n_parts++];
-        const double *g = of[JUDGE_OF_GOUGE].reach[i], *s = of[JUDGE_OF_SCRATCH].reach[i];
-        const bool has_gouge = !isnan(gouge->velocity), has_scratch = f->scratch && !isnan(scratch->velocity);
-        *to = (onset_part){ .threshold_below = has_gouge ? g[0] : NAN,
-                            .threshold_above = has_gouge ? g[1] : NAN,
-                            .scratch_below = has_scratch ? s[0] : NAN,
-                            .scratch_above = has_scratch ? s[1] : NAN };
-        snprintf(to->part, sizeof to->part, "%s", i < 3 ? names[i] : study_uncertain_input(i - 3));
+    for (int i = 0; i < n; i++) {
+        const part_reach g = has_gouge ? reach_of(a, i, f, JUDGE_OF_GOUGE, gouge) : none,
+                         s = has_scratch ? reach_of(a, i, f, JUDGE_OF_SCRATCH, scratch) : none;
+        a->part[i] = (onset_part){ .threshold_below = g.reach[0],
+                                   .threshold_above = g.reach[1],
+                                   .scratch_below = s.reach[0],
+                                   .scratch_above = s.reach[1] };
+        snprintf(a->part[i].part, sizeof a->part[i].part, "%s", name_of_part(a, i));
     }
-    r->part = a->part;
+    a->result.part = a->part, a->result.n_parts = n;
     return status_ok();
 }
 

@@ -82,15 +82,18 @@ static status plan(const grain_families *g, const raised *from, double error, un
 
 /* ---- what they move ---- */
 
-/* To where the raised input moves the threshold of a family, on the search's own grid; where its search saw one side
- * alone, as far as that reached. */
+/* Where a threshold lies on the search's own grid; where one side alone was seen, as far as that reached. */
+static double place_of(const threshold_result *r)
+{
+    if (!isnan(r->velocity)) return r->velocity - r->more;
+    return isnan(r->bracket[0]) ? r->bracket[1] : r->bracket[0];
+}
+
+/* To where the raised input moves the threshold of a family. */
 static double moved_to(const uncertain_input *u, const grain_family *f, family_judge judge)
 {
     grain_family *as = study_family_alike(&u->grains, f);
-    if (!as) return NAN;
-    const threshold_result *r = &study_family_surface(as, judge)->reference;
-    if (!isnan(r->velocity)) return r->velocity - r->more;
-    return isnan(r->bracket[0]) ? r->bracket[1] : r->bracket[0];
+    return as ? place_of(&study_family_surface(as, judge)->reference) : NAN;
 }
 
 static double off(const uncertain_input *u, grain_family *f, family_judge judge)
@@ -109,6 +112,12 @@ double study_uncertain_moved(const uncertain_inputs *u, int k, grain_family *f, 
     for (int i = 0; i < u->n; i++)
         if (strcmp(u->of[i].input, inputs[k].input) == 0) return off(&u->of[i], f, judge);
     return NAN;
+}
+
+double study_uncertain_stated(const case_interval_part *part, grain_family *f, family_judge judge)
+{
+    const double share = judge == JUDGE_OF_SCRATCH ? part->scratch : part->threshold;
+    return share * place_of(&study_family_surface(f, judge)->reference);
 }
 
 /* An end that is not known stays so. */
@@ -143,8 +152,10 @@ static void end_alike(surface_result *s, const surface_result *first)
     for (int k = 0; k < s->sizes && k < first->sizes; k++) s->size[k].interval[side] = first->size[k].interval[side];
 }
 
-/* One threshold of a family by what was measured of those of f, the grains alike in the study itself; NULL: none. */
-static void widen_threshold(const uncertain_inputs *u, grain_family *f, grain_family *other, family_judge judge)
+/* One threshold of a family by what was measured of those of f, the grains alike in the study itself (NULL: none), and
+ * by what the case states. */
+static void widen_threshold(const uncertain_inputs *u, const case_interval_parts *parts, grain_family *f,
+                            grain_family *other, family_judge judge)
 {
     surface_result *s = study_family_surface(other, judge);
     const family_scatter scatter = f ? *study_family_scatter(f, judge) : (family_scatter){ .more = 0 };
@@ -154,6 +165,10 @@ static void widen_threshold(const uncertain_inputs *u, grain_family *f, grain_fa
         if (isfinite(moved)) squares += moved * moved;
     }
     squares += scatter.reach * scatter.reach;
+    for (int i = 0; i < parts->n; i++) {
+        const double stated = study_uncertain_stated(&parts->item[i], other, judge);
+        squares += stated * stated;
+    }
     for (int side = 0; side < 2; side++) {
         const double own = s->reference.allowance[side];
         allowance[side] = sqrt(own * own + squares);
@@ -179,11 +194,12 @@ static void reach_up_to_gouge(grain_family *f)
 
 void study_uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other)
 {
+    const case_interval_parts *parts = &first->c->study.interval_parts;
     for (int k = 0; k < other->n; k++) {
         grain_family *f = study_family_alike(first, &other->family[k]);
-        widen_threshold(u, f, &other->family[k], JUDGE_OF_GOUGE);
+        widen_threshold(u, parts, f, &other->family[k], JUDGE_OF_GOUGE);
         if (!other->family[k].scratch) continue;
-        widen_threshold(u, f, &other->family[k], JUDGE_OF_SCRATCH);
+        widen_threshold(u, parts, f, &other->family[k], JUDGE_OF_SCRATCH);
         reach_up_to_gouge(&other->family[k]);
     }
 }

@@ -5,7 +5,7 @@
  *
  * By as much as the threshold of the reference size then moves, the intervals of all sizes are widened: on either side
  * the allowance is the root of the sum of squares of what cells may change (threshold.h), of what the place of the grid
- * does (scatter.h) and of all these.
+ * does (scatter.h), of all these and of what the case states without a search (study.interval_parts).
  * The searches are looked for from 0.6 to 1.6 of the threshold, have no whole craters, and go on side by side. */
 #ifndef BREECH_COUPLING_UNCERTAIN_H
 #define BREECH_COUPLING_UNCERTAIN_H
@@ -34,6 +34,8 @@ status study_uncertain_run(session *s, grain_families *grains, uncertain_inputs 
 const char *study_uncertain_input(int k);
 /* How far the k-th of them, raised by its uncertainty, moves a threshold of the family; NAN: none is stated [m/s]. */
 double study_uncertain_moved(const uncertain_inputs *u, int k, grain_family *f, family_judge judge);
+/* How far the part of study.interval_parts lets a threshold of the family lie lower or higher [m/s]. */
+double study_uncertain_stated(const case_interval_part *part, grain_family *f, family_judge judge);
 /* Moves and widens the families of another rail (repeated.h) by as much as those of `first`. */
 void study_uncertain_widen(const uncertain_inputs *u, const grain_families *first, grain_families *other);
 void study_uncertain_free(uncertain_inputs *u);
