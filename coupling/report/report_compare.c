@@ -217,7 +217,6 @@ static const page_column ranking_columns[] = {
     { "surface", "surface", 1.0, "", NULL },
     { "tied", "rank", 1.0, "", NULL },
     { "threshold_velocity", "gouges from", 1.0, "m/s", "threshold_interval" },
-    { "scratch_velocity", "scratches from", 1.0, "m/s", "scratch_interval" },
     { "threshold_position", "passed at", 1.0, "m", "threshold_position_interval" },
     { "gouges", "gouges a shot", 1.0, "", "gouges_interval" },
     { "last_gouges", "of the last shot", 1.0, "", NULL },

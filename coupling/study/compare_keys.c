@@ -12,7 +12,7 @@ static const summary_key entry_keys[] = {
     SUMMARY_NUMBER(compare_entry, "threshold_velocity", threshold_velocity, "m/s", ""),
     SUMMARY_VECTOR(compare_entry, "threshold_interval", threshold_interval, 2, "m/s", ""),
     SUMMARY_NUMBER(compare_entry, "scratch_velocity", scratch_velocity, "m/s",
-                   "from which a groove grows, furrow or gouge; null: not looked for"),
+                   "always null: surfaces are ranked by the gouge alone, and the scratch is not looked for"),
     SUMMARY_VECTOR(compare_entry, "scratch_interval", scratch_interval, 2, "m/s", "as threshold_interval"),
     SUMMARY_NUMBER(compare_entry, "onset_position", onset_position, "m",
                    "of the first shot's first grain that gouges, with populations the median; null: no gouging"),

@@ -22,8 +22,13 @@ MAP = [
     ("lead face at 45 degrees", {"armature.lead_angle": "45 deg"}),
     ("rail of 450 K", {"rail.temperature": "450 K"}),
     ("armature of 450 K", {"armature.temperature": "450 K"}),
+    ("armature of 600 K", {"armature.temperature": "600 K"}),
     ("friction 0.2", {"scene.friction": 0.2}),
     ("grain of 0.1 mm", {"particle.radius": "0.1 mm"}),
+    ("grain of 0.1 mm, not pressed on", {"particle.radius": "0.1 mm", "scene.contact_pressure": "0 Pa"}),
+    ("grain of 0.1 mm, lead face at 15 degrees", {"particle.radius": "0.1 mm", "armature.lead_angle": "15 deg"}),
+    ("grain of 0.1 mm, rail of 450 K", {"particle.radius": "0.1 mm", "rail.temperature": "450 K"}),
+    ("grain of 0.05 mm", {"particle.radius": "0.05 mm"}),
 ]
 
 
