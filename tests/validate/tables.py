@@ -31,6 +31,7 @@ import part_levels
 import part_pairs
 import part_slide
 import part_strength
+import part_stripes
 import part_struts
 import part_water
 import part_water_slow
@@ -46,10 +47,11 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "wu2017-five-cells": ("docs/validation/wu2017.md", part_wu2017.five_cells, 50, False),
     "wu2017-shipped": ("docs/validation/wu2017.md", part_wu2017.shipped, 2, False),
     "levels": ("docs/validation/levels.md", part_levels.default_shot, 12, True),
-    "levels-one": ("docs/validation/levels.md", part_levels.one_level, 75, False),
+    "stripes": ("docs/validation/levels.md", part_stripes.stripes, 8, False),
+    "levels-one": ("docs/validation/levels.md", part_levels.one_level, 30, False),
     "levels-paper": ("docs/validation/levels.md", part_levels.paper, 12, False),
     "cells-grow": ("docs/validation/levels.md", part_levels.growing, 25, False),
-    "cells": ("docs/validation/growth.md", part_growth.cells, 60, False),
+    "cells": ("docs/validation/growth.md", part_growth.cells, 90, False),
     "cells-fine": ("docs/validation/growth.md", part_growth.fine, 55, False),
     "cells-pairs": ("docs/validation/growth.md", part_growth.pairs, 35, False),
     "layer": ("docs/validation/layers.md", part_layer.layer, 65, False),
