@@ -686,6 +686,29 @@ static void old_names_are_read(void **state)
     case_free(a);
 }
 
+/* Boxes of fine cells are gone: their settings change nothing, and each is named in a warning. */
+static void settings_of_boxes_are_read(void **state)
+{
+    (void)state;
+    static const char *const gone[] = { "fine_ahead", "fine_behind", "fine_above",
+                                        "fine_depth", "fine_width",  "follow_lead" };
+    enum { GONE = sizeof gone / sizeof *gone };
+    char set[GONE][40], warning[100];
+    const char *sets[GONE];
+    for (int k = 0; k < GONE; k++) {
+        snprintf(set[k], sizeof set[k], "scene.%s=3 mm", gone[k]);
+        sets[k] = set[k];
+    }
+    breech_case *a = small_case(sets, GONE), *b = small_case(NULL, 0);
+    same_objects(&case_root, a, b);
+    for (int k = 0; k < GONE; k++) {
+        snprintf(warning, sizeof warning, "`scene.%s` is no longer read by anything: leave it out", gone[k]);
+        assert_non_null(strstr(a->warnings, warning));
+    }
+    case_free(a);
+    case_free(b);
+}
+
 /* ---- writing ---- */
 
 static char *used_text(const breech_case *c)
@@ -915,6 +938,7 @@ int main(void)
         cmocka_unit_test(what_follows_is_not_asked_for),
         cmocka_unit_test(halves_of_a_section),
         cmocka_unit_test(old_names_are_read),
+        cmocka_unit_test(settings_of_boxes_are_read),
         cmocka_unit_test(used_reads_back),
         cmocka_unit_test(texts_survive_quoting),
         cmocka_unit_test(manual_is_up_to_date),

@@ -24,6 +24,7 @@ MAP = [
     ("armature of 450 K", {"armature.temperature": "450 K"}),
     ("armature of 600 K", {"armature.temperature": "600 K"}),
     ("friction 0.2", {"scene.friction": 0.2}),
+    ("a film of melt: shear of at most 1.2 MPa", {"scene.shear_limit": "1.2 MPa"}),  # 1.3 mPa s at 950 m/s over 1 um
     ("grain of 0.1 mm", {"particle.radius": "0.1 mm"}),
     ("grain of 0.1 mm, not pressed on", {"particle.radius": "0.1 mm", "scene.contact_pressure": "0 Pa"}),
     ("grain of 0.1 mm, lead face at 15 degrees", {"particle.radius": "0.1 mm", "armature.lead_angle": "15 deg"}),
