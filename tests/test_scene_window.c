@@ -92,6 +92,16 @@ static void test_few_cells(void **state)
                   "warning: body ball: 1 cells of 4 mm across it along x", true);
     assert_int_equal(run("check " SHOT " --set scene.cells_per_radius=1.2"), 0);
     assert_true(contains("out.txt", "warning: particle: 2.4 cells across it"));
+    /* a film whose cells would take a ninth level, and one that leaves them room */
+#define FILM                                                                                                \
+    " --set rail.layers='[{material: steel_4340, thickness: 20 um}]' --set particle.radius='0.1 mm' --set " \
+    "scene.cells_per_layer=4"
+    assert_int_equal(run("check " SHOT FILM), 0);
+    assert_true(contains(
+        "out.txt", "warning: rail.layers[0]: 0.6 cells across 20 um of steel_4340, not 4 (scene.cells_per_layer)"));
+    assert_int_equal(run("check " SHOT FILM " --set scene.coarse_cell='1 mm'"), 0);
+    assert_false(contains("out.txt", "not 4 (scene.cells_per_layer)"));
+#undef FILM
 }
 
 static void test_probes(void **state)

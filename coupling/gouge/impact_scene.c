@@ -94,9 +94,8 @@ static int levels_of(const case_scene *s, double fine)
 
 int gouge_layer_halvings(const case_scene *s, double fine, double thickness)
 {
-    static const double ALMOST = 1.1; /* cells so much larger will do: they can only be halved */
     const int levels = levels_of(s, fine), most = levels > 1 ? MPM_MAX_LEVELS - levels : 0;
-    const double wanted = s->cells_per_layer > 0.0 ? ALMOST * thickness / s->cells_per_layer : INFINITY;
+    const double wanted = s->cells_per_layer > 0.0 ? GOUGE_ALMOST * thickness / s->cells_per_layer : INFINITY;
     int n = 0;
     while (n <= most && fine / (1 << n) > wanted) n++;
     return n <= most ? n : 0;

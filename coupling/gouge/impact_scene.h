@@ -50,6 +50,7 @@ enum { GOUGE_PIT = -1 };
 /* Cells across a layer that resolve its bending and shear: two, or almost, for cells can only be halved.  With less
  * than one it is a film, strained as its cell is (docs/theory/onset.md). */
 #define GOUGE_RESOLVED_LAYER 1.8
+#define GOUGE_ALMOST 1.1 /* a layer's cells may be so much larger than asked for: they can only be halved */
 
 /* An impact decides its scene; a contact pressure that it does not give is none.  The caller frees the scene; after an
  * error it is empty.  STATUS_BAD_INPUT names what cannot be built and which key to change. */

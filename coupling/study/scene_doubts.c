@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling/study/scene_doubts.h"
 
+#include "coupling/gouge/impact_scene.h"
 #include "coupling/scene/few_cells.h"
 #include "coupling/scene/probe_place.h"
 
@@ -22,12 +23,33 @@ static void doubt_grain(const case_inputs *in, doubt_sink *say, void *user)
     say(user, text);
 }
 
+/* A layer of the rail that cannot have the cells of its own that the case asks for. */
+static void doubt_layers(const case_inputs *in, doubt_sink *say, void *user)
+{
+    const case_impact *c = &in->onset.impact;
+    const double wanted = c->scene.cells_per_layer, fine = c->particle.radius / c->scene.cells_per_radius;
+    char text[400];
+    if (!in->onset.has_body || isnan(c->scene.velocity) || isnan(fine)) return;
+    for (int i = 0; i < c->rail.layers.n; i++) {
+        const case_layer *layer = &c->rail.layers.item[i];
+        const double across = gouge_cells_across(&c->scene, fine, layer->thickness);
+        if (!(GOUGE_ALMOST * across < wanted)) continue;
+        snprintf(
+            text, sizeof text,
+            "rail.layers[%d]: %.2g cells across %g um of %s, not %g (scene.cells_per_layer): that takes more levels "
+            "of cells than there may be; smaller scene.coarse_cell leaves room",
+            i, across, 1e6 * layer->thickness, layer->material, wanted);
+        say(user, text);
+    }
+}
+
 static void doubt(const case_inputs *in, doubt_sink *say, void *user)
 {
     char text[400];
     const mpm_scene *s = &in->bodies.scene;
     if (!in->given.bodies) {
         doubt_grain(in, say, user);
+        doubt_layers(in, say, user);
         return;
     }
     for (int i = 0; i < s->bodies; i++)

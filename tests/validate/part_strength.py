@@ -6,7 +6,8 @@ import os
 from pages import Column, Table
 
 BASE = {"study.craters": 0, "scene.contact_pressure": "60 MPa", "output.report": "no", "output.snapshots": 0,
-        "study.resolution_above": "10 %"}  # finer cells would move all rows alike: what sets them apart is asked for
+        "study.resolution_above": "10 %",  # finer cells would move all rows alike: what sets them apart is asked for
+        "study.interval_parts": "[]"}  # what the table is for
 STRENGTH = [  # title, settings
     ("as shipped, pressed on with 60 MPa", {}),
     ("armature x 0.7", {"armature.yield_scale": 0.7}),
