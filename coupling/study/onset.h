@@ -60,7 +60,8 @@ typedef struct {
     double scratch_below, scratch_above;
 } onset_part;
 
-enum { ONSET_PARTS = 3 + UNCERTAIN_MAX }; /* and those of study.interval_parts */
+/* The parts by their place in the list; after them those of study.interval_parts. */
+enum { PART_BRACKET, PART_CELLS, PART_GRID, PART_INPUTS, ONSET_PARTS = PART_INPUTS + UNCERTAIN_MAX };
 
 /* Scenes that were not needed. */
 typedef struct {

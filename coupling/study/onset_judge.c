@@ -244,22 +244,21 @@ typedef struct {
     double reach[2];
 } part_reach;
 
-/* Part i of one threshold of the family, t at the size that counts: the bracket, cells, the grid's place, the uncertain
- * inputs, what the case states. */
+/* Part i of one threshold of the family, t at the size that counts. */
 static part_reach reach_of(const onset_answer *a, int i, grain_family *f, family_judge judge, const surface_size *t)
 {
     const threshold_result *r = &study_family_surface(f, judge)->reference;
     const family_scatter *scatter = study_family_scatter(f, judge);
     const double below = t->velocity - t->interval[0], above = t->interval[1] - t->velocity;
-    if (i == 0)
+    if (i == PART_BRACKET)
         return (part_reach){ { isnan(below) ? NAN : fmax(below - r->allowance[0], 0.0),
                                isnan(above) ? NAN : fmax(above - r->allowance[1], 0.0) } };
-    if (i == 1) return (part_reach){ { r->of_cells[0], r->of_cells[1] } };
+    if (i == PART_CELLS) return (part_reach){ { r->of_cells[0], r->of_cells[1] } };
     double same;
-    if (i == 2)
+    if (i == PART_GRID)
         same = scatter->excess > 0.0 ? scatter->reach : NAN;
     else if (i < ONSET_PARTS)
-        same = fabs(study_uncertain_moved(&a->uncertain, i - 3, f, judge));
+        same = fabs(study_uncertain_moved(&a->uncertain, i - PART_INPUTS, f, judge));
     else
         same = study_uncertain_stated(&a->grains.c->study.interval_parts.item[i - ONSET_PARTS], f, judge);
     return (part_reach){ { same, same } };
@@ -268,8 +267,8 @@ static part_reach reach_of(const onset_answer *a, int i, grain_family *f, family
 static const char *name_of_part(const onset_answer *a, int i)
 {
     static const char *const names[] = { "bracket of the search", "cells", "place of the grid" };
-    if (i < 3) return names[i];
-    return i < ONSET_PARTS ? study_uncertain_input(i - 3)
+    if (i < PART_INPUTS) return names[i];
+    return i < ONSET_PARTS ? study_uncertain_input(i - PART_INPUTS)
                            : a->grains.c->study.interval_parts.item[i - ONSET_PARTS].part;
 }
 
