@@ -16,7 +16,6 @@ RESOLUTIONS = {  # cells a radius: velocities [m/s]
     3: (500, 700, 900, 1000, 1150),
     4: (500, 700, 900, 1000, 1150, 1300, 1500),
     6: (500, 700, 900, 1000, 1150, 1300, 1500),
-    8: (500, 700, 900, 1000, 1150),
 }
 FINE, FINE_VELOCITIES, FINE_GRIDS = (4, 8), (1150, 1500), 6
 OF_PAIRS = (  # armature on rail, their files, a velocity at which the groove grows [m/s]
