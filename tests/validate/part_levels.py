@@ -5,6 +5,7 @@ from part_growth import cell
 
 COLUMNS = [Column("scene"), Column("class"), Column("volume [mm3]", 0.1), Column("length [mm]", 0.1),
            Column("width [mm]", 0.1), Column("depth [mm]", 0.1)]
+GAUGED = COLUMNS + [Column("growth [1/mm]", 0.1), Column("processor time [s]", words=False)]
 CHANGES = {  # of both cases; what a window half as large again is, each says of itself
     "nothing": {},
     "half the tolerance": {"scene__refine_tolerance": 0.0175},
@@ -46,17 +47,15 @@ def gauged(runs, velocity, name, change):
 
 
 def default_shot(runs):
-    columns = COLUMNS + [Column("growth [1/mm]", 0.1), Column("processor time [s]", words=False)]
     rows = [gauged(runs, velocity, name, change) for velocity in VELOCITIES
             for name, change in {**CHANGES, WINDOW: DEFAULT_SHOT_WINDOW}.items()]
-    return [Table(columns, rows)], OF_DEFAULT_SHOT
+    return [Table(GAUGED, rows)], OF_DEFAULT_SHOT
 
 
 def one_level(runs):
     """Cells of one size everywhere, beside the scene as it is."""
-    columns = COLUMNS + [Column("growth [1/mm]", 0.1), Column("processor time [s]", words=False)]
     rows = [gauged(runs, AT_ONE_LEVEL, name, change) for name, change in (("nothing", {}), ("one level", ONE_LEVEL))]
-    return [Table(columns, rows)], OF_DEFAULT_SHOT
+    return [Table(GAUGED, rows)], OF_DEFAULT_SHOT
 
 
 def paper(runs):

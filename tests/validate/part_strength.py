@@ -74,5 +74,5 @@ def inputs(runs):
     return table(runs, MAP)
 
 
-NOTE = ("`breech onset cases/default_shot` without whole craters, with `study.resolution_above` 10 %, one input changed at a "
-        "time; in brackets each velocity's interval; \"none\": beyond the velocities of the search")
+NOTE = ("`breech onset cases/default_shot` without whole craters, with `study.resolution_above` 10 % and no `study.interval_parts`, one input "
+        "changed at a time; in brackets each velocity's interval; \"none\": beyond the velocities of the search")

@@ -1,9 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """What a comparison of a page with fresh figures notices, and that every part of tables.py has its place."""
+import os
+import re
+
 import pages
 import tables
 from pages import Column, Table
+from runs import ROOT
 
 COLUMNS = [Column("scene"), Column("class"), Column("depth [mm]", 0.1), Column("time [s]", words=False)]
 
@@ -17,6 +21,13 @@ def differences(*fresh):
 
 SLOW, FAST = ("slow", "3 gouge", "0.60 ± 0.02", "12"), ("fast", "scratch", "0.300", "9")
 ODD = ("odd", "1 gouge, 1 none", "", "")
+
+
+def named_parts():
+    """Of the last column of the page that gathers what is known of the onset; commands aside."""
+    with open(os.path.join(ROOT, "docs/validation/onset.md"), encoding="utf-8") as file:
+        last = [line.split("|")[-2] for line in file if line.startswith("| ")]
+    return [name for cell in last for name in re.findall("`([^`]*)`", cell) if not name.startswith("breech ")]
 
 
 def main():
@@ -37,6 +48,8 @@ def main():
     for name, part in tables.PARTS.items():
         text = pages.part_text(part[0], name)[1]
         assert pages.written_tables(text) or "Not run yet" in text, "%s: part %s is empty" % (part[0], name)
+    names = named_parts()
+    assert len(names) > 10 and not set(names) - set(tables.PARTS), "docs/validation/onset.md: %s" % (set(names) - set(tables.PARTS))
     print("%d parts in place" % len(tables.PARTS))
 
 
