@@ -935,6 +935,19 @@ static void test_scatter_of_surfaces(void **state)
     int shifted[2] = { 0, 0 };
     OK(run_compare(c, "one-grid", &one));
     assert_true(one.result.ranking[1].tied == 2 && strstr(warned, "thresholds are of one grid each"));
+    case_interval_part place = { "place of the grid", 0.4, 0.0, false };
+    c->study.interval_parts = (case_interval_parts){ 1, &place };
+    for (int k = 0; k < 3; k++) { /* an error of all alike leaves them apart, as a small one of each does */
+        static const char *const names[] = { "stated", "stated-own", "stated-small" };
+        compare_answer stated;
+        place.own = k > 0;
+        place.threshold = k == 2 ? 0.01 : 0.4;
+        OK(run_compare(c, names[k], &stated));
+        assert_int_equal(stated.result.ranking[1].tied, k == 1 ? 1 : 2);
+        assert_int_equal(strstr(warned, "of one grid") == NULL, place.own);
+        study_compare_answer_free(&stated);
+    }
+    c->study.interval_parts = (case_interval_parts){ 0, NULL };
     c->study.threshold_ensemble = 3;
     OK(run_compare(c, "grids", &many));
     assert_null(strstr(warned, "of one grid"));
@@ -1162,8 +1175,8 @@ static void test_stated_parts(void **state)
     onset_answer bare = studied(c, "stated-none", status_ok());
     c->study.interval_parts = (case_interval_parts){ 2, calloc(2, sizeof(case_interval_part)) };
     assert_non_null(c->study.interval_parts.item);
-    c->study.interval_parts.item[0] = (case_interval_part){ "rail's strength to 10 %", 0.07, 0.2 };
-    c->study.interval_parts.item[1] = (case_interval_part){ "its temper", 0.05, 0.0 };
+    c->study.interval_parts.item[0] = (case_interval_part){ "rail's strength to 10 %", 0.07, 0.2, false };
+    c->study.interval_parts.item[1] = (case_interval_part){ "its temper", 0.05, 0.0, true };
     onset_answer full = studied(c, "stated", status_ok());
     const onset_result *r = &full.result, *of = &bare.result;
     const double v = of->threshold_velocity, wide = v * sqrt(0.1 * 0.1 + 0.07 * 0.07 + 0.05 * 0.05);
@@ -1179,6 +1192,7 @@ static void test_stated_parts(void **state)
     assert_true(fabs(r->part[ONSET_PARTS + 1].threshold_above - 0.05 * v) < 1e-6);
     const threshold_result *warm = &full.rail.changed[MC_WARMTH].grains.family[0].surface.reference;
     assert_true(fabs(warm->allowance[0] - warm->velocity * wide / v) < 1e-6); /* the random shots draw from it */
+    assert_true(fabs(warm->own - 0.05 * warm->velocity) < 1e-6);
     study_onset_answer_free(&bare);
     study_onset_answer_free(&full);
     case_free(c);

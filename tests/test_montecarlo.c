@@ -304,6 +304,36 @@ static void test_common_numbers(void **state)
     free(b.family);
 }
 
+/* What errs alike on all surfaces leaves two that are alike the same in every world; what each has for itself does not,
+ * and moves none of them in the mean. */
+static void test_own_error(void **state)
+{
+    (void)state;
+    rail r;
+    make(&r, 20.0, 1.5e-4, 0.7, 1500.0, 0.0, 0.0);
+    surface_result *of = &r.family->surface;
+    of->reference.allowance[0] = of->reference.allowance[1] = 100.0;
+    for (int k = 0; k < 9; k++) of->size[k].interval[0] -= 100.0, of->size[k].interval[1] += 100.0;
+    const mc_surface three[] = { as_new(&r, 0, 1.0), as_new(&r, 1, 1.0), as_new(&r, 1, 1.0) };
+    mc_result alike = run(three, 3, 20000, 1);
+    of->reference.own = 80.0;
+    mc_result own = run(three, 3, 20000, 1);
+    double square[2] = { 0.0, 0.0 };
+    for (int w = 0; w < MC_WORLDS; w++) {
+        assert_true(alike.world_gouges[w] == alike.world_gouges[MC_WORLDS + w]);
+        const double apart = own.world_gouges[w] - own.world_gouges[MC_WORLDS + w];
+        square[0] += apart * apart / MC_WORLDS;
+        square[1] += pow(own.world_gouges[w] - own.of[0].gouges, 2.0) / MC_WORLDS;
+        assert_true(own.world_gouges[MC_WORLDS + w] == own.world_gouges[2 * MC_WORLDS + w]); /* the same draws */
+    }
+    /* of a variance of 100^2/3 a share of 0.8^2 is each one's: twice that between two of them */
+    assert_true(fabs(square[0] / square[1] / (2.0 * 0.64) - 1.0) < 0.25);
+    assert_true(fabs(own.of[0].gouges / alike.of[0].gouges - 1.0) < 0.05);
+    study_mc_free(&alike);
+    study_mc_free(&own);
+    free(r.family);
+}
+
 /* Same seed, same bits; another seed, another draw of the same mean. */
 static void test_seed(void **state)
 {
@@ -572,6 +602,7 @@ int main(void)
         cmocka_unit_test(test_band),
         cmocka_unit_test(test_beyond),
         cmocka_unit_test(test_common_numbers),
+        cmocka_unit_test(test_own_error),
         cmocka_unit_test(test_seed),
         cmocka_unit_test(test_rims),
         cmocka_unit_test(test_rims_keep_their_height),

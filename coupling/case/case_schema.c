@@ -169,6 +169,8 @@ static const base_param interval_part_params[] = {
     PARAM_DOUBLE(case_interval_part, threshold, "1", 0.0, 0.0, 1.0,
                  "share of the threshold by which it may lie lower or higher"),
     PARAM_DOUBLE(case_interval_part, scratch, "1", 0.0, 0.0, 1.0, "the same of the scratch velocity"),
+    PARAM_BOOL(case_interval_part, own, false,
+               "`breech compare` draws it for each surface by itself, as the place of the grid; else for all alike"),
     PARAMS_END,
 };
 

@@ -308,6 +308,7 @@ typedef enum { JUDGE_GROWTH, JUDGE_SEVERITY } study_judge;
 typedef struct {
     char part[BASE_PARAM_TEXT_SIZE]; /* what it is, in words */
     double threshold, scratch;       /* of the threshold, of the scratch velocity [1] */
+    bool own;                        /* each surface of a comparison has its own error of it, not all the same */
 } case_interval_part;
 
 typedef struct {

@@ -321,6 +321,8 @@ static void warn_of_one_grid(session *s, const case_onset *c, const compare_resu
 {
     bool told = false;
     for (int k = 0; k < r->n; k++) told |= r->ranking[k].tied > 1 && r->ranking[k].scenes > 0;
+    for (int k = 0; k < c->study.interval_parts.n; k++)
+        if (c->study.interval_parts.item[k].own) return; /* stated instead */
     if (!told || c->study.threshold_ensemble >= 2 || c->study.judge != JUDGE_GROWTH) return;
     run_session_warn(s, "thresholds are of one grid each: what the place of the cells may change is not in the ranks; "
                         "study.threshold_ensemble: 3 holds it, by two scenes more a threshold");

@@ -18,7 +18,9 @@ static int step_of(double x, double first, double per, int n, double *f)
 
 /* ---- thresholds ---- */
 
-/* A band without the allowance for the resolution.  Below the search it gouges from the lowest velocity on; above it
+const gouge_law_draw GOUGE_LAW_MIDDLE = { .in_band = 0.5 };
+
+/* A band without what may move it.  Below the search it gouges from the lowest velocity on; above it
  * the band is open: from the last velocity that is known not to gouge, or never. */
 static void band_at(const grain_family *f, double radius, const double allowance[2], double *low, double *high)
 {
@@ -33,32 +35,34 @@ static void tabulate_thresholds(const grain_family *f, gouge_law *out)
 {
     const surface_result *s = &f->surface;
     const double first = log(s->size[0].radius), last = log(s->size[s->sizes - 1].radius);
-    memcpy(out->allowance, s->reference.allowance, sizeof out->allowance);
+    const double *all = s->reference.allowance;
+    out->own = fmin(s->reference.own, fmin(all[0], all[1]));
+    for (int side = 0; side < 2; side++) out->alike[side] = sqrt(all[side] * all[side] - out->own * out->own);
     out->ln_first = first;
     out->per_ln = last > first ? LAW_SIZES / (last - first) : 0.0;
     for (int i = 0; i <= LAW_SIZES; i++) {
         const double ln_r = out->per_ln > 0.0 ? first + i / out->per_ln : first;
-        band_at(f, exp(ln_r), out->allowance, &out->low[i], &out->high[i]);
+        band_at(f, exp(ln_r), all, &out->low[i], &out->high[i]);
     }
 }
 
-double study_gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_allowance)
+double study_gouge_law_threshold(const gouge_law *l, double ln_radius, gouge_law_draw draw)
 {
     double f;
-    const double allowed = of_allowance * l->allowance[of_allowance > 0.0];
+    const double moved = draw.alike * l->alike[draw.alike > 0.0] + draw.own * l->own;
     const int i = step_of(ln_radius, l->ln_first, l->per_ln, LAW_SIZES, &f);
     if (isinf(l->low[i]) || isinf(l->low[i + 1])) return INFINITY;
     const double low = l->low[i] + f * (l->low[i + 1] - l->low[i]);
-    if (isinf(l->high[i]) || isinf(l->high[i + 1])) return in_band < 0.5 ? low + allowed : INFINITY;
+    if (isinf(l->high[i]) || isinf(l->high[i + 1])) return draw.in_band < 0.5 ? low + moved : INFINITY;
     const double high = l->high[i] + f * (l->high[i + 1] - l->high[i]);
-    return low + in_band * (high - low) + allowed;
+    return low + draw.in_band * (high - low) + moved;
 }
 
 double study_gouge_law_lowest(const gouge_law *l)
 {
     double lowest = INFINITY;
     for (int i = 0; i <= LAW_SIZES; i++) lowest = fmin(lowest, l->low[i]);
-    return lowest - l->allowance[0];
+    return lowest - l->alike[0] - l->own;
 }
 
 /* ---- marks ---- */

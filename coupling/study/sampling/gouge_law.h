@@ -20,7 +20,8 @@ typedef struct {
 typedef struct {
     double ln_first, per_ln;                        /* place of ln r in the tables below */
     double low[LAW_SIZES + 1], high[LAW_SIZES + 1]; /* band of the threshold; INFINITY: never, or open above [m/s] */
-    double allowance[2];                            /* for the resolution, below and above (threshold.h) [m/s] */
+    double alike[2]; /* what may move the threshold of every surface alike, below and above [m/s] */
+    double own;      /* what may move that of this one, either way (threshold.h) [m/s] */
     double v_first, per_v;
     bool marked; /* some scene gouges; else a mark's volume is NaN, all else of it 0 */
     gouge_mark mark[LAW_VELOCITIES + 1];
@@ -34,10 +35,17 @@ void study_gouge_law_make(const grain_family *f, const case_impact *of, gouge_la
 /* By the scenes themselves, for one grain; false: none of them gouges. */
 bool study_gouge_mark_at(const grain_family *f, const case_impact *of, double velocity, gouge_mark *out);
 
-/* low + in_band (high - low) + of_allowance x allowance of its side, in_band 0 .. 1, of_allowance -1 .. 1 [m/s].  Of an
- * open band its low end in half of the draws, INFINITY in the others: what was seen from one side alone is as likely as
- * not. */
-double study_gouge_law_threshold(const gouge_law *l, double ln_radius, double in_band, double of_allowance);
+/* Where in what is not known of it a threshold lies. */
+typedef struct {
+    double in_band;    /* 0 .. 1 */
+    double alike, own; /* shares of the law's, -1 .. 1 */
+} gouge_law_draw;
+
+extern const gouge_law_draw GOUGE_LAW_MIDDLE;
+
+/* low + in_band (high - low) + the shares of what may move it [m/s].  Of an open band its low end in half of the draws,
+ * INFINITY in the others: what was seen from one side alone is as likely as not. */
+double study_gouge_law_threshold(const gouge_law *l, double ln_radius, gouge_law_draw draw);
 gouge_mark study_gouge_law_mark(const gouge_law *l, double velocity);
 /* `is` and a share of what `to` has more than `from`. */
 gouge_mark study_gouge_mark_towards(const gouge_mark *is, const gouge_mark *from, const gouge_mark *to, double share);

@@ -39,7 +39,7 @@ typedef struct {
     gouge_law *law; /* of each family, owned, as those of changed and of bare rails: NULL: there are none */
     gouge_law *changed[MC_CHANGES], *bare;
     double most[MC_CHANGES]; /* that the laws of changed rails are for [K, m, m] */
-    double *in_band;         /* u_b of each family in this world, owned */
+    gouge_law_draw *draw;    /* of each family in this world, owned */
     mc_along *own;           /* where all shots are alike, owned */
     const mc_along *along;   /* of the shot under way */
     double per_place;        /* [1/m] */
@@ -67,12 +67,11 @@ typedef struct {
 typedef struct {
     const mc_plan *plan;
     gsl_rng *rng;
-    lane *lane;          /* owned */
-    strewn *strewn;      /* one a population, owned */
-    double *sum;         /* [n x shots x SUMS], owned */
-    mc_result *out;      /* sums of what is strewn until they are means */
-    double of_allowance; /* u_s of this world */
-    uint64_t drawn;      /* grains so far */
+    lane *lane;     /* owned */
+    strewn *strewn; /* one a population, owned */
+    double *sum;    /* [n x shots x SUMS], owned */
+    mc_result *out; /* sums of what is strewn until they are means */
+    uint64_t drawn; /* grains so far */
     bool stopped;
 } mc;
 
@@ -127,14 +126,14 @@ double study_mc_threshold_changed(double threshold, double cold, double hot, dou
     return share < 0.5 || isinf(cold) == isinf(hot) ? threshold : hot;
 }
 
-static double threshold_at(const mc *m, const lane *l, const grain *g, const double share[MC_CHANGES])
+static double threshold_at(const lane *l, const grain *g, const double share[MC_CHANGES])
 {
-    const double in_band = l->in_band[g->family], allowed = m->of_allowance;
-    const double cold = study_gouge_law_threshold(&l->law[g->family], g->ln_r, in_band, allowed);
-    double here = g->bare ? study_gouge_law_threshold(&l->bare[g->family], g->ln_r, in_band, allowed) : cold;
+    const gouge_law_draw draw = l->draw[g->family];
+    const double cold = study_gouge_law_threshold(&l->law[g->family], g->ln_r, draw);
+    double here = g->bare ? study_gouge_law_threshold(&l->bare[g->family], g->ln_r, draw) : cold;
     for (int k = 0; k < MC_CHANGES; k++) {
         if (!(share[k] > 0.0)) continue;
-        const double hot = study_gouge_law_threshold(&l->changed[k][g->family], g->ln_r, in_band, allowed);
+        const double hot = study_gouge_law_threshold(&l->changed[k][g->family], g->ln_r, draw);
         here = study_mc_threshold_changed(here, cold, hot, share[k]);
     }
     return here;
@@ -169,12 +168,12 @@ static void leave_rim(lane *l, const grain *g, double radius, const gouge_mark *
 }
 
 /* Does it gouge? */
-static bool meet(const mc *m, lane *l, const grain *g)
+static bool meet(lane *l, const grain *g)
 {
     const double v = velocity_at(l, g->x);
     double share[MC_CHANGES];
     shares_at(l, g, share);
-    if (v < threshold_at(m, l, g, share)) return false;
+    if (v < threshold_at(l, g, share)) return false;
     const double radius = exp(g->ln_r);
     const gouge_mark mark = mark_at(l, g, v, share);
     l->gouges++;
@@ -187,20 +186,20 @@ static bool meet(const mc *m, lane *l, const grain *g)
 
 /* ---- one shot ---- */
 
-static void meet_sites(const mc *m, lane *l)
+static void meet_sites(lane *l)
 {
     const case_onset *c = l->grains->c;
     for (int i = 0; i < c->sites.n; i++) {
         const case_site *site = &c->sites.item[i];
         const grain g = { site->position, log(site->radius) + l->ln_factor, l->grains->of_site[i], false };
-        if (g.family >= 0) meet(m, l, &g);
+        if (g.family >= 0) meet(l, &g);
     }
 }
 
 static void meet_rims(const mc *m, lane *l)
 {
     for (int i = 0; i < l->rims; i++)
-        if (l->rim[i].ln_r >= l->ln_smallest && l->rim[i].x < m->plan->length) meet(m, l, &l->rim[i]);
+        if (l->rim[i].ln_r >= l->ln_smallest && l->rim[i].x < m->plan->length) meet(l, &l->rim[i]);
 }
 
 static double draw_deviate(const mc *m, const strewn *s)
@@ -235,7 +234,7 @@ static void strew(mc *m, int index, int number)
             const case_sizes *sizes = &l->grains->c->populations.item[index].sizes;
             const double ln_r = l->ln_factor + (s->table ? log(sizes->item[line].radius) : here->ln_median + spread);
             const grain g = { x, ln_r, here->family, false };
-            if (!(ln_r >= l->ln_smallest) || !meet(m, l, &g)) continue;
+            if (!(ln_r >= l->ln_smallest) || !meet(l, &g)) continue;
             mc_strewn *sum = strewn_of(m, i, number, index, x);
             sum->gouges += 1.0;
             sum->volume += l->latest;
@@ -252,7 +251,7 @@ static void fire(mc *m, int number)
         l->gouges = l->rims_next = 0;
         l->volume = 0.0;
         l->first = INFINITY;
-        if (number == 0) meet_sites(m, l);
+        if (number == 0) meet_sites(l);
         meet_rims(m, l);
     }
     for (int k = 0; k < m->out->populations; k++)
@@ -280,14 +279,25 @@ static void count(mc *m, mc_result *out, int world, int number)
     }
 }
 
+static double either_way(gsl_rng *rng)
+{
+    return 2.0 * gsl_rng_uniform(rng) - 1.0;
+}
+
 static void new_world(mc *m)
 {
-    m->of_allowance = 2.0 * gsl_rng_uniform(m->rng) - 1.0;
+    const double alike = either_way(m->rng);
     for (int i = 0; i < m->plan->n; i++) {
         lane *l = &m->lane[i], *same = l;
         for (int j = 0; j < i && same == l; j++)
             if (m->lane[j].draws == l->draws) same = &m->lane[j];
-        for (int k = 0; k < l->grains->n; k++) l->in_band[k] = same == l ? gsl_rng_uniform(m->rng) : same->in_band[k];
+        for (int k = 0; k < l->grains->n; k++) {
+            l->draw[k] = same->draw[k];
+            if (same != l) continue;
+            l->draw[k].in_band = gsl_rng_uniform(m->rng);
+            l->draw[k].alike = alike;
+            l->draw[k].own = either_way(m->rng);
+        }
     }
 }
 
@@ -408,9 +418,9 @@ static status make_lane(const mc_plan *plan, int i, lane *l)
     l->draws = s->draws;
     l->ln_factor = log(s->size_factor);
     l->ln_smallest = log(s->grains->c->study.smallest_radius);
-    l->in_band = calloc((size_t)s->grains->n + 1, sizeof *l->in_band);
+    l->draw = calloc((size_t)s->grains->n + 1, sizeof *l->draw);
     l->strewn = calloc((size_t)s->grains->c->populations.n + 1, sizeof *l->strewn);
-    CHECK(l->in_band && l->strewn, STATUS_MEMORY, "no memory for the Monte Carlo");
+    CHECK(l->draw && l->strewn, STATUS_MEMORY, "no memory for the Monte Carlo");
     place_populations(plan, l);
     l->layers = case_layers_thickness(&s->grains->c->impact.rail.layers);
     TRY(make_laws(s, s->grains, &l->law));
@@ -513,7 +523,7 @@ static void lane_free(lane *l)
     for (int k = 0; k < MC_CHANGES; k++) free(l->changed[k]);
     free(l->bare);
     free(l->own);
-    free(l->in_band);
+    free(l->draw);
     free(l->strewn);
 }
 
@@ -587,13 +597,13 @@ static double gouging_density(const lane *l, int index, double x)
     double sum = 0.0;
     for (int i = 0; i < p->sizes.n; i++) {
         const double r = p->sizes.item[i].radius;
-        if (r < smallest || v < study_gouge_law_threshold(law, log(r), 0.5, 0.0)) continue;
+        if (r < smallest || v < study_gouge_law_threshold(law, log(r), GOUGE_LAW_MIDDLE)) continue;
         sum += study_population_share_from(p, r) - study_population_share_from(p, r * (1.0 + 1e-12));
     }
     for (int i = 0; p->sizes.n == 0 && i < SIZES; i++) { /* equal shares above the smallest */
         const double all = study_population_share_from(p, smallest), share = 1.0 - all * (1.0 - (i + 0.5) / SIZES);
         const double ln_r = log(p->radius_median) + p->radius_spread * gsl_cdf_ugaussian_Pinv(share);
-        if (v >= study_gouge_law_threshold(law, ln_r, 0.5, 0.0)) sum += all / SIZES;
+        if (v >= study_gouge_law_threshold(law, ln_r, GOUGE_LAW_MIDDLE)) sum += all / SIZES;
     }
     return p->density * sum;
 }
@@ -610,7 +620,7 @@ double study_mc_expected(const grain_families *grains, double length)
             const case_site *site = &grains->c->sites.item[i];
             const int family = grains->of_site[i];
             sum += family >= 0 && velocity_at(l, site->position) >=
-                                      study_gouge_law_threshold(&l->law[family], log(site->radius), 0.5, 0.0);
+                                      study_gouge_law_threshold(&l->law[family], log(site->radius), GOUGE_LAW_MIDDLE);
         }
         for (int k = 0; k < grains->c->populations.n; k++) {
             const case_population *p = &grains->c->populations.item[k];

@@ -3,10 +3,11 @@
  *
  * Surfaces (a rail under a treatment, or one with a changed input) meet the same grains: every random number is drawn
  * once and used by all, so differences between surfaces are not blurred by chance.
- * What is not known is drawn too, once a world: where in its band a family's threshold lies (uniform, u_b, its own
- * number for every surface and family) and how far cells have moved it (a share u_s of what is allowed for the
- * resolution below or above, threshold.h; one number for all: cells err alike on all surfaces):  v_th(r) = low(r) + u_b
- * (high(r) - low(r)) + u_s allowance,  u_s in -1 .. 1.
+ * What is not known is drawn too, once a world: where in its band a family's threshold lies (u_b), how far cells and
+ * uncertain inputs have moved it (a share u_a of what is allowed for them below or above), and how far the place of
+ * the grid has (a share u_o of that; threshold.h).  u_a is one number for all, since cells and metals err alike on all
+ * surfaces; u_b and u_o are drawn for every surface and family:
+ * v_th(r) = low(r) + u_b (high(r) - low(r)) + u_a alike + u_o own,  u_a and u_o in -1 .. 1.
  * A history is a rail under `shots` shots.  A gouge leaves a rim downstream, which is a grain of the same family to
  * the next shot: its place and height, in radii of the grain that made it, by the scenes that gouged (gouge_law.h);
  * its radius is its height over the family's aspect.  What else the shots leave for those after them is the caller's
@@ -39,9 +40,9 @@ typedef struct {
 /* One surface. */
 typedef struct {
     const grain_families *grains; /* borrowed, as all that follows */
-    int draws;                    /* surfaces with the same number share their u_b: the same thresholds, other inputs */
-    double size_factor;           /* on every grain (a sensitivity); else 1 */
-    const mc_along *along;        /* [shots]; NULL: every shot is that of `grains`, and finds its rail */
+    int draws;          /* surfaces with the same number share their u_b and u_o: the same thresholds, other inputs */
+    double size_factor; /* on every grain (a sensitivity); else 1 */
+    const mc_along *along;          /* [shots]; NULL: every shot is that of `grains`, and finds its rail */
     mc_changed changed[MC_CHANGES]; /* their factors on a threshold are multiplied: study_mc_threshold_changed */
     const grain_families *bare;     /* for rims where a gouge wore the layers through; NULL: as all others */
 } mc_surface;

@@ -9,6 +9,7 @@
 
 static const double TYPICAL = 1500.0;   /* of thresholds [m/s] */
 static const double COARSE_WIDTH = 0.2; /* of the coarse bracket over its middle [1] */
+static const double ENOUGH = 0.1;       /* of a bracket over its middle, however much cells leave open [1] */
 static const double BEYOND_GAP =
     0.15;                  /* of the threshold: a narrower stretch beside the bracket is not looked at [1] */
 enum { FINE_RESERVE = 6 }; /* scenes left for the fine stage, one beyond included */
@@ -121,11 +122,12 @@ typedef struct {
     double velocity, place;
 } widths;
 
-/* Never where it is narrower than what the resolution leaves open. */
+/* Never where it is narrower than what the resolution leaves open; of that ENOUGH counts, since a bracket's width is in
+ * the interval whole, and what cells leave open is one of several squares (uncertain.h). */
 static bool too_wide(const threshold_search *s, widths wanted, double lo, double hi)
 {
     const threshold_plan *p = s->plan;
-    if (hi - lo < 1.5 * p->step || hi - lo <= p->resolution * 0.5 * (lo + hi)) return false;
+    if (hi - lo < 1.5 * p->step || hi - lo <= fmin(p->resolution, ENOUGH) * 0.5 * (lo + hi)) return false;
     return hi - lo > wanted.velocity * 0.5 * (lo + hi) ||
            (p->place && p->place(p->place_user, hi) - p->place(p->place_user, lo) > wanted.place);
 }

@@ -11,7 +11,7 @@
  *      the grid's step.  Narrowing computes one scene at a time: at a velocity that alone is enough, if there is one;
  *      else at the secant's root or, where an end is within a wanted width of the root, that width from the end.  (Two
  *      scenes at a time took a fifth more of them.)  No bracket is made narrower than the resolution allows
- *      (`resolution`).
+ *      (`resolution`), or than a tenth of its middle where that allows more.
  *      At the end, a coarse scene far out on each side where none was looked at: does the function turn back?  Above
  *      half way to the end of the range; below where a search for a lower threshold would look (2 and 1), so that a
  *      second search from the same range has one scene less to compute.  If scenes run out before both sides are
@@ -83,8 +83,9 @@ typedef struct {
     double shift;        /* of the root from coarse to fine, at least, NaN if there is only one [m/s] */
     double of_cells[2];  /* for the resolution, below and above: the shift or the plan's shares [m/s] */
     double allowance[2]; /* that, with what else widened the interval since (uncertain.h) [m/s] */
-    double more;         /* of the velocity and the interval: what further grids made of them (uncertain.h) [m/s] */
-    double cells;        /* a radius, of the last stage [1] */
+    double own;   /* of the allowance, what another surface need not share: the place of the grid (uncertain.h) [m/s] */
+    double more;  /* of the velocity and the interval: what further grids made of them (uncertain.h) [m/s] */
+    double cells; /* a radius, of the last stage [1] */
     bool monotone;
     char warning[THRESHOLD_WARNING_SIZE]; /* "" if none */
     int samples;

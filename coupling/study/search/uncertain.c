@@ -149,6 +149,7 @@ static void end_alike(surface_result *s, const surface_result *first)
     if (s == first || s->reference.outcome != outcome) return;
     s->reference.interval[side] = first->reference.interval[side];
     memcpy(s->reference.allowance, first->reference.allowance, sizeof s->reference.allowance);
+    s->reference.own = first->reference.own;
     for (int k = 0; k < s->sizes && k < first->sizes; k++) s->size[k].interval[side] = first->size[k].interval[side];
 }
 
@@ -159,20 +160,21 @@ static void widen_threshold(const uncertain_inputs *u, const case_interval_parts
 {
     surface_result *s = study_family_surface(other, judge);
     const family_scatter scatter = f ? *study_family_scatter(f, judge) : (family_scatter){ .more = 0 };
-    double squares = 0.0, allowance[2]; /* of all but the cells, which weigh differently below and above */
+    double squares = 0.0, own = scatter.reach * scatter.reach;
+    double allowance[2]; /* of all but the cells, which weigh differently below and above */
     for (int i = 0; f && i < u->n; i++) {
         const double moved = off(&u->of[i], f, judge);
         if (isfinite(moved)) squares += moved * moved;
     }
-    squares += scatter.reach * scatter.reach;
     for (int i = 0; i < parts->n; i++) {
         const double stated = study_uncertain_stated(&parts->item[i], other, judge);
-        squares += stated * stated;
+        *(parts->item[i].own ? &own : &squares) += stated * stated;
     }
     for (int side = 0; side < 2; side++) {
-        const double own = s->reference.allowance[side];
-        allowance[side] = sqrt(own * own + squares);
+        const double cells = s->reference.allowance[side];
+        allowance[side] = sqrt(cells * cells + squares + own);
     }
+    s->reference.own = sqrt(own);
     move_and_widen(s, scatter.more, allowance);
     if (scatter.against > 0.0) end_alike(s, study_family_surface(f, judge));
 }
