@@ -151,7 +151,7 @@ status gouge_crater_measure(const crater_points *points, const crater_spec *spec
     assert(points && spec && out);
     *out = (crater){ .class = DAMAGE_NONE };
     TRY(check_spec(spec));
-    out->measuring_depth = fmax(0.1 * spec->particle_radius, 0.5 * spec->cell);
+    out->measuring_depth = fmax(CRATER_DEPTH * spec->particle_radius, 0.5 * spec->cell);
     crater_outline o = { .row = NULL };
     status done = gouge_crater_map(points, spec, out);
     if (done.code == STATUS_OK) done = gouge_crater_trace(out, &o);

@@ -14,7 +14,8 @@
  * whatever the sizes of its points; a line that meets nothing of the rail's lower half is left out (the rail ends
  * there), depth 0.  Choose `cell` about the fine grid's cell.
  *
- * Measures, at the measuring depth d_m = max(0.1 particle_radius, cell / 2), d the depth, downstream = +x:
+ * Measures, at the measuring depth d_m = max(CRATER_DEPTH particle_radius, cell / 2), the same for three cells a radius
+ * and all finer ones, d the depth, downstream = +x:
  *   the crater is the cells with d > d_m that hang together (by edge or corner), with every other such patch that has a
  *   tenth of its volume; its outline is where d = d_m between cell centres, linearly;
  *   length, width     extents of the outline along x, and across z at its widest
@@ -53,6 +54,8 @@ typedef struct {
     const double *size;     /* n x 3 half lengths [m] */
     const double *damage;   /* n, failed at 1 */
 } crater_points;
+
+static const double CRATER_DEPTH = 1.0 / 6.0; /* of the grain's radius, half a cell where there are three [1] */
 
 typedef struct {
     double surface;                          /* y of the undamaged rail surface [m] */
