@@ -23,7 +23,7 @@ int main(void)
     c.rails.height = c.rails.separation = 25e-3, c.rails.thickness = 20e-3;
     c.barrel.start = 0.1, c.barrel.length = 3.0;
     c.armature.mass = 0.25, c.armature.resistance = 20e-6, c.armature.contact_voltage = 30;
-    c.armature.preload = 5e3, c.armature.spreading = 3e-8, c.armature.friction_dry = 0.3,
+    c.armature.preload = 3.1e3, c.armature.spreading = 8e-9, c.armature.friction_dry = 0.3,
     c.armature.friction_melted = 0.05;
     c.armature.contact_length = 16.5e-3, c.armature.contact_width = 25e-3;
 

@@ -103,6 +103,8 @@ static inline circuit_shot_config default_shot(circuit_shot_module modules[DEFAU
     c.rails.height = c.rails.separation = 0.025;
     c.rails.thickness = 0.020;
     c.barrel.length = 3.0;
+    c.armature.preload = 3.1e3;
+    c.armature.spreading = 8e-9;
     c.armature.contact_length = 16.5e-3;
     c.armature.contact_width = 25e-3;
     return c;

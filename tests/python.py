@@ -290,7 +290,7 @@ def test_examples(folder):
                               env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
         assert done.returncode == 0, done.stderr
         said[script] = done.stdout
-    assert said["first_shot.py"].startswith("10.55 kV 3 m 0.25\n1933 m/s after 3.25 ms\n"), said["first_shot.py"]
+    assert said["first_shot.py"].startswith("10.55 kV 3 m 0.25\n1943 m/s after 3.23 ms\n"), said["first_shot.py"]
     assert "9.495 kV: " in said["first_shot.py"] and "scene.velocity = 1.2 kg" in said["first_shot.py"]
     craters = {line.split()[0]: line.split()[1:] for line in said["coated_crater.py"].splitlines()}
     assert list(craters) == ["bare", "nickel"] and craters["bare"][1:] != craters["nickel"][1:]

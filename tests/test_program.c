@@ -373,9 +373,9 @@ static void test_how_a_shot_ends(void **state)
         double end[2][3]; /* end_time, end_position, end_velocity: at least, at most */
     } way[] = {
         { "options.max_time='100 ms'",
-          "leaves the muzzle at 1933 m/s",
+          "leaves the muzzle at 1943 m/s",
           false,
-          { { 1e-3, 1.0, 1932.0 }, { 0.1, 9.0, 1934.0 } } },
+          { { 1e-3, 1.0, 1942.0 }, { 0.1, 9.0, 1944.0 } } },
         { "options.max_time='1 ms'",
           "options.max_time ran out after 1 ms: at x = ",
           true,

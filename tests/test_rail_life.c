@@ -286,8 +286,8 @@ static void test_options(void **state)
     cJSON_Delete(s);
     assert_true(contains("more/soft/summary.json", "faster than Rayleigh waves in copper_assumed"));
     assert_false(contains("more/soft/summary.json", "would flow away"));
-    assert_int_equal(run("life " CASE " -o more/softer" FEW "--set 'materials[0].hardness=30 MPa'"), 0);
-    assert_true(contains("more/softer/summary.json", "more than copper_assumed carries, 0.03 GPa (its hardness)"));
+    assert_int_equal(run("life " CASE " -o more/softer" FEW "--set 'materials[0].hardness=10 MPa'"), 0);
+    assert_true(contains("more/softer/summary.json", "more than copper_assumed carries, 0.01 GPa (its hardness)"));
     assert_int_equal(run("life " CASE " -o more/shots" FEW "--set study.shots=2 --set life.heat=no --set "
                          "materials[0].fatigue_A_spread=none"),
                      0);

@@ -12,11 +12,9 @@ COMMON = {"scene__stop_when_gauged": "yes", "scene__contact_pressure": "60 MPa"}
 BETWEEN_GAUGES = 12 * 0.5e-3  # [m] way, 12 grain radii
 WIDEST_SCRATCH = 4.0  # scene.limit_length_over_width
 GRIDS = 3
-RESOLUTIONS = {  # cells a radius: velocities [m/s]
-    3: (500, 700, 900, 1000, 1150),
-    4: (500, 700, 900, 1000, 1150, 1300, 1500),
-    6: (500, 700, 900, 1000, 1150, 1300, 1500),
-}
+RESOLUTIONS = (3, 4, 6)  # cells a radius
+VELOCITIES, MANY = (700, 900, 1000, 1150), 6  # [m/s]; grids: for the gouge
+SLOW = (500, 700, 900)  # [m/s], on GRIDS: for the scratch
 FINE, FINE_VELOCITIES, FINE_GRIDS = (4, 8), (1150, 1500), 6
 OF_PAIRS = (  # armature on rail, their files, a velocity at which the groove grows [m/s]
     ("copper on copper", COPPER, COPPER, 1100),
@@ -83,26 +81,40 @@ def measures(found):
     return Table(columns, rows)
 
 
-def zeros(found):
-    columns = [Column("cells a radius"), Column("scratches from, on each grid [m/s]", 0.2),
-               Column("gouges from, on each grid [m/s]", 0.2)]
+def places(velocities, grids_at, what):
+    """On each grid, where its figure passes zero; grids_at: of each velocity the values of the grids."""
+    return [zero(velocities, [what(values) for values in grid]) for grid in zip(*grids_at)]
+
+
+def mean_place(found):
+    """Mean ± standard error of the grids that have a place between the velocities; text: how many have none."""
+    known = [float(place) for place in found if place[0].isdigit()]
+    if len(known) < 2:
+        return ""
+    more = "" if len(known) == len(found) else " (of %d)" % len(known)
+    return "%.0f ± %.0f" % (statistics.mean(known), statistics.stdev(known) / math.sqrt(len(known))) + more
+
+
+def zeros(runs, found):
+    columns = [Column("cells a radius"), Column("scratches from, on each of three grids [m/s]", 0.2),
+               Column("gouges from, on each of six [m/s]", 0.2), Column("the same, mean ± standard error", 0.1)]
     rows = []
-    for cells, velocities in RESOLUTIONS.items():
-        grids = list(zip(*(found[cells, v] for v in velocities)))
-        rows.append(["%d" % cells] + [", ".join(zero(velocities, [what(values) for values in grid]) for grid in grids)
-                                      for what in (growth, tear_drop)])
+    for cells in RESOLUTIONS:
+        scratches = places(SLOW, [grids_of(runs, cells, v) for v in SLOW], growth)
+        gouges = places(VELOCITIES, [found[cells, v] for v in VELOCITIES], tear_drop)
+        rows.append(["%d" % cells, ", ".join(scratches), ", ".join(gouges), mean_place(gouges)])
     return Table(columns, rows)
 
 
 def cells(runs):
-    found = {(cells, v): grids_of(runs, cells, v) for cells, velocities in RESOLUTIONS.items() for v in velocities}
-    return [measures(found), zeros(found)], NOTE + "; places linearly between velocities"
+    found = {(cells, v): grids_of(runs, cells, v, MANY) for cells in RESOLUTIONS for v in VELOCITIES}
+    return [measures(found), zeros(runs, found)], NOTE + "; places linearly between velocities"
 
 
 def fine(runs):
-    """Growth and shape in coarse and fine cells side by side, with the standard error of their difference."""
+    """Growth in coarse and fine cells side by side, with the standard error of their difference."""
     columns = [Column("growth [1/mm] at")] + [Column("%d cells" % cells, 0.1) for cells in FINE]
-    columns += [Column("difference")] + [Column("length over width, %d cells" % cells, 0.25) for cells in FINE]
+    columns += [Column("difference")]
     rows = []
     for velocity in FINE_VELOCITIES:
         found = [grids_of(runs, cells, velocity, FINE_GRIDS) for cells in FINE]
@@ -110,7 +122,7 @@ def fine(runs):
         change = statistics.mean(lived[1]) - statistics.mean(lived[0])
         error = math.sqrt(sum(statistics.variance(of) / len(of) for of in lived))
         rows.append(["%d m/s" % velocity, *(cell(grids, "growth_per_way", 3, 1e3) for grids in found),
-                     Figure(change, error).text(3, 1e3), *(cell(grids, "length_over_width", 1, 1.0) for grids in found)])
+                     Figure(change, error).text(3, 1e3)])
     return [Table(columns, rows)], NOTE + ", six of them; of the difference ± is the standard error"
 
 

@@ -6,10 +6,11 @@ import os
 from pages import Column, Table
 
 BASE = {"study.craters": 0, "scene.contact_pressure": "60 MPa", "output.report": "no", "output.snapshots": 0,
-        "study.resolution_above": "10 %",  # finer cells would move all rows alike: what sets them apart is asked for
+        "study.resolution_error": "10 %", "study.resolution_above": "10 %",  # finer cells would move all rows alike
         "study.interval_parts": "[]"}  # what the table is for
 STRENGTH = [  # title, settings
-    ("as shipped, pressed on with 60 MPa", {}),
+    ("pressed on with 60 MPa", {}),
+    ("armature x 0.5", {"armature.yield_scale": 0.5}),
     ("armature x 0.7", {"armature.yield_scale": 0.7}),
     ("armature x 1.4", {"armature.yield_scale": 1.4}),
     ("rail x 0.7", {"rail.yield_scale": 0.7}),
@@ -24,8 +25,11 @@ MAP = [
     ("rail of 450 K", {"rail.temperature": "450 K"}),
     ("armature of 450 K", {"armature.temperature": "450 K"}),
     ("armature of 600 K", {"armature.temperature": "600 K"}),
+    ("armature of 600 K, twice as strong", {"armature.temperature": "600 K", "armature.yield_scale": 2, "study.screen_low": 0}),
     ("friction 0.2", {"scene.friction": 0.2}),
     ("a film of melt: shear of at most 1.2 MPa", {"scene.shear_limit": "1.2 MPa"}),  # 1.3 mPa s at 950 m/s over 1 um
+    ("bodies touch at 0.5 cells, for 0.9", {"scene.contact_gap": 0.5}),
+    ("bodies touch at 1.5 cells", {"scene.contact_gap": 1.5}),
     ("grain of 0.1 mm", {"particle.radius": "0.1 mm"}),
     ("grain of 0.1 mm, not pressed on", {"particle.radius": "0.1 mm", "scene.contact_pressure": "0 Pa"}),
     ("grain of 0.1 mm, lead face at 15 degrees", {"particle.radius": "0.1 mm", "armature.lead_angle": "15 deg"}),
@@ -74,5 +78,5 @@ def inputs(runs):
     return table(runs, MAP)
 
 
-NOTE = ("`breech onset cases/default_shot` without whole craters, with `study.resolution_above` 10 % and no `study.interval_parts`, one input "
-        "changed at a time; in brackets each velocity's interval; \"none\": beyond the velocities of the search")
+NOTE = ("`breech onset cases/default_shot` without whole craters, with `study.resolution_error` and `resolution_above` 10 % and no "
+        "`study.interval_parts`, one input changed at a time; in brackets each velocity's interval; \"none\": beyond the velocities of the search")

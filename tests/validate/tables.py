@@ -51,7 +51,7 @@ PARTS = {  # name: page, function, minutes of processor time, quick: compared by
     "levels-one": ("docs/validation/levels.md", part_levels.one_level, 30, False),
     "levels-paper": ("docs/validation/levels.md", part_levels.paper, 12, False),
     "cells-grow": ("docs/validation/levels.md", part_levels.growing, 25, False),
-    "cells": ("docs/validation/growth.md", part_growth.cells, 60, False),
+    "cells": ("docs/validation/growth.md", part_growth.cells, 90, False),
     "cells-fine": ("docs/validation/growth.md", part_growth.fine, 55, False),
     "cells-pairs": ("docs/validation/growth.md", part_growth.pairs, 35, False),
     "layer": ("docs/validation/layers.md", part_layer.layer, 65, False),
