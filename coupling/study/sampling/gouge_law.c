@@ -18,7 +18,7 @@ static int step_of(double x, double first, double per, int n, double *f)
 
 /* ---- thresholds ---- */
 
-const gouge_law_draw STUDY_GOUGE_LAW_MIDDLE = { .in_band = 0.5 };
+const gouge_law_draw study_gouge_law_middle = { .in_band = 0.5 };
 
 /* A band without what may move it.  Below the search it gouges from the lowest velocity on; above it
  * the band is open: from the last velocity that is known not to gouge, or never. */

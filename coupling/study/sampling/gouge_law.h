@@ -41,7 +41,7 @@ typedef struct {
     double alike, own; /* shares of the law's, -1 .. 1 */
 } gouge_law_draw;
 
-extern const gouge_law_draw STUDY_GOUGE_LAW_MIDDLE;
+extern const gouge_law_draw study_gouge_law_middle;
 
 /* low + in_band (high - low) + the shares of what may move it [m/s].  Of an open band its low end in half of the draws,
  * INFINITY in the others: what was seen from one side alone is as likely as not. */

@@ -597,13 +597,13 @@ static double gouging_density(const lane *l, int index, double x)
     double sum = 0.0;
     for (int i = 0; i < p->sizes.n; i++) {
         const double r = p->sizes.item[i].radius;
-        if (r < smallest || v < study_gouge_law_threshold(law, log(r), STUDY_GOUGE_LAW_MIDDLE)) continue;
+        if (r < smallest || v < study_gouge_law_threshold(law, log(r), study_gouge_law_middle)) continue;
         sum += study_population_share_from(p, r) - study_population_share_from(p, r * (1.0 + 1e-12));
     }
     for (int i = 0; p->sizes.n == 0 && i < SIZES; i++) { /* equal shares above the smallest */
         const double all = study_population_share_from(p, smallest), share = 1.0 - all * (1.0 - (i + 0.5) / SIZES);
         const double ln_r = log(p->radius_median) + p->radius_spread * gsl_cdf_ugaussian_Pinv(share);
-        if (v >= study_gouge_law_threshold(law, ln_r, STUDY_GOUGE_LAW_MIDDLE)) sum += all / SIZES;
+        if (v >= study_gouge_law_threshold(law, ln_r, study_gouge_law_middle)) sum += all / SIZES;
     }
     return p->density * sum;
 }
@@ -621,7 +621,7 @@ double study_mc_expected(const grain_families *grains, double length)
             const int family = grains->of_site[i];
             sum += family >= 0 &&
                    velocity_at(l, site->position) >=
-                       study_gouge_law_threshold(&l->law[family], log(site->radius), STUDY_GOUGE_LAW_MIDDLE);
+                       study_gouge_law_threshold(&l->law[family], log(site->radius), study_gouge_law_middle);
         }
         for (int k = 0; k < grains->c->populations.n; k++) {
             const case_population *p = &grains->c->populations.item[k];
