@@ -151,7 +151,7 @@ status gouge_crater_measure(const crater_points *points, const crater_spec *spec
     assert(points && spec && out);
     *out = (crater){ .class = DAMAGE_NONE };
     TRY(check_spec(spec));
-    out->measuring_depth = fmax(CRATER_DEPTH * spec->particle_radius, 0.5 * spec->cell);
+    out->measuring_depth = gouge_crater_measuring_depth(spec);
     crater_outline o = { .row = NULL };
     status done = gouge_crater_map(points, spec, out);
     if (done.code == STATUS_OK) done = gouge_crater_trace(out, &o);
@@ -168,6 +168,11 @@ void gouge_crater_free(crater *c)
     if (!c) return;
     free(c->depth_map);
     c->depth_map = NULL;
+}
+
+double gouge_crater_measuring_depth(const crater_spec *spec)
+{
+    return fmax(spec->particle_radius / 6.0, 0.5 * spec->cell);
 }
 
 double gouge_crater_length_over_width(const crater *c)

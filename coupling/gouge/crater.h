@@ -14,8 +14,8 @@
  * whatever the sizes of its points; a line that meets nothing of the rail's lower half is left out (the rail ends
  * there), depth 0.  Choose `cell` about the fine grid's cell.
  *
- * Measures, at the measuring depth d_m = max(CRATER_DEPTH particle_radius, cell / 2), the same for three cells a radius
- * and all finer ones, d the depth, downstream = +x:
+ * Measures, at the measuring depth d_m = max(particle_radius / 6, cell / 2), the same for three cells a radius and all
+ * finer ones, d the depth, downstream = +x:
  *   the crater is the cells with d > d_m that hang together (by edge or corner), with every other such patch that has a
  *   tenth of its volume; its outline is where d = d_m between cell centres, linearly;
  *   length, width     extents of the outline along x, and across z at its widest
@@ -55,8 +55,6 @@ typedef struct {
     const double *damage;   /* n, failed at 1 */
 } crater_points;
 
-static const double CRATER_DEPTH = 1.0 / 6.0; /* of the grain's radius, half a cell where there are three [1] */
-
 typedef struct {
     double surface;                          /* y of the undamaged rail surface [m] */
     double x_lo, x_hi, z_hi;                 /* region to map: x_lo..x_hi, z 0..z_hi (mirrored) or -z_hi..z_hi [m] */
@@ -84,6 +82,9 @@ typedef struct {
 /* STATUS_BAD_INPUT when the spec makes no sense or the region holds no rail; `out` then needs no gouge_crater_free. */
 status gouge_crater_measure(const crater_points *points, const crater_spec *spec, crater *out);
 void gouge_crater_free(crater *c);
+
+/* d_m of a crater that is measured so [m]. */
+double gouge_crater_measuring_depth(const crater_spec *spec);
 
 /* NAN where there is no crater [1]. */
 double gouge_crater_length_over_width(const crater *c);

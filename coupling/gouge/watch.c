@@ -83,7 +83,6 @@ static status distance_left(const gouge_scene *s, const mpm *m, double *distance
 static status is_settled(const gouge_watch *w, const mpm *m, const mpm_report *now, bool *settled)
 {
     const gouge_scene *s = w->scene;
-    const crater_spec *c = &s->crater;
     double distance;
     if (!s->stop_when_settled) return status_ok();
     if (gouge_is_followed(s)) {
@@ -92,7 +91,7 @@ static status is_settled(const gouge_watch *w, const mpm *m, const mpm_report *n
     }
     if (now->time < gouge_crossing_time(s)) return status_ok();
     TRY(distance_left(s, m, &distance));
-    *settled = distance < SETTLED_SHARE * fmax(0.1 * c->particle_radius, 0.5 * c->cell);
+    *settled = distance < SETTLED_SHARE * gouge_crater_measuring_depth(&s->crater);
     return status_ok();
 }
 

@@ -23,6 +23,12 @@ SLOW, FAST = ("slow", "3 gouge", "0.60 ± 0.02", "12"), ("fast", "scratch", "0.3
 ODD = ("odd", "1 gouge, 1 none", "", "")
 
 
+def stated_parts(case):
+    """The parts of study.interval_parts in a case's file."""
+    with open(os.path.join(ROOT, case), encoding="utf-8") as file:
+        return re.findall(r"- ({part: .*?})", file.read())
+
+
 def named_parts():
     """Of the last column of the page that gathers what is known of the onset; commands aside."""
     with open(os.path.join(ROOT, "docs/validation/onset.md"), encoding="utf-8") as file:
@@ -48,6 +54,8 @@ def main():
     for name, part in tables.PARTS.items():
         text = pages.part_text(part[0], name)[1]
         assert pages.written_tables(text) or "Not run yet" in text, "%s: part %s is empty" % (part[0], name)
+    default, treatments = (stated_parts("cases/%s/case.yaml" % case) for case in ("default_shot", "treatments"))
+    assert default and default == treatments[:-1], "cases/treatments repeats the default shot's parts and adds one"
     names = named_parts()
     assert len(names) > 10 and not set(names) - set(tables.PARTS), "docs/validation/onset.md: %s" % (set(names) - set(tables.PARTS))
     print("%d parts in place" % len(tables.PARTS))

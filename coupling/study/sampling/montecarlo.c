@@ -284,6 +284,14 @@ static double either_way(gsl_rng *rng)
     return 2.0 * gsl_rng_uniform(rng) - 1.0;
 }
 
+static gouge_law_draw draw_of(gsl_rng *rng, double alike)
+{
+    gouge_law_draw draw = { .alike = alike };
+    draw.in_band = gsl_rng_uniform(rng);
+    draw.own = either_way(rng);
+    return draw;
+}
+
 static void new_world(mc *m)
 {
     const double alike = either_way(m->rng);
@@ -291,13 +299,7 @@ static void new_world(mc *m)
         lane *l = &m->lane[i], *same = l;
         for (int j = 0; j < i && same == l; j++)
             if (m->lane[j].draws == l->draws) same = &m->lane[j];
-        for (int k = 0; k < l->grains->n; k++) {
-            l->draw[k] = same->draw[k];
-            if (same != l) continue;
-            l->draw[k].in_band = gsl_rng_uniform(m->rng);
-            l->draw[k].alike = alike;
-            l->draw[k].own = either_way(m->rng);
-        }
+        for (int k = 0; k < l->grains->n; k++) l->draw[k] = same == l ? draw_of(m->rng, alike) : same->draw[k];
     }
 }
 
